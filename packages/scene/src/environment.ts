@@ -1,0 +1,28 @@
+/** The same radiance from every direction. */
+export interface ConstantEnvironment {
+  type: 'constant';
+  /** Linear Rec.709. */
+  radiance: readonly [number, number, number];
+  /** Whether the camera sees it directly; default true. Light from it arrives either way. */
+  visible?: boolean;
+}
+
+/**
+ * A latitude-longitude picture of the surroundings. A direction d in the frame of the picture falls on
+ * u = atan2(d.z, d.x)/2π + ½, v = acos(d.y)/π: row 0 is +Y, the picture's centre +X, u grows towards +Z. Texel centres
+ * at (i+½)/N, bilinear, wrapping in u, clamping in v.
+ */
+export interface LatLongEnvironment {
+  type: 'latlong';
+  width: number;
+  height: number;
+  /** RGB interleaved, stride 3, linear Rec.709 radiance, top row first. Finite and not negative. */
+  data: Float32Array<ArrayBuffer>;
+  /** Multiplies the radiance; default 1. */
+  intensity?: number;
+  /** Turns the surroundings about +Y, radians, counter-clockwise seen from above: L(d) = picture(R_y(−rotation) d). Default 0. */
+  rotation?: number;
+  visible?: boolean;
+}
+
+export type Environment = ConstantEnvironment | LatLongEnvironment;

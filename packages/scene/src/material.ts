@@ -1,0 +1,41 @@
+import type { OpenPbrParameters } from '@glanz/openpbr';
+
+/** The OpenPBR parameters that a texture may drive in a {@link Material}, and the two that are more than a product. */
+export type TexturedParameter = Exclude<keyof OpenPbrParameters, 'geometry_thin_walled'>;
+
+/** Which texel channels a {@link TextureBinding} reads. `rgb` for colours and normals, one letter for a number. */
+export type TextureChannels = 'rgb' | 'r' | 'g' | 'b' | 'a';
+
+/** A texture driving one parameter. */
+export interface TextureBinding {
+  /** Index into `Scene.textures`. */
+  texture: number;
+  channels: TextureChannels;
+  /** Which of the mesh's UV sets; default 0. */
+  uv?: number;
+  /** Affine map of uv before look-up, `[a, b, c, d, x, y]`: u' = a·u + c·v + x, v' = b·u + d·v + y. Default identity. */
+  transform?: readonly [number, number, number, number, number, number];
+  /** For `geometry_normal` and `geometry_coat_normal`: scales the tangent-plane components before normalising; default 1. */
+  scale?: number;
+}
+
+/**
+ * An OpenPBR surface. A parameter's value is `parameters[name] × texel` where a texture is bound (the texel decoded to
+ * linear by the texture's colour space), and `parameters[name]` alone elsewhere. `geometry_normal` textures hold
+ * tangent-space normals as 0..1; missing parameters have the spec's defaults.
+ */
+export interface Material {
+  name: string;
+  /** Values that differ from the defaults of OpenPBR, under the spec's names. */
+  parameters: Partial<OpenPbrParameters>;
+  textures?: Partial<Record<TexturedParameter, TextureBinding>>;
+  /**
+   * Whether the back side emits as the front does (glTF `doubleSided`). Default false: emission leaves from the front
+   * (counter-clockwise) side only. Reflection is always two-sided.
+   */
+  double_sided?: boolean;
+  /** Opacity below this counts as 0 and from it on as 1 (glTF alphaMode MASK). Absent: `geometry_opacity` is a coverage. */
+  opacity_threshold?: number;
+  /** The source file's own extra data, passed through untouched. */
+  extras?: unknown;
+}

@@ -1,0 +1,54 @@
+import type { Camera } from './camera';
+import type { Environment } from './environment';
+import type { Image, Texture } from './texture';
+import type { Light } from './light';
+import type { Material } from './material';
+import type { Mesh } from './mesh';
+
+/** Something a loader met that it could work around. Shown to the user; never fatal. */
+export interface SceneWarning {
+  /** Stable, machine-readable: `<package>/<what>`. */
+  readonly code: string;
+  /** One line for people. */
+  readonly message: string;
+  /** JSON pointer or readable path into the source file. */
+  readonly path?: string;
+}
+
+/** One placement of a mesh in the world with a material on it. */
+export interface Instance {
+  /** Name of the part; not necessarily unique. */
+  name: string;
+  /** Index into {@link Scene.meshes}. */
+  mesh: number;
+  /** Index into {@link Scene.materials}. */
+  material: number;
+  /** Object to world, 16 numbers, column-major (column vectors, translation in 12..14). Any affine matrix; may mirror or shear. */
+  transform: ArrayLike<number>;
+  /** Default true. An invisible instance casts no shadow either. */
+  visible?: boolean;
+}
+
+/**
+ * A whole scene as plain data: no GPU, no classes, structured-cloneable. Everything refers to everything else by index.
+ * Right-handed, +Y up, metres; colours are linear with Rec.709/sRGB primaries.
+ */
+export interface Scene {
+  name?: string;
+  meshes: Mesh[];
+  materials: Material[];
+  images: Image[];
+  textures: Texture[];
+  instances: Instance[];
+  lights: Light[];
+  cameras: Camera[];
+  /** Default: none, which is black. */
+  environment?: Environment;
+  /** What the loader had to work around. */
+  warnings: SceneWarning[];
+}
+
+/** An empty scene to fill. */
+export function createScene(name?: string): Scene {
+  return { ...(name === undefined ? {} : { name }), meshes: [], materials: [], images: [], textures: [], instances: [], lights: [], cameras: [], warnings: [] };
+}

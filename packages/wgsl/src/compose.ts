@@ -1,0 +1,142 @@
+import { GlanzError } from './error';
+import type { GatedDependency, WgslModule } from './module';
+
+/** Thrown by {@link compose}. Codes: `wgsl/cycle`, `wgsl/unknown-flag`, `wgsl/unbalanced-gate`, `wgsl/duplicate-name`. */
+export class WgslComposeError extends GlanzError {}
+
+export interface ComposeOptions {
+  /** Every flag that any composed text mentions must be given here: a missing one is an error, not `false`. */
+  readonly flags?: Readonly<Record<string, boolean>>;
+}
+
+/** Where a line of the composed text came from. */
+export interface WgslLocation {
+  /** Name of the {@link WgslModule}. */
+  readonly module: string;
+  /** 1-based line inside that module's `code`. */
+  readonly line: number;
+}
+
+/** The result of {@link compose}. */
+export interface ComposedWgsl {
+  /** The whole shader text. */
+  readonly code: string;
+  /** Names of the modules in it, in order. */
+  readonly modules: readonly string[];
+  /** Maps a 1-based line of `code` back to its module; `undefined` outside of it. */
+  locate(line: number): WgslLocation | undefined;
+}
+
+interface Gate {
+  readonly line: number;
+  readonly outer: boolean;
+  readonly condition: boolean;
+  active: boolean;
+  elseSeen: boolean;
+}
+
+const GATE = /^\s*\/\/#(if|else|endif)\b\s*(!?)\s*([A-Za-z_]\w*)?\s*$/;
+
+function flagValue(flags: Readonly<Record<string, boolean>>, name: string, module: string, line: number): boolean {
+  if (!Object.hasOwn(flags, name)) {
+    throw new WgslComposeError('wgsl/unknown-flag', `WGSL module "${module}" asks for the flag "${name}", which was not given. Known flags: ${Object.keys(flags).sort().join(', ') || 'none'}.`, { location: { module, line } });
+  }
+  return flags[name] === true;
+}
+
+/** Calls `emit` with each line of the module's text that its gates let through. */
+function forEachKeptLine(module: WgslModule, flags: Readonly<Record<string, boolean>>, emit: (text: string, line: number) => void): void {
+  const gates: Gate[] = [];
+  const active = () => gates.length === 0 || (gates[gates.length - 1] as Gate).active;
+  const unbalanced = (line: number, what: string) => new WgslComposeError('wgsl/unbalanced-gate', `WGSL module "${module.name}" line ${line}: ${what}.`, { location: { module: module.name, line } });
+  const lines = module.code.split('\n');
+  for (const [index, text] of lines.entries()) {
+    const line = index + 1;
+    const match = GATE.exec(text);
+    if (!match) {
+      if (text.trimStart().startsWith('//#')) throw unbalanced(line, `"${text.trim()}" is not a gate (//#if FLAG, //#if !FLAG, //#else, //#endif)`);
+      if (active()) emit(text, line);
+      continue;
+    }
+    const [, kind, negation, flag] = match;
+    if (kind === 'if') {
+      if (!flag) throw unbalanced(line, '//#if without a flag');
+      const condition = flagValue(flags, flag, module.name, line) !== (negation === '!');
+      const outer = active();
+      gates.push({ line, outer, condition, active: outer && condition, elseSeen: false });
+    } else {
+      const gate = gates[gates.length - 1];
+      if (!gate) throw unbalanced(line, `//#${kind} without //#if`);
+      if (kind === 'endif') gates.pop();
+      else {
+        if (gate.elseSeen) throw unbalanced(line, 'second //#else');
+        gate.elseSeen = true;
+        gate.active = gate.outer && !gate.condition;
+      }
+    }
+  }
+  const open = gates.pop();
+  if (open) throw unbalanced(open.line, '//#if is never closed');
+}
+
+/** Dependencies before dependents, each module once, in a stable order. */
+function order(roots: readonly WgslModule[], flags: Readonly<Record<string, boolean>>): WgslModule[] {
+  const done = new Set<WgslModule>();
+  const names = new Map<string, WgslModule>();
+  const path: WgslModule[] = [];
+  const result: WgslModule[] = [];
+  const visit = (module: WgslModule): void => {
+    if (done.has(module)) return;
+    if (path.includes(module)) {
+      const cycle = [...path.slice(path.indexOf(module)), module].map((m) => m.name).join(' → ');
+      throw new WgslComposeError('wgsl/cycle', `WGSL modules depend on each other in a circle: ${cycle}.`, { location: { module: module.name } });
+    }
+    const namesake = names.get(module.name);
+    if (namesake && namesake !== module) {
+      throw new WgslComposeError('wgsl/duplicate-name', `Two different WGSL modules are called "${module.name}".`, { location: { module: module.name } });
+    }
+    names.set(module.name, module);
+    path.push(module);
+    for (const dep of module.deps) {
+      if (!isGated(dep)) visit(dep);
+      else if (flagValue(flags, dep.flag, module.name, 0) === dep.value) visit(dep.module);
+    }
+    path.pop();
+    done.add(module);
+    result.push(module);
+  };
+  for (const root of roots) visit(root);
+  return result;
+}
+
+function isGated(dep: WgslModule | GatedDependency): dep is GatedDependency {
+  return 'flag' in dep;
+}
+
+/**
+ * Puts WGSL modules together into one shader text: dependencies first, each module once, gated text left out.
+ * Leaving text out is what keeps pipelines quick to compile; `override` constants do not prune.
+ *
+ * @param roots The modules that hold the entry points, or any others to include.
+ * @throws {WgslComposeError} on cycles, unknown flags, unbalanced gates, or two modules of one name.
+ * @example
+ * const shader = compose([traceKernel], { flags: { COAT: false } });
+ * device.createShaderModule({ code: shader.code });
+ */
+export function compose(roots: readonly WgslModule[], options: ComposeOptions = {}): ComposedWgsl {
+  const flags = options.flags ?? {};
+  const out: string[] = [];
+  const starts: WgslLocation[] = [];
+  const modules = order(roots, flags);
+  for (const module of modules) {
+    forEachKeptLine(module, flags, (text, line) => {
+      out.push(text);
+      starts.push({ module: module.name, line });
+    });
+  }
+  return {
+    code: out.join('\n') + '\n',
+    modules: modules.map((m) => m.name),
+    locate: (line) => starts[line - 1],
+  };
+}

@@ -1,0 +1,47 @@
+/**
+ * A piece of WGSL with a name and what it needs. Modules are plain frozen values: they can be exported from any file,
+ * put together by {@link compose}, and dropped by a bundler when nobody imports them.
+ *
+ * Inside `code`, these lines gate text (they nest):
+ * ```wgsl
+ * //#if COAT          keeps what follows when the flag COAT is true
+ * //#else
+ * //#endif            `//#if !COAT` negates
+ * ```
+ */
+export interface WgslModule {
+  /** Unique name; appears in error messages, e.g. `openpbr/coat`. */
+  readonly name: string;
+  /** WGSL text: functions, structs, constants. Library modules hold no bindings and no storage pointers. */
+  readonly code: string;
+  /** Modules whose declarations this one uses. A gated dependency counts only when its flag is set. */
+  readonly deps: readonly (WgslModule | GatedDependency)[];
+}
+
+/** A dependency that is composed in only if `flag` has the value `value`. */
+export interface GatedDependency {
+  readonly module: WgslModule;
+  readonly flag: string;
+  readonly value: boolean;
+}
+
+/**
+ * Makes a {@link WgslModule}.
+ *
+ * @param name Unique name, `<package>/<topic>`.
+ * @param code WGSL text; a tagged `/* wgsl *\/` template gets highlighted by editors.
+ * @param deps Modules it uses.
+ */
+export function wgslModule(name: string, code: string, deps: readonly (WgslModule | GatedDependency)[] = []): WgslModule {
+  return Object.freeze({ name, code, deps: Object.freeze([...deps]) });
+}
+
+/**
+ * Makes a dependency that only counts under a flag, so that the text of an unused feature never reaches the compiler.
+ *
+ * @param flag Flag name; a leading `!` asks for the flag to be false.
+ */
+export function gated(flag: string, module: WgslModule): GatedDependency {
+  const negative = flag.startsWith('!');
+  return Object.freeze({ module, flag: negative ? flag.slice(1) : flag, value: !negative });
+}

@@ -1,0 +1,21 @@
+import { defineConfig } from 'tsup';
+
+/**
+ * One build recipe for every package: ESM with declarations, one file per entry, chunks shared between entries.
+ * `entries` maps the name of the output file to its source file.
+ */
+export function glanzPackage(entries: Record<string, string>, options: { readonly external?: readonly string[]; readonly platform?: 'node' | 'neutral' } = {}) {
+  return defineConfig({
+    entry: entries,
+    format: ['esm'],
+    target: 'es2022',
+    platform: options.platform ?? 'neutral',
+    sourcemap: false,
+    clean: true,
+    treeshake: true,
+    splitting: true,
+    external: [...(options.external ?? [])],
+    // The condition "@glanz/source" must not apply here: published declarations point at published packages.
+    dts: { compilerOptions: { ignoreDeprecations: '6.0', customConditions: [] } },
+  });
+}
