@@ -4,8 +4,8 @@ import { wgslModule, type WgslModule } from './module';
 /** Thrown by {@link struct} and by writers. Codes: `wgsl/unknown-field`, `wgsl/field-length`, `wgsl/empty-struct`. */
 export class StructError extends GlanzError {}
 
-/** The scalar and vector types a host-shareable struct may hold. */
-export type WgslFieldType = 'f32' | 'u32' | 'i32' | 'vec2f' | 'vec3f' | 'vec4f' | 'vec2u' | 'vec3u' | 'vec4u' | 'mat4x4f' | readonly [element: WgslFieldType, count: number];
+/** The types a host-shareable struct may hold: scalars, vectors, a matrix, other structs, and arrays of them. */
+export type WgslFieldType = StructLayout | 'f32' | 'u32' | 'i32' | 'vec2f' | 'vec3f' | 'vec4f' | 'vec2u' | 'vec3u' | 'vec4u' | 'mat4x4f' | readonly [element: WgslFieldType, count: number];
 
 interface TypeLayout {
   readonly align: number;
@@ -32,6 +32,7 @@ const roundUp = (value: number, to: number) => Math.ceil(value / to) * to;
 
 function layoutOf(type: WgslFieldType): TypeLayout & { readonly stride?: number } {
   if (typeof type === 'string') return BASIC[type] as TypeLayout;
+  if ('module' in type) return { align: type.align, size: type.size, words: type.size / 4, integer: 'f', text: type.name };
   const element = layoutOf(type[0]);
   const stride = roundUp(element.size, element.align);
   return { align: element.align, size: stride * type[1], words: element.words, integer: element.integer, text: `array<${element.text}, ${type[1]}>`, stride };
@@ -48,8 +49,8 @@ export interface StructField {
   readonly type: string;
 }
 
-/** The value of a field as the writer takes it. Arrays are given flat, without padding. */
-export type StructValue = number | ArrayLike<number>;
+/** The value of a field as the writer takes it. Arrays are given flat, without padding; a nested struct as its packed bytes. */
+export type StructValue = number | ArrayLike<number> | ArrayBuffer;
 
 /** The layout of one GPU struct: its WGSL text and its TypeScript packing come from the same table. */
 export interface StructLayout<Name extends string = string> {
@@ -87,11 +88,13 @@ export function struct<const Fields extends Readonly<Record<string, WgslFieldTyp
   if (entries.length === 0) throw new StructError('wgsl/empty-struct', `Struct "${name}" has no fields.`);
   let offset = 0;
   let align = 4;
+  const nested: WgslModule[] = [];
   const table = new Map<string, StructField & { readonly layout: ReturnType<typeof layoutOf>; readonly count: number }>();
   for (const [field, type] of entries) {
     const layout = layoutOf(type);
     offset = roundUp(offset, layout.align);
-    table.set(field, { name: field, offset, size: layout.size, type: layout.text, layout, count: typeof type === 'string' ? 1 : type[1] });
+    if (typeof type !== 'string' && 'module' in type) nested.push(type.module);
+    table.set(field, { name: field, offset, size: layout.size, type: layout.text, layout, count: typeof type === 'string' || 'module' in type ? 1 : type[1] });
     offset += layout.size;
     align = Math.max(align, layout.align);
   }
@@ -107,14 +110,19 @@ export function struct<const Fields extends Readonly<Record<string, WgslFieldTyp
     align,
     size,
     fields: [...table.values()].map(({ name: fieldName, offset: at, size: bytes, type }) => ({ name: fieldName, offset: at, size: bytes, type })),
-    module: wgslModule(`struct/${name}`, text),
+    module: wgslModule(`struct/${name}`, text, nested),
     offsetOf: (field) => find(field).offset,
     allocate: (count = 1) => new ArrayBuffer(size * count),
     write(buffer, index, values) {
       const view = new DataView(buffer);
       for (const [field, value] of Object.entries(values) as [string, StructValue | undefined][]) {
         if (value === undefined) continue;
-        const { layout, offset: at, count } = find(field);
+        const { layout, offset: at, count, size: bytes } = find(field);
+        if (value instanceof ArrayBuffer) {
+          if (value.byteLength !== bytes) throw new StructError('wgsl/field-length', `Field "${name}.${field}" takes ${bytes} bytes, got ${value.byteLength}.`);
+          new Uint8Array(buffer, index * size + at, bytes).set(new Uint8Array(value));
+          continue;
+        }
         const flat = typeof value === 'number' ? [value] : value;
         if (flat.length !== layout.words * count) {
           throw new StructError('wgsl/field-length', `Field "${name}.${field}" takes ${layout.words * count} numbers, got ${flat.length}.`);
