@@ -1,0 +1,49 @@
+import { wgslModule } from '@glanz/wgsl';
+import { finite, tonemapFinite } from './finite';
+import type { Rgb } from './names';
+
+/** Reflectance at normal incidence of IOR 1.5: what a white furnace adds to a base colour, and the curve's toe takes away. */
+const F90 = 0.04;
+/** K_s of the specification: where the highlights start to be compressed. */
+const START = 0.8 - F90;
+/** K_d: how fast highlights lose their colour. */
+const DESATURATION = 0.15;
+
+/**
+ * WGSL `fn tonemap_neutral(linear: vec3f) -> vec3f`: Khronos PBR Neutral, after the specification text
+ * (github.com/KhronosGroup/ToneMapping, PBR_Neutral). Base colours under grey light come out as they went in: with
+ * every component at least 0.08 the curve takes 0.04 off, up to a peak of 0.76; above it compresses towards white.
+ */
+export const tonemapNeutral = wgslModule(
+  'tonemap/neutral',
+  /* wgsl */ `fn tonemap_neutral(linear: vec3f) -> vec3f {
+  let c = tonemap_finite(linear);
+  let x = min(c.r, min(c.g, c.b));
+  let base = c - select(${F90}, x - x * x * ${1 / (4 * F90)}, x <= ${2 * F90});
+  let peak = max(base.r, max(base.g, base.b));
+  if (peak <= ${START}) { return base; }
+  let compressed = 1.0 - ${(1 - START) ** 2} / (peak + ${1 - 2 * START});
+  let keep = 1.0 / (${DESATURATION} * (peak - compressed) + 1.0);
+  return mix(vec3f(compressed), base * (compressed / peak), keep);
+}`,
+  [tonemapFinite],
+);
+
+/** CPU twin of {@link tonemapNeutral}. */
+export function neutralToneMap(rgb: Rgb): [number, number, number] {
+  let r = finite(rgb[0]);
+  let g = finite(rgb[1]);
+  let b = finite(rgb[2]);
+  const x = Math.min(r, g, b);
+  const offset = x <= 2 * F90 ? x - (x * x) / (4 * F90) : F90;
+  r -= offset;
+  g -= offset;
+  b -= offset;
+  const peak = Math.max(r, g, b);
+  if (peak <= START) return [r, g, b];
+  const compressed = 1 - (1 - START) ** 2 / (peak + 1 - 2 * START);
+  const keep = 1 / (DESATURATION * (peak - compressed) + 1);
+  const scale = (compressed / peak) * keep;
+  const white = compressed * (1 - keep);
+  return [r * scale + white, g * scale + white, b * scale + white];
+}

@@ -1,0 +1,228 @@
+import { compose, createShaderModule, struct, wgslModule } from '@glanz/wgsl';
+import { ToneMapError, type ToneMap } from './names';
+import { toneMapOperator } from './operators';
+import { tonemapSrgb } from './srgb';
+import type { ToneMapOptions } from './tone-map';
+
+/** How {@link ToneMapPass} is made. */
+export interface ToneMapPassOptions extends ToneMapOptions {
+  /** Format of the target. Formats ending in `-srgb` get linear values, since the hardware encodes them. */
+  readonly format: GPUTextureFormat;
+  /**
+   * `premultiplied` (default): coverage goes out in alpha and RGB is multiplied by it after the encoding, as a canvas
+   * of `alphaMode: 'premultiplied'` wants it. `opaque`: alpha is ignored and written as 1.
+   */
+  readonly alpha?: 'premultiplied' | 'opaque';
+  /** How a source of another size than the target is read. Default `bilinear`; equal sizes are always copied 1:1. */
+  readonly filter?: 'nearest' | 'bilinear';
+}
+
+/** What can change between two draws. */
+export type ToneMapPassSettings = Partial<Pick<ToneMapPassOptions, 'exposure' | 'toneMap' | 'alpha' | 'filter'>>;
+
+const uniforms = struct('TonemapUniforms', {
+  source_size: 'vec2u',
+  target_size: 'vec2f',
+  exposure: 'f32',
+  opaque: 'u32',
+  bilinear: 'u32',
+});
+
+const passModule = (toneMap: ToneMap) =>
+  wgslModule(
+    `tonemap/pass-${toneMap}`,
+    /* wgsl */ `
+@group(0) @binding(0) var<uniform> tonemap_uniforms: TonemapUniforms;
+@group(0) @binding(1) var<storage, read> tonemap_source: array<vec4f>;
+
+@vertex fn tonemap_vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f {
+  return vec4f(f32((i & 1u) << 2u) - 1.0, f32((i & 2u) << 1u) - 1.0, 0.0, 1.0);
+}
+
+fn tonemap_texel(p: vec2i) -> vec4f {
+  let size = vec2i(tonemap_uniforms.source_size);
+  let q = clamp(p, vec2i(0), size - 1);
+  return tonemap_source[u32(q.y * size.x + q.x)];
+}
+
+@fragment fn tonemap_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
+  let p = position.xy * vec2f(tonemap_uniforms.source_size) / tonemap_uniforms.target_size;
+  var texel: vec4f;
+  if (tonemap_uniforms.bilinear != 0u) {
+    let corner = floor(p - 0.5);
+    let f = p - 0.5 - corner;
+    let c = vec2i(corner);
+    texel = mix(
+      mix(tonemap_texel(c), tonemap_texel(c + vec2i(1, 0)), f.x),
+      mix(tonemap_texel(c + vec2i(0, 1)), tonemap_texel(c + vec2i(1, 1)), f.x), f.y);
+  } else {
+    texel = tonemap_texel(vec2i(p));
+  }
+  var alpha = 1.0;
+  if (tonemap_uniforms.opaque == 0u) {
+    alpha = min(tonemap_finite(texel.aaa).x, 1.0);
+  }
+  // Coverage below any display's resolution shows nothing; dividing by it would only overflow.
+  if (alpha < 1e-6) { return vec4f(0.0); }
+  var rgb = tonemap_${toneMap}(texel.rgb * (tonemap_uniforms.exposure / alpha));
+//#if TONEMAP_ENCODE
+  rgb = tonemap_srgb_encode(rgb);
+//#endif
+  return vec4f(rgb * alpha, alpha);
+}`,
+    [uniforms.module, toneMapOperator(toneMap).wgsl, tonemapSrgb],
+  );
+
+/**
+ * Draws a linear RGBA picture that lies in a storage buffer into a texture, through a view transform: one fullscreen
+ * triangle. The pipeline of a tone map is made when it is first asked for, without stalling.
+ *
+ * @example
+ * const pass = await ToneMapPass.create(device, { format: navigator.gpu.getPreferredCanvasFormat(), toneMap: 'agx' });
+ * const encoder = device.createCommandEncoder();
+ * pass.draw(encoder, tracer.beautyBuffer, [width, height], context.getCurrentTexture().createView());
+ * device.queue.submit([encoder.finish()]);
+ */
+export class ToneMapPass {
+  readonly #device: GPUDevice;
+  readonly #format: GPUTextureFormat;
+  readonly #layout: GPUBindGroupLayout;
+  readonly #pipelineLayout: GPUPipelineLayout;
+  readonly #uniforms: GPUBuffer;
+  readonly #data = uniforms.allocate();
+  readonly #pipelines = new Map<ToneMap, Promise<GPURenderPipeline>>();
+  #settings: Required<ToneMapPassSettings>;
+  #pipeline: GPURenderPipeline | undefined;
+  #bound: { readonly source: GPUBuffer; readonly group: GPUBindGroup } | undefined;
+  #destroyed = false;
+
+  private constructor(device: GPUDevice, options: ToneMapPassOptions) {
+    this.#device = device;
+    this.#format = options.format;
+    this.#settings = { exposure: options.exposure ?? 0, toneMap: options.toneMap ?? 'neutral', alpha: options.alpha ?? 'premultiplied', filter: options.filter ?? 'bilinear' };
+    this.#layout = device.createBindGroupLayout({
+      label: 'tonemap layout',
+      entries: [
+        { binding: 0, visibility: GPU_STAGE_FRAGMENT, buffer: { type: 'uniform' } },
+        { binding: 1, visibility: GPU_STAGE_FRAGMENT, buffer: { type: 'read-only-storage' } },
+      ],
+    });
+    this.#pipelineLayout = device.createPipelineLayout({ label: 'tonemap pipeline layout', bindGroupLayouts: [this.#layout] });
+    this.#uniforms = device.createBuffer({ label: 'tonemap uniforms', size: uniforms.size, usage: GPU_USAGE_UNIFORM_COPY_DST });
+  }
+
+  /**
+   * Makes the pass and the pipeline of its first tone map.
+   *
+   * @throws {ToneMapError} `tonemap/unknown` for an unknown tone map.
+   */
+  static async create(device: GPUDevice, options: ToneMapPassOptions): Promise<ToneMapPass> {
+    toneMapOperator(options.toneMap ?? 'neutral');
+    const pass = new ToneMapPass(device, options);
+    try {
+      pass.#pipeline = await pass.#pipelineOf(pass.#settings.toneMap);
+    } catch (error) {
+      pass.destroy();
+      throw error;
+    }
+    return pass;
+  }
+
+  /** The settings of the next draw. */
+  get settings(): Readonly<Required<ToneMapPassSettings>> {
+    return this.#settings;
+  }
+
+  /**
+   * Changes exposure (EV), tone map, alpha or filter. All but a tone map that has not been used before take effect at
+   * once; until such a one is compiled, draws go on with the previous curve, and the promise tells when it is in use.
+   *
+   * @throws {ToneMapError} `tonemap/unknown` for an unknown tone map; nothing is changed then.
+   */
+  async setOptions(settings: ToneMapPassSettings): Promise<void> {
+    if (settings.toneMap !== undefined) toneMapOperator(settings.toneMap);
+    this.#settings = { ...this.#settings, ...settings };
+    const { toneMap } = this.#settings;
+    const pipeline = await this.#pipelineOf(toneMap);
+    // A later call may have asked for another tone map meanwhile: the last one wins.
+    if (this.#settings.toneMap === toneMap) this.#pipeline = pipeline;
+  }
+
+  /**
+   * Records the drawing of the picture over the whole target. Encode one draw of a pass per submission: its uniforms
+   * are written on the queue, ahead of the encoder.
+   *
+   * @param source vec4f per pixel: linear RGBA multiplied by alpha, row-major, top row first; usage `STORAGE`.
+   * @param size Width and height of the source, pixels.
+   * @param targetSize Width and height of the target, pixels; default: those of the source.
+   * @throws {ToneMapError} `tonemap/size` for an empty size or a buffer too small, `tonemap/destroyed` after {@link destroy}.
+   */
+  draw(encoder: GPUCommandEncoder, source: GPUBuffer, size: readonly [number, number], target: GPUTextureView, targetSize: readonly [number, number] = size): void {
+    if (this.#destroyed || !this.#pipeline) throw new ToneMapError('tonemap/destroyed', 'This ToneMapPass was destroyed; create another one.');
+    const [width, height] = size;
+    if (!(width >= 1 && height >= 1 && targetSize[0] >= 1 && targetSize[1] >= 1) || source.size < width * height * 16) {
+      throw new ToneMapError('tonemap/size', `Cannot draw a ${width}×${height} picture from a buffer of ${source.size} bytes to ${targetSize[0]}×${targetSize[1]} pixels: sizes start at 1, a pixel takes 16 bytes.`);
+    }
+    const { exposure, alpha, filter } = this.#settings;
+    const sameSize = width === targetSize[0] && height === targetSize[1];
+    uniforms.write(this.#data, 0, {
+      source_size: size,
+      target_size: targetSize,
+      exposure: 2 ** exposure,
+      opaque: alpha === 'opaque' ? 1 : 0,
+      bilinear: filter === 'bilinear' && !sameSize ? 1 : 0,
+    });
+    this.#device.queue.writeBuffer(this.#uniforms, 0, this.#data);
+    if (this.#bound?.source !== source) {
+      const group = this.#device.createBindGroup({
+        label: 'tonemap group',
+        layout: this.#layout,
+        entries: [
+          { binding: 0, resource: { buffer: this.#uniforms } },
+          { binding: 1, resource: { buffer: source } },
+        ],
+      });
+      this.#bound = { source, group };
+    }
+    const pass = encoder.beginRenderPass({ label: 'tonemap', colorAttachments: [{ view: target, loadOp: 'clear', storeOp: 'store', clearValue: [0, 0, 0, 0] }] });
+    pass.setPipeline(this.#pipeline);
+    pass.setBindGroup(0, this.#bound.group);
+    pass.draw(3);
+    pass.end();
+  }
+
+  /** Frees the pass's buffer. May be called any number of times. */
+  destroy(): void {
+    this.#destroyed = true;
+    this.#bound = undefined;
+    this.#pipelines.clear();
+    this.#uniforms.destroy();
+  }
+
+  #pipelineOf(toneMap: ToneMap): Promise<GPURenderPipeline> {
+    const known = this.#pipelines.get(toneMap);
+    if (known) return known;
+    const made = this.#createPipeline(toneMap);
+    this.#pipelines.set(toneMap, made);
+    // A failed one must not be remembered: the next call tries again.
+    made.catch(() => this.#pipelines.delete(toneMap));
+    return made;
+  }
+
+  async #createPipeline(toneMap: ToneMap): Promise<GPURenderPipeline> {
+    const label = `tonemap ${toneMap}`;
+    const shader = compose([passModule(toneMap)], { flags: { TONEMAP_ENCODE: !this.#format.endsWith('-srgb') } });
+    const module = await createShaderModule(this.#device, shader, label);
+    return this.#device.createRenderPipelineAsync({
+      label,
+      layout: this.#pipelineLayout,
+      vertex: { module, entryPoint: 'tonemap_vertex' },
+      fragment: { module, entryPoint: 'tonemap_fragment', targets: [{ format: this.#format }] },
+      primitive: { topology: 'triangle-list' },
+    });
+  }
+}
+
+// The numbers behind GPUShaderStage and GPUBufferUsage, which exist as globals in browsers only.
+const GPU_STAGE_FRAGMENT = 2;
+const GPU_USAGE_UNIFORM_COPY_DST = 0x40 | 0x8;

@@ -1,0 +1,79 @@
+import { ToneMapError, type Rgb, type ToneMap } from './names';
+import { toneMapOperator } from './operators';
+import { srgbEncode } from './srgb';
+
+/** What to do to a linear, scene-referred colour on its way to a display. */
+export interface ToneMapOptions {
+  /** Default `neutral`. */
+  readonly toneMap?: ToneMap;
+  /** Exposure in stops (EV): the colour is multiplied by 2^exposure first. Default 0. */
+  readonly exposure?: number;
+}
+
+/** How {@link toneMapPixels} writes. */
+export interface ToneMapPixelsOptions extends ToneMapOptions {
+  /** `uint8` (default): codes 0..255; `uint16`: 0..65535; `float`: 0..1. */
+  readonly output?: 'uint8' | 'uint16' | 'float';
+  /**
+   * `straight` (default): RGB is divided by alpha before the curve and alpha is kept as it is, which is what PNG wants.
+   * `opaque`: alpha is ignored and written as 1.
+   */
+  readonly alpha?: 'straight' | 'opaque';
+}
+
+interface Outputs {
+  uint8: Uint8ClampedArray<ArrayBuffer>;
+  uint16: Uint16Array<ArrayBuffer>;
+  float: Float32Array<ArrayBuffer>;
+}
+
+/**
+ * Linear, scene-referred colour to the sRGB codes of a display.
+ *
+ * @param rgb Linear Rec.709. NaN and negative components count as 0, +∞ as very bright.
+ * @returns Three codes in 0..1, finite whatever came in.
+ * @example
+ * toneMap([4, 2, 1], { toneMap: 'agx', exposure: -1 });
+ */
+export function toneMap(rgb: Rgb, options: ToneMapOptions = {}): [number, number, number] {
+  const scale = 2 ** (options.exposure ?? 0);
+  const [r, g, b] = toneMapOperator(options.toneMap ?? 'neutral').map([rgb[0] * scale, rgb[1] * scale, rgb[2] * scale]);
+  return [srgbEncode(r), srgbEncode(g), srgbEncode(b)];
+}
+
+/**
+ * {@link toneMap} for a whole picture.
+ *
+ * @param rgba Linear RGBA, stride 4, row-major, with RGB already multiplied by alpha, as a path tracer's film holds it.
+ * @returns sRGB codes, RGBA, stride 4; alpha linear and 0 where it was NaN.
+ * @throws {ToneMapError} `tonemap/size` if the array does not hold width × height pixels.
+ */
+export function toneMapPixels<O extends keyof Outputs = 'uint8'>(
+  rgba: Float32Array,
+  width: number,
+  height: number,
+  options: ToneMapPixelsOptions & { readonly output?: O } = {},
+): Outputs[O] {
+  const count = width * height;
+  if (!Number.isInteger(width) || !Number.isInteger(height) || rgba.length !== count * 4) {
+    throw new ToneMapError('tonemap/size', `${width}×${height} RGBA pixels need ${count * 4} floats, but ${rgba.length} were given.`);
+  }
+  const output = options.output ?? 'uint8';
+  const { map } = toneMapOperator(options.toneMap ?? 'neutral');
+  const exposure = 2 ** (options.exposure ?? 0);
+  const straight = (options.alpha ?? 'straight') === 'straight';
+  const out = output === 'uint8' ? new Uint8ClampedArray(count * 4) : output === 'uint16' ? new Uint16Array(count * 4) : new Float32Array(count * 4);
+  const [top, round] = output === 'uint8' ? [255, 0.5] : output === 'uint16' ? [65535, 0.5] : [1, 0];
+  const store = round === 0 ? (v: number) => v : (v: number) => Math.floor(v * top + round);
+  for (let i = 0; i < out.length; i += 4) {
+    const coverage = rgba[i + 3] as number;
+    const alpha = straight ? (coverage > 0 ? Math.min(coverage, 1) : 0) : 1;
+    const scale = alpha > 0 ? exposure / alpha : 0;
+    const [r, g, b] = map([(rgba[i] as number) * scale, (rgba[i + 1] as number) * scale, (rgba[i + 2] as number) * scale]);
+    out[i] = store(srgbEncode(r));
+    out[i + 1] = store(srgbEncode(g));
+    out[i + 2] = store(srgbEncode(b));
+    out[i + 3] = store(alpha);
+  }
+  return out as Outputs[O];
+}
