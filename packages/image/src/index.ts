@@ -1,1 +1,8 @@
-export {};
+export { ImageError, MAX_PIXELS, type DecodeOptions, type ImageWarning } from './error';
+export { decodeHdr, type HdrImage } from './hdr-decode';
+export { encodeHdr, type HdrSource } from './hdr-encode';
+export { encodePng, type PngSource } from './png';
+export { encodeExr, type ExrLayer, type ExrSource, type ExrType } from './exr-encode';
+export { decodeExr, type ExrChannel, type ExrImage } from './exr-decode';
+export { decodeEnvironment } from './environment';
+export { fromHalf, HALF_MAX, toHalf } from './half';
