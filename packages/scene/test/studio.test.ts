@@ -1,0 +1,70 @@
+import { expect, it } from 'vitest';
+import type { LatLongEnvironment } from '../src/index';
+import { studioEnvironment } from '../src/studio';
+
+type Vector = readonly [number, number, number];
+
+/** Irradiance on a surface of normal n over π: what a white diffuse surface shows. Summed over texels by solid angle. */
+function whiteDiffuse({ width, height, data }: LatLongEnvironment, n: Vector): number {
+  let sum = 0;
+  for (let j = 0; j < height; j++) {
+    const theta = ((j + 0.5) / height) * Math.PI;
+    const solidAngle = ((2 * Math.PI) / width) * (Math.PI / height) * Math.sin(theta);
+    for (let i = 0; i < width; i++) {
+      const phi = ((i + 0.5) / width - 0.5) * 2 * Math.PI;
+      const cosine = n[0] * Math.sin(theta) * Math.cos(phi) + n[1] * Math.cos(theta) + n[2] * Math.sin(theta) * Math.sin(phi);
+      sum += (data[(j * width + i) * 3] as number) * Math.max(cosine, 0) * solidAngle;
+    }
+  }
+  return sum / Math.PI;
+}
+
+it('is colourless, finite and lit everywhere', () => {
+  const { width, height, data, type } = studioEnvironment();
+  expect([type, width, height, data.length]).toEqual(['latlong', 512, 256, 512 * 256 * 3]);
+  for (let i = 0; i < data.length; i += 3) {
+    const v = data[i] as number;
+    if (!(v > 0.1 && v < 20 && data[i + 1] === v && data[i + 2] === v)) expect.fail(`texel ${i / 3}: ${data.subarray(i, i + 3)}`);
+  }
+});
+
+it('shows white diffuse surfaces near 1 from above and the front, less from below, and models them from left to right', () => {
+  const studio = studioEnvironment();
+  const up = whiteDiffuse(studio, [0, 1, 0]);
+  const front = whiteDiffuse(studio, [0, 0, 1]);
+  const left = whiteDiffuse(studio, [-1, 0, 0]);
+  const right = whiteDiffuse(studio, [1, 0, 0]);
+  const down = whiteDiffuse(studio, [0, -1, 0]);
+  expect(up).toBeGreaterThan(0.9);
+  expect(up).toBeLessThan(2);
+  expect(front).toBeGreaterThan(0.8);
+  expect(front).toBeLessThan(1.4);
+  expect(left / right).toBeGreaterThan(1.15);
+  expect(down).toBeLessThan(0.7);
+});
+
+it('has its brightest box at the front left, above the horizon', () => {
+  const { width, data } = studioEnvironment();
+  let best = 0;
+  for (let i = 0; i < data.length; i += 3) if ((data[i] as number) > (data[best] as number)) best = i;
+  const [i, j] = [(best / 3) % width, Math.floor(best / 3 / width)];
+  const phi = ((i + 0.5) / width - 0.5) * 2 * Math.PI;
+  expect(Math.sin(phi)).toBeGreaterThan(0.3); // +Z
+  expect(Math.cos(phi)).toBeLessThan(-0.3); // −X
+  expect(j / 256).toBeLessThan(0.5);
+});
+
+it('closes without a seam where u wraps', () => {
+  const { width, height, data } = studioEnvironment();
+  for (let j = 0; j < height; j++) {
+    const at = (i: number) => data[(j * width + i) * 3] as number;
+    const step = Math.max(Math.abs(at(1) - at(0)), Math.abs(at(width - 1) - at(width - 2)), 1e-6);
+    expect(Math.abs(at(0) - at(width - 1))).toBeLessThan(0.02 + 3 * step);
+  }
+});
+
+it('means the same light at every size, and passes its options on', () => {
+  const small = studioEnvironment({ width: 128, intensity: 2, rotation: 1, visible: false });
+  expect(small).toMatchObject({ width: 128, height: 64, intensity: 2, rotation: 1, visible: false });
+  expect(whiteDiffuse(small, [0, 1, 0]) / whiteDiffuse(studioEnvironment(), [0, 1, 0])).toBeCloseTo(1, 1.5);
+});
