@@ -1,3 +1,3 @@
 import { glanzPackage } from '../../tsup.base';
 
-export default glanzPackage({ index: 'src/index.ts', glanz: 'src/glanz.ts' });
+export default glanzPackage({ index: 'src/index.ts', glanz: 'src/glanz.ts' }, { platform: 'node' });

@@ -1,0 +1,53 @@
+import type { FilmLayer, PathTracerOptions, PathTracer, RenderStatistics } from '@glanz/renderer';
+import type { Scene } from '@glanz/scene';
+
+/** The part of a `PathTracer` that the command needs. */
+export type Tracer = Pick<PathTracer, 'render' | 'read' | 'samples' | 'statistics' | 'destroy'>;
+
+/** A device and what it is called. */
+export interface OpenedGpu {
+  readonly device: GPUDevice;
+  readonly adapterName: string;
+  /** Whether the processor stands in for a GPU. */
+  readonly software: boolean;
+}
+
+/** One line of `--list-gpus`. */
+export interface ListedGpu {
+  readonly name: string;
+  readonly software: boolean;
+}
+
+/** The machinery behind the command. The real one is loaded when it is needed, so that `--help` does not wait for it. */
+export interface Backend {
+  loadModel(file: string, signal: AbortSignal): Promise<Scene>;
+  openGpu(name: string | undefined): Promise<OpenedGpu>;
+  listGpus(): Promise<readonly ListedGpu[]>;
+  createTracer(device: GPUDevice, scene: Scene, options: PathTracerOptions): Promise<Tracer>;
+}
+
+export type { FilmLayer, PathTracerOptions, RenderStatistics };
+
+/** The renderer on Dawn, the glTF loader with sharp. */
+export function nodeBackend(): Backend {
+  return {
+    async loadModel(file, signal) {
+      const { loadGltfFile } = await import('@glanz/gltf/node');
+      return loadGltfFile(file, { signal });
+    },
+    async openGpu(name) {
+      const [{ requestDevice }, { createGpu }] = await Promise.all([import('@glanz/renderer'), import('@glanz/renderer/node')]);
+      const software = name?.toLowerCase() === 'software';
+      const { gpu, adapterName, software: isSoftware } = await createGpu(software ? { software: 'only' } : name === undefined ? {} : { gpu: name });
+      return { device: await requestDevice({ gpu }), adapterName, software: isSoftware };
+    },
+    async listGpus() {
+      const { listGpus } = await import('@glanz/renderer/node');
+      return listGpus();
+    },
+    async createTracer(device, scene, options) {
+      const { PathTracer } = await import('@glanz/renderer');
+      return PathTracer.create(device, scene, options);
+    },
+  };
+}

@@ -1,0 +1,93 @@
+import { readFile } from 'node:fs/promises';
+import { resolve } from 'node:path';
+import { frameCamera, type Camera, type PerspectiveCamera, type Scene } from '@glanz/scene';
+import { CliError } from './errors';
+
+type Vector = readonly [number, number, number];
+
+const wrong = (message: string) => new CliError('cli/camera', message);
+
+function vector(value: unknown, name: string): Vector {
+  if (!Array.isArray(value) || value.length !== 3 || !value.every((v) => typeof v === 'number' && Number.isFinite(v))) {
+    throw wrong(`--camera: "${name}" must be three numbers, like [0, 1, 3].`);
+  }
+  return value as unknown as Vector;
+}
+
+function optionalNumber(object: Record<string, unknown>, name: string, min: number, max: number): number | undefined {
+  const value = object[name];
+  if (value === undefined) return undefined;
+  if (typeof value !== 'number' || !(value >= min && value <= max)) throw wrong(`--camera: "${name}" must be a number from ${min} to ${max}.`);
+  return value;
+}
+
+const subtract = (a: Vector, b: Vector): Vector => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+const cross = (a: Vector, b: Vector): Vector => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+function unit(a: Vector): Vector | undefined {
+  const length = Math.hypot(...a);
+  return length > 1e-12 && Number.isFinite(length) ? [a[0] / length, a[1] / length, a[2] / length] : undefined;
+}
+
+/** Camera-to-world matrix, column-major, that looks from one point to another along −Z. */
+export function lookAt(position: Vector, target: Vector, up: Vector): number[] {
+  const back = unit(subtract(position, target));
+  if (!back) throw wrong('--camera: "position" and "target" are the same point.');
+  const right = unit(cross(up, back)) ?? unit(cross([0, 0, -1], back)) ?? unit(cross([1, 0, 0], back));
+  if (!right) throw wrong('--camera: no direction is up.');
+  const above = cross(back, right);
+  return [...right, 0, ...above, 0, ...back, 0, ...position, 1];
+}
+
+const FIELDS = ['name', 'position', 'target', 'up', 'fov', 'lens_radius', 'focus_distance'];
+
+/**
+ * A camera from JSON: `position`, `target` (default the origin), `up` (default +Y), `fov` (vertical, degrees, default
+ * 35), `lens_radius` and `focus_distance` (metres; default focus: the target).
+ *
+ * @throws {CliError} `cli/camera`
+ */
+export function cameraFromJson(text: string): PerspectiveCamera {
+  let value: unknown;
+  try {
+    value = JSON.parse(text);
+  } catch (cause) {
+    throw new CliError('cli/camera', `--camera: not valid JSON: ${(cause as Error).message.split('\n')[0]}.`, { cause });
+  }
+  if (typeof value !== 'object' || value === null || Array.isArray(value)) throw wrong('--camera: the JSON must be an object with "position" and "target".');
+  const object = value as Record<string, unknown>;
+  const unknown = Object.keys(object).find((key) => !FIELDS.includes(key));
+  if (unknown !== undefined) throw wrong(`--camera: unknown field "${unknown}". Known: ${FIELDS.join(', ')}.`);
+  if (object.position === undefined) throw wrong('--camera: "position" is missing.');
+  const position = vector(object.position, 'position');
+  const target = vector(object.target ?? [0, 0, 0], 'target');
+  const lens = optionalNumber(object, 'lens_radius', 0, 1e6);
+  const focus = optionalNumber(object, 'focus_distance', 1e-6, 1e9) ?? Math.hypot(...subtract(position, target));
+  return {
+    type: 'perspective',
+    name: typeof object.name === 'string' ? object.name : 'camera',
+    transform: lookAt(position, target, vector(object.up ?? [0, 1, 0], 'up')),
+    yfov: ((optionalNumber(object, 'fov', 0.1, 175) ?? 35) * Math.PI) / 180,
+    ...(lens === undefined ? {} : { lens_radius: lens, focus_distance: focus }),
+  };
+}
+
+/**
+ * The camera that `--camera` names: one of the scene's by name or number, JSON, or a .json file. Without a word: the
+ * scene's first, or one that frames the scene.
+ *
+ * @throws {CliError} `cli/camera`, `cli/input`
+ */
+export async function chooseCamera(scene: Scene, choice: string | undefined, aspect: number, cwd: string): Promise<Camera> {
+  if (choice === undefined) return scene.cameras[0] ?? frameCamera(scene, { aspect });
+  if (choice.trimStart().startsWith('{')) return cameraFromJson(choice);
+  const named = scene.cameras.find(({ name }) => name === choice) ?? (/^\d+$/.test(choice) ? scene.cameras[Number(choice)] : undefined);
+  if (named) return named;
+  if (/\.json$/i.test(choice)) {
+    const text = await readFile(resolve(cwd, choice), 'utf8').catch((cause: unknown) => {
+      throw new CliError('cli/input', `Cannot read the camera "${choice}": ${(cause as Error).message}.`, { cause, location: { file: choice } });
+    });
+    return cameraFromJson(text);
+  }
+  const names = scene.cameras.map(({ name }, i) => `${i} "${name}"`).join(', ');
+  throw wrong(`The model has no camera "${choice}"; ${names ? `it has ${names}` : 'it has none'}.`);
+}

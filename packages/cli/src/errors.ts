@@ -1,0 +1,30 @@
+import { GlanzError } from '@glanz/scene';
+
+/**
+ * Something the user can put right. Codes: `cli/usage` (unknown option, impossible value), `cli/input` (a file that
+ * cannot be read), `cli/output` (a file that cannot be written), `cli/camera` (no such camera).
+ */
+export class CliError extends GlanzError {}
+
+/** What the process ends with. Listed in the manual page. */
+export const EXIT = { ok: 0, failure: 1, usage: 2, input: 3, output: 4, gpu: 5, internal: 70, interrupted: 130, terminated: 143 } as const;
+
+const GPU_CODES = new Set(['renderer/no-webgpu', 'renderer/no-adapter', 'renderer/no-device', 'renderer/no-gpu', 'renderer/gpu-not-found']);
+
+/** The exit code that belongs to an error. */
+export function exitCodeOf(error: unknown): number {
+  if (!(error instanceof GlanzError)) return EXIT.internal;
+  const { code } = error;
+  if (code === 'cli/usage' || code === 'cli/camera' || code === 'renderer/size' || code === 'renderer/camera') return EXIT.usage;
+  if (code === 'cli/output') return EXIT.output;
+  if (GPU_CODES.has(code)) return EXIT.gpu;
+  if (/^(cli\/input|gltf\/|scene\/|image\/|renderer\/no-triangles)/.test(code)) return EXIT.input;
+  return EXIT.failure;
+}
+
+/** The error as one line for people. */
+export function errorLine(error: unknown): string {
+  if (error instanceof GlanzError) return `${error.message.replace(/\s*\n\s*/g, ' ')} [${error.code}]`;
+  const message = error instanceof Error ? error.message : String(error);
+  return `internal error: ${message.replace(/\s*\n\s*/g, ' ')} — please report this; GLANZ_DEBUG=1 shows where it happened.`;
+}

@@ -1,0 +1,50 @@
+/** Signals that end a rendering early. */
+export type Interrupt = 'SIGINT' | 'SIGTERM';
+
+/** The world as a command sees it; tests hand in their own. */
+export interface CliIo {
+  /** Machine-readable output and help. */
+  readonly stdout: (text: string) => void;
+  /** Progress, summaries, warnings, errors. */
+  readonly stderr: (text: string) => void;
+  /** Whether stderr is a terminal: one line is rewritten there, while logs get a line now and then. */
+  readonly interactive: boolean;
+  /** Width of the terminal, columns. */
+  readonly columns: () => number;
+  /** Whether stderr may be coloured. */
+  readonly color: boolean;
+  readonly cwd: string;
+  readonly debug: boolean;
+  /** Milliseconds, monotonic. */
+  readonly now: () => number;
+  /** Calls `handler` at the first interrupt; a second one ends the process at once. Returns how to stop listening. */
+  readonly onInterrupt: (handler: (signal: Interrupt) => void) => () => void;
+}
+
+/** The world of this process. */
+export function nodeIo(): CliIo {
+  const { env, stderr, stdout } = process;
+  const interactive = stderr.isTTY === true && env.TERM !== 'dumb';
+  return {
+    stdout: (text) => void stdout.write(text),
+    stderr: (text) => void stderr.write(text),
+    interactive,
+    columns: () => stderr.columns ?? 80,
+    color: env.NO_COLOR ? false : env.FORCE_COLOR ? env.FORCE_COLOR !== '0' : interactive,
+    cwd: process.cwd(),
+    debug: Boolean(env.GLANZ_DEBUG),
+    now: () => performance.now(),
+    onInterrupt(handler) {
+      const signals: Interrupt[] = ['SIGINT', 'SIGTERM'];
+      const listeners = signals.map((signal) => {
+        // `once`: the second signal meets the system's default and ends the process.
+        const listener = () => handler(signal);
+        process.once(signal, listener);
+        return [signal, listener] as const;
+      });
+      return () => {
+        for (const [signal, listener] of listeners) process.removeListener(signal, listener);
+      };
+    },
+  };
+}

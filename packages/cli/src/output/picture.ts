@@ -1,0 +1,24 @@
+/** A finished rendering, as the writers take it. All planes are row-major, top row first. */
+export interface Picture {
+  readonly width: number;
+  readonly height: number;
+  /** Linear RGBA, stride 4, multiplied by alpha. */
+  readonly beauty: Float32Array;
+  /** Read on demand: only EXR wants these. */
+  readonly layers?: PictureLayers;
+  readonly samples: number;
+  readonly software: string;
+}
+
+/** Features of the first surface under each pixel. */
+export interface PictureLayers {
+  /** RGBA, stride 4. */
+  readonly albedo: Float32Array;
+  /** xyz0, stride 4. */
+  readonly normal: Float32Array;
+  /** Metres, stride 1. */
+  readonly depth: Float32Array;
+  /** Scene indices, 0xffffffff for none. */
+  readonly objectId: Uint32Array;
+  readonly materialId: Uint32Array;
+}

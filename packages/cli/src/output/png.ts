@@ -1,0 +1,18 @@
+import { encodePng } from '@glanz/image/png';
+import { toneMapPixels, type ToneMap } from '@glanz/tonemap';
+import type { Picture } from './picture';
+
+/** The way to the screen. */
+export interface DisplayOptions {
+  readonly toneMap: ToneMap;
+  /** Stops. */
+  readonly exposure: number;
+  readonly transparent: boolean;
+}
+
+/** The picture tone-mapped, sRGB-encoded and packed as PNG. */
+export function pngFile(picture: Picture, bits: 8 | 16, { toneMap, exposure, transparent }: DisplayOptions): Uint8Array {
+  const { width, height, beauty } = picture;
+  const data = toneMapPixels(beauty, width, height, { toneMap, exposure, alpha: transparent ? 'straight' : 'opaque', output: bits === 16 ? 'uint16' : 'uint8' });
+  return encodePng({ width, height, data, text: { Software: picture.software } });
+}

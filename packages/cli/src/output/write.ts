@@ -1,0 +1,73 @@
+import { access, constants, rename, rm, stat, writeFile } from 'node:fs/promises';
+import { dirname, resolve } from 'node:path';
+import { encodeHdr } from '@glanz/image/hdr';
+import { CliError } from '../errors';
+import { exrFile } from './exr';
+import type { OutputTarget } from './formats';
+import type { Picture } from './picture';
+import { pngFile, type DisplayOptions } from './png';
+
+/** A file that has been written. */
+export interface WrittenFile {
+  readonly path: string;
+  readonly format: OutputTarget['format'];
+  readonly bits: number;
+  readonly bytes: number;
+}
+
+const reason = (cause: unknown) => {
+  const { code, message } = cause as NodeJS.ErrnoException;
+  const known: Record<string, string> = { ENOENT: 'its folder does not exist', EACCES: 'permission denied', EPERM: 'permission denied', EROFS: 'the file system is read-only', ENOSPC: 'the disk is full', ENOTDIR: 'its folder is not a folder', EISDIR: 'it is a folder' };
+  return (code && known[code]) || message;
+};
+const unwritable = (path: string, cause: unknown) => new CliError('cli/output', `Cannot write "${path}": ${reason(cause)}.`, { cause, location: { file: path } });
+
+/**
+ * Makes sure, before hours of rendering, that a file can be written.
+ *
+ * @throws {CliError} `cli/output`
+ */
+export async function checkWritable(path: string, cwd: string): Promise<void> {
+  const file = resolve(cwd, path);
+  try {
+    const found = await stat(file).catch((error: NodeJS.ErrnoException) => {
+      if (error.code === 'ENOENT') return undefined;
+      throw error;
+    });
+    if (found?.isDirectory()) throw Object.assign(new Error(), { code: 'EISDIR' });
+    if (found) await access(file, constants.W_OK);
+    else {
+      const folder = await stat(dirname(file));
+      if (!folder.isDirectory()) throw Object.assign(new Error(), { code: 'ENOTDIR' });
+      await access(dirname(file), constants.W_OK);
+    }
+  } catch (cause) {
+    throw unwritable(path, cause);
+  }
+}
+
+/** The bytes of one output file. */
+export function encodePicture(picture: Picture, target: OutputTarget, display: DisplayOptions): Uint8Array {
+  if (target.format === 'png') return pngFile(picture, target.bits === 16 ? 16 : 8, display);
+  if (target.format === 'exr') return exrFile(picture, target.bits === 32 ? 32 : 16);
+  return encodeHdr({ width: picture.width, height: picture.height, data: picture.beauty });
+}
+
+/**
+ * Encodes and writes one output. The file appears whole or not at all.
+ *
+ * @throws {CliError} `cli/output`
+ */
+export async function writePicture(picture: Picture, target: OutputTarget, display: DisplayOptions, cwd: string): Promise<WrittenFile> {
+  const bytes = encodePicture(picture, target, display);
+  const file = resolve(cwd, target.path);
+  const partial = `${file}.${process.pid}.partial`;
+  try {
+    await writeFile(partial, bytes);
+    await rename(partial, file);
+  } catch (cause) {
+    await rm(partial, { force: true }).catch(() => undefined);
+    throw unwritable(target.path, cause);
+  }
+  return { path: target.path, format: target.format, bits: target.bits, bytes: bytes.length };
+}

@@ -1,0 +1,110 @@
+import { styleText } from 'node:util';
+import type { CliIo } from './io';
+
+/** Minutes and seconds, or hours and minutes, for people. */
+export function duration(milliseconds: number): string {
+  if (!Number.isFinite(milliseconds)) return '–';
+  const seconds = Math.max(0, Math.ceil(milliseconds / 1000));
+  const two = (n: number) => String(n).padStart(2, '0');
+  return seconds < 3600 ? `${Math.floor(seconds / 60)}:${two(seconds % 60)}` : `${Math.floor(seconds / 3600)}:${two(Math.floor(seconds / 60) % 60)}:${two(seconds % 60)}`;
+}
+
+/** Three significant digits, without an exponent. */
+export function rate(value: number): string {
+  if (!(value > 0) || !Number.isFinite(value)) return '0';
+  return value >= 100 ? String(Math.round(value)) : value.toPrecision(3);
+}
+
+/** How rendering stands. Structurally the renderer's `RenderProgress`. */
+export interface SampleProgress {
+  readonly samples: number;
+  readonly targetSamples: number;
+  readonly elapsedMs: number;
+  readonly remainingMs: number;
+  readonly samplesPerSecond: number;
+}
+
+/** In a log: this many seconds between lines at first, then growing in proportion to the time passed. */
+const LOG_SECONDS = 5;
+const LOG_GROWTH = 1.5;
+/** On a terminal: redraw at most this often. */
+const REDRAW_MS = 80;
+
+/**
+ * Shows how far things are: one line that is rewritten on a terminal, a line now and then in a log, nothing if quiet.
+ */
+export class ProgressReporter {
+  readonly #io: CliIo;
+  readonly #quiet: boolean;
+  #shown = false;
+  #lastDraw = -Infinity;
+  #nextLog = 0;
+  #stage = '';
+
+  constructor(io: CliIo, quiet: boolean) {
+    this.#io = io;
+    this.#quiet = quiet;
+  }
+
+  /** A stage before rendering; `done` 0..1 if it is known. */
+  stage(label: string, done?: number): void {
+    if (this.#quiet) return;
+    if (this.#io.interactive) {
+      if (label === this.#stage && this.#io.now() - this.#lastDraw < REDRAW_MS) return;
+      this.#draw(`${this.#style('cyan', label)}${done === undefined || done === 0 ? ' …' : ` ${Math.floor(done * 100)} %`}`);
+    } else if (label !== this.#stage) this.#io.stderr(`${label}\n`);
+    this.#stage = label;
+  }
+
+  /** Samples so far. */
+  samples(progress: SampleProgress): void {
+    if (this.#quiet) return;
+    const { samples, targetSamples, samplesPerSecond, elapsedMs, remainingMs } = progress;
+    const now = this.#io.now();
+    const last = samples >= targetSamples;
+    const figures = `${samples}/${targetSamples} samples · ${rate(samplesPerSecond)} samples/s · ${duration(remainingMs)} left`;
+    if (!this.#io.interactive) {
+      if (this.#stage !== 'render') this.#nextLog = 0;
+      this.#stage = 'render';
+      if (elapsedMs < this.#nextLog && !last) return;
+      this.#nextLog = Math.max(elapsedMs + LOG_SECONDS * 1000, elapsedMs * LOG_GROWTH);
+      this.#io.stderr(`render ${figures}\n`);
+      return;
+    }
+    if (now - this.#lastDraw < REDRAW_MS && !last && this.#stage === 'render') return;
+    this.#stage = 'render';
+    const plain = ` ${figures}`;
+    const width = Math.min(30, this.#io.columns() - plain.length - 2);
+    const filled = Math.round((samples / targetSamples) * width);
+    const bar = width >= 8 ? this.#style('cyan', '━'.repeat(filled)) + this.#style('dim', '─'.repeat(width - filled)) : '';
+    this.#draw(bar + (bar ? plain : plain.trimStart().slice(0, Math.max(10, this.#io.columns() - 1))));
+  }
+
+  /** A line that stays. */
+  line(text: string): void {
+    if (this.#quiet) return;
+    this.clear();
+    this.#io.stderr(`${text}\n`);
+  }
+
+  /** A warning, as a line that stays. */
+  warning(text: string): void {
+    this.line(`${this.#style('yellow', 'warning:')} ${text}`);
+  }
+
+  /** Takes the rewritten line away. */
+  clear(): void {
+    if (this.#shown) this.#io.stderr('\r\x1b[2K');
+    this.#shown = false;
+  }
+
+  #draw(text: string): void {
+    this.#lastDraw = this.#io.now();
+    this.#io.stderr(`\r\x1b[2K${text}`);
+    this.#shown = true;
+  }
+
+  #style(format: 'cyan' | 'dim' | 'yellow', text: string): string {
+    return this.#io.color ? styleText(format, text) : text;
+  }
+}

@@ -1,0 +1,52 @@
+import { GlanzError } from '@glanz/scene';
+import { nodeBackend, type Backend } from './backend';
+import { listGpusCommand } from './commands/list-gpus';
+import { renderCommand } from './commands/render';
+import { errorLine, EXIT, exitCodeOf } from './errors';
+import { HELP } from './help';
+import { nodeIo, type CliIo } from './io';
+import { parseCommand } from './options';
+import { ProgressReporter } from './progress';
+import { version } from './version';
+
+/**
+ * Runs the `glanz` command in this process.
+ *
+ * @param argv Arguments without `node` and script: `['render', 'model.glb', '-o', 'out.png']`.
+ * @param io Where output goes and interrupts come from; default: this process.
+ * @param backend Loader and renderer; default: the real ones.
+ * @returns The exit code. Never throws, never ends the process.
+ */
+export async function runCli(argv: readonly string[], io: CliIo = nodeIo(), backend: Backend = nodeBackend()): Promise<number> {
+  // Even a command line that cannot be read may have asked for JSON.
+  let json = argv.includes('--json');
+  try {
+    const command = parseCommand(argv);
+    if (command.kind === 'help') {
+      io.stdout(HELP);
+      return EXIT.ok;
+    }
+    if (command.kind === 'version') {
+      io.stdout(`${version()}\n`);
+      return EXIT.ok;
+    }
+    json = command.json;
+    if (command.kind === 'list-gpus') {
+      await listGpusCommand(command, io, backend);
+      return EXIT.ok;
+    }
+    const { result, exitCode } = await renderCommand(command.options, io, backend, new ProgressReporter(io, command.quiet));
+    if (json) io.stdout(`${JSON.stringify(result ?? { ok: false, error: { code: 'cli/interrupted', message: 'Interrupted before the first sample.' } })}\n`);
+    return exitCode;
+  } catch (error) {
+    io.stderr(`glanz: ${errorLine(error)}\n`);
+    if (io.debug && error instanceof Error) io.stderr(`${error.stack ?? ''}\n${error.cause instanceof Error ? `caused by ${error.cause.stack}\n` : ''}`);
+    if (json) io.stdout(`${JSON.stringify({ ok: false, error: describe(error) })}\n`);
+    return exitCodeOf(error);
+  }
+}
+
+function describe(error: unknown) {
+  if (error instanceof GlanzError) return { code: error.code, message: error.message, ...(error.location ? { location: error.location } : {}) };
+  return { code: 'cli/internal', message: error instanceof Error ? error.message : String(error) };
+}

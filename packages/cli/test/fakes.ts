@@ -1,0 +1,134 @@
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { createScene, type Scene } from '@glanz/scene';
+import { onTestFinished } from 'vitest';
+import type { Backend, PathTracerOptions, RenderStatistics, Tracer } from '../src/backend';
+import { runCli, type CliIo, type Interrupt } from '../src/index';
+
+/** A folder that is gone after the test, with the given files. */
+export function temporaryFolder(files: Readonly<Record<string, string | Uint8Array>> = {}): string {
+  const folder = mkdtempSync(join(tmpdir(), 'glanz-cli-'));
+  onTestFinished(() => rmSync(folder, { recursive: true, force: true }));
+  for (const [name, content] of Object.entries(files)) writeFileSync(join(folder, name), content);
+  return folder;
+}
+
+/** One triangle seen by a camera called "front". */
+export function triangleScene(): Scene {
+  return {
+    ...createScene('triangle'),
+    meshes: [{ name: 'triangle', positions: new Float32Array([-1, 0, 0, 1, 0, 0, 0, 1, 0]), indices: new Uint32Array([0, 1, 2]) }],
+    materials: [{ name: 'white', parameters: {} }],
+    instances: [{ name: 'part', mesh: 0, material: 0, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] }],
+    cameras: [{ type: 'perspective', name: 'front', transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0.5, 4, 1], yfov: 0.8 }],
+  };
+}
+
+const STATISTICS: RenderStatistics = { triangles: 1, instances: 1, lights: 0, bvhMs: 1, uploadMs: 2, compileMs: 3, gpuBytes: 4, badSamples: 0 };
+
+/** A tracer that counts samples and whose every pixel holds (x, y, 0.25, 0.5)·: what was asked of it is recorded. */
+export interface FakeRun {
+  backend: Backend;
+  created: { scene: Scene; options: PathTracerOptions }[];
+  destroyed: string[];
+}
+
+export interface FakeOptions {
+  readonly scene?: Scene;
+  /** Called before each sample is yielded. */
+  readonly onSample?: (sample: number) => void;
+  readonly loadModel?: Backend['loadModel'];
+  readonly openGpu?: Backend['openGpu'];
+}
+
+export function fakeBackend(fake: FakeOptions = {}): FakeRun {
+  const created: FakeRun['created'] = [];
+  const destroyed: string[] = [];
+  const createTracer = async (_device: GPUDevice, scene: Scene, options: PathTracerOptions): Promise<Tracer> => {
+    created.push({ scene, options });
+    options.signal?.throwIfAborted();
+    const { width, height } = options;
+    let samples = 0;
+    const interleaved = (f: (x: number, y: number, k: number) => number) => Float32Array.from({ length: width * height * 4 }, (_, i) => f((i >> 2) % width, Math.floor((i >> 2) / width), i & 3));
+    const tracer = {
+      get samples() {
+        return samples;
+      },
+      statistics: STATISTICS,
+      async *render({ samples: target = 64, signal }: { samples?: number; signal?: AbortSignal } = {}) {
+        for (let s = 1; s <= target; s++) {
+          fake.onSample?.(s);
+          if (signal?.aborted) return;
+          samples = s;
+          yield { samples: s, targetSamples: target, elapsedMs: s * 100, remainingMs: (target - s) * 100, samplesPerSecond: 10 };
+        }
+      },
+      async read(layer: string) {
+        if (layer === 'beauty') return interleaved((x, y, k) => [x / width, y / height, 0.25, options.background === 'transparent' ? 0.5 : 1][k] as number);
+        if (layer === 'albedo') return interleaved((_x, _y, k) => [0.5, 0.25, 0.125, 1][k] as number);
+        if (layer === 'normal') return interleaved((_x, _y, k) => [0, 0, 1, 0][k] as number);
+        if (layer === 'depth') return Float32Array.from({ length: width * height }, (_, i) => i * 0.1);
+        return Uint32Array.from({ length: width * height }, (_, i) => (i === 0 ? 0xffffffff : i));
+      },
+      destroy: () => void destroyed.push('tracer'),
+    };
+    return tracer as unknown as Tracer;
+  };
+  return {
+    created,
+    destroyed,
+    backend: {
+      loadModel: fake.loadModel ?? (async () => fake.scene ?? triangleScene()),
+      openGpu: fake.openGpu ?? (async () => ({ device: { destroy: () => void destroyed.push('device') } as unknown as GPUDevice, adapterName: 'Fake 3000', software: false })),
+      listGpus: async () => [{ name: 'Fake 3000', software: false }, { name: 'SwiftShader', software: true }],
+      createTracer,
+    },
+  };
+}
+
+export interface FakeIo extends CliIo {
+  readonly out: string[];
+  readonly err: string[];
+  /** Presses Ctrl-C, or what else is named. */
+  interrupt(signal?: Interrupt): void;
+  /** Moves the clock. */
+  time: number;
+  listening: number;
+}
+
+export function fakeIo(cwd: string, settings: { readonly interactive?: boolean; readonly columns?: number } = {}): FakeIo {
+  const handlers = new Set<(signal: Interrupt) => void>();
+  const io: FakeIo = {
+    out: [],
+    err: [],
+    time: 0,
+    get listening() {
+      return handlers.size;
+    },
+    set listening(_value) {},
+    stdout: (text) => void io.out.push(text),
+    stderr: (text) => void io.err.push(text),
+    interactive: settings.interactive ?? false,
+    columns: () => settings.columns ?? 80,
+    color: false,
+    cwd,
+    debug: false,
+    now: () => io.time,
+    onInterrupt(handler) {
+      handlers.add(handler);
+      return () => void handlers.delete(handler);
+    },
+    interrupt: (signal = 'SIGINT') => {
+      for (const handler of handlers) handler(signal);
+    },
+  };
+  return io;
+}
+
+/** Runs the command against fakes and gives everything it left. */
+export async function run(argv: readonly string[], cwd: string, fake: FakeOptions = {}, io: FakeIo = fakeIo(cwd)) {
+  const { backend, created, destroyed } = fakeBackend(fake);
+  const code = await runCli(argv, io, backend);
+  return { code, out: io.out.join(''), err: io.err.join(''), created, destroyed, io };
+}

@@ -1,0 +1,105 @@
+import { describe, expect, it } from 'vitest';
+import { CliError } from '../src/index';
+import { parseCommand, type RenderCommandOptions } from '../src/options';
+
+const options = (...argv: string[]): RenderCommandOptions => {
+  const command = parseCommand(['render', ...argv]);
+  if (command.kind !== 'render') throw new Error(command.kind);
+  return command.options;
+};
+const complaint = (...argv: string[]): string => {
+  try {
+    parseCommand(argv);
+  } catch (error) {
+    if (error instanceof CliError && error.code === 'cli/usage' && !error.message.includes('\n')) return error.message;
+    throw error;
+  }
+  return 'no complaint';
+};
+
+describe('glanz render', () => {
+  it('has the documented defaults', () => {
+    expect(options('dir/helmet.glb')).toEqual({
+      model: 'dir/helmet.glb',
+      outputs: [{ path: 'helmet.png', format: 'png', bits: 8 }],
+      env: undefined,
+      envRotation: 0,
+      envIntensity: 1,
+      width: 1024,
+      height: 768,
+      samples: 256,
+      depth: 8,
+      seed: 0,
+      camera: undefined,
+      exposure: 0,
+      toneMap: 'neutral',
+      transparent: false,
+      gpu: undefined,
+    });
+  });
+
+  it('reads every option, before or after the model', () => {
+    const argv = ['--env', 'a.hdr', '--env-rotation', '180', '--env-intensity=2', 'm.gltf', '--size', '640X480', '--samples', '16', '--depth', '3', '--seed', '4294967295', '--camera', '1', '--exposure', '-1.5', '--tonemap', 'agx', '--transparent', '--gpu', 'H200', '-o', 'x.PNG', '-o', 'y.exr', '--bits', '16'];
+    expect(options(...argv)).toEqual({
+      model: 'm.gltf',
+      outputs: [{ path: 'x.PNG', format: 'png', bits: 16 }, { path: 'y.exr', format: 'exr', bits: 16 }],
+      env: 'a.hdr',
+      envRotation: Math.PI,
+      envIntensity: 2,
+      width: 640,
+      height: 480,
+      samples: 16,
+      depth: 3,
+      seed: 4294967295,
+      camera: '1',
+      exposure: -1.5,
+      toneMap: 'agx',
+      transparent: true,
+      gpu: 'H200',
+    });
+  });
+
+  it('--json and --quiet belong to the report', () => {
+    expect(parseCommand(['render', 'm.glb', '--json', '-q'])).toMatchObject({ kind: 'render', json: true, quiet: true });
+    expect(parseCommand(['--list-gpus', '--json'])).toEqual({ kind: 'list-gpus', json: true, quiet: false });
+    expect(parseCommand(['render', '--list-gpus'])).toMatchObject({ kind: 'list-gpus' });
+  });
+});
+
+it('help and version', () => {
+  expect([['--help'], ['-h'], ['render', 'x.glb', '--help'], ['help'], []].map((argv) => parseCommand(argv).kind)).toEqual(new Array(5).fill('help'));
+  expect(parseCommand(['-V']).kind).toBe('version');
+});
+
+describe('complains in one line, saying what to do', () => {
+  it.each([
+    [['render', 'm.glb', '--sample', '3'], 'Unknown option "--sample". Did you mean --samples?'],
+    [['render', 'm.glb', '--tonmap=agx'], 'Did you mean --tonemap?'],
+    [['render', 'm.glb', '--zzz'], 'Unknown option "--zzz". See glanz --help.'],
+    [['render', 'm.glb', '-x'], 'Unknown option "-x"'],
+    [['render', 'm.glb', '--size'], 'argument missing'],
+    [['render', 'm.glb', '--transparent=yes'], 'does not take an argument'],
+    [['render'], 'No model given'],
+    [['--json'], 'No command given'],
+    [['paint', 'm.glb'], 'Unknown command "paint"'],
+    [['render', 'a.glb', 'b.glb'], 'what is "b.glb"?'],
+    [['render', 'm.glb', '--size', '0x0'], '--size 0x0: both sides must be from 1'],
+    [['render', 'm.glb', '--size', '10x0'], 'both sides'],
+    [['render', 'm.glb', '--size', '99999x1'], 'both sides'],
+    [['render', 'm.glb', '--size', '-5x5'], 'must be like 1024x768'],
+    [['render', 'm.glb', '--size', 'big'], 'must be like 1024x768'],
+    [['render', 'm.glb', '--samples', '0'], '--samples must be a whole number from 1'],
+    [['render', 'm.glb', '--samples', '1.5'], 'whole number'],
+    [['render', 'm.glb', '--samples', ''], 'whole number'],
+    [['render', 'm.glb', '--depth', 'x'], '--depth must be'],
+    [['render', 'm.glb', '--seed', '-1'], '--seed must be'],
+    [['render', 'm.glb', '--exposure', 'NaN'], '--exposure must be'],
+    [['render', 'm.glb', '--tonemap', 'film'], 'Known: neutral, aces, agx, reinhard, linear'],
+    [['render', 'm.glb', '-o', 'out.jpg'], 'must end in .png, .exr or .hdr'],
+    [['render', 'm.glb', '-o', 'out'], 'must end in'],
+    [['render', 'm.glb', '-o', 'out.png', '--bits', '32'], '.png has 8 or 16'],
+    [['render', 'm.glb', '-o', 'out.exr', '--bits', '8'], '.exr has 16 or 32'],
+  ])('%j', (argv, message) => {
+    expect(complaint(...argv)).toContain(message);
+  });
+});
