@@ -1,0 +1,41 @@
+/** One adapter as {@link listGpus} shows it. */
+export interface GpuDescription {
+  /** What `createGpu({ gpu })` and `--gpu` match, ignoring case, by any part of it. */
+  readonly name: string;
+  /** Graphics interface below WebGPU: `vulkan`, `metal`, `d3d12`, … */
+  readonly backend: string;
+  /** Vendor as WebGPU names it, e.g. `nvidia`. */
+  readonly vendor: string;
+  /** Name and version of the driver, as far as it tells. */
+  readonly driver: string;
+  /** Whether the CPU does the work. */
+  readonly software: boolean;
+}
+
+/** Names of rasterisers that run on the CPU: SwiftShader, Mesa's llvmpipe/lavapipe, Windows' WARP. */
+const CPU_NAMES = /swiftshader|llvmpipe|lavapipe|basic render|warp/i;
+
+/** Whether an adapter computes on the CPU. */
+export function isSoftware(info: GPUAdapterInfo): boolean {
+  return info.isFallbackAdapter === true || CPU_NAMES.test(`${info.architecture} ${info.device} ${info.description}`);
+}
+
+/** Mesa's major version where the adapter is one of Mesa's software rasterisers, e.g. 25; `undefined` for any other adapter. */
+export function lavapipeVersion(info: GPUAdapterInfo): number | undefined {
+  if (!/llvmpipe|lavapipe/i.test(`${info.device} ${info.description}`)) return undefined;
+  const version = /mesa (\d+)\./i.exec(info.description)?.[1];
+  return version === undefined ? undefined : Number(version);
+}
+
+/** What Dawn says when no adapter has the wanted name: one line for each that there is. */
+const LISTED = /backend: '([^']*)', name: '(.*)'$/;
+
+/** Reads the adapters out of the message that Dawn gives for an unknown name. */
+export function parseAdapterList(message: string): { readonly backend: string; readonly name: string }[] {
+  const found = new Map<string, { backend: string; name: string }>();
+  for (const line of message.split('\n')) {
+    const match = LISTED.exec(line.trim());
+    if (match) found.set(`${match[1]}/${match[2]}`, { backend: match[1] as string, name: match[2] as string });
+  }
+  return [...found.values()];
+}

@@ -1,0 +1,82 @@
+import { createGpu } from '@glanz/renderer/node';
+
+/** What {@link testDevice} may be told. */
+export interface TestDeviceOptions {
+  /** Stay within WebGPU's default limits (8 storage buffers a stage, 128 MiB a binding). Default: all that the adapter has. */
+  readonly defaultLimits?: boolean;
+  /** Features to have; ones that the adapter lacks are left out. Default: timestamp queries and subgroups. */
+  readonly features?: readonly GPUFeatureName[];
+}
+
+interface Shared {
+  readonly device: Promise<GPUDevice>;
+  readonly errors: string[];
+}
+
+const shared = new Map<string, Shared>();
+
+async function request(options: TestDeviceOptions, errors: string[]): Promise<GPUDevice> {
+  // GLANZ_TEST_GPU names a real adapter to test on, e.g. "nvidia"; else tests run on the CPU, alike on every machine.
+  const name = process.env['GLANZ_TEST_GPU'];
+  const { gpu } = await createGpu(name ? { gpu: name } : { software: 'only' });
+  const adapter = await gpu.requestAdapter();
+  if (!adapter) throw new Error('testDevice: the adapter that createGpu() found is gone');
+  const requiredLimits: Record<string, number> = {};
+  if (!options.defaultLimits) {
+    for (const key in adapter.limits) {
+      const value = adapter.limits[key as keyof GPUSupportedLimits];
+      if (typeof value === 'number') requiredLimits[key] = value;
+    }
+  }
+  const wanted = options.features ?? ['timestamp-query', 'subgroups'];
+  const requiredFeatures = wanted.filter((feature) => adapter.features.has(feature)) as GPUFeatureName[];
+  const device = await adapter.requestDevice({ label: 'glanz test', requiredLimits, requiredFeatures });
+  device.addEventListener('uncapturederror', (event) => {
+    event.preventDefault();
+    errors.push((event as GPUUncapturedErrorEvent).error.message);
+  });
+  void device.lost.then((info) => {
+    if (info.reason !== 'destroyed') errors.push(`device lost: ${info.message}`);
+  });
+  return device;
+}
+
+/**
+ * A WebGPU device on the software GPU for tests in Node. One per test process and options: calls share it, and nobody
+ * destroys it. Test files that use it must run in forked processes (Vitest `pool: 'forks'`), on the main thread.
+ *
+ * Errors that nobody captures are collected: end each test, or each file, with {@link expectNoGpuErrors}.
+ *
+ * @throws {DeviceError} when the machine has no software GPU, saying what to install.
+ * @example
+ * const device = await testDevice();
+ * afterEach(() => expectNoGpuErrors());
+ */
+export function testDevice(options: TestDeviceOptions = {}): Promise<GPUDevice> {
+  const key = JSON.stringify(options);
+  let entry = shared.get(key);
+  if (!entry) {
+    const errors: string[] = [];
+    entry = { device: request(options, errors), errors };
+    shared.set(key, entry);
+  }
+  return entry.device;
+}
+
+/**
+ * Waits for the GPU and fails on any validation, memory or loss error that the process's test devices have reported
+ * since the last call.
+ *
+ * @throws {Error} with all messages.
+ */
+export async function expectNoGpuErrors(): Promise<void> {
+  const found: string[] = [];
+  for (const entry of shared.values()) {
+    const device = await entry.device;
+    await device.queue.onSubmittedWorkDone().catch(() => undefined);
+    // The event of an error comes in a later turn than the work's end.
+    await new Promise((resolve) => setTimeout(resolve, 0));
+    found.push(...entry.errors.splice(0));
+  }
+  if (found.length > 0) throw new Error(`${found.length} GPU error(s):\n${found.join('\n')}`);
+}
