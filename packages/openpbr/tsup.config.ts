@@ -1,3 +1,10 @@
 import { glanzPackage } from '../../tsup.base';
 
-export default glanzPackage({ index: 'src/index.ts' });
+export default glanzPackage({
+  index: 'src/index.ts',
+  parameters: 'src/parameters/index.ts',
+  wgsl: 'src/wgsl/index.ts',
+  cpu: 'src/cpu/index.ts',
+  tables: 'src/tables/index.ts',
+  gltf: 'src/gltf/index.ts',
+});

@@ -1,1 +1,2 @@
 export * from './parameters/index';
+export * from './wgsl/index';

@@ -1,0 +1,2 @@
+export { fromGltf } from './from-gltf';
+export type { GltfMaterialExtensions, GltfMaterialFactors } from './material';

@@ -1,0 +1,1 @@
+export { OPENPBR_TABLES, type OpenPbrTable } from './tables';

@@ -1,0 +1,28 @@
+import { TABLE_LAYOUT } from './encoded';
+
+/** Where the blocks of the dielectric table begin along its depth, in slices; shared by the WGSL text and its CPU twin. */
+const outerTotal = TABLE_LAYOUT.outer;
+const inner = outerTotal + TABLE_LAYOUT.outerTotal;
+const innerTotal = inner + TABLE_LAYOUT.inner;
+
+/** The dielectric table's blocks: first slice and number of slices. Names as in scripts/tables.mjs. */
+export const TABLE_BLOCKS = {
+  /** Share of the energy that is reflected, over the Fresnel reflectance at the softened cosine; seen from the thinner medium. */
+  outer: [0, TABLE_LAYOUT.outer],
+  /** Energy reflected and refracted by single scattering; seen from the thinner medium. */
+  outerTotal: [outerTotal, TABLE_LAYOUT.outerTotal],
+  /** Share of the energy that is reflected; seen from the denser medium. */
+  inner: [inner, TABLE_LAYOUT.inner],
+  /** Energy reflected and refracted by single scattering; seen from the denser medium. */
+  innerTotal: [innerTotal, TABLE_LAYOUT.innerTotal],
+} as const;
+
+/** Depth of the dielectric table in slices. */
+export const TABLE_DEPTH = innerTotal + TABLE_LAYOUT.innerTotal;
+
+/** Angle samples of the dielectric table; one more column holds the average. */
+export const TABLE_ANGLES = TABLE_LAYOUT.angles;
+export const TABLE_ROUGHNESSES = TABLE_LAYOUT.roughnesses;
+export const TABLE_CONDUCTOR = TABLE_LAYOUT.conductor;
+/** The tables' first roughness, which is that of the smallest slope. */
+export const TABLE_MIN_ROUGHNESS = 0.01;

@@ -1,0 +1,70 @@
+import { ENCODED_CONDUCTOR, ENCODED_DIELECTRIC, TABLE_LAYOUT, TABLE_STEP } from './encoded';
+
+export { TABLE_LAYOUT };
+
+/** A table of numbers, ready to become a texture. */
+export interface OpenPbrTable {
+  readonly width: number;
+  readonly height: number;
+  /** 1 for a two-dimensional table. */
+  readonly depth: number;
+  /** `width × height × depth` numbers in [0, 2], x fastest. Decoded at the first access; half floats hold them well enough. */
+  readonly data: Float32Array<ArrayBuffer>;
+}
+
+interface EncodedTable {
+  readonly width: number;
+  readonly height: number;
+  readonly depth: number;
+  readonly text: string;
+}
+
+/** The inverse of `encode` in scripts/tables.mjs. */
+function decode({ width, height, depth, text }: EncodedTable): Float32Array<ArrayBuffer> {
+  const steps = new Int32Array(width * height * depth);
+  const row = width;
+  const slice = width * height;
+  let at = 0;
+  const digit = (): number => {
+    const code = text.charCodeAt(at++);
+    return code - 40 - (code > 92 ? 1 : 0) - (code > 96 ? 1 : 0);
+  };
+  for (let i = 0; i < steps.length; i++) {
+    const left = i % row > 0;
+    const up = i % slice >= row;
+    const deep = i >= slice;
+    const get = (condition: boolean, offset: number): number => (condition ? (steps[i - offset] as number) : 0);
+    const predicted =
+      get(left, 1) + get(up, row) + get(deep, slice) - get(left && up, 1 + row) - get(left && deep, 1 + slice) - get(up && deep, row + slice) + get(left && up && deep, 1 + row + slice);
+    let code = digit();
+    // "~" stands for a difference of three digits.
+    if (text.charCodeAt(at - 1) === 126) code = (digit() * 80 + digit()) * 80 + digit();
+    steps[i] = predicted + (code % 2 === 0 ? code / 2 : -(code + 1) / 2);
+  }
+  return Float32Array.from(steps, (step) => step / TABLE_STEP);
+}
+
+function table(encoded: EncodedTable): OpenPbrTable {
+  let data: Float32Array<ArrayBuffer> | undefined;
+  return {
+    width: encoded.width,
+    height: encoded.height,
+    depth: encoded.depth,
+    get data() {
+      return (data ??= decode(encoded));
+    },
+  };
+}
+
+/**
+ * The energy tables that {@link openpbr} reads through the host's accessors: directional albedos of GGX interfaces,
+ * computed from first principles by scripts/tables.mjs. Bind them as textures with linear filtering and clamping (any
+ * filterable float format; `r16float` does), or as buffers with the host's own interpolation between texel centres.
+ *
+ * `dielectric` is three-dimensional, for `openpbr_table_dielectric(coords)`; `conductor` two-dimensional, for
+ * `openpbr_table_conductor(coords)`. `coords` are in [0, 1] like a texture's: texel i of n is centred at (i + ½)/n.
+ */
+export const OPENPBR_TABLES: { readonly dielectric: OpenPbrTable; readonly conductor: OpenPbrTable } = {
+  dielectric: /* @__PURE__ */ table(ENCODED_DIELECTRIC),
+  conductor: /* @__PURE__ */ table(ENCODED_CONDUCTOR),
+};

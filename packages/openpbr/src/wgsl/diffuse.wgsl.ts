@@ -1,0 +1,34 @@
+import { wgslModule } from '@glanz/wgsl';
+
+/** `openpbr_cosine_sample(u)`: a direction with density cos θ / π. */
+export const openpbrCosine = wgslModule(
+  'openpbr/cosine',
+  /* wgsl */ `fn openpbr_cosine_sample(u: vec2f) -> vec3f {
+  let phi = 6.2831853 * u.x;
+  let r = sqrt(u.y);
+  return vec3f(r * cos(phi), r * sin(phi), sqrt(1.0 - u.y));
+}`,
+);
+
+/**
+ * Energy-preserving Oren-Nayar (Portsmouth, Kutz and Hill 2024): `openpbr_eon` is f without the cosine. The directional
+ * albedo of its single-scattering part is the paper's polynomial.
+ */
+export const openpbrEon = wgslModule(
+  'openpbr/eon',
+  /* wgsl */ `fn openpbr_eon_single_albedo(c: f32, roughness: f32) -> f32 {
+  let m = 1.0 - c;
+  let g = m * (0.0571085289 + m * (0.491881867 + m * (-0.332181442 + m * 0.0714429953)));
+  return (1.0 + roughness * g) / (1.0 + 0.28779342 * roughness);
+}
+
+fn openpbr_eon(albedo: vec3f, roughness: f32, wo: vec3f, wi: vec3f) -> vec3f {
+  let a = 1.0 / (1.0 + 0.28779342 * roughness);
+  let s = dot(wo.xy, wi.xy);
+  let single = a * (1.0 + roughness * select(s, s / max(max(wo.z, wi.z), 1e-7), s > 0.0));
+  let mean = a * (1.0 + 0.07248821 * roughness);
+  let lost = (1.0 - openpbr_eon_single_albedo(wo.z, roughness)) * (1.0 - openpbr_eon_single_albedo(wi.z, roughness)) / max(1.0 - mean, 1e-7);
+  let multiple = albedo * albedo * (mean * lost) / (1.0 - albedo * (1.0 - mean));
+  return (albedo * single + multiple) * 0.31830989;
+}`,
+);

@@ -1,0 +1,76 @@
+import { wgslModule } from '@glanz/wgsl';
+import { TABLE_ANGLES, TABLE_BLOCKS, TABLE_CONDUCTOR, TABLE_DEPTH, TABLE_MIN_ROUGHNESS, TABLE_ROUGHNESSES } from '../tables/layout';
+import { openpbrFresnelDielectric } from './fresnel.wgsl';
+
+const float = (value: number): string => (Number.isInteger(value) ? `${value}.0` : String(value));
+/** `(u·(count - 1) + ½ + first) / size`: the texture coordinate of u ∈ [0, 1] between two texels' centres, as an offset and a factor. */
+const axis = (first: number, count: number, size: number): [offset: string, factor: string] => [float((first + 0.5) / size), float((count - 1) / size)];
+
+const [angle0, angle1] = axis(0, TABLE_ANGLES, TABLE_ANGLES + 1);
+const [rough0, rough1] = axis(0, TABLE_ROUGHNESSES, TABLE_ROUGHNESSES);
+const [metal0, metal1] = axis(0, TABLE_CONDUCTOR, TABLE_CONDUCTOR);
+const slice = (block: keyof typeof TABLE_BLOCKS) => axis(TABLE_BLOCKS[block][0], TABLE_BLOCKS[block][1], TABLE_DEPTH);
+const [outer0, outer1] = slice('outer');
+const [outerTotal0, outerTotal1] = slice('outerTotal');
+const [inner0, inner1] = slice('inner');
+const [innerTotal0, innerTotal1] = slice('innerTotal');
+const unit = `clamp((r - ${TABLE_MIN_ROUGHNESS}) * ${float(1 / (1 - TABLE_MIN_ROUGHNESS))}, 0.0, 1.0)`;
+
+/**
+ * Directional albedos of GGX interfaces, read from the energy tables through the host's accessors
+ * (`openpbr_table_dielectric`, `openpbr_table_conductor`). A dielectric is given by `epsilon` = (η - 1)/(η + 1), the
+ * signed root of its reflectance at normal incidence. The coordinates are explained in scripts/tables.mjs.
+ */
+export const openpbrEnergy = wgslModule(
+  'openpbr/energy',
+  /* wgsl */ `// √cosine, spread so that the dip of masking keeps its place as the roughness varies.
+fn openpbr_energy_angle(r: f32, mu: f32) -> f32 {
+  let x = sqrt(mu);
+  return x * (1.0 + r) / (x + r);
+}
+
+//#if OPENPBR_METAL
+// Energy that a perfect mirror of roughness r reflects by single scattering.
+fn openpbr_energy_conductor(roughness: f32, mu: f32) -> f32 {
+  let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
+  return openpbr_table_conductor(vec2f(${metal0} + ${metal1} * openpbr_energy_angle(r, mu), ${metal0} + ${metal1} * ${unit}));
+}
+//#endif
+
+//#if OPENPBR_DIELECTRIC
+// Share of the energy that the interface reflects, the rest being refracted.
+fn openpbr_energy_share(epsilon: f32, roughness: f32, mu: f32) -> f32 {
+  if (epsilon == 0.0) { return 0.0; }
+  let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
+  let eta = (1.0 + epsilon) / (1.0 - epsilon);
+  let z = sqrt(abs(epsilon));
+  var at = vec3f(openpbr_energy_angle(r, mu), ${rough0} + ${rough1} * ${unit}, ${outer0} + ${outer1} * z);
+  var scale = 1.0;
+  if (epsilon > 0.0) {
+    scale = openpbr_fresnel_dielectric(eta, mu + 0.8 * r * r * (1.0 - mu));
+  } else {
+    let critical = sqrt(1.0 - eta * eta);
+    at.x = select(0.5 * mu / critical, 0.5 + 0.5 * sqrt(max(mu - critical, 0.0) / (1.0 - critical)), mu > critical);
+    at.z = ${inner0} + ${inner1} * z;
+  }
+  at.x = ${angle0} + ${angle1} * at.x;
+  return min(openpbr_table_dielectric(at) * scale, 1.0);
+}
+
+// The cosine-weighted mean of openpbr_energy_share over all directions.
+fn openpbr_energy_share_mean(epsilon: f32, roughness: f32) -> f32 {
+  if (epsilon == 0.0) { return 0.0; }
+  let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
+  let z = sqrt(abs(epsilon));
+  return openpbr_table_dielectric(vec3f(${float((TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1))}, ${rough0} + ${rough1} * ${unit}, select(${inner0} + ${inner1} * z, ${outer0} + ${outer1} * z, epsilon > 0.0)));
+}
+
+// Energy that the interface reflects and refracts by single scattering.
+fn openpbr_energy_total(epsilon: f32, roughness: f32, mu: f32) -> f32 {
+  let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
+  let z = sqrt(abs(epsilon));
+  return openpbr_table_dielectric(vec3f(${angle0} + ${angle1} * openpbr_energy_angle(r, mu), ${rough0} + ${rough1} * ${unit}, select(${innerTotal0} + ${innerTotal1} * z, ${outerTotal0} + ${outerTotal1} * z, epsilon >= 0.0)));
+}
+//#endif`,
+  [openpbrFresnelDielectric],
+);

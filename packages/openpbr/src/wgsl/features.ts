@@ -1,0 +1,53 @@
+import type { OpenPbrParameterName, OpenPbrParameters } from '../parameters/index';
+import { resolveParameters } from '../parameters/index';
+
+/** The composer's flags that the modules of this package ask for. A lobe whose flag is false is not in the text, whatever the parameters say. */
+export interface OpenPbrFlags {
+  /** Any microfacet lobe: OPENPBR_METAL, OPENPBR_DIELECTRIC or OPENPBR_TRANSMISSION. */
+  readonly OPENPBR_SPECULAR: boolean;
+  readonly OPENPBR_METAL: boolean;
+  /** Reflection by the dielectric base. Without it the diffuse lobe is not attenuated. */
+  readonly OPENPBR_DIELECTRIC: boolean;
+  readonly OPENPBR_DIFFUSE: boolean;
+  /** EON instead of Lambert. */
+  readonly OPENPBR_DIFFUSE_ROUGHNESS: boolean;
+  readonly OPENPBR_ANISOTROPY: boolean;
+  /** Compensation of the energy that single scattering between microfacets loses. */
+  readonly OPENPBR_MULTISCATTER: boolean;
+  readonly OPENPBR_EMISSION: boolean;
+}
+
+export interface FeatureOptions {
+  /** Names of the parameters that textures drive in at least one material: they may take values below those given. */
+  readonly textured?: readonly string[];
+  /** Default true. False leaves single scattering GGX, which loses energy on rough surfaces; for comparisons. */
+  readonly multipleScattering?: boolean;
+}
+
+/**
+ * Which features a set of materials needs, as flags for `compose`. Every flag is present in the answer.
+ *
+ * @param materials The parameters of every material that the shader shall draw; missing ones have their defaults.
+ * @example
+ * const shader = compose([openpbr, host, kernel], { flags: { ...requiredFeatures([{ base_metalness: 1 }]) } });
+ */
+export function requiredFeatures(materials: readonly Partial<OpenPbrParameters>[], { textured = [], multipleScattering = true }: FeatureOptions = {}): OpenPbrFlags {
+  const all = materials.map((material) => resolveParameters(material));
+  const isTextured = (name: OpenPbrParameterName) => textured.includes(name);
+  const metal = all.some((p) => p.base_metalness > 0 && p.specular_weight > 0);
+  // A texture can only lower a parameter: metalness 1 with a texture has dielectric places.
+  const insulators = all.filter((p) => p.base_metalness < 1 || isTextured('base_metalness'));
+  const dielectric = insulators.some((p) => p.specular_weight > 0 && (p.specular_ior !== 1 || isTextured('specular_ior')));
+  const diffuse = insulators.some((p) => p.base_weight > 0 && p.base_color.some((c) => c > 0));
+  const specular = metal || dielectric;
+  return {
+    OPENPBR_SPECULAR: specular,
+    OPENPBR_METAL: metal,
+    OPENPBR_DIELECTRIC: dielectric,
+    OPENPBR_DIFFUSE: diffuse || !specular,
+    OPENPBR_DIFFUSE_ROUGHNESS: insulators.some((p) => p.base_diffuse_roughness > 0),
+    OPENPBR_ANISOTROPY: specular && all.some((p) => p.specular_roughness_anisotropy > 0),
+    OPENPBR_MULTISCATTER: multipleScattering,
+    OPENPBR_EMISSION: all.some((p) => p.emission_luminance > 0),
+  };
+}

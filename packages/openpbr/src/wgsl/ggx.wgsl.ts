@@ -1,0 +1,45 @@
+import { wgslModule } from '@glanz/wgsl';
+
+/**
+ * The GGX microfacet distribution with height-correlated Smith masking (Heitz 2014). `openpbr_alpha` maps roughness and
+ * anisotropy to slopes, not below 1e-4, so that a smooth surface is a very narrow lobe and never a special case.
+ * `openpbr_ggx` gives, for a half vector, (D G₂ / (4 cos θ_o), density of reflected directions when half vectors are
+ * sampled by `openpbr_ggx_sample`). Their ratio is exact however narrow the lobe.
+ */
+export const openpbrGgx = wgslModule(
+  'openpbr/ggx',
+  /* wgsl */ `fn openpbr_alpha(roughness: f32, anisotropy: f32) -> vec2f {
+  let alpha = roughness * roughness;
+  //#if OPENPBR_ANISOTROPY
+  let flat = 1.0 - anisotropy;
+  let along = alpha * sqrt(2.0 / (1.0 + flat * flat));
+  return max(vec2f(along, flat * along), vec2f(1e-4));
+  //#else
+  return vec2f(max(alpha, 1e-4));
+  //#endif
+}
+
+// √(cos² + α² sin²): twice the projected area of the microsurface, less the cosine.
+fn openpbr_ggx_stretch(alpha: vec2f, w: vec3f) -> f32 {
+  return length(vec3f(alpha * w.xy, w.z));
+}
+
+fn openpbr_ggx(alpha: vec2f, wo: vec3f, wi: vec3f, h: vec3f) -> vec2f {
+  let slope = h.xy / alpha;
+  let t = dot(slope, slope) + h.z * h.z;
+  let d = 0.15915494 / (alpha.x * alpha.y * t * t);
+  let so = openpbr_ggx_stretch(alpha, wo);
+  let si = openpbr_ggx_stretch(alpha, wi);
+  return d * vec2f(wi.z / (wo.z * si + wi.z * so), 1.0 / (wo.z + so));
+}
+
+// A half vector visible from wo (Dupuy and Benyoub 2023, spherical caps).
+fn openpbr_ggx_sample(alpha: vec2f, wo: vec3f, u: vec2f) -> vec3f {
+  let v = normalize(vec3f(alpha * wo.xy, wo.z));
+  let phi = 6.2831853 * u.x;
+  let z = (1.0 - u.y) * (1.0 + v.z) - v.z;
+  let r = sqrt(clamp(1.0 - z * z, 0.0, 1.0));
+  let h = vec3f(r * cos(phi), r * sin(phi), z) + v;
+  return normalize(vec3f(alpha * h.xy, max(h.z, 1e-7)));
+}`,
+);

@@ -1,0 +1,10 @@
+export { openPbrStruct, packOpenPbr } from './record';
+export { requiredFeatures, type FeatureOptions, type OpenPbrFlags } from './features';
+export { openpbr } from './bsdf.wgsl';
+export { openpbrGgx } from './ggx.wgsl';
+export { openpbrFresnelDielectric, openpbrFresnelMetal } from './fresnel.wgsl';
+export { openpbrCosine, openpbrEon } from './diffuse.wgsl';
+export { openpbrMetal } from './metal.wgsl';
+export { openpbrDielectric } from './dielectric.wgsl';
+export { openpbrEnergy } from './energy.wgsl';
+export { openpbrEmission, openpbrOpacity } from './emission.wgsl';
