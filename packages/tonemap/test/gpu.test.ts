@@ -1,17 +1,13 @@
 import { compose, wgslModule } from '@glanz/wgsl';
-import { testDevice } from '@glanz/gpu';
+import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { TONE_MAPS, ToneMapPass, ToneMapError, srgbEncode, toneMapOperator, toneMapPixels, tonemapSrgb } from '../src/index';
 
 let device: GPUDevice;
-const faults: string[] = [];
 beforeAll(async () => {
   device = await testDevice();
-  device.addEventListener('uncapturederror', (event) => faults.push((event as GPUUncapturedErrorEvent).error.message));
 });
-afterAll(() => {
-  expect(faults).toEqual([]);
-});
+afterAll(() => expectNoGpuErrors());
 
 /** Colours from deep shadow to far beyond white, every mixture of odd values, and random ones; seed in the name of the test. */
 function testColours(seed: number): Float32Array<ArrayBuffer> {
