@@ -15,6 +15,10 @@ export interface OpenedGpu {
 /** One line of `--list-gpus`. */
 export interface ListedGpu {
   readonly name: string;
+  /** Graphics interface below WebGPU, e.g. `vulkan`. */
+  readonly backend: string;
+  /** Name and version of the driver, as far as it tells. */
+  readonly driver: string;
   readonly software: boolean;
 }
 

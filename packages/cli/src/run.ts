@@ -31,10 +31,7 @@ export async function runCli(argv: readonly string[], io: CliIo = nodeIo(), back
       return EXIT.ok;
     }
     json = command.json;
-    if (command.kind === 'list-gpus') {
-      await listGpusCommand(command, io, backend);
-      return EXIT.ok;
-    }
+    if (command.kind === 'list-gpus') return await listGpusCommand(command, io, backend);
     const { result, exitCode } = await renderCommand(command.options, io, backend, new ProgressReporter(io, command.quiet));
     if (json) io.stdout(`${JSON.stringify(result ?? { ok: false, error: { code: 'cli/interrupted', message: 'Interrupted before the first sample.' } })}\n`);
     return exitCode;

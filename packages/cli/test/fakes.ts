@@ -27,12 +27,17 @@ export function triangleScene(): Scene {
 
 const STATISTICS: RenderStatistics = { triangles: 1, instances: 1, lights: 0, bvhMs: 1, uploadMs: 2, compileMs: 3, gpuBytes: 4, badSamples: 0 };
 
-/** A tracer that counts samples and whose every pixel holds (x, y, 0.25, 0.5)·: what was asked of it is recorded. */
+/** A tracer that counts samples and whose every pixel holds (x/width, y/height, 0.25); what was asked of it is recorded. */
 export interface FakeRun {
   backend: Backend;
   created: { scene: Scene; options: PathTracerOptions }[];
   destroyed: string[];
 }
+
+export const FAKE_GPUS = [
+  { name: 'Fake 3000', backend: 'vulkan', driver: 'fakedrv 1.2', software: false },
+  { name: 'SwiftShader Device', backend: 'vulkan', driver: '', software: true },
+];
 
 export interface FakeOptions {
   readonly scene?: Scene;
@@ -40,6 +45,7 @@ export interface FakeOptions {
   readonly onSample?: (sample: number) => void;
   readonly loadModel?: Backend['loadModel'];
   readonly openGpu?: Backend['openGpu'];
+  readonly listGpus?: Backend['listGpus'];
 }
 
 export function fakeBackend(fake: FakeOptions = {}): FakeRun {
@@ -81,7 +87,7 @@ export function fakeBackend(fake: FakeOptions = {}): FakeRun {
     backend: {
       loadModel: fake.loadModel ?? (async () => fake.scene ?? triangleScene()),
       openGpu: fake.openGpu ?? (async () => ({ device: { destroy: () => void destroyed.push('device') } as unknown as GPUDevice, adapterName: 'Fake 3000', software: false })),
-      listGpus: async () => [{ name: 'Fake 3000', software: false }, { name: 'SwiftShader', software: true }],
+      listGpus: fake.listGpus ?? (async () => FAKE_GPUS),
       createTracer,
     },
   };

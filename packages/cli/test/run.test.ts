@@ -6,7 +6,7 @@ import { toneMapPixels } from '@glanz/tonemap';
 import sharp from 'sharp';
 import { describe, expect, it } from 'vitest';
 import type { Backend } from '../src/backend';
-import { fakeIo, run, temporaryFolder, triangleScene } from './fakes';
+import { FAKE_GPUS, fakeIo, run, temporaryFolder, triangleScene } from './fakes';
 
 const SIZE = ['--size', '8x6', '--samples', '4'];
 const folder = () => temporaryFolder({ 'm.glb': 'not read by the fake' });
@@ -27,8 +27,10 @@ describe('help and version', () => {
     expect(out).toBe(`${(JSON.parse(readFileSync(new URL('../package.json', import.meta.url), 'utf8')) as { version: string }).version}\n`);
   });
   it('--list-gpus, plain and as JSON', async () => {
-    expect((await run(['--list-gpus'], '.')).out).toBe('Fake 3000\nSwiftShader  (software)\n');
-    expect(JSON.parse((await run(['--list-gpus', '--json'], '.')).out)).toEqual({ ok: true, gpus: [{ name: 'Fake 3000', software: false }, { name: 'SwiftShader', software: true }] });
+    expect((await run(['--list-gpus'], '.')).out).toBe('Fake 3000 · vulkan · fakedrv 1.2\nSwiftShader Device · vulkan · on the processor\n');
+    expect(JSON.parse((await run(['--list-gpus', '--json'], '.')).out)).toEqual({ ok: true, gpus: FAKE_GPUS });
+    const none = await run(['--list-gpus'], '.', { listGpus: async () => [] });
+    expect([none.code, none.out, none.err.split('\n').length]).toEqual([5, '', 2]);
   });
 });
 
