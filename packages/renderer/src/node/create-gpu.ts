@@ -19,7 +19,7 @@ export interface GpuOptions {
 export interface NodeGpu {
   /** Stands in for `navigator.gpu`: pass it to `requestDevice({ gpu })`. */
   readonly gpu: GPU;
-  /** For people, e.g. `NVIDIA H200` or `llvmpipe (LLVM 15.0.6, 256 bits)`. */
+  /** For people, e.g. `nvidia-h200` or `llvmpipe: Mesa 25.0.7 …`. */
   readonly adapterName: string;
   /** Whether the CPU does the work. */
   readonly software: boolean;
@@ -50,12 +50,13 @@ function* sources(options: GpuOptions, user: DriverEnvironment): Generator<Sourc
   yield { what: 'SwiftShader from npm', driver: packagedSwiftShader() };
 }
 
-const adapterName = (info: GPUAdapterInfo) => info.device || info.description || info.vendor || 'unnamed GPU';
+/** WebGPU has no field for a card's plain name: `device` is the nearest on hardware, the driver's text on software. */
+const adapterName = (info: GPUAdapterInfo) => (isSoftware(info) ? info.description || info.device : info.device || info.description) || info.vendor || 'unnamed GPU';
 
 /** Why an adapter will not do; `undefined` if it will. */
 function objection(info: GPUAdapterInfo, options: GpuOptions): string | undefined {
   const software = isSoftware(info);
-  const name = info.description || adapterName(info);
+  const name = adapterName(info);
   if (software && options.software === 'never') return `"${name}" is a software GPU`;
   if (!software && options.software === 'only') return `"${name}" is not a software GPU`;
   const mesa = lavapipeVersion(info);
@@ -66,21 +67,22 @@ function objection(info: GPUAdapterInfo, options: GpuOptions): string | undefine
 /** Tries the drivers now in effect. Gives a GPU, or a reason. */
 async function tryDrivers(dawn: Dawn, options: GpuOptions): Promise<NodeGpu | string> {
   const wanted = options.gpu?.toLowerCase();
-  const listed = await listAdapters(dawn);
-  if (listed.length === 0) return 'no adapter';
+  // Listing costs a driver start of its own, so the usual case does without.
   let names: (string | undefined)[] = [undefined];
   if (wanted !== undefined || options.software === 'only') {
+    const listed = await listAdapters(dawn);
+    if (listed.length === 0) return 'no adapter';
     names = listed.filter((adapter) => wanted === undefined || adapter.name.toLowerCase().includes(wanted)).map((adapter) => adapter.name);
     if (names.length === 0) return `only ${listed.map((adapter) => `"${adapter.name}"`).join(', ')}`;
   }
-  let reason = 'no adapter that WebGPU can use';
+  let reason = 'no adapter';
   for (const name of names) {
     try {
       const gpu = createPinned(dawn, name === undefined ? [] : [`adapter=${name}`]);
       const adapter = await gpu.requestAdapter({ powerPreference: 'high-performance' });
       if (!adapter) continue;
       const fault = objection(adapter.info, options);
-      if (fault === undefined) return { gpu, adapterName: name ?? (listed.length === 1 ? listed[0]!.name : adapterName(adapter.info)), software: isSoftware(adapter.info) };
+      if (fault === undefined) return { gpu, adapterName: name ?? adapterName(adapter.info), software: isSoftware(adapter.info) };
       reason = fault;
     } catch (error) {
       reason = firstLine(error);
@@ -118,9 +120,11 @@ async function search(options: GpuOptions, user: DriverEnvironment): Promise<Nod
   restoreDriverEnvironment(user);
   const wish = options.gpu === undefined ? (options.software === 'only' ? 'software GPU' : 'usable GPU') : `GPU called "${options.gpu}"`;
   const advice =
-    options.software === 'never'
-      ? 'install the GPU’s Vulkan driver, or allow a software GPU'
-      : 'install a Vulkan driver, or `npm install @sparticuz/chromium` (Linux x64) or Mesa ≥ 25 (package mesa-vulkan-drivers) for a software GPU';
+    options.gpu !== undefined
+      ? 'give a part of a listed name'
+      : options.software === 'never'
+        ? 'install the GPU’s Vulkan driver, or allow a software GPU'
+        : 'install a Vulkan driver, or `npm install @sparticuz/chromium` (Linux x64) or Mesa ≥ 25 (package mesa-vulkan-drivers) for a software GPU';
   throw new DeviceError('renderer/no-adapter', `No ${wish} found (${tried.join('; ')}): ${advice}.`);
 }
 
