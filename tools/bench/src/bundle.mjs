@@ -1,0 +1,38 @@
+import { readdirSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { build } from 'esbuild';
+
+const folder = dirname(fileURLToPath(import.meta.url));
+
+/** Names of all benchmarks: the files in `benchmarks/`. */
+export function benchmarkNames() {
+  return readdirSync(join(folder, 'benchmarks'))
+    .filter((file) => file.endsWith('.ts'))
+    .map((file) => file.slice(0, -3))
+    .sort();
+}
+
+/**
+ * Bundles one benchmark with its runner into one ESM file, straight from the sources of the workspace. `webgpu` stays
+ * outside: it is a native module, and GPU_WEBGPU may name another copy at run time.
+ */
+export async function bundleBenchmark(name, outfile) {
+  await build({
+    stdin: {
+      contents: `import { benchmark } from './benchmarks/${name}';\nimport { benchmarkMain } from './runner';\nawait benchmarkMain(${JSON.stringify(name)}, benchmark, process.argv.slice(2));\n`,
+      resolveDir: folder,
+      loader: 'ts',
+    },
+    outfile,
+    bundle: true,
+    platform: 'node',
+    format: 'esm',
+    target: 'node20',
+    conditions: ['@glanz/source'],
+    external: ['webgpu', 'sharp', 'esbuild', '@sparticuz/chromium'],
+    // CommonJS dependencies expect a require to be there.
+    banner: { js: "import { createRequire as __createRequire } from 'node:module'; const require = __createRequire(import.meta.url);" },
+    logLevel: 'error',
+  });
+}
