@@ -1,0 +1,94 @@
+import type { MeshBuilder } from './mesh-builder';
+
+type Vector = readonly [number, number, number];
+
+/** A path to run a tube along. */
+export type Curve = (t: number) => Vector;
+
+const subtract = (a: Vector, b: Vector): Vector => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+const crossed = (a: Vector, b: Vector): Vector => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const dot = (a: Vector, b: Vector) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const unit = (a: Vector): Vector => {
+  const length = Math.hypot(...a);
+  return [a[0] / length, a[1] / length, a[2] / length];
+};
+
+/**
+ * A round tube along a curve, with flat ends. The frame is carried along without twisting (double reflection, Wang et
+ * al. 2008).
+ *
+ * @param curve Gives the centre line for t in [0, 1], millimetres.
+ * @param steps Sections along the curve.
+ * @param segments Corners of a section.
+ */
+export function tube(builder: MeshBuilder, curve: Curve, radius: number, steps: number, segments: number): void {
+  const centres = Array.from({ length: steps + 1 }, (_, i) => curve(i / steps));
+  const tangents = centres.map((_, i) => unit(subtract(centres[Math.min(i + 1, steps)]!, centres[Math.max(i - 1, 0)]!)));
+  const t0 = tangents[0]!;
+  let side = unit(crossed(t0, Math.abs(t0[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0]));
+  const sides: Vector[] = [side];
+  for (let i = 0; i < steps; i++) {
+    const v1 = subtract(centres[i + 1]!, centres[i]!);
+    const c1 = dot(v1, v1);
+    const reflect = (v: Vector, axis: Vector, c: number): Vector => {
+      const k = (2 / c) * dot(axis, v);
+      return [v[0] - k * axis[0], v[1] - k * axis[1], v[2] - k * axis[2]];
+    };
+    const sideL = reflect(side, v1, c1);
+    const tangentL = reflect(tangents[i]!, v1, c1);
+    const v2 = subtract(tangents[i + 1]!, tangentL);
+    const c2 = dot(v2, v2);
+    side = unit(c2 > 1e-20 ? reflect(sideL, v2, c2) : sideL);
+    sides.push(side);
+  }
+  const first = builder.vertexCount;
+  const at = (i: number, j: number): { p: Vector; n: Vector } => {
+    const u = sides[i]!;
+    const v = crossed(tangents[i]!, u);
+    const angle = (j / segments) * 2 * Math.PI;
+    const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
+    const n: Vector = [u[0] * cos + v[0] * sin, u[1] * cos + v[1] * sin, u[2] * cos + v[2] * sin];
+    const c = centres[i]!;
+    return { p: [c[0] + n[0] * radius, c[1] + n[1] * radius, c[2] + n[2] * radius], n };
+  };
+  for (let i = 0; i <= steps; i++) {
+    for (let j = 0; j < segments; j++) {
+      const { p, n } = at(i, j);
+      builder.vertex(...p, ...n);
+    }
+  }
+  for (let i = 0; i < steps; i++) {
+    for (let j = 0; j < segments; j++) {
+      const k = (j + 1) % segments;
+      builder.quad(first + i * segments + j, first + i * segments + k, first + (i + 1) * segments + k, first + (i + 1) * segments + j);
+    }
+  }
+  for (const [i, sign] of [
+    [0, -1],
+    [steps, 1],
+  ] as const) {
+    const t = tangents[i]!;
+    const n: Vector = [t[0] * sign, t[1] * sign, t[2] * sign];
+    const rim = builder.vertexCount;
+    for (let j = 0; j < segments; j++) builder.vertex(...at(i, j).p, ...n);
+    for (let j = 1; j + 1 < segments; j++) {
+      if (sign > 0) builder.triangle(rim, rim + j, rim + j + 1);
+      else builder.triangle(rim, rim + j + 1, rim + j);
+    }
+  }
+}
+
+/** A Catmull-Rom spline through points, centripetal enough for evenly spaced ones; t in [0, 1]. */
+export function spline(points: readonly Vector[]): Curve {
+  const n = points.length - 1;
+  return (t) => {
+    const s = Math.min(Math.max(t, 0), 1) * n;
+    const i = Math.min(Math.floor(s), n - 1);
+    const f = s - i;
+    const [b, c] = [points[i]!, points[i + 1]!];
+    const a = points[i - 1] ?? [2 * b[0] - c[0], 2 * b[1] - c[1], 2 * b[2] - c[2]];
+    const d = points[i + 2] ?? [2 * c[0] - b[0], 2 * c[1] - b[1], 2 * c[2] - b[2]];
+    const at = (k: 0 | 1 | 2) => 0.5 * (2 * b[k] + (c[k] - a[k]) * f + (2 * a[k] - 5 * b[k] + 4 * c[k] - d[k]) * f * f + (3 * b[k] - a[k] - 3 * c[k] + d[k]) * f ** 3);
+    return [at(0), at(1), at(2)];
+  };
+}
