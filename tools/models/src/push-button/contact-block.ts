@@ -117,9 +117,26 @@ function block(options: BlockOptions): Part[] {
   ];
 }
 
+/** Side cover of an outer block: a raised panel with grip ribs, snapped in by two round pins. */
+function cover(name: string, x: number, side: 1 | -1, material: MaterialName): Part {
+  return {
+    name: `${name} cover`,
+    material,
+    placement: { at: [x + (side * WIDTH) / 2 - side * 0.12, 0, -20.3], x: [0, side, 0], z: [side, 0, 0] },
+    shape: (b, t) => {
+      // Seen from outside: x across the block, the depth behind the flange along −y.
+      extrude(b, closedOutline(rectangle(0, -13.2, 17.6, 15.4, 1.6), t), [], { bottom: 0, top: 0.55, topRadius: 0.3, tessellation: t });
+      for (let i = 0; i < 5; i++) extrude(b, closedOutline(rectangle(0, -15 - i * 1.15, 11, 0.6, 0.28), t), [], { bottom: 0.4, top: 1, topRadius: 0.24, tessellation: t });
+      for (const px of [-6.2, 6.2]) extrude(b, circleOutline(px, -8.4, 1.25, circleSegments(1.25, t)), [], { bottom: 0.4, top: 0.85, topRadius: 0.25, tessellation: t });
+    },
+  };
+}
+
 /** Behind the flange: two contact blocks and the lamp block between them, wired. */
 export const CONTACT_BLOCKS: readonly Part[] = [
   ...block({ name: 'Contact block NC', x: -10.8, body: 'polyamide black', plunger: 'polyamide red', wire: 'insulation black', swing: -4 }),
+  cover('Contact block NC', -10.8, -1, 'polyamide black'),
   ...block({ name: 'Lamp block', x: 0, body: 'polycarbonate white', plunger: 'polycarbonate white', wire: 'insulation red', swing: 1.5 }),
   ...block({ name: 'Contact block NO', x: 10.8, body: 'polyamide black', plunger: 'polyamide green', wire: 'insulation blue', swing: 6 }),
+  cover('Contact block NO', 10.8, 1, 'polyamide black'),
 ];

@@ -12,9 +12,9 @@ export type PushButtonLevel = 'high' | 'medium' | 'low';
 
 /** The tessellation behind each level, found by search so that the counts come within 1 % of the wanted ones. */
 const LEVELS: Readonly<Record<PushButtonLevel, Tessellation>> = {
-  high: { deviation: 0.000971, angle: 0.2 },
-  medium: { deviation: 0.0255, angle: 0.45 },
-  low: { deviation: 0.1126, angle: 0.8 },
+  high: { deviation: 0.00101, angle: 0.2 },
+  medium: { deviation: 0.017, angle: 0.53 },
+  low: { deviation: 0.1165, angle: 0.8 },
 };
 
 const PARTS: readonly Part[] = [...FRONT, ...MOUNT, ...CONTACT_BLOCKS];
@@ -46,7 +46,7 @@ export function buildPushButton(tessellation: Tessellation): Scene {
     scene.instances.push({ name: part.name, mesh: scene.meshes.length, material, transform: placementMatrix(part.placement) });
     scene.meshes.push(builder.build(part.name));
   }
-  scene.cameras.push(lookAt([0.125, 0.085, 0.105], [0.003, 0.0005, -0.0215], (26 * Math.PI) / 180));
+  scene.cameras.push(lookAt([0.137, 0.075, 0.094], [0.002, 0.0005, -0.0215], (25.5 * Math.PI) / 180));
   return scene;
 }
 

@@ -82,14 +82,14 @@ export const MOUNT: readonly Part[] = [
   {
     name: 'Latch lever',
     material: 'polyamide orange',
-    placement: { at: [17.1, 0, -17], x: [0, 1, 0], z: [1, 0, 0] },
+    placement: { at: [17.1, -1.5, -17], x: [0, 1, 0], z: [1, 0, 0] },
     shape: (b, t) => {
       const outline: Corner[] = [
         { x: -5, y: -1.6, r: 1.5 },
-        { x: 9, y: -1.6, r: 0.6 },
-        { x: 12.5, y: 0.6, r: 0.8 },
-        { x: 11.4, y: 2.4, r: 0.8 },
-        { x: 8, y: 1.6, r: 0.9 },
+        { x: 6.2, y: -1.6, r: 0.6 },
+        { x: 9.4, y: 0.5, r: 0.8 },
+        { x: 8.4, y: 2.3, r: 0.8 },
+        { x: 5.2, y: 1.6, r: 0.9 },
         { x: -5, y: 1.6, r: 1.5 },
       ];
       extrude(b, closedOutline(outline, t), [], { bottom: 0, top: 2.2, bottomRadius: 0.35, topRadius: 0.35, tessellation: t });

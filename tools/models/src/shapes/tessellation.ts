@@ -22,5 +22,5 @@ export function circleSegments(radius: number, tessellation: Tessellation): numb
 
 /** Whether a rounding, tooth or thread of this size is too small to be worth triangles. */
 export function isNegligible(size: number, { deviation }: Tessellation): boolean {
-  return size < 4 * deviation;
+  return size < 3.5 * deviation;
 }

@@ -1,0 +1,34 @@
+import { mkdirSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { WebIO } from '@gltf-transform/core';
+import { ALL_EXTENSIONS } from '@gltf-transform/extensions';
+import { createCornellBox, createPushButton } from './index';
+import { sceneToGltf } from './to-gltf';
+
+const MODELS = {
+  'push-button-high': () => createPushButton({ level: 'high' }),
+  'push-button-medium': () => createPushButton({ level: 'medium' }),
+  'push-button-low': () => createPushButton({ level: 'low' }),
+  'cornell-box': createCornellBox,
+};
+
+/** Writes the named models, or all of them, as .glb files. Gives the exit code. */
+export async function writeModels(folder: string, names: readonly string[]): Promise<number> {
+  const io = new WebIO().registerExtensions(ALL_EXTENSIONS);
+  const wanted = names.length > 0 ? names : Object.keys(MODELS);
+  for (const name of wanted) {
+    const make = MODELS[name as keyof typeof MODELS];
+    if (!make) {
+      process.stderr.write(`There is no model "${name}"; models: ${Object.keys(MODELS).join(', ')}.\n`);
+      return 1;
+    }
+    const scene = make();
+    const bytes = await io.writeBinary(sceneToGltf(scene));
+    const file = join(folder, `${name}.glb`);
+    mkdirSync(folder, { recursive: true });
+    writeFileSync(file, bytes);
+    const triangles = scene.meshes.reduce((sum, mesh) => sum + mesh.indices.length / 3, 0);
+    process.stdout.write(`${file}: ${triangles} triangles, ${scene.instances.length} parts, ${(bytes.byteLength / 2 ** 20).toFixed(1)} MiB\n`);
+  }
+  return 0;
+}
