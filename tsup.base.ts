@@ -1,4 +1,5 @@
 import { defineConfig } from 'tsup';
+import { pureConstants } from './tools/pipeline/pure.mjs';
 
 /**
  * One build recipe for every package: ESM with declarations, one file per entry, chunks shared between entries.
@@ -15,6 +16,7 @@ export function glanzPackage(entries: Record<string, string>, options: { readonl
     treeshake: true,
     splitting: true,
     external: [...(options.external ?? [])],
+    esbuildPlugins: [pureConstants],
     // The condition "@glanz/source" must not apply here: published declarations point at published packages.
     dts: { compilerOptions: { ignoreDeprecations: '6.0', customConditions: [] } },
   });
