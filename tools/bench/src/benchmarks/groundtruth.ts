@@ -1,0 +1,48 @@
+import { createGpu } from '@glanz/renderer/node';
+import { requestDevice } from '@glanz/renderer';
+import { GROUND_TRUTH_CASES, GroundTruth, catalogueFolder, comparePictures, failures, renderGroundTruth } from '@glanz/reference';
+import { estimated, type Benchmark, type Figure } from '../benchmark';
+import { BenchError } from '../error';
+
+/** Targets for relMSE × samples, of a renderer with Sobol sampling and MIS compensation. */
+const TARGETS: Readonly<Record<string, number>> = { env_soft: 0.15, env_sun: 0.9, cornell_diffuse: 0.19, dof: 0.22, veach_mis: 0.2 };
+
+/** Error against the ground-truth references: agreement, and error per sample. */
+export const benchmark: Benchmark = {
+  description: 'agreement with the ground-truth references, and error per sample',
+  async run({ log, quick, gpu }) {
+    if (!catalogueFolder()) throw new BenchError('bench/missing-data', 'groundtruth needs the ground-truth catalogue: set GLANZ_GROUNDTRUTH to its folder "scenes".');
+    const { gpu: api, adapterName, software } = await createGpu(gpu === undefined ? {} : { gpu });
+    const device = await requestDevice({ gpu: api });
+    // Independent seeds give the interval; their mean is the picture that is checked.
+    const runs = quick ? 2 : 4;
+    const samples = quick ? 4 : software ? 32 : 256;
+    const figures: Figure[] = [];
+    const notes: string[] = [];
+    let agreeing = 0;
+    for (const { scene, variant } of GROUND_TRUTH_CASES) {
+      const name = variant === 'full' ? scene : `${scene}.${variant}`;
+      const truth = new GroundTruth(scene);
+      const { width, height } = truth.description.film;
+      const sum = new Float32Array(width * height * 3);
+      const perSample: number[] = [];
+      const start = performance.now();
+      for (let seed = 1; seed <= runs; seed++) {
+        const { picture, comparison } = await renderGroundTruth(device, truth, { samples, variant, seed });
+        picture.forEach((value, i) => (sum[i]! += value / runs));
+        perSample.push(comparison.relMsePerSample);
+      }
+      const whole = comparePictures(sum, samples * runs, truth.picture(variant), { width, height }, truth.tolerance);
+      if (whole.passed) agreeing++;
+      else notes.push(`${name} disagrees: ${failures(whole)}`);
+      const target = variant === 'full' ? TARGETS[scene] : undefined;
+      figures.push(estimated(`${name}: relMSE × samples`, '1', perSample, target === undefined ? undefined : { value: target, relation: '<=', source: 'sample efficiency aimed at' }));
+      const mean = perSample.reduce((a, b) => a + b, 0) / runs;
+      figures.push({ name: `${name}: samples of the reference renderer per sample`, unit: '1', runs, mean: truth.picture(variant).stats.relmse_1spp / mean, ci95: 0 });
+      log(`${name}: ${whole.passed ? 'agrees' : 'DISAGREES'}, relMSE × samples ${mean.toPrecision(3)}, ${((performance.now() - start) / 1000).toFixed(1)} s`);
+    }
+    figures.push({ name: 'pictures that agree with their reference', unit: `of ${GROUND_TRUTH_CASES.length}`, runs: 1, mean: agreeing, ci95: 0, target: { value: GROUND_TRUTH_CASES.length, relation: '>=', source: 'all of them' } });
+    device.destroy();
+    return { settings: { samples, runs, multipleScattering: false }, gpu: { name: adapterName, software }, figures, notes };
+  },
+};

@@ -1,0 +1,146 @@
+import { existsSync, readFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { decodeHdr } from '@glanz/image';
+import { loadGltfFile } from '@glanz/gltf/node';
+import type { Environment, Material, PerspectiveCamera, Scene } from '@glanz/scene';
+import { ReferenceError } from './error';
+
+type Vector = readonly [number, number, number];
+
+/** `scene.json` of a ground-truth scene, as far as it is used. */
+export interface SceneDescription {
+  readonly name: string;
+  readonly title: string;
+  readonly camera: { readonly position: Vector; readonly target: Vector; readonly up: Vector; readonly yfov_deg: number; readonly lens_radius: number; readonly focus_distance: number };
+  readonly film: { readonly width: number; readonly height: number };
+  readonly environment:
+    | { readonly type: 'none' }
+    | { readonly type: 'constant'; readonly radiance: Vector }
+    | { readonly type: 'latlong'; readonly file: string; readonly rotation_y_deg: number; readonly scale: number };
+  readonly variants: readonly { readonly id: string; readonly max_path_edges: number }[];
+}
+
+/** How far from its reference a picture may lie. */
+export interface Tolerance {
+  /** Relative error of the picture's mean. */
+  readonly mean: number;
+  /** Relative error of a 16 × 16 block. */
+  readonly block: number;
+  /** Error per sample, in multiples of the reference renderer's. */
+  readonly k: number;
+  readonly floor: number;
+  /** Share of outlier pixels. */
+  readonly outlier: number;
+}
+
+/** A reference picture. */
+export interface ReferencePicture {
+  /** RGB, stride 3, linear, top row first. */
+  readonly mean: Float32Array;
+  /** Standard error of each value of `mean`. */
+  readonly standardError: Float32Array;
+  /** Samples per pixel behind it, and figures of the renderer that made it. */
+  readonly stats: { readonly spp: number; readonly relmse_eps: number; readonly relmse_1spp: number; readonly relmse_of_reference: number };
+}
+
+/** The catalogue's folder: `GLANZ_GROUNDTRUTH`, or `shared/groundtruth/scenes` beside the checkout; `undefined` if it is not there. */
+export function catalogueFolder(): string | undefined {
+  const named = process.env['GLANZ_GROUNDTRUTH'];
+  if (named) return existsSync(join(named, 'index.json')) ? named : undefined;
+  // Looked for upwards, since a bundle lies elsewhere than this source.
+  for (let folder = dirname(fileURLToPath(import.meta.url)); ; folder = dirname(folder)) {
+    const candidate = join(folder, 'shared/groundtruth/scenes');
+    if (existsSync(join(candidate, 'index.json'))) return candidate;
+    if (folder === dirname(folder)) return undefined;
+  }
+}
+
+const json = <T>(file: string) => JSON.parse(readFileSync(file, 'utf8')) as T;
+
+function floats(file: string): Float32Array {
+  const bytes = readFileSync(file);
+  return new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
+}
+
+function lookAt(camera: SceneDescription['camera']): PerspectiveCamera {
+  const subtract = (a: Vector, b: Vector): Vector => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+  const cross = (a: Vector, b: Vector): Vector => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+  const unit = (a: Vector): Vector => {
+    const length = Math.hypot(...a);
+    return [a[0] / length, a[1] / length, a[2] / length];
+  };
+  const z = unit(subtract(camera.position, camera.target));
+  const x = unit(cross(camera.up, z));
+  const y = cross(z, x);
+  return {
+    type: 'perspective',
+    name: 'reference',
+    transform: [...x, 0, ...y, 0, ...z, 0, ...camera.position, 1],
+    yfov: (camera.yfov_deg * Math.PI) / 180,
+    aspect: 1,
+    lens_radius: camera.lens_radius,
+    focus_distance: camera.focus_distance,
+  };
+}
+
+/** What the catalogue says about a material beyond glTF. */
+interface GroundTruthExtras {
+  readonly gt?: { readonly f82_tint?: Vector };
+}
+
+/** glTF has no way to say F82 tint: the catalogue puts it into the extras. */
+function applyExtras(material: Material): Material {
+  const tint = (material.extras as GroundTruthExtras | undefined)?.gt?.f82_tint;
+  return tint ? { ...material, parameters: { ...material.parameters, specular_color: tint } } : material;
+}
+
+/** One scene of the catalogue. */
+export class GroundTruth {
+  readonly folder: string;
+  readonly description: SceneDescription;
+  readonly tolerance: Tolerance;
+
+  /** @throws {ReferenceError} `reference/absent` without the catalogue, `reference/unknown-scene` */
+  constructor(name: string) {
+    const scenes = catalogueFolder();
+    if (!scenes) throw new ReferenceError('reference/absent', 'The ground-truth catalogue is not here: set GLANZ_GROUNDTRUTH to its folder "scenes".');
+    this.folder = join(scenes, name);
+    if (!existsSync(join(this.folder, 'scene.json'))) throw new ReferenceError('reference/unknown-scene', `The ground-truth catalogue has no scene "${name}".`);
+    this.description = json(join(this.folder, 'scene.json'));
+    this.tolerance = json<Record<string, Tolerance>>(join(scenes, 'tolerances.json'))[name] as Tolerance;
+  }
+
+  /** Most path edges of a variant. */
+  maxDepth(variant = 'full'): number {
+    const found = this.description.variants.find(({ id }) => id === variant);
+    if (!found) throw new ReferenceError('reference/unknown-variant', `Ground-truth scene "${this.description.name}" has no variant "${variant}"; it has: ${this.description.variants.map(({ id }) => id).join(', ')}.`);
+    return found.max_path_edges;
+  }
+
+  /** The reference picture of a variant. */
+  picture(variant = 'full'): ReferencePicture {
+    this.maxDepth(variant);
+    const stem = join(this.folder, variant === 'full' ? 'ref' : `ref.${variant}`);
+    return { mean: floats(`${stem}.f32`), standardError: floats(`${stem}.se.f32`), stats: json(`${stem}.stats.json`) };
+  }
+
+  /** The scene with the reference's camera first, and its surroundings. */
+  async scene(): Promise<Scene> {
+    const scene = await loadGltfFile(join(this.folder, 'scene.glb'));
+    scene.materials = scene.materials.map(applyExtras);
+    scene.cameras = [lookAt(this.description.camera)];
+    const environment = this.#environment();
+    if (environment) scene.environment = environment;
+    else delete scene.environment;
+    return scene;
+  }
+
+  #environment(): Environment | undefined {
+    const source = this.description.environment;
+    if (source.type === 'none') return undefined;
+    if (source.type === 'constant') return { type: 'constant', radiance: source.radiance };
+    const { width, height, data } = decodeHdr(readFileSync(join(this.folder, source.file)));
+    return { type: 'latlong', width, height, data, intensity: source.scale, rotation: (source.rotation_y_deg * Math.PI) / 180 };
+  }
+}

@@ -1,0 +1,4 @@
+import { GlanzError } from '@glanz/scene';
+
+/** References are missing or do not fit. Codes: `reference/absent`, `reference/unknown-scene`, `reference/unknown-variant`, `reference/size`. */
+export class ReferenceError extends GlanzError {}

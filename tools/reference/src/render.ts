@@ -1,0 +1,34 @@
+import { PathTracer, type PathTracerOptions } from '@glanz/renderer';
+import type { Scene } from '@glanz/scene';
+import { comparePictures, type Comparison } from './compare';
+import type { GroundTruth } from './catalogue';
+
+/** Renders a scene and gives its picture: RGB, stride 3, linear, top row first. */
+export async function renderPicture(device: GPUDevice, scene: Scene, options: PathTracerOptions & { readonly samples: number }): Promise<Float32Array> {
+  const { samples, ...rest } = options;
+  const tracer = await PathTracer.create(device, scene, rest);
+  try {
+    for await (const progress of tracer.render({ samples })) void progress;
+    const beauty = await tracer.read('beauty');
+    const picture = new Float32Array((beauty.length / 4) * 3);
+    for (let i = 0; i < beauty.length / 4; i++) picture.set(beauty.subarray(4 * i, 4 * i + 3), 3 * i);
+    return picture;
+  } finally {
+    tracer.destroy();
+  }
+}
+
+/** What {@link renderGroundTruth} may be told. */
+export interface GroundTruthOptions {
+  readonly samples: number;
+  /** Default `full`. */
+  readonly variant?: string;
+  readonly seed?: number;
+}
+
+/** Renders a scene of the catalogue the way its reference was (single scattering) and compares. */
+export async function renderGroundTruth(device: GPUDevice, truth: GroundTruth, { samples, variant = 'full', seed = 0 }: GroundTruthOptions): Promise<{ picture: Float32Array; comparison: Comparison }> {
+  const { width, height } = truth.description.film;
+  const picture = await renderPicture(device, await truth.scene(), { width, height, samples, seed, maxDepth: truth.maxDepth(variant), camera: 0, multipleScattering: false });
+  return { picture, comparison: comparePictures(picture, samples, truth.picture(variant), { width, height }, truth.tolerance) };
+}

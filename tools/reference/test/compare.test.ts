@@ -1,0 +1,100 @@
+import { existsSync } from 'node:fs';
+import { join } from 'node:path';
+import { pathToFileURL } from 'node:url';
+import { describe, expect, it } from 'vitest';
+import type { ReferencePicture, Tolerance } from '../src/catalogue';
+import { comparePictures, failures, relMse } from '../src/compare';
+
+const size = { width: 128, height: 128 };
+const tolerance: Tolerance = { mean: 0.003, block: 0.005, k: 2, floor: 2e-5, outlier: 0.002 };
+const SPP = 16384;
+/** Standard deviation of one sample, relative to the pixel. */
+const SIGMA = 0.5;
+
+function randoms(seed: number): () => number {
+  let state = seed;
+  const uniform = () => (state = (Math.imul(state, 1664525) + 1013904223) >>> 0) / 2 ** 32;
+  // Box–Muller.
+  return () => Math.sqrt(-2 * Math.log(1 - uniform())) * Math.cos(2 * Math.PI * uniform());
+}
+
+/** A smooth picture that no mirror image equals, and estimates of it. */
+const truth = Float64Array.from({ length: size.width * size.height * 3 }, (_, i) => {
+  const [x, y] = [(Math.floor(i / 3) % size.width) / size.width, Math.floor(i / 3 / size.width) / size.height];
+  return 0.2 + 0.5 * x + 0.3 * y * y + 0.1 * (i % 3);
+});
+const estimate = (samples: number, seed: number): Float32Array => {
+  const normal = randoms(seed);
+  return Float32Array.from(truth, (value) => value * (1 + (SIGMA / Math.sqrt(samples)) * normal()));
+};
+
+const mean = estimate(SPP, 1);
+const epsilon = 0.01 * (truth.reduce((sum, value) => sum + value * value, 0) / truth.length);
+const reference: ReferencePicture = {
+  mean,
+  standardError: Float32Array.from(truth, (value) => (value * SIGMA) / Math.sqrt(SPP)),
+  stats: { spp: SPP, relmse_eps: epsilon, relmse_1spp: SIGMA ** 2, relmse_of_reference: SIGMA ** 2 / SPP },
+};
+const verdict = (candidate: Float32Array, samples = 64) => comparePictures(candidate, samples, reference, size, tolerance);
+
+describe('comparePictures', () => {
+  it('lets unbiased estimates pass, at several sample counts and seeds', () => {
+    for (const samples of [16, 64, 1024]) for (const seed of [2, 3, 4]) expect(failures(verdict(estimate(samples, seed), samples))).toBe('');
+  });
+
+  it('measures the error per sample and the efficiency', () => {
+    const { relMsePerSample, efficiency } = verdict(estimate(64, 5));
+    expect(relMsePerSample).toBeGreaterThan(0.9 * SIGMA ** 2);
+    expect(relMsePerSample).toBeLessThan(1.1 * SIGMA ** 2);
+    expect(efficiency).toBeGreaterThan(0.9);
+    expect(efficiency).toBeLessThan(1.1);
+  });
+
+  it.each([
+    ['1 % too bright', (p: Float32Array) => p.map((v) => v * 1.01), /T1/],
+    ['mirrored', (p: Float32Array) => p.map((_, i) => p[(Math.floor(i / 3 / 128) * 128 + 127 - (Math.floor(i / 3) % 128)) * 3 + (i % 3)]!), /T2/],
+    ['red and blue swapped', (p: Float32Array) => p.map((_, i) => p[i - (i % 3) + 2 - (i % 3)]!), /T1/],
+    ['twice as noisy as it should be', (p: Float32Array) => p.map((v, i) => truth[i]! + 2 * (v - truth[i]!)), /T3/],
+    ['with fireflies', (p: Float32Array) => p.map((v, i) => (i % 300 === 0 ? v * 8 : v)), /T4/],
+    ['with one NaN', (p: Float32Array) => p.map((v, i) => (i === 1000 ? NaN : v)), /finite/],
+    ['with one dark block', (p: Float32Array) => p.map((v, i) => (Math.floor(i / 3) % 128 < 32 && i / 3 / 128 < 16 ? v * 0.9 : v)), /T2/],
+  ])('catches a picture that is %s', (_, spoil, expected) => {
+    expect(failures(verdict(spoil(estimate(64, 6))))).toMatch(expected);
+  });
+
+  it('refuses pictures of another size', () => {
+    expect(() => verdict(new Float32Array(12))).toThrow(/pixels/);
+  });
+
+  const script = join(import.meta.dirname, '../../../../shared/groundtruth/compare.mjs');
+  it.runIf(existsSync(script))('agrees with the script that came with the catalogue (skipped where the catalogue is absent)', async () => {
+    const other = (await import(/* @vite-ignore */ pathToFileURL(script).href)) as {
+      compare(folder: string, candidate: Float32Array, spp: number): { ok: boolean; relMSE: number; efficiency: number; checks: { value: number; limit: number; ok: boolean }[] };
+      loadRef(folder: string): { img: Float32Array };
+    };
+    const { GroundTruth } = await import('../src/catalogue');
+    for (const name of ['cornell_diffuse', 'furnace_metal', 'env_sun']) {
+      const truth = new GroundTruth(name);
+      const picture = truth.picture();
+      const normal = randoms(7);
+      for (const bias of [1, 1.02]) {
+        const candidate = picture.mean.map((value, i) => bias * (value + picture.standardError[i]! * Math.sqrt(picture.stats.spp / 64) * normal()));
+        const theirs = other.compare(truth.folder, candidate, 64);
+        const ours = comparePictures(candidate, 64, picture, truth.description.film, truth.tolerance);
+        expect(ours.checks.map(({ passed }) => passed)).toEqual(theirs.checks.map(({ ok }) => ok));
+        for (const [i, { value, limit }] of ours.checks.entries()) {
+          expect(value).toBeCloseTo(theirs.checks[i]!.value, 9);
+          expect(limit).toBeCloseTo(theirs.checks[i]!.limit, 9);
+        }
+        expect(ours.efficiency).toBeCloseTo(theirs.efficiency, 6);
+      }
+    }
+  });
+});
+
+describe('relMse', () => {
+  it('is the squared relative error on an even picture', () => {
+    expect(relMse([1.1, 1.1, 1.1], [1, 1, 1], 0)).toBeCloseTo(0.01, 12);
+    expect(relMse([1.1, 1, 1], [1, 1, 1], 0)).toBeCloseTo(0.01 / 3, 12);
+  });
+});

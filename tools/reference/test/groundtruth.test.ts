@@ -1,0 +1,31 @@
+import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
+import { afterEach, describe, expect, it } from 'vitest';
+import { catalogueFolder } from '../src/catalogue';
+import { GROUND_TRUTH_CASES } from '../src/cases';
+import { failures } from '../src/compare';
+
+const present = catalogueFolder() !== undefined;
+
+afterEach(async () => {
+  if (present) await expectNoGpuErrors();
+});
+
+describe.runIf(present)('ground truth', () => {
+  it.each(GROUND_TRUTH_CASES)('$scene ($variant) agrees with its reference at $samples samples', async ({ scene, variant, samples }) => {
+    const { GroundTruth, renderGroundTruth } = await import('../src/index');
+    const { comparison } = await renderGroundTruth(await testDevice(), new GroundTruth(scene), { samples, variant });
+    expect(failures(comparison)).toBe('');
+  });
+
+  it('tells a renderer that loses bounces (the full variant against a render of direct light)', async () => {
+    const { GroundTruth, comparePictures, renderPicture } = await import('../src/index');
+    const truth = new GroundTruth('cornell_diffuse');
+    const { width, height } = truth.description.film;
+    const picture = await renderPicture(await testDevice(), await truth.scene(), { width, height, samples: 8, maxDepth: 2, multipleScattering: false });
+    expect(failures(comparePictures(picture, 8, truth.picture(), { width, height }, truth.tolerance))).toMatch(/T1/);
+  });
+});
+
+describe.runIf(!present)('ground truth', () => {
+  it.skip('SKIPPED: the ground-truth catalogue is not here (set GLANZ_GROUNDTRUTH to its folder "scenes")', () => undefined);
+});
