@@ -51,6 +51,7 @@ egl=/usr/local/nvidia/share/glvnd/egl_vendor.d/10_nvidia.json
 :
 S
 
-size=$(du -sm "$dir" .gpu-bench 2>/dev/null | awk '{ sum += $1 } END { print sum }')
+mkdir -p .gpu-bench
+size=$(du -sm "$dir" .gpu-bench | awk '{ sum += $1 } END { print sum }')
 echo "$dir and .gpu-bench: ${size} MiB of ${limit_mib}"
 [ "$size" -lt "$limit_mib" ] || { echo "pack.sh: too large to carry" >&2; exit 1; }
