@@ -58,7 +58,7 @@ export type FurnaceMaterial = keyof typeof FURNACE_MATERIALS;
 export interface FurnaceMeasurement {
   /** Mean over the ball. */
   readonly whole: readonly number[];
-  /** Mean over its rim, where the view is steeper than 75° to the normal: the hardest part. */
+  /** Mean over its rim, where the view is more than 60° off the normal: the hardest part. */
   readonly rim: readonly number[];
 }
 
@@ -94,7 +94,7 @@ export async function measureFurnace(device: GPUDevice, material: FurnaceMateria
         const value = (picture[i]! + picture[i + 1]! + picture[i + 2]!) / 3;
         sum += value;
         count++;
-        if (distance - 0.75 > radius * Math.sin((75 * Math.PI) / 180)) {
+        if (distance - 0.75 > radius * Math.sin((60 * Math.PI) / 180)) {
           rimSum += value;
           rimCount++;
         }
