@@ -105,7 +105,7 @@ describe('writing', () => {
   it('hands size, depth, seed and camera on', async () => {
     const { created } = await run(['render', 'm.glb', ...SIZE, '--depth', '2', '--seed', '9', '--camera', '{"position":[0,0,9],"fov":20}'], folder());
     expect(created[0]?.options).toMatchObject({ width: 8, height: 6, maxDepth: 2, seed: 9, background: 'environment' });
-    expect((created[0]?.options.camera as { yfov: number }).yfov).toBeCloseTo(Math.PI / 9, 12);
+    expect((created[0]?.options.camera as { yfov: number } | undefined)?.yfov).toBeCloseTo(Math.PI / 9, 12);
   });
 });
 

@@ -1,5 +1,5 @@
-import { wgslModule } from '@glanz/wgsl';
-import { finite, tonemapFinite } from './finite';
+import { wgslModule } from '@glanz/wgsl/module';
+import { finite, mapRgb, saturate, tonemapFinite } from './finite';
 import { transform, wgslMatrix, type Matrix3 } from './matrix';
 import type { Rgb } from './names';
 
@@ -27,7 +27,5 @@ const fit = (v: number) => (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 
 
 /** CPU twin of {@link tonemapAces}. */
 export function acesToneMap(rgb: Rgb): [number, number, number] {
-  const [x, y, z] = transform(INPUT, finite(rgb[0]), finite(rgb[1]), finite(rgb[2]));
-  const [r, g, b] = transform(OUTPUT, fit(x), fit(y), fit(z));
-  return [Math.min(Math.max(r, 0), 1), Math.min(Math.max(g, 0), 1), Math.min(Math.max(b, 0), 1)];
+  return mapRgb(transform(OUTPUT, mapRgb(transform(INPUT, finite(rgb)), fit)), saturate);
 }

@@ -1,19 +1,13 @@
-import { wgslModule } from '@glanz/wgsl';
-import { finite, tonemapFinite } from './finite';
+import { wgslModule } from '@glanz/wgsl/module';
+import { finite, mapRgb, saturate, tonemapFinite } from './finite';
 import { transform, wgslMatrix, type Matrix3 } from './matrix';
 import type { Rgb } from './names';
 
 // Troy Sobotka's AgX, base look, for linear Rec.709: "inset" the primaries towards grey, take log2, put each channel
 // through a sigmoid, "outset". The published LUT is made from a closed form, and that form is used here: the usual
 // polynomial fits of it miss black and are not monotone at the ends. Matrices by columns.
-const INSET: Matrix3 = [
-  0.842479062253094, 0.0423282422610123, 0.0423756549057051, 0.0784335999999992, 0.878468636469772, 0.0784336, 0.0792237451477643,
-  0.0791661274605434, 0.879142973793104,
-];
-const OUTSET: Matrix3 = [
-  1.19687900512017, -0.0528968517574562, -0.0529716355144438, -0.0980208811401368, 1.15190312990417, -0.0980434501171241, -0.0990297440797205,
-  -0.0989611768448433, 1.15107367264116,
-];
+const INSET: Matrix3 = [0.842479062, 0.042328242, 0.042375655, 0.0784336, 0.878468636, 0.0784336, 0.079223745, 0.079166127, 0.879142974];
+const OUTSET: Matrix3 = [1.196879005, -0.052896852, -0.052971636, -0.098020881, 1.15190313, -0.09804345, -0.099029744, -0.098961177, 1.151073673];
 /** Stops below and above middle grey (0.18) that the curve covers. */
 const BELOW = 10;
 const ABOVE = 6.5;
@@ -48,15 +42,12 @@ export const tonemapAgx = wgslModule(
 );
 
 function sigmoid(value: number): number {
-  const x = Math.min(Math.max((Math.log2(Math.max(value, 1e-10)) - LOWEST) / (BELOW + ABOVE), 0), 1) - PIVOT;
+  const x = saturate((Math.log2(Math.max(value, 1e-10)) - LOWEST) / (BELOW + ABOVE)) - PIVOT;
   if (x <= 0) return 0.5 + 2 * x * (1 + TOE * (-x) ** TOE_POWER) ** (-1 / TOE_POWER);
   return 0.5 + 2 * x * (1 + SHOULDER * x ** SHOULDER_POWER) ** (-1 / SHOULDER_POWER);
 }
 
 /** CPU twin of {@link tonemapAgx}. */
 export function agxToneMap(rgb: Rgb): [number, number, number] {
-  const [x, y, z] = transform(INSET, finite(rgb[0]), finite(rgb[1]), finite(rgb[2]));
-  const [r, g, b] = transform(OUTSET, sigmoid(x), sigmoid(y), sigmoid(z));
-  const decode = (code: number) => Math.min(Math.max(code, 0), 1) ** DISPLAY_POWER;
-  return [decode(r), decode(g), decode(b)];
+  return mapRgb(transform(OUTSET, mapRgb(transform(INSET, finite(rgb)), sigmoid)), (code) => saturate(code) ** DISPLAY_POWER);
 }

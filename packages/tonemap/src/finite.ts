@@ -1,4 +1,5 @@
-import { wgslModule } from '@glanz/wgsl';
+import { wgslModule } from '@glanz/wgsl/module';
+import type { Rgb } from './names';
 
 /**
  * The brightest value a view transform computes with: 2^20, twenty stops above white. Everything brighter is white in
@@ -22,7 +23,17 @@ export const tonemapFinite = wgslModule(
 }`,
 );
 
-/** CPU twin of {@link tonemapFinite} for one component. */
-export function finite(value: number): number {
-  return value > 0 ? Math.min(value, TONEMAP_MAX) : 0;
+/** A function of one number for each component. */
+export function mapRgb(rgb: Rgb, f: (v: number) => number): [number, number, number] {
+  return rgb.map(f) as [number, number, number];
+}
+
+/** CPU twin of {@link tonemapFinite}. */
+export function finite(rgb: Rgb): [number, number, number] {
+  return mapRgb(rgb, (v) => (v > 0 ? Math.min(v, TONEMAP_MAX) : 0));
+}
+
+/** To 0..1. */
+export function saturate(v: number): number {
+  return Math.min(Math.max(v, 0), 1);
 }

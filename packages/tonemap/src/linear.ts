@@ -1,5 +1,5 @@
-import { wgslModule } from '@glanz/wgsl';
-import { finite, tonemapFinite } from './finite';
+import { wgslModule } from '@glanz/wgsl/module';
+import { finite, mapRgb, saturate, tonemapFinite } from './finite';
 import type { Rgb } from './names';
 
 /** WGSL `fn tonemap_linear(linear: vec3f) -> vec3f`: no curve at all, components clipped to 0..1. */
@@ -13,5 +13,5 @@ export const tonemapLinear = wgslModule(
 
 /** CPU twin of {@link tonemapLinear}. */
 export function linearToneMap(rgb: Rgb): [number, number, number] {
-  return [Math.min(finite(rgb[0]), 1), Math.min(finite(rgb[1]), 1), Math.min(finite(rgb[2]), 1)];
+  return mapRgb(finite(rgb), saturate);
 }

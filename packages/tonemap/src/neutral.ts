@@ -1,5 +1,5 @@
-import { wgslModule } from '@glanz/wgsl';
-import { finite, tonemapFinite } from './finite';
+import { wgslModule } from '@glanz/wgsl/module';
+import { finite, mapRgb, tonemapFinite } from './finite';
 import type { Rgb } from './names';
 
 /** Reflectance at normal incidence of IOR 1.5: what a white furnace adds to a base colour, and the curve's toe takes away. */
@@ -31,19 +31,12 @@ export const tonemapNeutral = wgslModule(
 
 /** CPU twin of {@link tonemapNeutral}. */
 export function neutralToneMap(rgb: Rgb): [number, number, number] {
-  let r = finite(rgb[0]);
-  let g = finite(rgb[1]);
-  let b = finite(rgb[2]);
-  const x = Math.min(r, g, b);
+  const c = finite(rgb);
+  const x = Math.min(...c);
   const offset = x <= 2 * F90 ? x - (x * x) / (4 * F90) : F90;
-  r -= offset;
-  g -= offset;
-  b -= offset;
-  const peak = Math.max(r, g, b);
-  if (peak <= START) return [r, g, b];
+  const peak = Math.max(...c) - offset;
+  if (peak <= START) return mapRgb(c, (v) => v - offset);
   const compressed = 1 - (1 - START) ** 2 / (peak + 1 - 2 * START);
   const keep = 1 / (DESATURATION * (peak - compressed) + 1);
-  const scale = (compressed / peak) * keep;
-  const white = compressed * (1 - keep);
-  return [r * scale + white, g * scale + white, b * scale + white];
+  return mapRgb(c, (v) => compressed + ((v - offset) / peak - 1) * compressed * keep);
 }

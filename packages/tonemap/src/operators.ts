@@ -1,4 +1,4 @@
-import type { WgslModule } from '@glanz/wgsl';
+import type { WgslModule } from '@glanz/wgsl/module';
 import { acesToneMap, tonemapAces } from './aces';
 import { agxToneMap, tonemapAgx } from './agx';
 import { linearToneMap, tonemapLinear } from './linear';

@@ -1,4 +1,5 @@
-import { compose, createShaderModule, struct, wgslModule } from '@glanz/wgsl';
+import { compose } from '@glanz/wgsl/compose';
+import { wgslModule } from '@glanz/wgsl/module';
 import { ToneMapError, type ToneMap } from './names';
 import { toneMapOperator } from './operators';
 import { tonemapSrgb } from './srgb';
@@ -20,19 +21,13 @@ export interface ToneMapPassOptions extends ToneMapOptions {
 /** What can change between two draws. */
 export type ToneMapPassSettings = Partial<Pick<ToneMapPassOptions, 'exposure' | 'toneMap' | 'alpha' | 'filter'>>;
 
-const uniforms = struct('TonemapUniforms', {
-  source_size: 'vec2u',
-  target_size: 'vec2f',
-  exposure: 'f32',
-  opaque: 'u32',
-  bilinear: 'u32',
-});
-
+// Two vec4f rather than a struct: source size and target size; exposure factor, opaque, bilinear. A description by
+// struct() would be a fifth of this package's size.
 const passModule = (toneMap: ToneMap) =>
   wgslModule(
     `tonemap/pass-${toneMap}`,
     /* wgsl */ `
-@group(0) @binding(0) var<uniform> tonemap_uniforms: TonemapUniforms;
+@group(0) @binding(0) var<uniform> tonemap_uniforms: array<vec4f, 2>;
 @group(0) @binding(1) var<storage, read> tonemap_source: array<vec4f>;
 
 @vertex fn tonemap_vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f {
@@ -40,15 +35,16 @@ const passModule = (toneMap: ToneMap) =>
 }
 
 fn tonemap_texel(p: vec2i) -> vec4f {
-  let size = vec2i(tonemap_uniforms.source_size);
+  let size = vec2i(tonemap_uniforms[0].xy);
   let q = clamp(p, vec2i(0), size - 1);
-  return tonemap_source[u32(q.y * size.x + q.x)];
+  return tonemap_source[q.y * size.x + q.x];
 }
 
 @fragment fn tonemap_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
-  let p = position.xy * vec2f(tonemap_uniforms.source_size) / tonemap_uniforms.target_size;
+  let p = position.xy * tonemap_uniforms[0].xy / tonemap_uniforms[0].zw;
+  let settings = tonemap_uniforms[1];
   var texel: vec4f;
-  if (tonemap_uniforms.bilinear != 0u) {
+  if (settings.z > 0.0) {
     let corner = floor(p - 0.5);
     let f = p - 0.5 - corner;
     let c = vec2i(corner);
@@ -59,18 +55,17 @@ fn tonemap_texel(p: vec2i) -> vec4f {
     texel = tonemap_texel(vec2i(p));
   }
   var alpha = 1.0;
-  if (tonemap_uniforms.opaque == 0u) {
+  if (settings.y == 0.0) {
     alpha = min(tonemap_finite(texel.aaa).x, 1.0);
   }
-  // Coverage below any display's resolution shows nothing; dividing by it would only overflow.
   if (alpha < 1e-6) { return vec4f(0.0); }
-  var rgb = tonemap_${toneMap}(texel.rgb * (tonemap_uniforms.exposure / alpha));
+  var rgb = tonemap_${toneMap}(texel.rgb * (settings.x / alpha));
 //#if TONEMAP_ENCODE
   rgb = tonemap_srgb_encode(rgb);
 //#endif
   return vec4f(rgb * alpha, alpha);
 }`,
-    [uniforms.module, toneMapOperator(toneMap).wgsl, tonemapSrgb],
+    [toneMapOperator(toneMap).wgsl, tonemapSrgb],
   );
 
 /**
@@ -86,29 +81,17 @@ fn tonemap_texel(p: vec2i) -> vec4f {
 export class ToneMapPass {
   readonly #device: GPUDevice;
   readonly #format: GPUTextureFormat;
-  readonly #layout: GPUBindGroupLayout;
-  readonly #pipelineLayout: GPUPipelineLayout;
   readonly #uniforms: GPUBuffer;
-  readonly #data = uniforms.allocate();
   readonly #pipelines = new Map<ToneMap, Promise<GPURenderPipeline>>();
   #settings: Required<ToneMapPassSettings>;
   #pipeline: GPURenderPipeline | undefined;
-  #bound: { readonly source: GPUBuffer; readonly group: GPUBindGroup } | undefined;
-  #destroyed = false;
+  #bound: { readonly source: GPUBuffer; readonly pipeline: GPURenderPipeline; readonly group: GPUBindGroup } | undefined;
 
   private constructor(device: GPUDevice, options: ToneMapPassOptions) {
     this.#device = device;
     this.#format = options.format;
     this.#settings = { exposure: options.exposure ?? 0, toneMap: options.toneMap ?? 'neutral', alpha: options.alpha ?? 'premultiplied', filter: options.filter ?? 'bilinear' };
-    this.#layout = device.createBindGroupLayout({
-      label: 'tonemap layout',
-      entries: [
-        { binding: 0, visibility: GPU_STAGE_FRAGMENT, buffer: { type: 'uniform' } },
-        { binding: 1, visibility: GPU_STAGE_FRAGMENT, buffer: { type: 'read-only-storage' } },
-      ],
-    });
-    this.#pipelineLayout = device.createPipelineLayout({ label: 'tonemap pipeline layout', bindGroupLayouts: [this.#layout] });
-    this.#uniforms = device.createBuffer({ label: 'tonemap uniforms', size: uniforms.size, usage: GPU_USAGE_UNIFORM_COPY_DST });
+    this.#uniforms = device.createBuffer({ label: 'tonemap', size: 32, usage: UNIFORM_COPY_DST });
   }
 
   /**
@@ -145,7 +128,7 @@ export class ToneMapPass {
     const { toneMap } = this.#settings;
     const pipeline = await this.#pipelineOf(toneMap);
     // A later call may have asked for another tone map meanwhile: the last one wins.
-    if (this.#settings.toneMap === toneMap) this.#pipeline = pipeline;
+    if (this.#pipeline && this.#settings.toneMap === toneMap) this.#pipeline = pipeline;
   }
 
   /**
@@ -158,34 +141,22 @@ export class ToneMapPass {
    * @throws {ToneMapError} `tonemap/size` for an empty size or a buffer too small, `tonemap/destroyed` after {@link destroy}.
    */
   draw(encoder: GPUCommandEncoder, source: GPUBuffer, size: readonly [number, number], target: GPUTextureView, targetSize: readonly [number, number] = size): void {
-    if (this.#destroyed || !this.#pipeline) throw new ToneMapError('tonemap/destroyed', 'This ToneMapPass was destroyed; create another one.');
+    const pipeline = this.#pipeline;
+    if (!pipeline) throw new ToneMapError('tonemap/destroyed', 'This ToneMapPass was destroyed.');
     const [width, height] = size;
     if (!(width >= 1 && height >= 1 && targetSize[0] >= 1 && targetSize[1] >= 1) || source.size < width * height * 16) {
-      throw new ToneMapError('tonemap/size', `Cannot draw a ${width}×${height} picture from a buffer of ${source.size} bytes to ${targetSize[0]}×${targetSize[1]} pixels: sizes start at 1, a pixel takes 16 bytes.`);
+      throw new ToneMapError('tonemap/size', `Cannot draw a ${width}×${height} picture from a buffer of ${source.size} bytes to ${targetSize[0]}×${targetSize[1]} pixels; a pixel takes 16 bytes.`);
     }
     const { exposure, alpha, filter } = this.#settings;
     const sameSize = width === targetSize[0] && height === targetSize[1];
-    uniforms.write(this.#data, 0, {
-      source_size: size,
-      target_size: targetSize,
-      exposure: 2 ** exposure,
-      opaque: alpha === 'opaque' ? 1 : 0,
-      bilinear: filter === 'bilinear' && !sameSize ? 1 : 0,
-    });
-    this.#device.queue.writeBuffer(this.#uniforms, 0, this.#data);
-    if (this.#bound?.source !== source) {
-      const group = this.#device.createBindGroup({
-        label: 'tonemap group',
-        layout: this.#layout,
-        entries: [
-          { binding: 0, resource: { buffer: this.#uniforms } },
-          { binding: 1, resource: { buffer: source } },
-        ],
-      });
-      this.#bound = { source, group };
+    const values = [width, height, targetSize[0], targetSize[1], 2 ** exposure, alpha === 'opaque' ? 1 : 0, filter === 'bilinear' && !sameSize ? 1 : 0, 0];
+    this.#device.queue.writeBuffer(this.#uniforms, 0, new Float32Array(values));
+    if (this.#bound?.source !== source || this.#bound.pipeline !== pipeline) {
+      const entries = [this.#uniforms, source].map((buffer, binding) => ({ binding, resource: { buffer } }));
+      this.#bound = { source, pipeline, group: this.#device.createBindGroup({ label: 'tonemap', layout: pipeline.getBindGroupLayout(0), entries }) };
     }
     const pass = encoder.beginRenderPass({ label: 'tonemap', colorAttachments: [{ view: target, loadOp: 'clear', storeOp: 'store', clearValue: [0, 0, 0, 0] }] });
-    pass.setPipeline(this.#pipeline);
+    pass.setPipeline(pipeline);
     pass.setBindGroup(0, this.#bound.group);
     pass.draw(3);
     pass.end();
@@ -193,8 +164,7 @@ export class ToneMapPass {
 
   /** Frees the pass's buffer. May be called any number of times. */
   destroy(): void {
-    this.#destroyed = true;
-    this.#bound = undefined;
+    this.#pipeline = this.#bound = undefined;
     this.#pipelines.clear();
     this.#uniforms.destroy();
   }
@@ -209,20 +179,19 @@ export class ToneMapPass {
     return made;
   }
 
-  async #createPipeline(toneMap: ToneMap): Promise<GPURenderPipeline> {
+  #createPipeline(toneMap: ToneMap): Promise<GPURenderPipeline> {
     const label = `tonemap ${toneMap}`;
-    const shader = compose([passModule(toneMap)], { flags: { TONEMAP_ENCODE: !this.#format.endsWith('-srgb') } });
-    const module = await createShaderModule(this.#device, shader, label);
+    const { code } = compose([passModule(toneMap)], { flags: { TONEMAP_ENCODE: !this.#format.endsWith('-srgb') } });
+    const module = this.#device.createShaderModule({ label, code });
+    // Texts and layout are ours alone: a fault in them shows in the promise, and in the tests.
     return this.#device.createRenderPipelineAsync({
       label,
-      layout: this.#pipelineLayout,
-      vertex: { module, entryPoint: 'tonemap_vertex' },
-      fragment: { module, entryPoint: 'tonemap_fragment', targets: [{ format: this.#format }] },
-      primitive: { topology: 'triangle-list' },
+      layout: 'auto',
+      vertex: { module },
+      fragment: { module, targets: [{ format: this.#format }] },
     });
   }
 }
 
-// The numbers behind GPUShaderStage and GPUBufferUsage, which exist as globals in browsers only.
-const GPU_STAGE_FRAGMENT = 2;
-const GPU_USAGE_UNIFORM_COPY_DST = 0x40 | 0x8;
+// GPUBufferUsage.UNIFORM | COPY_DST; the constants exist as globals in browsers only.
+const UNIFORM_COPY_DST = 0x40 | 0x8;

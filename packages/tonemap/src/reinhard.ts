@@ -1,5 +1,5 @@
-import { wgslModule } from '@glanz/wgsl';
-import { finite, tonemapFinite } from './finite';
+import { wgslModule } from '@glanz/wgsl/module';
+import { finite, mapRgb, tonemapFinite } from './finite';
 import type { Rgb } from './names';
 
 /** Luminance that {@link tonemapReinhard} brings to exactly 1: two stops above white. */
@@ -22,10 +22,8 @@ export const tonemapReinhard = wgslModule(
 
 /** CPU twin of {@link tonemapReinhard}. */
 export function reinhardToneMap(rgb: Rgb): [number, number, number] {
-  const r = finite(rgb[0]);
-  const g = finite(rgb[1]);
-  const b = finite(rgb[2]);
-  const l = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+  const c = finite(rgb);
+  const l = 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
   const scale = (1 + l / REINHARD_WHITE ** 2) / (1 + l);
-  return [Math.min(r * scale, 1), Math.min(g * scale, 1), Math.min(b * scale, 1)];
+  return mapRgb(c, (v) => Math.min(v * scale, 1));
 }

@@ -1,3 +1,4 @@
+import { mapRgb } from './finite';
 import { ToneMapError, type Rgb, type ToneMap } from './names';
 import { toneMapOperator } from './operators';
 import { srgbEncode } from './srgb';
@@ -37,8 +38,7 @@ interface Outputs {
  */
 export function toneMap(rgb: Rgb, options: ToneMapOptions = {}): [number, number, number] {
   const scale = 2 ** (options.exposure ?? 0);
-  const [r, g, b] = toneMapOperator(options.toneMap ?? 'neutral').map([rgb[0] * scale, rgb[1] * scale, rgb[2] * scale]);
-  return [srgbEncode(r), srgbEncode(g), srgbEncode(b)];
+  return mapRgb(toneMapOperator(options.toneMap ?? 'neutral').map(mapRgb(rgb, (v) => v * scale)), srgbEncode);
 }
 
 /**
