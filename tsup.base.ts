@@ -1,5 +1,5 @@
 import { defineConfig } from 'tsup';
-import { pureConstants } from './tools/pipeline/pure.mjs';
+import { publishedSource } from './tools/pipeline/published-source.mjs';
 
 /**
  * One build recipe for every package: ESM with declarations, one file per entry, chunks shared between entries.
@@ -16,7 +16,7 @@ export function glanzPackage(entries: Record<string, string>, options: { readonl
     treeshake: true,
     splitting: true,
     external: [...(options.external ?? [])],
-    esbuildPlugins: [pureConstants],
+    esbuildPlugins: [publishedSource],
     // The condition "@glanz/source" must not apply here: published declarations point at published packages.
     dts: { compilerOptions: { ignoreDeprecations: '6.0', customConditions: [] } },
   });

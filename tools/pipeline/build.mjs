@@ -17,7 +17,7 @@ function filesUnder(folder) {
 /** A hash of all that a package's build reads; contents, not times, so that a fresh clone or a changed branch is judged right. */
 function fingerprint(p, dependencies) {
   const hash = createHash('sha256');
-  const inputs = [...filesUnder(join(p.dir, 'src')), join(p.dir, 'package.json'), join(p.dir, 'tsup.config.ts'), join(root, 'tsup.base.ts'), join(root, 'tools/pipeline/pure.mjs'), join(root, 'tsconfig.base.json'), join(root, 'pnpm-lock.yaml')];
+  const inputs = [...filesUnder(join(p.dir, 'src')), join(p.dir, 'package.json'), join(p.dir, 'tsup.config.ts'), join(root, 'tsup.base.ts'), join(root, 'tools/pipeline/published-source.mjs'), join(root, 'tsconfig.base.json'), join(root, 'pnpm-lock.yaml')];
   for (const file of inputs) {
     if (existsSync(file)) hash.update(relative(root, file)).update('\0').update(readFileSync(file)).update('\0');
   }

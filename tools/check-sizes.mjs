@@ -1,0 +1,51 @@
+// node tools/check-sizes.mjs — what a page pays for everything that a package exports, minified by esbuild and gzipped,
+// by itself and with all its dependencies, against a budget.
+import { PEERS, bundle } from './pipeline/bundle.mjs';
+import { installPacked } from './pipeline/packed.mjs';
+import { Verdicts, columns, runAlone } from './pipeline/report.mjs';
+import { entriesOf } from './pipeline/workspace.mjs';
+
+/**
+ * Budgets in kB (1000 bytes), min+gz: of the package's own code, or with all its dependencies (`withDependencies`). The
+ * energy tables are an entry of their own, which the host loads when it likes.
+ */
+const BUDGETS = [
+  { specifier: '@glanz/bvh', limit: 10 },
+  { specifier: '@glanz/openpbr', limit: 30, without: '@glanz/openpbr/tables' },
+  { specifier: '@glanz/tonemap', limit: 5 },
+  { specifier: '@glanz/renderer', limit: 100, withDependencies: true },
+  { specifier: '@glanz/gltf', limit: 40, withDependencies: true },
+];
+
+const kB = (bytes) => (bytes / 1000).toFixed(2);
+
+export async function checkSizes() {
+  const verdicts = new Verdicts();
+  const consumer = await installPacked();
+  const rows = [];
+  for (const p of consumer.packages.filter(({ short }) => short !== 'cli')) {
+    const foreign = Object.keys(p.manifest.dependencies ?? {}).flatMap((name) => [name, `${name}/*`]);
+    for (const { path, specifier } of entriesOf(p)) {
+      if (path === './node') continue;
+      await verdicts.attempt(specifier, async () => {
+        const code = `export * from '${specifier}';`;
+        const own = await bundle(consumer, code, { external: [...PEERS, ...foreign] });
+        const all = await bundle(consumer, code, { external: PEERS });
+        const { limit, withDependencies, without } = BUDGETS.find((budget) => budget.specifier === specifier) ?? {};
+        rows.push([specifier, kB(own.gzip), kB(all.gzip), limit === undefined ? '' : `${limit} ${withDependencies ? 'with all' : 'own'}`]);
+        if (limit === undefined) return;
+        const size = (withDependencies ? all : own).gzip;
+        verdicts.expect(size <= limit * 1000, `${specifier}: ${kB(size)} kB min+gz, over its budget of ${limit} kB.`);
+        if (!without) return;
+        const [heaviest] = Object.entries((await bundle(consumer, `export * from '${without}';`)).inputs).sort((a, b) => b[1] - a[1])[0];
+        const carried = all.inputs[heaviest] ?? 0;
+        verdicts.expect(carried < 4000, `${specifier} carries the data of ${without} (${carried} bytes of ${heaviest}).`);
+      });
+    }
+  }
+  for (const { specifier } of BUDGETS) verdicts.expect(rows.some(([name]) => name === specifier), `${specifier} has a budget but was not measured.`);
+  verdicts.table.push(...columns([['entry', 'own kB', 'with dependencies', 'budget'], ...rows], [1, 2]));
+  return verdicts;
+}
+
+await runAlone(import.meta, checkSizes);

@@ -1,0 +1,63 @@
+// node tools/check-treeshake.mjs — a page that uses one symbol pays for that symbol.
+//
+// Each package is bundled twice: `import '@glanz/x'` alone must leave nothing, also when the bundler does not believe
+// `sideEffects: false`; and one symbol imported must not bring the text of unrelated features.
+import { PEERS, bundle } from './pipeline/bundle.mjs';
+import { installPacked } from './pipeline/packed.mjs';
+import { Verdicts, columns, runAlone } from './pipeline/report.mjs';
+import { entriesOf } from './pipeline/workspace.mjs';
+
+/**
+ * One symbol per line: what its bundle must hold (else the test would prove nothing) and what it must not, though the
+ * same entry exports it.
+ */
+const SYMBOLS = [
+  { from: '@glanz/wgsl', symbol: 'struct', has: ['wgsl/unknown-field'], lacks: ['wgsl/unbalanced-gate', 'getCompilationInfo'] },
+  { from: '@glanz/wgsl', symbol: 'compose', has: ['wgsl/unbalanced-gate'], lacks: ['wgsl/field-length', 'getCompilationInfo'] },
+  { from: '@glanz/scene', symbol: 'SceneError', has: ['extends'], lacks: ['scene/length', 'yfov'] },
+  { from: '@glanz/bvh', symbol: 'buildBlas', has: ['bvh/'], lacks: ['fn bvh_', 'struct Bvh'] },
+  { from: '@glanz/openpbr', symbol: 'OPENPBR_PARAMETERS', has: ['specular_roughness'], lacks: ['fn openpbr_'] },
+  { from: '@glanz/openpbr', symbol: 'openPbrStruct', has: ['base_color'], lacks: ['fn openpbr_sample'] },
+  { from: '@glanz/tonemap', symbol: 'tonemapAgx', has: ['fn tonemap_agx'], lacks: ['fn tonemap_aces', 'createRenderPipeline', 'fn tonemap_neutral'] },
+  { from: '@glanz/tonemap', symbol: 'toneMap', has: ['agx'], lacks: ['createRenderPipeline'] },
+  { from: '@glanz/image', symbol: 'decodeHdr', has: ['RADIANCE'], lacks: ['IHDR', 'ZIP_COMPRESSION', 'chlist'] },
+  { from: '@glanz/gltf', symbol: 'GltfError', has: ['extends'], lacks: ['KHR_lights_punctual', 'KHR_materials_emissive_strength'] },
+  { from: '@glanz/renderer', symbol: 'requestDevice', has: ['renderer/no-adapter'], lacks: ['@compute', 'fn bvh_', 'fn openpbr_'] },
+];
+
+export async function checkTreeShaking() {
+  const verdicts = new Verdicts();
+  const consumer = await installPacked();
+  const rows = [];
+  for (const p of consumer.packages) {
+    if (p.short === 'cli') continue;
+    for (const { path, specifier } of entriesOf(p)) {
+      if (path === './node') continue;
+      await verdicts.attempt(`import '${specifier}'`, async () => {
+        const trusting = await bundle(consumer, `import '${specifier}';`, { external: PEERS });
+        verdicts.expect(trusting.text.trim() === '', `import '${specifier}' leaves ${trusting.bytes} bytes: ${trusting.text.slice(0, 160)}`);
+        // Without believing sideEffects, what other people's dependencies leave is theirs; ours must be gone.
+        const { inputs, text } = await bundle(consumer, `import '${specifier}';`, { external: PEERS, keepEffects: true });
+        const ours = Object.entries(inputs).filter(([file, bytes]) => bytes > 0 && file.includes('@glanz/'));
+        verdicts.expect(ours.length === 0, `import '${specifier}' runs code: ${ours.map(([file, bytes]) => `${file} (${bytes} bytes)`).join(', ')}: ${text.slice(0, 200)}`);
+      });
+    }
+  }
+  for (const { from, symbol, has, lacks } of SYMBOLS) {
+    await verdicts.attempt(`{ ${symbol} } from ${from}`, async () => {
+      const whole = await bundle(consumer, `export * from '${from}';`, { external: PEERS });
+      const one = await bundle(consumer, `export { ${symbol} } from '${from}';`, { external: PEERS });
+      const faults = [
+        ...has.filter((marker) => !one.text.includes(marker)).map((marker) => `lacks "${marker}"`),
+        ...lacks.filter((marker) => one.text.includes(marker)).map((marker) => `drags in "${marker}"`),
+        ...lacks.filter((marker) => !whole.text.includes(marker)).map((marker) => `"${marker}" is nowhere in the package: choose another marker`),
+      ];
+      verdicts.expect(faults.length === 0, `{ ${symbol} } from ${from}: ${faults.join('; ')}.`);
+      rows.push([`{ ${symbol} }`, from, (one.gzip / 1000).toFixed(2), (whole.gzip / 1000).toFixed(2)]);
+    });
+  }
+  verdicts.table.push(...columns([['symbol', 'from', 'kB min+gz', 'of'], ...rows], [2, 3]));
+  return verdicts;
+}
+
+await runAlone(import.meta, checkTreeShaking);

@@ -1,0 +1,114 @@
+// npm test — everything that must pass, in the order that finds mistakes soonest. Called through tools/run.mjs, which
+// has installed the dependencies by now.
+//
+// npm test -- --list              the stages
+// npm test -- --only types,unit   some of them
+// npm test -- --skip e2e          all but some
+import { existsSync, mkdirSync, readFileSync, rmSync } from 'node:fs';
+import { join } from 'node:path';
+import { parseArgs } from 'node:util';
+import { ensureBuilt } from './pipeline/build.mjs';
+import { TaskError, bin, main, root, stream } from './pipeline/process.mjs';
+import { columns } from './pipeline/report.mjs';
+
+const reports = join(root, '.cache', 'reports');
+const node = (script, args, options) => stream(process.execPath, [script, ...args], options);
+
+/** A stage that is one program: it passes if the program ends well. */
+async function program(script, args) {
+  const code = await node(script, args);
+  return { passed: code === 0 ? 1 : 0, failed: code === 0 ? 0 : 1, lines: code === 0 ? [] : [`ended with code ${code}`] };
+}
+
+/** A stage that is a check of ours. */
+const check = (file, name) => async () => (await import(file))[name]();
+
+function readReport(file) {
+  return existsSync(file) ? JSON.parse(readFileSync(file, 'utf8')) : undefined;
+}
+
+async function unit() {
+  const file = join(reports, 'vitest.json');
+  const code = await node(bin('vitest', 'vitest.mjs'), ['run', '--reporter=default', '--reporter=json', `--outputFile.json=${file}`]);
+  const report = readReport(file);
+  const { numPassedTests: passed = 0, numFailedTests = 0, numPendingTests: skipped = 0 } = report ?? {};
+  // Errors outside of tests, and files that do not load, fail the run without failing a test.
+  const failed = Math.max(numFailedTests, code === 0 ? 0 : 1, passed === 0 ? 1 : 0);
+  return { passed, failed, skipped, lines: failed > numFailedTests ? [report ? 'a test file or a hook failed outside of its tests: see above' : 'vitest left no report'] : [] };
+}
+
+async function e2e() {
+  if (!existsSync(join(root, 'playwright.config.ts'))) return { passed: 0, failed: 1, lines: ['there is no playwright.config.ts'] };
+  const file = join(reports, 'playwright.json');
+  const code = await node(bin('@playwright/test', 'cli.js'), ['test', '--reporter=list,json'], { env: { PLAYWRIGHT_JSON_OUTPUT_NAME: file } });
+  const { expected: passed = 0, unexpected = 0, flaky = 0, skipped = 0 } = readReport(file)?.stats ?? {};
+  const failed = Math.max(unexpected + flaky, code === 0 && passed > 0 ? 0 : 1);
+  return { passed, failed, skipped, lines: failed > 0 && unexpected + flaky === 0 ? [`playwright ended with code ${code}, ${passed} tests passed`] : [] };
+}
+
+async function build() {
+  const { built, fresh } = await ensureBuilt();
+  return { passed: built.length + fresh.length, failed: 0, table: [`${built.length} built, ${fresh.length} up to date`] };
+}
+
+/** @type {{ name: string, title: string, run: () => Promise<import('./pipeline/report.mjs').CheckResult> }[]} */
+const STAGES = [
+  { name: 'imports', title: 'who imports whom', run: check('./check-imports.mjs', 'checkImports') },
+  { name: 'exports', title: 'export maps and builds agree', run: check('./check-exports.mjs', 'checkExports') },
+  { name: 'lint', title: 'oxlint, warnings are errors', run: () => program(bin('oxlint', 'bin/oxlint'), ['--deny-warnings']) },
+  { name: 'types', title: 'TypeScript 7, the whole repository', run: () => program(bin('typescript-native', 'bin/tsc'), ['--noEmit', '-p', 'tsconfig.json']) },
+  { name: 'docs', title: 'a doc comment on every exported symbol', run: check('./check-docs.mjs', 'checkDocs') },
+  { name: 'build', title: 'every package', run: build },
+  { name: 'published', title: 'publint, attw, declarations at consumers', run: check('./check-published.mjs', 'checkPublished') },
+  { name: 'sizes', title: 'budgets', run: check('./check-sizes.mjs', 'checkSizes') },
+  { name: 'treeshake', title: 'one symbol brings only itself', run: check('./check-treeshake.mjs', 'checkTreeShaking') },
+  { name: 'entries', title: 'importing does nothing, in bare Node', run: check('./check-entries.mjs', 'checkEntries') },
+  { name: 'unit', title: 'unit and GPU tests', run: unit },
+  { name: 'e2e', title: 'playground and documentation in Chromium', run: e2e },
+];
+
+function chosenStages() {
+  let values;
+  try {
+    ({ values } = parseArgs({ options: { only: { type: 'string' }, skip: { type: 'string' }, list: { type: 'boolean' } } }));
+  } catch (error) {
+    throw new TaskError(`${error.message} Options: --only a,b, --skip a,b, --list.`);
+  }
+  const names = (text) => text.split(',').map((name) => name.trim());
+  for (const name of [...(values.only ? names(values.only) : []), ...(values.skip ? names(values.skip) : [])]) {
+    if (!STAGES.some((stage) => stage.name === name)) throw new TaskError(`there is no stage "${name}"; stages: ${STAGES.map((stage) => stage.name).join(', ')}.`);
+  }
+  if (values.list) return undefined;
+  return STAGES.filter(({ name }) => (values.only ? names(values.only).includes(name) : true) && !(values.skip && names(values.skip).includes(name)));
+}
+
+const seconds = (ms) => `${(ms / 1000).toFixed(1)} s`;
+
+await main(async () => {
+  const stages = chosenStages();
+  if (!stages) return void process.stdout.write(`${columns(STAGES.map(({ name, title }) => [name, title])).join('\n')}\n`);
+  rmSync(reports, { recursive: true, force: true });
+  mkdirSync(reports, { recursive: true });
+  const start = performance.now();
+  const rows = [];
+  let passed = 0;
+  let failed = 0;
+  for (const { name, title, run } of stages) {
+    process.stdout.write(`\n── ${name}: ${title}\n`);
+    const from = performance.now();
+    let result;
+    try {
+      result = await run();
+    } catch (error) {
+      result = { passed: 0, failed: 1, lines: [error instanceof TaskError ? error.message : (error?.stack ?? String(error))] };
+    }
+    for (const line of [...(result.table ?? []), ...(result.lines ?? [])]) process.stdout.write(`${line}\n`);
+    passed += result.passed;
+    failed += result.failed;
+    rows.push([name, String(result.passed), String(result.failed), String(result.skipped ?? 0), seconds(performance.now() - from)]);
+  }
+  rows.push(['all', String(passed), String(failed), String(rows.reduce((sum, row) => sum + Number(row[3]), 0)), seconds(performance.now() - start)]);
+  process.stdout.write(`\n${columns([['stage', 'passed', 'failed', 'skipped', 'time'], ...rows], [1, 2, 3, 4]).join('\n')}\n\n`);
+  process.stdout.write(`checks: ${passed} passed, ${failed} failed\n`);
+  return failed > 0 ? 1 : 0;
+});
