@@ -4,6 +4,7 @@ import type { GatedDependency, WgslModule } from './module';
 /** Thrown by {@link compose}. Codes: `wgsl/cycle`, `wgsl/unknown-flag`, `wgsl/unbalanced-gate`, `wgsl/duplicate-name`. */
 export class WgslComposeError extends GlanzError {}
 
+/** What {@link compose} may be told. */
 export interface ComposeOptions {
   /** Every flag that any composed text mentions must be given here: a missing one is an error, not `false`. */
   readonly flags?: Readonly<Record<string, boolean>>;
@@ -37,9 +38,16 @@ interface Gate {
 
 const GATE = /^\s*\/\/#(if|else|endif)\b\s*(!?)\s*([A-Za-z_]\w*)?\s*$/;
 
-function flagValue(flags: Readonly<Record<string, boolean>>, name: string, module: string, line: number): boolean {
+/** `enable f16;`, `requires …;`, `diagnostic(…);`: WGSL takes them only before all declarations. */
+const DIRECTIVE = /^\s*(?:enable\s|requires\s|diagnostic\s*\().*;\s*$/;
+
+/** @param line Where a gate asks; left out for a gated dependency. */
+function flagValue(flags: Readonly<Record<string, boolean>>, name: string, module: string, line?: number): boolean {
   if (!Object.hasOwn(flags, name)) {
-    throw new WgslComposeError('wgsl/unknown-flag', `WGSL module "${module}" asks for the flag "${name}", which was not given. Known flags: ${Object.keys(flags).sort().join(', ') || 'none'}.`, { location: { module, line } });
+    const where = line === undefined ? `"${module}"` : `"${module}" line ${line}`;
+    throw new WgslComposeError('wgsl/unknown-flag', `WGSL module ${where} asks for the flag "${name}", which was not given. Known flags: ${Object.keys(flags).sort().join(', ') || 'none'}.`, {
+      location: line === undefined ? { module } : { module, line },
+    });
   }
   return flags[name] === true;
 }
@@ -99,7 +107,7 @@ function order(roots: readonly WgslModule[], flags: Readonly<Record<string, bool
     path.push(module);
     for (const dep of module.deps) {
       if (!isGated(dep)) visit(dep);
-      else if (flagValue(flags, dep.flag, module.name, 0) === dep.value) visit(dep.module);
+      else if (flagValue(flags, dep.flag, module.name) === dep.value) visit(dep.module);
     }
     path.pop();
     done.add(module);
@@ -116,6 +124,7 @@ function isGated(dep: WgslModule | GatedDependency): dep is GatedDependency {
 /**
  * Puts WGSL modules together into one shader text: dependencies first, each module once, gated text left out.
  * Leaving text out is what keeps pipelines quick to compile; `override` constants do not prune.
+ * Directives (`enable`, `requires`, `diagnostic`), one a line, move to the top, each once.
  *
  * @param roots The modules that hold the entry points, or any others to include.
  * @throws {WgslComposeError} on cycles, unknown flags, unbalanced gates, or two modules of one name.
@@ -125,18 +134,25 @@ function isGated(dep: WgslModule | GatedDependency): dep is GatedDependency {
  */
 export function compose(roots: readonly WgslModule[], options: ComposeOptions = {}): ComposedWgsl {
   const flags = options.flags ?? {};
-  const out: string[] = [];
-  const starts: WgslLocation[] = [];
+  const directives = new Map<string, WgslLocation>();
+  const texts: string[] = [];
+  const places: WgslLocation[] = [];
   const modules = order(roots, flags);
   for (const module of modules) {
     forEachKeptLine(module, flags, (text, line) => {
-      out.push(text);
-      starts.push({ module: module.name, line });
+      const place = { module: module.name, line };
+      if (DIRECTIVE.test(text)) {
+        if (!directives.has(text.trim())) directives.set(text.trim(), place);
+        return;
+      }
+      texts.push(text);
+      places.push(place);
     });
   }
+  places.unshift(...directives.values());
   return {
-    code: out.join('\n') + '\n',
+    code: `${[...directives.keys(), ...texts].join('\n')}\n`,
     modules: modules.map((m) => m.name),
-    locate: (line) => starts[line - 1],
+    locate: (line) => places[line - 1],
   };
 }

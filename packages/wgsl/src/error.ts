@@ -12,8 +12,11 @@ export interface ErrorLocation {
   readonly line?: number;
 }
 
+/** What a {@link GlanzError} may carry besides its code and message. */
 export interface GlanzErrorOptions {
+  /** The error that led to this one. */
   readonly cause?: unknown;
+  /** Where it happened, as far as it is known. */
   readonly location?: ErrorLocation;
 }
 

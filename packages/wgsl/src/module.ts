@@ -20,8 +20,11 @@ export interface WgslModule {
 
 /** A dependency that is composed in only if `flag` has the value `value`. */
 export interface GatedDependency {
+  /** The module that is composed in, or not. */
   readonly module: WgslModule;
+  /** Name of the flag, without `!`. */
   readonly flag: string;
+  /** The value that the flag must have. */
   readonly value: boolean;
 }
 

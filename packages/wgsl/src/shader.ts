@@ -1,29 +1,34 @@
 import type { ComposedWgsl } from './compose';
 import { GlanzError } from './error';
 
-/** A shader that the WebGPU implementation refused. `location` names the WGSL module and the line inside it. */
+/** A shader that the WebGPU implementation refused. `location` names the WGSL module and the line inside it. Code: `wgsl/compile`. */
 export class ShaderError extends GlanzError {}
+
+const oneLine = (text: string) => text.trim().replace(/\s*\n\s*/g, ' ');
 
 /**
  * Creates a shader module and waits for the compiler's word on it, translating every complaint back to the module and
- * line it came from.
+ * line it came from. The device's `uncapturederror` event stays silent: the error is thrown here, and only here.
  *
  * @param label Appears in the browser's own messages.
  * @throws {ShaderError} code `wgsl/compile` with the first error, its module, its line and the text of that line.
  */
 export async function createShaderModule(device: GPUDevice, shader: ComposedWgsl, label: string): Promise<GPUShaderModule> {
+  device.pushErrorScope('validation');
   const module = device.createShaderModule({ label, code: shader.code });
-  const info = await module.getCompilationInfo();
+  const [validation, info] = await Promise.all([device.popErrorScope(), module.getCompilationInfo()]);
   const errors = info.messages.filter((message) => message.type === 'error');
   const first = errors[0];
   if (first) {
     const place = shader.locate(first.lineNum);
-    const text = shader.code.split('\n')[first.lineNum - 1]?.trim() ?? '';
-    const where = place ? `${place.module}:${place.line}` : `line ${first.lineNum}`;
+    const text = shader.code.split('\n')[first.lineNum - 1]?.trim();
+    // Line 0 stands for the whole shader.
+    const where = place ? `${place.module}:${place.line}: ` : first.lineNum > 0 ? `line ${first.lineNum}: ` : '';
     const more = errors.length > 1 ? ` (and ${errors.length - 1} more)` : '';
-    throw new ShaderError('wgsl/compile', `Shader "${label}" does not compile: ${where}: ${first.message}${more} — "${text}"`, {
-      location: place ? { module: place.module, line: place.line } : { line: first.lineNum },
+    throw new ShaderError('wgsl/compile', `Shader "${label}" does not compile: ${where}${oneLine(first.message)}${more}${text ? ` — "${text}"` : ''}`, {
+      ...(place ? { location: { module: place.module, line: place.line } } : first.lineNum > 0 ? { location: { line: first.lineNum } } : {}),
     });
   }
+  if (validation) throw new ShaderError('wgsl/compile', `Shader "${label}" was refused: ${oneLine(validation.message)}`);
   return module;
 }
