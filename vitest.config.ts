@@ -20,7 +20,7 @@ export default defineConfig({
   test: {
     projects: [
       ...['wgsl', 'scene', 'bvh', 'openpbr', 'gltf', 'tonemap', 'image', 'renderer', 'cli'].map((name) => project(name, `packages/${name}`)),
-      ...['models', 'bench', 'reference', 'gpu'].map((name) => project(`tools-${name}`, `tools/${name}`)),
+      ...['models', 'bench', 'reference', 'gpu', 'pipeline'].map((name) => project(`tools-${name}`, `tools/${name}`)),
     ],
     // One GPU process at a time on two cores keeps the software driver from starving itself.
     maxWorkers: 2,

@@ -1,0 +1,35 @@
+// npm run demo — makes the push-button and path-traces it into out/demo.png: on a real GPU in full, without one on the
+// processor, smaller and with fewer samples. Arguments after -- go to glanz render.
+import { existsSync, rmSync } from 'node:fs';
+import { join, relative } from 'node:path';
+import { TaskError, capture, main, root, stream } from './pipeline/process.mjs';
+
+const glanz = join(root, 'packages/cli/dist/glanz.js');
+const model = join(root, 'out/models/push-button-medium.glb');
+const picture = join(root, 'out/demo.png');
+
+/** True if something better than the processor is there. */
+async function hasRealGpu() {
+  const { output } = await capture(process.execPath, [glanz, '--list-gpus', '--json']);
+  try {
+    const line = output.split('\n').find((text) => text.startsWith('{'));
+    return JSON.parse(line ?? '{}').gpus?.some((gpu) => !gpu.software) ?? false;
+  } catch {
+    return false;
+  }
+}
+
+await main(async () => {
+  const start = performance.now();
+  if (!existsSync(model)) {
+    const code = await stream(process.execPath, [join(root, 'tools/models/write.mjs'), 'push-button-medium']);
+    if (code !== 0) throw new TaskError(`the model could not be written (code ${code}).`);
+  }
+  const size = (await hasRealGpu()) ? ['--size', '1280x960', '--samples', '1024'] : ['--size', '640x480', '--samples', '48'];
+  rmSync(picture, { force: true });
+  const code = await stream(process.execPath, [glanz, 'render', model, '-o', picture, ...size, ...process.argv.slice(2)]);
+  if (!existsSync(picture)) throw new TaskError(`no picture was made (glanz ended with code ${code}).`, code || 1);
+  process.stderr.write(`\n${relative(process.cwd(), picture) || picture} is done, after ${Math.round((performance.now() - start) / 1000)} s.\n`);
+  process.stderr.write('Next: npm start opens the playground, where you drop a .glb of your own; npm run glanz -- --help tells about the command.\n');
+  return code;
+});

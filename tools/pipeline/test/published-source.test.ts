@@ -1,0 +1,81 @@
+import { build } from 'esbuild';
+import { describe, expect, it } from 'vitest';
+import { preparePublished } from '../published-source.mjs';
+
+/** What a bundler keeps of a module that is imported for nothing, not trusting `sideEffects`. */
+async function leftover(code: string): Promise<string> {
+  const { outputFiles } = await build({
+    stdin: { contents: `import 'm';`, loader: 'ts' },
+    bundle: true,
+    write: false,
+    minify: true,
+    format: 'esm',
+    plugins: [
+      {
+        name: 'module',
+        setup(context) {
+          context.onResolve({ filter: /^m$/ }, () => ({ path: 'm', namespace: 'test', sideEffects: true }));
+          context.onResolve({ filter: /^x$/ }, () => ({ path: 'x', external: true, sideEffects: false }));
+          context.onLoad({ filter: /^m$/, namespace: 'test' }, () => ({ contents: code, loader: 'ts' }));
+        },
+      },
+    ],
+  });
+  return outputFiles[0]!.text.replace(/import ?(?:\{[^}]*\} ?from ?)?"x";/g, '').trim();
+}
+
+describe('constants', () => {
+  const used = [
+    `import { call } from 'x'; export const a = call(1, [2]);`,
+    `import { other, call } from 'x'; const a = call('n', other.module); export const b = call(a);`,
+    `import { a } from 'x'; export const b = a.c * 2, d = 1 / b;`,
+    `import { a } from 'x'; export const limit = a ** 26;`,
+    `import { a } from 'x'; export const c = [...a, { [a]: 1 }];`,
+    'import { a } from "x"; export const t = `fn ${a()} {}`;',
+  ];
+
+  it.each(used)('are dropped when nobody uses them: %s', async (code) => {
+    expect(await leftover(preparePublished(code))).toBe('');
+  });
+
+  it('would otherwise stay: the test above can fail', async () => {
+    expect((await Promise.all(used.map(leftover))).filter((text) => text !== '').length).toBe(used.length);
+  });
+
+  it('keep their values', async () => {
+    const code = `const two = 1 + 1, text = \`\${two}\${[two].length}\`;\nexport default [two, text, ((n: number) => -n)(3), { two }.two];`;
+    const load = async (source: string) => {
+      const { outputFiles } = await build({ stdin: { contents: source, loader: 'ts' }, write: false, format: 'esm' });
+      return ((await import(`data:text/javascript,${encodeURIComponent(outputFiles[0]!.text)}`)) as { default: unknown }).default;
+    };
+    expect(await load(preparePublished(code))).toEqual([2, '21', -3, 2]);
+    expect(await load(code)).toEqual([2, '21', -3, 2]);
+  });
+
+  it('that are plain values, functions or not constant are left as they are', () => {
+    const code = `export const a = 1, b = 'x', c = [a, -1, { d: b }], e = () => a.toString(), f = \`x\`;\nexport let g = e();\nfunction h() { const i = e(); }`;
+    expect(preparePublished(code)).toBe(code);
+  });
+});
+
+describe('WGSL templates', () => {
+  it('lose comments and indentation, and keep gates and line breaks', () => {
+    const code = 'export const m = f(/* wgsl */ `\n  // why\n  fn a() { // what\n    //#if COAT\n    b(); //!\n    //#endif\n\n  }`);';
+    expect(preparePublished(code)).toContain('`\n\nfn a() {\n//#if COAT\nb();\n//#endif\n\n}`');
+  });
+
+  it('keep a comment that runs on into a substitution, and what follows a substitution', () => {
+    const code = 'export const m = f(/* wgsl */ `\n  // about ${name} in units\n  const x = ${value};  // said\n  let y = 1;`);';
+    expect(preparePublished(code)).toContain('`\n// about ${name} in units\nconst x = ${value};  // said\nlet y = 1;`');
+  });
+
+  it('are found inside functions and inside substitutions', () => {
+    const code = 'const f = () => /* wgsl */ `  a\n  ${/* wgsl */ `  b // c\n  d`}`;';
+    expect(preparePublished(code)).toBe('const f = () => /* wgsl */ `a\n${/* wgsl */ `b\nd`}`;');
+  });
+
+  it('alone are touched: other templates keep their spaces', () => {
+    const code = 'export const help = () => `\n  // this stays\n`;';
+    expect(preparePublished(code)).toBe(code);
+  });
+});
