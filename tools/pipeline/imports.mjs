@@ -130,9 +130,9 @@ function scriptOf(path) {
   return text
     .split('\n')
     .map((line) => {
-      if (/^<script\b/.test(line)) return ((inside = true), '');
-      if (/^<\/script>/.test(line)) return ((inside = false), '');
-      return inside ? line : '';
+      const edge = line.startsWith('<script') || line.startsWith('</script>');
+      if (edge) inside = line.startsWith('<script');
+      return inside && !edge ? line : '';
     })
     .join('\n');
 }

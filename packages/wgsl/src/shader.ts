@@ -25,9 +25,8 @@ export async function createShaderModule(device: GPUDevice, shader: ComposedWgsl
     // Line 0 stands for the whole shader.
     const where = place ? `${place.module}:${place.line}: ` : first.lineNum > 0 ? `line ${first.lineNum}: ` : '';
     const more = errors.length > 1 ? ` (and ${errors.length - 1} more)` : '';
-    throw new ShaderError('wgsl/compile', `Shader "${label}" does not compile: ${where}${oneLine(first.message)}${more}${text ? ` — "${text}"` : ''}`, {
-      ...(place ? { location: { module: place.module, line: place.line } } : first.lineNum > 0 ? { location: { line: first.lineNum } } : {}),
-    });
+    const location = place ? { module: place.module, line: place.line } : { line: first.lineNum };
+    throw new ShaderError('wgsl/compile', `Shader "${label}" does not compile: ${where}${oneLine(first.message)}${more}${text ? ` — "${text}"` : ''}`, first.lineNum > 0 ? { location } : {});
   }
   if (validation) throw new ShaderError('wgsl/compile', `Shader "${label}" was refused: ${oneLine(validation.message)}`);
   return module;

@@ -115,7 +115,7 @@ describe('gates', () => {
   interface Tree {
     readonly flag: string;
     readonly negated: boolean;
-    readonly then: Block;
+    readonly kept: Block;
     readonly otherwise: Block | undefined;
   }
   type Block = readonly (string | Tree)[];
@@ -127,15 +127,15 @@ describe('gates', () => {
       return {
         flag: random.pick(FLAGS),
         negated: random.next() < 0.3,
-        then: randomBlock(random, depth - 1, `${name}.${i}t`),
+        kept: randomBlock(random, depth - 1, `${name}.${i}t`),
         otherwise: random.next() < 0.5 ? randomBlock(random, depth - 1, `${name}.${i}e`) : undefined,
       };
     });
   }
   const print = (block: Block): string[] =>
-    block.flatMap((item) => (typeof item === 'string' ? [item] : [`//#if ${item.negated ? '!' : ''}${item.flag}`, ...print(item.then), ...(item.otherwise ? ['//#else', ...print(item.otherwise)] : []), '//#endif']));
+    block.flatMap((item) => (typeof item === 'string' ? [item] : [`//#if ${item.negated ? '!' : ''}${item.flag}`, ...print(item.kept), ...(item.otherwise ? ['//#else', ...print(item.otherwise)] : []), '//#endif']));
   const alive = (block: Block, flags: Record<string, boolean>): string[] =>
-    block.flatMap((item) => (typeof item === 'string' ? [item] : flags[item.flag] !== item.negated ? alive(item.then, flags) : alive(item.otherwise ?? [], flags)));
+    block.flatMap((item) => (typeof item === 'string' ? [item] : flags[item.flag] !== item.negated ? alive(item.kept, flags) : alive(item.otherwise ?? [], flags)));
 
   it.each(Array.from({ length: 20 }, (_, i) => i + 1))('nest as the tree they were printed from, and lines find home (seed %i)', (seed) => {
     const random = randomSource(seed);
