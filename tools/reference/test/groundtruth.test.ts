@@ -15,7 +15,8 @@ describe.runIf(present)('ground truth', () => {
     const { GroundTruth, renderGroundTruth } = await import('../src/index');
     const { comparison } = await renderGroundTruth(await testDevice(), new GroundTruth(scene), { samples, variant });
     expect(failures(comparison)).toBe('');
-  });
+    // SwiftShader on a slow machine takes most of a minute for the slowest of them.
+  }, 300_000);
 
   it('tells a renderer that loses bounces (the full variant against a render of direct light)', async () => {
     const { GroundTruth, comparePictures, renderPicture } = await import('../src/index');

@@ -178,7 +178,7 @@ async function describe(dawn: Dawn): Promise<GpuDescription[]> {
 export async function listGpus(): Promise<GpuDescription[]> {
   const dawn = await loadDawn();
   const { user, found } = memory();
-  await Promise.allSettled([...found.values()]);
+  await Promise.allSettled(found.values());
   const before = driverEnvironment();
   try {
     restoreDriverEnvironment(user);

@@ -1,4 +1,4 @@
-import { MeshBuilder } from '../shapes/mesh-builder';
+import type { MeshBuilder } from '../shapes/mesh-builder';
 import type { Tessellation } from '../shapes/tessellation';
 import type { MaterialName } from './materials';
 

@@ -1,0 +1,85 @@
+import { execFile } from 'node:child_process';
+import { fileURLToPath } from 'node:url';
+import { promisify } from 'node:util';
+import { createPushButton } from '@glanz/models';
+import { PathTracer, requestDevice } from '@glanz/renderer';
+import { createGpu } from '@glanz/renderer/node';
+import { timed, type Benchmark, type BenchmarkContext, type Figure } from '../benchmark';
+
+/** Set in the processes that this benchmark starts: the GPU to use, or empty. */
+const CHILD = 'GLANZ_BENCH_FIRST_IMAGE';
+
+/** Milliseconds since the process began, at the end of each stage, and the tracer's own figures. */
+interface Stages {
+  readonly adapterName: string;
+  readonly software: boolean;
+  readonly loaded: number;
+  readonly device: number;
+  readonly scene: number;
+  readonly prepared: number;
+  readonly sampled: number;
+  readonly bvhMs: number;
+  readonly compileMs: number;
+}
+
+async function firstImage(gpu: string, size: number): Promise<Stages> {
+  const loaded = performance.now();
+  const { gpu: api, adapterName, software } = await createGpu(gpu === '' ? {} : { gpu });
+  const graphics = await requestDevice({ gpu: api });
+  const device = performance.now();
+  const model = createPushButton({ level: 'medium' });
+  model.environment = { type: 'constant', radiance: [1, 1, 1] };
+  const scene = performance.now();
+  const tracer = await PathTracer.create(graphics, model, { width: size, height: size, maxDepth: 5, camera: 0 });
+  const prepared = performance.now();
+  for await (const progress of tracer.render({ samples: 1 })) void progress;
+  await tracer.read('beauty');
+  const sampled = performance.now();
+  const { bvhMs, compileMs } = tracer.statistics;
+  tracer.destroy();
+  graphics.destroy();
+  return { adapterName, software, loaded, device, scene, prepared, sampled, bvhMs, compileMs };
+}
+
+async function measure({ log, quick, gpu }: BenchmarkContext) {
+  const size = quick ? 64 : 512;
+  const runs: Stages[] = [];
+  for (let i = 0; i < (quick ? 2 : 8); i++) {
+    const env = { ...process.env, [CHILD]: JSON.stringify([gpu ?? '', size]) };
+    const { stdout } = await promisify(execFile)(process.execPath, [fileURLToPath(import.meta.url)], { env });
+    const stages = JSON.parse(stdout.slice(stdout.indexOf('{'))) as Stages;
+    runs.push(stages);
+    log(`first image after ${stages.sampled.toFixed(0)} ms`);
+  }
+  const [cold, ...warm] = runs as [Stages, ...Stages[]];
+  const rows: readonly (readonly [string, (stages: Stages) => number])[] = [
+    ['process start to first image', ({ sampled }) => sampled],
+    ['program loaded', ({ loaded }) => loaded],
+    ['driver and device', ({ loaded, device }) => device - loaded],
+    ['model made', ({ device, scene }) => scene - device],
+    ['scene prepared', ({ scene, prepared }) => prepared - scene],
+    ['of that, hierarchies', ({ bvhMs }) => bvhMs],
+    ['of that, pipelines', ({ compileMs }) => compileMs],
+    ['first sample', ({ prepared, sampled }) => sampled - prepared],
+  ];
+  const figures: Figure[] = rows.flatMap(([name, value]) => [timed(name, 'ms', warm.map(value)), timed(`${name}, first process`, 'ms', [value(cold)])]);
+  return {
+    settings: { model: 'push-button medium', width: size, height: size, maxDepth: 5, environment: 'constant, radiance 1' },
+    gpu: { name: cold.adapterName, software: cold.software },
+    figures,
+    notes: ['the first process may find the cache of the driver cold; the others find it warm'],
+  };
+}
+
+/** From the start of a process to its first image, each time in a new process. */
+export const benchmark: Benchmark = {
+  description: 'from the start of a process to the first sample of the push-button with 107 k triangles',
+  async run(context) {
+    const child = process.env[CHILD];
+    if (child === undefined) return measure(context);
+    const [gpu, size] = JSON.parse(child) as [string, number];
+    process.stdout.write(JSON.stringify(await firstImage(gpu, size)));
+    // The parent wants this line alone: no report.
+    process.exit(0);
+  },
+};
