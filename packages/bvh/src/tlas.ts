@@ -1,0 +1,81 @@
+import { boundsOf, finiteBoxes } from './blas';
+import { buildBinnedSah } from './build/binned-sah';
+import { BvhError } from './error';
+import { TLAS_MAX_DEPTH, type Aabb } from './layout';
+
+/** One placing of a BLAS. */
+export interface TlasInstance {
+  /** Box of the BLAS, in object space. */
+  readonly bounds: Aabb;
+  /** Object to world, column-major 4×4, affine; may mirror and shear. Units as the positions. */
+  readonly transform: ArrayLike<number>;
+}
+
+/** Top-level hierarchy: instances. */
+export interface Tlas {
+  /** Nodes, as in a BLAS; each leaf holds one instance. */
+  readonly nodes: Float32Array<ArrayBuffer>;
+  readonly nodeCount: number;
+  /**
+   * Leaf order → instance given. Instances that nothing can hit are left out: empty BLAS, a transform that is not finite
+   * or flattens space.
+   */
+  readonly instanceOrder: Uint32Array<ArrayBuffer>;
+  /** 12 numbers an instance given: the rows of the 3×4 matrix from world to object space; NaN where it does not exist. */
+  readonly toObject: Float64Array<ArrayBuffer>;
+  /** Box of everything, in the world. */
+  readonly bounds: Aabb;
+}
+
+/**
+ * Builds the hierarchy over instances: a millisecond for a thousand. Rebuild it when instances move; their BLAS stay.
+ * No way from the root has more than {@link TLAS_MAX_DEPTH} inner nodes.
+ *
+ * @throws {BvhError} `bvh/transform` for a transform without 16 numbers, `bvh/too-many` beyond 4 million instances.
+ */
+export function buildTlas(instances: readonly TlasInstance[]): Tlas {
+  if (instances.length > 2 ** TLAS_MAX_DEPTH) throw new BvhError('bvh/too-many', `There are ${instances.length} instances; one hierarchy holds ${2 ** TLAS_MAX_DEPTH}.`);
+  const boxes = new Float32Array(instances.length * 6);
+  const toObject = new Float64Array(instances.length * 12);
+  instances.forEach(({ bounds, transform }, i) => {
+    if (transform.length !== 16) throw new BvhError('bvh/transform', `The transform of instance ${i} has ${transform.length} numbers; it must be a 4×4 matrix, column by column.`);
+    const exists = invertAffine(transform, toObject, 12 * i) && (bounds.min[0] as number) <= (bounds.max[0] as number);
+    for (let r = 0; r < 3; r++) {
+      let min = transform[12 + r] as number, max = min;
+      // What rounding may take off in world and object space together, so that no hit near the border is lost.
+      let slack = Math.abs(min);
+      for (let k = 0; k < 3; k++) {
+        const m = transform[4 * k + r] as number;
+        const p = m * (bounds.min[k] as number), q = m * (bounds.max[k] as number);
+        min += Math.min(p, q);
+        max += Math.max(p, q);
+        slack += Math.max(Math.abs(p), Math.abs(q));
+      }
+      slack *= 2 ** -22;
+      boxes[6 * i + r] = exists ? min - slack : NaN;
+      boxes[6 * i + 3 + r] = exists ? max + slack : NaN;
+    }
+  });
+  const instanceOrder = finiteBoxes(boxes);
+  const { nodes, nodeCount } = buildBinnedSah(boxes, instanceOrder, { maxLeaf: 1, maxDepth: TLAS_MAX_DEPTH, bins: 16, nodeCost: 1 });
+  return { nodes, nodeCount, instanceOrder, toObject, bounds: boundsOf(boxes, instanceOrder) };
+}
+
+/** Writes the rows of the inverse of an affine matrix; false (and NaN) where there is none. */
+function invertAffine(m: ArrayLike<number>, out: Float64Array, at: number): boolean {
+  const a = m[0] as number, b = m[4] as number, c = m[8] as number, x = m[12] as number;
+  const d = m[1] as number, e = m[5] as number, f = m[9] as number, y = m[13] as number;
+  const g = m[2] as number, h = m[6] as number, i = m[10] as number, z = m[14] as number;
+  const determinant = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g);
+  const scale = 1 / determinant;
+  const rows = [e * i - f * h, c * h - b * i, b * f - c * e, f * g - d * i, a * i - c * g, c * d - a * f, d * h - e * g, b * g - a * h, a * e - b * d];
+  let finite = Number.isFinite(scale);
+  for (let r = 0; r < 3; r++) {
+    const p = (rows[3 * r] as number) * scale, q = (rows[3 * r + 1] as number) * scale, s = (rows[3 * r + 2] as number) * scale;
+    const w = -(p * x + q * y + s * z);
+    out.set([p, q, s, w], at + 4 * r);
+    finite &&= Number.isFinite(Math.fround(p + q + s + w));
+  }
+  if (!finite) out.fill(NaN, at, at + 12);
+  return finite;
+}

@@ -1,0 +1,62 @@
+import { wgslModule } from '@glanz/wgsl/module';
+
+/**
+ * The ray-triangle test. Vertices are taken relative to the ray's origin into a frame whose third axis is the ray, and the
+ * ray hits where the origin lies on the same side of the three edges (Woop, Benthin and Wald 2013, "Watertight
+ * Ray/Triangle Intersection", with an orthonormal frame in place of the axis permutation and shear). Two triangles that
+ * share an edge see the same two points, so a ray can slip between them only by the rounding of the edge function itself;
+ * a tolerance as large as that rounding closes the gap whether or not the compiler fuses multiplications and additions.
+ */
+export const bvhTriangleTest = wgslModule(
+  'bvh/triangle',
+  /* wgsl */ `
+struct BvhRay {
+  origin: vec3f,
+  // Reciprocal of the direction, finite.
+  inverse: vec3f,
+  // Two unit vectors perpendicular to the direction, and the direction over its squared length.
+  x: vec3f,
+  y: vec3f,
+  z: vec3f,
+}
+
+fn bvh_ray(origin: vec3f, direction: vec3f) -> BvhRay {
+  let safe = select(direction, vec3f(1e-20), abs(direction) < vec3f(1e-20));
+  // Scaled by powers of two that cancel, as squares of very small or large directions leave the range of f32.
+  let scale = 1.0 / max(abs(direction.x), max(abs(direction.y), abs(direction.z)));
+  let d = direction * scale;
+  let squared = dot(d, d);
+  let n = d * inverseSqrt(squared);
+  // Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
+  let s = select(-1.0, 1.0, n.z >= 0.0);
+  let a = -1.0 / (s + n.z);
+  let b = n.x * n.y * a;
+  return BvhRay(origin, 1.0 / safe, vec3f(1.0 + s * n.x * n.x * a, s * b, -s * n.x), vec3f(b, s + n.y * n.y * a, -n.y), d * (scale / squared));
+}
+
+// t, u, v; t < 0 if there is no hit. v0's weight is 1 - u - v.
+fn bvh_intersect_triangle(ray: BvhRay, triangle: BvhTriangle) -> vec3f {
+  let p0 = triangle.v0 - ray.origin;
+  let p1 = triangle.v1 - ray.origin;
+  let p2 = triangle.v2 - ray.origin;
+  let a = vec2f(dot(ray.x, p0), dot(ray.y, p0));
+  let b = vec2f(dot(ray.x, p1), dot(ray.y, p1));
+  let c = vec2f(dot(ray.x, p2), dot(ray.y, p2));
+  let u = a.x * c.y - a.y * c.x;
+  let v = b.x * a.y - b.y * a.x;
+  let w = c.x * b.y - c.y * b.x;
+  let largest = max(max(max(abs(a.x), abs(a.y)), max(abs(b.x), abs(b.y))), max(abs(c.x), abs(c.y)));
+  // Half an ulp each for two products and their difference.
+  let tolerance = largest * largest * 1.7881393e-7;
+  let low = min(u, min(v, w));
+  let high = max(u, max(v, w));
+  let determinant = u + v + w;
+  if ((low < -tolerance && high > tolerance) || determinant == 0.0) { return vec3f(-1.0, 0.0, 0.0); }
+  let inverse = 1.0 / determinant;
+  let weights = clamp(vec2f(u, v) * inverse, vec2f(0.0), vec2f(1.0));
+  let first = max(1.0 - weights.x - weights.y, 0.0);
+  let t = first * dot(ray.z, p0) + weights.x * dot(ray.z, p1) + weights.y * dot(ray.z, p2);
+  return vec3f(t, weights);
+}
+`,
+);
