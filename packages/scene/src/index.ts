@@ -6,3 +6,8 @@ export type { Image, Texture, WrapMode } from './texture';
 export type { DirectionalLight, Light, PointLight, SpotLight } from './light';
 export type { Camera, OrthographicCamera, PerspectiveCamera } from './camera';
 export type { ConstantEnvironment, Environment, LatLongEnvironment } from './environment';
+export { sceneBounds, type SceneBounds } from './bounds';
+export { defaultMaterial } from './default-material';
+export { SceneError } from './error';
+export { frameCamera, type FrameCameraOptions } from './frame-camera';
+export { validateScene } from './validate';
