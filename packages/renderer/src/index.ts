@@ -1,1 +1,4 @@
-export {};
+export { DeviceError, RenderError } from './errors';
+export { requestDevice, type DeviceOptions } from './gpu/device';
+export { PathTracer } from './path-tracer';
+export type { FilmLayer, PathTracerOptions, PickResult, PrepareProgress, RenderOptions, RenderProgress, RenderStatistics } from './options';

@@ -1,0 +1,13 @@
+import { GlanzError } from '@glanz/wgsl';
+
+/**
+ * WebGPU is missing, refused, too small, or gone. Codes: `renderer/no-webgpu`, `renderer/no-adapter`,
+ * `renderer/no-device`, `renderer/limit`, `renderer/out-of-memory`, `renderer/device-lost`, `renderer/gpu-error`.
+ */
+export class DeviceError extends GlanzError {}
+
+/**
+ * The renderer was asked for something it cannot do. Codes: `renderer/size`, `renderer/samples`, `renderer/camera`,
+ * `renderer/material`, `renderer/instance`, `renderer/destroyed`, `renderer/busy`, `renderer/no-triangles`.
+ */
+export class RenderError extends GlanzError {}

@@ -1,0 +1,29 @@
+import type { Camera } from '@glanz/scene';
+import { cameraUniforms } from './scene/camera';
+import type { Film } from './film';
+import type { GpuScene } from './gpu/gpu-scene';
+import { BACKGROUND_HIDDEN, BACKGROUND_TRANSPARENT, frameStruct } from './kernels/layout';
+import type { PathTracerOptions } from './options';
+import type { Geometry } from './scene/geometry';
+
+/** The frame uniforms for the present camera, film and surroundings. */
+export function packFrame(camera: Camera, film: Film, scene: GpuScene, geometry: Geometry, options: PathTracerOptions): ArrayBuffer {
+  const data = frameStruct.allocate();
+  const { environment } = scene;
+  const transparent = options.background === 'transparent';
+  frameStruct.write(data, 0, {
+    ...cameraUniforms(camera, film.width, film.height),
+    size: [film.width, film.height],
+    seed: (options.seed ?? 0) >>> 0,
+    max_depth: options.maxDepth ?? 8,
+    light_count: scene.lightCount,
+    background: (transparent ? BACKGROUND_TRANSPARENT | BACKGROUND_HIDDEN : 0) | (environment.visible ? 0 : BACKGROUND_HIDDEN),
+    environment_radiance: environment.radiance,
+    environment_probability: scene.environmentProbability,
+    environment_rotation: environment.rotation,
+    environment_cells: [environment.table?.width ?? 1, environment.table?.height ?? 1],
+    lod_bias: options.textureLodBias ?? -1,
+    scene_scale: geometry.radius,
+  });
+  return data;
+}

@@ -1,0 +1,94 @@
+import { DeviceError } from '../errors';
+
+const SLICE = 16 << 20;
+
+const mebibytes = (bytes: number) => `${(bytes / 2 ** 20).toFixed(1)} MiB`;
+
+/**
+ * Owns GPU buffers and textures: counts their bytes, checks every size against the device's limits before it is asked
+ * for, and destroys all of them at once.
+ */
+export class GpuMemory {
+  readonly #device: GPUDevice;
+  readonly #live = new Map<GPUBuffer | GPUTexture, number>();
+  #bytes = 0;
+
+  constructor(device: GPUDevice) {
+    this.#device = device;
+  }
+
+  /** Bytes held now. */
+  get bytes(): number {
+    return this.#bytes;
+  }
+
+  /**
+   * A buffer of at least `size` bytes (16 at least, rounded up to 16).
+   * @throws {DeviceError} `renderer/limit` naming the limit it exceeds.
+   */
+  buffer(label: string, size: number, usage: GPUBufferUsageFlags): GPUBuffer {
+    const bytes = Math.max(16, Math.ceil(size / 16) * 16);
+    const { maxBufferSize, maxStorageBufferBindingSize } = this.#device.limits;
+    const storage = (usage & GPU_BUFFER_STORAGE) !== 0;
+    const [name, limit] = storage && maxStorageBufferBindingSize < maxBufferSize ? ['maxStorageBufferBindingSize', maxStorageBufferBindingSize] : ['maxBufferSize', maxBufferSize];
+    if (bytes > limit) {
+      throw new DeviceError('renderer/limit', `The ${label} need ${mebibytes(bytes)}, but this device's ${name} is ${mebibytes(limit)}: reduce the scene, or request a device with a higher limit.`);
+    }
+    const buffer = this.#device.createBuffer({ label: `glanz ${label}`, size: bytes, usage });
+    this.#keep(buffer, bytes);
+    return buffer;
+  }
+
+  /** A buffer filled with `data`, uploaded in slices that never stall the main thread for long. */
+  upload(label: string, data: ArrayBufferView<ArrayBuffer> | ArrayBuffer, usage: GPUBufferUsageFlags): GPUBuffer {
+    const buffer = this.buffer(label, data.byteLength, usage | GPU_BUFFER_COPY_DST);
+    this.write(buffer, data);
+    return buffer;
+  }
+
+  /** Writes `data` into `buffer` at `offset` bytes. Lengths are multiples of 4. */
+  write(buffer: GPUBuffer, data: ArrayBufferView<ArrayBuffer> | ArrayBuffer, offset = 0): void {
+    const [source, start] = ArrayBuffer.isView(data) ? [data.buffer, data.byteOffset] : [data, 0];
+    for (let at = 0; at < data.byteLength; at += SLICE) {
+      const size = Math.min(SLICE, data.byteLength - at);
+      this.#device.queue.writeBuffer(buffer, offset + at, source, start + at, size);
+    }
+  }
+
+  texture(descriptor: GPUTextureDescriptor, bytes: number): GPUTexture {
+    const texture = this.#device.createTexture(descriptor);
+    this.#keep(texture, bytes);
+    return texture;
+  }
+
+  /** Destroys one buffer or texture; unknown ones are ignored. */
+  release(resource: GPUBuffer | GPUTexture | undefined): void {
+    if (!resource) return;
+    const bytes = this.#live.get(resource);
+    if (bytes === undefined) return;
+    this.#live.delete(resource);
+    this.#bytes -= bytes;
+    resource.destroy();
+  }
+
+  destroy(): void {
+    for (const resource of this.#live.keys()) this.release(resource);
+  }
+
+  #keep(resource: GPUBuffer | GPUTexture, bytes: number): void {
+    this.#live.set(resource, bytes);
+    this.#bytes += bytes;
+  }
+}
+
+// The numeric values of GPUBufferUsage, which Node does not define globally.
+export const GPU_BUFFER_MAP_READ = 0x0001;
+export const GPU_BUFFER_COPY_SRC = 0x0004;
+export const GPU_BUFFER_COPY_DST = 0x0008;
+export const GPU_BUFFER_UNIFORM = 0x0040;
+export const GPU_BUFFER_STORAGE = 0x0080;
+export const GPU_BUFFER_INDIRECT = 0x0100;
+export const GPU_TEXTURE_COPY_DST = 0x02;
+export const GPU_TEXTURE_BINDING = 0x04;
+export const GPU_TEXTURE_RENDER = 0x10;
+export const GPU_STAGE_COMPUTE = 0x4;

@@ -1,0 +1,41 @@
+import { DeviceError } from '../errors';
+
+export interface DeviceOptions {
+  /** Where to look for adapters; default `navigator.gpu`. In Node pass what `createGpu()` of `@glanz/renderer/node` gives. */
+  readonly gpu?: GPU;
+  /** Default `high-performance`. */
+  readonly powerPreference?: GPUPowerPreference;
+  /** Stay within WebGPU's default limits even where the adapter offers more. Default false. */
+  readonly defaultLimits?: boolean;
+}
+
+/** Limits that large scenes profit from; each is raised to what the adapter offers. */
+const RAISED_LIMITS = ['maxStorageBufferBindingSize', 'maxBufferSize', 'maxTextureDimension2D', 'maxTextureArrayLayers', 'maxStorageBuffersPerShaderStage', 'maxSampledTexturesPerShaderStage'] as const;
+
+/** Features that are used when present and never required. */
+const WELCOME_FEATURES = ['timestamp-query', 'subgroups', 'float32-filterable'] as const;
+
+/**
+ * Asks for a WebGPU device with everything Glanz can use: limits as high as the adapter offers, timestamp queries.
+ *
+ * @throws {DeviceError} `renderer/no-webgpu` without WebGPU, `renderer/no-adapter` without a usable GPU,
+ * `renderer/no-device` when the adapter refuses a device.
+ */
+export async function requestDevice(options: DeviceOptions = {}): Promise<GPUDevice> {
+  const gpu = options.gpu ?? (globalThis as { navigator?: { gpu?: GPU } }).navigator?.gpu;
+  if (!gpu) {
+    throw new DeviceError('renderer/no-webgpu', 'WebGPU is not available here: use a current Chrome, Edge, Firefox or Safari over https, or in Node pass { gpu: (await createGpu()).gpu } from @glanz/renderer/node.');
+  }
+  const adapter = await gpu.requestAdapter({ powerPreference: options.powerPreference ?? 'high-performance' });
+  if (!adapter) {
+    throw new DeviceError('renderer/no-adapter', 'WebGPU found no usable GPU: update the graphics driver, allow hardware acceleration, or reload the page if the GPU was lost.');
+  }
+  const requiredLimits: Record<string, number> = {};
+  if (!options.defaultLimits) for (const name of RAISED_LIMITS) requiredLimits[name] = adapter.limits[name];
+  const requiredFeatures = WELCOME_FEATURES.filter((feature) => adapter.features.has(feature)) as GPUFeatureName[];
+  try {
+    return await adapter.requestDevice({ label: 'glanz', requiredFeatures, requiredLimits });
+  } catch (cause) {
+    throw new DeviceError('renderer/no-device', `The GPU refused a device: ${(cause as Error).message}`, { cause });
+  }
+}

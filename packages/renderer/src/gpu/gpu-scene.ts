@@ -1,0 +1,229 @@
+import { OPENPBR_TABLES } from '@glanz/openpbr/tables';
+import { requiredFeatures, resolveParameters } from '@glanz/openpbr';
+import type { Environment, Instance, Mesh, Scene } from '@glanz/scene';
+import type { KernelFeatures } from '../kernels/pipelines';
+import { materialStruct } from '../kernels/layout';
+import type { ResourceName } from '../kernels/resources';
+import { prepareEnvironment, type EnvironmentData } from '../scene/environment';
+import { packInstances, type Geometry } from '../scene/geometry';
+import { buildLightTable, type LightTable } from '../scene/lights';
+import { isOpaque, packBindings, packMaterial, texturedParameters, usedTextures, type TexturedParameterInfo } from '../scene/materials';
+import { planTextures, type TexturePlan } from '../scene/textures';
+import { GPU_BUFFER_COPY_DST, GPU_BUFFER_STORAGE, GPU_TEXTURE_BINDING, GPU_TEXTURE_COPY_DST, type GpuMemory } from './buffers';
+import { toHalf, uploadTextures } from './texture-upload';
+
+/** Textures that shading binds besides the scene's own: environment, its table, two energy tables. */
+const OWN_TEXTURES = 4;
+
+/** A scene on the GPU. A cache: everything here can be made again from the `Scene`. */
+export class GpuScene {
+  readonly #device: GPUDevice;
+  readonly #memory: GpuMemory;
+  readonly #scene: Scene;
+  readonly #geometry: Geometry;
+  readonly #multipleScattering: boolean;
+  readonly #plan: TexturePlan;
+  readonly #textured: readonly TexturedParameterInfo[];
+  readonly #firstBinding: number[];
+  readonly #bindingCount: number[];
+  readonly #sceneTextures: readonly GPUTexture[];
+  readonly #samplers: readonly GPUSampler[];
+  readonly #buffers = new Map<ResourceName, GPUBuffer>();
+  readonly #textures = new Map<ResourceName, GPUTexture>();
+  readonly #energySampler: GPUSampler;
+  #lights: LightTable;
+  #environment: EnvironmentData;
+
+  constructor(device: GPUDevice, memory: GpuMemory, scene: Scene, geometry: Geometry, multipleScattering: boolean) {
+    this.#device = device;
+    this.#memory = memory;
+    this.#scene = scene;
+    this.#geometry = geometry;
+    this.#multipleScattering = multipleScattering;
+    this.#textured = texturedParameters(scene.materials);
+    const slots = device.limits.maxSampledTexturesPerShaderStage - OWN_TEXTURES;
+    this.#plan = planTextures(scene, usedTextures(scene.materials), slots, device.limits);
+    const { textures, samplers } = uploadTextures(device, memory, scene, this.#plan);
+    this.#sceneTextures = textures;
+    this.#samplers = samplers;
+
+    const bindings = packBindings(scene.materials, this.#plan);
+    const base = geometry.attributes.length;
+    const heap = new Uint32Array(base + bindings.records.byteLength / 4);
+    heap.set(geometry.attributes);
+    heap.set(new Uint32Array(bindings.records), base);
+    const bindingWords = bindings.records.byteLength / 4 / Math.max(1, bindings.count.reduce((a, b) => a + b, 0));
+    this.#firstBinding = bindings.first.map((index) => base + index * bindingWords);
+    this.#bindingCount = bindings.count;
+
+    this.#upload('nodes', geometry.nodes);
+    this.#upload('triangles', geometry.triangles);
+    this.#upload('attributes', heap);
+    this.#upload('materials', this.#packMaterials());
+    this.#lights = this.#buildLights();
+    this.#upload('lights', this.#lights.records);
+    this.#upload('instances', packInstances(scene, geometry, this.#lights.firstLight));
+    this.#environment = prepareEnvironment(scene.environment);
+    this.#uploadEnvironment();
+    this.#energySampler = device.createSampler({ label: 'glanz energy', minFilter: 'linear', magFilter: 'linear' });
+    this.#uploadEnergy();
+  }
+
+  get environment(): EnvironmentData {
+    return this.#environment;
+  }
+
+  get lightCount(): number {
+    return this.#lights.count;
+  }
+
+  /** Probability that a light sample goes to the environment rather than to the table of lights. */
+  get environmentProbability(): number {
+    if (!this.#environment.table) return 0;
+    if (this.#lights.count === 0) return 1;
+    const radius = this.#geometry.radius;
+    const power = this.#environment.meanLuminance * 4 * Math.PI * Math.PI * radius * radius;
+    return Math.min(0.9, Math.max(0.1, power / (power + this.#lights.power)));
+  }
+
+  /** What decides the kernels' text. */
+  features(): KernelFeatures {
+    const parameters = this.#scene.materials.map((material) => resolveParameters(material.parameters));
+    const texturedNames = this.#textured.map(({ name }) => name);
+    const openpbrFlags = requiredFeatures(parameters, { textured: texturedNames, multipleScattering: this.#multipleScattering });
+    const lights = this.#lights.count > 0;
+    const sampled = this.#environment.table !== undefined;
+    return {
+      flags: {
+        ...openpbrFlags,
+        TEXTURES: this.#textured.length > 0,
+        NORMAL_MAP: texturedNames.includes('geometry_normal'),
+        EMISSION_TEXTURES: texturedNames.some((name) => name === 'emission_color' || name === 'emission_luminance'),
+        VERTEX_COLORS: this.#geometry.hasVertexColors,
+        BVH_FILTER: this.#scene.instances.some((instance) => instance.visible !== false && !this.#opaque(instance.material)),
+        ENVIRONMENT_MAP: this.#environment.pixels !== undefined,
+        ENVIRONMENT_SAMPLED: sampled,
+        LIGHTS: lights,
+        NEXT_EVENT: lights || sampled,
+      },
+      samplings: this.#plan.samplings,
+      textured: this.#textured,
+      textureCount: this.#sceneTextures.length,
+      samplerCount: this.#samplers.length,
+    };
+  }
+
+  /** Binding of one of the resources this scene owns. */
+  resource(name: string): GPUBindingResource | undefined {
+    const buffer = this.#buffers.get(name as ResourceName);
+    if (buffer) return { buffer };
+    const texture = this.#textures.get(name as ResourceName);
+    if (texture) return texture.createView();
+    if (name === 'energy_sampler') return this.#energySampler;
+    const [, kind, index] = /^scene_(texture|sampler)_(\d+)$/.exec(name) ?? [];
+    if (kind === 'texture') return this.#sceneTextures[Number(index)]?.createView({ dimension: '2d-array' });
+    if (kind === 'sampler') return this.#samplers[Number(index)];
+    return undefined;
+  }
+
+  /** Re-reads one material of the scene. Returns true if bindings were replaced. */
+  updateMaterial(index: number): boolean {
+    const stride = materialStruct.size;
+    const record = materialStruct.allocate();
+    this.#packMaterial(record, 0, index);
+    this.#memory.write(this.#buffers.get('materials') as GPUBuffer, record, index * stride);
+    return this.#updateLights();
+  }
+
+  /** Re-reads the scene's environment. Bindings are replaced. */
+  updateEnvironment(environment: Environment | undefined): void {
+    this.#environment = prepareEnvironment(environment);
+    this.#uploadEnvironment();
+  }
+
+  #updateLights(): boolean {
+    const before = this.#lights.records.byteLength;
+    this.#lights = this.#buildLights();
+    this.#memory.write(this.#buffers.get('instances') as GPUBuffer, packInstances(this.#scene, this.#geometry, this.#lights.firstLight));
+    if (this.#lights.records.byteLength === before) {
+      this.#memory.write(this.#buffers.get('lights') as GPUBuffer, this.#lights.records);
+      return false;
+    }
+    this.#upload('lights', this.#lights.records);
+    return true;
+  }
+
+  #opaque(material: number): boolean {
+    const vertexAlpha = this.#scene.instances.some((instance) => {
+      const colors = instance.material === material ? (this.#scene.meshes[instance.mesh] as Mesh).colors : undefined;
+      if (!colors) return false;
+      for (let i = 3; i < colors.length; i += 4) if ((colors[i] as number) < 1) return true;
+      return false;
+    });
+    return isOpaque(this.#scene.materials[material] as Scene['materials'][number], vertexAlpha);
+  }
+
+  #packMaterial(buffer: ArrayBuffer, at: number, index: number): void {
+    packMaterial(buffer, at, this.#scene.materials[index] as Scene['materials'][number], this.#firstBinding[index] as number, this.#bindingCount[index] as number, this.#opaque(index));
+  }
+
+  #packMaterials(): ArrayBuffer {
+    const buffer = materialStruct.allocate(this.#scene.materials.length);
+    this.#scene.materials.forEach((_, index) => this.#packMaterial(buffer, index, index));
+    return buffer;
+  }
+
+  #buildLights(): LightTable {
+    const inverse = new Map<number, Uint32Array>();
+    const leafTriangle = (mesh: number, triangle: number) => {
+      let order = inverse.get(mesh);
+      if (!order) {
+        const leaves = this.#geometry.blas[mesh]?.triangleIndices ?? new Uint32Array();
+        order = new Uint32Array((this.#scene.meshes[mesh] as Mesh).indices.length / 3);
+        leaves.forEach((input, leaf) => ((order as Uint32Array)[input] = leaf));
+        inverse.set(mesh, order);
+      }
+      return (this.#geometry.firstTriangle[mesh] as number) + (order[triangle] as number);
+    };
+    return buildLightTable(this.#scene, { instanceSlots: this.#geometry.instanceSlots, leafTriangle }, this.#geometry.radius);
+  }
+
+  #upload(name: ResourceName, data: ArrayBufferView<ArrayBuffer> | ArrayBuffer): void {
+    this.#memory.release(this.#buffers.get(name));
+    this.#buffers.set(name, this.#memory.upload(name, data, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST));
+  }
+
+  #uploadEnvironment(): void {
+    const none = { width: 1, height: 1, data: new Float32Array(4) };
+    this.#uploadFloats('environment', this.#environment.pixels ?? none);
+    this.#uploadFloats('environment_table', this.#environment.table ?? none);
+  }
+
+  #uploadFloats(name: ResourceName, picture: { readonly width: number; readonly height: number; readonly data: Float32Array<ArrayBuffer> }): void {
+    this.#memory.release(this.#textures.get(name));
+    const { width, height, data } = picture;
+    const texture = this.#memory.texture({ label: `glanz ${name}`, size: [width, height], format: 'rgba32float', usage: GPU_TEXTURE_BINDING | GPU_TEXTURE_COPY_DST }, data.byteLength);
+    this.#device.queue.writeTexture({ texture }, data, { bytesPerRow: width * 16, rowsPerImage: height }, [width, height]);
+    this.#textures.set(name, texture);
+  }
+
+  #uploadEnergy(): void {
+    for (const [name, table] of [
+      ['energy_dielectric', OPENPBR_TABLES.dielectric],
+      ['energy_conductor', OPENPBR_TABLES.conductor],
+    ] as const) {
+      const { width, height, depth } = table;
+      const dimension = name === 'energy_dielectric' ? '3d' : '2d';
+      const data = Uint16Array.from(table.data, toHalf);
+      const texture = this.#memory.texture({ label: `glanz ${name}`, size: [width, height, depth], dimension, format: 'r16float', usage: GPU_TEXTURE_BINDING | GPU_TEXTURE_COPY_DST }, data.byteLength);
+      this.#device.queue.writeTexture({ texture }, data, { bytesPerRow: width * 2, rowsPerImage: height }, [width, height, depth]);
+      this.#textures.set(name, texture);
+    }
+  }
+}
+
+/** Instances of the scene by name or index. */
+export function findInstances(scene: Scene, nameOrIndex: string | number): Instance[] {
+  if (typeof nameOrIndex === 'number') return scene.instances[nameOrIndex] ? [scene.instances[nameOrIndex]] : [];
+  return scene.instances.filter((instance) => instance.name === nameOrIndex);
+}

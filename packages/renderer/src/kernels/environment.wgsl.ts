@@ -1,0 +1,63 @@
+import { wgslModule } from '@glanz/wgsl';
+
+/**
+ * Light from infinitely far away: constant, or a lat-long picture read bilinearly. Directions are drawn from an alias
+ * table over cells of the picture; `environment_table` holds, per cell: threshold, alias, density over the unit square.
+ */
+export const environment = wgslModule(
+  'renderer/environment',
+  /* wgsl */ `
+//#if ENVIRONMENT_MAP
+fn environment_uv(direction: vec3f) -> vec2f {
+  let turn = frame.environment_rotation;
+  let x = turn.x * direction.x - turn.y * direction.z;
+  let z = turn.y * direction.x + turn.x * direction.z;
+  let around = select(atan2(z, x), 0.0, x == 0.0 && z == 0.0);
+  return vec2f(around * 0.15915494309189535 + 0.5, acos(clamp(direction.y, -1.0, 1.0)) * 0.3183098861837907);
+}
+
+fn environment_radiance(direction: vec3f) -> vec3f {
+  let size = vec2i(textureDimensions(environment));
+  let at = environment_uv(direction) * vec2f(size) - 0.5;
+  let base = floor(at);
+  let part = at - base;
+  let x0 = (i32(base.x) + size.x) % size.x;
+  let x1 = (x0 + 1) % size.x;
+  let y0 = clamp(i32(base.y), 0, size.y - 1);
+  let y1 = clamp(i32(base.y) + 1, 0, size.y - 1);
+  let top = mix(textureLoad(environment, vec2i(x0, y0), 0).rgb, textureLoad(environment, vec2i(x1, y0), 0).rgb, part.x);
+  let bottom = mix(textureLoad(environment, vec2i(x0, y1), 0).rgb, textureLoad(environment, vec2i(x1, y1), 0).rgb, part.x);
+  return mix(top, bottom, part.y) * frame.environment_radiance;
+}
+//#else
+fn environment_radiance(direction: vec3f) -> vec3f { return frame.environment_radiance; }
+//#endif
+
+//#if ENVIRONMENT_SAMPLED
+// The density over the sphere is that over the square divided by 2π² sin θ.
+fn environment_pdf(direction: vec3f) -> f32 {
+  let cells = frame.environment_cells;
+  let cell = min(vec2u(environment_uv(direction) * vec2f(cells)), cells - 1u);
+  let sine = sqrt(max(1.0 - direction.y * direction.y, 0.0));
+  return textureLoad(environment_table, cell, 0).z / max(19.739208802178716 * sine, 1e-20);
+}
+
+fn environment_sample(u: vec3f) -> vec3f {
+  let cells = frame.environment_cells;
+  let count = cells.x * cells.y;
+  let at = u.x * f32(count);
+  var index = min(u32(at), count - 1u);
+  let row = textureLoad(environment_table, vec2u(index % cells.x, index / cells.x), 0);
+  if (u.y >= row.x) { index = u32(row.y); }
+  // The part of u.y inside its interval is a fresh uniform number.
+  let again = select(u.y / max(row.x, 1e-20), (u.y - row.x) / max(1.0 - row.x, 1e-20), u.y >= row.x);
+  let uv = (vec2f(f32(index % cells.x), f32(index / cells.x)) + vec2f(clamp(again, 0.0, 0.99999994), u.z)) / vec2f(cells);
+  let theta = uv.y * 3.141592653589793;
+  let phi = (uv.x - 0.5) * 6.283185307179586;
+  let flat = sin(theta) * vec2f(cos(phi), sin(phi));
+  let turn = frame.environment_rotation;
+  return vec3f(turn.x * flat.x + turn.y * flat.y, cos(theta), turn.x * flat.y - turn.y * flat.x);
+}
+//#endif
+`,
+);

@@ -1,0 +1,145 @@
+import { bvhInstanceStruct } from '@glanz/bvh';
+import { openPbrStruct } from '@glanz/openpbr';
+import { struct } from '@glanz/wgsl';
+
+/** Everything the kernels need to know about the picture, the camera and the surroundings. One uniform buffer. */
+export const frameStruct = struct('Frame', {
+  camera_origin: 'vec3f',
+  camera_kind: 'u32',
+  camera_right: 'vec3f',
+  lens_radius: 'f32',
+  camera_up: 'vec3f',
+  focus_distance: 'f32',
+  camera_forward: 'vec3f',
+  cone_spread: 'f32',
+  half_extent: 'vec2f',
+  size: 'vec2u',
+  seed: 'u32',
+  max_depth: 'u32',
+  light_count: 'u32',
+  background: 'u32',
+  environment_radiance: 'vec3f',
+  environment_probability: 'f32',
+  environment_rotation: 'vec2f',
+  environment_cells: 'vec2u',
+  lod_bias: 'f32',
+  scene_scale: 'f32',
+  reserved: 'vec2u',
+});
+
+/** The part of the picture and the samples that one batch works on. */
+export const batchStruct = struct('Batch', {
+  pixel_offset: 'u32',
+  pixel_count: 'u32',
+  sample_offset: 'u32',
+  sample_count: 'u32',
+});
+
+/** A path between two kernels. */
+export const pathStruct = struct('Path', {
+  origin: 'vec3f',
+  /** Solid-angle density with which the direction was chosen. */
+  pdf: 'f32',
+  direction: 'vec3f',
+  cone_width: 'f32',
+  throughput: 'vec3f',
+  alpha: 'f32',
+  radiance: 'vec3f',
+  reserved: 'u32',
+  /** Barycentrics as float bits, triangle, instance; see BvhHit. */
+  hit: 'vec4u',
+});
+
+/** A light sample waiting for its visibility. */
+export const shadowStruct = struct('Shadow', {
+  origin: 'vec3f',
+  distance: 'f32',
+  direction: 'vec3f',
+  path: 'u32',
+  contribution: 'vec3f',
+  reserved: 'u32',
+});
+
+/** An emissive triangle or a light without size, and its row of the alias table. */
+export const lightStruct = struct('Light', {
+  a: 'vec3f',
+  kind: 'u32',
+  b: 'vec3f',
+  /** Probability that the table picks this light, among the lights other than the environment. */
+  probability: 'f32',
+  c: 'vec3f',
+  /** The light taken instead when the draw falls beyond `keep`. */
+  other: 'u32',
+  color: 'vec3f',
+  keep: 'f32',
+  ids: 'vec4u',
+});
+
+/** An instance: what the traversal reads of it, then what shading reads. */
+export const instanceStruct = struct('Instance', {
+  traversal: bvhInstanceStruct,
+  to_world_0: 'vec4f',
+  to_world_1: 'vec4f',
+  to_world_2: 'vec4f',
+  material: 'u32',
+  /** Index of its mesh in the attribute heap's table. */
+  mesh: 'u32',
+  /** Index of the light of this instance's triangle 0, or NONE. */
+  first_light: 'u32',
+  /** Index in the scene. */
+  id: 'u32',
+});
+
+/** A material: the surface's parameters, its textures and how it is seen. */
+export const materialStruct = struct('Material', {
+  parameters: openPbrStruct,
+  /** Word offset of its first TextureBindingRecord in the attribute heap. */
+  first_binding: 'u32',
+  binding_count: 'u32',
+  flags: 'u32',
+  opacity_threshold: 'f32',
+});
+
+export const MATERIAL_TWO_SIDED_EMISSION = 1;
+export const MATERIAL_OPAQUE = 2;
+export const MATERIAL_EMISSIVE = 4;
+export const MATERIAL_MASK = 8;
+
+/** Word offsets of a mesh's attributes in the attribute heap; NONE where absent. */
+export const meshStruct = struct('MeshShading', {
+  indices: 'u32',
+  normals: 'u32',
+  tangents: 'u32',
+  colors: 'u32',
+  uv0: 'u32',
+  uv1: 'u32',
+  reserved: 'vec2u',
+});
+
+/** One texture driving one parameter of one material. */
+export const bindingStruct = struct('TextureBindingRecord', {
+  parameter: 'u32',
+  /** Bits 0..7: channel (0..3, 4 = rgb); 8..15: uv set. */
+  channels: 'u32',
+  /** Which sampling case: a texture array together with a sampler. */
+  sampling: 'u32',
+  layer: 'u32',
+  row_u: 'vec3f',
+  scale: 'f32',
+  row_v: 'vec3f',
+  /** Half of log2(width × height). */
+  log_size: 'f32',
+});
+
+export const NONE = 0xffffffff;
+export const LIGHT_TRIANGLE = 0;
+export const LIGHT_POINT = 1;
+export const LIGHT_SPOT = 2;
+export const LIGHT_DIRECTIONAL = 3;
+/** Added to a triangle light's kind: it shines from both sides. */
+export const LIGHT_TWO_SIDED = 16;
+/** Added to a triangle light's kind: the instance mirrors, so the front is where the world-space winding is clockwise. */
+export const LIGHT_MIRRORED = 32;
+/** Frame.background bits: the environment is hidden from the camera; misses leave the pixel transparent. */
+export const BACKGROUND_HIDDEN = 1;
+export const BACKGROUND_TRANSPARENT = 2;

@@ -1,0 +1,127 @@
+import { wgslModule, type WgslModule } from '@glanz/wgsl';
+import { LIGHT_DIRECTIONAL, LIGHT_MIRRORED, LIGHT_POINT, LIGHT_SPOT, LIGHT_TWO_SIDED, lightStruct } from './layout';
+import { environment } from './environment.wgsl';
+import { random } from './random.wgsl';
+
+/** One light sample: where from, how much, how likely. */
+const lightSampleStruct = wgslModule(
+  'renderer/light-sample',
+  /* wgsl */ `
+struct LightSample {
+  direction: vec3f,
+  distance: f32,
+  radiance: vec3f,
+  // Solid-angle density including the choice of the light; for lights without size the probability of the choice.
+  pdf: f32,
+  // 1 if a BSDF sample could have found this light too.
+  extended: bool,
+}
+`,
+);
+
+/**
+ * Next-event estimation over all lights: the environment with a fixed probability, otherwise one row of an alias table
+ * over emissive triangles and lights without size, weighted by power.
+ */
+export function lightsModule(surface: WgslModule): WgslModule {
+  return wgslModule(
+    'renderer/lights',
+    /* wgsl */ `
+//#if LIGHTS
+// Emitted radiance of a surface point towards wo (world); zero behind a one-sided emitter.
+fn light_emission(s: Surface, wo: vec3f) -> vec3f {
+  if ((s.flags & 4u) == 0u) { return vec3f(0.0); }
+  let front = dot(s.geometric, wo);
+  if (front <= 0.0 && (s.flags & 1u) == 0u) { return vec3f(0.0); }
+  let cosine = abs(front);
+  return openpbr_emission(s.parameters, vec3f(sqrt(max(1.0 - cosine * cosine, 0.0)), 0.0, cosine));
+}
+
+// Density with which light_sample would have chosen this emissive point from "origin", over solid angle.
+fn light_pdf(s: Surface, origin: vec3f, direction: vec3f) -> f32 {
+  if (s.light == 0xffffffffu) { return 0.0; }
+  let offset = s.position - origin;
+  let cosine = abs(dot(s.geometric, direction));
+  let area = 0.5 * s.double_area;
+  return (1.0 - frame.environment_probability) * lights[s.light].probability * dot(offset, offset) / max(cosine * area, 1e-30);
+}
+
+fn light_table_sample(u: vec3f, position: vec3f) -> LightSample {
+  var result = LightSample(vec3f(0.0, 1.0, 0.0), 0.0, vec3f(0.0), 0.0, false);
+  let at = u.x * f32(frame.light_count);
+  var index = min(u32(at), frame.light_count - 1u);
+  let inside = at - f32(index);
+  if (inside >= lights[index].keep) { index = lights[index].other; }
+  let light = lights[index];
+  let choice = (1.0 - frame.environment_probability) * light.probability;
+  let kind = light.kind & 15u;
+  if (kind == ${LIGHT_DIRECTIONAL}u) {
+    result.direction = -light.b;
+    result.distance = 3.4e38;
+    result.radiance = light.color;
+    result.pdf = choice;
+    return result;
+  }
+  if (kind == ${LIGHT_POINT}u || kind == ${LIGHT_SPOT}u) {
+    let offset = light.a - position;
+    let distance2 = max(dot(offset, offset), 1e-20);
+    result.distance = sqrt(distance2);
+    result.direction = offset / result.distance;
+    result.radiance = light.color / distance2;
+    if (kind == ${LIGHT_SPOT}u) {
+      // KHR_lights_punctual's falloff: c.x scales, c.y shifts the cosine to 0..1, squared.
+      let falloff = clamp(dot(-result.direction, light.b) * light.c.x + light.c.y, 0.0, 1.0);
+      result.radiance *= falloff * falloff;
+    }
+    result.pdf = choice;
+    return result;
+  }
+  // A uniform point on the triangle.
+  let root = sqrt(u.y);
+  let b1 = root * (1.0 - u.z);
+  let b2 = root * u.z;
+  let edge_1 = light.b - light.a;
+  let edge_2 = light.c - light.a;
+  var normal = cross(edge_1, edge_2);
+  let double_area = length(normal);
+  normal /= max(double_area, 1e-37);
+  if ((light.kind & ${LIGHT_MIRRORED}u) != 0u) { normal = -normal; }
+  let offset = light.a + b1 * edge_1 + b2 * edge_2 - position;
+  let distance2 = dot(offset, offset);
+  let distance = sqrt(distance2);
+  let direction = offset / max(distance, 1e-30);
+  let cosine = -dot(normal, direction);
+  if ((cosine <= 0.0 && (light.kind & ${LIGHT_TWO_SIDED}u) == 0u) || abs(cosine) * double_area <= 1e-30) { return result; }
+  //#if EMISSION_TEXTURES
+  let s = surface_load(vec4u(bitcast<u32>(b1), bitcast<u32>(b2), light.ids.y, light.ids.x), position, direction, 0.0);
+  result.radiance = light_emission(s, -direction);
+  //#else
+  let one = abs(cosine);
+  result.radiance = openpbr_emission(materials[light.ids.z].parameters, vec3f(sqrt(max(1.0 - one * one, 0.0)), 0.0, one));
+  //#endif
+  result.direction = direction;
+  // Stops short of the light itself.
+  result.distance = distance * (1.0 - 1e-4);
+  result.pdf = choice * distance2 / (abs(cosine) * 0.5 * double_area);
+  result.extended = true;
+  return result;
+}
+//#endif
+
+fn light_sample(u: vec4f, position: vec3f) -> LightSample {
+  //#if ENVIRONMENT_SAMPLED
+  if (u.w < frame.environment_probability) {
+    let direction = environment_sample(u.xyz);
+    return LightSample(direction, 3.4e38, environment_radiance(direction), frame.environment_probability * environment_pdf(direction), true);
+  }
+  //#endif
+  //#if LIGHTS
+  return light_table_sample(u.xyz, position);
+  //#else
+  return LightSample(vec3f(0.0, 1.0, 0.0), 0.0, vec3f(0.0), 0.0, false);
+  //#endif
+}
+`,
+    [surface, lightStruct.module, lightSampleStruct, environment, random],
+  );
+}

@@ -1,0 +1,108 @@
+import { openpbr } from '@glanz/openpbr';
+import { compose, createShaderModule, type WgslModule } from '@glanz/wgsl';
+import { DeviceError } from '../errors';
+import { OPACITY_ID, type TexturedParameterInfo } from '../scene/materials';
+import { connect } from './connect.wgsl';
+import { energyHost } from './energy.wgsl';
+import { featuresModule } from './features.wgsl';
+import { generate } from './generate.wgsl';
+import { intersect } from './intersect.wgsl';
+import { lightsModule } from './lights.wgsl';
+import { bindGroupLayout, bindingModule, type ResourceName, type SceneBinding } from './resources';
+import { resolve } from './resolve.wgsl';
+import { advance, begin } from './schedule.wgsl';
+import { shadeModule } from './shade.wgsl';
+import { materialModule, opacityModule, surfaceModule } from './surface.wgsl';
+import { traversalModule } from './traversal.wgsl';
+
+/** What about a scene decides the text of its kernels. Two scenes with equal features share pipelines. */
+export interface KernelFeatures {
+  readonly flags: Readonly<Record<string, boolean>>;
+  readonly samplings: readonly (readonly [number, number])[];
+  readonly textured: readonly TexturedParameterInfo[];
+  readonly textureCount: number;
+  readonly samplerCount: number;
+}
+
+export const KERNELS = ['generate', 'begin', 'intersect', 'shade', 'advance', 'connect', 'resolve', 'features'] as const;
+export type KernelName = (typeof KERNELS)[number];
+
+/** A compiled kernel and the names of what it binds, in order. */
+export interface Kernel {
+  readonly pipeline: GPUComputePipeline;
+  readonly layout: GPUBindGroupLayout;
+  readonly resources: readonly ResourceName[];
+  readonly sceneBindings: readonly SceneBinding[];
+}
+
+interface KernelText {
+  readonly root: WgslModule;
+  readonly resources: readonly ResourceName[];
+  readonly textures: boolean;
+}
+
+function kernelText(name: KernelName, features: KernelFeatures): KernelText {
+  const { flags } = features;
+  const material = materialModule(features.samplings, features.textured);
+  const opacity = opacityModule(material, OPACITY_ID);
+  const surface = surfaceModule(material);
+  const traversal = (kind: 'closest' | 'any') => traversalModule(kind, flags.BVH_FILTER === true ? opacity : undefined);
+  const filter: ResourceName[] = flags.BVH_FILTER ? ['frame', 'batch', 'attributes', 'materials'] : [];
+  const energy: ResourceName[] = ['energy_dielectric', 'energy_conductor', 'energy_sampler'];
+  const scene: ResourceName[] = ['triangles', 'instances', 'attributes', 'materials'];
+  switch (name) {
+    case 'generate':
+      return { root: generate, resources: ['frame', 'batch', 'paths', 'queues'], textures: false };
+    case 'begin':
+      return { root: begin, resources: ['batch', 'queues', 'dispatch'], textures: false };
+    case 'advance':
+      return { root: advance, resources: ['queues', 'dispatch'], textures: false };
+    case 'intersect':
+      return { root: intersect(traversal('closest')), resources: [...filter, 'paths', 'queues', 'nodes', 'triangles', 'instances'], textures: flags.BVH_FILTER === true };
+    case 'connect':
+      return { root: connect(traversal('any')), resources: [...filter, 'paths', 'queues', 'shadows', 'nodes', 'triangles', 'instances'], textures: flags.BVH_FILTER === true };
+    case 'shade':
+      return {
+        root: shadeModule(surface, lightsModule(surface), openpbr, energyHost),
+        resources: ['frame', 'batch', 'paths', 'queues', 'shadows', ...scene, 'lights', 'environment', 'environment_table', ...energy],
+        textures: true,
+      };
+    case 'resolve':
+      return { root: resolve, resources: ['batch', 'paths', 'queues', 'film_block', 'film_total', 'beauty'], textures: false };
+    case 'features':
+      return {
+        root: featuresModule(surface, openpbr, energyHost, traversal('closest')),
+        resources: ['frame', 'batch', 'nodes', ...scene, 'feature_albedo', 'feature_normal', 'feature_ids', ...energy],
+        textures: true,
+      };
+  }
+}
+
+/**
+ * Compiles one kernel for a scene's features.
+ * @throws {ShaderError} with module and line if the text does not compile.
+ * @throws {DeviceError} `renderer/gpu-error` if the pipeline is refused.
+ */
+export async function createKernel(device: GPUDevice, name: KernelName, features: KernelFeatures): Promise<Kernel> {
+  const text = kernelText(name, features);
+  const sceneBindings: SceneBinding[] = text.textures
+    ? [
+        ...Array.from({ length: features.textureCount }, (_, i) => [`scene_texture_${i}`, 'texture_2d_array'] as const),
+        ...Array.from({ length: features.samplerCount }, (_, i) => [`scene_sampler_${i}`, 'sampler'] as const),
+      ]
+    : [];
+  const bindings = bindingModule(name, text.resources, sceneBindings, []);
+  const shader = compose([bindings, text.root], { flags: features.flags });
+  const layout = bindGroupLayout(device, name, text.resources, sceneBindings);
+  const module = await createShaderModule(device, shader, `glanz ${name}`);
+  try {
+    const pipeline = await device.createComputePipelineAsync({
+      label: `glanz ${name}`,
+      layout: device.createPipelineLayout({ label: `glanz ${name}`, bindGroupLayouts: [layout] }),
+      compute: { module, entryPoint: 'main' },
+    });
+    return { pipeline, layout, resources: text.resources, sceneBindings };
+  } catch (cause) {
+    throw new DeviceError('renderer/gpu-error', `The GPU refused the kernel "${name}": ${(cause as Error).message}`, { cause });
+  }
+}

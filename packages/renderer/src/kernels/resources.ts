@@ -1,0 +1,105 @@
+import { bvhNodeStruct } from '@glanz/bvh';
+import { wgslModule, type WgslModule } from '@glanz/wgsl';
+import { GPU_STAGE_COMPUTE } from '../gpu/buffers';
+import { batchStruct, frameStruct, instanceStruct, lightStruct, materialStruct, pathStruct, shadowStruct } from './layout';
+
+/**
+ * What a kernel may bind, described once: the WGSL declaration and the bind group layout entry come from the same row.
+ * Textures of the scene are added by the material module, since their number depends on the scene.
+ */
+interface Resource {
+  /** WGSL type after `var<…> name:`. */
+  readonly type: string;
+  readonly space: 'uniform' | 'read' | 'read_write' | 'texture_2d' | 'texture_2d_array' | 'texture_3d' | 'unfilterable' | 'sampler';
+  readonly deps?: readonly WgslModule[];
+}
+
+const queues = wgslModule(
+  'renderer/queues-struct',
+  /* wgsl */ `
+// Two lists of path indices: the one being worked on and the next; "items" holds both, half its length each.
+struct Queues {
+  depth: u32,
+  active_count: u32,
+  shadow_active: u32,
+  bad_samples: atomic<u32>,
+  next_count: atomic<u32>,
+  shadow_count: atomic<u32>,
+  capacity: u32,
+  reserved: u32,
+  items: array<u32>,
+}`,
+);
+
+const RESOURCES = {
+  frame: { type: 'Frame', space: 'uniform', deps: [frameStruct.module] },
+  batch: { type: 'Batch', space: 'uniform', deps: [batchStruct.module] },
+  paths: { type: 'array<Path>', space: 'read_write', deps: [pathStruct.module] },
+  queues: { type: 'Queues', space: 'read_write', deps: [queues] },
+  shadows: { type: 'array<Shadow>', space: 'read_write', deps: [shadowStruct.module] },
+  dispatch: { type: 'array<u32, 8>', space: 'read_write' },
+  nodes: { type: 'array<BvhNode>', space: 'read', deps: [bvhNodeStruct.module] },
+  triangles: { type: 'array<vec4f>', space: 'read' },
+  instances: { type: 'array<Instance>', space: 'read', deps: [instanceStruct.module] },
+  attributes: { type: 'array<u32>', space: 'read' },
+  materials: { type: 'array<Material>', space: 'read', deps: [materialStruct.module] },
+  lights: { type: 'array<Light>', space: 'read', deps: [lightStruct.module] },
+  environment: { type: 'texture_2d<f32>', space: 'unfilterable' },
+  environment_table: { type: 'texture_2d<f32>', space: 'unfilterable' },
+  energy_dielectric: { type: 'texture_3d<f32>', space: 'texture_3d' },
+  energy_conductor: { type: 'texture_2d<f32>', space: 'texture_2d' },
+  energy_sampler: { type: 'sampler', space: 'sampler' },
+  film_block: { type: 'array<vec4f>', space: 'read_write' },
+  film_total: { type: 'array<vec4f>', space: 'read_write' },
+  beauty: { type: 'array<vec4f>', space: 'read_write' },
+  feature_albedo: { type: 'array<vec4f>', space: 'read_write' },
+  feature_normal: { type: 'array<vec4f>', space: 'read_write' },
+  feature_ids: { type: 'array<vec4u>', space: 'read_write' },
+} as const satisfies Record<string, Resource>;
+
+export type ResourceName = keyof typeof RESOURCES;
+
+/** Scene textures and samplers that a kernel binds in addition, in order: `[name, kind]`. */
+export type SceneBinding = readonly [name: string, kind: 'texture_2d_array' | 'sampler'];
+
+/** The declarations of a kernel's bindings, all in group 0, numbered in order. */
+export function bindingModule(kernel: string, names: readonly ResourceName[], extra: readonly SceneBinding[], deps: readonly WgslModule[]): WgslModule {
+  const lines = names.map((name, index) => {
+    const { type, space } = RESOURCES[name] as Resource;
+    const qualifier = space === 'uniform' ? '<uniform>' : space === 'read' ? '<storage, read>' : space === 'read_write' ? '<storage, read_write>' : '';
+    return `@group(0) @binding(${index}) var${qualifier} ${name}: ${type};`;
+  });
+  extra.forEach(([name, kind], index) => {
+    lines.push(`@group(0) @binding(${names.length + index}) var ${name}: ${kind === 'sampler' ? 'sampler' : 'texture_2d_array<f32>'};`);
+  });
+  const structs = names.flatMap((name) => (RESOURCES[name] as Resource).deps ?? []);
+  return wgslModule(`renderer/${kernel}-bindings`, lines.join('\n'), [...structs, ...deps]);
+}
+
+/** The bind group layout that matches {@link bindingModule}. */
+export function bindGroupLayout(device: GPUDevice, kernel: string, names: readonly ResourceName[], extra: readonly SceneBinding[]): GPUBindGroupLayout {
+  const entries: GPUBindGroupLayoutEntry[] = names.map((name, binding) => ({ binding, visibility: GPU_STAGE_COMPUTE, ...layoutEntry((RESOURCES[name] as Resource).space) }));
+  extra.forEach(([, kind], index) => entries.push({ binding: names.length + index, visibility: GPU_STAGE_COMPUTE, ...layoutEntry(kind) }));
+  return device.createBindGroupLayout({ label: `glanz ${kernel}`, entries });
+}
+
+function layoutEntry(space: Resource['space']): Omit<GPUBindGroupLayoutEntry, 'binding' | 'visibility'> {
+  switch (space) {
+    case 'uniform':
+      return { buffer: { type: 'uniform' } };
+    case 'read':
+      return { buffer: { type: 'read-only-storage' } };
+    case 'read_write':
+      return { buffer: { type: 'storage' } };
+    case 'texture_2d':
+      return { texture: { sampleType: 'float' } };
+    case 'texture_2d_array':
+      return { texture: { sampleType: 'float', viewDimension: '2d-array' } };
+    case 'texture_3d':
+      return { texture: { sampleType: 'float', viewDimension: '3d' } };
+    case 'unfilterable':
+      return { texture: { sampleType: 'unfilterable-float' } };
+    case 'sampler':
+      return { sampler: { type: 'filtering' } };
+  }
+}

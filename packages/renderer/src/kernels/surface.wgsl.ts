@@ -1,0 +1,292 @@
+import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
+import { random } from './random.wgsl';
+import { bindingStruct, instanceStruct, materialStruct, MATERIAL_MASK, meshStruct } from './layout';
+
+const word = (field: Parameters<typeof bindingStruct.offsetOf>[0]) => bindingStruct.offsetOf(field) / 4;
+const meshWord = (field: Parameters<typeof meshStruct.offsetOf>[0]) => meshStruct.offsetOf(field) / 4;
+
+/** Reads of the attribute heap: vertex attributes of a triangle, interpolated at a hit. */
+const attributes = wgslModule(
+  'renderer/attributes',
+  /* wgsl */ `
+fn attribute_mesh(mesh: u32, field: u32) -> u32 { return attributes[mesh * ${meshStruct.size / 4}u + field]; }
+
+fn attribute_corners(mesh: u32, triangle: u32) -> vec3u {
+  let at = attribute_mesh(mesh, ${meshWord('indices')}u) + 3u * triangle;
+  return vec3u(attributes[at], attributes[at + 1u], attributes[at + 2u]);
+}
+
+fn attribute_2(at: u32) -> vec2f { return bitcast<vec2f>(vec2u(attributes[at], attributes[at + 1u])); }
+fn attribute_3(at: u32) -> vec3f { return bitcast<vec3f>(vec3u(attributes[at], attributes[at + 1u], attributes[at + 2u])); }
+fn attribute_4(at: u32) -> vec4f { return bitcast<vec4f>(vec4u(attributes[at], attributes[at + 1u], attributes[at + 2u], attributes[at + 3u])); }
+
+struct AttributeUv {
+  uv: vec2f,
+  // Edges of the triangle in texture space.
+  edge_1: vec2f,
+  edge_2: vec2f,
+}
+
+fn attribute_uv(base: u32, corners: vec3u, weights: vec3f) -> AttributeUv {
+  if (base == 0xffffffffu) { return AttributeUv(vec2f(0.0), vec2f(0.0), vec2f(0.0)); }
+  let a = attribute_2(base + 2u * corners.x);
+  let b = attribute_2(base + 2u * corners.y);
+  let c = attribute_2(base + 2u * corners.z);
+  return AttributeUv(weights.x * a + weights.y * b + weights.z * c, b - a, c - a);
+}
+
+fn attribute_color(mesh: u32, corners: vec3u, weights: vec3f) -> vec4f {
+  let base = attribute_mesh(mesh, ${meshWord('colors')}u);
+  if (base == 0xffffffffu) { return vec4f(1.0); }
+  return weights.x * attribute_4(base + 4u * corners.x) + weights.y * attribute_4(base + 4u * corners.y) + weights.z * attribute_4(base + 4u * corners.z);
+}
+`,
+  [meshStruct.module],
+);
+
+/**
+ * The module that reads a material with its textures. Its text depends on the scene: a case for each pair of texture
+ * array and sampler, and one for each parameter that some material textures.
+ *
+ * @param samplings Pairs of texture array and sampler indices, in the order of the records' `sampling` numbers.
+ * @param textured Parameters that are textured, with their number in the records and whether they are colours.
+ */
+export function materialModule(samplings: readonly (readonly [texture: number, sampler: number])[], textured: readonly { readonly name: string; readonly id: number; readonly type: 'vec3f' | 'f32' }[]): WgslModule {
+  const cases = samplings.map(([texture, sampler], index) => `    case ${index}u: { return textureSampleLevel(scene_texture_${texture}, scene_sampler_${sampler}, uv, layer, lod); }`).join('\n');
+  const apply = textured
+    .filter(({ name }) => name !== 'geometry_normal')
+    .map(({ name, id, type }) => `      case ${id}u: { result.parameters.${name} *= ${type === 'vec3f' ? 'texel.rgb' : 'value'}; }`)
+    .join('\n');
+  const normal = textured.find(({ name }) => name === 'geometry_normal');
+  return wgslModule(
+    'renderer/material',
+    /* wgsl */ `
+struct MaterialSample {
+  parameters: OpenPbrParameters,
+  // Tangent-space normal from the normal map, before normalising; (0, 0, 1) without one.
+  normal: vec3f,
+  flags: u32,
+  threshold: f32,
+}
+
+//#if TEXTURES
+fn material_texel(sampling: u32, uv: vec2f, layer: u32, lod: f32) -> vec4f {
+  switch (sampling) {
+${cases}
+    default: { return vec4f(1.0); }
+  }
+}
+//#endif
+
+// "only" picks one parameter to texture, 0xffffffff all of them; "lod" is log2 of the footprint in units of uv.
+fn material_sample(index: u32, uv0: vec2f, uv1: vec2f, lod0: f32, lod1: f32, only: u32) -> MaterialSample {
+  var result: MaterialSample;
+  result.parameters = materials[index].parameters;
+  result.normal = vec3f(0.0, 0.0, 1.0);
+  result.flags = materials[index].flags;
+  result.threshold = materials[index].opacity_threshold;
+  //#if TEXTURES
+  let count = min(materials[index].binding_count, 64u);
+  let first = materials[index].first_binding;
+  for (var i = 0u; i < count; i++) {
+    let at = first + i * ${bindingStruct.size / 4}u;
+    let parameter = attributes[at + ${word('parameter')}u];
+    if (only != 0xffffffffu && parameter != only) { continue; }
+    let channels = attributes[at + ${word('channels')}u];
+    let second = (channels >> 8u) != 0u;
+    let uv = vec3f(select(uv0, uv1, second), 1.0);
+    let placed = vec2f(dot(attribute_3(at + ${word('row_u')}u), uv), dot(attribute_3(at + ${word('row_v')}u), uv));
+    let lod = select(lod0, lod1, second) + bitcast<f32>(attributes[at + ${word('log_size')}u]);
+    let texel = material_texel(attributes[at + ${word('sampling')}u], placed, attributes[at + ${word('layer')}u], max(lod, 0.0));
+    let value = texel[min(channels & 255u, 3u)];
+    switch (parameter) {
+${apply}
+${normal ? `      case ${normal.id}u: { result.normal = (2.0 * texel.xyz - 1.0) * vec3f(vec2f(bitcast<f32>(attributes[at + ${word('scale')}u])), 1.0); }` : ''}
+      default: { }
+    }
+  }
+  //#endif
+  return result;
+}
+`,
+    [bindingStruct.module, materialStruct.module, attributes],
+  );
+}
+
+/** Opacity of a candidate hit for the traversal: accepted with the probability of the surface being there. */
+export function opacityModule(material: WgslModule, opacityParameter: number): WgslModule {
+  return wgslModule(
+    'renderer/opacity',
+    /* wgsl */ `
+var<private> opacity_key: vec3u;
+
+// Names the random numbers of one ray: its path and its place along the path.
+fn opacity_begin(path: u32, stream: u32) {
+  opacity_key = vec3u(batch.pixel_offset + path % batch.pixel_count, batch.sample_offset + path / batch.pixel_count, stream);
+}
+
+fn opacity_at(hit: BvhHit) -> f32 {
+  let index = instances[hit.instance].material;
+  if ((materials[index].flags & 2u) != 0u) { return 1.0; }
+  let mesh = instances[hit.instance].mesh;
+  let corners = attribute_corners(mesh, bitcast<u32>(triangles[3u * hit.triangle].w));
+  let weights = vec3f(1.0 - hit.u - hit.v, hit.u, hit.v);
+  let uv0 = attribute_uv(attribute_mesh(mesh, ${meshWord('uv0')}u), corners, weights).uv;
+  let uv1 = attribute_uv(attribute_mesh(mesh, ${meshWord('uv1')}u), corners, weights).uv;
+  let sample = material_sample(index, uv0, uv1, -64.0, -64.0, ${opacityParameter}u);
+  var opacity = sample.parameters.geometry_opacity;
+  //#if VERTEX_COLORS
+  opacity *= attribute_color(mesh, corners, weights).a;
+  //#endif
+  if ((sample.flags & ${MATERIAL_MASK}u) != 0u) { return select(0.0, 1.0, opacity >= sample.threshold); }
+  return opacity;
+}
+
+// Crossing a surface of opacity α goes on with probability 1 − α. The decision hangs on ray, instance and triangle alone,
+// not on the order of traversal, so the nearest accepted hit is well defined.
+fn bvh_accept(hit: BvhHit) -> bool {
+  let opacity = opacity_at(hit);
+  if (opacity >= 1.0) { return true; }
+  let seed = vec4u(opacity_key.xy, opacity_key.z + 0x10000u * (frame.seed & 0xffffu), (hit.triangle * 0x9e3779b9u) ^ (hit.instance * 0x85ebca6bu + 1u));
+  return f32(random_pcg4d(seed).x >> 8u) * 5.9604644775390625e-8 < opacity;
+}
+`,
+    [material, random],
+  );
+}
+
+/** A hit with everything that shading needs: place, frames, the material's parameters there. */
+export function surfaceModule(material: WgslModule): WgslModule {
+  return wgslModule(
+    'renderer/surface',
+    /* wgsl */ `
+struct Surface {
+  position: vec3f,
+  // Unit; towards the front (the side the triangle's counter-clockwise winding faces).
+  geometric: vec3f,
+  // Unit shading frame on the front side.
+  normal: vec3f,
+  tangent: vec3f,
+  bitangent: vec3f,
+  parameters: OpenPbrParameters,
+  flags: u32,
+  material: u32,
+  // Light index of this triangle, or 0xffffffff.
+  light: u32,
+  id: u32,
+  // Twice the triangle's area in the world.
+  double_area: f32,
+  // Largest coordinate that went into the position; rounding errors are proportional to it.
+  magnitude: f32,
+}
+
+// Branch-free frame (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017).
+fn surface_tangent(n: vec3f) -> vec3f {
+  let s = select(-1.0, 1.0, n.z >= 0.0);
+  let a = -1.0 / (s + n.z);
+  return vec3f(1.0 + s * n.x * n.x * a, s * n.x * n.y * a, -s * n.x);
+}
+
+fn surface_normal_to_world(columns: mat3x3f, orientation: f32, n: vec3f) -> vec3f {
+  return orientation * (cross(columns[1], columns[2]) * n.x + cross(columns[2], columns[0]) * n.y + cross(columns[0], columns[1]) * n.z);
+}
+
+// "hit": barycentrics as bits, triangle, instance. "cone": width of the ray's footprint per unit of distance, and at its origin.
+fn surface_load(hit: vec4u, origin: vec3f, direction: vec3f, cone_width: f32) -> Surface {
+  var s: Surface;
+  let u = bitcast<f32>(hit.x);
+  let v = bitcast<f32>(hit.y);
+  let weights = vec3f(1.0 - u - v, u, v);
+  let first = triangles[3u * hit.z];
+  let a = first.xyz;
+  let b = triangles[3u * hit.z + 1u].xyz;
+  let c = triangles[3u * hit.z + 2u].xyz;
+  let edge_1 = b - a;
+  let edge_2 = c - a;
+  let triangle = bitcast<u32>(first.w);
+  let x = instances[hit.w].to_world_0;
+  let y = instances[hit.w].to_world_1;
+  let z = instances[hit.w].to_world_2;
+  let p = a + u * edge_1 + v * edge_2;
+  s.position = vec3f(dot(x.xyz, p) + x.w, dot(y.xyz, p) + y.w, dot(z.xyz, p) + z.w);
+  let reach = vec4f(max(abs(a), max(abs(b), abs(c))), 1.0);
+  s.magnitude = max(dot(abs(x), reach), max(dot(abs(y), reach), dot(abs(z), reach)));
+  let columns = transpose(mat3x3f(x.xyz, y.xyz, z.xyz));
+  let orientation = select(-1.0, 1.0, dot(columns[0], cross(columns[1], columns[2])) >= 0.0);
+  let area = surface_normal_to_world(columns, orientation, cross(edge_1, edge_2));
+  s.double_area = length(area);
+  s.geometric = area / max(s.double_area, 1e-37);
+  s.normal = s.geometric;
+  s.id = instances[hit.w].id;
+  s.material = instances[hit.w].material;
+  let light = instances[hit.w].first_light;
+  s.light = select(light + triangle, 0xffffffffu, light == 0xffffffffu);
+
+  let mesh = instances[hit.w].mesh;
+  let corners = attribute_corners(mesh, triangle);
+  let normals = attribute_mesh(mesh, ${meshWord('normals')}u);
+  if (normals != 0xffffffffu) {
+    let n = weights.x * attribute_3(normals + 3u * corners.x) + weights.y * attribute_3(normals + 3u * corners.y) + weights.z * attribute_3(normals + 3u * corners.z);
+    let world = surface_normal_to_world(columns, orientation, n);
+    let length2 = dot(world, world);
+    if (length2 > 0.0) { s.normal = world * inverseSqrt(length2); }
+  }
+
+  //#if TEXTURES
+  let uv0 = attribute_uv(attribute_mesh(mesh, ${meshWord('uv0')}u), corners, weights);
+  let uv1 = attribute_uv(attribute_mesh(mesh, ${meshWord('uv1')}u), corners, weights);
+  // Texture level from the ray's cone (Akenine-Möller et al., "Texture Level of Detail Strategies", Ray Tracing Gems 2019).
+  let width = cone_width + frame.cone_spread * distance(origin, s.position);
+  let footprint = log2(max(width, 1e-30)) - log2(max(abs(dot(direction, s.geometric)), 1e-3)) + frame.lod_bias - 0.5 * log2(max(s.double_area, 1e-37));
+  let lod0 = footprint + 0.5 * log2(max(abs(uv0.edge_1.x * uv0.edge_2.y - uv0.edge_1.y * uv0.edge_2.x), 1e-37));
+  let lod1 = footprint + 0.5 * log2(max(abs(uv1.edge_1.x * uv1.edge_2.y - uv1.edge_1.y * uv1.edge_2.x), 1e-37));
+  let sample = material_sample(s.material, uv0.uv, uv1.uv, lod0, lod1, 0xffffffffu);
+  //#else
+  let sample = material_sample(s.material, vec2f(0.0), vec2f(0.0), 0.0, 0.0, 0xffffffffu);
+  //#endif
+  s.parameters = sample.parameters;
+  s.flags = sample.flags;
+  //#if VERTEX_COLORS
+  s.parameters.base_color *= attribute_color(mesh, corners, weights).rgb;
+  //#endif
+
+  var tangent = surface_tangent(s.normal);
+  var handedness = 1.0;
+  let tangents = attribute_mesh(mesh, ${meshWord('tangents')}u);
+  if (tangents != 0xffffffffu) {
+    let t = weights.x * attribute_4(tangents + 4u * corners.x) + weights.y * attribute_4(tangents + 4u * corners.y) + weights.z * attribute_4(tangents + 4u * corners.z);
+    let world = columns * t.xyz;
+    let flat = world - s.normal * dot(s.normal, world);
+    if (dot(flat, flat) > 1e-12 * dot(world, world)) {
+      tangent = normalize(flat);
+      handedness = select(-1.0, 1.0, t.w >= 0.0) * orientation;
+    }
+  }
+  //#if NORMAL_MAP
+  else {
+    // Tangents from the texture coordinates: along +u, with the bitangent against +v, since v runs down the picture.
+    let det = uv0.edge_1.x * uv0.edge_2.y - uv0.edge_1.y * uv0.edge_2.x;
+    if (det != 0.0) {
+      let along_u = columns * (edge_1 * uv0.edge_2.y - edge_2 * uv0.edge_1.y) * sign(det);
+      let against_v = columns * (edge_1 * uv0.edge_2.x - edge_2 * uv0.edge_1.x) * sign(det);
+      let flat = along_u - s.normal * dot(s.normal, along_u);
+      if (dot(flat, flat) > 0.0) {
+        tangent = normalize(flat);
+        handedness = select(-1.0, 1.0, dot(cross(s.normal, tangent), against_v) >= 0.0);
+      }
+    }
+  }
+  let mapped = sample.normal.x * tangent + handedness * sample.normal.y * cross(s.normal, tangent) + sample.normal.z * s.normal;
+  let mapped2 = dot(mapped, mapped);
+  if (mapped2 > 1e-12 && sample.normal.z > 0.0) { s.normal = mapped * inverseSqrt(mapped2); }
+  //#endif
+  tangent -= s.normal * dot(s.normal, tangent);
+  let tangent2 = dot(tangent, tangent);
+  s.tangent = select(surface_tangent(s.normal), tangent * inverseSqrt(max(tangent2, 1e-30)), tangent2 > 1e-6);
+  s.bitangent = handedness * cross(s.normal, s.tangent);
+  return s;
+}
+`,
+    [material, instanceStruct.module, gated('TEXTURES', attributes)],
+  );
+}

@@ -1,0 +1,87 @@
+import type { Camera } from '@glanz/scene';
+
+/** What {@link PathTracer.create} may be told. */
+export interface PathTracerOptions {
+  /** Film size in pixels, at least 1 × 1. */
+  readonly width: number;
+  readonly height: number;
+  /**
+   * Most edges of a path from the camera to a light: 1 shows emitters only, 2 adds direct light, … Default 8. Crossing a
+   * surface that is not fully there (opacity) does not count.
+   */
+  readonly maxDepth?: number;
+  /** Names the random numbers; the same seed gives the same picture on the same device. Default 0. */
+  readonly seed?: number;
+  /** A camera, or index or name of one of the scene's. Default: the scene's first, or one that frames the scene. */
+  readonly camera?: Camera | number | string;
+  /** `transparent` leaves pixels without surface empty (alpha 0). Default `environment`. */
+  readonly background?: 'environment' | 'transparent';
+  /** Compensate the energy that single-scattering microfacet models lose. Default true; false is for tests against such references. */
+  readonly multipleScattering?: boolean;
+  /** Added to texture levels of detail. Default −1: a texel is half a pixel wide or finer; the pixel filter does the rest. */
+  readonly textureLodBias?: number;
+  /** Paths held on the GPU at once, about 140 bytes each. Default: four samples of the picture, between 65,536 and 1,048,576. */
+  readonly pathsInFlight?: number;
+  readonly signal?: AbortSignal;
+  readonly onProgress?: (progress: PrepareProgress) => void;
+}
+
+/** How far {@link PathTracer.create} has come. */
+export interface PrepareProgress {
+  readonly stage: 'bvh' | 'upload' | 'compile';
+  /** Share of the stage, 0..1. */
+  readonly done: number;
+}
+
+/** What {@link PathTracer.render} may be told. */
+export interface RenderOptions {
+  /** Samples per pixel to reach in all, counting those already there. Default 64. */
+  readonly samples?: number;
+  readonly signal?: AbortSignal;
+  /** Milliseconds of GPU time that one submission should take at most. Default 30: a page stays responsive, no watchdog fires. */
+  readonly maxSubmitMs?: number;
+}
+
+/** Given after each completed sample or group of samples. */
+export interface RenderProgress {
+  /** Completed samples per pixel. */
+  readonly samples: number;
+  readonly targetSamples: number;
+  /** Milliseconds since this `render()` began. */
+  readonly elapsedMs: number;
+  /** Milliseconds until `targetSamples` at the present rate; `Infinity` before the first sample. */
+  readonly remainingMs: number;
+  readonly samplesPerSecond: number;
+}
+
+/** Figures about a prepared scene. */
+export interface RenderStatistics {
+  /** Stored triangles of the meshes in use. */
+  readonly triangles: number;
+  readonly instances: number;
+  /** Rows of the light table: emissive triangles and lights without size. */
+  readonly lights: number;
+  readonly bvhMs: number;
+  readonly uploadMs: number;
+  /** Time until all pipelines were there; they compile side by side. */
+  readonly compileMs: number;
+  /** Bytes of GPU memory held. */
+  readonly gpuBytes: number;
+  /** Samples dropped because they were NaN or infinite; 0 on healthy scenes. Known after a `read()`. */
+  readonly badSamples: number;
+}
+
+/** What {@link PathTracer.read} can give. */
+export type FilmLayer = 'beauty' | 'albedo' | 'normal' | 'depth' | 'objectId' | 'materialId';
+
+/** The surface under a pixel, see {@link PathTracer.pick}. */
+export interface PickResult {
+  /** Index into `Scene.instances`. */
+  readonly instance: number;
+  /** Index into `Scene.materials`. */
+  readonly material: number;
+  /** World space, metres. */
+  readonly position: readonly [number, number, number];
+  /** Metres from the camera. */
+  readonly distance: number;
+}

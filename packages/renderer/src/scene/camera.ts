@@ -1,0 +1,61 @@
+import type { Camera } from '@glanz/scene';
+import { RenderError } from '../errors';
+
+/** The camera's part of the frame uniforms. */
+export interface CameraUniforms {
+  readonly camera_origin: readonly number[];
+  readonly camera_kind: number;
+  readonly camera_right: readonly number[];
+  readonly camera_up: readonly number[];
+  readonly camera_forward: readonly number[];
+  readonly lens_radius: number;
+  readonly focus_distance: number;
+  /** Half width and half height of the picture at distance 1 (perspective) or in metres (orthographic). */
+  readonly half_extent: readonly [number, number];
+  /** Growth of a pixel's footprint per metre. */
+  readonly cone_spread: number;
+}
+
+function axis(transform: ArrayLike<number>, column: number): number[] {
+  const v = [0, 1, 2].map((i) => transform[column * 4 + i] as number);
+  const length = Math.hypot(...v);
+  if (!(length > 0) || !Number.isFinite(length)) throw new RenderError('renderer/camera', `The camera's transform has a zero or non-finite axis (column ${column}).`);
+  return v.map((x) => x / length);
+}
+
+const cross = (a: readonly number[], b: readonly number[]) => [
+  (a[1] as number) * (b[2] as number) - (a[2] as number) * (b[1] as number),
+  (a[2] as number) * (b[0] as number) - (a[0] as number) * (b[2] as number),
+  (a[0] as number) * (b[1] as number) - (a[1] as number) * (b[0] as number),
+];
+
+/**
+ * Packs a camera for a film of `width` × `height` pixels. The film keeps the vertical field of view.
+ * @throws {RenderError} `renderer/camera` for a degenerate transform or field of view.
+ */
+export function cameraUniforms(camera: Camera, width: number, height: number): CameraUniforms {
+  const forward = axis(camera.transform, 2).map((x) => -x);
+  const upHint = axis(camera.transform, 1);
+  const right = cross(forward, upHint);
+  const length = Math.hypot(...right);
+  if (!(length > 1e-6)) throw new RenderError('renderer/camera', "The camera's up and view axes are parallel.");
+  const unitRight = right.map((x) => x / length);
+  const up = cross(unitRight, forward);
+  const camera_origin = [0, 1, 2].map((i) => camera.transform[12 + i] as number);
+  const base = { camera_origin, camera_right: unitRight, camera_up: up, camera_forward: forward };
+  if (camera.type === 'orthographic') {
+    if (!(camera.xmag > 0) || !(camera.ymag > 0)) throw new RenderError('renderer/camera', `Camera "${camera.name}" has a view of no size: xmag ${camera.xmag}, ymag ${camera.ymag}.`);
+    // The film's shape decides the width, as for perspective.
+    return { ...base, camera_kind: 1, lens_radius: 0, focus_distance: 1, half_extent: [(camera.ymag * width) / height, camera.ymag], cone_spread: 0 };
+  }
+  if (!(camera.yfov > 0) || !(camera.yfov < Math.PI)) throw new RenderError('renderer/camera', `Camera "${camera.name}" has a vertical field of view of ${camera.yfov} rad; it must lie between 0 and π.`);
+  const tangent = Math.tan(camera.yfov / 2);
+  return {
+    ...base,
+    camera_kind: 0,
+    lens_radius: Math.max(camera.lens_radius ?? 0, 0),
+    focus_distance: Math.max(camera.focus_distance ?? 1, 1e-6),
+    half_extent: [(tangent * width) / height, tangent],
+    cone_spread: (2 * tangent) / height,
+  };
+}

@@ -1,0 +1,116 @@
+import type { Environment, LatLongEnvironment } from '@glanz/scene';
+import { buildAliasTable } from './alias-table';
+
+/** What the GPU needs to know about the surroundings. */
+export interface EnvironmentData {
+  /** RGBA float pixels of the lat-long picture, stride 4; absent for constant light. */
+  readonly pixels?: { readonly width: number; readonly height: number; readonly data: Float32Array<ArrayBuffer> };
+  /** Multiplies the pixels, or is the constant radiance itself. */
+  readonly radiance: readonly [number, number, number];
+  /** Cosine and sine of the rotation about +Y. */
+  readonly rotation: readonly [number, number];
+  readonly visible: boolean;
+  /** Importance cells, RGBA: threshold, alias, density over the unit square, 0; absent when sampling by the BSDF alone is as good. */
+  readonly table?: { readonly width: number; readonly height: number; readonly data: Float32Array<ArrayBuffer> };
+  /** Mean luminance over the sphere. */
+  readonly meanLuminance: number;
+}
+
+const MAX_CELLS = [1024, 512] as const;
+
+const luminance = (r: number, g: number, b: number) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
+
+/** Prepares an environment for the GPU. A constant one needs no table: BSDF sampling finds it everywhere. */
+export function prepareEnvironment(environment: Environment | undefined): EnvironmentData {
+  if (!environment) return { radiance: [0, 0, 0], rotation: [1, 0], visible: true, meanLuminance: 0 };
+  const visible = environment.visible ?? true;
+  if (environment.type === 'constant') {
+    return { radiance: environment.radiance, rotation: [1, 0], visible, meanLuminance: luminance(...environment.radiance) };
+  }
+  const { width, height, data } = environment;
+  const pixels = new Float32Array(width * height * 4);
+  for (let i = 0; i < width * height; i++) {
+    for (let c = 0; c < 3; c++) {
+      const value = data[3 * i + c] as number;
+      // A picture with broken pixels must not poison the film.
+      pixels[4 * i + c] = value > 0 ? Math.min(value, 3e38) : 0;
+    }
+    pixels[4 * i + 3] = 1;
+  }
+  const intensity = environment.intensity ?? 1;
+  const rotation = environment.rotation ?? 0;
+  const { table, mean } = importance(environment, pixels);
+  return {
+    pixels: { width, height, data: pixels },
+    radiance: [intensity, intensity, intensity],
+    rotation: [Math.cos(rotation), Math.sin(rotation)],
+    visible,
+    ...(table && intensity > 0 ? { table } : {}),
+    meanLuminance: mean * intensity,
+  };
+}
+
+/** Luminance averaged over each cell of a coarser grid, of the picture as it is read: bilinearly. */
+function cellLuminance(source: LatLongEnvironment, pixels: Float32Array): { width: number; height: number; values: Float64Array } {
+  const { width: w, height: h } = source;
+  // The mean of a bilinear interpolant over a texel's square weighs the neighbours 1 : 6 : 1.
+  const rows = new Float64Array(w * h);
+  const own = (x: number, y: number) => {
+    const i = 4 * (y * w + ((x + w) % w));
+    return luminance(pixels[i] as number, pixels[i + 1] as number, pixels[i + 2] as number);
+  };
+  for (let y = 0; y < h; y++) for (let x = 0; x < w; x++) rows[y * w + x] = (own(x - 1, y) + 6 * own(x, y) + own(x + 1, y)) / 8;
+  const width = Math.min(w, MAX_CELLS[0]);
+  const height = Math.min(h, MAX_CELLS[1]);
+  const values = new Float64Array(width * height);
+  const areas = new Float64Array(width * height);
+  const row = (x: number, y: number) => rows[Math.min(Math.max(y, 0), h - 1) * w + x] as number;
+  // Each texel gives to the cells it overlaps, so no bright texel is lost when the sizes do not divide.
+  for (let y = 0; y < h; y++) {
+    const y0 = (y * height) / h;
+    const y1 = ((y + 1) * height) / h;
+    for (let x = 0; x < w; x++) {
+      const value = (row(x, y - 1) + 6 * row(x, y) + row(x, y + 1)) / 8;
+      const x0 = (x * width) / w;
+      const x1 = ((x + 1) * width) / w;
+      for (let cy = Math.floor(y0); cy < y1; cy++) {
+        for (let cx = Math.floor(x0); cx < x1; cx++) {
+          const area = (Math.min(y1, cy + 1) - Math.max(y0, cy)) * (Math.min(x1, cx + 1) - Math.max(x0, cx));
+          values[cy * width + cx] = (values[cy * width + cx] as number) + value * area;
+          areas[cy * width + cx] = (areas[cy * width + cx] as number) + area;
+        }
+      }
+    }
+  }
+  for (let i = 0; i < values.length; i++) values[i] = (values[i] as number) / (areas[i] as number);
+  return { width, height, values };
+}
+
+/**
+ * The alias table over cells. Densities are lowered by the mean radiance (MIS compensation, Karlík et al. 2019): what
+ * BSDF sampling finds well anyway is left to it.
+ */
+function importance(source: LatLongEnvironment, pixels: Float32Array): { table?: EnvironmentData['table'] & object; mean: number } {
+  const { width, height, values } = cellLuminance(source, pixels);
+  let sum = 0;
+  let solid = 0;
+  const sines = Array.from({ length: height }, (_, y) => Math.cos((y * Math.PI) / height) - Math.cos(((y + 1) * Math.PI) / height));
+  for (let y = 0; y < height; y++) {
+    for (let x = 0; x < width; x++) sum += (values[y * width + x] as number) * (sines[y] as number);
+    solid += (sines[y] as number) * width;
+  }
+  const mean = sum / solid;
+  const weights = new Float64Array(width * height);
+  for (let y = 0; y < height; y++) {
+    for (let x = 0; x < width; x++) weights[y * width + x] = Math.max((values[y * width + x] as number) - mean, 0) * (sines[y] as number);
+  }
+  const alias = buildAliasTable(weights);
+  if (!alias) return { mean };
+  const data = new Float32Array(width * height * 4);
+  for (let i = 0; i < width * height; i++) {
+    data[4 * i] = alias.keep[i] as number;
+    data[4 * i + 1] = alias.alias[i] as number;
+    data[4 * i + 2] = (alias.probability[i] as number) * width * height;
+  }
+  return { table: { width, height, data }, mean };
+}

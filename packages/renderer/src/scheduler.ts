@@ -1,0 +1,89 @@
+/** A piece of work for one submission: whole samples of the whole picture, or a band of one sample. */
+export interface Batch {
+  readonly pixelOffset: number;
+  readonly pixelCount: number;
+  readonly sampleOffset: number;
+  readonly sampleCount: number;
+}
+
+export interface SchedulerOptions {
+  /** Pixels of the picture. */
+  readonly pixels: number;
+  /** Paths the buffers can hold. */
+  readonly capacity: number;
+  /** Milliseconds that one submission should take at most. */
+  readonly budgetMs: number;
+}
+
+/** No submission is smaller than this many paths, or launch costs would dominate. */
+const SMALLEST = 4096;
+
+/**
+ * Cuts the work into submissions by measured time: grows by half while there is room in the budget, falls back to a
+ * quarter when one took too long. What is computed does not depend on the cuts.
+ */
+export class Scheduler {
+  readonly #pixels: number;
+  readonly #capacity: number;
+  /** Milliseconds that one submission should take at most. */
+  budget: number;
+  #paths: number;
+  #sample = 0;
+  #pixel = 0;
+
+  constructor(options: SchedulerOptions, paths = SMALLEST * 4) {
+    this.#pixels = options.pixels;
+    this.#capacity = options.capacity;
+    this.budget = options.budgetMs;
+    this.#paths = Math.min(paths, options.capacity);
+  }
+
+  /** Completed samples of every pixel. */
+  get samples(): number {
+    return this.#sample;
+  }
+
+  /** Paths the next batch may hold. */
+  get paths(): number {
+    return this.#paths;
+  }
+
+  /** A scheduler at sample 0 that remembers the GPU's speed. */
+  restarted(): Scheduler {
+    return new Scheduler({ pixels: this.#pixels, capacity: this.#capacity, budgetMs: this.budget }, this.#paths);
+  }
+
+  /** The next piece up to `target` samples, or `undefined` when all have been given out. */
+  next(target: number): Batch | undefined {
+    if (this.#sample >= target) return undefined;
+    if (this.#pixel > 0 || this.#paths < this.#pixels) {
+      const pixelOffset = this.#pixel;
+      const rest = this.#pixels - pixelOffset;
+      // Bands of equal size: a sliver at the end would be launched for nothing.
+      const bands = Math.ceil(rest / this.#paths);
+      const pixelCount = Math.ceil(rest / bands);
+      const batch = { pixelOffset, pixelCount, sampleOffset: this.#sample, sampleCount: 1 };
+      this.#pixel += pixelCount;
+      if (this.#pixel >= this.#pixels) {
+        this.#pixel = 0;
+        this.#sample++;
+      }
+      return batch;
+    }
+    const sampleCount = Math.min(Math.floor(this.#paths / this.#pixels), target - this.#sample);
+    const batch = { pixelOffset: 0, pixelCount: this.#pixels, sampleOffset: this.#sample, sampleCount };
+    this.#sample += sampleCount;
+    return batch;
+  }
+
+  /** Learns from the time a batch took on the GPU. */
+  measured(batch: Batch, milliseconds: number): void {
+    const paths = batch.pixelCount * batch.sampleCount;
+    if (milliseconds > this.budget * 1.5) {
+      const factor = Math.max(0.25, (0.8 * this.budget) / milliseconds);
+      this.#paths = Math.min(this.#capacity, Math.max(SMALLEST, Math.min(this.#paths, Math.floor(paths * factor))));
+    } else if (milliseconds < this.budget * 0.7 && paths * 1.5 >= this.#paths) {
+      this.#paths = Math.min(this.#capacity, Math.floor(this.#paths * (milliseconds < this.budget * 0.25 ? 4 : 1.5)));
+    }
+  }
+}

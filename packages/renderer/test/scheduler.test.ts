@@ -1,0 +1,55 @@
+import { describe, expect, it } from 'vitest';
+import { Scheduler, type Batch } from '../src/scheduler';
+
+/** Runs a scheduler against a pretended GPU and checks that every pixel gets every sample once, in order. */
+function simulate(pixels: number, capacity: number, budgetMs: number, samples: number, cost: (paths: number, turn: number) => number): { batches: Batch[]; times: number[] } {
+  const scheduler = new Scheduler({ pixels, capacity, budgetMs });
+  const counts = new Uint32Array(pixels);
+  const batches: Batch[] = [];
+  const times: number[] = [];
+  for (let turn = 0; turn < 1e6; turn++) {
+    const batch = scheduler.next(samples);
+    if (!batch) break;
+    expect(batch.pixelCount * batch.sampleCount).toBeLessThanOrEqual(capacity);
+    for (let p = batch.pixelOffset; p < batch.pixelOffset + batch.pixelCount; p++) {
+      if (counts[p] !== batch.sampleOffset) throw new Error(`pixel ${p} has ${counts[p]} samples, the batch starts at ${batch.sampleOffset}`);
+      counts[p] = (counts[p] as number) + batch.sampleCount;
+    }
+    const time = cost(batch.pixelCount * batch.sampleCount, turn);
+    scheduler.measured(batch, time);
+    batches.push(batch);
+    times.push(time);
+  }
+  expect(counts.every((n) => n === samples)).toBe(true);
+  expect(scheduler.samples).toBe(samples);
+  return { batches, times };
+}
+
+describe('Scheduler', () => {
+  it('gives every pixel every sample once, in order, whatever the speed', () => {
+    for (const [pixels, capacity] of [
+      [1, 64],
+      [9216, 65536],
+      [262144, 1 << 20],
+      [100_003, 70_000],
+    ] as const) {
+      simulate(pixels, capacity, 30, 17, (paths) => paths / 20_000);
+    }
+  });
+
+  it('stays near its budget once it has learned the speed', () => {
+    const { times } = simulate(1 << 20, 1 << 20, 30, 8, (paths) => paths / 5000);
+    expect(Math.max(...times.slice(5))).toBeLessThan(45);
+  });
+
+  it('backs off when the work suddenly becomes a thousand times dearer', () => {
+    const { times } = simulate(1 << 18, 1 << 20, 30, 6, (paths, turn) => (turn < 4 ? paths / 100_000 : paths / 100));
+    const dear = times.slice(8);
+    expect(Math.max(...dear)).toBeLessThan(60);
+  });
+
+  it('grows to the capacity on a fast GPU', () => {
+    const { batches } = simulate(1 << 16, 1 << 20, 30, 200, () => 0.5);
+    expect(Math.max(...batches.map((b) => b.pixelCount * b.sampleCount))).toBe(1 << 20);
+  });
+});
