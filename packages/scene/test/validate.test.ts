@@ -1,0 +1,92 @@
+import { describe, expect, test } from 'vitest';
+import { createScene, defaultMaterial, SceneError, validateScene, type Scene } from '../src/index';
+
+const identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
+
+/** A scene with one of everything. */
+function whole(): Scene {
+  const scene = createScene('test');
+  scene.meshes.push({
+    name: 'triangle',
+    positions: new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0]),
+    indices: new Uint32Array([0, 1, 2]),
+    normals: new Float32Array([0, 0, 1, 0, 0, 1, 0, 0, 1]),
+    tangents: new Float32Array([1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1]),
+    uvs: [new Float32Array(6)],
+    colors: new Float32Array(12).fill(1),
+  });
+  scene.images.push({ name: 'white', width: 2, height: 1, data: new Uint8Array(8) });
+  scene.textures.push({ image: 0, color_space: 'srgb' });
+  scene.materials.push({ ...defaultMaterial(), parameters: { base_weight: 0.5, base_color: [1, 0, 0] }, textures: { base_color: { texture: 0, channels: 'rgb', transform: [1, 0, 0, 1, 0, 0] } } });
+  scene.instances.push({ name: 'part', mesh: 0, material: 0, transform: identity });
+  scene.lights.push({ type: 'point', name: 'p', color: [1, 1, 1], intensity: 1, position: [0, 0, 1] });
+  scene.lights.push({ type: 'spot', name: 's', color: [1, 1, 1], intensity: 1, position: [0, 0, 1], direction: [0, 0, -1], inner_cone_angle: 0, outer_cone_angle: 0.5 });
+  scene.lights.push({ type: 'directional', name: 'd', color: [1, 1, 1], intensity: 1, direction: [0, -1, 0] });
+  scene.cameras.push({ type: 'perspective', name: 'c', transform: identity, yfov: 1 });
+  scene.cameras.push({ type: 'orthographic', name: 'o', transform: identity, xmag: 1, ymag: 1 });
+  scene.environment = { type: 'latlong', width: 2, height: 1, data: new Float32Array(6) };
+  return scene;
+}
+
+/** Every way to spoil the scene, with the code that it must give and words that must say where. */
+const faults: [string, (scene: Scene) => void, string, RegExp][] = [
+  ['positions not in threes', (s) => (s.meshes[0]!.positions = new Float32Array(8)), 'scene/length', /Mesh 0 \("triangle"\): positions has 8/],
+  ['a NaN position', (s) => (s.meshes[0]!.positions[4] = NaN), 'scene/not-finite', /Mesh 0 .*NaN at 4/],
+  ['an index out of range', (s) => (s.meshes[0]!.indices[2] = 3), 'scene/reference', /triangle 0 refers to vertex 3/],
+  ['indices not in threes', (s) => (s.meshes[0]!.indices = new Uint32Array(4)), 'scene/length', /indices has 4/],
+  ['too few normals', (s) => (s.meshes[0]!.normals = new Float32Array(6)), 'scene/length', /normals has 6/],
+  ['an infinite normal', (s) => (s.meshes[0]!.normals![0] = Infinity), 'scene/not-finite', /normals/],
+  ['too few tangents', (s) => (s.meshes[0]!.tangents = new Float32Array(9)), 'scene/length', /tangents/],
+  ['too few colours', (s) => (s.meshes[0]!.colors = new Float32Array(9)), 'scene/length', /colors/],
+  ['too few uvs', (s) => (s.meshes[0]!.uvs![0] = new Float32Array(4)), 'scene/length', /uvs\[0\]/],
+  ['an image of a wrong length', (s) => (s.images[0]!.data = new Uint8Array(7)), 'scene/length', /Image 0 \("white"\)/],
+  ['an image of no size', (s) => (s.images[0]!.width = 0), 'scene/value', /Image 0/],
+  ['a texture of no image', (s) => (s.textures[0]!.image = 1), 'scene/reference', /Texture 0 refers to image 1/],
+  ['a binding of no texture', (s) => (s.materials[0]!.textures!.base_color!.texture = 4), 'scene/reference', /base_color refers to texture 4/],
+  ['a binding with a broken transform', (s) => (s.materials[0]!.textures!.base_color!.transform = [1, 0, 0, NaN, 0, 0]), 'scene/not-finite', /base_color/],
+  ['a NaN parameter', (s) => (s.materials[0]!.parameters = { base_weight: NaN }), 'scene/not-finite', /base_weight/],
+  ['an infinite colour', (s) => (s.materials[0]!.parameters = { base_color: [1, Infinity, 0] }), 'scene/not-finite', /base_color/],
+  ['an instance of no mesh', (s) => (s.instances[0]!.mesh = -1), 'scene/reference', /Instance 0 \("part"\) refers to mesh -1/],
+  ['an instance of no material', (s) => (s.instances[0]!.material = 0.5), 'scene/reference', /material 0\.5/],
+  ['a transform of 12 numbers', (s) => (s.instances[0]!.transform = identity.slice(4)), 'scene/length', /transform has 12/],
+  ['a NaN transform', (s) => (s.instances[0]!.transform = identity.with(3, NaN)), 'scene/not-finite', /transform/],
+  ['a negative light', (s) => (s.lights[0]!.intensity = -1), 'scene/value', /Light 0/],
+  ['a light at NaN', (s) => Object.assign(s.lights[0]!, { position: [0, NaN, 0] }), 'scene/not-finite', /Light 0/],
+  ['a light without direction', (s) => Object.assign(s.lights[2]!, { direction: [0, 0, 0] }), 'scene/value', /Light 2/],
+  ['a cone inside out', (s) => ((s.lights[1] as { inner_cone_angle: number }).inner_cone_angle = 1), 'scene/value', /Light 1/],
+  ['a field of view of π', (s) => ((s.cameras[0] as { yfov: number }).yfov = Math.PI), 'scene/value', /Camera 0/],
+  ['a view of no size', (s) => ((s.cameras[1] as { xmag: number }).xmag = 0), 'scene/value', /Camera 1/],
+  ['an environment of a wrong length', (s) => ((s.environment as { data: Float32Array }).data = new Float32Array(5)), 'scene/length', /environment/],
+  ['a negative sky', (s) => ((s.environment as { data: Float32Array }).data[3] = -1), 'scene/not-finite', /-1 at 3/],
+];
+
+describe('validateScene', () => {
+  test('a sound scene passes without a word', () => expect(validateScene(whole())).toEqual([]));
+
+  test.each(faults)('%s', (_, spoil, code, message) => {
+    const scene = whole();
+    spoil(scene);
+    let caught: unknown;
+    try {
+      validateScene(scene);
+    } catch (error) {
+      caught = error;
+    }
+    expect(caught).toBeInstanceOf(SceneError);
+    expect((caught as SceneError).code).toBe(code);
+    expect((caught as SceneError).message).toMatch(message);
+    expect((caught as SceneError).message).not.toContain('\n');
+  });
+
+  test('triangles with equal corners are told, not refused', () => {
+    const scene = whole();
+    scene.meshes[0]!.indices = new Uint32Array([0, 1, 2, 1, 1, 2]);
+    expect(validateScene(scene)).toMatchObject([{ code: 'scene/degenerate', path: '/meshes/0' }]);
+  });
+
+  test('a negative constant environment', () => {
+    const scene = whole();
+    scene.environment = { type: 'constant', radiance: [1, -1, 0] };
+    expect(() => validateScene(scene)).toThrow(SceneError);
+  });
+});
