@@ -25,8 +25,8 @@ function growByMesh({ positions, indices }: Mesh, { transform: m }: Instance, mi
   for (const r of [0, 1, 2] as const) {
     const a = m[r] as number, b = m[4 + r] as number, c = m[8 + r] as number, d = m[12 + r] as number;
     let low = min[r], high = max[r];
-    for (const index of indices) {
-      const v = 3 * index;
+    for (let i = 0; i < indices.length; i++) {
+      const v = 3 * (indices[i] as number);
       const x = a * (positions[v] as number) + b * (positions[v + 1] as number) + c * (positions[v + 2] as number) + d;
       if (x < low) low = x;
       if (x > high) high = x;

@@ -25,4 +25,5 @@ export interface OrthographicCamera {
   ymag: number;
 }
 
+/** What a scene is looked at through. Both look along their local −Z, +Y up. */
 export type Camera = PerspectiveCamera | OrthographicCamera;

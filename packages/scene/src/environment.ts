@@ -25,4 +25,5 @@ export interface LatLongEnvironment {
   visible?: boolean;
 }
 
+/** The light that comes from infinitely far away. */
 export type Environment = ConstantEnvironment | LatLongEnvironment;

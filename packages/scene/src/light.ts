@@ -36,4 +36,5 @@ export interface DirectionalLight {
   direction: readonly [number, number, number];
 }
 
+/** A light without area. Those with area are emissive triangles. */
 export type Light = PointLight | SpotLight | DirectionalLight;

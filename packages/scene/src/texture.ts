@@ -7,6 +7,7 @@ export interface Image {
   data: Uint8Array<ArrayBuffer> | Uint8ClampedArray<ArrayBuffer> | Float32Array<ArrayBuffer>;
 }
 
+/** What lies outside 0..1 of a picture: it again, its mirror image, or its edge texels. */
 export type WrapMode = 'repeat' | 'mirror' | 'clamp';
 
 /** An {@link Image} with the way to read it. */

@@ -1,37 +1,6 @@
 import { expect, test } from 'vitest';
-import { createScene, defaultMaterial, frameCamera, sceneBounds, type SceneError, type FrameCameraOptions, type Scene } from '../src/index';
-
-/** Two skew triangles, one of them mirrored, turned and moved, and a vertex far off that no triangle uses. */
-function sample(): Scene {
-  const scene = createScene();
-  scene.meshes.push({ name: 'a', positions: new Float32Array([0, 0, 0, 2, 0.5, 0, 0, 1, 3, 900, 900, 900]), indices: new Uint32Array([0, 1, 2]) });
-  scene.materials.push(defaultMaterial());
-  scene.instances.push({ name: 'one', mesh: 0, material: 0, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] });
-  scene.instances.push({ name: 'two', mesh: 0, material: 0, transform: [0, -2, 0, 0, 1, 0, 0.5, 0, 0, 0, 1, 0, 5, 1, -2, 1] });
-  return scene;
-}
-
-/** World positions of all used vertices, by plain matrix products. */
-const points = (scene: Scene) =>
-  scene.instances.flatMap(({ mesh, transform: m }) =>
-    [...scene.meshes[mesh]!.indices].map((i) => {
-      const p = scene.meshes[mesh]!.positions.subarray(3 * i, 3 * i + 3);
-      return [0, 1, 2].map((r) => m[r]! * p[0]! + m[4 + r]! * p[1]! + m[8 + r]! * p[2]! + m[12 + r]!);
-    }),
-  );
-
-test('sceneBounds is the box of the used, visible vertices', () => {
-  const scene = sample();
-  const all = points(scene);
-  const { min, max } = sceneBounds(scene);
-  for (const k of [0, 1, 2] as const) {
-    expect(min[k]).toBeCloseTo(Math.min(...all.map((p) => p[k]!)), 12);
-    expect(max[k]).toBeCloseTo(Math.max(...all.map((p) => p[k]!)), 12);
-  }
-  scene.instances[1]!.visible = false;
-  expect(sceneBounds(scene)).toEqual({ min: [0, 0, 0], max: [2, 1, 3] });
-  expect(sceneBounds(createScene()).min[0]).toBe(Infinity);
-});
+import { createScene, frameCamera, sceneBounds, type SceneError, type FrameCameraOptions, type Scene } from '../src/index';
+import { points, sample } from './sample';
 
 for (const options of [{ aspect: 1 }, { aspect: 3 }, { aspect: 0.4, yfov: 1.2 }, { aspect: 1.5, direction: [-3, 0.1, -1] }, { aspect: 1, margin: 0.3 }] satisfies FrameCameraOptions[]) {
   test(`everything is in the picture, and the box fills it: ${JSON.stringify(options)}`, () => {

@@ -55,6 +55,10 @@ const faults: [string, (scene: Scene) => void, string, RegExp][] = [
   ['a light without direction', (s) => Object.assign(s.lights[2]!, { direction: [0, 0, 0] }), 'scene/value', /Light 2/],
   ['a cone inside out', (s) => ((s.lights[1] as { inner_cone_angle: number }).inner_cone_angle = 1), 'scene/value', /Light 1/],
   ['a field of view of π', (s) => ((s.cameras[0] as { yfov: number }).yfov = Math.PI), 'scene/value', /Camera 0/],
+  ['a camera without depth', (s) => (s.cameras[0]!.transform = identity.with(10, 0)), 'scene/value', /Camera 0 .*inverted/],
+  ['a camera whose axes lie in a plane', (s) => (s.cameras[1]!.transform = [1, 0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 0, 1]), 'scene/value', /Camera 1/],
+  ['a NaN camera', (s) => (s.cameras[0]!.transform = identity.with(12, NaN)), 'scene/not-finite', /Camera 0/],
+  ['a lens of NaN', (s) => Object.assign(s.cameras[0]!, { lens_radius: NaN }), 'scene/not-finite', /Camera 0/],
   ['a view of no size', (s) => ((s.cameras[1] as { xmag: number }).xmag = 0), 'scene/value', /Camera 1/],
   ['an environment of a wrong length', (s) => ((s.environment as { data: Float32Array }).data = new Float32Array(5)), 'scene/length', /environment/],
   ['a negative sky', (s) => ((s.environment as { data: Float32Array }).data[3] = -1), 'scene/not-finite', /-1 at 3/],
@@ -81,7 +85,47 @@ describe('validateScene', () => {
   test('triangles with equal corners are told, not refused', () => {
     const scene = whole();
     scene.meshes[0]!.indices = new Uint32Array([0, 1, 2, 1, 1, 2]);
-    expect(validateScene(scene)).toMatchObject([{ code: 'scene/degenerate', path: '/meshes/0' }]);
+    expect(validateScene(scene)).toMatchObject([{ code: 'scene/degenerate', path: '/meshes/0', message: expect.stringContaining('1 triangle without') }]);
+  });
+
+  test('so are triangles whose corners lie on a line', () => {
+    const scene = whole();
+    scene.meshes[0]!.positions = new Float32Array([1, 2, 3, 2, 4, 6, 4, 8, 12]);
+    expect(validateScene(scene)).toMatchObject([{ code: 'scene/degenerate' }]);
+    scene.meshes[0]!.positions = new Float32Array([1e-8, 0, 0, 0, 1e-8, 0, 0, 0, 1e-8]);
+    expect(validateScene(scene)).toEqual([]);
+  });
+
+  test('a flattened instance is told, a mirrored and sheared one is nothing odd', () => {
+    const scene = whole();
+    scene.instances[0]!.transform = identity.with(5, 0);
+    expect(validateScene(scene)).toMatchObject([{ code: 'scene/flattened', path: '/instances/0' }]);
+    scene.instances[0]!.transform = identity.with(5, -2).with(4, 0.5).with(0, 1e-6);
+    expect(validateScene(scene)).toEqual([]);
+  });
+
+  test('a texture that the mesh has no UV set for is told', () => {
+    const scene = whole();
+    scene.materials[0]!.textures!.base_color!.uv = 1;
+    expect(validateScene(scene)).toMatchObject([{ code: 'scene/missing-uv', path: '/instances/0' }]);
+  });
+
+  test('the last triangle of a million is looked at, soon', () => {
+    const scene = createScene();
+    const [triangles, vertices] = [1_000_000, 500_000];
+    scene.meshes.push({
+      name: 'large',
+      positions: Float32Array.from({ length: 3 * vertices }, (_, i) => Math.sin(i * 12.9898) * 10),
+      normals: new Float32Array(3 * vertices).fill(0.577),
+      indices: Uint32Array.from({ length: 3 * triangles }, (_, i) => (i * 7919) % vertices),
+    });
+    scene.materials.push(defaultMaterial());
+    scene.instances.push({ name: 'part', mesh: 0, material: 0, transform: identity });
+    const start = performance.now();
+    expect(validateScene(scene)).toEqual([]);
+    expect(performance.now() - start).toBeLessThan(1000);
+    scene.meshes[0]!.indices[3 * triangles - 1] = vertices;
+    expect(() => validateScene(scene)).toThrow('triangle 999999 refers to vertex 500000; the mesh has 500000.');
   });
 
   test('a negative constant environment', () => {
