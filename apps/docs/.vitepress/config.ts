@@ -1,0 +1,76 @@
+import { dirname } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { defineConfig } from 'vitepress';
+import { readmeLinks } from './readme-links';
+
+const packages = ['renderer', 'gltf', 'scene', 'openpbr', 'bvh', 'tonemap', 'image', 'wgsl', 'cli'];
+
+export default defineConfig({
+  title: 'Glanz',
+  description: 'A physically based path tracer for the web: glTF in, OpenPBR materials, WebGPU, photoreal image out.',
+  lang: 'en',
+  cleanUrls: true,
+  lastUpdated: false,
+  srcExclude: ['**/README.md'],
+  head: [
+    ['link', { rel: 'icon', href: '/mark.svg', type: 'image/svg+xml' }],
+    ['meta', { name: 'theme-color', content: '#e2631e' }],
+  ],
+  markdown: { config: (md) => void md.use(readmeLinks) },
+  vite: {
+    // Examples and demos run from the packages' sources; the pages need no build of them.
+    resolve: { conditions: ['@glanz/source'] },
+    ssr: { noExternal: [/^@glanz\//], resolve: { conditions: ['@glanz/source'] } },
+    build: { target: 'es2022', chunkSizeWarningLimit: 700 },
+    server: { fs: { allow: [dirname(fileURLToPath(new URL('../../..', import.meta.url)))] } },
+  },
+  themeConfig: {
+    logo: '/mark.svg',
+    search: { provider: 'local', options: { detailedView: true } },
+    outline: [2, 3],
+    nav: [
+      { text: 'Start', link: '/guide/getting-started' },
+      { text: 'Live', link: '/live' },
+      { text: 'OpenPBR', link: '/openpbr/parameters' },
+      { text: 'Packages', link: '/packages/', activeMatch: '^/packages/' },
+      { text: 'How it works', link: '/how/', activeMatch: '^/how/' },
+    ],
+    sidebar: [
+      {
+        text: 'Start',
+        items: [
+          { text: 'Getting started', link: '/guide/getting-started' },
+          { text: 'A live picture', link: '/live' },
+          { text: 'Where it stands', link: '/guide/status' },
+          { text: 'Conventions', link: '/guide/conventions' },
+        ],
+      },
+      {
+        text: 'Guides',
+        items: [
+          { text: 'Loading glTF', link: '/guide/gltf' },
+          { text: 'Cameras and framing', link: '/guide/cameras' },
+          { text: 'Environment and lights', link: '/guide/lighting' },
+          { text: 'Materials', link: '/guide/materials' },
+          { text: 'OpenPBR parameters', link: '/openpbr/parameters' },
+          { text: 'Tone mapping', link: '/guide/tone-mapping' },
+          { text: 'Feature layers', link: '/guide/layers' },
+          { text: 'Progress, abort, lost devices', link: '/guide/progressive' },
+          { text: 'Node and GPUs', link: '/guide/node' },
+          { text: 'Command line', link: '/guide/command-line' },
+          { text: 'Errors', link: '/guide/errors' },
+        ],
+      },
+      { text: 'Packages', link: '/packages/', items: packages.map((name) => ({ text: `@glanz/${name}`, link: `/packages/${name}` })) },
+      {
+        text: 'How it works',
+        items: [
+          { text: 'From scene to picture', link: '/how/' },
+          { text: 'Light and chance', link: '/how/light' },
+          { text: 'How it is tested', link: '/how/tested' },
+        ],
+      },
+    ],
+    footer: { message: 'MIT licensed.' },
+  },
+});

@@ -1,0 +1,17 @@
+import type { Theme } from 'vitepress';
+import DefaultTheme from 'vitepress/theme';
+import LivePicture from './LivePicture.vue';
+import LiveSphere from './LiveSphere.vue';
+import LivePushButton from './LivePushButton.vue';
+import ParameterTable from './ParameterTable.vue';
+import './style.css';
+
+export default {
+  extends: DefaultTheme,
+  enhanceApp({ app }) {
+    app.component('LivePicture', LivePicture);
+    app.component('LiveSphere', LiveSphere);
+    app.component('LivePushButton', LivePushButton);
+    app.component('ParameterTable', ParameterTable);
+  },
+} satisfies Theme;

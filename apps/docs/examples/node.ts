@@ -1,0 +1,17 @@
+import { writeFile } from 'node:fs/promises';
+import { loadGltfFile } from '@glanz/gltf/node';
+import { encodePng } from '@glanz/image/png';
+import { PathTracer, requestDevice } from '@glanz/renderer';
+import { createGpu } from '@glanz/renderer/node';
+import { studioEnvironment } from '@glanz/scene/studio';
+import { toneMapPixels } from '@glanz/tonemap';
+
+const [width, height] = [1024, 768];
+const device = await requestDevice({ gpu: (await createGpu()).gpu });
+const scene = await loadGltfFile('model.glb');
+scene.environment ??= studioEnvironment();
+const tracer = await PathTracer.create(device, scene, { width, height });
+for await (const { samples, remainingMs } of tracer.render({ samples: 256 })) process.stderr.write(`${samples}, ${Math.ceil(remainingMs / 1000)} s left\n`);
+const data = toneMapPixels(await tracer.read('beauty'), width, height, { toneMap: 'neutral', output: 'uint8' });
+await writeFile('picture.png', encodePng({ width, height, data }));
+device.destroy();

@@ -1,0 +1,29 @@
+import { createPushButton } from '@glanz/models';
+import { createScene, type Scene } from '@glanz/scene';
+import { studioEnvironment } from '@glanz/scene/studio';
+import { createSpheres, sphere } from '../../examples/spheres';
+
+/** The scenes that live pictures on the site show. */
+export type LiveSceneName = 'push-button' | 'spheres' | 'sphere';
+
+/** One large sphere of material `sphere`, above a matt table: for turning parameters. */
+function createSphere(): Scene {
+  const scene = createScene('Sphere');
+  scene.meshes = [sphere(64), { name: 'table', positions: Float32Array.of(-30, -1, 30, 30, -1, 30, 30, -1, -30, -30, -1, -30), indices: Uint32Array.of(0, 1, 2, 0, 2, 3) }];
+  scene.materials = [
+    { name: 'sphere', parameters: {} },
+    { name: 'table', parameters: { base_color: [0.24, 0.24, 0.25], specular_roughness: 0.5 } },
+  ];
+  const identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
+  scene.instances = [0, 1].map((i) => ({ name: ['sphere', 'table'][i] as string, mesh: i, material: i, transform: identity }));
+  scene.cameras = [{ type: 'perspective', name: 'front', yfov: 0.42, transform: [1, 0, 0, 0, 0, 0.96, -0.28, 0, 0, 0.28, 0.96, 0, 0, 1.75, 6.4, 1] }];
+  scene.environment = studioEnvironment();
+  return scene;
+}
+
+/** A scene by name, made on the spot. */
+export function createLiveScene(name: LiveSceneName): Scene {
+  if (name === 'spheres') return createSpheres();
+  if (name === 'sphere') return createSphere();
+  return { ...createPushButton({ level: 'low' }), environment: studioEnvironment() };
+}
