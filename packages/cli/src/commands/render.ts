@@ -134,7 +134,7 @@ export async function renderCommand(options: RenderCommandOptions, io: CliIo, ba
     for (const target of options.outputs) files.push(await timed('writeMs', () => writePicture(picture, target, options, cwd)));
     timings.totalMs = io.now() - start;
     const { statistics } = active;
-    const samplesPerSecond = samples / (timings.renderMs / 1000);
+    const samplesPerSecond = timings.renderMs > 0 ? samples / (timings.renderMs / 1000) : 0;
     const names = files.map(({ path }) => path).join(', ');
     progress.line(`${names}: ${options.width}×${options.height}, ${samples}${interrupted ? ` of ${options.samples}` : ''} samples at ${rate(samplesPerSecond)}/s, ${duration(timings.totalMs)} in all`);
     if (statistics.badSamples > 0) progress.warning(`${statistics.badSamples} samples were not numbers and were left out; please report the model.`);
