@@ -1,1 +1,5 @@
-export {};
+export type { GltfDecoders } from './document';
+export { GltfError } from './error';
+export type { DecodedImage, ImageDecoder } from './images';
+export { loadGltf, type GltfOptions, type GltfProgress, type LoadGltfOptions } from './load';
+export type { GltfFiles, GltfInput } from './source';

@@ -1,1 +1,89 @@
-export {};
+import type { Scene } from '@glanz/scene';
+import type { GltfDecoders } from './document';
+import { GltfError } from './error';
+import type { DecodedImage, ImageDecoder } from './images';
+import { buildScene, type GltfOptions } from './load';
+import { missing } from './source';
+
+export { GltfError } from './error';
+export { loadGltf, type GltfOptions, type GltfProgress, type LoadGltfOptions } from './load';
+
+/** Loads an optional package, or says which one is missing. */
+async function optional<T>(load: () => Promise<T>, name: string, what: string): Promise<T> {
+  try {
+    return await load();
+  } catch (cause) {
+    throw new GltfError('gltf/missing-decoder', `${what} needs the package "${name}": npm install ${name}.`, { cause });
+  }
+}
+
+/**
+ * Decodes PNG, JPEG, WebP and what else the optional package `sharp` knows.
+ * @throws {GltfError} `gltf/missing-decoder` if it is not installed.
+ */
+export const decodeImage: ImageDecoder = async (bytes): Promise<DecodedImage> => {
+  const { default: sharp } = await optional(() => import('sharp'), 'sharp', 'Decoding pictures in Node');
+  // Colour profiles and orientation do not count in glTF; the limit on size keeps a small file from filling the memory.
+  const { data, info } = await sharp(bytes, { limitInputPixels: 16384 * 16384 }).toColourspace('srgb').ensureAlpha().raw({ depth: 'uchar' }).toBuffer({ resolveWithObject: true });
+  return { width: info.width, height: info.height, data: new Uint8Array(data.buffer as ArrayBuffer, data.byteOffset, data.byteLength) };
+};
+
+/** The decoders that a document may need, as far as their packages are installed. */
+async function findDecoders(bytes: Uint8Array): Promise<GltfDecoders> {
+  // The names stand in the JSON as they are; a look at the text spares loading megabytes of decoders for nothing.
+  const text = Buffer.from(bytes.buffer, bytes.byteOffset, Math.min(bytes.byteLength, 32 << 20)).toString('latin1');
+  const found: { draco?: unknown; meshopt?: unknown } = {};
+  if (text.includes('KHR_draco_mesh_compression')) {
+    const draco = await optional(() => import('draco3dgltf'), 'draco3dgltf', 'A Draco-compressed model');
+    found.draco = await draco.default.createDecoderModule();
+  }
+  if (text.includes('EXT_meshopt_compression')) {
+    const { MeshoptDecoder } = await optional(() => import('meshoptimizer/decoder'), 'meshoptimizer', 'A meshopt-compressed model');
+    await MeshoptDecoder.ready;
+    found.meshopt = MeshoptDecoder;
+  }
+  return found;
+}
+
+/**
+ * Loads a .gltf or .glb file in Node, with the files it names beside it. See `loadGltf` for what is read.
+ *
+ * @param path Of the file. Files outside its folder are not read.
+ * @throws {GltfError} See its codes; `gltf/missing-resource` if the file is not there.
+ * @example
+ * const scene = await loadGltfFile('models/button.glb');
+ */
+export async function loadGltfFile(path: string | URL, options: GltfOptions = {}): Promise<Scene> {
+  const { readFile, realpath } = await import('node:fs/promises');
+  const { basename, dirname, join, sep } = await import('node:path');
+  const { fileURLToPath } = await import('node:url');
+  const file = typeof path === 'string' ? path : fileURLToPath(path);
+  const name = basename(file);
+  const { signal } = options;
+  const read = async (at: string) => new Uint8Array(await readFile(at, signal ? { signal } : {}));
+  let bytes: Uint8Array<ArrayBuffer>;
+  try {
+    bytes = await read(file);
+  } catch (cause) {
+    signal?.throwIfAborted();
+    throw new GltfError('gltf/missing-resource', `${file} cannot be read: ${(cause as NodeJS.ErrnoException).code === 'ENOENT' ? 'there is no such file' : (cause as Error).message}.`, { cause, location: { file } });
+  }
+  const folder = await realpath(dirname(file));
+  return buildScene(
+    {
+      name,
+      bytes,
+      read: async (uri) => {
+        const at = join(folder, uri);
+        try {
+          if (!(await realpath(at)).startsWith(folder + sep)) throw new Error('it lies outside the folder of the document');
+          return await read(at);
+        } catch (cause) {
+          signal?.throwIfAborted();
+          throw missing(uri, name, cause);
+        }
+      },
+    },
+    { ...options, decodeImage: options.decodeImage ?? decodeImage, decoders: options.decoders ?? (await findDecoders(bytes)) },
+  );
+}

@@ -1,0 +1,66 @@
+import { GltfError } from './error';
+import type { GltfJson } from './json';
+
+/** A document out of its container. */
+export interface Container {
+  readonly json: GltfJson;
+  /** The binary chunk of a GLB. */
+  readonly binary?: Uint8Array<ArrayBuffer>;
+}
+
+const MAGIC = 0x46546c67;
+const JSON_CHUNK = 0x4e4f534a;
+const BINARY_CHUNK = 0x004e4942;
+
+/**
+ * Takes a GLB or a JSON document apart.
+ * @param name What messages call the file.
+ * @throws {GltfError} `gltf/not-gltf`, `gltf/truncated`, `gltf/version`, `gltf/malformed`
+ */
+export function openContainer(bytes: Uint8Array<ArrayBuffer>, name: string): Container {
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  if (bytes.length >= 4 && view.getUint32(0, true) === MAGIC) return openGlb(bytes, view, name);
+  return { json: parseJson(bytes, name) };
+}
+
+function openGlb(bytes: Uint8Array<ArrayBuffer>, view: DataView, name: string): Container {
+  const truncated = (end: number, at: number) =>
+    new GltfError('gltf/truncated', `${name} ends at byte ${bytes.length}, but byte ${end} should be there: the file is cut off. Download or export it again.`, { location: { file: name, byteOffset: at } });
+  if (bytes.length < 20) throw truncated(20, bytes.length);
+  const version = view.getUint32(4, true);
+  if (version !== 2) throw new GltfError('gltf/version', `${name} is a GLB of version ${version}; only version 2 is known.`, { location: { file: name, byteOffset: 4 } });
+  const total = view.getUint32(8, true);
+  if (total > bytes.length) throw truncated(total, 8);
+  let json: GltfJson | undefined;
+  let binary: Uint8Array<ArrayBuffer> | undefined;
+  for (let at = 12; at + 8 <= total; ) {
+    const length = view.getUint32(at, true);
+    const type = view.getUint32(at + 4, true);
+    if (at + 8 + length > total) throw truncated(at + 8 + length, at);
+    const chunk = bytes.subarray(at + 8, at + 8 + length);
+    if (!json && type !== JSON_CHUNK) throw new GltfError('gltf/malformed', `${name} does not start with a JSON chunk.`, { location: { file: name, byteOffset: at } });
+    if (!json) json = parseJson(chunk, name);
+    else if (type === BINARY_CHUNK && !binary) binary = chunk;
+    at += 8 + length + ((4 - (length % 4)) % 4);
+  }
+  if (!json) throw new GltfError('gltf/malformed', `${name} is a GLB without a JSON chunk.`, { location: { file: name } });
+  return binary ? { json, binary } : { json };
+}
+
+function parseJson(bytes: Uint8Array, name: string): GltfJson {
+  let json: unknown;
+  try {
+    json = JSON.parse(new TextDecoder('utf-8', { fatal: true }).decode(bytes));
+  } catch (cause) {
+    throw new GltfError('gltf/not-gltf', `${name} is not a glTF file: it is neither a GLB (which starts with "glTF") nor JSON.`, { cause, location: { file: name } });
+  }
+  if (typeof json !== 'object' || json === null || !('asset' in json) || typeof json.asset !== 'object' || json.asset === null) {
+    throw new GltfError('gltf/not-gltf', `${name} is JSON, but not a glTF document: it has no "asset".`, { location: { file: name } });
+  }
+  const { version, minVersion } = json.asset as { version?: unknown; minVersion?: unknown };
+  const needed = String(minVersion ?? version);
+  if (!/^2\.\d+$/.test(needed) || (minVersion !== undefined && needed !== '2.0')) {
+    throw new GltfError('gltf/version', `${name} is of glTF version ${JSON.stringify(minVersion ?? version)}; only 2.0 is known.`, { location: { file: name, path: '/asset/version' } });
+  }
+  return json as GltfJson;
+}

@@ -1,0 +1,116 @@
+import type { Image, SceneWarning, Texture, WrapMode } from '@glanz/scene';
+import { readUri } from './document';
+import { GltfError } from './error';
+import type { GltfImage, GltfJson, GltfTexture } from './json';
+import type { Source } from './source';
+
+/** Decoded pixels: RGBA, 8 bits a channel, straight alpha, top row first; colour codes as they are in the file. */
+export interface DecodedImage {
+  readonly width: number;
+  readonly height: number;
+  readonly data: Uint8Array<ArrayBuffer> | Uint8ClampedArray<ArrayBuffer>;
+}
+
+/** Turns the bytes of a PNG, JPEG or WebP file into pixels. */
+export type ImageDecoder = (bytes: Uint8Array<ArrayBuffer>, mimeType: string | undefined) => Promise<DecodedImage>;
+
+/** Decodes by the browser. */
+export const decodeImageInBrowser: ImageDecoder = async (bytes, mimeType) => {
+  if (typeof createImageBitmap === 'undefined' || typeof OffscreenCanvas === 'undefined') {
+    throw new GltfError('gltf/missing-decoder', 'There is no browser to decode pictures: use loadGltfFile() of @glanz/gltf/node, or pass decodeImage.');
+  }
+  const bitmap = await createImageBitmap(new Blob([bytes], mimeType === undefined ? {} : { type: mimeType }), { colorSpaceConversion: 'none', premultiplyAlpha: 'none' });
+  try {
+    const { width, height } = bitmap;
+    const context = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true, colorSpace: 'srgb' });
+    if (!context) throw new GltfError('gltf/missing-decoder', 'The browser gives no 2D canvas to read pictures with.');
+    context.drawImage(bitmap, 0, 0);
+    return { width, height, data: context.getImageData(0, 0, width, height).data as Uint8ClampedArray<ArrayBuffer> };
+  } finally {
+    bitmap.close();
+  }
+};
+
+/** The picture behind a texture; WebP where the document offers it, as it is never there without a reason. */
+function sourceOf(texture: GltfTexture | undefined): number | undefined {
+  return texture?.extensions?.['EXT_texture_webp']?.source ?? texture?.source;
+}
+
+const WRAP: Readonly<Record<number, WrapMode>> = { 33071: 'clamp', 33648: 'mirror', 10497: 'repeat' };
+const NEAREST = 9728;
+
+/** The textures that materials have asked for, with their pictures read as they are needed. */
+export class TextureTable {
+  readonly textures: Texture[] = [];
+  /** Pictures (as the scene counts them) that could not be decoded. */
+  readonly failed = new Set<number>();
+  readonly #wanted = new Map<string, number>();
+  readonly #images = new Map<number, number>();
+  readonly #json: GltfJson;
+  readonly #source: Source;
+  readonly #warnings: SceneWarning[];
+
+  constructor(json: GltfJson, source: Source, warnings: SceneWarning[]) {
+    this.#json = json;
+    this.#source = source;
+    this.#warnings = warnings;
+  }
+
+  /** The scene's texture for one of the document's, read as `colorSpace`; undefined (with a warning) if there is none. */
+  get(index: number, colorSpace: 'srgb' | 'linear', path: string): number | undefined {
+    const key = `${index} ${colorSpace}`;
+    const known = this.#wanted.get(key);
+    if (known !== undefined) return known;
+    const texture = this.#json.textures?.[index];
+    const image = sourceOf(texture);
+    if (!texture || image === undefined || !this.#json.images?.[image]) {
+      const why = texture ? (image === undefined ? 'has no picture in a format that is read' : `names image ${image}, which does not exist`) : 'does not exist';
+      this.#warnings.push({ code: 'gltf/texture', message: `${this.#source.name}: texture ${index} ${why}; it is left out.`, path });
+      return undefined;
+    }
+    const sampler = texture.sampler === undefined ? undefined : this.#json.samplers?.[texture.sampler];
+    if (!this.#images.has(image)) this.#images.set(image, this.#images.size);
+    const made: Texture = {
+      image: this.#images.get(image) as number,
+      color_space: colorSpace,
+      wrap_u: WRAP[sampler?.wrapS ?? 10497] ?? 'repeat',
+      wrap_v: WRAP[sampler?.wrapT ?? 10497] ?? 'repeat',
+      filter: sampler?.magFilter === NEAREST ? 'nearest' : 'linear',
+    };
+    if (texture.name !== undefined) made.name = texture.name;
+    const at = this.textures.push(made) - 1;
+    this.#wanted.set(key, at);
+    return at;
+  }
+
+  /** How many pictures have been asked for. */
+  get imageCount(): number {
+    return this.#images.size;
+  }
+
+  /**
+   * Reads and decodes the pictures asked for. One that cannot be decoded goes into {@link failed}, with a warning.
+   * @param viewBytes Bytes of a buffer view.
+   * @throws {GltfError} `gltf/missing-resource` for a file that is not there.
+   */
+  async readImages(decode: ImageDecoder, viewBytes: (index: number) => Uint8Array<ArrayBuffer>, signal: AbortSignal | undefined, onImage: () => void): Promise<Image[]> {
+    const images: Image[] = [];
+    // One after the other, since decoded pictures are large and decoders have threads of their own.
+    for (const [index] of this.#images) {
+      signal?.throwIfAborted();
+      const image = this.#json.images?.[index] as GltfImage;
+      const name = image.name ?? image.uri?.slice(0, 80) ?? `image ${index}`;
+      const bytes = image.uri === undefined ? viewBytes(image.bufferView ?? -1) : await readUri(image.uri, this.#source, signal);
+      try {
+        images.push({ name, ...(await decode(bytes, image.mimeType)) });
+      } catch (error) {
+        if (error instanceof GltfError) throw error;
+        this.#warnings.push({ code: 'gltf/image', message: `${this.#source.name}: image ${index} ("${name}") cannot be decoded and is left out: ${error instanceof Error ? error.message.split('\n')[0] : String(error)}.`, path: `/images/${index}` });
+        this.failed.add(images.length);
+        images.push({ name, width: 1, height: 1, data: new Uint8Array([255, 255, 255, 255]) });
+      }
+      onImage();
+    }
+    return images;
+  }
+}

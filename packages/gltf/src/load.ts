@@ -1,0 +1,75 @@
+import { createScene, type Scene } from '@glanz/scene';
+import { openContainer } from './container';
+import { readDocument, type GltfDecoders } from './document';
+import { GltfError } from './error';
+import { decodeImageInBrowser, TextureTable, type ImageDecoder } from './images';
+import { readMaterial } from './materials';
+import { readNodes } from './nodes';
+import { openSource, type GltfInput, type Source } from './source';
+
+/** How far a load has come. */
+export interface GltfProgress {
+  readonly stage: 'read' | 'decode' | 'images';
+  /** 0..1 within the stage. */
+  readonly done: number;
+}
+
+/** What every loader may be told. */
+export interface GltfOptions {
+  /** Aborts the load; it then rejects with the signal's reason. */
+  readonly signal?: AbortSignal | undefined;
+  /** Told as the load goes on. */
+  readonly onProgress?: ((progress: GltfProgress) => void) | undefined;
+  /** Decoders of compressed meshes. In Node they are found by themselves where their packages are installed. */
+  readonly decoders?: GltfDecoders | undefined;
+  /** Decodes pictures. Default: the browser does; in Node, the package `sharp`. */
+  readonly decodeImage?: ImageDecoder | undefined;
+}
+
+/** What {@link loadGltf} may be told. */
+export interface LoadGltfOptions extends GltfOptions {
+  /** Where the files lie that a document given as bytes names, and what a relative address is relative to. Default: the page. */
+  readonly baseUrl?: string | URL | undefined;
+  /** Default: the global `fetch`. */
+  readonly fetch?: typeof fetch | undefined;
+}
+
+/**
+ * Loads a glTF 2.0 document (.gltf or .glb) as a scene: meshes, instances, metallic-roughness materials as OpenPBR,
+ * textures, cameras, punctual lights, in the pose the file has at rest. Strips, fans, sparse, quantised and normalised data
+ * are resolved. What is broken but can be left out is left out; `scene.warnings` tells.
+ *
+ * @throws {GltfError} See its codes.
+ * @example
+ * const scene = await loadGltf('models/button.glb', { signal });
+ */
+export async function loadGltf(input: GltfInput, options: LoadGltfOptions = {}): Promise<Scene> {
+  const source = await openSource(input, { fetch: options.fetch ?? globalThis.fetch, baseUrl: options.baseUrl, signal: options.signal });
+  return buildScene(source, { ...options, decodeImage: options.decodeImage ?? decodeImageInBrowser });
+}
+
+/** The common part of all loaders. */
+export async function buildScene(source: Source, options: GltfOptions & { readonly decodeImage: ImageDecoder }): Promise<Scene> {
+  const { signal, onProgress } = options;
+  signal?.throwIfAborted();
+  const container = openContainer(source.bytes, source.name);
+  onProgress?.({ stage: 'read', done: 1 });
+  const scene = createScene(source.name);
+  const { document, viewBytes } = await readDocument(container, source, options.decoders ?? {}, signal, scene.warnings);
+  signal?.throwIfAborted();
+  const table = new TextureTable(container.json, source, scene.warnings);
+  scene.materials = (container.json.materials ?? []).map((material, index) => readMaterial(material, index, table, scene.warnings));
+  let fallback: number | undefined;
+  readNodes({ document, scene, defaultMaterial: () => (fallback ??= scene.materials.push(readMaterial({ name: 'default' }, scene.materials.length, table, scene.warnings)) - 1) });
+  if (scene.instances.length === 0) throw new GltfError('gltf/no-triangles', `${source.name} has no triangles in its scene: there is nothing to show.`, { location: { file: source.name } });
+  onProgress?.({ stage: 'decode', done: 1 });
+  let done = 0;
+  scene.images = await table.readImages(options.decodeImage, viewBytes, signal, () => onProgress?.({ stage: 'images', done: ++done / table.imageCount }));
+  scene.textures = table.textures;
+  for (const { textures } of scene.materials) {
+    for (const [parameter, binding] of Object.entries(textures ?? {})) {
+      if (binding && table.failed.has(scene.textures[binding.texture]?.image ?? -1)) delete textures?.[parameter as keyof typeof textures];
+    }
+  }
+  return scene;
+}

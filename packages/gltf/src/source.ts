@@ -1,0 +1,87 @@
+import { GltfError } from './error';
+
+/** Gives the bytes of a file that a document names. `uri` is relative to the document, decoded. */
+export type ResourceReader = (uri: string, signal: AbortSignal | undefined) => Promise<Uint8Array<ArrayBuffer>>;
+
+/** Where a document and the files it names come from. */
+export interface Source {
+  /** What messages call it. */
+  readonly name: string;
+  readonly bytes: Uint8Array<ArrayBuffer>;
+  readonly read: ResourceReader;
+}
+
+/** A glTF with the files it names, by their paths, as a drop of a folder or several files gives them. */
+export interface GltfFiles {
+  readonly files: ReadonlyMap<string, Uint8Array<ArrayBuffer> | Blob>;
+  /** Path of the document. Default: the only .gltf or .glb. */
+  readonly entry?: string;
+}
+
+/** What {@link loadGltf} takes: an address, the bytes of a file, or files. */
+export type GltfInput = string | URL | ArrayBuffer | Uint8Array<ArrayBuffer> | GltfFiles;
+
+/** The error of a file that is not there. */
+export const missing = (uri: string, name: string, cause?: unknown): GltfError =>
+  new GltfError('gltf/missing-resource', `${name} names the file "${uri}", which is not there: put it beside the document.`, { cause, location: { file: name, path: uri } });
+
+const bytesOf = async (file: Uint8Array<ArrayBuffer> | Blob): Promise<Uint8Array<ArrayBuffer>> => (file instanceof Uint8Array ? file : new Uint8Array(await file.arrayBuffer()));
+
+/** A path without "." and "..", or undefined if it leaves its root. */
+function normalized(path: string): string | undefined {
+  const parts: string[] = [];
+  for (const part of path.replaceAll('\\', '/').split('/')) {
+    if (part === '' || part === '.') continue;
+    if (part !== '..') parts.push(part);
+    else if (parts.pop() === undefined) return undefined;
+  }
+  return parts.join('/');
+}
+
+async function fromFiles({ files, entry }: GltfFiles): Promise<Source> {
+  const byPath = new Map([...files].map(([path, file]) => [normalized(path) ?? path, file]));
+  const documents = [...byPath.keys()].filter((path) => /\.(glb|gltf)$/i.test(path));
+  const name = entry === undefined ? documents[0] : normalized(entry);
+  const file = name === undefined ? undefined : byPath.get(name);
+  if (name === undefined || !file) throw new GltfError('gltf/not-gltf', entry === undefined ? 'There is no .gltf or .glb among the files.' : `There is no "${entry}" among the files.`);
+  if (entry === undefined && documents.length > 1) throw new GltfError('gltf/not-gltf', `There are several documents among the files: ${documents.join(', ')}. Choose one.`);
+  const folder = name.includes('/') ? name.slice(0, name.lastIndexOf('/') + 1) : '';
+  return {
+    name,
+    bytes: await bytesOf(file),
+    read: async (uri) => {
+      const path = normalized(folder + uri);
+      const found = path === undefined ? undefined : byPath.get(path);
+      if (!found) throw missing(uri, name);
+      return bytesOf(found);
+    },
+  };
+}
+
+/** Opens any input. `fetch` and `baseUrl` serve addresses; bytes without a `baseUrl` cannot name other files. */
+export async function openSource(input: GltfInput, options: { readonly fetch: typeof fetch; readonly baseUrl: string | URL | undefined; readonly signal: AbortSignal | undefined }): Promise<Source> {
+  if (typeof input === 'object' && 'files' in input) return fromFiles(input);
+  const get = async (url: URL, uri: string, name: string, signal: AbortSignal | undefined) => {
+    let response: Response;
+    try {
+      response = await options.fetch(url, signal ? { signal } : {});
+    } catch (cause) {
+      signal?.throwIfAborted();
+      throw new GltfError('gltf/missing-resource', `${name}: "${uri}" could not be fetched: ${cause instanceof Error ? cause.message : String(cause)}.`, { cause, location: { file: name } });
+    }
+    if (!response.ok) throw new GltfError('gltf/missing-resource', `${name}: "${uri}" could not be fetched: the server answers ${response.status} ${response.statusText}.`, { location: { file: name } });
+    return new Uint8Array(await response.arrayBuffer());
+  };
+  const relative = (base: URL | undefined, name: string): ResourceReader => async (uri, signal) => {
+    if (!base) throw missing(uri, name);
+    return get(new URL(uri.split('/').map(encodeURIComponent).join('/'), base), uri, name, signal);
+  };
+  const page = typeof location === 'undefined' ? undefined : location.href;
+  const base = options.baseUrl === undefined ? undefined : new URL(options.baseUrl, page);
+  if (typeof input === 'string' || input instanceof URL) {
+    const url = new URL(input, base ?? page);
+    const name = decodeURIComponent(url.pathname.slice(url.pathname.lastIndexOf('/') + 1)) || url.href;
+    return { name, bytes: await get(url, url.href, name, options.signal), read: relative(url, name) };
+  }
+  return { name: 'The glTF file', bytes: input instanceof Uint8Array ? input : new Uint8Array(input), read: relative(base, 'The glTF file') };
+}
