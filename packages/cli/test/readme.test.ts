@@ -30,7 +30,7 @@ describe('every command line that the documentation shows can be typed', () => {
 it('the camera that the README shows is one', async () => {
   const json = /--camera` takes[^`]*`'([^']+)'`/.exec(README)![1]!;
   const { code, created } = await run(['render', 'm.glb', '--size', '4x4', '--camera', json], temporaryFolder({ 'm.glb': '' }));
-  expect([code, (created[0]?.options.camera as { yfov: number }).yfov]).toEqual([0, (35 * Math.PI) / 180]);
+  expect([code, (created[0]!.options.camera as { yfov: number }).yfov]).toEqual([0, (35 * Math.PI) / 180]);
 });
 
 it('the error that the README quotes is the one that is written', async () => {

@@ -136,7 +136,7 @@ export async function renderCommand(options: RenderCommandOptions, io: CliIo, ba
     const { statistics } = active;
     const samplesPerSecond = timings.renderMs > 0 ? samples / (timings.renderMs / 1000) : 0;
     const names = files.map(({ path }) => path).join(', ');
-    progress.line(`${names}: ${options.width}×${options.height}, ${samples}${interrupted ? ` of ${options.samples}` : ''} samples at ${rate(samplesPerSecond)}/s, ${duration(timings.totalMs)} in all`);
+    progress.line(`${names}: ${options.width}×${options.height}, ${samples}${interrupted ? ` of ${options.samples}` : ''} ${options.samples === 1 ? 'sample' : 'samples'} at ${rate(samplesPerSecond)}/s, ${duration(timings.totalMs)} in all`);
     if (statistics.badSamples > 0) progress.warning(`${statistics.badSamples} samples were not numbers and were left out; please report the model.`);
     return {
       exitCode: interruptedCode(),
