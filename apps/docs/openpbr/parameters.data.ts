@@ -1,8 +1,8 @@
-// Reads the parameter table out of the sources of @glanz/openpbr when the site is built; no copy of it lies here.
-import { fileURLToPath } from 'node:url';
-import { build } from 'esbuild';
+// The parameter table out of the sources of @glanz/openpbr; no copy of it lies here.
+import type { OpenPbrParameterInfo } from '@glanz/openpbr/parameters';
 import { defineLoader } from 'vitepress';
 import { parameterRows } from '../src/parameter-rows';
+import { readExport } from '../src/read-export';
 
 type Rows = ReturnType<typeof parameterRows>;
 
@@ -11,15 +11,5 @@ export { data };
 
 export default defineLoader({
   watch: ['../../../packages/openpbr/src/parameters/*.ts'],
-  async load(): Promise<Rows> {
-    const bundle = await build({
-      stdin: { contents: `export { OPENPBR_PARAMETERS } from '@glanz/openpbr/parameters';`, resolveDir: fileURLToPath(new URL('..', import.meta.url)) },
-      conditions: ['@glanz/source'],
-      bundle: true,
-      format: 'esm',
-      write: false,
-    });
-    const { OPENPBR_PARAMETERS } = (await import(`data:text/javascript;base64,${Buffer.from(bundle.outputFiles[0]!.contents).toString('base64')}`)) as typeof import('@glanz/openpbr/parameters');
-    return parameterRows(OPENPBR_PARAMETERS);
-  },
+  load: async (): Promise<Rows> => parameterRows((await readExport('@glanz/openpbr/parameters', 'OPENPBR_PARAMETERS')) as Record<string, OpenPbrParameterInfo>),
 });

@@ -1,0 +1,29 @@
+import { encodeExr } from '@glanz/image/exr';
+import type { PathTracer } from '@glanz/renderer';
+
+// #region mask
+/** Coverage of one part, 0 or 1 a pixel. */
+export async function maskOf(tracer: PathTracer, name: string): Promise<Uint8Array> {
+  const wanted = new Set(tracer.scene.instances.flatMap((instance, index) => (instance.name === name ? [index] : [])));
+  return Uint8Array.from(await tracer.read('objectId'), (id) => (wanted.has(id) ? 1 : 0));
+}
+// #endregion mask
+
+// #region exr
+const channel = (rgba: Float32Array, offset: number) => Float32Array.from({ length: rgba.length / 4 }, (_, i) => rgba[4 * i + offset]!);
+
+export async function toExr(tracer: PathTracer): Promise<Uint8Array> {
+  const beauty = await tracer.read('beauty');
+  const normal = await tracer.read('normal');
+  return encodeExr({
+    width: tracer.width,
+    height: tracer.height,
+    layers: [
+      { name: '', channels: { R: channel(beauty, 0), G: channel(beauty, 1), B: channel(beauty, 2), A: channel(beauty, 3) } },
+      { name: 'normal', channels: { X: channel(normal, 0), Y: channel(normal, 1), Z: channel(normal, 2) } },
+      { name: 'depth', type: 'float', channels: { Z: await tracer.read('depth') } },
+      { name: 'objectId', type: 'uint', channels: { id: await tracer.read('objectId') } },
+    ],
+  });
+}
+// #endregion exr

@@ -1,0 +1,35 @@
+import { decodeEnvironment } from '@glanz/image/environment';
+import type { PathTracer } from '@glanz/renderer';
+import type { Scene } from '@glanz/scene';
+import { studioEnvironment } from '@glanz/scene/studio';
+
+// #region environment
+export async function lightWith(tracer: PathTracer, url: string) {
+  const response = await fetch(url); // Radiance .hdr or OpenEXR
+  const { width, height, data } = decodeEnvironment(new Uint8Array(await response.arrayBuffer()));
+  await tracer.setEnvironment({ type: 'latlong', width, height, data, rotation: Math.PI / 2, intensity: 1.5 });
+}
+// #endregion environment
+
+// #region studio
+export const inTheStudio = (tracer: PathTracer) => tracer.setEnvironment(studioEnvironment({ rotation: 0.6 }));
+export const inFog = (tracer: PathTracer) => tracer.setEnvironment({ type: 'constant', radiance: [0.8, 0.85, 1], visible: false });
+export const inTheDark = (tracer: PathTracer) => tracer.setEnvironment(undefined);
+// #endregion studio
+
+// #region lamps
+export function addLamps(scene: Scene): Scene {
+  return {
+    ...scene,
+    lights: [
+      { type: 'directional', name: 'sun', color: [1, 0.96, 0.9], intensity: 3, direction: [-0.48, -0.8, -0.36] },
+      { type: 'point', name: 'bulb', color: [1, 0.8, 0.6], intensity: 2, position: [0, 1.5, 0.5] },
+      { type: 'spot', name: 'stage', color: [1, 1, 1], intensity: 20, position: [1, 3, 1], direction: [0, -1, 0], inner_cone_angle: 0.2, outer_cone_angle: 0.35 },
+    ],
+  };
+}
+// #endregion lamps
+
+// #region emissive
+export const glow = (tracer: PathTracer) => tracer.setMaterial('lens', { emission_color: [0.03, 1, 0.2], emission_luminance: 4 });
+// #endregion emissive

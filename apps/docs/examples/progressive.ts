@@ -1,0 +1,49 @@
+import { DeviceError, PathTracer, requestDevice } from '@glanz/renderer';
+import type { Scene } from '@glanz/scene';
+
+// #region progress
+export async function render(tracer: PathTracer, report: (text: string) => void) {
+  for await (const { samples, targetSamples, samplesPerSecond, remainingMs } of tracer.render({ samples: 512 })) {
+    report(`${samples}/${targetSamples}, ${samplesPerSecond.toFixed(1)} a second, ${Math.ceil(remainingMs / 1000)} s left`);
+  }
+}
+// #endregion progress
+
+// #region abort
+export function renderUntilClicked(tracer: PathTracer, stop: HTMLButtonElement) {
+  const abort = new AbortController();
+  stop.addEventListener('click', () => abort.abort(), { once: true });
+  return (async () => {
+    for await (const _ of tracer.render({ samples: 4096, signal: abort.signal }));
+    return tracer.read('beauty'); // what there is: an abort is no error
+  })();
+}
+// #endregion abort
+
+// #region edits
+/** Renders for as long as the page lives; edits restart the film, and the loop goes on with it. */
+export async function keepRendering(tracer: PathTracer, signal: AbortSignal, draw: () => void) {
+  while (!signal.aborted) {
+    for await (const _ of tracer.render({ samples: 256, signal })) draw();
+    if (tracer.samples >= 256) await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+}
+// #endregion edits
+
+// #region lost
+export async function renderThroughLosses(scene: Scene, size: { width: number; height: number }, draw: (tracer: PathTracer) => void) {
+  for (let attempt = 0; ; attempt++) {
+    const device = await requestDevice();
+    try {
+      const tracer = await PathTracer.create(device, scene, size);
+      for await (const _ of tracer.render({ samples: 256 })) draw(tracer);
+      return await tracer.read('beauty');
+    } catch (error) {
+      const lost = error instanceof DeviceError && error.code === 'renderer/device-lost';
+      if (!lost || attempt === 2) throw error; // the scene lives on the CPU: nothing but time was lost
+    } finally {
+      device.destroy();
+    }
+  }
+}
+// #endregion lost

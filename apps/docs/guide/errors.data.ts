@@ -1,0 +1,18 @@
+// The error classes and codes out of the packages' own doc comments.
+import { readFileSync } from 'node:fs';
+import { sep } from 'node:path';
+import { defineLoader } from 'vitepress';
+import { errorClasses, type ErrorClass } from '../src/error-classes';
+
+declare const data: ErrorClass[];
+export { data };
+
+const ORDER = ['renderer', 'gltf', 'scene', 'image', 'tonemap', 'openpbr', 'bvh', 'wgsl', 'cli'];
+
+export default defineLoader({
+  watch: ['../../../packages/*/src/**/*.ts'],
+  load: (files: string[]): ErrorClass[] =>
+    files
+      .flatMap((file) => errorClasses(file.split(sep).at(file.split(sep).lastIndexOf('src') - 1)!, readFileSync(file, 'utf8')))
+      .sort((a, b) => ORDER.indexOf(a.package) - ORDER.indexOf(b.package) || a.name.localeCompare(b.name)),
+});
