@@ -1,6 +1,7 @@
 import { sceneBounds } from './bounds';
 import type { PerspectiveCamera } from './camera';
 import { SceneError } from './error';
+import type { Mesh } from './mesh';
 import type { Scene } from './scene';
 
 /** What {@link frameCamera} may be told. */
@@ -16,6 +17,7 @@ export interface FrameCameraOptions {
 }
 
 type Vector = readonly [number, number, number];
+type Row = readonly [number, number, number, number];
 
 const dot = (a: Vector, b: Vector) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a: Vector, b: Vector): Vector => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -26,8 +28,44 @@ function normalized(v: Vector, what: string): Vector {
   return [v[0] / length, v[1] / length, v[2] / length];
 }
 
+/** Largest and smallest extents of the visible triangles' vertices in the camera's frame, as {@link frameCamera} needs them. */
+interface Extents {
+  /** max(right + tx·back) and max(−right + tx·back): how far the planes at the right and left edge must lie outside. */
+  right: number;
+  left: number;
+  top: number;
+  bottom: number;
+  near: number;
+  far: number;
+}
+
+/** In doubles, and relative to the box's centre, so that a small part far from the origin keeps its digits. */
+function growByInstance(extents: Extents, { positions, indices }: Mesh, m: ArrayLike<number>, center: Vector, axes: readonly [Vector, Vector, Vector], tx: number, ty: number): void {
+  const column = (k: number): Vector => [m[4 * k] as number, m[4 * k + 1] as number, m[4 * k + 2] as number];
+  const origin = column(3);
+  const moved: Vector = [origin[0] - center[0], origin[1] - center[1], origin[2] - center[2]];
+  const [[rx, ry, rz, rw], [ux, uy, uz, uw], [bx, by, bz, bw]] = axes.map((axis): Row => [dot(axis, column(0)), dot(axis, column(1)), dot(axis, column(2)), dot(axis, moved)]) as [Row, Row, Row];
+  let { right, left, top, bottom, near, far } = extents;
+  for (let i = 0; i < indices.length; i++) {
+    const v = 3 * (indices[i] as number);
+    const px = positions[v] as number, py = positions[v + 1] as number, pz = positions[v + 2] as number;
+    const r = rx * px + ry * py + rz * pz + rw;
+    const u = ux * px + uy * py + uz * pz + uw;
+    const b = bx * px + by * py + bz * pz + bw;
+    right = Math.max(right, r + tx * b);
+    left = Math.max(left, tx * b - r);
+    top = Math.max(top, u + ty * b);
+    bottom = Math.max(bottom, ty * b - u);
+    near = Math.max(near, b);
+    far = Math.min(far, b);
+  }
+  Object.assign(extents, { right, left, top, bottom, near, far });
+}
+
 /**
- * A camera that sees the whole scene: as near as the box around it allows, looking at the box's centre.
+ * A camera that sees the whole scene: of all that look the given way, the nearest one with every visible vertex inside
+ * the frame less its margin. The subject fills the picture's width or its height, and is near the middle the other way. The
+ * plane in focus is half-way through the scene.
  *
  * @throws {SceneError} `scene/empty` if the scene has no visible triangles, `scene/value` for options out of range.
  */
@@ -41,15 +79,18 @@ export function frameCamera(scene: Scene, { aspect, yfov = (35 * Math.PI) / 180,
   const back = normalized(direction, 'direction');
   const right = normalized(cross([0, 1, 0], back), 'direction, seen from above,');
   const up = cross(back, right);
-  const tangentY = Math.tan(yfov / 2) * (1 - margin);
-  const tangentX = tangentY * aspect;
-  let distance = 0;
-  for (let corner = 0; corner < 8; corner++) {
-    const p: Vector = [(corner & 1 ? max : min)[0] - center[0], (corner & 2 ? max : min)[1] - center[1], (corner & 4 ? max : min)[2] - center[2]];
-    distance = Math.max(distance, dot(p, back) + Math.max(Math.abs(dot(p, right)) / tangentX, Math.abs(dot(p, up)) / tangentY));
+  const ty = Math.tan(yfov / 2) * (1 - margin);
+  const tx = ty * aspect;
+  const e: Extents = { right: -Infinity, left: -Infinity, top: -Infinity, bottom: -Infinity, near: -Infinity, far: Infinity };
+  for (const { mesh, transform, visible } of scene.instances) {
+    if (visible !== false && scene.meshes[mesh]) growByInstance(e, scene.meshes[mesh], transform, center, [right, up, back], tx, ty);
   }
-  // A scene that is one point is looked at from a metre away.
-  if (distance === 0) distance = 1;
-  const eye = [0, 1, 2].map((k) => (center[k] as number) + (back[k] as number) * distance);
-  return { type: 'perspective', name: 'framed', transform: [...right, 0, ...up, 0, ...back, 0, ...eye, 1], yfov, aspect, focus_distance: distance };
+  // A camera at (x, y, d) in the frame sees a vertex (r, u, b) if |r − x| ≤ tx (d − b), and so for u: the edges' planes.
+  const x = (e.right - e.left) / 2;
+  const y = (e.top - e.bottom) / 2;
+  let d = Math.max((e.right + e.left) / (2 * tx), (e.top + e.bottom) / (2 * ty));
+  // Seen edge-on, a line or a point has no size to go by: it is looked at from as far as it is deep, or from a metre away.
+  if (!(d > e.near)) d = e.near + (e.near - e.far || 1);
+  const eye = [0, 1, 2].map((k) => (center[k] as number) + (right[k] as number) * x + (up[k] as number) * y + (back[k] as number) * d);
+  return { type: 'perspective', name: 'framed', transform: [...right, 0, ...up, 0, ...back, 0, ...eye, 1], yfov, aspect, focus_distance: d - (e.near + e.far) / 2 };
 }

@@ -1,9 +1,9 @@
 import { expect, test } from 'vitest';
-import { createScene, frameCamera, sceneBounds, type SceneError, type FrameCameraOptions, type Scene } from '../src/index';
+import { createScene, frameCamera, type SceneError, type FrameCameraOptions, type Scene } from '../src/index';
 import { points, sample } from './sample';
 
 for (const options of [{ aspect: 1 }, { aspect: 3 }, { aspect: 0.4, yfov: 1.2 }, { aspect: 1.5, direction: [-3, 0.1, -1] }, { aspect: 1, margin: 0.3 }] satisfies FrameCameraOptions[]) {
-  test(`everything is in the picture, and the box fills it: ${JSON.stringify(options)}`, () => {
+  test(`every vertex is in the picture, and fills it one way: ${JSON.stringify(options)}`, () => {
     const scene = sample();
     const { transform: m, yfov, focus_distance } = frameCamera(scene, options);
     const tangent = Math.tan(yfov / 2);
@@ -13,13 +13,19 @@ for (const options of [{ aspect: 1 }, { aspect: 3 }, { aspect: 0.4, yfov: 1.2 },
       expect(along(2)).toBeLessThan(0);
       return [along(0) / -along(2) / (tangent * options.aspect), along(1) / -along(2) / tangent];
     };
-    for (const p of points(scene)) for (const x of project(p)) expect(Math.abs(x)).toBeLessThanOrEqual(1);
-    const { min, max } = sceneBounds(scene);
-    const corners = Array.from({ length: 8 }, (_, i) => project([0, 1, 2].map((k) => ((i >> k) & 1 ? max : min)[k as 0])));
+    const seen = points(scene).map(project);
+    const extent = (k: number) => [Math.min(...seen.map((p) => p[k]!)), Math.max(...seen.map((p) => p[k]!))] as const;
     const margin = 'margin' in options ? options.margin : 0.06;
-    expect(Math.max(...corners.flat().map(Math.abs))).toBeCloseTo(1 - margin, 9);
-    const center = [0, 1, 2].map((k) => (min[k as 0] + max[k as 0]) / 2);
-    expect(Math.hypot(...center.map((x, k) => x - m[12 + k]!))).toBeCloseTo(focus_distance!, 9);
+    // One way it fills the frame less the margin on both sides, the other way it is within.
+    for (const k of [0, 1]) {
+      expect(extent(k)[1]).toBeLessThanOrEqual(1 - margin + 1e-9);
+      expect(extent(k)[0]).toBeGreaterThanOrEqual(margin - 1 - 1e-9);
+    }
+    const [fullest] = [0, 1].sort((a, b) => extent(b)[1] - extent(b)[0] - (extent(a)[1] - extent(a)[0]));
+    expect(extent(fullest!)[0]).toBeCloseTo(margin - 1, 9);
+    expect(extent(fullest!)[1]).toBeCloseTo(1 - margin, 9);
+    const depths = points(scene).map((p) => -[0, 1, 2].reduce((sum, k) => sum + (p[k]! - m[12 + k]!) * m[8 + k]!, 0));
+    expect(focus_distance).toBeCloseTo((Math.min(...depths) + Math.max(...depths)) / 2, 9);
     // A rotation: right-handed, no scale.
     const dot = (a: number, b: number) => [0, 1, 2].reduce((sum, k) => sum + m[4 * a + k]! * m[4 * b + k]!, 0);
     for (const [a, b, value] of [[0, 0, 1], [1, 1, 1], [2, 2, 1], [0, 1, 0], [0, 2, 0], [1, 2, 0]] as const) expect(dot(a, b)).toBeCloseTo(value, 12);
@@ -38,4 +44,24 @@ test('what cannot be framed is refused', () => {
   };
   expect(code(createScene(), { aspect: 1 })).toBe('scene/empty');
   for (const options of [{ aspect: 0 }, { aspect: 1, yfov: 4 }, { aspect: 1, direction: [0, 1, 0] as const }, { aspect: 1, margin: 1 }]) expect(code(sample(), options)).toBe('scene/value');
+});
+
+test('a line seen from its end, and a point, are looked at from outside', () => {
+  const scene = sample();
+  scene.instances.length = 1;
+  for (const [positions, distance] of [[[0, 0, -1, 0, 0, 1, 0, 0, 0], 3], [[7, 7, 7, 7, 7, 7, 7, 7, 7], 8]] as const) {
+    scene.meshes[0]!.positions = new Float32Array(positions);
+    const { transform: m } = frameCamera(scene, { aspect: 1, direction: [0, 0, 1] });
+    expect([m[12], m[13], m[14]]).toEqual([positions[0], positions[1], distance]);
+  }
+});
+
+test('a small part far from the origin is framed as one at the origin is', () => {
+  const scene = sample();
+  scene.instances.length = 1;
+  scene.meshes[0]!.positions = new Float32Array([0, 0, 0, 0.002, 0, 0, 0, 0.001, 0.003]);
+  const near = frameCamera(scene, { aspect: 1.5 });
+  scene.instances[0]!.transform = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1000, -500, 2000, 1];
+  const far = frameCamera(scene, { aspect: 1.5 });
+  [1000, -500, 2000].forEach((offset, k) => expect((far.transform[12 + k] as number) - offset).toBeCloseTo(near.transform[12 + k] as number, 9));
 });
