@@ -1,0 +1,17 @@
+import { defineConfig } from 'vite';
+
+/** Where a browser window can open: not on servers, not in automated runs. */
+const hasScreen = !process.env['CI'] && (process.platform !== 'linux' || !!(process.env['DISPLAY'] ?? process.env['WAYLAND_DISPLAY']));
+
+// The workspace's packages are read from their sources (condition "@glanz/source"): the playground needs no build of them.
+export default defineConfig({
+  root: import.meta.dirname,
+  base: './',
+  resolve: { conditions: ['@glanz/source', 'module', 'browser', 'import', 'default'] },
+  server: { port: 5173, open: hasScreen },
+  preview: { port: 4173 },
+  // Found here rather than when a model is first opened, which would reload the page under the user's hands.
+  optimizeDeps: { include: ['@gltf-transform/core', '@gltf-transform/extensions', 'fflate', 'gl-matrix'] },
+  build: { target: 'es2022', chunkSizeWarningLimit: 900 },
+  worker: { format: 'es' },
+});
