@@ -23,7 +23,7 @@ beforeAll(async () => {
     format: 'esm',
     target: 'node20',
     conditions: ['@glanz/source'],
-    external: ['webgpu', 'sharp', '@sparticuz/chromium', 'meshoptimizer', 'meshoptimizer/*'],
+    external: ['webgpu', 'sharp', '@sparticuz/chromium', 'draco3dgltf', 'meshoptimizer', 'meshoptimizer/*'],
     // Some dependencies of dependencies are CommonJS and ask for Node's modules by require().
     banner: { js: "import { createRequire as glanzRequire } from 'node:module'; const require = glanzRequire(import.meta.url);" },
     logLevel: 'error',
@@ -59,6 +59,15 @@ it('--version, at once and by itself', async () => {
 
 it('an error sets the exit status', async () => {
   expect(await start(['render', 'gone.glb'], temporaryFolder())).toMatchObject({ code: 3, out: '', err: 'glanz: Cannot read the model "gone.glb": there is no such file. [cli/input]\n' });
+});
+
+it('a picture, exit status 0, and nothing on stdout', async () => {
+  const cwd = temporaryFolder({ 'red.glb': makeGlb({ camera: true }) });
+  const { code, out, err } = await start(['render', 'red.glb', '--gpu', 'software', '--size', '16x16', '--samples', '2', '--depth', '2', '-o', 'x.png', '--bits', '16'], cwd);
+  expect([code, out], err).toEqual([0, '']);
+  expect(err).toMatch(/render 2\/2 samples · [\d.]+ samples\/s · 0:00 left\n/);
+  expect(err.trimEnd().split('\n').at(-1)).toMatch(/^x\.png: 16×16, 2 samples at [\d.]+\/s, 0:\d\d in all$/);
+  expect((await sharp(join(cwd, 'x.png')).metadata()).depth).toBe('ushort');
 });
 
 it('SIGINT writes the picture; the process ends by itself with 130', async () => {
