@@ -1,0 +1,117 @@
+import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
+import { cosineSample, eon } from './diffuse';
+import { energyConductor, energyShare, energyShareMean, energyTotal } from './energy';
+import { dielectricEpsilon, fresnelDielectric, fresnelMetal } from './fresnel';
+import { ggx, ggxAlpha, ggxSample, type Slopes } from './ggx';
+import { clamp, dot, normalize } from './vector';
+
+export interface BsdfOptions {
+  /** As the flag OPENPBR_MULTISCATTER; default true. */
+  readonly multipleScattering?: boolean;
+}
+
+/** A surface seen from one direction; twin of the WGSL struct `OpenPbrBsdf`. */
+export interface Bsdf {
+  readonly alpha: Slopes;
+  /** Probability of sampling the microfacet lobe. */
+  readonly specularProbability: number;
+  /** Factor on the diffuse lobe, without its colour. */
+  readonly diffuseScale: number;
+  readonly diffuseColor: OpenPbrColor;
+  readonly diffuseRoughness: number;
+  /** Directional albedo. */
+  readonly albedo: OpenPbrColor;
+  readonly metal: { readonly f0: OpenPbrColor; readonly tint: OpenPbrColor; readonly weight: number; readonly scale: OpenPbrColor };
+  readonly dielectric: { readonly eta: number; readonly epsilon: number; readonly roughness: number; readonly scale: OpenPbrColor };
+}
+
+/** A sampled direction; twin of the WGSL struct `OpenPbrSample`. */
+export interface BsdfSample {
+  readonly wi: OpenPbrVector;
+  /** Density per solid angle; 0 if there is no sample. */
+  readonly pdf: number;
+  /** f · |cos θ_i| / pdf. */
+  readonly weight: OpenPbrColor;
+  readonly valid: boolean;
+}
+
+const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), channel(1), channel(2)];
+const sum = (color: OpenPbrColor): number => color[0] + color[1] + color[2];
+
+/**
+ * Prepares the surface for one direction; twin of `openpbr_prepare`.
+ *
+ * @param p Resolved parameters.
+ * @param wo Unit direction to the viewer in the local frame, +z normal.
+ */
+export function prepareBsdf(p: OpenPbrParameters, wo: OpenPbrVector, { multipleScattering = true }: BsdfOptions = {}): Bsdf {
+  const mu = clamp(wo[2], 1e-5, 1);
+  const roughness = p.specular_roughness;
+  const f0 = rgb((i) => p.base_weight * p.base_color[i]);
+  const weight = Math.min(p.specular_weight, 1e6);
+  const energy = energyConductor(roughness, mu);
+  const metalScale = rgb((i) => p.base_metalness * (multipleScattering ? 1 + Math.min(f0[i] * Math.max(weight, 1), 1) * ((1 - energy) / energy) : 1));
+  const typical = fresnelMetal(f0, p.specular_color, mu + 0.8 * roughness * roughness * (1 - mu), weight);
+  const epsilon = dielectricEpsilon(p.specular_ior, p.specular_weight);
+  const share = energyShare(epsilon, roughness, mu);
+  const total = multipleScattering ? energyTotal(epsilon, roughness, mu) : 1;
+  const insulator = 1 - p.base_metalness;
+  const specular = rgb((i) => metalScale[i] * typical[i] * (multipleScattering ? energy : 1) + insulator * share * p.specular_color[i]);
+  const diffuse = rgb((i) => insulator * p.base_weight * (1 - share) * p.base_color[i]);
+  const bright = sum(specular);
+  const all = bright + sum(diffuse);
+  return {
+    alpha: ggxAlpha(roughness, p.specular_roughness_anisotropy),
+    specularProbability: all > 0 ? bright / all : 0.5,
+    diffuseScale: (insulator * p.base_weight * (1 - share)) / Math.max(1 - energyShareMean(epsilon, roughness), 1e-4),
+    diffuseColor: p.base_color,
+    diffuseRoughness: p.base_diffuse_roughness,
+    albedo: rgb((i) => Math.min(specular[i] + diffuse[i], 1)),
+    metal: { f0, tint: p.specular_color, weight, scale: metalScale },
+    dielectric: { eta: (1 + epsilon) / (1 - epsilon), epsilon, roughness, scale: rgb((i) => (insulator * p.specular_color[i]) / total) },
+  };
+}
+
+function scatter(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector): { f: OpenPbrColor; pdf: number } {
+  if (Math.min(wo[2], wi[2]) <= 0) return { f: [0, 0, 0], pdf: 0 };
+  const c = clamp(dot(wo, h), 0, 1);
+  const [value, density] = ggx(b.alpha, wo, wi, h);
+  const metal = fresnelMetal(b.metal.f0, b.metal.tint, c, b.metal.weight);
+  const dielectric = fresnelDielectric(b.dielectric.eta, c);
+  const scale = b.diffuseScale * wi[2] * (1 - energyShare(b.dielectric.epsilon, b.dielectric.roughness, wi[2]));
+  const diffuse = eon(b.diffuseColor, b.diffuseRoughness, wo, wi);
+  return {
+    f: rgb((i) => value * (b.metal.scale[i] * metal[i] + b.dielectric.scale[i] * dielectric) + scale * diffuse[i]),
+    pdf: b.specularProbability * density + ((1 - b.specularProbability) * wi[2]) / Math.PI,
+  };
+}
+
+const half = (wo: OpenPbrVector, wi: OpenPbrVector): OpenPbrVector => normalize([wo[0] + wi[0], wo[1] + wi[1], wo[2] + wi[2]]);
+
+/** f · |cos θ_i|; twin of `openpbr_eval`. `wo` is the one that {@link prepareBsdf} had. */
+export const evalBsdf = (b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): OpenPbrColor => scatter(b, wo, wi, half(wo, wi)).f;
+
+/** Density of {@link sampleBsdf} per solid angle; twin of `openpbr_pdf`. */
+export const pdfBsdf = (b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): number => scatter(b, wo, wi, half(wo, wi)).pdf;
+
+/** A direction for `u` in [0, 1)³; twin of `openpbr_sample`. */
+export function sampleBsdf(b: Bsdf, wo: OpenPbrVector, u: readonly [number, number, number]): BsdfSample {
+  let h: OpenPbrVector;
+  let wi: OpenPbrVector;
+  if (u[2] < b.specularProbability) {
+    h = ggxSample(b.alpha, wo, u);
+    const c = 2 * dot(wo, h);
+    wi = [c * h[0] - wo[0], c * h[1] - wo[1], c * h[2] - wo[2]];
+  } else {
+    wi = cosineSample(u);
+    h = half(wo, wi);
+  }
+  const { f, pdf } = scatter(b, wo, wi, h);
+  return pdf > 0 ? { wi, pdf, weight: rgb((i) => f[i] / pdf), valid: true } : { wi, pdf: 0, weight: [0, 0, 0], valid: false };
+}
+
+/** Reflected part of uniform light; twin of `openpbr_albedo`. */
+export const albedoBsdf = (b: Bsdf, wo: OpenPbrVector): OpenPbrColor => (wo[2] > 0 ? b.albedo : [0, 0, 0]);
+
+/** Radiance that leaves towards `wo`; twin of `openpbr_emission`. */
+export const emittedRadiance = (p: OpenPbrParameters, wo: OpenPbrVector): OpenPbrColor => rgb((i) => (wo[2] > 0 ? p.emission_color[i] * p.emission_luminance : 0));

@@ -1,0 +1,64 @@
+import { TABLE_ANGLES, TABLE_BLOCKS, TABLE_CONDUCTOR, TABLE_DEPTH, TABLE_MIN_ROUGHNESS, TABLE_ROUGHNESSES } from '../tables/layout';
+import { OPENPBR_TABLES, type OpenPbrTable } from '../tables/tables';
+import { fresnelDielectric } from './fresnel';
+import { clamp } from './vector';
+
+/** What a texture with linear filtering and clamping gives at `coords` in [0, 1]. */
+export function tableLookup(table: OpenPbrTable, coords: readonly [number, number, number?]): number {
+  const { width, height, depth, data } = table;
+  const axis = (u: number, size: number): [low: number, high: number, weight: number] => {
+    const at = clamp(u * size - 0.5, 0, size - 1);
+    const low = Math.min(Math.floor(at), Math.max(size - 2, 0));
+    return [low, Math.min(low + 1, size - 1), at - low];
+  };
+  const [x0, x1, fx] = axis(coords[0], width);
+  const [y0, y1, fy] = axis(coords[1], height);
+  const [z0, z1, fz] = axis(coords[2] ?? 0.5, depth);
+  const at = (x: number, y: number, z: number) => data[(z * height + y) * width + x] as number;
+  const plane = (z: number) => (at(x0, y0, z) * (1 - fx) + at(x1, y0, z) * fx) * (1 - fy) + (at(x0, y1, z) * (1 - fx) + at(x1, y1, z) * fx) * fy;
+  return plane(z0) * (1 - fz) + plane(z1) * fz;
+}
+
+const texel = (u: number, first: number, count: number, size: number): number => (u * (count - 1) + 0.5 + first) / size;
+const roughnessAxis = (r: number, count: number): number => texel(clamp((r - TABLE_MIN_ROUGHNESS) / (1 - TABLE_MIN_ROUGHNESS), 0, 1), 0, count, count);
+const slice = (block: keyof typeof TABLE_BLOCKS, epsilon: number): number => texel(Math.sqrt(Math.abs(epsilon)), TABLE_BLOCKS[block][0], TABLE_BLOCKS[block][1], TABLE_DEPTH);
+const angleAxis = (t: number): number => texel(t, 0, TABLE_ANGLES, TABLE_ANGLES + 1);
+
+function spread(r: number, mu: number): number {
+  const x = Math.sqrt(mu);
+  return (x * (1 + r)) / (x + r);
+}
+
+/** Energy that a perfect mirror of the given roughness reflects by single scattering; twin of `openpbr_energy_conductor`. */
+export function energyConductor(roughness: number, mu: number): number {
+  const r = Math.max(roughness, TABLE_MIN_ROUGHNESS);
+  return tableLookup(OPENPBR_TABLES.conductor, [texel(spread(r, mu), 0, TABLE_CONDUCTOR, TABLE_CONDUCTOR), roughnessAxis(r, TABLE_CONDUCTOR)]);
+}
+
+/** Share of the energy that an interface reflects, the rest being refracted; twin of `openpbr_energy_share`. */
+export function energyShare(epsilon: number, roughness: number, mu: number): number {
+  if (epsilon === 0) return 0;
+  const r = Math.max(roughness, TABLE_MIN_ROUGHNESS);
+  const eta = (1 + epsilon) / (1 - epsilon);
+  const y = roughnessAxis(r, TABLE_ROUGHNESSES);
+  if (epsilon > 0) {
+    const fresnel = fresnelDielectric(eta, mu + 0.8 * r * r * (1 - mu));
+    return Math.min(fresnel * tableLookup(OPENPBR_TABLES.dielectric, [angleAxis(spread(r, mu)), y, slice('outer', epsilon)]), 1);
+  }
+  const critical = Math.sqrt(1 - eta * eta);
+  const t = mu > critical ? 0.5 + 0.5 * Math.sqrt((mu - critical) / (1 - critical)) : (0.5 * mu) / critical;
+  return Math.min(tableLookup(OPENPBR_TABLES.dielectric, [angleAxis(t), y, slice('inner', epsilon)]), 1);
+}
+
+/** The cosine-weighted mean of {@link energyShare} over all directions; twin of `openpbr_energy_share_mean`. */
+export function energyShareMean(epsilon: number, roughness: number): number {
+  if (epsilon === 0) return 0;
+  const y = roughnessAxis(Math.max(roughness, TABLE_MIN_ROUGHNESS), TABLE_ROUGHNESSES);
+  return tableLookup(OPENPBR_TABLES.dielectric, [(TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1), y, slice(epsilon > 0 ? 'outer' : 'inner', epsilon)]);
+}
+
+/** Energy that an interface reflects and refracts by single scattering; twin of `openpbr_energy_total`. */
+export function energyTotal(epsilon: number, roughness: number, mu: number): number {
+  const r = Math.max(roughness, TABLE_MIN_ROUGHNESS);
+  return tableLookup(OPENPBR_TABLES.dielectric, [angleAxis(spread(r, mu)), roughnessAxis(r, TABLE_ROUGHNESSES), slice(epsilon >= 0 ? 'outerTotal' : 'innerTotal', epsilon)]);
+}

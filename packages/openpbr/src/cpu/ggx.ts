@@ -1,0 +1,45 @@
+import type { OpenPbrVector } from '../parameters/index';
+import { clamp, normalize } from './vector';
+
+/** GGX slopes along the tangent and the bitangent. */
+export type Slopes = readonly [x: number, y: number];
+
+/** Roughness and anisotropy to slopes, not below 1e-4; twin of `openpbr_alpha`. */
+export function ggxAlpha(roughness: number, anisotropy: number): Slopes {
+  const flat = 1 - anisotropy;
+  const along = roughness * roughness * Math.sqrt(2 / (1 + flat * flat));
+  return [Math.max(along, 1e-4), Math.max(flat * along, 1e-4)];
+}
+
+const stretch = (alpha: Slopes, w: OpenPbrVector): number => Math.hypot(alpha[0] * w[0], alpha[1] * w[1], w[2]);
+
+/** Density of facet normals, per solid angle and projected area; its integral over cos θ is 1. */
+export function ggxDistribution(alpha: Slopes, h: OpenPbrVector): number {
+  const t = (h[0] / alpha[0]) ** 2 + (h[1] / alpha[1]) ** 2 + h[2] * h[2];
+  return 1 / (Math.PI * alpha[0] * alpha[1] * t * t);
+}
+
+/** The visible part of the facets from one direction (Smith's G1). */
+export const ggxMasking = (alpha: Slopes, w: OpenPbrVector): number => (2 * w[2]) / (w[2] + stretch(alpha, w));
+
+/** Height-correlated masking and shadowing, 1/(1 + Λ_o + Λ_i). */
+export function ggxMaskingShadowing(alpha: Slopes, wo: OpenPbrVector, wi: OpenPbrVector): number {
+  return (2 * wo[2] * wi[2]) / (wo[2] * stretch(alpha, wi) + wi[2] * stretch(alpha, wo));
+}
+
+/** D·G2/(4 cos θ_o) and the density of reflected directions under {@link ggxSample}; twin of `openpbr_ggx`. */
+export function ggx(alpha: Slopes, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector): [value: number, pdf: number] {
+  const d = ggxDistribution(alpha, h) / 2;
+  const so = stretch(alpha, wo);
+  const si = stretch(alpha, wi);
+  return [(d * wi[2]) / (wo[2] * si + wi[2] * so), d / (wo[2] + so)];
+}
+
+/** A half vector visible from `wo` (Dupuy and Benyoub 2023); twin of `openpbr_ggx_sample`. `u` in [0, 1)². */
+export function ggxSample(alpha: Slopes, wo: OpenPbrVector, u: readonly [number, number, ...number[]]): OpenPbrVector {
+  const v = normalize([alpha[0] * wo[0], alpha[1] * wo[1], wo[2]]);
+  const phi = 2 * Math.PI * u[0];
+  const z = (1 - u[1]) * (1 + v[2]) - v[2];
+  const r = Math.sqrt(clamp(1 - z * z, 0, 1));
+  return normalize([alpha[0] * (r * Math.cos(phi) + v[0]), alpha[1] * (r * Math.sin(phi) + v[1]), Math.max(z + v[2], 1e-7)]);
+}

@@ -1,0 +1,62 @@
+import { gaussLegendre } from '../scripts/microfacet.mjs';
+import { ggxAlpha, ggxSample } from '../src/cpu/index';
+import { evalBsdf, pdfBsdf, prepareBsdf, type Bsdf, type BsdfOptions } from '../src/cpu/bsdf';
+import type { OpenPbrParameters, OpenPbrVector } from '../src/parameters/index';
+
+/** A direction by cosine and azimuth. */
+export function direction(mu: number, phi = 0.4): OpenPbrVector {
+  const s = Math.sqrt(Math.max(0, 1 - mu * mu));
+  return [s * Math.cos(phi), s * Math.sin(phi), mu];
+}
+
+const cache = new Map<number, { nodes: Float64Array; weights: Float64Array }>();
+function rule(count: number) {
+  const found = cache.get(count) ?? (gaussLegendre(count) as { nodes: Float64Array; weights: Float64Array });
+  cache.set(count, found);
+  return found;
+}
+
+/**
+ * ∫ g(ω_i) dω_i over the upper hemisphere, split by multiple importance: where visible normals are dense, in their
+ * measure (ggxSample over a product rule); elsewhere over the hemisphere. Deterministic, good for any roughness.
+ */
+export function integrateHemisphere(p: OpenPbrParameters, wo: OpenPbrVector, g: (wi: OpenPbrVector) => readonly number[], size = 64): number[] {
+  const alpha = ggxAlpha(p.specular_roughness, p.specular_roughness_anisotropy);
+  const density = (wi: OpenPbrVector): number => {
+    const h: [number, number, number] = [wo[0] + wi[0], wo[1] + wi[1], wo[2] + wi[2]];
+    const length = Math.hypot(...h);
+    const [x, y, z] = [h[0] / length, h[1] / length, h[2] / length];
+    const t = (x / alpha[0]) ** 2 + (y / alpha[1]) ** 2 + z * z;
+    return 1 / (2 * Math.PI * alpha[0] * alpha[1] * t * t * (wo[2] + Math.hypot(alpha[0] * wo[0], alpha[1] * wo[1], wo[2])));
+  };
+  const uniform = 1 / (2 * Math.PI);
+  const total: number[] = [];
+  // The balance heuristic of two samplers: each node's own density cancels.
+  const add = (wi: OpenPbrVector, weight: number): void => {
+    if (wi[2] <= 0) return;
+    const scale = weight / (density(wi) + uniform);
+    g(wi).forEach((value, i) => (total[i] = (total[i] ?? 0) + value * scale));
+  };
+  const { nodes, weights } = rule(size);
+  const around = 2 * size;
+  for (let k = 0; k < size; k++) {
+    for (let i = 0; i < around; i++) {
+      const phi = (2 * Math.PI * (i + 0.5)) / around;
+      // √ spreads nodes towards grazing.
+      const mu = (nodes[k] as number) ** 2;
+      const s = Math.sqrt(1 - mu * mu);
+      add([s * Math.cos(phi), s * Math.sin(phi), mu], ((weights[k] as number) * 2 * (nodes[k] as number)) / around);
+      const h = ggxSample(alpha, wo, [(i + 0.5) / around, nodes[k] as number]);
+      const c = 2 * (wo[0] * h[0] + wo[1] * h[1] + wo[2] * h[2]);
+      add([c * h[0] - wo[0], c * h[1] - wo[1], c * h[2] - wo[2]], (weights[k] as number) / around);
+    }
+  }
+  return total;
+}
+
+/** Directional albedo and the integral of the density, by quadrature. */
+export function furnace(p: OpenPbrParameters, wo: OpenPbrVector, options?: BsdfOptions, size?: number): { albedo: [number, number, number]; pdf: number } {
+  const b: Bsdf = prepareBsdf(p, wo, options);
+  const [r, g, bl, pdf] = integrateHemisphere(p, wo, (wi) => [...evalBsdf(b, wo, wi), pdfBsdf(b, wo, wi)], size) as [number, number, number, number];
+  return { albedo: [r, g, bl], pdf };
+}
