@@ -14,13 +14,13 @@ import { entriesOf } from './pipeline/workspace.mjs';
 const SYMBOLS = [
   { from: '@glanz/wgsl', symbol: 'struct', has: ['wgsl/unknown-field'], lacks: ['wgsl/unbalanced-gate', 'getCompilationInfo'] },
   { from: '@glanz/wgsl', symbol: 'compose', has: ['wgsl/unbalanced-gate'], lacks: ['wgsl/field-length', 'getCompilationInfo'] },
-  { from: '@glanz/scene', symbol: 'SceneError', has: ['extends'], lacks: ['scene/length', 'yfov'] },
+  { from: '@glanz/scene', symbol: 'SceneError', has: ['extends'], lacks: ['scene/empty', 'yfov'] },
   { from: '@glanz/bvh', symbol: 'buildBlas', has: ['bvh/'], lacks: ['fn bvh_', 'struct Bvh'] },
   { from: '@glanz/openpbr', symbol: 'OPENPBR_PARAMETERS', has: ['specular_roughness'], lacks: ['fn openpbr_'] },
   { from: '@glanz/openpbr', symbol: 'openPbrStruct', has: ['base_color'], lacks: ['fn openpbr_sample'] },
   { from: '@glanz/tonemap', symbol: 'tonemapAgx', has: ['fn tonemap_agx'], lacks: ['fn tonemap_aces', 'createRenderPipeline', 'fn tonemap_neutral'] },
   { from: '@glanz/tonemap', symbol: 'toneMap', has: ['agx'], lacks: ['createRenderPipeline'] },
-  { from: '@glanz/image', symbol: 'decodeHdr', has: ['RADIANCE'], lacks: ['IHDR', 'ZIP_COMPRESSION', 'chlist'] },
+  { from: '@glanz/image', symbol: 'decodeHdr', has: ['32-bit_rle_rgbe'], lacks: ['IHDR', 'chlist'] },
   { from: '@glanz/gltf', symbol: 'GltfError', has: ['extends'], lacks: ['KHR_lights_punctual', 'KHR_materials_emissive_strength'] },
   { from: '@glanz/renderer', symbol: 'requestDevice', has: ['renderer/no-adapter'], lacks: ['@compute', 'fn bvh_', 'fn openpbr_'] },
 ];

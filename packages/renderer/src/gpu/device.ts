@@ -1,5 +1,6 @@
 import { DeviceError } from '../errors';
 
+/** What {@link requestDevice} may be told. */
 export interface DeviceOptions {
   /** Where to look for adapters; default `navigator.gpu`. In Node pass what `createGpu()` of `@glanz/renderer/node` gives. */
   readonly gpu?: GPU;
