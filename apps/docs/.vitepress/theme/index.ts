@@ -1,5 +1,5 @@
 import type { Theme } from 'vitepress';
-import DefaultTheme from 'vitepress/theme';
+import DefaultTheme from 'vitepress/theme-without-fonts';
 import LivePicture from './LivePicture.vue';
 import LiveSphere from './LiveSphere.vue';
 import LivePushButton from './LivePushButton.vue';

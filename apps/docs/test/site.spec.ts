@@ -1,0 +1,119 @@
+import { expect, test, type Page } from '@playwright/test';
+import { buildSite, serveSite, sitePages } from './site';
+import { pixelStatistics } from './pixels';
+
+let origin = '';
+let close: () => void = () => undefined;
+
+test.beforeAll(async () => {
+  await buildSite();
+  const site = await serveSite();
+  origin = site.origin;
+  close = () => void site.server.close();
+});
+
+test.afterAll(() => close());
+
+/** Collects what a page complains about, and requests that leave the site. */
+function watchPage(page: Page): string[] {
+  const complaints: string[] = [];
+  page.on('console', (message) => {
+    if (message.type() === 'error' || message.type() === 'warning') complaints.push(`${page.url()}: ${message.type()}: ${message.text()}`);
+  });
+  page.on('pageerror', (error) => complaints.push(`${page.url()}: ${error.message}`));
+  page.on('requestfailed', (request) => complaints.push(`${request.url()} failed: ${request.failure()?.errorText}`));
+  page.on('response', (response) => {
+    if (response.status() >= 400) complaints.push(`${response.url()}: ${response.status()}`);
+  });
+  page.on('request', (request) => {
+    if (!request.url().startsWith(origin) && !/^(data|blob):/.test(request.url())) complaints.push(`${page.url()} asks the network for ${request.url()}`);
+  });
+  return complaints;
+}
+
+test('all pages load without a complaint, and every internal link and anchor leads somewhere', async ({ page }) => {
+  const complaints = watchPage(page);
+  const pages = sitePages();
+  expect(pages.length).toBeGreaterThan(25);
+  const anchors = new Map<string, Set<string>>();
+  const links: { from: string; to: URL }[] = [];
+  // The live page starts a GPU; it has a test of its own.
+  await page.addInitScript(() => Object.defineProperty(navigator, 'gpu', { value: undefined, configurable: true }));
+  for (const path of pages) {
+    await page.goto(`${origin}${path}`, { waitUntil: 'load' });
+    expect(await page.locator('h1').count(), `${path} has one heading`).toBe(1);
+    const found = await page.evaluate(() => ({
+      ids: [...document.querySelectorAll('[id]')].map((element) => element.id),
+      hrefs: [...document.querySelectorAll<HTMLAnchorElement>('a[href]')].map((anchor) => anchor.href),
+      text: document.querySelector('main, #VPContent')?.textContent?.trim().length ?? 0,
+      raw: document.querySelector('.vp-doc')?.textContent?.match(/<!--|@include|\{\{|<<< /)?.[0],
+    }));
+    expect(found.text, `${path} has text`).toBeGreaterThan(200);
+    expect(found.raw, `${path} shows markup`).toBeUndefined();
+    anchors.set(path, new Set(found.ids));
+    links.push(...found.hrefs.map((href) => ({ from: path, to: new URL(href) })));
+  }
+  const lost = links
+    .filter(({ to }) => to.origin === origin)
+    .filter(({ to }) => {
+      const ids = anchors.get(to.pathname);
+      return !ids || (to.hash !== '' && !ids.has(decodeURIComponent(to.hash.slice(1))));
+    });
+  expect([...new Set(lost.map(({ from, to }) => `${from} → ${to.pathname}${to.hash}`))]).toEqual([]);
+  expect(complaints).toEqual([]);
+});
+
+test('the OpenPBR page lists the table of the package', async ({ page }) => {
+  await page.goto(`${origin}/openpbr/parameters`);
+  const { OPENPBR_PARAMETERS } = await import('../../../packages/openpbr/src/parameters/table');
+  const names = await page.locator('.parameters tbody tr').evaluateAll((rows) => rows.map((row) => row.id));
+  expect(names).toEqual(Object.keys(OPENPBR_PARAMETERS));
+  await expect(page.locator('#specular_ior td').nth(2)).toHaveText('1.5');
+});
+
+test('search finds a parameter and an error code without the network', async ({ page }) => {
+  const complaints = watchPage(page);
+  await page.goto(`${origin}/`);
+  await page.keyboard.press('Control+k');
+  await page.locator('.VPLocalSearchBox input').fill('thin lens');
+  await expect(page.locator('.VPLocalSearchBox .result').first()).toBeVisible();
+  expect(complaints).toEqual([]);
+});
+
+test('dark and light', async ({ page }) => {
+  await page.emulateMedia({ colorScheme: 'light' });
+  await page.goto(`${origin}/guide/materials`);
+  const background = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  const light = await background();
+  await page.locator('.VPSwitchAppearance').first().click();
+  await expect.poll(background).not.toBe(light);
+});
+
+test('a browser without WebGPU is told what to do', async ({ page }) => {
+  const complaints = watchPage(page);
+  await page.addInitScript(() => Object.defineProperty(navigator, 'gpu', { value: undefined, configurable: true }));
+  await page.goto(`${origin}/live`);
+  await expect(page.getByRole('alert').first()).toContainText('renderer/no-webgpu');
+  await expect(page.getByRole('alert').first()).toContainText('https');
+  expect(complaints).toEqual([]);
+});
+
+test('the live page path-traces the push-button, and a new lens colour restarts it', async ({ page }) => {
+  const complaints = watchPage(page);
+  // A small window makes a small film: the software GPU is slow.
+  await page.setViewportSize({ width: 380, height: 800 });
+  await page.goto(`${origin}/live`);
+  const live = page.locator('.live').first();
+  await expect.poll(async () => Number(await live.getAttribute('data-samples')), { timeout: 90_000 }).toBeGreaterThanOrEqual(1);
+  const canvas = live.locator('canvas');
+  const green = await pixelStatistics(canvas);
+  expect(green.colours).toBeGreaterThan(1000);
+  expect(green.deviation).toBeGreaterThan(15);
+  expect(green.mean).toBeGreaterThan(20);
+  expect(green.mean).toBeLessThan(235);
+  expect(green.leading.green).toBeGreaterThan(0.01);
+
+  await page.getByRole('radio', { name: 'red' }).check();
+  await expect.poll(async () => (await pixelStatistics(canvas)).leading.red, { timeout: 60_000 }).toBeGreaterThan(green.leading.red + 0.01);
+  expect(complaints).toEqual([]);
+});

@@ -1,0 +1,56 @@
+import { existsSync, mkdirSync, writeFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import { defineConfig, type LaunchOptions } from '@playwright/test';
+
+// All five, or a canvas stays blank on the software GPU.
+const GPU_FLAGS = ['--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader', '--enable-features=Vulkan', '--use-vulkan=swiftshader', '--use-angle=swiftshader'];
+const QUIET_FLAGS = ['--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'];
+
+/** Chromium and the libraries it needs out of the npm package, inflated once into .cache: a bare machine has neither. */
+async function packagedChromium(): Promise<LaunchOptions> {
+  const folder = fileURLToPath(new URL('.cache/chromium', import.meta.url));
+  mkdirSync(folder, { recursive: true });
+  const { TMPDIR, AWS_LAMBDA_JS_RUNTIME } = process.env;
+  const { LD_LIBRARY_PATH, FONTCONFIG_PATH } = process.env;
+  // The package inflates into the system's temporary folder, and adds its libraries where it takes the machine for a bare one.
+  process.env['TMPDIR'] = folder;
+  process.env['AWS_LAMBDA_JS_RUNTIME'] = 'nodejs20.x';
+  try {
+    const { default: chromium } = await import('@sparticuz/chromium');
+    const executablePath = await chromium.executablePath();
+    // The package's own list of font folders names none of these; without any font a page has no text.
+    writeFileSync(`${folder}/fonts.conf`, `<?xml version="1.0"?><fontconfig><dir>${folder}/fonts</dir><cachedir>${folder}/fonts-cache</cachedir></fontconfig>\n`);
+    const env = { ...process.env, TMPDIR: TMPDIR ?? '/tmp', FONTCONFIG_FILE: `${folder}/fonts.conf` } as Record<string, string>;
+    delete env['AWS_LAMBDA_JS_RUNTIME'];
+    delete env['FONTCONFIG_PATH'];
+    return { executablePath, env };
+  } finally {
+    restore({ TMPDIR, AWS_LAMBDA_JS_RUNTIME, LD_LIBRARY_PATH, FONTCONFIG_PATH });
+  }
+}
+
+function restore(variables: Readonly<Record<string, string | undefined>>): void {
+  for (const [name, value] of Object.entries(variables)) {
+    if (value === undefined) delete process.env[name];
+    else process.env[name] = value;
+  }
+}
+
+const packaged = process.platform === 'linux' && process.arch === 'x64' ? await packagedChromium() : {};
+
+export default defineConfig({
+  projects: ['playground', 'docs']
+    .filter((app) => existsSync(new URL(`apps/${app}/test`, import.meta.url)))
+    .map((name) => ({ name, testDir: `apps/${name}/test`, testMatch: '**/*.spec.ts' })),
+  outputDir: '.cache/playwright',
+  // The software GPU takes all cores for one page.
+  workers: 1,
+  timeout: 120_000,
+  expect: { timeout: 60_000 },
+  forbidOnly: true,
+  reporter: 'list',
+  use: {
+    viewport: { width: 1280, height: 800 },
+    launchOptions: { ...packaged, args: ['--no-sandbox', ...GPU_FLAGS, ...QUIET_FLAGS] },
+  },
+});
