@@ -11,7 +11,7 @@ export default defineConfig({
   server: { port: 5173, open: hasScreen },
   preview: { port: 4173 },
   // Found here rather than when a model is first opened, which would reload the page under the user's hands.
-  optimizeDeps: { include: ['@gltf-transform/core', '@gltf-transform/extensions', 'fflate', 'gl-matrix'] },
+  optimizeDeps: { include: ['@glanz/gltf > @gltf-transform/core', '@glanz/gltf > @gltf-transform/extensions', '@glanz/gltf > gl-matrix', '@glanz/image > fflate', 'meshoptimizer/decoder'] },
   build: { target: 'es2022', chunkSizeWarningLimit: 900 },
   worker: { format: 'es' },
 });

@@ -1,0 +1,62 @@
+import { PlaygroundError } from '../errors';
+
+/** What a user gave, sorted: a model with everything that lies beside it, a picture of surroundings, or both. */
+export interface GivenFiles {
+  readonly model?: { readonly files: ReadonlyMap<string, File>; readonly entry: string };
+  readonly environment?: File;
+}
+
+const MODEL = /\.(glb|gltf)$/i;
+const ENVIRONMENT = /\.(hdr|exr|pic)$/i;
+
+/**
+ * Finds the model and the surroundings among files.
+ *
+ * @param files By path, folders separated by `/`.
+ * @throws {PlaygroundError} `playground/no-model` if there is neither.
+ */
+export function sortFiles(files: ReadonlyMap<string, File>): GivenFiles {
+  const paths = [...files.keys()];
+  // Of several documents the one nearest to the top, as asset folders keep variants below.
+  const depth = (path: string) => path.split('/').length;
+  const entry = paths.filter((path) => MODEL.test(path)).sort((a, b) => depth(a) - depth(b) || a.localeCompare(b))[0];
+  const surroundings = paths.find((path) => ENVIRONMENT.test(path));
+  if (entry === undefined && surroundings === undefined) {
+    const names = paths.slice(0, 3).map((path) => `"${path}"`);
+    throw new PlaygroundError('playground/no-model', `There is no .glb, .gltf, .hdr or .exr among the files${names.length > 0 ? ` (${names.join(', ')}${paths.length > 3 ? ', …' : ''})` : ''}.`);
+  }
+  const environment = surroundings === undefined ? undefined : files.get(surroundings);
+  return { ...(entry === undefined ? {} : { model: { files, entry } }), ...(environment ? { environment } : {}) };
+}
+
+/** Files of a file input; of a folder input with their paths. */
+export function filesOfInput(input: HTMLInputElement): Map<string, File> {
+  return new Map([...(input.files ?? [])].map((file) => [file.webkitRelativePath || file.name, file]));
+}
+
+const fileOf = (entry: FileSystemFileEntry) => new Promise<File>((resolve, reject) => entry.file(resolve, reject));
+const batchOf = (reader: FileSystemDirectoryReader) => new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
+
+async function walk(entry: FileSystemEntry, files: Map<string, File>): Promise<void> {
+  if (entry.isFile) files.set(entry.fullPath.replace(/^\//, ''), await fileOf(entry as FileSystemFileEntry));
+  else if (entry.isDirectory) {
+    const reader = (entry as FileSystemDirectoryEntry).createReader();
+    // A reader gives entries in batches until one is empty.
+    for (let batch = await batchOf(reader); batch.length > 0; batch = await batchOf(reader)) {
+      for (const child of batch) await walk(child, files);
+    }
+  }
+}
+
+/** Files and folders of a drop. Call it in the event itself: later the transfer is empty. */
+export function filesOfDrop(transfer: DataTransfer): Promise<Map<string, File>> {
+  const entries = [...transfer.items].flatMap((item) => (item.kind === 'file' ? [item.webkitGetAsEntry?.() ?? null] : []));
+  const plain = [...transfer.files];
+  return (async () => {
+    const files = new Map<string, File>();
+    if (entries.length > 0 && entries.every((entry) => entry !== null)) for (const entry of entries) await walk(entry, files);
+    // Scripted transfers and old browsers have files without entries.
+    if (files.size === 0) for (const file of plain) files.set(file.name, file);
+    return files;
+  })();
+}

@@ -1,0 +1,43 @@
+import { loadGltf } from '@glanz/gltf';
+import { createCornellBox, createPushButton } from '@glanz/models';
+import type { Scene } from '@glanz/scene';
+import type { LoadReply, LoadRequest } from './load-messages';
+
+// Reading and making models takes seconds for large ones: here it does not stop the page, and can be stopped by it.
+
+async function load(request: LoadRequest): Promise<Scene> {
+  if (request.kind === 'files') {
+    const { MeshoptDecoder } = await import('meshoptimizer/decoder');
+    const onProgress = ({ stage, done }: { stage: string; done: number }) => reply({ kind: 'progress', stage, done });
+    return loadGltf({ files: request.files, ...(request.entry === undefined ? {} : { entry: request.entry }) }, { decoders: { meshopt: MeshoptDecoder }, onProgress });
+  }
+  if (request.name === 'cornell-box') return createCornellBox();
+  return createPushButton({ level: request.name === 'push-button-high' ? 'high' : request.name === 'push-button-low' ? 'low' : 'medium' });
+}
+
+/** The memory of all typed arrays of a scene, to be handed over rather than copied. */
+function buffersOf(scene: Scene): ArrayBuffer[] {
+  const found = new Set<ArrayBuffer>();
+  const visit = (value: unknown): void => {
+    if (ArrayBuffer.isView(value)) {
+      if (value.buffer instanceof ArrayBuffer) found.add(value.buffer);
+    } else if (Array.isArray(value)) {
+      if (typeof value[0] === 'object') value.forEach(visit);
+    } else if (typeof value === 'object' && value !== null) Object.values(value).forEach(visit);
+  };
+  visit(scene.meshes);
+  visit(scene.images);
+  return [...found];
+}
+
+const reply = (message: LoadReply, transfer: Transferable[] = []) => self.postMessage(message, { transfer });
+
+self.onmessage = async ({ data }: MessageEvent<LoadRequest>) => {
+  try {
+    const scene = await load(data);
+    reply({ kind: 'scene', scene }, buffersOf(scene));
+  } catch (error) {
+    const { message, code } = error as { message?: string; code?: unknown };
+    reply({ kind: 'error', message: message ?? String(error), ...(typeof code === 'string' ? { code } : {}) });
+  }
+};

@@ -1,0 +1,116 @@
+/** What the user's hands ask of the camera. */
+export interface CameraCommands {
+  /** Radians. */
+  orbit(yaw: number, pitch: number): void;
+  /** Heights of the picture. */
+  pan(right: number, up: number): void;
+  /** Factor, more than 1 comes nearer. */
+  zoom(factor: number): void;
+  /** Back to the first view. */
+  home(): void;
+  /** A click or tap without a drag; CSS pixels from the element's upper left corner. */
+  pick(x: number, y: number): void;
+}
+
+/** Radians of orbit for a drag over the whole height. */
+const DRAG_TURN = Math.PI;
+/** Radians, heights and factor of one key press. */
+const KEY = { turn: Math.PI / 24, pan: 0.05, zoom: 1.12 } as const;
+/** A press that moves less is a click. */
+const CLICK_PIXELS = 4;
+
+interface Point {
+  x: number;
+  y: number;
+}
+
+/**
+ * Pointer, touch, wheel and keyboard on an element:
+ * drag to orbit; Shift, middle or right button to pan; wheel to zoom; two fingers pan and zoom; arrows orbit, Shift and
+ * arrows pan, + and − zoom, 0 or Home returns.
+ *
+ * @returns What removes the listeners.
+ */
+export function controlCamera(element: HTMLElement, commands: CameraCommands): () => void {
+  const listeners = new AbortController();
+  const { signal } = listeners;
+  const pointers = new Map<number, Point>();
+  let start: (Point & { readonly pan: boolean }) | undefined;
+  let moved = false;
+  const at = (event: PointerEvent): Point => ({ x: event.offsetX, y: event.offsetY });
+  const height = () => Math.max(1, element.clientHeight);
+
+  const drag = (from: Point, to: Point, pan: boolean) => {
+    const [dx, dy] = [(to.x - from.x) / height(), (to.y - from.y) / height()];
+    if (pan) commands.pan(-dx, dy);
+    else commands.orbit(-dx * DRAG_TURN, dy * DRAG_TURN);
+  };
+
+  element.addEventListener(
+    'pointerdown',
+    (event) => {
+      // A synthetic pointer cannot be captured; a real one always can.
+      if (event.isTrusted) element.setPointerCapture(event.pointerId);
+      pointers.set(event.pointerId, at(event));
+      moved = pointers.size > 1;
+      start = { ...at(event), pan: event.button !== 0 || event.shiftKey };
+      element.focus({ preventScroll: true });
+    },
+    { signal },
+  );
+  element.addEventListener(
+    'pointermove',
+    (event) => {
+      const from = pointers.get(event.pointerId);
+      if (!from || !start) return;
+      const to = at(event);
+      if (!moved && Math.hypot(to.x - start.x, to.y - start.y) < CLICK_PIXELS) return;
+      moved = true;
+      if (pointers.size === 1) drag(from, to, start.pan);
+      else {
+        const other = [...pointers].find(([id]) => id !== event.pointerId)?.[1] ?? from;
+        const [before, after] = [Math.hypot(from.x - other.x, from.y - other.y), Math.hypot(to.x - other.x, to.y - other.y)];
+        // The middle of two fingers moves half as far as the one that moves.
+        drag({ x: from.x / 2, y: from.y / 2 }, { x: to.x / 2, y: to.y / 2 }, true);
+        if (before > 8 && after > 8) commands.zoom(after / before);
+      }
+      pointers.set(event.pointerId, to);
+    },
+    { signal },
+  );
+  const release = (event: PointerEvent) => {
+    if (!pointers.delete(event.pointerId)) return;
+    if (event.type === 'pointerup' && !moved && event.button === 0) commands.pick(event.offsetX, event.offsetY);
+  };
+  element.addEventListener('pointerup', release, { signal });
+  element.addEventListener('pointercancel', release, { signal });
+  element.addEventListener('contextmenu', (event) => event.preventDefault(), { signal });
+  element.addEventListener(
+    'wheel',
+    (event) => {
+      event.preventDefault();
+      const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : event.deltaMode === WheelEvent.DOM_DELTA_PAGE ? 400 : 1);
+      commands.zoom(Math.exp(-Math.max(-240, Math.min(240, pixels)) * (event.ctrlKey ? 0.01 : 0.0015)));
+    },
+    { signal, passive: false },
+  );
+  element.addEventListener(
+    'keydown',
+    (event) => {
+      if (event.ctrlKey || event.metaKey || event.altKey) return;
+      const arrow = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+      if (arrow) {
+        const [x, y] = arrow as [number, number];
+        if (event.shiftKey) commands.pan(x * KEY.pan, y * KEY.pan);
+        else commands.orbit(x * KEY.turn, y * KEY.turn);
+      } else if (event.key === '+' || event.key === '=') commands.zoom(KEY.zoom);
+      else if (event.key === '-' || event.key === '_') commands.zoom(1 / KEY.zoom);
+      else if (event.key === '0' || event.key === 'Home') commands.home();
+      else if (event.key === 'Enter') commands.pick(element.clientWidth / 2, element.clientHeight / 2);
+      else return;
+      event.preventDefault();
+    },
+    { signal },
+  );
+  return () => listeners.abort();
+}

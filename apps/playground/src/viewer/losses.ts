@@ -1,0 +1,25 @@
+import { PlaygroundError } from '../errors';
+
+const WINDOW_MS = 60_000;
+const MOST = 3;
+
+/** Counts lost devices, so that a GPU that always fails is not asked for ever. */
+export class Losses {
+  #times: number[] = [];
+
+  /**
+   * Waits before the next attempt, longer each time.
+   *
+   * @throws {PlaygroundError} `playground/device-lost` after three losses within a minute.
+   */
+  async next(): Promise<void> {
+    const now = performance.now();
+    this.#times = [...this.#times.filter((time) => now - time < WINDOW_MS), now];
+    if (this.#times.length > MOST) throw new PlaygroundError('playground/device-lost', 'The GPU was lost again and again: close other programs that use it, or choose a smaller model or resolution.');
+    await new Promise((resolve) => setTimeout(resolve, 250 * this.#times.length ** 2));
+  }
+
+  forgive(): void {
+    this.#times = [];
+  }
+}
