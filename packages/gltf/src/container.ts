@@ -1,9 +1,11 @@
+import type { SceneWarning } from '@glanz/scene';
+import type { Raw } from './check/context';
 import { GltfError } from './error';
-import type { GltfJson } from './json';
 
 /** A document out of its container. */
 export interface Container {
-  readonly json: GltfJson;
+  /** Parsed; only `asset` has been looked at. */
+  readonly json: Raw;
   /** The binary chunk of a GLB. */
   readonly binary?: Uint8Array<ArrayBuffer>;
 }
@@ -15,39 +17,44 @@ const BINARY_CHUNK = 0x004e4942;
 /**
  * Takes a GLB or a JSON document apart.
  * @param name What messages call the file.
+ * @param warnings Takes what is odd but harmless.
  * @throws {GltfError} `gltf/not-gltf`, `gltf/truncated`, `gltf/version`, `gltf/malformed`
  */
-export function openContainer(bytes: Uint8Array<ArrayBuffer>, name: string): Container {
+export function openContainer(bytes: Uint8Array<ArrayBuffer>, name: string, warnings: SceneWarning[]): Container {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  if (bytes.length >= 4 && view.getUint32(0, true) === MAGIC) return openGlb(bytes, view, name);
+  if (bytes.length >= 4 && view.getUint32(0, true) === MAGIC) return openGlb(bytes, view, name, warnings);
   return { json: parseJson(bytes, name) };
 }
 
-function openGlb(bytes: Uint8Array<ArrayBuffer>, view: DataView, name: string): Container {
+function openGlb(bytes: Uint8Array<ArrayBuffer>, view: DataView, name: string, warnings: SceneWarning[]): Container {
   const truncated = (end: number, at: number) =>
     new GltfError('gltf/truncated', `${name} ends at byte ${bytes.length}, but byte ${end} should be there: the file is cut off. Download or export it again.`, { location: { file: name, byteOffset: at } });
+  const malformed = (what: string, at: number) => new GltfError('gltf/malformed', `${name} ${what}; export the file again or repair it.`, { location: { file: name, byteOffset: at } });
   if (bytes.length < 20) throw truncated(20, bytes.length);
   const version = view.getUint32(4, true);
   if (version !== 2) throw new GltfError('gltf/version', `${name} is a GLB of version ${version}; only version 2 is known.`, { location: { file: name, byteOffset: 4 } });
   const total = view.getUint32(8, true);
   if (total > bytes.length) throw truncated(total, 8);
-  let json: GltfJson | undefined;
+  let json: Raw | undefined;
   let binary: Uint8Array<ArrayBuffer> | undefined;
   for (let at = 12; at + 8 <= total; ) {
     const length = view.getUint32(at, true);
     const type = view.getUint32(at + 4, true);
     if (at + 8 + length > total) throw truncated(at + 8 + length, at);
+    if (length % 4 !== 0) throw malformed(`has a chunk of ${length} bytes, which is no multiple of 4`, at);
     const chunk = bytes.subarray(at + 8, at + 8 + length);
-    if (!json && type !== JSON_CHUNK) throw new GltfError('gltf/malformed', `${name} does not start with a JSON chunk.`, { location: { file: name, byteOffset: at } });
+    if (!json && type !== JSON_CHUNK) throw malformed('does not start with a JSON chunk', at);
+    if (json && type === JSON_CHUNK) throw malformed('has two JSON chunks', at);
+    if (binary && type === BINARY_CHUNK) warnings.push({ code: 'gltf/container', message: `${name} has a second binary chunk, which is not read.` });
     if (!json) json = parseJson(chunk, name);
     else if (type === BINARY_CHUNK && !binary) binary = chunk;
-    at += 8 + length + ((4 - (length % 4)) % 4);
+    at += 8 + length;
   }
   if (!json) throw new GltfError('gltf/malformed', `${name} is a GLB without a JSON chunk.`, { location: { file: name } });
   return binary ? { json, binary } : { json };
 }
 
-function parseJson(bytes: Uint8Array, name: string): GltfJson {
+function parseJson(bytes: Uint8Array, name: string): Raw {
   let json: unknown;
   try {
     json = JSON.parse(new TextDecoder('utf-8', { fatal: true }).decode(bytes));
@@ -62,5 +69,5 @@ function parseJson(bytes: Uint8Array, name: string): GltfJson {
   if (!/^2\.\d+$/.test(needed) || (minVersion !== undefined && needed !== '2.0')) {
     throw new GltfError('gltf/version', `${name} is of glTF version ${JSON.stringify(minVersion ?? version)}; only 2.0 is known.`, { location: { file: name, path: '/asset/version' } });
   }
-  return json as GltfJson;
+  return json as unknown as Raw;
 }

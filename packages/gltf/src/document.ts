@@ -1,8 +1,9 @@
 import { Logger, WebIO, type Document, type GLTF } from '@gltf-transform/core';
 import { EXTMeshGPUInstancing, EXTMeshoptCompression, KHRDracoMeshCompression, KHRLightsPunctual, KHRMeshQuantization } from '@gltf-transform/extensions';
 import type { SceneWarning } from '@glanz/scene';
-import type { Container } from './container';
+import type { CheckedDocument } from './check/index';
 import { GltfError } from './error';
+import type { GltfJson } from './json';
 import type { Source } from './source';
 
 /**
@@ -44,8 +45,7 @@ export interface OpenDocument {
 }
 
 /** Reads everything that a document names except its pictures, and has glTF-Transform understand meshes and nodes. */
-export async function readDocument(container: Container, source: Source, decoders: GltfDecoders, signal: AbortSignal | undefined, warnings: SceneWarning[]): Promise<OpenDocument> {
-  const { json, binary } = container;
+export async function readDocument({ json, neededBuffers, checkBytes }: CheckedDocument, binary: Uint8Array<ArrayBuffer> | undefined, source: Source, decoders: GltfDecoders, signal: AbortSignal | undefined, warnings: SceneWarning[]): Promise<OpenDocument> {
   for (const name of json.extensionsRequired ?? []) {
     if (KNOWN.has(name)) continue;
     if (!OPTIONAL.test(name)) throw new GltfError('gltf/unsupported-extension', `${source.name} requires the extension ${name}, which is not supported: export it without.`, { location: { file: source.name, path: '/extensionsRequired' } });
@@ -68,7 +68,13 @@ export async function readDocument(container: Container, source: Source, decoder
         if (index === 0 && binary) {
           if (binary.length < buffer.byteLength) throw short(source.name, path, binary.length, buffer.byteLength);
           resources[GLB_CHUNK] = binary;
-        } else if (!('extensions' in buffer)) throw new GltfError('gltf/malformed', `${source.name}: ${path} has no uri, and the file no binary chunk for it.`, { location: { file: source.name, path } });
+        } else if ('extensions' in buffer) return buffer;
+        else if (neededBuffers.has(index)) throw new GltfError('gltf/malformed', `${source.name}: ${path} has no uri, and the file no binary chunk for it.`, { location: { file: source.name, path } });
+        else {
+          // Nothing reads it, but glTF-Transform wants every buffer to be there.
+          resources[`buffer-${index}.bin`] = new Uint8Array(1);
+          return { ...buffer, uri: `buffer-${index}.bin`, byteLength: 1 };
+        }
         return buffer;
       }
       const bytes = await readUri(buffer.uri, source, signal);
@@ -80,7 +86,7 @@ export async function readDocument(container: Container, source: Source, decoder
     }),
   );
   // Pictures and materials are read from the JSON.
-  const { images: _i, textures: _t, samplers: _s, materials, animations: _a, ...rest } = json as GltfJsonWithAnimations;
+  const { images: _i, textures: _t, samplers: _s, materials, animations: _a, ...rest } = json as GltfJson & { readonly animations?: unknown };
   const document = {
     ...rest,
     buffers,
@@ -101,14 +107,13 @@ export async function readDocument(container: Container, source: Source, decoder
     }
     return bytes.subarray(offset, offset + view.byteLength);
   };
+  checkBytes(viewBytes);
   try {
     return { document: await io.readJSON({ json: cleaned as unknown as GLTF.IGLTF, resources }), viewBytes };
   } catch (cause) {
     throw new GltfError('gltf/malformed', `${source.name} contradicts the glTF specification: ${cause instanceof Error ? cause.message.split('\n')[0] : String(cause)}.`, { cause, location: { file: source.name } });
   }
 }
-
-type GltfJsonWithAnimations = Container['json'] & { readonly animations?: unknown };
 
 const short = (name: string, path: string, length: number, expected: number) =>
   new GltfError('gltf/truncated', `${name}: ${path} has ${length} bytes, but says it has ${expected}: the file is cut off.`, { location: { file: name, path } });

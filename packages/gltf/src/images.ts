@@ -12,14 +12,27 @@ export interface DecodedImage {
 }
 
 /** Turns the bytes of a PNG, JPEG or WebP file into pixels. */
-export type ImageDecoder = (bytes: Uint8Array<ArrayBuffer>, mimeType: string | undefined) => Promise<DecodedImage>;
+export type ImageDecoder = (bytes: Uint8Array<ArrayBuffer>, mimeType: string) => Promise<DecodedImage>;
+
+const FORMATS = [
+  ['image/png', [0x89, 0x50, 0x4e, 0x47]],
+  ['image/jpeg', [0xff, 0xd8, 0xff]],
+  ['image/webp', [0x52, 0x49, 0x46, 0x46]],
+] as const;
+
+/** The type of a picture by its first bytes. Decoders know more formats than glTF: SVG, for one, may name other files. */
+function formatOf(bytes: Uint8Array): string {
+  const found = FORMATS.find(([, magic]) => magic.every((byte, at) => bytes[at] === byte));
+  if (!found) throw new Error('it is no PNG, JPEG or WebP');
+  return found[0];
+}
 
 /** Decodes by the browser. */
 export const decodeImageInBrowser: ImageDecoder = async (bytes, mimeType) => {
   if (typeof createImageBitmap === 'undefined' || typeof OffscreenCanvas === 'undefined') {
     throw new GltfError('gltf/missing-decoder', 'There is no browser to decode pictures: use loadGltfFile() of @glanz/gltf/node, or pass decodeImage.');
   }
-  const bitmap = await createImageBitmap(new Blob([bytes], mimeType === undefined ? {} : { type: mimeType }), { colorSpaceConversion: 'none', premultiplyAlpha: 'none' });
+  const bitmap = await createImageBitmap(new Blob([bytes], { type: mimeType }), { colorSpaceConversion: 'none', premultiplyAlpha: 'none' });
   try {
     const { width, height } = bitmap;
     const context = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true, colorSpace: 'srgb' });
@@ -102,7 +115,7 @@ export class TextureTable {
       const name = image.name ?? image.uri?.slice(0, 80) ?? `image ${index}`;
       const bytes = image.uri === undefined ? viewBytes(image.bufferView ?? -1) : await readUri(image.uri, this.#source, signal);
       try {
-        images.push({ name, ...(await decode(bytes, image.mimeType)) });
+        images.push({ name, ...(await decode(bytes, formatOf(bytes))) });
       } catch (error) {
         if (error instanceof GltfError) throw error;
         this.#warnings.push({ code: 'gltf/image', message: `${this.#source.name}: image ${index} ("${name}") cannot be decoded and is left out: ${error instanceof Error ? error.message.split('\n')[0] : String(error)}.`, path: `/images/${index}` });

@@ -1,4 +1,5 @@
 import { createScene, type Scene } from '@glanz/scene';
+import { checkDocument } from './check/index';
 import { openContainer } from './container';
 import { readDocument, type GltfDecoders } from './document';
 import { GltfError } from './error';
@@ -24,6 +25,8 @@ export interface GltfOptions {
   readonly decoders?: GltfDecoders | undefined;
   /** Decodes pictures. Default: the browser does; in Node, the package `sharp`. */
   readonly decodeImage?: ImageDecoder | undefined;
+  /** Whether a document without triangles is a scene too (lights, cameras) rather than `gltf/no-triangles`. Default false. */
+  readonly allowEmpty?: boolean | undefined;
 }
 
 /** What {@link loadGltf} may be told. */
@@ -52,16 +55,18 @@ export async function loadGltf(input: GltfInput, options: LoadGltfOptions = {}):
 export async function buildScene(source: Source, options: GltfOptions & { readonly decodeImage: ImageDecoder }): Promise<Scene> {
   const { signal, onProgress } = options;
   signal?.throwIfAborted();
-  const container = openContainer(source.bytes, source.name);
-  onProgress?.({ stage: 'read', done: 1 });
   const scene = createScene(source.name);
-  const { document, viewBytes } = await readDocument(container, source, options.decoders ?? {}, signal, scene.warnings);
+  const container = openContainer(source.bytes, source.name, scene.warnings);
+  const checked = checkDocument(container.json, source.name, scene.warnings);
+  const { json } = checked;
+  onProgress?.({ stage: 'read', done: 1 });
+  const { document, viewBytes } = await readDocument(checked, container.binary, source, options.decoders ?? {}, signal, scene.warnings);
   signal?.throwIfAborted();
-  const table = new TextureTable(container.json, source, scene.warnings);
-  scene.materials = (container.json.materials ?? []).map((material, index) => readMaterial(material, index, table, scene.warnings));
+  const table = new TextureTable(json, source, scene.warnings);
+  scene.materials = (json.materials ?? []).map((material, index) => readMaterial(material, index, table, scene.warnings));
   let fallback: number | undefined;
   readNodes({ document, scene, defaultMaterial: () => (fallback ??= scene.materials.push(readMaterial({ name: 'default' }, scene.materials.length, table, scene.warnings)) - 1) });
-  if (scene.instances.length === 0) throw new GltfError('gltf/no-triangles', `${source.name} has no triangles in its scene: there is nothing to show.`, { location: { file: source.name } });
+  if (scene.instances.length === 0 && !options.allowEmpty) throw new GltfError('gltf/no-triangles', `${source.name} has no triangles in its scene: there is nothing to show.`, { location: { file: source.name } });
   onProgress?.({ stage: 'decode', done: 1 });
   let done = 0;
   scene.images = await table.readImages(options.decodeImage, viewBytes, signal, () => onProgress?.({ stage: 'images', done: ++done / table.imageCount }));

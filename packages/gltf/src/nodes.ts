@@ -1,7 +1,7 @@
 import type { Document, Node, Primitive, Scene as GltfScene } from '@gltf-transform/core';
 import type { InstancedMesh, Light as GltfLight } from '@gltf-transform/extensions';
-import type { Camera, Light, Scene } from '@glanz/scene';
-import { mat4, type quat, type vec3 } from 'gl-matrix';
+import type { Camera, Light, Scene, SceneWarning } from '@glanz/scene';
+import { mat4, quat, type vec3 } from 'gl-matrix';
 import { floatsOf, readPrimitive } from './attributes';
 import { morphed, skinned } from './pose';
 
@@ -69,18 +69,18 @@ export function readNodes({ document, scene, defaultMaterial }: NodeContext): vo
         let made = readPrimitive(primitive, label + several, opaque, `/meshes/${meshIndex}/primitives/${index}`, scene.warnings);
         if (!made) return;
         if (weights.some((w) => w !== 0)) made = morphed(made, primitive, weights);
-        if (skin) made = skinned(made, primitive, skin, world);
+        if (skin) made = skinned(made, primitive, skin, world, scene.warnings);
         at = scene.meshes.push(made) - 1;
         if (!posed) shared.set(primitive, at);
       }
-      const places = skin ? [matrix()] : instancesOf(node, transform);
+      const places = skin ? [matrix()] : instancesOf(node, transform, scene.warnings);
       for (const place of places) scene.instances.push({ name: name || mesh.getName() || `node ${scene.instances.length}`, mesh: at, material, transform: numbers(place) });
     });
   }
 }
 
 /** The places of a node's mesh: one, or those of EXT_mesh_gpu_instancing. */
-function instancesOf(node: Node, transform: mat4): mat4[] {
+function instancesOf(node: Node, transform: mat4, warnings: SceneWarning[]): mat4[] {
   const extension = node.getExtension<InstancedMesh>('EXT_mesh_gpu_instancing');
   if (!extension) return [transform];
   const read = (semantic: string, size: number) => {
@@ -90,13 +90,22 @@ function instancesOf(node: Node, transform: mat4): mat4[] {
   const translations = read('TRANSLATION', 3), rotations = read('ROTATION', 4), scales = read('SCALE', 3);
   const count = Math.max((translations?.length ?? 0) / 3, (rotations?.length ?? 0) / 4, (scales?.length ?? 0) / 3);
   const places: mat4[] = [];
+  let unturned = 0;
   for (let i = 0; i < count; i++) {
     const t = Array.from(translations?.subarray(3 * i, 3 * i + 3) ?? [0, 0, 0]) as unknown as vec3;
     const r = Array.from(rotations?.subarray(4 * i, 4 * i + 4) ?? [0, 0, 0, 1]) as unknown as quat;
+    const turn = Math.hypot(...(r as number[]));
+    if (turn > 1e-6) quat.scale(r, r, 1 / turn);
+    else {
+      quat.identity(r);
+      unturned++;
+    }
     const s = Array.from(scales?.subarray(3 * i, 3 * i + 3) ?? [1, 1, 1]) as unknown as vec3;
     const place = mat4.multiply(matrix(), transform, mat4.fromRotationTranslationScale(matrix(), r, t, s));
     if (finite(place)) places.push(place);
   }
+  if (unturned > 0) warnings.push({ code: 'gltf/node', message: `${unturned} of ${count} instances at node "${node.getName()}" have a rotation of length 0; they are not turned.` });
+  if (places.length < count) warnings.push({ code: 'gltf/node', message: `${count - places.length} of ${count} instances at node "${node.getName()}" have a place that is not finite; they are left out.` });
   return places;
 }
 

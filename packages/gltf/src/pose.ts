@@ -1,5 +1,5 @@
 import type { Node, Primitive, Skin } from '@gltf-transform/core';
-import type { Mesh } from '@glanz/scene';
+import type { Mesh, SceneWarning } from '@glanz/scene';
 import { mat4 } from 'gl-matrix';
 import { floatsOf } from './attributes';
 
@@ -32,22 +32,30 @@ export function morphed(mesh: Mesh, primitive: Primitive, weights: readonly numb
 
 /**
  * A mesh in the pose of its skeleton, in the world (glTF 2.0, section 3.7.3.3: the node's own transform does not count).
+ * Matrices and weights that are not finite do not count, with a warning.
  * @param world World transforms of the nodes.
  */
-export function skinned(mesh: Mesh, primitive: Primitive, skin: Skin, world: ReadonlyMap<Node, mat4>): Mesh {
+export function skinned(mesh: Mesh, primitive: Primitive, skin: Skin, world: ReadonlyMap<Node, mat4>, warnings: SceneWarning[]): Mesh {
+  const warn = (message: string) => void warnings.push({ code: 'gltf/skin', message: `${mesh.name}: ${message}` });
   const joints = skin.listJoints();
   const inverse = skin.getInverseBindMatrices();
   const bind = inverse ? floatsOf(inverse, 16) : undefined;
   const matrices = joints.map((joint, j) => {
     const own = bind?.subarray(16 * j, 16 * j + 16);
     const at = world.get(joint) ?? mat4.create();
+    if (own && !own.every(Number.isFinite)) {
+      warn(`the bind matrix of joint ${j} is not finite; the joint does not count.`);
+      return undefined;
+    }
     return own?.length === 16 ? mat4.multiply(new Array<number>(16).fill(0) as unknown as mat4, at, own as unknown as mat4) : at;
   });
   const sets: { joints: Float32Array; weights: Float32Array }[] = [];
   for (let set = 0; ; set++) {
     const j = primitive.getAttribute(`JOINTS_${set}`), w = primitive.getAttribute(`WEIGHTS_${set}`);
     if (!j || !w) break;
-    sets.push({ joints: floatsOf(j, 4), weights: floatsOf(w, 4) });
+    const weights = floatsOf(w, 4);
+    if (!weights.every(Number.isFinite)) warn(`WEIGHTS_${set} holds numbers that are not finite; they do not count.`);
+    sets.push({ joints: floatsOf(j, 4), weights });
   }
   const vertices = mesh.positions.length / 3;
   const positions = new Float32Array(mesh.positions.length);
@@ -61,7 +69,7 @@ export function skinned(mesh: Mesh, primitive: Primitive, skin: Skin, world: Rea
       for (let k = 0; k < 4; k++) {
         const weight = weights[4 * v + k] as number;
         const matrix = matrices[indices[4 * v + k] as number];
-        if (!(weight > 0) || !matrix) continue;
+        if (!(weight > 0 && weight < Infinity) || !matrix) continue;
         total += weight;
         for (let i = 0; i < 16; i++) blended[i] = (blended[i] as number) + weight * (matrix[i] as number);
       }

@@ -1,0 +1,93 @@
+import type { SceneWarning } from '@glanz/scene';
+import { GltfError } from '../error';
+
+/** An object of a document that nothing is known about yet. */
+export type Raw = { readonly [key: string]: unknown };
+
+/** Whether a value is a JSON object. */
+export const isObject = (value: unknown): value is Raw => typeof value === 'object' && value !== null && !Array.isArray(value);
+
+/** A value as it may be quoted in a message of one line. */
+export const quote = (value: unknown): string => {
+  const text = value === undefined ? 'missing' : (JSON.stringify(value) ?? String(value));
+  return text.length > 40 ? `${text.slice(0, 40)}…` : text;
+};
+
+/** A property by its name; never one that all objects inherit, such as `constructor`. */
+export const own = (object: Raw, key: string): unknown => (Object.hasOwn(object, key) ? object[key] : undefined);
+
+/** What every check has at hand: the document, and the two ways to object. */
+export class CheckContext {
+  constructor(
+    readonly json: Raw,
+    readonly file: string,
+    readonly warnings: SceneWarning[],
+  ) {}
+
+  /** @throws {GltfError} always, `gltf/malformed` unless told otherwise. */
+  fail(path: string, what: string, code = 'gltf/malformed'): never {
+    throw new GltfError(code, `${this.file}: ${path} ${what}; export the file again or repair it.`, { location: { file: this.file, path } });
+  }
+
+  warn(code: string, path: string, what: string): void {
+    this.warnings.push({ code, message: `${this.file}: ${path} ${what}.`, path });
+  }
+
+  /** A top-level array of objects; empty if it is not there. */
+  list(key: string): readonly Raw[] {
+    const value = own(this.json, key);
+    if (value === undefined) return [];
+    return this.objects(value, `/${key}`);
+  }
+
+  objects(value: unknown, path: string): readonly Raw[] {
+    if (!Array.isArray(value)) this.fail(path, `is ${quote(value)}, but must be an array`);
+    value.forEach((entry, index) => {
+      if (!isObject(entry)) this.fail(`${path}/${index}`, `is ${quote(entry)}, but must be an object`);
+    });
+    return value as Raw[];
+  }
+
+  /** An object, or undefined if it is not there. */
+  object(owner: Raw, key: string, path: string): Raw | undefined {
+    const value = own(owner, key);
+    if (value !== undefined && !isObject(value)) this.fail(`${path}/${key}`, `is ${quote(value)}, but must be an object`);
+    return value as Raw | undefined;
+  }
+
+  /** An extension's object on an object. */
+  extension(owner: Raw, name: string, path: string): Raw | undefined {
+    const extensions = this.object(owner, 'extensions', path);
+    return extensions && this.object(extensions, name, `${path}/extensions`);
+  }
+
+  /** An integer from `low` to `high`; `initial` (if given) where it is not there. */
+  integer(owner: Raw, key: string, path: string, low: number, high: number, initial?: number): number {
+    const value = own(owner, key) ?? (Object.hasOwn(owner, key) ? null : initial);
+    if (typeof value !== 'number' || !Number.isSafeInteger(value) || value < low || value > high) {
+      this.fail(`${path}/${key}`, `is ${quote(value)}, but must be a whole number ${high >= Number.MAX_SAFE_INTEGER ? `of at least ${low}` : `from ${low} to ${high}`}`);
+    }
+    return value;
+  }
+
+  /** An index into a list, or undefined if it is not there. */
+  index(owner: Raw, key: string, path: string, list: readonly unknown[], kind: string): number | undefined {
+    if (!Object.hasOwn(owner, key)) return undefined;
+    this.reference(owner[key], `${path}/${key}`, list, kind);
+    return owner[key] as number;
+  }
+
+  reference(value: unknown, path: string, list: readonly unknown[], kind: string): asserts value is number {
+    if (typeof value !== 'number' || !Number.isInteger(value) || value < 0 || value >= list.length) this.fail(path, `is ${quote(value)}, which names no ${kind} (the file has ${list.length})`);
+  }
+
+  /** An array of indices without repetitions; empty if it is not there. */
+  indices(owner: Raw, key: string, path: string, list: readonly unknown[], kind: string): readonly number[] {
+    const value = own(owner, key);
+    if (value === undefined) return [];
+    if (!Array.isArray(value)) this.fail(`${path}/${key}`, `is ${quote(value)}, but must be an array`);
+    value.forEach((entry, at) => this.reference(entry, `${path}/${key}/${at}`, list, kind));
+    if (new Set(value).size !== value.length) this.fail(`${path}/${key}`, `names a ${kind} twice`);
+    return value as number[];
+  }
+}

@@ -1,0 +1,145 @@
+import { own, quote, type CheckContext, type Raw } from './context';
+
+const MAX = Number.MAX_SAFE_INTEGER;
+
+/** Bytes of one component, by glTF's number for its type. */
+const COMPONENT_BYTES: Readonly<Record<number, number>> = { 5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4 };
+
+/** Rows and columns by type. */
+const SHAPES: ReadonlyMap<unknown, readonly [number, number]> = new Map([
+  ['SCALAR', [1, 1]],
+  ['VEC2', [2, 1]],
+  ['VEC3', [3, 1]],
+  ['VEC4', [4, 1]],
+  ['MAT2', [2, 2]],
+  ['MAT3', [3, 3]],
+  ['MAT4', [4, 4]],
+]);
+
+/**
+ * Most bytes that accessors may ask for without any in the file to show for it (no buffer view: zeros, perhaps with sparse
+ * ones among them). Some hundred bytes of JSON could ask for terabytes.
+ */
+export const ZERO_FILL_LIMIT = 1 << 28;
+
+/** An accessor that has been checked. */
+export interface AccessorFacts {
+  readonly componentType: number;
+  readonly type: string;
+  readonly count: number;
+}
+
+/** Bytes of an element; columns of matrices start at multiples of 4. */
+function elementBytes(type: unknown, componentType: number): number {
+  const [rows, columns] = SHAPES.get(type) as readonly [number, number];
+  const column = rows * (COMPONENT_BYTES[componentType] as number);
+  return columns === 1 ? column : (Math.ceil(column / 4) * 4) * columns;
+}
+
+/** Checks buffers and buffer views: whole numbers, and each view within its buffer. Returns the views. */
+export function checkBuffers(context: CheckContext): readonly Raw[] {
+  const buffers = context.list('buffers');
+  buffers.forEach((buffer, index) => {
+    const path = `/buffers/${index}`;
+    context.integer(buffer, 'byteLength', path, 1, MAX);
+    const uri = own(buffer, 'uri');
+    if (uri !== undefined && typeof uri !== 'string') context.fail(`${path}/uri`, `is ${quote(uri)}, but must be a text`);
+  });
+  const within = (view: Raw, path: string): number => {
+    const buffer = buffers[context.integer(view, 'buffer', path, 0, buffers.length - 1)] as Raw;
+    const offset = context.integer(view, 'byteOffset', path, 0, MAX, 0);
+    const length = context.integer(view, 'byteLength', path, 1, MAX);
+    if (offset + length > (buffer['byteLength'] as number)) context.fail(path, `reaches to byte ${offset + length}, but its buffer has ${buffer['byteLength']}`);
+    return length;
+  };
+  const views = context.list('bufferViews');
+  views.forEach((view, index) => {
+    const path = `/bufferViews/${index}`;
+    const length = within(view, path);
+    if (context.integer(view, 'byteStride', path, 4, 252, 4) % 4 !== 0) context.fail(`${path}/byteStride`, 'must be a multiple of 4');
+    for (const name of ['EXT_meshopt_compression', 'KHR_meshopt_compression']) {
+      const packed = context.extension(view, name, path);
+      if (!packed) continue;
+      const at = `${path}/extensions/${name}`;
+      within(packed, at);
+      const stride = context.integer(packed, 'byteStride', at, 1, 256);
+      const count = context.integer(packed, 'count', at, 1, MAX);
+      if (stride * count > length) context.fail(at, `unpacks to ${stride * count} bytes, but its buffer view has ${length}`);
+    }
+  });
+  return views;
+}
+
+/** Checks accessors: known types, and every byte they read within their views. */
+export function checkAccessors(context: CheckContext, views: readonly Raw[], needed: ReadonlySet<number>): readonly (AccessorFacts | undefined)[] {
+  let zeroFilled = 0;
+  return context.list('accessors').map((accessor, index) => {
+    const path = `/accessors/${index}`;
+    const count = context.integer(accessor, 'count', path, 1, MAX);
+    const componentType = own(accessor, 'componentType');
+    const type = own(accessor, 'type');
+    const known = typeof componentType === 'number' && COMPONENT_BYTES[componentType] !== undefined && SHAPES.has(type);
+    if (!known) {
+      // A later version's type may stand in a file as long as nothing here needs it.
+      const what = `has the type ${quote(type)} of ${quote(componentType)}, which glTF 2.0 does not know`;
+      if (needed.has(index)) context.fail(path, what);
+      context.warn('gltf/accessor', path, what);
+      return undefined;
+    }
+    const size = elementBytes(type, componentType);
+    const view = context.index(accessor, 'bufferView', path, views, 'buffer view');
+    const offset = context.integer(accessor, 'byteOffset', path, 0, MAX, 0);
+    if (view !== undefined) checkRange(context, path, views[view] as Raw, offset, count, size, COMPONENT_BYTES[componentType] as number, true);
+    else {
+      zeroFilled += count * size;
+      if (zeroFilled > ZERO_FILL_LIMIT) context.fail(path, `asks for ${count * size} bytes of zeros that are not in the file; at most ${ZERO_FILL_LIMIT} are made in all`);
+    }
+    const sparse = context.object(accessor, 'sparse', path);
+    if (sparse) checkSparse(context, `${path}/sparse`, sparse, views, count, size, COMPONENT_BYTES[componentType] as number);
+    return { componentType, type: type as string, count };
+  });
+}
+
+function checkRange(context: CheckContext, path: string, view: Raw, offset: number, count: number, size: number, alignment: number, strided: boolean): void {
+  const stride = strided ? ((own(view, 'byteStride') as number | undefined) ?? size) : size;
+  if (stride < size) context.fail(path, `has elements of ${size} bytes in a buffer view with a stride of ${stride}`);
+  const start = ((own(view, 'byteOffset') as number | undefined) ?? 0) + offset;
+  if (offset % alignment !== 0 || start % alignment !== 0) context.fail(path, `starts at byte ${start}, which is no multiple of its components' ${alignment} bytes`);
+  const end = offset + stride * (count - 1) + size;
+  if (end > (view['byteLength'] as number)) context.fail(path, `reads to byte ${end} of a buffer view of ${view['byteLength']}`);
+}
+
+function checkSparse(context: CheckContext, path: string, sparse: Raw, views: readonly Raw[], length: number, size: number, alignment: number): void {
+  const count = context.integer(sparse, 'count', path, 1, length);
+  const indices = context.object(sparse, 'indices', path) ?? context.fail(path, 'has no indices');
+  const values = context.object(sparse, 'values', path) ?? context.fail(path, 'has no values');
+  const indexBytes = { 5121: 1, 5123: 2, 5125: 4 }[own(indices, 'componentType') as number] ?? context.fail(`${path}/indices/componentType`, `is ${quote(own(indices, 'componentType'))}, but must be 5121, 5123 or 5125`);
+  const parts = [['indices', indices, indexBytes, indexBytes], ['values', values, size, alignment]] as const;
+  for (const [name, part, bytes, aligned] of parts) {
+    const at = `${path}/${name}`;
+    const view = views[context.integer(part, 'bufferView', at, 0, views.length - 1)] as Raw;
+    checkRange(context, at, view, context.integer(part, 'byteOffset', at, 0, MAX, 0), count, bytes, aligned, false);
+  }
+}
+
+/**
+ * Checks what only the bytes show: that sparse indices grow and name elements that exist.
+ * @param viewBytes Bytes of a buffer view, checked to lie within its buffer.
+ */
+export function checkSparseIndices(context: CheckContext, viewBytes: (index: number) => Uint8Array): void {
+  context.list('accessors').forEach((accessor, index) => {
+    const sparse = own(accessor, 'sparse') as Raw | undefined;
+    if (!sparse) return;
+    const path = `/accessors/${index}/sparse/indices`;
+    const { bufferView, byteOffset = 0, componentType } = sparse['indices'] as { bufferView: number; byteOffset?: number; componentType: number };
+    const bytes = viewBytes(bufferView);
+    const data = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+    let last = -1;
+    for (let i = 0; i < (sparse['count'] as number); i++) {
+      const at = componentType === 5121 ? data.getUint8(byteOffset + i) : componentType === 5123 ? data.getUint16(byteOffset + 2 * i, true) : data.getUint32(byteOffset + 4 * i, true);
+      if (at <= last) context.fail(path, `must grow, but ${last} is followed by ${at}`);
+      if (at >= (accessor['count'] as number)) context.fail(path, `names element ${at} of ${accessor['count']}`);
+      last = at;
+    }
+  });
+}

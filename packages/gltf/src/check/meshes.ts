@@ -1,0 +1,98 @@
+import { isObject, own, quote, type CheckContext, type Raw } from './context';
+import type { AccessorFacts } from './data';
+
+/** Attributes that are read, with the types they may have. Others may hold anything. */
+const ATTRIBUTES: ReadonlyMap<string, readonly string[]> = new Map([
+  ['NORMAL', ['VEC3']],
+  ['TANGENT', ['VEC4']],
+  ['TEXCOORD_0', ['VEC2']],
+  ['TEXCOORD_1', ['VEC2']],
+  ['COLOR_0', ['VEC3', 'VEC4']],
+  ['JOINTS_0', ['VEC4']],
+  ['WEIGHTS_0', ['VEC4']],
+]);
+
+/** Accessors that are read: those of meshes, skins' matrices and instances. Animations are not. */
+export function neededAccessors(context: CheckContext): Set<number> {
+  const needed = new Set<number>();
+  const add = (value: unknown) => {
+    if (typeof value === 'number') needed.add(value);
+  };
+  const addAll = (value: unknown) => {
+    if (isObject(value)) Object.values(value).forEach(add);
+  };
+  context.list('meshes').forEach((mesh, index) => {
+    const primitives = own(mesh, 'primitives');
+    if (primitives === undefined) context.fail(`/meshes/${index}`, 'has no primitives');
+    for (const primitive of context.objects(primitives, `/meshes/${index}/primitives`)) {
+      addAll(own(primitive, 'attributes'));
+      add(own(primitive, 'indices'));
+      const targets = own(primitive, 'targets');
+      if (Array.isArray(targets)) targets.forEach(addAll);
+    }
+  });
+  for (const skin of context.list('skins')) add(own(skin, 'inverseBindMatrices'));
+  context.list('nodes').forEach((node, index) => {
+    addAll(context.extension(node, 'EXT_mesh_gpu_instancing', `/nodes/${index}`)?.['attributes']);
+  });
+  return needed;
+}
+
+/** Checks what meshes refer to. Attributes of a wrong type are taken out of the answer, with a warning. */
+export function checkMeshes(context: CheckContext, facts: readonly (AccessorFacts | undefined)[], views: readonly Raw[]): readonly Raw[] {
+  const materials = context.list('materials');
+  return context.list('meshes').map((mesh, index) => {
+    const path = `/meshes/${index}`;
+    const weights = own(mesh, 'weights');
+    if (weights !== undefined && !(Array.isArray(weights) && weights.every((w) => typeof w === 'number'))) context.fail(`${path}/weights`, 'must be an array of numbers');
+    const primitives = context.objects(own(mesh, 'primitives'), `${path}/primitives`);
+    if (primitives.length === 0) context.fail(`${path}/primitives`, 'is empty');
+    return { ...mesh, primitives: primitives.map((primitive, at) => checkPrimitive(context, `${path}/primitives/${at}`, primitive, facts, materials, views)) };
+  });
+}
+
+function checkPrimitive(context: CheckContext, path: string, primitive: Raw, facts: readonly (AccessorFacts | undefined)[], materials: readonly Raw[], views: readonly Raw[]): Raw {
+  context.integer(primitive, 'mode', path, 0, 6, 4);
+  context.index(primitive, 'material', path, materials, 'material');
+  const indices = context.index(primitive, 'indices', path, facts, 'accessor');
+  if (indices !== undefined) {
+    const { type, componentType } = facts[indices] as AccessorFacts;
+    if (type !== 'SCALAR' || ![5121, 5123, 5125].includes(componentType)) context.fail(`${path}/indices`, `is a ${type} of ${componentType}, but indices are unsigned whole numbers`);
+  }
+  const draco = context.extension(primitive, 'KHR_draco_mesh_compression', path);
+  if (draco) {
+    const at = `${path}/extensions/KHR_draco_mesh_compression`;
+    context.integer(draco, 'bufferView', at, 0, views.length - 1);
+    if (!context.object(draco, 'attributes', at)) context.fail(at, 'has no attributes');
+  }
+  const attributes = context.object(primitive, 'attributes', path) ?? context.fail(path, 'has no attributes');
+  const kept = checkAttributes(context, `${path}/attributes`, attributes, facts);
+  const vertices = facts[kept['POSITION'] as number]?.count;
+  const targets = own(primitive, 'targets');
+  if (targets !== undefined) {
+    context.objects(targets, `${path}/targets`).forEach((target, t) => {
+      for (const [semantic, accessor] of Object.entries(target)) {
+        const at = `${path}/targets/${t}/${semantic}`;
+        context.reference(accessor, at, facts, 'accessor');
+        const count = (facts[accessor] as AccessorFacts).count;
+        if (vertices !== undefined && count !== vertices) context.fail(at, `moves ${count} vertices of ${vertices}`);
+      }
+    });
+  }
+  return { ...primitive, attributes: kept };
+}
+
+function checkAttributes(context: CheckContext, path: string, attributes: Raw, facts: readonly (AccessorFacts | undefined)[]): Raw {
+  const kept: Record<string, unknown> = {};
+  for (const [semantic, accessor] of Object.entries(attributes)) {
+    const at = `${path}/${semantic}`;
+    context.reference(accessor, at, facts, 'accessor');
+    const { type } = facts[accessor] as AccessorFacts;
+    if (semantic === 'POSITION' && type !== 'VEC3') context.fail(at, `is a ${type}, but positions are VEC3`);
+    const types = ATTRIBUTES.get(semantic);
+    if (types && !types.includes(type)) context.warn('gltf/primitive', at, `is a ${quote(type)}, but must be ${types.join(' or ')}; it is left out`);
+    else kept[semantic] = accessor;
+  }
+  if (kept['JOINTS_0'] !== undefined && kept['WEIGHTS_0'] === undefined) context.warn('gltf/skin', path, 'has JOINTS_0 without WEIGHTS_0; the mesh keeps its shape');
+  return kept;
+}

@@ -1,0 +1,106 @@
+import { own, quote, type CheckContext, type Raw } from './context';
+import type { AccessorFacts } from './data';
+
+const TRANSFORMS = [['matrix', 16], ['translation', 3], ['rotation', 4], ['scale', 3]] as const;
+
+/** Checks the node tree: references, no node below itself or in two places, transforms of numbers. Returns repaired nodes. */
+export function checkNodes(context: CheckContext, facts: readonly (AccessorFacts | undefined)[]): readonly Raw[] {
+  const nodes = context.list('nodes');
+  const meshes = context.list('meshes'), skins = context.list('skins'), cameras = context.list('cameras');
+  const parents = new Int32Array(nodes.length).fill(-1);
+  const checked = nodes.map((node, index) => {
+    const path = `/nodes/${index}`;
+    context.index(node, 'mesh', path, meshes, 'mesh');
+    context.index(node, 'skin', path, skins, 'skin');
+    context.indices(node, 'children', path, nodes, 'node').forEach((child, at) => {
+      if (parents[child] !== -1) context.fail(`${path}/children/${at}`, `is node ${child}, which already is a child of node ${parents[child]}; a node has one parent`);
+      parents[child] = index;
+    });
+    checkInstancing(context, node, path, facts);
+    const repaired = repairTransform(context, node, path);
+    const camera = own(node, 'camera');
+    if (camera === undefined || (typeof camera === 'number' && cameras[camera])) return repaired;
+    context.warn('gltf/camera', `${path}/camera`, `is ${quote(camera)}, which names no camera; it is left out`);
+    const { camera: _, ...rest } = repaired;
+    return rest;
+  });
+  refuseCircles(context, parents);
+  checkScenes(context, nodes, parents);
+  return checked;
+}
+
+/** A node with one parent at most lies in a circle if going up never ends. */
+function refuseCircles(context: CheckContext, parents: Int32Array): void {
+  // The walk that has seen a node; nodes that an earlier walk has seen lead to a root.
+  const walks = new Int32Array(parents.length).fill(-1);
+  for (let start = 0; start < parents.length; start++) {
+    for (let node = start; node !== -1 && walks[node] !== start; node = parents[node] as number) {
+      if (walks[node] !== -1) break;
+      walks[node] = start;
+      if (parents[node] !== -1 && walks[parents[node] as number] === start) context.fail(`/nodes/${node}`, 'lies below itself');
+    }
+  }
+}
+
+function checkScenes(context: CheckContext, nodes: readonly Raw[], parents: Int32Array): void {
+  const scenes = context.list('scenes');
+  if (own(context.json, 'scenes') === undefined && own(context.json, 'scene') !== undefined) context.warn('gltf/scene', '/scene', 'names a scene, but the file has none; all nodes are shown');
+  else context.index(context.json, 'scene', '', scenes, 'scene');
+  if (own(context.json, 'scenes') !== undefined && scenes.length === 0) context.fail('/scenes', 'is empty');
+  scenes.forEach((scene, index) => {
+    context.indices(scene, 'nodes', `/scenes/${index}`, nodes, 'node').forEach((root, at) => {
+      if (parents[root] !== -1) context.fail(`/scenes/${index}/nodes/${at}`, `is node ${root}, which is a child of node ${parents[root]}; scenes list roots`);
+    });
+  });
+}
+
+function repairTransform(context: CheckContext, node: Raw, path: string): Raw {
+  let repaired = node;
+  for (const [key, length] of TRANSFORMS) {
+    const value = own(node, key);
+    if (value === undefined) continue;
+    if (!Array.isArray(value) || value.length !== length || !value.every((x) => typeof x === 'number')) context.fail(`${path}/${key}`, `is ${quote(value)}, but must be ${length} numbers`);
+  }
+  const rotation = own(node, 'rotation') as readonly number[] | undefined;
+  if (rotation) {
+    const size = Math.hypot(...rotation);
+    if (!(Math.abs(size - 1) < 1e-2)) {
+      const usable = size > 1e-12 && size < Infinity;
+      context.warn('gltf/node', `${path}/rotation`, `has the length ${size} instead of 1; it is ${usable ? 'scaled' : 'left out'}`);
+      repaired = { ...repaired, rotation: usable ? rotation.map((x) => x / size) : [0, 0, 0, 1] };
+    }
+  }
+  const matrix = own(node, 'matrix') as readonly number[] | undefined;
+  if (matrix && !(matrix[3] === 0 && matrix[7] === 0 && matrix[11] === 0 && matrix[15] === 1)) {
+    context.warn('gltf/node', `${path}/matrix`, 'is not affine; its last row is taken as 0, 0, 0, 1');
+    repaired = { ...repaired, matrix: matrix.map((x, i) => (i % 4 === 3 ? (i === 15 ? 1 : 0) : x)) };
+  }
+  return repaired;
+}
+
+function checkInstancing(context: CheckContext, node: Raw, path: string, facts: readonly (AccessorFacts | undefined)[]): void {
+  const instancing = context.extension(node, 'EXT_mesh_gpu_instancing', path);
+  const attributes = instancing && context.object(instancing, 'attributes', `${path}/extensions/EXT_mesh_gpu_instancing`);
+  let count: number | undefined;
+  for (const [semantic, accessor] of Object.entries(attributes ?? {})) {
+    const at = `${path}/extensions/EXT_mesh_gpu_instancing/attributes/${semantic}`;
+    context.reference(accessor, at, facts, 'accessor');
+    const entries = facts[accessor]?.count;
+    if (count !== undefined && entries !== count) context.fail(at, `has ${entries} entries where others have ${count}`);
+    count = entries;
+  }
+}
+
+/** Checks skins: joints that exist, and a matrix for each where there are any. */
+export function checkSkins(context: CheckContext, facts: readonly (AccessorFacts | undefined)[]): void {
+  const nodes = context.list('nodes');
+  context.list('skins').forEach((skin, index) => {
+    const path = `/skins/${index}`;
+    const joints = context.indices(skin, 'joints', path, nodes, 'node');
+    if (joints.length === 0) context.fail(`${path}/joints`, 'is empty');
+    const matrices = context.index(skin, 'inverseBindMatrices', path, facts, 'accessor');
+    if (matrices === undefined) return;
+    const { type, count } = facts[matrices] as AccessorFacts;
+    if (type !== 'MAT4' || count < joints.length) context.fail(`${path}/inverseBindMatrices`, `has ${count} entries of ${type}, but must have a MAT4 for each of ${joints.length} joints`);
+  });
+}
