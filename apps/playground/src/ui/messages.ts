@@ -1,0 +1,48 @@
+import { element } from './elements';
+
+export interface Message {
+  readonly kind: 'error' | 'note';
+  readonly text: string;
+  /** The error's code, for tests and reports. */
+  readonly code?: string;
+  readonly action?: { readonly title: string; readonly run: () => void };
+}
+
+/** A note goes by itself, an error stays until it is closed or something succeeds. */
+const NOTE_MS = 9000;
+const MOST = 3;
+
+/** One-line messages over the picture. */
+export class Messages {
+  readonly #region: HTMLElement;
+
+  /** @param region An element with `aria-live`. */
+  constructor(region: HTMLElement) {
+    this.#region = region;
+  }
+
+  show({ kind, text, code, action }: Message): void {
+    const close = element('button', { type: 'button', class: 'close', 'aria-label': 'Close this message' }, '×');
+    const message = element('div', { class: `message ${kind}`, role: kind === 'error' ? 'alert' : 'status', 'data-code': code }, element('p', {}, text));
+    close.addEventListener('click', () => message.remove());
+    if (action) {
+      const button = element('button', { type: 'button' }, action.title);
+      button.addEventListener('click', () => {
+        message.remove();
+        action.run();
+      });
+      message.append(button);
+    }
+    message.append(close);
+    // The same trouble again is not more trouble.
+    for (const other of this.#region.children) if (other.querySelector('p')?.textContent === text) other.remove();
+    this.#region.append(message);
+    while (this.#region.children.length > MOST) this.#region.firstElementChild?.remove();
+    if (kind === 'note') setTimeout(() => message.remove(), NOTE_MS);
+  }
+
+  /** Removes errors: what they spoke of is over. */
+  clearErrors(): void {
+    for (const message of this.#region.querySelectorAll('.error')) message.remove();
+  }
+}
