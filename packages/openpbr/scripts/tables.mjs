@@ -13,11 +13,13 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { fresnelDielectric, gaussLegendre, interfaceAlbedo } from './microfacet.mjs';
 
 const MIN_ROUGHNESS = 0.01;
-const LAYOUT = { angles: 16, roughnesses: 24, outer: 20, outerTotal: 12, inner: 12, innerTotal: 16, conductor: 32 };
+const LAYOUT = { angles: 17, roughnesses: 24, outer: 20, outerTotal: 12, inner: 12, innerTotal: 16, conductor: 32 };
 const STEP = 2048;
 
 const albedo = interfaceAlbedo(160, 128);
-const roughness = (j, count) => MIN_ROUGHNESS + ((1 - MIN_ROUGHNESS) * j) / (count - 1);
+const MIN_ROOT = Math.sqrt(MIN_ROUGHNESS);
+/** √roughness is linear along the rows. */
+const roughness = (j, count) => (MIN_ROOT + ((1 - MIN_ROOT) * j) / (count - 1)) ** 2;
 const etaOf = (epsilon) => (1 + epsilon) / (1 - epsilon);
 /** √|ε| is linear along the slices; the ends are limits that no formula reaches. */
 const epsilonOf = (k, count) => Math.min(0.999, Math.max(1e-3, (k / (count - 1)) ** 2));
@@ -27,8 +29,19 @@ const softened = (mu, r) => mu + 0.8 * r * r * (1 - mu);
 /** Cosine at angle coordinate t inside of the denser medium: the critical angle sits at t = 1/2. */
 function innerCosineOf(t, eta) {
   const critical = Math.sqrt(Math.max(0, 1 - eta * eta));
-  return t <= 0.5 ? Math.max(1e-6, 2 * t * critical) : critical + (1 - critical) * (2 * t - 1) ** 2;
+  return t <= 0.5 ? Math.max(1e-6, critical * (1 - (1 - 2 * t) ** 2)) : critical + (1 - critical) * (2 * t - 1) ** 2;
 }
+const innerPosition = (mu, critical) => (mu <= critical ? 0.5 - 0.5 * Math.sqrt((critical - mu) / critical) : 0.5 + 0.5 * Math.sqrt((mu - critical) / (1 - critical)));
+/** Cosine-weighted mean of the Fresnel transmittance, about; from inside it follows from reciprocity. */
+function meanThrough(epsilon) {
+  const e = Math.abs(epsilon);
+  return (1 - (2 * e) / (5.0864 - 3.085 * e)) * (epsilon > 0 ? 1 : etaOf(epsilon) ** 2);
+}
+/**
+ * Albedos are divided by single-scattering energies and by the mean transmitted share. Both are tabulated a little high,
+ * by as much as interpolation can miss, so that no surface gives back more than it gets.
+ */
+const MARGIN = { conductor: 1.0015, outer: 1.002, inner: 1.004 };
 
 const { nodes, weights } = gaussLegendre(256);
 /** 2 ∫ E(μ) μ dμ. */
@@ -44,24 +57,29 @@ function dielectric() {
   const values = [];
   const slices = (count, sign, row) => {
     for (let k = 0; k < count; k++) {
-      for (let j = 0; j < roughnesses; j++) values.push(...row(etaOf(sign * epsilonOf(k, count)), roughness(j, roughnesses)));
+      for (let j = 0; j < roughnesses; j++) values.push(...row(sign * epsilonOf(k, count), roughness(j, roughnesses)));
     }
   };
   const sample = (position, measure) => Array.from({ length: angles }, (_, i) => measure(position(i / (angles - 1))));
-  const total = (eta, r) => {
-    const row = sample((t) => cosineOf(t, r), (mu) => { const { reflect, transmit } = albedo([r * r, r * r], eta, mu); return reflect + transmit; });
+  const total = (epsilon, r) => {
+    const eta = etaOf(epsilon);
+    const row = sample((t) => cosineOf(t, r), (mu) => { const { reflect, transmit } = albedo([r * r, r * r], eta, mu); return (epsilon > 0 ? MARGIN.outer : MARGIN.inner) * (reflect + transmit); });
     return [...row, average((mu) => interpolate(row, (Math.sqrt(mu) * (1 + r)) / (Math.sqrt(mu) + r)))];
   };
   const share = (eta, r, mu) => { const { reflect, transmit } = albedo([r * r, r * r], eta, mu); return reflect / (reflect + transmit); };
-  slices(outer, 1, (eta, r) => {
+  slices(outer, 1, (epsilon, r) => {
+    const eta = etaOf(epsilon);
     const row = sample((t) => cosineOf(t, r), (mu) => share(eta, r, mu) / fresnelDielectric(eta, softened(mu, r)));
-    return [...row, average((mu) => interpolate(row, (Math.sqrt(mu) * (1 + r)) / (Math.sqrt(mu) + r)) * fresnelDielectric(eta, softened(mu, r)))];
+    const mean = average((mu) => interpolate(row, (Math.sqrt(mu) * (1 + r)) / (Math.sqrt(mu) + r)) * fresnelDielectric(eta, softened(mu, r)));
+    return [...row, (MARGIN.outer * (1 - mean)) / meanThrough(epsilon)];
   });
   slices(outerTotal, 1, total);
-  slices(inner, -1, (eta, r) => {
+  slices(inner, -1, (epsilon, r) => {
+    const eta = etaOf(epsilon);
     const row = sample((t) => innerCosineOf(t, eta), (mu) => share(eta, r, mu));
     const critical = Math.sqrt(Math.max(0, 1 - eta * eta));
-    return [...row, average((mu) => interpolate(row, mu <= critical ? (0.5 * mu) / critical : 0.5 + 0.5 * Math.sqrt((mu - critical) / (1 - critical))))];
+    const mean = average((mu) => interpolate(row, innerPosition(mu, critical)));
+    return [...row, (MARGIN.inner * (1 - mean)) / meanThrough(epsilon)];
   });
   slices(innerTotal, -1, total);
   return { width: angles + 1, height: roughnesses, depth: outer + outerTotal + inner + innerTotal, values };
@@ -72,7 +90,7 @@ function conductor() {
   const values = [];
   for (let j = 0; j < size; j++) {
     const r = roughness(j, size);
-    for (let i = 0; i < size; i++) values.push(albedo([r * r, r * r], 1.5, cosineOf(i / (size - 1), r)).mirror);
+    for (let i = 0; i < size; i++) values.push(MARGIN.conductor * albedo([r * r, r * r], 1.5, cosineOf(i / (size - 1), r)).mirror);
   }
   return { width: size, height: size, depth: 1, values };
 }

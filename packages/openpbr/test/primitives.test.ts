@@ -54,8 +54,11 @@ describe('primitives against independent numbers', () => {
   sharedIt('energy tables', () => {
     type Row = { r: number; mu: number; E_F1_correlated: number; 'eta1.5': { R_corr: number }; 'eta0.6667': { R_corr: number } };
     for (const row of primitives()['ggx_directional_albedo'] as unknown as Row[]) {
-      near(energyConductor(row.r, row.mu), row.E_F1_correlated, 1e-3);
-      near(energyShare(0.2, row.r, row.mu) * energyTotal(0.2, row.r, row.mu), row['eta1.5'].R_corr, 0, 2.5e-3);
+      // Never below the truth, which would make energy, and hardly above.
+      const single = energyConductor(row.r, row.mu) / row.E_F1_correlated;
+      expect(single).toBeGreaterThanOrEqual(1);
+      expect(single).toBeLessThan(1.003);
+      near(energyShare(0.2, row.r, row.mu) * energyTotal(0.2, row.r, row.mu), row['eta1.5'].R_corr, 5e-3, 2e-3);
       // Below the critical angle the share jumps within a few cells of the table.
       near(energyShare(-0.2, row.r, row.mu) * energyTotal(-0.2, row.r, row.mu), row['eta0.6667'].R_corr, 0, 1.5e-2);
     }

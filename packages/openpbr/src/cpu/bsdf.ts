@@ -2,8 +2,8 @@ import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../paramete
 import { cosineSample, eon } from './diffuse';
 import { energyConductor, energyShare, energyShareMean, energyTotal } from './energy';
 import { dielectricEpsilon, fresnelDielectric, fresnelMetal } from './fresnel';
-import { ggx, ggxAlpha, ggxSample, type Slopes } from './ggx';
-import { clamp, dot, normalize } from './vector';
+import { ggx, ggxAlpha, ggxSample, halfVector, mirrorView, viewRoughness, type Slopes } from './ggx';
+import { clamp, dot } from './vector';
 
 export interface BsdfOptions {
   /** As the flag OPENPBR_MULTISCATTER; default true. */
@@ -49,21 +49,24 @@ export function prepareBsdf(p: OpenPbrParameters, wo: OpenPbrVector, { multipleS
   const roughness = p.specular_roughness;
   const f0 = rgb((i) => p.base_weight * p.base_color[i]);
   const weight = Math.min(p.specular_weight, 1e6);
-  const energy = energyConductor(roughness, mu);
+  const alpha = ggxAlpha(roughness, p.specular_roughness_anisotropy);
+  const view = mirrorView(alpha, roughness, p.specular_roughness_anisotropy, wo, mu);
+  const energy = energyConductor(...view);
   const metalScale = rgb((i) => p.base_metalness * (multipleScattering ? 1 + Math.min(f0[i] * Math.max(weight, 1), 1) * ((1 - energy) / energy) : 1));
   const typical = fresnelMetal(f0, p.specular_color, mu + 0.8 * roughness * roughness * (1 - mu), weight);
   const epsilon = dielectricEpsilon(p.specular_ior, p.specular_weight);
-  const share = energyShare(epsilon, roughness, mu);
-  const total = multipleScattering ? energyTotal(epsilon, roughness, mu) : 1;
+  const share = energyShare(epsilon, viewRoughness(alpha, roughness, wo), mu);
+  const total = multipleScattering ? energyTotal(epsilon, ...view) : 1;
   const insulator = 1 - p.base_metalness;
   const specular = rgb((i) => metalScale[i] * typical[i] * (multipleScattering ? energy : 1) + insulator * share * p.specular_color[i]);
   const diffuse = rgb((i) => insulator * p.base_weight * (1 - share) * p.base_color[i]);
   const bright = sum(specular);
   const all = bright + sum(diffuse);
+  const reflected = energyShareMean(epsilon, roughness);
   return {
-    alpha: ggxAlpha(roughness, p.specular_roughness_anisotropy),
+    alpha,
     specularProbability: all > 0 ? bright / all : 0.5,
-    diffuseScale: (insulator * p.base_weight * (1 - share)) / Math.max(1 - energyShareMean(epsilon, roughness), 1e-4),
+    diffuseScale: ((insulator * p.base_weight * (1 - share)) / Math.max(1 - reflected, 1e-4)) * (1 - 0.08 * p.base_diffuse_roughness * reflected),
     diffuseColor: p.base_color,
     diffuseRoughness: p.base_diffuse_roughness,
     albedo: rgb((i) => Math.min(specular[i] + diffuse[i], 1)),
@@ -78,7 +81,7 @@ function scatter(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector
   const [value, density] = ggx(b.alpha, wo, wi, h);
   const metal = fresnelMetal(b.metal.f0, b.metal.tint, c, b.metal.weight);
   const dielectric = fresnelDielectric(b.dielectric.eta, c);
-  const scale = b.diffuseScale * wi[2] * (1 - energyShare(b.dielectric.epsilon, b.dielectric.roughness, wi[2]));
+  const scale = b.diffuseScale * wi[2] * (1 - energyShare(b.dielectric.epsilon, viewRoughness(b.alpha, b.dielectric.roughness, wi), wi[2]));
   const diffuse = eon(b.diffuseColor, b.diffuseRoughness, wo, wi);
   return {
     f: rgb((i) => value * (b.metal.scale[i] * metal[i] + b.dielectric.scale[i] * dielectric) + scale * diffuse[i]),
@@ -86,13 +89,11 @@ function scatter(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector
   };
 }
 
-const half = (wo: OpenPbrVector, wi: OpenPbrVector): OpenPbrVector => normalize([wo[0] + wi[0], wo[1] + wi[1], wo[2] + wi[2]]);
-
 /** f · |cos θ_i|; twin of `openpbr_eval`. `wo` is the one that {@link prepareBsdf} had. */
-export const evalBsdf = (b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): OpenPbrColor => scatter(b, wo, wi, half(wo, wi)).f;
+export const evalBsdf = (b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): OpenPbrColor => scatter(b, wo, wi, halfVector(wo, wi)).f;
 
 /** Density of {@link sampleBsdf} per solid angle; twin of `openpbr_pdf`. */
-export const pdfBsdf = (b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): number => scatter(b, wo, wi, half(wo, wi)).pdf;
+export const pdfBsdf = (b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): number => scatter(b, wo, wi, halfVector(wo, wi)).pdf;
 
 /** A direction for `u` in [0, 1)³; twin of `openpbr_sample`. */
 export function sampleBsdf(b: Bsdf, wo: OpenPbrVector, u: readonly [number, number, number]): BsdfSample {
@@ -104,7 +105,7 @@ export function sampleBsdf(b: Bsdf, wo: OpenPbrVector, u: readonly [number, numb
     wi = [c * h[0] - wo[0], c * h[1] - wo[1], c * h[2] - wo[2]];
   } else {
     wi = cosineSample(u);
-    h = half(wo, wi);
+    h = halfVector(wo, wi);
   }
   const { f, pdf } = scatter(b, wo, wi, h);
   return pdf > 0 ? { wi, pdf, weight: rgb((i) => f[i] / pdf), valid: true } : { wi, pdf: 0, weight: [0, 0, 0], valid: false };

@@ -19,8 +19,9 @@ export function tableLookup(table: OpenPbrTable, coords: readonly [number, numbe
   return plane(z0) * (1 - fz) + plane(z1) * fz;
 }
 
+const MIN_ROOT = Math.sqrt(TABLE_MIN_ROUGHNESS);
 const texel = (u: number, first: number, count: number, size: number): number => (u * (count - 1) + 0.5 + first) / size;
-const roughnessAxis = (r: number, count: number): number => texel(clamp((r - TABLE_MIN_ROUGHNESS) / (1 - TABLE_MIN_ROUGHNESS), 0, 1), 0, count, count);
+const roughnessAxis = (r: number, count: number): number => texel(clamp((Math.sqrt(r) - MIN_ROOT) / (1 - MIN_ROOT), 0, 1), 0, count, count);
 const slice = (block: keyof typeof TABLE_BLOCKS, epsilon: number): number => texel(Math.sqrt(Math.abs(epsilon)), TABLE_BLOCKS[block][0], TABLE_BLOCKS[block][1], TABLE_DEPTH);
 const angleAxis = (t: number): number => texel(t, 0, TABLE_ANGLES, TABLE_ANGLES + 1);
 
@@ -46,7 +47,7 @@ export function energyShare(epsilon: number, roughness: number, mu: number): num
     return Math.min(fresnel * tableLookup(OPENPBR_TABLES.dielectric, [angleAxis(spread(r, mu)), y, slice('outer', epsilon)]), 1);
   }
   const critical = Math.sqrt(1 - eta * eta);
-  const t = mu > critical ? 0.5 + 0.5 * Math.sqrt((mu - critical) / (1 - critical)) : (0.5 * mu) / critical;
+  const t = mu > critical ? 0.5 + 0.5 * Math.sqrt((mu - critical) / (1 - critical)) : 0.5 - 0.5 * Math.sqrt((critical - mu) / critical);
   return Math.min(tableLookup(OPENPBR_TABLES.dielectric, [angleAxis(t), y, slice('inner', epsilon)]), 1);
 }
 
@@ -54,7 +55,9 @@ export function energyShare(epsilon: number, roughness: number, mu: number): num
 export function energyShareMean(epsilon: number, roughness: number): number {
   if (epsilon === 0) return 0;
   const y = roughnessAxis(Math.max(roughness, TABLE_MIN_ROUGHNESS), TABLE_ROUGHNESSES);
-  return tableLookup(OPENPBR_TABLES.dielectric, [(TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1), y, slice(epsilon > 0 ? 'outer' : 'inner', epsilon)]);
+  const e = Math.abs(epsilon);
+  const through = (1 - (2 * e) / (5.0864 - 3.085 * e)) * (epsilon > 0 ? 1 : ((1 - e) / (1 + e)) ** 2);
+  return 1 - Math.min(through * tableLookup(OPENPBR_TABLES.dielectric, [(TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1), y, slice(epsilon > 0 ? 'outer' : 'inner', epsilon)]), 1);
 }
 
 /** Energy that an interface reflects and refracts by single scattering; twin of `openpbr_energy_total`. */

@@ -35,6 +35,20 @@ export function ggx(alpha: Slopes, wo: OpenPbrVector, wi: OpenPbrVector, h: Open
   return [(d * wi[2]) / (wo[2] * si + wi[2] * so), d / (wo[2] + so)];
 }
 
+/** Round roughness that reflects as large a share of the light towards `w`; twin of `openpbr_view_roughness`. */
+export const viewRoughness = (alpha: Slopes, roughness: number, w: OpenPbrVector): number => Math.sqrt(Math.min(Math.hypot(alpha[0] * w[0], alpha[1] * w[1], roughness * roughness * w[2]), 1));
+
+/** Roughness and cosine of the round highlight that loses as much by single scattering; twin of `openpbr_mirror_view`. */
+export function mirrorView(alpha: Slopes, roughness: number, anisotropy: number, w: OpenPbrVector, mu: number): [roughness: number, mu: number] {
+  const steepness = Math.hypot(alpha[0] * w[0], alpha[1] * w[1]) / Math.max(roughness * roughness, 1e-4);
+  // With a round highlight and a unit direction this is `mu` but for its clamping.
+  if (anisotropy === 0) return [roughness, mu];
+  return [roughness * (1 - 0.065 * anisotropy * roughness), mu / Math.hypot(mu, steepness)];
+}
+
+/** The half vector, finite where two grazing directions cancel; twin of `openpbr_half`. */
+export const halfVector = (wo: OpenPbrVector, wi: OpenPbrVector): OpenPbrVector => normalize([wo[0] + wi[0], wo[1] + wi[1], Math.max(wo[2] + wi[2], 1e-7)]);
+
 /** A half vector visible from `wo` (Dupuy and Benyoub 2023); twin of `openpbr_ggx_sample`. `u` in [0, 1)². */
 export function ggxSample(alpha: Slopes, wo: OpenPbrVector, u: readonly [number, number, ...number[]]): OpenPbrVector {
   const v = normalize([alpha[0] * wo[0], alpha[1] * wo[1], wo[2]]);

@@ -20,7 +20,7 @@ export const TABLE_BLOCKS = {
 /** Depth of the dielectric table in slices. */
 export const TABLE_DEPTH = innerTotal + TABLE_LAYOUT.innerTotal;
 
-/** Angle samples of the dielectric table; one more column holds the average. */
+/** Angle samples of the dielectric table; one more column holds the mean over all directions. */
 export const TABLE_ANGLES = TABLE_LAYOUT.angles;
 export const TABLE_ROUGHNESSES = TABLE_LAYOUT.roughnesses;
 export const TABLE_CONDUCTOR = TABLE_LAYOUT.conductor;

@@ -14,7 +14,13 @@ import { openPbrStruct } from './record';
  * fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf      // once per hit; the rest takes the same wo
  * fn openpbr_eval(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec3f          // f · |cos θ_i|
  * fn openpbr_pdf(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> f32             // density of openpbr_sample, per solid angle
- * fn openpbr_eval_pdf(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec4f      // both for the price of one: (f · |cos θ_i|, pdf)
+ * // The half vector; stays finite where two grazing directions cancel.
+fn openpbr_half(wo: vec3f, wi: vec3f) -> vec3f {
+  let h = wo + wi;
+  return normalize(vec3f(h.xy, max(h.z, 1e-7)));
+}
+
+fn openpbr_eval_pdf(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec4f      // both for the price of one: (f · |cos θ_i|, pdf)
  * fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample // u uniform in [0, 1)³
  * fn openpbr_albedo(b: OpenPbrBsdf, wo: vec3f) -> vec3f                   // reflected part of uniform light, approximate for rough tinted metal
  * fn openpbr_emission(p: OpenPbrParameters, wo: vec3f) -> vec3f           // radiance
@@ -61,15 +67,16 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
   b.dielectric_weight = 1.0;
   //#if OPENPBR_SPECULAR
   b.alpha = openpbr_alpha(p.specular_roughness, p.specular_roughness_anisotropy);
+  let view = openpbr_mirror_view(b.alpha, p.specular_roughness, p.specular_roughness_anisotropy, wo, mu);
   //#endif
   //#if OPENPBR_METAL
-  b.metal = openpbr_metal_prepare(p, mu);
+  b.metal = openpbr_metal_prepare(p, mu, view);
   specular += b.metal.albedo;
   b.dielectric_weight -= p.base_metalness;
   //#endif
   b.diffuse_scale = b.dielectric_weight * p.base_weight;
   //#if OPENPBR_DIELECTRIC
-  b.dielectric = openpbr_dielectric_prepare(p, mu);
+  b.dielectric = openpbr_dielectric_prepare(p, mu, openpbr_view_roughness(b.alpha, p.specular_roughness, wo), view);
   specular += b.dielectric_weight * b.dielectric.share * p.specular_color;
   b.diffuse_scale *= 1.0 - b.dielectric.share;
   //#endif
@@ -84,7 +91,12 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
   let total = bright + dot(diffuse, vec3f(1.0));
   b.specular_probability = select(0.5, bright / total, total > 0.0);
   //#if OPENPBR_DIELECTRIC
-  b.diffuse_scale /= max(1.0 - openpbr_energy_share_mean(b.dielectric.epsilon, b.dielectric.roughness), 1e-4);
+  let reflected = openpbr_energy_share_mean(b.dielectric.epsilon, b.dielectric.roughness);
+  b.diffuse_scale /= max(1.0 - reflected, 1e-4);
+  //#if OPENPBR_DIFFUSE_ROUGHNESS
+  // EON is not as even as Lambert: where it peaks, the weights would give back more than they get.
+  b.diffuse_scale *= 1.0 - 0.08 * b.diffuse_roughness * reflected;
+  //#endif
   //#endif
   //#endif
   return b;
@@ -113,7 +125,7 @@ fn openpbr_scatter(b: OpenPbrBsdf, wo: vec3f, wi: vec3f, h: vec3f) -> vec4f {
   probability -= b.specular_probability;
   //#endif
   //#if OPENPBR_DIELECTRIC
-  scale *= 1.0 - openpbr_energy_share(b.dielectric.epsilon, b.dielectric.roughness, wi.z);
+  scale *= 1.0 - openpbr_energy_share(b.dielectric.epsilon, openpbr_view_roughness(b.alpha, b.dielectric.roughness, wi), wi.z);
   //#endif
   //#if OPENPBR_DIFFUSE_ROUGHNESS
   let diffuse = openpbr_eon(b.diffuse_color, b.diffuse_roughness, wo, wi);
@@ -125,8 +137,14 @@ fn openpbr_scatter(b: OpenPbrBsdf, wo: vec3f, wi: vec3f, h: vec3f) -> vec4f {
   return result;
 }
 
+// The half vector; stays finite where two grazing directions cancel.
+fn openpbr_half(wo: vec3f, wi: vec3f) -> vec3f {
+  let h = wo + wi;
+  return normalize(vec3f(h.xy, max(h.z, 1e-7)));
+}
+
 fn openpbr_eval_pdf(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec4f {
-  return openpbr_scatter(b, wo, wi, normalize(wo + wi));
+  return openpbr_scatter(b, wo, wi, openpbr_half(wo, wi));
 }
 
 fn openpbr_eval(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec3f {
@@ -148,7 +166,7 @@ fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample {
   //#if OPENPBR_DIFFUSE
   else {
     s.wi = openpbr_cosine_sample(u.xy);
-    h = normalize(wo + s.wi);
+    h = openpbr_half(wo, s.wi);
   }
   //#endif
   //#else

@@ -25,15 +25,16 @@ fn openpbr_dielectric_epsilon(p: OpenPbrParameters) -> f32 {
   return sign(epsilon) * min(abs(epsilon) * sqrt(p.specular_weight), 0.9999);
 }
 
-fn openpbr_dielectric_prepare(p: OpenPbrParameters, mu: f32) -> OpenPbrDielectric {
+// view_roughness: see openpbr_view_roughness; view: see openpbr_mirror_view.
+fn openpbr_dielectric_prepare(p: OpenPbrParameters, mu: f32, view_roughness: f32, view: vec2f) -> OpenPbrDielectric {
   var d: OpenPbrDielectric;
   d.epsilon = openpbr_dielectric_epsilon(p);
   d.eta = (1.0 + d.epsilon) / (1.0 - d.epsilon);
   d.roughness = p.specular_roughness;
-  d.share = openpbr_energy_share(d.epsilon, d.roughness, mu);
+  d.share = openpbr_energy_share(d.epsilon, view_roughness, mu);
   d.scale = p.specular_color;
   //#if OPENPBR_MULTISCATTER
-  d.scale /= openpbr_energy_total(d.epsilon, d.roughness, mu);
+  d.scale /= openpbr_energy_total(d.epsilon, view.x, view.y);
   //#endif
   return d;
 }`,

@@ -14,7 +14,8 @@ const [outer0, outer1] = slice('outer');
 const [outerTotal0, outerTotal1] = slice('outerTotal');
 const [inner0, inner1] = slice('inner');
 const [innerTotal0, innerTotal1] = slice('innerTotal');
-const unit = `clamp((r - ${TABLE_MIN_ROUGHNESS}) * ${float(1 / (1 - TABLE_MIN_ROUGHNESS))}, 0.0, 1.0)`;
+const minRoot = Math.sqrt(TABLE_MIN_ROUGHNESS);
+const unit = `clamp((sqrt(r) - ${float(minRoot)}) * ${float(1 / (1 - minRoot))}, 0.0, 1.0)`;
 
 /**
  * Directional albedos of GGX interfaces, read from the energy tables through the host's accessors
@@ -50,7 +51,7 @@ fn openpbr_energy_share(epsilon: f32, roughness: f32, mu: f32) -> f32 {
     scale = openpbr_fresnel_dielectric(eta, mu + 0.8 * r * r * (1.0 - mu));
   } else {
     let critical = sqrt(1.0 - eta * eta);
-    at.x = select(0.5 * mu / critical, 0.5 + 0.5 * sqrt(max(mu - critical, 0.0) / (1.0 - critical)), mu > critical);
+    at.x = select(0.5 - 0.5 * sqrt(max(critical - mu, 0.0) / critical), 0.5 + 0.5 * sqrt(max(mu - critical, 0.0) / (1.0 - critical)), mu > critical);
     at.z = ${inner0} + ${inner1} * z;
   }
   at.x = ${angle0} + ${angle1} * at.x;
@@ -61,8 +62,12 @@ fn openpbr_energy_share(epsilon: f32, roughness: f32, mu: f32) -> f32 {
 fn openpbr_energy_share_mean(epsilon: f32, roughness: f32) -> f32 {
   if (epsilon == 0.0) { return 0.0; }
   let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
-  let z = sqrt(abs(epsilon));
-  return openpbr_table_dielectric(vec3f(${float((TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1))}, ${rough0} + ${rough1} * ${unit}, select(${inner0} + ${inner1} * z, ${outer0} + ${outer1} * z, epsilon > 0.0)));
+  let e = abs(epsilon);
+  let z = sqrt(e);
+  // Mean transmittance of the smooth interface, about; the table holds the ratio to it.
+  var through = 1.0 - 2.0 * e / (5.0864 - 3.085 * e);
+  if (epsilon < 0.0) { through *= (1.0 - e) * (1.0 - e) / ((1.0 + e) * (1.0 + e)); }
+  return 1.0 - min(through * openpbr_table_dielectric(vec3f(${float((TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1))}, ${rough0} + ${rough1} * ${unit}, select(${inner0} + ${inner1} * z, ${outer0} + ${outer1} * z, epsilon > 0.0))), 1.0);
 }
 
 // Energy that the interface reflects and refracts by single scattering.

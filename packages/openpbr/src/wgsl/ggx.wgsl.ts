@@ -5,6 +5,11 @@ import { wgslModule } from '@glanz/wgsl';
  * anisotropy to slopes, not below 1e-4, so that a smooth surface is a very narrow lobe and never a special case.
  * `openpbr_ggx` gives, for a half vector, (D G₂ / (4 cos θ_o), density of reflected directions when half vectors are
  * sampled by `openpbr_ggx_sample`). Their ratio is exact however narrow the lobe.
+ *
+ * The energy tables know round highlights only. For a stretched one `openpbr_view_roughness` is the round roughness that
+ * reflects the same share of the light (the slope across the view counts the more, the lower the view), and
+ * `openpbr_mirror_view` the roughness and cosine that lose as much by single scattering (the same masking). Both are
+ * exact for round highlights; the second is a fit, chosen to lose energy rather than to make it.
  */
 export const openpbrGgx = wgslModule(
   'openpbr/ggx',
@@ -31,6 +36,24 @@ fn openpbr_ggx(alpha: vec2f, wo: vec3f, wi: vec3f, h: vec3f) -> vec2f {
   let so = openpbr_ggx_stretch(alpha, wo);
   let si = openpbr_ggx_stretch(alpha, wi);
   return d * vec2f(wi.z / (wo.z * si + wi.z * so), 1.0 / (wo.z + so));
+}
+
+fn openpbr_view_roughness(alpha: vec2f, roughness: f32, w: vec3f) -> f32 {
+  //#if OPENPBR_ANISOTROPY
+  return sqrt(min(length(vec3f(alpha * w.xy, roughness * roughness * w.z)), 1.0));
+  //#else
+  return roughness;
+  //#endif
+}
+
+// (roughness, cosine)
+fn openpbr_mirror_view(alpha: vec2f, roughness: f32, anisotropy: f32, w: vec3f, mu: f32) -> vec2f {
+  //#if OPENPBR_ANISOTROPY
+  let steepness = length(alpha * w.xy) / max(roughness * roughness, 1e-4);
+  return vec2f(roughness * (1.0 - 0.065 * anisotropy * roughness), mu / length(vec2f(mu, steepness)));
+  //#else
+  return vec2f(roughness, mu);
+  //#endif
 }
 
 // A half vector visible from wo (Dupuy and Benyoub 2023, spherical caps).

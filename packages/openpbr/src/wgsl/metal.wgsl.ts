@@ -20,7 +20,8 @@ export const openpbrMetal = wgslModule(
   albedo: vec3f,
 }
 
-fn openpbr_metal_prepare(p: OpenPbrParameters, mu: f32) -> OpenPbrMetal {
+// view: see openpbr_mirror_view.
+fn openpbr_metal_prepare(p: OpenPbrParameters, mu: f32, view: vec2f) -> OpenPbrMetal {
   let f0 = p.base_weight * p.base_color;
   var metal: OpenPbrMetal;
   let weight = min(p.specular_weight, 1e6);
@@ -29,7 +30,7 @@ fn openpbr_metal_prepare(p: OpenPbrParameters, mu: f32) -> OpenPbrMetal {
   metal.edge = weight * openpbr_f82_edge(f0, p.specular_color);
   metal.scale = vec3f(p.base_metalness);
   //#if OPENPBR_MULTISCATTER
-  let energy = openpbr_energy_conductor(p.specular_roughness, mu);
+  let energy = openpbr_energy_conductor(view.x, view.y);
   metal.scale *= 1.0 + min(f0 * max(weight, 1.0), vec3f(1.0)) * ((1.0 - energy) / energy);
   //#endif
   metal.albedo = openpbr_metal_fresnel(metal, mu + 0.8 * p.specular_roughness * p.specular_roughness * (1.0 - mu));

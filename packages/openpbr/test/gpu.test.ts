@@ -1,0 +1,148 @@
+import { expectNoGpuErrors } from '@glanz/gpu';
+import { afterEach, describe, expect, it } from 'vitest';
+import { albedoBsdf, emittedRadiance, evalBsdf, pdfBsdf, prepareBsdf, sampleBsdf } from '../src/cpu/index';
+import { resolveParameters, type OpenPbrParameters, type OpenPbrVector } from '../src/parameters/index';
+import { requiredFeatures, type OpenPbrFlags } from '../src/wgsl/index';
+import { onGpu, type GpuCase } from './gpu';
+import { anySurface, single, uniform, upperDirection } from './random';
+
+afterEach(() => expectNoGpuErrors());
+
+const ALL: OpenPbrFlags = {
+  OPENPBR_SPECULAR: true,
+  OPENPBR_METAL: true,
+  OPENPBR_DIELECTRIC: true,
+  OPENPBR_DIFFUSE: true,
+  OPENPBR_DIFFUSE_ROUGHNESS: true,
+  OPENPBR_ANISOTROPY: true,
+  OPENPBR_MULTISCATTER: true,
+  OPENPBR_EMISSION: true,
+};
+
+/** The largest relative difference seen, by quantity; differences below `floor` do not count. */
+class Differences {
+  readonly worst = new Map<string, { difference: number; at: string }>();
+  add(name: string, actual: number, expected: number, floor: number, at: string): void {
+    const difference = Math.abs(actual - expected) / Math.max(Math.abs(expected), floor);
+    // A NaN compares false with everything: it must win.
+    if (!(difference <= (this.worst.get(name)?.difference ?? -1))) this.worst.set(name, { difference, at });
+  }
+  expectBelow(limit: number): void {
+    for (const [name, { difference, at }] of this.worst) expect(difference, `${name} at ${at}`).toBeLessThanOrEqual(limit);
+  }
+}
+
+async function compare(flags: OpenPbrFlags, cases: readonly GpuCase[], limit = 1e-4): Promise<void> {
+  const results = await onGpu(flags, cases);
+  const differences = new Differences();
+  results.forEach((gpu, i) => {
+    const { parameters, wo, wi, u } = cases[i] as GpuCase;
+    const options = { multipleScattering: flags.OPENPBR_MULTISCATTER };
+    const b = prepareBsdf(parameters, wo, options);
+    const at = `case ${i}: wo ${wo.join(' ')}, wi ${wi.join(' ')}, roughness ${parameters.specular_roughness}`;
+    const triple = (name: string, actual: OpenPbrVector, expected: OpenPbrVector, floor: number) => [0, 1, 2].forEach((k) => differences.add(name, actual[k] as number, expected[k] as number, floor, at));
+    triple('eval', gpu.f, evalBsdf(b, wo, wi), 1e-4);
+    differences.add('pdf', gpu.pdf, pdfBsdf(b, wo, wi), 1e-4, at);
+    triple('eval of eval_pdf', gpu.together, gpu.f, 0.1);
+    differences.add('pdf of eval_pdf', gpu.togetherPdf, gpu.pdf, 0.1, at);
+    triple('albedo', gpu.albedo, albedoBsdf(b, wo), 1e-3);
+    triple('emission', gpu.emission, emittedRadiance(parameters, wo), 1e-6);
+    differences.add('opacity', gpu.opacity, parameters.geometry_opacity, 1e-6, at);
+    // The lobe is chosen by comparing u.z with a probability: on the edge single precision may choose the other one.
+    if (Math.abs(u[2] - b.specularProbability) < 1e-5) return;
+    const s = sampleBsdf(b, wo, u);
+    triple('sampled direction', gpu.wi, s.wi[2] > 0 || gpu.valid ? s.wi : gpu.wi, 1);
+    if (s.wi[2] > 1e-3) {
+      expect(gpu.valid, `valid at ${at}`).toBe(s.valid);
+      triple('weight', gpu.weight, s.weight, 1e-2);
+      differences.add('density of the sample', gpu.samplePdf, s.pdf, 1e-3, at);
+    }
+  });
+  differences.expectBelow(limit);
+}
+
+function cases(count: number, seed: number, surface: (next: () => number) => OpenPbrParameters): GpuCase[] {
+  const next = uniform(seed);
+  return Array.from({ length: count }, () => {
+    const parameters = surface(next);
+    const wo = upperDirection(next, 0.02);
+    const wi = next() < 0.1 ? single([wo[0], wo[1], -wo[2]]) : upperDirection(next, 0.02);
+    return { parameters, wo, wi, u: single([next(), next(), next() * 0.999]) };
+  });
+}
+
+describe('WGSL against its CPU twin', () => {
+  it('every lobe at once, 2048 random surfaces (seed 1)', () => compare(ALL, cases(2048, 1, (next) => anySurface(next, 0.3))));
+  it('single scattering only (seed 2)', () => compare({ ...ALL, OPENPBR_MULTISCATTER: false }, cases(1024, 2, (next) => anySurface(next, 0.3))));
+
+  const gated = (name: string, seed: number, fixed: Partial<OpenPbrParameters>): void => {
+    it(`${name} alone, the other lobes left out of the text (seed ${seed})`, async () => {
+      const list = cases(512, seed, (next) => ({ ...anySurface(next, 0.3), base_diffuse_roughness: 0, specular_roughness_anisotropy: 0, emission_luminance: 0, ...fixed }));
+      const flags = requiredFeatures(list.map((one) => one.parameters));
+      expect(Object.values(flags)).toContain(false);
+      await compare(flags, list);
+    });
+  };
+  gated('metal', 3, { base_metalness: 1, specular_weight: 1 });
+  gated('diffuse', 4, { base_metalness: 0, specular_weight: 0 });
+  gated('dielectric over diffuse', 5, { base_metalness: 0 });
+  gated('dielectric over black', 6, { base_metalness: 0, base_weight: 0 });
+});
+
+describe('WGSL at the edges', () => {
+  it('is finite, not negative, and dark below the horizon', async () => {
+    const next = uniform(7);
+    const directions: OpenPbrVector[] = [
+      [0, 0, 1],
+      [1, 0, 0],
+      [0, -1, 0],
+      [1, 0, 1e-4],
+      [1, 0, 1e-30],
+      [-1, 0, 1e-30],
+      [0, 1, 1e-7],
+      [-0.6, 0, 0.8],
+      [0.6, 0, 0.8],
+      [0.6, 0, -0.8],
+      [0, 0, -1],
+    ];
+    const surfaces: Partial<OpenPbrParameters>[] = [
+      {},
+      { specular_roughness: 0 },
+      { specular_roughness: 0, specular_roughness_anisotropy: 1 },
+      { specular_roughness: 1, specular_roughness_anisotropy: 1, base_metalness: 0.5 },
+      { base_metalness: 1, specular_roughness: 0, base_color: [1, 1, 1] },
+      { base_metalness: 1, specular_roughness: 0.001, base_color: [0, 0, 0], specular_color: [0, 0, 0] },
+      { base_weight: 0, specular_weight: 0 },
+      { base_weight: 0, specular_weight: 0, base_metalness: 1 },
+      { specular_weight: 1e30, base_metalness: 0.5 },
+      { specular_ior: 1 },
+      { specular_ior: 1e-3, specular_roughness: 0.5 },
+      { specular_ior: 0.999999, specular_roughness: 0 },
+      { specular_ior: 1e6, specular_roughness: 0.5 },
+      { base_diffuse_roughness: 1, base_color: [1, 1, 1] },
+      { geometry_opacity: 0, emission_luminance: 1e6 },
+    ];
+    const us = [0, 0.5, 0.99999994];
+    const list: GpuCase[] = surfaces.flatMap((surface) => {
+      const parameters = resolveParameters(surface);
+      return directions.flatMap((wo) => directions.map((wi): GpuCase => ({ parameters, wo, wi, u: [us[Math.floor(next() * 3)] as number, us[Math.floor(next() * 3)] as number, next() < 0.5 ? 0 : 0.99999994] })));
+    });
+    const results = await onGpu(ALL, list);
+    results.forEach((result, i) => {
+      const { wo, wi, parameters } = list[i] as GpuCase;
+      const at = `wo ${wo.join(' ')}, wi ${wi.join(' ')}, ${JSON.stringify(surfaces[Math.floor(i / directions.length ** 2)])}`;
+      for (const [name, value] of Object.entries(result)) {
+        if (name === 'valid') continue;
+        for (const one of [value].flat() as number[]) {
+          expect(Number.isFinite(one), `${name} is ${one} at ${at}`).toBe(true);
+          if (name !== 'wi') expect(one, `${name} at ${at}`).toBeGreaterThanOrEqual(0);
+        }
+      }
+      if (wo[2] <= 0 || wi[2] <= 0) expect([...result.f, result.pdf], at).toEqual([0, 0, 0, 0]);
+      if (wo[2] <= 0) expect([result.valid, ...result.weight, ...result.albedo, ...result.emission], at).toEqual([false, 0, 0, 0, 0, 0, 0, 0, 0, 0]);
+      // The CPU twin holds the same promise.
+      const b = prepareBsdf(parameters, wo);
+      for (const one of [...evalBsdf(b, wo, wi), pdfBsdf(b, wo, wi), ...albedoBsdf(b, wo), ...sampleBsdf(b, wo, (list[i] as GpuCase).u).weight]) expect(Number.isFinite(one) && one >= 0, `${one} on the CPU at ${at}`).toBe(true);
+    });
+  });
+});

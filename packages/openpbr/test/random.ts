@@ -1,0 +1,44 @@
+import type { OpenPbrParameters, OpenPbrVector } from '../src/parameters/index';
+import { resolveParameters } from '../src/parameters/index';
+
+/** Reproducible uniform numbers in [0, 1) (PCG, O'Neill 2014): the same seed, the same numbers. */
+export function uniform(seed: number): () => number {
+  let state = seed >>> 0;
+  return () => {
+    state = (Math.imul(state, 747796405) + 2891336453) >>> 0;
+    const word = Math.imul((state >>> ((state >>> 28) + 4)) ^ state, 277803737) >>> 0;
+    return (((word >>> 22) ^ word) >>> 0) / 0x100000000;
+  };
+}
+
+/** What single precision makes of a vector. */
+export const single = (v: OpenPbrVector): OpenPbrVector => [Math.fround(v[0]), Math.fround(v[1]), Math.fround(v[2])];
+
+/** A direction of the upper half, cosine-distributed but for a floor. */
+export function upperDirection(next: () => number, floor = 0): OpenPbrVector {
+  const z = Math.max(Math.sqrt(next()), floor);
+  const phi = 2 * Math.PI * next();
+  const s = Math.sqrt(1 - z * z);
+  return single([s * Math.cos(phi), s * Math.sin(phi), z]);
+}
+
+/** Any surface of the lobes that exist, no smoother than given. */
+export function anySurface(next: () => number, smoothest: number): OpenPbrParameters {
+  const color = (): OpenPbrVector => [next(), next(), next()];
+  const one = (value: number, chance: number, other: number) => (next() < chance ? other : value);
+  const p = resolveParameters({
+    base_weight: one(next(), 0.5, 1),
+    base_color: color(),
+    base_diffuse_roughness: one(next(), 0.3, 0),
+    base_metalness: one(next(), 0.6, next() < 0.5 ? 0 : 1),
+    specular_weight: one(2 * next(), 0.5, 1),
+    specular_color: color(),
+    specular_roughness: smoothest + (1 - smoothest) * next(),
+    specular_roughness_anisotropy: one(next(), 0.4, 0),
+    specular_ior: 1 + 1.5 * next(),
+    emission_luminance: one(10 * next(), 0.5, 0),
+    emission_color: color(),
+    geometry_opacity: next(),
+  });
+  return Object.fromEntries(Object.entries(p).map(([name, value]) => [name, typeof value === 'number' ? Math.fround(value) : Array.isArray(value) ? single(value as unknown as OpenPbrVector) : value])) as unknown as OpenPbrParameters;
+}
