@@ -1,9 +1,11 @@
 import { dirname } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vitepress';
+import { apiReference } from './api';
 import { readmeLinks } from './readme-links';
 
 const packages = ['renderer', 'gltf', 'scene', 'openpbr', 'bvh', 'tonemap', 'image', 'wgsl', 'cli'];
+const api = await apiReference(packages);
 
 export default defineConfig({
   title: 'Glanz',
@@ -33,6 +35,7 @@ export default defineConfig({
       { text: 'Live', link: '/live' },
       { text: 'OpenPBR', link: '/openpbr/parameters' },
       { text: 'Packages', link: '/packages/', activeMatch: '^/packages/' },
+      { text: 'API', link: '/api/', activeMatch: '^/api/' },
       { text: 'How it works', link: '/how/', activeMatch: '^/how/' },
     ],
     sidebar: [
@@ -62,6 +65,7 @@ export default defineConfig({
         ],
       },
       { text: 'Packages', link: '/packages/', items: packages.map((name) => ({ text: `@glanz/${name}`, link: `/packages/${name}` })) },
+      { text: 'API reference', link: '/api/', collapsed: true, items: api },
       {
         text: 'How it works',
         items: [

@@ -32,7 +32,7 @@ export function createSpheres(): Scene {
     { name: 'gold', parameters: { base_metalness: 1, base_color: [0.944, 0.776, 0.373], specular_roughness: 0.22 } },
     { name: 'clay', parameters: { base_color: [0.12, 0.3, 0.5], base_diffuse_roughness: 1, specular_weight: 0 } },
   ];
-  const table = Float32Array.of(-30, -1, 30, 30, -1, 30, 30, -1, -30, -30, -1, -30);
+  const table = Float32Array.of(-300, -1, 300, 300, -1, 300, 300, -1, -300, -300, -1, -300);
   scene.meshes = [sphere(), { name: 'table', positions: table, indices: Uint32Array.of(0, 1, 2, 0, 2, 3) }];
   scene.instances = [
     { name: 'table', mesh: 1, material: 0, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] },

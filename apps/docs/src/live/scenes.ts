@@ -9,7 +9,7 @@ export type LiveSceneName = 'push-button' | 'spheres' | 'sphere';
 /** One large sphere of material `sphere`, above a matt table: for turning parameters. */
 function createSphere(): Scene {
   const scene = createScene('Sphere');
-  scene.meshes = [sphere(64), { name: 'table', positions: Float32Array.of(-30, -1, 30, 30, -1, 30, 30, -1, -30, -30, -1, -30), indices: Uint32Array.of(0, 1, 2, 0, 2, 3) }];
+  scene.meshes = [sphere(64), { name: 'table', positions: Float32Array.of(-300, -1, 300, 300, -1, 300, 300, -1, -300, -300, -1, -300), indices: Uint32Array.of(0, 1, 2, 0, 2, 3) }];
   scene.materials = [
     { name: 'sphere', parameters: {} },
     { name: 'table', parameters: { base_color: [0.24, 0.24, 0.25], specular_roughness: 0.5 } },

@@ -1,0 +1,95 @@
+// The API reference: made by TypeDoc from the packages' sources into api/, anew when a source has changed.
+import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { join, relative } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { Application, ReflectionKind, type TypeDocOptions } from 'typedoc';
+import type { PluginOptions } from 'typedoc-plugin-markdown';
+
+const docs = fileURLToPath(new URL('..', import.meta.url));
+const root = join(docs, '../..');
+const out = join(docs, 'api');
+const stamp = join(out, '.stamp');
+
+interface Entry {
+  /** `scene/studio` for `@glanz/scene/studio`. */
+  readonly name: string;
+  readonly source: string;
+}
+
+/** One line of a sidebar. */
+export interface ApiPage {
+  readonly text: string;
+  readonly link: string;
+}
+
+/** All entries of the published packages, from their export maps; each package's main one comes first. */
+function readEntries(packages: readonly string[]): Entry[] {
+  return packages.flatMap((name) => {
+    const folder = join(root, 'packages', name);
+    const { exports } = JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8')) as { exports: Record<string, string | Record<string, string>> };
+    return Object.entries(exports).flatMap(([path, target]) => {
+      const source = typeof target === 'object' ? target['@glanz/source'] : undefined;
+      return source ? [{ name: `${name}${path.slice(1)}`, source: join(folder, source) }] : [];
+    });
+  });
+}
+
+function newest(folder: string): number {
+  return Math.max(0, ...readdirSync(folder, { withFileTypes: true }).map((entry) => (entry.isDirectory() ? newest(join(folder, entry.name)) : statSync(join(folder, entry.name)).mtimeMs)));
+}
+
+/** Makes the reference if it is missing or stale, and lists its pages. */
+export async function apiReference(packages: readonly string[]): Promise<ApiPage[]> {
+  const entries = readEntries(packages);
+  const state = JSON.stringify([entries, ...packages.map((name) => newest(join(root, 'packages', name, 'src'))), statSync(fileURLToPath(import.meta.url)).size]);
+  if (existsSync(stamp)) {
+    const made = JSON.parse(readFileSync(stamp, 'utf8')) as { state: string; pages: ApiPage[] };
+    if (made.state === state) return made.pages;
+  }
+  rmSync(out, { recursive: true, force: true });
+  mkdirSync(out, { recursive: true });
+  const pages = await generate(entries);
+  writeFileSync(stamp, JSON.stringify({ state, pages }));
+  return pages;
+}
+
+async function generate(entries: readonly Entry[]): Promise<ApiPage[]> {
+  const options = {
+    name: 'API reference',
+    entryPoints: entries.map(({ source }) => source),
+    tsconfig: join(root, 'tsconfig.base.json'),
+    plugin: ['typedoc-plugin-markdown'],
+    readme: 'none',
+    out,
+    entryFileName: 'index',
+    modulesFileName: 'index',
+    outputFileStrategy: 'modules',
+    pageTitleTemplates: { module: ({ name }: { name: string }) => `@glanz/${name}` },
+    // A symbol is told about under the first entry that exports it: the package's main one.
+    sortEntryPoints: false,
+    useCodeBlocks: true,
+    parametersFormat: 'table',
+    interfacePropertiesFormat: 'table',
+    classPropertiesFormat: 'table',
+    typeDeclarationFormat: 'table',
+    hidePageHeader: true,
+    hideBreadcrumbs: true,
+    disableSources: true,
+    excludeInternal: true,
+    excludePrivate: true,
+    skipErrorChecking: true,
+    logLevel: 'Error',
+  } as unknown as TypeDocOptions & PluginOptions;
+  const app = await Application.bootstrapWithPlugins(options);
+  const project = await app.convert();
+  if (!project) throw new Error('TypeDoc could not read the packages.');
+  const names = new Map(entries.map(({ name, source }) => [relative(join(root, 'packages'), source).replace(/(\/index)?\.ts$/, ''), name]));
+  for (const module of project.children?.slice() ?? []) {
+    module.name = names.get(module.name) ?? module.name;
+    // Entries that only narrow a package's main one have nothing of their own to tell.
+    if ((module.children ?? []).every((child) => child.kind === ReflectionKind.Reference)) project.removeReflection(module);
+  }
+  const kept = new Set((project.children ?? []).map(({ name }) => name));
+  await app.generateOutputs(project);
+  return entries.filter(({ name }) => kept.has(name)).map(({ name }) => ({ text: `@glanz/${name}`, link: `/api/${name}` }));
+}
