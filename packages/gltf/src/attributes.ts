@@ -1,5 +1,6 @@
 import type { Accessor, Primitive } from '@gltf-transform/core';
 import type { Mesh, SceneWarning } from '@glanz/scene';
+import { makeUnit, unitNormals } from './normals';
 
 /** Numbers of an accessor as floats, decoded if normalised; a copy. */
 export function floatsOf(accessor: Accessor, size = accessor.getElementSize()): Float32Array<ArrayBuffer> {
@@ -20,7 +21,6 @@ export function floatsOf(accessor: Accessor, size = accessor.getElementSize()): 
 
 /** Whether every number is finite. */
 const allFinite = (values: Float32Array) => values.every(Number.isFinite);
-
 
 /** Corners of the triangles of a primitive, strips and fans opened; `undefined` for points and lines. */
 function trianglesOf(primitive: Primitive, vertices: number): Uint32Array<ArrayBuffer> | undefined {
@@ -80,9 +80,10 @@ export function readPrimitive(primitive: Primitive, name: string, opaque: boolea
   const mesh: Mesh = { name, positions, indices };
   const normals = attribute('NORMAL', 3);
   if (normals) {
-    mesh.normals = normals;
+    mesh.normals = unitNormals(normals, positions, indices, warn);
     const tangents = attribute('TANGENT', 4);
-    if (tangents) mesh.tangents = tangents;
+    if (tangents && makeUnit(tangents, 4)) mesh.tangents = tangents;
+    else if (tangents) warn('TANGENT holds vectors of length 0 and is left out.');
   }
   const uv0 = attribute('TEXCOORD_0', 2), uv1 = attribute('TEXCOORD_1', 2);
   if (uv0 || uv1) mesh.uvs = uv1 ? [uv0 ?? new Float32Array(2 * vertices), uv1] : [uv0 as Float32Array<ArrayBuffer>];

@@ -4,7 +4,7 @@ import type { SceneWarning } from '@glanz/scene';
 import type { CheckedDocument } from './check/index';
 import { GltfError } from './error';
 import type { GltfJson } from './json';
-import type { Source } from './source';
+import { decoded, type Source } from './source';
 
 /**
  * Decoders of compressed meshes, which the host hands in since they are heavy: the module of `draco3dgltf`
@@ -130,12 +130,7 @@ export async function readUri(uri: string, source: Source, signal: AbortSignal |
     }
   }
   signal?.throwIfAborted();
-  let path = uri;
-  try {
-    path = decodeURIComponent(uri);
-  } catch {
-    // A stray "%" stands for itself.
-  }
+  const path = decoded(uri);
   if (/^[a-z][a-z0-9+.-]*:|^\/|^\\/i.test(path)) throw new GltfError('gltf/missing-resource', `${source.name} names "${uri}": only files beside the document are read.`, { location: { file: source.name } });
   return source.read(path, signal);
 }

@@ -23,8 +23,8 @@ async function optional<T>(load: () => Promise<T>, name: string, what: string): 
  */
 export const decodeImage: ImageDecoder = async (bytes): Promise<DecodedImage> => {
   const { default: sharp } = await optional(() => import('sharp'), 'sharp', 'Decoding pictures in Node');
-  // Colour profiles and orientation do not count in glTF; the limit on size keeps a small file from filling the memory.
-  const { data, info } = await sharp(bytes, { limitInputPixels: 16384 * 16384 }).toColourspace('srgb').ensureAlpha().raw({ depth: 'uchar' }).toBuffer({ resolveWithObject: true });
+  // Colour profiles and orientation do not count in glTF (3.8.1); the limit on size keeps a small file from filling the memory.
+  const { data, info } = await sharp(bytes, { ignoreIcc: true, limitInputPixels: 16384 * 16384 }).toColourspace('srgb').ensureAlpha().raw({ depth: 'uchar' }).toBuffer({ resolveWithObject: true });
   return { width: info.width, height: info.height, data: new Uint8Array(data.buffer as ArrayBuffer, data.byteOffset, data.byteLength) };
 };
 

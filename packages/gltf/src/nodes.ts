@@ -3,6 +3,7 @@ import type { InstancedMesh, Light as GltfLight } from '@gltf-transform/extensio
 import type { Camera, Light, Scene, SceneWarning } from '@glanz/scene';
 import { mat4, quat, type vec3 } from 'gl-matrix';
 import { floatsOf, readPrimitive } from './attributes';
+import { unitNormals } from './normals';
 import { morphed, skinned } from './pose';
 
 const matrix = (): mat4 => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
@@ -70,6 +71,8 @@ export function readNodes({ document, scene, defaultMaterial }: NodeContext): vo
         if (!made) return;
         if (weights.some((w) => w !== 0)) made = morphed(made, primitive, weights);
         if (skin) made = skinned(made, primitive, skin, world, scene.warnings);
+        // Blended normals are shorter than 1, and may even cancel out.
+        if (posed && made.normals) unitNormals(made.normals, made.positions, made.indices, (message) => scene.warnings.push({ code: 'gltf/primitive', message: `${label}: ${message}` }));
         at = scene.meshes.push(made) - 1;
         if (!posed) shared.set(primitive, at);
       }
@@ -109,10 +112,21 @@ function instancesOf(node: Node, transform: mat4, warnings: SceneWarning[]): mat
   return places;
 }
 
+/** How far the axes of a transform are from lying in a plane: the volume that they span over that of a box, 0 to 1. */
+function spread(m: mat4): number {
+  const lengths = Math.hypot(m[0], m[1], m[2]) * Math.hypot(m[4], m[5], m[6]) * Math.hypot(m[8], m[9], m[10]);
+  const volume = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) + m[8] * (m[1] * m[6] - m[2] * m[5]);
+  return lengths > 0 ? Math.abs(volume) / lengths : 0;
+}
+
 function readCamera(node: Node, transform: mat4, scene: Scene): void {
   const camera = node.getCamera();
   if (!camera) return;
   const common = { name: camera.getName() || node.getName() || `camera ${scene.cameras.length}`, transform: numbers(transform) };
+  if (!(spread(transform) > 1e-5)) {
+    scene.warnings.push({ code: 'gltf/camera', message: `Camera "${common.name}" is flattened by its node's scale; it is left out.` });
+    return;
+  }
   const yfov = camera.getYFov();
   let made: Camera;
   if (camera.getType() === 'perspective') {

@@ -58,13 +58,29 @@ async function fromFiles({ files, entry }: GltfFiles): Promise<Source> {
   };
 }
 
+function addressOf(address: string | URL, base: string | URL | undefined): URL {
+  if (!URL.canParse(String(address), base)) throw new GltfError('gltf/missing-resource', `"${String(address).slice(0, 200)}" is no address${base === undefined ? ' that stands by itself: pass a baseUrl, or in Node use loadGltfFile()' : ''}.`);
+  return new URL(address, base);
+}
+
+/** Text with its %-escapes resolved; as it is if they are none. */
+export function decoded(text: string): string {
+  try {
+    return decodeURIComponent(text);
+  } catch {
+    return text;
+  }
+}
+
 /** Opens any input. `fetch` and `baseUrl` serve addresses; bytes without a `baseUrl` cannot name other files. */
-export async function openSource(input: GltfInput, options: { readonly fetch: typeof fetch; readonly baseUrl: string | URL | undefined; readonly signal: AbortSignal | undefined }): Promise<Source> {
+export async function openSource(input: GltfInput, options: { readonly fetch: typeof globalThis.fetch; readonly baseUrl: string | URL | undefined; readonly signal: AbortSignal | undefined }): Promise<Source> {
   if (typeof input === 'object' && 'files' in input) return fromFiles(input);
+  // Called bare: browsers refuse their fetch as another object's method.
+  const { fetch } = options;
   const get = async (url: URL, uri: string, name: string, signal: AbortSignal | undefined) => {
     let response: Response;
     try {
-      response = await options.fetch(url, signal ? { signal } : {});
+      response = await fetch(url, signal ? { signal } : {});
     } catch (cause) {
       signal?.throwIfAborted();
       throw new GltfError('gltf/missing-resource', `${name}: "${uri}" could not be fetched: ${cause instanceof Error ? cause.message : String(cause)}.`, { cause, location: { file: name } });
@@ -73,14 +89,19 @@ export async function openSource(input: GltfInput, options: { readonly fetch: ty
     return new Uint8Array(await response.arrayBuffer());
   };
   const relative = (base: URL | undefined, name: string): ResourceReader => async (uri, signal) => {
-    if (!base) throw missing(uri, name);
-    return get(new URL(uri.split('/').map(encodeURIComponent).join('/'), base), uri, name, signal);
+    const path = uri.split('/').map(encodeURIComponent).join('/');
+    // Nothing lies beside an address such as "blob:" or "data:".
+    if (!base || !URL.canParse(path, base)) throw missing(uri, name);
+    const url = new URL(path, base);
+    // A document from a stranger must not make the host ask for anything else.
+    if (!url.href.startsWith(new URL('.', base).href)) throw new GltfError('gltf/missing-resource', `${name} names "${uri}": only files below the document's own folder are read.`, { location: { file: name } });
+    return get(url, uri, name, signal);
   };
   const page = typeof location === 'undefined' ? undefined : location.href;
-  const base = options.baseUrl === undefined ? undefined : new URL(options.baseUrl, page);
+  const base = options.baseUrl === undefined ? undefined : addressOf(options.baseUrl, page);
   if (typeof input === 'string' || input instanceof URL) {
-    const url = new URL(input, base ?? page);
-    const name = decodeURIComponent(url.pathname.slice(url.pathname.lastIndexOf('/') + 1)) || url.href;
+    const url = addressOf(input, base ?? page);
+    const name = /^(data|blob):/.test(url.protocol) ? 'The glTF file' : decoded(url.pathname.slice(url.pathname.lastIndexOf('/') + 1)) || url.href;
     return { name, bytes: await get(url, url.href, name, options.signal), read: relative(url, name) };
   }
   return { name: 'The glTF file', bytes: input instanceof Uint8Array ? input : new Uint8Array(input), read: relative(base, 'The glTF file') };

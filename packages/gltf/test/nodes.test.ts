@@ -1,0 +1,145 @@
+import { EXTMeshGPUInstancing, KHRLightsPunctual } from '@gltf-transform/extensions';
+import { validateScene, type Scene } from '@glanz/scene';
+import { describe, expect, test } from 'vitest';
+import { loadGltf } from '../src/index';
+import { spoiled, start, write } from './build';
+
+const TRIANGLE = new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0]);
+const HALF = Math.SQRT1_2;
+
+function place(scene: Scene, instance: number, point: readonly [number, number, number]): number[] {
+  const m = scene.instances[instance]!.transform;
+  return [0, 1, 2].map((r) => m[r]! * point[0] + m[4 + r]! * point[1] + m[8 + r]! * point[2] + m[12 + r]!);
+}
+
+const near = (actual: readonly number[], expected: readonly number[]) => {
+  expect(actual.length).toBe(expected.length);
+  expected.forEach((x, i) => expect(actual[i]).toBeCloseTo(x, 5));
+};
+
+describe('instances', () => {
+  test('transforms go down the tree; a mesh in two places is one mesh', async () => {
+    const { document, scene, accessor } = start();
+    const mesh = document.createMesh('part').addPrimitive(document.createPrimitive().setAttribute('POSITION', accessor('VEC3', TRIANGLE)));
+    const child = document.createNode('child').setMesh(mesh).setTranslation([1, 0, 0]).setScale([2, 2, 2]);
+    // A quarter turn about +z takes +x to +y.
+    const parent = document.createNode('parent').setMesh(mesh).setRotation([0, 0, HALF, HALF]).setTranslation([0, 0, 5]).addChild(child);
+    scene.addChild(parent);
+    const loaded = await loadGltf(await write(document));
+    expect(loaded.meshes.length).toBe(1);
+    expect(loaded.instances.map(({ name }) => name)).toEqual(['parent', 'child']);
+    near(place(loaded, 0, [1, 0, 0]), [0, 1, 5]);
+    near(place(loaded, 1, [1, 0, 0]), [0, 3, 5]);
+  });
+
+  test('a mesh of two primitives gives two meshes and two instances a node', async () => {
+    const { document, scene, accessor } = start();
+    const mesh = document.createMesh('part');
+    for (const name of ['red', 'blue']) mesh.addPrimitive(document.createPrimitive().setAttribute('POSITION', accessor('VEC3', TRIANGLE)).setMaterial(document.createMaterial(name)));
+    scene.addChild(document.createNode('a').setMesh(mesh)).addChild(document.createNode('b').setMesh(mesh));
+    const { meshes, instances, materials } = await loadGltf(await write(document));
+    expect(meshes.map(({ name }) => name)).toEqual(['part 0', 'part 1']);
+    expect(instances.map(({ name, mesh: m, material }) => [name, m, materials[material]!.name])).toEqual([['a', 0, 'red'], ['a', 1, 'blue'], ['b', 0, 'red'], ['b', 1, 'blue']]);
+  });
+
+  test('EXT_mesh_gpu_instancing', async () => {
+    const { document, scene, accessor } = start();
+    const extension = document.createExtension(EXTMeshGPUInstancing).setRequired(true);
+    const instances = extension.createInstancedMesh()
+      .setAttribute('TRANSLATION', accessor('VEC3', new Float32Array([1, 0, 0, 0, 2, 0])))
+      .setAttribute('SCALE', accessor('VEC3', new Float32Array([3, 1, 1, 1, 1, 1])));
+    const mesh = document.createMesh().addPrimitive(document.createPrimitive().setAttribute('POSITION', accessor('VEC3', TRIANGLE)));
+    scene.addChild(document.createNode('many').setMesh(mesh).setTranslation([0, 0, 7]).setExtension('EXT_mesh_gpu_instancing', instances));
+    const loaded = await loadGltf(await write(document, [EXTMeshGPUInstancing]));
+    expect([loaded.meshes.length, loaded.instances.length]).toEqual([1, 2]);
+    near(place(loaded, 0, [1, 0, 0]), [4, 0, 7]);
+    near(place(loaded, 1, [1, 0, 0]), [1, 2, 7]);
+  });
+
+  test('a skinned mesh stands where its joints are, wherever its own node is', async () => {
+    const { document, scene, accessor } = start();
+    const joints = [document.createNode('root').setTranslation([0, 0, 3]), document.createNode('tip').setTranslation([0, 2, 0]).setRotation([0, 0, HALF, HALF])];
+    joints[0]!.addChild(joints[1]!);
+    // The tip was bound at (1, 0, 0): its inverse bind matrix takes that point to the origin.
+    const bind = new Float32Array([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 1]);
+    const skin = document.createSkin().addJoint(joints[0]!).addJoint(joints[1]!).setInverseBindMatrices(accessor('MAT4', bind));
+    const mesh = document.createMesh().addPrimitive(document.createPrimitive()
+      .setAttribute('POSITION', accessor('VEC3', TRIANGLE))
+      .setAttribute('NORMAL', accessor('VEC3', new Float32Array([1, 0, 0, 1, 0, 0, 1, 0, 0])))
+      .setAttribute('JOINTS_0', accessor('VEC4', new Uint8Array([0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0])))
+      .setAttribute('WEIGHTS_0', accessor('VEC4', new Float32Array([1, 0, 0, 0, 0, 1, 0, 0, 0.5, 0.5, 0, 0]))));
+    scene.addChild(joints[0]!).addChild(document.createNode('body').setTranslation([100, 100, 100]).setMesh(mesh).setSkin(skin));
+    const loaded = await loadGltf(await write(document));
+    near(Array.from(loaded.instances[0]!.transform), [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
+    // By hand: vertex 0 by the root; vertex 1 at the tip's origin (0, 2, 3); vertex 2 halfway between (0, 1, 3) and the tip's (-1, 1, 3).
+    near(Array.from(loaded.meshes[0]!.positions), [0, 0, 3, 0, 2, 3, -0.5, 1, 3]);
+    near(Array.from(loaded.meshes[0]!.normals!), [1, 0, 0, 0, 1, 0, HALF, HALF, 0]);
+    expect(validateScene(loaded)).toEqual([]);
+  });
+
+  test('morph targets are blended by the weights at rest', async () => {
+    const { document, scene, accessor } = start();
+    const target = (z: number) => document.createPrimitiveTarget().setAttribute('POSITION', accessor('VEC3', new Float32Array([0, 0, z, 0, 0, z, 0, 0, z])));
+    const mesh = document.createMesh().setWeights([0.5, 0.25]).addPrimitive(document.createPrimitive().setAttribute('POSITION', accessor('VEC3', TRIANGLE)).addTarget(target(4)).addTarget(target(8)));
+    scene.addChild(document.createNode('a').setMesh(mesh)).addChild(document.createNode('b').setMesh(mesh).setWeights([1, 0]));
+    const { meshes, instances } = await loadGltf(await write(document));
+    expect(instances.map(({ mesh: m }) => meshes[m]!.positions[2])).toEqual([4, 4]);
+    expect(meshes[0]!.positions[5]).toBe(4);
+  });
+});
+
+describe('cameras', () => {
+  test('perspective and orthographic, in the world', async () => {
+    const { document, scene, accessor } = start();
+    const mesh = document.createMesh().addPrimitive(document.createPrimitive().setAttribute('POSITION', accessor('VEC3', TRIANGLE)));
+    scene.addChild(document.createNode().setMesh(mesh));
+    scene.addChild(document.createNode('eye').setTranslation([0, 1, 9]).setCamera(document.createCamera('wide').setType('perspective').setYFov(0.7).setAspectRatio(1.5).setZNear(0.1)));
+    scene.addChild(document.createNode('plan').setCamera(document.createCamera().setType('orthographic').setXMag(2).setYMag(3).setZNear(0).setZFar(9)));
+    scene.addChild(document.createNode('flat').setScale([0, 1, 1]).setCamera(document.createCamera().setType('perspective').setYFov(0.7).setZNear(0.1)));
+    const loaded = await loadGltf(await write(document));
+    expect(loaded.cameras).toEqual([
+      { type: 'perspective', name: 'wide', yfov: 0.7, aspect: 1.5, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 1, 9, 1] },
+      { type: 'orthographic', name: 'plan', xmag: 2, ymag: 3, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] },
+    ]);
+    expect(loaded.warnings.map(({ code }) => code)).toEqual(['gltf/camera']);
+    expect(validateScene(loaded)).toEqual([]);
+  });
+});
+
+test('punctual lights shine along their −z, with glTF\'s numbers', async () => {
+  const { document, scene, accessor } = start();
+  const extension = document.createExtension(KHRLightsPunctual);
+  scene.addChild(document.createNode().setMesh(document.createMesh().addPrimitive(document.createPrimitive().setAttribute('POSITION', accessor('VEC3', TRIANGLE)))));
+  const add = (name: string, type: 'point' | 'spot' | 'directional', intensity: number) => {
+    const light = extension.createLight(name).setType(type).setIntensity(intensity).setColor([1, 0.5, 0.25]);
+    if (type === 'spot') light.setInnerConeAngle(0.2).setOuterConeAngle(0.4);
+    // A quarter turn about +x takes −z to +y.
+    scene.addChild(document.createNode().setTranslation([1, 2, 3]).setRotation([HALF, 0, 0, HALF]).setExtension('KHR_lights_punctual', light));
+  };
+  add('bulb', 'point', 3);
+  add('cone', 'spot', 4);
+  add('sun', 'directional', 5);
+  const { lights } = await loadGltf(await write(document, [KHRLightsPunctual]));
+  expect(lights.map(({ type, name, intensity, color }) => [type, name, intensity, color])).toEqual([['point', 'bulb', 3, [1, 0.5, 0.25]], ['spot', 'cone', 4, [1, 0.5, 0.25]], ['directional', 'sun', 5, [1, 0.5, 0.25]]]);
+  const [point, spot, sun] = lights as [Extract<(typeof lights)[0], { type: 'point' }>, Extract<(typeof lights)[0], { type: 'spot' }>, Extract<(typeof lights)[0], { type: 'directional' }>];
+  expect(point.position).toEqual([1, 2, 3]);
+  near(spot.direction, [0, 1, 0]);
+  near(sun.direction, [0, 1, 0]);
+  near([spot.inner_cone_angle, spot.outer_cone_angle], [0.2, 0.4]);
+});
+
+describe('which nodes are shown', () => {
+  const named = (json: Record<string, unknown>, names: string[]) => (json['nodes'] = names.map((name) => ({ name, mesh: 0 })));
+
+  test('those of the default scene', async () => {
+    const { instances } = await loadGltf(spoiled((json) => { named(json, ['a', 'b']); json['scenes'] = [{ nodes: [0] }, { nodes: [1] }]; json['scene'] = 1; }));
+    expect(instances.map(({ name }) => name)).toEqual(['b']);
+  });
+
+  test('those of the first scene if none is the default, all without scenes', async () => {
+    const first = await loadGltf(spoiled((json) => { named(json, ['a', 'b']); json['scenes'] = [{ nodes: [0] }, { nodes: [1] }]; delete json['scene']; }));
+    expect(first.instances.map(({ name }) => name)).toEqual(['a']);
+    const all = await loadGltf(spoiled((json) => { named(json, ['a', 'b']); delete json['scenes']; delete json['scene']; }));
+    expect(all.instances.map(({ name }) => name)).toEqual(['a', 'b']);
+  });
+});
