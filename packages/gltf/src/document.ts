@@ -61,6 +61,7 @@ export async function readDocument({ json, neededBuffers, checkBytes }: CheckedD
   need('EXT_meshopt_compression', decoders.meshopt, 'meshoptimizer', 'decoders.meshopt');
 
   const resources: Record<string, Uint8Array<ArrayBuffer>> = {};
+  const absent = new Set<number>();
   const buffers = await Promise.all(
     (json.buffers ?? []).map(async (buffer, index) => {
       const path = `/buffers/${index}`;
@@ -71,7 +72,8 @@ export async function readDocument({ json, neededBuffers, checkBytes }: CheckedD
         } else if ('extensions' in buffer) return buffer;
         else if (neededBuffers.has(index)) throw new GltfError('gltf/malformed', `${source.name}: ${path} has no uri, and the file no binary chunk for it.`, { location: { file: source.name, path } });
         else {
-          // Nothing reads it, but glTF-Transform wants every buffer to be there.
+          // Nothing reads it, but glTF-Transform wants every buffer and every view of it to be there.
+          absent.add(index);
           resources[`buffer-${index}.bin`] = new Uint8Array(1);
           return { ...buffer, uri: `buffer-${index}.bin`, byteLength: 1 };
         }
@@ -90,6 +92,7 @@ export async function readDocument({ json, neededBuffers, checkBytes }: CheckedD
   const document = {
     ...rest,
     buffers,
+    bufferViews: (json.bufferViews ?? []).map((view) => (absent.has(view.buffer) ? { buffer: view.buffer, byteLength: 1 } : view)),
     ...(materials ? { materials: materials.map(({ name }) => (name === undefined ? {} : { name })) } : {}),
   };
   const io = new WebIO()

@@ -1,4 +1,10 @@
-import { GlanzError } from '@glanz/scene';
+import { GlanzError, type GlanzErrorOptions } from '@glanz/scene';
+
+/** Text on one line of a sensible length: names and addresses come from the file and may hold anything. */
+export const oneLine = (text: string): string => {
+  const line = text.replace(/[\p{Cc}\u2028\u2029]+/gu, ' ');
+  return line.length > 500 ? `${line.slice(0, 500)}…` : line;
+};
 
 /**
  * Thrown by the loaders. Codes: `gltf/not-gltf` (neither a glTF document nor a GLB), `gltf/truncated`, `gltf/version`,
@@ -6,4 +12,8 @@ import { GlanzError } from '@glanz/scene';
  * not there), `gltf/unsupported-extension` (one that the document requires), `gltf/missing-decoder` (an optional package
  * is needed), `gltf/no-triangles`.
  */
-export class GltfError extends GlanzError {}
+export class GltfError extends GlanzError {
+  constructor(code: string, message: string, options: GlanzErrorOptions = {}) {
+    super(code, oneLine(message), options);
+  }
+}

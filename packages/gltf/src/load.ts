@@ -2,7 +2,7 @@ import { createScene, type Scene } from '@glanz/scene';
 import { checkDocument } from './check/index';
 import { openContainer } from './container';
 import { readDocument, type GltfDecoders } from './document';
-import { GltfError } from './error';
+import { GltfError, oneLine } from './error';
 import { decodeImageInBrowser, TextureTable, type ImageDecoder } from './images';
 import { readMaterial } from './materials';
 import { readNodes } from './nodes';
@@ -76,5 +76,6 @@ export async function buildScene(source: Source, options: GltfOptions & { readon
       if (binding && table.failed.has(scene.textures[binding.texture]?.image ?? -1)) delete textures?.[parameter as keyof typeof textures];
     }
   }
+  scene.warnings = scene.warnings.map((warning) => ({ ...warning, message: oneLine(warning.message) }));
   return scene;
 }

@@ -79,6 +79,14 @@ describe('extensions that the document requires', () => {
   });
 });
 
+test('names from the file cannot break a message into lines or drown it', async () => {
+  const error = await outcome(spoiled((j) => { j['buffers'][0].uri = `a\nb\u2028${'x'.repeat(5000)}`; }));
+  expect(error.message).toMatch(/"a b x/);
+  expect(error.message.length).toBeLessThan(600);
+  const { warnings } = await loadGltf(spoiled((j) => { j['meshes'][0] = { name: 'two\nlines', primitives: [j['meshes'][0].primitives[0], { ...j['meshes'][0].primitives[0], mode: 1 }] }; }));
+  expect(warnings.map(({ message }) => message)).toEqual(['two lines 1: points and lines are left out.']);
+});
+
 test('animations are not looked into: a broken one costs nothing', async () => {
   const scene = await loadGltf(spoiled((j) => { j['animations'] = [{ channels: [{ sampler: 9, target: { path: '__proto__' } }], samplers: [] }]; }));
   expect(scene.instances.length).toBe(1);

@@ -1,0 +1,76 @@
+import { existsSync } from 'node:fs';
+import { validateScene } from '@glanz/scene';
+import { describe, expect, test } from 'vitest';
+import { GltfError, loadGltfFile } from '../src/node';
+import { presence, sharedIndex, sharedPath } from './shared';
+
+interface Case {
+  readonly file: string;
+  readonly kind: string;
+  readonly expect: Outcome;
+  readonly alsoOk?: readonly Outcome[];
+}
+
+type Outcome = 'reject' | 'accept-with-warning' | 'accept';
+
+const { present, note } = presence('bad/index.json');
+const cases = sharedIndex<Case>('bad/index.json').filter(({ kind, file }) => kind === 'gltf' && existsSync(sharedPath(`bad/${file}`)));
+
+/**
+ * Labels that are not met, each with its reason. All but the last are defects of parts that nothing shown reads, which a
+ * validator reports and a loader need not look at.
+ */
+const KNOWN = new Map(
+  Object.entries({
+    'animations are not read': ['animation/unresolved_channel_sampler', 'animation/unresolved_channel_target', 'animation/unresolved_sampler_input', 'animation/unresolved_sampler_output'],
+    'pictures and textures that no shown material asks for are not read': ['image/invalid_data_uri', 'image/invalid_data_uri_mime_type', 'image/invalid_uri_scheme', 'image/not_found', 'image/unresolved_buffer_view', 'texture/unresolved_source'],
+    'the document has no nodes, so its meshes and materials are not shown': ['mesh_data/index_buffer_oob', 'mesh_data/index_buffer_primitive_restart', 'mesh/morph_unequal_targets_count', 'material/unresolved_emissive', 'buffer_view/invalid_stride_wrong_target'],
+    'the occlusion texture is not read': ['material/unresolved_occlusion'],
+    'the skeleton of a skin is a hint that nothing follows': ['skin/unresolved_skeleton'],
+    'odd, but every byte that is read is there': ['buffer/invalid_uri_data', 'buffer_view/invalid_stride_too_big'],
+    'minima and maxima are not read': ['tests/minimal_accessor_invalid'],
+    'minVersion asks for a later glTF, which is refused as the specification has it': ['asset/min_version_valid'],
+  }).flatMap(([reason, files]) => files.map((file) => [file, reason] as const)),
+);
+const known = (file: string) => [...KNOWN.keys()].find((stem) => file.includes(`/${stem}.`));
+
+async function judge({ file }: Case): Promise<{ outcome: Outcome; fault?: string }> {
+  try {
+    const scene = await loadGltfFile(sharedPath(`bad/${file}`), { allowEmpty: true });
+    const outcome = scene.warnings.length > 0 ? 'accept-with-warning' : 'accept';
+    try {
+      validateScene(scene);
+    } catch (error) {
+      return { outcome, fault: `gives a scene that is none: ${(error as Error).message}` };
+    }
+    return { outcome };
+  } catch (error) {
+    if (!(error instanceof GltfError)) return { outcome: 'reject', fault: `throws ${String(error)}` };
+    return /\n/.test(error.message) ? { outcome: 'reject', fault: 'has a message of several lines' } : { outcome: 'reject' };
+  }
+}
+
+describe.skipIf(!present)(`files that are broken, hostile or odd${note}`, () => {
+  test('each is a scene that is sound or a typed error of one line, as its label says', { timeout: 600_000 }, async () => {
+    const faults: string[] = [], missed: string[] = [];
+    const excused = new Set<string>();
+    for (const one of cases) {
+      const begun = performance.now();
+      const { outcome, fault } = await judge(one);
+      if (fault) faults.push(`${one.file} ${fault}`);
+      // Two cores shared with other tests: the corpus asks for 5 s on a quiet machine.
+      if (performance.now() - begun > 30_000) faults.push(`${one.file} takes ${Math.round(performance.now() - begun)} ms`);
+      if (outcome === one.expect || one.alsoOk?.includes(outcome)) continue;
+      const stem = known(one.file);
+      if (stem === undefined) missed.push(`${one.file}: ${outcome} instead of ${one.expect}`);
+      else excused.add(stem);
+    }
+    expect(faults).toEqual([]);
+    expect(Object.keys(Object.prototype)).toEqual([]);
+    expect(missed).toEqual([]);
+    expect(cases.length).toBeGreaterThan(1000);
+    // A reason that is no longer needed must go.
+    expect([...KNOWN.keys()].filter((stem) => !cases.some(({ file }) => file.includes(`/${stem}.`)))).toEqual([]);
+    expect([...KNOWN.keys()].filter((stem) => !excused.has(stem))).toEqual([]);
+  });
+});
