@@ -68,7 +68,7 @@ export function sliderField({ id, label, value, hint, range: [low, high], hardRa
   });
   show(value);
   const field = row(id, label, hint, slider, box);
-  if (unit) box.after(element('span', { class: 'unit', 'aria-hidden': 'true' }, unit));
+  if (unit) field.querySelector('label')?.append(element('span', { class: 'unit' }, ` ${unit}`));
   return { element: field, set: (v) => show(v) };
 }
 

@@ -76,7 +76,7 @@ export class SettingsPanel {
       ['studio', 'Neutral studio'],
       ['constant', 'One colour'],
       ['file', this.#fileName || 'Picture file (.hdr, .exr)…'],
-      ['none', 'Nothing (lights of the model)'],
+      ['none', 'Model’s lights only'],
     ];
     if (this.#ownEnvironment || this.#environment === 'model') choices.unshift(['model', 'The model’s own']);
     this.#choice.setChoices(choices, this.#environment);

@@ -166,8 +166,8 @@ export class Session {
     this.#film = film;
     this.#canvasSize = canvas;
     this.#sampleMs = same ? this.#sampleMs : undefined;
-    if (!same) this.#edit('size', () => this.#tracer?.resize(...film));
-    else this.#redraw();
+    if (same) this.#redraw();
+    else if (this.#tracer) this.#edit('size', () => this.#tracer?.resize(...film));
   }
 
   /** Looks from elsewhere. While this is called in a row, the film is as small as it must be to keep up. */

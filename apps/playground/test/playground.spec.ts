@@ -1,0 +1,307 @@
+import { readFileSync } from 'node:fs';
+import { expect, test, type Page } from '@playwright/test';
+import { hdr, triangle } from './files';
+import { drop, photograph, pixelsOf, servePlayground, watch } from './page';
+
+let origin = '';
+let close: () => Promise<void> = async () => undefined;
+
+test.beforeAll(async () => ({ origin, close } = await servePlayground()));
+test.afterAll(() => close());
+
+// Small, as the software GPU is slow: the stage is 560 pixels wide and the film 140.
+test.use({ viewport: { width: 900, height: 560 } });
+
+let complaints: string[] = [];
+test.beforeEach(({ page }) => void (complaints = watch(page, origin)));
+test.afterEach(() => expect(complaints).toEqual([]));
+
+const canvasOf = (page: Page) => page.locator('#picture');
+const dataOf = async (page: Page, name: string) => (await canvasOf(page).getAttribute(`data-${name}`)) ?? '';
+
+async function open(page: Page, query = 'model=cornell-box&scale=0.25&samples=8&depth=3'): Promise<void> {
+  await page.goto(`${origin}/?${query}`);
+  await expect.poll(() => dataOf(page, 'scene'), { message: 'a scene is shown' }).not.toBe('');
+}
+
+/** Waits for a picture with all its samples. */
+async function finished(page: Page): Promise<void> {
+  await expect(canvasOf(page)).toHaveAttribute('data-state', 'done');
+  // The last draw comes with the next frame of the screen.
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+}
+
+/** Does something that restarts the film, and waits for the new picture. */
+async function restarting(page: Page, action: () => Promise<unknown>): Promise<void> {
+  const before = Number(await dataOf(page, 'restarts'));
+  await action();
+  await expect.poll(async () => Number(await dataOf(page, 'restarts')), { message: 'the film starts anew' }).toBeGreaterThan(before);
+  await finished(page);
+}
+
+const errorWith = (page: Page, code: string) => page.locator(`[role=alert][data-code="${code}"]`);
+
+test('the Cornell box appears: light above, red left, green right; the saved picture is the one on the screen', async ({ page }) => {
+  await open(page);
+  await expect.poll(async () => Number(await dataOf(page, 'samples'))).toBeGreaterThanOrEqual(1);
+  await finished(page);
+  const shown = await photograph(canvasOf(page));
+  expect(shown.colours).toBeGreaterThan(2000);
+  expect(shown.deviation).toBeGreaterThan(20);
+  const [, top, , left, middle, right] = shown.cells as [number, number, number][];
+  expect(left![0]).toBeGreaterThan(1.5 * left![1]);
+  expect(right![1]).toBeGreaterThan(1.15 * right![0]);
+  // The lamp is in the upper middle; the back wall is the brightest matt thing, and lit in the lamp's warm colour.
+  expect(top![0]).toBeGreaterThan(50);
+  expect(middle![0]).toBeGreaterThan(middle![2]);
+  expect(middle![0]).toBeGreaterThan(50);
+  expect(middle![0]).toBeLessThan(235);
+
+  const [saved] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Save PNG' }).click()]);
+  expect(saved.suggestedFilename()).toBe('cornell-box.png');
+  const file = await pixelsOf(page, readFileSync(await saved.path()));
+  const stage = (await canvasOf(page).boundingBox())!;
+  expect([file.width, file.height]).toEqual([Math.round(stage.width / 4), Math.round(stage.height / 4)]);
+  // The tone map of the file runs on the CPU, that of the screen on the GPU; the status covers a corner of the screen.
+  file.cells.forEach((cell, i) => i !== 6 && cell.forEach((mean, k) => expect(Math.abs(mean - shown.cells[i]![k]!), `cell ${i}, channel ${k}`).toBeLessThan(3)));
+
+  const [exr] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Save EXR' }).click()]);
+  const bytes = readFileSync(await exr.path());
+  expect(bytes.readUInt32LE(0)).toBe(20000630);
+  const header = bytes.subarray(0, 2000).toString('latin1');
+  for (const channel of ['R', 'A', 'albedo.G', 'normal.X', 'depth.Z', 'object.id', 'material.id']) expect(header).toContain(`${channel}\0`);
+});
+
+test('exposure and tone map change the picture without starting it anew', async ({ page }) => {
+  await open(page);
+  await finished(page);
+  const [restarts, before] = [await dataOf(page, 'restarts'), await photograph(canvasOf(page))];
+  await page.getByLabel('Exposure, EV').fill('2');
+  await page.getByLabel('Exposure, EV').press('Tab');
+  await expect.poll(async () => (await photograph(canvasOf(page))).mean[0]).toBeGreaterThan(before.mean[0] * 1.3);
+  const neutral = await photograph(canvasOf(page));
+  await page.getByLabel('Tone map').selectOption('reinhard');
+  await expect.poll(async () => Math.abs((await photograph(canvasOf(page))).mean[0] - neutral.mean[0])).toBeGreaterThan(3);
+  expect(await dataOf(page, 'restarts')).toBe(restarts);
+});
+
+test('a click picks the material under it; its colour and a reset reach the picture', async ({ page }) => {
+  await open(page);
+  await finished(page);
+  const before = await photograph(canvasOf(page));
+  // The left wall, between the margin and the back wall.
+  await canvasOf(page).click({ position: { x: 70, y: 250 } });
+  await expect(page.locator('#material option:checked')).toHaveText('red');
+  await expect(page.locator('#material-part')).toHaveText('Picked: Left wall');
+
+  await restarting(page, () => page.locator('#parameter-base_color').fill('#2030ff'));
+  const blue = await photograph(canvasOf(page));
+  expect(before.cells[3]![0]).toBeGreaterThan(2 * before.cells[3]![2]);
+  expect(blue.cells[3]![2]).toBeGreaterThan(1.2 * blue.cells[3]![0]);
+
+  await restarting(page, () => page.getByRole('button', { name: 'Reset this material' }).click());
+  const again = await photograph(canvasOf(page));
+  expect(Math.abs(again.cells[3]![0] - before.cells[3]![0])).toBeLessThan(2);
+});
+
+test('a change that needs other shaders: the short block becomes a mirror', async ({ page }) => {
+  await open(page);
+  await finished(page);
+  const before = await photograph(canvasOf(page));
+  await page.getByLabel('Material', { exact: true }).selectOption({ label: 'green' });
+  const set = async (name: string, value: string) => {
+    const box = page.locator(`.field:has(#parameter-${name}) input[type=number]`);
+    await box.fill(value);
+    await box.press('Tab');
+  };
+  await set('base_metalness', '1');
+  await set('specular_roughness', '0');
+  await restarting(page, () => set('specular_weight', '1'));
+  // The green wall is a green mirror now, and shows what is opposite: the red wall, black in green light.
+  await expect.poll(async () => (await finished(page), (await photograph(canvasOf(page))).cells[5]![1])).toBeLessThan(before.cells[5]![1] * 0.8);
+});
+
+test('drag, wheel and keys move the camera; reset brings the first view back', async ({ page }) => {
+  await open(page);
+  await finished(page);
+  const canvas = canvasOf(page);
+  const first = await photograph(canvas);
+  const difference = async () => {
+    const now = await photograph(canvas);
+    return now.cells.reduce((sum, cell, i) => sum + cell.reduce((all, value, k) => all + Math.abs(value - first.cells[i]![k]!), 0), 0) / 27;
+  };
+  await restarting(page, async () => {
+    await page.mouse.move(200, 250);
+    await page.mouse.down();
+    await page.mouse.move(260, 260, { steps: 4 });
+    await page.mouse.up();
+  });
+  expect(await difference()).toBeGreaterThan(4);
+  await restarting(page, () => page.getByRole('button', { name: 'Reset view' }).click());
+  expect(await difference()).toBeLessThan(0.5);
+
+  for (const act of [() => canvas.press('ArrowLeft'), () => canvas.press('Shift+ArrowUp'), () => page.mouse.wheel(0, 300)]) {
+    await restarting(page, act);
+    expect(await difference()).toBeGreaterThan(1.5);
+    await restarting(page, () => canvas.press('Home'));
+    expect(await difference()).toBeLessThan(0.5);
+  }
+});
+
+test('pause holds, and still shows a sample after a move', async ({ page }) => {
+  await open(page, 'model=cornell-box&scale=0.25&samples=4096&depth=2');
+  await expect.poll(async () => Number(await dataOf(page, 'samples'))).toBeGreaterThanOrEqual(1);
+  await page.getByRole('button', { name: 'Pause' }).click();
+  await expect(canvasOf(page)).toHaveAttribute('data-state', 'paused');
+  const samples = Number(await dataOf(page, 'samples'));
+  expect(samples).toBeLessThan(4096);
+  await page.waitForTimeout(600);
+  expect(Number(await dataOf(page, 'samples'))).toBe(samples);
+  await canvasOf(page).press('ArrowRight');
+  await expect.poll(async () => [await dataOf(page, 'state'), await dataOf(page, 'samples')]).toEqual(['paused', '1']);
+  await canvasOf(page).press('Space');
+  await expect.poll(async () => Number(await dataOf(page, 'samples'))).toBeGreaterThan(1);
+});
+
+test('layers: the walls have the normals that they must have, and materials have colours of their own', async ({ page }) => {
+  await open(page);
+  await finished(page);
+  const layer = async (name: string) => {
+    await page.getByLabel('Show').selectOption(name);
+    await expect(canvasOf(page)).toHaveAttribute('data-layer', name);
+    await finished(page);
+    return photograph(canvasOf(page));
+  };
+  const pixel = async () => {
+    // A point of the left wall and one of the back wall, as in the picking test.
+    const at = async (x: number, y: number) => {
+      const box = (await canvasOf(page).boundingBox())!;
+      return (await pixelsOf(page, await page.screenshot({ clip: { x: box.x + x, y: box.y + y, width: 4, height: 4 } }))).mean;
+    };
+    return { left: await at(70, 250), back: await at(300, 170) };
+  };
+  await layer('normal');
+  const normals = await pixel();
+  // Codes of (1, 0, 0) and (0, 0, 1).
+  [255, 128, 128].forEach((code, k) => expect(Math.abs(normals.left[k]! - code)).toBeLessThan(4));
+  [128, 128, 255].forEach((code, k) => expect(Math.abs(normals.back[k]! - code)).toBeLessThan(4));
+  await layer('materialId');
+  const ids = await pixel();
+  expect(Math.hypot(...ids.left.map((value, k) => value - ids.back[k]!))).toBeGreaterThan(40);
+  await layer('depth');
+  const depth = await pixel();
+  expect(depth.left[0]).toBeGreaterThan(depth.back[0] + 20);
+  await layer('beauty');
+  expect((await pixel()).left[0]).toBeGreaterThan((await pixel()).left[2] * 1.5);
+});
+
+test('dropped models: broken ones are told in a line and the former scene stays, a good one takes its place', async ({ page }) => {
+  await open(page);
+  await finished(page);
+  const before = await photograph(canvasOf(page));
+  const good = triangle([0.05, 0.1, 0.9]);
+  const bad: [name: string, bytes: Buffer, code: string][] = [
+    ['cut.glb', good.subarray(0, good.length - 20), 'gltf/truncated'],
+    ['letter.glb', Buffer.from('Dear reader, this is no model.\n'), 'gltf/not-gltf'],
+    ['notes.txt', Buffer.from('nothing'), 'playground/no-model'],
+    ['empty.glb', triangle([1, 1, 1], (json) => (json['nodes'] = [{}])), 'gltf/no-triangles'],
+    ['bare.glb', triangle([1, 1, 1], (json) => Object.assign(json, { images: [{ uri: 'gone.png' }], textures: [{ source: 0 }], materials: [{ pbrMetallicRoughness: { baseColorTexture: { index: 0 } } }] })), 'gltf/missing-resource'],
+    ['dark.hdr', Buffer.from('#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n'), 'image/truncated'],
+  ];
+  for (const [name, bytes, code] of bad) {
+    await drop(page, [{ name, bytes }]);
+    await expect(errorWith(page, code), `${name} gives ${code}`).toBeVisible();
+    expect((await errorWith(page, code).locator('p').innerText()).split('\n')).toHaveLength(1);
+    expect(await dataOf(page, 'scene')).toBe('Cornell box');
+    await errorWith(page, code).getByRole('button', { name: 'Close' }).click();
+  }
+  await finished(page);
+  const after = await photograph(canvasOf(page));
+  after.mean.forEach((mean, k) => expect(Math.abs(mean - before.mean[k]!)).toBeLessThan(1));
+
+  await drop(page, [{ name: 'cut.glb', bytes: bad[0]![1] }]);
+  await expect(errorWith(page, 'gltf/truncated')).toBeVisible();
+  await drop(page, [{ name: 'sail.glb', bytes: good }]);
+  await expect.poll(() => dataOf(page, 'scene')).toBe('sail.glb');
+  await finished(page);
+  await expect(page.locator('[role=alert]')).toHaveCount(0);
+  await expect(page.locator('[data-statistic=triangles]')).toHaveText('1');
+  await expect(page.locator('#material option:checked')).toHaveText('cloth');
+  const sail = (await photograph(canvasOf(page))).cells[4]!;
+  expect(sail[2]).toBeGreaterThan(1.5 * sail[0]);
+});
+
+test('a dropped .hdr lights the scene and is seen behind it', async ({ page }) => {
+  await open(page);
+  await finished(page);
+  await restarting(page, () => drop(page, [{ name: 'red room.hdr', bytes: hdr([128, 16, 16, 129]) }]));
+  await expect(page.locator('#environment option:checked')).toHaveText('red room.hdr');
+  // Left of the box there is nothing but the surroundings: 1, 0.125, 0.125 through the tone map.
+  const box = (await canvasOf(page).boundingBox())!;
+  const { mean } = await pixelsOf(page, await page.screenshot({ clip: { x: box.x + 2, y: box.y + 100, width: 8, height: 200 } }));
+  expect(mean[0]).toBeGreaterThan(190);
+  expect(mean[1]).toBeLessThan(mean[0] - 60);
+});
+
+test('a lost device is replaced, and edits survive it', async ({ page }) => {
+  await page.addInitScript(() => {
+    const request = GPUAdapter.prototype.requestDevice;
+    GPUAdapter.prototype.requestDevice = async function (descriptor) {
+      const device = await request.call(this, descriptor);
+      (globalThis as { lastDevice?: GPUDevice }).lastDevice = device;
+      return device;
+    };
+  });
+  await open(page);
+  await finished(page);
+  await page.getByLabel('Material', { exact: true }).selectOption({ label: 'red' });
+  await restarting(page, () => page.locator('#parameter-base_color').fill('#2030ff'));
+  const before = await photograph(canvasOf(page));
+  await restarting(page, () => page.evaluate(() => (globalThis as { lastDevice?: GPUDevice }).lastDevice?.destroy()));
+  await expect(page.locator('[data-code="playground/recovered"]')).toBeVisible();
+  await expect(page.locator('[role=alert]')).toHaveCount(0);
+  await page.locator('[data-code="playground/recovered"]').getByRole('button', { name: 'Close' }).click();
+  const after = await photograph(canvasOf(page));
+  after.cells[3]!.forEach((value, k) => expect(Math.abs(value - before.cells[3]![k]!)).toBeLessThan(1));
+});
+
+test('the push-button, and depth as one goes', async ({ page }) => {
+  await open(page, 'model=push-button-low&scale=0.25&samples=4&depth=2');
+  await finished(page);
+  await expect(page.locator('[data-statistic=triangles]')).toHaveText(/^10,[5-9]\d\d$/);
+  const shallow = await photograph(canvasOf(page));
+  expect(shallow.colours).toBeGreaterThan(3000);
+  expect(shallow.deviation).toBeGreaterThan(20);
+  const box = page.getByRole('spinbutton', { name: 'Depth' });
+  await restarting(page, async () => {
+    await box.fill('5');
+    await box.press('Tab');
+  });
+  // Light that has met several surfaces can only add.
+  expect((await photograph(canvasOf(page))).mean[1]).toBeGreaterThan(shallow.mean[1]);
+});
+
+test('every control has a name, and a phone shows the page without scrolling sideways', async ({ page }) => {
+  await page.setViewportSize({ width: 390, height: 780 });
+  await open(page, 'model=cornell-box&scale=0.25&samples=1&depth=2');
+  const nameless = await page.evaluate(() =>
+    [...document.querySelectorAll<HTMLInputElement>('button, input, select, progress')]
+      .filter((control) => !control.textContent?.trim() || control.tagName === 'SELECT')
+      .filter((control) => !control.getAttribute('aria-label') && !control.getAttribute('aria-labelledby') && !(control.labels && control.labels.length > 0))
+      .map((control) => control.outerHTML),
+  );
+  expect(nameless).toEqual([]);
+  const ids = await page.evaluate(() => [...document.querySelectorAll('[id]')].map((one) => one.id));
+  expect(new Set(ids).size).toBe(ids.length);
+  expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(390);
+  await finished(page);
+});
+
+test('without WebGPU the page says so and what to do', async ({ page }) => {
+  await page.addInitScript(() => Object.defineProperty(navigator, 'gpu', { value: undefined, configurable: true }));
+  await page.goto(origin);
+  await expect(page.getByRole('heading', { name: 'This page needs WebGPU' })).toBeVisible();
+  await expect(errorWith(page, 'renderer/no-webgpu')).toBeVisible();
+  await expect(page.locator('#notice li').first()).toContainText('Chrome');
+  await expect(page.getByRole('button', { name: 'Save PNG' })).toBeDisabled();
+});
