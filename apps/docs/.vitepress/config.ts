@@ -18,7 +18,11 @@ export default defineConfig({
     ['link', { rel: 'icon', href: '/mark.svg', type: 'image/svg+xml' }],
     ['meta', { name: 'theme-color', content: '#e2631e' }],
   ],
-  markdown: { config: (md) => void md.use(readmeLinks) },
+  markdown: {
+    // As the API reference writes its links: underscores stay.
+    anchor: { slugify: (text) => text.trim().toLowerCase().replace(/[^\p{L}\p{N}\s_-]+/gu, '').replace(/\s+/g, '-') },
+    config: (md) => void md.use(readmeLinks),
+  },
   vite: {
     // Examples and demos run from the packages' sources; the pages need no build of them.
     resolve: { conditions: ['@glanz/source'] },
