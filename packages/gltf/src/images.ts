@@ -27,23 +27,6 @@ function formatOf(bytes: Uint8Array): string {
   return found[0];
 }
 
-/** Decodes by the browser. */
-export const decodeImageInBrowser: ImageDecoder = async (bytes, mimeType) => {
-  if (typeof createImageBitmap === 'undefined' || typeof OffscreenCanvas === 'undefined') {
-    throw new GltfError('gltf/missing-decoder', 'There is no browser to decode pictures: use loadGltfFile() of @glanz/gltf/node, or pass decodeImage.');
-  }
-  const bitmap = await createImageBitmap(new Blob([bytes], { type: mimeType }), { colorSpaceConversion: 'none', premultiplyAlpha: 'none' });
-  try {
-    const { width, height } = bitmap;
-    const context = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true, colorSpace: 'srgb' });
-    if (!context) throw new GltfError('gltf/missing-decoder', 'The browser gives no 2D canvas to read pictures with.');
-    context.drawImage(bitmap, 0, 0);
-    return { width, height, data: context.getImageData(0, 0, width, height).data as Uint8ClampedArray<ArrayBuffer> };
-  } finally {
-    bitmap.close();
-  }
-};
-
 /** The picture behind a texture; WebP where the document offers it, as it is never there without a reason. */
 function sourceOf(texture: GltfTexture | undefined): number | undefined {
   return texture?.extensions?.['EXT_texture_webp']?.source ?? texture?.source;

@@ -1,9 +1,10 @@
 import { createScene, type Scene } from '@glanz/scene';
+import { decodeImageInBrowser } from './browser-images';
 import { checkDocument } from './check/index';
 import { openContainer } from './container';
 import { readDocument, type GltfDecoders } from './document';
 import { GltfError, oneLine } from './error';
-import { decodeImageInBrowser, TextureTable, type ImageDecoder } from './images';
+import { TextureTable, type ImageDecoder } from './images';
 import { readMaterial } from './materials';
 import { readNodes } from './nodes';
 import { openSource, type GltfInput, type Source } from './source';

@@ -38,6 +38,6 @@ test('without sharp, the error names it', async () => {
 });
 
 test('without a browser, loadGltf says what decodes pictures', async () => {
-  const { decodeImageInBrowser } = await import('../src/images');
+  const { decodeImageInBrowser } = await import('../src/browser-images');
   await expect(decodeImageInBrowser(new Uint8Array(8), 'image/png')).rejects.toThrow(/loadGltfFile\(\)/);
 });

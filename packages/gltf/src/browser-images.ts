@@ -1,0 +1,56 @@
+// A 2D canvas stores colours multiplied by alpha: reading them back loses bits where alpha is low and everything where it
+// is 0. glTF needs them: an OPAQUE material ignores the alpha, and roughness may lie beside an alpha that means nothing.
+// WebGL uploads a bitmap as it is. It costs a context, so only pictures that have transparency go that way.
+import { GltfError } from './error';
+import type { DecodedImage, ImageDecoder } from './images';
+
+/** Decodes by the browser; exact to the codes in the file, whatever their alpha. */
+export const decodeImageInBrowser: ImageDecoder = async (bytes, mimeType) => {
+  if (typeof createImageBitmap === 'undefined' || typeof OffscreenCanvas === 'undefined') {
+    throw new GltfError('gltf/missing-decoder', 'There is no browser to decode pictures: use loadGltfFile() of @glanz/gltf/node, or pass decodeImage.');
+  }
+  // Colour profiles do not count in glTF (3.8.1).
+  const bitmap = await createImageBitmap(new Blob([bytes], { type: mimeType }), { colorSpaceConversion: 'none', premultiplyAlpha: 'none' });
+  try {
+    const drawn = readByCanvas(bitmap);
+    return hasTransparency(drawn.data) ? (readByWebGl(bitmap) ?? drawn) : drawn;
+  } finally {
+    bitmap.close();
+  }
+};
+
+function hasTransparency(data: ArrayLike<number>): boolean {
+  for (let i = 3; i < data.length; i += 4) if (data[i] !== 255) return true;
+  return false;
+}
+
+function readByCanvas(bitmap: ImageBitmap): DecodedImage {
+  const { width, height } = bitmap;
+  const context = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true, colorSpace: 'srgb' });
+  if (!context) throw new GltfError('gltf/missing-decoder', 'The browser gives no 2D canvas to read pictures with.');
+  context.drawImage(bitmap, 0, 0);
+  return { width, height, data: context.getImageData(0, 0, width, height).data as Uint8ClampedArray<ArrayBuffer> };
+}
+
+/** Undefined where there is no WebGL 2, or the picture is too large for it. */
+function readByWebGl(bitmap: ImageBitmap): DecodedImage | undefined {
+  const { width, height } = bitmap;
+  const gl = new OffscreenCanvas(1, 1).getContext('webgl2');
+  if (!gl) return undefined;
+  try {
+    if (Math.max(width, height) > (gl.getParameter(gl.MAX_TEXTURE_SIZE) as number)) return undefined;
+    gl.pixelStorei(gl.UNPACK_PREMULTIPLY_ALPHA_WEBGL, false);
+    gl.pixelStorei(gl.UNPACK_COLORSPACE_CONVERSION_WEBGL, gl.NONE);
+    gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, bitmap);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, gl.createFramebuffer());
+    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, gl.getParameter(gl.TEXTURE_BINDING_2D) as WebGLTexture, 0);
+    if (gl.checkFramebufferStatus(gl.FRAMEBUFFER) !== gl.FRAMEBUFFER_COMPLETE) return undefined;
+    const data = new Uint8Array(width * height * 4);
+    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, data);
+    return gl.getError() === gl.NO_ERROR ? { width, height, data } : undefined;
+  } finally {
+    // Browsers keep few contexts alive; this one is not left to the garbage collector.
+    gl.getExtension('WEBGL_lose_context')?.loseContext();
+  }
+}
