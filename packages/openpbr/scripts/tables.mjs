@@ -13,8 +13,10 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { fresnelDielectric, gaussLegendre, interfaceAlbedo } from './microfacet.mjs';
 
 const MIN_ROUGHNESS = 0.01;
-const LAYOUT = { angles: 17, roughnesses: 24, outer: 20, outerTotal: 12, inner: 12, innerTotal: 16, conductor: 32 };
+const LAYOUT = { angles: 17, roughnesses: 24, outer: 20, outerTotal: 12, inner: 12, innerTotal: 16, conductor: 40 };
 const STEP = 2048;
+/** The conductor's losses are tiny where it is smooth. */
+const FINE_STEP = 65536;
 
 const albedo = interfaceAlbedo(160, 128);
 const MIN_ROOT = Math.sqrt(MIN_ROUGHNESS);
@@ -29,19 +31,19 @@ const softened = (mu, r) => mu + 0.8 * r * r * (1 - mu);
 /** Cosine at angle coordinate t inside of the denser medium: the critical angle sits at t = 1/2. */
 function innerCosineOf(t, eta) {
   const critical = Math.sqrt(Math.max(0, 1 - eta * eta));
-  return t <= 0.5 ? Math.max(1e-6, critical * (1 - (1 - 2 * t) ** 2)) : critical + (1 - critical) * (2 * t - 1) ** 2;
+  return t <= 0.5 ? Math.max(1e-6, critical * Math.sin(Math.PI * t) ** 2) : critical + (1 - critical) * (2 * t - 1) ** 2;
 }
-const innerPosition = (mu, critical) => (mu <= critical ? 0.5 - 0.5 * Math.sqrt((critical - mu) / critical) : 0.5 + 0.5 * Math.sqrt((mu - critical) / (1 - critical)));
+const innerPosition = (mu, critical) => (mu <= critical ? Math.asin(Math.sqrt(mu / critical)) / Math.PI : 0.5 + 0.5 * Math.sqrt((mu - critical) / (1 - critical)));
 /** Cosine-weighted mean of the Fresnel transmittance, about; from inside it follows from reciprocity. */
 function meanThrough(epsilon) {
   const e = Math.abs(epsilon);
   return (1 - (2 * e) / (5.0864 - 3.085 * e)) * (epsilon > 0 ? 1 : etaOf(epsilon) ** 2);
 }
 /**
- * Albedos are divided by single-scattering energies and by the mean transmitted share. Both are tabulated a little high,
- * by as much as interpolation can miss, so that no surface gives back more than it gets.
+ * What the lobes below get is divided by the mean transmitted share, and by the mean loss. Both are tabulated a little
+ * high, by as much as interpolation can miss, so that no surface gives back more than it gets.
  */
-const MARGIN = { conductor: 1.0015, outer: 1.002, inner: 1.004 };
+const MARGIN = { conductor: 1.007, outer: 1.002, inner: 1.004 };
 
 const { nodes, weights } = gaussLegendre(256);
 /** 2 ∫ E(μ) μ dμ. */
@@ -63,20 +65,21 @@ function dielectric() {
   const sample = (position, measure) => Array.from({ length: angles }, (_, i) => measure(position(i / (angles - 1))));
   const total = (epsilon, r) => {
     const eta = etaOf(epsilon);
-    const row = sample((t) => cosineOf(t, r), (mu) => { const { reflect, transmit } = albedo([r * r, r * r], eta, mu); return (epsilon > 0 ? MARGIN.outer : MARGIN.inner) * (reflect + transmit); });
+    const row = sample((t) => cosineOf(t, r), (mu) => { const { reflect, transmit } = albedo([r * r, r * r], eta, mu); return reflect + transmit; });
     return [...row, average((mu) => interpolate(row, (Math.sqrt(mu) * (1 + r)) / (Math.sqrt(mu) + r)))];
   };
-  const share = (eta, r, mu) => { const { reflect, transmit } = albedo([r * r, r * r], eta, mu); return reflect / (reflect + transmit); };
+  // What single scattering loses bounces on among the facets and has forgotten where it came from: of that, the mean is reflected.
+  const share = (epsilon, r, mu) => { const { reflect, transmit } = albedo([r * r, r * r], etaOf(epsilon), mu); return reflect + (1 - reflect - transmit) * (1 - meanThrough(epsilon)); };
   slices(outer, 1, (epsilon, r) => {
     const eta = etaOf(epsilon);
-    const row = sample((t) => cosineOf(t, r), (mu) => share(eta, r, mu) / fresnelDielectric(eta, softened(mu, r)));
+    const row = sample((t) => cosineOf(t, r), (mu) => share(epsilon, r, mu) / fresnelDielectric(eta, softened(mu, r)));
     const mean = average((mu) => interpolate(row, (Math.sqrt(mu) * (1 + r)) / (Math.sqrt(mu) + r)) * fresnelDielectric(eta, softened(mu, r)));
     return [...row, (MARGIN.outer * (1 - mean)) / meanThrough(epsilon)];
   });
   slices(outerTotal, 1, total);
   slices(inner, -1, (epsilon, r) => {
     const eta = etaOf(epsilon);
-    const row = sample((t) => innerCosineOf(t, eta), (mu) => share(eta, r, mu));
+    const row = sample((t) => innerCosineOf(t, eta), (mu) => share(epsilon, r, mu));
     const critical = Math.sqrt(Math.max(0, 1 - eta * eta));
     const mean = average((mu) => interpolate(row, innerPosition(mu, critical)));
     return [...row, (MARGIN.inner * (1 - mean)) / meanThrough(epsilon)];
@@ -90,17 +93,18 @@ function conductor() {
   const values = [];
   for (let j = 0; j < size; j++) {
     const r = roughness(j, size);
-    for (let i = 0; i < size; i++) values.push(MARGIN.conductor * albedo([r * r, r * r], 1.5, cosineOf(i / (size - 1), r)).mirror);
+    const row = Array.from({ length: size }, (_, i) => 1 - albedo([r * r, r * r], 1.5, cosineOf(i / (size - 1), r)).mirror);
+    values.push(...row, MARGIN.conductor * average((mu) => interpolate(row, (Math.sqrt(mu) * (1 + r)) / (Math.sqrt(mu) + r))));
   }
-  return { width: size, height: size, depth: 1, values };
+  return { width: size + 1, height: size, depth: 1, values };
 }
 
 /**
- * Steps of 1/2048, each predicted from its left, upper and deeper neighbours (the three-dimensional Lorenzo predictor);
+ * Whole steps, each predicted from its left, upper and deeper neighbours (the three-dimensional Lorenzo predictor);
  * the differences are small and compress well as text: one printable character each, or "~" and three for a rare big one.
  */
-function encode({ width, height, depth, values }) {
-  const steps = values.map((value) => Math.round(value * STEP));
+function encode({ width, height, depth, values }, step) {
+  const steps = values.map((value) => Math.round(value * step));
   const at = (x, y, z) => (x < 0 || y < 0 || z < 0 ? 0 : steps[(z * height + y) * width + x]);
   let text = '';
   // Characters from "(" on, without the backslash and the backtick, which need care in source text.
@@ -116,7 +120,7 @@ function encode({ width, height, depth, values }) {
       }
     }
   }
-  return `{ width: ${width}, height: ${height}, depth: ${depth}, text: '${text}' }`;
+  return `{ width: ${width}, height: ${height}, depth: ${depth}, step: ${step}, text: '${text}' }`;
 }
 
 const source = `// Made by scripts/tables.mjs; do not edit.
@@ -124,14 +128,11 @@ const source = `// Made by scripts/tables.mjs; do not edit.
 /** How many angles, roughnesses and slices of indices the tables hold. */
 export const TABLE_LAYOUT = { ${Object.entries(LAYOUT).map(([name, value]) => `${name}: ${value}`).join(', ')} } as const;
 
-/** 1 in encoded steps. */
-export const TABLE_STEP = ${STEP};
+// prettier-ignore
+export const ENCODED_DIELECTRIC = ${encode(dielectric(), STEP)};
 
 // prettier-ignore
-export const ENCODED_DIELECTRIC = ${encode(dielectric())};
-
-// prettier-ignore
-export const ENCODED_CONDUCTOR = ${encode(conductor())};
+export const ENCODED_CONDUCTOR = ${encode(conductor(), FINE_STEP)};
 `;
 
 const file = new URL('../src/tables/encoded.ts', import.meta.url);

@@ -1,6 +1,5 @@
 import { gaussLegendre } from '../scripts/microfacet.mjs';
-import { ggxAlpha, ggxSample } from '../src/cpu/index';
-import { evalBsdf, pdfBsdf, prepareBsdf, type Bsdf, type BsdfOptions } from '../src/cpu/bsdf';
+import { evalPdfBsdf, ggxAlpha, ggxSample, prepareBsdf, type BsdfOptions } from '../src/cpu/index';
 import type { OpenPbrParameters, OpenPbrVector } from '../src/parameters/index';
 
 /** A direction by cosine and azimuth. */
@@ -56,7 +55,11 @@ export function integrateHemisphere(p: OpenPbrParameters, wo: OpenPbrVector, g: 
 
 /** Directional albedo and the integral of the density, by quadrature. */
 export function furnace(p: OpenPbrParameters, wo: OpenPbrVector, options?: BsdfOptions, size?: number): { albedo: [number, number, number]; pdf: number } {
-  const b: Bsdf = prepareBsdf(p, wo, options);
-  const [r, g, bl, pdf] = integrateHemisphere(p, wo, (wi) => [...evalBsdf(b, wo, wi), pdfBsdf(b, wo, wi)], size) as [number, number, number, number];
+  const b = prepareBsdf(p, wo, options);
+  const both = (wi: OpenPbrVector): readonly number[] => {
+    const { f, pdf } = evalPdfBsdf(b, wo, wi);
+    return [f[0], f[1], f[2], pdf];
+  };
+  const [r, g, bl, pdf] = integrateHemisphere(p, wo, both, size) as [number, number, number, number];
   return { albedo: [r, g, bl], pdf };
 }

@@ -1,10 +1,11 @@
 import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
 import { cosineSample, eon } from './diffuse';
-import { energyConductor, energyShare, energyShareMean, energyTotal } from './energy';
-import { dielectricEpsilon, fresnelDielectric, fresnelMetal } from './fresnel';
-import { ggx, ggxAlpha, ggxSample, halfVector, mirrorView, viewRoughness, type Slopes } from './ggx';
+import { energyLost, energyLostMean, energyShare, energyShareMean, energyTotal, fresnelMean } from './energy';
+import { dielectricEpsilon, fresnelDielectric, fresnelMetal, fresnelMetalMean } from './fresnel';
+import { ggx, ggxAlpha, ggxSample, halfVector, mirrorCosine, mirrorRoughness, viewRoughness, type Slopes } from './ggx';
 import { clamp, dot } from './vector';
 
+/** What {@link prepareBsdf} may be told. */
 export interface BsdfOptions {
   /** As the flag OPENPBR_MULTISCATTER; default true. */
   readonly multipleScattering?: boolean;
@@ -13,7 +14,7 @@ export interface BsdfOptions {
 /** A surface seen from one direction; twin of the WGSL struct `OpenPbrBsdf`. */
 export interface Bsdf {
   readonly alpha: Slopes;
-  /** Probability of sampling the microfacet lobe. */
+  /** Probability of sampling the microfacet lobe; else it is the cosine. */
   readonly specularProbability: number;
   /** Factor on the diffuse lobe, without its colour. */
   readonly diffuseScale: number;
@@ -21,7 +22,17 @@ export interface Bsdf {
   readonly diffuseRoughness: number;
   /** Directional albedo. */
   readonly albedo: OpenPbrColor;
-  readonly metal: { readonly f0: OpenPbrColor; readonly tint: OpenPbrColor; readonly weight: number; readonly scale: OpenPbrColor };
+  readonly metal: {
+    readonly f0: OpenPbrColor;
+    readonly tint: OpenPbrColor;
+    readonly specularWeight: number;
+    readonly metalness: number;
+    /** See {@link mirrorRoughness}. */
+    readonly roughness: number;
+    /** Directional albedo of multiple scattering, and its mean loss. */
+    readonly bounced: OpenPbrColor;
+    readonly meanLost: number;
+  };
   readonly dielectric: { readonly eta: number; readonly epsilon: number; readonly roughness: number; readonly scale: OpenPbrColor };
 }
 
@@ -50,18 +61,23 @@ export function prepareBsdf(p: OpenPbrParameters, wo: OpenPbrVector, { multipleS
   const f0 = rgb((i) => p.base_weight * p.base_color[i]);
   const weight = Math.min(p.specular_weight, 1e6);
   const alpha = ggxAlpha(roughness, p.specular_roughness_anisotropy);
-  const view = mirrorView(alpha, roughness, p.specular_roughness_anisotropy, wo, mu);
-  const energy = energyConductor(...view);
-  const metalScale = rgb((i) => p.base_metalness * (multipleScattering ? 1 + Math.min(f0[i] * Math.max(weight, 1), 1) * ((1 - energy) / energy) : 1));
+  const mirror = mirrorRoughness(roughness, p.specular_roughness_anisotropy);
+  const mirrorMu = mirrorCosine(alpha, wo, mu);
+  const lost = multipleScattering ? energyLost(mirror, mirrorMu) : 0;
+  const meanLost = Math.max(energyLostMean(mirror), 1e-7);
   const typical = fresnelMetal(f0, p.specular_color, mu + 0.8 * roughness * roughness * (1 - mu), weight);
+  const mean = fresnelMetalMean(f0, p.specular_color, weight);
+  const limit = clamp(weight, 1e-6, 1);
+  const bounced = rgb((i) => (p.base_metalness * lost * (1 - meanLost) * mean[i] * mean[i]) / Math.max(limit - mean[i] * meanLost, 1e-7));
   const epsilon = dielectricEpsilon(p.specular_ior, p.specular_weight);
   const share = energyShare(epsilon, viewRoughness(alpha, roughness, wo), mu);
-  const total = multipleScattering ? energyTotal(epsilon, ...view) : 1;
+  const more = multipleScattering ? Math.max(1 - energyTotal(epsilon, mirror, mirrorMu), 0) * fresnelMean(epsilon) : 0;
+  const boost = multipleScattering ? share / Math.max(share - more, 0.1 * share + 1e-7) : 1;
   const insulator = 1 - p.base_metalness;
-  const specular = rgb((i) => metalScale[i] * typical[i] * (multipleScattering ? energy : 1) + insulator * share * p.specular_color[i]);
-  const diffuse = rgb((i) => insulator * p.base_weight * (1 - share) * p.base_color[i]);
+  const specular = rgb((i) => p.base_metalness * typical[i] * (1 - lost) + insulator * share * p.specular_color[i]);
+  const spread = rgb((i) => bounced[i] + insulator * p.base_weight * (1 - share) * p.base_color[i]);
   const bright = sum(specular);
-  const all = bright + sum(diffuse);
+  const all = bright + sum(spread);
   const reflected = energyShareMean(epsilon, roughness);
   return {
     alpha,
@@ -69,9 +85,9 @@ export function prepareBsdf(p: OpenPbrParameters, wo: OpenPbrVector, { multipleS
     diffuseScale: ((insulator * p.base_weight * (1 - share)) / Math.max(1 - reflected, 1e-4)) * (1 - 0.08 * p.base_diffuse_roughness * reflected),
     diffuseColor: p.base_color,
     diffuseRoughness: p.base_diffuse_roughness,
-    albedo: rgb((i) => Math.min(specular[i] + diffuse[i], 1)),
-    metal: { f0, tint: p.specular_color, weight, scale: metalScale },
-    dielectric: { eta: (1 + epsilon) / (1 - epsilon), epsilon, roughness, scale: rgb((i) => (insulator * p.specular_color[i]) / total) },
+    albedo: rgb((i) => Math.min(specular[i] + spread[i], 1)),
+    metal: { f0, tint: p.specular_color, specularWeight: weight, metalness: p.base_metalness, roughness: mirror, bounced, meanLost },
+    dielectric: { eta: (1 + epsilon) / (1 - epsilon), epsilon, roughness, scale: rgb((i) => insulator * p.specular_color[i] * boost) },
   };
 }
 
@@ -79,21 +95,25 @@ function scatter(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector
   if (Math.min(wo[2], wi[2]) <= 0) return { f: [0, 0, 0], pdf: 0 };
   const c = clamp(dot(wo, h), 0, 1);
   const [value, density] = ggx(b.alpha, wo, wi, h);
-  const metal = fresnelMetal(b.metal.f0, b.metal.tint, c, b.metal.weight);
+  const metal = fresnelMetal(b.metal.f0, b.metal.tint, c, b.metal.specularWeight);
   const dielectric = fresnelDielectric(b.dielectric.eta, c);
   const scale = b.diffuseScale * wi[2] * (1 - energyShare(b.dielectric.epsilon, viewRoughness(b.alpha, b.dielectric.roughness, wi), wi[2]));
+  const bounced = (energyLost(b.metal.roughness, mirrorCosine(b.alpha, wi, wi[2])) / b.metal.meanLost / Math.PI) * wi[2];
   const diffuse = eon(b.diffuseColor, b.diffuseRoughness, wo, wi);
   return {
-    f: rgb((i) => value * (b.metal.scale[i] * metal[i] + b.dielectric.scale[i] * dielectric) + scale * diffuse[i]),
+    f: rgb((i) => value * (b.metal.metalness * metal[i] + b.dielectric.scale[i] * dielectric) + bounced * b.metal.bounced[i] + scale * diffuse[i]),
     pdf: b.specularProbability * density + ((1 - b.specularProbability) * wi[2]) / Math.PI,
   };
 }
 
+/** f · |cos θ_i| and density together; twin of `openpbr_eval_pdf`. `wo` is the one that {@link prepareBsdf} had. */
+export const evalPdfBsdf = (b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): { f: OpenPbrColor; pdf: number } => scatter(b, wo, wi, halfVector(wo, wi));
+
 /** f · |cos θ_i|; twin of `openpbr_eval`. `wo` is the one that {@link prepareBsdf} had. */
-export const evalBsdf = (b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): OpenPbrColor => scatter(b, wo, wi, halfVector(wo, wi)).f;
+export const evalBsdf = (b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): OpenPbrColor => evalPdfBsdf(b, wo, wi).f;
 
 /** Density of {@link sampleBsdf} per solid angle; twin of `openpbr_pdf`. */
-export const pdfBsdf = (b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): number => scatter(b, wo, wi, halfVector(wo, wi)).pdf;
+export const pdfBsdf = (b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): number => evalPdfBsdf(b, wo, wi).pdf;
 
 /** A direction for `u` in [0, 1)³; twin of `openpbr_sample`. */
 export function sampleBsdf(b: Bsdf, wo: OpenPbrVector, u: readonly [number, number, number]): BsdfSample {

@@ -30,13 +30,23 @@ function spread(r: number, mu: number): number {
   return (x * (1 + r)) / (x + r);
 }
 
-/** Energy that a perfect mirror of the given roughness reflects by single scattering; twin of `openpbr_energy_conductor`. */
-export function energyConductor(roughness: number, mu: number): number {
-  const r = Math.max(roughness, TABLE_MIN_ROUGHNESS);
-  return tableLookup(OPENPBR_TABLES.conductor, [texel(spread(r, mu), 0, TABLE_CONDUCTOR, TABLE_CONDUCTOR), roughnessAxis(r, TABLE_CONDUCTOR)]);
+/** Cosine-weighted mean of the reflectance of a smooth interface, about; twin of `openpbr_fresnel_mean`. */
+export function fresnelMean(epsilon: number): number {
+  const e = Math.abs(epsilon);
+  const mean = (2 * e) / (5.0864 - 3.085 * e);
+  return epsilon >= 0 ? mean : 1 - ((1 - e) / (1 + e)) ** 2 * (1 - mean);
 }
 
-/** Share of the energy that an interface reflects, the rest being refracted; twin of `openpbr_energy_share`. */
+/** Energy that a perfect mirror of the given roughness loses by single scattering; twin of `openpbr_energy_lost`. */
+export function energyLost(roughness: number, mu: number): number {
+  const r = Math.max(roughness, TABLE_MIN_ROUGHNESS);
+  return tableLookup(OPENPBR_TABLES.conductor, [texel(spread(r, mu), 0, TABLE_CONDUCTOR, TABLE_CONDUCTOR + 1), roughnessAxis(r, TABLE_CONDUCTOR)]);
+}
+
+/** The cosine-weighted mean of {@link energyLost} over all directions; twin of `openpbr_energy_lost_mean`. */
+export const energyLostMean = (roughness: number): number => tableLookup(OPENPBR_TABLES.conductor, [(TABLE_CONDUCTOR + 0.5) / (TABLE_CONDUCTOR + 1), roughnessAxis(Math.max(roughness, TABLE_MIN_ROUGHNESS), TABLE_CONDUCTOR)]);
+
+/** Share of the energy that an interface reflects by all scattering, the rest being refracted; twin of `openpbr_energy_share`. */
 export function energyShare(epsilon: number, roughness: number, mu: number): number {
   if (epsilon === 0) return 0;
   const r = Math.max(roughness, TABLE_MIN_ROUGHNESS);
@@ -47,7 +57,7 @@ export function energyShare(epsilon: number, roughness: number, mu: number): num
     return Math.min(fresnel * tableLookup(OPENPBR_TABLES.dielectric, [angleAxis(spread(r, mu)), y, slice('outer', epsilon)]), 1);
   }
   const critical = Math.sqrt(1 - eta * eta);
-  const t = mu > critical ? 0.5 + 0.5 * Math.sqrt((mu - critical) / (1 - critical)) : 0.5 - 0.5 * Math.sqrt((critical - mu) / critical);
+  const t = mu > critical ? 0.5 + 0.5 * Math.sqrt((mu - critical) / (1 - critical)) : Math.asin(Math.sqrt(mu / critical)) / Math.PI;
   return Math.min(tableLookup(OPENPBR_TABLES.dielectric, [angleAxis(t), y, slice('inner', epsilon)]), 1);
 }
 
@@ -55,9 +65,7 @@ export function energyShare(epsilon: number, roughness: number, mu: number): num
 export function energyShareMean(epsilon: number, roughness: number): number {
   if (epsilon === 0) return 0;
   const y = roughnessAxis(Math.max(roughness, TABLE_MIN_ROUGHNESS), TABLE_ROUGHNESSES);
-  const e = Math.abs(epsilon);
-  const through = (1 - (2 * e) / (5.0864 - 3.085 * e)) * (epsilon > 0 ? 1 : ((1 - e) / (1 + e)) ** 2);
-  return 1 - Math.min(through * tableLookup(OPENPBR_TABLES.dielectric, [(TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1), y, slice(epsilon > 0 ? 'outer' : 'inner', epsilon)]), 1);
+  return 1 - Math.min((1 - fresnelMean(epsilon)) * tableLookup(OPENPBR_TABLES.dielectric, [(TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1), y, slice(epsilon > 0 ? 'outer' : 'inner', epsilon)]), 1);
 }
 
 /** Energy that an interface reflects and refracts by single scattering; twin of `openpbr_energy_total`. */

@@ -34,6 +34,15 @@ export function fresnelMetal(f0: OpenPbrColor, tint: OpenPbrColor, c: number, we
   return [channel(0), channel(1), channel(2)];
 }
 
+/** The cosine-weighted mean of {@link fresnelMetal} over all directions; twin of `openpbr_f82_mean`. */
+export function fresnelMetalMean(f0: OpenPbrColor, tint: OpenPbrColor, weight = 1): [number, number, number] {
+  const channel = (i: 0 | 1 | 2): number => {
+    const edge = (f0[i] + (1 - f0[i]) * (6 / 7) ** 5) * (1 - tint[i]) * (7 ** 7 / 6 ** 6);
+    return clamp(weight * (f0[i] + (1 - f0[i]) / 21 - edge / 126), 0, Math.min(weight, 1));
+  };
+  return [channel(0), channel(1), channel(2)];
+}
+
 /**
  * The signed root of the reflectance at normal incidence, (η - 1)/(η + 1), after specular_weight has scaled its square;
  * twin of `openpbr_dielectric_epsilon`.

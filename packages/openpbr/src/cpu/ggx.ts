@@ -38,13 +38,11 @@ export function ggx(alpha: Slopes, wo: OpenPbrVector, wi: OpenPbrVector, h: Open
 /** Round roughness that reflects as large a share of the light towards `w`; twin of `openpbr_view_roughness`. */
 export const viewRoughness = (alpha: Slopes, roughness: number, w: OpenPbrVector): number => Math.sqrt(Math.min(Math.hypot(alpha[0] * w[0], alpha[1] * w[1], roughness * roughness * w[2]), 1));
 
-/** Roughness and cosine of the round highlight that loses as much by single scattering; twin of `openpbr_mirror_view`. */
-export function mirrorView(alpha: Slopes, roughness: number, anisotropy: number, w: OpenPbrVector, mu: number): [roughness: number, mu: number] {
-  const steepness = Math.hypot(alpha[0] * w[0], alpha[1] * w[1]) / Math.max(roughness * roughness, 1e-4);
-  // With a round highlight and a unit direction this is `mu` but for its clamping.
-  if (anisotropy === 0) return [roughness, mu];
-  return [roughness * (1 - 0.065 * anisotropy * roughness), mu / Math.hypot(mu, steepness)];
-}
+/** Roughness of the round highlight that loses as much by single scattering; twin of `openpbr_mirror_roughness`. */
+export const mirrorRoughness = (roughness: number, anisotropy: number): number => roughness * (1 - 0.065 * anisotropy * roughness);
+
+/** The cosine that goes with {@link mirrorRoughness}: `mu` of `w` if the highlight is round; twin of `openpbr_mirror_cosine`. */
+export const mirrorCosine = (alpha: Slopes, w: OpenPbrVector, mu: number): number => mu / Math.hypot(mu, (Math.hypot(alpha[0] * w[0], alpha[1] * w[1]) * Math.SQRT2) / Math.hypot(alpha[0], alpha[1]));
 
 /** The half vector, finite where two grazing directions cancel; twin of `openpbr_half`. */
 export const halfVector = (wo: OpenPbrVector, wi: OpenPbrVector): OpenPbrVector => normalize([wo[0] + wi[0], wo[1] + wi[1], Math.max(wo[2] + wi[2], 1e-7)]);

@@ -1,5 +1,5 @@
-export { albedoBsdf, emittedRadiance, evalBsdf, pdfBsdf, prepareBsdf, sampleBsdf, type Bsdf, type BsdfOptions, type BsdfSample } from './bsdf';
-export { dielectricEpsilon, fresnelDielectric, fresnelMetal } from './fresnel';
-export { ggx, ggxAlpha, ggxDistribution, ggxMasking, ggxMaskingShadowing, ggxSample, halfVector, mirrorView, viewRoughness, type Slopes } from './ggx';
+export { albedoBsdf, emittedRadiance, evalBsdf, evalPdfBsdf, pdfBsdf, prepareBsdf, sampleBsdf, type Bsdf, type BsdfOptions, type BsdfSample } from './bsdf';
+export { dielectricEpsilon, fresnelDielectric, fresnelMetal, fresnelMetalMean } from './fresnel';
+export { ggx, ggxAlpha, ggxDistribution, ggxMasking, ggxMaskingShadowing, ggxSample, halfVector, mirrorCosine, mirrorRoughness, viewRoughness, type Slopes } from './ggx';
 export { cosineSample, eon } from './diffuse';
-export { energyConductor, energyShare, energyShareMean, energyTotal, tableLookup } from './energy';
+export { energyLost, energyLostMean, energyShare, energyShareMean, energyTotal, fresnelMean, tableLookup } from './energy';

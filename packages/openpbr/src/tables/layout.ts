@@ -7,11 +7,11 @@ const innerTotal = inner + TABLE_LAYOUT.inner;
 
 /** The dielectric table's blocks: first slice and number of slices. Names as in scripts/tables.mjs. */
 export const TABLE_BLOCKS = {
-  /** Share of the energy that is reflected, over the Fresnel reflectance at the softened cosine; seen from the thinner medium. */
+  /** Share of the energy that is reflected by all scattering, over the Fresnel reflectance at the softened cosine; seen from the thinner medium. */
   outer: [0, TABLE_LAYOUT.outer],
   /** Energy reflected and refracted by single scattering; seen from the thinner medium. */
   outerTotal: [outerTotal, TABLE_LAYOUT.outerTotal],
-  /** Share of the energy that is reflected; seen from the denser medium. */
+  /** Share of the energy that is reflected by all scattering; seen from the denser medium. */
   inner: [inner, TABLE_LAYOUT.inner],
   /** Energy reflected and refracted by single scattering; seen from the denser medium. */
   innerTotal: [innerTotal, TABLE_LAYOUT.innerTotal],

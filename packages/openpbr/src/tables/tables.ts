@@ -1,4 +1,4 @@
-import { ENCODED_CONDUCTOR, ENCODED_DIELECTRIC, TABLE_LAYOUT, TABLE_STEP } from './encoded';
+import { ENCODED_CONDUCTOR, ENCODED_DIELECTRIC, TABLE_LAYOUT } from './encoded';
 
 export { TABLE_LAYOUT };
 
@@ -16,11 +16,13 @@ interface EncodedTable {
   readonly width: number;
   readonly height: number;
   readonly depth: number;
+  /** How many steps are 1. */
+  readonly step: number;
   readonly text: string;
 }
 
 /** The inverse of `encode` in scripts/tables.mjs. */
-function decode({ width, height, depth, text }: EncodedTable): Float32Array<ArrayBuffer> {
+function decode({ width, height, depth, step: unit, text }: EncodedTable): Float32Array<ArrayBuffer> {
   const steps = new Int32Array(width * height * depth);
   const row = width;
   const slice = width * height;
@@ -41,7 +43,7 @@ function decode({ width, height, depth, text }: EncodedTable): Float32Array<Arra
     if (text.charCodeAt(at - 1) === 126) code = (digit() * 80 + digit()) * 80 + digit();
     steps[i] = predicted + (code % 2 === 0 ? code / 2 : -(code + 1) / 2);
   }
-  return Float32Array.from(steps, (step) => step / TABLE_STEP);
+  return Float32Array.from(steps, (step) => step / unit);
 }
 
 function table(encoded: EncodedTable): OpenPbrTable {

@@ -22,12 +22,13 @@ fn openpbr_half(wo: vec3f, wi: vec3f) -> vec3f {
 
 fn openpbr_eval_pdf(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec4f      // both for the price of one: (f · |cos θ_i|, pdf)
  * fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample // u uniform in [0, 1)³
- * fn openpbr_albedo(b: OpenPbrBsdf, wo: vec3f) -> vec3f                   // reflected part of uniform light, approximate for rough tinted metal
+ * fn openpbr_albedo(b: OpenPbrBsdf, wo: vec3f) -> vec3f                   // reflected part of uniform light, approximate for tinted metal
  * fn openpbr_emission(p: OpenPbrParameters, wo: vec3f) -> vec3f           // radiance
  * fn openpbr_opacity(p: OpenPbrParameters) -> f32
  * ```
  *
- * Metal and dielectric share one microfacet lobe: they differ by the Fresnel factor only. The diffuse lobe below the
+ * Metal and dielectric share one microfacet lobe: they differ by the Fresnel factor only. Diffuse reflection and what
+ * bounces on between the facets of metal are sampled by the cosine. The diffuse lobe below the
  * dielectric is weighted by (1 - E(μ_i))(1 - E(μ_o))/(1 - E_mean), which is reciprocal and loses nothing (Ashikhmin,
  * Premože and Shirley 2000; Kelemen and Szirmay-Kalos 2001).
  */
@@ -35,7 +36,7 @@ export const openpbr = wgslModule(
   'openpbr',
   /* wgsl */ `struct OpenPbrBsdf {
   alpha: vec2f,
-  // Probability of sampling the microfacet lobe.
+  // Probability of sampling the microfacet lobe; else it is the cosine.
   specular_probability: f32,
   // Factor on the diffuse lobe, without its colour.
   diffuse_scale: f32,
@@ -67,29 +68,30 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
   b.dielectric_weight = 1.0;
   //#if OPENPBR_SPECULAR
   b.alpha = openpbr_alpha(p.specular_roughness, p.specular_roughness_anisotropy);
-  let view = openpbr_mirror_view(b.alpha, p.specular_roughness, p.specular_roughness_anisotropy, wo, mu);
   //#endif
   //#if OPENPBR_METAL
-  b.metal = openpbr_metal_prepare(p, mu, view);
+  b.metal = openpbr_metal_prepare(p, b.alpha, wo, mu);
   specular += b.metal.albedo;
   b.dielectric_weight -= p.base_metalness;
   //#endif
   b.diffuse_scale = b.dielectric_weight * p.base_weight;
   //#if OPENPBR_DIELECTRIC
-  b.dielectric = openpbr_dielectric_prepare(p, mu, openpbr_view_roughness(b.alpha, p.specular_roughness, wo), view);
+  b.dielectric = openpbr_dielectric_prepare(p, b.alpha, wo, mu);
   specular += b.dielectric_weight * b.dielectric.share * p.specular_color;
   b.diffuse_scale *= 1.0 - b.dielectric.share;
   //#endif
   b.albedo = specular;
   b.specular_probability = 1.0;
+  //#if OPENPBR_COSINE
+  var spread = vec3f(0.0);
+  //#if OPENPBR_METAL
+  spread += b.metal.bounced;
+  //#endif
   //#if OPENPBR_DIFFUSE
   b.diffuse_color = p.base_color;
   b.diffuse_roughness = p.base_diffuse_roughness;
   let diffuse = b.diffuse_scale * p.base_color;
-  b.albedo += diffuse;
-  let bright = dot(specular, vec3f(1.0));
-  let total = bright + dot(diffuse, vec3f(1.0));
-  b.specular_probability = select(0.5, bright / total, total > 0.0);
+  spread += diffuse;
   //#if OPENPBR_DIELECTRIC
   let reflected = openpbr_energy_share_mean(b.dielectric.epsilon, b.dielectric.roughness);
   b.diffuse_scale /= max(1.0 - reflected, 1e-4);
@@ -98,6 +100,11 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
   b.diffuse_scale *= 1.0 - 0.08 * b.diffuse_roughness * reflected;
   //#endif
   //#endif
+  //#endif
+  b.albedo += spread;
+  let bright = dot(specular, vec3f(1.0));
+  let total = bright + dot(spread, vec3f(1.0));
+  b.specular_probability = select(0.5, bright / total, total > 0.0);
   //#endif
   return b;
 }
@@ -118,12 +125,20 @@ fn openpbr_scatter(b: OpenPbrBsdf, wo: vec3f, wi: vec3f, h: vec3f) -> vec4f {
   //#endif
   result += vec4f(reflectance * ggx.x, b.specular_probability * ggx.y);
   //#endif
-  //#if OPENPBR_DIFFUSE
-  var scale = b.diffuse_scale * wi.z;
+  //#if OPENPBR_COSINE
   var probability = 1.0;
   //#if OPENPBR_SPECULAR
   probability -= b.specular_probability;
   //#endif
+  result.w += probability * wi.z * 0.31830989;
+  //#if OPENPBR_METAL
+  //#if OPENPBR_MULTISCATTER
+  result += vec4f(openpbr_metal_bounced(b.metal, b.alpha, wi), 0.0);
+  //#endif
+  //#endif
+  //#endif
+  //#if OPENPBR_DIFFUSE
+  var scale = b.diffuse_scale * wi.z;
   //#if OPENPBR_DIELECTRIC
   scale *= 1.0 - openpbr_energy_share(b.dielectric.epsilon, openpbr_view_roughness(b.alpha, b.dielectric.roughness, wi), wi.z);
   //#endif
@@ -132,7 +147,7 @@ fn openpbr_scatter(b: OpenPbrBsdf, wo: vec3f, wi: vec3f, h: vec3f) -> vec4f {
   //#else
   let diffuse = b.diffuse_color * 0.31830989;
   //#endif
-  result += vec4f(diffuse * scale, probability * wi.z * 0.31830989);
+  result += vec4f(diffuse * scale, 0.0);
   //#endif
   return result;
 }
@@ -163,7 +178,7 @@ fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample {
     h = openpbr_ggx_sample(b.alpha, wo, u.xy);
     s.wi = 2.0 * dot(wo, h) * h - wo;
   }
-  //#if OPENPBR_DIFFUSE
+  //#if OPENPBR_COSINE
   else {
     s.wi = openpbr_cosine_sample(u.xy);
     h = openpbr_half(wo, s.wi);
@@ -189,7 +204,7 @@ fn openpbr_albedo(b: OpenPbrBsdf, wo: vec3f) -> vec3f {
     gated('OPENPBR_SPECULAR', openpbrGgx),
     gated('OPENPBR_METAL', openpbrMetal),
     gated('OPENPBR_DIELECTRIC', openpbrDielectric),
-    gated('OPENPBR_DIFFUSE', openpbrCosine),
+    gated('OPENPBR_COSINE', openpbrCosine),
     gated('OPENPBR_DIFFUSE_ROUGHNESS', openpbrEon),
   ],
 );

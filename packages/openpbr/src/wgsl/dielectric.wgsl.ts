@@ -1,6 +1,7 @@
 import { wgslModule } from '@glanz/wgsl';
 import { openpbrEnergy } from './energy.wgsl';
 import { openpbrFresnelDielectric } from './fresnel.wgsl';
+import { openpbrGgx } from './ggx.wgsl';
 import { openPbrStruct } from './record';
 
 /**
@@ -25,18 +26,20 @@ fn openpbr_dielectric_epsilon(p: OpenPbrParameters) -> f32 {
   return sign(epsilon) * min(abs(epsilon) * sqrt(p.specular_weight), 0.9999);
 }
 
-// view_roughness: see openpbr_view_roughness; view: see openpbr_mirror_view.
-fn openpbr_dielectric_prepare(p: OpenPbrParameters, mu: f32, view_roughness: f32, view: vec2f) -> OpenPbrDielectric {
+fn openpbr_dielectric_prepare(p: OpenPbrParameters, alpha: vec2f, wo: vec3f, mu: f32) -> OpenPbrDielectric {
   var d: OpenPbrDielectric;
   d.epsilon = openpbr_dielectric_epsilon(p);
   d.eta = (1.0 + d.epsilon) / (1.0 - d.epsilon);
   d.roughness = p.specular_roughness;
-  d.share = openpbr_energy_share(d.epsilon, view_roughness, mu);
+  d.share = openpbr_energy_share(d.epsilon, openpbr_view_roughness(alpha, d.roughness, wo), mu);
   d.scale = p.specular_color;
   //#if OPENPBR_MULTISCATTER
-  d.scale /= openpbr_energy_total(d.epsilon, view.x, view.y);
+  // What single scattering loses bounces on, and of that the mean is reflected.
+  let roughness = openpbr_mirror_roughness(d.roughness, p.specular_roughness_anisotropy);
+  let more = max(1.0 - openpbr_energy_total(d.epsilon, roughness, openpbr_mirror_cosine(alpha, wo, mu)), 0.0) * openpbr_fresnel_mean(d.epsilon);
+  d.scale *= d.share / max(d.share - more, 0.1 * d.share + 1e-7);
   //#endif
   return d;
 }`,
-  [openPbrStruct.module, openpbrFresnelDielectric, openpbrEnergy],
+  [openPbrStruct.module, openpbrGgx, openpbrFresnelDielectric, openpbrEnergy],
 );

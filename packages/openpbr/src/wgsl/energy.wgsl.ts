@@ -8,7 +8,8 @@ const axis = (first: number, count: number, size: number): [offset: string, fact
 
 const [angle0, angle1] = axis(0, TABLE_ANGLES, TABLE_ANGLES + 1);
 const [rough0, rough1] = axis(0, TABLE_ROUGHNESSES, TABLE_ROUGHNESSES);
-const [metal0, metal1] = axis(0, TABLE_CONDUCTOR, TABLE_CONDUCTOR);
+const [metal0, metal1] = axis(0, TABLE_CONDUCTOR, TABLE_CONDUCTOR + 1);
+const [metalRough0, metalRough1] = axis(0, TABLE_CONDUCTOR, TABLE_CONDUCTOR);
 const slice = (block: keyof typeof TABLE_BLOCKS) => axis(TABLE_BLOCKS[block][0], TABLE_BLOCKS[block][1], TABLE_DEPTH);
 const [outer0, outer1] = slice('outer');
 const [outerTotal0, outerTotal1] = slice('outerTotal');
@@ -31,15 +32,29 @@ fn openpbr_energy_angle(r: f32, mu: f32) -> f32 {
 }
 
 //#if OPENPBR_METAL
-// Energy that a perfect mirror of roughness r reflects by single scattering.
-fn openpbr_energy_conductor(roughness: f32, mu: f32) -> f32 {
+// Energy that a perfect mirror of roughness r loses by single scattering.
+fn openpbr_energy_lost(roughness: f32, mu: f32) -> f32 {
   let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
-  return openpbr_table_conductor(vec2f(${metal0} + ${metal1} * openpbr_energy_angle(r, mu), ${metal0} + ${metal1} * ${unit}));
+  return openpbr_table_conductor(vec2f(${metal0} + ${metal1} * openpbr_energy_angle(r, mu), ${metalRough0} + ${metalRough1} * ${unit}));
+}
+
+// Its cosine-weighted mean over all directions.
+fn openpbr_energy_lost_mean(roughness: f32) -> f32 {
+  let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
+  return openpbr_table_conductor(vec2f(${float((TABLE_CONDUCTOR + 0.5) / (TABLE_CONDUCTOR + 1))}, ${metalRough0} + ${metalRough1} * ${unit}));
 }
 //#endif
 
 //#if OPENPBR_DIELECTRIC
-// Share of the energy that the interface reflects, the rest being refracted.
+// Cosine-weighted mean of the reflectance of a smooth interface, about; from inside it follows from reciprocity.
+fn openpbr_fresnel_mean(epsilon: f32) -> f32 {
+  let e = abs(epsilon);
+  let mean = 2.0 * e / (5.0864 - 3.085 * e);
+  let eta = (1.0 - e) / (1.0 + e);
+  return select(1.0 - eta * eta * (1.0 - mean), mean, epsilon >= 0.0);
+}
+
+// Share of the energy that the interface reflects by all scattering, the rest being refracted.
 fn openpbr_energy_share(epsilon: f32, roughness: f32, mu: f32) -> f32 {
   if (epsilon == 0.0) { return 0.0; }
   let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
@@ -51,7 +66,7 @@ fn openpbr_energy_share(epsilon: f32, roughness: f32, mu: f32) -> f32 {
     scale = openpbr_fresnel_dielectric(eta, mu + 0.8 * r * r * (1.0 - mu));
   } else {
     let critical = sqrt(1.0 - eta * eta);
-    at.x = select(0.5 - 0.5 * sqrt(max(critical - mu, 0.0) / critical), 0.5 + 0.5 * sqrt(max(mu - critical, 0.0) / (1.0 - critical)), mu > critical);
+    at.x = select(0.31830989 * asin(sqrt(min(mu / critical, 1.0))), 0.5 + 0.5 * sqrt(max(mu - critical, 0.0) / (1.0 - critical)), mu > critical);
     at.z = ${inner0} + ${inner1} * z;
   }
   at.x = ${angle0} + ${angle1} * at.x;
@@ -62,12 +77,8 @@ fn openpbr_energy_share(epsilon: f32, roughness: f32, mu: f32) -> f32 {
 fn openpbr_energy_share_mean(epsilon: f32, roughness: f32) -> f32 {
   if (epsilon == 0.0) { return 0.0; }
   let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
-  let e = abs(epsilon);
-  let z = sqrt(e);
-  // Mean transmittance of the smooth interface, about; the table holds the ratio to it.
-  var through = 1.0 - 2.0 * e / (5.0864 - 3.085 * e);
-  if (epsilon < 0.0) { through *= (1.0 - e) * (1.0 - e) / ((1.0 + e) * (1.0 + e)); }
-  return 1.0 - min(through * openpbr_table_dielectric(vec3f(${float((TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1))}, ${rough0} + ${rough1} * ${unit}, select(${inner0} + ${inner1} * z, ${outer0} + ${outer1} * z, epsilon > 0.0))), 1.0);
+  let z = sqrt(abs(epsilon));
+  return 1.0 - min((1.0 - openpbr_fresnel_mean(epsilon)) * openpbr_table_dielectric(vec3f(${float((TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1))}, ${rough0} + ${rough1} * ${unit}, select(${inner0} + ${inner1} * z, ${outer0} + ${outer1} * z, epsilon > 0.0))), 1.0);
 }
 
 // Energy that the interface reflects and refracts by single scattering.

@@ -9,6 +9,8 @@ export interface OpenPbrFlags {
   /** Reflection by the dielectric base. Without it the diffuse lobe is not attenuated. */
   readonly OPENPBR_DIELECTRIC: boolean;
   readonly OPENPBR_DIFFUSE: boolean;
+  /** Directions are sampled by the cosine too: OPENPBR_DIFFUSE, or OPENPBR_METAL with OPENPBR_MULTISCATTER. */
+  readonly OPENPBR_COSINE: boolean;
   /** EON instead of Lambert. */
   readonly OPENPBR_DIFFUSE_ROUGHNESS: boolean;
   readonly OPENPBR_ANISOTROPY: boolean;
@@ -40,11 +42,13 @@ export function requiredFeatures(materials: readonly Partial<OpenPbrParameters>[
   const dielectric = insulators.some((p) => p.specular_weight > 0 && (p.specular_ior !== 1 || isTextured('specular_ior')));
   const diffuse = insulators.some((p) => p.base_weight > 0 && p.base_color.some((c) => c > 0));
   const specular = metal || dielectric;
+  const lambert = diffuse || !specular;
   return {
     OPENPBR_SPECULAR: specular,
     OPENPBR_METAL: metal,
     OPENPBR_DIELECTRIC: dielectric,
-    OPENPBR_DIFFUSE: diffuse || !specular,
+    OPENPBR_DIFFUSE: lambert,
+    OPENPBR_COSINE: lambert || (metal && multipleScattering),
     OPENPBR_DIFFUSE_ROUGHNESS: insulators.some((p) => p.base_diffuse_roughness > 0),
     OPENPBR_ANISOTROPY: specular && all.some((p) => p.specular_roughness_anisotropy > 0),
     OPENPBR_MULTISCATTER: multipleScattering,

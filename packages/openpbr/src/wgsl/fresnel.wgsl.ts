@@ -32,5 +32,10 @@ fn openpbr_f82(f0: vec3f, f90: f32, edge: vec3f, c: f32) -> vec3f {
   let m = 1.0 - c;
   let m5 = m * m * m * m * m;
   return clamp(f0 + (f90 - f0) * m5 - edge * (c * m5 * m), vec3f(0.0), vec3f(1.0));
+}
+
+// The cosine-weighted mean over all directions.
+fn openpbr_f82_mean(f0: vec3f, f90: f32, edge: vec3f) -> vec3f {
+  return clamp(f0 + (f90 - f0) * 0.047619048 - edge * 0.0079365079, vec3f(0.0), vec3f(min(f90, 1.0)));
 }`,
 );

@@ -8,8 +8,8 @@ import { wgslModule } from '@glanz/wgsl';
  *
  * The energy tables know round highlights only. For a stretched one `openpbr_view_roughness` is the round roughness that
  * reflects the same share of the light (the slope across the view counts the more, the lower the view), and
- * `openpbr_mirror_view` the roughness and cosine that lose as much by single scattering (the same masking). Both are
- * exact for round highlights; the second is a fit, chosen to lose energy rather than to make it.
+ * `openpbr_mirror_roughness` with `openpbr_mirror_cosine` the view that loses as much by single scattering (the same
+ * masking). They are exact for round highlights; the latter two are fits, chosen to lose energy rather than to make it.
  */
 export const openpbrGgx = wgslModule(
   'openpbr/ggx',
@@ -46,13 +46,19 @@ fn openpbr_view_roughness(alpha: vec2f, roughness: f32, w: vec3f) -> f32 {
   //#endif
 }
 
-// (roughness, cosine)
-fn openpbr_mirror_view(alpha: vec2f, roughness: f32, anisotropy: f32, w: vec3f, mu: f32) -> vec2f {
+fn openpbr_mirror_roughness(roughness: f32, anisotropy: f32) -> f32 {
   //#if OPENPBR_ANISOTROPY
-  let steepness = length(alpha * w.xy) / max(roughness * roughness, 1e-4);
-  return vec2f(roughness * (1.0 - 0.065 * anisotropy * roughness), mu / length(vec2f(mu, steepness)));
+  return roughness * (1.0 - 0.065 * anisotropy * roughness);
   //#else
-  return vec2f(roughness, mu);
+  return roughness;
+  //#endif
+}
+
+fn openpbr_mirror_cosine(alpha: vec2f, w: vec3f, mu: f32) -> f32 {
+  //#if OPENPBR_ANISOTROPY
+  return mu / length(vec2f(mu, length(alpha * w.xy) * 1.4142136 / length(alpha)));
+  //#else
+  return mu;
   //#endif
 }
 

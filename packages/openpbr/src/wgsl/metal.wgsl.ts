@@ -1,11 +1,13 @@
 import { gated, wgslModule } from '@glanz/wgsl';
 import { openpbrEnergy } from './energy.wgsl';
 import { openpbrFresnelMetal } from './fresnel.wgsl';
+import { openpbrGgx } from './ggx.wgsl';
 import { openPbrStruct } from './record';
 
 /**
  * The metal lobe's reflectance: F82 tint times specular_weight, not above 1. Light that single scattering loses comes
- * back as a view-dependent factor (Turquin 2019), exact in energy for white metal.
+ * back in all directions, coloured by its further bounces (Kulla and Conty 2017): a lobe of its own, smooth and
+ * reciprocal, sampled with the diffuse one; exact in energy for white metal.
  */
 export const openpbrMetal = wgslModule(
   'openpbr/metal',
@@ -14,34 +16,47 @@ export const openpbrMetal = wgslModule(
   f0: vec3f,
   f90: f32,
   edge: vec3f,
-  // Factor on the lobe: metalness and the multiple-scattering compensation.
-  scale: vec3f,
-  // Directional albedo towards the viewer, about: the reflectance at a typical visible facet, and all that bounces on.
+  // Metalness.
+  weight: f32,
+  // Directional albedo of single scattering towards the viewer, about: the reflectance at a typical visible facet.
   albedo: vec3f,
+  // See openpbr_mirror_roughness.
+  roughness: f32,
+  // Directional albedo of multiple scattering, and its mean loss.
+  bounced: vec3f,
+  mean_lost: f32,
 }
 
-// view: see openpbr_mirror_view.
-fn openpbr_metal_prepare(p: OpenPbrParameters, mu: f32, view: vec2f) -> OpenPbrMetal {
+fn openpbr_metal_prepare(p: OpenPbrParameters, alpha: vec2f, wo: vec3f, mu: f32) -> OpenPbrMetal {
   let f0 = p.base_weight * p.base_color;
   var metal: OpenPbrMetal;
-  let weight = min(p.specular_weight, 1e6);
-  metal.f0 = weight * f0;
-  metal.f90 = weight;
-  metal.edge = weight * openpbr_f82_edge(f0, p.specular_color);
-  metal.scale = vec3f(p.base_metalness);
+  let f90 = min(p.specular_weight, 1e6);
+  metal.weight = p.base_metalness;
+  metal.f0 = f90 * f0;
+  metal.f90 = f90;
+  metal.edge = f90 * openpbr_f82_edge(f0, p.specular_color);
+  metal.albedo = metal.weight * openpbr_f82(metal.f0, f90, metal.edge, mu + 0.8 * p.specular_roughness * p.specular_roughness * (1.0 - mu));
   //#if OPENPBR_MULTISCATTER
-  let energy = openpbr_energy_conductor(view.x, view.y);
-  metal.scale *= 1.0 + min(f0 * max(weight, 1.0), vec3f(1.0)) * ((1.0 - energy) / energy);
-  //#endif
-  metal.albedo = openpbr_metal_fresnel(metal, mu + 0.8 * p.specular_roughness * p.specular_roughness * (1.0 - mu));
-  //#if OPENPBR_MULTISCATTER
-  metal.albedo *= energy;
+  metal.roughness = openpbr_mirror_roughness(p.specular_roughness, p.specular_roughness_anisotropy);
+  metal.mean_lost = max(openpbr_energy_lost_mean(metal.roughness), 1e-7);
+  let lost = openpbr_energy_lost(metal.roughness, openpbr_mirror_cosine(alpha, wo, mu));
+  metal.albedo *= 1.0 - lost;
+  let mean = openpbr_f82_mean(metal.f0, f90, metal.edge);
+  let limit = clamp(f90, 1e-6, 1.0);
+  metal.bounced = metal.weight * lost * (1.0 - metal.mean_lost) * mean * mean / max(limit - mean * metal.mean_lost, vec3f(1e-7));
   //#endif
   return metal;
 }
 
 fn openpbr_metal_fresnel(metal: OpenPbrMetal, c: f32) -> vec3f {
-  return metal.scale * openpbr_f82(metal.f0, metal.f90, metal.edge, c);
-}`,
-  [openPbrStruct.module, openpbrFresnelMetal, gated('OPENPBR_MULTISCATTER', openpbrEnergy)],
+  return metal.weight * openpbr_f82(metal.f0, metal.f90, metal.edge, c);
+}
+
+//#if OPENPBR_MULTISCATTER
+// f · cos θ_i of multiple scattering.
+fn openpbr_metal_bounced(metal: OpenPbrMetal, alpha: vec2f, wi: vec3f) -> vec3f {
+  return metal.bounced * (openpbr_energy_lost(metal.roughness, openpbr_mirror_cosine(alpha, wi, wi.z)) / metal.mean_lost * wi.z * 0.31830989);
+}
+//#endif`,
+  [openPbrStruct.module, openpbrGgx, openpbrFresnelMetal, gated('OPENPBR_MULTISCATTER', openpbrEnergy)],
 );
