@@ -304,7 +304,9 @@ export class App {
     dataset['state'] = state;
     dataset['samples'] = String(samples);
     dataset['target'] = String(target);
-    byId<HTMLProgressElement>('done').value = target > 0 ? Math.min(1, samples / target) : 0;
+    const bar = byId<HTMLProgressElement>('done');
+    bar.value = target > 0 ? Math.min(1, samples / target) : 0;
+    bar.hidden = state !== 'rendering' && state !== 'paused';
     const count = `${samples} of ${target} samples`;
     const left = samplesPerSecond > 0 ? ` · ${spokenRate(samplesPerSecond)} · ${spokenTime(((target - samples) / samplesPerSecond) * 1000)} left` : '';
     const texts = { empty: '', preparing: '', rendering: `${count}${left}`, paused: `${count} · paused`, done: `${samples} samples · done`, recovering: 'Waiting for the GPU', failed: 'Stopped' };

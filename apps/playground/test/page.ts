@@ -77,8 +77,11 @@ export function pixelsOf(page: Page, png: Buffer): Promise<Pixels> {
   }, png.toString('base64'));
 }
 
+/** What lies over the picture does not belong to it. */
+const ALONE = '.status, .messages { visibility: hidden } #picture { outline: none !important }';
+
 /** The canvas as the browser's window shows it. */
-export const photograph = async (canvas: Locator): Promise<Pixels> => pixelsOf(canvas.page(), await canvas.screenshot());
+export const photograph = async (canvas: Locator): Promise<Pixels> => pixelsOf(canvas.page(), await canvas.screenshot({ style: ALONE }));
 
 /** Drops files on the page as a hand would. */
 export async function drop(page: Page, files: readonly { readonly name: string; readonly bytes: Buffer }[]): Promise<void> {

@@ -286,7 +286,8 @@ export class Session {
           if (this.#edits.apply(this.#report)) continue;
           // The last samples may have come without being told of.
           this.#fresh = true;
-          this.#redraw();
+          cancelAnimationFrame(this.#frame);
+          this.#draw();
         }
         this.#tell(idle ?? 'empty');
         await new Promise<void>((resolve) => (this.#wake = resolve));
