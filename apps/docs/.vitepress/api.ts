@@ -1,6 +1,6 @@
 // The API reference: made by TypeDoc from the packages' sources into api/, anew when a source has changed.
 import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
-import { join, relative } from 'node:path';
+import { dirname, join, relative } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { Application, ReflectionKind, type TypeDocOptions } from 'typedoc';
 import type { PluginOptions } from 'typedoc-plugin-markdown';
@@ -91,5 +91,23 @@ async function generate(entries: readonly Entry[]): Promise<ApiPage[]> {
   }
   const kept = new Set((project.children ?? []).map(({ name }) => name));
   await app.generateOutputs(project);
+  mendAnchors();
   return entries.filter(({ name }) => kept.has(name)).map(({ name }) => ({ text: `@glanz/${name}`, link: `/api/${name}` }));
+}
+
+/** The plugin numbers some anchors that need no number (type aliases beside a class): such links lose it. */
+function mendAnchors(): void {
+  const pages = new Map(
+    readdirSync(out, { recursive: true, encoding: 'utf8' })
+      .filter((path) => path.endsWith('.md'))
+      .map((path) => [join(out, path), readFileSync(join(out, path), 'utf8')]),
+  );
+  const headings = (text: string) => text.match(/^#+ .*$/gm)?.map((line) => line.replace(/^#+ /, '').replaceAll('\\', '').toLowerCase()) ?? [];
+  for (const [file, text] of pages) {
+    const mended = text.replace(/\]\(([^()#\s]*)#([\w-]+)-(\d+)\)/g, (link, path: string, name: string, number: string) => {
+      const target = pages.get(path ? join(dirname(file), path) : file);
+      return target !== undefined && headings(target).filter((heading) => heading === name).length <= Number(number) ? `](${path}#${name})` : link;
+    });
+    if (mended !== text) writeFileSync(file, mended);
+  }
 }
