@@ -1,6 +1,6 @@
-import { buildBinnedSah } from './build/binned-sah';
+import { buildBalanced } from './build/balanced';
 import { BvhError } from './error';
-import { BLAS_MAX_DEPTH, LEAF_MAX, MAX_PRIMITIVES, TRIANGLE_WORDS, type Aabb } from './layout';
+import { LEAF_MAX, MAX_PRIMITIVES, TRIANGLE_WORDS, type Aabb } from './layout';
 
 /** Triangles to build over or to trace. */
 export interface TriangleMesh {
@@ -63,7 +63,7 @@ export function triangleBoxes(mesh: TriangleMesh, boxes: Float32Array): void {
 
 /**
  * Builds the hierarchy of a mesh's triangles by binned surface area heuristic. Deterministic. No way from the root has
- * more than {@link BLAS_MAX_DEPTH} inner nodes, whatever the triangles. The mesh is read, not kept.
+ * more than `BLAS_MAX_DEPTH` inner nodes, whatever the triangles. The mesh is read, not kept.
  *
  * @throws {BvhError} `bvh/positions` or `bvh/indices` for arrays of a wrong length or indices out of range,
  * `bvh/too-many` beyond 134 million triangles, `bvh/options`.
@@ -78,11 +78,8 @@ export function buildBlas(mesh: TriangleMesh, options: BlasOptions = {}): Blas {
   if (mesh.indices ? mesh.indices.length % 3 !== 0 : mesh.positions.length % 9 !== 0) throw new BvhError('bvh/indices', `${mesh.indices ? `indices has ${mesh.indices.length} entries` : `positions has ${mesh.positions.length / 3} vertices`}; it must have three a triangle.`);
   const count = triangleCount(mesh);
   if (count > MAX_PRIMITIVES) throw new BvhError('bvh/too-many', `The mesh has ${count} triangles; one hierarchy holds ${MAX_PRIMITIVES}: split the mesh.`);
-  const boxes = new Float32Array(count * 6);
-  triangleBoxes(mesh, boxes);
-  const triangleIndices = finiteBoxes(boxes);
-  const { nodes, nodeCount } = buildBinnedSah(boxes, triangleIndices, { maxLeaf: maxLeafTriangles, maxDepth: BLAS_MAX_DEPTH, bins, nodeCost: 1 });
-  return { nodes, nodeCount, triangleIndices, bounds: boundsOf(boxes, triangleIndices) };
+  const { nodes, nodeCount, triangleIndices, bounds } = buildBalanced(mesh, maxLeafTriangles, bins);
+  return { nodes, nodeCount, triangleIndices, bounds: { min: Float32Array.from(bounds.subarray(0, 3)), max: Float32Array.from(bounds.subarray(3)) } };
 }
 
 /** The indices of boxes without NaN or infinity. */

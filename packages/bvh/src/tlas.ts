@@ -1,5 +1,5 @@
 import { boundsOf, finiteBoxes } from './blas';
-import { buildBinnedSah } from './build/binned-sah';
+import { buildOverBoxes } from './build/over-boxes';
 import { BvhError } from './error';
 import { TLAS_MAX_DEPTH, type Aabb } from './layout';
 
@@ -57,7 +57,7 @@ export function buildTlas(instances: readonly TlasInstance[]): Tlas {
     }
   });
   const instanceOrder = finiteBoxes(boxes);
-  const { nodes, nodeCount } = buildBinnedSah(boxes, instanceOrder, { maxLeaf: 1, maxDepth: TLAS_MAX_DEPTH, bins: 16, nodeCost: 1 });
+  const { nodes, nodeCount } = buildOverBoxes(boxes, instanceOrder, TLAS_MAX_DEPTH);
   return { nodes, nodeCount, instanceOrder, toObject, bounds: boundsOf(boxes, instanceOrder) };
 }
 
