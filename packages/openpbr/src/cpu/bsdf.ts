@@ -71,7 +71,7 @@ export function prepareBsdf(p: OpenPbrParameters, wo: OpenPbrVector, { multipleS
   const bounced = rgb((i) => (p.base_metalness * lost * (1 - meanLost) * mean[i] * mean[i]) / Math.max(limit - mean[i] * meanLost, 1e-7));
   const epsilon = dielectricEpsilon(p.specular_ior, p.specular_weight);
   const share = energyShare(epsilon, viewRoughness(alpha, roughness, wo), mu);
-  const more = multipleScattering ? Math.max(1 - energyTotal(epsilon, mirror, mirrorMu), 0) * fresnelMean(epsilon) : 0;
+  const more = multipleScattering ? Math.max(1 - energyTotal(epsilon, mirror, mirrorMu), 0) * (epsilon >= 0 ? fresnelMean(epsilon) : share) : 0;
   const boost = multipleScattering ? share / Math.max(share - more, 0.1 * share + 1e-7) : 1;
   const insulator = 1 - p.base_metalness;
   const specular = rgb((i) => p.base_metalness * typical[i] * (1 - lost) + insulator * share * p.specular_color[i]);

@@ -57,7 +57,7 @@ export function energyShare(epsilon: number, roughness: number, mu: number): num
     return Math.min(fresnel * tableLookup(OPENPBR_TABLES.dielectric, [angleAxis(spread(r, mu)), y, slice('outer', epsilon)]), 1);
   }
   const critical = Math.sqrt(1 - eta * eta);
-  const t = mu > critical ? 0.5 + 0.5 * Math.sqrt((mu - critical) / (1 - critical)) : Math.asin(Math.sqrt(mu / critical)) / Math.PI;
+  const t = mu > critical ? 0.5 + 0.5 * Math.sqrt((mu - critical) / (1 - critical)) : 0.5 - 0.5 * Math.sqrt((critical - mu) / critical);
   return Math.min(tableLookup(OPENPBR_TABLES.dielectric, [angleAxis(t), y, slice('inner', epsilon)]), 1);
 }
 

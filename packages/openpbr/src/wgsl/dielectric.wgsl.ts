@@ -34,9 +34,9 @@ fn openpbr_dielectric_prepare(p: OpenPbrParameters, alpha: vec2f, wo: vec3f, mu:
   d.share = openpbr_energy_share(d.epsilon, openpbr_view_roughness(alpha, d.roughness, wo), mu);
   d.scale = p.specular_color;
   //#if OPENPBR_MULTISCATTER
-  // What single scattering loses bounces on, and of that the mean is reflected.
+  // What single scattering loses bounces on, and of that the mean is reflected; from inside as much as before.
   let roughness = openpbr_mirror_roughness(d.roughness, p.specular_roughness_anisotropy);
-  let more = max(1.0 - openpbr_energy_total(d.epsilon, roughness, openpbr_mirror_cosine(alpha, wo, mu)), 0.0) * openpbr_fresnel_mean(d.epsilon);
+  let more = max(1.0 - openpbr_energy_total(d.epsilon, roughness, openpbr_mirror_cosine(alpha, wo, mu)), 0.0) * select(d.share, openpbr_fresnel_mean(d.epsilon), d.epsilon >= 0.0);
   d.scale *= d.share / max(d.share - more, 0.1 * d.share + 1e-7);
   //#endif
   return d;

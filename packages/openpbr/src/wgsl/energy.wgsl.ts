@@ -66,7 +66,7 @@ fn openpbr_energy_share(epsilon: f32, roughness: f32, mu: f32) -> f32 {
     scale = openpbr_fresnel_dielectric(eta, mu + 0.8 * r * r * (1.0 - mu));
   } else {
     let critical = sqrt(1.0 - eta * eta);
-    at.x = select(0.31830989 * asin(sqrt(min(mu / critical, 1.0))), 0.5 + 0.5 * sqrt(max(mu - critical, 0.0) / (1.0 - critical)), mu > critical);
+    at.x = select(0.5 - 0.5 * sqrt(max(critical - mu, 0.0) / critical), 0.5 + 0.5 * sqrt(max(mu - critical, 0.0) / (1.0 - critical)), mu > critical);
     at.z = ${inner0} + ${inner1} * z;
   }
   at.x = ${angle0} + ${angle1} * at.x;
