@@ -1,4 +1,5 @@
-import { readFileSync } from 'node:fs';
+import { existsSync, readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
 import { expect, test, type Page } from '@playwright/test';
 import { hdr, triangle } from './files';
 import { drop, photograph, pixelsOf, servePlayground, watch } from './page';
@@ -241,6 +242,22 @@ test('dropped models: broken ones are told in a line and the former scene stays,
   await expect(page.locator('#material option:checked')).toHaveText('cloth');
   const sail = (await photograph(canvasOf(page))).cells[4]!;
   expect(sail[2]).toBeGreaterThan(1.5 * sail[0]);
+});
+
+const duck = fileURLToPath(new URL('../../../../shared/assets/Duck-Draco', import.meta.url));
+const hasDuck = existsSync(duck);
+
+test(`a folder with a compressed model and its texture${hasDuck ? '' : ' (skipped: the shared assets are not here)'}`, async ({ page }) => {
+  test.skip(!hasDuck);
+  await open(page);
+  await page.locator('#folder').setInputFiles(duck);
+  await expect.poll(() => dataOf(page, 'scene')).toBe('Duck.gltf');
+  await finished(page);
+  await expect(page.locator('[data-statistic=triangles]')).toHaveText('4,212');
+  // Its texture is yellow, on grey surroundings: without it there would be no colour at all.
+  const [r, g, b] = (await photograph(canvasOf(page))).cells[4]!;
+  expect(r).toBeGreaterThan(g);
+  expect(g).toBeGreaterThan(b + 25);
 });
 
 test('a dropped .hdr lights the scene and is seen behind it', async ({ page }) => {

@@ -1,15 +1,16 @@
 import { loadGltf } from '@glanz/gltf';
 import { createCornellBox, createPushButton } from '@glanz/models';
 import type { Scene } from '@glanz/scene';
+import { decodersFor } from './decoders';
 import type { LoadReply, LoadRequest } from './load-messages';
 
 // Reading and making models takes seconds for large ones: here it does not stop the page, and can be stopped by it.
 
 async function load(request: LoadRequest): Promise<Scene> {
   if (request.kind === 'files') {
-    const { MeshoptDecoder } = await import('meshoptimizer/decoder');
+    const { files, entry } = request;
     const onProgress = ({ stage, done }: { stage: string; done: number }) => reply({ kind: 'progress', stage, done });
-    return loadGltf({ files: request.files, ...(request.entry === undefined ? {} : { entry: request.entry }) }, { decoders: { meshopt: MeshoptDecoder }, onProgress });
+    return loadGltf({ files, entry }, { decoders: await decodersFor(files.get(entry)), onProgress });
   }
   if (request.name === 'cornell-box') return createCornellBox();
   return createPushButton({ level: request.name === 'push-button-high' ? 'high' : request.name === 'push-button-low' ? 'low' : 'medium' });

@@ -7,14 +7,17 @@ const STEEPEST = (89.5 * Math.PI) / 180;
 
 const add = (a: Vector, b: Vector, scale: number): Vector => [a[0] + b[0] * scale, a[1] + b[1] * scale, a[2] + b[2] * scale];
 
+/** Width over height that a camera without a word about it is taken to be made for. */
+const USUAL_ASPECT = 4 / 3;
+
 /** The camera as it fits a film of another shape than its author had in mind: nothing of the view is cut off. */
 export function fitCamera(camera: Camera, aspect: number): Camera {
   if (camera.type === 'orthographic') {
     const { xmag, ymag } = camera;
     return xmag / ymag > aspect ? { ...camera, ymag: xmag / aspect } : { ...camera, xmag: ymag * aspect };
   }
-  if (camera.aspect === undefined || aspect >= camera.aspect) return camera;
-  return { ...camera, yfov: 2 * Math.atan((Math.tan(camera.yfov / 2) * camera.aspect) / aspect) };
+  const { aspect: made = USUAL_ASPECT } = camera;
+  return aspect >= made ? camera : { ...camera, yfov: 2 * Math.atan((Math.tan(camera.yfov / 2) * made) / aspect) };
 }
 
 /**
