@@ -249,9 +249,7 @@ export class App {
   #pause(): void {
     const paused = !this.#session.paused;
     this.#session.setPaused(paused);
-    const button = byId('pause');
-    button.setAttribute('aria-pressed', String(paused));
-    button.textContent = paused ? 'Paused' : 'Pause';
+    byId('pause').setAttribute('aria-pressed', String(paused));
   }
 
   #changed(change: Partial<Settings>): void {

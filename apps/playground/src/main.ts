@@ -12,7 +12,7 @@ function explain(error: unknown): void {
   const notice = byId('notice');
   notice.replaceChildren(
     element('h2', {}, code === 'renderer/no-webgpu' ? 'This page needs WebGPU' : 'The GPU cannot be used'),
-    element('p', { role: 'alert', 'data-code': code }, message),
+    element('p', { role: 'alert', 'data-code': code }, code === 'renderer/no-webgpu' ? 'Pictures are computed on the GPU through WebGPU, which this browser does not offer here.' : message),
     element('p', {}, code === 'renderer/no-webgpu' ? 'Browsers that have it:' : 'What may help:'),
     element('ul', {}, ...advice.map((line) => element('li', {}, line))),
   );

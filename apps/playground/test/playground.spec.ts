@@ -298,6 +298,12 @@ test('the push-button, and depth as one goes', async ({ page }) => {
   await open(page, 'model=push-button-low&scale=0.25&samples=4&depth=2');
   await finished(page);
   await expect(page.locator('[data-statistic=triangles]')).toHaveText(/^10,[5-9]\d\d$/);
+  // A slider whose lower end has more room: its place and the number agree.
+  await page.locator('#samples').fill('0.5');
+  await expect(page.getByRole('spinbutton', { name: 'Samples' })).toHaveValue('513');
+  await page.getByRole('spinbutton', { name: 'Samples' }).fill('4');
+  await page.getByRole('spinbutton', { name: 'Samples' }).press('Tab');
+  await finished(page);
   const shallow = await photograph(canvasOf(page));
   expect(shallow.colours).toBeGreaterThan(3000);
   expect(shallow.deviation).toBeGreaterThan(20);

@@ -42,7 +42,7 @@ export function sliderField({ id, label, value, hint, range: [low, high], hardRa
   const span = high - low;
   const toPlace = (v: number) => Math.max(0, Math.min(1, (v - low) / span)) ** (1 / curve);
   const plain = curve === 1;
-  const slider = element('input', { type: 'range', id, min: plain ? low : 0, max: plain ? high : 1, step: step ?? (whole ? 1 : plain ? span / 200 : 0.002) });
+  const slider = element('input', { type: 'range', id, min: plain ? low : 0, max: plain ? high : 1, step: step ?? (!plain ? 0.002 : whole ? 1 : span / 200) });
   const box = element('input', { type: 'number', step: whole ? 1 : 'any', 'aria-label': unit ? `${label}, ${unit}` : label, inputmode: 'decimal' });
   if (Number.isFinite(hardRange[0])) box.min = String(hardRange[0]);
   if (Number.isFinite(hardRange[1])) box.max = String(hardRange[1]);

@@ -54,7 +54,6 @@ export function controlCamera(element: HTMLElement, commands: CameraCommands): (
       pointers.set(event.pointerId, at(event));
       moved = pointers.size > 1;
       start = { ...at(event), pan: event.button !== 0 || event.shiftKey };
-      element.focus({ preventScroll: true });
     },
     { signal },
   );
