@@ -15,6 +15,7 @@ export interface OpenPbrWarning {
   readonly message: string;
 }
 
+/** What {@link validateParameters} answers. */
 export interface ValidatedParameters {
   /** The given parameters, clamped to their hard ranges; unknown names are left out. */
   readonly parameters: Partial<OpenPbrParameters>;

@@ -59,8 +59,8 @@ function table(encoded: EncodedTable): OpenPbrTable {
 }
 
 /**
- * The energy tables that {@link openpbr} reads through the host's accessors: directional albedos of GGX interfaces,
- * computed from first principles by scripts/tables.mjs. Bind them as textures with linear filtering and clamping (any
+ * The energy tables that {@link openpbr} reads through the host's accessors: directional albedos of GGX interfaces (of
+ * conductors, what single scattering loses), computed from first principles by scripts/tables.mjs. Bind them as textures with linear filtering and clamping (any
  * filterable float format; `r16float` does), or as buffers with the host's own interpolation between texel centres.
  *
  * `dielectric` is three-dimensional, for `openpbr_table_dielectric(coords)`; `conductor` two-dimensional, for

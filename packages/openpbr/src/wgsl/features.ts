@@ -19,6 +19,7 @@ export interface OpenPbrFlags {
   readonly OPENPBR_EMISSION: boolean;
 }
 
+/** What {@link requiredFeatures} may be told. */
 export interface FeatureOptions {
   /** Names of the parameters that textures drive in at least one material: they may take values below those given. */
   readonly textured?: readonly string[];
