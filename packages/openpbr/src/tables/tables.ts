@@ -60,8 +60,9 @@ function table(encoded: EncodedTable): OpenPbrTable {
 
 /**
  * The energy tables that {@link openpbr} reads through the host's accessors: directional albedos of GGX interfaces (of
- * conductors, what single scattering loses), computed from first principles by scripts/tables.mjs. Bind them as textures with linear filtering and clamping (any
- * filterable float format; `r16float` does), or as buffers with the host's own interpolation between texel centres.
+ * conductors, what single scattering loses), computed from first principles by scripts/tables.mjs. Bind them as textures
+ * with linear filtering and clamping (any filterable float format; `r16float` does), or as buffers with the host's own
+ * interpolation between texel centres.
  *
  * `dielectric` is three-dimensional, for `openpbr_table_dielectric(coords)`; `conductor` two-dimensional, for
  * `openpbr_table_conductor(coords)`. `coords` are in [0, 1] like a texture's: texel i of n is centred at (i + ½)/n.
