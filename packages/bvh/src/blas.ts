@@ -14,7 +14,7 @@ export interface TriangleMesh {
 export interface BlasOptions {
   /** Most triangles in a leaf, 1 to 16. Default 4. */
   readonly maxLeafTriangles?: number;
-  /** Candidate planes per axis are one less than this; 2 to 64. Default 16. */
+  /** Candidate planes per axis are one less than this; 2 to 64. Default 32. */
   readonly bins?: number;
 }
 
@@ -32,34 +32,12 @@ export interface Blas {
   readonly bounds: Aabb;
 }
 
-/** How many triangles a mesh has. */
-export const triangleCount = (mesh: TriangleMesh): number => Math.floor((mesh.indices ? mesh.indices.length : mesh.positions.length / 3) / 3);
-
-/**
- * Boxes of triangles.
- * @param boxes Takes six numbers a triangle: min xyz, max xyz.
- * @throws {BvhError} `bvh/indices` for an index beyond the vertices.
- */
-export function triangleBoxes(mesh: TriangleMesh, boxes: Float32Array): void {
-  const { positions, indices } = mesh;
-  const vertices = Math.floor(positions.length / 3);
-  const count = triangleCount(mesh);
-  for (let i = 0; i < count; i++) {
-    const ia = indices ? (indices[3 * i] as number) : 3 * i;
-    const ib = indices ? (indices[3 * i + 1] as number) : 3 * i + 1;
-    const ic = indices ? (indices[3 * i + 2] as number) : 3 * i + 2;
-    if (ia >= vertices || ib >= vertices || ic >= vertices) {
-      throw new BvhError('bvh/indices', `Triangle ${i} uses vertex ${Math.max(ia, ib, ic)} of ${vertices}: every index must be below the number of vertices.`);
-    }
-    const a = 3 * ia, b = 3 * ib, c = 3 * ic;
-    for (let k = 0; k < 3; k++) {
-      const p = positions[a + k] as number, q = positions[b + k] as number, r = positions[c + k] as number;
-      // Comparisons would drop a NaN in silence; Math.min and Math.max keep it.
-      boxes[6 * i + k] = Math.min(p, q, r);
-      boxes[6 * i + 3 + k] = Math.max(p, q, r);
-    }
-  }
+function whole(name: string, value: number, min: number, max: number): void {
+  if (!(Number.isInteger(value) && value >= min && value <= max)) throw new BvhError('bvh/options', `${name} is ${value}; it must be a whole number from ${min} to ${max}.`);
 }
+
+/** How many triangles a mesh has. */
+const triangleCount = (mesh: TriangleMesh): number => Math.floor((mesh.indices ? mesh.indices.length : mesh.positions.length / 3) / 3);
 
 /**
  * Builds the hierarchy of a mesh's triangles by binned surface area heuristic. Deterministic. No way from the root has
@@ -71,41 +49,20 @@ export function triangleBoxes(mesh: TriangleMesh, boxes: Float32Array): void {
  * const blas = buildBlas({ positions, indices });
  */
 export function buildBlas(mesh: TriangleMesh, options: BlasOptions = {}): Blas {
-  const { maxLeafTriangles = 4, bins = 16 } = options;
-  if (!(Number.isInteger(maxLeafTriangles) && maxLeafTriangles >= 1 && maxLeafTriangles <= LEAF_MAX)) throw new BvhError('bvh/options', `maxLeafTriangles is ${maxLeafTriangles}; it must be a whole number from 1 to ${LEAF_MAX}.`);
-  if (!(Number.isInteger(bins) && bins >= 2 && bins <= 64)) throw new BvhError('bvh/options', `bins is ${bins}; it must be a whole number from 2 to 64.`);
-  if (mesh.positions.length % 3 !== 0) throw new BvhError('bvh/positions', `positions has ${mesh.positions.length} numbers; it must have three a vertex.`);
-  if (mesh.indices ? mesh.indices.length % 3 !== 0 : mesh.positions.length % 9 !== 0) throw new BvhError('bvh/indices', `${mesh.indices ? `indices has ${mesh.indices.length} entries` : `positions has ${mesh.positions.length / 3} vertices`}; it must have three a triangle.`);
+  const { maxLeafTriangles = 4, bins = 32 } = options;
+  whole('maxLeafTriangles', maxLeafTriangles, 1, LEAF_MAX);
+  whole('bins', bins, 2, 64);
+  const { positions, indices } = mesh;
+  const fail = (code: string, what: string, values: ArrayLike<number>, per: string) => {
+    throw new BvhError(code, `${what} has ${values.length} entries; it must have ${per}.`);
+  };
+  if (positions.length % 3 !== 0) fail('bvh/positions', 'positions', positions, 'three a vertex');
+  if (indices && indices.length % 3 !== 0) fail('bvh/indices', 'indices', indices, 'three a triangle');
+  if (!indices && positions.length % 9 !== 0) fail('bvh/indices', 'positions', positions, 'nine a triangle without indices');
   const count = triangleCount(mesh);
-  if (count > MAX_PRIMITIVES) throw new BvhError('bvh/too-many', `The mesh has ${count} triangles; one hierarchy holds ${MAX_PRIMITIVES}: split the mesh.`);
+  if (count > MAX_PRIMITIVES) throw new BvhError('bvh/too-many', `${count} triangles are too many; one hierarchy holds ${MAX_PRIMITIVES}: split the mesh.`);
   const { nodes, nodeCount, triangleIndices, bounds } = buildBalanced(mesh, maxLeafTriangles, bins);
   return { nodes, nodeCount, triangleIndices, bounds: { min: Float32Array.from(bounds.subarray(0, 3)), max: Float32Array.from(bounds.subarray(3)) } };
-}
-
-/** The indices of boxes without NaN or infinity. */
-export function finiteBoxes(boxes: Float32Array): Uint32Array<ArrayBuffer> {
-  const kept = new Uint32Array(boxes.length / 6);
-  let count = 0;
-  for (let i = 0; i < kept.length; i++) {
-    const b = 6 * i;
-    // A sum is finite only if each part is: six numbers of 3.4e38 at most cannot overflow a double.
-    const sum = (boxes[b] as number) + (boxes[b + 1] as number) + (boxes[b + 2] as number) + (boxes[b + 3] as number) + (boxes[b + 4] as number) + (boxes[b + 5] as number);
-    if (Number.isFinite(sum)) kept[count++] = i;
-  }
-  return count === kept.length ? kept : kept.slice(0, count);
-}
-
-/** The box around those of `boxes` that `indices` names. */
-export function boundsOf(boxes: Float32Array, indices: Uint32Array): { readonly min: Float32Array; readonly max: Float32Array } {
-  const min = new Float32Array(3).fill(Infinity);
-  const max = new Float32Array(3).fill(-Infinity);
-  for (const index of indices) {
-    for (let k = 0; k < 3; k++) {
-      min[k] = Math.min(min[k] as number, boxes[6 * index + k] as number);
-      max[k] = Math.max(max[k] as number, boxes[6 * index + 3 + k] as number);
-    }
-  }
-  return { min, max };
 }
 
 /**
@@ -115,19 +72,16 @@ export function boundsOf(boxes: Float32Array, indices: Uint32Array): { readonly 
  */
 export function packTriangles(blas: Blas, mesh: TriangleMesh): Float32Array<ArrayBuffer> {
   const { triangleIndices } = blas;
-  const { positions, indices } = mesh;
   const packed = new Float32Array(triangleIndices.length * TRIANGLE_WORDS);
   const words = new Uint32Array(packed.buffer);
-  for (let i = 0; i < triangleIndices.length; i++) {
+  const { positions, indices } = mesh;
+  for (let i = 0, to = 0; i < triangleIndices.length; i++, to += TRIANGLE_WORDS) {
     const triangle = triangleIndices[i] as number;
     for (let corner = 0; corner < 3; corner++) {
-      const from = 3 * (indices ? (indices[3 * triangle + corner] as number) : 3 * triangle + corner);
-      const to = i * TRIANGLE_WORDS + corner * 4;
-      packed[to] = positions[from] as number;
-      packed[to + 1] = positions[from + 1] as number;
-      packed[to + 2] = positions[from + 2] as number;
+      const vertex = indices ? (indices[3 * triangle + corner] as number) : 3 * triangle + corner;
+      for (let k = 0; k < 3; k++) packed[to + 4 * corner + k] = positions[3 * vertex + k] as number;
     }
-    words[i * TRIANGLE_WORDS + 3] = triangle;
+    words[to + 3] = triangle;
   }
   return packed;
 }

@@ -85,3 +85,34 @@ export interface Aabb {
   readonly min: Float32Array;
   readonly max: Float32Array;
 }
+
+/** The box around both children of the root; min > max for an empty tree. */
+export function rootBounds(nodes: Float32Array): Aabb {
+  const min = new Float32Array(3).fill(Infinity), max = new Float32Array(3).fill(-Infinity);
+  for (const [low, high] of [[LEFT_MIN, LEFT_MAX], [RIGHT_MIN, RIGHT_MAX]] as const) {
+    if (nodes[low] === FAR) continue;
+    for (let k = 0; k < 3; k++) {
+      min[k] = Math.min(min[k] as number, nodes[low + k] as number);
+      max[k] = Math.max(max[k] as number, nodes[high + k] as number);
+    }
+  }
+  return { min, max };
+}
+
+/** Sets the box at `min` and `max` to that around both children of the node that starts at word `child`. */
+export function encloseChildren(nodes: Float32Array, min: number, max: number, child: number): void {
+  for (let k = 0; k < 3; k++) {
+    nodes[min + k] = Math.min(nodes[child + LEFT_MIN + k] as number, nodes[child + RIGHT_MIN + k] as number);
+    nodes[max + k] = Math.max(nodes[child + LEFT_MAX + k] as number, nodes[child + RIGHT_MAX + k] as number);
+  }
+}
+
+/** Writes six numbers. */
+export function putBox(boxes: Float32Array, at: number, x0: number, y0: number, z0: number, x1: number, y1: number, z1: number): void {
+  boxes[at] = x0;
+  boxes[at + 1] = y0;
+  boxes[at + 2] = z0;
+  boxes[at + 3] = x1;
+  boxes[at + 4] = y1;
+  boxes[at + 5] = z1;
+}

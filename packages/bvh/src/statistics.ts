@@ -1,4 +1,4 @@
-import { FAR, LEAF, LEFT, LEFT_MAX, LEFT_MIN, leafCount, NODE_WORDS, PARENT, RIGHT, RIGHT_MAX, RIGHT_MIN } from './layout';
+import { FAR, LEAF, LEFT, LEFT_MAX, LEFT_MIN, leafCount, NODE_WORDS, PARENT, RIGHT, RIGHT_MAX, RIGHT_MIN, rootBounds } from './layout';
 
 /** The nodes of a BLAS or TLAS. */
 export interface BvhNodes {
@@ -25,15 +25,17 @@ export function bvhStatistics(bvh: BvhNodes): BvhStatistics {
   const leafSizes: number[] = new Array<number>(17).fill(0);
   const depths = new Uint8Array(nodeCount);
   let cost = 0, depth = 0, leaves = 0;
-  const root = { min: [Infinity, Infinity, Infinity], max: [-Infinity, -Infinity, -Infinity] };
+  const surface = (min: ArrayLike<number>, max: ArrayLike<number>, low = 0, high = 0) => {
+    const [x, y, z] = [0, 1, 2].map((k) => (max[high + k] as number) - (min[low + k] as number)) as [number, number, number];
+    return x * y + y * z + z * x;
+  };
   for (let node = 0; node < nodeCount; node++) {
     const base = node * NODE_WORDS;
     depths[node] = node === 0 ? 1 : (depths[words[base + PARENT] as number] as number) + 1;
     depth = Math.max(depth, depths[node] as number);
     for (const [at, low, high] of [[LEFT, LEFT_MIN, LEFT_MAX], [RIGHT, RIGHT_MIN, RIGHT_MAX]] as const) {
       if (nodes[base + low] === Math.fround(FAR)) continue;
-      const size = [0, 1, 2].map((k) => (nodes[base + high + k] as number) - (nodes[base + low + k] as number)) as [number, number, number];
-      const area = size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
+      const area = surface(nodes, nodes, base + low, base + high);
       const reference = words[base + at] as number;
       const count = (reference & LEAF) === 0 ? 1 : leafCount(reference);
       cost += area * count;
@@ -41,16 +43,10 @@ export function bvhStatistics(bvh: BvhNodes): BvhStatistics {
         leaves++;
         leafSizes[count] = (leafSizes[count] as number) + 1;
       }
-      if (node === 0) {
-        for (let k = 0; k < 3; k++) {
-          root.min[k] = Math.min(root.min[k] as number, nodes[base + low + k] as number);
-          root.max[k] = Math.max(root.max[k] as number, nodes[base + high + k] as number);
-        }
-      }
     }
   }
-  const [x, y, z] = [0, 1, 2].map((k) => (root.max[k] as number) - (root.min[k] as number)) as [number, number, number];
-  const total = x * y + y * z + z * x;
+  const root = rootBounds(nodes);
+  const total = surface(root.min, root.max);
   return { sahCost: total > 0 ? 1 + cost / total : nodeCount, depth, nodes: nodeCount, leaves, leafSizes };
 }
 

@@ -1,7 +1,6 @@
-import { boundsOf, finiteBoxes } from './blas';
 import { buildOverBoxes } from './build/over-boxes';
 import { BvhError } from './error';
-import { TLAS_MAX_DEPTH, type Aabb } from './layout';
+import { rootBounds, TLAS_MAX_DEPTH, type Aabb } from './layout';
 
 /** One placing of a BLAS. */
 export interface TlasInstance {
@@ -34,11 +33,11 @@ export interface Tlas {
  * @throws {BvhError} `bvh/transform` for a transform without 16 numbers, `bvh/too-many` beyond 4 million instances.
  */
 export function buildTlas(instances: readonly TlasInstance[]): Tlas {
-  if (instances.length > 2 ** TLAS_MAX_DEPTH) throw new BvhError('bvh/too-many', `There are ${instances.length} instances; one hierarchy holds ${2 ** TLAS_MAX_DEPTH}.`);
+  if (instances.length > 2 ** TLAS_MAX_DEPTH) throw new BvhError('bvh/too-many', `${instances.length} instances are too many; one hierarchy holds ${2 ** TLAS_MAX_DEPTH}.`);
   const boxes = new Float32Array(instances.length * 6);
   const toObject = new Float64Array(instances.length * 12);
   instances.forEach(({ bounds, transform }, i) => {
-    if (transform.length !== 16) throw new BvhError('bvh/transform', `The transform of instance ${i} has ${transform.length} numbers; it must be a 4×4 matrix, column by column.`);
+    if (transform.length !== 16) throw new BvhError('bvh/transform', `Instance ${i} has a transform of ${transform.length} numbers; it must have 16.`);
     const exists = invertAffine(transform, toObject, 12 * i) && (bounds.min[0] as number) <= (bounds.max[0] as number);
     for (let r = 0; r < 3; r++) {
       let min = transform[12 + r] as number, max = min;
@@ -58,7 +57,20 @@ export function buildTlas(instances: readonly TlasInstance[]): Tlas {
   });
   const instanceOrder = finiteBoxes(boxes);
   const { nodes, nodeCount } = buildOverBoxes(boxes, instanceOrder, TLAS_MAX_DEPTH);
-  return { nodes, nodeCount, instanceOrder, toObject, bounds: boundsOf(boxes, instanceOrder) };
+  return { nodes, nodeCount, instanceOrder, toObject, bounds: rootBounds(nodes) };
+}
+
+/** The indices of boxes without NaN or infinity. */
+function finiteBoxes(boxes: Float32Array): Uint32Array<ArrayBuffer> {
+  const kept = new Uint32Array(boxes.length / 6);
+  let count = 0;
+  for (let i = 0; i < kept.length; i++) {
+    const b = 6 * i;
+    // A sum is finite only if each part is: six numbers of 3.4e38 at most cannot overflow a double.
+    const sum = (boxes[b] as number) + (boxes[b + 1] as number) + (boxes[b + 2] as number) + (boxes[b + 3] as number) + (boxes[b + 4] as number) + (boxes[b + 5] as number);
+    if (Number.isFinite(sum)) kept[count++] = i;
+  }
+  return count === kept.length ? kept : kept.slice(0, count);
 }
 
 /** Writes the rows of the inverse of an affine matrix; false (and NaN) where there is none. */

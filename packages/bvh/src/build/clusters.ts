@@ -1,3 +1,4 @@
+import { putBox } from '../layout';
 import type { Primitives } from './primitives';
 import type { Sorted } from './morton';
 
@@ -23,12 +24,7 @@ export function makeClusters({ boxes, triangles, count }: Primitives, { order, c
   for (let i = 0, to = 0; i < count; i++, to += 6) {
     const primitive = order[i] as number;
     const from = 6 * primitive;
-    sortedBoxes[to] = boxes[from] as number;
-    sortedBoxes[to + 1] = boxes[from + 1] as number;
-    sortedBoxes[to + 2] = boxes[from + 2] as number;
-    sortedBoxes[to + 3] = boxes[from + 3] as number;
-    sortedBoxes[to + 4] = boxes[from + 4] as number;
-    sortedBoxes[to + 5] = boxes[from + 5] as number;
+    for (let k = 0; k < 6; k++) sortedBoxes[to + k] = boxes[from + k] as number;
     sortedWeights[i] = 1 + ((triangles[primitive] as number) >>> 31);
   }
   const starts = new Uint32Array(count + 1);
@@ -80,13 +76,7 @@ export function makeClusters({ boxes, triangles, count }: Primitives, { order, c
       if (a5 > z1) z1 = a5;
       weight += sortedWeights[i] as number;
     }
-    const to = 6 * cluster;
-    clusterBoxes[to] = x0;
-    clusterBoxes[to + 1] = y0;
-    clusterBoxes[to + 2] = z0;
-    clusterBoxes[to + 3] = x1;
-    clusterBoxes[to + 4] = y1;
-    clusterBoxes[to + 5] = z1;
+    putBox(clusterBoxes, 6 * cluster, x0, y0, z0, x1, y1, z1);
     weights[cluster] = weight;
   }
   return { sortedBoxes, sortedWeights, boxes: clusterBoxes, weights, starts: starts.subarray(0, clusters + 1), count: clusters };

@@ -41,9 +41,15 @@ export class NodeWriter {
     this.words[base + (right ? RIGHT : LEFT)] = reference;
   }
 
-  /** A child that no ray reaches; its reference must name something that exists. */
-  noChild(node: number, right: boolean, reference: number): void {
-    this.child(node, right, reference, FAR, FAR, FAR, FAR, FAR, FAR);
+  /**
+   * A tree of one leaf, or of none if there is no box. Both references name the leaf, as they must name something: the box
+   * of a missing child is one that no ray reaches.
+   */
+  single(reference: number, box: ArrayLike<number> | undefined): void {
+    const root = this.add(-1);
+    const corner = (i: number) => box?.[i] ?? FAR;
+    this.child(root, false, reference, corner(0), corner(1), corner(2), corner(3), corner(4), corner(5));
+    this.child(root, true, reference, FAR, FAR, FAR, FAR, FAR, FAR);
   }
 
   finish(): Tree {

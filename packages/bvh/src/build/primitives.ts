@@ -1,5 +1,6 @@
 import { BvhError } from '../error';
 import type { TriangleMesh } from '../blas';
+import { putBox } from '../layout';
 
 /**
  * Two triangles become a pair if the surface of their common box is at most this part of their own boxes' together. At 1
@@ -80,22 +81,12 @@ export function makePrimitives(mesh: TriangleMesh, pairs: boolean): Primitives {
       const ux1 = x1 > wx1 ? x1 : wx1, uy1 = y1 > wy1 ? y1 : wy1, uz1 = z1 > wz1 ? z1 : wz1;
       const ux = ux1 - ux0, uy = uy1 - uy0, uz = uz1 - uz0;
       if (pairs && waiting === i - 1 && ux * uy + uy * uz + uz * ux <= PAIR_LIMIT * (area + waitingArea)) {
-        boxes[at] = ux0;
-        boxes[at + 1] = uy0;
-        boxes[at + 2] = uz0;
-        boxes[at + 3] = ux1;
-        boxes[at + 4] = uy1;
-        boxes[at + 5] = uz1;
+        putBox(boxes, at, ux0, uy0, uz0, ux1, uy1, uz1);
         triangles[count++] = (waiting | PAIR) >>> 0;
         waiting = -1;
         continue;
       }
-      boxes[at] = wx0;
-      boxes[at + 1] = wy0;
-      boxes[at + 2] = wz0;
-      boxes[at + 3] = wx1;
-      boxes[at + 4] = wy1;
-      boxes[at + 5] = wz1;
+      putBox(boxes, at, wx0, wy0, wz0, wx1, wy1, wz1);
       triangles[count++] = waiting;
     }
     waiting = i;
@@ -108,7 +99,7 @@ export function makePrimitives(mesh: TriangleMesh, pairs: boolean): Primitives {
     wz1 = z1;
   }
   if (waiting >= 0) {
-    boxes.set([wx0, wy0, wz0, wx1, wy1, wz1], 6 * count);
+    putBox(boxes, 6 * count, wx0, wy0, wz0, wx1, wy1, wz1);
     triangles[count++] = waiting;
   }
   return { boxes, triangles, count, triangleCount, bounds: Float64Array.of(bx0, by0, bz0, bx1, by1, bz1) };

@@ -1,16 +1,17 @@
-import { LEAF, LEFT, LEFT_MAX, LEFT_MIN, NODE_WORDS, PARENT, RIGHT, RIGHT_MAX, RIGHT_MIN } from '../layout';
-import type { Tree } from './node-writer';
+import { encloseChildren, LEAF, LEFT, NODE_WORDS, PARENT, RIGHT } from '../layout';
+import type { NodeWriter, Tree } from './node-writer';
 
-/** Half the surface of the box around two boxes, each given by the places of its corners. */
-function joined(n: Float32Array, min: number, max: number, min2: number, max2: number): number {
-  const x0 = n[min] as number, y0 = n[min + 1] as number, z0 = n[min + 2] as number, x1 = n[max] as number, y1 = n[max + 1] as number, z1 = n[max + 2] as number;
-  const a0 = n[min2] as number, b0 = n[min2 + 1] as number, c0 = n[min2 + 2] as number, a1 = n[max2] as number, b1 = n[max2 + 1] as number, c1 = n[max2 + 2] as number;
+/** Rotations that become possible by others are found by going over the tree again; a fourth time changes little. */
+const PASSES = 3;
+
+/** Word of the reference to the left (0) or right (1) child; the box of a child starts at word 8 × side, its upper corner 4 later. */
+const reference = (side: number) => LEFT + side * (RIGHT - LEFT);
+
+/** Half the surface of the box around two boxes, given by the words where they start. */
+function joined(n: Float32Array, a: number, b: number): number {
+  const x0 = n[a] as number, y0 = n[a + 1] as number, z0 = n[a + 2] as number, x1 = n[a + 4] as number, y1 = n[a + 5] as number, z1 = n[a + 6] as number;
+  const a0 = n[b] as number, b0 = n[b + 1] as number, c0 = n[b + 2] as number, a1 = n[b + 4] as number, b1 = n[b + 5] as number, c1 = n[b + 6] as number;
   const dx = (x1 > a1 ? x1 : a1) - (x0 < a0 ? x0 : a0), dy = (y1 > b1 ? y1 : b1) - (y0 < b0 ? y0 : b0), dz = (z1 > c1 ? z1 : c1) - (z0 < c0 ? z0 : c0);
-  return dx * dy + dy * dz + dz * dx;
-}
-
-function surface(n: Float32Array, min: number, max: number): number {
-  const dx = (n[max] as number) - (n[min] as number), dy = (n[max + 1] as number) - (n[min + 1] as number), dz = (n[max + 2] as number) - (n[min + 2] as number);
   return dx * dy + dy * dz + dz * dx;
 }
 
@@ -21,112 +22,87 @@ function surface(n: Float32Array, min: number, max: number): number {
  *
  * @param maxDepth Most inner nodes on the way to a leaf.
  */
-export function rotate(tree: Tree, maxDepth: number): Tree {
-  const { nodes, nodeCount } = tree;
-  const words = new Uint32Array(nodes.buffer);
+export function rotate({ nodes, words, count: nodeCount }: NodeWriter, maxDepth: number): Tree {
   const depths = new Uint8Array(nodeCount), heights = new Uint8Array(nodeCount);
-  depths[0] = 1;
-  for (let node = 1; node < nodeCount; node++) depths[node] = (depths[words[node * NODE_WORDS + PARENT] as number] as number) + 1;
-  const height = (reference: number) => ((reference & LEAF) !== 0 ? 0 : (heights[reference] as number));
-  // Swaps the child at `a` of one node for the child at `b` of another: reference and box.
-  const exchange = (refA: number, minA: number, maxA: number, refB: number, minB: number, maxB: number) => {
-    const reference = words[refA] as number;
+  // Parents before their children, as rotations leave them.
+  const order = new Uint32Array(nodeCount);
+  const stack = new Uint32Array(maxDepth + 2);
+  const arrange = () => {
+    let top = 0, count = 0;
+    stack[top++] = 0;
+    depths[0] = 1;
+    while (top > 0) {
+      const node = stack[--top] as number;
+      order[count++] = node;
+      const depth = (depths[node] as number) + 1;
+      for (let side = 1; side >= 0; side--) {
+        const child = words[node * NODE_WORDS + reference(side)] as number;
+        if ((child & LEAF) !== 0) continue;
+        depths[child] = depth;
+        stack[top++] = child;
+      }
+    }
+  };
+  const height = (child: number) => ((child & LEAF) !== 0 ? 0 : (heights[child] as number));
+  // Swaps a child of the node at word `a` for one of the node at word `b`: reference and box.
+  const exchange = (a: number, sideA: number, b: number, sideB: number) => {
+    const refA = a + reference(sideA), refB = b + reference(sideB);
+    const kept = words[refA] as number;
     words[refA] = words[refB] as number;
-    words[refB] = reference;
-    for (let k = 0; k < 3; k++) {
-      const low = nodes[minA + k] as number, high = nodes[maxA + k] as number;
-      nodes[minA + k] = nodes[minB + k] as number;
-      nodes[maxA + k] = nodes[maxB + k] as number;
-      nodes[minB + k] = low;
-      nodes[maxB + k] = high;
+    words[refB] = kept;
+    for (let k = 0; k < 7; k++) {
+      if (k === 3) continue;
+      const at = a + 8 * sideA + k, to = b + 8 * sideB + k;
+      const value = nodes[at] as number;
+      nodes[at] = nodes[to] as number;
+      nodes[to] = value;
     }
   };
-  const enclose = (min: number, max: number, child: number) => {
-    for (let k = 0; k < 3; k++) {
-      nodes[min + k] = Math.min(nodes[child + LEFT_MIN + k] as number, nodes[child + RIGHT_MIN + k] as number);
-      nodes[max + k] = Math.max(nodes[child + LEFT_MAX + k] as number, nodes[child + RIGHT_MAX + k] as number);
-    }
-  };
-  for (let node = nodeCount - 1; node >= 0; node--) {
+  for (let step = PASSES * nodeCount - 1; step >= 0; step--) {
+    const at = step % nodeCount;
+    if (at === nodeCount - 1) arrange();
+    const node = order[at] as number;
     const base = node * NODE_WORDS;
-    const left = words[base + LEFT] as number, right = words[base + RIGHT] as number;
-    const leftHeight = height(left), rightHeight = height(right);
-    heights[node] = 1 + Math.max(leftHeight, rightHeight);
-    const room = maxDepth - (depths[node] as number) + 1;
-    let best = 0, choice = 0;
-    if ((right & LEAF) === 0 && leftHeight + 2 <= room) {
-      const child = right * NODE_WORDS;
-      const now = surface(nodes, base + RIGHT_MIN, base + RIGHT_MAX);
-      const a = now - joined(nodes, base + LEFT_MIN, base + LEFT_MAX, child + RIGHT_MIN, child + RIGHT_MAX);
-      const b = now - joined(nodes, base + LEFT_MIN, base + LEFT_MAX, child + LEFT_MIN, child + LEFT_MAX);
-      if (a > best) {
-        best = a;
-        choice = 1;
-      }
-      if (b > best) {
-        best = b;
-        choice = 2;
+    let best = 0, bestInner = 0, bestMoved = 0;
+    // The child "inner" is opened; the other one may change places with either of its children.
+    for (let inner = 0; inner < 2; inner++) {
+      const own = base + 8 * inner, other = base + 8 * (1 - inner);
+      const opened = words[base + reference(inner)] as number;
+      if ((opened & LEAF) !== 0 || (depths[node] as number) + height(words[base + reference(1 - inner)] as number) + 1 > maxDepth) continue;
+      const now = joined(nodes, own, own);
+      for (let moved = 0; moved < 2; moved++) {
+        const gain = now - joined(nodes, other, opened * NODE_WORDS + 8 * (1 - moved));
+        if (gain > best) {
+          best = gain;
+          bestInner = inner;
+          bestMoved = moved;
+        }
       }
     }
-    if ((left & LEAF) === 0 && rightHeight + 2 <= room) {
-      const child = left * NODE_WORDS;
-      const now = surface(nodes, base + LEFT_MIN, base + LEFT_MAX);
-      const a = now - joined(nodes, base + RIGHT_MIN, base + RIGHT_MAX, child + RIGHT_MIN, child + RIGHT_MAX);
-      const b = now - joined(nodes, base + RIGHT_MIN, base + RIGHT_MAX, child + LEFT_MIN, child + LEFT_MAX);
-      if (a > best) {
-        best = a;
-        choice = 3;
-      }
-      if (b > best) {
-        best = b;
-        choice = 4;
-      }
+    if (best > 0) {
+      const opened = words[base + reference(bestInner)] as number;
+      const child = opened * NODE_WORDS, own = base + 8 * bestInner;
+      exchange(base, 1 - bestInner, child, bestMoved);
+      encloseChildren(nodes, own, own + 4, child);
+      heights[opened] = 1 + Math.max(height(words[child + LEFT] as number), height(words[child + RIGHT] as number));
     }
-    if (choice === 0) continue;
-    const inner = choice < 3 ? right : left;
-    const child = inner * NODE_WORDS;
-    const [ref, min, max] = choice < 3 ? [LEFT, LEFT_MIN, LEFT_MAX] : [RIGHT, RIGHT_MIN, RIGHT_MAX];
-    if (choice % 2 === 1) exchange(base + ref, base + min, base + max, child + LEFT, child + LEFT_MIN, child + LEFT_MAX);
-    else exchange(base + ref, base + min, base + max, child + RIGHT, child + RIGHT_MIN, child + RIGHT_MAX);
-    if (choice < 3) enclose(base + RIGHT_MIN, base + RIGHT_MAX, child);
-    else enclose(base + LEFT_MIN, base + LEFT_MAX, child);
-    heights[inner] = 1 + Math.max(height(words[child + LEFT] as number), height(words[child + RIGHT] as number));
     heights[node] = 1 + Math.max(height(words[base + LEFT] as number), height(words[base + RIGHT] as number));
   }
-  return depthFirst(tree, maxDepth);
-}
-
-/** The same tree with its nodes in depth-first order. */
-function depthFirst({ nodes, nodeCount }: Tree, maxDepth: number): Tree {
-  const words = new Uint32Array(nodes.buffer);
+  arrange();
+  const places = new Uint32Array(nodeCount);
+  for (let i = 0; i < nodeCount; i++) places[order[i] as number] = i;
   const moved = new Float32Array(nodeCount * NODE_WORDS);
   const movedWords = new Uint32Array(moved.buffer);
-  // Pending nodes, and the word of the moved parent that names each.
-  const stack = new Uint32Array(2 * (maxDepth + 2));
-  let top = 0, count = 0;
-  const put = (node: number, parent: number) => {
-    const from = node * NODE_WORDS, to = count * NODE_WORDS;
-    for (let k = 0; k < NODE_WORDS; k++) movedWords[to + k] = words[from + k] as number;
-    movedWords[to + PARENT] = parent;
-    return count++;
-  };
-  const visit = (node: number, parent: number) => {
-    const at = put(node, parent) * NODE_WORDS;
-    if (((movedWords[at + RIGHT] as number) & LEAF) === 0) {
-      stack[top++] = movedWords[at + RIGHT] as number;
-      stack[top++] = at + RIGHT;
+  for (let i = 0, to = 0; i < nodeCount; i++, to += NODE_WORDS) {
+    const base = (order[i] as number) * NODE_WORDS;
+    for (let k = 0; k < NODE_WORDS; k++) if (k !== PARENT) movedWords[to + k] = words[base + k] as number;
+    for (let side = 0; side < 2; side++) {
+      const child = words[base + reference(side)] as number;
+      if ((child & LEAF) !== 0) continue;
+      const place = places[child] as number;
+      movedWords[to + reference(side)] = place;
+      movedWords[place * NODE_WORDS + PARENT] = i;
     }
-    if (((movedWords[at + LEFT] as number) & LEAF) === 0) {
-      stack[top++] = movedWords[at + LEFT] as number;
-      stack[top++] = at + LEFT;
-    }
-  };
-  visit(0, 0);
-  while (top > 0) {
-    const slot = stack[--top] as number;
-    const node = stack[--top] as number;
-    movedWords[slot] = count;
-    visit(node, Math.floor(slot / NODE_WORDS));
   }
   return { nodes: moved, nodeCount };
 }

@@ -17,16 +17,14 @@ export class Splitter {
   y1 = 0;
   z1 = 0;
   weight = 0;
+  // Box of the centres, doubled: lower corner and extent.
+  cx0 = 0;
+  cy0 = 0;
+  cz0 = 0;
+  ex = 0;
+  ey = 0;
+  ez = 0;
 
-  readonly #x0 = new Float64Array(SWEEP_MAX);
-  readonly #y0 = new Float64Array(SWEEP_MAX);
-  readonly #z0 = new Float64Array(SWEEP_MAX);
-  readonly #x1 = new Float64Array(SWEEP_MAX);
-  readonly #y1 = new Float64Array(SWEEP_MAX);
-  readonly #z1 = new Float64Array(SWEEP_MAX);
-  readonly #weights = new Float64Array(SWEEP_MAX);
-  readonly #items = new Uint32Array(SWEEP_MAX);
-  readonly #sorted = new Int32Array(3 * SWEEP_MAX);
   readonly #keys = new Float64Array(SWEEP_MAX);
   readonly #right = new Float64Array(SWEEP_MAX);
   readonly #bins: number;
@@ -41,138 +39,8 @@ export class Splitter {
     this.#leftCosts = new Float64Array(bins);
   }
 
-  /** Box and weight of `order[first, end)`, without a split. */
+  /** Box and weight of `order[first, end)`, and the box of the centres (doubled), without a split. */
   measure(boxes: Float32Array, weights: Uint32Array, order: Uint32Array, first: number, end: number): void {
-    let x0 = Infinity, y0 = Infinity, z0 = Infinity, x1 = -Infinity, y1 = -Infinity, z1 = -Infinity, weight = 0;
-    for (let i = first; i < end; i++) {
-      const item = order[i] as number;
-      const b = 6 * item;
-      const a0 = boxes[b] as number, a1 = boxes[b + 1] as number, a2 = boxes[b + 2] as number;
-      const a3 = boxes[b + 3] as number, a4 = boxes[b + 4] as number, a5 = boxes[b + 5] as number;
-      if (a0 < x0) x0 = a0;
-      if (a1 < y0) y0 = a1;
-      if (a2 < z0) z0 = a2;
-      if (a3 > x1) x1 = a3;
-      if (a4 > y1) y1 = a4;
-      if (a5 > z1) z1 = a5;
-      weight += weights[item] as number;
-    }
-    this.x0 = x0;
-    this.y0 = y0;
-    this.z0 = z0;
-    this.x1 = x1;
-    this.y1 = y1;
-    this.z1 = z1;
-    this.weight = weight;
-  }
-
-  /** Tries every plane; for at most {@link SWEEP_MAX} items. */
-  sweep(boxes: Float32Array, weights: Uint32Array, order: Uint32Array, first: number, end: number): void {
-    const n = end - first;
-    const bx0 = this.#x0, by0 = this.#y0, bz0 = this.#z0, bx1 = this.#x1, by1 = this.#y1, bz1 = this.#z1;
-    const w = this.#weights, items = this.#items, sorted = this.#sorted, keys = this.#keys, rightCosts = this.#right;
-    let x0 = Infinity, y0 = Infinity, z0 = Infinity, x1 = -Infinity, y1 = -Infinity, z1 = -Infinity, weight = 0;
-    for (let i = 0; i < n; i++) {
-      const item = order[first + i] as number;
-      const b = 6 * item;
-      const a0 = boxes[b] as number, a1 = boxes[b + 1] as number, a2 = boxes[b + 2] as number;
-      const a3 = boxes[b + 3] as number, a4 = boxes[b + 4] as number, a5 = boxes[b + 5] as number;
-      items[i] = item;
-      bx0[i] = a0;
-      by0[i] = a1;
-      bz0[i] = a2;
-      bx1[i] = a3;
-      by1[i] = a4;
-      bz1[i] = a5;
-      const own = weights[item] as number;
-      w[i] = own;
-      weight += own;
-      if (a0 < x0) x0 = a0;
-      if (a1 < y0) y0 = a1;
-      if (a2 < z0) z0 = a2;
-      if (a3 > x1) x1 = a3;
-      if (a4 > y1) y1 = a4;
-      if (a5 > z1) z1 = a5;
-    }
-    this.x0 = x0;
-    this.y0 = y0;
-    this.z0 = z0;
-    this.x1 = x1;
-    this.y1 = y1;
-    this.z1 = z1;
-    this.weight = weight;
-    if (n === 2) {
-      const ax = (bx1[0] as number) - (bx0[0] as number), ay = (by1[0] as number) - (by0[0] as number), az = (bz1[0] as number) - (bz0[0] as number);
-      const cx = (bx1[1] as number) - (bx0[1] as number), cy = (by1[1] as number) - (by0[1] as number), cz = (bz1[1] as number) - (bz0[1] as number);
-      this.cut = first + 1;
-      this.cost = (ax * ay + ay * az + az * ax) * (w[0] as number) + (cx * cy + cy * cz + cz * cx) * (w[1] as number);
-      return;
-    }
-    let bestAxis = -1, bestCut = 0, bestCost = Infinity;
-    for (let axis = 0; axis < 3; axis++) {
-      const low = axis === 0 ? bx0 : axis === 1 ? by0 : bz0;
-      const high = axis === 0 ? bx1 : axis === 1 ? by1 : bz1;
-      const base = axis * SWEEP_MAX;
-      // Insertion sort of the centres.
-      for (let i = 0; i < n; i++) {
-        const key = (low[i] as number) + (high[i] as number);
-        let j = i - 1;
-        while (j >= 0 && (keys[j] as number) > key) {
-          keys[j + 1] = keys[j] as number;
-          sorted[base + j + 1] = sorted[base + j] as number;
-          j--;
-        }
-        keys[j + 1] = key;
-        sorted[base + j + 1] = i;
-      }
-      if (keys[0] === keys[n - 1]) continue;
-      let a0 = Infinity, a1 = Infinity, a2 = Infinity, a3 = -Infinity, a4 = -Infinity, a5 = -Infinity, sum = 0;
-      for (let i = n - 1; i > 0; i--) {
-        const k = sorted[base + i] as number;
-        const p0 = bx0[k] as number, p1 = by0[k] as number, p2 = bz0[k] as number, p3 = bx1[k] as number, p4 = by1[k] as number, p5 = bz1[k] as number;
-        if (p0 < a0) a0 = p0;
-        if (p1 < a1) a1 = p1;
-        if (p2 < a2) a2 = p2;
-        if (p3 > a3) a3 = p3;
-        if (p4 > a4) a4 = p4;
-        if (p5 > a5) a5 = p5;
-        sum += w[k] as number;
-        const dx = a3 - a0, dy = a4 - a1, dz = a5 - a2;
-        rightCosts[i] = (dx * dy + dy * dz + dz * dx) * sum;
-      }
-      a0 = a1 = a2 = Infinity;
-      a3 = a4 = a5 = -Infinity;
-      sum = 0;
-      for (let i = 0; i < n - 1; i++) {
-        const k = sorted[base + i] as number;
-        const p0 = bx0[k] as number, p1 = by0[k] as number, p2 = bz0[k] as number, p3 = bx1[k] as number, p4 = by1[k] as number, p5 = bz1[k] as number;
-        if (p0 < a0) a0 = p0;
-        if (p1 < a1) a1 = p1;
-        if (p2 < a2) a2 = p2;
-        if (p3 > a3) a3 = p3;
-        if (p4 > a4) a4 = p4;
-        if (p5 > a5) a5 = p5;
-        sum += w[k] as number;
-        const dx = a3 - a0, dy = a4 - a1, dz = a5 - a2;
-        const cost = (dx * dy + dy * dz + dz * dx) * sum + (rightCosts[i + 1] as number);
-        if (cost < bestCost) {
-          bestCost = cost;
-          bestAxis = axis;
-          bestCut = i + 1;
-        }
-      }
-    }
-    this.cost = bestCost;
-    this.cut = bestAxis < 0 ? -1 : first + bestCut;
-    if (bestAxis < 0) return;
-    const base = bestAxis * SWEEP_MAX;
-    for (let i = 0; i < n; i++) order[first + i] = items[sorted[base + i] as number] as number;
-  }
-
-  /** Tries the planes between bins along all three axes (Wald 2007). Measures the range as well. */
-  bin(boxes: Float32Array, weights: Uint32Array, order: Uint32Array, first: number, end: number): void {
-    const bins = end - first < 64 ? 8 : this.#bins;
-    const binBoxes = this.#binBoxes, binWeights = this.#binWeights, leftCosts = this.#leftCosts;
     let x0 = Infinity, y0 = Infinity, z0 = Infinity, x1 = -Infinity, y1 = -Infinity, z1 = -Infinity, weight = 0;
     let cx0 = Infinity, cy0 = Infinity, cz0 = Infinity, cx1 = -Infinity, cy1 = -Infinity, cz1 = -Infinity;
     for (let i = first; i < end; i++) {
@@ -201,13 +69,88 @@ export class Splitter {
     this.x1 = x1;
     this.y1 = y1;
     this.z1 = z1;
+    this.cx0 = cx0;
+    this.cy0 = cy0;
+    this.cz0 = cz0;
+    this.ex = cx1 - cx0;
+    this.ey = cy1 - cy0;
+    this.ez = cz1 - cz0;
     this.weight = weight;
     this.cut = -1;
     this.cost = Infinity;
+  }
+
+  /** Tries every plane across the axis along which the centres spread most; for at most {@link SWEEP_MAX} items. */
+  sweep(boxes: Float32Array, weights: Uint32Array, order: Uint32Array, first: number, end: number): void {
+    this.measure(boxes, weights, order, first, end);
+    const keys = this.#keys, rightCosts = this.#right;
+    const { ex, ey, ez } = this;
+    const axis = ex >= ey && ex >= ez ? 0 : ey >= ez ? 1 : 2;
+    // Insertion sort of the centres.
+    for (let i = first; i < end; i++) {
+      const item = order[i] as number;
+      const b = 6 * item + axis;
+      const key = (boxes[b] as number) + (boxes[b + 3] as number);
+      let j = i - 1;
+      while (j >= first && (keys[j - first] as number) > key) {
+        keys[j - first + 1] = keys[j - first] as number;
+        order[j + 1] = order[j] as number;
+        j--;
+      }
+      keys[j - first + 1] = key;
+      order[j + 1] = item;
+    }
+    if (keys[0] === keys[end - first - 1]) return;
+    let x0 = Infinity, y0 = Infinity, z0 = Infinity, x1 = -Infinity, y1 = -Infinity, z1 = -Infinity, weight = 0;
+    for (let i = end - 1; i > first; i--) {
+      const item = order[i] as number;
+      const b = 6 * item;
+      const a0 = boxes[b] as number, a1 = boxes[b + 1] as number, a2 = boxes[b + 2] as number;
+      const a3 = boxes[b + 3] as number, a4 = boxes[b + 4] as number, a5 = boxes[b + 5] as number;
+      if (a0 < x0) x0 = a0;
+      if (a1 < y0) y0 = a1;
+      if (a2 < z0) z0 = a2;
+      if (a3 > x1) x1 = a3;
+      if (a4 > y1) y1 = a4;
+      if (a5 > z1) z1 = a5;
+      weight += weights[item] as number;
+      const dx = x1 - x0, dy = y1 - y0, dz = z1 - z0;
+      rightCosts[i - first] = (dx * dy + dy * dz + dz * dx) * weight;
+    }
+    x0 = y0 = z0 = Infinity;
+    x1 = y1 = z1 = -Infinity;
+    weight = 0;
+    for (let i = first; i < end - 1; i++) {
+      const item = order[i] as number;
+      const b = 6 * item;
+      const a0 = boxes[b] as number, a1 = boxes[b + 1] as number, a2 = boxes[b + 2] as number;
+      const a3 = boxes[b + 3] as number, a4 = boxes[b + 4] as number, a5 = boxes[b + 5] as number;
+      if (a0 < x0) x0 = a0;
+      if (a1 < y0) y0 = a1;
+      if (a2 < z0) z0 = a2;
+      if (a3 > x1) x1 = a3;
+      if (a4 > y1) y1 = a4;
+      if (a5 > z1) z1 = a5;
+      weight += weights[item] as number;
+      const dx = x1 - x0, dy = y1 - y0, dz = z1 - z0;
+      const cost = (dx * dy + dy * dz + dz * dx) * weight + (rightCosts[i - first + 1] as number);
+      if (cost < this.cost) {
+        this.cost = cost;
+        this.cut = i + 1;
+      }
+    }
+  }
+
+  /** Tries the planes between bins along all three axes (Wald 2007). Measures the range as well. */
+  bin(boxes: Float32Array, weights: Uint32Array, order: Uint32Array, first: number, end: number): void {
+    const bins = end - first < 64 ? 8 : this.#bins;
+    const binBoxes = this.#binBoxes, binWeights = this.#binWeights, leftCosts = this.#leftCosts;
+    this.measure(boxes, weights, order, first, end);
+    const { cx0, cy0, cz0, ex, ey, ez } = this;
     // Axes without extent put everything into one bin, where no plane is. Just below the number of bins, so that the
     // largest centre falls into the last.
     const most = bins * 0.999999;
-    const kx = cx1 > cx0 ? most / (cx1 - cx0) : 0, ky = cy1 > cy0 ? most / (cy1 - cy0) : 0, kz = cz1 > cz0 ? most / (cz1 - cz0) : 0;
+    const kx = ex > 0 ? most / ex : 0, ky = ey > 0 ? most / ey : 0, kz = ez > 0 ? most / ez : 0;
     if (!(kx < Infinity && ky < Infinity && kz < Infinity)) return;
     const used = 3 * bins;
     for (let i = 0, b = 0; i < used; i++, b += 6) {
