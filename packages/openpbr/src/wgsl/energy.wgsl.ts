@@ -6,15 +6,15 @@ const float = (value: number): string => (Number.isInteger(value) ? `${value}.0`
 /** `(u·(count - 1) + ½ + first) / size`: the texture coordinate of u ∈ [0, 1] between two texels' centres, as an offset and a factor. */
 const axis = (first: number, count: number, size: number): [offset: string, factor: string] => [float((first + 0.5) / size), float((count - 1) / size)];
 
-const [angle0, angle1] = axis(0, TABLE_ANGLES, TABLE_ANGLES + 1);
-const [rough0, rough1] = axis(0, TABLE_ROUGHNESSES, TABLE_ROUGHNESSES);
-const [metal0, metal1] = axis(0, TABLE_CONDUCTOR, TABLE_CONDUCTOR + 1);
-const [metalRough0, metalRough1] = axis(0, TABLE_CONDUCTOR, TABLE_CONDUCTOR);
+const angle = axis(0, TABLE_ANGLES, TABLE_ANGLES + 1);
+const rough = axis(0, TABLE_ROUGHNESSES, TABLE_ROUGHNESSES);
+const metal = axis(0, TABLE_CONDUCTOR, TABLE_CONDUCTOR + 1);
+const metalRough = axis(0, TABLE_CONDUCTOR, TABLE_CONDUCTOR);
 const slice = (block: keyof typeof TABLE_BLOCKS) => axis(TABLE_BLOCKS[block][0], TABLE_BLOCKS[block][1], TABLE_DEPTH);
-const [outer0, outer1] = slice('outer');
-const [outerTotal0, outerTotal1] = slice('outerTotal');
-const [inner0, inner1] = slice('inner');
-const [innerTotal0, innerTotal1] = slice('innerTotal');
+const outer = slice('outer');
+const outerTotal = slice('outerTotal');
+const inner = slice('inner');
+const innerTotal = slice('innerTotal');
 const minRoot = Math.sqrt(TABLE_MIN_ROUGHNESS);
 const unit = `clamp((sqrt(r) - ${float(minRoot)}) * ${float(1 / (1 - minRoot))}, 0.0, 1.0)`;
 
@@ -35,13 +35,13 @@ fn openpbr_energy_angle(r: f32, mu: f32) -> f32 {
 // Energy that a perfect mirror of roughness r loses by single scattering.
 fn openpbr_energy_lost(roughness: f32, mu: f32) -> f32 {
   let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
-  return openpbr_table_conductor(vec2f(${metal0} + ${metal1} * openpbr_energy_angle(r, mu), ${metalRough0} + ${metalRough1} * ${unit}));
+  return openpbr_table_conductor(vec2f(${metal[0]} + ${metal[1]} * openpbr_energy_angle(r, mu), ${metalRough[0]} + ${metalRough[1]} * ${unit}));
 }
 
 // Its cosine-weighted mean over all directions.
 fn openpbr_energy_lost_mean(roughness: f32) -> f32 {
   let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
-  return openpbr_table_conductor(vec2f(${float((TABLE_CONDUCTOR + 0.5) / (TABLE_CONDUCTOR + 1))}, ${metalRough0} + ${metalRough1} * ${unit}));
+  return openpbr_table_conductor(vec2f(${float((TABLE_CONDUCTOR + 0.5) / (TABLE_CONDUCTOR + 1))}, ${metalRough[0]} + ${metalRough[1]} * ${unit}));
 }
 //#endif
 
@@ -60,16 +60,16 @@ fn openpbr_energy_share(epsilon: f32, roughness: f32, mu: f32) -> f32 {
   let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
   let eta = (1.0 + epsilon) / (1.0 - epsilon);
   let z = sqrt(abs(epsilon));
-  var at = vec3f(openpbr_energy_angle(r, mu), ${rough0} + ${rough1} * ${unit}, ${outer0} + ${outer1} * z);
+  var at = vec3f(openpbr_energy_angle(r, mu), ${rough[0]} + ${rough[1]} * ${unit}, ${outer[0]} + ${outer[1]} * z);
   var scale = 1.0;
   if (epsilon > 0.0) {
     scale = openpbr_fresnel_dielectric(eta, mu + 0.8 * r * r * (1.0 - mu));
   } else {
     let critical = sqrt(1.0 - eta * eta);
     at.x = select(0.5 - 0.5 * sqrt(max(critical - mu, 0.0) / critical), 0.5 + 0.5 * sqrt(max(mu - critical, 0.0) / (1.0 - critical)), mu > critical);
-    at.z = ${inner0} + ${inner1} * z;
+    at.z = ${inner[0]} + ${inner[1]} * z;
   }
-  at.x = ${angle0} + ${angle1} * at.x;
+  at.x = ${angle[0]} + ${angle[1]} * at.x;
   return min(openpbr_table_dielectric(at) * scale, 1.0);
 }
 
@@ -78,14 +78,14 @@ fn openpbr_energy_share_mean(epsilon: f32, roughness: f32) -> f32 {
   if (epsilon == 0.0) { return 0.0; }
   let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
   let z = sqrt(abs(epsilon));
-  return 1.0 - min((1.0 - openpbr_fresnel_mean(epsilon)) * openpbr_table_dielectric(vec3f(${float((TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1))}, ${rough0} + ${rough1} * ${unit}, select(${inner0} + ${inner1} * z, ${outer0} + ${outer1} * z, epsilon > 0.0))), 1.0);
+  return 1.0 - min((1.0 - openpbr_fresnel_mean(epsilon)) * openpbr_table_dielectric(vec3f(${float((TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1))}, ${rough[0]} + ${rough[1]} * ${unit}, select(${inner[0]} + ${inner[1]} * z, ${outer[0]} + ${outer[1]} * z, epsilon > 0.0))), 1.0);
 }
 
 // Energy that the interface reflects and refracts by single scattering.
 fn openpbr_energy_total(epsilon: f32, roughness: f32, mu: f32) -> f32 {
   let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
   let z = sqrt(abs(epsilon));
-  return openpbr_table_dielectric(vec3f(${angle0} + ${angle1} * openpbr_energy_angle(r, mu), ${rough0} + ${rough1} * ${unit}, select(${innerTotal0} + ${innerTotal1} * z, ${outerTotal0} + ${outerTotal1} * z, epsilon >= 0.0)));
+  return openpbr_table_dielectric(vec3f(${angle[0]} + ${angle[1]} * openpbr_energy_angle(r, mu), ${rough[0]} + ${rough[1]} * ${unit}, select(${innerTotal[0]} + ${innerTotal[1]} * z, ${outerTotal[0]} + ${outerTotal[1]} * z, epsilon >= 0.0)));
 }
 //#endif`,
   [openpbrFresnelDielectric],
