@@ -1,13 +1,13 @@
 import { wgslModule } from '@glanz/wgsl';
+import { openpbrCircle } from './circle.wgsl';
 
 /** `openpbr_cosine_sample(u)`: a direction with density cos θ / π. */
 export const openpbrCosine = wgslModule(
   'openpbr/cosine',
   /* wgsl */ `fn openpbr_cosine_sample(u: vec2f) -> vec3f {
-  let phi = 6.2831853 * u.x;
-  let r = sqrt(u.y);
-  return vec3f(r * cos(phi), r * sin(phi), sqrt(1.0 - u.y));
+  return vec3f(sqrt(u.y) * openpbr_circle(u.x), sqrt(1.0 - u.y));
 }`,
+  [openpbrCircle],
 );
 
 /**

@@ -1,4 +1,5 @@
 import { wgslModule } from '@glanz/wgsl';
+import { openpbrCircle } from './circle.wgsl';
 
 /**
  * The GGX microfacet distribution with height-correlated Smith masking (Heitz 2014). `openpbr_alpha` maps roughness and
@@ -65,10 +66,10 @@ fn openpbr_mirror_cosine(alpha: vec2f, w: vec3f, mu: f32) -> f32 {
 // A half vector visible from wo (Dupuy and Benyoub 2023, spherical caps).
 fn openpbr_ggx_sample(alpha: vec2f, wo: vec3f, u: vec2f) -> vec3f {
   let v = normalize(vec3f(alpha * wo.xy, wo.z));
-  let phi = 6.2831853 * u.x;
   let z = (1.0 - u.y) * (1.0 + v.z) - v.z;
   let r = sqrt(clamp(1.0 - z * z, 0.0, 1.0));
-  let h = vec3f(r * cos(phi), r * sin(phi), z) + v;
+  let h = vec3f(r * openpbr_circle(u.x), z) + v;
   return normalize(vec3f(alpha * h.xy, max(h.z, 1e-7)));
 }`,
+  [openpbrCircle],
 );
