@@ -1,0 +1,102 @@
+import { BvhError } from '../error';
+
+/** A web worker, as far as it is used here. */
+export interface WebWorkerLike {
+  postMessage(message: unknown, transfer: Transferable[]): void;
+  addEventListener(type: string, listener: (event: Event) => void): void;
+  terminate(): void;
+}
+
+/** A `Worker` of Node's `worker_threads`, as far as it is used here. */
+export interface NodeWorkerLike {
+  // Node names its own transferables: any will do.
+  postMessage(message: unknown, transfer: readonly never[]): void;
+  on(type: string, listener: (value: unknown) => void): unknown;
+  terminate(): unknown;
+  ref(): void;
+  unref(): void;
+}
+
+/** The near end of a worker: the same for both kinds. */
+export interface WorkerLine {
+  post(message: unknown, transfer: readonly ArrayBuffer[]): void;
+  /** In Node: whether the worker keeps the process alive. */
+  hold(on: boolean): void;
+  terminate(): void;
+}
+
+/** The far end: what code inside a worker hears and says. */
+export interface WorkerPort {
+  post(message: unknown, transfer?: readonly ArrayBuffer[]): void;
+  listen(heard: (message: unknown) => void): void;
+}
+
+interface Threads {
+  readonly Worker: new (url: URL) => NodeWorkerLike;
+  readonly isMainThread: boolean;
+  readonly parentPort: { postMessage(message: unknown, transfer: readonly ArrayBuffer[]): void; on(type: 'message', heard: (message: unknown) => void): void } | null;
+}
+
+/** One of Node's own modules, without an import that bundlers for the web would stumble over. */
+function builtin<T>(name: string): T | undefined {
+  const { process } = globalThis as { process?: { getBuiltinModule?: (name: string) => unknown } };
+  return process?.getBuiltinModule?.(name) as T | undefined;
+}
+
+/** Threads that this machine runs at a time. */
+export function hardwareThreads(): number {
+  const { navigator } = globalThis as { navigator?: { readonly hardwareConcurrency?: number } };
+  return navigator?.hardwareConcurrency ?? builtin<{ availableParallelism(): number }>('node:os')?.availableParallelism() ?? 1;
+}
+
+/** Starts the package's own worker file: a file of this origin, so that no content security policy has to be widened. */
+export function startWorker(): WebWorkerLike | NodeWorkerLike {
+  // In this form bundlers find the file.
+  if (typeof Worker === 'function') return new Worker(new URL('./worker.js', import.meta.url), { type: 'module', name: 'glanz-bvh' });
+  const threads = builtin<Threads>('node:worker_threads');
+  if (!threads) throw new BvhError('bvh/worker', 'There are no workers here: neither Worker nor process.getBuiltinModule (Node 20.16 or later).');
+  // Not in that form, or they would add the file a second time.
+  const { url } = import.meta;
+  return new threads.Worker(new URL('./worker.js', url));
+}
+
+/** @param failed Told once, if the worker cannot be loaded, throws or ends by itself. */
+export function connect(worker: WebWorkerLike | NodeWorkerLike, heard: (message: unknown) => void, failed: (why: string) => void): WorkerLine {
+  let over = false;
+  const fail = (why: string) => {
+    if (over) return;
+    over = true;
+    void worker.terminate();
+    failed(why);
+  };
+  const terminate = () => {
+    over = true;
+    void worker.terminate();
+  };
+  const hear = (message: unknown) => {
+    if (!over) heard(message);
+  };
+  if ('on' in worker) {
+    worker.on('message', hear);
+    worker.on('error', (error) => fail((error as Error).message));
+    worker.on('exit', () => fail('it has ended'));
+    return { post: (message, transfer) => worker.postMessage(message, transfer as readonly never[]), hold: (on) => (on ? worker.ref() : worker.unref()), terminate };
+  }
+  worker.addEventListener('message', (event) => hear((event as MessageEvent).data));
+  worker.addEventListener('messageerror', () => fail('its answer could not be read'));
+  worker.addEventListener('error', (event) => {
+    event.preventDefault();
+    fail((event as ErrorEvent).message || 'its script could not be loaded (a wrong address, or a content security policy without worker-src)');
+  });
+  return { post: (message, transfer) => worker.postMessage(message, [...transfer]), hold: () => undefined, terminate };
+}
+
+/** The port of the worker that this code runs in; undefined outside of workers. */
+export function ownPort(): WorkerPort | undefined {
+  const scope = globalThis as unknown as { WorkerGlobalScope?: new () => object; postMessage(message: unknown, transfer: readonly ArrayBuffer[]): void; addEventListener(type: 'message', heard: (event: MessageEvent) => void): void };
+  if (scope.WorkerGlobalScope && globalThis instanceof scope.WorkerGlobalScope) {
+    return { post: (message, transfer = []) => scope.postMessage(message, transfer), listen: (heard) => scope.addEventListener('message', (event) => heard(event.data)) };
+  }
+  const port = builtin<Threads>('node:worker_threads')?.parentPort;
+  return port ? { post: (message, transfer = []) => port.postMessage(message, transfer), listen: (heard) => port.on('message', heard) } : undefined;
+}

@@ -1,0 +1,36 @@
+import { GlanzError } from '@glanz/wgsl/error';
+import type { Blas, BlasOptions, TriangleMesh } from '../blas';
+import { BvhError } from '../error';
+
+/** To a worker. */
+export type BuildRequest = { readonly kind: 'build'; readonly id: number; readonly mesh: TriangleMesh; readonly options: BlasOptions } | { readonly kind: 'warm-up' };
+
+/** From a worker. `ready` comes once, first of all. */
+export type BuildReply =
+  | { readonly kind: 'ready' }
+  | { readonly kind: 'started'; readonly id: number }
+  | { readonly kind: 'built'; readonly id: number; readonly blas: Blas }
+  | { readonly kind: 'failed'; readonly id: number; readonly error: SentError };
+
+/** What of an error crosses the boundary: structured cloning would drop the class and the code. */
+export interface SentError {
+  /** Absent: not one of ours. */
+  readonly code?: string;
+  readonly message: string;
+}
+
+export function sendableError(error: unknown): SentError {
+  if (error instanceof GlanzError) return { code: error.code, message: error.message };
+  return { message: error instanceof Error ? error.message : String(error) };
+}
+
+export function receivedError({ code, message }: SentError): BvhError {
+  return code === undefined ? new BvhError('bvh/worker', `A build failed in its worker: ${message}`) : new BvhError(code, message);
+}
+
+/** The buffers behind some arrays, each once, without shared ones. */
+export function buffersOf(...arrays: readonly (ArrayBufferView | undefined)[]): ArrayBuffer[] {
+  const buffers = new Set<ArrayBuffer>();
+  for (const array of arrays) if (array?.buffer instanceof ArrayBuffer) buffers.add(array.buffer);
+  return [...buffers];
+}

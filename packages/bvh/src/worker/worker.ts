@@ -1,0 +1,58 @@
+import { buildBlas, type TriangleMesh } from '../blas';
+import { ownPort, type WorkerPort } from './platform';
+import { buffersOf, sendableError, type BuildReply, type BuildRequest } from './protocol';
+
+/** Builds to warm up with, and quads along an edge of the mesh: the optimising compilers have had all they need after about a tenth of a second. */
+const WARM_BUILDS = 24;
+const WARM_EDGE = 40;
+
+/** A wavy sheet of quads, each row with triangles of another size: splits, pairs and rotations all have work. */
+function sheet(edge: number): TriangleMesh {
+  const positions = new Float32Array((edge + 1) * (edge + 1) * 3);
+  const indices = new Uint32Array(edge * edge * 6);
+  for (let y = 0, p = 0, i = 0; y <= edge; y++) {
+    for (let x = 0; x <= edge; x++) {
+      positions.set([x * (1 + 0.05 * y), Math.sin(7.3 * x + 1.7 * y), y * y * 0.1], 3 * p);
+      if (x < edge && y < edge) {
+        indices.set([p, p + 1, p + edge + 1, p + 1, p + edge + 2, p + edge + 1], i);
+        i += 6;
+      }
+      p++;
+    }
+  }
+  return { positions, indices };
+}
+
+/**
+ * Answers build requests of a `BvhWorkers` pool. This module does so by itself where it is loaded as a worker and
+ * nothing anywhere else; call it only to let a worker of your own, made by `createWorker`, do the builds.
+ *
+ * @param port What the worker hears and says.
+ */
+export function serveBuilds(port: WorkerPort): void {
+  const say = (reply: BuildReply, transfer?: readonly ArrayBuffer[]) => port.post(reply, transfer);
+  let worked = false;
+  const warmUp = (left: number) => {
+    // One build at a time, so that a request need not wait; the first one ends it.
+    if (worked || left === 0) return;
+    buildBlas(sheet(WARM_EDGE + (left % 4)));
+    setTimeout(() => warmUp(left - 1), 0);
+  };
+  port.listen((message) => {
+    const request = message as BuildRequest;
+    if (request.kind === 'warm-up') return warmUp(WARM_BUILDS);
+    worked = true;
+    const { id, mesh, options } = request;
+    say({ kind: 'started', id });
+    try {
+      const blas = buildBlas(mesh, options);
+      say({ kind: 'built', id, blas }, buffersOf(blas.nodes, blas.triangleIndices, blas.bounds.min, blas.bounds.max));
+    } catch (error) {
+      say({ kind: 'failed', id, error: sendableError(error) });
+    }
+  });
+  say({ kind: 'ready' });
+}
+
+const port = ownPort();
+if (port) serveBuilds(port);

@@ -1,0 +1,332 @@
+import { buildBlas, type Blas, type BlasOptions, type TriangleMesh } from '../blas';
+import { BvhError } from '../error';
+import { connect, hardwareThreads, startWorker, type NodeWorkerLike, type WebWorkerLike, type WorkerLine } from './platform';
+import { buffersOf, receivedError, type BuildReply, type BuildRequest } from './protocol';
+
+export type { NodeWorkerLike, WebWorkerLike, WorkerPort } from './platform';
+
+/** Small builds are sent ahead until a worker has so many triangles to do: it should not wait for the next message. */
+const AHEAD = 16_384;
+
+/** A build of more triangles is worth ending its worker when it is aborted; a smaller one is let run out, unheard. */
+const WORTH_ENDING = 100_000;
+
+/** Without workers the thread is handed back after so many milliseconds of building. */
+const SLICE_MS = 12;
+
+/** A worker that has not reported by then will not. */
+const START_MS = 15_000;
+
+/** What {@link BvhWorkers.create} may be told. */
+export interface BvhWorkersOptions {
+  /** Workers, at least 1. Default: the machine's threads, at most 8. */
+  readonly count?: number;
+  /**
+   * Makes a worker that runs `@glanz/bvh/worker`, where the package's own way does not fit a bundler or a page's policy,
+   * e.g. `() => new Worker(myUrl, { type: 'module' })`, or one of Node's `worker_threads`.
+   */
+  readonly createWorker?: () => WebWorkerLike | NodeWorkerLike;
+  /** Let each worker build small made-up meshes until there is work, so that its first real build runs optimised code. Default false. */
+  readonly warmUp?: boolean;
+}
+
+/** What {@link BvhWorkers.buildBlas} may be told besides the options of `buildBlas`. */
+export interface WorkerBuildOptions extends BlasOptions {
+  /** Gives up: the promise rejects at once with the signal's reason. */
+  readonly signal?: AbortSignal | undefined;
+  /** Told 0 when the build begins and 1 when it is done. */
+  readonly onProgress?: ((done: number) => void) | undefined;
+  /**
+   * Hand the mesh's buffers over instead of copying them: the caller's arrays are empty from then on. For arrays that
+   * fill their buffers; others are copied. Arrays over a SharedArrayBuffer are never copied. Default false.
+   */
+  readonly transfer?: boolean;
+}
+
+interface Job {
+  readonly id: number;
+  readonly mesh: TriangleMesh;
+  readonly options: BlasOptions;
+  readonly transfer: boolean;
+  readonly triangles: number;
+  readonly progress: (done: number) => void;
+  /** Ends the promise. Calls after the first do nothing. */
+  readonly settle: (result: Blas | { readonly error: unknown }) => void;
+  settled: boolean;
+}
+
+/** A place in the pool for one worker after another. */
+interface Seat {
+  line: WorkerLine | undefined;
+  ready: boolean;
+  /** Waits for a worker to report. */
+  timer: ReturnType<typeof setTimeout> | undefined;
+  /** Builds that were sent and not answered, abandoned ones too. */
+  readonly jobs: Map<number, Job>;
+  /** Their triangles. */
+  load: number;
+}
+
+/**
+ * Builds hierarchies off the calling thread, several at a time. Module workers in browsers, `worker_threads` in Node.
+ * Where there are no workers it builds on the calling thread, one mesh at a time, and hands the thread back in between;
+ * {@link fallback} then says why.
+ *
+ * @example
+ * const workers = await BvhWorkers.create();
+ * const trees = await Promise.all(meshes.map((mesh) => workers.buildBlas(mesh, { signal })));
+ * workers.destroy();
+ */
+export class BvhWorkers {
+  readonly #createWorker: () => WebWorkerLike | NodeWorkerLike;
+  readonly #warmUp: boolean;
+  readonly #seats: Set<Seat>;
+  readonly #queue: Job[] = [];
+  /** Builds by signal: one listener serves them all, however many meshes share a signal. */
+  readonly #signals = new Map<AbortSignal, { readonly jobs: Set<Job>; readonly abort: () => void }>();
+  #fallback: string | undefined;
+  #nextId = 0;
+  #destroyed = false;
+  #building = false;
+
+  private constructor(count: number, { createWorker = startWorker, warmUp = false }: BvhWorkersOptions) {
+    this.#createWorker = createWorker;
+    this.#warmUp = warmUp;
+    this.#seats = new Set(Array.from({ length: count }, () => ({ line: undefined, ready: false, timer: undefined, jobs: new Map<number, Job>(), load: 0 })));
+  }
+
+  /**
+   * Starts the workers. Resolves as soon as one is ready, or with {@link fallback} set if none can be had; that is no error.
+   *
+   * @throws {BvhError} `bvh/options` for a count that is not a whole number from 1 on.
+   */
+  static async create(options: BvhWorkersOptions = {}): Promise<BvhWorkers> {
+    const count = options.count ?? Math.max(1, Math.min(8, hardwareThreads()));
+    if (!(Number.isInteger(count) && count >= 1)) throw new BvhError('bvh/options', `count is ${count}; it must be a whole number from 1 on.`);
+    const workers = new BvhWorkers(count, options);
+    await Promise.any([...workers.#seats].map((seat) => workers.#start(seat))).catch(() => undefined);
+    return workers;
+  }
+
+  /** Workers there are, those that are starting included; 0 if builds run on the calling thread. */
+  get count(): number {
+    return this.#seats.size;
+  }
+
+  /** Why builds run on the calling thread; undefined where workers do them. */
+  get fallback(): string | undefined {
+    return this.#fallback;
+  }
+
+  /**
+   * Builds the hierarchy of a mesh: the same as `buildBlas(mesh, options)`, bit for bit. Builds are taken up in the order
+   * of the calls. The mesh is read when its build is taken up, so it must stay as it is until the promise settles.
+   *
+   * @throws {BvhError} as `buildBlas` does; `bvh/worker` if the worker ends under the build, for want of memory perhaps;
+   * `bvh/destroyed` after or during {@link destroy}.
+   * @throws the signal's reason when aborted.
+   */
+  buildBlas(mesh: TriangleMesh, options: WorkerBuildOptions = {}): Promise<Blas> {
+    const { signal, onProgress, transfer = false, ...own } = options;
+    return new Promise<Blas>((resolve, reject) => {
+      if (this.#destroyed) throw destroyed();
+      signal?.throwIfAborted();
+      const job: Job = {
+        id: this.#nextId++,
+        mesh,
+        options: own,
+        transfer,
+        triangles: Math.floor((mesh.indices?.length ?? mesh.positions.length / 3) / 3),
+        progress: (done) => {
+          try {
+            if (!job.settled) onProgress?.(done);
+          } catch (error) {
+            job.settle({ error });
+          }
+        },
+        settle: (result) => {
+          if (job.settled) return;
+          job.settled = true;
+          if (signal) this.#forget(signal, job);
+          if ('error' in result) reject(result.error as Error);
+          else resolve(result);
+        },
+        settled: false,
+      };
+      if (signal) this.#watch(signal, job);
+      this.#queue.push(job);
+      this.#next();
+    });
+  }
+
+  /** Ends all workers. Builds that are not done reject with `bvh/destroyed`. */
+  destroy(): void {
+    this.#destroyed = true;
+    for (const seat of this.#seats) {
+      clearTimeout(seat.timer);
+      seat.line?.terminate();
+      for (const job of seat.jobs.values()) job.settle({ error: destroyed() });
+      seat.jobs.clear();
+    }
+    this.#seats.clear();
+    for (const job of this.#queue.splice(0)) job.settle({ error: destroyed() });
+  }
+
+  /** Puts a worker into a seat. Rejects if that fails, and takes the seat away. */
+  #start(seat: Seat): Promise<void> {
+    return new Promise<void>((resolve, reject) => {
+      seat.ready = false;
+      seat.line = undefined;
+      const failed = (why: string) => {
+        clearTimeout(seat.timer);
+        if (seat.ready) this.#crashed(seat, why);
+        else this.#remove(seat, why);
+        reject(new BvhError('bvh/worker', why));
+      };
+      seat.timer = setTimeout(() => {
+        seat.line?.terminate();
+        failed(`no worker has reported within ${START_MS / 1000} s`);
+      }, START_MS);
+      try {
+        seat.line = connect(
+          this.#createWorker(),
+          (message) => {
+            const reply = message as BuildReply;
+            if (reply.kind !== 'ready') return this.#answered(seat, reply);
+            clearTimeout(seat.timer);
+            seat.ready = true;
+            if (this.#warmUp) this.#post(seat, { kind: 'warm-up' }, []);
+            seat.line?.hold(false);
+            resolve();
+            this.#next();
+          },
+          failed,
+        );
+      } catch (error) {
+        failed(error instanceof Error ? error.message : String(error));
+      }
+    });
+  }
+
+  #restart(seat: Seat): void {
+    seat.jobs.clear();
+    seat.load = 0;
+    this.#start(seat).catch(() => undefined);
+  }
+
+  #remove(seat: Seat, why: string): void {
+    this.#seats.delete(seat);
+    if (this.#seats.size > 0 || this.#destroyed) return;
+    this.#fallback = `Hierarchies are built on the calling thread, for no worker could be started: ${why}.`;
+    this.#next();
+  }
+
+  #crashed(seat: Seat, why: string): void {
+    const lost = [...seat.jobs.values()];
+    this.#restart(seat);
+    for (const job of lost) job.settle({ error: new BvhError('bvh/worker', `A worker ended during a build (${why}); the mesh may need more memory than there is.`) });
+  }
+
+  #answered(seat: Seat, reply: Exclude<BuildReply, { kind: 'ready' }>): void {
+    const job = seat.jobs.get(reply.id);
+    if (!job) return;
+    if (reply.kind === 'started') return job.progress(0);
+    seat.jobs.delete(reply.id);
+    seat.load -= job.triangles;
+    if (seat.jobs.size === 0) seat.line?.hold(false);
+    // First the next build, then whatever the caller does with this one.
+    this.#next();
+    if (reply.kind === 'failed') return job.settle({ error: receivedError(reply.error) });
+    job.progress(1);
+    job.settle(reply.blas);
+  }
+
+  #watch(signal: AbortSignal, job: Job): void {
+    let watched = this.#signals.get(signal);
+    if (!watched) {
+      const jobs = new Set<Job>();
+      watched = { jobs, abort: () => jobs.forEach((each) => this.#abort(each, signal.reason)) };
+      this.#signals.set(signal, watched);
+      signal.addEventListener('abort', watched.abort);
+    }
+    watched.jobs.add(job);
+  }
+
+  #forget(signal: AbortSignal, job: Job): void {
+    const watched = this.#signals.get(signal);
+    watched?.jobs.delete(job);
+    if (!watched || watched.jobs.size > 0) return;
+    this.#signals.delete(signal);
+    signal.removeEventListener('abort', watched.abort);
+  }
+
+  #abort(job: Job, reason: unknown): void {
+    job.settle({ error: reason });
+    const at = this.#queue.indexOf(job);
+    if (at >= 0) this.#queue.splice(at, 1);
+    for (const seat of this.#seats) {
+      if (!seat.jobs.has(job.id) || seat.jobs.size > 1 || job.triangles < WORTH_ENDING) continue;
+      seat.line?.terminate();
+      this.#restart(seat);
+    }
+  }
+
+  /** Gives what waits to the workers that have least to do, or builds it here. */
+  #next(): void {
+    if (this.#fallback !== undefined) void this.#buildHere();
+    for (;;) {
+      let free: Seat | undefined;
+      for (const seat of this.#seats) if (seat.ready && (seat.jobs.size === 0 || seat.load < AHEAD) && seat.load < (free?.load ?? Infinity)) free = seat;
+      const job = free && this.#queue.shift();
+      if (!free || !job) return;
+      this.#send(free, job);
+    }
+  }
+
+  #send(seat: Seat, job: Job): void {
+    const { id, options, transfer } = job;
+    const { positions, indices } = job.mesh;
+    const sent = <T extends Float32Array | Uint32Array | Uint16Array>(array: T): T => (array.buffer instanceof ArrayBuffer && !(transfer && array.byteLength === array.buffer.byteLength) ? (array.slice() as T) : array);
+    seat.jobs.set(id, job);
+    seat.load += job.triangles;
+    try {
+      const mesh: TriangleMesh = { positions: sent(positions), indices: indices && sent(indices) };
+      seat.line?.hold(true);
+      this.#post(seat, { kind: 'build', id, mesh, options }, buffersOf(mesh.positions, mesh.indices));
+    } catch (error) {
+      // Options that cannot be cloned, arrays that are none or were given away.
+      seat.jobs.delete(id);
+      seat.load -= job.triangles;
+      job.settle({ error });
+    }
+  }
+
+  #post(seat: Seat, request: BuildRequest, transfer: readonly ArrayBuffer[]): void {
+    seat.line?.post(request, transfer);
+  }
+
+  async #buildHere(): Promise<void> {
+    if (this.#building) return;
+    this.#building = true;
+    let until = -Infinity;
+    while (this.#queue.length > 0) {
+      if (performance.now() > until) {
+        await new Promise((resolve) => setTimeout(resolve, 0));
+        until = performance.now() + SLICE_MS;
+        continue;
+      }
+      const job = this.#queue.shift() as Job;
+      try {
+        job.progress(0);
+        const blas = buildBlas(job.mesh, job.options);
+        job.progress(1);
+        job.settle(blas);
+      } catch (error) {
+        job.settle({ error });
+      }
+    }
+    this.#building = false;
+  }
+}
+
+const destroyed = () => new BvhError('bvh/destroyed', 'The workers were destroyed: create them anew for further builds.');

@@ -1,0 +1,240 @@
+import { getEventListeners, once } from 'node:events';
+import { Worker } from 'node:worker_threads';
+import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
+import { buildBlas, type Blas, type TriangleMesh } from '../../src/blas';
+import { BvhError } from '../../src/error';
+import { BvhWorkers, type BvhWorkersOptions } from '../../src/worker/workers';
+import { randomNumbers, sphere, strewn } from '../shapes';
+import { bundledWorker } from './bundled';
+
+const bytes = (array: Float32Array | Uint32Array) => Buffer.from(array.buffer, array.byteOffset, array.byteLength);
+
+function expectSame(actual: Blas, expected: Blas): void {
+  expect(actual.nodeCount).toBe(expected.nodeCount);
+  expect(actual.nodes.length).toBe(expected.nodes.length);
+  expect(bytes(actual.nodes).equals(bytes(expected.nodes))).toBe(true);
+  expect(bytes(actual.triangleIndices).equals(bytes(expected.triangleIndices))).toBe(true);
+  expect(actual.bounds).toEqual(expected.bounds);
+}
+
+const random = randomNumbers(11);
+const meshes: TriangleMesh[] = [sphere(96), strewn(9000, 0.1, random), { positions: strewn(500, 0.3, random).positions }, { positions: sphere(24).positions, indices: Uint16Array.from(sphere(24).indices) }, { positions: new Float32Array(0), indices: new Uint32Array(0) }, ...Array.from({ length: 40 }, () => strewn(1 + Math.floor(200 * random()), 0.5, random))];
+/** About a second of work: there is time to do something meanwhile. */
+const big = () => strewn(700_000, 0.02, randomNumbers(5));
+
+describe('BvhWorkers', () => {
+  let worker: Awaited<ReturnType<typeof bundledWorker>>;
+  const started: Worker[] = [];
+  const pools: BvhWorkers[] = [];
+  const create = async (options: BvhWorkersOptions = {}) => {
+    const createWorker = () => {
+      const made = worker.start();
+      started.push(made);
+      return made;
+    };
+    const pool = await BvhWorkers.create({ count: 2, createWorker, ...options });
+    pools.push(pool);
+    return pool;
+  };
+  beforeAll(async () => {
+    worker = await bundledWorker();
+  });
+  afterAll(() => worker.remove());
+  afterEach(() => {
+    for (const pool of pools.splice(0)) pool.destroy();
+    started.length = 0;
+  });
+
+  it('builds what buildBlas builds, bit for bit, many meshes at once and with options', async () => {
+    const workers = await create();
+    expect(workers.fallback).toBeUndefined();
+    expect(workers.count).toBe(2);
+    const all = await Promise.all(meshes.map((mesh) => workers.buildBlas(mesh)));
+    all.forEach((blas, i) => expectSame(blas, buildBlas(meshes[i] as TriangleMesh)));
+    const options = { maxLeafTriangles: 2, bins: 8 };
+    expectSame(await workers.buildBlas(meshes[0] as TriangleMesh, options), buildBlas(meshes[0] as TriangleMesh, options));
+    expect(buildBlas(meshes[0] as TriangleMesh, options).nodeCount).not.toBe(buildBlas(meshes[0] as TriangleMesh).nodeCount);
+  });
+
+  it('leaves the calling thread free and runs two builds at a time', async () => {
+    const workers = await create();
+    const mesh = big();
+    const began: number[] = [], ended: number[] = [];
+    const builds = [0, 1].map((i) => workers.buildBlas(mesh, { onProgress: (done) => ((done === 0 ? began : ended)[i] = performance.now()) }));
+    let longest = 0, last = performance.now();
+    const ticking = setInterval(() => {
+      longest = Math.max(longest, performance.now() - last);
+      last = performance.now();
+    }, 1);
+    await Promise.all(builds);
+    clearInterval(ticking);
+    expect(Math.max(...began)).toBeLessThan(Math.min(...ended));
+    // One build takes several times as long.
+    expect(longest).toBeLessThan((Math.max(...ended) - Math.min(...began)) / 2);
+  });
+
+  it('keeps the mesh by default, empties its arrays with transfer, and shares those over a SharedArrayBuffer', async () => {
+    const workers = await create();
+    const expected = buildBlas(sphere(48));
+    const kept = sphere(48);
+    expectSame(await workers.buildBlas(kept), expected);
+    expect(kept.positions.length).toBe(sphere(48).positions.length);
+    const given = sphere(48);
+    expectSame(await workers.buildBlas(given, { transfer: true }), expected);
+    expect([given.positions.length, given.indices.length]).toEqual([0, 0]);
+
+    const part = sphere(48);
+    const room = new Float32Array(part.positions.length + 7);
+    room.set(part.positions, 7);
+    expectSame(await workers.buildBlas({ positions: room.subarray(7), indices: part.indices }, { transfer: true }), expected);
+    expect([room.length, part.indices.length]).toEqual([part.positions.length + 7, 0]);
+
+    const shared = new Float32Array(new SharedArrayBuffer(kept.positions.byteLength));
+    shared.set(kept.positions);
+    expectSame(await workers.buildBlas({ positions: shared, indices: kept.indices }), expected);
+  });
+
+  it('tells progress per mesh: 0 when taken up, 1 when done', async () => {
+    const workers = await create();
+    const told: number[][] = [[], [], []];
+    await Promise.all(told.map((list) => workers.buildBlas(sphere(32), { onProgress: (done) => list.push(done) })));
+    expect(told).toEqual([[0, 1], [0, 1], [0, 1]]);
+  });
+
+  it('hands typed errors across, with code and message, and goes on', async () => {
+    const workers = await create();
+    const faults: readonly [TriangleMesh, object][] = [
+      [{ positions: new Float32Array(4) }, {}],
+      [{ positions: new Float32Array(9), indices: new Uint32Array([0, 1, 3]) }, {}],
+      [sphere(8), { maxLeafTriangles: 99 }],
+    ];
+    for (const [mesh, options] of faults) {
+      let own: unknown;
+      try {
+        buildBlas(mesh, options);
+      } catch (error) {
+        own = error;
+      }
+      const theirs = await workers.buildBlas(mesh, options).catch((error: unknown) => error);
+      expect(theirs).toBeInstanceOf(BvhError);
+      expect(theirs).toMatchObject({ code: (own as BvhError).code, message: (own as BvhError).message });
+    }
+    await expect(workers.buildBlas(sphere(8), { bins: (() => 8) as unknown as number })).rejects.toThrow(/clone/);
+    await expect(workers.buildBlas(sphere(8), { onProgress: () => { throw new TypeError('mine'); } })).rejects.toThrow('mine');
+    expectSame(await workers.buildBlas(sphere(16)), buildBlas(sphere(16)));
+    expect(started).toHaveLength(2);
+  });
+
+  it('aborts builds that run, wait or are yet to come; a long one ends its worker, which is replaced', async () => {
+    const workers = await create({ count: 1 });
+    const running = new AbortController(), waiting = new AbortController();
+    let begun = () => undefined as void;
+    const hasBegun = new Promise<void>((resolve) => (begun = resolve));
+    const first = workers.buildBlas(big(), { signal: running.signal, onProgress: () => begun() });
+    const second = workers.buildBlas(big(), { signal: waiting.signal });
+    const third = workers.buildBlas(sphere(24));
+    const settled = Promise.allSettled([first, second]);
+    await hasBegun;
+    const reason = new Error('enough');
+    const gone = once(started[0] as Worker, 'exit');
+    waiting.abort();
+    running.abort(reason);
+    const [a, b] = await settled;
+    expect(a).toMatchObject({ status: 'rejected', reason });
+    expect((b as PromiseRejectedResult).reason).toMatchObject({ name: 'AbortError' });
+    await gone;
+    expectSame(await third, buildBlas(sphere(24)));
+    expect(started).toHaveLength(2);
+    await expect(workers.buildBlas(sphere(8), { signal: running.signal })).rejects.toBe(reason);
+  });
+
+  it('listens once to a signal that many builds share, and no longer than they take', async () => {
+    const workers = await create();
+    const { signal } = new AbortController();
+    const builds = [0, 1, 2, 3].map(() => workers.buildBlas(sphere(16), { signal }));
+    expect(getEventListeners(signal, 'abort')).toHaveLength(1);
+    await Promise.all(builds);
+    expect(getEventListeners(signal, 'abort')).toHaveLength(0);
+  });
+
+  it('lets a short build run out when it is aborted, and says nothing of it', async () => {
+    const workers = await create({ count: 1 });
+    const controller = new AbortController();
+    const told: number[] = [];
+    const build = workers.buildBlas(sphere(128), { signal: controller.signal, onProgress: (done) => told.push(done) });
+    controller.abort();
+    await expect(build).rejects.toMatchObject({ name: 'AbortError' });
+    expectSame(await workers.buildBlas(sphere(16)), buildBlas(sphere(16)));
+    expect(told).toEqual([]);
+    expect(started).toHaveLength(1);
+  });
+
+  it('rejects what a dying worker was at, and replaces it', async () => {
+    const workers = await create({ count: 1 });
+    const build = workers.buildBlas(big());
+    const failed = expect(build).rejects.toMatchObject({ code: 'bvh/worker' });
+    await (started[0] as Worker).terminate();
+    await failed;
+    expectSame(await workers.buildBlas(sphere(24)), buildBlas(sphere(24)));
+    expect(started).toHaveLength(2);
+  });
+
+  it('rejects all that is not done when destroyed, and ends its workers', async () => {
+    const workers = await create();
+    const builds = Promise.allSettled([big(), big(), sphere(8)].map((mesh) => workers.buildBlas(mesh)));
+    const gone = Promise.all(started.map((thread) => once(thread, 'exit')));
+    workers.destroy();
+    for (const build of await builds) expect(build).toMatchObject({ status: 'rejected', reason: { code: 'bvh/destroyed' } });
+    await gone;
+    await expect(workers.buildBlas(sphere(8))).rejects.toMatchObject({ code: 'bvh/destroyed' });
+  });
+
+  it('builds the same after a warm-up', async () => {
+    const workers = await create({ warmUp: true });
+    await new Promise((resolve) => setTimeout(resolve, 100));
+    expectSame(await workers.buildBlas(sphere(64)), buildBlas(sphere(64)));
+  });
+
+  it('builds here where no worker can be made, whatever the cause, and hands the thread back in between', async () => {
+    const causes: (() => Worker)[] = [
+      () => { throw new Error('refused by policy'); },
+      () => new Worker('/no/such/worker.mjs'),
+      () => new Worker('throw new Error("broken script")', { eval: true }),
+      () => new Worker('', { eval: true }),
+    ];
+    for (const [i, createWorker] of causes.entries()) {
+      const workers = await create({ createWorker });
+      expect(workers.fallback).toMatch([/refused by policy/, /Cannot find module/, /broken script/, /it has ended/][i] as RegExp);
+      expect(workers.count).toBe(0);
+      const told: number[] = [];
+      expectSame(await workers.buildBlas(sphere(24), { onProgress: (done) => told.push(done) }), buildBlas(sphere(24)));
+      expect(told).toEqual([0, 1]);
+      await expect(workers.buildBlas({ positions: new Float32Array(4) })).rejects.toMatchObject({ code: 'bvh/positions' });
+    }
+    const workers = await create({ createWorker: causes[0] as () => Worker });
+    const controller = new AbortController();
+    let between = 0;
+    const ticking = setInterval(() => between++, 0);
+    const builds = Array.from({ length: 12 }, () => workers.buildBlas(sphere(160), { signal: controller.signal }));
+    const last = workers.buildBlas(sphere(160), { signal: controller.signal }).catch((error: unknown) => error);
+    await builds[10];
+    controller.abort();
+    await Promise.allSettled(builds);
+    clearInterval(ticking);
+    expect(between).toBeGreaterThan(3);
+    expect(await last).toMatchObject({ name: 'AbortError' });
+    const left = workers.buildBlas(sphere(8));
+    workers.destroy();
+    await expect(left).rejects.toMatchObject({ code: 'bvh/destroyed' });
+  });
+
+  it('uses the package file by default: not there in the sources, so it builds here', async () => {
+    const workers = await BvhWorkers.create({ count: 1 });
+    expect(workers.fallback).toMatch(/worker\.js/);
+    expectSame(await workers.buildBlas(sphere(16)), buildBlas(sphere(16)));
+  });
+
+  it('refuses a senseless count', async () => {
+    for (const count of [0, -1, 1.5, NaN]) await expect(BvhWorkers.create({ count })).rejects.toMatchObject({ code: 'bvh/options' });
+  });
+});
