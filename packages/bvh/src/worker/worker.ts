@@ -1,6 +1,8 @@
 import { buildBlas, type TriangleMesh } from '../blas';
-import { ownPort, type WorkerPort } from './platform';
+import { ownPort, type WorkerPort } from './port';
 import { buffersOf, sendableError, type BuildReply, type BuildRequest } from './protocol';
+
+export type { WorkerPort } from './port';
 
 /** Builds to warm up with, and quads along an edge of the mesh: the optimising compilers have had all they need after about a tenth of a second. */
 const WARM_BUILDS = 24;

@@ -1,9 +1,9 @@
 import { buildBlas, type Blas, type BlasOptions, type TriangleMesh } from '../blas';
 import { BvhError } from '../error';
-import { connect, hardwareThreads, startWorker, type NodeWorkerLike, type WebWorkerLike, type WorkerLine } from './platform';
+import { connect, hardwareThreads, startWorker, type NodeWorkerLike, type WebWorkerLike, type WorkerLine } from './line';
 import { buffersOf, receivedError, type BuildReply, type BuildRequest } from './protocol';
 
-export type { NodeWorkerLike, WebWorkerLike, WorkerPort } from './platform';
+export type { NodeWorkerLike, WebWorkerLike } from './line';
 
 /** Small builds are sent ahead until a worker has so many triangles to do: it should not wait for the next message. */
 const AHEAD = 16_384;

@@ -1,4 +1,5 @@
 import { BvhError } from '../error';
+import { builtin } from './port';
 
 /** A web worker, as far as it is used here. */
 export interface WebWorkerLike {
@@ -25,24 +26,6 @@ export interface WorkerLine {
   terminate(): void;
 }
 
-/** The far end: what code inside a worker hears and says. */
-export interface WorkerPort {
-  post(message: unknown, transfer?: readonly ArrayBuffer[]): void;
-  listen(heard: (message: unknown) => void): void;
-}
-
-interface Threads {
-  readonly Worker: new (url: URL) => NodeWorkerLike;
-  readonly isMainThread: boolean;
-  readonly parentPort: { postMessage(message: unknown, transfer: readonly ArrayBuffer[]): void; on(type: 'message', heard: (message: unknown) => void): void } | null;
-}
-
-/** One of Node's own modules, without an import that bundlers for the web would stumble over. */
-function builtin<T>(name: string): T | undefined {
-  const { process } = globalThis as { process?: { getBuiltinModule?: (name: string) => unknown } };
-  return process?.getBuiltinModule?.(name) as T | undefined;
-}
-
 /** Threads that this machine runs at a time. */
 export function hardwareThreads(): number {
   const { navigator } = globalThis as { navigator?: { readonly hardwareConcurrency?: number } };
@@ -53,7 +36,7 @@ export function hardwareThreads(): number {
 export function startWorker(): WebWorkerLike | NodeWorkerLike {
   // In this form bundlers find the file.
   if (typeof Worker === 'function') return new Worker(new URL('./worker.js', import.meta.url), { type: 'module', name: 'glanz-bvh' });
-  const threads = builtin<Threads>('node:worker_threads');
+  const threads = builtin<{ readonly Worker: new (url: URL) => NodeWorkerLike }>('node:worker_threads');
   if (!threads) throw new BvhError('bvh/worker', 'There are no workers here: neither Worker nor process.getBuiltinModule (Node 20.16 or later).');
   // Not in that form, or they would add the file a second time.
   const { url } = import.meta;
@@ -89,14 +72,4 @@ export function connect(worker: WebWorkerLike | NodeWorkerLike, heard: (message:
     fail((event as ErrorEvent).message || 'its script could not be loaded (a wrong address, or a content security policy without worker-src)');
   });
   return { post: (message, transfer) => worker.postMessage(message, [...transfer]), hold: () => undefined, terminate };
-}
-
-/** The port of the worker that this code runs in; undefined outside of workers. */
-export function ownPort(): WorkerPort | undefined {
-  const scope = globalThis as unknown as { WorkerGlobalScope?: new () => object; postMessage(message: unknown, transfer: readonly ArrayBuffer[]): void; addEventListener(type: 'message', heard: (event: MessageEvent) => void): void };
-  if (scope.WorkerGlobalScope && globalThis instanceof scope.WorkerGlobalScope) {
-    return { post: (message, transfer = []) => scope.postMessage(message, transfer), listen: (heard) => scope.addEventListener('message', (event) => heard(event.data)) };
-  }
-  const port = builtin<Threads>('node:worker_threads')?.parentPort;
-  return port ? { post: (message, transfer = []) => port.postMessage(message, transfer), listen: (heard) => port.on('message', heard) } : undefined;
 }
