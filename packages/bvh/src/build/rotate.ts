@@ -1,8 +1,11 @@
 import { encloseChildren, LEAF, LEFT, NODE_WORDS, PARENT, RIGHT } from '../layout';
 import type { NodeWriter, Tree } from './node-writer';
 
-/** Rotations that become possible by others are found by going over the tree again; a fourth time changes little. */
-const PASSES = 3;
+/**
+ * The least height of the nodes that each pass looks at. Later passes find the rotations that others have made possible;
+ * the lowest nodes are most of the work and little of the gain.
+ */
+const PASSES = [2, 3, 3] as const;
 
 /** Word of the reference to the left (0) or right (1) child; the box of a child starts at word 8 × side, its upper corner 4 later. */
 const reference = (side: number) => LEFT + side * (RIGHT - LEFT);
@@ -27,7 +30,9 @@ export function rotate({ nodes, words, count: nodeCount }: NodeWriter, maxDepth:
   // Parents before their children, as rotations leave them.
   const order = new Uint32Array(nodeCount);
   const stack = new Uint32Array(maxDepth + 2);
-  const arrange = () => {
+  const height = (child: number) => ((child & LEAF) !== 0 ? 0 : (heights[child] as number));
+  // Lists the nodes with at least that many levels below, and counts them.
+  const arrange = (least: number) => {
     let top = 0, count = 0;
     stack[top++] = 0;
     depths[0] = 1;
@@ -37,13 +42,15 @@ export function rotate({ nodes, words, count: nodeCount }: NodeWriter, maxDepth:
       const depth = (depths[node] as number) + 1;
       for (let side = 1; side >= 0; side--) {
         const child = words[node * NODE_WORDS + reference(side)] as number;
-        if ((child & LEAF) !== 0) continue;
+        if ((child & LEAF) !== 0 || (heights[child] as number) < least) continue;
         depths[child] = depth;
         stack[top++] = child;
       }
     }
+    return count;
   };
-  const height = (child: number) => ((child & LEAF) !== 0 ? 0 : (heights[child] as number));
+  const measureHeight = (node: number) => (heights[node] = 1 + Math.max(height(words[node * NODE_WORDS + LEFT] as number), height(words[node * NODE_WORDS + RIGHT] as number)));
+  for (let node = nodeCount - 1; node >= 0; node--) measureHeight(node);
   // Swaps a child of the node at word `a` for one of the node at word `b`: reference and box.
   const exchange = (a: number, sideA: number, b: number, sideB: number) => {
     const refA = a + reference(sideA), refB = b + reference(sideB);
@@ -58,9 +65,7 @@ export function rotate({ nodes, words, count: nodeCount }: NodeWriter, maxDepth:
       nodes[to] = value;
     }
   };
-  for (let step = PASSES * nodeCount - 1; step >= 0; step--) {
-    const at = step % nodeCount;
-    if (at === nodeCount - 1) arrange();
+  for (const least of PASSES) for (let at = arrange(least) - 1; at >= 0; at--) {
     const node = order[at] as number;
     const base = node * NODE_WORDS;
     let best = 0, bestInner = 0, bestMoved = 0;
@@ -84,11 +89,11 @@ export function rotate({ nodes, words, count: nodeCount }: NodeWriter, maxDepth:
       const child = opened * NODE_WORDS, own = base + 8 * bestInner;
       exchange(base, 1 - bestInner, child, bestMoved);
       encloseChildren(nodes, own, own + 4, child);
-      heights[opened] = 1 + Math.max(height(words[child + LEFT] as number), height(words[child + RIGHT] as number));
+      measureHeight(opened);
     }
-    heights[node] = 1 + Math.max(height(words[base + LEFT] as number), height(words[base + RIGHT] as number));
+    measureHeight(node);
   }
-  arrange();
+  arrange(0);
   const places = new Uint32Array(nodeCount);
   for (let i = 0; i < nodeCount; i++) places[order[i] as number] = i;
   const moved = new Float32Array(nodeCount * NODE_WORDS);

@@ -1,6 +1,13 @@
 /** Ranges up to this size are split by trying every plane between two centres; larger ones by bins. */
 export const SWEEP_MAX = 16;
 
+/** Half the surface of a box. */
+function surface(boxes: Float32Array, item: number): number {
+  const b = 6 * item;
+  const dx = (boxes[b + 3] as number) - (boxes[b] as number), dy = (boxes[b + 4] as number) - (boxes[b + 1] as number), dz = (boxes[b + 5] as number) - (boxes[b + 2] as number);
+  return dx * dy + dy * dz + dz * dx;
+}
+
 /**
  * Finds splits of ranges of boxes by surface area heuristic, with all scratch memory it needs. After `sweep()` or
  * `bin()`, `cut` is where the range was cut (the order is permuted), or −1 if no plane separates the centres; `cost` is
@@ -83,6 +90,12 @@ export class Splitter {
   /** Tries every plane across the axis along which the centres spread most; for at most {@link SWEEP_MAX} items. */
   sweep(boxes: Float32Array, weights: Uint32Array, order: Uint32Array, first: number, end: number): void {
     this.measure(boxes, weights, order, first, end);
+    if (end - first === 2) {
+      const a = order[first] as number, b = order[first + 1] as number;
+      this.cut = first + 1;
+      this.cost = surface(boxes, a) * (weights[a] as number) + surface(boxes, b) * (weights[b] as number);
+      return;
+    }
     const keys = this.#keys, rightCosts = this.#right;
     const { ex, ey, ez } = this;
     const axis = ex >= ey && ex >= ez ? 0 : ey >= ez ? 1 : 2;
