@@ -1,4 +1,7 @@
 import type { Camera } from '@glanz/scene';
+import type { HierarchyBuilder } from './scene/hierarchies';
+
+export type { HierarchyBuilder };
 
 /** What {@link PathTracer.create} may be told. */
 export interface PathTracerOptions {
@@ -18,10 +21,20 @@ export interface PathTracerOptions {
   readonly background?: 'environment' | 'transparent';
   /** Compensate the energy that single-scattering microfacet models lose. Default true; false is for tests against such references. */
   readonly multipleScattering?: boolean;
+  /**
+   * Where the random numbers come from. `sobol` (default): Owen-scrambled Sobol points, which converge faster;
+   * `independent`: PCG. Both are unbiased.
+   */
+  readonly sampler?: 'sobol' | 'independent';
   /** Added to texture levels of detail. Default −1: a texel is half a pixel wide or finer; the pixel filter does the rest. */
   readonly textureLodBias?: number;
   /** Paths held on the GPU at once, about 140 bytes each. Default: four samples of the picture, between 65,536 and 1,048,576. */
   readonly pathsInFlight?: number;
+  /**
+   * Builds the hierarchies of the meshes, e.g. `await BvhWorkers.create()` of `@glanz/bvh/workers`: on other threads,
+   * several at a time. It stays the caller's to destroy. Default: built on this thread, which is handed back between meshes.
+   */
+  readonly hierarchies?: HierarchyBuilder;
   readonly signal?: AbortSignal;
   readonly onProgress?: (progress: PrepareProgress) => void;
 }

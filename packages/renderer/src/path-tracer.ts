@@ -92,11 +92,11 @@ export class PathTracer {
     checkSize(options.width, options.height);
     validateScene(scene);
     const own: Scene = { ...scene, materials: scene.materials.map((material) => ({ ...material })) };
-    const { signal, onProgress } = options;
+    const { hierarchies, signal, onProgress } = options;
     signal?.throwIfAborted();
     const t0 = performance.now();
     onProgress?.({ stage: 'bvh', done: 0 });
-    const geometry = await prepareGeometry(own, { signal, onProgress: (done) => onProgress?.({ stage: 'bvh', done }) });
+    const geometry = await prepareGeometry(own, { hierarchies, signal, onProgress: (done) => onProgress?.({ stage: 'bvh', done }) });
     const t1 = performance.now();
     onProgress?.({ stage: 'upload', done: 0 });
     const memory = new GpuMemory(device);
@@ -105,7 +105,7 @@ export class PathTracer {
       device.pushErrorScope('validation');
       let gpuScene: GpuScene;
       try {
-        gpuScene = new GpuScene(device, memory, own, geometry, options.multipleScattering ?? true);
+        gpuScene = new GpuScene(device, memory, own, geometry, { multipleScattering: options.multipleScattering ?? true, sampler: options.sampler ?? 'sobol' });
       } finally {
         await throwScopes(device);
       }

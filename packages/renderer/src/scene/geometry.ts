@@ -1,7 +1,8 @@
-import { buildBlas, buildTlas, bvhInstanceStruct, packTriangles, type Blas, type Tlas } from '@glanz/bvh';
+import { buildTlas, bvhInstanceStruct, packTriangles, type Blas, type Tlas } from '@glanz/bvh';
 import type { Instance, Mesh, Scene } from '@glanz/scene';
 import { instanceStruct, meshStruct, NONE } from '../kernels/layout';
 import { RenderError } from '../errors';
+import { breather, buildHierarchies, type HierarchyOptions } from './hierarchies';
 
 /** Node words: 16 a node. */
 const NODE_WORDS = 16;
@@ -31,36 +32,17 @@ export interface Geometry {
   readonly hasVertexColors: boolean;
 }
 
-export interface GeometryOptions {
-  readonly signal?: AbortSignal | undefined;
-  /** Told after each mesh, 0..1. */
-  readonly onProgress?: ((done: number) => void) | undefined;
-}
-
 /**
  * Builds the hierarchies and packs shapes and instances.
  *
  * @throws {RenderError} `renderer/no-triangles` if nothing can be seen.
  */
-export async function prepareGeometry(scene: Scene, options: GeometryOptions = {}): Promise<Geometry> {
+export async function prepareGeometry(scene: Scene, options: HierarchyOptions = {}): Promise<Geometry> {
   const blas: (Blas | undefined)[] = scene.meshes.map(() => undefined);
   const visible = scene.instances.flatMap((instance, index) => (instance.visible !== false && (scene.meshes[instance.mesh] as Mesh).indices.length >= 3 ? [index] : []));
   const used = [...new Set(visible.map((index) => (scene.instances[index] as Instance).mesh))].sort((a, b) => a - b);
-  const total = used.reduce((sum, mesh) => sum + (scene.meshes[mesh] as Mesh).indices.length, 0);
-  let done = 0;
-  let last = performance.now();
-  for (const index of used) {
-    const mesh = scene.meshes[index] as Mesh;
-    blas[index] = buildBlas({ positions: mesh.positions, indices: mesh.indices });
-    done += mesh.indices.length;
-    options.onProgress?.(done / total);
-    // Hands the thread back between meshes once in a while.
-    if (performance.now() - last > 12) {
-      await new Promise((resolve) => setTimeout(resolve, 0));
-      last = performance.now();
-    }
-    options.signal?.throwIfAborted();
-  }
+  const built = await buildHierarchies(used.map((index) => scene.meshes[index] as Mesh), options);
+  used.forEach((index, i) => (blas[index] = built[i]));
   const shown = visible.filter((index) => (blas[(scene.instances[index] as Instance).mesh] as Blas).triangleIndices.length > 0);
   if (shown.length === 0) throw new RenderError('renderer/no-triangles', 'The scene has no visible triangles: nothing to render.');
 
@@ -83,12 +65,15 @@ export async function prepareGeometry(scene: Scene, options: GeometryOptions = {
   const nodes = new Float32Array(nodeCount * NODE_WORDS);
   const triangles = new Float32Array(triangleCount * TRIANGLE_WORDS);
   nodes.set(tlas.nodes);
-  scene.meshes.forEach((mesh, i) => {
-    const tree = blas[i];
-    if (!tree) return;
-    nodes.set(tree.nodes.subarray(0, tree.nodeCount * NODE_WORDS), (firstNode[i] as number) * NODE_WORDS);
-    triangles.set(packTriangles(tree, { positions: mesh.positions, indices: mesh.indices }), (firstTriangle[i] as number) * TRIANGLE_WORDS);
-  });
+  const breathe = breather();
+  for (const index of used) {
+    const mesh = scene.meshes[index] as Mesh;
+    const tree = blas[index] as Blas;
+    nodes.set(tree.nodes.subarray(0, tree.nodeCount * NODE_WORDS), (firstNode[index] as number) * NODE_WORDS);
+    triangles.set(packTriangles(tree, { positions: mesh.positions, indices: mesh.indices }), (firstTriangle[index] as number) * TRIANGLE_WORDS);
+    await breathe();
+    options.signal?.throwIfAborted();
+  }
   const { min, max } = tlas.bounds;
   const center = [0, 1, 2].map((k) => ((min[k] as number) + (max[k] as number)) / 2) as [number, number, number];
   const radius = 0.5 * Math.hypot(...[0, 1, 2].map((k) => (max[k] as number) - (min[k] as number)));
