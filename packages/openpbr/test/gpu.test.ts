@@ -4,7 +4,7 @@ import { albedoBsdf, emittedRadiance, evalBsdf, pdfBsdf, prepareBsdf, sampleBsdf
 import { resolveParameters, type OpenPbrParameters, type OpenPbrVector } from '../src/parameters/index';
 import { requiredFeatures, type OpenPbrFlags } from '../src/wgsl/index';
 import { onGpu, type GpuCase } from './gpu';
-import { anySurface, single, uniform, upperDirection } from './random';
+import { anyCoated, anySurface, single, uniform, upperDirection } from './random';
 
 afterEach(() => expectNoGpuErrors());
 
@@ -12,6 +12,8 @@ const ALL: OpenPbrFlags = {
   OPENPBR_SPECULAR: true,
   OPENPBR_METAL: true,
   OPENPBR_DIELECTRIC: true,
+  OPENPBR_INTERFACE: true,
+  OPENPBR_COAT: true,
   OPENPBR_DIFFUSE: true,
   OPENPBR_COSINE: true,
   OPENPBR_DIFFUSE_ROUGHNESS: true,
@@ -50,7 +52,8 @@ async function compare(flags: OpenPbrFlags, cases: readonly GpuCase[], limit = 1
     triple('emission', gpu.emission, emittedRadiance(parameters, wo), 1e-6);
     differences.add('opacity', gpu.opacity, parameters.geometry_opacity, 1e-6, at);
     // The lobe is chosen by comparing u.z with a probability: on the edge single precision may choose the other one.
-    if (Math.abs(u[2] - b.specularProbability) < 1e-5) return;
+    const edges = [b.coatProbability, b.coatProbability + (1 - b.coatProbability) * b.specularProbability];
+    if (edges.some((edge) => Math.abs(u[2] - edge) < 1e-5)) return;
     const s = sampleBsdf(b, wo, u);
     triple('sampled direction', gpu.wi, s.wi[2] > 0 || gpu.valid ? s.wi : gpu.wi, 1);
     if (s.wi[2] > 1e-3) {
@@ -76,6 +79,9 @@ describe('WGSL against its CPU twin', () => {
   it('every lobe at once, 2048 random surfaces (seed 1)', () => compare(ALL, cases(2048, 1, (next) => anySurface(next, 0.3))));
   it('single scattering only (seed 2)', () => compare({ ...ALL, OPENPBR_MULTISCATTER: false }, cases(1024, 2, (next) => anySurface(next, 0.3))));
 
+  it('every lobe below a coat, 2048 random surfaces (seed 8)', () => compare(ALL, cases(2048, 8, (next) => anyCoated(next, 0.3))));
+  it('single scattering below a coat (seed 9)', () => compare({ ...ALL, OPENPBR_MULTISCATTER: false }, cases(512, 9, (next) => anyCoated(next, 0.3))));
+
   const gated = (name: string, seed: number, fixed: Partial<OpenPbrParameters>): void => {
     it(`${name} alone, the other lobes left out of the text (seed ${seed})`, async () => {
       const list = cases(512, seed, (next) => ({ ...anySurface(next, 0.3), base_diffuse_roughness: 0, specular_roughness_anisotropy: 0, emission_luminance: 0, ...fixed }));
@@ -88,6 +94,10 @@ describe('WGSL against its CPU twin', () => {
   gated('diffuse', 4, { base_metalness: 0, specular_weight: 0 });
   gated('dielectric over diffuse', 5, { base_metalness: 0 });
   gated('dielectric over black', 6, { base_metalness: 0, base_weight: 0 });
+  gated('coat over diffuse', 10, { base_metalness: 0, specular_weight: 0, coat_weight: 1, coat_roughness: 0.4, coat_color: [0.9, 0.5, 0.2] });
+  gated('coat over metal', 11, { base_metalness: 1, specular_weight: 1, coat_weight: 0.5, coat_roughness: 0.3 });
+  gated('coat over dielectric', 12, { base_metalness: 0, base_weight: 0, coat_weight: 1, coat_roughness: 0.3 });
+  gated('coat over black', 13, { base_metalness: 0, base_weight: 0, specular_weight: 0, coat_weight: 1, coat_roughness: 0.3 });
 });
 
 describe('WGSL at the edges', () => {
@@ -122,6 +132,13 @@ describe('WGSL at the edges', () => {
       { specular_ior: 1e6, specular_roughness: 0.5 },
       { base_diffuse_roughness: 1, base_color: [1, 1, 1] },
       { geometry_opacity: 0, emission_luminance: 1e6 },
+      { coat_weight: 1 },
+      { coat_weight: 1, coat_color: [0, 0.5, 1], emission_luminance: 1, coat_roughness_anisotropy: 1 },
+      { coat_weight: 1, base_metalness: 1, base_color: [1, 1, 1], specular_roughness: 0 },
+      { coat_weight: 1, coat_ior: 1e-3, coat_roughness: 0.5 },
+      { coat_weight: 0.5, coat_ior: 1e6, coat_roughness: 1, specular_ior: 1e-3 },
+      { coat_weight: 1, coat_ior: 1, base_weight: 0, specular_weight: 0 },
+      { coat_weight: 1, coat_ior: 0.7, coat_roughness: 0, coat_color: [0.5, 0.5, 0.5], specular_roughness: 1 },
     ];
     const us = [0, 0.5, 0.99999994];
     const list: GpuCase[] = surfaces.flatMap((surface) => {

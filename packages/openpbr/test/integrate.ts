@@ -1,5 +1,5 @@
 import { gaussLegendre } from '../scripts/microfacet.mjs';
-import { evalPdfBsdf, ggxAlpha, ggxSample, prepareBsdf, type BsdfOptions } from '../src/cpu/index';
+import { coatedBase, evalPdfBsdf, ggxAlpha, ggxSample, prepareBsdf, type BsdfOptions, type Slopes } from '../src/cpu/index';
 import type { OpenPbrParameters, OpenPbrVector } from '../src/parameters/index';
 
 /** A direction by cosine and azimuth. */
@@ -17,11 +17,14 @@ function rule(count: number) {
 
 /**
  * ∫ g(ω_i) dω_i over the upper hemisphere, split by multiple importance: where visible normals are dense, in their
- * measure (ggxSample over a product rule); elsewhere over the hemisphere. Deterministic, good for any roughness.
+ * measure (ggxSample over a product rule), for the base and for a coat; elsewhere over the hemisphere. Deterministic,
+ * good for any roughness.
  */
 export function integrateHemisphere(p: OpenPbrParameters, wo: OpenPbrVector, g: (wi: OpenPbrVector) => readonly number[], size = 64): number[] {
-  const alpha = ggxAlpha(p.specular_roughness, p.specular_roughness_anisotropy);
-  const density = (wi: OpenPbrVector): number => {
+  const base = coatedBase(p);
+  const slopes = [ggxAlpha(base.specular_roughness, base.specular_roughness_anisotropy)];
+  if (p.coat_weight > 0) slopes.push(ggxAlpha(p.coat_roughness, p.coat_roughness_anisotropy));
+  const density = (alpha: Slopes, wi: OpenPbrVector): number => {
     const h: [number, number, number] = [wo[0] + wi[0], wo[1] + wi[1], wo[2] + wi[2]];
     const length = Math.hypot(...h);
     const [x, y, z] = [h[0] / length, h[1] / length, h[2] / length];
@@ -30,10 +33,10 @@ export function integrateHemisphere(p: OpenPbrParameters, wo: OpenPbrVector, g: 
   };
   const uniform = 1 / (2 * Math.PI);
   const total: number[] = [];
-  // The balance heuristic of two samplers: each node's own density cancels.
+  // The balance heuristic of all samplers: each node's own density cancels.
   const add = (wi: OpenPbrVector, weight: number): void => {
     if (wi[2] <= 0) return;
-    const scale = weight / (density(wi) + uniform);
+    const scale = weight / slopes.reduce((sum, alpha) => sum + density(alpha, wi), uniform);
     g(wi).forEach((value, i) => (total[i] = (total[i] ?? 0) + value * scale));
   };
   const { nodes, weights } = rule(size);
@@ -45,9 +48,11 @@ export function integrateHemisphere(p: OpenPbrParameters, wo: OpenPbrVector, g: 
       const mu = (nodes[k] as number) ** 2;
       const s = Math.sqrt(1 - mu * mu);
       add([s * Math.cos(phi), s * Math.sin(phi), mu], ((weights[k] as number) * 2 * (nodes[k] as number)) / around);
-      const h = ggxSample(alpha, wo, [(i + 0.5) / around, nodes[k] as number]);
-      const c = 2 * (wo[0] * h[0] + wo[1] * h[1] + wo[2] * h[2]);
-      add([c * h[0] - wo[0], c * h[1] - wo[1], c * h[2] - wo[2]], (weights[k] as number) / around);
+      for (const alpha of slopes) {
+        const h = ggxSample(alpha, wo, [(i + 0.5) / around, nodes[k] as number]);
+        const c = 2 * (wo[0] * h[0] + wo[1] * h[1] + wo[2] * h[2]);
+        add([c * h[0] - wo[0], c * h[1] - wo[1], c * h[2] - wo[2]], (weights[k] as number) / around);
+      }
     }
   }
   return total;

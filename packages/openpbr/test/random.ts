@@ -40,5 +40,23 @@ export function anySurface(next: () => number, smoothest: number): OpenPbrParame
     emission_color: color(),
     geometry_opacity: next(),
   });
+  return rounded(p);
+}
+
+/** Any surface below a coat, no smoother than given. */
+export function anyCoated(next: () => number, smoothest: number): OpenPbrParameters {
+  const one = (value: number, chance: number, other: number) => (next() < chance ? other : value);
+  return rounded({
+    ...anySurface(next, smoothest),
+    coat_weight: one(next(), 0.5, 1),
+    coat_color: next() < 0.4 ? [1, 1, 1] : [next(), next(), next()],
+    coat_roughness: smoothest + (1 - smoothest) * next(),
+    coat_roughness_anisotropy: one(next(), 0.4, 0),
+    coat_ior: 1 + 1.5 * next(),
+    coat_darkening: one(next(), 0.5, 1),
+  });
+}
+
+function rounded(p: OpenPbrParameters): OpenPbrParameters {
   return Object.fromEntries(Object.entries(p).map(([name, value]) => [name, typeof value === 'number' ? Math.fround(value) : Array.isArray(value) ? single(value as unknown as OpenPbrVector) : value])) as unknown as OpenPbrParameters;
 }

@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { evalPdfBsdf, pdfBsdf, prepareBsdf, sampleBsdf, type Bsdf } from '../src/cpu/index';
 import { resolveParameters, type OpenPbrParameters, type OpenPbrVector } from '../src/parameters/index';
 import { direction, furnace } from './integrate';
-import { anySurface, uniform, upperDirection } from './random';
+import { anyCoated, anySurface, uniform, upperDirection } from './random';
 
 const SURFACES: readonly (readonly [string, Partial<OpenPbrParameters>])[] = [
   ['the default', {}],
@@ -11,6 +11,9 @@ const SURFACES: readonly (readonly [string, Partial<OpenPbrParameters>])[] = [
   ['metal', { base_metalness: 1, base_color: [0.9, 0.6, 0.3], specular_roughness: 0.35 }],
   ['very rough metal', { base_metalness: 1, specular_roughness: 1 }],
   ['stretched metal', { base_metalness: 1, specular_roughness: 0.5, specular_roughness_anisotropy: 0.7 }],
+  ['coat over diffuse', { specular_weight: 0, coat_weight: 1, coat_roughness: 0.4, coat_color: [0.9, 0.5, 0.2] }],
+  ['stretched half coat over metal', { base_metalness: 1, specular_roughness: 0.5, coat_weight: 0.5, coat_roughness: 0.6, coat_roughness_anisotropy: 0.6 }],
+  ['coat over the default', { coat_weight: 1, coat_roughness: 0.35 }],
   ['half metal of a high index', { base_metalness: 0.5, specular_ior: 2.2, specular_roughness: 0.5 }],
 ];
 const VIEWS: readonly OpenPbrVector[] = [direction(0.9), direction(0.25)];
@@ -106,7 +109,7 @@ describe('sampling', () => {
     const next = uniform(21);
     let compared = 0;
     for (let i = 0; i < 5000; i++) {
-      const p = anySurface(next, 0.2);
+      const p = (i % 2 === 0 ? anySurface : anyCoated)(next, 0.2);
       const wo = upperDirection(next, 0.02);
       const b = prepareBsdf(p, wo);
       const s = sampleBsdf(b, wo, [next(), next(), next()]);
@@ -123,7 +126,7 @@ describe('sampling', () => {
     const next = uniform(22);
     let largest = 0;
     for (let i = 0; i < 20_000; i++) {
-      const p = anySurface(next, 0);
+      const p = (i % 2 === 0 ? anySurface : anyCoated)(next, 0);
       const wo = upperDirection(next, 0.001);
       const { weight } = sampleBsdf(prepareBsdf(p, wo), wo, [next(), next(), next()]);
       largest = Math.max(largest, ...weight);

@@ -27,7 +27,8 @@ export interface OraclePair {
   f: Triple;
   pdf: number;
   k?: number;
-  L?: 'spec' | Partial<Record<'spec' | 'dms' | 'mms' | 'diff', Triple>>;
+  kc?: number;
+  L?: 'spec' | Partial<Record<'spec' | 'dms' | 'mms' | 'diff' | 'coat' | 'base_scale', Triple>>;
 }
 
 export interface OracleSetting {
@@ -36,7 +37,7 @@ export interface OracleSetting {
   tol: {
     f: { cls: string; rel?: number; abs?: number; median?: number; p90?: number } | null;
     albedo: { cls: string; rel: number; abs: number };
-    lobes: { spec?: { cls: string; rel: number; abs: number } };
+    lobes: { spec?: { cls: string; rel: number; abs: number }; coat?: { cls: string; rel: number; abs: number } };
   };
   derived: { alpha: [number, number]; eta_refl_opaque: Triple };
   wo: Triple[];

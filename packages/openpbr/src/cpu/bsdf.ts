@@ -1,4 +1,5 @@
 import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
+import { coatedBase, coatEmission, coatPass, prepareCoat, type Coat } from './coat';
 import { cosineSample, eon } from './diffuse';
 import { energyLost, energyLostMean, energyShare, energyShareMean, energyTotal, fresnelMean } from './energy';
 import { dielectricEpsilon, fresnelDielectric, fresnelMetal, fresnelMetalMean } from './fresnel';
@@ -34,6 +35,9 @@ export interface Bsdf {
     readonly meanLost: number;
   };
   readonly dielectric: { readonly eta: number; readonly epsilon: number; readonly roughness: number; readonly scale: OpenPbrColor };
+  readonly coat: Coat;
+  /** Probability of sampling the coat; else it is the base. */
+  readonly coatProbability: number;
 }
 
 /** A sampled direction; twin of the WGSL struct `OpenPbrSample`. */
@@ -52,10 +56,11 @@ const sum = (color: OpenPbrColor): number => color[0] + color[1] + color[2];
 /**
  * Prepares the surface for one direction; twin of `openpbr_prepare`.
  *
- * @param p Resolved parameters.
+ * @param whole Resolved parameters.
  * @param wo Unit direction to the viewer in the local frame, +z normal.
  */
-export function prepareBsdf(p: OpenPbrParameters, wo: OpenPbrVector, { multipleScattering = true }: BsdfOptions = {}): Bsdf {
+export function prepareBsdf(whole: OpenPbrParameters, wo: OpenPbrVector, { multipleScattering = true }: BsdfOptions = {}): Bsdf {
+  const p = coatedBase(whole);
   const mu = clamp(wo[2], 1e-5, 1);
   const roughness = p.specular_roughness;
   const f0 = rgb((i) => p.base_weight * p.base_color[i]);
@@ -79,15 +84,23 @@ export function prepareBsdf(p: OpenPbrParameters, wo: OpenPbrVector, { multipleS
   const bright = sum(specular);
   const all = bright + sum(spread);
   const reflected = energyShareMean(epsilon, roughness);
+  const coat = prepareCoat(whole, wo, mu, multipleScattering);
+  // A highlight comes from about as low as it is seen, spread light from everywhere.
+  const highlight = coatPass(coat, mu);
+  const everywhere = coatPass(coat, 2 / 3);
+  const below = rgb((i) => specular[i] * highlight[i] + spread[i] * everywhere[i]);
+  const total = sum(below) + 3 * coat.albedo;
   return {
     alpha,
     specularProbability: all > 0 ? bright / all : 0.5,
     diffuseScale: ((insulator * p.base_weight * (1 - share)) / Math.max(1 - reflected, 1e-4)) * (1 - 0.08 * p.base_diffuse_roughness * reflected),
     diffuseColor: p.base_color,
     diffuseRoughness: p.base_diffuse_roughness,
-    albedo: rgb((i) => Math.min(specular[i] + spread[i], 1)),
+    albedo: rgb((i) => Math.min(below[i] + coat.albedo, 1)),
     metal: { f0, tint: p.specular_color, specularWeight: weight, metalness: p.base_metalness, roughness: mirror, bounced, meanLost },
     dielectric: { eta: (1 + epsilon) / (1 - epsilon), epsilon, roughness, scale: rgb((i) => insulator * p.specular_color[i] * boost) },
+    coat,
+    coatProbability: total > 0 ? (3 * coat.albedo) / total : 0.5,
   };
 }
 
@@ -100,9 +113,13 @@ function scatter(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector
   const scale = b.diffuseScale * wi[2] * (1 - energyShare(b.dielectric.epsilon, viewRoughness(b.alpha, b.dielectric.roughness, wi), wi[2]));
   const bounced = (energyLost(b.metal.roughness, mirrorCosine(b.alpha, wi, wi[2])) / b.metal.meanLost / Math.PI) * wi[2];
   const diffuse = eon(b.diffuseColor, b.diffuseRoughness, wo, wi);
+  const pass = coatPass(b.coat, wi[2]);
+  const [top, topDensity] = ggx(b.coat.alpha, wo, wi, h);
+  const mirrored = b.coat.scale * fresnelDielectric(b.coat.eta, c) * top;
+  const basePdf = b.specularProbability * density + ((1 - b.specularProbability) * wi[2]) / Math.PI;
   return {
-    f: rgb((i) => value * (b.metal.metalness * metal[i] + b.dielectric.scale[i] * dielectric) + bounced * b.metal.bounced[i] + scale * diffuse[i]),
-    pdf: b.specularProbability * density + ((1 - b.specularProbability) * wi[2]) / Math.PI,
+    f: rgb((i) => (value * (b.metal.metalness * metal[i] + b.dielectric.scale[i] * dielectric) + bounced * b.metal.bounced[i] + scale * diffuse[i]) * pass[i] + mirrored),
+    pdf: basePdf * (1 - b.coatProbability) + topDensity * b.coatProbability,
   };
 }
 
@@ -119,8 +136,9 @@ export const pdfBsdf = (b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): number =
 export function sampleBsdf(b: Bsdf, wo: OpenPbrVector, u: readonly [number, number, number]): BsdfSample {
   let h: OpenPbrVector;
   let wi: OpenPbrVector;
-  if (u[2] < b.specularProbability) {
-    h = ggxSample(b.alpha, wo, u);
+  const top = u[2] < b.coatProbability;
+  if (top || u[2] - b.coatProbability < (1 - b.coatProbability) * b.specularProbability) {
+    h = ggxSample(top ? b.coat.alpha : b.alpha, wo, u);
     const c = 2 * dot(wo, h);
     wi = [c * h[0] - wo[0], c * h[1] - wo[1], c * h[2] - wo[2]];
   } else {
@@ -135,4 +153,8 @@ export function sampleBsdf(b: Bsdf, wo: OpenPbrVector, u: readonly [number, numb
 export const albedoBsdf = (b: Bsdf, wo: OpenPbrVector): OpenPbrColor => (wo[2] > 0 ? b.albedo : [0, 0, 0]);
 
 /** Radiance that leaves towards `wo`; twin of `openpbr_emission`. */
-export const emittedRadiance = (p: OpenPbrParameters, wo: OpenPbrVector): OpenPbrColor => rgb((i) => (wo[2] > 0 ? p.emission_color[i] * p.emission_luminance : 0));
+export function emittedRadiance(p: OpenPbrParameters, wo: OpenPbrVector): OpenPbrColor {
+  if (wo[2] <= 0) return [0, 0, 0];
+  const pass = coatEmission(p, wo);
+  return rgb((i) => p.emission_color[i] * p.emission_luminance * pass[i]);
+}

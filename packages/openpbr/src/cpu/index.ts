@@ -1,4 +1,5 @@
 export { albedoBsdf, emittedRadiance, evalBsdf, evalPdfBsdf, pdfBsdf, prepareBsdf, sampleBsdf, type Bsdf, type BsdfOptions, type BsdfSample } from './bsdf';
+export { coatDarkening, coatedBase, coatRoughening, coatTransmittance, type Coat } from './coat';
 export { dielectricEpsilon, fresnelDielectric, fresnelMetal, fresnelMetalMean } from './fresnel';
 export { ggx, ggxAlpha, ggxDistribution, ggxMasking, ggxMaskingShadowing, ggxSample, halfVector, mirrorCosine, mirrorRoughness, viewRoughness, type Slopes } from './ggx';
 export { cosineSample, eon } from './diffuse';

@@ -1,4 +1,5 @@
 import { gated, wgslModule } from '@glanz/wgsl';
+import { openpbrCoat } from './coat.wgsl';
 import { openpbrDielectric } from './dielectric.wgsl';
 import { openpbrCosine, openpbrEon } from './diffuse.wgsl';
 import { openpbrEmission, openpbrOpacity } from './emission.wgsl';
@@ -14,13 +15,7 @@ import { openPbrStruct } from './record';
  * fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf      // once per hit; the rest takes the same wo
  * fn openpbr_eval(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec3f          // f · |cos θ_i|
  * fn openpbr_pdf(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> f32             // density of openpbr_sample, per solid angle
- * // The half vector; stays finite where two grazing directions cancel.
-fn openpbr_half(wo: vec3f, wi: vec3f) -> vec3f {
-  let h = wo + wi;
-  return normalize(vec3f(h.xy, max(h.z, 1e-7)));
-}
-
-fn openpbr_eval_pdf(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec4f      // both for the price of one: (f · |cos θ_i|, pdf)
+ * fn openpbr_eval_pdf(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec4f      // both for the price of one: (f · |cos θ_i|, pdf)
  * fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample // u uniform in [0, 1)³
  * fn openpbr_albedo(b: OpenPbrBsdf, wo: vec3f) -> vec3f                   // reflected part of uniform light, approximate for tinted metal
  * fn openpbr_emission(p: OpenPbrParameters, wo: vec3f) -> vec3f           // radiance
@@ -30,7 +25,7 @@ fn openpbr_eval_pdf(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec4f      // both 
  * Metal and dielectric share one microfacet lobe: they differ by the Fresnel factor only. Diffuse reflection and what
  * bounces on between the facets of metal are sampled by the cosine. The diffuse lobe below the
  * dielectric is weighted by (1 - E(μ_i))(1 - E(μ_o))/(1 - E_mean), which is reciprocal and loses nothing (Ashikhmin,
- * Premože and Shirley 2000; Kelemen and Szirmay-Kalos 2001).
+ * Premože and Shirley 2000; Kelemen and Szirmay-Kalos 2001). A coat adds a lobe of its own and scales the rest.
  */
 export const openpbr = wgslModule(
   'openpbr',
@@ -51,6 +46,9 @@ export const openpbr = wgslModule(
   //#if OPENPBR_DIELECTRIC
   dielectric: OpenPbrDielectric,
   //#endif
+  //#if OPENPBR_COAT
+  coat: OpenPbrCoat,
+  //#endif
 }
 
 struct OpenPbrSample {
@@ -61,7 +59,12 @@ struct OpenPbrSample {
   valid: bool,
 }
 
+//#if OPENPBR_COAT
+fn openpbr_prepare(whole: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
+  let p = openpbr_coat_base(whole);
+  //#else
 fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
+  //#endif
   var b: OpenPbrBsdf;
   let mu = clamp(wo.z, 1e-5, 1.0);
   var specular = vec3f(0.0);
@@ -106,6 +109,17 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
   let total = bright + dot(spread, vec3f(1.0));
   b.specular_probability = select(0.5, bright / total, total > 0.0);
   //#endif
+  //#if OPENPBR_COAT
+  b.coat = openpbr_coat_prepare(whole, p, wo, mu);
+  // A highlight comes from about as low as it is seen, spread light from everywhere.
+  b.albedo = specular * openpbr_coat_pass(b.coat, mu);
+  //#if OPENPBR_COSINE
+  b.albedo += spread * openpbr_coat_pass(b.coat, 0.66666667);
+  //#endif
+  let below = dot(b.albedo, vec3f(1.0));
+  b.albedo += b.coat.albedo;
+  b.coat.probability = select(0.5, 3.0 * b.coat.albedo / (below + 3.0 * b.coat.albedo), below + b.coat.albedo > 0.0);
+  //#endif
   return b;
 }
 
@@ -149,6 +163,11 @@ fn openpbr_scatter(b: OpenPbrBsdf, wo: vec3f, wi: vec3f, h: vec3f) -> vec4f {
   //#endif
   result += vec4f(diffuse * scale, 0.0);
   //#endif
+  //#if OPENPBR_COAT
+  let top = openpbr_ggx(b.coat.alpha, wo, wi, h);
+  let mirrored = b.coat.scale * openpbr_fresnel_dielectric(b.coat.eta, c) * top.x;
+  result = vec4f(result.xyz * openpbr_coat_pass(b.coat, wi.z) + mirrored, mix(result.w, top.y, b.coat.probability));
+  //#endif
   return result;
 }
 
@@ -174,8 +193,14 @@ fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample {
   var s: OpenPbrSample;
   var h = vec3f(0.0, 0.0, 1.0);
   //#if OPENPBR_SPECULAR
+  //#if OPENPBR_COAT
+  let top = u.z < b.coat.probability;
+  if (top || u.z - b.coat.probability < (1.0 - b.coat.probability) * b.specular_probability) {
+    h = openpbr_ggx_sample(select(b.alpha, b.coat.alpha, top), wo, u.xy);
+  //#else
   if (u.z < b.specular_probability) {
     h = openpbr_ggx_sample(b.alpha, wo, u.xy);
+  //#endif
     s.wi = 2.0 * dot(wo, h) * h - wo;
   }
   //#if OPENPBR_COSINE
@@ -204,6 +229,7 @@ fn openpbr_albedo(b: OpenPbrBsdf, wo: vec3f) -> vec3f {
     gated('OPENPBR_SPECULAR', openpbrGgx),
     gated('OPENPBR_METAL', openpbrMetal),
     gated('OPENPBR_DIELECTRIC', openpbrDielectric),
+    gated('OPENPBR_COAT', openpbrCoat),
     gated('OPENPBR_COSINE', openpbrCosine),
     gated('OPENPBR_DIFFUSE_ROUGHNESS', openpbrEon),
   ],

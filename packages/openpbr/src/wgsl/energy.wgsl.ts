@@ -45,7 +45,7 @@ fn openpbr_energy_lost_mean(roughness: f32) -> f32 {
 }
 //#endif
 
-//#if OPENPBR_DIELECTRIC
+//#if OPENPBR_INTERFACE
 // Cosine-weighted mean of the reflectance of a smooth interface, about; from inside it follows from reciprocity.
 fn openpbr_fresnel_mean(epsilon: f32) -> f32 {
   let e = abs(epsilon);

@@ -3,11 +3,14 @@ import { resolveParameters } from '../parameters/index';
 
 /** The composer's flags that the modules of this package ask for. A lobe whose flag is false is not in the text, whatever the parameters say. */
 export interface OpenPbrFlags {
-  /** Any microfacet lobe: OPENPBR_METAL, OPENPBR_DIELECTRIC or OPENPBR_TRANSMISSION. */
+  /** Any microfacet lobe: OPENPBR_METAL, OPENPBR_DIELECTRIC or OPENPBR_COAT. */
   readonly OPENPBR_SPECULAR: boolean;
   readonly OPENPBR_METAL: boolean;
   /** Reflection by the dielectric base. Without it the diffuse lobe is not attenuated. */
   readonly OPENPBR_DIELECTRIC: boolean;
+  /** A dielectric interface of the base or of the coat: OPENPBR_DIELECTRIC or OPENPBR_COAT. */
+  readonly OPENPBR_INTERFACE: boolean;
+  readonly OPENPBR_COAT: boolean;
   readonly OPENPBR_DIFFUSE: boolean;
   /** Directions are sampled by the cosine too: OPENPBR_DIFFUSE, or OPENPBR_METAL with OPENPBR_MULTISCATTER. */
   readonly OPENPBR_COSINE: boolean;
@@ -40,18 +43,22 @@ export function requiredFeatures(materials: readonly Partial<OpenPbrParameters>[
   const metal = all.some((p) => p.base_metalness > 0 && p.specular_weight > 0);
   // A texture can only lower a parameter: metalness 1 with a texture has dielectric places.
   const insulators = all.filter((p) => p.base_metalness < 1 || isTextured('base_metalness'));
-  const dielectric = insulators.some((p) => p.specular_weight > 0 && (p.specular_ior !== 1 || isTextured('specular_ior')));
+  // A base of index 1 reflects below a coat of another index.
+  const dielectric = insulators.some((p) => p.specular_weight > 0 && (p.specular_ior !== 1 || isTextured('specular_ior') || p.coat_weight > 0));
+  const coat = all.some((p) => p.coat_weight > 0);
   const diffuse = insulators.some((p) => p.base_weight > 0 && p.base_color.some((c) => c > 0));
-  const specular = metal || dielectric;
+  const specular = metal || dielectric || coat;
   const lambert = diffuse || !specular;
   return {
     OPENPBR_SPECULAR: specular,
     OPENPBR_METAL: metal,
     OPENPBR_DIELECTRIC: dielectric,
+    OPENPBR_INTERFACE: dielectric || coat,
+    OPENPBR_COAT: coat,
     OPENPBR_DIFFUSE: lambert,
     OPENPBR_COSINE: lambert || (metal && multipleScattering),
     OPENPBR_DIFFUSE_ROUGHNESS: insulators.some((p) => p.base_diffuse_roughness > 0),
-    OPENPBR_ANISOTROPY: specular && all.some((p) => p.specular_roughness_anisotropy > 0),
+    OPENPBR_ANISOTROPY: specular && all.some((p) => p.specular_roughness_anisotropy > 0 || (p.coat_weight > 0 && p.coat_roughness_anisotropy > 0)),
     OPENPBR_MULTISCATTER: multipleScattering,
     OPENPBR_EMISSION: all.some((p) => p.emission_luminance > 0),
   };

@@ -6,5 +6,6 @@ export { openpbrFresnelDielectric, openpbrFresnelMetal } from './fresnel.wgsl';
 export { openpbrCosine, openpbrEon } from './diffuse.wgsl';
 export { openpbrMetal } from './metal.wgsl';
 export { openpbrDielectric } from './dielectric.wgsl';
+export { openpbrCoat } from './coat.wgsl';
 export { openpbrEnergy } from './energy.wgsl';
 export { openpbrEmission, openpbrOpacity } from './emission.wgsl';

@@ -24,6 +24,12 @@ export const openPbrStruct = /* @__PURE__ */ struct('OpenPbrParameters', {
   transmission_depth: 'f32',
   /** 1 for a thin wall, else 0. */
   geometry_thin_walled: 'u32',
+  coat_color: 'vec3f',
+  coat_weight: 'f32',
+  coat_roughness: 'f32',
+  coat_roughness_anisotropy: 'f32',
+  coat_ior: 'f32',
+  coat_darkening: 'f32',
 });
 
 /**
@@ -51,5 +57,11 @@ export function packOpenPbr(buffer: ArrayBuffer, index: number, parameters: Open
     geometry_opacity: parameters.geometry_opacity,
     transmission_depth: parameters.transmission_depth,
     geometry_thin_walled: parameters.geometry_thin_walled ? 1 : 0,
+    coat_color: parameters.coat_color,
+    coat_weight: parameters.coat_weight,
+    coat_roughness: parameters.coat_roughness,
+    coat_roughness_anisotropy: parameters.coat_roughness_anisotropy,
+    coat_ior: parameters.coat_ior,
+    coat_darkening: parameters.coat_darkening,
   });
 }

@@ -15,13 +15,19 @@ import { toHalf, uploadTextures } from './texture-upload';
 /** Textures that shading binds besides the scene's own: environment, its table, two energy tables. */
 const OWN_TEXTURES = 4;
 
+/** Options that decide the kernels' text. */
+export interface SceneChoices {
+  readonly multipleScattering: boolean;
+  readonly sampler: 'sobol' | 'independent';
+}
+
 /** A scene on the GPU. A cache: everything here can be made again from the `Scene`. */
 export class GpuScene {
   readonly #device: GPUDevice;
   readonly #memory: GpuMemory;
   readonly #scene: Scene;
   readonly #geometry: Geometry;
-  readonly #multipleScattering: boolean;
+  readonly #choices: SceneChoices;
   readonly #plan: TexturePlan;
   readonly #textured: readonly TexturedParameterInfo[];
   readonly #firstBinding: number[];
@@ -34,12 +40,12 @@ export class GpuScene {
   #lights: LightTable;
   #environment: EnvironmentData;
 
-  constructor(device: GPUDevice, memory: GpuMemory, scene: Scene, geometry: Geometry, multipleScattering: boolean) {
+  constructor(device: GPUDevice, memory: GpuMemory, scene: Scene, geometry: Geometry, choices: SceneChoices) {
     this.#device = device;
     this.#memory = memory;
     this.#scene = scene;
     this.#geometry = geometry;
-    this.#multipleScattering = multipleScattering;
+    this.#choices = choices;
     this.#textured = texturedParameters(scene.materials);
     const slots = device.limits.maxSampledTexturesPerShaderStage - OWN_TEXTURES;
     this.#plan = planTextures(scene, usedTextures(scene.materials), slots, device.limits);
@@ -90,7 +96,7 @@ export class GpuScene {
   features(): KernelFeatures {
     const parameters = this.#scene.materials.map((material) => resolveParameters(material.parameters));
     const texturedNames = this.#textured.map(({ name }) => name);
-    const openpbrFlags = requiredFeatures(parameters, { textured: texturedNames, multipleScattering: this.#multipleScattering });
+    const openpbrFlags = requiredFeatures(parameters, { textured: texturedNames, multipleScattering: this.#choices.multipleScattering });
     const lights = this.#lights.count > 0;
     const sampled = this.#environment.table !== undefined;
     return {
@@ -98,13 +104,15 @@ export class GpuScene {
         ...openpbrFlags,
         TEXTURES: this.#textured.length > 0,
         NORMAL_MAP: texturedNames.includes('geometry_normal'),
-        EMISSION_TEXTURES: texturedNames.some((name) => name === 'emission_color' || name === 'emission_luminance'),
+        // A coat dims what is emitted below it.
+        EMISSION_TEXTURES: texturedNames.some((name) => name === 'emission_color' || name === 'emission_luminance' || (openpbrFlags.OPENPBR_COAT && name.startsWith('coat_'))),
         VERTEX_COLORS: this.#geometry.hasVertexColors,
         BVH_FILTER: this.#scene.instances.some((instance) => instance.visible !== false && !this.#opaque(instance.material)),
         ENVIRONMENT_MAP: this.#environment.pixels !== undefined,
         ENVIRONMENT_SAMPLED: sampled,
         LIGHTS: lights,
         NEXT_EVENT: lights || sampled,
+        SOBOL: this.#choices.sampler === 'sobol',
       },
       samplings: this.#plan.samplings,
       textured: this.#textured,

@@ -1,0 +1,105 @@
+import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
+import { energyShare, energyTotal, fresnelMean } from './energy';
+import { dielectricEpsilon, fresnelDielectric } from './fresnel';
+import { ggxAlpha, mirrorCosine, mirrorRoughness, viewRoughness, type Slopes } from './ggx';
+import { clamp } from './vector';
+
+const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), channel(1), channel(2)];
+const mix = (a: number, b: number, t: number): number => a * (1 - t) + b * t;
+
+/** The coat seen from one direction; twin of the WGSL struct `OpenPbrCoat`. */
+export interface Coat {
+  readonly alpha: Slopes;
+  readonly eta: number;
+  /** Coverage times multiple-scattering compensation. */
+  readonly scale: number;
+  /** Directional albedo, times coverage. */
+  readonly albedo: number;
+  /** Factors on the base where there is no coat, and where light comes through it towards the viewer. */
+  readonly bare: OpenPbrColor;
+  readonly through: OpenPbrColor;
+  /** log₂ of the transmittance along the normal. */
+  readonly absorption: OpenPbrColor;
+}
+
+/**
+ * Roughness of the base as seen through a full coat, never less than its own; twin of `openpbr_coat_roughening`.
+ *
+ * @param roughness specular_roughness
+ * @param coatRoughness coat_roughness
+ * @param coatIor coat_ior
+ */
+export function coatRoughening(roughness: number, coatRoughness: number, coatIor: number): number {
+  const eta = Math.min(coatIor, 1e3);
+  const blur = ((1.05 * (eta - 1) * Math.sqrt(1 + eta * eta)) / eta) * coatRoughness * coatRoughness;
+  return Math.max(roughness, Math.sqrt(0.85 * Math.tanh(Math.hypot(eta * roughness * roughness, blur) / 0.85)));
+}
+
+/** The base below the coat: rougher, and with the step of the index that is left; twin of `openpbr_coat_base`. */
+export function coatedBase(p: OpenPbrParameters): OpenPbrParameters {
+  return {
+    ...p,
+    specular_roughness: mix(p.specular_roughness, coatRoughening(p.specular_roughness, p.coat_roughness, p.coat_ior), p.coat_weight),
+    specular_ior: mix(p.specular_ior, Math.max(p.specular_ior, p.coat_ior) / Math.min(p.specular_ior, p.coat_ior), p.coat_weight),
+  };
+}
+
+const path = (eta: number, mu: number): number => 1 / Math.sqrt(Math.max(1 - (1 - mu * mu) / (eta * eta), 1e-4));
+const absorptionOf = (p: OpenPbrParameters): OpenPbrColor => rgb((i) => 0.5 * Math.log2(Math.max(p.coat_color[i], 1e-7)));
+const passage = (absorption: number, eta: number, mu: number): number => 2 ** (absorption * path(eta, mu));
+
+/** What is left of white light after going down from one cosine and up to the other; 1 − coverage of it is not coated. */
+export const coatTransmittance = (p: OpenPbrParameters, muI: number, muO: number): OpenPbrColor => {
+  const absorption = absorptionOf(p);
+  return rgb((i) => passage(absorption[i], p.coat_ior, muI) * passage(absorption[i], p.coat_ior, muO));
+};
+
+/** Factor on the base by light that goes on being reflected in the coat; twin of `openpbr_coat_darkening`. */
+export function coatDarkening(p: OpenPbrParameters, mu: number): OpenPbrColor {
+  const base = coatedBase(p);
+  const inner = dielectricEpsilon(base.specular_ior, p.specular_weight);
+  const f0 = inner * inner;
+  const epsilon = dielectricEpsilon(p.coat_ior, 1);
+  const roughness = mix(mix(1, base.specular_roughness, f0), base.specular_roughness, p.base_metalness);
+  const facet = mu + 0.8 * p.coat_roughness * p.coat_roughness * (1 - mu);
+  const kept = Math.min(mix(fresnelDielectric((1 + epsilon) / (1 - epsilon), facet), fresnelMean(-epsilon), roughness), 0.9999);
+  return rgb((i) => {
+    const color = p.base_weight * p.base_color[i];
+    const albedo = mix(mix(color, p.specular_color[i], f0), Math.min(color * p.specular_weight, 1), p.base_metalness);
+    return mix(1, (1 - kept) / (1 - kept * albedo), p.coat_weight * p.coat_darkening);
+  });
+}
+
+/** Prepares the coat for one direction; twin of `openpbr_coat_prepare`. */
+export function prepareCoat(p: OpenPbrParameters, wo: OpenPbrVector, mu: number, multipleScattering: boolean): Coat {
+  const roughness = p.coat_roughness;
+  const alpha = ggxAlpha(roughness, p.coat_roughness_anisotropy);
+  const epsilon = dielectricEpsilon(p.coat_ior, 1);
+  const eta = (1 + epsilon) / (1 - epsilon);
+  const share = energyShare(epsilon, viewRoughness(alpha, roughness, wo), mu);
+  const total = energyTotal(epsilon, mirrorRoughness(roughness, p.coat_roughness_anisotropy), mirrorCosine(alpha, wo, mu));
+  const more = Math.max(1 - total, 0) * (epsilon >= 0 ? fresnelMean(epsilon) : share);
+  const absorption = absorptionOf(p);
+  const darkening = coatDarkening(p, mu);
+  return {
+    alpha,
+    eta,
+    scale: p.coat_weight * (multipleScattering ? share / Math.max(share - more, 0.1 * share + 1e-7) : 1),
+    albedo: p.coat_weight * share,
+    bare: rgb((i) => darkening[i] * (1 - p.coat_weight)),
+    through: rgb((i) => darkening[i] * p.coat_weight * (1 - share) * passage(absorption[i], eta, mu)),
+    absorption,
+  };
+}
+
+/** Factor on the base for light from the cosine `mu`; twin of `openpbr_coat_pass`. */
+export const coatPass = (coat: Coat, mu: number): OpenPbrColor => rgb((i) => coat.bare[i] + coat.through[i] * passage(coat.absorption[i], coat.eta, mu));
+
+/** Factor on light that the base emits towards `wo`; twin of `openpbr_coat_emission`. */
+export function coatEmission(p: OpenPbrParameters, wo: OpenPbrVector): OpenPbrColor {
+  const mu = clamp(wo[2], 1e-5, 1);
+  const epsilon = dielectricEpsilon(p.coat_ior, 1);
+  const share = energyShare(epsilon, viewRoughness(ggxAlpha(p.coat_roughness, p.coat_roughness_anisotropy), p.coat_roughness, wo), mu);
+  const absorption = absorptionOf(p);
+  return rgb((i) => mix(1, (1 - share) * passage(absorption[i], (1 + epsilon) / (1 - epsilon), mu), p.coat_weight));
+}

@@ -1,0 +1,128 @@
+import { wgslModule } from '@glanz/wgsl';
+import { openpbrDielectric } from './dielectric.wgsl';
+import { openpbrEnergy } from './energy.wgsl';
+import { openpbrFresnelDielectric } from './fresnel.wgsl';
+import { openpbrGgx } from './ggx.wgsl';
+import { openPbrStruct } from './record';
+
+/**
+ * The coat: a clear or tinted dielectric layer over everything else, in the frame of the base. Its reflection is that of
+ * an interface (`openpbrDielectric`); what lies below is the base with other parameters (`openpbr_coat_base`), times
+ * `openpbr_coat_pass`. Formulas of the specification, with these choices where it leaves one:
+ *
+ * - The base becomes rougher as proposed for the specification's next version: refraction widens the base's highlight,
+ *   a rough coat blurs it. It is never made smoother.
+ * - Darkening by reflections inside the coat takes the roughness of the base as seen through the coat, and of a rough coat
+ *   the facets that are typically seen; the coat's colour does not count at every bounce, only once.
+ * - What the coat lets through is 1 less its albedo towards the viewer: no energy is made, but the whole is not
+ *   reciprocal.
+ */
+export const openpbrCoat = wgslModule(
+  'openpbr/coat',
+  /* wgsl */ `struct OpenPbrCoat {
+  alpha: vec2f,
+  eta: f32,
+  // Coverage times multiple-scattering compensation.
+  scale: f32,
+  // Directional albedo, times coverage.
+  albedo: f32,
+  // Probability of sampling this lobe; else it is the base.
+  probability: f32,
+  // 1/η².
+  bend: f32,
+  // Factors on the base where there is no coat, and where light comes through it towards the viewer; log2 of the
+  // transmittance along the normal.
+  bare: vec3f,
+  through: vec3f,
+  absorption: vec3f,
+}
+
+// Its own interface, as if it were the base.
+fn openpbr_coat_interface(p: OpenPbrParameters) -> OpenPbrParameters {
+  var layer = p;
+  layer.specular_weight = 1.0;
+  layer.specular_color = vec3f(1.0);
+  layer.specular_ior = p.coat_ior;
+  layer.specular_roughness = p.coat_roughness;
+  layer.specular_roughness_anisotropy = p.coat_roughness_anisotropy;
+  return layer;
+}
+
+// tanh, precise for small x too.
+fn openpbr_coat_saturate(x: f32) -> f32 {
+  return select(1.0 - 2.0 / (exp(2.0 * min(x, 20.0)) + 1.0), x * (1.0 - x * x * (0.33333333 - 0.13333333 * x * x)), x < 0.2);
+}
+
+// Roughness of the base as seen through the coat.
+fn openpbr_coat_roughening(p: OpenPbrParameters) -> f32 {
+  let eta = min(p.coat_ior, 1e3);
+  let blur = 1.05 * (eta - 1.0) * sqrt(1.0 + eta * eta) / eta * p.coat_roughness * p.coat_roughness;
+  let slope = length(vec2f(eta * p.specular_roughness * p.specular_roughness, blur));
+  return max(p.specular_roughness, sqrt(0.85 * openpbr_coat_saturate(slope / 0.85)));
+}
+
+// The base below the coat: rougher, and with the step of the index that is left.
+fn openpbr_coat_base(p: OpenPbrParameters) -> OpenPbrParameters {
+  var base = p;
+  base.specular_roughness = mix(p.specular_roughness, openpbr_coat_roughening(p), p.coat_weight);
+  // The larger over the smaller: an index below that of the coat shall not reflect all light, since the rays that it
+  // would do so to cannot come in through the coat.
+  base.specular_ior = mix(p.specular_ior, max(p.specular_ior, p.coat_ior) / min(p.specular_ior, p.coat_ior), p.coat_weight);
+  return base;
+}
+
+// 1 / cosine inside the coat.
+fn openpbr_coat_path(bend: f32, mu: f32) -> f32 {
+  return inverseSqrt(max(1.0 - (1.0 - mu * mu) * bend, 1e-4));
+}
+
+// log2 of what is left after one passage along the normal.
+fn openpbr_coat_absorption(p: OpenPbrParameters) -> vec3f {
+  return 0.5 * log2(max(p.coat_color, vec3f(1e-7)));
+}
+
+// Factor on the base by light that goes on being reflected in the coat.
+fn openpbr_coat_darkening(p: OpenPbrParameters, base: OpenPbrParameters, epsilon: f32, eta: f32, mu: f32) -> vec3f {
+  let inner = openpbr_dielectric_epsilon(base);
+  let f0 = inner * inner;
+  let dielectric = mix(p.base_weight * p.base_color, p.specular_color, f0);
+  let albedo = mix(dielectric, min(p.base_weight * p.base_color * p.specular_weight, vec3f(1.0)), p.base_metalness);
+  let roughness = mix(mix(1.0, base.specular_roughness, f0), base.specular_roughness, p.base_metalness);
+  let facet = mu + 0.8 * p.coat_roughness * p.coat_roughness * (1.0 - mu);
+  let kept = min(mix(openpbr_fresnel_dielectric(eta, facet), openpbr_fresnel_mean(-epsilon), roughness), 0.9999);
+  return mix(vec3f(1.0), (1.0 - kept) / (1.0 - kept * albedo), p.coat_weight * p.coat_darkening);
+}
+
+// "base" is openpbr_coat_base(p).
+fn openpbr_coat_prepare(p: OpenPbrParameters, base: OpenPbrParameters, wo: vec3f, mu: f32) -> OpenPbrCoat {
+  var coat: OpenPbrCoat;
+  coat.alpha = openpbr_alpha(p.coat_roughness, p.coat_roughness_anisotropy);
+  let surface = openpbr_dielectric_prepare(openpbr_coat_interface(p), coat.alpha, wo, mu);
+  coat.eta = surface.eta;
+  coat.scale = p.coat_weight * surface.scale.x;
+  coat.albedo = p.coat_weight * surface.share;
+  coat.bend = 1.0 / (coat.eta * coat.eta);
+  coat.absorption = openpbr_coat_absorption(p);
+  let darkening = openpbr_coat_darkening(p, base, surface.epsilon, surface.eta, mu);
+  coat.bare = darkening * (1.0 - p.coat_weight);
+  coat.through = darkening * (p.coat_weight * (1.0 - surface.share)) * exp2(coat.absorption * openpbr_coat_path(coat.bend, mu));
+  return coat;
+}
+
+// Factor on the base for light from the cosine mu.
+fn openpbr_coat_pass(coat: OpenPbrCoat, mu: f32) -> vec3f {
+  return coat.bare + coat.through * exp2(coat.absorption * openpbr_coat_path(coat.bend, mu));
+}
+
+// Factor on light that the base emits towards wo: one passage, and no darkening.
+fn openpbr_coat_emission(p: OpenPbrParameters, wo: vec3f) -> vec3f {
+  let mu = clamp(wo.z, 1e-5, 1.0);
+  let layer = openpbr_coat_interface(p);
+  let epsilon = openpbr_dielectric_epsilon(layer);
+  let alpha = openpbr_alpha(layer.specular_roughness, layer.specular_roughness_anisotropy);
+  let share = openpbr_energy_share(epsilon, openpbr_view_roughness(alpha, layer.specular_roughness, wo), mu);
+  let eta = (1.0 + epsilon) / (1.0 - epsilon);
+  return mix(vec3f(1.0), (1.0 - share) * exp2(openpbr_coat_absorption(p) * openpbr_coat_path(1.0 / (eta * eta), mu)), p.coat_weight);
+}`,
+  [openPbrStruct.module, openpbrGgx, openpbrFresnelDielectric, openpbrEnergy, openpbrDielectric],
+);
