@@ -82,7 +82,7 @@ fn shade_path(index: u32, depth: u32) -> ShadeResult {
   random_begin(batch.pixel_offset + index % batch.pixel_count, batch.sample_offset + index / batch.pixel_count, depth + 1u, frame.seed);
 
   //#if NEXT_EVENT
-  let light = light_sample(vec4f(random_3(), random_next()), start);
+  let light = light_sample(vec4f(random_2(), random_2()), start);
   if (light.pdf > 0.0 && dot(geometric, light.direction) > 0.0) {
     let local_wi = light.direction * to_world;
     let scatter = openpbr_eval_pdf(bsdf, local_wo, local_wi);
