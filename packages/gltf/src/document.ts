@@ -24,6 +24,7 @@ const KNOWN = new Set([
   'KHR_lights_punctual',
   'EXT_mesh_gpu_instancing',
   'EXT_texture_webp',
+  'KHR_materials_clearcoat',
   'KHR_materials_emissive_strength',
   'KHR_materials_ior',
   'KHR_materials_specular',

@@ -58,6 +58,13 @@ export interface GltfMaterial {
   readonly extensions?: {
     readonly KHR_materials_emissive_strength?: { readonly emissiveStrength?: number };
     readonly KHR_materials_ior?: { readonly ior?: number };
+    readonly KHR_materials_clearcoat?: {
+      readonly clearcoatFactor?: number;
+      readonly clearcoatTexture?: GltfTextureInfo;
+      readonly clearcoatRoughnessFactor?: number;
+      readonly clearcoatRoughnessTexture?: GltfTextureInfo;
+      readonly clearcoatNormalTexture?: GltfTextureInfo;
+    };
     readonly KHR_materials_specular?: {
       readonly specularFactor?: number;
       readonly specularTexture?: GltfTextureInfo;

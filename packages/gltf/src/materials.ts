@@ -38,6 +38,7 @@ export function readMaterial(material: GltfMaterial, index: number, table: Textu
   };
   const pbr = material.pbrMetallicRoughness ?? {};
   const specular = material.extensions?.KHR_materials_specular;
+  const clearcoat = material.extensions?.KHR_materials_clearcoat;
   bind('base_color', pbr.baseColorTexture, 'rgb', 'srgb', 'pbrMetallicRoughness/baseColorTexture');
   if (parameters.geometry_opacity !== undefined) bind('geometry_opacity', pbr.baseColorTexture, 'a', 'srgb', 'pbrMetallicRoughness/baseColorTexture');
   bind('base_metalness', pbr.metallicRoughnessTexture, 'b', 'linear', 'pbrMetallicRoughness/metallicRoughnessTexture');
@@ -46,6 +47,12 @@ export function readMaterial(material: GltfMaterial, index: number, table: Textu
   if (parameters.emission_color) bind('emission_color', material.emissiveTexture, 'rgb', 'srgb', 'emissiveTexture');
   bind('specular_weight', specular?.specularTexture, 'a', 'linear', 'extensions/KHR_materials_specular/specularTexture');
   bind('specular_color', specular?.specularColorTexture, 'rgb', 'srgb', 'extensions/KHR_materials_specular/specularColorTexture');
+  bind('coat_weight', clearcoat?.clearcoatTexture, 'r', 'linear', 'extensions/KHR_materials_clearcoat/clearcoatTexture');
+  bind('coat_roughness', clearcoat?.clearcoatRoughnessTexture, 'g', 'linear', 'extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture');
+  const coatNormal = clearcoat?.clearcoatNormalTexture;
+  if (coatNormal && coatNormal.index !== material.normalTexture?.index) {
+    warnings.push({ code: 'gltf/ignored-extension', message: `Material ${index} ("${material.name ?? ''}") has a normal map for its clearcoat, which is not read: the coat follows the normal of the base.`, path: `/materials/${index}/extensions/KHR_materials_clearcoat/clearcoatNormalTexture` });
+  }
 
   const made: Material = { name: material.name ?? `material ${index}`, parameters };
   if (Object.keys(textures).length > 0) made.textures = textures;

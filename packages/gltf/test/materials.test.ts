@@ -97,6 +97,19 @@ describe('textures', () => {
     expect([image.width, image.height, ...image.data]).toEqual([2, 1, 255, 128, 0, 64, 0, 0, 0, 255]);
   });
 
+  test('of a clearcoat: its weight from red, its roughness from green; its normal map is left out with a warning', async () => {
+    const pixel = await png(200, 100, 0, 255);
+    const uri = `data:image/png;base64,${Buffer.from(pixel).toString('base64')}`;
+    const scene = await withMaterial(
+      { name: 'car', extensions: { KHR_materials_clearcoat: { clearcoatFactor: 0.8, clearcoatTexture: { index: 0 }, clearcoatRoughnessFactor: 3, clearcoatRoughnessTexture: { index: 0 }, clearcoatNormalTexture: { index: 0 } } } },
+      (json) => { json['images'] = [{ uri }]; json['textures'] = [{ source: 0 }]; json['extensionsUsed'] = ['KHR_materials_clearcoat']; },
+    );
+    const { parameters, textures = {} } = only(scene);
+    expect(parameters).toMatchObject({ coat_weight: 0.8, coat_roughness: 1, coat_ior: 1.5, coat_darkening: 0 });
+    expect(Object.entries(textures).map(([parameter, { texture, channels }]) => [parameter, channels, scene.textures[texture]!.color_space])).toEqual([['coat_weight', 'r', 'linear'], ['coat_roughness', 'g', 'linear']]);
+    expect(scene.warnings.map(({ path }) => path)).toEqual(['clearcoatRoughnessFactor', 'clearcoatNormalTexture'].map((field) => `/materials/0/extensions/KHR_materials_clearcoat/${field}`));
+  });
+
   test('KHR_texture_transform: scaled, turned, moved', async () => {
     const { document, scene, accessor } = start();
     const extension = document.createExtension(KHRTextureTransform);

@@ -9,6 +9,7 @@ type Factor = readonly [key: string, size: number, initial: number, low: number,
 const CORE: readonly Factor[] = [['emissiveFactor', 3, 0, 0, LARGEST], ['alphaCutoff', 0, 0.5, 0, LARGEST]];
 const METALLIC_ROUGHNESS: readonly Factor[] = [['baseColorFactor', 4, 1, 0, 1], ['metallicFactor', 0, 1, 0, 1], ['roughnessFactor', 0, 1, 0, 1]];
 const EXTENSIONS: Readonly<Record<string, readonly Factor[]>> = {
+  KHR_materials_clearcoat: [['clearcoatFactor', 0, 0, 0, 1], ['clearcoatRoughnessFactor', 0, 0, 0, 1]],
   KHR_materials_emissive_strength: [['emissiveStrength', 0, 1, 0, LARGEST]],
   KHR_materials_ior: [['ior', 0, 1.5, 0, 1000]],
   KHR_materials_specular: [['specularFactor', 0, 1, 0, 1], ['specularColorFactor', 3, 1, 0, LARGEST]],

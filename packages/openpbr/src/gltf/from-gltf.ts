@@ -51,7 +51,24 @@ const specular: GltfMappingStep = ({ extensions }, parameters) => {
   parameters.specular_color = brightest > 0 ? (tint.map((c) => lerp(c / brightest, 1, metalness)) as unknown as OpenPbrColor) : [1, 1, 1];
 };
 
-const STEPS: readonly GltfMappingStep[] = [core, emission, ior, specular];
+/**
+ * glTF's coat has index 1.5, no colour and no reflections inside, and the base keeps the reflectance that it has in air.
+ * Below OpenPBR's coat that takes a higher index; where a texture thins the coat the index would be too high, so there the
+ * base loses part of its reflectance, as it really does. Comes last: it changes the index that the others start from.
+ */
+const clearcoat: GltfMappingStep = ({ extensions }, parameters) => {
+  const extension = extensions?.KHR_materials_clearcoat;
+  const weight = extension?.clearcoatFactor ?? 0;
+  if (!extension || !(weight > 0)) return;
+  parameters.coat_weight = weight;
+  parameters.coat_roughness = extension.clearcoatRoughnessFactor ?? 0;
+  parameters.coat_ior = 1.5;
+  parameters.coat_darkening = 0;
+  const index = (parameters.specular_ior ?? 1.5) / lerp(1, 1 / 1.5, weight);
+  if (extension.clearcoatTexture === undefined && index >= 1.5) parameters.specular_ior = index;
+};
+
+const STEPS: readonly GltfMappingStep[] = [core, emission, ior, specular, clearcoat];
 
 /**
  * Maps a glTF 2.0 material to OpenPBR. Pure: the answer holds the parameters that differ from, or are determined apart
@@ -66,10 +83,12 @@ const STEPS: readonly GltfMappingStep[] = [core, emission, ior, specular];
  * | emissive × KHR_materials_emissive_strength | emission_color, emission_luminance | nothing |
  * | KHR_materials_ior | specular_ior | glTF approximates Fresnel's equations by Schlick's |
  * | KHR_materials_specular | specular_weight, specular_color | the white edge of a tinted reflection |
+ * | KHR_materials_clearcoat | coat_weight, coat_roughness, coat_ior 1.5, coat_darkening 0, a higher specular_ior | the coat's own normal map; the base looks rougher through the coat; below a coat with a texture the base reflects less |
  *
  * Textures multiply: a texture on a factor goes with the parameter in the same row (base colour with base_color, the
  * blue channel of metallic-roughness with base_metalness, the green one with specular_roughness, alpha with
- * geometry_opacity, emissive with emission_color, specular with specular_weight, specular colour with specular_color).
+ * geometry_opacity, emissive with emission_color, specular with specular_weight, specular colour with specular_color,
+ * the red channel of clearcoat with coat_weight, the green one of clearcoat roughness with coat_roughness).
  *
  * @example
  * const parameters = fromGltf(json.materials[0]);   // { base_color: […], base_metalness: 0, specular_roughness: 0.4 }

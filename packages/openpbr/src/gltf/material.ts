@@ -26,5 +26,7 @@ export interface GltfMaterialFactors {
 export interface GltfMaterialExtensions {
   readonly KHR_materials_emissive_strength?: { readonly emissiveStrength?: number };
   readonly KHR_materials_ior?: { readonly ior?: number };
+  /** `clearcoatTexture` is only asked whether it is there. */
+  readonly KHR_materials_clearcoat?: { readonly clearcoatFactor?: number; readonly clearcoatRoughnessFactor?: number; readonly clearcoatTexture?: unknown };
   readonly KHR_materials_specular?: { readonly specularFactor?: number; readonly specularColorFactor?: Numbers };
 }
