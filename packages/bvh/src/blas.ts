@@ -20,7 +20,7 @@ export interface BlasOptions {
 
 /** Bottom-level hierarchy: the triangles of one mesh. */
 export interface Blas {
-  /** Nodes as {@link bvhNodeStruct} lays them out, 16 words each; the integers are the same bits seen as Uint32Array. Node 0 is the root. */
+  /** Nodes as `bvhNodeStruct` of `@glanz/bvh/wgsl` lays them out, 16 words each; the integers are the same bits seen as Uint32Array. Node 0 is the root. */
   readonly nodes: Float32Array<ArrayBuffer>;
   readonly nodeCount: number;
   /**

@@ -1,10 +1,7 @@
 export { buildBlas, packTriangles, type Blas, type BlasOptions, type TriangleMesh } from './blas';
 export { anyHit, anyHitInstances, closestHit, closestHitInstances, type BlasMesh, type Hit, type InstanceHit, type Ray } from './cpu/queries';
 export { BvhError } from './error';
-export { BLAS_MAX_DEPTH, BVH_STACK_SIZE, bvhInstanceStruct, bvhNodeStruct, TLAS_MAX_DEPTH, type Aabb } from './layout';
+export { BLAS_MAX_DEPTH, TLAS_MAX_DEPTH, type Aabb } from './layout';
 export { refitBlas } from './refit';
 export { bvhStatistics, sahCost, type BvhNodes, type BvhStatistics } from './statistics';
 export { buildTlas, type Tlas, type TlasInstance } from './tlas';
-export { bvhOffset } from './wgsl/offset.wgsl';
-export { bvhAnyHit, bvhClosestHit } from './wgsl/traversal.wgsl';
-export { bvhTypes } from './wgsl/types.wgsl';

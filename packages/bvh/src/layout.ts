@@ -1,5 +1,3 @@
-import { struct } from '@glanz/wgsl/struct';
-
 /** 32-bit words of a node. */
 export const NODE_WORDS = 16;
 
@@ -39,23 +37,6 @@ export const leafFirst = (reference: number): number => reference & (2 ** LEAF_F
 /** How many primitives the leaf behind a reference has, 1 to 16. */
 export const leafCount = (reference: number): number => ((reference >>> LEAF_FIRST_BITS) & (LEAF_MAX - 1)) + 1;
 
-/**
- * A node of two children with the boxes of both, 64 bytes. `left` and `right` are references: the index of a node,
- * counted from the first of its hierarchy, or (bit 31 set) a leaf: bits 27–30 the number of primitives less one, bits
- * 0–26 the first, in leaf order. A missing child is a point box at the largest float, which no ray reaches. `parent` is
- * the index of the node above, 0 for the root.
- */
-export const bvhNodeStruct = struct('BvhNode', {
-  left_min: 'vec3f',
-  left: 'u32',
-  left_max: 'vec3f',
-  right: 'u32',
-  right_min: 'vec3f',
-  parent: 'u32',
-  right_max: 'vec3f',
-  reserved: 'u32',
-});
-
 /** Word offsets within a node. */
 export const LEFT_MIN = 0;
 export const LEFT = 3;
@@ -64,21 +45,6 @@ export const RIGHT = 7;
 export const RIGHT_MIN = 8;
 export const PARENT = 11;
 export const RIGHT_MAX = 12;
-
-/**
- * One instance as the traversal reads it, 64 bytes: the rows of the 3×4 matrix from world to object space, the first node
- * of its BLAS in the host's node buffer, the first triangle of its mesh in the host's triangle buffer, and two words
- * for the host.
- */
-export const bvhInstanceStruct = struct('BvhInstance', {
-  to_object_0: 'vec4f',
-  to_object_1: 'vec4f',
-  to_object_2: 'vec4f',
-  blas_node: 'u32',
-  triangle_offset: 'u32',
-  id: 'u32',
-  flags: 'u32',
-});
 
 /** An axis-aligned box: xyz of the lower and of the upper corner. Empty: min > max. */
 export interface Aabb {

@@ -1,7 +1,8 @@
 import { compose, wgslModule } from '@glanz/wgsl';
 import { expectNoGpuErrors, runCompute, testDevice } from '@glanz/gpu';
 import { afterAll, beforeAll, expect, test } from 'vitest';
-import { buildBlas, buildTlas, bvhAnyHit, bvhClosestHit, bvhInstanceStruct, bvhOffset, closestHitInstances, packTriangles, type TriangleMesh } from '../src/index';
+import { buildBlas, buildTlas, closestHitInstances, packTriangles, type TriangleMesh } from '../src/index';
+import { bvhAnyHit, bvhClosestHit, bvhInstanceStruct, bvhOffset } from '../src/wgsl/index';
 import { affine, direction, randomNumbers, sphere, strewn } from './shapes';
 
 let device: GPUDevice;

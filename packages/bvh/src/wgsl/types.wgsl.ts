@@ -1,5 +1,5 @@
 import { wgslModule } from '@glanz/wgsl/module';
-import { bvhInstanceStruct, bvhNodeStruct } from '../layout';
+import { bvhInstanceStruct, bvhNodeStruct } from './structs';
 
 /** The structs of the traversal: `BvhNode`, `BvhInstance`, `BvhTriangle`, `BvhHit` and the constant `BVH_MISS`. */
 export const bvhTypes = wgslModule(

@@ -1,4 +1,4 @@
-import { bvhInstanceStruct } from '@glanz/bvh';
+import { bvhInstanceStruct } from '@glanz/bvh/wgsl';
 import { openPbrStruct } from '@glanz/openpbr';
 import { struct } from '@glanz/wgsl';
 

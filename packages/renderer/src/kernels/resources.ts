@@ -1,4 +1,4 @@
-import { bvhNodeStruct } from '@glanz/bvh';
+import { bvhNodeStruct } from '@glanz/bvh/wgsl';
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { GPU_STAGE_COMPUTE } from '../gpu/buffers';
 import { batchStruct, frameStruct, instanceStruct, lightStruct, materialStruct, pathStruct, shadowStruct } from './layout';

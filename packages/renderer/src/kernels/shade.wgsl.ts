@@ -1,4 +1,4 @@
-import { bvhOffset } from '@glanz/bvh';
+import { bvhOffset } from '@glanz/bvh/wgsl';
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { BACKGROUND_HIDDEN, BACKGROUND_TRANSPARENT } from './layout';
 import { random } from './random.wgsl';

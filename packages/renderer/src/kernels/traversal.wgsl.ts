@@ -1,4 +1,4 @@
-import { bvhAnyHit, bvhClosestHit } from '@glanz/bvh';
+import { bvhAnyHit, bvhClosestHit } from '@glanz/bvh/wgsl';
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 
 /**

@@ -1,4 +1,5 @@
-import { buildTlas, bvhInstanceStruct, packTriangles, type Blas, type Tlas } from '@glanz/bvh';
+import { buildTlas, packTriangles, type Blas, type Tlas } from '@glanz/bvh';
+import { bvhInstanceStruct } from '@glanz/bvh/wgsl';
 import type { Instance, Mesh, Scene } from '@glanz/scene';
 import { instanceStruct, meshStruct, NONE } from '../kernels/layout';
 import { RenderError } from '../errors';
