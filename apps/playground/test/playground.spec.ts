@@ -74,6 +74,15 @@ test('the Cornell box appears: light above, red left, green right; the saved pic
   for (const channel of ['R', 'A', 'albedo.G', 'normal.X', 'depth.Z', 'object.id', 'material.id']) expect(header).toContain(`${channel}\0`);
 });
 
+test('hierarchies are built on workers, which stay for the next model', async ({ page }) => {
+  await open(page);
+  const pool = page.workers().filter((worker) => /\/assets\/worker-[^/]+$/.test(worker.url()));
+  expect(pool.length).toBe(await page.evaluate(() => Math.min(8, navigator.hardwareConcurrency)));
+  await drop(page, [{ name: 'sail.glb', bytes: triangle([0.05, 0.1, 0.9]) }]);
+  await expect.poll(() => dataOf(page, 'scene')).toBe('sail.glb');
+  expect(page.workers()).toEqual(expect.arrayContaining(pool));
+});
+
 test('exposure and tone map change the picture without starting it anew', async ({ page }) => {
   await open(page);
   await finished(page);

@@ -1,3 +1,4 @@
+import { BvhWorkers } from '@glanz/bvh/workers';
 import { PathTracer, requestDevice, type PickResult, type PrepareProgress } from '@glanz/renderer';
 import type { Camera, Environment, Material, Scene } from '@glanz/scene';
 import type { ToneMapOptions } from '@glanz/tonemap';
@@ -57,6 +58,7 @@ export class Session {
   readonly #losses = new Losses();
   #view: SessionView;
   #device!: GPUDevice;
+  #workers!: Promise<BvhWorkers>;
   #display!: Display;
   #tracer: PathTracer | undefined;
   #film: readonly [number, number] = [1, 1];
@@ -88,6 +90,8 @@ export class Session {
   static async create(canvas: HTMLCanvasElement, view: SessionView, events: SessionEvents): Promise<Session> {
     const session = new Session(canvas, view, events);
     await session.#connect();
+    // They warm up while the first model loads.
+    session.#workers = BvhWorkers.create({ warmUp: true });
     void session.#run();
     return session;
   }
@@ -222,8 +226,9 @@ export class Session {
       await this.#recovery;
       const { depth, background } = this.#view;
       const device = this.#device;
+      const hierarchies = await this.#workers;
       try {
-        const tracer = await PathTracer.create(device, scene, { width, height, maxDepth: depth, background, camera, signal, onProgress });
+        const tracer = await PathTracer.create(device, scene, { width, height, maxDepth: depth, background, camera, hierarchies, signal, onProgress });
         if (depth === this.#view.depth && background === this.#view.background) return tracer;
         tracer.destroy();
         attempt = -1;
