@@ -1,8 +1,9 @@
 import { wgslModule } from '@glanz/wgsl';
 
 /**
- * Light from infinitely far away: constant, or a lat-long picture read bilinearly. Directions are drawn from an alias
- * table over cells of the picture; `environment_table` holds, per cell: threshold, alias, density over the unit square.
+ * Light from infinitely far away: constant, or a lat-long picture read bilinearly. Directions are drawn by
+ * inverting the distribution over cells of the picture; `environment_table` holds, per cell: the part of its row that lies
+ * up to its right edge, the part of the picture up to its row's lower edge, and the density over the unit square.
  */
 export const environment = wgslModule(
   'renderer/environment',
@@ -42,16 +43,29 @@ fn environment_pdf(direction: vec3f) -> f32 {
   return textureLoad(environment_table, cell, 0).z / max(19.739208802178716 * sine, 1e-20);
 }
 
-fn environment_sample(u: vec3f) -> vec3f {
+// Inversion keeps points that are spread evenly spread evenly: first the row, then the cell within it.
+fn environment_sample(u: vec2f) -> vec3f {
   let cells = frame.environment_cells;
-  let count = cells.x * cells.y;
-  let at = u.x * f32(count);
-  var index = min(u32(at), count - 1u);
-  let row = textureLoad(environment_table, vec2u(index % cells.x, index / cells.x), 0);
-  if (u.y >= row.x) { index = u32(row.y); }
-  // The part of u.y inside its interval is a fresh uniform number.
-  let again = select(u.y / max(row.x, 1e-20), (u.y - row.x) / max(1.0 - row.x, 1e-20), u.y >= row.x);
-  let uv = (vec2f(f32(index % cells.x), f32(index / cells.x)) + vec2f(clamp(again, 0.0, 0.99999994), u.z)) / vec2f(cells);
+  var low = 0u;
+  var high = cells.y - 1u;
+  while (low < high) {
+    let middle = (low + high) / 2u;
+    if (textureLoad(environment_table, vec2u(0u, middle), 0).y > u.y) { high = middle; } else { low = middle + 1u; }
+  }
+  let y = low;
+  low = 0u;
+  high = cells.x - 1u;
+  while (low < high) {
+    let middle = (low + high) / 2u;
+    if (textureLoad(environment_table, vec2u(middle, y), 0).x > u.x) { high = middle; } else { low = middle + 1u; }
+  }
+  let end = textureLoad(environment_table, vec2u(low, y), 0).xy;
+  let start = vec2f(
+    select(textureLoad(environment_table, vec2u(max(low, 1u) - 1u, y), 0).x, 0.0, low == 0u),
+    select(textureLoad(environment_table, vec2u(0u, max(y, 1u) - 1u), 0).y, 0.0, y == 0u),
+  );
+  let inside = clamp((u - start) / max(end - start, vec2f(1e-20)), vec2f(0.0), vec2f(0.99999994));
+  let uv = (vec2f(f32(low), f32(y)) + inside) / vec2f(cells);
   let theta = uv.y * 3.141592653589793;
   let phi = (uv.x - 0.5) * 6.283185307179586;
   let flat = sin(theta) * vec2f(cos(phi), sin(phi));

@@ -111,7 +111,7 @@ fn light_table_sample(u: vec3f, position: vec3f) -> LightSample {
 fn light_sample(u: vec4f, position: vec3f) -> LightSample {
   //#if ENVIRONMENT_SAMPLED
   if (u.w < frame.environment_probability) {
-    let direction = environment_sample(u.xyz);
+    let direction = environment_sample(u.xy);
     return LightSample(direction, 3.4e38, environment_radiance(direction), frame.environment_probability * environment_pdf(direction), true);
   }
   //#endif

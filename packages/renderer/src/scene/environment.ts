@@ -1,5 +1,4 @@
 import type { Environment, LatLongEnvironment } from '@glanz/scene';
-import { buildAliasTable } from './alias-table';
 
 /** What the GPU needs to know about the surroundings. */
 export interface EnvironmentData {
@@ -10,7 +9,7 @@ export interface EnvironmentData {
   /** Cosine and sine of the rotation about +Y. */
   readonly rotation: readonly [number, number];
   readonly visible: boolean;
-  /** Importance cells, RGBA: threshold, alias, density over the unit square, 0; absent when sampling by the BSDF alone is as good. */
+  /** Importance cells, RGBA: distribution within the row, distribution of the rows, density over the unit square, 0; absent when sampling by the BSDF alone is as good. */
   readonly table?: { readonly width: number; readonly height: number; readonly data: Float32Array<ArrayBuffer> };
   /** Mean luminance over the sphere. */
   readonly meanLuminance: number;
@@ -87,7 +86,7 @@ function cellLuminance(source: LatLongEnvironment, pixels: Float32Array): { widt
 }
 
 /**
- * The alias table over cells. Densities are lowered by the mean radiance (MIS compensation, Karlík et al. 2019): what
+ * The distribution over cells. Densities are lowered by the mean radiance (MIS compensation, Karlík et al. 2019): what
  * BSDF sampling finds well anyway is left to it.
  */
 function importance(source: LatLongEnvironment, pixels: Float32Array): { table?: EnvironmentData['table'] & object; mean: number } {
@@ -104,13 +103,22 @@ function importance(source: LatLongEnvironment, pixels: Float32Array): { table?:
   for (let y = 0; y < height; y++) {
     for (let x = 0; x < width; x++) weights[y * width + x] = Math.max((values[y * width + x] as number) - mean, 0) * (sines[y] as number);
   }
-  const alias = buildAliasTable(weights);
-  if (!alias) return { mean };
+  const total = weights.reduce((a, b) => a + b, 0);
+  if (!(total > 0 && total < Infinity)) return { mean };
   const data = new Float32Array(width * height * 4);
-  for (let i = 0; i < width * height; i++) {
-    data[4 * i] = alias.keep[i] as number;
-    data[4 * i + 1] = alias.alias[i] as number;
-    data[4 * i + 2] = (alias.probability[i] as number) * width * height;
+  let above = 0;
+  for (let y = 0; y < height; y++) {
+    const row = weights.subarray(y * width, (y + 1) * width);
+    const rowTotal = row.reduce((a, b) => a + b, 0);
+    above += rowTotal;
+    let before = 0;
+    for (let x = 0; x < width; x++) {
+      const i = 4 * (y * width + x);
+      before += row[x] as number;
+      data[i] = rowTotal > 0 ? before / rowTotal : 1;
+      data[i + 1] = above / total;
+      data[i + 2] = ((row[x] as number) / total) * width * height;
+    }
   }
   return { table: { width, height, data }, mean };
 }
