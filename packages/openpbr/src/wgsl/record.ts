@@ -1,10 +1,10 @@
 import { struct } from '@glanz/wgsl';
-import type { OpenPbrParameters } from '../parameters/index';
+import { OPENPBR_PARAMETER_NAMES, type OpenPbrColor, type OpenPbrParameterName, type OpenPbrParameters, type OpenPbrVector } from '../parameters/index';
 
 /**
- * The WGSL struct `OpenPbrParameters`: the parameters that the shader modules read, under the specification's names.
- * Put it into a storage or uniform buffer, multiply textured fields by their texels, and hand it to `openpbr_prepare`.
- * A colour and the number that scales it share 16 bytes.
+ * The WGSL struct `OpenPbrParameters`: every parameter, under the specification's names. Put it into a storage or uniform
+ * buffer, multiply textured fields by their texels, and hand it to `openpbr_prepare`. A colour or vector and a number share
+ * 16 bytes; a field that a shader's lobes do not read costs it nothing but the memory.
  */
 export const openPbrStruct = /* @__PURE__ */ struct('OpenPbrParameters', {
   base_color: 'vec3f',
@@ -30,7 +30,35 @@ export const openPbrStruct = /* @__PURE__ */ struct('OpenPbrParameters', {
   coat_roughness_anisotropy: 'f32',
   coat_ior: 'f32',
   coat_darkening: 'f32',
+  transmission_scatter: 'vec3f',
+  transmission_scatter_anisotropy: 'f32',
+  subsurface_color: 'vec3f',
+  subsurface_weight: 'f32',
+  subsurface_radius_scale: 'vec3f',
+  subsurface_radius: 'f32',
+  fuzz_color: 'vec3f',
+  fuzz_weight: 'f32',
+  /** Unit vectors in the surface's frame; unperturbed (0, 0, 1) and (1, 0, 0). */
+  geometry_normal: 'vec3f',
+  fuzz_roughness: 'f32',
+  geometry_tangent: 'vec3f',
+  thin_film_weight: 'f32',
+  geometry_coat_normal: 'vec3f',
+  thin_film_thickness: 'f32',
+  geometry_coat_tangent: 'vec3f',
+  thin_film_ior: 'f32',
+  transmission_dispersion_scale: 'f32',
+  transmission_dispersion_abbe_number: 'f32',
+  subsurface_scatter_anisotropy: 'f32',
 });
+
+/** What `null` stands for. */
+const UNPERTURBED: Partial<Record<OpenPbrParameterName, OpenPbrVector>> = {
+  geometry_normal: [0, 0, 1],
+  geometry_tangent: [1, 0, 0],
+  geometry_coat_normal: [0, 0, 1],
+  geometry_coat_tangent: [1, 0, 0],
+};
 
 /**
  * Writes a material's parameters into a buffer of {@link openPbrStruct} records.
@@ -40,28 +68,10 @@ export const openPbrStruct = /* @__PURE__ */ struct('OpenPbrParameters', {
  * @param parameters Resolved parameters ({@link resolveParameters}): values are written as they are.
  */
 export function packOpenPbr(buffer: ArrayBuffer, index: number, parameters: OpenPbrParameters): void {
-  openPbrStruct.write(buffer, index, {
-    base_color: parameters.base_color,
-    base_weight: parameters.base_weight,
-    specular_color: parameters.specular_color,
-    specular_weight: parameters.specular_weight,
-    emission_color: parameters.emission_color,
-    emission_luminance: parameters.emission_luminance,
-    transmission_color: parameters.transmission_color,
-    transmission_weight: parameters.transmission_weight,
-    base_diffuse_roughness: parameters.base_diffuse_roughness,
-    base_metalness: parameters.base_metalness,
-    specular_roughness: parameters.specular_roughness,
-    specular_roughness_anisotropy: parameters.specular_roughness_anisotropy,
-    specular_ior: parameters.specular_ior,
-    geometry_opacity: parameters.geometry_opacity,
-    transmission_depth: parameters.transmission_depth,
-    geometry_thin_walled: parameters.geometry_thin_walled ? 1 : 0,
-    coat_color: parameters.coat_color,
-    coat_weight: parameters.coat_weight,
-    coat_roughness: parameters.coat_roughness,
-    coat_roughness_anisotropy: parameters.coat_roughness_anisotropy,
-    coat_ior: parameters.coat_ior,
-    coat_darkening: parameters.coat_darkening,
-  });
+  const values: Partial<Record<OpenPbrParameterName, number | OpenPbrColor>> = {};
+  for (const name of OPENPBR_PARAMETER_NAMES) {
+    const value = parameters[name] ?? UNPERTURBED[name] ?? 0;
+    values[name] = typeof value === 'boolean' ? Number(value) : value;
+  }
+  openPbrStruct.write(buffer, index, values);
 }
