@@ -1,6 +1,6 @@
 import type { Camera } from '@glanz/scene';
 import { cameraUniforms } from './scene/camera';
-import type { Film } from './film';
+import type { Film } from './film/film';
 import type { GpuScene } from './gpu/gpu-scene';
 import { BACKGROUND_HIDDEN, BACKGROUND_TRANSPARENT, frameStruct } from './kernels/layout';
 import type { PathTracerOptions } from './options';

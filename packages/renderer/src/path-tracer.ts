@@ -1,22 +1,37 @@
-import { frameCamera, validateScene, type Camera, type Environment, type Material, type Scene } from '@glanz/scene';
+import { validateScene, type Camera, type Environment, type Material, type Scene } from '@glanz/scene';
 import { DeviceError, RenderError } from './errors';
-import { Film, readBuffer } from './film';
-import { GPU_BUFFER_COPY_DST, GPU_BUFFER_COPY_SRC, GPU_BUFFER_INDIRECT, GPU_BUFFER_STORAGE, GPU_BUFFER_UNIFORM, GpuMemory } from './gpu/buffers';
-import { GpuScene } from './gpu/gpu-scene';
-import { KernelCache, type KernelSet } from './gpu/kernel-cache';
+import { FEATURE_SAMPLES, renderFeatures } from './film/feature-pass';
+import { Film } from './film/film';
+import { LAYER_SOURCES, unpackLayer, type FeatureLayer } from './film/layers';
 import { packFrame } from './frame';
-import { batchStruct, pathStruct, shadowStruct, frameStruct } from './kernels/layout';
-import type { Kernel, KernelFeatures, KernelName } from './kernels/pipelines';
+import { GpuMemory } from './gpu/buffers';
+import { withErrorScopes } from './gpu/error-scopes';
+import { GpuScene } from './gpu/gpu-scene';
+import { KernelCache } from './gpu/kernel-cache';
+import { readBuffer } from './gpu/read-buffer';
+import { Integrator, pathCapacity } from './integrator';
 import type { FilmLayer, PathTracerOptions, PickResult, RenderOptions, RenderProgress, RenderStatistics } from './options';
 import { pickPixel } from './pick';
-import { findMaterial } from './scene/materials';
+import { renderLoop } from './render-loop';
+import { chooseCamera } from './scene/choose-camera';
 import { prepareGeometry, type Geometry } from './scene/geometry';
+import { findMaterial } from './scene/materials';
 import { Scheduler, type Batch } from './scheduler';
 
-/** Queue header words before the items. */
-const QUEUE_WORDS = 8;
-/** Samples that the feature layers average at most. */
-const FEATURE_SAMPLES = 64;
+/** What {@link PathTracer.create} has put together. */
+interface Prepared {
+  readonly device: GPUDevice;
+  readonly memory: GpuMemory;
+  readonly scene: Scene;
+  readonly geometry: Geometry;
+  readonly gpuScene: GpuScene;
+  readonly cache: KernelCache;
+  readonly integrator: Integrator;
+  readonly film: Film;
+  readonly camera: Camera;
+  readonly options: PathTracerOptions;
+  readonly statistics: RenderStatistics;
+}
 
 /**
  * A progressive path tracer for one scene. No DOM: it runs in browsers and in Node alike.
@@ -34,11 +49,8 @@ export class PathTracer {
   readonly #geometry: Geometry;
   readonly #gpuScene: GpuScene;
   readonly #cache: KernelCache;
+  readonly #integrator: Integrator;
   readonly #options: PathTracerOptions;
-  readonly #capacity: number;
-  readonly #buffers: Readonly<Record<'frame' | 'batch' | 'paths' | 'queues' | 'shadows' | 'dispatch', GPUBuffer>>;
-  readonly #groups = new Map<KernelName, GPUBindGroup>();
-  #kernels: KernelSet;
   #film: Film;
   #camera: Camera;
   #scheduler: Scheduler | undefined;
@@ -46,35 +58,23 @@ export class PathTracer {
   #rendering = false;
   #destroyed = false;
   #failure: DeviceError | undefined;
-  #featureSamples = 0;
+  #features: { readonly samples: number; readonly done: Promise<void> } | undefined;
   #statistics: RenderStatistics;
   #frameDirty = true;
 
-  private constructor(device: GPUDevice, memory: GpuMemory, scene: Scene, geometry: Geometry, gpuScene: GpuScene, cache: KernelCache, kernels: KernelSet, options: PathTracerOptions, statistics: RenderStatistics) {
-    this.#device = device;
-    this.#memory = memory;
-    this.#scene = scene;
-    this.#geometry = geometry;
-    this.#gpuScene = gpuScene;
-    this.#cache = cache;
-    this.#kernels = kernels;
-    this.#options = options;
-    this.#statistics = statistics;
-    this.#camera = resolveCamera(scene, options.camera, options.width / options.height);
-    const limit = device.limits.maxStorageBufferBindingSize;
-    const wanted = options.pathsInFlight ?? Math.min(1 << 20, Math.max(1 << 16, options.width * options.height * 4));
-    // One dispatch covers at most 65,535 workgroups of 64 paths.
-    this.#capacity = Math.max(64, Math.min(wanted, Math.floor(limit / pathStruct.size), 65535 * 64));
-    this.#buffers = {
-      frame: memory.buffer('frame', frameStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
-      batch: memory.buffer('batch', batchStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
-      paths: memory.buffer('paths', this.#capacity * pathStruct.size, GPU_BUFFER_STORAGE),
-      queues: memory.buffer('queues', (QUEUE_WORDS + 2 * this.#capacity) * 4, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC),
-      shadows: memory.buffer('shadows', (kernels.features.flags.NEXT_EVENT ? this.#capacity : 1) * shadowStruct.size, GPU_BUFFER_STORAGE),
-      dispatch: memory.buffer('dispatch', 32, GPU_BUFFER_STORAGE | GPU_BUFFER_INDIRECT),
-    };
-    this.#film = new Film(memory, options.width, options.height);
-    void device.lost.then((info) => {
+  private constructor(prepared: Prepared) {
+    this.#device = prepared.device;
+    this.#memory = prepared.memory;
+    this.#scene = prepared.scene;
+    this.#geometry = prepared.geometry;
+    this.#gpuScene = prepared.gpuScene;
+    this.#cache = prepared.cache;
+    this.#integrator = prepared.integrator;
+    this.#film = prepared.film;
+    this.#camera = prepared.camera;
+    this.#options = prepared.options;
+    this.#statistics = prepared.statistics;
+    void this.#device.lost.then((info) => {
       if (!this.#destroyed) this.#failure ??= new DeviceError('renderer/device-lost', `The GPU device was lost (${info.reason}): ${info.message || 'no details'}. The scene is safe: request a new device and create the tracer again.`);
     });
   }
@@ -101,38 +101,29 @@ export class PathTracer {
     onProgress?.({ stage: 'upload', done: 0 });
     const memory = new GpuMemory(device);
     try {
-      device.pushErrorScope('out-of-memory');
-      device.pushErrorScope('validation');
-      let gpuScene: GpuScene;
-      try {
-        gpuScene = new GpuScene(device, memory, own, geometry, { multipleScattering: options.multipleScattering ?? true, sampler: options.sampler ?? 'sobol' });
-      } finally {
-        await throwScopes(device);
-      }
+      const gpuScene = await withErrorScopes(device, () => new GpuScene(device, memory, own, geometry, { multipleScattering: options.multipleScattering ?? true, sampler: options.sampler ?? 'sobol' }));
       const t2 = performance.now();
       onProgress?.({ stage: 'upload', done: 1 });
       const cache = new KernelCache(device);
       const kernels = await cache.get(gpuScene.features(), (done) => onProgress?.({ stage: 'compile', done }));
       signal?.throwIfAborted();
       const t3 = performance.now();
-      const statistics: RenderStatistics = {
-        triangles: geometry.triangleCount,
-        instances: geometry.order.length,
-        lights: gpuScene.lightCount,
-        bvhMs: t1 - t0,
-        uploadMs: t2 - t1,
-        compileMs: t3 - t2,
-        gpuBytes: memory.bytes,
-        badSamples: 0,
-      };
-      device.pushErrorScope('out-of-memory');
-      device.pushErrorScope('validation');
-      let tracer: PathTracer;
-      try {
-        tracer = new PathTracer(device, memory, own, geometry, gpuScene, cache, kernels, options, statistics);
-      } finally {
-        await throwScopes(device);
-      }
+      const camera = chooseCamera(own, options.camera, options.width / options.height);
+      const tracer = await withErrorScopes(device, () => {
+        const film = new Film(memory, options.width, options.height);
+        const integrator = new Integrator(device, memory, gpuScene, kernels, film, pathCapacity(device, options), options.maxDepth ?? 8);
+        const statistics: RenderStatistics = {
+          triangles: geometry.triangleCount,
+          instances: geometry.order.length,
+          lights: gpuScene.lightCount,
+          bvhMs: t1 - t0,
+          uploadMs: t2 - t1,
+          compileMs: t3 - t2,
+          gpuBytes: memory.bytes,
+          badSamples: 0,
+        };
+        return new PathTracer({ device, memory, scene: own, geometry, gpuScene, cache, integrator, film, camera, options, statistics });
+      });
       tracer.reset();
       return tracer;
     } catch (error) {
@@ -186,46 +177,22 @@ export class PathTracer {
     if (this.#rendering) throw new RenderError('renderer/busy', 'This tracer is already rendering: finish or abort the other render() first.');
     this.#rendering = true;
     try {
-      yield* this.#run(target, options);
+      const generation = this.#generation;
+      const budgetMs = options.maxSubmitMs ?? 30;
+      const scheduler = (this.#scheduler ??= new Scheduler({ pixels: this.#film.pixels, capacity: this.#integrator.capacity, budgetMs }));
+      scheduler.budget = budgetMs;
+      yield* renderLoop({
+        scheduler,
+        target,
+        queue: this.#device.queue,
+        submit: (batch) => this.#submit(batch),
+        current: () => generation === this.#generation && !options.signal?.aborted && !this.#destroyed,
+        check: () => {
+          if (this.#failure) throw this.#failure;
+        },
+      });
     } finally {
       this.#rendering = false;
-    }
-  }
-
-  async *#run(target: number, options: RenderOptions): AsyncGenerator<RenderProgress, void, undefined> {
-    const generation = this.#generation;
-    const start = performance.now();
-    const scheduler = (this.#scheduler ??= new Scheduler({ pixels: this.#film.pixels, capacity: this.#capacity, budgetMs: options.maxSubmitMs ?? 30 }));
-    scheduler.budget = options.maxSubmitMs ?? 30;
-    const first = scheduler.samples;
-    let reported = first;
-    let lastDone = start;
-    const inFlight: { batch: Batch; done: Promise<number>; after: number }[] = [];
-    const current = () => generation === this.#generation && !options.signal?.aborted && !this.#destroyed;
-    for (;;) {
-      while (inFlight.length < 2 && current()) {
-        const batch = scheduler.next(target);
-        if (!batch) break;
-        const submitted = performance.now();
-        this.#submit(batch);
-        inFlight.push({ batch, after: scheduler.samples, done: this.#device.queue.onSubmittedWorkDone().then(() => performance.now() - Math.max(submitted, lastDone)) });
-      }
-      const oldest = inFlight.shift();
-      if (!oldest) return;
-      const milliseconds = await oldest.done;
-      lastDone = performance.now();
-      if (this.#failure) throw this.#failure;
-      scheduler.measured(oldest.batch, milliseconds);
-      if (!current()) {
-        await Promise.all(inFlight.map(({ done }) => done));
-        return;
-      }
-      if (oldest.after > reported) {
-        reported = oldest.after;
-        const elapsedMs = performance.now() - start;
-        const rate = (reported - first) / elapsedMs;
-        yield { samples: reported, targetSamples: target, elapsedMs, remainingMs: rate > 0 ? (target - reported) / rate : Infinity, samplesPerSecond: rate * 1000 };
-      }
     }
   }
 
@@ -248,28 +215,18 @@ export class PathTracer {
     const bytes = this.#film.pixels * 16;
     if (layer === 'beauty') {
       const pixels = new Float32Array(await readBuffer(this.#device, this.#film.beauty, bytes));
-      const counters = new Uint32Array(await readBuffer(this.#device, this.#buffers.queues, 32));
+      const counters = new Uint32Array(await readBuffer(this.#device, this.#integrator.queues, 32));
       this.#statistics = { ...this.#statistics, badSamples: counters[3] as number };
       return pixels;
     }
-    const count = await this.#renderFeatures();
-    const { albedo, normal, ids } = this.#film.features();
-    if (layer === 'objectId' || layer === 'materialId') {
-      const all = new Uint32Array(await readBuffer(this.#device, ids, bytes));
-      return Uint32Array.from({ length: this.#film.pixels }, (_, i) => all[4 * i + (layer === 'objectId' ? 0 : 1)] as number);
-    }
-    const sums = new Float32Array(await readBuffer(this.#device, layer === 'albedo' ? albedo : normal, bytes));
-    if (layer === 'albedo') return sums.map((value) => value / count);
-    if (layer === 'normal') return sums.map((value, i) => (i % 4 === 3 ? 0 : value / count));
-    const coverage = new Float32Array(await readBuffer(this.#device, albedo, bytes));
-    return Float32Array.from({ length: this.#film.pixels }, (_, i) => ((coverage[4 * i + 3] as number) > 0 ? (sums[4 * i + 3] as number) / (coverage[4 * i + 3] as number) : 0));
+    return this.#readFeature(layer, bytes);
   }
 
   /** Restarts the film. */
   reset(): void {
     this.#check();
     this.#generation++;
-    this.#featureSamples = 0;
+    this.#features = undefined;
     this.#frameDirty = true;
     // Keeps what was learned about the GPU's speed.
     this.#scheduler = this.#scheduler?.restarted();
@@ -280,7 +237,7 @@ export class PathTracer {
 
   /** Looks through another camera: one of the scene's by index or name, or any. Restarts the film. */
   setCamera(camera: Camera | number | string): void {
-    this.#camera = resolveCamera(this.#scene, camera, this.#film.width / this.#film.height);
+    this.#camera = chooseCamera(this.#scene, camera, this.#film.width / this.#film.height);
     this.reset();
   }
 
@@ -297,7 +254,7 @@ export class PathTracer {
     const material = this.#scene.materials[index];
     if (!material) throw new RenderError('renderer/material', `The scene has no material ${JSON.stringify(nameOrIndex)}; it has: ${this.#scene.materials.map((m) => m.name).join(', ')}.`);
     material.parameters = { ...material.parameters, ...parameters };
-    if (this.#gpuScene.updateMaterial(index)) this.#groups.clear();
+    if (this.#gpuScene.updateMaterial(index)) this.#integrator.rebind();
     await this.#applyFeatures();
   }
 
@@ -307,7 +264,7 @@ export class PathTracer {
     if (environment) this.#scene.environment = environment;
     else delete this.#scene.environment;
     this.#gpuScene.updateEnvironment(environment);
-    this.#groups.clear();
+    this.#integrator.rebind();
     await this.#applyFeatures();
   }
 
@@ -319,7 +276,7 @@ export class PathTracer {
     this.#film.destroy();
     this.#film = new Film(this.#memory, width, height);
     this.#scheduler = undefined;
-    this.#groups.clear();
+    this.#integrator.rebind(this.#film);
     this.reset();
   }
 
@@ -339,23 +296,12 @@ export class PathTracer {
 
   async #applyFeatures(): Promise<void> {
     this.reset();
-    const features = this.#gpuScene.features();
     const generation = this.#generation;
-    const kernels = await this.#cache.get(features);
+    const kernels = await this.#cache.get(this.#gpuScene.features());
     // A later edit has asked for other kernels meanwhile, and will restart the film itself.
-    if (this.#destroyed || kernels === this.#kernels || generation !== this.#generation) return;
-    this.#use(kernels, features);
+    if (this.#destroyed || kernels === this.#integrator.kernels || generation !== this.#generation) return;
+    this.#integrator.use(kernels);
     this.reset();
-  }
-
-  #use(kernels: KernelSet, features: KernelFeatures): void {
-    this.#kernels = kernels;
-    this.#groups.clear();
-    const bytes = this.#capacity * shadowStruct.size;
-    if (features.flags.NEXT_EVENT && this.#buffers.shadows.size < bytes) {
-      this.#memory.release(this.#buffers.shadows);
-      (this.#buffers as Record<string, GPUBuffer>).shadows = this.#memory.buffer('shadows', bytes, GPU_BUFFER_STORAGE);
-    }
   }
 
   #check(): void {
@@ -363,88 +309,34 @@ export class PathTracer {
     if (this.#failure) throw this.#failure;
   }
 
-  #group(name: KernelName, kernel: Kernel): GPUBindGroup {
-    let group = this.#groups.get(name);
-    if (!group) {
-      const film: Record<string, GPUBuffer> = { film_block: this.#film.block, film_total: this.#film.total, beauty: this.#film.beauty };
-      if (name === 'features') {
-        const { albedo, normal, ids } = this.#film.features();
-        Object.assign(film, { feature_albedo: albedo, feature_normal: normal, feature_ids: ids });
-      }
-      const names = [...kernel.resources, ...kernel.sceneBindings.map(([binding]) => binding)];
-      const entries = names.map((resource, binding) => {
-        const own = (this.#buffers as Record<string, GPUBuffer>)[resource] ?? film[resource];
-        const found = own ? { buffer: own } : this.#gpuScene.resource(resource);
-        if (!found) throw new DeviceError('renderer/gpu-error', `Kernel "${name}" wants "${resource}", which nothing provides.`);
-        return { binding, resource: found };
-      });
-      group = this.#device.createBindGroup({ label: `glanz ${name}`, layout: kernel.layout, entries });
-      this.#groups.set(name, group);
-    }
-    return group;
-  }
-
-  #writeBatch(batch: Batch): void {
-    const data = batchStruct.allocate();
-    batchStruct.write(data, 0, { pixel_offset: batch.pixelOffset, pixel_count: batch.pixelCount, sample_offset: batch.sampleOffset, sample_count: batch.sampleCount });
-    this.#memory.write(this.#buffers.batch, data);
-    if (this.#frameDirty) {
-      this.#memory.write(this.#buffers.frame, packFrame(this.#camera, this.#film, this.#gpuScene, this.#geometry, this.#options));
-      this.#frameDirty = false;
-    }
-  }
-
   #submit(batch: Batch): void {
-    this.#writeBatch(batch);
-    const { kernels, features } = this.#kernels;
-    const encoder = this.#device.createCommandEncoder({ label: 'glanz batch' });
-    const pass = encoder.beginComputePass({ label: 'glanz batch' });
-    const paths = batch.pixelCount * batch.sampleCount;
-    const run = (name: KernelName, work: number | { readonly indirect: number }) => {
-      const kernel = kernels[name] as Kernel;
-      pass.setPipeline(kernel.pipeline);
-      pass.setBindGroup(0, this.#group(name, kernel));
-      if (typeof work === 'number') pass.dispatchWorkgroups(work);
-      else pass.dispatchWorkgroupsIndirect(this.#buffers.dispatch, work.indirect);
-    };
-    run('begin', 1);
-    run('generate', Math.ceil(paths / 64));
-    const depth = this.#options.maxDepth ?? 8;
-    for (let edge = 1; edge <= depth; edge++) {
-      run('intersect', { indirect: 0 });
-      run('shade', { indirect: 0 });
-      if (edge === depth) break;
-      run('advance', 1);
-      if (features.flags.NEXT_EVENT) run('connect', { indirect: 16 });
-    }
-    run('resolve', Math.ceil(batch.pixelCount / 64));
-    pass.end();
-    this.#device.queue.submit([encoder.finish()]);
+    this.#writeFrame();
+    this.#integrator.submit(batch);
   }
 
-  async #renderFeatures(): Promise<number> {
+  #writeFrame(): void {
+    if (!this.#frameDirty) return;
+    this.#integrator.writeFrame(packFrame(this.#camera, this.#film, this.#gpuScene, this.#geometry, this.#options));
+    this.#frameDirty = false;
+  }
+
+  async #readFeature(layer: FeatureLayer, bytes: number): Promise<Float32Array<ArrayBuffer> | Uint32Array<ArrayBuffer>> {
     const target = Math.min(FEATURE_SAMPLES, Math.max(1, this.samples));
-    if (this.#featureSamples >= target) return this.#featureSamples;
-    const kernel = await this.#cache.kernel('features', this.#kernels.features);
+    // Layers read at the same time share one pass.
+    let features = this.#features;
+    if (!features || features.samples < target) this.#features = features = { samples: target, done: this.#renderFeatures(target, features?.done) };
+    await features.done;
+    const count = features.samples;
+    const sources = await Promise.all(LAYER_SOURCES[layer].map((name) => readBuffer(this.#device, this.#film.buffer(name) as GPUBuffer, bytes)));
+    return unpackLayer(layer, sources, count);
+  }
+
+  async #renderFeatures(samples: number, after: Promise<void> | undefined): Promise<void> {
+    await after;
+    const kernel = await this.#cache.kernel('features', this.#integrator.kernels.features);
     this.#check();
-    const group = this.#group('features', kernel);
-    const band = Math.min(this.#film.pixels, 65535 * 64);
-    for (let sample = 0; sample < target; sample++) {
-      for (let pixel = 0; pixel < this.#film.pixels; pixel += band) {
-        const count = Math.min(band, this.#film.pixels - pixel);
-        this.#writeBatch({ pixelOffset: pixel, pixelCount: count, sampleOffset: sample, sampleCount: 1 });
-        const encoder = this.#device.createCommandEncoder({ label: 'glanz features' });
-        const pass = encoder.beginComputePass({ label: 'glanz features' });
-        pass.setPipeline(kernel.pipeline);
-        pass.setBindGroup(0, group);
-        pass.dispatchWorkgroups(Math.ceil(count / 64));
-        pass.end();
-        this.#device.queue.submit([encoder.finish()]);
-      }
-      if (sample % 4 === 3) await this.#device.queue.onSubmittedWorkDone();
-    }
-    this.#featureSamples = target;
-    return target;
+    this.#writeFrame();
+    await renderFeatures(this.#device, this.#integrator, kernel, this.#film, samples);
   }
 }
 
@@ -452,20 +344,4 @@ function checkSize(width: number, height: number): void {
   if (!Number.isInteger(width) || !Number.isInteger(height) || width < 1 || height < 1) {
     throw new RenderError('renderer/size', `A picture of ${width} × ${height} pixels cannot be rendered: both must be whole numbers of at least 1.`);
   }
-}
-
-function resolveCamera(scene: Scene, camera: Camera | number | string | undefined, aspect: number): Camera {
-  if (typeof camera === 'object') return camera;
-  if (camera === undefined) return scene.cameras[0] ?? frameCamera(scene, { aspect });
-  const found = typeof camera === 'number' ? scene.cameras[camera] : scene.cameras.find(({ name }) => name === camera);
-  if (!found) throw new RenderError('renderer/camera', `The scene has no camera ${JSON.stringify(camera)}; it has: ${scene.cameras.map(({ name }) => name).join(', ') || 'none'}.`);
-  return found;
-}
-
-/** Closes the two error scopes opened around an upload and throws what they caught. */
-async function throwScopes(device: GPUDevice): Promise<void> {
-  const validation = await device.popErrorScope();
-  const memory = await device.popErrorScope();
-  if (memory) throw new DeviceError('renderer/out-of-memory', `The GPU has not enough memory for this scene: ${memory.message}`);
-  if (validation) throw new DeviceError('renderer/gpu-error', `The GPU refused the scene: ${validation.message}`);
 }

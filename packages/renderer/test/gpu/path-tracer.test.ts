@@ -240,7 +240,7 @@ describe('the session', () => {
     const scene = createScene();
     addQuad(scene, 0.5, 0, lambert(0.25, 0.5, 0.75));
     scene.environment = { type: 'constant', radiance: [1, 1, 1] };
-    const { tracer } = await render(scene, { samples: 4, background: 'transparent' });
+    const { tracer } = await render(scene, { samples: 16, background: 'transparent' });
     const centre = 8 * 16 + 8;
     const [depth, normal, albedo, objects, materials, beauty] = await Promise.all([tracer.read('depth'), tracer.read('normal'), tracer.read('albedo'), tracer.read('objectId'), tracer.read('materialId'), tracer.read('beauty')]);
     expect(depth[centre]).toBeCloseTo(3, 1);

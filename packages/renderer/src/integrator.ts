@@ -1,0 +1,147 @@
+import { DeviceError } from './errors';
+import type { Film } from './film/film';
+import { GPU_BUFFER_COPY_DST, GPU_BUFFER_COPY_SRC, GPU_BUFFER_INDIRECT, GPU_BUFFER_STORAGE, GPU_BUFFER_UNIFORM, type GpuMemory } from './gpu/buffers';
+import type { GpuScene } from './gpu/gpu-scene';
+import type { KernelSet } from './gpu/kernel-cache';
+import { batchStruct, frameStruct, pathStruct, shadowStruct } from './kernels/layout';
+import type { Kernel, KernelName } from './kernels/pipelines';
+import type { Batch } from './scheduler';
+
+/** Queue header words before the items. */
+const QUEUE_WORDS = 8;
+
+/** One dispatch covers at most 65,535 workgroups of 64 threads. */
+export const MAX_THREADS = 65535 * 64;
+
+type OwnBuffer = 'frame' | 'batch' | 'paths' | 'queues' | 'shadows' | 'dispatch';
+
+/** How many paths are kept on the GPU at once. */
+export function pathCapacity(device: GPUDevice, options: { readonly width: number; readonly height: number; readonly pathsInFlight?: number }): number {
+  const wanted = options.pathsInFlight ?? Math.min(1 << 20, Math.max(1 << 16, options.width * options.height * 4));
+  return Math.max(64, Math.min(wanted, Math.floor(device.limits.maxStorageBufferBindingSize / pathStruct.size), MAX_THREADS));
+}
+
+/** The paths in flight and the kernels that move them: encodes batches, knows nothing of time or targets. */
+export class Integrator {
+  readonly #device: GPUDevice;
+  readonly #memory: GpuMemory;
+  readonly #scene: GpuScene;
+  readonly #buffers: Record<OwnBuffer, GPUBuffer>;
+  readonly #groups = new Map<KernelName, GPUBindGroup>();
+  readonly #maxDepth: number;
+  /** Paths that fit. */
+  readonly capacity: number;
+  #kernels: KernelSet;
+  #film: Film;
+
+  constructor(device: GPUDevice, memory: GpuMemory, scene: GpuScene, kernels: KernelSet, film: Film, capacity: number, maxDepth: number) {
+    this.#device = device;
+    this.#memory = memory;
+    this.#scene = scene;
+    this.#kernels = kernels;
+    this.#film = film;
+    this.#maxDepth = maxDepth;
+    this.capacity = capacity;
+    this.#buffers = {
+      frame: memory.buffer('frame', frameStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
+      batch: memory.buffer('batch', batchStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
+      paths: memory.buffer('paths', capacity * pathStruct.size, GPU_BUFFER_STORAGE),
+      queues: memory.buffer('queues', (QUEUE_WORDS + 2 * capacity) * 4, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC),
+      shadows: memory.buffer('shadows', (kernels.features.flags.NEXT_EVENT ? capacity : 1) * shadowStruct.size, GPU_BUFFER_STORAGE),
+      dispatch: memory.buffer('dispatch', 32, GPU_BUFFER_STORAGE | GPU_BUFFER_INDIRECT),
+    };
+  }
+
+  get kernels(): KernelSet {
+    return this.#kernels;
+  }
+
+  /** The queue header; word 3 counts dropped samples. */
+  get queues(): GPUBuffer {
+    return this.#buffers.queues;
+  }
+
+  /** From now on these kernels; they bind anew. */
+  use(kernels: KernelSet): void {
+    this.#kernels = kernels;
+    const bytes = this.capacity * shadowStruct.size;
+    if (kernels.features.flags.NEXT_EVENT && this.#buffers.shadows.size < bytes) {
+      this.#memory.release(this.#buffers.shadows);
+      this.#buffers.shadows = this.#memory.buffer('shadows', bytes, GPU_BUFFER_STORAGE);
+    }
+    this.rebind();
+  }
+
+  /** To be called when buffers or textures of the scene or the film were replaced. */
+  rebind(film: Film = this.#film): void {
+    this.#film = film;
+    this.#groups.clear();
+  }
+
+  writeFrame(frame: ArrayBuffer): void {
+    this.#memory.write(this.#buffers.frame, frame);
+  }
+
+  /** Traces the batch's paths and adds them to the film. */
+  submit(batch: Batch): void {
+    this.#writeBatch(batch);
+    const { kernels, features } = this.#kernels;
+    const paths = batch.pixelCount * batch.sampleCount;
+    this.#pass('glanz batch', (pass) => {
+      const run = (name: KernelName, work: number | { readonly indirect: number }) => this.#run(pass, name, kernels[name] as Kernel, work);
+      run('begin', 1);
+      run('generate', Math.ceil(paths / 64));
+      for (let edge = 1; edge <= this.#maxDepth; edge++) {
+        run('intersect', { indirect: 0 });
+        run('shade', { indirect: 0 });
+        if (edge === this.#maxDepth) break;
+        run('advance', 1);
+        if (features.flags.NEXT_EVENT) run('connect', { indirect: 16 });
+      }
+      run('resolve', Math.ceil(batch.pixelCount / 64));
+    });
+  }
+
+  /** Runs a kernel that has a thread for each pixel of the batch. */
+  submitPixels(name: KernelName, kernel: Kernel, batch: Batch): void {
+    this.#writeBatch(batch);
+    this.#pass(`glanz ${name}`, (pass) => this.#run(pass, name, kernel, Math.ceil(batch.pixelCount / 64)));
+  }
+
+  #pass(label: string, encode: (pass: GPUComputePassEncoder) => void): void {
+    const encoder = this.#device.createCommandEncoder({ label });
+    const pass = encoder.beginComputePass({ label });
+    encode(pass);
+    pass.end();
+    this.#device.queue.submit([encoder.finish()]);
+  }
+
+  #run(pass: GPUComputePassEncoder, name: KernelName, kernel: Kernel, work: number | { readonly indirect: number }): void {
+    pass.setPipeline(kernel.pipeline);
+    pass.setBindGroup(0, this.#group(name, kernel));
+    if (typeof work === 'number') pass.dispatchWorkgroups(work);
+    else pass.dispatchWorkgroupsIndirect(this.#buffers.dispatch, work.indirect);
+  }
+
+  #writeBatch(batch: Batch): void {
+    const data = batchStruct.allocate();
+    batchStruct.write(data, 0, { pixel_offset: batch.pixelOffset, pixel_count: batch.pixelCount, sample_offset: batch.sampleOffset, sample_count: batch.sampleCount });
+    this.#memory.write(this.#buffers.batch, data);
+  }
+
+  #group(name: KernelName, kernel: Kernel): GPUBindGroup {
+    let group = this.#groups.get(name);
+    if (!group) {
+      const names = [...kernel.resources, ...kernel.sceneBindings.map(([binding]) => binding)];
+      const entries = names.map((resource, binding) => {
+        const own = (this.#buffers as Record<string, GPUBuffer>)[resource] ?? this.#film.buffer(resource);
+        const found = own ? { buffer: own } : this.#scene.resource(resource);
+        if (!found) throw new DeviceError('renderer/gpu-error', `Kernel "${name}" wants "${resource}", which nothing provides.`);
+        return { binding, resource: found };
+      });
+      group = this.#device.createBindGroup({ label: `glanz ${name}`, layout: kernel.layout, entries });
+      this.#groups.set(name, group);
+    }
+    return group;
+  }
+}

@@ -1,0 +1,52 @@
+import type { RenderProgress } from './options';
+import type { Batch, Scheduler } from './scheduler';
+
+/** What a render loop works with. */
+export interface RenderLoop {
+  readonly scheduler: Scheduler;
+  /** Samples per pixel to reach. */
+  readonly target: number;
+  readonly queue: GPUQueue;
+  readonly submit: (batch: Batch) => void;
+  /** Whether the picture is still the one the loop began with, and wanted. */
+  readonly current: () => boolean;
+  /** Throws if the device failed. */
+  readonly check: () => void;
+}
+
+/** Submissions on their way at once: one runs, one waits, so that the GPU never does. */
+const IN_FLIGHT = 2;
+
+/** Submits batches until the target is reached, measures them, and reports after each completed sample. */
+export async function* renderLoop({ scheduler, target, queue, submit, current, check }: RenderLoop): AsyncGenerator<RenderProgress, void, undefined> {
+  const start = performance.now();
+  const first = scheduler.samples;
+  let reported = first;
+  let lastDone = start;
+  const inFlight: { batch: Batch; done: Promise<number>; after: number }[] = [];
+  for (;;) {
+    while (inFlight.length < IN_FLIGHT && current()) {
+      const batch = scheduler.next(target);
+      if (!batch) break;
+      const submitted = performance.now();
+      submit(batch);
+      inFlight.push({ batch, after: scheduler.samples, done: queue.onSubmittedWorkDone().then(() => performance.now() - Math.max(submitted, lastDone)) });
+    }
+    const oldest = inFlight.shift();
+    if (!oldest) return;
+    const milliseconds = await oldest.done;
+    lastDone = performance.now();
+    check();
+    scheduler.measured(oldest.batch, milliseconds);
+    if (!current()) {
+      await Promise.all(inFlight.map(({ done }) => done));
+      return;
+    }
+    if (oldest.after > reported) {
+      reported = oldest.after;
+      const elapsedMs = performance.now() - start;
+      const rate = (reported - first) / elapsedMs;
+      yield { samples: reported, targetSamples: target, elapsedMs, remainingMs: rate > 0 ? (target - reported) / rate : Infinity, samplesPerSecond: rate * 1000 };
+    }
+  }
+}
