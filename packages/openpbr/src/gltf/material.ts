@@ -1,10 +1,18 @@
 /** Numbers as a glTF document holds them. */
 type Numbers = readonly number[];
 
+/** A reference to a texture as a glTF document holds it. The mapping reads the transform and the index only to compare them. */
+export interface GltfTextureReference {
+  /** Index into the document's textures. */
+  readonly index: number;
+  /** UV set; default 0. */
+  readonly texCoord?: number;
+  readonly extensions?: object;
+}
+
 /**
- * The factors of a glTF 2.0 material, in the shape of the document's JSON: a parsed material can be passed as it is.
- * Textures are not looked at: where a texture multiplies a factor, it multiplies the mapped parameter just as well.
- * Missing factors have glTF's defaults.
+ * A glTF 2.0 material in the shape of the document's JSON: a parsed material can be passed as it is. Missing factors have
+ * glTF's defaults; colours are linear, RGB.
  */
 export interface GltfMaterialFactors {
   readonly pbrMetallicRoughness?: {
@@ -14,7 +22,11 @@ export interface GltfMaterialFactors {
     readonly metallicFactor?: number;
     /** Default 1. */
     readonly roughnessFactor?: number;
+    readonly baseColorTexture?: GltfTextureReference;
+    readonly metallicRoughnessTexture?: GltfTextureReference;
   };
+  readonly normalTexture?: GltfTextureReference;
+  readonly emissiveTexture?: GltfTextureReference;
   /** RGB, linear; default 0, 0, 0. */
   readonly emissiveFactor?: Numbers;
   /** Default `OPAQUE`, which ignores the alpha. */
@@ -22,11 +34,62 @@ export interface GltfMaterialFactors {
   readonly extensions?: GltfMaterialExtensions;
 }
 
-/** The material extensions that {@link fromGltf} knows; others are ignored. */
+/** The material extensions that {@link fromGltf} and {@link gltfTextures} know; others are ignored. */
 export interface GltfMaterialExtensions {
+  readonly KHR_materials_anisotropy?: { readonly anisotropyStrength?: number; readonly anisotropyRotation?: number; readonly anisotropyTexture?: GltfTextureReference };
+  readonly KHR_materials_clearcoat?: {
+    readonly clearcoatFactor?: number;
+    readonly clearcoatTexture?: GltfTextureReference;
+    readonly clearcoatRoughnessFactor?: number;
+    readonly clearcoatRoughnessTexture?: GltfTextureReference;
+    readonly clearcoatNormalTexture?: GltfTextureReference;
+  };
+  readonly KHR_materials_diffuse_transmission?: {
+    readonly diffuseTransmissionFactor?: number;
+    readonly diffuseTransmissionTexture?: GltfTextureReference;
+    readonly diffuseTransmissionColorFactor?: Numbers;
+    readonly diffuseTransmissionColorTexture?: GltfTextureReference;
+  };
+  readonly KHR_materials_dispersion?: { readonly dispersion?: number };
   readonly KHR_materials_emissive_strength?: { readonly emissiveStrength?: number };
   readonly KHR_materials_ior?: { readonly ior?: number };
-  /** `clearcoatTexture` is only asked whether it is there. */
-  readonly KHR_materials_clearcoat?: { readonly clearcoatFactor?: number; readonly clearcoatRoughnessFactor?: number; readonly clearcoatTexture?: unknown };
-  readonly KHR_materials_specular?: { readonly specularFactor?: number; readonly specularColorFactor?: Numbers };
+  readonly KHR_materials_iridescence?: {
+    readonly iridescenceFactor?: number;
+    readonly iridescenceTexture?: GltfTextureReference;
+    readonly iridescenceIor?: number;
+    /** Nanometres; default 100. */
+    readonly iridescenceThicknessMinimum?: number;
+    /** Nanometres; default 400. */
+    readonly iridescenceThicknessMaximum?: number;
+    readonly iridescenceThicknessTexture?: GltfTextureReference;
+  };
+  readonly KHR_materials_pbrSpecularGlossiness?: {
+    /** RGBA, linear; default 1, 1, 1, 1. */
+    readonly diffuseFactor?: Numbers;
+    readonly diffuseTexture?: GltfTextureReference;
+    readonly specularFactor?: Numbers;
+    readonly glossinessFactor?: number;
+    readonly specularGlossinessTexture?: GltfTextureReference;
+  };
+  readonly KHR_materials_sheen?: {
+    readonly sheenColorFactor?: Numbers;
+    readonly sheenColorTexture?: GltfTextureReference;
+    readonly sheenRoughnessFactor?: number;
+    readonly sheenRoughnessTexture?: GltfTextureReference;
+  };
+  readonly KHR_materials_specular?: {
+    readonly specularFactor?: number;
+    readonly specularTexture?: GltfTextureReference;
+    readonly specularColorFactor?: Numbers;
+    readonly specularColorTexture?: GltfTextureReference;
+  };
+  readonly KHR_materials_transmission?: { readonly transmissionFactor?: number; readonly transmissionTexture?: GltfTextureReference };
+  readonly KHR_materials_unlit?: object;
+  readonly KHR_materials_volume?: {
+    readonly thicknessFactor?: number;
+    readonly thicknessTexture?: GltfTextureReference;
+    /** Metres; default: infinite, which is no absorption. */
+    readonly attenuationDistance?: number;
+    readonly attenuationColor?: Numbers;
+  };
 }
