@@ -43,28 +43,52 @@ export function sphere(segments: number, radius = 1, center: readonly number[] =
   return { positions: new Float32Array(positions), indices: new Uint32Array(indices) };
 }
 
-/** Nearest hit by Möller and Trumbore's test on every triangle: slow, and nothing in common with the package's test. */
-export function bruteForce(mesh: TriangleMesh, o: ArrayLike<number>, d: ArrayLike<number>, tMax = Infinity): { t: number; u: number; v: number; triangle: number } | undefined {
+/** What a ray meets. */
+export interface BruteHit {
+  t: number;
+  u: number;
+  v: number;
+  triangle: number;
+}
+
+/** All hits by Möller and Trumbore's test on every triangle: slow, and nothing in common with the package's test. */
+export function bruteForceAll(mesh: TriangleMesh, o: ArrayLike<number>, d: ArrayLike<number>, tMin = 0, tMax = Infinity): BruteHit[] {
   const { positions: p, indices } = mesh;
-  let best: { t: number; u: number; v: number; triangle: number } | undefined;
   const count = indices ? indices.length / 3 : p.length / 9;
-  const cross = (a: number[], b: number[]) => [a[1]! * b[2]! - a[2]! * b[1]!, a[2]! * b[0]! - a[0]! * b[2]!, a[0]! * b[1]! - a[1]! * b[0]!];
-  const dot = (a: ArrayLike<number>, b: ArrayLike<number>) => a[0]! * b[0]! + a[1]! * b[1]! + a[2]! * b[2]!;
+  const hits: BruteHit[] = [];
+  const ox = o[0]!, oy = o[1]!, oz = o[2]!, dx = d[0]!, dy = d[1]!, dz = d[2]!;
   for (let i = 0; i < count; i++) {
-    const at = (c: number) => 3 * (indices ? (indices[3 * i + c] as number) : 3 * i + c);
-    const v = [0, 1, 2].map((c) => [p[at(c)]!, p[at(c) + 1]!, p[at(c) + 2]!]);
-    const e1 = v[1]!.map((x, k) => x - v[0]![k]!), e2 = v[2]!.map((x, k) => x - v[0]![k]!);
-    const q = cross(Array.from(d), e2);
-    const det = dot(e1, q);
+    const a = 3 * (indices ? indices[3 * i]! : 3 * i), b = 3 * (indices ? indices[3 * i + 1]! : 3 * i + 1), c = 3 * (indices ? indices[3 * i + 2]! : 3 * i + 2);
+    const ax = p[a]!, ay = p[a + 1]!, az = p[a + 2]!;
+    const e0 = p[b]! - ax, e1 = p[b + 1]! - ay, e2 = p[b + 2]! - az;
+    const f0 = p[c]! - ax, f1 = p[c + 1]! - ay, f2 = p[c + 2]! - az;
+    const q0 = dy * f2 - dz * f1, q1 = dz * f0 - dx * f2, q2 = dx * f1 - dy * f0;
+    const det = e0 * q0 + e1 * q1 + e2 * q2;
     if (det === 0 || !Number.isFinite(det)) continue;
-    const s = v[0]!.map((x, k) => o[k]! - x);
-    const u = dot(s, q) / det;
-    const r = cross(s, e1);
-    const w = dot(d, r) / det;
-    const t = dot(e2, r) / det;
-    if (u >= 0 && w >= 0 && u + w <= 1 && t > 0 && t < (best?.t ?? tMax)) best = { t, u, v: w, triangle: i };
+    const s0 = ox - ax, s1 = oy - ay, s2 = oz - az;
+    const u = (s0 * q0 + s1 * q1 + s2 * q2) / det;
+    const r0 = s1 * e2 - s2 * e1, r1 = s2 * e0 - s0 * e2, r2 = s0 * e1 - s1 * e0;
+    const v = (dx * r0 + dy * r1 + dz * r2) / det;
+    const t = (f0 * r0 + f1 * r1 + f2 * r2) / det;
+    if (u >= 0 && v >= 0 && u + v <= 1 && t > tMin && t < tMax) hits.push({ t, u, v, triangle: i });
   }
+  return hits;
+}
+
+/** Nearest hit of {@link bruteForceAll}. */
+export function bruteForce(mesh: TriangleMesh, o: ArrayLike<number>, d: ArrayLike<number>, tMax = Infinity): BruteHit | undefined {
+  let best: BruteHit | undefined;
+  for (const hit of bruteForceAll(mesh, o, d, 0, tMax)) if (!best || hit.t < best.t) best = hit;
   return best;
+}
+
+/** The mesh with each vertex transformed, in double precision. */
+export function baked(mesh: TriangleMesh, m: ArrayLike<number>): TriangleMesh {
+  const positions = Float64Array.from(mesh.positions, (_, i) => {
+    const v = i - (i % 3), r = i % 3;
+    return m[r]! * mesh.positions[v]! + m[4 + r]! * mesh.positions[v + 1]! + m[8 + r]! * mesh.positions[v + 2]! + m[12 + r]!;
+  });
+  return { indices: mesh.indices, positions: positions as unknown as Float32Array };
 }
 
 /** A random direction of unit length. */

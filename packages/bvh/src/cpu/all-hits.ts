@@ -1,0 +1,83 @@
+import type { Blas, TriangleMesh } from '../blas';
+import { BvhError } from '../error';
+import type { Tlas } from '../tlas';
+import { rayCount, startRay } from './batch';
+import type { Hit, InstanceHit, Ray } from './queries';
+import { borrow, giveBack, type BlasMesh, type HitVisitor } from './walk';
+
+export type { HitVisitor } from './walk';
+
+/**
+ * Tells of every triangle that a ray meets, from either side, in no particular order and without allocating anything.
+ * Where a ray passes through an edge or a vertex, it meets each triangle there.
+ *
+ * @param visit Gets t, u, v and the triangle, as in `Hit`; true ends the query. May itself ask further questions.
+ */
+export function forEachHit(blas: Blas, mesh: TriangleMesh, { origin, direction, tMin = 0, tMax = Infinity }: Ray, visit: HitVisitor): void {
+  const walk = borrow();
+  walk.start(origin, 0, direction, 0, tMin, tMax);
+  walk.through(blas, mesh, false, visit);
+  giveBack(walk);
+}
+
+/** Tells of every triangle of all instances that a ray meets. See {@link forEachHit}. */
+export function forEachHitInstances(tlas: Tlas, instances: readonly BlasMesh[], { origin, direction, tMin = 0, tMax = Infinity }: Ray, visit: HitVisitor): void {
+  const walk = borrow();
+  walk.start(origin, 0, direction, 0, tMin, tMax);
+  walk.throughInstances(tlas, instances, false, visit);
+  giveBack(walk);
+}
+
+/** All triangles that a ray meets, from either side, the nearest first; those of one distance by their number. */
+export function allHits(blas: Blas, mesh: TriangleMesh, ray: Ray): Hit[] {
+  const hits: Hit[] = [];
+  forEachHit(blas, mesh, ray, (t, u, v, triangle) => void hits.push({ t, u, v, triangle }));
+  return hits.sort((a, b) => a.t - b.t || a.triangle - b.triangle);
+}
+
+/** All triangles of all instances that a ray meets, the nearest first. */
+export function allHitsInstances(tlas: Tlas, instances: readonly BlasMesh[], ray: Ray): InstanceHit[] {
+  const hits: InstanceHit[] = [];
+  forEachHitInstances(tlas, instances, ray, (t, u, v, triangle, instance) => void hits.push({ t, u, v, triangle, instance }));
+  return hits.sort((a, b) => a.t - b.t || a.instance - b.instance || a.triangle - b.triangle);
+}
+
+/** Where {@link allHitsBatch} leaves its hits. The arrays of hits have any length; hits beyond it are counted, not kept. */
+export interface AllHitsBatch {
+  /** One entry more than there are rays: the hits of ray i are those from `starts[i]` up to `starts[i + 1]`, in no order. */
+  readonly starts: Uint32Array;
+  readonly triangle: Uint32Array;
+  readonly t?: Float32Array | Float64Array;
+  readonly u?: Float32Array | Float64Array;
+  readonly v?: Float32Array | Float64Array;
+}
+
+/**
+ * All triangles that each of many rays meets, written one ray after the other into arrays of the caller's.
+ *
+ * @param rays 8 numbers a ray: origin xyz, tMin, direction xyz, tMax.
+ * @returns How many hits there are: where that is more than `out.triangle` holds, call again with longer arrays.
+ * @throws {BvhError} `bvh/batch` for arrays of a wrong length.
+ */
+export function allHitsBatch(blas: Blas, mesh: TriangleMesh, rays: Float32Array | Float64Array, out: AllHitsBatch): number {
+  const { starts, triangle: triangles, t: ts, u: us, v: vs } = out;
+  const count = rayCount(rays, {});
+  if (starts.length <= count) throw new BvhError('bvh/batch', `out.starts has ${starts.length} entries; ${count} rays need ${count + 1}.`);
+  let found = 0;
+  const visit: HitVisitor = (t, u, v, triangle) => {
+    triangles[found] = triangle;
+    if (ts) ts[found] = t;
+    if (us) us[found] = u;
+    if (vs) vs[found] = v;
+    found++;
+  };
+  const walk = borrow();
+  for (let ray = 0; ray < count; ray++) {
+    starts[ray] = found;
+    startRay(walk, rays, ray);
+    walk.through(blas, mesh, false, visit);
+  }
+  starts[count] = found;
+  giveBack(walk);
+  return found;
+}
