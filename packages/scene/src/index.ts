@@ -1,5 +1,5 @@
 export { GlanzError, type ErrorLocation, type GlanzErrorOptions } from '@glanz/wgsl/error';
-export { createScene, type Instance, type Scene, type SceneWarning } from './scene';
+export { createScene, type Instance, type Scene, type SceneAnimation, type SceneWarning } from './scene';
 export type { Mesh } from './mesh';
 export type { Material, TextureBinding, TextureChannels, TexturedParameter } from './material';
 export type { Image, Texture, WrapMode } from './texture';
@@ -11,3 +11,4 @@ export { defaultMaterial } from './default-material';
 export { SceneError } from './error';
 export { frameCamera, type FrameCameraOptions } from './frame-camera';
 export { validateScene } from './validate';
+export { withVariant } from './variant';

@@ -27,6 +27,15 @@ export interface Instance {
   transform: ArrayLike<number>;
   /** Default true. An invisible instance casts no shadow either. */
   visible?: boolean;
+  /** Index of another material by the index of a variant in {@link Scene.variants}; the others wear `material`. See `withVariant`. */
+  variants?: Readonly<Record<number, number>>;
+}
+
+/** An animation of the file the scene came from. A scene is one moment of it: load again for another. */
+export interface SceneAnimation {
+  readonly name: string;
+  /** Seconds. */
+  readonly duration: number;
 }
 
 /**
@@ -44,6 +53,12 @@ export interface Scene {
   cameras: Camera[];
   /** Default: none, which is black. */
   environment?: Environment;
+  /** Names of the looks that the scene can be put into by `withVariant`. */
+  variants?: string[];
+  /** What the loader could have posed the scene by. */
+  animations?: SceneAnimation[];
+  /** What the file says of itself (authors, generator, licence, XMP packets), passed through untouched. */
+  metadata?: Readonly<Record<string, unknown>>;
   /** What the loader had to work around. */
   warnings: SceneWarning[];
 }

@@ -147,6 +147,10 @@ export function validateScene(scene: Scene): SceneWarning[] {
     const what = `Instance ${index} ("${instance.name}")`;
     reference(instance.mesh, scene.meshes, what, 'mesh');
     reference(instance.material, scene.materials, what, 'material');
+    for (const [variant, material] of Object.entries(instance.variants ?? {})) {
+      reference(Number(variant), scene.variants ?? [], what, 'variant');
+      reference(material, scene.materials, what, 'material');
+    }
     checkTransform(instance.transform, what);
     // glTF hides parts by a scale of 0, so this is no fault; the hierarchy leaves such a part out.
     if (spread(instance.transform) === 0) warnings.push({ code: 'scene/flattened', message: `${what} is flattened by its transform; it does not appear.`, path: `/instances/${index}` });
