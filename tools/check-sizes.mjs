@@ -14,7 +14,7 @@ const BUDGETS = [
   { specifier: '@glanz/openpbr', limit: 30, without: '@glanz/openpbr/tables' },
   { specifier: '@glanz/tonemap', limit: 5 },
   { specifier: '@glanz/renderer', limit: 100, withDependencies: true },
-  { specifier: '@glanz/gltf', limit: 65, withDependencies: true },
+  { specifier: '@glanz/gltf', limit: 40, withDependencies: true },
 ];
 
 const kB = (bytes) => (bytes / 1000).toFixed(2);

@@ -1,34 +1,21 @@
-import type { Accessor, Primitive } from '@gltf-transform/core';
 import type { Mesh, SceneWarning } from '@glanz/scene';
 import { makeUnit, unitNormals } from './normals';
-
-/** Numbers of an accessor as floats, decoded if normalised; a copy. */
-export function floatsOf(accessor: Accessor, size = accessor.getElementSize()): Float32Array<ArrayBuffer> {
-  const count = accessor.getCount(), own = accessor.getElementSize();
-  const array = accessor.getArray();
-  const floats = new Float32Array(count * size);
-  if (array instanceof Float32Array && own === size) {
-    floats.set(array.subarray(0, floats.length));
-    return floats;
-  }
-  const element: number[] = [];
-  for (let i = 0; i < count; i++) {
-    accessor.getElement(i, element);
-    for (let k = 0; k < size; k++) floats[i * size + k] = k < own ? (element[k] as number) : 1;
-  }
-  return floats;
-}
+import type { PrimitiveData } from './primitive';
 
 /** Whether every number is finite. */
-const allFinite = (values: Float32Array) => values.every(Number.isFinite);
+function allFinite(values: Float32Array): boolean {
+  // What is not finite leaves NaN for good.
+  let sum = 0;
+  for (let i = 0; i < values.length; i++) sum += (values[i] as number) - (values[i] as number);
+  return sum === 0;
+}
 
 /** Corners of the triangles of a primitive, strips and fans opened; `undefined` for points and lines. */
-function trianglesOf(primitive: Primitive, vertices: number): Uint32Array<ArrayBuffer> | undefined {
-  const mode = primitive.getMode();
+function trianglesOf(primitive: PrimitiveData, vertices: number): Uint32Array<ArrayBuffer> | undefined {
+  const mode = primitive.json.mode ?? 4;
   if (mode < 4 || mode > 6) return undefined;
-  const array = primitive.getIndices()?.getArray();
-  const list = array ? Uint32Array.from(array) : Uint32Array.from({ length: vertices }, (_, i) => i);
-  if (mode === 4) return list.slice(0, list.length - (list.length % 3));
+  const list = primitive.indices() ?? new Uint32Array(vertices).map((_, i) => i);
+  if (mode === 4) return list.length % 3 === 0 ? list : list.slice(0, list.length - (list.length % 3));
   const count = Math.max(list.length - 2, 0);
   const triangles = new Uint32Array(count * 3);
   for (let i = 0; i < count; i++) {
@@ -46,33 +33,32 @@ function trianglesOf(primitive: Primitive, vertices: number): Uint32Array<ArrayB
  * @param opaque Whether the alpha of vertex colours counts for nothing.
  * @returns `undefined` (with a warning) if it has no triangles.
  */
-export function readPrimitive(primitive: Primitive, name: string, opaque: boolean, path: string, warnings: SceneWarning[]): Mesh | undefined {
+export function readPrimitive(primitive: PrimitiveData, name: string, opaque: boolean, path: string, warnings: SceneWarning[]): Mesh | undefined {
   const warn = (message: string) => void warnings.push({ code: 'gltf/primitive', message: `${name}: ${message}`, path });
-  const position = primitive.getAttribute('POSITION');
-  if (!position) {
+  const vertices = primitive.count('POSITION');
+  if (vertices === undefined) {
     warn('it has no POSITION and is left out.');
     return undefined;
   }
-  const positions = floatsOf(position, 3);
-  const vertices = positions.length / 3;
   const corners = trianglesOf(primitive, vertices);
   if (!corners) {
     warn('points and lines are left out.');
     return undefined;
   }
+  const positions = primitive.floats('POSITION', 3);
   const indices = soundTriangles(corners, positions, warn);
   if (indices.length === 0) {
     warn('it has no triangles.');
     return undefined;
   }
   const attribute = (semantic: string, size: number): Float32Array<ArrayBuffer> | undefined => {
-    const accessor = primitive.getAttribute(semantic);
-    if (!accessor) return undefined;
-    if (accessor.getCount() !== vertices) {
-      warn(`${semantic} has ${accessor.getCount()} entries for ${vertices} vertices and is left out.`);
+    const count = primitive.count(semantic);
+    if (count === undefined) return undefined;
+    if (count !== vertices) {
+      warn(`${semantic} has ${count} entries for ${vertices} vertices and is left out.`);
       return undefined;
     }
-    const values = floatsOf(accessor, size);
+    const values = primitive.floats(semantic, size);
     if (allFinite(values)) return values;
     warn(`${semantic} holds numbers that are not finite and is left out.`);
     return undefined;
@@ -109,4 +95,28 @@ function soundTriangles(corners: Uint32Array<ArrayBuffer>, positions: Float32Arr
   if (kept < corners.length) warn(`${(corners.length - kept) / 3} triangles have corners that do not exist or are not finite and are left out.`);
   if (!finite) for (let i = 0; i < positions.length; i++) if (!Number.isFinite(positions[i])) positions[i] = 0;
   return kept === corners.length ? corners : corners.slice(0, kept);
+}
+
+/** A mesh without the vertices that no triangle uses, if those are more than half: primitives may share one large set. */
+export function withoutUnusedVertices(mesh: Mesh): Mesh {
+  const vertices = mesh.positions.length / 3;
+  if (2 * mesh.indices.length >= vertices) return mesh;
+  const place = new Map<number, number>();
+  const indices = mesh.indices.map((vertex) => {
+    const known = place.get(vertex);
+    if (known !== undefined) return known;
+    place.set(vertex, place.size);
+    return place.size - 1;
+  });
+  const gather = (values: Float32Array<ArrayBuffer>, stride: number) => {
+    const kept = new Float32Array(place.size * stride);
+    for (const [from, to] of place) for (let k = 0; k < stride; k++) kept[stride * to + k] = values[stride * from + k] as number;
+    return kept;
+  };
+  const result: Mesh = { ...mesh, positions: gather(mesh.positions, 3), indices };
+  if (mesh.normals) result.normals = gather(mesh.normals, 3);
+  if (mesh.tangents) result.tangents = gather(mesh.tangents, 4);
+  if (mesh.colors) result.colors = gather(mesh.colors, 4);
+  if (mesh.uvs) result.uvs = mesh.uvs.map((uv) => gather(uv, 2));
+  return result;
 }

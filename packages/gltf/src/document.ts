@@ -1,28 +1,35 @@
-import { Logger, WebIO, type Document, type GLTF } from '@gltf-transform/core';
-import { EXTMeshGPUInstancing, EXTMeshoptCompression, KHRDracoMeshCompression, KHRLightsPunctual, KHRMeshQuantization } from '@gltf-transform/extensions';
 import type { SceneWarning } from '@glanz/scene';
+import { Accessors } from './accessors';
 import type { CheckedDocument } from './check/index';
 import { GltfError } from './error';
-import type { GltfJson } from './json';
+import type { GltfMeshopt } from './json';
+import { Budget, type GltfLimits } from './limits';
+import type { PrimitiveReader } from './primitive';
 import { decoded, type Source } from './source';
 
 /**
- * Decoders of compressed meshes, which the host hands in since they are heavy: the module of `draco3dgltf`
- * (`await createDecoderModule()`), and `MeshoptDecoder` of `meshoptimizer`.
+ * Decoders that the host hands in since they are heavy, each as it is or as a function that fetches it; the function is
+ * called only for a file that needs it.
  */
 export interface GltfDecoders {
+  /** The module of `draco3dgltf`: `await createDecoderModule()`. */
   readonly draco?: unknown;
+  /** `MeshoptDecoder` of `meshoptimizer/decoder`. */
   readonly meshopt?: unknown;
 }
 
-/** Extensions whose data glTF-Transform reads, or whose absence only simplifies a material. */
+/** Extensions that are read. */
 const KNOWN = new Set([
   'KHR_draco_mesh_compression',
   'EXT_meshopt_compression',
+  'KHR_meshopt_compression',
   'KHR_mesh_quantization',
   'KHR_texture_transform',
   'KHR_lights_punctual',
   'EXT_mesh_gpu_instancing',
+  'KHR_node_visibility',
+  'KHR_materials_variants',
+  'KHR_xmp_json_ld',
   'EXT_texture_webp',
   'KHR_materials_clearcoat',
   'KHR_materials_emissive_strength',
@@ -31,92 +38,93 @@ const KNOWN = new Set([
 ]);
 
 /** Extensions that may be required and do without: what they add is left out, with a warning. */
-const OPTIONAL = /^(KHR_materials_|KHR_xmp|KHR_animation_pointer|KHR_node_visibility|EXT_materials_|ADOBE_|MSFT_lod)/;
+const OPTIONAL = /^(KHR_materials_|KHR_xmp|KHR_animation_pointer|EXT_materials_|ADOBE_|MSFT_lod)/;
 
-const GLB_CHUNK = '@glb.bin';
+/** A document with its buffers: what primitives are read with. */
+export type OpenDocument = PrimitiveReader;
 
-/** A document with its buffers. */
-export interface OpenDocument {
-  readonly document: Document;
-  /**
-   * Bytes of a buffer view.
-   * @throws {GltfError} `gltf/malformed` if there is none.
-   */
-  readonly viewBytes: (index: number) => Uint8Array<ArrayBuffer>;
-}
-
-/** Reads everything that a document names except its pictures, and has glTF-Transform understand meshes and nodes. */
-export async function readDocument({ json, neededBuffers, checkBytes }: CheckedDocument, binary: Uint8Array<ArrayBuffer> | undefined, source: Source, decoders: GltfDecoders, signal: AbortSignal | undefined, warnings: SceneWarning[]): Promise<OpenDocument> {
+/** Refuses what a document requires and nothing here reads; tells what it uses without. */
+function checkExtensions({ json }: CheckedDocument, file: string, warnings: SceneWarning[]): void {
   for (const name of json.extensionsRequired ?? []) {
-    if (KNOWN.has(name)) continue;
-    if (!OPTIONAL.test(name)) throw new GltfError('gltf/unsupported-extension', `${source.name} requires the extension ${name}, which is not supported: export it without.`, { location: { file: source.name, path: '/extensionsRequired' } });
+    if (!KNOWN.has(name) && !OPTIONAL.test(name)) throw new GltfError('gltf/unsupported-extension', `${file} requires the extension ${name}, which is not supported: export it without.`, { location: { file, path: '/extensionsRequired' } });
   }
   for (const name of json.extensionsUsed ?? []) {
-    if (!KNOWN.has(name)) warnings.push({ code: 'gltf/ignored-extension', message: `${source.name} uses ${name}, which is not read.`, path: '/extensionsUsed' });
+    if (!KNOWN.has(name)) warnings.push({ code: 'gltf/ignored-extension', message: `${file} uses ${name}, which is not read.`, path: '/extensionsUsed' });
   }
-  const uses = (name: string) => json.extensionsUsed?.includes(name) ?? false;
-  const need = (name: string, given: unknown, module: string, option: string) => {
-    if (uses(name) && !given) throw new GltfError('gltf/missing-decoder', `${source.name} is compressed by ${name}: install the package "${module}" and pass its decoder as ${option}.`, { location: { file: source.name } });
-  };
-  need('KHR_draco_mesh_compression', decoders.draco, 'draco3dgltf', 'decoders.draco');
-  need('EXT_meshopt_compression', decoders.meshopt, 'meshoptimizer', 'decoders.meshopt');
+}
 
-  const resources: Record<string, Uint8Array<ArrayBuffer>> = {};
-  const absent = new Set<number>();
+/** What is used of `MeshoptDecoder`. */
+interface MeshoptDecoder {
+  readonly ready: Promise<void>;
+  decodeGltfBuffer(target: Uint8Array, count: number, size: number, source: Uint8Array, mode: string, filter?: string): void;
+}
+
+/** A decoder, fetched if the host has handed in a function. */
+const decoderOf = async (given: unknown): Promise<unknown> => (typeof given === 'function' ? ((await (given as () => unknown)()) as unknown) : given);
+
+/** Reads everything that a document names except its pictures. */
+export async function readDocument(checked: CheckedDocument, binary: Uint8Array<ArrayBuffer> | undefined, source: Source, options: { readonly decoders?: GltfDecoders | undefined; readonly signal?: AbortSignal | undefined; readonly limits?: GltfLimits | undefined }, warnings: SceneWarning[]): Promise<OpenDocument> {
+  const { json, neededBuffers, checkBytes } = checked;
+  const { name: file } = source;
+  checkExtensions(checked, file, warnings);
+  const needed = async (names: readonly string[], given: unknown, module: string, option: string): Promise<unknown> => {
+    const name = names.find((one) => json.extensionsUsed?.includes(one));
+    if (name === undefined) return undefined;
+    const decoder = await decoderOf(given);
+    if (!decoder) throw new GltfError('gltf/missing-decoder', `${file} is compressed by ${name}: install the package "${module}" and pass its decoder as ${option}.`, { location: { file, path: '/extensionsUsed' } });
+    return decoder;
+  };
+  const draco = await needed(['KHR_draco_mesh_compression'], options.decoders?.draco, 'draco3dgltf', 'decoders.draco');
+  const meshopt = (await needed(['EXT_meshopt_compression', 'KHR_meshopt_compression'], options.decoders?.meshopt, 'meshoptimizer', 'decoders.meshopt')) as MeshoptDecoder | undefined;
+  await meshopt?.ready;
+
+  const fileBytes = new Budget(file, 'fileBytes', options.limits);
   const buffers = await Promise.all(
-    (json.buffers ?? []).map(async (buffer, index) => {
+    (json.buffers ?? []).map(async (buffer, index): Promise<Uint8Array<ArrayBuffer> | undefined> => {
       const path = `/buffers/${index}`;
-      if (buffer.uri === undefined) {
-        if (index === 0 && binary) {
-          if (binary.length < buffer.byteLength) throw short(source.name, path, binary.length, buffer.byteLength);
-          resources[GLB_CHUNK] = binary;
-        } else if ('extensions' in buffer) return buffer;
-        else if (neededBuffers.has(index)) throw new GltfError('gltf/malformed', `${source.name}: ${path} has no uri, and the file no binary chunk for it.`, { location: { file: source.name, path } });
-        else {
-          // Nothing reads it, but glTF-Transform wants every buffer and every view of it to be there.
-          absent.add(index);
-          resources[`buffer-${index}.bin`] = new Uint8Array(1);
-          return { ...buffer, uri: `buffer-${index}.bin`, byteLength: 1 };
-        }
-        return buffer;
+      const embedded = buffer.uri === undefined;
+      const bytes = embedded ? (index === 0 ? binary : undefined) : await readUri(buffer.uri, source, options.signal);
+      if (!bytes) {
+        if (neededBuffers.has(index)) throw new GltfError('gltf/malformed', `${file}: ${path} has no uri, and the file no binary chunk for it.`, { location: { file, path } });
+        return undefined;
       }
-      const bytes = await readUri(buffer.uri, source, signal);
-      if (bytes.length < buffer.byteLength) throw short(source.name, path, bytes.length, buffer.byteLength);
-      // Names of our own: addresses are resolved already.
-      const uri = `buffer-${index}.bin`;
-      resources[uri] = bytes;
-      return { ...buffer, uri };
+      fileBytes.take(bytes.length, path);
+      if (bytes.length < buffer.byteLength) throw short(file, path, bytes.length, buffer.byteLength);
+      return bytes;
     }),
   );
-  // Pictures and materials are read from the JSON.
-  const { images: _i, textures: _t, samplers: _s, materials, animations: _a, ...rest } = json as GltfJson & { readonly animations?: unknown };
-  const document = {
-    ...rest,
-    buffers,
-    bufferViews: (json.bufferViews ?? []).map((view) => (absent.has(view.buffer) ? { buffer: view.buffer, byteLength: 1 } : view)),
-    ...(materials ? { materials: materials.map(({ name }) => (name === undefined ? {} : { name })) } : {}),
-  };
-  const io = new WebIO()
-    .setLogger(new Logger(Logger.Verbosity.SILENT))
-    .registerExtensions([KHRDracoMeshCompression, EXTMeshoptCompression, KHRMeshQuantization, KHRLightsPunctual, EXTMeshGPUInstancing])
-    .registerDependencies({ ...(decoders.draco ? { 'draco3d.decoder': decoders.draco } : {}), ...(decoders.meshopt ? { 'meshopt.decoder': decoders.meshopt } : {}) });
-  const strip = (names: readonly string[] | undefined) => names?.filter((name) => KNOWN.has(name) && !/texture|materials/.test(name));
-  const cleaned = { ...document, extensionsRequired: strip(json.extensionsRequired) ?? [], extensionsUsed: strip(json.extensionsUsed) ?? [] };
-  const viewBytes = (index: number) => {
-    const view = json.bufferViews?.[index];
-    const bytes = resources[view?.buffer === 0 && resources[GLB_CHUNK] ? GLB_CHUNK : `buffer-${view?.buffer}.bin`];
+  const part = (view: { readonly buffer: number; readonly byteOffset?: number; readonly byteLength: number } | undefined, path: string) => {
+    const bytes = buffers[view?.buffer ?? -1];
     const offset = view?.byteOffset ?? 0;
     if (!view || !bytes || !(offset >= 0 && view.byteLength > 0 && offset + view.byteLength <= bytes.length)) {
-      throw new GltfError('gltf/malformed', `${source.name}: buffer view ${index} does not lie within its buffer.`, { location: { file: source.name, path: `/bufferViews/${index}` } });
+      throw new GltfError('gltf/malformed', `${file}: ${path} does not lie within its buffer.`, { location: { file, path } });
     }
     return bytes.subarray(offset, offset + view.byteLength);
   };
-  checkBytes(viewBytes);
-  try {
-    return { document: await io.readJSON({ json: cleaned as unknown as GLTF.IGLTF, resources }), viewBytes };
-  } catch (cause) {
-    throw new GltfError('gltf/malformed', `${source.name} contradicts the glTF specification: ${cause instanceof Error ? cause.message.split('\n')[0] : String(cause)}.`, { cause, location: { file: source.name } });
-  }
+  const budget = new Budget(file, 'geometryBytes', options.limits);
+  const unpacked = new Map<number, Uint8Array<ArrayBuffer>>();
+  const viewBytes = (index: number): Uint8Array<ArrayBuffer> => {
+    const view = json.bufferViews?.[index];
+    const path = `/bufferViews/${index}`;
+    const extension = view?.extensions?.EXT_meshopt_compression ? 'EXT_meshopt_compression' : 'KHR_meshopt_compression';
+    const packed: GltfMeshopt | undefined = view?.extensions?.[extension];
+    if (!meshopt || !view || !packed) return part(view, path);
+    let bytes = unpacked.get(index);
+    if (bytes) return bytes;
+    const at = `${path}/extensions/${extension}`;
+    budget.take(view.byteLength, at);
+    bytes = new Uint8Array(view.byteLength);
+    try {
+      meshopt.decodeGltfBuffer(bytes, packed.count, packed.byteStride, part(packed, at), packed.mode, packed.filter ?? 'NONE');
+    } catch (cause) {
+      if (cause instanceof GltfError) throw cause;
+      throw new GltfError('gltf/malformed', `${file}: ${at} cannot be unpacked: ${cause instanceof Error ? cause.message : String(cause)}; export the file again.`, { cause, location: { file, path: at } });
+    }
+    unpacked.set(index, bytes);
+    return bytes;
+  };
+  checkBytes((index) => (json.bufferViews?.[index] && buffers[json.bufferViews[index].buffer] ? viewBytes(index) : undefined));
+  return { file, accessors: new Accessors(json, viewBytes, budget), viewBytes, draco, budget };
 }
 
 const short = (name: string, path: string, length: number, expected: number) =>

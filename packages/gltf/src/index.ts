@@ -1,5 +1,6 @@
 export type { GltfDecoders } from './document';
 export { GltfError } from './error';
+export type { GltfLimits } from './limits';
 export type { DecodedImage, ImageDecoder } from './images';
 export { loadGltf, type GltfOptions, type GltfProgress, type LoadGltfOptions } from './load';
 export type { GltfFiles, GltfInput } from './source';

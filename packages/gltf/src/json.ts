@@ -1,14 +1,113 @@
-/** The parts of a glTF 2.0 document that are read from its JSON; meshes, nodes and accessors come through glTF-Transform. */
+/** The parts of a glTF 2.0 document that are read, as they are once the document has been checked. */
 export interface GltfJson {
-  readonly asset: { readonly version: string; readonly minVersion?: string };
-  readonly buffers?: readonly { readonly uri?: string; readonly byteLength: number }[];
-  readonly bufferViews?: readonly { readonly buffer: number; readonly byteOffset?: number; readonly byteLength: number }[];
+  readonly asset: { readonly version: string; readonly minVersion?: string; readonly copyright?: string; readonly generator?: string };
+  readonly buffers?: readonly { readonly uri?: string; readonly byteLength: number; readonly extensions?: unknown }[];
+  readonly bufferViews?: readonly GltfBufferView[];
+  readonly accessors?: readonly GltfAccessor[];
+  readonly meshes?: readonly GltfMesh[];
+  readonly nodes?: readonly GltfNode[];
+  readonly skins?: readonly { readonly joints: readonly number[]; readonly inverseBindMatrices?: number }[];
+  readonly cameras?: readonly GltfCamera[];
+  readonly animations?: readonly GltfAnimation[];
+  readonly scene?: number;
+  readonly scenes?: readonly { readonly name?: string; readonly nodes?: readonly number[] }[];
+  readonly extensions?: { readonly KHR_lights_punctual?: { readonly lights: readonly GltfLight[] }; readonly KHR_materials_variants?: { readonly variants: readonly { readonly name?: string }[] }; readonly KHR_xmp_json_ld?: { readonly packets: readonly unknown[] } };
   readonly images?: readonly GltfImage[];
   readonly textures?: readonly GltfTexture[];
   readonly samplers?: readonly GltfSampler[];
   readonly materials?: readonly GltfMaterial[];
   readonly extensionsRequired?: readonly string[];
   readonly extensionsUsed?: readonly string[];
+}
+
+export interface GltfBufferView {
+  readonly buffer: number;
+  readonly byteOffset?: number;
+  readonly byteLength: number;
+  readonly byteStride?: number;
+  readonly extensions?: { readonly EXT_meshopt_compression?: GltfMeshopt; readonly KHR_meshopt_compression?: GltfMeshopt };
+}
+
+/** What a compressed buffer view is unpacked from. */
+export interface GltfMeshopt {
+  readonly buffer: number;
+  readonly byteOffset?: number;
+  readonly byteLength: number;
+  readonly byteStride: number;
+  readonly count: number;
+  readonly mode: string;
+  readonly filter?: string;
+}
+
+export interface GltfAccessor {
+  readonly bufferView?: number;
+  readonly byteOffset?: number;
+  readonly componentType: number;
+  readonly normalized?: boolean;
+  readonly count: number;
+  readonly type: string;
+  readonly sparse?: {
+    readonly count: number;
+    readonly indices: { readonly bufferView: number; readonly byteOffset?: number; readonly componentType: number };
+    readonly values: { readonly bufferView: number; readonly byteOffset?: number };
+  };
+}
+
+export interface GltfPrimitive {
+  readonly attributes: { readonly [semantic: string]: number };
+  readonly indices?: number;
+  readonly material?: number;
+  readonly mode?: number;
+  readonly targets?: readonly { readonly [semantic: string]: number }[];
+  readonly extensions?: {
+    readonly KHR_draco_mesh_compression?: { readonly bufferView: number; readonly attributes: { readonly [semantic: string]: number } };
+    readonly KHR_materials_variants?: { readonly mappings: readonly { readonly material: number; readonly variants: readonly number[] }[] };
+  };
+}
+
+export interface GltfMesh {
+  readonly name?: string;
+  readonly primitives: readonly GltfPrimitive[];
+  readonly weights?: readonly number[];
+}
+
+export interface GltfNode {
+  readonly name?: string;
+  readonly children?: readonly number[];
+  readonly mesh?: number;
+  readonly skin?: number;
+  readonly camera?: number;
+  readonly matrix?: readonly number[];
+  readonly translation?: readonly number[];
+  readonly rotation?: readonly number[];
+  readonly scale?: readonly number[];
+  readonly weights?: readonly number[];
+  readonly extensions?: {
+    readonly KHR_lights_punctual?: { readonly light: number };
+    readonly KHR_node_visibility?: { readonly visible?: boolean };
+    readonly EXT_mesh_gpu_instancing?: { readonly attributes?: { readonly [semantic: string]: number } };
+  };
+}
+
+export interface GltfCamera {
+  readonly name?: string;
+  readonly type: string;
+  readonly perspective?: { readonly yfov: number; readonly aspectRatio?: number };
+  readonly orthographic?: { readonly xmag: number; readonly ymag: number };
+}
+
+export interface GltfLight {
+  readonly name?: string;
+  readonly type: 'point' | 'spot' | 'directional';
+  readonly color?: readonly [number, number, number];
+  readonly intensity: number;
+  readonly spot?: { readonly innerConeAngle?: number; readonly outerConeAngle?: number };
+}
+
+export interface GltfAnimation {
+  readonly name?: string;
+  readonly channels: readonly { readonly sampler: number; readonly target: { readonly node: number; readonly path: string } }[];
+  readonly samplers: readonly { readonly input: number; readonly output: number; readonly interpolation: string }[];
 }
 
 export interface GltfImage {

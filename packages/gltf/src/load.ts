@@ -1,12 +1,16 @@
 import { createScene, type Scene } from '@glanz/scene';
+import { describeAnimations, posesAt, type NodePose } from './animation';
 import { decodeImageInBrowser } from './browser-images';
 import { checkDocument } from './check/index';
 import { openContainer } from './container';
 import { readDocument, type GltfDecoders } from './document';
 import { GltfError, oneLine } from './error';
 import { TextureTable, type ImageDecoder } from './images';
+import type { GltfAnimation, GltfJson } from './json';
 import { readMaterial } from './materials';
-import { readNodes } from './nodes';
+import { Budget, type GltfLimits } from './limits';
+import { indexOf, readNodes, sceneToShow } from './nodes';
+import type { PrimitiveReader } from './primitive';
 import { openSource, type GltfInput, type Source } from './source';
 
 /** How far a load has come. */
@@ -28,6 +32,14 @@ export interface GltfOptions {
   readonly decodeImage?: ImageDecoder | undefined;
   /** Whether a document without triangles is a scene too (lights, cameras) rather than `gltf/no-triangles`. Default false. */
   readonly allowEmpty?: boolean | undefined;
+  /** Which of the document's scenes, by its index or name. Default: the one that it shows by itself. */
+  readonly scene?: number | string | undefined;
+  /** Poses the nodes by an animation, by its index or name. Default: the pose at rest, or the first one where `time` is given. */
+  readonly animation?: number | string | undefined;
+  /** Seconds from the animation's beginning; before its first and after its last key it stands still. Default 0. */
+  readonly time?: number | undefined;
+  /** How much the document may ask for. */
+  readonly limits?: GltfLimits | undefined;
 }
 
 /** What {@link loadGltf} may be told. */
@@ -40,7 +52,7 @@ export interface LoadGltfOptions extends GltfOptions {
 
 /**
  * Loads a glTF 2.0 document (.gltf or .glb) as a scene: meshes, instances, metallic-roughness materials as OpenPBR,
- * textures, cameras, punctual lights, in the pose the file has at rest. Strips, fans, sparse, quantised and normalised data
+ * textures, cameras, punctual lights, at rest or in the pose that an animation has at a time. Strips, fans, sparse, quantised and normalised data
  * are resolved. What is broken but can be left out is left out; `scene.warnings` tells.
  *
  * @throws {GltfError} See its codes.
@@ -61,16 +73,29 @@ export async function buildScene(source: Source, options: GltfOptions & { readon
   const checked = checkDocument(container.json, source.name, scene.warnings);
   const { json } = checked;
   onProgress?.({ stage: 'read', done: 1 });
-  const { document, viewBytes } = await readDocument(checked, container.binary, source, options.decoders ?? {}, signal, scene.warnings);
+  const reader = await readDocument(checked, container.binary, source, options, scene.warnings);
   signal?.throwIfAborted();
   const table = new TextureTable(json, source, scene.warnings);
   scene.materials = (json.materials ?? []).map((material, index) => readMaterial(material, index, table, scene.warnings));
   let fallback: number | undefined;
-  readNodes({ document, scene, defaultMaterial: () => (fallback ??= scene.materials.push(readMaterial({ name: 'default' }, scene.materials.length, table, scene.warnings)) - 1) });
+  readNodes({
+    json,
+    reader,
+    scene,
+    shown: sceneToShow(json, options.scene, source.name),
+    poses: posesOf(reader, json, options),
+    instances: new Budget(source.name, 'instances', options.limits),
+    defaultMaterial: () => (fallback ??= scene.materials.push(readMaterial({ name: 'default' }, scene.materials.length, table, scene.warnings)) - 1),
+  });
+  const metadata = metadataOf(json);
+  if (metadata) scene.metadata = metadata;
+  if (json.animations?.length) scene.animations = describeAnimations(json);
+  const variants = json.extensions?.KHR_materials_variants?.variants;
+  if (variants) scene.variants = variants.map(({ name = '' }) => name);
   if (scene.instances.length === 0 && !options.allowEmpty) throw new GltfError('gltf/no-triangles', `${source.name} has no triangles in its scene: there is nothing to show.`, { location: { file: source.name } });
   onProgress?.({ stage: 'decode', done: 1 });
   let done = 0;
-  scene.images = await table.readImages(options.decodeImage, viewBytes, signal, () => onProgress?.({ stage: 'images', done: ++done / table.imageCount }));
+  scene.images = await table.readImages(options.decodeImage, reader.viewBytes, signal, () => onProgress?.({ stage: 'images', done: ++done / table.imageCount }));
   scene.textures = table.textures;
   for (const { textures } of scene.materials) {
     for (const [parameter, binding] of Object.entries(textures ?? {})) {
@@ -79,4 +104,19 @@ export async function buildScene(source: Source, options: GltfOptions & { readon
   }
   scene.warnings = scene.warnings.map((warning) => ({ ...warning, message: oneLine(warning.message) }));
   return scene;
+}
+
+/** What a document says of itself: its asset and, by KHR_xmp_json_ld, the packet of its asset. */
+function metadataOf({ asset, extensions }: GltfJson): Scene['metadata'] {
+  const { version: _, minVersion: __, extensions: own, ...said } = asset as GltfJson['asset'] & { readonly extensions?: { readonly KHR_xmp_json_ld?: { readonly packet?: unknown } } };
+  const xmp = extensions?.KHR_xmp_json_ld?.packets[(own?.KHR_xmp_json_ld?.packet as number | undefined) ?? 0];
+  const metadata = { ...said, ...(xmp === undefined ? {} : { xmp }) };
+  return Object.keys(metadata).length > 0 ? metadata : undefined;
+}
+
+function posesOf({ file, accessors }: PrimitiveReader, json: GltfJson, { animation, time }: GltfOptions): ReadonlyMap<number, NodePose> {
+  if (animation === undefined && (time === undefined || !json.animations?.length)) return new Map();
+  if (time !== undefined && !Number.isFinite(time)) throw new GltfError('gltf/no-such-part', `The time to pose ${file} at is ${time}; it must be a number of seconds.`);
+  const index = indexOf(json.animations ?? [], animation ?? 0, 'animation', file);
+  return posesAt((json.animations ?? [])[index] as GltfAnimation, time ?? 0, accessors);
 }

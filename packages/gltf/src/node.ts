@@ -28,22 +28,11 @@ export const decodeImage: ImageDecoder = async (bytes): Promise<DecodedImage> =>
   return { width: info.width, height: info.height, data: new Uint8Array(data.buffer as ArrayBuffer, data.byteOffset, data.byteLength) };
 };
 
-/** The decoders that a document may need, as far as their packages are installed. */
-async function findDecoders(bytes: Uint8Array): Promise<GltfDecoders> {
-  // The names stand in the JSON as they are; a look at the text spares loading megabytes of decoders for nothing.
-  const text = Buffer.from(bytes.buffer, bytes.byteOffset, Math.min(bytes.byteLength, 32 << 20)).toString('latin1');
-  const found: { draco?: unknown; meshopt?: unknown } = {};
-  if (text.includes('KHR_draco_mesh_compression')) {
-    const draco = await optional(() => import('draco3dgltf'), 'draco3dgltf', 'A Draco-compressed model');
-    found.draco = await draco.default.createDecoderModule();
-  }
-  if (text.includes('EXT_meshopt_compression')) {
-    const { MeshoptDecoder } = await optional(() => import('meshoptimizer/decoder'), 'meshoptimizer', 'A meshopt-compressed model');
-    await MeshoptDecoder.ready;
-    found.meshopt = MeshoptDecoder;
-  }
-  return found;
-}
+/** The decoders of the packages that are installed; each is loaded for a document that needs it. */
+const DECODERS: GltfDecoders = {
+  draco: async () => (await optional(() => import('draco3dgltf'), 'draco3dgltf', 'A Draco-compressed model')).default.createDecoderModule(),
+  meshopt: async () => (await optional(() => import('meshoptimizer/decoder'), 'meshoptimizer', 'A meshopt-compressed model')).MeshoptDecoder,
+};
 
 /**
  * Loads a .gltf or .glb file in Node, with the files it names beside it. See `loadGltf` for what is read.
@@ -84,6 +73,6 @@ export async function loadGltfFile(path: string | URL, options: GltfOptions = {}
         }
       },
     },
-    { ...options, decodeImage: options.decodeImage ?? decodeImage, decoders: options.decoders ?? (await findDecoders(bytes)) },
+    { ...options, decodeImage: options.decodeImage ?? decodeImage, decoders: { ...DECODERS, ...options.decoders } },
   );
 }

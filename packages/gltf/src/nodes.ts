@@ -1,174 +1,211 @@
-import type { Document, Node, Primitive, Scene as GltfScene } from '@gltf-transform/core';
-import type { InstancedMesh, Light as GltfLight } from '@gltf-transform/extensions';
-import type { Camera, Light, Scene, SceneWarning } from '@glanz/scene';
-import { mat4, quat, type vec3 } from 'gl-matrix';
-import { floatsOf, readPrimitive } from './attributes';
+import type { Instance, Mesh, Scene } from '@glanz/scene';
+import type { NodePose } from './animation';
+import { readPrimitive, withoutUnusedVertices } from './attributes';
+import { readCamera } from './cameras';
+import { GltfError } from './error';
+import type { GltfJson, GltfNode, GltfPrimitive } from './json';
+import { readLight } from './lights';
+import type { Budget } from './limits';
+import { compose, identity, isFinite4x4, multiply, type Matrix } from './matrix';
 import { unitNormals } from './normals';
 import { morphed, skinned } from './pose';
-
-const matrix = (): mat4 => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
-const numbers = (m: mat4): number[] => Array.from(m);
-const finite = (m: mat4) => numbers(m).every(Number.isFinite);
+import { openPrimitive, type PrimitiveData, type PrimitiveReader } from './primitive';
+import { tangentSet, withTangents } from './tangents';
 
 /** What the nodes are turned into a scene with. */
 export interface NodeContext {
-  readonly document: Document;
-  /** Index of the scene's material of each of the document's; the last is the default. */
+  readonly json: GltfJson;
+  readonly reader: PrimitiveReader;
+  /** Takes meshes, instances, cameras and lights; has the document's materials in their order. */
   readonly scene: Scene;
+  /** Index of the scene's material for primitives without one. */
   readonly defaultMaterial: () => number;
+  /** Which of the document's scenes; undefined: all nodes without a parent. */
+  readonly shown: number | undefined;
+  readonly poses: ReadonlyMap<number, NodePose>;
+  readonly instances: Budget;
 }
 
-/** World transforms of all nodes of a scene, parents before children. Nodes in a circle count once. */
-function worldTransforms(roots: readonly Node[]): Map<Node, mat4> {
-  const world = new Map<Node, mat4>();
-  const stack = roots.toReversed().map((node) => ({ node, parent: matrix() }));
-  for (let entry = stack.pop(); entry; entry = stack.pop()) {
-    if (world.has(entry.node)) continue;
-    const own = mat4.multiply(matrix(), entry.parent, entry.node.getMatrix() as unknown as mat4);
-    world.set(entry.node, own);
-    for (const child of entry.node.listChildren().toReversed()) stack.push({ node: child, parent: own });
+/** A node that is shown. */
+interface Placed {
+  readonly world: Matrix;
+  readonly visible: boolean;
+}
+
+function localMatrix(node: GltfNode, pose: NodePose | undefined): Matrix {
+  if (node.matrix && !pose) return [...node.matrix];
+  return compose(pose?.translation ?? node.translation ?? [0, 0, 0], pose?.rotation ?? node.rotation ?? [0, 0, 0, 1], pose?.scale ?? node.scale ?? [1, 1, 1]);
+}
+
+/** All nodes of a scene, parents before children, in the order of the document. */
+function placedNodes({ json, shown, poses }: NodeContext): Map<number, Placed> {
+  const nodes = json.nodes ?? [];
+  let roots = shown === undefined ? undefined : (json.scenes?.[shown]?.nodes ?? []);
+  if (!roots) {
+    const below = new Set(nodes.flatMap(({ children = [] }) => children));
+    roots = nodes.map((_, index) => index).filter((index) => !below.has(index));
   }
-  return world;
-}
-
-/** The scene to show: the default one, else the first, else all nodes without a parent. */
-function rootsOf(document: Document): readonly Node[] {
-  const root = document.getRoot();
-  const shown: GltfScene | undefined = root.getDefaultScene() ?? root.listScenes()[0];
-  return shown ? shown.listChildren() : root.listNodes().filter((node) => !node.getParentNode());
+  const placed = new Map<number, Placed>();
+  const stack: { node: number; parent: Placed }[] = [];
+  const push = (list: readonly number[], parent: Placed) => {
+    for (let i = list.length - 1; i >= 0; i--) stack.push({ node: list[i] as number, parent });
+  };
+  push(roots, { world: identity(), visible: true });
+  for (let entry = stack.pop(); entry; entry = stack.pop()) {
+    if (placed.has(entry.node)) continue;
+    const node = nodes[entry.node] as GltfNode;
+    const own = { world: multiply(entry.parent.world, localMatrix(node, poses.get(entry.node))), visible: entry.parent.visible && node.extensions?.KHR_node_visibility?.visible !== false };
+    placed.set(entry.node, own);
+    push(node.children ?? [], own);
+  }
+  return placed;
 }
 
 /** Reads instances, meshes, cameras and lights into the scene, in the order of the node tree. */
-export function readNodes({ document, scene, defaultMaterial }: NodeContext): void {
-  const root = document.getRoot();
-  const materials = new Map(root.listMaterials().map((material, index) => [material, index]));
-  const meshIndices = new Map(root.listMeshes().map((mesh, index) => [mesh, index]));
-  const world = worldTransforms(rootsOf(document));
-  const shared = new Map<Primitive, number>();
-  for (const [node, transform] of world) {
-    const name = node.getName();
-    if (!finite(transform)) {
-      scene.warnings.push({ code: 'gltf/node', message: `Node "${name}" has a transform that is not finite; it is left out.` });
+export function readNodes(context: NodeContext): void {
+  const { json, scene } = context;
+  const placed = placedNodes(context);
+  const world = new Map([...placed].map(([node, { world: at }]) => [node, at]));
+  const meshes = new MeshReader(context, world);
+  for (const [index, { world: transform, visible }] of placed) {
+    const node = json.nodes?.[index] as GltfNode;
+    const { name = '' } = node;
+    if (!isFinite4x4(transform)) {
+      scene.warnings.push({ code: 'gltf/node', message: `Node "${name}" has a transform that is not finite; it is left out.`, path: `/nodes/${index}` });
       continue;
     }
-    readCamera(node, transform, scene);
-    readLight(node, transform, scene);
-    const mesh = node.getMesh();
+    const camera = node.camera === undefined ? undefined : json.cameras?.[node.camera];
+    if (camera) readCamera(camera, name, transform, scene);
+    const light = json.extensions?.KHR_lights_punctual?.lights[node.extensions?.KHR_lights_punctual?.light ?? -1];
+    if (light && visible) readLight(light, name, transform, scene);
+    const mesh = node.mesh === undefined ? undefined : json.meshes?.[node.mesh];
     if (!mesh) continue;
-    const meshIndex = meshIndices.get(mesh) ?? -1;
-    const weights = (node.getWeights().length > 0 ? node.getWeights() : mesh.getWeights()).map((w) => (Number.isFinite(w) ? w : 0));
-    const skin = node.getSkin();
-    const posed = skin !== null || weights.some((w) => w !== 0);
-    mesh.listPrimitives().forEach((primitive, index) => {
-      const used = primitive.getMaterial();
-      const material = used ? (materials.get(used) as number) : defaultMaterial();
-      let at = posed ? undefined : shared.get(primitive);
-      if (at === undefined) {
-        const label = mesh.getName() || name || `mesh ${meshIndex}`;
-        const several = mesh.listPrimitives().length > 1 ? ` ${index}` : '';
-        const opaque = scene.materials[material]?.parameters.geometry_opacity === undefined;
-        let made = readPrimitive(primitive, label + several, opaque, `/meshes/${meshIndex}/primitives/${index}`, scene.warnings);
-        if (!made) return;
-        if (weights.some((w) => w !== 0)) made = morphed(made, primitive, weights);
-        if (skin) made = skinned(made, primitive, skin, world, scene.warnings);
-        // Blended normals are shorter than 1, and may even cancel out.
-        if (posed && made.normals) unitNormals(made.normals, made.positions, made.indices, (message) => scene.warnings.push({ code: 'gltf/primitive', message: `${label}: ${message}` }));
-        at = scene.meshes.push(made) - 1;
-        if (!posed) shared.set(primitive, at);
+    // Some bones pull no vertex of a mesh; where the skin's node is does not count.
+    const places = node.skin === undefined ? instancesOf(context, node, transform, index) : [identity()];
+    mesh.primitives.forEach((primitive, at) => {
+      const read = meshes.read(index, node, primitive, at);
+      if (!read) return;
+      context.instances.take(places.length, `/nodes/${index}`);
+      for (const place of places) {
+        const instance: Instance = { name: name || mesh.name || `node ${scene.instances.length}`, mesh: read.mesh, material: read.material, transform: place };
+        if (!visible) instance.visible = false;
+        if (read.variants) instance.variants = read.variants;
+        scene.instances.push(instance);
       }
-      const places = skin ? [matrix()] : instancesOf(node, transform, scene.warnings);
-      for (const place of places) scene.instances.push({ name: name || mesh.getName() || `node ${scene.instances.length}`, mesh: at, material, transform: numbers(place) });
     });
   }
 }
 
+/** A primitive as instances use it. */
+interface ReadPrimitive {
+  readonly mesh: number;
+  readonly material: number;
+  readonly variants: Record<number, number> | undefined;
+}
+
+/** Reads meshes: once each, except where a skin or morph targets give a node its own shape. */
+class MeshReader {
+  readonly #context: NodeContext;
+  readonly #world: ReadonlyMap<number, Matrix>;
+  readonly #opened = new Map<GltfPrimitive, PrimitiveData>();
+  readonly #shared = new Map<GltfPrimitive, number | undefined>();
+
+  constructor(context: NodeContext, world: ReadonlyMap<number, Matrix>) {
+    this.#context = context;
+    this.#world = world;
+  }
+
+  read(nodeIndex: number, node: GltfNode, primitive: GltfPrimitive, at: number): ReadPrimitive | undefined {
+    const { json, scene, poses, defaultMaterial } = this.#context;
+    const mesh = json.meshes?.[node.mesh as number];
+    const material = primitive.material ?? defaultMaterial();
+    const weights = (poses.get(nodeIndex)?.weights ?? node.weights ?? mesh?.weights ?? []).map((w) => (Number.isFinite(w) ? w : 0));
+    const posed = node.skin !== undefined || weights.some((w) => w !== 0);
+    const variants = variantsOf(primitive);
+    if (!posed && this.#shared.has(primitive)) {
+      const known = this.#shared.get(primitive);
+      return known === undefined ? undefined : { mesh: known, material, variants };
+    }
+    const label = (mesh?.name || node.name || `mesh ${node.mesh}`) + ((mesh?.primitives.length ?? 1) > 1 ? ` ${at}` : '');
+    const made = this.#make(node, primitive, label, `/meshes/${node.mesh}/primitives/${at}`, material, weights, [material, ...Object.values(variants ?? {})]);
+    const index = made && scene.meshes.push(made) - 1;
+    if (!posed) this.#shared.set(primitive, index);
+    return index === undefined ? undefined : { mesh: index, material, variants };
+  }
+
+  #make(node: GltfNode, primitive: GltfPrimitive, label: string, path: string, material: number, weights: readonly number[], materials: readonly number[]): Mesh | undefined {
+    const { json, scene, reader } = this.#context;
+    const opened = this.#opened.get(primitive) ?? openPrimitive(primitive, path, reader);
+    // A mesh that is used once is not kept in its packed form.
+    if (node.skin !== undefined || weights.length > 0) this.#opened.set(primitive, opened);
+    const opaque = scene.materials[material]?.parameters.geometry_opacity === undefined;
+    let made = readPrimitive(opened, label, opaque, path, scene.warnings);
+    if (!made) return undefined;
+    const skin = node.skin === undefined ? undefined : json.skins?.[node.skin];
+    const blended = weights.some((w) => w !== 0);
+    if (blended) made = morphed(made, opened, weights);
+    if (skin) made = skinned(made, opened, skin.joints, skin.inverseBindMatrices === undefined ? undefined : reader.accessors.floats(skin.inverseBindMatrices, 16), this.#world, scene.warnings);
+    // Blended normals are shorter than 1, and may even cancel out.
+    if ((skin || blended) && made.normals) unitNormals(made.normals, made.positions, made.indices, (message) => scene.warnings.push({ code: 'gltf/primitive', message: `${label}: ${message}`, path }));
+    made = withoutUnusedVertices(made);
+    const set = materials.map((index) => tangentSet(scene.materials[index])).find((wanted) => wanted !== undefined);
+    return set === undefined ? made : withTangents(made, set);
+  }
+}
+
+/** The materials of KHR_materials_variants, by the numbers of the variants. */
+function variantsOf({ extensions }: GltfPrimitive): Record<number, number> | undefined {
+  const mappings = extensions?.KHR_materials_variants?.mappings;
+  if (!mappings) return undefined;
+  return Object.fromEntries(mappings.flatMap(({ material, variants }) => variants.map((variant) => [variant, material])));
+}
+
 /** The places of a node's mesh: one, or those of EXT_mesh_gpu_instancing. */
-function instancesOf(node: Node, transform: mat4, warnings: SceneWarning[]): mat4[] {
-  const extension = node.getExtension<InstancedMesh>('EXT_mesh_gpu_instancing');
-  if (!extension) return [transform];
-  const read = (semantic: string, size: number) => {
-    const accessor = extension.getAttribute(semantic);
-    return accessor ? floatsOf(accessor, size) : undefined;
+function instancesOf({ reader, scene, instances }: NodeContext, node: GltfNode, transform: Matrix, index: number): Matrix[] {
+  const attributes = node.extensions?.EXT_mesh_gpu_instancing?.attributes;
+  if (!attributes) return [transform];
+  const { warnings } = scene;
+  const path = `/nodes/${index}/extensions/EXT_mesh_gpu_instancing`;
+  const warn = (number: number, what: string) => void warnings.push({ code: 'gltf/node', message: `${number} of ${count} instances at node "${node.name ?? ''}" have ${what}.`, path });
+  const count = Math.max(0, ...['TRANSLATION', 'ROTATION', 'SCALE'].map((semantic) => (attributes[semantic] === undefined ? 0 : reader.accessors.at(attributes[semantic]).count)));
+  instances.take(count, path);
+  const read = (semantic: string, size: number, initial: readonly number[]) => {
+    const accessor = attributes[semantic];
+    const values = accessor === undefined ? undefined : reader.accessors.floats(accessor, size);
+    return (i: number): ArrayLike<number> => values?.subarray(size * i, size * i + size) ?? initial;
   };
-  const translations = read('TRANSLATION', 3), rotations = read('ROTATION', 4), scales = read('SCALE', 3);
-  const count = Math.max((translations?.length ?? 0) / 3, (rotations?.length ?? 0) / 4, (scales?.length ?? 0) / 3);
-  const places: mat4[] = [];
+  const translation = read('TRANSLATION', 3, [0, 0, 0]), rotation = read('ROTATION', 4, [0, 0, 0, 1]), scale = read('SCALE', 3, [1, 1, 1]);
+  const places: Matrix[] = [];
   let unturned = 0;
   for (let i = 0; i < count; i++) {
-    const t = Array.from(translations?.subarray(3 * i, 3 * i + 3) ?? [0, 0, 0]) as unknown as vec3;
-    const r = Array.from(rotations?.subarray(4 * i, 4 * i + 4) ?? [0, 0, 0, 1]) as unknown as quat;
-    const turn = Math.hypot(...(r as number[]));
-    if (turn > 1e-6) quat.scale(r, r, 1 / turn);
+    let turn = Array.from(rotation(i));
+    const length = Math.hypot(...turn);
+    if (length > 1e-6) turn = turn.map((x) => x / length);
     else {
-      quat.identity(r);
+      turn = [0, 0, 0, 1];
       unturned++;
     }
-    const s = Array.from(scales?.subarray(3 * i, 3 * i + 3) ?? [1, 1, 1]) as unknown as vec3;
-    const place = mat4.multiply(matrix(), transform, mat4.fromRotationTranslationScale(matrix(), r, t, s));
-    if (finite(place)) places.push(place);
+    const place = multiply(transform, compose(translation(i), turn, scale(i)));
+    if (isFinite4x4(place)) places.push(place);
   }
-  if (unturned > 0) warnings.push({ code: 'gltf/node', message: `${unturned} of ${count} instances at node "${node.getName()}" have a rotation of length 0; they are not turned.` });
-  if (places.length < count) warnings.push({ code: 'gltf/node', message: `${count - places.length} of ${count} instances at node "${node.getName()}" have a place that is not finite; they are left out.` });
+  if (unturned > 0) warn(unturned, 'a rotation of length 0; they are not turned');
+  if (places.length < count) warn(count - places.length, 'a place that is not finite; they are left out');
   return places;
 }
 
-/** How far the axes of a transform are from lying in a plane: the volume that they span over that of a box, 0 to 1. */
-function spread(m: mat4): number {
-  const lengths = Math.hypot(m[0], m[1], m[2]) * Math.hypot(m[4], m[5], m[6]) * Math.hypot(m[8], m[9], m[10]);
-  const volume = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) + m[8] * (m[1] * m[6] - m[2] * m[5]);
-  return lengths > 0 ? Math.abs(volume) / lengths : 0;
+/**
+ * Which of a document's scenes is shown: the one asked for, else the default one, else the first.
+ * @throws {GltfError} `gltf/no-such-part` for one that is not there.
+ */
+export function sceneToShow({ scenes, scene }: GltfJson, wanted: number | string | undefined, file: string): number | undefined {
+  if (wanted === undefined) return scene ?? (scenes?.length ? 0 : undefined);
+  return indexOf(scenes ?? [], wanted, 'scene', file);
 }
 
-function readCamera(node: Node, transform: mat4, scene: Scene): void {
-  const camera = node.getCamera();
-  if (!camera) return;
-  const common = { name: camera.getName() || node.getName() || `camera ${scene.cameras.length}`, transform: numbers(transform) };
-  if (!(spread(transform) > 1e-5)) {
-    scene.warnings.push({ code: 'gltf/camera', message: `Camera "${common.name}" is flattened by its node's scale; it is left out.` });
-    return;
-  }
-  const yfov = camera.getYFov();
-  let made: Camera;
-  if (camera.getType() === 'perspective') {
-    if (!(yfov > 0 && yfov < Math.PI)) {
-      scene.warnings.push({ code: 'gltf/camera', message: `Camera "${common.name}" has a field of view of ${yfov} rad; it is left out.` });
-      return;
-    }
-    const aspect = camera.getAspectRatio();
-    made = { type: 'perspective', ...common, yfov, ...(aspect !== null && aspect > 0 ? { aspect } : {}) };
-  } else {
-    const xmag = Math.abs(camera.getXMag()), ymag = Math.abs(camera.getYMag());
-    if (!(xmag > 0 && ymag > 0 && xmag < Infinity && ymag < Infinity)) {
-      scene.warnings.push({ code: 'gltf/camera', message: `Camera "${common.name}" has a view of no size; it is left out.` });
-      return;
-    }
-    made = { type: 'orthographic', ...common, xmag, ymag };
-  }
-  scene.cameras.push(made);
-}
-
-function readLight(node: Node, m: mat4, scene: Scene): void {
-  const light = node.getExtension<GltfLight>('KHR_lights_punctual');
-  if (!light) return;
-  const name = light.getName() || node.getName() || `light ${scene.lights.length}`;
-  const color = light.getColor() as [number, number, number];
-  const intensity = light.getIntensity();
-  const length = Math.hypot(m[8], m[9], m[10]);
-  if (!(intensity >= 0 && intensity < Infinity) || !color.every((c) => c >= 0 && c < Infinity) || !(length > 0)) {
-    scene.warnings.push({ code: 'gltf/light', message: `Light "${name}" has an intensity, colour or direction that makes no sense; it is left out.` });
-    return;
-  }
-  const position = [m[12], m[13], m[14]] as const;
-  // Lights shine along their −Z.
-  const direction = [-m[8] / length, -m[9] / length, -m[10] / length] as const;
-  const type = light.getType();
-  let made: Light;
-  if (type === 'point') made = { type, name, color, intensity, position };
-  else if (type === 'directional') made = { type, name, color, intensity, direction };
-  else {
-    const outer_cone_angle = Math.min(Math.max(light.getOuterConeAngle(), 1e-4), Math.PI / 2);
-    const inner_cone_angle = Math.min(Math.max(light.getInnerConeAngle(), 0), outer_cone_angle);
-    made = { type: 'spot', name, color, intensity, position, direction, inner_cone_angle, outer_cone_angle };
-  }
-  scene.lights.push(made);
+/** The index of a part by its index or name. @throws {GltfError} `gltf/no-such-part` */
+export function indexOf(list: readonly { readonly name?: string }[], wanted: number | string, kind: string, file: string): number {
+  const index = typeof wanted === 'number' ? wanted : list.findIndex(({ name }) => name === wanted);
+  if (list[index]) return index;
+  const names = list.slice(0, 8).map(({ name }, at) => (name === undefined ? `${at}` : `"${name}"`));
+  throw new GltfError('gltf/no-such-part', `${file} has no ${kind} ${typeof wanted === 'number' ? wanted : `"${wanted}"`}; it has ${names.length === 0 ? 'none' : names.join(', ')}.`, { location: { file } });
 }

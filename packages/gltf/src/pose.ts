@@ -1,18 +1,16 @@
-import type { Node, Primitive, Skin } from '@gltf-transform/core';
 import type { Mesh, SceneWarning } from '@glanz/scene';
-import { mat4 } from 'gl-matrix';
-import { floatsOf } from './attributes';
+import { identity, multiply, type Matrix } from './matrix';
+import type { PrimitiveData } from './primitive';
 
 /** A mesh with its morph targets blended in by `weights` (glTF 2.0, section 3.7.2.2). */
-export function morphed(mesh: Mesh, primitive: Primitive, weights: readonly number[]): Mesh {
+export function morphed(mesh: Mesh, primitive: PrimitiveData, weights: readonly number[]): Mesh {
   const add = (values: Float32Array<ArrayBuffer> | undefined, semantic: string, stride: number) => {
     if (!values) return undefined;
     const sum = values.slice();
-    primitive.listTargets().forEach((target, index) => {
+    primitive.json.targets?.forEach((_, index) => {
       const weight = weights[index] ?? 0;
-      const accessor = target.getAttribute(semantic);
-      if (weight === 0 || !accessor) return;
-      const deltas = floatsOf(accessor, 3);
+      const deltas = weight === 0 ? undefined : primitive.target(index, semantic);
+      if (!deltas) return;
       for (let v = 0; 3 * v < deltas.length && stride * v < sum.length; v++) {
         for (let k = 0; k < 3; k++) {
           const moved = (sum[stride * v + k] as number) + weight * (deltas[3 * v + k] as number);
@@ -33,29 +31,26 @@ export function morphed(mesh: Mesh, primitive: Primitive, weights: readonly numb
 /**
  * A mesh in the pose of its skeleton, in the world (glTF 2.0, section 3.7.3.3: the node's own transform does not count).
  * Matrices and weights that are not finite do not count, with a warning.
+ * @param bind Inverse bind matrices, one after the other; absent: all are the identity.
  * @param world World transforms of the nodes.
  */
-export function skinned(mesh: Mesh, primitive: Primitive, skin: Skin, world: ReadonlyMap<Node, mat4>, warnings: SceneWarning[]): Mesh {
+export function skinned(mesh: Mesh, primitive: PrimitiveData, joints: readonly number[], bind: Float32Array | undefined, world: ReadonlyMap<number, Matrix>, warnings: SceneWarning[]): Mesh {
   const warn = (message: string) => void warnings.push({ code: 'gltf/skin', message: `${mesh.name}: ${message}` });
-  const joints = skin.listJoints();
-  const inverse = skin.getInverseBindMatrices();
-  const bind = inverse ? floatsOf(inverse, 16) : undefined;
   const matrices = joints.map((joint, j) => {
     const own = bind?.subarray(16 * j, 16 * j + 16);
-    const at = world.get(joint) ?? mat4.create();
+    const at = world.get(joint) ?? identity();
     if (own && !own.every(Number.isFinite)) {
       warn(`the bind matrix of joint ${j} is not finite; the joint does not count.`);
       return undefined;
     }
-    return own?.length === 16 ? mat4.multiply(new Array<number>(16).fill(0) as unknown as mat4, at, own as unknown as mat4) : at;
+    return own ? multiply(at, own) : at;
   });
   const sets: { joints: Float32Array; weights: Float32Array }[] = [];
   for (let set = 0; ; set++) {
-    const j = primitive.getAttribute(`JOINTS_${set}`), w = primitive.getAttribute(`WEIGHTS_${set}`);
-    if (!j || !w) break;
-    const weights = floatsOf(w, 4);
+    if (primitive.count(`JOINTS_${set}`) === undefined || primitive.count(`WEIGHTS_${set}`) === undefined) break;
+    const weights = primitive.floats(`WEIGHTS_${set}`, 4);
     if (!weights.every(Number.isFinite)) warn(`WEIGHTS_${set} holds numbers that are not finite; they do not count.`);
-    sets.push({ joints: floatsOf(j, 4), weights });
+    sets.push({ joints: primitive.floats(`JOINTS_${set}`, 4), weights });
   }
   const vertices = mesh.positions.length / 3;
   const positions = new Float32Array(mesh.positions.length);

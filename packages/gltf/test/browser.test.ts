@@ -30,8 +30,6 @@ beforeAll(async () => {
     write: false,
     format: 'iife',
     conditions: ['@glanz/source'],
-    // glTF-Transform's class for Node, which nothing here uses, imports them when it is made.
-    external: ['node:fs', 'node:path'],
   });
   pages.set('/', '<!doctype html><script src="entry.js"></script>').set('/entry.js', outputFiles[0]!.contents);
   server = createServer((request, response) => {

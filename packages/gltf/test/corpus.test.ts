@@ -22,7 +22,6 @@ const cases = sharedIndex<Case>('bad/index.json').filter(({ kind, file }) => kin
  */
 const KNOWN = new Map(
   Object.entries({
-    'animations are not read': ['animation/unresolved_channel_sampler', 'animation/unresolved_channel_target', 'animation/unresolved_sampler_input', 'animation/unresolved_sampler_output'],
     'pictures and textures that no shown material asks for are not read': ['image/invalid_data_uri', 'image/invalid_data_uri_mime_type', 'image/invalid_uri_scheme', 'image/not_found', 'image/unresolved_buffer_view', 'texture/unresolved_source'],
     'the document has no nodes, so its meshes and materials are not shown': ['mesh_data/index_buffer_oob', 'mesh_data/index_buffer_primitive_restart', 'mesh/morph_unequal_targets_count', 'material/unresolved_emissive', 'buffer_view/invalid_stride_wrong_target'],
     'the occlusion texture is not read': ['material/unresolved_occlusion'],

@@ -1,5 +1,5 @@
 import { EXTMeshGPUInstancing, KHRLightsPunctual } from '@gltf-transform/extensions';
-import { validateScene, type Scene } from '@glanz/scene';
+import { validateScene, withVariant, type Scene } from '@glanz/scene';
 import { describe, expect, test } from 'vitest';
 import { loadGltf } from '../src/index';
 import { spoiled, start, write } from './build';
@@ -142,4 +142,61 @@ describe('which nodes are shown', () => {
     const all = await loadGltf(spoiled((json) => { named(json, ['a', 'b']); delete json['scenes']; delete json['scene']; }));
     expect(all.instances.map(({ name }) => name)).toEqual(['a', 'b']);
   });
+});
+
+test('a scene by its name or index', async () => {
+  const bytes = spoiled((json) => { json['nodes'] = ['a', 'b'].map((name) => ({ name, mesh: 0 })); json['scenes'] = [{ nodes: [0] }, { name: 'second', nodes: [1] }]; });
+  const shown = async (scene: number | string) => (await loadGltf(bytes, { scene })).instances.map(({ name }) => name);
+  expect(await shown('second')).toEqual(['b']);
+  expect(await shown(0)).toEqual(['a']);
+  await expect(shown(2)).rejects.toMatchObject({ code: 'gltf/no-such-part' });
+});
+
+test('what KHR_node_visibility hides is hidden with all below it, and its lights are out', async () => {
+  const scene = await loadGltf(spoiled((json) => {
+    json['extensionsUsed'] = ['KHR_node_visibility', 'KHR_lights_punctual'];
+    json['extensions'] = { KHR_lights_punctual: { lights: [{ type: 'point' }] } };
+    json['nodes'] = [{ name: 'a', mesh: 0, children: [1], extensions: { KHR_node_visibility: { visible: false } } }, { name: 'b', mesh: 0, extensions: { KHR_node_visibility: { visible: true }, KHR_lights_punctual: { light: 0 } } }, { name: 'c', mesh: 0 }];
+    json['scenes'] = [{ nodes: [0, 2] }];
+  }));
+  expect(scene.instances.map(({ name, visible }) => [name, visible])).toEqual([['a', false], ['b', false], ['c', undefined]]);
+  expect(scene.lights).toEqual([]);
+  expect(scene.warnings).toEqual([]);
+});
+
+test('variants: names, the materials of each, and what of them names nothing', async () => {
+  const mappings = [{ material: 1, variants: [1] }, { material: 9, variants: [0] }, { material: 2, variants: [0, 7] }];
+  const scene = await loadGltf(spoiled((json) => {
+    json['extensionsUsed'] = ['KHR_materials_variants'];
+    json['extensions'] = { KHR_materials_variants: { variants: [{ name: 'day' }, { name: 'night' }] } };
+    json['materials'] = [{ name: 'x' }, { name: 'y' }, { name: 'z' }];
+    Object.assign(json['meshes'][0].primitives[0], { material: 0, extensions: { KHR_materials_variants: { mappings } } });
+  }));
+  expect(scene.variants).toEqual(['day', 'night']);
+  expect(scene.instances.map(({ material, variants }) => [material, variants])).toEqual([[0, { 1: 1 }]]);
+  expect(withVariant(scene, 'night').instances[0]!.material).toBe(1);
+  expect(scene.warnings.map(({ code, path }) => [code, path])).toEqual([1, 2].map((m) => ['gltf/variant', `/meshes/0/primitives/0/extensions/KHR_materials_variants/mappings/${m}`]));
+  expect(validateScene(scene)).toEqual([]);
+});
+
+test('what the asset says of itself, and its XMP packet', async () => {
+  const scene = await loadGltf(spoiled((json) => {
+    json['extensionsUsed'] = ['KHR_xmp_json_ld'];
+    json['extensions'] = { KHR_xmp_json_ld: { packets: [{ 'dc:title': 'none' }, { 'dc:title': 'Button' }] } };
+    json['asset'] = { version: '2.0', copyright: '2026 A', extensions: { KHR_xmp_json_ld: { packet: 1 } } };
+  }));
+  expect(scene.metadata).toEqual({ copyright: '2026 A', xmp: { 'dc:title': 'Button' } });
+  expect(scene.warnings).toEqual([]);
+});
+
+test('a file that asks for more than the limits allow is refused, whatever it has', async () => {
+  const { document, scene, accessor } = start();
+  const mesh = document.createMesh().addPrimitive(document.createPrimitive().setAttribute('POSITION', accessor('VEC3', TRIANGLE)));
+  for (let i = 0; i < 10; i++) scene.addChild(document.createNode().setMesh(mesh));
+  const bytes = await write(document);
+  const refused = { code: 'gltf/too-large' };
+  await expect(loadGltf(bytes, { limits: { instances: 9 } })).rejects.toMatchObject(refused);
+  await expect(loadGltf(bytes, { limits: { geometryBytes: 30 } })).rejects.toMatchObject(refused);
+  await expect(loadGltf(bytes, { limits: { fileBytes: 30 } })).rejects.toMatchObject(refused);
+  expect((await loadGltf(bytes, { limits: { instances: 10 } })).instances.length).toBe(10);
 });

@@ -22,7 +22,10 @@ const SHAPES: ReadonlyMap<unknown, readonly [number, number]> = new Map([
  */
 export const ZERO_FILL_LIMIT = 1 << 28;
 
-/** An accessor that has been checked. */
+/** Bytes that one of meshopt's bytes can stand for at most: a control of 2 bits for 256 of them. */
+const MESHOPT_RATIO = 1024;
+
+/** An accessor that has been checked. Only of such ones the bytes may be read. */
 export interface AccessorFacts {
   readonly componentType: number;
   readonly type: string;
@@ -65,6 +68,7 @@ export function checkBuffers(context: CheckContext): readonly Raw[] {
       const stride = context.integer(packed, 'byteStride', at, 1, 256);
       const count = context.integer(packed, 'count', at, 1, MAX);
       if (stride * count > length) context.fail(at, `unpacks to ${stride * count} bytes, but its buffer view has ${length}`);
+      if (length > MESHOPT_RATIO * ((packed['byteLength'] as number) + 16)) context.fail(at, `says that ${packed['byteLength']} bytes unpack to ${length}, which is more than the format can do`);
     }
   });
   return views;
@@ -124,15 +128,16 @@ function checkSparse(context: CheckContext, path: string, sparse: Raw, views: re
 
 /**
  * Checks what only the bytes show: that sparse indices grow and name elements that exist.
- * @param viewBytes Bytes of a buffer view, checked to lie within its buffer.
+ * @param viewBytes Bytes of a buffer view, checked to lie within its buffer; undefined if the buffer is not there, as nothing reads it.
  */
-export function checkSparseIndices(context: CheckContext, viewBytes: (index: number) => Uint8Array): void {
+export function checkSparseIndices(context: CheckContext, facts: readonly (AccessorFacts | undefined)[], viewBytes: (index: number) => Uint8Array | undefined): void {
   context.list('accessors').forEach((accessor, index) => {
     const sparse = own(accessor, 'sparse') as Raw | undefined;
-    if (!sparse) return;
+    if (!sparse || !facts[index]) return;
     const path = `/accessors/${index}/sparse/indices`;
     const { bufferView, byteOffset = 0, componentType } = sparse['indices'] as { bufferView: number; byteOffset?: number; componentType: number };
     const bytes = viewBytes(bufferView);
+    if (!bytes) return;
     const data = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     let last = -1;
     for (let i = 0; i < (sparse['count'] as number); i++) {

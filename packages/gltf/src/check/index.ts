@@ -1,15 +1,16 @@
-// Files come from strangers. glTF-Transform trusts a document's numbers: an index out of range is a TypeError there, a
-// count of 2^32 an allocation that ends the process, a circle of nodes an endless loop. So the JSON is checked in full
-// before it gets there. The line follows the specification: what the structure hangs on (containers, types, indices,
-// ranges, the node tree) is refused; a part that can do without (an attribute, a factor, a light, a camera) is repaired or
-// left out, with a warning.
+// Files come from strangers: an index out of range would be a TypeError, a count of 2^32 an allocation that ends the process,
+// a circle of nodes an endless loop. So the JSON is checked in full before any of it is used. The line follows the
+// specification: what the structure hangs on (containers, types, indices, ranges, the node tree) is refused; a part that can
+// do without (an attribute, a factor, a light, a camera, an animation) is repaired or left out, with a warning.
 import type { SceneWarning } from '@glanz/scene';
 import type { GltfJson } from '../json';
+import { repairAnimations } from './animations';
 import { CheckContext, isObject, own, quote, type Raw } from './context';
 import { checkAccessors, checkBuffers, checkSparseIndices } from './data';
 import { checkMeshes, neededAccessors } from './meshes';
 import { checkNodes, checkSkins } from './nodes';
 import { repairCameras, repairLights, repairMaterials } from './surfaces';
+import { repairVariants, withSoundVariants } from './variants';
 
 /** A document that has been checked. */
 export interface CheckedDocument {
@@ -18,11 +19,8 @@ export interface CheckedDocument {
   /** Buffers that something shown reads: those that have to be there. */
   readonly neededBuffers: ReadonlySet<number>;
   /** Checks what only the bytes show, once they are there. */
-  readonly checkBytes: (viewBytes: (index: number) => Uint8Array) => void;
+  readonly checkBytes: (viewBytes: (index: number) => Uint8Array | undefined) => void;
 }
-
-/** Stands for an accessor that nothing shown reads, as those of animations. */
-const UNUSED = { componentType: 5121, type: 'SCALAR', count: 1 };
 
 /**
  * Checks a parsed document.
@@ -39,28 +37,49 @@ export function checkDocument(json: Raw, file: string, warnings: SceneWarning[])
   const views = checkBuffers(context);
   const needed = neededAccessors(context);
   const facts = checkAccessors(context, views, needed);
-  const meshes = checkMeshes(context, facts, views);
+  const variants = repairVariants(context);
+  const materials = context.list('materials').length;
+  const meshes = checkMeshes(context, facts, views).map((mesh, index) => ({
+    ...named(mesh),
+    primitives: (mesh['primitives'] as readonly Raw[]).map((primitive, at) => withSoundVariants(context, primitive, `/meshes/${index}/primitives/${at}`, variants?.length ?? 0, materials)),
+  }));
   const nodes = checkNodes(context, facts);
   checkSkins(context, facts);
   checkPictures(context);
   const lights = repairLights(context);
-  const accessors = context.list('accessors').map((accessor, index) => (needed.has(index) ? accessor : UNUSED));
+  const accessors = context.list('accessors');
   const checked = {
     ...json,
-    asset: { version: '2.0' },
     accessors,
+    animations: repairAnimations(context, facts),
     meshes,
-    nodes: nodes.map((node, index) => withoutLostLight(context, node, index, lights?.length ?? 0)),
+    nodes: nodes.map((node, index) => named(withoutLostLight(context, node, index, lights?.length ?? 0))),
+    scenes: own(json, 'scenes') === undefined ? undefined : context.list('scenes').map(named),
     materials: repairMaterials(context),
     cameras: repairCameras(context),
-    extensions: lights ? { KHR_lights_punctual: { lights } } : {},
+    extensions: { ...(lights ? { KHR_lights_punctual: { lights } } : {}), ...(variants ? { KHR_materials_variants: { variants } } : {}), ...xmpOf(context) },
   };
   if (own(json, 'scenes') === undefined) delete (checked as { scene?: unknown }).scene;
   return {
     json: checked as unknown as GltfJson,
-    neededBuffers: buffersOf(accessors, meshes, views),
-    checkBytes: (viewBytes) => checkSparseIndices(new CheckContext({ accessors }, file, warnings), viewBytes),
+    neededBuffers: buffersOf(accessors.filter((_, index) => needed.has(index)), meshes, views),
+    checkBytes: (viewBytes) => checkSparseIndices(context, facts, viewBytes),
   };
+}
+
+/** The packets of KHR_xmp_json_ld; nothing looks into them. */
+function xmpOf(context: CheckContext): Raw {
+  const extensions = own(context.json, 'extensions');
+  const xmp = isObject(extensions) ? own(extensions, 'KHR_xmp_json_ld') : undefined;
+  const packets = isObject(xmp) ? own(xmp, 'packets') : undefined;
+  return Array.isArray(packets) ? { KHR_xmp_json_ld: { packets } } : {};
+}
+
+/** An object whose name, if it has one, is a text. */
+function named(object: Raw): Raw {
+  if (own(object, 'name') === undefined || typeof object['name'] === 'string') return object;
+  const { name: _, ...rest } = object;
+  return rest;
 }
 
 /** Textures, pictures and samplers are read when a material asks for them; here it counts that they are objects. */
@@ -103,7 +122,7 @@ function buffersOf(accessors: readonly Raw[], meshes: readonly Raw[], views: rea
     if (!used.has(index)) return;
     // The buffer of a compressed view is only a place to unpack to, and need not be there.
     const extensions = own(view, 'extensions');
-    const packed = isObject(extensions) ? (own(extensions, 'EXT_meshopt_compression') as Raw | undefined) : undefined;
+    const packed = isObject(extensions) ? ((own(extensions, 'EXT_meshopt_compression') ?? own(extensions, 'KHR_meshopt_compression')) as Raw | undefined) : undefined;
     buffers.add((packed ?? view)['buffer'] as number);
   });
   return buffers;

@@ -12,6 +12,9 @@ const ATTRIBUTES: ReadonlyMap<string, readonly string[]> = new Map([
   ['WEIGHTS_0', ['VEC4']],
 ]);
 
+/** Draco's ids have 32 bits. */
+const MAX_ID = 2 ** 32 - 1;
+
 /** Accessors that are read: those of meshes, skins' matrices and instances. Animations are not. */
 export function neededAccessors(context: CheckContext): Set<number> {
   const needed = new Set<number>();
@@ -63,7 +66,8 @@ function checkPrimitive(context: CheckContext, path: string, primitive: Raw, fac
   if (draco) {
     const at = `${path}/extensions/KHR_draco_mesh_compression`;
     context.integer(draco, 'bufferView', at, 0, views.length - 1);
-    if (!context.object(draco, 'attributes', at)) context.fail(at, 'has no attributes');
+    const attributes = context.object(draco, 'attributes', at) ?? context.fail(at, 'has no attributes');
+    for (const semantic of Object.keys(attributes)) context.integer(attributes, semantic, `${at}/attributes`, 0, MAX_ID);
   }
   const attributes = context.object(primitive, 'attributes', path) ?? context.fail(path, 'has no attributes');
   const kept = checkAttributes(context, `${path}/attributes`, attributes, facts);

@@ -1,0 +1,78 @@
+import { isObject, own, quote, type CheckContext, type Raw } from './context';
+import type { AccessorFacts } from './data';
+
+/** What a channel may move, and the type of its values. */
+const PATHS: Readonly<Record<string, string>> = { translation: 'VEC3', rotation: 'VEC4', scale: 'VEC3', weights: 'SCALAR' };
+const INTERPOLATIONS = ['LINEAR', 'STEP', 'CUBICSPLINE'];
+
+/**
+ * Animations with the channels that make sense; the others are left out, with a warning. Their places count, so each
+ * animation stays.
+ */
+export function repairAnimations(context: CheckContext, facts: readonly (AccessorFacts | undefined)[]): readonly Raw[] {
+  return context.list('animations').map((animation, index) => {
+    const path = `/animations/${index}`;
+    const objects = (key: string): readonly unknown[] => {
+      const value = own(animation, key);
+      if (Array.isArray(value) && value.length > 0) return value as unknown[];
+      context.warn('gltf/animation', `${path}/${key}`, `is ${quote(value)}, but must be an array with something in it; nothing moves`);
+      return [];
+    };
+    const samplers = objects('samplers').map((sampler, at) => repairSampler(context, sampler, `${path}/samplers/${at}`, facts));
+    const kept = objects('channels').filter((channel, at) => isSoundChannel(context, channel, `${path}/channels/${at}`, samplers, facts));
+    const name = own(animation, 'name');
+    return { ...(typeof name === 'string' ? { name } : {}), samplers: samplers.map((sampler) => sampler ?? { input: 0, output: 0, interpolation: 'STEP' }), channels: kept };
+  });
+}
+
+function repairSampler(context: CheckContext, sampler: unknown, path: string, facts: readonly (AccessorFacts | undefined)[]): Raw | undefined {
+  const lost = (what: string) => {
+    context.warn('gltf/animation', path, `${what}; what it moves stays`);
+    return undefined;
+  };
+  if (!isObject(sampler)) return lost(`is ${quote(sampler)}, but must be an object`);
+  const interpolation = own(sampler, 'interpolation') ?? 'LINEAR';
+  if (!INTERPOLATIONS.includes(interpolation as string)) return lost(`has the interpolation ${quote(interpolation)}, which is none`);
+  const [input, output] = (['input', 'output'] as const).map((key) => own(sampler, key)) as [unknown, unknown];
+  for (const [key, accessor] of [['input', input], ['output', output]] as const) {
+    if (typeof accessor !== 'number' || !facts[accessor]) return lost(`has ${quote(accessor)} as ${key}, which names no accessor`);
+  }
+  const times = facts[input as number] as AccessorFacts;
+  if (times.type !== 'SCALAR' || times.componentType !== 5126) return lost(`has times of ${times.type} of ${times.componentType}, but they must be SCALAR of 5126`);
+  if (interpolation === 'CUBICSPLINE' && times.count < 2) return lost('has less than two keys for its CUBICSPLINE');
+  return { input, output, interpolation };
+}
+
+function isSoundChannel(context: CheckContext, channel: unknown, path: string, samplers: readonly (Raw | undefined)[], facts: readonly (AccessorFacts | undefined)[]): boolean {
+  const lost = (what: string) => {
+    context.warn('gltf/animation', path, `${what}; it is left out`);
+    return false;
+  };
+  const target = isObject(channel) ? own(channel, 'target') : undefined;
+  if (!isObject(channel) || !isObject(target)) return lost(`is ${quote(channel)}, but must be an object with a target`);
+  const at = own(channel, 'sampler');
+  if (typeof at !== 'number' || !(at in samplers)) return lost(`has ${quote(at)} as sampler, which is none`);
+  const sampler = samplers[at];
+  const node = own(target, 'node'), moved = own(target, 'path');
+  // The specification has channels without a node ignored.
+  if (!sampler || node === undefined) return false;
+  const nodes = context.list('nodes');
+  if (typeof node !== 'number' || !nodes[node]) return lost(`moves node ${quote(node)}, which is none`);
+  const type = typeof moved === 'string' && Object.hasOwn(PATHS, moved) ? PATHS[moved] : undefined;
+  if (type === undefined) return moved === 'pointer' ? false : lost(`moves ${quote(moved)}, which is no part of a node`);
+  const keys = (facts[sampler['input'] as number] as AccessorFacts).count * (sampler['interpolation'] === 'CUBICSPLINE' ? 3 : 1);
+  const values = facts[sampler['output'] as number] as AccessorFacts;
+  if (values.type !== type) return lost(`has values of ${values.type} for ${moved as string}, but they must be ${type}`);
+  const size = moved === 'weights' ? targetCount(context, nodes[node] as Raw) : 1;
+  if (size === 0) return lost('moves morph targets that are not there');
+  if (values.count !== keys * size) return lost(`has ${values.count} values, but its times ask for ${keys * size}`);
+  return true;
+}
+
+/** Morph targets of a node's mesh. Meshes have been checked. */
+function targetCount(context: CheckContext, node: Raw): number {
+  const mesh = own(node, 'mesh');
+  const [primitive] = (typeof mesh === 'number' ? (context.list('meshes')[mesh]?.['primitives'] as readonly Raw[] | undefined) : undefined) ?? [];
+  const targets = primitive && own(primitive, 'targets');
+  return Array.isArray(targets) ? targets.length : 0;
+}

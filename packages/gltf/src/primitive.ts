@@ -1,0 +1,61 @@
+import type { Accessors } from './accessors';
+import { dracoFloats, unpackDraco, type DracoPrimitive } from './draco';
+import { GltfError } from './error';
+import type { GltfPrimitive } from './json';
+import type { Budget } from './limits';
+
+/** The data of a primitive, whether it is compressed or not. */
+export interface PrimitiveData {
+  readonly json: GltfPrimitive;
+  /** Entries of an attribute; undefined if it is not there. */
+  count(semantic: string): number | undefined;
+  /** Numbers of an attribute that is there, `size` for each vertex. A copy. */
+  floats(semantic: string, size: number): Float32Array<ArrayBuffer>;
+  /** A copy; undefined if there are none. */
+  indices(): Uint32Array<ArrayBuffer> | undefined;
+  /** Moves of the vertices by a morph target; undefined if it does not move this attribute. */
+  target(index: number, semantic: string): Float32Array<ArrayBuffer> | undefined;
+}
+
+/** What primitives are read with. */
+export interface PrimitiveReader {
+  readonly file: string;
+  readonly accessors: Accessors;
+  readonly viewBytes: (index: number) => Uint8Array<ArrayBuffer>;
+  readonly draco: unknown;
+  readonly budget: Budget;
+}
+
+/** Opens a primitive; one that is compressed is unpacked here. */
+export function openPrimitive(json: GltfPrimitive, path: string, { file, accessors, viewBytes, draco, budget }: PrimitiveReader): PrimitiveData {
+  const packed = json.extensions?.KHR_draco_mesh_compression;
+  const unpacked: DracoPrimitive | undefined = packed && draco ? unpack(packed) : undefined;
+  return {
+    json,
+    count: (semantic) => {
+      if (unpacked?.attributes.has(semantic)) return unpacked.vertices;
+      const index = json.attributes[semantic];
+      return index === undefined ? undefined : accessors.at(index).count;
+    },
+    floats: (semantic, size) => {
+      const attribute = unpacked?.attributes.get(semantic);
+      return attribute ? dracoFloats(attribute, size) : accessors.floats(json.attributes[semantic] as number, size);
+    },
+    indices: () => unpacked?.indices.slice() ?? (json.indices === undefined ? undefined : accessors.indices(json.indices)),
+    target: (index, semantic) => {
+      const accessor = json.targets?.[index]?.[semantic];
+      return accessor === undefined ? undefined : accessors.floats(accessor, 3);
+    },
+  };
+
+  function unpack({ bufferView, attributes }: NonNullable<typeof packed>): DracoPrimitive {
+    const at = `${path}/extensions/KHR_draco_mesh_compression`;
+    const wanted = Object.entries(attributes).flatMap(([semantic, id]) => (json.attributes[semantic] === undefined ? [] : [[semantic, id, accessors.at(json.attributes[semantic])] as const]));
+    try {
+      return unpackDraco(draco, viewBytes(bufferView), wanted, (bytes) => budget.take(bytes, at));
+    } catch (cause) {
+      if (cause instanceof GltfError) throw cause;
+      throw new GltfError('gltf/malformed', `${file}: ${at} cannot be unpacked: ${cause instanceof Error ? cause.message : String(cause)}; export the file again.`, { cause, location: { file, path: at } });
+    }
+  }
+}

@@ -1,0 +1,233 @@
+// Tangents as MikkTSpace makes them (M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008; the glTF
+// specification, 3.7.2.1, asks for them where a file has none): one for each set of triangles that meet at a vertex, hang
+// together by edges and see the picture the same way round; directions weighted by the angles at the vertex. Vertices are
+// those with the same position, normal and uv, whatever their index. Mirrored halves and seams thus get vertices of their own.
+import type { Material, Mesh } from '@glanz/scene';
+
+/** The UV set whose tangents a material is shaded with; undefined if it looks the same with any. */
+export function tangentSet(material: Material | undefined): number | undefined {
+  const { parameters, textures } = material ?? {};
+  const binding = textures?.geometry_normal ?? textures?.geometry_coat_normal ?? textures?.geometry_tangent;
+  if (binding) return binding.uv ?? 0;
+  return parameters?.specular_roughness_anisotropy || parameters?.coat_roughness_anisotropy ? 0 : undefined;
+}
+
+const mix = (hash: number, value: number) => Math.imul(hash ^ value, 0x9e3779b1) ^ (hash >>> 15);
+const powerOfTwoAbove = (n: number) => 2 ** Math.ceil(Math.log2(Math.max(n, 2)));
+
+/** For each vertex the first one that is the same in position, normal and uv. */
+function weld(positions: Float32Array, normals: Float32Array, uvs: Float32Array): Int32Array {
+  const vertices = positions.length / 3;
+  const parts = ([[positions, 3], [normals, 3], [uvs, 2]] as const).map(([values, stride]) => [values, new Int32Array(values.buffer, values.byteOffset, values.length), stride] as const);
+  const mask = powerOfTwoAbove(2 * vertices) - 1;
+  const table = new Int32Array(mask + 1).fill(-1);
+  const first = new Int32Array(vertices);
+  for (let v = 0; v < vertices; v++) {
+    let hash = 0;
+    for (const [values, bits, stride] of parts) for (let k = stride * v; k < stride * (v + 1); k++) hash = mix(hash, values[k] === 0 ? 0 : (bits[k] as number));
+    let slot = (hash ^ (hash >>> 13)) & mask;
+    for (; table[slot] !== -1; slot = (slot + 1) & mask) {
+      const other = table[slot] as number;
+      if (parts.every(([values, , stride]) => { for (let k = 0; k < stride; k++) if (values[stride * v + k] !== values[stride * other + k]) return false; return true; })) break;
+    }
+    if (table[slot] === -1) table[slot] = v;
+    first[v] = table[slot] as number;
+  }
+  return first;
+}
+
+/** Sets of corners that share a tangent. */
+class Groups {
+  readonly #parent: Int32Array;
+
+  constructor(count: number) {
+    this.#parent = new Int32Array(count).map((_, i) => i);
+  }
+
+  of(corner: number): number {
+    const parent = this.#parent;
+    let root = corner;
+    while (parent[root] !== root) {
+      parent[root] = parent[parent[root] as number] as number;
+      root = parent[root] as number;
+    }
+    return root;
+  }
+
+  unite(a: number, b: number): void {
+    const [p, q] = [this.of(a), this.of(b)];
+    this.#parent[Math.max(p, q)] = Math.min(p, q);
+  }
+}
+
+/**
+ * Calls `found` for every pair of triangles that run along an edge in opposite directions, with the corners at which the
+ * edge begins in each. Every edge of a triangle is in one pair at most.
+ */
+function pairEdges(corners: Int32Array, usable: (triangle: number) => boolean, found: (a: number, b: number) => void): void {
+  const mask = powerOfTwoAbove(2 * corners.length) - 1;
+  // Waiting edges by their two ends: slots with a key of two vertices and the head of a list of corners.
+  const from = new Int32Array(mask + 1).fill(-1), to = new Int32Array(mask + 1), head = new Int32Array(mask + 1), next = new Int32Array(corners.length);
+  const slotOf = (a: number, b: number) => {
+    const hash = mix(mix(0, a), b);
+    let slot = (hash ^ (hash >>> 13)) & mask;
+    while (from[slot] !== -1 && !(from[slot] === a && to[slot] === b)) slot = (slot + 1) & mask;
+    return slot;
+  };
+  for (let corner = 0; corner < corners.length; corner++) {
+    const triangle = (corner / 3) | 0;
+    if (!usable(triangle)) continue;
+    const a = corners[corner] as number, b = corners[3 * triangle + ((corner + 1) % 3)] as number;
+    const waiting = slotOf(b, a);
+    if (from[waiting] !== -1 && (head[waiting] as number) !== -1) {
+      const other = head[waiting] as number;
+      head[waiting] = next[other] as number;
+      found(corner, other);
+      continue;
+    }
+    const slot = slotOf(a, b);
+    next[corner] = from[slot] === -1 ? -1 : (head[slot] as number);
+    from[slot] = a;
+    to[slot] = b;
+    head[slot] = corner;
+  }
+}
+
+const following = (corner: number) => (corner % 3 === 2 ? corner - 2 : corner + 1);
+
+/**
+ * A mesh with tangents (xyz unit, w the handedness that glTF wants, whose v runs down). Vertices where triangles need
+ * different ones are doubled. Unchanged if it has tangents already, or lacks normals or the UV set.
+ *
+ * @param set The UV set whose u the tangents follow.
+ */
+export function withTangents(mesh: Mesh, set = 0): Mesh {
+  const { positions: P, normals: N, indices } = mesh;
+  const UV = mesh.uvs?.[set];
+  if (mesh.tangents || !N || !UV || indices.length === 0) return mesh;
+  const first = weld(P, N, UV);
+  const corners = Int32Array.from(indices, (vertex) => first[vertex] as number);
+  const triangles = indices.length / 3;
+
+  // For each triangle the direction of growing u, scaled to 1, and which way round it sees the picture.
+  const along = new Float64Array(3 * triangles);
+  const NONE = 0, ANY = 3;
+  const turn = new Uint8Array(triangles);
+  for (let t = 0; t < triangles; t++) {
+    const [a, b, c] = [corners[3 * t], corners[3 * t + 1], corners[3 * t + 2]] as [number, number, number];
+    const same = (p: number, q: number) => P[3 * p] === P[3 * q] && P[3 * p + 1] === P[3 * q + 1] && P[3 * p + 2] === P[3 * q + 2];
+    if (same(a, b) || same(b, c) || same(c, a)) continue;
+    const d = (values: Float32Array, stride: number, q: number, k: number) => (values[stride * q + k] as number) - (values[stride * a + k] as number);
+    const u1 = d(UV, 2, b, 0), v1 = d(UV, 2, b, 1), u2 = d(UV, 2, c, 0), v2 = d(UV, 2, c, 1);
+    const area = u1 * v2 - v1 * u2;
+    const s = [0, 1, 2].map((k) => v2 * d(P, 3, b, k) - v1 * d(P, 3, c, k)) as [number, number, number];
+    const length = Math.hypot(...s);
+    turn[t] = Math.abs(area) > 1.2e-38 && length > 1.2e-38 ? (area > 0 ? 1 : 2) : ANY;
+    if (turn[t] !== ANY) for (let k = 0; k < 3; k++) along[3 * t + k] = ((s[k] as number) / length) * (area > 0 ? 1 : -1);
+  }
+  const pairs: number[] = [];
+  pairEdges(corners, (t) => turn[t] !== NONE, (a, b) => pairs.push(a, b));
+  // A triangle that shows no area of the picture goes with a neighbour.
+  const seen = Uint8Array.from(turn);
+  for (let i = 0; i < pairs.length; i += 2) {
+    const [s, t] = [((pairs[i] as number) / 3) | 0, ((pairs[i + 1] as number) / 3) | 0];
+    if (seen[s] === ANY) seen[s] = seen[t] as number;
+    else if (seen[t] === ANY) seen[t] = seen[s] as number;
+  }
+  const groups = new Groups(corners.length);
+  for (let i = 0; i < pairs.length; i += 2) {
+    const [a, b] = [pairs[i], pairs[i + 1]] as [number, number];
+    if (seen[(a / 3) | 0] !== seen[(b / 3) | 0]) continue;
+    // Where one edge begins the other ends.
+    groups.unite(a, following(b));
+    groups.unite(following(a), b);
+  }
+
+  const sums = new Float64Array(3 * corners.length);
+  const projected = (out: number[], x: number, y: number, z: number, n: number): void => {
+    const nx = N[n] as number, ny = N[n + 1] as number, nz = N[n + 2] as number;
+    const d = nx * x + ny * y + nz * z;
+    const px = x - d * nx, py = y - d * ny, pz = z - d * nz;
+    const length = Math.hypot(px, py, pz);
+    const scale = length > 1.2e-38 ? 1 / length : 0;
+    out[0] = px * scale;
+    out[1] = py * scale;
+    out[2] = pz * scale;
+  };
+  const s: number[] = [0, 0, 0], e: number[] = [0, 0, 0], f: number[] = [0, 0, 0];
+  for (let corner = 0; corner < corners.length; corner++) {
+    const t = (corner / 3) | 0;
+    if (turn[t] === NONE || turn[t] === ANY) continue;
+    const at = 3 * (corners[corner] as number), after = 3 * (corners[following(corner)] as number), before = 3 * (corners[following(following(corner))] as number);
+    const edge = (q: number, k: number) => (P[q + k] as number) - (P[at + k] as number);
+    projected(s, along[3 * t] as number, along[3 * t + 1] as number, along[3 * t + 2] as number, at);
+    projected(e, edge(before, 0), edge(before, 1), edge(before, 2), at);
+    projected(f, edge(after, 0), edge(after, 1), edge(after, 2), at);
+    const cosine = (e[0] as number) * (f[0] as number) + (e[1] as number) * (f[1] as number) + (e[2] as number) * (f[2] as number);
+    const angle = Math.acos(Math.min(Math.max(cosine, -1), 1));
+    const group = 3 * groups.of(corner);
+    for (let k = 0; k < 3; k++) sums[group + k] = (sums[group + k] as number) + angle * (s[k] as number);
+  }
+  return assign(mesh, corners, (corner) => (turn[(corner / 3) | 0] === NONE ? -1 : groups.of(corner)), (group) => [sums.subarray(3 * group, 3 * group + 3), seen[(group / 3) | 0] === 1 ? -1 : 1]);
+}
+
+/** Gives each vertex the tangent of its group, and the groups beyond the first a copy of the vertex. */
+function assign(mesh: Mesh, corners: Int32Array, groupOf: (corner: number) => number, tangentOf: (group: number) => readonly [ArrayLike<number>, number]): Mesh {
+  const N = mesh.normals as Float32Array;
+  const vertices = mesh.positions.length / 3;
+  // The group of each vertex; the vertices that later copies are of; the copies by vertex and group.
+  const group: number[] = new Array<number>(vertices).fill(-1);
+  const source: number[] = [];
+  const copies = new Map<number, number>();
+  const indices = mesh.indices.slice();
+  for (let corner = 0; corner < indices.length; corner++) {
+    const own = groupOf(corner);
+    if (own === -1) continue;
+    let vertex = indices[corner] as number;
+    if (group[vertex] === -1) group[vertex] = own;
+    else if (group[vertex] !== own) {
+      const key = vertex * corners.length + own;
+      let copy = copies.get(key);
+      if (copy === undefined) {
+        copy = vertices + source.push(vertex) - 1;
+        copies.set(key, copy);
+        group.push(own);
+      }
+      vertex = copy;
+    }
+    indices[corner] = vertex;
+  }
+  const total = vertices + source.length;
+  const widened = (values: Float32Array<ArrayBuffer>, stride: number): Float32Array<ArrayBuffer> => {
+    if (source.length === 0) return values;
+    const wide = new Float32Array(stride * total);
+    wide.set(values);
+    source.forEach((from, i) => wide.copyWithin(stride * (vertices + i), stride * from, stride * from + stride));
+    return wide;
+  };
+  const tangents = new Float32Array(4 * total);
+  // A corner without area looks to the other triangles at its vertex.
+  const atWelded = new Map<number, number>();
+  for (let corner = 0; corner < corners.length; corner++) if (groupOf(corner) !== -1 && !atWelded.has(corners[corner] as number)) atWelded.set(corners[corner] as number, groupOf(corner));
+  const weldedOf = new Map<number, number>();
+  for (let corner = 0; corner < corners.length; corner++) if (group[indices[corner] as number] === -1) weldedOf.set(indices[corner] as number, corners[corner] as number);
+  for (let v = 0; v < total; v++) {
+    const own = group[v] === -1 ? atWelded.get(weldedOf.get(v) ?? -1) : group[v];
+    const [sum, sign] = own === undefined ? [[0, 0, 0], 1] : tangentOf(own);
+    const n = 3 * (v < vertices ? v : (source[v - vertices] as number));
+    const length = Math.hypot(sum[0] as number, sum[1] as number, sum[2] as number);
+    if (length > 1e-12) for (let k = 0; k < 3; k++) tangents[4 * v + k] = (sum[k] as number) / length;
+    else tangents.set(perpendicular(N[n] as number, N[n + 1] as number, N[n + 2] as number), 4 * v);
+    tangents[4 * v + 3] = sign;
+  }
+  const made: Mesh = { ...mesh, indices, tangents, positions: widened(mesh.positions, 3), normals: widened(mesh.normals as Float32Array<ArrayBuffer>, 3), uvs: (mesh.uvs ?? []).map((uv) => widened(uv, 2)) };
+  if (mesh.colors) made.colors = widened(mesh.colors, 4);
+  return made;
+}
+
+/** Any unit vector at right angles to a unit vector. */
+function perpendicular(x: number, y: number, z: number): [number, number, number] {
+  const [a, b, c]: [number, number, number] = Math.abs(x) < 0.6 ? [0, z, -y] : [-z, 0, x];
+  const length = Math.hypot(a, b, c) || 1;
+  return [a / length, b / length, c / length];
+}
