@@ -1,5 +1,6 @@
 import type { PathTracer } from '@glanz/renderer';
-import { frameCamera, type OrthographicCamera, type PerspectiveCamera } from '@glanz/scene';
+import { frameCamera, type OrthographicCamera, type PanoramaCamera, type PerspectiveCamera } from '@glanz/scene';
+import { cameraExposure, toneMapPixels } from '@glanz/tonemap';
 
 // #region frame
 export function fromTheLeft(tracer: PathTracer) {
@@ -9,7 +10,7 @@ export function fromTheLeft(tracer: PathTracer) {
     yfov: (24 * Math.PI) / 180, // longer lens, less perspective
     margin: 0.1,
   });
-  tracer.setCamera(camera);
+  void tracer.setCamera(camera);
 }
 // #endregion frame
 
@@ -25,10 +26,7 @@ export function withLens(camera: PerspectiveCamera, focus: number, fStop: number
 export function focusOn(tracer: PathTracer, x: number, y: number) {
   const hit = tracer.pick(x, y);
   if (!hit || tracer.camera.type !== 'perspective') return;
-  const m = tracer.camera.transform;
-  const [dx, dy, dz] = hit.position.map((p, i) => p - m[12 + i]!) as [number, number, number];
-  const alongAxis = -(dx * m[8]! + dy * m[9]! + dz * m[10]!); // the camera looks along its −Z
-  tracer.setCamera(withLens(tracer.camera, alongAxis, 4));
+  void tracer.setCamera(withLens(tracer.camera, hit.depth, 4));
 }
 // #endregion focus
 
@@ -41,3 +39,18 @@ export const plan: OrthographicCamera = {
   ymag: 1.2,
 };
 // #endregion orthographic
+
+// #region panorama
+export const around: PanoramaCamera = {
+  type: 'panorama',
+  name: 'around',
+  transform: [0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 1.6, 0, 1], // at eye height, its −Z along +X
+};
+// #endregion panorama
+
+// #region exposure
+export async function photograph(tracer: PathTracer) {
+  const exposure = cameraExposure({ fStop: 8, shutter: 1 / 125, iso: 200 });
+  return toneMapPixels(await tracer.read('beauty'), tracer.width, tracer.height, { toneMap: 'agx', exposure });
+}
+// #endregion exposure

@@ -1,6 +1,6 @@
 import { readFile } from 'node:fs/promises';
 import { resolve } from 'node:path';
-import { frameCamera, type Camera, type PerspectiveCamera, type Scene } from '@glanz/scene';
+import { frameCamera, type Camera, type Scene } from '@glanz/scene';
 import { CliError } from './errors';
 
 type Vector = readonly [number, number, number];
@@ -38,15 +38,23 @@ export function lookAt(position: Vector, target: Vector, up: Vector): number[] {
   return [...right, 0, ...above, 0, ...back, 0, ...position, 1];
 }
 
-const FIELDS = ['name', 'position', 'target', 'up', 'fov', 'lens_radius', 'focus_distance'];
+const FIELDS = ['name', 'projection', 'position', 'target', 'up', 'fov', 'height', 'lens_radius', 'lens_blades', 'lens_rotation', 'focus_distance'];
+const PROJECTIONS = ['perspective', 'orthographic', 'panorama'] as const;
+/** Fields that only one projection has a use for. */
+const PERSPECTIVE_ONLY = ['fov', 'lens_radius', 'lens_blades', 'lens_rotation', 'focus_distance'];
 
 /**
- * A camera from JSON: `position`, `target` (default the origin), `up` (default +Y), `fov` (vertical, degrees, default
- * 35), `lens_radius` and `focus_distance` (metres; default focus: the target).
+ * A camera from JSON: `position`, `target` (default the origin), `up` (default +Y) and `projection`:
  *
+ * - `perspective` (default): `fov` (vertical, degrees, default 35), `lens_radius` and `focus_distance` (metres; default
+ *   focus: the target), `lens_blades`, `lens_rotation` (degrees);
+ * - `orthographic`: `height` of the view in metres;
+ * - `panorama`: the whole sphere.
+ *
+ * @param aspect Width over height of the picture; default 1.
  * @throws {CliError} `cli/camera`
  */
-export function cameraFromJson(text: string): PerspectiveCamera {
+export function cameraFromJson(text: string, aspect = 1): Camera {
   let value: unknown;
   try {
     value = JSON.parse(text);
@@ -58,16 +66,30 @@ export function cameraFromJson(text: string): PerspectiveCamera {
   const unknown = Object.keys(object).find((key) => !FIELDS.includes(key));
   if (unknown !== undefined) throw wrong(`--camera: unknown field "${unknown}". Known: ${FIELDS.join(', ')}.`);
   if (object.position === undefined) throw wrong('--camera: "position" is missing.');
+  const type = PROJECTIONS.find((known) => known === (object.projection ?? 'perspective'));
+  if (!type) throw wrong(`--camera: "projection" must be one of ${PROJECTIONS.join(', ')}.`);
+  const stray = [...(type === 'perspective' ? [] : PERSPECTIVE_ONLY), ...(type === 'orthographic' ? [] : ['height'])].find((key) => object[key] !== undefined);
+  if (stray !== undefined) throw wrong(`--camera: a camera of projection "${type}" has no "${stray}".`);
   const position = vector(object.position, 'position');
   const target = vector(object.target ?? [0, 0, 0], 'target');
+  const base = { name: typeof object.name === 'string' ? object.name : 'camera', transform: lookAt(position, target, vector(object.up ?? [0, 1, 0], 'up')) };
+  if (type === 'panorama') return { type, ...base };
+  if (type === 'orthographic') {
+    const height = optionalNumber(object, 'height', 1e-9, 1e9);
+    if (height === undefined) throw wrong('--camera: an orthographic camera needs "height", the height of its view in metres.');
+    return { type, ...base, xmag: (height * aspect) / 2, ymag: height / 2 };
+  }
   const lens = optionalNumber(object, 'lens_radius', 0, 1e6);
   const focus = optionalNumber(object, 'focus_distance', 1e-6, 1e9) ?? Math.hypot(...subtract(position, target));
+  const blades = optionalNumber(object, 'lens_blades', 0, 64);
+  const rotation = optionalNumber(object, 'lens_rotation', -36000, 36000);
   return {
-    type: 'perspective',
-    name: typeof object.name === 'string' ? object.name : 'camera',
-    transform: lookAt(position, target, vector(object.up ?? [0, 1, 0], 'up')),
+    type,
+    ...base,
     yfov: ((optionalNumber(object, 'fov', 0.1, 175) ?? 35) * Math.PI) / 180,
     ...(lens === undefined ? {} : { lens_radius: lens, focus_distance: focus }),
+    ...(blades === undefined ? {} : { lens_blades: blades }),
+    ...(rotation === undefined ? {} : { lens_rotation: (rotation * Math.PI) / 180 }),
   };
 }
 
@@ -79,14 +101,14 @@ export function cameraFromJson(text: string): PerspectiveCamera {
  */
 export async function chooseCamera(scene: Scene, choice: string | undefined, aspect: number, cwd: string): Promise<Camera> {
   if (choice === undefined) return scene.cameras[0] ?? frameCamera(scene, { aspect });
-  if (choice.trimStart().startsWith('{')) return cameraFromJson(choice);
+  if (choice.trimStart().startsWith('{')) return cameraFromJson(choice, aspect);
   const named = scene.cameras.find(({ name }) => name === choice) ?? (/^\d+$/.test(choice) ? scene.cameras[Number(choice)] : undefined);
   if (named) return named;
   if (/\.json$/i.test(choice)) {
     const text = await readFile(resolve(cwd, choice), 'utf8').catch((cause: unknown) => {
       throw new CliError('cli/input', `Cannot read the camera "${choice}": ${(cause as Error).message}.`, { cause, location: { file: choice } });
     });
-    return cameraFromJson(text);
+    return cameraFromJson(text, aspect);
   }
   const names = scene.cameras.map(({ name }, i) => `${i} "${name}"`).join(', ');
   throw wrong(`The model has no camera "${choice}"; ${names ? `it has ${names}` : 'it has none'}.`);

@@ -29,6 +29,8 @@ PICTURE
                         (default 16).
       --transparent     Leave the background out: alpha is the coverage.
       --exposure EV     Brighten (or darken) by stops, .png only. Default 0.
+                        Or as a camera does, for scenes in cd/m2:
+                        f/8,1/125,iso200.
       --tonemap NAME    neutral, aces, agx, reinhard or linear, .png only.
                         Default neutral: base colours stay what they are.
 
@@ -42,14 +44,20 @@ LIGHT AND VIEW
                         JSON:
                           '{"position":[3,2,4],"target":[0,1,0],"fov":35}'
                         with the vertical angle in degrees; optional "up",
-                        "lens_radius" and "focus_distance" in metres. A file
-                        ending in .json works too. Default: the model's first
-                        camera, or one that frames it.
+                        "lens_radius" and "focus_distance" in metres, and
+                        "lens_blades" with "lens_rotation" in degrees.
+                        "projection" may be "orthographic", with "height" in
+                        metres, or "panorama", all around. A file ending in
+                        .json works too. Default: the model's first camera, or
+                        one that frames it.
 
 QUALITY
       --samples N       Paths per pixel. Default 256.
       --depth N         Most edges of a path from the camera to a light: 1 shows
                         only what glows, 2 adds direct light. Default 8.
+      --filter NAME     How samples make up a pixel: box (default), gaussian or
+                        blackman-harris; NAME:RADIUS in pixels for another
+                        width (default 1.5 for the last two).
       --seed N          Other noise, same picture; the same seed gives the same
                         picture on the same device. Default 0.
 

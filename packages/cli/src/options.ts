@@ -1,7 +1,9 @@
 import { parseArgs, type ParseArgsConfig } from 'node:util';
 import { TONE_MAPS, isToneMap, type ToneMap } from '@glanz/tonemap';
 import { CliError } from './errors';
+import { parseExposure } from './exposure';
 import { formatOf, type OutputTarget } from './output/formats';
+import { parseFilter, type QualityOptions } from './quality';
 
 /** Everything `glanz render` can be told, checked. */
 export interface RenderCommandOptions {
@@ -22,6 +24,7 @@ export interface RenderCommandOptions {
   readonly exposure: number;
   readonly toneMap: ToneMap;
   readonly transparent: boolean;
+  readonly quality: QualityOptions;
   readonly gpu: string | undefined;
 }
 
@@ -48,6 +51,7 @@ const OPTIONS = {
   depth: { type: 'string' },
   seed: { type: 'string' },
   camera: { type: 'string' },
+  filter: { type: 'string' },
   exposure: { type: 'string' },
   tonemap: { type: 'string' },
   bits: { type: 'string' },
@@ -172,9 +176,10 @@ export function parseCommand(argv: readonly string[]): Command {
       depth: number('depth', values.depth, 8, { whole: true, min: 1, max: 1024 }),
       seed: number('seed', values.seed, 0, { whole: true, min: 0, max: 4294967295 }),
       camera: values.camera,
-      exposure: number('exposure', values.exposure, 0, { min: -64, max: 64 }),
+      exposure: values.exposure === undefined ? 0 : parseExposure(values.exposure),
       toneMap,
       transparent: values.transparent ?? false,
+      quality: values.filter === undefined ? {} : { filter: parseFilter(values.filter) },
       gpu: values.gpu,
     },
   };

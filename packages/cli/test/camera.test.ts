@@ -31,10 +31,20 @@ describe('cameraFromJson', () => {
     ['{"position":[0,0,0],"target":[0,0,0]}', 'the same point'],
     ['{"position":[0,0,1],"fov":180}', '"fov" must be a number'],
     ['{"position":[0,0,1],"fow":35}', 'unknown field "fow"'],
+    ['{"position":[0,0,1],"projection":"fisheye"}', 'must be one of perspective, orthographic, panorama'],
+    ['{"position":[0,0,1],"projection":"orthographic"}', 'needs "height"'],
+    ['{"position":[0,0,1],"projection":"panorama","fov":35}', 'has no "fov"'],
+    ['{"position":[0,0,1],"height":2}', 'has no "height"'],
   ])('%s', (text, message) => {
     expect(() => cameraFromJson(text)).toThrow(CliError);
     expect(() => cameraFromJson(text)).toThrow(message);
   });
+});
+
+it('knows parallel projection, panoramas and apertures', () => {
+  expect(cameraFromJson('{"position":[0,0,5],"projection":"orthographic","height":3}', 2)).toMatchObject({ type: 'orthographic', xmag: 3, ymag: 1.5 });
+  expect(cameraFromJson('{"position":[0,0,5],"projection":"panorama","name":"p"}')).toEqual({ type: 'panorama', name: 'p', transform: lookAt([0, 0, 5], [0, 0, 0], [0, 1, 0]) });
+  expect(cameraFromJson('{"position":[0,0,5],"lens_radius":0.1,"lens_blades":6,"lens_rotation":180}')).toMatchObject({ lens_blades: 6, lens_rotation: Math.PI });
 });
 
 describe('chooseCamera', () => {

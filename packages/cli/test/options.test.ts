@@ -34,12 +34,13 @@ describe('glanz render', () => {
       exposure: 0,
       toneMap: 'neutral',
       transparent: false,
+      quality: {},
       gpu: undefined,
     });
   });
 
   it('reads every option, before or after the model', () => {
-    const argv = ['--env', 'a.hdr', '--env-rotation', '180', '--env-intensity=2', 'm.gltf', '--size', '640X480', '--samples', '16', '--depth', '3', '--seed', '4294967295', '--camera', '1', '--exposure', '-1.5', '--tonemap', 'agx', '--transparent', '--gpu', 'H200', '-o', 'x.PNG', '-o', 'y.exr', '--bits', '16'];
+    const argv = ['--env', 'a.hdr', '--env-rotation', '180', '--env-intensity=2', 'm.gltf', '--size', '640X480', '--samples', '16', '--depth', '3', '--seed', '4294967295', '--camera', '1', '--exposure', '-1.5', '--tonemap', 'agx', '--transparent', '--filter', 'gaussian:2', '--gpu', 'H200', '-o', 'x.PNG', '-o', 'y.exr', '--bits', '16'];
     expect(options(...argv)).toEqual({
       model: 'm.gltf',
       outputs: [{ path: 'x.PNG', format: 'png', bits: 16 }, { path: 'y.exr', format: 'exr', bits: 16 }],
@@ -55,6 +56,7 @@ describe('glanz render', () => {
       exposure: -1.5,
       toneMap: 'agx',
       transparent: true,
+      quality: { filter: { type: 'gaussian', radius: 2 } },
       gpu: 'H200',
     });
   });
@@ -64,6 +66,10 @@ describe('glanz render', () => {
     expect(parseCommand(['--list-gpus', '--json'])).toEqual({ kind: 'list-gpus', json: true, quiet: false });
     expect(parseCommand(['render', '--list-gpus'])).toMatchObject({ kind: 'list-gpus' });
   });
+});
+
+it('exposure as a camera has it: sunny 16 is EV 15', () => {
+  for (const text of ['f/16,1/125', '1/125 F/16 iso100', 'f/16,0.008s']) expect(options('m.glb', '--exposure', text).exposure).toBeCloseTo(-(Math.log2(16 * 16 * 125) + Math.log2(1.2)), 10);
 });
 
 it('help and version', () => {
@@ -94,6 +100,10 @@ describe('complains in one line, saying what to do', () => {
     [['render', 'm.glb', '--depth', 'x'], '--depth must be'],
     [['render', 'm.glb', '--seed', '-1'], '--seed must be'],
     [['render', 'm.glb', '--exposure', 'NaN'], '--exposure must be'],
+    [['render', 'm.glb', '--exposure', 'f/8'], 'f/8,1/125,iso200'],
+    [['render', 'm.glb', '--exposure', 'f/8,1/0'], 'f/8,1/125,iso200'],
+    [['render', 'm.glb', '--filter', 'mitchell'], 'Known: box, gaussian, blackman-harris'],
+    [['render', 'm.glb', '--filter', 'box:0'], 'above 0 up to 16'],
     [['render', 'm.glb', '--tonemap', 'film'], 'Known: neutral, aces, agx, reinhard, linear'],
     [['render', 'm.glb', '-o', 'out.jpg'], 'must end in .png, .exr or .hdr'],
     [['render', 'm.glb', '-o', 'out'], 'must end in'],

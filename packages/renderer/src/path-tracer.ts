@@ -8,15 +8,18 @@ import { GpuMemory } from './gpu/buffers';
 import { withErrorScopes } from './gpu/error-scopes';
 import { GpuScene } from './gpu/gpu-scene';
 import { KernelCache } from './gpu/kernel-cache';
+import type { KernelFeatures } from './kernels/pipelines';
 import { readBuffer } from './gpu/read-buffer';
 import { Integrator, pathCapacity } from './integrator';
 import type { FilmLayer, PathTracerOptions, PickResult, RenderOptions, RenderProgress, RenderStatistics } from './options';
 import { pickPixel } from './pick';
 import { renderLoop } from './render-loop';
+import { cameraUniforms } from './scene/camera';
 import { chooseCamera } from './scene/choose-camera';
 import { prepareGeometry, type Geometry } from './scene/geometry';
 import { findMaterial } from './scene/materials';
 import { Scheduler, type Batch } from './scheduler';
+import { viewFlags } from './view';
 
 /** What {@link PathTracer.create} has put together. */
 interface Prepared {
@@ -53,8 +56,11 @@ export class PathTracer {
   readonly #options: PathTracerOptions;
   #film: Film;
   #camera: Camera;
+  /** What the kernels in use can show; the camera above, but for the time that its kernels take. */
+  #shownCamera: Camera;
   #scheduler: Scheduler | undefined;
   #generation = 0;
+  #edits = 0;
   #rendering = false;
   #destroyed = false;
   #failure: DeviceError | undefined;
@@ -71,7 +77,7 @@ export class PathTracer {
     this.#cache = prepared.cache;
     this.#integrator = prepared.integrator;
     this.#film = prepared.film;
-    this.#camera = prepared.camera;
+    this.#camera = this.#shownCamera = prepared.camera;
     this.#options = prepared.options;
     this.#statistics = prepared.statistics;
     void this.#device.lost.then((info) => {
@@ -105,10 +111,10 @@ export class PathTracer {
       const t2 = performance.now();
       onProgress?.({ stage: 'upload', done: 1 });
       const cache = new KernelCache(device);
-      const kernels = await cache.get(gpuScene.features(), (done) => onProgress?.({ stage: 'compile', done }));
+      const camera = chooseCamera(own, options.camera, options.width / options.height);
+      const kernels = await cache.get(kernelFeatures(gpuScene, camera, options), (done) => onProgress?.({ stage: 'compile', done }));
       signal?.throwIfAborted();
       const t3 = performance.now();
-      const camera = chooseCamera(own, options.camera, options.width / options.height);
       const tracer = await withErrorScopes(device, () => {
         const film = new Film(memory, options.width, options.height);
         const integrator = new Integrator(device, memory, gpuScene, kernels, film, pathCapacity(device, options), options.maxDepth ?? 8);
@@ -228,6 +234,8 @@ export class PathTracer {
     this.#generation++;
     this.#features = undefined;
     this.#frameDirty = true;
+    const { flags } = this.#integrator.kernels.features;
+    if (Object.entries(viewFlags(this.#camera, this.#options.filter)).every(([name, value]) => flags[name] === value)) this.#shownCamera = this.#camera;
     // Keeps what was learned about the GPU's speed.
     this.#scheduler = this.#scheduler?.restarted();
     const encoder = this.#device.createCommandEncoder({ label: 'glanz reset' });
@@ -235,10 +243,19 @@ export class PathTracer {
     this.#device.queue.submit([encoder.finish()]);
   }
 
-  /** Looks through another camera: one of the scene's by index or name, or any. Restarts the film. */
-  setCamera(camera: Camera | number | string): void {
-    this.#camera = chooseCamera(this.#scene, camera, this.#film.width / this.#film.height);
-    this.reset();
+  /**
+   * Looks through another camera: one of the scene's by index or name, or any. Restarts the film. A camera of another kind
+   * (projection, with or without a lens) brings another small kernel; the old view stays until it is there.
+   *
+   * @returns When the picture shows it.
+   * @throws {RenderError} `renderer/camera` if there is no such camera, or it is degenerate.
+   */
+  setCamera(camera: Camera | number | string): Promise<void> {
+    this.#check();
+    const chosen = chooseCamera(this.#scene, camera, this.#film.width / this.#film.height);
+    cameraUniforms(chosen, this.#film.width, this.#film.height);
+    this.#camera = chosen;
+    return this.#applyFeatures();
   }
 
   /**
@@ -295,11 +312,11 @@ export class PathTracer {
   }
 
   async #applyFeatures(): Promise<void> {
+    const edit = ++this.#edits;
     this.reset();
-    const generation = this.#generation;
-    const kernels = await this.#cache.get(this.#gpuScene.features());
+    const kernels = await this.#cache.get(kernelFeatures(this.#gpuScene, this.#camera, this.#options));
     // A later edit has asked for other kernels meanwhile, and will restart the film itself.
-    if (this.#destroyed || kernels === this.#integrator.kernels || generation !== this.#generation) return;
+    if (this.#destroyed || kernels === this.#integrator.kernels || edit !== this.#edits) return;
     this.#integrator.use(kernels);
     this.reset();
   }
@@ -316,7 +333,7 @@ export class PathTracer {
 
   #writeFrame(): void {
     if (!this.#frameDirty) return;
-    this.#integrator.writeFrame(packFrame(this.#camera, this.#film, this.#gpuScene, this.#geometry, this.#options));
+    this.#integrator.writeFrame(packFrame(this.#shownCamera, this.#film, this.#gpuScene, this.#geometry, this.#options));
     this.#frameDirty = false;
   }
 
@@ -338,6 +355,11 @@ export class PathTracer {
     this.#writeFrame();
     await renderFeatures(this.#device, this.#integrator, kernel, this.#film, samples);
   }
+}
+
+function kernelFeatures(scene: GpuScene, camera: Camera, options: PathTracerOptions): KernelFeatures {
+  const features = scene.features();
+  return { ...features, flags: { ...features.flags, ...viewFlags(camera, options.filter) } };
 }
 
 function checkSize(width: number, height: number): void {

@@ -14,9 +14,11 @@ export function pickPixel(scene: Scene, geometry: Geometry, camera: Camera, widt
   const sx = ((2 * x) / width - 1) * view.half_extent[0];
   const sy = (1 - (2 * y) / height) * view.half_extent[1];
   const along = (k: number, a: number, b: number, c: number) => a * (view.camera_right[k] as number) + b * (view.camera_up[k] as number) + c * (view.camera_forward[k] as number);
-  const orthographic = view.camera_kind === 1;
-  const origin = [0, 1, 2].map((k) => (view.camera_origin[k] as number) + (orthographic ? along(k, sx, sy, 0) : 0));
-  const toward = [0, 1, 2].map((k) => (orthographic ? (view.camera_forward[k] as number) : along(k, sx, sy, 1)));
+  const toward = [0, 1, 2].map((k) => {
+    if (camera.type === 'panorama') return along(k, Math.sin(sx) * Math.cos(sy), Math.sin(sy), Math.cos(sx) * Math.cos(sy));
+    return camera.type === 'orthographic' ? (view.camera_forward[k] as number) : along(k, sx, sy, 1);
+  });
+  const origin = [0, 1, 2].map((k) => (view.camera_origin[k] as number) + (camera.type === 'orthographic' ? along(k, sx, sy, 0) : 0));
   const length = Math.hypot(...toward);
   const direction = toward.map((d) => d / length);
 
@@ -35,5 +37,6 @@ export function pickPixel(scene: Scene, geometry: Geometry, camera: Camera, widt
   }) as [number, number, number];
   const position: [number, number, number] = [0, 0, 0];
   transformPoint(instance.transform, ...local, position);
-  return { instance: index, material: instance.material, position, distance: hit.t };
+  const depth = position.reduce((sum, p, k) => sum + (p - (view.camera_origin[k] as number)) * (view.camera_forward[k] as number), 0);
+  return { instance: index, material: instance.material, position, distance: hit.t, depth };
 }

@@ -1,4 +1,4 @@
-/** A perspective camera with an optional thin lens. Looks along its local −Z, +Y up. */
+/** A perspective camera with an optional thin lens. */
 export interface PerspectiveCamera {
   type: 'perspective';
   name: string;
@@ -10,6 +10,10 @@ export interface PerspectiveCamera {
   aspect?: number;
   /** Radius of the thin lens, metres; default 0, a pinhole. */
   lens_radius?: number;
+  /** Sides of the aperture, a regular polygon with its corners on the lens's edge; below 3 (default 0) it is round. */
+  lens_blades?: number;
+  /** Turns the aperture's polygon, radians, counter-clockwise as the camera sees it; at 0 a corner points to the right. */
+  lens_rotation?: number;
   /** Distance of the plane in focus along the axis, metres; default 1. Only matters with a lens. */
   focus_distance?: number;
 }
@@ -25,5 +29,16 @@ export interface OrthographicCamera {
   ymag: number;
 }
 
-/** What a scene is looked at through. Both look along their local −Z, +Y up. */
-export type Camera = PerspectiveCamera | OrthographicCamera;
+/**
+ * The whole sphere around a point as a latitude-longitude picture, which wants to be twice as wide as high: −Z in the
+ * middle, +Y at the top, azimuth growing to the right. Turned so that its −Z lies along the world's +X, it gives pictures
+ * that serve as a `LatLongEnvironment` without rotation.
+ */
+export interface PanoramaCamera {
+  type: 'panorama';
+  name: string;
+  transform: ArrayLike<number>;
+}
+
+/** What a scene is looked at through. All look along their local −Z, +Y up. */
+export type Camera = PerspectiveCamera | OrthographicCamera | PanoramaCamera;

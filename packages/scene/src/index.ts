@@ -4,7 +4,7 @@ export type { Mesh } from './mesh';
 export type { Material, TextureBinding, TextureChannels, TexturedParameter } from './material';
 export type { Image, Texture, WrapMode } from './texture';
 export type { DirectionalLight, Light, PointLight, SpotLight } from './light';
-export type { Camera, OrthographicCamera, PerspectiveCamera } from './camera';
+export type { Camera, OrthographicCamera, PanoramaCamera, PerspectiveCamera } from './camera';
 export type { ConstantEnvironment, Environment, LatLongEnvironment } from './environment';
 export { sceneBounds, type SceneBounds } from './bounds';
 export { defaultMaterial } from './default-material';

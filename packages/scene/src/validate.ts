@@ -105,8 +105,8 @@ function checkCamera(camera: Camera, index: number): void {
   if (!(Math.abs(spread(camera.transform)) > 1e-6)) fail('value', `${what}: transform cannot be inverted: its axes have no length or lie in one plane.`);
   if (camera.type === 'perspective') {
     if (!(camera.yfov > 0 && camera.yfov < Math.PI)) fail('value', `${what}: yfov is ${camera.yfov}; it must lie between 0 and π.`);
-    finite([camera.lens_radius ?? 0, camera.focus_distance ?? 1], `${what}: lens`);
-  } else if (!(camera.xmag > 0 && camera.ymag > 0)) fail('value', `${what}: xmag and ymag are ${camera.xmag} and ${camera.ymag}; they must be positive.`);
+    finite([camera.lens_radius ?? 0, camera.focus_distance ?? 1, camera.lens_blades ?? 0, camera.lens_rotation ?? 0], `${what}: lens`);
+  } else if (camera.type === 'orthographic' && !(camera.xmag > 0 && camera.ymag > 0)) fail('value', `${what}: xmag and ymag are ${camera.xmag} and ${camera.ymag}; they must be positive.`);
 }
 
 function checkEnvironment(environment: Environment): void {

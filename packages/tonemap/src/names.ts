@@ -9,7 +9,7 @@ export type ToneMap = (typeof TONE_MAPS)[number];
 /** Linear Rec.709, three numbers. */
 export type Rgb = readonly [number, number, number];
 
-/** Thrown on wrong arguments. Codes: `tonemap/unknown`, `tonemap/size`, `tonemap/destroyed`. */
+/** Thrown on wrong arguments. Codes: `tonemap/unknown`, `tonemap/size`, `tonemap/exposure`, `tonemap/destroyed`. */
 export class ToneMapError extends GlanzError {}
 
 /** Whether `name` is one of {@link TONE_MAPS}. */

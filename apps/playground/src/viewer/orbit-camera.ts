@@ -12,6 +12,7 @@ const USUAL_ASPECT = 4 / 3;
 
 /** The camera as it fits a film of another shape than its author had in mind: nothing of the view is cut off. */
 export function fitCamera(camera: Camera, aspect: number): Camera {
+  if (camera.type === 'panorama') return camera;
   if (camera.type === 'orthographic') {
     const { xmag, ymag } = camera;
     return xmag / ymag > aspect ? { ...camera, ymag: xmag / aspect } : { ...camera, xmag: ymag * aspect };
@@ -58,7 +59,7 @@ export class OrbitCamera {
   /** Moves sideways and up, in heights of the picture at the target's distance. */
   pan(right: number, up: number): void {
     const { x, y } = this.#axes();
-    const height = this.#lens.type === 'perspective' ? 2 * this.#distance * Math.tan(this.#lens.yfov / 2) : (2 * this.#lens.ymag) / this.#zoom;
+    const height = this.#lens.type === 'orthographic' ? (2 * this.#lens.ymag) / this.#zoom : 2 * this.#distance * (this.#lens.type === 'perspective' ? Math.tan(this.#lens.yfov / 2) : 1);
     this.#target = add(add(this.#target, x, right * height), y, up * height);
   }
 
@@ -74,6 +75,7 @@ export class OrbitCamera {
     const eye = add(this.#target, z, this.#distance);
     const transform = [...x, 0, ...y, 0, ...z, 0, ...eye, 1];
     if (this.#lens.type === 'orthographic') return { ...this.#lens, transform, xmag: this.#lens.xmag / this.#zoom, ymag: this.#lens.ymag / this.#zoom };
+    if (this.#lens.type === 'panorama') return { ...this.#lens, transform };
     return { ...this.#lens, transform, focus_distance: this.#distance };
   }
 

@@ -112,6 +112,7 @@ export async function renderCommand(options: RenderCommandOptions, io: CliIo, ba
         maxDepth: options.depth,
         seed: options.seed,
         camera,
+        ...options.quality,
         background: options.transparent ? 'transparent' : 'environment',
         signal: abort.signal,
         onProgress: ({ stage, done }) => progress.stage(labels[stage], done),

@@ -1,4 +1,4 @@
-import { createKernel, KERNELS, type Kernel, type KernelFeatures, type KernelName } from '../kernels/pipelines';
+import { kernelSource, KERNELS, type Kernel, type KernelFeatures, type KernelName } from '../kernels/pipelines';
 
 /** The kernels that a scene's main loop needs, compiled for its features. */
 export interface KernelSet {
@@ -8,7 +8,7 @@ export interface KernelSet {
 
 const cachesOf = new WeakMap<GPUDevice, { readonly sets: Map<string, Promise<KernelSet>>; readonly kernels: Map<string, Promise<Kernel>> }>();
 
-/** Compiled kernels, shared by all tracers on one device and keyed by the features that decide their text. */
+/** Compiled kernels, shared by all tracers on one device and keyed by their text: what differs elsewhere costs nothing. */
 export class KernelCache {
   readonly #device: GPUDevice;
   readonly #sets: Map<string, Promise<KernelSet>>;
@@ -41,7 +41,8 @@ export class KernelCache {
 
   /** One kernel. */
   kernel(name: KernelName, features: KernelFeatures): Promise<Kernel> {
-    return remember(this.#kernels, `${name} ${JSON.stringify(features)}`, () => createKernel(this.#device, name, features));
+    const source = kernelSource(name, features);
+    return remember(this.#kernels, source.key, () => source.compile(this.#device));
   }
 }
 

@@ -1,5 +1,6 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { camera } from './camera.wgsl';
+import { filter } from './filter.wgsl';
 
 /**
  * First-hit features of one sample per pixel: albedo with coverage, shading normal with depth, and (for sample 0, through
@@ -25,7 +26,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     if (hit.instance != 0xffffffffu) { feature_ids[pixel] = vec4u(instances[hit.instance].id, instances[hit.instance].material, 0u, 0u); }
   }
   random_begin(pixel, batch.sample_offset, 0u, frame.seed);
-  let offset = random_2();
+  let offset = filter_offset(random_2());
   let ray = camera_ray(at, offset, random_2());
   //#if BVH_FILTER
   opacity_begin(id.x, 0u);
@@ -34,7 +35,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   var albedo = vec4f(0.0);
   var normal = vec4f(0.0);
   if (hit.instance != 0xffffffffu) {
-    let s = surface_load(vec4u(bitcast<u32>(hit.u), bitcast<u32>(hit.v), hit.triangle, hit.instance), ray.origin, ray.direction, 0.0);
+    let s = surface_load(vec4u(bitcast<u32>(hit.u), bitcast<u32>(hit.v), hit.triangle, hit.instance), ray.origin, ray.direction, frame.cone_width);
     let side = select(-1.0, 1.0, dot(s.geometric, ray.direction) <= 0.0);
     let n = side * s.normal;
     let cosine = clamp(-dot(n, ray.direction), 1e-3, 1.0);
@@ -50,6 +51,6 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   feature_normal[pixel] = normal;
 }
 `,
-    [surface, openpbr, energy, camera, traversal],
+    [surface, openpbr, energy, camera, filter, traversal],
   );
 }

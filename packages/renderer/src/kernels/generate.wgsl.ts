@@ -1,5 +1,6 @@
 import { wgslModule } from '@glanz/wgsl';
 import { camera } from './camera.wgsl';
+import { filter } from './filter.wgsl';
 
 /** Starts the paths of a batch: path i is sample ⌊i / pixels⌋ of pixel i mod pixels. */
 export const generate = wgslModule(
@@ -11,17 +12,17 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   if (index >= batch.pixel_count * batch.sample_count) { return; }
   let pixel = batch.pixel_offset + index % batch.pixel_count;
   random_begin(pixel, batch.sample_offset + index / batch.pixel_count, 0u, frame.seed);
-  let offset = random_2();
+  let offset = filter_offset(random_2());
   let ray = camera_ray(vec2u(pixel % frame.size.x, pixel / frame.size.x), offset, random_2());
   paths[index].origin = ray.origin;
   paths[index].pdf = 0.0;
   paths[index].direction = ray.direction;
-  paths[index].cone_width = 0.0;
+  paths[index].cone_width = frame.cone_width;
   paths[index].throughput = vec3f(1.0);
   paths[index].alpha = 1.0;
   paths[index].radiance = vec3f(0.0);
   queues.items[index] = index;
 }
 `,
-  [camera],
+  [camera, filter],
 );

@@ -5,7 +5,8 @@ import { struct } from '@glanz/wgsl';
 /** Everything the kernels need to know about the picture, the camera and the surroundings. One uniform buffer. */
 export const frameStruct = struct('Frame', {
   camera_origin: 'vec3f',
-  camera_kind: 'u32',
+  /** Sides of the aperture's polygon; below 3 it is round. */
+  lens_blades: 'u32',
   camera_right: 'vec3f',
   lens_radius: 'f32',
   camera_up: 'vec3f',
@@ -24,7 +25,12 @@ export const frameStruct = struct('Frame', {
   environment_cells: 'vec2u',
   lod_bias: 'f32',
   scene_scale: 'f32',
-  reserved: 'vec2u',
+  /** Radians. */
+  lens_rotation: 'f32',
+  /** Pixels. */
+  filter_radius: 'f32',
+  /** Width of a camera ray's footprint at its origin, metres. */
+  cone_width: 'f32',
 });
 
 /** The part of the picture and the samples that one batch works on. */

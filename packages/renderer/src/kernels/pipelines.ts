@@ -78,12 +78,15 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
   }
 }
 
-/**
- * Compiles one kernel for a scene's features.
- * @throws {ShaderError} with module and line if the text does not compile.
- * @throws {DeviceError} `renderer/gpu-error` if the pipeline is refused.
- */
-export async function createKernel(device: GPUDevice, name: KernelName, features: KernelFeatures): Promise<Kernel> {
+/** A kernel before it is compiled. Kernels of equal `key` are the same, whatever scenes they were composed for. */
+export interface KernelSource {
+  readonly key: string;
+  /** @throws {ShaderError} with module and line if the text does not compile, {DeviceError} `renderer/gpu-error` if the pipeline is refused. */
+  readonly compile: (device: GPUDevice) => Promise<Kernel>;
+}
+
+/** The text of one kernel for a scene's features. */
+export function kernelSource(name: KernelName, features: KernelFeatures): KernelSource {
   const text = kernelText(name, features);
   const sceneBindings: SceneBinding[] = text.textures
     ? [
@@ -93,16 +96,21 @@ export async function createKernel(device: GPUDevice, name: KernelName, features
     : [];
   const bindings = bindingModule(name, text.resources, sceneBindings, []);
   const shader = compose([bindings, text.root], { flags: features.flags });
-  const layout = bindGroupLayout(device, name, text.resources, sceneBindings);
-  const module = await createShaderModule(device, shader, `glanz ${name}`);
-  try {
-    const pipeline = await device.createComputePipelineAsync({
-      label: `glanz ${name}`,
-      layout: device.createPipelineLayout({ label: `glanz ${name}`, bindGroupLayouts: [layout] }),
-      compute: { module, entryPoint: 'main' },
-    });
-    return { pipeline, layout, resources: text.resources, sceneBindings };
-  } catch (cause) {
-    throw new DeviceError('renderer/gpu-error', `The GPU refused the kernel "${name}": ${(cause as Error).message}`, { cause });
-  }
+  return {
+    key: `${name}\n${shader.code}`,
+    async compile(device) {
+      const layout = bindGroupLayout(device, name, text.resources, sceneBindings);
+      const module = await createShaderModule(device, shader, `glanz ${name}`);
+      try {
+        const pipeline = await device.createComputePipelineAsync({
+          label: `glanz ${name}`,
+          layout: device.createPipelineLayout({ label: `glanz ${name}`, bindGroupLayouts: [layout] }),
+          compute: { module, entryPoint: 'main' },
+        });
+        return { pipeline, layout, resources: text.resources, sceneBindings };
+      } catch (cause) {
+        throw new DeviceError('renderer/gpu-error', `The GPU refused the kernel "${name}": ${(cause as Error).message}`, { cause });
+      }
+    },
+  };
 }

@@ -4,15 +4,17 @@ import { RenderError } from '../errors';
 /** The camera's part of the frame uniforms. */
 export interface CameraUniforms {
   readonly camera_origin: readonly number[];
-  readonly camera_kind: number;
   readonly camera_right: readonly number[];
   readonly camera_up: readonly number[];
   readonly camera_forward: readonly number[];
   readonly lens_radius: number;
   readonly focus_distance: number;
-  /** Half width and half height of the picture at distance 1 (perspective) or in metres (orthographic). */
+  readonly lens_blades: number;
+  readonly lens_rotation: number;
+  /** Half width and half height of the picture at distance 1 (perspective), in metres (orthographic), or in radians (panorama). */
   readonly half_extent: readonly [number, number];
-  /** Growth of a pixel's footprint per metre. */
+  /** Width of a pixel's footprint at the camera, metres, and its growth per metre. */
+  readonly cone_width: number;
   readonly cone_spread: number;
 }
 
@@ -42,19 +44,21 @@ export function cameraUniforms(camera: Camera, width: number, height: number): C
   const unitRight = right.map((x) => x / length);
   const up = cross(unitRight, forward);
   const camera_origin = [0, 1, 2].map((i) => camera.transform[12 + i] as number);
-  const base = { camera_origin, camera_right: unitRight, camera_up: up, camera_forward: forward };
+  const base = { camera_origin, camera_right: unitRight, camera_up: up, camera_forward: forward, lens_radius: 0, focus_distance: 1, lens_blades: 0, lens_rotation: 0, cone_width: 0 };
+  if (camera.type === 'panorama') return { ...base, half_extent: [Math.PI, Math.PI / 2], cone_spread: Math.PI / height };
   if (camera.type === 'orthographic') {
     if (!(camera.xmag > 0) || !(camera.ymag > 0)) throw new RenderError('renderer/camera', `Camera "${camera.name}" has a view of no size: xmag ${camera.xmag}, ymag ${camera.ymag}.`);
     // The film's shape decides the width, as for perspective.
-    return { ...base, camera_kind: 1, lens_radius: 0, focus_distance: 1, half_extent: [(camera.ymag * width) / height, camera.ymag], cone_spread: 0 };
+    return { ...base, half_extent: [(camera.ymag * width) / height, camera.ymag], cone_width: (2 * camera.ymag) / height, cone_spread: 0 };
   }
   if (!(camera.yfov > 0) || !(camera.yfov < Math.PI)) throw new RenderError('renderer/camera', `Camera "${camera.name}" has a vertical field of view of ${camera.yfov} rad; it must lie between 0 and π.`);
   const tangent = Math.tan(camera.yfov / 2);
   return {
     ...base,
-    camera_kind: 0,
     lens_radius: Math.max(camera.lens_radius ?? 0, 0),
     focus_distance: Math.max(camera.focus_distance ?? 1, 1e-6),
+    lens_blades: Math.floor(camera.lens_blades ?? 0),
+    lens_rotation: camera.lens_rotation ?? 0,
     half_extent: [(tangent * width) / height, tangent],
     cone_spread: (2 * tangent) / height,
   };

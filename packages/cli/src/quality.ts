@@ -1,0 +1,18 @@
+import type { PathTracerOptions } from '@glanz/renderer';
+import { CliError } from './errors';
+
+/** What the command line passes on to the tracer as it is. Empty: the tracer's defaults. */
+export type QualityOptions = Pick<PathTracerOptions, 'filter'>;
+
+const FILTERS = ['box', 'gaussian', 'blackman-harris'] as const;
+
+/** `--filter NAME` or `NAME:RADIUS`. @throws {CliError} `cli/usage` */
+export function parseFilter(text: string): NonNullable<PathTracerOptions['filter']> {
+  const [name, radius] = text.split(':') as [string, string?];
+  const type = FILTERS.find((known) => known === name);
+  if (!type) throw new CliError('cli/usage', `There is no pixel filter "${name}". Known: ${FILTERS.join(', ')}.`);
+  if (radius === undefined) return type;
+  const pixels = radius.trim() === '' ? NaN : Number(radius);
+  if (!(pixels > 0 && pixels <= 16)) throw new CliError('cli/usage', `--filter ${type}:RADIUS must be a number above 0 up to 16, in pixels, not "${radius}".`);
+  return { type, radius: pixels };
+}
