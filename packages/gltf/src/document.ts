@@ -4,6 +4,7 @@ import type { CheckedDocument } from './check/index';
 import { GltfError } from './error';
 import type { GltfMeshopt } from './json';
 import { Budget, type GltfLimits } from './limits';
+import { MATERIAL_EXTENSIONS } from './materials';
 import type { PrimitiveReader } from './primitive';
 import { decoded, type Source } from './source';
 
@@ -31,10 +32,7 @@ const KNOWN = new Set([
   'KHR_materials_variants',
   'KHR_xmp_json_ld',
   'EXT_texture_webp',
-  'KHR_materials_clearcoat',
-  'KHR_materials_emissive_strength',
-  'KHR_materials_ior',
-  'KHR_materials_specular',
+  ...MATERIAL_EXTENSIONS,
 ]);
 
 /** Extensions that may be required and do without: what they add is left out, with a warning. */

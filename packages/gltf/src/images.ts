@@ -1,4 +1,6 @@
+import type { GltfPictureConversion } from '@glanz/openpbr/gltf';
 import type { Image, SceneWarning, Texture, WrapMode } from '@glanz/scene';
+import { convertImage, type DerivedPicture } from './convert-image';
 import { readUri } from './document';
 import { GltfError } from './error';
 import type { GltfImage, GltfJson, GltfTexture } from './json';
@@ -35,13 +37,19 @@ function sourceOf(texture: GltfTexture | undefined): number | undefined {
 const WRAP: Readonly<Record<number, WrapMode>> = { 33071: 'clamp', 33648: 'mirror', 10497: 'repeat' };
 const NEAREST = 9728;
 
+/** A picture of the scene: one of the document's, or one made of some (none where the document has none). */
+type Picture = { readonly image: number } | { readonly sources: readonly (number | undefined)[]; readonly derived: DerivedPicture };
+
+const white = (): DecodedImage => ({ width: 1, height: 1, data: new Uint8Array([255, 255, 255, 255]) });
+
 /** The textures that materials have asked for, with their pictures read as they are needed. */
 export class TextureTable {
   readonly textures: Texture[] = [];
   /** Pictures (as the scene counts them) that could not be decoded. */
   readonly failed = new Set<number>();
   readonly #wanted = new Map<string, number>();
-  readonly #images = new Map<number, number>();
+  readonly #pictures: Picture[] = [];
+  readonly #places = new Map<string, number>();
   readonly #json: GltfJson;
   readonly #source: Source;
   readonly #warnings: SceneWarning[];
@@ -54,34 +62,65 @@ export class TextureTable {
 
   /** The scene's texture for one of the document's, read as `colorSpace`; undefined (with a warning) if there is none. */
   get(index: number, colorSpace: 'srgb' | 'linear', path: string): number | undefined {
-    const key = `${index} ${colorSpace}`;
+    return this.#once(`${index} ${colorSpace}`, () => {
+      const image = this.#imageOf(index, path);
+      return image === undefined ? undefined : this.#add(index, colorSpace, this.#place(String(image), { image }));
+    });
+  }
+
+  /** A texture whose picture is made of the document's; it is read as the first of them is. Undefined (with a warning) if there is none. */
+  derive({ key, sources, convert }: GltfPictureConversion, colorSpace: 'srgb' | 'linear', path: string): number | undefined {
+    const [first] = sources;
+    if (!first) return undefined;
+    return this.#once(`${first.index} ${colorSpace} ${key} ${sources.map(({ index }) => index)}`, () => {
+      const images = sources.map(({ index }) => this.#imageOf(index, path));
+      if (images.every((image) => image === undefined)) return undefined;
+      return this.#add(first.index, colorSpace, this.#place(`${colorSpace} ${key} ${images}`, { sources: images, derived: { colorSpace, convert } }));
+    });
+  }
+
+  #once(key: string, make: () => number | undefined): number | undefined {
     const known = this.#wanted.get(key);
     if (known !== undefined) return known;
+    const made = make();
+    if (made !== undefined) this.#wanted.set(key, made);
+    return made;
+  }
+
+  #imageOf(index: number, path: string): number | undefined {
     const texture = this.#json.textures?.[index];
     const image = sourceOf(texture);
-    if (!texture || image === undefined || !this.#json.images?.[image]) {
-      const why = texture ? (image === undefined ? 'has no picture in a format that is read' : `names image ${image}, which does not exist`) : 'does not exist';
-      this.#warnings.push({ code: 'gltf/texture', message: `${this.#source.name}: texture ${index} ${why}; it is left out.`, path });
-      return undefined;
-    }
-    const sampler = texture.sampler === undefined ? undefined : this.#json.samplers?.[texture.sampler];
-    if (!this.#images.has(image)) this.#images.set(image, this.#images.size);
+    if (texture && image !== undefined && this.#json.images?.[image]) return image;
+    const why = texture ? (image === undefined ? 'has no picture in a format that is read' : `names image ${image}, which does not exist`) : 'does not exist';
+    this.#warnings.push({ code: 'gltf/texture', message: `${this.#source.name}: texture ${index} ${why}; it is left out.`, path });
+    return undefined;
+  }
+
+  #place(key: string, picture: Picture): number {
+    const known = this.#places.get(key);
+    if (known !== undefined) return known;
+    const at = this.#pictures.push(picture) - 1;
+    this.#places.set(key, at);
+    return at;
+  }
+
+  #add(index: number, colorSpace: 'srgb' | 'linear', image: number): number {
+    const texture = this.#json.textures?.[index];
+    const sampler = texture?.sampler === undefined ? undefined : this.#json.samplers?.[texture.sampler];
     const made: Texture = {
-      image: this.#images.get(image) as number,
+      image,
       color_space: colorSpace,
       wrap_u: WRAP[sampler?.wrapS ?? 10497] ?? 'repeat',
       wrap_v: WRAP[sampler?.wrapT ?? 10497] ?? 'repeat',
       filter: sampler?.magFilter === NEAREST ? 'nearest' : 'linear',
     };
-    if (texture.name !== undefined) made.name = texture.name;
-    const at = this.textures.push(made) - 1;
-    this.#wanted.set(key, at);
-    return at;
+    if (texture?.name !== undefined) made.name = texture.name;
+    return this.textures.push(made) - 1;
   }
 
   /** How many pictures have been asked for. */
   get imageCount(): number {
-    return this.#images.size;
+    return this.#pictures.length;
   }
 
   /**
@@ -91,19 +130,37 @@ export class TextureTable {
    */
   async readImages(decode: ImageDecoder, viewBytes: (index: number) => Uint8Array<ArrayBuffer>, signal: AbortSignal | undefined, onImage: () => void): Promise<Image[]> {
     const images: Image[] = [];
-    // One after the other, since decoded pictures are large and decoders have threads of their own.
-    for (const [index] of this.#images) {
-      signal?.throwIfAborted();
+    const known = new Map<number, DecodedImage | undefined>();
+    const nameOf = (index: number) => {
       const image = this.#json.images?.[index] as GltfImage;
-      const name = image.name ?? image.uri?.slice(0, 80) ?? `image ${index}`;
+      return image.name ?? image.uri?.slice(0, 80) ?? `image ${index}`;
+    };
+    const read = async (index: number): Promise<DecodedImage | undefined> => {
+      if (known.has(index)) return known.get(index);
+      const image = this.#json.images?.[index] as GltfImage;
       const bytes = image.uri === undefined ? viewBytes(image.bufferView ?? -1) : await readUri(image.uri, this.#source, signal);
+      let decoded: DecodedImage | undefined;
       try {
-        images.push({ name, ...(await decode(bytes, formatOf(bytes))) });
+        decoded = await decode(bytes, formatOf(bytes));
       } catch (error) {
         if (error instanceof GltfError) throw error;
-        this.#warnings.push({ code: 'gltf/image', message: `${this.#source.name}: image ${index} ("${name}") cannot be decoded and is left out: ${error instanceof Error ? error.message.split('\n')[0] : String(error)}.`, path: `/images/${index}` });
-        this.failed.add(images.length);
-        images.push({ name, width: 1, height: 1, data: new Uint8Array([255, 255, 255, 255]) });
+        this.#warnings.push({ code: 'gltf/image', message: `${this.#source.name}: image ${index} ("${nameOf(index)}") cannot be decoded and is left out: ${error instanceof Error ? error.message.split('\n')[0] : String(error)}.`, path: `/images/${index}` });
+      }
+      known.set(index, decoded);
+      return decoded;
+    };
+    // One after the other, since decoded pictures are large and decoders have threads of their own.
+    for (const picture of this.#pictures) {
+      signal?.throwIfAborted();
+      if ('image' in picture) {
+        const decoded = await read(picture.image);
+        if (!decoded) this.failed.add(images.length);
+        images.push({ name: nameOf(picture.image), ...(decoded ?? white()) });
+      } else {
+        const sources: DecodedImage[] = [];
+        for (const index of picture.sources) sources.push((index === undefined ? undefined : await read(index)) ?? white());
+        const name = picture.sources.flatMap((index) => (index === undefined ? [] : [nameOf(index)])).join(' + ');
+        images.push({ name, ...(await convertImage(sources, picture.derived, signal)) });
       }
       onImage();
     }

@@ -1,7 +1,24 @@
-import { fromGltf } from '@glanz/openpbr/gltf';
-import type { Material, SceneWarning, TextureBinding, TextureChannels, TexturedParameter } from '@glanz/scene';
+import { fromGltf, gltfTextures, type GltfMaterialFactors, type GltfTextureUse } from '@glanz/openpbr/gltf';
+import type { Material, SceneWarning, TextureBinding, TexturedParameter } from '@glanz/scene';
 import type { GltfMaterial, GltfTextureInfo } from './json';
 import type { TextureTable } from './images';
+
+/** The material extensions that are read. */
+export const MATERIAL_EXTENSIONS = [
+  'KHR_materials_anisotropy',
+  'KHR_materials_clearcoat',
+  'KHR_materials_diffuse_transmission',
+  'KHR_materials_dispersion',
+  'KHR_materials_emissive_strength',
+  'KHR_materials_ior',
+  'KHR_materials_iridescence',
+  'KHR_materials_pbrSpecularGlossiness',
+  'KHR_materials_sheen',
+  'KHR_materials_specular',
+  'KHR_materials_transmission',
+  'KHR_materials_unlit',
+  'KHR_materials_volume',
+] as const;
 
 /**
  * KHR_texture_transform as an affine map: scaled, then turned counter-clockwise as seen in the picture (v runs down), then
@@ -16,43 +33,31 @@ export function uvTransform(info: GltfTextureInfo): TextureBinding['transform'] 
   return [c * sx, -s * sx, s * sy, c * sy, x, y];
 }
 
-/** Makes a scene's material of one of the document's. */
+/** Makes a scene's material of one of the document's, as `@glanz/openpbr/gltf` maps it. */
 export function readMaterial(material: GltfMaterial, index: number, table: TextureTable, warnings: SceneWarning[]): Material {
-  const parameters = fromGltf(material);
+  const factors = material as GltfMaterialFactors;
+  const parameters: Record<string, unknown> = { ...fromGltf(factors) };
   const textures: NonNullable<Material['textures']> = {};
-  const bind = (parameter: TexturedParameter, info: GltfTextureInfo | undefined, channels: TextureChannels, colorSpace: 'srgb' | 'linear', field: string) => {
-    if (!info) return;
-    const texture = table.get(info.index, colorSpace, `/materials/${index}/${field}`);
+  const leaveOut = (path: string, why: string) => warnings.push({ code: 'gltf/texture', message: `Material ${index} ("${material.name ?? ''}"): ${path} ${why}.`, path: `/materials/${index}/${path}` });
+  const bind = ({ parameter, texture: reference, path, channels, colorSpace, range, value, picture }: GltfTextureUse) => {
+    const info = reference as GltfTextureInfo;
+    const set = info.extensions?.KHR_texture_transform?.texCoord ?? info.texCoord ?? 0;
+    if (set !== 0 && set !== 1) return void leaveOut(path, `reads a texture by TEXCOORD_${set}; only sets 0 and 1 are read, so it is left out`);
+    const where = `/materials/${index}/${path}`;
+    const texture = picture ? table.derive(picture, colorSpace, where) : table.get(info.index, colorSpace, where);
     if (texture === undefined) return;
     const binding: TextureBinding = { texture, channels };
-    const set = info.extensions?.KHR_texture_transform?.texCoord ?? info.texCoord ?? 0;
-    if (set !== 0 && set !== 1) {
-      warnings.push({ code: 'gltf/texture', message: `Material ${index} ("${material.name ?? ''}") reads a texture by TEXCOORD_${set}; only sets 0 and 1 are read, so it is left out.`, path: `/materials/${index}/${field}` });
-      return;
-    }
     if (set !== 0) binding.uv = set;
     const transform = uvTransform(info);
     if (transform) binding.transform = transform;
-    if (parameter === 'geometry_normal' && info.scale !== undefined) binding.scale = info.scale;
-    textures[parameter] = binding;
+    if ((parameter === 'geometry_normal' || parameter === 'geometry_coat_normal') && info.scale !== undefined) binding.scale = info.scale;
+    if (range) binding.range = range;
+    textures[parameter as TexturedParameter] = binding;
+    if (value !== undefined) parameters[parameter] = value;
   };
-  const pbr = material.pbrMetallicRoughness ?? {};
-  const specular = material.extensions?.KHR_materials_specular;
-  const clearcoat = material.extensions?.KHR_materials_clearcoat;
-  bind('base_color', pbr.baseColorTexture, 'rgb', 'srgb', 'pbrMetallicRoughness/baseColorTexture');
-  if (parameters.geometry_opacity !== undefined) bind('geometry_opacity', pbr.baseColorTexture, 'a', 'srgb', 'pbrMetallicRoughness/baseColorTexture');
-  bind('base_metalness', pbr.metallicRoughnessTexture, 'b', 'linear', 'pbrMetallicRoughness/metallicRoughnessTexture');
-  bind('specular_roughness', pbr.metallicRoughnessTexture, 'g', 'linear', 'pbrMetallicRoughness/metallicRoughnessTexture');
-  bind('geometry_normal', material.normalTexture, 'rgb', 'linear', 'normalTexture');
-  if (parameters.emission_color) bind('emission_color', material.emissiveTexture, 'rgb', 'srgb', 'emissiveTexture');
-  bind('specular_weight', specular?.specularTexture, 'a', 'linear', 'extensions/KHR_materials_specular/specularTexture');
-  bind('specular_color', specular?.specularColorTexture, 'rgb', 'srgb', 'extensions/KHR_materials_specular/specularColorTexture');
-  bind('coat_weight', clearcoat?.clearcoatTexture, 'r', 'linear', 'extensions/KHR_materials_clearcoat/clearcoatTexture');
-  bind('coat_roughness', clearcoat?.clearcoatRoughnessTexture, 'g', 'linear', 'extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture');
-  const coatNormal = clearcoat?.clearcoatNormalTexture;
-  if (coatNormal && coatNormal.index !== material.normalTexture?.index) {
-    warnings.push({ code: 'gltf/ignored-extension', message: `Material ${index} ("${material.name ?? ''}") has a normal map for its clearcoat, which is not read: the coat follows the normal of the base.`, path: `/materials/${index}/extensions/KHR_materials_clearcoat/clearcoatNormalTexture` });
-  }
+  const { uses, lost } = gltfTextures(factors);
+  for (const use of uses) bind(use);
+  for (const { path, reason } of lost) leaveOut(path, reason);
 
   const made: Material = { name: material.name ?? `material ${index}`, parameters };
   if (Object.keys(textures).length > 0) made.textures = textures;

@@ -42,6 +42,18 @@ describe.skipIf(!present)(`real models${note}`, () => {
     }
   });
 
+  test('no material extension is left out', async () => {
+    const ignored = new Set<string>();
+    for (const { main, ext } of assets) {
+      if (!ext.some((name) => name.startsWith('KHR_materials_'))) continue;
+      const { warnings } = await loadGltfFile(sharedPath(`assets/${main}`));
+      for (const { message } of warnings) for (const [name] of message.matchAll(/KHR_materials_\w+/g)) ignored.add(name);
+    }
+    // Variants are alternatives among materials, not a material.
+    ignored.delete('KHR_materials_variants');
+    expect([...ignored]).toEqual([]);
+  }, 60_000);
+
   test('a mesh in many places is held once', async () => {
     const scene = await load('InstanceTest');
     expect(scene.instances.length / scene.meshes.length).toBeGreaterThan(1000);

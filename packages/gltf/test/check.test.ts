@@ -74,7 +74,7 @@ describe('extensions that the document requires', () => {
   });
 
   test('one that only adds to a material is left out with a warning', async () => {
-    const { warnings, instances } = await loadGltf(requiring('KHR_materials_sheen'));
+    const { warnings, instances } = await loadGltf(requiring('KHR_materials_coat'));
     expect([instances.length, warnings.map(({ code }) => code)]).toEqual([1, ['gltf/ignored-extension']]);
   });
 });

@@ -97,17 +97,82 @@ describe('textures', () => {
     expect([image.width, image.height, ...image.data]).toEqual([2, 1, 255, 128, 0, 64, 0, 0, 0, 255]);
   });
 
-  test('of a clearcoat: its weight from red, its roughness from green; its normal map is left out with a warning', async () => {
-    const pixel = await png(200, 100, 0, 255);
-    const uri = `data:image/png;base64,${Buffer.from(pixel).toString('base64')}`;
-    const scene = await withMaterial(
-      { name: 'car', extensions: { KHR_materials_clearcoat: { clearcoatFactor: 0.8, clearcoatTexture: { index: 0 }, clearcoatRoughnessFactor: 3, clearcoatRoughnessTexture: { index: 0 }, clearcoatNormalTexture: { index: 0 } } } },
-      (json) => { json['images'] = [{ uri }]; json['textures'] = [{ source: 0 }]; json['extensionsUsed'] = ['KHR_materials_clearcoat']; },
-    );
-    const { parameters, textures = {} } = only(scene);
-    expect(parameters).toMatchObject({ coat_weight: 0.8, coat_roughness: 1, coat_ior: 1.5, coat_darkening: 0 });
-    expect(Object.entries(textures).map(([parameter, { texture, channels }]) => [parameter, channels, scene.textures[texture]!.color_space])).toEqual([['coat_weight', 'r', 'linear'], ['coat_roughness', 'g', 'linear']]);
-    expect(scene.warnings.map(({ path }) => path)).toEqual(['clearcoatRoughnessFactor', 'clearcoatNormalTexture'].map((field) => `/materials/0/extensions/KHR_materials_clearcoat/${field}`));
+  /** A material whose textures 0, 1, … are pictures of the given pixels; all extensions count as used. */
+  const withPictures = async (material: { extensions: object }, ...pictures: number[][]) => {
+    const uris = await Promise.all(pictures.map(async (pixels) => `data:image/png;base64,${Buffer.from(await png(...pixels)).toString('base64')}`));
+    return withMaterial(material, (json) => { json['images'] = uris.map((uri) => ({ uri })); json['textures'] = uris.map((_, source) => ({ source })); json['extensionsUsed'] = Object.keys(material.extensions); });
+  };
+  const bound = (scene: Scene) => Object.fromEntries(Object.entries(only(scene).textures ?? {}).map(([parameter, { texture, channels }]) => {
+    const { image, color_space } = scene.textures[texture]!;
+    return [parameter, { channels, color_space, data: Array.from(scene.images[image]!.data) }];
+  }));
+
+  test('of a clearcoat: its weight from red, its roughness from green, its own normal', async () => {
+    const texture = { index: 0 };
+    const scene = await withPictures({ extensions: { KHR_materials_clearcoat: { clearcoatFactor: 0.8, clearcoatTexture: texture, clearcoatRoughnessFactor: 3, clearcoatRoughnessTexture: texture, clearcoatNormalTexture: { index: 0, scale: 0.5 } } } }, [200, 100, 0, 255]);
+    expect(only(scene).parameters).toMatchObject({ coat_weight: 0.8, coat_roughness: 1, coat_ior: 1.5, coat_darkening: 0 });
+    expect(Object.entries(bound(scene)).map(([parameter, { channels, color_space }]) => [parameter, channels, color_space])).toEqual([['coat_weight', 'r', 'linear'], ['coat_roughness', 'g', 'linear'], ['geometry_coat_normal', 'rgb', 'linear']]);
+    expect(only(scene).textures!.geometry_coat_normal!.scale).toBe(0.5);
+    expect(scene.warnings.map(({ path }) => path)).toEqual(['/materials/0/extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor']);
+  });
+
+  test('of a film: its thickness between two ends', async () => {
+    const scene = await withPictures({ extensions: { KHR_materials_iridescence: { iridescenceFactor: 1, iridescenceThicknessMinimum: 100, iridescenceThicknessMaximum: 500, iridescenceThicknessTexture: { index: 0 } } } }, [0, 100, 0, 255]);
+    expect(only(scene).parameters.thin_film_thickness).toBe(0.5);
+    expect(only(scene).textures!.thin_film_thickness).toMatchObject({ channels: 'g', range: [0.2, 1] });
+    expect(scene.warnings).toEqual([]);
+  });
+
+  const toLinear = (code: number) => (code / 255 <= 0.04045 ? code / 255 / 12.92 : ((code / 255 + 0.055) / 1.055) ** 2.4);
+
+  test('of sheen: one picture, split into coverage and colour', async () => {
+    const pixels = [255, 128, 64, 255, 10, 200, 10, 128, 0, 0, 0, 255];
+    const scene = await withPictures({ extensions: { KHR_materials_sheen: { sheenColorFactor: [0.5, 0.8, 1], sheenRoughnessFactor: 0.5, sheenColorTexture: { index: 0 }, sheenRoughnessTexture: { index: 0 } } } }, pixels);
+    const { fuzz_color: color, fuzz_weight: weight, fuzz_roughness: roughness } = bound(scene);
+    expect([weight!.channels, color!.data]).toEqual(['a', weight!.data]);
+    for (let texel = 0; texel < 3; texel++) {
+      for (let k = 0; k < 3; k++) {
+        const product = toLinear(color!.data[4 * texel + k]!) * (weight!.data[4 * texel + 3]! / 255);
+        // A coverage of 8 bits.
+        expect(Math.abs(product - [0.5, 0.8, 1][k]! * toLinear(pixels[4 * texel + k]!))).toBeLessThan(0.004);
+      }
+      const r = 0.5 * (pixels[4 * texel + 3]! / 255);
+      expect(roughness!.data[4 * texel]).toBe(Math.round(255 * (0.164 + 0.906 * r - 0.281 * r * r)));
+    }
+    expect(only(scene).parameters).toMatchObject({ fuzz_color: [1, 1, 1], fuzz_weight: 1, fuzz_roughness: 1 });
+    // The file's own picture is in no use any more.
+    expect([scene.images.length, scene.warnings]).toEqual([2, []]);
+  });
+
+  test('of anisotropy: two pictures of two sizes become one; the direction is read as it is', async () => {
+    const rough = [0, 255, 0, 255, 0, 51, 0, 255], stretch = [255, 128, 102, 255];
+    const scene = await withPictures({ pbrMetallicRoughness: { metallicRoughnessTexture: { index: 0 } }, extensions: { KHR_materials_anisotropy: { anisotropyStrength: 1, anisotropyRotation: 0.3, anisotropyTexture: { index: 1 } } } } as { extensions: object }, rough, stretch);
+    const { specular_roughness: r, specular_roughness_anisotropy: a, geometry_tangent: tangent, base_metalness: metalness } = bound(scene);
+    expect([r!.channels, a!.channels, tangent!.data, metalness!.data, r!.data]).toEqual(['g', 'b', stretch, rough, a!.data]);
+    [1, 0.2].forEach((roughness, texel) => {
+      // glTF's slopes along and across.
+      const across = roughness ** 2, along = across + (1 - across) * 0.4 ** 2;
+      expect(Math.abs(r!.data[4 * texel + 1]! - 255 * ((along ** 2 + across ** 2) / 2) ** 0.25)).toBeLessThanOrEqual(0.51);
+      expect(Math.abs(a!.data[4 * texel + 2]! - 255 * (1 - across / along))).toBeLessThanOrEqual(0.51);
+    });
+    expect(only(scene).parameters.geometry_tangent!.map((c) => +c.toFixed(6))).toEqual([+Math.cos(0.3).toFixed(6), +Math.sin(0.3).toFixed(6), 0]);
+    expect(scene.warnings).toEqual([]);
+  });
+
+  test('a broken picture below a formula counts as white', async () => {
+    const scene = await withMaterial({ extensions: { KHR_materials_sheen: { sheenColorFactor: [0.25, 0.5, 0], sheenColorTexture: { index: 0 } } } }, (json) => { json['images'] = [{ uri: 'data:image/png;base64,iVBORw0KGgo=' }]; json['textures'] = [{ source: 0 }]; });
+    const { fuzz_color: color } = bound(scene);
+    expect(color!.data).toEqual([188, 255, 0, 128]);
+    expect(scene.warnings.map(({ code }) => code)).toEqual(['gltf/image']);
+  });
+
+  test('specular-glossiness', async () => {
+    const scene = await withPictures({ extensions: { KHR_materials_pbrSpecularGlossiness: { diffuseFactor: [1, 0.5, 1, 1], diffuseTexture: { index: 0 }, specularGlossinessTexture: { index: 1 }, glossinessFactor: 0.5 } } }, [255, 0, 0, 255], [60, 60, 60, 128]);
+    expect(Object.keys(bound(scene)).toSorted()).toEqual(['base_color', 'specular_color', 'specular_roughness', 'specular_weight']);
+    expect(only(scene).textures!.specular_roughness).toMatchObject({ channels: 'a', range: [1, 0.5] });
+    expect(bound(scene)['specular_weight']!.data.slice(0, 3)).toEqual([60, 60, 60]);
+    expect(bound(scene)['specular_color']!.data.slice(0, 3)).toEqual([255, 255, 255]);
+    expect(scene.warnings).toEqual([]);
   });
 
   test('KHR_texture_transform: scaled, turned, moved', async () => {
@@ -155,5 +220,22 @@ describe('textures', () => {
     const scene = await withMaterial(material, more);
     expect(only(scene).textures?.base_color).toBeUndefined();
     expect(scene.warnings[0]).toMatchObject({ code, path });
+  });
+});
+
+describe('extensions', () => {
+  test.each([
+    ['KHR_materials_anisotropy', { anisotropyStrength: 2 }, 'anisotropyStrength', { specular_roughness_anisotropy: 0 }],
+    ['KHR_materials_diffuse_transmission', { diffuseTransmissionFactor: -1 }, 'diffuseTransmissionFactor', {}],
+    ['KHR_materials_dispersion', { dispersion: 'much' }, 'dispersion', {}],
+    ['KHR_materials_iridescence', { iridescenceFactor: 1, iridescenceIor: 0 }, 'iridescenceIor', { thin_film_weight: 1, thin_film_ior: 1 }],
+    ['KHR_materials_pbrSpecularGlossiness', { specularFactor: [4, 0, 0] }, 'specularFactor', { specular_color: [1, 0, 0] }],
+    ['KHR_materials_sheen', { sheenColorFactor: [1, null, 0] }, 'sheenColorFactor', { fuzz_color: [1, 0, 0] }],
+    ['KHR_materials_transmission', { transmissionFactor: 7 }, 'transmissionFactor', { transmission_weight: 1 }],
+    ['KHR_materials_volume', { thicknessFactor: -3 }, 'thicknessFactor', {}],
+  ])('%s with a bad number is put right, with a warning that says where', async (name, extension, field, expected) => {
+    const scene = await withMaterial({ extensions: { [name]: extension } }, (json) => { json['extensionsUsed'] = [name]; });
+    expect(only(scene).parameters).toMatchObject(expected);
+    expect(scene.warnings.map(({ code, path }) => [code, path])).toEqual([['gltf/material', `/materials/0/extensions/${name}/${field}`]]);
   });
 });

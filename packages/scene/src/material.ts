@@ -17,12 +17,19 @@ export interface TextureBinding {
   transform?: readonly [number, number, number, number, number, number];
   /** For `geometry_normal` and `geometry_coat_normal`: scales the tangent-plane components before normalising; default 1. */
   scale?: number;
+  /**
+   * What the texel values 0 and 1 stand for, before they multiply the parameter; default `[0, 1]`. Not for normals and
+   * tangents.
+   */
+  range?: readonly [at0: number, at1: number];
 }
 
 /**
  * An OpenPBR surface. A parameter's value is `parameters[name] × texel` where a texture is bound (the texel decoded to
  * linear by the texture's colour space), and `parameters[name]` alone elsewhere. `geometry_normal` textures hold
- * tangent-space normals as 0..1; missing parameters have the spec's defaults.
+ * tangent-space normals as 0..1, `geometry_tangent` textures a direction in the tangent plane (red along the tangent, green
+ * along the bitangent) as 0..1, which the parameter's own direction then turns further. Missing parameters have the spec's
+ * defaults.
  */
 export interface Material {
   name: string;

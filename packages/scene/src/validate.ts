@@ -70,6 +70,10 @@ function checkMaterial(scene: Scene, material: Material, index: number): void {
       length(binding.transform, 6, `${what}: the transform of ${name}`);
       finite(binding.transform, `${what}: the transform of ${name}`);
     }
+    if (binding.range) {
+      length(binding.range, 2, `${what}: the range of ${name}`);
+      finite(binding.range, `${what}: the range of ${name}`);
+    }
   }
 }
 

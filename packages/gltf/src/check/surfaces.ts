@@ -1,3 +1,4 @@
+import type { MATERIAL_EXTENSIONS } from '../materials';
 import { isObject, own, quote, type CheckContext, type Raw } from './context';
 
 /** The largest number that single precision holds: shaders know no larger one. */
@@ -8,11 +9,21 @@ type Factor = readonly [key: string, size: number, initial: number, low: number,
 
 const CORE: readonly Factor[] = [['emissiveFactor', 3, 0, 0, LARGEST], ['alphaCutoff', 0, 0.5, 0, LARGEST]];
 const METALLIC_ROUGHNESS: readonly Factor[] = [['baseColorFactor', 4, 1, 0, 1], ['metallicFactor', 0, 1, 0, 1], ['roughnessFactor', 0, 1, 0, 1]];
-const EXTENSIONS: Readonly<Record<string, readonly Factor[]>> = {
+const EXTENSIONS: Readonly<Record<(typeof MATERIAL_EXTENSIONS)[number], readonly Factor[]>> = {
+  KHR_materials_anisotropy: [['anisotropyStrength', 0, 0, 0, 1], ['anisotropyRotation', 0, 0, -LARGEST, LARGEST]],
   KHR_materials_clearcoat: [['clearcoatFactor', 0, 0, 0, 1], ['clearcoatRoughnessFactor', 0, 0, 0, 1]],
+  KHR_materials_diffuse_transmission: [['diffuseTransmissionFactor', 0, 0, 0, 1], ['diffuseTransmissionColorFactor', 3, 1, 0, 1]],
+  KHR_materials_dispersion: [['dispersion', 0, 0, 0, 1000]],
   KHR_materials_emissive_strength: [['emissiveStrength', 0, 1, 0, LARGEST]],
   KHR_materials_ior: [['ior', 0, 1.5, 0, 1000]],
+  KHR_materials_iridescence: [['iridescenceFactor', 0, 0, 0, 1], ['iridescenceIor', 0, 1.3, 1, 1000], ['iridescenceThicknessMinimum', 0, 100, 0, 1e9], ['iridescenceThicknessMaximum', 0, 400, 0, 1e9]],
+  KHR_materials_pbrSpecularGlossiness: [['diffuseFactor', 4, 1, 0, 1], ['specularFactor', 3, 1, 0, 1], ['glossinessFactor', 0, 1, 0, 1]],
+  KHR_materials_sheen: [['sheenColorFactor', 3, 0, 0, 1], ['sheenRoughnessFactor', 0, 0, 0, 1]],
   KHR_materials_specular: [['specularFactor', 0, 1, 0, 1], ['specularColorFactor', 3, 1, 0, LARGEST]],
+  KHR_materials_transmission: [['transmissionFactor', 0, 0, 0, 1]],
+  KHR_materials_unlit: [],
+  // A distance of 0 would let no light through at all; exporters write it for "none", which is infinite.
+  KHR_materials_volume: [['thicknessFactor', 0, 0, 0, LARGEST], ['attenuationDistance', 0, Infinity, 0, Infinity], ['attenuationColor', 3, 1, 0, 1]],
 };
 const TRANSFORM: readonly Factor[] = [['offset', 2, 0, -LARGEST, LARGEST], ['scale', 2, 1, -LARGEST, LARGEST], ['rotation', 0, 0, -LARGEST, LARGEST]];
 const TEXTURES = /Texture$/;
@@ -45,6 +56,11 @@ function texturesOf(context: CheckContext, object: Raw, path: string): Raw {
     const at = `${path}/${key}`;
     if (!isObject(info) || !Number.isInteger(info['index']) || (info['texCoord'] !== undefined && !Number.isInteger(info['texCoord']))) {
       context.warn('gltf/texture', at, `is ${quote(info)}, which is no texture; it is left out`);
+      delete repaired[key];
+      continue;
+    }
+    if (!((info['index'] as number) >= 0 && (info['index'] as number) < context.list('textures').length)) {
+      context.warn('gltf/texture', at, `refers to texture ${info['index'] as number}, which does not exist; it is left out`);
       delete repaired[key];
       continue;
     }
@@ -88,7 +104,7 @@ function repairExtensions(context: CheckContext, extensions: unknown, path: stri
   for (const [name, value] of Object.entries(extensions)) {
     const at = `${path}/${name}`;
     if (!isObject(value)) context.warn('gltf/material', at, `is ${quote(value)}; it is left out`);
-    else if (Object.hasOwn(EXTENSIONS, name)) repaired[name] = texturesOf(context, factorsOf(context, value, at, EXTENSIONS[name] as readonly Factor[]), at);
+    else if (Object.hasOwn(EXTENSIONS, name)) repaired[name] = texturesOf(context, factorsOf(context, value, at, EXTENSIONS[name as keyof typeof EXTENSIONS]), at);
   }
   return repaired;
 }
