@@ -1,4 +1,4 @@
 import { GlanzError } from '@glanz/wgsl/error';
 
-/** Thrown by the builders. Codes: `bvh/positions`, `bvh/indices`, `bvh/transform`, `bvh/too-many`, `bvh/options`, `bvh/worker`, `bvh/destroyed`. */
+/** Thrown by the builders and queries. Codes: `bvh/positions`, `bvh/indices`, `bvh/transform`, `bvh/too-many`, `bvh/options`, `bvh/batch`, `bvh/region`, `bvh/worker`, `bvh/destroyed`. */
 export class BvhError extends GlanzError {}
