@@ -7,7 +7,7 @@ import type { ResourceName } from '../kernels/resources';
 import { prepareEnvironment, type EnvironmentData } from '../scene/environment';
 import { packInstances, type Geometry } from '../scene/geometry';
 import { buildLightTable, type LightTable } from '../scene/lights';
-import { isOpaque, packBindings, packMaterial, texturedParameters, usedTextures, type TexturedParameterInfo } from '../scene/materials';
+import { hasRanges, isOpaque, packBindings, packMaterial, texturedParameters, turnsTangent, usedTextures, type TexturedParameterInfo } from '../scene/materials';
 import { planTextures, type TexturePlan } from '../scene/textures';
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_STORAGE, GPU_TEXTURE_BINDING, GPU_TEXTURE_COPY_DST, type GpuMemory } from './buffers';
 import { toHalf, uploadTextures } from './texture-upload';
@@ -104,6 +104,10 @@ export class GpuScene {
         ...openpbrFlags,
         TEXTURES: this.#textured.length > 0,
         NORMAL_MAP: texturedNames.includes('geometry_normal'),
+        TEXTURE_RANGES: hasRanges(this.#scene.materials),
+        TANGENT_MAP: openpbrFlags.OPENPBR_ANISOTROPY && turnsTangent(this.#scene.materials),
+        // Where the mesh has no tangents, they follow the texture coordinates.
+        UV_FRAME: openpbrFlags.OPENPBR_ANISOTROPY || texturedNames.includes('geometry_normal'),
         // A coat dims what is emitted below it.
         EMISSION_TEXTURES: texturedNames.some((name) => name === 'emission_color' || name === 'emission_luminance' || (openpbrFlags.OPENPBR_COAT && name.startsWith('coat_'))),
         VERTEX_COLORS: this.#geometry.hasVertexColors,

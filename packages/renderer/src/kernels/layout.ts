@@ -131,10 +131,13 @@ export const bindingStruct = struct('TextureBindingRecord', {
   sampling: 'u32',
   layer: 'u32',
   row_u: 'vec3f',
+  /** Of a normal map's tangent-plane components; else what the texel 1 adds to `offset`. */
   scale: 'f32',
   row_v: 'vec3f',
   /** Half of log2(width × height). */
   log_size: 'f32',
+  /** What the texel 0 stands for. */
+  offset: 'f32',
 });
 
 export const NONE = 0xffffffff;

@@ -1,4 +1,5 @@
 import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
+import type { TexturedParameterInfo } from '../scene/materials';
 import { random } from './random.wgsl';
 import { bindingStruct, instanceStruct, materialStruct, MATERIAL_MASK, meshStruct } from './layout';
 
@@ -49,15 +50,17 @@ fn attribute_color(mesh: u32, corners: vec3u, weights: vec3f) -> vec4f {
  * array and sampler, and one for each parameter that some material textures.
  *
  * @param samplings Pairs of texture array and sampler indices, in the order of the records' `sampling` numbers.
- * @param textured Parameters that are textured, with their number in the records and whether they are colours.
+ * @param textured Parameters that are textured, with their number in the records and what they are.
  */
-export function materialModule(samplings: readonly (readonly [texture: number, sampler: number])[], textured: readonly { readonly name: string; readonly id: number; readonly type: 'vec3f' | 'f32' }[]): WgslModule {
+export function materialModule(samplings: readonly (readonly [texture: number, sampler: number])[], textured: readonly TexturedParameterInfo[]): WgslModule {
   const cases = samplings.map(([texture, sampler], index) => `    case ${index}u: { return textureSampleLevel(scene_texture_${texture}, scene_sampler_${sampler}, uv, layer, lod); }`).join('\n');
-  const apply = textured
-    .filter(({ name }) => name !== 'geometry_normal')
-    .map(({ name, id, type }) => `      case ${id}u: { result.parameters.${name} *= ${type === 'vec3f' ? 'texel.rgb' : 'value'}; }`)
-    .join('\n');
-  const normal = textured.find(({ name }) => name === 'geometry_normal');
+  const FACTOR = { f32: 'value', vec3f: 'factor.rgb', any: 'select(vec3f(value), factor.rgb, (channels & 255u) == 4u)' } as const;
+  const DIRECTION: Readonly<Record<string, string>> = {
+    geometry_normal: `result.normal = (2.0 * texel.xyz - 1.0) * vec3f(vec2f(bitcast<f32>(attributes[at + ${word('scale')}u])), 1.0);`,
+    geometry_tangent: 'result.tangent = mat2x2f(result.tangent, vec2f(-result.tangent.y, result.tangent.x)) * (2.0 * texel.xy - 1.0);',
+  };
+  const cased = ({ name, id, type }: TexturedParameterInfo) => `      case ${id}u: { ${type === 'direction' ? DIRECTION[name] : `result.parameters.${name} *= ${FACTOR[type]};`} }`;
+  const apply = textured.map((info) => (info.name === 'geometry_tangent' ? `      //#if TANGENT_MAP\n${cased(info)}\n      //#endif` : cased(info))).join('\n');
   return wgslModule(
     'renderer/material',
     /* wgsl */ `
@@ -67,6 +70,10 @@ struct MaterialSample {
   normal: vec3f,
   flags: u32,
   threshold: f32,
+  //#if TANGENT_MAP
+  // Direction in the tangent plane that the highlight is stretched along.
+  tangent: vec2f,
+  //#endif
 }
 
 //#if TEXTURES
@@ -85,6 +92,9 @@ fn material_sample(index: u32, uv0: vec2f, uv1: vec2f, lod0: f32, lod1: f32, onl
   result.normal = vec3f(0.0, 0.0, 1.0);
   result.flags = materials[index].flags;
   result.threshold = materials[index].opacity_threshold;
+  //#if TANGENT_MAP
+  result.tangent = result.parameters.geometry_tangent.xy;
+  //#endif
   //#if TEXTURES
   let count = min(materials[index].binding_count, 64u);
   let first = materials[index].first_binding;
@@ -98,10 +108,14 @@ fn material_sample(index: u32, uv0: vec2f, uv1: vec2f, lod0: f32, lod1: f32, onl
     let placed = vec2f(dot(attribute_3(at + ${word('row_u')}u), uv), dot(attribute_3(at + ${word('row_v')}u), uv));
     let lod = select(lod0, lod1, second) + bitcast<f32>(attributes[at + ${word('log_size')}u]);
     let texel = material_texel(attributes[at + ${word('sampling')}u], placed, attributes[at + ${word('layer')}u], max(lod, 0.0));
-    let value = texel[min(channels & 255u, 3u)];
+    //#if TEXTURE_RANGES
+    let factor = bitcast<f32>(attributes[at + ${word('offset')}u]) + bitcast<f32>(attributes[at + ${word('scale')}u]) * texel;
+    //#else
+    let factor = texel;
+    //#endif
+    let value = factor[min(channels & 255u, 3u)];
     switch (parameter) {
 ${apply}
-${normal ? `      case ${normal.id}u: { result.normal = (2.0 * texel.xyz - 1.0) * vec3f(vec2f(bitcast<f32>(attributes[at + ${word('scale')}u])), 1.0); }` : ''}
       default: { }
     }
   }
@@ -243,6 +257,9 @@ fn surface_load(hit: vec4u, origin: vec3f, direction: vec3f, cone_width: f32) ->
   let sample = material_sample(s.material, uv0.uv, uv1.uv, lod0, lod1, 0xffffffffu);
   //#else
   let sample = material_sample(s.material, vec2f(0.0), vec2f(0.0), 0.0, 0.0, 0xffffffffu);
+  //#if UV_FRAME
+  let uv0 = attribute_uv(attribute_mesh(mesh, ${meshWord('uv0')}u), corners, weights);
+  //#endif
   //#endif
   s.parameters = sample.parameters;
   s.flags = sample.flags;
@@ -262,7 +279,7 @@ fn surface_load(hit: vec4u, origin: vec3f, direction: vec3f, cone_width: f32) ->
       handedness = select(-1.0, 1.0, t.w >= 0.0) * orientation;
     }
   }
-  //#if NORMAL_MAP
+  //#if UV_FRAME
   else {
     // Tangents from the texture coordinates: along +u, with the bitangent against +v, since v runs down the picture.
     let det = uv0.edge_1.x * uv0.edge_2.y - uv0.edge_1.y * uv0.edge_2.x;
@@ -276,6 +293,11 @@ fn surface_load(hit: vec4u, origin: vec3f, direction: vec3f, cone_width: f32) ->
       }
     }
   }
+  //#endif
+  //#if TANGENT_MAP
+  if (dot(sample.tangent, sample.tangent) > 1e-6) { tangent = sample.tangent.x * tangent + (handedness * sample.tangent.y) * cross(s.normal, tangent); }
+  //#endif
+  //#if NORMAL_MAP
   let mapped = sample.normal.x * tangent + handedness * sample.normal.y * cross(s.normal, tangent) + sample.normal.z * s.normal;
   let mapped2 = dot(mapped, mapped);
   if (mapped2 > 1e-12 && sample.normal.z > 0.0) { s.normal = mapped * inverseSqrt(mapped2); }

@@ -7,14 +7,17 @@ import type { TexturePlan } from './textures';
 export interface TexturedParameterInfo {
   readonly name: string;
   readonly id: number;
-  readonly type: 'vec3f' | 'f32';
+  /** `direction`: no product. `any`: a colour that some texture drives by one channel. */
+  readonly type: 'vec3f' | 'f32' | 'any' | 'direction';
 }
 
-/** Numbers of the parameters in texture binding records: the struct's order, then the normal. */
-export const GEOMETRY_NORMAL_ID = 255;
+/** Directions that textures may drive. The coat has the frame of the base. */
+const DIRECTIONS: readonly string[] = ['geometry_normal', 'geometry_tangent'];
+const NOT_TEXTURED: readonly string[] = ['geometry_thin_walled', 'geometry_coat_normal', 'geometry_coat_tangent'];
 
+/** Numbers of the parameters in texture binding records: the struct's order. -1 for one that textures do not drive. */
 export function parameterId(name: string): number {
-  return name === 'geometry_normal' ? GEOMETRY_NORMAL_ID : openPbrStruct.fields.findIndex((field) => field.name === name);
+  return NOT_TEXTURED.includes(name) ? -1 : openPbrStruct.fields.findIndex((field) => field.name === name);
 }
 
 export const OPACITY_ID = parameterId('geometry_opacity');
@@ -36,12 +39,22 @@ export function usedTextures(materials: readonly Material[]): Set<number> {
 export function texturedParameters(materials: readonly Material[]): TexturedParameterInfo[] {
   const found = new Map<number, TexturedParameterInfo>();
   for (const material of materials) {
-    for (const [name, id] of bindingsOf(material)) {
-      const type = openPbrStruct.fields[id]?.type === 'f32' ? 'f32' : 'vec3f';
+    for (const [name, id, { channels }] of bindingsOf(material)) {
+      const type = DIRECTIONS.includes(name) ? 'direction' : openPbrStruct.fields[id]?.type === 'f32' ? 'f32' : channels === 'rgb' && found.get(id)?.type !== 'any' ? 'vec3f' : 'any';
       found.set(id, { name, id, type });
     }
   }
   return [...found.values()].sort((a, b) => a.id - b.id);
+}
+
+/** Whether some texture's codes stand for another range than 0 to 1. */
+export function hasRanges(materials: readonly Material[]): boolean {
+  return materials.some((material) => bindingsOf(material).some(([name, , { range }]) => range !== undefined && !DIRECTIONS.includes(name)));
+}
+
+/** Whether some material turns the tangent that its highlight is stretched along. */
+export function turnsTangent(materials: readonly Material[]): boolean {
+  return materials.some(({ parameters, textures }) => textures?.geometry_tangent !== undefined || (parameters.geometry_tangent ?? null) !== null);
 }
 
 const CHANNEL = { r: 0, g: 1, b: 2, a: 3, rgb: 4 } as const;
@@ -56,10 +69,11 @@ export function packBindings(materials: readonly Material[], plan: TexturePlan):
   for (const list of all) {
     first.push(index);
     count.push(list.length);
-    for (const [, id, binding] of list) {
+    for (const [name, id, binding] of list) {
       const placement = plan.placements.get(binding.texture);
       if (!placement) continue;
       const [a, b, c, d, x, y] = binding.transform ?? [1, 0, 0, 1, 0, 0];
+      const [at0, at1] = DIRECTIONS.includes(name) ? [0, binding.scale ?? 1] : (binding.range ?? [0, 1]);
       const texels = placement.width * placement.height * Math.max(Math.abs(a * d - b * c), 1e-12);
       bindingStruct.write(records, index++, {
         parameter: id,
@@ -68,7 +82,8 @@ export function packBindings(materials: readonly Material[], plan: TexturePlan):
         layer: placement.layer,
         row_u: [a, c, x],
         row_v: [b, d, y],
-        scale: binding.scale ?? 1,
+        scale: at1 - at0,
+        offset: at0,
         log_size: 0.5 * Math.log2(texels),
       });
     }
