@@ -75,6 +75,26 @@ describe('validateParameters', () => {
     expect(() => validateParameters(bad as never)).toThrow(OpenPbrError);
   });
 
+  it('gives vectors length 1, and none to those without a direction', () => {
+    const { parameters, warnings } = validateParameters({ geometry_normal: [0, 3, 4], geometry_tangent: [0, 0, 0], geometry_coat_normal: [Number.NaN, 0, 2], geometry_coat_tangent: [0.6, 0.8, 0] });
+    expect(parameters).toEqual({ geometry_normal: [0, 0.6, 0.8], geometry_tangent: null, geometry_coat_normal: [0, 0, 1], geometry_coat_tangent: [0.6, 0.8, 0] });
+    expect(warnings.map((w) => [w.code, w.parameter])).toEqual([['openpbr/no-direction', 'geometry_tangent'], ['openpbr/not-finite', 'geometry_coat_normal']]);
+  });
+
+  it('takes every parameter at both ends of its range without a word, and no further', () => {
+    for (const { name, type, range } of Object.values(OPENPBR_PARAMETERS)) {
+      if (!range) continue;
+      const of = (value: number) => ({ [name]: type === 'float' ? value : [value, value, value] }) as never;
+      for (const [end, beyond] of [[range[0], range[0] - 1], [range[1], range[1] + 1]] as const) {
+        if (!Number.isFinite(end)) continue;
+        expect(validateParameters(of(end))).toEqual({ parameters: of(end), warnings: [] });
+        const { parameters, warnings } = validateParameters(of(beyond));
+        expect(parameters).toEqual(of(end));
+        expect(new Set(warnings.map((w) => `${w.code} ${w.parameter}`))).toEqual(new Set([`openpbr/clamped ${name}`]));
+      }
+    }
+  });
+
   it('takes typed arrays for colours and null for vectors', () => {
     expect(validateParameters({ base_color: new Float64Array([0.1, 0.2, 0.3]), geometry_normal: null } as never).parameters).toEqual({ base_color: [0.1, 0.2, 0.3], geometry_normal: null });
   });

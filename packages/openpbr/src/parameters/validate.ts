@@ -7,8 +7,11 @@ export class OpenPbrError extends GlanzError {}
 
 /** Something {@link validateParameters} repaired or ignored. */
 export interface OpenPbrWarning {
-  /** `openpbr/clamped`: a number outside its range; `openpbr/not-finite`: NaN or an infinity; `openpbr/unknown-parameter`: no such name. */
-  readonly code: 'openpbr/clamped' | 'openpbr/not-finite' | 'openpbr/unknown-parameter';
+  /**
+   * `openpbr/clamped`: a number outside its range; `openpbr/not-finite`: NaN or an infinity; `openpbr/no-direction`: a
+   * vector without length; `openpbr/unknown-parameter`: no such name.
+   */
+  readonly code: 'openpbr/clamped' | 'openpbr/no-direction' | 'openpbr/not-finite' | 'openpbr/unknown-parameter';
   /** The name as it was given. */
   readonly parameter: string;
   /** One line: what was wrong, and what is used instead. */
@@ -17,7 +20,7 @@ export interface OpenPbrWarning {
 
 /** What {@link validateParameters} answers. */
 export interface ValidatedParameters {
-  /** The given parameters, clamped to their hard ranges; unknown names are left out. */
+  /** The given parameters, clamped to their hard ranges, vectors of unit length; unknown names are left out. */
   readonly parameters: Partial<OpenPbrParameters>;
   readonly warnings: readonly OpenPbrWarning[];
 }
@@ -25,9 +28,17 @@ export interface ValidatedParameters {
 const isTriple = (value: unknown): value is ArrayLike<number> =>
   (Array.isArray(value) || ArrayBuffer.isView(value)) && (value as unknown as ArrayLike<unknown>).length === 3 && Array.from(value as unknown as ArrayLike<unknown>).every((c) => typeof c === 'number');
 
+/** A vector of length 1, or none where it has no direction. Already unit to single precision, it stays as it is. */
+function unit(name: string, vector: readonly number[], warnings: OpenPbrWarning[]): readonly number[] | null {
+  const length = Math.hypot(...vector);
+  if (length > 1e-12) return Math.abs(length - 1) < 1e-7 ? vector : vector.map((component) => component / length);
+  warnings.push({ code: 'openpbr/no-direction', parameter: name, message: `OpenPBR parameter "${name}" has no length; the unperturbed vector is used.` });
+  return null;
+}
+
 /**
  * Clamps parameters to the specification's hard ranges, and says what it changed. A number that is not finite becomes the
- * default. Values of the wrong kind are errors: guessing would hide a bug.
+ * default, a vector gets length 1. Values of the wrong kind are errors: guessing would hide a bug.
  *
  * @param given Any parameters; missing ones stay missing.
  * @throws {OpenPbrError} `openpbr/parameter-type` if a value is not a number, a triple of numbers, or a boolean as its type asks.
@@ -66,7 +77,8 @@ export function validateParameters(given: Partial<OpenPbrParameters>): Validated
     } else {
       if (!isTriple(value)) throw wrong('three numbers');
       const initial = info.default as readonly number[] | null;
-      result[name] = Array.from(value, (component, i) => repair(component, initial?.[i] ?? (i === 2 ? 1 : 0)));
+      const numbers = Array.from(value, (component, i) => repair(component, initial?.[i] ?? 0));
+      result[name] = info.type === 'vector3' ? unit(name, numbers, warnings) : numbers;
     }
   }
   return { parameters: result as Partial<OpenPbrParameters>, warnings };
