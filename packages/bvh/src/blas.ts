@@ -61,7 +61,10 @@ export function buildBlas(mesh: TriangleMesh, options: BlasOptions = {}): Blas {
   if (!indices && positions.length % 9 !== 0) fail('bvh/indices', 'positions', positions, 'nine a triangle without indices');
   const count = triangleCount(mesh);
   if (count > MAX_PRIMITIVES) throw new BvhError('bvh/too-many', `${count} triangles are too many; one hierarchy holds ${MAX_PRIMITIVES}: split the mesh.`);
-  const { nodes, nodeCount, triangleIndices, bounds } = buildBalanced(mesh, maxLeafTriangles, bins);
+  const steps = buildBalanced(mesh, count, maxLeafTriangles, bins);
+  let step = steps.next();
+  while (!step.done) step = steps.next();
+  const { nodes, nodeCount, triangleIndices, bounds } = step.value;
   return { nodes, nodeCount, triangleIndices, bounds: { min: Float32Array.from(bounds.subarray(0, 3)), max: Float32Array.from(bounds.subarray(3)) } };
 }
 

@@ -45,6 +45,7 @@ export const RIGHT = 7;
 export const RIGHT_MIN = 8;
 export const PARENT = 11;
 export const RIGHT_MAX = 12;
+export const RESERVED = 15;
 
 /** An axis-aligned box: xyz of the lower and of the upper corner. Empty: min > max. */
 export interface Aabb {
@@ -74,7 +75,7 @@ export function encloseChildren(nodes: Float32Array, min: number, max: number, c
 }
 
 /** Writes six numbers. */
-export function putBox(boxes: Float32Array, at: number, x0: number, y0: number, z0: number, x1: number, y1: number, z1: number): void {
+export function putBox(boxes: Float32Array | Float64Array, at: number, x0: number, y0: number, z0: number, x1: number, y1: number, z1: number): void {
   boxes[at] = x0;
   boxes[at + 1] = y0;
   boxes[at + 2] = z0;

@@ -1,68 +1,99 @@
 import type { Primitives } from './primitives';
+import type { Scratch } from './scratch';
 
 /** Cells per axis. */
 const CELLS = 1024;
 /** Bits of one pass of the sort. */
 const DIGIT = 10;
 
-/** Primitives in the order of a space-filling curve. */
-export interface Sorted {
-  /** Primitives, by their Morton codes. */
-  readonly order: Uint32Array;
-  /** Morton codes in that order, 30 bits. */
-  readonly codes: Uint32Array;
-}
+/** Numbers of one digit. */
+const DIGITS = 1 << DIGIT;
 
 /**
- * Sorts primitives by the Morton codes of their boxes' centres, in cubic cells, by radix.
- * Equal codes keep their order, so the result is one for all machines.
+ * Sorts primitives by the Morton codes of their boxes' centres, in cubic cells, by radix. Equal codes keep their order, so
+ * the result is one for all machines.
  */
-export function sortByMorton({ boxes, count, bounds }: Primitives): Sorted {
-  // Spreads ten bits to every third place.
-  const spread = new Uint32Array(CELLS);
-  for (let i = 0; i < CELLS; i++) for (let bit = 0; bit < DIGIT; bit++) spread[i] = (spread[i] as number) | (((i >> bit) & 1) << (3 * bit));
-  const [x, y, z, x1, y1, z1] = bounds as unknown as [number, number, number, number, number, number];
-  const extent = Math.max(x1 - x, y1 - y, z1 - z);
-  const scale = extent > 0 ? (0.5 * CELLS) / extent : 0;
-  const ox = 2 * x, oy = 2 * y, oz = 2 * z, last = CELLS - 1;
-  let codes = new Uint32Array(count), order = new Uint32Array(count);
-  let codes2 = new Uint32Array(count), order2 = new Uint32Array(count);
-  const digits = 1 << DIGIT;
-  // Histograms of all three passes in one go.
-  const starts = new Uint32Array(3 * digits);
-  for (let i = 0, b = 0; i < count; i++, b += 6) {
-    let qx = (((boxes[b] as number) + (boxes[b + 3] as number) - ox) * scale) | 0;
-    let qy = (((boxes[b + 1] as number) + (boxes[b + 4] as number) - oy) * scale) | 0;
-    let qz = (((boxes[b + 2] as number) + (boxes[b + 5] as number) - oz) * scale) | 0;
-    if (qx > last) qx = last;
-    if (qy > last) qy = last;
-    if (qz > last) qz = last;
-    const code = ((spread[qx] as number) << 2) | ((spread[qy] as number) << 1) | (spread[qz] as number);
-    codes[i] = code;
-    order[i] = i;
-    starts[code & last] = (starts[code & last] as number) + 1;
-    starts[digits + ((code >>> DIGIT) & last)] = (starts[digits + ((code >>> DIGIT) & last)] as number) + 1;
-    starts[2 * digits + (code >>> (2 * DIGIT))] = (starts[2 * digits + (code >>> (2 * DIGIT))] as number) + 1;
+export class MortonSort {
+  /** Primitives, by their Morton codes. */
+  order: Uint32Array<ArrayBuffer>;
+  /** Morton codes in that order, 30 bits. */
+  codes: Uint32Array<ArrayBuffer>;
+  #order2: Uint32Array<ArrayBuffer>;
+  #codes2: Uint32Array<ArrayBuffer>;
+  readonly #primitives: Primitives;
+  /** Histograms of the three passes. */
+  readonly #starts = new Uint32Array(3 * DIGITS);
+  /** Ten bits spread to every third place. */
+  readonly #spread = new Uint32Array(CELLS);
+
+  constructor(primitives: Primitives, scratch: Scratch) {
+    this.#primitives = primitives;
+    const { count } = primitives;
+    this.order = scratch.uint32(count);
+    this.codes = scratch.uint32(count);
+    this.#order2 = scratch.uint32(count);
+    this.#codes2 = scratch.uint32(count);
+    const spread = this.#spread;
+    for (let i = 1; i < CELLS; i++) spread[i] = ((spread[i >> 1] as number) << 3) | (i & 1);
   }
-  for (let pass = 0; pass < 3; pass++) {
-    const base = pass * digits;
-    let sum = 0;
-    for (let d = 0; d < digits; d++) {
-      const n = starts[base + d] as number;
-      starts[base + d] = sum;
-      sum += n;
+
+  /** Finds the codes of the primitives from one to another. */
+  encode(from: number, to: number): void {
+    const { boxes, bounds } = this.#primitives;
+    const { order, codes } = this;
+    const spread = this.#spread, starts = this.#starts;
+    const [x, y, z, x1, y1, z1] = bounds as unknown as [number, number, number, number, number, number];
+    const extent = Math.max(x1 - x, y1 - y, z1 - z);
+    const scale = extent > 0 ? (0.5 * CELLS) / extent : 0;
+    const ox = 2 * x, oy = 2 * y, oz = 2 * z, last = CELLS - 1;
+    for (let i = from, b = 6 * from; i < to; i++, b += 6) {
+      let qx = (((boxes[b] as number) + (boxes[b + 3] as number) - ox) * scale) | 0;
+      let qy = (((boxes[b + 1] as number) + (boxes[b + 4] as number) - oy) * scale) | 0;
+      let qz = (((boxes[b + 2] as number) + (boxes[b + 5] as number) - oz) * scale) | 0;
+      if (qx > last) qx = last;
+      if (qy > last) qy = last;
+      if (qz > last) qz = last;
+      const code = ((spread[qx] as number) << 2) | ((spread[qy] as number) << 1) | (spread[qz] as number);
+      codes[i] = code;
+      order[i] = i;
+      const second = DIGITS + ((code >>> DIGIT) & last), third = 2 * DIGITS + (code >>> (2 * DIGIT));
+      starts[code & last] = (starts[code & last] as number) + 1;
+      starts[second] = (starts[second] as number) + 1;
+      starts[third] = (starts[third] as number) + 1;
     }
-    const shift = pass * DIGIT;
-    for (let i = 0; i < count; i++) {
+  }
+
+  /** Makes the histograms into places. */
+  begin(): void {
+    const starts = this.#starts;
+    for (let pass = 0; pass < 3; pass++) {
+      let sum = 0;
+      for (let slot = pass * DIGITS; slot < (pass + 1) * DIGITS; slot++) {
+        const n = starts[slot] as number;
+        starts[slot] = sum;
+        sum += n;
+      }
+    }
+  }
+
+  /** Puts the entries from one to another into their places by one of the three digits, lowest first. */
+  scatter(pass: number, from: number, to: number): void {
+    const { order, codes } = this;
+    const order2 = this.#order2, codes2 = this.#codes2, starts = this.#starts;
+    const base = pass * DIGITS, shift = pass * DIGIT;
+    for (let i = from; i < to; i++) {
       const code = codes[i] as number;
-      const slot = base + ((code >>> shift) & last);
-      const to = starts[slot] as number;
-      starts[slot] = to + 1;
-      codes2[to] = code;
-      order2[to] = order[i] as number;
+      const slot = base + ((code >>> shift) & (DIGITS - 1));
+      const place = starts[slot] as number;
+      starts[slot] = place + 1;
+      codes2[place] = code;
+      order2[place] = order[i] as number;
     }
-    [codes, codes2] = [codes2, codes];
-    [order, order2] = [order2, order];
   }
-  return { order, codes };
+
+  /** Ends a pass. */
+  swap(): void {
+    [this.codes, this.#codes2] = [this.#codes2, this.codes];
+    [this.order, this.#order2] = [this.#order2, this.order];
+  }
 }

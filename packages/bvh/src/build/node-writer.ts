@@ -1,4 +1,4 @@
-import { FAR, LEFT, LEFT_MAX, LEFT_MIN, NODE_WORDS, PARENT, RIGHT, RIGHT_MAX, RIGHT_MIN } from '../layout';
+import { FAR, LEFT, LEFT_MAX, LEFT_MIN, NODE_WORDS, PARENT, RESERVED, RIGHT, RIGHT_MAX, RIGHT_MIN } from '../layout';
 
 /** A hierarchy's nodes. */
 export interface Tree {
@@ -13,9 +13,12 @@ export class NodeWriter {
   readonly words: Uint32Array<ArrayBuffer>;
   count = 0;
 
-  /** @param capacity Most nodes there can be. */
-  constructor(capacity: number) {
-    this.nodes = new Float32Array(capacity * NODE_WORDS);
+  /**
+   * @param capacity Most nodes there can be.
+   * @param buffer Where to put them, if there is a buffer already.
+   */
+  constructor(capacity: number, buffer: ArrayBuffer = new ArrayBuffer(4 * capacity * NODE_WORDS)) {
+    this.nodes = new Float32Array(buffer, 0, capacity * NODE_WORDS);
     this.words = new Uint32Array(this.nodes.buffer);
   }
 
@@ -23,6 +26,7 @@ export class NodeWriter {
   add(parent: number): number {
     const node = this.count++;
     this.words[node * NODE_WORDS + PARENT] = parent < 0 ? 0 : parent;
+    this.words[node * NODE_WORDS + RESERVED] = 0;
     return node;
   }
 
@@ -54,6 +58,6 @@ export class NodeWriter {
 
   finish(): Tree {
     const used = this.count * NODE_WORDS;
-    return { nodes: used === this.nodes.length ? this.nodes : this.nodes.slice(0, used), nodeCount: this.count };
+    return { nodes: 4 * used === this.nodes.buffer.byteLength ? this.nodes : this.nodes.slice(0, used), nodeCount: this.count };
   }
 }

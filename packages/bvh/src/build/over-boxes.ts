@@ -1,5 +1,5 @@
 import { leafReference } from '../layout';
-import { buildLevels, counted } from './levels';
+import { Levels } from './levels';
 import { NodeWriter, type Tree } from './node-writer';
 
 /**
@@ -15,9 +15,7 @@ export function buildOverBoxes(boxes: Float32Array, order: Uint32Array, maxDepth
     writer.single(leafReference(0, 1), count === 1 ? boxes.subarray(6 * (order[0] as number)) : undefined);
     return writer.finish();
   }
-  const weights = new Uint32Array(boxes.length / 6).fill(1);
-  const all = { boxes, weights, order };
-  // One outer item that holds everything.
-  buildLevels(writer, { boxes, weights, order: counted(1) }, all, Uint32Array.of(0, count), { maxLeaf: 1, maxDepth, outerDepth: maxDepth, bins: 16, leaf: (first) => leafReference(first, 1) });
+  const levels = new Levels(writer, { boxes, weights: new Uint32Array(boxes.length / 6).fill(1), order, count }, maxDepth, 16);
+  while (levels.step(count));
   return writer.finish();
 }

@@ -1,11 +1,8 @@
-import { encloseChildren, LEAF, LEFT, NODE_WORDS, PARENT, RIGHT } from '../layout';
-import type { NodeWriter, Tree } from './node-writer';
+import { encloseChildren, LEAF, LEFT, NODE_WORDS, RIGHT } from '../layout';
+import type { NodeWriter } from './node-writer';
 
-/**
- * The least height of the nodes that each pass looks at. Later passes find the rotations that others have made possible;
- * the lowest nodes are most of the work and little of the gain.
- */
-const PASSES = [2, 3, 3] as const;
+/** Later passes find the rotations that others have made possible. */
+const PASSES = 3;
 
 /** Word of the reference to the left (0) or right (1) child; the box of a child starts at word 8 × side, its upper corner 4 later. */
 const reference = (side: number) => LEFT + side * (RIGHT - LEFT);
@@ -20,19 +17,61 @@ function joined(n: Float32Array, a: number, b: number): number {
 
 /**
  * Improves a tree by rotations, from the leaves up: a child changes places with a grandchild where that makes the box
- * between them smaller (Kensler 2008, "Tree Rotations for Improving Bounding Volume Hierarchies"). Then puts the nodes
- * into depth-first order, parents before their children.
- *
- * @param maxDepth Most inner nodes on the way to a leaf.
+ * between them smaller (Kensler 2008, "Tree Rotations for Improving Bounding Volume Hierarchies"). Afterwards parents need
+ * not come before their children any more.
  */
-export function rotate({ nodes, words, count: nodeCount }: NodeWriter, maxDepth: number): Tree {
-  const depths = new Uint8Array(nodeCount), heights = new Uint8Array(nodeCount);
-  // Parents before their children, as rotations leave them.
-  const order = new Uint32Array(nodeCount);
-  const stack = new Uint32Array(maxDepth + 2);
-  const height = (child: number) => ((child & LEAF) !== 0 ? 0 : (heights[child] as number));
-  // Lists the nodes with at least that many levels below, and counts them.
-  const arrange = (least: number) => {
+export class Rotations {
+  readonly #nodes: Float32Array;
+  readonly #words: Uint32Array;
+  readonly #maxDepth: number;
+  readonly #depths: Uint8Array;
+  readonly #heights: Uint8Array;
+  /** Nodes with inner children, parents before their children, as rotations have left them. */
+  readonly #order: Uint32Array;
+  readonly #stack: Uint32Array;
+  #pass = 0;
+  #at = 0;
+
+  /** @param maxDepth Most inner nodes on the way to a leaf. */
+  constructor({ nodes, words, count }: NodeWriter, maxDepth: number) {
+    this.#nodes = nodes;
+    this.#words = words;
+    this.#maxDepth = maxDepth;
+    this.#depths = new Uint8Array(count);
+    this.#heights = new Uint8Array(count);
+    this.#order = new Uint32Array(count);
+    this.#stack = new Uint32Array(maxDepth + 2);
+    for (let node = count - 1; node >= 0; node--) this.#measure(node);
+  }
+
+  /**
+   * Does some of the work.
+   *
+   * @param nodes How many nodes to look at.
+   * @returns Whether there is more to do.
+   */
+  step(nodes: number): boolean {
+    if (this.#at === 0) {
+      if (this.#pass === PASSES) return false;
+      this.#pass++;
+      this.#at = this.#arrange();
+    }
+    for (const end = Math.max(0, this.#at - nodes); this.#at > end; ) this.#rotate(this.#order[--this.#at] as number);
+    return this.#at > 0 || this.#pass < PASSES;
+  }
+
+  #height(child: number): number {
+    return (child & LEAF) !== 0 ? 0 : (this.#heights[child] as number);
+  }
+
+  #measure(node: number): void {
+    const left = this.#height(this.#words[node * NODE_WORDS + LEFT] as number), right = this.#height(this.#words[node * NODE_WORDS + RIGHT] as number);
+    this.#heights[node] = 1 + (left > right ? left : right);
+  }
+
+  /** Lists the nodes with inner children, and counts them. */
+  #arrange(): number {
+    const words = this.#words, depths = this.#depths, heights = this.#heights, order = this.#order, stack = this.#stack;
     let top = 0, count = 0;
     stack[top++] = 0;
     depths[0] = 1;
@@ -42,38 +81,23 @@ export function rotate({ nodes, words, count: nodeCount }: NodeWriter, maxDepth:
       const depth = (depths[node] as number) + 1;
       for (let side = 1; side >= 0; side--) {
         const child = words[node * NODE_WORDS + reference(side)] as number;
-        if ((child & LEAF) !== 0 || (heights[child] as number) < least) continue;
+        if ((child & LEAF) !== 0 || heights[child] === 1) continue;
         depths[child] = depth;
         stack[top++] = child;
       }
     }
     return count;
-  };
-  const measureHeight = (node: number) => (heights[node] = 1 + Math.max(height(words[node * NODE_WORDS + LEFT] as number), height(words[node * NODE_WORDS + RIGHT] as number)));
-  for (let node = nodeCount - 1; node >= 0; node--) measureHeight(node);
-  // Swaps a child of the node at word `a` for one of the node at word `b`: reference and box.
-  const exchange = (a: number, sideA: number, b: number, sideB: number) => {
-    const refA = a + reference(sideA), refB = b + reference(sideB);
-    const kept = words[refA] as number;
-    words[refA] = words[refB] as number;
-    words[refB] = kept;
-    for (let k = 0; k < 7; k++) {
-      if (k === 3) continue;
-      const at = a + 8 * sideA + k, to = b + 8 * sideB + k;
-      const value = nodes[at] as number;
-      nodes[at] = nodes[to] as number;
-      nodes[to] = value;
-    }
-  };
-  for (const least of PASSES) for (let at = arrange(least) - 1; at >= 0; at--) {
-    const node = order[at] as number;
+  }
+
+  #rotate(node: number): void {
+    const nodes = this.#nodes, words = this.#words;
     const base = node * NODE_WORDS;
     let best = 0, bestInner = 0, bestMoved = 0;
     // The child "inner" is opened; the other one may change places with either of its children.
     for (let inner = 0; inner < 2; inner++) {
       const own = base + 8 * inner, other = base + 8 * (1 - inner);
       const opened = words[base + reference(inner)] as number;
-      if ((opened & LEAF) !== 0 || (depths[node] as number) + height(words[base + reference(1 - inner)] as number) + 1 > maxDepth) continue;
+      if ((opened & LEAF) !== 0 || (this.#depths[node] as number) + this.#height(words[base + reference(1 - inner)] as number) + 1 > this.#maxDepth) continue;
       const now = joined(nodes, own, own);
       for (let moved = 0; moved < 2; moved++) {
         const gain = now - joined(nodes, other, opened * NODE_WORDS + 8 * (1 - moved));
@@ -87,27 +111,26 @@ export function rotate({ nodes, words, count: nodeCount }: NodeWriter, maxDepth:
     if (best > 0) {
       const opened = words[base + reference(bestInner)] as number;
       const child = opened * NODE_WORDS, own = base + 8 * bestInner;
-      exchange(base, 1 - bestInner, child, bestMoved);
+      this.#exchange(base, 1 - bestInner, child, bestMoved);
       encloseChildren(nodes, own, own + 4, child);
-      measureHeight(opened);
+      this.#measure(opened);
     }
-    measureHeight(node);
+    this.#measure(node);
   }
-  arrange(0);
-  const places = new Uint32Array(nodeCount);
-  for (let i = 0; i < nodeCount; i++) places[order[i] as number] = i;
-  const moved = new Float32Array(nodeCount * NODE_WORDS);
-  const movedWords = new Uint32Array(moved.buffer);
-  for (let i = 0, to = 0; i < nodeCount; i++, to += NODE_WORDS) {
-    const base = (order[i] as number) * NODE_WORDS;
-    for (let k = 0; k < NODE_WORDS; k++) if (k !== PARENT) movedWords[to + k] = words[base + k] as number;
-    for (let side = 0; side < 2; side++) {
-      const child = words[base + reference(side)] as number;
-      if ((child & LEAF) !== 0) continue;
-      const place = places[child] as number;
-      movedWords[to + reference(side)] = place;
-      movedWords[place * NODE_WORDS + PARENT] = i;
+
+  /** Swaps a child of the node at word `a` for one of the node at word `b`: reference and box. */
+  #exchange(a: number, sideA: number, b: number, sideB: number): void {
+    const nodes = this.#nodes, words = this.#words;
+    const refA = a + reference(sideA), refB = b + reference(sideB);
+    const kept = words[refA] as number;
+    words[refA] = words[refB] as number;
+    words[refB] = kept;
+    for (let k = 0; k < 7; k++) {
+      if (k === 3) continue;
+      const at = a + 8 * sideA + k, to = b + 8 * sideB + k;
+      const value = nodes[at] as number;
+      nodes[at] = nodes[to] as number;
+      nodes[to] = value;
     }
   }
-  return { nodes: moved, nodeCount };
 }

@@ -1,17 +1,6 @@
-/** Ranges up to this size are split by trying every plane between two centres; larger ones by bins. */
-export const SWEEP_MAX = 16;
-
-/** Half the surface of a box. */
-function surface(boxes: Float32Array, item: number): number {
-  const b = 6 * item;
-  const dx = (boxes[b + 3] as number) - (boxes[b] as number), dy = (boxes[b + 4] as number) - (boxes[b + 1] as number), dz = (boxes[b + 5] as number) - (boxes[b + 2] as number);
-  return dx * dy + dy * dz + dz * dx;
-}
-
 /**
- * Finds splits of ranges of boxes by surface area heuristic, with all scratch memory it needs. After `sweep()` or
- * `bin()`, `cut` is where the range was cut (the order is permuted), or −1 if no plane separates the centres; `cost` is
- * what both sides cost together: Σ area × weight.
+ * Finds splits of ranges of boxes by surface area heuristic, with all scratch memory it needs. After `bin()`, `cut` is
+ * where the range was cut (the order is permuted), or −1 if no plane separates the centres.
  */
 export class Splitter {
   cut = -1;
@@ -23,7 +12,6 @@ export class Splitter {
   x1 = 0;
   y1 = 0;
   z1 = 0;
-  weight = 0;
   // Box of the centres, doubled: lower corner and extent.
   cx0 = 0;
   cy0 = 0;
@@ -32,8 +20,6 @@ export class Splitter {
   ey = 0;
   ez = 0;
 
-  readonly #keys = new Float64Array(SWEEP_MAX);
-  readonly #right = new Float64Array(SWEEP_MAX);
   readonly #bins: number;
   readonly #binBoxes: Float64Array;
   readonly #binWeights: Float64Array;
@@ -47,8 +33,8 @@ export class Splitter {
   }
 
   /** Box and weight of `order[first, end)`, and the box of the centres (doubled), without a split. */
-  measure(boxes: Float32Array, weights: Uint32Array, order: Uint32Array, first: number, end: number): void {
-    let x0 = Infinity, y0 = Infinity, z0 = Infinity, x1 = -Infinity, y1 = -Infinity, z1 = -Infinity, weight = 0;
+  measure(boxes: Float32Array, order: Uint32Array, first: number, end: number): void {
+    let x0 = Infinity, y0 = Infinity, z0 = Infinity, x1 = -Infinity, y1 = -Infinity, z1 = -Infinity;
     let cx0 = Infinity, cy0 = Infinity, cz0 = Infinity, cx1 = -Infinity, cy1 = -Infinity, cz1 = -Infinity;
     for (let i = first; i < end; i++) {
       const item = order[i] as number;
@@ -68,7 +54,6 @@ export class Splitter {
       if (cx > cx1) cx1 = cx;
       if (cy > cy1) cy1 = cy;
       if (cz > cz1) cz1 = cz;
-      weight += weights[item] as number;
     }
     this.x0 = x0;
     this.y0 = y0;
@@ -82,83 +67,15 @@ export class Splitter {
     this.ex = cx1 - cx0;
     this.ey = cy1 - cy0;
     this.ez = cz1 - cz0;
-    this.weight = weight;
     this.cut = -1;
     this.cost = Infinity;
-  }
-
-  /** Tries every plane across the axis along which the centres spread most; for at most {@link SWEEP_MAX} items. */
-  sweep(boxes: Float32Array, weights: Uint32Array, order: Uint32Array, first: number, end: number): void {
-    this.measure(boxes, weights, order, first, end);
-    if (end - first === 2) {
-      const a = order[first] as number, b = order[first + 1] as number;
-      this.cut = first + 1;
-      this.cost = surface(boxes, a) * (weights[a] as number) + surface(boxes, b) * (weights[b] as number);
-      return;
-    }
-    const keys = this.#keys, rightCosts = this.#right;
-    const { ex, ey, ez } = this;
-    const axis = ex >= ey && ex >= ez ? 0 : ey >= ez ? 1 : 2;
-    // Insertion sort of the centres.
-    for (let i = first; i < end; i++) {
-      const item = order[i] as number;
-      const b = 6 * item + axis;
-      const key = (boxes[b] as number) + (boxes[b + 3] as number);
-      let j = i - 1;
-      while (j >= first && (keys[j - first] as number) > key) {
-        keys[j - first + 1] = keys[j - first] as number;
-        order[j + 1] = order[j] as number;
-        j--;
-      }
-      keys[j - first + 1] = key;
-      order[j + 1] = item;
-    }
-    if (keys[0] === keys[end - first - 1]) return;
-    let x0 = Infinity, y0 = Infinity, z0 = Infinity, x1 = -Infinity, y1 = -Infinity, z1 = -Infinity, weight = 0;
-    for (let i = end - 1; i > first; i--) {
-      const item = order[i] as number;
-      const b = 6 * item;
-      const a0 = boxes[b] as number, a1 = boxes[b + 1] as number, a2 = boxes[b + 2] as number;
-      const a3 = boxes[b + 3] as number, a4 = boxes[b + 4] as number, a5 = boxes[b + 5] as number;
-      if (a0 < x0) x0 = a0;
-      if (a1 < y0) y0 = a1;
-      if (a2 < z0) z0 = a2;
-      if (a3 > x1) x1 = a3;
-      if (a4 > y1) y1 = a4;
-      if (a5 > z1) z1 = a5;
-      weight += weights[item] as number;
-      const dx = x1 - x0, dy = y1 - y0, dz = z1 - z0;
-      rightCosts[i - first] = (dx * dy + dy * dz + dz * dx) * weight;
-    }
-    x0 = y0 = z0 = Infinity;
-    x1 = y1 = z1 = -Infinity;
-    weight = 0;
-    for (let i = first; i < end - 1; i++) {
-      const item = order[i] as number;
-      const b = 6 * item;
-      const a0 = boxes[b] as number, a1 = boxes[b + 1] as number, a2 = boxes[b + 2] as number;
-      const a3 = boxes[b + 3] as number, a4 = boxes[b + 4] as number, a5 = boxes[b + 5] as number;
-      if (a0 < x0) x0 = a0;
-      if (a1 < y0) y0 = a1;
-      if (a2 < z0) z0 = a2;
-      if (a3 > x1) x1 = a3;
-      if (a4 > y1) y1 = a4;
-      if (a5 > z1) z1 = a5;
-      weight += weights[item] as number;
-      const dx = x1 - x0, dy = y1 - y0, dz = z1 - z0;
-      const cost = (dx * dy + dy * dz + dz * dx) * weight + (rightCosts[i - first + 1] as number);
-      if (cost < this.cost) {
-        this.cost = cost;
-        this.cut = i + 1;
-      }
-    }
   }
 
   /** Tries the planes between bins along all three axes (Wald 2007). Measures the range as well. */
   bin(boxes: Float32Array, weights: Uint32Array, order: Uint32Array, first: number, end: number): void {
     const bins = end - first < 64 ? 8 : this.#bins;
     const binBoxes = this.#binBoxes, binWeights = this.#binWeights, leftCosts = this.#leftCosts;
-    this.measure(boxes, weights, order, first, end);
+    this.measure(boxes, order, first, end);
     const { cx0, cy0, cz0, ex, ey, ez } = this;
     // Axes without extent put everything into one bin, where no plane is. Just below the number of bins, so that the
     // largest centre falls into the last.
