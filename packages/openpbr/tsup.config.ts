@@ -7,4 +7,5 @@ export default glanzPackage({
   cpu: 'src/cpu/index.ts',
   tables: 'src/tables/index.ts',
   gltf: 'src/gltf/index.ts',
+  presets: 'src/presets/index.ts',
 });
