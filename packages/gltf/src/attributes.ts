@@ -46,6 +46,7 @@ export function readPrimitive(primitive: PrimitiveData, name: string, opaque: bo
     return undefined;
   }
   const positions = primitive.floats('POSITION', 3);
+  if (primitive.restarts(corners)) warn('its indices hold the value that restarts a primitive, which none may; it counts as any other.');
   const indices = soundTriangles(corners, positions, warn);
   if (indices.length === 0) {
     warn('it has no triangles.');

@@ -23,7 +23,7 @@ const BINARY_CHUNK = 0x004e4942;
 export function openContainer(bytes: Uint8Array<ArrayBuffer>, name: string, warnings: SceneWarning[]): Container {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   if (bytes.length >= 4 && view.getUint32(0, true) === MAGIC) return openGlb(bytes, view, name, warnings);
-  return { json: parseJson(bytes, name) };
+  return { json: parseJson(bytes, name, warnings) };
 }
 
 function openGlb(bytes: Uint8Array<ArrayBuffer>, view: DataView, name: string, warnings: SceneWarning[]): Container {
@@ -46,7 +46,7 @@ function openGlb(bytes: Uint8Array<ArrayBuffer>, view: DataView, name: string, w
     if (!json && type !== JSON_CHUNK) throw malformed('does not start with a JSON chunk', at);
     if (json && type === JSON_CHUNK) throw malformed('has two JSON chunks', at);
     if (binary && type === BINARY_CHUNK) warnings.push({ code: 'gltf/container', message: `${name} has a second binary chunk, which is not read.` });
-    if (!json) json = parseJson(chunk, name);
+    if (!json) json = parseJson(chunk, name, warnings);
     else if (type === BINARY_CHUNK && !binary) binary = chunk;
     at += 8 + length;
   }
@@ -54,7 +54,7 @@ function openGlb(bytes: Uint8Array<ArrayBuffer>, view: DataView, name: string, w
   return binary ? { json, binary } : { json };
 }
 
-function parseJson(bytes: Uint8Array, name: string): Raw {
+function parseJson(bytes: Uint8Array, name: string, warnings: SceneWarning[]): Raw {
   let json: unknown;
   try {
     json = JSON.parse(new TextDecoder('utf-8', { fatal: true }).decode(bytes));
@@ -65,9 +65,11 @@ function parseJson(bytes: Uint8Array, name: string): Raw {
     throw new GltfError('gltf/not-gltf', `${name} is JSON, but not a glTF document: it has no "asset".`, { location: { file: name } });
   }
   const { version, minVersion } = json.asset as { version?: unknown; minVersion?: unknown };
-  const needed = String(minVersion ?? version);
-  if (!/^2\.\d+$/.test(needed) || (minVersion !== undefined && needed !== '2.0')) {
-    throw new GltfError('gltf/version', `${name} is of glTF version ${JSON.stringify(minVersion ?? version)}; only 2.0 is known.`, { location: { file: name, path: '/asset/version' } });
+  const minor = (value: unknown) => (typeof value === 'string' ? Number(/^2\.(\d+)$/.exec(value)?.[1] ?? NaN) : NaN);
+  const own = minor(version), least = minVersion === undefined ? 0 : minor(minVersion);
+  if (!(own >= 0) || !(least <= own)) {
+    throw new GltfError('gltf/version', `${name} is of glTF version ${JSON.stringify(least <= own ? version : (minVersion ?? version))}; only 2.0 is known.`, { location: { file: name, path: '/asset/version' } });
   }
+  if (least > 0 || own > 0) warnings.push({ code: 'gltf/version', message: `${name} is of glTF version ${String(version)}; it is read as 2.0.`, path: '/asset/version' });
   return json as unknown as Raw;
 }

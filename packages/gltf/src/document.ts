@@ -7,6 +7,7 @@ import { Budget, type GltfLimits } from './limits';
 import { MATERIAL_EXTENSIONS } from './materials';
 import type { PrimitiveReader } from './primitive';
 import { decoded, type Source } from './source';
+import { dataUri } from './uri';
 
 /**
  * Decoders that the host hands in since they are heavy, each as it is or as a function that fetches it; the function is
@@ -121,8 +122,13 @@ export async function readDocument(checked: CheckedDocument, binary: Uint8Array<
     unpacked.set(index, bytes);
     return bytes;
   };
-  checkBytes((index) => (json.bufferViews?.[index] && buffers[json.bufferViews[index].buffer] ? viewBytes(index) : undefined));
-  return { file, accessors: new Accessors(json, viewBytes, budget), viewBytes, draco, budget };
+  const isThere = (index: number) => {
+    const view = json.bufferViews?.[index];
+    const packed = view?.extensions?.EXT_meshopt_compression ?? view?.extensions?.KHR_meshopt_compression;
+    return buffers[(packed ?? view)?.buffer ?? -1] !== undefined;
+  };
+  checkBytes((index) => (isThere(index) ? viewBytes(index) : undefined));
+  return { file, accessors: new Accessors(json, viewBytes, budget), viewBytes, isThere, draco, budget };
 }
 
 const short = (name: string, path: string, length: number, expected: number) =>
@@ -130,17 +136,26 @@ const short = (name: string, path: string, length: number, expected: number) =>
 
 /** The bytes behind a uri: data in the uri itself, or a file beside the document. */
 export async function readUri(uri: string, source: Source, signal: AbortSignal | undefined): Promise<Uint8Array<ArrayBuffer>> {
-  const data = /^data:[^,]*?(;base64)?,(.*)$/s.exec(uri);
-  if (data) {
+  if (/^data:/i.test(uri)) {
+    const unreadable = (cause?: unknown) => new GltfError('gltf/malformed', `${source.name} holds a data: uri that cannot be decoded.`, { cause, location: { file: source.name } });
+    const found = dataUri(uri);
+    if (!found) throw unreadable();
     try {
-      if (!data[1]) return new TextEncoder().encode(decodeURIComponent(data[2] as string));
-      return Uint8Array.from(atob(data[2] as string), (c) => c.charCodeAt(0));
+      return found.base64 ? fromBase64(found.data) : new TextEncoder().encode(decodeURIComponent(found.data));
     } catch (cause) {
-      throw new GltfError('gltf/malformed', `${source.name} holds a data: uri that cannot be decoded.`, { cause, location: { file: source.name } });
+      throw unreadable(cause);
     }
   }
   signal?.throwIfAborted();
   const path = decoded(uri);
   if (/^[a-z][a-z0-9+.-]*:|^\/|^\\/i.test(path)) throw new GltfError('gltf/missing-resource', `${source.name} names "${uri}": only files beside the document are read.`, { location: { file: source.name } });
   return source.read(path, signal);
+}
+
+/** @throws {Error} for text that is none. */
+function fromBase64(text: string): Uint8Array<ArrayBuffer> {
+  const binary = atob(text.includes('%') ? decodeURIComponent(text) : text);
+  const bytes = new Uint8Array(binary.length);
+  for (let i = 0; i < binary.length; i++) bytes[i] = binary.charCodeAt(i);
+  return bytes;
 }

@@ -94,6 +94,25 @@ export function readNodes(context: NodeContext): void {
       }
     });
   }
+  checkUnshown(context, meshes.shown);
+}
+
+/** Tells of indices without a vertex in primitives that nothing shows; nobody else looks there. */
+function checkUnshown({ json, reader, scene }: NodeContext, shown: ReadonlySet<GltfPrimitive>): void {
+  json.meshes?.forEach(({ primitives }, mesh) => {
+    primitives.forEach((primitive, at) => {
+      const position = primitive.attributes['POSITION'];
+      if (shown.has(primitive) || primitive.indices === undefined || position === undefined || primitive.extensions?.KHR_draco_mesh_compression) return;
+      const { bufferView } = reader.accessors.at(primitive.indices);
+      if (bufferView === undefined || !reader.isThere(bufferView)) return;
+      const path = `/meshes/${mesh}/primitives/${at}`;
+      const { count } = reader.accessors.at(position);
+      const indices = reader.accessors.indices(primitive.indices);
+      if (openPrimitive(primitive, path, reader).restarts(indices) || indices.some((vertex) => vertex >= count)) {
+        scene.warnings.push({ code: 'gltf/primitive', message: `${reader.file}: ${path} names vertices that do not exist; it is not shown anyway.`, path });
+      }
+    });
+  });
 }
 
 /** A primitive as instances use it. */
@@ -110,6 +129,9 @@ class MeshReader {
   readonly #opened = new Map<GltfPrimitive, PrimitiveData>();
   readonly #shared = new Map<GltfPrimitive, number | undefined>();
 
+  /** Those that have been read, even if nothing came of it. */
+  readonly shown = new Set<GltfPrimitive>();
+
   constructor(context: NodeContext, world: ReadonlyMap<number, Matrix>) {
     this.#context = context;
     this.#world = world;
@@ -117,6 +139,7 @@ class MeshReader {
 
   read(nodeIndex: number, node: GltfNode, primitive: GltfPrimitive, at: number): ReadPrimitive | undefined {
     const { json, scene, poses, defaultMaterial } = this.#context;
+    this.shown.add(primitive);
     const mesh = json.meshes?.[node.mesh as number];
     const material = primitive.material ?? defaultMaterial();
     const weights = (poses.get(nodeIndex)?.weights ?? node.weights ?? mesh?.weights ?? []).map((w) => (Number.isFinite(w) ? w : 0));

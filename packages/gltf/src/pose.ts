@@ -13,7 +13,7 @@ export function morphed(mesh: Mesh, primitive: PrimitiveData, weights: readonly 
       if (!deltas) return;
       for (let v = 0; 3 * v < deltas.length && stride * v < sum.length; v++) {
         for (let k = 0; k < 3; k++) {
-          const moved = (sum[stride * v + k] as number) + weight * (deltas[3 * v + k] as number);
+          const moved = Math.fround((sum[stride * v + k] as number) + weight * (deltas[3 * v + k] as number));
           if (Number.isFinite(moved)) sum[stride * v + k] = moved;
         }
       }
@@ -88,7 +88,7 @@ export function skinned(mesh: Mesh, primitive: PrimitiveData, joints: readonly n
 function transformVector(m: Float64Array, source: Float32Array, out: Float32Array, at: number, w: number): void {
   const x = source[at] as number, y = source[at + 1] as number, z = source[at + 2] as number;
   for (let r = 0; r < 3; r++) {
-    const value = (m[r] as number) * x + (m[4 + r] as number) * y + (m[8 + r] as number) * z + (m[12 + r] as number) * w;
+    const value = Math.fround((m[r] as number) * x + (m[4 + r] as number) * y + (m[8 + r] as number) * z + (m[12 + r] as number) * w);
     out[at + r] = Number.isFinite(value) ? value : 0;
   }
 }
@@ -106,7 +106,7 @@ function transformNormal(m: Float64Array, source: Float32Array, out: Float32Arra
   const sign = determinant < 0 ? -1 : 1;
   for (let r = 0; r < 3; r++) {
     // Row r of the cofactor matrix, which is stored column by column of m.
-    const value = sign * ((cofactors[r] as number) * x + (cofactors[3 + r] as number) * y + (cofactors[6 + r] as number) * z);
+    const value = Math.fround(sign * ((cofactors[r] as number) * x + (cofactors[3 + r] as number) * y + (cofactors[6 + r] as number) * z));
     out[at + r] = Number.isFinite(value) ? value : 0;
   }
   normalize(out, at);

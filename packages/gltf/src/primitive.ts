@@ -4,6 +4,9 @@ import { GltfError } from './error';
 import type { GltfPrimitive } from './json';
 import type { Budget } from './limits';
 
+/** Indices that restart a primitive in graphics interfaces, by the type of the indices. */
+const RESTART: Readonly<Record<number, number>> = { 5121: 255, 5123: 65535, 5125: 4294967295 };
+
 /** The data of a primitive, whether it is compressed or not. */
 export interface PrimitiveData {
   readonly json: GltfPrimitive;
@@ -13,6 +16,8 @@ export interface PrimitiveData {
   floats(semantic: string, size: number): Float32Array<ArrayBuffer>;
   /** A copy; undefined if there are none. */
   indices(): Uint32Array<ArrayBuffer> | undefined;
+  /** Whether indices hold the largest value of their type, which glTF keeps free. */
+  restarts(indices: Uint32Array): boolean;
   /** Moves of the vertices by a morph target; undefined if it does not move this attribute. */
   target(index: number, semantic: string): Float32Array<ArrayBuffer> | undefined;
 }
@@ -22,6 +27,8 @@ export interface PrimitiveReader {
   readonly file: string;
   readonly accessors: Accessors;
   readonly viewBytes: (index: number) => Uint8Array<ArrayBuffer>;
+  /** Whether the buffer of a view has been read. */
+  readonly isThere: (view: number) => boolean;
   readonly draco: unknown;
   readonly budget: Budget;
 }
@@ -42,6 +49,10 @@ export function openPrimitive(json: GltfPrimitive, path: string, { file, accesso
       return attribute ? dracoFloats(attribute, size) : accessors.floats(json.attributes[semantic] as number, size);
     },
     indices: () => unpacked?.indices.slice() ?? (json.indices === undefined ? undefined : accessors.indices(json.indices)),
+    restarts: (indices) => {
+      const type = json.indices === undefined || unpacked ? undefined : accessors.at(json.indices).componentType;
+      return type !== undefined && indices.includes(RESTART[type] as number);
+    },
     target: (index, semantic) => {
       const accessor = json.targets?.[index]?.[semantic];
       return accessor === undefined ? undefined : accessors.floats(accessor, 3);

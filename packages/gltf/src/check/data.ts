@@ -59,15 +59,19 @@ export function checkBuffers(context: CheckContext): readonly Raw[] {
   views.forEach((view, index) => {
     const path = `/bufferViews/${index}`;
     const length = within(view, path);
-    if (context.integer(view, 'byteStride', path, 4, 252, 4) % 4 !== 0) context.fail(`${path}/byteStride`, 'must be a multiple of 4');
+    const stride = context.integer(view, 'byteStride', path, 4, 252, 4);
+    const target = own(view, 'target');
+    if (target !== undefined && target !== 34962 && target !== 34963) context.warn('gltf/data', `${path}/target`, `is ${quote(target)}, which is no kind of data`);
+    if (stride % 4 !== 0) context.fail(`${path}/byteStride`, 'must be a multiple of 4');
+    if (own(view, 'byteStride') !== undefined && (stride > length || target === 34963)) context.warn('gltf/data', `${path}/byteStride`, `is ${stride} in a view of ${stride > length ? `${length} bytes` : 'indices, which have none'}`);
     for (const name of ['EXT_meshopt_compression', 'KHR_meshopt_compression']) {
       const packed = context.extension(view, name, path);
       if (!packed) continue;
       const at = `${path}/extensions/${name}`;
       within(packed, at);
-      const stride = context.integer(packed, 'byteStride', at, 1, 256);
+      const step = context.integer(packed, 'byteStride', at, 1, 256);
       const count = context.integer(packed, 'count', at, 1, MAX);
-      if (stride * count > length) context.fail(at, `unpacks to ${stride * count} bytes, but its buffer view has ${length}`);
+      if (step * count > length) context.fail(at, `unpacks to ${step * count} bytes, but its buffer view has ${length}`);
       if (length > MESHOPT_RATIO * ((packed['byteLength'] as number) + 16)) context.fail(at, `says that ${packed['byteLength']} bytes unpack to ${length}, which is more than the format can do`);
     }
   });
@@ -100,6 +104,11 @@ export function checkAccessors(context: CheckContext, views: readonly Raw[], nee
     }
     const sparse = context.object(accessor, 'sparse', path);
     if (sparse) checkSparse(context, `${path}/sparse`, sparse, views, count, size, COMPONENT_BYTES[componentType] as number);
+    for (const key of ['min', 'max']) {
+      const bounds = own(accessor, key);
+      const [rows, columns] = SHAPES.get(type) as readonly [number, number];
+      if (bounds !== undefined && !(Array.isArray(bounds) && bounds.length === rows * columns && bounds.every((x) => typeof x === 'number'))) context.warn('gltf/accessor', `${path}/${key}`, `is ${quote(bounds)}, but must be ${rows * columns} numbers; it is not used`);
+    }
     return { componentType, type: type as string, count };
   });
 }

@@ -9,6 +9,7 @@ import { CheckContext, isObject, own, quote, type Raw } from './context';
 import { checkAccessors, checkBuffers, checkSparseIndices } from './data';
 import { checkMeshes, neededAccessors } from './meshes';
 import { checkNodes, checkSkins } from './nodes';
+import { checkPictures } from './pictures';
 import { repairCameras, repairLights, repairMaterials } from './surfaces';
 import { repairVariants, withSoundVariants } from './variants';
 
@@ -40,12 +41,13 @@ export function checkDocument(json: Raw, file: string, warnings: SceneWarning[])
   const variants = repairVariants(context);
   const materials = context.list('materials').length;
   const meshes = checkMeshes(context, facts, views).map((mesh, index) => ({
-    ...named(mesh),
+    ...named(context, mesh, `/meshes/${index}`),
     primitives: (mesh['primitives'] as readonly Raw[]).map((primitive, at) => withSoundVariants(context, primitive, `/meshes/${index}/primitives/${at}`, variants?.length ?? 0, materials)),
   }));
   const nodes = checkNodes(context, facts);
   checkSkins(context, facts);
   checkPictures(context);
+  checkNames(context);
   const lights = repairLights(context);
   const accessors = context.list('accessors');
   const checked = {
@@ -53,8 +55,8 @@ export function checkDocument(json: Raw, file: string, warnings: SceneWarning[])
     accessors,
     animations: repairAnimations(context, facts),
     meshes,
-    nodes: nodes.map((node, index) => named(withoutLostLight(context, node, index, lights?.length ?? 0))),
-    scenes: own(json, 'scenes') === undefined ? undefined : context.list('scenes').map(named),
+    nodes: nodes.map((node, index) => named(context, withoutLostLight(context, node, index, lights?.length ?? 0), `/nodes/${index}`)),
+    scenes: own(json, 'scenes') === undefined ? undefined : context.list('scenes').map((scene, index) => named(context, scene, `/scenes/${index}`)),
     materials: repairMaterials(context),
     cameras: repairCameras(context),
     extensions: { ...(lights ? { KHR_lights_punctual: { lights } } : {}), ...(variants ? { KHR_materials_variants: { variants } } : {}), ...xmpOf(context) },
@@ -76,20 +78,21 @@ function xmpOf(context: CheckContext): Raw {
 }
 
 /** An object whose name, if it has one, is a text. */
-function named(object: Raw): Raw {
+function named(context: CheckContext, object: Raw, path: string): Raw {
   if (own(object, 'name') === undefined || typeof object['name'] === 'string') return object;
+  context.warn('gltf/name', `${path}/name`, `is ${quote(object['name'])}, but must be a text; it is left out`);
   const { name: _, ...rest } = object;
   return rest;
 }
 
-/** Textures, pictures and samplers are read when a material asks for them; here it counts that they are objects. */
-function checkPictures(context: CheckContext): void {
-  const samplers = context.list('samplers');
-  for (const kind of ['images', 'textures', 'skins', 'animations'] as const) context.list(kind);
-  context.list('textures').forEach((texture, index) => {
-    const sampler = own(texture, 'sampler');
-    if (sampler !== undefined && !(typeof sampler === 'number' && samplers[sampler])) context.warn('gltf/texture', `/textures/${index}/sampler`, `is ${quote(sampler)}, which names no sampler; repetition is taken`);
-  });
+/** Names of parts that nothing else looks at. */
+function checkNames(context: CheckContext): void {
+  for (const key of ['accessors', 'bufferViews', 'buffers', 'materials', 'animations', 'cameras', 'skins', 'images', 'textures', 'samplers']) context.list(key).forEach((part, index) => named(context, part, `/${key}/${index}`));
+  const asset = own(context.json, 'asset') as Raw;
+  for (const key of ['generator', 'copyright']) {
+    const value = own(asset, key);
+    if (value !== undefined && typeof value !== 'string') context.warn('gltf/name', `/asset/${key}`, `is ${quote(value)}, but must be a text`);
+  }
 }
 
 function withoutLostLight(context: CheckContext, node: Raw, index: number, lights: number): Raw {

@@ -50,6 +50,10 @@ export function checkMeshes(context: CheckContext, facts: readonly (AccessorFact
     if (weights !== undefined && !(Array.isArray(weights) && weights.every((w) => typeof w === 'number'))) context.fail(`${path}/weights`, 'must be an array of numbers');
     const primitives = context.objects(own(mesh, 'primitives'), `${path}/primitives`);
     if (primitives.length === 0) context.fail(`${path}/primitives`, 'is empty');
+    const targets = new Set(primitives.map((primitive) => { const list = own(primitive, 'targets'); return Array.isArray(list) ? list.length : 0; }));
+    if (targets.size > 1) context.warn('gltf/primitive', `${path}/primitives`, `have ${[...targets].join(', ')} morph targets, but must all have as many`);
+    const [number = 0] = targets;
+    if (Array.isArray(weights) && weights.length !== number) context.warn('gltf/primitive', `${path}/weights`, `are ${weights.length}, but there are ${number} morph targets`);
     return { ...mesh, primitives: primitives.map((primitive, at) => checkPrimitive(context, `${path}/primitives/${at}`, primitive, facts, materials, views)) };
   });
 }
@@ -79,6 +83,7 @@ function checkPrimitive(context: CheckContext, path: string, primitive: Raw, fac
         const at = `${path}/targets/${t}/${semantic}`;
         context.reference(accessor, at, facts, 'accessor');
         const count = (facts[accessor] as AccessorFacts).count;
+        if (kept[semantic] === undefined) context.warn('gltf/primitive', at, 'moves an attribute that is not there');
         if (vertices !== undefined && count !== vertices) context.fail(at, `moves ${count} vertices of ${vertices}`);
       }
     });

@@ -61,6 +61,12 @@ function repairTransform(context: CheckContext, node: Raw, path: string): Raw {
     if (value === undefined) continue;
     if (!Array.isArray(value) || value.length !== length || !value.every((x) => typeof x === 'number')) context.fail(`${path}/${key}`, `is ${quote(value)}, but must be ${length} numbers`);
   }
+  const weights = own(node, 'weights');
+  if (weights !== undefined && !(Array.isArray(weights) && weights.every((w) => typeof w === 'number'))) {
+    context.warn('gltf/node', `${path}/weights`, `is ${quote(weights)}, but must be an array of numbers; it is left out`);
+    const { weights: _, ...rest } = repaired;
+    repaired = rest;
+  }
   const rotation = own(node, 'rotation') as readonly number[] | undefined;
   if (rotation) {
     const size = Math.hypot(...rotation);
@@ -98,6 +104,8 @@ export function checkSkins(context: CheckContext, facts: readonly (AccessorFacts
     const path = `/skins/${index}`;
     const joints = context.indices(skin, 'joints', path, nodes, 'node');
     if (joints.length === 0) context.fail(`${path}/joints`, 'is empty');
+    const skeleton = own(skin, 'skeleton');
+    if (skeleton !== undefined && !(typeof skeleton === 'number' && nodes[skeleton])) context.warn('gltf/skin', `${path}/skeleton`, `is ${quote(skeleton)}, which names no node; it is not used`);
     const matrices = context.index(skin, 'inverseBindMatrices', path, facts, 'accessor');
     if (matrices === undefined) return;
     const { type, count } = facts[matrices] as AccessorFacts;

@@ -1,0 +1,62 @@
+// Loads mutants and tells of each before and after, so that a hang or a crash can be laid at one's door.
+import { parentPort, workerData } from 'node:worker_threads';
+import { validateScene } from '@glanz/scene';
+import draco3d from 'draco3dgltf';
+import { MeshoptDecoder } from 'meshoptimizer/decoder';
+import { GltfError, loadGltf } from '../../src/index';
+import { mutate, type Parts } from './mutate';
+import { Random } from './random';
+
+/** What a worker is started with. */
+export interface FuzzTask {
+  readonly parts: readonly Parts[];
+  readonly seed: number;
+  readonly first: number;
+  readonly end: number;
+  readonly step: number;
+}
+
+/** A bad end. */
+export interface FuzzFinding {
+  readonly mutant: number;
+  readonly what: string;
+}
+
+const outside = /^\/|\.\.|^[a-z]+:/i;
+
+const port = parentPort;
+if (port) {
+  const { parts, seed, first, end, step } = workerData as FuzzTask;
+  const draco: unknown = await draco3d.createDecoderModule();
+  // Pictures are other people's decoders: here it counts that the loader takes what they give or throw.
+  const decodeImage = (bytes: Uint8Array) => (bytes.length % 2 ? Promise.reject(new Error('broken')) : Promise.resolve({ width: 1, height: 1, data: new Uint8Array(4) }));
+  for (let mutant = first; mutant < end; mutant += step) {
+    const random = new Random(seed + mutant * 7919);
+    const bytes = mutate(random.pick(parts), random);
+    port.postMessage({ at: mutant });
+    const begun = performance.now();
+    const bad = (what: string) => port.postMessage({ finding: { mutant, what } satisfies FuzzFinding });
+    const read: string[] = [];
+    try {
+      const files = new Map<string, Uint8Array<ArrayBuffer>>([['folder/document.gltf', bytes]]);
+      const spied = { get: (path: string) => { read.push(path); return files.get(path); }, [Symbol.iterator]: () => files[Symbol.iterator](), keys: () => files.keys() } as unknown as Map<string, Uint8Array<ArrayBuffer>>;
+      const scene = await loadGltf(random.below(2) ? bytes : { files: spied, entry: 'folder/document.gltf' }, {
+        allowEmpty: true,
+        decodeImage,
+        decoders: { draco, meshopt: MeshoptDecoder },
+        limits: { geometryBytes: 2 ** 28, instances: 2 ** 16 },
+        ...(random.below(3) === 0 ? { time: random.below(100) / 50 } : {}),
+      });
+      validateScene(scene);
+      for (const { message } of scene.warnings) if (/[\n\r\u2028]/.test(message)) bad('a warning of several lines');
+    } catch (error) {
+      if (!(error instanceof GltfError)) bad(error instanceof Error ? (error.stack ?? error.message) : String(error));
+      else if (/[\n\r\u2028]/.test(error.message)) bad('a message of several lines');
+    }
+    if (read.some((path) => outside.test(path))) bad(`reads ${read.join(', ')}`);
+    if (Object.keys(Object.prototype).length > 0 || 'polluted' in {}) bad('changes Object.prototype');
+    const took = performance.now() - begun;
+    if (took > 5000) bad(`takes ${Math.round(took)} ms`);
+  }
+  port.postMessage({ done: true });
+}
