@@ -1,5 +1,6 @@
 import { encodeExr } from '@glanz/image/exr';
-import type { PathTracer } from '@glanz/renderer';
+import { PathTracer } from '@glanz/renderer';
+import type { Scene } from '@glanz/scene';
 
 // #region mask
 /** Coverage of one part, 0 or 1 a pixel. */
@@ -27,3 +28,13 @@ export async function toExr(tracer: PathTracer): Promise<Uint8Array> {
   });
 }
 // #endregion exr
+
+// #region lights
+export async function withLightGroups(device: GPUDevice, scene: Scene) {
+  const tracer = await PathTracer.create(device, scene, { width: 800, height: 600, lightGroups: 'each' });
+  for await (const _ of tracer.render({ samples: 256 }));
+  for (const { name } of tracer.lightGroups) console.log(name); // environment, lamp, screen, …
+  await tracer.setLightGroup('lamp', { intensity: 0.5, color: [1, 0.8, 0.6] });
+  return tracer.readLightGroup('lamp'); // its part of the picture, RGBA
+}
+// #endregion lights

@@ -2,7 +2,7 @@ import type { FilmLayer, PathTracerOptions, PathTracer, RenderStatistics } from 
 import type { Scene } from '@glanz/scene';
 
 /** The part of a `PathTracer` that the command needs. */
-export type Tracer = Pick<PathTracer, 'render' | 'read' | 'samples' | 'statistics' | 'destroy'>;
+export type Tracer = Pick<PathTracer, 'render' | 'read' | 'readLightGroup' | 'lightGroups' | 'samples' | 'statistics' | 'destroy'>;
 
 /** A device and what it is called. */
 export interface OpenedGpu {

@@ -22,7 +22,8 @@ PICTURE
                         .png, in the current folder.
                           .png  sRGB, tone-mapped, 8 or 16 bits
                           .exr  linear, with the layers albedo, normal, depth,
-                                objectId and materialId; half or 32-bit floats
+                                position, variance, objectId, materialId and
+                                one for each light group; half or 32-bit floats
                           .hdr  linear, Radiance RGBE
       --size WxH        Pixels. Default 1024x768.
       --bits N          8 or 16 for .png (default 8), 16 or 32 for .exr
@@ -50,6 +51,10 @@ LIGHT AND VIEW
                         metres, or "panorama", all around. A file ending in
                         .json works too. Default: the model's first camera, or
                         one that frames it.
+
+      --light-groups M  Keep lights apart as layers of .exr: "each" light, glowing
+                        material and the surroundings, those "named" by the
+                        model (default), or "off".
 
 QUALITY
       --samples N       Paths per pixel. Default 256.

@@ -3,7 +3,7 @@ import { TONE_MAPS, isToneMap, type ToneMap } from '@glanz/tonemap';
 import { CliError } from './errors';
 import { parseExposure } from './exposure';
 import { formatOf, type OutputTarget } from './output/formats';
-import { parseFilter, type QualityOptions } from './quality';
+import { parseFilter, parseLightGroups, type QualityOptions } from './quality';
 
 /** Everything `glanz render` can be told, checked. */
 export interface RenderCommandOptions {
@@ -52,6 +52,7 @@ const OPTIONS = {
   seed: { type: 'string' },
   camera: { type: 'string' },
   filter: { type: 'string' },
+  'light-groups': { type: 'string' },
   exposure: { type: 'string' },
   tonemap: { type: 'string' },
   bits: { type: 'string' },
@@ -179,7 +180,10 @@ export function parseCommand(argv: readonly string[]): Command {
       exposure: values.exposure === undefined ? 0 : parseExposure(values.exposure),
       toneMap,
       transparent: values.transparent ?? false,
-      quality: values.filter === undefined ? {} : { filter: parseFilter(values.filter) },
+      quality: {
+        ...(values.filter === undefined ? {} : { filter: parseFilter(values.filter) }),
+        ...(values['light-groups'] === undefined ? {} : { lightGroups: parseLightGroups(values['light-groups']) }),
+      },
       gpu: values.gpu,
     },
   };

@@ -2,9 +2,18 @@ import type { PathTracerOptions } from '@glanz/renderer';
 import { CliError } from './errors';
 
 /** What the command line passes on to the tracer as it is. Empty: the tracer's defaults. */
-export type QualityOptions = Pick<PathTracerOptions, 'filter'>;
+export type QualityOptions = Pick<PathTracerOptions, 'filter' | 'lightGroups'>;
 
 const FILTERS = ['box', 'gaussian', 'blackman-harris'] as const;
+
+const GROUPS = ['off', 'named', 'each'] as const;
+
+/** `--light-groups MODE`. @throws {CliError} `cli/usage` */
+export function parseLightGroups(text: string): (typeof GROUPS)[number] {
+  const mode = GROUPS.find((known) => known === text);
+  if (!mode) throw new CliError('cli/usage', `--light-groups must be one of ${GROUPS.join(', ')}, not "${text}".`);
+  return mode;
+}
 
 /** `--filter NAME` or `NAME:RADIUS`. @throws {CliError} `cli/usage` */
 export function parseFilter(text: string): NonNullable<PathTracerOptions['filter']> {

@@ -43,6 +43,7 @@ export interface FakeOptions {
   readonly scene?: Scene;
   /** Called before each sample is yielded. */
   readonly onSample?: (sample: number) => void;
+  readonly lightGroups?: readonly { readonly name: string; readonly intensity: number; readonly color: readonly [number, number, number] }[];
   readonly loadModel?: Backend['loadModel'];
   readonly openGpu?: Backend['openGpu'];
   readonly listGpus?: Backend['listGpus'];
@@ -74,8 +75,14 @@ export function fakeBackend(fake: FakeOptions = {}): FakeRun {
         if (layer === 'beauty') return interleaved((x, y, k) => [x / width, y / height, 0.25, options.background === 'transparent' ? 0.5 : 1][k] as number);
         if (layer === 'albedo') return interleaved((_x, _y, k) => [0.5, 0.25, 0.125, 1][k] as number);
         if (layer === 'normal') return interleaved((_x, _y, k) => [0, 0, 1, 0][k] as number);
+        if (layer === 'position') return interleaved((x, y, k) => [x, y, -2, 1][k] as number);
+        if (layer === 'variance') return interleaved((_x, _y, k) => [1e-9, 2e-9, 3e-9, samples][k] as number);
         if (layer === 'depth') return Float32Array.from({ length: width * height }, (_, i) => i * 0.1);
         return Uint32Array.from({ length: width * height }, (_, i) => (i === 0 ? 0xffffffff : i));
+      },
+      lightGroups: fake.lightGroups ?? [{ name: 'rest', intensity: 1, color: [1, 1, 1] }],
+      async readLightGroup(name: string) {
+        return interleaved((_x, _y, k) => (k === 3 ? 1 : name.length));
       },
       destroy: () => void destroyed.push('tracer'),
     };

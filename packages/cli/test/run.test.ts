@@ -16,7 +16,7 @@ describe('help and version', () => {
     const { code, out, err } = await run(['--help'], '.');
     expect([code, err]).toEqual([0, '']);
     for (const heading of ['NAME', 'SYNOPSIS', 'DESCRIPTION', 'EXIT STATUS', 'EXAMPLES']) expect(out).toContain(`\n${heading}\n`.trimStart());
-    for (const option of ['output', 'env', 'env-rotation', 'env-intensity', 'size', 'samples', 'depth', 'seed', 'camera', 'filter', 'exposure', 'tonemap', 'bits', 'transparent', 'json', 'quiet', 'list-gpus', 'gpu', 'help', 'version']) {
+    for (const option of ['output', 'env', 'env-rotation', 'env-intensity', 'size', 'samples', 'depth', 'seed', 'camera', 'filter', 'light-groups', 'exposure', 'tonemap', 'bits', 'transparent', 'json', 'quiet', 'list-gpus', 'gpu', 'help', 'version']) {
       expect(out).toMatch(new RegExp(`--${option}\\b`));
     }
     for (const line of out.split('\n')) expect(line.length, line).toBeLessThanOrEqual(80);
@@ -49,16 +49,19 @@ describe('writing', () => {
 
   it('several formats at once: 16-bit PNG, EXR with its layers, HDR', async () => {
     const cwd = folder();
-    const { code } = await run(['render', 'm.glb', ...SIZE, '--bits', '16', '-o', 'a.png', '-o', 'a.exr', '-o', 'a.hdr'], cwd);
+    const { code } = await run(['render', 'm.glb', ...SIZE, '--bits', '16', '-o', 'a.png', '-o', 'a.exr', '-o', 'a.hdr'], cwd, { lightGroups: ['key', 'soft box'].map((name) => ({ name, intensity: 1, color: [1, 1, 1] as const })) });
     expect(code).toBe(0);
     expect((await sharp(join(cwd, 'a.png')).metadata()).depth).toBe('ushort');
     const exr = decodeExr(new Uint8Array(readFileSync(join(cwd, 'a.exr'))));
     expect([...exr.channels].map(([name, { type }]) => `${name} ${type}`)).toEqual([
-      'A half', 'B half', 'G half', 'R half', 'albedo.B half', 'albedo.G half', 'albedo.R half', 'depth.Z float', 'materialId.id uint', 'normal.X half', 'normal.Y half', 'normal.Z half', 'objectId.id uint',
+      'A half', 'B half', 'G half', 'R half', 'albedo.B half', 'albedo.G half', 'albedo.R half', 'depth.Z float', 'light.key.B half', 'light.key.G half', 'light.key.R half', 'light.soft_box.B half', 'light.soft_box.G half', 'light.soft_box.R half', 'materialId.id uint', 'normal.X half', 'normal.Y half', 'normal.Z half', 'objectId.id uint', 'position.X float', 'position.Y float', 'position.Z float', 'variance.B float', 'variance.G float', 'variance.R float',
     ]);
     expect(exr.channels.get('R')?.data[9]).toBe(0.125);
     expect(exr.channels.get('albedo.G')?.data[5]).toBe(0.25);
     expect(exr.channels.get('normal.Z')?.data[5]).toBe(1);
+    expect(exr.channels.get('position.X')?.data[5]).toBe(5);
+    expect(exr.channels.get('variance.G')?.data[5]).toBe(Math.fround(2e-9));
+    expect(exr.channels.get('light.soft_box.R')?.data[5]).toBe(8);
     expect(exr.channels.get('depth.Z')?.data[3]).toBe(Math.fround(0.3));
     expect(exr.channels.get('objectId.id')?.data[0]).toBe(0xffffffff);
     expect(exr.attributes.get('samples')).toBe('4');

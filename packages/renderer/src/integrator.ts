@@ -1,10 +1,13 @@
 import { DeviceError } from './errors';
 import type { Film } from './film/film';
+import type { GroupWeights } from './film/layers';
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_COPY_SRC, GPU_BUFFER_INDIRECT, GPU_BUFFER_STORAGE, GPU_BUFFER_UNIFORM, type GpuMemory } from './gpu/buffers';
 import type { GpuScene } from './gpu/gpu-scene';
 import type { KernelSet } from './gpu/kernel-cache';
-import { batchStruct, frameStruct, pathStruct, shadowStruct } from './kernels/layout';
-import type { Kernel, KernelName } from './kernels/pipelines';
+import { batchStruct, frameStruct, shadowStruct } from './kernels/layout';
+import { pathLayout } from './kernels/path.wgsl';
+import { MAX_LIGHT_GROUPS } from './kernels/resources';
+import type { Kernel, KernelFeatures, KernelName } from './kernels/pipelines';
 import type { Batch } from './scheduler';
 
 /** Queue header words before the items. */
@@ -13,12 +16,12 @@ const QUEUE_WORDS = 8;
 /** One dispatch covers at most 65,535 workgroups of 64 threads. */
 export const MAX_THREADS = 65535 * 64;
 
-type OwnBuffer = 'frame' | 'batch' | 'paths' | 'queues' | 'shadows' | 'dispatch';
+type OwnBuffer = 'frame' | 'batch' | 'light_groups' | 'paths' | 'queues' | 'shadows' | 'dispatch';
 
 /** How many paths are kept on the GPU at once. */
-export function pathCapacity(device: GPUDevice, options: { readonly width: number; readonly height: number; readonly pathsInFlight?: number }): number {
+export function pathCapacity(device: GPUDevice, options: { readonly width: number; readonly height: number; readonly pathsInFlight?: number }, features: KernelFeatures): number {
   const wanted = options.pathsInFlight ?? Math.min(1 << 20, Math.max(1 << 16, options.width * options.height * 4));
-  return Math.max(64, Math.min(wanted, Math.floor(device.limits.maxStorageBufferBindingSize / pathStruct.size), MAX_THREADS));
+  return Math.max(64, Math.min(wanted, Math.floor(device.limits.maxStorageBufferBindingSize / pathLayout(features).struct.size), MAX_THREADS));
 }
 
 /** The paths in flight and the kernels that move them: encodes batches, knows nothing of time or targets. */
@@ -45,7 +48,8 @@ export class Integrator {
     this.#buffers = {
       frame: memory.buffer('frame', frameStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
       batch: memory.buffer('batch', batchStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
-      paths: memory.buffer('paths', capacity * pathStruct.size, GPU_BUFFER_STORAGE),
+      light_groups: memory.buffer('light groups', 2 * MAX_LIGHT_GROUPS * 16, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
+      paths: memory.buffer('paths', capacity * pathLayout(kernels.features).struct.size, GPU_BUFFER_STORAGE),
       queues: memory.buffer('queues', (QUEUE_WORDS + 2 * capacity) * 4, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC),
       shadows: memory.buffer('shadows', (kernels.features.flags.NEXT_EVENT ? capacity : 1) * shadowStruct.size, GPU_BUFFER_STORAGE),
       dispatch: memory.buffer('dispatch', 32, GPU_BUFFER_STORAGE | GPU_BUFFER_INDIRECT),
@@ -64,11 +68,8 @@ export class Integrator {
   /** From now on these kernels; they bind anew. */
   use(kernels: KernelSet): void {
     this.#kernels = kernels;
-    const bytes = this.capacity * shadowStruct.size;
-    if (kernels.features.flags.NEXT_EVENT && this.#buffers.shadows.size < bytes) {
-      this.#memory.release(this.#buffers.shadows);
-      this.#buffers.shadows = this.#memory.buffer('shadows', bytes, GPU_BUFFER_STORAGE);
-    }
+    this.#grow('shadows', kernels.features.flags.NEXT_EVENT ? this.capacity * shadowStruct.size : 0);
+    this.#grow('paths', this.capacity * pathLayout(kernels.features).struct.size);
     this.rebind();
   }
 
@@ -80,6 +81,14 @@ export class Integrator {
 
   writeFrame(frame: ArrayBuffer): void {
     this.#memory.write(this.#buffers.frame, frame);
+  }
+
+  /** Weights of the light groups: as they are now, and as they were when the film was begun. */
+  writeGroups(now: GroupWeights, first: GroupWeights): void {
+    const data = new Float32Array(8 * MAX_LIGHT_GROUPS);
+    now.forEach((weight, i) => data.set(weight, 4 * i));
+    first.forEach((weight, i) => data.set(weight, 4 * (MAX_LIGHT_GROUPS + i)));
+    this.#memory.write(this.#buffers.light_groups, data);
   }
 
   /** Traces the batch's paths and adds them to the film. */
@@ -106,6 +115,12 @@ export class Integrator {
   submitPixels(name: KernelName, kernel: Kernel, batch: Batch): void {
     this.#writeBatch(batch);
     this.#pass(`glanz ${name}`, (pass) => this.#run(pass, name, kernel, Math.ceil(batch.pixelCount / 64)));
+  }
+
+  #grow(name: 'shadows' | 'paths', bytes: number): void {
+    if (this.#buffers[name].size >= bytes) return;
+    this.#memory.release(this.#buffers[name]);
+    this.#buffers[name] = this.#memory.buffer(name, bytes, GPU_BUFFER_STORAGE);
   }
 
   #pass(label: string, encode: (pass: GPUComputePassEncoder) => void): void {

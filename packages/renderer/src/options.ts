@@ -25,6 +25,13 @@ export interface PathTracerOptions {
    * no ringing; noise stays independent from pixel to pixel.
    */
   readonly filter?: PixelFilter;
+  /**
+   * Keeps the light of several groups apart, so that each can be dimmed and coloured without a new sample, see
+   * `PathTracer.setLightGroup`. `off`: one sum. `named` (default): the groups that the scene names (`light_group` of lights,
+   * emitting materials and the environment), and one called `rest` for all else. `each`: every light, emitting material and
+   * the environment by its own name. A group costs 32 bytes a pixel and 16 bytes a path in flight; 16 at most.
+   */
+  readonly lightGroups?: LightGroupMode;
   /** Compensate the energy that single-scattering microfacet models lose. Default true; false is for tests against such references. */
   readonly multipleScattering?: boolean;
   /**
@@ -38,11 +45,24 @@ export interface PathTracerOptions {
   readonly pathsInFlight?: number;
   /**
    * Builds the hierarchies of the meshes, e.g. `await BvhWorkers.create()` of `@glanz/bvh/workers`: on other threads,
-   * several at a time. It stays the caller's to destroy. Default: built on this thread, which is handed back between meshes.
+   * several at a time; or a `BlasCache` of `@glanz/bvh/cache` around it, which reads what was built before. It stays the
+   * caller's to destroy. Default: built on this thread, which is handed back between meshes.
    */
   readonly hierarchies?: HierarchyBuilder;
   readonly signal?: AbortSignal;
   readonly onProgress?: (progress: PrepareProgress) => void;
+}
+
+/** See {@link PathTracerOptions.lightGroups}. */
+export type LightGroupMode = 'off' | 'named' | 'each';
+
+/** A light group as it is set. */
+export interface LightGroup {
+  readonly name: string;
+  /** Multiplies its light. */
+  readonly intensity: number;
+  /** Multiplies its light too; linear Rec.709. */
+  readonly color: readonly [number, number, number];
 }
 
 /** A pixel filter by name, or with its radius in pixels (half its width), above 0 and at most 16. */
@@ -94,7 +114,7 @@ export interface RenderStatistics {
 }
 
 /** What {@link PathTracer.read} can give. */
-export type FilmLayer = 'beauty' | 'albedo' | 'normal' | 'depth' | 'objectId' | 'materialId';
+export type FilmLayer = 'beauty' | 'variance' | 'albedo' | 'normal' | 'position' | 'depth' | 'objectId' | 'materialId';
 
 /** The surface under a pixel, see {@link PathTracer.pick}. */
 export interface PickResult {

@@ -1,17 +1,17 @@
 import { validateScene, type Camera, type Environment, type Material, type Scene } from '@glanz/scene';
 import { DeviceError, RenderError } from './errors';
-import { FEATURE_SAMPLES, renderFeatures } from './film/feature-pass';
+import { FEATURE_SAMPLES, forBands, renderFeatures } from './film/feature-pass';
 import { Film } from './film/film';
-import { LAYER_SOURCES, unpackLayer, type FeatureLayer } from './film/layers';
+import { groupLayer, LAYER_SOURCES, unpackLayer, varianceLayer, type FeatureLayer, type GroupWeights } from './film/layers';
 import { packFrame } from './frame';
 import { GpuMemory } from './gpu/buffers';
 import { withErrorScopes } from './gpu/error-scopes';
 import { GpuScene } from './gpu/gpu-scene';
 import { KernelCache } from './gpu/kernel-cache';
-import type { KernelFeatures } from './kernels/pipelines';
+import type { KernelFeatures, KernelName } from './kernels/pipelines';
 import { readBuffer } from './gpu/read-buffer';
 import { Integrator, pathCapacity } from './integrator';
-import type { FilmLayer, PathTracerOptions, PickResult, RenderOptions, RenderProgress, RenderStatistics } from './options';
+import type { FilmLayer, LightGroup, PathTracerOptions, PickResult, RenderOptions, RenderProgress, RenderStatistics } from './options';
 import { pickPixel } from './pick';
 import { renderLoop } from './render-loop';
 import { cameraUniforms } from './scene/camera';
@@ -64,7 +64,10 @@ export class PathTracer {
   #rendering = false;
   #destroyed = false;
   #failure: DeviceError | undefined;
-  #features: { readonly samples: number; readonly done: Promise<void> } | undefined;
+  readonly #features = new Map<KernelName, { readonly samples: number; readonly done: Promise<void> }>();
+  /** By name; groups that were never set are not in it. */
+  readonly #groups = new Map<string, LightGroup>();
+  #firstWeights: GroupWeights = [];
   #statistics: RenderStatistics;
   #frameDirty = true;
 
@@ -107,7 +110,7 @@ export class PathTracer {
     onProgress?.({ stage: 'upload', done: 0 });
     const memory = new GpuMemory(device);
     try {
-      const gpuScene = await withErrorScopes(device, () => new GpuScene(device, memory, own, geometry, { multipleScattering: options.multipleScattering ?? true, sampler: options.sampler ?? 'sobol' }));
+      const gpuScene = await withErrorScopes(device, () => new GpuScene(device, memory, own, geometry, { multipleScattering: options.multipleScattering ?? true, sampler: options.sampler ?? 'sobol', lightGroups: options.lightGroups ?? 'named' }));
       const t2 = performance.now();
       onProgress?.({ stage: 'upload', done: 1 });
       const cache = new KernelCache(device);
@@ -116,8 +119,8 @@ export class PathTracer {
       signal?.throwIfAborted();
       const t3 = performance.now();
       const tracer = await withErrorScopes(device, () => {
-        const film = new Film(memory, options.width, options.height);
-        const integrator = new Integrator(device, memory, gpuScene, kernels, film, pathCapacity(device, options), options.maxDepth ?? 8);
+        const film = new Film(memory, options.width, options.height, kernels.features.planes);
+        const integrator = new Integrator(device, memory, gpuScene, kernels, film, pathCapacity(device, options, kernels.features), options.maxDepth ?? 8);
         const statistics: RenderStatistics = {
           triangles: geometry.triangleCount,
           instances: geometry.order.length,
@@ -206,8 +209,12 @@ export class PathTracer {
    * Copies a layer of the film to the CPU, top row first.
    *
    * - `beauty`: Float32Array, RGBA, stride 4: linear radiance (mean over samples) and coverage.
+   * - `variance`: Float32Array, stride 4: variance of the beauty's mean, RGB, estimated from the means of chunks of 16 samples
+   *   (`Infinity` before there are 32 samples), and the pixel's number of samples. Exact on average for independent samples;
+   *   with Sobol points it errs on the high side. It is that of the light groups as they were set when the film was begun.
    * - `albedo`: Float32Array, RGBA: directional albedo at the first surface, coverage.
    * - `normal`: Float32Array, xyz0: mean shading normal in the world, towards the camera.
+   * - `position`: Float32Array, stride 4: mean position of the first surface in the world, and coverage.
    * - `depth`: Float32Array, stride 1: metres along the ray; 0 where there is no surface.
    * - `objectId`, `materialId`: Uint32Array, stride 1: scene indices at the pixel's centre; 0xffffffff for none.
    *
@@ -225,17 +232,66 @@ export class PathTracer {
       this.#statistics = { ...this.#statistics, badSamples: counters[3] as number };
       return pixels;
     }
+    if (layer === 'variance') {
+      const [total, moment] = await this.#readFilm('film_total', 'film_moment');
+      return varianceLayer(total as Float32Array, moment as Float32Array, this.#firstWeights);
+    }
     return this.#readFeature(layer, bytes);
+  }
+
+  /**
+   * The light groups and how they are set, in the order of the film's planes. One, `rest`, unless the scene names groups or
+   * the option `lightGroups` makes some.
+   */
+  get lightGroups(): readonly LightGroup[] {
+    return this.#gpuScene.groups.names.map((name) => this.#groups.get(name) ?? { name, intensity: 1, color: [1, 1, 1] });
+  }
+
+  /**
+   * Dims or colours the light of a group in the picture as it is: no new sample, the film goes on.
+   *
+   * @param settings What is left out stays as it is. The intensity must be finite and at least 0, as must the colour.
+   * @returns When the picture shows it.
+   * @throws {RenderError} `renderer/light-groups` for an unknown group, a value out of range, or with `lightGroups: 'off'`.
+   */
+  async setLightGroup(name: string, settings: Partial<Pick<LightGroup, 'intensity' | 'color'>>): Promise<void> {
+    this.#check();
+    if (this.#options.lightGroups === 'off') throw new RenderError('renderer/light-groups', "This tracer keeps no light groups: it was made with lightGroups 'off'.");
+    const group = this.#lightGroup(name);
+    const next = { ...group, ...settings, name };
+    if (![next.intensity, ...next.color].every((value) => value >= 0 && value < Infinity)) {
+      throw new RenderError('renderer/light-groups', `Light group "${name}": intensity and colour must be finite and not negative.`);
+    }
+    this.#groups.set(name, next);
+    this.#integrator.writeGroups(this.#groupWeights(), this.#firstWeights);
+    const kernel = await this.#cache.kernel('relight', this.#integrator.kernels.features);
+    if (!this.#destroyed) forBands(this.#film.pixels, (batch) => this.#integrator.submitPixels('relight', kernel, batch));
+  }
+
+  /**
+   * The part of one light group in the picture: Float32Array, RGBA, stride 4, as the group is set; all groups add up to the
+   * beauty. Alpha is the picture's coverage.
+   *
+   * @throws {RenderError} `renderer/light-groups` if there is no such group.
+   */
+  async readLightGroup(name: string): Promise<Float32Array<ArrayBuffer>> {
+    this.#check();
+    const plane = this.#gpuScene.groups.names.indexOf(this.#lightGroup(name).name);
+    const weight = this.#groupWeights()[plane] as GroupWeights[number];
+    const [total, block, moment] = await this.#readFilm('film_total', 'film_block', 'film_moment');
+    return groupLayer(total as Float32Array, block as Float32Array, moment as Float32Array, plane, weight);
   }
 
   /** Restarts the film. */
   reset(): void {
     this.#check();
     this.#generation++;
-    this.#features = undefined;
+    this.#features.clear();
     this.#frameDirty = true;
     const { flags } = this.#integrator.kernels.features;
     if (Object.entries(viewFlags(this.#camera, this.#options.filter)).every(([name, value]) => flags[name] === value)) this.#shownCamera = this.#camera;
+    this.#firstWeights = this.#groupWeights();
+    this.#integrator.writeGroups(this.#firstWeights, this.#firstWeights);
     // Keeps what was learned about the GPU's speed.
     this.#scheduler = this.#scheduler?.restarted();
     const encoder = this.#device.createCommandEncoder({ label: 'glanz reset' });
@@ -290,10 +346,7 @@ export class PathTracer {
     this.#check();
     checkSize(width, height);
     if (width === this.#film.width && height === this.#film.height) return;
-    this.#film.destroy();
-    this.#film = new Film(this.#memory, width, height);
-    this.#scheduler = undefined;
-    this.#integrator.rebind(this.#film);
+    this.#replaceFilm(width, height);
     this.reset();
   }
 
@@ -318,6 +371,7 @@ export class PathTracer {
     // A later edit has asked for other kernels meanwhile, and will restart the film itself.
     if (this.#destroyed || kernels === this.#integrator.kernels || edit !== this.#edits) return;
     this.#integrator.use(kernels);
+    if (kernels.features.planes !== this.#film.planes) this.#replaceFilm(this.#film.width, this.#film.height);
     this.reset();
   }
 
@@ -338,22 +392,49 @@ export class PathTracer {
   }
 
   async #readFeature(layer: FeatureLayer, bytes: number): Promise<Float32Array<ArrayBuffer> | Uint32Array<ArrayBuffer>> {
+    const { kernel, buffers } = LAYER_SOURCES[layer];
     const target = Math.min(FEATURE_SAMPLES, Math.max(1, this.samples));
     // Layers read at the same time share one pass.
-    let features = this.#features;
-    if (!features || features.samples < target) this.#features = features = { samples: target, done: this.#renderFeatures(target, features?.done) };
-    await features.done;
-    const count = features.samples;
-    const sources = await Promise.all(LAYER_SOURCES[layer].map((name) => readBuffer(this.#device, this.#film.buffer(name) as GPUBuffer, bytes)));
-    return unpackLayer(layer, sources, count);
+    let pass = this.#features.get(kernel);
+    if (!pass || pass.samples < target) this.#features.set(kernel, (pass = { samples: target, done: this.#renderFeatures(kernel, target, pass?.done) }));
+    await pass.done;
+    const sources = await Promise.all(buffers.map((name) => readBuffer(this.#device, this.#film.buffer(name) as GPUBuffer, bytes)));
+    return unpackLayer(layer, sources, pass.samples);
   }
 
-  async #renderFeatures(samples: number, after: Promise<void> | undefined): Promise<void> {
+  async #renderFeatures(name: KernelName, samples: number, after: Promise<void> | undefined): Promise<void> {
     await after;
-    const kernel = await this.#cache.kernel('features', this.#integrator.kernels.features);
+    const kernel = await this.#cache.kernel(name, this.#integrator.kernels.features);
     this.#check();
     this.#writeFrame();
-    await renderFeatures(this.#device, this.#integrator, kernel, this.#film, samples);
+    await renderFeatures(this.#device, this.#integrator, name, kernel, this.#film, samples);
+  }
+
+  #readFilm(...names: readonly string[]): Promise<Float32Array[]> {
+    return Promise.all(
+      names.map(async (name) => {
+        const buffer = this.#film.buffer(name) as GPUBuffer;
+        return new Float32Array(await readBuffer(this.#device, buffer, buffer.size));
+      }),
+    );
+  }
+
+  #replaceFilm(width: number, height: number): void {
+    this.#film.destroy();
+    this.#film = new Film(this.#memory, width, height, this.#integrator.kernels.features.planes);
+    this.#scheduler = undefined;
+    this.#integrator.rebind(this.#film);
+  }
+
+  #lightGroup(name: string): LightGroup {
+    const groups = this.lightGroups;
+    const group = groups.find((known) => known.name === name);
+    if (!group) throw new RenderError('renderer/light-groups', `There is no light group "${name}"; there are: ${groups.map((known) => known.name).join(', ')}.`);
+    return group;
+  }
+
+  #groupWeights(): GroupWeights {
+    return this.lightGroups.map(({ intensity, color }) => [intensity * color[0], intensity * color[1], intensity * color[2]]);
   }
 }
 

@@ -5,6 +5,8 @@ export interface ConstantEnvironment {
   radiance: readonly [number, number, number];
   /** Whether the camera sees it directly; default true. Light from it arrives either way. */
   visible?: boolean;
+  /** Light group that its light is kept in. */
+  light_group?: string;
 }
 
 /**
@@ -23,6 +25,8 @@ export interface LatLongEnvironment {
   /** Turns the surroundings about +Y, radians, counter-clockwise seen from above: L(d) = picture(R_y(−rotation) d). Default 0. */
   rotation?: number;
   visible?: boolean;
+  /** Light group that its light is kept in. */
+  light_group?: string;
 }
 
 /** The light that comes from infinitely far away. */

@@ -2,6 +2,8 @@
 export interface PointLight {
   type: 'point';
   name: string;
+  /** Light group that its light is kept in; see `PathTracerOptions.lightGroups` of the renderer. */
+  light_group?: string;
   color: readonly [number, number, number];
   /** Radiant intensity, W/sr (glTF: candela, taken 1:1). */
   intensity: number;
@@ -13,6 +15,8 @@ export interface PointLight {
 export interface SpotLight {
   type: 'spot';
   name: string;
+  /** Light group that its light is kept in; see `PathTracerOptions.lightGroups` of the renderer. */
+  light_group?: string;
   color: readonly [number, number, number];
   /** Radiant intensity on the axis, W/sr. */
   intensity: number;
@@ -29,6 +33,8 @@ export interface SpotLight {
 export interface DirectionalLight {
   type: 'directional';
   name: string;
+  /** Light group that its light is kept in; see `PathTracerOptions.lightGroups` of the renderer. */
+  light_group?: string;
   color: readonly [number, number, number];
   /** Irradiance on a perpendicular surface, W/m² (glTF: lux, taken 1:1). */
   intensity: number;

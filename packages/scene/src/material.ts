@@ -43,6 +43,8 @@ export interface Material {
   double_sided?: boolean;
   /** Opacity below this counts as 0 and from it on as 1 (glTF alphaMode MASK). Absent: `geometry_opacity` is a coverage. */
   opacity_threshold?: number;
+  /** Light group that what the material emits is kept in. */
+  light_group?: string;
   /** The source file's own extra data, passed through untouched. */
   extras?: unknown;
 }

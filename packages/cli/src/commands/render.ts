@@ -7,7 +7,7 @@ import { EXIT } from '../errors';
 import { checkInput } from '../input';
 import type { CliIo, Interrupt } from '../io';
 import type { RenderCommandOptions } from '../options';
-import type { Picture } from '../output/picture';
+import type { Picture, PictureLayers } from '../output/picture';
 import { checkWritable, writePicture, type WrittenFile } from '../output/write';
 import { duration, rate, type ProgressReporter } from '../progress';
 import { version } from '../version';
@@ -179,6 +179,12 @@ export async function renderCommand(options: RenderCommandOptions, io: CliIo, ba
 
 const cameraName = (camera: Camera) => camera.name || camera.type;
 
+async function lightLayers(tracer: Tracer): Promise<PictureLayers['lights']> {
+  const groups = tracer.lightGroups;
+  if (groups.length < 2) return [];
+  return Promise.all(groups.map(async ({ name }) => ({ name, data: await tracer.readLightGroup(name) })));
+}
+
 async function readPicture(tracer: Tracer, options: RenderCommandOptions, samples: number): Promise<Picture> {
   const { width, height, outputs } = options;
   const beauty = await tracer.read('beauty');
@@ -189,6 +195,9 @@ async function readPicture(tracer: Tracer, options: RenderCommandOptions, sample
     layers: {
       albedo: await tracer.read('albedo'),
       normal: await tracer.read('normal'),
+      position: await tracer.read('position'),
+      variance: await tracer.read('variance'),
+      lights: await lightLayers(tracer),
       depth: await tracer.read('depth'),
       objectId: await tracer.read('objectId'),
       materialId: await tracer.read('materialId'),

@@ -17,8 +17,11 @@ export function exrFile({ width, height, beauty, layers, samples, software }: Pi
     list.push(
       { name: 'albedo', type, channels: rgba(layers.albedo, 'RGB') },
       { name: 'normal', type, channels: rgba(layers.normal, 'XYZ') },
-      // Halves have three digits: too few for a distance.
+      // Halves have three digits: too few for a place or a distance, and too short a range for a variance.
+      { name: 'position', type: 'float', channels: rgba(layers.position, 'XYZ') },
+      { name: 'variance', type: 'float', channels: rgba(layers.variance, 'RGB') },
       { name: 'depth', type: 'float', channels: { Z: layers.depth } },
+      ...layers.lights.map(({ name, data }): ExrLayer => ({ name: `light.${name.replaceAll(/[^\w-]+/g, '_')}`, type, channels: rgba(data, 'RGB') })),
       { name: 'objectId', channels: { id: layers.objectId } },
       { name: 'materialId', channels: { id: layers.materialId } },
     );

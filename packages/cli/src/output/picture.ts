@@ -16,6 +16,12 @@ export interface PictureLayers {
   readonly albedo: Float32Array;
   /** xyz0, stride 4. */
   readonly normal: Float32Array;
+  /** Mean position in the world and coverage, stride 4, metres. */
+  readonly position: Float32Array;
+  /** Of the beauty's mean, RGB, and the number of samples, stride 4. */
+  readonly variance: Float32Array;
+  /** The part of each light group in the beauty, RGBA, stride 4; empty where there is but one. */
+  readonly lights: readonly { readonly name: string; readonly data: Float32Array }[];
   /** Metres, stride 1. */
   readonly depth: Float32Array;
   /** Scene indices, 0xffffffff for none. */

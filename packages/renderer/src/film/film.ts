@@ -1,23 +1,31 @@
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_COPY_SRC, GPU_BUFFER_STORAGE, type GpuMemory } from '../gpu/buffers';
 
-/** Buffers of the film by the names under which kernels bind them. */
-type FilmBuffer = 'film_block' | 'film_total' | 'beauty' | 'feature_albedo' | 'feature_normal' | 'feature_ids';
-
 /** Made when a kernel first binds them: they belong to layers that few ask for. */
-const ON_DEMAND: ReadonlySet<string> = new Set<FilmBuffer>(['feature_albedo', 'feature_normal', 'feature_ids']);
+const ON_DEMAND: ReadonlySet<string> = new Set(['feature_albedo', 'feature_normal', 'feature_ids', 'feature_position']);
 
-/** The buffers of one picture: sums, mean and, once asked for, the first-hit features. */
+/**
+ * The buffers of one picture. Per pixel: a vec4f for each plane (light group) in `film_block` (samples of a chunk not yet
+ * complete) and in `film_total` (complete chunks), planes one after another; `film_moment` for the variance; `beauty`; the
+ * pixel's number in `film_pixels`. The first-hit features come when they are asked for.
+ */
 export class Film {
   readonly width: number;
   readonly height: number;
+  /** Sums that are kept apart. */
+  readonly planes: number;
   readonly #memory: GpuMemory;
   readonly #buffers = new Map<string, GPUBuffer>();
 
-  constructor(memory: GpuMemory, width: number, height: number) {
+  constructor(memory: GpuMemory, width: number, height: number, planes: number) {
     this.#memory = memory;
     this.width = width;
     this.height = height;
-    for (const name of ['film_block', 'film_total', 'beauty'] as const) this.#make(name);
+    this.planes = planes;
+    this.#make('film_block', 16 * planes);
+    this.#make('film_total', 16 * planes);
+    this.#make('film_moment', 16);
+    this.#make('beauty', 16);
+    memory.write(this.#make('film_pixels', 4), Uint32Array.from({ length: this.pixels }, (_, i) => i));
   }
 
   get pixels(): number {
@@ -31,12 +39,12 @@ export class Film {
 
   /** The buffer that a kernel binds under this name, if it is the film's. */
   buffer(name: string): GPUBuffer | undefined {
-    return this.#buffers.get(name) ?? (ON_DEMAND.has(name) ? this.#make(name) : undefined);
+    return this.#buffers.get(name) ?? (ON_DEMAND.has(name) ? this.#make(name, 16) : undefined);
   }
 
   /** Zeroes the sums. */
   clear(encoder: GPUCommandEncoder): void {
-    for (const [name, buffer] of this.#buffers) if (!ON_DEMAND.has(name)) encoder.clearBuffer(buffer);
+    for (const name of ['film_block', 'film_total', 'film_moment', 'beauty']) encoder.clearBuffer(this.#buffers.get(name) as GPUBuffer);
   }
 
   destroy(): void {
@@ -44,9 +52,9 @@ export class Film {
     this.#buffers.clear();
   }
 
-  #make(name: string): GPUBuffer {
+  #make(name: string, bytesPerPixel: number): GPUBuffer {
     const label = name.startsWith('film') ? name.replace('_', ' ') : `film ${name.replace('feature_', '')}`;
-    const buffer = this.#memory.buffer(label, this.pixels * 16, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC | GPU_BUFFER_COPY_DST);
+    const buffer = this.#memory.buffer(label, this.pixels * bytesPerPixel, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC | GPU_BUFFER_COPY_DST);
     this.#buffers.set(name, buffer);
     return buffer;
   }

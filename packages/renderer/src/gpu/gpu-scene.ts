@@ -5,7 +5,9 @@ import type { KernelFeatures } from '../kernels/pipelines';
 import { materialStruct } from '../kernels/layout';
 import type { ResourceName } from '../kernels/resources';
 import { prepareEnvironment, type EnvironmentData } from '../scene/environment';
+import type { LightGroupMode } from '../options';
 import { packInstances, type Geometry } from '../scene/geometry';
+import { lightGroupTable, type LightGroupTable } from '../scene/light-groups';
 import { buildLightTable, type LightTable } from '../scene/lights';
 import { hasRanges, isOpaque, packBindings, packMaterial, texturedParameters, turnsTangent, usedTextures, type TexturedParameterInfo } from '../scene/materials';
 import { planTextures, type TexturePlan } from '../scene/textures';
@@ -19,6 +21,7 @@ const OWN_TEXTURES = 4;
 export interface SceneChoices {
   readonly multipleScattering: boolean;
   readonly sampler: 'sobol' | 'independent';
+  readonly lightGroups: LightGroupMode;
 }
 
 /** A scene on the GPU. A cache: everything here can be made again from the `Scene`. */
@@ -37,6 +40,7 @@ export class GpuScene {
   readonly #buffers = new Map<ResourceName, GPUBuffer>();
   readonly #textures = new Map<ResourceName, GPUTexture>();
   readonly #energySampler: GPUSampler;
+  #groups: LightGroupTable;
   #lights: LightTable;
   #environment: EnvironmentData;
 
@@ -46,6 +50,7 @@ export class GpuScene {
     this.#scene = scene;
     this.#geometry = geometry;
     this.#choices = choices;
+    this.#groups = lightGroupTable(scene, choices.lightGroups);
     this.#textured = texturedParameters(scene.materials);
     const slots = device.limits.maxSampledTexturesPerShaderStage - OWN_TEXTURES;
     this.#plan = planTextures(scene, usedTextures(scene.materials), slots, device.limits);
@@ -77,6 +82,10 @@ export class GpuScene {
 
   get environment(): EnvironmentData {
     return this.#environment;
+  }
+
+  get groups(): LightGroupTable {
+    return this.#groups;
   }
 
   get lightCount(): number {
@@ -115,6 +124,7 @@ export class GpuScene {
         ENVIRONMENT_MAP: this.#environment.pixels !== undefined,
         ENVIRONMENT_SAMPLED: sampled,
         LIGHTS: lights,
+        LIGHT_GROUPS: this.#choices.lightGroups !== 'off',
         NEXT_EVENT: lights || sampled,
         SOBOL: this.#choices.sampler === 'sobol',
       },
@@ -122,6 +132,7 @@ export class GpuScene {
       textured: this.#textured,
       textureCount: this.#sceneTextures.length,
       samplerCount: this.#samplers.length,
+      planes: this.#groups.names.length,
     };
   }
 
@@ -140,6 +151,7 @@ export class GpuScene {
 
   /** Re-reads one material of the scene. Returns true if bindings were replaced. */
   updateMaterial(index: number): boolean {
+    this.#updateGroups();
     const stride = materialStruct.size;
     const record = materialStruct.allocate();
     this.#packMaterial(record, 0, index);
@@ -151,6 +163,16 @@ export class GpuScene {
   updateEnvironment(environment: Environment | undefined): void {
     this.#environment = prepareEnvironment(environment);
     this.#uploadEnvironment();
+    if (this.#updateGroups()) this.#updateLights();
+  }
+
+  /** Sorts the lights into groups anew; where that changes anything, materials are written again. */
+  #updateGroups(): boolean {
+    const before = this.#groups.names;
+    this.#groups = lightGroupTable(this.#scene, this.#choices.lightGroups);
+    if (before.length === this.#groups.names.length && before.every((name, i) => name === this.#groups.names[i])) return false;
+    this.#memory.write(this.#buffers.get('materials') as GPUBuffer, this.#packMaterials());
+    return true;
   }
 
   #updateLights(): boolean {
@@ -176,7 +198,7 @@ export class GpuScene {
   }
 
   #packMaterial(buffer: ArrayBuffer, at: number, index: number): void {
-    packMaterial(buffer, at, this.#scene.materials[index] as Scene['materials'][number], this.#firstBinding[index] as number, this.#bindingCount[index] as number, this.#opaque(index));
+    packMaterial(buffer, at, this.#scene.materials[index] as Scene['materials'][number], this.#firstBinding[index] as number, this.#bindingCount[index] as number, this.#opaque(index), this.#groups.material(this.#scene.materials[index] as Scene['materials'][number]));
   }
 
   #packMaterials(): ArrayBuffer {
@@ -197,7 +219,7 @@ export class GpuScene {
       }
       return (this.#geometry.firstTriangle[mesh] as number) + (order[triangle] as number);
     };
-    return buildLightTable(this.#scene, { instanceSlots: this.#geometry.instanceSlots, leafTriangle }, this.#geometry.radius);
+    return buildLightTable(this.#scene, { instanceSlots: this.#geometry.instanceSlots, leafTriangle }, this.#geometry.radius, this.#groups);
   }
 
   #upload(name: ResourceName, data: ArrayBufferView<ArrayBuffer> | ArrayBuffer): void {

@@ -6,6 +6,9 @@ export interface KernelSet {
   readonly kernels: Readonly<Partial<Record<KernelName, Kernel>>>;
 }
 
+/** Compiled when they are first asked for. */
+const ON_DEMAND: ReadonlySet<KernelName> = new Set(['features', 'position', 'relight']);
+
 const cachesOf = new WeakMap<GPUDevice, { readonly sets: Map<string, Promise<KernelSet>>; readonly kernels: Map<string, Promise<Kernel>> }>();
 
 /** Compiled kernels, shared by all tracers on one device and keyed by their text: what differs elsewhere costs nothing. */
@@ -26,7 +29,7 @@ export class KernelCache {
   get(features: KernelFeatures, onProgress?: (done: number) => void): Promise<KernelSet> {
     const key = JSON.stringify(features);
     return remember(this.#sets, key, async () => {
-      const names = KERNELS.filter((name) => name !== 'features' && (name !== 'connect' || features.flags.NEXT_EVENT === true));
+      const names = KERNELS.filter((name) => !ON_DEMAND.has(name) && (name !== 'connect' || features.flags.NEXT_EVENT === true));
       let done = 0;
       const compiled = await Promise.all(
         names.map(async (name) => {

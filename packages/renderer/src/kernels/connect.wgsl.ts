@@ -1,7 +1,7 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 
 /** Tests the light samples that shading asked for and adds those that arrive. */
-export const connect = (traversal: WgslModule): WgslModule => wgslModule(
+export const connect = (path: WgslModule, traversal: WgslModule): WgslModule => wgslModule(
   'renderer/connect',
   /* wgsl */ `
 @compute @workgroup_size(64)
@@ -9,11 +9,11 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   if (id.x >= queues.shadow_active) { return; }
   let shadow = shadows[id.x];
   //#if BVH_FILTER
-  opacity_begin(shadow.path, 2u * queues.depth + 1u);
+  opacity_begin(paths[shadow.path].pixel, batch.sample_offset + shadow.path / batch.pixel_count, 2u * queues.depth + 1u);
   //#endif
   if (bvh_any_hit(shadow.origin, shadow.direction, 0.0, shadow.distance)) { return; }
-  paths[shadow.path].radiance += shadow.contribution;
+  path_deposit(shadow.path, shadow.group, shadow.contribution);
 }
 `,
-  [traversal],
+  [path, traversal],
 );

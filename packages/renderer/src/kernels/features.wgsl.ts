@@ -19,7 +19,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   if (first) {
     feature_ids[pixel] = vec4u(0xffffffffu);
     //#if BVH_FILTER
-    opacity_begin(id.x, 0xffffu);
+    opacity_begin(pixel, 0u, 0xffffu);
     //#endif
     let ray = camera_ray(at, vec2f(0.5), vec2f(0.5));
     let hit = bvh_closest_hit(ray.origin, ray.direction, 0.0, 3.4e38);
@@ -29,7 +29,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   let offset = filter_offset(random_2());
   let ray = camera_ray(at, offset, random_2());
   //#if BVH_FILTER
-  opacity_begin(id.x, 0u);
+  opacity_begin(pixel, batch.sample_offset, 0u);
   //#endif
   let hit = bvh_closest_hit(ray.origin, ray.direction, 0.0, 3.4e38);
   var albedo = vec4f(0.0);

@@ -1,16 +1,16 @@
-import { wgslModule } from '@glanz/wgsl';
+import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { camera } from './camera.wgsl';
 import { filter } from './filter.wgsl';
 
 /** Starts the paths of a batch: path i is sample ⌊i / pixels⌋ of pixel i mod pixels. */
-export const generate = wgslModule(
+export const generate = (path: WgslModule): WgslModule => wgslModule(
   'renderer/generate',
   /* wgsl */ `
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3u) {
   let index = id.x;
   if (index >= batch.pixel_count * batch.sample_count) { return; }
-  let pixel = batch.pixel_offset + index % batch.pixel_count;
+  let pixel = film_pixels[batch.pixel_offset + index % batch.pixel_count];
   random_begin(pixel, batch.sample_offset + index / batch.pixel_count, 0u, frame.seed);
   let offset = filter_offset(random_2());
   let ray = camera_ray(vec2u(pixel % frame.size.x, pixel / frame.size.x), offset, random_2());
@@ -20,9 +20,10 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   paths[index].cone_width = frame.cone_width;
   paths[index].throughput = vec3f(1.0);
   paths[index].alpha = 1.0;
-  paths[index].radiance = vec3f(0.0);
+  paths[index].pixel = pixel;
+  path_clear(index);
   queues.items[index] = index;
 }
 `,
-  [camera, filter],
+  [path, camera, filter],
 );

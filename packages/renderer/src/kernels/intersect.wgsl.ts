@@ -1,7 +1,7 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 
 /** Finds the nearest surface of every active path. */
-export const intersect = (traversal: WgslModule): WgslModule => wgslModule(
+export const intersect = (path: WgslModule, traversal: WgslModule): WgslModule => wgslModule(
   'renderer/intersect',
   /* wgsl */ `
 @compute @workgroup_size(64)
@@ -9,11 +9,11 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   if (id.x >= queues.active_count) { return; }
   let index = queues.items[(queues.depth & 1u) * queues.capacity + id.x];
   //#if BVH_FILTER
-  opacity_begin(index, 2u * queues.depth);
+  opacity_begin(paths[index].pixel, batch.sample_offset + index / batch.pixel_count, 2u * queues.depth);
   //#endif
   let hit = bvh_closest_hit(paths[index].origin, paths[index].direction, 0.0, 3.4e38);
   paths[index].hit = vec4u(bitcast<u32>(hit.u), bitcast<u32>(hit.v), hit.triangle, hit.instance);
 }
 `,
-  [traversal],
+  [path, traversal],
 );

@@ -31,6 +31,7 @@ export const frameStruct = struct('Frame', {
   filter_radius: 'f32',
   /** Width of a camera ray's footprint at its origin, metres. */
   cone_width: 'f32',
+  environment_group: 'u32',
 });
 
 /** The part of the picture and the samples that one batch works on. */
@@ -41,21 +42,6 @@ export const batchStruct = struct('Batch', {
   sample_count: 'u32',
 });
 
-/** A path between two kernels. */
-export const pathStruct = struct('Path', {
-  origin: 'vec3f',
-  /** Solid-angle density with which the direction was chosen. */
-  pdf: 'f32',
-  direction: 'vec3f',
-  cone_width: 'f32',
-  throughput: 'vec3f',
-  alpha: 'f32',
-  radiance: 'vec3f',
-  reserved: 'u32',
-  /** Barycentrics as float bits, triangle, instance; see BvhHit. */
-  hit: 'vec4u',
-});
-
 /** A light sample waiting for its visibility. */
 export const shadowStruct = struct('Shadow', {
   origin: 'vec3f',
@@ -63,7 +49,8 @@ export const shadowStruct = struct('Shadow', {
   direction: 'vec3f',
   path: 'u32',
   contribution: 'vec3f',
-  reserved: 'u32',
+  /** Light group. */
+  group: 'u32',
 });
 
 /** An emissive triangle or a light without size, and its row of the alias table. */
@@ -110,6 +97,8 @@ export const MATERIAL_TWO_SIDED_EMISSION = 1;
 export const MATERIAL_OPAQUE = 2;
 export const MATERIAL_EMISSIVE = 4;
 export const MATERIAL_MASK = 8;
+/** Bits 8 and up of a material's flags and of a light's kind: its light group. */
+export const GROUP_SHIFT = 8;
 
 /** Word offsets of a mesh's attributes in the attribute heap; NONE where absent. */
 export const meshStruct = struct('MeshShading', {

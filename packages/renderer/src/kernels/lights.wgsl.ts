@@ -1,5 +1,5 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
-import { LIGHT_DIRECTIONAL, LIGHT_MIRRORED, LIGHT_POINT, LIGHT_SPOT, LIGHT_TWO_SIDED, lightStruct } from './layout';
+import { GROUP_SHIFT, LIGHT_DIRECTIONAL, LIGHT_MIRRORED, LIGHT_POINT, LIGHT_SPOT, LIGHT_TWO_SIDED, lightStruct } from './layout';
 import { environment } from './environment.wgsl';
 import { random } from './random.wgsl';
 
@@ -15,6 +15,8 @@ struct LightSample {
   pdf: f32,
   // 1 if a BSDF sample could have found this light too.
   extended: bool,
+  // Light group.
+  group: u32,
 }
 `,
 );
@@ -47,7 +49,7 @@ fn light_pdf(s: Surface, origin: vec3f, direction: vec3f) -> f32 {
 }
 
 fn light_table_sample(u: vec3f, position: vec3f) -> LightSample {
-  var result = LightSample(vec3f(0.0, 1.0, 0.0), 0.0, vec3f(0.0), 0.0, false);
+  var result = LightSample(vec3f(0.0, 1.0, 0.0), 0.0, vec3f(0.0), 0.0, false, 0u);
   let at = u.x * f32(frame.light_count);
   var index = min(u32(at), frame.light_count - 1u);
   let inside = at - f32(index);
@@ -55,6 +57,7 @@ fn light_table_sample(u: vec3f, position: vec3f) -> LightSample {
   let light = lights[index];
   let choice = (1.0 - frame.environment_probability) * light.probability;
   let kind = light.kind & 15u;
+  result.group = light.kind >> ${GROUP_SHIFT}u;
   if (kind == ${LIGHT_DIRECTIONAL}u) {
     result.direction = -light.b;
     result.distance = 3.4e38;
@@ -112,13 +115,13 @@ fn light_sample(u: vec4f, position: vec3f) -> LightSample {
   //#if ENVIRONMENT_SAMPLED
   if (u.w < frame.environment_probability) {
     let direction = environment_sample(u.xy);
-    return LightSample(direction, 3.4e38, environment_radiance(direction), frame.environment_probability * environment_pdf(direction), true);
+    return LightSample(direction, 3.4e38, environment_radiance(direction), frame.environment_probability * environment_pdf(direction), true, frame.environment_group);
   }
   //#endif
   //#if LIGHTS
   return light_table_sample(u.xyz, position);
   //#else
-  return LightSample(vec3f(0.0, 1.0, 0.0), 0.0, vec3f(0.0), 0.0, false);
+  return LightSample(vec3f(0.0, 1.0, 0.0), 0.0, vec3f(0.0), 0.0, false, 0u);
   //#endif
 }
 `,

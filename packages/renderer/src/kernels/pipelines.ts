@@ -3,13 +3,16 @@ import { compose, createShaderModule, type WgslModule } from '@glanz/wgsl';
 import { DeviceError } from '../errors';
 import { OPACITY_ID, type TexturedParameterInfo } from '../scene/materials';
 import { connect } from './connect.wgsl';
+import { filmModule, relightModule } from './film.wgsl';
+import { pathLayout } from './path.wgsl';
+import { positionModule } from './position.wgsl';
 import { energyHost } from './energy.wgsl';
 import { featuresModule } from './features.wgsl';
 import { generate } from './generate.wgsl';
 import { intersect } from './intersect.wgsl';
 import { lightsModule } from './lights.wgsl';
 import { bindGroupLayout, bindingModule, type ResourceName, type SceneBinding } from './resources';
-import { resolve } from './resolve.wgsl';
+import { resolveModule } from './resolve.wgsl';
 import { advance, begin } from './schedule.wgsl';
 import { shadeModule } from './shade.wgsl';
 import { materialModule, opacityModule, surfaceModule } from './surface.wgsl';
@@ -22,9 +25,11 @@ export interface KernelFeatures {
   readonly textured: readonly TexturedParameterInfo[];
   readonly textureCount: number;
   readonly samplerCount: number;
+  /** Sums of light that the film keeps apart: the number of light groups. */
+  readonly planes: number;
 }
 
-export const KERNELS = ['generate', 'begin', 'intersect', 'shade', 'advance', 'connect', 'resolve', 'features'] as const;
+export const KERNELS = ['generate', 'begin', 'intersect', 'shade', 'advance', 'connect', 'resolve', 'features', 'position', 'relight'] as const;
 export type KernelName = (typeof KERNELS)[number];
 
 /** A compiled kernel and the names of what it binds, in order. */
@@ -49,26 +54,33 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
   const traversal = (kind: 'closest' | 'any') => traversalModule(kind, flags.BVH_FILTER === true ? opacity : undefined);
   const filter: ResourceName[] = flags.BVH_FILTER ? ['frame', 'batch', 'attributes', 'materials'] : [];
   const energy: ResourceName[] = ['energy_dielectric', 'energy_conductor', 'energy_sampler'];
+  const path = pathLayout(features).module;
+  const film = filmModule(features.planes);
+  const filmBuffers: ResourceName[] = ['film_block', 'film_total', 'film_moment', 'beauty', ...(flags.LIGHT_GROUPS ? (['light_groups'] as const) : [])];
   const scene: ResourceName[] = ['triangles', 'instances', 'attributes', 'materials'];
   switch (name) {
     case 'generate':
-      return { root: generate, resources: ['frame', 'batch', 'paths', 'queues'], textures: false };
+      return { root: generate(path), resources: ['frame', 'batch', 'paths', 'queues', 'film_pixels'], textures: false };
     case 'begin':
       return { root: begin, resources: ['batch', 'queues', 'dispatch'], textures: false };
     case 'advance':
       return { root: advance, resources: ['queues', 'dispatch'], textures: false };
     case 'intersect':
-      return { root: intersect(traversal('closest')), resources: [...filter, 'paths', 'queues', 'nodes', 'triangles', 'instances'], textures: flags.BVH_FILTER === true };
+      return { root: intersect(path, traversal('closest')), resources: [...filter, 'paths', 'queues', 'nodes', 'triangles', 'instances'], textures: flags.BVH_FILTER === true };
     case 'connect':
-      return { root: connect(traversal('any')), resources: [...filter, 'paths', 'queues', 'shadows', 'nodes', 'triangles', 'instances'], textures: flags.BVH_FILTER === true };
+      return { root: connect(path, traversal('any')), resources: [...filter, 'paths', 'queues', 'shadows', 'nodes', 'triangles', 'instances'], textures: flags.BVH_FILTER === true };
     case 'shade':
       return {
-        root: shadeModule(surface, lightsModule(surface), openpbr, energyHost),
+        root: shadeModule(path, surface, lightsModule(surface), openpbr, energyHost),
         resources: ['frame', 'batch', 'paths', 'queues', 'shadows', ...scene, 'lights', 'environment', 'environment_table', ...energy],
         textures: true,
       };
     case 'resolve':
-      return { root: resolve, resources: ['batch', 'paths', 'queues', 'film_block', 'film_total', 'beauty'], textures: false };
+      return { root: resolveModule(path, film), resources: ['batch', 'paths', 'queues', 'film_pixels', ...filmBuffers], textures: false };
+    case 'relight':
+      return { root: relightModule(film), resources: ['batch', ...filmBuffers], textures: false };
+    case 'position':
+      return { root: positionModule(traversal('closest')), resources: [...new Set<ResourceName>(['frame', 'batch', ...filter, 'nodes', 'triangles', 'instances', 'feature_position'])], textures: flags.BVH_FILTER === true };
     case 'features':
       return {
         root: featuresModule(surface, openpbr, energyHost, traversal('closest')),

@@ -1,13 +1,17 @@
-import { wgslModule } from '@glanz/wgsl';
+import { wgslModule, type WgslModule } from '@glanz/wgsl';
 
 /**
- * Adds a batch's samples to the film. Samples of a pixel are added one by one in the order of their numbers, into blocks
- * of 64 and then into the total: the sum is the same bit for bit however the samples were batched, and keeps its
- * precision over many samples. A NaN or infinite sample is dropped, counted, and never reaches the film.
+ * Adds a batch's samples to the film. Samples of a pixel are added one by one in the order of their numbers, into chunks
+ * and then into the total: the sum is the same bit for bit however the samples were batched, and keeps its precision over
+ * many samples. A NaN or infinite sample counts as black, is counted, and never reaches the film.
+ *
+ * The squares of the chunks' means are summed too (film_moment.xyz, and the number of samples in w): chunks of 16 Sobol
+ * points vary much less than 16 single samples do, and it is their variance that the picture has.
  */
-export const resolve = wgslModule(
-  'renderer/resolve',
-  /* wgsl */ `
+export function resolveModule(path: WgslModule, film: WgslModule): WgslModule {
+  return wgslModule(
+    'renderer/resolve',
+    /* wgsl */ `
 fn resolve_finite(v: vec4f) -> bool {
   return all((bitcast<vec4u>(v) & vec4u(0x7f800000u)) != vec4u(0x7f800000u));
 }
@@ -15,21 +19,44 @@ fn resolve_finite(v: vec4f) -> bool {
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3u) {
   if (id.x >= batch.pixel_count) { return; }
-  let pixel = batch.pixel_offset + id.x;
-  var block = film_block[pixel];
-  var total = film_total[pixel];
+  let pixel = film_pixels[batch.pixel_offset + id.x];
   for (var s = 0u; s < batch.sample_count; s++) {
     let index = s * batch.pixel_count + id.x;
-    let value = vec4f(paths[index].radiance, paths[index].alpha);
-    if (resolve_finite(value)) { block += value; } else { atomicAdd(&queues.bad_samples, 1u); }
-    if (((batch.sample_offset + s) & 63u) == 63u) {
-      total += block;
-      block = vec4f(0.0);
+    var finite = true;
+    for (var plane = 0u; plane < FILM_PLANES; plane++) { finite = finite && resolve_finite(path_plane(index, plane)); }
+    if (!finite) {
+      path_clear(index);
+      paths[index].alpha = 0.0;
+      atomicAdd(&queues.bad_samples, 1u);
     }
   }
-  film_block[pixel] = block;
-  film_total[pixel] = total;
-  beauty[pixel] = (total + block) / f32(batch.sample_offset + batch.sample_count);
+  let end = batch.sample_offset + batch.sample_count;
+  var moment = film_moment[pixel].xyz;
+  // From chunk to chunk; the first and the last may be a part of one.
+  for (var first = batch.sample_offset; first < end; first = min((first / FILM_CHUNK + 1u) * FILM_CHUNK, end)) {
+    let next = min((first / FILM_CHUNK + 1u) * FILM_CHUNK, end);
+    let complete = next % FILM_CHUNK == 0u;
+    var mean = vec3f(0.0);
+    for (var plane = 0u; plane < FILM_PLANES; plane++) {
+      let at = plane * film_pixels_count() + pixel;
+      var block = film_block[at];
+      for (var sample = first; sample < next; sample++) { block += path_plane((sample - batch.sample_offset) * batch.pixel_count + id.x, plane); }
+      if (complete) {
+        film_total[at] += block;
+        mean += film_first_weight(plane) * block.xyz;
+        block = vec4f(0.0);
+      }
+      film_block[at] = block;
+    }
+    if (complete) {
+      mean /= f32(FILM_CHUNK);
+      moment += mean * mean;
+    }
+  }
+  film_moment[pixel] = vec4f(moment, f32(end));
+  beauty[pixel] = film_compose(pixel, f32(end));
 }
 `,
-);
+    [path, film],
+  );
+}

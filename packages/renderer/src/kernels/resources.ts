@@ -1,7 +1,10 @@
 import { bvhNodeStruct } from '@glanz/bvh/wgsl';
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { GPU_STAGE_COMPUTE } from '../gpu/buffers';
-import { batchStruct, frameStruct, instanceStruct, lightStruct, materialStruct, pathStruct, shadowStruct } from './layout';
+import { batchStruct, frameStruct, instanceStruct, lightStruct, materialStruct, shadowStruct } from './layout';
+
+/** Light groups that a picture may have. */
+export const MAX_LIGHT_GROUPS = 16;
 
 /**
  * What a kernel may bind, described once: the WGSL declaration and the bind group layout entry come from the same row.
@@ -34,7 +37,8 @@ struct Queues {
 const RESOURCES = {
   frame: { type: 'Frame', space: 'uniform', deps: [frameStruct.module] },
   batch: { type: 'Batch', space: 'uniform', deps: [batchStruct.module] },
-  paths: { type: 'array<Path>', space: 'read_write', deps: [pathStruct.module] },
+  // Its layout depends on the scene: the kernels bring it with `pathLayout`.
+  paths: { type: 'array<Path>', space: 'read_write' },
   queues: { type: 'Queues', space: 'read_write', deps: [queues] },
   shadows: { type: 'array<Shadow>', space: 'read_write', deps: [shadowStruct.module] },
   dispatch: { type: 'array<u32, 8>', space: 'read_write' },
@@ -51,9 +55,13 @@ const RESOURCES = {
   energy_sampler: { type: 'sampler', space: 'sampler' },
   film_block: { type: 'array<vec4f>', space: 'read_write' },
   film_total: { type: 'array<vec4f>', space: 'read_write' },
+  film_moment: { type: 'array<vec4f>', space: 'read_write' },
+  film_pixels: { type: 'array<u32>', space: 'read' },
+  light_groups: { type: `array<vec4f, ${2 * MAX_LIGHT_GROUPS}>`, space: 'uniform' },
   beauty: { type: 'array<vec4f>', space: 'read_write' },
   feature_albedo: { type: 'array<vec4f>', space: 'read_write' },
   feature_normal: { type: 'array<vec4f>', space: 'read_write' },
+  feature_position: { type: 'array<vec4f>', space: 'read_write' },
   feature_ids: { type: 'array<vec4u>', space: 'read_write' },
 } as const satisfies Record<string, Resource>;
 

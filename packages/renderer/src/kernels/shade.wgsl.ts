@@ -1,13 +1,13 @@
 import { bvhOffset } from '@glanz/bvh/wgsl';
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
-import { BACKGROUND_HIDDEN, BACKGROUND_TRANSPARENT } from './layout';
+import { BACKGROUND_HIDDEN, BACKGROUND_TRANSPARENT, GROUP_SHIFT } from './layout';
 import { random } from './random.wgsl';
 
 /**
  * One vertex of every active path: what the surface emits, a light sample to be tested by the connect kernel, and the
  * next direction. Light samples and BSDF samples are combined by the balance heuristic (Veach 1997, section 9.2).
  */
-export function shadeModule(surface: WgslModule, lights: WgslModule, openpbr: WgslModule, energy: WgslModule): WgslModule {
+export function shadeModule(path: WgslModule, surface: WgslModule, lights: WgslModule, openpbr: WgslModule, energy: WgslModule): WgslModule {
   return wgslModule(
     'renderer/shade',
     /* wgsl */ `
@@ -36,7 +36,7 @@ fn shade_miss(index: u32, depth: u32) {
     weight = pdf / (pdf + frame.environment_probability * environment_pdf(direction));
   }
   //#endif
-  paths[index].radiance += paths[index].throughput * environment_radiance(direction) * weight;
+  path_deposit(index, frame.environment_group, paths[index].throughput * environment_radiance(direction) * weight);
 }
 
 fn shade_path(index: u32, depth: u32) -> ShadeResult {
@@ -61,7 +61,7 @@ fn shade_path(index: u32, depth: u32) -> ShadeResult {
       let pdf = paths[index].pdf;
       weight = pdf / (pdf + light_pdf(s, origin, direction));
     }
-    paths[index].radiance += throughput * emitted * weight;
+    path_deposit(index, s.flags >> ${GROUP_SHIFT}u, throughput * emitted * weight);
   }
   //#endif
   // "depth" counts from 0, so this vertex ends edge depth + 1; the next edge must be allowed.
@@ -79,7 +79,7 @@ fn shade_path(index: u32, depth: u32) -> ShadeResult {
   let local_wo = wo * to_world;
   let bsdf = openpbr_prepare(s.parameters, local_wo);
   let start = bvh_offset_origin(s.position, geometric, s.magnitude);
-  random_begin(batch.pixel_offset + index % batch.pixel_count, batch.sample_offset + index / batch.pixel_count, depth + 1u, frame.seed);
+  random_begin(paths[index].pixel, batch.sample_offset + index / batch.pixel_count, depth + 1u, frame.seed);
 
   //#if NEXT_EVENT
   let light = light_sample(vec4f(random_2(), random_2()), start);
@@ -93,6 +93,7 @@ fn shade_path(index: u32, depth: u32) -> ShadeResult {
       result.shadow.distance = light.distance;
       result.shadow.direction = light.direction;
       result.shadow.path = index;
+      result.shadow.group = light.group;
       result.shadow.contribution = throughput * scatter.xyz * light.radiance * (weight / light.pdf);
     }
   }
@@ -145,6 +146,6 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation_inde
   if (result.asks) { shadows[shade_shadow_base + shadow_slot] = result.shadow; }
 }
 `,
-    [surface, lights, openpbr, energy, random, bvhOffset],
+    [path, surface, lights, openpbr, energy, random, bvhOffset],
   );
 }

@@ -134,10 +134,8 @@ export function opacityModule(material: WgslModule, opacityParameter: number): W
     /* wgsl */ `
 var<private> opacity_key: vec3u;
 
-// Names the random numbers of one ray: its path and its place along the path.
-fn opacity_begin(path: u32, stream: u32) {
-  opacity_key = vec3u(batch.pixel_offset + path % batch.pixel_count, batch.sample_offset + path / batch.pixel_count, stream);
-}
+// Names the random numbers of one ray: pixel, sample and its place along the path.
+fn opacity_begin(pixel: u32, sample: u32, stream: u32) { opacity_key = vec3u(pixel, sample, stream); }
 
 fn opacity_at(hit: BvhHit) -> f32 {
   let index = instances[hit.instance].material;

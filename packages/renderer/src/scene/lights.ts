@@ -1,8 +1,9 @@
 import { resolveParameters } from '@glanz/openpbr';
 import type { Instance, Light, Material, Mesh, Scene } from '@glanz/scene';
-import { LIGHT_DIRECTIONAL, LIGHT_MIRRORED, LIGHT_POINT, LIGHT_SPOT, LIGHT_TRIANGLE, LIGHT_TWO_SIDED, lightStruct, NONE } from '../kernels/layout';
+import { LIGHT_DIRECTIONAL, LIGHT_MIRRORED, LIGHT_POINT, LIGHT_SPOT, LIGHT_TRIANGLE, LIGHT_TWO_SIDED, GROUP_SHIFT, lightStruct, NONE } from '../kernels/layout';
 import { buildAliasTable } from './alias-table';
 import { EmissionEstimate } from './emission';
+import type { LightGroupTable } from './light-groups';
 import { emittedRadiance } from './materials';
 import { determinant3, transformPoint } from './matrix';
 
@@ -31,8 +32,9 @@ const luminance = (c: ArrayLike<number>) => 0.2126 * (c[0] as number) + 0.7152 *
  * Collects emissive triangles and lights without size into one table, weighted by power.
  *
  * @param sceneRadius Radius of the scene's bounding sphere, metres, to weigh directional lights.
+ * @param groups Which light group each belongs to.
  */
-export function buildLightTable(scene: Scene, geometry: LightGeometry, sceneRadius: number): LightTable {
+export function buildLightTable(scene: Scene, geometry: LightGeometry, sceneRadius: number, groups: LightGroupTable): LightTable {
   const firstLight = new Uint32Array(scene.instances.length).fill(NONE);
   const emitters: { instance: number; slot: number; base: number }[] = [];
   let count = 0;
@@ -48,8 +50,8 @@ export function buildLightTable(scene: Scene, geometry: LightGeometry, sceneRadi
   count += scene.lights.length;
   const records = lightStruct.allocate(Math.max(count, 1));
   const weights = new Float64Array(count);
-  for (const { instance, slot, base } of emitters) writeTriangles(records, weights, scene, instance, slot, base, geometry);
-  scene.lights.forEach((light, i) => (weights[punctual + i] = writeLight(records, punctual + i, light, sceneRadius)));
+  for (const { instance, slot, base } of emitters) writeTriangles(records, weights, scene, instance, slot, base, geometry, groups);
+  scene.lights.forEach((light, i) => (weights[punctual + i] = writeLight(records, punctual + i, light, sceneRadius, groups.light(light) << GROUP_SHIFT)));
   const table = buildAliasTable(weights);
   if (!table) return { records, count: 0, firstLight: firstLight.fill(NONE), power: 0 };
   const words = lightStruct.size / 4;
@@ -64,13 +66,13 @@ export function buildLightTable(scene: Scene, geometry: LightGeometry, sceneRadi
   return { records, count, firstLight, power: weights.reduce((sum, w) => sum + w, 0) };
 }
 
-function writeTriangles(records: ArrayBuffer, weights: Float64Array, scene: Scene, index: number, slot: number, base: number, geometry: LightGeometry): void {
+function writeTriangles(records: ArrayBuffer, weights: Float64Array, scene: Scene, index: number, slot: number, base: number, geometry: LightGeometry, groups: LightGroupTable): void {
   const instance = scene.instances[index] as Instance;
   const mesh = scene.meshes[instance.mesh] as Mesh;
   const material = scene.materials[instance.material] as Material;
   const radiance = luminance(emittedRadiance(resolveParameters(material.parameters)));
   const sides = material.double_sided ? 2 : 1;
-  const kind = LIGHT_TRIANGLE | (material.double_sided ? LIGHT_TWO_SIDED : 0) | (determinant3(instance.transform) < 0 ? LIGHT_MIRRORED : 0);
+  const kind = LIGHT_TRIANGLE | (material.double_sided ? LIGHT_TWO_SIDED : 0) | (determinant3(instance.transform) < 0 ? LIGHT_MIRRORED : 0) | (groups.material(material) << GROUP_SHIFT);
   const binding = material.textures?.emission_color;
   const estimate = binding ? new EmissionEstimate(scene, binding) : undefined;
   const uvs = binding ? mesh.uvs?.[binding.uv ?? 0] : undefined;
@@ -102,21 +104,21 @@ function writeTriangles(records: ArrayBuffer, weights: Float64Array, scene: Scen
 }
 
 /** Writes a light without size and returns its weight. */
-function writeLight(records: ArrayBuffer, index: number, light: Light, sceneRadius: number): number {
+function writeLight(records: ArrayBuffer, index: number, light: Light, sceneRadius: number, group: number): number {
   const color = light.color.map((c) => c * light.intensity);
   const ids = [NONE, NONE, NONE, NONE];
   const power = luminance(color);
   switch (light.type) {
     case 'directional':
-      lightStruct.write(records, index, { kind: LIGHT_DIRECTIONAL, b: light.direction, color, ids });
+      lightStruct.write(records, index, { kind: LIGHT_DIRECTIONAL | group, b: light.direction, color, ids });
       return power * Math.PI * sceneRadius * sceneRadius;
     case 'point':
-      lightStruct.write(records, index, { kind: LIGHT_POINT, a: light.position, color, ids });
+      lightStruct.write(records, index, { kind: LIGHT_POINT | group, a: light.position, color, ids });
       return power * 4 * Math.PI;
     case 'spot': {
       const outer = Math.cos(light.outer_cone_angle);
       const scale = 1 / Math.max(1e-3, Math.cos(light.inner_cone_angle) - outer);
-      lightStruct.write(records, index, { kind: LIGHT_SPOT, a: light.position, b: light.direction, c: [scale, -outer * scale, 0], color, ids });
+      lightStruct.write(records, index, { kind: LIGHT_SPOT | group, a: light.position, b: light.direction, c: [scale, -outer * scale, 0], color, ids });
       return power * 2 * Math.PI * (1 - outer);
     }
   }

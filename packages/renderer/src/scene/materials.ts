@@ -1,6 +1,6 @@
 import { openPbrStruct, packOpenPbr, resolveParameters, type OpenPbrParameters } from '@glanz/openpbr';
 import type { Material, Scene, TextureBinding } from '@glanz/scene';
-import { bindingStruct, MATERIAL_EMISSIVE, MATERIAL_MASK, MATERIAL_OPAQUE, MATERIAL_TWO_SIDED_EMISSION, materialStruct } from '../kernels/layout';
+import { bindingStruct, GROUP_SHIFT, MATERIAL_EMISSIVE, MATERIAL_MASK, MATERIAL_OPAQUE, MATERIAL_TWO_SIDED_EMISSION, materialStruct } from '../kernels/layout';
 import type { TexturePlan } from './textures';
 
 /** A parameter that some material textures, with its number in the GPU records. */
@@ -102,7 +102,7 @@ export function isOpaque(material: Material, hasVertexAlpha: boolean): boolean {
 }
 
 /** Writes one material's record. `firstBinding` is a word offset into the attribute heap. */
-export function packMaterial(buffer: ArrayBuffer, index: number, material: Material, firstBinding: number, bindingCount: number, opaque: boolean): void {
+export function packMaterial(buffer: ArrayBuffer, index: number, material: Material, firstBinding: number, bindingCount: number, opaque: boolean, group: number): void {
   const parameters = resolveParameters(material.parameters);
   const packed = openPbrStruct.allocate();
   packOpenPbr(packed, 0, parameters);
@@ -112,7 +112,7 @@ export function packMaterial(buffer: ArrayBuffer, index: number, material: Mater
     parameters: packed,
     first_binding: firstBinding,
     binding_count: bindingCount,
-    flags: (material.double_sided ? MATERIAL_TWO_SIDED_EMISSION : 0) | (opaque ? MATERIAL_OPAQUE : 0) | (emissive ? MATERIAL_EMISSIVE : 0) | (mask ? MATERIAL_MASK : 0),
+    flags: (material.double_sided ? MATERIAL_TWO_SIDED_EMISSION : 0) | (opaque ? MATERIAL_OPAQUE : 0) | (emissive ? MATERIAL_EMISSIVE : 0) | (mask ? MATERIAL_MASK : 0) | (group << GROUP_SHIFT),
     opacity_threshold: material.opacity_threshold ?? 0,
   });
 }
