@@ -52,9 +52,9 @@ LIGHT AND VIEW
                         .json works too. Default: the model's first camera, or
                         one that frames it.
 
-      --light-groups M  Keep lights apart as layers of .exr: "each" light, glowing
-                        material and the surroundings, those "named" by the
-                        model (default), or "off".
+      --light-groups M  Keep lights apart as layers of .exr: "each" light,
+                        glowing material and the surroundings, those "named"
+                        by the model (default), or "off".
 
 QUALITY
       --samples N       Paths per pixel. Default 256.
