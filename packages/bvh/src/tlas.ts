@@ -36,25 +36,25 @@ export function buildTlas(instances: readonly TlasInstance[]): Tlas {
   if (instances.length > 2 ** TLAS_MAX_DEPTH) throw new BvhError('bvh/too-many', `${instances.length} instances are too many; one hierarchy holds ${2 ** TLAS_MAX_DEPTH}.`);
   const boxes = new Float32Array(instances.length * 6);
   const toObject = new Float64Array(instances.length * 12);
-  instances.forEach(({ bounds, transform }, i) => {
-    if (transform.length !== 16) throw new BvhError('bvh/transform', `Instance ${i} has a transform of ${transform.length} numbers; it must have 16.`);
-    const exists = invertAffine(transform, toObject, 12 * i) && (bounds.min[0] as number) <= (bounds.max[0] as number);
+  for (let i = 0; i < instances.length; i++) {
+    const { bounds: { min, max }, transform: m } = instances[i] as TlasInstance;
+    if (m.length !== 16) throw new BvhError('bvh/transform', `Instance ${i} has a transform of ${m.length} numbers; it must have 16.`);
+    const exists = invertAffine(m, toObject, 12 * i) && (min[0] as number) <= (max[0] as number);
     for (let r = 0; r < 3; r++) {
-      let min = transform[12 + r] as number, max = min;
+      let low = m[12 + r] as number, high = low;
       // What rounding may take off in world and object space together, so that no hit near the border is lost.
-      let slack = Math.abs(min);
+      let slack = Math.abs(low);
       for (let k = 0; k < 3; k++) {
-        const m = transform[4 * k + r] as number;
-        const p = m * (bounds.min[k] as number), q = m * (bounds.max[k] as number);
-        min += Math.min(p, q);
-        max += Math.max(p, q);
+        const p = (m[4 * k + r] as number) * (min[k] as number), q = (m[4 * k + r] as number) * (max[k] as number);
+        low += Math.min(p, q);
+        high += Math.max(p, q);
         slack += Math.max(Math.abs(p), Math.abs(q));
       }
       slack *= 2 ** -22;
-      boxes[6 * i + r] = exists ? min - slack : NaN;
-      boxes[6 * i + 3 + r] = exists ? max + slack : NaN;
+      boxes[6 * i + r] = exists ? low - slack : NaN;
+      boxes[6 * i + 3 + r] = exists ? high + slack : NaN;
     }
-  });
+  }
   const instanceOrder = finiteBoxes(boxes);
   const { nodes, nodeCount } = buildOverBoxes(boxes, instanceOrder, TLAS_MAX_DEPTH);
   return { nodes, nodeCount, instanceOrder, toObject, bounds: rootBounds(nodes) };
@@ -78,16 +78,21 @@ function invertAffine(m: ArrayLike<number>, out: Float64Array, at: number): bool
   const a = m[0] as number, b = m[4] as number, c = m[8] as number, x = m[12] as number;
   const d = m[1] as number, e = m[5] as number, f = m[9] as number, y = m[13] as number;
   const g = m[2] as number, h = m[6] as number, i = m[10] as number, z = m[14] as number;
-  const determinant = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g);
-  const scale = 1 / determinant;
-  const rows = [e * i - f * h, c * h - b * i, b * f - c * e, f * g - d * i, a * i - c * g, c * d - a * f, d * h - e * g, b * g - a * h, a * e - b * d];
-  let finite = Number.isFinite(scale);
-  for (let r = 0; r < 3; r++) {
-    const p = (rows[3 * r] as number) * scale, q = (rows[3 * r + 1] as number) * scale, s = (rows[3 * r + 2] as number) * scale;
-    const w = -(p * x + q * y + s * z);
-    out.set([p, q, s, w], at + 4 * r);
-    finite &&= Number.isFinite(Math.fround(p + q + s + w));
-  }
+  const p = e * i - f * h, q = f * g - d * i, r = d * h - e * g;
+  const scale = 1 / (a * p + b * q + c * r);
+  let finite = putRow(out, at, p * scale, (c * h - b * i) * scale, (b * f - c * e) * scale, x, y, z);
+  finite = putRow(out, at + 4, q * scale, (a * i - c * g) * scale, (c * d - a * f) * scale, x, y, z) && finite;
+  finite = putRow(out, at + 8, r * scale, (b * g - a * h) * scale, (a * e - b * d) * scale, x, y, z) && finite;
   if (!finite) out.fill(NaN, at, at + 12);
   return finite;
+}
+
+/** A row of the inverse with what moves (x, y, z) to the origin. False where a single-precision number cannot hold it. */
+function putRow(out: Float64Array, at: number, p: number, q: number, r: number, x: number, y: number, z: number): boolean {
+  const w = -(p * x + q * y + r * z);
+  out[at] = p;
+  out[at + 1] = q;
+  out[at + 2] = r;
+  out[at + 3] = w;
+  return Number.isFinite(Math.fround(p + q + r + w));
 }
