@@ -89,7 +89,8 @@ export async function openSource(input: GltfInput, options: { readonly fetch: ty
     return new Uint8Array(await response.arrayBuffer());
   };
   const relative = (base: URL | undefined, name: string): ResourceReader => async (uri, signal) => {
-    const path = uri.split('/').map(encodeURIComponent).join('/');
+    // Halves of characters cannot be escaped; no file is called by them.
+    const path = uri.replace(/\p{Surrogate}/gu, '\ufffd').split('/').map(encodeURIComponent).join('/');
     // Nothing lies beside an address such as "blob:" or "data:".
     if (!base || !URL.canParse(path, base)) throw missing(uri, name);
     const url = new URL(path, base);

@@ -142,3 +142,9 @@ test('a document without triangles is an error, unless the host allows it', asyn
   expect((await error(loadGltf(empty))).code).toBe('gltf/no-triangles');
   expect((await loadGltf(empty, { allowEmpty: true })).instances).toEqual([]);
 });
+
+test('a name with half a character in it is one that is not there', async () => {
+  const { json } = triangle();
+  json['buffers'][0].uri = '\ud800.bin';
+  await expect(loadGltf(new TextEncoder().encode(JSON.stringify(json)), { baseUrl: 'https://example.org/', fetch: () => Promise.reject(new Error('none')) })).rejects.toMatchObject({ code: 'gltf/missing-resource' });
+});

@@ -1,5 +1,12 @@
 import { checkSize, ImageError, type DecodeOptions, type ImageWarning } from './error';
-import { EXR_COMPRESSION, EXR_MAGIC, EXR_TYPES, type ExrType } from './exr-encode';
+import { unpackB44 } from './exr-b44';
+import { bytesOf, rawSize, type ExrBlock } from './exr-block';
+import { unpackDwa } from './exr-dwa';
+import type { ExrType } from './exr-encode';
+import { readHeader, Reader, readVersion, type ExrCompressionName, type ExrHeader } from './exr-header';
+import { unpackPiz } from './exr-piz';
+import { unpackPxr24 } from './exr-pxr24';
+import { unpackRle } from './exr-rle';
 import { unzipBlock } from './exr-zip';
 import { fromHalf } from './half';
 
@@ -22,144 +29,135 @@ export interface ExrImage {
   readonly warnings: readonly ImageWarning[];
 }
 
-interface ChannelInfo {
-  readonly name: string;
-  readonly type: ExrType;
+interface Method {
+  readonly lines: number;
+  /** Bytes that one packed byte can stand for at most: data that claims more is refused before anything is allocated. */
+  readonly ratio: number;
+  readonly unpack: (packed: Uint8Array, block: ExrBlock, size: number) => Uint8Array | undefined;
 }
 
-const COMPRESSION_NAMES = ['none', 'RLE', 'ZIPS', 'ZIP', 'PIZ', 'PXR24', 'B44', 'B44A', 'DWAA', 'DWAB'];
-const NAME_LIMIT = 255;
+const zip = (packed: Uint8Array, _: ExrBlock, size: number) => unzipBlock(packed, size);
 
-class Reader {
-  readonly view: DataView;
-  at = 0;
-  constructor(readonly bytes: Uint8Array) {
-    this.view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  }
-  need(count: number): void {
-    if (count < 0 || this.at + count > this.bytes.length) {
-      throw new ImageError('image/truncated', `EXR: the file ends at byte ${this.bytes.length}, but ${count} more bytes are needed at ${this.at}.`, { location: { byteOffset: this.at } });
-    }
-  }
-  int(): number {
-    this.need(4);
-    this.at += 4;
-    return this.view.getInt32(this.at - 4, true);
-  }
-  take(count: number): Uint8Array {
-    this.need(count);
-    this.at += count;
-    return this.bytes.subarray(this.at - count, this.at);
-  }
-  name(): string {
-    let end = this.at;
-    while (end < this.bytes.length && this.bytes[end] !== 0) {
-      if (end - this.at >= NAME_LIMIT) throw new ImageError('image/header', `EXR: a name of more than ${NAME_LIMIT} bytes at ${this.at}.`, { location: { byteOffset: this.at } });
-      end++;
-    }
-    const text = String.fromCharCode(...this.take(end - this.at));
-    this.take(1);
-    return text;
-  }
-}
-
-function readChannels(value: Uint8Array): ChannelInfo[] {
-  const reader = new Reader(value);
-  const channels: ChannelInfo[] = [];
-  for (let name = reader.name(); name !== ''; name = reader.name()) {
-    const type = EXR_TYPES[reader.int()];
-    reader.int();
-    const [sx, sy] = [reader.int(), reader.int()];
-    if (!type) throw new ImageError('image/header', `EXR: channel "${name}" has an unknown pixel type.`);
-    if (sx !== 1 || sy !== 1) throw new ImageError(sx > 0 && sy > 0 ? 'image/unsupported' : 'image/header', `EXR: channel "${name}" is subsampled ${sx}×${sy}; only 1×1 is read.`);
-    if (channels.some((c) => c.name === name)) throw new ImageError('image/header', `EXR: two channels are called "${name}".`);
-    channels.push({ name, type });
-  }
-  if (channels.length === 0) throw new ImageError('image/header', 'EXR: the file has no channels.');
-  return channels;
-}
+/** Deflate expands at most about 1032-fold; DWA deflates words of which one can stand for 64 numbers. */
+const METHODS: Readonly<Record<ExrCompressionName, Method>> = {
+  none: { lines: 1, ratio: 1, unpack: () => undefined },
+  RLE: { lines: 1, ratio: 64, unpack: (packed, _, size) => unpackRle(packed, size) },
+  ZIPS: { lines: 1, ratio: 1040, unpack: zip },
+  ZIP: { lines: 16, ratio: 1040, unpack: zip },
+  PIZ: { lines: 32, ratio: 1040, unpack: unpackPiz },
+  PXR24: { lines: 16, ratio: 1400, unpack: unpackPxr24 },
+  B44: { lines: 32, ratio: 16, unpack: unpackB44 },
+  B44A: { lines: 32, ratio: 16, unpack: unpackB44 },
+  DWAA: { lines: 32, ratio: 140_000, unpack: unpackDwa },
+  DWAB: { lines: 256, ratio: 140_000, unpack: unpackDwa },
+};
 
 /**
- * Decodes an OpenEXR file: single part, scanlines, uncompressed or ZIP/ZIPS. That is all {@link encodeExr} writes and
- * part of what others write; tiles, several parts, deep data, subsampling and other compressions are refused with
- * `image/unsupported`.
+ * Decodes an OpenEXR file: lines or tiles (of several resolutions the finest), all of the format's own compressions (RLE,
+ * ZIP, ZIPS, PIZ, PXR24, B44, B44A, DWAA, DWAB); of several pictures in a file, the first. Deep data and subsampled
+ * channels are refused with `image/unsupported`.
  *
  * @throws {ImageError} `image/format`, `image/header`, `image/size`, `image/truncated`, `image/corrupt`, `image/unsupported`.
  */
 export function decodeExr(bytes: Uint8Array, options: DecodeOptions = {}): ExrImage {
   const reader = new Reader(bytes);
-  if (bytes.length < 8 || reader.int() !== EXR_MAGIC) throw new ImageError('image/format', 'EXR: the file does not start with the OpenEXR magic number.', { location: { byteOffset: 0 } });
-  const version = reader.int();
-  if ((version & 0xff) !== 2) throw new ImageError('image/unsupported', `EXR: version ${version & 0xff} of the format is not supported.`);
-  if (version & 0x1a00) throw new ImageError('image/unsupported', 'EXR: tiled, deep and multi-part files are not supported; save as a flat scanline image.');
-
-  const header = new Map<string, Uint8Array>();
-  const attributes = new Map<string, string>();
-  for (let name = reader.name(); name !== ''; name = reader.name()) {
-    const type = reader.name();
-    const value = reader.take(reader.int());
-    header.set(name, value);
-    if (type === 'string') attributes.set(name, new TextDecoder().decode(value));
-  }
-  const attribute = (name: string, length: number): DataView => {
-    const value = header.get(name);
-    if (!value || value.length < length) throw new ImageError('image/header', `EXR: the attribute "${name}" is missing or too short.`);
-    return new DataView(value.buffer, value.byteOffset, value.byteLength);
-  };
-  attribute('channels', 1);
-  const channels = readChannels(header.get('channels') as Uint8Array);
-  const compression = attribute('compression', 1).getUint8(0);
-  const window = attribute('dataWindow', 16);
-  const [x0, y0, x1, y1] = [0, 4, 8, 12].map((at) => window.getInt32(at, true)) as [number, number, number, number];
-  const [width, height] = [x1 - x0 + 1, y1 - y0 + 1];
+  const { several, tiled } = readVersion(reader);
+  const header = readHeader(reader, tiled);
+  if (!header) throw new ImageError('image/header', 'EXR: the header is empty.');
+  if (several) while (readHeader(reader, false));
+  const { channels, width, height, compression, lineBytes } = header;
   // The limit counts numbers of channels: each of them is kept.
   checkSize('EXR', width, height, Math.floor(((options.maxPixels ?? 2 ** 26) * 4) / Math.max(4, channels.length)));
-  const { none, zip, zips } = EXR_COMPRESSION;
-  if (compression !== none && compression !== zip && compression !== zips) {
-    throw new ImageError(compression < COMPRESSION_NAMES.length ? 'image/unsupported' : 'image/header', `EXR: compression ${COMPRESSION_NAMES[compression] ?? compression} is not supported; save with ZIP.`);
-  }
-  const linesPerBlock = compression === zip ? 16 : 1;
-  const blocks = Math.ceil(height / linesPerBlock);
-  const lineBytes = width * channels.reduce((sum, channel) => sum + (channel.type === 'half' ? 2 : 4), 0);
-  // Each block is announced by 8 bytes and deflate cannot expand more than about 1032-fold.
-  const least = blocks * 16 + (compression === none ? lineBytes * height : Math.floor((lineBytes * height) / 1040));
-  reader.need(least);
+  const { lines, ratio } = METHODS[compression];
+  const tile = header.tile ?? { width, height: lines };
+  const columns = Math.ceil(width / tile.width), blocks = columns * Math.ceil(height / tile.height);
+  // Each block is announced in the table of offsets, and has a head of its own.
+  reader.need(blocks * 16 + Math.floor((lineBytes * height) / ratio));
   const table = reader.at;
-  reader.take(blocks * 8);
+  const picture: Picture = {
+    header,
+    several,
+    tile,
+    columns,
+    out: new Map(channels.map(({ name, type }) => [name, { type, data: type === 'uint' ? new Uint32Array(width * height) : new Float32Array(width * height) }])),
+    seen: new Uint8Array(blocks),
+  };
+  const misplaced = header.tile || several ? readByTable(reader, table, picture) : readInOrder(reader, table, picture);
+  const warnings: ImageWarning[] = misplaced === 0 ? [] : [{ code: 'image/offsets', message: `EXR: ${misplaced} of ${blocks} line offsets are wrong; the file may be incomplete.` }];
+  return { width, height, channels: picture.out, attributes: header.attributes, warnings };
+}
 
-  const out = new Map<string, ExrChannel>(
-    channels.map(({ name, type }) => [name, { type, data: type === 'uint' ? new Uint32Array(width * height) : new Float32Array(width * height) }]),
-  );
-  const seen = new Uint8Array(blocks);
-  // Blocks come one after the other; the table of offsets is only needed for jumping about, and checked here.
+interface Picture {
+  readonly header: ExrHeader;
+  readonly several: boolean;
+  readonly tile: { readonly width: number; readonly height: number };
+  readonly columns: number;
+  readonly out: ReadonlyMap<string, ExrChannel>;
+  /** Blocks that have been read. */
+  readonly seen: Uint8Array;
+}
+
+/** Lines come one block after the other; the table of offsets is only needed for jumping about, and checked here. */
+function readInOrder(reader: Reader, table: number, picture: Picture): number {
+  const blocks = picture.seen.length;
+  reader.take(blocks * 8);
   let misplaced = 0;
   for (let i = 0; i < blocks; i++) {
     const byteOffset = reader.at;
-    const corrupt = (what: string) => new ImageError('image/corrupt', `EXR: the block at byte ${byteOffset} ${what}.`, { location: { byteOffset } });
-    const index = (reader.int() - y0) / linesPerBlock;
-    const packed = reader.take(reader.int());
-    if (!Number.isInteger(index) || index < 0 || index >= blocks || seen[index]) throw corrupt('is for a line outside the picture, or repeats one');
-    seen[index] = 1;
+    const index = readBlock(reader, picture);
     if (reader.view.getBigUint64(table + index * 8, true) !== BigInt(byteOffset)) misplaced++;
-    const first = index * linesPerBlock;
-    const lines = Math.min(linesPerBlock, height - first);
-    const raw = compression === none ? (packed.length === lineBytes * lines ? packed : undefined) : unzipBlock(packed, lineBytes * lines);
-    if (!raw) throw corrupt(`does not hold ${lines} lines of ${lineBytes} bytes`);
-    unpack(raw, out, width, first, lines);
   }
-  const warnings: ImageWarning[] = misplaced === 0 ? [] : [{ code: 'image/offsets', message: `EXR: ${misplaced} of ${blocks} line offsets are wrong; the file may be incomplete.` }];
-  return { width, height, channels: out, attributes, warnings };
+  return misplaced;
 }
 
-function unpack(raw: Uint8Array, channels: ReadonlyMap<string, ExrChannel>, width: number, first: number, lines: number): void {
+/** Tiles, and blocks among those of other pictures, are found by the table; the finest resolution comes first in it. */
+function readByTable(reader: Reader, table: number, picture: Picture): number {
+  const { length } = reader.bytes;
+  for (let i = 0; i < picture.seen.length; i++) {
+    const at = reader.view.getBigUint64(table + i * 8, true);
+    if (at < BigInt(table) || at >= BigInt(length)) throw new ImageError('image/corrupt', `EXR: block ${i} should lie at byte ${at}, which is not in the file.`, { location: { byteOffset: table + i * 8 } });
+    reader.at = Number(at);
+    if (picture.several && reader.int() !== 0) throw new ImageError('image/corrupt', `EXR: the block at byte ${at} belongs to another picture.`, { location: { byteOffset: Number(at) } });
+    readBlock(reader, picture);
+  }
+  return 0;
+}
+
+/** Reads the block at the reader's place. Returns its number. */
+function readBlock(reader: Reader, { header, tile, columns, out, seen }: Picture): number {
+  const { channels, width, height, y0, compression } = header;
+  const byteOffset = reader.at;
+  const corrupt = (what: string) => new ImageError('image/corrupt', `EXR: the block at byte ${byteOffset} ${what}.`, { location: { byteOffset } });
+  let index: number;
+  if (header.tile) {
+    const [column, row, levelX, levelY] = [reader.int(), reader.int(), reader.int(), reader.int()] as [number, number, number, number];
+    if (levelX !== 0 || levelY !== 0 || column < 0 || column >= columns || row < 0) throw corrupt('is for another tile than the table says');
+    index = row * columns + column;
+  } else index = (reader.int() - y0) / tile.height;
+  const packed = reader.take(reader.int());
+  if (!Number.isInteger(index) || index < 0 || index >= seen.length || seen[index]) throw corrupt('is for a line outside the picture, or repeats one');
+  seen[index] = 1;
+  const x = (index % columns) * tile.width, y = Math.floor(index / columns) * tile.height;
+  const block: ExrBlock = { channels, width: Math.min(tile.width, width - x), lines: Math.min(tile.height, height - y) };
+  const size = rawSize(block);
+  // What does not get smaller is kept as it is, by all compressions.
+  const raw = packed.length === size ? packed : packed.length < size ? METHODS[compression].unpack(packed, block, size) : undefined;
+  if (!raw) throw corrupt(`does not hold ${block.lines} lines of ${size / block.lines} bytes`);
+  store(raw, block, out, width, x, y);
+  return index;
+}
+
+function store(raw: Uint8Array, block: ExrBlock, channels: ReadonlyMap<string, ExrChannel>, width: number, x: number, y: number): void {
   const view = new DataView(raw.buffer, raw.byteOffset, raw.byteLength);
   let at = 0;
-  for (let y = first; y < first + lines; y++) {
-    for (const { type, data } of channels.values()) {
-      for (let i = y * width; i < (y + 1) * width; i++) {
+  for (let line = y; line < y + block.lines; line++) {
+    for (const channel of block.channels) {
+      const { type, data } = channels.get(channel.name) as ExrChannel;
+      const size = bytesOf(channel);
+      for (let i = line * width + x; i < line * width + x + block.width; i++) {
         if (type === 'half') data[i] = fromHalf(view.getUint16(at, true));
         else data[i] = type === 'float' ? view.getFloat32(at, true) : view.getUint32(at, true);
-        at += type === 'half' ? 2 : 4;
+        at += size;
       }
     }
   }

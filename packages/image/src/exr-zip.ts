@@ -1,4 +1,5 @@
 import { unzlibSync, zlibSync } from 'fflate';
+import { reconstruct } from './exr-block';
 
 /**
  * OpenEXR's ZIP: even bytes first, then odd ones (so that exponents lie together), each byte replaced by its difference
@@ -14,21 +15,19 @@ export function zipBlock(raw: Uint8Array): Uint8Array {
   return packed.length < n ? packed : raw;
 }
 
-/** Undoes {@link zipBlock} into `size` bytes; `undefined` if the data does not give exactly that. */
-export function unzipBlock(packed: Uint8Array, size: number): Uint8Array | undefined {
-  if (packed.length === size) return packed;
-  if (packed.length > size) return undefined;
-  let split: Uint8Array;
+/** Inflates into `size` bytes; `undefined` if the data does not give exactly that. */
+export function inflateTo(packed: Uint8Array, size: number): Uint8Array | undefined {
   try {
     // One byte more than needed shows data that is too long, without ever growing with it.
-    split = unzlibSync(packed, { out: new Uint8Array(size + 1) });
+    const out = unzlibSync(packed, { out: new Uint8Array(size + 1) });
+    return out.length === size ? out : undefined;
   } catch {
     return undefined;
   }
-  if (split.length !== size) return undefined;
-  for (let i = 1; i < size; i++) split[i] = (split[i] as number) + (split[i - 1] as number) - 128;
-  const raw = new Uint8Array(size);
-  const half = (size + 1) >> 1;
-  for (let i = 0; i < size; i++) raw[i] = split[(i & 1 ? half : 0) + (i >> 1)] as number;
-  return raw;
+}
+
+/** Undoes {@link zipBlock} into `size` bytes; `undefined` if the data does not give exactly that. */
+export function unzipBlock(packed: Uint8Array, size: number): Uint8Array | undefined {
+  const split = inflateTo(packed, size);
+  return split && reconstruct(split);
 }

@@ -39,8 +39,7 @@ function places(value: unknown, out: [Holder, string][] = []): [Holder, string][
 }
 
 const remove = (holder: Holder, key: string) => {
-  // Spoiled arrays may have lost their prototype.
-  if (Array.isArray(holder)) Array.prototype.splice.call(holder, Number(key), 1);
+  if (Array.isArray(holder)) holder.splice(Number(key), 1);
   else delete holder[key];
 };
 
@@ -69,14 +68,14 @@ function spoilJson(json: unknown, random: Random): void {
     case 5:
       // Any index may be another: siblings, one beyond.
       if (typeof value === 'number') holder[key] = random.below(Math.ceil(Math.abs(value)) + 3);
-      else if (Array.isArray(value) && value.length > 0) Array.prototype.push.call(value, structuredClone(random.pick(value as unknown[])));
+      else if (Array.isArray(value) && value.length > 0) value.push(structuredClone(random.pick(value as unknown[])));
       break;
     case 6:
       (typeof value === 'object' && value !== null && !Array.isArray(value) ? (value as Holder) : (json as Holder))['extensions'] = { [random.pick(EXTENSIONS)]: structuredClone(random.below(2) ? random.pick(VALUES) : other[otherKey]) };
       break;
     case 7:
       if (Array.isArray(value)) value.length = random.below(value.length + 1);
-      else holder[random.pick(['uri', 'mode', 'sparse', 'children', 'extras', 'name', 'byteStride', 'normalized', 'targets', 'matrix', 'weights', '__proto__', 'constructor'])] = structuredClone(random.pick(VALUES));
+      else if (!Array.isArray(holder)) holder[random.pick(['uri', 'mode', 'sparse', 'children', 'extras', 'name', 'byteStride', 'normalized', 'targets', 'matrix', 'weights', '__proto__', 'constructor'])] = structuredClone(random.pick(VALUES));
       break;
     default: {
       const names = random.pick(['extensionsUsed', 'extensionsRequired']);
