@@ -66,6 +66,17 @@ QUALITY
       --seed N          Other noise, same picture; the same seed gives the same
                         picture on the same device. Default 0.
 
+SHORTCUTS
+  All of these give up some truth for less noise or time; by default none does.
+      --max-bounces L   Most bounces of a kind: diffuse=2,specular=4; also
+                        transmission and volume.
+      --regularization F
+                        Widen sharp lobes after wide bounces, 0 to 1: 0.25 takes
+                        most fireflies away.
+      --clamp-indirect N
+                        Cut indirect light brighter than N.
+      --no-caustics     No light on matte things by way of mirrors and glass.
+
 MACHINE
       --list-gpus       List what could render, and exit.
       --gpu NAME        Use the GPU whose name contains NAME; "software" for the

@@ -3,7 +3,7 @@ import { TONE_MAPS, isToneMap, type ToneMap } from '@glanz/tonemap';
 import { CliError } from './errors';
 import { parseExposure } from './exposure';
 import { formatOf, type OutputTarget } from './output/formats';
-import { parseFilter, parseLightGroups, type QualityOptions } from './quality';
+import { parseBounces, parseFilter, parseLightGroups, type QualityOptions } from './quality';
 
 /** Everything `glanz render` can be told, checked. */
 export interface RenderCommandOptions {
@@ -53,6 +53,10 @@ const OPTIONS = {
   camera: { type: 'string' },
   filter: { type: 'string' },
   'light-groups': { type: 'string' },
+  'max-bounces': { type: 'string' },
+  'clamp-indirect': { type: 'string' },
+  regularization: { type: 'string' },
+  'no-caustics': { type: 'boolean' },
   exposure: { type: 'string' },
   tonemap: { type: 'string' },
   bits: { type: 'string' },
@@ -182,6 +186,10 @@ export function parseCommand(argv: readonly string[]): Command {
       transparent: values.transparent ?? false,
       quality: {
         ...(values.filter === undefined ? {} : { filter: parseFilter(values.filter) }),
+        ...(values['max-bounces'] === undefined ? {} : { maxBounces: parseBounces(values['max-bounces']) }),
+        ...(values['clamp-indirect'] === undefined ? {} : { clampIndirect: number('clamp-indirect', values['clamp-indirect'], 0, { min: 1e-6, max: 1e30 }) }),
+        ...(values.regularization === undefined ? {} : { regularization: number('regularization', values.regularization, 0, { min: 0, max: 1 }) }),
+        ...(values['no-caustics'] ? { caustics: false } : {}),
         ...(values['light-groups'] === undefined ? {} : { lightGroups: parseLightGroups(values['light-groups']) }),
       },
       gpu: values.gpu,

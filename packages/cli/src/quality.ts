@@ -2,7 +2,7 @@ import type { PathTracerOptions } from '@glanz/renderer';
 import { CliError } from './errors';
 
 /** What the command line passes on to the tracer as it is. Empty: the tracer's defaults. */
-export type QualityOptions = Pick<PathTracerOptions, 'filter' | 'lightGroups'>;
+export type QualityOptions = Pick<PathTracerOptions, 'filter' | 'lightGroups' | 'clampIndirect' | 'regularization' | 'caustics' | 'maxBounces'>;
 
 const FILTERS = ['box', 'gaussian', 'blackman-harris'] as const;
 
@@ -13,6 +13,20 @@ export function parseLightGroups(text: string): (typeof GROUPS)[number] {
   const mode = GROUPS.find((known) => known === text);
   if (!mode) throw new CliError('cli/usage', `--light-groups must be one of ${GROUPS.join(', ')}, not "${text}".`);
   return mode;
+}
+
+const KINDS = ['diffuse', 'specular', 'transmission', 'volume'] as const;
+
+/** `--max-bounces diffuse=2,specular=4`. @throws {CliError} `cli/usage` */
+export function parseBounces(text: string): NonNullable<PathTracerOptions['maxBounces']> {
+  return Object.fromEntries(
+    text.split(',').map((part) => {
+      const [, name, count] = /^\s*(\w+)\s*=\s*(\d+)\s*$/.exec(part) ?? [];
+      const kind = KINDS.find((known) => known === name);
+      if (!kind) throw new CliError('cli/usage', `--max-bounces must be like diffuse=2,specular=4 with ${KINDS.join(', ')}, not "${text}".`);
+      return [kind, Number(count)];
+    }),
+  );
 }
 
 /** `--filter NAME` or `NAME:RADIUS`. @throws {CliError} `cli/usage` */

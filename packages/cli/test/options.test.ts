@@ -40,7 +40,7 @@ describe('glanz render', () => {
   });
 
   it('reads every option, before or after the model', () => {
-    const argv = ['--env', 'a.hdr', '--env-rotation', '180', '--env-intensity=2', 'm.gltf', '--size', '640X480', '--samples', '16', '--depth', '3', '--seed', '4294967295', '--camera', '1', '--exposure', '-1.5', '--tonemap', 'agx', '--transparent', '--filter', 'gaussian:2', '--light-groups', 'each', '--gpu', 'H200', '-o', 'x.PNG', '-o', 'y.exr', '--bits', '16'];
+    const argv = ['--env', 'a.hdr', '--env-rotation', '180', '--env-intensity=2', 'm.gltf', '--size', '640X480', '--samples', '16', '--depth', '3', '--seed', '4294967295', '--camera', '1', '--exposure', '-1.5', '--tonemap', 'agx', '--transparent', '--filter', 'gaussian:2', '--light-groups', 'each', '--max-bounces', 'diffuse=2,volume=9', '--clamp-indirect', '10', '--regularization', '0.25', '--no-caustics', '--gpu', 'H200', '-o', 'x.PNG', '-o', 'y.exr', '--bits', '16'];
     expect(options(...argv)).toEqual({
       model: 'm.gltf',
       outputs: [{ path: 'x.PNG', format: 'png', bits: 16 }, { path: 'y.exr', format: 'exr', bits: 16 }],
@@ -56,7 +56,7 @@ describe('glanz render', () => {
       exposure: -1.5,
       toneMap: 'agx',
       transparent: true,
-      quality: { filter: { type: 'gaussian', radius: 2 }, lightGroups: 'each' },
+      quality: { filter: { type: 'gaussian', radius: 2 }, lightGroups: 'each', maxBounces: { diffuse: 2, volume: 9 }, clampIndirect: 10, regularization: 0.25, caustics: false },
       gpu: 'H200',
     });
   });
@@ -102,6 +102,10 @@ describe('complains in one line, saying what to do', () => {
     [['render', 'm.glb', '--exposure', 'NaN'], '--exposure must be'],
     [['render', 'm.glb', '--exposure', 'f/8'], 'f/8,1/125,iso200'],
     [['render', 'm.glb', '--exposure', 'f/8,1/0'], 'f/8,1/125,iso200'],
+    [['render', 'm.glb', '--max-bounces', '3'], 'must be like diffuse=2'],
+    [['render', 'm.glb', '--max-bounces', 'glossy=3'], 'diffuse, specular, transmission, volume'],
+    [['render', 'm.glb', '--regularization', '2'], 'from 0 to 1'],
+    [['render', 'm.glb', '--clamp-indirect', '0'], '--clamp-indirect must be'],
     [['render', 'm.glb', '--light-groups', 'some'], 'must be one of off, named, each'],
     [['render', 'm.glb', '--filter', 'mitchell'], 'Known: box, gaussian, blackman-harris'],
     [['render', 'm.glb', '--filter', 'box:0'], 'above 0 up to 16'],

@@ -7,7 +7,7 @@ import { GlanzError } from '@glanz/wgsl';
 export class DeviceError extends GlanzError {}
 
 /**
- * The renderer was asked for something it cannot do. Codes: `renderer/size`, `renderer/samples`, `renderer/camera`, `renderer/filter`, `renderer/light-groups`,
+ * The renderer was asked for something it cannot do. Codes: `renderer/size`, `renderer/samples`, `renderer/camera`, `renderer/filter`, `renderer/light-groups`, `renderer/option`,
  * `renderer/material`, `renderer/instance`, `renderer/destroyed`, `renderer/busy`, `renderer/no-triangles`.
  */
 export class RenderError extends GlanzError {}

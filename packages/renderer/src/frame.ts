@@ -4,6 +4,7 @@ import type { Film } from './film/film';
 import type { GpuScene } from './gpu/gpu-scene';
 import { BACKGROUND_HIDDEN, BACKGROUND_TRANSPARENT, frameStruct } from './kernels/layout';
 import type { PathTracerOptions } from './options';
+import { shortcutUniforms } from './shortcuts';
 import { resolveFilter } from './view';
 import type { Geometry } from './scene/geometry';
 
@@ -25,6 +26,7 @@ export function packFrame(camera: Camera, film: Film, scene: GpuScene, geometry:
     environment_group: scene.groups.environment,
     environment_cells: [environment.table?.width ?? 1, environment.table?.height ?? 1],
     lod_bias: options.textureLodBias ?? -1,
+    ...shortcutUniforms(options),
     scene_scale: geometry.radius,
     filter_radius: resolveFilter(options.filter).radius,
   });

@@ -32,6 +32,20 @@ export interface PathTracerOptions {
    * the environment by its own name. A group costs 32 bytes a pixel and 16 bytes a path in flight; 16 at most.
    */
   readonly lightGroups?: LightGroupMode;
+  /**
+   * Biased: no contribution of light that took two bounces or more may be brighter than this in any colour. Takes fireflies
+   * away and energy with them. Default off; above 0. Try regularization first.
+   */
+  readonly clampIndirect?: number;
+  /**
+   * Biased: makes sharp lobes wider for paths that have bounced wide before, by this share of the widest bounce: 0 (default)
+   * off, 0.25 takes most fireflies of caustics away and costs little light, 1 is as wide as what came before.
+   */
+  readonly regularization?: number;
+  /** Biased: `false` leaves out light that reaches a matte surface by way of a sharp reflection or refraction. Default true. */
+  readonly caustics?: boolean;
+  /** Most bounces of each kind, besides `maxDepth`. What is not given is not limited. */
+  readonly maxBounces?: BounceLimits;
   /** Compensate the energy that single-scattering microfacet models lose. Default true; false is for tests against such references. */
   readonly multipleScattering?: boolean;
   /**
@@ -51,6 +65,18 @@ export interface PathTracerOptions {
   readonly hierarchies?: HierarchyBuilder;
   readonly signal?: AbortSignal;
   readonly onProgress?: (progress: PrepareProgress) => void;
+}
+
+/**
+ * Most bounces of a kind in one path between surfaces; light falls on the last of them all the same, so 0 leaves direct
+ * light. Up to 127 count. A bounce is diffuse where its density is below one half per steradian, as wide as
+ * Lambert's or a roughness of 0.65, and specular otherwise; one through a surface counts as transmission whatever its width.
+ */
+export interface BounceLimits {
+  readonly diffuse?: number;
+  readonly specular?: number;
+  readonly transmission?: number;
+  readonly volume?: number;
 }
 
 /** See {@link PathTracerOptions.lightGroups}. */

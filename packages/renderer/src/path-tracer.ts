@@ -19,6 +19,7 @@ import { chooseCamera } from './scene/choose-camera';
 import { prepareGeometry, type Geometry } from './scene/geometry';
 import { findMaterial } from './scene/materials';
 import { Scheduler, type Batch } from './scheduler';
+import { checkShortcuts, shortcutFlags } from './shortcuts';
 import { viewFlags } from './view';
 
 /** What {@link PathTracer.create} has put together. */
@@ -93,12 +94,13 @@ export class PathTracer {
    *
    * @param device From `requestDevice()`, or any device; it stays the caller's to destroy.
    * @param scene Not changed; edits go through the tracer's methods.
-   * @throws {RenderError} `renderer/size`, `renderer/camera`, `renderer/no-triangles`
+   * @throws {RenderError} `renderer/size`, `renderer/camera`, `renderer/no-triangles`, `renderer/filter`, `renderer/light-groups`, `renderer/option`
    * @throws {SceneError} if the scene's parts do not fit together
    * @throws {DeviceError} `renderer/limit`, `renderer/out-of-memory`, `renderer/gpu-error`, `renderer/device-lost`
    */
   static async create(device: GPUDevice, scene: Scene, options: PathTracerOptions): Promise<PathTracer> {
     checkSize(options.width, options.height);
+    checkShortcuts(options);
     validateScene(scene);
     const own: Scene = { ...scene, materials: scene.materials.map((material) => ({ ...material })) };
     const { hierarchies, signal, onProgress } = options;
@@ -440,7 +442,7 @@ export class PathTracer {
 
 function kernelFeatures(scene: GpuScene, camera: Camera, options: PathTracerOptions): KernelFeatures {
   const features = scene.features();
-  return { ...features, flags: { ...features.flags, ...viewFlags(camera, options.filter) } };
+  return { ...features, flags: { ...features.flags, ...viewFlags(camera, options.filter), ...shortcutFlags(options) } };
 }
 
 function checkSize(width: number, height: number): void {

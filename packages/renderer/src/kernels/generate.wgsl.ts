@@ -22,6 +22,10 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   paths[index].alpha = 1.0;
   paths[index].pixel = pixel;
   path_clear(index);
+  //#if PATH_STATE
+  paths[index].bounces = 0u;
+  paths[index].spread = 0.0;
+  //#endif
   queues.items[index] = index;
 }
 `,

@@ -32,6 +32,12 @@ export const frameStruct = struct('Frame', {
   /** Width of a camera ray's footprint at its origin, metres. */
   cone_width: 'f32',
   environment_group: 'u32',
+  /** Largest component that a contribution of indirect light may have. */
+  clamp_indirect: 'f32',
+  /** Share of the widest bounce so far that lobes are at least as wide as. */
+  regularization: 'f32',
+  /** Most bounces: diffuse, specular, transmitted, in volumes. */
+  bounce_limits: 'vec4u',
 });
 
 /** The part of the picture and the samples that one batch works on. */

@@ -4,6 +4,8 @@ import { struct, wgslModule, type StructLayout, type WgslModule } from '@glanz/w
 export interface PathShape {
   /** Sums of light that are kept apart: one, or one for each light group. */
   readonly planes: number;
+  /** With `PATH_STATE` paths remember what kinds of bounces they have made. */
+  readonly flags: Readonly<Record<string, boolean>>;
 }
 
 /** A path between two kernels, and the functions by which kernels add light to it. */
@@ -17,7 +19,7 @@ export interface PathLayout {
   readonly module: WgslModule;
 }
 
-const layouts = new Map<number, PathLayout>();
+const layouts = new Map<string, PathLayout>();
 
 const COMMON = {
   origin: 'vec3f',
@@ -31,14 +33,21 @@ const COMMON = {
   hit: 'vec4u',
 } as const;
 
+const STATE = {
+  /** Bounces so far, a byte each: diffuse, specular, transmitted, in volumes. */
+  bounces: 'u32',
+  /** Widest bounce so far, as the α of a GGX lobe as wide. */
+  spread: 'f32',
+} as const;
+
 /** The layout of paths for a scene. Kernels touch the light of a path through its functions only. */
-export function pathLayout({ planes }: PathShape): PathLayout {
-  let layout = layouts.get(planes);
+export function pathLayout({ planes, flags }: PathShape): PathLayout {
+  const key = `${planes} ${flags.PATH_STATE === true}`;
+  let layout = layouts.get(key);
   if (!layout) {
     const several = planes > 1;
-    const path = several
-      ? struct('Path', { ...COMMON, planes: ['vec4f', planes], /** Index in the film. */ pixel: 'u32' })
-      : struct('Path', { ...COMMON, radiance: 'vec3f', pixel: 'u32' });
+    const fields = { ...COMMON, ...(several ? { planes: ['vec4f', planes] as const } : { radiance: 'vec3f' as const }), /** Index in the film. */ pixel: 'u32' } as const;
+    const path: StructLayout = flags.PATH_STATE ? struct('Path', { ...fields, ...STATE }) : struct('Path', fields);
     const module = wgslModule(
       'renderer/path',
       several
@@ -56,7 +65,7 @@ fn path_plane(index: u32, plane: u32) -> vec4f { return vec4f(paths[index].radia
 `,
       [path.module],
     );
-    layouts.set(planes, (layout = { struct: path, module }));
+    layouts.set(key, (layout = { struct: path, module }));
   }
   return layout;
 }

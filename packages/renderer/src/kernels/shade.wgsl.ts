@@ -2,6 +2,7 @@ import { bvhOffset } from '@glanz/bvh/wgsl';
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { BACKGROUND_HIDDEN, BACKGROUND_TRANSPARENT, GROUP_SHIFT } from './layout';
 import { random } from './random.wgsl';
+import { shortcuts } from './shortcuts.wgsl';
 
 /**
  * One vertex of every active path: what the surface emits, a light sample to be tested by the connect kernel, and the
@@ -36,7 +37,11 @@ fn shade_miss(index: u32, depth: u32) {
     weight = pdf / (pdf + frame.environment_probability * environment_pdf(direction));
   }
   //#endif
-  path_deposit(index, frame.environment_group, paths[index].throughput * environment_radiance(direction) * weight);
+  var arriving = paths[index].throughput * environment_radiance(direction) * weight;
+  //#if CLAMP_INDIRECT
+  arriving = shortcut_clamp(arriving, depth);
+  //#endif
+  path_deposit(index, frame.environment_group, arriving);
 }
 
 fn shade_path(index: u32, depth: u32) -> ShadeResult {
@@ -61,11 +66,18 @@ fn shade_path(index: u32, depth: u32) -> ShadeResult {
       let pdf = paths[index].pdf;
       weight = pdf / (pdf + light_pdf(s, origin, direction));
     }
-    path_deposit(index, s.flags >> ${GROUP_SHIFT}u, throughput * emitted * weight);
+    var arriving = throughput * emitted * weight;
+    //#if CLAMP_INDIRECT
+    arriving = shortcut_clamp(arriving, depth);
+    //#endif
+    path_deposit(index, s.flags >> ${GROUP_SHIFT}u, arriving);
   }
   //#endif
   // "depth" counts from 0, so this vertex ends edge depth + 1; the next edge must be allowed.
   if (depth + 1u >= frame.max_depth) { return result; }
+  //#if BOUNCE_LIMITS
+  if ((paths[index].bounces & SHORTCUT_LAST) != 0u) { return result; }
+  //#endif
 
   // Everything reflects on both sides: the frame turns to the side the path came from.
   let side = select(-1.0, 1.0, dot(s.geometric, wo) >= 0.0);
@@ -77,6 +89,9 @@ fn shade_path(index: u32, depth: u32) -> ShadeResult {
   let bitangent = side * sign(dot(cross(s.normal, s.tangent), s.bitangent)) * cross(normal, tangent);
   let to_world = mat3x3f(tangent, bitangent, normal);
   let local_wo = wo * to_world;
+  //#if REGULARIZE
+  s.parameters = shortcut_soften(index, s.parameters);
+  //#endif
   let bsdf = openpbr_prepare(s.parameters, local_wo);
   let start = bvh_offset_origin(s.position, geometric, s.magnitude);
   random_begin(paths[index].pixel, batch.sample_offset + index / batch.pixel_count, depth + 1u, frame.seed);
@@ -95,6 +110,12 @@ fn shade_path(index: u32, depth: u32) -> ShadeResult {
       result.shadow.path = index;
       result.shadow.group = light.group;
       result.shadow.contribution = throughput * scatter.xyz * light.radiance * (weight / light.pdf);
+      //#if CLAMP_INDIRECT
+      result.shadow.contribution = shortcut_clamp(result.shadow.contribution, depth + 1u);
+      //#endif
+      //#if NO_CAUSTICS
+      result.asks = !shortcut_caustic(index, scatter.w);
+      //#endif
     }
   }
   //#endif
@@ -103,6 +124,12 @@ fn shade_path(index: u32, depth: u32) -> ShadeResult {
   if (!scattered.valid) { return result; }
   let next = to_world * scattered.wi;
   if (dot(next, geometric) <= 0.0) { return result; }
+  //#if NO_CAUSTICS
+  if (shortcut_caustic(index, scattered.pdf)) { return result; }
+  //#endif
+  //#if PATH_STATE
+  shortcut_bounce(index, scattered.pdf, false);
+  //#endif
   var carried = throughput * scattered.weight;
   let brightest = max(carried.x, max(carried.y, carried.z));
   if (!(brightest > 0.0)) { return result; }
@@ -146,6 +173,6 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation_inde
   if (result.asks) { shadows[shade_shadow_base + shadow_slot] = result.shadow; }
 }
 `,
-    [path, surface, lights, openpbr, energy, random, bvhOffset],
+    [path, surface, lights, openpbr, energy, random, shortcuts, bvhOffset],
   );
 }
