@@ -2,10 +2,38 @@ import type { Blas, TriangleMesh } from '../blas';
 import { BvhError } from '../error';
 import type { Tlas } from '../tlas';
 import { rayCount, startRay } from './batch';
+import { Once } from './once';
 import type { Hit, InstanceHit, Ray } from './queries';
 import { borrow, giveBack, type BlasMesh, type HitVisitor } from './walk';
 
 export type { HitVisitor } from './walk';
+
+/** Stands between a walk and a visitor: a triangle that is in several leaves is told of once. */
+class HitFilter {
+  readonly #once = new Once();
+  #blas: Blas | undefined;
+  #instances: readonly BlasMesh[] = [];
+  #visit: HitVisitor = () => undefined;
+  readonly visitor: HitVisitor = (t, u, v, triangle, instance) =>
+    this.#once.first(this.#blas ?? (this.#instances[instance] as BlasMesh).blas, triangle, instance) && this.#visit(t, u, v, triangle, instance) === true;
+
+  /** For one BLAS, or for the instances. */
+  over(blas: Blas | undefined, instances: readonly BlasMesh[], visit: HitVisitor): HitVisitor {
+    this.#blas = blas;
+    this.#instances = instances;
+    this.#visit = visit;
+    return this.next();
+  }
+
+  /** For another ray. */
+  next(): HitVisitor {
+    this.#once.start();
+    return this.visitor;
+  }
+}
+
+const idle: HitFilter[] = [];
+const NONE: readonly BlasMesh[] = [];
 
 /**
  * Tells of every triangle that a ray meets, from either side, in no particular order and without allocating anything.
@@ -16,7 +44,9 @@ export type { HitVisitor } from './walk';
 export function forEachHit(blas: Blas, mesh: TriangleMesh, { origin, direction, tMin = 0, tMax = Infinity }: Ray, visit: HitVisitor): void {
   const walk = borrow();
   walk.start(origin, 0, direction, 0, tMin, tMax);
-  walk.through(blas, mesh, false, visit);
+  const filter = idle.pop() ?? new HitFilter();
+  walk.through(blas, mesh, false, filter.over(blas, NONE, visit));
+  idle.push(filter);
   giveBack(walk);
 }
 
@@ -24,7 +54,9 @@ export function forEachHit(blas: Blas, mesh: TriangleMesh, { origin, direction, 
 export function forEachHitInstances(tlas: Tlas, instances: readonly BlasMesh[], { origin, direction, tMin = 0, tMax = Infinity }: Ray, visit: HitVisitor): void {
   const walk = borrow();
   walk.start(origin, 0, direction, 0, tMin, tMax);
-  walk.throughInstances(tlas, instances, false, visit);
+  const filter = idle.pop() ?? new HitFilter();
+  walk.throughInstances(tlas, instances, false, filter.over(undefined, instances, visit));
+  idle.push(filter);
   giveBack(walk);
 }
 
@@ -72,10 +104,12 @@ export function allHitsBatch(blas: Blas, mesh: TriangleMesh, rays: Float32Array 
     found++;
   };
   const walk = borrow();
+  const filter = new HitFilter();
+  filter.over(blas, NONE, visit);
   for (let ray = 0; ray < count; ray++) {
     starts[ray] = found;
     startRay(walk, rays, ray);
-    walk.through(blas, mesh, false, visit);
+    walk.through(blas, mesh, false, filter.next());
   }
   starts[count] = found;
   giveBack(walk);

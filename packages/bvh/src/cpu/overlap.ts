@@ -2,6 +2,7 @@ import type { Blas, TriangleMesh } from '../blas';
 import { BvhError } from '../error';
 import { BVH_STACK_SIZE, FAR, LEAF, LEFT, LEFT_MIN, leafCount, leafFirst, NODE_WORDS, RIGHT, RIGHT_MIN } from '../layout';
 import type { Tlas } from '../tlas';
+import { Once } from './once';
 import { INSIDE, OUTSIDE, type NumberedRegion, type Region } from './regions';
 import { toWorld } from './to-world';
 import type { BlasMesh } from './walk';
@@ -53,9 +54,16 @@ class OverlapWalk {
   /** Whether the leaf that was found last lies inside the region. */
   #leafInside = false;
   readonly #placed = new PlacedRegion();
+  readonly #once = new Once();
 
   /** True: the visitor has ended it. */
-  through({ nodes, triangleIndices }: Blas, { positions: p, indices }: TriangleMesh, region: Region, instance: number, inside: boolean, visit: OverlapVisitor): boolean {
+  through(blas: Blas, mesh: TriangleMesh, region: Region, visit: OverlapVisitor): boolean {
+    this.#once.start();
+    return this.#search(blas, mesh, region, 0, false, visit);
+  }
+
+  #search(blas: Blas, { positions: p, indices }: TriangleMesh, region: Region, instance: number, inside: boolean, visit: OverlapVisitor): boolean {
+    const { nodes, triangleIndices } = blas;
     if (triangleIndices.length === 0) return false;
     const words = wordsOf(nodes);
     const base = this.#top;
@@ -79,7 +87,7 @@ class OverlapWalk {
           c *= 3;
           if (!region.triangle(p[a] as number, p[a + 1] as number, p[a + 2] as number, p[b] as number, p[b + 1] as number, p[b + 2] as number, p[c] as number, p[c + 1] as number, p[c + 2] as number)) continue;
         }
-        if (visit(triangle, instance) !== true) continue;
+        if (!this.#once.first(blas, triangle, instance) || visit(triangle, instance) !== true) continue;
         this.#top = base;
         return true;
       }
@@ -91,6 +99,7 @@ class OverlapWalk {
     const words = wordsOf(nodes);
     const placed = this.#placed;
     placed.region = region;
+    this.#once.start();
     const base = this.#top;
     this.#push(0, false);
     for (;;) {
@@ -99,7 +108,7 @@ class OverlapWalk {
       const instance = instanceOrder[leafFirst(leaf)] as number;
       const { blas, mesh } = instances[instance] as BlasMesh;
       toWorld(toObject, 12 * instance, placed.toWorld);
-      if (!this.through(blas, mesh, placed, instance, this.#leafInside, visit)) continue;
+      if (!this.#search(blas, mesh, placed, instance, this.#leafInside, visit)) continue;
       this.#top = base;
       return true;
     }
@@ -153,7 +162,7 @@ function borrowed(go: (walk: OverlapWalk) => boolean): boolean {
  * forEachOverlap(blas, mesh, new SphereRegion([0, 0, 0], 0.5), (triangle) => void selected.add(triangle));
  */
 export function forEachOverlap(blas: Blas, mesh: TriangleMesh, region: Region, visit: OverlapVisitor): void {
-  borrowed((walk) => walk.through(blas, mesh, region, 0, false, visit));
+  borrowed((walk) => walk.through(blas, mesh, region, visit));
 }
 
 /** Tells of every triangle of all instances that has a point in common with a region of the world. See {@link forEachOverlap}. */
@@ -165,7 +174,7 @@ const first = () => true;
 
 /** Whether any triangle has a point in common with a region. See {@link forEachOverlap}. */
 export function overlaps(blas: Blas, mesh: TriangleMesh, region: Region): boolean {
-  return borrowed((walk) => walk.through(blas, mesh, region, 0, false, first));
+  return borrowed((walk) => walk.through(blas, mesh, region, first));
 }
 
 /** Whether any triangle of all instances has a point in common with a region of the world. See {@link forEachOverlap}. */
@@ -200,7 +209,7 @@ export function overlapBatch(blas: Blas, mesh: TriangleMesh, region: NumberedReg
     for (let i = 0; i < count; i++) {
       starts[i] = found;
       region.set(values, i * region.numbers);
-      walk.through(blas, mesh, region, 0, false, visit);
+      walk.through(blas, mesh, region, visit);
     }
     return false;
   });

@@ -1,6 +1,7 @@
 import { expect, test } from 'vitest';
 import { allHits, allHitsBatch, allHitsInstances, forEachHit, forEachHitInstances } from '../../src/cpu/all-hits';
 import { buildBlas, buildTlas, BvhError, closestHit } from '../../src/index';
+import { cutInTwo } from '../cut';
 import { affine, baked, bruteForceAll, direction, randomNumbers, sphere, strewn } from '../shapes';
 
 for (const seed of [211, 212, 213]) {
@@ -89,4 +90,26 @@ test('a tree of one leaf tells of each triangle once', () => {
   expect(allHits(blas, mesh, { origin: [-1, -1, -1], direction: [1, 1, 1] })).toHaveLength(2);
   const one = { positions: mesh.positions.subarray(0, 9) };
   expect(allHits(buildBlas(one), one, { origin: [-1, -1, -1], direction: [1, 1, 1] })).toHaveLength(1);
+});
+
+test('triangles that are in several leaves are told of once a ray, and once an instance (seed 215)', () => {
+  const random = randomNumbers(215);
+  const mesh = strewn(200, 1, random);
+  const blas = cutInTwo(mesh);
+  expect(blas.triangleIndices.length).toBe(400);
+  const rays = new Float64Array(8 * 200);
+  let total = 0;
+  for (let i = 0; i < 200; i++) {
+    const origin = direction(random).map((x) => 3 * x);
+    const ray = { origin, direction: origin.map((x) => random() - 0.5 - x) };
+    rays.set([...origin, 0, ...ray.direction, 1e30], 8 * i);
+    const expected = bruteForceAll(mesh, ray.origin, ray.direction).sort((a, b) => a.t - b.t).map(({ triangle }) => triangle);
+    expect(allHits(blas, mesh, ray).map(({ triangle }) => triangle)).toEqual(expected);
+    // Both instances are the same one.
+    const tlas = buildTlas([0, 1].map(() => ({ bounds: blas.bounds, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] })));
+    expect(allHitsInstances(tlas, [{ blas, mesh }, { blas, mesh }], ray)).toHaveLength(2 * expected.length);
+    total += expected.length;
+  }
+  expect(total).toBeGreaterThan(500);
+  expect(allHitsBatch(blas, mesh, rays, { starts: new Uint32Array(201), triangle: new Uint32Array(0) })).toBe(total);
 });

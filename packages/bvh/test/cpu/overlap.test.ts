@@ -1,6 +1,7 @@
 import { expect, test } from 'vitest';
 import { BoxRegion, ConvexRegion, forEachOverlap, forEachOverlapInstances, frustumPlanes, INSIDE, OUTSIDE, overlapBatch, overlaps, overlapsInstances, SphereRegion, type Region } from '../../src/cpu/overlap';
 import { buildBlas, buildTlas, BvhError, type Blas, type TriangleMesh } from '../../src/index';
+import { cutInTwo } from '../cut';
 import { affine, baked, direction, randomNumbers, sphere, strewn } from '../shapes';
 import { boxPlanes, cornersOf, distanceTo, meetsPlanes } from './brute-shapes';
 
@@ -153,4 +154,21 @@ test('a region of the caller’s own, early ends, further questions, nothing the
   expect(overlaps(buildBlas(none), none, above)).toBe(false);
   expect(overlapsInstances(buildTlas([]), [], above)).toBe(false);
   expect(() => new ConvexRegion([1, 2, 3])).toThrow(BvhError);
+});
+
+test('triangles that are in several leaves are told of once (seed 236)', () => {
+  const random = randomNumbers(236);
+  const mesh = strewn(200, 1, random);
+  const blas = cutInTwo(mesh), whole = buildBlas(mesh);
+  let total = 0;
+  for (let i = 0; i < 30; i++) {
+    for (const { region } of regions(random)) {
+      const expected = found(whole, mesh, region);
+      expect(found(blas, mesh, region)).toEqual(expected);
+      total += expected.length;
+    }
+  }
+  expect(total).toBeGreaterThan(1000);
+  const spheres = Float32Array.of(0, 0, 0, 9, 0, 0, 0, 9);
+  expect(overlapBatch(blas, mesh, new SphereRegion(), spheres, { starts: new Uint32Array(3), triangle: new Uint32Array(0) })).toBe(400);
 });
