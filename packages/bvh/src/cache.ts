@@ -18,7 +18,7 @@ export interface CacheBuildOptions extends BlasOptions {
 }
 
 /** Builds what is not in the cache: `BvhWorkers` of `@glanz/bvh/workers`, or `{ buildBlas }`. */
-export interface BlasBuilder {
+export interface BlasSource {
   buildBlas(mesh: TriangleMesh, options: CacheBuildOptions): Promise<Blas> | Blas;
 }
 
@@ -40,7 +40,9 @@ export async function blasKey(mesh: TriangleMesh, options: BlasOptions = {}): Pr
   const digest = async (bytes: Uint8Array) => new Uint8Array(await subtle.digest('SHA-256', bytes.buffer instanceof ArrayBuffer ? (bytes as Uint8Array<ArrayBuffer>) : new Uint8Array(bytes)));
   const raw = (array: Float32Array | Uint32Array | Uint16Array) => new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
   const { positions, indices } = mesh;
-  const own = Object.entries(options).filter(([, value]) => value !== undefined && typeof value !== 'object' && typeof value !== 'function').sort(([a], [b]) => (a < b ? -1 : 1));
+  // A builder from an entry of its own is an object with a name.
+  const named = { ...options, builder: typeof options.builder === 'object' ? options.builder.name : options.builder };
+  const own = Object.entries(named).filter(([, value]) => value !== undefined && typeof value !== 'object' && typeof value !== 'function').sort(([a], [b]) => (a < b ? -1 : 1));
   const text = JSON.stringify([SERIALIZED_VERSION, positions.length, indices?.length, indices?.BYTES_PER_ELEMENT, own]);
   const parts = await Promise.all([digest(raw(positions)), digest(indices ? raw(indices) : new Uint8Array(0)), digest(new TextEncoder().encode(text))]);
   const all = new Uint8Array(96);
@@ -64,12 +66,12 @@ export class BlasCache {
   /** Hierarchies that had to be built so far, small ones included. */
   misses = 0;
   readonly #store: BlasStore;
-  readonly #builder: BlasBuilder;
+  readonly #builder: BlasSource;
   readonly #minTriangles: number;
   readonly #onError: ((error: unknown) => void) | undefined;
   readonly #writing = new Set<Promise<void>>();
 
-  constructor(store: BlasStore, builder: BlasBuilder, { minTriangles = 20_000, onError }: BlasCacheOptions = {}) {
+  constructor(store: BlasStore, builder: BlasSource, { minTriangles = 20_000, onError }: BlasCacheOptions = {}) {
     this.#store = store;
     this.#builder = builder;
     this.#minTriangles = minTriangles;

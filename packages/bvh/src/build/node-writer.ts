@@ -58,6 +58,7 @@ export class NodeWriter {
 
   finish(): Tree {
     const used = this.count * NODE_WORDS;
-    return { nodes: 4 * used === this.nodes.buffer.byteLength ? this.nodes : this.nodes.slice(0, used), nodeCount: this.count };
+    // A copy, always: the memory may be the next build's.
+    return { nodes: this.nodes.slice(0, used), nodeCount: this.count };
   }
 }

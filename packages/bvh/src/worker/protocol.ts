@@ -1,9 +1,17 @@
 import { GlanzError } from '@glanz/wgsl/error';
 import type { Blas, BlasOptions, TriangleMesh } from '../blas';
+import type { TreeBuilder } from '../build/builder';
 import { BvhError } from '../error';
 
+/** Options as they cross the boundary: functions cannot, so a builder of an entry of its own goes by its name. */
+export type SentOptions = Omit<BlasOptions, 'builder'> & { readonly builder?: 'fast' | 'balanced' | TreeBuilder['name'] };
+
+export function sendableOptions({ builder, ...others }: BlasOptions): SentOptions {
+  return builder === undefined ? others : { ...others, builder: typeof builder === 'object' ? builder.name : builder };
+}
+
 /** To a worker. */
-export type BuildRequest = { readonly kind: 'build'; readonly id: number; readonly mesh: TriangleMesh; readonly options: BlasOptions } | { readonly kind: 'warm-up' };
+export type BuildRequest = { readonly kind: 'build'; readonly id: number; readonly mesh: TriangleMesh; readonly options: SentOptions } | { readonly kind: 'warm-up' };
 
 /** From a worker. `ready` comes once, first of all. */
 export type BuildReply =

@@ -1,6 +1,7 @@
-import { buildBlas, type TriangleMesh } from '../blas';
+import { buildBlas, type BlasOptions, type TriangleMesh } from '../blas';
+import { best, bestSplit } from '../build/best';
 import { ownPort, type WorkerPort } from './port';
-import { buffersOf, sendableError, type BuildReply, type BuildRequest } from './protocol';
+import { buffersOf, sendableError, type BuildReply, type BuildRequest, type SentOptions } from './protocol';
 
 export type { WorkerPort } from './port';
 
@@ -25,6 +26,11 @@ function sheet(edge: number): TriangleMesh {
   return { positions, indices };
 }
 
+function receivedOptions({ builder, ...others }: SentOptions): BlasOptions {
+  const named = [best, bestSplit].find(({ name }) => name === builder) ?? (builder as 'fast' | 'balanced' | undefined);
+  return named === undefined ? others : { ...others, builder: named };
+}
+
 /**
  * Answers build requests of a `BvhWorkers` pool. This module does so by itself where it is loaded as a worker and
  * nothing anywhere else; call it only to let a worker of your own, made by `createWorker`, do the builds.
@@ -47,7 +53,7 @@ export function serveBuilds(port: WorkerPort): void {
     const { id, mesh, options } = request;
     say({ kind: 'started', id });
     try {
-      const blas = buildBlas(mesh, options);
+      const blas = buildBlas(mesh, receivedOptions(options));
       say({ kind: 'built', id, blas }, buffersOf(blas.nodes, blas.triangleIndices, blas.bounds.min, blas.bounds.max));
     } catch (error) {
       say({ kind: 'failed', id, error: sendableError(error) });

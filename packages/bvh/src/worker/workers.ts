@@ -1,7 +1,8 @@
-import { buildBlas, type Blas, type BlasOptions, type TriangleMesh } from '../blas';
+import { breathe } from '../async';
+import { blasSteps, type Blas, type BlasOptions, type TriangleMesh } from '../blas';
 import { BvhError } from '../error';
 import { connect, hardwareThreads, startWorker, type NodeWorkerLike, type WebWorkerLike, type WorkerLine } from './line';
-import { buffersOf, receivedError, type BuildReply, type BuildRequest } from './protocol';
+import { buffersOf, receivedError, sendableOptions, type BuildReply, type BuildRequest } from './protocol';
 
 export type { NodeWorkerLike, WebWorkerLike } from './line';
 
@@ -11,8 +12,8 @@ const AHEAD = 16_384;
 /** A build of more triangles is worth ending its worker when it is aborted; a smaller one is let run out, unheard. */
 const WORTH_ENDING = 100_000;
 
-/** Without workers the thread is handed back after so many milliseconds of building. */
-const SLICE_MS = 12;
+/** Without workers the thread is handed back after so many milliseconds of building; a step more can follow. */
+const SLICE_MS = 8;
 
 /** A worker that has not reported by then will not. */
 const START_MS = 15_000;
@@ -34,7 +35,7 @@ export interface BvhWorkersOptions {
 export interface WorkerBuildOptions extends BlasOptions {
   /** Gives up: the promise rejects at once with the signal's reason. */
   readonly signal?: AbortSignal | undefined;
-  /** Told 0 when the build begins and 1 when it is done. */
+  /** Told 0 when the build begins and 1 when it is done; in between only where builds run on the calling thread. */
   readonly onProgress?: ((done: number) => void) | undefined;
   /**
    * Hand the mesh's buffers over instead of copying them: the caller's arrays are empty from then on. For arrays that
@@ -69,7 +70,7 @@ interface Seat {
 
 /**
  * Builds hierarchies off the calling thread, several at a time. Module workers in browsers, `worker_threads` in Node.
- * Where there are no workers it builds on the calling thread, one mesh at a time, and hands the thread back in between;
+ * Where there are no workers it builds on the calling thread, in slices of about ten milliseconds;
  * {@link fallback} then says why.
  *
  * @example
@@ -292,7 +293,7 @@ export class BvhWorkers {
     try {
       const mesh: TriangleMesh = { positions: sent(positions), indices: indices && sent(indices) };
       seat.line?.hold(true);
-      this.#post(seat, { kind: 'build', id, mesh, options }, buffersOf(mesh.positions, mesh.indices));
+      this.#post(seat, { kind: 'build', id, mesh, options: sendableOptions(options) }, buffersOf(mesh.positions, mesh.indices));
     } catch (error) {
       // Options that cannot be cloned, arrays that are none or were given away.
       seat.jobs.delete(id);
@@ -311,16 +312,25 @@ export class BvhWorkers {
     let until = -Infinity;
     while (this.#queue.length > 0) {
       if (performance.now() > until) {
-        await new Promise((resolve) => setTimeout(resolve, 0));
+        await breathe();
         until = performance.now() + SLICE_MS;
         continue;
       }
       const job = this.#queue.shift() as Job;
       try {
         job.progress(0);
-        const blas = buildBlas(job.mesh, job.options);
-        job.progress(1);
-        job.settle(blas);
+        const steps = blasSteps(job.mesh, job.options);
+        // What settles the job otherwise, an abort say, ends its build.
+        for (let step = steps.next(); !job.settled; step = steps.next()) {
+          if (step.done) {
+            job.progress(1);
+            job.settle(step.value);
+          } else if (performance.now() > until) {
+            job.progress(step.value);
+            await breathe();
+            until = performance.now() + SLICE_MS;
+          }
+        }
       } catch (error) {
         job.settle({ error });
       }

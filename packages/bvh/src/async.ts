@@ -1,0 +1,45 @@
+import { blasSteps, type Blas, type BlasOptions, type TriangleMesh } from './blas';
+
+/** What {@link buildBlasAsync} may be told besides the options of `buildBlas`. */
+export interface AsyncBuildOptions extends BlasOptions {
+  /** Gives up: the promise rejects with the signal's reason within a slice. */
+  readonly signal?: AbortSignal | undefined;
+  /** Told the share that is done, 0..1, after each slice; the last is 1. */
+  readonly onProgress?: ((done: number) => void) | undefined;
+  /** The thread is handed back after so many milliseconds; a slice ends up to a few milliseconds later. Default 8. */
+  readonly sliceMs?: number;
+}
+
+/** Lets everything else that waits have its turn. */
+export function breathe(): Promise<void> {
+  const { scheduler } = globalThis as { scheduler?: { yield?: () => Promise<void> } };
+  return scheduler?.yield?.() ?? new Promise((resolve) => setTimeout(resolve, 0));
+}
+
+/**
+ * Builds the same hierarchy as `buildBlas`, on the calling thread in slices, so that a page stays responsive where no
+ * worker can be had. The mesh must stay as it is until the promise settles.
+ *
+ * @throws {BvhError} as `buildBlas` does.
+ * @throws the signal's reason when aborted, or what `onProgress` throws.
+ * @example
+ * const blas = await buildBlasAsync(mesh, { signal, onProgress: (done) => (bar.value = done) });
+ */
+export async function buildBlasAsync(mesh: TriangleMesh, options: AsyncBuildOptions = {}): Promise<Blas> {
+  const { signal, onProgress, sliceMs = 8, ...own } = options;
+  signal?.throwIfAborted();
+  const steps = blasSteps(mesh, own);
+  let until = performance.now() + sliceMs;
+  for (;;) {
+    const step = steps.next();
+    if (step.done) {
+      onProgress?.(1);
+      return step.value;
+    }
+    if (performance.now() < until) continue;
+    onProgress?.(Math.min(1, step.value));
+    await breathe();
+    signal?.throwIfAborted();
+    until = performance.now() + sliceMs;
+  }
+}

@@ -1,0 +1,57 @@
+import type { TriangleMesh } from '../blas';
+import { BLAS_MAX_DEPTH } from '../layout';
+import type { BuildSettings, TreeBuilder } from './builder';
+import { draftOf, singleDraft, type DraftTree } from './draft';
+import { finishDraft } from './finish';
+import { counted } from './levels';
+import { cutTriangles, type References } from './references';
+import { Reinsertion } from './reinsert';
+import { Scratch } from './scratch';
+import { buildUpper, emptyTree, makePrimitives, part, sortPrimitives, writeInsides, type Steps, type TriangleTree } from './steps';
+
+/** The shares of subtrees that the passes of reinsertion look at. */
+const PASSES = [0.1, 1, 0.1] as const;
+
+function* buildBest(mesh: TriangleMesh, count: number, { maxLeaf, bins }: BuildSettings, cut: boolean): Steps<TriangleTree> {
+  const scratch = Scratch.take();
+  const primitives = yield* part(makePrimitives(mesh, count, maxLeaf > 1, scratch), 0, 0.02);
+  if (primitives.count === 0) return emptyTree();
+  const references = cut ? yield* part(cutTriangles(mesh, primitives), 0.02, 0.08) : primitives;
+  const tree = yield* part(draft(references, bins, scratch), 0.08, 0.2);
+  const reinsertion = new Reinsertion(tree);
+  for (const [pass, share] of PASSES.entries()) {
+    yield* part(reinsertion.pass(share), 0.2 + (0.7 * pass) / PASSES.length, 0.2 + (0.7 * (pass + 1)) / PASSES.length);
+  }
+  const finished = yield* part(finishDraft(tree, references, maxLeaf, BLAS_MAX_DEPTH), 0.9, 1);
+  scratch.giveBack();
+  return { ...finished, bounds: primitives.bounds };
+}
+
+/** A first tree, one reference a leaf. */
+function* draft(references: References, bins: number, scratch: Scratch): Steps<DraftTree> {
+  const { count } = references;
+  if (count === 1) return singleDraft(references.boxes);
+  const sorted = yield* part(sortPrimitives(references, scratch), 0, 0.3);
+  const upper = yield* part(buildUpper(references, sorted, bins, scratch), 0.3, 0.5);
+  const leaves = new Uint32Array(count);
+  const writer = yield* part(writeInsides(upper, sorted.order, counted(scratch.uint32(count), count), leaves, 0, scratch), 0.5, 0.8);
+  return yield* part(draftOf(writer, leaves), 0.8, 1);
+}
+
+/**
+ * For pictures that take longer to render than a tree to build: a tree by surface area heuristic whose subtrees are moved
+ * to where they cost least. Give it to `buildBlas` as `builder`. Several times the build time of `balanced`; rays look at
+ * a fifth less in models made of parts, at a twentieth less in smooth ones.
+ *
+ * @example
+ * const blas = buildBlas(mesh, { builder: best });
+ */
+export const best: TreeBuilder = { name: 'best', build: (mesh, count, settings) => buildBest(mesh, count, settings, false) };
+
+/**
+ * As {@link best}, with triangles cut into pieces whose boxes would be mostly empty: rays look at half as much in a mesh of
+ * long, thin triangles in all directions, and at little less than with `best` in others. A triangle may then be in several
+ * leaves, so `triangleIndices` may be longer than the mesh: closest hits, any hits and distances are what they are, but
+ * queries for all hits or overlaps can tell of such a triangle more than once, and `refitBlas` makes its boxes whole again.
+ */
+export const bestSplit: TreeBuilder = { name: 'best-split', build: (mesh, count, settings) => buildBest(mesh, count, settings, true) };

@@ -1,0 +1,127 @@
+import type { TriangleMesh } from '../blas';
+import { BLAS_MAX_DEPTH, encloseChildren, LEAF, leafReference, LEFT, LEFT_MAX, LEFT_MIN, NODE_WORDS, RIGHT, RIGHT_MAX, RIGHT_MIN } from '../layout';
+import type { BuildSettings } from './builder';
+import { cutCell } from './clusters';
+import { NodeWriter } from './node-writer';
+import { PAIR, type Primitives } from './primitives';
+import { Scratch } from './scratch';
+import { emptyTree, keepNodes, makePrimitives, part, sortPrimitives, STEP, type Sorted, type Steps, type TriangleTree } from './steps';
+
+/** Numbers of a pending range: first, end, parent, right side, depth. */
+const TASK = 5;
+
+/**
+ * Builds by Morton codes alone: every node is cut where the highest bit of its codes changes (Lauterbach et al. 2009,
+ * "Fast BVH Construction on GPUs"), over pairs of neighbouring triangles. For meshes that change every frame.
+ */
+export function* buildFast(mesh: TriangleMesh, count: number, { maxLeaf }: BuildSettings): Steps<TriangleTree> {
+  const scratch = Scratch.take();
+  const primitives = yield* part(makePrimitives(mesh, count, maxLeaf > 1, scratch), 0, 0.3);
+  const { count: size, bounds, triangleCount } = primitives;
+  if (size === 0) return emptyTree();
+  const sorted = yield* part(sortPrimitives(primitives, scratch), 0.3, 0.6);
+  const writer = new NodeWriter(size, scratch.buffer(4 * NODE_WORDS * size));
+  const cells = new Cells(writer, primitives, sorted, maxLeaf, new Uint32Array(triangleCount));
+  while (cells.step(STEP >> 2)) yield 0.6 + (0.2 * writer.count) / size;
+  for (let end = writer.count; end > 0; end -= STEP) {
+    encloseNodes(writer, Math.max(0, end - STEP), end);
+    yield 0.9 - (0.1 * end) / writer.count;
+  }
+  const tree = yield* part(keepNodes(writer), 0.9, 1);
+  scratch.giveBack();
+  return { ...tree, triangleIndices: cells.triangleIndices, bounds };
+}
+
+/** Sets the boxes of inner children, which lie behind their parents. */
+function encloseNodes({ nodes, words }: NodeWriter, from: number, end: number): void {
+  for (let node = end - 1; node >= from; node--) {
+    const base = node * NODE_WORDS;
+    const left = words[base + LEFT] as number, right = words[base + RIGHT] as number;
+    if ((left & LEAF) === 0) encloseChildren(nodes, base + LEFT_MIN, base + LEFT_MAX, left * NODE_WORDS);
+    if ((right & LEAF) === 0) encloseChildren(nodes, base + RIGHT_MIN, base + RIGHT_MAX, right * NODE_WORDS);
+  }
+}
+
+/** Cuts the sorted primitives into nodes and leaves; the boxes of leaves are set, those of nodes are not. */
+class Cells {
+  readonly #writer: NodeWriter;
+  readonly #primitives: Primitives;
+  readonly #sorted: Sorted;
+  readonly #maxLeaf: number;
+  readonly triangleIndices: Uint32Array<ArrayBuffer>;
+  readonly #tasks = new Int32Array((BLAS_MAX_DEPTH + 3) * TASK);
+  #top = 0;
+  #emitted = 0;
+
+  constructor(writer: NodeWriter, primitives: Primitives, sorted: Sorted, maxLeaf: number, triangleIndices: Uint32Array<ArrayBuffer>) {
+    this.#writer = writer;
+    this.#primitives = primitives;
+    this.#sorted = sorted;
+    this.#maxLeaf = maxLeaf;
+    this.triangleIndices = triangleIndices;
+    this.#push(0, primitives.count, -1, 0, 0);
+  }
+
+  #push(first: number, end: number, parent: number, right: number, depth: number): void {
+    const tasks = this.#tasks, t = this.#top++ * TASK;
+    tasks[t] = first;
+    tasks[t + 1] = end;
+    tasks[t + 2] = parent;
+    tasks[t + 3] = right;
+    tasks[t + 4] = depth;
+  }
+
+  /** Does some of the work, and says whether there is more. */
+  step(entries: number): boolean {
+    const tasks = this.#tasks, writer = this.#writer, maxLeaf = this.#maxLeaf;
+    const { codes, order } = this.#sorted;
+    const { triangles } = this.#primitives;
+    for (let left = entries; this.#top > 0 && left > 0; left--) {
+      const t = --this.#top * TASK;
+      const first = tasks[t] as number, end = tasks[t + 1] as number, parent = tasks[t + 2] as number, right = tasks[t + 3] as number, depth = tasks[t + 4] as number;
+      const size = end - first;
+      let weight = size;
+      if (size <= maxLeaf) for (let i = first; i < end; i++) weight += (triangles[order[i] as number] as number) >>> 31;
+      if (weight <= maxLeaf) {
+        this.#leaf(first, end, parent, right);
+        continue;
+      }
+      const node = writer.add(parent);
+      if (parent >= 0) writer.words[parent * NODE_WORDS + (right === 1 ? RIGHT : LEFT)] = node;
+      // With the levels that halving would need from here on.
+      const free = depth + 33 - Math.clz32(size - 1) < BLAS_MAX_DEPTH;
+      const cut = free ? cutCell(codes, first, end) : (first + end) >>> 1;
+      this.#push(cut, end, node, 1, depth + 1);
+      this.#push(first, cut, node, 0, depth + 1);
+    }
+    return this.#top > 0;
+  }
+
+  #leaf(first: number, end: number, parent: number, right: number): void {
+    const { triangleIndices } = this;
+    const { order } = this.#sorted;
+    const { boxes, triangles } = this.#primitives;
+    const start = this.#emitted;
+    let emitted = start;
+    let x0 = Infinity, y0 = Infinity, z0 = Infinity, x1 = -Infinity, y1 = -Infinity, z1 = -Infinity;
+    for (let i = first; i < end; i++) {
+      const primitive = order[i] as number;
+      const b = 6 * primitive;
+      const a0 = boxes[b] as number, a1 = boxes[b + 1] as number, a2 = boxes[b + 2] as number;
+      const a3 = boxes[b + 3] as number, a4 = boxes[b + 4] as number, a5 = boxes[b + 5] as number;
+      if (a0 < x0) x0 = a0;
+      if (a1 < y0) y0 = a1;
+      if (a2 < z0) z0 = a2;
+      if (a3 > x1) x1 = a3;
+      if (a4 > y1) y1 = a4;
+      if (a5 > z1) z1 = a5;
+      const triangle = triangles[primitive] as number;
+      triangleIndices[emitted++] = triangle & (PAIR - 1);
+      if (triangle >= PAIR) triangleIndices[emitted++] = (triangle & (PAIR - 1)) + 1;
+    }
+    this.#emitted = emitted;
+    const reference = leafReference(start, emitted - start);
+    if (parent < 0) this.#writer.single(reference, [x0, y0, z0, x1, y1, z1]);
+    else this.#writer.child(parent, right === 1, reference, x0, y0, z0, x1, y1, z1);
+  }
+}
