@@ -7,5 +7,6 @@ export default glanzPackage({
   cpu: 'src/cpu/index.ts',
   tables: 'src/tables/index.ts',
   gltf: 'src/gltf/index.ts',
+  materialx: 'src/materialx/index.ts',
   presets: 'src/presets/index.ts',
 });

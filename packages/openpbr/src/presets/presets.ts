@@ -1,4 +1,5 @@
 import { acescgToLinear } from '../color/acescg';
+import { scatteringRadius } from '../color/radius';
 import { OPENPBR_PARAMETERS, validateParameters, type OpenPbrColor, type OpenPbrParameterName, type OpenPbrParameters } from '../parameters/index';
 import { examples } from './examples';
 
@@ -16,20 +17,15 @@ export interface OpenPbrPresetOptions {
   readonly unit?: number;
 }
 
-/** Mean free paths are no colours, but a renderer's channels are those of Rec.709, so they change with the primaries too. */
-function radiusOf(scale: OpenPbrColor): Partial<OpenPbrParameters> {
-  const scales = acescgToLinear(scale).map((c) => Math.max(c, 0));
-  const longest = Math.max(...scales);
-  // Beyond 1 it is the radius that is longer.
-  const radius = Math.max(longest, 1);
-  return { ...(radius > 1 ? { subsurface_radius: radius } : {}), subsurface_radius_scale: scales.map((c) => c / radius) as unknown as OpenPbrColor };
-}
-
 function converted(example: Partial<OpenPbrParameters>): Partial<OpenPbrParameters> {
   const parameters: Partial<Record<OpenPbrParameterName, unknown>> = {};
   for (const [name, value] of Object.entries(example) as [OpenPbrParameterName, OpenPbrParameters[OpenPbrParameterName]][]) {
-    if (name === 'subsurface_radius_scale') Object.assign(parameters, radiusOf(value as OpenPbrColor));
-    else parameters[name] = OPENPBR_PARAMETERS[name].type === 'color3' ? Object.freeze(acescgToLinear(value as OpenPbrColor)) : value;
+    if (name === 'subsurface_radius_scale') {
+      // Mean free paths are no colours, but a renderer's channels are those of Rec.709, so they change with the primaries too.
+      const { radius, scale } = scatteringRadius(1, acescgToLinear(value as OpenPbrColor));
+      if (radius > 1) parameters.subsurface_radius = radius;
+      parameters.subsurface_radius_scale = Object.freeze(scale);
+    } else parameters[name] = OPENPBR_PARAMETERS[name].type === 'color3' ? Object.freeze(acescgToLinear(value as OpenPbrColor)) : value;
   }
   // A few saturated colours lie outside of Rec.709, and edge tints of metals a little above 1.
   return Object.freeze(validateParameters(parameters as Partial<OpenPbrParameters>).parameters);

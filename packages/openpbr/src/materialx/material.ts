@@ -1,0 +1,45 @@
+import type { OpenPbrParameterName, OpenPbrParameters } from '../parameters/index';
+
+/** A texture of a MaterialX document, driving one parameter: the parameter is its value times the texel. */
+export interface MaterialXTexture {
+  /** As the document names it, prefixes included; relative to the document. Nothing is read. */
+  readonly file: string;
+  readonly channels: 'rgb' | 'r' | 'g' | 'b' | 'a';
+  /** `srgb`: RGB codes go through the sRGB curve (alpha never does). `linear`: as they are. */
+  readonly colorSpace: 'srgb' | 'linear';
+  /** UV set; default 0. */
+  readonly uv?: number;
+  /**
+   * Affine map of uv before look-up, `[a, b, c, d, x, y]`: u' = a·u + c·v + x, v' = b·u + d·v + y. As everywhere in these
+   * packages v runs down the picture; in the document it runs up. Default identity.
+   */
+  readonly transform?: readonly [number, number, number, number, number, number];
+  /** What the texel values 0 and 1 stand for; default 0 and 1. */
+  readonly range?: readonly [number, number];
+  /** Of a normal map: factor on its tangent-plane components; default 1. */
+  readonly scale?: number;
+  /** Default `repeat`. */
+  readonly wrapU?: 'repeat' | 'mirror' | 'clamp';
+  /** Default `repeat`. */
+  readonly wrapV?: 'repeat' | 'mirror' | 'clamp';
+  /** Default `linear`. */
+  readonly filter?: 'linear' | 'nearest';
+}
+
+/** A material as MaterialX documents hold it, in OpenPBR's names and this package's units and colours. */
+export interface MaterialXMaterial {
+  readonly name: string;
+  /** What differs from the defaults. Colours are linear Rec.709. */
+  readonly parameters: Partial<OpenPbrParameters>;
+  readonly textures?: { readonly [Name in OpenPbrParameterName]?: MaterialXTexture };
+}
+
+/** Something that {@link readMaterialX} or {@link writeMaterialX} left out or took otherwise than it was meant. */
+export interface MaterialXWarning {
+  /** Beside the codes of `OpenPbrWarning`: `openpbr/materialx-unsupported`: a node, an input or a texture without a place; `openpbr/materialx-color-space`: an unknown or unfit one. */
+  readonly code: string;
+  /** One line: what, where, and what is used instead. */
+  readonly message: string;
+  /** Line in the document that was read. */
+  readonly line?: number;
+}
