@@ -9,6 +9,14 @@ export async function render(tracer: PathTracer, report: (text: string) => void)
 }
 // #endregion progress
 
+// #region noise
+export async function untilGood(tracer: PathTracer, report: (text: string) => void) {
+  for await (const { noise, active, remainingMs } of tracer.render({ noise: 0.01, samples: 4096 })) {
+    if (noise !== undefined) report(`noise ${(100 * noise).toFixed(1)} %, ${Math.round(100 * active)} % of the picture to go, ${Math.ceil(remainingMs / 1000)} s`);
+  }
+}
+// #endregion noise
+
 // #region abort
 export function renderUntilClicked(tracer: PathTracer, stop: HTMLButtonElement) {
   const abort = new AbortController();

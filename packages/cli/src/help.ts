@@ -58,6 +58,9 @@ LIGHT AND VIEW
 
 QUALITY
       --samples N       Paths per pixel. Default 256.
+      --noise F         Sample where there is noise until the standard error is
+                        F of the brightness: 0.05 is a preview, 0.01 hardly to
+                        be seen. --samples is the most then, 65536 by default.
       --depth N         Most edges of a path from the camera to a light: 1 shows
                         only what glows, 2 adds direct light. Default 8.
       --filter NAME     How samples make up a pixel: box (default), gaussian or

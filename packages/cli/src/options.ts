@@ -17,6 +17,8 @@ export interface RenderCommandOptions {
   readonly width: number;
   readonly height: number;
   readonly samples: number;
+  /** Relative error to stop at; `undefined`: all samples everywhere. */
+  readonly noise: number | undefined;
   readonly depth: number;
   readonly seed: number;
   /** As given: name, number, JSON, or a .json file. */
@@ -48,6 +50,7 @@ const OPTIONS = {
   'env-intensity': { type: 'string' },
   size: { type: 'string' },
   samples: { type: 'string' },
+  noise: { type: 'string' },
   depth: { type: 'string' },
   seed: { type: 'string' },
   camera: { type: 'string' },
@@ -177,7 +180,8 @@ export function parseCommand(argv: readonly string[]): Command {
       envIntensity: number('env-intensity', values['env-intensity'], 1, { min: 0, max: 1e6 }),
       width,
       height,
-      samples: number('samples', values.samples, 256, { whole: true, min: 1, max: 16777216 }),
+      noise: values.noise === undefined ? undefined : number('noise', values.noise, 0, { min: 1e-5, max: 10 }),
+      samples: number('samples', values.samples, values.noise === undefined ? 256 : 65536, { whole: true, min: 1, max: 16777216 }),
       depth: number('depth', values.depth, 8, { whole: true, min: 1, max: 1024 }),
       seed: number('seed', values.seed, 0, { whole: true, min: 0, max: 4294967295 }),
       camera: values.camera,

@@ -22,6 +22,8 @@ export interface SampleProgress {
   readonly elapsedMs: number;
   readonly remainingMs: number;
   readonly samplesPerSecond: number;
+  /** Relative error, towards a noise target. */
+  readonly noise?: number;
 }
 
 /** In a log: this many seconds between lines at first, then growing in proportion to the time passed. */
@@ -61,8 +63,9 @@ export class ProgressReporter {
     if (this.#quiet) return;
     const { samples, targetSamples, samplesPerSecond, elapsedMs, remainingMs } = progress;
     const now = this.#io.now();
-    const last = samples >= targetSamples;
-    const figures = `${samples}/${targetSamples} samples · ${rate(samplesPerSecond)} samples/s · ${duration(remainingMs)} left`;
+    const last = remainingMs === 0 || samples >= targetSamples;
+    const what = progress.noise === undefined ? `${samples}/${targetSamples} samples` : `${samples} samples · noise ${(100 * progress.noise).toFixed(2)} %`;
+    const figures = `${what} · ${rate(samplesPerSecond)} samples/s · ${duration(remainingMs)} left`;
     if (!this.#io.interactive) {
       if (this.#stage !== 'render') this.#nextLog = 0;
       this.#stage = 'render';
@@ -75,7 +78,9 @@ export class ProgressReporter {
     this.#stage = 'render';
     const plain = ` ${figures}`;
     const width = Math.min(30, this.#io.columns() - plain.length - 2);
-    const filled = Math.round((samples / targetSamples) * width);
+    // Towards a noise target, time is what tells how far it is.
+    const share = progress.noise === undefined ? samples / targetSamples : elapsedMs / Math.max(elapsedMs + remainingMs, 1);
+    const filled = Math.round(Math.min(share, 1) * width);
     const bar = width >= 8 ? this.#style('cyan', '━'.repeat(filled)) + this.#style('dim', '─'.repeat(width - filled)) : '';
     this.#draw(bar + (bar ? plain : plain.trimStart().slice(0, Math.max(10, this.#io.columns() - 1))));
   }

@@ -28,6 +28,7 @@ describe('glanz render', () => {
       width: 1024,
       height: 768,
       samples: 256,
+      noise: undefined,
       depth: 8,
       seed: 0,
       camera: undefined,
@@ -40,7 +41,7 @@ describe('glanz render', () => {
   });
 
   it('reads every option, before or after the model', () => {
-    const argv = ['--env', 'a.hdr', '--env-rotation', '180', '--env-intensity=2', 'm.gltf', '--size', '640X480', '--samples', '16', '--depth', '3', '--seed', '4294967295', '--camera', '1', '--exposure', '-1.5', '--tonemap', 'agx', '--transparent', '--filter', 'gaussian:2', '--light-groups', 'each', '--max-bounces', 'diffuse=2,volume=9', '--clamp-indirect', '10', '--regularization', '0.25', '--no-caustics', '--gpu', 'H200', '-o', 'x.PNG', '-o', 'y.exr', '--bits', '16'];
+    const argv = ['--env', 'a.hdr', '--env-rotation', '180', '--env-intensity=2', 'm.gltf', '--size', '640X480', '--samples', '16', '--noise', '0.01', '--depth', '3', '--seed', '4294967295', '--camera', '1', '--exposure', '-1.5', '--tonemap', 'agx', '--transparent', '--filter', 'gaussian:2', '--light-groups', 'each', '--max-bounces', 'diffuse=2,volume=9', '--clamp-indirect', '10', '--regularization', '0.25', '--no-caustics', '--gpu', 'H200', '-o', 'x.PNG', '-o', 'y.exr', '--bits', '16'];
     expect(options(...argv)).toEqual({
       model: 'm.gltf',
       outputs: [{ path: 'x.PNG', format: 'png', bits: 16 }, { path: 'y.exr', format: 'exr', bits: 16 }],
@@ -50,6 +51,7 @@ describe('glanz render', () => {
       width: 640,
       height: 480,
       samples: 16,
+      noise: 0.01,
       depth: 3,
       seed: 4294967295,
       camera: '1',
@@ -102,6 +104,7 @@ describe('complains in one line, saying what to do', () => {
     [['render', 'm.glb', '--exposure', 'NaN'], '--exposure must be'],
     [['render', 'm.glb', '--exposure', 'f/8'], 'f/8,1/125,iso200'],
     [['render', 'm.glb', '--exposure', 'f/8,1/0'], 'f/8,1/125,iso200'],
+    [['render', 'm.glb', '--noise', '0'], '--noise must be'],
     [['render', 'm.glb', '--max-bounces', '3'], 'must be like diffuse=2'],
     [['render', 'm.glb', '--max-bounces', 'glossy=3'], 'diffuse, specular, transmission, volume'],
     [['render', 'm.glb', '--regularization', '2'], 'from 0 to 1'],

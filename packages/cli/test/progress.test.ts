@@ -53,6 +53,16 @@ describe('on a terminal', () => {
   });
 });
 
+it('towards a noise target it tells the noise, and time makes the bar', () => {
+  const io = fakeIo('.', { interactive: true, columns: 100 });
+  const progress = new ProgressReporter(io, false);
+  progress.samples({ samples: 96, targetSamples: 65536, elapsedMs: 3000, remainingMs: 9000, samplesPerSecond: 32, noise: 0.0321 });
+  const text = io.err.join('');
+  expect(text).toContain('96 samples · noise 3.21 % · 32.0 samples/s · 0:09 left');
+  const [filled, rest] = [text.split('━').length - 1, text.split('─').length - 1];
+  expect(filled / (filled + rest)).toBeCloseTo(0.25, 1);
+});
+
 it('quiet says nothing', () => {
   const io = fakeIo('.');
   const progress = new ProgressReporter(io, true);

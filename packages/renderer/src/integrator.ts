@@ -117,6 +117,15 @@ export class Integrator {
     this.#pass(`glanz ${name}`, (pass) => this.#run(pass, name, kernel, Math.ceil(batch.pixelCount / 64)));
   }
 
+  /** Runs the kernel that sums up noise, a workgroup a tile. */
+  submitTiles(kernel: Kernel, columns: number, rows: number): void {
+    this.#pass('glanz noise', (pass) => {
+      pass.setPipeline(kernel.pipeline);
+      pass.setBindGroup(0, this.#group('noise', kernel));
+      pass.dispatchWorkgroups(columns, rows);
+    });
+  }
+
   #grow(name: 'shadows' | 'paths', bytes: number): void {
     if (this.#buffers[name].size >= bytes) return;
     this.#memory.release(this.#buffers[name]);

@@ -103,8 +103,16 @@ export interface PrepareProgress {
 
 /** What {@link PathTracer.render} may be told. */
 export interface RenderOptions {
-  /** Samples per pixel to reach in all, counting those already there. Default 64. */
+  /** Samples per pixel to reach in all, counting those already there. Default 64, with `noise` 65,536. */
   readonly samples?: number;
+  /**
+   * Adaptive: samples only where there is noise, until it is everywhere at most this: the standard error of a tile of 8 × 8
+   * pixels relative to its brightness (root mean square; a hundredth of the picture's mean square is added for dark tiles).
+   * 0.05 is a good preview, 0.01 hardly to be seen. Above 0. Noise is looked at after 64, 96, 128, 192, … samples, so the
+   * result does not depend on the machine's speed. The choice of when to stop is made by looking at the same samples,
+   * which biases pixels towards where they look calm, by less than the noise that is left; leave it out for references.
+   */
+  readonly noise?: number;
   readonly signal?: AbortSignal;
   /** Milliseconds of GPU time that one submission should take at most. Default 30: a page stays responsive, no watchdog fires. */
   readonly maxSubmitMs?: number;
@@ -117,9 +125,17 @@ export interface RenderProgress {
   readonly targetSamples: number;
   /** Milliseconds since this `render()` began. */
   readonly elapsedMs: number;
-  /** Milliseconds until `targetSamples` at the present rate; `Infinity` before the first sample. */
+  /**
+   * Milliseconds until `targetSamples`, or until the `noise` target, at the present rate; `Infinity` before the first sample, or
+   * before noise was first looked at. Assumes that noise goes down as the root of the number of samples.
+   */
   readonly remainingMs: number;
+  /** Samples per pixel of the whole picture. */
   readonly samplesPerSecond: number;
+  /** Share of the picture that is being sampled, 0..1: below 1 only with a `noise` target. */
+  readonly active: number;
+  /** Noise of the whole picture when it was last looked at, in the units of `RenderOptions.noise`; only with such a target. */
+  readonly noise?: number;
 }
 
 /** Figures about a prepared scene. */

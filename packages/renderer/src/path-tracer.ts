@@ -1,4 +1,5 @@
 import { validateScene, type Camera, type Environment, type Material, type Scene } from '@glanz/scene';
+import { TileGrid } from './adaptive';
 import { DeviceError, RenderError } from './errors';
 import { FEATURE_SAMPLES, forBands, renderFeatures } from './film/feature-pass';
 import { Film } from './film/film';
@@ -13,12 +14,12 @@ import { readBuffer } from './gpu/read-buffer';
 import { Integrator, pathCapacity } from './integrator';
 import type { FilmLayer, LightGroup, PathTracerOptions, PickResult, RenderOptions, RenderProgress, RenderStatistics } from './options';
 import { pickPixel } from './pick';
-import { renderLoop } from './render-loop';
 import { cameraUniforms } from './scene/camera';
 import { chooseCamera } from './scene/choose-camera';
 import { prepareGeometry, type Geometry } from './scene/geometry';
 import { findMaterial } from './scene/materials';
-import { Scheduler, type Batch } from './scheduler';
+import { Sampling } from './sampling';
+import type { Batch } from './scheduler';
 import { checkShortcuts, shortcutFlags } from './shortcuts';
 import { viewFlags } from './view';
 
@@ -59,7 +60,7 @@ export class PathTracer {
   #camera: Camera;
   /** What the kernels in use can show; the camera above, but for the time that its kernels take. */
   #shownCamera: Camera;
-  #scheduler: Scheduler | undefined;
+  #sampling: Sampling | undefined;
   #generation = 0;
   #edits = 0;
   #rendering = false;
@@ -160,9 +161,9 @@ export class PathTracer {
     return this.#camera;
   }
 
-  /** Completed samples per pixel. */
+  /** Completed samples per pixel; after sampling to a noise target, those of the pixels that have most. */
   get samples(): number {
-    return this.#scheduler?.samples ?? 0;
+    return this.#sampling?.samples ?? 0;
   }
 
   /** Mean radiance and coverage: vec4f per pixel, linear, row-major, top row first. Replaced by `resize()`. */
@@ -182,25 +183,20 @@ export class PathTracer {
    * @throws {DeviceError} `renderer/device-lost`, `renderer/gpu-error`
    */
   async *render(options: RenderOptions = {}): AsyncGenerator<RenderProgress, void, undefined> {
-    const target = options.samples ?? 64;
+    const target = options.samples ?? (options.noise === undefined ? 64 : 65536);
     this.#check();
     if (!Number.isInteger(target) || target < 1) throw new RenderError('renderer/samples', `The number of samples must be a whole number of at least 1, not ${target}.`);
+    if (options.noise !== undefined && !(options.noise > 0)) throw new RenderError('renderer/samples', `The noise to reach must be above 0, not ${options.noise}.`);
     if (this.#rendering) throw new RenderError('renderer/busy', 'This tracer is already rendering: finish or abort the other render() first.');
     this.#rendering = true;
     try {
       const generation = this.#generation;
-      const budgetMs = options.maxSubmitMs ?? 30;
-      const scheduler = (this.#scheduler ??= new Scheduler({ pixels: this.#film.pixels, capacity: this.#integrator.capacity, budgetMs }));
-      scheduler.budget = budgetMs;
-      yield* renderLoop({
-        scheduler,
-        target,
-        queue: this.#device.queue,
-        submit: (batch) => this.#submit(batch),
+      const sampling = (this.#sampling ??= this.#newSampling());
+      yield* sampling.render({
+        samples: target,
+        noise: options.noise,
+        budgetMs: options.maxSubmitMs ?? 30,
         current: () => generation === this.#generation && !options.signal?.aborted && !this.#destroyed,
-        check: () => {
-          if (this.#failure) throw this.#failure;
-        },
       });
     } finally {
       this.#rendering = false;
@@ -295,7 +291,7 @@ export class PathTracer {
     this.#firstWeights = this.#groupWeights();
     this.#integrator.writeGroups(this.#firstWeights, this.#firstWeights);
     // Keeps what was learned about the GPU's speed.
-    this.#scheduler = this.#scheduler?.restarted();
+    if (this.#sampling) this.#sampling = this.#newSampling(this.#sampling.paths);
     const encoder = this.#device.createCommandEncoder({ label: 'glanz reset' });
     this.#film.clear(encoder);
     this.#device.queue.submit([encoder.finish()]);
@@ -387,6 +383,34 @@ export class PathTracer {
     this.#integrator.submit(batch);
   }
 
+  #newSampling(paths?: number): Sampling {
+    const film = this.#film;
+    film.setPixels(undefined);
+    return new Sampling(
+      {
+        width: film.width,
+        height: film.height,
+        capacity: this.#integrator.capacity,
+        queue: this.#device.queue,
+        submit: (batch) => this.#submit(batch),
+        check: () => {
+          if (this.#failure) throw this.#failure;
+        },
+        setPixels: (list) => film.setPixels(list),
+        measure: () => this.#measureNoise(),
+      },
+      paths,
+    );
+  }
+
+  async #measureNoise(): Promise<Float32Array> {
+    const kernel = await this.#cache.kernel('noise', this.#integrator.kernels.features);
+    this.#check();
+    const { columns, rows } = new TileGrid(this.#film.width, this.#film.height);
+    this.#integrator.submitTiles(kernel, columns, rows);
+    return new Float32Array(await readBuffer(this.#device, this.#film.buffer('film_noise') as GPUBuffer, 16 * columns * rows));
+  }
+
   #writeFrame(): void {
     if (!this.#frameDirty) return;
     this.#integrator.writeFrame(packFrame(this.#shownCamera, this.#film, this.#gpuScene, this.#geometry, this.#options));
@@ -424,7 +448,7 @@ export class PathTracer {
   #replaceFilm(width: number, height: number): void {
     this.#film.destroy();
     this.#film = new Film(this.#memory, width, height, this.#integrator.kernels.features.planes);
-    this.#scheduler = undefined;
+    this.#sampling = undefined;
     this.#integrator.rebind(this.#film);
   }
 

@@ -1,4 +1,3 @@
-import type { RenderProgress } from './options';
 import type { Batch, Scheduler } from './scheduler';
 
 /** What a render loop works with. */
@@ -17,12 +16,10 @@ export interface RenderLoop {
 /** Submissions on their way at once: one runs, one waits, so that the GPU never does. */
 const IN_FLIGHT = 2;
 
-/** Submits batches until the target is reached, measures them, and reports after each completed sample. */
-export async function* renderLoop({ scheduler, target, queue, submit, current, check }: RenderLoop): AsyncGenerator<RenderProgress, void, undefined> {
-  const start = performance.now();
-  const first = scheduler.samples;
-  let reported = first;
-  let lastDone = start;
+/** Submits batches until the target is reached, measures them, and gives the number of samples after each that is complete. */
+export async function* renderLoop({ scheduler, target, queue, submit, current, check }: RenderLoop): AsyncGenerator<number, void, undefined> {
+  let reported = scheduler.samples;
+  let lastDone = performance.now();
   const inFlight: { batch: Batch; done: Promise<number>; after: number }[] = [];
   for (;;) {
     while (inFlight.length < IN_FLIGHT && current()) {
@@ -44,9 +41,7 @@ export async function* renderLoop({ scheduler, target, queue, submit, current, c
     }
     if (oldest.after > reported) {
       reported = oldest.after;
-      const elapsedMs = performance.now() - start;
-      const rate = (reported - first) / elapsedMs;
-      yield { samples: reported, targetSamples: target, elapsedMs, remainingMs: rate > 0 ? (target - reported) / rate : Infinity, samplesPerSecond: rate * 1000 };
+      yield reported;
     }
   }
 }

@@ -23,16 +23,22 @@ const SMALLEST = 4096;
  * quarter when one took too long. What is computed does not depend on the cuts.
  */
 export class Scheduler {
-  readonly #pixels: number;
+  /** Pixels of the picture, or of the part of it that is worked on. */
+  readonly pixels: number;
   readonly #capacity: number;
   /** Milliseconds that one submission should take at most. */
   budget: number;
   #paths: number;
-  #sample = 0;
+  #sample: number;
   #pixel = 0;
 
-  constructor(options: SchedulerOptions, paths = SMALLEST * 4) {
-    this.#pixels = options.pixels;
+  /**
+   * @param paths Paths that the first batch may hold.
+   * @param samples Samples that the pixels have already.
+   */
+  constructor(options: SchedulerOptions, paths = SMALLEST * 4, samples = 0) {
+    this.pixels = options.pixels;
+    this.#sample = samples;
     this.#capacity = options.capacity;
     this.budget = options.budgetMs;
     this.#paths = Math.min(paths, options.capacity);
@@ -48,30 +54,35 @@ export class Scheduler {
     return this.#paths;
   }
 
-  /** A scheduler at sample 0 that remembers the GPU's speed. */
-  restarted(): Scheduler {
-    return new Scheduler({ pixels: this.#pixels, capacity: this.#capacity, budgetMs: this.budget }, this.#paths);
+  /** Whether some pixels have a sample more than the others: the last batch was a band. */
+  get partial(): boolean {
+    return this.#pixel > 0;
+  }
+
+  /** A scheduler for other pixels, which have `samples` samples, that remembers the GPU's speed. */
+  continued(pixels: number, samples: number): Scheduler {
+    return new Scheduler({ pixels, capacity: this.#capacity, budgetMs: this.budget }, this.#paths, samples);
   }
 
   /** The next piece up to `target` samples, or `undefined` when all have been given out. */
   next(target: number): Batch | undefined {
     if (this.#sample >= target) return undefined;
-    if (this.#pixel > 0 || this.#paths < this.#pixels) {
+    if (this.#pixel > 0 || this.#paths < this.pixels) {
       const pixelOffset = this.#pixel;
-      const rest = this.#pixels - pixelOffset;
+      const rest = this.pixels - pixelOffset;
       // Bands of equal size: a sliver at the end would be launched for nothing.
       const bands = Math.ceil(rest / this.#paths);
       const pixelCount = Math.ceil(rest / bands);
       const batch = { pixelOffset, pixelCount, sampleOffset: this.#sample, sampleCount: 1 };
       this.#pixel += pixelCount;
-      if (this.#pixel >= this.#pixels) {
+      if (this.#pixel >= this.pixels) {
         this.#pixel = 0;
         this.#sample++;
       }
       return batch;
     }
-    const sampleCount = Math.min(Math.floor(this.#paths / this.#pixels), target - this.#sample);
-    const batch = { pixelOffset: 0, pixelCount: this.#pixels, sampleOffset: this.#sample, sampleCount };
+    const sampleCount = Math.min(Math.floor(this.#paths / this.pixels), target - this.#sample);
+    const batch = { pixelOffset: 0, pixelCount: this.pixels, sampleOffset: this.#sample, sampleCount };
     this.#sample += sampleCount;
     return batch;
   }

@@ -36,6 +36,8 @@ export interface RenderResult {
   /** Paths per pixel in the picture. */
   readonly samples: number;
   readonly targetSamples: number;
+  /** Relative error of the picture when it was last looked at; only with `--noise`. */
+  readonly noise?: number;
   readonly samplesPerSecond: number;
   /** The signal that ended it early, if one did. */
   readonly interrupted: Interrupt | null;
@@ -119,9 +121,13 @@ export async function renderCommand(options: RenderCommandOptions, io: CliIo, ba
       }),
     ));
 
+    let noise: number | undefined;
     await timed('renderMs', async () => {
       // Nobody is looking at a canvas here: larger submissions than in a page, still far from any watchdog.
-      for await (const state of active.render({ samples: options.samples, signal: abort.signal, maxSubmitMs: 200 })) progress.samples(state);
+      for await (const state of active.render({ samples: options.samples, ...(options.noise === undefined ? {} : { noise: options.noise }), signal: abort.signal, maxSubmitMs: 200 })) {
+        noise = state.noise ?? noise;
+        progress.samples(state);
+      }
     });
     const { samples } = active;
     if (samples === 0) {
@@ -137,7 +143,7 @@ export async function renderCommand(options: RenderCommandOptions, io: CliIo, ba
     const { statistics } = active;
     const samplesPerSecond = timings.renderMs > 0 ? samples / (timings.renderMs / 1000) : 0;
     const names = files.map(({ path }) => path).join(', ');
-    progress.line(`${names}: ${options.width}×${options.height}, ${samples}${interrupted ? ` of ${options.samples}` : ''} ${options.samples === 1 ? 'sample' : 'samples'} at ${rate(samplesPerSecond)}/s, ${duration(timings.totalMs)} in all`);
+    progress.line(`${names}: ${options.width}×${options.height}, ${samples}${interrupted && options.noise === undefined ? ` of ${options.samples}` : ''} ${options.samples === 1 ? 'sample' : 'samples'} at ${rate(samplesPerSecond)}/s, ${duration(timings.totalMs)} in all`);
     if (statistics.badSamples > 0) progress.warning(`${statistics.badSamples} samples were not numbers and were left out; please report the model.`);
     return {
       exitCode: interruptedCode(),
@@ -150,6 +156,7 @@ export async function renderCommand(options: RenderCommandOptions, io: CliIo, ba
         height: options.height,
         samples,
         targetSamples: options.samples,
+        ...(noise === undefined ? {} : { noise }),
         samplesPerSecond,
         interrupted,
         depth: options.depth,

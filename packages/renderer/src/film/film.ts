@@ -1,4 +1,5 @@
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_COPY_SRC, GPU_BUFFER_STORAGE, type GpuMemory } from '../gpu/buffers';
+import { TILE } from '../kernels/noise.wgsl';
 
 /** Made when a kernel first binds them: they belong to layers that few ask for. */
 const ON_DEMAND: ReadonlySet<string> = new Set(['feature_albedo', 'feature_normal', 'feature_ids', 'feature_position']);
@@ -15,6 +16,7 @@ export class Film {
   readonly planes: number;
   readonly #memory: GpuMemory;
   readonly #buffers = new Map<string, GPUBuffer>();
+  #inOrder = false;
 
   constructor(memory: GpuMemory, width: number, height: number, planes: number) {
     this.#memory = memory;
@@ -25,7 +27,15 @@ export class Film {
     this.#make('film_total', 16 * planes);
     this.#make('film_moment', 16);
     this.#make('beauty', 16);
-    memory.write(this.#make('film_pixels', 4), Uint32Array.from({ length: this.pixels }, (_, i) => i));
+    this.#make('film_pixels', 4);
+    this.setPixels(undefined);
+  }
+
+  /** From now on, place i of a batch is pixel `list[i]`; without a list pixel i, as in the beginning. */
+  setPixels(list: Uint32Array<ArrayBuffer> | undefined): void {
+    if (!list && this.#inOrder) return;
+    this.#inOrder = !list;
+    this.#memory.write(this.#buffers.get('film_pixels') as GPUBuffer, list ?? Uint32Array.from({ length: this.pixels }, (_, i) => i));
   }
 
   get pixels(): number {
@@ -39,6 +49,8 @@ export class Film {
 
   /** The buffer that a kernel binds under this name, if it is the film's. */
   buffer(name: string): GPUBuffer | undefined {
+    // A tile each 64 pixels, and those at the edges.
+    if (name === 'film_noise' && !this.#buffers.has(name)) this.#make(name, (16 * Math.ceil(this.width / TILE) * Math.ceil(this.height / TILE)) / this.pixels);
     return this.#buffers.get(name) ?? (ON_DEMAND.has(name) ? this.#make(name, 16) : undefined);
   }
 

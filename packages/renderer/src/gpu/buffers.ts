@@ -32,7 +32,7 @@ export class GpuMemory {
     const storage = (usage & GPU_BUFFER_STORAGE) !== 0;
     const [name, limit] = storage && maxStorageBufferBindingSize < maxBufferSize ? ['maxStorageBufferBindingSize', maxStorageBufferBindingSize] : ['maxBufferSize', maxBufferSize];
     if (bytes > limit) {
-      throw new DeviceError('renderer/limit', `The ${label} need ${mebibytes(bytes)}, but this device's ${name} is ${mebibytes(limit)}: reduce the scene, or request a device with a higher limit.`);
+      throw new DeviceError('renderer/limit', `The buffer "${label}" takes ${mebibytes(bytes)}, but this device's ${name} is ${mebibytes(limit)}: make the ${label.startsWith('film') ? 'picture' : 'scene'} smaller, or request a device with a higher limit.`);
     }
     const buffer = this.#device.createBuffer({ label: `glanz ${label}`, size: bytes, usage });
     this.#keep(buffer, bytes);

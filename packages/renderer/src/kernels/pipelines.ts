@@ -5,6 +5,7 @@ import { OPACITY_ID, type TexturedParameterInfo } from '../scene/materials';
 import { connect } from './connect.wgsl';
 import { filmModule, relightModule } from './film.wgsl';
 import { pathLayout } from './path.wgsl';
+import { noiseModule } from './noise.wgsl';
 import { positionModule } from './position.wgsl';
 import { energyHost } from './energy.wgsl';
 import { featuresModule } from './features.wgsl';
@@ -29,7 +30,7 @@ export interface KernelFeatures {
   readonly planes: number;
 }
 
-export const KERNELS = ['generate', 'begin', 'intersect', 'shade', 'advance', 'connect', 'resolve', 'features', 'position', 'relight'] as const;
+export const KERNELS = ['generate', 'begin', 'intersect', 'shade', 'advance', 'connect', 'resolve', 'features', 'position', 'relight', 'noise'] as const;
 export type KernelName = (typeof KERNELS)[number];
 
 /** A compiled kernel and the names of what it binds, in order. */
@@ -79,6 +80,8 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
       return { root: resolveModule(path, film), resources: ['batch', 'paths', 'queues', 'film_pixels', ...filmBuffers], textures: false };
     case 'relight':
       return { root: relightModule(film), resources: ['batch', ...filmBuffers], textures: false };
+    case 'noise':
+      return { root: noiseModule(film), resources: ['frame', ...filmBuffers, 'film_noise'], textures: false };
     case 'position':
       return { root: positionModule(traversal('closest')), resources: [...new Set<ResourceName>(['frame', 'batch', ...filter, 'nodes', 'triangles', 'instances', 'feature_position'])], textures: flags.BVH_FILTER === true };
     case 'features':

@@ -56,6 +56,7 @@ const RESOURCES = {
   film_block: { type: 'array<vec4f>', space: 'read_write' },
   film_total: { type: 'array<vec4f>', space: 'read_write' },
   film_moment: { type: 'array<vec4f>', space: 'read_write' },
+  film_noise: { type: 'array<vec4f>', space: 'read_write' },
   film_pixels: { type: 'array<u32>', space: 'read' },
   light_groups: { type: `array<vec4f, ${2 * MAX_LIGHT_GROUPS}>`, space: 'uniform' },
   beauty: { type: 'array<vec4f>', space: 'read_write' },
