@@ -151,6 +151,39 @@ test('no ray leaks through vertices and edges of a closed mesh, small, far and l
   }
 });
 
+test('weights of hits on thin triangles lie within, and t is that of the point they name (seed 55)', async () => {
+  const random = randomNumbers(55);
+  const count = 300;
+  const positions = new Float32Array(9 * count);
+  const list: number[] = [];
+  for (let i = 0; i < count; i++) {
+    const a = [0, 1, 2].map(() => 2 * random() - 1), along = direction(random), across = direction(random);
+    for (let k = 0; k < 3; k++) for (let c = 0; c < 3; c++) positions[9 * i + 3 * c + k] = a[k]! + [0, 1, 0.4][c]! * along[k]! + [0, 0, 1e-4][c]! * across[k]!;
+    // At points of the edges, where weights are cut off.
+    for (let n = 0; n < 8; n++) {
+      const corner = n % 3, s = random();
+      const target = [0, 1, 2].map((k) => (1 - s) * positions[9 * i + 3 * corner + k]! + s * positions[9 * i + 3 * ((corner + 1) % 3) + k]!);
+      const origin = direction(random).map((x) => Math.fround(8 * x));
+      list.push(...origin, 0, ...target.map((x, k) => x - origin[k]!), 3e38);
+    }
+  }
+  const rays = new Float32Array(list);
+  const hits = await trace([{ mesh: { positions }, transform: identity }], rays);
+  let found = 0;
+  hits.forEach(({ t, u, v, triangle, instance }, i) => {
+    if (instance === 0xffffffff) return;
+    found++;
+    expect(Math.min(u, v, 1 - u - v)).toBeGreaterThan(-1e-6);
+    // Along the ray the point lies where t says, to the rounding of coordinates of 8 and the share of the length that the
+    // rounding of a thin triangle's weights is; but the latter moves the point across the ray, not along it.
+    const o = rays.subarray(8 * i, 8 * i + 3), d = rays.subarray(8 * i + 4, 8 * i + 7);
+    const p = [0, 1, 2].map((k) => (1 - u - v) * positions[9 * triangle + k]! + u * positions[9 * triangle + 3 + k]! + v * positions[9 * triangle + 6 + k]! - o[k]!);
+    const length = Math.hypot(...d), along = p.reduce((sum, x, k) => sum + x * d[k]!, 0) / length;
+    expect(Math.abs(along - t * length)).toBeLessThan(8 * 16 * 2 ** -24);
+  });
+  expect(found).toBeGreaterThan(600);
+});
+
 test('the interval is open, axis-parallel and tiny directions work', async () => {
   const mesh = { positions: new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]) };
   const down = (tMin: number, tMax: number, z = 2, length = 1) => [0, 0, z, tMin, 0, 0, -length, tMax];

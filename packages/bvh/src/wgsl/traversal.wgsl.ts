@@ -6,15 +6,16 @@ import { bvhTypes } from './types.wgsl';
 const box = wgslModule(
   'bvh/box',
   /* wgsl */ `
-// Where the ray enters a box; larger than t_max if it does not. The far side is moved out by two ulps, so that rounding
-// loses no hit on the border (Ize 2013, "Robust BVH Ray Traversal").
+// Where the ray enters a box; larger than t_max if it does not. The far side is moved out by eight ulps, so that rounding
+// loses no hit on the border (Ize 2013, "Robust BVH Ray Traversal"): half an ulp for the difference, half for the product,
+// and the two and a half that WGSL allows for the reciprocal, on both sides.
 fn bvh_enter_box(ray: BvhRay, low: vec3f, high: vec3f, t_min: f32, t_max: f32) -> f32 {
   let a = (low - ray.origin) * ray.inverse;
   let b = (high - ray.origin) * ray.inverse;
   let near = min(a, b);
   let far = max(a, b);
   let enter = max(max(near.x, near.y), max(near.z, t_min));
-  let leave = min(min(far.x, far.y), min(far.z, t_max)) * 1.0000004;
+  let leave = min(min(far.x, far.y), min(far.z, t_max)) * 1.000001;
   return select(BVH_OUTSIDE, enter, enter <= leave);
 }
 

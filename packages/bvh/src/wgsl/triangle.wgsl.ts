@@ -53,9 +53,11 @@ fn bvh_intersect_triangle(ray: BvhRay, triangle: BvhTriangle) -> vec3f {
   let determinant = u + v + w;
   if ((low < -tolerance && high > tolerance) || determinant == 0.0) { return vec3f(-1.0, 0.0, 0.0); }
   let inverse = 1.0 / determinant;
-  let weights = clamp(vec2f(u, v) * inverse, vec2f(0.0), vec2f(1.0));
-  let first = max(1.0 - weights.x - weights.y, 0.0);
-  let t = first * dot(ray.z, p0) + weights.x * dot(ray.z, p1) + weights.y * dot(ray.z, p2);
+  let near = clamp(vec2f(u, v) * inverse, vec2f(0.0), vec2f(1.0));
+  // Beyond an edge by the tolerance, which on thin triangles is much of a weight: what was cut off must not move t.
+  let first = max(1.0 - near.x - near.y, 0.0);
+  let weights = near / (first + near.x + near.y);
+  let t = (1.0 - weights.x - weights.y) * dot(ray.z, p0) + weights.x * dot(ray.z, p1) + weights.y * dot(ray.z, p2);
   return vec3f(t, weights);
 }
 `,
