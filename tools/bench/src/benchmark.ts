@@ -36,6 +36,8 @@ export interface BenchmarkContext {
   readonly quick: boolean;
   /** `--gpu NAME`: part of the name of the adapter to use. */
   readonly gpu?: string;
+  /** `--seed N`: for those that draw random numbers. */
+  readonly seed?: number;
 }
 
 /** A benchmark; each lives in `benchmarks/<name>.ts` as the export `benchmark`. */

@@ -33,17 +33,20 @@ export function figureLine(figure: Figure): string {
 
 /** Runs a benchmark with the command line's options, prints its figures, and writes the report. */
 export async function runBenchmark(name: string, benchmark: Benchmark, argv: readonly string[]): Promise<BenchmarkReport> {
-  let values: { json?: string; quick?: boolean; gpu?: string };
+  let values: { json?: string; quick?: boolean; gpu?: string; seed?: string };
   try {
-    ({ values } = parseArgs({ args: [...argv], options: { json: { type: 'string' }, quick: { type: 'boolean' }, gpu: { type: 'string' } }, strict: true }));
+    ({ values } = parseArgs({ args: [...argv], options: { json: { type: 'string' }, quick: { type: 'boolean' }, gpu: { type: 'string' }, seed: { type: 'string' } }, strict: true }));
   } catch (cause) {
-    throw new BenchError('bench/option', `${(cause as Error).message.split('\n', 1)[0]} Usage: bench <name> [--json FILE] [--quick] [--gpu NAME].`, { cause });
+    throw new BenchError('bench/option', `${(cause as Error).message.split('\n', 1)[0]} Usage: bench <name> [--json FILE] [--quick] [--gpu NAME] [--seed N].`, { cause });
   }
+  const seed = values.seed === undefined ? undefined : Number(values.seed);
+  if (seed !== undefined && !Number.isSafeInteger(seed)) throw new BenchError('bench/option', `--seed ${values.seed}: it must be a whole number.`);
   const start = performance.now();
   const result = await benchmark.run({
     log: (line) => process.stderr.write(`${line}\n`),
     quick: values.quick ?? false,
     ...(values.gpu === undefined ? {} : { gpu: values.gpu }),
+    ...(seed === undefined ? {} : { seed }),
   });
   const report: BenchmarkReport = { benchmark: name, machine: machine(), seconds: (performance.now() - start) / 1000, quick: values.quick ?? false, ...result };
   if (values.json !== undefined) {

@@ -1,0 +1,41 @@
+import type { BlasOptions } from '@glanz/bvh';
+import { best } from '@glanz/bvh/best';
+import { requestDevice } from '@glanz/renderer';
+import { createGpu } from '@glanz/renderer/node';
+import { timed, type Benchmark } from '../benchmark';
+import { GpuTracer } from '../bvh-brute/gpu';
+import { tryScenes } from '../bvh-brute/run';
+import { BenchError } from '../error';
+
+/** Ways to build that are tried in turn. */
+export const BUILDERS: readonly BlasOptions[] = [{}, { builder: 'fast' }, { builder: best }, { bins: 4 }];
+
+/** No measurement but a trial: rays through random scenes against brute force. Ends with an error if any ray is lost. */
+export const benchmark: Benchmark = {
+  description: 'rays through random scenes against brute force, on the CPU and the GPU (--seed N)',
+  async run({ log, quick, gpu, seed = 1 }) {
+    const { gpu: api, adapterName, software } = await createGpu(gpu === undefined ? { software: 'only' } : { gpu });
+    const device = await requestDevice({ gpu: api });
+    const tracer = await GpuTracer.create(device);
+    const scenes = quick ? 50 : 1200, raysPerScene = quick ? 1000 : 8500, gpuEvery = quick ? 2 : 10;
+    log(`seed ${seed}: ${scenes} scenes of ${raysPerScene} rays each`);
+    const totals = await tryScenes({ seed, scenes, raysPerScene, gpuEvery, gpu: tracer, builders: BUILDERS, log });
+    device.destroy();
+    if (totals.wrong + totals.gpuWrong > 0) throw new BenchError('bench/wrong-hits', `${totals.wrong} rays on the CPU and ${totals.gpuWrong} on the GPU are wrong with seed ${seed}: see the lines above.`);
+    const none = { value: 0, relation: '<=' as const, source: 'no ray is lost' };
+    return {
+      settings: { seed, scenes, raysPerScene, gpuEvery },
+      gpu: { name: adapterName, software },
+      figures: [
+        timed('scenes', '1', [scenes]),
+        timed('rays on the CPU', '1', [totals.rays]),
+        timed('of them hits', '1', [totals.hits]),
+        timed('wrong on the CPU', '1', [totals.wrong], none),
+        timed('past degenerate triangles, bounded loosely', '1', [totals.loose]),
+        timed('rays on the GPU', '1', [totals.gpuRays]),
+        timed('wrong on the GPU', '1', [totals.gpuWrong], none),
+        timed('within rounding of an edge on the GPU, either side right', '1', [totals.gpuMarginal]),
+      ],
+    };
+  },
+};

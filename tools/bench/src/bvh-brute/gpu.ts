@@ -1,0 +1,114 @@
+import { packTriangles, type BlasMesh, type Tlas } from '@glanz/bvh';
+import { bvhAnyHit, bvhClosestHit, bvhInstanceStruct } from '@glanz/bvh/wgsl';
+import { compose, wgslModule } from '@glanz/wgsl';
+
+const host = wgslModule(
+  'bench/bvh-brute',
+  /* wgsl */ `
+@group(0) @binding(0) var<storage, read> nodes: array<BvhNode>;
+@group(0) @binding(1) var<storage, read> triangles: array<vec4f>;
+@group(0) @binding(2) var<storage, read> instances: array<BvhInstance>;
+@group(0) @binding(3) var<storage, read> rays: array<vec4f>;
+@group(0) @binding(4) var<storage, read_write> result: array<vec4u>;
+fn bvh_node(index: u32) -> BvhNode { return nodes[index]; }
+fn bvh_instance(index: u32) -> BvhInstance { return instances[index]; }
+fn bvh_triangle(index: u32) -> BvhTriangle {
+  let a = triangles[3u * index];
+  return BvhTriangle(a.xyz, bitcast<u32>(a.w), triangles[3u * index + 1u].xyz, triangles[3u * index + 2u].xyz);
+}
+@compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3u) {
+  if (2u * id.x >= arrayLength(&rays)) { return; }
+  let o = rays[2u * id.x];
+  let d = rays[2u * id.x + 1u];
+  let hit = bvh_closest_hit(o.xyz, d.xyz, o.w, d.w);
+  var triangle = 0u;
+  var instance = BVH_MISS;
+  if (hit.instance != BVH_MISS) {
+    triangle = bvh_triangle(hit.triangle).id;
+    instance = instances[hit.instance].id;
+  }
+  result[2u * id.x] = vec4u(bitcast<u32>(hit.t), bitcast<u32>(hit.u), bitcast<u32>(hit.v), triangle);
+  result[2u * id.x + 1u] = vec4u(instance, select(0u, 1u, bvh_any_hit(o.xyz, d.xyz, o.w, d.w)), 0u, 0u);
+}`,
+  [bvhClosestHit, bvhAnyHit],
+);
+
+/** What the GPU has found. */
+export interface GpuHits {
+  readonly t: Float32Array;
+  readonly u: Float32Array;
+  readonly v: Float32Array;
+  readonly triangle: Uint32Array;
+  /** 0xffffffff: a miss. */
+  readonly instance: Uint32Array;
+  readonly any: Uint8Array;
+}
+
+/** Traces rays through two-level scenes by the package's WGSL. */
+export class GpuTracer {
+  readonly #device: GPUDevice;
+  readonly #pipeline: GPUComputePipeline;
+
+  private constructor(device: GPUDevice, pipeline: GPUComputePipeline) {
+    this.#device = device;
+    this.#pipeline = pipeline;
+  }
+
+  static async create(device: GPUDevice): Promise<GpuTracer> {
+    const module = device.createShaderModule({ label: 'bvh-brute', code: compose([host], { flags: { BVH_FILTER: false } }).code });
+    return new GpuTracer(device, await device.createComputePipelineAsync({ label: 'bvh-brute', layout: 'auto', compute: { module, entryPoint: 'main' } }));
+  }
+
+  /** @param rays 8 numbers each: origin, tMin, direction, tMax. There must be an instance in the TLAS. */
+  async trace(tlas: Tlas, parts: readonly BlasMesh[], rays: Float32Array<ArrayBuffer>): Promise<GpuHits> {
+    const device = this.#device;
+    const count = rays.length / 8;
+    const starts = new Map<BlasMesh['blas'], [number, number]>();
+    const nodes: ArrayBufferView[] = [tlas.nodes], triangles: ArrayBufferView[] = [];
+    let node = tlas.nodeCount, triangle = 0;
+    for (const { blas, mesh } of parts) {
+      if (starts.has(blas)) continue;
+      starts.set(blas, [node, triangle]);
+      nodes.push(blas.nodes);
+      triangles.push(packTriangles(blas, mesh));
+      node += blas.nodeCount;
+      triangle += blas.triangleIndices.length;
+    }
+    const instances = bvhInstanceStruct.allocate(tlas.instanceOrder.length);
+    tlas.instanceOrder.forEach((given, slot) => {
+      const row = (r: number) => tlas.toObject.subarray(12 * given + 4 * r, 12 * given + 4 * r + 4);
+      const [first, offset] = starts.get(parts[given]!.blas)!;
+      bvhInstanceStruct.write(instances, slot, { to_object_0: row(0), to_object_1: row(1), to_object_2: row(2), blas_node: first, triangle_offset: offset, id: given, flags: 0 });
+    });
+    const buffers: GPUBuffer[] = [];
+    const upload = (views: readonly ArrayBufferView[]) => {
+      const size = views.reduce((sum, { byteLength }) => sum + byteLength, 0);
+      const buffer = device.createBuffer({ size: Math.max(64, size), usage: GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST });
+      let at = 0;
+      for (const view of views) {
+        device.queue.writeBuffer(buffer, at, view.buffer as ArrayBuffer, view.byteOffset, view.byteLength);
+        at += view.byteLength;
+      }
+      buffers.push(buffer);
+      return buffer;
+    };
+    const output = device.createBuffer({ size: 32 * count, usage: GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_SRC });
+    const staging = device.createBuffer({ size: 32 * count, usage: GPUBufferUsage.COPY_DST | GPUBufferUsage.MAP_READ });
+    const bound = [upload(nodes), upload(triangles), upload([new Uint8Array(instances)]), upload([rays]), output];
+    buffers.push(output, staging);
+    const encoder = device.createCommandEncoder();
+    const pass = encoder.beginComputePass();
+    pass.setPipeline(this.#pipeline);
+    pass.setBindGroup(0, device.createBindGroup({ layout: this.#pipeline.getBindGroupLayout(0), entries: bound.map((buffer, binding) => ({ binding, resource: { buffer } })) }));
+    pass.dispatchWorkgroups(Math.ceil(count / 64));
+    pass.end();
+    encoder.copyBufferToBuffer(output, 0, staging, 0, 32 * count);
+    device.queue.submit([encoder.finish()]);
+    await staging.mapAsync(GPUMapMode.READ);
+    const words = new Uint32Array(staging.getMappedRange().slice(0)), floats = new Float32Array(words.buffer);
+    for (const buffer of buffers) buffer.destroy();
+    const pick = (k: number) => Uint32Array.from({ length: count }, (_, i) => words[8 * i + k]!);
+    const pickFloat = (k: number) => Float32Array.from({ length: count }, (_, i) => floats[8 * i + k]!);
+    return { t: pickFloat(0), u: pickFloat(1), v: pickFloat(2), triangle: pick(3), instance: pick(4), any: Uint8Array.from({ length: count }, (_, i) => words[8 * i + 5]!) };
+  }
+}
