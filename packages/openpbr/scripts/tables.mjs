@@ -8,7 +8,8 @@
  *   grid. With t = √cosine·(1 + r)/(√cosine + r) it stays in place: 0.15 %.
  * - E of a dielectric itself, 16 × 16 × 16: 0.17 absolute. As the ratio to the Fresnel reflectance at the softened cosine
  *   μ + 0.8 r² (1 − μ), over √ε and √roughness: 0.0014, and exact for a smooth surface.
- * - From inside, the critical angle has a column of its own, and columns crowd around it: 0.035 at worst, 0.01 mostly.
+ * - From inside, the critical angle has a column of its own, and columns crowd around it: 0.035 at worst, 0.01 mostly. What
+ *   is tabulated there is the reflected part of single scattering, which has no dip of masking; bounces are added.
  */
 import { readFileSync, writeFileSync } from 'node:fs';
 import { fresnelDielectric, gaussLegendre, interfaceAlbedo } from './microfacet.mjs';
@@ -32,9 +33,10 @@ const softened = (mu, r) => mu + 0.8 * r * r * (1 - mu);
 /** Cosine at angle coordinate t inside of the denser medium: the critical angle sits at t = 1/2. */
 function innerCosineOf(t, eta) {
   const critical = Math.sqrt(Math.max(0, 1 - eta * eta));
-  return t <= 0.5 ? Math.max(1e-6, critical * (1 - (1 - 2 * t) ** 2)) : critical + (1 - critical) * (2 * t - 1) ** 2;
+  const below = (2 * t) ** 2;
+  return t <= 0.5 ? Math.max(1e-6, (critical * below) / (below + (1 - 2 * t) ** 2)) : critical + (1 - critical) * (2 * t - 1) ** 2;
 }
-const innerPosition = (mu, critical) => (mu <= critical ? 0.5 - 0.5 * Math.sqrt((critical - mu) / critical) : 0.5 + 0.5 * Math.sqrt((mu - critical) / (1 - critical)));
+const innerPosition = (mu, critical) => (mu <= critical ? (0.5 * Math.sqrt(mu)) / (Math.sqrt(mu) + Math.sqrt(critical - mu)) : 0.5 + 0.5 * Math.sqrt((mu - critical) / (1 - critical)));
 /** Cosine-weighted mean of the Fresnel transmittance, about; from inside it follows from reciprocity. */
 function meanThrough(epsilon) {
   const e = Math.abs(epsilon);
@@ -70,25 +72,40 @@ function dielectric() {
     const row = sample((t) => cosineOf(t, r), (mu) => { const { reflect, transmit } = albedo([r * r, r * r], eta, mu); return reflect + transmit; });
     return [...row, average((mu) => interpolate(row, (Math.sqrt(mu) * (1 + r)) / (Math.sqrt(mu) + r)))];
   };
-  // What single scattering loses bounces on among the facets and has forgotten where it came from: of that, the mean is
-  // reflected. From inside, where most of it is, the split stays as it was: the difference of large numbers is no factor.
-  const share = (epsilon, r, mu) => {
+  // What single scattering loses bounces on among the facets and has forgotten where it came from. Seen from the thinner
+  // medium, the mean reflectance's part of it is reflected; from inside, such that as much goes through to either side.
+  const bounce = (epsilon, r) => {
+    if (epsilon > 0) return 1 - meanThrough(epsilon);
+    const [outside, inside] = [-epsilon, epsilon].map((e) => 1 - total(e, r).at(-1));
+    return Math.min(Math.max(1 - (meanThrough(-epsilon) * outside) / Math.max(inside, 1e-4), 0), 1);
+  };
+  const share = (epsilon, r, mu, bounced) => {
     const { reflect, transmit } = albedo([r * r, r * r], etaOf(epsilon), mu);
-    return epsilon > 0 ? reflect + (1 - reflect - transmit) * (1 - meanThrough(epsilon)) : reflect / (reflect + transmit);
+    return reflect + (1 - reflect - transmit) * bounced;
+  };
+  const split = (epsilon, r, mu) => {
+    const { reflect, transmit } = albedo([r * r, r * r], etaOf(epsilon), mu);
+    return reflect / (reflect + transmit);
   };
   slices(outer, 1, (epsilon, r) => {
     const eta = etaOf(epsilon);
-    const row = sample((t) => cosineOf(t, r), (mu) => (MARGIN.share * share(epsilon, r, mu)) / fresnelDielectric(eta, softened(mu, r)));
+    const bounced = bounce(epsilon, r);
+    const row = sample((t) => cosineOf(t, r), (mu) => (MARGIN.share * share(epsilon, r, mu, bounced)) / fresnelDielectric(eta, softened(mu, r)));
     const mean = average((mu) => interpolate(row, (Math.sqrt(mu) * (1 + r)) / (Math.sqrt(mu) + r)) * fresnelDielectric(eta, softened(mu, r)));
     return [...row, (MARGIN.outer * (1 - mean)) / meanThrough(epsilon)];
   });
   slices(outerTotal, 1, total);
   slices(inner, -1, (epsilon, r) => {
     const eta = etaOf(epsilon);
-    const row = sample((t) => innerCosineOf(t, eta), (mu) => share(epsilon, r, mu));
+    const bounced = bounce(epsilon, r);
+    const kept = total(epsilon, r).slice(0, -1);
+    const row = sample((t) => innerCosineOf(t, eta), (mu) => split(epsilon, r, mu));
     const critical = Math.sqrt(Math.max(0, 1 - eta * eta));
-    const mean = average((mu) => interpolate(row, innerPosition(mu, critical)));
-    return [...row, (MARGIN.inner * (1 - mean)) / meanThrough(epsilon)];
+    const mean = average((mu) => {
+      const direct = interpolate(kept, (Math.sqrt(mu) * (1 + r)) / (Math.sqrt(mu) + r));
+      return interpolate(row, innerPosition(mu, critical)) * direct + (1 - direct) * bounced;
+    });
+    return [...row, (MARGIN.inner * (1 - mean)) / (meanThrough(epsilon) + 0.3 * r ** 4 * (1 - meanThrough(epsilon)))];
   });
   slices(innerTotal, -1, total);
   return { width: angles + 1, height: roughnesses, depth: outer + outerTotal + inner + innerTotal, values };

@@ -1,18 +1,24 @@
 import { expectNoGpuErrors } from '@glanz/gpu';
 import { afterEach, describe, expect, it } from 'vitest';
-import { albedoBsdf, emittedRadiance, evalBsdf, pdfBsdf, prepareBsdf, sampleBsdf } from '../src/cpu/index';
+import { albedoBsdf, emittedRadiance, evalBsdf, pdfBsdf, prepareBsdf, refractHalf, sampleBsdf } from '../src/cpu/index';
 import { resolveParameters, type OpenPbrParameters, type OpenPbrVector } from '../src/parameters/index';
 import { requiredFeatures, type OpenPbrFlags } from '../src/wgsl/index';
 import { onGpu, type GpuCase } from './gpu';
-import { anyCoated, anySurface, single, uniform, upperDirection } from './random';
+import { anyClear, anyCoated, anySurface, lowerDirection, single, uniform, upperDirection } from './random';
 
 afterEach(() => expectNoGpuErrors());
+
+/** Every lobe of an opaque surface. */
+const OPAQUE = (): OpenPbrFlags => ({ ...ALL, OPENPBR_TRANSMISSION: false, OPENPBR_THIN_WALLED: false });
 
 const ALL: OpenPbrFlags = {
   OPENPBR_SPECULAR: true,
   OPENPBR_METAL: true,
   OPENPBR_DIELECTRIC: true,
   OPENPBR_INTERFACE: true,
+  OPENPBR_TRANSMISSION: true,
+  OPENPBR_THIN_WALLED: true,
+  OPENPBR_LOSSES: true,
   OPENPBR_COAT: true,
   OPENPBR_DIFFUSE: true,
   OPENPBR_COSINE: true,
@@ -40,24 +46,32 @@ async function compare(flags: OpenPbrFlags, cases: readonly GpuCase[], limit = 1
   const differences = new Differences();
   results.forEach((gpu, i) => {
     const { parameters, wo, wi, u } = cases[i] as GpuCase;
-    const options = { multipleScattering: flags.OPENPBR_MULTISCATTER };
+    const options = { multipleScattering: flags.OPENPBR_MULTISCATTER, ...(cases[i] as GpuCase).side };
     const b = prepareBsdf(parameters, wo, options);
     const at = `case ${i}: wo ${wo.join(' ')}, wi ${wi.join(' ')}, roughness ${parameters.specular_roughness}`;
     const triple = (name: string, actual: OpenPbrVector, expected: OpenPbrVector, floor: number) => [0, 1, 2].forEach((k) => differences.add(name, actual[k] as number, expected[k] as number, floor, at));
     triple('eval', gpu.f, evalBsdf(b, wo, wi), 1e-4);
-    differences.add('pdf', gpu.pdf, pdfBsdf(b, wo, wi), 1e-4, at);
+    // Of refraction, differences of nearly equal numbers are part.
+    differences.add('pdf', gpu.pdf, pdfBsdf(b, wo, wi), flags.OPENPBR_TRANSMISSION ? 1e-3 : 1e-4, at);
     triple('eval of eval_pdf', gpu.together, gpu.f, 0.1);
     differences.add('pdf of eval_pdf', gpu.togetherPdf, gpu.pdf, 0.1, at);
     triple('albedo', gpu.albedo, albedoBsdf(b, wo), 1e-3);
     triple('emission', gpu.emission, emittedRadiance(parameters, wo), 1e-6);
     differences.add('opacity', gpu.opacity, parameters.geometry_opacity, 1e-6, at);
     // The lobe is chosen by comparing u.z with a probability: on the edge single precision may choose the other one.
-    const edges = [b.coatProbability, b.coatProbability + (1 - b.coatProbability) * b.specularProbability];
+    const facets = (1 - b.coatProbability) * b.specularProbability;
+    const edges = [b.coatProbability, b.coatProbability + facets];
+    if (flags.OPENPBR_TRANSMISSION) {
+      // Whether a facet reflects hangs on the facet.
+      const chances = [0, 1].map((k) => sampleBsdf(b, wo, [u[0], u[1], b.coatProbability + facets * Math.min(Math.max((u[2] - b.coatProbability) / facets + (k - 0.5) * 2e-5, 0), 1 - 1e-9)]).transmitted);
+      if (chances[0] !== chances[1]) return;
+    }
     if (edges.some((edge) => Math.abs(u[2] - edge) < 1e-5)) return;
     const s = sampleBsdf(b, wo, u);
-    triple('sampled direction', gpu.wi, s.wi[2] > 0 || gpu.valid ? s.wi : gpu.wi, 1);
-    if (s.wi[2] > 1e-3) {
+    triple('sampled direction', gpu.wi, s.valid || gpu.valid ? s.wi : gpu.wi, 1);
+    if (Math.abs(s.wi[2]) > 1e-3) {
       expect(gpu.valid, `valid at ${at}`).toBe(s.valid);
+      expect(gpu.transmitted, `transmitted at ${at}`).toBe(s.transmitted);
       triple('weight', gpu.weight, s.weight, 1e-2);
       differences.add('density of the sample', gpu.samplePdf, s.pdf, 1e-3, at);
     }
@@ -76,15 +90,35 @@ function cases(count: number, seed: number, surface: (next: () => number) => Ope
 }
 
 describe('WGSL against its CPU twin', () => {
-  it('every lobe at once, 2048 random surfaces (seed 1)', () => compare(ALL, cases(2048, 1, (next) => anySurface(next, 0.3))));
-  it('single scattering only (seed 2)', () => compare({ ...ALL, OPENPBR_MULTISCATTER: false }, cases(1024, 2, (next) => anySurface(next, 0.3))));
+  it('every lobe at once, 2048 random surfaces (seed 1)', () => compare(OPAQUE(), cases(2048, 1, (next) => anySurface(next, 0.3))));
+  it('single scattering only (seed 2)', () => compare({ ...OPAQUE(), OPENPBR_MULTISCATTER: false }, cases(1024, 2, (next) => anySurface(next, 0.3))));
 
-  it('every lobe below a coat, 2048 random surfaces (seed 8)', () => compare(ALL, cases(2048, 8, (next) => anyCoated(next, 0.3))));
-  it('single scattering below a coat (seed 9)', () => compare({ ...ALL, OPENPBR_MULTISCATTER: false }, cases(512, 9, (next) => anyCoated(next, 0.3))));
+  it('every lobe below a coat, 2048 random surfaces (seed 8)', () => compare(OPAQUE(), cases(2048, 8, (next) => anyCoated(next, 0.3))));
+  it('single scattering below a coat (seed 9)', () => compare({ ...OPAQUE(), OPENPBR_MULTISCATTER: false }, cases(512, 9, (next) => anyCoated(next, 0.3))));
+
+  const through = (count: number, seed: number, surface: (next: () => number) => OpenPbrParameters = (next) => anyClear(next, 0.3)): GpuCase[] => {
+    const next = uniform(seed);
+    return cases(count, seed + 1000, surface).map((one) => {
+      const inside = !one.parameters.geometry_thin_walled && next() < 0.5;
+      const outerIor = next() < 0.3 ? Math.fround(1 + 0.4 * next()) : 1;
+      // Near index 1 the refracting facet is a small difference of large vectors.
+      const step = one.parameters.specular_ior / outerIor;
+      const side = { inside, outerIor: Math.abs(step - 1) < 0.1 ? Math.fround(one.parameters.specular_ior / 1.1) : outerIor };
+      const wi = next() < 0.5 ? one.wi : lowerDirection(next, 0.02);
+      // A facet seen edge on has a cosine of few digits, and lets through as little as that.
+      const { eta } = prepareBsdf(one.parameters, one.wo, side).transmission;
+      const h = refractHalf(eta, one.wo, wi);
+      const edge = Math.min(...[one.wo, wi].map((w) => Math.abs(w[0] * h[0] + w[1] * h[1] + w[2] * h[2])));
+      return { ...one, side, wi: wi[2] < 0 && edge < 0.03 ? upperDirection(next, 0.02) : wi };
+    });
+  };
+  it('light through every lobe at once, 2048 random surfaces from either side (seed 40)', () => compare(ALL, through(2048, 40)));
+  it('light through, single scattering only (seed 41)', () => compare({ ...ALL, OPENPBR_MULTISCATTER: false }, through(512, 41)));
 
   const gated = (name: string, seed: number, fixed: Partial<OpenPbrParameters>): void => {
     it(`${name} alone, the other lobes left out of the text (seed ${seed})`, async () => {
-      const list = cases(512, seed, (next) => ({ ...anySurface(next, 0.3), base_diffuse_roughness: 0, specular_roughness_anisotropy: 0, emission_luminance: 0, ...fixed }));
+      const surface = (next: () => number): OpenPbrParameters => ({ ...anySurface(next, 0.3), base_diffuse_roughness: 0, specular_roughness_anisotropy: 0, emission_luminance: 0, ...fixed });
+      const list = (fixed.transmission_weight ? through : cases)(512, seed, surface);
       const flags = requiredFeatures(list.map((one) => one.parameters));
       expect(Object.values(flags)).toContain(false);
       await compare(flags, list);
@@ -97,6 +131,9 @@ describe('WGSL against its CPU twin', () => {
   gated('coat over diffuse', 10, { base_metalness: 0, specular_weight: 0, coat_weight: 1, coat_roughness: 0.4, coat_color: [0.9, 0.5, 0.2] });
   gated('coat over metal', 11, { base_metalness: 1, specular_weight: 1, coat_weight: 0.5, coat_roughness: 0.3 });
   gated('coat over dielectric', 12, { base_metalness: 0, base_weight: 0, coat_weight: 1, coat_roughness: 0.3 });
+  gated('glass', 42, { base_metalness: 0, transmission_weight: 1, specular_weight: 1, specular_ior: 1.5, transmission_color: [0.9, 0.5, 0.2] });
+  gated('thin glass', 43, { base_metalness: 0, transmission_weight: 1, specular_weight: 1, specular_ior: 1.5, geometry_thin_walled: true, transmission_color: [0.9, 0.5, 0.2] });
+  gated('coat over glass and diffuse', 44, { base_metalness: 0, transmission_weight: 0.5, specular_weight: 1, specular_ior: 1.5, coat_weight: 0.7, coat_roughness: 0.3, coat_color: [0.9, 0.5, 0.2] });
   gated('coat over black', 13, { base_metalness: 0, base_weight: 0, specular_weight: 0, coat_weight: 1, coat_roughness: 0.3 });
 });
 
@@ -139,27 +176,39 @@ describe('WGSL at the edges', () => {
       { coat_weight: 0.5, coat_ior: 1e6, coat_roughness: 1, specular_ior: 1e-3 },
       { coat_weight: 1, coat_ior: 1, base_weight: 0, specular_weight: 0 },
       { coat_weight: 1, coat_ior: 0.7, coat_roughness: 0, coat_color: [0.5, 0.5, 0.5], specular_roughness: 1 },
+      { transmission_weight: 1 },
+      { transmission_weight: 1, specular_roughness: 0 },
+      { transmission_weight: 1, specular_roughness: 0, specular_ior: 1 },
+      { transmission_weight: 1, specular_roughness: 1, specular_ior: 1, specular_weight: 0 },
+      { transmission_weight: 1, specular_roughness: 1, specular_roughness_anisotropy: 1, specular_ior: 1e6 },
+      { transmission_weight: 1, specular_roughness: 0.5, specular_ior: 1e-3 },
+      { transmission_weight: 1, specular_roughness: 0, specular_ior: 1.0001, transmission_color: [0, 0.5, 1] },
+      { transmission_weight: 0.5, base_metalness: 0.5, specular_roughness: 0.2, specular_weight: 1e30, coat_weight: 1, coat_ior: 3 },
+      { transmission_weight: 1, geometry_thin_walled: true, specular_roughness: 0, transmission_color: [0, 0.5, 1] },
+      { transmission_weight: 0.5, geometry_thin_walled: true, specular_roughness: 1, specular_ior: 1e6, specular_roughness_anisotropy: 1 },
+      { transmission_weight: 1, geometry_thin_walled: true, specular_roughness: 0.4, specular_ior: 1, coat_weight: 1 },
     ];
     const us = [0, 0.5, 0.99999994];
     const list: GpuCase[] = surfaces.flatMap((surface) => {
       const parameters = resolveParameters(surface);
-      return directions.flatMap((wo) => directions.map((wi): GpuCase => ({ parameters, wo, wi, u: [us[Math.floor(next() * 3)] as number, us[Math.floor(next() * 3)] as number, next() < 0.5 ? 0 : 0.99999994] })));
+      return directions.flatMap((wo) => directions.map((wi): GpuCase => ({ parameters, wo, wi, u: [us[Math.floor(next() * 3)] as number, us[Math.floor(next() * 3)] as number, next() < 0.5 ? 0 : 0.99999994], side: { inside: parameters.transmission_weight > 0 && !parameters.geometry_thin_walled && next() < 0.5, outerIor: 1 } })));
     });
     const results = await onGpu(ALL, list);
     results.forEach((result, i) => {
       const { wo, wi, parameters } = list[i] as GpuCase;
       const at = `wo ${wo.join(' ')}, wi ${wi.join(' ')}, ${JSON.stringify(surfaces[Math.floor(i / directions.length ** 2)])}`;
       for (const [name, value] of Object.entries(result)) {
-        if (name === 'valid') continue;
+        if (typeof value === 'boolean') continue;
         for (const one of [value].flat() as number[]) {
           expect(Number.isFinite(one), `${name} is ${one} at ${at}`).toBe(true);
           if (name !== 'wi') expect(one, `${name} at ${at}`).toBeGreaterThanOrEqual(0);
         }
       }
-      if (wo[2] <= 0 || wi[2] <= 0) expect([...result.f, result.pdf], at).toEqual([0, 0, 0, 0]);
+      const clear = parameters.transmission_weight > 0;
+      if (wo[2] <= 0 || (wi[2] <= 0 && !clear)) expect([...result.f, result.pdf], at).toEqual([0, 0, 0, 0]);
       if (wo[2] <= 0) expect([result.valid, ...result.weight, ...result.albedo, ...result.emission], at).toEqual([false, 0, 0, 0, 0, 0, 0, 0, 0, 0]);
       // The CPU twin holds the same promise.
-      const b = prepareBsdf(parameters, wo);
+      const b = prepareBsdf(parameters, wo, (list[i] as GpuCase).side);
       for (const one of [...evalBsdf(b, wo, wi), pdfBsdf(b, wo, wi), ...albedoBsdf(b, wo), ...sampleBsdf(b, wo, (list[i] as GpuCase).u).weight]) expect(Number.isFinite(one) && one >= 0, `${one} on the CPU at ${at}`).toBe(true);
     });
   });

@@ -10,6 +10,8 @@ export interface GpuCase {
   readonly wo: OpenPbrVector;
   readonly wi: OpenPbrVector;
   readonly u: OpenPbrVector;
+  /** The viewer's side; asked for with OPENPBR_TRANSMISSION only. */
+  readonly side?: { readonly inside: boolean; readonly outerIor: number };
 }
 
 /** What the shader made of it. */
@@ -22,6 +24,7 @@ export interface GpuResult {
   readonly samplePdf: number;
   readonly weight: OpenPbrVector;
   readonly valid: boolean;
+  readonly transmitted: boolean;
   readonly emission: OpenPbrVector;
   readonly opacity: number;
   readonly albedo: OpenPbrVector;
@@ -62,11 +65,15 @@ fn openpbr_table_conductor(coords: vec2f) -> f32 { return table(${dielectric.dat
   let p = materials[id.x];
   let wo = cases[id.x].wo.xyz;
   let wi = cases[id.x].wi.xyz;
+  //#if OPENPBR_TRANSMISSION
+  let b = openpbr_prepare_side(p, wo, OpenPbrSide(cases[id.x].wo.w != 0.0, cases[id.x].wi.w));
+  //#else
   let b = openpbr_prepare(p, wo);
+  //#endif
   let s = openpbr_sample(b, wo, cases[id.x].u.xyz);
   results[id.x] = Result(
     openpbr_eval(b, wo, wi), openpbr_pdf(b, wo, wi), openpbr_eval_pdf(b, wo, wi),
-    s.wi, s.pdf, s.weight, f32(s.valid), openpbr_emission(p, wo), openpbr_opacity(p), vec4f(openpbr_albedo(b, wo), 0.0));
+    s.wi, s.pdf, s.weight, f32(s.valid) + 2.0 * f32(s.transmitted), openpbr_emission(p, wo), openpbr_opacity(p), vec4f(openpbr_albedo(b, wo), 0.0));
 }`,
   [openpbr],
 );
@@ -81,7 +88,7 @@ export async function onGpu(flags: OpenPbrFlags, cases: readonly GpuCase[]): Pro
   tables.set(conductor.data, dielectric.data.length);
   const materials = openPbrStruct.allocate(cases.length);
   cases.forEach((one, i) => packOpenPbr(materials, i, one.parameters));
-  const directions = new Float32Array(cases.flatMap(({ wo, wi, u }) => [...wo, 0, ...wi, 0, ...u, 0]));
+  const directions = new Float32Array(cases.flatMap(({ wo, wi, u, side }) => [...wo, Number(side?.inside ?? false), ...wi, side?.outerIor ?? 1, ...u, 0]));
   const words = 24;
   const bytes = await runCompute(await testDevice(), gpuShader(flags).code, {
     inputs: [tables, materials, directions],
@@ -100,7 +107,8 @@ export async function onGpu(flags: OpenPbrFlags, cases: readonly GpuCase[]): Pro
       wi: triple(8),
       samplePdf: word(11),
       weight: triple(12),
-      valid: word(15) === 1,
+      valid: (word(15) & 1) === 1,
+      transmitted: word(15) >= 2,
       emission: triple(16),
       opacity: word(19),
       albedo: triple(20),

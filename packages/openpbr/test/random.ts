@@ -57,6 +57,31 @@ export function anyCoated(next: () => number, smoothest: number): OpenPbrParamet
   });
 }
 
+/** Any surface that lets light through, no smoother than given. */
+export function anyClear(next: () => number, smoothest: number): OpenPbrParameters {
+  const one = (value: number, chance: number, other: number) => (next() < chance ? other : value);
+  const p = (next() < 0.4 ? anyCoated : anySurface)(next, smoothest);
+  return rounded({
+    ...p,
+    base_metalness: one(next(), 0.7, 0),
+    specular_ior: p.specular_ior + 0.05,
+    transmission_weight: one(next(), 0.5, 1),
+    transmission_color: next() < 0.4 ? [1, 1, 1] : [next(), next(), next()],
+    transmission_depth: one(next(), 0.6, 0),
+    transmission_scatter: [next(), next(), next()],
+    transmission_scatter_anisotropy: 2 * next() - 1,
+    transmission_dispersion_scale: next(),
+    transmission_dispersion_abbe_number: 10 + 50 * next(),
+    geometry_thin_walled: next() < 0.3,
+  });
+}
+
+/** A direction on the other side. */
+export function lowerDirection(next: () => number, floor = 0): OpenPbrVector {
+  const [x, y, z] = upperDirection(next, floor);
+  return [x, y, -z];
+}
+
 function rounded(p: OpenPbrParameters): OpenPbrParameters {
   return Object.fromEntries(Object.entries(p).map(([name, value]) => [name, typeof value === 'number' ? Math.fround(value) : Array.isArray(value) ? single(value as unknown as OpenPbrVector) : value])) as unknown as OpenPbrParameters;
 }

@@ -1,13 +1,14 @@
 import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
-import { coatedBase, coatEmission, coatPass, prepareCoat, type Coat } from './coat';
+import { coatedBase, coatEmission, coatPass, coatThrough, prepareCoat, type Coat } from './coat';
 import { cosineSample, eon } from './diffuse';
-import { energyLost, energyLostMean, energyShare, energyShareMean, energyTotal, fresnelMean } from './energy';
+import { energyBounce, energyLost, energyLostMean, energyShare, energyShareMean, energyTotal } from './energy';
 import { dielectricEpsilon, fresnelDielectric, fresnelMetal, fresnelMetalMean } from './fresnel';
 import { ggx, ggxAlpha, ggxSample, halfVector, mirrorCosine, mirrorRoughness, viewRoughness, type Slopes } from './ggx';
+import { prepareTransmission, refract, refractGgx, refractHalf, type BsdfSide, type Transmission } from './transmission';
 import { clamp, dot } from './vector';
 
 /** What {@link prepareBsdf} may be told. */
-export interface BsdfOptions {
+export interface BsdfOptions extends BsdfSide {
   /** As the flag OPENPBR_MULTISCATTER; default true. */
   readonly multipleScattering?: boolean;
 }
@@ -34,7 +35,12 @@ export interface Bsdf {
     readonly bounced: OpenPbrColor;
     readonly meanLost: number;
   };
-  readonly dielectric: { readonly eta: number; readonly epsilon: number; readonly roughness: number; readonly scale: OpenPbrColor };
+  readonly dielectric: { readonly eta: number; readonly epsilon: number; readonly roughness: number; readonly scale: OpenPbrColor; readonly bounced: OpenPbrColor };
+  readonly transmission: Transmission;
+  /** Probability that a facet of a thin wall reflects. */
+  readonly thinChance: number;
+  /** Probability of going down when the cosine is sampled. */
+  readonly below: number;
   readonly coat: Coat;
   /** Probability of sampling the coat; else it is the base. */
   readonly coatProbability: number;
@@ -48,18 +54,36 @@ export interface BsdfSample {
   /** f · |cos θ_i| / pdf. */
   readonly weight: OpenPbrColor;
   readonly valid: boolean;
+  /** `wi` is on the other side. */
+  readonly transmitted: boolean;
 }
 
 const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), channel(1), channel(2)];
 const sum = (color: OpenPbrColor): number => color[0] + color[1] + color[2];
 
+/** The parameters with indices relative to the viewer's side, and no coat in front from inside. */
+function seenFrom(p: OpenPbrParameters, { inside = false, outerIor = 1 }: BsdfSide): OpenPbrParameters {
+  return { ...p, specular_ior: inside ? outerIor / p.specular_ior : p.specular_ior / outerIor, coat_ior: p.coat_ior / outerIor, coat_weight: inside ? 0 : p.coat_weight };
+}
+
+/** Share of light that an interface reflects, and what multiple scattering adds to either side; twin of `openpbr_dielectric_prepare`. */
+function prepareInterface(p: OpenPbrParameters, alpha: Slopes, wo: OpenPbrVector, mu: number, multipleScattering: boolean) {
+  const epsilon = dielectricEpsilon(p.specular_ior, p.specular_weight);
+  const share = energyShare(epsilon, viewRoughness(alpha, p.specular_roughness, wo), mu);
+  const total = energyTotal(epsilon, mirrorRoughness(p.specular_roughness, p.specular_roughness_anisotropy), mirrorCosine(alpha, wo, mu));
+  const lost = multipleScattering ? Math.max(1 - total, 0) : 0;
+  const bounced = lost * energyBounce(epsilon, mirrorRoughness(p.specular_roughness, p.specular_roughness_anisotropy));
+  return { epsilon, share, bounced, bouncedThrough: lost - bounced };
+}
+
 /**
- * Prepares the surface for one direction; twin of `openpbr_prepare`.
+ * Prepares the surface for one direction; twin of `openpbr_prepare` and `openpbr_prepare_side`.
  *
- * @param whole Resolved parameters.
- * @param wo Unit direction to the viewer in the local frame, +z normal.
+ * @param given Resolved parameters.
+ * @param wo Unit direction to the viewer in the local frame, +z normal on the viewer's side.
  */
-export function prepareBsdf(whole: OpenPbrParameters, wo: OpenPbrVector, { multipleScattering = true }: BsdfOptions = {}): Bsdf {
+export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multipleScattering = true, inside = false, outerIor = 1 }: BsdfOptions = {}): Bsdf {
+  const whole = seenFrom(given, { inside, outerIor });
   const p = coatedBase(whole);
   const mu = clamp(wo[2], 1e-5, 1);
   const roughness = p.specular_roughness;
@@ -74,57 +98,103 @@ export function prepareBsdf(whole: OpenPbrParameters, wo: OpenPbrVector, { multi
   const mean = fresnelMetalMean(f0, p.specular_color, weight);
   const limit = clamp(weight, 1e-6, 1);
   const bounced = rgb((i) => (p.base_metalness * lost * (1 - meanLost) * mean[i] * mean[i]) / Math.max(limit - mean[i] * meanLost, 1e-7));
-  const epsilon = dielectricEpsilon(p.specular_ior, p.specular_weight);
-  const share = energyShare(epsilon, viewRoughness(alpha, roughness, wo), mu);
-  const more = multipleScattering ? Math.max(1 - energyTotal(epsilon, mirror, mirrorMu), 0) * (epsilon >= 0 ? fresnelMean(epsilon) : share) : 0;
-  const boost = multipleScattering ? share / Math.max(share - more, 0.1 * share + 1e-7) : 1;
+  const tint: OpenPbrColor = inside ? [1, 1, 1] : p.specular_color;
   const insulator = 1 - p.base_metalness;
-  const specular = rgb((i) => p.base_metalness * typical[i] * (1 - lost) + insulator * share * p.specular_color[i]);
-  const spread = rgb((i) => bounced[i] + insulator * p.base_weight * (1 - share) * p.base_color[i]);
-  const bright = sum(specular);
-  const all = bright + sum(spread);
-  const reflected = energyShareMean(epsilon, roughness);
+  const face = prepareInterface(p, alpha, wo, mu, multipleScattering);
+  const outer = { ...p, specular_color: tint, specular_ior: whole.specular_ior };
+  const bare = prepareInterface(outer, alpha, wo, mu, multipleScattering);
+  const transmission = prepareTransmission(outer, face.share, bare, alpha, wo, mu, insulator, inside ? given.coat_weight : 0, multipleScattering);
+  const single = transmission.thin ? 1 - p.transmission_weight : 1;
+  const scale = rgb((i) => insulator * single * tint[i]);
+  const specular = rgb((i) => p.base_metalness * typical[i] * (1 - lost) + scale[i] * Math.max(face.share - face.bounced, 0) + transmission.mirrorAlbedo[i]);
+  const rebounced = rgb((i) => scale[i] * face.bounced + transmission.mirrorBounced[i]);
+  const diffuse = insulator * p.base_weight * (1 - p.transmission_weight) * (1 - face.share);
+  const spread = rgb((i) => bounced[i] + rebounced[i] + diffuse * p.base_color[i]);
+  const down = sum(transmission.bounced);
+  const facets = sum(specular) + sum(transmission.albedo);
+  const all = facets + sum(spread) + down;
+  const reflected = energyShareMean(face.epsilon, roughness);
   const coat = prepareCoat(whole, wo, mu, multipleScattering);
   // A highlight comes from about as low as it is seen, spread light from everywhere.
   const highlight = coatPass(coat, mu);
   const everywhere = coatPass(coat, 2 / 3);
-  const below = rgb((i) => specular[i] * highlight[i] + spread[i] * everywhere[i]);
+  const beyond = coatThrough(coat, transmission.exit, mu);
+  const below = rgb((i) => specular[i] * highlight[i] + spread[i] * everywhere[i] + (transmission.albedo[i] + transmission.bounced[i]) * beyond[i]);
   const total = sum(below) + 3 * coat.albedo;
   return {
     alpha,
-    specularProbability: all > 0 ? bright / all : 0.5,
-    diffuseScale: ((insulator * p.base_weight * (1 - share)) / Math.max(1 - reflected, 1e-4)) * (1 - 0.08 * p.base_diffuse_roughness * reflected),
+    specularProbability: all > 0 ? facets / all : 0.5,
+    diffuseScale: (diffuse / Math.max(1 - reflected, 1e-4)) * (1 - 0.08 * p.base_diffuse_roughness * reflected),
     diffuseColor: p.base_color,
     diffuseRoughness: p.base_diffuse_roughness,
     albedo: rgb((i) => Math.min(below[i] + coat.albedo, 1)),
     metal: { f0, tint: p.specular_color, specularWeight: weight, metalness: p.base_metalness, roughness: mirror, bounced, meanLost },
-    dielectric: { eta: (1 + epsilon) / (1 - epsilon), epsilon, roughness, scale: rgb((i) => insulator * p.specular_color[i] * boost) },
+    dielectric: { eta: (1 + face.epsilon) / (1 - face.epsilon), epsilon: face.epsilon, roughness, scale, bounced: rebounced },
+    transmission,
+    thinChance: facets > 0 ? sum(specular) / facets : 1,
+    below: down > 0 ? down / (down + sum(spread)) : 0,
     coat,
     coatProbability: total > 0 ? (3 * coat.albedo) / total : 0.5,
   };
 }
 
+/** Reflectance of a facet seen at cosine c, all microfacet lobes of the base. */
+function facetReflectance(b: Bsdf, c: number): OpenPbrColor {
+  const metal = fresnelMetal(b.metal.f0, b.metal.tint, c, b.metal.specularWeight);
+  const fresnel = fresnelDielectric(b.dielectric.eta, c);
+  return rgb((i) => b.metal.metalness * metal[i] + b.dielectric.scale[i] * fresnel + b.transmission.mirror[i]);
+}
+
+/** Fresnel factor of a facet that lets light through; without a coat, that of the reflection. */
+const refractionFresnel = (b: Bsdf, c: number): number => fresnelDielectric(b.transmission.fresnelEta, c);
+
+/** Probability that a facet reflects, once it is sampled; else it lets light through. */
+function reflectionChance(b: Bsdf, c: number): number {
+  if (b.transmission.thin) return b.thinChance;
+  const color = facetReflectance(b, c);
+  const through = sum(b.transmission.color) * (1 - refractionFresnel(b, c));
+  return through > 0 ? sum(color) / (sum(color) + through) : 1;
+}
+
+/** The facet that lets light through from `wi` to `wo`. */
+const throughHalf = ({ transmission: { thin, eta } }: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): OpenPbrVector => (thin ? halfVector(wo, [wi[0], wi[1], -wi[2]]) : refractHalf(eta, wo, wi));
+
+/** `scatter` for directions on the other side. */
+function scatterThrough(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector): { f: OpenPbrColor; pdf: number } {
+  if (wo[2] <= 0) return { f: [0, 0, 0], pdf: 0 };
+  const { transmission } = b;
+  const c = clamp(dot(wo, h), 0, 1);
+  const [value, density] = transmission.thin ? ggx(transmission.thinAlpha, wo, [wi[0], wi[1], -wi[2]], h) : refractGgx(transmission.eta, b.alpha, wo, wi, h);
+  const passed = transmission.thin ? value : value * (1 - refractionFresnel(b, c));
+  const coat = coatThrough(b.coat, transmission.exit, -wi[2]);
+  const cosine = -wi[2] / Math.PI;
+  const pdf = b.specularProbability * (1 - reflectionChance(b, c)) * density + (1 - b.specularProbability) * b.below * cosine;
+  return { f: rgb((i) => (transmission.color[i] * passed + transmission.bounced[i] * cosine) * coat[i]), pdf: (1 - b.coatProbability) * pdf };
+}
+
 function scatter(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector): { f: OpenPbrColor; pdf: number } {
+  if (wi[2] < 0) return scatterThrough(b, wo, wi, h);
   if (Math.min(wo[2], wi[2]) <= 0) return { f: [0, 0, 0], pdf: 0 };
   const c = clamp(dot(wo, h), 0, 1);
   const [value, density] = ggx(b.alpha, wo, wi, h);
-  const metal = fresnelMetal(b.metal.f0, b.metal.tint, c, b.metal.specularWeight);
-  const dielectric = fresnelDielectric(b.dielectric.eta, c);
+  const color = facetReflectance(b, c);
   const scale = b.diffuseScale * wi[2] * (1 - energyShare(b.dielectric.epsilon, viewRoughness(b.alpha, b.dielectric.roughness, wi), wi[2]));
   const bounced = (energyLost(b.metal.roughness, mirrorCosine(b.alpha, wi, wi[2])) / b.metal.meanLost / Math.PI) * wi[2];
   const diffuse = eon(b.diffuseColor, b.diffuseRoughness, wo, wi);
   const pass = coatPass(b.coat, wi[2]);
   const [top, topDensity] = ggx(b.coat.alpha, wo, wi, h);
   const mirrored = b.coat.scale * fresnelDielectric(b.coat.eta, c) * top;
-  const basePdf = b.specularProbability * density + ((1 - b.specularProbability) * wi[2]) / Math.PI;
+  const basePdf = b.specularProbability * reflectionChance(b, c) * density + ((1 - b.specularProbability) * (1 - b.below) * wi[2]) / Math.PI;
   return {
-    f: rgb((i) => (value * (b.metal.metalness * metal[i] + b.dielectric.scale[i] * dielectric) + bounced * b.metal.bounced[i] + scale * diffuse[i]) * pass[i] + mirrored),
+    f: rgb((i) => (value * color[i] + (b.dielectric.bounced[i] * wi[2]) / Math.PI + bounced * b.metal.bounced[i] + scale * diffuse[i]) * pass[i] + mirrored),
     pdf: basePdf * (1 - b.coatProbability) + topDensity * b.coatProbability,
   };
 }
 
 /** f · |cos θ_i| and density together; twin of `openpbr_eval_pdf`. `wo` is the one that {@link prepareBsdf} had. */
-export const evalPdfBsdf = (b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): { f: OpenPbrColor; pdf: number } => scatter(b, wo, wi, halfVector(wo, wi));
+export const evalPdfBsdf = (b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): { f: OpenPbrColor; pdf: number } => {
+  return wi[2] >= 0 ? scatter(b, wo, wi, halfVector(wo, wi)) : scatterThrough(b, wo, wi, throughHalf(b, wo, wi));
+};
 
 /** f · |cos θ_i|; twin of `openpbr_eval`. `wo` is the one that {@link prepareBsdf} had. */
 export const evalBsdf = (b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): OpenPbrColor => evalPdfBsdf(b, wo, wi).f;
@@ -136,20 +206,31 @@ export const pdfBsdf = (b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): number =
 export function sampleBsdf(b: Bsdf, wo: OpenPbrVector, u: readonly [number, number, number]): BsdfSample {
   let h: OpenPbrVector;
   let wi: OpenPbrVector;
+  let transmitted = false;
   const top = u[2] < b.coatProbability;
-  if (top || u[2] - b.coatProbability < (1 - b.coatProbability) * b.specularProbability) {
-    h = ggxSample(top ? b.coat.alpha : b.alpha, wo, u);
-    const c = 2 * dot(wo, h);
-    wi = [c * h[0] - wo[0], c * h[1] - wo[1], c * h[2] - wo[2]];
+  const chosen = u[2] - b.coatProbability;
+  const limit = (1 - b.coatProbability) * b.specularProbability;
+  if (top || chosen < limit) {
+    const side = chosen / limit;
+    const { thin, thinAlpha, eta } = b.transmission;
+    h = ggxSample(top ? b.coat.alpha : thin && side >= b.thinChance ? thinAlpha : b.alpha, wo, u);
+    const c = dot(wo, h);
+    wi = [2 * c * h[0] - wo[0], 2 * c * h[1] - wo[1], 2 * c * h[2] - wo[2]];
+    transmitted = !top && side >= reflectionChance(b, clamp(c, 0, 1));
+    if (transmitted) wi = thin ? [wi[0], wi[1], -wi[2]] : (refract(eta, wo, h) ?? [0, 0, 0]);
+    // A facet may reflect downwards or refract upwards: lost.
+    if (transmitted !== wi[2] < 0) return { wi, pdf: 0, weight: [0, 0, 0], valid: false, transmitted };
   } else {
     wi = cosineSample(u);
-    h = halfVector(wo, wi);
+    transmitted = chosen - limit < b.below * (1 - b.coatProbability - limit);
+    if (transmitted) wi = [wi[0], wi[1], -wi[2]];
+    h = transmitted ? throughHalf(b, wo, wi) : halfVector(wo, wi);
   }
   const { f, pdf } = scatter(b, wo, wi, h);
-  return pdf > 0 ? { wi, pdf, weight: rgb((i) => f[i] / pdf), valid: true } : { wi, pdf: 0, weight: [0, 0, 0], valid: false };
+  return pdf > 0 ? { wi, pdf, weight: rgb((i) => f[i] / pdf), valid: true, transmitted } : { wi, pdf: 0, weight: [0, 0, 0], valid: false, transmitted };
 }
 
-/** Reflected part of uniform light; twin of `openpbr_albedo`. */
+/** Reflected and transmitted part of uniform light; twin of `openpbr_albedo`. */
 export const albedoBsdf = (b: Bsdf, wo: OpenPbrVector): OpenPbrColor => (wo[2] > 0 ? b.albedo : [0, 0, 0]);
 
 /** Radiance that leaves towards `wo`; twin of `openpbr_emission`. */

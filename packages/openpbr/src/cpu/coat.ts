@@ -1,5 +1,5 @@
 import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
-import { energyShare, energyTotal, fresnelMean } from './energy';
+import { energyBounce, energyShare, energyTotal, fresnelMean } from './energy';
 import { dielectricEpsilon, fresnelDielectric } from './fresnel';
 import { ggxAlpha, mirrorCosine, mirrorRoughness, viewRoughness, type Slopes } from './ggx';
 import { clamp } from './vector';
@@ -20,6 +20,8 @@ export interface Coat {
   readonly through: OpenPbrColor;
   /** log₂ of the transmittance along the normal. */
   readonly absorption: OpenPbrColor;
+  /** Factor on light that the base lets through upwards, so far as the viewer's side goes. */
+  readonly entry: OpenPbrColor;
 }
 
 /**
@@ -65,7 +67,7 @@ export function coatDarkening(p: OpenPbrParameters, mu: number): OpenPbrColor {
   const kept = Math.min(mix(fresnelDielectric((1 + epsilon) / (1 - epsilon), facet), fresnelMean(-epsilon), roughness), 0.9999);
   return rgb((i) => {
     const color = p.base_weight * p.base_color[i];
-    const albedo = mix(mix(color, p.specular_color[i], f0), Math.min(color * p.specular_weight, 1), p.base_metalness);
+    const albedo = mix(mix(mix(color, 1, p.transmission_weight), p.specular_color[i], f0), Math.min(color * p.specular_weight, 1), p.base_metalness);
     return mix(1, (1 - kept) / (1 - kept * albedo), p.coat_weight * p.coat_darkening);
   });
 }
@@ -78,7 +80,7 @@ export function prepareCoat(p: OpenPbrParameters, wo: OpenPbrVector, mu: number,
   const eta = (1 + epsilon) / (1 - epsilon);
   const share = energyShare(epsilon, viewRoughness(alpha, roughness, wo), mu);
   const total = energyTotal(epsilon, mirrorRoughness(roughness, p.coat_roughness_anisotropy), mirrorCosine(alpha, wo, mu));
-  const more = Math.max(1 - total, 0) * (epsilon >= 0 ? fresnelMean(epsilon) : share);
+  const more = Math.max(1 - total, 0) * energyBounce(epsilon, mirrorRoughness(roughness, p.coat_roughness_anisotropy));
   const absorption = absorptionOf(p);
   const darkening = coatDarkening(p, mu);
   return {
@@ -89,11 +91,15 @@ export function prepareCoat(p: OpenPbrParameters, wo: OpenPbrVector, mu: number,
     bare: rgb((i) => darkening[i] * (1 - p.coat_weight)),
     through: rgb((i) => darkening[i] * p.coat_weight * (1 - share) * passage(absorption[i], eta, mu)),
     absorption,
+    entry: rgb((i) => 1 - p.coat_weight + p.coat_weight * (1 - share) * passage(absorption[i], eta, mu)),
   };
 }
 
 /** Factor on the base for light from the cosine `mu`; twin of `openpbr_coat_pass`. */
 export const coatPass = (coat: Coat, mu: number): OpenPbrColor => rgb((i) => coat.bare[i] + coat.through[i] * passage(coat.absorption[i], coat.eta, mu));
+
+/** Factor on light through the base, with the cosine `mu` on the far side; twin of `openpbr_coat_through`. */
+export const coatThrough = (coat: Coat, exit: number, mu: number): OpenPbrColor => rgb((i) => coat.entry[i] * mix(1, passage(coat.absorption[i], coat.eta, mu), exit));
 
 /** Factor on light that the base emits towards `wo`; twin of `openpbr_coat_emission`. */
 export function coatEmission(p: OpenPbrParameters, wo: OpenPbrVector): OpenPbrColor {

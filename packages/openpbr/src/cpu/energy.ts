@@ -57,15 +57,33 @@ export function energyShare(epsilon: number, roughness: number, mu: number): num
     return Math.min(fresnel * tableLookup(OPENPBR_TABLES.dielectric, [angleAxis(spread(r, mu)), y, slice('outer', epsilon)]), 1);
   }
   const critical = Math.sqrt(1 - eta * eta);
-  const t = mu > critical ? 0.5 + 0.5 * Math.sqrt((mu - critical) / (1 - critical)) : 0.5 - 0.5 * Math.sqrt((critical - mu) / critical);
-  return Math.min(tableLookup(OPENPBR_TABLES.dielectric, [angleAxis(t), y, slice('inner', epsilon)]), 1);
+  const t = mu > critical ? 0.5 + 0.5 * Math.sqrt((mu - critical) / (1 - critical)) : (0.5 * Math.sqrt(mu)) / (Math.sqrt(mu) + Math.sqrt(critical - mu));
+  const split = Math.min(tableLookup(OPENPBR_TABLES.dielectric, [angleAxis(t), y, slice('inner', epsilon)]), 1);
+  const total = energyTotal(epsilon, roughness, mu);
+  return split * total + (1 - total) * energyBounce(epsilon, roughness);
 }
 
 /** The cosine-weighted mean of {@link energyShare} over all directions; twin of `openpbr_energy_share_mean`. */
 export function energyShareMean(epsilon: number, roughness: number): number {
   if (epsilon === 0) return 0;
+  const r = Math.max(roughness, TABLE_MIN_ROUGHNESS);
+  const y = roughnessAxis(r, TABLE_ROUGHNESSES);
+  const smooth = 1 - fresnelMean(epsilon);
+  const through = epsilon < 0 ? smooth + 0.3 * r ** 4 * (1 - smooth) : smooth;
+  return 1 - Math.min(through * tableLookup(OPENPBR_TABLES.dielectric, [(TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1), y, slice(epsilon > 0 ? 'outer' : 'inner', epsilon)]), 1);
+}
+
+/**
+ * The part of what single scattering loses that is reflected after more bounces; twin of `openpbr_energy_bounce`. Seen from
+ * the thinner medium, the mean reflectance; from inside, where total reflection dominates, such that as much goes through
+ * to either side.
+ */
+export function energyBounce(epsilon: number, roughness: number): number {
+  const reflected = fresnelMean(Math.abs(epsilon));
+  if (epsilon >= 0) return reflected;
   const y = roughnessAxis(Math.max(roughness, TABLE_MIN_ROUGHNESS), TABLE_ROUGHNESSES);
-  return 1 - Math.min((1 - fresnelMean(epsilon)) * tableLookup(OPENPBR_TABLES.dielectric, [(TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1), y, slice(epsilon > 0 ? 'outer' : 'inner', epsilon)]), 1);
+  const lost = (block: 'outerTotal' | 'innerTotal') => 1 - tableLookup(OPENPBR_TABLES.dielectric, [(TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1), y, slice(block, epsilon)]);
+  return clamp(1 - ((1 - reflected) * lost('outerTotal')) / Math.max(lost('innerTotal'), 1e-4), 0, 1);
 }
 
 /** Energy that an interface reflects and refracts by single scattering; twin of `openpbr_energy_total`. */

@@ -11,7 +11,7 @@ export const TABLE_BLOCKS = {
   outer: [0, TABLE_LAYOUT.outer],
   /** Energy reflected and refracted by single scattering; seen from the thinner medium. */
   outerTotal: [outerTotal, TABLE_LAYOUT.outerTotal],
-  /** Share of the energy that is reflected by all scattering; seen from the denser medium. */
+  /** The reflected part of single scattering; seen from the denser medium. */
   inner: [inner, TABLE_LAYOUT.inner],
   /** Energy reflected and refracted by single scattering; seen from the denser medium. */
   innerTotal: [innerTotal, TABLE_LAYOUT.innerTotal],

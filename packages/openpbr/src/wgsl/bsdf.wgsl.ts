@@ -5,27 +5,36 @@ import { openpbrCosine, openpbrEon } from './diffuse.wgsl';
 import { openpbrEmission, openpbrOpacity } from './emission.wgsl';
 import { openpbrGgx } from './ggx.wgsl';
 import { openpbrMetal } from './metal.wgsl';
+import { openpbrMedium } from './medium.wgsl';
+import { openpbrPhase } from './phase.wgsl';
 import { openPbrStruct } from './record';
+import { openpbrTransmission } from './transmission.wgsl';
 
 /**
  * The whole surface. Directions are unit vectors in the local frame (+z shading normal, +x tangent), away from the
- * surface; the host turns the frame so that the viewer is above. With `wo` or `wi` below the surface everything is zero.
+ * surface; the host turns the frame so that the viewer is above. With `wo` below the surface everything is zero, and with
+ * `wi` below so it is unless the surface lets light through.
  *
  * ```wgsl
  * fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf      // once per hit; the rest takes the same wo
+ * fn openpbr_prepare_side(p: OpenPbrParameters, wo: vec3f, side: OpenPbrSide) -> OpenPbrBsdf // with OPENPBR_TRANSMISSION: from either side
  * fn openpbr_eval(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec3f          // f · |cos θ_i|
  * fn openpbr_pdf(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> f32             // density of openpbr_sample, per solid angle
  * fn openpbr_eval_pdf(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec4f      // both for the price of one: (f · |cos θ_i|, pdf)
  * fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample // u uniform in [0, 1)³
- * fn openpbr_albedo(b: OpenPbrBsdf, wo: vec3f) -> vec3f                   // reflected part of uniform light, approximate for tinted metal
+ * fn openpbr_albedo(b: OpenPbrBsdf, wo: vec3f) -> vec3f                   // reflected and transmitted part of uniform light, approximate for tinted metal
  * fn openpbr_emission(p: OpenPbrParameters, wo: vec3f) -> vec3f           // radiance
  * fn openpbr_opacity(p: OpenPbrParameters) -> f32
  * ```
  *
  * Metal and dielectric share one microfacet lobe: they differ by the Fresnel factor only. Diffuse reflection and what
- * bounces on between the facets of metal are sampled by the cosine. The diffuse lobe below the
+ * bounces on between the facets are sampled by the cosine. The diffuse lobe below the
  * dielectric is weighted by (1 - E(μ_i))(1 - E(μ_o))/(1 - E_mean), which is reciprocal and loses nothing (Ashikhmin,
  * Premože and Shirley 2000; Kelemen and Szirmay-Kalos 2001). A coat adds a lobe of its own and scales the rest.
+ *
+ * Transmission: `OpenPbrSide` says where the viewer is, `inside` the object or not, and the index of refraction of what is
+ * outside of it; a thin wall has no inside. A facet, once sampled, reflects or refracts by chance, as its Fresnel factor
+ * says. From inside there is no coat to be seen, only its colour on what leaves, and reflections have no tint.
  */
 export const openpbr = wgslModule(
   'openpbr',
@@ -45,6 +54,12 @@ export const openpbr = wgslModule(
   //#endif
   //#if OPENPBR_DIELECTRIC
   dielectric: OpenPbrDielectric,
+  // Factor on its reflection, and albedo of what bounces on between its facets.
+  dielectric_scale: vec3f,
+  dielectric_bounced: vec3f,
+  //#endif
+  //#if OPENPBR_TRANSMISSION
+  transmission: OpenPbrTransmission,
   //#endif
   //#if OPENPBR_COAT
   coat: OpenPbrCoat,
@@ -57,13 +72,41 @@ struct OpenPbrSample {
   // f · |cos θ_i| / pdf of the whole mixture.
   weight: vec3f,
   valid: bool,
+  // wi is on the other side.
+  transmitted: bool,
 }
 
+//#if OPENPBR_TRANSMISSION
+struct OpenPbrSide {
+  // Whether the viewer is in the object's interior.
+  inside: bool,
+  // Index of refraction of what is outside of the object: 1, or that of the medium around.
+  outer_ior: f32,
+}
+
+fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
+  return openpbr_prepare_side(p, wo, OpenPbrSide(false, 1.0));
+}
+
+fn openpbr_prepare_side(given: OpenPbrParameters, wo: vec3f, side: OpenPbrSide) -> OpenPbrBsdf {
+  // Indices relative to the viewer's side. From inside there is no coat in front.
+  var whole = given;
+  whole.specular_ior = select(given.specular_ior / side.outer_ior, side.outer_ior / given.specular_ior, side.inside);
+  whole.coat_ior = given.coat_ior / side.outer_ior;
+  whole.coat_weight = select(given.coat_weight, 0.0, side.inside);
+//#else
 //#if OPENPBR_COAT
 fn openpbr_prepare(whole: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
+//#else
+fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
+//#endif
+//#endif
+  //#if OPENPBR_COAT
   let p = openpbr_coat_base(whole);
   //#else
-fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
+  //#if OPENPBR_TRANSMISSION
+  let p = whole;
+  //#endif
   //#endif
   var b: OpenPbrBsdf;
   let mu = clamp(wo.z, 1e-5, 1.0);
@@ -79,16 +122,46 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
   //#endif
   b.diffuse_scale = b.dielectric_weight * p.base_weight;
   //#if OPENPBR_DIELECTRIC
+  //#if OPENPBR_TRANSMISSION
+  var face = p;
+  face.specular_color = select(p.specular_color, vec3f(1.0), side.inside);
+  b.dielectric = openpbr_dielectric_prepare(face, b.alpha, wo, mu);
+  var outer = face;
+  outer.specular_ior = whole.specular_ior;
+  b.transmission = openpbr_transmission_prepare(outer, b.dielectric, b.alpha, wo, mu, b.dielectric_weight);
+  b.dielectric_scale = b.dielectric_weight * face.specular_color;
+  //#if OPENPBR_THIN_WALLED
+  b.dielectric_scale *= select(1.0, 1.0 - p.transmission_weight, b.transmission.thin);
+  //#endif
+  b.diffuse_scale *= 1.0 - p.transmission_weight;
+  //#else
   b.dielectric = openpbr_dielectric_prepare(p, b.alpha, wo, mu);
-  specular += b.dielectric_weight * b.dielectric.share * p.specular_color;
+  b.dielectric_scale = b.dielectric_weight * p.specular_color;
+  //#endif
+  b.dielectric_bounced = b.dielectric_scale * b.dielectric.bounced;
+  specular += b.dielectric_scale * max(b.dielectric.share - b.dielectric.bounced, 0.0);
+  //#if OPENPBR_THIN_WALLED
+  specular += b.transmission.mirror_albedo;
+  b.dielectric_bounced += b.transmission.mirror_bounced;
+  //#endif
   b.diffuse_scale *= 1.0 - b.dielectric.share;
   //#endif
   b.albedo = specular;
   b.specular_probability = 1.0;
+  //#if OPENPBR_TRANSMISSION
+  b.albedo += b.transmission.albedo + b.transmission.bounced;
+  //#if OPENPBR_THIN_WALLED
+  let facets = dot(specular + b.transmission.albedo, vec3f(1.0));
+  b.transmission.chance = select(1.0, min(dot(specular, vec3f(1.0)) / facets, 1.0), facets > 0.0);
+  //#endif
+  //#endif
   //#if OPENPBR_COSINE
   var spread = vec3f(0.0);
   //#if OPENPBR_METAL
   spread += b.metal.bounced;
+  //#endif
+  //#if OPENPBR_DIELECTRIC
+  spread += b.dielectric_bounced;
   //#endif
   //#if OPENPBR_DIFFUSE
   b.diffuse_color = p.base_color;
@@ -105,9 +178,19 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
   //#endif
   //#endif
   b.albedo += spread;
+  //#if OPENPBR_TRANSMISSION
+  let bright = dot(specular + b.transmission.albedo, vec3f(1.0));
+  //#else
   let bright = dot(specular, vec3f(1.0));
+  //#endif
+  //#if OPENPBR_TRANSMISSION
+  let down = dot(b.transmission.bounced, vec3f(1.0));
+  let total = bright + down + dot(spread, vec3f(1.0));
+  b.transmission.below = select(0.0, min(down / (down + dot(spread, vec3f(1.0))), 1.0), down > 0.0);
+  //#else
   let total = bright + dot(spread, vec3f(1.0));
-  b.specular_probability = select(0.5, bright / total, total > 0.0);
+  //#endif
+  b.specular_probability = select(0.5, min(bright / total, 1.0), total > 0.0);
   //#endif
   //#if OPENPBR_COAT
   b.coat = openpbr_coat_prepare(whole, p, wo, mu);
@@ -116,6 +199,10 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
   //#if OPENPBR_COSINE
   b.albedo += spread * openpbr_coat_pass(b.coat, 0.66666667);
   //#endif
+  //#if OPENPBR_TRANSMISSION
+  b.transmission.exit = select(0.0, given.coat_weight, side.inside);
+  b.albedo += (b.transmission.albedo + b.transmission.bounced) * openpbr_coat_through(b, mu);
+  //#endif
   let below = dot(b.albedo, vec3f(1.0));
   b.albedo += b.coat.albedo;
   b.coat.probability = select(0.5, 3.0 * b.coat.albedo / (below + 3.0 * b.coat.albedo), below + b.coat.albedo > 0.0);
@@ -123,28 +210,109 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
   return b;
 }
 
+//#if OPENPBR_TRANSMISSION
+//#if OPENPBR_COAT
+// Factor of the coat on light that goes through the base, with the cosine on the far side.
+fn openpbr_coat_through(b: OpenPbrBsdf, mu: f32) -> vec3f {
+  return b.coat.entry * mix(vec3f(1.0), exp2(b.coat.absorption * openpbr_coat_path(b.coat.bend, mu)), b.transmission.exit);
+}
+//#endif
+//#endif
+
+//#if OPENPBR_SPECULAR
+// Reflectance of a facet seen at cosine c, all microfacet lobes of the base; and the Fresnel factor of its interface.
+fn openpbr_reflectance(b: OpenPbrBsdf, c: f32) -> vec4f {
+  var result = vec4f(0.0);
+  //#if OPENPBR_METAL
+  result += vec4f(openpbr_metal_fresnel(b.metal, c), 0.0);
+  //#endif
+  //#if OPENPBR_DIELECTRIC
+  let fresnel = openpbr_fresnel_dielectric(b.dielectric.eta, c);
+  result += vec4f(b.dielectric_scale * fresnel, fresnel);
+  //#endif
+  //#if OPENPBR_THIN_WALLED
+  result += vec4f(b.transmission.mirror, 0.0);
+  //#endif
+  return result;
+}
+//#endif
+
+//#if OPENPBR_TRANSMISSION
+// Fresnel factor of a facet that lets light through.
+fn openpbr_refraction_fresnel(b: OpenPbrBsdf, reflectance: vec4f, c: f32) -> f32 {
+  //#if OPENPBR_COAT
+  return openpbr_fresnel_dielectric(b.transmission.fresnel_eta, c);
+  //#else
+  return reflectance.w;
+  //#endif
+}
+
+// Probability that a facet reflects, once it is sampled; else it lets light through.
+fn openpbr_reflection_chance(b: OpenPbrBsdf, reflectance: vec4f, c: f32) -> f32 {
+  //#if OPENPBR_THIN_WALLED
+  if (b.transmission.thin) { return b.transmission.chance; }
+  //#endif
+  let through = dot(b.transmission.color, vec3f(1.0 - openpbr_refraction_fresnel(b, reflectance, c)));
+  let reflected = dot(reflectance.xyz, vec3f(1.0));
+  return select(1.0, min(reflected / (reflected + through), 1.0), through > 0.0);
+}
+
+// (f · |cos θ_i|, pdf) of a pair of directions on either side, with its facet.
+fn openpbr_scatter_through(b: OpenPbrBsdf, wo: vec3f, wi: vec3f, h: vec3f) -> vec4f {
+  if (wo.z <= 0.0) { return vec4f(0.0); }
+  let c = clamp(dot(wo, h), 0.0, 1.0);
+  let reflectance = openpbr_reflectance(b, c);
+  let probability = b.specular_probability * (1.0 - openpbr_reflection_chance(b, reflectance, c));
+  var ggx: vec2f;
+  //#if OPENPBR_THIN_WALLED
+  if (b.transmission.thin) {
+    ggx = openpbr_ggx(b.transmission.thin_alpha, wo, vec3f(wi.xy, -wi.z), h);
+  } else {
+    ggx = openpbr_refract_ggx(b.transmission.eta, b.alpha, wo, wi, h) * vec2f(1.0 - openpbr_refraction_fresnel(b, reflectance, c), 1.0);
+  }
+  //#else
+  ggx = openpbr_refract_ggx(b.transmission.eta, b.alpha, wo, wi, h) * vec2f(1.0 - openpbr_refraction_fresnel(b, reflectance, c), 1.0);
+  //#endif
+  var result = vec4f(b.transmission.color * ggx.x, probability * ggx.y);
+  //#if OPENPBR_COSINE
+  result -= vec4f(b.transmission.bounced, (1.0 - b.specular_probability) * b.transmission.below) * (wi.z * 0.31830989);
+  //#endif
+  //#if OPENPBR_COAT
+  result *= vec4f(openpbr_coat_through(b, -wi.z), 1.0 - b.coat.probability);
+  //#endif
+  return result;
+}
+//#endif
+
 // (f · |cos θ_i|, pdf) of a pair of directions with its half vector.
 fn openpbr_scatter(b: OpenPbrBsdf, wo: vec3f, wi: vec3f, h: vec3f) -> vec4f {
+  //#if OPENPBR_TRANSMISSION
+  if (wi.z < 0.0) { return openpbr_scatter_through(b, wo, wi, h); }
+  //#endif
   if (min(wo.z, wi.z) <= 0.0) { return vec4f(0.0); }
   var result = vec4f(0.0);
   //#if OPENPBR_SPECULAR
   let c = clamp(dot(wo, h), 0.0, 1.0);
   let ggx = openpbr_ggx(b.alpha, wo, wi, h);
-  var reflectance = vec3f(0.0);
-  //#if OPENPBR_METAL
-  reflectance += openpbr_metal_fresnel(b.metal, c);
+  let reflectance = openpbr_reflectance(b, c);
+  var facet_probability = b.specular_probability;
+  //#if OPENPBR_TRANSMISSION
+  facet_probability *= openpbr_reflection_chance(b, reflectance, c);
   //#endif
-  //#if OPENPBR_DIELECTRIC
-  reflectance += b.dielectric.scale * (b.dielectric_weight * openpbr_fresnel_dielectric(b.dielectric.eta, c));
-  //#endif
-  result += vec4f(reflectance * ggx.x, b.specular_probability * ggx.y);
+  result += vec4f(reflectance.xyz * ggx.x, facet_probability * ggx.y);
   //#endif
   //#if OPENPBR_COSINE
   var probability = 1.0;
   //#if OPENPBR_SPECULAR
   probability -= b.specular_probability;
   //#endif
+  //#if OPENPBR_TRANSMISSION
+  probability *= 1.0 - b.transmission.below;
+  //#endif
   result.w += probability * wi.z * 0.31830989;
+  //#if OPENPBR_DIELECTRIC
+  result += vec4f(b.dielectric_bounced * (wi.z * 0.31830989), 0.0);
+  //#endif
   //#if OPENPBR_METAL
   //#if OPENPBR_MULTISCATTER
   result += vec4f(openpbr_metal_bounced(b.metal, b.alpha, wi), 0.0);
@@ -177,7 +345,20 @@ fn openpbr_half(wo: vec3f, wi: vec3f) -> vec3f {
   return normalize(vec3f(h.xy, max(h.z, 1e-7)));
 }
 
+//#if OPENPBR_TRANSMISSION
+// The facet that lets light through from wi to wo.
+fn openpbr_through_half(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec3f {
+  //#if OPENPBR_THIN_WALLED
+  if (b.transmission.thin) { return openpbr_half(wo, vec3f(wi.xy, -wi.z)); }
+  //#endif
+  return openpbr_refract_half(b.transmission.eta, wo, wi);
+}
+//#endif
+
 fn openpbr_eval_pdf(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec4f {
+  //#if OPENPBR_TRANSMISSION
+  if (wi.z < 0.0) { return openpbr_scatter_through(b, wo, wi, openpbr_through_half(b, wo, wi)); }
+  //#endif
   return openpbr_scatter(b, wo, wi, openpbr_half(wo, wi));
 }
 
@@ -195,18 +376,56 @@ fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample {
   //#if OPENPBR_SPECULAR
   //#if OPENPBR_COAT
   let top = u.z < b.coat.probability;
-  if (top || u.z - b.coat.probability < (1.0 - b.coat.probability) * b.specular_probability) {
-    h = openpbr_ggx_sample(select(b.alpha, b.coat.alpha, top), wo, u.xy);
+  let chosen = u.z - b.coat.probability;
+  let limit = (1.0 - b.coat.probability) * b.specular_probability;
+  if (top || chosen < limit) {
+    var alpha = select(b.alpha, b.coat.alpha, top);
   //#else
-  if (u.z < b.specular_probability) {
-    h = openpbr_ggx_sample(b.alpha, wo, u.xy);
+  let chosen = u.z;
+  let limit = b.specular_probability;
+  if (chosen < limit) {
+    var alpha = b.alpha;
   //#endif
+    //#if OPENPBR_TRANSMISSION
+    // What is left of the random number tells whether the facet reflects.
+    let side = chosen / limit;
+    //#if OPENPBR_THIN_WALLED
+    if (b.transmission.thin && side >= b.transmission.chance) { alpha = b.transmission.thin_alpha; }
+    //#endif
+    //#endif
+    h = openpbr_ggx_sample(alpha, wo, u.xy);
     s.wi = 2.0 * dot(wo, h) * h - wo;
+    //#if OPENPBR_TRANSMISSION
+    let c = clamp(dot(wo, h), 0.0, 1.0);
+    // Below 0 for the coat, which always reflects.
+    s.transmitted = side >= openpbr_reflection_chance(b, openpbr_reflectance(b, c), c);
+    if (s.transmitted) {
+      //#if OPENPBR_THIN_WALLED
+      if (b.transmission.thin) { s.wi.z = -s.wi.z; } else { s.wi = openpbr_refract(b.transmission.eta, wo, h); }
+      //#else
+      s.wi = openpbr_refract(b.transmission.eta, wo, h);
+      //#endif
+    }
+    // A facet may reflect downwards or refract upwards: lost.
+    if (s.transmitted != (s.wi.z < 0.0)) { return s; }
+    //#endif
   }
   //#if OPENPBR_COSINE
   else {
     s.wi = openpbr_cosine_sample(u.xy);
     h = openpbr_half(wo, s.wi);
+    //#if OPENPBR_TRANSMISSION
+    //#if OPENPBR_COAT
+    let rest = 1.0 - b.coat.probability - limit;
+    //#else
+    let rest = 1.0 - limit;
+    //#endif
+    s.transmitted = chosen - limit < b.transmission.below * rest;
+    if (s.transmitted) {
+      s.wi.z = -s.wi.z;
+      h = openpbr_through_half(b, wo, s.wi);
+    }
+    //#endif
   }
   //#endif
   //#else
@@ -229,6 +448,9 @@ fn openpbr_albedo(b: OpenPbrBsdf, wo: vec3f) -> vec3f {
     gated('OPENPBR_SPECULAR', openpbrGgx),
     gated('OPENPBR_METAL', openpbrMetal),
     gated('OPENPBR_DIELECTRIC', openpbrDielectric),
+    gated('OPENPBR_TRANSMISSION', openpbrTransmission),
+    gated('OPENPBR_TRANSMISSION', openpbrMedium),
+    gated('OPENPBR_TRANSMISSION', openpbrPhase),
     gated('OPENPBR_COAT', openpbrCoat),
     gated('OPENPBR_COSINE', openpbrCosine),
     gated('OPENPBR_DIFFUSE_ROUGHNESS', openpbrEon),

@@ -35,6 +35,10 @@ export const openpbrCoat = wgslModule(
   bare: vec3f,
   through: vec3f,
   absorption: vec3f,
+  //#if OPENPBR_TRANSMISSION
+  // Factor on light that the base lets through upwards, so far as the viewer's side goes.
+  entry: vec3f,
+  //#endif
 }
 
 // Its own interface, as if it were the base.
@@ -85,7 +89,12 @@ fn openpbr_coat_absorption(p: OpenPbrParameters) -> vec3f {
 fn openpbr_coat_darkening(p: OpenPbrParameters, base: OpenPbrParameters, epsilon: f32, eta: f32, mu: f32) -> vec3f {
   let inner = openpbr_dielectric_epsilon(base);
   let f0 = inner * inner;
+  //#if OPENPBR_TRANSMISSION
+  // What goes through the base does not come back to be darkened.
+  let dielectric = mix(mix(p.base_weight * p.base_color, vec3f(1.0), p.transmission_weight), p.specular_color, f0);
+  //#else
   let dielectric = mix(p.base_weight * p.base_color, p.specular_color, f0);
+  //#endif
   let albedo = mix(dielectric, min(p.base_weight * p.base_color * p.specular_weight, vec3f(1.0)), p.base_metalness);
   let roughness = mix(mix(1.0, base.specular_roughness, f0), base.specular_roughness, p.base_metalness);
   let facet = mu + 0.8 * p.coat_roughness * p.coat_roughness * (1.0 - mu);
@@ -99,13 +108,18 @@ fn openpbr_coat_prepare(p: OpenPbrParameters, base: OpenPbrParameters, wo: vec3f
   coat.alpha = openpbr_alpha(p.coat_roughness, p.coat_roughness_anisotropy);
   let surface = openpbr_dielectric_prepare(openpbr_coat_interface(p), coat.alpha, wo, mu);
   coat.eta = surface.eta;
-  coat.scale = p.coat_weight * surface.scale.x;
+  // Few bounces: they are left in the highlight.
+  coat.scale = p.coat_weight * surface.share / max(surface.share - surface.bounced, 0.1 * surface.share + 1e-7);
   coat.albedo = p.coat_weight * surface.share;
   coat.bend = 1.0 / (coat.eta * coat.eta);
   coat.absorption = openpbr_coat_absorption(p);
   let darkening = openpbr_coat_darkening(p, base, surface.epsilon, surface.eta, mu);
   coat.bare = darkening * (1.0 - p.coat_weight);
-  coat.through = darkening * (p.coat_weight * (1.0 - surface.share)) * exp2(coat.absorption * openpbr_coat_path(coat.bend, mu));
+  let passage = (p.coat_weight * (1.0 - surface.share)) * exp2(coat.absorption * openpbr_coat_path(coat.bend, mu));
+  coat.through = darkening * passage;
+  //#if OPENPBR_TRANSMISSION
+  coat.entry = passage + (1.0 - p.coat_weight);
+  //#endif
   return coat;
 }
 

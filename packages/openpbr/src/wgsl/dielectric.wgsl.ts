@@ -8,6 +8,9 @@ import { openPbrStruct } from './record';
  * The dielectric interface of the base: specular_weight changes its index of refraction, and with it everything else.
  * `openpbr_dielectric_epsilon` is (η - 1)/(η + 1) of the changed index: its square is the reflectance at normal
  * incidence, so specular_weight simply scales that square. The reflection's tint leaves the energy balance alone.
+ *
+ * What single scattering loses has bounced among the facets and forgotten where it came from: it leaves in all directions,
+ * a part of it upwards (openpbr_energy_bounce), the rest downwards. The lobes of single scattering are the textbook's.
  */
 export const openpbrDielectric = wgslModule(
   'openpbr/dielectric',
@@ -17,8 +20,9 @@ export const openpbrDielectric = wgslModule(
   roughness: f32,
   // Share of the energy that is reflected towards the viewer.
   share: f32,
-  // Factor on the reflection: tint and multiple-scattering compensation.
-  scale: vec3f,
+  // The part of the share that comes from multiple scattering, and the part of the rest that does.
+  bounced: f32,
+  bounced_through: f32,
 }
 
 fn openpbr_dielectric_epsilon(p: OpenPbrParameters) -> f32 {
@@ -32,12 +36,11 @@ fn openpbr_dielectric_prepare(p: OpenPbrParameters, alpha: vec2f, wo: vec3f, mu:
   d.eta = (1.0 + d.epsilon) / (1.0 - d.epsilon);
   d.roughness = p.specular_roughness;
   d.share = openpbr_energy_share(d.epsilon, openpbr_view_roughness(alpha, d.roughness, wo), mu);
-  d.scale = p.specular_color;
   //#if OPENPBR_MULTISCATTER
-  // What single scattering loses bounces on, and of that the mean is reflected; from inside as much as before.
   let roughness = openpbr_mirror_roughness(d.roughness, p.specular_roughness_anisotropy);
-  let more = max(1.0 - openpbr_energy_total(d.epsilon, roughness, openpbr_mirror_cosine(alpha, wo, mu)), 0.0) * select(d.share, openpbr_fresnel_mean(d.epsilon), d.epsilon >= 0.0);
-  d.scale *= d.share / max(d.share - more, 0.1 * d.share + 1e-7);
+  let lost = max(1.0 - openpbr_energy_total(d.epsilon, roughness, openpbr_mirror_cosine(alpha, wo, mu)), 0.0);
+  d.bounced = lost * openpbr_energy_bounce(d.epsilon, roughness);
+  d.bounced_through = lost - d.bounced;
   //#endif
   return d;
 }`,

@@ -31,7 +31,7 @@ fn openpbr_energy_angle(r: f32, mu: f32) -> f32 {
   return x * (1.0 + r) / (x + r);
 }
 
-//#if OPENPBR_METAL
+//#if OPENPBR_LOSSES
 // Energy that a perfect mirror of roughness r loses by single scattering.
 fn openpbr_energy_lost(roughness: f32, mu: f32) -> f32 {
   let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
@@ -54,6 +54,27 @@ fn openpbr_fresnel_mean(epsilon: f32) -> f32 {
   return select(1.0 - eta * eta * (1.0 - mean), mean, epsilon >= 0.0);
 }
 
+// Energy that the interface reflects and refracts by single scattering.
+fn openpbr_energy_total(epsilon: f32, roughness: f32, mu: f32) -> f32 {
+  let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
+  let z = sqrt(abs(epsilon));
+  return openpbr_table_dielectric(vec3f(${angle[0]} + ${angle[1]} * openpbr_energy_angle(r, mu), ${rough[0]} + ${rough[1]} * ${unit}, select(${innerTotal[0]} + ${innerTotal[1]} * z, ${outerTotal[0]} + ${outerTotal[1]} * z, epsilon >= 0.0)));
+}
+
+// The part of what single scattering loses that is reflected after more bounces. Seen from the thinner medium, the mean
+// reflectance; from inside, where total reflection dominates, such that as much goes through to either side.
+fn openpbr_energy_bounce(epsilon: f32, roughness: f32) -> f32 {
+  let reflected = openpbr_fresnel_mean(abs(epsilon));
+  if (epsilon >= 0.0) { return reflected; }
+  let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
+  let z = sqrt(-epsilon);
+  let x = ${float((TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1))};
+  let y = ${rough[0]} + ${rough[1]} * ${unit};
+  let outside = 1.0 - openpbr_table_dielectric(vec3f(x, y, ${outerTotal[0]} + ${outerTotal[1]} * z));
+  let inside = 1.0 - openpbr_table_dielectric(vec3f(x, y, ${innerTotal[0]} + ${innerTotal[1]} * z));
+  return clamp(1.0 - (1.0 - reflected) * outside / max(inside, 1e-4), 0.0, 1.0);
+}
+
 // Share of the energy that the interface reflects by all scattering, the rest being refracted.
 fn openpbr_energy_share(epsilon: f32, roughness: f32, mu: f32) -> f32 {
   if (epsilon == 0.0) { return 0.0; }
@@ -66,11 +87,13 @@ fn openpbr_energy_share(epsilon: f32, roughness: f32, mu: f32) -> f32 {
     scale = openpbr_fresnel_dielectric(eta, mu + 0.8 * r * r * (1.0 - mu));
   } else {
     let critical = sqrt(1.0 - eta * eta);
-    at.x = select(0.5 - 0.5 * sqrt(max(critical - mu, 0.0) / critical), 0.5 + 0.5 * sqrt(max(mu - critical, 0.0) / (1.0 - critical)), mu > critical);
+    at.x = select(0.5 * sqrt(mu) / (sqrt(mu) + sqrt(max(critical - mu, 0.0))), 0.5 + 0.5 * sqrt(max(mu - critical, 0.0) / (1.0 - critical)), mu > critical);
     at.z = ${inner[0]} + ${inner[1]} * z;
   }
   at.x = ${angle[0]} + ${angle[1]} * at.x;
-  return min(openpbr_table_dielectric(at) * scale, 1.0);
+  let share = min(openpbr_table_dielectric(at) * scale, 1.0);
+  if (epsilon > 0.0) { return share; }
+  return mix(openpbr_energy_bounce(epsilon, roughness), share, openpbr_energy_total(epsilon, roughness, mu));
 }
 
 // The cosine-weighted mean of openpbr_energy_share over all directions.
@@ -78,14 +101,10 @@ fn openpbr_energy_share_mean(epsilon: f32, roughness: f32) -> f32 {
   if (epsilon == 0.0) { return 0.0; }
   let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
   let z = sqrt(abs(epsilon));
-  return 1.0 - min((1.0 - openpbr_fresnel_mean(epsilon)) * openpbr_table_dielectric(vec3f(${float((TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1))}, ${rough[0]} + ${rough[1]} * ${unit}, select(${inner[0]} + ${inner[1]} * z, ${outer[0]} + ${outer[1]} * z, epsilon > 0.0))), 1.0);
-}
-
-// Energy that the interface reflects and refracts by single scattering.
-fn openpbr_energy_total(epsilon: f32, roughness: f32, mu: f32) -> f32 {
-  let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
-  let z = sqrt(abs(epsilon));
-  return openpbr_table_dielectric(vec3f(${angle[0]} + ${angle[1]} * openpbr_energy_angle(r, mu), ${rough[0]} + ${rough[1]} * ${unit}, select(${innerTotal[0]} + ${innerTotal[1]} * z, ${outerTotal[0]} + ${outerTotal[1]} * z, epsilon >= 0.0)));
+  // From inside, the rougher the surface the more of it comes from bounces, which know less of the index.
+  var through = 1.0 - openpbr_fresnel_mean(epsilon);
+  if (epsilon < 0.0) { through += 0.3 * r * r * r * r * (1.0 - through); }
+  return 1.0 - min(through * openpbr_table_dielectric(vec3f(${float((TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1))}, ${rough[0]} + ${rough[1]} * ${unit}, select(${inner[0]} + ${inner[1]} * z, ${outer[0]} + ${outer[1]} * z, epsilon > 0.0))), 1.0);
 }
 //#endif`,
   [openpbrFresnelDielectric],

@@ -10,9 +10,15 @@ export interface OpenPbrFlags {
   readonly OPENPBR_DIELECTRIC: boolean;
   /** A dielectric interface of the base or of the coat: OPENPBR_DIELECTRIC or OPENPBR_COAT. */
   readonly OPENPBR_INTERFACE: boolean;
+  /** Light through the surface: refraction, thin walls; comes with OPENPBR_DIELECTRIC. */
+  readonly OPENPBR_TRANSMISSION: boolean;
+  /** Thin walls among what lets light through. */
+  readonly OPENPBR_THIN_WALLED: boolean;
+  /** The table of the losses of mirrors is read: OPENPBR_METAL or OPENPBR_THIN_WALLED. */
+  readonly OPENPBR_LOSSES: boolean;
   readonly OPENPBR_COAT: boolean;
   readonly OPENPBR_DIFFUSE: boolean;
-  /** Directions are sampled by the cosine too: OPENPBR_DIFFUSE, or OPENPBR_METAL with OPENPBR_MULTISCATTER. */
+  /** Directions are sampled by the cosine too: OPENPBR_DIFFUSE, or OPENPBR_METAL or OPENPBR_DIELECTRIC with OPENPBR_MULTISCATTER. */
   readonly OPENPBR_COSINE: boolean;
   /** EON instead of Lambert. */
   readonly OPENPBR_DIFFUSE_ROUGHNESS: boolean;
@@ -44,9 +50,13 @@ export function requiredFeatures(materials: readonly Partial<OpenPbrParameters>[
   // A texture can only lower a parameter: metalness 1 with a texture has dielectric places.
   const insulators = all.filter((p) => p.base_metalness < 1 || isTextured('base_metalness'));
   // A base of index 1 reflects below a coat of another index.
-  const dielectric = insulators.some((p) => p.specular_weight > 0 && (p.specular_ior !== 1 || isTextured('specular_ior') || p.coat_weight > 0));
+  const clear = insulators.filter((p) => p.transmission_weight > 0);
+  const transmission = clear.length > 0;
+  const thin = clear.some((p) => p.geometry_thin_walled);
+  const dielectric = transmission || insulators.some((p) => p.specular_weight > 0 && (p.specular_ior !== 1 || isTextured('specular_ior') || p.coat_weight > 0));
   const coat = all.some((p) => p.coat_weight > 0);
-  const diffuse = insulators.some((p) => p.base_weight > 0 && p.base_color.some((c) => c > 0));
+  const solid = insulators.filter((p) => p.transmission_weight < 1 || isTextured('transmission_weight'));
+  const diffuse = solid.some((p) => p.base_weight > 0 && p.base_color.some((c) => c > 0));
   const specular = metal || dielectric || coat;
   const lambert = diffuse || !specular;
   return {
@@ -54,10 +64,13 @@ export function requiredFeatures(materials: readonly Partial<OpenPbrParameters>[
     OPENPBR_METAL: metal,
     OPENPBR_DIELECTRIC: dielectric,
     OPENPBR_INTERFACE: dielectric || coat,
+    OPENPBR_TRANSMISSION: transmission,
+    OPENPBR_THIN_WALLED: thin,
+    OPENPBR_LOSSES: metal || thin,
     OPENPBR_COAT: coat,
     OPENPBR_DIFFUSE: lambert,
-    OPENPBR_COSINE: lambert || (metal && multipleScattering),
-    OPENPBR_DIFFUSE_ROUGHNESS: insulators.some((p) => p.base_diffuse_roughness > 0),
+    OPENPBR_COSINE: lambert || ((metal || dielectric) && multipleScattering),
+    OPENPBR_DIFFUSE_ROUGHNESS: solid.some((p) => p.base_diffuse_roughness > 0),
     OPENPBR_ANISOTROPY: specular && all.some((p) => p.specular_roughness_anisotropy > 0 || (p.coat_weight > 0 && p.coat_roughness_anisotropy > 0)),
     OPENPBR_MULTISCATTER: multipleScattering,
     OPENPBR_EMISSION: all.some((p) => p.emission_luminance > 0),

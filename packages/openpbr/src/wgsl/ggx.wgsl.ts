@@ -30,10 +30,15 @@ fn openpbr_ggx_stretch(alpha: vec2f, w: vec3f) -> f32 {
   return length(vec3f(alpha * w.xy, w.z));
 }
 
-fn openpbr_ggx(alpha: vec2f, wo: vec3f, wi: vec3f, h: vec3f) -> vec2f {
+// Half the distribution of facet normals.
+fn openpbr_ggx_density(alpha: vec2f, h: vec3f) -> f32 {
   let slope = h.xy / alpha;
   let t = dot(slope, slope) + h.z * h.z;
-  let d = 0.15915494 / (alpha.x * alpha.y * t * t);
+  return 0.15915494 / (alpha.x * alpha.y * t * t);
+}
+
+fn openpbr_ggx(alpha: vec2f, wo: vec3f, wi: vec3f, h: vec3f) -> vec2f {
+  let d = openpbr_ggx_density(alpha, h);
   let so = openpbr_ggx_stretch(alpha, wo);
   let si = openpbr_ggx_stretch(alpha, wi);
   return d * vec2f(wi.z / (wo.z * si + wi.z * so), 1.0 / (wo.z + so));

@@ -1,0 +1,120 @@
+import { gated, wgslModule } from '@glanz/wgsl';
+import { openpbrDielectric } from './dielectric.wgsl';
+import { openpbrEnergy } from './energy.wgsl';
+import { openpbrGgx } from './ggx.wgsl';
+import { openPbrStruct } from './record';
+
+/**
+ * Light through the dielectric base. Directions on the far side have z < 0.
+ *
+ * - A solid: refraction by GGX facets (Walter et al. 2007), the same facets and the same Fresnel factor as the reflection;
+ *   masking is separable. f has no factor of η²: reflection and
+ *   transmission of a clear interface add up to 1 from either side, and f(o, i) = η² f(i, o).
+ * - A thin wall: two parallel faces, with all reflections between them: smooth, it reflects 2R / (1 + R) and lets the rest
+ *   through undeflected. Rough, that share is taken at the viewer's angle for the lobe as a whole, which is the GGX
+ *   reflection, and for the light let through its mirror image, narrowed, since two refractions mostly undo each other.
+ *
+ * `transmission_color` tints once a crossing where `transmission_depth` is 0, and along the path through a thin wall.
+ */
+export const openpbrTransmission = wgslModule(
+  'openpbr/transmission',
+  /* wgsl */ `struct OpenPbrTransmission {
+  // Index of the far side over that of the viewer's, not so near 1 that half vectors are lost.
+  eta: f32,
+  // Factor on what facets let through: share of the surface, tint; and the albedo of that.
+  color: vec3f,
+  albedo: vec3f,
+  // Albedo of what leaves downwards after bounces among the facets.
+  bounced: vec3f,
+  // Probability of going down when the cosine is sampled.
+  below: f32,
+  //#if OPENPBR_COAT
+  // The index as it is.
+  fresnel_eta: f32,
+  // Coverage of the coat that the light leaves through; 0 from outside.
+  exit: f32,
+  //#endif
+  //#if OPENPBR_THIN_WALLED
+  thin: bool,
+  thin_alpha: vec2f,
+  // Factor on the reflection, for thin walls; the albedo of that, and of further bounces.
+  mirror: vec3f,
+  mirror_albedo: vec3f,
+  mirror_bounced: vec3f,
+  // Probability of reflection when a facet is sampled.
+  chance: f32,
+  //#endif
+}
+
+// "outer" is the surface without what a coat does to its index; "d" the interface in its place, "weight" its share of the surface.
+fn openpbr_transmission_prepare(outer: OpenPbrParameters, d: OpenPbrDielectric, alpha: vec2f, wo: vec3f, mu: f32, weight: f32) -> OpenPbrTransmission {
+  var t: OpenPbrTransmission;
+  let epsilon = openpbr_dielectric_epsilon(outer);
+  let bend = select(epsilon, 5e-4, abs(epsilon) < 5e-4);
+  t.eta = (1.0 + bend) / (1.0 - bend);
+  //#if OPENPBR_COAT
+  t.fresnel_eta = (1.0 + epsilon) / (1.0 - epsilon);
+  //#endif
+  let amount = weight * outer.transmission_weight;
+  var tint = vec3f(1.0);
+  if (outer.transmission_depth <= 0.0 || outer.geometry_thin_walled != 0u) { tint = outer.transmission_color; }
+  //#if OPENPBR_THIN_WALLED
+  t.thin = outer.geometry_thin_walled != 0u;
+  if (t.thin) {
+    let reflected = 2.0 * d.share / (1.0 + d.share);
+    let narrowing = clamp(0.65 * max(t.eta, 1.0 / t.eta) - 0.35, 0.0, 1.0);
+    t.thin_alpha = max(alpha * (narrowing * narrowing), vec2f(1e-4));
+    tint = exp2(log2(max(tint, vec3f(1e-7))) * inverseSqrt(max(1.0 - (1.0 - mu * mu) / (t.eta * t.eta), 1e-4)));
+    t.mirror = (amount * reflected) * outer.specular_color;
+    t.mirror_albedo = t.mirror;
+    t.color = (amount * (1.0 - reflected)) * tint;
+    t.albedo = t.color;
+    //#if OPENPBR_MULTISCATTER
+    let cosine = openpbr_mirror_cosine(alpha, wo, mu);
+    t.mirror_bounced = t.mirror * openpbr_energy_lost(openpbr_mirror_roughness(d.roughness, outer.specular_roughness_anisotropy), cosine);
+    t.bounced = t.color * openpbr_energy_lost(openpbr_mirror_roughness(d.roughness * narrowing, outer.specular_roughness_anisotropy), cosine);
+    t.mirror_albedo -= t.mirror_bounced;
+    t.albedo -= t.bounced;
+    //#endif
+    return t;
+  }
+  //#endif
+  //#if OPENPBR_COAT
+  // The coat leaves the base a smaller step of the index, which reflects less, but bends the light no less in the end.
+  let bare = openpbr_dielectric_prepare(outer, alpha, wo, mu);
+  t.color = (amount * min((1.0 - d.share + 1e-6) / (1.0 - bare.share + 1e-6), 8.0)) * tint;
+  //#else
+  let bare = d;
+  t.color = amount * tint;
+  //#endif
+  t.bounced = t.color * bare.bounced_through;
+  t.albedo = t.color * max(1.0 - bare.share - bare.bounced_through, 0.0);
+  return t;
+}
+
+// The refracted direction; zero where everything is reflected.
+fn openpbr_refract(eta: f32, wo: vec3f, h: vec3f) -> vec3f {
+  let c = dot(wo, h);
+  let k = 1.0 - (1.0 - c * c) / (eta * eta);
+  if (min(c, k) <= 0.0) { return vec3f(0.0); }
+  return normalize((c / eta - sqrt(k)) * h - wo / eta);
+}
+
+// The facet that refracts wi to wo.
+fn openpbr_refract_half(eta: f32, wo: vec3f, wi: vec3f) -> vec3f {
+  let h = normalize(wo + eta * wi);
+  return select(h, -h, h.z < 0.0);
+}
+
+// (f · |cos θ_i| without the Fresnel factor, density of wi when h is sampled by openpbr_ggx_sample).
+fn openpbr_refract_ggx(eta: f32, alpha: vec2f, wo: vec3f, wi: vec3f, h: vec3f) -> vec2f {
+  let c = dot(wo, h);
+  let down = -dot(wi, h);
+  if (min(c, down) <= 0.0) { return vec2f(0.0); }
+  let across = c / eta - down;
+  let visible = 4.0 * c / (wo.z + openpbr_ggx_stretch(alpha, wo)) * openpbr_ggx_density(alpha, h);
+  let pdf = visible * down / max(across * across, 1e-20);
+  return pdf * vec2f(-2.0 * wi.z / (openpbr_ggx_stretch(alpha, wi) - wi.z), 1.0);
+}`,
+  [openPbrStruct.module, openpbrGgx, openpbrDielectric, gated('OPENPBR_MULTISCATTER', openpbrEnergy)],
+);

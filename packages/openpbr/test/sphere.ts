@@ -1,0 +1,94 @@
+import { gaussLegendre } from '../scripts/microfacet.mjs';
+import { evalPdfBsdf, ggxDistribution, ggxMasking, ggxSample, prepareBsdf, refract, refractGgx, refractHalf, type Bsdf, type BsdfOptions, type Slopes } from '../src/cpu/index';
+import type { OpenPbrParameters, OpenPbrVector } from '../src/parameters/index';
+
+/** Reflected and transmitted parts of uniform light, and the integral of the density over the sphere. */
+export interface SphereFurnace {
+  readonly reflected: [number, number, number];
+  readonly transmitted: [number, number, number];
+  readonly pdf: number;
+}
+
+const cache = new Map<number, { nodes: Float64Array; weights: Float64Array }>();
+function rule(count: number): { nodes: Float64Array; weights: Float64Array } {
+  const found = cache.get(count) ?? gaussLegendre(count);
+  cache.set(count, found);
+  return found;
+}
+
+/** A way to choose directions, whose density is known. */
+interface Technique {
+  readonly at: (u: number, v: number) => OpenPbrVector | undefined;
+  readonly density: (wi: OpenPbrVector) => number;
+}
+
+/** Steep facets refract upwards, where the density knows nothing of it. */
+const lower = (wi: OpenPbrVector | undefined): OpenPbrVector | undefined => (wi && wi[2] < 0 ? wi : undefined);
+const flip = ([x, y, z]: OpenPbrVector): OpenPbrVector => [x, y, -z];
+
+function reflection(alpha: Slopes, wo: OpenPbrVector, side: 1 | -1): Technique {
+  const turn = side > 0 ? (w: OpenPbrVector) => w : flip;
+  return {
+    at: (u, v) => {
+      const h = ggxSample(alpha, wo, [u, v]);
+      const c = 2 * (wo[0] * h[0] + wo[1] * h[1] + wo[2] * h[2]);
+      return turn([c * h[0] - wo[0], c * h[1] - wo[1], c * h[2] - wo[2]]);
+    },
+    density: (wi) => {
+      const up = turn(wi);
+      const h: [number, number, number] = [wo[0] + up[0], wo[1] + up[1], wo[2] + up[2]];
+      const length = Math.hypot(...h);
+      return h[2] <= 0 ? 0 : (ggxDistribution(alpha, [h[0] / length, h[1] / length, h[2] / length]) * ggxMasking(alpha, wo)) / (4 * wo[2]);
+    },
+  };
+}
+
+/**
+ * Integrals over the whole sphere by deterministic quadrature of the balance heuristic: every lobe's own facets, and the
+ * sphere evenly.
+ */
+export function sphereFurnace(p: OpenPbrParameters, wo: OpenPbrVector, options?: BsdfOptions, size = 40): SphereFurnace {
+  const b = prepareBsdf(p, wo, options);
+  const { thin, thinAlpha, eta } = b.transmission;
+  const techniques: Technique[] = [reflection(b.alpha, wo, 1)];
+  if (p.coat_weight > 0) techniques.push(reflection(b.coat.alpha, wo, 1));
+  if (thin) techniques.push(reflection(thinAlpha, wo, -1));
+  else techniques.push({ at: (u, v) => lower(refract(eta, wo, ggxSample(b.alpha, wo, [u, v]))), density: (wi) => (wi[2] < 0 ? refractGgx(eta, b.alpha, wo, wi, refractHalf(eta, wo, wi))[1] : 0) });
+  techniques.push({
+    at: (u, v) => {
+      // √ spreads nodes towards grazing.
+      const mu = Math.abs(2 * v - 1) ** 2;
+      const s = Math.sqrt(1 - mu * mu);
+      return [s * Math.cos(2 * Math.PI * u), s * Math.sin(2 * Math.PI * u), v < 0.5 ? -mu : mu];
+    },
+    density: (wi) => 1 / (8 * Math.PI * Math.sqrt(Math.abs(wi[2]))),
+  });
+  return integrate(b, wo, techniques, size);
+}
+
+function integrate(b: Bsdf, wo: OpenPbrVector, techniques: readonly Technique[], size: number): SphereFurnace {
+  const total = [0, 0, 0, 0, 0, 0, 0];
+  const { nodes, weights } = rule(size);
+  const around = 2 * size;
+  for (const technique of techniques) {
+    // The even technique has a kink in the middle: a rule for each half.
+    const halves = technique === techniques.at(-1) ? [0, 0.5] : [0];
+    for (const start of halves) {
+      for (let k = 0; k < size; k++) {
+        for (let i = 0; i < around; i++) {
+          const wi = technique.at((i + 0.5) / around, start + (nodes[k] as number) / halves.length);
+          if (!wi || wi[2] === 0) continue;
+          const density = techniques.reduce((sum, one) => sum + one.density(wi), 0);
+          if (!(density > 0)) continue;
+          const weight = (weights[k] as number) / halves.length / around / density;
+          const { f, pdf } = evalPdfBsdf(b, wo, wi);
+          const at = wi[2] > 0 ? 0 : 3;
+          f.forEach((value, channel) => (total[at + channel] = (total[at + channel] as number) + value * weight));
+          total[6] = (total[6] as number) + pdf * weight;
+        }
+      }
+    }
+  }
+  const [r0 = 0, r1 = 0, r2 = 0, t0 = 0, t1 = 0, t2 = 0, pdf = 0] = total;
+  return { reflected: [r0, r1, r2], transmitted: [t0, t1, t2], pdf };
+}
