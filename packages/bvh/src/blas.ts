@@ -91,9 +91,10 @@ export function* blasSteps(mesh: TriangleMesh, options: BlasOptions = {}): Gener
 /**
  * The triangles of a BLAS in leaf order, as the WGSL traversal wants them.
  *
+ * @param blas In either layout.
  * @returns 12 words a triangle: v0 xyz and the index of the triangle in the mesh (as u32 bits), v1 xyz and 0, v2 xyz and 0.
  */
-export function packTriangles(blas: Blas, mesh: TriangleMesh): Float32Array<ArrayBuffer> {
+export function packTriangles(blas: Pick<Blas, 'triangleIndices'>, mesh: TriangleMesh): Float32Array<ArrayBuffer> {
   const { triangleIndices } = blas;
   const packed = new Float32Array(triangleIndices.length * TRIANGLE_WORDS);
   const words = new Uint32Array(packed.buffer);

@@ -1,9 +1,9 @@
 import { wgslModule } from '@glanz/wgsl/module';
 import { bvhInstanceStruct, bvhNodeStruct } from './structs';
 
-/** The structs of the traversal: `BvhNode`, `BvhInstance`, `BvhTriangle`, `BvhHit` and the constant `BVH_MISS`. */
-export const bvhTypes = wgslModule(
-  'bvh/types',
+/** What is the same in all layouts: `BvhInstance`, `BvhTriangle`, `BvhHit` and the constant `BVH_MISS`. */
+export const bvhRecords = wgslModule(
+  'bvh/records',
   /* wgsl */ `
 struct BvhTriangle {
   v0: vec3f,
@@ -27,5 +27,8 @@ struct BvhHit {
 
 const BVH_MISS = 0xffffffffu;
 `,
-  [bvhNodeStruct.module, bvhInstanceStruct.module],
+  [bvhInstanceStruct.module],
 );
+
+/** The structs of the traversal: `BvhNode`, `BvhInstance`, `BvhTriangle`, `BvhHit` and the constant `BVH_MISS`. */
+export const bvhTypes = wgslModule('bvh/types', '', [bvhNodeStruct.module, bvhRecords]);

@@ -1,0 +1,5 @@
+export { bvhOffset } from '../wgsl/offset.wgsl';
+export { bvhInstanceStruct } from '../wgsl/structs';
+export { WIDE_STACK_SIZE as BVH_STACK_SIZE } from '../wide/layout';
+export { bvhNodeStruct } from './structs';
+export { bvhAnyHit, bvhClosestHit, bvhTypes } from './traversal.wgsl';
