@@ -32,7 +32,7 @@ describe('blasKey', () => {
     const moved = mesh.positions.slice();
     moved[17]! += 1e-7;
     const turned = mesh.indices.slice().reverse();
-    const all = [base, await key({ positions: moved, indices: mesh.indices }), await key({ positions: mesh.positions, indices: turned }), await key({ positions: mesh.positions }), await key({ positions: mesh.positions, indices: Uint16Array.from(mesh.indices) }), await key(mesh, { bins: 8 }), await key(mesh, { maxLeafTriangles: 2 })];
+    const all = [base, await key({ positions: moved, indices: mesh.indices }), await key({ positions: mesh.positions, indices: turned }), await key({ positions: mesh.positions }), await key({ positions: mesh.positions, indices: Uint16Array.from(mesh.indices) }), await key(mesh, { bins: 8 }), await key(mesh, { maxLeafTriangles: 2 }), await key(mesh, { builder: 'fast' }), await key(mesh, { builder: { name: 'best', build: () => undefined } })];
     expect(new Set(all).size).toBe(all.length);
   });
 });
