@@ -55,3 +55,13 @@ export async function renderThroughLosses(scene: Scene, size: { width: number; h
   }
 }
 // #endregion lost
+
+// #region edit-kinds
+export async function rearrange(tracer: PathTracer) {
+  await tracer.setInstanceTransform('lid', [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0.2, 0, 1]); // all instances of that name
+  await tracer.setVisibility('packaging', false);
+  await tracer.setLight('key', { intensity: 40 });
+  await tracer.adjustEnvironment({ rotation: Math.PI / 2 });
+  await tracer.setVariant('matt black');
+}
+// #endregion edit-kinds

@@ -8,6 +8,6 @@ export class DeviceError extends GlanzError {}
 
 /**
  * The renderer was asked for something it cannot do. Codes: `renderer/size`, `renderer/samples`, `renderer/camera`, `renderer/filter`, `renderer/light-groups`, `renderer/option`,
- * `renderer/material`, `renderer/instance`, `renderer/destroyed`, `renderer/busy`, `renderer/no-triangles`.
+ * `renderer/material`, `renderer/instance`, `renderer/mesh`, `renderer/light`, `renderer/environment`, `renderer/transform`, `renderer/variant`, `renderer/destroyed`, `renderer/busy`, `renderer/no-triangles`.
  */
 export class RenderError extends GlanzError {}

@@ -31,9 +31,10 @@ export class Integrator {
   readonly #scene: GpuScene;
   readonly #buffers: Record<OwnBuffer, GPUBuffer>;
   readonly #groups = new Map<KernelName, GPUBindGroup>();
-  readonly #maxDepth: number;
   /** Paths that fit. */
   readonly capacity: number;
+  /** Most edges of a path. */
+  maxDepth: number;
   #kernels: KernelSet;
   #film: Film;
 
@@ -43,7 +44,7 @@ export class Integrator {
     this.#scene = scene;
     this.#kernels = kernels;
     this.#film = film;
-    this.#maxDepth = maxDepth;
+    this.maxDepth = maxDepth;
     this.capacity = capacity;
     this.#buffers = {
       frame: memory.buffer('frame', frameStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
@@ -100,10 +101,10 @@ export class Integrator {
       const run = (name: KernelName, work: number | { readonly indirect: number }) => this.#run(pass, name, kernels[name] as Kernel, work);
       run('begin', 1);
       run('generate', Math.ceil(paths / 64));
-      for (let edge = 1; edge <= this.#maxDepth; edge++) {
+      for (let edge = 1; edge <= this.maxDepth; edge++) {
         run('intersect', { indirect: 0 });
         run('shade', { indirect: 0 });
-        if (edge === this.#maxDepth) break;
+        if (edge === this.maxDepth) break;
         run('advance', 1);
         if (features.flags.NEXT_EVENT) run('connect', { indirect: 16 });
       }

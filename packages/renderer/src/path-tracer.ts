@@ -1,4 +1,4 @@
-import { validateScene, type Camera, type Environment, type Material, type Scene } from '@glanz/scene';
+import { validateScene, type Camera, type Environment, type Light, type Material, type Mesh, type Scene } from '@glanz/scene';
 import { TileGrid } from './adaptive';
 import { DeviceError, RenderError } from './errors';
 import { FEATURE_SAMPLES, forBands, renderFeatures } from './film/feature-pass';
@@ -9,15 +9,15 @@ import { GpuMemory } from './gpu/buffers';
 import { withErrorScopes } from './gpu/error-scopes';
 import { GpuScene } from './gpu/gpu-scene';
 import { KernelCache } from './gpu/kernel-cache';
-import type { KernelFeatures, KernelName } from './kernels/pipelines';
+import { serves, type KernelFeatures, type KernelName } from './kernels/pipelines';
 import { readBuffer } from './gpu/read-buffer';
 import { Integrator, pathCapacity } from './integrator';
 import type { FilmLayer, LightGroup, PathTracerOptions, PickResult, RenderOptions, RenderProgress, RenderStatistics } from './options';
 import { pickPixel } from './pick';
 import { cameraUniforms } from './scene/camera';
 import { chooseCamera } from './scene/choose-camera';
-import { prepareGeometry, type Geometry } from './scene/geometry';
-import { findMaterial } from './scene/materials';
+import { packGeometry, prepareGeometry } from './scene/geometry';
+import { ownScene, SceneEditor } from './scene-editor';
 import { Sampling } from './sampling';
 import type { Batch } from './scheduler';
 import { checkShortcuts, shortcutFlags } from './shortcuts';
@@ -27,8 +27,7 @@ import { viewFlags } from './view';
 interface Prepared {
   readonly device: GPUDevice;
   readonly memory: GpuMemory;
-  readonly scene: Scene;
-  readonly geometry: Geometry;
+  readonly editor: SceneEditor;
   readonly gpuScene: GpuScene;
   readonly cache: KernelCache;
   readonly integrator: Integrator;
@@ -50,12 +49,11 @@ interface Prepared {
 export class PathTracer {
   readonly #device: GPUDevice;
   readonly #memory: GpuMemory;
-  readonly #scene: Scene;
-  readonly #geometry: Geometry;
+  readonly #editor: SceneEditor;
   readonly #gpuScene: GpuScene;
   readonly #cache: KernelCache;
   readonly #integrator: Integrator;
-  readonly #options: PathTracerOptions;
+  #options: PathTracerOptions;
   #film: Film;
   #camera: Camera;
   /** What the kernels in use can show; the camera above, but for the time that its kernels take. */
@@ -76,8 +74,7 @@ export class PathTracer {
   private constructor(prepared: Prepared) {
     this.#device = prepared.device;
     this.#memory = prepared.memory;
-    this.#scene = prepared.scene;
-    this.#geometry = prepared.geometry;
+    this.#editor = prepared.editor;
     this.#gpuScene = prepared.gpuScene;
     this.#cache = prepared.cache;
     this.#integrator = prepared.integrator;
@@ -102,18 +99,20 @@ export class PathTracer {
   static async create(device: GPUDevice, scene: Scene, options: PathTracerOptions): Promise<PathTracer> {
     checkSize(options.width, options.height);
     checkShortcuts(options);
+    checkDepth(options.maxDepth ?? 8);
     validateScene(scene);
-    const own: Scene = { ...scene, materials: scene.materials.map((material) => ({ ...material })) };
+    const own = ownScene(scene);
     const { hierarchies, signal, onProgress } = options;
     signal?.throwIfAborted();
     const t0 = performance.now();
     onProgress?.({ stage: 'bvh', done: 0 });
     const geometry = await prepareGeometry(own, { hierarchies, signal, onProgress: (done) => onProgress?.({ stage: 'bvh', done }) });
+    const packed = await packGeometry(own, geometry, signal);
     const t1 = performance.now();
     onProgress?.({ stage: 'upload', done: 0 });
     const memory = new GpuMemory(device);
     try {
-      const gpuScene = await withErrorScopes(device, () => new GpuScene(device, memory, own, geometry, { multipleScattering: options.multipleScattering ?? true, sampler: options.sampler ?? 'sobol', lightGroups: options.lightGroups ?? 'named' }));
+      const gpuScene = await withErrorScopes(device, () => new GpuScene(device, memory, own, geometry, packed, { multipleScattering: options.multipleScattering ?? true, sampler: options.sampler ?? 'sobol', lightGroups: options.lightGroups ?? 'named' }));
       const t2 = performance.now();
       onProgress?.({ stage: 'upload', done: 1 });
       const cache = new KernelCache(device);
@@ -134,7 +133,7 @@ export class PathTracer {
           gpuBytes: memory.bytes,
           badSamples: 0,
         };
-        return new PathTracer({ device, memory, scene: own, geometry, gpuScene, cache, integrator, film, camera, options, statistics });
+        return new PathTracer({ device, memory, editor: new SceneEditor(own, geometry, gpuScene, hierarchies), gpuScene, cache, integrator, film, camera, options, statistics });
       });
       tracer.reset();
       return tracer;
@@ -146,7 +145,7 @@ export class PathTracer {
 
   /** The tracer's own copy of the scene, with the edits made so far. Read only. */
   get scene(): Scene {
-    return this.#scene;
+    return this.#editor.scene;
   }
 
   get width(): number {
@@ -172,7 +171,8 @@ export class PathTracer {
   }
 
   get statistics(): RenderStatistics {
-    return { ...this.#statistics, gpuBytes: this.#memory.bytes };
+    const { geometry } = this.#editor;
+    return { ...this.#statistics, triangles: geometry.triangleCount, instances: geometry.order.length, lights: this.#gpuScene.lightCount, gpuBytes: this.#memory.bytes };
   }
 
   /**
@@ -306,7 +306,7 @@ export class PathTracer {
    */
   setCamera(camera: Camera | number | string): Promise<void> {
     this.#check();
-    const chosen = chooseCamera(this.#scene, camera, this.#film.width / this.#film.height);
+    const chosen = chooseCamera(this.scene, camera, this.#film.width / this.#film.height);
     cameraUniforms(chosen, this.#film.width, this.#film.height);
     this.#camera = chosen;
     return this.#applyFeatures();
@@ -319,24 +319,96 @@ export class PathTracer {
    * @returns When the picture shows the change in full.
    * @throws {RenderError} `renderer/material` if there is no such material.
    */
-  async setMaterial(nameOrIndex: string | number, parameters: Material['parameters']): Promise<void> {
-    this.#check();
-    const index = findMaterial(this.#scene, nameOrIndex);
-    const material = this.#scene.materials[index];
-    if (!material) throw new RenderError('renderer/material', `The scene has no material ${JSON.stringify(nameOrIndex)}; it has: ${this.#scene.materials.map((m) => m.name).join(', ')}.`);
-    material.parameters = { ...material.parameters, ...parameters };
-    if (this.#gpuScene.updateMaterial(index)) this.#integrator.rebind();
-    await this.#applyFeatures();
+  setMaterial(nameOrIndex: string | number, parameters: Material['parameters']): Promise<void> {
+    return this.#edit((editor) => editor.setMaterial(nameOrIndex, parameters));
   }
 
-  /** Replaces the surroundings and restarts the film. */
-  async setEnvironment(environment: Environment | undefined): Promise<void> {
+  /**
+   * Changes a light without size: its intensity, colour, place, … Restarts the film.
+   *
+   * @throws {RenderError} `renderer/light` if there is no such light, {SceneError} for values that a light cannot have.
+   */
+  setLight(nameOrIndex: string | number, change: Partial<Light>): Promise<void> {
+    return this.#edit((editor) => editor.setLight(nameOrIndex, change));
+  }
+
+  /** Replaces the surroundings and restarts the film. The same picture in another rotation or strength is not gone through again. */
+  setEnvironment(environment: Environment | undefined): Promise<void> {
+    return this.#edit((editor) => editor.setEnvironment(environment));
+  }
+
+  /**
+   * Turns the surroundings, dims them, or hides them from the camera, at the cost of a uniform. Restarts the film.
+   *
+   * @throws {RenderError} `renderer/environment` without surroundings, for numbers that are not finite, and for the intensity of a constant.
+   */
+  adjustEnvironment(change: { readonly rotation?: number; readonly intensity?: number; readonly visible?: boolean }): Promise<void> {
+    return this.#edit((editor) => editor.adjustEnvironment(change));
+  }
+
+  /**
+   * Moves the instances of a name, or the one of an index: object to world, 16 numbers, column-major. Costs the upper level
+   * of the hierarchy. Restarts the film.
+   *
+   * @throws {RenderError} `renderer/instance`, `renderer/transform`, `renderer/no-triangles` if nothing would be left to see.
+   */
+  setInstanceTransform(nameOrIndex: string | number, transform: ArrayLike<number>): Promise<void> {
+    return this.#edit((editor) => editor.setTransform(nameOrIndex, transform));
+  }
+
+  /**
+   * Shows or hides the instances of a name, or the one of an index. Costs the upper level of the hierarchy, and for meshes
+   * shown for the first time their own. Restarts the film.
+   *
+   * @throws {RenderError} `renderer/instance`, `renderer/no-triangles` if nothing would be left to see.
+   */
+  setVisibility(nameOrIndex: string | number, visible: boolean): Promise<void> {
+    return this.#edit((editor) => editor.setVisibility(nameOrIndex, visible));
+  }
+
+  /**
+   * Puts another material on the instances of a name, or on the one of an index. Restarts the film.
+   * @throws {RenderError} `renderer/instance`, `renderer/material`
+   */
+  setInstanceMaterial(nameOrIndex: string | number, material: string | number): Promise<void> {
+    return this.#edit((editor) => editor.setMaterialOf(nameOrIndex, material));
+  }
+
+  /**
+   * Puts the scene into one of its variants, or into its own look. Restarts the film.
+   * @throws {RenderError} `renderer/variant` if there is no such variant.
+   */
+  setVariant(variant: string | number | undefined): Promise<void> {
+    return this.#edit((editor) => editor.setVariant(variant));
+  }
+
+  /**
+   * Swaps a mesh for another under all its instances: costs the hierarchy of that mesh, and none if it was in the scene
+   * before. Restarts the film.
+   *
+   * @throws {RenderError} `renderer/mesh` if there is no such mesh, {SceneError} if the new one is broken.
+   */
+  replaceMesh(nameOrIndex: string | number, mesh: Mesh): Promise<void> {
+    return this.#edit((editor) => editor.replaceMesh(nameOrIndex, mesh));
+  }
+
+  /**
+   * Changes the most edges of a path, see `PathTracerOptions.maxDepth`. Restarts the film.
+   * @throws {RenderError} `renderer/option`
+   */
+  setDepth(maxDepth: number): void {
     this.#check();
-    if (environment) this.#scene.environment = environment;
-    else delete this.#scene.environment;
-    this.#gpuScene.updateEnvironment(environment);
-    this.#integrator.rebind();
-    await this.#applyFeatures();
+    checkDepth(maxDepth);
+    this.#options = { ...this.#options, maxDepth };
+    this.#integrator.maxDepth = maxDepth;
+    this.reset();
+  }
+
+  /** Shows the surroundings behind the scene, or leaves the background empty. Restarts the film. */
+  setBackground(background: NonNullable<PathTracerOptions['background']>): void {
+    this.#check();
+    this.#options = { ...this.#options, background };
+    this.reset();
   }
 
   /** Changes the film's size and restarts it. */
@@ -351,7 +423,7 @@ export class PathTracer {
   /** What lies under a pixel (whole or fractional coordinates from the upper left corner), found on the CPU. */
   pick(x: number, y: number): PickResult | undefined {
     this.#check();
-    return pickPixel(this.#scene, this.#geometry, this.#camera, this.#film.width, this.#film.height, x, y);
+    return pickPixel(this.scene, this.#editor.geometry, this.#camera, this.#film.width, this.#film.height, x, y);
   }
 
   /** Frees all GPU memory. Idempotent; a running `render()` ends. */
@@ -362,12 +434,23 @@ export class PathTracer {
     this.#memory.destroy();
   }
 
+  async #edit(change: (editor: SceneEditor) => boolean | Promise<boolean>): Promise<void> {
+    this.#check();
+    const result = change(this.#editor);
+    const replaced = typeof result === 'boolean' ? result : await result;
+    if (this.#destroyed) return;
+    if (replaced) this.#integrator.rebind();
+    await this.#applyFeatures();
+  }
+
   async #applyFeatures(): Promise<void> {
     const edit = ++this.#edits;
     this.reset();
-    const kernels = await this.#cache.get(kernelFeatures(this.#gpuScene, this.#camera, this.#options));
+    const wanted = kernelFeatures(this.#gpuScene, this.#camera, this.#options);
+    if (serves(this.#integrator.kernels.features, wanted)) return;
+    const kernels = await this.#cache.get(wanted);
     // A later edit has asked for other kernels meanwhile, and will restart the film itself.
-    if (this.#destroyed || kernels === this.#integrator.kernels || edit !== this.#edits) return;
+    if (this.#destroyed || edit !== this.#edits) return;
     this.#integrator.use(kernels);
     if (kernels.features.planes !== this.#film.planes) this.#replaceFilm(this.#film.width, this.#film.height);
     this.reset();
@@ -413,7 +496,7 @@ export class PathTracer {
 
   #writeFrame(): void {
     if (!this.#frameDirty) return;
-    this.#integrator.writeFrame(packFrame(this.#shownCamera, this.#film, this.#gpuScene, this.#geometry, this.#options));
+    this.#integrator.writeFrame(packFrame(this.#shownCamera, this.#film, this.#gpuScene, this.#editor.geometry, this.#options));
     this.#frameDirty = false;
   }
 
@@ -467,6 +550,10 @@ export class PathTracer {
 function kernelFeatures(scene: GpuScene, camera: Camera, options: PathTracerOptions): KernelFeatures {
   const features = scene.features();
   return { ...features, flags: { ...features.flags, ...viewFlags(camera, options.filter), ...shortcutFlags(options) } };
+}
+
+function checkDepth(maxDepth: number): void {
+  if (!Number.isInteger(maxDepth) || maxDepth < 1) throw new RenderError('renderer/option', `maxDepth must be a whole number of at least 1, not ${maxDepth}.`);
 }
 
 function checkSize(width: number, height: number): void {

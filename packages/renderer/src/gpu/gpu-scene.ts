@@ -1,12 +1,12 @@
 import { OPENPBR_TABLES } from '@glanz/openpbr/tables';
 import { requiredFeatures, resolveParameters } from '@glanz/openpbr';
-import type { Environment, Instance, Mesh, Scene } from '@glanz/scene';
+import type { Environment, Mesh, Scene } from '@glanz/scene';
 import type { KernelFeatures } from '../kernels/pipelines';
-import { materialStruct } from '../kernels/layout';
+import { instanceStruct, materialStruct, meshStruct } from '../kernels/layout';
 import type { ResourceName } from '../kernels/resources';
-import { prepareEnvironment, type EnvironmentData } from '../scene/environment';
+import { prepareEnvironment, turnEnvironment, type EnvironmentData } from '../scene/environment';
 import type { LightGroupMode } from '../options';
-import { packInstances, type Geometry } from '../scene/geometry';
+import { packInstances, type Geometry, type MeshRegion, type PackedGeometry, type PackedMesh } from '../scene/geometry';
 import { lightGroupTable, type LightGroupTable } from '../scene/light-groups';
 import { buildLightTable, type LightTable } from '../scene/lights';
 import { hasRanges, isOpaque, packBindings, packMaterial, texturedParameters, turnsTangent, usedTextures, type TexturedParameterInfo } from '../scene/materials';
@@ -29,22 +29,23 @@ export class GpuScene {
   readonly #device: GPUDevice;
   readonly #memory: GpuMemory;
   readonly #scene: Scene;
-  readonly #geometry: Geometry;
+  #geometry: Geometry;
   readonly #choices: SceneChoices;
   readonly #plan: TexturePlan;
   readonly #textured: readonly TexturedParameterInfo[];
-  readonly #firstBinding: number[];
-  readonly #bindingCount: number[];
+  readonly #bindings: ReturnType<typeof packBindings>;
+  #firstBinding: number[] = [];
   readonly #sceneTextures: readonly GPUTexture[];
   readonly #samplers: readonly GPUSampler[];
   readonly #buffers = new Map<ResourceName, GPUBuffer>();
   readonly #textures = new Map<ResourceName, GPUTexture>();
   readonly #energySampler: GPUSampler;
+  readonly #vertexAlpha = new WeakMap<Mesh, boolean>();
   #groups: LightGroupTable;
   #lights: LightTable;
   #environment: EnvironmentData;
 
-  constructor(device: GPUDevice, memory: GpuMemory, scene: Scene, geometry: Geometry, choices: SceneChoices) {
+  constructor(device: GPUDevice, memory: GpuMemory, scene: Scene, geometry: Geometry, packed: PackedGeometry, choices: SceneChoices) {
     this.#device = device;
     this.#memory = memory;
     this.#scene = scene;
@@ -58,22 +59,13 @@ export class GpuScene {
     this.#sceneTextures = textures;
     this.#samplers = samplers;
 
-    const bindings = packBindings(scene.materials, this.#plan);
-    const base = geometry.attributes.length;
-    const heap = new Uint32Array(base + bindings.records.byteLength / 4);
-    heap.set(geometry.attributes);
-    heap.set(new Uint32Array(bindings.records), base);
-    const bindingWords = bindings.records.byteLength / 4 / Math.max(1, bindings.count.reduce((a, b) => a + b, 0));
-    this.#firstBinding = bindings.first.map((index) => base + index * bindingWords);
-    this.#bindingCount = bindings.count;
-
-    this.#upload('nodes', geometry.nodes);
-    this.#upload('triangles', geometry.triangles);
-    this.#upload('attributes', heap);
-    this.#upload('materials', this.#packMaterials());
+    this.#bindings = packBindings(scene.materials, this.#plan);
+    this.#uploadShapes(packed);
     this.#lights = this.#buildLights();
     this.#upload('lights', this.#lights.records);
-    this.#upload('instances', packInstances(scene, geometry, this.#lights.firstLight));
+    // Room for those that are hidden now.
+    this.#buffers.set('instances', memory.buffer('instances', scene.instances.length * instanceStruct.size, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST));
+    this.#writeInstances();
     this.#environment = prepareEnvironment(scene.environment);
     this.#uploadEnvironment();
     this.#energySampler = device.createSampler({ label: 'glanz energy', minFilter: 'linear', magFilter: 'linear' });
@@ -149,21 +141,64 @@ export class GpuScene {
     return undefined;
   }
 
-  /** Re-reads one material of the scene. Returns true if bindings were replaced. */
-  updateMaterial(index: number): boolean {
-    this.#updateGroups();
-    const stride = materialStruct.size;
+  /**
+   * Re-reads one material of the scene. Returns true if bindings were replaced.
+   * @param emission Whether what it emits may have changed: only then the lights are gone through.
+   */
+  updateMaterial(index: number, emission: boolean): boolean {
+    if (emission) this.#updateGroups();
     const record = materialStruct.allocate();
     this.#packMaterial(record, 0, index);
-    this.#memory.write(this.#buffers.get('materials') as GPUBuffer, record, index * stride);
-    return this.#updateLights();
+    this.#memory.write(this.#buffers.get('materials') as GPUBuffer, record, index * materialStruct.size);
+    return emission && this.updateLights();
   }
 
-  /** Re-reads the scene's environment. Bindings are replaced. */
-  updateEnvironment(environment: Environment | undefined): void {
-    this.#environment = prepareEnvironment(environment);
-    this.#uploadEnvironment();
-    if (this.#updateGroups()) this.#updateLights();
+  /** Re-reads the scene's environment. Returns true if bindings were replaced: not for another rotation or strength of the same picture. */
+  updateEnvironment(environment: Environment | undefined): boolean {
+    const before = this.#environment;
+    this.#environment = turnEnvironment(before, environment) ?? prepareEnvironment(environment);
+    const replaced = this.#environment.pixels !== before.pixels || this.#environment.table !== before.table;
+    if (replaced) this.#uploadEnvironment();
+    return (this.#updateGroups() && this.updateLights()) || replaced;
+  }
+
+  /** Instances have moved, appeared, vanished, or wear another material. Returns true if bindings were replaced. */
+  updatePlacement(geometry: Geometry): boolean {
+    this.#geometry = geometry;
+    this.#memory.write(this.#buffers.get('nodes') as GPUBuffer, geometry.tlas.nodes);
+    this.#updateGroups();
+    return this.updateLights();
+  }
+
+  /** A mesh was replaced by one that fits into its region. Returns true if bindings were replaced. */
+  updateMesh(geometry: Geometry, index: number, packed: PackedMesh): boolean {
+    const region = geometry.regions[index] as MeshRegion;
+    const write = (name: ResourceName, data: ArrayBufferView<ArrayBuffer>, offset: number) => this.#memory.write(this.#buffers.get(name) as GPUBuffer, data, offset);
+    write('nodes', packed.nodes, region.firstNode * 64);
+    write('triangles', packed.triangles, region.firstTriangle * 48);
+    write('attributes', packed.record, index * meshStruct.size);
+    write('attributes', packed.attributes, region.firstWord * 4);
+    return this.updatePlacement(geometry);
+  }
+
+  /** All shapes are new. Bindings are replaced. */
+  updateShapes(geometry: Geometry, packed: PackedGeometry): void {
+    this.#geometry = geometry;
+    this.#uploadShapes(packed);
+    this.updatePlacement(geometry);
+  }
+
+  #uploadShapes({ nodes, triangles, attributes }: PackedGeometry): void {
+    const { records, first, count } = this.#bindings;
+    const heap = new Uint32Array(attributes.length + records.byteLength / 4);
+    heap.set(attributes);
+    heap.set(new Uint32Array(records), attributes.length);
+    const bindingWords = records.byteLength / 4 / Math.max(1, count.reduce((a, b) => a + b, 0));
+    this.#firstBinding = first.map((index) => attributes.length + index * bindingWords);
+    this.#upload('nodes', nodes);
+    this.#upload('triangles', triangles);
+    this.#upload('attributes', heap);
+    this.#upload('materials', this.#packMaterials());
   }
 
   /** Sorts the lights into groups anew; where that changes anything, materials are written again. */
@@ -175,10 +210,11 @@ export class GpuScene {
     return true;
   }
 
-  #updateLights(): boolean {
+  /** Re-reads the scene's lights and what its instances emit. Returns true if bindings were replaced. */
+  updateLights(): boolean {
     const before = this.#lights.records.byteLength;
     this.#lights = this.#buildLights();
-    this.#memory.write(this.#buffers.get('instances') as GPUBuffer, packInstances(this.#scene, this.#geometry, this.#lights.firstLight));
+    this.#writeInstances();
     if (this.#lights.records.byteLength === before) {
       this.#memory.write(this.#buffers.get('lights') as GPUBuffer, this.#lights.records);
       return false;
@@ -187,18 +223,26 @@ export class GpuScene {
     return true;
   }
 
+  #writeInstances(): void {
+    this.#memory.write(this.#buffers.get('instances') as GPUBuffer, packInstances(this.#scene, this.#geometry, this.#lights.firstLight));
+  }
+
   #opaque(material: number): boolean {
-    const vertexAlpha = this.#scene.instances.some((instance) => {
-      const colors = instance.material === material ? (this.#scene.meshes[instance.mesh] as Mesh).colors : undefined;
-      if (!colors) return false;
-      for (let i = 3; i < colors.length; i += 4) if ((colors[i] as number) < 1) return true;
-      return false;
-    });
+    const vertexAlpha = this.#scene.instances.some((instance) => instance.material === material && this.#hasVertexAlpha(this.#scene.meshes[instance.mesh] as Mesh));
     return isOpaque(this.#scene.materials[material] as Scene['materials'][number], vertexAlpha);
   }
 
+  #hasVertexAlpha(mesh: Mesh): boolean {
+    let found = this.#vertexAlpha.get(mesh);
+    if (found === undefined) {
+      found = mesh.colors?.some((value, i) => i % 4 === 3 && value < 1) ?? false;
+      this.#vertexAlpha.set(mesh, found);
+    }
+    return found;
+  }
+
   #packMaterial(buffer: ArrayBuffer, at: number, index: number): void {
-    packMaterial(buffer, at, this.#scene.materials[index] as Scene['materials'][number], this.#firstBinding[index] as number, this.#bindingCount[index] as number, this.#opaque(index), this.#groups.material(this.#scene.materials[index] as Scene['materials'][number]));
+    packMaterial(buffer, at, this.#scene.materials[index] as Scene['materials'][number], this.#firstBinding[index] as number, this.#bindings.count[index] as number, this.#opaque(index), this.#groups.material(this.#scene.materials[index] as Scene['materials'][number]));
   }
 
   #packMaterials(): ArrayBuffer {
@@ -217,7 +261,7 @@ export class GpuScene {
         leaves.forEach((input, leaf) => ((order as Uint32Array)[input] = leaf));
         inverse.set(mesh, order);
       }
-      return (this.#geometry.firstTriangle[mesh] as number) + (order[triangle] as number);
+      return (this.#geometry.regions[mesh] as MeshRegion).firstTriangle + (order[triangle] as number);
     };
     return buildLightTable(this.#scene, { instanceSlots: this.#geometry.instanceSlots, leafTriangle }, this.#geometry.radius, this.#groups);
   }
@@ -254,10 +298,4 @@ export class GpuScene {
       this.#textures.set(name, texture);
     }
   }
-}
-
-/** Instances of the scene by name or index. */
-export function findInstances(scene: Scene, nameOrIndex: string | number): Instance[] {
-  if (typeof nameOrIndex === 'number') return scene.instances[nameOrIndex] ? [scene.instances[nameOrIndex]] : [];
-  return scene.instances.filter((instance) => instance.name === nameOrIndex);
 }

@@ -30,6 +30,20 @@ export interface KernelFeatures {
   readonly planes: number;
 }
 
+/** Kernels with these flags do what those without do, only slower: a lobe of weight 0, a filter that accepts. */
+const HARMLESS = /^(OPENPBR_|BVH_FILTER$|VERTEX_COLORS$|EMISSION_TEXTURES$|LIGHTS$|NEXT_EVENT$)/;
+
+/**
+ * Whether kernels for `present` features are right for `wanted` ones too: what a scene no longer has may stay in their text,
+ * so that a coat that comes and goes compiles once.
+ */
+export function serves(present: KernelFeatures, wanted: KernelFeatures): boolean {
+  const { flags: has, ...given } = present;
+  const { flags: needs, ...asked } = wanted;
+  if (JSON.stringify(given) !== JSON.stringify(asked)) return false;
+  return Object.entries(needs).every(([name, value]) => has[name] === value || (has[name] === true && HARMLESS.test(name) && name !== 'OPENPBR_MULTISCATTER'));
+}
+
 export const KERNELS = ['generate', 'begin', 'intersect', 'shade', 'advance', 'connect', 'resolve', 'features', 'position', 'relight', 'noise'] as const;
 export type KernelName = (typeof KERNELS)[number];
 

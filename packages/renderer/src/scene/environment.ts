@@ -13,6 +13,8 @@ export interface EnvironmentData {
   readonly table?: { readonly width: number; readonly height: number; readonly data: Float32Array<ArrayBuffer> };
   /** Mean luminance over the sphere. */
   readonly meanLuminance: number;
+  /** The picture that all this is made from. */
+  readonly source?: Float32Array;
 }
 
 const MAX_CELLS = [1024, 512] as const;
@@ -46,7 +48,18 @@ export function prepareEnvironment(environment: Environment | undefined): Enviro
     visible,
     ...(table && intensity > 0 ? { table } : {}),
     meanLuminance: mean * intensity,
+    source: data,
   };
+}
+
+/** The same picture turned, or in another strength, without going through its pixels; `undefined` if it is another one. */
+export function turnEnvironment(before: EnvironmentData, environment: Environment | undefined): EnvironmentData | undefined {
+  if (environment?.type !== 'latlong' || environment.data !== before.source) return undefined;
+  if (before.pixels?.width !== environment.width || before.pixels.height !== environment.height) return undefined;
+  const { intensity = 1, rotation = 0, visible = true } = environment;
+  // In the dark there is no table to keep.
+  if (!(before.radiance[0] > 0) || !(intensity > 0)) return undefined;
+  return { ...before, radiance: [intensity, intensity, intensity], rotation: [Math.cos(rotation), Math.sin(rotation)], visible, meanLuminance: (before.meanLuminance / before.radiance[0]) * intensity };
 }
 
 /** Luminance averaged over each cell of a coarser grid, of the picture as it is read: bilinearly. */

@@ -9,14 +9,8 @@ import { breather, buildHierarchies, type HierarchyOptions } from './hierarchies
 const NODE_WORDS = 16;
 const TRIANGLE_WORDS = 12;
 
-/** A scene's shapes as the kernels read them. */
-export interface Geometry {
-  /** TLAS nodes first, then the nodes of each mesh in use. */
-  readonly nodes: Float32Array<ArrayBuffer>;
-  readonly triangles: Float32Array<ArrayBuffer>;
-  /** Mesh table, then vertex attributes. Texture binding records follow, see `packAttributes`. */
-  readonly attributes: Uint32Array<ArrayBuffer>;
-  readonly blas: readonly (Blas | undefined)[];
+/** Where the instances are: made anew whenever one moves. */
+export interface Placement {
   readonly tlas: Tlas;
   /** The scene's instance of each instance given to the TLAS. */
   readonly shown: readonly number[];
@@ -24,112 +18,181 @@ export interface Geometry {
   readonly order: Uint32Array;
   /** Scene instance → GPU record, or NONE. */
   readonly instanceSlots: Uint32Array;
-  /** First node and first triangle of each mesh. */
-  readonly firstNode: readonly number[];
-  readonly firstTriangle: readonly number[];
-  readonly triangleCount: number;
   readonly center: readonly [number, number, number];
   readonly radius: number;
+}
+
+/** A part of the GPU's buffers that belongs to one mesh, in nodes, triangles and words. */
+export interface MeshRegion {
+  readonly firstNode: number;
+  readonly nodes: number;
+  readonly firstTriangle: number;
+  readonly triangles: number;
+  readonly firstWord: number;
+  readonly words: number;
+}
+
+/** A scene's shapes: hierarchies, and where everything lies in the GPU's buffers. */
+export interface Geometry extends Placement {
+  readonly blas: readonly (Blas | undefined)[];
+  /** Nodes kept for the TLAS at the beginning of the node buffer. */
+  readonly tlasNodes: number;
+  readonly regions: readonly MeshRegion[];
+  readonly nodeCount: number;
+  /** Stored triangles of the meshes in use. */
+  readonly triangleCount: number;
+  /** Words of the mesh table and of all attributes. */
+  readonly attributeWords: number;
   readonly hasVertexColors: boolean;
 }
 
+/** Shapes as the kernels read them. */
+export interface PackedGeometry {
+  /** TLAS nodes first, then the nodes of each mesh in use. */
+  readonly nodes: Float32Array<ArrayBuffer>;
+  readonly triangles: Float32Array<ArrayBuffer>;
+  /** Mesh table, then vertex attributes. Texture binding records follow. */
+  readonly attributes: Uint32Array<ArrayBuffer>;
+}
+
+const isShown = (scene: Scene, instance: Instance) => instance.visible !== false && (scene.meshes[instance.mesh] as Mesh).indices.length >= 3;
+
+/** Meshes that visible instances use, in order. */
+function usedMeshes(scene: Scene): number[] {
+  return [...new Set(scene.instances.filter((instance) => isShown(scene, instance)).map(({ mesh }) => mesh))].sort((a, b) => a - b);
+}
+
+/** The meshes in use that have no hierarchy yet. */
+export function missingMeshes(scene: Scene, blas: readonly (Blas | undefined)[]): number[] {
+  return usedMeshes(scene).filter((index) => !blas[index]);
+}
+
 /**
- * Builds the hierarchies and packs shapes and instances.
+ * Builds the hierarchies that are missing.
+ *
+ * @param blas Hierarchies that are there already, by mesh.
+ */
+export async function prepareHierarchies(scene: Scene, options: HierarchyOptions = {}, blas: readonly (Blas | undefined)[] = []): Promise<(Blas | undefined)[]> {
+  const all = scene.meshes.map((_, i) => blas[i]);
+  const missing = missingMeshes(scene, all);
+  const built = await buildHierarchies(missing.map((index) => scene.meshes[index] as Mesh), options);
+  missing.forEach((index, i) => (all[index] = built[i]));
+  return all;
+}
+
+/**
+ * Places the instances.
  *
  * @throws {RenderError} `renderer/no-triangles` if nothing can be seen.
  */
-export async function prepareGeometry(scene: Scene, options: HierarchyOptions = {}): Promise<Geometry> {
-  const blas: (Blas | undefined)[] = scene.meshes.map(() => undefined);
-  const visible = scene.instances.flatMap((instance, index) => (instance.visible !== false && (scene.meshes[instance.mesh] as Mesh).indices.length >= 3 ? [index] : []));
-  const used = [...new Set(visible.map((index) => (scene.instances[index] as Instance).mesh))].sort((a, b) => a - b);
-  const built = await buildHierarchies(used.map((index) => scene.meshes[index] as Mesh), options);
-  used.forEach((index, i) => (blas[index] = built[i]));
-  const shown = visible.filter((index) => (blas[(scene.instances[index] as Instance).mesh] as Blas).triangleIndices.length > 0);
+export function placeInstances(scene: Scene, blas: readonly (Blas | undefined)[]): Placement {
+  const shown = scene.instances.flatMap((instance, index) => (isShown(scene, instance) && (blas[instance.mesh] as Blas).triangleIndices.length > 0 ? [index] : []));
   if (shown.length === 0) throw new RenderError('renderer/no-triangles', 'The scene has no visible triangles: nothing to render.');
-
   const tlas = buildTlas(shown.map((index) => ({ bounds: (blas[(scene.instances[index] as Instance).mesh] as Blas).bounds, transform: (scene.instances[index] as Instance).transform })));
   if (tlas.instanceOrder.length === 0) throw new RenderError('renderer/no-triangles', 'Every instance has a transform that flattens it: nothing to render.');
   const order = Uint32Array.from(tlas.instanceOrder, (i) => shown[i] as number);
   const instanceSlots = new Uint32Array(scene.instances.length).fill(NONE);
   order.forEach((instance, slot) => (instanceSlots[instance] = slot));
-
-  const firstNode: number[] = [];
-  const firstTriangle: number[] = [];
-  let nodeCount = tlas.nodes.length / NODE_WORDS;
-  let triangleCount = 0;
-  scene.meshes.forEach((_, i) => {
-    firstNode.push(nodeCount);
-    firstTriangle.push(triangleCount);
-    nodeCount += blas[i]?.nodeCount ?? 0;
-    triangleCount += blas[i]?.triangleIndices.length ?? 0;
-  });
-  const nodes = new Float32Array(nodeCount * NODE_WORDS);
-  const triangles = new Float32Array(triangleCount * TRIANGLE_WORDS);
-  nodes.set(tlas.nodes);
-  const breathe = breather();
-  for (const index of used) {
-    const mesh = scene.meshes[index] as Mesh;
-    const tree = blas[index] as Blas;
-    nodes.set(tree.nodes.subarray(0, tree.nodeCount * NODE_WORDS), (firstNode[index] as number) * NODE_WORDS);
-    triangles.set(packTriangles(tree, { positions: mesh.positions, indices: mesh.indices }), (firstTriangle[index] as number) * TRIANGLE_WORDS);
-    await breathe();
-    options.signal?.throwIfAborted();
-  }
   const { min, max } = tlas.bounds;
   const center = [0, 1, 2].map((k) => ((min[k] as number) + (max[k] as number)) / 2) as [number, number, number];
   const radius = 0.5 * Math.hypot(...[0, 1, 2].map((k) => (max[k] as number) - (min[k] as number)));
-  return {
-    nodes,
-    triangles,
-    attributes: packAttributes(scene, used),
-    blas,
-    tlas,
-    shown,
-    order,
-    instanceSlots,
-    firstNode,
-    firstTriangle,
-    triangleCount,
-    center,
-    radius,
-    hasVertexColors: used.some((index) => (scene.meshes[index] as Mesh).colors !== undefined),
-  };
+  return { tlas, shown, order, instanceSlots, center, radius };
 }
 
-/** The attribute heap: a table of word offsets per mesh, then indices, normals, tangents, colours and uvs. */
-function packAttributes(scene: Scene, used: readonly number[]): Uint32Array<ArrayBuffer> {
-  const tableWords = (scene.meshes.length * meshStruct.size) / 4;
-  let size = tableWords;
-  const place = (array: ArrayLike<number> | undefined) => {
-    if (!array || array.length === 0) return NONE;
-    const at = size;
-    size += array.length;
-    return at;
-  };
-  const table = meshStruct.allocate(scene.meshes.length);
-  const placed: [number, Float32Array | Uint32Array | undefined][] = [];
-  const keep = (array: Float32Array | Uint32Array | undefined) => {
-    const at = place(array);
-    if (at !== NONE) placed.push([at, array]);
-    return at;
-  };
-  for (const index of used) {
-    const mesh = scene.meshes[index] as Mesh;
-    meshStruct.write(table, index, {
-      indices: keep(mesh.indices),
-      normals: keep(mesh.normals),
-      tangents: keep(mesh.tangents),
-      colors: keep(mesh.colors),
-      uv0: keep(mesh.uvs?.[0]),
-      uv1: keep(mesh.uvs?.[1]),
-    });
+const attributesOf = (mesh: Mesh) => [mesh.indices, mesh.normals, mesh.tangents, mesh.colors, mesh.uvs?.[0], mesh.uvs?.[1]];
+
+const ATTRIBUTES = ['indices', 'normals', 'tangents', 'colors', 'uv0', 'uv1'] as const;
+
+/** Words that a mesh's attributes take. */
+export function attributeWords(mesh: Mesh): number {
+  return attributesOf(mesh).reduce((sum, array) => sum + (array?.length ?? 0), 0);
+}
+
+/**
+ * Lays a scene's shapes out.
+ *
+ * @throws {RenderError} `renderer/no-triangles` if nothing can be seen.
+ */
+export function layOutGeometry(scene: Scene, blas: readonly (Blas | undefined)[]): Geometry {
+  const placement = placeInstances(scene, blas);
+  // A node has two children: one less than there are instances, and room for those that are hidden now.
+  const tlasNodes = Math.max(placement.tlas.nodeCount, scene.instances.length, 1);
+  const regions: MeshRegion[] = [];
+  let nodeCount = tlasNodes;
+  let triangleCount = 0;
+  let words = (scene.meshes.length * meshStruct.size) / 4;
+  scene.meshes.forEach((mesh, i) => {
+    const tree = blas[i];
+    const region = { firstNode: nodeCount, nodes: tree?.nodeCount ?? 0, firstTriangle: triangleCount, triangles: tree?.triangleIndices.length ?? 0, firstWord: words, words: tree ? attributeWords(mesh) : 0 };
+    regions.push(region);
+    nodeCount += region.nodes;
+    triangleCount += region.triangles;
+    words += region.words;
+  });
+  return { ...placement, blas, tlasNodes, regions, nodeCount, triangleCount, attributeWords: words, hasVertexColors: scene.meshes.some((mesh, i) => blas[i] !== undefined && mesh.colors !== undefined) };
+}
+
+/**
+ * Builds all hierarchies in use and lays the shapes out.
+ *
+ * @throws {RenderError} `renderer/no-triangles` if nothing can be seen.
+ */
+export async function prepareGeometry(scene: Scene, options: HierarchyOptions = {}): Promise<Geometry> {
+  return layOutGeometry(scene, await prepareHierarchies(scene, options));
+}
+
+/** Writes shapes for the GPU, with the thread handed back now and then. */
+export async function packGeometry(scene: Scene, geometry: Geometry, signal?: AbortSignal): Promise<PackedGeometry> {
+  const nodes = new Float32Array(geometry.nodeCount * NODE_WORDS);
+  const triangles = new Float32Array(geometry.triangleCount * TRIANGLE_WORDS);
+  const attributes = new Uint32Array(geometry.attributeWords);
+  nodes.set(geometry.tlas.nodes);
+  const breathe = breather();
+  for (const [index, mesh] of scene.meshes.entries()) {
+    const region = geometry.regions[index] as MeshRegion;
+    const packed = packMesh(mesh, geometry.blas[index], region);
+    attributes.set(packed.record, (index * meshStruct.size) / 4);
+    if (!geometry.blas[index]) continue;
+    nodes.set(packed.nodes, region.firstNode * NODE_WORDS);
+    triangles.set(packed.triangles, region.firstTriangle * TRIANGLE_WORDS);
+    attributes.set(packed.attributes, region.firstWord);
+    await breathe();
+    signal?.throwIfAborted();
   }
-  const heap = new Uint32Array(size);
-  heap.set(new Uint32Array(table));
-  for (const [at, array] of placed) {
-    if (array) heap.set(array instanceof Uint32Array ? array : new Uint32Array(array.buffer, array.byteOffset, array.length), at);
+  return { nodes, triangles, attributes };
+}
+
+/** One mesh as the kernels read it. */
+export interface PackedMesh {
+  /** Its row of the mesh table. */
+  readonly record: Uint32Array<ArrayBuffer>;
+  readonly nodes: Float32Array<ArrayBuffer>;
+  readonly triangles: Float32Array<ArrayBuffer>;
+  readonly attributes: Uint32Array<ArrayBuffer>;
+}
+
+/** Writes one mesh for its region. */
+export function packMesh(mesh: Mesh, tree: Blas | undefined, { firstWord }: MeshRegion): PackedMesh {
+  const record = meshStruct.allocate();
+  if (!tree) {
+    meshStruct.write(record, 0, Object.fromEntries(ATTRIBUTES.map((name) => [name, NONE])));
+    return { record: new Uint32Array(record), nodes: new Float32Array(), triangles: new Float32Array(), attributes: new Uint32Array() };
   }
-  return heap;
+  const attributes = new Uint32Array(attributeWords(mesh));
+  let at = 0;
+  attributesOf(mesh).forEach((array, i) => {
+    const present = array !== undefined && array.length > 0;
+    meshStruct.write(record, 0, { [ATTRIBUTES[i] as (typeof ATTRIBUTES)[number]]: present ? firstWord + at : NONE });
+    if (!present) return;
+    attributes.set(array instanceof Uint32Array ? array : new Uint32Array(array.buffer, array.byteOffset, array.length), at);
+    at += array.length;
+  });
+  return {
+    record: new Uint32Array(record),
+    nodes: tree.nodes.subarray(0, tree.nodeCount * NODE_WORDS),
+    triangles: packTriangles(tree, { positions: mesh.positions, indices: mesh.indices }),
+    attributes,
+  };
 }
 
 /** Writes the instance records in GPU order. */
@@ -145,8 +208,8 @@ export function packInstances(scene: Scene, geometry: Geometry, firstLight: Uint
       to_object_0: inverse.subarray(0, 4),
       to_object_1: inverse.subarray(4, 8),
       to_object_2: inverse.subarray(8, 12),
-      blas_node: geometry.firstNode[instance.mesh] as number,
-      triangle_offset: geometry.firstTriangle[instance.mesh] as number,
+      blas_node: (geometry.regions[instance.mesh] as MeshRegion).firstNode,
+      triangle_offset: (geometry.regions[instance.mesh] as MeshRegion).firstTriangle,
       id: index,
       flags: 0,
     });
