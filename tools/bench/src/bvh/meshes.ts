@@ -64,6 +64,46 @@ export function thinTriangles(name: string, count: number): BenchMesh {
   return { name, positions, indices: Uint32Array.from({ length: count * 3 }, (_, i) => i) };
 }
 
+/**
+ * An assembly of parts in a box, as a CAD program tessellates it: rods of all lengths along the axes, discs and plates, each
+ * of `4 * segments` triangles, the long walls of rods in slivers (seeded).
+ */
+export function assembly(name: string, parts: number, segments: number): BenchMesh {
+  let state = 4711;
+  const random = () => (state = (Math.imul(state, 1664525) + 1013904223) >>> 0) / 2 ** 32;
+  const rim = 2 * segments + 2;
+  const positions = new Float32Array(parts * rim * 3);
+  const indices = new Uint32Array(parts * segments * 12);
+  let p = 0, q = 0;
+  for (let part = 0; part < parts; part++) {
+    const axis = Math.floor(3 * random());
+    const scale = 1.5 / Math.cbrt(parts);
+    const long = random() < 0.5;
+    const radius = scale * (long ? 0.05 + 0.1 * random() : 0.2 + 0.4 * random()), length = scale * (long ? 0.5 + 3 * random() ** 2 : 0.02 + 0.3 * random());
+    const middle = [2 * random() - 1, 2 * random() - 1, 2 * random() - 1];
+    // Plates have four corners; their other vertices lie on the edges.
+    const square = !long && random() < 0.5;
+    const put = (r: number, angle: number, along: number) => {
+      const [c, s] = [Math.cos(angle), Math.sin(angle)];
+      const out = square ? r / Math.max(Math.abs(c), Math.abs(s)) : r;
+      positions[p + axis] = middle[axis]! + along;
+      positions[p + ((axis + 1) % 3)] = middle[(axis + 1) % 3]! + out * c;
+      positions[p + ((axis + 2) % 3)] = middle[(axis + 2) % 3]! + out * s;
+      p += 3;
+    };
+    const first = p / 3;
+    for (const end of [-0.5, 0.5]) for (let i = 0; i < segments; i++) put(radius, (2 * Math.PI * i) / segments, end * length);
+    put(0, 0, -0.5 * length);
+    put(0, 0, 0.5 * length);
+    for (let i = 0; i < segments; i++) {
+      const a = first + i, b = first + ((i + 1) % segments), c = a + segments, d = b + segments;
+      indices.set([a, b, c, b, d, c, first + 2 * segments, b, a, first + 2 * segments + 1, c, d], q);
+      q += 12;
+    }
+  }
+  return { name, positions, indices };
+}
+
 /** A folder of test models, `GLANZ_ASSETS` or `shared/assets` beside the checkout; undefined if it is not there. */
 function assetsFolder(): string | undefined {
   const named = process.env['GLANZ_ASSETS'];

@@ -1,0 +1,87 @@
+import { buildBlas, type BlasOptions } from '@glanz/bvh';
+import { best } from '@glanz/bvh/best';
+import { requestDevice } from '@glanz/renderer';
+import { createGpu } from '@glanz/renderer/node';
+import { createPushButton } from '@glanz/models';
+import { timed, type Benchmark, type Figure } from '../benchmark';
+import { GpuRays, type Layout, type LoadedRays } from '../bvh/gpu-rays';
+import { assembly, merged, noisySphere, PUSH_BUTTONS, type BenchMesh } from '../bvh/meshes';
+import { diffuseRays, inRoom, primaryRays, shadowRays } from '../bvh/ray-sets';
+
+/** What the prototype reached with a tree over triangles alone on an H200: primary, shadow, diffuse. */
+const PROTOTYPE: Readonly<Record<string, readonly [number, number, number]>> = {
+  'noisy sphere 1.07M': [4491, 3507, 1925],
+  'assembly 1.07M': [3657, 2943, 1062],
+  'assembly 110k': [6737, 6095, 1925],
+};
+
+const KINDS = [['primary', 'closest'], ['shadow', 'any'], ['diffuse', 'closest'], ['diffuse 2', 'closest']] as const;
+
+const VARIANTS: readonly (readonly [name: string, layout: Layout, options: BlasOptions])[] = [
+  ['BVH2 balanced', 'BVH2', {}],
+  ['BVH2 best', 'BVH2', { builder: best }],
+  ['BVH2 fast', 'BVH2', { builder: 'fast' }],
+  ['wide balanced', 'wide', {}],
+  ['wide best', 'wide', { builder: best }],
+];
+
+function meshes(quick: boolean): BenchMesh[] {
+  if (quick) return [noisySphere('noisy sphere 3k', 28), assembly('assembly 2k', 20, 24)];
+  return [noisySphere('noisy sphere 1.07M', 518), assembly('assembly 1.07M', 5600, 48), assembly('assembly 110k', 1150, 24), ...PUSH_BUTTONS.map(([level, name]) => merged(name, createPushButton({ level })))];
+}
+
+/** Rays a second on the GPU: one ray a thread, workgroups of 64, through both levels, written to memory. */
+export const benchmark: Benchmark = {
+  description: 'rays a second on the GPU: primary, shadow and diffuse, by layout, builder and mesh',
+  async run({ log, quick, gpu }) {
+    const { gpu: api, adapterName, software } = await createGpu(gpu === undefined ? {} : { gpu });
+    const device = await requestDevice({ gpu: api });
+    const small = quick || software;
+    const size = small ? 64 : 1024, runs = small ? 2 : 7;
+    const figures: Figure[] = [], notes: string[] = [];
+    if (!device.features.has('timestamp-query')) notes.push('no timestamp queries: wall times');
+    for (const alone of meshes(small)) {
+      const { mesh, bounds } = inRoom(alone);
+      const { name } = mesh;
+      log(`${name}: ${mesh.indices.length / 3} triangles`);
+      // The rays are those that the first variant's hits give, for all variants.
+      let sets: Float32Array<ArrayBuffer>[] | undefined;
+      const expected: Uint32Array[] = [];
+      for (const [variant, layout, options] of VARIANTS) {
+        const blas = buildBlas(mesh, options);
+        const tracer = await GpuRays.create(device, layout, blas, mesh);
+        if (!sets) {
+          const trace = (rays: Float32Array<ArrayBuffer>) => tracer.results(tracer.load(rays), 'closest');
+          const primary = primaryRays(bounds, size);
+          const hits = await trace(primary);
+          const diffuse = diffuseRays(bounds, primary, hits, mesh, 3);
+          sets = [primary, shadowRays(bounds, primary, hits, mesh), diffuse, diffuseRays(bounds, diffuse, await trace(diffuse), mesh, 4)];
+        }
+        figures.push(timed(`${name}, ${variant}: nodes`, 'MB', [tracer.nodeBytes / 1e6]));
+        const rates: string[] = [];
+        for (const [k, [kind, query]] of KINDS.entries()) {
+          const loaded: LoadedRays = tracer.load(sets[k]!);
+          const results = await tracer.results(loaded, query);
+          expected[k] ??= results;
+          let other = 0;
+          for (let i = 1; i < results.length; i += 2) if (results[i] !== expected[k]![i]) other++;
+          // Neighbours share the rays through their common edge.
+          if (other > 1e-3 * loaded.count + 2) throw new Error(`${name}, ${variant}, ${kind}: ${other} of ${loaded.count} rays hit something else than with ${VARIANTS[0]![0]}`);
+          // As many runs at a time as make 20 ms, so that starting them does not count.
+          const once = await tracer.time(loaded, query, 1);
+          const times = Math.ceil((small ? 5 : 20) / Math.max(once, 0.1));
+          await tracer.time(loaded, query, times);
+          const rate: number[] = [];
+          for (let i = 0; i < runs; i++) rate.push((loaded.count * times) / (await tracer.time(loaded, query, times)) / 1e3);
+          const target = !small && k < 3 && variant === 'BVH2 balanced' && PROTOTYPE[name] ? { value: PROTOTYPE[name][k]!, relation: '>=' as const, source: 'the prototype on an H200' } : undefined;
+          figures.push(timed(`${name}, ${variant}: ${kind}`, 'Mrays/s', rate, target));
+          rates.push(`${kind} ${[...rate].sort((a, b) => a - b)[rate.length >> 1]!.toFixed(small ? 2 : 0)}`);
+        }
+        log(`  ${variant}, ${(tracer.nodeBytes / 1e6).toFixed(1)} MB: ${rates.join(', ')}`);
+        tracer.destroy();
+      }
+    }
+    device.destroy();
+    return { settings: { size, runs, place: 'in a closed cubic room', rays: 'primary: one a pixel; shadow: to a square light above; diffuse: cosine, first and second bounce', levels: 2 }, gpu: { name: adapterName, software }, figures, notes };
+  },
+};
