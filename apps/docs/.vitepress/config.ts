@@ -4,7 +4,7 @@ import { defineConfig } from 'vitepress';
 import { apiReference } from './api';
 import { readmeLinks } from './readme-links';
 
-const packages = ['renderer', 'gltf', 'scene', 'openpbr', 'bvh', 'tonemap', 'image', 'wgsl', 'cli'];
+const packages = ['renderer', 'gltf', 'formats', 'scene', 'openpbr', 'bvh', 'tonemap', 'image', 'wgsl', 'cli'];
 const api = await apiReference(packages);
 
 export default defineConfig({

@@ -32,10 +32,14 @@ export interface Backend {
 
 export type { FilmLayer, PathTracerOptions, RenderStatistics };
 
-/** The renderer on Dawn, the glTF loader with sharp. */
+/** The renderer on Dawn, the loaders with sharp. */
 export function nodeBackend(): Backend {
   return {
     async loadModel(file, signal) {
+      if (/\.(obj|stl)$/i.test(file)) {
+        const { loadModelFile } = await import('@glanz/formats/node');
+        return loadModelFile(file, { signal });
+      }
       const { loadGltfFile } = await import('@glanz/gltf/node');
       return loadGltfFile(file, { signal });
     },

@@ -8,8 +8,8 @@ SYNOPSIS
   glanz --help | --version
 
 DESCRIPTION
-  Renders a glTF 2.0 model (.glb or .gltf) and writes the picture in each format
-  asked for. A model without a camera is framed from the front right, a little
+  Renders a glTF 2.0 model (.glb or .gltf), an .obj with its .mtl or an .stl, and
+  writes the picture in each format asked for. A model without a camera is framed from the front right, a little
   from above; without --env it stands in a neutral photo studio. Uses the best
   GPU there is, or the processor if there is none.
 

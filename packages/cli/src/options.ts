@@ -140,7 +140,7 @@ function parseSize(text: string): [number, number] {
 }
 
 function defaultOutput(model: string): string {
-  const base = (model.split(/[\\/]/).pop() as string).replace(/\.(glb|gltf)$/i, '');
+  const base = (model.split(/[\\/]/).pop() as string).replace(/\.(glb|gltf|obj|stl)$/i, '');
   return `${base || 'picture'}.png`;
 }
 
