@@ -10,6 +10,10 @@ declare const data: Rows;
 export { data };
 
 export default defineLoader({
-  watch: ['../../../packages/openpbr/src/parameters/*.ts'],
-  load: async (): Promise<Rows> => parameterRows((await readExport('@glanz/openpbr/parameters', 'OPENPBR_PARAMETERS')) as Record<string, OpenPbrParameterInfo>),
+  watch: ['../../../packages/openpbr/src/{parameters,wgsl}/*.ts'],
+  async load(): Promise<Rows> {
+    const table = (await readExport('@glanz/openpbr/parameters', 'OPENPBR_PARAMETERS')) as Record<string, OpenPbrParameterInfo>;
+    const acting = (await readExport('./acting', 'actingParameters')) as () => string[];
+    return parameterRows(table, acting());
+  },
 });

@@ -10,6 +10,8 @@ export interface ParameterRow {
   readonly softRange: string;
   readonly unit: string;
   readonly texturable: boolean;
+  /** Whether the renderer reads it yet. */
+  readonly acts: boolean;
   readonly doc: string;
 }
 
@@ -25,11 +27,11 @@ function initial(value: OpenPbrParameterInfo['default']): string {
 }
 
 /** Turns the table of `@glanz/openpbr` into lines, group by group in the specification's order. */
-export function parameterRows(table: Readonly<Record<string, OpenPbrParameterInfo>>): Partial<Record<OpenPbrGroup, ParameterRow[]>> {
+export function parameterRows(table: Readonly<Record<string, OpenPbrParameterInfo>>, acting: readonly string[]): Partial<Record<OpenPbrGroup, ParameterRow[]>> {
   const groups: Partial<Record<OpenPbrGroup, ParameterRow[]>> = {};
   for (const { name, group, type, default: value, range, softRange, unit, texturable, doc } of Object.values(table)) {
     const soft = interval(softRange);
-    (groups[group] ??= []).push({ name, group, type, default: initial(value), range: interval(range), softRange: soft === interval(range) ? '' : soft, unit: range ? UNITS[unit] : '', texturable, doc: doc.replaceAll('`', '') });
+    (groups[group] ??= []).push({ name, group, type, default: initial(value), range: interval(range), softRange: soft === interval(range) ? '' : soft, unit: range ? UNITS[unit] : '', texturable, acts: acting.includes(name), doc: doc.replaceAll('`', '') });
   }
   return groups;
 }

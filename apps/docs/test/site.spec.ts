@@ -124,3 +124,40 @@ test('the live page path-traces the push-button, and a new lens colour restarts 
   await expect.poll(async () => (await pixelStatistics(canvas)).leading.red, { timeout: 60_000 }).toBeGreaterThan(green.leading.red + 0.01);
   expect(complaints).toEqual([]);
 });
+
+test('a parameter page path-traces a sphere, and its controls change it', async ({ page }) => {
+  const complaints = watchPage(page);
+  await page.setViewportSize({ width: 380, height: 900 });
+  await page.goto(`${origin}/openpbr/coat`);
+  const table = (await readExport('@glanz/openpbr/parameters', 'OPENPBR_PARAMETERS')) as Record<string, { group: string }>;
+  expect(await page.locator('.parameters tbody tr').evaluateAll((rows) => rows.map((row) => row.id))).toEqual(Object.values(table).flatMap(({ group }, i) => (group === 'coat' ? [Object.keys(table)[i]] : [])));
+  const live = page.locator('.live').first();
+  // Nothing is fetched or compiled before one asks for it.
+  await expect(live).toHaveAttribute('data-stage', 'idle');
+  await live.getByRole('button', { name: 'Path-trace it here' }).click();
+  await expect(live).toHaveAttribute('data-stage', /render|done|error/, { timeout: 90_000 });
+  await expect(live.getByRole('alert')).toHaveCount(0);
+  const canvas = live.locator('canvas');
+  const red = await pixelStatistics(canvas);
+  expect(red.colours).toBeGreaterThan(1000);
+  expect(red.leading.red).toBeGreaterThan(0.1);
+  expect(red.leading.green).toBeLessThan(0.02);
+  // Through a green coat a red base is dark, and the edges are green.
+  await page.locator('label', { hasText: 'coat_color' }).locator('input').fill('#20ff20');
+  await page.locator('label', { hasText: 'coat_color' }).locator('input').dispatchEvent('change');
+  await expect.poll(async () => (await pixelStatistics(canvas)).leading.red, { timeout: 60_000 }).toBeLessThan(red.leading.red / 2);
+  await page.getByRole('button', { name: 'Reset' }).click();
+  await expect.poll(async () => (await pixelStatistics(canvas)).leading.red, { timeout: 60_000 }).toBeGreaterThan(0.8 * red.leading.red);
+  expect(complaints).toEqual([]);
+});
+
+test('the rasteriser\'s ball is drawn as the page opens', async ({ page }) => {
+  const complaints = watchPage(page);
+  await page.goto(`${origin}/openpbr/rasteriser`);
+  const canvas = page.locator('.live-ball canvas');
+  await expect(canvas).toHaveAttribute('data-drawn', 'yes');
+  const { colours, leading } = await pixelStatistics(canvas);
+  expect(colours).toBeGreaterThan(200);
+  expect(leading.red).toBeGreaterThan(0.15);
+  expect(complaints).toEqual([]);
+});

@@ -1,5 +1,7 @@
 import type { Theme } from 'vitepress';
 import DefaultTheme from 'vitepress/theme-without-fonts';
+import LiveBall from './LiveBall.vue';
+import LiveParameters from './LiveParameters.vue';
 import LivePicture from './LivePicture.vue';
 import LiveSphere from './LiveSphere.vue';
 import LivePushButton from './LivePushButton.vue';
@@ -9,6 +11,8 @@ import './style.css';
 export default {
   extends: DefaultTheme,
   enhanceApp({ app }) {
+    app.component('LiveBall', LiveBall);
+    app.component('LiveParameters', LiveParameters);
     app.component('LivePicture', LivePicture);
     app.component('LiveSphere', LiveSphere);
     app.component('LivePushButton', LivePushButton);

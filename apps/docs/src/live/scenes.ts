@@ -4,7 +4,7 @@ import { studioEnvironment } from '@glanz/scene/studio';
 import { createSpheres, sphere } from '../../examples/spheres';
 
 /** The scenes that live pictures on the site show. */
-export type LiveSceneName = 'push-button' | 'spheres' | 'sphere';
+export type LiveSceneName = 'push-button' | 'spheres' | 'sphere' | 'material';
 
 /** One large sphere of material `sphere`, above a matt table: for turning parameters. */
 function createSphere(): Scene {
@@ -21,9 +21,23 @@ function createSphere(): Scene {
   return scene;
 }
 
+/** The same above a table of light and dark squares, which show what goes through the sphere and how it is bent. */
+function createMaterialScene(): Scene {
+  const scene = createSphere();
+  const [sphereMesh, table] = scene.meshes as [Scene['meshes'][number], Scene['meshes'][number]];
+  scene.meshes = [sphereMesh, { ...table, uvs: [Float32Array.of(0, 600, 600, 600, 600, 0, 0, 0)] }];
+  const [light, dark] = [150, 92];
+  const square = (code: number) => [code, code, code, 255];
+  scene.images = [{ name: 'squares', width: 2, height: 2, data: Uint8Array.from([light, dark, dark, light].flatMap(square)) }];
+  scene.textures = [{ image: 0, color_space: 'srgb', filter: 'nearest' }];
+  scene.materials[1] = { name: 'table', parameters: { base_color: [1, 1, 1], specular_roughness: 0.5 }, textures: { base_color: { texture: 0, channels: 'rgb' } } };
+  return scene;
+}
+
 /** A scene by name, made on the spot. */
 export function createLiveScene(name: LiveSceneName): Scene {
   if (name === 'spheres') return createSpheres();
   if (name === 'sphere') return createSphere();
+  if (name === 'material') return createMaterialScene();
   return { ...createPushButton({ level: 'low' }), environment: studioEnvironment() };
 }

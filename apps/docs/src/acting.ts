@@ -1,0 +1,17 @@
+import { openpbr, openpbrEmission, openpbrOpacity, OPENPBR_PARAMETER_NAMES, openPbrStruct } from '@glanz/openpbr';
+import type { WgslModule } from '@glanz/wgsl';
+
+/** Parameters that hosts read in their own code rather than in the surface's: frames, and how media begin. */
+const IN_HOSTS: readonly string[] = ['geometry_thin_walled', 'geometry_normal', 'geometry_tangent'];
+
+/** The parameters that change the picture: those that a shader reads. */
+export function actingParameters(): string[] {
+  const seen = new Set<WgslModule>([openPbrStruct.module]);
+  const textOf = (module: WgslModule): string => {
+    if (seen.has(module)) return '';
+    seen.add(module);
+    return module.code + module.deps.map((dependency) => textOf('module' in dependency ? dependency.module : dependency)).join('');
+  };
+  const text = [openpbr, openpbrEmission, openpbrOpacity].map(textOf).join('');
+  return OPENPBR_PARAMETER_NAMES.filter((name) => IN_HOSTS.includes(name) || new RegExp(`\\.${name}\\b`).test(text));
+}
