@@ -1,41 +1,26 @@
-import { validateScene, type Camera, type Environment, type Light, type Material, type Mesh, type Scene } from '@glanz/scene';
+import type { Camera, Scene } from '@glanz/scene';
 import { TileGrid } from './adaptive';
 import { DeviceError, RenderError } from './errors';
 import { FEATURE_SAMPLES, forBands, renderFeatures } from './film/feature-pass';
 import { Film } from './film/film';
 import { groupLayer, LAYER_SOURCES, unpackLayer, varianceLayer, type FeatureLayer, type GroupWeights } from './film/layers';
 import { packFrame } from './frame';
-import { GpuMemory } from './gpu/buffers';
-import { withErrorScopes } from './gpu/error-scopes';
-import { GpuScene } from './gpu/gpu-scene';
-import { KernelCache } from './gpu/kernel-cache';
-import { serves, type KernelFeatures, type KernelName } from './kernels/pipelines';
+import type { GpuMemory } from './gpu/buffers';
+import type { GpuScene } from './gpu/gpu-scene';
+import type { KernelCache } from './gpu/kernel-cache';
 import { readBuffer } from './gpu/read-buffer';
-import { Integrator, pathCapacity } from './integrator';
+import type { Integrator } from './integrator';
+import { serves, type KernelName } from './kernels/pipelines';
 import type { FilmLayer, LightGroup, PathTracerOptions, PickResult, RenderOptions, RenderProgress, RenderStatistics } from './options';
 import { pickPixel } from './pick';
+import { checkDepth, checkSize, kernelFeatures, prepareTracer, type Prepared } from './prepare';
+import { Sampling } from './sampling';
 import { cameraUniforms } from './scene/camera';
 import { chooseCamera } from './scene/choose-camera';
-import { packGeometry, prepareGeometry } from './scene/geometry';
-import { ownScene, SceneEditor } from './scene-editor';
-import { Sampling } from './sampling';
+import type { SceneEditor } from './scene-editor';
 import type { Batch } from './scheduler';
-import { checkShortcuts, shortcutFlags } from './shortcuts';
+import { TracerEdits } from './tracer-edits';
 import { viewFlags } from './view';
-
-/** What {@link PathTracer.create} has put together. */
-interface Prepared {
-  readonly device: GPUDevice;
-  readonly memory: GpuMemory;
-  readonly editor: SceneEditor;
-  readonly gpuScene: GpuScene;
-  readonly cache: KernelCache;
-  readonly integrator: Integrator;
-  readonly film: Film;
-  readonly camera: Camera;
-  readonly options: PathTracerOptions;
-  readonly statistics: RenderStatistics;
-}
 
 /**
  * A progressive path tracer for one scene. No DOM: it runs in browsers and in Node alike.
@@ -46,7 +31,7 @@ interface Prepared {
  * const pixels = await tracer.read('beauty'); // linear RGBA
  * tracer.destroy();
  */
-export class PathTracer {
+export class PathTracer extends TracerEdits {
   readonly #device: GPUDevice;
   readonly #memory: GpuMemory;
   readonly #editor: SceneEditor;
@@ -72,6 +57,7 @@ export class PathTracer {
   #frameDirty = true;
 
   private constructor(prepared: Prepared) {
+    super();
     this.#device = prepared.device;
     this.#memory = prepared.memory;
     this.#editor = prepared.editor;
@@ -97,50 +83,9 @@ export class PathTracer {
    * @throws {DeviceError} `renderer/limit`, `renderer/out-of-memory`, `renderer/gpu-error`, `renderer/device-lost`
    */
   static async create(device: GPUDevice, scene: Scene, options: PathTracerOptions): Promise<PathTracer> {
-    checkSize(options.width, options.height);
-    checkShortcuts(options);
-    checkDepth(options.maxDepth ?? 8);
-    validateScene(scene);
-    const own = ownScene(scene);
-    const { hierarchies, signal, onProgress } = options;
-    signal?.throwIfAborted();
-    const t0 = performance.now();
-    onProgress?.({ stage: 'bvh', done: 0 });
-    const geometry = await prepareGeometry(own, { hierarchies, signal, onProgress: (done) => onProgress?.({ stage: 'bvh', done }) });
-    const packed = await packGeometry(own, geometry, signal);
-    const t1 = performance.now();
-    onProgress?.({ stage: 'upload', done: 0 });
-    const memory = new GpuMemory(device);
-    try {
-      const gpuScene = await withErrorScopes(device, () => new GpuScene(device, memory, own, geometry, packed, { multipleScattering: options.multipleScattering ?? true, sampler: options.sampler ?? 'sobol', lightGroups: options.lightGroups ?? 'named' }));
-      const t2 = performance.now();
-      onProgress?.({ stage: 'upload', done: 1 });
-      const cache = new KernelCache(device);
-      const camera = chooseCamera(own, options.camera, options.width / options.height);
-      const kernels = await cache.get(kernelFeatures(gpuScene, camera, options), (done) => onProgress?.({ stage: 'compile', done }));
-      signal?.throwIfAborted();
-      const t3 = performance.now();
-      const tracer = await withErrorScopes(device, () => {
-        const film = new Film(memory, options.width, options.height, kernels.features.planes);
-        const integrator = new Integrator(device, memory, gpuScene, kernels, film, pathCapacity(device, options, kernels.features), options.maxDepth ?? 8);
-        const statistics: RenderStatistics = {
-          triangles: geometry.triangleCount,
-          instances: geometry.order.length,
-          lights: gpuScene.lightCount,
-          bvhMs: t1 - t0,
-          uploadMs: t2 - t1,
-          compileMs: t3 - t2,
-          gpuBytes: memory.bytes,
-          badSamples: 0,
-        };
-        return new PathTracer({ device, memory, editor: new SceneEditor(own, geometry, gpuScene, hierarchies), gpuScene, cache, integrator, film, camera, options, statistics });
-      });
-      tracer.reset();
-      return tracer;
-    } catch (error) {
-      memory.destroy();
-      throw error;
-    }
+    const tracer = new PathTracer(await prepareTracer(device, scene, options));
+    tracer.reset();
+    return tracer;
   }
 
   /** The tracer's own copy of the scene, with the edits made so far. Read only. */
@@ -313,86 +258,6 @@ export class PathTracer {
   }
 
   /**
-   * Changes parameters of a material and restarts the film. Where the change calls for kernels that are not there yet
-   * (a lobe appears), the old ones serve until the new ones are ready.
-   *
-   * @returns When the picture shows the change in full.
-   * @throws {RenderError} `renderer/material` if there is no such material.
-   */
-  setMaterial(nameOrIndex: string | number, parameters: Material['parameters']): Promise<void> {
-    return this.#edit((editor) => editor.setMaterial(nameOrIndex, parameters));
-  }
-
-  /**
-   * Changes a light without size: its intensity, colour, place, … Restarts the film.
-   *
-   * @throws {RenderError} `renderer/light` if there is no such light, {SceneError} for values that a light cannot have.
-   */
-  setLight(nameOrIndex: string | number, change: Partial<Light>): Promise<void> {
-    return this.#edit((editor) => editor.setLight(nameOrIndex, change));
-  }
-
-  /** Replaces the surroundings and restarts the film. The same picture in another rotation or strength is not gone through again. */
-  setEnvironment(environment: Environment | undefined): Promise<void> {
-    return this.#edit((editor) => editor.setEnvironment(environment));
-  }
-
-  /**
-   * Turns the surroundings, dims them, or hides them from the camera, at the cost of a uniform. Restarts the film.
-   *
-   * @throws {RenderError} `renderer/environment` without surroundings, for numbers that are not finite, and for the intensity of a constant.
-   */
-  adjustEnvironment(change: { readonly rotation?: number; readonly intensity?: number; readonly visible?: boolean }): Promise<void> {
-    return this.#edit((editor) => editor.adjustEnvironment(change));
-  }
-
-  /**
-   * Moves the instances of a name, or the one of an index: object to world, 16 numbers, column-major. Costs the upper level
-   * of the hierarchy. Restarts the film.
-   *
-   * @throws {RenderError} `renderer/instance`, `renderer/transform`, `renderer/no-triangles` if nothing would be left to see.
-   */
-  setInstanceTransform(nameOrIndex: string | number, transform: ArrayLike<number>): Promise<void> {
-    return this.#edit((editor) => editor.setTransform(nameOrIndex, transform));
-  }
-
-  /**
-   * Shows or hides the instances of a name, or the one of an index. Costs the upper level of the hierarchy, and for meshes
-   * shown for the first time their own. Restarts the film.
-   *
-   * @throws {RenderError} `renderer/instance`, `renderer/no-triangles` if nothing would be left to see.
-   */
-  setVisibility(nameOrIndex: string | number, visible: boolean): Promise<void> {
-    return this.#edit((editor) => editor.setVisibility(nameOrIndex, visible));
-  }
-
-  /**
-   * Puts another material on the instances of a name, or on the one of an index. Restarts the film.
-   * @throws {RenderError} `renderer/instance`, `renderer/material`
-   */
-  setInstanceMaterial(nameOrIndex: string | number, material: string | number): Promise<void> {
-    return this.#edit((editor) => editor.setMaterialOf(nameOrIndex, material));
-  }
-
-  /**
-   * Puts the scene into one of its variants, or into its own look. Restarts the film.
-   * @throws {RenderError} `renderer/variant` if there is no such variant.
-   */
-  setVariant(variant: string | number | undefined): Promise<void> {
-    return this.#edit((editor) => editor.setVariant(variant));
-  }
-
-  /**
-   * Swaps a mesh for another under all its instances: costs the hierarchy of that mesh, and none if it was in the scene
-   * before. Restarts the film.
-   *
-   * @throws {RenderError} `renderer/mesh` if there is no such mesh, {SceneError} if the new one is broken.
-   */
-  replaceMesh(nameOrIndex: string | number, mesh: Mesh): Promise<void> {
-    return this.#edit((editor) => editor.replaceMesh(nameOrIndex, mesh));
-  }
-
-  /**
    * Changes the most edges of a path, see `PathTracerOptions.maxDepth`. Restarts the film.
    * @throws {RenderError} `renderer/option`
    */
@@ -434,7 +299,8 @@ export class PathTracer {
     this.#memory.destroy();
   }
 
-  async #edit(change: (editor: SceneEditor) => boolean | Promise<boolean>): Promise<void> {
+  /** @internal */
+  protected async edit(change: (editor: SceneEditor) => boolean | Promise<boolean>): Promise<void> {
     this.#check();
     const result = change(this.#editor);
     const replaced = typeof result === 'boolean' ? result : await result;
@@ -544,20 +410,5 @@ export class PathTracer {
 
   #groupWeights(): GroupWeights {
     return this.lightGroups.map(({ intensity, color }) => [intensity * color[0], intensity * color[1], intensity * color[2]]);
-  }
-}
-
-function kernelFeatures(scene: GpuScene, camera: Camera, options: PathTracerOptions): KernelFeatures {
-  const features = scene.features();
-  return { ...features, flags: { ...features.flags, ...viewFlags(camera, options.filter), ...shortcutFlags(options) } };
-}
-
-function checkDepth(maxDepth: number): void {
-  if (!Number.isInteger(maxDepth) || maxDepth < 1) throw new RenderError('renderer/option', `maxDepth must be a whole number of at least 1, not ${maxDepth}.`);
-}
-
-function checkSize(width: number, height: number): void {
-  if (!Number.isInteger(width) || !Number.isInteger(height) || width < 1 || height < 1) {
-    throw new RenderError('renderer/size', `A picture of ${width} × ${height} pixels cannot be rendered: both must be whole numbers of at least 1.`);
   }
 }

@@ -1,0 +1,93 @@
+import { validateScene, type Camera, type Scene } from '@glanz/scene';
+import { RenderError } from './errors';
+import { Film } from './film/film';
+import { GpuMemory } from './gpu/buffers';
+import { withErrorScopes } from './gpu/error-scopes';
+import { GpuScene } from './gpu/gpu-scene';
+import { KernelCache } from './gpu/kernel-cache';
+import { Integrator, pathCapacity } from './integrator';
+import type { KernelFeatures } from './kernels/pipelines';
+import type { PathTracerOptions, RenderStatistics } from './options';
+import { chooseCamera } from './scene/choose-camera';
+import { packGeometry, prepareGeometry } from './scene/geometry';
+import { ownScene, SceneEditor } from './scene-editor';
+import { checkShortcuts, shortcutFlags } from './shortcuts';
+import { viewFlags } from './view';
+
+/** What `PathTracer.create` has put together. */
+export interface Prepared {
+  readonly device: GPUDevice;
+  readonly memory: GpuMemory;
+  readonly editor: SceneEditor;
+  readonly gpuScene: GpuScene;
+  readonly cache: KernelCache;
+  readonly integrator: Integrator;
+  readonly film: Film;
+  readonly camera: Camera;
+  readonly options: PathTracerOptions;
+  readonly statistics: RenderStatistics;
+}
+
+/** Builds, uploads and compiles what a tracer needs, see `PathTracer.create`. */
+export async function prepareTracer(device: GPUDevice, scene: Scene, options: PathTracerOptions): Promise<Prepared> {
+  checkSize(options.width, options.height);
+  checkShortcuts(options);
+  checkDepth(options.maxDepth ?? 8);
+  validateScene(scene);
+  const own = ownScene(scene);
+  const { hierarchies, signal, onProgress } = options;
+  signal?.throwIfAborted();
+  const t0 = performance.now();
+  onProgress?.({ stage: 'bvh', done: 0 });
+  const geometry = await prepareGeometry(own, { hierarchies, signal, onProgress: (done) => onProgress?.({ stage: 'bvh', done }) });
+  const packed = await packGeometry(own, geometry, signal);
+  const t1 = performance.now();
+  onProgress?.({ stage: 'upload', done: 0 });
+  const memory = new GpuMemory(device);
+  try {
+    const gpuScene = await withErrorScopes(device, () => new GpuScene(device, memory, own, geometry, packed, { multipleScattering: options.multipleScattering ?? true, sampler: options.sampler ?? 'sobol', lightGroups: options.lightGroups ?? 'named' }));
+    const t2 = performance.now();
+    onProgress?.({ stage: 'upload', done: 1 });
+    const cache = new KernelCache(device);
+    const camera = chooseCamera(own, options.camera, options.width / options.height);
+    const kernels = await cache.get(kernelFeatures(gpuScene, camera, options), (done) => onProgress?.({ stage: 'compile', done }));
+    signal?.throwIfAborted();
+    const t3 = performance.now();
+    return await withErrorScopes(device, () => {
+      const film = new Film(memory, options.width, options.height, kernels.features.planes);
+      const integrator = new Integrator(device, memory, gpuScene, kernels, film, pathCapacity(device, options, kernels.features), options.maxDepth ?? 8);
+      const statistics: RenderStatistics = {
+        triangles: geometry.triangleCount,
+        instances: geometry.order.length,
+        lights: gpuScene.lightCount,
+        bvhMs: t1 - t0,
+        uploadMs: t2 - t1,
+        compileMs: t3 - t2,
+        gpuBytes: memory.bytes,
+        badSamples: 0,
+      };
+      return { device, memory, editor: new SceneEditor(own, geometry, gpuScene, hierarchies), gpuScene, cache, integrator, film, camera, options, statistics };
+    });
+  } catch (error) {
+    memory.destroy();
+    throw error;
+  }
+}
+
+/** What decides the kernels' text: the scene, the camera and the options. */
+export function kernelFeatures(scene: GpuScene, camera: Camera, options: PathTracerOptions): KernelFeatures {
+  const features = scene.features();
+  return { ...features, flags: { ...features.flags, ...viewFlags(camera, options.filter), ...shortcutFlags(options) } };
+}
+
+/** @throws {RenderError} `renderer/option` */
+export function checkDepth(maxDepth: number): void {
+  if (!Number.isInteger(maxDepth) || maxDepth < 1) throw new RenderError('renderer/option', `maxDepth must be a whole number of at least 1, not ${maxDepth}.`);
+}
+
+/** @throws {RenderError} `renderer/size` */
+export function checkSize(width: number, height: number): void {
+  if (!Number.isInteger(width) || !Number.isInteger(height) || width < 1 || height < 1) {
+    throw new RenderError('renderer/size', `A picture of ${width} × ${height} pixels cannot be rendered: both must be whole numbers of at least 1.`);
+  }
+}

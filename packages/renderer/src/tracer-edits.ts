@@ -1,0 +1,88 @@
+import type { Environment, Light, Material, Mesh } from '@glanz/scene';
+import type { SceneEditor } from './scene-editor';
+
+/** The edits that a `PathTracer` takes while it lives. Each changes the tracer's own scene, restarts the film and costs what it touches. */
+export abstract class TracerEdits {
+  /** @internal Runs an edit, binds what it replaced, and brings kernels that it calls for. */
+  protected abstract edit(change: (editor: SceneEditor) => boolean | Promise<boolean>): Promise<void>;
+
+  /**
+   * Changes parameters of a material and restarts the film. Where the change calls for kernels that are not there yet
+   * (a lobe appears), the old ones serve until the new ones are ready.
+   *
+   * @returns When the picture shows the change in full.
+   * @throws {RenderError} `renderer/material` if there is no such material.
+   */
+  setMaterial(nameOrIndex: string | number, parameters: Material['parameters']): Promise<void> {
+    return this.edit((editor) => editor.setMaterial(nameOrIndex, parameters));
+  }
+
+  /**
+   * Changes a light without size: its intensity, colour, place, … Restarts the film.
+   *
+   * @throws {RenderError} `renderer/light` if there is no such light, {SceneError} for values that a light cannot have.
+   */
+  setLight(nameOrIndex: string | number, change: Partial<Light>): Promise<void> {
+    return this.edit((editor) => editor.setLight(nameOrIndex, change));
+  }
+
+  /** Replaces the surroundings and restarts the film. The same picture in another rotation or strength is not gone through again. */
+  setEnvironment(environment: Environment | undefined): Promise<void> {
+    return this.edit((editor) => editor.setEnvironment(environment));
+  }
+
+  /**
+   * Turns the surroundings, dims them, or hides them from the camera, at the cost of a uniform. Restarts the film.
+   *
+   * @throws {RenderError} `renderer/environment` without surroundings, for numbers that are not finite, and for the intensity of a constant.
+   */
+  adjustEnvironment(change: { readonly rotation?: number; readonly intensity?: number; readonly visible?: boolean }): Promise<void> {
+    return this.edit((editor) => editor.adjustEnvironment(change));
+  }
+
+  /**
+   * Moves the instances of a name, or the one of an index: object to world, 16 numbers, column-major. Costs the upper level
+   * of the hierarchy. Restarts the film.
+   *
+   * @throws {RenderError} `renderer/instance`, `renderer/transform`, `renderer/no-triangles` if nothing would be left to see.
+   */
+  setInstanceTransform(nameOrIndex: string | number, transform: ArrayLike<number>): Promise<void> {
+    return this.edit((editor) => editor.setTransform(nameOrIndex, transform));
+  }
+
+  /**
+   * Shows or hides the instances of a name, or the one of an index. Costs the upper level of the hierarchy, and for meshes
+   * shown for the first time their own. Restarts the film.
+   *
+   * @throws {RenderError} `renderer/instance`, `renderer/no-triangles` if nothing would be left to see.
+   */
+  setVisibility(nameOrIndex: string | number, visible: boolean): Promise<void> {
+    return this.edit((editor) => editor.setVisibility(nameOrIndex, visible));
+  }
+
+  /**
+   * Puts another material on the instances of a name, or on the one of an index. Restarts the film.
+   * @throws {RenderError} `renderer/instance`, `renderer/material`
+   */
+  setInstanceMaterial(nameOrIndex: string | number, material: string | number): Promise<void> {
+    return this.edit((editor) => editor.setMaterialOf(nameOrIndex, material));
+  }
+
+  /**
+   * Puts the scene into one of its variants, or into its own look. Restarts the film.
+   * @throws {RenderError} `renderer/variant` if there is no such variant.
+   */
+  setVariant(variant: string | number | undefined): Promise<void> {
+    return this.edit((editor) => editor.setVariant(variant));
+  }
+
+  /**
+   * Swaps a mesh for another under all its instances: costs the hierarchy of that mesh, and none if it was in the scene
+   * before. Restarts the film.
+   *
+   * @throws {RenderError} `renderer/mesh` if there is no such mesh, {SceneError} if the new one is broken.
+   */
+  replaceMesh(nameOrIndex: string | number, mesh: Mesh): Promise<void> {
+    return this.edit((editor) => editor.replaceMesh(nameOrIndex, mesh));
+  }
+}
