@@ -8,10 +8,11 @@ SYNOPSIS
   glanz --help | --version
 
 DESCRIPTION
-  Renders a glTF 2.0 model (.glb or .gltf), an .obj with its .mtl or an .stl, and
-  writes the picture in each format asked for. A model without a camera is framed from the front right, a little
-  from above; without --env it stands in a neutral photo studio. Uses the best
-  GPU there is, or the processor if there is none.
+  Renders a glTF 2.0 model (.glb or .gltf), an .obj with its .mtl, or an .stl,
+  and writes the picture in each format asked for. A model without a camera is
+  framed from the front right, a little from above; without --env it stands in
+  a neutral photo studio. Uses the best GPU there is, or the processor if there
+  is none.
 
   Progress goes to stderr, nothing but --json goes to stdout. Ctrl-C writes what
   has been accumulated so far; a second Ctrl-C ends at once.

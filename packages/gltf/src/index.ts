@@ -1,4 +1,5 @@
 export type { GltfDecoders } from './document';
+export { decodeImageInBrowser } from './browser-images';
 export { GltfError } from './error';
 export type { GltfLimits } from './limits';
 export type { DecodedImage, ImageDecoder } from './images';

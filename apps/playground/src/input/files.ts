@@ -6,7 +6,7 @@ export interface GivenFiles {
   readonly environment?: File;
 }
 
-const MODEL = /\.(glb|gltf)$/i;
+const MODEL = /\.(glb|gltf|obj|stl)$/i;
 const ENVIRONMENT = /\.(hdr|exr|pic)$/i;
 
 /**
@@ -23,7 +23,7 @@ export function sortFiles(files: ReadonlyMap<string, File>): GivenFiles {
   const surroundings = paths.find((path) => ENVIRONMENT.test(path));
   if (entry === undefined && surroundings === undefined) {
     const names = paths.slice(0, 3).map((path) => `"${path}"`);
-    throw new PlaygroundError('playground/no-model', `There is no .glb, .gltf, .hdr or .exr among the files${names.length > 0 ? ` (${names.join(', ')}${paths.length > 3 ? ', …' : ''})` : ''}.`);
+    throw new PlaygroundError('playground/no-model', `There is no .glb, .gltf, .obj, .stl, .hdr or .exr among the files${names.length > 0 ? ` (${names.join(', ')}${paths.length > 3 ? ', …' : ''})` : ''}.`);
   }
   const environment = surroundings === undefined ? undefined : files.get(surroundings);
   return { ...(entry === undefined ? {} : { model: { files, entry } }), ...(environment ? { environment } : {}) };

@@ -1,4 +1,5 @@
-import { loadGltf } from '@glanz/gltf';
+import { readObj, readStl } from '@glanz/formats';
+import { decodeImageInBrowser, loadGltf } from '@glanz/gltf';
 import { createCornellBox, createPushButton } from '@glanz/models';
 import type { Scene } from '@glanz/scene';
 import { decodersFor } from './decoders';
@@ -9,6 +10,11 @@ import type { LoadReply, LoadRequest } from './load-messages';
 async function load(request: LoadRequest): Promise<Scene> {
   if (request.kind === 'files') {
     const { files, entry } = request;
+    const bytesOf = async (path: string) => { const file = files.get(path); return file && new Uint8Array(await file.arrayBuffer()); };
+    const name = entry.slice(entry.lastIndexOf('/') + 1);
+    if (/\.stl$/i.test(entry)) return readStl((await bytesOf(entry)) ?? new Uint8Array(), { name });
+    const folder = entry.slice(0, entry.length - name.length);
+    if (/\.obj$/i.test(entry)) return readObj((await bytesOf(entry)) ?? new Uint8Array(), { name, read: (path) => bytesOf(folder + path), decodeImage: (bytes) => decodeImageInBrowser(bytes, 'application/octet-stream') });
     const onProgress = ({ stage, done }: { stage: string; done: number }) => reply({ kind: 'progress', stage, done });
     return loadGltf({ files, entry }, { decoders: await decodersFor(files.get(entry)), onProgress });
   }
