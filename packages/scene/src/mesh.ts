@@ -11,6 +11,9 @@ export interface Mesh {
   tangents?: Float32Array<ArrayBuffer>;
   /** UV sets, each uv per vertex, stride 2; the origin is the upper left corner of the picture. */
   uvs?: Float32Array<ArrayBuffer>[];
-  /** RGBA per vertex, stride 4, linear; multiplies `base_color` and `geometry_opacity`. */
+  /**
+   * RGBA per vertex, stride 4, linear; multiplies `base_color` and `geometry_opacity`, `transmission_color` where
+   * `transmission_depth` is 0, and `emission_color` where `base_weight` and `specular_weight` are 0.
+   */
   colors?: Float32Array<ArrayBuffer>;
 }

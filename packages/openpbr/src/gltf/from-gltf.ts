@@ -209,7 +209,7 @@ const STEPS: readonly GltfMappingStep[] = [core, specularGlossiness, emission, i
  * | KHR_materials_iridescence | thin_film_weight, _thickness, _ior | the film also colours what goes through, and is seen through a coat |
  * | KHR_materials_anisotropy | specular_roughness, specular_roughness_anisotropy, geometry_tangent | nothing |
  * | KHR_materials_pbrSpecularGlossiness | base_color, specular_roughness, specular_ior, specular_color | the white edge of a tinted reflection; reflectances above 0.98 |
- * | KHR_materials_unlit | emission_color, base_weight 0, specular_weight 0 | it is a light, which shines on others; vertex colours |
+ * | KHR_materials_unlit | emission_color, base_weight 0, specular_weight 0 | it is a light, which shines on others |
  *
  * @example
  * const parameters = fromGltf(json.materials[0]);   // { base_color: […], base_metalness: 0, specular_roughness: 0.4 }

@@ -109,8 +109,10 @@ export class GpuScene {
         TANGENT_MAP: openpbrFlags.OPENPBR_ANISOTROPY && turnsTangent(this.#scene.materials),
         // Where the mesh has no tangents, they follow the texture coordinates.
         UV_FRAME: openpbrFlags.OPENPBR_ANISOTROPY || texturedNames.includes('geometry_normal'),
-        // A coat dims what is emitted below it.
-        EMISSION_TEXTURES: texturedNames.some((name) => name === 'emission_color' || name === 'emission_luminance' || (openpbrFlags.OPENPBR_COAT && name.startsWith('coat_'))),
+        // A coat dims what is emitted below it; vertex colours paint what only emits.
+        EMISSION_TEXTURES:
+          texturedNames.some((name) => name === 'emission_color' || name === 'emission_luminance' || (openpbrFlags.OPENPBR_COAT && name.startsWith('coat_'))) ||
+          (this.#geometry.hasVertexColors && parameters.some((p) => p.emission_luminance > 0 && p.base_weight === 0 && p.specular_weight === 0)),
         VERTEX_COLORS: this.#geometry.hasVertexColors,
         BVH_FILTER: this.#scene.instances.some((instance) => instance.visible !== false && !this.#opaque(instance.material)),
         ENVIRONMENT_MAP: this.#environment.pixels !== undefined,

@@ -262,7 +262,15 @@ fn surface_load(hit: vec4u, origin: vec3f, direction: vec3f, cone_width: f32) ->
   s.parameters = sample.parameters;
   s.flags = sample.flags;
   //#if VERTEX_COLORS
-  s.parameters.base_color *= attribute_color(mesh, corners, weights).rgb;
+  let painted = attribute_color(mesh, corners, weights).rgb;
+  s.parameters.base_color *= painted;
+  //#if OPENPBR_EMISSION
+  // Where nothing is reflected (glTF's unlit materials), it is the light that is painted.
+  if (s.parameters.base_weight == 0.0 && s.parameters.specular_weight == 0.0) { s.parameters.emission_color *= painted; }
+  //#endif
+  //#if OPENPBR_TRANSMISSION
+  if (s.parameters.transmission_depth <= 0.0) { s.parameters.transmission_color *= painted; }
+  //#endif
   //#endif
 
   var tangent = surface_tangent(s.normal);

@@ -70,3 +70,22 @@ it('textures that the surface does not read do no harm', async () => {
   const a = await show({ parameters, textures: { geometry_tangent: { texel: [1, 0.5, 0, 1], channels: 'rgb' }, geometry_coat_normal: { texel: [0.5, 0.5, 1, 1], channels: 'rgb' } } });
   expect(apart(a, await show({ parameters: metal }))).toBeLessThan(1e-4);
 });
+
+it('vertex colours paint the light of what only emits, seen and as a light', async () => {
+  const glowing = async (parameters: Partial<OpenPbrParameters>, colors: readonly number[]) => {
+    const scene = createScene();
+    addQuad(scene, 1, 0, { name: 'glow', parameters: { base_weight: 0, specular_weight: 0, emission_luminance: 1, ...parameters } });
+    (scene.meshes[0] as Mesh).colors = new Float32Array([...colors, ...colors, ...colors, ...colors]);
+    // Below the camera's view, lit by the glow.
+    addQuad(scene, 1, 0, { name: 'wall', parameters: { specular_weight: 0 } }, { transform: [0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 1, 1] });
+    const tracer = await PathTracer.create(device, scene, { width: 8, height: 8, camera, maxDepth: 2, pathsInFlight: 1 << 10 });
+    for await (const _ of tracer.render({ samples: 16, maxSubmitMs: 1000 }));
+    const pixels = await tracer.read('beauty');
+    tracer.destroy();
+    return pixels;
+  };
+  const painted = await glowing({}, [0.5, 0.25, 1, 1]);
+  expect(apart(painted, await glowing({ emission_color: [0.5, 0.25, 1] }, [1, 1, 1, 1]))).toBeLessThan(1e-4);
+  // A surface that also reflects keeps its own light.
+  expect(apart(await glowing({ specular_weight: 1 }, [0.5, 0.25, 1, 1]), painted)).toBeGreaterThan(0.2);
+});
