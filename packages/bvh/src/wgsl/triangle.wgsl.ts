@@ -4,8 +4,9 @@ import { wgslModule } from '@glanz/wgsl/module';
  * The ray-triangle test. Vertices are taken relative to the ray's origin into a frame whose third axis is the ray, and the
  * ray hits where the origin lies on the same side of the three edges (Woop, Benthin and Wald 2013, "Watertight
  * Ray/Triangle Intersection", with an orthonormal frame in place of the axis permutation and shear). Two triangles that
- * share an edge see the same two points, so a ray can slip between them only by the rounding of the edge function itself;
- * a tolerance as large as that rounding closes the gap whether or not the compiler fuses multiplications and additions.
+ * share an edge see the same two points, so a ray can slip between them by the rounding of the edge function, whether or
+ * not the compiler fuses multiplications and additions; and by that of the points, which puts it into the neighbour
+ * whose box it passes by. A tolerance as large as both closes the gap: the triangle in whose box the ray is takes the hit.
  */
 export const bvhTriangleTest = wgslModule(
   'bvh/triangle',
@@ -46,8 +47,11 @@ fn bvh_intersect_triangle(ray: BvhRay, triangle: BvhTriangle) -> vec3f {
   let v = b.x * a.y - b.y * a.x;
   let w = c.x * b.y - c.y * b.x;
   let largest = max(max(max(abs(a.x), abs(a.y)), max(abs(b.x), abs(b.y))), max(abs(c.x), abs(c.y)));
-  // Half an ulp each for two products and their difference.
-  let tolerance = largest * largest * 1.7881393e-7;
+  let far = max(abs(p0), max(abs(p1), abs(p2)));
+  // Half an ulp each for two products and their difference; and what the two vertices are off, by the rounding of the
+  // frame and of three products and their sums, which is a share of their distance. A neighbour whose box the ray
+  // passes by may be the one that it would meet otherwise.
+  let tolerance = largest * (largest * 1.7881393e-7 + max(far.x, max(far.y, far.z)) * 9.5367432e-7);
   let low = min(u, min(v, w));
   let high = max(u, max(v, w));
   let determinant = u + v + w;
