@@ -1,5 +1,5 @@
 import type { BlasOptions } from '@glanz/bvh';
-import { best } from '@glanz/bvh/best';
+import { best, bestSplit } from '@glanz/bvh/best';
 import { requestDevice } from '@glanz/renderer';
 import { createGpu } from '@glanz/renderer/node';
 import { timed, type Benchmark } from '../benchmark';
@@ -8,7 +8,7 @@ import { tryScenes } from '../bvh-brute/run';
 import { BenchError } from '../error';
 
 /** Ways to build that are tried in turn. */
-export const BUILDERS: readonly BlasOptions[] = [{}, { builder: 'fast' }, { builder: best }, { bins: 4 }];
+export const BUILDERS: readonly BlasOptions[] = [{}, { builder: 'fast' }, { builder: best }, { builder: bestSplit }, { bins: 4 }];
 
 /** No measurement but a trial: rays through random scenes against brute force. Ends with an error if any ray is lost. */
 export const benchmark: Benchmark = {
@@ -16,10 +16,10 @@ export const benchmark: Benchmark = {
   async run({ log, quick, gpu, seed = 1 }) {
     const { gpu: api, adapterName, software } = await createGpu(gpu === undefined ? { software: 'only' } : { gpu });
     const device = await requestDevice({ gpu: api });
-    const tracer = await GpuTracer.create(device);
+    const gpus = await Promise.all((['binary', 'wide'] as const).map((layout) => GpuTracer.create(device, layout)));
     const scenes = quick ? 50 : 1200, raysPerScene = quick ? 1000 : 8500, gpuEvery = quick ? 2 : 10;
     log(`seed ${seed}: ${scenes} scenes of ${raysPerScene} rays each`);
-    const totals = await tryScenes({ seed, scenes, raysPerScene, gpuEvery, gpu: tracer, builders: BUILDERS, log });
+    const totals = await tryScenes({ seed, scenes, raysPerScene, gpuEvery, gpus, builders: BUILDERS, log });
     device.destroy();
     if (totals.wrong + totals.gpuWrong > 0) throw new BenchError('bench/wrong-hits', `${totals.wrong} rays on the CPU and ${totals.gpuWrong} on the GPU are wrong with seed ${seed}: see the lines above.`);
     const none = { value: 0, relation: '<=' as const, source: 'no ray is lost' };
@@ -29,6 +29,7 @@ export const benchmark: Benchmark = {
       figures: [
         timed('scenes', '1', [scenes]),
         timed('rays on the CPU', '1', [totals.rays]),
+        timed('of them through the wide layout as well', '1', [totals.wideRays]),
         timed('of them hits', '1', [totals.hits]),
         timed('wrong on the CPU', '1', [totals.wrong], none),
         timed('past degenerate triangles, bounded loosely', '1', [totals.loose]),

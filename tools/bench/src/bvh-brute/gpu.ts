@@ -1,8 +1,13 @@
-import { packTriangles, type BlasMesh, type Tlas } from '@glanz/bvh';
+import { packTriangles, type Blas, type BlasMesh, type Tlas } from '@glanz/bvh';
 import { bvhAnyHit, bvhClosestHit, bvhInstanceStruct } from '@glanz/bvh/wgsl';
+import { bvhAnyHit as wideAnyHit, bvhClosestHit as wideClosestHit } from '@glanz/bvh/wgsl-wide';
+import { widenBlas, widenTlas } from '@glanz/bvh/wide';
 import { compose, wgslModule } from '@glanz/wgsl';
 
-const host = wgslModule(
+/** The layouts that there is WGSL for. */
+export type Layout = 'binary' | 'wide';
+
+const host = (layout: Layout) => wgslModule(
   'bench/bvh-brute',
   /* wgsl */ `
 @group(0) @binding(0) var<storage, read> nodes: array<BvhNode>;
@@ -30,7 +35,7 @@ fn bvh_triangle(index: u32) -> BvhTriangle {
   result[2u * id.x] = vec4u(bitcast<u32>(hit.t), bitcast<u32>(hit.u), bitcast<u32>(hit.v), triangle);
   result[2u * id.x + 1u] = vec4u(instance, select(0u, 1u, bvh_any_hit(o.xyz, d.xyz, o.w, d.w)), 0u, 0u);
 }`,
-  [bvhClosestHit, bvhAnyHit],
+  layout === 'binary' ? [bvhClosestHit, bvhAnyHit] : [wideClosestHit, wideAnyHit],
 );
 
 /** What the GPU has found. */
@@ -48,31 +53,36 @@ export interface GpuHits {
 export class GpuTracer {
   readonly #device: GPUDevice;
   readonly #pipeline: GPUComputePipeline;
+  readonly layout: Layout;
 
-  private constructor(device: GPUDevice, pipeline: GPUComputePipeline) {
+  private constructor(device: GPUDevice, pipeline: GPUComputePipeline, layout: Layout) {
     this.#device = device;
     this.#pipeline = pipeline;
+    this.layout = layout;
   }
 
-  static async create(device: GPUDevice): Promise<GpuTracer> {
-    const module = device.createShaderModule({ label: 'bvh-brute', code: compose([host], { flags: { BVH_FILTER: false } }).code });
-    return new GpuTracer(device, await device.createComputePipelineAsync({ label: 'bvh-brute', layout: 'auto', compute: { module, entryPoint: 'main' } }));
+  static async create(device: GPUDevice, layout: Layout): Promise<GpuTracer> {
+    const module = device.createShaderModule({ label: 'bvh-brute', code: compose([host(layout)], { flags: { BVH_FILTER: false } }).code });
+    return new GpuTracer(device, await device.createComputePipelineAsync({ label: 'bvh-brute', layout: 'auto', compute: { module, entryPoint: 'main' } }), layout);
   }
 
   /** @param rays 8 numbers each: origin, tMin, direction, tMax. There must be an instance in the TLAS. */
-  async trace(tlas: Tlas, parts: readonly BlasMesh[], rays: Float32Array<ArrayBuffer>): Promise<GpuHits> {
+  async trace(binary: Tlas, parts: readonly BlasMesh[], rays: Float32Array<ArrayBuffer>): Promise<GpuHits> {
     const device = this.#device;
     const count = rays.length / 8;
-    const starts = new Map<BlasMesh['blas'], [number, number]>();
+    const wide = this.layout === 'wide';
+    const tlas = wide ? widenTlas(binary) : binary;
+    const starts = new Map<Blas, [number, number]>();
     const nodes: ArrayBufferView[] = [tlas.nodes], triangles: ArrayBufferView[] = [];
     let node = tlas.nodeCount, triangle = 0;
     for (const { blas, mesh } of parts) {
       if (starts.has(blas)) continue;
       starts.set(blas, [node, triangle]);
-      nodes.push(blas.nodes);
-      triangles.push(packTriangles(blas, mesh));
-      node += blas.nodeCount;
-      triangle += blas.triangleIndices.length;
+      const tree = wide ? widenBlas(blas) : blas;
+      nodes.push(tree.nodes);
+      triangles.push(packTriangles(tree, mesh));
+      node += tree.nodeCount;
+      triangle += tree.triangleIndices.length;
     }
     const instances = bvhInstanceStruct.allocate(tlas.instanceOrder.length);
     tlas.instanceOrder.forEach((given, slot) => {

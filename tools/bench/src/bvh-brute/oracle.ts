@@ -9,10 +9,18 @@ export class Oracle {
   /** What lies within this of a degenerate triangle may count as on it. */
   readonly #reach: number;
 
-  /** @param corners 9 numbers a triangle. */
-  constructor(corners: Float64Array) {
+  /** How well corners are known. */
+  readonly #blur: number;
+
+  /**
+   * @param corners 9 numbers a triangle.
+   * @param blur How well the corners are known, as a share of the largest coordinate: 0, or what transforms have made of rounding.
+   */
+  constructor(corners: Float64Array, blur = 0) {
     this.#corners = corners;
-    this.#reach = 1e-9 * corners.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
+    const size = corners.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
+    this.#reach = 1e-9 * size;
+    this.#blur = blur * size;
   }
 
   /** Sets `low` and `high` for the ray that starts at `rays[at]`: origin, tMin, direction, tMax. */
@@ -32,8 +40,8 @@ export class Oracle {
       const u = (sx * qx + sy * qy + sz * qz) / det;
       // Most triangles are missed by far, whatever the rounding of a good one.
       if (u < -0.5 || u > 1.5) {
-        const coarse = Math.abs(det) > 1e-6 * dd * Math.sqrt((ex * ex + ey * ey + ez * ez) * (fx * fx + fy * fy + fz * fz));
-        if (coarse) continue;
+        const ee = ex * ex + ey * ey + ez * ez, ff = fx * fx + fy * fy + fz * fz;
+        if (Math.abs(det) > 1e-6 * dd * Math.sqrt(ee * ff) && sx * sx + sy * sy + sz * sz < 1e14 * Math.min(ee, ff)) continue;
       }
       const rx = sy * ez - sz * ey, ry = sz * ex - sx * ez, rz = sx * ey - sy * ex;
       const v = (dx * rx + dy * ry + dz * rz) / det;
@@ -41,7 +49,8 @@ export class Oracle {
       const e = Math.sqrt(ex * ex + ey * ey + ez * ez), f = Math.sqrt(fx * fx + fy * fy + fz * fz), s = Math.sqrt(sx * sx + sy * sy + sz * sz);
       // Each is a sum of products of three lengths over the determinant, and so are their errors.
       const unit = 2 ** -49 / Math.abs(det);
-      const slack = 1e-12 + unit * dd * s * (e + f) + unit * dd * e * f;
+      const blur = this.#blur / Math.abs(det);
+      const slack = 1e-12 + unit * dd * s * (e + f) + unit * dd * e * f + blur * dd * (e + f);
       if (!(slack < 1e-3)) {
         // Degenerate, or seen edge-on: whatever is near enough may be hit, and nothing must be.
         const near = this.#beside(i, ox, oy, oz, dx, dy, dz, dd);
@@ -49,7 +58,7 @@ export class Oracle {
         continue;
       }
       if (u < -slack || v < -slack || u + v > 1 + slack) continue;
-      const error = 1e-12 * Math.abs(t) + unit * e * f * s;
+      const error = 1e-12 * Math.abs(t) + unit * e * f * s + blur * e * f;
       if (t + error <= tMin || t - error >= tMax) continue;
       low = Math.min(low, Math.max(t - error, tMin));
       if (u > slack && v > slack && u + v < 1 - slack && t - error > tMin && t + error < tMax) high = Math.min(high, t + error);

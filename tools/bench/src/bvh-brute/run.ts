@@ -1,4 +1,5 @@
 import { buildBlas, buildTlas, refitBlas, type Blas, type BlasMesh, type BlasOptions, type Tlas } from '@glanz/bvh';
+import { closestHitWide, widenBlas } from '@glanz/bvh/wide';
 import { anyHitBatch, anyHitBatchInstances, closestHitBatch, closestHitBatchInstances } from '@glanz/bvh/batch';
 import type { GpuTracer } from './gpu';
 import { Oracle } from './oracle';
@@ -10,9 +11,10 @@ export interface BruteOptions {
   readonly seed: number;
   readonly scenes: number;
   readonly raysPerScene: number;
-  /** Every how many rays one goes through the GPU, too. Needs `gpu`. */
+  /** Every how many rays one goes through the GPU, too. */
   readonly gpuEvery: number;
-  readonly gpu?: GpuTracer;
+  /** One for each layout. */
+  readonly gpus?: readonly GpuTracer[];
   /** Ways to build, tried in turn. */
   readonly builders: readonly BlasOptions[];
   /** Default `buildBlas`. */
@@ -26,6 +28,8 @@ export interface BruteTotals {
   hits: number;
   /** Rays whose answer, on the CPU, is not between the oracle's bounds; anyHit that contradicts closestHit; rays out of closed meshes. */
   wrong: number;
+  /** Of them through the wide layout as well, for which the same holds. */
+  wideRays: number;
   /** Rays that the oracle could not bound: degenerate triangles in their way. They count as right only within its bounds. */
   loose: number;
   gpuRays: number;
@@ -36,6 +40,9 @@ export interface BruteTotals {
 }
 
 const IDENTITY = Float32Array.of(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);
+
+/** Every so many rays one goes through the wide layout, too. */
+const WIDE_EVERY = 4;
 
 /** A seed of one scene. */
 const sceneSeed = (seed: number, scene: number): number => (Math.imul(seed, 0x01000193) ^ Math.imul(scene + 1, 0x9e3779b1)) >>> 0;
@@ -88,7 +95,9 @@ function checkCpu({ single, tlas, parts, name }: Built, { corners }: Corners, { 
     anyHitBatch(single.blas, single.mesh, rays, one);
     if (one.some((hit, i) => hit !== any[i])) complain(`${name}: one level and two disagree`);
   }
-  const oracle = new Oracle(corners);
+  // Matrices of instances make the rounding of coordinates up to some hundred times larger, there and back.
+  const oracle = new Oracle(corners, single ? 0 : 2 ** -42);
+  const wide = single && widenBlas(single.blas);
   for (let i = 0; i < count; i++) {
     oracle.ask(rays, 8 * i);
     const t = out.t[i]!;
@@ -100,6 +109,12 @@ function checkCpu({ single, tlas, parts, name }: Built, { corners }: Corners, { 
     if (t < oracle.low || t > oracle.high) problem = `t is ${t}, not from ${oracle.low} to ${oracle.high}`;
     else if ((any[i] === 1) !== t < Infinity) problem = `anyHit says ${any[i]}, closestHit ${t}`;
     else if (enclosed[i] && !(t < Infinity)) problem = 'a ray gets out of a closed mesh';
+    if (!problem && single && wide && i % WIDE_EVERY === 0) {
+      totals.wideRays++;
+      const [ox, oy, oz, tMin, dx, dy, dz, tMax] = rays.subarray(8 * i, 8 * i + 8) as unknown as [number, number, number, number, number, number, number, number];
+      const found = closestHitWide(wide, single.mesh, { origin: [ox, oy, oz], direction: [dx, dy, dz], tMin, tMax })?.t ?? Infinity;
+      if (found !== t) problem = `the wide layout finds ${found}, the binary one ${t}`;
+    }
     if (!problem) continue;
     totals.wrong++;
     complain(`${name}: ray ${i} (${[...rays.subarray(8 * i, 8 * i + 8)].join(', ')}): ${problem}`);
@@ -123,7 +138,7 @@ function facing(corners: Float64Array, at: number, rays: Float32Array, ray: numb
   let edges = Infinity, largest = 0;
   for (let k = 0; k < 3; k++) {
     const a = flat[k]!, b = flat[(k + 1) % 3]!;
-    largest = Math.max(largest, ...a.map(Math.abs));
+    largest = Math.max(largest, Math.hypot(...a));
     const e = [b[0] - a[0], b[1] - a[1], b[2] - a[2]] as const;
     const squared = e[0] ** 2 + e[1] ** 2 + e[2] ** 2;
     const s = squared > 0 ? Math.min(1, Math.max(0, -(a[0] * e[0] + a[1] * e[1] + a[2] * e[2]) / squared)) : 0;
@@ -185,13 +200,13 @@ async function checkGpu(gpu: GpuTracer, { tlas, parts, single, name }: Built, { 
     }
     if (!problem) return;
     totals.gpuWrong++;
-    complain(`${name}, GPU: ray ${ray} (${[...rays.subarray(8 * i, 8 * i + 8)].join(', ')}): ${problem}`);
+    complain(`${name}, GPU, ${gpu.layout} layout: ray ${ray} (${[...rays.subarray(8 * i, 8 * i + 8)].join(', ')}): ${problem}`);
   });
 }
 
 /** Tries rays through random scenes. The same options try the same. */
-export async function tryScenes({ seed, scenes, raysPerScene, gpuEvery, gpu, builders, build: buildTree = buildBlas, log }: BruteOptions): Promise<BruteTotals> {
-  const totals: BruteTotals = { rays: 0, hits: 0, wrong: 0, loose: 0, gpuRays: 0, gpuWrong: 0, gpuMarginal: 0 };
+export async function tryScenes({ seed, scenes, raysPerScene, gpuEvery, gpus = [], builders, build: buildTree = buildBlas, log }: BruteOptions): Promise<BruteTotals> {
+  const totals: BruteTotals = { rays: 0, hits: 0, wrong: 0, wideRays: 0, loose: 0, gpuRays: 0, gpuWrong: 0, gpuMarginal: 0 };
   let complaints = 0;
   for (let scene = 0; scene < scenes; scene++) {
     const random = randomNumbers(sceneSeed(seed, scene));
@@ -202,7 +217,7 @@ export async function tryScenes({ seed, scenes, raysPerScene, gpuEvery, gpu, bui
       if (complaints++ < 50) log(`seed ${seed}, scene ${scene}: ${line}`);
     };
     const cpu = checkCpu(built, corners, rays, totals, complain);
-    if (gpu) await checkGpu(gpu, built, corners, rays, gpuEvery, cpu, totals, complain);
+    for (const gpu of gpus) await checkGpu(gpu, built, corners, rays, gpuEvery, cpu, totals, complain);
     if ((scene + 1) % 100 === 0) log(`${scene + 1} of ${scenes} scenes, ${totals.rays} rays, ${totals.wrong} wrong; GPU ${totals.gpuRays} rays, ${totals.gpuWrong} wrong`);
   }
   return totals;
