@@ -8,7 +8,7 @@ import { GltfError, oneLine } from './error';
 import { TextureTable, type ImageDecoder } from './images';
 import type { GltfAnimation, GltfJson } from './json';
 import { readMaterial } from './materials';
-import { Budget, type GltfLimits } from './limits';
+import { Budget, DEFAULT_LIMITS, type GltfLimits } from './limits';
 import { indexOf, readNodes, sceneToShow } from './nodes';
 import type { PrimitiveReader } from './primitive';
 import { openSource, type GltfInput, type Source } from './source';
@@ -60,7 +60,7 @@ export interface LoadGltfOptions extends GltfOptions {
  * const scene = await loadGltf('models/button.glb', { signal });
  */
 export async function loadGltf(input: GltfInput, options: LoadGltfOptions = {}): Promise<Scene> {
-  const source = await openSource(input, { fetch: options.fetch ?? globalThis.fetch, baseUrl: options.baseUrl, signal: options.signal });
+  const source = await openSource(input, { fetch: options.fetch ?? globalThis.fetch, baseUrl: options.baseUrl, signal: options.signal, maxBytes: options.limits?.fileBytes ?? DEFAULT_LIMITS.fileBytes, onBytes: (done) => options.onProgress?.({ stage: 'read', done: 0.99 * done }) });
   return buildScene(source, { ...options, decodeImage: options.decodeImage ?? decodeImageInBrowser });
 }
 

@@ -73,10 +73,10 @@ export function decoded(text: string): string {
 }
 
 /** Opens any input. `fetch` and `baseUrl` serve addresses; bytes without a `baseUrl` cannot name other files. */
-export async function openSource(input: GltfInput, options: { readonly fetch: typeof globalThis.fetch; readonly baseUrl: string | URL | undefined; readonly signal: AbortSignal | undefined }): Promise<Source> {
+export async function openSource(input: GltfInput, options: { readonly fetch: typeof globalThis.fetch; readonly baseUrl: string | URL | undefined; readonly signal: AbortSignal | undefined; readonly maxBytes: number; readonly onBytes: (done: number) => void }): Promise<Source> {
   if (typeof input === 'object' && 'files' in input) return fromFiles(input);
   // Called bare: browsers refuse their fetch as another object's method.
-  const { fetch } = options;
+  const { fetch, maxBytes, onBytes } = options;
   const get = async (url: URL, uri: string, name: string, signal: AbortSignal | undefined) => {
     let response: Response;
     try {
@@ -86,7 +86,40 @@ export async function openSource(input: GltfInput, options: { readonly fetch: ty
       throw new GltfError('gltf/missing-resource', `${name}: "${uri}" could not be fetched: ${cause instanceof Error ? cause.message : String(cause)}.`, { cause, location: { file: name } });
     }
     if (!response.ok) throw new GltfError('gltf/missing-resource', `${name}: "${uri}" could not be fetched: the server answers ${response.status} ${response.statusText}.`, { location: { file: name } });
-    return new Uint8Array(await response.arrayBuffer());
+    try {
+      return await bodyOf(response, uri, name);
+    } catch (cause) {
+      signal?.throwIfAborted();
+      if (cause instanceof GltfError) throw cause;
+      throw new GltfError('gltf/missing-resource', `${name}: "${uri}" broke off: ${cause instanceof Error ? cause.message : String(cause)}.`, { cause, location: { file: name } });
+    }
+  };
+  const bodyOf = async (response: Response, uri: string, name: string): Promise<Uint8Array<ArrayBuffer>> => {
+    const tooLarge = () => new GltfError('gltf/too-large', `${name}: "${uri}" has more than the ${maxBytes} bytes that limits.fileBytes allows.`, { location: { file: name } });
+    const announced = Number(response.headers.get('content-length') ?? 0);
+    if (announced > maxBytes) throw tooLarge();
+    if (!response.body) return new Uint8Array(await response.arrayBuffer());
+    // Piece by piece, so that a server that never ends is left, and the host hears how far it is.
+    const reader = response.body.getReader();
+    const pieces: Uint8Array[] = [];
+    let length = 0;
+    for (let piece = await reader.read(); !piece.done; piece = await reader.read()) {
+      pieces.push(piece.value);
+      length += piece.value.length;
+      if (length > maxBytes) {
+        void reader.cancel().catch(() => undefined);
+        throw tooLarge();
+      }
+      // Of packed answers the announced length is that of the packed bytes.
+      if (announced > 0 && length <= announced) onBytes(length / announced);
+    }
+    const bytes = new Uint8Array(length);
+    let at = 0;
+    for (const piece of pieces) {
+      bytes.set(piece, at);
+      at += piece.length;
+    }
+    return bytes;
   };
   const relative = (base: URL | undefined, name: string): ResourceReader => async (uri, signal) => {
     // Halves of characters cannot be escaped; no file is called by them.

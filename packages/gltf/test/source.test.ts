@@ -148,3 +148,29 @@ test('a name with half a character in it is one that is not there', async () => 
   json['buffers'][0].uri = '\ud800.bin';
   await expect(loadGltf(new TextEncoder().encode(JSON.stringify(json)), { baseUrl: 'https://example.org/', fetch: () => Promise.reject(new Error('none')) })).rejects.toMatchObject({ code: 'gltf/missing-resource' });
 });
+
+test('a download is reported as it comes, left when it is more than allowed', async () => {
+  const whole = spoiled(() => undefined);
+  const respond = (headers: Record<string, string>, endless = false) => {
+    let at = 0, cancelled = false;
+    const body = new ReadableStream<Uint8Array>({
+      pull(controller) {
+        if (endless) controller.enqueue(new Uint8Array(1024));
+        else if (at >= whole.length) controller.close();
+        else controller.enqueue(whole.subarray(at, (at += 100)));
+      },
+      cancel: () => { cancelled = true; },
+    });
+    return { fetch: () => Promise.resolve(new Response(body, { headers })), wasCancelled: () => cancelled };
+  };
+  const heard: number[] = [];
+  const good = respond({ 'content-length': String(whole.length) });
+  await loadGltf('https://example.org/a.glb', { fetch: good.fetch, onProgress: ({ stage, done }) => { if (stage === 'read') heard.push(done); } });
+  expect(heard.length).toBeGreaterThan(3);
+  expect(heard).toEqual(heard.toSorted((a, b) => a - b));
+  expect(heard.at(-1)).toBe(1);
+  const endless = respond({}, true);
+  await expect(loadGltf('https://example.org/a.glb', { fetch: endless.fetch, limits: { fileBytes: 100_000 } })).rejects.toMatchObject({ code: 'gltf/too-large' });
+  expect(endless.wasCancelled()).toBe(true);
+  await expect(loadGltf('https://example.org/a.glb', { fetch: respond({ 'content-length': '5000000000' }).fetch })).rejects.toMatchObject({ code: 'gltf/too-large' });
+});

@@ -1,0 +1,8 @@
+// The file that workers run: nothing happens where it is loaded as anything else.
+import { serveGltf } from './serve';
+
+export { serveGltf, type WorkerLoadOptions } from './serve';
+
+const { WorkerGlobalScope } = globalThis as unknown as { WorkerGlobalScope?: new () => object };
+// A page of one's own may load this module to call serveGltf() with decoders: then its worker is named otherwise.
+if (WorkerGlobalScope && globalThis instanceof WorkerGlobalScope && (globalThis as { name?: string }).name === 'glanz-gltf') serveGltf();

@@ -1,0 +1,109 @@
+import { createServer, type Server } from 'node:http';
+import type { AddressInfo } from 'node:net';
+import { readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import { chromium, type Browser, type Page } from 'playwright';
+import { build } from 'esbuild';
+import { afterAll, beforeAll, expect, test } from 'vitest';
+import config from '../../../playwright.config';
+import type { loadGltfInWorker } from '../src/worker/load';
+import { glb, spoiled, triangle } from './build';
+import { presence, sharedPath } from './shared';
+
+let server: Server, browser: Browser, page: Page;
+const pages = new Map<string, string | Uint8Array>();
+const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
+
+beforeAll(async () => {
+  const { outputFiles } = await build({
+    stdin: { contents: `import { loadGltfInWorker } from ${JSON.stringify(here('../src/worker/load.ts'))}; globalThis.loadGltfInWorker = loadGltfInWorker;`, resolveDir: here('.') },
+    bundle: true, write: false, format: 'esm', conditions: ['@glanz/source'],
+  });
+  const own = await build({ entryPoints: [here('../src/worker/worker.ts')], bundle: true, write: false, format: 'esm', conditions: ['@glanz/source'] });
+  const decoding = await build({
+    stdin: { contents: `import { serveGltf } from ${JSON.stringify(here('../src/worker/worker.ts'))}; serveGltf({ decoders: { meshopt: async () => (await import('meshoptimizer/decoder')).MeshoptDecoder } });`, resolveDir: here('.') },
+    bundle: true, write: false, format: 'esm', conditions: ['@glanz/source'],
+  });
+  pages.set('/', '<!doctype html><script type="module" src="entry.js"></script>').set('/entry.js', outputFiles[0]!.contents).set('/worker.js', own.outputFiles[0]!.contents).set('/decoding.js', decoding.outputFiles[0]!.contents);
+  server = createServer((request, response) => {
+    const body = pages.get(request.url!);
+    response.writeHead(body === undefined ? 404 : 200, {
+      'content-type': request.url!.endsWith('.js') ? 'text/javascript' : request.url === '/' ? 'text/html' : 'application/octet-stream',
+      // No blob:, no eval, no other origin.
+      'content-security-policy': "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; connect-src 'self'",
+    }).end(body);
+  });
+  await new Promise<void>((resolve) => server.listen(0, '127.0.0.1', resolve));
+  browser = await chromium.launch(config.use!.launchOptions!);
+  page = await browser.newPage();
+  await page.goto(`http://127.0.0.1:${(server.address() as AddressInfo).port}/`);
+  await page.waitForFunction(() => 'loadGltfInWorker' in globalThis);
+});
+
+afterAll(async () => {
+  await browser?.close();
+  server?.close();
+});
+
+interface Result {
+  readonly code?: string;
+  readonly message?: string;
+  readonly instances?: number;
+  readonly triangles?: number;
+  readonly images?: number;
+  readonly stages?: string[];
+}
+
+const load = (path: string, options: { readonly worker?: string; readonly abort?: boolean } = {}): Promise<Result> =>
+  page.evaluate(async ({ path: address, worker, abort }) => {
+    const controller = new AbortController();
+    const stages = new Set<string>();
+    try {
+      const promise = (globalThis as unknown as { loadGltfInWorker: typeof loadGltfInWorker }).loadGltfInWorker(address, {
+        signal: controller.signal,
+        onProgress: ({ stage }) => stages.add(stage),
+        ...(worker ? { createWorker: () => new Worker(worker, { type: 'module' }) } : {}),
+      });
+      if (abort) controller.abort();
+      const scene = await promise;
+      return { instances: scene.instances.length, triangles: scene.meshes.reduce((sum, { indices }) => sum + indices.length / 3, 0), images: scene.images.length, stages: [...stages] };
+    } catch (error) {
+      return { ...((error as { code?: string }).code === undefined ? {} : { code: String((error as { code?: string }).code) }), message: (error as Error).message };
+    }
+  }, { path, ...options });
+
+test('a document by a relative address, under a policy without blob:', async () => {
+  pages.set('/m/a.glb', spoiled(() => undefined));
+  expect(await load('m/a.glb')).toMatchObject({ instances: 1, triangles: 1, stages: ['read', 'decode'] });
+});
+
+test('errors keep class, code and message', async () => {
+  pages.set('/m/short.glb', glb(triangle().json, new Uint8Array(8)));
+  expect(await load('m/short.glb')).toMatchObject({ code: 'gltf/truncated', message: expect.stringMatching(/short\.glb/) });
+  expect(await load('m/none.glb')).toMatchObject({ code: 'gltf/missing-resource' });
+});
+
+test('a worker that is not there is an error, and an abort its reason', async () => {
+  expect(await load('m/a.glb', { worker: '/none.js' })).toMatchObject({ code: 'gltf/worker' });
+  expect((await load('m/a.glb', { abort: true })).message).toMatch(/abort/i);
+});
+
+const { present, note } = presence('assets/index.json');
+
+test.skipIf(!present)(`a compressed model by a worker of one's own with a decoder; without, the package to install${note}`, async () => {
+  pages.set('/m/packed.glb', readFileSync(sharedPath('assets/BoxTextured-meshopt/BoxTextured_meshopt.glb')));
+  expect(await load('m/packed.glb', { worker: '/decoding.js' })).toMatchObject({ triangles: 12, images: 1 });
+  expect(await load('m/packed.glb')).toMatchObject({ code: 'gltf/missing-decoder', message: expect.stringMatching(/meshoptimizer/) });
+});
+
+test.skipIf(!present)(`no task of the page's own thread takes a frame${note}`, async () => {
+  pages.set('/m/helmet.glb', readFileSync(sharedPath('assets/DamagedHelmet/DamagedHelmet.glb')));
+  await browser.startTracing(page, { categories: ['__metadata', 'toplevel', 'devtools.timeline'] });
+  expect(await load('m/helmet.glb')).toMatchObject({ triangles: 15452, images: 4 });
+  const { traceEvents } = JSON.parse((await browser.stopTracing()).toString()) as { traceEvents: { name: string; ph: string; pid: number; tid: number; tdur?: number; args?: { name?: string } }[] };
+  const main = new Set(traceEvents.filter(({ name, args }) => name === 'thread_name' && args?.name === 'CrRendererMain').map(({ pid, tid }) => `${pid}/${tid}`));
+  // Time on the processor: by the clock, other processes would count too.
+  const tasks = traceEvents.filter(({ ph, pid, tid, tdur }) => ph === 'X' && tdur !== undefined && main.has(`${pid}/${tid}`)).map(({ tdur }) => tdur! / 1000);
+  expect(tasks.length).toBeGreaterThan(10);
+  expect(Math.max(...tasks)).toBeLessThan(16);
+});
