@@ -28,23 +28,42 @@ export async function convertImage(sources: readonly DecodedImage[], { colorSpac
   const data = new Uint8Array(4 * width * height);
   const texels = new Float32Array(4 * sources.length);
   const result = new Float32Array(4);
+  // Pictures have areas of one colour: texels like the ones before are worth the same.
+  const codes = new Int32Array(sources.length).fill(-1), before = new Int32Array(sources.length).fill(-1);
+  const words = sources.map((source) => new DataView(source.data.buffer, source.data.byteOffset, source.data.byteLength));
+  const rows = sources.map(() => 0);
   let until = performance.now() + TURN;
-  for (let y = 0; y < height; y++) {
+  let first = true;
+  for (let y = 0, to = 0; y < height; y++) {
     if (performance.now() > until) {
       await new Promise((resolve) => setTimeout(resolve));
       signal?.throwIfAborted();
       until = performance.now() + TURN;
     }
-    for (let x = 0; x < width; x++) {
-      for (const [k, source] of sources.entries()) {
-        const at = 4 * (Math.floor(((y + 0.5) * source.height) / height) * source.width + Math.floor(((x + 0.5) * source.width) / width));
-        for (let c = 0; c < 3; c++) texels[4 * k + c] = decode[source.data[at + c] as number] as number;
-        texels[4 * k + 3] = (source.data[at + 3] as number) / 255;
+    for (let k = 0; k < sources.length; k++) rows[k] = Math.floor(((y + 0.5) * (sources[k] as DecodedImage).height) / height) * (sources[k] as DecodedImage).width;
+    for (let x = 0; x < width; x++, to += 4) {
+      let same = !first;
+      for (let k = 0; k < sources.length; k++) {
+        const source = sources[k] as DecodedImage;
+        const column = source.width === width ? x : Math.floor(((x + 0.5) * source.width) / width);
+        codes[k] = (words[k] as DataView).getInt32(4 * ((rows[k] as number) + column), true);
+        same &&= codes[k] === before[k];
+      }
+      if (same) {
+        data.copyWithin(to, to - 4, to);
+        continue;
+      }
+      first = false;
+      for (let k = 0; k < sources.length; k++) {
+        const code = (before[k] = codes[k] as number);
+        texels[4 * k] = decode[code & 255] as number;
+        texels[4 * k + 1] = decode[(code >> 8) & 255] as number;
+        texels[4 * k + 2] = decode[(code >> 16) & 255] as number;
+        texels[4 * k + 3] = (code >>> 24) / 255;
       }
       convert(texels, result);
-      const at = 4 * (y * width + x);
-      for (let c = 0; c < 3; c++) data[at + c] = encode[Math.round(STEPS * Math.min(Math.max(result[c] as number, 0), 1))] as number;
-      data[at + 3] = Math.round(255 * Math.min(Math.max(result[3] as number, 0), 1));
+      for (let c = 0; c < 3; c++) data[to + c] = encode[Math.round(STEPS * Math.min(Math.max(result[c] as number, 0), 1))] as number;
+      data[to + 3] = Math.round(255 * Math.min(Math.max(result[3] as number, 0), 1));
     }
   }
   return { width, height, data };

@@ -24,7 +24,7 @@ export function fuzzRoughness(r: number): number {
 export function anisotropicRoughness(roughness: number, strength: number): { readonly roughness: number; readonly anisotropy: number } {
   const across = roughness * roughness;
   const along = lerp(across, 1, strength * strength);
-  return { roughness: ((along * along + across * across) / 2) ** 0.25, anisotropy: along > 0 ? 1 - across / along : 0 };
+  return { roughness: Math.sqrt(Math.sqrt((along * along + across * across) / 2)), anisotropy: along > 0 ? 1 - across / along : 0 };
 }
 
 /** The largest reflectance at normal incidence that an index stands for: 1 would be infinite. */

@@ -48,7 +48,7 @@ function placement({ texCoord, extensions }: GltfTextureReference): string {
 
 /** Splits a colour into its brightest channel, as alpha, and the rest. */
 function splitColor(factor: readonly number[], texels: ArrayLike<number>, result: { [channel: number]: number }): void {
-  const [r, g, b] = [0, 1, 2].map((k) => (factor[k] as number) * (texels[k] as number)) as [number, number, number];
+  const r = (factor[0] as number) * (texels[0] as number), g = (factor[1] as number) * (texels[1] as number), b = (factor[2] as number) * (texels[2] as number);
   const brightest = Math.max(r, g, b);
   const scale = brightest > 0 ? 1 / brightest : 0;
   result[0] = brightest > 0 ? r * scale : 1;
