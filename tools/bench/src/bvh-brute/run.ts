@@ -1,4 +1,5 @@
-import { buildBlas, buildTlas, refitBlas, type Blas, type BlasMesh, type BlasOptions, type Tlas } from '@glanz/bvh';
+import { buildBlas, buildTlas, type Blas, type BlasMesh, type BlasOptions, type Tlas } from '@glanz/bvh';
+import { refitBlas } from '@glanz/bvh/refit';
 import { closestHitWide, widenBlas } from '@glanz/bvh/wide';
 import { anyHitBatch, anyHitBatchInstances, closestHitBatch, closestHitBatchInstances } from '@glanz/bvh/batch';
 import type { GpuTracer } from './gpu';
