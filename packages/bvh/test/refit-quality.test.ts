@@ -1,5 +1,6 @@
 import { expect, test } from 'vitest';
-import { buildBlas, refitBlas, type TriangleMesh } from '../src/index';
+import { buildBlas, type TriangleMesh } from '../src/index';
+import { refitBlas } from '../src/refit';
 import { REBUILD_ABOVE, RefitQuality } from '../src/refit-quality';
 import { randomNumbers, sphere, strewn } from './shapes';
 import { work } from './work';

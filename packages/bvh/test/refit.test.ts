@@ -1,5 +1,6 @@
 import { expect, test } from 'vitest';
-import { buildBlas, BvhError, closestHit, refitBlas } from '../src/index';
+import { buildBlas, BvhError, closestHit } from '../src/index';
+import { refitBlas } from '../src/refit';
 import { bruteForce, direction, randomNumbers, sphere, strewn } from './shapes';
 import { checkBlas } from './structure';
 

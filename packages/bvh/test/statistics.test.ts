@@ -1,5 +1,6 @@
 import { expect, test } from 'vitest';
-import { buildBlas, buildTlas, bvhStatistics, sahCost } from '../src/index';
+import { buildBlas, buildTlas } from '../src/index';
+import { bvhStatistics, sahCost } from '../src/statistics';
 import { FAR, LEAF, LEFT, LEFT_MIN, leafCount, NODE_WORDS, RIGHT, RIGHT_MIN } from '../src/layout';
 import { affine, direction, randomNumbers, sphere, strewn } from './shapes';
 

@@ -1,5 +1,6 @@
 import { expect, test } from 'vitest';
-import { buildBlas, buildTlas, BvhError, closestHitInstances, refitBlas, TLAS_MAX_DEPTH } from '../src/index';
+import { buildBlas, buildTlas, BvhError, closestHitInstances, TLAS_MAX_DEPTH } from '../src/index';
+import { refitBlas } from '../src/refit';
 import { affine, baked, bruteForce, direction, randomNumbers, sphere, strewn } from './shapes';
 import { checkStructure } from './structure';
 

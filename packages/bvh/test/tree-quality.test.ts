@@ -1,5 +1,6 @@
 import { expect, test } from 'vitest';
-import { buildBlas, refitBlas, type Blas, type TriangleMesh } from '../src/index';
+import { buildBlas, type Blas, type TriangleMesh } from '../src/index';
+import { refitBlas } from '../src/refit';
 import { LEAF, LEFT, LEFT_MIN, leafCount, leafFirst, leafReference, NODE_WORDS, RIGHT, RIGHT_MIN } from '../src/layout';
 import { endPointOverlap, siblingOverlap } from '../src/tree-quality';
 import { randomNumbers, sphere, strewn } from './shapes';
