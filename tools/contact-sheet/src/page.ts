@@ -1,0 +1,34 @@
+import { existsSync } from 'node:fs';
+import { join } from 'node:path';
+import sharp from 'sharp';
+import type { Row } from './render';
+
+const escape = (text: string) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
+
+/** The page: pictures first, then what was told of each model. */
+export function html(rows: readonly Row[], size: number, samples: number): string {
+  const told = rows.filter(({ error, warnings, badSamples }) => error !== undefined || warnings.length > 0 || badSamples > 0);
+  const cell = ({ id, name, note, error, warnings, triangles }: Row) =>
+    `<figure class="${error === undefined ? (warnings.length > 0 ? 'warned' : '') : 'failed'}"><a href="#${escape(id)}">${error === undefined ? `<img src="pictures/${escape(id)}.png" width="${size}" height="${size}" alt="">` : '<div></div>'}</a><figcaption title="${escape(note)}">${escape(name)}<br><small>${triangles.toLocaleString('en')} triangles</small></figcaption></figure>`;
+  const entry = ({ id, name, error, warnings, badSamples }: Row) =>
+    `<h3 id="${escape(id)}">${escape(name)}</h3><ul>${error === undefined ? '' : `<li class="failed">${escape(error)}</li>`}${badSamples > 0 ? `<li>${badSamples} samples were not numbers</li>` : ''}${warnings.map((warning) => `<li>${escape(warning)}</li>`).join('')}</ul>`;
+  return `<!doctype html><meta charset="utf-8"><title>Contact sheet</title>
+<style>body{font:13px system-ui;margin:16px;background:#1b1c1e;color:#ddd}main{display:flex;flex-wrap:wrap;gap:8px}figure{margin:0;width:${Math.max(size, 110)}px;overflow-wrap:anywhere}figure div{width:${size}px;height:${size}px;background:#511}.failed{color:#f77}.warned figcaption{color:#fc6}img{image-rendering:pixelated}a{color:inherit}</style>
+<h1>${rows.length} models</h1><p>${size} × ${size}, ${samples} samples. ${rows.filter(({ error }) => error !== undefined).length} failed, ${told.length} with something to tell.</p>
+<main>${rows.map(cell).join('\n')}</main>
+<h2>Warnings and errors</h2>${told.map(entry).join('\n')}
+`;
+}
+
+/** All pictures in one, with their names below. */
+export async function montage(rows: readonly Row[], folder: string, size: number): Promise<Uint8Array> {
+  const columns = 12, label = 16, width = Math.max(size, 96) + 4, height = size + label;
+  const pieces: { input: string | Buffer; left: number; top: number }[] = [];
+  for (const [i, { id, name, error }] of rows.entries()) {
+    const left = (i % columns) * width, top = Math.floor(i / columns) * height;
+    const file = join(folder, `${id}.png`);
+    if (error === undefined && existsSync(file)) pieces.push({ input: file, left, top });
+    pieces.push({ input: Buffer.from(`<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${label}"><text x="1" y="11" font-family="sans-serif" font-size="10" fill="${error === undefined ? '#ddd' : '#f66'}">${escape(name.slice(0, 19))}</text></svg>`), left, top: top + size });
+  }
+  return sharp({ create: { width: columns * width, height: Math.ceil(rows.length / columns) * height, channels: 3, background: '#1b1c1e' } }).composite(pieces).png().toBuffer();
+}
