@@ -1,5 +1,5 @@
 import { decodeEnvironment } from '@glanz/image/environment';
-import type { PathTracer } from '@glanz/renderer';
+import { PathTracer } from '@glanz/renderer';
 import type { Scene } from '@glanz/scene';
 import { studioEnvironment } from '@glanz/scene/studio';
 
@@ -33,3 +33,10 @@ export function addLamps(scene: Scene): Scene {
 // #region emissive
 export const glow = (tracer: PathTracer) => tracer.setMaterial('lens', { emission_color: [0.03, 1, 0.2], emission_luminance: 4 });
 // #endregion emissive
+
+// #region catcher
+export function ontoPhotograph(device: GPUDevice, scene: Scene) {
+  for (const instance of scene.instances) if (instance.name === 'floor') instance.catcher = true;
+  return PathTracer.create(device, scene, { width: 800, height: 600, background: 'transparent' });
+}
+// #endregion catcher

@@ -30,6 +30,9 @@ PICTURE
       --bits N          8 or 16 for .png (default 8), 16 or 32 for .exr
                         (default 16).
       --transparent     Leave the background out: alpha is the coverage.
+      --catcher PART    Show of this part, a floor say, only the shadows and the
+                        light that the others throw on it. May be given
+                        several times.
       --exposure EV     Brighten (or darken) by stops, .png only. Default 0.
                         Or as a camera does, for scenes in cd/m2:
                         f/8,1/125,iso200.

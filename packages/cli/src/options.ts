@@ -26,6 +26,8 @@ export interface RenderCommandOptions {
   readonly exposure: number;
   readonly toneMap: ToneMap;
   readonly transparent: boolean;
+  /** Names of parts that catch shadows and reflections. */
+  readonly catchers: readonly string[];
   readonly quality: QualityOptions;
   readonly gpu: string | undefined;
 }
@@ -64,6 +66,7 @@ const OPTIONS = {
   tonemap: { type: 'string' },
   bits: { type: 'string' },
   transparent: { type: 'boolean' },
+  catcher: { type: 'string', multiple: true },
   json: { type: 'boolean' },
   quiet: { type: 'boolean', short: 'q' },
   'list-gpus': { type: 'boolean' },
@@ -188,6 +191,7 @@ export function parseCommand(argv: readonly string[]): Command {
       exposure: values.exposure === undefined ? 0 : parseExposure(values.exposure),
       toneMap,
       transparent: values.transparent ?? false,
+      catchers: values.catcher ?? [],
       quality: {
         ...(values.filter === undefined ? {} : { filter: parseFilter(values.filter) }),
         ...(values['max-bounces'] === undefined ? {} : { maxBounces: parseBounces(values['max-bounces']) }),

@@ -35,13 +35,14 @@ describe('glanz render', () => {
       exposure: 0,
       toneMap: 'neutral',
       transparent: false,
+      catchers: [],
       quality: {},
       gpu: undefined,
     });
   });
 
   it('reads every option, before or after the model', () => {
-    const argv = ['--env', 'a.hdr', '--env-rotation', '180', '--env-intensity=2', 'm.gltf', '--size', '640X480', '--samples', '16', '--noise', '0.01', '--depth', '3', '--seed', '4294967295', '--camera', '1', '--exposure', '-1.5', '--tonemap', 'agx', '--transparent', '--filter', 'gaussian:2', '--light-groups', 'each', '--max-bounces', 'diffuse=2,volume=9', '--clamp-indirect', '10', '--regularization', '0.25', '--no-caustics', '--gpu', 'H200', '-o', 'x.PNG', '-o', 'y.exr', '--bits', '16'];
+    const argv = ['--env', 'a.hdr', '--env-rotation', '180', '--env-intensity=2', 'm.gltf', '--size', '640X480', '--samples', '16', '--noise', '0.01', '--depth', '3', '--seed', '4294967295', '--camera', '1', '--exposure', '-1.5', '--tonemap', 'agx', '--transparent', '--catcher', 'floor', '--filter', 'gaussian:2', '--light-groups', 'each', '--max-bounces', 'diffuse=2,volume=9', '--clamp-indirect', '10', '--regularization', '0.25', '--no-caustics', '--gpu', 'H200', '-o', 'x.PNG', '-o', 'y.exr', '--bits', '16'];
     expect(options(...argv)).toEqual({
       model: 'm.gltf',
       outputs: [{ path: 'x.PNG', format: 'png', bits: 16 }, { path: 'y.exr', format: 'exr', bits: 16 }],
@@ -58,6 +59,7 @@ describe('glanz render', () => {
       exposure: -1.5,
       toneMap: 'agx',
       transparent: true,
+      catchers: ['floor'],
       quality: { filter: { type: 'gaussian', radius: 2 }, lightGroups: 'each', maxBounces: { diffuse: 2, volume: 9 }, clampIndirect: 10, regularization: 0.25, caustics: false },
       gpu: 'H200',
     });

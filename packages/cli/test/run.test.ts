@@ -16,7 +16,7 @@ describe('help and version', () => {
     const { code, out, err } = await run(['--help'], '.');
     expect([code, err]).toEqual([0, '']);
     for (const heading of ['NAME', 'SYNOPSIS', 'DESCRIPTION', 'EXIT STATUS', 'EXAMPLES']) expect(out).toContain(`\n${heading}\n`.trimStart());
-    for (const option of ['output', 'env', 'env-rotation', 'env-intensity', 'size', 'samples', 'noise', 'depth', 'seed', 'camera', 'filter', 'light-groups', 'max-bounces', 'clamp-indirect', 'regularization', 'no-caustics', 'exposure', 'tonemap', 'bits', 'transparent', 'json', 'quiet', 'list-gpus', 'gpu', 'help', 'version']) {
+    for (const option of ['output', 'env', 'env-rotation', 'env-intensity', 'size', 'samples', 'noise', 'depth', 'seed', 'camera', 'filter', 'light-groups', 'max-bounces', 'clamp-indirect', 'regularization', 'no-caustics', 'exposure', 'tonemap', 'bits', 'transparent', 'catcher', 'json', 'quiet', 'list-gpus', 'gpu', 'help', 'version']) {
       expect(out).toMatch(new RegExp(`--${option}\\b`));
     }
     for (const line of out.split('\n')) expect(line.length, line).toBeLessThanOrEqual(80);
@@ -32,6 +32,13 @@ describe('help and version', () => {
     const none = await run(['--list-gpus'], '.', { listGpus: async () => [] });
     expect([none.code, none.out, none.err.split('\n').length]).toEqual([5, '', 2]);
   });
+});
+
+it('parts become catchers by name, and a name that no part has is refused', async () => {
+  const { code, created } = await run(['render', 'm.glb', ...SIZE, '--catcher', 'part', '--transparent'], folder());
+  expect([code, created[0]?.scene.instances[0]?.catcher]).toEqual([0, true]);
+  const refused = await run(['render', 'm.glb', ...SIZE, '--catcher', 'table'], folder());
+  expect([refused.code, refused.err]).toEqual([2, expect.stringContaining('the model has no part "table"; it has "part"')]);
 });
 
 describe('writing', () => {

@@ -24,6 +24,7 @@ export function packFrame(camera: Camera, film: Film, scene: GpuScene, geometry:
     environment_probability: scene.environmentProbability,
     environment_rotation: environment.rotation,
     environment_group: scene.groups.environment,
+    catcher_root: geometry.tlas.nodeCount,
     environment_cells: [environment.table?.width ?? 1, environment.table?.height ?? 1],
     lod_bias: options.textureLodBias ?? -1,
     ...shortcutUniforms(options),

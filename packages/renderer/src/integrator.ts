@@ -57,6 +57,11 @@ export class Integrator {
     };
   }
 
+  /** Paths of a sample: one, with catchers two. */
+  get pathsPerSample(): number {
+    return this.#kernels.features.flags.CATCHER ? 2 : 1;
+  }
+
   get kernels(): KernelSet {
     return this.#kernels;
   }
@@ -96,7 +101,7 @@ export class Integrator {
   submit(batch: Batch): void {
     this.#writeBatch(batch);
     const { kernels, features } = this.#kernels;
-    const paths = batch.pixelCount * batch.sampleCount;
+    const paths = batch.pixelCount * batch.sampleCount * this.pathsPerSample;
     this.#pass('glanz batch', (pass) => {
       const run = (name: KernelName, work: number | { readonly indirect: number }) => this.#run(pass, name, kernels[name] as Kernel, work);
       run('begin', 1);
@@ -150,7 +155,7 @@ export class Integrator {
 
   #writeBatch(batch: Batch): void {
     const data = batchStruct.allocate();
-    batchStruct.write(data, 0, { pixel_offset: batch.pixelOffset, pixel_count: batch.pixelCount, sample_offset: batch.sampleOffset, sample_count: batch.sampleCount });
+    batchStruct.write(data, 0, { pixel_offset: batch.pixelOffset, pixel_count: batch.pixelCount, sample_offset: batch.sampleOffset, sample_count: batch.sampleCount, path_count: batch.pixelCount * batch.sampleCount * this.pathsPerSample });
     this.#memory.write(this.#buffers.batch, data);
   }
 

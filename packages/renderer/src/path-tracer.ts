@@ -177,7 +177,9 @@ export class PathTracer extends TracerEdits {
     }
     if (layer === 'variance') {
       const [total, moment] = await this.#readFilm('film_total', 'film_moment');
-      return varianceLayer(total as Float32Array, moment as Float32Array, this.#firstWeights);
+      // With catchers: the picture in which they are what they are, without the one that lacks the objects.
+      const weights = this.#integrator.pathsPerSample > 1 ? [...this.#firstWeights, ...this.#firstWeights] : this.#firstWeights;
+      return varianceLayer(total as Float32Array, moment as Float32Array, weights);
     }
     return this.#readFeature(layer, bytes);
   }
@@ -219,6 +221,7 @@ export class PathTracer extends TracerEdits {
    */
   async readLightGroup(name: string): Promise<Float32Array<ArrayBuffer>> {
     this.#check();
+    if (this.#integrator.pathsPerSample > 1) throw new RenderError('renderer/light-groups', 'With catchers the picture is no sum of its light groups: they can be set, but not read one by one.');
     const plane = this.#gpuScene.groups.names.indexOf(this.#lightGroup(name).name);
     const weight = this.#groupWeights()[plane] as GroupWeights[number];
     const [total, block, moment] = await this.#readFilm('film_total', 'film_block', 'film_moment');
@@ -339,7 +342,7 @@ export class PathTracer extends TracerEdits {
       {
         width: film.width,
         height: film.height,
-        capacity: this.#integrator.capacity,
+        capacity: Math.floor(this.#integrator.capacity / this.#integrator.pathsPerSample),
         queue: this.#device.queue,
         submit: (batch) => this.#submit(batch),
         check: () => {

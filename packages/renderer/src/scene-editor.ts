@@ -2,7 +2,7 @@ import type { Blas } from '@glanz/bvh';
 import { createScene, validateScene, type Environment, type Instance, type Light, type Material, type Mesh, type Scene } from '@glanz/scene';
 import { RenderError } from './errors';
 import type { GpuScene } from './gpu/gpu-scene';
-import { attributeWords, layOutGeometry, missingMeshes, packGeometry, packMesh, placeInstances, prepareHierarchies, type Geometry, type MeshRegion } from './scene/geometry';
+import { attributeWords, layOutGeometry, missingMeshes, packGeometry, packMesh, packTlas, placeInstances, prepareHierarchies, type Geometry, type MeshRegion } from './scene/geometry';
 import type { HierarchyBuilder } from './scene/hierarchies';
 import { findMaterial } from './scene/materials';
 
@@ -91,23 +91,27 @@ export class SceneEditor {
     return this.#gpu.updateEnvironment(next);
   }
 
-  setTransform(nameOrIndex: string | number, transform: ArrayLike<number>): boolean {
+  setTransform(nameOrIndex: string | number, transform: ArrayLike<number>): boolean | Promise<boolean> {
     if (transform.length !== 16 || !Array.from(transform).every(Number.isFinite)) throw new RenderError('renderer/transform', 'A transform must be 16 finite numbers, column-major.');
     return this.#place(this.#changed(nameOrIndex, { transform: Array.from(transform) }));
   }
 
-  setMaterialOf(nameOrIndex: string | number, material: string | number): boolean {
+  setMaterialOf(nameOrIndex: string | number, material: string | number): boolean | Promise<boolean> {
     const index = this.#material(material);
     const instances = this.#changed(nameOrIndex, { material: index });
     this.#instances(nameOrIndex).forEach((i) => (this.#plain[i] = index));
     return this.#place(instances);
   }
 
-  setVariant(variant: string | number | undefined): boolean {
+  setVariant(variant: string | number | undefined): boolean | Promise<boolean> {
     const all = this.scene.variants ?? [];
     const index = typeof variant === 'string' ? all.indexOf(variant) : variant;
     if (index !== undefined && all[index] === undefined) throw new RenderError('renderer/variant', `The scene has no variant ${JSON.stringify(variant)}; it has: ${all.join(', ') || 'none'}.`);
     return this.#place(this.scene.instances.map((instance, i) => ({ ...instance, material: (index === undefined ? undefined : instance.variants?.[index]) ?? (this.#plain[i] as number) })));
+  }
+
+  setCatcher(nameOrIndex: string | number, catcher: boolean): boolean | Promise<boolean> {
+    return this.#place(this.#changed(nameOrIndex, { catcher }));
   }
 
   async setVisibility(nameOrIndex: string | number, visible: boolean): Promise<boolean> {
@@ -176,8 +180,10 @@ export class SceneEditor {
   }
 
   /** Other instances of the same shapes. The old ones stay if the new ones show nothing. */
-  #place(instances: Instance[]): boolean {
+  #place(instances: Instance[]): boolean | Promise<boolean> {
     const geometry = { ...this.#geometry, ...placeInstances({ ...this.scene, instances }, this.#geometry.blas) };
+    // The first catcher brings a second hierarchy.
+    if (packTlas(geometry).length > 16 * geometry.tlasNodes) return this.#reshape(() => ({ ...this.scene, instances }));
     this.#commit({ ...this.scene, instances }, geometry);
     return this.#gpu.updatePlacement(geometry);
   }

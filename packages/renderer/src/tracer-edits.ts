@@ -61,6 +61,16 @@ export abstract class TracerEdits {
   }
 
   /**
+   * Makes the instances of a name, or the one of an index, catchers of shadows and reflections, or plain surfaces again; see
+   * `Instance.catcher`. The first one brings kernels that know catchers. Restarts the film.
+   *
+   * @throws {RenderError} `renderer/instance`
+   */
+  setCatcher(nameOrIndex: string | number, catcher: boolean): Promise<void> {
+    return this.edit((editor) => editor.setCatcher(nameOrIndex, catcher));
+  }
+
+  /**
    * Puts another material on the instances of a name, or on the one of an index. Restarts the film.
    * @throws {RenderError} `renderer/instance`, `renderer/material`
    */

@@ -27,6 +27,11 @@ export interface Instance {
   transform: ArrayLike<number>;
   /** Default true. An invisible instance casts no shadow either. */
   visible?: boolean;
+  /**
+   * Default false. Stands for a surface of the surroundings, a table say, that is in the photograph behind: the camera sees
+   * nothing of it but the shadows and the light that the other instances throw on it.
+   */
+  catcher?: boolean;
   /** Index of another material by the index of a variant in {@link Scene.variants}; the others wear `material`. See `withVariant`. */
   variants?: Readonly<Record<number, number>>;
 }

@@ -3,7 +3,7 @@ import type { Camera, Scene } from '@glanz/scene';
 import type { Backend, OpenedGpu, RenderStatistics, Tracer } from '../backend';
 import { chooseCamera } from '../camera';
 import { chooseEnvironment } from '../environment';
-import { EXIT } from '../errors';
+import { CliError, EXIT } from '../errors';
 import { checkInput } from '../input';
 import type { CliIo, Interrupt } from '../io';
 import type { RenderCommandOptions } from '../options';
@@ -94,7 +94,8 @@ export async function renderCommand(options: RenderCommandOptions, io: CliIo, ba
       chooseEnvironment(model, options.env, { rotation: options.envRotation, intensity: options.envIntensity }, cwd),
     );
     const { environment: _replaced, ...rest } = model;
-    const scene: Scene = environment ? { ...rest, environment } : rest;
+    const instances = markCatchers(model.instances, options.catchers);
+    const scene: Scene = environment ? { ...rest, instances, environment } : { ...rest, instances };
     const camera = await chooseCamera(scene, options.camera, options.width / options.height, cwd);
     const warnings = [...scene.warnings.map(({ message, path }) => (path ? `${message} (${path})` : message)), ...environmentWarnings];
     for (const warning of warnings.slice(0, MAX_WARNINGS)) progress.warning(warning);
@@ -182,6 +183,14 @@ export async function renderCommand(options: RenderCommandOptions, io: CliIo, ba
     tracer?.destroy();
     opened?.device.destroy();
   }
+}
+
+/** @throws {CliError} `cli/usage` for a name that no part has. */
+function markCatchers(instances: Scene['instances'], names: readonly string[]): Scene['instances'] {
+  for (const name of names) {
+    if (!instances.some((instance) => instance.name === name)) throw new CliError('cli/usage', `--catcher: the model has no part "${name}"; it has ${[...new Set(instances.map((instance) => `"${instance.name}"`))].join(', ')}.`);
+  }
+  return instances.map((instance) => (names.includes(instance.name) ? { ...instance, catcher: true } : instance));
 }
 
 const cameraName = (camera: Camera) => camera.name || camera.type;

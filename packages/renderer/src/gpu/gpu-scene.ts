@@ -6,7 +6,7 @@ import { instanceStruct, materialStruct, meshStruct } from '../kernels/layout';
 import type { ResourceName } from '../kernels/resources';
 import { prepareEnvironment, turnEnvironment, type EnvironmentData } from '../scene/environment';
 import type { LightGroupMode } from '../options';
-import { packInstances, type Geometry, type MeshRegion, type PackedGeometry, type PackedMesh } from '../scene/geometry';
+import { packInstances, packTlas, type Geometry, type MeshRegion, type PackedGeometry, type PackedMesh } from '../scene/geometry';
 import { lightGroupTable, type LightGroupTable } from '../scene/light-groups';
 import { buildLightTable, type LightTable } from '../scene/lights';
 import { hasRanges, isOpaque, packBindings, packMaterial, texturedParameters, turnsTangent, usedTextures, type TexturedParameterInfo } from '../scene/materials';
@@ -63,8 +63,6 @@ export class GpuScene {
     this.#uploadShapes(packed);
     this.#lights = this.#buildLights();
     this.#upload('lights', this.#lights.records);
-    // Room for those that are hidden now.
-    this.#buffers.set('instances', memory.buffer('instances', scene.instances.length * instanceStruct.size, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST));
     this.#writeInstances();
     this.#environment = prepareEnvironment(scene.environment);
     this.#uploadEnvironment();
@@ -118,6 +116,7 @@ export class GpuScene {
         ENVIRONMENT_MAP: this.#environment.pixels !== undefined,
         ENVIRONMENT_SAMPLED: sampled,
         LIGHTS: lights,
+        CATCHER: this.#geometry.bare !== undefined,
         LIGHT_GROUPS: this.#choices.lightGroups !== 'off',
         NEXT_EVENT: lights || sampled,
         SOBOL: this.#choices.sampler === 'sobol',
@@ -126,7 +125,7 @@ export class GpuScene {
       textured: this.#textured,
       textureCount: this.#sceneTextures.length,
       samplerCount: this.#samplers.length,
-      planes: this.#groups.names.length,
+      planes: this.#groups.names.length * (this.#geometry.bare ? 4 : 1),
     };
   }
 
@@ -167,7 +166,7 @@ export class GpuScene {
   /** Instances have moved, appeared, vanished, or wear another material. Returns true if bindings were replaced. */
   updatePlacement(geometry: Geometry): boolean {
     this.#geometry = geometry;
-    this.#memory.write(this.#buffers.get('nodes') as GPUBuffer, geometry.tlas.nodes);
+    this.#memory.write(this.#buffers.get('nodes') as GPUBuffer, packTlas(geometry));
     this.#updateGroups();
     return this.updateLights();
   }
@@ -216,17 +215,27 @@ export class GpuScene {
   updateLights(): boolean {
     const before = this.#lights.records.byteLength;
     this.#lights = this.#buildLights();
-    this.#writeInstances();
+    const replaced = this.#writeInstances();
     if (this.#lights.records.byteLength === before) {
       this.#memory.write(this.#buffers.get('lights') as GPUBuffer, this.#lights.records);
-      return false;
+      return replaced;
     }
     this.#upload('lights', this.#lights.records);
     return true;
   }
 
-  #writeInstances(): void {
-    this.#memory.write(this.#buffers.get('instances') as GPUBuffer, packInstances(this.#scene, this.#geometry, this.#lights.firstLight));
+  /** Returns true if the buffer was replaced: it has room for hidden instances, but not for catchers' second records. */
+  #writeInstances(): boolean {
+    const records = packInstances(this.#scene, this.#geometry, this.#lights.firstLight);
+    const before = this.#buffers.get('instances');
+    const replaced = !before || before.size < records.byteLength;
+    if (replaced) {
+      this.#memory.release(before);
+      const bytes = Math.max(records.byteLength, this.#scene.instances.length * instanceStruct.size);
+      this.#buffers.set('instances', this.#memory.buffer('instances', bytes, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST));
+    }
+    this.#memory.write(this.#buffers.get('instances') as GPUBuffer, records);
+    return replaced;
   }
 
   #opaque(material: number): boolean {

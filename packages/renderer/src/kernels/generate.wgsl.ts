@@ -1,6 +1,7 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { camera } from './camera.wgsl';
 import { filter } from './filter.wgsl';
+import { pathSample } from './path.wgsl';
 
 /** Starts the paths of a batch: path i is sample ⌊i / pixels⌋ of pixel i mod pixels. */
 export const generate = (path: WgslModule): WgslModule => wgslModule(
@@ -9,9 +10,9 @@ export const generate = (path: WgslModule): WgslModule => wgslModule(
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3u) {
   let index = id.x;
-  if (index >= batch.pixel_count * batch.sample_count) { return; }
+  if (index >= batch.path_count) { return; }
   let pixel = film_pixels[batch.pixel_offset + index % batch.pixel_count];
-  random_begin(pixel, batch.sample_offset + index / batch.pixel_count, 0u, frame.seed);
+  random_begin(pixel, path_sample(index), 0u, frame.seed);
   let offset = filter_offset(random_2());
   let ray = camera_ray(vec2u(pixel % frame.size.x, pixel / frame.size.x), offset, random_2());
   paths[index].origin = ray.origin;
@@ -22,6 +23,9 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   paths[index].alpha = 1.0;
   paths[index].pixel = pixel;
   path_clear(index);
+  //#if CATCHER
+  paths[index].role = select(PATH_OBJECT, PATH_WITHOUT, index >= batch.pixel_count * batch.sample_count);
+  //#endif
   //#if PATH_STATE
   paths[index].bounces = 0u;
   paths[index].spread = 0.0;
@@ -29,5 +33,5 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   queues.items[index] = index;
 }
 `,
-  [path, camera, filter],
+  [path, pathSample, camera, filter],
 );

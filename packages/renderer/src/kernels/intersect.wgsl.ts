@@ -1,4 +1,5 @@
-import { wgslModule, type WgslModule } from '@glanz/wgsl';
+import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
+import { pathSample } from './path.wgsl';
 
 /** Finds the nearest surface of every active path. */
 export const intersect = (path: WgslModule, traversal: WgslModule): WgslModule => wgslModule(
@@ -9,11 +10,14 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   if (id.x >= queues.active_count) { return; }
   let index = queues.items[(queues.depth & 1u) * queues.capacity + id.x];
   //#if BVH_FILTER
-  opacity_begin(paths[index].pixel, batch.sample_offset + index / batch.pixel_count, 2u * queues.depth);
+  opacity_begin(paths[index].pixel, path_sample(index), 2u * queues.depth);
+  //#endif
+  //#if CATCHER
+  traversal_root = select(0u, frame.catcher_root, paths[index].role == PATH_WITHOUT && queues.depth > 0u);
   //#endif
   let hit = bvh_closest_hit(paths[index].origin, paths[index].direction, 0.0, 3.4e38);
   paths[index].hit = vec4u(bitcast<u32>(hit.u), bitcast<u32>(hit.v), hit.triangle, hit.instance);
 }
 `,
-  [path, traversal],
+  [path, gated('BVH_FILTER', pathSample), traversal],
 );

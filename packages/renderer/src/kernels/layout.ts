@@ -32,6 +32,8 @@ export const frameStruct = struct('Frame', {
   /** Width of a camera ray's footprint at its origin, metres. */
   cone_width: 'f32',
   environment_group: 'u32',
+  /** Root of the hierarchy that holds catchers and what glows. */
+  catcher_root: 'u32',
   /** Largest component that a contribution of indirect light may have. */
   clamp_indirect: 'f32',
   /** Share of the widest bounce so far that lobes are at least as wide as. */
@@ -46,6 +48,8 @@ export const batchStruct = struct('Batch', {
   pixel_count: 'u32',
   sample_offset: 'u32',
   sample_count: 'u32',
+  /** Pixels times samples, twice that with catchers. */
+  path_count: 'u32',
 });
 
 /** A light sample waiting for its visibility. */
@@ -134,6 +138,9 @@ export const bindingStruct = struct('TextureBindingRecord', {
   /** What the texel 0 stands for. */
   offset: 'f32',
 });
+
+/** Bit of an instance's traversal flags: it is a catcher. */
+export const INSTANCE_CATCHER = 1;
 
 export const NONE = 0xffffffff;
 export const LIGHT_TRIANGLE = 0;

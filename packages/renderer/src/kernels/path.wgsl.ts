@@ -2,9 +2,9 @@ import { struct, wgslModule, type StructLayout, type WgslModule } from '@glanz/w
 
 /** What decides how much a path carries. */
 export interface PathShape {
-  /** Sums of light that are kept apart: one, or one for each light group. */
+  /** Sums of light that are kept apart: one for each light group, four times as many with catchers. */
   readonly planes: number;
-  /** With `PATH_STATE` paths remember what kinds of bounces they have made. */
+  /** With `PATH_STATE` paths remember what kinds of bounces they have made, with `CATCHER` what they are traced for. */
   readonly flags: Readonly<Record<string, boolean>>;
 }
 
@@ -15,6 +15,9 @@ export interface PathLayout {
    * - `fn path_deposit(index: u32, group: u32, value: vec3f)`: light of a group arrives.
    * - `fn path_clear(index: u32)`: no light so far.
    * - `fn path_plane(index: u32, plane: u32) -> vec4f`: what arrived; the first plane's w is the path's coverage.
+   *
+   * With catchers every sample has two paths: one as usual, and one that after a catcher sees nothing but catchers and what
+   * glows. Planes come four by four: objects, catchers with the objects, catchers without them, what lies behind catchers.
    */
   readonly module: WgslModule;
 }
@@ -33,6 +36,20 @@ const COMMON = {
   hit: 'vec4u',
 } as const;
 
+/** `fn path_sample(index: u32) -> u32`: number of the sample that the path at this place of the batch belongs to. */
+export const pathSample = wgslModule(
+  'renderer/path-sample',
+  /* wgsl */ `
+fn path_sample(index: u32) -> u32 {
+  //#if CATCHER
+  return batch.sample_offset + (index % (batch.pixel_count * batch.sample_count)) / batch.pixel_count;
+  //#else
+  return batch.sample_offset + index / batch.pixel_count;
+  //#endif
+}
+`,
+);
+
 const STATE = {
   /** Bounces so far, a byte each: diffuse, specular, transmitted, in volumes. */
   bounces: 'u32',
@@ -42,21 +59,36 @@ const STATE = {
 
 /** The layout of paths for a scene. Kernels touch the light of a path through its functions only. */
 export function pathLayout({ planes, flags }: PathShape): PathLayout {
-  const key = `${planes} ${flags.PATH_STATE === true}`;
+  const key = `${planes} ${flags.PATH_STATE === true} ${flags.CATCHER === true}`;
   let layout = layouts.get(key);
   if (!layout) {
     const several = planes > 1;
     const fields = { ...COMMON, ...(several ? { planes: ['vec4f', planes] as const } : { radiance: 'vec3f' as const }), /** Index in the film. */ pixel: 'u32' } as const;
-    const path: StructLayout = flags.PATH_STATE ? struct('Path', { ...fields, ...STATE }) : struct('Path', fields);
+    const path: StructLayout = struct('Path', { ...fields, ...(flags.PATH_STATE ? STATE : {}), ...(flags.CATCHER ? { role: 'u32' } : {}) });
+    const groups = flags.CATCHER ? planes / 4 : planes;
     const module = wgslModule(
       'renderer/path',
       several
         ? /* wgsl */ `
+//#if CATCHER
+const PATH_OBJECT = 0u;
+const PATH_WITH = 1u;
+const PATH_WITHOUT = 2u;
+fn path_deposit(index: u32, group: u32, value: vec3f) { paths[index].planes[paths[index].role * ${groups}u + group] += vec4f(value, 0.0); }
+fn path_behind(index: u32, group: u32, value: vec3f) { paths[index].planes[${3 * groups}u + group] += vec4f(value, 0.0); }
+//#else
 fn path_deposit(index: u32, group: u32, value: vec3f) { paths[index].planes[group] += vec4f(value, 0.0); }
+//#endif
 fn path_clear(index: u32) {
   for (var plane = 0u; plane < ${planes}u; plane++) { paths[index].planes[plane] = vec4f(0.0); }
 }
-fn path_plane(index: u32, plane: u32) -> vec4f { return vec4f(paths[index].planes[plane].xyz, select(0.0, paths[index].alpha, plane == 0u)); }
+fn path_plane(index: u32, plane: u32) -> vec4f {
+  var coverage = select(0.0, paths[index].alpha, plane == 0u);
+  //#if CATCHER
+  coverage = select(coverage, 1.0, plane == ${groups}u && paths[index].role == PATH_WITH);
+  //#endif
+  return vec4f(paths[index].planes[plane].xyz, coverage);
+}
 `
         : /* wgsl */ `
 fn path_deposit(index: u32, group: u32, value: vec3f) { paths[index].radiance += value; }

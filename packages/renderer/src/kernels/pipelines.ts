@@ -26,7 +26,7 @@ export interface KernelFeatures {
   readonly textured: readonly TexturedParameterInfo[];
   readonly textureCount: number;
   readonly samplerCount: number;
-  /** Sums of light that the film keeps apart: the number of light groups. */
+  /** Sums of light that the film keeps apart: the number of light groups, four times that with catchers. */
   readonly planes: number;
 }
 
@@ -67,10 +67,10 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
   const opacity = opacityModule(material, OPACITY_ID);
   const surface = surfaceModule(material);
   const traversal = (kind: 'closest' | 'any') => traversalModule(kind, flags.BVH_FILTER === true ? opacity : undefined);
-  const filter: ResourceName[] = flags.BVH_FILTER ? ['frame', 'batch', 'attributes', 'materials'] : [];
+  const filter: ResourceName[] = flags.BVH_FILTER ? ['frame', 'batch', 'attributes', 'materials'] : flags.CATCHER ? ['frame', 'batch'] : [];
   const energy: ResourceName[] = ['energy_dielectric', 'energy_conductor', 'energy_sampler'];
   const path = pathLayout(features).module;
-  const film = filmModule(features.planes);
+  const film = filmModule(features.planes, flags.CATCHER === true);
   const filmBuffers: ResourceName[] = ['film_block', 'film_total', 'film_moment', 'beauty', ...(flags.LIGHT_GROUPS ? (['light_groups'] as const) : [])];
   const scene: ResourceName[] = ['triangles', 'instances', 'attributes', 'materials'];
   switch (name) {

@@ -16,17 +16,28 @@ fn resolve_finite(v: vec4f) -> bool {
   return all((bitcast<vec4u>(v) & vec4u(0x7f800000u)) != vec4u(0x7f800000u));
 }
 
+// The path that carries a plane of a sample.
+fn resolve_path(sample: u32, pixel: u32, plane: u32) -> u32 {
+  let first = sample * batch.pixel_count + pixel;
+  //#if CATCHER
+  if (plane / FILM_GROUPS == PATH_WITHOUT) { return first + batch.pixel_count * batch.sample_count; }
+  //#endif
+  return first;
+}
+
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3u) {
   if (id.x >= batch.pixel_count) { return; }
   let pixel = film_pixels[batch.pixel_offset + id.x];
   for (var s = 0u; s < batch.sample_count; s++) {
-    let index = s * batch.pixel_count + id.x;
     var finite = true;
-    for (var plane = 0u; plane < FILM_PLANES; plane++) { finite = finite && resolve_finite(path_plane(index, plane)); }
+    for (var plane = 0u; plane < FILM_PLANES; plane++) { finite = finite && resolve_finite(path_plane(resolve_path(s, id.x, plane), plane)); }
     if (!finite) {
-      path_clear(index);
-      paths[index].alpha = 0.0;
+      //#if CATCHER
+      path_clear(resolve_path(s, id.x, 2u * FILM_GROUPS));
+      //#endif
+      path_clear(resolve_path(s, id.x, 0u));
+      paths[resolve_path(s, id.x, 0u)].alpha = 0.0;
       atomicAdd(&queues.bad_samples, 1u);
     }
   }
@@ -40,7 +51,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     for (var plane = 0u; plane < FILM_PLANES; plane++) {
       let at = plane * film_pixels_count() + pixel;
       var block = film_block[at];
-      for (var sample = first; sample < next; sample++) { block += path_plane((sample - batch.sample_offset) * batch.pixel_count + id.x, plane); }
+      for (var sample = first; sample < next; sample++) { block += path_plane(resolve_path(sample - batch.sample_offset, id.x, plane), plane); }
       if (complete) {
         film_total[at] += block;
         mean += film_first_weight(plane) * block.xyz;

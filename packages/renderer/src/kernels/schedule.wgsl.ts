@@ -19,7 +19,7 @@ ${write}
 @compute @workgroup_size(1)
 fn main() {
   queues.depth = 0u;
-  queues.active_count = batch.pixel_count * batch.sample_count;
+  queues.active_count = batch.path_count;
   atomicStore(&queues.next_count, 0u);
   atomicStore(&queues.shadow_count, 0u);
   queues.capacity = arrayLength(&queues.items) / 2u;

@@ -1,8 +1,9 @@
 import { bvhOffset } from '@glanz/bvh/wgsl';
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
-import { BACKGROUND_HIDDEN, BACKGROUND_TRANSPARENT, GROUP_SHIFT } from './layout';
+import { BACKGROUND_HIDDEN, BACKGROUND_TRANSPARENT, GROUP_SHIFT, INSTANCE_CATCHER } from './layout';
 import { random } from './random.wgsl';
 import { shortcuts } from './shortcuts.wgsl';
+import { pathSample } from './path.wgsl';
 
 /**
  * One vertex of every active path: what the surface emits, a light sample to be tested by the connect kernel, and the
@@ -25,6 +26,9 @@ struct ShadeResult {
 
 // Radiance from outside the scene.
 fn shade_miss(index: u32, depth: u32) {
+  //#if CATCHER
+  if (depth == 0u && paths[index].role == PATH_WITHOUT) { return; }
+  //#endif
   let direction = paths[index].direction;
   if (depth == 0u && frame.background != 0u) {
     if ((frame.background & ${BACKGROUND_TRANSPARENT}u) != 0u) { paths[index].alpha = 0.0; }
@@ -56,6 +60,18 @@ fn shade_path(index: u32, depth: u32) -> ShadeResult {
   let throughput = paths[index].throughput;
   let cone_width = paths[index].cone_width;
   let wo = -direction;
+  //#if CATCHER
+  if (depth == 0u) {
+    let caught = (instances[hit.w].traversal.flags & ${INSTANCE_CATCHER}u) != 0u;
+    if (paths[index].role == PATH_WITHOUT) {
+      if (!caught) { return result; }
+    } else if (caught) {
+      paths[index].role = PATH_WITH;
+      paths[index].alpha = 0.0;
+      if ((frame.background & ${BACKGROUND_HIDDEN}u) == 0u) { path_behind(index, frame.environment_group, environment_radiance(direction)); }
+    }
+  }
+  //#endif
   var s = surface_load(hit, origin, direction, cone_width);
 
   //#if LIGHTS
@@ -94,7 +110,7 @@ fn shade_path(index: u32, depth: u32) -> ShadeResult {
   //#endif
   let bsdf = openpbr_prepare(s.parameters, local_wo);
   let start = bvh_offset_origin(s.position, geometric, s.magnitude);
-  random_begin(paths[index].pixel, batch.sample_offset + index / batch.pixel_count, depth + 1u, frame.seed);
+  random_begin(paths[index].pixel, path_sample(index), depth + 1u, frame.seed);
 
   //#if NEXT_EVENT
   let light = light_sample(vec4f(random_2(), random_2()), start);
@@ -173,6 +189,6 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation_inde
   if (result.asks) { shadows[shade_shadow_base + shadow_slot] = result.shadow; }
 }
 `,
-    [path, surface, lights, openpbr, energy, random, shortcuts, bvhOffset],
+    [path, pathSample, surface, lights, openpbr, energy, random, shortcuts, bvhOffset],
   );
 }

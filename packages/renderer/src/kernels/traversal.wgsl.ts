@@ -12,7 +12,13 @@ export function traversalModule(kind: 'closest' | 'any', opacity: WgslModule | u
   return wgslModule(
     `renderer/traversal-${kind}`,
     /* wgsl */ `
+//#if CATCHER
+// Node 0 stands for the root of the hierarchy to go through.
+var<private> traversal_root: u32;
+fn bvh_node(index: u32) -> BvhNode { return nodes[select(index, traversal_root, index == 0u)]; }
+//#else
 fn bvh_node(index: u32) -> BvhNode { return nodes[index]; }
+//#endif
 fn bvh_instance(index: u32) -> BvhInstance { return instances[index].traversal; }
 fn bvh_triangle(index: u32) -> BvhTriangle {
   let a = triangles[3u * index];

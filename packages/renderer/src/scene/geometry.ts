@@ -1,13 +1,18 @@
 import { buildTlas, packTriangles, type Blas, type Tlas } from '@glanz/bvh';
 import { bvhInstanceStruct } from '@glanz/bvh/wgsl';
-import type { Instance, Mesh, Scene } from '@glanz/scene';
-import { instanceStruct, meshStruct, NONE } from '../kernels/layout';
+import { resolveParameters } from '@glanz/openpbr';
+import type { Instance, Material, Mesh, Scene } from '@glanz/scene';
+import { INSTANCE_CATCHER, instanceStruct, meshStruct, NONE } from '../kernels/layout';
 import { RenderError } from '../errors';
+import { emittedRadiance } from './materials';
 import { breather, buildHierarchies, type HierarchyOptions } from './hierarchies';
 
 /** Node words: 16 a node. */
 const NODE_WORDS = 16;
 const TRIANGLE_WORDS = 12;
+/** Words of a node that refer to its children. */
+const LEFT_CHILD = 3;
+const RIGHT_CHILD = 7;
 
 /** Where the instances are: made anew whenever one moves. */
 export interface Placement {
@@ -18,6 +23,11 @@ export interface Placement {
   readonly order: Uint32Array;
   /** Scene instance → GPU record, or NONE. */
   readonly instanceSlots: Uint32Array;
+  /**
+   * A second hierarchy behind the first, of the catchers and of what glows, which belongs to the surroundings as they do:
+   * what a catcher would look like without the rest. Its records follow the others.
+   */
+  readonly bare: { readonly tlas: Tlas; readonly shown: readonly number[] } | undefined;
   readonly center: readonly [number, number, number];
   readonly radius: number;
 }
@@ -88,7 +98,7 @@ export async function prepareHierarchies(scene: Scene, options: HierarchyOptions
 export function placeInstances(scene: Scene, blas: readonly (Blas | undefined)[]): Placement {
   const shown = scene.instances.flatMap((instance, index) => (isShown(scene, instance) && (blas[instance.mesh] as Blas).triangleIndices.length > 0 ? [index] : []));
   if (shown.length === 0) throw new RenderError('renderer/no-triangles', 'The scene has no visible triangles: nothing to render.');
-  const tlas = buildTlas(shown.map((index) => ({ bounds: (blas[(scene.instances[index] as Instance).mesh] as Blas).bounds, transform: (scene.instances[index] as Instance).transform })));
+  const tlas = buildTlas(boxesOf(scene, blas, shown));
   if (tlas.instanceOrder.length === 0) throw new RenderError('renderer/no-triangles', 'Every instance has a transform that flattens it: nothing to render.');
   const order = Uint32Array.from(tlas.instanceOrder, (i) => shown[i] as number);
   const instanceSlots = new Uint32Array(scene.instances.length).fill(NONE);
@@ -96,7 +106,39 @@ export function placeInstances(scene: Scene, blas: readonly (Blas | undefined)[]
   const { min, max } = tlas.bounds;
   const center = [0, 1, 2].map((k) => ((min[k] as number) + (max[k] as number)) / 2) as [number, number, number];
   const radius = 0.5 * Math.hypot(...[0, 1, 2].map((k) => (max[k] as number) - (min[k] as number)));
-  return { tlas, shown, order, instanceSlots, center, radius };
+  return { tlas, shown, order, instanceSlots, bare: placeBare(scene, blas, shown), center, radius };
+}
+
+const boxesOf = (scene: Scene, blas: readonly (Blas | undefined)[], which: readonly number[]) =>
+  which.map((index) => ({ bounds: (blas[(scene.instances[index] as Instance).mesh] as Blas).bounds, transform: (scene.instances[index] as Instance).transform }));
+
+function placeBare(scene: Scene, blas: readonly (Blas | undefined)[], shown: readonly number[]): Placement['bare'] {
+  if (!shown.some((index) => scene.instances[index]?.catcher)) return undefined;
+  const glows = scene.materials.map((material: Material) => emittedRadiance(resolveParameters(material.parameters)).some((c) => c > 0));
+  const which = shown.filter((index) => scene.instances[index]?.catcher || glows[(scene.instances[index] as Instance).material]);
+  const tlas = buildTlas(boxesOf(scene, blas, which));
+  return tlas.instanceOrder.length > 0 ? { tlas, shown: which } : undefined;
+}
+
+const LEAF = 0x80000000;
+
+/** The nodes of both hierarchies, as they lie at the beginning of the node buffer. */
+export function packTlas({ tlas, bare, order }: Placement): Float32Array<ArrayBuffer> {
+  const first = tlas.nodes.subarray(0, tlas.nodeCount * NODE_WORDS);
+  if (!bare) return first;
+  const nodes = new Float32Array((tlas.nodeCount + bare.tlas.nodeCount) * NODE_WORDS);
+  nodes.set(first);
+  nodes.set(bare.tlas.nodes.subarray(0, bare.tlas.nodeCount * NODE_WORDS), first.length);
+  const words = new Uint32Array(nodes.buffer);
+  for (let node = tlas.nodeCount; node < tlas.nodeCount + bare.tlas.nodeCount; node++) {
+    for (const child of [LEFT_CHILD, RIGHT_CHILD]) {
+      const at = node * NODE_WORDS + child;
+      const reference = words[at] as number;
+      // Leaves name records, inner nodes nodes: both lie behind those of the first hierarchy.
+      words[at] = reference >= LEAF ? reference + order.length : reference + tlas.nodeCount;
+    }
+  }
+  return nodes;
 }
 
 const attributesOf = (mesh: Mesh) => [mesh.indices, mesh.normals, mesh.tangents, mesh.colors, mesh.uvs?.[0], mesh.uvs?.[1]];
@@ -116,7 +158,7 @@ export function attributeWords(mesh: Mesh): number {
 export function layOutGeometry(scene: Scene, blas: readonly (Blas | undefined)[]): Geometry {
   const placement = placeInstances(scene, blas);
   // A node has two children: one less than there are instances, and room for those that are hidden now.
-  const tlasNodes = Math.max(placement.tlas.nodeCount, scene.instances.length, 1);
+  const tlasNodes = Math.max(packTlas(placement).length / NODE_WORDS, scene.instances.length, 1);
   const regions: MeshRegion[] = [];
   let nodeCount = tlasNodes;
   let triangleCount = 0;
@@ -146,7 +188,7 @@ export async function packGeometry(scene: Scene, geometry: Geometry, signal?: Ab
   const nodes = new Float32Array(geometry.nodeCount * NODE_WORDS);
   const triangles = new Float32Array(geometry.triangleCount * TRIANGLE_WORDS);
   const attributes = new Uint32Array(geometry.attributeWords);
-  nodes.set(geometry.tlas.nodes);
+  nodes.set(packTlas(geometry));
   const breathe = breather();
   for (const [index, mesh] of scene.meshes.entries()) {
     const region = geometry.regions[index] as MeshRegion;
@@ -195,35 +237,37 @@ export function packMesh(mesh: Mesh, tree: Blas | undefined, { firstWord }: Mesh
   };
 }
 
-/** Writes the instance records in GPU order. */
+/** Writes the instance records in GPU order, those of the second hierarchy behind the others. */
 export function packInstances(scene: Scene, geometry: Geometry, firstLight: Uint32Array): ArrayBuffer {
-  const buffer = instanceStruct.allocate(geometry.order.length);
-  geometry.tlas.instanceOrder.forEach((given, slot) => {
-    const index = geometry.order[slot] as number;
-    const instance = scene.instances[index] as Instance;
-    const m = instance.transform;
-    const traversal = bvhInstanceStruct.allocate();
-    const inverse = geometry.tlas.toObject.subarray(12 * given, 12 * given + 12);
-    bvhInstanceStruct.write(traversal, 0, {
-      to_object_0: inverse.subarray(0, 4),
-      to_object_1: inverse.subarray(4, 8),
-      to_object_2: inverse.subarray(8, 12),
-      blas_node: (geometry.regions[instance.mesh] as MeshRegion).firstNode,
-      triangle_offset: (geometry.regions[instance.mesh] as MeshRegion).firstTriangle,
-      id: index,
-      flags: 0,
-    });
-    const row = (r: number) => [m[r] as number, m[4 + r] as number, m[8 + r] as number, m[12 + r] as number];
-    instanceStruct.write(buffer, slot, {
-      traversal,
-      to_world_0: row(0),
-      to_world_1: row(1),
-      to_world_2: row(2),
-      material: instance.material,
-      mesh: instance.mesh,
-      first_light: firstLight[index] as number,
-      id: index,
-    });
-  });
+  const { tlas, order, bare } = geometry;
+  const buffer = instanceStruct.allocate(order.length + (bare?.tlas.instanceOrder.length ?? 0));
+  tlas.instanceOrder.forEach((given, slot) => writeInstance(buffer, slot, scene, geometry, order[slot] as number, tlas.toObject.subarray(12 * given, 12 * given + 12), firstLight));
+  bare?.tlas.instanceOrder.forEach((given, i) => writeInstance(buffer, order.length + i, scene, geometry, bare.shown[given] as number, bare.tlas.toObject.subarray(12 * given, 12 * given + 12), firstLight));
   return buffer;
+}
+
+function writeInstance(buffer: ArrayBuffer, slot: number, scene: Scene, geometry: Geometry, index: number, inverse: Float64Array, firstLight: Uint32Array): void {
+  const instance = scene.instances[index] as Instance;
+  const m = instance.transform;
+  const traversal = bvhInstanceStruct.allocate();
+  bvhInstanceStruct.write(traversal, 0, {
+    to_object_0: inverse.subarray(0, 4),
+    to_object_1: inverse.subarray(4, 8),
+    to_object_2: inverse.subarray(8, 12),
+    blas_node: (geometry.regions[instance.mesh] as MeshRegion).firstNode,
+    triangle_offset: (geometry.regions[instance.mesh] as MeshRegion).firstTriangle,
+    id: index,
+    flags: instance.catcher ? INSTANCE_CATCHER : 0,
+  });
+  const row = (r: number) => [m[r] as number, m[4 + r] as number, m[8 + r] as number, m[12 + r] as number];
+  instanceStruct.write(buffer, slot, {
+    traversal,
+    to_world_0: row(0),
+    to_world_1: row(1),
+    to_world_2: row(2),
+    material: instance.material,
+    mesh: instance.mesh,
+    first_light: firstLight[index] as number,
+    id: index,
+  });
 }
