@@ -1,4 +1,5 @@
 import { describe, expect, it } from 'vitest';
+import { document as documented, dress } from '../../../apps/docs/examples/materialx';
 import { MaterialXError, readMaterialX, writeMaterialX, type MaterialXMaterial, type MaterialXTexture } from '../src/materialx/index';
 import { OPENPBR_PARAMETER_NAMES, OPENPBR_PARAMETERS, resolveParameters, type OpenPbrParameterName, type OpenPbrParameters } from '../src/parameters/index';
 import { OPENPBR_PRESET_NAMES, OPENPBR_PRESETS } from '../src/presets/index';
@@ -254,6 +255,13 @@ describe('documents that are broken or hostile', () => {
     expect(fails(wrap('<input name="base_weight" type="float" nodename="n0"/>', nodes))).toBe('limit 3');
   });
 
+  it('a document of 10 MB on one line takes a second or two', () => {
+    const inputs = '<input name="file" type="filename" value="some/picture/of/something.png" colorspace="srgb_texture" />'.repeat(20);
+    const from = performance.now();
+    readMaterialX(wrap('', `<image name="i" type="color3">${inputs}</image>`.repeat(4500)));
+    expect(performance.now() - from).toBeLessThan(5000);
+  });
+
   it('names of prototypes are names', () => {
     const { parameters, warnings } = only(wrap('<input name="__proto__" type="float" value="1"/><input name="constructor" type="float" value="1"/><input name="base_weight" type="float" nodename="toString"/>', '<constant name="toString" type="float"><input name="value" type="float" value="0.5"/></constant>'));
     expect([parameters, warnings.length, ({} as Record<string, unknown>)['value']]).toEqual([{ base_weight: 0.5 }, 2, undefined]);
@@ -339,5 +347,19 @@ describe('writeMaterialX', () => {
   it('says what it cannot hold', () => {
     const { warnings } = writeMaterialX([{ name: 'm', parameters: { geometry_normal: [0, 1, 0] }, textures: { geometry_tangent: { file: 'a', channels: 'rgb', colorSpace: 'linear' } } }]);
     expect(warnings.map(({ code }) => code)).toEqual(['openpbr/materialx-unsupported', 'openpbr/materialx-unsupported']);
+  });
+});
+
+describe('the documentation\'s examples', () => {
+  it('write what they say', () => {
+    const { materials, warnings } = readMaterialX(documented);
+    expect([warnings, materials.map(({ name }) => name), materials[1]!.textures]).toEqual([[], ['housing', 'label'], { base_color: { file: 'label.png', channels: 'rgb', colorSpace: 'srgb' } }]);
+  });
+
+  it('dress a scene', async () => {
+    const set: unknown[][] = [];
+    await dress({ setMaterial: async (...given: unknown[]) => void set.push(given) } as never, `data:text/xml,${encodeURIComponent(documented)}`);
+    expect(set.map(([name]) => name)).toEqual(['housing', 'label']);
+    expect(set[1]![1]).toEqual({ base_color: [0.8, 0.8, 0.8], specular_roughness: 0.8 });
   });
 });

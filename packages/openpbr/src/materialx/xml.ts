@@ -49,11 +49,11 @@ export function parseXml(text: string, limits: MaterialXLimits = {}): XmlElement
   const { length, depth, elements } = { ...DEFAULT_LIMITS, ...limits };
   if (text.length > length) throw failure('limit', `it has ${text.length} characters, where ${length} are allowed.`, 1);
   let at = text.startsWith('\ufeff') ? 1 : 0;
-  let line = 1, counted = 0;
+  let line = 1, lineEnd = text.indexOf('\n');
   const lineAt = (position: number) => {
-    for (let next = text.indexOf('\n', counted); next >= 0 && next < position; next = text.indexOf('\n', counted)) {
+    while (lineEnd >= 0 && lineEnd < position) {
       line++;
-      counted = next + 1;
+      lineEnd = text.indexOf('\n', lineEnd + 1);
     }
     return line;
   };
