@@ -4,6 +4,7 @@ import { convertImage, type DerivedPicture } from './convert-image';
 import { readUri } from './document';
 import { GltfError } from './error';
 import type { GltfImage, GltfJson, GltfTexture } from './json';
+import type { Budget } from './limits';
 import type { Source } from './source';
 
 /** Decoded pixels: RGBA, 8 bits a channel, straight alpha, top row first; colour codes as they are in the file. */
@@ -41,6 +42,9 @@ const NEAREST = 9728;
 type Picture = { readonly image: number } | { readonly sources: readonly (number | undefined)[]; readonly derived: DerivedPicture };
 
 const white = (): DecodedImage => ({ width: 1, height: 1, data: new Uint8Array([255, 255, 255, 255]) });
+
+/** Pictures that are decoded at the same time. */
+const AT_A_TIME = 4;
 
 /** The textures that materials have asked for, with their pictures read as they are needed. */
 export class TextureTable {
@@ -124,46 +128,57 @@ export class TextureTable {
   }
 
   /**
-   * Reads and decodes the pictures asked for. One that cannot be decoded goes into {@link failed}, with a warning.
+   * Reads and decodes the pictures asked for, some at a time. One that cannot be decoded goes into {@link failed}, with a warning.
    * @param viewBytes Bytes of a buffer view.
+   * @param budget Told the bytes of each picture.
    * @throws {GltfError} `gltf/missing-resource` for a file that is not there.
    */
-  async readImages(decode: ImageDecoder, viewBytes: (index: number) => Uint8Array<ArrayBuffer>, signal: AbortSignal | undefined, onImage: () => void): Promise<Image[]> {
-    const images: Image[] = [];
-    const known = new Map<number, DecodedImage | undefined>();
+  async readImages(decode: ImageDecoder, viewBytes: (index: number) => Uint8Array<ArrayBuffer>, budget: Budget, signal: AbortSignal | undefined, onImage: () => void): Promise<Image[]> {
+    const warnings = new Map<number, SceneWarning>();
     const nameOf = (index: number) => {
       const image = this.#json.images?.[index] as GltfImage;
       return image.name ?? image.uri?.slice(0, 80) ?? `image ${index}`;
     };
     const read = async (index: number): Promise<DecodedImage | undefined> => {
-      if (known.has(index)) return known.get(index);
+      signal?.throwIfAborted();
       const image = this.#json.images?.[index] as GltfImage;
       const bytes = image.uri === undefined ? viewBytes(image.bufferView ?? -1) : await readUri(image.uri, this.#source, signal);
-      let decoded: DecodedImage | undefined;
       try {
-        decoded = await decode(bytes, formatOf(bytes));
+        const decoded = await decode(bytes, formatOf(bytes));
+        budget.take(decoded.data.length, `/images/${index}`);
+        return decoded;
       } catch (error) {
         if (error instanceof GltfError) throw error;
-        this.#warnings.push({ code: 'gltf/image', message: `${this.#source.name}: image ${index} ("${nameOf(index)}") cannot be decoded and is left out: ${error instanceof Error ? error.message.split('\n')[0] : String(error)}.`, path: `/images/${index}` });
+        warnings.set(index, { code: 'gltf/image', message: `${this.#source.name}: image ${index} ("${nameOf(index)}") cannot be decoded and is left out: ${error instanceof Error ? error.message.split('\n')[0] : String(error)}.`, path: `/images/${index}` });
+        return undefined;
       }
-      known.set(index, decoded);
-      return decoded;
     };
-    // One after the other, since decoded pictures are large and decoders have threads of their own.
+    // A few at a time: decoders have threads of their own, but decoded pictures are large.
+    const wanted = [...new Set(this.#pictures.flatMap((picture) => ('image' in picture ? [picture.image] : picture.sources.filter((index) => index !== undefined))))];
+    const lanes: Promise<unknown>[] = Array.from({ length: AT_A_TIME }, () => Promise.resolve());
+    const decoding = new Map(
+      wanted.map((index, i) => {
+        const promise = (lanes[i % AT_A_TIME] as Promise<unknown>).then(() => read(index));
+        // Whoever waits for it hears of its error; the others go on.
+        lanes[i % AT_A_TIME] = promise.catch(() => undefined);
+        return [index, promise] as const;
+      }),
+    );
+    const images: Image[] = [];
     for (const picture of this.#pictures) {
-      signal?.throwIfAborted();
       if ('image' in picture) {
-        const decoded = await read(picture.image);
+        const decoded = await decoding.get(picture.image);
         if (!decoded) this.failed.add(images.length);
         images.push({ name: nameOf(picture.image), ...(decoded ?? white()) });
       } else {
         const sources: DecodedImage[] = [];
-        for (const index of picture.sources) sources.push((index === undefined ? undefined : await read(index)) ?? white());
+        for (const index of picture.sources) sources.push((index === undefined ? undefined : await decoding.get(index)) ?? white());
         const name = picture.sources.flatMap((index) => (index === undefined ? [] : [nameOf(index)])).join(' + ');
         images.push({ name, ...(await convertImage(sources, picture.derived, signal)) });
       }
       onImage();
     }
+    for (const index of wanted) if (warnings.has(index)) this.#warnings.push(warnings.get(index) as SceneWarning);
     return images;
   }
 }

@@ -77,6 +77,10 @@ export async function buildScene(source: Source, options: GltfOptions & { readon
   signal?.throwIfAborted();
   const table = new TextureTable(json, source, scene.warnings);
   scene.materials = (json.materials ?? []).map((material, index) => readMaterial(material, index, table, scene.warnings));
+  let done = 0;
+  // Decoders have threads of their own: they are at work while geometry is read here.
+  const images = table.readImages(options.decodeImage, reader.viewBytes, new Budget(source.name, 'imageBytes', options.limits), signal, () => onProgress?.({ stage: 'images', done: ++done / table.imageCount }));
+  images.catch(() => undefined);
   let fallback: number | undefined;
   readNodes({
     json,
@@ -94,8 +98,7 @@ export async function buildScene(source: Source, options: GltfOptions & { readon
   if (variants) scene.variants = variants.map(({ name = '' }) => name);
   if (scene.instances.length === 0 && !options.allowEmpty) throw new GltfError('gltf/no-triangles', `${source.name} has no triangles in its scene: there is nothing to show.`, { location: { file: source.name } });
   onProgress?.({ stage: 'decode', done: 1 });
-  let done = 0;
-  scene.images = await table.readImages(options.decodeImage, reader.viewBytes, signal, () => onProgress?.({ stage: 'images', done: ++done / table.imageCount }));
+  scene.images = await images;
   scene.textures = table.textures;
   for (const { textures } of scene.materials) {
     for (const [parameter, binding] of Object.entries(textures ?? {})) {
