@@ -151,8 +151,37 @@ export interface RenderStatistics {
   readonly compileMs: number;
   /** Bytes of GPU memory held. */
   readonly gpuBytes: number;
+  /** What they are for. */
+  readonly memory: MemoryReport;
   /** Samples dropped because they were NaN or infinite; 0 on healthy scenes. Known after a `read()`. */
   readonly badSamples: number;
+}
+
+/** GPU memory by purpose, in bytes, and what one of each costs. */
+export interface MemoryReport {
+  /** Hierarchies, triangles, vertex attributes, instances. */
+  readonly shapes: number;
+  readonly lights: number;
+  readonly materials: number;
+  /** Pictures of the materials with their mip levels. */
+  readonly textures: number;
+  /** The picture of the surroundings and its importance table. */
+  readonly environment: number;
+  /** Paths in flight, their queues and light samples. */
+  readonly paths: number;
+  readonly film: number;
+  /** Uniforms and energy tables. */
+  readonly other: number;
+  /** Paths that are on the GPU at once, see `PathTracerOptions.pathsInFlight`. */
+  readonly pathsInFlight: number;
+  /** Bytes for each path in flight. */
+  readonly perPath: number;
+  /** Bytes for each stored triangle; instances share theirs. */
+  readonly perTriangle: number;
+  /** Bytes for each pixel of the film, with the layers read so far. */
+  readonly perPixel: number;
+  /** Bytes for each texel of the pictures in use, mip levels included; 0 without textures. */
+  readonly perTexel: number;
 }
 
 /** What {@link PathTracer.read} can give. */

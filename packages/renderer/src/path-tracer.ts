@@ -8,6 +8,7 @@ import { packFrame } from './frame';
 import type { GpuMemory } from './gpu/buffers';
 import type { GpuScene } from './gpu/gpu-scene';
 import type { KernelCache } from './gpu/kernel-cache';
+import { memoryReport } from './gpu/memory-report';
 import { readBuffer } from './gpu/read-buffer';
 import type { Integrator } from './integrator';
 import { serves, type KernelName } from './kernels/pipelines';
@@ -53,7 +54,8 @@ export class PathTracer extends TracerEdits {
   /** By name; groups that were never set are not in it. */
   readonly #groups = new Map<string, LightGroup>();
   #firstWeights: GroupWeights = [];
-  #statistics: RenderStatistics;
+  readonly #times: Prepared['times'];
+  #badSamples = 0;
   #frameDirty = true;
 
   private constructor(prepared: Prepared) {
@@ -67,7 +69,7 @@ export class PathTracer extends TracerEdits {
     this.#film = prepared.film;
     this.#camera = this.#shownCamera = prepared.camera;
     this.#options = prepared.options;
-    this.#statistics = prepared.statistics;
+    this.#times = prepared.times;
     void this.#device.lost.then((info) => {
       if (!this.#destroyed) this.#failure ??= new DeviceError('renderer/device-lost', `The GPU device was lost (${info.reason}): ${info.message || 'no details'}. The scene is safe: request a new device and create the tracer again.`);
     });
@@ -117,7 +119,16 @@ export class PathTracer extends TracerEdits {
 
   get statistics(): RenderStatistics {
     const { geometry } = this.#editor;
-    return { ...this.#statistics, triangles: geometry.triangleCount, instances: geometry.order.length, lights: this.#gpuScene.lightCount, gpuBytes: this.#memory.bytes };
+    const triangles = geometry.triangleCount;
+    return {
+      triangles,
+      instances: geometry.order.length,
+      lights: this.#gpuScene.lightCount,
+      ...this.#times,
+      gpuBytes: this.#memory.bytes,
+      memory: memoryReport(this.#memory, { pathsInFlight: this.#integrator.capacity, triangles, pixels: this.#film.pixels, texels: this.#gpuScene.texels }),
+      badSamples: this.#badSamples,
+    };
   }
 
   /**
@@ -172,7 +183,7 @@ export class PathTracer extends TracerEdits {
     if (layer === 'beauty') {
       const pixels = new Float32Array(await readBuffer(this.#device, this.#film.beauty, bytes));
       const counters = new Uint32Array(await readBuffer(this.#device, this.#integrator.queues, 32));
-      this.#statistics = { ...this.#statistics, badSamples: counters[3] as number };
+      this.#badSamples = counters[3] as number;
       return pixels;
     }
     if (layer === 'variance') {

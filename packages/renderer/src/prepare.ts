@@ -25,7 +25,8 @@ export interface Prepared {
   readonly film: Film;
   readonly camera: Camera;
   readonly options: PathTracerOptions;
-  readonly statistics: RenderStatistics;
+  /** Times of the preparation. */
+  readonly times: Pick<RenderStatistics, 'bvhMs' | 'uploadMs' | 'compileMs'>;
 }
 
 /** Builds, uploads and compiles what a tracer needs, see `PathTracer.create`. */
@@ -56,17 +57,8 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
     return await withErrorScopes(device, () => {
       const film = new Film(memory, options.width, options.height, kernels.features.planes);
       const integrator = new Integrator(device, memory, gpuScene, kernels, film, pathCapacity(device, options, kernels.features), options.maxDepth ?? 8);
-      const statistics: RenderStatistics = {
-        triangles: geometry.triangleCount,
-        instances: geometry.order.length,
-        lights: gpuScene.lightCount,
-        bvhMs: t1 - t0,
-        uploadMs: t2 - t1,
-        compileMs: t3 - t2,
-        gpuBytes: memory.bytes,
-        badSamples: 0,
-      };
-      return { device, memory, editor: new SceneEditor(own, geometry, gpuScene, hierarchies), gpuScene, cache, integrator, film, camera, options, statistics };
+      const times = { bvhMs: t1 - t0, uploadMs: t2 - t1, compileMs: t3 - t2 };
+      return { device, memory, editor: new SceneEditor(own, geometry, gpuScene, hierarchies), gpuScene, cache, integrator, film, camera, options, times };
     });
   } catch (error) {
     memory.destroy();

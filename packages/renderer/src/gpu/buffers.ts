@@ -10,7 +10,7 @@ const mebibytes = (bytes: number) => `${(bytes / 2 ** 20).toFixed(1)} MiB`;
  */
 export class GpuMemory {
   readonly #device: GPUDevice;
-  readonly #live = new Map<GPUBuffer | GPUTexture, number>();
+  readonly #live = new Map<GPUBuffer | GPUTexture, { readonly label: string; readonly bytes: number }>();
   #bytes = 0;
 
   constructor(device: GPUDevice) {
@@ -20,6 +20,13 @@ export class GpuMemory {
   /** Bytes held now. */
   get bytes(): number {
     return this.#bytes;
+  }
+
+  /** Bytes held now under labels that a test accepts. */
+  bytesOf(accepts: (label: string) => boolean): number {
+    let sum = 0;
+    for (const { label, bytes } of this.#live.values()) if (accepts(label)) sum += bytes;
+    return sum;
   }
 
   /**
@@ -35,7 +42,7 @@ export class GpuMemory {
       throw new DeviceError('renderer/limit', `The buffer "${label}" takes ${mebibytes(bytes)}, but this device's ${name} is ${mebibytes(limit)}: make the ${label.startsWith('film') ? 'picture' : 'scene'} smaller, or request a device with a higher limit.`);
     }
     const buffer = this.#device.createBuffer({ label: `glanz ${label}`, size: bytes, usage });
-    this.#keep(buffer, bytes);
+    this.#keep(buffer, label, bytes);
     return buffer;
   }
 
@@ -57,17 +64,17 @@ export class GpuMemory {
 
   texture(descriptor: GPUTextureDescriptor, bytes: number): GPUTexture {
     const texture = this.#device.createTexture(descriptor);
-    this.#keep(texture, bytes);
+    this.#keep(texture, (descriptor.label ?? '').replace(/^glanz /, ''), bytes);
     return texture;
   }
 
   /** Destroys one buffer or texture; unknown ones are ignored. */
   release(resource: GPUBuffer | GPUTexture | undefined): void {
     if (!resource) return;
-    const bytes = this.#live.get(resource);
-    if (bytes === undefined) return;
+    const held = this.#live.get(resource);
+    if (held === undefined) return;
     this.#live.delete(resource);
-    this.#bytes -= bytes;
+    this.#bytes -= held.bytes;
     resource.destroy();
   }
 
@@ -75,8 +82,8 @@ export class GpuMemory {
     for (const resource of this.#live.keys()) this.release(resource);
   }
 
-  #keep(resource: GPUBuffer | GPUTexture, bytes: number): void {
-    this.#live.set(resource, bytes);
+  #keep(resource: GPUBuffer | GPUTexture, label: string, bytes: number): void {
+    this.#live.set(resource, { label, bytes });
     this.#bytes += bytes;
   }
 }

@@ -74,6 +74,11 @@ export class GpuScene {
     return this.#environment;
   }
 
+  /** Texels of the pictures in use, without mip levels. */
+  get texels(): number {
+    return this.#plan.arrays.reduce((sum, { width, height, layers }) => sum + width * height * layers.length, 0);
+  }
+
   get groups(): LightGroupTable {
     return this.#groups;
   }
