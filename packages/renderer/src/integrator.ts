@@ -31,8 +31,7 @@ export class Integrator {
   readonly #scene: GpuScene;
   readonly #buffers: Record<OwnBuffer, GPUBuffer>;
   readonly #groups = new Map<KernelName, GPUBindGroup>();
-  /** Paths that fit. */
-  readonly capacity: number;
+  #capacity: number;
   /** Most edges of a path. */
   maxDepth: number;
   #kernels: KernelSet;
@@ -45,7 +44,7 @@ export class Integrator {
     this.#kernels = kernels;
     this.#film = film;
     this.maxDepth = maxDepth;
-    this.capacity = capacity;
+    this.#capacity = capacity;
     this.#buffers = {
       frame: memory.buffer('frame', frameStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
       batch: memory.buffer('batch', batchStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
@@ -55,6 +54,11 @@ export class Integrator {
       shadows: memory.buffer('shadows', (kernels.features.flags.NEXT_EVENT ? capacity : 1) * shadowStruct.size, GPU_BUFFER_STORAGE),
       dispatch: memory.buffer('dispatch', 32, GPU_BUFFER_STORAGE | GPU_BUFFER_INDIRECT),
     };
+  }
+
+  /** Paths that fit. */
+  get capacity(): number {
+    return this.#capacity;
   }
 
   /** Paths of a sample: one, with catchers two. */
@@ -74,6 +78,9 @@ export class Integrator {
   /** From now on these kernels; they bind anew. */
   use(kernels: KernelSet): void {
     this.#kernels = kernels;
+    // Paths that carry more may be too large for as many of them.
+    const most = Math.floor(this.#device.limits.maxStorageBufferBindingSize / pathLayout(kernels.features).struct.size);
+    this.#capacity = Math.min(this.#capacity, most);
     this.#grow('shadows', kernels.features.flags.NEXT_EVENT ? this.capacity * shadowStruct.size : 0);
     this.#grow('paths', this.capacity * pathLayout(kernels.features).struct.size);
     this.rebind();
