@@ -25,6 +25,7 @@ export interface GpuResult {
   readonly weight: OpenPbrVector;
   readonly valid: boolean;
   readonly transmitted: boolean;
+  readonly subsurface: boolean;
   readonly emission: OpenPbrVector;
   readonly opacity: number;
   readonly albedo: OpenPbrVector;
@@ -73,7 +74,7 @@ fn openpbr_table_conductor(coords: vec2f) -> f32 { return table(${dielectric.dat
   let s = openpbr_sample(b, wo, cases[id.x].u.xyz);
   results[id.x] = Result(
     openpbr_eval(b, wo, wi), openpbr_pdf(b, wo, wi), openpbr_eval_pdf(b, wo, wi),
-    s.wi, s.pdf, s.weight, f32(s.valid) + 2.0 * f32(s.transmitted), openpbr_emission(p, wo), openpbr_opacity(p), vec4f(openpbr_albedo(b, wo), 0.0));
+    s.wi, s.pdf, s.weight, f32(s.valid) + 2.0 * f32(s.transmitted) + 4.0 * f32(s.subsurface), openpbr_emission(p, wo), openpbr_opacity(p), vec4f(openpbr_albedo(b, wo), 0.0));
 }`,
   [openpbr],
 );
@@ -108,7 +109,8 @@ export async function onGpu(flags: OpenPbrFlags, cases: readonly GpuCase[]): Pro
       samplePdf: word(11),
       weight: triple(12),
       valid: (word(15) & 1) === 1,
-      transmitted: word(15) >= 2,
+      transmitted: (word(15) & 2) > 0,
+      subsurface: (word(15) & 4) > 0,
       emission: triple(16),
       opacity: word(19),
       albedo: triple(20),

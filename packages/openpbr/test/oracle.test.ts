@@ -6,7 +6,7 @@ import { sphereFurnace } from './sphere';
 import { oracle, sharedIt, sharedPresent, type OraclePair, type OracleSetting } from './shared';
 
 // The parameters of the lobes that exist. Settings that touch others wait for those lobes.
-const KNOWN = /^(base_|specular_|transmission_|coat_|emission_|geometry_opacity$|geometry_tangent$|geometry_thin_walled$|exterior_ior$)/;
+const KNOWN = /^(base_|specular_|transmission_|subsurface_|coat_|emission_|geometry_opacity$|geometry_tangent$|geometry_thin_walled$|exterior_ior$)/;
 
 /** The oracle disagrees with the specification's text here, and its notes say to follow the text. */
 const FOLLOWS_TEXT_INSTEAD = ['eon_half_weight'];
@@ -17,11 +17,12 @@ const FOLLOWS_TEXT_INSTEAD = ['eon_half_weight'];
  */
 const THIN_WALLS = ['glass_thin_r02', 'glass_thin_r06'];
 
+/** Paper: there it gives back up to 9 % more than it gets. */
+const PAPER = ['sss_thin'];
+
 /** What bounces among the facets: an even lobe here, one that avoids the normal there. The lobe of single scattering is compared. */
 const BOUNCES = ['glass_dispersion'];
 
-/** Seen from inside, the opaque part of a half transparent surface lies behind the same interface; there, it does not. */
-const OPAQUE_FROM_INSIDE = ['trans_half'];
 
 /** The oracle refracts three wavelengths at once; here the host picks one, and evaluates the surface with its index. */
 const DISPERSED = ['glass_dispersion'];
@@ -101,7 +102,7 @@ describe('against an independent implementation', () => {
     const { f: tolerance, albedo: albedoTolerance, lobes } = setting.tol;
     const thin = setting.params.geometry_thin_walled ?? false;
     const sideOf = (z: number): BsdfSide => ({ inside: z < 0 && !thin, outerIor: setting.params.exterior_ior ?? 1 });
-    const clear = (setting.params.transmission_weight ?? 0) > 0;
+    const clear = (setting.params.transmission_weight ?? 0) + (setting.params.subsurface_weight ?? 0) > 0;
     const pairs = setting.pairs
       .map((pair) => {
         const wo = turn(setting.wo[pair.o] as OpenPbrVector);
@@ -120,7 +121,6 @@ describe('against an independent implementation', () => {
         const { rel, abs } = lobes.spec as { rel: number; abs: number };
         let compared = 0;
         each((p, channels, { pair, wo, wi, side }) => {
-          if (side.inside && OPAQUE_FROM_INSIDE.includes(setting.id)) return;
           const expected = expectedSpecular(pair, side.inside ? correlationOf(p, wo, wi) : 1) ?? [0, 0, 0];
           const values = specularOf(p, wo, wi, side);
           for (const i of channels) {
@@ -167,10 +167,10 @@ describe('against an independent implementation', () => {
       });
     }
 
-    if (!FOLLOWS_TEXT_INSTEAD.includes(setting.id) && !THIN_WALLS.includes(setting.id)) {
+    if (!FOLLOWS_TEXT_INSTEAD.includes(setting.id) && ![...THIN_WALLS, ...PAPER].includes(setting.id)) {
       sharedIt(`${setting.id}: reflected and transmitted parts of uniform light`, () => {
         for (const { mu, R, T, se } of setting.albedo) {
-          if (mu <= 0 && (!clear || OPAQUE_FROM_INSIDE.includes(setting.id))) continue;
+          if (mu <= 0 && !clear) continue;
           const side = sideOf(mu);
           const azimuth = (25 * Math.PI) / 180;
           const wo = mu > 0 ? turn(direction(mu, azimuth)) : over(turn(direction(mu, azimuth)));

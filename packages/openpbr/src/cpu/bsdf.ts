@@ -4,6 +4,7 @@ import { cosineSample, eon } from './diffuse';
 import { energyBounce, energyLost, energyLostMean, energyShare, energyShareMean, energyTotal } from './energy';
 import { dielectricEpsilon, fresnelDielectric, fresnelMetal, fresnelMetalMean } from './fresnel';
 import { ggx, ggxAlpha, ggxSample, halfVector, mirrorCosine, mirrorRoughness, viewRoughness, type Slopes } from './ggx';
+import { prepareThinSubsurface, type ThinSubsurface } from './subsurface';
 import { prepareTransmission, refract, refractGgx, refractHalf, type BsdfSide, type Transmission } from './transmission';
 import { clamp, dot } from './vector';
 
@@ -37,6 +38,8 @@ export interface Bsdf {
   };
   readonly dielectric: { readonly eta: number; readonly epsilon: number; readonly roughness: number; readonly scale: OpenPbrColor; readonly bounced: OpenPbrColor };
   readonly transmission: Transmission;
+  /** Paper below a thin wall, with what the interface makes of diffuse light. */
+  readonly subsurface: ThinSubsurface;
   /** Probability that a facet of a thin wall reflects. */
   readonly thinChance: number;
   /** Probability of going down when the cosine is sampled. */
@@ -56,14 +59,16 @@ export interface BsdfSample {
   readonly valid: boolean;
   /** `wi` is on the other side. */
   readonly transmitted: boolean;
+  /** It goes into the subsurface's medium, not into the transparent interior; the weight is for this choice. */
+  readonly subsurface: boolean;
 }
 
 const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), channel(1), channel(2)];
 const sum = (color: OpenPbrColor): number => color[0] + color[1] + color[2];
 
-/** The parameters with indices relative to the viewer's side, and no coat in front from inside. */
+/** The parameters with indices relative to what is outside, and no coat in front from inside. */
 function seenFrom(p: OpenPbrParameters, { inside = false, outerIor = 1 }: BsdfSide): OpenPbrParameters {
-  return { ...p, specular_ior: inside ? outerIor / p.specular_ior : p.specular_ior / outerIor, coat_ior: p.coat_ior / outerIor, coat_weight: inside ? 0 : p.coat_weight };
+  return { ...p, specular_ior: p.specular_ior / outerIor, coat_ior: p.coat_ior / outerIor, coat_weight: inside ? 0 : p.coat_weight };
 }
 
 /** Share of light that an interface reflects, and what multiple scattering adds to either side; twin of `openpbr_dielectric_prepare`. */
@@ -101,30 +106,33 @@ export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multi
   const tint: OpenPbrColor = inside ? [1, 1, 1] : p.specular_color;
   const insulator = 1 - p.base_metalness;
   const face = prepareInterface(p, alpha, wo, mu, multipleScattering);
-  const outer = { ...p, specular_color: tint, specular_ior: whole.specular_ior };
+  const outer = { ...p, specular_color: tint, specular_ior: inside ? 1 / whole.specular_ior : whole.specular_ior };
   const bare = prepareInterface(outer, alpha, wo, mu, multipleScattering);
-  const transmission = prepareTransmission(outer, face.share, bare, alpha, wo, mu, insulator, inside ? given.coat_weight : 0, multipleScattering);
-  const single = transmission.thin ? 1 - p.transmission_weight : 1;
-  const scale = rgb((i) => insulator * single * tint[i]);
+  const transmission = prepareTransmission(outer, face, bare, alpha, wo, mu, insulator, inside ? given.coat_weight : 0, inside, multipleScattering);
+  const subsurface = prepareThinSubsurface(p, insulator * (1 - face.share));
+  const scale = rgb((i) => insulator * (1 - transmission.share) * tint[i]);
   const specular = rgb((i) => p.base_metalness * typical[i] * (1 - lost) + scale[i] * Math.max(face.share - face.bounced, 0) + transmission.mirrorAlbedo[i]);
   const rebounced = rgb((i) => scale[i] * face.bounced + transmission.mirrorBounced[i]);
-  const diffuse = insulator * p.base_weight * (1 - p.transmission_weight) * (1 - face.share);
-  const spread = rgb((i) => bounced[i] + rebounced[i] + diffuse * p.base_color[i]);
-  const down = sum(transmission.bounced);
+  const diffuse = insulator * p.base_weight * (1 - p.transmission_weight) * (1 - p.subsurface_weight) * (1 - face.share);
+  const spread = rgb((i) => bounced[i] + rebounced[i] + diffuse * p.base_color[i] + subsurface.back * subsurface.color[i]);
+  const beneath = rgb((i) => transmission.bounced[i] + subsurface.through * subsurface.color[i]);
+  const down = sum(beneath);
   const facets = sum(specular) + sum(transmission.albedo);
   const all = facets + sum(spread) + down;
   const reflected = energyShareMean(face.epsilon, roughness);
+  const coupling = (1 - 0.08 * p.base_diffuse_roughness * reflected) / Math.max(1 - reflected, 1e-4);
   const coat = prepareCoat(whole, wo, mu, multipleScattering);
   // A highlight comes from about as low as it is seen, spread light from everywhere.
   const highlight = coatPass(coat, mu);
   const everywhere = coatPass(coat, 2 / 3);
   const beyond = coatThrough(coat, transmission.exit, mu);
-  const below = rgb((i) => specular[i] * highlight[i] + spread[i] * everywhere[i] + (transmission.albedo[i] + transmission.bounced[i]) * beyond[i]);
+  const below = rgb((i) => specular[i] * highlight[i] + spread[i] * everywhere[i] + (transmission.albedo[i] + beneath[i]) * beyond[i]);
   const total = sum(below) + 3 * coat.albedo;
   return {
     alpha,
     specularProbability: all > 0 ? facets / all : 0.5,
-    diffuseScale: (diffuse / Math.max(1 - reflected, 1e-4)) * (1 - 0.08 * p.base_diffuse_roughness * reflected),
+    diffuseScale: diffuse * coupling,
+    subsurface: { ...subsurface, back: subsurface.back * coupling, through: subsurface.through * coupling },
     diffuseColor: p.base_color,
     diffuseRoughness: p.base_diffuse_roughness,
     albedo: rgb((i) => Math.min(below[i] + coat.albedo, 1)),
@@ -142,10 +150,11 @@ export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multi
 function facetReflectance(b: Bsdf, c: number): OpenPbrColor {
   const metal = fresnelMetal(b.metal.f0, b.metal.tint, c, b.metal.specularWeight);
   const fresnel = fresnelDielectric(b.dielectric.eta, c);
-  return rgb((i) => b.metal.metalness * metal[i] + b.dielectric.scale[i] * fresnel + b.transmission.mirror[i]);
+  const clear = b.transmission.thin ? 1 : fresnelDielectric(b.transmission.mirrorEta, c);
+  return rgb((i) => b.metal.metalness * metal[i] + b.dielectric.scale[i] * fresnel + b.transmission.mirror[i] * clear);
 }
 
-/** Fresnel factor of a facet that lets light through; without a coat, that of the reflection. */
+/** Fresnel factor of a facet that lets light through. */
 const refractionFresnel = (b: Bsdf, c: number): number => fresnelDielectric(b.transmission.fresnelEta, c);
 
 /** Probability that a facet reflects, once it is sampled; else it lets light through. */
@@ -155,6 +164,9 @@ function reflectionChance(b: Bsdf, c: number): number {
   const through = sum(b.transmission.color) * (1 - refractionFresnel(b, c));
   return through > 0 ? sum(color) / (sum(color) + through) : 1;
 }
+
+/** Cosine, and what the interface lets through on the way of the light to the diffuse lobe. */
+const diffusePass = (b: Bsdf, wi: OpenPbrVector): number => wi[2] * (1 - energyShare(b.dielectric.epsilon, viewRoughness(b.alpha, b.dielectric.roughness, wi), wi[2]));
 
 /** The facet that lets light through from `wi` to `wo`. */
 const throughHalf = ({ transmission: { thin, eta } }: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): OpenPbrVector => (thin ? halfVector(wo, [wi[0], wi[1], -wi[2]]) : refractHalf(eta, wo, wi));
@@ -169,7 +181,10 @@ function scatterThrough(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPb
   const coat = coatThrough(b.coat, transmission.exit, -wi[2]);
   const cosine = -wi[2] / Math.PI;
   const pdf = b.specularProbability * (1 - reflectionChance(b, c)) * density + (1 - b.specularProbability) * b.below * cosine;
-  return { f: rgb((i) => (transmission.color[i] * passed + transmission.bounced[i] * cosine) * coat[i]), pdf: (1 - b.coatProbability) * pdf };
+  const mirrored: OpenPbrVector = [wi[0], wi[1], -wi[2]];
+  const paper = eon(b.subsurface.color, b.diffuseRoughness, wo, mirrored);
+  const passes = b.subsurface.through * diffusePass(b, mirrored);
+  return { f: rgb((i) => (transmission.color[i] * passed + transmission.bounced[i] * cosine + paper[i] * passes) * coat[i]), pdf: (1 - b.coatProbability) * pdf };
 }
 
 function scatter(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector): { f: OpenPbrColor; pdf: number } {
@@ -178,15 +193,16 @@ function scatter(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector
   const c = clamp(dot(wo, h), 0, 1);
   const [value, density] = ggx(b.alpha, wo, wi, h);
   const color = facetReflectance(b, c);
-  const scale = b.diffuseScale * wi[2] * (1 - energyShare(b.dielectric.epsilon, viewRoughness(b.alpha, b.dielectric.roughness, wi), wi[2]));
+  const through = diffusePass(b, wi);
   const bounced = (energyLost(b.metal.roughness, mirrorCosine(b.alpha, wi, wi[2])) / b.metal.meanLost / Math.PI) * wi[2];
   const diffuse = eon(b.diffuseColor, b.diffuseRoughness, wo, wi);
+  const paper = eon(b.subsurface.color, b.diffuseRoughness, wo, wi);
   const pass = coatPass(b.coat, wi[2]);
   const [top, topDensity] = ggx(b.coat.alpha, wo, wi, h);
   const mirrored = b.coat.scale * fresnelDielectric(b.coat.eta, c) * top;
   const basePdf = b.specularProbability * reflectionChance(b, c) * density + ((1 - b.specularProbability) * (1 - b.below) * wi[2]) / Math.PI;
   return {
-    f: rgb((i) => (value * color[i] + (b.dielectric.bounced[i] * wi[2]) / Math.PI + bounced * b.metal.bounced[i] + scale * diffuse[i]) * pass[i] + mirrored),
+    f: rgb((i) => (value * color[i] + (b.dielectric.bounced[i] * wi[2]) / Math.PI + bounced * b.metal.bounced[i] + through * (b.diffuseScale * diffuse[i] + b.subsurface.back * paper[i])) * pass[i] + mirrored),
     pdf: basePdf * (1 - b.coatProbability) + topDensity * b.coatProbability,
   };
 }
@@ -207,6 +223,7 @@ export function sampleBsdf(b: Bsdf, wo: OpenPbrVector, u: readonly [number, numb
   let h: OpenPbrVector;
   let wi: OpenPbrVector;
   let transmitted = false;
+  let medium = 1;
   const top = u[2] < b.coatProbability;
   const chosen = u[2] - b.coatProbability;
   const limit = (1 - b.coatProbability) * b.specularProbability;
@@ -216,18 +233,27 @@ export function sampleBsdf(b: Bsdf, wo: OpenPbrVector, u: readonly [number, numb
     h = ggxSample(top ? b.coat.alpha : thin && side >= b.thinChance ? thinAlpha : b.alpha, wo, u);
     const c = dot(wo, h);
     wi = [2 * c * h[0] - wo[0], 2 * c * h[1] - wo[1], 2 * c * h[2] - wo[2]];
-    transmitted = !top && side >= reflectionChance(b, clamp(c, 0, 1));
+    const chance = reflectionChance(b, clamp(c, 0, 1));
+    transmitted = !top && side >= chance;
+    medium = (side - chance) / (1 - chance);
     if (transmitted) wi = thin ? [wi[0], wi[1], -wi[2]] : (refract(eta, wo, h) ?? [0, 0, 0]);
     // A facet may reflect downwards or refract upwards: lost.
-    if (transmitted !== wi[2] < 0) return { wi, pdf: 0, weight: [0, 0, 0], valid: false, transmitted };
+    if (transmitted !== wi[2] < 0) return { wi, pdf: 0, weight: [0, 0, 0], valid: false, transmitted, subsurface: false };
   } else {
     wi = cosineSample(u);
-    transmitted = chosen - limit < b.below * (1 - b.coatProbability - limit);
+    const down = b.below * (1 - b.coatProbability - limit);
+    transmitted = chosen - limit < down;
+    medium = (chosen - limit) / down;
     if (transmitted) wi = [wi[0], wi[1], -wi[2]];
     h = transmitted ? throughHalf(b, wo, wi) : halfVector(wo, wi);
   }
   const { f, pdf } = scatter(b, wo, wi, h);
-  return pdf > 0 ? { wi, pdf, weight: rgb((i) => f[i] / pdf), valid: true, transmitted } : { wi, pdf: 0, weight: [0, 0, 0], valid: false, transmitted };
+  if (!(pdf > 0)) return { wi, pdf: 0, weight: [0, 0, 0], valid: false, transmitted, subsurface: false };
+  const { subsurface: part, subsurfaceChance: enters } = b.transmission;
+  const subsurface = transmitted && medium < enters;
+  // The weight is for the medium that was chosen.
+  const chosenPart = (i: 0 | 1 | 2): number => (!transmitted || enters === 0 ? 1 : subsurface ? part[i] / enters : (1 - part[i]) / (1 - enters));
+  return { wi, pdf, weight: rgb((i) => (f[i] / pdf) * chosenPart(i)), valid: true, transmitted, subsurface };
 }
 
 /** Reflected and transmitted part of uniform light; twin of `openpbr_albedo`. */

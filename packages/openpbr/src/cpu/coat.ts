@@ -67,7 +67,7 @@ export function coatDarkening(p: OpenPbrParameters, mu: number): OpenPbrColor {
   const kept = Math.min(mix(fresnelDielectric((1 + epsilon) / (1 - epsilon), facet), fresnelMean(-epsilon), roughness), 0.9999);
   return rgb((i) => {
     const color = p.base_weight * p.base_color[i];
-    const albedo = mix(mix(mix(color, 1, p.transmission_weight), p.specular_color[i], f0), Math.min(color * p.specular_weight, 1), p.base_metalness);
+    const albedo = mix(mix(mix(mix(color, p.subsurface_color[i], p.subsurface_weight), 1, p.transmission_weight), p.specular_color[i], f0), Math.min(color * p.specular_weight, 1), p.base_metalness);
     return mix(1, (1 - kept) / (1 - kept * albedo), p.coat_weight * p.coat_darkening);
   });
 }

@@ -17,6 +17,10 @@ export interface Transmission {
   /** Index of the far side over that of the viewer's, for directions: not so near 1 that half vectors are lost; and as it is. */
   readonly eta: number;
   readonly fresnelEta: number;
+  /** Index for the reflection by the clear part, which a coat changes. */
+  readonly mirrorEta: number;
+  /** The share of the dielectric that is clear. */
+  readonly share: number;
   /** Factor on what facets let through: share of the surface, tint; and the albedo of that. */
   readonly color: OpenPbrColor;
   readonly albedo: OpenPbrColor;
@@ -26,7 +30,10 @@ export interface Transmission {
   readonly exit: number;
   readonly thin: boolean;
   readonly thinAlpha: Slopes;
-  /** Factor on the reflection by a thin wall; the albedo of that, and of further bounces. */
+  /** The part of `color` that enters the subsurface, per channel, and the probability of choosing it. */
+  readonly subsurface: OpenPbrColor;
+  readonly subsurfaceChance: number;
+  /** Factor on the reflection by the clear part; the albedo of that, and of further bounces. */
   readonly mirror: OpenPbrColor;
   readonly mirrorAlbedo: OpenPbrColor;
   readonly mirrorBounced: OpenPbrColor;
@@ -36,19 +43,21 @@ const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), ch
 
 /** What {@link prepareTransmission} needs to know of an interface. */
 interface Interface {
+  readonly epsilon: number;
   readonly share: number;
+  readonly bounced: number;
   readonly bouncedThrough: number;
 }
 
 /**
  * Prepares what is let through; twin of `openpbr_transmission_prepare`.
  *
- * @param outer The surface without what a coat does to its index, but with the roughness below it.
- * @param share Share of light that the interface reflects in its place.
+ * @param outer The surface without what a coat does to its index, but with the roughness below it, relative to the viewer's side.
+ * @param face The interface of the opaque part.
  * @param bare The interface of `outer`.
  * @param weight Share of the surface that is dielectric.
  */
-export function prepareTransmission(outer: OpenPbrParameters, share: number, bare: Interface, alpha: Slopes, wo: OpenPbrVector, mu: number, weight: number, exit: number, multipleScattering: boolean): Transmission {
+export function prepareTransmission(outer: OpenPbrParameters, face: Interface, bare: Interface, alpha: Slopes, wo: OpenPbrVector, mu: number, weight: number, exit: number, inside: boolean, multipleScattering: boolean): Transmission {
   const epsilon = dielectricEpsilon(outer.specular_ior, outer.specular_weight);
   const bend = Math.abs(epsilon) < 5e-4 ? 5e-4 : epsilon;
   const eta = (1 + bend) / (1 - bend);
@@ -56,13 +65,35 @@ export function prepareTransmission(outer: OpenPbrParameters, share: number, bar
   const amount = weight * outer.transmission_weight;
   const thin = outer.geometry_thin_walled;
   const tint: OpenPbrColor = outer.transmission_depth <= 0 || thin ? outer.transmission_color : [1, 1, 1];
-  const none: OpenPbrColor = [0, 0, 0];
   if (!thin) {
-    const kept = Math.min((1 - share + 1e-6) / (1 - bare.share + 1e-6), 8);
-    const color = rgb((i) => amount * kept * tint[i]);
+    const clear = inside ? bare : face;
+    const below = (1 - outer.transmission_weight) * outer.subsurface_weight;
+    const share = outer.transmission_weight + below;
+    const enters = weight * below;
+    const total = rgb((i) => amount * tint[i] + enters);
+    const kept = inside ? 1 : Math.min((1 - face.share + 1e-6) / (1 - bare.share + 1e-6), 8);
+    const color = rgb((i) => total[i] * kept);
     const direct = Math.max(1 - bare.share - bare.bouncedThrough, 0);
-    return { eta, fresnelEta, color, albedo: rgb((i) => color[i] * direct), bounced: rgb((i) => color[i] * bare.bouncedThrough), exit, thin, thinAlpha: alpha, mirror: none, mirrorAlbedo: none, mirrorBounced: none };
+    const mirror = rgb((i) => weight * share * outer.specular_color[i]);
+    return {
+      eta,
+      fresnelEta,
+      mirrorEta: (1 + clear.epsilon) / (1 - clear.epsilon),
+      share,
+      color,
+      albedo: rgb((i) => color[i] * direct),
+      bounced: rgb((i) => color[i] * bare.bouncedThrough),
+      exit,
+      thin,
+      thinAlpha: alpha,
+      mirror,
+      mirrorAlbedo: rgb((i) => mirror[i] * Math.max(clear.share - clear.bounced, 0)),
+      mirrorBounced: rgb((i) => mirror[i] * clear.bounced),
+      subsurface: rgb((i) => (total[i] > 0 ? enters / total[i] : 0)),
+      subsurfaceChance: inside || enters <= 0 ? 0 : (3 * enters) / (total[0] + total[1] + total[2]),
+    };
   }
+  const { share } = face;
   const reflected = (2 * share) / (1 + share);
   const narrowing = clamp(0.65 * Math.max(eta, 1 / eta) - 0.35, 0, 1);
   const path = 1 / Math.sqrt(Math.max(1 - (1 - mu * mu) / (eta * eta), 1e-4));
@@ -75,6 +106,10 @@ export function prepareTransmission(outer: OpenPbrParameters, share: number, bar
   return {
     eta,
     fresnelEta,
+    mirrorEta: fresnelEta,
+    share: outer.transmission_weight,
+    subsurface: [0, 0, 0],
+    subsurfaceChance: 0,
     color,
     albedo: rgb((i) => color[i] * (1 - colorLost)),
     bounced: rgb((i) => color[i] * colorLost),

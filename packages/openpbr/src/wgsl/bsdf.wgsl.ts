@@ -8,6 +8,7 @@ import { openpbrMetal } from './metal.wgsl';
 import { openpbrMedium } from './medium.wgsl';
 import { openpbrPhase } from './phase.wgsl';
 import { openPbrStruct } from './record';
+import { openpbrSubsurface } from './subsurface.wgsl';
 import { openpbrTransmission } from './transmission.wgsl';
 
 /**
@@ -34,7 +35,8 @@ import { openpbrTransmission } from './transmission.wgsl';
  *
  * Transmission: `OpenPbrSide` says where the viewer is, `inside` the object or not, and the index of refraction of what is
  * outside of it; a thin wall has no inside. A facet, once sampled, reflects or refracts by chance, as its Fresnel factor
- * says. From inside there is no coat to be seen, only its colour on what leaves, and reflections have no tint.
+ * says. From inside there is no coat to be seen, only its colour on what leaves, and reflections have no tint. The opaque
+ * part of a half transparent surface looks the same from inside as from outside.
  */
 export const openpbr = wgslModule(
   'openpbr',
@@ -61,6 +63,9 @@ export const openpbr = wgslModule(
   //#if OPENPBR_TRANSMISSION
   transmission: OpenPbrTransmission,
   //#endif
+  //#if OPENPBR_THIN_SUBSURFACE
+  subsurface: OpenPbrThinSubsurface,
+  //#endif
   //#if OPENPBR_COAT
   coat: OpenPbrCoat,
   //#endif
@@ -74,6 +79,8 @@ struct OpenPbrSample {
   valid: bool,
   // wi is on the other side.
   transmitted: bool,
+  // It goes into the subsurface's medium, not into the transparent interior; the weight is for this choice.
+  subsurface: bool,
 }
 
 //#if OPENPBR_TRANSMISSION
@@ -89,9 +96,9 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
 }
 
 fn openpbr_prepare_side(given: OpenPbrParameters, wo: vec3f, side: OpenPbrSide) -> OpenPbrBsdf {
-  // Indices relative to the viewer's side. From inside there is no coat in front.
+  // Indices relative to what is outside. From inside there is no coat in front.
   var whole = given;
-  whole.specular_ior = select(given.specular_ior / side.outer_ior, side.outer_ior / given.specular_ior, side.inside);
+  whole.specular_ior = given.specular_ior / side.outer_ior;
   whole.coat_ior = given.coat_ior / side.outer_ior;
   whole.coat_weight = select(given.coat_weight, 0.0, side.inside);
 //#else
@@ -127,29 +134,35 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
   face.specular_color = select(p.specular_color, vec3f(1.0), side.inside);
   b.dielectric = openpbr_dielectric_prepare(face, b.alpha, wo, mu);
   var outer = face;
-  outer.specular_ior = whole.specular_ior;
-  b.transmission = openpbr_transmission_prepare(outer, b.dielectric, b.alpha, wo, mu, b.dielectric_weight);
-  b.dielectric_scale = b.dielectric_weight * face.specular_color;
-  //#if OPENPBR_THIN_WALLED
-  b.dielectric_scale *= select(1.0, 1.0 - p.transmission_weight, b.transmission.thin);
-  //#endif
+  outer.specular_ior = select(whole.specular_ior, 1.0 / whole.specular_ior, side.inside);
+  b.transmission = openpbr_transmission_prepare(outer, b.dielectric, b.alpha, wo, mu, b.dielectric_weight, side.inside);
+  b.dielectric_scale = (b.dielectric_weight * (1.0 - b.transmission.share)) * face.specular_color;
   b.diffuse_scale *= 1.0 - p.transmission_weight;
+  //#if OPENPBR_SUBSURFACE
+  b.diffuse_scale *= 1.0 - p.subsurface_weight;
+  //#endif
   //#else
   b.dielectric = openpbr_dielectric_prepare(p, b.alpha, wo, mu);
   b.dielectric_scale = b.dielectric_weight * p.specular_color;
   //#endif
   b.dielectric_bounced = b.dielectric_scale * b.dielectric.bounced;
   specular += b.dielectric_scale * max(b.dielectric.share - b.dielectric.bounced, 0.0);
-  //#if OPENPBR_THIN_WALLED
+  //#if OPENPBR_TRANSMISSION
   specular += b.transmission.mirror_albedo;
   b.dielectric_bounced += b.transmission.mirror_bounced;
   //#endif
   b.diffuse_scale *= 1.0 - b.dielectric.share;
   //#endif
+  //#if OPENPBR_THIN_SUBSURFACE
+  b.subsurface = openpbr_thin_subsurface_prepare(p, b.dielectric_weight * (1.0 - b.dielectric.share));
+  //#endif
   b.albedo = specular;
   b.specular_probability = 1.0;
   //#if OPENPBR_TRANSMISSION
   b.albedo += b.transmission.albedo + b.transmission.bounced;
+  //#if OPENPBR_THIN_SUBSURFACE
+  b.albedo += b.subsurface.through * b.subsurface.color;
+  //#endif
   //#if OPENPBR_THIN_WALLED
   let facets = dot(specular + b.transmission.albedo, vec3f(1.0));
   b.transmission.chance = select(1.0, min(dot(specular, vec3f(1.0)) / facets, 1.0), facets > 0.0);
@@ -168,12 +181,18 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
   b.diffuse_roughness = p.base_diffuse_roughness;
   let diffuse = b.diffuse_scale * p.base_color;
   spread += diffuse;
+  //#if OPENPBR_THIN_SUBSURFACE
+  spread += b.subsurface.back * b.subsurface.color;
+  //#endif
   //#if OPENPBR_DIELECTRIC
   let reflected = openpbr_energy_share_mean(b.dielectric.epsilon, b.dielectric.roughness);
   b.diffuse_scale /= max(1.0 - reflected, 1e-4);
   //#if OPENPBR_DIFFUSE_ROUGHNESS
   // EON is not as even as Lambert: where it peaks, the weights would give back more than they get.
   b.diffuse_scale *= 1.0 - 0.08 * b.diffuse_roughness * reflected;
+  //#endif
+  //#if OPENPBR_THIN_SUBSURFACE
+  b.subsurface.coupling = (1.0 - 0.08 * p.base_diffuse_roughness * reflected) / max(1.0 - reflected, 1e-4);
   //#endif
   //#endif
   //#endif
@@ -184,7 +203,11 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
   let bright = dot(specular, vec3f(1.0));
   //#endif
   //#if OPENPBR_TRANSMISSION
-  let down = dot(b.transmission.bounced, vec3f(1.0));
+  var beneath = b.transmission.bounced;
+  //#if OPENPBR_THIN_SUBSURFACE
+  beneath += b.subsurface.through * b.subsurface.color;
+  //#endif
+  let down = dot(beneath, vec3f(1.0));
   let total = bright + down + dot(spread, vec3f(1.0));
   b.transmission.below = select(0.0, min(down / (down + dot(spread, vec3f(1.0))), 1.0), down > 0.0);
   //#else
@@ -201,7 +224,11 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
   //#endif
   //#if OPENPBR_TRANSMISSION
   b.transmission.exit = select(0.0, given.coat_weight, side.inside);
-  b.albedo += (b.transmission.albedo + b.transmission.bounced) * openpbr_coat_through(b, mu);
+  //#if OPENPBR_COSINE
+  b.albedo += (b.transmission.albedo + beneath) * openpbr_coat_through(b, mu);
+  //#else
+  b.albedo += b.transmission.albedo * openpbr_coat_through(b, mu);
+  //#endif
   //#endif
   let below = dot(b.albedo, vec3f(1.0));
   b.albedo += b.coat.albedo;
@@ -219,41 +246,56 @@ fn openpbr_coat_through(b: OpenPbrBsdf, mu: f32) -> vec3f {
 //#endif
 //#endif
 
+//#if OPENPBR_DIFFUSE
+fn openpbr_diffuse(color: vec3f, roughness: f32, wo: vec3f, wi: vec3f) -> vec3f {
+  //#if OPENPBR_DIFFUSE_ROUGHNESS
+  return openpbr_eon(color, roughness, wo, wi);
+  //#else
+  return color * 0.31830989;
+  //#endif
+}
+
+// Cosine, and what the interface lets through on the way of the light to the diffuse lobe.
+fn openpbr_diffuse_pass(b: OpenPbrBsdf, wi: vec3f) -> f32 {
+  //#if OPENPBR_DIELECTRIC
+  return wi.z * (1.0 - openpbr_energy_share(b.dielectric.epsilon, openpbr_view_roughness(b.alpha, b.dielectric.roughness, wi), wi.z));
+  //#else
+  return wi.z;
+  //#endif
+}
+//#endif
+
 //#if OPENPBR_SPECULAR
-// Reflectance of a facet seen at cosine c, all microfacet lobes of the base; and the Fresnel factor of its interface.
-fn openpbr_reflectance(b: OpenPbrBsdf, c: f32) -> vec4f {
-  var result = vec4f(0.0);
+// Reflectance of a facet seen at cosine c, all microfacet lobes of the base.
+fn openpbr_reflectance(b: OpenPbrBsdf, c: f32) -> vec3f {
+  var result = vec3f(0.0);
   //#if OPENPBR_METAL
-  result += vec4f(openpbr_metal_fresnel(b.metal, c), 0.0);
+  result += openpbr_metal_fresnel(b.metal, c);
   //#endif
   //#if OPENPBR_DIELECTRIC
-  let fresnel = openpbr_fresnel_dielectric(b.dielectric.eta, c);
-  result += vec4f(b.dielectric_scale * fresnel, fresnel);
+  result += b.dielectric_scale * openpbr_fresnel_dielectric(b.dielectric.eta, c);
   //#endif
+  //#if OPENPBR_TRANSMISSION
+  var mirror = 1.0;
   //#if OPENPBR_THIN_WALLED
-  result += vec4f(b.transmission.mirror, 0.0);
+  if (!b.transmission.thin) { mirror = openpbr_fresnel_dielectric(b.transmission.mirror_eta, c); }
+  //#else
+  mirror = openpbr_fresnel_dielectric(b.transmission.mirror_eta, c);
+  //#endif
+  result += b.transmission.mirror * mirror;
   //#endif
   return result;
 }
 //#endif
 
 //#if OPENPBR_TRANSMISSION
-// Fresnel factor of a facet that lets light through.
-fn openpbr_refraction_fresnel(b: OpenPbrBsdf, reflectance: vec4f, c: f32) -> f32 {
-  //#if OPENPBR_COAT
-  return openpbr_fresnel_dielectric(b.transmission.fresnel_eta, c);
-  //#else
-  return reflectance.w;
-  //#endif
-}
-
 // Probability that a facet reflects, once it is sampled; else it lets light through.
-fn openpbr_reflection_chance(b: OpenPbrBsdf, reflectance: vec4f, c: f32) -> f32 {
+fn openpbr_reflection_chance(b: OpenPbrBsdf, reflectance: vec3f, c: f32) -> f32 {
   //#if OPENPBR_THIN_WALLED
   if (b.transmission.thin) { return b.transmission.chance; }
   //#endif
-  let through = dot(b.transmission.color, vec3f(1.0 - openpbr_refraction_fresnel(b, reflectance, c)));
-  let reflected = dot(reflectance.xyz, vec3f(1.0));
+  let through = dot(b.transmission.color, vec3f(1.0 - openpbr_fresnel_dielectric(b.transmission.fresnel_eta, c)));
+  let reflected = dot(reflectance, vec3f(1.0));
   return select(1.0, min(reflected / (reflected + through), 1.0), through > 0.0);
 }
 
@@ -268,14 +310,18 @@ fn openpbr_scatter_through(b: OpenPbrBsdf, wo: vec3f, wi: vec3f, h: vec3f) -> ve
   if (b.transmission.thin) {
     ggx = openpbr_ggx(b.transmission.thin_alpha, wo, vec3f(wi.xy, -wi.z), h);
   } else {
-    ggx = openpbr_refract_ggx(b.transmission.eta, b.alpha, wo, wi, h) * vec2f(1.0 - openpbr_refraction_fresnel(b, reflectance, c), 1.0);
+    ggx = openpbr_refract_ggx(b.transmission.eta, b.alpha, wo, wi, h) * vec2f(1.0 - openpbr_fresnel_dielectric(b.transmission.fresnel_eta, c), 1.0);
   }
   //#else
-  ggx = openpbr_refract_ggx(b.transmission.eta, b.alpha, wo, wi, h) * vec2f(1.0 - openpbr_refraction_fresnel(b, reflectance, c), 1.0);
+  ggx = openpbr_refract_ggx(b.transmission.eta, b.alpha, wo, wi, h) * vec2f(1.0 - openpbr_fresnel_dielectric(b.transmission.fresnel_eta, c), 1.0);
   //#endif
   var result = vec4f(b.transmission.color * ggx.x, probability * ggx.y);
   //#if OPENPBR_COSINE
   result -= vec4f(b.transmission.bounced, (1.0 - b.specular_probability) * b.transmission.below) * (wi.z * 0.31830989);
+  //#if OPENPBR_THIN_SUBSURFACE
+  let mirrored = vec3f(wi.xy, -wi.z);
+  result += vec4f(openpbr_diffuse(b.subsurface.color, b.diffuse_roughness, wo, mirrored) * (b.subsurface.through * b.subsurface.coupling * openpbr_diffuse_pass(b, mirrored)), 0.0);
+  //#endif
   //#endif
   //#if OPENPBR_COAT
   result *= vec4f(openpbr_coat_through(b, -wi.z), 1.0 - b.coat.probability);
@@ -299,7 +345,7 @@ fn openpbr_scatter(b: OpenPbrBsdf, wo: vec3f, wi: vec3f, h: vec3f) -> vec4f {
   //#if OPENPBR_TRANSMISSION
   facet_probability *= openpbr_reflection_chance(b, reflectance, c);
   //#endif
-  result += vec4f(reflectance.xyz * ggx.x, facet_probability * ggx.y);
+  result += vec4f(reflectance * ggx.x, facet_probability * ggx.y);
   //#endif
   //#if OPENPBR_COSINE
   var probability = 1.0;
@@ -320,16 +366,11 @@ fn openpbr_scatter(b: OpenPbrBsdf, wo: vec3f, wi: vec3f, h: vec3f) -> vec4f {
   //#endif
   //#endif
   //#if OPENPBR_DIFFUSE
-  var scale = b.diffuse_scale * wi.z;
-  //#if OPENPBR_DIELECTRIC
-  scale *= 1.0 - openpbr_energy_share(b.dielectric.epsilon, openpbr_view_roughness(b.alpha, b.dielectric.roughness, wi), wi.z);
+  let diffuse_pass = openpbr_diffuse_pass(b, wi);
+  result += vec4f(openpbr_diffuse(b.diffuse_color, b.diffuse_roughness, wo, wi) * (b.diffuse_scale * diffuse_pass), 0.0);
+  //#if OPENPBR_THIN_SUBSURFACE
+  result += vec4f(openpbr_diffuse(b.subsurface.color, b.diffuse_roughness, wo, wi) * (b.subsurface.back * b.subsurface.coupling * diffuse_pass), 0.0);
   //#endif
-  //#if OPENPBR_DIFFUSE_ROUGHNESS
-  let diffuse = openpbr_eon(b.diffuse_color, b.diffuse_roughness, wo, wi);
-  //#else
-  let diffuse = b.diffuse_color * 0.31830989;
-  //#endif
-  result += vec4f(diffuse * scale, 0.0);
   //#endif
   //#if OPENPBR_COAT
   let top = openpbr_ggx(b.coat.alpha, wo, wi, h);
@@ -373,6 +414,9 @@ fn openpbr_pdf(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> f32 {
 fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample {
   var s: OpenPbrSample;
   var h = vec3f(0.0, 0.0, 1.0);
+  //#if OPENPBR_SUBSURFACE
+  var medium = 1.0;
+  //#endif
   //#if OPENPBR_SPECULAR
   //#if OPENPBR_COAT
   let top = u.z < b.coat.probability;
@@ -398,7 +442,11 @@ fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample {
     //#if OPENPBR_TRANSMISSION
     let c = clamp(dot(wo, h), 0.0, 1.0);
     // Below 0 for the coat, which always reflects.
-    s.transmitted = side >= openpbr_reflection_chance(b, openpbr_reflectance(b, c), c);
+    let chance = openpbr_reflection_chance(b, openpbr_reflectance(b, c), c);
+    s.transmitted = side >= chance;
+    //#if OPENPBR_SUBSURFACE
+    medium = (side - chance) / (1.0 - chance);
+    //#endif
     if (s.transmitted) {
       //#if OPENPBR_THIN_WALLED
       if (b.transmission.thin) { s.wi.z = -s.wi.z; } else { s.wi = openpbr_refract(b.transmission.eta, wo, h); }
@@ -421,6 +469,9 @@ fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample {
     let rest = 1.0 - limit;
     //#endif
     s.transmitted = chosen - limit < b.transmission.below * rest;
+    //#if OPENPBR_SUBSURFACE
+    medium = (chosen - limit) / (b.transmission.below * rest);
+    //#endif
     if (s.transmitted) {
       s.wi.z = -s.wi.z;
       h = openpbr_through_half(b, wo, s.wi);
@@ -435,6 +486,13 @@ fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample {
   s.pdf = f.w;
   s.valid = f.w > 0.0;
   s.weight = select(vec3f(0.0), f.xyz / f.w, s.valid);
+  //#if OPENPBR_SUBSURFACE
+  let enters = b.transmission.subsurface_chance;
+  if (s.transmitted && enters > 0.0) {
+    s.subsurface = medium < enters;
+    s.weight *= select((1.0 - b.transmission.subsurface) / (1.0 - enters), b.transmission.subsurface / enters, s.subsurface);
+  }
+  //#endif
   return s;
 }
 
@@ -451,6 +509,7 @@ fn openpbr_albedo(b: OpenPbrBsdf, wo: vec3f) -> vec3f {
     gated('OPENPBR_TRANSMISSION', openpbrTransmission),
     gated('OPENPBR_TRANSMISSION', openpbrMedium),
     gated('OPENPBR_TRANSMISSION', openpbrPhase),
+    gated('OPENPBR_SUBSURFACE', openpbrSubsurface),
     gated('OPENPBR_COAT', openpbrCoat),
     gated('OPENPBR_COSINE', openpbrCosine),
     gated('OPENPBR_DIFFUSE_ROUGHNESS', openpbrEon),

@@ -91,7 +91,12 @@ fn openpbr_coat_darkening(p: OpenPbrParameters, base: OpenPbrParameters, epsilon
   let f0 = inner * inner;
   //#if OPENPBR_TRANSMISSION
   // What goes through the base does not come back to be darkened.
-  let dielectric = mix(mix(p.base_weight * p.base_color, vec3f(1.0), p.transmission_weight), p.specular_color, f0);
+  //#if OPENPBR_SUBSURFACE
+  let opaque = mix(p.base_weight * p.base_color, p.subsurface_color, p.subsurface_weight);
+  //#else
+  let opaque = p.base_weight * p.base_color;
+  //#endif
+  let dielectric = mix(mix(opaque, vec3f(1.0), p.transmission_weight), p.specular_color, f0);
   //#else
   let dielectric = mix(p.base_weight * p.base_color, p.specular_color, f0);
   //#endif

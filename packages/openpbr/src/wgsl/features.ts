@@ -12,6 +12,10 @@ export interface OpenPbrFlags {
   readonly OPENPBR_INTERFACE: boolean;
   /** Light through the surface: refraction, thin walls; comes with OPENPBR_DIELECTRIC. */
   readonly OPENPBR_TRANSMISSION: boolean;
+  /** Light may enter the subsurface; comes with OPENPBR_TRANSMISSION. */
+  readonly OPENPBR_SUBSURFACE: boolean;
+  /** Thin walls with a subsurface: diffuse reflection and transmission. */
+  readonly OPENPBR_THIN_SUBSURFACE: boolean;
   /** Thin walls among what lets light through. */
   readonly OPENPBR_THIN_WALLED: boolean;
   /** The table of the losses of mirrors is read: OPENPBR_METAL or OPENPBR_THIN_WALLED. */
@@ -50,13 +54,16 @@ export function requiredFeatures(materials: readonly Partial<OpenPbrParameters>[
   // A texture can only lower a parameter: metalness 1 with a texture has dielectric places.
   const insulators = all.filter((p) => p.base_metalness < 1 || isTextured('base_metalness'));
   // A base of index 1 reflects below a coat of another index.
-  const clear = insulators.filter((p) => p.transmission_weight > 0);
+  const solid = insulators.filter((p) => p.transmission_weight < 1 || isTextured('transmission_weight'));
+  const below = solid.filter((p) => p.subsurface_weight > 0);
+  const thinBelow = below.some((p) => p.geometry_thin_walled);
+  const clear = [...insulators.filter((p) => p.transmission_weight > 0), ...below];
   const transmission = clear.length > 0;
   const thin = clear.some((p) => p.geometry_thin_walled);
   const dielectric = transmission || insulators.some((p) => p.specular_weight > 0 && (p.specular_ior !== 1 || isTextured('specular_ior') || p.coat_weight > 0));
   const coat = all.some((p) => p.coat_weight > 0);
-  const solid = insulators.filter((p) => p.transmission_weight < 1 || isTextured('transmission_weight'));
-  const diffuse = solid.some((p) => p.base_weight > 0 && p.base_color.some((c) => c > 0));
+  const opaque = solid.filter((p) => p.subsurface_weight < 1 || isTextured('subsurface_weight'));
+  const diffuse = thinBelow || opaque.some((p) => p.base_weight > 0 && p.base_color.some((c) => c > 0));
   const specular = metal || dielectric || coat;
   const lambert = diffuse || !specular;
   return {
@@ -65,12 +72,14 @@ export function requiredFeatures(materials: readonly Partial<OpenPbrParameters>[
     OPENPBR_DIELECTRIC: dielectric,
     OPENPBR_INTERFACE: dielectric || coat,
     OPENPBR_TRANSMISSION: transmission,
+    OPENPBR_SUBSURFACE: below.length > 0,
+    OPENPBR_THIN_SUBSURFACE: thinBelow,
     OPENPBR_THIN_WALLED: thin,
     OPENPBR_LOSSES: metal || thin,
     OPENPBR_COAT: coat,
     OPENPBR_DIFFUSE: lambert,
     OPENPBR_COSINE: lambert || ((metal || dielectric) && multipleScattering),
-    OPENPBR_DIFFUSE_ROUGHNESS: solid.some((p) => p.base_diffuse_roughness > 0),
+    OPENPBR_DIFFUSE_ROUGHNESS: diffuse && solid.some((p) => p.base_diffuse_roughness > 0),
     OPENPBR_ANISOTROPY: specular && all.some((p) => p.specular_roughness_anisotropy > 0 || (p.coat_weight > 0 && p.coat_roughness_anisotropy > 0)),
     OPENPBR_MULTISCATTER: multipleScattering,
     OPENPBR_EMISSION: all.some((p) => p.emission_luminance > 0),

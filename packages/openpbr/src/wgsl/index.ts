@@ -7,6 +7,7 @@ export { openpbrCosine, openpbrEon } from './diffuse.wgsl';
 export { openpbrMetal } from './metal.wgsl';
 export { openpbrDielectric } from './dielectric.wgsl';
 export { openpbrTransmission } from './transmission.wgsl';
+export { openpbrSubsurface } from './subsurface.wgsl';
 export { openpbrMedium } from './medium.wgsl';
 export { openpbrPhase } from './phase.wgsl';
 export { openpbrCoat } from './coat.wgsl';

@@ -21,6 +21,8 @@ export const openpbrTransmission = wgslModule(
   /* wgsl */ `struct OpenPbrTransmission {
   // Index of the far side over that of the viewer's, not so near 1 that half vectors are lost.
   eta: f32,
+  // The share of the dielectric that is clear.
+  share: f32,
   // Factor on what facets let through: share of the surface, tint; and the albedo of that.
   color: vec3f,
   albedo: vec3f,
@@ -28,33 +30,39 @@ export const openpbrTransmission = wgslModule(
   bounced: vec3f,
   // Probability of going down when the cosine is sampled.
   below: f32,
-  //#if OPENPBR_COAT
-  // The index as it is.
+  // The index as it is, for the Fresnel factor of what goes through; and that of the reflection, which a coat changes.
   fresnel_eta: f32,
+  mirror_eta: f32,
+  // Factor on the reflection by the clear part; the albedo of that, and of further bounces.
+  mirror: vec3f,
+  mirror_albedo: vec3f,
+  mirror_bounced: vec3f,
+  //#if OPENPBR_COAT
   // Coverage of the coat that the light leaves through; 0 from outside.
   exit: f32,
+  //#endif
+  //#if OPENPBR_SUBSURFACE
+  // The part of "color" that enters the subsurface, per channel, and the probability of choosing it.
+  subsurface: vec3f,
+  subsurface_chance: f32,
   //#endif
   //#if OPENPBR_THIN_WALLED
   thin: bool,
   thin_alpha: vec2f,
-  // Factor on the reflection, for thin walls; the albedo of that, and of further bounces.
-  mirror: vec3f,
-  mirror_albedo: vec3f,
-  mirror_bounced: vec3f,
   // Probability of reflection when a facet is sampled.
   chance: f32,
   //#endif
 }
 
-// "outer" is the surface without what a coat does to its index; "d" the interface in its place, "weight" its share of the surface.
-fn openpbr_transmission_prepare(outer: OpenPbrParameters, d: OpenPbrDielectric, alpha: vec2f, wo: vec3f, mu: f32, weight: f32) -> OpenPbrTransmission {
+// "outer" is the surface without what a coat does to its index, relative to the viewer's side; "d" the interface of the
+// opaque part, "weight" the share of the surface that is dielectric.
+fn openpbr_transmission_prepare(outer: OpenPbrParameters, d: OpenPbrDielectric, alpha: vec2f, wo: vec3f, mu: f32, weight: f32, inside: bool) -> OpenPbrTransmission {
   var t: OpenPbrTransmission;
+  t.share = outer.transmission_weight;
   let epsilon = openpbr_dielectric_epsilon(outer);
   let bend = select(epsilon, 5e-4, abs(epsilon) < 5e-4);
   t.eta = (1.0 + bend) / (1.0 - bend);
-  //#if OPENPBR_COAT
   t.fresnel_eta = (1.0 + epsilon) / (1.0 - epsilon);
-  //#endif
   let amount = weight * outer.transmission_weight;
   var tint = vec3f(1.0);
   if (outer.transmission_depth <= 0.0 || outer.geometry_thin_walled != 0u) { tint = outer.transmission_color; }
@@ -79,14 +87,29 @@ fn openpbr_transmission_prepare(outer: OpenPbrParameters, d: OpenPbrDielectric, 
     return t;
   }
   //#endif
-  //#if OPENPBR_COAT
-  // The coat leaves the base a smaller step of the index, which reflects less, but bends the light no less in the end.
-  let bare = openpbr_dielectric_prepare(outer, alpha, wo, mu);
-  t.color = (amount * min((1.0 - d.share + 1e-6) / (1.0 - bare.share + 1e-6), 8.0)) * tint;
-  //#else
-  let bare = d;
   t.color = amount * tint;
+  //#if OPENPBR_SUBSURFACE
+  let enters = weight * (1.0 - t.share) * outer.subsurface_weight;
+  t.share += (1.0 - t.share) * outer.subsurface_weight;
+  let total = t.color + enters;
+  t.subsurface = select(vec3f(0.0), enters / total, total > vec3f(0.0));
+  t.subsurface_chance = select(3.0 * enters / dot(total, vec3f(1.0)), 0.0, inside || enters <= 0.0);
+  t.color = total;
   //#endif
+  var clear = d;
+  var bare = d;
+  //#if OPENPBR_COAT
+  bare = openpbr_dielectric_prepare(outer, alpha, wo, mu);
+  // The coat leaves the base a smaller step of the index, which reflects less, but bends the light no less in the end.
+  if (!inside) { t.color *= min((1.0 - d.share + 1e-6) / (1.0 - bare.share + 1e-6), 8.0); }
+  //#else
+  if (inside) { bare = openpbr_dielectric_prepare(outer, alpha, wo, mu); }
+  //#endif
+  if (inside) { clear = bare; }
+  t.mirror_eta = clear.eta;
+  t.mirror = (weight * t.share) * outer.specular_color;
+  t.mirror_bounced = t.mirror * clear.bounced;
+  t.mirror_albedo = t.mirror * max(clear.share - clear.bounced, 0.0);
   t.bounced = t.color * bare.bounced_through;
   t.albedo = t.color * max(1.0 - bare.share - bare.bounced_through, 0.0);
   return t;
