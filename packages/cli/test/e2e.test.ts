@@ -45,6 +45,27 @@ describe('a red square', () => {
     expect(Math.abs(rows - 19.4)).toBeLessThan(1.5);
   });
 
+  it('to a noise target, through another filter and a parallel projection', async () => {
+    const folder = cwd();
+    const camera = '{"position":[0,0,4],"projection":"orthographic","height":4}';
+    const { code, out, err } = await glanz(['red.glb', '-o', 'red.exr', '--bits', '32', '--size', '16x16', '--samples', '256', '--noise', '0.5', '--filter', 'gaussian', '--light-groups', 'each', '--camera', camera, '--depth', '3', '--json'], folder);
+    expect(code, err).toBe(0);
+    const { samples, noise, statistics } = JSON.parse(out) as { samples: number; noise: number; statistics: { memory: { perPath: number } } };
+    expect(samples).toBeGreaterThanOrEqual(64);
+    expect(noise).toBeLessThanOrEqual(0.5);
+    expect(statistics.memory.perPath).toBeGreaterThan(0);
+    const exr = decodeExr(new Uint8Array(readFileSync(join(folder, 'red.exr'))));
+    const at = (name: string, x: number, y: number) => exr.channels.get(name)?.data[y * 16 + x] as number;
+    // A square of 2 m in a view of 4 m: columns 4 to 11. The filter reaches 1.5 pixels beyond.
+    expect([at('objectId.id', 3, 8), at('objectId.id', 4, 8), at('objectId.id', 11, 8), at('objectId.id', 12, 8)]).toEqual([0xffffffff, 0, 0, 0xffffffff]);
+    expect(at('position.X', 8, 8)).toBeCloseTo(0.125, 2);
+    expect(at('depth.Z', 8, 8)).toBeCloseTo(4, 5);
+    // Lit by the studio alone: one group, which is the picture itself.
+    expect([...exr.channels.keys()].filter((name) => name.startsWith('light.'))).toEqual([]);
+    expect(at('variance.R', 8, 8)).toBeGreaterThanOrEqual(0);
+    expect(at('variance.R', 8, 8)).toBeLessThan(0.01);
+  });
+
   it('gives the same bytes for the same seed, others for another', async () => {
     const folder = cwd();
     const size = ['--size', '16x16', '--samples', '3', '--depth', '3'];
