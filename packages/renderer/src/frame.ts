@@ -18,6 +18,7 @@ export function packFrame(camera: Camera, film: Film, scene: GpuScene, geometry:
     size: [film.width, film.height],
     seed: (options.seed ?? 0) >>> 0,
     max_depth: options.maxDepth ?? 8,
+    max_volume_depth: options.maxVolumeDepth ?? 256,
     light_count: scene.lightCount,
     background: (transparent ? BACKGROUND_TRANSPARENT | BACKGROUND_HIDDEN : 0) | (environment.visible ? 0 : BACKGROUND_HIDDEN),
     environment_radiance: environment.radiance,

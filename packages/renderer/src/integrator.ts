@@ -4,10 +4,12 @@ import type { GroupWeights } from './film/layers';
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_COPY_SRC, GPU_BUFFER_INDIRECT, GPU_BUFFER_STORAGE, GPU_BUFFER_UNIFORM, type GpuMemory } from './gpu/buffers';
 import type { GpuScene } from './gpu/gpu-scene';
 import type { KernelSet } from './gpu/kernel-cache';
-import { batchStruct, frameStruct, shadowStruct } from './kernels/layout';
+import { CONNECT_CROSSINGS } from './kernels/connect.wgsl';
+import { batchStruct, frameStruct, shadowLayout } from './kernels/layout';
 import { pathLayout } from './kernels/path.wgsl';
 import { MAX_LIGHT_GROUPS } from './kernels/resources';
 import type { Kernel, KernelFeatures, KernelName } from './kernels/pipelines';
+import { WALK_STEPS } from './kernels/volume.wgsl';
 import type { Batch } from './scheduler';
 
 /** Queue header words before the items. */
@@ -24,6 +26,14 @@ export function pathCapacity(device: GPUDevice, options: { readonly width: numbe
   return Math.max(64, Math.min(wanted, Math.floor(device.limits.maxStorageBufferBindingSize / pathLayout(features).struct.size), MAX_THREADS));
 }
 
+/** How long paths may become. */
+export interface DepthLimits {
+  /** Edges. */
+  readonly maxDepth: number;
+  /** Scattering events in media. */
+  readonly maxVolumeDepth: number;
+}
+
 /** The paths in flight and the kernels that move them: encodes batches, knows nothing of time or targets. */
 export class Integrator {
   readonly #device: GPUDevice;
@@ -32,18 +42,17 @@ export class Integrator {
   readonly #buffers: Record<OwnBuffer, GPUBuffer>;
   readonly #groups = new Map<KernelName, GPUBindGroup>();
   #capacity: number;
-  /** Most edges of a path. */
-  maxDepth: number;
+  limits: DepthLimits;
   #kernels: KernelSet;
   #film: Film;
 
-  constructor(device: GPUDevice, memory: GpuMemory, scene: GpuScene, kernels: KernelSet, film: Film, capacity: number, maxDepth: number) {
+  constructor(device: GPUDevice, memory: GpuMemory, scene: GpuScene, kernels: KernelSet, film: Film, capacity: number, limits: DepthLimits) {
     this.#device = device;
     this.#memory = memory;
     this.#scene = scene;
     this.#kernels = kernels;
     this.#film = film;
-    this.maxDepth = maxDepth;
+    this.limits = limits;
     this.#capacity = capacity;
     this.#buffers = {
       frame: memory.buffer('frame', frameStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
@@ -51,7 +60,7 @@ export class Integrator {
       light_groups: memory.buffer('light groups', 2 * MAX_LIGHT_GROUPS * 16, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
       paths: memory.buffer('paths', capacity * pathLayout(kernels.features).struct.size, GPU_BUFFER_STORAGE),
       queues: memory.buffer('queues', (QUEUE_WORDS + 2 * capacity) * 4, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC),
-      shadows: memory.buffer('shadows', (kernels.features.flags.NEXT_EVENT ? capacity : 1) * shadowStruct.size, GPU_BUFFER_STORAGE),
+      shadows: memory.buffer('shadows', (kernels.features.flags.NEXT_EVENT ? capacity : 1) * shadowLayout(kernels.features.flags).size, GPU_BUFFER_STORAGE),
       dispatch: memory.buffer('dispatch', 32, GPU_BUFFER_STORAGE | GPU_BUFFER_INDIRECT),
     };
   }
@@ -78,10 +87,11 @@ export class Integrator {
   /** From now on these kernels; they bind anew. */
   use(kernels: KernelSet): void {
     this.#kernels = kernels;
+    const { flags } = kernels.features;
     // Paths that carry more may be too large for as many of them.
     const most = Math.floor(this.#device.limits.maxStorageBufferBindingSize / pathLayout(kernels.features).struct.size);
     this.#capacity = Math.min(this.#capacity, most);
-    this.#grow('shadows', kernels.features.flags.NEXT_EVENT ? this.capacity * shadowStruct.size : 0);
+    this.#grow('shadows', flags.NEXT_EVENT ? this.capacity * shadowLayout(flags).size : 0);
     this.#grow('paths', this.capacity * pathLayout(kernels.features).struct.size);
     this.rebind();
   }
@@ -113,15 +123,22 @@ export class Integrator {
       const run = (name: KernelName, work: number | { readonly indirect: number }) => this.#run(pass, name, kernels[name] as Kernel, work);
       run('begin', 1);
       run('generate', Math.ceil(paths / 64));
-      for (let edge = 1; edge <= this.maxDepth; edge++) {
+      const steps = this.#steps(features.flags);
+      for (let step = 1; step <= steps; step++) {
         run('intersect', { indirect: 0 });
         run('shade', { indirect: 0 });
-        if (edge === this.maxDepth) break;
+        if (step === steps) break;
         run('advance', 1);
         if (features.flags.NEXT_EVENT) run('connect', { indirect: 16 });
       }
       run('resolve', Math.ceil(batch.pixelCount / 64));
     });
+  }
+
+  /** Steps after which every path has ended: one an edge, and those in which none is completed. */
+  #steps(flags: Readonly<Record<string, boolean>>): number {
+    const walking = flags.SCATTERING ? Math.ceil(this.limits.maxVolumeDepth / WALK_STEPS) : 0;
+    return this.limits.maxDepth + walking + (flags.NULL_SURFACES ? CONNECT_CROSSINGS : 0);
   }
 
   /** Runs a kernel that has a thread for each pixel of the batch. */

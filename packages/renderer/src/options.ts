@@ -10,9 +10,14 @@ export interface PathTracerOptions {
   readonly height: number;
   /**
    * Most edges of a path from the camera to a light: 1 shows emitters only, 2 adds direct light, … Default 8. Crossing a
-   * surface that is not fully there (opacity) does not count.
+   * surface that is not fully there (opacity) does not count, nor does one without a change of the index of refraction.
    */
   readonly maxDepth?: number;
+  /**
+   * Most scattering events of a path inside of media (subsurface, milky glass); default 256. What has been scattered as
+   * often as that goes straight on to the surface. In media without an optical surface, such as fog, they count as edges too.
+   */
+  readonly maxVolumeDepth?: number;
   /** Names the random numbers; the same seed gives the same picture on the same device. Default 0. */
   readonly seed?: number;
   /** A camera, or index or name of one of the scene's. Default: the scene's first, or one that frames the scene. */

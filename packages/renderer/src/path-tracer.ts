@@ -279,7 +279,7 @@ export class PathTracer extends TracerEdits {
     this.#check();
     checkDepth(maxDepth);
     this.#options = { ...this.#options, maxDepth };
-    this.#integrator.maxDepth = maxDepth;
+    this.#integrator.limits = { ...this.#integrator.limits, maxDepth };
     this.reset();
   }
 

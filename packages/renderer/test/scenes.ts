@@ -13,6 +13,15 @@ export function addQuad(scene: Scene, half: number, z: number, material: Materia
   return index;
 }
 
+/** A box between two corners, facing outwards. */
+export function addBox(scene: Scene, low: readonly [number, number, number], high: readonly [number, number, number], material: Material): void {
+  const positions = Array.from({ length: 8 }, (_, i) => [0, 1, 2].map((k) => ((i >> k) & 1 ? high : low)[k] as number)).flat();
+  const faces = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]] as const;
+  scene.meshes.push({ name: 'box', positions: new Float32Array(positions), indices: new Uint32Array(faces.flatMap(([a, b, c, d]) => [a, b, c, a, c, d])) });
+  scene.materials.push(material);
+  scene.instances.push({ name: 'box', mesh: scene.meshes.length - 1, material: scene.materials.length - 1, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] });
+}
+
 /** A sphere of latitude-longitude quads with smooth normals, wound outwards. */
 export function addSphere(scene: Scene, radius: number, center: readonly [number, number, number], material: Material, segments = 48): void {
   const positions: number[] = [];

@@ -45,6 +45,11 @@ export interface Material {
   opacity_threshold?: number;
   /** Light group that what the material emits is kept in. */
   light_group?: string;
+  /**
+   * Which of overlapping interiors is there: that of the highest number, a whole one of 0..255; default 0, and of equal ones
+   * the one that a ray entered last. A liquid's body may so reach into the glass around it (glass 1, liquid 0).
+   */
+  dielectric_priority?: number;
   /** The source file's own extra data, passed through untouched. */
   extras?: unknown;
 }

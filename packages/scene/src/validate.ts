@@ -63,6 +63,8 @@ function checkMaterial(scene: Scene, material: Material, index: number): void {
     if (typeof value === 'number') finite([value], `${what}: ${name}`);
     else if (Array.isArray(value)) finite(value as number[], `${what}: ${name}`);
   }
+  const { dielectric_priority: priority = 0 } = material;
+  if (!Number.isInteger(priority) || priority < 0 || priority > 255) throw new SceneError('scene/value', `${what}: dielectric_priority is ${priority}; it must be a whole number from 0 to 255.`);
   for (const [name, binding] of Object.entries(material.textures ?? {})) {
     if (!binding) continue;
     reference(binding.texture, scene.textures, `${what}: ${name}`, 'texture');

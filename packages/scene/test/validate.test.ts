@@ -44,6 +44,7 @@ const faults: [string, (scene: Scene) => void, string, RegExp][] = [
   ['a texture of no image', (s) => (s.textures[0]!.image = 1), 'scene/reference', /Texture 0 refers to image 1/],
   ['a binding of no texture', (s) => (s.materials[0]!.textures!.base_color!.texture = 4), 'scene/reference', /base_color refers to texture 4/],
   ['a binding with a broken transform', (s) => (s.materials[0]!.textures!.base_color!.transform = [1, 0, 0, NaN, 0, 0]), 'scene/not-finite', /base_color/],
+  ['a broken priority', (s) => (s.materials[0]!.dielectric_priority = 256), 'scene/value', /dielectric_priority is 256/],
   ['a NaN parameter', (s) => (s.materials[0]!.parameters = { base_weight: NaN }), 'scene/not-finite', /base_weight/],
   ['an infinite colour', (s) => (s.materials[0]!.parameters = { base_color: [1, Infinity, 0] }), 'scene/not-finite', /base_color/],
   ['an instance of no mesh', (s) => (s.instances[0]!.mesh = -1), 'scene/reference', /Instance 0 \("part"\) refers to mesh -1/],

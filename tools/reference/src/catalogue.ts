@@ -86,13 +86,24 @@ function lookAt(camera: SceneDescription['camera']): PerspectiveCamera {
 
 /** What the catalogue says about a material beyond glTF. */
 interface GroundTruthExtras {
-  readonly gt?: { readonly f82_tint?: Vector };
+  readonly gt?: { readonly f82_tint?: Vector; readonly medium?: { readonly sigma_t: Vector; readonly albedo: Vector; readonly g: number } };
 }
 
-/** glTF has no way to say F82 tint: the catalogue puts it into the extras. */
+/** glTF has no way to say F82 tint or a scattering medium: the catalogue puts them into the extras. */
 function applyExtras(material: Material): Material {
-  const tint = (material.extras as GroundTruthExtras | undefined)?.gt?.f82_tint;
-  return tint ? { ...material, parameters: { ...material.parameters, specular_color: tint } } : material;
+  const { f82_tint, medium } = (material.extras as GroundTruthExtras | undefined)?.gt ?? {};
+  const parameters = { ...material.parameters };
+  if (f82_tint) parameters.specular_color = f82_tint;
+  if (medium) {
+    // Extinction is what makes white this colour at this depth: a shallow one, so that scattering stays below 1.
+    const depth = 0.1;
+    const per = (value: (k: 0 | 1 | 2) => number): Vector => [value(0), value(1), value(2)];
+    parameters.transmission_depth = depth;
+    parameters.transmission_color = per((k) => Math.exp(-medium.sigma_t[k] * depth));
+    parameters.transmission_scatter = per((k) => medium.sigma_t[k] * medium.albedo[k] * depth);
+    parameters.transmission_scatter_anisotropy = medium.g;
+  }
+  return { ...material, parameters };
 }
 
 /** One scene of the catalogue. */

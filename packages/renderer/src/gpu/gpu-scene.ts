@@ -7,6 +7,7 @@ import type { ResourceName } from '../kernels/resources';
 import { prepareEnvironment, turnEnvironment, type EnvironmentData } from '../scene/environment';
 import type { LightGroupMode } from '../options';
 import { packInstances, packTlas, type Geometry, type MeshRegion, type PackedGeometry, type PackedMesh } from '../scene/geometry';
+import { interiorFlags } from '../scene/interiors';
 import { lightGroupTable, type LightGroupTable } from '../scene/light-groups';
 import { buildLightTable, type LightTable } from '../scene/lights';
 import { hasRanges, isOpaque, packBindings, packMaterial, texturedParameters, turnsTangent, usedTextures, type TexturedParameterInfo } from '../scene/materials';
@@ -124,6 +125,7 @@ export class GpuScene {
         CATCHER: this.#geometry.bare !== undefined,
         LIGHT_GROUPS: this.#choices.lightGroups !== 'off',
         NEXT_EVENT: lights || sampled,
+        ...interiorFlags(this.#scene.materials),
         SOBOL: this.#choices.sampler === 'sobol',
       },
       samplings: this.#plan.samplings,

@@ -30,6 +30,12 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   paths[index].bounces = 0u;
   paths[index].spread = 0.0;
   //#endif
+  //#if MEDIA
+  paths[index].media = vec2u(0u);
+  paths[index].counters = 0u;
+  paths[index].travelled = 0.0;
+  paths[index].wavelength = 0.0;
+  //#endif
   queues.items[index] = index;
 }
 `,

@@ -1,7 +1,8 @@
 import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
 import { pathSample } from './path.wgsl';
+import { volumeModule } from './volume.wgsl';
 
-/** Finds the nearest surface of every active path. */
+/** Finds the nearest surface of every active path; inside of media, what happens on the way there. */
 export const intersect = (path: WgslModule, traversal: WgslModule): WgslModule => wgslModule(
   'renderer/intersect',
   /* wgsl */ `
@@ -15,9 +16,16 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   //#if CATCHER
   traversal_root = select(0u, frame.catcher_root, paths[index].role == PATH_WITHOUT && queues.depth > 0u);
   //#endif
+  //#if MEDIA
+  let entry = media_top(paths[index].media);
+  if (entry != 0u) {
+    volume_travel(index, entry);
+    return;
+  }
+  //#endif
   let hit = bvh_closest_hit(paths[index].origin, paths[index].direction, 0.0, 3.4e38);
   paths[index].hit = vec4u(bitcast<u32>(hit.u), bitcast<u32>(hit.v), hit.triangle, hit.instance);
 }
 `,
-  [path, gated('BVH_FILTER', pathSample), traversal],
+  [path, gated('BVH_FILTER', pathSample), traversal, gated('MEDIA', volumeModule(traversal))],
 );

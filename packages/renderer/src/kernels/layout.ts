@@ -40,6 +40,7 @@ export const frameStruct = struct('Frame', {
   regularization: 'f32',
   /** Most bounces: diffuse, specular, transmitted, in volumes. */
   bounce_limits: 'vec4u',
+  max_volume_depth: 'u32',
 });
 
 /** The part of the picture and the samples that one batch works on. */
@@ -62,6 +63,20 @@ export const shadowStruct = struct('Shadow', {
   /** Light group. */
   group: 'u32',
 });
+
+/** A light sample that may pass surfaces that are not there. */
+export const mediaShadowStruct = struct('Shadow', {
+  origin: 'vec3f',
+  distance: 'f32',
+  direction: 'vec3f',
+  path: 'u32',
+  contribution: 'vec3f',
+  group: 'u32',
+  media: 'vec2u',
+});
+
+/** Which struct a scene's kernels use. */
+export const shadowLayout = (flags: Readonly<Record<string, boolean>>) => (flags.NULL_SURFACES ? mediaShadowStruct : shadowStruct);
 
 /** An emissive triangle or a light without size, and its row of the alias table. */
 export const lightStruct = struct('Light', {
@@ -107,8 +122,14 @@ export const MATERIAL_TWO_SIDED_EMISSION = 1;
 export const MATERIAL_OPAQUE = 2;
 export const MATERIAL_EMISSIVE = 4;
 export const MATERIAL_MASK = 8;
-/** Bits 8 and up of a material's flags and of a light's kind: its light group. */
-export const GROUP_SHIFT = 8;
+/** Light may go through its surface into an inside. */
+export const MATERIAL_INTERIOR = 16;
+/** Its interior has air's index of refraction: in air, the surface is not there. */
+export const MATERIAL_INDEX_MATCHED = 32;
+/** Bits 8 to 15 of a material's flags: its priority where interiors overlap. */
+export const MATERIAL_PRIORITY_SHIFT = 8;
+/** Bits 16 and up of a material's flags and of a light's kind: its light group. */
+export const GROUP_SHIFT = 16;
 
 /** Word offsets of a mesh's attributes in the attribute heap; NONE where absent. */
 export const meshStruct = struct('MeshShading', {
@@ -143,6 +164,9 @@ export const bindingStruct = struct('TextureBindingRecord', {
 export const INSTANCE_CATCHER = 1;
 
 export const NONE = 0xffffffff;
+/** In place of a hit's instance: the ray was scattered at the path's new origin, or is in the middle of a random walk. */
+export const HIT_SCATTERED = 0xfffffffe;
+export const HIT_WALKING = 0xfffffffd;
 export const LIGHT_TRIANGLE = 0;
 export const LIGHT_POINT = 1;
 export const LIGHT_SPOT = 2;

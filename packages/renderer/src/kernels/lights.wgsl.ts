@@ -39,13 +39,12 @@ fn light_emission(s: Surface, wo: vec3f) -> vec3f {
   return openpbr_emission(s.parameters, vec3f(sqrt(max(1.0 - cosine * cosine, 0.0)), 0.0, cosine));
 }
 
-// Density with which light_sample would have chosen this emissive point from "origin", over solid angle.
-fn light_pdf(s: Surface, origin: vec3f, direction: vec3f) -> f32 {
+// Density with which light_sample would have chosen this emissive point from so far away, over solid angle.
+fn light_pdf(s: Surface, reach: f32, direction: vec3f) -> f32 {
   if (s.light == 0xffffffffu) { return 0.0; }
-  let offset = s.position - origin;
   let cosine = abs(dot(s.geometric, direction));
   let area = 0.5 * s.double_area;
-  return (1.0 - frame.environment_probability) * lights[s.light].probability * dot(offset, offset) / max(cosine * area, 1e-30);
+  return (1.0 - frame.environment_probability) * lights[s.light].probability * (reach * reach) / max(cosine * area, 1e-30);
 }
 
 fn light_table_sample(u: vec3f, position: vec3f) -> LightSample {

@@ -4,7 +4,7 @@ import { struct, wgslModule, type StructLayout, type WgslModule } from '@glanz/w
 export interface PathShape {
   /** Sums of light that are kept apart: one for each light group, four times as many with catchers. */
   readonly planes: number;
-  /** With `PATH_STATE` paths remember what kinds of bounces they have made, with `CATCHER` what they are traced for. */
+  /** With `PATH_STATE` paths remember what kinds of bounces they have made, with `CATCHER` what they are traced for, with `MEDIA` the interiors they are in. */
   readonly flags: Readonly<Record<string, boolean>>;
 }
 
@@ -57,14 +57,26 @@ const STATE = {
   spread: 'f32',
 } as const;
 
+/** What a path carries in a scene with interiors. */
+const INTERIOR = {
+  /** The interiors it is in; see the media module. */
+  media: 'vec2u',
+  /** Low half: edges so far; high half: scattering events in media. */
+  counters: 'u32',
+  /** Metres from the last vertex to the origin, past surfaces that are not there. */
+  travelled: 'f32',
+  /** Nanometres, once dispersion has chosen one; 0 before. */
+  wavelength: 'f32',
+} as const;
+
 /** The layout of paths for a scene. Kernels touch the light of a path through its functions only. */
 export function pathLayout({ planes, flags }: PathShape): PathLayout {
-  const key = `${planes} ${flags.PATH_STATE === true} ${flags.CATCHER === true}`;
+  const key = `${planes} ${flags.PATH_STATE === true} ${flags.CATCHER === true} ${flags.MEDIA === true}`;
   let layout = layouts.get(key);
   if (!layout) {
     const several = planes > 1;
     const fields = { ...COMMON, ...(several ? { planes: ['vec4f', planes] as const } : { radiance: 'vec3f' as const }), /** Index in the film. */ pixel: 'u32' } as const;
-    const path: StructLayout = struct('Path', { ...fields, ...(flags.PATH_STATE ? STATE : {}), ...(flags.CATCHER ? { role: 'u32' } : {}) });
+    const path: StructLayout = struct('Path', { ...fields, ...(flags.PATH_STATE ? STATE : {}), ...(flags.CATCHER ? { role: 'u32' } : {}), ...(flags.MEDIA ? INTERIOR : {}) });
     const groups = flags.CATCHER ? planes / 4 : planes;
     const module = wgslModule(
       'renderer/path',

@@ -80,10 +80,14 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
       return { root: begin, resources: ['batch', 'queues', 'dispatch'], textures: false };
     case 'advance':
       return { root: advance, resources: ['queues', 'dispatch'], textures: false };
-    case 'intersect':
-      return { root: intersect(path, traversal('closest')), resources: [...filter, 'paths', 'queues', 'nodes', 'triangles', 'instances'], textures: flags.BVH_FILTER === true };
-    case 'connect':
-      return { root: connect(path, traversal('any')), resources: [...filter, 'paths', 'queues', 'shadows', 'nodes', 'triangles', 'instances'], textures: flags.BVH_FILTER === true };
+    case 'intersect': {
+      const resources = [...new Set([...filter, ...(flags.SCATTERING ? (['frame', 'batch'] as const) : []), ...(flags.MEDIA ? (['materials'] as const) : [])])];
+      return { root: intersect(path, traversal('closest')), resources: [...resources, 'paths', 'queues', 'nodes', 'triangles', 'instances'], textures: flags.BVH_FILTER === true };
+    }
+    case 'connect': {
+      const resources = [...new Set([...filter, ...(flags.NULL_SURFACES ? (['materials'] as const) : [])])];
+      return { root: connect(path, traversal(flags.NULL_SURFACES ? 'closest' : 'any')), resources: [...resources, 'paths', 'queues', 'shadows', 'nodes', 'triangles', 'instances'], textures: flags.BVH_FILTER === true };
+    }
     case 'shade':
       return {
         root: shadeModule(path, surface, lightsModule(surface), openpbr, energyHost),
@@ -123,7 +127,7 @@ export function kernelSource(name: KernelName, features: KernelFeatures): Kernel
         ...Array.from({ length: features.samplerCount }, (_, i) => [`scene_sampler_${i}`, 'sampler'] as const),
       ]
     : [];
-  const bindings = bindingModule(name, text.resources, sceneBindings, []);
+  const bindings = bindingModule(name, text.resources, sceneBindings, features.flags);
   const shader = compose([bindings, text.root], { flags: features.flags });
   return {
     key: `${name}\n${shader.code}`,

@@ -1,7 +1,7 @@
 import { bvhNodeStruct } from '@glanz/bvh/wgsl';
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { GPU_STAGE_COMPUTE } from '../gpu/buffers';
-import { batchStruct, frameStruct, instanceStruct, lightStruct, materialStruct, shadowStruct } from './layout';
+import { batchStruct, frameStruct, instanceStruct, lightStruct, materialStruct, shadowLayout } from './layout';
 
 /** Light groups that a picture may have. */
 export const MAX_LIGHT_GROUPS = 16;
@@ -10,11 +10,15 @@ export const MAX_LIGHT_GROUPS = 16;
  * What a kernel may bind, described once: the WGSL declaration and the bind group layout entry come from the same row.
  * Textures of the scene are added by the material module, since their number depends on the scene.
  */
+type Flags = Readonly<Record<string, boolean>>;
+
 interface Resource {
   /** WGSL type after `var<…> name:`. */
   readonly type: string;
   readonly space: 'uniform' | 'read' | 'read_write' | 'texture_2d' | 'texture_2d_array' | 'texture_3d' | 'unfilterable' | 'sampler';
   readonly deps?: readonly WgslModule[];
+  /** The struct of its elements, where that depends on the scene. */
+  readonly layout?: (flags: Flags) => { readonly module: WgslModule };
 }
 
 const queues = wgslModule(
@@ -40,7 +44,7 @@ const RESOURCES = {
   // Its layout depends on the scene: the kernels bring it with `pathLayout`.
   paths: { type: 'array<Path>', space: 'read_write' },
   queues: { type: 'Queues', space: 'read_write', deps: [queues] },
-  shadows: { type: 'array<Shadow>', space: 'read_write', deps: [shadowStruct.module] },
+  shadows: { type: 'array<Shadow>', space: 'read_write', layout: shadowLayout },
   dispatch: { type: 'array<u32, 8>', space: 'read_write' },
   nodes: { type: 'array<BvhNode>', space: 'read', deps: [bvhNodeStruct.module] },
   triangles: { type: 'array<vec4f>', space: 'read' },
@@ -72,7 +76,7 @@ export type ResourceName = keyof typeof RESOURCES;
 export type SceneBinding = readonly [name: string, kind: 'texture_2d_array' | 'sampler'];
 
 /** The declarations of a kernel's bindings, all in group 0, numbered in order. */
-export function bindingModule(kernel: string, names: readonly ResourceName[], extra: readonly SceneBinding[], deps: readonly WgslModule[]): WgslModule {
+export function bindingModule(kernel: string, names: readonly ResourceName[], extra: readonly SceneBinding[], flags: Flags): WgslModule {
   const lines = names.map((name, index) => {
     const { type, space } = RESOURCES[name] as Resource;
     const qualifier = space === 'uniform' ? '<uniform>' : space === 'read' ? '<storage, read>' : space === 'read_write' ? '<storage, read_write>' : '';
@@ -81,8 +85,11 @@ export function bindingModule(kernel: string, names: readonly ResourceName[], ex
   extra.forEach(([name, kind], index) => {
     lines.push(`@group(0) @binding(${names.length + index}) var ${name}: ${kind === 'sampler' ? 'sampler' : 'texture_2d_array<f32>'};`);
   });
-  const structs = names.flatMap((name) => (RESOURCES[name] as Resource).deps ?? []);
-  return wgslModule(`renderer/${kernel}-bindings`, lines.join('\n'), [...structs, ...deps]);
+  const structs = names.flatMap((name) => {
+    const { deps = [], layout } = RESOURCES[name] as Resource;
+    return layout ? [...deps, layout(flags).module] : deps;
+  });
+  return wgslModule(`renderer/${kernel}-bindings`, lines.join('\n'), structs);
 }
 
 /** The bind group layout that matches {@link bindingModule}. */

@@ -1,6 +1,7 @@
 import { bvhOffset } from '@glanz/bvh/wgsl';
-import { wgslModule, type WgslModule } from '@glanz/wgsl';
-import { BACKGROUND_HIDDEN, BACKGROUND_TRANSPARENT, GROUP_SHIFT, INSTANCE_CATCHER } from './layout';
+import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
+import { BACKGROUND_HIDDEN, BACKGROUND_TRANSPARENT, GROUP_SHIFT, HIT_SCATTERED, HIT_WALKING, INSTANCE_CATCHER, MATERIAL_INTERIOR } from './layout';
+import { media } from './media.wgsl';
 import { random } from './random.wgsl';
 import { shortcuts } from './shortcuts.wgsl';
 import { pathSample } from './path.wgsl';
@@ -48,9 +49,78 @@ fn shade_miss(index: u32, depth: u32) {
   path_deposit(index, frame.environment_group, arriving);
 }
 
-fn shade_path(index: u32, depth: u32) -> ShadeResult {
+fn shade_random(index: u32, iteration: u32) {
+  random_begin(paths[index].pixel, path_sample(index), iteration + 1u, frame.seed);
+}
+
+// Russian roulette from the third scattering on, for paths that carry less than a sixteenth of what they began with:
+// earlier, the noise it adds outweighs the rays it saves. Zero: the path ends.
+fn shade_roulette(carried: vec3f, depth: u32) -> vec3f {
+  let brightest = max(carried.x, max(carried.y, carried.z));
+  if (!(brightest > 0.0)) { return vec3f(0.0); }
+  if (depth < 2u || brightest >= 0.0625) { return carried; }
+  let survival = 16.0 * brightest;
+  return select(vec3f(0.0), carried / survival, random_next() < survival);
+}
+
+//#if SCATTERING
+// A scattering event in an interior without an optical surface.
+fn shade_scattering(index: u32, iteration: u32, depth: u32) -> ShadeResult {
+  var result: ShadeResult;
+  if (depth + 1u >= frame.max_depth) { return result; }
+  let origin = paths[index].origin;
+  let wo = -paths[index].direction;
+  let throughput = paths[index].throughput;
+  let stack = paths[index].media;
+  let anisotropy = media_of(media_top(stack)).anisotropy;
+  shade_random(index, iteration);
+  //#if NEXT_EVENT
+  let light = light_sample(vec4f(random_2(), random_2()), origin);
+  if (light.pdf > 0.0) {
+    let phase = openpbr_phase_eval(anisotropy, wo, light.direction);
+    let weight = select(1.0, light.pdf / (light.pdf + phase), light.extended);
+    result.asks = true;
+    result.shadow.origin = origin;
+    result.shadow.distance = light.distance;
+    result.shadow.direction = light.direction;
+    result.shadow.path = index;
+    result.shadow.group = light.group;
+    result.shadow.contribution = throughput * light.radiance * (phase * weight / light.pdf);
+    //#if NULL_SURFACES
+    result.shadow.media = stack;
+    //#else
+    result.shadow.contribution *= media_transmittance(stack, light.distance);
+    //#endif
+  }
+  //#endif
+  let wi = openpbr_phase_sample(anisotropy, wo, random_2());
+  let carried = shade_roulette(throughput, depth);
+  if (all(carried == vec3f(0.0))) { return result; }
+  paths[index].pdf = openpbr_phase_eval(anisotropy, wo, wi);
+  paths[index].direction = wi;
+  paths[index].throughput = carried;
+  paths[index].travelled = 0.0;
+  paths[index].counters += 1u;
+  result.goes_on = true;
+  return result;
+}
+//#endif
+
+fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   var result: ShadeResult;
   let hit = paths[index].hit;
+  //#if PATH_DEPTH
+  let depth = paths[index].counters & 0xffffu;
+  //#else
+  let depth = iteration;
+  //#endif
+  //#if SCATTERING
+  if (hit.w == ${HIT_WALKING}u) {
+    result.goes_on = any(paths[index].throughput > vec3f(0.0));
+    return result;
+  }
+  if (hit.w == ${HIT_SCATTERED}u) { return shade_scattering(index, iteration, depth); }
+  //#endif
   if (hit.w == 0xffffffffu) {
     shade_miss(index, depth);
     return result;
@@ -73,6 +143,28 @@ fn shade_path(index: u32, depth: u32) -> ShadeResult {
   }
   //#endif
   var s = surface_load(hit, origin, direction, cone_width);
+  // Everything reflects on both sides: the frame turns to the side the path came from.
+  let front = dot(s.geometric, wo) >= 0.0;
+  let side = select(-1.0, 1.0, front);
+  let geometric = side * s.geometric;
+  //#if OPENPBR_TRANSMISSION
+  let beyond = bvh_offset_origin(s.position, -geometric, s.magnitude);
+  //#endif
+  var reach = distance(origin, s.position);
+  //#if MEDIA
+  let stack = paths[index].media;
+  let crossing = media_cross(stack, s.material, front);
+  //#if NULL_SURFACES
+  reach += paths[index].travelled;
+  if (crossing.nothing) {
+    paths[index].origin = beyond;
+    paths[index].media = crossing.beyond;
+    paths[index].travelled = reach;
+    result.goes_on = true;
+    return result;
+  }
+  //#endif
+  //#endif
 
   //#if LIGHTS
   let emitted = light_emission(s, wo);
@@ -80,7 +172,7 @@ fn shade_path(index: u32, depth: u32) -> ShadeResult {
     var weight = 1.0;
     if (depth > 0u) {
       let pdf = paths[index].pdf;
-      weight = pdf / (pdf + light_pdf(s, origin, direction));
+      weight = pdf / (pdf + light_pdf(s, reach, direction));
     }
     var arriving = throughput * emitted * weight;
     //#if CLAMP_INDIRECT
@@ -95,9 +187,6 @@ fn shade_path(index: u32, depth: u32) -> ShadeResult {
   if ((paths[index].bounces & SHORTCUT_LAST) != 0u) { return result; }
   //#endif
 
-  // Everything reflects on both sides: the frame turns to the side the path came from.
-  let side = select(-1.0, 1.0, dot(s.geometric, wo) >= 0.0);
-  let geometric = side * s.geometric;
   var normal = side * s.normal;
   let facing = dot(normal, wo);
   if (facing < 1e-3) { normal = normalize(normal + wo * (1e-3 - facing)); }
@@ -108,14 +197,23 @@ fn shade_path(index: u32, depth: u32) -> ShadeResult {
   //#if REGULARIZE
   s.parameters = shortcut_soften(index, s.parameters);
   //#endif
+  //#if MEDIA
+  let bsdf = openpbr_prepare_side(s.parameters, local_wo, OpenPbrSide(!front && (s.flags & ${MATERIAL_INTERIOR}u) != 0u, crossing.outer_ior));
+  //#else
   let bsdf = openpbr_prepare(s.parameters, local_wo);
+  //#endif
   let start = bvh_offset_origin(s.position, geometric, s.magnitude);
-  random_begin(paths[index].pixel, path_sample(index), depth + 1u, frame.seed);
+  shade_random(index, iteration);
 
   //#if NEXT_EVENT
   let light = light_sample(vec4f(random_2(), random_2()), start);
-  if (light.pdf > 0.0 && dot(geometric, light.direction) > 0.0) {
-    let local_wi = light.direction * to_world;
+  let light_side = dot(geometric, light.direction);
+  let local_wi = light.direction * to_world;
+  //#if OPENPBR_TRANSMISSION
+  if (light.pdf > 0.0 && light_side * local_wi.z > 0.0) {
+  //#else
+  if (light.pdf > 0.0 && light_side > 0.0) {
+  //#endif
     let scatter = openpbr_eval_pdf(bsdf, local_wo, local_wi);
     if (any(scatter.xyz > vec3f(0.0))) {
       let weight = select(1.0, light.pdf / (light.pdf + scatter.w), light.extended);
@@ -132,6 +230,17 @@ fn shade_path(index: u32, depth: u32) -> ShadeResult {
       //#if NO_CAUSTICS
       result.asks = !shortcut_caustic(index, scatter.w);
       //#endif
+      //#if OPENPBR_TRANSMISSION
+      if (light_side < 0.0) { result.shadow.origin = beyond; }
+      //#endif
+      //#if MEDIA
+      let light_stack = select(stack, crossing.beyond, light_side < 0.0);
+      //#if NULL_SURFACES
+      result.shadow.media = light_stack;
+      //#else
+      result.shadow.contribution *= media_transmittance(light_stack, light.distance);
+      //#endif
+      //#endif
     }
   }
   //#endif
@@ -139,24 +248,36 @@ fn shade_path(index: u32, depth: u32) -> ShadeResult {
   let scattered = openpbr_sample(bsdf, local_wo, random_3());
   if (!scattered.valid) { return result; }
   let next = to_world * scattered.wi;
+  // Shading normals must not send light through a surface, or hold it back.
+  //#if OPENPBR_TRANSMISSION
+  if (dot(next, geometric) * scattered.wi.z <= 0.0) { return result; }
+  //#else
   if (dot(next, geometric) <= 0.0) { return result; }
+  //#endif
   //#if NO_CAUSTICS
   if (shortcut_caustic(index, scattered.pdf)) { return result; }
   //#endif
   //#if PATH_STATE
+  //#if OPENPBR_TRANSMISSION
+  shortcut_bounce(index, scattered.pdf, scattered.transmitted);
+  //#else
   shortcut_bounce(index, scattered.pdf, false);
   //#endif
-  var carried = throughput * scattered.weight;
-  let brightest = max(carried.x, max(carried.y, carried.z));
-  if (!(brightest > 0.0)) { return result; }
-  // Russian roulette from the third scattering on, for paths that carry less than a sixteenth of what they began with:
-  // earlier, the noise it adds outweighs the rays it saves.
-  if (depth >= 2u && brightest < 0.0625) {
-    let survival = 16.0 * brightest;
-    if (random_next() >= survival) { return result; }
-    carried /= survival;
-  }
+  //#endif
+  let carried = shade_roulette(throughput * scattered.weight, depth);
+  if (all(carried == vec3f(0.0))) { return result; }
+  //#if OPENPBR_TRANSMISSION
+  paths[index].origin = select(start, beyond, scattered.transmitted);
+  //#else
   paths[index].origin = start;
+  //#endif
+  //#if MEDIA
+  paths[index].media = select(stack, crossing.beyond, scattered.transmitted);
+  paths[index].travelled = 0.0;
+  //#endif
+  //#if PATH_DEPTH
+  paths[index].counters += 1u;
+  //#endif
   paths[index].pdf = scattered.pdf;
   paths[index].direction = next;
   paths[index].cone_width = cone_width + frame.cone_spread * distance(origin, s.position);
@@ -189,6 +310,6 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation_inde
   if (result.asks) { shadows[shade_shadow_base + shadow_slot] = result.shadow; }
 }
 `,
-    [path, pathSample, surface, lights, openpbr, energy, random, shortcuts, bvhOffset],
+    [path, pathSample, surface, lights, openpbr, energy, random, shortcuts, bvhOffset, gated('MEDIA', media)],
   );
 }

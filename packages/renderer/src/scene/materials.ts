@@ -1,6 +1,7 @@
 import { openPbrStruct, packOpenPbr, resolveParameters, type OpenPbrParameters } from '@glanz/openpbr';
 import type { Material, Scene, TextureBinding } from '@glanz/scene';
-import { bindingStruct, GROUP_SHIFT, MATERIAL_EMISSIVE, MATERIAL_MASK, MATERIAL_OPAQUE, MATERIAL_TWO_SIDED_EMISSION, materialStruct } from '../kernels/layout';
+import { bindingStruct, GROUP_SHIFT, MATERIAL_EMISSIVE, MATERIAL_INDEX_MATCHED, MATERIAL_INTERIOR, MATERIAL_MASK, MATERIAL_OPAQUE, MATERIAL_PRIORITY_SHIFT, MATERIAL_TWO_SIDED_EMISSION, materialStruct } from '../kernels/layout';
+import { hasInterior, isIndexMatched } from './interiors';
 import type { TexturePlan } from './textures';
 
 /** A parameter that some material textures, with its number in the GPU records. */
@@ -112,7 +113,15 @@ export function packMaterial(buffer: ArrayBuffer, index: number, material: Mater
     parameters: packed,
     first_binding: firstBinding,
     binding_count: bindingCount,
-    flags: (material.double_sided ? MATERIAL_TWO_SIDED_EMISSION : 0) | (opaque ? MATERIAL_OPAQUE : 0) | (emissive ? MATERIAL_EMISSIVE : 0) | (mask ? MATERIAL_MASK : 0) | (group << GROUP_SHIFT),
+    flags:
+      (material.double_sided ? MATERIAL_TWO_SIDED_EMISSION : 0) |
+      (opaque ? MATERIAL_OPAQUE : 0) |
+      (emissive ? MATERIAL_EMISSIVE : 0) |
+      (mask ? MATERIAL_MASK : 0) |
+      (hasInterior(material) ? MATERIAL_INTERIOR : 0) |
+      (isIndexMatched(material) ? MATERIAL_INDEX_MATCHED : 0) |
+      ((material.dielectric_priority ?? 0) << MATERIAL_PRIORITY_SHIFT) |
+      (group << GROUP_SHIFT),
     opacity_threshold: material.opacity_threshold ?? 0,
   });
 }

@@ -1,0 +1,101 @@
+import { openpbrPhase } from '@glanz/openpbr/wgsl';
+import { wgslModule, type WgslModule } from '@glanz/wgsl';
+import { HIT_SCATTERED, HIT_WALKING } from './layout';
+import { media } from './media.wgsl';
+import { pathSample } from './path.wgsl';
+import { random } from './random.wgsl';
+
+/** Scattering events in one run of the kernel, so that none runs long. */
+export const WALK_STEPS = 16;
+
+/**
+ * A ray's way through the medium it is in, up to the next surface, and its random walk there. Distances are drawn for one of
+ * the three channels, weighed as if for all of them (spectral multiple importance sampling, Wilkie et al. 2014, "Hero
+ * Wavelength Spectral Sampling"). Light samples are taken only in interiors without an optical surface: no straight way
+ * leads out of the others.
+ */
+export function volumeModule(traversal: WgslModule): WgslModule {
+  return wgslModule(
+    'renderer/volume',
+    /* wgsl */ `
+fn volume_store(index: u32, hit: BvhHit) {
+  paths[index].hit = vec4u(bitcast<u32>(hit.u), bitcast<u32>(hit.v), hit.triangle, hit.instance);
+}
+
+fn volume_travel(index: u32, entry: u32) {
+  let medium = media_of(entry);
+  //#if SCATTERING
+  if (any(medium.scattering > vec3f(0.0))) {
+    volume_walk(index, entry, medium);
+    return;
+  }
+  //#endif
+  let hit = bvh_closest_hit(paths[index].origin, paths[index].direction, 0.0, 3.4e38);
+  paths[index].throughput *= exp(-medium.extinction * hit.t);
+  volume_store(index, hit);
+}
+
+//#if SCATTERING
+fn volume_walk(index: u32, entry: u32, medium: OpenPbrMedium) {
+  random_begin(paths[index].pixel, path_sample(index), 0x8000u + queues.depth, frame.seed);
+  let open = media_index_matched(entry);
+  var origin = paths[index].origin;
+  var direction = paths[index].direction;
+  var throughput = paths[index].throughput;
+  var counters = paths[index].counters;
+  for (var step = 0u; step < ${WALK_STEPS}u; step++) {
+    if ((counters >> 16u) >= frame.max_volume_depth) {
+      // From here on what scatters goes straight on, and only absorption counts.
+      let hit = bvh_closest_hit(origin, direction, 0.0, 3.4e38);
+      paths[index].throughput = throughput * exp((medium.scattering - medium.extinction) * hit.t);
+      volume_store(index, hit);
+      break;
+    }
+    let share = throughput / max(throughput.x + throughput.y + throughput.z, 1e-37);
+    let u = random_2();
+    let rate = select(select(medium.extinction.z, medium.extinction.y, u.x < share.x + share.y), medium.extinction.x, u.x < share.x);
+    let reach = min(-log(1.0 - u.y) / max(rate, 1e-37), 3.4e38);
+    let hit = bvh_closest_hit(origin, direction, 0.0, reach);
+    if (hit.instance != 0xffffffffu || reach > 3e38) {
+      let passed = exp(-medium.extinction * hit.t);
+      paths[index].throughput = throughput * passed / max(dot(share, passed), 1e-37);
+      volume_store(index, hit);
+      break;
+    }
+    let passed = exp(-medium.extinction * reach);
+    throughput *= medium.scattering * passed / max(dot(share, medium.extinction * passed), 1e-37);
+    origin += direction * reach;
+    counters += 0x10000u;
+    var code = select(0u, ${HIT_WALKING}u, step + 1u == ${WALK_STEPS}u);
+    if (open) {
+      code = ${HIT_SCATTERED}u;
+    } else {
+      // Light samples were not an alternative.
+      paths[index].pdf = 1e30;
+      direction = openpbr_phase_sample(medium.anisotropy, -direction, random_2());
+      let brightest = max(throughput.x, max(throughput.y, throughput.z));
+      if (brightest < 0.0625) {
+        let survival = 16.0 * brightest;
+        if (!(random_next() < survival)) {
+          throughput = vec3f(0.0);
+          code = ${HIT_WALKING}u;
+        } else {
+          throughput /= survival;
+        }
+      }
+    }
+    if (code != 0u) {
+      paths[index].throughput = throughput;
+      paths[index].hit = vec4u(0u, 0u, 0u, code);
+      break;
+    }
+  }
+  paths[index].origin = origin;
+  paths[index].direction = direction;
+  paths[index].counters = counters;
+}
+//#endif
+`,
+    [media, pathSample, traversal, random, openpbrPhase],
+  );
+}

@@ -1,0 +1,33 @@
+import { resolveParameters } from '@glanz/openpbr';
+import type { Material } from '@glanz/scene';
+
+/** Whether light may go through the material's surface into an inside. */
+export function hasInterior(material: Material): boolean {
+  const p = resolveParameters(material.parameters);
+  if (p.geometry_thin_walled || (p.base_metalness >= 1 && !material.textures?.base_metalness)) return false;
+  return p.transmission_weight > 0;
+}
+
+/** Whether what is inside scatters light. */
+function scatters(material: Material): boolean {
+  const p = resolveParameters(material.parameters);
+  return hasInterior(material) && p.transmission_weight > 0 && p.transmission_depth > 0 && p.transmission_scatter.some((c) => c > 0);
+}
+
+/** Whether the material's surface is none: all light passes, unbent and untinted, where there is air around. */
+export function isIndexMatched(material: Material): boolean {
+  const p = resolveParameters(material.parameters);
+  const matched = p.specular_weight === 0 || p.specular_ior === 1;
+  const clear = p.transmission_weight === 1 && (p.transmission_depth > 0 || p.transmission_color.every((c) => c === 1));
+  const bare = p.base_metalness === 0 && p.coat_weight === 0 && p.fuzz_weight === 0;
+  return hasInterior(material) && matched && clear && bare && !material.textures?.transmission_weight;
+}
+
+/** What about the interiors of a scene's materials decides the kernels' text. */
+export function interiorFlags(materials: readonly Material[]): Record<'MEDIA' | 'SCATTERING' | 'NULL_SURFACES' | 'PATH_DEPTH', boolean> {
+  const interiors = materials.filter(hasInterior);
+  const scattering = interiors.some(scatters);
+  const priorities = new Set(interiors.map((material) => material.dielectric_priority ?? 0));
+  const nothing = interiors.some(isIndexMatched) || priorities.size > 1;
+  return { MEDIA: interiors.length > 0, SCATTERING: scattering, NULL_SURFACES: nothing, PATH_DEPTH: scattering || nothing };
+}

@@ -1,0 +1,125 @@
+import { testDevice } from '@glanz/gpu';
+import type { Material, Scene } from '@glanz/scene';
+import { beforeAll, describe, expect, it } from 'vitest';
+import { PathTracer, type PathTracerOptions } from '../../src/index';
+import { addBox, addQuad, addSphere, camera, createScene, lambert, meanOf } from '../scenes';
+
+type Vector = readonly [number, number, number];
+
+let device: GPUDevice;
+beforeAll(async () => {
+  device = await testDevice();
+});
+
+const SIZE = 16;
+
+async function picture(scene: Scene, samples: number, options: Partial<PathTracerOptions> = {}): Promise<Float32Array> {
+  const tracer = await PathTracer.create(device, scene, { width: SIZE, height: SIZE, camera, ...options });
+  try {
+    for await (const progress of tracer.render({ samples })) void progress;
+    return await tracer.read('beauty');
+  } finally {
+    tracer.destroy();
+  }
+}
+
+const surrounded = (radiance: Vector): Scene => ({ ...createScene(), environment: { type: 'constant', radiance } });
+
+/** Matter of these coefficients (per metre), without an optical surface. */
+const matter = (absorption: Vector, scattering: Vector = [0, 0, 0], anisotropy = 0, dielectric_priority = 0): Material => ({
+  name: 'matter',
+  dielectric_priority,
+  parameters: {
+    specular_ior: 1,
+    transmission_weight: 1,
+    transmission_depth: 0.1,
+    transmission_color: absorption.map((a, k) => Math.exp(-0.1 * (a + (scattering[k] as number)))) as unknown as Vector,
+    transmission_scatter: scattering.map((s) => 0.1 * s) as unknown as Vector,
+    transmission_scatter_anisotropy: anisotropy,
+  },
+});
+
+describe('interiors', () => {
+  it('absorb along the way that light takes in them (Beer)', async () => {
+    const scene = surrounded([1, 1, 1]);
+    addBox(scene, [-2, -2, -0.5], [2, 2, 0.3], matter([0.5, 1, 3]));
+    const seen = meanOf(await picture(scene, 4), SIZE, 7, 7, 9, 9);
+    [0.5, 1, 3].forEach((a, k) => expect(seen[k]).toBeCloseTo(Math.exp(-0.8 * a), 3));
+  });
+
+  it('that overlap: the higher priority is there', async () => {
+    const both = (first: number, second: number) => {
+      const scene = surrounded([1, 1, 1]);
+      addBox(scene, [-2, -2, -0.5], [2, 2, 0.3], matter([1, 0, 2], [0, 0, 0], 0, first));
+      addBox(scene, [-2, -2, 0.1], [2, 2, 1.2], matter([0, 1.5, 0.5], [0, 0, 0], 0, second));
+      return scene;
+    };
+    // 0.6 m, 0.2 m of both, 0.9 m.
+    const under = meanOf(await picture(both(1, 2), 2), SIZE, 7, 7, 9, 9);
+    [0.6 * 1, 1.1 * 1.5, 0.6 * 2 + 1.1 * 0.5].forEach((tau, k) => expect(under[k]).toBeCloseTo(Math.exp(-tau), 3));
+    const over = meanOf(await picture(both(2, 1), 2), SIZE, 7, 7, 9, 9);
+    [0.8 * 1, 0.9 * 1.5, 0.8 * 2 + 0.9 * 0.5].forEach((tau, k) => expect(over[k]).toBeCloseTo(Math.exp(-tau), 3));
+  });
+
+  it('dim the light that a light sample finds through them', async () => {
+    const scene = createScene();
+    scene.lights.push({ type: 'directional', name: 'sun', color: [1, 1, 1], intensity: 2, direction: [0, 0, -1] });
+    addQuad(scene, 2, -1, lambert(0.5));
+    const open = meanOf(await picture(scene, 2), SIZE, 0, 0, SIZE, SIZE);
+    expect(open[0]).toBeCloseTo((0.5 * 2) / Math.PI, 4);
+    // The camera is in front of the box: light crosses it once, and the view once more.
+    addBox(scene, [-3, -3, -0.4], [3, 3, 0], matter([0.5, 1, 2]));
+    const dimmed = meanOf(await picture(scene, 4), SIZE, 7, 7, 9, 9);
+    [0.5, 1, 2].forEach((a, k) => expect(dimmed[k]).toBeCloseTo(((0.5 * 2) / Math.PI) * Math.exp(-0.8 * a), 3));
+  });
+
+  it('that scatter without absorbing vanish in even light', async () => {
+    for (const anisotropy of [0, 0.8, -0.5]) {
+      const scene = surrounded([1, 0.5, 0.25]);
+      addSphere(scene, 0.8, [0, 0, 0], matter([0, 0, 0], [1, 2, 5], anisotropy));
+      const seen = meanOf(await picture(scene, 512, { maxDepth: 256 }), SIZE, 0, 0, SIZE, SIZE);
+      [1, 0.5, 0.25].forEach((l, k) => expect(seen[k]! / l).toBeCloseTo(1, 2));
+    }
+  });
+
+  it('thin fog in front of a black wall scatters what single scattering says', async () => {
+    // Optically thin: radiance = σ_s · length · phase · irradiance of a beam from the side, to first order.
+    const sigma = 0.01;
+    const scene = createScene();
+    scene.lights.push({ type: 'directional', name: 'sun', color: [1, 1, 1], intensity: 3, direction: [1, 0, 0] });
+    addBox(scene, [-1.5, -1.5, -0.5], [1.5, 1.5, 0.5], matter([0, 0, 0], [sigma, sigma, sigma]));
+    const seen = meanOf(await picture(scene, 256, { maxDepth: 4 }), SIZE, 5, 5, 11, 11);
+    expect(seen[0] / ((sigma * 3) / (4 * Math.PI))).toBeCloseTo(1, 1);
+  });
+
+  it('a solid ball of glass, smooth or rough, shows even light as it is', async () => {
+    for (const specular_roughness of [0, 0.3]) {
+      const scene = surrounded([1, 1, 1]);
+      addSphere(scene, 0.8, [0, 0, 0], { name: 'glass', parameters: { transmission_weight: 1, specular_ior: 1.5, specular_roughness } }, 96);
+      const seen = meanOf(await picture(scene, 256, { maxDepth: 32 }), SIZE, 4, 4, 12, 12);
+      for (const value of seen) expect(Math.abs(value - 1)).toBeLessThan(0.01);
+    }
+  });
+
+  it('milky glass that absorbs nothing gives back what goes in', async () => {
+    const scene = surrounded([1, 1, 1]);
+    const { parameters } = matter([0, 0, 0], [4, 6, 9]);
+    addSphere(scene, 0.8, [0, 0, 0], { name: 'milk', parameters: { ...parameters, specular_ior: 1.33, specular_roughness: 0.2 } });
+    const seen = meanOf(await picture(scene, 64, { maxDepth: 64 }), SIZE, 4, 4, 12, 12);
+    for (const value of seen) expect(Math.abs(value - 1)).toBeLessThan(0.02);
+  });
+
+  it('a lamp in a block of absorbing glass lights a wall in it through the glass', async () => {
+    const scene = createScene();
+    const { parameters } = matter([1, 1, 1]);
+    addQuad(scene, 0.5, -0.5, lambert(0.8));
+    addBox(scene, [-1, -1, -1], [1, 1, 0.5], { name: 'glass', parameters: { ...parameters, specular_ior: 1.5, specular_roughness: 0 } });
+    // A lamp of 1 cd, 0.3 m aside and 0.5 m in front, all inside; seen through 1 m of glass and its surface.
+    scene.lights = [{ type: 'point', name: 'lamp', color: [1, 1, 1], intensity: 1, position: [0.3, 0, 0] }];
+    const lit = meanOf(await picture(scene, 32, { maxDepth: 3, camera: { ...camera, yfov: 0.02 } }), SIZE, 0, 0, SIZE, SIZE);
+    const reach = Math.hypot(0.3, 0.5);
+    const expected = (0.8 / Math.PI) * (0.5 / reach ** 3) * Math.exp(-reach) * Math.exp(-1) * 0.96;
+    expect(lit[0] / expected).toBeGreaterThan(0.99);
+    expect(lit[0] / expected).toBeLessThan(1.01);
+  });
+});
