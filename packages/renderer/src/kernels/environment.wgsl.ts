@@ -35,15 +35,25 @@ fn environment_radiance(direction: vec3f) -> vec3f { return frame.environment_ra
 //#endif
 
 //#if ENVIRONMENT_SAMPLED
-// The density over the sphere is that over the square divided by 2π² sin θ.
+// Over the unit square the density is as smooth as the picture: bilinear between the cells' centres. The density over the
+// sphere is that divided by 2π² sin θ.
 fn environment_pdf(direction: vec3f) -> f32 {
-  let cells = frame.environment_cells;
-  let cell = min(vec2u(environment_uv(direction) * vec2f(cells)), cells - 1u);
+  let cells = vec2i(frame.environment_cells);
+  let at = environment_uv(direction) * vec2f(cells) - 0.5;
+  let base = floor(at);
+  let part = at - base;
+  let x0 = (i32(base.x) + cells.x) % cells.x;
+  let x1 = (x0 + 1) % cells.x;
+  let y0 = clamp(i32(base.y), 0, cells.y - 1);
+  let y1 = clamp(i32(base.y) + 1, 0, cells.y - 1);
+  let top = mix(textureLoad(environment_table, vec2i(x0, y0), 0).z, textureLoad(environment_table, vec2i(x1, y0), 0).z, part.x);
+  let bottom = mix(textureLoad(environment_table, vec2i(x0, y1), 0).z, textureLoad(environment_table, vec2i(x1, y1), 0).z, part.x);
   let sine = sqrt(max(1.0 - direction.y * direction.y, 0.0));
-  return textureLoad(environment_table, cell, 0).z / max(19.739208802178716 * sine, 1e-20);
+  return mix(top, bottom, part.y) / max(19.739208802178716 * sine, 1e-20);
 }
 
-// Inversion keeps points that are spread evenly spread evenly: first the row, then the cell within it.
+// Inversion keeps points that are spread evenly spread evenly: first the row, then the cell within it, then the place in a
+// tent around the cell's centre; the tents of all cells add up to the bilinear density.
 fn environment_sample(u: vec2f) -> vec3f {
   let cells = frame.environment_cells;
   var low = 0u;
@@ -65,7 +75,10 @@ fn environment_sample(u: vec2f) -> vec3f {
     select(textureLoad(environment_table, vec2u(0u, max(y, 1u) - 1u), 0).y, 0.0, y == 0u),
   );
   let inside = clamp((u - start) / max(end - start, vec2f(1e-20)), vec2f(0.0), vec2f(0.99999994));
-  let uv = (vec2f(f32(low), f32(y)) + inside) / vec2f(cells);
+  let tent = select(1.0 - sqrt(2.0 - 2.0 * inside), sqrt(2.0 * inside) - 1.0, inside < vec2f(0.5));
+  let place = (vec2f(f32(low), f32(y)) + 0.5 + tent) / vec2f(cells);
+  // What falls over a pole comes back, as the rows beyond repeat the last.
+  let uv = vec2f(place.x, 1.0 - abs(1.0 - abs(place.y)));
   let theta = uv.y * 3.141592653589793;
   let phi = (uv.x - 0.5) * 6.283185307179586;
   let flat = sin(theta) * vec2f(cos(phi), sin(phi));

@@ -63,8 +63,13 @@ export function turnEnvironment(before: EnvironmentData, environment: Environmen
 }
 
 /** Luminance averaged over each cell of a coarser grid, of the picture as it is read: bilinearly. */
+/** Luminance of the picture, texel by texel; of a large one averaged over the cells of a coarser grid, as it is read: bilinearly. */
 function cellLuminance(source: LatLongEnvironment, pixels: Float32Array): { width: number; height: number; values: Float64Array } {
   const { width: w, height: h } = source;
+  if (w <= MAX_CELLS[0] && h <= MAX_CELLS[1]) {
+    const values = Float64Array.from({ length: w * h }, (_, i) => luminance(pixels[4 * i] as number, pixels[4 * i + 1] as number, pixels[4 * i + 2] as number));
+    return { width: w, height: h, values };
+  }
   // The mean of a bilinear interpolant over a texel's square weighs the neighbours 1 : 6 : 1.
   const rows = new Float64Array(w * h);
   const own = (x: number, y: number) => {
