@@ -62,7 +62,6 @@ export function turnEnvironment(before: EnvironmentData, environment: Environmen
   return { ...before, radiance: [intensity, intensity, intensity], rotation: [Math.cos(rotation), Math.sin(rotation)], visible, meanLuminance: (before.meanLuminance / before.radiance[0]) * intensity };
 }
 
-/** Luminance averaged over each cell of a coarser grid, of the picture as it is read: bilinearly. */
 /** Luminance of the picture, texel by texel; of a large one averaged over the cells of a coarser grid, as it is read: bilinearly. */
 function cellLuminance(source: LatLongEnvironment, pixels: Float32Array): { width: number; height: number; values: Float64Array } {
   const { width: w, height: h } = source;
