@@ -1,6 +1,5 @@
 import { buildBalanced } from './build/balanced';
 import type { TreeBuilder } from './build/builder';
-import { buildFast } from './build/fast';
 import { BvhError } from './error';
 import { LEAF_MAX, MAX_PRIMITIVES, TRIANGLE_WORDS, type Aabb } from './layout';
 
@@ -15,11 +14,11 @@ export interface TriangleMesh {
 /** What {@link buildBlas} may be told. */
 export interface BlasOptions {
   /**
-   * How to build. `fast`: by Morton codes, about three times as fast as `balanced`, for meshes that change every frame; rays
-   * look at a quarter to a half more. `balanced` (default): surface area heuristic. `best` of `@glanz/bvh/best`, for
-   * pictures that take longer to render than a tree to build.
+   * How to build. `balanced` (default): by surface area heuristic. `fast` of `@glanz/bvh/fast`: a third of the time, for
+   * meshes that change every frame. `best` and `bestSplit` of `@glanz/bvh/best`: several times as long, for pictures that
+   * take longer to render than a tree to build.
    */
-  readonly builder?: 'fast' | 'balanced' | TreeBuilder;
+  readonly builder?: 'balanced' | TreeBuilder;
   /** Most triangles in a leaf, 1 to 16. Default 4. */
   readonly maxLeafTriangles?: number;
   /** Candidate planes per axis are one less than this; 2 to 64. Default 32. Not looked at by `fast`. */
@@ -73,8 +72,8 @@ export function* blasSteps(mesh: TriangleMesh, options: BlasOptions = {}): Gener
   const { maxLeafTriangles = 4, bins = 32, builder = 'balanced' } = options;
   whole('maxLeafTriangles', maxLeafTriangles, 1, LEAF_MAX);
   whole('bins', bins, 2, 64);
-  const build = builder === 'fast' ? buildFast : builder === 'balanced' ? buildBalanced : (builder as TreeBuilder | undefined)?.build;
-  if (typeof build !== 'function') throw new BvhError('bvh/options', `builder is ${JSON.stringify(builder)}; it must be 'fast', 'balanced' or what @glanz/bvh/best exports.`);
+  const build = builder === 'balanced' ? buildBalanced : (builder as TreeBuilder | undefined)?.build;
+  if (typeof build !== 'function') throw new BvhError('bvh/options', `builder is ${builder as string}; it must be 'balanced', or be imported.`);
   const { positions, indices } = mesh;
   const fail = (code: string, what: string, values: ArrayLike<number>, per: string) => {
     throw new BvhError(code, `${what} has ${values.length} entries; it must have ${per}.`);

@@ -1,5 +1,6 @@
 import { describe, expect, test } from 'vitest';
-import { BLAS_MAX_DEPTH, buildBlas, BvhError, bvhStatistics, closestHit, packTriangles } from '../src/index';
+import { BLAS_MAX_DEPTH, buildBlas, BvhError, closestHit, packTriangles } from '../src/index';
+import { bvhStatistics } from '../src/statistics';
 import { randomNumbers, sphere, strewn } from './shapes';
 import { checkBlas } from './structure';
 

@@ -2,6 +2,7 @@ import { expectNoGpuErrors, runCompute, testDevice } from '@glanz/gpu';
 import { compose, wgslModule } from '@glanz/wgsl';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { best, bestSplit } from '../src/build/best';
+import { fast } from '../src/build/fast';
 import { allHits } from '../src/cpu/all-hits';
 import { anyHit, BLAS_MAX_DEPTH, buildBlas, buildTlas, closestHit, packTriangles, type BlasOptions, type TriangleMesh } from '../src/index';
 import { bvhStatistics } from '../src/statistics';
@@ -10,7 +11,7 @@ import { bvhClosestHit, bvhInstanceStruct, bvhOffset } from '../src/wgsl/index';
 import { bvhClosestHit as bvhClosestHitWide } from '../src/wgsl-wide/index';
 import { bruteForce, direction, randomNumbers, sphere } from './shapes';
 
-const BUILDERS: readonly (readonly [string, BlasOptions])[] = [['fast', { builder: 'fast' }], ['balanced', {}], ['best', { builder: best }], ['best-split', { builder: bestSplit }]];
+const BUILDERS: readonly (readonly [string, BlasOptions])[] = [['fast', { builder: fast }], ['balanced', {}], ['best', { builder: best }], ['best-split', { builder: bestSplit }]];
 
 /** Triangles by formula: nine numbers each. */
 const triangles = (count: number, corners: (i: number) => readonly number[]): TriangleMesh => ({ positions: Float32Array.from(Array.from({ length: count }, (_, i) => corners(i)).flat()) });

@@ -1,3 +1,6 @@
+import { enclose } from '../layout';
+import type { NodeWriter } from './node-writer';
+
 /** Most boxes of one {@link Agglomerator.run}. */
 export const GROUP_MAX = 16;
 const PLACE_BITS = 4;
@@ -43,6 +46,7 @@ export class Agglomerator {
   /** Levels of nodes at and below an item (0) or node. */
   readonly heights = new Uint8Array(2 * GROUP_MAX - 1);
 
+  readonly #box = new Float64Array(6);
   readonly #high = new Int32Array(GROUP_MAX);
   readonly #low = new Int32Array(GROUP_MAX);
   /** {@link LEVEL_SHARE} and the levels below. */
@@ -50,6 +54,8 @@ export class Agglomerator {
   /** For each place the one that joins it best. */
   readonly #nearest = new Int32Array(GROUP_MAX);
   readonly #ids = new Uint8Array(GROUP_MAX);
+  /** Items and nodes to be written: id, parent, side. */
+  readonly #pending = new Int32Array(3 * (GROUP_MAX + 1));
 
   /**
    * @param count Items, 1 to {@link GROUP_MAX}.
@@ -57,30 +63,56 @@ export class Agglomerator {
    * the order given are joined instead.
    */
   run(count: number, maxHeight: number): void {
+    this.#join(count, false);
+    if ((this.heights[2 * count - 2] as number) > maxHeight) this.#join(count, true);
+  }
+
+  /**
+   * Writes the tree found last, depth first.
+   *
+   * @param parent The node above; −1: none.
+   * @param right Which child of that it is.
+   * @param leaf Gives the reference to a leaf of all under an item or node; 0 where a node is to be written.
+   */
+  write(writer: NodeWriter, count: number, parent: number, right: number, leaf: (id: number) => number): void {
+    const { boxes, children } = this;
+    const pending = this.#pending;
+    pending[0] = 2 * count - 2;
+    pending[1] = parent;
+    pending[2] = right;
+    for (let top = 3; top > 0; ) {
+      top -= 3;
+      const id = pending[top] as number, above = pending[top + 1] as number, side = pending[top + 2] as number;
+      let reference = leaf(id);
+      if (reference === 0) {
+        reference = writer.add(above);
+        for (let k = 1; k >= 0; k--) {
+          pending[top] = children[2 * id + k] as number;
+          pending[top + 1] = reference;
+          pending[top + 2] = k;
+          top += 3;
+        }
+      }
+      if (above >= 0) writer.childBox(above, side === 1, reference, boxes, 6 * id);
+    }
+  }
+
+  /** @param byTwos Whether to join neighbours, whatever their boxes. */
+  #join(count: number, byTwos: boolean): void {
     this.#quantise(count);
     for (let left = count; left > 1; ) {
-      this.#compare(left);
+      this.#compare(left, byTwos);
       left = this.#merge(left, 2 * count - left);
     }
-    if ((this.heights[2 * count - 2] as number) > maxHeight) this.#halve(count);
   }
 
   #quantise(count: number): void {
     const { boxes, heights } = this;
     const high = this.#high, low = this.#low, factors = this.#factors, ids = this.#ids;
-    let x = Infinity, y = Infinity, z = Infinity, x1 = -Infinity, y1 = -Infinity, z1 = -Infinity;
-    const end = 6 * count;
-    for (let b = 0; b < end; b += 6) {
-      const a0 = boxes[b] as number, a1 = boxes[b + 1] as number, a2 = boxes[b + 2] as number;
-      const a3 = boxes[b + 3] as number, a4 = boxes[b + 4] as number, a5 = boxes[b + 5] as number;
-      if (a0 < x) x = a0;
-      if (a1 < y) y = a1;
-      if (a2 < z) z = a2;
-      if (a3 > x1) x1 = a3;
-      if (a4 > y1) y1 = a4;
-      if (a5 > z1) z1 = a5;
-    }
-    const dx = x1 - x, dy = y1 - y, dz = z1 - z;
+    const box = this.#box;
+    enclose(boxes, 0, count, box);
+    const x = box[0] as number, y = box[1] as number, z = box[2] as number;
+    const dx = (box[3] as number) - x, dy = (box[4] as number) - y, dz = (box[5] as number) - z;
     const longest = dx > dy ? (dx > dz ? dx : dz) : dy > dz ? dy : dz;
     const step = STEPS / longest;
     // Without extent, or with one that is next to nothing, all are alike.
@@ -95,7 +127,7 @@ export class Agglomerator {
   }
 
   /** Finds each place's nearest; among equals the first, so that the nearest two of all are each other's. */
-  #compare(left: number): void {
+  #compare(left: number, byTwos: boolean): void {
     const high = this.#high, low = this.#low, factors = this.#factors, nearest = this.#nearest;
     let least = 0x7fffffff, most = 0;
     nearest[0] = 0x7fffffff;
@@ -118,7 +150,7 @@ export class Agglomerator {
       least = (least - (under & ~(under >> 31))) | 0;
     }
     // All alike: by twos, or one would swallow the others one after the other.
-    const alike = least >> PLACE_BITS === most >> PLACE_BITS;
+    const alike = byTwos || least >> PLACE_BITS === most >> PLACE_BITS;
     for (let i = 0; i < left; i++) nearest[i] = alike ? i ^ 1 : (nearest[i] as number) & (GROUP_MAX - 1);
   }
 
@@ -134,7 +166,7 @@ export class Agglomerator {
         if (j < i) continue;
         highI = larger(highI, high[j] as number);
         lowI = larger(lowI, low[j] as number);
-        this.#join(node, id, ids[j] as number);
+        this.#add(node, id, ids[j] as number);
         id = node++;
       }
       high[kept] = highI;
@@ -145,7 +177,7 @@ export class Agglomerator {
     return kept;
   }
 
-  #join(node: number, left: number, right: number): void {
+  #add(node: number, left: number, right: number): void {
     const { boxes, children, heights } = this;
     children[2 * node] = left;
     children[2 * node + 1] = right;
@@ -156,17 +188,6 @@ export class Agglomerator {
       const p = boxes[l + k] as number, q = boxes[r + k] as number, s = boxes[l + 3 + k] as number, t = boxes[r + 3 + k] as number;
       boxes[to + k] = p < q ? p : q;
       boxes[to + 3 + k] = s > t ? s : t;
-    }
-  }
-
-  #halve(count: number): void {
-    const ids = this.#ids;
-    for (let i = 0; i < count; i++) ids[i] = i;
-    for (let left = count, node = count; left > 1; left = (left + 1) >> 1) {
-      for (let i = 0; i < left; i += 2) {
-        if (i + 1 < left) this.#join(node, ids[i] as number, ids[i + 1] as number);
-        ids[i >> 1] = i + 1 < left ? node++ : (ids[i] as number);
-      }
     }
   }
 }

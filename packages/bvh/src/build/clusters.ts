@@ -1,4 +1,5 @@
-import { PAIR, type Primitives } from './primitives';
+import { enclose } from '../layout';
+import type { Primitives } from './primitives';
 import type { Scratch } from './scratch';
 
 /** Cells of primitives that lie together: the upper levels of a tree are built over these. */
@@ -23,16 +24,16 @@ export interface Clusters {
 export function cutCells(codes: Uint32Array, count: number, size: number, starts: Uint32Array): number {
   let cells = 0;
   // Ends of the ranges still to cut; ranges are cut from the left, so the starts come out in order.
-  const ends = new Uint32Array(64 + Math.ceil(Math.log2(count + 1)));
-  let top = 0, first = 0;
-  ends[top++] = count;
-  while (top > 0) {
-    const end = ends[top - 1] as number;
-    if (end - first <= size) {
+  const ends = [count];
+  let first = 0;
+  while (ends.length > 0) {
+    const end = ends[ends.length - 1] as number;
+    if (end - first > size) ends.push(cutCell(codes, first, end));
+    else {
       if (end > first) starts[cells++] = first;
       first = end;
-      top--;
-    } else ends[top++] = cutCell(codes, first, end);
+      ends.pop();
+    }
   }
   starts[cells] = count;
   return cells;
@@ -56,36 +57,23 @@ export function cutCell(codes: Uint32Array, first: number, end: number): number 
 /** Copies the boxes of the primitives into their sorted order and measures the cells `from` to `to`. */
 export function fillClusters({ sorted, boxes, weights, starts }: Clusters, primitives: Primitives, order: Uint32Array, from: number, to: number): void {
   const { boxes: unsorted, triangles } = primitives;
-  let i = starts[from] as number;
+  const box = new Float64Array(6);
   for (let cluster = from; cluster < to; cluster++) {
-    let x0 = Infinity, y0 = Infinity, z0 = Infinity, x1 = -Infinity, y1 = -Infinity, z1 = -Infinity, weight = 0;
-    const end = starts[cluster + 1] as number;
-    for (; i < end; i++) {
+    const first = starts[cluster] as number, end = starts[cluster + 1] as number;
+    let weight = end - first;
+    for (let i = first; i < end; i++) {
       const primitive = order[i] as number;
       const b = 6 * primitive, s = 6 * i;
-      const a0 = unsorted[b] as number, a1 = unsorted[b + 1] as number, a2 = unsorted[b + 2] as number;
-      const a3 = unsorted[b + 3] as number, a4 = unsorted[b + 4] as number, a5 = unsorted[b + 5] as number;
-      sorted[s] = a0;
-      sorted[s + 1] = a1;
-      sorted[s + 2] = a2;
-      sorted[s + 3] = a3;
-      sorted[s + 4] = a4;
-      sorted[s + 5] = a5;
-      if (a0 < x0) x0 = a0;
-      if (a1 < y0) y0 = a1;
-      if (a2 < z0) z0 = a2;
-      if (a3 > x1) x1 = a3;
-      if (a4 > y1) y1 = a4;
-      if (a5 > z1) z1 = a5;
-      weight += (triangles[primitive] as number) >= PAIR ? 2 : 1;
+      sorted[s] = unsorted[b] as number;
+      sorted[s + 1] = unsorted[b + 1] as number;
+      sorted[s + 2] = unsorted[b + 2] as number;
+      sorted[s + 3] = unsorted[b + 3] as number;
+      sorted[s + 4] = unsorted[b + 4] as number;
+      sorted[s + 5] = unsorted[b + 5] as number;
+      weight += (triangles[primitive] as number) >>> 31;
     }
-    const c = 6 * cluster;
-    boxes[c] = x0;
-    boxes[c + 1] = y0;
-    boxes[c + 2] = z0;
-    boxes[c + 3] = x1;
-    boxes[c + 4] = y1;
-    boxes[c + 5] = z1;
+    enclose(sorted, first, end, box);
+    boxes.set(box, 6 * cluster);
     weights[cluster] = weight;
   }
 }

@@ -1,6 +1,6 @@
 import type { TriangleMesh } from '../blas';
-import { BLAS_MAX_DEPTH, encloseChildren, LEAF, leafReference, LEFT, LEFT_MAX, LEFT_MIN, NODE_WORDS, RIGHT, RIGHT_MAX, RIGHT_MIN } from '../layout';
-import type { BuildSettings } from './builder';
+import { BLAS_MAX_DEPTH, encloseChildren, LEAF, leafReference, LEFT, LEFT_MAX, LEFT_MIN, NODE_WORDS, putBox, RIGHT, RIGHT_MAX, RIGHT_MIN } from '../layout';
+import type { BuildSettings, TreeBuilder } from './builder';
 import { cutCell } from './clusters';
 import { NodeWriter } from './node-writer';
 import { PAIR, type Primitives } from './primitives';
@@ -10,11 +10,7 @@ import { emptyTree, keepNodes, makePrimitives, part, sortPrimitives, STEP, type 
 /** Numbers of a pending range: first, end, parent, right side, depth. */
 const TASK = 5;
 
-/**
- * Builds by Morton codes alone: every node is cut where the highest bit of its codes changes (Lauterbach et al. 2009,
- * "Fast BVH Construction on GPUs"), over pairs of neighbouring triangles. For meshes that change every frame.
- */
-export function* buildFast(mesh: TriangleMesh, count: number, { maxLeaf }: BuildSettings): Steps<TriangleTree> {
+function* buildFast(mesh: TriangleMesh, count: number, { maxLeaf }: BuildSettings): Steps<TriangleTree> {
   const scratch = Scratch.take();
   const primitives = yield* part(makePrimitives(mesh, count, maxLeaf > 1, scratch), 0, 0.3);
   const { count: size, bounds, triangleCount } = primitives;
@@ -31,6 +27,16 @@ export function* buildFast(mesh: TriangleMesh, count: number, { maxLeaf }: Build
   scratch.giveBack();
   return { ...tree, triangleIndices: cells.triangleIndices, bounds };
 }
+
+/**
+ * For meshes that change every frame: every node is cut where the highest bit of the Morton codes changes (Lauterbach et
+ * al. 2009, "Fast BVH Construction on GPUs"). Give it to `buildBlas` as `builder`. About a third of the time of `balanced`;
+ * rays look at a quarter to a half more.
+ *
+ * @example
+ * const blas = buildBlas(mesh, { builder: fast });
+ */
+export const fast: TreeBuilder = { name: 'fast', build: buildFast };
 
 /** Sets the boxes of inner children, which lie behind their parents. */
 function encloseNodes({ nodes, words }: NodeWriter, from: number, end: number): void {
@@ -50,6 +56,7 @@ class Cells {
   readonly #maxLeaf: number;
   readonly triangleIndices: Uint32Array<ArrayBuffer>;
   readonly #tasks = new Int32Array((BLAS_MAX_DEPTH + 3) * TASK);
+  readonly #box = new Float32Array(6);
   #top = 0;
   #emitted = 0;
 
@@ -121,7 +128,9 @@ class Cells {
     }
     this.#emitted = emitted;
     const reference = leafReference(start, emitted - start);
-    if (parent < 0) this.#writer.single(reference, [x0, y0, z0, x1, y1, z1]);
-    else this.#writer.child(parent, right === 1, reference, x0, y0, z0, x1, y1, z1);
+    const box = this.#box;
+    putBox(box, 0, x0, y0, z0, x1, y1, z1);
+    if (parent < 0) this.#writer.single(reference, box);
+    else this.#writer.childBox(parent, right === 1, reference, box, 0);
   }
 }

@@ -164,8 +164,7 @@ export function* finishDraft(tree: DraftTree, { triangles }: References, maxLeaf
         pending[q + 2] = k;
       }
     }
-    const b = 6 * place;
-    if (above >= 0) writer.child(above, side === 1, reference, boxes[b] as number, boxes[b + 1] as number, boxes[b + 2] as number, boxes[b + 3] as number, boxes[b + 4] as number, boxes[b + 5] as number);
+    if (above >= 0) writer.childBox(above, side === 1, reference, boxes, 6 * place);
     if (visited % STEP === 0) yield 0.5 + (0.5 * writer.count) / nodeCount;
   }
   return { ...writer.finish(), triangleIndices: emitted === triangleIndices.length ? triangleIndices : triangleIndices.slice(0, emitted) };

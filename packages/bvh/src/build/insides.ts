@@ -1,11 +1,8 @@
-import { LEAF, leafFirst, leafReference, LEFT, LEFT_MIN, NODE_WORDS, RIGHT, RIGHT_MIN } from '../layout';
+import { LEAF, leafFirst, leafReference, LEFT, NODE_WORDS, PARENT, RIGHT } from '../layout';
 import { Agglomerator, GROUP_MAX } from './agglomerate';
 import type { Clusters } from './clusters';
 import type { NodeWriter } from './node-writer';
 import { PAIR } from './primitives';
-
-/** Numbers of a pending entry: reference or node of a group, parent, right side, depth. */
-const TASK = 4;
 
 /** What {@link Insides} needs to know. */
 export interface InsidesInput {
@@ -36,24 +33,14 @@ export class Insides {
   readonly #weights = new Uint32Array(2 * GROUP_MAX);
   readonly #costs = new Float64Array(2 * GROUP_MAX);
   readonly #leaf = new Uint8Array(2 * GROUP_MAX);
-  readonly #tasks: Int32Array;
-  readonly #pending = new Int32Array(3 * (GROUP_MAX + 1));
-  #top = 0;
+  /** Pending references of the upper tree, four numbers each: reference, parent, right side, depth. */
+  readonly #tasks: number[];
   #emitted = 0;
 
   constructor(writer: NodeWriter, input: InsidesInput) {
     this.#writer = writer;
     this.#input = input;
-    this.#tasks = new Int32Array((input.maxDepth + 3) * TASK);
-    this.#push(input.clusters.count > 1 ? 0 : leafReference(0, 1), -1, 0, 0);
-  }
-
-  #push(reference: number, parent: number, side: number, depth: number): void {
-    const t = this.#top++ * TASK;
-    this.#tasks[t] = reference;
-    this.#tasks[t + 1] = parent;
-    this.#tasks[t + 2] = side;
-    this.#tasks[t + 3] = depth;
+    this.#tasks = [input.clusters.count > 1 ? 0 : leafReference(0, 1), -1, 0, 0];
   }
 
   /**
@@ -66,9 +53,8 @@ export class Insides {
     const { upper, places } = this.#input;
     const writer = this.#writer, tasks = this.#tasks;
     const { nodes: from, words } = upper;
-    for (let left = entries; this.#top > 0 && left > 0; left--) {
-      const t = --this.#top * TASK;
-      const reference = tasks[t] as number, parent = tasks[t + 1] as number, side = tasks[t + 2] as number, depth = tasks[t + 3] as number;
+    for (let left = entries; tasks.length > 0 && left > 0; left--) {
+      const depth = tasks.pop() as number, side = tasks.pop() as number, parent = tasks.pop() as number, reference = tasks.pop() as number;
       if ((reference & LEAF) !== 0) {
         this.#cluster(places[leafFirst(reference)] as number, parent, side, depth);
         continue;
@@ -77,16 +63,11 @@ export class Insides {
       const { nodes: to } = writer;
       if (parent >= 0) writer.words[parent * NODE_WORDS + (side === 1 ? RIGHT : LEFT)] = node;
       const a = reference * NODE_WORDS, b = node * NODE_WORDS;
-      for (let k = 0; k < 3; k++) {
-        to[b + LEFT_MIN + k] = from[a + LEFT_MIN + k] as number;
-        to[b + LEFT_MIN + 4 + k] = from[a + LEFT_MIN + 4 + k] as number;
-        to[b + RIGHT_MIN + k] = from[a + RIGHT_MIN + k] as number;
-        to[b + RIGHT_MIN + 4 + k] = from[a + RIGHT_MIN + 4 + k] as number;
-      }
-      this.#push(words[a + RIGHT] as number, node, 1, depth + 1);
-      this.#push(words[a + LEFT] as number, node, 0, depth + 1);
+      // Boxes; the words between them are set with the children, but for the parent's.
+      for (let k = 0; k < NODE_WORDS; k++) if (k !== PARENT) to[b + k] = from[a + k] as number;
+      tasks.push(words[a + RIGHT] as number, node, 1, depth + 1, words[a + LEFT] as number, node, 0, depth + 1);
     }
-    return this.#top > 0;
+    return tasks.length > 0;
   }
 
   /** Writes the triangles of one sorted primitive. */
@@ -102,11 +83,11 @@ export class Insides {
   #cluster(cluster: number, parent: number, side: number, depth: number): void {
     const { clusters, order, triangles, maxLeaf, maxDepth } = this.#input;
     const { starts, sorted } = clusters;
-    const writer = this.#writer, group = this.#group, weights = this.#weights, costs = this.#costs, leaf = this.#leaf, pending = this.#pending;
+    const writer = this.#writer, group = this.#group, weights = this.#weights, costs = this.#costs, leaf = this.#leaf;
     const first = starts[cluster] as number, size = (starts[cluster + 1] as number) - first;
     const { boxes, children } = group;
     for (let k = 0, from = 6 * first; k < 6 * size; k++) boxes[k] = sorted[from + k] as number;
-    for (let i = 0; i < size; i++) weights[i] = (triangles[order[first + i] as number] as number) >= PAIR ? 2 : 1;
+    for (let i = 0; i < size; i++) weights[i] = 1 + ((triangles[order[first + i] as number] as number) >>> 31);
     group.run(size, maxDepth - depth);
     // From the leaves up: a leaf costs its area times its triangles, a node its area and its children.
     for (let id = 0, b = 0; id < 2 * size - 1; id++, b += 6) {
@@ -125,50 +106,28 @@ export class Insides {
         leaf[id] = 0;
       }
     }
-    let top = 1;
-    pending[0] = 2 * size - 2;
-    pending[1] = parent;
-    pending[2] = side;
-    while (top > 0) {
-      const p = 3 * --top;
-      const id = pending[p] as number, above = pending[p + 1] as number, right = pending[p + 2] as number;
-      let reference: number;
-      if (leaf[id] === 1) {
-        const start = this.#emitted;
-        this.#emitUnder(id, size, first);
-        reference = leafReference(start, this.#emitted - start);
-      } else {
-        reference = writer.add(above);
-        for (let k = 1; k >= 0; k--) {
-          const q = 3 * top++;
-          pending[q] = children[2 * id + k] as number;
-          pending[q + 1] = reference;
-          pending[q + 2] = k;
-        }
-      }
-      const b = 6 * id;
-      if (above < 0) {
-        if (leaf[id] === 1) writer.single(reference, boxes.subarray(b, b + 6));
-        continue;
-      }
-      writer.child(above, right === 1, reference, boxes[b] as number, boxes[b + 1] as number, boxes[b + 2] as number, boxes[b + 3] as number, boxes[b + 4] as number, boxes[b + 5] as number);
-    }
+    const write = (id: number) => {
+      if (leaf[id] === 0) return 0;
+      const start = this.#emitted;
+      this.#emitUnder(id, size, first);
+      return leafReference(start, this.#emitted - start);
+    };
+    const root = 2 * size - 2;
+    if (parent < 0 && leaf[root] === 1) writer.single(write(root), boxes.subarray(6 * root, 6 * root + 6));
+    else group.write(writer, size, parent, side, write);
   }
 
-  readonly #below = new Uint8Array(2 * GROUP_MAX);
+  readonly #below: number[] = [];
 
   /** Writes the triangles under a node of the group. */
   #emitUnder(id: number, size: number, first: number): void {
-    const below = this.#below, { children } = this.#group;
-    let top = 1;
-    below[0] = id;
-    while (top > 0) {
-      const node = below[--top] as number;
+    const { children } = this.#group;
+    const below = this.#below;
+    below.push(id);
+    while (below.length > 0) {
+      const node = below.pop() as number;
       if (node < size) this.#emit(first + node);
-      else {
-        below[top++] = children[2 * node + 1] as number;
-        below[top++] = children[2 * node] as number;
-      }
+      else below.push(children[2 * node + 1] as number, children[2 * node] as number);
     }
   }
 }

@@ -3,9 +3,6 @@ import { Agglomerator, GROUP_MAX } from './agglomerate';
 import type { NodeWriter } from './node-writer';
 import { Splitter } from './splitter';
 
-/** Numbers of a pending range: first, end, parent, right side, depth. */
-const TASK = 5;
-
 /** Things with boxes to build over. */
 export interface Items {
   /** Six numbers each: min xyz, max xyz; finite. */
@@ -36,10 +33,8 @@ export class Levels {
   readonly #splitter: Splitter;
   readonly #group = new Agglomerator();
   readonly #members = new Uint32Array(GROUP_MAX);
-  /** Pending nodes of a group: id, parent, side. */
-  readonly #pending = new Int32Array(3 * (GROUP_MAX + 1));
-  readonly #tasks: Int32Array;
-  #top = 0;
+  /** Pending ranges, five numbers each: first, end, parent, right side, depth. */
+  readonly #tasks: number[];
 
   /** @param maxDepth Most inner nodes on the way to an item; 2 ** maxDepth must not be less than the number of items. */
   constructor(writer: NodeWriter, items: Items, maxDepth: number, bins: number) {
@@ -47,18 +42,7 @@ export class Levels {
     this.#items = items;
     this.#maxDepth = maxDepth;
     this.#splitter = new Splitter(bins);
-    this.#tasks = new Int32Array((maxDepth + 3) * TASK);
-    this.#push(0, items.count, -1, 0, 0);
-  }
-
-  #push(first: number, end: number, parent: number, right: number, depth: number): void {
-    const t = this.#top++ * TASK;
-    const tasks = this.#tasks;
-    tasks[t] = first;
-    tasks[t + 1] = end;
-    tasks[t + 2] = parent;
-    tasks[t + 3] = right;
-    tasks[t + 4] = depth;
+    this.#tasks = [0, items.count, -1, 0, 0];
   }
 
   /**
@@ -70,9 +54,8 @@ export class Levels {
   step(items: number): boolean {
     const tasks = this.#tasks, splitter = this.#splitter, writer = this.#writer;
     const { boxes, weights, order } = this.#items;
-    for (let left = items; this.#top > 0 && left > 0; ) {
-      const t = --this.#top * TASK;
-      const first = tasks[t] as number, end = tasks[t + 1] as number, parent = tasks[t + 2] as number, right = tasks[t + 3] === 1, depth = tasks[t + 4] as number;
+    for (let left = items; tasks.length > 0 && left > 0; ) {
+      const depth = tasks.pop() as number, right = tasks.pop() as number, parent = tasks.pop() as number, end = tasks.pop() as number, first = tasks.pop() as number;
       const size = end - first;
       left -= size;
       if (size <= GROUP_MAX) {
@@ -81,20 +64,18 @@ export class Levels {
       }
       // With the levels that halving would need from here on.
       const free = depth + 33 - Math.clz32(size - 1) < this.#maxDepth;
-      if (free) splitter.bin(boxes, weights, order, first, end);
-      else splitter.measure(boxes, order, first, end);
+      splitter.split(boxes, weights, order, first, end, free);
       const node = writer.add(parent);
-      if (parent >= 0) writer.child(parent, right, node, splitter.x0, splitter.y0, splitter.z0, splitter.x1, splitter.y1, splitter.z1);
+      if (parent >= 0) writer.childBox(parent, right === 1, node, splitter.box, 0);
       const cut = splitter.cut < 0 ? (first + end) >>> 1 : splitter.cut;
-      this.#push(cut, end, node, 1, depth + 1);
-      this.#push(first, cut, node, 0, depth + 1);
+      tasks.push(cut, end, node, 1, depth + 1, first, cut, node, 0, depth + 1);
     }
-    return this.#top > 0;
+    return tasks.length > 0;
   }
 
   /** The tree of a small range. */
-  #join(first: number, size: number, parent: number, right: boolean, depth: number): void {
-    const group = this.#group, members = this.#members, pending = this.#pending, writer = this.#writer;
+  #join(first: number, size: number, parent: number, right: number, depth: number): void {
+    const group = this.#group, members = this.#members, writer = this.#writer;
     const { boxes, order } = this.#items;
     const own = group.boxes;
     for (let i = 0, to = 0; i < size; i++, to += 6) {
@@ -103,28 +84,11 @@ export class Levels {
       for (let k = 0; k < 6; k++) own[to + k] = boxes[6 * item + k] as number;
     }
     group.run(size, this.#maxDepth - depth);
-    let top = 0, place = first;
-    pending[0] = 2 * size - 2;
-    pending[1] = parent;
-    pending[2] = right ? 1 : 0;
-    for (top = 1; top > 0; ) {
-      const p = 3 * --top;
-      const id = pending[p] as number, above = pending[p + 1] as number, side = pending[p + 2] === 1;
-      let reference: number;
-      if (id < size) {
-        order[place] = members[id] as number;
-        reference = leafReference(place++, 1);
-      } else {
-        reference = writer.add(above);
-        for (let k = 1; k >= 0; k--) {
-          const q = 3 * top++;
-          pending[q] = group.children[2 * id + k] as number;
-          pending[q + 1] = reference;
-          pending[q + 2] = k;
-        }
-      }
-      const b = 6 * id;
-      if (above >= 0) writer.child(above, side, reference, own[b] as number, own[b + 1] as number, own[b + 2] as number, own[b + 3] as number, own[b + 4] as number, own[b + 5] as number);
-    }
+    let place = first;
+    group.write(writer, size, parent, right, (id) => {
+      if (id >= size) return 0;
+      order[place] = members[id] as number;
+      return leafReference(place++, 1);
+    });
   }
 }

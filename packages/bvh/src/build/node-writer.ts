@@ -1,4 +1,4 @@
-import { FAR, LEFT, LEFT_MAX, LEFT_MIN, NODE_WORDS, PARENT, RESERVED, RIGHT, RIGHT_MAX, RIGHT_MIN } from '../layout';
+import { FAR, LEFT, LEFT_MIN, NODE_WORDS, PARENT, RESERVED, RIGHT, RIGHT_MIN } from '../layout';
 
 /** A hierarchy's nodes. */
 export interface Tree {
@@ -30,18 +30,17 @@ export class NodeWriter {
     return node;
   }
 
-  /** Sets a child's box and reference. */
-  child(node: number, right: boolean, reference: number, x0: number, y0: number, z0: number, x1: number, y1: number, z1: number): void {
+  /** Sets a child's box, six numbers from `at` on, and reference. */
+  childBox(node: number, right: boolean, reference: number, box: Float32Array | Float64Array, at: number): void {
     const { nodes } = this;
     const base = node * NODE_WORDS;
-    const min = base + (right ? RIGHT_MIN : LEFT_MIN);
-    const max = base + (right ? RIGHT_MAX : LEFT_MAX);
-    nodes[min] = x0;
-    nodes[min + 1] = y0;
-    nodes[min + 2] = z0;
-    nodes[max] = x1;
-    nodes[max + 1] = y1;
-    nodes[max + 2] = z1;
+    const min = base + (right ? RIGHT_MIN : LEFT_MIN), max = min + 4;
+    nodes[min] = box[at] as number;
+    nodes[min + 1] = box[at + 1] as number;
+    nodes[min + 2] = box[at + 2] as number;
+    nodes[max] = box[at + 3] as number;
+    nodes[max + 1] = box[at + 4] as number;
+    nodes[max + 2] = box[at + 5] as number;
     this.words[base + (right ? RIGHT : LEFT)] = reference;
   }
 
@@ -49,11 +48,10 @@ export class NodeWriter {
    * A tree of one leaf, or of none if there is no box. Both references name the leaf, as they must name something: the box
    * of a missing child is one that no ray reaches.
    */
-  single(reference: number, box: ArrayLike<number> | undefined): void {
-    const root = this.add(-1);
-    const corner = (i: number) => box?.[i] ?? FAR;
-    this.child(root, false, reference, corner(0), corner(1), corner(2), corner(3), corner(4), corner(5));
-    this.child(root, true, reference, FAR, FAR, FAR, FAR, FAR, FAR);
+  single(reference: number, box?: Float32Array): void {
+    const root = this.add(-1), missing = new Float32Array(6).fill(FAR);
+    this.childBox(root, false, reference, box ?? missing, 0);
+    this.childBox(root, true, reference, missing, 0);
   }
 
   finish(): Tree {

@@ -34,14 +34,17 @@ export class PrimitiveMaker implements Primitives {
   count = 0;
   /** Finite triangles. */
   triangleCount = 0;
-  readonly #mesh: TriangleMesh;
+  readonly #positions: Float32Array;
+  readonly #indices: Uint32Array | undefined;
   readonly #pairs: boolean;
 
   /** @param pairs Whether to pair. */
-  constructor(mesh: TriangleMesh, triangles: number, pairs: boolean, scratch: Scratch) {
+  constructor({ positions, indices }: TriangleMesh, triangles: number, pairs: boolean, scratch: Scratch) {
     this.boxes = scratch.float32(6 * triangles);
     this.triangles = scratch.uint32(triangles);
-    this.#mesh = mesh;
+    this.#positions = positions;
+    // For both kinds the same machine code reads the same kind of array.
+    this.#indices = indices instanceof Uint16Array ? Uint32Array.from(indices) : indices;
     this.#pairs = pairs;
   }
 
@@ -51,28 +54,21 @@ export class PrimitiveMaker implements Primitives {
    * @throws {BvhError} `bvh/indices` for an index beyond the vertices.
    */
   add(from: number, end: number): void {
-    const { positions, indices } = this.#mesh;
-    if (indices instanceof Uint16Array) this.#add(positions, Uint32Array.from(indices.subarray(3 * from, 3 * end)), from, end, 3 * from);
-    else this.#add(positions, indices, from, end, 0);
-  }
-
-  // For both kinds of indices the same machine code reads the same kind of array.
-  #add(positions: Float32Array, indices: Uint32Array | undefined, from: number, end: number, shift: number): void {
+    const positions = this.#positions, indices = this.#indices;
     const { boxes, triangles, bounds } = this;
     const pairs = this.#pairs;
     const limit = Math.floor(positions.length / 3);
     let { count, triangleCount } = this;
-    // The triangle that may become the first of a pair.
-    let waiting = -1, waitingArea = 0;
-    let wx0 = 0, wy0 = 0, wz0 = 0, wx1 = 0, wy1 = 0, wz1 = 0;
+    // The triangle that may become the first of a pair, the last that was written; −2: none.
+    let waiting = -2, waitingArea = 0;
     let bx0 = bounds[0] as number, by0 = bounds[1] as number, bz0 = bounds[2] as number, bx1 = bounds[3] as number, by1 = bounds[4] as number, bz1 = bounds[5] as number;
     for (let i = from; i < end; i++) {
-      let a = 3 * i - shift, b = a + 1, c = a + 2;
+      let a = 3 * i, b = a + 1, c = a + 2;
       if (indices) {
         a = indices[a] as number;
         b = indices[b] as number;
         c = indices[c] as number;
-        if (a >= limit || b >= limit || c >= limit) throw new BvhError('bvh/indices', `Triangle ${i} uses vertex ${Math.max(a, b, c)} of ${limit}: every index must be below the number of vertices.`);
+        if (a >= limit || b >= limit || c >= limit) throw new BvhError('bvh/indices', `Triangle ${i} uses vertex ${Math.max(a, b, c)} of ${limit}: indices must be below that.`);
       }
       a *= 3;
       b *= 3;
@@ -98,32 +94,22 @@ export class PrimitiveMaker implements Primitives {
       if (z1 > bz1) bz1 = z1;
       const dx = x1 - x0, dy = y1 - y0, dz = z1 - z0;
       const area = dx * dy + dy * dz + dz * dx;
-      if (waiting >= 0) {
-        const at = 6 * count;
-        const ux0 = x0 < wx0 ? x0 : wx0, uy0 = y0 < wy0 ? y0 : wy0, uz0 = z0 < wz0 ? z0 : wz0;
-        const ux1 = x1 > wx1 ? x1 : wx1, uy1 = y1 > wy1 ? y1 : wy1, uz1 = z1 > wz1 ? z1 : wz1;
+      const at = 6 * count;
+      if (pairs && waiting === i - 1) {
+        const w0 = boxes[at - 6] as number, w1 = boxes[at - 5] as number, w2 = boxes[at - 4] as number, w3 = boxes[at - 3] as number, w4 = boxes[at - 2] as number, w5 = boxes[at - 1] as number;
+        const ux0 = x0 < w0 ? x0 : w0, uy0 = y0 < w1 ? y0 : w1, uz0 = z0 < w2 ? z0 : w2;
+        const ux1 = x1 > w3 ? x1 : w3, uy1 = y1 > w4 ? y1 : w4, uz1 = z1 > w5 ? z1 : w5;
         const ux = ux1 - ux0, uy = uy1 - uy0, uz = uz1 - uz0;
-        if (pairs && waiting === i - 1 && ux * uy + uy * uz + uz * ux <= PAIR_LIMIT * (area + waitingArea)) {
-          putBox(boxes, at, ux0, uy0, uz0, ux1, uy1, uz1);
-          triangles[count++] = (waiting | PAIR) >>> 0;
-          waiting = -1;
+        if (ux * uy + uy * uz + uz * ux <= PAIR_LIMIT * (area + waitingArea)) {
+          putBox(boxes, at - 6, ux0, uy0, uz0, ux1, uy1, uz1);
+          triangles[count - 1] = waiting + PAIR;
+          waiting = -2;
           continue;
         }
-        putBox(boxes, at, wx0, wy0, wz0, wx1, wy1, wz1);
-        triangles[count++] = waiting;
       }
-      waiting = i;
+      putBox(boxes, at, x0, y0, z0, x1, y1, z1);
+      triangles[count++] = waiting = i;
       waitingArea = area;
-      wx0 = x0;
-      wy0 = y0;
-      wz0 = z0;
-      wx1 = x1;
-      wy1 = y1;
-      wz1 = z1;
-    }
-    if (waiting >= 0) {
-      putBox(boxes, 6 * count, wx0, wy0, wz0, wx1, wy1, wz1);
-      triangles[count++] = waiting;
     }
     this.count = count;
     this.triangleCount = triangleCount;

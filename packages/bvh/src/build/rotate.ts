@@ -5,7 +5,7 @@ import type { NodeWriter } from './node-writer';
 const PASSES = 3;
 
 /** Word of the reference to the left (0) or right (1) child; the box of a child starts at word 8 × side, its upper corner 4 later. */
-const reference = (side: number) => LEFT + side * (RIGHT - LEFT);
+const reference = (side: number) => LEFT + 4 * side;
 
 /** Half the surface of the box around two boxes, given by the words where they start. */
 function joined(n: Float32Array, a: number, b: number): number {
@@ -28,7 +28,6 @@ export class Rotations {
   readonly #heights: Uint8Array;
   /** Nodes with inner children, parents before their children, as rotations have left them. */
   readonly #order: Uint32Array;
-  readonly #stack: Uint32Array;
   #pass = 0;
   #at = 0;
 
@@ -40,7 +39,6 @@ export class Rotations {
     this.#depths = new Uint8Array(count);
     this.#heights = new Uint8Array(count);
     this.#order = new Uint32Array(count);
-    this.#stack = new Uint32Array(maxDepth + 2);
     for (let node = count - 1; node >= 0; node--) this.#measure(node);
   }
 
@@ -71,19 +69,18 @@ export class Rotations {
 
   /** Lists the nodes with inner children, and counts them. */
   #arrange(): number {
-    const words = this.#words, depths = this.#depths, heights = this.#heights, order = this.#order, stack = this.#stack;
-    let top = 0, count = 0;
-    stack[top++] = 0;
+    const words = this.#words, depths = this.#depths, heights = this.#heights, order = this.#order, stack = [0];
+    let count = 0;
     depths[0] = 1;
-    while (top > 0) {
-      const node = stack[--top] as number;
+    while (stack.length > 0) {
+      const node = stack.pop() as number;
       order[count++] = node;
       const depth = (depths[node] as number) + 1;
       for (let side = 1; side >= 0; side--) {
         const child = words[node * NODE_WORDS + reference(side)] as number;
         if ((child & LEAF) !== 0 || heights[child] === 1) continue;
         depths[child] = depth;
-        stack[top++] = child;
+        stack.push(child);
       }
     }
     return count;

@@ -30,11 +30,7 @@ export class Scratch {
   /** A block of at least that many bytes. */
   buffer(bytes: number): ArrayBuffer {
     const free = this.#free;
-    let at = -1;
-    for (let i = 0; i < free.length; i++) {
-      const size = (free[i] as ArrayBuffer).byteLength;
-      if (size >= bytes && size <= SLACK * bytes && (at < 0 || size < (free[at] as ArrayBuffer).byteLength)) at = i;
-    }
+    const at = free.findIndex(({ byteLength }) => byteLength >= bytes && byteLength <= SLACK * bytes);
     const block = at < 0 ? new ArrayBuffer(bytes) : (free.splice(at, 1)[0] as ArrayBuffer);
     this.#taken.push(block);
     return block;

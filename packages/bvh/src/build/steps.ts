@@ -13,8 +13,8 @@ import type { Scratch } from './scratch';
 /** Items that one step looks at: a millisecond or two. */
 export const STEP = 1 << 15;
 
-/** Depth kept for the inside of clusters: enough to halve one down to single primitives. */
-const CLUSTER_DEPTH = Math.ceil(Math.log2(GROUP_MAX));
+/** Depth kept for the inside of clusters: enough to halve one down to single primitives, log2 of {@link GROUP_MAX}. */
+const CLUSTER_DEPTH = 4;
 
 /** A bottom-level tree. */
 export interface TriangleTree extends Tree {
@@ -127,6 +127,6 @@ export function* keepNodes({ nodes: from, count: nodeCount }: NodeWriter): Steps
 /** A tree that is never hit. */
 export function emptyTree(): TriangleTree {
   const writer = new NodeWriter(1);
-  writer.single(leafReference(0, 1), undefined);
+  writer.single(leafReference(0, 1));
   return { nodes: writer.nodes, nodeCount: 1, triangleIndices: new Uint32Array(0), bounds: Float64Array.of(Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity) };
 }

@@ -4,7 +4,7 @@ import type { TreeBuilder } from '../build/builder';
 import { BvhError } from '../error';
 
 /** Options as they cross the boundary: functions cannot, so a builder of an entry of its own goes by its name. */
-export type SentOptions = Omit<BlasOptions, 'builder'> & { readonly builder?: 'fast' | 'balanced' | TreeBuilder['name'] };
+export type SentOptions = Omit<BlasOptions, 'builder'> & { readonly builder?: 'balanced' | TreeBuilder['name'] };
 
 export function sendableOptions({ builder, ...others }: BlasOptions): SentOptions {
   return builder === undefined ? others : { ...others, builder: typeof builder === 'object' ? builder.name : builder };

@@ -1,5 +1,6 @@
 import { buildBlas, type BlasOptions, type TriangleMesh } from '../blas';
 import { best, bestSplit } from '../build/best';
+import { fast } from '../build/fast';
 import { ownPort, type WorkerPort } from './port';
 import { buffersOf, sendableError, type BuildReply, type BuildRequest, type SentOptions } from './protocol';
 
@@ -27,7 +28,7 @@ function sheet(edge: number): TriangleMesh {
 }
 
 function receivedOptions({ builder, ...others }: SentOptions): BlasOptions {
-  const named = [best, bestSplit].find(({ name }) => name === builder) ?? (builder as 'fast' | 'balanced' | undefined);
+  const named = [fast, best, bestSplit].find(({ name }) => name === builder) ?? (builder as 'balanced' | undefined);
   return named === undefined ? others : { ...others, builder: named };
 }
 

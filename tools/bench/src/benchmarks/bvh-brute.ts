@@ -1,4 +1,5 @@
 import type { BlasOptions } from '@glanz/bvh';
+import { fast } from '@glanz/bvh/fast';
 import { best, bestSplit } from '@glanz/bvh/best';
 import { requestDevice } from '@glanz/renderer';
 import { createGpu } from '@glanz/renderer/node';
@@ -8,7 +9,7 @@ import { tryScenes } from '../bvh-brute/run';
 import { BenchError } from '../error';
 
 /** Ways to build that are tried in turn. */
-export const BUILDERS: readonly BlasOptions[] = [{}, { builder: 'fast' }, { builder: best }, { builder: bestSplit }, { bins: 4 }];
+export const BUILDERS: readonly BlasOptions[] = [{}, { builder: fast }, { builder: best }, { builder: bestSplit }, { bins: 4 }];
 
 /** No measurement but a trial: rays through random scenes against brute force. Ends with an error if any ray is lost. */
 export const benchmark: Benchmark = {

@@ -1,4 +1,5 @@
-import { buildBlas, sahCost } from '@glanz/bvh';
+import { buildBlas } from '@glanz/bvh';
+import { sahCost } from '@glanz/bvh/statistics';
 import { timed, wallTimes, type Benchmark, type Figure } from '../benchmark';
 import { benchMeshes } from '../bvh/meshes';
 import { buildThree, threeCost } from '../bvh/three-mesh-bvh';

@@ -1,5 +1,6 @@
 import { buildBlas, type BlasOptions } from '@glanz/bvh';
 import { best } from '@glanz/bvh/best';
+import { fast } from '@glanz/bvh/fast';
 import { requestDevice } from '@glanz/renderer';
 import { createGpu } from '@glanz/renderer/node';
 import { createPushButton } from '@glanz/models';
@@ -20,7 +21,7 @@ const KINDS = [['primary', 'closest'], ['shadow', 'any'], ['diffuse', 'closest']
 const VARIANTS: readonly (readonly [name: string, layout: Layout, options: BlasOptions])[] = [
   ['BVH2 balanced', 'BVH2', {}],
   ['BVH2 best', 'BVH2', { builder: best }],
-  ['BVH2 fast', 'BVH2', { builder: 'fast' }],
+  ['BVH2 fast', 'BVH2', { builder: fast }],
   ['wide balanced', 'wide', {}],
   ['wide best', 'wide', { builder: best }],
 ];
