@@ -52,25 +52,24 @@ export function endPointOverlap(blas: Blas, mesh: TriangleMesh): number {
   const places = Uint32Array.from(triangleIndices.keys()).sort((a, b) => (triangleIndices[a] as number) - (triangleIndices[b] as number) || a - b);
   // Nodes above a triangle, and words of references to its leaves, bear its number.
   const above = new Int32Array(nodeCount).fill(-1), own = new Int32Array(nodeCount * NODE_WORDS).fill(-1);
-  const polygons = Array.from({ length: 64 }, () => new Float64Array(3 * 9));
+  const corners = new Float64Array(CORNERS), part = new Float64Array(CORNERS);
   let area = 0, overlap = 0;
 
-  /** Adds up below a node; the part of the triangle that lies in the node's box has `length` numbers in `polygons[depth]`. */
-  const descend = (node: number, depth: number, length: number, triangle: number): void => {
+  /** Adds up below a node in whose box the triangle is. */
+  const descend = (node: number, triangle: number): void => {
     const at = node * NODE_WORDS;
     for (let side = 0; side < 2; side++) {
       const low = at + (side === 0 ? LEFT_MIN : RIGHT_MIN), word = at + (side === 0 ? LEFT : RIGHT);
       if (nodes[low] === FAR) continue;
       const reference = words[word] as number;
       if (reference >= LEAF && own[word] === triangle) continue;
-      const part = polygons[depth + 1] as Float64Array;
-      const left = clip(polygons[depth] as Float64Array, length, nodes, low, part);
+      const left = clip(corners, nodes, low, part);
       if (left < 9) continue;
       const size = polygonArea(part, left);
       if (reference >= LEAF) overlap += size * leafCount(reference);
       else {
         if (above[reference] !== triangle) overlap += size;
-        descend(reference, depth + 1, left, triangle);
+        descend(reference, triangle);
       }
     }
   };
@@ -83,7 +82,6 @@ export function endPointOverlap(blas: Blas, mesh: TriangleMesh): number {
       own[word] = triangle;
       for (let node = Math.floor(word / NODE_WORDS); above[node] !== triangle; node = words[node * NODE_WORDS + PARENT] as number) above[node] = triangle;
     }
-    const corners = polygons[0] as Float64Array;
     for (let corner = 0; corner < 3; corner++) {
       const v = 3 * (indices ? (indices[3 * triangle + corner] as number) : 3 * triangle + corner);
       for (let k = 0; k < 3; k++) corners[3 * corner + k] = positions[v + k] as number;
@@ -91,18 +89,20 @@ export function endPointOverlap(blas: Blas, mesh: TriangleMesh): number {
     const size = polygonArea(corners, 9);
     if (!(size > 0)) continue;
     area += size;
-    descend(0, 0, 9, triangle);
+    descend(0, triangle);
   }
   return area > 0 ? overlap / area : 0;
 }
 
-const spare = (): [Float64Array, Float64Array] => [new Float64Array(3 * 9), new Float64Array(3 * 9)];
+/** Numbers of a polygon: a triangle cut by six planes has nine corners, and rounding may make some more of nearly straight ones. */
+const CORNERS = 3 * 32;
+
 let scratch: [Float64Array, Float64Array] | undefined;
 
-/** Cuts a convex polygon to the box whose corners lie at `low` and four words on; says how many numbers are left. */
-function clip(from: Float64Array, length: number, nodes: Float32Array, low: number, to: Float64Array): number {
-  scratch ??= spare();
-  let source = from;
+/** Cuts a triangle to the box whose corners lie at `low` and four words on; says how many numbers are left. */
+function clip(from: Float64Array, nodes: Float32Array, low: number, to: Float64Array): number {
+  scratch ??= [new Float64Array(CORNERS), new Float64Array(CORNERS)];
+  let source = from, length = 9;
   for (let plane = 0; plane < 6; plane++) {
     const k = plane >> 1, sign = plane & 1 ? -1 : 1;
     const limit = sign * (nodes[low + (plane & 1 ? 4 : 0) + k] as number);

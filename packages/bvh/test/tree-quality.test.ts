@@ -1,9 +1,10 @@
 import { expect, test } from 'vitest';
+import { bestSplit } from '../src/build/best';
 import { buildBlas, type Blas, type TriangleMesh } from '../src/index';
 import { refitBlas } from '../src/refit';
 import { LEAF, LEFT, LEFT_MIN, leafCount, leafFirst, leafReference, NODE_WORDS, RIGHT, RIGHT_MIN } from '../src/layout';
 import { endPointOverlap, siblingOverlap } from '../src/tree-quality';
-import { randomNumbers, sphere, strewn } from './shapes';
+import { direction, randomNumbers, sphere, strewn } from './shapes';
 import { work } from './work';
 
 /** Boxes below the root with the triangles in them and what each costs. */
@@ -60,6 +61,23 @@ for (const [name, mesh, options] of [['strewn triangles', strewn(200, 0.5, rando
     expect(Math.abs(endPointOverlap(blas, mesh) - mean)).toBeLessThan(4 * error);
   });
 }
+
+test('needles in all directions, whole and cut: still what random points say (seed 90)', () => {
+  const random = randomNumbers(90);
+  const mesh = strewn(150, 0, random);
+  for (let i = 0; i < 150; i++) {
+    const along = direction(random), across = direction(random);
+    for (let k = 0; k < 3; k++) {
+      mesh.positions[9 * i + 3 + k]! += along[k]!;
+      mesh.positions[9 * i + 6 + k]! += along[k]! + 0.01 * across[k]!;
+    }
+  }
+  for (const options of [{}, { builder: bestSplit }]) {
+    const blas = buildBlas(mesh, options);
+    const [mean, error] = sampled(blas, mesh, 91, 20_000);
+    expect(Math.abs(endPointOverlap(blas, mesh) - mean)).toBeLessThan(4 * error);
+  }
+});
 
 test('boxes that lie apart do not overlap; two in one another do', () => {
   const row = { positions: Float32Array.from({ length: 9 * 8 }, (_, i) => [0, 0, 0, 0.5, 0, 0.2, 0, 0.5, 0.1][i % 9]! + (i % 3 === 0 ? Math.floor(i / 9) : 0)) };
