@@ -183,7 +183,8 @@ async function checkGpu(gpu: GpuTracer, { tlas, parts, single, name }: Built, { 
       else {
         const u = hits.u[i]!, v = hits.v[i]!;
         const off = Math.hypot(...[0, 1, 2].map((k) => (1 - u - v) * corners[at + k]! + u * corners[at + 3 + k]! + v * corners[at + 6 + k]! - o[k]! - t * d[k]!));
-        const rounding = reach + facing(corners, at, rays, i, reach).tolerance;
+        // What is beside the ray in the world is also before or behind in a sheared object's space.
+        const rounding = reach + (single ? 1 : 8) * facing(corners, at, rays, i, reach).tolerance;
         if (!(off <= rounding) || !(u >= 0 && v >= 0 && u + v <= 1.000001)) problem = `the hit (t ${t}, u ${u}, v ${v}) is ${off} off its triangle; ${rounding} would be rounding`;
         else if (!(t > tMin && t < tMax)) problem = `t ${t} is not between ${tMin} and ${tMax}`;
       }
