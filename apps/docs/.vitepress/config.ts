@@ -4,7 +4,7 @@ import { defineConfig } from 'vitepress';
 import { apiReference } from './api';
 import { readmeLinks } from './readme-links';
 
-const packages = ['renderer', 'gltf', 'formats', 'scene', 'openpbr', 'bvh', 'tonemap', 'image', 'wgsl', 'cli'];
+const packages = ['renderer', 'gltf', 'formats', 'cad', 'scene', 'openpbr', 'bvh', 'tonemap', 'image', 'wgsl', 'cli'];
 const api = await apiReference(packages);
 
 export default defineConfig({
@@ -85,6 +85,7 @@ export default defineConfig({
         text: 'How it works',
         items: [
           { text: 'From scene to picture', link: '/how/' },
+          { text: 'Hierarchies, seen', link: '/how/hierarchies' },
           { text: 'Light and chance', link: '/how/light' },
           { text: 'How it is tested', link: '/how/tested' },
         ],

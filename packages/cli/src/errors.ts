@@ -2,7 +2,8 @@ import { GlanzError } from '@glanz/scene';
 
 /**
  * Something the user can put right. Codes: `cli/usage` (unknown option, impossible value), `cli/input` (a file that
- * cannot be read), `cli/output` (a file that cannot be written), `cli/camera` (no such camera).
+ * cannot be read), `cli/output` (a file that cannot be written), `cli/camera` (no such camera), `cli/missing-package`
+ * (an optional package is needed).
  */
 export class CliError extends GlanzError {}
 
@@ -18,7 +19,7 @@ export function exitCodeOf(error: unknown): number {
   if (code === 'cli/usage' || code === 'cli/camera' || code === 'renderer/size' || code === 'renderer/camera') return EXIT.usage;
   if (code === 'cli/output') return EXIT.output;
   if (GPU_CODES.has(code)) return EXIT.gpu;
-  if (/^(cli\/input|gltf\/|scene\/|image\/|renderer\/no-triangles)/.test(code)) return EXIT.input;
+  if (/^(cli\/input|gltf\/|scene\/|image\/|formats\/|cad\/|renderer\/no-triangles)/.test(code)) return EXIT.input;
   return EXIT.failure;
 }
 

@@ -4,6 +4,7 @@ export const HELP = `NAME
 
 SYNOPSIS
   glanz render MODEL [-o FILE]... [--env FILE] [--size WxH] [--samples N] [...]
+  glanz convert PART [-o FILE.glb] [--lod N] [--materials FILE] [--strip] [...]
   glanz --list-gpus
   glanz --help | --version
 
@@ -84,6 +85,18 @@ SHORTCUTS
                         Cut indirect light brighter than N.
       --no-caustics     No light on matte things by way of mirrors and glass.
 
+CONVERTING
+  glanz convert turns a CAD file (.step, .iges, .brep) into .glb. It needs the
+  package @glanz/cad.
+  -o, --output FILE     Default: the model's name with .glb, in this folder.
+      --lod N           Levels of detail, each of a quarter of the triangles:
+                        part.glb, part.lod1.glb, part.lod2.glb. Default 1.
+      --materials FILE  JSON that translates names and colours of parts to
+                        materials; see the package.
+      --strip           Leave out names and metadata.
+      --tolerance MM    How far triangles may lie from the surface, millimetres.
+                        Default: a thousandth of the model's size.
+
 MACHINE
       --list-gpus       List what could render, and exit.
       --gpu NAME        Use the GPU whose name contains NAME; "software" for the
@@ -104,5 +117,6 @@ EXAMPLES
   glanz render helmet.glb -o helmet.png -o helmet.exr --samples 1024
   glanz render chair.gltf --env studio.hdr --env-rotation 90 --exposure 0.5
   glanz render part.glb --transparent --size 512x512 -o part.png --json
+  glanz convert part.step -o part.glb --lod 3 --materials map.json --strip
   glanz render room.glb --camera '{"position":[0,1.6,3],"target":[0,1.2,0]}'
 `;

@@ -1,5 +1,6 @@
 import { parseArgs, type ParseArgsConfig } from 'node:util';
 import { TONE_MAPS, isToneMap, type ToneMap } from '@glanz/tonemap';
+import { parseConvert } from './commands/convert';
 import { CliError } from './errors';
 import { parseExposure } from './exposure';
 import { formatOf, type OutputTarget } from './output/formats';
@@ -43,6 +44,7 @@ export type Command =
   | { readonly kind: 'help' }
   | { readonly kind: 'version' }
   | ({ readonly kind: 'list-gpus' } & ReportOptions)
+  | ReturnType<typeof parseConvert>
   | ({ readonly kind: 'render'; readonly options: RenderCommandOptions } & ReportOptions);
 
 const OPTIONS = {
@@ -153,6 +155,7 @@ function defaultOutput(model: string): string {
  * @throws {CliError} `cli/usage`, with what to do about it.
  */
 export function parseCommand(argv: readonly string[]): Command {
+  if (argv[0] === 'convert' && !argv.includes('--help') && !argv.includes('-h')) return parseConvert(argv.slice(1));
   const { values, positionals } = parse(argv);
   if (values.help) return { kind: 'help' };
   if (values.version) return { kind: 'version' };

@@ -1,5 +1,6 @@
 import { GlanzError } from '@glanz/scene';
 import { nodeBackend, type Backend } from './backend';
+import { convertCommand } from './commands/convert';
 import { listGpusCommand } from './commands/list-gpus';
 import { renderCommand } from './commands/render';
 import { errorLine, EXIT, exitCodeOf } from './errors';
@@ -31,6 +32,7 @@ export async function runCli(argv: readonly string[], io: CliIo = nodeIo(), back
       return EXIT.ok;
     }
     json = command.json;
+    if (command.kind === 'convert') return await convertCommand(command, io);
     if (command.kind === 'list-gpus') return await listGpusCommand(command, io, backend);
     const { result, exitCode } = await renderCommand(command.options, io, backend, new ProgressReporter(io, command.quiet));
     if (json) io.stdout(`${JSON.stringify(result ?? { ok: false, error: { code: 'cli/interrupted', message: 'Interrupted before the first sample.' } })}\n`);

@@ -16,10 +16,10 @@ const fromReadme = [.../```sh\n([\s\S]+?)```/.exec(README)![1]!.matchAll(/^(?:np
 const fromHelp = [...HELP.slice(HELP.indexOf('EXAMPLES')).matchAll(/^ {2}glanz (.+)$/gm)].map((match) => match[1]!);
 
 describe('every command line that the documentation shows can be typed', () => {
-  it('and they are there', () => expect([fromReadme.length, fromHelp.length]).toEqual([4, 5]));
+  it('and they are there', () => expect([fromReadme.length, fromHelp.length]).toEqual([4, 6]));
   it.each([...fromReadme, ...fromHelp])('glanz %s', async (line) => {
     const command = parseCommand(words(line));
-    expect(['render', 'list-gpus']).toContain(command.kind);
+    expect(['render', 'convert', 'list-gpus']).toContain(command.kind);
     if (command.kind !== 'render') return;
     const cwd = temporaryFolder({ [command.options.model]: '', 'studio.hdr': encodeHdr({ width: 2, height: 1, data: new Float32Array(6).fill(0.5) }) });
     const { code, err } = await run([...words(line), '--size', '4x4', '--samples', '1'], cwd);
