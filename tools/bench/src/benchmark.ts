@@ -26,6 +26,8 @@ export interface BenchmarkResult {
   readonly gpu?: { readonly name: string; readonly software: boolean };
   /** Remarks a reader needs, e.g. that timestamps were unavailable. */
   readonly notes?: readonly string[];
+  /** The data behind the figures, for tables and plots. */
+  readonly details?: unknown;
 }
 
 /** What a benchmark may use while it runs. */
@@ -38,12 +40,16 @@ export interface BenchmarkContext {
   readonly gpu?: string;
   /** `--seed N`: for those that draw random numbers. */
   readonly seed?: number;
+  /** What the command line says for {@link Benchmark.options}. */
+  readonly values: Readonly<Record<string, string | undefined>>;
 }
 
 /** A benchmark; each lives in `benchmarks/<name>.ts` as the export `benchmark`. */
 export interface Benchmark {
   /** One line for the list of benchmarks. */
   readonly description: string;
+  /** Options of its own, beside those that all have. */
+  readonly options?: Readonly<Record<string, { readonly type: 'string'; readonly help: string }>>;
   run(context: BenchmarkContext): Promise<BenchmarkResult>;
 }
 

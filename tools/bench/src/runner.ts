@@ -33,11 +33,13 @@ export function figureLine(figure: Figure): string {
 
 /** Runs a benchmark with the command line's options, prints its figures, and writes the report. */
 export async function runBenchmark(name: string, benchmark: Benchmark, argv: readonly string[]): Promise<BenchmarkReport> {
+  const own = benchmark.options ?? {};
   let values: { json?: string; quick?: boolean; gpu?: string; seed?: string };
   try {
-    ({ values } = parseArgs({ args: [...argv], options: { json: { type: 'string' }, quick: { type: 'boolean' }, gpu: { type: 'string' }, seed: { type: 'string' } }, strict: true }));
+    ({ values } = parseArgs({ args: [...argv], options: { ...own, json: { type: 'string' }, quick: { type: 'boolean' }, gpu: { type: 'string' }, seed: { type: 'string' } }, strict: true }));
   } catch (cause) {
-    throw new BenchError('bench/option', `${(cause as Error).message.split('\n', 1)[0]} Usage: bench <name> [--json FILE] [--quick] [--gpu NAME] [--seed N].`, { cause });
+    const more = Object.entries(own).map(([option, { help }]) => `--${option}: ${help}`);
+    throw new BenchError('bench/option', `${(cause as Error).message.split('\n', 1)[0]} Usage: bench ${name} [--json FILE] [--quick] [--gpu NAME] [--seed N]${more.length === 0 ? '' : `; ${more.join('; ')}`}.`, { cause });
   }
   const seed = values.seed === undefined ? undefined : Number(values.seed);
   if (seed !== undefined && !Number.isSafeInteger(seed)) throw new BenchError('bench/option', `--seed ${values.seed}: it must be a whole number.`);
@@ -47,6 +49,7 @@ export async function runBenchmark(name: string, benchmark: Benchmark, argv: rea
     quick: values.quick ?? false,
     ...(values.gpu === undefined ? {} : { gpu: values.gpu }),
     ...(seed === undefined ? {} : { seed }),
+    values: Object.fromEntries(Object.keys(own).map((option) => [option, (values as Record<string, string | undefined>)[option]])),
   });
   const report: BenchmarkReport = { benchmark: name, machine: machine(), seconds: (performance.now() - start) / 1000, quick: values.quick ?? false, ...result };
   if (values.json !== undefined) {

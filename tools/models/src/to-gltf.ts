@@ -1,5 +1,5 @@
-import { Document, type Material as GltfMaterial } from '@gltf-transform/core';
-import { KHRMaterialsEmissiveStrength, KHRMaterialsSpecular } from '@gltf-transform/extensions';
+import { Document, WebIO, type Material as GltfMaterial } from '@gltf-transform/core';
+import { ALL_EXTENSIONS, KHRMaterialsEmissiveStrength, KHRMaterialsSpecular } from '@gltf-transform/extensions';
 import type { Material, Scene } from '@glanz/scene';
 
 type Colour = [number, number, number];
@@ -51,4 +51,9 @@ export function sceneToGltf(scene: Scene): Document {
     root.addChild(node);
   }
   return document;
+}
+
+/** {@link sceneToGltf}, as the bytes of a .glb file. */
+export function sceneToGlb(scene: Scene): Promise<Uint8Array<ArrayBuffer>> {
+  return new WebIO().registerExtensions(ALL_EXTENSIONS).writeBinary(sceneToGltf(scene));
 }

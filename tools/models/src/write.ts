@@ -1,9 +1,7 @@
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { WebIO } from '@gltf-transform/core';
-import { ALL_EXTENSIONS } from '@gltf-transform/extensions';
 import { createCornellBox, createPushButton } from './index';
-import { sceneToGltf } from './to-gltf';
+import { sceneToGlb } from './to-gltf';
 
 const MODELS = {
   'push-button-high': () => createPushButton({ level: 'high' }),
@@ -14,7 +12,6 @@ const MODELS = {
 
 /** Writes the named models, or all of them, as .glb files. Gives the exit code. */
 export async function writeModels(folder: string, names: readonly string[]): Promise<number> {
-  const io = new WebIO().registerExtensions(ALL_EXTENSIONS);
   const wanted = names.length > 0 ? names : Object.keys(MODELS);
   for (const name of wanted) {
     const make = MODELS[name as keyof typeof MODELS];
@@ -23,7 +20,7 @@ export async function writeModels(folder: string, names: readonly string[]): Pro
       return 1;
     }
     const scene = make();
-    const bytes = await io.writeBinary(sceneToGltf(scene));
+    const bytes = await sceneToGlb(scene);
     const file = join(folder, `${name}.glb`);
     mkdirSync(folder, { recursive: true });
     writeFileSync(file, bytes);

@@ -1,11 +1,165 @@
-import type { Benchmark } from '../benchmark';
+import { spawn } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { timed, type Benchmark, type BenchmarkContext, type BenchmarkResult, type Figure } from '../benchmark';
 import { BenchError } from '../error';
+import { CONTESTANTS, type ContestantName } from '../equal-time/contestants';
+import { measure, type Measurement, type MeasurementPlan } from '../equal-time/measure';
+import { makeReference, type CrossCheck, type ReferencePlan } from '../equal-time/reference';
+import { equalTimeMarkdown, writePages, type EqualTimeReport } from '../equal-time/report';
+import { CATALOGUE_SIZE, SCENES } from '../equal-time/scenes';
+import { overall, ratios, type EqualTimeDetails, type Quantity, type SceneInfo } from '../equal-time/summary';
+import { machine } from '../machine';
 
-/** Equal-time error against other renderers. */
+/** Set in the processes that this benchmark starts: what they are to do. */
+const CHILD = 'GLANZ_BENCH_EQUAL_TIME';
+
+/** What a child is told: a plan, and the file for what became of it. */
+type Job = { readonly out: string } & ({ readonly kind: 'measure'; readonly plan: MeasurementPlan } | { readonly kind: 'reference'; readonly plan: ReferencePlan });
+
+const OPTIONS = {
+  scenes: { type: 'string', help: 'names, separated by commas' },
+  contestants: { type: 'string', help: 'names, separated by commas' },
+  budgets: { type: 'string', help: 'seconds of GPU time, separated by commas (0.1,0.3,1,3)' },
+  runs: { type: 'string', help: 'independent runs (2)' },
+  size: { type: 'string', help: `pixels across and down, a multiple of ${CATALOGUE_SIZE} (512)` },
+  'reference-samples': { type: 'string', help: 'samples a pixel of the product scenes’ references (16384)' },
+  deadline: { type: 'string', help: 'seconds after which nothing new is begun' },
+  from: { type: 'string', help: 'measures nothing: takes the data of this report' },
+  pages: { type: 'string', help: 'folder to write the table and the plots into' },
+} as const;
+
+function numberOption(values: BenchmarkContext['values'], name: keyof typeof OPTIONS, standard: number, whole = true): number {
+  const text = values[name];
+  const value = text === undefined ? standard : Number(text);
+  if (!(value > 0) || (whole && !Number.isInteger(value))) throw new BenchError('bench/option', `--${name} must be a ${whole ? 'whole ' : ''}number above 0, not "${text}".`);
+  return value;
+}
+
+function listOption<T extends string>(text: string | undefined, all: readonly T[], what: string): readonly T[] {
+  if (text === undefined) return all;
+  const wanted = text.split(',');
+  const unknown = wanted.find((name) => !(all as readonly string[]).includes(name));
+  if (unknown !== undefined) throw new BenchError('bench/option', `There is no ${what} "${unknown}"; there are: ${all.join(', ')}.`);
+  return all.filter((name) => wanted.includes(name));
+}
+
+/** Runs a job in a process of its own, since renderers must not share one. */
+async function inChild<T>(job: Job): Promise<T | string> {
+  const child = spawn(process.execPath, [fileURLToPath(import.meta.url)], { env: { ...process.env, [CHILD]: JSON.stringify(job) }, stdio: ['ignore', 'ignore', 'pipe'] });
+  let messages = '';
+  child.stderr.setEncoding('utf8').on('data', (text: string) => {
+    messages = (messages + text).slice(-2000);
+    // What the driver and three warn of is kept for failures; our own lines go on.
+    for (const line of text.split('\n')) if (line.startsWith('equal-time: ')) process.stderr.write(`${line.slice(12)}\n`);
+  });
+  const code = await new Promise<number | null>((resolve) => child.on('close', resolve));
+  return code === 0 ? (JSON.parse(readFileSync(job.out, 'utf8')) as T) : `failed (${code}): ${messages.trim().split('\n').slice(-3).join(' | ')}`;
+}
+
+async function runJob(job: Job): Promise<never> {
+  const log = (line: string) => process.stderr.write(`equal-time: ${line}\n`);
+  const result = job.kind === 'measure' ? await measure(job.plan, log) : await makeReference(job.plan, log);
+  writeFileSync(job.out, JSON.stringify(result));
+  // Dawn's threads would keep the process for a while.
+  process.exit(0);
+}
+
+const catalogueOnly = (quantity: Quantity) => (scene: SceneInfo) => (scene.truth === 'catalogue' ? quantity : undefined);
+
+function figuresOf(details: EqualTimeDetails, judge: boolean): Figure[] {
+  const figures: Figure[] = [];
+  const peers = (Object.keys(CONTESTANTS) as ContestantName[]).filter((name) => name !== 'glanz');
+  for (const peer of peers) {
+    const whole = (name: string, quantity: (scene: SceneInfo) => Quantity | undefined, clock: 'gpuMs' | 'wallMs', goal: boolean) => {
+      const result = overall(details, peer, quantity, clock);
+      const target = goal && judge ? { target: { value: 10, relation: '>=' as const, source: 'ten times lower error at equal time' } } : {};
+      if (result) figures.push({ name: `${peer}: ${name}`, unit: '× lower', runs: result.count, min: result.least, median: result.mean, max: result.most, ...target });
+    };
+    const unbiased = peer === 'three-gpu-pathtracer';
+    whole('relMSE at equal GPU time, geometric mean', catalogueOnly('relMSE'), 'gpuMs', unbiased);
+    whole('relMSE at equal wall time, geometric mean', catalogueOnly('relMSE'), 'wallMs', false);
+    whole('noise at equal GPU time, geometric mean', () => 'noise', 'gpuMs', unbiased);
+    whole('FLIP at equal GPU time, geometric mean', catalogueOnly('FLIP'), 'gpuMs', false);
+    for (const scene of details.scenes) {
+      const found = ratios(details, scene.name, peer, scene.truth === 'catalogue' ? 'relMSE' : 'noise')?.filter(Number.isFinite);
+      if (found && found.length > 0) figures.push(timed(`${peer}: ${scene.name}, ${scene.truth === 'catalogue' ? 'relMSE' : 'noise'} over the budgets`, '× lower', found));
+    }
+  }
+  return figures;
+}
+
+async function measureAll({ log, quick, gpu, values }: BenchmarkContext): Promise<BenchmarkResult & { readonly details: EqualTimeDetails }> {
+  const started = performance.now();
+  const scenes = listOption(values['scenes'], SCENES.map(({ name }) => name), 'scene').map((name) => SCENES.find((scene) => scene.name === name)!);
+  const contestants = listOption(values['contestants'], Object.keys(CONTESTANTS) as ContestantName[], 'contestant');
+  const size = numberOption(values, 'size', quick ? CATALOGUE_SIZE : 512);
+  if (size % CATALOGUE_SIZE !== 0) throw new BenchError('bench/option', `--size must be a multiple of ${CATALOGUE_SIZE}, the size of the references.`);
+  const runs = numberOption(values, 'runs', 2);
+  const samples = numberOption(values, 'reference-samples', quick ? 64 : 16384);
+  const deadline = numberOption(values, 'deadline', 1e9, false);
+  const budgetsMs = (values['budgets'] ?? '0.1,0.3,1,3').split(',').map((text) => Number(text) * 1000);
+  if (budgetsMs.some((budget, i) => !(budget > (budgetsMs[i - 1] ?? 0)))) throw new BenchError('bench/option', '--budgets must be ascending seconds, e.g. 0.1,0.3,1,3.');
+  const folder = mkdtempSync(join(tmpdir(), 'glanz-equal-time-'));
+  const measurements: Measurement[] = [];
+  const crossChecks: CrossCheck[] = [];
+  const notes: string[] = [];
+  const late = () => performance.now() - started > deadline * 1000;
+  try {
+    for (const { name, truth } of scenes) {
+      const common = { scene: name, size, ...(gpu === undefined ? {} : { gpu }) };
+      const referenceFile = join(folder, `${name}.reference`);
+      if (truth === 'own') {
+        const check = late() ? 'left out: the deadline had passed' : await inChild<CrossCheck>({ kind: 'reference', out: join(folder, 'job.json'), plan: { ...common, samples, file: referenceFile } });
+        if (typeof check === 'string') {
+          notes.push(`${name}: ${check}`);
+          log(`${name}: ${check}`);
+          continue;
+        }
+        crossChecks.push(check);
+      }
+      for (const contestant of contestants) {
+        const plan: MeasurementPlan = { ...common, contestant, budgetsMs, runs, ...(truth === 'own' ? { referenceFile } : {}) };
+        const result = late() ? 'left out: the deadline had passed' : await inChild<Measurement>({ kind: 'measure', out: join(folder, 'job.json'), plan });
+        if (typeof result === 'string') {
+          notes.push(`${name}, ${contestant}: ${result}`);
+          log(`${name}, ${contestant}: ${result}`);
+        } else {
+          measurements.push(result);
+          notes.push(...result.notes.map((note) => `${name}, ${contestant}: ${note}`));
+        }
+      }
+    }
+  } finally {
+    rmSync(folder, { recursive: true, force: true });
+  }
+  const adapter = measurements[0]?.adapter;
+  if (!adapter) throw new BenchError('bench/not-available', `Nothing could be measured: ${notes.join('; ')}`);
+  const details: EqualTimeDetails = { budgetsMs, size, runs, scenes: scenes.map(({ name, title, truth }) => ({ name, title, truth })), measurements, crossChecks };
+  return {
+    settings: { size, runs, budgetsMs, scenes: scenes.map(({ name }) => name), contestants, referenceSamples: samples, peer: 'three-gpu-pathtracer 0.0.26 (WebGPU, wavefront) on three 0.185.0' },
+    gpu: adapter,
+    figures: figuresOf(details, !quick && !adapter.software),
+    notes,
+    details,
+  };
+}
+
+/** Error at equal time, ours beside the strongest open competitor's, each in a process of its own on the same files. */
 export const benchmark: Benchmark = {
-  description: 'error at equal time against other renderers (not built yet)',
-  run: () =>
-    Promise.reject(
-      new BenchError('bench/not-available', 'equal-time does not exist yet: it needs high-sample references and adapters for the other renderers. What there is: groundtruth (error per sample against references), paper-gpu (time per sample), bvh, paper-cpu, furnace.'),
-    ),
+  description: 'error after 0.1, 0.3, 1 and 3 s of GPU time against three-gpu-pathtracer',
+  options: OPTIONS,
+  async run(context) {
+    const child = process.env[CHILD];
+    if (child !== undefined) return runJob(JSON.parse(child) as Job);
+    const { values } = context;
+    const from = values['from'];
+    const earlier = from === undefined ? undefined : (JSON.parse(readFileSync(from, 'utf8')) as EqualTimeReport & BenchmarkResult);
+    const result = earlier ?? { ...(await measureAll(context)), machine: machine(), quick: context.quick };
+    if (values['pages'] !== undefined) for (const file of writePages(result as EqualTimeReport, values['pages'])) context.log(`wrote ${file}`);
+    else context.log(equalTimeMarkdown(result as EqualTimeReport));
+    return result;
+  },
 };

@@ -1,0 +1,102 @@
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { decodeHdr } from '@glanz/image';
+import { createPushButton } from '@glanz/models';
+import { sceneToGlb } from '@glanz/models/gltf';
+import { GroundTruth, catalogueFolder } from '@glanz/reference';
+import { frameCamera, type Environment, type PerspectiveCamera } from '@glanz/scene';
+import { studioEnvironment } from '@glanz/scene/studio';
+import { BenchError } from '../error';
+import { assetFile, loadGltfBytes, packedFolder } from './load';
+import type { Task } from './contestant';
+import type { Reference } from './pictures';
+
+/** A scene to compare on, with where its truth comes from. */
+export interface EqualTimeScene {
+  readonly name: string;
+  readonly title: string;
+  /** `catalogue`: another renderer's, known to be right. `own`: a long render of Glanz, checked against itself. */
+  readonly truth: 'catalogue' | 'own';
+  load(size: number): Promise<{ readonly task: Task; readonly reference?: Reference }>;
+}
+
+type FileBytes = Uint8Array<ArrayBuffer>;
+const bytesOf = (file: string): FileBytes => new Uint8Array(readFileSync(file));
+
+/** The catalogue's reference pictures are this wide and high. */
+export const CATALOGUE_SIZE = 128;
+
+function groundTruth(name: string, title: string): EqualTimeScene {
+  return {
+    name,
+    title,
+    truth: 'catalogue',
+    async load(size) {
+      const packed = packedFolder();
+      if (packed) process.env['GLANZ_GROUNDTRUTH'] ??= join(packed, 'groundtruth');
+      if (!catalogueFolder()) throw new BenchError('bench/missing-data', `${name} needs the ground-truth catalogue: set GLANZ_GROUNDTRUTH to its folder "scenes".`);
+      const truth = new GroundTruth(name);
+      const scene = await truth.scene();
+      const { mean, standardError } = truth.picture();
+      const { width, height } = truth.description.film;
+      return {
+        task: {
+          glb: bytesOf(join(truth.folder, 'scene.glb')),
+          camera: scene.cameras[0] as PerspectiveCamera,
+          ...(scene.environment ? { environment: scene.environment } : {}),
+          width: size,
+          height: size,
+          maxDepth: truth.maxDepth(),
+          // The catalogue's metals are single scattering.
+          multipleScattering: false,
+        },
+        reference: { width, height, mean, standardError },
+      };
+    },
+  };
+}
+
+/** Bounces beyond this change nothing that can be seen in the product scenes. */
+const PRODUCT_DEPTH = 12;
+
+const pushButton: EqualTimeScene = {
+  name: 'push_button',
+  title: 'push-button, 107 k triangles, in a studio',
+  truth: 'own',
+  async load(size) {
+    const scene = createPushButton({ level: 'medium' });
+    return { task: { glb: await sceneToGlb(scene), camera: scene.cameras[0] as PerspectiveCamera, environment: studioEnvironment(), width: size, height: size, maxDepth: PRODUCT_DEPTH, multipleScattering: true } };
+  },
+};
+
+/** Model and surroundings of the second product scene, below the folder of sample assets. */
+export const HELMET_FILES = { model: 'DamagedHelmet/DamagedHelmet.glb', environment: 'env/royal_esplanade_256.hdr' } as const;
+
+const helmet: EqualTimeScene = {
+  name: 'damaged_helmet',
+  title: 'DamagedHelmet with its textures, in a photographed hall',
+  truth: 'own',
+  async load(size) {
+    const [model, light] = [assetFile(HELMET_FILES.model), assetFile(HELMET_FILES.environment)];
+    if (!model || !light) throw new BenchError('bench/missing-data', `damaged_helmet needs ${HELMET_FILES.model} and ${HELMET_FILES.environment}: set GLANZ_ASSETS to the folder that holds them.`);
+    const glb = bytesOf(model);
+    const { width, height, data } = decodeHdr(bytesOf(light));
+    const environment: Environment = { type: 'latlong', width, height, data };
+    return { task: { glb, camera: frameCamera(await loadGltfBytes(glb), { aspect: 1 }), environment, width: size, height: size, maxDepth: PRODUCT_DEPTH, multipleScattering: true } };
+  },
+};
+
+/**
+ * What both renderers can show. Of the ground truth are left out: `metals_f82` and media (glTF cannot say them), furnaces
+ * (one light from everywhere: no noise to speak of).
+ */
+export const SCENES: readonly EqualTimeScene[] = [
+  groundTruth('cornell_diffuse', 'Cornell box, diffuse, one area light'),
+  groundTruth('veach_mis', 'glossy plates under lights of four sizes'),
+  groundTruth('env_sun', 'sky with a small sun'),
+  groundTruth('textured', 'textures, nodes, transparency under even light'),
+  groundTruth('dof', 'thin lens, small bright emitters'),
+  groundTruth('punctual', 'point and directional light into a box'),
+  pushButton,
+  helmet,
+];
