@@ -1,3 +1,4 @@
+import { existsSync } from 'node:fs';
 import { dirname } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vitepress';
@@ -6,6 +7,8 @@ import { readmeLinks } from './readme-links';
 
 const packages = ['renderer', 'gltf', 'formats', 'cad', 'scene', 'openpbr', 'bvh', 'tonemap', 'image', 'wgsl', 'cli'];
 const api = await apiReference(packages);
+/** Pages that a benchmark writes: shown once they have been measured. */
+const results = [{ text: 'Error at equal time', link: '/results/equal-time' }].filter(({ link }) => existsSync(new URL(`..${link}.md`, import.meta.url)));
 
 export default defineConfig({
   title: 'Glanz',
@@ -88,6 +91,7 @@ export default defineConfig({
           { text: 'Hierarchies, seen', link: '/how/hierarchies' },
           { text: 'Light and chance', link: '/how/light' },
           { text: 'How it is tested', link: '/how/tested' },
+          ...results,
         ],
       },
     ],

@@ -17,13 +17,14 @@ export function benchmarkNames() {
  * Bundles one benchmark with its runner into one ESM file, straight from the sources of the workspace. `webgpu` stays
  * outside: it is a native module, and GPU_WEBGPU may name another copy at run time.
  */
-export async function bundleBenchmark(name, outfile) {
+export function bundleBenchmark(name, outfile) {
+  return bundle(`import { benchmark } from './benchmarks/${name}';\nimport { benchmarkMain } from './runner';\nawait benchmarkMain(${JSON.stringify(name)}, benchmark, process.argv.slice(2));\n`, outfile);
+}
+
+/** Bundles TypeScript text that stands in this folder. */
+export async function bundle(contents, outfile) {
   await build({
-    stdin: {
-      contents: `import { benchmark } from './benchmarks/${name}';\nimport { benchmarkMain } from './runner';\nawait benchmarkMain(${JSON.stringify(name)}, benchmark, process.argv.slice(2));\n`,
-      resolveDir: folder,
-      loader: 'ts',
-    },
+    stdin: { contents, resolveDir: folder, loader: 'ts' },
     outfile,
     bundle: true,
     platform: 'node',

@@ -1,11 +1,11 @@
 // npm run bench:pack — one bundled file per benchmark under .gpu-bench/, for machines that have nothing but a GPU.
-// Each file carries its code and makes its models where it runs. With `tools/gpu/pack.sh` beside it:
+// Each file carries its code and makes its models where it runs; equal-time's scenes and references lie beside it. With `tools/gpu/pack.sh` beside it:
 //   . .gpu/setup.sh && $GPU_NODE .gpu-bench/paper-gpu.mjs --json out.json
 import { execFileSync } from 'node:child_process';
-import { mkdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { mkdirSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { fileURLToPath } from 'node:url';
-import { benchmarkNames, bundleBenchmark } from './bundle.mjs';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+import { benchmarkNames, bundle, bundleBenchmark } from './bundle.mjs';
 
 const root = fileURLToPath(new URL('../../..', import.meta.url));
 const out = join(root, '.gpu-bench');
@@ -19,6 +19,15 @@ for (const name of benchmarkNames()) {
   total += size;
   process.stdout.write(`.gpu-bench/${name}.mjs ${(size / 1024).toFixed(0)} KiB\n`);
 }
+// What equal-time reads: scenes, references and decoded textures.
+const packer = join(root, 'tools/bench/.cache/pack-data.mjs');
+await bundle("export { packData } from './equal-time/pack-data';", packer);
+const { packData } = await import(pathToFileURL(packer).href);
+const data = join(out, 'equal-time-data');
+const missing = await packData(data);
+const dataBytes = readdirSync(data, { recursive: true }).reduce((sum, file) => sum + statSync(join(data, file)).size, 0);
+total += dataBytes;
+process.stdout.write(`.gpu-bench/equal-time-data ${(dataBytes / 1024).toFixed(0)} KiB${missing.length === 0 ? '' : `, without ${missing.join(', ')}, which are not here`}\n`);
 let commit = 'unknown';
 try {
   commit = execFileSync('git', ['rev-parse', '--short', 'HEAD'], { cwd: root, encoding: 'utf8' }).trim();

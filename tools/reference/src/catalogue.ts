@@ -2,7 +2,7 @@ import { existsSync, readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { decodeHdr } from '@glanz/image';
-import { loadGltfFile } from '@glanz/gltf/node';
+import { loadGltfFile, type GltfOptions } from '@glanz/gltf/node';
 import type { Environment, Material, PerspectiveCamera, Scene } from '@glanz/scene';
 import { ReferenceError } from './error';
 
@@ -137,8 +137,8 @@ export class GroundTruth {
   }
 
   /** The scene with the reference's camera first, and its surroundings. */
-  async scene(): Promise<Scene> {
-    const scene = await loadGltfFile(join(this.folder, 'scene.glb'));
+  async scene(options: GltfOptions = {}): Promise<Scene> {
+    const scene = await loadGltfFile(join(this.folder, 'scene.glb'), options);
     scene.materials = scene.materials.map(applyExtras);
     scene.cameras = [lookAt(this.description.camera)];
     const environment = this.#environment();

@@ -62,11 +62,17 @@ export async function measure(plan: MeasurementPlan, log: (line: string) => void
   const reference = known ?? readReference(plan.referenceFile);
   const { gpu, adapterName, software } = await createGpu(plan.gpu === undefined ? {} : { gpu: plan.gpu });
   const device = await requestDevice({ gpu });
+  const faults: string[] = [];
+  device.addEventListener('uncapturederror', ({ error }) => void faults.push(error.message.split('\n', 1)[0]!));
+  const checkFaults = () => {
+    if (faults.length > 0) throw new BenchError('bench/gpu-error', `${plan.contestant} on ${plan.scene}: ${faults.length} GPU errors, the first: ${faults[0]}`);
+  };
   const notes: string[] = [];
   const started = performance.now();
   const contestant = await CONTESTANTS[plan.contestant](device, task);
   await contestant.advance(WARM_UP[contestant.unit]);
   const setUpMs = performance.now() - started;
+  checkFaults();
   const time = await GpuTime.create(device);
   if (!time.stamped) notes.push('no timestamp queries: GPU times are wall times');
   const points: Point[][] = [];
@@ -94,6 +100,7 @@ export async function measure(plan: MeasurementPlan, log: (line: string) => void
       }
       const samples = await contestant.samples();
       const picture = fitted(await contestant.read(), plan.size, reference);
+      checkFaults();
       const point: Point = { budgetMs, gpuMs, wallMs, samples, ...pictureError(picture, reference) };
       runPoints.push(point);
       runPictures.push(picture);

@@ -64,15 +64,24 @@ export function displayed(picture: Float32Array): Float32Array {
   return out;
 }
 
-/** Compares a picture with its reference, to whose size it is shrunk. */
+/** ꟻLIP looks at pictures of at most this width: a pixel of a larger one is joined with its neighbours. */
+const FLIP_WIDTH = 256;
+
+function flipError(picture: Float32Array, { mean, width, height }: Reference): number {
+  const factor = Math.max(1, Math.floor(width / FLIP_WIDTH));
+  const [a, b] = [mean, picture].map((p) => displayed(factor === 1 ? p : shrink(p, width, height, factor)));
+  return flip(a!, b!, width / factor, height / factor).mean;
+}
+
+/** Compares a picture with a reference of the same size. */
 export function pictureError(picture: Float32Array, reference: Reference): PictureError {
-  const { mean, standardError, width, height } = reference;
+  const { mean, standardError } = reference;
   const squared = (i: number) => (picture[i]! - mean[i]!) ** 2;
   const total = (values: Float32Array) => values.reduce((sum, value) => sum + value, 0);
   return {
     relMse: relative((i) => squared(i) - standardError[i]! ** 2, mean),
     relMseWithReference: relative(squared, mean),
-    flip: flip(displayed(mean), displayed(picture), width, height).mean,
+    flip: flipError(picture, reference),
     brightness: total(picture) / total(mean),
   };
 }

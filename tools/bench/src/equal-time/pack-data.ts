@@ -1,0 +1,46 @@
+import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { catalogueFolder } from '@glanz/reference';
+import { assetFile, decodePixels, glbImages, packPixels, pixelsName } from './load';
+import { HELMET_FILES, SCENES } from './scenes';
+
+/** Files of a catalogue scene that a measurement reads. */
+const WANTED = /^(scene\.(json|glb)|env\.hdr|ref(\.se)?\.f32|ref\.stats\.json)$/;
+
+function copy(from: string, to: string): void {
+  mkdirSync(dirname(to), { recursive: true });
+  copyFileSync(from, to);
+}
+
+/**
+ * Copies what the benchmark reads into a folder, with all pictures decoded, so that a bundle beside it needs nothing else.
+ * Gives what was not there to copy.
+ */
+export async function packData(folder: string): Promise<string[]> {
+  const missing: string[] = [];
+  const models: string[] = [];
+  const catalogue = catalogueFolder();
+  for (const { name, truth } of SCENES) {
+    if (truth !== 'catalogue') continue;
+    if (!catalogue || !existsSync(join(catalogue, name))) {
+      missing.push(name);
+      continue;
+    }
+    for (const file of readdirSync(join(catalogue, name)).filter((entry) => WANTED.test(entry))) copy(join(catalogue, name, file), join(folder, 'groundtruth', name, file));
+    models.push(join(catalogue, name, 'scene.glb'));
+  }
+  if (catalogue) for (const file of ['index.json', 'tolerances.json']) copy(join(catalogue, file), join(folder, 'groundtruth', file));
+  for (const path of Object.values(HELMET_FILES)) {
+    const file = assetFile(path);
+    if (!file) missing.push(path);
+    else {
+      copy(file, join(folder, 'assets', path));
+      if (path.endsWith('.glb')) models.push(file);
+    }
+  }
+  mkdirSync(join(folder, 'images'), { recursive: true });
+  for (const model of models) {
+    for (const image of glbImages(new Uint8Array(readFileSync(model)))) writeFileSync(join(folder, 'images', pixelsName(image)), packPixels(await decodePixels(image)));
+  }
+  return missing;
+}
