@@ -121,7 +121,8 @@ async function measureAll({ log, quick, gpu, values }: BenchmarkContext): Promis
         crossChecks.push(check);
       }
       for (const contestant of contestants) {
-        const plan: MeasurementPlan = { ...common, contestant, budgetsMs, runs, ...(truth === 'own' ? { referenceFile } : {}) };
+        // The second table wants no noise of its own: one run of the peer's defaults will do.
+        const plan: MeasurementPlan = { ...common, contestant, budgetsMs, runs: contestant.endsWith('(defaults)') ? 1 : runs, ...(truth === 'own' ? { referenceFile } : {}) };
         const result = late() ? 'left out: the deadline had passed' : await inChild<Measurement>({ kind: 'measure', out: join(folder, 'job.json'), plan });
         if (typeof result === 'string') {
           notes.push(`${name}, ${contestant}: ${result}`);

@@ -18,13 +18,15 @@ export interface PlotOptions {
   readonly title: string;
   readonly x: string;
   readonly y: string;
+  /** What else to say under the title. */
+  readonly note?: string;
   /** Panels in a row; default 4. */
   readonly columns?: number;
 }
 
 const [WIDTH, HEIGHT] = [230, 190];
 const MARGIN = { left: 46, right: 12, top: 26, bottom: 30 } as const;
-const [HEAD, LEGEND] = [34, 26];
+const [HEAD, LEGEND] = [46, 26];
 
 const escape = (text: string) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
 const px = (value: number) => value.toFixed(1);
@@ -62,7 +64,7 @@ function drawPanel({ title, series }: Panel, left: number, top: number, [x0, x1]
 }
 
 /** Draws panels that share their axes, both logarithmic, as an SVG file with a background of its own. */
-export function plot(panels: readonly Panel[], { title, x, y, columns = 4 }: PlotOptions): string {
+export function plot(panels: readonly Panel[], { title, x, y, note, columns = 4 }: PlotOptions): string {
   const points = panels.flatMap(({ series }) => series.flatMap((s) => s.points)).filter(([a, b]) => a > 0 && b > 0);
   if (points.length === 0) throw new RangeError('plot: there is nothing to draw');
   const xs = decades(points.map(([a]) => a)), ys = decades(points.map(([, b]) => b));
@@ -78,7 +80,7 @@ export function plot(panels: readonly Panel[], { title, x, y, columns = 4 }: Plo
   return [
     `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${Math.max(width, Math.ceil(at))} ${height}" font-family="system-ui, sans-serif" font-size="11" fill="#222">`,
     '<rect width="100%" height="100%" fill="#fff"/>',
-    `<text x="12" y="22" font-size="14" font-weight="600">${escape(title)}</text><text x="${Math.max(width, at) - 12}" y="22" text-anchor="end" fill="#555">across: ${escape(x)}; up: ${escape(y)}</text>`,
+    `<text x="12" y="22" font-size="14" font-weight="600">${escape(title)}</text><text x="12" y="38" fill="#555">across: ${escape(x)}; up: ${escape(y)}${note === undefined ? '' : `; ${escape(note)}`}</text>`,
     ...legend,
     ...panels.map((panel, i) => drawPanel(panel, (i % across) * WIDTH, HEAD + LEGEND + Math.floor(i / across) * HEIGHT, xs, ys)),
     '</svg>',

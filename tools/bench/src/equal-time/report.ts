@@ -70,7 +70,7 @@ export function equalTimeMarkdown({ machine, gpu, quick, details }: EqualTimeRep
     }),
   );
   return [
-    `Measured on ${where}. ${size} × ${size} pixels, ${runs} independent run${runs === 1 ? '' : 's'}${quick ? '; **a quick run, no measurement**' : ''}.`,
+    `Measured on ${where}. ${size} × ${size} pixels, ${runs} independent run${runs === 1 ? '' : 's'}, one of the peer with its defaults${quick ? '; **a quick run, no measurement**' : ''}.`,
     '',
     'How many times lower the error of Glanz is at equal GPU time, geometric mean over scenes and times:',
     '',
@@ -81,21 +81,21 @@ export function equalTimeMarkdown({ machine, gpu, quick, details }: EqualTimeRep
     ...overallLine(details, PEER_DEFAULTS, 'relMSE against the catalogue’s references, the peer as its users get it', catalogue('relMSE')),
     ...overallLine(details, PEER_DEFAULTS, 'FLIP, the peer as its users get it', catalogue('FLIP')),
     '',
-    '### Error by GPU time, biased options off',
+    '## Error by GPU time, biased options off',
     '',
     'Glanz : three-gpu-pathtracer (times lower). relMSE; for the two product scenes noise alone, since no independent reference says whose material model is right there.',
     '',
     ...comparisonTable(details, PEER, fairQuantity),
     '',
-    '### Noise alone',
+    '## Noise alone',
     '',
     ...comparisonTable(details, PEER, always('noise')),
     '',
-    '### FLIP',
+    '## FLIP',
     '',
     ...comparisonTable(details, PEER, catalogue('FLIP')),
     '',
-    '### The peer as its users get it',
+    '## The peer as its users get it',
     '',
     'With the clamp and the blurred gloss that it has on by default: less noise, and a picture that does not converge to the truth. relMSE, then FLIP.',
     '',
@@ -103,10 +103,10 @@ export function equalTimeMarkdown({ machine, gpu, quick, details }: EqualTimeRep
     '',
     ...comparisonTable(details, PEER_DEFAULTS, catalogue('FLIP')),
     '',
-    `### After ${seconds(budgetsMs[budgetsMs.length - 1] ?? 0)}`,
+    `## After ${seconds(budgetsMs[budgetsMs.length - 1] ?? 0)}`,
     '',
     ...table(['scene', 'renderer', 'samples a pixel', 'GPU ms a sample', 'wall : GPU', 'brightness : reference', 'set-up ms'], facts),
-    ...(details.crossChecks.length === 0 ? [] : ['', '### References of the product scenes', '', ...table(['scene', 'samples', 'check with independent random numbers : reference', 'blocks outside 3 σ'], details.crossChecks.map((c) => [`\`${c.scene}\``, String(c.samples), `${c.ratio.toFixed(5)} ± ${c.ratio95?.toFixed(5) ?? '?'}`, `${c.outside} of ${c.blocks}`]))]),
+    ...(details.crossChecks.length === 0 ? [] : ['', '## References of the product scenes', '', ...table(['scene', 'samples', 'check with independent random numbers : reference', 'blocks outside 3 σ'], details.crossChecks.map((c) => [`\`${c.scene}\``, String(c.samples), `${c.ratio.toFixed(5)} ± ${c.ratio95?.toFixed(5) ?? '?'}`, `${c.outside} of ${c.blocks}`]))]),
     '',
   ].join('\n');
 }
@@ -125,7 +125,7 @@ function panels(details: EqualTimeDetails, quantity: (scene: SceneInfo) => Quant
 
 const PAGE_HEAD = `# Error at equal time
 
-How wrong is a picture after a second? Glanz beside [three-gpu-pathtracer](https://github.com/gkjohnson/three-gpu-pathtracer) 0.0.26, the WebGPU path tracer that most of the web uses today: its wavefront tracer, on three r185. Both get the same .glb file, camera, size, depth and environment, each in a process of its own, one after another on one GPU, with warm pipelines.
+How wrong is a picture after a second? Glanz beside [three-gpu-pathtracer](https://github.com/gkjohnson/three-gpu-pathtracer) 0.0.26, the path tracer for three.js: its WebGPU wavefront tracer, on three r185. Both get the same .glb file, camera, size, depth and environment, each in a process of its own, one after another on one GPU, with warm pipelines.
 
 - **References.** Small scenes of a catalogue whose pictures were made by another renderer, with their standard errors; pictures are rendered larger and joined to the reference's 128 × 128 pixels. For two product scenes a long render of Glanz, made of two independent halves and checked with other random numbers.
 - **relMSE.** Mean over pixels of the squared error over the reference's squared brightness (plus 1 % of the picture's mean). The reference's own noise is subtracted on average. *Noise alone* compares independent runs of the same renderer, so that differences in what a material means do not count.
@@ -150,7 +150,7 @@ export function writePages(report: EqualTimeReport, folder: string): string[] {
   const draw = (file: string, what: string, y: string, quantity: (scene: SceneInfo) => Quantity | undefined) => {
     const drawn = panels(details, quantity);
     if (drawn.length === 0) return;
-    files.push([file, plot(drawn, { title: `${what} at equal GPU time, ${on}`, x: 'seconds of GPU time', y })]);
+    files.push([file, plot(drawn, { title: `${what} at equal GPU time`, x: 'seconds of GPU time', y, note: on })]);
     pictures.push(`![${what} over GPU time, by scene](./${file})`, '');
   };
   draw('equal-time-relmse.svg', 'Error', 'relMSE', (scene) => (fairQuantity(scene) === 'noise' && details.runs < 2 ? undefined : fairQuantity(scene)));
