@@ -161,3 +161,53 @@ test('the rasteriser\'s ball is drawn as the page opens', async ({ page }) => {
   expect(leading.red).toBeGreaterThan(0.15);
   expect(complaints).toEqual([]);
 });
+
+test('the page about hierarchies builds trees, maps their cost, shows their levels, and keeps them', async ({ page }) => {
+  const complaints = watchPage(page);
+  await page.goto(`${origin}/how/hierarchies`);
+  const live = page.locator('.live-hierarchy');
+  const done = () => expect(live).toHaveAttribute('data-stage', 'done', { timeout: 60_000 });
+  const cost = async () => Number(await live.getAttribute('data-cost'));
+  /** Changes a choice and waits for its picture. */
+  const choose = async (name: string, value: string) => {
+    await live.getByLabel(name).selectOption(value);
+    await expect(live).toHaveAttribute('data-stage', /build|draw|done/);
+    await done();
+  };
+  await expect(live).toHaveAttribute('data-stage', 'idle');
+  await live.getByRole('button', { name: 'Build it here' }).click();
+  await done();
+  await expect(live).toHaveAttribute('data-source', 'built');
+  const map = await pixelStatistics(live.locator('canvas'));
+  expect(map.colours).toBeGreaterThan(100);
+  expect(map.leading.red).toBeGreaterThan(0.02);
+  const balanced = await cost();
+  expect(balanced).toBeGreaterThan(5);
+
+  // What the builders promise, counted in the page.
+  await choose('Builder', 'best');
+  await expect.poll(cost).toBeLessThan(balanced);
+  await choose('Model', 'needles');
+  await expect.poll(cost).not.toBe(balanced);
+  const whole = await cost();
+  await choose('Builder', 'best-split');
+  await expect.poll(cost).toBeLessThan(whole);
+
+  await choose('Show', 'levels');
+  for (const level of [0, 3]) {
+    await live.getByRole('slider', { name: 'Level' }).fill(String(level));
+    await expect(live).toHaveAttribute('data-boxes', String(2 ** level));
+    await expect(live.locator('figcaption')).toHaveText(`${2 ** level} boxes on level ${level}`);
+  }
+  await done();
+  expect((await pixelStatistics(live.locator('canvas'))).colours).toBeGreaterThan(50);
+
+  // Another visit reads what this one has built.
+  await page.reload();
+  await live.getByRole('button', { name: 'Build it here' }).click();
+  await done();
+  await expect(live).toHaveAttribute('data-source', 'store');
+  expect(await cost()).toBe(balanced);
+  await expect(live.locator('table')).toContainText('Read from this browser in');
+  expect(complaints).toEqual([]);
+});

@@ -1,6 +1,7 @@
 import type { Theme } from 'vitepress';
 import DefaultTheme from 'vitepress/theme-without-fonts';
 import LiveBall from './LiveBall.vue';
+import LiveHierarchy from './LiveHierarchy.vue';
 import LiveParameters from './LiveParameters.vue';
 import LivePicture from './LivePicture.vue';
 import LiveSphere from './LiveSphere.vue';
@@ -12,6 +13,7 @@ export default {
   extends: DefaultTheme,
   enhanceApp({ app }) {
     app.component('LiveBall', LiveBall);
+    app.component('LiveHierarchy', LiveHierarchy);
     app.component('LiveParameters', LiveParameters);
     app.component('LivePicture', LivePicture);
     app.component('LiveSphere', LiveSphere);
