@@ -18,20 +18,38 @@ const powerOfTwoAbove = (n: number) => 2 ** Math.ceil(Math.log2(Math.max(n, 2)))
 /** For each vertex the first one that is the same in position, normal and uv. */
 function weld(positions: Float32Array, normals: Float32Array, uvs: Float32Array): Int32Array {
   const vertices = positions.length / 3;
-  const parts = ([[positions, 3], [normals, 3], [uvs, 2]] as const).map(([values, stride]) => [values, new Int32Array(values.buffer, values.byteOffset, values.length), stride] as const);
+  // All that counts of a vertex as eight words, with one zero instead of two.
+  const floats = new Float32Array(8 * vertices);
+  for (let v = 0, k = 0; v < vertices; v++) {
+    for (let i = 3 * v; i < 3 * v + 3; i++) floats[k++] = (positions[i] as number) + 0;
+    for (let i = 3 * v; i < 3 * v + 3; i++) floats[k++] = (normals[i] as number) + 0;
+    floats[k++] = (uvs[2 * v] as number) + 0;
+    floats[k++] = (uvs[2 * v + 1] as number) + 0;
+  }
+  const words = new Int32Array(floats.buffer);
   const mask = powerOfTwoAbove(2 * vertices) - 1;
   const table = new Int32Array(mask + 1).fill(-1);
   const first = new Int32Array(vertices);
   for (let v = 0; v < vertices; v++) {
+    const at = 8 * v;
     let hash = 0;
-    for (const [values, bits, stride] of parts) for (let k = stride * v; k < stride * (v + 1); k++) hash = mix(hash, values[k] === 0 ? 0 : (bits[k] as number));
+    for (let k = at; k < at + 8; k++) hash = mix(hash, words[k] as number);
     let slot = (hash ^ (hash >>> 13)) & mask;
-    for (; table[slot] !== -1; slot = (slot + 1) & mask) {
+    for (;;) {
       const other = table[slot] as number;
-      if (parts.every(([values, , stride]) => { for (let k = 0; k < stride; k++) if (values[stride * v + k] !== values[stride * other + k]) return false; return true; })) break;
+      if (other === -1) {
+        table[slot] = v;
+        first[v] = v;
+        break;
+      }
+      let k = 0;
+      while (k < 8 && words[at + k] === words[8 * other + k]) k++;
+      if (k === 8) {
+        first[v] = other;
+        break;
+      }
+      slot = (slot + 1) & mask;
     }
-    if (table[slot] === -1) table[slot] = v;
-    first[v] = table[slot] as number;
   }
   return first;
 }
@@ -93,6 +111,9 @@ function pairEdges(corners: Int32Array, usable: (triangle: number) => boolean, f
   }
 }
 
+/** Whether two vertices lie at the same place. */
+const samePlace = (P: Float32Array, p: number, q: number) => P[3 * p] === P[3 * q] && P[3 * p + 1] === P[3 * q + 1] && P[3 * p + 2] === P[3 * q + 2];
+
 const following = (corner: number) => (corner % 3 === 2 ? corner - 2 : corner + 1);
 
 /**
@@ -114,16 +135,20 @@ export function withTangents(mesh: Mesh, set = 0): Mesh {
   const NONE = 0, ANY = 3;
   const turn = new Uint8Array(triangles);
   for (let t = 0; t < triangles; t++) {
-    const [a, b, c] = [corners[3 * t], corners[3 * t + 1], corners[3 * t + 2]] as [number, number, number];
-    const same = (p: number, q: number) => P[3 * p] === P[3 * q] && P[3 * p + 1] === P[3 * q + 1] && P[3 * p + 2] === P[3 * q + 2];
-    if (same(a, b) || same(b, c) || same(c, a)) continue;
-    const d = (values: Float32Array, stride: number, q: number, k: number) => (values[stride * q + k] as number) - (values[stride * a + k] as number);
-    const u1 = d(UV, 2, b, 0), v1 = d(UV, 2, b, 1), u2 = d(UV, 2, c, 0), v2 = d(UV, 2, c, 1);
+    const a = corners[3 * t] as number, b = corners[3 * t + 1] as number, c = corners[3 * t + 2] as number;
+    if (samePlace(P, a, b) || samePlace(P, b, c) || samePlace(P, c, a)) continue;
+    const u0 = UV[2 * a] as number, v0 = UV[2 * a + 1] as number;
+    const u1 = (UV[2 * b] as number) - u0, v1 = (UV[2 * b + 1] as number) - v0, u2 = (UV[2 * c] as number) - u0, v2 = (UV[2 * c + 1] as number) - v0;
     const area = u1 * v2 - v1 * u2;
-    const s = [0, 1, 2].map((k) => v2 * d(P, 3, b, k) - v1 * d(P, 3, c, k)) as [number, number, number];
-    const length = Math.hypot(...s);
+    const direction = (k: number) => v2 * ((P[3 * b + k] as number) - (P[3 * a + k] as number)) - v1 * ((P[3 * c + k] as number) - (P[3 * a + k] as number));
+    const x = direction(0), y = direction(1), z = direction(2);
+    const length = Math.sqrt(x * x + y * y + z * z);
     turn[t] = Math.abs(area) > 1.2e-38 && length > 1.2e-38 ? (area > 0 ? 1 : 2) : ANY;
-    if (turn[t] !== ANY) for (let k = 0; k < 3; k++) along[3 * t + k] = ((s[k] as number) / length) * (area > 0 ? 1 : -1);
+    if (turn[t] === ANY) continue;
+    const scale = (area > 0 ? 1 : -1) / length;
+    along[3 * t] = x * scale;
+    along[3 * t + 1] = y * scale;
+    along[3 * t + 2] = z * scale;
   }
   const pairs: number[] = [];
   pairEdges(corners, (t) => turn[t] !== NONE, (a, b) => pairs.push(a, b));
@@ -148,7 +173,7 @@ export function withTangents(mesh: Mesh, set = 0): Mesh {
     const nx = N[n] as number, ny = N[n + 1] as number, nz = N[n + 2] as number;
     const d = nx * x + ny * y + nz * z;
     const px = x - d * nx, py = y - d * ny, pz = z - d * nz;
-    const length = Math.hypot(px, py, pz);
+    const length = Math.sqrt(px * px + py * py + pz * pz);
     const scale = length > 1.2e-38 ? 1 / length : 0;
     out[0] = px * scale;
     out[1] = py * scale;
@@ -207,10 +232,9 @@ function assign(mesh: Mesh, corners: Int32Array, groupOf: (corner: number) => nu
   };
   const tangents = new Float32Array(4 * total);
   // A corner without area looks to the other triangles at its vertex.
-  const atWelded = new Map<number, number>();
-  for (let corner = 0; corner < corners.length; corner++) if (groupOf(corner) !== -1 && !atWelded.has(corners[corner] as number)) atWelded.set(corners[corner] as number, groupOf(corner));
-  const weldedOf = new Map<number, number>();
+  const weldedOf = new Map<number, number>(), atWelded = new Map<number, number>();
   for (let corner = 0; corner < corners.length; corner++) if (group[indices[corner] as number] === -1) weldedOf.set(indices[corner] as number, corners[corner] as number);
+  if (weldedOf.size > 0) for (let corner = 0; corner < corners.length; corner++) if (groupOf(corner) !== -1 && !atWelded.has(corners[corner] as number)) atWelded.set(corners[corner] as number, groupOf(corner));
   for (let v = 0; v < total; v++) {
     const own = group[v] === -1 ? atWelded.get(weldedOf.get(v) ?? -1) : group[v];
     const [sum, sign] = own === undefined ? [[0, 0, 0], 1] : tangentOf(own);
