@@ -6,7 +6,7 @@ export interface AsyncBuildOptions extends BlasOptions {
   readonly signal?: AbortSignal | undefined;
   /** Told the share that is done, 0..1, after each slice; the last is 1. */
   readonly onProgress?: ((done: number) => void) | undefined;
-  /** The thread is handed back after so many milliseconds; a slice ends up to a few milliseconds later. Default 8. */
+  /** The thread is handed back after so many milliseconds; a slice ends up to a few milliseconds later. Default 6. */
   readonly sliceMs?: number;
 }
 
@@ -26,7 +26,7 @@ export function breathe(): Promise<void> {
  * const blas = await buildBlasAsync(mesh, { signal, onProgress: (done) => (bar.value = done) });
  */
 export async function buildBlasAsync(mesh: TriangleMesh, options: AsyncBuildOptions = {}): Promise<Blas> {
-  const { signal, onProgress, sliceMs = 8, ...own } = options;
+  const { signal, onProgress, sliceMs = 6, ...own } = options;
   signal?.throwIfAborted();
   const steps = blasSteps(mesh, own);
   let until = performance.now() + sliceMs;

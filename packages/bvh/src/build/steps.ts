@@ -11,7 +11,7 @@ import { Rotations } from './rotate';
 import type { Scratch } from './scratch';
 
 /** Items that one step looks at: a millisecond or two. */
-export const STEP = 1 << 15;
+export const STEP = 1 << 14;
 
 /** Depth kept for the inside of clusters: enough to halve one down to single primitives, log2 of {@link GROUP_MAX}. */
 const CLUSTER_DEPTH = 4;

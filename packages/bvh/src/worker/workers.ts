@@ -13,7 +13,7 @@ const AHEAD = 16_384;
 const WORTH_ENDING = 100_000;
 
 /** Without workers the thread is handed back after so many milliseconds of building; a step more can follow. */
-const SLICE_MS = 8;
+const SLICE_MS = 6;
 
 /** A worker that has not reported by then will not. */
 const START_MS = 15_000;

@@ -1,62 +1,135 @@
-import { buildBlas } from '@glanz/bvh';
+import { buildBlas, type BlasOptions } from '@glanz/bvh';
+import { best, bestSplit } from '@glanz/bvh/best';
+import { fast } from '@glanz/bvh/fast';
 import { sahCost } from '@glanz/bvh/statistics';
 import { timed, wallTimes, type Benchmark, type Figure } from '../benchmark';
-import { benchMeshes } from '../bvh/meshes';
+import { benchMeshes, type BenchMesh } from '../bvh/meshes';
+import { diffuseRays, primaryRays, shadowRays } from '../bvh/ray-sets';
+import { coldTimes, servesBenchmark, slicedTimes, workerTimes } from '../bvh/threads';
 import { buildThree, threeCost } from '../bvh/three-mesh-bvh';
+import { plainBlas, plainThree, traversalCost, type PlainTree } from '../bvh/traversal-cost';
 
 const geometricMean = (values: readonly number[]) => Math.exp(values.reduce((sum, value) => sum + Math.log(value), 0) / values.length);
+const least = (values: readonly number[]) => Math.min(...values);
 
-/** Our builder beside three-mesh-bvh's, on the same meshes in the same process, with one formula for the cost of both. */
+/** Meshes of parts, as CAD programs write them. */
+const CAD_LIKE = /push-button|CAD/;
+
+const OURS: readonly (readonly [name: string, options: BlasOptions])[] = [
+  ['balanced', {}],
+  ['fast', { builder: fast }],
+  ['best', { builder: best }],
+  ['best-split', { builder: bestSplit }],
+];
+
+interface Tree {
+  readonly name: string;
+  readonly build: () => unknown;
+  readonly sah: () => number;
+  readonly plain: () => PlainTree;
+}
+
+function treesOf(mesh: BenchMesh): Tree[] {
+  const three = (name: string, strategy: 'SAH' | 'CENTER', leafSize?: number): Tree => {
+    const build = () => buildThree(mesh, strategy, leafSize);
+    return { name, build, sah: () => threeCost(build()), plain: () => plainThree(build()) };
+  };
+  return [
+    ...OURS.map(([name, options]): Tree => {
+      const build = () => buildBlas(mesh, options);
+      return { name, build, sah: () => sahCost(build()), plain: () => plainBlas(build(), mesh) };
+    }),
+    three('three-mesh-bvh SAH', 'SAH', 4),
+    three('three-mesh-bvh CENTER', 'CENTER'),
+  ];
+}
+
+/** Our builders beside three-mesh-bvh's, on the same meshes in the same process, with one evaluator for all trees. */
 export const benchmark: Benchmark = {
-  description: 'build and traversal against other libraries',
+  description: 'building hierarchies, and what rays look at in them, beside three-mesh-bvh',
   async run({ log, quick }) {
-    const notes: string[] = [];
+    const figures: Figure[] = [], notes: string[] = [];
+    if (servesBenchmark()) return { settings: {}, figures };
     const meshes = await benchMeshes(quick, (line) => notes.push(line));
     const runs = quick ? 2 : 5;
-    const figures: Figure[] = [];
-    const ratios = { sah: [] as number[], center: [] as number[], cost: [] as number[] };
+    const ratios = { sah: [] as number[], center: [] as number[], cost: [] as number[], fast: [] as number[], best: [] as number[] };
+    const figure = (name: string, unit: string, values: readonly number[], target?: Figure['target']) => figures.push(timed(name, unit, values, quick ? undefined : target));
     for (const mesh of meshes) {
-      const { name } = mesh;
-      // The first call comes before the machine code is warm: an application feels it.
-      const cold = await wallTimes(1, 0, () => buildBlas(mesh));
-      // Taken in turns, so that a disturbance of the machine meets all alike.
-      const times = { ours: [] as number[], sah: [] as number[], center: [] as number[] };
+      const trees = treesOf(mesh);
+      const times = new Map(trees.map(({ name }) => [name, [] as number[]]));
+      // Taken in turns, so that a disturbance of the machine meets all alike; `best` is slow and comes less often.
       for (let i = -1; i < runs; i++) {
-        const [ours] = await wallTimes(1, 0, () => buildBlas(mesh));
-        const [sah] = await wallTimes(1, 0, () => buildThree(mesh, 'SAH', 4));
-        const [center] = await wallTimes(1, 0, () => buildThree(mesh, 'CENTER'));
-        if (i < 0) continue;
-        times.ours.push(ours!);
-        times.sah.push(sah!);
-        times.center.push(center!);
+        for (const { name, build } of trees) {
+          if (name.startsWith('best') && i > 0 && mesh.indices.length > 1e6) continue;
+          const [time] = await wallTimes(1, 0, build);
+          if (i >= 0) times.get(name)!.push(time!);
+        }
       }
-      const cost = sahCost(buildBlas(mesh)), sahTreeCost = threeCost(buildThree(mesh, 'SAH', 4)), centerCost = threeCost(buildThree(mesh, 'CENTER'));
-      const [ours, sah, center] = [times.ours, times.sah, times.center].map((list) => Math.min(...list)) as [number, number, number];
-      ratios.sah.push(sah / ours);
-      ratios.center.push(center / ours);
-      ratios.cost.push(cost / sahTreeCost);
-      const value = (what: string, x: number) => timed(`${name}: ${what}`, '1', [x]);
-      figures.push(
-        value('triangles', mesh.indices.length / 3),
-        timed(`${name}: balanced, first call`, 'ms', cold),
-        timed(`${name}: balanced`, 'ms', times.ours),
-        timed(`${name}: three-mesh-bvh SAH, leaves of 4`, 'ms', times.sah),
-        timed(`${name}: three-mesh-bvh CENTER`, 'ms', times.center),
-        timed(`${name}: three-mesh-bvh SAH over balanced`, '1', times.sah.map((t, i) => t / times.ours[i]!)),
-        timed(`${name}: three-mesh-bvh CENTER over balanced`, '1', times.center.map((t, i) => t / times.ours[i]!)),
-        value('SAH cost, balanced', cost),
-        value('SAH cost, three-mesh-bvh SAH', sahTreeCost),
-        value('SAH cost, three-mesh-bvh CENTER', centerCost),
-      );
-      log(`${name}: ${ours.toFixed(1)} ms, SAH ${(sah / ours).toFixed(2)}×, CENTER ${(center / ours).toFixed(2)}×, cost ${(cost / sahTreeCost).toFixed(3)} of SAH's`);
+      const time = (name: string) => least(times.get(name)!);
+      const costs = new Map(trees.map(({ name, sah }) => [name, sah()]));
+      figure(`${mesh.name}: triangles`, '1', [mesh.indices.length / 3]);
+      for (const { name } of trees) {
+        figure(`${mesh.name}: ${name}`, 'ms', times.get(name)!);
+        figure(`${mesh.name}: ${name}, SAH cost`, '1', [costs.get(name)!]);
+      }
+      for (const name of ['three-mesh-bvh SAH', 'three-mesh-bvh CENTER']) figure(`${mesh.name}: ${name} over balanced`, '1', times.get(name)!.map((t, i) => t / times.get('balanced')![i]!));
+      ratios.sah.push(time('three-mesh-bvh SAH') / time('balanced'));
+      ratios.center.push(time('three-mesh-bvh CENTER') / time('balanced'));
+      ratios.fast.push(time('balanced') / time('fast'));
+      ratios.cost.push(costs.get('balanced')! / costs.get('three-mesh-bvh SAH')!);
+
+      // What rays look at: counted, not timed, with the same rays for all trees.
+      const size = quick ? 32 : 128;
+      let sets: (readonly [string, Float32Array, boolean])[] = [];
+      const diffuse = new Map<string, number>();
+      for (const { name, plain } of trees) {
+        const tree = plain();
+        if (sets.length === 0) {
+          const { bounds } = buildBlas(mesh);
+          const primary = primaryRays(bounds, size);
+          const { triangleIndices } = buildBlas(mesh);
+          const { hits } = traversalCost(tree, mesh, primary, false);
+          const results = new Uint32Array(hits.length), t = new Float32Array(results.buffer);
+          for (let i = 0; i < hits.length; i += 2) {
+            t[i] = hits[i]!;
+            results[i + 1] = hits[i + 1]! < 0 ? 0xffffffff : triangleIndices[hits[i + 1]!]!;
+          }
+          sets = [['primary', primary, false], ['shadow', shadowRays(bounds, primary, results, mesh), true], ['diffuse', diffuseRays(bounds, primary, results, mesh, 3), false]];
+        }
+        for (const [kind, rays, any] of sets) {
+          const { nodes, triangles } = traversalCost(tree, mesh, rays, any);
+          figure(`${mesh.name}: ${name}, nodes per ${kind} ray`, '1', [nodes]);
+          figure(`${mesh.name}: ${name}, triangles per ${kind} ray`, '1', [triangles]);
+          if (kind === 'diffuse') diffuse.set(name, nodes + triangles);
+        }
+      }
+      const gain = diffuse.get('best')! / diffuse.get('balanced')!;
+      const cad = CAD_LIKE.test(mesh.name);
+      if (cad) ratios.best.push(gain);
+      figure(`${mesh.name}: best over balanced, nodes and triangles per diffuse ray`, '1', [gain], cad ? { value: 0.85, relation: '<=', source: 'a sixth less in models of parts' } : undefined);
+      log(`${mesh.name}: ${time('balanced').toFixed(1)} ms, SAH ${ratios.sah.at(-1)!.toFixed(2)}×, CENTER ${ratios.center.at(-1)!.toFixed(2)}×, cost ${ratios.cost.at(-1)!.toFixed(3)} of SAH's; fast ${time('fast').toFixed(1)} ms, best ${time('best').toFixed(0)} ms; per diffuse ray ${[...diffuse].map(([name, x]) => `${name} ${x.toFixed(1)}`).join(', ')}`);
     }
-    const target = (value: number, relation: '<=' | '>=', source: string) => (quick ? undefined : { value, relation, source });
-    figures.push(
-      timed('all: three-mesh-bvh SAH over balanced, geometric mean of minima', '1', [geometricMean(ratios.sah)], target(4, '>=', 'four times as fast')),
-      timed('all: three-mesh-bvh SAH over balanced, least', '1', [Math.min(...ratios.sah)], target(3, '>=', 'three times as fast on any mesh')),
-      timed('all: three-mesh-bvh CENTER over balanced, geometric mean of minima', '1', [geometricMean(ratios.center)], target(1, '>=', 'no slower than CENTER')),
-      timed("all: SAH cost over three-mesh-bvh SAH's, geometric mean", '1', [geometricMean(ratios.cost)], target(1, '<=', 'trees as good')),
-    );
+    figure('all: three-mesh-bvh SAH over balanced, geometric mean of minima', '1', [geometricMean(ratios.sah)], { value: 4, relation: '>=', source: 'four times as fast' });
+    figure('all: three-mesh-bvh SAH over balanced, least', '1', [least(ratios.sah)], { value: 3, relation: '>=', source: 'three times as fast on any mesh' });
+    figure('all: three-mesh-bvh CENTER over balanced, geometric mean of minima', '1', [geometricMean(ratios.center)], { value: 1, relation: '>=', source: 'no slower than CENTER' });
+    figure("all: SAH cost over three-mesh-bvh SAH's, geometric mean", '1', [geometricMean(ratios.cost)], { value: 1, relation: '<=', source: 'trees as good' });
+    figure('all: balanced over fast, geometric mean of minima', '1', [geometricMean(ratios.fast)], { value: 2, relation: '>=', source: 'twice as fast' });
+    figure('CAD-like: best over balanced, nodes and triangles per diffuse ray, geometric mean', '1', [geometricMean(ratios.best)], { value: 0.85, relation: '<=', source: 'a sixth less' });
+
+    const large = meshes.reduce((a, b) => (b.indices.length > a.indices.length ? b : a));
+    log(`threads, with ${large.name}`);
+    const [cold, ...warm] = await coldTimes(large);
+    figure(`${large.name}: first build in a fresh thread`, 'ms', [cold!]);
+    figure(`${large.name}: further builds in that thread`, 'ms', warm);
+    figure(`${large.name}: first build over the median of further ones`, '1', [cold! / [...warm].sort((a, b) => a - b)[warm.length >> 1]!], { value: 2, relation: '<=', source: 'cold within twice of warm' });
+    const four = [large, large, large, large];
+    const one = await workerTimes(four, 1, runs), two = await workerTimes(four, 2, runs);
+    figure(`four times ${large.name}: one worker`, 'ms', one);
+    figure(`four times ${large.name}: two workers`, 'ms', two);
+    figure(`four times ${large.name}: one worker over two, minima`, '1', [least(one) / least(two)], { value: 1.6, relation: '>=', source: 'two workers' });
+    const sliced = await slicedTimes(large, runs);
+    figure(`${large.name}: in slices on the main thread`, 'ms', sliced.all);
+    figure(`${large.name}: longest slice`, 'ms', sliced.longest, { value: 16, relation: '<=', source: 'one frame' });
     return { settings: { runs, meshes: meshes.map(({ name }) => name), leaves: 'at most 4 triangles' }, figures, notes };
   },
 };
