@@ -14,6 +14,7 @@ const OPAQUE = (): OpenPbrFlags => ({ ...ALL, OPENPBR_TRANSMISSION: false, OPENP
 const ALL: OpenPbrFlags = {
   OPENPBR_SPECULAR: true,
   OPENPBR_METAL: true,
+  OPENPBR_COAT_FRAME: false,
   OPENPBR_DIELECTRIC: true,
   OPENPBR_INTERFACE: true,
   OPENPBR_TRANSMISSION: true,

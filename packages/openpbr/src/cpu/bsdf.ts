@@ -1,5 +1,5 @@
 import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
-import { coatedBase, coatEmission, coatPass, coatThrough, prepareCoat, type Coat } from './coat';
+import { coatedBase, coatEmission, coatPass, coatThrough, inCoat, outOfCoat, prepareCoat, type Coat } from './coat';
 import { cosineSample, eon } from './diffuse';
 import { energyBounce, energyLost, energyLostMean, energyShare, energyShareMean, energyTotal } from './energy';
 import { dielectricEpsilon, fresnelDielectric, fresnelMetal, fresnelMetalMean } from './fresnel';
@@ -121,7 +121,7 @@ export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multi
   const all = facets + sum(spread) + down;
   const reflected = energyShareMean(face.epsilon, roughness);
   const coupling = (1 - 0.08 * p.base_diffuse_roughness * reflected) / Math.max(1 - reflected, 1e-4);
-  const coat = prepareCoat(whole, wo, mu, multipleScattering);
+  const coat = prepareCoat(whole, wo, multipleScattering);
   // A highlight comes from about as low as it is seen, spread light from everywhere.
   const highlight = coatPass(coat, mu);
   const everywhere = coatPass(coat, 2 / 3);
@@ -197,8 +197,10 @@ function scatter(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector
   const bounced = (energyLost(b.metal.roughness, mirrorCosine(b.alpha, wi, wi[2])) / b.metal.meanLost / Math.PI) * wi[2];
   const diffuse = eon(b.diffuseColor, b.diffuseRoughness, wo, wi);
   const paper = eon(b.subsurface.color, b.diffuseRoughness, wo, wi);
-  const pass = coatPass(b.coat, wi[2]);
-  const [top, topDensity] = ggx(b.coat.alpha, wo, wi, h);
+  const { frame } = b.coat;
+  const coatWi = inCoat(frame, wi);
+  const pass = coatPass(b.coat, Math.max(coatWi[2], 1e-5));
+  const [top, topDensity] = coatWi[2] > 0 ? ggx(b.coat.alpha, inCoat(frame, wo), coatWi, inCoat(frame, h)) : [0, 0];
   const mirrored = b.coat.scale * fresnelDielectric(b.coat.eta, c) * top;
   const basePdf = b.specularProbability * reflectionChance(b, c) * density + ((1 - b.specularProbability) * (1 - b.below) * wi[2]) / Math.PI;
   return {
@@ -230,15 +232,16 @@ export function sampleBsdf(b: Bsdf, wo: OpenPbrVector, u: readonly [number, numb
   if (top || chosen < limit) {
     const side = chosen / limit;
     const { thin, thinAlpha, eta } = b.transmission;
-    h = ggxSample(top ? b.coat.alpha : thin && side >= b.thinChance ? thinAlpha : b.alpha, wo, u);
+    const { frame } = b.coat;
+    h = top ? outOfCoat(frame, ggxSample(b.coat.alpha, inCoat(frame, wo), u)) : ggxSample(thin && side >= b.thinChance ? thinAlpha : b.alpha, wo, u);
     const c = dot(wo, h);
     wi = [2 * c * h[0] - wo[0], 2 * c * h[1] - wo[1], 2 * c * h[2] - wo[2]];
     const chance = reflectionChance(b, clamp(c, 0, 1));
     transmitted = !top && side >= chance;
     medium = (side - chance) / (1 - chance);
     if (transmitted) wi = thin ? [wi[0], wi[1], -wi[2]] : (refract(eta, wo, h) ?? [0, 0, 0]);
-    // A facet may reflect downwards or refract upwards: lost.
-    if (transmitted !== wi[2] < 0) return { wi, pdf: 0, weight: [0, 0, 0], valid: false, transmitted, subsurface: false };
+    // A facet may reflect downwards or refract upwards, and downwards of the coat is not that of the base: lost.
+    if (transmitted !== wi[2] < 0 || (top && inCoat(frame, wi)[2] <= 0)) return { wi, pdf: 0, weight: [0, 0, 0], valid: false, transmitted, subsurface: false };
   } else {
     wi = cosineSample(u);
     const down = b.below * (1 - b.coatProbability - limit);

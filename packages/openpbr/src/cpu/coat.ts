@@ -2,7 +2,7 @@ import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../paramete
 import { energyBounce, energyShare, energyTotal, fresnelMean } from './energy';
 import { dielectricEpsilon, fresnelDielectric } from './fresnel';
 import { ggxAlpha, mirrorCosine, mirrorRoughness, viewRoughness, type Slopes } from './ggx';
-import { clamp } from './vector';
+import { clamp, dot } from './vector';
 
 const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), channel(1), channel(2)];
 const mix = (a: number, b: number, t: number): number => a * (1 - t) + b * t;
@@ -22,7 +22,36 @@ export interface Coat {
   readonly absorption: OpenPbrColor;
   /** Factor on light that the base lets through upwards, so far as the viewer's side goes. */
   readonly entry: OpenPbrColor;
+  /** The coat's own frame, if it has one. */
+  readonly frame: CoatFrame | undefined;
 }
+
+/** Tangent, bitangent and normal of the coat in the frame of the base. */
+export type CoatFrame = readonly [tangent: OpenPbrVector, bitangent: OpenPbrVector, normal: OpenPbrVector];
+
+const unit = (v: OpenPbrVector): OpenPbrVector => {
+  const length = Math.hypot(...v);
+  return [v[0] / length, v[1] / length, v[2] / length];
+};
+const plus = (a: OpenPbrVector, b: OpenPbrVector, t: number): OpenPbrVector => [a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]];
+
+/** The coat's own frame seen from one direction, if it has one; twin of `openpbr_coat_frame`. */
+export function coatFrame({ geometry_coat_normal: normal, geometry_coat_tangent: tangent }: OpenPbrParameters, wo: OpenPbrVector): CoatFrame | undefined {
+  if (normal === null && tangent === null) return undefined;
+  const given = normal ?? [0, 0, 1];
+  const n = unit(plus(given, wo, Math.max(1e-3 - dot(given, wo), 0)));
+  const along = tangent ?? [1, 0, 0];
+  const flat = plus(along, n, -dot(n, along));
+  const other: OpenPbrVector = Math.abs(n[0]) > 0.7 ? [0, 1, 0] : [1, 0, 0];
+  const t = unit(dot(flat, flat) > 1e-6 ? flat : plus(other, n, -dot(n, other)));
+  return [t, [n[1] * t[2] - n[2] * t[1], n[2] * t[0] - n[0] * t[2], n[0] * t[1] - n[1] * t[0]], n];
+}
+
+/** A direction of the base's frame in that of the coat. */
+export const inCoat = (frame: CoatFrame | undefined, w: OpenPbrVector): OpenPbrVector => (frame ? [dot(frame[0], w), dot(frame[1], w), dot(frame[2], w)] : w);
+
+/** A direction of the coat's frame in that of the base. */
+export const outOfCoat = (frame: CoatFrame | undefined, w: OpenPbrVector): OpenPbrVector => (frame ? rgb((i) => frame[0][i] * w[0] + frame[1][i] * w[1] + frame[2][i] * w[2]) : w);
 
 /**
  * Roughness of the base as seen through a full coat, never less than its own; twin of `openpbr_coat_roughening`.
@@ -73,7 +102,10 @@ export function coatDarkening(p: OpenPbrParameters, mu: number): OpenPbrColor {
 }
 
 /** Prepares the coat for one direction; twin of `openpbr_coat_prepare`. */
-export function prepareCoat(p: OpenPbrParameters, wo: OpenPbrVector, mu: number, multipleScattering: boolean): Coat {
+export function prepareCoat(p: OpenPbrParameters, baseWo: OpenPbrVector, multipleScattering: boolean): Coat {
+  const frame = coatFrame(p, baseWo);
+  const wo = inCoat(frame, baseWo);
+  const mu = clamp(wo[2], 1e-5, 1);
   const roughness = p.coat_roughness;
   const alpha = ggxAlpha(roughness, p.coat_roughness_anisotropy);
   const epsilon = dielectricEpsilon(p.coat_ior, 1);
@@ -92,6 +124,7 @@ export function prepareCoat(p: OpenPbrParameters, wo: OpenPbrVector, mu: number,
     through: rgb((i) => darkening[i] * p.coat_weight * (1 - share) * passage(absorption[i], eta, mu)),
     absorption,
     entry: rgb((i) => 1 - p.coat_weight + p.coat_weight * (1 - share) * passage(absorption[i], eta, mu)),
+    frame,
   };
 }
 
@@ -102,7 +135,8 @@ export const coatPass = (coat: Coat, mu: number): OpenPbrColor => rgb((i) => coa
 export const coatThrough = (coat: Coat, exit: number, mu: number): OpenPbrColor => rgb((i) => coat.entry[i] * mix(1, passage(coat.absorption[i], coat.eta, mu), exit));
 
 /** Factor on light that the base emits towards `wo`; twin of `openpbr_coat_emission`. */
-export function coatEmission(p: OpenPbrParameters, wo: OpenPbrVector): OpenPbrColor {
+export function coatEmission(p: OpenPbrParameters, baseWo: OpenPbrVector): OpenPbrColor {
+  const wo = inCoat(coatFrame(p, baseWo), baseWo);
   const mu = clamp(wo[2], 1e-5, 1);
   const epsilon = dielectricEpsilon(p.coat_ior, 1);
   const share = energyShare(epsilon, viewRoughness(ggxAlpha(p.coat_roughness, p.coat_roughness_anisotropy), p.coat_roughness, wo), mu);

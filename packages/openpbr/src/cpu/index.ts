@@ -1,5 +1,5 @@
 export { albedoBsdf, emittedRadiance, evalBsdf, evalPdfBsdf, pdfBsdf, prepareBsdf, sampleBsdf, type Bsdf, type BsdfOptions, type BsdfSample } from './bsdf';
-export { coatDarkening, coatedBase, coatRoughening, coatTransmittance, type Coat } from './coat';
+export { coatDarkening, coatedBase, coatRoughening, coatTransmittance, type Coat, type CoatFrame } from './coat';
 export { refract, refractGgx, refractHalf, type BsdfSide, type Transmission } from './transmission';
 export { subsurfaceAlbedo, subsurfaceMedium, type ThinSubsurface } from './subsurface';
 export { dispersedIor, phaseEval, phaseSample, transmissionMedium, type Medium } from './medium';

@@ -373,9 +373,16 @@ fn openpbr_scatter(b: OpenPbrBsdf, wo: vec3f, wi: vec3f, h: vec3f) -> vec4f {
   //#endif
   //#endif
   //#if OPENPBR_COAT
+  //#if OPENPBR_COAT_FRAME
+  let coat_wi = wi * b.coat.frame;
+  let top = select(vec2f(0.0), openpbr_ggx(b.coat.alpha, wo * b.coat.frame, vec3f(coat_wi.xy, max(coat_wi.z, 1e-5)), h * b.coat.frame), coat_wi.z > 0.0);
+  let coat_mu = max(coat_wi.z, 1e-5);
+  //#else
   let top = openpbr_ggx(b.coat.alpha, wo, wi, h);
+  let coat_mu = wi.z;
+  //#endif
   let mirrored = b.coat.scale * openpbr_fresnel_dielectric(b.coat.eta, c) * top.x;
-  result = vec4f(result.xyz * openpbr_coat_pass(b.coat, wi.z) + mirrored, mix(result.w, top.y, b.coat.probability));
+  result = vec4f(result.xyz * openpbr_coat_pass(b.coat, coat_mu) + mirrored, mix(result.w, top.y, b.coat.probability));
   //#endif
   return result;
 }
@@ -437,8 +444,17 @@ fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample {
     if (b.transmission.thin && side >= b.transmission.chance) { alpha = b.transmission.thin_alpha; }
     //#endif
     //#endif
+    //#if OPENPBR_COAT_FRAME
+    h = openpbr_ggx_sample(alpha, select(wo, wo * b.coat.frame, top), u.xy);
+    h = select(h, b.coat.frame * h, top);
+    //#else
     h = openpbr_ggx_sample(alpha, wo, u.xy);
+    //#endif
     s.wi = 2.0 * dot(wo, h) * h - wo;
+    //#if OPENPBR_COAT_FRAME
+    // Down below the coat's plane: lost, though it may be above that of the base.
+    if (top && dot(s.wi, b.coat.frame[2]) <= 0.0) { return s; }
+    //#endif
     //#if OPENPBR_TRANSMISSION
     let c = clamp(dot(wo, h), 0.0, 1.0);
     // Below 0 for the coat, which always reflects.

@@ -6,7 +6,8 @@ import { openpbrGgx } from './ggx.wgsl';
 import { openPbrStruct } from './record';
 
 /**
- * The coat: a clear or tinted dielectric layer over everything else, in the frame of the base. Its reflection is that of
+ * The coat: a clear or tinted dielectric layer over everything else, in the frame of the base or, with OPENPBR_COAT_FRAME,
+ * in one of its own, given by geometry_coat_normal and geometry_coat_tangent in the frame of the base. Its reflection is that of
  * an interface (`openpbrDielectric`); what lies below is the base with other parameters (`openpbr_coat_base`), times
  * `openpbr_coat_pass`. Formulas of the specification, with these choices where it leaves one:
  *
@@ -39,7 +40,25 @@ export const openpbrCoat = wgslModule(
   // Factor on light that the base lets through upwards, so far as the viewer's side goes.
   entry: vec3f,
   //#endif
+  //#if OPENPBR_COAT_FRAME
+  // Tangent, bitangent and normal of the coat in the frame of the base.
+  frame: mat3x3f,
+  //#endif
 }
+
+//#if OPENPBR_COAT_FRAME
+// The normal turns towards the viewer as far as it must, so that the coat is never seen from below.
+fn openpbr_coat_frame(p: OpenPbrParameters, wo: vec3f) -> mat3x3f {
+  let facing = dot(p.geometry_coat_normal, wo);
+  let n = normalize(p.geometry_coat_normal + wo * max(1e-3 - facing, 0.0));
+  let t = p.geometry_coat_tangent - n * dot(n, p.geometry_coat_tangent);
+  // A tangent along the normal says nothing.
+  let other = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(n.x) > 0.7);
+  let length2 = dot(t, t);
+  let tangent = normalize(select(other - n * dot(n, other), t, length2 > 1e-6));
+  return mat3x3f(tangent, cross(n, tangent), n);
+}
+//#endif
 
 // Its own interface, as if it were the base.
 fn openpbr_coat_interface(p: OpenPbrParameters) -> OpenPbrParameters {
@@ -108,8 +127,16 @@ fn openpbr_coat_darkening(p: OpenPbrParameters, base: OpenPbrParameters, epsilon
 }
 
 // "base" is openpbr_coat_base(p).
+//#if OPENPBR_COAT_FRAME
+fn openpbr_coat_prepare(p: OpenPbrParameters, base: OpenPbrParameters, base_wo: vec3f, base_mu: f32) -> OpenPbrCoat {
+  var coat: OpenPbrCoat;
+  coat.frame = openpbr_coat_frame(p, base_wo);
+  let wo = base_wo * coat.frame;
+  let mu = clamp(wo.z, 1e-5, 1.0);
+//#else
 fn openpbr_coat_prepare(p: OpenPbrParameters, base: OpenPbrParameters, wo: vec3f, mu: f32) -> OpenPbrCoat {
   var coat: OpenPbrCoat;
+//#endif
   coat.alpha = openpbr_alpha(p.coat_roughness, p.coat_roughness_anisotropy);
   let surface = openpbr_dielectric_prepare(openpbr_coat_interface(p), coat.alpha, wo, mu);
   coat.eta = surface.eta;
@@ -134,7 +161,12 @@ fn openpbr_coat_pass(coat: OpenPbrCoat, mu: f32) -> vec3f {
 }
 
 // Factor on light that the base emits towards wo: one passage, and no darkening.
+//#if OPENPBR_COAT_FRAME
+fn openpbr_coat_emission(p: OpenPbrParameters, base_wo: vec3f) -> vec3f {
+  let wo = base_wo * openpbr_coat_frame(p, base_wo);
+//#else
 fn openpbr_coat_emission(p: OpenPbrParameters, wo: vec3f) -> vec3f {
+//#endif
   let mu = clamp(wo.z, 1e-5, 1.0);
   let layer = openpbr_coat_interface(p);
   let epsilon = openpbr_dielectric_epsilon(layer);

@@ -6,6 +6,8 @@ export interface OpenPbrFlags {
   /** Any microfacet lobe: OPENPBR_METAL, OPENPBR_DIELECTRIC or OPENPBR_COAT. */
   readonly OPENPBR_SPECULAR: boolean;
   readonly OPENPBR_METAL: boolean;
+  /** The coat has a normal or a tangent of its own. */
+  readonly OPENPBR_COAT_FRAME: boolean;
   /** Reflection by the dielectric base. Without it the diffuse lobe is not attenuated. */
   readonly OPENPBR_DIELECTRIC: boolean;
   /** A dielectric interface of the base or of the coat: OPENPBR_DIELECTRIC or OPENPBR_COAT. */
@@ -69,6 +71,7 @@ export function requiredFeatures(materials: readonly Partial<OpenPbrParameters>[
   return {
     OPENPBR_SPECULAR: specular,
     OPENPBR_METAL: metal,
+    OPENPBR_COAT_FRAME: all.some((p) => p.coat_weight > 0 && (p.geometry_coat_normal !== null || p.geometry_coat_tangent !== null)) || (coat && (isTextured('geometry_coat_normal') || isTextured('geometry_coat_tangent'))),
     OPENPBR_DIELECTRIC: dielectric,
     OPENPBR_INTERFACE: dielectric || coat,
     OPENPBR_TRANSMISSION: transmission,

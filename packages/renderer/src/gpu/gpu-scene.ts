@@ -10,7 +10,7 @@ import { packInstances, packTlas, type Geometry, type MeshRegion, type PackedGeo
 import { interiorFlags } from '../scene/interiors';
 import { lightGroupTable, type LightGroupTable } from '../scene/light-groups';
 import { buildLightTable, type LightTable } from '../scene/lights';
-import { hasRanges, isOpaque, packBindings, packMaterial, texturedParameters, turnsTangent, usedTextures, type TexturedParameterInfo } from '../scene/materials';
+import { hasCoatFrames, hasRanges, isOpaque, packBindings, packMaterial, texturedParameters, turnsTangent, usedTextures, type TexturedParameterInfo } from '../scene/materials';
 import { planTextures, type TexturePlan } from '../scene/textures';
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_STORAGE, GPU_TEXTURE_BINDING, GPU_TEXTURE_COPY_DST, type GpuMemory } from './buffers';
 import { toHalf, uploadTextures } from './texture-upload';
@@ -112,7 +112,8 @@ export class GpuScene {
         TEXTURE_RANGES: hasRanges(this.#scene.materials),
         TANGENT_MAP: openpbrFlags.OPENPBR_ANISOTROPY && turnsTangent(this.#scene.materials),
         // Where the mesh has no tangents, they follow the texture coordinates.
-        UV_FRAME: openpbrFlags.OPENPBR_ANISOTROPY || texturedNames.includes('geometry_normal'),
+        UV_FRAME: openpbrFlags.OPENPBR_ANISOTROPY || texturedNames.includes('geometry_normal') || texturedNames.includes('geometry_coat_normal'),
+        OPENPBR_COAT_FRAME: hasCoatFrames(this.#scene.materials),
         // A coat dims what is emitted below it; vertex colours paint what only emits.
         EMISSION_TEXTURES:
           texturedNames.some((name) => name === 'emission_color' || name === 'emission_luminance' || (openpbrFlags.OPENPBR_COAT && name.startsWith('coat_'))) ||

@@ -194,6 +194,10 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   let bitangent = side * sign(dot(cross(s.normal, s.tangent), s.bitangent)) * cross(normal, tangent);
   let to_world = mat3x3f(tangent, bitangent, normal);
   let local_wo = wo * to_world;
+  //#if OPENPBR_COAT_FRAME
+  s.parameters.geometry_coat_normal = side * s.coat_normal * to_world;
+  s.parameters.geometry_coat_tangent = s.coat_tangent * to_world;
+  //#endif
   //#if REGULARIZE
   s.parameters = shortcut_soften(index, s.parameters);
   //#endif

@@ -57,10 +57,12 @@ export function materialModule(samplings: readonly (readonly [texture: number, s
   const FACTOR = { f32: 'value', vec3f: 'factor.rgb', any: 'select(vec3f(value), factor.rgb, (channels & 255u) == 4u)' } as const;
   const DIRECTION: Readonly<Record<string, string>> = {
     geometry_normal: `result.normal = (2.0 * texel.xyz - 1.0) * vec3f(vec2f(bitcast<f32>(attributes[at + ${word('scale')}u])), 1.0);`,
+    geometry_coat_normal: `result.coat_normal = (2.0 * texel.xyz - 1.0) * vec3f(vec2f(bitcast<f32>(attributes[at + ${word('scale')}u])), 1.0);`,
     geometry_tangent: 'result.tangent = mat2x2f(result.tangent, vec2f(-result.tangent.y, result.tangent.x)) * (2.0 * texel.xy - 1.0);',
   };
   const cased = ({ name, id, type }: TexturedParameterInfo) => `      case ${id}u: { ${type === 'direction' ? DIRECTION[name] : `result.parameters.${name} *= ${FACTOR[type]};`} }`;
-  const apply = textured.map((info) => (info.name === 'geometry_tangent' ? `      //#if TANGENT_MAP\n${cased(info)}\n      //#endif` : cased(info))).join('\n');
+  const gates: Readonly<Record<string, string>> = { geometry_tangent: 'TANGENT_MAP', geometry_coat_normal: 'OPENPBR_COAT_FRAME' };
+  const apply = textured.map((info) => (gates[info.name] ? `      //#if ${gates[info.name]}\n${cased(info)}\n      //#endif` : cased(info))).join('\n');
   return wgslModule(
     'renderer/material',
     /* wgsl */ `
@@ -73,6 +75,10 @@ struct MaterialSample {
   //#if TANGENT_MAP
   // Direction in the tangent plane that the highlight is stretched along.
   tangent: vec2f,
+  //#endif
+  //#if OPENPBR_COAT_FRAME
+  // As the normal, of the coat.
+  coat_normal: vec3f,
   //#endif
 }
 
@@ -94,6 +100,9 @@ fn material_sample(index: u32, uv0: vec2f, uv1: vec2f, lod0: f32, lod1: f32, onl
   result.threshold = materials[index].opacity_threshold;
   //#if TANGENT_MAP
   result.tangent = result.parameters.geometry_tangent.xy;
+  //#endif
+  //#if OPENPBR_COAT_FRAME
+  result.coat_normal = result.parameters.geometry_coat_normal;
   //#endif
   //#if TEXTURES
   let count = min(materials[index].binding_count, 64u);
@@ -190,6 +199,11 @@ struct Surface {
   double_area: f32,
   // Largest coordinate that went into the position; rounding errors are proportional to it.
   magnitude: f32,
+  //#if OPENPBR_COAT_FRAME
+  // Of the coat, unit, on the front side.
+  coat_normal: vec3f,
+  coat_tangent: vec3f,
+  //#endif
 }
 
 // Branch-free frame (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017).
@@ -299,6 +313,13 @@ fn surface_load(hit: vec4u, origin: vec3f, direction: vec3f, cone_width: f32) ->
       }
     }
   }
+  //#endif
+  //#if OPENPBR_COAT_FRAME
+  // The coat lies smoothly over what its base's maps make of the surface.
+  let across = handedness * cross(s.normal, tangent);
+  let coat = sample.coat_normal.x * tangent + sample.coat_normal.y * across + sample.coat_normal.z * s.normal;
+  s.coat_normal = select(s.normal, coat * inverseSqrt(max(dot(coat, coat), 1e-30)), dot(coat, coat) > 1e-12 && sample.coat_normal.z > 0.0);
+  s.coat_tangent = s.parameters.geometry_coat_tangent.x * tangent + s.parameters.geometry_coat_tangent.y * across;
   //#endif
   //#if TANGENT_MAP
   if (dot(sample.tangent, sample.tangent) > 1e-6) { tangent = sample.tangent.x * tangent + (handedness * sample.tangent.y) * cross(s.normal, tangent); }

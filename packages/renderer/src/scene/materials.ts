@@ -12,9 +12,9 @@ export interface TexturedParameterInfo {
   readonly type: 'vec3f' | 'f32' | 'any' | 'direction';
 }
 
-/** Directions that textures may drive. The coat has the frame of the base. */
-const DIRECTIONS: readonly string[] = ['geometry_normal', 'geometry_tangent'];
-const NOT_TEXTURED: readonly string[] = ['geometry_thin_walled', 'geometry_coat_normal', 'geometry_coat_tangent'];
+/** Directions that textures may drive. */
+const DIRECTIONS: readonly string[] = ['geometry_normal', 'geometry_tangent', 'geometry_coat_normal'];
+const NOT_TEXTURED: readonly string[] = ['geometry_thin_walled', 'geometry_coat_tangent'];
 
 /** Numbers of the parameters in texture binding records: the struct's order. -1 for one that textures do not drive. */
 export function parameterId(name: string): number {
@@ -56,6 +56,11 @@ export function hasRanges(materials: readonly Material[]): boolean {
 /** Whether some material turns the tangent that its highlight is stretched along. */
 export function turnsTangent(materials: readonly Material[]): boolean {
   return materials.some(({ parameters, textures }) => textures?.geometry_tangent !== undefined || (parameters.geometry_tangent ?? null) !== null);
+}
+
+/** Whether some coat lies otherwise than its base, by a map of its own or because the base has one. */
+export function hasCoatFrames(materials: readonly Material[]): boolean {
+  return materials.some(({ parameters, textures }) => (parameters.coat_weight ?? 0) > 0 && (textures?.geometry_normal !== undefined || textures?.geometry_coat_normal !== undefined || (parameters.geometry_coat_normal ?? null) !== null || (parameters.geometry_coat_tangent ?? null) !== null));
 }
 
 const CHANNEL = { r: 0, g: 1, b: 2, a: 3, rgb: 4 } as const;

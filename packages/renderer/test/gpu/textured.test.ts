@@ -65,9 +65,25 @@ it('a texture turns the tangent, the parameter turns it further, both in the fra
   expect(apart(await show({ parameters: brushed, tangents: [1, 0, 0, 1] }), straight)).toBeLessThan(1e-4);
 });
 
+it('a coat has its own normal map, and none of its base\'s', async () => {
+  // A black base: only the coat is seen.
+  const parameters = { base_weight: 0, specular_weight: 0, coat_weight: 1, coat_roughness: 0.4 } as const;
+  const [x, y, z] = [0.2, -0.1, Math.sqrt(0.95)];
+  const tilt = { texel: [0.5 + x / 2, 0.5 + y / 2, 0.5 + z / 2, 1], channels: 'rgb' } as const;
+  const level = { texel: [0.5, 0.5, 1, 1], channels: 'rgb' } as const;
+  const shown = (base: typeof tilt | typeof level, coat: typeof tilt | typeof level) => show({ parameters, textures: { geometry_normal: base, geometry_coat_normal: coat } });
+  const flat = await shown(level, level);
+  const own = await shown(level, tilt);
+  expect(apart(own, flat)).toBeGreaterThan(0.2);
+  expect(apart(await shown(tilt, tilt), own)).toBeLessThan(1e-3);
+  expect(apart(await shown(tilt, level), flat)).toBeLessThan(1e-3);
+  // Texels of floats have eleven bits on the GPU.
+  expect(apart(await show({ parameters: { ...parameters, geometry_coat_normal: [x, y, z] } }), own)).toBeLessThan(4e-3);
+});
+
 it('textures that the surface does not read do no harm', async () => {
   const parameters = { ...metal, geometry_tangent: [0, 1, 0] } as const;
-  const a = await show({ parameters, textures: { geometry_tangent: { texel: [1, 0.5, 0, 1], channels: 'rgb' }, geometry_coat_normal: { texel: [0.5, 0.5, 1, 1], channels: 'rgb' } } });
+  const a = await show({ parameters, textures: { geometry_tangent: { texel: [1, 0.5, 0, 1], channels: 'rgb' }, geometry_coat_normal: { texel: [0.5, 0.5, 1, 1], channels: 'rgb' }, geometry_coat_tangent: { texel: [0.5, 0.5, 1, 1], channels: 'rgb' } } });
   expect(apart(a, await show({ parameters: metal }))).toBeLessThan(1e-4);
 });
 
