@@ -20,10 +20,11 @@ export const MAX_THREADS = 65535 * 64;
 
 type OwnBuffer = 'frame' | 'batch' | 'light_groups' | 'paths' | 'queues' | 'shadows' | 'dispatch';
 
-/** How many paths are kept on the GPU at once. */
-export function pathCapacity(device: GPUDevice, options: { readonly width: number; readonly height: number; readonly pathsInFlight?: number }, features: KernelFeatures): number {
-  const wanted = options.pathsInFlight ?? Math.min(1 << 20, Math.max(1 << 16, options.width * options.height * 4));
-  return Math.max(64, Math.min(wanted, Math.floor(device.limits.maxStorageBufferBindingSize / pathLayout(features).struct.size), MAX_THREADS));
+/** How many paths may be kept on the GPU at once. Large GPUs are known by the size of their buffers. */
+export function pathLimit(device: GPUDevice, wanted: number | undefined, features: KernelFeatures): number {
+  const most = Math.floor(device.limits.maxStorageBufferBindingSize / Math.max(pathLayout(features).struct.size, shadowLayout(features.flags).size));
+  const standard = device.limits.maxBufferSize >= 2 ** 31 - 4 ? 1 << 22 : 1 << 20;
+  return Math.max(64, Math.min(wanted ?? standard, most, MAX_THREADS));
 }
 
 /** How long paths may become. */
@@ -41,33 +42,42 @@ export class Integrator {
   readonly #scene: GpuScene;
   readonly #buffers: Record<OwnBuffer, GPUBuffer>;
   readonly #groups = new Map<KernelName, GPUBindGroup>();
+  readonly #wanted: number | undefined;
   #capacity: number;
   limits: DepthLimits;
   #kernels: KernelSet;
   #film: Film;
 
-  constructor(device: GPUDevice, memory: GpuMemory, scene: GpuScene, kernels: KernelSet, film: Film, capacity: number, limits: DepthLimits) {
+  constructor(device: GPUDevice, memory: GpuMemory, scene: GpuScene, kernels: KernelSet, film: Film, wanted: number | undefined, limits: DepthLimits) {
     this.#device = device;
     this.#memory = memory;
     this.#scene = scene;
     this.#kernels = kernels;
     this.#film = film;
     this.limits = limits;
+    this.#wanted = wanted;
+    // A sample of the whole picture; more when the GPU turns out to be fast.
+    const capacity = Math.min(pathLimit(device, wanted, kernels.features), Math.max(1 << 16, film.pixels));
     this.#capacity = capacity;
     this.#buffers = {
       frame: memory.buffer('frame', frameStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
       batch: memory.buffer('batch', batchStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
       light_groups: memory.buffer('light groups', 2 * MAX_LIGHT_GROUPS * 16, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
       paths: memory.buffer('paths', capacity * pathLayout(kernels.features).struct.size, GPU_BUFFER_STORAGE),
-      queues: memory.buffer('queues', (QUEUE_WORDS + 2 * capacity) * 4, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC),
+      queues: memory.buffer('queues', (QUEUE_WORDS + 2 * capacity) * 4, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC | GPU_BUFFER_COPY_DST),
       shadows: memory.buffer('shadows', (kernels.features.flags.NEXT_EVENT ? capacity : 1) * shadowLayout(kernels.features.flags).size, GPU_BUFFER_STORAGE),
       dispatch: memory.buffer('dispatch', 32, GPU_BUFFER_STORAGE | GPU_BUFFER_INDIRECT),
     };
   }
 
-  /** Paths that fit. */
+  /** Paths that there is memory for. */
   get capacity(): number {
     return this.#capacity;
+  }
+
+  /** Paths that there may be memory for: a batch of so many will be given it. */
+  get limit(): number {
+    return pathLimit(this.#device, this.#wanted, this.#kernels.features);
   }
 
   /** Paths of a sample: one, with catchers two. */
@@ -89,8 +99,7 @@ export class Integrator {
     this.#kernels = kernels;
     const { flags } = kernels.features;
     // Paths that carry more may be too large for as many of them.
-    const most = Math.floor(this.#device.limits.maxStorageBufferBindingSize / pathLayout(kernels.features).struct.size);
-    this.#capacity = Math.min(this.#capacity, most);
+    this.#capacity = Math.min(this.#capacity, this.limit);
     this.#grow('shadows', flags.NEXT_EVENT ? this.capacity * shadowLayout(flags).size : 0);
     this.#grow('paths', this.capacity * pathLayout(kernels.features).struct.size);
     this.rebind();
@@ -114,11 +123,29 @@ export class Integrator {
     this.#memory.write(this.#buffers.light_groups, data);
   }
 
+  /** Makes room for a batch. */
+  #reserve(paths: number): void {
+    if (paths <= this.#capacity) return;
+    const { features } = this.#kernels;
+    this.#capacity = paths;
+    this.#grow('paths', paths * pathLayout(features).struct.size);
+    this.#grow('shadows', features.flags.NEXT_EVENT ? paths * shadowLayout(features.flags).size : 0);
+    const { queues } = this.#buffers;
+    this.#buffers.queues = this.#memory.buffer('queues', (QUEUE_WORDS + 2 * paths) * 4, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC | GPU_BUFFER_COPY_DST);
+    // The count of dropped samples goes on.
+    const encoder = this.#device.createCommandEncoder({ label: 'glanz queues' });
+    encoder.copyBufferToBuffer(queues, 0, this.#buffers.queues, 0, QUEUE_WORDS * 4);
+    this.#device.queue.submit([encoder.finish()]);
+    this.#memory.release(queues);
+    this.rebind();
+  }
+
   /** Traces the batch's paths and adds them to the film. */
   submit(batch: Batch): void {
     this.#writeBatch(batch);
     const { kernels, features } = this.#kernels;
     const paths = batch.pixelCount * batch.sampleCount * this.pathsPerSample;
+    this.#reserve(paths);
     this.#pass('glanz batch', (pass) => {
       const run = (name: KernelName, work: number | { readonly indirect: number }) => this.#run(pass, name, kernels[name] as Kernel, work);
       run('begin', 1);

@@ -60,7 +60,11 @@ export interface PathTracerOptions {
   readonly sampler?: 'sobol' | 'independent';
   /** Added to texture levels of detail. Default −1: a texel is half a pixel wide or finer; the pixel filter does the rest. */
   readonly textureLodBias?: number;
-  /** Paths held on the GPU at once, about 140 bytes each. Default: four samples of the picture, between 65,536 and 1,048,576. */
+  /**
+   * Most paths on the GPU at once, about 150 bytes each. Memory for more than one sample of the picture is taken only when
+   * the GPU has shown that it is fast enough for batches that large. Default 4,194,304; 1,048,576 where the device has no
+   * buffers of 2 GiB.
+   */
   readonly pathsInFlight?: number;
   /**
    * Builds the hierarchies of the meshes, e.g. `await BvhWorkers.create()` of `@glanz/bvh/workers`: on other threads,

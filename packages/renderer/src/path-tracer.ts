@@ -353,7 +353,7 @@ export class PathTracer extends TracerEdits {
       {
         width: film.width,
         height: film.height,
-        capacity: Math.floor(this.#integrator.capacity / this.#integrator.pathsPerSample),
+        capacity: Math.floor(this.#integrator.limit / this.#integrator.pathsPerSample),
         queue: this.#device.queue,
         submit: (batch) => this.#submit(batch),
         check: () => {

@@ -5,7 +5,7 @@ import { GpuMemory } from './gpu/buffers';
 import { withErrorScopes } from './gpu/error-scopes';
 import { GpuScene } from './gpu/gpu-scene';
 import { KernelCache } from './gpu/kernel-cache';
-import { Integrator, pathCapacity } from './integrator';
+import { Integrator } from './integrator';
 import type { KernelFeatures } from './kernels/pipelines';
 import type { PathTracerOptions, RenderStatistics } from './options';
 import { chooseCamera } from './scene/choose-camera';
@@ -56,7 +56,7 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
     const t3 = performance.now();
     return await withErrorScopes(device, () => {
       const film = new Film(memory, options.width, options.height, kernels.features.planes);
-      const integrator = new Integrator(device, memory, gpuScene, kernels, film, pathCapacity(device, options, kernels.features), { maxDepth: options.maxDepth ?? 8, maxVolumeDepth: options.maxVolumeDepth ?? 256 });
+      const integrator = new Integrator(device, memory, gpuScene, kernels, film, options.pathsInFlight, { maxDepth: options.maxDepth ?? 8, maxVolumeDepth: options.maxVolumeDepth ?? 256 });
       const times = { bvhMs: t1 - t0, uploadMs: t2 - t1, compileMs: t3 - t2 };
       return { device, memory, editor: new SceneEditor(own, geometry, gpuScene, hierarchies), gpuScene, cache, integrator, film, camera, options, times };
     });

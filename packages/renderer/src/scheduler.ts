@@ -19,7 +19,7 @@ export interface SchedulerOptions {
 const SMALLEST = 4096;
 
 /**
- * Cuts the work into submissions by measured time: grows by half while there is room in the budget, falls back to a
+ * Cuts the work into submissions by measured time: grows up to fourfold while there is room in the budget, falls back to a
  * quarter when one took too long. What is computed does not depend on the cuts.
  */
 export class Scheduler {
@@ -93,8 +93,10 @@ export class Scheduler {
     if (milliseconds > this.budget * 1.5) {
       const factor = Math.max(0.25, (0.8 * this.budget) / milliseconds);
       this.#paths = Math.min(this.#capacity, Math.max(SMALLEST, Math.min(this.#paths, Math.floor(paths * factor))));
-    } else if (milliseconds < this.budget * 0.7 && paths * 1.5 >= this.#paths) {
-      this.#paths = Math.min(this.#capacity, Math.floor(this.#paths * (milliseconds < this.budget * 0.25 ? 4 : 1.5)));
+    } else if (milliseconds < this.budget * 0.7) {
+      // By the speed of this batch, which may have been smaller than allowed; larger ones are faster still.
+      const possible = (0.9 * this.budget * paths) / Math.max(milliseconds, 1e-3);
+      if (possible > this.#paths) this.#paths = Math.min(this.#capacity, Math.floor(possible), 4 * this.#paths);
     }
   }
 }

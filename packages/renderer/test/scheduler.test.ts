@@ -48,6 +48,19 @@ describe('Scheduler', () => {
     expect(Math.max(...dear)).toBeLessThan(60);
   });
 
+  it('grows from wherever it is, also where whole bands leave some of what is allowed unused', () => {
+    for (const start of [130_000, 180_000, 200_000, 230_000, 260_000]) {
+      const scheduler = new Scheduler({ pixels: 512 * 512, capacity: 1 << 22, budgetMs: 30 }, start);
+      let last = 0;
+      for (let turn = 0; turn < 40; turn++) {
+        const batch = scheduler.next(1000) as Batch;
+        last = batch.pixelCount * batch.sampleCount;
+        scheduler.measured(batch, 1.2 + last / 1e6);
+      }
+      expect(last).toBe(1 << 22);
+    }
+  });
+
   it('grows to the capacity on a fast GPU', () => {
     const { batches } = simulate(1 << 16, 1 << 20, 30, 200, () => 0.5);
     expect(Math.max(...batches.map((b) => b.pixelCount * b.sampleCount))).toBe(1 << 20);

@@ -1,5 +1,5 @@
 import { openpbrPhase } from '@glanz/openpbr/wgsl';
-import { wgslModule, type WgslModule } from '@glanz/wgsl';
+import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
 import { HIT_SCATTERED, HIT_WALKING } from './layout';
 import { media } from './media.wgsl';
 import { pathSample } from './path.wgsl';
@@ -96,6 +96,6 @@ fn volume_walk(index: u32, entry: u32, medium: OpenPbrMedium) {
 }
 //#endif
 `,
-    [media, pathSample, traversal, random, openpbrPhase],
+    [media, traversal, gated('SCATTERING', pathSample), gated('SCATTERING', random), gated('SCATTERING', openpbrPhase)],
   );
 }

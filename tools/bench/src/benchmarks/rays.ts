@@ -71,7 +71,14 @@ export const benchmark: Benchmark = {
           // As many runs at a time as make 20 ms, so that starting them does not count.
           const once = await tracer.time(loaded, query, 1);
           const times = Math.ceil((small ? 5 : 20) / Math.max(once, 0.1));
-          await tracer.time(loaded, query, times);
+          // A GPU that has idled, while a hierarchy was built say, takes a while to come back to its clock.
+          let last = Infinity;
+          for (let spent = 0; spent < (small ? 0 : 3000); ) {
+            const milliseconds = await tracer.time(loaded, query, times);
+            spent += milliseconds;
+            if (spent > 300 && Math.abs(milliseconds - last) < 0.01 * last) break;
+            last = milliseconds;
+          }
           const rate: number[] = [];
           for (let i = 0; i < runs; i++) rate.push((loaded.count * times) / (await tracer.time(loaded, query, times)) / 1e3);
           const target = !small && k < 3 && variant === 'BVH2 balanced' && PROTOTYPE[name] ? { value: PROTOTYPE[name][k]!, relation: '>=' as const, source: 'the prototype on an H200' } : undefined;
