@@ -1,8 +1,14 @@
 import { BvhError } from '../error';
 import { NEAREST_NUMBERS, nearestOnTriangle } from './point-triangle';
 
-/** Where a box lies: outside of a region, perhaps across its border, inside. */
-export const OUTSIDE = 0, ACROSS = 1, INSIDE = 2;
+/** Of a box: no point of it is in the region. */
+export const OUTSIDE = 0;
+
+/** Of a box: it may lie across the region's border. */
+export const ACROSS = 1;
+
+/** Of a box: all of it is in the region. */
+export const INSIDE = 2;
 
 /**
  * A part of space that triangles may lie in. Borders belong to it. Write your own for other shapes; where `box` says
