@@ -20,7 +20,8 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   paths[index].direction = ray.direction;
   paths[index].cone_width = frame.cone_width;
   paths[index].throughput = vec3f(1.0);
-  paths[index].alpha = 1.0;
+  // 2 until something but glass has been met: it counts as 1, see path_plane.
+  paths[index].alpha = 2.0;
   paths[index].pixel = pixel;
   path_clear(index);
   //#if CATCHER

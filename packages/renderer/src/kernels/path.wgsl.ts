@@ -95,7 +95,7 @@ fn path_clear(index: u32) {
   for (var plane = 0u; plane < ${planes}u; plane++) { paths[index].planes[plane] = vec4f(0.0); }
 }
 fn path_plane(index: u32, plane: u32) -> vec4f {
-  var coverage = select(0.0, paths[index].alpha, plane == 0u);
+  var coverage = select(0.0, min(paths[index].alpha, 1.0), plane == 0u);
   //#if CATCHER
   coverage = select(coverage, 1.0, plane == ${groups}u && paths[index].role == PATH_WITH);
   //#endif
@@ -105,7 +105,7 @@ fn path_plane(index: u32, plane: u32) -> vec4f {
         : /* wgsl */ `
 fn path_deposit(index: u32, group: u32, value: vec3f) { paths[index].radiance += value; }
 fn path_clear(index: u32) { paths[index].radiance = vec3f(0.0); }
-fn path_plane(index: u32, plane: u32) -> vec4f { return vec4f(paths[index].radiance, paths[index].alpha); }
+fn path_plane(index: u32, plane: u32) -> vec4f { return vec4f(paths[index].radiance, min(paths[index].alpha, 1.0)); }
 `,
       [path.module],
     );

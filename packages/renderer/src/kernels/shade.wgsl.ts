@@ -25,16 +25,29 @@ struct ShadeResult {
   shadow: Shadow,
 }
 
+// Whether a path that leaves the scene shows what is behind a transparent picture: one that came here straight from the
+// camera, or through glass and nothing else. Such paths still have the alpha of 2 that they began with.
+fn shade_sees_background(index: u32, depth: u32) -> bool {
+  if ((frame.background & ${BACKGROUND_TRANSPARENT}u) == 0u) { return false; }
+  //#if OPENPBR_TRANSMISSION
+  return paths[index].alpha > 1.0;
+  //#else
+  return depth == 0u;
+  //#endif
+}
+
 // Radiance from outside the scene.
 fn shade_miss(index: u32, depth: u32) {
   //#if CATCHER
   if (depth == 0u && paths[index].role == PATH_WITHOUT) { return; }
   //#endif
   let direction = paths[index].direction;
-  if (depth == 0u && frame.background != 0u) {
-    if ((frame.background & ${BACKGROUND_TRANSPARENT}u) != 0u) { paths[index].alpha = 0.0; }
-    if ((frame.background & ${BACKGROUND_HIDDEN}u) != 0u) { return; }
+  if (shade_sees_background(index, depth)) {
+    // What is left of the light on its way is how much of the background shows.
+    paths[index].alpha = 1.0 - dot(paths[index].throughput, vec3f(0.2126, 0.7152, 0.0722));
+    return;
   }
+  if (depth == 0u && (frame.background & ${BACKGROUND_HIDDEN}u) != 0u) { return; }
   var weight = 1.0;
   //#if ENVIRONMENT_SAMPLED
   if (depth > 0u) {
@@ -67,7 +80,12 @@ fn shade_roulette(carried: vec3f, depth: u32) -> vec3f {
 // A scattering event in an interior without an optical surface.
 fn shade_scattering(index: u32, iteration: u32, depth: u32) -> ShadeResult {
   var result: ShadeResult;
+  // Light that was scattered does not show what is behind.
+  paths[index].alpha = min(paths[index].alpha, 1.0);
   if (depth + 1u >= frame.max_depth) { return result; }
+  //#if BOUNCE_LIMITS
+  if ((paths[index].bounces & SHORTCUT_LAST) != 0u) { return result; }
+  //#endif
   let origin = paths[index].origin;
   let wo = -paths[index].direction;
   let throughput = paths[index].throughput;
@@ -86,6 +104,9 @@ fn shade_scattering(index: u32, iteration: u32, depth: u32) -> ShadeResult {
     result.shadow.path = index;
     result.shadow.group = light.group;
     result.shadow.contribution = throughput * light.radiance * (phase * weight / light.pdf);
+    //#if CLAMP_INDIRECT
+    result.shadow.contribution = shortcut_clamp(result.shadow.contribution, depth + 1u);
+    //#endif
     //#if NULL_SURFACES
     result.shadow.media = stack;
     //#else
@@ -96,7 +117,11 @@ fn shade_scattering(index: u32, iteration: u32, depth: u32) -> ShadeResult {
   let wi = openpbr_phase_sample(anisotropy, wo, random_2());
   let carried = shade_roulette(throughput, depth);
   if (all(carried == vec3f(0.0))) { return result; }
-  paths[index].pdf = openpbr_phase_eval(anisotropy, wo, wi);
+  let density = openpbr_phase_eval(anisotropy, wo, wi);
+  //#if PATH_STATE
+  shortcut_bounce(index, density, SHORTCUT_VOLUME);
+  //#endif
+  paths[index].pdf = density;
   paths[index].direction = wi;
   paths[index].throughput = carried;
   paths[index].travelled = 0.0;
@@ -235,7 +260,11 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
       result.asks = !shortcut_caustic(index, scatter.w);
       //#endif
       //#if OPENPBR_TRANSMISSION
-      if (light_side < 0.0) { result.shadow.origin = beyond; }
+      if (light_side < 0.0) {
+        result.shadow.origin = beyond;
+        // Surroundings behind glass are not there either.
+        if (light.extended && light.distance >= 3.4e38 && shade_sees_background(index, depth)) { result.asks = false; }
+      }
       //#endif
       //#if MEDIA
       let light_stack = select(stack, crossing.beyond, light_side < 0.0);
@@ -263,14 +292,15 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   //#endif
   //#if PATH_STATE
   //#if OPENPBR_TRANSMISSION
-  shortcut_bounce(index, scattered.pdf, scattered.transmitted);
+  shortcut_bounce(index, scattered.pdf, select(shortcut_kind(scattered.pdf), SHORTCUT_TRANSMITTED, scattered.transmitted));
   //#else
-  shortcut_bounce(index, scattered.pdf, false);
+  shortcut_bounce(index, scattered.pdf, shortcut_kind(scattered.pdf));
   //#endif
   //#endif
   let carried = shade_roulette(throughput * scattered.weight, depth);
   if (all(carried == vec3f(0.0))) { return result; }
   //#if OPENPBR_TRANSMISSION
+  if (!scattered.transmitted) { paths[index].alpha = min(paths[index].alpha, 1.0); }
   paths[index].origin = select(start, beyond, scattered.transmitted);
   //#else
   paths[index].origin = start;

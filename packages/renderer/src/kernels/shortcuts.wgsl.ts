@@ -30,10 +30,14 @@ fn shortcut_caustic(index: u32, pdf: f32) -> bool { return pdf >= SHORTCUT_SHARP
 // Set when a bounce was the last that may be: the ray may still find a light, as the light sample of that bounce did.
 const SHORTCUT_LAST = 0x80000000u;
 
+const SHORTCUT_TRANSMITTED = 2u;
+const SHORTCUT_VOLUME = 3u;
+
+// Diffuse or specular.
+fn shortcut_kind(pdf: f32) -> u32 { return select(0u, 1u, pdf >= SHORTCUT_SHARP); }
+
 // Takes note of a bounce.
-fn shortcut_bounce(index: u32, pdf: f32, transmitted: bool) {
-  var kind = select(0u, 1u, pdf >= SHORTCUT_SHARP);
-  if (transmitted) { kind = 2u; }
+fn shortcut_bounce(index: u32, pdf: f32, kind: u32) {
   let before = paths[index].bounces;
   let count = (before >> (8u * kind)) & 255u;
   if (count < 127u) { paths[index].bounces = before + (1u << (8u * kind)); }
