@@ -2,6 +2,7 @@ import type { SceneWarning } from '@glanz/scene';
 import { Accessors } from './accessors';
 import type { CheckedDocument } from './check/index';
 import { GltfError } from './error';
+import type { Ktx2Decoder } from './images';
 import type { GltfMeshopt } from './json';
 import { Budget, type GltfLimits } from './limits';
 import { MATERIAL_EXTENSIONS } from './materials';
@@ -18,6 +19,8 @@ export interface GltfDecoders {
   readonly draco?: unknown;
   /** `MeshoptDecoder` of `meshoptimizer/decoder`. */
   readonly meshopt?: unknown;
+  /** Decodes KTX2 pictures; see {@link ktx2Decoder}. Without it, pictures in other formats are taken where a document has both. */
+  readonly ktx2?: Ktx2Decoder | undefined;
 }
 
 /** Extensions that are read. */
@@ -33,6 +36,8 @@ const KNOWN = new Set([
   'KHR_materials_variants',
   'KHR_xmp_json_ld',
   'EXT_texture_webp',
+  'EXT_texture_avif',
+  'KHR_texture_basisu',
   ...MATERIAL_EXTENSIONS,
 ]);
 

@@ -11,7 +11,8 @@ export const oneLine = (text: string): string => {
  * `gltf/malformed` (parts that contradict the specification), `gltf/missing-resource` (a file that the document names is
  * not there), `gltf/unsupported-extension` (one that the document requires), `gltf/missing-decoder` (an optional package
  * is needed), `gltf/too-large` (more than the limits allow), `gltf/no-such-part` (a scene or an animation that was asked for),
- * `gltf/no-triangles`, `gltf/worker` (the worker of `loadGltfInWorker` cannot be started).
+ * `gltf/no-triangles`, `gltf/picture` (from a decoder of pictures: a load
+ * goes on without it), `gltf/worker` (the worker of `loadGltfInWorker` cannot be started).
  */
 export class GltfError extends GlanzError {
   constructor(code: string, message: string, options: GlanzErrorOptions = {}) {

@@ -17,22 +17,30 @@ export interface DecodedImage {
 /** Turns the bytes of a PNG, JPEG or WebP file into pixels. */
 export type ImageDecoder = (bytes: Uint8Array<ArrayBuffer>, mimeType: string) => Promise<DecodedImage>;
 
+/** Turns the bytes of a KTX2 file into pixels. */
+export type Ktx2Decoder = (bytes: Uint8Array<ArrayBuffer>) => Promise<DecodedImage>;
+
 const FORMATS = [
   ['image/png', [0x89, 0x50, 0x4e, 0x47]],
   ['image/jpeg', [0xff, 0xd8, 0xff]],
   ['image/webp', [0x52, 0x49, 0x46, 0x46]],
+  ['image/ktx2', [0xab, 0x4b, 0x54, 0x58, 0x20, 0x32, 0x30, 0xbb, 0x0d, 0x0a, 0x1a, 0x0a]],
+  // After the length of the first box: "ftypavif" or "ftypavis".
+  ['image/avif', [undefined, undefined, undefined, undefined, 0x66, 0x74, 0x79, 0x70, 0x61, 0x76, 0x69]],
 ] as const;
 
 /** The type of a picture by its first bytes. Decoders know more formats than glTF: SVG, for one, may name other files. */
 function formatOf(bytes: Uint8Array): string {
-  const found = FORMATS.find(([, magic]) => magic.every((byte, at) => bytes[at] === byte));
-  if (!found) throw new Error('it is no PNG, JPEG or WebP');
+  const found = FORMATS.find(([, magic]) => magic.every((byte, at) => byte === undefined || bytes[at] === byte));
+  if (!found) throw new Error('it is no PNG, JPEG, WebP, AVIF or KTX2');
   return found[0];
 }
 
-/** The picture behind a texture; WebP where the document offers it, as it is never there without a reason. */
-function sourceOf(texture: GltfTexture | undefined): number | undefined {
-  return texture?.extensions?.['EXT_texture_webp']?.source ?? texture?.source;
+/** The picture behind a texture: a better one where the document offers it and it can be read, else the plain one. */
+function sourceOf(texture: GltfTexture | undefined, ktx2: boolean): number | undefined {
+  const by = (name: string) => texture?.extensions?.[name]?.source;
+  const plain = by('EXT_texture_avif') ?? by('EXT_texture_webp') ?? texture?.source;
+  return ktx2 ? (by('KHR_texture_basisu') ?? plain) : (plain ?? by('KHR_texture_basisu'));
 }
 
 const WRAP: Readonly<Record<number, WrapMode>> = { 33071: 'clamp', 33648: 'mirror', 10497: 'repeat' };
@@ -57,11 +65,13 @@ export class TextureTable {
   readonly #json: GltfJson;
   readonly #source: Source;
   readonly #warnings: SceneWarning[];
+  readonly #ktx2: Ktx2Decoder | undefined;
 
-  constructor(json: GltfJson, source: Source, warnings: SceneWarning[]) {
+  constructor(json: GltfJson, source: Source, warnings: SceneWarning[], ktx2?: Ktx2Decoder) {
     this.#json = json;
     this.#source = source;
     this.#warnings = warnings;
+    this.#ktx2 = ktx2;
   }
 
   /** The scene's texture for one of the document's, read as `colorSpace`; undefined (with a warning) if there is none. */
@@ -93,7 +103,7 @@ export class TextureTable {
 
   #imageOf(index: number, path: string): number | undefined {
     const texture = this.#json.textures?.[index];
-    const image = sourceOf(texture);
+    const image = sourceOf(texture, this.#ktx2 !== undefined);
     if (texture && image !== undefined && this.#json.images?.[image]) return image;
     const why = texture ? (image === undefined ? 'has no picture in a format that is read' : `names image ${image}, which does not exist`) : 'does not exist';
     this.#warnings.push({ code: 'gltf/texture', message: `${this.#source.name}: texture ${index} ${why}; it is left out.`, path });
@@ -144,11 +154,13 @@ export class TextureTable {
       const image = this.#json.images?.[index] as GltfImage;
       const bytes = image.uri === undefined ? viewBytes(image.bufferView ?? -1) : await readUri(image.uri, this.#source, signal);
       try {
-        const decoded = await decode(bytes, formatOf(bytes));
+        const type = formatOf(bytes);
+        if (type === 'image/ktx2' && !this.#ktx2) throw new GltfError('gltf/missing-decoder', `${this.#source.name} has pictures in KTX2: pass decoders.ktx2, for which the package "three" has the transcoder.`, { location: { file: this.#source.name, path: `/images/${index}` } });
+        const decoded = type === 'image/ktx2' ? await (this.#ktx2 as Ktx2Decoder)(bytes) : await decode(bytes, type);
         budget.take(decoded.data.length, `/images/${index}`);
         return decoded;
       } catch (error) {
-        if (error instanceof GltfError) throw error;
+        if (error instanceof GltfError && error.code !== 'gltf/picture') throw error;
         warnings.set(index, { code: 'gltf/image', message: `${this.#source.name}: image ${index} ("${nameOf(index)}") cannot be decoded and is left out: ${error instanceof Error ? error.message.split('\n')[0] : String(error)}.`, path: `/images/${index}` });
         return undefined;
       }

@@ -75,7 +75,7 @@ export async function buildScene(source: Source, options: GltfOptions & { readon
   onProgress?.({ stage: 'read', done: 1 });
   const reader = await readDocument(checked, container.binary, source, options, scene.warnings);
   signal?.throwIfAborted();
-  const table = new TextureTable(json, source, scene.warnings);
+  const table = new TextureTable(json, source, scene.warnings, options.decoders?.ktx2);
   scene.materials = (json.materials ?? []).map((material, index) => readMaterial(material, index, table, scene.warnings));
   let done = 0;
   // Decoders have threads of their own: they are at work while geometry is read here.

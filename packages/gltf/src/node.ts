@@ -2,6 +2,7 @@ import type { Scene } from '@glanz/scene';
 import type { GltfDecoders } from './document';
 import { GltfError } from './error';
 import type { DecodedImage, ImageDecoder } from './images';
+import { ktx2Decoder } from './ktx2';
 import { buildScene, type GltfOptions } from './load';
 import { missing } from './source';
 
@@ -28,11 +29,25 @@ export const decodeImage: ImageDecoder = async (bytes): Promise<DecodedImage> =>
   return { width: info.width, height: info.height, data: new Uint8Array(data.buffer as ArrayBuffer, data.byteOffset, data.byteLength) };
 };
 
+/** The transcoder that `three` brings along. It is a script, neither a module nor CommonJS where it lies. */
+async function openBasis(): Promise<unknown> {
+  const [{ createRequire }, { readFile }] = await Promise.all([import('node:module'), import('node:fs/promises')]);
+  const path = (name: string) => optional(async () => createRequire(import.meta.url).resolve(`three/examples/jsm/libs/basis/${name}`), 'three', 'A model with KTX2 pictures');
+  const [script, wasmBinary] = await Promise.all([path('basis_transcoder.js').then((file) => readFile(file, 'utf8')), path('basis_transcoder.wasm').then((file) => readFile(file))]);
+  const { runInNewContext } = await import('node:vm');
+  // In a context of its own it finds nothing of Node, and so no files.
+  const context = { WebAssembly, TextDecoder, performance, console: { log: () => undefined, warn: () => undefined, error: () => undefined }, Uint8Array, Int8Array, Uint16Array, Int16Array, Uint32Array, Int32Array, Float32Array, Float64Array, setTimeout, exports: {}, module: { exports: undefined as unknown } };
+  runInNewContext(script, context);
+  const create = context.module.exports as (options: object) => Promise<unknown>;
+  return create({ wasmBinary, print: () => undefined, printErr: () => undefined });
+}
+
 /** The decoders of the packages that are installed; each is loaded for a document that needs it. */
-const DECODERS: GltfDecoders = {
+export const packagedDecoders = (): GltfDecoders => ({
   draco: async () => (await optional(() => import('draco3dgltf'), 'draco3dgltf', 'A Draco-compressed model')).default.createDecoderModule(),
+  ktx2: ktx2Decoder(openBasis),
   meshopt: async () => (await optional(() => import('meshoptimizer/decoder'), 'meshoptimizer', 'A meshopt-compressed model')).MeshoptDecoder,
-};
+});
 
 /**
  * Loads a .gltf or .glb file in Node, with the files it names beside it. See `loadGltf` for what is read.
@@ -73,6 +88,6 @@ export async function loadGltfFile(path: string | URL, options: GltfOptions = {}
         }
       },
     },
-    { ...options, decodeImage: options.decodeImage ?? decodeImage, decoders: { ...DECODERS, ...options.decoders } },
+    { ...options, decodeImage: options.decodeImage ?? decodeImage, decoders: { ...packagedDecoders(), ...options.decoders } },
   );
 }
