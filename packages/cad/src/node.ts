@@ -7,6 +7,12 @@ import { cadToScene } from './scene';
 
 export { CadError } from './error';
 
+/** Starts OpenCASCADE, without its chatter on the console. */
+export async function openOcct(): Promise<unknown> {
+  const { default: create } = await import('occt-import-js');
+  return create({ print: () => undefined, printErr: () => undefined });
+}
+
 /** What {@link convertCadFile} may be told. */
 export interface ConvertCadOptions extends Pick<CadOptions, 'tolerance' | 'angularTolerance' | 'format'> {
   /** Levels of detail; default 1. The first goes to `output`, others to the same name with `.lod1`, `.lod2` before the ending. */
@@ -54,7 +60,7 @@ export async function convertCadFile(input: string, output: string, options: Con
     materials = checkMaterialMap(json);
   }
   const { levels = 1, strip = false, tolerance, angularTolerance, format } = options;
-  const model = await readCad(new Uint8Array(await read(input)), { name: basename(input), ...(tolerance ? { tolerance } : {}), ...(angularTolerance === undefined ? {} : { angularTolerance }), ...(format ? { format } : {}) });
+  const model = await readCad(new Uint8Array(await read(input)), { openOcct, name: basename(input), ...(tolerance ? { tolerance } : {}), ...(angularTolerance === undefined ? {} : { angularTolerance }), ...(format ? { format } : {}) });
   const scene = cadToScene(model, { strip, ...(materials ? { materials } : {}) });
   const files: ConvertedFile[] = [];
   for (const [level, one] of (await levelsOfDetail(scene, { levels })).entries()) {

@@ -40,8 +40,11 @@ export interface CadOptions {
   readonly angularTolerance?: number;
   /** What messages call the file. */
   readonly name?: string;
-  /** Where OpenCASCADE comes from. Default: the package `occt-import-js`; in a page, give it the address of its WebAssembly. */
-  readonly openOcct?: () => Promise<unknown>;
+  /**
+   * Starts OpenCASCADE, the package `occt-import-js`. In Node: `openOcct` of `@glanz/cad/node`. In a page: its function with the
+   * address of its WebAssembly, `() => occtimportjs({ locateFile })`.
+   */
+  readonly openOcct: () => Promise<unknown>;
 }
 
 interface OcctNode {
@@ -58,11 +61,6 @@ interface OcctMesh {
   readonly index: { readonly array: readonly number[] };
 }
 
-const openByPackage = async (): Promise<unknown> => {
-  const { default: create } = await import('occt-import-js');
-  return create({ print: () => undefined, printErr: () => undefined });
-};
-
 /** The format of a CAD file by its beginning; undefined if it is none. */
 export function cadFormat(bytes: Uint8Array): CadOptions['format'] {
   const head = new TextDecoder('latin1').decode(bytes.subarray(0, 4096));
@@ -77,10 +75,10 @@ export function cadFormat(bytes: Uint8Array): CadOptions['format'] {
  *
  * @throws {CadError} `cad/format`, `cad/unreadable`, `cad/no-shapes`, `cad/option`.
  * @example
- * const model = await readCad(bytes, { tolerance: { metres: 0.0001 } });
+ * const model = await readCad(bytes, { openOcct, tolerance: { metres: 0.0001 } });
  */
-export async function readCad(bytes: Uint8Array, options: CadOptions = {}): Promise<CadModel> {
-  const { tolerance = { relative: 0.001 }, angularTolerance = 0.35, name = 'The CAD file', openOcct = openByPackage } = options;
+export async function readCad(bytes: Uint8Array, options: CadOptions): Promise<CadModel> {
+  const { tolerance = { relative: 0.001 }, angularTolerance = 0.35, name = 'The CAD file', openOcct } = options;
   const format = options.format ?? cadFormat(bytes);
   if (!format) throw new CadError('cad/format', `${name} is no STEP, IGES or BREP file.`, { location: { file: name } });
   const deflection = 'metres' in tolerance ? tolerance.metres : tolerance.relative;

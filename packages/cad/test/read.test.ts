@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { CadError, cadFormat, readCad, type CadPart } from '../src/index';
+import { openOcct } from '../src/node';
 import { ASSEMBLY, CUBE, stepBytes } from './step';
 
 /** By the divergence theorem; parts are closed, and their triangles point outwards. */
@@ -14,7 +15,7 @@ function volume({ positions, indices }: CadPart): number {
 
 describe('an assembly', () => {
   it('has its parts in their places, with names, paths and colours', async () => {
-    const { parts } = await readCad(stepBytes(ASSEMBLY));
+    const { parts } = await readCad(stepBytes(ASSEMBLY), { openOcct });
     expect(parts.length).toBe(18);
     const count = new Map<string, number>();
     for (const { name } of parts) count.set(name, (count.get(name) ?? 0) + 1);
@@ -35,7 +36,7 @@ describe('an assembly', () => {
   });
 
   it('has more triangles the closer they must lie to the surface', async () => {
-    const count = async (metres: number) => (await readCad(stepBytes(ASSEMBLY), { tolerance: { metres }, angularTolerance: 1 })).parts.reduce((sum, { indices }) => sum + indices.length / 3, 0);
+    const count = async (metres: number) => (await readCad(stepBytes(ASSEMBLY), { openOcct, tolerance: { metres }, angularTolerance: 1 })).parts.reduce((sum, { indices }) => sum + indices.length / 3, 0);
     const [coarse, fine] = [await count(0.002), await count(0.00002)];
     expect(fine).toBeGreaterThan(2 * coarse);
   });
@@ -43,7 +44,7 @@ describe('an assembly', () => {
 
 // Single precision: seven digits.
 it('a cube has the volume of a cube', async () => {
-  const { parts } = await readCad(stepBytes(CUBE));
+  const { parts } = await readCad(stepBytes(CUBE), { openOcct });
   expect(parts.length).toBe(1);
   expect(parts[0]!.indices.length / 3).toBe(12);
   const edge = Math.cbrt(volume(parts[0]!));
@@ -52,7 +53,7 @@ it('a cube has the volume of a cube', async () => {
 });
 
 it('what is no CAD file, or a broken one, is a typed error', async () => {
-  const code = (bytes: Uint8Array, options = {}) => readCad(bytes, options).then(() => 'none', (error: unknown) => { if (error instanceof CadError) return error.code; throw error; });
+  const code = (bytes: Uint8Array, options = {}) => readCad(bytes, { openOcct, ...options }).then(() => 'none', (error: unknown) => { if (error instanceof CadError) return error.code; throw error; });
   expect(await code(new TextEncoder().encode('solid stl'))).toBe('cad/format');
   expect(await code(new Uint8Array(0))).toBe('cad/format');
   expect(await code(new TextEncoder().encode('ISO-10303-21; garbage'))).toBe('cad/unreadable');
