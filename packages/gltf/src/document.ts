@@ -35,6 +35,9 @@ const KNOWN = new Set([
   'KHR_node_visibility',
   'KHR_materials_variants',
   'KHR_xmp_json_ld',
+  // Older than the one before, and of no use to a picture; a hint how polygons were cut.
+  'KHR_xmp',
+  'FB_ngon_encoding',
   'EXT_texture_webp',
   'EXT_texture_avif',
   'KHR_texture_basisu',
