@@ -2,7 +2,7 @@ import { readObj, readStl } from '@glanz/formats';
 import { decodeImageInBrowser, loadGltf } from '@glanz/gltf';
 import { createCornellBox, createPushButton } from '@glanz/models';
 import type { Scene } from '@glanz/scene';
-import { decodersFor } from './decoders';
+import { decoders } from './decoders';
 import type { LoadReply, LoadRequest } from './load-messages';
 
 // Reading and making models takes seconds for large ones: here it does not stop the page, and can be stopped by it.
@@ -16,7 +16,7 @@ async function load(request: LoadRequest): Promise<Scene> {
     const folder = entry.slice(0, entry.length - name.length);
     if (/\.obj$/i.test(entry)) return readObj((await bytesOf(entry)) ?? new Uint8Array(), { name, read: (path) => bytesOf(folder + path), decodeImage: (bytes) => decodeImageInBrowser(bytes, 'application/octet-stream') });
     const onProgress = ({ stage, done }: { stage: string; done: number }) => reply({ kind: 'progress', stage, done });
-    return loadGltf({ files, entry }, { decoders: await decodersFor(files.get(entry)), onProgress });
+    return loadGltf({ files, entry }, { decoders, onProgress });
   }
   if (request.name === 'cornell-box') return createCornellBox();
   return createPushButton({ level: request.name === 'push-button-high' ? 'high' : request.name === 'push-button-low' ? 'low' : 'medium' });
