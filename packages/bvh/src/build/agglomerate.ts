@@ -129,10 +129,12 @@ export class Agglomerator {
   /** Finds each place's nearest; among equals the first, so that the nearest two of all are each other's. */
   #compare(left: number, byTwos: boolean): void {
     const high = this.#high, low = this.#low, factors = this.#factors, nearest = this.#nearest;
-    let least = 0x7fffffff, most = 0;
+    const high0 = high[0] as number, low0 = low[0] as number;
+    let alike = true;
     nearest[0] = 0x7fffffff;
     for (let i = 1; i < left; i++) {
       const highI = high[i] as number, lowI = low[i] as number, factorI = factors[i] as number;
+      if (highI !== high0 || lowI !== low0) alike = false;
       let own = 0x7fffffff;
       for (let j = 0; j < i; j++) {
         // Surface and place in one number, and the lesser of two without a branch, which would be a coin toss.
@@ -142,16 +144,11 @@ export class Agglomerator {
         const theirs = nearest[j] as number;
         const forJ = (theirs - (d | i)) | 0;
         nearest[j] = theirs - (forJ & ~(forJ >> 31));
-        const beyond = (d - most) | 0;
-        most = (most + (beyond & ~(beyond >> 31))) | 0;
       }
       nearest[i] = own;
-      const under = (least - own) | 0;
-      least = (least - (under & ~(under >> 31))) | 0;
     }
-    // All alike: by twos, or one would swallow the others one after the other.
-    const alike = byTwos || least >> PLACE_BITS === most >> PLACE_BITS;
-    for (let i = 0; i < left; i++) nearest[i] = alike ? i ^ 1 : (nearest[i] as number) & (GROUP_MAX - 1);
+    // Identical boxes: by twos, or one would swallow the others one after the other.
+    for (let i = 0; i < left; i++) nearest[i] = byTwos || alike ? i ^ 1 : (nearest[i] as number) & (GROUP_MAX - 1);
   }
 
   /** Joins those that are each other's nearest, and gives how many are left. */

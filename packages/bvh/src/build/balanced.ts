@@ -16,7 +16,7 @@ export function* buildBalanced(mesh: TriangleMesh, count: number, { maxLeaf, bin
   const sorted = yield* part(sortPrimitives(primitives, scratch), 0.15, 0.3);
   const upper = yield* part(buildUpper(primitives, sorted, bins, scratch), 0.3, 0.6);
   const triangleIndices = new Uint32Array(primitives.triangleCount);
-  const writer = yield* part(writeInsides(upper, sorted.order, primitives.triangles, triangleIndices, maxLeaf, scratch), 0.6, 0.95);
+  const writer = yield* part(writeInsides(upper, upper.clusters.triangles, triangleIndices, maxLeaf, scratch), 0.6, 0.95);
   const tree = yield* part(keepNodes(writer), 0.95, 1);
   scratch.giveBack();
   return { ...tree, triangleIndices, bounds: primitives.bounds };

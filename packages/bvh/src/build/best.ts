@@ -3,7 +3,6 @@ import { BLAS_MAX_DEPTH } from '../layout';
 import type { BuildSettings, TreeBuilder } from './builder';
 import { draftOf, singleDraft, type DraftTree } from './draft';
 import { finishDraft } from './finish';
-import { counted } from './levels';
 import { cutTriangles, type References } from './references';
 import { Reinsertion } from './reinsert';
 import { Scratch } from './scratch';
@@ -34,7 +33,7 @@ function* draft(references: References, bins: number, scratch: Scratch): Steps<D
   const sorted = yield* part(sortPrimitives(references, scratch), 0, 0.3);
   const upper = yield* part(buildUpper(references, sorted, bins, scratch), 0.3, 0.5);
   const leaves = new Uint32Array(count);
-  const writer = yield* part(writeInsides(upper, sorted.order, counted(scratch.uint32(count), count), leaves, 0, scratch), 0.5, 0.8);
+  const writer = yield* part(writeInsides(upper, sorted.order, leaves, 0, scratch), 0.5, 0.8);
   return yield* part(draftOf(writer, leaves), 0.8, 1);
 }
 

@@ -6,6 +6,8 @@ import type { Scratch } from './scratch';
 export interface Clusters {
   /** Primitives' boxes in the sorted order. */
   readonly sorted: Float32Array;
+  /** Primitives' first triangles in the sorted order, with `PAIR`. */
+  readonly triangles: Uint32Array;
   /** Boxes of the clusters. */
   readonly boxes: Float32Array;
   /** Triangles of each cluster. */
@@ -55,8 +57,8 @@ export function cutCell(codes: Uint32Array, first: number, end: number): number 
 }
 
 /** Copies the boxes of the primitives into their sorted order and measures the cells `from` to `to`. */
-export function fillClusters({ sorted, boxes, weights, starts }: Clusters, primitives: Primitives, order: Uint32Array, from: number, to: number): void {
-  const { boxes: unsorted, triangles } = primitives;
+export function fillClusters({ sorted, triangles, boxes, weights, starts }: Clusters, primitives: Primitives, order: Uint32Array, from: number, to: number): void {
+  const { boxes: unsorted, triangles: names } = primitives;
   const box = new Float64Array(6);
   for (let cluster = from; cluster < to; cluster++) {
     const first = starts[cluster] as number, end = starts[cluster + 1] as number;
@@ -70,10 +72,11 @@ export function fillClusters({ sorted, boxes, weights, starts }: Clusters, primi
       sorted[s + 3] = unsorted[b + 3] as number;
       sorted[s + 4] = unsorted[b + 4] as number;
       sorted[s + 5] = unsorted[b + 5] as number;
-      weight += (triangles[primitive] as number) >>> 31;
+      const name = (triangles[i] = names[primitive] as number);
+      weight += name >>> 31;
     }
     enclose(sorted, first, end, box);
-    boxes.set(box, 6 * cluster);
+    for (let k = 0; k < 6; k++) boxes[6 * cluster + k] = box[k] as number;
     weights[cluster] = weight;
   }
 }
@@ -82,5 +85,5 @@ export function fillClusters({ sorted, boxes, weights, starts }: Clusters, primi
 export function roomForClusters(scratch: Scratch, codes: Uint32Array, count: number, size: number): Clusters {
   const starts = scratch.uint32(count + 1);
   const cells = cutCells(codes, count, size, starts);
-  return { sorted: scratch.float32(6 * count), boxes: scratch.float32(6 * cells), weights: scratch.uint32(cells), starts, count: cells };
+  return { sorted: scratch.float32(6 * count), triangles: scratch.uint32(count), boxes: scratch.float32(6 * cells), weights: scratch.uint32(cells), starts, count: cells };
 }

@@ -11,9 +11,7 @@ export interface InsidesInput {
   /** Place in the upper tree's leaf order → cluster. */
   readonly places: Uint32Array;
   readonly clusters: Clusters;
-  /** Sorted primitive → primitive. */
-  readonly order: Uint32Array;
-  /** Primitive → first triangle, with {@link PAIR}. */
+  /** Sorted primitive → first triangle, with {@link PAIR}. */
   readonly triangles: Uint32Array;
   /** Filled with the triangles in leaf order. */
   readonly triangleIndices: Uint32Array;
@@ -72,8 +70,8 @@ export class Insides {
 
   /** Writes the triangles of one sorted primitive. */
   #emit(sorted: number): void {
-    const { order, triangles, triangleIndices } = this.#input;
-    const primitive = triangles[order[sorted] as number] as number;
+    const { triangles, triangleIndices } = this.#input;
+    const primitive = triangles[sorted] as number;
     const first = primitive & (PAIR - 1);
     triangleIndices[this.#emitted++] = first;
     if (primitive >= PAIR) triangleIndices[this.#emitted++] = first + 1;
@@ -81,13 +79,13 @@ export class Insides {
 
   /** The tree inside a cluster, of `depth` nodes above; its box stands in the parent already. */
   #cluster(cluster: number, parent: number, side: number, depth: number): void {
-    const { clusters, order, triangles, maxLeaf, maxDepth } = this.#input;
+    const { clusters, triangles, maxLeaf, maxDepth } = this.#input;
     const { starts, sorted } = clusters;
     const writer = this.#writer, group = this.#group, weights = this.#weights, costs = this.#costs, leaf = this.#leaf;
     const first = starts[cluster] as number, size = (starts[cluster + 1] as number) - first;
     const { boxes, children } = group;
     for (let k = 0, from = 6 * first; k < 6 * size; k++) boxes[k] = sorted[from + k] as number;
-    for (let i = 0; i < size; i++) weights[i] = 1 + ((triangles[order[first + i] as number] as number) >>> 31);
+    for (let i = 0; i < size; i++) weights[i] = 1 + ((triangles[first + i] as number) >>> 31);
     group.run(size, maxDepth - depth);
     // From the leaves up: a leaf costs its area times its triangles, a node its area and its children.
     for (let id = 0, b = 0; id < 2 * size - 1; id++, b += 6) {

@@ -102,14 +102,14 @@ export function* buildUpper(primitives: Primitives, { order, codes }: Sorted, bi
 /**
  * Writes the whole tree: the upper levels, and trees inside the clusters.
  *
- * @param triangles Primitive → first triangle, with `PAIR`.
+ * @param triangles Sorted primitive → first triangle, with `PAIR`.
  * @param maxLeaf 0: one primitive a leaf.
  * @returns Its nodes in scratch memory.
  */
-export function* writeInsides(upper: Upper, order: Uint32Array, triangles: Uint32Array, triangleIndices: Uint32Array, maxLeaf: number, scratch: Scratch): Steps<NodeWriter> {
-  const count = order.length;
+export function* writeInsides(upper: Upper, triangles: Uint32Array, triangleIndices: Uint32Array, maxLeaf: number, scratch: Scratch): Steps<NodeWriter> {
+  const count = triangles.length;
   const writer = new NodeWriter(count, scratch.buffer(4 * NODE_WORDS * count));
-  const insides = new Insides(writer, { ...upper, order, triangles, triangleIndices, maxLeaf, maxDepth: BLAS_MAX_DEPTH });
+  const insides = new Insides(writer, { ...upper, triangles, triangleIndices, maxLeaf, maxDepth: BLAS_MAX_DEPTH });
   while (insides.step(STEP >> 4)) yield writer.count / count;
   return writer;
 }
