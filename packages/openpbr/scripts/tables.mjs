@@ -13,9 +13,10 @@
  */
 import { readFileSync, writeFileSync } from 'node:fs';
 import { fresnelDielectric, gaussLegendre, interfaceAlbedo } from './microfacet.mjs';
+import { sheen } from './sheen.mjs';
 
 const MIN_ROUGHNESS = 0.01;
-const LAYOUT = { angles: 17, roughnesses: 24, outer: 20, outerTotal: 12, inner: 12, innerTotal: 16, conductor: 40 };
+const LAYOUT = { angles: 17, roughnesses: 24, outer: 20, outerTotal: 12, inner: 12, innerTotal: 16, conductor: 40, sheen: 24 };
 const STEP = 2048;
 /** The conductor's losses are tiny where it is smooth. */
 const FINE_STEP = 65536;
@@ -119,7 +120,9 @@ function conductor() {
     const row = Array.from({ length: size }, (_, i) => 1 - albedo([r * r, r * r], 1.5, cosineOf(i / (size - 1), r)).mirror);
     values.push(...row, MARGIN.lost(r) * average((mu) => interpolate(row, (Math.sqrt(mu) * (1 + r)) / (Math.sqrt(mu) + r))));
   }
-  return { width: size + 1, height: size, depth: 1, values };
+  const fuzz = sheen(size + 1, LAYOUT.sheen, 40_000);
+  values.push(...fuzz.albedo, ...fuzz.stretch, ...fuzz.shear);
+  return { width: size + 1, height: size + 3 * LAYOUT.sheen, depth: 1, values };
 }
 
 /**

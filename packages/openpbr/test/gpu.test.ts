@@ -9,7 +9,7 @@ import { anyClear, anyCoated, anySurface, lowerDirection, single, uniform, upper
 afterEach(() => expectNoGpuErrors());
 
 /** Every lobe of an opaque surface. */
-const OPAQUE = (): OpenPbrFlags => ({ ...ALL, OPENPBR_TRANSMISSION: false, OPENPBR_SUBSURFACE: false, OPENPBR_THIN_SUBSURFACE: false, OPENPBR_THIN_WALLED: false });
+const OPAQUE = (): OpenPbrFlags => ({ ...ALL, OPENPBR_FUZZ: false, OPENPBR_TRANSMISSION: false, OPENPBR_SUBSURFACE: false, OPENPBR_THIN_SUBSURFACE: false, OPENPBR_THIN_WALLED: false });
 
 const ALL: OpenPbrFlags = {
   OPENPBR_SPECULAR: true,
@@ -23,6 +23,7 @@ const ALL: OpenPbrFlags = {
   OPENPBR_THIN_WALLED: true,
   OPENPBR_LOSSES: true,
   OPENPBR_COAT: true,
+  OPENPBR_FUZZ: true,
   OPENPBR_DIFFUSE: true,
   OPENPBR_COSINE: true,
   OPENPBR_DIFFUSE_ROUGHNESS: true,
@@ -67,10 +68,12 @@ async function compare(flags: OpenPbrFlags, cases: readonly GpuCase[], limit = 1
     const edges = [b.coatProbability, b.coatProbability + facets];
     if (flags.OPENPBR_TRANSMISSION) {
       // Whether a facet reflects hangs on the facet.
-      const chances = [0, 1].map((k) => sampleBsdf(b, wo, [u[0], u[1], b.coatProbability + facets * Math.min(Math.max((u[2] - b.coatProbability) / facets + (k - 0.5) * 2e-5, 0), 1 - 1e-9)]));
+      const chances = [0, 1].map((k) => sampleBsdf(b, wo, [u[0], u[1], Math.min(Math.max(u[2] + (k - 0.5) * 2e-5 * facets * (1 - b.fuzzProbability), 0), 1 - 1e-9)]));
       if (chances[0]?.transmitted !== chances[1]?.transmitted) return;
       if (chances[0]?.subsurface !== chances[1]?.subsurface) nearly.add(true);
     }
+    // Fuzz is chosen before all others.
+    if (b.fuzzProbability > 0) edges.splice(0, 2, ...edges.map((edge) => b.fuzzProbability + edge * (1 - b.fuzzProbability)), b.fuzzProbability);
     if (edges.some((edge) => Math.abs(u[2] - edge) < 1e-5)) return;
     const s = sampleBsdf(b, wo, u);
     triple('sampled direction', gpu.wi, s.valid || gpu.valid ? s.wi : gpu.wi, 1);
@@ -102,6 +105,7 @@ describe('WGSL against its CPU twin', () => {
   it('single scattering only (seed 2)', () => compare({ ...OPAQUE(), OPENPBR_MULTISCATTER: false }, cases(1024, 2, (next) => anySurface(next, 0.3))));
 
   it('every lobe below a coat, 2048 random surfaces (seed 8)', () => compare(OPAQUE(), cases(2048, 8, (next) => anyCoated(next, 0.3))));
+  it('every lobe below fuzz, 1024 random surfaces (seed 14)', () => compare({ ...ALL, OPENPBR_THIN_WALLED: false, OPENPBR_THIN_SUBSURFACE: false }, cases(1024, 14, (next) => ({ ...anyCoated(next, 0.3), fuzz_weight: Math.fround(next()), fuzz_color: single([next(), next(), next()]), fuzz_roughness: Math.fround(0.1 + 0.9 * next()), geometry_thin_walled: false }))));
   it('single scattering below a coat (seed 9)', () => compare({ ...OPAQUE(), OPENPBR_MULTISCATTER: false }, cases(512, 9, (next) => anyCoated(next, 0.3))));
 
   const through = (count: number, seed: number, surface: (next: () => number) => OpenPbrParameters = (next) => anyClear(next, 0.3)): GpuCase[] => {
@@ -144,6 +148,7 @@ describe('WGSL against its CPU twin', () => {
   gated('coat over glass and diffuse', 44, { base_metalness: 0, transmission_weight: 0.5, specular_weight: 1, specular_ior: 1.5, coat_weight: 0.7, coat_roughness: 0.3, coat_color: [0.9, 0.5, 0.2] });
   gated('subsurface', 45, { base_metalness: 0, transmission_weight: 0, subsurface_weight: 1, specular_weight: 1, specular_ior: 1.4 });
   gated('paper', 46, { base_metalness: 0, transmission_weight: 0, subsurface_weight: 0.7, specular_weight: 1, specular_ior: 1.4, geometry_thin_walled: true, subsurface_scatter_anisotropy: 0.3 });
+  gated('fuzz over diffuse', 15, { base_metalness: 0, specular_weight: 0, fuzz_weight: 0.8, fuzz_roughness: 0.6, fuzz_color: [0.9, 0.5, 0.2] });
   gated('coat over black', 13, { base_metalness: 0, base_weight: 0, specular_weight: 0, coat_weight: 1, coat_roughness: 0.3 });
 });
 
@@ -198,6 +203,8 @@ describe('WGSL at the edges', () => {
       { transmission_weight: 0.5, geometry_thin_walled: true, specular_roughness: 1, specular_ior: 1e6, specular_roughness_anisotropy: 1 },
       { transmission_weight: 1, geometry_thin_walled: true, specular_roughness: 0.4, specular_ior: 1, coat_weight: 1 },
       { subsurface_weight: 1, subsurface_color: [0, 0.5, 1], specular_roughness: 1 },
+      { fuzz_weight: 1, fuzz_roughness: 0 },
+      { fuzz_weight: 1, fuzz_roughness: 1, base_weight: 0, specular_weight: 0, emission_luminance: 1 },
       { subsurface_weight: 0.5, transmission_weight: 0.5, transmission_color: [0, 0, 1], specular_roughness: 0.3 },
       { subsurface_weight: 1, geometry_thin_walled: true, subsurface_scatter_anisotropy: 1, base_diffuse_roughness: 1, subsurface_color: [1, 1, 1] },
     ];

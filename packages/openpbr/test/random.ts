@@ -14,6 +14,9 @@ export function uniform(seed: number): () => number {
 /** What single precision makes of a vector. */
 export const single = (v: OpenPbrVector): OpenPbrVector => [Math.fround(v[0]), Math.fround(v[1]), Math.fround(v[2])];
 
+/** To double precision of length 1. */
+export const unit = (v: OpenPbrVector): OpenPbrVector => [v[0] / Math.hypot(...v), v[1] / Math.hypot(...v), v[2] / Math.hypot(...v)];
+
 /** A direction of the upper half, cosine-distributed but for a floor. */
 export function upperDirection(next: () => number, floor = 0): OpenPbrVector {
   const z = Math.max(Math.sqrt(next()), floor);

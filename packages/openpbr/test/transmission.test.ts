@@ -4,7 +4,7 @@ import { resolveParameters, type OpenPbrParameters, type OpenPbrVector } from '.
 import { requiredFeatures } from '../src/wgsl/index';
 import { gpuShader } from './gpu';
 import { direction } from './integrate';
-import { anyClear, uniform, upperDirection } from './random';
+import { anyClear, uniform, unit, upperDirection } from './random';
 import { primitives, sharedIt, type Triple } from './shared';
 import { sphereFurnace } from './sphere';
 
@@ -14,7 +14,6 @@ const INSIDE: BsdfOptions = { inside: true };
 const QUADRATURE = 5e-4;
 const near = (actual: number, expected: number, rel: number, what: string) => expect(Math.abs(actual - expected), `${what}: ${actual} for ${expected}`).toBeLessThanOrEqual(rel * Math.abs(expected));
 /** The host turns the frame so that the viewer is above: about the tangent. */
-const unit = (v: OpenPbrVector): OpenPbrVector => [v[0] / Math.hypot(...v), v[1] / Math.hypot(...v), v[2] / Math.hypot(...v)];
 const over = ([x, y, z]: OpenPbrVector): OpenPbrVector => [x, -y, -z];
 
 describe('transmission against independent numbers', () => {

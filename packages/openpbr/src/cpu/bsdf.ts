@@ -3,6 +3,7 @@ import { coatedBase, coatEmission, coatPass, coatThrough, inCoat, outOfCoat, pre
 import { cosineSample, eon } from './diffuse';
 import { energyBounce, energyLost, energyLostMean, energyShare, energyShareMean, energyTotal } from './energy';
 import { dielectricEpsilon, fresnelDielectric, fresnelMetal, fresnelMetalMean } from './fresnel';
+import { fuzzAlbedo, fuzzDensity, fuzzSample, prepareFuzz, type Fuzz } from './fuzz';
 import { ggx, ggxAlpha, ggxSample, halfVector, mirrorCosine, mirrorRoughness, viewRoughness, type Slopes } from './ggx';
 import { prepareThinSubsurface, type ThinSubsurface } from './subsurface';
 import { prepareTransmission, refract, refractGgx, refractHalf, type BsdfSide, type Transmission } from './transmission';
@@ -45,6 +46,9 @@ export interface Bsdf {
   /** Probability of going down when the cosine is sampled. */
   readonly below: number;
   readonly coat: Coat;
+  readonly fuzz: Fuzz;
+  /** Probability of sampling the fuzz; else it is what lies below. */
+  readonly fuzzProbability: number;
   /** Probability of sampling the coat; else it is the base. */
   readonly coatProbability: number;
 }
@@ -68,7 +72,7 @@ const sum = (color: OpenPbrColor): number => color[0] + color[1] + color[2];
 
 /** The parameters with indices relative to what is outside, and no coat in front from inside. */
 function seenFrom(p: OpenPbrParameters, { inside = false, outerIor = 1 }: BsdfSide): OpenPbrParameters {
-  return { ...p, specular_ior: p.specular_ior / outerIor, coat_ior: p.coat_ior / outerIor, coat_weight: inside ? 0 : p.coat_weight };
+  return { ...p, specular_ior: p.specular_ior / outerIor, coat_ior: p.coat_ior / outerIor, coat_weight: inside ? 0 : p.coat_weight, fuzz_weight: inside ? 0 : p.fuzz_weight };
 }
 
 /** Share of light that an interface reflects, and what multiple scattering adds to either side; twin of `openpbr_dielectric_prepare`. */
@@ -128,6 +132,9 @@ export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multi
   const beyond = coatThrough(coat, transmission.exit, mu);
   const below = rgb((i) => specular[i] * highlight[i] + spread[i] * everywhere[i] + (transmission.albedo[i] + beneath[i]) * beyond[i]);
   const total = sum(below) + 3 * coat.albedo;
+  const fuzz = prepareFuzz(whole, wo, mu);
+  const fibres = sum(fuzz.color);
+  const covered = total * fuzz.below;
   return {
     alpha,
     specularProbability: all > 0 ? facets / all : 0.5,
@@ -135,13 +142,15 @@ export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multi
     subsurface: { ...subsurface, back: subsurface.back * coupling, through: subsurface.through * coupling },
     diffuseColor: p.base_color,
     diffuseRoughness: p.base_diffuse_roughness,
-    albedo: rgb((i) => Math.min(below[i] + coat.albedo, 1)),
+    albedo: rgb((i) => Math.min((below[i] + coat.albedo) * fuzz.below + fuzz.color[i], 1)),
     metal: { f0, tint: p.specular_color, specularWeight: weight, metalness: p.base_metalness, roughness: mirror, bounced, meanLost },
     dielectric: { eta: (1 + face.epsilon) / (1 - face.epsilon), epsilon: face.epsilon, roughness, scale, bounced: rebounced },
     transmission,
     thinChance: facets > 0 ? sum(specular) / facets : 1,
     below: down > 0 ? down / (down + sum(spread)) : 0,
     coat,
+    fuzz,
+    fuzzProbability: fibres + covered > 0 ? fibres / (fibres + covered) : 0.5,
     coatProbability: total > 0 ? (3 * coat.albedo) / total : 0.5,
   };
 }
@@ -184,7 +193,7 @@ function scatterThrough(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPb
   const mirrored: OpenPbrVector = [wi[0], wi[1], -wi[2]];
   const paper = eon(b.subsurface.color, b.diffuseRoughness, wo, mirrored);
   const passes = b.subsurface.through * diffusePass(b, mirrored);
-  return { f: rgb((i) => (transmission.color[i] * passed + transmission.bounced[i] * cosine + paper[i] * passes) * coat[i]), pdf: (1 - b.coatProbability) * pdf };
+  return { f: rgb((i) => (transmission.color[i] * passed + transmission.bounced[i] * cosine + paper[i] * passes) * coat[i] * b.fuzz.below), pdf: (1 - b.fuzzProbability) * (1 - b.coatProbability) * pdf };
 }
 
 function scatter(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector): { f: OpenPbrColor; pdf: number } {
@@ -202,10 +211,11 @@ function scatter(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector
   const pass = coatPass(b.coat, Math.max(coatWi[2], 1e-5));
   const [top, topDensity] = coatWi[2] > 0 ? ggx(b.coat.alpha, inCoat(frame, wo), coatWi, inCoat(frame, h)) : [0, 0];
   const mirrored = b.coat.scale * fresnelDielectric(b.coat.eta, c) * top;
+  const fibres = fuzzDensity(b.fuzz, wi);
   const basePdf = b.specularProbability * reflectionChance(b, c) * density + ((1 - b.specularProbability) * (1 - b.below) * wi[2]) / Math.PI;
   return {
-    f: rgb((i) => (value * color[i] + (b.dielectric.bounced[i] * wi[2]) / Math.PI + bounced * b.metal.bounced[i] + through * (b.diffuseScale * diffuse[i] + b.subsurface.back * paper[i])) * pass[i] + mirrored),
-    pdf: basePdf * (1 - b.coatProbability) + topDensity * b.coatProbability,
+    f: rgb((i) => (value * color[i] + (b.dielectric.bounced[i] * wi[2]) / Math.PI + bounced * b.metal.bounced[i] + through * (b.diffuseScale * diffuse[i] + b.subsurface.back * paper[i])) * pass[i] * b.fuzz.below + mirrored * b.fuzz.below + b.fuzz.color[i] * fibres),
+    pdf: (basePdf * (1 - b.coatProbability) + topDensity * b.coatProbability) * (1 - b.fuzzProbability) + fibres * b.fuzzProbability,
   };
 }
 
@@ -221,7 +231,9 @@ export const evalBsdf = (b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): OpenPbr
 export const pdfBsdf = (b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): number => evalPdfBsdf(b, wo, wi).pdf;
 
 /** A direction for `u` in [0, 1)³; twin of `openpbr_sample`. */
-export function sampleBsdf(b: Bsdf, wo: OpenPbrVector, u: readonly [number, number, number]): BsdfSample {
+export function sampleBsdf(b: Bsdf, wo: OpenPbrVector, numbers: readonly [number, number, number]): BsdfSample {
+  const fuzzy = numbers[2] < b.fuzzProbability;
+  const u = [numbers[0], numbers[1], (numbers[2] - b.fuzzProbability) / Math.max(1 - b.fuzzProbability, 1e-7)] as const;
   let h: OpenPbrVector;
   let wi: OpenPbrVector;
   let transmitted = false;
@@ -229,7 +241,10 @@ export function sampleBsdf(b: Bsdf, wo: OpenPbrVector, u: readonly [number, numb
   const top = u[2] < b.coatProbability;
   const chosen = u[2] - b.coatProbability;
   const limit = (1 - b.coatProbability) * b.specularProbability;
-  if (top || chosen < limit) {
+  if (fuzzy) {
+    wi = fuzzSample(b.fuzz, u);
+    h = halfVector(wo, wi);
+  } else if (top || chosen < limit) {
     const side = chosen / limit;
     const { thin, thinAlpha, eta } = b.transmission;
     const { frame } = b.coat;
@@ -266,5 +281,5 @@ export const albedoBsdf = (b: Bsdf, wo: OpenPbrVector): OpenPbrColor => (wo[2] >
 export function emittedRadiance(p: OpenPbrParameters, wo: OpenPbrVector): OpenPbrColor {
   if (wo[2] <= 0) return [0, 0, 0];
   const pass = coatEmission(p, wo);
-  return rgb((i) => p.emission_color[i] * p.emission_luminance * pass[i]);
+  return rgb((i) => p.emission_color[i] * p.emission_luminance * pass[i] * (1 - p.fuzz_weight * fuzzAlbedo(p.fuzz_roughness, wo[2])));
 }

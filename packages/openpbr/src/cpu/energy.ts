@@ -1,4 +1,4 @@
-import { TABLE_ANGLES, TABLE_BLOCKS, TABLE_CONDUCTOR, TABLE_DEPTH, TABLE_MIN_ROUGHNESS, TABLE_ROUGHNESSES } from '../tables/layout';
+import { TABLE_ANGLES, TABLE_BLOCKS, TABLE_CONDUCTOR, TABLE_DEPTH, TABLE_HEIGHT_2D, TABLE_MIN_ROUGHNESS, TABLE_ROUGHNESSES } from '../tables/layout';
 import { OPENPBR_TABLES, type OpenPbrTable } from '../tables/tables';
 import { fresnelDielectric } from './fresnel';
 import { clamp } from './vector';
@@ -21,7 +21,7 @@ export function tableLookup(table: OpenPbrTable, coords: readonly [number, numbe
 
 const MIN_ROOT = Math.sqrt(TABLE_MIN_ROUGHNESS);
 const texel = (u: number, first: number, count: number, size: number): number => (u * (count - 1) + 0.5 + first) / size;
-const roughnessAxis = (r: number, count: number): number => texel(clamp((Math.sqrt(r) - MIN_ROOT) / (1 - MIN_ROOT), 0, 1), 0, count, count);
+const roughnessAxis = (r: number, count: number, size = count): number => texel(clamp((Math.sqrt(r) - MIN_ROOT) / (1 - MIN_ROOT), 0, 1), 0, count, size);
 const slice = (block: keyof typeof TABLE_BLOCKS, epsilon: number): number => texel(Math.sqrt(Math.abs(epsilon)), TABLE_BLOCKS[block][0], TABLE_BLOCKS[block][1], TABLE_DEPTH);
 const angleAxis = (t: number): number => texel(t, 0, TABLE_ANGLES, TABLE_ANGLES + 1);
 
@@ -40,11 +40,11 @@ export function fresnelMean(epsilon: number): number {
 /** Energy that a perfect mirror of the given roughness loses by single scattering; twin of `openpbr_energy_lost`. */
 export function energyLost(roughness: number, mu: number): number {
   const r = Math.max(roughness, TABLE_MIN_ROUGHNESS);
-  return tableLookup(OPENPBR_TABLES.conductor, [texel(spread(r, mu), 0, TABLE_CONDUCTOR, TABLE_CONDUCTOR + 1), roughnessAxis(r, TABLE_CONDUCTOR)]);
+  return tableLookup(OPENPBR_TABLES.conductor, [texel(spread(r, mu), 0, TABLE_CONDUCTOR, TABLE_CONDUCTOR + 1), roughnessAxis(r, TABLE_CONDUCTOR, TABLE_HEIGHT_2D)]);
 }
 
 /** The cosine-weighted mean of {@link energyLost} over all directions; twin of `openpbr_energy_lost_mean`. */
-export const energyLostMean = (roughness: number): number => tableLookup(OPENPBR_TABLES.conductor, [(TABLE_CONDUCTOR + 0.5) / (TABLE_CONDUCTOR + 1), roughnessAxis(Math.max(roughness, TABLE_MIN_ROUGHNESS), TABLE_CONDUCTOR)]);
+export const energyLostMean = (roughness: number): number => tableLookup(OPENPBR_TABLES.conductor, [(TABLE_CONDUCTOR + 0.5) / (TABLE_CONDUCTOR + 1), roughnessAxis(Math.max(roughness, TABLE_MIN_ROUGHNESS), TABLE_CONDUCTOR, TABLE_HEIGHT_2D)]);
 
 /** Share of the energy that an interface reflects by all scattering, the rest being refracted; twin of `openpbr_energy_share`. */
 export function energyShare(epsilon: number, roughness: number, mu: number): number {

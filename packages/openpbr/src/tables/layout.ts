@@ -24,5 +24,23 @@ export const TABLE_DEPTH = innerTotal + TABLE_LAYOUT.innerTotal;
 export const TABLE_ANGLES = TABLE_LAYOUT.angles;
 export const TABLE_ROUGHNESSES = TABLE_LAYOUT.roughnesses;
 export const TABLE_CONDUCTOR = TABLE_LAYOUT.conductor;
+/** Cosines and roughnesses of the fuzz: blocks below the conductor's, as wide as that. */
+export const SHEEN_COLUMNS = TABLE_LAYOUT.conductor + 1;
+export const SHEEN_ROWS = TABLE_LAYOUT.sheen;
+
+/** The two-dimensional table's blocks: first row and number of rows. */
+export const TABLE_BLOCKS_2D = {
+  /** What perfect mirrors lose by single scattering. */
+  conductor: [0, TABLE_LAYOUT.conductor],
+  /** Energy that fuzz reflects. */
+  sheenAlbedo: [TABLE_LAYOUT.conductor, SHEEN_ROWS],
+  /** The two numbers of its linearly transformed cosine. */
+  sheenStretch: [TABLE_LAYOUT.conductor + SHEEN_ROWS, SHEEN_ROWS],
+  sheenShear: [TABLE_LAYOUT.conductor + 2 * SHEEN_ROWS, SHEEN_ROWS],
+} as const;
+
+/** Height of the two-dimensional table in rows. */
+export const TABLE_HEIGHT_2D = TABLE_LAYOUT.conductor + 3 * SHEEN_ROWS;
+
 /** The tables' first roughness, which is that of the smallest slope. */
 export const TABLE_MIN_ROUGHNESS = 0.01;

@@ -60,7 +60,7 @@ function table(encoded: EncodedTable): OpenPbrTable {
 
 /**
  * The energy tables that {@link openpbr} reads through the host's accessors: directional albedos of GGX interfaces (of
- * conductors, what single scattering loses), computed from first principles by scripts/tables.mjs. Bind them as textures
+ * conductors, what single scattering loses; of fuzz, its energy and shape), computed from first principles by scripts/tables.mjs. Bind them as textures
  * with linear filtering and clamping (any filterable float format; `r16float` does), or as buffers with the host's own
  * interpolation between texel centres.
  *

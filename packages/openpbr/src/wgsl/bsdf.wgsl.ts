@@ -5,6 +5,7 @@ import { openpbrCosine, openpbrEon } from './diffuse.wgsl';
 import { openpbrEmission, openpbrOpacity } from './emission.wgsl';
 import { openpbrGgx } from './ggx.wgsl';
 import { openpbrMetal } from './metal.wgsl';
+import { openpbrFuzz } from './fuzz.wgsl';
 import { openpbrMedium } from './medium.wgsl';
 import { openpbrPhase } from './phase.wgsl';
 import { openPbrStruct } from './record';
@@ -31,7 +32,8 @@ import { openpbrTransmission } from './transmission.wgsl';
  * Metal and dielectric share one microfacet lobe: they differ by the Fresnel factor only. Diffuse reflection and what
  * bounces on between the facets are sampled by the cosine. The diffuse lobe below the
  * dielectric is weighted by (1 - E(μ_i))(1 - E(μ_o))/(1 - E_mean), which is reciprocal and loses nothing (Ashikhmin,
- * Premože and Shirley 2000; Kelemen and Szirmay-Kalos 2001). A coat adds a lobe of its own and scales the rest.
+ * Premože and Shirley 2000; Kelemen and Szirmay-Kalos 2001). A coat and fuzz add a lobe each and
+ * scale the rest.
  *
  * Transmission: `OpenPbrSide` says where the viewer is, `inside` the object or not, and the index of refraction of what is
  * outside of it; a thin wall has no inside. A facet, once sampled, reflects or refracts by chance, as its Fresnel factor
@@ -69,6 +71,9 @@ export const openpbr = wgslModule(
   //#if OPENPBR_COAT
   coat: OpenPbrCoat,
   //#endif
+  //#if OPENPBR_FUZZ
+  fuzz: OpenPbrFuzz,
+  //#endif
 }
 
 struct OpenPbrSample {
@@ -101,6 +106,7 @@ fn openpbr_prepare_side(given: OpenPbrParameters, wo: vec3f, side: OpenPbrSide) 
   whole.specular_ior = given.specular_ior / side.outer_ior;
   whole.coat_ior = given.coat_ior / side.outer_ior;
   whole.coat_weight = select(given.coat_weight, 0.0, side.inside);
+  whole.fuzz_weight = select(given.fuzz_weight, 0.0, side.inside);
 //#else
 //#if OPENPBR_COAT
 fn openpbr_prepare(whole: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
@@ -234,6 +240,17 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
   b.albedo += b.coat.albedo;
   b.coat.probability = select(0.5, 3.0 * b.coat.albedo / (below + 3.0 * b.coat.albedo), below + b.coat.albedo > 0.0);
   //#endif
+  //#if OPENPBR_FUZZ
+  //#if OPENPBR_TRANSMISSION
+  b.fuzz = openpbr_fuzz_prepare(whole, wo, mu);
+  //#else
+  b.fuzz = openpbr_fuzz_prepare(p, wo, mu);
+  //#endif
+  let covered = dot(b.albedo, vec3f(b.fuzz.below));
+  let fibres = dot(b.fuzz.color, vec3f(1.0));
+  b.fuzz.probability = select(0.5, fibres / (fibres + covered), fibres + covered > 0.0);
+  b.albedo = b.albedo * b.fuzz.below + b.fuzz.color;
+  //#endif
   return b;
 }
 
@@ -326,6 +343,9 @@ fn openpbr_scatter_through(b: OpenPbrBsdf, wo: vec3f, wi: vec3f, h: vec3f) -> ve
   //#if OPENPBR_COAT
   result *= vec4f(openpbr_coat_through(b, -wi.z), 1.0 - b.coat.probability);
   //#endif
+  //#if OPENPBR_FUZZ
+  result *= vec4f(vec3f(b.fuzz.below), 1.0 - b.fuzz.probability);
+  //#endif
   return result;
 }
 //#endif
@@ -384,6 +404,10 @@ fn openpbr_scatter(b: OpenPbrBsdf, wo: vec3f, wi: vec3f, h: vec3f) -> vec4f {
   let mirrored = b.coat.scale * openpbr_fresnel_dielectric(b.coat.eta, c) * top.x;
   result = vec4f(result.xyz * openpbr_coat_pass(b.coat, coat_mu) + mirrored, mix(result.w, top.y, b.coat.probability));
   //#endif
+  //#if OPENPBR_FUZZ
+  let fibres = openpbr_fuzz(b.fuzz, wi);
+  result = vec4f(result.xyz * b.fuzz.below + b.fuzz.color * fibres, mix(result.w, fibres, b.fuzz.probability));
+  //#endif
   return result;
 }
 
@@ -418,7 +442,13 @@ fn openpbr_pdf(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> f32 {
   return openpbr_eval_pdf(b, wo, wi).w;
 }
 
+//#if OPENPBR_FUZZ
+fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, numbers: vec3f) -> OpenPbrSample {
+  let fuzzy = numbers.z < b.fuzz.probability;
+  let u = vec3f(numbers.xy, min((numbers.z - b.fuzz.probability) / max(1.0 - b.fuzz.probability, 1e-7), 0.99999994));
+//#else
 fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample {
+//#endif
   var s: OpenPbrSample;
   var h = vec3f(0.0, 0.0, 1.0);
   //#if OPENPBR_SUBSURFACE
@@ -429,11 +459,23 @@ fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample {
   let top = u.z < b.coat.probability;
   let chosen = u.z - b.coat.probability;
   let limit = (1.0 - b.coat.probability) * b.specular_probability;
+  //#if OPENPBR_FUZZ
+  if (fuzzy) {
+    s.wi = openpbr_fuzz_sample(b.fuzz, u.xy);
+    h = openpbr_half(wo, s.wi);
+  } else
+  //#endif
   if (top || chosen < limit) {
     var alpha = select(b.alpha, b.coat.alpha, top);
   //#else
   let chosen = u.z;
   let limit = b.specular_probability;
+  //#if OPENPBR_FUZZ
+  if (fuzzy) {
+    s.wi = openpbr_fuzz_sample(b.fuzz, u.xy);
+    h = openpbr_half(wo, s.wi);
+  } else
+  //#endif
   if (chosen < limit) {
     var alpha = b.alpha;
   //#endif
@@ -497,6 +539,9 @@ fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample {
   //#endif
   //#else
   s.wi = openpbr_cosine_sample(u.xy);
+  //#if OPENPBR_FUZZ
+  if (fuzzy) { s.wi = openpbr_fuzz_sample(b.fuzz, u.xy); }
+  //#endif
   //#endif
   let f = openpbr_scatter(b, wo, s.wi, h);
   s.pdf = f.w;
@@ -527,6 +572,7 @@ fn openpbr_albedo(b: OpenPbrBsdf, wo: vec3f) -> vec3f {
     gated('OPENPBR_TRANSMISSION', openpbrPhase),
     gated('OPENPBR_SUBSURFACE', openpbrSubsurface),
     gated('OPENPBR_COAT', openpbrCoat),
+    gated('OPENPBR_FUZZ', openpbrFuzz),
     gated('OPENPBR_COSINE', openpbrCosine),
     gated('OPENPBR_DIFFUSE_ROUGHNESS', openpbrEon),
   ],

@@ -1,5 +1,5 @@
 import { wgslModule } from '@glanz/wgsl';
-import { TABLE_ANGLES, TABLE_BLOCKS, TABLE_CONDUCTOR, TABLE_DEPTH, TABLE_MIN_ROUGHNESS, TABLE_ROUGHNESSES } from '../tables/layout';
+import { TABLE_ANGLES, TABLE_BLOCKS, TABLE_CONDUCTOR, TABLE_DEPTH, TABLE_HEIGHT_2D, TABLE_MIN_ROUGHNESS, TABLE_ROUGHNESSES } from '../tables/layout';
 import { openpbrFresnelDielectric } from './fresnel.wgsl';
 
 const float = (value: number): string => (Number.isInteger(value) ? `${value}.0` : String(value));
@@ -9,7 +9,7 @@ const axis = (first: number, count: number, size: number): [offset: string, fact
 const angle = axis(0, TABLE_ANGLES, TABLE_ANGLES + 1);
 const rough = axis(0, TABLE_ROUGHNESSES, TABLE_ROUGHNESSES);
 const metal = axis(0, TABLE_CONDUCTOR, TABLE_CONDUCTOR + 1);
-const metalRough = axis(0, TABLE_CONDUCTOR, TABLE_CONDUCTOR);
+const metalRough = axis(0, TABLE_CONDUCTOR, TABLE_HEIGHT_2D);
 const slice = (block: keyof typeof TABLE_BLOCKS) => axis(TABLE_BLOCKS[block][0], TABLE_BLOCKS[block][1], TABLE_DEPTH);
 const outer = slice('outer');
 const outerTotal = slice('outerTotal');

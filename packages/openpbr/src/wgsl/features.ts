@@ -23,6 +23,8 @@ export interface OpenPbrFlags {
   /** The table of the losses of mirrors is read: OPENPBR_METAL or OPENPBR_THIN_WALLED. */
   readonly OPENPBR_LOSSES: boolean;
   readonly OPENPBR_COAT: boolean;
+  /** A layer of fibres over everything else. */
+  readonly OPENPBR_FUZZ: boolean;
   readonly OPENPBR_DIFFUSE: boolean;
   /** Directions are sampled by the cosine too: OPENPBR_DIFFUSE, or OPENPBR_METAL or OPENPBR_DIELECTRIC with OPENPBR_MULTISCATTER. */
   readonly OPENPBR_COSINE: boolean;
@@ -80,6 +82,7 @@ export function requiredFeatures(materials: readonly Partial<OpenPbrParameters>[
     OPENPBR_THIN_WALLED: thin,
     OPENPBR_LOSSES: metal || thin,
     OPENPBR_COAT: coat,
+    OPENPBR_FUZZ: all.some((p) => p.fuzz_weight > 0),
     OPENPBR_DIFFUSE: lambert,
     OPENPBR_COSINE: lambert || ((metal || dielectric) && multipleScattering),
     OPENPBR_DIFFUSE_ROUGHNESS: diffuse && solid.some((p) => p.base_diffuse_roughness > 0),
