@@ -3,7 +3,7 @@ import { boxArea, type DraftTree } from './draft';
 import { NodeWriter } from './node-writer';
 import { PAIR } from './primitives';
 import type { References } from './references';
-import { STEP, type Steps, type TriangleTree } from './steps';
+import { keepNodes, part, STEP, type Steps, type TriangleTree } from './steps';
 
 /** The place of the root. */
 const rootOf = ({ itemCount }: DraftTree) => (itemCount > 1 ? itemCount : 0);
@@ -167,5 +167,6 @@ export function* finishDraft(tree: DraftTree, { triangles }: References, maxLeaf
     if (above >= 0) writer.childBox(above, side === 1, reference, boxes, 6 * place);
     if (visited % STEP === 0) yield 0.5 + (0.5 * writer.count) / nodeCount;
   }
-  return { ...writer.finish(), triangleIndices: emitted === triangleIndices.length ? triangleIndices : triangleIndices.slice(0, emitted) };
+  const { nodes, nodeCount: kept } = yield* part(keepNodes(writer), 1, 1);
+  return { nodes, nodeCount: kept, triangleIndices: emitted === triangleIndices.length ? triangleIndices : triangleIndices.slice(0, emitted) };
 }

@@ -83,6 +83,7 @@ export interface Upper {
 export function* buildUpper(primitives: Primitives, { order, codes }: Sorted, bins: number, scratch: Scratch): Steps<Upper> {
   const clusters = roomForClusters(scratch, codes, primitives.count, GROUP_MAX);
   const { count } = clusters;
+  yield 0;
   for (let from = 0; from < count; from += STEP >> 3) {
     fillClusters(clusters, primitives, order, from, Math.min(count, from + (STEP >> 3)));
     yield (0.2 * from) / count;
@@ -94,6 +95,7 @@ export function* buildUpper(primitives: Primitives, { order, codes }: Sorted, bi
     const levels = new Levels(upper, { boxes: clusters.boxes, weights: clusters.weights, order: places, count }, depth, bins);
     while (levels.step(STEP)) yield 0.2 + (0.6 * upper.count) / count;
     const rotations = new Rotations(upper, depth);
+    yield 0.8;
     while (rotations.step(STEP)) yield 0.8;
   }
   return { clusters, upper, places };
