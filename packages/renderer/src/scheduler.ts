@@ -29,6 +29,11 @@ export class Scheduler {
   /** Milliseconds that one submission should take at most. */
   budget: number;
   #paths: number;
+  /** Milliseconds that a batch takes besides what its paths take. */
+  #fixed = 0;
+  /** Whether batches of different sizes have told that. */
+  #tried = false;
+  #last: { readonly paths: number; readonly milliseconds: number } | undefined;
   #sample: number;
   #pixel = 0;
 
@@ -90,13 +95,31 @@ export class Scheduler {
   /** Learns from the time a batch took on the GPU. */
   measured(batch: Batch, milliseconds: number): void {
     const paths = batch.pixelCount * batch.sampleCount;
-    if (milliseconds > this.budget * 1.5) {
-      const factor = Math.max(0.25, (0.8 * this.budget) / milliseconds);
+    this.#learnFixedCost(paths, milliseconds);
+    // What every batch costs, however small, must not eat up most of the time.
+    const budget = Math.max(this.budget, 3 * this.#fixed);
+    if (milliseconds > budget * 1.5) {
+      const factor = Math.max(0.25, (0.8 * budget) / milliseconds);
       this.#paths = Math.min(this.#capacity, Math.max(SMALLEST, Math.min(this.#paths, Math.floor(paths * factor))));
-    } else if (milliseconds < this.budget * 0.7) {
+    } else if (milliseconds < budget * 0.7) {
       // By the speed of this batch, which may have been smaller than allowed; larger ones are faster still.
-      const possible = (0.9 * this.budget * paths) / Math.max(milliseconds, 1e-3);
+      const possible = (0.9 * budget * paths) / Math.max(milliseconds, 1e-3);
       if (possible > this.#paths) this.#paths = Math.min(this.#capacity, Math.floor(possible), 4 * this.#paths);
+    } else if (!this.#tried) {
+      // One larger batch tells how much of the time was not for its paths.
+      this.#paths = Math.min(this.#capacity, 2 * this.#paths);
     }
+  }
+
+  /** The line through this batch's time and that of one of another size tells what a batch of no paths would take. */
+  #learnFixedCost(paths: number, milliseconds: number): void {
+    const last = this.#last;
+    if (last && Math.max(paths, last.paths) > 1.5 * Math.min(paths, last.paths)) {
+      const slope = Math.max(0, (milliseconds - last.milliseconds) / (paths - last.paths));
+      const fixed = Math.max(0, Math.min(milliseconds - slope * paths, last.milliseconds - slope * last.paths));
+      this.#fixed = this.#tried ? 0.5 * (this.#fixed + fixed) : fixed;
+      this.#tried = true;
+    }
+    if (!last || paths !== last.paths) this.#last = { paths, milliseconds };
   }
 }

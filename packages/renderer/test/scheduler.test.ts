@@ -61,6 +61,14 @@ describe('Scheduler', () => {
     }
   });
 
+  it('does not shrink batches for what they cost whatever their size', () => {
+    // 40 ms of launches for a budget of 30.
+    const { batches } = simulate(1 << 14, 1 << 22, 30, 3000, (paths) => 40 + paths / 50_000);
+    const sizes = batches.map((b) => b.pixelCount * b.sampleCount);
+    // 120 ms in all leave 80 for paths.
+    expect(sizes.at(-2)).toBeGreaterThan(1_000_000);
+  });
+
   it('grows to the capacity on a fast GPU', () => {
     const { batches } = simulate(1 << 16, 1 << 20, 30, 200, () => 0.5);
     expect(Math.max(...batches.map((b) => b.pixelCount * b.sampleCount))).toBe(1 << 20);

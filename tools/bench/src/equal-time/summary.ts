@@ -44,16 +44,20 @@ export function valueAt(m: Measurement, quantity: Quantity, budget: number): num
 /** Milliseconds at a budget, mean over runs. */
 export const timeAt = (m: Measurement, budget: number, clock: 'gpuMs' | 'wallMs') => at(m, budget, (point) => point[clock]);
 
-/** A quantity after some time: between measured points on a straight line of logarithms, beyond them along the nearest piece. */
+/** How a quantity falls with time where it was not measured: variance as 1 / time, FLIP as a difference of colours with its root. */
+const DECAY: Readonly<Record<Quantity, number>> = { relMSE: 1, noise: 1, FLIP: 0.5 };
+
+/** A quantity after some time: between measured points on a straight line of logarithms; beyond them, from the nearest, as noise falls. */
 export function valueAfter(m: Measurement, quantity: Quantity, clock: 'gpuMs' | 'wallMs', milliseconds: number): number {
   const count = m.points[0]?.length ?? 0;
-  const points = Array.from({ length: count }, (_, b) => [Math.log(timeAt(m, b, clock)), Math.log(valueAt(m, quantity, b))] as const);
-  if (points.length === 1) return Math.exp(points[0]![1]);
+  const points = Array.from({ length: count }, (_, b) => [Math.log(timeAt(m, b, clock)), Math.log(valueAt(m, quantity, b))] as const).sort((a, b) => a[0] - b[0]);
   const x = Math.log(milliseconds);
-  let piece = 0;
-  while (piece < points.length - 2 && points[piece + 1]![0] < x) piece++;
-  const [[x0, y0], [x1, y1]] = [points[piece]!, points[piece + 1]!];
-  return Math.exp(y0 + ((y1 - y0) * (x - x0)) / (x1 - x0));
+  const after = points.findIndex(([time]) => time >= x);
+  const beyond = ([time, value]: readonly [number, number]) => Math.exp(value - DECAY[quantity] * (x - time));
+  if (after === 0) return beyond(points[0]!);
+  if (after < 0) return beyond(points.at(-1)!);
+  const [[x0, y0], [x1, y1]] = [points[after - 1]!, points[after]!];
+  return Math.exp(x1 > x0 ? y0 + ((y1 - y0) * (x - x0)) / (x1 - x0) : Math.min(y0, y1));
 }
 
 /** The quantity by which a scene's contestants are compared: models differ where our own render is the reference. */
