@@ -316,7 +316,7 @@ test('the push-button, and depth as one goes', async ({ page }) => {
   const shallow = await photograph(canvasOf(page));
   expect(shallow.colours).toBeGreaterThan(3000);
   expect(shallow.deviation).toBeGreaterThan(20);
-  const box = page.getByRole('spinbutton', { name: 'Depth' });
+  const box = page.getByRole('spinbutton', { name: 'Depth', exact: true });
   await restarting(page, async () => {
     await box.fill('5');
     await box.press('Tab');

@@ -1,6 +1,7 @@
 import { bvhOffset } from '@glanz/bvh/wgsl';
-import { openpbrMedium } from '@glanz/openpbr/wgsl';
-import { wgslModule } from '@glanz/wgsl';
+import { openpbrMedium, openpbrSubsurface } from '@glanz/openpbr/wgsl';
+import { gated, wgslModule } from '@glanz/wgsl';
+import { energyHost } from './energy.wgsl';
 import { instanceStruct, MATERIAL_INDEX_MATCHED, MATERIAL_INTERIOR, MATERIAL_PRIORITY_SHIFT, materialStruct } from './layout';
 
 /**
@@ -80,6 +81,9 @@ fn media_cross(stack: vec2u, material: u32, front: bool) -> MediaCrossing {
 }
 
 fn media_of(entry: u32) -> OpenPbrMedium {
+  //#if OPENPBR_SUBSURFACE
+  if ((entry & 0x8000u) != 0u) { return openpbr_subsurface_medium(materials[media_material(entry)].parameters); }
+  //#endif
   return openpbr_medium(materials[media_material(entry)].parameters);
 }
 
@@ -90,7 +94,7 @@ fn media_transmittance(stack: vec2u, distance: f32) -> vec3f {
   return exp(-media_of(top).extinction * distance);
 }
 `,
-  [openpbrMedium, materialStruct.module],
+  [openpbrMedium, gated('OPENPBR_SUBSURFACE', openpbrSubsurface), gated('OPENPBR_SUBSURFACE', energyHost), materialStruct.module],
 );
 
 /** A ray's way past surfaces that are not there: index-matched ones, and those hidden inside an interior of higher priority. */

@@ -69,6 +69,8 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
   const traversal = (kind: 'closest' | 'any') => traversalModule(kind, flags.BVH_FILTER === true ? opacity : undefined);
   const filter: ResourceName[] = flags.BVH_FILTER ? ['frame', 'batch', 'attributes', 'materials'] : flags.CATCHER ? ['frame', 'batch'] : [];
   const energy: ResourceName[] = ['energy_dielectric', 'energy_conductor', 'energy_sampler'];
+  // What subsurface scatters depends on how its surface reflects.
+  const walking: ResourceName[] = flags.OPENPBR_SUBSURFACE ? energy : [];
   const path = pathLayout(features).module;
   const film = filmModule(features.planes, flags.CATCHER === true);
   const filmBuffers: ResourceName[] = ['film_block', 'film_total', 'film_moment', 'beauty', ...(flags.LIGHT_GROUPS ? (['light_groups'] as const) : [])];
@@ -81,11 +83,11 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
     case 'advance':
       return { root: advance, resources: ['queues', 'dispatch'], textures: false };
     case 'intersect': {
-      const resources = [...new Set([...filter, ...(flags.SCATTERING ? (['frame', 'batch'] as const) : []), ...(flags.MEDIA ? (['materials'] as const) : [])])];
+      const resources = [...new Set([...filter, ...(flags.SCATTERING ? (['frame', 'batch'] as const) : []), ...(flags.MEDIA ? (['materials'] as const) : []), ...walking])];
       return { root: intersect(path, traversal('closest')), resources: [...resources, 'paths', 'queues', 'nodes', 'triangles', 'instances'], textures: flags.BVH_FILTER === true };
     }
     case 'connect': {
-      const resources = [...new Set([...filter, ...(flags.NULL_SURFACES ? (['materials'] as const) : [])])];
+      const resources = [...new Set([...filter, ...(flags.NULL_SURFACES ? (['materials'] as const) : []), ...(flags.NULL_SURFACES ? walking : [])])];
       return { root: connect(path, traversal(flags.NULL_SURFACES ? 'closest' : 'any')), resources: [...resources, 'paths', 'queues', 'shadows', 'nodes', 'triangles', 'instances'], textures: flags.BVH_FILTER === true };
     }
     case 'shade':

@@ -306,7 +306,11 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   paths[index].origin = start;
   //#endif
   //#if MEDIA
-  paths[index].media = select(stack, crossing.beyond, scattered.transmitted);
+  var next_stack = select(stack, crossing.beyond, scattered.transmitted);
+  //#if OPENPBR_SUBSURFACE
+  if (front && scattered.transmitted && scattered.subsurface) { next_stack.x |= 0x8000u; }
+  //#endif
+  paths[index].media = next_stack;
   paths[index].travelled = 0.0;
   //#endif
   //#if PATH_DEPTH

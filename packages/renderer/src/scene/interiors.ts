@@ -5,13 +5,14 @@ import type { Material } from '@glanz/scene';
 export function hasInterior(material: Material): boolean {
   const p = resolveParameters(material.parameters);
   if (p.geometry_thin_walled || (p.base_metalness >= 1 && !material.textures?.base_metalness)) return false;
-  return p.transmission_weight > 0;
+  return p.transmission_weight > 0 || p.subsurface_weight > 0;
 }
 
 /** Whether what is inside scatters light. */
 function scatters(material: Material): boolean {
   const p = resolveParameters(material.parameters);
-  return hasInterior(material) && p.transmission_weight > 0 && p.transmission_depth > 0 && p.transmission_scatter.some((c) => c > 0);
+  const milky = p.transmission_weight > 0 && p.transmission_depth > 0 && p.transmission_scatter.some((c) => c > 0);
+  return hasInterior(material) && (milky || p.subsurface_weight > 0);
 }
 
 /** Whether the material's surface is none: all light passes, unbent and untinted, where there is air around. */

@@ -109,6 +109,20 @@ describe('interiors', () => {
     for (const value of seen) expect(Math.abs(value - 1)).toBeLessThan(0.02);
   });
 
+  it('subsurface that absorbs nothing gives back what goes in, and a coloured one its colour of a thick body', async () => {
+    const body = (subsurface_color: Vector, parameters: Material['parameters'] = {}): Scene => {
+      const scene = surrounded([1, 1, 1]);
+      addSphere(scene, 0.8, [0, 0, 0], { name: 'wax', parameters: { subsurface_weight: 1, subsurface_color, subsurface_radius: 0.05, subsurface_radius_scale: [1, 0.6, 0.3], specular_roughness: 0.3, ...parameters } });
+      return scene;
+    };
+    const white = meanOf(await picture(body([1, 1, 1]), 64, { maxDepth: 64, maxVolumeDepth: 1024 }), SIZE, 5, 5, 11, 11);
+    for (const value of white) expect(Math.abs(value - 1)).toBeLessThan(0.02);
+    // Far smaller than the body, the walk sees a half space: what comes back is the colour, and what the surface mirrors.
+    const [r, g, b] = meanOf(await picture(body([0.8, 0.5, 0.2], { subsurface_radius: 0.01 }), 64, { maxDepth: 64 }), SIZE, 6, 6, 10, 10);
+    const mirrored = 0.04;
+    for (const [seen, color] of [[r, 0.8], [g, 0.5], [b, 0.2]] as const) expect(Math.abs(seen - (mirrored + (1 - mirrored) * color))).toBeLessThan(0.05);
+  });
+
   it('a lamp in a block of absorbing glass lights a wall in it through the glass', async () => {
     const scene = createScene();
     const { parameters } = matter([1, 1, 1]);
