@@ -15,7 +15,7 @@ export interface PathTracerOptions {
   readonly maxDepth?: number;
   /**
    * Most scattering events of a path inside of media (subsurface, milky glass); default 256. What has been scattered as
-   * often as that goes straight on to the surface. In media without an optical surface, such as fog, they count as edges too.
+   * often as that goes straight on to the surface. At most 65,535. In media without an optical surface, such as fog, they count as edges too.
    */
   readonly maxVolumeDepth?: number;
   /** Names the random numbers; the same seed gives the same picture on the same device. Default 0. */

@@ -1,5 +1,5 @@
 import { validateScene, type Camera, type Scene } from '@glanz/scene';
-import { RenderError } from './errors';
+import { DeviceError, RenderError } from './errors';
 import { Film } from './film/film';
 import { GpuMemory } from './gpu/buffers';
 import { withErrorScopes } from './gpu/error-scopes';
@@ -10,6 +10,7 @@ import type { KernelFeatures } from './kernels/pipelines';
 import type { PathTracerOptions, RenderStatistics } from './options';
 import { chooseCamera } from './scene/choose-camera';
 import { packGeometry, prepareGeometry } from './scene/geometry';
+import { hasInterior } from './scene/interiors';
 import { ownScene, SceneEditor } from './scene-editor';
 import { checkShortcuts, shortcutFlags } from './shortcuts';
 import { viewFlags } from './view';
@@ -34,7 +35,9 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
   checkSize(options.width, options.height);
   checkShortcuts(options);
   checkDepth(options.maxDepth ?? 8);
+  checkVolumeDepth(options.maxVolumeDepth ?? 256);
   validateScene(scene);
+  checkInteriors(scene);
   const own = ownScene(scene);
   const { hierarchies, signal, onProgress } = options;
   signal?.throwIfAborted();
@@ -72,9 +75,25 @@ export function kernelFeatures(scene: GpuScene, camera: Camera, options: PathTra
   return { ...features, flags: { ...features.flags, ...viewFlags(camera, options.filter), ...shortcutFlags(options) } };
 }
 
+/** Paths count edges and scattering events in 16 bits each. */
+const MOST_EVENTS = 0xffff;
+/** An interior's place in a path's stack has 15 bits, and 0 stands for none. */
+const MOST_INTERIORS = 0x7fff;
+
 /** @throws {RenderError} `renderer/option` */
 export function checkDepth(maxDepth: number): void {
-  if (!Number.isInteger(maxDepth) || maxDepth < 1) throw new RenderError('renderer/option', `maxDepth must be a whole number of at least 1, not ${maxDepth}.`);
+  if (!Number.isInteger(maxDepth) || maxDepth < 1 || maxDepth > MOST_EVENTS) throw new RenderError('renderer/option', `maxDepth must be a whole number of at least 1 and at most ${MOST_EVENTS}, not ${maxDepth}.`);
+}
+
+/** @throws {RenderError} `renderer/option` */
+function checkVolumeDepth(maxVolumeDepth: number): void {
+  if (!Number.isInteger(maxVolumeDepth) || maxVolumeDepth < 0 || maxVolumeDepth > MOST_EVENTS) throw new RenderError('renderer/option', `maxVolumeDepth must be a whole number of at most ${MOST_EVENTS}, not ${maxVolumeDepth}.`);
+}
+
+/** @throws {DeviceError} `renderer/limit` where a path has too few bits to say in which of the materials it is. */
+function checkInteriors({ materials }: Scene): void {
+  const last = materials.findLastIndex(hasInterior);
+  if (last >= MOST_INTERIORS) throw new DeviceError('renderer/limit', `Material ${last} ("${materials[last]?.name}") lets light into its inside; only the first ${MOST_INTERIORS} materials of a scene may: move it up, or give it geometry_thin_walled.`);
 }
 
 /** @throws {RenderError} `renderer/size` */

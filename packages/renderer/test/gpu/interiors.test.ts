@@ -123,6 +123,15 @@ describe('interiors', () => {
     for (const [seen, color] of [[r, 0.8], [g, 0.5], [b, 0.2]] as const) expect(Math.abs(seen - (mirrored + (1 - mirrored) * color))).toBeLessThan(0.05);
   });
 
+  it('of more scattering events, or of more materials, than a path can count are refused', async () => {
+    for (const maxVolumeDepth of [-1, 1.5, NaN, 65_536]) await expect(picture(surrounded([1, 1, 1]), 1, { maxVolumeDepth })).rejects.toMatchObject({ code: 'renderer/option' });
+    await expect(picture(surrounded([1, 1, 1]), 1, { maxDepth: 65_536 })).rejects.toMatchObject({ code: 'renderer/option' });
+    const scene = surrounded([1, 1, 1]);
+    for (let i = 0; i < 0x7fff; i++) scene.materials.push(lambert(0.5));
+    addBox(scene, [-1, -1, -1], [1, 1, 1], matter([1, 1, 1]));
+    await expect(picture(scene, 1)).rejects.toMatchObject({ code: 'renderer/limit' });
+  });
+
   it('a lamp in a block of absorbing glass lights a wall in it through the glass', async () => {
     const scene = createScene();
     const { parameters } = matter([1, 1, 1]);
