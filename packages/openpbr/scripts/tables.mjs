@@ -1,5 +1,5 @@
 /**
- * Computes the energy tables of @glanz/openpbr and writes src/tables/encoded.ts: `node scripts/tables.mjs`, about a
+ * Computes the energy tables of @glanz/openpbr and writes src/tables/grid.ts and encoded.ts: `node scripts/tables.mjs`, about a
  * minute. Deterministic. With `--check` it writes nothing and fails if the file would change.
  *
  * Coordinates, shared with src/cpu/energy.ts and src/wgsl/energy.wgsl.ts. Tried and measured against the quadrature at
@@ -149,22 +149,28 @@ function encode({ width, height, depth, values }, step) {
   return `{ width: ${width}, height: ${height}, depth: ${depth}, step: ${step}, text: '${text}' }`;
 }
 
-const source = `// Made by scripts/tables.mjs; do not edit.
+const note = '// Made by scripts/tables.mjs; do not edit.\n';
 
+// The sizes stand apart from the numbers: whoever wants only them does not get 24 kB of text.
+const sources = {
+  'grid.ts': `${note}
 /** How many angles, roughnesses and slices of indices the tables hold. */
 export const TABLE_LAYOUT = { ${Object.entries(LAYOUT).map(([name, value]) => `${name}: ${value}`).join(', ')} } as const;
-
+`,
+  'encoded.ts': `${note}
 // prettier-ignore
 export const ENCODED_DIELECTRIC = ${encode(dielectric(), STEP)};
 
 // prettier-ignore
 export const ENCODED_CONDUCTOR = ${encode(conductor(), FINE_STEP)};
-`;
+`,
+};
 
-const file = new URL('../src/tables/encoded.ts', import.meta.url);
-if (process.argv.includes('--check')) {
-  if (readFileSync(file, 'utf8') !== source) {
-    console.error('src/tables/encoded.ts is not what scripts/tables.mjs makes; run it again.');
+for (const [name, source] of Object.entries(sources)) {
+  const file = new URL(`../src/tables/${name}`, import.meta.url);
+  if (!process.argv.includes('--check')) writeFileSync(file, source);
+  else if (readFileSync(file, 'utf8') !== source) {
+    console.error(`src/tables/${name} is not what scripts/tables.mjs makes; run it again.`);
     process.exitCode = 1;
   }
-} else writeFileSync(file, source);
+}

@@ -42,14 +42,18 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
   const { hierarchies, signal, onProgress } = options;
   signal?.throwIfAborted();
   const t0 = performance.now();
+  // A quarter of what the renderer weighs, and nobody needs it before there is a scene: a chunk of its own, loaded meanwhile.
+  const loading = import('@glanz/openpbr/tables');
+  loading.catch(() => {});
   onProgress?.({ stage: 'bvh', done: 0 });
   const geometry = await prepareGeometry(own, { hierarchies, signal, onProgress: (done) => onProgress?.({ stage: 'bvh', done }) });
   const packed = await packGeometry(own, geometry, signal);
+  const { OPENPBR_TABLES } = await loading;
   const t1 = performance.now();
   onProgress?.({ stage: 'upload', done: 0 });
   const memory = new GpuMemory(device);
   try {
-    const gpuScene = await withErrorScopes(device, () => new GpuScene(device, memory, own, geometry, packed, { multipleScattering: options.multipleScattering ?? true, sampler: options.sampler ?? 'sobol', lightGroups: options.lightGroups ?? 'named' }));
+    const gpuScene = await withErrorScopes(device, () => new GpuScene(device, memory, own, geometry, packed, { multipleScattering: options.multipleScattering ?? true, sampler: options.sampler ?? 'sobol', lightGroups: options.lightGroups ?? 'named' }, OPENPBR_TABLES));
     const t2 = performance.now();
     onProgress?.({ stage: 'upload', done: 1 });
     const cache = new KernelCache(device);

@@ -1,4 +1,4 @@
-import { TABLE_LAYOUT } from './encoded';
+import { TABLE_LAYOUT } from './grid';
 
 /** Where the blocks of the dielectric table begin along its depth, in slices; shared by the WGSL text and its CPU twin. */
 const outerTotal = TABLE_LAYOUT.outer;

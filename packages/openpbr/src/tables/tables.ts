@@ -1,6 +1,4 @@
-import { ENCODED_CONDUCTOR, ENCODED_DIELECTRIC, TABLE_LAYOUT } from './encoded';
-
-export { TABLE_LAYOUT };
+import { ENCODED_CONDUCTOR, ENCODED_DIELECTRIC } from './encoded';
 
 /** A table of numbers, ready to become a texture. */
 export interface OpenPbrTable {

@@ -1,4 +1,4 @@
-import { OPENPBR_TABLES } from '@glanz/openpbr/tables';
+import type { OPENPBR_TABLES } from '@glanz/openpbr/tables';
 import { requiredFeatures, resolveParameters } from '@glanz/openpbr';
 import type { Environment, Mesh, Scene } from '@glanz/scene';
 import type { KernelFeatures } from '../kernels/pipelines';
@@ -25,6 +25,9 @@ export interface SceneChoices {
   readonly lightGroups: LightGroupMode;
 }
 
+/** The energy tables, which come in a chunk of their own. */
+export type EnergyTables = typeof OPENPBR_TABLES;
+
 /** A scene on the GPU. A cache: everything here can be made again from the `Scene`. */
 export class GpuScene {
   readonly #device: GPUDevice;
@@ -46,7 +49,7 @@ export class GpuScene {
   #lights: LightTable;
   #environment: EnvironmentData;
 
-  constructor(device: GPUDevice, memory: GpuMemory, scene: Scene, geometry: Geometry, packed: PackedGeometry, choices: SceneChoices) {
+  constructor(device: GPUDevice, memory: GpuMemory, scene: Scene, geometry: Geometry, packed: PackedGeometry, choices: SceneChoices, tables: EnergyTables) {
     this.#device = device;
     this.#memory = memory;
     this.#scene = scene;
@@ -68,7 +71,7 @@ export class GpuScene {
     this.#environment = prepareEnvironment(scene.environment);
     this.#uploadEnvironment();
     this.#energySampler = device.createSampler({ label: 'glanz energy', minFilter: 'linear', magFilter: 'linear' });
-    this.#uploadEnergy();
+    this.#uploadEnergy(tables);
   }
 
   get environment(): EnvironmentData {
@@ -304,10 +307,10 @@ export class GpuScene {
     this.#textures.set(name, texture);
   }
 
-  #uploadEnergy(): void {
+  #uploadEnergy(tables: EnergyTables): void {
     for (const [name, table] of [
-      ['energy_dielectric', OPENPBR_TABLES.dielectric],
-      ['energy_conductor', OPENPBR_TABLES.conductor],
+      ['energy_dielectric', tables.dielectric],
+      ['energy_conductor', tables.conductor],
     ] as const) {
       const { width, height, depth } = table;
       const dimension = name === 'energy_dielectric' ? '3d' : '2d';
