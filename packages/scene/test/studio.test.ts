@@ -1,6 +1,6 @@
 import { expect, it } from 'vitest';
 import type { LatLongEnvironment } from '../src/index';
-import { studioEnvironment } from '../src/studio';
+import { studioEnvironment, STUDIOS } from '../src/studio';
 
 type Vector = readonly [number, number, number];
 
@@ -67,4 +67,42 @@ it('means the same light at every size, and passes its options on', () => {
   const small = studioEnvironment({ width: 128, intensity: 2, rotation: 1, visible: false });
   expect(small).toMatchObject({ width: 128, height: 64, intensity: 2, rotation: 1, visible: false });
   expect(whiteDiffuse(small, [0, 1, 0]) / whiteDiffuse(studioEnvironment(), [0, 1, 0])).toBeCloseTo(1, 1.5);
+});
+
+const DEGREE = Math.PI / 180;
+const plain = { zenith: [0, 0, 0], horizon: [0, 0, 0], nadir: [0, 0, 0] } as const;
+
+it('a box of one colour lies where it is hung, spans its angles and is black elsewhere', () => {
+  const { width, height, data } = studioEnvironment({ width: 1024, setup: { backdrop: plain, boxes: [{ azimuth: 90 * DEGREE, elevation: 0, width: 40 * DEGREE, height: 20 * DEGREE, radiance: [1, 0.5, 0] }] } });
+  // Solid angle of a rectangle seen from the point over its middle: 4 asin(sin(a/2) sin(b/2)) for tangents' half angles a/2, b/2.
+  const expected = 4 * Math.asin(Math.sin(20 * DEGREE) * Math.sin(10 * DEGREE));
+  let [solid, x] = [0, 0];
+  for (let j = 0; j < height; j++) {
+    const texel = ((2 * Math.PI) / width) * (Math.PI / height) * Math.sin(((j + 0.5) / height) * Math.PI);
+    for (let i = 0; i < width; i++) {
+      const at = (j * width + i) * 3;
+      if (Math.abs((data[at + 1] as number) - 0.5 * (data[at] as number)) > 1e-6 || data[at + 2] !== 0) expect.fail(`texel ${i}, ${j}: ${data.subarray(at, at + 3)}`);
+      if ((data[at] as number) > 0.375) solid += texel;
+      x += (data[at] as number) * texel * Math.cos(((i + 0.5) / width - 0.5) * 2 * Math.PI);
+    }
+  }
+  // Texels of a third of a degree, an edge that is soft over 0.03.
+  expect(Math.abs(solid / expected - 1)).toBeLessThan(0.06);
+  // +X is azimuth 90°.
+  expect(x).toBeGreaterThan(0);
+});
+
+it('a disc has the solid angle of a cone', () => {
+  const { width, height, data } = studioEnvironment({ width: 1024, setup: { backdrop: plain, boxes: [{ azimuth: 0, elevation: 0.5, width: 40 * DEGREE, height: 40 * DEGREE, shape: 'disc', radiance: 1 }] } });
+  let solid = 0;
+  for (let j = 0; j < height; j++) for (let i = 0; i < width; i++) if ((data[(j * width + i) * 3] as number) > 0.375) solid += ((2 * Math.PI) / width) * (Math.PI / height) * Math.sin(((j + 0.5) / height) * Math.PI);
+  expect(Math.abs(solid / (2 * Math.PI * (1 - Math.cos(20 * DEGREE))) - 1)).toBeLessThan(0.06);
+});
+
+it.each(Object.entries(STUDIOS))('%s is finite, not black, and lights a white surface from above or the front', (_, setup) => {
+  const studio = studioEnvironment({ setup });
+  for (const value of studio.data) if (!(value >= 0 && value < 1000)) expect.fail(`a texel is ${value}`);
+  const best = Math.max(whiteDiffuse(studio, [0, 1, 0]), whiteDiffuse(studio, [0, 0, 1]), whiteDiffuse(studio, [-1, 0, 0]));
+  expect(best).toBeGreaterThan(0.3);
+  expect(best).toBeLessThan(3);
 });
