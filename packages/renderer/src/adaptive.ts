@@ -106,6 +106,11 @@ export class TileGrid {
     return Math.min(TILE, this.width - x) * Math.min(TILE, this.height - y);
   }
 
+  /** Numbers of all pixels, tile by tile. */
+  allPixels(): Uint32Array<ArrayBuffer> {
+    return this.pixels(Array.from({ length: this.count }, (_, tile) => tile));
+  }
+
   /** Numbers of the pixels of some tiles, tile by tile. */
   pixels(tiles: readonly number[]): Uint32Array<ArrayBuffer> {
     const out = new Uint32Array(tiles.reduce((sum, tile) => sum + this.pixelsIn(tile), 0));

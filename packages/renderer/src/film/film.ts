@@ -1,3 +1,4 @@
+import { TileGrid } from '../adaptive';
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_COPY_SRC, GPU_BUFFER_STORAGE, type GpuMemory } from '../gpu/buffers';
 import { TILE } from '../kernels/noise.wgsl';
 
@@ -16,7 +17,7 @@ export class Film {
   readonly planes: number;
   readonly #memory: GpuMemory;
   readonly #buffers = new Map<string, GPUBuffer>();
-  #inOrder = false;
+  #whole = false;
 
   constructor(memory: GpuMemory, width: number, height: number, planes: number) {
     this.#memory = memory;
@@ -31,11 +32,14 @@ export class Film {
     this.setPixels(undefined);
   }
 
-  /** From now on, place i of a batch is pixel `list[i]`; without a list pixel i, as in the beginning. */
+  /**
+   * From now on, place i of a batch is pixel `list[i]`; without a list all of them tile by tile, as in the beginning: rays
+   * of one workgroup then go through a square of the picture, not through a line of it, and meet the same nodes.
+   */
   setPixels(list: Uint32Array<ArrayBuffer> | undefined): void {
-    if (!list && this.#inOrder) return;
-    this.#inOrder = !list;
-    this.#memory.write(this.#buffers.get('film_pixels') as GPUBuffer, list ?? Uint32Array.from({ length: this.pixels }, (_, i) => i));
+    if (!list && this.#whole) return;
+    this.#whole = !list;
+    this.#memory.write(this.#buffers.get('film_pixels') as GPUBuffer, list ?? new TileGrid(this.width, this.height).allPixels());
   }
 
   get pixels(): number {
