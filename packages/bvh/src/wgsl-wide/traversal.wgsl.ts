@@ -49,13 +49,12 @@ fn bvh_enter_children(ray: BvhRay, octant: u32, node: BvhNode, t_min: f32, t_max
   let high_x = node.boxes[1].zw;
   let high_y = node.boxes[2].xy;
   let high_z = node.boxes[2].zw;
-  let forward = ray.inverse >= vec3f(0.0);
-  let near_x = select(high_x, low_x, forward.x);
-  let near_y = select(high_y, low_y, forward.y);
-  let near_z = select(high_z, low_z, forward.z);
-  let far_x = select(low_x, high_x, forward.x);
-  let far_y = select(low_y, high_y, forward.y);
-  let far_z = select(low_z, high_z, forward.z);
+  let near_x = select(high_x, low_x, ray.forward.x);
+  let near_y = select(high_y, low_y, ray.forward.y);
+  let near_z = select(high_z, low_z, ray.forward.z);
+  let far_x = select(low_x, high_x, ray.forward.x);
+  let far_y = select(low_y, high_y, ray.forward.y);
+  let far_z = select(low_z, high_z, ray.forward.z);
   var entered = BvhEntered(0u, 0u);
   for (var half = 0u; half < 2u; half++) {
     let enter = max(max(unpack4x8unorm(near_x[half]) * scale.x + near.x, unpack4x8unorm(near_y[half]) * scale.y + near.y), max(unpack4x8unorm(near_z[half]) * scale.z + near.z, vec4f(t_min)));
@@ -143,9 +142,10 @@ fn bvh_${name}_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> $
       waiting = entered.primitives;
       first_waiting = node.primitive;
     } else {
+      let frame = bvh_frame(ray.direction);
       for (var left = entered.primitives; left != 0u; left &= left - 1u) {
         let triangle = first_triangle + node.primitive + countTrailingZeros(left);
-        let found = bvh_intersect_triangle(ray, bvh_triangle(triangle));
+        let found = bvh_intersect_triangle(ray.origin, frame, bvh_triangle(triangle));
         if (found.x > t_min && found.x < hit.t) {
           let candidate = BvhHit(found.x, found.y, found.z, triangle, instance);
           //#if BVH_FILTER

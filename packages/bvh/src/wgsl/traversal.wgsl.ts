@@ -7,13 +7,11 @@ const box = wgslModule(
   'bvh/box',
   /* wgsl */ `
 // Where the ray enters a box; larger than t_max if it does not. The far side is moved out by eight ulps, so that rounding
-// loses no hit on the border (Ize 2013, "Robust BVH Ray Traversal"): half an ulp for the difference, half for the product,
-// and the two and a half that WGSL allows for the reciprocal, on both sides.
+// loses no hit on the border (Ize 2013, "Robust BVH Ray Traversal"): half an ulp or two for the sum, and the two and a half
+// that WGSL allows for the reciprocal, on both sides.
 fn bvh_enter_box(ray: BvhRay, low: vec3f, high: vec3f, t_min: f32, t_max: f32) -> f32 {
-  let a = (low - ray.origin) * ray.inverse;
-  let b = (high - ray.origin) * ray.inverse;
-  let near = min(a, b);
-  let far = max(a, b);
+  let near = fma(select(high, low, ray.forward), ray.inverse, ray.near);
+  let far = fma(select(low, high, ray.forward), ray.inverse, ray.far);
   let enter = max(max(near.x, near.y), max(near.z, t_min));
   let leave = min(min(far.x, far.y), min(far.z, t_max)) * 1.000001;
   return select(BVH_OUTSIDE, enter, enter <= leave);
@@ -87,10 +85,11 @@ fn bvh_${name}_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> $
       reference = 0u;
       continue;
     } else {
+      let frame = bvh_frame(ray.direction);
       let first = first_triangle + (reference & 0x7ffffffu);
       let end = first + ((reference >> 27u) & 15u) + 1u;
       for (var triangle = first; triangle < end; triangle++) {
-        let found = bvh_intersect_triangle(ray, bvh_triangle(triangle));
+        let found = bvh_intersect_triangle(ray.origin, frame, bvh_triangle(triangle));
         if (found.x > t_min && found.x < hit.t) {
           let candidate = BvhHit(found.x, found.y, found.z, triangle, instance);
           //#if BVH_FILTER

@@ -13,16 +13,33 @@ export const bvhTriangleTest = wgslModule(
   /* wgsl */ `
 struct BvhRay {
   origin: vec3f,
+  direction: vec3f,
   // Reciprocal of the direction, finite.
   inverse: vec3f,
-  // Two unit vectors perpendicular to the direction, and the direction over its squared length.
+  // Where the inverse is not negative.
+  forward: vec3<bool>,
+  // A plane at x, across an axis, is met at x * inverse + near at the earliest and at x * inverse + far at the latest: the
+  // product of origin and inverse may be off by half an ulp, and by another where the sum is not fused.
+  near: vec3f,
+  far: vec3f,
+}
+
+fn bvh_ray(origin: vec3f, direction: vec3f) -> BvhRay {
+  let inverse = 1.0 / select(direction, vec3f(1e-20), abs(direction) < vec3f(1e-20));
+  let start = origin * inverse;
+  let margin = abs(start) * 2.3841858e-7;
+  return BvhRay(origin, direction, inverse, inverse >= vec3f(0.0), -start - margin, margin - start);
+}
+
+// Two unit vectors perpendicular to the ray's direction, and the direction over its squared length. Made anew at each
+// leaf: nodes outnumber leaves, and registers are dearer than the few multiplications.
+struct BvhFrame {
   x: vec3f,
   y: vec3f,
   z: vec3f,
 }
 
-fn bvh_ray(origin: vec3f, direction: vec3f) -> BvhRay {
-  let safe = select(direction, vec3f(1e-20), abs(direction) < vec3f(1e-20));
+fn bvh_frame(direction: vec3f) -> BvhFrame {
   // Scaled by powers of two that cancel, as squares of very small or large directions leave the range of f32.
   let scale = 1.0 / max(abs(direction.x), max(abs(direction.y), abs(direction.z)));
   let d = direction * scale;
@@ -32,17 +49,17 @@ fn bvh_ray(origin: vec3f, direction: vec3f) -> BvhRay {
   let s = select(-1.0, 1.0, n.z >= 0.0);
   let a = -1.0 / (s + n.z);
   let b = n.x * n.y * a;
-  return BvhRay(origin, 1.0 / safe, vec3f(1.0 + s * n.x * n.x * a, s * b, -s * n.x), vec3f(b, s + n.y * n.y * a, -n.y), d * (scale / squared));
+  return BvhFrame(vec3f(1.0 + s * n.x * n.x * a, s * b, -s * n.x), vec3f(b, s + n.y * n.y * a, -n.y), d * (scale / squared));
 }
 
 // t, u, v; t < 0 if there is no hit. v0's weight is 1 - u - v.
-fn bvh_intersect_triangle(ray: BvhRay, triangle: BvhTriangle) -> vec3f {
-  let p0 = triangle.v0 - ray.origin;
-  let p1 = triangle.v1 - ray.origin;
-  let p2 = triangle.v2 - ray.origin;
-  let a = vec2f(dot(ray.x, p0), dot(ray.y, p0));
-  let b = vec2f(dot(ray.x, p1), dot(ray.y, p1));
-  let c = vec2f(dot(ray.x, p2), dot(ray.y, p2));
+fn bvh_intersect_triangle(origin: vec3f, frame: BvhFrame, triangle: BvhTriangle) -> vec3f {
+  let p0 = triangle.v0 - origin;
+  let p1 = triangle.v1 - origin;
+  let p2 = triangle.v2 - origin;
+  let a = vec2f(dot(frame.x, p0), dot(frame.y, p0));
+  let b = vec2f(dot(frame.x, p1), dot(frame.y, p1));
+  let c = vec2f(dot(frame.x, p2), dot(frame.y, p2));
   let u = a.x * c.y - a.y * c.x;
   let v = b.x * a.y - b.y * a.x;
   let w = c.x * b.y - c.y * b.x;
@@ -61,7 +78,7 @@ fn bvh_intersect_triangle(ray: BvhRay, triangle: BvhTriangle) -> vec3f {
   // Beyond an edge by the tolerance, which on thin triangles is much of a weight: what was cut off must not move t.
   let first = max(1.0 - near.x - near.y, 0.0);
   let weights = near / (first + near.x + near.y);
-  let t = (1.0 - weights.x - weights.y) * dot(ray.z, p0) + weights.x * dot(ray.z, p1) + weights.y * dot(ray.z, p2);
+  let t = (1.0 - weights.x - weights.y) * dot(frame.z, p0) + weights.x * dot(frame.z, p1) + weights.y * dot(frame.z, p2);
   return vec3f(t, weights);
 }
 `,

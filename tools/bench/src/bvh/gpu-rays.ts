@@ -4,9 +4,10 @@ import * as binary from '@glanz/bvh/wgsl';
 import * as wide from '@glanz/bvh/wgsl-wide';
 import { compose, wgslModule } from '@glanz/wgsl';
 import type { BenchMesh } from './meshes';
+import { plainQuery } from './plain-kernel';
 
-/** Ways to lay nodes out in the GPU's memory. */
-export const LAYOUTS = ['BVH2', 'wide'] as const;
+/** Ways to lay nodes out in the GPU's memory and to go through them; `plain` is BVH2 gone through as others do. */
+export const LAYOUTS = ['BVH2', 'wide', 'plain'] as const;
 export type Layout = (typeof LAYOUTS)[number];
 
 /** Words of a ray (origin, tMin, direction, tMax) and of a result (t, triangle of the mesh or 0xffffffff). */
@@ -16,7 +17,8 @@ export const RESULT_WORDS = 2;
 const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
 const kernel = (layout: Layout, query: 'closest' | 'any') => {
-  const modules = layout === 'BVH2' ? binary : wide;
+  const modules = layout === 'wide' ? wide : binary;
+  const traversal = layout === 'plain' ? plainQuery(query) : query === 'any' ? modules.bvhAnyHit : modules.bvhClosestHit;
   const host = wgslModule(
     'bench/rays',
     `@group(0) @binding(0) var<storage, read> nodes: array<BvhNode>;
@@ -43,7 +45,7 @@ fn bvh_triangle(index: u32) -> BvhTriangle {
   results[id.x] = vec2u(bitcast<u32>(hit.t), id_of_triangle);`
   }
 }`,
-    [query === 'any' ? modules.bvhAnyHit : modules.bvhClosestHit],
+    [traversal],
   );
   return compose([host], { flags: { BVH_FILTER: false } }).code;
 };
@@ -71,7 +73,7 @@ export class GpuRays {
   /** Prepares a mesh with its hierarchy. */
   static async create(device: GPUDevice, layout: Layout, blas: Blas, mesh: BenchMesh): Promise<GpuRays> {
     const tlas = buildTlas([{ bounds: blas.bounds, transform: IDENTITY }]);
-    const upper = layout === 'BVH2' ? tlas : widenTlas(tlas), lower = layout === 'BVH2' ? blas : widenBlas(blas);
+    const upper = layout === 'wide' ? widenTlas(tlas) : tlas, lower = layout === 'wide' ? widenBlas(blas) : blas;
     const nodes = new Uint8Array(upper.nodes.byteLength + lower.nodes.byteLength);
     nodes.set(new Uint8Array(upper.nodes.buffer, upper.nodes.byteOffset, upper.nodes.byteLength));
     nodes.set(new Uint8Array(lower.nodes.buffer, lower.nodes.byteOffset, lower.nodes.byteLength), upper.nodes.byteLength);

@@ -108,6 +108,12 @@ export function shadowRays(bounds: Aabb, rays: Float32Array, results: Uint32Arra
   return gather(bounds, rays, results, mesh, (_, point) => [[center[0]! + (random() - 0.5) * radius, center[1]! + 1.5 * radius, center[2]! + (random() - 0.5) * radius].map((x, k) => x - point[k]!), 1]);
 }
 
+/** From each point hit, one ray to a point above the scene. */
+export function pointShadowRays(bounds: Aabb, rays: Float32Array, results: Uint32Array, mesh: BenchMesh): Float32Array<ArrayBuffer> {
+  const { center, radius } = sphereAround(bounds);
+  return gather(bounds, rays, results, mesh, (_, point) => [[center[0]!, center[1]! + 1.5 * radius, center[2]!].map((x, k) => x - point[k]!), 1]);
+}
+
 /** From each point hit, one ray in a cosine-distributed direction. */
 export function diffuseRays(bounds: Aabb, rays: Float32Array, results: Uint32Array, mesh: BenchMesh, seed: number): Float32Array<ArrayBuffer> {
   const random = randomNumbers(seed);
