@@ -126,6 +126,8 @@ export const MATERIAL_MASK = 8;
 export const MATERIAL_INTERIOR = 16;
 /** Its interior has air's index of refraction: in air, the surface is not there. */
 export const MATERIAL_INDEX_MATCHED = 32;
+/** Its index of refraction varies with the wavelength. */
+export const MATERIAL_DISPERSIVE = 64;
 /** Bits 8 to 15 of a material's flags: its priority where interiors overlap. */
 export const MATERIAL_PRIORITY_SHIFT = 8;
 /** Bits 16 and up of a material's flags and of a light's kind: its light group. */

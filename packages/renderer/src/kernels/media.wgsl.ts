@@ -51,7 +51,8 @@ fn media_index_matched(entry: u32) -> bool { return (materials[media_material(en
 struct MediaCrossing {
   // The stack beyond the surface.
   beyond: vec2u,
-  // Index of refraction of what is outside of the surface's object.
+  // Entry of what is outside of the surface's object, if it bends light, and its index of refraction.
+  outer: u32,
   outer_ior: f32,
   // Whether light goes on as if there were no surface.
   nothing: bool,
@@ -59,7 +60,7 @@ struct MediaCrossing {
 
 // What a ray meets at a surface of the material, on its front or from within.
 fn media_cross(stack: vec2u, material: u32, front: bool) -> MediaCrossing {
-  var result = MediaCrossing(stack, 1.0, false);
+  var result = MediaCrossing(stack, 0u, 1.0, false);
   let flags = materials[material].flags;
   var others = stack;
   if ((flags & ${MATERIAL_INTERIOR}u) != 0u) {
@@ -72,7 +73,10 @@ fn media_cross(stack: vec2u, material: u32, front: bool) -> MediaCrossing {
     }
   }
   let around = media_top(others);
-  if (around != 0u && !media_index_matched(around)) { result.outer_ior = materials[media_material(around)].parameters.specular_ior; }
+  if (around != 0u && !media_index_matched(around)) {
+    result.outer = around;
+    result.outer_ior = materials[media_material(around)].parameters.specular_ior;
+  }
   if ((flags & ${MATERIAL_INTERIOR}u) != 0u) {
     let hidden = around != 0u && media_priority(around) > ((flags >> ${MATERIAL_PRIORITY_SHIFT}u) & 255u);
     result.nothing = hidden || ((flags & ${MATERIAL_INDEX_MATCHED}u) != 0u && result.outer_ior == 1.0);

@@ -1,6 +1,7 @@
 import { bvhOffset } from '@glanz/bvh/wgsl';
 import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
-import { BACKGROUND_HIDDEN, BACKGROUND_TRANSPARENT, GROUP_SHIFT, HIT_SCATTERED, HIT_WALKING, INSTANCE_CATCHER, MATERIAL_INTERIOR } from './layout';
+import { BACKGROUND_HIDDEN, BACKGROUND_TRANSPARENT, GROUP_SHIFT, HIT_SCATTERED, HIT_WALKING, INSTANCE_CATCHER, MATERIAL_DISPERSIVE, MATERIAL_INTERIOR } from './layout';
+import { dispersion } from './dispersion.wgsl';
 import { media } from './media.wgsl';
 import { random } from './random.wgsl';
 import { shortcuts } from './shortcuts.wgsl';
@@ -152,7 +153,7 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   }
   let origin = paths[index].origin;
   let direction = paths[index].direction;
-  let throughput = paths[index].throughput;
+  var throughput = paths[index].throughput;
   let cone_width = paths[index].cone_width;
   let wo = -direction;
   //#if CATCHER
@@ -227,7 +228,23 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   s.parameters = shortcut_soften(index, s.parameters);
   //#endif
   //#if MEDIA
-  let bsdf = openpbr_prepare_side(s.parameters, local_wo, OpenPbrSide(!front && (s.flags & ${MATERIAL_INTERIOR}u) != 0u, crossing.outer_ior));
+  var outer_ior = crossing.outer_ior;
+  //#if DISPERSION
+  let outer = media_material(max(crossing.outer, 1u));
+  let outer_dispersive = crossing.outer != 0u && (materials[outer].flags & ${MATERIAL_DISPERSIVE}u) != 0u;
+  if (outer_dispersive || (s.flags & ${MATERIAL_DISPERSIVE}u) != 0u) {
+    var wavelength = paths[index].wavelength;
+    if (wavelength == 0.0) {
+      let chosen = dispersion_sample(paths[index].pixel, path_sample(index), throughput);
+      wavelength = chosen.wavelength;
+      throughput = chosen.throughput;
+      paths[index].wavelength = wavelength;
+    }
+    s.parameters.specular_ior = openpbr_dispersed_ior(s.parameters, wavelength);
+    if (outer_dispersive) { outer_ior = openpbr_dispersed_ior(materials[outer].parameters, wavelength); }
+  }
+  //#endif
+  let bsdf = openpbr_prepare_side(s.parameters, local_wo, OpenPbrSide(!front && (s.flags & ${MATERIAL_INTERIOR}u) != 0u, outer_ior));
   //#else
   let bsdf = openpbr_prepare(s.parameters, local_wo);
   //#endif
@@ -348,6 +365,6 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation_inde
   if (result.asks) { shadows[shade_shadow_base + shadow_slot] = result.shadow; }
 }
 `,
-    [path, pathSample, surface, lights, openpbr, energy, random, shortcuts, bvhOffset, gated('MEDIA', media)],
+    [path, pathSample, surface, lights, openpbr, energy, random, shortcuts, bvhOffset, gated('MEDIA', media), gated('DISPERSION', dispersion)],
   );
 }

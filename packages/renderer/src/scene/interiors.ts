@@ -24,11 +24,17 @@ export function isIndexMatched(material: Material): boolean {
   return hasInterior(material) && matched && clear && bare && !material.textures?.transmission_weight;
 }
 
+/** Whether the index of refraction varies with the wavelength, where light goes through. */
+export function isDispersive(material: Material): boolean {
+  const { transmission_weight, transmission_dispersion_scale } = resolveParameters(material.parameters);
+  return hasInterior(material) && transmission_weight > 0 && transmission_dispersion_scale > 0;
+}
+
 /** What about the interiors of a scene's materials decides the kernels' text. */
-export function interiorFlags(materials: readonly Material[]): Record<'MEDIA' | 'SCATTERING' | 'NULL_SURFACES' | 'PATH_DEPTH', boolean> {
+export function interiorFlags(materials: readonly Material[]): Record<'MEDIA' | 'SCATTERING' | 'NULL_SURFACES' | 'PATH_DEPTH' | 'DISPERSION', boolean> {
   const interiors = materials.filter(hasInterior);
   const scattering = interiors.some(scatters);
   const priorities = new Set(interiors.map((material) => material.dielectric_priority ?? 0));
   const nothing = interiors.some(isIndexMatched) || priorities.size > 1;
-  return { MEDIA: interiors.length > 0, SCATTERING: scattering, NULL_SURFACES: nothing, PATH_DEPTH: scattering || nothing };
+  return { MEDIA: interiors.length > 0, SCATTERING: scattering, NULL_SURFACES: nothing, PATH_DEPTH: scattering || nothing, DISPERSION: interiors.some(isDispersive) };
 }
