@@ -11,17 +11,25 @@ const TARGETS: Readonly<Record<string, number>> = { env_soft: 0.15, env_sun: 0.9
 /** Error against the ground-truth references: agreement, and error per sample. */
 export const benchmark: Benchmark = {
   description: 'agreement with the ground-truth references, and error per sample',
-  async run({ log, quick, gpu }) {
+  options: {
+    scenes: { type: 'string', help: 'only these, by name, separated by commas' },
+    samples: { type: 'string', help: 'samples per pixel of each run' },
+  },
+  async run({ log, quick, gpu, values }) {
     if (!catalogueFolder()) throw new BenchError('bench/missing-data', 'groundtruth needs the ground-truth catalogue: set GLANZ_GROUNDTRUTH to its folder "scenes".');
     const { gpu: api, adapterName, software } = await createGpu(gpu === undefined ? {} : { gpu });
     const device = await requestDevice({ gpu: api });
     // Independent seeds give the interval; their mean is the picture that is checked.
     const runs = quick ? 2 : 4;
-    const samples = quick ? 4 : software ? 32 : 256;
+    const samples = wholeNumber(values['samples']) ?? (quick ? 4 : software ? 32 : 256);
+    const wanted = values['scenes']?.split(',');
+    const unknown = wanted?.find((name) => !GROUND_TRUTH_CASES.some(({ scene }) => scene === name));
+    if (unknown !== undefined) throw new BenchError('bench/option', `--scenes: there is no scene "${unknown}"; there are: ${[...new Set(GROUND_TRUTH_CASES.map(({ scene }) => scene))].join(', ')}.`);
+    const cases = GROUND_TRUTH_CASES.filter(({ scene }) => wanted?.includes(scene) ?? true);
     const figures: Figure[] = [];
     const notes: string[] = [];
     let agreeing = 0;
-    for (const { scene, variant } of GROUND_TRUTH_CASES) {
+    for (const { scene, variant } of cases) {
       const name = variant === 'full' ? scene : `${scene}.${variant}`;
       const truth = new GroundTruth(scene);
       const { width, height } = truth.description.film;
@@ -50,8 +58,15 @@ export const benchmark: Benchmark = {
       figures.push({ name: `${name}: samples of the reference renderer per sample`, unit: '1', runs, mean: truth.picture(variant).stats.relmse_1spp / mean, ci95: 0 });
       log(`${name}: ${whole.passed ? 'agrees' : 'DISAGREES'}, relMSE × samples ${mean.toPrecision(3)}, ${((performance.now() - start) / 1000).toFixed(1)} s`);
     }
-    figures.push({ name: 'pictures that agree with their reference', unit: `of ${GROUND_TRUTH_CASES.length}`, runs: 1, mean: agreeing, ci95: 0, target: { value: GROUND_TRUTH_CASES.length, relation: '>=', source: 'all of them' } });
+    figures.push({ name: 'pictures that agree with their reference', unit: `of ${cases.length}`, runs: 1, mean: agreeing, ci95: 0, target: { value: cases.length, relation: '>=', source: 'all of them' } });
     device.destroy();
     return { settings: { samples, runs, multipleScattering: false }, gpu: { name: adapterName, software }, figures, notes };
   },
 };
+
+function wholeNumber(text: string | undefined): number | undefined {
+  if (text === undefined) return undefined;
+  const value = Number(text);
+  if (!Number.isInteger(value) || value < 1) throw new BenchError('bench/option', `--samples ${text}: it must be a whole number of at least 1.`);
+  return value;
+}
