@@ -8,7 +8,7 @@ import { readmeLinks } from './readme-links';
 const packages = ['renderer', 'gltf', 'formats', 'cad', 'scene', 'openpbr', 'bvh', 'tonemap', 'image', 'wgsl', 'cli'];
 const api = await apiReference(packages);
 /** Pages that a benchmark writes: shown once they have been measured. */
-const results = [{ text: 'Error at equal time', link: '/results/equal-time' }].filter(({ link }) => existsSync(new URL(`..${link}.md`, import.meta.url)));
+const results = [{ text: 'Error at equal time', link: '/results/equal-time' }, { text: 'Loading', link: '/results/loading' }, { text: 'Test models', link: '/results/assets' }].filter(({ link }) => existsSync(new URL(`..${link}.md`, import.meta.url)));
 
 export default defineConfig({
   title: 'Glanz',

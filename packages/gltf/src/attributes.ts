@@ -10,6 +10,16 @@ function allFinite(values: Float32Array): boolean {
   return sum === 0;
 }
 
+/** The largest of some numbers; 0 if there are none. */
+export function maximum(values: Uint32Array): number {
+  let most = 0;
+  for (let i = 0; i < values.length; i++) {
+    const value = values[i] as number;
+    most = value > most ? value : most;
+  }
+  return most;
+}
+
 /** Corners of the triangles of a primitive, strips and fans opened; `undefined` for points and lines. */
 function trianglesOf(primitive: PrimitiveData, vertices: number): Uint32Array<ArrayBuffer> | undefined {
   const mode = primitive.json.mode ?? 4;
@@ -46,8 +56,9 @@ export function readPrimitive(primitive: PrimitiveData, name: string, opaque: bo
     return undefined;
   }
   const positions = primitive.floats('POSITION', 3);
-  if (primitive.restarts(corners)) warn('its indices hold the value that restarts a primitive, which none may; it counts as any other.');
-  const indices = soundTriangles(corners, positions, warn);
+  const largest = maximum(corners);
+  if (largest === primitive.restart) warn('its indices hold the value that restarts a primitive, which none may; it counts as any other.');
+  const indices = soundTriangles(corners, largest, positions, warn);
   if (indices.length === 0) {
     warn('it has no triangles.');
     return undefined;
@@ -83,9 +94,10 @@ export function readPrimitive(primitive: PrimitiveData, name: string, opaque: bo
 }
 
 /** The triangles whose corners exist and are finite. Positions that are not become 0, since nothing may be NaN. */
-function soundTriangles(corners: Uint32Array<ArrayBuffer>, positions: Float32Array, warn: (message: string) => void): Uint32Array<ArrayBuffer> {
+function soundTriangles(corners: Uint32Array<ArrayBuffer>, largest: number, positions: Float32Array, warn: (message: string) => void): Uint32Array<ArrayBuffer> {
   const vertices = positions.length / 3;
   const finite = allFinite(positions);
+  if (finite && largest < vertices) return corners;
   const good = (v: number) => v < vertices && (finite || (Number.isFinite(positions[3 * v]) && Number.isFinite(positions[3 * v + 1]) && Number.isFinite(positions[3 * v + 2])));
   let kept = 0;
   for (let i = 0; i < corners.length; i += 3) {

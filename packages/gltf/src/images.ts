@@ -1,5 +1,6 @@
 import type { GltfPictureConversion } from '@glanz/openpbr/gltf';
 import type { Image, SceneWarning, Texture, WrapMode } from '@glanz/scene';
+import { namedImage } from './browser-images';
 import { convertImage, type DerivedPicture } from './convert-image';
 import { readUri } from './document';
 import { GltfError } from './error';
@@ -12,6 +13,8 @@ export interface DecodedImage {
   readonly width: number;
   readonly height: number;
   readonly data: Uint8Array<ArrayBuffer> | Uint8ClampedArray<ArrayBuffer>;
+  /** The same as a bitmap, straight alpha, no colour conversion, where the browser has one. See `Image.bitmap` of `@glanz/scene`. */
+  readonly bitmap?: ImageBitmap;
 }
 
 /** Turns the bytes of a PNG, JPEG or WebP file into pixels. */
@@ -51,8 +54,8 @@ type Picture = { readonly image: number } | { readonly sources: readonly (number
 
 const white = (): DecodedImage => ({ width: 1, height: 1, data: new Uint8Array([255, 255, 255, 255]) });
 
-/** Pictures that are decoded at the same time. */
-const AT_A_TIME = 4;
+/** Pictures that are read at the same time. Decoders do not begin more than they have threads for. */
+const AT_A_TIME = 16;
 
 /** The textures that materials have asked for, with their pictures read as they are needed. */
 export class TextureTable {
@@ -157,7 +160,7 @@ export class TextureTable {
         const type = formatOf(bytes);
         if (type === 'image/ktx2' && !this.#ktx2) throw new GltfError('gltf/missing-decoder', `${this.#source.name} has pictures in KTX2: pass decoders.ktx2, for which the package "three" has the transcoder.`, { location: { file: this.#source.name, path: `/images/${index}` } });
         const decoded = type === 'image/ktx2' ? await (this.#ktx2 as Ktx2Decoder)(bytes) : await decode(bytes, type);
-        budget.take(decoded.data.length, `/images/${index}`);
+        budget.take(4 * decoded.width * decoded.height, `/images/${index}`);
         return decoded;
       } catch (error) {
         if (error instanceof GltfError && error.code !== 'gltf/picture') throw error;
@@ -165,23 +168,22 @@ export class TextureTable {
         return undefined;
       }
     };
-    // A few at a time: decoders have threads of their own, but decoded pictures are large.
     const wanted = [...new Set(this.#pictures.flatMap((picture) => ('image' in picture ? [picture.image] : picture.sources.filter((index) => index !== undefined))))];
-    const lanes: Promise<unknown>[] = Array.from({ length: AT_A_TIME }, () => Promise.resolve());
-    const decoding = new Map(
-      wanted.map((index, i) => {
-        const promise = (lanes[i % AT_A_TIME] as Promise<unknown>).then(() => read(index));
-        // Whoever waits for it hears of its error; the others go on.
-        lanes[i % AT_A_TIME] = promise.catch(() => undefined);
-        return [index, promise] as const;
-      }),
-    );
+    // The first ones begin before this returns, so that decoders, which have threads of their own, are at work while geometry is read.
+    const decoding = new Map<number, Promise<DecodedImage | undefined>>();
+    for (const [at, index] of wanted.entries()) {
+      const before = decoding.get(wanted[at - AT_A_TIME] ?? -1);
+      // Whoever waits for one hears of its error; the others go on.
+      const promise = before ? before.then(() => read(index), () => read(index)) : read(index);
+      promise.catch(() => undefined);
+      decoding.set(index, promise);
+    }
     const images: Image[] = [];
     for (const picture of this.#pictures) {
       if ('image' in picture) {
         const decoded = await decoding.get(picture.image);
         if (!decoded) this.failed.add(images.length);
-        images.push({ name: nameOf(picture.image), ...(decoded ?? white()) });
+        images.push(namedImage(nameOf(picture.image), decoded ?? white()));
       } else {
         const sources: DecodedImage[] = [];
         for (const index of picture.sources) sources.push((index === undefined ? undefined : await decoding.get(index)) ?? white());

@@ -1,5 +1,5 @@
 export type { GltfDecoders } from './document';
-export { decodeImageInBrowser } from './browser-images';
+export { decodeImageInBrowser, imageOfBitmap } from './browser-images';
 export { GltfError } from './error';
 export type { GltfLimits } from './limits';
 export type { DecodedImage, ImageDecoder, Ktx2Decoder } from './images';

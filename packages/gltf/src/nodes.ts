@@ -1,6 +1,6 @@
 import type { Instance, Mesh, Scene } from '@glanz/scene';
 import type { NodePose } from './animation';
-import { readPrimitive, withoutUnusedVertices } from './attributes';
+import { maximum, readPrimitive, withoutUnusedVertices } from './attributes';
 import { readCamera } from './cameras';
 import { GltfError } from './error';
 import type { GltfJson, GltfNode, GltfPrimitive } from './json';
@@ -107,8 +107,8 @@ function checkUnshown({ json, reader, scene }: NodeContext, shown: ReadonlySet<G
       if (bufferView === undefined || !reader.isThere(bufferView)) return;
       const path = `/meshes/${mesh}/primitives/${at}`;
       const { count } = reader.accessors.at(position);
-      const indices = reader.accessors.indices(primitive.indices);
-      if (openPrimitive(primitive, path, reader).restarts(indices) || indices.some((vertex) => vertex >= count)) {
+      const largest = maximum(reader.accessors.indices(primitive.indices));
+      if (largest >= count || openPrimitive(primitive, path, reader).restart === largest) {
         scene.warnings.push({ code: 'gltf/primitive', message: `${reader.file}: ${path} names vertices that do not exist; it is not shown anyway.`, path });
       }
     });

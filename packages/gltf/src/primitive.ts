@@ -16,8 +16,8 @@ export interface PrimitiveData {
   floats(semantic: string, size: number): Float32Array<ArrayBuffer>;
   /** A copy; undefined if there are none. */
   indices(): Uint32Array<ArrayBuffer> | undefined;
-  /** Whether indices hold the largest value of their type, which glTF keeps free. */
-  restarts(indices: Uint32Array): boolean;
+  /** The largest value of the type of its indices, which glTF keeps free; undefined if there are none, or they were compressed. */
+  readonly restart: number | undefined;
   /** Moves of the vertices by a morph target; undefined if it does not move this attribute. */
   target(index: number, semantic: string): Float32Array<ArrayBuffer> | undefined;
 }
@@ -49,10 +49,7 @@ export function openPrimitive(json: GltfPrimitive, path: string, { file, accesso
       return attribute ? dracoFloats(attribute, size) : accessors.floats(json.attributes[semantic] as number, size);
     },
     indices: () => unpacked?.indices.slice() ?? (json.indices === undefined ? undefined : accessors.indices(json.indices)),
-    restarts: (indices) => {
-      const type = json.indices === undefined || unpacked ? undefined : accessors.at(json.indices).componentType;
-      return type !== undefined && indices.includes(RESTART[type] as number);
-    },
+    restart: json.indices === undefined || unpacked ? undefined : RESTART[accessors.at(json.indices).componentType],
     target: (index, semantic) => {
       const accessor = json.targets?.[index]?.[semantic];
       return accessor === undefined ? undefined : accessors.floats(accessor, 3);

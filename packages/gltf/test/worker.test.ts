@@ -4,9 +4,10 @@ import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { chromium, type Browser, type Page } from 'playwright';
 import { build } from 'esbuild';
+import sharp from 'sharp';
 import { afterAll, beforeAll, expect, test } from 'vitest';
 import config from '../../../playwright.config';
-import type { loadGltfInWorker } from '../src/worker/load';
+import type { GltfWorker, loadGltfInWorker } from '../src/worker/load';
 import { glb, spoiled, triangle } from './build';
 import { presence, sharedPath } from './shared';
 
@@ -16,7 +17,7 @@ const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 
 beforeAll(async () => {
   const { outputFiles } = await build({
-    stdin: { contents: `import { loadGltfInWorker } from ${JSON.stringify(here('../src/worker/load.ts'))}; globalThis.loadGltfInWorker = loadGltfInWorker;`, resolveDir: here('.') },
+    stdin: { contents: `import { GltfWorker, loadGltfInWorker } from ${JSON.stringify(here('../src/worker/load.ts'))}; Object.assign(globalThis, { GltfWorker, loadGltfInWorker });`, resolveDir: here('.') },
     bundle: true, write: false, format: 'esm', conditions: ['@glanz/source'],
   });
   const own = await build({ entryPoints: [here('../src/worker/worker.ts')], bundle: true, write: false, format: 'esm', conditions: ['@glanz/source'] });
@@ -86,6 +87,41 @@ test('errors keep class, code and message', async () => {
 test('a worker that is not there is an error, and an abort its reason', async () => {
   expect(await load('m/a.glb', { worker: '/none.js' })).toMatchObject({ code: 'gltf/worker' });
   expect((await load('m/a.glb', { abort: true })).message).toMatch(/abort/i);
+});
+
+test('one worker is kept between loads; loads at a time have one each; an abort or a fault costs a worker, not the next load', async () => {
+  pages.set('/m/a.glb', spoiled(() => undefined));
+  const told = await page.evaluate(async () => {
+    const Loader = (globalThis as unknown as { GltfWorker: typeof GltfWorker }).GltfWorker;
+    let started = 0;
+    const loader = new Loader({ createWorker: () => { started++; return new Worker('/worker.js', { type: 'module', name: 'glanz-gltf' }); } });
+    const outcome = (promise: Promise<{ instances: unknown[] }>) => promise.then(({ instances }) => instances.length as number | string, (error: Error & { code?: string }) => (error.name === 'AbortError' ? error.name : (error.code ?? error.name)));
+    const one = [await outcome(loader.load('m/a.glb')), await outcome(loader.load('m/none.glb')), await outcome(loader.load('m/a.glb')), started];
+    const two = [...(await Promise.all([outcome(loader.load('m/a.glb')), outcome(loader.load('m/a.glb'))])), started];
+    const controller = new AbortController();
+    const aborted = outcome(loader.load('m/a.glb', { signal: controller.signal }));
+    controller.abort();
+    const three = [await aborted, await outcome(loader.load('m/a.glb')), started];
+    const pending = outcome(loader.load('m/a.glb'));
+    loader.destroy();
+    return [...one, ...two, ...three, await pending, await outcome(loader.load('m/a.glb'))];
+  });
+  expect(told).toEqual([1, 'gltf/missing-resource', 1, 1, 1, 1, 2, 'AbortError', 1, 3, 'gltf/worker', 'gltf/worker']);
+});
+
+test('pictures cross as bitmaps and have their pixels on the other side', async () => {
+  const { json, binary } = triangle();
+  const picture = await sharp(Uint8Array.of(200, 40, 90, 0, 10, 20, 30, 255), { raw: { width: 2, height: 1, channels: 4 } }).png().toBuffer();
+  json['images'] = [{ uri: `data:image/png;base64,${picture.toString('base64')}` }];
+  json['textures'] = [{ source: 0 }];
+  json['materials'] = [{ pbrMetallicRoughness: { baseColorTexture: { index: 0 } } }];
+  json['meshes'][0].primitives[0].material = 0;
+  pages.set('/m/picture.glb', glb(json, binary));
+  const images = await page.evaluate(async () => {
+    const scene = await (globalThis as unknown as { loadGltfInWorker: typeof loadGltfInWorker }).loadGltfInWorker('m/picture.glb');
+    return scene.images.map(({ bitmap, width, height, data }) => [bitmap instanceof ImageBitmap, width, height, ...data]);
+  });
+  expect(images).toEqual([[true, 2, 1, 200, 40, 90, 0, 10, 20, 30, 255]]);
 });
 
 const { present, note } = presence('assets/index.json');

@@ -5,6 +5,12 @@ export interface Image {
   height: number;
   /** RGBA interleaved, stride 4: 8-bit codes (0..255), or linear floats for HDR pictures. Straight alpha. */
   data: Uint8Array<ArrayBuffer> | Uint8ClampedArray<ArrayBuffer> | Float32Array<ArrayBuffer>;
+  /**
+   * The same pixels as the browser holds them, which go to the GPU without a way through JavaScript; of the size above, straight
+   * alpha, no colour conversion. Where a loader gives one, `data` is read back from it when it is first asked for (tens of
+   * milliseconds for 4 megapixels), so whoever has only the picture to show does not ask. Keep it open.
+   */
+  bitmap?: ImageBitmap;
 }
 
 /** What lies outside 0..1 of a picture: it again, its mirror image, or its edge texels. */

@@ -144,6 +144,11 @@ export function validateScene(scene: Scene): SceneWarning[] {
   scene.images.forEach((image, index) => {
     const what = `Image ${index} ("${image.name}")`;
     if (!(Number.isInteger(image.width) && Number.isInteger(image.height) && image.width > 0 && image.height > 0)) fail('value', `${what} has a size of ${image.width} × ${image.height}.`);
+    if (image.bitmap) {
+      // Its pixels are left where they are.
+      if (image.bitmap.width !== image.width || image.bitmap.height !== image.height) fail('length', `${what} of ${image.width} × ${image.height} pixels has a bitmap of ${image.bitmap.width} × ${image.bitmap.height}.`);
+      return;
+    }
     length(image.data, 4 * image.width * image.height, `${what} of ${image.width} × ${image.height} pixels`);
     if (image.data instanceof Float32Array) finite(image.data, what);
   });

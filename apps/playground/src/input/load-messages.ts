@@ -1,4 +1,4 @@
-import type { Scene } from '@glanz/scene';
+import type { SentScene } from '@glanz/gltf/workers';
 import type { SampleName } from './samples';
 
 /** What the loading worker is asked. */
@@ -9,5 +9,5 @@ export type LoadRequest =
 /** What it answers: any number of `progress`, then one of the others. */
 export type LoadReply =
   | { readonly kind: 'progress'; readonly stage: string; readonly done: number }
-  | { readonly kind: 'scene'; readonly scene: Scene }
+  | { readonly kind: 'scene'; readonly scene: SentScene }
   | { readonly kind: 'error'; readonly message: string; readonly code?: string };

@@ -1,3 +1,4 @@
+import { receivedScene } from '@glanz/gltf/workers';
 import type { Scene } from '@glanz/scene';
 import { PlaygroundError } from '../errors';
 import type { LoadReply, LoadRequest } from './load-messages';
@@ -21,7 +22,7 @@ export function loadScene(request: LoadRequest, options: { readonly signal: Abor
     signal.addEventListener('abort', abort);
     worker.onmessage = ({ data }: MessageEvent<LoadReply>) => {
       if (data.kind === 'progress') onProgress?.(data.stage, data.done);
-      else if (data.kind === 'scene') settle(() => resolve(data.scene));
+      else if (data.kind === 'scene') settle(() => resolve(receivedScene(data.scene)));
       else settle(() => reject(new PlaygroundError(data.code ?? 'playground/load', data.message)));
     };
     worker.onerror = (event) => settle(() => reject(new PlaygroundError('playground/worker', `The model loader failed: ${event.message || 'its script could not be started'}; reload the page.`)));

@@ -1,5 +1,6 @@
 import { readObj, readStl } from '@glanz/formats';
 import { decodeImageInBrowser, loadGltf } from '@glanz/gltf';
+import { sendableScene, transferablesOf } from '@glanz/gltf/worker';
 import { createCornellBox, createPushButton } from '@glanz/models';
 import type { Scene } from '@glanz/scene';
 import { decoders } from './decoders';
@@ -22,27 +23,12 @@ async function load(request: LoadRequest): Promise<Scene> {
   return createPushButton({ level: request.name === 'push-button-high' ? 'high' : request.name === 'push-button-low' ? 'low' : 'medium' });
 }
 
-/** The memory of all typed arrays of a scene, to be handed over rather than copied. */
-function buffersOf(scene: Scene): ArrayBuffer[] {
-  const found = new Set<ArrayBuffer>();
-  const visit = (value: unknown): void => {
-    if (ArrayBuffer.isView(value)) {
-      if (value.buffer instanceof ArrayBuffer) found.add(value.buffer);
-    } else if (Array.isArray(value)) {
-      if (typeof value[0] === 'object') value.forEach(visit);
-    } else if (typeof value === 'object' && value !== null) Object.values(value).forEach(visit);
-  };
-  visit(scene.meshes);
-  visit(scene.images);
-  return [...found];
-}
-
 const reply = (message: LoadReply, transfer: Transferable[] = []) => self.postMessage(message, { transfer });
 
 self.onmessage = async ({ data }: MessageEvent<LoadRequest>) => {
   try {
-    const scene = await load(data);
-    reply({ kind: 'scene', scene }, buffersOf(scene));
+    const scene = sendableScene(await load(data));
+    reply({ kind: 'scene', scene }, transferablesOf(scene));
   } catch (error) {
     const { message, code } = error as { message?: string; code?: unknown };
     reply({ kind: 'error', message: message ?? String(error), ...(typeof code === 'string' ? { code } : {}) });

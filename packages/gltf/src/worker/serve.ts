@@ -1,6 +1,6 @@
 import { GlanzError, type Scene } from '@glanz/scene';
 import { loadGltf, type LoadGltfOptions } from '../load';
-import { buffersOf, type LoadReply, type LoadRequest } from './protocol';
+import { buffersOf, sendable, type LoadReply, type LoadRequest } from './protocol';
 
 /** What a worker of your own adds to a load: things that cannot be sent. */
 export type WorkerLoadOptions = Pick<LoadGltfOptions, 'decoders' | 'decodeImage' | 'fetch'>;
@@ -15,9 +15,12 @@ export type WorkerLoadOptions = Pick<LoadGltfOptions, 'decoders' | 'decodeImage'
  * serveGltf({ decoders: { meshopt: async () => (await import('meshoptimizer/decoder')).MeshoptDecoder } });
  */
 export function serveGltf(options: WorkerLoadOptions = {}): void {
-  const scope = globalThis as unknown as { postMessage(message: LoadReply, transfer?: readonly ArrayBuffer[]): void; addEventListener(type: 'message', heard: (event: MessageEvent<LoadRequest>) => void): void };
+  const scope = globalThis as unknown as { postMessage(message: LoadReply, transfer?: readonly Transferable[]): void; addEventListener(type: 'message', heard: (event: MessageEvent<LoadRequest>) => void): void };
   scope.addEventListener('message', ({ data: { input, options: sent } }) => {
-    const answer = (scene: Scene) => scope.postMessage({ kind: 'scene', scene }, buffersOf(scene));
+    const answer = (loaded: Scene) => {
+      const scene = sendable(loaded);
+      scope.postMessage({ kind: 'scene', scene }, buffersOf(scene));
+    };
     const fail = (error: unknown) => {
       const { code, location } = error instanceof GlanzError ? error : ({} as Partial<GlanzError>);
       const path = location?.path;

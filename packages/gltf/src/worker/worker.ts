@@ -1,6 +1,7 @@
 // The file that workers run: nothing happens where it is loaded as anything else.
 import { serveGltf } from './serve';
 
+export { buffersOf as transferablesOf, sendable as sendableScene, type SentScene } from './protocol';
 export { serveGltf, type WorkerLoadOptions } from './serve';
 
 const { WorkerGlobalScope } = globalThis as unknown as { WorkerGlobalScope?: new () => object };

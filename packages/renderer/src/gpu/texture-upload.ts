@@ -58,7 +58,14 @@ export function uploadTextures(device: GPUDevice, memory: GpuMemory, scene: Scen
       Math.ceil((array.width * array.height * array.layers.length * texel * 4) / 3),
     );
     array.layers.forEach((image, layer) => {
-      const data = layerBytes(scene.images[image] as Image, array);
+      const picture = scene.images[image] as Image;
+      const { bitmap } = picture;
+      // A bitmap that was closed has no size.
+      if (bitmap && bitmap.width === array.width && bitmap.height === array.height && array.format !== 'rgba16float') {
+        device.queue.copyExternalImageToTexture({ source: bitmap }, { texture, origin: [0, 0, layer], premultipliedAlpha: false, colorSpace: 'srgb' }, [array.width, array.height]);
+        return;
+      }
+      const data = layerBytes(picture, array);
       device.queue.writeTexture({ texture, origin: [0, 0, layer] }, data, { bytesPerRow: array.width * texel, rowsPerImage: array.height }, [array.width, array.height, 1]);
     });
     return texture;

@@ -24,7 +24,7 @@ export interface TexturePlan {
 const addressMode = { repeat: 'repeat', mirror: 'mirror-repeat', clamp: 'clamp-to-edge' } as const;
 
 function formatOf(image: Image, texture: Texture): TextureArray['format'] {
-  if (image.data instanceof Float32Array) return 'rgba16float';
+  if (!image.bitmap && image.data instanceof Float32Array) return 'rgba16float';
   return texture.color_space === 'srgb' ? 'rgba8unorm-srgb' : 'rgba8unorm';
 }
 

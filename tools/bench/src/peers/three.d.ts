@@ -11,6 +11,7 @@ declare module 'three/webgpu' {
     readonly scale: Vector3;
     readonly matrix: { fromArray(values: readonly number[]): void; decompose(position: Vector3, quaternion: object, scale: Vector3): void };
     add(child: Object3D): this;
+    traverse(visit: (object: { readonly isMesh?: boolean; readonly isInstancedMesh?: boolean; readonly count?: number; readonly geometry: { readonly index?: { readonly count: number }; readonly attributes: { readonly position: { readonly count: number } } } }) => void): void;
   }
   export class Texture {
     mapping: number;
@@ -62,6 +63,8 @@ declare module 'three/examples/jsm/loaders/GLTFLoader.js' {
   }
   export class GLTFLoader {
     register(plugin: (parser: GltfParser) => GltfPlugin): this;
+    setDRACOLoader(loader: object): this;
+    setMeshoptDecoder(decoder: unknown): this;
     parseAsync(data: ArrayBuffer, path: string): Promise<{ readonly scene: Scene }>;
   }
 }
@@ -96,4 +99,7 @@ declare module 'three-gpu-pathtracer/webgpu' {
     getSampleCountsAsync(): Promise<{ readonly avg: number }>;
     dispose(): void;
   }
+}
+declare module 'three/examples/jsm/libs/meshopt_decoder.module.js' {
+  export const MeshoptDecoder: unknown;
 }

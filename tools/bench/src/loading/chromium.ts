@@ -1,0 +1,110 @@
+import { createReadStream, existsSync, readFileSync, statSync } from 'node:fs';
+import { createServer } from 'node:http';
+import type { AddressInfo } from 'node:net';
+import { createRequire } from 'node:module';
+import { dirname, join, resolve } from 'node:path';
+import { build } from 'esbuild';
+import { ASSETS, type Contestant, type From, type Load } from './models';
+
+const COUNT = `const count = (scene) => scene.instances.reduce((sum, { mesh }) => sum + scene.meshes[mesh].indices.length / 3, 0);`;
+const OURS = `
+import { loadGltf } from '@glanz/gltf';
+import { GltfWorker } from '@glanz/gltf/workers';
+const meshopt = async () => (await import('meshoptimizer/decoder')).MeshoptDecoder;
+// Kept between loads, as three.js keeps its own.
+let module;
+const draco = () => (module ??= import('draco3dgltf/draco_decoder_gltf_nodejs.js').then(({ default: create }) => create({ locateFile: () => '/draco.wasm' })));
+${COUNT}
+globalThis.loaders.glanz = async (input) => count(await loadGltf(input, { decoders: { meshopt, draco } }));
+const worker = new GltfWorker({ createWorker: () => new Worker('/own-worker.js', { type: 'module' }) });
+globalThis.loaders.worker = async (input) => count(await worker.load(input, { transfer: true }));
+`;
+const WORKER = `
+import { serveGltf } from '@glanz/gltf/worker';
+let module;
+serveGltf({ decoders: {
+  meshopt: async () => (await import('meshoptimizer/decoder')).MeshoptDecoder,
+  draco: () => (module ??= import('draco3dgltf/draco_decoder_gltf_nodejs.js').then(({ default: create }) => create({ locateFile: () => '/draco.wasm' }))),
+} });
+`;
+const THREE = `
+import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
+import { DRACOLoader } from 'three/examples/jsm/loaders/DRACOLoader.js';
+import { MeshoptDecoder } from 'three/examples/jsm/libs/meshopt_decoder.module.js';
+const draco = new DRACOLoader().setDecoderPath('/three-draco/');
+globalThis.loaders.three = async (input) => {
+  const loader = new GLTFLoader().setDRACOLoader(draco).setMeshoptDecoder(MeshoptDecoder);
+  const { scene } = await (typeof input === 'string' ? loader.loadAsync(input) : loader.parseAsync(input, ''));
+  let triangles = 0;
+  scene.traverse(({ isMesh, isInstancedMesh, count, geometry }) => { if (isMesh) triangles += ((geometry.index ?? geometry.attributes.position).count / 3) * (isInstancedMesh ? count : 1); });
+  return triangles;
+};
+`;
+
+/** Bundles with the sources of the workspace, for the page. */
+async function bundle(contents: string, folder: string): Promise<Uint8Array> {
+  const { outputFiles } = await build({ stdin: { contents, resolveDir: folder }, bundle: true, write: false, format: 'esm', minify: process.env['GLANZ_PROFILE'] === undefined, target: 'es2022', conditions: ['@glanz/source'], external: ['fs', 'path', 'crypto', 'node:*'], define: { 'process.versions': '{}' }, logLevel: 'error' });
+  return outputFiles[0]!.contents;
+}
+
+async function serve() {
+  const folder = resolve('tools/bench'), gltf = resolve('packages/gltf');
+  const require = createRequire(join(gltf, 'package.json')), requireThree = createRequire(join(folder, 'package.json'));
+  const files = new Map<string, string | Uint8Array>([
+    ['/', '<!doctype html><script>globalThis.loaders = {};</script><script type="module" src="/ours.js"></script><script type="module" src="/three.js"></script>'],
+    ['/ours.js', await bundle(OURS, gltf)],
+    ['/own-worker.js', await bundle(WORKER, gltf)],
+    ['/three.js', await bundle(THREE, folder)],
+    ['/draco.wasm', readFileSync(join(dirname(require.resolve('draco3dgltf')), 'draco_decoder_gltf.wasm'))],
+  ]);
+  const threeDraco = join(dirname(requireThree.resolve('three')), '../examples/jsm/libs/draco/gltf');
+  for (const name of ['draco_decoder.js', 'draco_wasm_wrapper.js', 'draco_decoder.wasm']) if (existsSync(join(threeDraco, name))) files.set(`/three-draco/${name}`, readFileSync(join(threeDraco, name)));
+  const server = createServer((request, response) => {
+    const path = decodeURIComponent(new URL(request.url!, 'http://x').pathname);
+    const body = files.get(path);
+    const type = path.endsWith('.js') ? 'text/javascript' : path.endsWith('.wasm') ? 'application/wasm' : path === '/' ? 'text/html' : 'application/octet-stream';
+    const file = join(ASSETS, path.slice('/assets'.length));
+    if (body !== undefined) response.writeHead(200, { 'content-type': type }).end(body);
+    else if (path.startsWith('/assets/') && file.startsWith(ASSETS) && existsSync(file)) {
+      response.writeHead(200, { 'content-type': type, 'content-length': statSync(file).size, 'cache-control': 'no-store' });
+      createReadStream(file).pipe(response);
+    } else response.writeHead(404).end();
+  });
+  await new Promise<void>((done) => server.listen(0, '127.0.0.1', done));
+  return server;
+}
+
+/** A page in Chromium with all loaders. */
+export async function openPage() {
+  const server = await serve();
+  const { chromium } = await import('playwright');
+  const { default: config } = (await import('../../../../playwright.config')) as { default: { use?: { launchOptions?: Parameters<typeof chromium.launch>[0] } } };
+  const browser = await chromium.launch(config.use?.launchOptions ?? {});
+  const page = await browser.newPage();
+  await page.goto(`http://127.0.0.1:${(server.address() as AddressInfo).port}/`);
+  await page.waitForFunction(() => 'three' in (globalThis as unknown as { loaders: object }).loaders && 'worker' in (globalThis as unknown as { loaders: object }).loaders);
+  const load = (loader: Contestant, file: string, from: From): Promise<Load> =>
+    page.evaluate(async ([name, address, where]) => {
+      const input = where === 'address' ? address! : await (await fetch(address!)).arrayBuffer();
+      const begun = performance.now();
+      const triangles = await (globalThis as unknown as { loaders: Record<string, (input: string | ArrayBuffer) => Promise<number>> }).loaders[name!]!(input);
+      return { ms: performance.now() - begun, triangles };
+    }, [loader, `/assets/${file.split('/').map(encodeURIComponent).join('/')}`, from]);
+  return {
+    version: browser.version(),
+    page,
+    load,
+    /** The longest task of the page's own thread while a model is loaded, milliseconds of that thread's time. */
+    async longestTask(loader: Contestant, file: string): Promise<number> {
+      await browser.startTracing(page, { categories: ['__metadata', 'toplevel', 'devtools.timeline'] });
+      await load(loader, file, 'address');
+      const { traceEvents } = JSON.parse((await browser.stopTracing()).toString()) as { traceEvents: { name: string; ph: string; pid: number; tid: number; tdur?: number; args?: { name?: string } }[] };
+      const main = new Set(traceEvents.filter(({ name, args }) => name === 'thread_name' && args?.name === 'CrRendererMain').map(({ pid, tid }) => `${pid}/${tid}`));
+      return Math.max(0, ...traceEvents.filter(({ ph, pid, tid, tdur }) => ph === 'X' && tdur !== undefined && main.has(`${pid}/${tid}`)).map(({ tdur }) => tdur! / 1000));
+    },
+    async close() {
+      await browser.close();
+      server.close();
+    },
+  };
+}

@@ -1,0 +1,111 @@
+import { mkdirSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { CONTESTANTS, type Contestant } from './models';
+
+/** Where loads were measured. */
+export const PLACES = {
+  address: 'Chromium, from an address on the same machine',
+  bytes: 'Chromium, from the bytes of the file in memory',
+  node: 'Node, from the bytes of the file in memory',
+} as const;
+
+export type Place = keyof typeof PLACES;
+
+/** Smallest, middle and largest of repeated times, milliseconds. */
+export interface Spread {
+  readonly min: number;
+  readonly median: number;
+  readonly max: number;
+}
+
+/** What was measured of a model at a place. */
+export interface LoadingRow {
+  readonly model: string;
+  readonly place: Place;
+  readonly times: Readonly<Partial<Record<Contestant, Spread>>>;
+  /** Longest task of the page's own thread, milliseconds of that thread's time; from an address only. */
+  readonly blocks?: Readonly<Partial<Record<Contestant, Spread>>>;
+}
+
+/** What the page is made of. */
+export interface LoadingDetails {
+  readonly three: string;
+  readonly browser: string;
+  readonly runs: number;
+  readonly rows: readonly LoadingRow[];
+}
+
+/** A report of the benchmark. */
+export interface LoadingReport {
+  readonly machine: { readonly cpu: string; readonly cores: number; readonly node: string; readonly commit?: string | undefined; readonly date: string };
+  readonly details: LoadingDetails;
+}
+
+export const geometricMean = (values: readonly number[]): number => Math.exp(values.reduce((sum, value) => sum + Math.log(value), 0) / values.length);
+
+/** How many times longer three.js takes, middle over middle, geometric mean over the models. */
+export function speedUp(rows: readonly LoadingRow[], place: Place, contestant: Exclude<Contestant, 'three'>): number | undefined {
+  const ratios = rows.flatMap(({ place: where, times }) => (where === place && times[contestant] && times.three ? [times.three.median / times[contestant].median] : []));
+  return ratios.length === 0 ? undefined : geometricMean(ratios);
+}
+
+const digits = (ms: number) => (ms < 10 ? ms.toFixed(1) : ms.toFixed(0));
+const spread = (s: Spread | undefined) => (s ? `${digits(s.median)} (${digits(s.min)} – ${digits(s.max)})` : '–');
+
+/** The page of the documentation. */
+export function loadingMarkdown({ machine, details: { three, browser, runs, rows } }: LoadingReport): string {
+  const names = Object.keys(CONTESTANTS) as Contestant[];
+  const table = (place: Place) => {
+    const own = rows.filter((row) => row.place === place);
+    const shown = names.filter((name) => own.some(({ times }) => times[name]));
+    const ours = shown.filter((name) => name !== 'three') as Exclude<Contestant, 'three'>[];
+    const ratio = (row: LoadingRow, name: Contestant) => (row.times[name] && row.times.three ? `${(row.times.three.median / row.times[name].median).toFixed(2)}×` : '–');
+    return [
+      `### ${PLACES[place]}`,
+      '',
+      `| model | ${shown.map((name) => `${CONTESTANTS[name]}, ms`).join(' | ')} | ${ours.map((name) => `three.js ÷ ${CONTESTANTS[name]}`).join(' | ')} |`,
+      `| --- | ${[...shown, ...ours].map(() => '--:').join(' | ')} |`,
+      ...own.map((row) => `| ${row.model} | ${shown.map((name) => spread(row.times[name])).join(' | ')} | ${ours.map((name) => ratio(row, name)).join(' | ')} |`),
+      `| geometric mean | ${shown.map(() => '').join(' | ')} | ${ours.map((name) => `**${speedUp(rows, place, name)?.toFixed(2)}×**`).join(' | ')} |`,
+      '',
+    ];
+  };
+  const blocked = rows.filter(({ blocks }) => blocks);
+  return [
+    '# Loading',
+    '',
+    `How long does it take from a glTF file to a scene that can be rendered? Glanz beside three.js ${three}: \`GLTFLoader\` with its \`DRACOLoader\` and \`MeshoptDecoder\`. Five models: large pictures (DamagedHelmet), Draco (chess-board), meshopt (pirate, bunny), many parts with pictures (lamborghini).`,
+    '',
+    '**What is compared.** Both loaders end with every picture decoded and every vertex unpacked, neither has put anything on a graphics card. In a browser both leave decoded pictures as `ImageBitmap`s, so no pixel goes through JavaScript. What differs:',
+    '',
+    '- Glanz checks what it reads (every index, every float, every byte range; broken files are a scene with a warning or a typed error), brings vectors to length 1 and makes MikkTSpace tangents where a material needs them and the file has none (DamagedHelmet). three.js does none of it; its shaders make up tangents.',
+    '- Glanz decodes the pictures that a path tracer looks at; three.js also those of baked occlusion.',
+    '- `GltfWorker` does everything in one worker, which stays ready between loads. three.js unpacks Draco in up to four workers and all the rest on the page\'s own thread.',
+    '- In Node three.js gets what it expects of a browser: `createImageBitmap` made of the same `sharp` that Glanz uses, and a Draco decoder of the same package without workers.',
+    '',
+    `Taken in turns, ${runs} loads each after one that does not count; middle (smallest – largest). ${machine.cpu}, ${machine.cores} cores, Node ${machine.node}, Chromium ${browser}${machine.commit ? `, commit ${machine.commit.slice(0, 7)}` : ''}, ${machine.date.slice(0, 10)}. Data: [loading.json](./loading.json); again with \`npm run bench -- gltf --pages apps/docs/results\`.`,
+    '',
+    '## Time to a scene',
+    '',
+    ...(Object.keys(PLACES) as Place[]).flatMap(table),
+    'Small files and plain geometry (pirate, bunny) take about as long as asking the server for them and copying the bytes: there is nothing to win from an address. Large pictures take as long as the browser needs for its longest one, in which both are alike; the rest is won by decoding them while geometry is unpacked, and by asking for them in the way that costs the browser least.',
+    '',
+    '## How long the page stands still',
+    '',
+    'Longest task of the page\'s own thread during a load, in milliseconds of its time on the processor. A frame has 16.',
+    '',
+    `| model | ${names.map((name) => CONTESTANTS[name]).join(' | ')} |`,
+    `| --- | ${names.map(() => '--:').join(' | ')} |`,
+    ...blocked.map(({ model, blocks }) => `| ${model} | ${names.map((name) => spread(blocks?.[name])).join(' | ')} |`),
+    '',
+  ].join('\n');
+}
+
+/** Writes the page and its data. Returns the files. */
+export function writeLoadingPage(report: LoadingReport, folder: string): string[] {
+  mkdirSync(folder, { recursive: true });
+  const page = join(folder, 'loading.md'), data = join(folder, 'loading.json');
+  writeFileSync(page, loadingMarkdown(report));
+  writeFileSync(data, `${JSON.stringify(report, null, 1)}\n`);
+  return [page, data];
+}
