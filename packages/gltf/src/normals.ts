@@ -10,7 +10,7 @@ export function makeUnit(vectors: Float32Array, stride: number): boolean {
     const square = x * x + y * y + z * z;
     // Nearly all are good already, and Math.hypot is ten times slower.
     if (Math.abs(square - 1) <= 2e-6) continue;
-    const length = Math.hypot(x, y, z);
+    const length = square > 1e-20 && square < 1e20 ? Math.sqrt(square) : Math.hypot(x, y, z);
     if (!(length > 1e-12)) good = false;
     else {
       vectors[at] = x / length;

@@ -144,7 +144,7 @@ export class GltfWorker {
     this.#destroyed = true;
     this.#idle?.worker.terminate();
     this.#idle = undefined;
-    for (const running of [...this.#busy]) running.failed?.('it was destroyed');
+    for (const running of this.#busy) running.failed?.('it was destroyed');
   }
 }
 
