@@ -39,9 +39,9 @@ function restore(variables: Readonly<Record<string, string | undefined>>): void 
 const packaged = process.platform === 'linux' && process.arch === 'x64' ? await packagedChromium() : {};
 
 export default defineConfig({
-  projects: ['playground', 'docs']
-    .filter((app) => existsSync(new URL(`apps/${app}/test`, import.meta.url)))
-    .map((name) => ({ name, testDir: `apps/${name}/test`, testMatch: '**/*.spec.ts' })),
+  projects: ['packages/viewer', 'packages/element', 'packages/react', 'packages/three', 'apps/playground', 'apps/docs']
+    .filter((folder) => existsSync(new URL(`${folder}/test`, import.meta.url)))
+    .map((folder) => ({ name: folder.slice(folder.indexOf('/') + 1), testDir: `${folder}/test`, testMatch: '**/*.spec.ts' })),
   outputDir: '.cache/playwright',
   // The software GPU takes all cores for one page.
   workers: 1,

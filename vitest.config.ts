@@ -19,7 +19,7 @@ const project = (name: string, dir: string) => ({
 export default defineConfig({
   test: {
     projects: [
-      ...['wgsl', 'scene', 'bvh', 'openpbr', 'gltf', 'formats', 'cad', 'tonemap', 'image', 'renderer', 'cli'].map((name) => project(name, `packages/${name}`)),
+      ...['wgsl', 'scene', 'bvh', 'openpbr', 'gltf', 'formats', 'cad', 'tonemap', 'image', 'renderer', 'cli', 'viewer'].map((name) => project(name, `packages/${name}`)),
       ...['models', 'bench', 'reference', 'gpu', 'pipeline'].map((name) => project(`tools-${name}`, `tools/${name}`)),
     ],
     // One GPU process at a time on two cores keeps the software driver from starving itself.

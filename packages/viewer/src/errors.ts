@@ -1,0 +1,10 @@
+import { GlanzError } from '@glanz/scene';
+
+/**
+ * The viewer was asked for something it cannot do. Codes: `viewer/no-canvas`, `viewer/destroyed`, `viewer/no-scene`,
+ * `viewer/no-model`, `viewer/environment`, `viewer/variant`, `viewer/camera`, `viewer/blob`, `viewer/device-lost`, `viewer/gpu`.
+ */
+export class ViewerError extends GlanzError {}
+
+/** Whether an operation ended because somebody wanted it to. */
+export const isAbort = (error: unknown): boolean => (error as { name?: unknown } | null)?.name === 'AbortError';

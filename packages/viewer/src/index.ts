@@ -1,0 +1,10 @@
+export { createViewer, Viewer, type LoadOptions } from './viewer';
+export type { PreviewOptions, ViewerOptions } from './options';
+export type { CameraChangeSource, LoadStage, ViewerEvents, ViewerState } from './events';
+export { Emitter, type ListenOptions } from './emitter';
+export type { BlobOptions } from './blob';
+export type { ControlOptions } from './controls';
+export type { EnvironmentSource, ModelSource } from './load';
+export type { Orbit, Vector } from './orbit';
+export type { Projection } from './project';
+export { ViewerError } from './errors';

@@ -1,0 +1,140 @@
+import type { GltfDecoders, GltfProgress } from '@glanz/gltf';
+import type { Environment, Scene } from '@glanz/scene';
+import { isAbort, ViewerError } from './errors';
+
+/**
+ * A model: an address, a file, several files or a folder of them (glTF, GLB, OBJ with MTL, STL), or a scene.
+ * A map's keys are paths, folders separated by `/`.
+ */
+export type ModelSource = string | URL | Blob | readonly File[] | FileList | ReadonlyMap<string, Blob> | Scene;
+
+/**
+ * Surroundings. `scene`: the model's own, or else the studio; `studio`: the built-in one; `none`: black; an address or a
+ * file of a Radiance HDR or OpenEXR picture; or data.
+ */
+export type EnvironmentSource = 'scene' | 'studio' | 'none' | URL | Blob | Environment | (string & {});
+
+/** What {@link loadModel} may be told. */
+export interface LoadModelOptions {
+  readonly signal?: AbortSignal | undefined;
+  readonly onProgress?: ((progress: GltfProgress) => void) | undefined;
+  /**
+   * Decoders of compressed meshes and pictures. meshopt is there by itself. A file that needs one of these is read on the
+   * calling thread; `createWorker` keeps it off.
+   */
+  readonly decoders?: GltfDecoders | undefined;
+  /** Starts the worker that reads glTF: a file of yours that calls `serveGltf` of `@glanz/gltf/worker` with decoders. */
+  readonly createWorker?: (() => Worker) | undefined;
+}
+
+const MODEL = /\.(glb|gltf|obj|stl)$/i;
+const ENVIRONMENT = /\.(hdr|exr|pic)$/i;
+
+const isScene = (source: ModelSource): source is Scene => typeof source === 'object' && 'meshes' in source && 'instances' in source;
+const pathOf = (address: string | URL) => String(address).replace(/[?#].*$/, '');
+
+/** Files by their paths, of whatever a drop, an input or a program gives. */
+function filesOf(source: Blob | readonly File[] | FileList | ReadonlyMap<string, Blob>): Map<string, Blob> {
+  if (source instanceof Blob) return new Map([[source instanceof File ? source.name : 'model.glb', source]]);
+  if (source instanceof Map) return new Map(source as ReadonlyMap<string, Blob>);
+  return new Map([...(source as Iterable<File>)].map((file) => [file.webkitRelativePath || file.name, file]));
+}
+
+/**
+ * The model and the surroundings among files: of several documents the one nearest to the top, as asset folders keep
+ * variants below.
+ */
+export function sortFiles(files: ReadonlyMap<string, Blob>): { readonly model?: string; readonly environment?: string } {
+  const depth = (path: string) => path.split('/').length;
+  const paths = [...files.keys()].sort((a, b) => depth(a) - depth(b) || a.localeCompare(b));
+  const model = paths.find((path) => MODEL.test(path));
+  const environment = paths.find((path) => ENVIRONMENT.test(path));
+  return { ...(model === undefined ? {} : { model }), ...(environment === undefined ? {} : { environment }) };
+}
+
+/**
+ * Reads a model, glTF in a worker where one can be had.
+ *
+ * @throws {ViewerError} `viewer/no-model` if there is none among the files.
+ * @throws {GltfError} {FormatError} for files that cannot be read.
+ * @example
+ * const scene = await loadModel('chair.glb', { signal });
+ */
+export async function loadModel(source: ModelSource, options: LoadModelOptions = {}): Promise<Scene> {
+  const { signal } = options;
+  signal?.throwIfAborted();
+  if (typeof source === 'string' || source instanceof URL) {
+    if (!/\.(obj|stl)$/i.test(pathOf(source))) return readGltf(source, options);
+    const base = new URL(source, location.href);
+    return readOther(decodeURIComponent(base.pathname.slice(base.pathname.lastIndexOf('/') + 1)), (path) => fetchBytes(new URL(path, base), signal), signal);
+  }
+  if (isScene(source)) return source;
+  const files = filesOf(source);
+  const { model } = sortFiles(files);
+  // A Blob without a name may be anything; glTF is what it is taken for.
+  if (model === undefined) {
+    const names = [...files.keys()].slice(0, 3).map((path) => `"${path}"`);
+    throw new ViewerError('viewer/no-model', `There is no .glb, .gltf, .obj or .stl among the files${names.length > 0 ? ` (${names.join(', ')}${files.size > 3 ? ', …' : ''})` : ''}.`);
+  }
+  if (!/\.(obj|stl)$/i.test(model)) return readGltf({ files, entry: model }, options);
+  const folder = model.slice(0, model.lastIndexOf('/') + 1);
+  return readOther(model.slice(folder.length), async (path) => { const file = files.get(folder + path); return file && bytesOf(file); }, signal);
+}
+
+/**
+ * Reads surroundings; `scene` and `none` give `undefined`.
+ *
+ * @throws {ViewerError} `viewer/environment` for an address that cannot be fetched; {ImageError} for a picture that cannot be read.
+ */
+export async function loadEnvironment(source: EnvironmentSource, signal?: AbortSignal): Promise<Environment | undefined> {
+  if (source === 'scene' || source === 'none') return undefined;
+  if (source === 'studio') return (await import('@glanz/scene/studio')).studioEnvironment();
+  if (typeof source === 'object' && 'type' in source && !(source instanceof Blob)) return source as Environment;
+  const bytes = source instanceof Blob ? await bytesOf(source) : await fetchBytes(new URL(source as string | URL, location.href), signal);
+  if (!bytes) throw new ViewerError('viewer/environment', `The surroundings "${String(source).slice(0, 200)}" could not be fetched: check the address, and that its server allows this page to read it.`);
+  const { decodeEnvironment } = await import('@glanz/image/environment');
+  signal?.throwIfAborted();
+  const { width, height, data } = decodeEnvironment(bytes);
+  return { type: 'latlong', width, height, data };
+}
+
+const bytesOf = async (file: Blob) => new Uint8Array(await file.arrayBuffer());
+
+/** The bytes at an address, or `undefined` where there are none. */
+async function fetchBytes(url: URL, signal: AbortSignal | undefined): Promise<Uint8Array<ArrayBuffer> | undefined> {
+  try {
+    const response = await fetch(url, signal ? { signal } : {});
+    return response.ok ? new Uint8Array(await response.arrayBuffer()) : undefined;
+  } catch {
+    signal?.throwIfAborted();
+    return undefined;
+  }
+}
+
+type GltfSource = string | URL | { readonly files: ReadonlyMap<string, Blob>; readonly entry: string };
+
+async function readGltf(source: GltfSource, options: LoadModelOptions): Promise<Scene> {
+  const { signal, onProgress, decoders, createWorker } = options;
+  const told = { signal, onProgress };
+  try {
+    const { loadGltfInWorker } = await import('@glanz/gltf/workers');
+    return await loadGltfInWorker(source, { ...told, createWorker });
+  } catch (error) {
+    const { code } = error as { code?: unknown };
+    // No worker can be had, or it lacks a decoder: then here.
+    if (isAbort(error) || (code !== 'gltf/worker' && code !== 'gltf/missing-decoder')) throw error;
+  }
+  signal?.throwIfAborted();
+  const { loadGltf } = await import('@glanz/gltf');
+  const meshopt = async () => (await import('meshoptimizer/decoder')).MeshoptDecoder;
+  return loadGltf(source, { ...told, decoders: { meshopt, ...decoders } });
+}
+
+async function readOther(name: string, read: (path: string) => Promise<Uint8Array<ArrayBuffer> | undefined>, signal: AbortSignal | undefined): Promise<Scene> {
+  const bytes = await read(name);
+  if (!bytes) throw new ViewerError('viewer/no-model', `The model "${name}" could not be fetched: check the address, and that its server allows this page to read it.`);
+  const { readObj, readStl } = await import('@glanz/formats');
+  if (/\.stl$/i.test(name)) return readStl(bytes, { name });
+  const { decodeImageInBrowser } = await import('@glanz/gltf');
+  return readObj(bytes, { name, read, decodeImage: (picture) => decodeImageInBrowser(picture, 'application/octet-stream'), ...(signal ? { signal } : {}) });
+}

@@ -1,0 +1,24 @@
+import { ViewerError } from './errors';
+
+const WINDOW_MS = 60_000;
+const MOST = 3;
+
+/** Counts lost devices, so that a GPU that always fails is not asked for ever. */
+export class Losses {
+  #times: number[] = [];
+
+  /**
+   * Waits before the next attempt, longer each time.
+   *
+   * @throws {ViewerError} `viewer/device-lost` after three losses within a minute.
+   */
+  async next(now = performance.now()): Promise<void> {
+    this.#times = [...this.#times.filter((time) => now - time < WINDOW_MS), now];
+    if (this.#times.length > MOST) throw new ViewerError('viewer/device-lost', 'The GPU was lost again and again: close other programs that use it, or show a smaller model or picture.');
+    await new Promise((resolve) => setTimeout(resolve, 200 * this.#times.length ** 2));
+  }
+
+  forgive(): void {
+    this.#times = [];
+  }
+}

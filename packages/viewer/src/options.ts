@@ -1,0 +1,69 @@
+import type { GltfDecoders } from '@glanz/gltf';
+import type { PathTracerOptions } from '@glanz/renderer';
+import type { Camera } from '@glanz/scene';
+import type { ToneMap } from '@glanz/tonemap';
+import type { ControlOptions } from './controls';
+import type { EnvironmentSource } from './load';
+
+/** What `createViewer` may be told. All of it has a default; what is marked can be changed later by the viewer's property of the same name. */
+export interface ViewerOptions {
+  /** Samples per pixel of the finished picture. Default 256. Changeable. */
+  readonly samples?: number;
+  /** Stop earlier, where this relative noise is reached; see `RenderOptions.noise` of the renderer. Default: none. Changeable. */
+  readonly noise?: number;
+  /** Most edges of a path. Default 8. Changeable. */
+  readonly maxDepth?: number;
+  /** Picture pixels per CSS pixel. Default: the screen's own, at most 2. Changeable. */
+  readonly pixelRatio?: number;
+  /** Pixels of the picture at most; beyond, it is enlarged. Default 4,194,304. */
+  readonly maxPixels?: number;
+  /** Surroundings. Default `scene`: the model's own, or else a studio. Changed by `setEnvironment()`. */
+  readonly environment?: EnvironmentSource;
+  /** Multiplies the surroundings. Default 1. Changeable. */
+  readonly environmentIntensity?: number;
+  /** Turns the surroundings about +Y, radians. Default 0. Changeable. */
+  readonly environmentRotation?: number;
+  /** What is seen behind the model: the surroundings, or the page. Default `environment`. Changeable. */
+  readonly background?: 'environment' | 'transparent';
+  /** Stops (EV). Default 0. Changeable. */
+  readonly exposure?: number;
+  /** Default `neutral`. Changeable. */
+  readonly toneMap?: ToneMap;
+  /** Look of a model that has several, by name. Default: its own. Changed by `setVariant()`. */
+  readonly variant?: string;
+  /**
+   * The first view of a model: `auto` (default): its own first camera, or a view that frames it; `frame`: the latter always;
+   * an index or a name of its cameras; or a camera.
+   */
+  readonly camera?: 'auto' | 'frame' | number | Camera | (string & {});
+  /** Hands on the canvas: all, none, or some. Default true. Changeable. */
+  readonly controls?: boolean | ControlOptions;
+  /** Seconds in which 63 % of a movement is done. Default 0.06; 0 where the user asks for less motion. */
+  readonly damping?: number;
+  /** Radians a second that the model turns by itself; stops three seconds for each movement of the user. Default 0. Changeable. */
+  readonly autoRotate?: number;
+  /** How the preview of a moving view is made. */
+  readonly preview?: PreviewOptions;
+  /** GPU milliseconds that one submission should take at most while the picture is refined. Default 24. */
+  readonly maxSubmitMs?: number;
+  /** Decoders of compressed meshes and pictures; meshopt is there by itself. */
+  readonly decoders?: GltfDecoders;
+  /** Starts the worker that reads glTF, see `LoadModelOptions.createWorker`. */
+  readonly createWorker?: () => Worker;
+  /** Asks for the device, also again after it was lost. Default: `requestDevice()` of the renderer. The viewer destroys it. */
+  readonly requestDevice?: () => Promise<GPUDevice>;
+  /** More for the path tracer: filter, light groups, biased shortcuts. */
+  readonly tracer?: Pick<PathTracerOptions, 'filter' | 'lightGroups' | 'clampIndirect' | 'regularization' | 'caustics' | 'maxBounces' | 'sampler' | 'textureLodBias' | 'seed' | 'maxVolumeDepth' | 'pathsInFlight'>;
+  /** Destroys the viewer when it aborts. */
+  readonly signal?: AbortSignal;
+}
+
+/** See {@link ViewerOptions.preview}. */
+export interface PreviewOptions {
+  /** Milliseconds that a frame of it may take. Default 12, which leaves room at 60 frames a second. */
+  readonly budgetMs?: number;
+  /** Most edges of a path, where the preview is smaller than the picture. Default 4. */
+  readonly maxDepth?: number;
+  /** Milliseconds without a movement after which the picture is refined. Default 180. */
+  readonly settleMs?: number;
+}

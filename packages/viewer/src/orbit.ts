@@ -1,0 +1,213 @@
+import type { Camera, SceneBounds } from '@glanz/scene';
+
+/** Three numbers in the world, metres. */
+export type Vector = readonly [number, number, number];
+
+/** Where a camera stands around a point, +Y up. */
+export interface Orbit {
+  /** Azimuth around the target, radians: 0 looks from +Z, π/2 from +X. */
+  readonly theta: number;
+  /** Angle from straight above, radians, in (0, π): π/2 is level with the target. */
+  readonly phi: number;
+  /** Metres from the target. */
+  readonly radius: number;
+  /** What the camera turns about and looks at, metres. */
+  readonly target: Vector;
+}
+
+/** What {@link OrbitRig} may be told. */
+export interface OrbitRigOptions {
+  /** Seconds in which 63 % of a movement is done; 0 moves at once. Default 0.06. */
+  readonly damping?: number;
+}
+
+interface Pose {
+  yaw: number;
+  pitch: number;
+  distance: number;
+  target: Vector;
+  /** Magnification of a parallel projection. */
+  zoom: number;
+}
+
+/** Pitch stays short of the poles, where "up" has no meaning. */
+const STEEPEST = (89.5 * Math.PI) / 180;
+/** What is left of a movement when it is called over: of a radian, of the distance. */
+const REST = 2e-4;
+
+const add = (a: Vector, b: Vector, scale: number): Vector => [a[0] + b[0] * scale, a[1] + b[1] * scale, a[2] + b[2] * scale];
+const clamp = (value: number, low: number, high: number) => Math.min(Math.max(value, low), high);
+
+/**
+ * A camera that turns about a point, +Y up, and follows what it is told smoothly. Starts as any camera (a roll is given up)
+ * and gives cameras to render with. No DOM.
+ *
+ * @example
+ * const rig = new OrbitRig(camera, sceneBounds(scene));
+ * rig.orbit(0.1, 0);
+ * while (rig.step(1 / 60)) draw(rig.camera());
+ */
+export class OrbitRig {
+  #lens: Camera;
+  readonly #radius: number;
+  readonly #center: Vector;
+  #goal: Pose;
+  #now: Pose;
+  /** Seconds, see {@link OrbitRigOptions.damping}. */
+  damping: number;
+
+  /** @param bounds Of the scene: the point to turn about lies beside its centre, and steps suit its size. */
+  constructor(camera: Camera, bounds: SceneBounds, options: OrbitRigOptions = {}) {
+    const finite = bounds.min[0] <= bounds.max[0];
+    this.#center = finite ? ([0, 1, 2].map((k) => ((bounds.min[k] as number) + (bounds.max[k] as number)) / 2) as unknown as Vector) : [0, 0, 0];
+    this.#radius = finite ? Math.max(0.5 * Math.hypot(bounds.max[0] - bounds.min[0], bounds.max[1] - bounds.min[1], bounds.max[2] - bounds.min[2]), 1e-6) : 1;
+    this.#lens = camera;
+    this.damping = options.damping ?? 0.06;
+    this.#goal = this.#poseOf(camera);
+    this.#now = { ...this.#goal };
+  }
+
+  /** Radius of the sphere around the scene, metres. */
+  get sceneRadius(): number {
+    return this.#radius;
+  }
+
+  /** Middle of the scene's box. */
+  get sceneCenter(): Vector {
+    return this.#center;
+  }
+
+  /** Whether the camera is still on its way. */
+  get moving(): boolean {
+    const [a, b] = [this.#now, this.#goal];
+    return a.yaw !== b.yaw || a.pitch !== b.pitch || a.distance !== b.distance || a.zoom !== b.zoom || a.target.some((value, k) => value !== b.target[k]);
+  }
+
+  /** Where the camera is going. */
+  get goal(): Orbit {
+    return orbitOf(this.#goal);
+  }
+
+  /** Where the camera is. */
+  get orbitNow(): Orbit {
+    return orbitOf(this.#now);
+  }
+
+  /** Turns about the target; radians, positive to the right and up around the model. */
+  orbit(yaw: number, pitch: number): void {
+    this.#goal.yaw += yaw;
+    this.#goal.pitch = clamp(this.#goal.pitch + pitch, -STEEPEST, STEEPEST);
+  }
+
+  /** Moves sideways and up, in heights of the picture at the target's distance. */
+  pan(right: number, up: number): void {
+    const { x, y } = axesOf(this.#goal);
+    const height = this.#lens.type === 'orthographic' ? (2 * this.#lens.ymag) / this.#goal.zoom : 2 * this.#goal.distance * (this.#lens.type === 'perspective' ? Math.tan(this.#lens.yfov / 2) : 1);
+    this.#goal.target = add(add(this.#goal.target, x, right * height), y, up * height);
+  }
+
+  /** Comes nearer by a factor: 2 halves the distance. */
+  zoom(factor: number): void {
+    this.#goal.distance = clamp(this.#goal.distance / factor, this.#radius * 1e-3, this.#radius * 200);
+    this.#goal.zoom = clamp(this.#goal.zoom * factor, 1e-3, 1e3);
+  }
+
+  /** Goes to an orbit; what is left out stays. `phi` stops half a degree short of the poles. Ignores what is not finite. */
+  setOrbit(orbit: Partial<Orbit>): void {
+    const { theta, phi, radius, target } = orbit;
+    if (Number.isFinite(theta)) {
+      // The short way round.
+      const turn = Math.PI * 2;
+      const from = this.#goal.yaw;
+      this.#goal.yaw = from + ((((theta as number) - from + Math.PI) % turn) + turn) % turn - Math.PI;
+    }
+    if (Number.isFinite(phi)) this.#goal.pitch = clamp(Math.PI / 2 - (phi as number), -STEEPEST, STEEPEST);
+    if (radius !== undefined && radius > 0 && radius < Infinity) {
+      this.#goal.zoom *= this.#goal.distance / radius;
+      this.#goal.distance = radius;
+    }
+    if (target?.every(Number.isFinite)) this.#goal.target = target;
+  }
+
+  /** Looks at a point from the same side, as far away as before. */
+  focus(target: Vector): void {
+    this.#goal.target = target;
+  }
+
+  /** Goes to where a camera stands. Its lens and projection are taken at once. */
+  setCamera(camera: Camera): void {
+    this.#lens = camera;
+    this.#goal = this.#poseOf(camera);
+  }
+
+  /** Vertical field of view of a perspective camera, radians; `undefined` for others. */
+  get yfov(): number | undefined {
+    return this.#lens.type === 'perspective' ? this.#lens.yfov : undefined;
+  }
+
+  set yfov(yfov: number | undefined) {
+    if (this.#lens.type === 'perspective' && yfov !== undefined && yfov > 0 && yfov < Math.PI) this.#lens = { ...this.#lens, yfov };
+  }
+
+  /** Is where it was going. */
+  jump(): void {
+    this.#now = { ...this.#goal };
+  }
+
+  /**
+   * Lets time pass.
+   *
+   * @param seconds Since the last step; at most a tenth counts, so that a page that slept does not leap.
+   * @returns Whether the camera moved.
+   */
+  step(seconds: number): boolean {
+    if (!this.moving) return false;
+    const [now, goal] = [this.#now, this.#goal];
+    const share = this.damping > 0 ? 1 - Math.exp(-clamp(seconds, 0, 0.1) / this.damping) : 1;
+    const near = Math.max(goal.distance, 1e-9);
+    const left = Math.max(Math.abs(goal.yaw - now.yaw), Math.abs(goal.pitch - now.pitch), Math.abs(Math.log(goal.distance / now.distance)), Math.abs(Math.log(goal.zoom / now.zoom)), Math.hypot(...goal.target.map((value, k) => value - (now.target[k] as number))) / near);
+    if (share >= 1 || left * (1 - share) < REST) {
+      this.jump();
+      return true;
+    }
+    const mix = (a: number, b: number) => a + (b - a) * share;
+    this.#now = {
+      yaw: mix(now.yaw, goal.yaw),
+      pitch: mix(now.pitch, goal.pitch),
+      // Distances go by ratios: coming nearer looks as fast from afar as from close by.
+      distance: now.distance * (goal.distance / now.distance) ** share,
+      zoom: now.zoom * (goal.zoom / now.zoom) ** share,
+      target: now.target.map((value, k) => mix(value, goal.target[k] as number)) as unknown as Vector,
+    };
+    return true;
+  }
+
+  /** The camera to render with, where it is now. */
+  camera(): Camera {
+    const pose = this.#now;
+    const { x, y, z } = axesOf(pose);
+    const transform = [...x, 0, ...y, 0, ...z, 0, ...add(pose.target, z, pose.distance), 1];
+    if (this.#lens.type === 'orthographic') return { ...this.#lens, transform, xmag: this.#lens.xmag / pose.zoom, ymag: this.#lens.ymag / pose.zoom };
+    if (this.#lens.type === 'panorama') return { ...this.#lens, transform };
+    return { ...this.#lens, transform, focus_distance: pose.distance };
+  }
+
+  #poseOf(camera: Camera): Pose {
+    const m = camera.transform;
+    const eye: Vector = [m[12] as number, m[13] as number, m[14] as number];
+    const length = Math.hypot(m[8] as number, m[9] as number, m[10] as number) || 1;
+    const back: Vector = [(m[8] as number) / length, (m[9] as number) / length, (m[10] as number) / length];
+    const ahead = [0, 1, 2].reduce((sum, k) => sum + ((eye[k] as number) - (this.#center[k] as number)) * (back[k] as number), 0);
+    const distance = ahead > 0.05 * this.#radius ? ahead : this.#radius;
+    return { yaw: Math.atan2(back[0], back[2]), pitch: clamp(Math.asin(clamp(back[1], -1, 1)), -STEEPEST, STEEPEST), distance, target: add(eye, back, -distance), zoom: 1 };
+  }
+}
+
+function axesOf({ yaw, pitch }: Pose): { readonly x: Vector; readonly y: Vector; readonly z: Vector } {
+  const [cy, sy, cp, sp] = [Math.cos(yaw), Math.sin(yaw), Math.cos(pitch), Math.sin(pitch)];
+  return { x: [cy, 0, -sy], y: [-sy * sp, cp, -cy * sp], z: [sy * cp, sp, cy * cp] };
+}
+
+function orbitOf({ yaw, pitch, distance, target }: Pose): Orbit {
+  return { theta: yaw, phi: Math.PI / 2 - pitch, radius: distance, target };
+}

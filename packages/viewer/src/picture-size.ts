@@ -1,0 +1,15 @@
+/** Pixels of the picture at most: beyond, a sample of a large window takes too long to be called interactive. */
+const MAX_PIXELS = 4_194_304;
+/** Beyond two pixels of the screen to a CSS pixel eyes see no gain, but the GPU pays for it. */
+const MAX_RATIO = 2;
+
+/**
+ * Size of the picture for an element of so many CSS pixels.
+ *
+ * @param ratio Picture pixels per CSS pixel; default the screen's own, at most 2.
+ */
+export function pictureSize(width: number, height: number, ratio?: number, maxPixels = MAX_PIXELS): readonly [number, number] {
+  const wanted = ratio !== undefined && ratio > 0 && ratio < Infinity ? ratio : Math.min(MAX_RATIO, devicePixelRatio || 1);
+  const factor = Math.min(wanted, Math.sqrt(maxPixels / Math.max(1, width * height)));
+  return [Math.max(1, Math.round(width * factor)), Math.max(1, Math.round(height * factor))];
+}

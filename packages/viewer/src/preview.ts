@@ -1,0 +1,71 @@
+/** How a preview is made: what share of the picture's width and height, and how many samples. */
+export interface PreviewPlan {
+  /** Width and height are divided by it: 1, 1.5, 2, 3, 4, 6 or 8. */
+  readonly divisor: number;
+  /** Samples per pixel of a frame. */
+  readonly samples: number;
+}
+
+/** Steps by which the preview shrinks. Areas about halve, so that sizes do not change for every breath of the clock. */
+export const DIVISORS = [1, 1.5, 2, 3, 4, 6, 8] as const;
+
+/** Most samples of a preview's frame. */
+const MOST_SAMPLES = 8;
+/** A step to a larger preview, or to more samples, is taken only where this share of the time does for it. */
+const CAUTION = 0.9;
+/** Frames that a size is kept before a larger one is tried. */
+const PATIENCE = 6;
+
+/**
+ * Chooses the preview's resolution by the time that frames take, so that a view that moves keeps its rate. Grows slowly,
+ * shrinks at once. No GPU: a pure function of what it is told.
+ */
+export class PreviewController {
+  /** Milliseconds that a frame may take. */
+  readonly budget: number;
+  #divisor: number;
+  /** Milliseconds that a sample of a preview of one pixel would add, and what a frame takes besides. */
+  #perPixel: number | undefined;
+  #fixed = 0;
+  #last: { readonly pixels: number; readonly milliseconds: number } | undefined;
+  #calm = 0;
+
+  constructor(budgetMs: number) {
+    this.budget = budgetMs;
+    this.#divisor = 4;
+  }
+
+  /** The next frame of a picture of so many pixels. */
+  plan(pixels: number): PreviewPlan {
+    if (this.#perPixel === undefined) return { divisor: this.#divisor, samples: 1 };
+    const costOf = (divisor: number, samples = 1) => this.#fixed + ((this.#perPixel as number) * samples * pixels) / divisor ** 2;
+    const at = DIVISORS.indexOf(this.#divisor as (typeof DIVISORS)[number]);
+    if (costOf(this.#divisor) > this.budget) {
+      this.#calm = 0;
+      this.#divisor = DIVISORS.find((divisor) => costOf(divisor) <= this.budget) ?? (DIVISORS[DIVISORS.length - 1] as number);
+    } else if (at > 0) {
+      const larger = DIVISORS.find((divisor) => costOf(divisor) <= CAUTION * this.budget) ?? this.#divisor;
+      if (larger < this.#divisor && ++this.#calm >= PATIENCE) {
+        this.#calm = 0;
+        this.#divisor = larger;
+      }
+    }
+    const spare = Math.floor((CAUTION * this.budget - this.#fixed) / Math.max(1e-6, costOf(this.#divisor) - this.#fixed));
+    return { divisor: this.#divisor, samples: Math.max(1, Math.min(MOST_SAMPLES, spare)) };
+  }
+
+  /** Learns from a frame: pixels × samples that it took, and the time. Several milliseconds of a clock's noise do no harm. */
+  measured(pixels: number, samples: number, milliseconds: number): void {
+    const work = pixels * samples;
+    const last = this.#last;
+    // Two frames of different sizes tell what a frame takes whatever its size.
+    if (last && Math.max(work, last.pixels) > 1.5 * Math.min(work, last.pixels)) {
+      const slope = (milliseconds - last.milliseconds) / (work - last.pixels);
+      if (slope > 0) this.#fixed = 0.5 * (this.#fixed + Math.max(0, Math.min(milliseconds - slope * work, 0.9 * Math.min(milliseconds, last.milliseconds))));
+    }
+    this.#fixed = Math.min(this.#fixed, 0.9 * milliseconds);
+    const now = (milliseconds - this.#fixed) / work;
+    this.#perPixel = this.#perPixel === undefined ? now : 0.7 * this.#perPixel + 0.3 * now;
+    this.#last = { pixels: work, milliseconds };
+  }
+}

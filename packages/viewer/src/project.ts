@@ -1,0 +1,40 @@
+import type { Camera } from '@glanz/scene';
+import type { Vector } from './orbit';
+
+/** Where a point of the world falls on the picture. */
+export interface Projection {
+  /** Share of the picture's width from the left; 0..1 where it is in the picture. */
+  readonly x: number;
+  /** Share of its height from the top. */
+  readonly y: number;
+  /** Metres from the camera. */
+  readonly distance: number;
+  /** Whether it lies in front of the camera and within the picture. */
+  readonly inside: boolean;
+}
+
+/**
+ * Projects a point as the renderer does. The camera's field of view is that of the picture's height.
+ *
+ * @param aspect Width over height of the picture.
+ */
+export function project(camera: Camera, aspect: number, point: Vector): Projection {
+  const m = camera.transform;
+  const unit = (k: number): Vector => {
+    const v: Vector = [m[k] as number, m[k + 1] as number, m[k + 2] as number];
+    const length = Math.hypot(...v) || 1;
+    return [v[0] / length, v[1] / length, v[2] / length];
+  };
+  const to = [0, 1, 2].map((k) => point[k as 0 | 1 | 2] - (m[12 + k] as number));
+  const along = (axis: Vector) => (to[0] as number) * axis[0] + (to[1] as number) * axis[1] + (to[2] as number) * axis[2];
+  const [right, up, ahead] = [along(unit(0)), along(unit(4)), -along(unit(8))];
+  const distance = Math.hypot(...to);
+  if (camera.type === 'panorama') {
+    const x = Math.atan2(right, ahead) / (2 * Math.PI) + 0.5;
+    return { x, y: Math.acos(Math.max(-1, Math.min(1, up / (distance || 1)))) / Math.PI, distance, inside: true };
+  }
+  const half = camera.type === 'orthographic' ? [camera.xmag, camera.ymag] : [Math.tan(camera.yfov / 2) * aspect * ahead, Math.tan(camera.yfov / 2) * ahead];
+  const x = 0.5 + (0.5 * right) / (half[0] || 1e-12);
+  const y = 0.5 - (0.5 * up) / (half[1] || 1e-12);
+  return { x, y, distance, inside: ahead > 0 && x >= 0 && x <= 1 && y >= 0 && y <= 1 };
+}

@@ -1,0 +1,90 @@
+import { describe, expect, it } from 'vitest';
+import { OrbitRig } from '../src/orbit';
+
+const bounds = { min: [-1, -1, -1], max: [1, 1, 1] } as const;
+const front = { type: 'perspective', name: 'front', transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1], yfov: 0.6 } as const;
+const eye = (rig: OrbitRig) => Array.from(rig.camera().transform).slice(12, 15);
+
+describe('OrbitRig', () => {
+  it('begins where the camera stands, and turns about the point beside the centre of the scene', () => {
+    const rig = new OrbitRig(front, bounds);
+    Array.from(rig.camera().transform).forEach((value, i) => expect(value).toBeCloseTo(front.transform[i] as number, 12));
+    expect(rig.goal).toEqual({ theta: 0, phi: Math.PI / 2, radius: 5, target: [0, 0, 0] });
+  });
+
+  it('stands where spherical coordinates say', () => {
+    const rig = new OrbitRig(front, bounds, { damping: 0 });
+    const [theta, phi, radius] = [0.7, 1.1, 3];
+    rig.setOrbit({ theta, phi, radius, target: [1, 2, 3] });
+    rig.step(0.016);
+    const wanted = [1 + radius * Math.sin(phi) * Math.sin(theta), 2 + radius * Math.cos(phi), 3 + radius * Math.sin(phi) * Math.cos(theta)];
+    eye(rig).forEach((value, k) => expect(value).toBeCloseTo(wanted[k] as number, 10));
+    // It looks at the target: its third axis points away from it.
+    const m = rig.camera().transform;
+    [8, 9, 10].forEach((i, k) => expect(m[i]).toBeCloseTo(((wanted[k] as number) - [1, 2, 3][k]!) / radius, 10));
+  });
+
+  it('goes the short way round', () => {
+    const rig = new OrbitRig(front, bounds);
+    rig.setOrbit({ theta: 3 });
+    rig.jump();
+    rig.setOrbit({ theta: -3 });
+    expect(rig.goal.theta).toBeCloseTo(2 * Math.PI - 3, 10);
+  });
+
+  it('gets as far in a second whatever the rate of frames, and then rests', () => {
+    const after = (frames: number) => {
+      const rig = new OrbitRig(front, bounds, { damping: 0.5 });
+      rig.orbit(1, 0.2);
+      rig.zoom(2);
+      for (let i = 0; i < frames; i++) rig.step(0.4 / frames);
+      return rig.orbitNow;
+    };
+    // Exponential decay: 1 − e^(−0.4 / 0.5) of the way.
+    const share = 1 - Math.exp(-0.8);
+    for (const frames of [4, 24, 96]) {
+      expect(after(frames).theta).toBeCloseTo(share, 9);
+      expect(after(frames).radius).toBeCloseTo(5 * 0.5 ** share, 9);
+    }
+    const rig = new OrbitRig(front, bounds, { damping: 0.05 });
+    rig.orbit(1, 0);
+    let steps = 0;
+    while (rig.step(1 / 60)) steps++;
+    expect(steps).toBeGreaterThan(5);
+    expect(steps).toBeLessThan(60);
+    expect(rig.orbitNow).toEqual(rig.goal);
+    expect(rig.moving).toBe(false);
+  });
+
+  it('pans in the plane of the picture: a height of the picture moves the target by what is seen of it', () => {
+    const rig = new OrbitRig(front, bounds, { damping: 0 });
+    rig.pan(0, 1);
+    rig.step(0.016);
+    expect(rig.goal.target[1]).toBeCloseTo(2 * 5 * Math.tan(0.3), 10);
+  });
+
+  it('stays off the poles, and keeps what is not finite out', () => {
+    const rig = new OrbitRig(front, bounds, { damping: 0 });
+    rig.orbit(0, 10);
+    rig.setOrbit({ theta: Number.NaN, radius: Infinity, target: [0, Number.NaN, 0] });
+    rig.step(0.016);
+    expect(rig.goal.phi).toBeCloseTo((0.5 * Math.PI) / 180, 10);
+    expect(eye(rig).every(Number.isFinite)).toBe(true);
+    rig.zoom(1e9);
+    expect(rig.goal.radius).toBeGreaterThan(0);
+  });
+
+  it('zooms parallel projections by their size', () => {
+    const rig = new OrbitRig({ type: 'orthographic', name: 'o', transform: front.transform, xmag: 2, ymag: 1 }, bounds, { damping: 0 });
+    rig.zoom(2);
+    rig.step(0.016);
+    expect(rig.camera()).toMatchObject({ xmag: 1, ymag: 0.5 });
+  });
+
+  it('serves a scene without a size', () => {
+    const rig = new OrbitRig(front, { min: [Infinity, Infinity, Infinity], max: [-Infinity, -Infinity, -Infinity] });
+    rig.zoom(3);
+    rig.jump();
+    expect(eye(rig).every(Number.isFinite)).toBe(true);
+  });
+});

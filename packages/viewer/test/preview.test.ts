@@ -1,0 +1,63 @@
+import { describe, expect, it } from 'vitest';
+import { previewShare } from '../src/handover';
+import { DIVISORS, PreviewController } from '../src/preview';
+
+/** Drives a controller by a GPU that needs `fixed` ms a frame and `nanoseconds` a path. */
+function settled(fixed: number, nanoseconds: number, pixels: number, budget = 12) {
+  const controller = new PreviewController(budget);
+  let plan = controller.plan(pixels);
+  let worst = 0;
+  for (let i = 0; i < 120; i++) {
+    plan = controller.plan(pixels);
+    const paths = (pixels / plan.divisor ** 2) * plan.samples;
+    const milliseconds = fixed + (paths * nanoseconds) / 1e6;
+    if (i > 10) worst = Math.max(worst, milliseconds);
+    controller.measured(pixels / plan.divisor ** 2, plan.samples, milliseconds);
+  }
+  return { plan, worst };
+}
+
+describe('PreviewController', () => {
+  it.each([
+    [0.3, 0.3, 1280 * 720],
+    [1, 5, 1280 * 720],
+    [1, 5, 3840 * 1080],
+    [3, 40, 1280 * 720],
+    [2, 1000, 640 * 360],
+  ])('keeps to its budget: %d ms a frame, %d ns a path, %d pixels', (fixed, nanoseconds, pixels) => {
+    const { plan, worst } = settled(fixed, nanoseconds, pixels);
+    const smallest = fixed + ((pixels / 64) * nanoseconds) / 1e6;
+    expect(worst).toBeLessThanOrEqual(Math.max(12, smallest) * 1.01);
+    // And wastes none of it: the next larger step would not fit.
+    const larger = DIVISORS[DIVISORS.indexOf(plan.divisor as 1) - 1];
+    if (larger) expect(fixed + (pixels / larger ** 2) * (nanoseconds / 1e6)).toBeGreaterThan(0.75 * 12 * 0.99);
+  });
+
+  it('shows the whole picture where the GPU is fast, with several samples', () => {
+    expect(settled(0.3, 0.3, 1280 * 720).plan).toEqual({ divisor: 1, samples: 8 });
+  });
+
+  it('shrinks at once when frames take longer', () => {
+    const controller = new PreviewController(12);
+    for (let i = 0; i < 40; i++) controller.measured(921600 / controller.plan(921600).divisor ** 2, 1, 3);
+    expect(controller.plan(921600).divisor).toBe(1);
+    for (let i = 0; i < 6; i++) controller.measured(921600, 1, 60);
+    expect(controller.plan(921600).divisor).toBeGreaterThan(1.9);
+  });
+});
+
+describe('previewShare', () => {
+  it('begins with the preview, ends without it, and never jumps', () => {
+    const shares = Array.from({ length: 257 }, (_, samples) => previewShare(samples, 16, 256));
+    expect(shares[0]).toBe(1);
+    shares.forEach((share, i) => i > 0 && expect(share).toBeLessThanOrEqual(shares[i - 1] as number));
+    expect(shares.findIndex((share) => share === 0)).toBe(32);
+    // The last steps change the picture by less than a hundredth of what the two differ.
+    expect(shares[30]! - shares[31]!).toBeLessThan(1 / 100);
+  });
+
+  it('is gone by half of a short render', () => {
+    expect(previewShare(4, 4, 8)).toBe(0);
+    expect(previewShare(1, 4, 1)).toBe(0);
+  });
+});

@@ -1,0 +1,276 @@
+import { fileURLToPath } from 'node:url';
+import { hdr, injectFaults, photograph, pixelsOf, quads, servePage, watch, type Served } from '@glanz/browser';
+import { expect, test, type Page } from '@playwright/test';
+import type { Viewer, ViewerOptions } from '@glanz/viewer';
+
+declare global {
+  interface Window {
+    make: (options?: ViewerOptions) => Viewer;
+    file: (base64: string, name: string) => File;
+    viewer: Viewer;
+    loseGpu: () => void;
+    heard: { type: string; [key: string]: unknown }[];
+  }
+}
+
+let served: Served;
+test.beforeAll(async () => void (served = await servePage(fileURLToPath(new URL('page', import.meta.url)))));
+test.afterAll(() => served.close());
+test.use({ viewport: { width: 640, height: 480 } });
+
+let complaints: string[] = [];
+test.beforeEach(({ page }) => void (complaints = watch(page, served.origin)));
+test.afterEach(() => expect(complaints).toEqual([]));
+
+// A red square on the left, a green one on the right that is blue at night; under a constant white sky.
+const model = quads([
+  { name: 'left', colour: [0.9, 0.02, 0.02], at: [-1.2, 0, 0] },
+  { name: 'right', colour: [0.02, 0.8, 0.02], at: [1.2, 0, 0], variants: { night: [0.02, 0.02, 0.9] } },
+]);
+const sky = { type: 'constant', radiance: [1, 1, 1] } as const;
+const front: ViewerOptions['camera'] = { type: 'perspective', name: 'front', transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1], yfov: 0.6, aspect: 1.6 };
+
+/** A viewer of the model in its first view, done unless that takes too many samples. */
+async function open(page: Page, options: ViewerOptions = {}, bytes = model): Promise<void> {
+  await page.goto(served.origin);
+  await page.evaluate(
+    async ([base64, given]) => {
+      const viewer = (window.viewer = window.make(given as ViewerOptions));
+      window.heard = [];
+      for (const type of ['load', 'progress', 'error', 'sample', 'converged', 'camera-change', 'device-lost', 'device-restored', 'state', 'frame', 'pick'] as const) viewer.on(type, (detail) => void window.heard.push({ ...structuredCloneable(detail), type }));
+      await viewer.load(window.file(base64 as string, 'model.glb'));
+      function structuredCloneable(detail: object) {
+        return Object.fromEntries(Object.entries(detail).filter(([, value]) => typeof value !== 'function' && typeof value !== 'object'));
+      }
+    },
+    [bytes.toString('base64'), { samples: 12, maxDepth: 3, pixelRatio: 0.5, camera: front, environment: sky, ...options }] as const,
+  );
+  if (options.samples === undefined || options.samples < 100) await done(page);
+}
+
+const done = (page: Page) => expect.poll(() => page.evaluate(() => window.viewer.state), { message: 'the picture is done' }).toBe('done');
+const canvas = (page: Page) => page.locator('canvas');
+const heard = (page: Page, type: string) => page.evaluate((wanted) => window.heard.filter((event) => event.type === wanted), type);
+const shot = async (page: Page) => {
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  // The ring around a canvas that has the keyboard is no part of the picture.
+  return photograph(canvas(page), 'canvas { outline: none }');
+};
+
+test('a model appears as it is, events tell of it, and the view is the one asked for', async ({ page }) => {
+  await open(page);
+  const { cells } = await shot(page);
+  const [left, middle, right] = cells.slice(3, 6) as [number, number, number][];
+  expect(left![0]).toBeGreaterThan(2 * left![1]);
+  expect(right![1]).toBeGreaterThan(2 * right![0]);
+  // Between them the white sky.
+  expect(middle![2]).toBeGreaterThan(left![2]);
+  const types = await page.evaluate(() => window.heard.map(({ type }) => type));
+  expect(types.indexOf('load')).toBeLessThan(types.indexOf('sample'));
+  const samples = (await heard(page, 'sample')).map((event) => event['samples'] as number);
+  expect(samples.at(-1)).toBe(12);
+  expect(samples).toEqual([...samples].sort((a, b) => a - b));
+  expect(await heard(page, 'converged')).toEqual([expect.objectContaining({ samples: 12 })]);
+  const totals = (await heard(page, 'progress')).map((event) => event['total'] as number);
+  expect(Math.max(...totals)).toBe(1);
+  expect(await heard(page, 'error')).toEqual([]);
+  expect((await heard(page, 'state')).map((event) => event['state']).filter((state, i, all) => state !== all[i - 1])).toEqual(['loading', 'moving', 'rendering', 'done']);
+});
+
+test('a drag turns the model: a small preview while it moves, then the picture in full again', async ({ page }) => {
+  await open(page);
+  const before = await shot(page);
+  await page.evaluate(() => void (window.heard = []));
+  await page.mouse.move(160, 100);
+  await page.mouse.down();
+  await page.mouse.move(240, 100, { steps: 5 });
+  await page.mouse.up();
+  await expect.poll(async () => (await heard(page, 'converged')).length).toBeGreaterThan(0);
+  await done(page);
+  const after = await shot(page);
+  const changes = await heard(page, 'camera-change');
+  expect(changes.length).toBeGreaterThan(0);
+  expect(changes.every((event) => event['source'] === 'user')).toBe(true);
+  // Half a turn for the height of the canvas, to the left around the model.
+  const turned = await page.evaluate(() => window.viewer.orbit!.theta);
+  expect(turned).toBeCloseTo((-80 / 200) * Math.PI, 5);
+  const moved = after.cells.reduce((sum, cell, i) => sum + cell.reduce((all, value, k) => all + Math.abs(value - before.cells[i]![k]!), 0), 0) / 27;
+  expect(moved).toBeGreaterThan(5);
+  expect((await heard(page, 'frame')).filter((event) => event['preview'])).not.toEqual([]);
+  expect((await heard(page, 'frame')).at(-1)).toMatchObject({ preview: false, width: 160, height: 100 });
+  // Back home, the same picture as at first.
+  await canvas(page).press('Home');
+  await expect.poll(async () => Math.abs((await shot(page)).cells[3]![0] - before.cells[3]![0])).toBeLessThan(1.5);
+});
+
+test('keys, wheel and a double click move the camera as they should', async ({ page }) => {
+  await open(page, { damping: 0 });
+  const orbit = () => page.evaluate(() => window.viewer.orbit!);
+  const first = await orbit();
+  expect(first.radius).toBeCloseTo(5, 5);
+  await canvas(page).press('ArrowRight');
+  expect((await orbit()).theta).toBeCloseTo(Math.PI / 24, 5);
+  await canvas(page).press('ArrowUp');
+  expect((await orbit()).phi).toBeCloseTo(Math.PI / 2 - Math.PI / 24, 5);
+  await canvas(page).press('0');
+  await canvas(page).press('+');
+  expect((await orbit()).radius).toBeCloseTo(5 / 1.12, 5);
+  await page.mouse.move(160, 100);
+  await page.mouse.wheel(0, 100);
+  await expect.poll(async () => (await orbit()).radius).toBeCloseTo((5 / 1.12) * Math.exp(0.15), 3);
+  await canvas(page).press('0');
+  await done(page);
+  // The middle of the left square.
+  const at = await page.evaluate(() => window.viewer.project([-1.2, 0, 0])!);
+  await canvas(page).dblclick({ position: { x: at.x * 320, y: at.y * 200 } });
+  await expect.poll(async () => (await orbit()).target[0]).toBeCloseTo(-1.2, 1);
+  await expect.poll(async () => (await heard(page, 'pick')).length).toBeGreaterThan(0);
+  await canvas(page).press('Home');
+  expect((await orbit()).target[0]).toBeCloseTo(0, 5);
+});
+
+test('two fingers pinch', async ({ page }) => {
+  await open(page, { damping: 0 });
+  const radius = () => page.evaluate(() => window.viewer.orbit!.radius);
+  const before = await radius();
+  await page.evaluate(() => {
+    const target = document.querySelector('canvas')!;
+    const send = (type: string, pointerId: number, clientX: number) => target.dispatchEvent(new PointerEvent(type, { pointerId, clientX, clientY: 100, pointerType: 'touch', button: 0, bubbles: true }));
+    send('pointerdown', 1, 120);
+    send('pointerdown', 2, 200);
+    send('pointermove', 2, 280);
+    send('pointerup', 1, 120);
+    send('pointerup', 2, 280);
+  });
+  // From 80 pixels apart to 160: twice as near.
+  expect(await radius()).toBeCloseTo(before / 2, 5);
+});
+
+test('variant, material, exposure, surroundings and background reach the picture', async ({ page }) => {
+  await open(page);
+  const right = async () => (await shot(page)).cells[5]!;
+  const green = await right();
+  await page.evaluate(() => window.viewer.setVariant('night'));
+  await done(page);
+  const blue = await right();
+  expect(blue[2] - blue[1]).toBeGreaterThan(20);
+  await page.evaluate(() => window.viewer.setVariant(undefined));
+  await done(page);
+  expect(Math.abs((await right())[1] - green[1])).toBeLessThan(2);
+
+  await page.evaluate(() => window.viewer.setMaterial('right', { base_color: [0.9, 0.9, 0.02] }));
+  await done(page);
+  expect((await right())[0]).toBeGreaterThan(green[0] + 30);
+
+  const bright = await shot(page);
+  await page.evaluate(() => void (window.viewer.exposure = -2));
+  await expect.poll(async () => (await shot(page)).mean[0]).toBeLessThan(0.7 * bright.mean[0]);
+  await page.evaluate(() => void (window.viewer.exposure = 0));
+
+  // A file of red light; and then none of it behind the model, but the page.
+  await page.evaluate((base64) => window.viewer.setEnvironment(window.file(base64, 'red.hdr')), hdr([128, 0, 0, 129]).toString('base64'));
+  await done(page);
+  const red = await shot(page);
+  expect(red.mean[0]).toBeGreaterThan(4 * red.mean[1]);
+  await page.evaluate(() => void (window.viewer.background = 'transparent'));
+  await done(page);
+  const corner = (await pixelsOf(page, await page.screenshot({ clip: { x: 2, y: 2, width: 8, height: 8 } }))).mean;
+  expect(corner.map(Math.round)).toEqual([0x20, 0x40, 0x80]);
+});
+
+test('resizing keeps the picture sharp and the view whole', async ({ page }) => {
+  await open(page);
+  await page.evaluate(() => void Object.assign(document.querySelector('canvas')!.style, { width: '200px', height: '300px' }));
+  await expect.poll(() => page.evaluate(() => [window.viewer.tracer!.width, window.viewer.tracer!.height])).toEqual([100, 150]);
+  await done(page);
+  const { cells } = await shot(page);
+  expect(cells[3]![0]).toBeGreaterThan(1.2 * cells[3]![1]);
+  expect(cells[5]![1]).toBeGreaterThan(1.2 * cells[5]![0]);
+  // A box of no size draws nothing, and complains of nothing.
+  await page.evaluate(() => void (document.querySelector('canvas')!.style.display = 'none'));
+  await page.waitForTimeout(200);
+  await page.evaluate(() => void (document.querySelector('canvas')!.style.display = 'block'));
+  await expect.poll(() => page.evaluate(() => window.viewer.tracer!.width)).toBe(100);
+});
+
+test('out of sight nothing is computed; back in sight it goes on', async ({ page }) => {
+  await open(page, { samples: 4096 });
+  await page.evaluate(() => void (document.querySelector('canvas')!.style.marginTop = '3000px'));
+  await expect.poll(() => page.evaluate(() => window.viewer.state)).toBe('hidden');
+  await page.waitForTimeout(150);
+  const count = () => page.evaluate(() => window.heard.filter(({ type }) => type === 'sample').length);
+  const asleep = await count();
+  await page.waitForTimeout(500);
+  expect(await count()).toBe(asleep);
+  await page.evaluate(() => void (document.querySelector('canvas')!.style.marginTop = '0'));
+  await expect.poll(count).toBeGreaterThan(asleep);
+});
+
+test('a bad file is told in one line with its code, and the former model stays', async ({ page }) => {
+  await open(page);
+  const before = await shot(page);
+  const failed = await page.evaluate(() => window.viewer.load(new File([new Uint8Array([1, 2, 3])], 'bad.glb')).then(() => 'loaded', (error: { code: string; message: string }) => `${error.code}: ${error.message}`));
+  expect(failed).toMatch(/^gltf\/(not-gltf|truncated): [^\n]+$/);
+  expect(await heard(page, 'error')).toEqual([expect.objectContaining({ code: failed.split(':')[0] })]);
+  await done(page);
+  expect(Math.abs((await shot(page)).mean[0] - before.mean[0])).toBeLessThan(1);
+  // A load that is overtaken ends as an abort, and is no error to show.
+  const ends = await page.evaluate(async (base64) => {
+    const one = window.viewer.load(window.file(base64, 'one.glb')).catch((error: Error) => error.name);
+    const two = window.viewer.load(window.file(base64, 'two.glb'));
+    return [await one, (await two).instances.length];
+  }, model.toString('base64'));
+  expect(ends).toEqual(['AbortError', 2]);
+  expect(await heard(page, 'error')).toHaveLength(1);
+});
+
+test('a lost device comes back with the scene as it was edited, and its variant', async ({ page }) => {
+  await injectFaults(page);
+  await open(page);
+  await page.evaluate(() => Promise.all([window.viewer.setVariant('night'), window.viewer.setMaterial('left', { base_color: [0.9, 0.9, 0.02] })]));
+  await done(page);
+  const before = await shot(page);
+  const device = await page.evaluateHandle(() => window.viewer.device);
+  await page.evaluate(() => window.loseGpu());
+  await expect.poll(async () => (await heard(page, 'device-restored')).length).toBe(1);
+  expect(await heard(page, 'device-lost')).toHaveLength(1);
+  expect(await page.evaluate((former) => window.viewer.device !== former, device)).toBe(true);
+  await done(page);
+  const after = await shot(page);
+  after.cells.forEach((cell, i) => cell.forEach((mean, k) => expect(Math.abs(mean - before.cells[i]![k]!), `cell ${i}, channel ${k}`).toBeLessThan(2)));
+  // The variant can still be taken off.
+  await page.evaluate(() => window.viewer.setVariant(undefined));
+  await done(page);
+  const green = (await shot(page)).cells[5]!;
+  expect(green[1]).toBeGreaterThan(1.5 * green[2]);
+});
+
+test('toBlob gives the picture as a file; destroy ends everything, twice if need be', async ({ page }) => {
+  await open(page, { background: 'transparent', pixelRatio: 1, samples: 4 });
+  const shown = await shot(page);
+  const file = await page.evaluate(async () => {
+    const blob = await window.viewer.toBlob({ samples: 4 });
+    const bitmap = await createImageBitmap(blob);
+    const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d')!;
+    context.drawImage(bitmap, 0, 0);
+    const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
+    const at = (x: number, y: number) => Array.from(data.slice(4 * (y * bitmap.width + x), 4 * (y * bitmap.width + x) + 4));
+    return { type: blob.type, width: bitmap.width, height: bitmap.height, corner: at(2, 2), left: at(100, 100) };
+  });
+  expect(file).toMatchObject({ type: 'image/png', width: 320, height: 200 });
+  // Nothing in the corner; red, and all of it, on the square.
+  expect(file.corner[3]).toBe(0);
+  expect(file.left[3]).toBe(255);
+  expect(file.left[0]).toBeGreaterThan(2 * file.left[1]!);
+  expect(shown.width).toBe(320);
+  const lost = await page.evaluate(async () => {
+    const { device } = window.viewer;
+    window.viewer.destroy();
+    window.viewer.destroy();
+    const late = await window.viewer.load('x.glb').catch((error: { code: string }) => error.code);
+    return [(await device!.lost).reason, window.viewer.state, late];
+  });
+  expect(lost).toEqual(['destroyed', 'destroyed', 'viewer/destroyed']);
+  // The canvas serves another one.
+  await open(page);
+});

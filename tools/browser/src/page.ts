@@ -1,0 +1,45 @@
+import { mkdtempSync, rmSync } from 'node:fs';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import type { Page } from '@playwright/test';
+import { build, preview } from 'vite';
+
+/** A page on a free port of this machine. */
+export interface Served {
+  readonly origin: string;
+  readonly close: () => Promise<void>;
+}
+
+const cache = fileURLToPath(new URL('../../../.cache', import.meta.url));
+
+/**
+ * Builds the page of a folder (its index.html) from the sources of the workspace, and serves it.
+ *
+ * @param headers Of every answer, a content security policy say.
+ */
+export async function servePage(root: string, headers: Record<string, string> = {}): Promise<Served> {
+  const outDir = mkdtempSync(join(cache, 'page-'));
+  const resolve = { conditions: ['@glanz/source', 'module', 'browser', 'import', 'default'] };
+  await build({ root, base: './', configFile: false, logLevel: 'error', resolve, worker: { format: 'es' }, build: { outDir, emptyOutDir: true, target: 'es2022', chunkSizeWarningLimit: 2000 } });
+  const server = await preview({ root, configFile: false, logLevel: 'error', build: { outDir }, preview: { host: '127.0.0.1', port: 4273, strictPort: false, open: false, headers } });
+  const origin = server.resolvedUrls?.local[0]?.replace(/\/$/, '');
+  if (!origin) throw new Error('The preview server has no address.');
+  const close = async () => {
+    await server.close();
+    rmSync(outDir, { recursive: true, force: true });
+  };
+  return { origin, close };
+}
+
+/** Collects errors of the page, and requests that leave this machine. */
+export function watch(page: Page, origin: string): string[] {
+  const complaints: string[] = [];
+  page.on('console', (message) => {
+    if (message.type() === 'error' || message.type() === 'warning') complaints.push(`${message.type()}: ${message.text()}`);
+  });
+  page.on('pageerror', (error) => complaints.push(`uncaught: ${error.message}`));
+  page.on('request', (request) => {
+    if (!request.url().startsWith(origin) && !/^(data|blob):/.test(request.url())) complaints.push(`asks the network for ${request.url()}`);
+  });
+  return complaints;
+}
