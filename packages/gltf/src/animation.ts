@@ -29,7 +29,7 @@ function unit(q: readonly number[]): readonly number[] | undefined {
 }
 
 /** The value of a sampler at a time (glTF 2.0, 3.11 and appendix C); before the first key and after the last it stays. */
-function valueAt(times: Float32Array, values: Float32Array, interpolation: string, time: number, turns: boolean): number[] {
+export function valueAt(times: Float32Array, values: Float32Array, interpolation: string, time: number, turns: boolean): number[] {
   const keys = times.length;
   const parts = interpolation === 'CUBICSPLINE' ? 3 : 1;
   const size = values.length / (keys * parts);

@@ -1,4 +1,5 @@
 import type { Mesh, SceneWarning } from '@glanz/scene';
+import type { UvSets } from './materials';
 import { makeUnit, unitNormals } from './normals';
 import type { PrimitiveData } from './primitive';
 
@@ -41,9 +42,10 @@ function trianglesOf(primitive: PrimitiveData, vertices: number): Uint32Array<Ar
  * with numbers that are not finite, triangles whose corners do not exist.
  *
  * @param opaque Whether the alpha of vertex colours counts for nothing.
+ * @param uvSets The numbers of the UV sets to read.
  * @returns `undefined` (with a warning) if it has no triangles.
  */
-export function readPrimitive(primitive: PrimitiveData, name: string, opaque: boolean, path: string, warnings: SceneWarning[]): Mesh | undefined {
+export function readPrimitive(primitive: PrimitiveData, name: string, opaque: boolean, uvSets: UvSets, path: string, warnings: SceneWarning[]): Mesh | undefined {
   const warn = (message: string) => void warnings.push({ code: 'gltf/primitive', message: `${name}: ${message}`, path });
   const vertices = primitive.count('POSITION');
   if (vertices === undefined) {
@@ -83,7 +85,7 @@ export function readPrimitive(primitive: PrimitiveData, name: string, opaque: bo
     if (tangents && makeUnit(tangents, 4)) mesh.tangents = tangents;
     else if (tangents) warn('TANGENT holds vectors of length 0 and is left out.');
   }
-  const uv0 = attribute('TEXCOORD_0', 2), uv1 = attribute('TEXCOORD_1', 2);
+  const [uv0, uv1] = uvSets.map((set) => attribute(`TEXCOORD_${set}`, 2));
   if (uv0 || uv1) mesh.uvs = uv1 ? [uv0 ?? new Float32Array(2 * vertices), uv1] : [uv0 as Float32Array<ArrayBuffer>];
   const colors = attribute('COLOR_0', 4);
   if (colors) {

@@ -35,6 +35,8 @@ const KNOWN = new Set([
   'KHR_node_visibility',
   'KHR_materials_variants',
   'KHR_xmp_json_ld',
+  'KHR_animation_pointer',
+  'EXT_lights_image_based',
   // Older than the one before, and of no use to a picture; a hint how polygons were cut.
   'KHR_xmp',
   'FB_ngon_encoding',
@@ -45,7 +47,7 @@ const KNOWN = new Set([
 ]);
 
 /** Extensions that may be required and do without: what they add is left out, with a warning. */
-const OPTIONAL = /^(KHR_materials_|KHR_xmp|KHR_animation_pointer|EXT_materials_|ADOBE_|MSFT_lod)/;
+const OPTIONAL = /^(KHR_materials_|KHR_xmp|EXT_materials_|ADOBE_|MSFT_lod)/;
 
 /** A document with its buffers: what primitives are read with. */
 export type OpenDocument = PrimitiveReader;

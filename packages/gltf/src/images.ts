@@ -62,6 +62,7 @@ export class TextureTable {
   readonly textures: Texture[] = [];
   /** Pictures (as the scene counts them) that could not be decoded. */
   readonly failed = new Set<number>();
+  readonly #broken = new Map<number, SceneWarning>();
   readonly #wanted = new Map<string, number>();
   readonly #pictures: Picture[] = [];
   readonly #places = new Map<string, number>();
@@ -140,6 +141,32 @@ export class TextureTable {
     return this.#pictures.length;
   }
 
+  #nameOf(index: number): string {
+    const image = this.#json.images?.[index] as GltfImage;
+    return image.name ?? image.uri?.slice(0, 80) ?? `image ${index}`;
+  }
+
+  /**
+   * Reads and decodes one of the document's pictures; undefined, with a warning, for one that cannot be decoded.
+   * @throws {GltfError} as {@link readImages}.
+   */
+  async readImage(index: number, decode: ImageDecoder, viewBytes: (index: number) => Uint8Array<ArrayBuffer>, budget: Budget, signal: AbortSignal | undefined): Promise<DecodedImage | undefined> {
+    signal?.throwIfAborted();
+    const image = this.#json.images?.[index] as GltfImage;
+    const bytes = image.uri === undefined ? viewBytes(image.bufferView ?? -1) : await readUri(image.uri, this.#source, signal);
+    try {
+      const type = formatOf(bytes);
+      if (type === 'image/ktx2' && !this.#ktx2) throw new GltfError('gltf/missing-decoder', `${this.#source.name} has pictures in KTX2: pass decoders.ktx2, for which the package "three" has the transcoder.`, { location: { file: this.#source.name, path: `/images/${index}` } });
+      const decoded = type === 'image/ktx2' ? await (this.#ktx2 as Ktx2Decoder)(bytes) : await decode(bytes, type);
+      budget.take(4 * decoded.width * decoded.height, `/images/${index}`);
+      return decoded;
+    } catch (error) {
+      if (error instanceof GltfError && error.code !== 'gltf/picture') throw error;
+      this.#broken.set(index, { code: 'gltf/image', message: `${this.#source.name}: image ${index} ("${this.#nameOf(index)}") cannot be decoded and is left out: ${error instanceof Error ? error.message.split('\n')[0] : String(error)}.`, path: `/images/${index}` });
+      return undefined;
+    }
+  }
+
   /**
    * Reads and decodes the pictures asked for, some at a time. One that cannot be decoded goes into {@link failed}, with a warning.
    * @param viewBytes Bytes of a buffer view.
@@ -147,27 +174,7 @@ export class TextureTable {
    * @throws {GltfError} `gltf/missing-resource` for a file that is not there.
    */
   async readImages(decode: ImageDecoder, viewBytes: (index: number) => Uint8Array<ArrayBuffer>, budget: Budget, signal: AbortSignal | undefined, onImage: () => void): Promise<Image[]> {
-    const warnings = new Map<number, SceneWarning>();
-    const nameOf = (index: number) => {
-      const image = this.#json.images?.[index] as GltfImage;
-      return image.name ?? image.uri?.slice(0, 80) ?? `image ${index}`;
-    };
-    const read = async (index: number): Promise<DecodedImage | undefined> => {
-      signal?.throwIfAborted();
-      const image = this.#json.images?.[index] as GltfImage;
-      const bytes = image.uri === undefined ? viewBytes(image.bufferView ?? -1) : await readUri(image.uri, this.#source, signal);
-      try {
-        const type = formatOf(bytes);
-        if (type === 'image/ktx2' && !this.#ktx2) throw new GltfError('gltf/missing-decoder', `${this.#source.name} has pictures in KTX2: pass decoders.ktx2, for which the package "three" has the transcoder.`, { location: { file: this.#source.name, path: `/images/${index}` } });
-        const decoded = type === 'image/ktx2' ? await (this.#ktx2 as Ktx2Decoder)(bytes) : await decode(bytes, type);
-        budget.take(4 * decoded.width * decoded.height, `/images/${index}`);
-        return decoded;
-      } catch (error) {
-        if (error instanceof GltfError && error.code !== 'gltf/picture') throw error;
-        warnings.set(index, { code: 'gltf/image', message: `${this.#source.name}: image ${index} ("${nameOf(index)}") cannot be decoded and is left out: ${error instanceof Error ? error.message.split('\n')[0] : String(error)}.`, path: `/images/${index}` });
-        return undefined;
-      }
-    };
+    const read = (index: number) => this.readImage(index, decode, viewBytes, budget, signal);
     const wanted = [...new Set(this.#pictures.flatMap((picture) => ('image' in picture ? [picture.image] : picture.sources.filter((index) => index !== undefined))))];
     // The first ones begin before this returns, so that decoders, which have threads of their own, are at work while geometry is read.
     const decoding = new Map<number, Promise<DecodedImage | undefined>>();
@@ -183,16 +190,20 @@ export class TextureTable {
       if ('image' in picture) {
         const decoded = await decoding.get(picture.image);
         if (!decoded) this.failed.add(images.length);
-        images.push(namedImage(nameOf(picture.image), decoded ?? white()));
+        images.push(namedImage(this.#nameOf(picture.image), decoded ?? white()));
       } else {
         const sources: DecodedImage[] = [];
         for (const index of picture.sources) sources.push((index === undefined ? undefined : await decoding.get(index)) ?? white());
-        const name = picture.sources.flatMap((index) => (index === undefined ? [] : [nameOf(index)])).join(' + ');
+        const name = picture.sources.flatMap((index) => (index === undefined ? [] : [this.#nameOf(index)])).join(' + ');
         images.push({ name, ...(await convertImage(sources, picture.derived, signal)) });
       }
       onImage();
     }
-    for (const index of wanted) if (warnings.has(index)) this.#warnings.push(warnings.get(index) as SceneWarning);
     return images;
+  }
+
+  /** Warnings about the pictures that could not be decoded, in their order. */
+  get brokenPictures(): readonly SceneWarning[] {
+    return [...this.#broken].sort(([a], [b]) => a - b).map(([, warning]) => warning);
   }
 }

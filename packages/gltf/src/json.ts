@@ -10,8 +10,8 @@ export interface GltfJson {
   readonly cameras?: readonly GltfCamera[];
   readonly animations?: readonly GltfAnimation[];
   readonly scene?: number;
-  readonly scenes?: readonly { readonly name?: string; readonly nodes?: readonly number[] }[];
-  readonly extensions?: { readonly KHR_lights_punctual?: { readonly lights: readonly GltfLight[] }; readonly KHR_materials_variants?: { readonly variants: readonly { readonly name?: string }[] }; readonly KHR_xmp_json_ld?: { readonly packets: readonly unknown[] } };
+  readonly scenes?: readonly { readonly name?: string; readonly nodes?: readonly number[]; readonly extensions?: { readonly EXT_lights_image_based?: { readonly light: number } } }[];
+  readonly extensions?: { readonly KHR_lights_punctual?: { readonly lights: readonly GltfLight[] }; readonly KHR_materials_variants?: { readonly variants: readonly { readonly name?: string }[] }; readonly EXT_lights_image_based?: { readonly lights: readonly (GltfImageLight | undefined)[] }; readonly KHR_xmp_json_ld?: { readonly packets: readonly unknown[] } };
   readonly images?: readonly GltfImage[];
   readonly textures?: readonly GltfTexture[];
   readonly samplers?: readonly GltfSampler[];
@@ -104,10 +104,23 @@ export interface GltfLight {
   readonly spot?: { readonly innerConeAngle?: number; readonly outerConeAngle?: number };
 }
 
+/** A light of EXT_lights_image_based. */
+export interface GltfImageLight {
+  readonly name?: string;
+  /** Unit quaternion, xyzw. */
+  readonly rotation?: readonly number[];
+  readonly intensity?: number;
+  readonly specularImageSize?: number;
+  /** Levels of six pictures each. */
+  readonly specularImages: readonly (readonly number[])[];
+}
+
 export interface GltfAnimation {
   readonly name?: string;
   readonly channels: readonly { readonly sampler: number; readonly target: { readonly node: number; readonly path: string } }[];
   readonly samplers: readonly { readonly input: number; readonly output: number; readonly interpolation: string }[];
+  /** KHR_animation_pointer: what moves, as the parts of a JSON pointer. */
+  readonly pointers?: readonly { readonly sampler: number; readonly path: readonly string[] }[];
 }
 
 export interface GltfImage {

@@ -1,13 +1,16 @@
-import { createScene, type Scene } from '@glanz/scene';
+import { createScene, type Scene, type SceneWarning } from '@glanz/scene';
 import { describeAnimations, posesAt, type NodePose } from './animation';
+import { pointedValues, withValues } from './animation-pointer';
 import { decodeImageInBrowser } from './browser-images';
+import type { Raw } from './check/context';
 import { checkDocument } from './check/index';
 import { openContainer } from './container';
 import { readDocument, type GltfDecoders } from './document';
 import { GltfError, oneLine } from './error';
-import { TextureTable, type ImageDecoder } from './images';
-import type { GltfAnimation, GltfJson } from './json';
-import { readMaterial } from './materials';
+import { environmentOf, facesOf } from './image-light';
+import { TextureTable, type DecodedImage, type ImageDecoder } from './images';
+import type { GltfAnimation, GltfJson, GltfMaterial } from './json';
+import { readMaterial, type UvSets } from './materials';
 import { Budget, DEFAULT_LIMITS, type GltfLimits } from './limits';
 import { indexOf, readNodes, sceneToShow } from './nodes';
 import type { PrimitiveReader } from './primitive';
@@ -71,25 +74,37 @@ export async function buildScene(source: Source, options: GltfOptions & { readon
   const scene = createScene(source.name);
   const container = openContainer(source.bytes, source.name, scene.warnings);
   const checked = checkDocument(container.json, source.name, scene.warnings);
-  const { json } = checked;
   onProgress?.({ stage: 'read', done: 1 });
   const reader = await readDocument(checked, container.binary, source, options, scene.warnings);
   signal?.throwIfAborted();
+  const animation = animationOf(reader, checked.json, options);
+  const json = atMoment(checked.json, container.json, animation, options.time ?? 0, reader, scene.warnings);
   const table = new TextureTable(json, source, scene.warnings, options.decoders?.ktx2);
-  scene.materials = (json.materials ?? []).map((material, index) => readMaterial(material, index, table, scene.warnings));
+  const uvSets: UvSets[] = [];
+  const addMaterial = (material: GltfMaterial) => {
+    const read = readMaterial(material, scene.materials.length, table, scene.warnings);
+    uvSets.push(read.uvSets);
+    return scene.materials.push(read.made) - 1;
+  };
+  json.materials?.forEach(addMaterial);
   let done = 0;
   // Decoders have threads of their own: they are at work while geometry is read here.
-  const images = table.readImages(options.decodeImage, reader.viewBytes, new Budget(source.name, 'imageBytes', options.limits), signal, () => onProgress?.({ stage: 'images', done: ++done / table.imageCount }));
+  const imageBytes = new Budget(source.name, 'imageBytes', options.limits);
+  const images = table.readImages(options.decodeImage, reader.viewBytes, imageBytes, signal, () => onProgress?.({ stage: 'images', done: ++done / table.imageCount }));
   images.catch(() => undefined);
+  const shown = sceneToShow(json, options.scene, source.name);
+  const surroundings = readSurroundings(json, shown, (index) => table.readImage(index, options.decodeImage, reader.viewBytes, imageBytes, signal), signal);
+  surroundings.catch(() => undefined);
   let fallback: number | undefined;
   readNodes({
     json,
     reader,
     scene,
-    shown: sceneToShow(json, options.scene, source.name),
-    poses: posesOf(reader, json, options),
+    shown,
+    poses: animation ? posesAt(animation, options.time ?? 0, reader.accessors) : new Map<number, NodePose>(),
     instances: new Budget(source.name, 'instances', options.limits),
-    defaultMaterial: () => (fallback ??= scene.materials.push(readMaterial({ name: 'default' }, scene.materials.length, table, scene.warnings)) - 1),
+    defaultMaterial: () => (fallback ??= addMaterial({ name: 'default' })),
+    uvSetsOf: (material) => uvSets[material] as UvSets,
   });
   const metadata = metadataOf(json);
   if (metadata) scene.metadata = metadata;
@@ -99,6 +114,9 @@ export async function buildScene(source: Source, options: GltfOptions & { readon
   if (scene.instances.length === 0 && !options.allowEmpty) throw new GltfError('gltf/no-triangles', `${source.name} has no triangles in its scene: there is nothing to show.`, { location: { file: source.name } });
   onProgress?.({ stage: 'decode', done: 1 });
   scene.images = await images;
+  const environment = await surroundings;
+  if (environment) scene.environment = environment;
+  scene.warnings.push(...table.brokenPictures);
   scene.textures = table.textures;
   for (const { textures } of scene.materials) {
     for (const [parameter, binding] of Object.entries(textures ?? {})) {
@@ -109,6 +127,15 @@ export async function buildScene(source: Source, options: GltfOptions & { readon
   return scene;
 }
 
+/** The surroundings of the scene that is shown, by EXT_lights_image_based; none where one of its pictures is broken. */
+async function readSurroundings({ scenes, extensions }: GltfJson, shown: number | undefined, read: (image: number) => Promise<DecodedImage | undefined>, signal: AbortSignal | undefined): Promise<Scene['environment']> {
+  const reference = shown === undefined ? undefined : scenes?.[shown]?.extensions?.EXT_lights_image_based;
+  const light = reference && extensions?.EXT_lights_image_based?.lights[reference.light];
+  if (!light) return undefined;
+  const faces = await Promise.all(facesOf(light).map(read));
+  return faces.every((face) => face !== undefined) ? environmentOf(light, faces, signal) : undefined;
+}
+
 /** What a document says of itself: its asset and, by KHR_xmp_json_ld, the packet of its asset. */
 function metadataOf({ asset, extensions }: GltfJson): Scene['metadata'] {
   const { version: _, minVersion: __, extensions: own, ...said } = asset as GltfJson['asset'] & { readonly extensions?: { readonly KHR_xmp_json_ld?: { readonly packet?: unknown } } };
@@ -117,9 +144,20 @@ function metadataOf({ asset, extensions }: GltfJson): Scene['metadata'] {
   return Object.keys(metadata).length > 0 ? metadata : undefined;
 }
 
-function posesOf({ file, accessors }: PrimitiveReader, json: GltfJson, { animation, time }: GltfOptions): ReadonlyMap<number, NodePose> {
-  if (animation === undefined && (time === undefined || !json.animations?.length)) return new Map();
+/** The animation that poses the scene; undefined: it is at rest. */
+function animationOf({ file }: PrimitiveReader, json: GltfJson, { animation, time }: GltfOptions): GltfAnimation | undefined {
+  if (animation === undefined && (time === undefined || !json.animations?.length)) return undefined;
   if (time !== undefined && !Number.isFinite(time)) throw new GltfError('gltf/no-such-part', `The time to pose ${file} at is ${time}; it must be a number of seconds.`);
-  const index = indexOf(json.animations ?? [], animation ?? 0, 'animation', file);
-  return posesAt((json.animations ?? [])[index] as GltfAnimation, time ?? 0, accessors);
+  return (json.animations ?? [])[indexOf(json.animations ?? [], animation ?? 0, 'animation', file)];
+}
+
+/** The document with what KHR_animation_pointer moves in its place, checked once more. */
+function atMoment(json: GltfJson, raw: Raw, animation: GltfAnimation | undefined, time: number, { file, accessors }: PrimitiveReader, warnings: SceneWarning[]): GltfJson {
+  if (!animation?.pointers?.length) return json;
+  const moved = withValues(raw, pointedValues(animation, time, accessors), (path, what) => void warnings.push({ code: 'gltf/animation', message: `${file}: ${path} ${what}.`, path }));
+  const again: SceneWarning[] = [];
+  const checked = checkDocument(moved, file, again);
+  const known = new Set(warnings.map(({ message }) => message));
+  warnings.push(...again.filter(({ message }) => !known.has(message)));
+  return checked.json;
 }

@@ -33,16 +33,35 @@ export function uvTransform(info: GltfTextureInfo): TextureBinding['transform'] 
   return [c * sx, -s * sx, s * sy, c * sy, x, y];
 }
 
+/** The sets of UVs that a scene's mesh holds, by the numbers that they have in the document. */
+export type UvSets = readonly [number, number];
+
+/** A material, and what its `uv` 0 and 1 are in the document. */
+export interface ReadMaterial {
+  readonly made: Material;
+  readonly uvSets: UvSets;
+}
+
+const setOf = (info: GltfTextureInfo) => info.extensions?.KHR_texture_transform?.texCoord ?? info.texCoord ?? 0;
+
+/** Meshes hold two sets: those that a material's textures ask for. */
+function uvSetsOf(uses: readonly GltfTextureUse[]): UvSets {
+  const [first = 0, second = 1] = [...new Set(uses.map(({ texture }) => setOf(texture as GltfTextureInfo)))];
+  return first <= 1 && second <= 1 ? [0, 1] : [first, second === first ? 0 : second];
+}
+
 /** Makes a scene's material of one of the document's, as `@glanz/openpbr/gltf` maps it. */
-export function readMaterial(material: GltfMaterial, index: number, table: TextureTable, warnings: SceneWarning[]): Material {
+export function readMaterial(material: GltfMaterial, index: number, table: TextureTable, warnings: SceneWarning[]): ReadMaterial {
   const factors = material as GltfMaterialFactors;
   const parameters: Record<string, unknown> = { ...fromGltf(factors) };
   const textures: NonNullable<Material['textures']> = {};
+  const { uses, lost } = gltfTextures(factors);
+  const uvSets = uvSetsOf(uses);
   const leaveOut = (path: string, why: string) => warnings.push({ code: 'gltf/texture', message: `Material ${index} ("${material.name ?? ''}"): ${path} ${why}.`, path: `/materials/${index}/${path}` });
   const bind = ({ parameter, texture: reference, path, channels, colorSpace, range, value, picture }: GltfTextureUse) => {
     const info = reference as GltfTextureInfo;
-    const set = info.extensions?.KHR_texture_transform?.texCoord ?? info.texCoord ?? 0;
-    if (set !== 0 && set !== 1) return void leaveOut(path, `reads a texture by TEXCOORD_${set}; only sets 0 and 1 are read, so it is left out`);
+    const set = uvSets.indexOf(setOf(info));
+    if (set < 0) return void leaveOut(path, `reads a texture by TEXCOORD_${setOf(info)}, but its others by TEXCOORD_${uvSets.join(' and ')}; two sets are read, so it is left out`);
     const where = `/materials/${index}/${path}`;
     const texture = picture ? table.derive(picture, colorSpace, where) : table.get(info.index, colorSpace, where);
     if (texture === undefined) return;
@@ -55,7 +74,6 @@ export function readMaterial(material: GltfMaterial, index: number, table: Textu
     textures[parameter as TexturedParameter] = binding;
     if (value !== undefined) parameters[parameter] = value;
   };
-  const { uses, lost } = gltfTextures(factors);
   for (const use of uses) bind(use);
   for (const { path, reason } of lost) leaveOut(path, reason);
 
@@ -64,5 +82,5 @@ export function readMaterial(material: GltfMaterial, index: number, table: Textu
   if (material.doubleSided === true) made.double_sided = true;
   if (material.alphaMode === 'MASK') made.opacity_threshold = material.alphaCutoff ?? 0.5;
   if (material.extras !== undefined) made.extras = material.extras;
-  return made;
+  return { made, uvSets };
 }

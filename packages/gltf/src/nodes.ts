@@ -6,6 +6,7 @@ import { GltfError } from './error';
 import type { GltfJson, GltfNode, GltfPrimitive } from './json';
 import { readLight } from './lights';
 import type { Budget } from './limits';
+import type { UvSets } from './materials';
 import { compose, identity, isFinite4x4, multiply, type Matrix } from './matrix';
 import { unitNormals } from './normals';
 import { morphed, skinned } from './pose';
@@ -20,6 +21,8 @@ export interface NodeContext {
   readonly scene: Scene;
   /** Index of the scene's material for primitives without one. */
   readonly defaultMaterial: () => number;
+  /** The UV sets that a material of the scene reads. */
+  readonly uvSetsOf: (material: number) => UvSets;
   /** Which of the document's scenes; undefined: all nodes without a parent. */
   readonly shown: number | undefined;
   readonly poses: ReadonlyMap<number, NodePose>;
@@ -157,12 +160,16 @@ class MeshReader {
   }
 
   #make(node: GltfNode, primitive: GltfPrimitive, label: string, path: string, material: number, weights: readonly number[], materials: readonly number[]): Mesh | undefined {
-    const { json, scene, reader } = this.#context;
+    const { json, scene, reader, uvSetsOf } = this.#context;
     const opened = this.#opened.get(primitive) ?? openPrimitive(primitive, path, reader);
     // A mesh that is used once is not kept in its packed form.
     if (node.skin !== undefined || weights.length > 0) this.#opened.set(primitive, opened);
     const opaque = scene.materials[material]?.parameters.geometry_opacity === undefined;
-    let made = readPrimitive(opened, label, opaque, path, scene.warnings);
+    const uvSets = uvSetsOf(material);
+    for (const other of materials) {
+      if (`${uvSetsOf(other)}` !== `${uvSets}`) scene.warnings.push({ code: 'gltf/variant', message: `${label}: the material "${scene.materials[other]?.name}" of a variant reads other UV sets than its first one; its textures lie as that one's do.`, path });
+    }
+    let made = readPrimitive(opened, label, opaque, uvSets, path, scene.warnings);
     if (!made) return undefined;
     const skin = node.skin === undefined ? undefined : json.skins?.[node.skin];
     const blended = weights.some((w) => w !== 0);

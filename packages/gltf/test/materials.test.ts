@@ -215,11 +215,11 @@ describe('textures', () => {
     ['an SVG, which could name other files', textured, picture(`data:image/png;base64,${btoa('<svg xmlns="http://www.w3.org/2000/svg" width="1" height="1"/>')}`), 'gltf/image', '/images/0'],
     ['a texture that is not there', { pbrMetallicRoughness: { baseColorTexture: { index: 3 } } }, () => undefined, 'gltf/texture', '/materials/0/pbrMetallicRoughness/baseColorTexture'],
     ['a texture that is no object', { normalTexture: 5 }, () => undefined, 'gltf/texture', '/materials/0/normalTexture'],
-    ['a UV set beyond the second', { pbrMetallicRoughness: { baseColorTexture: { index: 0, texCoord: 2 } } }, picture('data:image/png;base64,iVBORw0KGgo='), 'gltf/texture', '/materials/0/pbrMetallicRoughness/baseColorTexture'],
+    ['a third UV set in a material', { normalTexture: { index: 0, texCoord: 1 }, emissiveTexture: { index: 0, texCoord: 3 }, emissiveFactor: [1, 1, 1], pbrMetallicRoughness: { baseColorTexture: { index: 0, texCoord: 2 } } }, picture('data:image/png;base64,iVBORw0KGgo='), 'gltf/texture', /^\/materials\/0\//],
   ])('%s costs the texture, not the scene', async (_, material, more, code, path) => {
     const scene = await withMaterial(material, more);
     expect(only(scene).textures?.base_color).toBeUndefined();
-    expect(scene.warnings[0]).toMatchObject({ code, path });
+    expect(scene.warnings[0]).toMatchObject({ code, path: path instanceof RegExp ? expect.stringMatching(path) : path });
   });
 });
 

@@ -1,3 +1,4 @@
+import { pointerPath } from '../animation-pointer';
 import { isObject, own, quote, type CheckContext, type Raw } from './context';
 import type { AccessorFacts } from './data';
 
@@ -19,9 +20,14 @@ export function repairAnimations(context: CheckContext, facts: readonly (Accesso
       return [];
     };
     const samplers = objects('samplers').map((sampler, at) => repairSampler(context, sampler, `${path}/samplers/${at}`, facts));
-    const kept = objects('channels').filter((channel, at) => isSoundChannel(context, channel, `${path}/channels/${at}`, samplers, facts));
+    const pointers: { sampler: number; path: readonly string[] }[] = [];
+    const kept = objects('channels').filter((channel, at) => {
+      const pointer = pointerOf(context, channel, `${path}/channels/${at}`, samplers, facts);
+      if (pointer) pointers.push(pointer);
+      return pointer === undefined && isSoundChannel(context, channel, `${path}/channels/${at}`, samplers, facts);
+    });
     const name = own(animation, 'name');
-    return { ...(typeof name === 'string' ? { name } : {}), samplers: samplers.map((sampler) => sampler ?? { input: 0, output: 0, interpolation: 'STEP' }), channels: kept };
+    return { ...(typeof name === 'string' ? { name } : {}), samplers: samplers.map((sampler) => sampler ?? { input: 0, output: 0, interpolation: 'STEP' }), channels: kept, pointers };
   });
 }
 
@@ -59,7 +65,7 @@ function isSoundChannel(context: CheckContext, channel: unknown, path: string, s
   const nodes = context.list('nodes');
   if (typeof node !== 'number' || !nodes[node]) return lost(`moves node ${quote(node)}, which is none`);
   const type = typeof moved === 'string' && Object.hasOwn(PATHS, moved) ? PATHS[moved] : undefined;
-  if (type === undefined) return moved === 'pointer' ? false : lost(`moves ${quote(moved)}, which is no part of a node`);
+  if (type === undefined) return lost(`moves ${quote(moved)}, which is no part of a node`);
   const keys = (facts[sampler['input'] as number] as AccessorFacts).count * (sampler['interpolation'] === 'CUBICSPLINE' ? 3 : 1);
   const values = facts[sampler['output'] as number] as AccessorFacts;
   if (values.type !== type) return lost(`has values of ${values.type} for ${moved as string}, but they must be ${type}`);
@@ -67,6 +73,29 @@ function isSoundChannel(context: CheckContext, channel: unknown, path: string, s
   if (size === 0) return lost('moves morph targets that are not there');
   if (values.count !== keys * size) return lost(`has ${values.count} values, but its times ask for ${keys * size}`);
   return true;
+}
+
+/** A channel of KHR_animation_pointer; null if it makes no sense, undefined if it is none. */
+function pointerOf(context: CheckContext, channel: unknown, path: string, samplers: readonly (Raw | undefined)[], facts: readonly (AccessorFacts | undefined)[]): { sampler: number; path: readonly string[] } | null | undefined {
+  const target = isObject(channel) ? own(channel, 'target') : undefined;
+  if (!isObject(channel) || !isObject(target) || own(target, 'path') !== 'pointer') return undefined;
+  const lost = (what: string) => {
+    context.warn('gltf/animation', path, `${what}; it is left out`);
+    return null;
+  };
+  const extensions = own(target, 'extensions');
+  const extension = isObject(extensions) ? own(extensions, 'KHR_animation_pointer') : undefined;
+  const pointer = isObject(extension) ? own(extension, 'pointer') : undefined;
+  const parts = pointerPath(pointer);
+  if (!parts) return lost(`moves ${quote(pointer)}, which is nothing that can be seen to move`);
+  const at = own(channel, 'sampler');
+  const sampler = typeof at === 'number' ? samplers[at] : undefined;
+  if (typeof at !== 'number' || !(at in samplers)) return lost(`has ${quote(at)} as sampler, which is none`);
+  if (!sampler) return null;
+  const keys = (facts[sampler['input'] as number] as AccessorFacts).count * (sampler['interpolation'] === 'CUBICSPLINE' ? 3 : 1);
+  const values = facts[sampler['output'] as number] as AccessorFacts;
+  if (values.count % keys !== 0 || (values.type !== 'SCALAR' && values.count !== keys)) return lost(`has ${values.count} values of ${values.type} for ${keys} keys`);
+  return { sampler: at, path: parts };
 }
 
 /** Morph targets of a node's mesh. Meshes have been checked. */

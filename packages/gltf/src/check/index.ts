@@ -7,6 +7,7 @@ import type { GltfJson } from '../json';
 import { repairAnimations } from './animations';
 import { CheckContext, isObject, own, quote, type Raw } from './context';
 import { checkAccessors, checkBuffers, checkSparseIndices } from './data';
+import { repairImageLights } from './image-lights';
 import { checkMeshes, neededAccessors } from './meshes';
 import { checkNodes, checkSkins } from './nodes';
 import { checkPictures } from './pictures';
@@ -49,6 +50,7 @@ export function checkDocument(json: Raw, file: string, warnings: SceneWarning[])
   checkPictures(context);
   checkNames(context);
   const lights = repairLights(context);
+  const imageLights = repairImageLights(context);
   const accessors = context.list('accessors');
   const checked = {
     ...json,
@@ -56,10 +58,10 @@ export function checkDocument(json: Raw, file: string, warnings: SceneWarning[])
     animations: repairAnimations(context, facts),
     meshes,
     nodes: nodes.map((node, index) => named(context, withoutLostLight(context, node, index, lights?.length ?? 0), `/nodes/${index}`)),
-    scenes: own(json, 'scenes') === undefined ? undefined : context.list('scenes').map((scene, index) => named(context, scene, `/scenes/${index}`)),
+    scenes: own(json, 'scenes') === undefined ? undefined : context.list('scenes').map((scene, index) => withSoundSurroundings(context, named(context, scene, `/scenes/${index}`), `/scenes/${index}`, imageLights?.length ?? 0)),
     materials: repairMaterials(context),
     cameras: repairCameras(context),
-    extensions: { ...(lights ? { KHR_lights_punctual: { lights } } : {}), ...(variants ? { KHR_materials_variants: { variants } } : {}), ...xmpOf(context) },
+    extensions: { ...(lights ? { KHR_lights_punctual: { lights } } : {}), ...(variants ? { KHR_materials_variants: { variants } } : {}), ...(imageLights ? { EXT_lights_image_based: { lights: imageLights } } : {}), ...xmpOf(context) },
   };
   if (own(json, 'scenes') === undefined) delete (checked as { scene?: unknown }).scene;
   return {
@@ -104,6 +106,16 @@ function withoutLostLight(context: CheckContext, node: Raw, index: number, light
   context.warn('gltf/light', `/nodes/${index}/extensions/KHR_lights_punctual`, `is ${quote(reference)}, which names no light; it is left out`);
   const { KHR_lights_punctual: _, ...rest } = extensions as Raw;
   return { ...node, extensions: rest };
+}
+
+/** A scene whose surroundings, if it has some, exist. */
+function withSoundSurroundings(context: CheckContext, scene: Raw, path: string, lights: number): Raw {
+  const extensions = own(scene, 'extensions');
+  const reference = isObject(extensions) ? own(extensions, 'EXT_lights_image_based') : undefined;
+  const light = isObject(reference) ? own(reference, 'light') : undefined;
+  const good = typeof light === 'number' && Number.isInteger(light) && light >= 0 && light < lights;
+  if (reference !== undefined && !good) context.warn('gltf/environment', `${path}/extensions/EXT_lights_image_based`, `is ${quote(reference)}, which names no light; it is left out`);
+  return { ...scene, extensions: good ? { EXT_lights_image_based: { light } } : {} };
 }
 
 function buffersOf(accessors: readonly Raw[], meshes: readonly Raw[], views: readonly Raw[]): Set<number> {

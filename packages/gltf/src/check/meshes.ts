@@ -6,7 +6,6 @@ const ATTRIBUTES: ReadonlyMap<string, readonly string[]> = new Map([
   ['NORMAL', ['VEC3']],
   ['TANGENT', ['VEC4']],
   ['TEXCOORD_0', ['VEC2']],
-  ['TEXCOORD_1', ['VEC2']],
   ['COLOR_0', ['VEC3', 'VEC4']],
   ['JOINTS_0', ['VEC4']],
   ['WEIGHTS_0', ['VEC4']],
@@ -98,7 +97,7 @@ function checkAttributes(context: CheckContext, path: string, attributes: Raw, f
     context.reference(accessor, at, facts, 'accessor');
     const { type } = facts[accessor] as AccessorFacts;
     if (semantic === 'POSITION' && type !== 'VEC3') context.fail(at, `is a ${type}, but positions are VEC3`);
-    const types = ATTRIBUTES.get(semantic);
+    const types = ATTRIBUTES.get(semantic.startsWith('TEXCOORD_') ? 'TEXCOORD_0' : semantic);
     if (types && !types.includes(type)) context.warn('gltf/primitive', at, `is a ${quote(type)}, but must be ${types.join(' or ')}; it is left out`);
     else kept[semantic] = accessor;
   }
