@@ -20,21 +20,28 @@ const IN_FLIGHT = 2;
 export async function* renderLoop({ scheduler, target, queue, submit, current, check }: RenderLoop): AsyncGenerator<number, void, undefined> {
   let reported = scheduler.samples;
   let lastDone = performance.now();
-  const inFlight: { batch: Batch; done: Promise<number>; after: number }[] = [];
+  let before: { readonly paths: number; readonly milliseconds: number } | undefined;
+  const inFlight: { batch: Batch; submitted: number; after: number; done: Promise<number> }[] = [];
   for (;;) {
     while (inFlight.length < IN_FLIGHT && current()) {
       const batch = scheduler.next(target);
       if (!batch) break;
       const submitted = performance.now();
       submit(batch);
-      inFlight.push({ batch, after: scheduler.samples, done: queue.onSubmittedWorkDone().then(() => performance.now() - Math.max(submitted, lastDone)) });
+      inFlight.push({ batch, submitted, after: scheduler.samples, done: queue.onSubmittedWorkDone().then(() => performance.now() - Math.max(submitted, lastDone)) });
     }
     const oldest = inFlight.shift();
     if (!oldest) return;
     const milliseconds = await oldest.done;
+    const waited = oldest.submitted < lastDone;
     lastDone = performance.now();
     check();
-    scheduler.measured(oldest.batch, milliseconds);
+    // News of the batch before may have come late, which would make this one look short and the next one far too long: of
+    // batches that follow each other, the time of two counts.
+    const paths = oldest.batch.pixelCount * oldest.batch.sampleCount;
+    const shared = waited && before ? ((before.milliseconds + milliseconds) * paths) / (before.paths + paths) : milliseconds;
+    before = { paths, milliseconds };
+    scheduler.measured(oldest.batch, shared);
     if (!current()) {
       await Promise.all(inFlight.map(({ done }) => done));
       return;

@@ -44,7 +44,7 @@ export interface ViewerOptions {
   readonly autoRotate?: number;
   /** How the preview of a moving view is made. */
   readonly preview?: PreviewOptions;
-  /** GPU milliseconds that one submission should take at most while the picture is refined. Default 24. */
+  /** GPU milliseconds that one submission should take at most while the picture is refined. Default 16. */
   readonly maxSubmitMs?: number;
   /** Decoders of compressed meshes and pictures; meshopt is there by itself. */
   readonly decoders?: GltfDecoders;

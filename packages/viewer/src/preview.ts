@@ -9,6 +9,10 @@ export interface PreviewPlan {
 /** Steps by which the preview shrinks. Areas about halve, so that sizes do not change for every breath of the clock. */
 export const DIVISORS = [1, 1.5, 2, 3, 4, 6, 8] as const;
 
+/** From here on the picture gets too coarse to be of use: rather fewer frames a second than still fewer pixels. */
+const COARSE = 4;
+/** How much longer frames of coarse previews may take. */
+const PATIENT = 2.5;
 /** Most samples of a preview's frame. */
 const MOST_SAMPLES = 8;
 /** A step to a larger preview, or to more samples, is taken only where this share of the time does for it. */
@@ -21,7 +25,7 @@ const PATIENCE = 6;
  * shrinks at once. No GPU: a pure function of what it is told.
  */
 export class PreviewController {
-  /** Milliseconds that a frame may take. */
+  /** Milliseconds that a frame may take; two and a half times as many from a quarter of the width on down. */
   readonly budget: number;
   #divisor: number;
   /** Milliseconds that a sample of a preview of one pixel would add, and what a frame takes besides. */
@@ -39,12 +43,12 @@ export class PreviewController {
   plan(pixels: number): PreviewPlan {
     if (this.#perPixel === undefined) return { divisor: this.#divisor, samples: 1 };
     const costOf = (divisor: number, samples = 1) => this.#fixed + ((this.#perPixel as number) * samples * pixels) / divisor ** 2;
-    const at = DIVISORS.indexOf(this.#divisor as (typeof DIVISORS)[number]);
-    if (costOf(this.#divisor) > this.budget) {
+    const budgetOf = (divisor: number) => (divisor >= COARSE ? PATIENT * this.budget : this.budget);
+    if (costOf(this.#divisor) > budgetOf(this.#divisor)) {
       this.#calm = 0;
-      this.#divisor = DIVISORS.find((divisor) => costOf(divisor) <= this.budget) ?? (DIVISORS[DIVISORS.length - 1] as number);
-    } else if (at > 0) {
-      const larger = DIVISORS.find((divisor) => costOf(divisor) <= CAUTION * this.budget) ?? this.#divisor;
+      this.#divisor = DIVISORS.find((divisor) => costOf(divisor) <= budgetOf(divisor)) ?? (DIVISORS[DIVISORS.length - 1] as number);
+    } else if (this.#divisor > 1) {
+      const larger = DIVISORS.find((divisor) => costOf(divisor) <= CAUTION * budgetOf(divisor)) ?? this.#divisor;
       if (larger < this.#divisor && ++this.#calm >= PATIENCE) {
         this.#calm = 0;
         this.#divisor = larger;

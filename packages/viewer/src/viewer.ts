@@ -83,7 +83,7 @@ export class Viewer extends Emitter<ViewerEvents> {
         background: options.background ?? 'environment',
         exposure: options.exposure ?? 0,
         toneMap: options.toneMap ?? 'neutral',
-        maxSubmitMs: options.maxSubmitMs ?? 24,
+        maxSubmitMs: options.maxSubmitMs ?? 16,
         settleMs: preview.settleMs ?? 180,
         previewDepth: preview.maxDepth ?? 4,
         tracer: options.tracer ?? {},

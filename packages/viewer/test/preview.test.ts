@@ -27,10 +27,12 @@ describe('PreviewController', () => {
   ])('keeps to its budget: %d ms a frame, %d ns a path, %d pixels', (fixed, nanoseconds, pixels) => {
     const { plan, worst } = settled(fixed, nanoseconds, pixels);
     const smallest = fixed + ((pixels / 64) * nanoseconds) / 1e6;
-    expect(worst).toBeLessThanOrEqual(Math.max(12, smallest) * 1.01);
+    // Coarse ones may take two and a half times as long.
+    const allowed = plan.divisor >= 4 ? 30 : 12;
+    expect(worst).toBeLessThanOrEqual(Math.max(allowed, smallest) * 1.01);
     // And wastes none of it: the next larger step would not fit.
     const larger = DIVISORS[DIVISORS.indexOf(plan.divisor as 1) - 1];
-    if (larger) expect(fixed + (pixels / larger ** 2) * (nanoseconds / 1e6)).toBeGreaterThan(0.75 * 12 * 0.99);
+    if (larger) expect(fixed + (pixels / larger ** 2) * (nanoseconds / 1e6)).toBeGreaterThan(0.75 * (larger >= 4 ? 30 : 12));
   });
 
   it('shows the whole picture where the GPU is fast, with several samples', () => {

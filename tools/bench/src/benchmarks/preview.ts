@@ -1,0 +1,158 @@
+import { setTimeout as wait } from 'node:timers/promises';
+import { createPushButton } from '@glanz/models';
+import { requestDevice } from '@glanz/renderer';
+import { createGpu } from '@glanz/renderer/node';
+import { createViewer, type Viewer } from '@glanz/viewer';
+import { timed, type Benchmark, type Figure } from '../benchmark';
+
+/** Sizes of the picture, pixels. */
+const SIZES = [[640, 360], [1280, 720], [1920, 1080]] as const;
+/** Milliseconds between two frames of a screen. */
+const SCREEN_MS = 1000 / 60;
+
+interface Screen {
+  readonly canvas: HTMLCanvasElement;
+  /** Puts the globals of a browser's window back as they were. */
+  readonly close: () => void;
+}
+
+/**
+ * The little of a browser that a viewer needs: a canvas whose pictures go to a texture, and a screen that has a frame every
+ * sixtieth of a second, as one has: a frame that is late waits for the next.
+ */
+function makeScreen(gpu: GPU, width: number, height: number): Screen {
+  let device: GPUDevice | undefined;
+  let texture: GPUTexture | undefined;
+  const context = {
+    configure: (settings: GPUCanvasConfiguration) => void (device = settings.device),
+    unconfigure: () => texture?.destroy(),
+    getCurrentTexture: () => (texture ??= (device as GPUDevice).createTexture({ size: [width, height], format: 'bgra8unorm', usage: 0x10 })),
+  };
+  const canvas = { clientWidth: width, clientHeight: height, width, height, style: {}, getContext: () => context };
+  const start = performance.now();
+  const timers = new Map<number, NodeJS.Timeout>();
+  let frames = 0;
+  const globals: Record<string, unknown> = {
+    navigator: { gpu: { ...gpu, getPreferredCanvasFormat: () => 'bgra8unorm' }, hardwareConcurrency: 2 },
+    document: Object.assign(new EventTarget(), { visibilityState: 'visible' }),
+    devicePixelRatio: 1,
+    ResizeObserver: class {
+      observe() {}
+      disconnect() {}
+    },
+    requestAnimationFrame: (frame: (time: number) => void) => {
+      const id = ++frames;
+      const now = performance.now();
+      const next = start + Math.ceil((now - start) / SCREEN_MS + 1e-6) * SCREEN_MS;
+      timers.set(id, setTimeout(() => {
+        // Timers of Node come a little early; a screen does not.
+        while (performance.now() < next);
+        frame(next);
+      }, Math.max(0, Math.floor(next - now))));
+      return id;
+    },
+    cancelAnimationFrame: (id: number) => clearTimeout(timers.get(id)),
+  };
+  const former = Object.keys(globals).map((name) => [name, Object.getOwnPropertyDescriptor(globalThis, name)] as const);
+  for (const [name, value] of Object.entries(globals)) Object.defineProperty(globalThis, name, { value, configurable: true, writable: true });
+  const close = () => {
+    for (const [name, descriptor] of former) {
+      if (descriptor) Object.defineProperty(globalThis, name, descriptor);
+      else delete (globalThis as Record<string, unknown>)[name];
+    }
+  };
+  return { canvas: canvas as unknown as HTMLCanvasElement, close };
+}
+
+interface Orbited {
+  /** Milliseconds from one frame on the canvas to the next. */
+  readonly intervals: number[];
+  /** Milliseconds that the samples of a frame took. */
+  readonly costs: number[];
+  /** Width of the preview over that of the picture, each frame. */
+  readonly scales: number[];
+}
+
+/** Orbits for a while as a hand does, an event for each frame of the screen. */
+async function orbit(viewer: Viewer, milliseconds: number, width: number): Promise<Orbited> {
+  const result: Orbited = { intervals: [], costs: [], scales: [] };
+  let last: number | undefined;
+  const off = viewer.on('frame', (frame) => {
+    if (!frame.preview) return;
+    const now = performance.now();
+    if (last !== undefined) result.intervals.push(now - last);
+    last = now;
+    result.costs.push(frame.milliseconds);
+    result.scales.push(frame.width / width);
+  });
+  const end = performance.now() + milliseconds;
+  while (performance.now() < end) {
+    viewer.setOrbit({ theta: (viewer.orbit?.theta ?? 0) + 0.02 });
+    await wait(SCREEN_MS);
+  }
+  off();
+  return result;
+}
+
+const done = (viewer: Viewer) => new Promise<void>((resolve) => void viewer.on('converged', () => resolve(), { once: true }));
+const nextFrame = (viewer: Viewer) => new Promise<void>((resolve) => void viewer.on('frame', () => resolve(), { once: true }));
+
+/** How long it takes from a hand's movement to its picture, out of rest and out of the midst of refining. */
+async function latency(viewer: Viewer, device: GPUDevice, rest: number): Promise<number> {
+  await wait(rest);
+  const from = performance.now();
+  viewer.setOrbit({ theta: (viewer.orbit?.theta ?? 0) + 0.1 }, { immediate: true });
+  await nextFrame(viewer);
+  await device.queue.onSubmittedWorkDone();
+  return performance.now() - from;
+}
+
+const spread = (values: readonly number[]) => [...values].sort((a, b) => a - b);
+const quantile = (values: readonly number[], q: number) => spread(values)[Math.min(values.length - 1, Math.floor(q * values.length))] as number;
+
+/** The viewer's preview under a hand that orbits: frame times, resolution, and how soon a movement is seen. */
+export const benchmark: Benchmark = {
+  description: 'the preview of the viewer while orbiting: frames, resolution, and latency, on a screen of 60 frames a second',
+  async run({ log, quick, gpu: wanted }) {
+    const { gpu, adapterName, software } = await createGpu(wanted ? { gpu: wanted } : {});
+    const figures: Figure[] = [];
+    for (const [width, height] of quick ? SIZES.slice(0, 1) : SIZES) {
+      const { canvas, close } = makeScreen(gpu, width, height);
+      try {
+        const viewer = createViewer(canvas, { pixelRatio: 1, samples: 100_000, controls: false, requestDevice: () => requestDevice({ gpu }) });
+        viewer.on('error', ({ message }) => log(message));
+        await viewer.load(createPushButton({ level: 'medium' }));
+        const device = viewer.device as GPUDevice;
+        const size = `${width} × ${height}`;
+        // The first second teaches the controller what the GPU can do.
+        await orbit(viewer, quick ? 1500 : 2000, width);
+        const { intervals, costs, scales } = await orbit(viewer, quick ? 3000 : 5000, width);
+        figures.push(timed(`${size}: frame to frame while orbiting`, 'ms', intervals, software ? undefined : { value: 1000 / 60 + 1, relation: '<=', source: '60 frames a second' }));
+        figures.push({ name: `${size}: frame to frame, 95 of 100`, unit: 'ms', runs: intervals.length, median: quantile(intervals, 0.95) });
+        figures.push(timed(`${size}: samples of a frame`, 'ms', costs));
+        figures.push(timed(`${size}: width of the preview over that of the picture`, '1', scales));
+        const starts: number[] = [];
+        for (let i = 0; i < (quick ? 8 : 10); i++) starts.push(await latency(viewer, device, 700 + 37 * i));
+        figures.push(timed(`${size}: from a movement to its picture, in the midst of refining`, 'ms', starts, software && width === 640 ? { value: 100, relation: '<=', source: 'interaction on a software GPU' } : undefined));
+        viewer.samples = 1;
+        viewer.setOrbit({ theta: 0 }, { immediate: true });
+        const resting: number[] = [];
+        for (let i = 0; i < (quick ? 1 : 5); i++) {
+          if (viewer.state !== 'done') await done(viewer);
+          resting.push(await latency(viewer, device, 100));
+        }
+        figures.push(timed(`${size}: from a movement to its picture, at rest`, 'ms', resting));
+        log(`${size}: ${quantile(intervals, 0.5).toFixed(1)} ms a frame at ${quantile(scales, 0.5).toFixed(2)} of the width, latency ${quantile(starts, 0.5).toFixed(0)} ms`);
+        viewer.destroy();
+      } finally {
+        close();
+      }
+    }
+    return {
+      settings: { model: 'push-button medium', environment: 'studio', maxDepth: 8, previewDepth: 4, budgetMs: 12, screen: '60 Hz, made of timers' },
+      gpu: { name: adapterName, software },
+      figures,
+      notes: ['frames are drawn to a texture in place of a canvas: what a compositor adds is not in the figures'],
+    };
+  },
+};
