@@ -5,6 +5,6 @@ export { Emitter, type ListenOptions } from './emitter';
 export type { BlobOptions } from './blob';
 export type { ControlOptions } from './controls';
 export type { EnvironmentSource, ModelSource } from './load';
-export type { Orbit, Vector } from './orbit';
+export type { Orbit, OrbitLimits, Vector } from './orbit';
 export type { Projection } from './project';
 export { ViewerError } from './errors';

@@ -1,9 +1,10 @@
 import type { GltfDecoders } from '@glanz/gltf';
 import type { PathTracerOptions } from '@glanz/renderer';
-import type { Camera } from '@glanz/scene';
+import type { Camera, Scene } from '@glanz/scene';
 import type { ToneMap } from '@glanz/tonemap';
 import type { ControlOptions } from './controls';
 import type { EnvironmentSource } from './load';
+import type { OrbitLimits } from './orbit';
 
 /** What `createViewer` may be told. All of it has a default; what is marked can be changed later by the viewer's property of the same name. */
 export interface ViewerOptions {
@@ -33,9 +34,12 @@ export interface ViewerOptions {
   readonly variant?: string;
   /**
    * The first view of a model: `auto` (default): its own first camera, or a view that frames it; `frame`: the latter always;
-   * an index or a name of its cameras; or a camera.
+   * an index or a name of its cameras; a camera; or a function that gives one for the scene and the picture's width over
+   * height.
    */
-  readonly camera?: 'auto' | 'frame' | number | Camera | (string & {});
+  readonly camera?: 'auto' | 'frame' | number | Camera | ((scene: Scene, aspect: number) => Camera) | (string & {});
+  /** How far hands and calls may move the camera. Default: no limits. Changeable. */
+  readonly orbitLimits?: OrbitLimits;
   /** Hands on the canvas: all, none, or some. Default true. Changeable. */
   readonly controls?: boolean | ControlOptions;
   /** Seconds in which 63 % of a movement is done. Default 0.06; 0 where the user asks for less motion. */

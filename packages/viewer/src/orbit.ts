@@ -15,10 +15,22 @@ export interface Orbit {
   readonly target: Vector;
 }
 
+/** How far hands and calls may move the camera: least and most of each. What is left out is free. */
+export interface OrbitLimits {
+  /** Radians. */
+  readonly theta?: readonly [number, number];
+  /** Radians from straight above. */
+  readonly phi?: readonly [number, number];
+  /** Metres. */
+  readonly radius?: readonly [number, number];
+}
+
 /** What {@link OrbitRig} may be told. */
 export interface OrbitRigOptions {
   /** Seconds in which 63 % of a movement is done; 0 moves at once. Default 0.06. */
   readonly damping?: number;
+  /** Default: none. */
+  readonly limits?: OrbitLimits;
 }
 
 interface Pose {
@@ -55,6 +67,7 @@ export class OrbitRig {
   #now: Pose;
   /** Seconds, see {@link OrbitRigOptions.damping}. */
   damping: number;
+  #limits: OrbitLimits;
 
   /** @param bounds Of the scene: the point to turn about lies beside its centre, and steps suit its size. */
   constructor(camera: Camera, bounds: SceneBounds, options: OrbitRigOptions = {}) {
@@ -63,8 +76,20 @@ export class OrbitRig {
     this.#radius = finite ? Math.max(0.5 * Math.hypot(bounds.max[0] - bounds.min[0], bounds.max[1] - bounds.min[1], bounds.max[2] - bounds.min[2]), 1e-6) : 1;
     this.#lens = camera;
     this.damping = options.damping ?? 0.06;
+    this.#limits = options.limits ?? {};
     this.#goal = this.#poseOf(camera);
+    this.#limit();
     this.#now = { ...this.#goal };
+  }
+
+  /** How far the camera may go; what is beyond comes back. */
+  get limits(): OrbitLimits {
+    return this.#limits;
+  }
+
+  set limits(limits: OrbitLimits) {
+    this.#limits = limits;
+    this.#limit();
   }
 
   /** Radius of the sphere around the scene, metres. */
@@ -97,6 +122,7 @@ export class OrbitRig {
   orbit(yaw: number, pitch: number): void {
     this.#goal.yaw += yaw;
     this.#goal.pitch = clamp(this.#goal.pitch + pitch, -STEEPEST, STEEPEST);
+    this.#limit();
   }
 
   /** Moves sideways and up, in heights of the picture at the target's distance. */
@@ -110,6 +136,7 @@ export class OrbitRig {
   zoom(factor: number): void {
     this.#goal.distance = clamp(this.#goal.distance / factor, this.#radius * 1e-3, this.#radius * 200);
     this.#goal.zoom = clamp(this.#goal.zoom * factor, 1e-3, 1e3);
+    this.#limit();
   }
 
   /** Goes to an orbit; what is left out stays. `phi` stops half a degree short of the poles. Ignores what is not finite. */
@@ -127,6 +154,7 @@ export class OrbitRig {
       this.#goal.distance = radius;
     }
     if (target?.every(Number.isFinite)) this.#goal.target = target;
+    this.#limit();
   }
 
   /** Looks at a point from the same side, as far away as before. */
@@ -138,6 +166,7 @@ export class OrbitRig {
   setCamera(camera: Camera): void {
     this.#lens = camera;
     this.#goal = this.#poseOf(camera);
+    this.#limit();
   }
 
   /** Vertical field of view of a perspective camera, radians; `undefined` for others. */
@@ -190,6 +219,14 @@ export class OrbitRig {
     if (this.#lens.type === 'orthographic') return { ...this.#lens, transform, xmag: this.#lens.xmag / pose.zoom, ymag: this.#lens.ymag / pose.zoom };
     if (this.#lens.type === 'panorama') return { ...this.#lens, transform };
     return { ...this.#lens, transform, focus_distance: pose.distance };
+  }
+
+  #limit(): void {
+    const { theta, phi, radius } = this.#limits;
+    const goal = this.#goal;
+    if (theta) goal.yaw = clamp(goal.yaw, ...theta);
+    if (phi) goal.pitch = clamp(goal.pitch, Math.max(-STEEPEST, Math.PI / 2 - phi[1]), Math.min(STEEPEST, Math.PI / 2 - phi[0]));
+    if (radius) goal.distance = clamp(goal.distance, ...radius);
   }
 
   #poseOf(camera: Camera): Pose {

@@ -9,7 +9,7 @@ import type { CameraChangeSource, LoadStage, ViewerEvents, ViewerState } from '.
 import { fitCamera } from './fit-camera';
 import { loadEnvironment, loadModel, type EnvironmentSource, type ModelSource } from './load';
 import type { ViewerOptions } from './options';
-import { OrbitRig, type Orbit, type Vector } from './orbit';
+import { OrbitRig, type Orbit, type OrbitLimits, type Vector } from './orbit';
 import { pictureSize } from './picture-size';
 import { project, type Projection } from './project';
 import { pictureBlob, type BlobOptions } from './blob';
@@ -56,6 +56,7 @@ export class Viewer extends Emitter<ViewerEvents> {
   #variant: string | undefined;
   #pixelRatio: number | undefined;
   #autoRotate: number;
+  #limits: OrbitLimits;
   #rested = 0;
   #cameraSource: CameraChangeSource = 'api';
 
@@ -71,6 +72,7 @@ export class Viewer extends Emitter<ViewerEvents> {
     this.#variant = options.variant;
     this.#pixelRatio = options.pixelRatio;
     this.#autoRotate = options.autoRotate ?? 0;
+    this.#limits = options.orbitLimits ?? {};
     this.#damping = calm() ? 0 : (options.damping ?? 0.06);
     this.#controls = options.controls ?? true;
     const { preview = {} } = options;
@@ -177,7 +179,7 @@ export class Viewer extends Emitter<ViewerEvents> {
       this.#surroundings = surroundings;
       this.#home = camera;
       const { damping } = this.#rig ?? { damping: this.#damping };
-      this.#rig = new OrbitRig(camera, sceneBounds(scene), { damping });
+      this.#rig = new OrbitRig(camera, sceneBounds(scene), { damping, limits: this.#limits });
       const variant = options.variant ?? this.#options.variant;
       this.#variant = variant !== undefined && scene.variants?.includes(variant) ? variant : undefined;
       if (this.#variant !== undefined) void tracer.setVariant(this.#variant).catch((error: unknown) => this.#fail(error));
@@ -397,6 +399,18 @@ export class Viewer extends Emitter<ViewerEvents> {
     this.#moved(options.immediate);
   }
 
+  /** See {@link ViewerOptions.orbitLimits}. */
+  get orbitLimits(): OrbitLimits {
+    return this.#limits;
+  }
+
+  set orbitLimits(limits: OrbitLimits) {
+    this.#limits = limits;
+    if (!this.#rig) return;
+    this.#rig.limits = limits;
+    this.#moved(false);
+  }
+
   /** Vertical field of view, radians; `undefined` for cameras that have none, and before there is a scene. */
   get fieldOfView(): number | undefined {
     return this.#rig?.yfov;
@@ -571,6 +585,7 @@ export class Viewer extends Emitter<ViewerEvents> {
   #chooseCamera(scene: Scene, camera: ViewerOptions['camera'] | 'keep'): Camera {
     const aspect = this.#aspect;
     if (typeof camera === 'object') return camera;
+    if (typeof camera === 'function') return camera(scene, aspect);
     if (camera === 'keep' && this.#rig) return this.#rig.camera();
     if (camera === 'frame') return frameCamera(scene, { aspect });
     if (camera === 'auto' || camera === 'keep' || camera === undefined) return scene.cameras[0] ?? frameCamera(scene, { aspect });

@@ -74,6 +74,20 @@ describe('OrbitRig', () => {
     expect(rig.goal.radius).toBeGreaterThan(0);
   });
 
+  it('keeps to its limits, whoever moves it', () => {
+    const rig = new OrbitRig(front, bounds, { damping: 0, limits: { theta: [-0.5, 0.5], phi: [1, 2], radius: [4, 6] } });
+    rig.orbit(3, 1);
+    expect(rig.goal.theta).toBe(0.5);
+    expect(rig.goal.phi).toBeCloseTo(1, 12);
+    rig.zoom(100);
+    expect(rig.goal.radius).toBe(4);
+    rig.setOrbit({ theta: -1, phi: 3, radius: 50 });
+    expect(rig.goal).toMatchObject({ theta: -0.5, radius: 6 });
+    expect(rig.goal.phi).toBeCloseTo(2, 12);
+    rig.limits = { radius: [1, 2] };
+    expect(rig.goal.radius).toBe(2);
+  });
+
   it('zooms parallel projections by their size', () => {
     const rig = new OrbitRig({ type: 'orthographic', name: 'o', transform: front.transform, xmag: 2, ymag: 1 }, bounds, { damping: 0 });
     rig.zoom(2);

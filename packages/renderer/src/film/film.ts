@@ -5,13 +5,6 @@ import { TILE } from '../kernels/noise.wgsl';
 /** Made when a kernel first binds them: they belong to layers that few ask for. */
 const ON_DEMAND: ReadonlySet<string> = new Set(['feature_albedo', 'feature_normal', 'feature_ids', 'feature_position']);
 
-/** 0, 1, 2, …; by a plain loop, since a viewer changes the film's size whenever it begins or ends to move. */
-function inOrder(count: number): Uint32Array<ArrayBuffer> {
-  const list = new Uint32Array(count);
-  for (let i = 0; i < count; i++) list[i] = i;
-  return list;
-}
-
 /**
  * The buffers of one picture. Per pixel: a vec4f for each plane (light group) in `film_block` (samples of a chunk not yet
  * complete) and in `film_total` (complete chunks), planes one after another; `film_moment` for the variance; `beauty`; the
