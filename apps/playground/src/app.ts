@@ -1,31 +1,29 @@
-import type { PickResult, PrepareProgress } from '@glanz/renderer';
-import { frameCamera, sceneBounds, type Camera, type Scene } from '@glanz/scene';
+import type { Scene } from '@glanz/scene';
 import { describeError, isAbort } from './errors';
 import { Environments } from './input/environments';
-import { filesOfDrop, filesOfInput, sortFiles } from './input/files';
-import { loadScene } from './input/load-scene';
+import { isSample, linkOfPage, open, sampleTitle, stateFor, type Opened } from './input/opening';
 import type { LoadRequest } from './input/load-messages';
-import { SAMPLES, type SampleName } from './input/samples';
-import { download, fileName, pictureAsExr, pictureAsPng } from './output/save';
-import { settingsFromAddress, type EnvironmentChoice, type Settings } from './settings';
+import { SAMPLES } from './input/samples';
+import { wireFiles } from './input/wire-files';
+import { Selection } from './selection';
+import { stateFromQuery } from './state/address';
+import type { LinkContent } from './state/link';
+import { keepAddress } from './state/keep-address';
+import type { State } from './state/state';
+import { Store } from './state/store';
+import type { Context } from './ui/context';
 import { byId, element } from './ui/elements';
-import { MaterialPanel } from './ui/material-panel';
 import { Messages } from './ui/messages';
-import { SettingsPanel } from './ui/settings-panel';
-import { spokenRate, spokenTime, StatisticsPanel } from './ui/statistics';
+import { StatusLine } from './ui/status-line';
+import { wireTabs } from './ui/tabs';
+import { wireTheme } from './ui/theme';
+import { Behind } from './viewer/behind';
 import { controlCamera } from './viewer/camera-controls';
+import { CameraRig } from './viewer/camera-rig';
+import { applyChange, present, type EffectsHost } from './viewer/effects';
 import { filmSize } from './viewer/film-size';
-import { fitCamera, OrbitCamera } from './viewer/orbit-camera';
+import { wireCommands } from './ui/commands';
 import { Session, type SessionStatus } from './viewer/session';
-
-const STAGES: Readonly<Record<string, string>> = {
-  read: 'Reading the model',
-  decode: 'Decoding the model',
-  images: 'Decoding textures',
-  bvh: 'Building the hierarchy',
-  upload: 'Uploading to the GPU',
-  compile: 'Compiling shaders',
-};
 
 /** The page: joins controls, files and the session. */
 export class App {
@@ -33,292 +31,285 @@ export class App {
   readonly #stage = byId('stage');
   readonly #model = byId<HTMLSelectElement>('model');
   readonly #messages = new Messages(byId('messages'));
-  readonly #statistics = new StatisticsPanel();
+  readonly #status = new StatusLine(this.#canvas);
   readonly #environments = new Environments();
-  readonly #settings: Settings;
-  readonly #panel: SettingsPanel;
-  readonly #materials: MaterialPanel;
+  readonly #selection = new Selection();
+  readonly #store: Store<State>;
+  readonly #rig: CameraRig;
+  readonly #behind: Behind;
+  readonly #modelListeners: (() => void)[] = [];
+  readonly #statusListeners: ((status: SessionStatus) => void)[] = [];
   #session!: Session;
-  #scene: Scene | undefined;
-  #title = '';
-  #orbit: OrbitCamera | undefined;
-  /** Index into the scene's cameras; −1 frames the whole scene. */
-  #camera = -1;
+  #opened: Opened | undefined;
+  #link: LinkContent | undefined;
   #loading: AbortController | undefined;
+  #context: Promise<Context> | undefined;
 
   private constructor() {
-    this.#settings = settingsFromAddress(location.search);
-    this.#panel = new SettingsPanel(this.#settings, { onChange: (change) => this.#changed(change), onCamera: (index) => this.#chooseCamera(index), onPickFile: () => byId('files').click() });
-    this.#materials = new MaterialPanel({ onChange: (index, change) => this.#session.setMaterial(index, change) });
-    byId('picture-fields').append(this.#panel.picture);
-    byId('environment-fields').append(this.#panel.environment);
-    byId('material-panel').append(this.#materials.element);
-    byId('statistics-panel').append(this.#statistics.element);
+    const { state } = stateFromQuery(location.search);
+    this.#store = new Store(state, ['orbit', 'layer']);
+    this.#rig = new CameraRig(this.#store, () => this.#aspect());
+    this.#behind = new Behind(this.#stage, byId<HTMLCanvasElement>('backdrop'));
     this.#model.append(...Object.entries(SAMPLES).map(([name, { title }]) => element('option', { value: name }, title)));
-    this.#model.value = this.#settings.model;
+    wireTheme();
+    wireTabs(() => undefined);
   }
 
-  /** @throws {DeviceError} without WebGPU. */
-  static async start(): Promise<void> {
+  /**
+   * Starts the page.
+   *
+   * @param early The model of the address, which is loaded while scripts arrive.
+   * @throws {DeviceError} without WebGPU.
+   */
+  static async start(early: { readonly request: LoadRequest; readonly scene: Promise<Scene> }): Promise<void> {
     const app = new App();
-    const { exposure, toneMap, samples, depth, background, layer } = app.#settings;
+    app.#link = await linkOfPage();
+    const { exposure, toneMap, samples, noise, layer } = { ...app.#store.state, ...app.#link?.state };
     app.#session = await Session.create(
       app.#canvas,
-      { exposure, toneMap, samples, depth, background, layer },
+      { exposure, toneMap, samples, noise, layer },
       {
-        onStatus: (status) => app.#showStatus(status),
+        onStatus: (status) => app.#told(status),
         onError: (error, retry) => app.#fail(error, retry),
         onRecovered: () => {
           app.#messages.clearErrors();
           app.#messages.show({ kind: 'note', text: 'The GPU was lost and is back; the picture starts anew.', code: 'playground/recovered' });
-          app.#showStatistics();
         },
+        onShown: (ms) => (app.#canvas.dataset['shownAfter'] = ms.toFixed(1)),
       },
     );
     app.#wire();
     app.#resize();
-    await app.#loadSample(app.#settings.model);
+    const wanted = app.#link && isSample(app.#link.model) ? app.#link.model : undefined;
+    if (wanted && early.request.kind === 'sample' && wanted !== early.request.name) await app.load({ kind: 'sample', name: wanted });
+    else await app.load(early.request, early.scene);
+    if (app.#link && !wanted) app.#messages.show({ kind: 'note', text: `This link belongs to "${app.#link.model}": drop that file to see it as it was shared.`, code: 'playground/link-file', stays: true });
+    keepAddress(app.#store, () => app.#opened?.name);
+    // Somebody put another link into the address.
+    window.addEventListener('hashchange', () => location.reload());
+  }
+
+  #host(): EffectsHost {
+    return {
+      session: this.#session,
+      rig: this.#rig,
+      scene: () => this.#opened?.scene,
+      state: () => this.#store.state,
+      environment: (state, scene) => this.#environments.choose(state, scene),
+      onError: (error) => this.#fail(error),
+    };
   }
 
   #wire(): void {
+    const host = this.#host();
     new ResizeObserver(() => this.#resize()).observe(this.#stage);
     controlCamera(this.#canvas, {
-      orbit: (yaw, pitch) => this.#move((orbit) => orbit.orbit(yaw, pitch)),
-      pan: (right, up) => this.#move((orbit) => orbit.pan(right, up)),
-      zoom: (factor) => this.#move((orbit) => orbit.zoom(factor)),
-      home: () => this.#chooseCamera(this.#camera),
-      pick: (x, y) => this.#pick(x / this.#canvas.clientWidth, y / this.#canvas.clientHeight),
+      orbit: (yaw, pitch) => this.#rig.move((orbit) => orbit.orbit(yaw, pitch)),
+      pan: (right, up) => this.#rig.move((orbit) => orbit.pan(right, up)),
+      zoom: (factor) => this.#rig.move((orbit) => orbit.zoom(factor)),
+      home: () => this.#rig.choose(this.#store.state.camera),
+      pick: (x, y) => void this.#pick(x / this.#canvas.clientWidth, y / this.#canvas.clientHeight),
     });
-    this.#canvas.addEventListener('keydown', (event) => {
-      if (event.key !== ' ') return;
-      event.preventDefault();
-      this.#pause();
+    this.#store.subscribe((next, before, source) => {
+      if (source !== 'load') applyChange(next, before, host);
+      if (next.scale !== before.scale) this.#resize();
+      this.#drawBehind();
     });
-    byId('pause').addEventListener('click', () => this.#pause());
-    byId('home').addEventListener('click', () => this.#chooseCamera(this.#camera));
-    byId('save-png').addEventListener('click', (event) => void this.#save(event.currentTarget as HTMLButtonElement, 'png'));
-    byId('save-exr').addEventListener('click', (event) => void this.#save(event.currentTarget as HTMLButtonElement, 'exr'));
     this.#model.addEventListener('change', () => {
-      if (Object.hasOwn(SAMPLES, this.#model.value)) void this.#loadSample(this.#model.value as SampleName);
+      const { value } = this.#model;
+      if (isSample(value)) void this.load({ kind: 'sample', name: value });
     });
-    for (const [button, input] of [['open', 'files'], ['open-folder', 'folder']] as const) {
-      const picker = byId<HTMLInputElement>(input);
-      byId(button).addEventListener('click', () => picker.click());
-      picker.addEventListener('change', () => {
-        const files = filesOfInput(picker);
-        // So that the same file can be chosen again.
-        picker.value = '';
-        if (files.size > 0) void this.#open(Promise.resolve(files));
-      });
-    }
-    this.#acceptDrops();
+    wireFiles({
+      onFiles: (files) => void this.#open(files),
+      onPreset: (name, x, y) => void this.#dropPreset(name, x, y),
+    });
+    wireCommands({ store: this.#store, session: this.#session, rig: this.#rig, selection: this.#selection, canvas: this.#canvas, say: (text) => this.#say(text) });
   }
 
-  #acceptDrops(): void {
-    const drop = byId('drop');
-    const hasFiles = (event: DragEvent) => event.dataTransfer?.types.includes('Files') ?? false;
-    window.addEventListener('dragover', (event) => {
-      if (!hasFiles(event)) return;
-      event.preventDefault();
-      drop.hidden = false;
-    });
-    window.addEventListener('dragleave', (event) => {
-      if (event.relatedTarget === null) drop.hidden = true;
-    });
-    window.addEventListener('drop', (event) => {
-      drop.hidden = true;
-      if (!event.dataTransfer || !hasFiles(event)) return;
-      event.preventDefault();
-      void this.#open(filesOfDrop(event.dataTransfer));
-    });
-  }
-
-  /** Opens what was dropped or picked: a model, surroundings, or both. */
-  async #open(given: Promise<ReadonlyMap<string, File>>): Promise<void> {
+  /** Opens what was dropped or picked: a model, an environment, a material, or several of them. */
+  async #open(files: ReadonlyMap<string, File> | Promise<ReadonlyMap<string, File>>): Promise<void> {
     try {
-      const { model, environment } = sortFiles(await given);
+      const { sortFiles } = await import('./input/files');
+      const given = await files;
+      const { model, environment, material } = sortFiles(given);
       if (environment) {
         await this.#environments.load(environment);
-        this.#settings.environment = 'file';
-        this.#panel.setEnvironmentFile(this.#environments.fileName);
-        this.#panel.set(this.#settings);
         this.#messages.clearErrors();
-        if (!model) this.#session.setEnvironment(this.#environments.choose(this.#settings, this.#scene));
+        // Another file under the same choice is another environment.
+        if (this.#store.state.environment === 'file') this.#store.set({ environment: 'none' });
+        this.#store.set({ environment: 'file' }, { label: 'Environment' });
       }
-      if (model) await this.#load({ kind: 'files', files: model.files, entry: model.entry }, model.entry.split('/').at(-1) ?? model.entry);
+      if (model) await this.load({ kind: 'files', files: model.files, entry: model.entry });
+      if (material && !model && this.#opened) {
+        const [{ materialFromFiles }, { replaceMaterial }] = await Promise.all([import('./output/materialx'), import('./ui/material/edits')]);
+        const { parameters, slots, name, notes } = await materialFromFiles(material, given);
+        const { material: index } = this.#selection.chosen;
+        const target = this.#opened.scene.materials[index];
+        if (!target) return;
+        replaceMaterial(this.#store, target, index, parameters, `MaterialX "${name}"`, Object.fromEntries(Object.entries(slots).map(([key, slot]) => [`${index}/${key}`, slot])));
+        this.#messages.clearErrors();
+        this.#say([`"${name}" is now on "${target.name}".`, ...notes.slice(0, 1)].join(' '));
+      }
     } catch (error) {
       this.#fail(error);
     }
   }
 
-  async #loadSample(name: SampleName): Promise<void> {
-    const first = this.#scene === undefined;
-    await this.#load({ kind: 'sample', name }, SAMPLES[name].title.split(' · ')[0] as string, name, first ? this.#settings.environment : SAMPLES[name].environment);
-  }
-
-  /**
-   * Loads and shows a model. Until it is ready, and where it fails, the former one stays.
-   *
-   * @param sample Name of a built-in model, to be chosen in the list.
-   * @param environment The surroundings that suit it; those of a file stay.
-   */
-  async #load(request: LoadRequest, title: string, sample?: SampleName, environment?: EnvironmentChoice): Promise<void> {
+  /** Loads and shows a model. Until it is ready, and where it fails, the former one stays. */
+  async load(request: LoadRequest, early?: Promise<Scene>, state?: State): Promise<void> {
     this.#loading?.abort(new DOMException('another model was asked for', 'AbortError'));
     const loading = (this.#loading = new AbortController());
-    const settings = this.#settings;
+    const { signal } = loading;
+    const title = request.kind === 'sample' ? sampleTitle(request.name) : (request.entry.split('/').at(-1) ?? request.entry);
     try {
-      this.#showPreparing(sample ? 'Making the model' : 'Reading the model');
-      const scene = await loadScene(request, { signal: loading.signal, onProgress: (stage, done) => this.#showPreparing(STAGES[stage] ?? stage, done) });
-      const wanted = environment ?? (scene.environment ? 'model' : settings.environment === 'none' || settings.environment === 'model' ? 'studio' : settings.environment);
-      const choice = settings.environment === 'file' ? 'file' : wanted;
-      const own = scene.environment;
-      const chosen = this.#environments.choose({ ...settings, environment: choice }, scene);
-      const { environment: _, ...rest } = scene;
-      const camera = this.#startCamera(scene, scene.cameras.length > 0 ? 0 : -1);
-      await this.#session.show({ scene: chosen ? { ...rest, environment: chosen } : rest, camera }, (progress) => this.#prepared(progress));
-      this.#scene = own ? { ...rest, environment: own } : rest;
-      this.#title = title;
-      settings.environment = choice;
-      this.#adopt(sample);
+      this.#status.prepare(request.kind === 'sample' ? 'make' : 'read');
+      const opened: Opened = early ? { scene: await early, request, title, name: request.kind === 'sample' ? request.name : title } : await open(request, title, { signal, onProgress: (stage, done) => this.#status.prepare(stage, done) });
+      signal.throwIfAborted();
+      const { scene } = opened;
+      const first = this.#opened === undefined;
+      const begin = state ?? stateFor(scene, request, this.#store.state, { link: this.#link, first });
+      // What is changed until the picture is there goes on top.
+      const from = this.#store.state;
+      const now = (): State => (this.#store.state === from ? begin : { ...begin, ...changedSince(from, this.#store.state) });
+      const host = this.#host();
+      await present(scene, () => (this.#opened?.scene === scene ? this.#store.state : now()), { ...host, rig: this.#rigFor(scene) }, ({ stage, done }) => this.#status.prepare(stage, done));
+      this.#adopt(opened, now());
     } catch (error) {
       this.#fail(error);
       if (this.#loading === loading) this.#model.value = this.#canvas.dataset['sample'] ?? '';
     } finally {
       if (this.#loading === loading) {
         this.#loading = undefined;
-        byId('preparing').hidden = true;
+        this.#status.prepared();
       }
     }
   }
 
-  /** Brings the controls in line with the scene that is shown now. */
-  #adopt(sample: SampleName | undefined): void {
-    const scene = this.#scene as Scene;
+  #rigFor(scene: Scene): CameraRig {
+    const rig = new CameraRig(this.#store, () => this.#aspect());
+    rig.setScene(scene);
+    return rig;
+  }
+
+  /** Brings the page in line with the model that is shown now. */
+  #adopt(opened: Opened, state: State): void {
+    const { scene, request, title } = opened;
+    const again = this.#opened?.request === request;
+    this.#opened = opened;
+    this.#rig.setScene(scene);
     this.#messages.clearErrors();
-    this.#camera = scene.cameras.length > 0 ? 0 : -1;
-    this.#orbit = undefined;
-    this.#panel.set(this.#settings);
-    this.#panel.setCameras(scene.cameras, this.#camera);
-    this.#panel.setHasOwnEnvironment(scene.environment !== undefined);
-    this.#materials.setMaterials(scene.materials);
-    this.#showStatistics();
+    if (again) this.#store.set(state);
+    else this.#store.load(state);
+    if (this.#link?.model === opened.name) this.#link = undefined;
+    if (!again) this.#selection.choose({ material: scene.instances[0]?.material ?? 0 });
+    const sample = request.kind === 'sample' ? request.name : undefined;
     this.#model.querySelector('option[data-file]')?.remove();
-    if (!sample) this.#model.append(element('option', { value: '(file)', 'data-file': true }, this.#title));
+    if (!sample) this.#model.append(element('option', { value: '(file)', 'data-file': true }, title));
     this.#model.value = sample ?? '(file)';
     this.#canvas.dataset['sample'] = this.#model.value;
-    this.#canvas.dataset['scene'] = this.#title;
-    this.#canvas.setAttribute('aria-label', `Path-traced picture of ${this.#title}`);
-    document.title = `${this.#title} – Glanz playground`;
+    this.#canvas.dataset['scene'] = title;
+    this.#canvas.setAttribute('aria-label', `Path-traced picture of ${title}`);
+    document.title = `${title} – Glanz playground`;
     if (scene.warnings.length > 0) {
       const more = scene.warnings.length > 1 ? ` (and ${scene.warnings.length - 1} more, under Statistics)` : '';
       this.#messages.show({ kind: 'note', text: `${scene.warnings[0]?.message ?? ''}${more}`, code: scene.warnings[0]?.code ?? '' });
     }
+    for (const listener of this.#modelListeners) listener();
+    this.#drawBehind();
+    this.#context ??= this.#makePanels();
+    this.#context.catch((error: unknown) => this.#fail(error));
+  }
+
+  async #makePanels(): Promise<Context> {
+    const context: Context = {
+      store: this.#store,
+      selection: this.#selection,
+      session: this.#session,
+      rig: this.#rig,
+      environments: this.#environments,
+      opened: () => this.#opened as Opened,
+      onModel: (listener) => this.#modelListeners.push(listener),
+      onStatus: (listener) => this.#statusListeners.push(listener),
+      openFiles: (files) => void this.#open(files),
+      pickFiles: () => byId('files').click(),
+      pose: () => void this.#pose(),
+      say: (text) => this.#say(text),
+      fail: (error) => this.#fail(error),
+      stageSize: () => [this.#stage.clientWidth, this.#stage.clientHeight],
+    };
+    const { makePanels } = await import('./ui/panels');
+    makePanels(context, () => this.#behind.saved(this.#store.state));
+    document.body.dataset['panels'] = 'ready';
+    return context;
+  }
+
+  /** The model again, in the pose that the state says. */
+  async #pose(): Promise<void> {
+    const { clip, time } = this.#store.state;
+    const request = this.#opened?.request;
+    if (request?.kind !== 'files') return;
+    const { animation: _a, time: _t, ...rest } = request;
+    await this.load(clip === null ? rest : { ...rest, animation: clip, time }, undefined, this.#store.state);
+  }
+
+  async #dropPreset(name: string, x: number, y: number): Promise<void> {
+    const picked = this.#session.pick(x, y);
+    if (!picked || !this.#context) return;
+    const [{ applyPreset }, context] = await Promise.all([import('./ui/material/presets'), this.#context]);
+    this.#selection.choose({ material: picked.material, instance: picked.instance });
+    applyPreset(context, picked.material, name);
+  }
+
+  #pick(x: number, y: number): void {
+    const picked = this.#session.pick(x, y);
+    const part = picked && this.#opened?.scene.instances[picked.instance];
+    if (!picked || !part) return;
+    if (this.#canvas.classList.contains('focusing')) {
+      const { lens } = this.#store.state;
+      // A pinhole has nothing out of focus: the first click opens it.
+      this.#store.set({ lens: { ...lens, focus: picked.depth, stop: lens.stop || 2.8 } }, { label: 'Focus' });
+      return;
+    }
+    this.#selection.choose({ material: part.material, instance: picked.instance });
+    this.#canvas.dataset['picked'] = part.name || `part ${picked.instance + 1}`;
   }
 
   #aspect(): number {
     return Math.max(1, this.#stage.clientWidth) / Math.max(1, this.#stage.clientHeight);
   }
 
-  #startCamera(scene: Scene, index: number): Camera {
-    const aspect = this.#aspect();
-    const camera = scene.cameras[index];
-    return camera ? fitCamera(camera, aspect) : frameCamera(scene, { aspect });
-  }
-
-  #chooseCamera(index: number): void {
-    this.#camera = index;
-    this.#orbit = undefined;
-    if (this.#scene) this.#session.setCamera(this.#startCamera(this.#scene, index), false);
-  }
-
-  #move(change: (orbit: OrbitCamera) => void): void {
-    if (!this.#scene) return;
-    this.#orbit ??= new OrbitCamera(this.#startCamera(this.#scene, this.#camera), sceneBounds(this.#scene));
-    change(this.#orbit);
-    this.#session.setCamera(this.#orbit.camera(), true);
-  }
-
-  #pick(x: number, y: number): void {
-    const picked: PickResult | undefined = this.#session.pick(x, y);
-    if (!picked || !this.#scene) return;
-    const part = this.#scene.instances[picked.instance]?.name || `part ${picked.instance + 1}`;
-    this.#materials.select(picked.material, part);
-    this.#canvas.dataset['picked'] = part;
-  }
-
-  #pause(): void {
-    const paused = !this.#session.paused;
-    this.#session.setPaused(paused);
-    byId('pause').setAttribute('aria-pressed', String(paused));
-  }
-
-  #changed(change: Partial<Settings>): void {
-    Object.assign(this.#settings, change);
-    const { exposure, toneMap, samples, depth, background, layer } = this.#settings;
-    this.#canvas.classList.toggle('transparent', background === 'transparent');
-    this.#session.setView({ exposure, toneMap, samples, depth, background, layer }).catch((error: unknown) => this.#fail(error));
-    if ('scale' in change) this.#resize();
-    if (['environment', 'constant', 'intensity', 'rotation'].some((name) => name in change)) this.#session.setEnvironment(this.#environments.choose(this.#settings, this.#scene));
-  }
-
   #resize(): void {
     const { clientWidth: width, clientHeight: height } = this.#stage;
     if (width === 0 || height === 0) return;
     const ratio = window.devicePixelRatio || 1;
-    this.#session.resize(filmSize(width, height, this.#settings.scale, ratio), filmSize(width, height, 'device', ratio));
-    if (this.#scene && !this.#orbit) this.#session.setCamera(this.#startCamera(this.#scene, this.#camera), false);
-    this.#showStatistics();
+    const { scale, orbit } = this.#store.state;
+    this.#session.resize(filmSize(width, height, scale, ratio), filmSize(width, height, 'device', ratio));
+    if (this.#opened && !orbit) this.#session.setCamera(this.#rig.camera(), false);
+    this.#drawBehind();
   }
 
-  async #save(button: HTMLButtonElement, format: 'png' | 'exr'): Promise<void> {
-    const { tracer } = this.#session;
-    if (!tracer) return;
-    button.disabled = true;
-    try {
-      const { exposure, toneMap } = this.#settings;
-      const bytes = format === 'png' ? await pictureAsPng(tracer, { exposure, toneMap }) : await pictureAsExr(tracer);
-      download(bytes, `${fileName(this.#title)}.${format}`, format === 'png' ? 'image/png' : 'image/x-exr');
-    } catch (error) {
-      this.#fail(error);
-    } finally {
-      button.disabled = false;
-    }
+  #drawBehind(): void {
+    const scene = this.#opened?.scene;
+    if (scene) this.#behind.draw(this.#store.state, () => this.#environments.choose(this.#store.state, scene), () => this.#rig.camera(), this.#aspect());
   }
 
-  #prepared({ stage, done }: PrepareProgress): void {
-    this.#showPreparing(STAGES[stage] ?? stage, done);
+  #told(status: SessionStatus): void {
+    this.#status.show(status);
+    for (const listener of this.#statusListeners) listener(status);
   }
 
-  #showPreparing(text: string, done?: number): void {
-    byId('preparing').hidden = false;
-    byId('preparing-text').textContent = text;
-    const bar = byId<HTMLProgressElement>('preparing-bar');
-    if (done === undefined) bar.removeAttribute('value');
-    else bar.value = done;
-  }
-
-  #showStatus({ state, samples, target, samplesPerSecond }: SessionStatus): void {
-    const { dataset } = this.#canvas;
-    dataset['state'] = state;
-    dataset['samples'] = String(samples);
-    dataset['target'] = String(target);
-    const bar = byId<HTMLProgressElement>('done');
-    bar.value = target > 0 ? Math.min(1, samples / target) : 0;
-    bar.hidden = state !== 'rendering' && state !== 'paused';
-    const count = `${samples} of ${target} samples`;
-    const left = samplesPerSecond > 0 ? ` · ${spokenRate(samplesPerSecond)} · ${spokenTime(((target - samples) / samplesPerSecond) * 1000)} left` : '';
-    const texts = { empty: '', preparing: '', rendering: `${count}${left}`, paused: `${count} · paused`, done: `${samples} samples · done`, recovering: 'Waiting for the GPU', failed: 'Stopped' };
-    byId('status').textContent = texts[state];
-  }
-
-  #showStatistics(): void {
-    const { tracer, adapterName } = this.#session;
-    if (tracer && this.#scene) this.#statistics.show(this.#scene, tracer.statistics, [tracer.width, tracer.height], adapterName);
+  #say(text: string): void {
+    this.#messages.show({ kind: 'note', text });
   }
 
   #fail(error: unknown, retry?: () => void): void {
     if (isAbort(error)) return;
     const { message, code } = describeError(error);
+    // A tracer that cannot keep the lights apart is not asked for again.
+    if (code === 'renderer/light-groups' && this.#store.state.relight) this.#store.set({ relight: false });
     this.#messages.show({ kind: 'error', text: message, code, ...(retry ? { action: { title: 'Try again', run: retry } } : {}) });
   }
 }
+
+/** Fields in which a later state differs. */
+const changedSince = (before: State, now: State): Partial<State> => Object.fromEntries((Object.keys(now) as (keyof State)[]).filter((name) => now[name] !== before[name]).map((name) => [name, now[name]])) as Partial<State>;

@@ -1,5 +1,5 @@
 import { fileURLToPath } from 'node:url';
-import type { Locator, Page } from '@playwright/test';
+import { expect, type Download, type Locator, type Page } from '@playwright/test';
 import { build, preview } from 'vite';
 
 const root = fileURLToPath(new URL('..', import.meta.url));
@@ -78,7 +78,7 @@ export function pixelsOf(page: Page, png: Buffer): Promise<Pixels> {
 }
 
 /** What lies over the picture does not belong to it. */
-const ALONE = '.status, .messages { visibility: hidden } #picture { outline: none !important }';
+const ALONE = '.status, .messages, .tools { visibility: hidden } #picture { outline: none !important }';
 
 /** The canvas as the browser's window shows it. */
 export const photograph = async (canvas: Locator): Promise<Pixels> => pixelsOf(canvas.page(), await canvas.screenshot({ style: ALONE }));
@@ -92,4 +92,44 @@ export async function drop(page: Page, files: readonly { readonly name: string; 
   }, files.map(({ name, bytes }) => ({ name, base64: bytes.toString('base64') })));
   await page.dispatchEvent('#stage', 'dragover', { dataTransfer: transfer });
   await page.dispatchEvent('#stage', 'drop', { dataTransfer: transfer });
+}
+
+export const pictureOf = (page: Page): Locator => page.locator('#picture');
+
+/** An attribute `data-…` of the picture's canvas, or nothing. */
+export const dataOf = async (page: Page, name: string): Promise<string> => (await pictureOf(page).getAttribute(`data-${name}`)) ?? '';
+
+/** Opens the page and waits for a scene and its controls. */
+export async function open(page: Page, address: string): Promise<void> {
+  await page.goto(address);
+  await expect.poll(() => dataOf(page, 'scene'), { message: 'a scene is shown' }).not.toBe('');
+  await expect(page.locator('body')).toHaveAttribute('data-panels', 'ready');
+}
+
+/** Waits for a picture with all its samples. */
+export async function finished(page: Page): Promise<void> {
+  await expect(pictureOf(page)).toHaveAttribute('data-state', 'done');
+  // The last draw comes with the next frame of the screen.
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+}
+
+/** Does something that restarts the film, and waits for the new picture. */
+export async function restarting(page: Page, action: () => Promise<unknown>): Promise<void> {
+  const before = Number(await dataOf(page, 'restarts'));
+  await action();
+  await expect.poll(async () => Number(await dataOf(page, 'restarts')), { message: 'the film starts anew' }).toBeGreaterThan(before);
+  await finished(page);
+}
+
+export const errorWith = (page: Page, code: string): Locator => page.locator(`[role=alert][data-code="${code}"]`);
+
+/** Shows one of the panels beside the picture. */
+export const tab = (page: Page, name: 'Scene' | 'Material' | 'Light' | 'Camera' | 'Render'): Promise<void> => page.getByRole('tab', { name }).click();
+
+/** Saves something by the export menu. */
+export async function save(page: Page, name: string): Promise<Download> {
+  if (!(await page.locator('#export-menu').isVisible())) await page.locator('#export').click();
+  const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: new RegExp(`^${name}`) }).click()]);
+  await page.keyboard.press('Escape');
+  return download;
 }

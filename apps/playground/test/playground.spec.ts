@@ -2,7 +2,7 @@ import { existsSync, readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { expect, test, type Page } from '@playwright/test';
 import { hdr, triangle } from './files';
-import { drop, photograph, pixelsOf, servePlayground, watch } from './page';
+import { dataOf, drop, errorWith, finished, open as openAt, photograph, pictureOf as canvasOf, pixelsOf, restarting, save, servePlayground, tab, watch } from './page';
 
 let origin = '';
 let close: () => Promise<void> = async () => undefined;
@@ -17,30 +17,7 @@ let complaints: string[] = [];
 test.beforeEach(({ page }) => void (complaints = watch(page, origin)));
 test.afterEach(() => expect(complaints).toEqual([]));
 
-const canvasOf = (page: Page) => page.locator('#picture');
-const dataOf = async (page: Page, name: string) => (await canvasOf(page).getAttribute(`data-${name}`)) ?? '';
-
-async function open(page: Page, query = 'model=cornell-box&scale=0.25&samples=4&depth=3'): Promise<void> {
-  await page.goto(`${origin}/?${query}`);
-  await expect.poll(() => dataOf(page, 'scene'), { message: 'a scene is shown' }).not.toBe('');
-}
-
-/** Waits for a picture with all its samples. */
-async function finished(page: Page): Promise<void> {
-  await expect(canvasOf(page)).toHaveAttribute('data-state', 'done');
-  // The last draw comes with the next frame of the screen.
-  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
-}
-
-/** Does something that restarts the film, and waits for the new picture. */
-async function restarting(page: Page, action: () => Promise<unknown>): Promise<void> {
-  const before = Number(await dataOf(page, 'restarts'));
-  await action();
-  await expect.poll(async () => Number(await dataOf(page, 'restarts')), { message: 'the film starts anew' }).toBeGreaterThan(before);
-  await finished(page);
-}
-
-const errorWith = (page: Page, code: string) => page.locator(`[role=alert][data-code="${code}"]`);
+const open = (page: Page, query = 'model=cornell-box&scale=0.25&samples=4&depth=3') => openAt(page, `${origin}/?${query}`);
 
 test('the Cornell box appears: light above, red left, green right; the saved picture is the one on the screen', async ({ page }) => {
   // One pixel of the film to one of the screen, so that they can be compared.
@@ -59,7 +36,7 @@ test('the Cornell box appears: light above, red left, green right; the saved pic
   expect(middle![0]).toBeGreaterThan(50);
   expect(middle![0]).toBeLessThan(235);
 
-  const [saved] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Save PNG' }).click()]);
+  const saved = await save(page, 'Save PNG');
   expect(saved.suggestedFilename()).toBe('cornell-box.png');
   const file = await pixelsOf(page, readFileSync(await saved.path()));
   const stage = (await canvasOf(page).boundingBox())!;
@@ -67,7 +44,7 @@ test('the Cornell box appears: light above, red left, green right; the saved pic
   // The tone map of the file runs on the CPU, that of the screen on the GPU.
   file.cells.forEach((cell, i) => cell.forEach((mean, k) => expect(Math.abs(mean - shown.cells[i]![k]!), `cell ${i}, channel ${k}`).toBeLessThan(1)));
 
-  const [exr] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Save EXR' }).click()]);
+  const exr = await save(page, 'Save EXR');
   const bytes = readFileSync(await exr.path());
   expect(bytes.readUInt32LE(0)).toBe(20000630);
   const header = bytes.subarray(0, 2000).toString('latin1');
@@ -86,6 +63,7 @@ test('hierarchies are built on workers, which stay for the next model', async ({
 test('exposure and tone map change the picture without starting it anew', async ({ page }) => {
   await open(page);
   await finished(page);
+  await tab(page, 'Camera');
   const [restarts, before] = [await dataOf(page, 'restarts'), await photograph(canvasOf(page))];
   await page.getByLabel('Exposure, EV').fill('2');
   await page.getByLabel('Exposure, EV').press('Tab');
@@ -125,7 +103,7 @@ test('a change that needs other shaders: a matt wall becomes a mirror', async ({
   };
   const matt = await wall();
   expect(matt[1]).toBeGreaterThan(1.3 * matt[0]);
-  await page.getByLabel('Material', { exact: true }).selectOption({ label: 'green' });
+  await page.locator('#material').selectOption({ label: 'green' });
   await page.locator('#parameter-base_color').fill('#ffffff');
   for (const [name, value] of [['specular_weight', '1'], ['specular_roughness', '0'], ['base_metalness', '1']]) {
     const box = page.locator(`.field:has(#parameter-${name}) input[type=number]`);
@@ -188,8 +166,9 @@ test('pause holds, and still shows a sample after a move', async ({ page }) => {
 test('layers: the walls have the normals that they must have, and materials have colours of their own', async ({ page }) => {
   await open(page);
   await finished(page);
+  await tab(page, 'Render');
   const layer = async (name: string) => {
-    await page.getByLabel('Show').selectOption(name);
+    await page.getByLabel('Show', { exact: true }).selectOption(name);
     await expect(canvasOf(page)).toHaveAttribute('data-layer', name);
     await finished(page);
     return photograph(canvasOf(page));
@@ -273,6 +252,7 @@ test('a dropped .hdr lights the scene and is seen behind it', async ({ page }) =
   await open(page);
   await finished(page);
   await restarting(page, () => drop(page, [{ name: 'red room.hdr', bytes: hdr([128, 16, 16, 129]) }]));
+  await tab(page, 'Light');
   await expect(page.locator('#environment option:checked')).toHaveText('red room.hdr');
   // Left of the box there is nothing but the surroundings: 1, 0.125, 0.125 through the tone map.
   const box = (await canvasOf(page).boundingBox())!;
@@ -295,7 +275,7 @@ test('a lost device is replaced, and edits survive it', async ({ page }) => {
   });
   await open(page);
   await finished(page);
-  await page.getByLabel('Material', { exact: true }).selectOption({ label: 'red' });
+  await page.locator('#material').selectOption({ label: 'red' });
   await restarting(page, () => page.locator('#parameter-base_color').fill('#2030ff'));
   const before = await photograph(canvasOf(page));
   await restarting(page, () => page.evaluate(() => (globalThis as { lastDevice?: GPUDevice }).lastDevice?.destroy()));
@@ -310,6 +290,7 @@ test('the push-button, and depth as one goes', async ({ page }) => {
   await open(page, 'model=push-button-low&scale=0.25&samples=4&depth=2');
   await finished(page);
   await expect(page.locator('[data-statistic=triangles]')).toHaveText(/^10,[5-9]\d\d$/);
+  await tab(page, 'Render');
   // A slider whose lower end has more room: its place and the number agree.
   await page.locator('#samples').fill('0.5');
   await expect(page.getByRole('spinbutton', { name: 'Samples' })).toHaveValue('513');
@@ -350,5 +331,5 @@ test('without WebGPU the page says so and what to do', async ({ page }) => {
   await expect(page.getByRole('heading', { name: 'This page needs WebGPU' })).toBeVisible();
   await expect(errorWith(page, 'renderer/no-webgpu')).toBeVisible();
   await expect(page.locator('#notice li').first()).toContainText('Chrome');
-  await expect(page.getByRole('button', { name: 'Save PNG' })).toBeDisabled();
+  await expect(page.getByRole('button', { name: 'Export' })).toBeDisabled();
 });

@@ -1,13 +1,13 @@
-import { decodeEnvironment } from '@glanz/image/environment';
 import type { Environment, LatLongEnvironment, Scene } from '@glanz/scene';
-import { studioEnvironment } from '@glanz/scene/studio';
-import type { Settings } from '../settings';
+import { STUDIOS, studioEnvironment, type SoftBox, type StudioName } from '@glanz/scene/studio';
+import type { State } from '../state/state';
 
-/** Pictures of surroundings that have been loaded or made. */
+/** Environments that have been loaded or made. */
 export class Environments {
-  #studio: LatLongEnvironment | undefined;
   #file: LatLongEnvironment | undefined;
   #fileName = '';
+  /** The last one made: turning and dimming it makes no other. */
+  #made: { readonly studio: StudioName; readonly boxes: readonly SoftBox[] | null; readonly environment: LatLongEnvironment } | undefined;
 
   /** Name of the file that was loaded, or empty. */
   get fileName(): string {
@@ -20,20 +20,29 @@ export class Environments {
    * @throws {ImageError} if it is no Radiance HDR or OpenEXR; the former picture stays.
    */
   async load(file: File): Promise<void> {
+    const { decodeEnvironment } = await import('@glanz/image/environment');
     const { width, height, data } = decodeEnvironment(new Uint8Array(await file.arrayBuffer()));
     this.#file = { type: 'latlong', width, height, data };
     this.#fileName = file.name;
   }
 
-  /** The surroundings that the settings ask for. `model` without surroundings of the model's own is the studio. */
-  choose(settings: Settings, scene: Pick<Scene, 'environment'> | undefined): Environment | undefined {
-    const { environment: choice, intensity, constant } = settings;
+  /** The environment that the state asks for. `model` without one of the model's own is the studio, as is `file` without a file. */
+  choose(state: State, scene: Pick<Scene, 'environment'> | undefined): Environment | undefined {
+    const { environment: choice, intensity, constant } = state;
     if (choice === 'none') return undefined;
     if (choice === 'constant') return { type: 'constant', radiance: [constant[0] * intensity, constant[1] * intensity, constant[2] * intensity] };
-    const rotation = (settings.rotation * Math.PI) / 180;
+    const rotation = (state.rotation * Math.PI) / 180;
     const own = choice === 'model' ? scene?.environment : choice === 'file' ? this.#file : undefined;
-    const source = own ?? (this.#studio ??= studioEnvironment());
+    const source = own ?? this.#studio(state);
     if (source.type === 'constant') return { ...source, radiance: [source.radiance[0] * intensity, source.radiance[1] * intensity, source.radiance[2] * intensity] };
     return { ...source, intensity: (source.intensity ?? 1) * intensity, rotation: (source.rotation ?? 0) + rotation };
+  }
+
+  #studio({ studio, boxes }: State): LatLongEnvironment {
+    if (this.#made?.studio !== studio || this.#made.boxes !== boxes) {
+      const setup = STUDIOS[studio] ?? STUDIOS.neutral;
+      this.#made = { studio, boxes, environment: studioEnvironment({ setup: boxes ? { ...setup, boxes } : setup }) };
+    }
+    return this.#made.environment;
   }
 }

@@ -1,4 +1,4 @@
-import type { EnvironmentChoice } from '../settings';
+import type { EnvironmentChoice } from '../state/state';
 
 interface Sample {
   readonly title: string;

@@ -1,23 +1,59 @@
-import { encodeExr } from '@glanz/image/exr';
-import { encodePng } from '@glanz/image/png';
 import type { PathTracer } from '@glanz/renderer';
 import { toneMapPixels, type ToneMapOptions } from '@glanz/tonemap';
 
-/** The picture as PNG, through the tone map. */
-export async function pictureAsPng(tracer: PathTracer, view: Required<ToneMapOptions>): Promise<Uint8Array<ArrayBuffer>> {
+/** What lies behind the model in a saved picture: sRGB codes of one colour, or of a picture of any size. */
+export type Behind = { readonly color: readonly [number, number, number] } | { readonly picture: ImageData };
+
+/** Puts straight-alpha codes over an opaque background, as the browser's window does. */
+function over(codes: Uint8ClampedArray | Uint16Array, width: number, height: number, behind: Behind): void {
+  const top = codes instanceof Uint16Array ? 65535 : 255;
+  for (let y = 0, i = 0; y < height; y++) {
+    for (let x = 0; x < width; x++, i += 4) {
+      const alpha = (codes[i + 3] as number) / top;
+      if (alpha >= 1) continue;
+      for (let k = 0; k < 3; k++) {
+        const code = 'color' in behind ? (behind.color[k] as number) : sample(behind.picture, (x + 0.5) / width, (y + 0.5) / height, k);
+        codes[i + k] = Math.round((codes[i + k] as number) * alpha + (code / 255) * top * (1 - alpha));
+      }
+      codes[i + 3] = top;
+    }
+  }
+}
+
+/** Bilinear. */
+function sample({ width, height, data }: ImageData, u: number, v: number, channel: number): number {
+  const [x, y] = [Math.max(0, Math.min(width - 1.001, u * width - 0.5)), Math.max(0, Math.min(height - 1.001, v * height - 0.5))];
+  const [i, j] = [Math.floor(x), Math.floor(y)];
+  const at = (dx: number, dy: number) => data[(Math.min(j + dy, height - 1) * width + Math.min(i + dx, width - 1)) * 4 + channel] as number;
+  const [fx, fy] = [x - i, y - j];
+  return (at(0, 0) * (1 - fx) + at(1, 0) * fx) * (1 - fy) + (at(0, 1) * (1 - fx) + at(1, 1) * fx) * fy;
+}
+
+/** The picture as PNG with 8 or 16 bits a channel, through the tone map. */
+export async function pictureAsPng(tracer: PathTracer, view: Required<ToneMapOptions>, bits: 8 | 16, behind?: Behind): Promise<Uint8Array<ArrayBuffer>> {
+  const { encodePng } = await import('@glanz/image/png');
   const { width, height, samples } = tracer;
-  const data = toneMapPixels(await tracer.read('beauty'), width, height, { ...view, output: 'uint8' });
-  return encodePng({ width, height, data: new Uint8Array(data.buffer), text: { Software: 'Glanz', Comment: `${samples} samples per pixel` } });
+  const beauty = await tracer.read('beauty');
+  const codes = bits === 8 ? toneMapPixels(beauty, width, height, { ...view, output: 'uint8' }) : toneMapPixels(beauty, width, height, { ...view, output: 'uint16' });
+  if (behind) over(codes, width, height, behind);
+  return encodePng({ width, height, data: codes, text: { Software: 'Glanz', Comment: `${samples} samples per pixel` } });
 }
 
 const plane = (data: Float32Array, channel: number) => Float32Array.from({ length: data.length / 4 }, (_, i) => data[4 * i + channel] as number);
 
-/** Everything the film knows as OpenEXR: linear radiance and the layers. */
+/** Everything the film knows as OpenEXR: linear radiance and the layers, and the light of each group where they are kept apart. */
 export async function pictureAsExr(tracer: PathTracer): Promise<Uint8Array<ArrayBuffer>> {
+  const { encodeExr } = await import('@glanz/image/exr');
   const { width, height, samples } = tracer;
   const beauty = await tracer.read('beauty');
   const albedo = await tracer.read('albedo');
   const normal = await tracer.read('normal');
+  const groups = tracer.lightGroups.length > 1 && !tracer.scene.instances.some(({ catcher }) => catcher) ? tracer.lightGroups : [];
+  const lights = [];
+  for (const { name } of groups) {
+    const light = await tracer.readLightGroup(name);
+    lights.push({ name: `light_${name.replaceAll('.', '_')}`, channels: { R: plane(light, 0), G: plane(light, 1), B: plane(light, 2) } });
+  }
   return encodeExr({
     width,
     height,
@@ -29,12 +65,13 @@ export async function pictureAsExr(tracer: PathTracer): Promise<Uint8Array<Array
       { name: 'depth', type: 'float', channels: { Z: await tracer.read('depth') } },
       { name: 'object', channels: { id: await tracer.read('objectId') } },
       { name: 'material', channels: { id: await tracer.read('materialId') } },
+      ...lights,
     ],
   });
 }
 
 /** Hands bytes to the browser's downloads. */
-export function download(bytes: Uint8Array<ArrayBuffer>, name: string, type: string): void {
+export function download(bytes: Uint8Array<ArrayBuffer> | string, name: string, type: string): void {
   const url = URL.createObjectURL(new Blob([bytes], { type }));
   const link = document.createElement('a');
   link.href = url;
@@ -45,4 +82,4 @@ export function download(bytes: Uint8Array<ArrayBuffer>, name: string, type: str
 }
 
 /** A file name out of a title. */
-export const fileName = (title: string): string => title.replace(/\.(glb|gltf)$/i, '').replace(/[^\p{L}\p{N}]+/gu, '-').replace(/^-|-$/g, '').toLowerCase() || 'picture';
+export const fileName = (title: string): string => title.replace(/\.(glb|gltf|obj|stl)$/i, '').replace(/[^\p{L}\p{N}]+/gu, '-').replace(/^-|-$/g, '').toLowerCase() || 'picture';

@@ -1,11 +1,14 @@
 import { srgbDecode, srgbEncode } from '@glanz/tonemap';
 import { element } from './elements';
+import { icon } from './icons';
 
 /** A labelled control. */
 export interface Field<T> {
   readonly element: HTMLElement;
   /** Shows another value, without telling anybody. */
   set(value: T): void;
+  /** What the way back leads to from now on; undefined takes it away. */
+  setInitial(value: T | undefined): void;
 }
 
 interface Common<T> {
@@ -14,6 +17,8 @@ interface Common<T> {
   readonly value: T;
   /** What it does, shown on hover. */
   readonly hint?: string | undefined;
+  /** What a button leads back to where the value is another one. */
+  readonly initial?: T | undefined;
   readonly onInput: (value: T) => void;
 }
 
@@ -31,14 +36,45 @@ export interface SliderOptions extends Common<number> {
   readonly whole?: boolean | undefined;
 }
 
-const row = (id: string, label: string, hint: string | undefined, ...controls: HTMLElement[]) =>
-  element('div', { class: 'field', title: hint }, element('label', { for: id }, label), ...controls);
+const same = (a: unknown, b: unknown) => JSON.stringify(a) === JSON.stringify(b);
+
+/** A row of name and controls, with the button that leads back. */
+function fieldRow<T>({ id, label, hint, initial, onInput }: Common<T>, show: (value: T) => void, ...controls: HTMLElement[]): { readonly element: HTMLElement; readonly told: (value: T) => void; readonly setInitial: (value: T | undefined) => void } {
+  const reset = element('button', { type: 'button', class: 'reset', 'aria-label': `Reset ${label}`, title: 'Reset', tabindex: -1 });
+  reset.append(icon('reset'));
+  const row = element('div', { class: 'field', title: hint }, element('label', { for: id }, label), ...controls, reset);
+  let start = initial;
+  let last: T | undefined;
+  const mark = () => {
+    const changed = start !== undefined && last !== undefined && !same(last, start);
+    row.classList.toggle('changed', changed);
+    reset.tabIndex = changed ? 0 : -1;
+  };
+  const told = (value: T) => {
+    last = value;
+    mark();
+  };
+  reset.addEventListener('click', () => {
+    if (start === undefined) return;
+    show(start);
+    onInput(start);
+  });
+  return {
+    element: row,
+    told,
+    setInitial: (value) => {
+      start = value;
+      mark();
+    },
+  };
+}
 
 /** As few digits as tell values apart. */
 const tidy = (value: number) => String(Number(value.toPrecision(4)));
 
 /** A slider and a box for the number. */
-export function sliderField({ id, label, value, hint, range: [low, high], hardRange = [low, high], step, unit, curve = 1, whole = false, onInput }: SliderOptions): Field<number> {
+export function sliderField(options: SliderOptions): Field<number> {
+  const { id, label, value, range: [low, high], hardRange = [low, high], step, unit, curve = 1, whole = false, onInput } = options;
   const span = high - low;
   const toPlace = (v: number) => Math.max(0, Math.min(1, (v - low) / span)) ** (1 / curve);
   const plain = curve === 1;
@@ -50,8 +86,11 @@ export function sliderField({ id, label, value, hint, range: [low, high], hardRa
     const text = tidy(v);
     if (except !== slider) slider.value = String(plain ? v : toPlace(v));
     if (except !== box) box.value = text;
+    slider.style.setProperty('--at', `${100 * toPlace(v)}%`);
     slider.setAttribute('aria-valuetext', unit ? `${text} ${unit}` : text);
+    row.told(v);
   };
+  const row = fieldRow(options, show, slider, box);
   slider.addEventListener('input', () => {
     const place = Number(slider.value);
     const exact = plain ? place : low + span * place ** curve;
@@ -67,9 +106,8 @@ export function sliderField({ id, label, value, hint, range: [low, high], hardRa
     onInput(clamped);
   });
   show(value);
-  const field = row(id, label, hint, slider, box);
-  if (unit) field.querySelector('label')?.append(element('span', { class: 'unit' }, ` ${unit}`));
-  return { element: field, set: (v) => show(v) };
+  if (unit) row.element.querySelector('label')?.append(element('span', { class: 'unit' }, ` ${unit}`));
+  return { element: row.element, set: (v) => show(v), setInitial: row.setInitial };
 }
 
 type Rgb = readonly [number, number, number];
@@ -81,43 +119,61 @@ export const toHex = (rgb: Rgb): string => `#${rgb.map((v) => Math.round(255 * s
 export const fromHex = (hex: string): Rgb => [1, 3, 5].map((at) => srgbDecode(Number.parseInt(hex.slice(at, at + 2), 16) / 255)) as unknown as Rgb;
 
 /** A colour, linear outside and sRGB on the screen. */
-export function colourField({ id, label, value, hint, onInput }: Common<Rgb>): Field<Rgb> {
-  const input = element('input', { type: 'color', id, value: toHex(value) });
-  const code = element('output', { for: id, class: 'code' }, toHex(value));
-  input.addEventListener('input', () => {
+export function colourField(options: Common<Rgb>): Field<Rgb> {
+  const { id, value, onInput } = options;
+  const input = element('input', { type: 'color', id });
+  const code = element('output', { for: id, class: 'code' });
+  const show = (rgb: Rgb) => {
+    input.value = toHex(rgb);
     code.textContent = input.value;
-    onInput(fromHex(input.value));
-  });
-  return {
-    element: row(id, label, hint, input, code),
-    set: (rgb) => {
-      input.value = toHex(rgb);
-      code.textContent = input.value;
-    },
+    row.told(rgb);
   };
+  const row = fieldRow(options, show, input, code);
+  input.addEventListener('input', () => {
+    const rgb = fromHex(input.value);
+    code.textContent = input.value;
+    row.told(rgb);
+    onInput(rgb);
+  });
+  show(value);
+  return { element: row.element, set: show, setInitial: row.setInitial };
 }
 
 /** A box to tick. */
-export function checkField({ id, label, value, hint, onInput }: Common<boolean>): Field<boolean> {
+export function checkField(options: Common<boolean>): Field<boolean> {
+  const { id, value, onInput } = options;
   const input = element('input', { type: 'checkbox', id });
-  input.checked = value;
-  input.addEventListener('change', () => onInput(input.checked));
-  return { element: row(id, label, hint, input), set: (checked) => void (input.checked = checked) };
+  const show = (checked: boolean) => {
+    input.checked = checked;
+    row.told(checked);
+  };
+  const row = fieldRow(options, show, input);
+  input.addEventListener('change', () => {
+    row.told(input.checked);
+    onInput(input.checked);
+  });
+  show(value);
+  return { element: row.element, set: show, setInitial: row.setInitial };
 }
 
 /** One of several. */
-export function selectField<T extends string>({ id, label, value, hint, choices, onInput }: Common<T> & { readonly choices: readonly (readonly [T, string])[] }): Field<T> & { setChoices(choices: readonly (readonly [T, string])[], value: T): void } {
+export function selectField<T extends string>(options: Common<T> & { readonly choices: readonly (readonly [T, string])[] }): Field<T> & { setChoices(choices: readonly (readonly [T, string])[], value: T): void } {
+  const { id, label, hint, choices, value, onInput } = options;
   const input = element('select', { id });
   const fill = (list: readonly (readonly [T, string])[]) => input.replaceChildren(...list.map(([key, title]) => element('option', { value: key }, title)));
   fill(choices);
   input.value = value;
   input.addEventListener('change', () => onInput(input.value as T));
   return {
-    element: row(id, label, hint, input),
+    element: element('div', { class: 'field', title: hint }, element('label', { for: id }, label), input),
     set: (key) => void (input.value = key),
+    setInitial: () => undefined,
     setChoices: (list, key) => {
       fill(list);
       input.value = key;
     },
   };
 }
+
+/** A heading over some fields. */
+export const section = (title: string, ...children: (Node | string)[]): HTMLElement => element('section', { class: 'section' }, element('h3', {}, title), ...children);

@@ -5,6 +5,8 @@ export interface Message {
   readonly text: string;
   /** The error's code, for tests and reports. */
   readonly code?: string;
+  /** Whether a note stays until it is closed. */
+  readonly stays?: boolean;
   readonly action?: { readonly title: string; readonly run: () => void };
 }
 
@@ -21,7 +23,7 @@ export class Messages {
     this.#region = region;
   }
 
-  show({ kind, text, code, action }: Message): void {
+  show({ kind, text, code, stays, action }: Message): void {
     const close = element('button', { type: 'button', class: 'close', 'aria-label': 'Close this message' }, '×');
     const message = element('div', { class: `message ${kind}`, role: kind === 'error' ? 'alert' : 'status', 'data-code': code }, element('p', {}, text));
     close.addEventListener('click', () => message.remove());
@@ -38,7 +40,7 @@ export class Messages {
     for (const other of this.#region.children) if (other.querySelector('p')?.textContent === text) other.remove();
     this.#region.append(message);
     while (this.#region.children.length > MOST) this.#region.firstElementChild?.remove();
-    if (kind === 'note') setTimeout(() => message.remove(), NOTE_MS);
+    if (kind === 'note' && !stays) setTimeout(() => message.remove(), NOTE_MS);
   }
 
   /** Removes errors: what they spoke of is over. */

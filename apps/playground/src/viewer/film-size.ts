@@ -1,4 +1,4 @@
-import type { Scale } from '../settings';
+import type { Scale } from '../state/state';
 
 /** Film pixels at most: beyond, a sample of a large window takes too long to be called interactive. */
 const MAX_PIXELS = 8_294_400;

@@ -1,4 +1,5 @@
 import type { Camera, SceneBounds } from '@glanz/scene';
+import type { OrbitView } from '../state/state';
 
 type Vector = readonly [number, number, number];
 
@@ -48,6 +49,21 @@ export class OrbitCamera {
     this.#target = add(eye, back, -this.#distance);
     this.#yaw = Math.atan2(back[0], back[2]);
     this.#pitch = Math.max(-STEEPEST, Math.min(STEEPEST, Math.asin(Math.max(-1, Math.min(1, back[1])))));
+  }
+
+  /** Where it is, to be kept and given to {@link restore}. */
+  get view(): OrbitView {
+    return { target: this.#target, distance: this.#distance, yaw: this.#yaw, pitch: this.#pitch, zoom: this.#zoom };
+  }
+
+  /** Goes back to where it was. */
+  restore({ target, distance, yaw, pitch, zoom }: OrbitView): this {
+    this.#target = target;
+    this.#distance = distance;
+    this.#yaw = yaw;
+    this.#pitch = Math.max(-STEEPEST, Math.min(STEEPEST, pitch));
+    this.#zoom = zoom;
+    return this;
   }
 
   /** Turns about the target; radians, positive to the right and up around the model. */

@@ -5,7 +5,7 @@ import { arcSegments, circleSegments, type Tessellation } from '../shapes/tessel
 import type { Part } from './part';
 
 /** An open ring seen from the front, the arc of a power sign, at any inset. */
-function openRing(inner: number, outer: number, gap: number, tessellation: Tessellation): InsetOutline {
+export function openRing(inner: number, outer: number, gap: number, tessellation: Tessellation): InsetOutline {
   const steps = arcSegments(outer, 2 * Math.PI - 2 * gap, tessellation);
   return (inset) => {
     const arc = (radius: number, sign: 1 | -1) => {

@@ -11,7 +11,7 @@ import { placementMatrix, type Part } from './part';
 export type PushButtonLevel = 'high' | 'medium' | 'low';
 
 /** The tessellation behind each level, found by search so that the counts come within 1 % of the wanted ones. */
-const LEVELS: Readonly<Record<PushButtonLevel, Tessellation>> = {
+export const PUSH_BUTTON_LEVELS: Readonly<Record<PushButtonLevel, Tessellation>> = {
   high: { deviation: 0.00101, angle: 0.2 },
   medium: { deviation: 0.017, angle: 0.53 },
   low: { deviation: 0.1165, angle: 0.8 },
@@ -30,11 +30,11 @@ function lookAt(eye: readonly [number, number, number], target: readonly [number
   return { type: 'perspective', name: 'Product view', transform: [...x, 0, ...y, 0, ...z, 0, ...eye, 1], yfov, focus_distance: distance };
 }
 
-/** {@link createPushButton} with a tessellation of one's own. */
-export function buildPushButton(tessellation: Tessellation): Scene {
-  const scene = createScene('Illuminated push-button');
+/** A scene of parts, one mesh each, with the product view. */
+export function assemble(name: string, parts: readonly Part[], tessellation: Tessellation): Scene {
+  const scene = createScene(name);
   const materials = new Map<MaterialName, number>();
-  for (const part of PARTS) {
+  for (const part of parts) {
     const builder = new MeshBuilder();
     part.shape(builder, tessellation);
     let material = materials.get(part.material);
@@ -50,6 +50,9 @@ export function buildPushButton(tessellation: Tessellation): Scene {
   return scene;
 }
 
+/** {@link createPushButton} with a tessellation of one's own. */
+export const buildPushButton = (tessellation: Tessellation): Scene => assemble('Illuminated push-button', PARTS, tessellation);
+
 /**
  * An illuminated industrial push-button, 22 mm, taken apart into named solids: bezel, light ring, lens with its sign,
  * seal, mounting plate, threaded barrel, washer, collar nut, flange, latch, springs, three contact blocks with terminals,
@@ -60,5 +63,5 @@ export function buildPushButton(tessellation: Tessellation): Scene {
  * const scene = createPushButton({ level: 'medium' });
  */
 export function createPushButton(options: { readonly level?: PushButtonLevel } = {}): Scene {
-  return buildPushButton(LEVELS[options.level ?? 'medium']);
+  return buildPushButton(PUSH_BUTTON_LEVELS[options.level ?? 'medium']);
 }

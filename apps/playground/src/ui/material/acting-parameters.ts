@@ -1,4 +1,4 @@
-import { openpbr, openpbrEmission, openpbrOpacity, OPENPBR_PARAMETERS, openPbrStruct, type OpenPbrParameterInfo } from '@glanz/openpbr';
+import { openpbr, openpbrEmission, openpbrOpacity, OPENPBR_PARAMETERS, openPbrStruct, type OpenPbrParameterName } from '@glanz/openpbr';
 import type { WgslModule } from '@glanz/wgsl';
 
 /** All WGSL text of modules and what they need, the parameter record itself left out. */
@@ -12,9 +12,9 @@ function textOf(roots: readonly WgslModule[]): string {
   return roots.map(visit).join('');
 }
 
-/** The parameters that change the picture: those that the shaders read. A control that does nothing would be a lie. */
-export function actingParameters(): OpenPbrParameterInfo[] {
+/** Names of the parameters that change the picture: those that the shaders read. Others are kept for files and said to be. */
+export function actingParameters(): ReadonlySet<OpenPbrParameterName> {
   const text = textOf([openpbr, openpbrEmission, openpbrOpacity]);
-  const infos: OpenPbrParameterInfo[] = Object.values(OPENPBR_PARAMETERS);
-  return infos.filter(({ name, type }) => type !== 'vector3' && new RegExp(`\\.${name}\\b`).test(text));
+  const names = Object.keys(OPENPBR_PARAMETERS) as OpenPbrParameterName[];
+  return new Set(names.filter((name) => OPENPBR_PARAMETERS[name].type === 'vector3' || new RegExp(`\\.${name}\\b`).test(text)));
 }

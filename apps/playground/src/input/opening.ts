@@ -1,0 +1,72 @@
+import type { Scene } from '@glanz/scene';
+import { decodeLink, type LinkContent } from '../state/link';
+import { forAnotherModel, type State, type Values } from '../state/state';
+import { loadScene } from './load-scene';
+import type { LoadRequest } from './load-messages';
+import { SAMPLES, type SampleName } from './samples';
+
+/** A model as it was loaded. */
+export interface Opened {
+  readonly scene: Scene;
+  readonly request: LoadRequest;
+  readonly title: string;
+  /** Name in links: that of the sample, or of the file. */
+  readonly name: string;
+}
+
+export const isSample = (name: string): name is SampleName => Object.hasOwn(SAMPLES, name);
+
+/** Short title of a sample. */
+export const sampleTitle = (name: SampleName): string => SAMPLES[name].title.split(' · ')[0] as string;
+
+/** What a request is called in links. */
+export const nameOf = (request: LoadRequest): string => (request.kind === 'sample' ? request.name : (request.entry.split('/').at(-1) ?? request.entry));
+
+/**
+ * The state in which a model is first seen.
+ *
+ * @param before The state until now.
+ * @param link What a link says of this model, which goes over all else.
+ * @param first Whether nothing was shown before: the address decides then, later the model.
+ */
+export function stateFor(scene: Scene, request: LoadRequest, before: State, { link, first }: { readonly link?: LinkContent | undefined; readonly first: boolean }): State {
+  const wanted = request.kind === 'sample' ? SAMPLES[request.name].environment : scene.environment ? 'model' : before.environment === 'none' || before.environment === 'model' ? 'studio' : before.environment;
+  // A picture that the user brought lights whatever comes.
+  const environment = first || before.environment === 'file' ? before.environment : wanted;
+  const state: State = { ...forAnotherModel(before), environment, camera: scene.cameras.length > 0 ? 0 : -1 };
+  if (link?.model !== nameOf(request)) return state;
+  const { materials = {}, hidden = [], variant = null, ...others } = link.state;
+  return {
+    ...state,
+    ...others,
+    materials: checkedMaterials(scene, materials),
+    hidden: hidden.filter((index) => Number.isInteger(index) && scene.instances[index] !== undefined),
+    variant: scene.variants?.includes(variant ?? '') ? variant : null,
+    camera: scene.cameras[link.state.camera ?? state.camera] ? (link.state.camera ?? state.camera) : -1,
+  };
+}
+
+function checkedMaterials(scene: Scene, materials: State['materials']): State['materials'] {
+  return Object.fromEntries(Object.entries(materials).filter(([index, values]) => scene.materials[Number(index)] && typeof values === 'object' && values !== null));
+}
+
+/** The link in the page's address, with values of materials that its table allows. */
+export async function linkOfPage(): Promise<LinkContent | undefined> {
+  const link = await decodeLink(location.hash);
+  if (!link?.state.materials) return link;
+  const { validateParameters } = await import('@glanz/openpbr/parameters');
+  const materials: Record<string, Values> = {};
+  for (const [index, values] of Object.entries(link.state.materials)) {
+    try {
+      materials[index] = validateParameters(values).parameters;
+    } catch {
+      // A value of another type: the material stays as it is.
+    }
+  }
+  return { ...link, state: { ...link.state, materials } };
+}
+
+/** Loads what a request asks for. */
+export async function open(request: LoadRequest, title: string, options: Parameters<typeof loadScene>[1]): Promise<Opened> {
+  return { scene: await loadScene(request, options), request, title, name: nameOf(request) };
+}

@@ -1,0 +1,27 @@
+import { OPENPBR_PARAMETERS } from '@glanz/openpbr/parameters';
+import type { Image, TexturedParameter } from '@glanz/scene';
+import { PlaygroundError } from '../errors';
+import type { Slot } from '../state/state';
+
+export const PICTURE = /\.(png|jpe?g|webp|avif|gif|bmp)$/i;
+
+/**
+ * Decodes a picture for a texture.
+ *
+ * @throws {PlaygroundError} `playground/picture` where the browser cannot read it.
+ */
+export async function readPicture(file: File): Promise<Image> {
+  const { decodeImageInBrowser } = await import('@glanz/gltf');
+  try {
+    const { width, height, data } = await decodeImageInBrowser(new Uint8Array(await file.arrayBuffer()), file.type || 'application/octet-stream');
+    return { name: file.name, width, height, data: data as Image['data'] };
+  } catch {
+    throw new PlaygroundError('playground/picture', `"${file.name}" is no picture that this browser can read: use PNG, JPEG, WebP or AVIF.`);
+  }
+}
+
+/** The picture as it drives a parameter: colours as sRGB, numbers by their red channel. */
+export function slotOf(image: Image, parameter: TexturedParameter): NonNullable<Slot> {
+  const { type } = OPENPBR_PARAMETERS[parameter];
+  return { image, color_space: type === 'color3' ? 'srgb' : 'linear', binding: { channels: type === 'float' ? 'r' : 'rgb' } };
+}

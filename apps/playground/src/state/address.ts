@@ -1,0 +1,35 @@
+import { TONE_MAPS } from '@glanz/tonemap';
+import { SAMPLES, type SampleName } from '../input/samples';
+import { LAYERS } from '../output/layers';
+import { BACKGROUNDS, ENVIRONMENT_CHOICES, initialState, SCALES, type State } from './state';
+
+const number = (text: string | null, low: number, high: number, initial: number, whole = false): number => {
+  const value = text === null || text === '' ? Number.NaN : Number(text);
+  if (!Number.isFinite(value)) return initial;
+  const clamped = Math.min(Math.max(value, low), high);
+  return whole ? Math.round(clamped) : clamped;
+};
+
+const one = <T extends string>(text: string | null, choices: readonly T[], initial: T): T => choices.find((choice) => choice === text) ?? initial;
+
+/** The first state by the page's query, e.g. `?model=cornell-box&samples=64&scale=0.5`: what a person would type. */
+export function stateFromQuery(search: string): { readonly model: SampleName; readonly state: State } {
+  const query = new URLSearchParams(search);
+  const model = one(query.get('model'), Object.keys(SAMPLES) as SampleName[], 'push-button');
+  const initial = initialState(SAMPLES[model].environment);
+  const state: State = {
+    ...initial,
+    samples: number(query.get('samples'), 1, 65536, initial.samples, true),
+    noise: number(query.get('noise'), 0, 1, 0),
+    depth: number(query.get('depth'), 1, 64, initial.depth, true),
+    scale: one(query.get('scale'), SCALES, initial.scale),
+    environment: one(query.get('environment'), ENVIRONMENT_CHOICES, initial.environment),
+    intensity: number(query.get('intensity'), 0, 10, 1),
+    rotation: number(query.get('rotation'), -180, 180, 0),
+    background: one(query.get('background'), BACKGROUNDS, 'environment'),
+    exposure: number(query.get('exposure'), -8, 8, 0),
+    toneMap: one(query.get('tonemap'), TONE_MAPS, 'neutral'),
+    layer: one(query.get('layer'), LAYERS, 'beauty'),
+  };
+  return { model, state };
+}

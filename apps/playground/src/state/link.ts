@@ -1,0 +1,66 @@
+import { initialState, type State } from './state';
+
+/** What a link holds beside the state. */
+export interface LinkContent {
+  /** Name of a sample, or of the file that the edits belong to. */
+  readonly model: string;
+  readonly state: Partial<State>;
+}
+
+/** The format of links; others are not read. */
+const VERSION = 'v1.';
+/** A link longer than this is broken by some programs that pass it on. */
+export const LONGEST_LINK = 8000;
+/** Pictures do not fit into an address; the file that lights the scene does not either, but its name would say nothing. */
+const LEFT_OUT: readonly (keyof State)[] = ['slots', 'layer'];
+
+const equal = (a: unknown, b: unknown) => JSON.stringify(a) === JSON.stringify(b);
+/** Six digits are more than a slider gives. */
+const rounded = (_: string, value: unknown) => (typeof value === 'number' && Number.isFinite(value) ? Number(value.toPrecision(6)) : value);
+
+/** The fields in which a state differs from what a picture begins with. */
+export function difference(state: State): Partial<State> {
+  const initial = initialState(state.environment);
+  // The environment itself is what samples differ in.
+  const names = (Object.keys(initial) as (keyof State)[]).filter((name) => !LEFT_OUT.includes(name) && (name === 'environment' || !equal(state[name], initial[name])));
+  return Object.fromEntries(names.map((name) => [name, state[name]])) as Partial<State>;
+}
+
+async function through(bytes: Uint8Array<ArrayBuffer>, stream: CompressionStream | DecompressionStream): Promise<Uint8Array<ArrayBuffer>> {
+  return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
+}
+
+/** The part of an address behind `#`: versioned, deflated JSON in the alphabet that addresses take. */
+export async function encodeLink({ model, state }: LinkContent): Promise<string> {
+  const json = JSON.stringify({ m: model, s: state }, rounded);
+  const packed = await through(new TextEncoder().encode(json), new CompressionStream('deflate-raw'));
+  const text = btoa(Array.from(packed, (byte) => String.fromCharCode(byte)).join(''));
+  return VERSION + text.replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '');
+}
+
+/** @returns Undefined where the text is no link of this format, or is broken. */
+export async function decodeLink(text: string): Promise<LinkContent | undefined> {
+  const body = text.replace(/^#/, '');
+  if (!body.startsWith(VERSION)) return undefined;
+  try {
+    const bytes = Uint8Array.from(atob(body.slice(VERSION.length).replaceAll('-', '+').replaceAll('_', '/')), (c) => c.charCodeAt(0));
+    const json = JSON.parse(new TextDecoder().decode(await through(bytes, new DecompressionStream('deflate-raw')))) as { m?: unknown; s?: unknown };
+    if (typeof json.m !== 'string' || typeof json.s !== 'object' || json.s === null) return undefined;
+    return { model: json.m, state: wellFormed(json.s as Record<string, unknown>) };
+  } catch {
+    return undefined;
+  }
+}
+
+/** Only known fields whose values are of the kind that the initial state has: an address comes from anywhere. */
+function wellFormed(given: Record<string, unknown>): Partial<State> {
+  const initial = initialState('studio') as unknown as Record<string, unknown>;
+  const nullable = new Set(['orbit', 'boxes', 'variant', 'clip']);
+  const kind = (value: unknown) => (Array.isArray(value) ? `array${value.every((one) => typeof one === 'number' && Number.isFinite(one)) ? '' : ' of others'}` : value === null ? 'null' : typeof value);
+  const fits = (name: string, value: unknown) => {
+    if (nullable.has(name)) return value === null || ['object', 'string', 'number', 'array of others', 'array'].includes(kind(value));
+    if (typeof value === 'number' && !Number.isFinite(value)) return false;
+    return kind(value) === kind(initial[name]) && (!Array.isArray(value) || name === 'hidden' || value.length === (initial[name] as unknown[]).length);
+  };
+  return Object.fromEntries(Object.entries(given).filter(([name, value]) => Object.hasOwn(initial, name) && fits(name, value))) as Partial<State>;
+}

@@ -1,0 +1,73 @@
+import type { Selection } from '../selection';
+import type { State } from '../state/state';
+import type { Store } from '../state/store';
+import type { CameraRig } from '../viewer/camera-rig';
+import type { Session } from '../viewer/session';
+import { byId } from './elements';
+import { fillKeysDialog, wireShortcuts, type Shortcut } from './shortcuts';
+
+export interface CommandHost {
+  readonly store: Store<State>;
+  readonly session: Session;
+  readonly rig: CameraRig;
+  readonly selection: Selection;
+  readonly canvas: HTMLCanvasElement;
+  readonly say: (text: string) => void;
+}
+
+/** The tools over the picture and the keys that do the same. */
+export function wireCommands({ store, session, rig, selection, canvas, say }: CommandHost): void {
+  const undo = () => void store.undo();
+  const redo = () => void store.redo();
+  const pause = () => {
+    session.setPaused(!session.paused);
+    byId('pause').setAttribute('aria-pressed', String(session.paused));
+  };
+  const focus = () => {
+    const on = canvas.classList.toggle('focusing');
+    byId('focus').setAttribute('aria-pressed', String(on));
+    if (on) say('Click what should be sharp.');
+  };
+  const turn = (degrees: number) => {
+    const rotation = ((((store.state.rotation + degrees + 180) % 360) + 360) % 360) - 180;
+    store.set({ rotation }, { label: 'Environment rotation' });
+  };
+  const dialog = byId<HTMLDialogElement>('keys-dialog');
+  const hide = () => {
+    const { instance } = selection.chosen;
+    if (instance !== undefined && !store.state.hidden.includes(instance)) store.set({ hidden: [...store.state.hidden, instance] }, { label: 'Hide part' });
+  };
+  const shortcuts: Shortcut[] = [
+    { keys: ['mod+z'], title: 'Undo', run: undo },
+    { keys: ['mod+shift+z', 'mod+y'], title: 'Redo', run: redo },
+    { keys: [' '], title: 'Pause', run: pause },
+    { keys: ['0', 'home'], title: 'Reset view', run: () => rig.choose(store.state.camera) },
+    { keys: ['f'], title: 'Frame the chosen part', run: () => rig.frame(selection.chosen.instance) },
+    { keys: ['d'], title: 'Focus by click', run: focus },
+    { keys: ['h'], title: 'Hide the chosen part', run: hide },
+    { keys: ['shift+h', 'j'], title: 'Show all parts', run: () => store.set({ hidden: [] }, { label: 'Show all' }) },
+    { keys: ['1'], title: 'View from the front', run: () => rig.look('front') },
+    { keys: ['3'], title: 'View from the right', run: () => rig.look('right') },
+    { keys: ['7'], title: 'View from the top', run: () => rig.look('top') },
+    { keys: ['9'], title: 'View from the corner', run: () => rig.look('corner') },
+    { keys: ['5'], title: 'Perspective or orthographic', run: () => store.set({ lens: { ...store.state.lens, projection: store.state.lens.projection === 'perspective' ? 'orthographic' : 'perspective' } }, { label: 'Projection' }) },
+    { keys: ['l'], title: 'Turn the environment to the left', run: () => turn(10) },
+    { keys: [';'], title: 'Turn the environment to the right', run: () => turn(-10) },
+    { keys: ['e'], title: 'Export', run: () => byId('export-menu').showPopover() },
+    { keys: ['?'], title: 'These keys', run: () => dialog.showModal() },
+  ];
+  wireShortcuts(shortcuts);
+  fillKeysDialog(dialog, shortcuts);
+  byId('help').addEventListener('click', () => dialog.showModal());
+  for (const [id, run] of [['undo', undo], ['redo', redo], ['pause', pause], ['home', () => rig.choose(store.state.camera)], ['fit', () => rig.frame(selection.chosen.instance)], ['focus', focus]] as const) byId(id).addEventListener('click', run);
+  const mark = () => {
+    for (const [id, name, label] of [['undo', 'Undo', store.undoLabel], ['redo', 'Redo', store.redoLabel]] as const) {
+      const button = byId<HTMLButtonElement>(id);
+      button.disabled = label === undefined;
+      button.title = label === undefined ? name : `${name}: ${label}`;
+      button.setAttribute('aria-label', button.title);
+    }
+  };
+  store.subscribe(mark);
+  mark();
+}

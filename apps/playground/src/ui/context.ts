@@ -1,0 +1,44 @@
+import type { Opened } from '../input/opening';
+import type { Environments } from '../input/environments';
+import type { Selection } from '../selection';
+import type { State } from '../state/state';
+import type { ChangeOptions, Store } from '../state/store';
+import type { CameraRig } from '../viewer/camera-rig';
+import type { Session, SessionStatus } from '../viewer/session';
+
+/** What panels know of the page, and what they may ask it. */
+export interface Context {
+  readonly store: Store<State>;
+  readonly selection: Selection;
+  readonly session: Session;
+  readonly rig: CameraRig;
+  readonly environments: Environments;
+  /** The model that is shown; panels are made after the first one. */
+  readonly opened: () => Opened;
+  /** Told when another model is shown. */
+  readonly onModel: (listener: () => void) => void;
+  readonly onStatus: (listener: (status: SessionStatus) => void) => void;
+  readonly openFiles: (files: ReadonlyMap<string, File>) => void;
+  readonly pickFiles: () => void;
+  /** Loads the model again, posed by the state's animation. */
+  readonly pose: () => void;
+  readonly say: (text: string) => void;
+  readonly fail: (error: unknown) => void;
+  /** Size of the stage, CSS pixels. */
+  readonly stageSize: () => readonly [number, number];
+}
+
+/** Changes one field of the state as a step of undo. */
+export const changer =
+  (store: Store<State>) =>
+  <K extends keyof State>(name: K, label: string) =>
+  (value: State[K]): void =>
+    store.set({ [name]: value } as Pick<State, K>, { label } satisfies ChangeOptions);
+
+/** Calls a listener now and whenever one of the fields has changed. */
+export function watch(store: Store<State>, fields: readonly (keyof State)[], listener: (state: State) => void): void {
+  listener(store.state);
+  store.subscribe((next, before) => {
+    if (fields.some((field) => next[field] !== before[field])) listener(next);
+  });
+}

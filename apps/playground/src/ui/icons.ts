@@ -1,0 +1,24 @@
+/** Paths on a grid of 20 × 20, drawn with a stroke of the text's colour. */
+const PATHS = {
+  reset: 'M5 6.5A6.5 6.5 0 1 1 3.5 10M5 2.500v4h4',
+  eye: 'M2 10s3-5.5 8-5.500S18 10 18 10s-3 5.5-8 5.500S2 10 2 10zM10 7.600a2.4 2.4 0 1 0 0 4.8 2.4 2.4 0 1 0 0-4.8',
+  eyeOff: 'M3 10c1.5 2.7 4 4.3 7 4.300S15.5 12.7 17 10M5.5 12.800L4.2 15M10 14.500V17M14.5 12.800l1.3 2.2',
+  image: 'M3 4.500h14v11H3zM3 13l4-4 4 4 2.5-2.500L17 14M13 7.500v.2',
+  plus: 'M10 4.500v11M4.5 10h11',
+  bin: 'M4.5 6h11M8 6V4h4v2M6 6l.7 10h6.600L14 6',
+  copy: 'M7 7h9v9H7zM13 7V4H4v9h3',
+} as const;
+export type IconName = keyof typeof PATHS;
+
+/** An icon; it says nothing to those who cannot see it, so its button needs a name. */
+export function icon(name: IconName): SVGSVGElement {
+  const space = 'http://www.w3.org/2000/svg';
+  const svg = document.createElementNS(space, 'svg');
+  svg.setAttribute('viewBox', '0 0 20 20');
+  svg.setAttribute('class', 'icon');
+  svg.setAttribute('aria-hidden', 'true');
+  const path = document.createElementNS(space, 'path');
+  path.setAttribute('d', PATHS[name]);
+  svg.append(path);
+  return svg;
+}

@@ -1,0 +1,64 @@
+import type { OpenPbrParameterName } from '@glanz/openpbr/parameters';
+import type { TexturedParameter } from '@glanz/scene';
+import { readPicture, slotOf } from '../../input/picture-file';
+import type { Context } from '../context';
+import { element } from '../elements';
+import { icon } from '../icons';
+import { editSlot, slotState } from './edits';
+
+/** The button on a parameter's row that puts a picture on it; pictures may be dropped on the row as well. */
+export function textureSlot(context: Context, index: number, name: OpenPbrParameterName, title: string, row: HTMLElement): () => void {
+  const { store, opened, fail, say } = context;
+  const material = opened().scene.materials[index];
+  if (!material) return () => undefined;
+  const parameter = name as TexturedParameter;
+  const picker = element('input', { type: 'file', accept: 'image/*', hidden: true, 'aria-label': `Texture of ${title}` });
+  const button = element('button', { type: 'button', class: 'slot', 'aria-label': `Texture for ${title}`, title: 'Put a picture on this parameter' }, icon('image'));
+  const told = element('span', { class: 'slot-name' });
+  const take = async (file: File) => {
+    try {
+      const image = await readPicture(file);
+      editSlot(store, material, index, parameter, slotOf(image, parameter));
+      const { scene } = opened();
+      if (!scene.instances.some((instance) => instance.material === index && (scene.meshes[instance.mesh]?.uvs?.length ?? 0) > 0)) say(`No part of "${material.name}" has UV coordinates: the picture shows only its corner’s colour.`);
+    } catch (error) {
+      fail(error);
+    }
+  };
+  button.addEventListener('click', () => {
+    if (slotState(store.state, material, index, name)) editSlot(store, material, index, parameter, null);
+    else picker.click();
+  });
+  picker.addEventListener('change', () => {
+    const file = picker.files?.[0];
+    picker.value = '';
+    if (file) void take(file);
+  });
+  const carries = (event: DragEvent) => event.dataTransfer?.types.includes('Files') ?? false;
+  row.addEventListener('dragover', (event) => {
+    if (!carries(event)) return;
+    event.preventDefault();
+    row.classList.add('dropping');
+  });
+  row.addEventListener('dragleave', () => row.classList.remove('dropping'));
+  row.addEventListener('drop', (event) => {
+    row.classList.remove('dropping');
+    const file = [...(event.dataTransfer?.files ?? [])].find(({ type }) => type.startsWith('image/'));
+    // Anything else is for the page.
+    if (!file) return;
+    event.preventDefault();
+    event.stopPropagation();
+    window.dispatchEvent(new Event('dropped'));
+    void take(file);
+  });
+  row.querySelector('label, .label')?.after(button);
+  row.append(picker, told);
+  return () => {
+    const slot = slotState(store.state, material, index, name);
+    button.setAttribute('aria-pressed', String(slot !== undefined));
+    button.setAttribute('aria-label', slot ? `Remove the texture of ${title}` : `Texture for ${title}`);
+    button.title = slot ? 'Remove the picture' : 'Put a picture on this parameter';
+    told.hidden = slot === undefined;
+    told.textContent = slot ? `× ${slot.name}` : '';
+  };
+}

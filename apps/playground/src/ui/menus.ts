@@ -1,0 +1,89 @@
+import { download, fileName, pictureAsExr, pictureAsPng, type Behind } from '../output/save';
+import { encodeLink, difference, LONGEST_LINK } from '../state/link';
+import type { Context } from './context';
+import { byId, element } from './elements';
+
+/** One line of a menu: what it does, and a word about it. */
+function item(id: string, title: string, note: string, run: () => void | Promise<void>, fail: (error: unknown) => void): HTMLButtonElement {
+  const button = element('button', { type: 'button', class: 'item', id }, title, element('small', {}, note));
+  button.addEventListener('click', async () => {
+    button.disabled = true;
+    try {
+      await run();
+    } catch (error) {
+      fail(error);
+    } finally {
+      button.disabled = false;
+    }
+  });
+  return button;
+}
+
+/** Pictures, models and materials to keep. */
+export function exportMenu(context: Context, behind: () => Behind | undefined): HTMLElement[] {
+  const { session, store, opened, selection, fail } = context;
+  const name = () => fileName(opened().title);
+  const png = (bits: 8 | 16) => async () => {
+    const { tracer } = session;
+    const { exposure, toneMap } = store.state;
+    if (tracer) download(await pictureAsPng(tracer, { exposure, toneMap }, bits, behind()), `${name()}.png`, 'image/png');
+  };
+  return [
+    element('h3', {}, 'Picture'),
+    item('save-png', 'Save PNG', '8 bits, as on the screen', png(8), fail),
+    item('save-png-16', 'Save 16-bit PNG', 'Tone-mapped, for retouching', png(16), fail),
+    item('save-exr', 'Save EXR', 'Linear light, with all layers and lights', async () => {
+      if (session.tracer) download(await pictureAsExr(session.tracer), `${name()}.exr`, 'image/x-exr');
+    }, fail),
+    element('h3', {}, 'Model'),
+    item('save-gltf', 'Save glTF', 'The model with its materials as edited', async () => {
+      const { modelAsGltf } = await import('../output/gltf-materials');
+      const { bytes, extension } = await modelAsGltf(opened(), store.state);
+      download(bytes, `${name()}-edited.${extension}`, extension === 'glb' ? 'model/gltf-binary' : 'model/gltf+json');
+    }, fail),
+    item('save-mtlx', 'Save MaterialX', 'The chosen material as .mtlx', async () => {
+      const { materialAsMaterialX } = await import('../output/materialx');
+      const { scene } = opened();
+      const { material } = selection.chosen;
+      download(materialAsMaterialX(scene, store.state, material), `${fileName(scene.materials[material]?.name ?? 'material')}.mtlx`, 'application/xml');
+    }, fail),
+  ];
+}
+
+/** The address of the view as it is. */
+export async function linkTo(context: Context): Promise<string> {
+  const link = await encodeLink({ model: context.opened().name, state: difference(context.store.state) });
+  return `${location.origin}${location.pathname}#${link}`;
+}
+
+async function copy(text: string, say: (text: string) => void, what: string): Promise<void> {
+  await navigator.clipboard.writeText(text);
+  say(`${what} is on the clipboard.`);
+}
+
+/** A link to the view, and a program that makes the same picture. */
+export function shareMenu(context: Context): HTMLElement[] {
+  const { store, opened, rig, session, say, fail } = context;
+  const code = element('pre', { class: 'snippet', id: 'snippet', tabindex: 0, 'aria-label': 'Code that makes this picture' });
+  const note = element('p', { class: 'note', id: 'share-note' });
+  byId('share-menu').addEventListener('toggle', (event) => {
+    if ((event as ToggleEvent).newState !== 'open') return;
+    const { scene, name, request } = opened();
+    note.textContent = request.kind === 'files' ? `The link holds camera, materials and light, not "${name}" itself: whoever opens it drops the file.` : '';
+    void import('../output/snippet').then(({ codeSnippet }) => {
+      const { tracer } = session;
+      code.textContent = codeSnippet(scene, name, store.state, rig.camera(), tracer ? [tracer.width, tracer.height] : [1024, 768]);
+    }, fail);
+  });
+  return [
+    element('h3', {}, 'Link'),
+    item('copy-link', 'Copy link', 'Camera, materials, light and settings', async () => {
+      const link = await linkTo(context);
+      await copy(link, say, link.length > LONGEST_LINK ? 'The link, which is too long for some programs,' : 'The link');
+    }, fail),
+    note,
+    element('h3', {}, 'Code'),
+    item('copy-code', 'Copy code', 'TypeScript that makes the same picture', () => copy(code.textContent ?? '', say, 'The code'), fail),
+    code,
+  ];
+}

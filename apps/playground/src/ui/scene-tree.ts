@@ -1,0 +1,113 @@
+import type { Context } from './context';
+import { element } from './elements';
+import { toHex } from './fields';
+import { icon } from './icons';
+import { currentValue } from './material/edits';
+
+/** More rows than this are found by searching. */
+const MOST_ROWS = 400;
+
+/** The parts of a scene: a click chooses one, the eye hides it, Alt and the eye hide all others. */
+export class SceneTree {
+  readonly elements: readonly HTMLElement[];
+  readonly #context: Context;
+  readonly #search = element('input', { type: 'search', id: 'part-search', placeholder: 'Search parts', 'aria-label': 'Search parts' });
+  readonly #order = element('select', { id: 'part-order', 'aria-label': 'Order of parts' }, element('option', { value: 'file' }, 'As in file'), element('option', { value: 'material' }, 'By material'));
+  readonly #list = element('ul', { class: 'tree', id: 'parts', 'aria-label': 'Parts' });
+  readonly #showAll = element('button', { type: 'button', id: 'show-all', class: 'quiet', hidden: true }, 'Show all');
+  #rows = new Map<number, HTMLElement>();
+
+  constructor(context: Context) {
+    this.#context = context;
+    const { store, selection, onModel } = context;
+    this.elements = [element('div', { class: 'tree-bar' }, this.#search, this.#order), element('div', { class: 'tree-bar' }, this.#showAll), this.#list];
+    this.#search.addEventListener('input', () => this.#fill());
+    this.#order.addEventListener('change', () => this.#fill());
+    this.#showAll.addEventListener('click', () => store.set({ hidden: [] }, { label: 'Show all' }));
+    this.#list.addEventListener('keydown', (event) => this.#key(event));
+    store.subscribe((next, before) => {
+      if (next.hidden !== before.hidden) this.#mark();
+    });
+    selection.subscribe(() => this.#mark(true));
+    onModel(() => this.#fill());
+    this.#fill();
+  }
+
+  #fill(): void {
+    const { scene } = this.#context.opened();
+    const wanted = this.#search.value.trim().toLowerCase();
+    const name = (index: number) => scene.instances[index]?.name || `Part ${index + 1}`;
+    const indices = scene.instances.map((_, index) => index).filter((index) => name(index).toLowerCase().includes(wanted));
+    const byMaterial = this.#order.value === 'material';
+    if (byMaterial) indices.sort((a, b) => (scene.instances[a]?.material ?? 0) - (scene.instances[b]?.material ?? 0) || a - b);
+    this.#rows = new Map();
+    const rows: HTMLElement[] = [];
+    let heading = -1;
+    for (const index of indices.slice(0, MOST_ROWS)) {
+      const material = scene.instances[index]?.material ?? 0;
+      if (byMaterial && material !== heading) rows.push(element('li', { class: 'heading' }, scene.materials[(heading = material)]?.name || `Material ${material + 1}`));
+      const row = this.#row(index, name(index), material);
+      this.#rows.set(index, row);
+      rows.push(row);
+    }
+    if (indices.length > MOST_ROWS) rows.push(element('li', { class: 'heading' }, `${indices.length - MOST_ROWS} more: search for them`));
+    if (indices.length === 0) rows.push(element('li', { class: 'heading' }, 'No part has this name.'));
+    this.#list.replaceChildren(...rows);
+    this.#mark();
+  }
+
+  #row(index: number, name: string, material: number): HTMLElement {
+    const { selection, opened, store } = this.#context;
+    const { scene } = opened();
+    const surface = scene.materials[material];
+    const colour = surface ? toHex(currentValue(store.state, surface, material, 'base_color')) : '#888888';
+    const part = element('button', { type: 'button', class: 'part', title: surface?.name }, element('i', { class: 'swatch', style: `background:${colour}` }), element('span', {}, name));
+    part.addEventListener('click', () => selection.choose({ material, instance: index }));
+    const eye = element('button', { type: 'button', class: 'eye', 'aria-label': `Show ${name}`, title: 'Hide or show; Alt: show only this one' });
+    eye.addEventListener('click', (event) => this.#toggle(index, event.altKey));
+    return element('li', { 'data-part': index }, part, eye);
+  }
+
+  #toggle(index: number, alone: boolean): void {
+    const { store, opened, say } = this.#context;
+    const { hidden } = store.state;
+    const all = opened().scene.instances.map((_, i) => i);
+    const off = hidden.includes(index);
+    const next = alone ? (hidden.length === all.length - 1 && !off ? [] : all.filter((i) => i !== index)) : off ? hidden.filter((i) => i !== index) : [...hidden, index];
+    if (next.length >= all.length) return say('The last visible part stays: there would be nothing to see.');
+    store.set({ hidden: next }, { label: alone ? 'Show only one part' : off ? 'Show part' : 'Hide part' });
+  }
+
+  /** @param scroll Whether the chosen one comes into sight. */
+  #mark(scroll = false): void {
+    const { store, selection } = this.#context;
+    const hidden = new Set(store.state.hidden);
+    for (const [index, row] of this.#rows) {
+      const off = hidden.has(index);
+      const chosen = selection.chosen.instance === index;
+      row.classList.toggle('off', off);
+      row.classList.toggle('chosen', chosen);
+      const [part, eye] = row.children as unknown as [HTMLElement, HTMLElement];
+      part.setAttribute('aria-current', String(chosen));
+      eye.setAttribute('aria-pressed', String(!off));
+      eye.replaceChildren(icon(off ? 'eyeOff' : 'eye'));
+      // Not scrollIntoView, which would scroll the page as well.
+      if (chosen && scroll) this.#list.scrollTop += row.getBoundingClientRect().top - this.#list.getBoundingClientRect().top - this.#list.clientHeight / 2;
+    }
+    this.#showAll.hidden = hidden.size === 0;
+    this.#showAll.textContent = `Show all (${hidden.size} hidden)`;
+  }
+
+  #key(event: KeyboardEvent): void {
+    const row = (event.target as HTMLElement).closest('li');
+    const step = event.key === 'ArrowDown' ? 1 : event.key === 'ArrowUp' ? -1 : 0;
+    if (row && step !== 0) {
+      const rows = [...this.#rows.values()];
+      const next = rows[rows.indexOf(row) + step];
+      const at = [...row.children].indexOf(event.target as Element);
+      (next?.children[Math.max(0, at)] as HTMLElement | undefined)?.focus();
+      event.preventDefault();
+    }
+    if (row && event.key === 'h') this.#toggle(Number(row.dataset['part']), event.altKey);
+  }
+}

@@ -1,0 +1,51 @@
+import { element } from './elements';
+
+/** A command with its keys. */
+export interface Shortcut {
+  /** As `KeyboardEvent.key`; `mod+` is Control or Command. */
+  readonly keys: readonly string[];
+  readonly title: string;
+  readonly run: () => void;
+}
+
+const typing = (target: EventTarget | null) => target instanceof HTMLElement && (target.isContentEditable || /^(TEXTAREA|SELECT)$/.test(target.tagName) || (target instanceof HTMLInputElement && !/^(range|checkbox|color|button)$/.test(target.type)));
+
+const named = (event: KeyboardEvent) => `${event.ctrlKey || event.metaKey ? 'mod+' : ''}${event.shiftKey && event.key.length > 1 ? 'shift+' : ''}${(event.ctrlKey || event.metaKey) && event.shiftKey && event.key.length === 1 ? 'shift+' : ''}${event.key.toLowerCase()}`;
+
+/** Runs commands by their keys wherever nobody types. */
+export function wireShortcuts(shortcuts: readonly Shortcut[]): void {
+  window.addEventListener('keydown', (event) => {
+    if (event.defaultPrevented || event.altKey || typing(event.target) || document.querySelector('dialog[open]')) return;
+    const key = named(event);
+    const shortcut = shortcuts.find(({ keys }) => keys.includes(key));
+    // A button takes Space and Enter for itself.
+    if (!shortcut || (event.key === ' ' && event.target instanceof HTMLButtonElement)) return;
+    event.preventDefault();
+    shortcut.run();
+  });
+}
+
+const MOUSE: readonly (readonly [string, string])[] = [
+  ['Drag, one finger, arrow keys', 'Orbit'],
+  ['Shift or right button and drag, two fingers', 'Pan'],
+  ['Wheel, pinch, + and −', 'Zoom'],
+  ['Click, tap, Enter', 'Choose the part and its material'],
+  ['Drag a preset to the picture', 'Put it on the part under it'],
+  ['Drop files', 'Model, environment, .mtlx; a picture on a parameter'],
+];
+
+const shown = (key: string) => key.split('+').map((part) => (part === 'mod' ? 'Ctrl' : part === ' ' ? 'Space' : part.length === 1 ? part.toUpperCase() : part.charAt(0).toUpperCase() + part.slice(1))).join(' ');
+
+/** Fills the dialog that tells all keys. */
+export function fillKeysDialog(dialog: HTMLDialogElement, shortcuts: readonly Shortcut[]): void {
+  const close = element('button', { type: 'button', class: 'quiet square', 'aria-label': 'Close' }, '×');
+  close.addEventListener('click', () => dialog.close());
+  dialog.addEventListener('click', (event) => {
+    if (event.target === dialog) dialog.close();
+  });
+  const rows = [...MOUSE.map(([keys, title]) => [keys, title] as const), ...shortcuts.map(({ keys, title }) => [keys[0] ?? '', title] as const)];
+  dialog.replaceChildren(
+    element('header', {}, element('h2', { id: 'keys-title' }, 'Keys and mouse'), close),
+    element('dl', { class: 'keys' }, ...rows.flatMap(([key, title], i) => [element('dt', {}, i < MOUSE.length ? key : element('kbd', {}, shown(key))), element('dd', {}, title)])),
+  );
+}

@@ -1,0 +1,51 @@
+import type { SessionStatus } from '../viewer/session';
+import { byId } from './elements';
+import { spokenRate, spokenTime } from './statistics';
+
+const STAGES: Readonly<Record<string, string>> = {
+  make: 'Making the model',
+  read: 'Reading the model',
+  decode: 'Decoding the model',
+  images: 'Decoding textures',
+  bvh: 'Building the hierarchy',
+  upload: 'Uploading to the GPU',
+  compile: 'Compiling shaders',
+};
+
+/** What is going on, in a line under the picture and in attributes of its canvas. */
+export class StatusLine {
+  readonly #canvas: HTMLCanvasElement;
+  readonly #done = byId<HTMLProgressElement>('done');
+  readonly #text = byId('status');
+
+  constructor(canvas: HTMLCanvasElement) {
+    this.#canvas = canvas;
+  }
+
+  /** A model is on its way; `done` is the share of the stage, 0..1. */
+  prepare(stage: string, done?: number): void {
+    byId('preparing').hidden = false;
+    byId('preparing-text').textContent = STAGES[stage] ?? stage;
+    const bar = byId<HTMLProgressElement>('preparing-bar');
+    if (done === undefined) bar.removeAttribute('value');
+    else bar.value = done;
+  }
+
+  prepared(): void {
+    byId('preparing').hidden = true;
+  }
+
+  show({ state, samples, target, samplesPerSecond, remainingMs, noise, active }: SessionStatus): void {
+    const { dataset } = this.#canvas;
+    dataset['state'] = state;
+    dataset['samples'] = String(samples);
+    dataset['target'] = String(target);
+    this.#done.value = target > 0 ? Math.min(1, samples / target) : 0;
+    this.#done.hidden = state !== 'rendering' && state !== 'paused';
+    const count = `${samples} of ${target} samples`;
+    const calm = noise === undefined ? '' : ` · noise ${(100 * noise).toPrecision(2)} %${active < 1 ? `, ${Math.round(100 * active)} % of the picture left` : ''}`;
+    const left = samplesPerSecond > 0 ? ` · ${spokenRate(samplesPerSecond)} · ${spokenTime(remainingMs)} left` : '';
+    const texts = { empty: '', preparing: '', rendering: count + left + calm, paused: `${count} · paused`, done: `${samples} samples · done${calm}`, recovering: 'Waiting for the GPU', failed: 'Stopped' };
+    this.#text.textContent = texts[state];
+  }
+}

@@ -1,0 +1,45 @@
+import type { Camera, Environment } from '@glanz/scene';
+import { srgbEncode } from '@glanz/tonemap';
+import type { Behind as SavedBehind } from '../output/save';
+import type { State } from '../state/state';
+import type { Backdrop } from './backdrop';
+
+const codes = (rgb: readonly [number, number, number]) => rgb.map((v) => Math.round(255 * srgbEncode(Math.max(0, Math.min(1, v))))) as unknown as readonly [number, number, number];
+
+/** What the page puts behind a picture whose own background is empty: one colour, a blurred environment, or nothing. */
+export class Behind {
+  readonly #stage: HTMLElement;
+  readonly #canvas: HTMLCanvasElement;
+  #backdrop: Backdrop | undefined;
+  #asked = 0;
+
+  constructor(stage: HTMLElement, canvas: HTMLCanvasElement) {
+    this.#stage = stage;
+    this.#canvas = canvas;
+  }
+
+  draw(state: State, environment: () => Environment | undefined, camera: () => Camera, aspect: number): void {
+    const { background } = state;
+    this.#stage.classList.toggle('transparent', background === 'transparent');
+    this.#stage.style.background = background === 'color' ? `rgb(${codes(state.backgroundColor).join(' ')})` : '';
+    if (background !== 'blurred') {
+      this.#backdrop?.hide();
+      return;
+    }
+    cancelAnimationFrame(this.#asked);
+    this.#asked = requestAnimationFrame(() => void this.#draw(state, environment(), camera(), aspect));
+  }
+
+  async #draw({ backgroundBlur, exposure, toneMap }: State, environment: Environment | undefined, camera: Camera, aspect: number): Promise<void> {
+    const { Backdrop } = await import('./backdrop');
+    this.#backdrop ??= new Backdrop(this.#canvas);
+    this.#backdrop.draw(environment, backgroundBlur, camera, aspect, { exposure, toneMap });
+  }
+
+  /** What a saved picture has behind it. */
+  saved({ background, backgroundColor }: State): SavedBehind | undefined {
+    if (background === 'color') return { color: codes(backgroundColor) };
+    const picture = background === 'blurred' ? this.#backdrop?.picture : undefined;
+    return picture && { picture };
+  }
+}
