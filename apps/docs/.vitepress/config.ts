@@ -7,8 +7,19 @@ import { readmeLinks } from './readme-links';
 
 const packages = ['renderer', 'gltf', 'formats', 'cad', 'scene', 'openpbr', 'bvh', 'tonemap', 'image', 'wgsl', 'cli'];
 const api = await apiReference(packages);
-/** Pages that a benchmark writes: shown once they have been measured. */
-const results = [{ text: 'Error at equal time', link: '/results/equal-time' }, { text: 'Loading', link: '/results/loading' }, { text: 'Test models', link: '/results/assets' }].filter(({ link }) => existsSync(new URL(`..${link}.md`, import.meta.url)));
+/** Pages that benchmarks and tests fill: shown once there is something on them. */
+const results = [
+  ['Results', '/results/'],
+  ['Speed and memory', '/results/speed'],
+  ['Truth', '/results/truth'],
+  ['Error at equal time', '/results/equal-time'],
+  ['Hierarchies', '/results/bvh'],
+  ['OpenPBR', '/results/openpbr'],
+  ['Loading', '/results/loading'],
+  ['Test models', '/results/assets'],
+]
+  .map(([text, link]) => ({ text: text as string, link: link as string }))
+  .filter(({ link }) => existsSync(new URL(`..${link.endsWith('/') ? `${link}index` : link}.md`, import.meta.url)));
 
 export default defineConfig({
   title: 'Glanz',
@@ -44,6 +55,7 @@ export default defineConfig({
       { text: 'Packages', link: '/packages/', activeMatch: '^/packages/' },
       { text: 'API', link: '/api/', activeMatch: '^/api/' },
       { text: 'How it works', link: '/how/', activeMatch: '^/how/' },
+      { text: 'Results', link: '/results/', activeMatch: '^/results/' },
     ],
     sidebar: [
       {
@@ -91,9 +103,9 @@ export default defineConfig({
           { text: 'Hierarchies, seen', link: '/how/hierarchies' },
           { text: 'Light and chance', link: '/how/light' },
           { text: 'How it is tested', link: '/how/tested' },
-          ...results,
         ],
       },
+      { text: 'Results', link: '/results/', items: results },
     ],
     footer: { message: 'MIT licensed.' },
   },

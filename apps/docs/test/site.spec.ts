@@ -7,6 +7,8 @@ let origin = '';
 let close: () => void = () => undefined;
 
 test.beforeAll(async () => {
+  // The site is built here, which takes minutes where other work goes on.
+  test.setTimeout(600_000);
   await buildSite();
   const site = await serveSite();
   origin = site.origin;

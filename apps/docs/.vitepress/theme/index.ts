@@ -1,5 +1,7 @@
 import type { Theme } from 'vitepress';
 import DefaultTheme from 'vitepress/theme-without-fonts';
+import FigureGrid from './FigureGrid.vue';
+import FigureTable from './FigureTable.vue';
 import LiveBall from './LiveBall.vue';
 import LiveHierarchy from './LiveHierarchy.vue';
 import LiveParameters from './LiveParameters.vue';
@@ -12,6 +14,8 @@ import './style.css';
 export default {
   extends: DefaultTheme,
   enhanceApp({ app }) {
+    app.component('FigureGrid', FigureGrid);
+    app.component('FigureTable', FigureTable);
     app.component('LiveBall', LiveBall);
     app.component('LiveHierarchy', LiveHierarchy);
     app.component('LiveParameters', LiveParameters);
