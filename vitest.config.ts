@@ -20,6 +20,7 @@ export default defineConfig({
   test: {
     projects: [
       ...['wgsl', 'scene', 'bvh', 'openpbr', 'gltf', 'formats', 'cad', 'tonemap', 'image', 'renderer', 'cli', 'viewer'].map((name) => project(name, `packages/${name}`)),
+      project('docs', 'apps/docs'),
       ...['models', 'bench', 'reference', 'gpu', 'pipeline'].map((name) => project(`tools-${name}`, `tools/${name}`)),
     ],
     // One GPU process at a time on two cores keeps the software driver from starving itself.

@@ -1,0 +1,266 @@
+import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { afterAll, beforeAll, describe, expect, test, vi } from 'vitest';
+import { execFile } from 'node:child_process';
+import { promisify } from 'node:util';
+import { build } from 'esbuild';
+import { testDevice } from '@glanz/gpu';
+import { decodeExr } from '@glanz/image/exr';
+import { encodeHdr } from '@glanz/image/hdr';
+import { readMaterialX } from '@glanz/openpbr/materialx';
+import { PathTracer } from '@glanz/renderer';
+import type { PerspectiveCamera, Scene } from '@glanz/scene';
+import * as cameras from '../examples/cameras';
+import { open } from '../examples/errors';
+import * as layers from '../examples/layers';
+import * as lighting from '../examples/lighting';
+import * as gltf from '../examples/load-gltf';
+import * as materials from '../examples/materials';
+import * as materialx from '../examples/materialx';
+import * as progressive from '../examples/progressive';
+import { createSpheres } from '../examples/spheres';
+
+// Examples that want a canvas run in the browser: site.spec.ts.
+
+const SIZE = { width: 24, height: 16 };
+let device: GPUDevice;
+
+/** Three spheres with the names that the examples use. */
+function exampleScene(): Scene {
+  const scene = createSpheres();
+  ['floor', 'lid', 'packaging', 'screw 1'].forEach((name, i) => (scene.instances[i]!.name = name));
+  ['table', 'housing', 'lens', 'glass'].forEach((name, i) => (scene.materials[i]!.name = name));
+  scene.materials.push({ name: 'ring', parameters: {} });
+  scene.lights = [{ type: 'point', name: 'key', color: [1, 1, 1], intensity: 5, position: [0, 4, 2] }, { type: 'point', name: 'lamp', color: [1, 1, 1], intensity: 5, position: [2, 4, 2] }];
+  scene.variants = ['matt black'];
+  return scene;
+}
+
+async function withTracer<T>(use: (tracer: PathTracer) => Promise<T> | T, scene = exampleScene()): Promise<T> {
+  const tracer = await PathTracer.create(device, scene, { ...SIZE, camera: 0 });
+  try {
+    return await use(tracer);
+  } finally {
+    tracer.destroy();
+  }
+}
+
+async function picture(tracer: PathTracer, samples = 4): Promise<Float32Array> {
+  for await (const progress of tracer.render({ samples })) void progress;
+  return tracer.read('beauty');
+}
+
+const mean = (rgba: ArrayLike<number>, channel: number) => Array.from(rgba).reduce((sum, x, i) => (i % 4 === channel ? sum + x : sum), 0) / (rgba.length / 4);
+
+/** A .glb of one triangle. */
+function triangleGlb(): Uint8Array<ArrayBuffer> {
+  const positions = Float32Array.of(-1, -1, 0, 1, -1, 0, 0, 1, 0);
+  const json = JSON.stringify({
+    asset: { version: '2.0' },
+    scene: 0,
+    scenes: [{ nodes: [0] }],
+    nodes: [{ mesh: 0, name: 'screw' }],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0 } }] }],
+    accessors: [{ bufferView: 0, componentType: 5126, count: 3, type: 'VEC3', min: [-1, -1, 0], max: [1, 1, 0] }],
+    bufferViews: [{ buffer: 0, byteLength: 36 }],
+    buffers: [{ byteLength: 36 }],
+  });
+  const text = new TextEncoder().encode(json.padEnd(4 * Math.ceil(json.length / 4)));
+  const glb = new Uint8Array(12 + 8 + text.length + 8 + 36);
+  const view = new DataView(glb.buffer);
+  [0x46546c67, 2, glb.length, text.length, 0x4e4f534a].forEach((word, i) => view.setUint32(4 * i, word, true));
+  glb.set(text, 20);
+  view.setUint32(20 + text.length, 36, true);
+  view.setUint32(24 + text.length, 0x004e4942, true);
+  glb.set(new Uint8Array(positions.buffer), 28 + text.length);
+  return glb;
+}
+
+const dataUrl = (bytes: Uint8Array, type: string) => `data:${type};base64,${Buffer.from(bytes).toString('base64')}`;
+
+beforeAll(async () => {
+  device = await testDevice();
+});
+afterAll(() => device?.destroy());
+
+describe('cameras', () => {
+  test('from the left, through a lens, in focus where one points', () =>
+    withTracer(async (tracer) => {
+      const before = await picture(tracer);
+      cameras.fromTheLeft(tracer);
+      expect((tracer.camera as PerspectiveCamera).yfov).toBeCloseTo(0.4189, 3);
+      expect(await picture(tracer)).not.toEqual(before);
+      cameras.focusOn(tracer, 12, 8);
+      const { lens_radius, focus_distance, yfov } = tracer.camera as PerspectiveCamera;
+      expect(lens_radius).toBeCloseTo(0.024 / (2 * Math.tan(yfov / 2)) / 8, 6);
+      expect(focus_distance).toBeGreaterThan(1);
+    }));
+
+  test('a plan, a panorama, an exposure', () =>
+    withTracer(async (tracer) => {
+      for (const camera of [cameras.plan, cameras.around]) {
+        await tracer.setCamera(camera);
+        expect(mean(await picture(tracer), 1)).toBeGreaterThan(0.01);
+      }
+      const codes = await cameras.photograph(tracer);
+      expect(codes.length).toBe(4 * SIZE.width * SIZE.height);
+    }));
+});
+
+describe('layers', () => {
+  test('a mask covers what it names', () =>
+    withTracer(async (tracer) => {
+      await picture(tracer, 1);
+      const [floor, nothing] = [await layers.maskOf(tracer, 'floor'), await layers.maskOf(tracer, 'no such part')];
+      expect(floor.reduce((sum, x) => sum + x, 0)).toBeGreaterThan(20);
+      expect(nothing.every((x) => x === 0)).toBe(true);
+    }));
+
+  test('layers come back out of the EXR', () =>
+    withTracer(async (tracer) => {
+      const beauty = await picture(tracer);
+      const { channels } = decodeExr(await layers.toExr(tracer));
+      expect([...channels.keys()].sort()).toEqual(['A', 'B', 'G', 'R', 'depth.Z', 'normal.X', 'normal.Y', 'normal.Z', 'objectId.id']);
+      const red = channels.get('R')!.data;
+      // Half floats carry eleven bits.
+      beauty.forEach((x, i) => i % 4 === 0 && expect(Math.abs(red[i / 4]! - x)).toBeLessThanOrEqual(x * 2 ** -11));
+    }));
+
+  test('a lamp dimmed afterwards', async () => {
+    const log = vi.spyOn(console, 'log').mockImplementation(() => undefined);
+    const create = vi.spyOn(PathTracer, 'create').mockImplementationOnce((d, scene, options) => PathTracer.create(d, scene, { ...options, ...SIZE, camera: 0 }));
+    const part = await layers.withLightGroups(device, exampleScene());
+    expect(log.mock.calls.flat()).toContain('lamp');
+    expect(mean(part, 0)).toBeGreaterThan(mean(part, 2));
+    log.mockRestore();
+    create.mockRestore();
+  });
+});
+
+describe('lighting', () => {
+  test('surroundings: a file, a studio, fog, darkness', () =>
+    withTracer(async (tracer) => {
+      const data = Float32Array.from({ length: 8 * 4 * 3 }, (_, i) => (i % 3 === 0 ? 2 : 0.1));
+      await lighting.lightWith(tracer, dataUrl(encodeHdr({ width: 8, height: 4, data }), 'image/vnd.radiance'));
+      const red = await picture(tracer);
+      expect(mean(red, 0)).toBeGreaterThan(2 * mean(red, 2));
+      await lighting.inTheStudio(tracer);
+      expect(mean(await picture(tracer), 1)).toBeGreaterThan(0.05);
+      await lighting.inFog(tracer);
+      expect(mean(await picture(tracer), 2)).toBeGreaterThan(0.05);
+      await lighting.inTheDark(tracer);
+    }));
+
+  test('lamps, a glow', async () => {
+    const scene = lighting.addLamps(exampleScene());
+    delete (scene as { environment?: unknown }).environment;
+    await withTracer(async (tracer) => {
+      expect(mean(await picture(tracer), 0)).toBeGreaterThan(0.001);
+      await lighting.glow(tracer);
+      const [r, g] = [mean(await picture(tracer), 0), mean(await tracer.read('beauty'), 1)];
+      expect(g).toBeGreaterThan(r);
+    }, scene);
+  });
+
+  test('onto a photograph', async () => {
+    const create = vi.spyOn(PathTracer, 'create').mockImplementationOnce((d, scene, options) => PathTracer.create(d, scene, { ...options, ...SIZE, camera: 0 }));
+    const tracer = await lighting.ontoPhotograph(device, exampleScene());
+    const alpha = Array.from(await picture(tracer)).filter((_, i) => i % 4 === 3);
+    expect(Math.min(...alpha)).toBeLessThan(0.9);
+    expect(Math.max(...alpha)).toBeGreaterThan(0.99);
+    tracer.destroy();
+    create.mockRestore();
+  });
+});
+
+describe('glTF', () => {
+  test('from an address, from a drop, without screws', async () => {
+    const glb = triangleGlb();
+    const scene = await gltf.fromUrl(dataUrl(glb, 'model/gltf-binary'), new AbortController().signal);
+    expect(scene.instances.map(({ name }) => name)).toEqual(['screw']);
+    expect(gltf.withoutScrews(scene).instances).toEqual([]);
+    const dropped = await gltf.fromDrop([new File([glb], 'triangle.glb')] as unknown as FileList);
+    expect(dropped.meshes.length).toBe(1);
+  });
+
+  test('a download that was cut off is told', async () => {
+    const said: string[] = [];
+    expect(await open(dataUrl(triangleGlb().slice(0, 100), 'model/gltf-binary'), (text) => said.push(text))).toBeUndefined();
+    expect(said).toEqual(['The download was cut off. Try again?']);
+  });
+});
+
+describe('materials', () => {
+  test('paint, and what a user typed', () =>
+    withTracer(async (tracer) => {
+      await materials.repaint(tracer);
+      expect(tracer.scene.materials[1]?.parameters.base_color).toEqual([0.8, 0.1, 0.1]);
+      const warn = vi.spyOn(console, 'warn').mockImplementation(() => undefined);
+      expect(materials.fromUser({ specular_roughness: 3 })).toMatchObject({ specular_roughness: 1 });
+      expect(warn).toHaveBeenCalledOnce();
+      warn.mockRestore();
+      expect(materials.sliders.length).toBeGreaterThan(20);
+      const scene = exampleScene();
+      scene.materials[1] = materials.chrome;
+      scene.materials[2] = materials.rubber;
+      scene.materials[3] = materials.brushed;
+      await withTracer(async (other) => expect(mean(await picture(other), 1)).toBeGreaterThan(0.02), scene);
+    }));
+
+  test('MaterialX in and out, presets', () =>
+    withTracer(async (tracer) => {
+      expect(readMaterialX(materialx.document).materials.map(({ name }) => name)).toContain('housing');
+      await materialx.dress(tracer, dataUrl(new TextEncoder().encode(materialx.document.replaceAll('label', 'table')), 'application/mtlx+xml'));
+      expect(tracer.scene.materials[1]?.parameters.base_metalness).toBe(1);
+      await materialx.pour(tracer);
+      expect(mean(await picture(tracer, 1), 1)).toBeGreaterThan(0);
+    }));
+});
+
+describe('progress', () => {
+  test('reported, stopped, adaptive', () =>
+    withTracer(async (tracer) => {
+      const lines: string[] = [];
+      await progressive.render(tracer, (text) => lines.push(text));
+      expect(lines.at(-1)).toMatch(/^512\/512, .* a second, 0 s left$/);
+      tracer.reset();
+      const noise: string[] = [];
+      await progressive.untilGood(tracer, (text) => noise.push(text));
+      expect(noise.length).toBeGreaterThan(0);
+      tracer.reset();
+      const button = new EventTarget();
+      const stopped = progressive.renderUntilClicked(tracer, button as HTMLButtonElement);
+      setTimeout(() => button.dispatchEvent(new Event('click')), 50);
+      expect((await stopped).length).toBe(4 * SIZE.width * SIZE.height);
+      expect(tracer.samples).toBeLessThan(4096);
+      const abort = new AbortController();
+      tracer.reset();
+      await progressive.keepRendering(tracer, abort.signal, () => tracer.samples >= 8 && abort.abort());
+      expect(tracer.samples).toBeGreaterThanOrEqual(8);
+    }));
+
+  test('edits of every kind', () =>
+    withTracer(async (tracer) => {
+      const before = await picture(tracer);
+      await progressive.rearrange(tracer);
+      expect(await picture(tracer)).not.toEqual(before);
+    }));
+});
+
+test('the Node example as it is printed, at a smaller size', async () => {
+  const folder = await mkdtemp(join(dirname(fileURLToPath(import.meta.url)), '../.vitepress/cache-examples-'));
+  try {
+    const source = await readFile(new URL('../examples/node.ts', import.meta.url), 'utf8');
+    const contents = source.replace('[1024, 768]', '[32, 24]').replace('samples: 256', 'samples: 4');
+    expect(contents).not.toContain('1024');
+    await build({ stdin: { contents, resolveDir: fileURLToPath(new URL('../examples', import.meta.url)), loader: 'ts' }, outfile: join(folder, 'node.mjs'), conditions: ['@glanz/source'], bundle: true, format: 'esm', platform: 'node', external: ['webgpu', 'sharp', '@sparticuz/chromium'] });
+    await writeFile(join(folder, 'model.glb'), triangleGlb());
+    const { stderr } = await promisify(execFile)(process.execPath, ['node.mjs'], { cwd: folder });
+    expect(stderr).toContain('4, 0 s left');
+    expect([...(await readFile(join(folder, 'picture.png'))).subarray(0, 4)]).toEqual([0x89, 0x50, 0x4e, 0x47]);
+  } finally {
+    await rm(folder, { recursive: true, force: true });
+  }
+});
+
