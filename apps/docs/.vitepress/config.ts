@@ -80,6 +80,11 @@ export default defineConfig({
           { text: 'Node and GPUs', link: '/guide/node' },
           { text: 'Command line', link: '/guide/command-line' },
           { text: 'Errors', link: '/guide/errors' },
+          { text: 'A product shot', link: '/guide/product-shot' },
+          { text: 'A configurator', link: '/guide/configurator' },
+          { text: 'Performance', link: '/guide/performance' },
+          { text: 'Troubleshooting', link: '/guide/troubleshooting' },
+          { text: 'Questions', link: '/guide/faq' },
         ],
       },
       {

@@ -1,16 +1,18 @@
-import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
+import { mkdir, mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { afterAll, beforeAll, describe, expect, test, vi } from 'vitest';
 import { execFile } from 'node:child_process';
 import { promisify } from 'node:util';
 import { build } from 'esbuild';
+import sharp from 'sharp';
 import { testDevice } from '@glanz/gpu';
 import { decodeExr } from '@glanz/image/exr';
 import { encodeHdr } from '@glanz/image/hdr';
 import { readMaterialX } from '@glanz/openpbr/materialx';
 import { PathTracer } from '@glanz/renderer';
 import type { PerspectiveCamera, Scene } from '@glanz/scene';
+import * as configurator from '../examples/configurator';
 import * as cameras from '../examples/cameras';
 import { open } from '../examples/errors';
 import * as layers from '../examples/layers';
@@ -18,6 +20,7 @@ import * as lighting from '../examples/lighting';
 import * as gltf from '../examples/load-gltf';
 import * as materials from '../examples/materials';
 import * as materialx from '../examples/materialx';
+import { productShot } from '../examples/product-shot';
 import * as progressive from '../examples/progressive';
 import { createSpheres } from '../examples/spheres';
 
@@ -52,6 +55,12 @@ async function picture(tracer: PathTracer, samples = 4): Promise<Float32Array> {
 }
 
 const mean = (rgba: ArrayLike<number>, channel: number) => Array.from(rgba).reduce((sum, x, i) => (i % 4 === channel ? sum + x : sum), 0) / (rgba.length / 4);
+
+/** One of the spheres alone. */
+function exampleSphere(): Scene {
+  const { instances, ...scene } = createSpheres();
+  return { ...scene, instances: instances.filter(({ name }) => name === 'clay') };
+}
 
 /** A .glb of one triangle. */
 function triangleGlb(): Uint8Array<ArrayBuffer> {
@@ -248,8 +257,37 @@ describe('progress', () => {
     }));
 });
 
+test('a product shot is a cut-out with a shadow', async () => {
+  const png = await productShot(device, exampleSphere(), [32, 24], 0.2);
+  const { data } = await sharp(png).raw().toBuffer({ resolveWithObject: true });
+  const alpha = [...data].filter((_, i) => i % 4 === 3);
+  expect(alpha.filter((a) => a === 255).length).toBeGreaterThan(50);
+  expect(alpha.filter((a) => a > 5 && a < 200).length).toBeGreaterThan(20);
+});
+
+test('a configurator: parts, colours, an address', () => {
+  const scene = exampleScene();
+  scene.meshes[0]!.name = 'legend';
+  return withTracer(async (tracer) => {
+    const lens = { name: 'lens', choices: [{ name: 'lid', shows: ['lid'] }, { name: 'box', shows: ['packaging'], wears: { packaging: 'ring' } }] };
+    expect(configurator.assemblies([lens, lens, lens])).toBe(8);
+    expect(await configurator.choose(tracer, lens, 'box')).toBeGreaterThan(0);
+    const of = (name: string) => tracer.scene.instances.find((instance) => instance.name === name)!;
+    expect([of('lid').visible, of('packaging').visible, of('packaging').material]).toEqual([false, true, 4]);
+    await expect(configurator.choose(tracer, lens, 'none')).rejects.toThrow('lens has no choice none');
+    const choices = { lens: 'clear & bright', legend: 'ä' };
+    expect(configurator.fromAddress(configurator.toAddress(choices))).toEqual(choices);
+    expect(configurator.withHidden(tracer.scene, new Set(['floor'])).instances.map(({ visible }) => visible)).toContain(false);
+    const before = await picture(tracer);
+    await configurator.engrave(tracer, { name: 'legend', positions: Float32Array.of(-1, 0, 0, 1, 0, 0, 0, 1, 0), indices: Uint32Array.of(0, 1, 2) });
+    expect(await picture(tracer)).not.toEqual(before);
+  }, scene);
+});
+
 test('the Node example as it is printed, at a smaller size', async () => {
-  const folder = await mkdtemp(join(dirname(fileURLToPath(import.meta.url)), '../.vitepress/cache-examples-'));
+  const cache = join(dirname(fileURLToPath(import.meta.url)), '../.vitepress/cache');
+  await mkdir(cache, { recursive: true });
+  const folder = await mkdtemp(join(cache, 'examples-'));
   try {
     const source = await readFile(new URL('../examples/node.ts', import.meta.url), 'utf8');
     const contents = source.replace('[1024, 768]', '[32, 24]').replace('samples: 256', 'samples: 4');
