@@ -30,7 +30,11 @@ export function manifestProblems({ name, short, manifest }, built, fileExists) {
   const published = manifest.publishConfig?.exports ?? {};
 
   if (name !== `@glanz/${short}`) say(`is called ${name}, not @glanz/${short}.`);
-  for (const [key, value] of Object.entries({ type: 'module', sideEffects: false, license: 'MIT' })) if (manifest[key] !== value) say(`"${key}" must be ${JSON.stringify(value)}.`);
+  for (const [key, value] of Object.entries({ type: 'module', license: 'MIT' })) if (manifest[key] !== value) say(`"${key}" must be ${JSON.stringify(value)}.`);
+  // Entries that do something when they are imported are named, file by file; nothing else may.
+  const effects = manifest.sideEffects;
+  const named = Object.values(manifest.exports ?? {}).flatMap((conditions) => [conditions['@glanz/source'], conditions.default]);
+  if (effects !== false && !(Array.isArray(effects) && effects.every((file) => named.includes(file)))) say('"sideEffects" must be false, or list entries that are for their effect alone.');
   if (!manifest.description) say('has no description.');
   if (!manifest.engines?.node) say('has no engines.node.');
   if (manifest.publishConfig?.access !== 'public') say('publishConfig.access must be "public".');
@@ -64,9 +68,10 @@ export function manifestProblems({ name, short, manifest }, built, fileExists) {
   }
   for (const output of Object.keys(built)) if (!outputs.has(output)) say(`tsup builds "${output}", which nothing exports.`);
   for (const [dependency, range] of Object.entries({ ...manifest.dependencies, ...manifest.peerDependencies })) {
-    if (dependency.startsWith('@glanz/') ? range !== 'workspace:^' : range !== 'catalog:' && !/^[\^~]?\d/.test(range)) say(`dependency ${dependency}: "${range}" (wanted: workspace:^ inside, catalog: outside).`);
+    if (dependency.startsWith('@glanz/') ? range !== 'workspace:^' : range !== 'catalog:' && !/^([\^~]|>=)?\d/.test(range)) say(`dependency ${dependency}: "${range}" (wanted: workspace:^ inside, catalog: outside).`);
   }
-  for (const peer of Object.keys(manifest.peerDependencies ?? {})) if (!peer.startsWith('@glanz/') && !manifest.peerDependenciesMeta?.[peer]?.optional) say(`the peer ${peer} must be optional.`);
+  // A binding to a library needs that library; all other peers are for those who want them.
+  for (const peer of Object.keys(manifest.peerDependencies ?? {})) if (peer !== short && !peer.startsWith('@glanz/') && !manifest.peerDependenciesMeta?.[peer]?.optional) say(`the peer ${peer} must be optional.`);
   return problems;
 }
 

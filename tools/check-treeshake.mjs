@@ -32,7 +32,15 @@ export async function checkTreeShaking() {
   const rows = [];
   for (const p of consumer.packages) {
     if (p.short === 'cli') continue;
-    for (const { path, specifier } of entriesOf(p)) {
+    for (const { path, specifier, conditions } of entriesOf(p)) {
+      // One that is there for its effect must keep it.
+      if (p.manifest.sideEffects?.includes?.(conditions.default)) {
+        await verdicts.attempt(`import '${specifier}'`, async () => {
+          const { text } = await bundle(consumer, `import '${specifier}';`, { external: PEERS });
+          verdicts.expect(text.includes('customElements.define'), `import '${specifier}' has lost its effect.`);
+        });
+        continue;
+      }
       // A worker's file is loaded for what it does.
       if (path === './node' || path === './worker') continue;
       await verdicts.attempt(`import '${specifier}'`, async () => {

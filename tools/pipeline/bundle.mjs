@@ -59,5 +59,5 @@ export async function bundle({ folder }, code, { external = [], keepEffects = fa
   };
 }
 
-/** Optional peers and native modules: never part of a library's weight. */
-export const PEERS = ['sharp', 'meshoptimizer', 'meshoptimizer/*', 'webgpu', '@sparticuz/chromium', 'draco3dgltf', 'ktx-parse'];
+/** Peers and native modules: never part of a library's weight. */
+export const PEERS = ['sharp', 'meshoptimizer', 'meshoptimizer/*', 'webgpu', '@sparticuz/chromium', 'draco3dgltf', 'ktx-parse', 'react', 'three'];

@@ -21,8 +21,8 @@ export async function packAll(folder = join(root, '.cache', 'packed')) {
 let installed;
 
 /**
- * Installs the packed packages into `.cache/consumer/node_modules`, each with links to its dependencies, none to its
- * optional peers. Once per process.
+ * Installs the packed packages into `.cache/consumer/node_modules`, each with links to its dependencies and to
+ * the peers that it cannot do without, none to its optional ones. Once per process.
  *
  * @returns {Promise<{ folder: string, packages: (import('./workspace.mjs').Package & { tarball: string })[] }>} `manifest` is the published one.
  */
@@ -46,6 +46,14 @@ async function install() {
     for (const name of Object.keys(manifest.dependencies ?? {})) {
       if (name.startsWith('@glanz/')) continue;
       const link = join(to, 'node_modules', name);
+      mkdirSync(dirname(link), { recursive: true });
+      symlinkSync(realpathSync(join(p.dir, 'node_modules', name)), link, 'junction');
+    }
+    // A binding to a library is of no use without it, nor are its declarations without the library's.
+    const needed = Object.keys(manifest.peerDependencies ?? {}).filter((name) => !manifest.peerDependenciesMeta?.[name]?.optional);
+    for (const name of needed.flatMap((peer) => [peer, `@types/${peer}`])) {
+      const link = join(to, 'node_modules', name);
+      if (!existsSync(join(p.dir, 'node_modules', name))) continue;
       mkdirSync(dirname(link), { recursive: true });
       symlinkSync(realpathSync(join(p.dir, 'node_modules', name)), link, 'junction');
     }

@@ -44,8 +44,10 @@ export interface ViewerOptions {
   readonly controls?: boolean | ControlOptions;
   /** Seconds in which 63 % of a movement is done. Default 0.06; 0 where the user asks for less motion. */
   readonly damping?: number;
-  /** Radians a second that the model turns by itself; stops three seconds for each movement of the user. Default 0. Changeable. */
+  /** Radians a second that the view turns around the model by itself. Default 0. Changeable. */
   readonly autoRotate?: number;
+  /** Seconds after the last other movement before it does. Default 3. Changeable. */
+  readonly autoRotateDelay?: number;
   /** How the preview of a moving view is made. */
   readonly preview?: PreviewOptions;
   /** GPU milliseconds that one submission should take at most while the picture is refined. Default 16. */

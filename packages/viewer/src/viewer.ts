@@ -27,9 +27,6 @@ export interface LoadOptions {
 
 /** Where the stages of a load begin and end in the whole, as shares; usual ones. */
 const STAGES: Readonly<Record<LoadStage, readonly [number, number]>> = { read: [0, 0.3], decode: [0.3, 0.45], images: [0.45, 0.55], bvh: [0.55, 0.75], upload: [0.75, 0.85], compile: [0.85, 1] };
-/** Seconds after a movement of the user before the model turns by itself again. */
-const AUTO_ROTATE_DELAY = 3;
-
 const calm = () => typeof matchMedia === 'function' && matchMedia('(prefers-reduced-motion: reduce)').matches;
 
 /**
@@ -39,10 +36,12 @@ const calm = () => typeof matchMedia === 'function' && matchMedia('(prefers-redu
 export class Viewer extends Emitter<ViewerEvents> {
   /** The canvas that it draws on. */
   readonly canvas: HTMLCanvasElement;
+  /** See {@link ViewerOptions.autoRotateDelay}. */
+  autoRotateDelay: number;
   readonly #options: ViewerOptions;
   readonly #engine: Engine;
   readonly #resize: ResizeObserver;
-  readonly #damping: number;
+  #damping: number;
   #controls: boolean | ControlOptions;
   #stopControls: () => void = () => undefined;
   #rig: OrbitRig | undefined;
@@ -72,6 +71,7 @@ export class Viewer extends Emitter<ViewerEvents> {
     this.#variant = options.variant;
     this.#pixelRatio = options.pixelRatio;
     this.#autoRotate = options.autoRotate ?? 0;
+    this.autoRotateDelay = options.autoRotateDelay ?? 3;
     this.#limits = options.orbitLimits ?? {};
     this.#damping = calm() ? 0 : (options.damping ?? 0.06);
     this.#controls = options.controls ?? true;
@@ -178,8 +178,7 @@ export class Viewer extends Emitter<ViewerEvents> {
       this.#loaded = scene;
       this.#surroundings = surroundings;
       this.#home = camera;
-      const { damping } = this.#rig ?? { damping: this.#damping };
-      this.#rig = new OrbitRig(camera, sceneBounds(scene), { damping, limits: this.#limits });
+      this.#rig = new OrbitRig(camera, sceneBounds(scene), { damping: this.#damping, limits: this.#limits });
       const variant = options.variant ?? this.#options.variant;
       this.#variant = variant !== undefined && scene.variants?.includes(variant) ? variant : undefined;
       if (this.#variant !== undefined) void tracer.setVariant(this.#variant).catch((error: unknown) => this.#fail(error));
@@ -248,7 +247,7 @@ export class Viewer extends Emitter<ViewerEvents> {
   }
 
   set exposure(exposure: number) {
-    if (Number.isFinite(exposure)) this.#quietly(this.#engine.setView({ exposure }));
+    if (Number.isFinite(exposure) && exposure !== this.exposure) this.#quietly(this.#engine.setView({ exposure }));
   }
 
   /** See {@link ViewerOptions.toneMap}. An unknown one is told by the `error` event. */
@@ -257,7 +256,7 @@ export class Viewer extends Emitter<ViewerEvents> {
   }
 
   set toneMap(toneMap: ToneMap) {
-    this.#quietly(this.#engine.setView({ toneMap }));
+    if (toneMap !== this.toneMap) this.#quietly(this.#engine.setView({ toneMap }));
   }
 
   /** See {@link ViewerOptions.samples}. */
@@ -266,7 +265,7 @@ export class Viewer extends Emitter<ViewerEvents> {
   }
 
   set samples(samples: number) {
-    if (!(samples >= 1)) return;
+    if (!(samples >= 1) || Math.floor(samples) === this.samples) return;
     this.#engine.settings.samples = Math.floor(samples);
     this.#engine.restart();
   }
@@ -277,7 +276,9 @@ export class Viewer extends Emitter<ViewerEvents> {
   }
 
   set noise(noise: number | undefined) {
-    this.#engine.settings.noise = noise !== undefined && noise > 0 ? noise : undefined;
+    const wanted = noise !== undefined && noise > 0 ? noise : undefined;
+    if (wanted === this.noise) return;
+    this.#engine.settings.noise = wanted;
     this.#engine.restart();
   }
 
@@ -287,7 +288,7 @@ export class Viewer extends Emitter<ViewerEvents> {
   }
 
   set maxDepth(depth: number) {
-    if (!(Number.isInteger(depth) && depth >= 1 && depth <= 65535)) return;
+    if (!(Number.isInteger(depth) && depth >= 1 && depth <= 65535) || depth === this.maxDepth) return;
     this.#engine.settings.maxDepth = depth;
     if (this.#rig) this.#engine.touch();
   }
@@ -399,6 +400,17 @@ export class Viewer extends Emitter<ViewerEvents> {
     this.#moved(options.immediate);
   }
 
+  /** See {@link ViewerOptions.damping}. */
+  get damping(): number {
+    return this.#damping;
+  }
+
+  set damping(seconds: number) {
+    if (!(seconds >= 0) || calm()) return;
+    this.#damping = seconds;
+    if (this.#rig) this.#rig.damping = seconds;
+  }
+
   /** See {@link ViewerOptions.orbitLimits}. */
   get orbitLimits(): OrbitLimits {
     return this.#limits;
@@ -489,7 +501,7 @@ export class Viewer extends Emitter<ViewerEvents> {
   }
 
   get #turning(): boolean {
-    return this.#autoRotate !== 0 && !calm() && performance.now() - this.#rested > 1000 * AUTO_ROTATE_DELAY;
+    return this.#autoRotate !== 0 && !calm() && performance.now() - this.#rested > 1000 * this.autoRotateDelay;
   }
 
   #check(): void {

@@ -1,0 +1,414 @@
+import { TONE_MAPS, type ToneMap } from '@glanz/tonemap';
+import type { PickResult } from '@glanz/renderer';
+import { createViewer, type BlobOptions, type EnvironmentSource, type ModelSource, type Orbit, type Viewer, type ViewerEvents } from '@glanz/viewer';
+import { adoptProperties, ATTRIBUTES, numberOf, reflectAttributes, type AttributeName, type ReflectedProperties } from './attributes';
+import { HotspotLayer, readVector, viewHotspot, type HotspotView } from './hotspots';
+import { fillShadow, type Shadow } from './shadow';
+import { angle } from './units';
+import { cameraOf, describeView, limitsOf, orbitOf, type ViewAttributes } from './view';
+
+/** What the element tells, as `CustomEvent`s that do not bubble; `detail` is that of the viewer's event of the same name. */
+export interface GlanzViewerEventMap {
+  load: CustomEvent<ViewerEvents['load']>;
+  /** `totalProgress`: share of the whole load, 0..1. */
+  progress: CustomEvent<ViewerEvents['progress'] & { readonly totalProgress: number }>;
+  error: CustomEvent<ViewerEvents['error']>;
+  sample: CustomEvent<ViewerEvents['sample']>;
+  converged: CustomEvent<ViewerEvents['converged']>;
+  'camera-change': CustomEvent<ViewerEvents['camera-change']>;
+  'device-lost': CustomEvent<ViewerEvents['device-lost']>;
+  'device-restored': CustomEvent<ViewerEvents['device-restored']>;
+  'poster-dismissed': CustomEvent<undefined>;
+  'variant-applied': CustomEvent<{ readonly variantName: string | null }>;
+}
+
+/** What `toBlob` of the element may be told: the viewer's options, or model-viewer's names for them. */
+export interface ElementBlobOptions extends BlobOptions {
+  readonly mimeType?: string;
+  readonly qualityArgument?: number;
+}
+
+/** The element `<glanz-viewer>`. Made by markup, or by `document.createElement('glanz-viewer')`, after {@link defineGlanzViewer}. */
+export interface GlanzViewerElement extends HTMLElement, ReflectedProperties {
+  /** The viewer behind it, for all that has no attribute; `undefined` while the element is out of the page, or waits to be seen. */
+  readonly viewer: Viewer | undefined;
+  /** Whether the model that `src` names is there. */
+  readonly loaded: boolean;
+  /** Names of the looks that the model has. */
+  readonly availableVariants: readonly string[];
+  /** Shows a model that has no address: a file, files, or a scene. Stays until `src` changes. */
+  show(source: ModelSource): Promise<void>;
+  /** The picture as a file; see `Viewer.toBlob`. */
+  toBlob(options?: ElementBlobOptions): Promise<Blob>;
+  /** Where the camera goes around its target. */
+  getCameraOrbit(): Orbit | undefined;
+  /** Vertical field of view, degrees. */
+  getFieldOfView(): number;
+  /** Is where it was going. */
+  jumpCameraToGoal(): void;
+  /** Frames the model anew, as the attributes say. */
+  updateFraming(): void;
+  /** Shows the model under the poster, which `reveal="manual"` waits for. */
+  dismissPoster(): void;
+  /** Shows the poster again. */
+  showPoster(): void;
+  /** Where the hotspot of a slot is. */
+  queryHotspot(slot: string): HotspotView | undefined;
+  /** Moves a hotspot: `data-position` and `data-normal` of the element in its slot. */
+  updateHotspot(hotspot: { readonly name: string; readonly position?: string; readonly normal?: string }): void;
+  /** What lies under a point of the window, CSS pixels. */
+  pick(clientX: number, clientY: number): PickResult | undefined;
+  addEventListener<K extends keyof GlanzViewerEventMap>(type: K, listener: (event: GlanzViewerEventMap[K]) => void, options?: boolean | AddEventListenerOptions): void;
+  addEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | AddEventListenerOptions): void;
+}
+
+/** Constructor of {@link GlanzViewerElement}. */
+export interface GlanzViewerConstructor {
+  new (): GlanzViewerElement;
+}
+
+const VIEW: ReadonlySet<string> = new Set(['camera-orbit', 'camera-target', 'field-of-view', 'min-camera-orbit', 'max-camera-orbit']);
+const LIGHT: ReadonlySet<string> = new Set(['environment-image', 'skybox-image']);
+/** Names that model-viewer has for what is meant here. */
+const TONE_MAP_NAMES: Readonly<Record<string, ToneMap>> = { commerce: 'neutral', auto: 'neutral', none: 'linear' };
+/** Milliseconds after the last movement before the view is told to those who hear it. */
+const SPEAK_MS = 600;
+
+let made: GlanzViewerConstructor | undefined;
+
+/** The class of the element, made when it is first asked for: a server has no `HTMLElement`. */
+export function glanzViewerClass(): GlanzViewerConstructor {
+  return (made ??= makeClass());
+}
+
+function makeClass(): GlanzViewerConstructor {
+  class GlanzViewer extends HTMLElement {
+    static readonly observedAttributes = Object.keys(ATTRIBUTES);
+    #shadow: Shadow | undefined;
+    #hotspots: HotspotLayer | undefined;
+    #viewer: Viewer | undefined;
+    #watch: IntersectionObserver | undefined;
+    #loaded = false;
+    #revealed = false;
+    #source: ModelSource | undefined;
+    #speaking: ReturnType<typeof setTimeout> | undefined;
+
+    get viewer(): Viewer | undefined {
+      return this.#viewer;
+    }
+
+    get loaded(): boolean {
+      return this.#loaded;
+    }
+
+    get availableVariants(): readonly string[] {
+      return this.#viewer?.variants ?? [];
+    }
+
+    connectedCallback(): void {
+      adoptProperties(this);
+      if (!this.#shadow) {
+        this.#shadow = fillShadow(this);
+        this.#hotspots = new HotspotLayer(this, this.#shadow.hotspots, () => this.#viewer && this.#hotspots?.update(this.#viewer));
+      }
+      this.#hotspots?.connect();
+      this.#describe();
+      this.#poster();
+      if (this.#viewer) return;
+      if (this.getAttribute('loading') === 'eager' || typeof IntersectionObserver === 'undefined') return this.#start();
+      this.#watch?.disconnect();
+      // A little before it comes into sight.
+      this.#watch = new IntersectionObserver((entries) => entries.some((entry) => entry.isIntersecting) && this.#start(), { rootMargin: '200px' });
+      this.#watch.observe(this);
+    }
+
+    disconnectedCallback(): void {
+      this.#watch?.disconnect();
+      this.#hotspots?.disconnect();
+      // One that is moved within the page keeps its picture.
+      queueMicrotask(() => {
+        if (!this.isConnected) this.#stop();
+      });
+    }
+
+    attributeChangedCallback(name: AttributeName, before: string | null, now: string | null): void {
+      if (before === now || !this.#shadow) return;
+      if (name === 'alt' || name === 'camera-controls') this.#describe();
+      if (name === 'poster') this.#poster();
+      if (name === 'loading' && now === 'eager' && this.isConnected && !this.#viewer) this.#start();
+      const viewer = this.#viewer;
+      if (!viewer) return;
+      if (name === 'src') {
+        this.#source = undefined;
+        this.#load(viewer);
+      } else if (name === 'variant-name') this.#setVariant(viewer);
+      else if (LIGHT.has(name)) {
+        viewer.background = this.#background;
+        viewer.setEnvironment(this.#environment).catch((error: unknown) => this.#fail(error));
+      } else if (VIEW.has(name)) {
+        if (name === 'field-of-view' && viewer.scene) viewer.fieldOfView = cameraOf(viewer.scene, this.#aspect, this.#view).yfov;
+        this.#look(viewer, name === 'min-camera-orbit' || name === 'max-camera-orbit');
+      } else this.#apply(viewer);
+    }
+
+    async show(source: ModelSource): Promise<void> {
+      this.#source = source;
+      if (!this.#viewer && this.isConnected) this.#start(false);
+      if (this.#viewer) await this.#loadSource(this.#viewer, source);
+    }
+
+    async toBlob({ mimeType, qualityArgument, ...options }: ElementBlobOptions = {}): Promise<Blob> {
+      if (!this.#viewer) this.#start();
+      const viewer = this.#viewer as Viewer;
+      if (!viewer.scene) await new Promise<void>((resolve, reject) => {
+        viewer.on('load', () => resolve(), { once: true });
+        viewer.on('error', ({ error }) => reject(error as Error), { once: true });
+      });
+      return viewer.toBlob({ ...(mimeType === undefined ? {} : { type: mimeType }), ...(qualityArgument === undefined ? {} : { quality: qualityArgument }), ...options });
+    }
+
+    getCameraOrbit(): Orbit | undefined {
+      return this.#viewer?.orbit;
+    }
+
+    getFieldOfView(): number {
+      return ((this.#viewer?.fieldOfView ?? 0) * 180) / Math.PI;
+    }
+
+    jumpCameraToGoal(): void {
+      const orbit = this.#viewer?.orbit;
+      if (orbit) this.#viewer?.setOrbit(orbit, { immediate: true });
+    }
+
+    updateFraming(): void {
+      const { scene } = this.#viewer ?? {};
+      if (scene) this.#viewer?.setCamera(cameraOf(scene, this.#aspect, this.#view));
+    }
+
+    dismissPoster(): void {
+      if (this.#revealed) return;
+      this.#revealed = true;
+      this.#shadow?.poster.classList.add('gone');
+      this.#tell('poster-dismissed', undefined);
+    }
+
+    showPoster(): void {
+      this.#revealed = false;
+      this.#shadow?.poster.classList.remove('gone');
+    }
+
+    queryHotspot(slot: string): HotspotView | undefined {
+      const [element] = this.#hotspots?.elementsOf(slot) ?? [];
+      const position = readVector(element?.getAttribute('data-position'));
+      if (!element || !position || !this.#viewer) return undefined;
+      return viewHotspot(this.#viewer, { position, normal: readVector(element.getAttribute('data-normal')) }, element.hasAttribute('data-occlusion'));
+    }
+
+    updateHotspot({ name, position, normal }: { readonly name: string; readonly position?: string; readonly normal?: string }): void {
+      for (const element of this.#hotspots?.elementsOf(name) ?? []) {
+        if (position !== undefined) element.setAttribute('data-position', position);
+        if (normal !== undefined) element.setAttribute('data-normal', normal);
+      }
+    }
+
+    pick(clientX: number, clientY: number): PickResult | undefined {
+      const box = this.getBoundingClientRect();
+      return this.#viewer?.pick(clientX - box.left, clientY - box.top);
+    }
+
+    get #aspect(): number {
+      return Math.max(1, this.clientWidth) / Math.max(1, this.clientHeight);
+    }
+
+    get #view(): ViewAttributes {
+      const text = (name: AttributeName) => this.getAttribute(name);
+      return { orbit: text('camera-orbit'), target: text('camera-target'), fieldOfView: text('field-of-view'), least: text('min-camera-orbit'), most: text('max-camera-orbit') };
+    }
+
+    get #background(): 'environment' | 'transparent' {
+      return this.hasAttribute('skybox-image') ? 'environment' : 'transparent';
+    }
+
+    get #environment(): EnvironmentSource {
+      const image = this.getAttribute('skybox-image') || this.getAttribute('environment-image');
+      if (!image || image === 'auto') return 'scene';
+      return image === 'neutral' || image === 'legacy' ? 'studio' : image;
+    }
+
+    #number(name: AttributeName): number | undefined {
+      return numberOf(this.getAttribute(name)) ?? undefined;
+    }
+
+    #start(load = true): void {
+      this.#watch?.disconnect();
+      const shadow = this.#shadow;
+      if (this.#viewer || !shadow) return;
+      const viewer = (this.#viewer = createViewer(shadow.canvas, { environment: this.#environment, background: this.#background, controls: false, camera: (scene, aspect) => cameraOf(scene, aspect, this.#view) }));
+      this.#apply(viewer);
+      this.#listen(viewer, shadow);
+      if (load) this.#load(viewer);
+    }
+
+    #stop(): void {
+      clearTimeout(this.#speaking);
+      this.#viewer?.destroy();
+      this.#viewer = undefined;
+      this.#loaded = false;
+      this.#shadow?.progress.classList.add('gone');
+      this.showPoster();
+    }
+
+    /** What can change at any time at no cost. */
+    #apply(viewer: Viewer): void {
+      const degrees = (name: AttributeName) => angle((this.getAttribute(name) ?? '').trim());
+      viewer.samples = this.#number('samples') ?? 256;
+      viewer.noise = this.#number('noise');
+      viewer.maxDepth = this.#number('max-depth') ?? 8;
+      viewer.pixelRatio = this.#number('pixel-ratio');
+      viewer.exposure = Math.log2(Math.max(1e-6, this.#number('exposure') ?? 1));
+      const tone = this.getAttribute('tone-mapping') ?? 'neutral';
+      const known = TONE_MAP_NAMES[tone] ?? (TONE_MAPS.includes(tone as ToneMap) ? (tone as ToneMap) : 'neutral');
+      viewer.toneMap = known;
+      viewer.environmentIntensity = this.#number('environment-intensity') ?? 1;
+      viewer.environmentRotation = degrees('environment-rotation') ?? 0;
+      viewer.damping = (this.#number('interpolation-decay') ?? 60) / 1000;
+      viewer.autoRotateDelay = (this.#number('auto-rotate-delay') ?? 3000) / 1000;
+      const speed = this.hasAttribute('auto-rotate') ? (degrees('rotation-per-second') ?? Math.PI / 6) : 0;
+      if (speed !== viewer.autoRotate) viewer.autoRotate = speed;
+      const controls = this.hasAttribute('camera-controls') && { pan: !this.hasAttribute('disable-pan'), zoom: !this.hasAttribute('disable-zoom'), focus: !this.hasAttribute('disable-tap') };
+      // Not for nothing: a drag that is under way would end.
+      if (JSON.stringify(controls) !== JSON.stringify(viewer.controls)) viewer.controls = controls;
+      if (viewer.controls) viewer.canvas.style.touchAction = this.getAttribute('touch-action') ?? 'pan-y';
+    }
+
+    #listen(viewer: Viewer, { bar, progress, message }: Shadow): void {
+      for (const type of ['sample', 'converged', 'device-lost', 'device-restored'] as const) viewer.on(type, (detail) => this.#tell(type, detail));
+      viewer.on('progress', (detail) => {
+        progress.classList.remove('gone');
+        bar.style.transform = `scaleX(${detail.total.toFixed(3)})`;
+        this.#tell('progress', { ...detail, totalProgress: detail.total });
+      });
+      viewer.on('load', (detail) => {
+        this.#loaded = true;
+        message.hidden = true;
+        progress.classList.add('gone');
+        viewer.orbitLimits = limitsOf(detail.scene, this.#aspect, this.#view);
+        this.#speak(`${this.#name} is there.`);
+        this.#tell('load', detail);
+      });
+      viewer.on('error', (detail) => {
+        progress.classList.add('gone');
+        message.textContent = detail.message;
+        message.hidden = false;
+        this.#tell('error', detail);
+      });
+      viewer.on('device-restored', () => void (message.hidden = true));
+      viewer.on('camera-change', (detail) => {
+        this.#tell('camera-change', detail);
+        if (detail.source !== 'user') return;
+        clearTimeout(this.#speaking);
+        this.#speaking = setTimeout(() => this.#speak(`${this.#name}, seen ${describeView(detail.orbit)}.`), SPEAK_MS);
+      });
+      viewer.on('frame', ({ preview }) => {
+        this.#hotspots?.update(viewer);
+        // A poster gives way to a whole picture only, or to a hand that moves the model.
+        if (!this.#revealed && this.getAttribute('reveal') !== 'manual' && (!preview || !this.#hasPoster)) this.dismissPoster();
+      });
+    }
+
+    get #hasPoster(): boolean {
+      return this.hasAttribute('poster') || [...this.children].some((child) => child.slot === 'poster');
+    }
+
+    get #name(): string {
+      return this.getAttribute('alt') || 'Model';
+    }
+
+    #describe(): void {
+      const { canvas, hint } = this.#shadow as Shadow;
+      const moves = this.hasAttribute('camera-controls');
+      canvas.setAttribute('role', moves ? 'application' : 'img');
+      canvas.setAttribute('aria-label', this.#name);
+      canvas.toggleAttribute('aria-roledescription', false);
+      if (!moves) {
+        canvas.removeAttribute('aria-describedby');
+        return;
+      }
+      canvas.setAttribute('aria-roledescription', '3D model');
+      canvas.setAttribute('aria-describedby', 'hint');
+      hint.textContent = 'Arrow keys turn it, plus and minus come nearer and go away, Shift and arrow keys move it, 0 returns.';
+    }
+
+    #poster(): void {
+      const { poster } = this.#shadow as Shadow;
+      const fallback = poster.querySelector('slot') as HTMLSlotElement;
+      const address = this.getAttribute('poster');
+      if (address === null) return fallback.replaceChildren();
+      const image = document.createElement('img');
+      image.src = address;
+      image.alt = '';
+      fallback.replaceChildren(image);
+    }
+
+    #load(viewer: Viewer): void {
+      const source = this.#source ?? this.getAttribute('src');
+      if (source) this.#loadSource(viewer, source).catch(() => undefined);
+    }
+
+    async #loadSource(viewer: Viewer, source: ModelSource): Promise<void> {
+      this.#loaded = false;
+      this.#speak(`${this.#name} is loading.`);
+      viewer.orbitLimits = {};
+      const variant = this.getAttribute('variant-name');
+      await viewer.load(source, variant === null || variant === 'default' ? {} : { variant });
+    }
+
+    #setVariant(viewer: Viewer): void {
+      const name = this.getAttribute('variant-name');
+      if (!viewer.scene) return;
+      viewer.setVariant(name === null || name === 'default' ? undefined : name).then(
+        () => this.#tell('variant-applied', { variantName: name }),
+        (error: unknown) => this.#fail(error),
+      );
+    }
+
+    #look(viewer: Viewer, limits: boolean): void {
+      const { scene } = viewer;
+      if (!scene) return;
+      if (limits) viewer.orbitLimits = limitsOf(scene, this.#aspect, this.#view);
+      else viewer.setOrbit(orbitOf(scene, this.#aspect, this.#view));
+    }
+
+    #fail(error: unknown): void {
+      if ((error as { name?: string }).name === 'AbortError') return;
+      const { message = 'Something failed.', code } = error as { message?: string; code?: string };
+      this.#tell('error', { error, message: message.split('\n')[0] as string, code: code ?? 'unexpected' });
+    }
+
+    #speak(text: string): void {
+      if (this.#shadow) this.#shadow.spoken.textContent = text;
+    }
+
+    #tell<K extends keyof GlanzViewerEventMap>(type: K, detail: GlanzViewerEventMap[K]['detail']): void {
+      this.dispatchEvent(new CustomEvent(type, { detail }));
+    }
+  }
+  reflectAttributes(GlanzViewer.prototype);
+  return GlanzViewer as unknown as GlanzViewerConstructor;
+}
+
+/**
+ * Makes `<glanz-viewer>` known to the page. May be called any number of times, and on a server, where it does nothing.
+ *
+ * @param tag Another name for it; one class has one name only, so the first call decides.
+ */
+export function defineGlanzViewer(tag = 'glanz-viewer'): void {
+  if (typeof customElements === 'undefined' || customElements.get(tag)) return;
+  customElements.define(tag, glanzViewerClass() as unknown as CustomElementConstructor);
+}
+
+declare global {
+  interface HTMLElementTagNameMap {
+    'glanz-viewer': GlanzViewerElement;
+  }
+}

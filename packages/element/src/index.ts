@@ -1,0 +1,3 @@
+export { defineGlanzViewer, glanzViewerClass, type ElementBlobOptions, type GlanzViewerConstructor, type GlanzViewerElement, type GlanzViewerEventMap } from './element';
+export { ATTRIBUTES, type AttributeKind, type AttributeName, type ReflectedProperties } from './attributes';
+export type { HotspotView } from './hotspots';

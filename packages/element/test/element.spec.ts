@@ -1,0 +1,260 @@
+import { readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { fileURLToPath } from 'node:url';
+import { hdr, injectFaults, photograph, pixelsOf, quads, servePage, watch, type Served } from '@glanz/browser';
+import { expect, test, type Page } from '@playwright/test';
+import type { GlanzViewerElement } from '@glanz/element';
+
+interface TestWindow {
+  put: (attributes: Record<string, string>, children?: string) => GlanzViewerElement;
+  file: (base64: string, name: string) => File;
+  heard: { type: string; detail: Record<string, unknown> }[];
+  loseGpu: () => void;
+}
+declare const window: TestWindow & typeof globalThis;
+
+// The strictest policy that lets a page use WebGPU at all: nothing inline, no blobs, nothing from elsewhere.
+const POLICY = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; connect-src 'self'; worker-src 'self'";
+
+let served: Served;
+test.beforeAll(async () => void (served = await servePage(fileURLToPath(new URL('page', import.meta.url)), { 'Content-Security-Policy': POLICY })));
+test.afterAll(() => served.close());
+test.use({ viewport: { width: 640, height: 480 } });
+
+let complaints: string[] = [];
+test.beforeEach(async ({ page }) => {
+  complaints = watch(page, served.origin);
+  await page.route('**/*.glb', (route) => {
+    const name = new URL(route.request().url()).pathname;
+    if (name.includes('bad')) return route.fulfill({ body: Buffer.from('no model') });
+    return route.fulfill({ body: name.includes('other') ? other : model });
+  });
+  await page.route('**/*.hdr', (route) => route.fulfill({ body: hdr([128, 0, 0, 129]) }));
+});
+test.afterEach(() => expect(complaints).toEqual([]));
+
+const model = quads([
+  { name: 'left', colour: [0.9, 0.02, 0.02], at: [-1.2, 0, 0] },
+  { name: 'right', colour: [0.02, 0.8, 0.02], at: [1.2, 0, 0], variants: { night: [0.02, 0.02, 0.9] } },
+]);
+const other = quads([{ name: 'one', colour: [0.9, 0.9, 0.02] }]);
+
+const FAST = { samples: '8', 'max-depth': '3', 'pixel-ratio': '0.5', 'camera-orbit': '0deg 90deg 5m', 'field-of-view': '35deg' };
+const viewer = (page: Page) => page.locator('glanz-viewer');
+const heard = (page: Page, type: string) => page.evaluate((wanted) => window.heard.filter((event) => event.type === wanted).map(({ detail }) => detail), type);
+const put = (page: Page, attributes: Record<string, string>, children = '') => page.evaluate(([given, inner]) => void window.put(given as Record<string, string>, inner as string), [attributes, children] as const);
+const state = (page: Page) => page.evaluate(() => document.querySelector('glanz-viewer')!.viewer?.state);
+const done = (page: Page) => expect.poll(() => state(page), { message: 'the picture is done' }).toBe('done');
+const shot = async (page: Page) => {
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  return photograph(viewer(page));
+};
+
+async function open(page: Page, attributes: Record<string, string> = {}, children = ''): Promise<void> {
+  await page.goto(served.origin);
+  await put(page, { src: 'model.glb', alt: 'Two cards', ...FAST, ...attributes }, children);
+  await done(page);
+}
+
+test('a model by markup alone, over the page, under a strict content security policy', async ({ page }) => {
+  await open(page);
+  const { cells } = await shot(page);
+  expect(cells[3]![0]).toBeGreaterThan(1.5 * cells[3]![1]);
+  expect(cells[5]![1]).toBeGreaterThan(1.5 * cells[5]![0]);
+  // Behind it is the page.
+  const corner = await pixelsOf(page, await page.screenshot({ clip: { x: 2, y: 42, width: 8, height: 8 } }));
+  expect(corner.mean.map(Math.round)).toEqual([0x20, 0x40, 0x80]);
+  expect(await heard(page, 'load')).toHaveLength(1);
+  expect(await heard(page, 'converged')).toEqual([expect.objectContaining({ samples: 8 })]);
+  expect((await heard(page, 'progress')).at(-1)).toMatchObject({ totalProgress: 1 });
+  expect(await heard(page, 'poster-dismissed')).toHaveLength(1);
+  expect(await page.evaluate(() => [document.querySelector('glanz-viewer')!.loaded, document.querySelector('glanz-viewer')!.availableVariants])).toEqual([true, ['night']]);
+});
+
+test('attributes and properties reflect, and reach the picture', async ({ page }) => {
+  await open(page);
+  const day = await shot(page);
+  await page.evaluate(() => void (document.querySelector('glanz-viewer')!.variantName = 'night'));
+  await expect(viewer(page)).toHaveAttribute('variant-name', 'night');
+  await expect.poll(() => heard(page, 'variant-applied')).toEqual([{ variantName: 'night' }]);
+  await done(page);
+  const night = await shot(page);
+  expect(night.cells[5]![2]).toBeGreaterThan(day.cells[5]![2] + 20);
+
+  await page.evaluate(() => document.querySelector('glanz-viewer')!.removeAttribute('variant-name'));
+  await expect.poll(async () => { await done(page); return Math.abs((await shot(page)).cells[5]![1] - day.cells[5]![1]); }).toBeLessThan(3);
+
+  // Twice the light, as model-viewer means exposure.
+  await viewer(page).evaluate((element) => element.setAttribute('exposure', '0.25'));
+  await expect.poll(() => page.evaluate(() => document.querySelector('glanz-viewer')!.viewer!.exposure)).toBe(-2);
+  await expect.poll(async () => (await shot(page)).cells[3]![0]).toBeLessThan(0.8 * day.cells[3]![0]);
+  await page.evaluate(() => void (document.querySelector('glanz-viewer')!.exposure = null));
+
+  await page.evaluate(() => void (document.querySelector('glanz-viewer')!.skyboxImage = 'red.hdr'));
+  await expect.poll(async () => { await done(page); const { mean } = await shot(page); return mean[0] / (mean[1] + 1); }).toBeGreaterThan(3);
+
+  await page.evaluate(() => void (document.querySelector('glanz-viewer')!.cameraOrbit = '90deg 90deg 5m'));
+  await expect.poll(() => page.evaluate(() => document.querySelector('glanz-viewer')!.getCameraOrbit()!.theta)).toBeCloseTo(Math.PI / 2, 6);
+  await expect.poll(async () => (await heard(page, 'camera-change')).length).toBeGreaterThan(0);
+
+  await page.evaluate(() => void (document.querySelector('glanz-viewer')!.src = 'other.glb'));
+  await expect.poll(async () => (await heard(page, 'load')).length).toBe(2);
+  expect(await page.evaluate(() => document.querySelector('glanz-viewer')!.availableVariants)).toEqual([]);
+});
+
+test('hands and keys move it where camera-controls is, within limits, and the new view is spoken', async ({ page }) => {
+  await open(page, { 'camera-controls': '', 'max-camera-orbit': '30deg auto auto', 'interpolation-decay': '0' });
+  const orbit = () => page.evaluate(() => document.querySelector('glanz-viewer')!.getCameraOrbit()!);
+  await page.keyboard.press('Tab');
+  await page.keyboard.press('ArrowLeft');
+  expect((await orbit()).theta).toBeCloseTo(-Math.PI / 24, 6);
+  for (let i = 0; i < 9; i++) await page.keyboard.press('ArrowRight');
+  expect((await orbit()).theta).toBeCloseTo(Math.PI / 6, 6);
+  await expect.poll(() => viewer(page).evaluate((element) => element.shadowRoot!.querySelector('[role=status]')!.textContent)).toBe('Two cards, seen from the front right.');
+  await page.mouse.move(160, 140);
+  await page.mouse.down();
+  await page.mouse.move(260, 140, { steps: 3 });
+  await page.mouse.up();
+  expect((await orbit()).theta).toBeLessThan(-0.5);
+  // Without it, a page that scrolls stays a page that scrolls.
+  await page.evaluate(() => void (document.querySelector('glanz-viewer')!.cameraControls = false));
+  const before = await orbit();
+  await page.mouse.wheel(0, 200);
+  await page.mouse.move(160, 140);
+  await page.mouse.down();
+  await page.mouse.move(60, 140);
+  await page.mouse.up();
+  expect(await orbit()).toEqual(before);
+});
+
+test('hotspots stay on the model, hide behind it, and can be moved', async ({ page }) => {
+  await open(page, {}, '<button slot="hotspot-a" data-position="-1.2 0 0" data-normal="0 0 1" data-visibility-attribute="visible">Left</button><button slot="hotspot-back" data-position="1.2 0 0" data-normal="0 0 -1" data-visibility-attribute="visible">Back</button>');
+  const centre = async (name: string) => {
+    const box = (await page.getByRole('button', { name }).boundingBox())!;
+    return [box.x + box.width / 2, box.y + box.height / 2 - 40];
+  };
+  // Seen from (0, 0, 5) with 35° over the height of 200 pixels.
+  const scale = 100 / (5 * Math.tan((17.5 * Math.PI) / 180));
+  const [x, y] = await centre('Left');
+  expect(x).toBeCloseTo(160 - 1.2 * scale, 0);
+  expect(y).toBeCloseTo(100, 0);
+  await expect(page.getByRole('button', { name: 'Left' })).toHaveAttribute('data-visible', '');
+  await expect(page.getByRole('button', { name: 'Back' })).not.toHaveAttribute('data-visible');
+  await page.evaluate(() => document.querySelector('glanz-viewer')!.updateHotspot({ name: 'hotspot-a', position: '0m 0.5m 0m' }));
+  await expect.poll(async () => Math.round((await centre('Left'))[0]!)).toBe(160);
+  expect((await centre('Left'))[1]).toBeCloseTo(100 - 0.5 * scale, 0);
+  // From behind, the other one is seen.
+  await page.evaluate(() => void (document.querySelector('glanz-viewer')!.cameraOrbit = '180deg 90deg 5m'));
+  await expect(page.getByRole('button', { name: 'Back' })).toHaveAttribute('data-visible', '');
+  await expect(page.getByRole('button', { name: 'Left' })).not.toHaveAttribute('data-visible');
+});
+
+test('a poster waits for the picture, or for the page; loading waits for the eye', async ({ page }) => {
+  await page.goto(served.origin);
+  await page.evaluate(() => void (document.querySelector<HTMLElement>('#place')!.style.paddingTop = '3000px'));
+  await put(page, { src: 'model.glb', alt: 'Two cards', reveal: 'manual', ...FAST }, '<p slot="poster">Wait</p>');
+  await page.waitForTimeout(400);
+  expect(await state(page)).toBeUndefined();
+  await page.evaluate(() => void (document.querySelector<HTMLElement>('#place')!.style.paddingTop = '0'));
+  await done(page);
+  await expect(page.getByText('Wait')).toBeVisible();
+  expect(await heard(page, 'poster-dismissed')).toEqual([]);
+  await page.evaluate(() => document.querySelector('glanz-viewer')!.dismissPoster());
+  await expect(page.getByText('Wait')).toBeHidden();
+});
+
+test('a bad file is told; the former picture stays; the next good one clears the message', async ({ page }) => {
+  await open(page);
+  const before = await shot(page);
+  await page.evaluate(() => void (document.querySelector('glanz-viewer')!.src = 'bad.glb'));
+  await expect.poll(async () => (await heard(page, 'error')).length).toBe(1);
+  expect((await heard(page, 'error'))[0]!['code']).toMatch(/^gltf\//);
+  const alert = page.locator('glanz-viewer').getByRole('alert');
+  await expect(alert).toHaveText(/bad\.glb/);
+  await done(page);
+  expect(Math.abs((await shot(page)).cells[3]![0] - before.cells[3]![0])).toBeLessThan(2);
+  await page.evaluate(() => void (document.querySelector('glanz-viewer')!.src = 'other.glb'));
+  await expect(alert).toBeHidden();
+});
+
+test('resized, hidden, shown, moved in the page, taken out and put back', async ({ page }) => {
+  await open(page);
+  await viewer(page).evaluate((element) => void (element.style.width = '200px'));
+  await expect.poll(() => page.evaluate(() => document.querySelector('glanz-viewer')!.viewer!.tracer!.width)).toBe(100);
+  await done(page);
+  await viewer(page).evaluate((element) => void (element.style.display = 'none'));
+  await expect.poll(() => state(page)).toBe('hidden');
+  await viewer(page).evaluate((element) => void (element.style.display = 'block'));
+  await done(page);
+  // Moved: the same viewer goes on. Taken out: everything is let go. Put back: it loads again.
+  const kept = await page.evaluate(async () => {
+    const element = document.querySelector('glanz-viewer')!;
+    const before = element.viewer;
+    document.querySelector('main')!.prepend(element);
+    await Promise.resolve();
+    return before === element.viewer;
+  });
+  expect(kept).toBe(true);
+  const gone = await page.evaluate(async () => {
+    const element = document.querySelector('glanz-viewer')!;
+    const { viewer: before } = element;
+    Object.assign(window, { taken: element });
+    element.remove();
+    await Promise.resolve();
+    return [before!.state, element.viewer];
+  });
+  expect(gone).toEqual(['destroyed', undefined]);
+  await page.evaluate(() => document.querySelector('#place')!.append((window as unknown as { taken: Element }).taken));
+  await done(page);
+  expect((await shot(page)).cells[3]![0]).toBeGreaterThan(40);
+});
+
+test('a lost device comes back by itself', async ({ page }) => {
+  await injectFaults(page);
+  await open(page);
+  const before = await shot(page);
+  await page.evaluate(() => window.loseGpu());
+  await expect.poll(async () => (await heard(page, 'device-restored')).length).toBe(1);
+  expect(await heard(page, 'device-lost')).toHaveLength(1);
+  expect(await heard(page, 'error')).toEqual([]);
+  await done(page);
+  expect(Math.abs((await shot(page)).cells[3]![0] - before.cells[3]![0])).toBeLessThan(2);
+});
+
+test('toBlob, by our names and by model-viewer\'s', async ({ page }) => {
+  await open(page);
+  const files = await page.evaluate(async () => {
+    const element = document.querySelector('glanz-viewer')!;
+    const [png, jpeg] = [await element.toBlob(), await element.toBlob({ mimeType: 'image/jpeg', qualityArgument: 0.8 })];
+    const { width, height } = await createImageBitmap(png);
+    return [png.type, jpeg.type, width, height];
+  });
+  expect(files).toEqual(['image/png', 'image/jpeg', 160, 100]);
+});
+
+test('without WebGPU the poster stays and the reason is told', async ({ page }) => {
+  await page.addInitScript(() => Object.defineProperty(navigator, 'gpu', { value: undefined }));
+  await page.goto(served.origin);
+  await put(page, { src: 'model.glb', alt: 'Two cards', ...FAST }, '<p slot="poster">Instead</p>');
+  await expect.poll(async () => (await heard(page, 'error')).map(({ code }) => code)).toEqual(['renderer/no-webgpu']);
+  await expect(page.getByText('Instead')).toBeVisible();
+  await expect(page.getByRole('alert')).toContainText('WebGPU');
+});
+
+test('axe finds nothing wrong, still and with controls, hotspots and a message', async ({ page }) => {
+  const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+  const violations = async () => {
+    // The page's policy keeps strangers' scripts out; the debugger's are none.
+    await page.evaluate(axe);
+    return page.evaluate(async () => {
+      const { violations: found } = await (window as unknown as { axe: { run: () => Promise<{ violations: { id: string; nodes: { html: string }[] }[] }> } }).axe.run();
+      return found.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(' ')}`);
+    });
+  };
+  await open(page);
+  expect(await violations()).toEqual([]);
+  await page.evaluate(() => document.querySelector('glanz-viewer')!.remove());
+  await put(page, { src: 'bad.glb', alt: 'Two cards', 'camera-controls': '', ...FAST }, '<button slot="hotspot-a" data-position="0 0 0">A</button><div slot="poster">Soon</div>');
+  await expect(page.getByRole('alert')).toBeVisible();
+  expect(await violations()).toEqual([]);
+});

@@ -1,0 +1,6 @@
+import { glanzPackage } from '../../tsup.base';
+
+export default glanzPackage({
+  index: 'src/index.ts',
+  define: 'src/define.ts',
+});

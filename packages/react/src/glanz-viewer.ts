@@ -1,0 +1,100 @@
+import type { GlanzViewerElement, GlanzViewerEventMap, ReflectedProperties } from '@glanz/element';
+import { createElement, forwardRef, useEffect, useImperativeHandle, useRef, type CSSProperties, type ForwardRefExoticComponent, type ReactNode, type RefAttributes } from 'react';
+
+type Source = Parameters<GlanzViewerElement['show']>[0];
+type Detail<K extends keyof GlanzViewerEventMap> = GlanzViewerEventMap[K]['detail'];
+
+/** The attributes of `<glanz-viewer>` in camel case, and what it tells. */
+export interface GlanzViewerProps extends Partial<Omit<ReflectedProperties, 'src'>> {
+  /** An address, a file, files, or a scene. */
+  readonly src?: Source | null;
+  /** Elements in its slots: `<button slot="hotspot-seat" data-position="0 0.45 0">`, `<img slot="poster">`. */
+  readonly children?: ReactNode;
+  readonly className?: string;
+  readonly id?: string;
+  readonly style?: CSSProperties;
+  readonly onLoad?: (detail: Detail<'load'>) => void;
+  readonly onProgress?: (detail: Detail<'progress'>) => void;
+  readonly onError?: (detail: Detail<'error'>) => void;
+  readonly onSample?: (detail: Detail<'sample'>) => void;
+  readonly onConverged?: (detail: Detail<'converged'>) => void;
+  readonly onCameraChange?: (detail: Detail<'camera-change'>) => void;
+  readonly onVariantApplied?: (detail: Detail<'variant-applied'>) => void;
+  readonly onPosterDismissed?: () => void;
+  readonly onDeviceLost?: (detail: Detail<'device-lost'>) => void;
+  readonly onDeviceRestored?: (detail: Detail<'device-restored'>) => void;
+}
+
+const EVENTS = {
+  onLoad: 'load',
+  onProgress: 'progress',
+  onError: 'error',
+  onSample: 'sample',
+  onConverged: 'converged',
+  onCameraChange: 'camera-change',
+  onVariantApplied: 'variant-applied',
+  onPosterDismissed: 'poster-dismissed',
+  onDeviceLost: 'device-lost',
+  onDeviceRestored: 'device-restored',
+} as const;
+
+/** Properties as the attributes that a server can write too: flags as presence, nothing for what is not there. */
+function attributesOf(props: Readonly<Record<string, unknown>>): Record<string, string> {
+  const attributes: Record<string, string> = {};
+  for (const [name, value] of Object.entries(props)) {
+    if (value === undefined || value === null || value === false || typeof value === 'function') continue;
+    attributes[name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`)] = value === true ? '' : String(value);
+  }
+  return attributes;
+}
+
+/**
+ * `<glanz-viewer>` as a component. On a server it is the bare tag with its children, the poster say; in the browser the
+ * element's code is fetched when the first one is there. Its ref is the element, and so leads to the `Viewer`.
+ *
+ * @example
+ * <GlanzViewer src="chair.glb" alt="An oak chair" cameraControls style={{ height: 400 }} onConverged={({ samples }) => console.log(samples)} />
+ */
+export const GlanzViewer: ForwardRefExoticComponent<GlanzViewerProps & RefAttributes<GlanzViewerElement>> = forwardRef<GlanzViewerElement, GlanzViewerProps>(function GlanzViewer(props, ref) {
+  const element = useRef<GlanzViewerElement>(null);
+  const latest = useRef(props);
+  useImperativeHandle(ref, () => element.current as GlanzViewerElement, []);
+  // After each render: handlers are seldom the same functions twice.
+  useEffect(() => void (latest.current = props));
+
+  useEffect(() => {
+    const target = element.current as GlanzViewerElement;
+    const listeners = new AbortController();
+    for (const [handler, type] of Object.entries(EVENTS) as [keyof typeof EVENTS, string][]) {
+      target.addEventListener(type, (event) => (latest.current[handler] as ((detail: unknown) => void) | undefined)?.((event as CustomEvent).detail), { signal: listeners.signal });
+    }
+    void import('@glanz/element').then(({ defineGlanzViewer }) => defineGlanzViewer());
+    return () => listeners.abort();
+  }, []);
+
+  const { src, children, className, id, style, ...rest } = props;
+  const address = typeof src === 'string' || src instanceof URL ? String(src) : undefined;
+  const source = address === undefined && src ? src : undefined;
+  useEffect(() => {
+    if (source === undefined) return undefined;
+    let wanted = true;
+    // Its errors come by the event.
+    void customElements.whenDefined('glanz-viewer').then(() => (wanted ? element.current?.show(source).catch(() => undefined) : undefined));
+    return () => void (wanted = false);
+  }, [source]);
+
+  return createElement(
+    'glanz-viewer',
+    {
+      ref: element,
+      ...attributesOf(rest),
+      ...(address === undefined ? {} : { src: address }),
+      ...(className === undefined ? {} : { class: className }),
+      ...(id === undefined ? {} : { id }),
+      ...(style === undefined ? {} : { style }),
+      // What the element itself adds is its own affair.
+      suppressHydrationWarning: true,
+    },
+    children,
+  );
+});

@@ -1,0 +1,75 @@
+import { fileURLToPath } from 'node:url';
+import { photograph, quads, servePage, watch, type Served } from '@glanz/browser';
+import { expect, test, type Page } from '@playwright/test';
+import type { GlanzViewerElement, GlanzViewerProps } from '@glanz/react';
+import { createElement } from 'react';
+import { renderToString } from 'react-dom/server';
+import { GlanzViewer } from '../src/index';
+
+interface TestWindow {
+  heard: string[];
+  seen: { element: GlanzViewerElement | null };
+  give: (props: GlanzViewerProps | null) => void;
+  file: (base64: string, name: string) => File;
+  start: (first: GlanzViewerProps, html?: string) => void;
+}
+declare const window: TestWindow & typeof globalThis;
+
+let served: Served;
+test.beforeAll(async () => void (served = await servePage(fileURLToPath(new URL('page', import.meta.url)))));
+test.afterAll(() => served.close());
+test.use({ viewport: { width: 640, height: 480 } });
+
+let complaints: string[] = [];
+test.beforeEach(async ({ page }) => {
+  complaints = watch(page, served.origin);
+  await page.route('**/*.glb', (route) => route.fulfill({ body: red }));
+  await page.goto(served.origin);
+});
+test.afterEach(() => expect(complaints).toEqual([]));
+
+const red = quads([{ name: 'red', colour: [0.9, 0.02, 0.02], variants: { night: [0.02, 0.02, 0.9] } }]);
+const green = quads([{ name: 'green', colour: [0.02, 0.8, 0.02] }]);
+const FAST: GlanzViewerProps = { alt: 'A card', samples: 6, maxDepth: 3, pixelRatio: 0.5, cameraOrbit: '0deg 90deg 3m', fieldOfView: '35deg' };
+const heard = (page: Page) => page.evaluate(() => window.heard);
+const middle = async (page: Page) => {
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  return (await photograph(page.locator('glanz-viewer'))).cells[4]!;
+};
+
+test('under Strict Mode it loads once, converges, follows its props, and lets go', async ({ page }) => {
+  await page.evaluate((props) => window.start(props), { src: 'red.glb', cameraControls: true, ...FAST });
+  await expect.poll(() => heard(page)).toEqual(['load', 'converged 6']);
+  const day = await middle(page);
+  expect(day[0]).toBeGreaterThan(2 * day[1]);
+  expect(await page.evaluate(() => [window.seen.element?.cameraControls, window.seen.element?.viewer?.state])).toEqual([true, 'done']);
+
+  await page.evaluate((props) => window.give(props), { src: 'red.glb', variantName: 'night', ...FAST });
+  await expect.poll(() => heard(page)).toEqual(['load', 'converged 6', 'converged 6']);
+  const night = await middle(page);
+  expect(night[2]).toBeGreaterThan(2 * night[0]);
+  // What is not given any more is taken away.
+  await expect(page.locator('glanz-viewer')).not.toHaveAttribute('camera-controls');
+
+  const device = await page.evaluateHandle(() => window.seen.element!.viewer!.device!);
+  await page.evaluate(() => window.give(null));
+  await expect(page.getByText('gone')).toBeVisible();
+  expect(await device.evaluate(async (lost) => (await lost.lost).reason)).toBe('destroyed');
+  expect(await page.evaluate(() => window.seen.element)).toBeNull();
+});
+
+test('a file as src', async ({ page }) => {
+  await page.evaluate(([base64, props]) => window.start({ src: window.file(base64 as string, 'green.glb'), ...(props as GlanzViewerProps) }), [green.toString('base64'), FAST] as const);
+  await expect.poll(() => heard(page)).toEqual(['load', 'converged 6']);
+  const [r, g] = await middle(page);
+  expect(g).toBeGreaterThan(1.5 * r);
+  await page.evaluate((props) => window.give({ src: new File(['no'], 'bad.glb'), ...props }), FAST);
+  await expect.poll(async () => (await heard(page)).at(-1)).toMatch(/^error gltf\//);
+});
+
+test('what a server rendered is taken over without a complaint', async ({ page }) => {
+  const props: GlanzViewerProps = { src: 'red.glb', cameraControls: true, ...FAST };
+  const html = renderToString(createElement(GlanzViewer, props));
+  await page.evaluate(([given, text]) => window.start(given as GlanzViewerProps, text as string), [props, html] as const);
+  await expect.poll(() => heard(page)).toEqual(['load', 'converged 6']);
+});
