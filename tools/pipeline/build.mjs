@@ -18,6 +18,9 @@ function filesUnder(folder) {
 function fingerprint(p, dependencies) {
   const hash = createHash('sha256');
   const inputs = [...filesUnder(join(p.dir, 'src')), join(p.dir, 'package.json'), join(p.dir, 'tsup.config.ts'), join(root, 'tsup.base.ts'), join(root, 'tools/pipeline/published-source.mjs'), join(root, 'tsconfig.base.json'), join(root, 'pnpm-lock.yaml')];
+  // The command brings the playground along.
+  const playground = join(root, 'apps/playground');
+  if (p.short === 'cli' && existsSync(playground)) inputs.push(...filesUnder(join(playground, 'src')), join(playground, 'index.html'), join(playground, 'vite.config.ts'));
   for (const file of inputs) {
     if (existsSync(file)) hash.update(relative(root, file)).update('\0').update(readFileSync(file)).update('\0');
   }

@@ -1,8 +1,9 @@
 import type { FilmLayer, PathTracerOptions, PathTracer, RenderStatistics } from '@glanz/renderer';
 import type { Scene } from '@glanz/scene';
+import type { PoseOptions } from './options';
 
 /** The part of a `PathTracer` that the command needs. */
-export type Tracer = Pick<PathTracer, 'render' | 'read' | 'readLightGroup' | 'lightGroups' | 'samples' | 'statistics' | 'destroy'>;
+export type Tracer = Pick<PathTracer, 'render' | 'read' | 'reset' | 'setCamera' | 'setVariant' | 'readLightGroup' | 'lightGroups' | 'samples' | 'statistics' | 'destroy'>;
 
 /** A device and what it is called. */
 export interface OpenedGpu {
@@ -24,7 +25,8 @@ export interface ListedGpu {
 
 /** The machinery behind the command. The real one is loaded when it is needed, so that `--help` does not wait for it. */
 export interface Backend {
-  loadModel(file: string, signal: AbortSignal): Promise<Scene>;
+  /** @param pose Which scene of the file, and at which moment; formats without such have one. */
+  loadModel(file: string, signal: AbortSignal, pose?: PoseOptions): Promise<Scene>;
   openGpu(name: string | undefined): Promise<OpenedGpu>;
   listGpus(): Promise<readonly ListedGpu[]>;
   createTracer(device: GPUDevice, scene: Scene, options: PathTracerOptions): Promise<Tracer>;
@@ -35,13 +37,13 @@ export type { FilmLayer, PathTracerOptions, RenderStatistics };
 /** The renderer on Dawn, the loaders with sharp. */
 export function nodeBackend(): Backend {
   return {
-    async loadModel(file, signal) {
+    async loadModel(file, signal, pose = {}) {
       if (/\.(obj|stl)$/i.test(file)) {
         const { loadModelFile } = await import('@glanz/formats/node');
         return loadModelFile(file, { signal });
       }
       const { loadGltfFile } = await import('@glanz/gltf/node');
-      return loadGltfFile(file, { signal });
+      return loadGltfFile(file, { signal, ...pose });
     },
     async openGpu(name) {
       const [{ requestDevice }, { createGpu }] = await Promise.all([import('@glanz/renderer'), import('@glanz/renderer/node')]);

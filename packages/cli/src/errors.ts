@@ -2,8 +2,8 @@ import { GlanzError } from '@glanz/scene';
 
 /**
  * Something the user can put right. Codes: `cli/usage` (unknown option, impossible value), `cli/input` (a file that
- * cannot be read), `cli/output` (a file that cannot be written), `cli/camera` (no such camera), `cli/missing-package`
- * (an optional package is needed).
+ * cannot be read), `cli/output` (a file that cannot be written), `cli/camera` (no such camera), `cli/batch` (a batch
+ * file that makes no sense), `cli/missing-package` (an optional package is needed), `cli/port` (a port that cannot be used).
  */
 export class CliError extends GlanzError {}
 
@@ -16,7 +16,7 @@ const GPU_CODES = new Set(['renderer/no-webgpu', 'renderer/no-adapter', 'rendere
 export function exitCodeOf(error: unknown): number {
   if (!(error instanceof GlanzError)) return EXIT.internal;
   const { code } = error;
-  if (code === 'cli/usage' || code === 'cli/camera' || code === 'renderer/size' || code === 'renderer/camera') return EXIT.usage;
+  if (code === 'cli/usage' || code === 'cli/camera' || code === 'cli/batch' || code === 'cli/port' || code === 'renderer/size' || code === 'renderer/camera') return EXIT.usage;
   if (code === 'cli/output') return EXIT.output;
   if (GPU_CODES.has(code)) return EXIT.gpu;
   if (/^(cli\/input|gltf\/|scene\/|image\/|formats\/|cad\/|renderer\/no-triangles)/.test(code)) return EXIT.input;
@@ -28,4 +28,10 @@ export function errorLine(error: unknown): string {
   if (error instanceof GlanzError) return `${error.message.replace(/\s*\n\s*/g, ' ')} [${error.code}]`;
   const message = error instanceof Error ? error.message : String(error);
   return `internal error: ${message.replace(/\s*\n\s*/g, ' ')} — please report this; GLANZ_DEBUG=1 shows where it happened.`;
+}
+
+/** The error as `--json` prints it. */
+export function describeError(error: unknown): { readonly code: string; readonly message: string; readonly location?: unknown } {
+  if (error instanceof GlanzError) return { code: error.code, message: error.message, ...(error.location ? { location: error.location } : {}) };
+  return { code: 'cli/internal', message: error instanceof Error ? error.message : String(error) };
 }

@@ -1,12 +1,58 @@
+/** What each of the smaller commands takes, for the manual page and for `glanz help COMMAND`. */
+const COMMANDS = {
+  convert: `CONVERTING
+  glanz convert PART [-o FILE.glb] [--lod N] [--materials FILE] [--strip] [...]
+
+  Turns a CAD file (.step, .iges, .brep) into .glb. It needs the package
+  @glanz/cad.
+  -o, --output FILE     Default: the model's name with .glb, in this folder.
+      --lod N           Levels of detail, each of a quarter of the triangles:
+                        part.glb, part.lod1.glb, part.lod2.glb. Default 1.
+      --materials FILE  JSON that translates names and colours of parts to
+                        materials; see the package.
+      --strip           Leave out names and metadata.
+      --tolerance MM    How far triangles may lie from the surface, millimetres.
+                        Default: a thousandth of the model's size.
+`,
+  info: `LOOKING
+  glanz info MODEL [--scene SCENE] [--json]
+
+  Tells what a model holds, without rendering it: triangles, parts, size,
+  materials, pictures, cameras, lights, variants, animations, memory, what the
+  file says of itself, and every warning.
+`,
+  bench: `MEASURING
+  glanz bench [MODEL] [--size WxH] [--samples N] [--runs N] [--gpu NAME]
+              [--json]
+
+  Renders a scene of its own (49 balls, 1.6 million triangles), or a model, and
+  tells how long a sample takes, and how long it takes until the first is there.
+      --size WxH        Pixels. Default 512x512.
+      --samples N       Of each run. Default 64.
+      --runs N          The middle one counts. Default 3.
+`,
+  serve: `THE PLAYGROUND
+  glanz serve [--port N] [--host NAME] [--json]
+
+  Serves the playground from this package, without a network: open the address
+  that it prints, and drop a model onto the page. Ctrl-C ends it.
+      --port N          Default 4173; 0 takes any that is free.
+      --host NAME       Default 127.0.0.1: nobody else can reach it.
+`,
+} as const;
+
 /** The manual page. */
 export const HELP = `NAME
   glanz - path-trace glTF models to pictures, with or without a GPU
 
 SYNOPSIS
   glanz render MODEL [-o FILE]... [--env FILE] [--size WxH] [--samples N] [...]
+  glanz render MODEL --variant all --view front --view iso [...]
+  glanz render --batch FILE [--resume] [--gpu NAME]... [...]
   glanz convert PART [-o FILE.glb] [--lod N] [--materials FILE] [--strip] [...]
+  glanz info MODEL | bench [MODEL] | serve
   glanz --list-gpus
-  glanz --help | --version
+  glanz help [COMMAND] | --help | --version
 
 DESCRIPTION
   Renders a glTF 2.0 model (.glb or .gltf), an .obj with its .mtl, or an .stl,
@@ -15,8 +61,8 @@ DESCRIPTION
   a neutral photo studio. Uses the best GPU there is, or the processor if there
   is none.
 
-  Progress goes to stderr, nothing but --json goes to stdout. Ctrl-C writes what
-  has been accumulated so far; a second Ctrl-C ends at once.
+  Progress goes to stderr; stdout has what --json, info and bench print. Ctrl-C
+  writes what has been accumulated so far; a second Ctrl-C ends at once.
 
 PICTURE
   -o, --output FILE     Where to write; the ending decides the format. May be
@@ -85,24 +131,51 @@ SHORTCUTS
                         Cut indirect light brighter than N.
       --no-caustics     No light on matte things by way of mirrors and glass.
 
-CONVERTING
-  glanz convert turns a CAD file (.step, .iges, .brep) into .glb. It needs the
-  package @glanz/cad.
-  -o, --output FILE     Default: the model's name with .glb, in this folder.
-      --lod N           Levels of detail, each of a quarter of the triangles:
-                        part.glb, part.lod1.glb, part.lod2.glb. Default 1.
-      --materials FILE  JSON that translates names and colours of parts to
-                        materials; see the package.
-      --strip           Leave out names and metadata.
-      --tolerance MM    How far triangles may lie from the surface, millimetres.
-                        Default: a thousandth of the model's size.
+MODEL
+      --scene SCENE     Which scene of the file, by name or number (from 0).
+      --animation NAME  Pose the model by this animation, by name or number, ...
+      --time S          ... as it is after S seconds. Default: at rest, or the
+                        first animation where --time is given.
+      --variant NAME    Look of KHR_materials_variants, by name or number; "all"
+                        for each. May be given several times.
 
+MANY PICTURES
+  Each variant is rendered from each view; what is the same stays on the GPU.
+      --view VIEW       front, back, left, right, top, bottom, front-right,
+                        front-left, back-right, back-left, iso; or an azimuth
+                        and an elevation in degrees, "30,20"; or whatever
+                        --camera takes. May be given several times.
+      --turntable N     N views around the model, always from the same distance,
+                        turntable-000 and so on,
+      --elevation D     ... from D degrees above. Default 20.
+      --output FILE     {model}, {variant} and {view} in the name stand for what
+                        they say. Names that would be the same get
+                        -{variant}-{view} at their ends.
+      --batch FILE      Pictures from a file. JSON: a list of objects whose keys
+                        are the names of these options and "model", or
+                        { "defaults": {...}, "pictures": [...] }. CSV: a line of
+                        names, then one for each picture. What a picture does
+                        not say the command line does. Paths are relative to the
+                        file.
+      --resume          Leave out pictures that an earlier run has finished, if
+                        neither options nor files have changed since. A journal
+                        beside the pictures, .glanz-journal.jsonl, knows.
+      --gpu NAME        Given several times, each GPU takes the next picture
+                        when it is done with one.
+  A picture that fails does not keep the others; the exit status is that of the
+  first failure. With Ctrl-C, unfinished pictures are not written.
+
+${COMMANDS.convert}
+${COMMANDS.info}
+${COMMANDS.bench}
+${COMMANDS.serve}
 MACHINE
       --list-gpus       List what could render, and exit.
       --gpu NAME        Use the GPU whose name contains NAME; "software" for the
                         processor.
       --json            Print one JSON object on stdout: files, samples,
-                        timings, statistics, adapter; or the error.
+                        timings, statistics, adapter; or the error. Of
+                        many: { ok, pictures: [...], total, skipped, failed }.
   -q, --quiet           No progress, no summary.
   -h, --help            This page.
   -V, --version         The version.
@@ -117,6 +190,26 @@ EXAMPLES
   glanz render helmet.glb -o helmet.png -o helmet.exr --samples 1024
   glanz render chair.gltf --env studio.hdr --env-rotation 90 --exposure 0.5
   glanz render part.glb --transparent --size 512x512 -o part.png --json
+  glanz render shoe.glb --variant all --view front --view iso --view 30,20 \\
+    -o 'out/{variant}-{view}.png' --resume
+  glanz render ring.glb --turntable 36 --elevation 15 -o 'ring/{view}.png'
+  glanz render --batch catalogue.csv --samples 512 --resume --json
+  glanz info shoe.glb
   glanz convert part.step -o part.glb --lod 3 --materials map.json --strip
   glanz render room.glb --camera '{"position":[0,1.6,3],"target":[0,1.2,0]}'
 `;
+
+/** The page, or what a command of its own takes. */
+export function helpOf(topic: string | undefined): string {
+  const section = topic !== undefined && Object.hasOwn(COMMANDS, topic) ? COMMANDS[topic as keyof typeof COMMANDS] : undefined;
+  if (section === undefined) return HELP;
+  return `${section}
+      --json            Print one JSON object on stdout; or the error.
+  -q, --quiet           No progress, no summary.
+
+EXIT STATUS
+${/EXIT STATUS\n([\s\S]*?)\n\n/.exec(HELP)?.[1] ?? ''}
+
+  glanz --help is the whole manual.
+`;
+}

@@ -3,12 +3,31 @@ import { TONE_MAPS, isToneMap, type ToneMap } from '@glanz/tonemap';
 import { parseConvert } from './commands/convert';
 import { CliError } from './errors';
 import { parseExposure } from './exposure';
+import { parseBench } from './commands/bench';
+import { parseInfo } from './commands/info';
+import { parseServe } from './commands/serve';
 import { formatOf, type OutputTarget } from './output/formats';
 import { parseBounces, parseFilter, parseLightGroups, type QualityOptions } from './quality';
+import { checkPlaceholders } from './render/shots';
+import { parseView, turntable, type View } from './render/views';
 
-/** Everything `glanz render` can be told, checked. */
+/** Which moment of the model is shown: names or numbers. */
+export interface PoseOptions {
+  readonly scene?: string | number;
+  readonly animation?: string | number;
+  /** Seconds. */
+  readonly time?: number;
+}
+
+/** Everything that a picture, or a matrix of variants and views, can be told, checked. */
 export interface RenderCommandOptions {
   readonly model: string;
+  readonly pose: PoseOptions;
+  /** Names or numbers of variants; `all`; none: the model's own look. */
+  readonly variants: readonly string[];
+  /** At least one. */
+  readonly views: readonly View[];
+  /** Paths may hold {model}, {variant} and {view}. */
   readonly outputs: readonly OutputTarget[];
   /** `studio`, `none`, a file, or `undefined`: the model's own or the studio. */
   readonly env: string | undefined;
@@ -22,15 +41,12 @@ export interface RenderCommandOptions {
   readonly noise: number | undefined;
   readonly depth: number;
   readonly seed: number;
-  /** As given: name, number, JSON, or a .json file. */
-  readonly camera: string | undefined;
   readonly exposure: number;
   readonly toneMap: ToneMap;
   readonly transparent: boolean;
   /** Names of parts that catch shadows and reflections. */
   readonly catchers: readonly string[];
   readonly quality: QualityOptions;
-  readonly gpu: string | undefined;
 }
 
 /** How the command line is answered. */
@@ -39,13 +55,31 @@ export interface ReportOptions {
   readonly quiet: boolean;
 }
 
+/** `glanz render`. */
+export interface RenderCommand extends ReportOptions {
+  readonly kind: 'render';
+  /** One request; `undefined` with a batch file, whose rows are requests. */
+  readonly options: RenderCommandOptions | undefined;
+  /** A batch file. */
+  readonly batch: string | undefined;
+  /** What the command line says, for pictures of a batch that do not say otherwise. */
+  readonly values: RenderValues & { readonly model?: string | undefined };
+  /** Pictures that are there already are not made again. */
+  readonly resume: boolean;
+  /** Names of GPUs that share the work; none: the best one. */
+  readonly gpus: readonly string[];
+}
+
 /** What the command line asks for. */
 export type Command =
-  | { readonly kind: 'help' }
+  | { readonly kind: 'help'; readonly topic: string | undefined }
   | { readonly kind: 'version' }
   | ({ readonly kind: 'list-gpus' } & ReportOptions)
   | ReturnType<typeof parseConvert>
-  | ({ readonly kind: 'render'; readonly options: RenderCommandOptions } & ReportOptions);
+  | ReturnType<typeof parseInfo>
+  | ReturnType<typeof parseBench>
+  | ReturnType<typeof parseServe>
+  | RenderCommand;
 
 const OPTIONS = {
   output: { type: 'string', short: 'o', multiple: true },
@@ -58,6 +92,15 @@ const OPTIONS = {
   depth: { type: 'string' },
   seed: { type: 'string' },
   camera: { type: 'string' },
+  view: { type: 'string', multiple: true },
+  turntable: { type: 'string' },
+  elevation: { type: 'string' },
+  variant: { type: 'string', multiple: true },
+  scene: { type: 'string' },
+  animation: { type: 'string' },
+  time: { type: 'string' },
+  batch: { type: 'string' },
+  resume: { type: 'boolean' },
   filter: { type: 'string' },
   'light-groups': { type: 'string' },
   'max-bounces': { type: 'string' },
@@ -72,10 +115,21 @@ const OPTIONS = {
   json: { type: 'boolean' },
   quiet: { type: 'boolean', short: 'q' },
   'list-gpus': { type: 'boolean' },
-  gpu: { type: 'string' },
+  gpu: { type: 'string', multiple: true },
   help: { type: 'boolean', short: 'h' },
   version: { type: 'boolean', short: 'V' },
 } satisfies ParseArgsConfig['options'];
+
+/** What the command line said of pictures, not yet checked. */
+export type RenderValues = Omit<Partial<ReturnType<typeof parse>['values']>, (typeof NOT_OF_PICTURES)[number]>;
+
+/** Options of the command, not of a picture. */
+const NOT_OF_PICTURES = ['json', 'quiet', 'list-gpus', 'gpu', 'help', 'version', 'batch', 'resume'] as const;
+
+/** Options that a picture of a batch may have. */
+export const BATCH_KEYS: Readonly<Record<string, 'text' | 'boolean' | 'list'>> = Object.fromEntries(
+  Object.entries(OPTIONS).flatMap(([name, option]) => ((NOT_OF_PICTURES as readonly string[]).includes(name) ? [] : [[name, option.type === 'boolean' ? 'boolean' : 'multiple' in option ? 'list' : 'text']])),
+);
 
 const MAX_SIDE = 65536;
 
@@ -149,61 +203,93 @@ function defaultOutput(model: string): string {
   return `${base || 'picture'}.png`;
 }
 
+const indexOrName = (text: string): string | number => (/^\d+$/.test(text) ? Number(text) : text);
+
+/** Checks what was said of a picture. @throws {CliError} `cli/usage` */
+export function renderOptions(values: RenderValues, model: string): RenderCommandOptions {
+  const [width, height] = parseSize(values.size ?? '1024x768');
+  const toneMap = values.tonemap ?? 'neutral';
+  if (!isToneMap(toneMap)) throw usage(`There is no tone map "${toneMap}". Known: ${TONE_MAPS.join(', ')}.`);
+  const bits = values.bits === undefined ? undefined : number('bits', values.bits, 8, { whole: true, min: 8, max: 32 });
+  const files = values.output ?? [defaultOutput(model)];
+  files.forEach(checkPlaceholders);
+  const time = values.time === undefined ? undefined : number('time', values.time, 0, { min: -1e9, max: 1e9 });
+  return {
+    model,
+    pose: { ...(values.scene === undefined ? {} : { scene: indexOrName(values.scene) }), ...(values.animation === undefined ? {} : { animation: indexOrName(values.animation) }), ...(time === undefined ? {} : { time }) },
+    variants: values.variant ?? [],
+    views: viewsOf(values),
+    outputs: files.map((file) => formatOf(file, bits)),
+    env: values.env,
+    envRotation: (number('env-rotation', values['env-rotation'], 0, { min: -36000, max: 36000 }) * Math.PI) / 180,
+    envIntensity: number('env-intensity', values['env-intensity'], 1, { min: 0, max: 1e6 }),
+    width,
+    height,
+    noise: values.noise === undefined ? undefined : number('noise', values.noise, 0, { min: 1e-5, max: 10 }),
+    samples: number('samples', values.samples, values.noise === undefined ? 256 : 65536, { whole: true, min: 1, max: 16777216 }),
+    depth: number('depth', values.depth, 8, { whole: true, min: 1, max: 1024 }),
+    seed: number('seed', values.seed, 0, { whole: true, min: 0, max: 4294967295 }),
+    exposure: values.exposure === undefined ? 0 : parseExposure(values.exposure),
+    toneMap,
+    transparent: values.transparent ?? false,
+    catchers: values.catcher ?? [],
+    quality: {
+      ...(values.filter === undefined ? {} : { filter: parseFilter(values.filter) }),
+      ...(values['max-bounces'] === undefined ? {} : { maxBounces: parseBounces(values['max-bounces']) }),
+      ...(values['clamp-indirect'] === undefined ? {} : { clampIndirect: number('clamp-indirect', values['clamp-indirect'], 0, { min: 1e-6, max: 1e30 }) }),
+      ...(values.regularization === undefined ? {} : { regularization: number('regularization', values.regularization, 0, { min: 0, max: 1 }) }),
+      ...(values['no-caustics'] ? { caustics: false } : {}),
+      ...(values['light-groups'] === undefined ? {} : { lightGroups: parseLightGroups(values['light-groups']) }),
+    },
+  };
+}
+
+/** The views that were asked for; one if nothing was said. */
+function viewsOf({ camera, view, turntable: steps, elevation }: RenderValues): View[] {
+  if (camera !== undefined && view !== undefined) throw usage('--camera is one view and --view any number: give one of the two; --view takes cameras too.');
+  if (elevation !== undefined && steps === undefined) throw usage('--elevation belongs to --turntable; a view has its own: --view 30,20.');
+  const views = [...(view ?? []).map(parseView), ...(steps === undefined ? [] : turntable(number('turntable', steps, 0, { whole: true, min: 1, max: 3600 }), number('elevation', elevation, 20, { min: -89, max: 89 })))];
+  if (views.length === 0 || camera !== undefined) views.unshift({ kind: 'camera', name: 'camera', camera });
+  return views;
+}
+
 /**
  * Reads the command line.
  *
  * @throws {CliError} `cli/usage`, with what to do about it.
  */
 export function parseCommand(argv: readonly string[]): Command {
-  if (argv[0] === 'convert' && !argv.includes('--help') && !argv.includes('-h')) return parseConvert(argv.slice(1));
+  const [first] = argv;
+  const help = argv.includes('--help') || argv.includes('-h');
+  if (first === 'help' || help) return { kind: 'help', topic: first === 'help' ? argv[1] : first?.startsWith('-') ? undefined : first };
+  if (first === 'convert') return parseConvert(argv.slice(1));
+  if (first === 'info') return parseInfo(argv.slice(1));
+  if (first === 'bench') return parseBench(argv.slice(1));
+  if (first === 'serve') return parseServe(argv.slice(1));
   const { values, positionals } = parse(argv);
-  if (values.help) return { kind: 'help' };
   if (values.version) return { kind: 'version' };
   const report: ReportOptions = { json: values.json ?? false, quiet: values.quiet ?? false };
   if (values['list-gpus']) return { kind: 'list-gpus', ...report };
   const [command, model, ...rest] = positionals;
-  if (command === undefined || command === 'help') {
-    if (argv.length === 0 || command === 'help') return { kind: 'help' };
+  if (command === undefined) {
+    if (argv.length === 0) return { kind: 'help', topic: undefined };
     throw usage('No command given. Use glanz render MODEL; see glanz --help.');
   }
-  if (command !== 'render') throw usage(`Unknown command "${command}". Use glanz render MODEL; see glanz --help.`);
-  if (model === undefined) throw usage('No model given. Use glanz render MODEL, a .glb or .gltf file.');
-  if (rest.length > 0) throw usage(`One model at a time: what is "${rest[0]}"?`);
-
-  const [width, height] = parseSize(values.size ?? '1024x768');
-  const toneMap = values.tonemap ?? 'neutral';
-  if (!isToneMap(toneMap)) throw usage(`There is no tone map "${toneMap}". Known: ${TONE_MAPS.join(', ')}.`);
-  const bits = values.bits === undefined ? undefined : number('bits', values.bits, 8, { whole: true, min: 8, max: 32 });
-  const files = values.output ?? [defaultOutput(model)];
+  const commands = ['render', 'convert', 'info', 'bench', 'serve'];
+  if (command !== 'render') {
+    if (commands.includes(command)) throw usage(`"${command}" comes first: glanz ${command} …; see glanz --help.`);
+    const guess = closest(command, commands);
+    throw usage(`Unknown command "${command}".${guess ? ` Did you mean glanz ${guess}?` : ' Use glanz render MODEL;'} See glanz --help.`.replace('; See', '; see'));
+  }
+  if (rest.length > 0) throw usage(`One model at a time: what is "${rest[0]}"? Several go into a batch file: --batch.`);
+  if (model === undefined && values.batch === undefined) throw usage('No model given. Use glanz render MODEL, a .glb or .gltf file.');
   return {
     kind: 'render',
     ...report,
-    options: {
-      model,
-      outputs: files.map((file) => formatOf(file, bits)),
-      env: values.env,
-      envRotation: (number('env-rotation', values['env-rotation'], 0, { min: -36000, max: 36000 }) * Math.PI) / 180,
-      envIntensity: number('env-intensity', values['env-intensity'], 1, { min: 0, max: 1e6 }),
-      width,
-      height,
-      noise: values.noise === undefined ? undefined : number('noise', values.noise, 0, { min: 1e-5, max: 10 }),
-      samples: number('samples', values.samples, values.noise === undefined ? 256 : 65536, { whole: true, min: 1, max: 16777216 }),
-      depth: number('depth', values.depth, 8, { whole: true, min: 1, max: 1024 }),
-      seed: number('seed', values.seed, 0, { whole: true, min: 0, max: 4294967295 }),
-      camera: values.camera,
-      exposure: values.exposure === undefined ? 0 : parseExposure(values.exposure),
-      toneMap,
-      transparent: values.transparent ?? false,
-      catchers: values.catcher ?? [],
-      quality: {
-        ...(values.filter === undefined ? {} : { filter: parseFilter(values.filter) }),
-        ...(values['max-bounces'] === undefined ? {} : { maxBounces: parseBounces(values['max-bounces']) }),
-        ...(values['clamp-indirect'] === undefined ? {} : { clampIndirect: number('clamp-indirect', values['clamp-indirect'], 0, { min: 1e-6, max: 1e30 }) }),
-        ...(values.regularization === undefined ? {} : { regularization: number('regularization', values.regularization, 0, { min: 0, max: 1 }) }),
-        ...(values['no-caustics'] ? { caustics: false } : {}),
-        ...(values['light-groups'] === undefined ? {} : { lightGroups: parseLightGroups(values['light-groups']) }),
-      },
-      gpu: values.gpu,
-    },
+    options: values.batch === undefined ? renderOptions(values, model as string) : undefined,
+    batch: values.batch,
+    values: { ...values, model },
+    resume: values.resume ?? false,
+    gpus: values.gpu ?? [],
   };
 }

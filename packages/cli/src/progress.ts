@@ -38,6 +38,10 @@ const REDRAW_MS = 80;
 export class ProgressReporter {
   readonly #io: CliIo;
   readonly #quiet: boolean;
+  /** Stands before everything while one of several pictures is made. */
+  prefix = '';
+  /** Several pictures are made at a time: only lines that stay make sense. */
+  shared = false;
   #shown = false;
   #lastDraw = -Infinity;
   #nextLog = 0;
@@ -50,17 +54,17 @@ export class ProgressReporter {
 
   /** A stage before rendering; `done` 0..1 if it is known. */
   stage(label: string, done?: number): void {
-    if (this.#quiet) return;
+    if (this.#quiet || this.shared) return;
     if (this.#io.interactive) {
       if (label === this.#stage && this.#io.now() - this.#lastDraw < REDRAW_MS) return;
-      this.#draw(`${this.#style('cyan', label)}${done === undefined || done === 0 ? ' …' : ` ${Math.floor(done * 100)} %`}`);
-    } else if (label !== this.#stage) this.#io.stderr(`${label}\n`);
+      this.#draw(`${this.prefix}${this.#style('cyan', label)}${done === undefined || done === 0 ? ' …' : ` ${Math.floor(done * 100)} %`}`);
+    } else if (label !== this.#stage) this.#io.stderr(`${this.prefix}${label}\n`);
     this.#stage = label;
   }
 
   /** Samples so far. */
   samples(progress: SampleProgress): void {
-    if (this.#quiet) return;
+    if (this.#quiet || this.shared) return;
     const { samples, targetSamples, samplesPerSecond, elapsedMs, remainingMs } = progress;
     const now = this.#io.now();
     const last = remainingMs === 0 || samples >= targetSamples;
@@ -71,12 +75,12 @@ export class ProgressReporter {
       this.#stage = 'render';
       if (elapsedMs < this.#nextLog && !last) return;
       this.#nextLog = Math.max(elapsedMs + LOG_SECONDS * 1000, elapsedMs * LOG_GROWTH);
-      this.#io.stderr(`render ${figures}\n`);
+      this.#io.stderr(`${this.prefix}render ${figures}\n`);
       return;
     }
     if (now - this.#lastDraw < REDRAW_MS && !last && this.#stage === 'render') return;
     this.#stage = 'render';
-    const plain = ` ${figures}`;
+    const plain = ` ${this.prefix}${figures}`;
     const width = Math.min(30, this.#io.columns() - plain.length - 2);
     // Towards a noise target, time is what tells how far it is.
     const share = progress.noise === undefined ? samples / targetSamples : elapsedMs / Math.max(elapsedMs + remainingMs, 1);

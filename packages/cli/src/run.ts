@@ -1,10 +1,12 @@
-import { GlanzError } from '@glanz/scene';
 import { nodeBackend, type Backend } from './backend';
+import { benchCommand } from './commands/bench';
 import { convertCommand } from './commands/convert';
+import { infoCommand } from './commands/info';
 import { listGpusCommand } from './commands/list-gpus';
 import { renderCommand } from './commands/render';
-import { errorLine, EXIT, exitCodeOf } from './errors';
-import { HELP } from './help';
+import { serveCommand } from './commands/serve';
+import { describeError, errorLine, EXIT, exitCodeOf } from './errors';
+import { helpOf } from './help';
 import { nodeIo, type CliIo } from './io';
 import { parseCommand } from './options';
 import { ProgressReporter } from './progress';
@@ -24,7 +26,7 @@ export async function runCli(argv: readonly string[], io: CliIo = nodeIo(), back
   try {
     const command = parseCommand(argv);
     if (command.kind === 'help') {
-      io.stdout(HELP);
+      io.stdout(helpOf(command.topic));
       return EXIT.ok;
     }
     if (command.kind === 'version') {
@@ -33,19 +35,17 @@ export async function runCli(argv: readonly string[], io: CliIo = nodeIo(), back
     }
     json = command.json;
     if (command.kind === 'convert') return await convertCommand(command, io);
+    if (command.kind === 'info') return await infoCommand(command, io, backend);
+    if (command.kind === 'bench') return await benchCommand(command, io, backend, new ProgressReporter(io, command.quiet));
+    if (command.kind === 'serve') return await serveCommand(command, io);
     if (command.kind === 'list-gpus') return await listGpusCommand(command, io, backend);
-    const { result, exitCode } = await renderCommand(command.options, io, backend, new ProgressReporter(io, command.quiet));
+    const { result, exitCode } = await renderCommand(command, io, backend, new ProgressReporter(io, command.quiet));
     if (json) io.stdout(`${JSON.stringify(result ?? { ok: false, error: { code: 'cli/interrupted', message: 'Interrupted before the first sample.' } })}\n`);
     return exitCode;
   } catch (error) {
     io.stderr(`glanz: ${errorLine(error)}\n`);
     if (io.debug && error instanceof Error) io.stderr(`${error.stack ?? ''}\n${error.cause instanceof Error ? `caused by ${error.cause.stack}\n` : ''}`);
-    if (json) io.stdout(`${JSON.stringify({ ok: false, error: describe(error) })}\n`);
+    if (json) io.stdout(`${JSON.stringify({ ok: false, error: describeError(error) })}\n`);
     return exitCodeOf(error);
   }
-}
-
-function describe(error: unknown) {
-  if (error instanceof GlanzError) return { code: error.code, message: error.message, ...(error.location ? { location: error.location } : {}) };
-  return { code: 'cli/internal', message: error instanceof Error ? error.message : String(error) };
 }

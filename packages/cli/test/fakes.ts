@@ -32,6 +32,8 @@ export interface FakeRun {
   backend: Backend;
   created: { scene: Scene; options: PathTracerOptions }[];
   destroyed: string[];
+  /** What tracers were changed to, in order. */
+  edits: (readonly [what: string, to: unknown])[];
 }
 
 export const FAKE_GPUS = [
@@ -52,6 +54,7 @@ export interface FakeOptions {
 export function fakeBackend(fake: FakeOptions = {}): FakeRun {
   const created: FakeRun['created'] = [];
   const destroyed: string[] = [];
+  const edits: FakeRun['edits'] = [];
   const createTracer = async (_device: GPUDevice, scene: Scene, options: PathTracerOptions): Promise<Tracer> => {
     created.push({ scene, options });
     options.signal?.throwIfAborted();
@@ -80,6 +83,17 @@ export function fakeBackend(fake: FakeOptions = {}): FakeRun {
         if (layer === 'depth') return Float32Array.from({ length: width * height }, (_, i) => i * 0.1);
         return Uint32Array.from({ length: width * height }, (_, i) => (i === 0 ? 0xffffffff : i));
       },
+      reset() {
+        samples = 0;
+      },
+      async setCamera(camera: unknown) {
+        edits.push(['camera', (camera as { name?: string }).name]);
+        samples = 0;
+      },
+      async setVariant(variant: unknown) {
+        edits.push(['variant', variant]);
+        samples = 0;
+      },
       lightGroups: fake.lightGroups ?? [{ name: 'rest', intensity: 1, color: [1, 1, 1] }],
       async readLightGroup(name: string) {
         return interleaved((_x, _y, k) => (k === 3 ? 1 : name.length));
@@ -91,6 +105,7 @@ export function fakeBackend(fake: FakeOptions = {}): FakeRun {
   return {
     created,
     destroyed,
+    edits,
     backend: {
       loadModel: fake.loadModel ?? (async () => fake.scene ?? triangleScene()),
       openGpu: fake.openGpu ?? (async () => ({ device: { destroy: () => void destroyed.push('device') } as unknown as GPUDevice, adapterName: 'Fake 3000', software: false })),
@@ -141,7 +156,7 @@ export function fakeIo(cwd: string, settings: { readonly interactive?: boolean; 
 
 /** Runs the command against fakes and gives everything it left. */
 export async function run(argv: readonly string[], cwd: string, fake: FakeOptions = {}, io: FakeIo = fakeIo(cwd)) {
-  const { backend, created, destroyed } = fakeBackend(fake);
+  const { backend, created, destroyed, edits } = fakeBackend(fake);
   const code = await runCli(argv, io, backend);
-  return { code, out: io.out.join(''), err: io.err.join(''), created, destroyed, io };
+  return { code, out: io.out.join(''), err: io.err.join(''), created, destroyed, edits, io };
 }

@@ -6,10 +6,12 @@ export interface GlbParts {
   readonly texture?: string;
   /** Leave the triangles out. */
   readonly empty?: boolean;
+  /** Adds the looks "green", which glows, and "blue", which is glossy, beside the red one. */
+  readonly variants?: boolean;
 }
 
 /** A small binary glTF, put together byte by byte. */
-export function makeGlb({ camera = false, texture, empty = false }: GlbParts = {}): Uint8Array {
+export function makeGlb({ camera = false, texture, empty = false, variants = false }: GlbParts = {}): Uint8Array {
   const positions = new Float32Array([-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0]);
   const uvs = new Float32Array([0, 1, 1, 1, 1, 0, 0, 0]);
   const indices = new Uint16Array([0, 1, 2, 0, 2, 3]);
@@ -26,7 +28,7 @@ export function makeGlb({ camera = false, texture, empty = false }: GlbParts = {
     ...(empty
       ? {}
       : {
-          meshes: [{ name: 'square', primitives: [{ attributes: { POSITION: 0, TEXCOORD_0: 1 }, indices: 2, material: 0 }] }],
+          meshes: [{ name: 'square', primitives: [{ attributes: { POSITION: 0, TEXCOORD_0: 1 }, indices: 2, material: 0, ...(variants ? { extensions: { KHR_materials_variants: { mappings: [{ material: 1, variants: [1] }, { material: 2, variants: [2] }] } } } : {}) }] }],
           accessors: [
             { bufferView: 0, componentType: 5126, count: 4, type: 'VEC3', min: [-1, -1, 0], max: [1, 1, 0] },
             { bufferView: 1, componentType: 5126, count: 4, type: 'VEC2' },
@@ -44,7 +46,9 @@ export function makeGlb({ camera = false, texture, empty = false }: GlbParts = {
         name: 'red',
         pbrMetallicRoughness: { baseColorFactor: [0.8, 0.1, 0.05, 1], metallicFactor: 0, roughnessFactor: 1, ...(texture ? { baseColorTexture: { index: 0 } } : {}) },
       },
+      ...(variants ? [{ name: 'green', pbrMetallicRoughness: { baseColorFactor: [0, 0.5, 0, 1], metallicFactor: 0 }, emissiveFactor: [0, 0.3, 0] }, { name: 'blue', pbrMetallicRoughness: { baseColorFactor: [0, 0, 0.7, 1], metallicFactor: 0, roughnessFactor: 0.2 } }] : []),
     ],
+    ...(variants ? { extensionsUsed: ['KHR_materials_variants'], extensions: { KHR_materials_variants: { variants: [{ name: 'red' }, { name: 'green' }, { name: 'deep blue' }] } } } : {}),
     ...(texture ? { textures: [{ source: 0 }], images: [{ uri: texture }] } : {}),
   };
   const text = new TextEncoder().encode(JSON.stringify(json));

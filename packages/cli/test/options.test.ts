@@ -4,7 +4,7 @@ import { parseCommand, type RenderCommandOptions } from '../src/options';
 
 const options = (...argv: string[]): RenderCommandOptions => {
   const command = parseCommand(['render', ...argv]);
-  if (command.kind !== 'render') throw new Error(command.kind);
+  if (command.kind !== 'render' || !command.options) throw new Error(command.kind);
   return command.options;
 };
 const complaint = (...argv: string[]): string => {
@@ -21,6 +21,9 @@ describe('glanz render', () => {
   it('has the documented defaults', () => {
     expect(options('dir/helmet.glb')).toEqual({
       model: 'dir/helmet.glb',
+      pose: {},
+      variants: [],
+      views: [{ kind: 'camera', name: 'camera', camera: undefined }],
       outputs: [{ path: 'helmet.png', format: 'png', bits: 8 }],
       env: undefined,
       envRotation: 0,
@@ -31,20 +34,21 @@ describe('glanz render', () => {
       noise: undefined,
       depth: 8,
       seed: 0,
-      camera: undefined,
       exposure: 0,
       toneMap: 'neutral',
       transparent: false,
       catchers: [],
       quality: {},
-      gpu: undefined,
     });
   });
 
   it('reads every option, before or after the model', () => {
-    const argv = ['--env', 'a.hdr', '--env-rotation', '180', '--env-intensity=2', 'm.gltf', '--size', '640X480', '--samples', '16', '--noise', '0.01', '--depth', '3', '--seed', '4294967295', '--camera', '1', '--exposure', '-1.5', '--tonemap', 'agx', '--transparent', '--catcher', 'floor', '--filter', 'gaussian:2', '--light-groups', 'each', '--max-bounces', 'diffuse=2,volume=9', '--clamp-indirect', '10', '--regularization', '0.25', '--no-caustics', '--gpu', 'H200', '-o', 'x.PNG', '-o', 'y.exr', '--bits', '16'];
+    const argv = ['--env', 'a.hdr', '--env-rotation', '180', '--env-intensity=2', 'm.gltf', '--size', '640X480', '--samples', '16', '--noise', '0.01', '--depth', '3', '--seed', '4294967295', '--camera', '1', '--exposure', '-1.5', '--tonemap', 'agx', '--transparent', '--catcher', 'floor', '--filter', 'gaussian:2', '--light-groups', 'each', '--max-bounces', 'diffuse=2,volume=9', '--clamp-indirect', '10', '--regularization', '0.25', '--no-caustics', '--scene', '1', '--animation', 'walk', '--time', '-0.5', '--variant', 'street', '--variant', 'all', '--gpu', 'H200', '-o', 'x.PNG', '-o', 'y.exr', '--bits', '16'];
     expect(options(...argv)).toEqual({
       model: 'm.gltf',
+      pose: { scene: 1, animation: 'walk', time: -0.5 },
+      variants: ['street', 'all'],
+      views: [{ kind: 'camera', name: 'camera', camera: '1' }],
       outputs: [{ path: 'x.PNG', format: 'png', bits: 16 }, { path: 'y.exr', format: 'exr', bits: 16 }],
       env: 'a.hdr',
       envRotation: Math.PI,
@@ -55,19 +59,18 @@ describe('glanz render', () => {
       noise: 0.01,
       depth: 3,
       seed: 4294967295,
-      camera: '1',
       exposure: -1.5,
       toneMap: 'agx',
       transparent: true,
       catchers: ['floor'],
       quality: { filter: { type: 'gaussian', radius: 2 }, lightGroups: 'each', maxBounces: { diffuse: 2, volume: 9 }, clampIndirect: 10, regularization: 0.25, caustics: false },
-      gpu: 'H200',
     });
   });
 
   it('--json and --quiet belong to the report', () => {
     expect(parseCommand(['render', 'm.glb', '--json', '-q'])).toMatchObject({ kind: 'render', json: true, quiet: true });
     expect(parseCommand(['--list-gpus', '--json'])).toEqual({ kind: 'list-gpus', json: true, quiet: false });
+    expect(parseCommand(['render', 'm.glb', '--gpu', 'a', '--gpu', 'b', '--resume'])).toMatchObject({ gpus: ['a', 'b'], resume: true });
     expect(parseCommand(['render', '--list-gpus'])).toMatchObject({ kind: 'list-gpus' });
   });
 });

@@ -1,5 +1,5 @@
 import { spawn, type ChildProcess } from 'node:child_process';
-import { existsSync, mkdirSync } from 'node:fs';
+import { existsSync, mkdirSync, readdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { build } from 'esbuild';
@@ -37,10 +37,13 @@ interface Ended {
   readonly err: string;
 }
 
-function start(argv: readonly string[], cwd: string, onErr: (text: string, child: ChildProcess) => void = () => undefined): Promise<Ended> {
+function start(argv: readonly string[], cwd: string, onErr: (text: string, child: ChildProcess) => void = () => undefined, onOut: (text: string, child: ChildProcess) => unknown = () => undefined): Promise<Ended> {
   const child = spawn(process.execPath, [program, ...argv], { cwd, stdio: ['ignore', 'pipe', 'pipe'] });
   let [out, err] = ['', ''];
-  child.stdout.on('data', (chunk: Buffer) => void (out += chunk.toString()));
+  child.stdout.on('data', (chunk: Buffer) => {
+    out += chunk.toString();
+    void onOut(out, child);
+  });
   child.stderr.on('data', (chunk: Buffer) => {
     err += chunk.toString();
     onErr(err, child);
@@ -82,6 +85,53 @@ it('SIGINT writes the picture; the process ends by itself with 130', async () =>
   expect([code, signal], err).toEqual([130, null]);
   expect(JSON.parse(out)).toMatchObject({ ok: true, interrupted: 'SIGINT' });
   expect((await sharp(join(cwd, 'red.png')).metadata()).height).toBe(48);
+});
+
+it('a batch that is killed goes on where it was, and its pictures are those of runs of their own', { timeout: 600_000 }, async () => {
+  const cwd = temporaryFolder({ 'shoe.glb': makeGlb({ camera: true, variants: true }) });
+  const quality = ['--gpu', 'software', '--size', '24x16', '--samples', '4', '--depth', '3', '--seed', '5'];
+  writeFileSync(join(cwd, 'hero.json'), '{"position":[1,0.5,3],"target":[0,0,0],"lens_radius":0.05}');
+  const argv = ['render', 'shoe.glb', '--variant', 'all', '--view', 'front', '--view', 'iso', '--view', '30,20', '--view', 'hero.json', '-o', 'out/{variant}-{view}.png', '--bits', '16', '--json', ...quality];
+  // Killed without warning while the third picture is made.
+  let sent = false;
+  const killed = await start(argv, cwd, (text, child) => {
+    if (!sent && /\[4\/12\] render/.test(text)) sent = child.kill('SIGKILL');
+  });
+  expect(killed.signal, killed.err).toBe('SIGKILL');
+  const before = readdirSync(join(cwd, 'out')).filter((name) => name.endsWith('.png'));
+  expect(before.length).toBeGreaterThanOrEqual(3);
+  expect(before.length).toBeLessThan(12);
+  const stamps = new Map(before.map((name) => [name, statSync(join(cwd, 'out', name)).mtimeMs]));
+  const { code, out, err } = await start([...argv, '--resume'], cwd);
+  expect(code, err).toBe(0);
+  const result = JSON.parse(out) as { total: number; skipped: number; pictures: { files: { path: string }[] }[] };
+  expect([result.total, result.skipped + result.pictures.length]).toEqual([12, 12]);
+  // At most the one whose journal line was not yet written is made twice.
+  expect(result.skipped).toBeGreaterThanOrEqual(before.length - 1);
+  const files = readdirSync(join(cwd, 'out')).filter((name) => name.endsWith('.png')).sort();
+  expect(files).toEqual(['red', 'green', 'deep_blue'].flatMap((variant) => ['front', 'iso', '30_20', 'hero'].map((view) => `${variant}-${view}.png`)).sort());
+  expect(files.filter((name) => stamps.get(name) === statSync(join(cwd, 'out', name)).mtimeMs).length).toBeGreaterThanOrEqual(before.length - 1);
+  for (const [variant, view, name] of [['deep blue', 'hero.json', 'deep_blue-hero'], ['green', 'iso', 'green-iso'], ['red', 'front', 'red-front']] as const) {
+    const alone = await start(['render', 'shoe.glb', '--variant', variant, '--view', view, '-o', 'alone.png', '--bits', '16', ...quality], cwd);
+    expect(alone.code, alone.err).toBe(0);
+    expect(Buffer.compare(readFileSync(join(cwd, 'alone.png')), readFileSync(join(cwd, 'out', `${name}.png`))), name).toBe(0);
+  }
+});
+
+it('serve answers with the files of its folder and ends with SIGINT', async () => {
+  // The program lies in a folder of its own; the playground beside it.
+  const site = join(folder, 'playground');
+  mkdirSync(site, { recursive: true });
+  writeFileSync(join(site, 'index.html'), '<title>here</title>');
+  let page = '', escaped = 0;
+  const { code, out, err } = await start(['serve', '--port', '0', '--json'], temporaryFolder(), undefined, async (text, child) => {
+    const { url } = JSON.parse(text) as { url: string };
+    page = await (await fetch(url)).text();
+    escaped = (await fetch(`${url}..%2fglanz.mjs`)).status;
+    child.kill('SIGINT');
+  });
+  expect([code, page, escaped, err]).toEqual([0, '<title>here</title>', 404, '']);
+  expect(out.trim().split('\n').length).toBe(1);
 });
 
 it('a second SIGINT ends it at once', async () => {

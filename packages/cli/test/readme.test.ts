@@ -3,7 +3,7 @@ import { encodeHdr } from '@glanz/image';
 import { describe, expect, it } from 'vitest';
 import { HELP } from '../src/help';
 import { parseCommand } from '../src/options';
-import { run, temporaryFolder } from './fakes';
+import { run, temporaryFolder, triangleScene } from './fakes';
 
 const README = readFileSync(new URL('../README.md', import.meta.url), 'utf8');
 
@@ -13,16 +13,16 @@ function words(line: string): string[] {
 }
 
 const fromReadme = [.../```sh\n([\s\S]+?)```/.exec(README)![1]!.matchAll(/^(?:npx @glanz\/cli|glanz) (.+)$/gm)].map((match) => match[1]!);
-const fromHelp = [...HELP.slice(HELP.indexOf('EXAMPLES')).matchAll(/^ {2}glanz (.+)$/gm)].map((match) => match[1]!);
+const fromHelp = [...HELP.slice(HELP.indexOf('EXAMPLES')).replace(/\\\n\s*/g, '').matchAll(/^ {2}glanz (.+)$/gm)].map((match) => match[1]!);
 
 describe('every command line that the documentation shows can be typed', () => {
-  it('and they are there', () => expect([fromReadme.length, fromHelp.length]).toEqual([4, 6]));
+  it('and they are there', () => expect([fromReadme.length, fromHelp.length]).toEqual([7, 10]));
   it.each([...fromReadme, ...fromHelp])('glanz %s', async (line) => {
     const command = parseCommand(words(line));
-    expect(['render', 'convert', 'list-gpus']).toContain(command.kind);
+    expect(['render', 'convert', 'info', 'bench', 'serve', 'list-gpus']).toContain(command.kind);
     if (command.kind !== 'render') return;
-    const cwd = temporaryFolder({ [command.options.model]: '', 'studio.hdr': encodeHdr({ width: 2, height: 1, data: new Float32Array(6).fill(0.5) }) });
-    const { code, err } = await run([...words(line), '--size', '4x4', '--samples', '1'], cwd);
+    const cwd = temporaryFolder({ [command.options?.model ?? 'shoe.glb']: '', 'catalogue.csv': 'model,view,output\nshoe.glb,iso,a.png\n', 'studio.hdr': encodeHdr({ width: 2, height: 1, data: new Float32Array(6).fill(0.5) }) });
+    const { code, err } = await run([...words(line), '--size', '4x4', '--samples', '1'], cwd, { scene: { ...triangleScene(), variants: ['street', 'beach'] } });
     expect(code, err).toBe(0);
   });
 });

@@ -1,31 +1,22 @@
-import { resolve } from 'node:path';
-import type { Camera, Scene } from '@glanz/scene';
-import type { Backend, OpenedGpu, RenderStatistics, Tracer } from '../backend';
-import { chooseCamera } from '../camera';
-import { chooseEnvironment } from '../environment';
-import { CliError, EXIT } from '../errors';
+import { mkdir } from 'node:fs/promises';
+import { dirname, resolve } from 'node:path';
+import type { Backend, RenderStatistics } from '../backend';
+import { readBatch } from '../batch-file';
+import { CliError, describeError, errorLine, EXIT, exitCodeOf } from '../errors';
 import { checkInput } from '../input';
 import type { CliIo, Interrupt } from '../io';
-import type { RenderCommandOptions } from '../options';
-import type { Picture, PictureLayers } from '../output/picture';
-import { checkWritable, writePicture, type WrittenFile } from '../output/write';
-import { duration, rate, type ProgressReporter } from '../progress';
+import type { RenderCommand, RenderCommandOptions } from '../options';
+import { checkWritable, type WrittenFile } from '../output/write';
+import { duration, type ProgressReporter } from '../progress';
+import { Journal } from '../render/journal';
+import { Lane, type RenderedShot, type RenderTimings } from '../render/lane';
+import { SceneLoader } from '../render/scene';
+import { checkDistinct, shotLabel, shotsOf, type Shot } from '../render/shots';
 import { version } from '../version';
 
-/** Milliseconds per stage. */
-export interface RenderTimings {
-  loadMs: number;
-  environmentMs: number;
-  deviceMs: number;
-  /** All of the preparation; its parts are in the statistics. */
-  prepareMs: number;
-  renderMs: number;
-  readMs: number;
-  writeMs: number;
-  totalMs: number;
-}
+export type { RenderTimings } from '../render/lane';
 
-/** What `--json` prints. */
+/** What `--json` prints for one picture. */
 export interface RenderResult {
   readonly ok: true;
   readonly version: string;
@@ -43,6 +34,8 @@ export interface RenderResult {
   readonly interrupted: Interrupt | null;
   readonly depth: number;
   readonly seed: number;
+  readonly variant?: string;
+  readonly view?: string;
   readonly camera: string;
   readonly environment: string;
   readonly adapter: { readonly name: string; readonly software: boolean };
@@ -51,172 +44,161 @@ export interface RenderResult {
   readonly warnings: readonly string[];
 }
 
+/** A picture that could not be made. */
+export interface FailedPicture {
+  readonly ok: false;
+  readonly model: string;
+  readonly files: readonly string[];
+  readonly variant?: string;
+  readonly view?: string;
+  readonly error: { readonly code: string; readonly message: string };
+}
+
+/** What `--json` prints for several pictures. */
+export interface BatchResult {
+  /** Whether every picture is there. */
+  readonly ok: boolean;
+  readonly version: string;
+  /** Those of this run, in the order they were finished. */
+  readonly pictures: readonly (RenderResult | FailedPicture)[];
+  readonly total: number;
+  /** Finished by an earlier run, with `--resume`. */
+  readonly skipped: number;
+  readonly failed: number;
+  readonly interrupted: Interrupt | null;
+  readonly totalMs: number;
+}
+
 /** A result and what the process should end with. */
 export interface RenderOutcome {
   /** `undefined` if it was interrupted before there was anything to write. */
-  readonly result: RenderResult | undefined;
+  readonly result: RenderResult | BatchResult | undefined;
   readonly exitCode: number;
 }
 
-const MAX_WARNINGS = 5;
-
-/** `glanz render`: loads, prepares, renders, writes. */
-export async function renderCommand(options: RenderCommandOptions, io: CliIo, backend: Backend, progress: ProgressReporter): Promise<RenderOutcome> {
-  const start = io.now();
+/** `glanz render`: loads, prepares, renders, writes; one picture or many. */
+export async function renderCommand(command: RenderCommand, io: CliIo, backend: Backend, progress: ProgressReporter): Promise<RenderOutcome> {
   const abort = new AbortController();
-  let interrupted: Interrupt | null = null;
+  const run: Run = { io, backend, progress, signal: abort.signal, interrupted: null };
   const stopListening = io.onInterrupt((signal) => {
-    interrupted = signal;
-    progress.line(signal === 'SIGINT' ? 'stopping: writing what there is (Ctrl-C again to end at once)' : 'stopping: writing what there is');
+    run.interrupted = signal;
+    progress.line(signal === 'SIGINT' ? `stopping${run.many ? '' : ': writing what there is'} (Ctrl-C again to end at once)` : `stopping${run.many ? '' : ': writing what there is'}`);
     abort.abort();
   });
-  const interruptedCode = () => (interrupted === null ? EXIT.ok : interrupted === 'SIGINT' ? EXIT.interrupted : EXIT.terminated);
-  let opened: OpenedGpu | undefined;
-  let tracer: Tracer | undefined;
-  const timings: RenderTimings = { loadMs: 0, environmentMs: 0, deviceMs: 0, prepareMs: 0, renderMs: 0, readMs: 0, writeMs: 0, totalMs: 0 };
-  const timed = async <T>(key: keyof RenderTimings, run: () => Promise<T>): Promise<T> => {
-    const from = io.now();
-    try {
-      return await run();
-    } finally {
-      timings[key] += io.now() - from;
-    }
-  };
-
   try {
-    const { cwd } = io;
-    await checkInput(options.model, cwd, 'the model');
-    for (const { path } of options.outputs) await checkWritable(path, cwd);
-
-    progress.stage('load model');
-    const model = await timed('loadMs', () => backend.loadModel(resolve(cwd, options.model), abort.signal));
-    const { environment, source, warnings: environmentWarnings } = await timed('environmentMs', () =>
-      chooseEnvironment(model, options.env, { rotation: options.envRotation, intensity: options.envIntensity }, cwd),
-    );
-    const { environment: _replaced, ...rest } = model;
-    const instances = markCatchers(model.instances, options.catchers);
-    const scene: Scene = environment ? { ...rest, instances, environment } : { ...rest, instances };
-    const camera = await chooseCamera(scene, options.camera, options.width / options.height, cwd);
-    const warnings = [...scene.warnings.map(({ message, path }) => (path ? `${message} (${path})` : message)), ...environmentWarnings];
-    for (const warning of warnings.slice(0, MAX_WARNINGS)) progress.warning(warning);
-    if (warnings.length > MAX_WARNINGS) progress.warning(`and ${warnings.length - MAX_WARNINGS} more; --json lists them all.`);
-    abort.signal.throwIfAborted();
-
-    progress.stage('start GPU');
-    const gpu = (opened = await timed('deviceMs', () => backend.openGpu(options.gpu)));
-    progress.line(`${gpu.software ? 'no GPU: rendering on the processor, ' : ''}${gpu.adapterName}`);
-    abort.signal.throwIfAborted();
-
-    const labels = { bvh: 'build hierarchy', upload: 'upload', compile: 'compile kernels' } as const;
-    const active = (tracer = await timed('prepareMs', () =>
-      backend.createTracer(gpu.device, scene, {
-        width: options.width,
-        height: options.height,
-        maxDepth: options.depth,
-        seed: options.seed,
-        camera,
-        ...options.quality,
-        background: options.transparent ? 'transparent' : 'environment',
-        signal: abort.signal,
-        onProgress: ({ stage, done }) => progress.stage(labels[stage], done),
-      }),
-    ));
-
-    let noise: number | undefined;
-    await timed('renderMs', async () => {
-      // Nobody is looking at a canvas here: larger submissions than in a page, still far from any watchdog.
-      for await (const state of active.render({ samples: options.samples, ...(options.noise === undefined ? {} : { noise: options.noise }), signal: abort.signal, maxSubmitMs: 200 })) {
-        noise = state.noise ?? noise;
-        progress.samples(state);
+    const loader = new SceneLoader(backend, io.cwd);
+    const requests = command.batch === undefined ? [command.options as RenderCommandOptions] : await readBatch(command.batch, io.cwd, command.values);
+    for (const { model } of requests) await checkInput(model, io.cwd, 'the model');
+    const shots: Shot[] = [];
+    for (const options of requests) shots.push(...shotsOf(options, options.variants.includes('all') ? await variantsOf(options, loader, run) : []));
+    checkDistinct(shots);
+    run.many = command.batch !== undefined || shots.length > 1;
+    for (const { outputs } of shots) {
+      for (const { path } of outputs) {
+        if (run.many) await mkdir(dirname(resolve(io.cwd, path)), { recursive: true }).catch(() => undefined);
+        await checkWritable(path, io.cwd);
       }
-    });
-    const { samples } = active;
-    if (samples === 0) {
-      progress.line('nothing has been accumulated yet; no file written.');
-      return { result: undefined, exitCode: interruptedCode() || EXIT.failure };
     }
-
-    progress.stage('write');
-    const picture = await timed('readMs', () => readPicture(active, options, samples));
-    const files: WrittenFile[] = [];
-    for (const target of options.outputs) files.push(await timed('writeMs', () => writePicture(picture, target, options, cwd)));
-    timings.totalMs = io.now() - start;
-    const { statistics } = active;
-    const samplesPerSecond = timings.renderMs > 0 ? samples / (timings.renderMs / 1000) : 0;
-    const names = files.map(({ path }) => path).join(', ');
-    progress.line(`${names}: ${options.width}×${options.height}, ${samples}${interrupted && options.noise === undefined ? ` of ${options.samples}` : ''} ${options.samples === 1 ? 'sample' : 'samples'} at ${rate(samplesPerSecond)}/s, ${duration(timings.totalMs)} in all`);
-    if (statistics.badSamples > 0) progress.warning(`${statistics.badSamples} samples were not numbers and were left out; please report the model.`);
-    return {
-      exitCode: interruptedCode(),
-      result: {
-        ok: true,
-        version: version(),
-        model: options.model,
-        files,
-        width: options.width,
-        height: options.height,
-        samples,
-        targetSamples: options.samples,
-        ...(noise === undefined ? {} : { noise }),
-        samplesPerSecond,
-        interrupted,
-        depth: options.depth,
-        seed: options.seed,
-        camera: cameraName(camera),
-        environment: source,
-        adapter: { name: gpu.adapterName, software: gpu.software },
-        timings,
-        statistics,
-        warnings,
-      },
-    };
+    return run.many ? await renderMany(shots, command, loader, run) : await renderOne(shots[0] as Shot, command, loader, run);
   } catch (error) {
     // An abort that a stage answered by throwing is the user's wish, not a fault.
-    if (interrupted !== null && abort.signal.aborted && (error as Error | undefined)?.name === 'AbortError') {
+    if (run.interrupted !== null && abort.signal.aborted && (error as Error | undefined)?.name === 'AbortError') {
       progress.line('nothing has been accumulated yet; no file written.');
-      return { result: undefined, exitCode: interruptedCode() };
+      return { result: undefined, exitCode: exitOf(run) };
     }
     throw error;
   } finally {
     stopListening();
     progress.clear();
-    tracer?.destroy();
-    opened?.device.destroy();
   }
 }
 
-/** @throws {CliError} `cli/usage` for a name that no part has. */
-function markCatchers(instances: Scene['instances'], names: readonly string[]): Scene['instances'] {
-  for (const name of names) {
-    if (!instances.some((instance) => instance.name === name)) throw new CliError('cli/usage', `--catcher: the model has no part "${name}"; it has ${[...new Set(instances.map((instance) => `"${instance.name}"`))].join(', ')}.`);
-  }
-  return instances.map((instance) => (names.includes(instance.name) ? { ...instance, catcher: true } : instance));
+interface Run {
+  readonly io: CliIo;
+  readonly backend: Backend;
+  readonly progress: ProgressReporter;
+  readonly signal: AbortSignal;
+  interrupted: Interrupt | null;
+  many?: boolean;
 }
 
-const cameraName = (camera: Camera) => camera.name || camera.type;
+const exitOf = ({ interrupted }: Run) => (interrupted === null ? EXIT.ok : interrupted === 'SIGINT' ? EXIT.interrupted : EXIT.terminated);
 
-async function lightLayers(tracer: Tracer): Promise<PictureLayers['lights']> {
-  const groups = tracer.lightGroups;
-  if (groups.length < 2) return [];
-  return Promise.all(groups.map(async ({ name }) => ({ name, data: await tracer.readLightGroup(name) })));
+async function variantsOf(options: RenderCommandOptions, loader: SceneLoader, { progress, signal }: Run): Promise<readonly string[]> {
+  progress.stage('load model');
+  const { variants = [] } = (await loader.load(options, signal)).scene;
+  if (variants.length === 0) throw new CliError('cli/usage', `--variant all: "${options.model}" has no variants.`);
+  return variants;
 }
 
-async function readPicture(tracer: Tracer, options: RenderCommandOptions, samples: number): Promise<Picture> {
-  const { width, height, outputs } = options;
-  const beauty = await tracer.read('beauty');
-  const base = { width, height, beauty, samples, software: `Glanz ${version()}` };
-  if (!outputs.some(({ format }) => format === 'exr')) return base;
+const named = ({ variant, view }: Shot) => ({ ...(variant === undefined ? {} : { variant }), ...(view.kind === 'camera' && view.camera === undefined ? {} : { view: view.name }) });
+
+const resultOf = (shot: Shot, made: RenderedShot, interrupted: Interrupt | null): RenderResult => {
+  const { options } = shot;
+  const { files, samples, noise, samplesPerSecond, camera, environment, adapter, timings, statistics, warnings } = made;
   return {
-    ...base,
-    layers: {
-      albedo: await tracer.read('albedo'),
-      normal: await tracer.read('normal'),
-      position: await tracer.read('position'),
-      variance: await tracer.read('variance'),
-      lights: await lightLayers(tracer),
-      depth: await tracer.read('depth'),
-      objectId: await tracer.read('objectId'),
-      materialId: await tracer.read('materialId'),
-    },
+    ok: true, version: version(), model: options.model, files, width: options.width, height: options.height, samples, targetSamples: options.samples, ...(noise === undefined ? {} : { noise }), samplesPerSecond, interrupted,
+    depth: options.depth, seed: options.seed, ...named(shot), camera, environment, adapter, timings, statistics, warnings,
+  };
+};
+
+async function renderOne(shot: Shot, { gpus }: RenderCommand, loader: SceneLoader, run: Run): Promise<RenderOutcome> {
+  const lane = new Lane({ ...run, loader, keepPartial: true }, gpus[0]);
+  try {
+    const made = await lane.render(shot);
+    if (made) return { result: resultOf(shot, made, run.interrupted), exitCode: exitOf(run) };
+    run.progress.line('nothing has been accumulated yet; no file written.');
+    return { result: undefined, exitCode: exitOf(run) || EXIT.failure };
+  } finally {
+    lane.close();
+  }
+}
+
+/** Each GPU takes the next picture when it is done with one. What fails is told, and the others go on. */
+async function renderMany(shots: readonly Shot[], { gpus, resume }: RenderCommand, loader: SceneLoader, run: Run): Promise<RenderOutcome> {
+  const { io, progress, signal } = run;
+  const start = io.now();
+  const journal = new Journal(io.cwd);
+  const waiting: Shot[] = [];
+  for (const shot of shots) if (!resume || !(await journal.isDone(shot))) waiting.push(shot);
+  const skipped = shots.length - waiting.length;
+  if (skipped > 0) progress.line(`${skipped} of ${shots.length} pictures are there already.`);
+  const pictures: (RenderResult | FailedPicture)[] = [];
+  let exitCode = 0, next = 0, begun = skipped;
+  const names: readonly (string | undefined)[] = gpus.length === 0 ? [undefined] : gpus;
+  progress.shared = names.length > 1;
+  const work = async (name: string | undefined): Promise<void> => {
+    // Loaders keep the last model, which lanes would take from one another.
+    const lane = new Lane({ ...run, loader: names.length > 1 ? new SceneLoader(run.backend, io.cwd) : loader, keepPartial: false }, name);
+    try {
+      while (next < waiting.length && !signal.aborted) {
+        const shot = waiting[next++] as Shot;
+        progress.prefix = `[${++begun}/${shots.length}] `;
+        try {
+          const made = await lane.render(shot);
+          if (!made) continue;
+          await journal.done(shot, made.files);
+          pictures.push(resultOf(shot, made, null));
+        } catch (error) {
+          if (signal.aborted) return;
+          // Without a GPU, or with a bug, the next picture fares no better.
+          if (exitCodeOf(error) === EXIT.gpu || exitCodeOf(error) === EXIT.internal) throw error;
+          exitCode ||= exitCodeOf(error);
+          progress.warning(`${shotLabel(shot)}: ${errorLine(error)}`);
+          pictures.push({ ok: false, model: shot.options.model, files: shot.outputs.map(({ path }) => path), ...named(shot), error: describeError(error) });
+        }
+      }
+    } finally {
+      lane.close();
+    }
+  };
+  await Promise.all(names.map(work));
+  progress.prefix = '';
+  const failed = pictures.filter(({ ok }) => !ok).length;
+  const missing = shots.length - skipped - pictures.length;
+  progress.line(`${shots.length - failed - missing} of ${shots.length} pictures in ${duration(io.now() - start)}${failed > 0 ? `, ${failed} failed` : ''}${missing > 0 ? '; --resume goes on' : ''}`);
+  return {
+    result: { ok: failed === 0 && missing === 0, version: version(), pictures, total: shots.length, skipped, failed, interrupted: run.interrupted, totalMs: io.now() - start },
+    exitCode: exitOf(run) || exitCode,
   };
 }

@@ -1,0 +1,61 @@
+import { CliError } from '../errors';
+import type { RenderCommandOptions } from '../options';
+import type { OutputTarget } from '../output/formats';
+import { fileNamePart, type View } from './views';
+
+/** One picture of those that a command asks for. */
+export interface Shot {
+  readonly options: RenderCommandOptions;
+  /** Name or number of a variant; undefined: the model's own look. */
+  readonly variant: string | undefined;
+  readonly view: View;
+  /** With the names of variant and view in them. */
+  readonly outputs: readonly OutputTarget[];
+}
+
+const PLACEHOLDER = /\{(\w+)\}/g;
+const NAMES = ['model', 'variant', 'view'];
+
+/** Whether a path has places for names. */
+export const hasPlaceholders = (path: string): boolean => path.search(PLACEHOLDER) >= 0;
+
+/** @throws {CliError} `cli/usage` for a place that nothing is known for. */
+export function checkPlaceholders(path: string): void {
+  for (const [whole, name] of path.matchAll(PLACEHOLDER)) if (!NAMES.includes(name as string)) throw new CliError('cli/usage', `--output "${path}": ${whole} is unknown. Known: ${NAMES.map((known) => `{${known}}`).join(', ')}.`);
+}
+
+function filled(path: string, names: Readonly<Record<string, string>>, several: readonly string[]): string {
+  // What tells pictures apart has to be in their names.
+  const missing = several.filter((name) => !path.includes(`{${name}}`)).map((name) => `-{${name}}`).join('');
+  return path.replace(/(\.[^.\\/]+)?$/, `${missing}$1`).replace(PLACEHOLDER, (whole, name: string) => names[name] ?? whole);
+}
+
+/**
+ * All pictures of a request: each variant from each view.
+ * @param all Names of the model's variants, for `--variant all`.
+ */
+export function shotsOf(options: RenderCommandOptions, all: readonly string[] = []): Shot[] {
+  const variants = options.variants.flatMap((variant) => (variant === 'all' ? all : [variant]));
+  const model = fileNamePart((options.model.split(/[\\/]/).pop() as string).replace(/\.[^.]*$/, ''));
+  const several = [...(variants.length > 1 ? ['variant'] : []), ...(options.views.length > 1 ? ['view'] : [])];
+  return (variants.length === 0 ? [undefined] : variants).flatMap((variant) =>
+    options.views.map((view) => {
+      const names = { model, variant: variant === undefined ? 'default' : fileNamePart(variant), view: view.name };
+      return { options, variant, view, outputs: options.outputs.map((target) => ({ ...target, path: filled(target.path, names, several) })) };
+    }),
+  );
+}
+
+/** @throws {CliError} `cli/usage` if two pictures would have the same name. */
+export function checkDistinct(shots: readonly Shot[]): void {
+  const seen = new Set<string>();
+  for (const { outputs } of shots) {
+    for (const { path } of outputs) {
+      if (seen.has(path)) throw new CliError('cli/usage', `Two pictures would be written to "${path}": put {model}, {variant} or {view} into the name, or give each its own.`);
+      seen.add(path);
+    }
+  }
+}
+
+/** For progress: what tells this picture from the others. */
+export const shotLabel = ({ variant, view, outputs }: Shot): string => [outputs[0]?.path, variant, view.kind === 'camera' && view.camera === undefined ? undefined : view.name].filter((part) => part !== undefined).join(' · ');
