@@ -16,6 +16,9 @@ const BUDGETS = [
   { specifier: '@glanz/tonemap', limit: 5 },
   { specifier: '@glanz/renderer', limit: 100, withDependencies: true },
   { specifier: '@glanz/gltf', limit: 40, withDependencies: true },
+  { specifier: '@glanz/viewer', limit: 15 },
+  { specifier: '@glanz/element', limit: 10 },
+  { specifier: '@glanz/react', limit: 1.5 },
 ];
 
 const kB = (bytes) => (bytes / 1000).toFixed(2);

@@ -34,6 +34,8 @@ export async function bundle({ folder }, code, { external = [], keepEffects = fa
           if (!keepEffects) return;
           context.onResolve({ filter: /.*/ }, async ({ path, ...args }) => {
             if (args.pluginData === 'resolved' || args.kind === 'entry-point') return undefined;
+            // What comes later may do what it likes; its share of common code would count as run now.
+            if (args.kind === 'dynamic-import') return { path, external: true };
             const resolved = await context.resolve(path, { ...args, pluginData: 'resolved' });
             return { ...resolved, pluginData: undefined, sideEffects: true };
           });
