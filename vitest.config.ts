@@ -22,6 +22,7 @@ export default defineConfig({
       ...['wgsl', 'scene', 'bvh', 'openpbr', 'gltf', 'formats', 'cad', 'tonemap', 'image', 'renderer', 'cli', 'viewer', 'element', 'react'].map((name) => project(name, `packages/${name}`)),
       project('docs', 'apps/docs'),
       ...['models', 'bench', 'reference', 'gpu', 'pipeline'].map((name) => project(`tools-${name}`, `tools/${name}`)),
+      project('playground', 'apps/playground'),
     ],
     // One GPU process at a time on two cores keeps the software driver from starving itself.
     maxWorkers: 2,

@@ -2,7 +2,7 @@ import type { Scene } from '@glanz/scene';
 import { describeError, isAbort } from './errors';
 import { Environments } from './input/environments';
 import { isSample, linkOfPage, open, sampleTitle, stateFor, type Opened } from './input/opening';
-import type { LoadRequest } from './input/load-messages';
+import type { ModelRequest } from './input/load-messages';
 import { SAMPLES } from './input/samples';
 import { wireFiles } from './input/wire-files';
 import { Selection } from './selection';
@@ -61,7 +61,7 @@ export class App {
    * @param early The model of the address, which is loaded while scripts arrive.
    * @throws {DeviceError} without WebGPU.
    */
-  static async start(early: { readonly request: LoadRequest; readonly scene: Promise<Scene> }): Promise<void> {
+  static async start(early: { readonly request: ModelRequest; readonly scene: Promise<Scene> }): Promise<void> {
     const app = new App();
     app.#link = await linkOfPage();
     const { exposure, toneMap, samples, noise, layer } = { ...app.#store.state, ...app.#link?.state };
@@ -156,7 +156,7 @@ export class App {
   }
 
   /** Loads and shows a model. Until it is ready, and where it fails, the former one stays. */
-  async load(request: LoadRequest, early?: Promise<Scene>, state?: State): Promise<void> {
+  async load(request: ModelRequest, early?: Promise<Scene>, state?: State): Promise<void> {
     this.#loading?.abort(new DOMException('another model was asked for', 'AbortError'));
     const loading = (this.#loading = new AbortController());
     const { signal } = loading;

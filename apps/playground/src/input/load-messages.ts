@@ -1,10 +1,13 @@
 import type { SentScene } from '@glanz/gltf/workers';
 import type { SampleName } from './samples';
 
-/** What the loading worker is asked. */
-export type LoadRequest =
+/** A model of the playground. */
+export type ModelRequest =
   | { readonly kind: 'sample'; readonly name: SampleName }
   | { readonly kind: 'files'; readonly files: ReadonlyMap<string, Blob>; readonly entry: string; readonly animation?: number; readonly time?: number };
+
+/** What the loading worker is asked: a model, or all parts that a push-button can be put together from. */
+export type LoadRequest = ModelRequest | { readonly kind: 'kit'; readonly level: 'low' | 'medium' };
 
 /** What it answers: any number of `progress`, then one of the others. */
 export type LoadReply =

@@ -1,7 +1,7 @@
 import { readObj, readStl } from '@glanz/formats';
 import { decodeImageInBrowser, loadGltf } from '@glanz/gltf';
 import { sendableScene, transferablesOf } from '@glanz/gltf/worker';
-import { createCornellBox, createPushButton } from '@glanz/models';
+import { createCornellBox, createPushButton, createPushButtonKit } from '@glanz/models';
 import type { Scene } from '@glanz/scene';
 import { decoders } from './decoders';
 import type { LoadReply, LoadRequest } from './load-messages';
@@ -19,6 +19,7 @@ async function load(request: LoadRequest): Promise<Scene> {
     const onProgress = ({ stage, done }: { stage: string; done: number }) => reply({ kind: 'progress', stage, done });
     return loadGltf({ files, entry }, { decoders, onProgress, animation: request.animation, time: request.time });
   }
+  if (request.kind === 'kit') return createPushButtonKit({ level: request.level });
   if (request.name === 'cornell-box') return createCornellBox();
   return createPushButton({ level: request.name === 'push-button-high' ? 'high' : request.name === 'push-button-low' ? 'low' : 'medium' });
 }

@@ -2,13 +2,13 @@ import type { Scene } from '@glanz/scene';
 import { decodeLink, type LinkContent } from '../state/link';
 import { forAnotherModel, type State, type Values } from '../state/state';
 import { loadScene } from './load-scene';
-import type { LoadRequest } from './load-messages';
+import type { ModelRequest } from './load-messages';
 import { SAMPLES, type SampleName } from './samples';
 
 /** A model as it was loaded. */
 export interface Opened {
   readonly scene: Scene;
-  readonly request: LoadRequest;
+  readonly request: ModelRequest;
   readonly title: string;
   /** Name in links: that of the sample, or of the file. */
   readonly name: string;
@@ -20,7 +20,7 @@ export const isSample = (name: string): name is SampleName => Object.hasOwn(SAMP
 export const sampleTitle = (name: SampleName): string => SAMPLES[name].title.split(' · ')[0] as string;
 
 /** What a request is called in links. */
-export const nameOf = (request: LoadRequest): string => (request.kind === 'sample' ? request.name : (request.entry.split('/').at(-1) ?? request.entry));
+export const nameOf = (request: ModelRequest): string => (request.kind === 'sample' ? request.name : (request.entry.split('/').at(-1) ?? request.entry));
 
 /**
  * The state in which a model is first seen.
@@ -29,7 +29,7 @@ export const nameOf = (request: LoadRequest): string => (request.kind === 'sampl
  * @param link What a link says of this model, which goes over all else.
  * @param first Whether nothing was shown before: the address decides then, later the model.
  */
-export function stateFor(scene: Scene, request: LoadRequest, before: State, { link, first }: { readonly link?: LinkContent | undefined; readonly first: boolean }): State {
+export function stateFor(scene: Scene, request: ModelRequest, before: State, { link, first }: { readonly link?: LinkContent | undefined; readonly first: boolean }): State {
   const wanted = request.kind === 'sample' ? SAMPLES[request.name].environment : scene.environment ? 'model' : before.environment === 'none' || before.environment === 'model' ? 'studio' : before.environment;
   // A picture that the user brought lights whatever comes.
   const environment = first || before.environment === 'file' ? before.environment : wanted;
@@ -67,6 +67,6 @@ export async function linkOfPage(): Promise<LinkContent | undefined> {
 }
 
 /** Loads what a request asks for. */
-export async function open(request: LoadRequest, title: string, options: Parameters<typeof loadScene>[1]): Promise<Opened> {
+export async function open(request: ModelRequest, title: string, options: Parameters<typeof loadScene>[1]): Promise<Opened> {
   return { scene: await loadScene(request, options), request, title, name: nameOf(request) };
 }

@@ -47,22 +47,24 @@ export function blurEnvironment({ width, height, data }: LatLongEnvironment, deg
   return { type: 'latlong', width: columns, height: rows, data: out };
 }
 
-/** Means of blocks of texels. */
+/** Means over the areas of larger texels, along one axis after the other. */
 function shrink(data: Float32Array, width: number, height: number, columns: number, rows: number): Float32Array {
-  const out = new Float32Array(columns * rows * 3);
-  const count = new Uint32Array(columns * rows);
-  for (let y = 0; y < height; y++) {
-    const j = Math.min(rows - 1, Math.floor(((y + 0.5) / height) * rows));
-    for (let x = 0; x < width; x++) {
-      const to = j * columns + Math.min(columns - 1, Math.floor(((x + 0.5) / width) * columns));
-      for (let k = 0; k < 3; k++) out[3 * to + k]! += data[3 * (y * width + x) + k]!;
-      count[to]!++;
+  return resample(resample(data, width, columns, height, (x, y) => 3 * (y * width + x), (x, y) => 3 * (y * columns + x)), height, rows, columns, (y, x) => 3 * (y * columns + x), (y, x) => 3 * (y * columns + x));
+}
+
+/** Means along one axis from `count` texels to `wanted`, for each of the `others` along the other axis. */
+function resample(data: Float32Array, count: number, wanted: number, others: number, from: (i: number, other: number) => number, to: (i: number, other: number) => number): Float32Array {
+  const out = new Float32Array(wanted * others * 3);
+  const size = count / wanted;
+  for (let i = 0; i < wanted; i++) {
+    const [begin, end] = [i * size, (i + 1) * size];
+    for (let k = Math.floor(begin); k < Math.min(count, Math.ceil(end - 1e-9)); k++) {
+      const share = (Math.min(end, k + 1) - Math.max(begin, k)) / size;
+      for (let other = 0; other < others; other++) {
+        const [source, target] = [from(k, other), to(i, other)];
+        for (let c = 0; c < 3; c++) out[target + c]! += share * data[source + c]!;
+      }
     }
-  }
-  // A picture smaller than the blur's texels leaves some without any: they take their neighbour's.
-  for (let i = 0; i < count.length; i++) {
-    if (count[i]! > 0) for (let k = 0; k < 3; k++) out[3 * i + k]! /= count[i]!;
-    else for (let k = 0; k < 3; k++) out[3 * i + k] = i > 0 ? out[3 * (i - 1) + k]! : data[k]!;
   }
   return out;
 }

@@ -1,0 +1,177 @@
+import { createViewer, type Viewer } from '@glanz/viewer';
+import { frameCamera, type Scene } from '@glanz/scene';
+import { isAbort } from '../errors';
+import { download } from '../output/save';
+import { byId, element } from '../ui/elements';
+import { Messages } from '../ui/messages';
+import { assemble, assemblyOf, type Assembly } from './assembly';
+import { CATALOGUE, choicesOf, chosen, combinations, FEATURES, sentence, usual, type Configuration, type FeatureName } from './catalogue';
+import { OptionsForm } from './options-form';
+import { orderCode, parseOrderCode } from './order-code';
+
+/** From the button towards the camera. */
+const PRODUCT = [0.7, 0.4, 0.6] as const;
+const VIEWS = { front: [0, 0.0001, 1], side: [1, 0.12, 0.12], back: [0.62, 0.32, -1] } as const;
+
+/** The picture is sharp from here on: enough for a catalogue. */
+const SAMPLES = 512;
+
+const number = (text: string | null, low: number, high: number, initial: number): number => {
+  const value = Number(text ?? Number.NaN);
+  return text !== null && value >= low && value <= high ? value : initial;
+};
+
+/** The page on which a button is put together. */
+export class Configurator {
+  readonly #canvas = byId<HTMLCanvasElement>('picture');
+  readonly #stage = byId('stage');
+  readonly #code = byId<HTMLInputElement>('code');
+  readonly #messages = new Messages(byId('messages'));
+  readonly #form: OptionsForm;
+  readonly #viewer: Viewer;
+  #configuration: Configuration;
+  #shown: Assembly | undefined;
+
+  private constructor() {
+    const query = new URLSearchParams(location.search);
+    this.#configuration = parseOrderCode(location.hash) ?? usual();
+    this.#form = new OptionsForm(byId<HTMLFormElement>('options'), (feature, code) => this.choose({ ...this.#configuration, [feature]: code }, feature));
+    const scale = query.get('scale');
+    this.#viewer = createViewer(this.#canvas, {
+      samples: Math.round(number(query.get('samples'), 1, 65536, SAMPLES)),
+      maxDepth: Math.round(number(query.get('depth'), 1, 64, 8)),
+      environment: 'studio',
+      background: 'transparent',
+      ...(scale === null ? {} : { pixelRatio: number(scale, 0.05, 2, 1) }),
+    });
+    byId('count').textContent = `One of ${new Intl.NumberFormat('en').format(combinations())} buttons.`;
+    this.#tell();
+    this.#wire();
+  }
+
+  /** @param kit All parts of the button, on their way. */
+  static async start(kit: Promise<Scene>): Promise<void> {
+    const page = new Configurator();
+    const scene = await kit;
+    // All parts are in this picture, so that it stays the same whatever is chosen.
+    const aspect = Math.max(1, page.#stage.clientWidth) / Math.max(1, page.#stage.clientHeight);
+    await page.#viewer.load(scene, { camera: frameCamera(scene, { aspect, direction: PRODUCT, yfov: (25 * Math.PI) / 180, margin: 0.04 }) });
+    await page.#apply();
+    page.#stage.dataset['ready'] = '';
+  }
+
+  /** Shows another button and tells what the change has cost. */
+  choose(configuration: Configuration, feature?: FeatureName): void {
+    const asked = performance.now();
+    this.#configuration = configuration;
+    this.#tell();
+    history.replaceState(null, '', `#${orderCode(configuration)}`);
+    const title = feature ? `${CATALOGUE[feature].title}: ${chosen(configuration, feature).title}` : sentence(configuration).split(',')[0];
+    void this.#apply().then(
+      async (edits) => {
+        if (edits === 0) return;
+        await this.#frame();
+        const ms = performance.now() - asked;
+        this.#canvas.dataset['price'] = ms.toFixed(1);
+        byId('price').replaceChildren(element('b', {}, `${ms < 10 ? ms.toFixed(1) : Math.round(ms)} ms`), `${title} `, element('span', { id: 'progress' }));
+      },
+      (error: unknown) => !isAbort(error) && this.#messages.show({ kind: 'error', text: error instanceof Error ? error.message : String(error) }),
+    );
+  }
+
+  /** Brings what is shown to what is chosen. @returns How many edits of the scene that took. */
+  async #apply(): Promise<number> {
+    let edits = 0;
+    // Compared when its turn comes: several choices in a row become one change.
+    const change = this.#viewer.edit(
+      async (tracer) => {
+        const next = assemblyOf(this.#configuration);
+        const before = this.#shown;
+        this.#shown = next;
+        edits = await assemble(tracer, next, before);
+      },
+      { key: 'assembly' },
+    );
+    await change;
+    return edits;
+  }
+
+  /** The next picture on the canvas. */
+  #frame(): Promise<void> {
+    return new Promise((resolve) => {
+      const stop = this.#viewer.on('frame', () => {
+        stop();
+        resolve();
+      });
+    });
+  }
+
+  #tell(): void {
+    const code = orderCode(this.#configuration);
+    this.#form.show(this.#configuration);
+    byId('sentence').textContent = sentence(this.#configuration);
+    this.#code.value = code;
+    this.#code.removeAttribute('aria-invalid');
+    this.#canvas.dataset['code'] = code;
+    document.title = `${code} – push-button configurator`;
+  }
+
+  #wire(): void {
+    const { dataset } = this.#canvas;
+    this.#viewer.on('state', ({ state }) => (dataset['state'] = state));
+    this.#viewer.on('sample', ({ samples, target }) => {
+      dataset['samples'] = String(samples);
+      const progress = document.getElementById('progress');
+      if (progress) progress.textContent = samples < target ? `· ${samples} of ${target} samples` : '· finished';
+    });
+    this.#viewer.on('error', ({ message, code, retry }) => {
+      this.#messages.show({ kind: 'error', text: message, code, ...(retry ? { action: { title: 'Try again', run: retry } } : {}) });
+    });
+    this.#viewer.on('device-restored', () => this.#messages.clearErrors());
+    this.#code.addEventListener('change', () => {
+      const configuration = parseOrderCode(this.#code.value);
+      if (configuration) this.choose(configuration);
+      else this.#code.setAttribute('aria-invalid', 'true');
+    });
+    window.addEventListener('hashchange', () => {
+      const configuration = parseOrderCode(location.hash);
+      if (configuration) this.choose(configuration);
+    });
+    for (const button of document.querySelectorAll<HTMLElement>('[data-view]')) {
+      button.addEventListener('click', () => {
+        const view = button.dataset['view'] as keyof typeof VIEWS | 'product';
+        if (view === 'product') this.#viewer.home();
+        else this.#viewer.frame({ direction: VIEWS[view] });
+      });
+    }
+    byId('surprise').addEventListener('click', () => {
+      const any = (feature: FeatureName) => choicesOf(feature)[Math.floor(Math.random() * choicesOf(feature).length)]?.code ?? '';
+      this.choose(Object.fromEntries(FEATURES.map((feature) => [feature, any(feature)])) as Configuration);
+    });
+    byId('copy').addEventListener('click', () => void this.#copy());
+    byId('save').addEventListener('click', () => void this.#save());
+  }
+
+  async #copy(): Promise<void> {
+    const link = `${location.origin}${location.pathname}#${orderCode(this.#configuration)}`;
+    try {
+      await navigator.clipboard.writeText(link);
+      this.#messages.show({ kind: 'note', text: 'The link to this button is on the clipboard.' });
+    } catch {
+      this.#messages.show({ kind: 'note', text: `The link to this button: ${link}` });
+    }
+  }
+
+  async #save(): Promise<void> {
+    const button = byId<HTMLButtonElement>('save');
+    button.disabled = true;
+    try {
+      const blob = await this.#viewer.toBlob({ type: 'image/png' });
+      download(new Uint8Array(await blob.arrayBuffer()), `${orderCode(this.#configuration).toLowerCase()}.png`, 'image/png');
+    } catch (error) {
+      this.#messages.show({ kind: 'error', text: error instanceof Error ? error.message : String(error) });
+    } finally {
+      button.disabled = false;
+    }
+  }
+}

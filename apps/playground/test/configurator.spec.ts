@@ -1,0 +1,140 @@
+import { readFileSync } from 'node:fs';
+import { expect, test, type Page } from '@playwright/test';
+import { checkAccessibility, dataOf, errorWith, pictureOf, pixelsOf, servePlayground, watch } from './page';
+
+let origin = '';
+let close: () => Promise<void> = async () => undefined;
+
+test.beforeAll(async () => ({ origin, close } = await servePlayground()));
+test.afterAll(() => close());
+test.use({ viewport: { width: 900, height: 560 } });
+
+let complaints: string[] = [];
+test.beforeEach(({ page }) => void (complaints = watch(page, origin)));
+test.afterEach(() => expect(complaints).toEqual([]));
+
+async function open(page: Page, code = '', query = 'level=low&scale=0.25&samples=6&depth=3'): Promise<void> {
+  await page.goto(`${origin}/configurator.html?${query}${code}`);
+  await expect(page.locator('#stage')).toHaveAttribute('data-ready', '');
+  await done(page);
+}
+
+async function done(page: Page): Promise<void> {
+  await expect(pictureOf(page)).toHaveAttribute('data-state', 'done');
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+}
+
+/** Chooses something and waits for its finished picture. */
+async function choose(page: Page, id: string): Promise<void> {
+  const before = await dataOf(page, 'price');
+  await page.locator(`#${id}`).check({ force: true });
+  await expect.poll(() => dataOf(page, 'price'), { message: 'the price of the change is told' }).not.toBe(before);
+  await done(page);
+}
+
+/** Of the saved picture: the share of pixels that the button covers, and of those the shares that are clearly red, green. */
+async function shares(page: Page): Promise<{ readonly covered: number; readonly red: number; readonly green: number }> {
+  const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Download picture' }).click()]);
+  return page.evaluate(async (base64) => {
+    const bitmap = await createImageBitmap(new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], { type: 'image/png' }));
+    const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d')!;
+    context.drawImage(bitmap, 0, 0);
+    const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
+    let [covered, red, green] = [0, 0, 0];
+    for (let i = 0; i < data.length; i += 4) {
+      if (data[i + 3]! < 128) continue;
+      const [r, g] = [data[i]!, data[i + 1]!];
+      covered++;
+      if (r > 1.5 * g && r > 60) red++;
+      if (g > 1.3 * r && g > 60) green++;
+    }
+    return { covered: covered / (data.length / 4), red: red / covered, green: green / covered };
+  }, readFileSync(await download.path()).toString('base64'));
+}
+
+test('a button is put together: each click changes the picture, the sentence, the code and the address', async ({ page }) => {
+  await open(page);
+  await expect(page.locator('#code')).toHaveValue('GB22-FG-P-RC-G-PA-C');
+  await expect(page.locator('#sentence')).toContainText('Flush push-button in green with the power sign, lit in green');
+  await page.getByRole('button', { name: 'Front' }).click();
+  await page.waitForTimeout(1200);
+  await done(page);
+  const green = await shares(page);
+  expect(green.green).toBeGreaterThan(0.06);
+  expect(green.red).toBeLessThan(0.03);
+
+  await choose(page, 'colour-R');
+  await choose(page, 'light-R');
+  const red = await shares(page);
+  expect(red.red).toBeGreaterThan(0.06);
+  expect(red.green).toBeLessThan(0.01);
+  await expect(page.locator('#code')).toHaveValue('GB22-FR-P-RC-R-PA-C');
+  await expect(page.locator('#price')).toContainText(/\d+ ms/);
+  expect(new URL(page.url()).hash).toBe('#GB22-FR-P-RC-R-PA-C');
+
+  // Without a panel there is less to see, and its finish has nothing to say.
+  await choose(page, 'mounting-N');
+  expect((await shares(page)).covered).toBeLessThan(0.75 * red.covered);
+  await expect(page.locator('#panel-A')).toBeDisabled();
+  await choose(page, 'mounting-P');
+  expect(Math.abs((await shares(page)).covered - red.covered)).toBeLessThan(0.01);
+
+  // A mushroom covers the bezel, and is red where that was chrome.
+  await choose(page, 'shape-M');
+  expect((await shares(page)).red).toBeGreaterThan(1.5 * red.red);
+  await expect(page.locator('#sentence')).toContainText('Mushroom push-button in red');
+});
+
+test('a link, or a code typed in, is that button; a wrong code is marked and changes nothing', async ({ page }) => {
+  await open(page, '#GB22-RB-H-QK-N-EY-O');
+  await expect(page.locator('#sentence')).toContainText('Raised push-button in blue with the stop sign, without illumination, black chrome square bezel, in an enclosure lid in safety yellow');
+  await expect(page.locator('#mounting-E')).toBeChecked();
+  await page.getByRole('button', { name: 'Front' }).click();
+  await page.waitForTimeout(1200);
+  await done(page);
+  const corner = async () => {
+    const box = (await pictureOf(page).boundingBox())!;
+    return (await pixelsOf(page, await page.screenshot({ clip: { x: box.x + box.width / 2 - 120, y: box.y + box.height / 2 - 120, width: 12, height: 12 } }))).mean;
+  };
+  const yellow = await corner();
+  expect(yellow[0]).toBeGreaterThan(2 * yellow[2]);
+
+  await page.locator('#code').fill('GB22-nonsense');
+  await page.locator('#code').press('Enter');
+  await expect(page.locator('#code')).toHaveAttribute('aria-invalid', 'true');
+  await expect(page.locator('#mounting-E')).toBeChecked();
+  const before = await dataOf(page, 'price');
+  await page.locator('#code').fill('gb22-wk-n-sw-n-dg-x');
+  await page.locator('#code').press('Enter');
+  await expect(page.locator('#code')).toHaveAttribute('aria-invalid', 'true');
+  await page.locator('#code').fill('gb22-fk-n-sw-n-eg-x');
+  await page.locator('#code').press('Enter');
+  await expect(page.locator('#sentence')).toContainText('Flush push-button in black');
+  await expect.poll(() => dataOf(page, 'price')).not.toBe(before);
+  await done(page);
+  const grey = await corner();
+  expect(Math.abs(grey[0] - grey[2])).toBeLessThan(20);
+});
+
+test('the page keeps its picture when its size changes, saves it, and has no accessibility faults at three sizes', async ({ page }) => {
+  await open(page);
+  for (const [width, height] of [[1440, 900], [820, 1100], [360, 740]] as const) {
+    await page.setViewportSize({ width, height });
+    await expect.poll(async () => (await pictureOf(page).evaluate((canvas: HTMLCanvasElement) => Math.abs(canvas.width / canvas.height - canvas.clientWidth / canvas.clientHeight)))).toBeLessThan(0.05);
+    await done(page);
+    expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(width);
+    expect(await checkAccessibility(page)).toEqual([]);
+  }
+  const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Download picture' }).click()]);
+  expect(download.suggestedFilename()).toBe('gb22-fg-p-rc-g-pa-c.png');
+  const { deviation, colours } = await pixelsOf(page, readFileSync(await download.path()));
+  expect(colours).toBeGreaterThan(500);
+  expect(deviation).toBeGreaterThan(20);
+});
+
+test('without WebGPU the page says so', async ({ page }) => {
+  await page.addInitScript(() => Object.defineProperty(navigator, 'gpu', { value: undefined, configurable: true }));
+  await page.goto(`${origin}/configurator.html?level=low`);
+  await expect(page.getByRole('heading', { name: 'This page needs WebGPU' })).toBeVisible();
+  await expect(errorWith(page, 'renderer/no-webgpu').first()).toBeVisible();
+});
