@@ -2,7 +2,7 @@ import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { parseArgs } from 'node:util';
 import { findModels, type Model } from './models';
-import { html, montage } from './page';
+import { assetsMarkdown, html, montage } from './page';
 import { openRenderer, type Row } from './render';
 
 /** Renders a folder of models into one page. Returns the exit status. */
@@ -10,7 +10,7 @@ export async function contactSheet(argv: readonly string[]): Promise<number> {
   const { values, positionals } = parseArgs({
     args: [...argv],
     allowPositionals: true,
-    options: { size: { type: 'string', default: '96' }, samples: { type: 'string', default: '16' }, only: { type: 'string', multiple: true }, gpu: { type: 'string' }, out: { type: 'string', default: 'out/contact-sheet' }, fresh: { type: 'boolean', default: false } },
+    options: { size: { type: 'string', default: '96' }, samples: { type: 'string', default: '16' }, only: { type: 'string', multiple: true }, gpu: { type: 'string' }, out: { type: 'string', default: 'out/contact-sheet' }, pages: { type: 'string' }, fresh: { type: 'boolean', default: false } },
   });
   const folder = resolve(positionals[0] ?? '../shared/assets');
   const size = Number(values.size), samples = Number(values.samples);
@@ -44,6 +44,7 @@ export async function contactSheet(argv: readonly string[]): Promise<number> {
   writeFileSync(join(out, 'sheet.json'), `${JSON.stringify(rows, null, 1)}\n`);
   writeFileSync(join(out, 'index.html'), html(rows, size, samples));
   writeFileSync(join(out, 'sheet.png'), await montage(rows, join(out, 'pictures'), size));
+  if (values.pages !== undefined) writeFileSync(join(resolve(values.pages), 'assets.md'), assetsMarkdown(rows, size, samples));
   const failed = rows.filter(({ error }) => error !== undefined);
   process.stderr.write(`${join(out, 'index.html')}: ${rows.length} models, ${failed.length} failed, ${rows.filter(({ warnings }) => warnings.length > 0).length} with warnings.\n`);
   return failed.length > 0 ? 1 : 0;

@@ -1,6 +1,7 @@
 import { existsSync } from 'node:fs';
 import { join } from 'node:path';
 import sharp from 'sharp';
+import { NOTES } from './notes';
 import type { Row } from './render';
 
 const escape = (text: string) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
@@ -9,7 +10,7 @@ const escape = (text: string) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeA
 export function html(rows: readonly Row[], size: number, samples: number): string {
   const told = rows.filter(({ error, warnings, badSamples }) => error !== undefined || warnings.length > 0 || badSamples > 0);
   const cell = ({ id, name, note, error, warnings, triangles }: Row) =>
-    `<figure class="${error === undefined ? (warnings.length > 0 ? 'warned' : '') : 'failed'}"><a href="#${escape(id)}">${error === undefined ? `<img src="pictures/${escape(id)}.png" width="${size}" height="${size}" alt="">` : '<div></div>'}</a><figcaption title="${escape(note)}">${escape(name)}<br><small>${triangles.toLocaleString('en')} triangles</small></figcaption></figure>`;
+    `<figure class="${error === undefined ? (warnings.length > 0 ? 'warned' : '') : 'failed'}"><a href="#${escape(id)}">${error === undefined ? `<img src="pictures/${escape(id)}.png" width="${size}" height="${size}" alt="">` : '<div></div>'}</a><figcaption title="${escape(note)}${NOTES[name] ? ` — ${escape(NOTES[name])}` : ''}">${escape(name)}<br><small>${triangles.toLocaleString('en')} triangles</small></figcaption></figure>`;
   const entry = ({ id, name, error, warnings, badSamples }: Row) =>
     `<h3 id="${escape(id)}">${escape(name)}</h3><ul>${error === undefined ? '' : `<li class="failed">${escape(error)}</li>`}${badSamples > 0 ? `<li>${badSamples} samples were not numbers</li>` : ''}${warnings.map((warning) => `<li>${escape(warning)}</li>`).join('')}</ul>`;
   return `<!doctype html><meta charset="utf-8"><title>Contact sheet</title>
@@ -18,6 +19,53 @@ export function html(rows: readonly Row[], size: number, samples: number): strin
 <main>${rows.map(cell).join('\n')}</main>
 <h2>Warnings and errors</h2>${told.map(entry).join('\n')}
 `;
+}
+
+/** What one has to tell of warnings: each kind once, with how often. */
+function summary(warnings: readonly string[]): string {
+  const kinds = new Map<string, number>();
+  for (const warning of warnings) {
+    const code = /\[([\w/-]+)\]$/.exec(warning)?.[1] ?? warning;
+    kinds.set(code, (kinds.get(code) ?? 0) + 1);
+  }
+  return [...kinds].map(([code, count]) => `${count} × \`${code}\``).join(', ');
+}
+
+/** The page of the documentation: a table without pictures, since many models' licences forbid them. */
+export function assetsMarkdown(rows: readonly Row[], size: number, samples: number): string {
+  const told = rows.filter(({ warnings, badSamples }) => warnings.length > 0 || badSamples > 0);
+  const failed = rows.filter(({ error }) => error !== undefined);
+  const cell = (text: string) => text.replaceAll('|', '\\|').replace(/\s+/g, ' ');
+  return [
+    '# Test models',
+    '',
+    `${rows.length} real models, most of them Khronos samples, each loaded by \`loadGltfFile\`, framed from the front right in the neutral studio and rendered at ${size} × ${size} with ${samples} samples on a software GPU: **${failed.length} failed, ${rows.filter(({ badSamples }) => badSamples > 0).length} with samples that are no numbers, ${told.length} with warnings**. The models are no part of the project, and many of their licences forbid pictures of them here; \`npm run contact-sheet -- FOLDER\` makes the sheet of any folder, with pictures, and this page by \`--pages\`.`,
+    '',
+    '## What looks different, and why',
+    '',
+    'Beside the pictures that rasterisers make of the same files:',
+    '',
+    '| model | |',
+    '| --- | --- |',
+    ...rows.flatMap(({ name }) => (NOTES[name] ? [`| ${cell(name)} | ${cell(NOTES[name])} |`] : [])),
+    '',
+    'Everywhere: light that bounces, shadows of glass, reflections of the model in itself; noise, at so few samples. Baked occlusion is not used, since the real one is there.',
+    '',
+    '## Warnings',
+    '',
+    'A triangle without area, which nothing can hit, is told of by `validateScene`; nothing is lost by it.',
+    '',
+    '| model | |',
+    '| --- | --- |',
+    ...told.map(({ name, warnings, badSamples }) => `| ${cell(name)} | ${summary(warnings)}${badSamples > 0 ? `; ${badSamples} samples that were no numbers` : ''} |`),
+    '',
+    '## All',
+    '',
+    '| model | exercises | triangles | load, ms | result |',
+    '| --- | --- | --: | --: | --- |',
+    ...rows.map(({ name, note, triangles, loadMs, error, warnings }) => `| ${cell(name)} | ${cell(note)} | ${triangles.toLocaleString('en')} | ${loadMs.toFixed(0)} | ${error === undefined ? (warnings.length > 0 ? 'with warnings' : 'as it should be') : cell(error)} |`),
+    '',
+  ].join('\n');
 }
 
 /** All pictures in one, with their names below. */
