@@ -84,18 +84,13 @@ export function putBox(boxes: Float32Array | Float64Array, at: number, x0: numbe
   boxes[at + 5] = z1;
 }
 
-/** Writes the box around the boxes `first` to `end` to the start of `out`: min xyz, max xyz. */
-export function enclose(boxes: Float32Array, first: number, end: number, out: Float64Array): void {
-  let x0 = Infinity, y0 = Infinity, z0 = Infinity, x1 = -Infinity, y1 = -Infinity, z1 = -Infinity;
-  for (let b = 6 * first; b < 6 * end; b += 6) {
-    const a0 = boxes[b] as number, a1 = boxes[b + 1] as number, a2 = boxes[b + 2] as number;
-    const a3 = boxes[b + 3] as number, a4 = boxes[b + 4] as number, a5 = boxes[b + 5] as number;
-    if (a0 < x0) x0 = a0;
-    if (a1 < y0) y0 = a1;
-    if (a2 < z0) z0 = a2;
-    if (a3 > x1) x1 = a3;
-    if (a4 > y1) y1 = a4;
-    if (a5 > z1) z1 = a5;
-  }
-  putBox(out, 0, x0, y0, z0, x1, y1, z1);
+/** Copies six numbers: three to `at`, three to `at + stride`. */
+export function copyBox(to: Float32Array, at: number, stride: number, from: Float32Array, b: number): void {
+  to[at] = from[b] as number;
+  to[at + 1] = from[b + 1] as number;
+  to[at + 2] = from[b + 2] as number;
+  at += stride;
+  to[at] = from[b + 3] as number;
+  to[at + 1] = from[b + 4] as number;
+  to[at + 2] = from[b + 5] as number;
 }

@@ -33,44 +33,38 @@ export interface Tlas {
  * @throws {BvhError} `bvh/transform` for a transform without 16 numbers, `bvh/too-many` beyond 4 million instances.
  */
 export function buildTlas(instances: readonly TlasInstance[]): Tlas {
-  if (instances.length > 2 ** TLAS_MAX_DEPTH) throw new BvhError('bvh/too-many', `${instances.length} instances are too many; one hierarchy holds ${2 ** TLAS_MAX_DEPTH}.`);
-  const boxes = new Float32Array(instances.length * 6);
-  const toObject = new Float64Array(instances.length * 12);
-  for (let i = 0; i < instances.length; i++) {
+  const { length } = instances;
+  if (length > 2 ** TLAS_MAX_DEPTH) throw new BvhError('bvh/too-many', `${length} instances are too many; one hierarchy holds ${2 ** TLAS_MAX_DEPTH}.`);
+  const boxes = new Float32Array(length * 6);
+  const toObject = new Float64Array(length * 12);
+  const kept = new Uint32Array(length);
+  let count = 0;
+  for (let i = 0; i < length; i++) {
     const { bounds: { min, max }, transform: m } = instances[i] as TlasInstance;
     if (m.length !== 16) throw new BvhError('bvh/transform', `Instance ${i} has a transform of ${m.length} numbers; it must have 16.`);
     const exists = invertAffine(m, toObject, 12 * i) && (min[0] as number) <= (max[0] as number);
+    let sum = 0;
     for (let r = 0; r < 3; r++) {
       let low = m[12 + r] as number, high = low;
       // What rounding may take off in world and object space together, so that no hit near the border is lost.
       let slack = Math.abs(low);
       for (let k = 0; k < 3; k++) {
         const p = (m[4 * k + r] as number) * (min[k] as number), q = (m[4 * k + r] as number) * (max[k] as number);
-        low += Math.min(p, q);
-        high += Math.max(p, q);
+        low += p < q ? p : q;
+        high += p < q ? q : p;
         slack += Math.max(Math.abs(p), Math.abs(q));
       }
       slack *= 2 ** -22;
-      boxes[6 * i + r] = exists ? low - slack : NaN;
-      boxes[6 * i + 3 + r] = exists ? high + slack : NaN;
+      const at = 6 * count + r;
+      boxes[at] = low - slack;
+      boxes[at + 3] = high + slack;
+      // Finite only if each part is: six numbers of 3.4e38 at most cannot overflow a double.
+      sum += (boxes[at] as number) + (boxes[at + 3] as number);
     }
+    if (exists && Number.isFinite(sum)) kept[count++] = i;
   }
-  const instanceOrder = finiteBoxes(boxes);
-  const { nodes, nodeCount } = buildOverBoxes(boxes, instanceOrder, TLAS_MAX_DEPTH);
-  return { nodes, nodeCount, instanceOrder, toObject, bounds: rootBounds(nodes) };
-}
-
-/** The indices of boxes without NaN or infinity. */
-function finiteBoxes(boxes: Float32Array): Uint32Array<ArrayBuffer> {
-  const kept = new Uint32Array(boxes.length / 6);
-  let count = 0;
-  for (let i = 0; i < kept.length; i++) {
-    const b = 6 * i;
-    // A sum is finite only if each part is: six numbers of 3.4e38 at most cannot overflow a double.
-    const sum = (boxes[b] as number) + (boxes[b + 1] as number) + (boxes[b + 2] as number) + (boxes[b + 3] as number) + (boxes[b + 4] as number) + (boxes[b + 5] as number);
-    if (Number.isFinite(sum)) kept[count++] = i;
-  }
-  return count === kept.length ? kept : kept.slice(0, count);
+  const { nodes, nodeCount } = buildOverBoxes(boxes, count, TLAS_MAX_DEPTH);
+  return { nodes, nodeCount, instanceOrder: kept.slice(0, count), toObject, bounds: rootBounds(nodes) };
 }
 
 /** Writes the rows of the inverse of an affine matrix; false (and NaN) where there is none. */

@@ -1,7 +1,16 @@
 import type { TriangleMesh } from '../blas';
 import type { BuildSettings } from './builder';
 import { Scratch } from './scratch';
-import { buildUpper, emptyTree, keepNodes, makePrimitives, part, sortPrimitives, writeInsides, type Steps, type TriangleTree } from './steps';
+import { buildNodes, emptyTree, gather, keepNodes, makePrimitives, part, sortPrimitives, type Steps, type TriangleTree } from './steps';
+
+/** Triangles of the mesh that is built first of all: enough for splits. */
+const MODEL = 600;
+
+/**
+ * V8 drops machine code when the last object of a kind that it was made for goes, and every build that finds itself after a
+ * garbage collection would be a first one again. So the objects of one small build stay.
+ */
+let models: object[] | undefined;
 
 /**
  * Builds by surface area heuristic in steps that are each far cheaper than binning all triangles on every level: pairs of
@@ -9,14 +18,22 @@ import { buildUpper, emptyTree, keepNodes, makePrimitives, part, sortPrimitives,
  * built over the cells from the top down and mended by rotations; the lower ones within each cell from the bottom up. No
  * recursion, no allocation per node, deterministic.
  */
-export function* buildBalanced(mesh: TriangleMesh, count: number, { maxLeaf, bins }: BuildSettings): Steps<TriangleTree> {
+export function* buildBalanced(mesh: TriangleMesh, count: number, settings: BuildSettings, kept?: object[]): Steps<TriangleTree> {
+  const { maxLeaf, bins } = settings;
+  if (!models) {
+    models = [];
+    const positions = new Float32Array(9 * MODEL).map((_, i) => Math.sin(i * (i % 30)));
+    const steps = buildBalanced({ positions, indices: new Uint32Array(3 * MODEL).map((_, i) => i) }, MODEL, settings, models);
+    while (!steps.next().done);
+  }
   const scratch = Scratch.take();
+  scratch.models = kept;
   const primitives = yield* part(makePrimitives(mesh, count, maxLeaf > 1, scratch), 0, 0.15);
-  if (primitives.count === 0) return emptyTree();
-  const sorted = yield* part(sortPrimitives(primitives, scratch), 0.15, 0.3);
-  const upper = yield* part(buildUpper(primitives, sorted, bins, scratch), 0.3, 0.6);
+  if (primitives.count === 0) return emptyTree(primitives);
+  const order = yield* part(sortPrimitives(primitives, scratch), 0.15, 0.25);
+  const sorted = yield* part(gather(primitives, order, maxLeaf > 1, scratch), 0.25, 0.35);
   const triangleIndices = new Uint32Array(primitives.triangleCount);
-  const writer = yield* part(writeInsides(upper, upper.clusters.triangles, triangleIndices, maxLeaf, scratch), 0.6, 0.95);
+  const writer = yield* part(buildNodes(sorted, triangleIndices, bins, maxLeaf, scratch), 0.35, 0.95);
   const tree = yield* part(keepNodes(writer), 0.95, 1);
   scratch.giveBack();
   return { ...tree, triangleIndices, bounds: primitives.bounds };

@@ -6,7 +6,7 @@ import { finishDraft } from './finish';
 import { cutTriangles, type References } from './references';
 import { Reinsertion } from './reinsert';
 import { Scratch } from './scratch';
-import { buildUpper, emptyTree, makePrimitives, part, sortPrimitives, writeInsides, type Steps, type TriangleTree } from './steps';
+import { buildNodes, emptyTree, gather, makePrimitives, part, sortPrimitives, type Steps, type TriangleTree } from './steps';
 
 /** The shares of subtrees that the passes of reinsertion look at. */
 const PASSES = [0.1, 1, 0.1] as const;
@@ -14,7 +14,7 @@ const PASSES = [0.1, 1, 0.1] as const;
 function* buildBest(mesh: TriangleMesh, count: number, { maxLeaf, bins }: BuildSettings, cut: boolean): Steps<TriangleTree> {
   const scratch = Scratch.take();
   const primitives = yield* part(makePrimitives(mesh, count, maxLeaf > 1, scratch), 0, 0.02);
-  if (primitives.count === 0) return emptyTree();
+  if (primitives.count === 0) return emptyTree(primitives);
   const references = cut ? yield* part(cutTriangles(mesh, primitives), 0.02, 0.08) : primitives;
   const tree = yield* part(draft(references, bins, scratch), 0.08, 0.2);
   const reinsertion = new Reinsertion(tree);
@@ -28,12 +28,12 @@ function* buildBest(mesh: TriangleMesh, count: number, { maxLeaf, bins }: BuildS
 
 /** A first tree, one reference a leaf. */
 function* draft(references: References, bins: number, scratch: Scratch): Steps<DraftTree> {
-  const { count } = references;
-  if (count === 1) return singleDraft(references.boxes);
-  const sorted = yield* part(sortPrimitives(references, scratch), 0, 0.3);
-  const upper = yield* part(buildUpper(references, sorted, bins, scratch), 0.3, 0.5);
+  const { boxes, bounds, count } = references;
+  if (count === 1) return singleDraft(boxes);
+  const order = yield* part(sortPrimitives(references, scratch), 0, 0.2);
+  const sorted = yield* part(gather({ boxes, bounds, count, triangles: Uint32Array.from({ length: count }, (_, i) => i) }, order, false, scratch), 0.2, 0.3);
   const leaves = new Uint32Array(count);
-  const writer = yield* part(writeInsides(upper, sorted.order, leaves, 0, scratch), 0.5, 0.8);
+  const writer = yield* part(buildNodes(sorted, leaves, bins, 0, scratch), 0.3, 0.8);
   return yield* part(draftOf(writer, leaves), 0.8, 1);
 }
 

@@ -1,20 +1,18 @@
-import { enclose } from '../layout';
-import type { Primitives } from './primitives';
 import type { Scratch } from './scratch';
+import type { Sorted } from './gather';
 
 /** Cells of primitives that lie together: the upper levels of a tree are built over these. */
 export interface Clusters {
-  /** Primitives' boxes in the sorted order. */
-  readonly sorted: Float32Array;
-  /** Primitives' first triangles in the sorted order, with `PAIR`. */
-  readonly triangles: Uint32Array;
-  /** Boxes of the clusters. */
+  readonly primitives: Sorted;
+  /** First primitive of each cluster, and one entry more for the end. */
+  readonly starts: Uint32Array;
+  readonly count: number;
+  /** Boxes of the clusters, set with their insides, as are the following. */
   readonly boxes: Float32Array;
   /** Triangles of each cluster. */
   readonly weights: Uint32Array;
-  /** First sorted primitive of each cluster, and one entry more for the end. */
-  readonly starts: Uint32Array;
-  readonly count: number;
+  /** References to the trees inside. */
+  readonly references: Uint32Array;
 }
 
 /**
@@ -56,34 +54,9 @@ export function cutCell(codes: Uint32Array, first: number, end: number): number 
   return a;
 }
 
-/** Copies the boxes of the primitives into their sorted order and measures the cells `from` to `to`. */
-export function fillClusters({ sorted, triangles, boxes, weights, starts }: Clusters, primitives: Primitives, order: Uint32Array, from: number, to: number): void {
-  const { boxes: unsorted, triangles: names } = primitives;
-  const box = new Float64Array(6);
-  for (let cluster = from; cluster < to; cluster++) {
-    const first = starts[cluster] as number, end = starts[cluster + 1] as number;
-    let weight = end - first;
-    for (let i = first; i < end; i++) {
-      const primitive = order[i] as number;
-      const b = 6 * primitive, s = 6 * i;
-      sorted[s] = unsorted[b] as number;
-      sorted[s + 1] = unsorted[b + 1] as number;
-      sorted[s + 2] = unsorted[b + 2] as number;
-      sorted[s + 3] = unsorted[b + 3] as number;
-      sorted[s + 4] = unsorted[b + 4] as number;
-      sorted[s + 5] = unsorted[b + 5] as number;
-      const name = (triangles[i] = names[primitive] as number);
-      weight += name >>> 31;
-    }
-    enclose(sorted, first, end, box);
-    for (let k = 0; k < 6; k++) boxes[6 * cluster + k] = box[k] as number;
-    weights[cluster] = weight;
-  }
-}
-
-/** Room for clusters; see {@link fillClusters}. */
-export function roomForClusters(scratch: Scratch, codes: Uint32Array, count: number, size: number): Clusters {
-  const starts = scratch.uint32(count + 1);
-  const cells = cutCells(codes, count, size, starts);
-  return { sorted: scratch.float32(6 * count), triangles: scratch.uint32(count), boxes: scratch.float32(6 * cells), weights: scratch.uint32(cells), starts, count: cells };
+/** Cuts primitives into clusters, whose boxes, weights and references are still to be set. */
+export function cutClusters(primitives: Sorted, size: number, scratch: Scratch): Clusters {
+  const starts = scratch.uint32(primitives.count + 1);
+  const count = cutCells(primitives.codes, primitives.count, size, starts);
+  return { primitives, starts, count, boxes: scratch.float32(6 * count), weights: scratch.uint32(count), references: scratch.uint32(count) };
 }

@@ -1,20 +1,21 @@
 import type { TriangleMesh } from '../blas';
-import { BLAS_MAX_DEPTH, encloseChildren, LEAF, leafReference, LEFT, LEFT_MAX, LEFT_MIN, NODE_WORDS, putBox, RIGHT, RIGHT_MAX, RIGHT_MIN } from '../layout';
+import { BLAS_MAX_DEPTH, leafReference, LEFT, NODE_WORDS, putBox, RIGHT } from '../layout';
 import type { BuildSettings, TreeBuilder } from './builder';
 import { cutCell } from './clusters';
+import { encloseNodes } from './levels';
 import { NodeWriter } from './node-writer';
 import { PAIR, type Primitives } from './primitives';
 import { Scratch } from './scratch';
-import { emptyTree, keepNodes, makePrimitives, part, sortPrimitives, STEP, type Sorted, type Steps, type TriangleTree } from './steps';
+import { emptyTree, keepNodes, makePrimitives, part, sortPrimitives, STEP, type Order, type Steps, type TriangleTree } from './steps';
 
-/** Numbers of a pending range: first, end, parent, right side, depth. */
-const TASK = 5;
+/** Numbers of a pending range: first, end, word for the reference to it, depth. */
+const TASK = 4;
 
 function* buildFast(mesh: TriangleMesh, count: number, { maxLeaf }: BuildSettings): Steps<TriangleTree> {
   const scratch = Scratch.take();
   const primitives = yield* part(makePrimitives(mesh, count, maxLeaf > 1, scratch), 0, 0.3);
   const { count: size, bounds, triangleCount } = primitives;
-  if (size === 0) return emptyTree();
+  if (size === 0) return emptyTree(primitives);
   const sorted = yield* part(sortPrimitives(primitives, scratch), 0.3, 0.6);
   const writer = new NodeWriter(size, scratch.buffer(4 * NODE_WORDS * size));
   const cells = new Cells(writer, primitives, sorted, maxLeaf, new Uint32Array(triangleCount));
@@ -38,44 +39,33 @@ function* buildFast(mesh: TriangleMesh, count: number, { maxLeaf }: BuildSetting
  */
 export const fast: TreeBuilder = { name: 'fast', build: buildFast };
 
-/** Sets the boxes of inner children, which lie behind their parents. */
-function encloseNodes({ nodes, words }: NodeWriter, from: number, end: number): void {
-  for (let node = end - 1; node >= from; node--) {
-    const base = node * NODE_WORDS;
-    const left = words[base + LEFT] as number, right = words[base + RIGHT] as number;
-    if ((left & LEAF) === 0) encloseChildren(nodes, base + LEFT_MIN, base + LEFT_MAX, left * NODE_WORDS);
-    if ((right & LEAF) === 0) encloseChildren(nodes, base + RIGHT_MIN, base + RIGHT_MAX, right * NODE_WORDS);
-  }
-}
-
 /** Cuts the sorted primitives into nodes and leaves; the boxes of leaves are set, those of nodes are not. */
 class Cells {
   readonly #writer: NodeWriter;
   readonly #primitives: Primitives;
-  readonly #sorted: Sorted;
+  readonly #sorted: Order;
   readonly #maxLeaf: number;
   readonly triangleIndices: Uint32Array<ArrayBuffer>;
-  readonly #tasks = new Int32Array((BLAS_MAX_DEPTH + 3) * TASK);
+  readonly #tasks = new Uint32Array((BLAS_MAX_DEPTH + 3) * TASK);
   readonly #box = new Float32Array(6);
   #top = 0;
   #emitted = 0;
 
-  constructor(writer: NodeWriter, primitives: Primitives, sorted: Sorted, maxLeaf: number, triangleIndices: Uint32Array<ArrayBuffer>) {
+  constructor(writer: NodeWriter, primitives: Primitives, sorted: Order, maxLeaf: number, triangleIndices: Uint32Array<ArrayBuffer>) {
     this.#writer = writer;
     this.#primitives = primitives;
     this.#sorted = sorted;
     this.#maxLeaf = maxLeaf;
     this.triangleIndices = triangleIndices;
-    this.#push(0, primitives.count, -1, 0, 0);
+    this.#push(0, primitives.count, 0, 0);
   }
 
-  #push(first: number, end: number, parent: number, right: number, depth: number): void {
+  #push(first: number, end: number, slot: number, depth: number): void {
     const tasks = this.#tasks, t = this.#top++ * TASK;
     tasks[t] = first;
     tasks[t + 1] = end;
-    tasks[t + 2] = parent;
-    tasks[t + 3] = right;
-    tasks[t + 4] = depth;
+    tasks[t + 2] = slot;
+    tasks[t + 3] = depth;
   }
 
   /** Does some of the work, and says whether there is more. */
@@ -85,26 +75,25 @@ class Cells {
     const { triangles } = this.#primitives;
     for (let left = entries; this.#top > 0 && left > 0; left--) {
       const t = --this.#top * TASK;
-      const first = tasks[t] as number, end = tasks[t + 1] as number, parent = tasks[t + 2] as number, right = tasks[t + 3] as number, depth = tasks[t + 4] as number;
+      const first = tasks[t] as number, end = tasks[t + 1] as number, slot = tasks[t + 2] as number, depth = tasks[t + 3] as number;
       const size = end - first;
       let weight = size;
       if (size <= maxLeaf) for (let i = first; i < end; i++) weight += (triangles[order[i] as number] as number) >>> 31;
       if (weight <= maxLeaf) {
-        this.#leaf(first, end, parent, right);
+        this.#leaf(first, end, slot);
         continue;
       }
-      const node = writer.add(parent);
-      if (parent >= 0) writer.words[parent * NODE_WORDS + (right === 1 ? RIGHT : LEFT)] = node;
+      const base = writer.under(slot) * NODE_WORDS;
       // With the levels that halving would need from here on.
       const free = depth + 33 - Math.clz32(size - 1) < BLAS_MAX_DEPTH;
       const cut = free ? cutCell(codes, first, end) : (first + end) >>> 1;
-      this.#push(cut, end, node, 1, depth + 1);
-      this.#push(first, cut, node, 0, depth + 1);
+      this.#push(cut, end, base + RIGHT, depth + 1);
+      this.#push(first, cut, base + LEFT, depth + 1);
     }
     return this.#top > 0;
   }
 
-  #leaf(first: number, end: number, parent: number, right: number): void {
+  #leaf(first: number, end: number, slot: number): void {
     const { triangleIndices } = this;
     const { order } = this.#sorted;
     const { boxes, triangles } = this.#primitives;
@@ -130,7 +119,7 @@ class Cells {
     const reference = leafReference(start, emitted - start);
     const box = this.#box;
     putBox(box, 0, x0, y0, z0, x1, y1, z1);
-    if (parent < 0) this.#writer.single(reference, box);
-    else this.#writer.childBox(parent, right === 1, reference, box, 0);
+    if (slot === 0) this.#writer.single(reference, box);
+    else this.#writer.put(slot, reference, box, 0);
   }
 }

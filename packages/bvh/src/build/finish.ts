@@ -1,4 +1,4 @@
-import { leafReference } from '../layout';
+import { leafReference, LEFT, NODE_WORDS, RIGHT } from '../layout';
 import { boxArea, type DraftTree } from './draft';
 import { NodeWriter } from './node-writer';
 import { PAIR } from './primitives';
@@ -147,24 +147,23 @@ export function* finishDraft(tree: DraftTree, { triangles }: References, maxLeaf
     writer.single(emit(root), boxes.subarray(6 * root, 6 * root + 6));
     return { ...writer.finish(), triangleIndices: triangleIndices.slice(0, emitted) };
   }
-  const pending = new Int32Array(3 * (maxDepth + 2));
+  // Places, and the words for the references to them.
+  const pending = new Uint32Array(2 * (maxDepth + 2));
   pending[0] = root;
-  pending[1] = -1;
   for (let top = 1, visited = 0; top > 0; visited++) {
-    const p = 3 * --top;
-    const place = pending[p] as number, above = pending[p + 1] as number, side = pending[p + 2] as number;
+    const p = 2 * --top;
+    const place = pending[p] as number, slot = pending[p + 1] as number;
     let reference: number;
     if (leaf[place] === 1) reference = emit(place);
     else {
-      reference = writer.add(above);
+      reference = writer.under(slot);
       for (let k = 1; k >= 0; k--) {
-        const q = 3 * top++;
+        const q = 2 * top++;
         pending[q] = children[2 * place + k] as number;
-        pending[q + 1] = reference;
-        pending[q + 2] = k;
+        pending[q + 1] = reference * NODE_WORDS + (k === 1 ? RIGHT : LEFT);
       }
     }
-    if (above >= 0) writer.childBox(above, side === 1, reference, boxes, 6 * place);
+    if (slot > 0) writer.put(slot, reference, boxes, 6 * place);
     if (visited % STEP === 0) yield 0.5 + (0.5 * writer.count) / nodeCount;
   }
   const { nodes, nodeCount: kept } = yield* part(keepNodes(writer), 1, 1);

@@ -1,7 +1,10 @@
-import { leafReference } from '../layout';
+import { encloseChildren, LEAF, leafReference, LEFT, NODE_WORDS, RIGHT } from '../layout';
 import { Agglomerator, GROUP_MAX } from './agglomerate';
 import type { NodeWriter } from './node-writer';
 import { Splitter } from './splitter';
+
+/** Ranges whose longest side has become as short as this are looked at anew, in finer steps. */
+const COARSE = 512;
 
 /** Things with boxes to build over. */
 export interface Items {
@@ -9,40 +12,41 @@ export interface Items {
   readonly boxes: Float32Array;
   /** What each costs to test. */
   readonly weights: Uint32Array;
-  /** Which to build over; permuted. */
-  readonly order: Uint32Array;
-  /** How many of `order`, at least two. */
+  /** How many, at least two. */
   readonly count: number;
-}
-
-/** 0, 1, 2, … */
-export function counted(list: Uint32Array, count: number): Uint32Array {
-  for (let i = 0; i < count; i++) list[i] = i;
-  return list;
 }
 
 /**
  * Builds a tree over items, one item a leaf, without recursion: large ranges are split by surface area heuristic, small
  * ones joined bottom up. Where the depth left would not suffice, or no plane separates the centres, ranges are halved by
- * count, so the depth is bounded for any input.
+ * count, so the depth is bounded for any input. The boxes of inner children are not set: {@link encloseNodes}.
  */
 export class Levels {
   readonly #writer: NodeWriter;
   readonly #items: Items;
+  readonly #order: Uint32Array;
+  /** The items in whole steps. */
+  readonly #words: Int32Array;
   readonly #maxDepth: number;
   readonly #splitter: Splitter;
-  readonly #group = new Agglomerator();
-  readonly #members = new Uint32Array(GROUP_MAX);
-  /** Pending ranges, five numbers each: first, end, parent, right side, depth. */
+  readonly #group = new Agglomerator(0);
+  /** Pending ranges, ten numbers each: bounds of the centres, first, end, word for the reference, depth. */
   readonly #tasks: number[];
+  /** Bounds of the centres of the range at work, doubled: min xyz, max xyz. */
+  readonly #centers = new Int32Array(6);
 
-  /** @param maxDepth Most inner nodes on the way to an item; 2 ** maxDepth must not be less than the number of items. */
+  /**
+   * @param maxDepth Most inner nodes on the way to an item; 2 ** maxDepth must not be less than the number of items.
+   */
   constructor(writer: NodeWriter, items: Items, maxDepth: number, bins: number) {
     this.#writer = writer;
     this.#items = items;
+    this.#order = new Uint32Array(items.count).map((_, i) => i);
+    this.#words = new Int32Array(4 * items.count);
     this.#maxDepth = maxDepth;
     this.#splitter = new Splitter(bins);
-    this.#tasks = [0, items.count, -1, 0, 0];
+    this.#quantise(0, items.count);
+    this.#tasks = [...this.#centers, 0, items.count, 0, 0];
   }
 
   /**
@@ -52,43 +56,83 @@ export class Levels {
    * @returns Whether there is more to do.
    */
   step(items: number): boolean {
-    const tasks = this.#tasks, splitter = this.#splitter, writer = this.#writer;
-    const { boxes, weights, order } = this.#items;
+    const tasks = this.#tasks, splitter = this.#splitter, order = this.#order, centers = this.#centers;
+    const { sides } = splitter;
     for (let left = items; tasks.length > 0 && left > 0; ) {
-      const depth = tasks.pop() as number, right = tasks.pop() as number, parent = tasks.pop() as number, end = tasks.pop() as number, first = tasks.pop() as number;
+      const depth = tasks.pop() as number, slot = tasks.pop() as number, end = tasks.pop() as number, first = tasks.pop() as number;
+      for (let k = 5; k >= 0; k--) centers[k] = tasks.pop() as number;
       const size = end - first;
       left -= size;
       if (size <= GROUP_MAX) {
-        this.#join(first, size, parent, right, depth);
+        this.#join(first, size, slot, depth);
         continue;
       }
+      let extent = 0;
+      for (let k = 0; k < 3; k++) extent = Math.max(extent, (centers[k + 3] as number) - (centers[k] as number));
+      if (extent < COARSE) this.#quantise(first, end);
       // With the levels that halving would need from here on.
-      const free = depth + 33 - Math.clz32(size - 1) < this.#maxDepth;
-      splitter.split(boxes, weights, order, first, end, free);
-      const node = writer.add(parent);
-      if (parent >= 0) writer.childBox(parent, right === 1, node, splitter.box, 0);
-      const cut = splitter.cut < 0 ? (first + end) >>> 1 : splitter.cut;
-      tasks.push(cut, end, node, 1, depth + 1, first, cut, node, 0, depth + 1);
+      splitter.split(this.#words, order, first, depth + 33 - Math.clz32(size - 1) < this.#maxDepth ? end : first, centers);
+      let { cut } = splitter;
+      if (cut < 0) cut = (first + end) >>> 1;
+      const base = this.#writer.under(slot) * NODE_WORDS;
+      tasks.push(...sides.subarray(6), cut, end, base + RIGHT, depth + 1, ...sides.subarray(0, 6), first, cut, base + LEFT, depth + 1);
     }
     return tasks.length > 0;
   }
 
-  /** The tree of a small range. */
-  #join(first: number, size: number, parent: number, right: number, depth: number): void {
-    const group = this.#group, members = this.#members, writer = this.#writer;
-    const { boxes, order } = this.#items;
-    const own = group.boxes;
-    for (let i = 0, to = 0; i < size; i++, to += 6) {
-      const item = order[first + i] as number;
-      members[i] = item;
-      for (let k = 0; k < 6; k++) own[to + k] = boxes[6 * item + k] as number;
+  /** Looks at a range in steps of its own, and notes the bounds of its centres. */
+  #quantise(first: number, end: number): void {
+    const STEPS = 32767;
+    const { boxes, weights } = this.#items;
+    const order = this.#order, words = this.#words, centers = this.#centers;
+    const low = new Float64Array(3);
+    let extent = 0;
+    for (let k = 0; k < 3; k++) {
+      let a = Infinity, b = -Infinity;
+      for (let i = first; i < end; i++) {
+        const box = 6 * (order[i] as number) + k;
+        a = Math.min(a, boxes[box] as number);
+        b = Math.max(b, boxes[box + 3] as number);
+      }
+      low[k] = a;
+      extent = Math.max(extent, b - a);
+      centers[k] = 2 * STEPS;
+      centers[3 + k] = 0;
     }
+    const scale = extent > 0 ? STEPS / extent : 0;
+    for (let i = first; i < end; i++) {
+      const item = order[i] as number;
+      for (let k = 0; k < 3; k++) {
+        const box = 6 * item + k;
+        const a = (((boxes[box] as number) - (low[k] as number)) * scale) | 0, b = (((boxes[box + 3] as number) - (low[k] as number)) * scale) | 0;
+        words[4 * item + k] = b | ((STEPS - a) << 16);
+        centers[k] = Math.min(centers[k] as number, a + b);
+        centers[3 + k] = Math.max(centers[3 + k] as number, a + b);
+      }
+      words[4 * item + 3] = weights[item] as number;
+    }
+  }
+
+  /** The tree of a small range. */
+  #join(first: number, size: number, slot: number, depth: number): void {
+    const group = this.#group, writer = this.#writer, order = this.#order;
+    const { boxes } = this.#items;
+    if (size === 1) {
+      const item = order[first] as number;
+      writer.put(slot, leafReference(item, 1), boxes, 6 * item);
+      return;
+    }
+    for (let i = 0; i < size; i++) group.load(i, boxes, 6 * (order[first + i] as number));
     group.run(size, this.#maxDepth - depth);
-    let place = first;
-    group.write(writer, size, parent, right, (id) => {
-      if (id >= size) return 0;
-      order[place] = members[id] as number;
-      return leafReference(place++, 1);
-    });
+    writer.count = group.write(writer, size, slot, (id) => leafReference(order[first + id] as number, 1));
+  }
+}
+
+/** Sets the boxes of inner children, which lie behind their parents. */
+export function encloseNodes({ nodes, words }: NodeWriter, from: number, end: number): void {
+  // Halves of nodes: a child's box, and its reference three words behind the box's start or one before it.
+  for (let half = 2 * end - 1; half >= 2 * from; half--) {
+    const box = 8 * half, reference = words[box + 3 - 4 * (half & 1)] as number;
+    if (reference < LEAF) encloseChildren(nodes, box, box + 4, 16 * reference);
   }
 }

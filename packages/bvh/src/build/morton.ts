@@ -40,19 +40,18 @@ export class MortonSort {
   /** Finds the codes of the primitives from one to another. */
   encode(from: number, to: number): void {
     const { boxes, bounds } = this.#primitives;
+    const DIGITS = 1024, DIGIT = 10;
     const { order, codes } = this;
     const spread = this.#spread, starts = this.#starts;
     const [x, y, z, x1, y1, z1] = bounds as unknown as [number, number, number, number, number, number];
     const extent = Math.max(x1 - x, y1 - y, z1 - z);
-    const scale = extent > 0 ? (0.5 * CELLS) / extent : 0;
-    const ox = 2 * x, oy = 2 * y, oz = 2 * z, last = CELLS - 1;
+    // Just below the number of cells, so that the largest centre falls into the last.
+    const scale = extent > 0 ? (0.4999999 * CELLS) / extent : 0;
+    const ox = 2 * x, oy = 2 * y, oz = 2 * z, last = 1023;
     for (let i = from, b = 6 * from; i < to; i++, b += 6) {
-      let qx = (((boxes[b] as number) + (boxes[b + 3] as number) - ox) * scale) | 0;
-      let qy = (((boxes[b + 1] as number) + (boxes[b + 4] as number) - oy) * scale) | 0;
-      let qz = (((boxes[b + 2] as number) + (boxes[b + 5] as number) - oz) * scale) | 0;
-      if (qx > last) qx = last;
-      if (qy > last) qy = last;
-      if (qz > last) qz = last;
+      const qx = (((boxes[b] as number) + (boxes[b + 3] as number) - ox) * scale) | 0;
+      const qy = (((boxes[b + 1] as number) + (boxes[b + 4] as number) - oy) * scale) | 0;
+      const qz = (((boxes[b + 2] as number) + (boxes[b + 5] as number) - oz) * scale) | 0;
       const code = ((spread[qx] as number) << 2) | ((spread[qy] as number) << 1) | (spread[qz] as number);
       codes[i] = code;
       order[i] = i;
@@ -66,18 +65,17 @@ export class MortonSort {
   /** Makes the histograms into places. */
   begin(): void {
     const starts = this.#starts;
-    for (let pass = 0; pass < 3; pass++) {
-      let sum = 0;
-      for (let slot = pass * DIGITS; slot < (pass + 1) * DIGITS; slot++) {
-        const n = starts[slot] as number;
-        starts[slot] = sum;
-        sum += n;
-      }
+    for (let slot = 0, sum = 0; slot < 3 * DIGITS; slot++) {
+      if (slot % DIGITS === 0) sum = 0;
+      const n = starts[slot] as number;
+      starts[slot] = sum;
+      sum += n;
     }
   }
 
   /** Puts the entries from one to another into their places by one of the three digits, lowest first. */
   scatter(pass: number, from: number, to: number): void {
+    const DIGITS = 1024, DIGIT = 10;
     const { order, codes } = this;
     const order2 = this.#order2, codes2 = this.#codes2, starts = this.#starts;
     const base = pass * DIGITS, shift = pass * DIGIT;

@@ -1,4 +1,4 @@
-import { FAR, LEFT, LEFT_MIN, NODE_WORDS, PARENT, RESERVED, RIGHT, RIGHT_MIN } from '../layout';
+import { copyBox, FAR, LEFT, LEFT_MAX, NODE_WORDS, PARENT, RESERVED, RIGHT } from '../layout';
 
 /** A hierarchy's nodes. */
 export interface Tree {
@@ -22,26 +22,20 @@ export class NodeWriter {
     this.words = new Uint32Array(this.nodes.buffer);
   }
 
-  /** A new node under `parent`; −1 for the root. */
-  add(parent: number): number {
+  /** A new node whose reference belongs into word `slot`; 0: the root. */
+  under(slot: number): number {
+    const { words } = this;
     const node = this.count++;
-    this.words[node * NODE_WORDS + PARENT] = parent < 0 ? 0 : parent;
-    this.words[node * NODE_WORDS + RESERVED] = 0;
+    if (slot > 0) words[slot] = node;
+    words[node * NODE_WORDS + PARENT] = slot >>> 4;
+    words[node * NODE_WORDS + RESERVED] = 0;
     return node;
   }
 
-  /** Sets a child's box, six numbers from `at` on, and reference. */
-  childBox(node: number, right: boolean, reference: number, box: Float32Array | Float64Array, at: number): void {
-    const { nodes } = this;
-    const base = node * NODE_WORDS;
-    const min = base + (right ? RIGHT_MIN : LEFT_MIN), max = min + 4;
-    nodes[min] = box[at] as number;
-    nodes[min + 1] = box[at + 1] as number;
-    nodes[min + 2] = box[at + 2] as number;
-    nodes[max] = box[at + 3] as number;
-    nodes[max + 1] = box[at + 4] as number;
-    nodes[max + 2] = box[at + 5] as number;
-    this.words[base + (right ? RIGHT : LEFT)] = reference;
+  /** Sets a reference at word `slot`, and its box: six numbers from `at` on. */
+  put(slot: number, reference: number, box: Float32Array, at: number): void {
+    this.words[slot] = reference;
+    copyBox(this.nodes, slot - LEFT + (slot & LEFT_MAX), LEFT_MAX, box, at);
   }
 
   /**
@@ -49,9 +43,10 @@ export class NodeWriter {
    * of a missing child is one that no ray reaches.
    */
   single(reference: number, box?: Float32Array): void {
-    const root = this.add(-1), missing = new Float32Array(6).fill(FAR);
-    this.childBox(root, false, reference, box ?? missing, 0);
-    this.childBox(root, true, reference, missing, 0);
+    const missing = new Float32Array(6).fill(FAR);
+    this.under(0);
+    this.put(LEFT, reference, box ?? missing, 0);
+    this.put(RIGHT, reference, missing, 0);
   }
 
   finish(): Tree {

@@ -12,6 +12,18 @@ const PAIR_LIMIT = 0.75;
 /** Marks a primitive of two triangles, the one named and the next. */
 export const PAIR = 0x80000000;
 
+/** Makes the box at `at` that of a pair, with the box given, if these two are to be one. */
+export function pairUp(boxes: Float32Array, at: number, x0: number, y0: number, z0: number, x1: number, y1: number, z1: number): boolean {
+  const w0 = boxes[at] as number, w1 = boxes[at + 1] as number, w2 = boxes[at + 2] as number, w3 = boxes[at + 3] as number, w4 = boxes[at + 4] as number, w5 = boxes[at + 5] as number;
+  const dx = x1 - x0, dy = y1 - y0, dz = z1 - z0, wx = w3 - w0, wy = w4 - w1, wz = w5 - w2;
+  const u0 = x0 < w0 ? x0 : w0, u1 = y0 < w1 ? y0 : w1, u2 = z0 < w2 ? z0 : w2;
+  const u3 = x1 > w3 ? x1 : w3, u4 = y1 > w4 ? y1 : w4, u5 = z1 > w5 ? z1 : w5;
+  const ux = u3 - u0, uy = u4 - u1, uz = u5 - u2;
+  if (ux * uy + uy * uz + uz * ux > PAIR_LIMIT * (dx * dy + dy * dz + dz * dx + wx * wy + wy * wz + wz * wx)) return false;
+  putBox(boxes, at, u0, u1, u2, u3, u4, u5);
+  return true;
+}
+
 /** What a hierarchy is built over: single triangles and pairs of neighbours. */
 export interface Primitives {
   /** Six numbers each: min xyz, max xyz. */
@@ -60,8 +72,8 @@ export class PrimitiveMaker implements Primitives {
     const limit = Math.floor(positions.length / 3);
     let { count, triangleCount } = this;
     // The triangle that may become the first of a pair, the last that was written; −2: none.
-    let waiting = -2, waitingArea = 0;
-    let bx0 = bounds[0] as number, by0 = bounds[1] as number, bz0 = bounds[2] as number, bx1 = bounds[3] as number, by1 = bounds[4] as number, bz1 = bounds[5] as number;
+    let waiting = -2;
+    let [bx0, by0, bz0, bx1, by1, bz1] = bounds as unknown as [number, number, number, number, number, number];
     for (let i = from; i < end; i++) {
       let a = 3 * i, b = a + 1, c = a + 2;
       if (indices) {
@@ -92,24 +104,14 @@ export class PrimitiveMaker implements Primitives {
       if (x1 > bx1) bx1 = x1;
       if (y1 > by1) by1 = y1;
       if (z1 > bz1) bz1 = z1;
-      const dx = x1 - x0, dy = y1 - y0, dz = z1 - z0;
-      const area = dx * dy + dy * dz + dz * dx;
       const at = 6 * count;
-      if (pairs && waiting === i - 1) {
-        const w0 = boxes[at - 6] as number, w1 = boxes[at - 5] as number, w2 = boxes[at - 4] as number, w3 = boxes[at - 3] as number, w4 = boxes[at - 2] as number, w5 = boxes[at - 1] as number;
-        const ux0 = x0 < w0 ? x0 : w0, uy0 = y0 < w1 ? y0 : w1, uz0 = z0 < w2 ? z0 : w2;
-        const ux1 = x1 > w3 ? x1 : w3, uy1 = y1 > w4 ? y1 : w4, uz1 = z1 > w5 ? z1 : w5;
-        const ux = ux1 - ux0, uy = uy1 - uy0, uz = uz1 - uz0;
-        if (ux * uy + uy * uz + uz * ux <= PAIR_LIMIT * (area + waitingArea)) {
-          putBox(boxes, at - 6, ux0, uy0, uz0, ux1, uy1, uz1);
-          triangles[count - 1] = waiting + PAIR;
-          waiting = -2;
-          continue;
-        }
+      if (pairs && waiting === i - 1 && pairUp(boxes, at - 6, x0, y0, z0, x1, y1, z1)) {
+        triangles[count - 1] = waiting + PAIR;
+        waiting = -2;
+        continue;
       }
       putBox(boxes, at, x0, y0, z0, x1, y1, z1);
       triangles[count++] = waiting = i;
-      waitingArea = area;
     }
     this.count = count;
     this.triangleCount = triangleCount;

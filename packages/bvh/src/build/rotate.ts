@@ -1,11 +1,9 @@
-import { encloseChildren, LEAF, LEFT, NODE_WORDS, RIGHT } from '../layout';
+import { encloseChildren, LEAF } from '../layout';
 import type { NodeWriter } from './node-writer';
+import { STEP, type Steps } from './steps';
 
 /** Later passes find the rotations that others have made possible. */
 const PASSES = 3;
-
-/** Word of the reference to the left (0) or right (1) child; the box of a child starts at word 8 × side, its upper corner 4 later. */
-const reference = (side: number) => LEFT + 4 * side;
 
 /** Half the surface of the box around two boxes, given by the words where they start. */
 function joined(n: Float32Array, a: number, b: number): number {
@@ -18,116 +16,49 @@ function joined(n: Float32Array, a: number, b: number): number {
 /**
  * Improves a tree by rotations, from the leaves up: a child changes places with a grandchild where that makes the box
  * between them smaller (Kensler 2008, "Tree Rotations for Improving Bounding Volume Hierarchies"). Afterwards parents need
- * not come before their children any more.
+ * not come before their children any more, and the tree may be deeper than before.
  */
-export class Rotations {
-  readonly #nodes: Float32Array;
-  readonly #words: Uint32Array;
-  readonly #maxDepth: number;
-  readonly #depths: Uint8Array;
-  readonly #heights: Uint8Array;
-  /** Nodes with inner children, parents before their children, as rotations have left them. */
-  readonly #order: Uint32Array;
-  #pass = 0;
-  #at = 0;
-
-  /** @param maxDepth Most inner nodes on the way to a leaf. */
-  constructor({ nodes, words, count }: NodeWriter, maxDepth: number) {
-    this.#nodes = nodes;
-    this.#words = words;
-    this.#maxDepth = maxDepth;
-    this.#depths = new Uint8Array(count);
-    this.#heights = new Uint8Array(count);
-    this.#order = new Uint32Array(count);
-    for (let node = count - 1; node >= 0; node--) this.#measure(node);
-  }
-
-  /**
-   * Does some of the work.
-   *
-   * @param nodes How many nodes to look at.
-   * @returns Whether there is more to do.
-   */
-  step(nodes: number): boolean {
-    if (this.#at === 0) {
-      if (this.#pass === PASSES) return false;
-      this.#pass++;
-      this.#at = this.#arrange();
+export function* rotate({ nodes, words, count }: NodeWriter): Steps<void> {
+  const order = new Uint32Array(count);
+  for (let pass = 0; pass < PASSES; pass++) {
+    // Parents before their children, as rotations have left them.
+    const stack = [0];
+    for (let i = 0; i < count; i++) {
+      const node = (order[count - 1 - i] = stack.pop() as number);
+      for (let at = 16 * node + 7; at > 16 * node; at -= 4) if ((words[at] as number) < LEAF) stack.push(words[at] as number);
     }
-    for (const end = Math.max(0, this.#at - nodes); this.#at > end; ) this.#rotate(this.#order[--this.#at] as number);
-    return this.#at > 0 || this.#pass < PASSES;
+    for (let i = 0; i < count; i++) {
+      if (i % STEP === 0) yield pass / PASSES;
+      rotateAt(nodes, words, order[i] as number);
+    }
   }
+}
 
-  #height(child: number): number {
-    return (child & LEAF) !== 0 ? 0 : (this.#heights[child] as number);
-  }
-
-  #measure(node: number): void {
-    const left = this.#height(this.#words[node * NODE_WORDS + LEFT] as number), right = this.#height(this.#words[node * NODE_WORDS + RIGHT] as number);
-    this.#heights[node] = 1 + (left > right ? left : right);
-  }
-
-  /** Lists the nodes with inner children, and counts them. */
-  #arrange(): number {
-    const words = this.#words, depths = this.#depths, heights = this.#heights, order = this.#order, stack = [0];
-    let count = 0;
-    depths[0] = 1;
-    while (stack.length > 0) {
-      const node = stack.pop() as number;
-      order[count++] = node;
-      const depth = (depths[node] as number) + 1;
-      for (let side = 1; side >= 0; side--) {
-        const child = words[node * NODE_WORDS + reference(side)] as number;
-        if ((child & LEAF) !== 0 || heights[child] === 1) continue;
-        depths[child] = depth;
-        stack.push(child);
+function rotateAt(nodes: Float32Array, words: Uint32Array, node: number): void {
+  // Words of a node: the box of a child starts at 8 × its side, its upper corner 4 later; its reference is at 3 + 4 × side.
+  const INNER = 0x80000000;
+  const base = 16 * node;
+  let best = 0, side = 0, moved = 0;
+  // The child on that side is opened; the other one may change places with either of its children.
+  for (let inner = 0; inner < 2; inner++) {
+    const own = base + 8 * inner;
+    const opened = words[base + 3 + 4 * inner] as number;
+    if (opened >= INNER) continue;
+    const now = joined(nodes, own, own);
+    for (let k = 0; k < 2; k++) {
+      const gain = now - joined(nodes, base + 8 - 8 * inner, 16 * opened + 8 - 8 * k);
+      if (gain > best) {
+        best = gain;
+        side = inner;
+        moved = k;
       }
     }
-    return count;
   }
-
-  #rotate(node: number): void {
-    const nodes = this.#nodes, words = this.#words;
-    const base = node * NODE_WORDS;
-    let best = 0, bestInner = 0, bestMoved = 0;
-    // The child "inner" is opened; the other one may change places with either of its children.
-    for (let inner = 0; inner < 2; inner++) {
-      const own = base + 8 * inner, other = base + 8 * (1 - inner);
-      const opened = words[base + reference(inner)] as number;
-      if ((opened & LEAF) !== 0 || (this.#depths[node] as number) + this.#height(words[base + reference(1 - inner)] as number) + 1 > this.#maxDepth) continue;
-      const now = joined(nodes, own, own);
-      for (let moved = 0; moved < 2; moved++) {
-        const gain = now - joined(nodes, other, opened * NODE_WORDS + 8 * (1 - moved));
-        if (gain > best) {
-          best = gain;
-          bestInner = inner;
-          bestMoved = moved;
-        }
-      }
-    }
-    if (best > 0) {
-      const opened = words[base + reference(bestInner)] as number;
-      const child = opened * NODE_WORDS, own = base + 8 * bestInner;
-      this.#exchange(base, 1 - bestInner, child, bestMoved);
-      encloseChildren(nodes, own, own + 4, child);
-      this.#measure(opened);
-    }
-    this.#measure(node);
-  }
-
-  /** Swaps a child of the node at word `a` for one of the node at word `b`: reference and box. */
-  #exchange(a: number, sideA: number, b: number, sideB: number): void {
-    const nodes = this.#nodes, words = this.#words;
-    const refA = a + reference(sideA), refB = b + reference(sideB);
-    const kept = words[refA] as number;
-    words[refA] = words[refB] as number;
-    words[refB] = kept;
-    for (let k = 0; k < 7; k++) {
-      if (k === 3) continue;
-      const at = a + 8 * sideA + k, to = b + 8 * sideB + k;
-      const value = nodes[at] as number;
-      nodes[at] = nodes[to] as number;
-      nodes[to] = value;
-    }
-  }
+  if (best === 0) return;
+  const child = 16 * (words[base + 3 + 4 * side] as number);
+  const a = base + 8 - 8 * side, b = child + 8 * moved, own = base + 8 * side;
+  const referenceA = base + 7 - 4 * side, referenceB = child + 3 + 4 * moved;
+  [words[referenceA], words[referenceB]] = [words[referenceB] as number, words[referenceA] as number];
+  for (const k of [0, 1, 2, 4, 5, 6]) [nodes[a + k], nodes[b + k]] = [nodes[b + k] as number, nodes[a + k] as number];
+  encloseChildren(nodes, own, own + 4, child);
 }

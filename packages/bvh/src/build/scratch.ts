@@ -6,6 +6,8 @@ const SLACK = 4;
  * weakly, so that it goes when memory is short. What is taken is not cleared.
  */
 export class Scratch {
+  /** Where set, the objects that a build works with are put here. */
+  models: object[] | undefined;
   readonly #free: ArrayBuffer[];
   readonly #taken: ArrayBuffer[] = [];
 

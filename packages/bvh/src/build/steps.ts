@@ -1,20 +1,18 @@
 import type { TriangleMesh } from '../blas';
-import { BLAS_MAX_DEPTH, leafReference, NODE_WORDS } from '../layout';
+import { BLAS_MAX_DEPTH, LEAF, leafFirst, leafReference, LEFT, NODE_WORDS, PARENT, RIGHT } from '../layout';
 import { GROUP_MAX } from './agglomerate';
-import { fillClusters, roomForClusters, type Clusters } from './clusters';
-import { Insides } from './insides';
-import { counted, Levels } from './levels';
+import { cutClusters, type Clusters } from './clusters';
+import { Gatherer, type Sorted } from './gather';
+import { CLUSTER_DEPTH, Insides } from './insides';
+import { encloseNodes, Levels } from './levels';
 import { MortonSort } from './morton';
 import { NodeWriter, type Tree } from './node-writer';
 import { PrimitiveMaker, type Primitives } from './primitives';
-import { Rotations } from './rotate';
+import { rotate } from './rotate';
 import type { Scratch } from './scratch';
 
 /** Items that one step looks at: a millisecond or two. */
 export const STEP = 1 << 14;
-
-/** Depth kept for the inside of clusters: enough to halve one down to single primitives, log2 of {@link GROUP_MAX}. */
-const CLUSTER_DEPTH = 4;
 
 /** A bottom-level tree. */
 export interface TriangleTree extends Tree {
@@ -34,101 +32,118 @@ export function* part<T>(steps: Steps<T>, from: number, to: number): Steps<T> {
   return step.value;
 }
 
+/** Does some work, told from where to where, for all of `count`. */
+export function* each(count: number, step: number, work: (from: number, to: number) => void): Steps<void> {
+  for (let from = 0; from < count; from += step) {
+    work(from, Math.min(count, from + step));
+    yield from / count;
+  }
+}
+
 /** A mesh's triangles as primitives. */
 export function* makePrimitives(mesh: TriangleMesh, count: number, pairs: boolean, scratch: Scratch): Steps<PrimitiveMaker> {
   const primitives = new PrimitiveMaker(mesh, count, pairs, scratch);
-  for (let from = 0; from < count; from += STEP) {
-    primitives.add(from, Math.min(count, from + STEP));
-    yield from / count;
-  }
+  yield* each(count, STEP, (from, to) => primitives.add(from, to));
   return primitives;
 }
 
 /** Primitives in the order of a space-filling curve. */
-export interface Sorted {
+export interface Order {
   /** Primitives by their Morton codes. */
   readonly order: Uint32Array<ArrayBuffer>;
   readonly codes: Uint32Array<ArrayBuffer>;
 }
 
 /** Sorts primitives along a space-filling curve. */
-export function* sortPrimitives(primitives: Primitives, scratch: Scratch): Steps<Sorted> {
+export function* sortPrimitives(primitives: Primitives, scratch: Scratch): Steps<Order> {
   const { count } = primitives;
   const sort = new MortonSort(primitives, scratch);
-  for (let from = 0; from < count; from += STEP) {
-    sort.encode(from, Math.min(count, from + STEP));
-    yield (0.25 * from) / count;
-  }
+  yield* part(each(count, STEP, (from, to) => sort.encode(from, to)), 0, 0.25);
+  scratch.models?.push(sort);
   sort.begin();
   for (let pass = 0; pass < 3; pass++) {
-    for (let from = 0; from < count; from += STEP) {
-      sort.scatter(pass, from, Math.min(count, from + STEP));
-      yield 0.25 * (pass + 1 + from / count);
-    }
+    yield* part(each(count, STEP, (from, to) => sort.scatter(pass, from, to)), 0.25 * (pass + 1), 0.25 * (pass + 2));
     sort.swap();
   }
-  return { order: sort.order, codes: sort.codes };
+  return sort;
 }
 
-/** A tree over clusters of primitives. */
-export interface Upper {
-  readonly clusters: Clusters;
-  /** Nodes; the leaves name places in `places`. Empty for a single cluster. */
-  readonly upper: NodeWriter;
-  /** Place in the leaf order → cluster. */
-  readonly places: Uint32Array;
-}
-
-/** Cuts sorted primitives into clusters, builds over them and mends that by rotations. */
-export function* buildUpper(primitives: Primitives, { order, codes }: Sorted, bins: number, scratch: Scratch): Steps<Upper> {
-  const clusters = roomForClusters(scratch, codes, primitives.count, GROUP_MAX);
-  const { count } = clusters;
-  yield 0;
-  for (let from = 0; from < count; from += STEP >> 3) {
-    fillClusters(clusters, primitives, order, from, Math.min(count, from + (STEP >> 3)));
-    yield (0.2 * from) / count;
-  }
-  const upper = new NodeWriter(count, scratch.buffer(4 * NODE_WORDS * count));
-  const places = counted(scratch.uint32(count), count);
-  if (count > 1) {
-    const depth = BLAS_MAX_DEPTH - CLUSTER_DEPTH;
-    const levels = new Levels(upper, { boxes: clusters.boxes, weights: clusters.weights, order: places, count }, depth, bins);
-    while (levels.step(STEP)) yield 0.2 + (0.6 * upper.count) / count;
-    const rotations = new Rotations(upper, depth);
-    yield 0.8;
-    while (rotations.step(STEP)) yield 0.8;
-  }
-  return { clusters, upper, places };
+/** Copies primitives into their order. */
+export function* gather(primitives: Primitives, { order, codes }: Order, pairs: boolean, scratch: Scratch): Steps<Sorted> {
+  const gatherer = new Gatherer(primitives, order, codes, pairs, scratch);
+  yield* each(primitives.count, STEP, (from, to) => gatherer.add(from, to));
+  return gatherer;
 }
 
 /**
- * Writes the whole tree: the upper levels, and trees inside the clusters.
+ * Builds a tree over sorted primitives: clusters of neighbours joined bottom up, the levels above them split from the top
+ * down and mended by rotations. The upper nodes come first.
  *
- * @param triangles Sorted primitive → first triangle, with `PAIR`.
+ * @param leaves Filled with what the primitives are named by, in leaf order.
  * @param maxLeaf 0: one primitive a leaf.
  * @returns Its nodes in scratch memory.
  */
-export function* writeInsides(upper: Upper, triangles: Uint32Array, triangleIndices: Uint32Array, maxLeaf: number, scratch: Scratch): Steps<NodeWriter> {
-  const count = triangles.length;
-  const writer = new NodeWriter(count, scratch.buffer(4 * NODE_WORDS * count));
-  const insides = new Insides(writer, { ...upper, triangles, triangleIndices, maxLeaf, maxDepth: BLAS_MAX_DEPTH });
-  while (insides.step(STEP >> 4)) yield writer.count / count;
-  return writer;
+export function* buildNodes(primitives: Sorted, leaves: Uint32Array, bins: number, maxLeaf: number, scratch: Scratch): Steps<NodeWriter> {
+  const clusters = cutClusters(primitives, GROUP_MAX, scratch);
+  const { count } = clusters;
+  yield 0;
+  const writer = new NodeWriter(primitives.count, scratch.buffer(4 * NODE_WORDS * primitives.count));
+  writer.count = count - 1;
+  const insides = new Insides(clusters, writer, leaves, maxLeaf);
+  yield* part(each(count, STEP >> 4, (from, to) => insides.build(from, to)), 0, 0.6);
+  if (count === 1) {
+    if (writer.count === 0) writer.single(clusters.references[0] as number, clusters.boxes.subarray(0, 6));
+    return writer;
+  }
+  const upper = new NodeWriter(count, scratch.buffer(4 * NODE_WORDS * count));
+  const depth = BLAS_MAX_DEPTH - CLUSTER_DEPTH;
+  // Rotations make few trees too deep: these stay as they were.
+  for (let rotations = true; ; rotations = false) {
+    upper.count = 0;
+    const levels = new Levels(upper, clusters, depth, bins);
+    scratch.models?.push(scratch, insides, levels);
+    while (levels.step(STEP)) yield rotations ? 0.6 + (0.3 * upper.count) / count : 0.95;
+    encloseNodes(upper, 0, upper.count);
+    if (rotations) yield* part(rotate(upper), 0.9, 0.95);
+    if (crown(upper, clusters, writer) <= depth) return writer;
+  }
+}
+
+/** Puts the nodes over the clusters before the others, depth first, joins them to the trees in the clusters, and gives their depth. */
+export function crown({ nodes: from, words: fromWords }: NodeWriter, { references }: Clusters, { nodes, words }: NodeWriter): number {
+  // References of the upper tree, the words where they belong, nodes above.
+  const stack = [0, 0, 0];
+  let count = 0, most = 0;
+  while (stack.length > 0) {
+    const depth = (stack.pop() as number) + 1, slot = stack.pop() as number;
+    let reference = stack.pop() as number;
+    if (reference >= LEAF) {
+      reference = references[leafFirst(reference)] as number;
+      words[slot] = reference;
+      if (reference < LEAF) words[reference * NODE_WORDS + PARENT] = slot >>> 4;
+      continue;
+    }
+    if (depth > most) most = depth;
+    const a = reference * NODE_WORDS, b = count * NODE_WORDS;
+    for (let k = 0; k < NODE_WORDS; k++) nodes[b + k] = from[a + k] as number;
+    words[b + PARENT] = slot >>> 4;
+    if (count > 0) words[slot] = count;
+    count++;
+    stack.push(fromWords[a + RIGHT] as number, b + RIGHT, depth, fromWords[a + LEFT] as number, b + LEFT, depth);
+  }
+  return most;
 }
 
 /** Copies nodes out of scratch memory. */
 export function* keepNodes({ nodes: from, count: nodeCount }: NodeWriter): Steps<Tree> {
   const nodes = new Float32Array(nodeCount * NODE_WORDS);
-  for (let at = 0; at < nodes.length; at += NODE_WORDS * STEP) {
-    nodes.set(from.subarray(at, Math.min(nodes.length, at + NODE_WORDS * STEP)), at);
-    yield at / nodes.length;
-  }
+  yield* each(nodes.length, NODE_WORDS * STEP, (at, end) => nodes.set(from.subarray(at, end), at));
   return { nodes, nodeCount };
 }
 
-/** A tree that is never hit. */
-export function emptyTree(): TriangleTree {
+/** A tree that is never hit, over no primitives. */
+export function emptyTree({ bounds }: Primitives): TriangleTree {
   const writer = new NodeWriter(1);
   writer.single(leafReference(0, 1));
-  return { nodes: writer.nodes, nodeCount: 1, triangleIndices: new Uint32Array(0), bounds: Float64Array.of(Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity) };
+  return { nodes: writer.nodes, nodeCount: 1, triangleIndices: new Uint32Array(0), bounds };
 }

@@ -18,7 +18,8 @@ export type PreparedRay = Float64Array;
 const SLACK = 2 ** -46;
 
 /** Prepares a ray for a hierarchy of these bounds. */
-export function prepareRay(ray: PreparedRay, ox: number, oy: number, oz: number, dx: number, dy: number, dz: number, { min, max }: Aabb): void {
+export function prepareRay(ray: PreparedRay, origin: ArrayLike<number>, direction: ArrayLike<number>, { min, max }: Aabb): void {
+  let dx = direction[0] as number, dy = direction[1] as number, dz = direction[2] as number;
   const scale = Math.max(Math.abs(dx), Math.abs(dy), Math.abs(dz));
   dx /= scale;
   dy /= scale;
@@ -30,14 +31,12 @@ export function prepareRay(ray: PreparedRay, ox: number, oy: number, oz: number,
   const a = -1 / (s + nz);
   const b = nx * ny * a;
   const along = 1 / (length * scale);
-  const slack = SLACK * Math.max(
-    Math.abs(ox) + Math.max(Math.abs((min[0] as number) - ox), Math.abs((max[0] as number) - ox)),
-    Math.abs(oy) + Math.max(Math.abs((min[1] as number) - oy), Math.abs((max[1] as number) - oy)),
-    Math.abs(oz) + Math.max(Math.abs((min[2] as number) - oz), Math.abs((max[2] as number) - oz)),
-  );
-  ray[0] = ox;
-  ray[1] = oy;
-  ray[2] = oz;
+  let slack = 0;
+  for (let k = 0; k < 3; k++) {
+    const o = (ray[k] = origin[k] as number);
+    slack = Math.max(slack, Math.abs(o) + Math.max(Math.abs((min[k] as number) - o), Math.abs((max[k] as number) - o)));
+  }
+  slack *= SLACK;
   ray[3] = 1 / (Math.abs(dx) < 1e-250 ? 1e-250 : dx) / scale;
   ray[4] = 1 / (Math.abs(dy) < 1e-250 ? 1e-250 : dy) / scale;
   ray[5] = 1 / (Math.abs(dz) < 1e-250 ? 1e-250 : dz) / scale;
@@ -50,12 +49,10 @@ export function prepareRay(ray: PreparedRay, ox: number, oy: number, oz: number,
   ray[12] = nx * along;
   ray[13] = ny * along;
   ray[14] = nz * along;
-  ray[15] = ox + slack;
-  ray[16] = oy + slack;
-  ray[17] = oz + slack;
-  ray[18] = ox - slack;
-  ray[19] = oy - slack;
-  ray[20] = oz - slack;
+  for (let k = 0; k < 3; k++) {
+    ray[15 + k] = (ray[k] as number) + slack;
+    ray[18 + k] = (ray[k] as number) - slack;
+  }
 }
 
 /**

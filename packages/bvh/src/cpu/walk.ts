@@ -1,5 +1,5 @@
 import type { Blas, TriangleMesh } from '../blas';
-import { BVH_STACK_SIZE, FAR, LEAF, LEFT, LEFT_MIN, leafCount, leafFirst, NODE_WORDS, RIGHT, RIGHT_MIN, type Aabb } from '../layout';
+import { BVH_STACK_SIZE, FAR, LEAF, LEFT, LEFT_MIN, leafCount, leafFirst, NODE_WORDS, RIGHT, RIGHT_MIN } from '../layout';
 import type { Tlas } from '../tlas';
 import { intersectTriangle, prepareRay, RAY_NUMBERS } from './triangle';
 import { wordsOf } from './words';
@@ -39,28 +39,24 @@ export class RayWalk {
   triangle = -1;
   instance = -1;
   #tMin = 0;
-  #ox = 0;
-  #oy = 0;
-  #oz = 0;
-  #dx = 0;
-  #dy = 0;
-  #dz = 0;
+  readonly #origin = new Float64Array(3);
+  readonly #direction = new Float64Array(3);
   /** Nodes and leaves yet to visit, and where the ray enters them. A BLAS puts its own over those of the TLAS. */
   readonly #references = new Uint32Array(BVH_STACK_SIZE);
   readonly #entries = new Float64Array(BVH_STACK_SIZE);
   #top = 0;
   readonly #world = new Float64Array(RAY_NUMBERS);
   readonly #local = new Float64Array(RAY_NUMBERS);
+  readonly #localOrigin = new Float64Array(3);
+  readonly #localDirection = new Float64Array(3);
   readonly #hit = new Float64Array(3);
 
   /** Sets out along the ray whose origin lies at `o[i]` and whose direction at `d[j]`. */
   start(o: ArrayLike<number>, i: number, d: ArrayLike<number>, j: number, tMin: number, tMax: number): void {
-    this.#ox = o[i] as number;
-    this.#oy = o[i + 1] as number;
-    this.#oz = o[i + 2] as number;
-    this.#dx = d[j] as number;
-    this.#dy = d[j + 1] as number;
-    this.#dz = d[j + 2] as number;
+    for (let k = 0; k < 3; k++) {
+      this.#origin[k] = o[i + k] as number;
+      this.#direction[k] = d[j + k] as number;
+    }
     this.#tMin = tMin;
     this.t = tMax;
     this.triangle = this.instance = -1;
@@ -70,7 +66,7 @@ export class RayWalk {
   /** Goes through one BLAS; with `any`, up to the first hit. A visitor is told all hits in no order, and t stays. */
   through(blas: Blas, mesh: TriangleMesh, any: boolean, visit?: HitVisitor): void {
     if (blas.triangleIndices.length === 0) return;
-    prepareRay(this.#world, this.#ox, this.#oy, this.#oz, this.#dx, this.#dy, this.#dz, blas.bounds);
+    prepareRay(this.#world, this.#origin, this.#direction, blas.bounds);
     this.#search(blas, mesh, this.#world, 0, any, visit);
   }
 
@@ -78,29 +74,22 @@ export class RayWalk {
   throughInstances(tlas: Tlas, instances: readonly BlasMesh[], any: boolean, visit?: HitVisitor): void {
     if (tlas.instanceOrder.length === 0) return;
     const { nodes, instanceOrder, toObject: m } = tlas;
-    const x = this.#ox, y = this.#oy, z = this.#oz, dx = this.#dx, dy = this.#dy, dz = this.#dz;
-    prepareRay(this.#world, x, y, z, dx, dy, dz, tlas.bounds);
+    const origin = this.#origin, direction = this.#direction;
+    prepareRay(this.#world, origin, direction, tlas.bounds);
     const words = wordsOf(nodes);
     this.#push(0, -Infinity);
     for (;;) {
       const leaf = this.#nextLeaf(nodes, words, this.#world, 0);
       if (leaf < 0) return;
       const instance = instanceOrder[leafFirst(leaf)] as number;
-      const r = 12 * instance;
       const { blas, mesh } = instances[instance] as BlasMesh;
-      const a = m[r] as number, b = m[r + 1] as number, c = m[r + 2] as number;
-      const d = m[r + 4] as number, e = m[r + 5] as number, f = m[r + 6] as number;
-      const g = m[r + 8] as number, h = m[r + 9] as number, i = m[r + 10] as number;
-      prepareRay(
-        this.#local,
-        a * x + b * y + c * z + (m[r + 3] as number),
-        d * x + e * y + f * z + (m[r + 7] as number),
-        g * x + h * y + i * z + (m[r + 11] as number),
-        a * dx + b * dy + c * dz,
-        d * dx + e * dy + f * dz,
-        g * dx + h * dy + i * dz,
-        blas.bounds as Aabb,
-      );
+      const from = this.#localOrigin, to = this.#localDirection;
+      for (let k = 0, r = 12 * instance; k < 3; k++, r += 4) {
+        const a = m[r] as number, b = m[r + 1] as number, c = m[r + 2] as number;
+        from[k] = a * (origin[0] as number) + b * (origin[1] as number) + c * (origin[2] as number) + (m[r + 3] as number);
+        to[k] = a * (direction[0] as number) + b * (direction[1] as number) + c * (direction[2] as number);
+      }
+      prepareRay(this.#local, from, to, blas.bounds);
       if (this.#search(blas, mesh, this.#local, instance, any, visit)) return;
     }
   }

@@ -8,7 +8,7 @@ import type { WideBlas } from './widen';
 function search({ nodes, triangleIndices, bounds }: WideBlas, { positions, indices }: TriangleMesh, { origin, direction, tMin = 0, tMax = Infinity }: Ray, any: boolean): Hit | undefined {
   if (triangleIndices.length === 0) return undefined;
   const ray = new Float64Array(RAY_NUMBERS), hit = new Float64Array(3);
-  prepareRay(ray, origin[0] as number, origin[1] as number, origin[2] as number, direction[0] as number, direction[1] as number, direction[2] as number, bounds);
+  prepareRay(ray, origin, direction, bounds);
   const floats = new Float32Array(nodes.buffer, nodes.byteOffset, nodes.length);
   let found: Hit | undefined;
   let end = tMax;

@@ -28,7 +28,6 @@ function check(group: Agglomerator, count: number): { height: number; surface: n
   };
   const height = walk(2 * count - 2);
   expect(seen.size).toBe(count);
-  expect(group.heights[2 * count - 2]).toBe(height);
   return { height, surface };
 }
 
@@ -44,7 +43,7 @@ const fill = (group: Agglomerator, count: number, random: () => number, size = 0
 
 for (const seed of [1, 2, 3]) {
   test(`makes trees of any number of boxes, within the height allowed (seed ${seed})`, () => {
-    const random = randomNumbers(seed), group = new Agglomerator();
+    const random = randomNumbers(seed), group = new Agglomerator(0);
     for (let count = 1; count <= GROUP_MAX; count++) {
       fill(group, count, random);
       const least = Math.ceil(Math.log2(count));
@@ -57,7 +56,7 @@ for (const seed of [1, 2, 3]) {
 }
 
 test('is as good as merging the two nearest boxes over and over, in double precision (seed 4)', () => {
-  const random = randomNumbers(4), group = new Agglomerator();
+  const random = randomNumbers(4), group = new Agglomerator(0);
   let ours = 0, greedy = 0;
   for (let round = 0; round < 100; round++) {
     fill(group, 16, random);
@@ -79,7 +78,7 @@ test('is as good as merging the two nearest boxes over and over, in double preci
 });
 
 test('identical boxes make a balanced tree; points, planes and huge boxes work', () => {
-  const group = new Agglomerator();
+  const group = new Agglomerator(0);
   const set = (box: (i: number) => number[]) => {
     for (let i = 0; i < 16; i++) group.boxes.set(box(i), 6 * i);
     group.run(16, 15);
