@@ -79,6 +79,7 @@ export default defineConfig({
           { text: 'Progress, abort, lost devices', link: '/guide/progressive' },
           { text: 'Node and GPUs', link: '/guide/node' },
           { text: 'Command line', link: '/guide/command-line' },
+          { text: 'CAD to web', link: '/guide/cad' },
           { text: 'Errors', link: '/guide/errors' },
           { text: 'A product shot', link: '/guide/product-shot' },
           { text: 'A configurator', link: '/guide/configurator' },

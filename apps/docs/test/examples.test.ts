@@ -6,12 +6,16 @@ import { execFile } from 'node:child_process';
 import { promisify } from 'node:util';
 import { build } from 'esbuild';
 import sharp from 'sharp';
+import { createRequire } from 'node:module';
+import { loadGltf } from '@glanz/gltf';
 import { testDevice } from '@glanz/gpu';
 import { decodeExr } from '@glanz/image/exr';
 import { encodeHdr } from '@glanz/image/hdr';
 import { readMaterialX } from '@glanz/openpbr/materialx';
 import { PathTracer } from '@glanz/renderer';
 import type { PerspectiveCamera, Scene } from '@glanz/scene';
+import { stepToGlb } from '../examples/cad';
+import cadMaterials from '../examples/cad-materials.json';
 import * as configurator from '../examples/configurator';
 import * as cameras from '../examples/cameras';
 import { open } from '../examples/errors';
@@ -302,3 +306,17 @@ test('the Node example as it is printed, at a smaller size', async () => {
   }
 });
 
+test('CAD to web', { timeout: 120_000 }, async () => {
+  // An assembly of the CAx Implementor Forum, as the reader's package brings it along.
+  const folder = dirname(createRequire(new URL('../../../packages/cad/package.json', import.meta.url)).resolve('occt-import-js/package.json'));
+  const step = await readFile(join(folder, 'test/testfiles/cax-if/as1-oc-214/as1-oc-214.stp'));
+  const files = await stepToGlb(new Uint8Array(step), cadMaterials);
+  const levels = await Promise.all(files.map((file) => loadGltf(new Uint8Array(file))));
+  const triangles = levels.map(({ instances, meshes }) => instances.reduce((sum, { mesh }) => sum + meshes[mesh]!.indices.length / 3, 0));
+  expect(levels.map(({ warnings, instances }) => [warnings.length, instances.length])).toEqual([[0, 18], [0, 18], [0, 18]]);
+  expect(triangles[0]).toBeGreaterThan(2 * triangles[1]!);
+  expect(triangles[1]).toBeGreaterThan(1.5 * triangles[2]!);
+  // Brass and aluminium by the rules; the paths of the rules are those of the file.
+  const metals = levels[0]!.materials.filter(({ parameters }) => parameters.base_metalness === 1);
+  expect(metals.length).toBeGreaterThanOrEqual(2);
+});

@@ -1,6 +1,7 @@
 import type { MeshoptSimplifier } from 'meshoptimizer/simplifier';
 import type { Mesh, Scene } from '@glanz/scene';
 import { CadError } from './error';
+import { withSoundNormals } from './sound-normals';
 import { withUsedVertices } from './scene';
 
 /** What {@link levelsOfDetail} may be told. */
@@ -38,5 +39,5 @@ function simplified(simplifier: typeof MeshoptSimplifier, mesh: Mesh, share: num
   const [indices] = mesh.normals
     ? simplifier.simplifyWithAttributes(mesh.indices, mesh.positions, 3, mesh.normals, 3, [0.3, 0.3, 0.3], null, target, error)
     : simplifier.simplify(mesh.indices, mesh.positions, 3, target, error);
-  return indices.length < 3 ? mesh : withUsedVertices({ ...mesh, indices: new Uint32Array(indices) });
+  return indices.length < 3 ? mesh : withSoundNormals(withUsedVertices({ ...mesh, indices: new Uint32Array(indices) }));
 }

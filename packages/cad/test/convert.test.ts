@@ -43,6 +43,17 @@ it('an assembly in three levels, with mapped materials and nothing of its origin
   }
   // It stands: +Z of the file points up.
   expect(a.max[1] - a.min[1]).toBeCloseTo(0.12, 1);
+  // Normals are on the triangles' own side, however coarse they are.
+  for (const { positions: P, normals: N, indices } of [...first!.meshes, ...last!.meshes]) {
+    for (let t = 0; t < indices.length; t += 3) {
+      const [p, q, r] = [0, 1, 2].map((k) => P.subarray(3 * indices[t + k]!, 3 * indices[t + k]! + 3)) as [Float32Array, Float32Array, Float32Array];
+      const [u, v] = [q.map((x, k) => x - p[k]!), r.map((x, k) => x - p[k]!)];
+      const cross = [u[1]! * v[2]! - u[2]! * v[1]!, u[2]! * v[0]! - u[0]! * v[2]!, u[0]! * v[1]! - u[1]! * v[0]!];
+      const length = Math.hypot(...cross);
+      if (length < 1e-12) continue;
+      for (let k = 0; k < 3; k++) expect(cross.reduce((sum, x, i) => sum + (x / length) * N![3 * indices[t + k]! + i]!, 0)).toBeGreaterThan(0.499);
+    }
+  }
   const text = (await readFile(files[0]!.path)).toString('latin1');
   expect(text).not.toMatch(/bolt|nut|bracket|plate|as1|oc-214|brass|carpaint|Open ?CASCADE/i);
 });

@@ -31,7 +31,7 @@ it('paths are those of the folder the user is in, and every file is told', async
   const asked: unknown[] = [];
   const code = await convertCommand(parseConvert(['part.step', '--materials', 'map.json', '--strip', '--lod', '2']), own, async (...given) => {
     asked.push(given);
-    return [{ path: 'part.glb', bytes: 2500, triangles: 12, parts: 1, materials: 1 }, { path: 'part.lod1.glb', bytes: 1000, triangles: 4, parts: 1, materials: 1 }];
+    return [{ path: join(cwd, 'part.glb'), bytes: 2500, triangles: 12, parts: 1, materials: 1 }, { path: join(cwd, 'part.lod1.glb'), bytes: 1000, triangles: 4, parts: 1, materials: 1 }];
   });
   expect(code).toBe(0);
   expect(asked).toEqual([[join(cwd, 'part.step'), join(cwd, 'part.glb'), { levels: 2, strip: true, materials: join(cwd, 'map.json') }]]);

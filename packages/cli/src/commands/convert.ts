@@ -1,5 +1,5 @@
 import { parseArgs } from 'node:util';
-import { resolve } from 'node:path';
+import { isAbsolute, relative, resolve } from 'node:path';
 import type { ConvertCadOptions, ConvertedFile } from '@glanz/cad/node';
 import { CliError, EXIT } from '../errors';
 import { checkInput } from '../input';
@@ -67,7 +67,9 @@ export async function convertCommand({ options, json, quiet }: ReturnType<typeof
   if (materials !== undefined) await checkInput(materials, io.cwd, 'the material map');
   await checkWritable(output, io.cwd);
   const start = io.now();
-  const files = await convert(resolve(io.cwd, input), resolve(io.cwd, output), { levels, strip, ...(materials === undefined ? {} : { materials: resolve(io.cwd, materials) }), ...(tolerance === undefined ? {} : { tolerance: { metres: tolerance } }) });
+  const made = await convert(resolve(io.cwd, input), resolve(io.cwd, output), { levels, strip, ...(materials === undefined ? {} : { materials: resolve(io.cwd, materials) }), ...(tolerance === undefined ? {} : { tolerance: { metres: tolerance } }) });
+  // Paths as the user gives them.
+  const files = made.map((file) => ({ ...file, path: isAbsolute(output) ? file.path : relative(io.cwd, file.path) }));
   if (json) io.stdout(`${JSON.stringify({ ok: true, model: input, files, totalMs: io.now() - start })}\n`);
   else if (!quiet) for (const { path, bytes, triangles, parts, materials: looks } of files) io.stderr(`${path}: ${triangles} triangles, ${parts} parts, ${looks} materials, ${(bytes / 1000).toFixed(1)} kB\n`);
   return EXIT.ok;

@@ -130,6 +130,32 @@ describe('edits of a live tracer', () => {
     tracer.destroy();
   });
 
+  it('a variant takes effect with the next sample, and nothing is compiled, not even for a lobe that only a variant has', async () => {
+    const scene = stage();
+    scene.variants = ['blue', 'dusty'];
+    scene.materials.push({ name: 'dusty', parameters: { base_color: [0.1, 0.2, 0.8], fuzz_weight: 1 } });
+    scene.instances[1] = { ...(scene.instances[1] as Scene['instances'][number]), variants: { 0: 3, 1: 4 } };
+    const tracer = await PathTracer.create(device, scene, options);
+    const own = await beauty(tracer);
+    const made = await compiled(async () => {
+      const change = tracer.setVariant('blue');
+      // The film is empty at once, and its first sample is already blue.
+      expect(tracer.samples).toBe(0);
+      const first = await beauty(tracer, 1);
+      expect(largest(first, own)).toBeGreaterThan(0.05);
+      await change;
+      const same = stage();
+      Object.assign(same.instances[1] as object, { material: 3 });
+      const other = await PathTracer.create(device, same, options);
+      expect(largest(first, await beauty(other, 1))).toBeLessThan(1e-5);
+      other.destroy();
+    });
+    expect(made).toEqual([]);
+    // Materials of variants are in the scene from the beginning, and so are their lobes.
+    expect(await compiled(() => tracer.setVariant('dusty'))).toEqual([]);
+    tracer.destroy();
+  });
+
   it('a lobe that appears compiles in the background while the old kernels serve; one that goes compiles nothing', async () => {
     const tracer = await PathTracer.create(device, stage(), { ...options, seed: 3 });
     const made = await compiled(async () => {
