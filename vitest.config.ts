@@ -19,7 +19,7 @@ const project = (name: string, dir: string) => ({
 export default defineConfig({
   test: {
     projects: [
-      ...['wgsl', 'scene', 'bvh', 'openpbr', 'gltf', 'formats', 'cad', 'tonemap', 'image', 'renderer', 'cli', 'viewer', 'element', 'react'].map((name) => project(name, `packages/${name}`)),
+      ...['wgsl', 'scene', 'bvh', 'openpbr', 'gltf', 'formats', 'cad', 'tonemap', 'image', 'renderer', 'cli', 'viewer', 'element', 'react', 'three'].map((name) => project(name, `packages/${name}`)),
       project('docs', 'apps/docs'),
       ...['models', 'bench', 'reference', 'gpu', 'pipeline'].map((name) => project(`tools-${name}`, `tools/${name}`)),
       project('playground', 'apps/playground'),

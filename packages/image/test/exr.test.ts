@@ -59,7 +59,7 @@ describe.each(['zip', 'none'] as const)('compression %s', (compression) => {
         for (const [k, key] of (['R', 'G', 'B', 'A'] as const).entries()) {
           const value = channels[key][y * width + x] as number;
           // Its rows go from the bottom up.
-          expect(theirs.data[((height - 1 - y) * width + x) * 4 + k]).toBe(type === 'half' ? fromHalf(toHalf(value)) : value);
+          expect(theirs.data![((height - 1 - y) * width + x) * 4 + k]).toBe(type === 'half' ? fromHalf(toHalf(value)) : value);
         }
       }
     }

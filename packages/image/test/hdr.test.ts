@@ -107,7 +107,7 @@ describe('decodeHdr', () => {
       for (let i = 0; i < ours.width * ours.height; i++) {
         for (let k = 0; k < 3; k++) {
           const a = ours.data[i * 3 + k] as number;
-          const b = (theirs.data[i * 4 + k] as number) * (255 / 256);
+          const b = (theirs.data![i * 4 + k] as number) * (255 / 256);
           if (a !== b) worst = Math.max(worst, Math.abs(a - b) / Math.max(a, b));
         }
       }
@@ -155,7 +155,7 @@ describe('encodeHdr', () => {
     loader.type = FloatType;
     const theirs = loader.parse(encodeHdr({ width, height: 2, data }).buffer);
     for (let i = 0; i < width * 2; i++) {
-      for (let k = 0; k < 3; k++) expect(Math.abs((theirs.data[i * 4 + k] as number) - (data[i * 3 + k] as number))).toBeLessThan(0.012 * (data[i * 3 + 2] as number) + 1e-9);
+      for (let k = 0; k < 3; k++) expect(Math.abs((theirs.data![i * 4 + k] as number) - (data[i * 3 + k] as number))).toBeLessThan(0.012 * (data[i * 3 + 2] as number) + 1e-9);
     }
   });
 
