@@ -14,7 +14,7 @@ async function tsupEntries(p) {
   mkdirSync(folder, { recursive: true });
   const outfile = join(folder, `${p.short}-${process.pid}.mjs`);
   try {
-    await build({ entryPoints: [join(p.dir, 'tsup.config.ts')], outfile, bundle: true, platform: 'node', format: 'esm', external: ['tsup', 'typescript', 'esbuild'], logLevel: 'silent' });
+    await build({ entryPoints: [join(p.dir, 'tsup.config.ts')], outfile, bundle: true, platform: 'node', format: 'esm', external: ['tsup', 'typescript', 'esbuild', 'vite'], logLevel: 'silent' });
     const { default: config } = await import(pathToFileURL(outfile).href);
     return (Array.isArray(config) ? config : [config]).reduce((all, { entry }) => ({ ...all, ...entry }), {});
   } finally {
