@@ -28,7 +28,7 @@ struct Vertex { @builtin(position) position: vec4f, @location(0) at: vec2f }
   if (wi.z <= 0.0) { return vec4f(0.0, 0.0, 0.0, 1.0); }
   let h = normalize(wo + wi);
   let reflected = openpbr_fresnel_dielectric(look.ior, dot(wo, h));
-  let highlight = reflected * openpbr_ggx(openpbr_alpha(look.roughness, 0.0), wo, wi, h).x;
+  let highlight = reflected * openpbr_ggx(openpbr_alpha(look.roughness, 0.0), wo, wi, h, 1.0).x;
   let body = (1.0 - reflected) * look.color * wi.z / 3.14159265;
   return vec4f(3.0 * (highlight + body), 1.0);
 }`,

@@ -9,7 +9,7 @@ import { anyClear, anyCoated, anySurface, lowerDirection, single, uniform, upper
 afterEach(() => expectNoGpuErrors());
 
 /** Every lobe of an opaque surface. */
-const OPAQUE = (): OpenPbrFlags => ({ ...ALL, OPENPBR_FUZZ: false, OPENPBR_TRANSMISSION: false, OPENPBR_SUBSURFACE: false, OPENPBR_THIN_SUBSURFACE: false, OPENPBR_THIN_WALLED: false });
+const OPAQUE = (): OpenPbrFlags => ({ ...ALL, OPENPBR_THIN_FILM: false, OPENPBR_FUZZ: false, OPENPBR_TRANSMISSION: false, OPENPBR_SUBSURFACE: false, OPENPBR_THIN_SUBSURFACE: false, OPENPBR_THIN_WALLED: false });
 
 const ALL: OpenPbrFlags = {
   OPENPBR_SPECULAR: true,
@@ -23,6 +23,7 @@ const ALL: OpenPbrFlags = {
   OPENPBR_THIN_WALLED: true,
   OPENPBR_LOSSES: true,
   OPENPBR_COAT: true,
+  OPENPBR_THIN_FILM: true,
   OPENPBR_FUZZ: true,
   OPENPBR_DIFFUSE: true,
   OPENPBR_COSINE: true,
@@ -54,12 +55,14 @@ async function compare(flags: OpenPbrFlags, cases: readonly GpuCase[], limit = 1
     const b = prepareBsdf(parameters, wo, options);
     const at = `case ${i}: wo ${wo.join(' ')}, wi ${wi.join(' ')}, roughness ${parameters.specular_roughness}`;
     const triple = (name: string, actual: OpenPbrVector, expected: OpenPbrVector, floor: number) => [0, 1, 2].forEach((k) => differences.add(name, actual[k] as number, expected[k] as number, floor, at));
-    triple('eval', gpu.f, evalBsdf(b, wo, wi), 1e-4);
+    // Waves that cancel leave few digits.
+    const dark = flags.OPENPBR_THIN_FILM ? 1e-2 : 1e-4;
+    triple('eval', gpu.f, evalBsdf(b, wo, wi), dark);
     // Of refraction, differences of nearly equal numbers are part.
     differences.add('pdf', gpu.pdf, pdfBsdf(b, wo, wi), flags.OPENPBR_TRANSMISSION ? 1e-3 : 1e-4, at);
     triple('eval of eval_pdf', gpu.together, gpu.f, 0.1);
     differences.add('pdf of eval_pdf', gpu.togetherPdf, gpu.pdf, 0.1, at);
-    triple('albedo', gpu.albedo, albedoBsdf(b, wo), 1e-3);
+    triple('albedo', gpu.albedo, albedoBsdf(b, wo), Math.max(dark, 1e-3));
     triple('emission', gpu.emission, emittedRadiance(parameters, wo), 1e-6);
     differences.add('opacity', gpu.opacity, parameters.geometry_opacity, 1e-6, at);
     // The lobe is chosen by comparing u.z with a probability: on the edge single precision may choose the other one.
@@ -77,7 +80,8 @@ async function compare(flags: OpenPbrFlags, cases: readonly GpuCase[], limit = 1
     if (edges.some((edge) => Math.abs(u[2] - edge) < 1e-5)) return;
     const s = sampleBsdf(b, wo, u);
     triple('sampled direction', gpu.wi, s.valid || gpu.valid ? s.wi : gpu.wi, 1);
-    if (Math.abs(s.wi[2]) > 1e-3) {
+    // The direction is good to 2e-6, and so is its cosine: near the horizon that is much of it.
+    if (Math.abs(s.wi[2]) > 0.025) {
       expect(gpu.valid, `valid at ${at}`).toBe(s.valid);
       expect(gpu.transmitted, `transmitted at ${at}`).toBe(s.transmitted);
       // So does the medium, where there are two; its weight is then another one.
@@ -105,7 +109,7 @@ describe('WGSL against its CPU twin', () => {
   it('single scattering only (seed 2)', () => compare({ ...OPAQUE(), OPENPBR_MULTISCATTER: false }, cases(1024, 2, (next) => anySurface(next, 0.3))));
 
   it('every lobe below a coat, 2048 random surfaces (seed 8)', () => compare(OPAQUE(), cases(2048, 8, (next) => anyCoated(next, 0.3))));
-  it('every lobe below fuzz, 1024 random surfaces (seed 14)', () => compare({ ...ALL, OPENPBR_THIN_WALLED: false, OPENPBR_THIN_SUBSURFACE: false }, cases(1024, 14, (next) => ({ ...anyCoated(next, 0.3), fuzz_weight: Math.fround(next()), fuzz_color: single([next(), next(), next()]), fuzz_roughness: Math.fround(0.1 + 0.9 * next()), geometry_thin_walled: false }))));
+  it('every lobe below fuzz, 1024 random surfaces (seed 14)', () => compare({ ...ALL, OPENPBR_THIN_FILM: false, OPENPBR_THIN_WALLED: false, OPENPBR_THIN_SUBSURFACE: false }, cases(1024, 14, (next) => ({ ...anyCoated(next, 0.3), fuzz_weight: Math.fround(next()), fuzz_color: single([next(), next(), next()]), fuzz_roughness: Math.fround(0.1 + 0.9 * next()), geometry_thin_walled: false }))));
   it('single scattering below a coat (seed 9)', () => compare({ ...OPAQUE(), OPENPBR_MULTISCATTER: false }, cases(512, 9, (next) => anyCoated(next, 0.3))));
 
   const through = (count: number, seed: number, surface: (next: () => number) => OpenPbrParameters = (next) => anyClear(next, 0.3)): GpuCase[] => {
@@ -121,11 +125,15 @@ describe('WGSL against its CPU twin', () => {
       const { eta } = prepareBsdf(one.parameters, one.wo, side).transmission;
       const h = refractHalf(eta, one.wo, wi);
       const edge = Math.min(...[one.wo, wi].map((w) => Math.abs(w[0] * h[0] + w[1] * h[1] + w[2] * h[2])));
-      return { ...one, side, wi: wi[2] < 0 && edge < 0.03 ? upperDirection(next, 0.02) : wi };
+      // And where a change of the direction's last digit changes the value by more than the limit, nothing can be compared.
+      const last: OpenPbrVector = [one.wo[0] * (1 + 1e-6), one.wo[1], one.wo[2]];
+      const [f, other] = [one.wo, last].map((wo) => evalBsdf(prepareBsdf(one.parameters, wo, side), wo, wi)[1]) as [number, number];
+      const lost = Math.abs(other - f) > 2e-5 * f;
+      return { ...one, side, wi: wi[2] < 0 && (edge < 0.03 || lost) ? upperDirection(next, 0.02) : wi };
     });
   };
-  it('light through every lobe at once, 2048 random surfaces from either side (seed 40)', () => compare(ALL, through(2048, 40)));
-  it('light through, single scattering only (seed 41)', () => compare({ ...ALL, OPENPBR_MULTISCATTER: false }, through(512, 41)));
+  it('light through every lobe at once, 2048 random surfaces from either side (seed 40)', () => compare({ ...ALL, OPENPBR_THIN_FILM: false }, through(2048, 40)));
+  it('light through, single scattering only (seed 41)', () => compare({ ...ALL, OPENPBR_THIN_FILM: false, OPENPBR_MULTISCATTER: false }, through(512, 41)));
 
   const gated = (name: string, seed: number, fixed: Partial<OpenPbrParameters>): void => {
     it(`${name} alone, the other lobes left out of the text (seed ${seed})`, async () => {
@@ -136,6 +144,12 @@ describe('WGSL against its CPU twin', () => {
       await compare(flags, list);
     });
   };
+  const filmed = (next: () => number): Partial<OpenPbrParameters> => ({ thin_film_weight: Math.fround(0.2 + 0.8 * next()), thin_film_thickness: Math.fround(next()), thin_film_ior: Math.fround(1.1 + 1.5 * next()) });
+  it('every lobe below a film, 1024 random surfaces (seed 16)', () => compare({ ...OPAQUE(), OPENPBR_THIN_FILM: true }, cases(1024, 16, (next) => ({ ...anyCoated(next, 0.3), ...filmed(next) }))));
+  it('a film on what lets light through, 1024 random surfaces from either side (seed 47)', () => compare(ALL, through(1024, 47, (next) => ({ ...anyClear(next, 0.3), ...filmed(next) }))));
+  gated('film on metal', 17, { base_metalness: 1, specular_weight: 1, thin_film_weight: 1, thin_film_ior: 1.6, thin_film_thickness: 0.4 });
+  gated('film on diffuse', 18, { base_metalness: 0, specular_weight: 1, specular_ior: 1.5, thin_film_weight: 0.7, thin_film_ior: 2, thin_film_thickness: 0.3 });
+  gated('film on glass', 48, { base_metalness: 0, transmission_weight: 1, specular_weight: 1, specular_ior: 1.5, thin_film_weight: 1, thin_film_ior: 1.8, thin_film_thickness: 0.6 });
   gated('metal', 3, { base_metalness: 1, specular_weight: 1 });
   gated('diffuse', 4, { base_metalness: 0, specular_weight: 0 });
   gated('dielectric over diffuse', 5, { base_metalness: 0 });

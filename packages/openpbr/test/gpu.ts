@@ -72,8 +72,14 @@ fn openpbr_table_conductor(coords: vec2f) -> f32 { return table(${dielectric.dat
   let b = openpbr_prepare(p, wo);
   //#endif
   let s = openpbr_sample(b, wo, cases[id.x].u.xyz);
+  let together = openpbr_eval_pdf(b, wo, wi);
+  // Both by themselves where that is quick to compile: they are the same function's parts.
+  var alone = together;
+  //#if !OPENPBR_TRANSMISSION
+  alone = vec4f(openpbr_eval(b, wo, wi), openpbr_pdf(b, wo, wi));
+  //#endif
   results[id.x] = Result(
-    openpbr_eval(b, wo, wi), openpbr_pdf(b, wo, wi), openpbr_eval_pdf(b, wo, wi),
+    alone.xyz, alone.w, together,
     s.wi, s.pdf, s.weight, f32(s.valid) + 2.0 * f32(s.transmitted) + 4.0 * f32(s.subsurface), openpbr_emission(p, wo), openpbr_opacity(p), vec4f(openpbr_albedo(b, wo), 0.0));
 }`,
   [openpbr],

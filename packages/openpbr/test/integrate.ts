@@ -1,5 +1,5 @@
 import { gaussLegendre } from '../scripts/microfacet.mjs';
-import { coatedBase, evalPdfBsdf, ggxAlpha, ggxSample, prepareBsdf, type BsdfOptions, type Slopes } from '../src/cpu/index';
+import { coatedBase, evalPdfBsdf, ggxAlpha, ggxBound, ggxSample, prepareBsdf, type BsdfOptions, type Slopes } from '../src/cpu/index';
 import type { OpenPbrParameters, OpenPbrVector } from '../src/parameters/index';
 
 /** A direction by cosine and azimuth. */
@@ -24,12 +24,14 @@ export function integrateHemisphere(p: OpenPbrParameters, wo: OpenPbrVector, g: 
   const base = coatedBase(p);
   const slopes = [ggxAlpha(base.specular_roughness, base.specular_roughness_anisotropy)];
   if (p.coat_weight > 0) slopes.push(ggxAlpha(p.coat_roughness, p.coat_roughness_anisotropy));
+  // Facets that reflect downwards are no use.
+  const bounds = new Map(slopes.map((alpha) => [alpha, ggxBound(alpha, wo)]));
   const density = (alpha: Slopes, wi: OpenPbrVector): number => {
     const h: [number, number, number] = [wo[0] + wi[0], wo[1] + wi[1], wo[2] + wi[2]];
     const length = Math.hypot(...h);
     const [x, y, z] = [h[0] / length, h[1] / length, h[2] / length];
     const t = (x / alpha[0]) ** 2 + (y / alpha[1]) ** 2 + z * z;
-    return 1 / (2 * Math.PI * alpha[0] * alpha[1] * t * t * (wo[2] + Math.hypot(alpha[0] * wo[0], alpha[1] * wo[1], wo[2])));
+    return 1 / (2 * Math.PI * alpha[0] * alpha[1] * t * t * ((bounds.get(alpha) as number) * wo[2] + Math.hypot(alpha[0] * wo[0], alpha[1] * wo[1], wo[2])));
   };
   const uniform = 1 / (2 * Math.PI);
   const total: number[] = [];
@@ -49,7 +51,7 @@ export function integrateHemisphere(p: OpenPbrParameters, wo: OpenPbrVector, g: 
       const s = Math.sqrt(1 - mu * mu);
       add([s * Math.cos(phi), s * Math.sin(phi), mu], ((weights[k] as number) * 2 * (nodes[k] as number)) / around);
       for (const alpha of slopes) {
-        const h = ggxSample(alpha, wo, [(i + 0.5) / around, nodes[k] as number]);
+        const h = ggxSample(alpha, wo, [(i + 0.5) / around, nodes[k] as number], bounds.get(alpha));
         const c = 2 * (wo[0] * h[0] + wo[1] * h[1] + wo[2] * h[2]);
         add([c * h[0] - wo[0], c * h[1] - wo[1], c * h[2] - wo[2]], (weights[k] as number) / around);
       }

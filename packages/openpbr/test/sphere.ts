@@ -1,5 +1,5 @@
 import { gaussLegendre } from '../scripts/microfacet.mjs';
-import { evalPdfBsdf, ggxDistribution, ggxMasking, ggxSample, prepareBsdf, refract, refractGgx, refractHalf, type Bsdf, type BsdfOptions, type Slopes } from '../src/cpu/index';
+import { evalPdfBsdf, ggxBound, ggxDistribution, ggxSample, prepareBsdf, refract, refractGgx, refractHalf, type Bsdf, type BsdfOptions, type Slopes } from '../src/cpu/index';
 import type { OpenPbrParameters, OpenPbrVector } from '../src/parameters/index';
 
 /** Reflected and transmitted parts of uniform light, and the integral of the density over the sphere. */
@@ -27,18 +27,19 @@ const lower = (wi: OpenPbrVector | undefined): OpenPbrVector | undefined => (wi 
 const flip = ([x, y, z]: OpenPbrVector): OpenPbrVector => [x, y, -z];
 
 function reflection(alpha: Slopes, wo: OpenPbrVector, side: 1 | -1): Technique {
+  const bound = ggxBound(alpha, wo);
   const turn = side > 0 ? (w: OpenPbrVector) => w : flip;
   return {
     at: (u, v) => {
-      const h = ggxSample(alpha, wo, [u, v]);
+      const h = ggxSample(alpha, wo, [u, v], bound);
       const c = 2 * (wo[0] * h[0] + wo[1] * h[1] + wo[2] * h[2]);
-      return turn([c * h[0] - wo[0], c * h[1] - wo[1], c * h[2] - wo[2]]);
+      return c * h[2] > wo[2] ? turn([c * h[0] - wo[0], c * h[1] - wo[1], c * h[2] - wo[2]]) : undefined;
     },
     density: (wi) => {
       const up = turn(wi);
       const h: [number, number, number] = [wo[0] + up[0], wo[1] + up[1], wo[2] + up[2]];
       const length = Math.hypot(...h);
-      return h[2] <= 0 ? 0 : (ggxDistribution(alpha, [h[0] / length, h[1] / length, h[2] / length]) * ggxMasking(alpha, wo)) / (4 * wo[2]);
+      return up[2] <= 0 ? 0 : ggxDistribution(alpha, [h[0] / length, h[1] / length, h[2] / length]) / (2 * (bound * wo[2] + Math.hypot(alpha[0] * wo[0], alpha[1] * wo[1], wo[2])));
     },
   };
 }

@@ -3,8 +3,9 @@ import { coatedBase, coatEmission, coatPass, coatThrough, inCoat, outOfCoat, pre
 import { cosineSample, eon } from './diffuse';
 import { energyBounce, energyLost, energyLostMean, energyShare, energyShareMean, energyTotal } from './energy';
 import { dielectricEpsilon, fresnelDielectric, fresnelMetal, fresnelMetalMean } from './fresnel';
+import { filmFacet, filmReflectance, filmShare, metalIndex, prepareFilm, type ComplexIndex, type Film } from './film';
 import { fuzzAlbedo, fuzzDensity, fuzzSample, prepareFuzz, type Fuzz } from './fuzz';
-import { ggx, ggxAlpha, ggxSample, halfVector, mirrorCosine, mirrorRoughness, viewRoughness, type Slopes } from './ggx';
+import { ggx, ggxAlpha, ggxBound, ggxSample, halfVector, mirrorCosine, mirrorRoughness, viewRoughness, type Slopes } from './ggx';
 import { prepareThinSubsurface, type ThinSubsurface } from './subsurface';
 import { prepareTransmission, refract, refractGgx, refractHalf, type BsdfSide, type Transmission } from './transmission';
 import { clamp, dot } from './vector';
@@ -13,11 +14,15 @@ import { clamp, dot } from './vector';
 export interface BsdfOptions extends BsdfSide {
   /** As the flag OPENPBR_MULTISCATTER; default true. */
   readonly multipleScattering?: boolean;
+  /** Evaluate a thin film at three wavelengths in nm, one for each channel, instead of over the visible spectrum; for comparisons. */
+  readonly filmWavelengths?: readonly [number, number, number] | undefined;
 }
 
 /** A surface seen from one direction; twin of the WGSL struct `OpenPbrBsdf`. */
 export interface Bsdf {
   readonly alpha: Slopes;
+  /** See {@link ggxBound}; 1 where facets let light through. */
+  readonly bound: number;
   /** Probability of sampling the microfacet lobe; else it is the cosine. */
   readonly specularProbability: number;
   /** Factor on the diffuse lobe, without its colour. */
@@ -36,8 +41,13 @@ export interface Bsdf {
     /** Directional albedo of multiple scattering, and its mean loss. */
     readonly bounced: OpenPbrColor;
     readonly meanLost: number;
+    /** Its complex index per channel, below a film. */
+    readonly index: readonly [ComplexIndex, ComplexIndex, ComplexIndex];
   };
   readonly dielectric: { readonly eta: number; readonly epsilon: number; readonly roughness: number; readonly scale: OpenPbrColor; readonly bounced: OpenPbrColor };
+  readonly film: Film;
+  /** Factor on what lies below the interface, by the film. */
+  readonly filmPass: OpenPbrColor;
   readonly transmission: Transmission;
   /** Paper below a thin wall, with what the interface makes of diffuse light. */
   readonly subsurface: ThinSubsurface;
@@ -68,6 +78,8 @@ export interface BsdfSample {
 }
 
 const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), channel(1), channel(2)];
+const rgbOf = <T>(channel: (i: 0 | 1 | 2) => T): readonly [T, T, T] => [channel(0), channel(1), channel(2)];
+const mix = (a: number, b: number, t: number): number => a * (1 - t) + b * t;
 const sum = (color: OpenPbrColor): number => color[0] + color[1] + color[2];
 
 /** The parameters with indices relative to what is outside, and no coat in front from inside. */
@@ -91,7 +103,7 @@ function prepareInterface(p: OpenPbrParameters, alpha: Slopes, wo: OpenPbrVector
  * @param given Resolved parameters.
  * @param wo Unit direction to the viewer in the local frame, +z normal on the viewer's side.
  */
-export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multipleScattering = true, inside = false, outerIor = 1 }: BsdfOptions = {}): Bsdf {
+export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multipleScattering = true, inside = false, outerIor = 1, filmWavelengths }: BsdfOptions = {}): Bsdf {
   const whole = seenFrom(given, { inside, outerIor });
   const p = coatedBase(whole);
   const mu = clamp(wo[2], 1e-5, 1);
@@ -103,8 +115,11 @@ export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multi
   const mirrorMu = mirrorCosine(alpha, wo, mu);
   const lost = multipleScattering ? energyLost(mirror, mirrorMu) : 0;
   const meanLost = Math.max(energyLostMean(mirror), 1e-7);
-  const typical = fresnelMetal(f0, p.specular_color, mu + 0.8 * roughness * roughness * (1 - mu), weight);
-  const mean = fresnelMetalMean(f0, p.specular_color, weight);
+  const film = prepareFilm(whole, outerIor, inside, filmWavelengths);
+  const index = rgbOf((i) => metalIndex(f0[i], p.specular_color[i]));
+  const seen = mu + 0.8 * roughness * roughness * (1 - mu);
+  const typical = filmedMetal(film, index, weight, seen, fresnelMetal(f0, p.specular_color, seen, weight));
+  const mean = filmedMetal(film, index, weight, 0.7, fresnelMetalMean(f0, p.specular_color, weight));
   const limit = clamp(weight, 1e-6, 1);
   const bounced = rgb((i) => (p.base_metalness * lost * (1 - meanLost) * mean[i] * mean[i]) / Math.max(limit - mean[i] * meanLost, 1e-7));
   const tint: OpenPbrColor = inside ? [1, 1, 1] : p.specular_color;
@@ -112,14 +127,16 @@ export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multi
   const face = prepareInterface(p, alpha, wo, mu, multipleScattering);
   const outer = { ...p, specular_color: tint, specular_ior: inside ? 1 / whole.specular_ior : whole.specular_ior };
   const bare = prepareInterface(outer, alpha, wo, mu, multipleScattering);
-  const transmission = prepareTransmission(outer, face, bare, alpha, wo, mu, insulator, inside ? given.coat_weight : 0, inside, multipleScattering);
+  const filmed = filmShare(film, (1 + face.epsilon) / (1 - face.epsilon), face.share, alpha, wo);
+  const clear = inside ? filmShare(film, (1 + bare.epsilon) / (1 - bare.epsilon), bare.share, alpha, wo) : filmed;
+  const transmission = prepareTransmission(outer, face, bare, clear, alpha, wo, mu, insulator, inside ? given.coat_weight : 0, inside, multipleScattering);
   const subsurface = prepareThinSubsurface(p, insulator * (1 - face.share));
   const scale = rgb((i) => insulator * (1 - transmission.share) * tint[i]);
-  const specular = rgb((i) => p.base_metalness * typical[i] * (1 - lost) + scale[i] * Math.max(face.share - face.bounced, 0) + transmission.mirrorAlbedo[i]);
+  const specular = rgb((i) => p.base_metalness * typical[i] * (1 - lost) + scale[i] * Math.max(face.share - face.bounced + filmed.more[i], 0) + transmission.mirrorAlbedo[i]);
   const rebounced = rgb((i) => scale[i] * face.bounced + transmission.mirrorBounced[i]);
   const diffuse = insulator * p.base_weight * (1 - p.transmission_weight) * (1 - p.subsurface_weight) * (1 - face.share);
-  const spread = rgb((i) => bounced[i] + rebounced[i] + diffuse * p.base_color[i] + subsurface.back * subsurface.color[i]);
-  const beneath = rgb((i) => transmission.bounced[i] + subsurface.through * subsurface.color[i]);
+  const spread = rgb((i) => bounced[i] + rebounced[i] + (diffuse * p.base_color[i] + subsurface.back * subsurface.color[i]) * filmed.pass[i]);
+  const beneath = rgb((i) => transmission.bounced[i] + subsurface.through * subsurface.color[i] * filmed.pass[i]);
   const down = sum(beneath);
   const facets = sum(specular) + sum(transmission.albedo);
   const all = facets + sum(spread) + down;
@@ -137,14 +154,17 @@ export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multi
   const covered = total * fuzz.below;
   return {
     alpha,
+    bound: transmission.share > 0 ? 1 : ggxBound(alpha, wo),
     specularProbability: all > 0 ? facets / all : 0.5,
     diffuseScale: diffuse * coupling,
     subsurface: { ...subsurface, back: subsurface.back * coupling, through: subsurface.through * coupling },
     diffuseColor: p.base_color,
     diffuseRoughness: p.base_diffuse_roughness,
     albedo: rgb((i) => Math.min((below[i] + coat.albedo) * fuzz.below + fuzz.color[i], 1)),
-    metal: { f0, tint: p.specular_color, specularWeight: weight, metalness: p.base_metalness, roughness: mirror, bounced, meanLost },
+    metal: { f0, tint: p.specular_color, specularWeight: weight, metalness: p.base_metalness, roughness: mirror, bounced, meanLost, index },
     dielectric: { eta: (1 + face.epsilon) / (1 - face.epsilon), epsilon: face.epsilon, roughness, scale, bounced: rebounced },
+    film,
+    filmPass: filmed.pass,
     transmission,
     thinChance: facets > 0 ? sum(specular) / facets : 1,
     below: down > 0 ? down / (down + sum(spread)) : 0,
@@ -155,23 +175,31 @@ export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multi
   };
 }
 
-/** Reflectance of a facet seen at cosine c, all microfacet lobes of the base. */
-function facetReflectance(b: Bsdf, c: number): OpenPbrColor {
-  const metal = fresnelMetal(b.metal.f0, b.metal.tint, c, b.metal.specularWeight);
-  const fresnel = fresnelDielectric(b.dielectric.eta, c);
-  const clear = b.transmission.thin ? 1 : fresnelDielectric(b.transmission.mirrorEta, c);
-  return rgb((i) => b.metal.metalness * metal[i] + b.dielectric.scale[i] * fresnel + b.transmission.mirror[i] * clear);
+/** Reflectance of metal with its film. */
+function filmedMetal(film: Film, index: Bsdf['metal']['index'], specularWeight: number, c: number, clear: OpenPbrColor): OpenPbrColor {
+  if (film.weight <= 0) return clear;
+  return rgb((i) => mix(clear[i], Math.min(specularWeight * filmReflectance(film, index[i], (1 - c * c) * film.grazing)[i], 1), film.weight));
 }
 
-/** Fresnel factor of a facet that lets light through. */
-const refractionFresnel = (b: Bsdf, c: number): number => fresnelDielectric(b.transmission.fresnelEta, c);
+/** What a facet seen at cosine c reflects, all microfacet lobes of the base, and what it lets through. */
+function facet(b: Bsdf, c: number): { reflected: OpenPbrColor; through: OpenPbrColor } {
+  const metal = filmedMetal(b.film, b.metal.index, b.metal.specularWeight, c, fresnelMetal(b.metal.f0, b.metal.tint, c, b.metal.specularWeight));
+  const fresnel = fresnelDielectric(b.dielectric.eta, c);
+  const { thin, mirrorEta, fresnelEta, mirror, color } = b.transmission;
+  const clear = fresnelDielectric(mirrorEta, c);
+  const { weight } = b.film;
+  const film = weight > 0 ? filmFacet(b.film, c) : ([0, 0, 0] as const);
+  const below = 1 - fresnelDielectric(fresnelEta, c);
+  return {
+    reflected: rgb((i) => b.metal.metalness * metal[i] + b.dielectric.scale[i] * mix(fresnel, film[i], weight) + mirror[i] * (thin ? 1 : mix(clear, film[i], weight))),
+    through: rgb((i) => color[i] * (thin ? 1 : below * (1 - (weight * (film[i] - clear)) / Math.max(1 - clear, 1e-6)))),
+  };
+}
 
 /** Probability that a facet reflects, once it is sampled; else it lets light through. */
-function reflectionChance(b: Bsdf, c: number): number {
+function reflectionChance(b: Bsdf, { reflected, through }: ReturnType<typeof facet>): number {
   if (b.transmission.thin) return b.thinChance;
-  const color = facetReflectance(b, c);
-  const through = sum(b.transmission.color) * (1 - refractionFresnel(b, c));
-  return through > 0 ? sum(color) / (sum(color) + through) : 1;
+  return sum(through) > 0 ? sum(reflected) / (sum(reflected) + sum(through)) : 1;
 }
 
 /** Cosine, and what the interface lets through on the way of the light to the diffuse lobe. */
@@ -186,22 +214,22 @@ function scatterThrough(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPb
   const { transmission } = b;
   const c = clamp(dot(wo, h), 0, 1);
   const [value, density] = transmission.thin ? ggx(transmission.thinAlpha, wo, [wi[0], wi[1], -wi[2]], h) : refractGgx(transmission.eta, b.alpha, wo, wi, h);
-  const passed = transmission.thin ? value : value * (1 - refractionFresnel(b, c));
+  const sides = facet(b, c);
   const coat = coatThrough(b.coat, transmission.exit, -wi[2]);
   const cosine = -wi[2] / Math.PI;
-  const pdf = b.specularProbability * (1 - reflectionChance(b, c)) * density + (1 - b.specularProbability) * b.below * cosine;
+  const pdf = b.specularProbability * (1 - reflectionChance(b, sides)) * density + (1 - b.specularProbability) * b.below * cosine;
   const mirrored: OpenPbrVector = [wi[0], wi[1], -wi[2]];
   const paper = eon(b.subsurface.color, b.diffuseRoughness, wo, mirrored);
   const passes = b.subsurface.through * diffusePass(b, mirrored);
-  return { f: rgb((i) => (transmission.color[i] * passed + transmission.bounced[i] * cosine + paper[i] * passes) * coat[i] * b.fuzz.below), pdf: (1 - b.fuzzProbability) * (1 - b.coatProbability) * pdf };
+  return { f: rgb((i) => (sides.through[i] * value + transmission.bounced[i] * cosine + paper[i] * passes * b.filmPass[i]) * coat[i] * b.fuzz.below), pdf: (1 - b.fuzzProbability) * (1 - b.coatProbability) * pdf };
 }
 
 function scatter(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector): { f: OpenPbrColor; pdf: number } {
   if (wi[2] < 0) return scatterThrough(b, wo, wi, h);
   if (Math.min(wo[2], wi[2]) <= 0) return { f: [0, 0, 0], pdf: 0 };
   const c = clamp(dot(wo, h), 0, 1);
-  const [value, density] = ggx(b.alpha, wo, wi, h);
-  const color = facetReflectance(b, c);
+  const [value, density] = ggx(b.alpha, wo, wi, h, b.bound);
+  const sides = facet(b, c);
   const through = diffusePass(b, wi);
   const bounced = (energyLost(b.metal.roughness, mirrorCosine(b.alpha, wi, wi[2])) / b.metal.meanLost / Math.PI) * wi[2];
   const diffuse = eon(b.diffuseColor, b.diffuseRoughness, wo, wi);
@@ -209,12 +237,12 @@ function scatter(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector
   const { frame } = b.coat;
   const coatWi = inCoat(frame, wi);
   const pass = coatPass(b.coat, Math.max(coatWi[2], 1e-5));
-  const [top, topDensity] = coatWi[2] > 0 ? ggx(b.coat.alpha, inCoat(frame, wo), coatWi, inCoat(frame, h)) : [0, 0];
+  const [top, topDensity] = coatWi[2] > 0 ? ggx(b.coat.alpha, inCoat(frame, wo), coatWi, inCoat(frame, h), b.coat.bound) : [0, 0];
   const mirrored = b.coat.scale * fresnelDielectric(b.coat.eta, c) * top;
   const fibres = fuzzDensity(b.fuzz, wi);
-  const basePdf = b.specularProbability * reflectionChance(b, c) * density + ((1 - b.specularProbability) * (1 - b.below) * wi[2]) / Math.PI;
+  const basePdf = b.specularProbability * reflectionChance(b, sides) * density + ((1 - b.specularProbability) * (1 - b.below) * wi[2]) / Math.PI;
   return {
-    f: rgb((i) => (value * color[i] + (b.dielectric.bounced[i] * wi[2]) / Math.PI + bounced * b.metal.bounced[i] + through * (b.diffuseScale * diffuse[i] + b.subsurface.back * paper[i])) * pass[i] * b.fuzz.below + mirrored * b.fuzz.below + b.fuzz.color[i] * fibres),
+    f: rgb((i) => (value * sides.reflected[i] + (b.dielectric.bounced[i] * wi[2]) / Math.PI + bounced * b.metal.bounced[i] + through * b.filmPass[i] * (b.diffuseScale * diffuse[i] + b.subsurface.back * paper[i])) * pass[i] * b.fuzz.below + mirrored * b.fuzz.below + b.fuzz.color[i] * fibres),
     pdf: (basePdf * (1 - b.coatProbability) + topDensity * b.coatProbability) * (1 - b.fuzzProbability) + fibres * b.fuzzProbability,
   };
 }
@@ -248,10 +276,10 @@ export function sampleBsdf(b: Bsdf, wo: OpenPbrVector, numbers: readonly [number
     const side = chosen / limit;
     const { thin, thinAlpha, eta } = b.transmission;
     const { frame } = b.coat;
-    h = top ? outOfCoat(frame, ggxSample(b.coat.alpha, inCoat(frame, wo), u)) : ggxSample(thin && side >= b.thinChance ? thinAlpha : b.alpha, wo, u);
+    h = top ? outOfCoat(frame, ggxSample(b.coat.alpha, inCoat(frame, wo), u, b.coat.bound)) : ggxSample(thin && side >= b.thinChance ? thinAlpha : b.alpha, wo, u, b.bound);
     const c = dot(wo, h);
     wi = [2 * c * h[0] - wo[0], 2 * c * h[1] - wo[1], 2 * c * h[2] - wo[2]];
-    const chance = reflectionChance(b, clamp(c, 0, 1));
+    const chance = reflectionChance(b, facet(b, clamp(c, 0, 1)));
     transmitted = !top && side >= chance;
     medium = (side - chance) / (1 - chance);
     if (transmitted) wi = thin ? [wi[0], wi[1], -wi[2]] : (refract(eta, wo, h) ?? [0, 0, 0]);

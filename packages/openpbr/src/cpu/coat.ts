@@ -1,7 +1,7 @@
 import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
 import { energyBounce, energyShare, energyTotal, fresnelMean } from './energy';
 import { dielectricEpsilon, fresnelDielectric } from './fresnel';
-import { ggxAlpha, mirrorCosine, mirrorRoughness, viewRoughness, type Slopes } from './ggx';
+import { ggxAlpha, ggxBound, mirrorCosine, mirrorRoughness, viewRoughness, type Slopes } from './ggx';
 import { clamp, dot } from './vector';
 
 const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), channel(1), channel(2)];
@@ -10,6 +10,8 @@ const mix = (a: number, b: number, t: number): number => a * (1 - t) + b * t;
 /** The coat seen from one direction; twin of the WGSL struct `OpenPbrCoat`. */
 export interface Coat {
   readonly alpha: Slopes;
+  /** See {@link ggxBound}. */
+  readonly bound: number;
   readonly eta: number;
   /** Coverage times multiple-scattering compensation. */
   readonly scale: number;
@@ -117,13 +119,14 @@ export function prepareCoat(p: OpenPbrParameters, baseWo: OpenPbrVector, multipl
   const darkening = coatDarkening(p, mu);
   return {
     alpha,
+    bound: ggxBound(alpha, wo),
     eta,
     scale: p.coat_weight * (multipleScattering ? share / Math.max(share - more, 0.1 * share + 1e-7) : 1),
     albedo: p.coat_weight * share,
     bare: rgb((i) => darkening[i] * (1 - p.coat_weight)),
     through: rgb((i) => darkening[i] * p.coat_weight * (1 - share) * passage(absorption[i], eta, mu)),
     absorption,
-    entry: rgb((i) => 1 - p.coat_weight + p.coat_weight * (1 - share) * passage(absorption[i], eta, mu)),
+    entry: rgb((i) => darkening[i] * (1 - p.coat_weight + p.coat_weight * (1 - share) * passage(absorption[i], eta, mu))),
     frame,
   };
 }

@@ -27,12 +27,12 @@ export function ggxMaskingShadowing(alpha: Slopes, wo: OpenPbrVector, wi: OpenPb
   return (2 * wo[2] * wi[2]) / (wo[2] * stretch(alpha, wi) + wi[2] * stretch(alpha, wo));
 }
 
-/** D·G2/(4 cos θ_o) and the density of reflected directions under {@link ggxSample}; twin of `openpbr_ggx`. */
-export function ggx(alpha: Slopes, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector): [value: number, pdf: number] {
+/** D·G2/(4 cos θ_o) and the density of reflected directions under {@link ggxSample} with the same bound; twin of `openpbr_ggx`. */
+export function ggx(alpha: Slopes, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector, bound = 1): [value: number, pdf: number] {
   const d = ggxDistribution(alpha, h) / 2;
   const so = stretch(alpha, wo);
   const si = stretch(alpha, wi);
-  return [(d * wi[2]) / (wo[2] * si + wi[2] * so), d / (wo[2] + so)];
+  return [(d * wi[2]) / (wo[2] * si + wi[2] * so), d / (bound * wo[2] + so)];
 }
 
 /** Round roughness that reflects as large a share of the light towards `w`; twin of `openpbr_view_roughness`. */
@@ -47,11 +47,26 @@ export const mirrorCosine = (alpha: Slopes, w: OpenPbrVector, mu: number): numbe
 /** The half vector, finite where two grazing directions cancel; twin of `openpbr_half`. */
 export const halfVector = (wo: OpenPbrVector, wi: OpenPbrVector): OpenPbrVector => normalize([wo[0] + wi[0], wo[1] + wi[1], Math.max(wo[2] + wi[2], 1e-7)]);
 
-/** A half vector visible from `wo` (Dupuy and Benyoub 2023); twin of `openpbr_ggx_sample`. `u` in [0, 1)². */
-export function ggxSample(alpha: Slopes, wo: OpenPbrVector, u: readonly [number, number, ...number[]]): OpenPbrVector {
+/**
+ * How much of the spherical cap of visible normals reflects upwards, at most (Eto and Tokuyoshi 2023): a factor on the
+ * cap's depth below the equator; twin of `openpbr_ggx_bound`.
+ */
+export function ggxBound(alpha: Slopes, wo: OpenPbrVector): number {
+  const a = Math.min(alpha[0], alpha[1], 1);
+  const s = 1 + Math.hypot(wo[0], wo[1]);
+  return ((1 - a * a) * s * s) / (s * s + a * a * wo[2] * wo[2]);
+}
+
+/**
+ * A half vector visible from `wo` (Dupuy and Benyoub 2023); twin of `openpbr_ggx_sample`.
+ *
+ * @param u In [0, 1)².
+ * @param bound From {@link ggxBound}, to leave out normals that cannot reflect upwards; 1 for all.
+ */
+export function ggxSample(alpha: Slopes, wo: OpenPbrVector, u: readonly [number, number, ...number[]], bound = 1): OpenPbrVector {
   const v = normalize([alpha[0] * wo[0], alpha[1] * wo[1], wo[2]]);
   const phi = 2 * Math.PI * u[0];
-  const z = (1 - u[1]) * (1 + v[2]) - v[2];
+  const z = (1 - u[1]) * (1 + bound * v[2]) - bound * v[2];
   const r = Math.sqrt(clamp(1 - z * z, 0, 1));
   return normalize([alpha[0] * (r * Math.cos(phi) + v[0]), alpha[1] * (r * Math.sin(phi) + v[1]), Math.max(z + v[2], 1e-7)]);
 }

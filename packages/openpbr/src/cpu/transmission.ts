@@ -1,6 +1,7 @@
 import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
 import { energyLost } from './energy';
 import { dielectricEpsilon } from './fresnel';
+import type { FilmShare } from './film';
 import { ggxDistribution, ggxMasking, mirrorCosine, mirrorRoughness, type Slopes } from './ggx';
 import { clamp, dot, normalize } from './vector';
 
@@ -55,9 +56,10 @@ interface Interface {
  * @param outer The surface without what a coat does to its index, but with the roughness below it, relative to the viewer's side.
  * @param face The interface of the opaque part.
  * @param bare The interface of `outer`.
+ * @param film What a film changes of the side that is seen.
  * @param weight Share of the surface that is dielectric.
  */
-export function prepareTransmission(outer: OpenPbrParameters, face: Interface, bare: Interface, alpha: Slopes, wo: OpenPbrVector, mu: number, weight: number, exit: number, inside: boolean, multipleScattering: boolean): Transmission {
+export function prepareTransmission(outer: OpenPbrParameters, face: Interface, bare: Interface, film: FilmShare, alpha: Slopes, wo: OpenPbrVector, mu: number, weight: number, exit: number, inside: boolean, multipleScattering: boolean): Transmission {
   const epsilon = dielectricEpsilon(outer.specular_ior, outer.specular_weight);
   const bend = Math.abs(epsilon) < 5e-4 ? 5e-4 : epsilon;
   const eta = (1 + bend) / (1 - bend);
@@ -81,26 +83,28 @@ export function prepareTransmission(outer: OpenPbrParameters, face: Interface, b
       mirrorEta: (1 + clear.epsilon) / (1 - clear.epsilon),
       share,
       color,
-      albedo: rgb((i) => color[i] * direct),
-      bounced: rgb((i) => color[i] * bare.bouncedThrough),
+      albedo: rgb((i) => color[i] * direct * film.direct[i]),
+      bounced: rgb((i) => color[i] * Math.max((1 - bare.share) * film.pass[i] - direct * film.direct[i], 0)),
       exit,
       thin,
       thinAlpha: alpha,
       mirror,
-      mirrorAlbedo: rgb((i) => mirror[i] * Math.max(clear.share - clear.bounced, 0)),
+      mirrorAlbedo: rgb((i) => mirror[i] * Math.max(clear.share - clear.bounced + film.more[i], 0)),
       mirrorBounced: rgb((i) => mirror[i] * clear.bounced),
       subsurface: rgb((i) => (total[i] > 0 ? enters / total[i] : 0)),
       subsurfaceChance: inside || enters <= 0 ? 0 : (3 * enters) / (total[0] + total[1] + total[2]),
     };
   }
-  const { share } = face;
-  const reflected = (2 * share) / (1 + share);
+  const reflected = rgb((i) => {
+    const share = clamp(face.share + film.more[i], 0, 1);
+    return (2 * share) / (1 + share);
+  });
   const narrowing = clamp(0.65 * Math.max(eta, 1 / eta) - 0.35, 0, 1);
   const path = 1 / Math.sqrt(Math.max(1 - (1 - mu * mu) / (eta * eta), 1e-4));
   const cosine = mirrorCosine(alpha, wo, mu);
   const lost = (roughness: number) => (multipleScattering ? energyLost(mirrorRoughness(roughness, outer.specular_roughness_anisotropy), cosine) : 0);
-  const mirror = rgb((i) => amount * reflected * outer.specular_color[i]);
-  const color = rgb((i) => amount * (1 - reflected) * Math.max(tint[i], 1e-7) ** path);
+  const mirror = rgb((i) => amount * reflected[i] * outer.specular_color[i]);
+  const color = rgb((i) => amount * (1 - reflected[i]) * Math.max(tint[i], 1e-7) ** path);
   const mirrorLost = lost(outer.specular_roughness);
   const colorLost = lost(outer.specular_roughness * narrowing);
   return {

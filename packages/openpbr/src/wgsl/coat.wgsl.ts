@@ -22,6 +22,8 @@ export const openpbrCoat = wgslModule(
   'openpbr/coat',
   /* wgsl */ `struct OpenPbrCoat {
   alpha: vec2f,
+  // See openpbr_ggx_bound.
+  bound: f32,
   eta: f32,
   // Coverage times multiple-scattering compensation.
   scale: f32,
@@ -138,6 +140,7 @@ fn openpbr_coat_prepare(p: OpenPbrParameters, base: OpenPbrParameters, wo: vec3f
   var coat: OpenPbrCoat;
 //#endif
   coat.alpha = openpbr_alpha(p.coat_roughness, p.coat_roughness_anisotropy);
+  coat.bound = openpbr_ggx_bound(coat.alpha, wo);
   let surface = openpbr_dielectric_prepare(openpbr_coat_interface(p), coat.alpha, wo, mu);
   coat.eta = surface.eta;
   // Few bounces: they are left in the highlight.
@@ -150,7 +153,7 @@ fn openpbr_coat_prepare(p: OpenPbrParameters, base: OpenPbrParameters, wo: vec3f
   let passage = (p.coat_weight * (1.0 - surface.share)) * exp2(coat.absorption * openpbr_coat_path(coat.bend, mu));
   coat.through = darkening * passage;
   //#if OPENPBR_TRANSMISSION
-  coat.entry = passage + (1.0 - p.coat_weight);
+  coat.entry = darkening * (passage + (1.0 - p.coat_weight));
   //#endif
   return coat;
 }

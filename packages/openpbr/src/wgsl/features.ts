@@ -23,6 +23,8 @@ export interface OpenPbrFlags {
   /** The table of the losses of mirrors is read: OPENPBR_METAL or OPENPBR_THIN_WALLED. */
   readonly OPENPBR_LOSSES: boolean;
   readonly OPENPBR_COAT: boolean;
+  /** A film that interferes on the base. */
+  readonly OPENPBR_THIN_FILM: boolean;
   /** A layer of fibres over everything else. */
   readonly OPENPBR_FUZZ: boolean;
   readonly OPENPBR_DIFFUSE: boolean;
@@ -64,7 +66,8 @@ export function requiredFeatures(materials: readonly Partial<OpenPbrParameters>[
   const clear = [...insulators.filter((p) => p.transmission_weight > 0), ...below];
   const transmission = clear.length > 0;
   const thin = clear.some((p) => p.geometry_thin_walled);
-  const dielectric = transmission || insulators.some((p) => p.specular_weight > 0 && (p.specular_ior !== 1 || isTextured('specular_ior') || p.coat_weight > 0));
+  const film = (p: OpenPbrParameters) => p.thin_film_weight > 0 && p.thin_film_thickness > 0;
+  const dielectric = transmission || insulators.some((p) => film(p) || (p.specular_weight > 0 && (p.specular_ior !== 1 || isTextured('specular_ior') || p.coat_weight > 0)));
   const coat = all.some((p) => p.coat_weight > 0);
   const opaque = solid.filter((p) => p.subsurface_weight < 1 || isTextured('subsurface_weight'));
   const diffuse = thinBelow || opaque.some((p) => p.base_weight > 0 && p.base_color.some((c) => c > 0));
@@ -82,6 +85,7 @@ export function requiredFeatures(materials: readonly Partial<OpenPbrParameters>[
     OPENPBR_THIN_WALLED: thin,
     OPENPBR_LOSSES: metal || thin,
     OPENPBR_COAT: coat,
+    OPENPBR_THIN_FILM: specular && all.some(film),
     OPENPBR_FUZZ: all.some((p) => p.fuzz_weight > 0),
     OPENPBR_DIFFUSE: lambert,
     OPENPBR_COSINE: lambert || ((metal || dielectric) && multipleScattering),

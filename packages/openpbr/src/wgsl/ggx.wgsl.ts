@@ -37,11 +37,11 @@ fn openpbr_ggx_density(alpha: vec2f, h: vec3f) -> f32 {
   return 0.15915494 / (alpha.x * alpha.y * t * t);
 }
 
-fn openpbr_ggx(alpha: vec2f, wo: vec3f, wi: vec3f, h: vec3f) -> vec2f {
+fn openpbr_ggx(alpha: vec2f, wo: vec3f, wi: vec3f, h: vec3f, bound: f32) -> vec2f {
   let d = openpbr_ggx_density(alpha, h);
   let so = openpbr_ggx_stretch(alpha, wo);
   let si = openpbr_ggx_stretch(alpha, wi);
-  return d * vec2f(wi.z / (wo.z * si + wi.z * so), 1.0 / (wo.z + so));
+  return d * vec2f(wi.z / (wo.z * si + wi.z * so), 1.0 / (bound * wo.z + so));
 }
 
 fn openpbr_view_roughness(alpha: vec2f, roughness: f32, w: vec3f) -> f32 {
@@ -68,13 +68,27 @@ fn openpbr_mirror_cosine(alpha: vec2f, w: vec3f, mu: f32) -> f32 {
   //#endif
 }
 
-// A half vector visible from wo (Dupuy and Benyoub 2023, spherical caps).
-fn openpbr_ggx_sample(alpha: vec2f, wo: vec3f, u: vec2f) -> vec3f {
+// How much of the spherical cap of visible normals reflects upwards, at most (Eto and Tokuyoshi 2023): a factor on the cap's
+// depth below the equator. Normals out of the rest would only be thrown away.
+fn openpbr_ggx_bound(alpha: vec2f, wo: vec3f) -> f32 {
+  let a = min(min(alpha.x, alpha.y), 1.0);
+  let s = 1.0 + length(wo.xy);
+  return (1.0 - a * a) * s * s / (s * s + a * a * wo.z * wo.z);
+}
+
+// The half vector at a place of the cap: a unit vector around its axis, and a height in [0, 1).
+fn openpbr_ggx_cap(alpha: vec2f, wo: vec3f, around: vec2f, height: f32, bound: f32) -> vec3f {
   let v = normalize(vec3f(alpha * wo.xy, wo.z));
-  let z = (1.0 - u.y) * (1.0 + v.z) - v.z;
+  let depth = bound * v.z;
+  let z = (1.0 - height) * (1.0 + depth) - depth;
   let r = sqrt(clamp(1.0 - z * z, 0.0, 1.0));
-  let h = vec3f(r * openpbr_circle(u.x), z) + v;
+  let h = vec3f(r * around, z) + v;
   return normalize(vec3f(alpha * h.xy, max(h.z, 1e-7)));
+}
+
+// A half vector visible from wo (Dupuy and Benyoub 2023, spherical caps); all of them with the bound 1.
+fn openpbr_ggx_sample(alpha: vec2f, wo: vec3f, u: vec2f, bound: f32) -> vec3f {
+  return openpbr_ggx_cap(alpha, wo, openpbr_circle(u.x), u.y, bound);
 }`,
   [openpbrCircle],
 );

@@ -10,6 +10,7 @@ export { openpbrTransmission } from './transmission.wgsl';
 export { openpbrSubsurface } from './subsurface.wgsl';
 export { openpbrMedium } from './medium.wgsl';
 export { openpbrPhase } from './phase.wgsl';
+export { openpbrFilm } from './film.wgsl';
 export { openpbrFuzz } from './fuzz.wgsl';
 export { openpbrCoat } from './coat.wgsl';
 export { openpbrEnergy } from './energy.wgsl';

@@ -1,5 +1,6 @@
 import { gated, wgslModule } from '@glanz/wgsl';
 import { openpbrEnergy } from './energy.wgsl';
+import { openpbrFilm } from './film.wgsl';
 import { openpbrFresnelMetal } from './fresnel.wgsl';
 import { openpbrGgx } from './ggx.wgsl';
 import { openPbrStruct } from './record';
@@ -27,7 +28,11 @@ export const openpbrMetal = wgslModule(
   mean_lost: f32,
 }
 
+//#if OPENPBR_THIN_FILM
+fn openpbr_metal_prepare(p: OpenPbrParameters, film: OpenPbrFilm, alpha: vec2f, wo: vec3f, mu: f32) -> OpenPbrMetal {
+//#else
 fn openpbr_metal_prepare(p: OpenPbrParameters, alpha: vec2f, wo: vec3f, mu: f32) -> OpenPbrMetal {
+//#endif
   let f0 = p.base_weight * p.base_color;
   var metal: OpenPbrMetal;
   let f90 = min(p.specular_weight, 1e6);
@@ -35,13 +40,21 @@ fn openpbr_metal_prepare(p: OpenPbrParameters, alpha: vec2f, wo: vec3f, mu: f32)
   metal.f0 = f90 * f0;
   metal.f90 = f90;
   metal.edge = f90 * openpbr_f82_edge(f0, p.specular_color);
-  metal.albedo = metal.weight * openpbr_f82(metal.f0, f90, metal.edge, mu + 0.8 * p.specular_roughness * p.specular_roughness * (1.0 - mu));
+  let seen = mu + 0.8 * p.specular_roughness * p.specular_roughness * (1.0 - mu);
+  //#if OPENPBR_THIN_FILM
+  metal.albedo = metal.weight * openpbr_film_metal(film, f90, seen, openpbr_f82(metal.f0, f90, metal.edge, seen));
+  //#else
+  metal.albedo = metal.weight * openpbr_f82(metal.f0, f90, metal.edge, seen);
+  //#endif
   //#if OPENPBR_MULTISCATTER
   metal.roughness = openpbr_mirror_roughness(p.specular_roughness, p.specular_roughness_anisotropy);
   metal.mean_lost = max(openpbr_energy_lost_mean(metal.roughness), 1e-7);
   let lost = openpbr_energy_lost(metal.roughness, openpbr_mirror_cosine(alpha, wo, mu));
   metal.albedo *= 1.0 - lost;
-  let mean = openpbr_f82_mean(metal.f0, f90, metal.edge);
+  var mean = openpbr_f82_mean(metal.f0, f90, metal.edge);
+  //#if OPENPBR_THIN_FILM
+  mean = openpbr_film_metal(film, f90, 0.7, mean);
+  //#endif
   let limit = clamp(f90, 1e-6, 1.0);
   metal.bounced = metal.weight * lost * (1.0 - metal.mean_lost) * mean * mean / max(limit - mean * metal.mean_lost, vec3f(1e-7));
   //#endif
@@ -58,5 +71,5 @@ fn openpbr_metal_bounced(metal: OpenPbrMetal, alpha: vec2f, wi: vec3f) -> vec3f 
   return metal.bounced * (openpbr_energy_lost(metal.roughness, openpbr_mirror_cosine(alpha, wi, wi.z)) / metal.mean_lost * wi.z * 0.31830989);
 }
 //#endif`,
-  [openPbrStruct.module, openpbrGgx, openpbrFresnelMetal, gated('OPENPBR_MULTISCATTER', openpbrEnergy)],
+  [openPbrStruct.module, openpbrGgx, openpbrFresnelMetal, gated('OPENPBR_MULTISCATTER', openpbrEnergy), gated('OPENPBR_THIN_FILM', openpbrFilm)],
 );

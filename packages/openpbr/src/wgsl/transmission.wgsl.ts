@@ -1,6 +1,7 @@
 import { gated, wgslModule } from '@glanz/wgsl';
 import { openpbrDielectric } from './dielectric.wgsl';
 import { openpbrEnergy } from './energy.wgsl';
+import { openpbrFilm } from './film.wgsl';
 import { openpbrGgx } from './ggx.wgsl';
 import { openPbrStruct } from './record';
 
@@ -56,7 +57,11 @@ export const openpbrTransmission = wgslModule(
 
 // "outer" is the surface without what a coat does to its index, relative to the viewer's side; "d" the interface of the
 // opaque part, "weight" the share of the surface that is dielectric.
+//#if OPENPBR_THIN_FILM
+fn openpbr_transmission_prepare(outer: OpenPbrParameters, d: OpenPbrDielectric, film: OpenPbrFilm, filmed: OpenPbrFilmShare, alpha: vec2f, wo: vec3f, mu: f32, weight: f32, inside: bool) -> OpenPbrTransmission {
+//#else
 fn openpbr_transmission_prepare(outer: OpenPbrParameters, d: OpenPbrDielectric, alpha: vec2f, wo: vec3f, mu: f32, weight: f32, inside: bool) -> OpenPbrTransmission {
+//#endif
   var t: OpenPbrTransmission;
   t.share = outer.transmission_weight;
   let epsilon = openpbr_dielectric_epsilon(outer);
@@ -69,7 +74,12 @@ fn openpbr_transmission_prepare(outer: OpenPbrParameters, d: OpenPbrDielectric, 
   //#if OPENPBR_THIN_WALLED
   t.thin = outer.geometry_thin_walled != 0u;
   if (t.thin) {
-    let reflected = 2.0 * d.share / (1.0 + d.share);
+    //#if OPENPBR_THIN_FILM
+    let share = clamp(d.share + filmed.more, vec3f(0.0), vec3f(1.0));
+    //#else
+    let share = vec3f(d.share);
+    //#endif
+    let reflected = 2.0 * share / (1.0 + share);
     let narrowing = clamp(0.65 * max(t.eta, 1.0 / t.eta) - 0.35, 0.0, 1.0);
     t.thin_alpha = max(alpha * (narrowing * narrowing), vec2f(1e-4));
     tint = exp2(log2(max(tint, vec3f(1e-7))) * inverseSqrt(max(1.0 - (1.0 - mu * mu) / (t.eta * t.eta), 1e-4)));
@@ -110,8 +120,17 @@ fn openpbr_transmission_prepare(outer: OpenPbrParameters, d: OpenPbrDielectric, 
   t.mirror = (weight * t.share) * outer.specular_color;
   t.mirror_bounced = t.mirror * clear.bounced;
   t.mirror_albedo = t.mirror * max(clear.share - clear.bounced, 0.0);
-  t.bounced = t.color * bare.bounced_through;
-  t.albedo = t.color * max(1.0 - bare.share - bare.bounced_through, 0.0);
+  let direct = max(1.0 - bare.share - bare.bounced_through, 0.0);
+  //#if OPENPBR_THIN_FILM
+  var changed = filmed;
+  if (inside) { changed = openpbr_film_share(film, bare.eta, bare.share, alpha, wo); }
+  t.mirror_albedo = t.mirror * max(clear.share - clear.bounced + changed.more, vec3f(0.0));
+  t.bounced = t.color * max((1.0 - bare.share) * changed.passed - direct * changed.direct, vec3f(0.0));
+  t.albedo = t.color * direct * changed.direct;
+  //#else
+  t.bounced = t.color * (1.0 - bare.share - direct);
+  t.albedo = t.color * direct;
+  //#endif
   return t;
 }
 
@@ -139,5 +158,5 @@ fn openpbr_refract_ggx(eta: f32, alpha: vec2f, wo: vec3f, wi: vec3f, h: vec3f) -
   let pdf = visible * down / max(across * across, 1e-20);
   return pdf * vec2f(-2.0 * wi.z / (openpbr_ggx_stretch(alpha, wi) - wi.z), 1.0);
 }`,
-  [openPbrStruct.module, openpbrGgx, openpbrDielectric, gated('OPENPBR_MULTISCATTER', openpbrEnergy)],
+  [openPbrStruct.module, openpbrGgx, openpbrDielectric, gated('OPENPBR_MULTISCATTER', openpbrEnergy), gated('OPENPBR_THIN_FILM', openpbrFilm)],
 );

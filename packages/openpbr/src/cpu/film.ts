@@ -1,0 +1,153 @@
+import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
+import { dielectricEpsilon, fresnelDielectric } from './fresnel';
+import { ggxSample, ggxMasking, ggxMaskingShadowing, type Slopes } from './ggx';
+import { clamp, dot } from './vector';
+import { FILM_BANDS, type FilmBands } from '../tables/film';
+
+const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), channel(1), channel(2)];
+const mix = (a: number, b: number, t: number): number => a * (1 - t) + b * t;
+
+/** A thin film and what it lies between; twin of the WGSL struct `OpenPbrFilm`. Indices are relative to what is outside of the object. */
+export interface Film {
+  /** Coverage. */
+  readonly weight: number;
+  /** Index of refraction of the film, of what lies on it (air or coat), and of the dielectric below. */
+  readonly index: number;
+  readonly outer: number;
+  readonly base: number;
+  /** Optical path through the film and back, in µm, over the cosine and the index. */
+  readonly path: number;
+  /**
+   * Square of the tangential part of the wave's vector for light along the surface: outside, and on the viewer's side. The
+   * film never reflects all light only because the coat on it is denser: light that it would do so to does not get into the coat.
+   */
+  readonly grazing: number;
+  readonly viewer: number;
+  readonly bands: FilmBands;
+}
+
+/** A complex index of refraction. */
+export type ComplexIndex = readonly [n: number, k: number];
+
+/**
+ * The film of a surface; twin of `openpbr_film_prepare`.
+ *
+ * @param p The parameters with indices relative to what is outside.
+ * @param outerIor Index of refraction of that.
+ * @param wavelengths Three wavelengths in nm, one for each channel, instead of the visible spectrum.
+ */
+export function prepareFilm(p: OpenPbrParameters, outerIor: number, inside: boolean, wavelengths?: readonly [number, number, number]): Film {
+  const outer = mix(1, p.coat_ior, p.coat_weight);
+  const epsilon = dielectricEpsilon(p.specular_ior / outer, p.specular_weight);
+  const base = (outer * (1 + epsilon)) / (1 - epsilon);
+  const bands = wavelengths ? { wavenumbers: wavelengths.map((nm) => 1000 / nm), width: 0, weights: [[1, 0, 0], [0, 1, 0], [0, 0, 1]] } : FILM_BANDS;
+  const index = p.thin_film_ior / outerIor;
+  const grazing = Math.min(outer, index) ** 2;
+  // Too thin to be seen: it fades, and metal below it goes back to the tint that it has without.
+  return { weight: p.thin_film_weight * Math.min(p.thin_film_thickness / 0.01, 1), index, outer, base, path: 2 * p.thin_film_thickness * outerIor, grazing, viewer: inside ? base * base : grazing, bands };
+}
+
+/** The complex index of a metal by its reflectance at normal incidence and its edge tint (Gulbrandsen 2014); twin of `openpbr_film_metal`. */
+export function metalIndex(reflectance: number, edge: number): ComplexIndex {
+  const r = clamp(reflectance, 0, 0.999);
+  const root = Math.sqrt(r);
+  const n = mix((1 + root) / (1 - root), (1 - r) / (1 + r), edge);
+  return [n, Math.sqrt(Math.max((r * (n + 1) ** 2 - (n - 1) ** 2) / (1 - r), 0))];
+}
+
+type Complex = readonly [re: number, im: number];
+const ratio = (a: Complex, b: Complex): Complex => {
+  const d = b[0] * b[0] + b[1] * b[1];
+  return [(a[0] * b[0] + a[1] * b[1]) / d, (a[1] * b[0] - a[0] * b[1]) / d];
+};
+
+/**
+ * Reflectance of a film on a base (Airy's sum, unpolarised) brought to red, green and blue; twin of `openpbr_film_reflect`.
+ * The visible spectrum is a sum of Lorentzian bands: of such a band Airy's sum is known in closed form, with all its orders.
+ *
+ * @param tangential Square of the tangential part of the wave's vector, which all layers share; sin² of the angle in air.
+ */
+export function filmReflectance({ index, outer, path, bands }: Film, [n, k]: ComplexIndex, tangential: number): OpenPbrColor {
+  const square1 = outer * outer;
+  const square2 = index * index;
+  if (Math.min(square1, square2) <= tangential) return [1, 1, 1];
+  const q1 = Math.sqrt(square1 - tangential);
+  const q2 = Math.sqrt(square2 - tangential);
+  const square3: Complex = [n * n - k * k, 2 * n * k];
+  const size = Math.hypot(square3[0] - tangential, square3[1]);
+  const q3: Complex = [Math.sqrt(Math.max((size + square3[0] - tangential) / 2, 0)), Math.sqrt(Math.max((size - square3[0] + tangential) / 2, 0))];
+  const parallel: readonly [Complex, Complex] = [
+    [square3[0] * q2 - square2 * q3[0], square3[1] * q2 - square2 * q3[1]],
+    [square3[0] * q2 + square2 * q3[0], square3[1] * q2 + square2 * q3[1]],
+  ];
+  const faces: readonly (readonly [near: number, far: Complex])[] = [
+    [(q1 - q2) / (q1 + q2), ratio([q2 - q3[0], -q3[1]], [q2 + q3[0], q3[1]])],
+    [(square2 * q1 - square1 * q2) / (square2 * q1 + square1 * q2), ratio(...parallel)],
+  ];
+  const length = path * q2;
+  const kept = Math.exp(-bands.width * length);
+  const waves = bands.wavenumbers.map((wavenumber) => {
+    const phase = 2 * Math.PI * length * wavenumber;
+    let sum = 0;
+    for (const [near, far] of faces) {
+      const a = near * near;
+      const b = far[0] * far[0] + far[1] * far[1];
+      const rest = Math.max(1 - a * b, 1e-7);
+      const x = near * (far[0] * Math.cos(phase) - far[1] * Math.sin(phase));
+      sum += ((a + b) * (1 - kept * kept * a * b) - 2 * a * b * (1 - kept * kept) + 2 * kept * rest * x) / (rest * (1 + kept * kept * a * b + 2 * kept * x));
+    }
+    return sum / 2;
+  });
+  return rgb((i) => clamp((bands.weights[i] as readonly number[]).reduce((sum, weight, band) => sum + weight * (waves[band] as number), 0), 0, 1));
+}
+
+
+/** Reflectance of the film on the dielectric for a facet seen at the cosine `c`; twin of `openpbr_film_facet`. */
+export const filmFacet = (film: Film, c: number): OpenPbrColor => filmReflectance(film, [film.base, 0], (1 - c * c) * film.viewer);
+
+/** Where along the cap of visible normals, and how much. */
+const HEIGHTS = [0.06943184, 0.33000948, 0.66999052, 0.93056816];
+const PARTS = [0.08696371, 0.16303629, 0.16303629, 0.08696371];
+
+/** What the film changes of the albedos of an interface; twin of the WGSL struct `OpenPbrFilmShare`. */
+export interface FilmShare {
+  /** What it adds to the part of the light that single scattering reflects. */
+  readonly more: OpenPbrColor;
+  /** Factor on what single scattering lets through, and on all that goes through. */
+  readonly direct: OpenPbrColor;
+  readonly pass: OpenPbrColor;
+}
+
+/**
+ * Sums over eight facets as they are seen; twin of `openpbr_film_share`.
+ *
+ * @param eta Relative index of the interface without the film.
+ * @param share The part of the light that it reflects.
+ */
+export function filmShare(film: Film, eta: number, share: number, alpha: Slopes, wo: OpenPbrVector): FilmShare {
+  if (film.weight <= 0) return { more: [0, 0, 0], direct: [1, 1, 1], pass: [1, 1, 1] };
+  const turn = Math.atan2(alpha[1] * wo[1], alpha[0] * wo[0]) / (2 * Math.PI);
+  const more = [0, 0, 0];
+  const through = [0, 0, 0];
+  let plain = 0;
+  for (let i = 0; i < 8; i++) {
+    const h = ggxSample(alpha, wo, [turn + (i % 2 === 0 ? 0.125 : -0.375), HEIGHTS[i >> 1] as number]);
+    const c = clamp(dot(wo, h), 0, 1);
+    const wi: OpenPbrVector = [2 * c * h[0] - wo[0], 2 * c * h[1] - wo[1], 2 * c * h[2] - wo[2]];
+    const part = PARTS[i >> 1] as number;
+    const seen = wi[2] > 0 ? (part * ggxMaskingShadowing(alpha, wo, wi)) / ggxMasking(alpha, wo) : 0;
+    const clear = fresnelDielectric(eta, c);
+    const color = filmFacet(film, c);
+    plain += part * (1 - clear);
+    for (const k of [0, 1, 2] as const) {
+      const change = film.weight * (color[k] - clear);
+      more[k] = (more[k] as number) + seen * change;
+      through[k] = (through[k] as number) + part * change;
+    }
+  }
+  return {
+    more: rgb((i) => more[i] as number),
+    direct: rgb((i) => Math.max(1 - (through[i] as number) / Math.max(plain, 1e-5), 0)),
+    pass: rgb((i) => Math.max(1 - (more[i] as number) / Math.max(1 - share, 1e-5), 0)),
+  };
+}

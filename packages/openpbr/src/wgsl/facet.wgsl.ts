@@ -1,0 +1,70 @@
+import { gated, wgslModule } from '@glanz/wgsl';
+import { openpbrFresnelDielectric } from './fresnel.wgsl';
+import { openpbrSurface } from './surface.wgsl';
+
+
+/** What one facet of the base does: metal, dielectric and clear part at once, and whether it reflects when it is sampled. */
+export const openpbrFacet = wgslModule(
+  'openpbr/facet',
+  /* wgsl */ `//#if OPENPBR_SPECULAR
+// What a facet seen at cosine c reflects, all microfacet lobes of the base, and what it lets through.
+struct OpenPbrFacet {
+  reflected: vec3f,
+  //#if OPENPBR_TRANSMISSION
+  through: vec3f,
+  //#endif
+}
+
+fn openpbr_facet(b: OpenPbrBsdf, c: f32) -> OpenPbrFacet {
+  var facet: OpenPbrFacet;
+  //#if OPENPBR_METAL
+  //#if OPENPBR_THIN_FILM
+  facet.reflected += b.metal.weight * openpbr_film_metal(b.film, b.metal.f90, c, openpbr_f82(b.metal.f0, b.metal.f90, b.metal.edge, c));
+  //#else
+  facet.reflected += openpbr_metal_fresnel(b.metal, c);
+  //#endif
+  //#endif
+  //#if OPENPBR_DIELECTRIC
+  let opaque = openpbr_fresnel_dielectric(b.dielectric.eta, c);
+  //#if OPENPBR_THIN_FILM
+  var film = vec3f(0.0);
+  if (b.film.weight > 0.0) { film = openpbr_film_facet(b.film, c); }
+  facet.reflected += b.dielectric_scale * mix(vec3f(opaque), film, b.film.weight);
+  //#else
+  facet.reflected += b.dielectric_scale * opaque;
+  //#endif
+  //#endif
+  //#if OPENPBR_TRANSMISSION
+  //#if OPENPBR_THIN_WALLED
+  if (b.transmission.thin) {
+    facet.reflected += b.transmission.mirror;
+    facet.through = b.transmission.color;
+    return facet;
+  }
+  //#endif
+  let clear = openpbr_fresnel_dielectric(b.transmission.mirror_eta, c);
+  facet.through = b.transmission.color * (1.0 - openpbr_fresnel_dielectric(b.transmission.fresnel_eta, c));
+  //#if OPENPBR_THIN_FILM
+  facet.reflected += b.transmission.mirror * mix(vec3f(clear), film, b.film.weight);
+  facet.through *= 1.0 - b.film.weight * (film - clear) / max(1.0 - clear, 1e-6);
+  //#else
+  facet.reflected += b.transmission.mirror * clear;
+  //#endif
+  //#endif
+  return facet;
+}
+//#endif
+
+//#if OPENPBR_TRANSMISSION
+// Probability that a facet reflects, once it is sampled; else it lets light through.
+fn openpbr_reflection_chance(b: OpenPbrBsdf, facet: OpenPbrFacet) -> f32 {
+  //#if OPENPBR_THIN_WALLED
+  if (b.transmission.thin) { return b.transmission.chance; }
+  //#endif
+  let through = dot(facet.through, vec3f(1.0));
+  let reflected = dot(facet.reflected, vec3f(1.0));
+  return select(1.0, min(reflected / (reflected + through), 1.0), through > 0.0);
+}
+//#endif`,
+  [openpbrSurface, gated('OPENPBR_DIELECTRIC', openpbrFresnelDielectric)],
+);

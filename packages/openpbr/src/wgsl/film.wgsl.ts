@@ -1,0 +1,170 @@
+import { gated, wgslModule } from '@glanz/wgsl';
+import { FILM_BANDS } from '../tables/film';
+import { openpbrDielectric } from './dielectric.wgsl';
+import { openpbrFresnelDielectric } from './fresnel.wgsl';
+import { openpbrGgx } from './ggx.wgsl';
+import { openPbrStruct } from './record';
+
+const { wavenumbers, width, weights } = FILM_BANDS;
+const bands = (first: number): string => wavenumbers.slice(first, first + 4).join(', ');
+const columns = (first: number): string => [0, 1, 2, 3].map((i) => `vec3f(${weights.map((row) => row[first + i]).join(', ')})`).join(', ');
+
+/**
+ * A thin film on the base, below the coat. Waves reflected by its two faces interfere; Airy's sum, with all its orders and
+ * unpolarised, takes the place of the Fresnel factor, by the coverage. Below it lies the dielectric, or metal of a complex
+ * index by its reflectance and edge tint (Gulbrandsen 2014).
+ *
+ * For a band of Lorentzian shape over wavenumbers the spectrum's integral is Airy's sum with a reflection that fades with the
+ * path, in closed form: eight such bands stand for the visible spectrum, and give red, green and blue (`FILM_BANDS`), with
+ * no aliasing however thick the film. From inside, light beyond the critical angle is reflected whatever the film.
+ */
+export const openpbrFilm = wgslModule(
+  'openpbr/film',
+  /* wgsl */ `struct OpenPbrFilm {
+  // Coverage.
+  weight: f32,
+  // Indices of the film, of what lies on it and of the dielectric below, over that of what is outside of the object.
+  index: f32,
+  outer: f32,
+  base: f32,
+  // Optical path through the film and back, in µm, over the part of the wave's vector across it.
+  path: f32,
+  // Square of the part of the wave's vector along the surface at grazing angles: outside, and on the viewer's side.
+  grazing: f32,
+  viewer: f32,
+  //#if OPENPBR_METAL
+  // Complex index of the metal below.
+  metal_n: vec3f,
+  metal_k: vec3f,
+  //#endif
+  //#if OPENPBR_DIELECTRIC
+  // Factor on what lies below the interface.
+  passed: vec3f,
+  //#endif
+}
+
+// Indices of p are relative to what is outside, whose own is outer_ior.
+fn openpbr_film_prepare(p: OpenPbrParameters, outer_ior: f32, inside: bool) -> OpenPbrFilm {
+  var film: OpenPbrFilm;
+  // Too thin to be seen: it fades, and metal below it goes back to the tint that it has without.
+  film.weight = p.thin_film_weight * min(p.thin_film_thickness * 100.0, 1.0);
+  film.index = p.thin_film_ior / outer_ior;
+  film.outer = 1.0;
+  //#if OPENPBR_COAT
+  film.outer = mix(1.0, p.coat_ior, p.coat_weight);
+  //#endif
+  film.path = 2.0 * p.thin_film_thickness * outer_ior;
+  // The film shall not reflect all light because the coat is denser: such light does not come in through the coat.
+  film.grazing = min(film.outer, film.index) * min(film.outer, film.index);
+  film.viewer = film.grazing;
+  //#if OPENPBR_DIELECTRIC
+  var below = p;
+  below.specular_ior = p.specular_ior / film.outer;
+  let epsilon = openpbr_dielectric_epsilon(below);
+  film.base = film.outer * (1.0 + epsilon) / (1.0 - epsilon);
+  if (inside) { film.viewer = film.base * film.base; }
+  //#endif
+  //#if OPENPBR_METAL
+  let r = clamp(p.base_weight * p.base_color, vec3f(0.0), vec3f(0.999));
+  let root = sqrt(r);
+  // 1 - √r
+  let rest = (1.0 - r) / (1.0 + root);
+  let n = mix((1.0 + root) / rest, (1.0 - r) / (1.0 + r), p.specular_color);
+  film.metal_n = n;
+  film.metal_k = sqrt(max((n * (1.0 + root) - rest) * (1.0 + root - n * rest) / (1.0 - r), vec3f(0.0)));
+  //#endif
+  return film;
+}
+
+fn openpbr_film_ratio(a: vec2f, b: vec2f) -> vec2f {
+  return vec2f(dot(a, b), a.y * b.x - a.x * b.y) / dot(b, b);
+}
+
+// Of four bands, for one polarisation: amplitudes of the near and the far face, phase, and what of the wave's coherence is left.
+fn openpbr_film_wave(near: f32, far: vec2f, cosine: vec4f, sine: vec4f, kept: f32) -> vec4f {
+  let a = near * near;
+  let b = dot(far, far);
+  let rest = max(1.0 - a * b, 1e-7);
+  let x = near * (far.x * cosine - far.y * sine);
+  return ((a + b) * (1.0 - kept * kept * a * b) - 2.0 * a * b * (1.0 - kept * kept) + 2.0 * kept * rest * x) / (rest * (1.0 + kept * kept * a * b + 2.0 * kept * x));
+}
+
+// On a base of complex index; "tangential" is the square of the part of the wave's vector that all layers share.
+fn openpbr_film_reflect(film: OpenPbrFilm, base: vec2f, tangential: f32) -> vec3f {
+  let square = vec2f(film.outer, film.index) * vec2f(film.outer, film.index);
+  let across = square - tangential;
+  if (min(across.x, across.y) <= 0.0) { return vec3f(1.0); }
+  let q = sqrt(across);
+  let inner = vec2f(base.x * base.x - base.y * base.y, 2.0 * base.x * base.y);
+  let difference = inner.x - tangential;
+  let size = length(vec2f(difference, inner.y));
+  let below = sqrt(max(0.5 * vec2f(size + difference, size - difference), vec2f(0.0)));
+  let up = vec2f(q.y, 0.0);
+  let far_s = openpbr_film_ratio(up - below, up + below);
+  let far_p = openpbr_film_ratio(inner * q.y - square.y * below, inner * q.y + square.y * below);
+  let near_s = (q.x - q.y) / (q.x + q.y);
+  let near_p = (square.y * q.x - square.x * q.y) / (square.y * q.x + square.x * q.y);
+  let path = film.path * q.y;
+  let kept = exp(${-width} * path);
+  let turns_a = path * vec4f(${bands(0)});
+  let turns_b = path * vec4f(${bands(4)});
+  let angle_a = 6.2831853 * (turns_a - round(turns_a));
+  let angle_b = 6.2831853 * (turns_b - round(turns_b));
+  let a = openpbr_film_wave(near_s, far_s, cos(angle_a), sin(angle_a), kept) + openpbr_film_wave(near_p, far_p, cos(angle_a), sin(angle_a), kept);
+  let b = openpbr_film_wave(near_s, far_s, cos(angle_b), sin(angle_b), kept) + openpbr_film_wave(near_p, far_p, cos(angle_b), sin(angle_b), kept);
+  return clamp(0.5 * (mat4x3f(${columns(0)}) * a + mat4x3f(${columns(4)}) * b), vec3f(0.0), vec3f(1.0));
+}
+
+//#if OPENPBR_METAL
+// Reflectance of metal for a facet seen at cosine c; "clear" is that without the film.
+fn openpbr_film_metal(film: OpenPbrFilm, specular_weight: f32, c: f32, clear: vec3f) -> vec3f {
+  if (film.weight <= 0.0) { return clear; }
+  var color = vec3f(0.0);
+  for (var i = 0; i < 3; i++) {
+    color[i] = openpbr_film_reflect(film, vec2f(film.metal_n[i], film.metal_k[i]), (1.0 - c * c) * film.grazing)[i];
+  }
+  return mix(clear, min(specular_weight * color, vec3f(1.0)), film.weight);
+}
+//#endif
+
+//#if OPENPBR_DIELECTRIC
+// Reflectance of the dielectric for a facet seen at cosine c.
+fn openpbr_film_facet(film: OpenPbrFilm, c: f32) -> vec3f {
+  return openpbr_film_reflect(film, vec2f(film.base, 0.0), (1.0 - c * c) * film.viewer);
+}
+
+struct OpenPbrFilmShare {
+  // What the film adds to the part of the light that single scattering reflects.
+  more: vec3f,
+  // Factor on what single scattering lets through, and on all that goes through.
+  direct: vec3f,
+  passed: vec3f,
+}
+
+// Sums over eight facets as they are seen; eta and share are those of the interface without the film.
+fn openpbr_film_share(film: OpenPbrFilm, eta: f32, share: f32, alpha: vec2f, wo: vec3f) -> OpenPbrFilmShare {
+  if (film.weight <= 0.0) { return OpenPbrFilmShare(vec3f(0.0), vec3f(1.0), vec3f(1.0)); }
+  let flat = alpha * wo.xy;
+  let azimuth = select(vec2f(1.0, 0.0), flat * inverseSqrt(max(dot(flat, flat), 1e-30)), dot(flat, flat) > 1e-20);
+  let across = 0.70710678 * vec2f(azimuth.x - azimuth.y, azimuth.x + azimuth.y);
+  let so = openpbr_ggx_stretch(alpha, wo);
+  var more = vec3f(0.0);
+  var through = vec3f(0.0);
+  var plain = 0.0;
+  for (var i = 0u; i < 8u; i++) {
+    let h = openpbr_ggx_cap(alpha, wo, select(across, -across, (i & 1u) == 1u), vec4f(0.06943184, 0.33000948, 0.66999052, 0.93056816)[i >> 1u], 1.0);
+    let c = clamp(dot(wo, h), 0.0, 1.0);
+    let wi = 2.0 * c * h - wo;
+    let part = select(0.16303629, 0.08696371, i < 2u || i > 5u);
+    let seen = select(0.0, part * wi.z * (wo.z + so) / (wo.z * openpbr_ggx_stretch(alpha, wi) + wi.z * so), wi.z > 0.0);
+    let clear = openpbr_fresnel_dielectric(eta, c);
+    let change = film.weight * (openpbr_film_facet(film, c) - clear);
+    plain += part * (1.0 - clear);
+    more += seen * change;
+    through += part * change;
+  }
+  return OpenPbrFilmShare(more, max(1.0 - through / max(plain, 1e-5), vec3f(0.0)), max(1.0 - more / max(1.0 - share, 1e-5), vec3f(0.0)));
+}
+//#endif`,
+  [openPbrStruct.module, openpbrGgx, openpbrFresnelDielectric, gated('OPENPBR_DIELECTRIC', openpbrDielectric)],
+);

@@ -1,0 +1,140 @@
+import { describe, expect, it } from 'vitest';
+import { filmReflectance, fresnelDielectric, metalIndex, prepareFilm, type ComplexIndex, type Film } from '../src/cpu/index';
+import { resolveParameters, type OpenPbrParameters } from '../src/parameters/index';
+import { requiredFeatures } from '../src/wgsl/index';
+import { direction } from './integrate';
+import { uniform } from './random';
+import { primitives, sharedIt, type Triple } from './shared';
+import { sphereFurnace } from './sphere';
+
+const ORACLE_WAVELENGTHS = [620, 540, 450] as const;
+const filmOf = (index: number, micrometres: number, wavelengths?: readonly [number, number, number]): Film => prepareFilm(resolveParameters({ thin_film_weight: 1, thin_film_ior: index, thin_film_thickness: micrometres }), 1, false, wavelengths);
+
+interface Row {
+  readonly mu: number;
+  readonly n_ext: number;
+  readonly n_film: number;
+  readonly base: [number, number];
+  readonly thickness_nm: number;
+  readonly R_620_540_450: Triple;
+  readonly rgb_spectral_E_linear_srgb: Triple;
+}
+
+describe('reflectance of a film', () => {
+  const rows = (): Row[] => primitives()['thin_film_airy'] as unknown as Row[];
+
+  sharedIt("is Airy's at three wavelengths", () => {
+    for (const row of rows()) {
+      const color = filmReflectance(filmOf(row.n_film, row.thickness_nm / 1000, ORACLE_WAVELENGTHS), row.base, 1 - row.mu * row.mu);
+      color.forEach((value, i) => expect(Math.abs(value - (row.R_620_540_450[i] as number)), JSON.stringify(row)).toBeLessThan(1e-6));
+    }
+  });
+
+  sharedIt('is that of the visible spectrum within 0.02, and 0.005 in the mean square', () => {
+    let squares = 0, count = 0;
+    for (const row of rows()) {
+      const color = filmReflectance(filmOf(row.n_film, row.thickness_nm / 1000), row.base, 1 - row.mu * row.mu);
+      color.forEach((value, i) => {
+        // Colours outside of the gamut are cut off.
+        const difference = value - Math.min(Math.max(row.rgb_spectral_E_linear_srgb[i] as number, 0), 1);
+        expect(Math.abs(difference), JSON.stringify({ ...row, color })).toBeLessThan(0.02);
+        squares += difference * difference;
+        count++;
+      });
+    }
+    expect(Math.sqrt(squares / count)).toBeLessThan(5e-3);
+  });
+
+  sharedIt('has the complex index of a metal', () => {
+    for (const { F0, edge, n, k } of primitives()['gulbrandsen'] as { F0: number; edge: number; n: number; k: number }[]) {
+      if (F0 > 0.999) continue;
+      const [ours, absorption] = metalIndex(F0, edge);
+      expect(Math.abs(ours - n)).toBeLessThan(1e-4 * n);
+      expect(Math.abs(absorption - k)).toBeLessThan(1e-4 * Math.max(k, n));
+    }
+  });
+
+  it('is Fresnel of the base where the film is as dense as it or as the air', () => {
+    for (const mu of [1, 0.7, 0.3, 0.05]) {
+      for (const index of [1.5, 1.0000001]) {
+        for (const value of filmReflectance(filmOf(index, 0.4), [1.5, 0], 1 - mu * mu)) expect(value).toBeCloseTo(fresnelDielectric(1.5, mu), 4);
+      }
+    }
+  });
+
+  it('loses its colour where the film is thick: the sum of intensities', () => {
+    const film = filmOf(1.8, 60);
+    for (const mu of [1, 0.5, 0.2]) {
+      const sine2 = 1 - mu * mu;
+      const inner = Math.sqrt(1 - sine2 / 1.8 ** 2);
+      // Both polarisations by Fresnel's equations, and R₁ + T₁²R₂/(1 − R₁R₂) of each.
+      const amplitude = (a: number, b: number) => ((a - b) / (a + b)) ** 2;
+      const cosine = Math.sqrt(1 - sine2 / 1.5 ** 2);
+      const pairs = [
+        [amplitude(mu, 1.8 * inner), amplitude(1.8 * inner, 1.5 * cosine)],
+        [amplitude(1.8 * mu, inner), amplitude(1.5 * inner, 1.8 * cosine)],
+      ] as const;
+      const expected = pairs.reduce((sum, [r1, r2]) => sum + (r1 + ((1 - r1) ** 2 * r2) / (1 - r1 * r2)) / 2, 0);
+      for (const value of filmReflectance(film, [1.5, 0], sine2)) expect(value).toBeCloseTo(expected, 6);
+    }
+  });
+
+  it('is the same from the other side, at the angle that light has there', () => {
+    // Stokes: swap the media, keep what all layers share.
+    const next = uniform(501);
+    for (let i = 0; i < 500; i++) {
+      const n = 1 + next();
+      const film = filmOf(1 + 1.5 * next(), next(), ORACLE_WAVELENGTHS);
+      const reversed: Film = { ...film, outer: n };
+      const sine2 = next() * 0.99;
+      const there = filmReflectance(film, [n, 0], sine2);
+      filmReflectance(reversed, [1, 0], sine2).forEach((value, k) => expect(value).toBeCloseTo(there[k] as number, 7));
+    }
+  });
+
+  it('is between 0 and 1, 20,000 random films and bases (seed 500)', () => {
+    const next = uniform(500);
+    for (let i = 0; i < 20_000; i++) {
+      const film = filmOf(0.5 + 3 * next(), 4 * next() ** 2);
+      const base: ComplexIndex = next() < 0.5 ? [0.5 + 3 * next(), 0] : metalIndex(next(), next());
+      for (const value of filmReflectance(film, base, 1 - next() ** 4)) expect(value >= 0 && value <= 1, `${value} of ${JSON.stringify({ film, base })}`).toBe(true);
+    }
+  });
+});
+
+describe('white furnace below a film', () => {
+  const white = (name: string, fixed: Partial<OpenPbrParameters>, [low, high]: readonly [number, number], inside = false): void => {
+    it(`${name}: ${low} to ${high}, of all thicknesses, roughness 0.1 to 1`, () => {
+      for (const thin_film_thickness of [0.05, 0.3, 0.55, 1.2]) {
+        for (const specular_roughness of [0.1, 0.4, 0.7, 1]) {
+          for (const mu of [1, 0.7, 0.3, 0.1]) {
+            const p = resolveParameters({ base_color: [1, 1, 1], thin_film_weight: 1, thin_film_thickness, specular_roughness, ...fixed });
+            const { reflected, transmitted, pdf } = sphereFurnace(p, direction(mu), { inside }, 32);
+            reflected.forEach((value, i) => {
+              const sum = value + (transmitted[i] as number);
+              expect(sum, JSON.stringify({ p, mu })).toBeGreaterThan(low);
+              expect(sum, JSON.stringify({ p, mu })).toBeLessThan(high);
+            });
+            expect(pdf).toBeLessThan(1.004);
+          }
+        }
+      }
+    });
+  };
+  white('diffuse', { thin_film_ior: 1.8 }, [0.99, 1.01]);
+  white('diffuse, titanium oxide', { thin_film_ior: 2.5 }, [0.985, 1.015]);
+  white('metal', { base_metalness: 1, thin_film_ior: 1.5 }, [0.98, 1.001]);
+  white('glass', { transmission_weight: 1, thin_film_ior: 1.8 }, [0.985, 1.01]);
+  white('glass from inside', { transmission_weight: 1, thin_film_ior: 1.8 }, [0.98, 1.012], true);
+  white('bubble', { transmission_weight: 1, specular_ior: 1, thin_film_ior: 1.33, geometry_thin_walled: true }, [0.99, 1.005]);
+});
+
+describe('a film below other layers', () => {
+  it('is left out of the text where no material has one', () => {
+    expect(requiredFeatures([{}]).OPENPBR_THIN_FILM).toBe(false);
+    expect(requiredFeatures([{ thin_film_weight: 1 }]).OPENPBR_THIN_FILM).toBe(true);
+    expect(requiredFeatures([{ thin_film_weight: 1, thin_film_thickness: 0 }]).OPENPBR_THIN_FILM).toBe(false);
+    // A film reflects where the base does not.
+    expect(requiredFeatures([{ thin_film_weight: 1, specular_weight: 0 }]).OPENPBR_DIELECTRIC).toBe(true);
+  });
+});
