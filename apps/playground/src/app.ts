@@ -22,6 +22,7 @@ import { controlCamera } from './viewer/camera-controls';
 import { CameraRig } from './viewer/camera-rig';
 import { applyChange, present, type EffectsHost } from './viewer/effects';
 import { filmSize } from './viewer/film-size';
+import { Outline } from './viewer/outline';
 import { wireCommands } from './ui/commands';
 import { Session, type SessionStatus } from './viewer/session';
 
@@ -38,8 +39,10 @@ export class App {
   readonly #rig: CameraRig;
   readonly #behind: Behind;
   readonly #modelListeners: (() => void)[] = [];
+  readonly #environmentListeners: (() => void)[] = [];
   readonly #statusListeners: ((status: SessionStatus) => void)[] = [];
   #session!: Session;
+  #outline: Outline | undefined;
   #opened: Opened | undefined;
   #link: LinkContent | undefined;
   #loading: AbortController | undefined;
@@ -102,6 +105,8 @@ export class App {
 
   #wire(): void {
     const host = this.#host();
+    this.#outline = new Outline(byId<HTMLCanvasElement>('outline'), this.#session);
+    this.#selection.subscribe(({ instance }) => this.#outline?.show(instance));
     new ResizeObserver(() => this.#resize()).observe(this.#stage);
     controlCamera(this.#canvas, {
       orbit: (yaw, pitch) => this.#rig.move((orbit) => orbit.orbit(yaw, pitch)),
@@ -112,6 +117,8 @@ export class App {
     });
     this.#store.subscribe((next, before, source) => {
       if (source !== 'load') applyChange(next, before, host);
+      // Light and finishing leave shapes where they are.
+      if (next.camera !== before.camera || next.orbit !== before.orbit || next.lens !== before.lens || next.hidden !== before.hidden) this.#outline?.clear();
       if (next.scale !== before.scale) this.#resize();
       this.#drawBehind();
     });
@@ -135,9 +142,10 @@ export class App {
       if (environment) {
         await this.#environments.load(environment);
         this.#messages.clearErrors();
-        // Another file under the same choice is another environment.
-        if (this.#store.state.environment === 'file') this.#store.set({ environment: 'none' });
-        this.#store.set({ environment: 'file' }, { label: 'Environment' });
+        // Another file under the same choice is no change of state.
+        if (this.#store.state.environment === 'file') this.#session.edit('environment', (tracer) => tracer.setEnvironment(this.#environments.choose(this.#store.state, this.#opened?.scene)));
+        else this.#store.set({ environment: 'file' }, { label: 'Environment' });
+        for (const listener of this.#environmentListeners) listener();
       }
       if (model) await this.load({ kind: 'files', files: model.files, entry: model.entry });
       if (material && !model && this.#opened) {
@@ -200,6 +208,8 @@ export class App {
     this.#messages.clearErrors();
     if (again) this.#store.set(state);
     else this.#store.load(state);
+    const { exposure, toneMap, samples, noise, layer } = state;
+    this.#session.setView({ exposure, toneMap, samples, noise, layer }).catch((error: unknown) => this.#fail(error));
     if (this.#link?.model === opened.name) this.#link = undefined;
     if (!again) this.#selection.choose({ material: scene.instances[0]?.material ?? 0 });
     const sample = request.kind === 'sample' ? request.name : undefined;
@@ -229,6 +239,7 @@ export class App {
       environments: this.#environments,
       opened: () => this.#opened as Opened,
       onModel: (listener) => this.#modelListeners.push(listener),
+      onEnvironmentFile: (listener) => this.#environmentListeners.push(listener),
       onStatus: (listener) => this.#statusListeners.push(listener),
       openFiles: (files) => void this.#open(files),
       pickFiles: () => byId('files').click(),
@@ -283,6 +294,7 @@ export class App {
     if (width === 0 || height === 0) return;
     const ratio = window.devicePixelRatio || 1;
     const { scale, orbit } = this.#store.state;
+    this.#outline?.clear();
     this.#session.resize(filmSize(width, height, scale, ratio), filmSize(width, height, 'device', ratio));
     if (this.#opened && !orbit) this.#session.setCamera(this.#rig.camera(), false);
     this.#drawBehind();
@@ -295,6 +307,7 @@ export class App {
 
   #told(status: SessionStatus): void {
     this.#status.show(status);
+    if (status.state === 'done' || status.state === 'paused') this.#outline?.settled();
     for (const listener of this.#statusListeners) listener(status);
   }
 

@@ -78,7 +78,7 @@ export function pixelsOf(page: Page, png: Buffer): Promise<Pixels> {
 }
 
 /** What lies over the picture does not belong to it. */
-const ALONE = '.status, .messages, .tools { visibility: hidden } #picture { outline: none !important }';
+const ALONE = '.status, .messages, .tools, #outline { visibility: hidden } #picture { outline: none !important }';
 
 /** The canvas as the browser's window shows it. */
 export const photograph = async (canvas: Locator): Promise<Pixels> => pixelsOf(canvas.page(), await canvas.screenshot({ style: ALONE }));

@@ -52,7 +52,7 @@ export function codeSnippet(scene: Scene, name: string, state: State, camera: Ca
   const after: string[] = [];
   for (const [index, values] of Object.entries(state.materials)) after.push(`await tracer.setMaterial(${quoted(scene.materials[Number(index)]?.name ?? '')}, ${literal(values)});`);
   if (state.variant !== null) after.push(`await tracer.setVariant(${quoted(state.variant)});`);
-  for (const index of state.hidden) after.push(`await tracer.setVisibility(${index}, false); // ${scene.instances[index]?.name ?? ''}`);
+  for (const index of state.hidden) after.push(`await tracer.setVisibility(${index}, false); // ${(scene.instances[index]?.name ?? '').replace(/\s+/g, ' ')}`);
   if (state.relight) for (const [group, settings] of Object.entries(state.groups)) after.push(`await tracer.setLightGroup(${quoted(group)}, ${literal(settings)});`);
   const pose = state.clip === null ? '' : `, { animation: ${state.clip}, time: ${digits(state.time)} }`;
   if (Object.values(state.slots).some(Boolean)) before.push('// Pictures that were dropped on parameters are not in this program: add them to scene.images and scene.textures.');
@@ -65,7 +65,7 @@ export function codeSnippet(scene: Scene, name: string, state: State, camera: Ca
     "import { toneMapPixels } from '@glanz/tonemap';",
     ...imports,
     '',
-    `const scene = await loadGltf('/${BUILT_IN[name] ?? name}'${pose});`,
+    `const scene = await loadGltf(${quoted(`/${BUILT_IN[name] ?? name}`)}${pose});`,
     ...lines,
     ...before,
     `const camera = ${literal(camera)} as const;`,

@@ -176,4 +176,4 @@ export function selectField<T extends string>(options: Common<T> & { readonly ch
 }
 
 /** A heading over some fields. */
-export const section = (title: string, ...children: (Node | string)[]): HTMLElement => element('section', { class: 'section' }, element('h3', {}, title), ...children);
+export const section = (title: string, ...children: (Node | string)[]): HTMLElement => element('section', { class: 'section' }, element('h2', {}, title), ...children);

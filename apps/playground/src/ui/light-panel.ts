@@ -26,7 +26,7 @@ function studioButtons({ store }: Context): HTMLElement {
 
 /** Where the light comes from, what is behind the model, and the lights one by one. */
 export function lightPanel(context: Context): HTMLElement[] {
-  const { store, environments, opened, onModel, pickFiles } = context;
+  const { store, environments, opened, onModel, onEnvironmentFile, pickFiles } = context;
   const change = changer(store);
   const initial = store.state;
   const choice = selectField<EnvironmentChoice>({
@@ -77,8 +77,7 @@ export function lightPanel(context: Context): HTMLElement[] {
   });
   watch(store, ['environment'], fill);
   onModel(() => fill(store.state));
-  // A file may have come that lights the scene.
-  store.subscribe((state) => { if (state.environment === 'file') fill(state); });
+  onEnvironmentFile(() => fill(store.state));
   return [
     section('Environment', choice.element, studios, sky.element, constant.element, intensity.element, rotation.element),
     section('Background', background.element, color.element, blur.element, floor.element),

@@ -29,13 +29,13 @@ export function exportMenu(context: Context, behind: () => Behind | undefined): 
     if (tracer) download(await pictureAsPng(tracer, { exposure, toneMap }, bits, behind()), `${name()}.png`, 'image/png');
   };
   return [
-    element('h3', {}, 'Picture'),
+    element('h2', {}, 'Picture'),
     item('save-png', 'Save PNG', '8 bits, as on the screen', png(8), fail),
     item('save-png-16', 'Save 16-bit PNG', 'Tone-mapped, for retouching', png(16), fail),
     item('save-exr', 'Save EXR', 'Linear light, with all layers and lights', async () => {
       if (session.tracer) download(await pictureAsExr(session.tracer), `${name()}.exr`, 'image/x-exr');
     }, fail),
-    element('h3', {}, 'Model'),
+    element('h2', {}, 'Model'),
     item('save-gltf', 'Save glTF', 'The model with its materials as edited', async () => {
       const { modelAsGltf } = await import('../output/gltf-materials');
       const { bytes, extension } = await modelAsGltf(opened(), store.state);
@@ -76,13 +76,13 @@ export function shareMenu(context: Context): HTMLElement[] {
     }, fail);
   });
   return [
-    element('h3', {}, 'Link'),
+    element('h2', {}, 'Link'),
     item('copy-link', 'Copy link', 'Camera, materials, light and settings', async () => {
       const link = await linkTo(context);
       await copy(link, say, link.length > LONGEST_LINK ? 'The link, which is too long for some programs,' : 'The link');
     }, fail),
     note,
-    element('h3', {}, 'Code'),
+    element('h2', {}, 'Code'),
     item('copy-code', 'Copy code', 'TypeScript that makes the same picture', () => copy(code.textContent ?? '', say, 'The code'), fail),
     code,
   ];
