@@ -29,6 +29,7 @@ const tasks = {
   bench: { help: 'run a benchmark: npm run bench -- <name> --json FILE', run: (args) => node(join(root, 'tools/bench/src/main.mjs'), args, { cwd: userFolder() }) },
   'bench:pack': { help: 'bundle every benchmark for bare GPU machines into .gpu-bench/', run: (args) => node(join(root, 'tools/bench/src/pack.mjs'), args) },
   'contact-sheet': { help: 'render a folder of models into one page: npm run contact-sheet -- FOLDER', run: (args) => node(join(root, 'tools/contact-sheet/src/main.mjs'), args) },
+  newcomer: { help: "a newcomer's first minutes, timed: packed packages, a fresh project, the README's quick start, pixels", build: true, run: (args) => node(join(root, 'tools/newcomer/src/main.mjs'), args) },
   docs: { help: 'serve the documentation', run: (args) => node(bin('vitepress', 'bin/vitepress.js', join(root, 'apps/docs')), ['dev', join(root, 'apps/docs'), ...args], { cwd: join(root, 'apps/docs') }) },
   typecheck: { help: 'check the types of everything', run: (args) => node(bin('typescript-native', 'bin/tsc'), ['--noEmit', '-p', 'tsconfig.json', ...args]) },
   lint: { help: 'oxlint, warnings are errors', run: (args) => node(bin('oxlint', 'bin/oxlint'), ['--deny-warnings', ...args]) },

@@ -1,0 +1,107 @@
+import { createPushButton } from '@glanz/models';
+import { sceneToGlb } from '@glanz/models/gltf';
+import { photograph } from '@glanz/browser';
+import { expect, test, type Page } from '@playwright/test';
+import { linesOf, Project, quickStart } from './project';
+
+const only = process.env['GLANZ_NEWCOMER_ONLY'];
+const wanted = (name: string) => test.skip(only !== undefined && only !== name, 'GLANZ_NEWCOMER_ONLY asks for another');
+
+test.setTimeout(600_000);
+test.use({ viewport: { width: 480, height: 320 } });
+
+let project: Project;
+test.afterEach(() => project?.stop());
+
+const VITE = { typescript: '~6.0.3', vite: '^8.3.8' };
+const TSCONFIG = JSON.stringify({ compilerOptions: { target: 'ES2022', lib: ['ES2022', 'DOM', 'DOM.Iterable'], module: 'ESNext', moduleResolution: 'bundler', types: ['vite/client'], strict: true, skipLibCheck: true, noEmit: true, jsx: 'react-jsx', noUncheckedSideEffectImports: true }, include: ['src'] });
+const page = (body: string) => `<!doctype html>\n<html lang="en"><head><meta charset="utf-8" /><link rel="icon" href="data:," /><title>newcomer</title></head><body style="margin: 0">${body}</body></html>\n`;
+
+const model = async () => new Uint8Array(await sceneToGlb(createPushButton({ level: 'low' })));
+
+/** Opens a page and waits until the element shows a path-traced model. @returns What the page complained about. */
+async function sees(browser: Page, address: string, selector: string): Promise<{ readonly seconds: number; readonly complaints: readonly string[] }> {
+  const complaints: string[] = [];
+  browser.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
+  browser.on('pageerror', (error) => complaints.push(`uncaught: ${error.message}`));
+  const from = performance.now();
+  await browser.goto(address);
+  await expect.poll(async () => ((await browser.locator(selector).count()) > 0 ? (await photograph(browser.locator(selector))).colours : 0), { timeout: 120_000, intervals: [100] }).toBeGreaterThan(300);
+  return { seconds: (performance.now() - from) / 1000, complaints };
+}
+
+function report(name: string, lines: number, seconds: Record<string, number>): void {
+  const parts = [...Object.entries(project.timings).map(([what, ms]) => [what, ms / 1000] as const), ...Object.entries(seconds)].map(([what, value]) => `${what} ${value.toFixed(1)} s`);
+  console.log(`${name}: ${lines} lines; ${parts.join(', ')}`);
+}
+
+test('plain TypeScript', async ({ page: browser }) => {
+  wanted('typescript');
+  project = new Project('typescript');
+  const code = quickStart('viewer', 'ts');
+  project.manifest({}, VITE);
+  project.write('tsconfig.json', TSCONFIG);
+  project.write('index.html', page('<canvas style="display: block; width: 480px; height: 320px"></canvas><script type="module" src="/src/main.ts"></script>'));
+  project.write('src/main.ts', code);
+  project.write('public/chair.glb', await model());
+  await project.install();
+  await project.timed('tsc', () => project.run('npx', ['--no-install', 'tsc', '-p', '.']));
+  const dev = await sees(browser, await project.serve('dev'), 'canvas');
+  project.stop();
+  await project.timed('vite build', () => project.vite('build'));
+  const built = await sees(await browser.context().newPage(), await project.serve('preview'), 'canvas');
+  report('plain TypeScript', linesOf(code), { 'first pixels in development': dev.seconds, 'first pixels of the build': built.seconds });
+  expect(linesOf(code)).toBeLessThanOrEqual(15);
+  expect(built.complaints).toEqual([]);
+  expect(dev.complaints).toEqual([]);
+});
+
+test('React', async ({ page: browser }) => {
+  wanted('react');
+  project = new Project('react');
+  const code = quickStart('react', 'tsx');
+  project.manifest({ react: '^19.3.1', 'react-dom': '^19.3.1' }, { ...VITE, '@types/react': '^19.3.0', '@types/react-dom': '^19' });
+  project.write('tsconfig.json', TSCONFIG);
+  project.write('index.html', page('<div id="root"></div><script type="module" src="/src/main.tsx"></script>'));
+  project.write('src/Chair.tsx', code);
+  // As the template has it.
+  project.write('src/main.tsx', "import { StrictMode } from 'react'\nimport { createRoot } from 'react-dom/client'\nimport { Chair } from './Chair'\n\ncreateRoot(document.getElementById('root')!).render(<StrictMode><Chair /></StrictMode>)\n");
+  project.write('public/chair.glb', await model());
+  project.write('public/chair.webp', Buffer.from('R0lGODlhAQABAIAAAAAAAP///yH5BAEAAAAALAAAAAABAAEAAAIBRAA7', 'base64'));
+  await project.install();
+  await project.timed('tsc', () => project.run('npx', ['--no-install', 'tsc', '-p', '.']));
+  const dev = await sees(browser, await project.serve('dev'), 'glanz-viewer');
+  project.stop();
+  await project.timed('vite build', () => project.vite('build'));
+  const built = await sees(await browser.context().newPage(), await project.serve('preview'), 'glanz-viewer');
+  report('React', linesOf(code), { 'first pixels in development': dev.seconds, 'first pixels of the build': built.seconds });
+  expect(linesOf(code)).toBeLessThanOrEqual(15);
+  expect(built.complaints).toEqual([]);
+  expect(dev.complaints).toEqual([]);
+});
+
+test('a page that a server rendered', async ({ page: browser }) => {
+  wanted('server');
+  project = new Project('server');
+  const code = quickStart('react', 'tsx');
+  project.manifest({ react: '^19.3.1', 'react-dom': '^19.3.1' }, { ...VITE, '@types/react': '^19.3.0', '@types/react-dom': '^19' });
+  project.write('tsconfig.json', TSCONFIG);
+  project.write('src/Chair.tsx', code);
+  project.write('src/client.tsx', "import { hydrateRoot } from 'react-dom/client'\nimport { Chair } from './Chair'\n\nhydrateRoot(document.getElementById('root')!, <Chair />)\n");
+  project.write('public/chair.glb', await model());
+  project.write('public/chair.webp', Buffer.from('R0lGODlhAQABAIAAAAAAAP///yH5BAEAAAAALAAAAAABAAEAAAIBRAA7', 'base64'));
+  await project.install();
+  // In bare Node, nothing bundled: as a server that leaves packages alone imports them.
+  project.write('render.mjs', "import { createElement } from 'react'\nimport { renderToString } from 'react-dom/server'\nimport { GlanzViewer } from '@glanz/react'\nimport '@glanz/element/define'\nimport '@glanz/viewer'\nimport '@glanz/three'\nif (typeof GlanzViewer !== 'object') throw new Error('no component')\nprocess.stdout.write(renderToString(createElement(GlanzViewer, { src: '/chair.glb', alt: 'An oak chair' })))\n");
+  expect(await project.run(process.execPath, ['render.mjs'])).toBe('<glanz-viewer alt="An oak chair" src="/chair.glb"></glanz-viewer>');
+  // And bundled: the same component, rendered by the server's build, taken over by the client's.
+  project.write('src/server.tsx', "import { renderToString } from 'react-dom/server'\nimport { Chair } from './Chair'\n\nprocess.stdout.write(renderToString(<Chair />))\n");
+  await project.timed('vite build --ssr', () => project.vite('build', '--ssr', 'src/server.tsx', '--outDir', 'server'));
+  const html = await project.run(process.execPath, ['server/server.js']);
+  expect(html).toMatch(/<glanz-viewer [^>]*src="\/chair.glb"/);
+  project.write('index.html', page(`<div id="root">${html.slice(html.indexOf('<glanz-viewer'))}</div><script type="module" src="/src/client.tsx"></script>`));
+  await project.timed('vite build', () => project.vite('build'));
+  const built = await sees(browser, await project.serve('preview'), 'glanz-viewer');
+  report('a page that a server rendered', linesOf(code), { 'first pixels of the build': built.seconds });
+  expect(built.complaints).toEqual([]);
+});

@@ -1,0 +1,87 @@
+import { execFile, spawn, type ChildProcess } from 'node:child_process';
+import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+const root = fileURLToPath(new URL('../../../', import.meta.url));
+
+/** The first block of a language in a README: what people paste. */
+export function quickStart(packageName: string, language: string): string {
+  const text = readFileSync(join(root, 'packages', packageName, 'README.md'), 'utf8');
+  const block = new RegExp(`\`\`\`${language}\n([\\s\\S]*?)\n\`\`\``).exec(text)?.[1];
+  if (block === undefined) throw new Error(`packages/${packageName}/README.md has no block of ${language}.`);
+  return block;
+}
+
+/** Lines that somebody would have to write. */
+export const linesOf = (code: string): number => code.split('\n').filter((line) => line.trim() !== '').length;
+
+/** A fresh folder with a project in it. */
+export class Project {
+  readonly folder: string;
+  readonly timings: Record<string, number> = {};
+  #server: ChildProcess | undefined;
+
+  constructor(name: string) {
+    this.folder = join(root, '.cache', 'newcomer', name);
+    rmSync(this.folder, { recursive: true, force: true });
+    mkdirSync(this.folder, { recursive: true });
+  }
+
+  write(path: string, content: string | Uint8Array): void {
+    mkdirSync(dirname(join(this.folder, path)), { recursive: true });
+    writeFileSync(join(this.folder, path), content);
+  }
+
+  /** The manifest that `npm create vite` writes, with our tarballs, all of them, since no registry has them. */
+  manifest(dependencies: Record<string, string>, devDependencies: Record<string, string>): void {
+    const tarballs = JSON.parse(process.env['GLANZ_NEWCOMER'] ?? '{}') as Record<string, string>;
+    const local = Object.fromEntries(Object.entries(tarballs).map(([name, file]) => [name, `file:${file}`]));
+    this.write('package.json', JSON.stringify({ name: 'newcomer', private: true, version: '0.0.0', type: 'module', dependencies: { ...dependencies, ...local }, devDependencies, overrides: local }, undefined, 2));
+  }
+
+  async timed<T>(what: string, run: () => Promise<T>): Promise<T> {
+    const from = performance.now();
+    const result = await run();
+    this.timings[what] = performance.now() - from;
+    return result;
+  }
+
+  /** Runs a program in the project; its output where it fails. */
+  run(command: string, args: readonly string[]): Promise<string> {
+    return new Promise((resolve, reject) => {
+      execFile(command, args, { cwd: this.folder, env: { ...process.env, NODE_OPTIONS: '' }, maxBuffer: 1 << 26 }, (error, stdout, stderr) => (error ? reject(new Error(`${command} ${args.join(' ')}\n${stdout}\n${stderr}`)) : resolve(stdout)));
+    });
+  }
+
+  install(): Promise<string> {
+    return this.timed('npm install', () => this.run('npm', ['install', '--prefer-offline', '--no-audit', '--no-fund', '--loglevel', 'error']));
+  }
+
+  vite(...args: string[]): Promise<string> {
+    return this.run(process.execPath, [join('node_modules', 'vite', 'bin', 'vite.js'), ...args]);
+  }
+
+  /** Starts a server of Vite's. @returns Its address. */
+  serve(...args: string[]): Promise<string> {
+    const child = (this.#server = spawn(process.execPath, [join('node_modules', 'vite', 'bin', 'vite.js'), ...args, '--host', '127.0.0.1'], { cwd: this.folder, stdio: ['ignore', 'pipe', 'pipe'] }));
+    return new Promise((resolve, reject) => {
+      let printed = '';
+      const hear = (data: Buffer) => {
+        // Without the colours.
+        printed += data.toString().replaceAll(new RegExp(`${String.fromCharCode(27)}\\[[0-9;]*m`, 'g'), '');
+        const address = /http:\/\/127\.0\.0\.1:\d+/.exec(printed)?.[0];
+        if (address) resolve(address);
+      };
+      child.stdout.on('data', hear);
+      child.stderr.on('data', hear);
+      child.on('close', (code) => reject(new Error(`vite ${args.join(' ')} ended with ${code}:\n${printed}`)));
+    });
+  }
+
+  stop(): void {
+    this.#server?.removeAllListeners('close');
+    this.#server?.kill();
+    this.#server = undefined;
+  }
+}
