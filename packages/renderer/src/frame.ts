@@ -20,6 +20,8 @@ export function packFrame(camera: Camera, film: Film, scene: GpuScene, geometry:
     max_depth: options.maxDepth ?? 8,
     max_volume_depth: options.maxVolumeDepth ?? 256,
     light_count: scene.lightCount,
+    first_area_light: scene.areaLights.first,
+    area_light_count: scene.areaLights.count,
     background: (transparent ? BACKGROUND_TRANSPARENT | BACKGROUND_HIDDEN : 0) | (environment.visible ? 0 : BACKGROUND_HIDDEN),
     environment_radiance: environment.radiance,
     environment_probability: scene.environmentProbability,

@@ -58,6 +58,11 @@ export interface PathTracerOptions {
    * `independent`: PCG. Both are unbiased.
    */
   readonly sampler?: 'sobol' | 'independent';
+  /**
+   * How light samples choose among emissive triangles and lights. `tree` (default): by what each may give to the place, as a
+   * tree over them tells; `power`: by power alone, in constant time. Both are unbiased.
+   */
+  readonly lightSampling?: 'tree' | 'power';
   /** Added to texture levels of detail. Default −1: a texel is half a pixel wide or finer; the pixel filter does the rest. */
   readonly textureLodBias?: number;
   /**
@@ -152,7 +157,7 @@ export interface RenderStatistics {
   /** Stored triangles of the meshes in use. */
   readonly triangles: number;
   readonly instances: number;
-  /** Rows of the light table: emissive triangles and lights without size. */
+  /** Emissive triangles and lights of the scene. */
   readonly lights: number;
   readonly bvhMs: number;
   readonly uploadMs: number;

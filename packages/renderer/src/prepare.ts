@@ -53,7 +53,7 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
   onProgress?.({ stage: 'upload', done: 0 });
   const memory = new GpuMemory(device);
   try {
-    const gpuScene = await withErrorScopes(device, () => new GpuScene(device, memory, own, geometry, packed, { multipleScattering: options.multipleScattering ?? true, sampler: options.sampler ?? 'sobol', lightGroups: options.lightGroups ?? 'named' }, OPENPBR_TABLES));
+    const gpuScene = await withErrorScopes(device, () => new GpuScene(device, memory, own, geometry, packed, { multipleScattering: options.multipleScattering ?? true, sampler: options.sampler ?? 'sobol', lightGroups: options.lightGroups ?? 'named', lightSampling: options.lightSampling ?? 'tree' }, OPENPBR_TABLES));
     const t2 = performance.now();
     onProgress?.({ stage: 'upload', done: 1 });
     const cache = new KernelCache(device);

@@ -42,5 +42,47 @@ export interface DirectionalLight {
   direction: readonly [number, number, number];
 }
 
-/** A light without area. Those with area are emissive triangles. */
-export type Light = PointLight | SpotLight | DirectionalLight;
+/** What the lights with a size have in common. They block no light and reflect none: what lies behind them is seen through them. */
+interface AreaLight {
+  name: string;
+  /** Light group that its light is kept in; see `PathTracerOptions.lightGroups` of the renderer. */
+  light_group?: string;
+  color: readonly [number, number, number];
+  /** Radiance, W/(sr·m²), the same in all directions it shines into. */
+  intensity: number;
+  /** Its middle, metres. */
+  position: readonly [number, number, number];
+  /** Whether the camera sees it; mirrors and glass show it in any case. Default true. */
+  visible?: boolean;
+}
+
+/** A rectangle that shines to one side. */
+export interface RectangleLight extends AreaLight {
+  type: 'rectangle';
+  /** Unit vector out of the side that shines. */
+  direction: readonly [number, number, number];
+  /** Which way its width lies; what of it runs along the direction does not count. Default: level, that is, across +Y. */
+  tangent?: readonly [number, number, number];
+  /** Metres. */
+  width: number;
+  height: number;
+}
+
+/** A disk that shines to one side. */
+export interface DiskLight extends AreaLight {
+  type: 'disk';
+  /** Unit vector out of the side that shines. */
+  direction: readonly [number, number, number];
+  /** Metres. */
+  radius: number;
+}
+
+/** A sphere that shines all around, outwards. */
+export interface SphereLight extends AreaLight {
+  type: 'sphere';
+  /** Metres. */
+  radius: number;
+}
+
+/** A light other than an emissive mesh or the surroundings. */
+export type Light = PointLight | SpotLight | DirectionalLight | RectangleLight | DiskLight | SphereLight;

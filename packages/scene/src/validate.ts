@@ -96,12 +96,20 @@ function checkLight(light: Light, index: number): void {
   finite([light.intensity, ...light.color], what);
   if (light.intensity < 0 || light.color.some((c) => c < 0)) fail('value', `${what} has a negative intensity or colour.`);
   if (light.type !== 'directional') finite(light.position, `${what}: position`);
-  if (light.type !== 'point') {
+  if (light.type !== 'point' && light.type !== 'sphere') {
     finite(light.direction, `${what}: direction`);
     if (!(Math.hypot(...light.direction) > 0)) fail('value', `${what}: direction has no length.`);
   }
   if (light.type === 'spot' && !(light.inner_cone_angle >= 0 && light.inner_cone_angle <= light.outer_cone_angle && light.outer_cone_angle <= Math.PI / 2 + 1e-6)) {
     fail('value', `${what} has cone angles ${light.inner_cone_angle} and ${light.outer_cone_angle}; they must satisfy 0 ≤ inner ≤ outer ≤ π/2.`);
+  }
+  const sizes = light.type === 'rectangle' ? [light.width, light.height] : light.type === 'disk' || light.type === 'sphere' ? [light.radius] : [];
+  finite(sizes, `${what}: size`);
+  if (sizes.some((size) => !(size > 0))) fail('value', `${what} has a size of ${sizes.join(' × ')}; it must be above 0.`);
+  if (light.type === 'rectangle' && light.tangent) {
+    finite(light.tangent, `${what}: tangent`);
+    const [d, t] = [light.direction, light.tangent];
+    if (!(Math.hypot(d[1] * t[2] - d[2] * t[1], d[2] * t[0] - d[0] * t[2], d[0] * t[1] - d[1] * t[0]) > 0)) fail('value', `${what}: tangent lies along the direction.`);
   }
 }
 

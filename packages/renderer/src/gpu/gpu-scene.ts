@@ -9,7 +9,7 @@ import type { LightGroupMode } from '../options';
 import { packInstances, packTlas, type Geometry, type MeshRegion, type PackedGeometry, type PackedMesh } from '../scene/geometry';
 import { interiorFlags } from '../scene/interiors';
 import { lightGroupTable, type LightGroupTable } from '../scene/light-groups';
-import { buildLightTable, type LightTable } from '../scene/lights';
+import { buildLightTable, type LightSampling, type LightTable } from '../scene/lights';
 import { hasCoatFrames, hasRanges, isOpaque, packBindings, packMaterial, texturedParameters, turnsTangent, usedTextures, type TexturedParameterInfo } from '../scene/materials';
 import { planTextures, type TexturePlan } from '../scene/textures';
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_STORAGE, GPU_TEXTURE_BINDING, GPU_TEXTURE_COPY_DST, type GpuMemory } from './buffers';
@@ -23,6 +23,7 @@ export interface SceneChoices {
   readonly multipleScattering: boolean;
   readonly sampler: 'sobol' | 'independent';
   readonly lightGroups: LightGroupMode;
+  readonly lightSampling: LightSampling;
 }
 
 /** The energy tables, which come in a chunk of their own. */
@@ -91,6 +92,11 @@ export class GpuScene {
     return this.#lights.count;
   }
 
+  /** The lights with a size of their own among the light records. */
+  get areaLights(): { readonly first: number; readonly count: number } {
+    return { first: this.#lights.firstArea, count: this.#lights.areaCount };
+  }
+
   /** Probability that a light sample goes to the environment rather than to the table of lights. */
   get environmentProbability(): number {
     if (!this.#environment.table) return 0;
@@ -126,6 +132,8 @@ export class GpuScene {
         ENVIRONMENT_MAP: this.#environment.pixels !== undefined,
         ENVIRONMENT_SAMPLED: sampled,
         LIGHTS: lights,
+        LIGHT_TREE: this.#lights.tree,
+        AREA_LIGHTS: this.#lights.areaCount > 0,
         CATCHER: this.#geometry.bare !== undefined,
         LIGHT_GROUPS: this.#choices.lightGroups !== 'off',
         NEXT_EVENT: lights || sampled,
@@ -285,7 +293,7 @@ export class GpuScene {
       }
       return (this.#geometry.regions[mesh] as MeshRegion).firstTriangle + (order[triangle] as number);
     };
-    return buildLightTable(this.#scene, { instanceSlots: this.#geometry.instanceSlots, leafTriangle }, this.#geometry.radius, this.#groups);
+    return buildLightTable(this.#scene, { instanceSlots: this.#geometry.instanceSlots, leafTriangle }, this.#geometry.radius, this.#groups, this.#choices.lightSampling);
   }
 
   #upload(name: ResourceName, data: ArrayBufferView<ArrayBuffer> | ArrayBuffer): void {

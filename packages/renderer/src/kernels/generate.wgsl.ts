@@ -1,7 +1,7 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { camera } from './camera.wgsl';
 import { filter } from './filter.wgsl';
-import { pathSample } from './path.wgsl';
+import { pathCone, pathSample } from './path.wgsl';
 
 /** Starts the paths of a batch: path i is sample ⌊i / pixels⌋ of pixel i mod pixels. */
 export const generate = (path: WgslModule): WgslModule => wgslModule(
@@ -18,7 +18,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   paths[index].origin = ray.origin;
   paths[index].pdf = 0.0;
   paths[index].direction = ray.direction;
-  paths[index].cone_width = frame.cone_width;
+  paths[index].cone = cone_pack(frame.cone_width, vec3f(0.0));
   paths[index].throughput = vec3f(1.0);
   // 2 until something but glass has been met: it counts as 1, see path_plane.
   paths[index].alpha = 2.0;
@@ -40,5 +40,5 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   queues.items[index] = index;
 }
 `,
-  [path, pathSample, camera, filter],
+  [path, pathSample, pathCone, camera, filter],
 );

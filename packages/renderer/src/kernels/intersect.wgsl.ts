@@ -1,11 +1,14 @@
 import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
+import { areaLightGathering } from './area-lights.wgsl';
 import { pathSample } from './path.wgsl';
 import { volumeModule } from './volume.wgsl';
 
 /** Finds the nearest surface of every active path; inside of media, what happens on the way there. */
-export const intersect = (path: WgslModule, traversal: WgslModule): WgslModule => wgslModule(
-  'renderer/intersect',
-  /* wgsl */ `
+export function intersect(path: WgslModule, traversal: WgslModule): WgslModule {
+  const areas = areaLightGathering(path);
+  return wgslModule(
+    'renderer/intersect',
+    /* wgsl */ `
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3u) {
   if (id.x >= queues.active_count) { return; }
@@ -24,8 +27,12 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   }
   //#endif
   let hit = bvh_closest_hit(paths[index].origin, paths[index].direction, 0.0, 3.4e38);
+  //#if AREA_LIGHTS
+  area_light_gather(index, paths[index].origin, paths[index].direction, hit.t, paths[index].throughput, vec3f(0.0), false);
+  //#endif
   paths[index].hit = vec4u(bitcast<u32>(hit.u), bitcast<u32>(hit.v), hit.triangle, hit.instance);
 }
 `,
-  [path, gated('BVH_FILTER', pathSample), traversal, gated('MEDIA', volumeModule(traversal))],
-);
+    [path, gated('BVH_FILTER', pathSample), traversal, gated('AREA_LIGHTS', areas), gated('MEDIA', volumeModule(traversal, areas))],
+  );
+}

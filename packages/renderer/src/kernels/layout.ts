@@ -41,6 +41,9 @@ export const frameStruct = struct('Frame', {
   /** Most bounces: diffuse, specular, transmitted, in volumes. */
   bounce_limits: 'vec4u',
   max_volume_depth: 'u32',
+  /** The lights with a size of their own among the light records. */
+  first_area_light: 'u32',
+  area_light_count: 'u32',
 });
 
 /** The part of the picture and the samples that one batch works on. */
@@ -78,7 +81,10 @@ export const mediaShadowStruct = struct('Shadow', {
 /** Which struct a scene's kernels use. */
 export const shadowLayout = (flags: Readonly<Record<string, boolean>>) => (flags.NULL_SURFACES ? mediaShadowStruct : shadowStruct);
 
-/** An emissive triangle or a light without size, and its row of the alias table. */
+/**
+ * An emissive triangle or one of the scene's lights, and its row of the alias table; or a node of the light tree: `a` middle,
+ * `probability` radius, `b` axis, `c` cosines of spread and reach and the energy, `other` the first child or the light.
+ */
 export const lightStruct = struct('Light', {
   a: 'vec3f',
   kind: 'u32',
@@ -86,7 +92,7 @@ export const lightStruct = struct('Light', {
   /** Probability that the table picks this light, among the lights other than the environment. */
   probability: 'f32',
   c: 'vec3f',
-  /** The light taken instead when the draw falls beyond `keep`. */
+  /** The light taken instead when the draw falls beyond `keep`; with a tree the way to it, see `LightTree`. */
   other: 'u32',
   color: 'vec3f',
   keep: 'f32',
@@ -173,10 +179,18 @@ export const LIGHT_TRIANGLE = 0;
 export const LIGHT_POINT = 1;
 export const LIGHT_SPOT = 2;
 export const LIGHT_DIRECTIONAL = 3;
+export const LIGHT_RECTANGLE = 4;
+export const LIGHT_DISK = 5;
+export const LIGHT_SPHERE = 6;
 /** Added to a triangle light's kind: it shines from both sides. */
 export const LIGHT_TWO_SIDED = 16;
 /** Added to a triangle light's kind: the instance mirrors, so the front is where the world-space winding is clockwise. */
 export const LIGHT_MIRRORED = 32;
+/** Added to the kind of a light with a size: the camera does not see it. */
+export const LIGHT_HIDDEN = 64;
+/** Kinds of nodes of the light tree, added up. */
+export const LIGHT_NODE_LEAF = 1;
+export const LIGHT_NODE_DISTANT = 2;
 /** Frame.background bits: the environment is hidden from the camera; misses leave the pixel transparent. */
 export const BACKGROUND_HIDDEN = 1;
 export const BACKGROUND_TRANSPARENT = 2;

@@ -1,6 +1,8 @@
-import { wgslModule, type WgslModule } from '@glanz/wgsl';
-import { GROUP_SHIFT, LIGHT_DIRECTIONAL, LIGHT_MIRRORED, LIGHT_POINT, LIGHT_SPOT, LIGHT_TWO_SIDED, lightStruct } from './layout';
+import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
+import { areaLightSampling } from './area-lights.wgsl';
 import { environment } from './environment.wgsl';
+import { GROUP_SHIFT, LIGHT_DIRECTIONAL, LIGHT_MIRRORED, LIGHT_POINT, LIGHT_RECTANGLE, LIGHT_SPOT, LIGHT_TWO_SIDED, lightStruct } from './layout';
+import { lightChoice } from './light-choice.wgsl';
 import { random } from './random.wgsl';
 
 /** One light sample: where from, how much, how likely. */
@@ -22,8 +24,8 @@ struct LightSample {
 );
 
 /**
- * Next-event estimation over all lights: the environment with a fixed probability, otherwise one row of an alias table
- * over emissive triangles and lights without size, weighted by power.
+ * Next-event estimation over all lights: the environment with a fixed probability, otherwise one of the emissive triangles
+ * and the scene's lights, chosen by the light tree (LIGHT_TREE) or by power alone.
  */
 export function lightsModule(surface: WgslModule): WgslModule {
   return wgslModule(
@@ -39,22 +41,31 @@ fn light_emission(s: Surface, wo: vec3f) -> vec3f {
   return openpbr_emission(s.parameters, vec3f(sqrt(max(1.0 - cosine * cosine, 0.0)), 0.0, cosine));
 }
 
-// Density with which light_sample would have chosen this emissive point from so far away, over solid angle.
-fn light_pdf(s: Surface, reach: f32, direction: vec3f) -> f32 {
+// Density with which light_sample would have chosen this emissive point from so far away, over solid angle; "normal" as it
+// was given then.
+fn light_pdf(s: Surface, reach: f32, direction: vec3f, normal: vec3f) -> f32 {
   if (s.light == 0xffffffffu) { return 0.0; }
   let cosine = abs(dot(s.geometric, direction));
   let area = 0.5 * s.double_area;
-  return (1.0 - frame.environment_probability) * lights[s.light].probability * (reach * reach) / max(cosine * area, 1e-30);
+  return light_choice(s.light, s.position - reach * direction, normal) * (reach * reach) / max(cosine * area, 1e-30);
 }
 
-fn light_table_sample(u: vec3f, position: vec3f) -> LightSample {
+fn light_table_sample(u: vec3f, position: vec3f, normal: vec3f) -> LightSample {
   var result = LightSample(vec3f(0.0, 1.0, 0.0), 0.0, vec3f(0.0), 0.0, false, 0u);
+  //#if LIGHT_TREE
+  let pick = light_tree_pick(u.x, position, normal);
+  let index = pick.light;
+  let chance = pick.probability;
+  if (chance <= 0.0) { return result; }
+  //#else
   let at = u.x * f32(frame.light_count);
   var index = min(u32(at), frame.light_count - 1u);
   let inside = at - f32(index);
   if (inside >= lights[index].keep) { index = lights[index].other; }
+  let chance = lights[index].probability;
+  //#endif
   let light = lights[index];
-  let choice = (1.0 - frame.environment_probability) * light.probability;
+  let choice = (1.0 - frame.environment_probability) * chance;
   let kind = light.kind & 15u;
   result.group = light.kind >> ${GROUP_SHIFT}u;
   if (kind == ${LIGHT_DIRECTIONAL}u) {
@@ -78,21 +89,32 @@ fn light_table_sample(u: vec3f, position: vec3f) -> LightSample {
     result.pdf = choice;
     return result;
   }
+  //#if AREA_LIGHTS
+  if (kind >= ${LIGHT_RECTANGLE}u) {
+    let sample = area_light_sample(index, u.yz, position);
+    result.direction = sample.direction;
+    result.distance = sample.distance;
+    result.radiance = light.color;
+    result.pdf = choice * sample.pdf;
+    result.extended = true;
+    return result;
+  }
+  //#endif
   // A uniform point on the triangle.
   let root = sqrt(u.y);
   let b1 = root * (1.0 - u.z);
   let b2 = root * u.z;
   let edge_1 = light.b - light.a;
   let edge_2 = light.c - light.a;
-  var normal = cross(edge_1, edge_2);
-  let double_area = length(normal);
-  normal /= max(double_area, 1e-37);
-  if ((light.kind & ${LIGHT_MIRRORED}u) != 0u) { normal = -normal; }
+  var face = cross(edge_1, edge_2);
+  let double_area = length(face);
+  face /= max(double_area, 1e-37);
+  if ((light.kind & ${LIGHT_MIRRORED}u) != 0u) { face = -face; }
   let offset = light.a + b1 * edge_1 + b2 * edge_2 - position;
   let distance2 = dot(offset, offset);
   let distance = sqrt(distance2);
   let direction = offset / max(distance, 1e-30);
-  let cosine = -dot(normal, direction);
+  let cosine = -dot(face, direction);
   if ((cosine <= 0.0 && (light.kind & ${LIGHT_TWO_SIDED}u) == 0u) || abs(cosine) * double_area <= 1e-30) { return result; }
   //#if EMISSION_TEXTURES
   let s = surface_load(vec4u(bitcast<u32>(b1), bitcast<u32>(b2), light.ids.y, light.ids.x), position, direction, 0.0);
@@ -110,7 +132,8 @@ fn light_table_sample(u: vec3f, position: vec3f) -> LightSample {
 }
 //#endif
 
-fn light_sample(u: vec4f, position: vec3f) -> LightSample {
+// "normal": of an opaque surface; 0 where light may come from all sides.
+fn light_sample(u: vec4f, position: vec3f, normal: vec3f) -> LightSample {
   //#if ENVIRONMENT_SAMPLED
   if (u.w < frame.environment_probability) {
     let direction = environment_sample(u.xy);
@@ -118,12 +141,12 @@ fn light_sample(u: vec4f, position: vec3f) -> LightSample {
   }
   //#endif
   //#if LIGHTS
-  return light_table_sample(u.xyz, position);
+  return light_table_sample(u.xyz, position, normal);
   //#else
   return LightSample(vec3f(0.0, 1.0, 0.0), 0.0, vec3f(0.0), 0.0, false, 0u);
   //#endif
 }
 `,
-    [surface, lightStruct.module, lightSampleStruct, environment, random],
+    [surface, lightStruct.module, lightSampleStruct, environment, random, gated('LIGHTS', lightChoice), gated('AREA_LIGHTS', areaLightSampling)],
   );
 }

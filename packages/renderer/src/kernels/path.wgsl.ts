@@ -29,7 +29,8 @@ const COMMON = {
   /** Solid-angle density with which the direction was chosen. */
   pdf: 'f32',
   direction: 'vec3f',
-  cone_width: 'f32',
+  /** Width of its footprint at the origin, and the normal there; see `pathCone`. */
+  cone: 'u32',
   throughput: 'vec3f',
   alpha: 'f32',
   /** Barycentrics as float bits, triangle, instance; see BvhHit. */
@@ -46,6 +47,39 @@ fn path_sample(index: u32) -> u32 {
   //#else
   return batch.sample_offset + index / batch.pixel_count;
   //#endif
+}
+`,
+);
+
+/**
+ * A footprint's width and a normal in one word: the upper half of the width's bits, and two bytes of an octahedral normal
+ * (Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", JCGT 2014).
+ *
+ * - `fn cone_pack(width: f32, normal: vec3f) -> u32`; a normal of 0 is kept as such.
+ * - `fn cone_width(cone: u32) -> f32`
+ * - `fn cone_normal(cone: u32) -> vec3f`
+ */
+export const pathCone = wgslModule(
+  'renderer/path-cone',
+  /* wgsl */ `
+fn cone_fold(p: vec2f) -> vec2f { return (1.0 - abs(p.yx)) * select(vec2f(-1.0), vec2f(1.0), p >= vec2f(0.0)); }
+
+fn cone_pack(width: f32, normal: vec3f) -> u32 {
+  let upper = bitcast<u32>(width) & 0xffff0000u;
+  if (all(normal == vec3f(0.0))) { return upper; }
+  let flat = normal.xy / (abs(normal.x) + abs(normal.y) + abs(normal.z));
+  let folded = select(flat, cone_fold(flat), normal.z < 0.0);
+  let bytes = vec2u(128.5 + 127.0 * clamp(folded, vec2f(-1.0), vec2f(1.0)));
+  return upper | (bytes.y << 8u) | bytes.x;
+}
+
+fn cone_width(cone: u32) -> f32 { return bitcast<f32>(cone & 0xffff0000u); }
+
+fn cone_normal(cone: u32) -> vec3f {
+  if ((cone & 0xffffu) == 0u) { return vec3f(0.0); }
+  let folded = (vec2f(f32(cone & 255u), f32((cone >> 8u) & 255u)) - 128.0) / 127.0;
+  let z = 1.0 - abs(folded.x) - abs(folded.y);
+  return normalize(vec3f(select(folded, cone_fold(folded), z < 0.0), z));
 }
 `,
 );

@@ -83,7 +83,7 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
     case 'advance':
       return { root: advance, resources: ['queues', 'dispatch'], textures: false };
     case 'intersect': {
-      const resources = [...new Set([...filter, ...(flags.SCATTERING ? (['frame', 'batch'] as const) : []), ...(flags.MEDIA ? (['materials'] as const) : []), ...walking])];
+      const resources = [...new Set([...filter, ...(flags.SCATTERING ? (['frame', 'batch'] as const) : []), ...(flags.AREA_LIGHTS ? (['frame', 'lights'] as const) : []), ...(flags.MEDIA ? (['materials'] as const) : []), ...walking])];
       return { root: intersect(path, traversal('closest')), resources: [...resources, 'paths', 'queues', 'nodes', 'triangles', 'instances'], textures: flags.BVH_FILTER === true };
     }
     case 'connect': {

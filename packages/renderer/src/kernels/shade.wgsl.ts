@@ -5,7 +5,7 @@ import { dispersion } from './dispersion.wgsl';
 import { media } from './media.wgsl';
 import { random } from './random.wgsl';
 import { shortcuts } from './shortcuts.wgsl';
-import { pathSample } from './path.wgsl';
+import { pathCone, pathSample } from './path.wgsl';
 
 /**
  * One vertex of every active path: what the surface emits, a light sample to be tested by the connect kernel, and the
@@ -94,7 +94,7 @@ fn shade_scattering(index: u32, iteration: u32, depth: u32) -> ShadeResult {
   let anisotropy = media_of(media_top(stack)).anisotropy;
   shade_random(index, iteration);
   //#if NEXT_EVENT
-  let light = light_sample(vec4f(random_2(), random_2()), origin);
+  let light = light_sample(vec4f(random_2(), random_2()), origin, vec3f(0.0));
   if (light.pdf > 0.0) {
     let phase = openpbr_phase_eval(anisotropy, wo, light.direction);
     let weight = select(1.0, light.pdf / (light.pdf + phase), light.extended);
@@ -124,6 +124,7 @@ fn shade_scattering(index: u32, iteration: u32, depth: u32) -> ShadeResult {
   //#endif
   paths[index].pdf = density;
   paths[index].direction = wi;
+  paths[index].cone = cone_pack(cone_width(paths[index].cone), vec3f(0.0));
   paths[index].throughput = carried;
   paths[index].travelled = 0.0;
   paths[index].counters += 1u;
@@ -154,7 +155,7 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   let origin = paths[index].origin;
   let direction = paths[index].direction;
   var throughput = paths[index].throughput;
-  let cone_width = paths[index].cone_width;
+  let width = cone_width(paths[index].cone);
   let wo = -direction;
   //#if CATCHER
   if (depth == 0u) {
@@ -168,7 +169,7 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
     }
   }
   //#endif
-  var s = surface_load(hit, origin, direction, cone_width);
+  var s = surface_load(hit, origin, direction, width);
   // Everything reflects on both sides: the frame turns to the side the path came from.
   let front = dot(s.geometric, wo) >= 0.0;
   let side = select(-1.0, 1.0, front);
@@ -198,7 +199,7 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
     var weight = 1.0;
     if (depth > 0u) {
       let pdf = paths[index].pdf;
-      weight = pdf / (pdf + light_pdf(s, reach, direction));
+      weight = pdf / (pdf + light_pdf(s, reach, direction, cone_normal(paths[index].cone)));
     }
     var arriving = throughput * emitted * weight;
     //#if CLAMP_INDIRECT
@@ -251,8 +252,15 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   let start = bvh_offset_origin(s.position, geometric, s.magnitude);
   shade_random(index, iteration);
 
+  // The next vertex asks for the chance of a light with this normal, so it is rounded before.
+  //#if OPENPBR_TRANSMISSION
+  let opaque = s.parameters.transmission_weight <= 0.0 && s.parameters.subsurface_weight <= 0.0;
+  let cone = cone_pack(width + frame.cone_spread * distance(origin, s.position), select(vec3f(0.0), geometric, opaque));
+  //#else
+  let cone = cone_pack(width + frame.cone_spread * distance(origin, s.position), geometric);
+  //#endif
   //#if NEXT_EVENT
-  let light = light_sample(vec4f(random_2(), random_2()), start);
+  let light = light_sample(vec4f(random_2(), random_2()), start, cone_normal(cone));
   let light_side = dot(geometric, light.direction);
   let local_wi = light.direction * to_world;
   //#if OPENPBR_TRANSMISSION
@@ -335,7 +343,7 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   //#endif
   paths[index].pdf = scattered.pdf;
   paths[index].direction = next;
-  paths[index].cone_width = cone_width + frame.cone_spread * distance(origin, s.position);
+  paths[index].cone = cone;
   paths[index].throughput = carried;
   result.goes_on = true;
   return result;
@@ -365,6 +373,6 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation_inde
   if (result.asks) { shadows[shade_shadow_base + shadow_slot] = result.shadow; }
 }
 `,
-    [path, pathSample, surface, lights, openpbr, energy, random, shortcuts, bvhOffset, gated('MEDIA', media), gated('DISPERSION', dispersion)],
+    [path, pathSample, pathCone, surface, lights, openpbr, energy, random, shortcuts, bvhOffset, gated('MEDIA', media), gated('DISPERSION', dispersion)],
   );
 }

@@ -1,6 +1,7 @@
 import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
 import type { TexturedParameterInfo } from '../scene/materials';
 import { random } from './random.wgsl';
+import { tangent } from './tangent.wgsl';
 import { bindingStruct, instanceStruct, materialStruct, MATERIAL_MASK, meshStruct } from './layout';
 
 const word = (field: Parameters<typeof bindingStruct.offsetOf>[0]) => bindingStruct.offsetOf(field) / 4;
@@ -206,13 +207,6 @@ struct Surface {
   //#endif
 }
 
-// Branch-free frame (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017).
-fn surface_tangent(n: vec3f) -> vec3f {
-  let s = select(-1.0, 1.0, n.z >= 0.0);
-  let a = -1.0 / (s + n.z);
-  return vec3f(1.0 + s * n.x * n.x * a, s * n.x * n.y * a, -s * n.x);
-}
-
 fn surface_normal_to_world(columns: mat3x3f, orientation: f32, n: vec3f) -> vec3f {
   return orientation * (cross(columns[1], columns[2]) * n.x + cross(columns[2], columns[0]) * n.y + cross(columns[0], columns[1]) * n.z);
 }
@@ -336,6 +330,6 @@ fn surface_load(hit: vec4u, origin: vec3f, direction: vec3f, cone_width: f32) ->
   return s;
 }
 `,
-    [material, instanceStruct.module, gated('TEXTURES', attributes)],
+    [material, instanceStruct.module, tangent, gated('TEXTURES', attributes)],
   );
 }

@@ -14,7 +14,7 @@ export const WALK_STEPS = 16;
  * Wavelength Spectral Sampling"). Light samples are taken only in interiors without an optical surface: no straight way
  * leads out of the others.
  */
-export function volumeModule(traversal: WgslModule): WgslModule {
+export function volumeModule(traversal: WgslModule, areas: WgslModule): WgslModule {
   return wgslModule(
     'renderer/volume',
     /* wgsl */ `
@@ -31,6 +31,9 @@ fn volume_travel(index: u32, entry: u32) {
   }
   //#endif
   let hit = bvh_closest_hit(paths[index].origin, paths[index].direction, 0.0, 3.4e38);
+  //#if AREA_LIGHTS
+  area_light_gather(index, paths[index].origin, paths[index].direction, hit.t, paths[index].throughput, medium.extinction, false);
+  //#endif
   paths[index].throughput *= exp(-medium.extinction * hit.t);
   volume_store(index, hit);
 }
@@ -47,6 +50,9 @@ fn volume_walk(index: u32, entry: u32, medium: OpenPbrMedium) {
     if ((counters >> 16u) >= frame.max_volume_depth) {
       // From here on what scatters goes straight on, and only absorption counts.
       let hit = bvh_closest_hit(origin, direction, 0.0, 3.4e38);
+      //#if AREA_LIGHTS
+      area_light_gather(index, origin, direction, hit.t, throughput, medium.extinction - medium.scattering, false);
+      //#endif
       paths[index].throughput = throughput * exp((medium.scattering - medium.extinction) * hit.t);
       volume_store(index, hit);
       break;
@@ -56,6 +62,9 @@ fn volume_walk(index: u32, entry: u32, medium: OpenPbrMedium) {
     let rate = select(select(medium.extinction.z, medium.extinction.y, u.x < share.x + share.y), medium.extinction.x, u.x < share.x);
     let reach = min(-log(1.0 - u.y) / max(rate, 1e-37), 3.4e38);
     let hit = bvh_closest_hit(origin, direction, 0.0, reach);
+    //#if AREA_LIGHTS
+    area_light_gather(index, origin, direction, min(hit.t, reach), throughput, medium.extinction, true);
+    //#endif
     if (hit.instance != 0xffffffffu || reach > 3e38) {
       let passed = exp(-medium.extinction * hit.t);
       paths[index].throughput = throughput * passed / max(dot(share, passed), 1e-37);
@@ -96,6 +105,6 @@ fn volume_walk(index: u32, entry: u32, medium: OpenPbrMedium) {
 }
 //#endif
 `,
-    [media, traversal, gated('SCATTERING', pathSample), gated('SCATTERING', random), gated('SCATTERING', openpbrPhase)],
+    [media, traversal, gated('AREA_LIGHTS', areas), gated('SCATTERING', pathSample), gated('SCATTERING', random), gated('SCATTERING', openpbrPhase)],
   );
 }

@@ -1,17 +1,27 @@
 import { resolveParameters } from '@glanz/openpbr';
-import type { Instance, Light, Material, Mesh, Scene } from '@glanz/scene';
-import { LIGHT_DIRECTIONAL, LIGHT_MIRRORED, LIGHT_POINT, LIGHT_SPOT, LIGHT_TRIANGLE, LIGHT_TWO_SIDED, GROUP_SHIFT, lightStruct, NONE } from '../kernels/layout';
+import type { Instance, Material, Mesh, Scene } from '@glanz/scene';
+import { GROUP_SHIFT, LIGHT_MIRRORED, LIGHT_NODE_DISTANT, LIGHT_NODE_LEAF, LIGHT_TRIANGLE, LIGHT_TWO_SIDED, lightStruct, NONE } from '../kernels/layout';
 import { buildAliasTable } from './alias-table';
 import { EmissionEstimate } from './emission';
 import type { LightGroupTable } from './light-groups';
+import { buildLightTree, type LightTree, type TreeLights } from './light-tree';
+import { hasSize, writeLight } from './light-records';
 import { emittedRadiance } from './materials';
 import { determinant3, transformPoint } from './matrix';
 
+/** How the lights are chosen from, see `PathTracerOptions.lightSampling`. */
+export type LightSampling = 'tree' | 'power';
+
 /** All lights but the environment, ready for the GPU. */
 export interface LightTable {
-  /** Light records; at least one, so that the buffer is never empty. */
+  /** Light records, behind them the nodes of the tree; at least one, so that the buffer is never empty. */
   readonly records: ArrayBuffer;
   readonly count: number;
+  /** Whether there is a tree; its root follows the last light. */
+  readonly tree: boolean;
+  /** The lights with a size of their own: where their records begin, and how many there are. */
+  readonly firstArea: number;
+  readonly areaCount: number;
   /** For each instance of the scene: index of the light of its triangle 0, or NONE. */
   readonly firstLight: Uint32Array;
   /** Estimated power of all of them. */
@@ -29,12 +39,13 @@ export interface LightGeometry {
 const luminance = (c: ArrayLike<number>) => 0.2126 * (c[0] as number) + 0.7152 * (c[1] as number) + 0.0722 * (c[2] as number);
 
 /**
- * Collects emissive triangles and lights without size into one table, weighted by power.
+ * Collects emissive triangles and the scene's lights into one table: triangles, lights with a size, lights without.
  *
  * @param sceneRadius Radius of the scene's bounding sphere, metres, to weigh directional lights.
  * @param groups Which light group each belongs to.
+ * @param sampling Whether a tree is built over them; a single one needs none.
  */
-export function buildLightTable(scene: Scene, geometry: LightGeometry, sceneRadius: number, groups: LightGroupTable): LightTable {
+export function buildLightTable(scene: Scene, geometry: LightGeometry, sceneRadius: number, groups: LightGroupTable, sampling: LightSampling): LightTable {
   const firstLight = new Uint32Array(scene.instances.length).fill(NONE);
   const emitters: { instance: number; slot: number; base: number }[] = [];
   let count = 0;
@@ -46,33 +57,58 @@ export function buildLightTable(scene: Scene, geometry: LightGeometry, sceneRadi
     emitters.push({ instance: index, slot, base: count });
     count += (scene.meshes[instance.mesh] as Mesh).indices.length / 3;
   });
-  const punctual = count;
+  const firstArea = count;
+  const areas = scene.lights.filter(hasSize);
+  const others = scene.lights.filter((light) => !hasSize(light));
   count += scene.lights.length;
-  const records = lightStruct.allocate(Math.max(count, 1));
   const weights = new Float64Array(count);
-  for (const { instance, slot, base } of emitters) writeTriangles(records, weights, scene, instance, slot, base, geometry, groups);
-  scene.lights.forEach((light, i) => (weights[punctual + i] = writeLight(records, punctual + i, light, sceneRadius, groups.light(light) << GROUP_SHIFT)));
+  const bounds: TreeLights = { bounds: new Float64Array(6 * count), axes: new Float64Array(3 * count), spreads: new Float64Array(count), reaches: new Float64Array(count), energies: new Float64Array(count) };
+  const lights = lightStruct.allocate(Math.max(count, 1));
+  for (const { instance, slot, base } of emitters) writeTriangles(lights, weights, bounds, scene, instance, slot, base, geometry, groups);
+  [...areas, ...others].forEach((light, i) => (weights[firstArea + i] = writeLight(lights, bounds, firstArea + i, light, sceneRadius, groups.light(light) << GROUP_SHIFT)));
   const table = buildAliasTable(weights);
-  if (!table) return { records, count: 0, firstLight: firstLight.fill(NONE), power: 0 };
+  if (!table) return { records: lights, count: 0, tree: false, firstArea: 0, areaCount: 0, firstLight: firstLight.fill(NONE), power: 0 };
   const words = lightStruct.size / 4;
-  const floats = new Float32Array(records);
-  const integers = new Uint32Array(records);
+  const floats = new Float32Array(lights);
+  const integers = new Uint32Array(lights);
   const [probability, alias, keep] = [lightStruct.offsetOf('probability') / 4, lightStruct.offsetOf('other') / 4, lightStruct.offsetOf('keep') / 4];
   for (let i = 0; i < count; i++) {
     floats[i * words + probability] = table.probability[i] as number;
     integers[i * words + alias] = table.alias[i] as number;
     floats[i * words + keep] = table.keep[i] as number;
   }
-  return { records, count, firstLight, power: weights.reduce((sum, w) => sum + w, 0) };
+  const shining = [...weights.keys()].filter((i) => (weights[i] as number) > 0);
+  const isDistant = (i: number) => i >= firstArea + areas.length && others[i - firstArea - areas.length]?.type === 'directional';
+  const tree = sampling === 'tree' && shining.length > 1 ? buildLightTree(bounds, shining.filter((i) => !isDistant(i)), shining.filter(isDistant)) : undefined;
+  if (tree) tree.trails.forEach((trail, i) => (integers[i * words + alias] = trail));
+  return { records: tree ? withNodes(lights, count, tree) : lights, count, tree: tree !== undefined, firstArea, areaCount: areas.length, firstLight, power: weights.reduce((sum, w) => sum + w, 0) };
 }
 
-function writeTriangles(records: ArrayBuffer, weights: Float64Array, scene: Scene, index: number, slot: number, base: number, geometry: LightGeometry, groups: LightGroupTable): void {
+/** The light records with the nodes of the tree behind them. */
+function withNodes(lights: ArrayBuffer, count: number, { nodes }: LightTree): ArrayBuffer {
+  const records = lightStruct.allocate(count + nodes.length);
+  new Uint8Array(records).set(new Uint8Array(lights));
+  nodes.forEach(({ center, radius, axis, cosSpread, cosReach, energy, distant, light, child }, i) => {
+    lightStruct.write(records, count + i, {
+      a: center,
+      kind: (light === undefined ? 0 : LIGHT_NODE_LEAF) | (distant ? LIGHT_NODE_DISTANT : 0),
+      b: axis,
+      probability: radius,
+      c: [cosSpread, cosReach, energy],
+      other: light ?? count + (child as number),
+    });
+  });
+  return records;
+}
+
+function writeTriangles(records: ArrayBuffer, weights: Float64Array, bounds: TreeLights, scene: Scene, index: number, slot: number, base: number, geometry: LightGeometry, groups: LightGroupTable): void {
   const instance = scene.instances[index] as Instance;
   const mesh = scene.meshes[instance.mesh] as Mesh;
   const material = scene.materials[instance.material] as Material;
   const radiance = luminance(emittedRadiance(resolveParameters(material.parameters)));
   const sides = material.double_sided ? 2 : 1;
-  const kind = LIGHT_TRIANGLE | (material.double_sided ? LIGHT_TWO_SIDED : 0) | (determinant3(instance.transform) < 0 ? LIGHT_MIRRORED : 0) | (groups.material(material) << GROUP_SHIFT);
+  const mirrored = determinant3(instance.transform) < 0 ? -1 : 1;
+  const kind = LIGHT_TRIANGLE | (material.double_sided ? LIGHT_TWO_SIDED : 0) | (mirrored < 0 ? LIGHT_MIRRORED : 0) | (groups.material(material) << GROUP_SHIFT);
   const binding = material.textures?.emission_color;
   const estimate = binding ? new EmissionEstimate(scene, binding) : undefined;
   const uvs = binding ? mesh.uvs?.[binding.uv ?? 0] : undefined;
@@ -94,32 +130,23 @@ function writeTriangles(records: ArrayBuffer, weights: Float64Array, scene: Scen
     integers[row + at.ids] = slot;
     integers[row + at.ids + 1] = geometry.leafTriangle(instance.mesh, triangle);
     integers[row + at.ids + 2] = instance.material;
-    const e1 = [0, 1, 2].map((k) => (p[3 + k] as number) - (p[k] as number));
-    const e2 = [0, 1, 2].map((k) => (p[6 + k] as number) - (p[k] as number));
-    const area = 0.5 * Math.hypot((e1[1] as number) * (e2[2] as number) - (e1[2] as number) * (e2[1] as number), (e1[2] as number) * (e2[0] as number) - (e1[0] as number) * (e2[2] as number), (e1[0] as number) * (e2[1] as number) - (e1[1] as number) * (e2[0] as number));
+    const [ax, ay, az] = [0, 1, 2].map((k) => (p[3 + k] as number) - (p[k] as number)) as [number, number, number];
+    const [bx, by, bz] = [0, 1, 2].map((k) => (p[6 + k] as number) - (p[k] as number)) as [number, number, number];
+    const normal = [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx] as const;
+    const length = Math.hypot(...normal);
+    const area = 0.5 * length;
     const texel = estimate && uvs ? estimate.mean([0, 1, 2].flatMap((k) => [uvs[2 * corner(k)] as number, uvs[2 * corner(k) + 1] as number]) as [number, number, number, number, number, number]) : 1;
     const power = Math.PI * area * radiance * sides * texel;
-    weights[base + triangle] = Number.isFinite(power) ? power : 0;
-  }
-}
-
-/** Writes a light without size and returns its weight. */
-function writeLight(records: ArrayBuffer, index: number, light: Light, sceneRadius: number, group: number): number {
-  const color = light.color.map((c) => c * light.intensity);
-  const ids = [NONE, NONE, NONE, NONE];
-  const power = luminance(color);
-  switch (light.type) {
-    case 'directional':
-      lightStruct.write(records, index, { kind: LIGHT_DIRECTIONAL | group, b: light.direction, color, ids });
-      return power * Math.PI * sceneRadius * sceneRadius;
-    case 'point':
-      lightStruct.write(records, index, { kind: LIGHT_POINT | group, a: light.position, color, ids });
-      return power * 4 * Math.PI;
-    case 'spot': {
-      const outer = Math.cos(light.outer_cone_angle);
-      const scale = 1 / Math.max(1e-3, Math.cos(light.inner_cone_angle) - outer);
-      lightStruct.write(records, index, { kind: LIGHT_SPOT | group, a: light.position, b: light.direction, c: [scale, -outer * scale, 0], color, ids });
-      return power * 2 * Math.PI * (1 - outer);
+    if (!(Number.isFinite(power) && power > 0)) continue;
+    const i = base + triangle;
+    weights[i] = power;
+    bounds.energies[i] = area * radiance * texel;
+    bounds.spreads[i] = sides === 2 ? Math.PI : 0;
+    bounds.reaches[i] = Math.PI / 2;
+    for (let k = 0; k < 3; k++) {
+      bounds.axes[3 * i + k] = (mirrored * (normal[k] as number)) / length;
+      bounds.bounds[6 * i + k] = Math.min(p[k] as number, p[3 + k] as number, p[6 + k] as number);
+      bounds.bounds[6 * i + 3 + k] = Math.max(p[k] as number, p[3 + k] as number, p[6 + k] as number);
     }
   }
 }
