@@ -4,6 +4,7 @@ import { BACKGROUND_HIDDEN, BACKGROUND_TRANSPARENT, GROUP_SHIFT, HIT_SCATTERED, 
 import { dispersion } from './dispersion.wgsl';
 import { media } from './media.wgsl';
 import { random } from './random.wgsl';
+import { shadingNormal } from './shading-normal.wgsl';
 import { shortcuts } from './shortcuts.wgsl';
 import { pathCone, pathSample } from './path.wgsl';
 
@@ -217,6 +218,18 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   var normal = side * s.normal;
   let facing = dot(normal, wo);
   if (facing < 1e-3) { normal = normalize(normal + wo * (1e-3 - facing)); }
+  //#if OPENPBR_TRANSMISSION
+  if (s.parameters.transmission_weight > 0.0) {
+    var eta = 1.0;
+    //#if MEDIA
+    if ((s.flags & ${MATERIAL_INTERIOR}u) != 0u) {
+      eta = s.parameters.specular_ior / crossing.outer_ior;
+      if (!front) { eta = 1.0 / eta; }
+    }
+    //#endif
+    normal = normal_bend(normal, geometric, wo, eta);
+  }
+  //#endif
   let tangent = normalize(s.tangent - normal * dot(s.tangent, normal));
   let bitangent = side * sign(dot(cross(s.normal, s.tangent), s.bitangent)) * cross(normal, tangent);
   let to_world = mat3x3f(tangent, bitangent, normal);
@@ -373,6 +386,6 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation_inde
   if (result.asks) { shadows[shade_shadow_base + shadow_slot] = result.shadow; }
 }
 `,
-    [path, pathSample, pathCone, surface, lights, openpbr, energy, random, shortcuts, bvhOffset, gated('MEDIA', media), gated('DISPERSION', dispersion)],
+    [path, pathSample, pathCone, surface, lights, openpbr, energy, random, shortcuts, bvhOffset, gated('MEDIA', media), gated('OPENPBR_TRANSMISSION', shadingNormal), gated('DISPERSION', dispersion)],
   );
 }

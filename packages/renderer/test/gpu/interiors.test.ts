@@ -101,6 +101,20 @@ describe('interiors', () => {
     }
   });
 
+  it('a thin wall of glass with normals smoothed over its edges does not go black', async () => {
+    const scene = surrounded([1, 1, 1]);
+    const [low, high] = [[-0.7, -0.7, -0.02], [0.7, 0.7, 0.02]] as const;
+    addBox(scene, low, high, { name: 'glass', parameters: { transmission_weight: 1, specular_ior: 1.5, specular_roughness: 0 } });
+    const [mesh] = scene.meshes;
+    // Each corner's normal lies between its three faces', so that of the wide faces is as far off as 55°.
+    mesh!.normals = mesh!.positions.map((value) => Math.sign(value) / Math.sqrt(3));
+    const pixels = await picture(scene, 256, { maxDepth: 64 });
+    const seen = meanOf(pixels, SIZE, 3, 3, 13, 13);
+    for (const value of seen) expect(Math.abs(value - 1)).toBeLessThan(0.03);
+    // No pixel of it is dark.
+    for (let y = 3; y < 13; y++) for (let x = 3; x < 13; x++) expect(pixels[4 * (y * SIZE + x)]).toBeGreaterThan(0.8);
+  });
+
   it('milky glass that absorbs nothing gives back what goes in', async () => {
     const scene = surrounded([1, 1, 1]);
     const { parameters } = matter([0, 0, 0], [4, 6, 9]);
