@@ -10,7 +10,8 @@ export interface PathTracerOptions {
   readonly height: number;
   /**
    * Most edges of a path from the camera to a light: 1 shows emitters only, 2 adds direct light, … Default 8. Crossing a
-   * surface that is not fully there (opacity) does not count, nor does one without a change of the index of refraction.
+   * surface that is not fully there (opacity) does not count, nor does one without a change of the index of refraction, nor
+   * going straight through a smooth thin wall.
    */
   readonly maxDepth?: number;
   /**

@@ -134,6 +134,8 @@ export const MATERIAL_INTERIOR = 16;
 export const MATERIAL_INDEX_MATCHED = 32;
 /** Its index of refraction varies with the wavelength. */
 export const MATERIAL_DISPERSIVE = 64;
+/** A smooth thin wall: what goes through goes straight on. */
+export const MATERIAL_STRAIGHT = 128;
 /** Bits 8 to 15 of a material's flags: its priority where interiors overlap. */
 export const MATERIAL_PRIORITY_SHIFT = 8;
 /** Bits 16 and up of a material's flags and of a light's kind: its light group. */

@@ -1,4 +1,3 @@
-import { bvhOffset } from '@glanz/bvh/wgsl';
 import { openpbrMedium, openpbrSubsurface } from '@glanz/openpbr/wgsl';
 import { gated, wgslModule } from '@glanz/wgsl';
 import { energyHost } from './energy.wgsl';
@@ -101,36 +100,17 @@ fn media_transmittance(stack: vec2u, distance: f32) -> vec3f {
   [openpbrMedium, gated('OPENPBR_SUBSURFACE', openpbrSubsurface), gated('OPENPBR_SUBSURFACE', energyHost), materialStruct.module],
 );
 
-/** A ray's way past surfaces that are not there: index-matched ones, and those hidden inside an interior of higher priority. */
+/** `fn media_normal(hit: BvhHit) -> vec3f`: geometric normal of the front side, of any length. */
 export const mediaFront = /* @__PURE__ */ wgslModule(
   'renderer/media-front',
   /* wgsl */ `
-struct MediaPoint {
-  position: vec3f,
-  // Unit geometric normal of the front side.
-  normal: vec3f,
-  magnitude: f32,
-}
-
-fn media_point(hit: BvhHit) -> MediaPoint {
+fn media_normal(hit: BvhHit) -> vec3f {
   let a = triangles[3u * hit.triangle].xyz;
-  let b = triangles[3u * hit.triangle + 1u].xyz;
-  let c = triangles[3u * hit.triangle + 2u].xyz;
-  let x = instances[hit.instance].to_world_0;
-  let y = instances[hit.instance].to_world_1;
-  let z = instances[hit.instance].to_world_2;
-  let p = a + hit.u * (b - a) + hit.v * (c - a);
-  let reach = vec4f(max(abs(a), max(abs(b), abs(c))), 1.0);
-  let columns = transpose(mat3x3f(x.xyz, y.xyz, z.xyz));
-  let n = cross(b - a, c - a);
+  let n = cross(triangles[3u * hit.triangle + 1u].xyz - a, triangles[3u * hit.triangle + 2u].xyz - a);
+  let columns = transpose(mat3x3f(instances[hit.instance].to_world_0.xyz, instances[hit.instance].to_world_1.xyz, instances[hit.instance].to_world_2.xyz));
   let orientation = select(-1.0, 1.0, dot(columns[0], cross(columns[1], columns[2])) >= 0.0);
-  let world = orientation * (cross(columns[1], columns[2]) * n.x + cross(columns[2], columns[0]) * n.y + cross(columns[0], columns[1]) * n.z);
-  return MediaPoint(
-    vec3f(dot(x.xyz, p) + x.w, dot(y.xyz, p) + y.w, dot(z.xyz, p) + z.w),
-    world / max(length(world), 1e-37),
-    max(dot(abs(x), reach), max(dot(abs(y), reach), dot(abs(z), reach))),
-  );
+  return orientation * (cross(columns[1], columns[2]) * n.x + cross(columns[2], columns[0]) * n.y + cross(columns[0], columns[1]) * n.z);
 }
 `,
-  [instanceStruct.module, bvhOffset],
+  [instanceStruct.module],
 );

@@ -16,6 +16,7 @@ import { bindGroupLayout, bindingModule, type ResourceName, type SceneBinding } 
 import { resolveModule } from './resolve.wgsl';
 import { advance, begin } from './schedule.wgsl';
 import { shadeModule } from './shade.wgsl';
+import { straight } from './straight.wgsl';
 import { materialModule, opacityModule, surfaceModule } from './surface.wgsl';
 import { traversalModule } from './traversal.wgsl';
 
@@ -87,8 +88,9 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
       return { root: intersect(path, traversal('closest')), resources: [...resources, 'paths', 'queues', 'nodes', 'triangles', 'instances'], textures: flags.BVH_FILTER === true };
     }
     case 'connect': {
-      const resources = [...new Set([...filter, ...(flags.NULL_SURFACES ? (['materials'] as const) : []), ...(flags.NULL_SURFACES ? walking : [])])];
-      return { root: connect(path, traversal(flags.NULL_SURFACES ? 'closest' : 'any')), resources: [...resources, 'paths', 'queues', 'shadows', 'nodes', 'triangles', 'instances'], textures: flags.BVH_FILTER === true };
+      const walls: ResourceName[] = flags.STRAIGHT ? ['frame', 'attributes', ...energy] : [];
+      const resources = [...new Set([...filter, ...(flags.NULL_SURFACES ? (['materials'] as const) : []), ...(flags.NULL_SURFACES ? walking : []), ...walls])];
+      return { root: connect(path, traversal(flags.NULL_SURFACES ? 'closest' : 'any'), straight(surface, openpbr)), resources: [...resources, 'paths', 'queues', 'shadows', 'nodes', 'triangles', 'instances'], textures: flags.BVH_FILTER === true || flags.STRAIGHT === true };
     }
     case 'shade':
       return {

@@ -1,6 +1,6 @@
 import { bvhOffset } from '@glanz/bvh/wgsl';
 import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
-import { BACKGROUND_HIDDEN, BACKGROUND_TRANSPARENT, GROUP_SHIFT, HIT_SCATTERED, HIT_WALKING, INSTANCE_CATCHER, MATERIAL_DISPERSIVE, MATERIAL_INTERIOR } from './layout';
+import { BACKGROUND_HIDDEN, BACKGROUND_TRANSPARENT, GROUP_SHIFT, HIT_SCATTERED, HIT_WALKING, INSTANCE_CATCHER, MATERIAL_DISPERSIVE, MATERIAL_INTERIOR, MATERIAL_STRAIGHT } from './layout';
 import { dispersion } from './dispersion.wgsl';
 import { media } from './media.wgsl';
 import { random } from './random.wgsl';
@@ -210,14 +210,19 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   }
   //#endif
   // "depth" counts from 0, so this vertex ends edge depth + 1; the next edge must be allowed.
-  if (depth + 1u >= frame.max_depth) { return result; }
+  var last = depth + 1u >= frame.max_depth;
   //#if BOUNCE_LIMITS
-  if ((paths[index].bounces & SHORTCUT_LAST) != 0u) { return result; }
+  last = last || (paths[index].bounces & SHORTCUT_LAST) != 0u;
+  //#endif
+  //#if STRAIGHT
+  // Going straight through is no edge, as it is none to light samples.
+  let through = (s.flags & ${MATERIAL_STRAIGHT}u) != 0u;
+  if (last && !through) { return result; }
+  //#else
+  if (last) { return result; }
   //#endif
 
-  var normal = side * s.normal;
-  let facing = dot(normal, wo);
-  if (facing < 1e-3) { normal = normalize(normal + wo * (1e-3 - facing)); }
+  var normal = surface_facing(side * s.normal, wo);
   //#if OPENPBR_TRANSMISSION
   if (s.parameters.transmission_weight > 0.0) {
     var eta = 1.0;
@@ -239,7 +244,11 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   s.parameters.geometry_coat_tangent = s.coat_tangent * to_world;
   //#endif
   //#if REGULARIZE
+  //#if STRAIGHT
+  if (!through) { s.parameters = shortcut_soften(index, s.parameters); }
+  //#else
   s.parameters = shortcut_soften(index, s.parameters);
+  //#endif
   //#endif
   //#if MEDIA
   var outer_ior = crossing.outer_ior;
@@ -276,10 +285,15 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   let light = light_sample(vec4f(random_2(), random_2()), start, cone_normal(cone));
   let light_side = dot(geometric, light.direction);
   let local_wi = light.direction * to_world;
-  //#if OPENPBR_TRANSMISSION
-  if (light.pdf > 0.0 && light_side * local_wi.z > 0.0) {
+  //#if STRAIGHT
+  let asked = !last && !(through && light_side < 0.0);
   //#else
-  if (light.pdf > 0.0 && light_side > 0.0) {
+  let asked = true;
+  //#endif
+  //#if OPENPBR_TRANSMISSION
+  if (asked && light.pdf > 0.0 && light_side * local_wi.z > 0.0) {
+  //#else
+  if (asked && light.pdf > 0.0 && light_side > 0.0) {
   //#endif
     let scatter = openpbr_eval_pdf(bsdf, local_wo, local_wi);
     if (any(scatter.xyz > vec3f(0.0))) {
@@ -318,6 +332,18 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
 
   let scattered = openpbr_sample(bsdf, local_wo, random_3());
   if (!scattered.valid) { return result; }
+  //#if STRAIGHT
+  if (through && scattered.transmitted) {
+    let kept = shade_roulette(throughput * scattered.weight, depth);
+    if (all(kept == vec3f(0.0))) { return result; }
+    paths[index].origin = beyond;
+    paths[index].travelled = reach;
+    paths[index].throughput = kept;
+    result.goes_on = true;
+    return result;
+  }
+  if (last) { return result; }
+  //#endif
   let next = to_world * scattered.wi;
   // Shading normals must not send light through a surface, or hold it back.
   //#if OPENPBR_TRANSMISSION

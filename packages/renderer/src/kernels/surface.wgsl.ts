@@ -207,6 +207,12 @@ struct Surface {
   //#endif
 }
 
+// A normal that the viewer sees.
+fn surface_facing(normal: vec3f, wo: vec3f) -> vec3f {
+  let facing = dot(normal, wo);
+  return select(normal, normalize(normal + wo * (1e-3 - facing)), facing < 1e-3);
+}
+
 fn surface_normal_to_world(columns: mat3x3f, orientation: f32, n: vec3f) -> vec3f {
   return orientation * (cross(columns[1], columns[2]) * n.x + cross(columns[2], columns[0]) * n.y + cross(columns[0], columns[1]) * n.z);
 }

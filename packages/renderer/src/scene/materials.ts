@@ -1,7 +1,7 @@
 import { openPbrStruct, packOpenPbr, resolveParameters, type OpenPbrParameters } from '@glanz/openpbr';
 import type { Material, Scene, TextureBinding } from '@glanz/scene';
-import { bindingStruct, GROUP_SHIFT, MATERIAL_DISPERSIVE, MATERIAL_EMISSIVE, MATERIAL_INDEX_MATCHED, MATERIAL_INTERIOR, MATERIAL_MASK, MATERIAL_OPAQUE, MATERIAL_PRIORITY_SHIFT, MATERIAL_TWO_SIDED_EMISSION, materialStruct } from '../kernels/layout';
-import { hasInterior, isDispersive, isIndexMatched } from './interiors';
+import { bindingStruct, GROUP_SHIFT, MATERIAL_DISPERSIVE, MATERIAL_EMISSIVE, MATERIAL_INDEX_MATCHED, MATERIAL_INTERIOR, MATERIAL_MASK, MATERIAL_OPAQUE, MATERIAL_PRIORITY_SHIFT, MATERIAL_STRAIGHT, MATERIAL_TWO_SIDED_EMISSION, materialStruct } from '../kernels/layout';
+import { hasInterior, isDispersive, isIndexMatched, isStraight } from './interiors';
 import type { TexturePlan } from './textures';
 
 /** A parameter that some material textures, with its number in the GPU records. */
@@ -125,6 +125,7 @@ export function packMaterial(buffer: ArrayBuffer, index: number, material: Mater
       (mask ? MATERIAL_MASK : 0) |
       (hasInterior(material) ? MATERIAL_INTERIOR : 0) |
       (isIndexMatched(material) ? MATERIAL_INDEX_MATCHED : 0) |
+      (isStraight(material) ? MATERIAL_STRAIGHT : 0) |
       (isDispersive(material) ? MATERIAL_DISPERSIVE : 0) |
       ((material.dielectric_priority ?? 0) << MATERIAL_PRIORITY_SHIFT) |
       (group << GROUP_SHIFT),
