@@ -168,7 +168,7 @@ export interface RenderStatistics {
   readonly gpuBytes: number;
   /** What they are for. */
   readonly memory: MemoryReport;
-  /** Samples dropped because they were NaN or infinite; 0 on healthy scenes. Known after a `read()`. */
+  /** Samples dropped because they were NaN, infinite or negative; 0 on healthy scenes. Known after a `read()`. */
   readonly badSamples: number;
 }
 

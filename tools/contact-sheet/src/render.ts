@@ -58,8 +58,9 @@ export async function openRenderer({ size, samples, gpu: name }: { readonly size
         row.prepareMs = lap();
         for await (const _ of tracer.render({ samples, signal, maxSubmitMs: 200 }));
         if (tracer.samples < samples) throw new Error(`stopped after ${tracer.samples} samples: it takes more than ${LIMIT_MS / 1000} s`);
-        row.badSamples = tracer.statistics.badSamples;
         const codes = toneMapPixels(await tracer.read('beauty'), size, size, {}) as Uint8ClampedArray;
+        // Known after the picture was read.
+        row.badSamples = tracer.statistics.badSamples;
         row.renderMs = lap();
         for (let i = 0; i < codes.length; i++) if (i % 4 !== 3) row.mean += (codes[i] as number) / (255 * 3 * size * size);
         return { row, png: encodePng({ width: size, height: size, data: new Uint8Array(codes) }) };

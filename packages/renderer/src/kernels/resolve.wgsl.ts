@@ -3,7 +3,7 @@ import { wgslModule, type WgslModule } from '@glanz/wgsl';
 /**
  * Adds a batch's samples to the film. Samples of a pixel are added one by one in the order of their numbers, into chunks
  * and then into the total: the sum is the same bit for bit however the samples were batched, and keeps its precision over
- * many samples. A NaN or infinite sample counts as black, is counted, and never reaches the film.
+ * many samples. A NaN, infinite or negative sample counts as black, is counted, and never reaches the film.
  *
  * The squares of the chunks' means are summed too (film_moment.xyz, and the number of samples in w): chunks of 16 Sobol
  * points vary much less than 16 single samples do, and it is their variance that the picture has.
@@ -12,8 +12,8 @@ export function resolveModule(path: WgslModule, film: WgslModule): WgslModule {
   return wgslModule(
     'renderer/resolve',
     /* wgsl */ `
-fn resolve_finite(v: vec4f) -> bool {
-  return all((bitcast<vec4u>(v) & vec4u(0x7f800000u)) != vec4u(0x7f800000u));
+fn resolve_sound(v: vec4f) -> bool {
+  return all((bitcast<vec4u>(v) & vec4u(0x7f800000u)) != vec4u(0x7f800000u)) && all(v >= vec4f(0.0));
 }
 
 // The path that carries a plane of a sample.
@@ -30,9 +30,9 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   if (id.x >= batch.pixel_count) { return; }
   let pixel = film_pixels[batch.pixel_offset + id.x];
   for (var s = 0u; s < batch.sample_count; s++) {
-    var finite = true;
-    for (var plane = 0u; plane < FILM_PLANES; plane++) { finite = finite && resolve_finite(path_plane(resolve_path(s, id.x, plane), plane)); }
-    if (!finite) {
+    var sound = true;
+    for (var plane = 0u; plane < FILM_PLANES; plane++) { sound = sound && resolve_sound(path_plane(resolve_path(s, id.x, plane), plane)); }
+    if (!sound) {
       //#if CATCHER
       path_clear(resolve_path(s, id.x, 2u * FILM_GROUPS));
       //#endif

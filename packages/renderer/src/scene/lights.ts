@@ -43,7 +43,7 @@ const luminance = (c: ArrayLike<number>) => 0.2126 * (c[0] as number) + 0.7152 *
  *
  * @param sceneRadius Radius of the scene's bounding sphere, metres, to weigh directional lights.
  * @param groups Which light group each belongs to.
- * @param sampling Whether a tree is built over them; a single one needs none.
+ * @param sampling Whether a tree is built over them.
  */
 export function buildLightTable(scene: Scene, geometry: LightGeometry, sceneRadius: number, groups: LightGroupTable, sampling: LightSampling): LightTable {
   const firstLight = new Uint32Array(scene.instances.length).fill(NONE);
@@ -79,7 +79,7 @@ export function buildLightTable(scene: Scene, geometry: LightGeometry, sceneRadi
   }
   const shining = [...weights.keys()].filter((i) => (weights[i] as number) > 0);
   const isDistant = (i: number) => i >= firstArea + areas.length && others[i - firstArea - areas.length]?.type === 'directional';
-  const tree = sampling === 'tree' && shining.length > 1 ? buildLightTree(bounds, shining.filter((i) => !isDistant(i)), shining.filter(isDistant)) : undefined;
+  const tree = sampling === 'tree' ? buildLightTree(bounds, shining.filter((i) => !isDistant(i)), shining.filter(isDistant)) : undefined;
   if (tree) tree.trails.forEach((trail, i) => (integers[i * words + alias] = trail));
   return { records: tree ? withNodes(lights, count, tree) : lights, count, tree: tree !== undefined, firstArea, areaCount: areas.length, firstLight, power: weights.reduce((sum, w) => sum + w, 0) };
 }
