@@ -164,13 +164,13 @@ describe('dispersion', () => {
     const region = [4, 4, 12, 12] as const;
     const options = { maxDepth: 6 };
     const dispersed: Vector[] = [];
-    for (let seed = 0; seed < 6; seed++) dispersed.push(meanOf(await picture(scene({ specular_ior: n, transmission_dispersion_scale: 1, transmission_dispersion_abbe_number: abbe }), 1024, { ...options, seed }), SIZE, ...region));
+    for (let seed = 0; seed < 6; seed++) dispersed.push(meanOf(await picture(scene({ specular_ior: n, transmission_dispersion_scale: 1, transmission_dispersion_abbe_number: abbe }), 512, { ...options, seed }), SIZE, ...region));
     const curves = receptors();
     const sum = [0, 0, 0];
     const squares = [0, 0, 0];
-    // Every tenth wavelength stands for those around it; two seeds each tell how noisy it is.
-    for (let i = 5; i < 401; i += 10) {
-      const weights = curves.map((curve) => curve.slice(i - 5, i + 5).reduce((a, b) => a + b));
+    // Every twentieth wavelength stands for those around it; two seeds each tell how noisy it is.
+    for (let i = 10; i < 401; i += 20) {
+      const weights = curves.map((curve) => curve.slice(i - 10, i + 10).reduce((a, b) => a + b));
       if (Math.max(...weights) < 1e-3) continue;
       const pair: Vector[] = [];
       for (const seed of [1, 2]) pair.push(meanOf(await picture(scene({ specular_ior: cauchy(n, abbe, 380 + i) }), 128, { ...options, seed: 100 * seed + i }), SIZE, ...region));
@@ -182,7 +182,7 @@ describe('dispersion', () => {
     for (const k of [0, 1, 2] as const) {
       const mean = dispersed.reduce((a, v) => a + v[k], 0) / dispersed.length;
       const variance = dispersed.reduce((a, v) => a + (v[k] - mean) ** 2, 0) / (dispersed.length - 1) / dispersed.length;
-      // Four standard errors of both, and 0.2 % for the steps of 10 nm.
+      // Four standard errors of both, and 0.2 % for the steps of 20 nm.
       expect(Math.abs(mean - sum[k]!)).toBeLessThan(4 * Math.sqrt(variance + squares[k]!) + 0.002 * sum[k]!);
     }
     // The same without dispersion is another picture: the comparison can fail.

@@ -1,7 +1,7 @@
 import { GltfError } from '@glanz/gltf';
 import { createGpu } from '@glanz/renderer/node';
 import { requestDevice } from '@glanz/renderer';
-import { GROUND_TRUTH_CASES, GroundTruth, catalogueFolder, comparePictures, failures, renderGroundTruth } from '@glanz/reference';
+import { GROUND_TRUTH_CASES, GroundTruth, catalogueFolder, comparePictures, convergenceSlope, failures, measureConvergence, renderGroundTruth } from '@glanz/reference';
 import { estimated, type Benchmark, type Figure } from '../benchmark';
 import { BenchError } from '../error';
 
@@ -14,6 +14,7 @@ export const benchmark: Benchmark = {
   options: {
     scenes: { type: 'string', help: 'only these, by name, separated by commas' },
     samples: { type: 'string', help: 'samples per pixel of each run' },
+    slopes: { type: 'string', help: 'most samples per pixel for the slopes of convergence, 16 at least; without it they are not measured' },
   },
   async run({ log, quick, gpu, values }) {
     if (!catalogueFolder()) throw new BenchError('bench/missing-data', 'groundtruth needs the ground-truth catalogue: set GLANZ_GROUNDTRUTH to its folder "scenes".');
@@ -21,10 +22,12 @@ export const benchmark: Benchmark = {
     const device = await requestDevice({ gpu: api });
     // Independent seeds give the interval; their mean is the picture that is checked.
     const runs = quick ? 2 : 4;
-    const samples = wholeNumber(values['samples']) ?? (quick ? 4 : software ? 32 : 256);
+    const samples = wholeNumber('samples', values['samples']) ?? (quick ? 4 : software ? 32 : 256);
     const wanted = values['scenes']?.split(',');
     const unknown = wanted?.find((name) => !GROUND_TRUTH_CASES.some(({ scene }) => scene === name));
     if (unknown !== undefined) throw new BenchError('bench/option', `--scenes: there is no scene "${unknown}"; there are: ${[...new Set(GROUND_TRUTH_CASES.map(({ scene }) => scene))].join(', ')}.`);
+    const most = wholeNumber('slopes', values['slopes']);
+    if (most !== undefined && most < 16) throw new BenchError('bench/option', `--slopes ${most}: it must be at least 16.`);
     const cases = GROUND_TRUTH_CASES.filter(({ scene }) => wanted?.includes(scene) ?? true);
     const figures: Figure[] = [];
     const notes: string[] = [];
@@ -56,6 +59,13 @@ export const benchmark: Benchmark = {
       figures.push(estimated(`${name}: relMSE × samples`, '1', perSample, target === undefined ? undefined : { value: target, relation: '<=', source: 'sample efficiency aimed at' }));
       const mean = perSample.reduce((a, b) => a + b, 0) / runs;
       figures.push({ name: `${name}: samples of the reference renderer per sample`, unit: '1', runs, mean: truth.picture(variant).stats.relmse_1spp / mean, ci95: 0 });
+      if (most !== undefined && variant === 'full') {
+        // Four steps, from a sixteenth of the samples or so.
+        const counts = [most / 16, most / 8, most / 4, most / 2, most].map(Math.round);
+        const slope = convergenceSlope(await measureConvergence(device, truth, counts, runs));
+        figures.push({ name: `${name}: slope of convergence away from −1`, unit: '1', runs, mean: Math.abs(slope + 1), ci95: 0, target: { value: 0.05, relation: '<=', source: 'unbiased' } });
+        log(`${name}: slope ${slope.toFixed(3)}`);
+      }
       log(`${name}: ${whole.passed ? 'agrees' : 'DISAGREES'}, relMSE × samples ${mean.toPrecision(3)}, ${((performance.now() - start) / 1000).toFixed(1)} s`);
     }
     figures.push({ name: 'pictures that agree with their reference', unit: `of ${cases.length}`, runs: 1, mean: agreeing, ci95: 0, target: { value: cases.length, relation: '>=', source: 'all of them' } });
@@ -64,9 +74,9 @@ export const benchmark: Benchmark = {
   },
 };
 
-function wholeNumber(text: string | undefined): number | undefined {
+function wholeNumber(name: string, text: string | undefined): number | undefined {
   if (text === undefined) return undefined;
   const value = Number(text);
-  if (!Number.isInteger(value) || value < 1) throw new BenchError('bench/option', `--samples ${text}: it must be a whole number of at least 1.`);
+  if (!Number.isInteger(value) || value < 1) throw new BenchError('bench/option', `--${name} ${text}: it must be a whole number of at least 1.`);
   return value;
 }

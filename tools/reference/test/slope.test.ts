@@ -1,0 +1,19 @@
+import { testDevice } from '@glanz/gpu';
+import { describe, expect, it } from 'vitest';
+import { GroundTruth, catalogueFolder, convergenceSlope, measureConvergence } from '../src/index';
+
+describe('convergenceSlope', () => {
+  it('of c / N is −1; an error that stays lifts it', () => {
+    const points = [4, 8, 16, 64].map((samples) => ({ samples, error: 0.3 / samples }));
+    expect(convergenceSlope(points)).toBeCloseTo(-1, 12);
+    expect(convergenceSlope(points.map(({ samples, error }) => ({ samples, error: error + 0.002 })))).toBeGreaterThan(-0.95);
+  });
+});
+
+describe.skipIf(!catalogueFolder())('without the ground-truth catalogue there is nothing to converge to', () => {
+  it('a renderer without bias converges as one over the number of samples', async () => {
+    const points = await measureConvergence(await testDevice(), new GroundTruth('cornell_diffuse'), [2, 4, 8, 16, 32], 3);
+    // 128 × 128 pixels and three runs: the slope's own error is about 0.01.
+    expect(Math.abs(convergenceSlope(points) + 1)).toBeLessThan(0.05);
+  }, 300_000);
+});
