@@ -1,4 +1,4 @@
 export { DeviceError, RenderError } from './errors';
 export { requestDevice, type DeviceOptions } from './gpu/device';
 export { PathTracer } from './path-tracer';
-export type { BounceLimits, FilmLayer, HierarchyBuilder, LightGroup, LightGroupMode, MemoryReport, PathTracerOptions, PickResult, PixelFilter, PrepareProgress, RenderOptions, RenderProgress, RenderStatistics } from './options';
+export type { BounceLimits, FilmLayer, HierarchyBuilder, LightGroup, LightGroupMode, MemoryReport, PathTracerOptions, PickResult, PixelFilter, PrepareProgress, FirstLight, RenderOptions, RenderProgress, RenderStatistics } from './options';

@@ -80,6 +80,19 @@ export interface PathTracerOptions {
   readonly hierarchies?: HierarchyBuilder;
   readonly signal?: AbortSignal;
   readonly onProgress?: (progress: PrepareProgress) => void;
+  /**
+   * Called once while the kernels compile, with a plain picture of the scene: base colours under a lamp at the camera, without
+   * textures. Its small kernel is there long before the others; where those are there first, it is not called.
+   */
+  readonly onFirstLight?: (picture: FirstLight) => void;
+}
+
+/** See {@link PathTracerOptions.onFirstLight}. */
+export interface FirstLight {
+  /** Laid out like `PathTracer.beautyBuffer`. It is destroyed when `PathTracer.create` ends. */
+  readonly buffer: GPUBuffer;
+  readonly width: number;
+  readonly height: number;
 }
 
 /**

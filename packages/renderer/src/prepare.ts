@@ -1,10 +1,11 @@
 import { validateScene, type Camera, type Scene } from '@glanz/scene';
 import { DeviceError, RenderError } from './errors';
 import { Film } from './film/film';
+import { showFirstLight } from './first-light';
 import { GpuMemory } from './gpu/buffers';
 import { withErrorScopes } from './gpu/error-scopes';
 import { GpuScene } from './gpu/gpu-scene';
-import { KernelCache } from './gpu/kernel-cache';
+import { KernelCache, type KernelSet } from './gpu/kernel-cache';
 import { Integrator } from './integrator';
 import type { KernelFeatures } from './kernels/pipelines';
 import type { PathTracerOptions, RenderStatistics } from './options';
@@ -58,8 +59,18 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
     onProgress?.({ stage: 'upload', done: 1 });
     const cache = new KernelCache(device);
     const camera = chooseCamera(own, options.camera, options.width / options.height);
-    const kernels = await cache.get(kernelFeatures(gpuScene, camera, options), (done) => onProgress?.({ stage: 'compile', done }));
-    signal?.throwIfAborted();
+    const features = kernelFeatures(gpuScene, camera, options);
+    let late = false;
+    const { onFirstLight } = options;
+    const forget = onFirstLight && showFirstLight({ device, scene: gpuScene, geometry, camera, cache, features, options }, onFirstLight, () => late || signal?.aborted === true);
+    let kernels: KernelSet;
+    try {
+      kernels = await cache.get(features, (done) => onProgress?.({ stage: 'compile', done }));
+      signal?.throwIfAborted();
+    } finally {
+      late = true;
+      forget?.();
+    }
     const t3 = performance.now();
     return await withErrorScopes(device, () => {
       const film = new Film(memory, options.width, options.height, kernels.features.planes);

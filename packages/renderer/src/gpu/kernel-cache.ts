@@ -7,7 +7,7 @@ export interface KernelSet {
 }
 
 /** Compiled when they are first asked for. */
-const ON_DEMAND: ReadonlySet<KernelName> = new Set(['features', 'position', 'relight', 'noise']);
+const ON_DEMAND: ReadonlySet<KernelName> = new Set(['features', 'position', 'relight', 'noise', 'first']);
 
 const cachesOf = new WeakMap<GPUDevice, { readonly sets: Map<string, Promise<KernelSet>>; readonly kernels: Map<string, Promise<Kernel>> }>();
 

@@ -44,6 +44,8 @@ export const frameStruct = struct('Frame', {
   /** The lights with a size of their own among the light records. */
   first_area_light: 'u32',
   area_light_count: 'u32',
+  /** Of the surroundings over all directions. */
+  mean_luminance: 'f32',
 });
 
 /** The part of the picture and the samples that one batch works on. */

@@ -9,6 +9,7 @@ import { noiseModule } from './noise.wgsl';
 import { positionModule } from './position.wgsl';
 import { energyHost } from './energy.wgsl';
 import { featuresModule } from './features.wgsl';
+import { firstLightModule } from './first-light.wgsl';
 import { generate } from './generate.wgsl';
 import { intersect } from './intersect.wgsl';
 import { lightsModule } from './lights.wgsl';
@@ -45,7 +46,7 @@ export function serves(present: KernelFeatures, wanted: KernelFeatures): boolean
   return Object.entries(needs).every(([name, value]) => has[name] === value || (has[name] === true && HARMLESS.test(name) && name !== 'OPENPBR_MULTISCATTER'));
 }
 
-export const KERNELS = ['generate', 'begin', 'intersect', 'shade', 'advance', 'connect', 'resolve', 'features', 'position', 'relight', 'noise'] as const;
+export const KERNELS = ['generate', 'begin', 'intersect', 'shade', 'advance', 'connect', 'resolve', 'features', 'position', 'relight', 'noise', 'first'] as const;
 export type KernelName = (typeof KERNELS)[number];
 
 /** A compiled kernel and the names of what it binds, in order. */
@@ -60,6 +61,8 @@ interface KernelText {
   readonly root: WgslModule;
   readonly resources: readonly ResourceName[];
   readonly textures: boolean;
+  /** Where they differ from the scene's. */
+  readonly flags?: Readonly<Record<string, boolean>>;
 }
 
 function kernelText(name: KernelName, features: KernelFeatures): KernelText {
@@ -106,6 +109,9 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
       return { root: noiseModule(film), resources: ['frame', ...filmBuffers, 'film_noise'], textures: false };
     case 'position':
       return { root: positionModule(traversal('closest')), resources: [...new Set<ResourceName>(['frame', 'batch', ...filter, 'nodes', 'triangles', 'instances', 'feature_position'])], textures: flags.BVH_FILTER === true };
+    case 'first':
+      // Neither opacity nor catchers: they would bring half of the renderer.
+      return { root: firstLightModule(traversalModule('closest', undefined)), resources: ['frame', 'batch', 'nodes', 'triangles', 'instances', 'materials', 'beauty'], textures: false, flags: { BVH_FILTER: false, CATCHER: false } };
     case 'features':
       return {
         root: featuresModule(surface, openpbr, energyHost, traversal('closest')),
@@ -131,8 +137,9 @@ export function kernelSource(name: KernelName, features: KernelFeatures): Kernel
         ...Array.from({ length: features.samplerCount }, (_, i) => [`scene_sampler_${i}`, 'sampler'] as const),
       ]
     : [];
-  const bindings = bindingModule(name, text.resources, sceneBindings, features.flags);
-  const shader = compose([bindings, text.root], { flags: features.flags });
+  const flags = { ...features.flags, ...text.flags };
+  const bindings = bindingModule(name, text.resources, sceneBindings, flags);
+  const shader = compose([bindings, text.root], { flags });
   return {
     key: `${name}\n${shader.code}`,
     async compile(device) {

@@ -16,6 +16,8 @@ interface Stages {
   readonly loaded: number;
   readonly device: number;
   readonly scene: number;
+  /** When the first-light kernel's picture was there; absent where the others were faster. */
+  readonly firstLight?: number;
   readonly prepared: number;
   readonly sampled: number;
   readonly bvhMs: number;
@@ -30,7 +32,8 @@ async function firstImage(gpu: string, size: number): Promise<Stages> {
   const model = createPushButton({ level: 'medium' });
   model.environment = { type: 'constant', radiance: [1, 1, 1] };
   const scene = performance.now();
-  const tracer = await PathTracer.create(graphics, model, { width: size, height: size, maxDepth: 5, camera: 0 });
+  let firstLight: number | undefined;
+  const tracer = await PathTracer.create(graphics, model, { width: size, height: size, maxDepth: 5, camera: 0, onFirstLight: () => void graphics.queue.onSubmittedWorkDone().then(() => (firstLight = performance.now())) });
   const prepared = performance.now();
   for await (const progress of tracer.render({ samples: 1 })) void progress;
   await tracer.read('beauty');
@@ -38,7 +41,7 @@ async function firstImage(gpu: string, size: number): Promise<Stages> {
   const { bvhMs, compileMs } = tracer.statistics;
   tracer.destroy();
   graphics.destroy();
-  return { adapterName, software, loaded, device, scene, prepared, sampled, bvhMs, compileMs };
+  return { adapterName, software, loaded, device, scene, ...(firstLight === undefined ? {} : { firstLight }), prepared, sampled, bvhMs, compileMs };
 }
 
 async function measure({ log, quick, gpu }: BenchmarkContext) {
@@ -57,6 +60,8 @@ async function measure({ log, quick, gpu }: BenchmarkContext) {
     ['program loaded', ({ loaded }) => loaded],
     ['driver and device', ({ loaded, device }) => device - loaded],
     ['model made', ({ device, scene }) => scene - device],
+    ['scene in memory to first light', ({ scene, firstLight, sampled }) => (firstLight ?? sampled) - scene],
+    ['scene in memory to first sample', ({ scene, sampled }) => sampled - scene],
     ['scene prepared', ({ scene, prepared }) => prepared - scene],
     ['of that, hierarchies', ({ bvhMs }) => bvhMs],
     ['of that, pipelines', ({ compileMs }) => compileMs],
