@@ -1,5 +1,6 @@
 import { existsSync, readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
+import { gzipSync } from 'node:zlib';
 import { expect, test, type Page } from '@playwright/test';
 import { hdr, triangle } from './files';
 import { dataOf, drop, errorWith, finished, open as openAt, photograph, pictureOf as canvasOf, pixelsOf, restarting, save, servePlayground, tab, watch } from './page';
@@ -49,6 +50,23 @@ test('the Cornell box appears: light above, red left, green right; the saved pic
   expect(bytes.readUInt32LE(0)).toBe(20000630);
   const header = bytes.subarray(0, 2000).toString('latin1');
   for (const channel of ['R', 'A', 'albedo.G', 'normal.X', 'depth.Z', 'object.id', 'material.id']) expect(header).toContain(`${channel}\0`);
+});
+
+test('the first script is small, and controls come after the first model', async ({ page }) => {
+  const dist = fileURLToPath(new URL('../dist/', import.meta.url));
+  const html = readFileSync(`${dist}index.html`, 'utf8');
+  // What the page asks for by itself, before any script runs.
+  const first = [...html.matchAll(/(?:src|href)="\.\/(assets\/[^"]+\.js)"/g)].map(([, path]) => path!);
+  const bytes = first.reduce((sum, path) => sum + gzipSync(readFileSync(dist + path)).length, 0);
+  expect(first.length).toBeGreaterThan(0);
+  expect(bytes).toBeLessThan(12_000);
+  const asked: string[] = [];
+  page.on('request', (request) => asked.push(request.url()));
+  await open(page);
+  const at = (name: RegExp) => asked.findIndex((url) => name.test(url));
+  expect(at(/\/panels-[^/]+\.js$/)).toBeGreaterThan(at(/\/load-worker-[^/]+\.js$/));
+  // Presets, encoders and decoders wait until somebody wants them.
+  expect(asked.filter((url) => /\/(presets|png|exr|materialx|draco|meshopt)[^/]*\.(js|wasm)$/.test(url))).toEqual([]);
 });
 
 test('hierarchies are built on workers, which stay for the next model', async ({ page }) => {
