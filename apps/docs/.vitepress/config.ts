@@ -5,7 +5,7 @@ import { defineConfig } from 'vitepress';
 import { apiReference } from './api';
 import { readmeLinks } from './readme-links';
 
-const packages = ['renderer', 'gltf', 'formats', 'cad', 'scene', 'openpbr', 'bvh', 'tonemap', 'image', 'wgsl', 'cli'];
+const packages = ['viewer', 'element', 'react', 'three', 'renderer', 'gltf', 'formats', 'cad', 'scene', 'openpbr', 'bvh', 'tonemap', 'image', 'wgsl', 'cli'];
 const api = await apiReference(packages);
 /** Pages that benchmarks and tests fill: shown once there is something on them. */
 const results = [
@@ -70,6 +70,11 @@ export default defineConfig({
       {
         text: 'Guides',
         items: [
+          { text: 'A viewer on a page', link: '/guide/viewer' },
+          { text: 'The element', link: '/guide/element' },
+          { text: 'React', link: '/guide/react' },
+          { text: 'three.js', link: '/guide/three' },
+          { text: 'Beside other viewers', link: '/guide/viewers' },
           { text: 'Loading glTF', link: '/guide/gltf' },
           { text: 'Cameras and framing', link: '/guide/cameras' },
           { text: 'Environment and lights', link: '/guide/lighting' },

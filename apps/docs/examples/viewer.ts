@@ -1,0 +1,66 @@
+import { createViewer, type Viewer } from '@glanz/viewer';
+
+// #region start
+export async function start(canvas: HTMLCanvasElement, url: string): Promise<Viewer> {
+  const viewer = createViewer(canvas, { samples: 256, environment: 'studio', background: 'transparent' });
+  await viewer.load(url);
+  return viewer;
+}
+// #endregion start
+
+// #region tell
+export function tell(viewer: Viewer, bar: HTMLProgressElement, line: HTMLElement): void {
+  viewer.on('progress', ({ total }) => void (bar.value = total));
+  viewer.on('sample', ({ samples, target, remainingMs }) => {
+    line.textContent = `${samples} of ${target} samples, ${Math.round(remainingMs / 1000)} s to go`;
+  });
+  viewer.on('converged', ({ milliseconds }) => void (line.textContent = `Done in ${(milliseconds / 1000).toFixed(1)} s.`));
+  viewer.on('error', ({ message, retry }) => {
+    line.textContent = message;
+    if (retry) line.onclick = retry;
+  });
+}
+// #endregion tell
+
+// #region edit
+export async function dress(viewer: Viewer): Promise<void> {
+  await viewer.setVariant('night');
+  await viewer.setMaterial('left', { base_color: [0.9, 0.6, 0.02], specular_roughness: 0.2 });
+  await viewer.edit((tracer) => tracer.setVisibility('right', false), { key: 'right' });
+}
+// #endregion edit
+
+// #region look
+export function look(viewer: Viewer): void {
+  viewer.orbitLimits = { phi: [0.2, Math.PI / 2], radius: [2, 8] };
+  viewer.setOrbit({ theta: Math.PI / 4, phi: 1.2 });
+  viewer.autoRotate = 0.3;
+}
+// #endregion look
+
+// #region pin
+export function pin(viewer: Viewer, element: HTMLElement, place: readonly [number, number, number]): () => void {
+  return viewer.on('frame', () => {
+    const at = viewer.project(place);
+    element.hidden = !at?.inside;
+    if (at) element.style.translate = `${100 * at.x}cqw ${100 * at.y}cqh`;
+  });
+}
+// #endregion pin
+
+// #region drop
+export function acceptDrops(viewer: Viewer): void {
+  const { canvas } = viewer;
+  canvas.addEventListener('dragover', (event) => event.preventDefault());
+  canvas.addEventListener('drop', (event) => {
+    event.preventDefault();
+    if (event.dataTransfer) viewer.load(event.dataTransfer.files).catch(() => undefined); // the error event tells
+  });
+}
+// #endregion drop
+
+// #region save
+export async function save(viewer: Viewer): Promise<Blob> {
+  return viewer.toBlob({ type: 'image/png', samples: 64 });
+}
+// #endregion save

@@ -1,0 +1,92 @@
+import { fileURLToPath } from 'node:url';
+import { photograph, quads, servePage, watch, type Served } from '@glanz/browser';
+import { expect, test, type Page } from '@playwright/test';
+import type { GlanzViewerElement } from '@glanz/element';
+import type { Viewer } from '@glanz/viewer';
+import type * as threeExample from '../examples/three-scene';
+import type * as viewerExample from '../examples/viewer';
+
+interface TestWindow {
+  examples: typeof viewerExample & { three: typeof threeExample };
+  putElement: () => GlanzViewerElement;
+  viewer: Viewer;
+}
+declare const window: TestWindow & typeof globalThis;
+
+// Examples that want a page; those that do not run in examples.test.ts.
+
+let served: Served;
+test.beforeAll(async () => void (served = await servePage(fileURLToPath(new URL('examples-page', import.meta.url)))));
+test.afterAll(() => served.close());
+test.use({ viewport: { width: 640, height: 640 } });
+
+let complaints: string[] = [];
+test.beforeEach(async ({ page }) => {
+  complaints = watch(page, served.origin);
+  await page.route('**/model.glb', (route) => route.fulfill({ body: model }));
+  await page.goto(served.origin);
+});
+test.afterEach(() => expect(complaints).toEqual([]));
+
+const model = quads([
+  { name: 'left', colour: [0.9, 0.02, 0.02], at: [-1.2, 0, 0] },
+  { name: 'right', colour: [0.02, 0.8, 0.02], at: [1.2, 0, 0], variants: { night: [0.02, 0.02, 0.9] } },
+]);
+
+/** A viewer as the example starts it, made quick. */
+async function started(page: Page): Promise<void> {
+  await page.evaluate(async () => {
+    window.viewer = await window.examples.start(document.querySelector('canvas')!, 'model.glb');
+    Object.assign(window.viewer, { samples: 6, maxDepth: 3, pixelRatio: 0.25 });
+  });
+}
+
+const done = (page: Page) => expect.poll(() => page.evaluate(() => window.viewer.state)).toBe('done');
+
+test('the viewer: it starts, tells, is edited, looked at, pinned to, dropped on and saved', async ({ page }) => {
+  await started(page);
+  await page.evaluate(() => window.examples.tell(window.viewer, document.querySelector('progress')!, document.querySelector('#line')!));
+  await page.evaluate(() => window.examples.pin(window.viewer, document.querySelector('#pin')!, [-1.2, 0, 0]));
+  await page.evaluate(() => window.examples.acceptDrops(window.viewer));
+  await page.evaluate(() => void (window.viewer.samples = 7));
+  await done(page);
+  await expect(page.locator('#line')).toHaveText(/^Done in /);
+  await expect(page.locator('#pin')).toHaveAttribute('style', /translate: \d/);
+  const before = await photograph(page.locator('canvas'));
+  await page.evaluate(() => window.examples.dress(window.viewer));
+  await done(page);
+  // The one on the right is gone, the one on the left yellow.
+  const after = await photograph(page.locator('canvas'));
+  expect(after.mean[1]).not.toBeCloseTo(before.mean[1], 0);
+  expect(await page.evaluate(() => window.viewer.scene!.instances.map(({ visible }) => visible))).toEqual([undefined, false]);
+  expect(await page.evaluate(async () => (await window.examples.save(window.viewer)).type)).toBe('image/png');
+  await page.evaluate(() => window.examples.look(window.viewer));
+  expect(await page.evaluate(() => window.viewer.orbit!.theta)).toBeCloseTo(Math.PI / 4, 6);
+  await page.evaluate(() => void (window.viewer.autoRotate = 0));
+
+  const transfer = await page.evaluateHandle(() => {
+    const made = new DataTransfer();
+    made.items.add(new File(['nothing'], 'bad.glb'));
+    return made;
+  });
+  await page.dispatchEvent('canvas', 'drop', { dataTransfer: transfer });
+  await expect(page.locator('#line')).toHaveText(/glTF/);
+});
+
+test('a scene of three.js', async ({ page }) => {
+  await started(page);
+  expect(await page.evaluate(() => window.examples.three.show(window.viewer))).toEqual([]);
+  await done(page);
+  // Red, in the middle, under a light that is brighter above than below.
+  const { cells, deviation } = await photograph(page.locator('canvas'));
+  expect(deviation).toBeGreaterThan(15);
+  expect(cells[4]![0]).toBeGreaterThan(1.3 * cells[4]![1]);
+});
+
+test('the element of the guide', async ({ page }) => {
+  await page.evaluate(() => void Object.assign(window.putElement(), { samples: 4, maxDepth: 3, pixelRatio: 0.25 }));
+  await expect.poll(() => page.evaluate(() => document.querySelector('glanz-viewer')!.viewer?.state), { timeout: 60_000 }).toBe('done');
+  await expect(page.getByRole('button', { name: 'The left one' })).toBeVisible();
+  await expect(page.getByText('Loading …')).toBeHidden();
+  expect(await page.evaluate(() => document.querySelector('glanz-viewer')!.getCameraOrbit()!.theta)).toBeCloseTo(Math.PI / 9, 3);
+});
