@@ -53,7 +53,7 @@ function attributesOf(props: Readonly<Record<string, unknown>>): Record<string, 
  * element's code is fetched when the first one is there. Its ref is the element, and so leads to the `Viewer`.
  *
  * @example
- * <GlanzViewer src="chair.glb" alt="An oak chair" cameraControls style={{ height: 400 }} onConverged={({ samples }) => console.log(samples)} />
+ * <GlanzViewer src="chair.glb" alt="An oak chair" cameraControls className="chair" onConverged={({ samples }) => console.log(samples)} />
  */
 export const GlanzViewer: ForwardRefExoticComponent<GlanzViewerProps & RefAttributes<GlanzViewerElement>> = forwardRef<GlanzViewerElement, GlanzViewerProps>(function GlanzViewer(props, ref) {
   const element = useRef<GlanzViewerElement>(null);
