@@ -84,6 +84,10 @@ test('keys: undo, views, projection, hiding; the list of keys; none of them whil
   const wall = await piece(page, 60, 230);
   await restarting(page, () => page.keyboard.press('h'));
   expect((await piece(page, 60, 230))[0]).toBeLessThan(0.7 * wall[0]);
+  await restarting(page, () => page.keyboard.press('Shift+H'));
+  await expect(page.locator('#parts li.off')).toHaveCount(0);
+  await restarting(page, () => page.keyboard.press('Control+z'));
+  await expect(page.locator('#parts li.off')).toHaveCount(1);
   await restarting(page, () => page.keyboard.press('Control+z'));
   await expect.poll(async () => Math.abs((await piece(page, 60, 230))[0] - wall[0])).toBeLessThan(8);
 

@@ -45,7 +45,7 @@ export function wireCommands({ store, session, rig, selection, canvas, say }: Co
     { keys: ['f'], title: 'Frame the chosen part', run: () => rig.frame(selection.chosen.instance) },
     { keys: ['d'], title: 'Focus by click', run: focus },
     { keys: ['h'], title: 'Hide the chosen part', run: hide },
-    { keys: ['shift+h', 'j'], title: 'Show all parts', run: () => store.set({ hidden: [] }, { label: 'Show all' }) },
+    { keys: ['shift+h'], title: 'Show all parts', run: () => store.set({ hidden: [] }, { label: 'Show all' }) },
     { keys: ['1'], title: 'View from the front', run: () => rig.look('front') },
     { keys: ['3'], title: 'View from the right', run: () => rig.look('right') },
     { keys: ['7'], title: 'View from the top', run: () => rig.look('top') },

@@ -27,6 +27,7 @@ export class SceneTree {
     this.#list.addEventListener('keydown', (event) => this.#key(event));
     store.subscribe((next, before) => {
       if (next.hidden !== before.hidden) this.#mark();
+      if (next.materials !== before.materials) this.#colour();
     });
     selection.subscribe(() => this.#mark(true));
     onModel(() => this.#fill());
@@ -54,14 +55,25 @@ export class SceneTree {
     if (indices.length === 0) rows.push(element('li', { class: 'heading' }, 'No part has this name.'));
     this.#list.replaceChildren(...rows);
     this.#mark();
+    this.#colour();
+  }
+
+  /** Dots in the colours that materials have now. */
+  #colour(): void {
+    const { store, opened } = this.#context;
+    const { scene } = opened();
+    for (const [index, row] of this.#rows) {
+      const material = scene.instances[index]?.material ?? 0;
+      const surface = scene.materials[material];
+      const swatch = row.querySelector<HTMLElement>('.swatch');
+      if (swatch && surface) swatch.style.background = toHex(currentValue(store.state, surface, material, 'base_color'));
+    }
   }
 
   #row(index: number, name: string, material: number): HTMLElement {
-    const { selection, opened, store } = this.#context;
+    const { selection, opened } = this.#context;
     const { scene } = opened();
-    const surface = scene.materials[material];
-    const colour = surface ? toHex(currentValue(store.state, surface, material, 'base_color')) : '#888888';
-    const part = element('button', { type: 'button', class: 'part', title: surface?.name }, element('i', { class: 'swatch', style: `background:${colour}` }), element('span', {}, name));
+    const part = element('button', { type: 'button', class: 'part', title: scene.materials[material]?.name }, element('i', { class: 'swatch' }), element('span', {}, name));
     part.addEventListener('click', () => selection.choose({ material, instance: index }));
     const eye = element('button', { type: 'button', class: 'eye', 'aria-label': `Show ${name}`, title: 'Hide or show; Alt: show only this one' });
     eye.addEventListener('click', (event) => this.#toggle(index, event.altKey));

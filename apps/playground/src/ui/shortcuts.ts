@@ -10,7 +10,8 @@ export interface Shortcut {
 
 const typing = (target: EventTarget | null) => target instanceof HTMLElement && (target.isContentEditable || /^(TEXTAREA|SELECT)$/.test(target.tagName) || (target instanceof HTMLInputElement && !/^(range|checkbox|color|button)$/.test(target.type)));
 
-const named = (event: KeyboardEvent) => `${event.ctrlKey || event.metaKey ? 'mod+' : ''}${event.shiftKey && event.key.length > 1 ? 'shift+' : ''}${(event.ctrlKey || event.metaKey) && event.shiftKey && event.key.length === 1 ? 'shift+' : ''}${event.key.toLowerCase()}`;
+/** As {@link Shortcut.keys} say it. Shift counts with letters and named keys; in signs such as "?" it is part of the sign. */
+const named = ({ key, ctrlKey, metaKey, shiftKey }: KeyboardEvent) => `${ctrlKey || metaKey ? 'mod+' : ''}${shiftKey && (key.length > 1 || /^[a-z]$/i.test(key)) ? 'shift+' : ''}${key.toLowerCase()}`;
 
 /** Runs commands by their keys wherever nobody types. */
 export function wireShortcuts(shortcuts: readonly Shortcut[]): void {
