@@ -5,7 +5,8 @@ import { GPU_BUFFER_COPY_DST, GPU_BUFFER_COPY_SRC, GPU_BUFFER_INDIRECT, GPU_BUFF
 import type { GpuScene } from './gpu/gpu-scene';
 import type { KernelSet } from './gpu/kernel-cache';
 import { CONNECT_CROSSINGS } from './kernels/connect.wgsl';
-import { batchStruct, frameStruct, shadowLayout } from './kernels/layout';
+import { BLOCK } from './kernels/blocks';
+import { batchStruct, frameStruct, shadowRecords } from './kernels/layout';
 import { pathLayout } from './kernels/path.wgsl';
 import { MAX_LIGHT_GROUPS } from './kernels/resources';
 import type { Kernel, KernelFeatures, KernelName } from './kernels/pipelines';
@@ -22,7 +23,7 @@ type OwnBuffer = 'frame' | 'batch' | 'light_groups' | 'paths' | 'queues' | 'shad
 
 /** How many paths may be kept on the GPU at once. Large GPUs are known by the size of their buffers. */
 export function pathLimit(device: GPUDevice, wanted: number | undefined, features: KernelFeatures): number {
-  const most = Math.floor(device.limits.maxStorageBufferBindingSize / Math.max(pathLayout(features).struct.size, shadowLayout(features.flags).size));
+  const most = BLOCK * Math.floor(device.limits.maxStorageBufferBindingSize / (BLOCK * Math.max(pathLayout(features).records.size, shadowRecords(features.flags).size)));
   const standard = device.limits.maxBufferSize >= 2 ** 31 - 4 ? 1 << 22 : 1 << 20;
   return Math.max(64, Math.min(wanted ?? standard, most, MAX_THREADS));
 }
@@ -63,9 +64,9 @@ export class Integrator {
       frame: memory.buffer('frame', frameStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
       batch: memory.buffer('batch', batchStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
       light_groups: memory.buffer('light groups', 2 * MAX_LIGHT_GROUPS * 16, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
-      paths: memory.buffer('paths', capacity * pathLayout(kernels.features).struct.size, GPU_BUFFER_STORAGE),
+      paths: memory.buffer('paths', pathLayout(kernels.features).records.bytes(capacity), GPU_BUFFER_STORAGE),
       queues: memory.buffer('queues', (QUEUE_WORDS + 2 * capacity) * 4, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC | GPU_BUFFER_COPY_DST),
-      shadows: memory.buffer('shadows', (kernels.features.flags.NEXT_EVENT ? capacity : 1) * shadowLayout(kernels.features.flags).size, GPU_BUFFER_STORAGE),
+      shadows: memory.buffer('shadows', shadowRecords(kernels.features.flags).bytes(kernels.features.flags.NEXT_EVENT ? capacity : 1), GPU_BUFFER_STORAGE),
       dispatch: memory.buffer('dispatch', 32, GPU_BUFFER_STORAGE | GPU_BUFFER_INDIRECT),
     };
   }
@@ -100,8 +101,8 @@ export class Integrator {
     const { flags } = kernels.features;
     // Paths that carry more may be too large for as many of them.
     this.#capacity = Math.min(this.#capacity, this.limit);
-    this.#grow('shadows', flags.NEXT_EVENT ? this.capacity * shadowLayout(flags).size : 0);
-    this.#grow('paths', this.capacity * pathLayout(kernels.features).struct.size);
+    this.#grow('shadows', flags.NEXT_EVENT ? shadowRecords(flags).bytes(this.capacity) : 0);
+    this.#grow('paths', pathLayout(kernels.features).records.bytes(this.capacity));
     this.rebind();
   }
 
@@ -128,8 +129,8 @@ export class Integrator {
     if (paths <= this.#capacity) return;
     const { features } = this.#kernels;
     this.#capacity = paths;
-    this.#grow('paths', paths * pathLayout(features).struct.size);
-    this.#grow('shadows', features.flags.NEXT_EVENT ? paths * shadowLayout(features.flags).size : 0);
+    this.#grow('paths', pathLayout(features).records.bytes(paths));
+    this.#grow('shadows', features.flags.NEXT_EVENT ? shadowRecords(features.flags).bytes(paths) : 0);
     const { queues } = this.#buffers;
     this.#buffers.queues = this.#memory.buffer('queues', (QUEUE_WORDS + 2 * paths) * 4, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC | GPU_BUFFER_COPY_DST);
     // The count of dropped samples goes on.

@@ -192,17 +192,17 @@ export const areaLightGathering = (path: WgslModule): WgslModule => wgslModule(
   /* wgsl */ `
 fn area_light_gather(index: u32, origin: vec3f, direction: vec3f, reach: f32, throughput: vec3f, extinction: vec3f, walking: bool) {
   //#if PATH_DEPTH
-  let depth = paths[index].counters & 0xffffu;
-  let travelled = paths[index].travelled;
+  let depth = path_counters(index) & 0xffffu;
+  let travelled = path_travelled(index);
   //#else
   let depth = queues.depth;
   let travelled = 0.0;
   //#endif
   //#if CATCHER
-  if (depth == 0u && paths[index].role == PATH_WITHOUT) { return; }
+  if (depth == 0u && path_role(index) == PATH_WITHOUT) { return; }
   //#endif
   let vertex = origin - travelled * direction;
-  let pdf = paths[index].pdf;
+  let pdf = path_pdf(index);
   for (var i = 0u; i < frame.area_light_count; i++) {
     let light = frame.first_area_light + i;
     let met = area_light_meet(light, vertex, direction);
@@ -212,7 +212,7 @@ fn area_light_gather(index: u32, origin: vec3f, direction: vec3f, reach: f32, th
     if (depth == 0u) {
       if ((lights[light].kind & ${LIGHT_HIDDEN}u) != 0u) { continue; }
     } else {
-      weight = pdf / (pdf + light_choice(light, vertex, cone_normal(paths[index].cone)) * met.pdf);
+      weight = pdf / (pdf + light_choice(light, vertex, cone_normal(path_cone(index))) * met.pdf);
     }
     let passed = exp(-extinction * distance);
     var arriving = throughput * passed * lights[light].color * weight;

@@ -18,12 +18,12 @@ export const connect = (path: WgslModule, traversal: WgslModule, straight: WgslM
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3u) {
   if (id.x >= queues.shadow_active) { return; }
-  let shadow = shadows[id.x];
+  let shadow = shadow_load(id.x);
   //#if BVH_FILTER
-  opacity_begin(paths[shadow.path].pixel, path_sample(shadow.path), 2u * queues.depth + 1u);
+  opacity_begin(path_pixel(shadow.path), path_sample(shadow.path), 2u * queues.depth + 1u);
   //#endif
   //#if CATCHER
-  traversal_root = select(0u, frame.catcher_root, paths[shadow.path].role == PATH_WITHOUT);
+  traversal_root = select(0u, frame.catcher_root, path_role(shadow.path) == PATH_WITHOUT);
   //#endif
   //#if NULL_SURFACES
   var stack = shadow.media;

@@ -15,27 +15,27 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   random_begin(pixel, path_sample(index), 0u, frame.seed);
   let offset = filter_offset(random_2());
   let ray = camera_ray(vec2u(pixel % frame.size.x, pixel / frame.size.x), offset, random_2());
-  paths[index].origin = ray.origin;
-  paths[index].pdf = 0.0;
-  paths[index].direction = ray.direction;
-  paths[index].cone = cone_pack(frame.cone_width, vec3f(0.0));
-  paths[index].throughput = vec3f(1.0);
+  path_set_origin(index, ray.origin);
+  path_set_pdf(index, 0.0);
+  path_set_direction(index, ray.direction);
+  path_set_cone(index, cone_pack(frame.cone_width, vec3f(0.0)));
+  path_set_throughput(index, vec3f(1.0));
   // 2 until something but glass has been met: it counts as 1, see path_plane.
-  paths[index].alpha = 2.0;
-  paths[index].pixel = pixel;
+  path_set_alpha(index, 2.0);
+  path_set_pixel(index, pixel);
   path_clear(index);
   //#if CATCHER
-  paths[index].role = select(PATH_OBJECT, PATH_WITHOUT, index >= batch.pixel_count * batch.sample_count);
+  path_set_role(index, select(PATH_OBJECT, PATH_WITHOUT, index >= batch.pixel_count * batch.sample_count));
   //#endif
   //#if PATH_STATE
-  paths[index].bounces = 0u;
-  paths[index].spread = 0.0;
+  path_set_bounces(index, 0u);
+  path_set_spread(index, 0.0);
   //#endif
   //#if MEDIA
-  paths[index].media = vec2u(0u);
-  paths[index].counters = 0u;
-  paths[index].travelled = 0.0;
-  paths[index].wavelength = 0.0;
+  path_set_media(index, vec2u(0u));
+  path_set_counters(index, 0u);
+  path_set_travelled(index, 0.0);
+  path_set_wavelength(index, 0.0);
   //#endif
   queues.items[index] = index;
 }

@@ -14,23 +14,23 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   if (id.x >= queues.active_count) { return; }
   let index = queues.items[(queues.depth & 1u) * queues.capacity + id.x];
   //#if BVH_FILTER
-  opacity_begin(paths[index].pixel, path_sample(index), 2u * queues.depth);
+  opacity_begin(path_pixel(index), path_sample(index), 2u * queues.depth);
   //#endif
   //#if CATCHER
-  traversal_root = select(0u, frame.catcher_root, paths[index].role == PATH_WITHOUT && queues.depth > 0u);
+  traversal_root = select(0u, frame.catcher_root, path_role(index) == PATH_WITHOUT && queues.depth > 0u);
   //#endif
   //#if MEDIA
-  let entry = media_top(paths[index].media);
+  let entry = media_top(path_media(index));
   if (entry != 0u) {
     volume_travel(index, entry);
     return;
   }
   //#endif
-  let hit = bvh_closest_hit(paths[index].origin, paths[index].direction, 0.0, 3.4e38);
+  let hit = bvh_closest_hit(path_origin(index), path_direction(index), 0.0, 3.4e38);
   //#if AREA_LIGHTS
-  area_light_gather(index, paths[index].origin, paths[index].direction, hit.t, paths[index].throughput, vec3f(0.0), false);
+  area_light_gather(index, path_origin(index), path_direction(index), hit.t, path_throughput(index), vec3f(0.0), false);
   //#endif
-  paths[index].hit = vec4u(bitcast<u32>(hit.u), bitcast<u32>(hit.v), hit.triangle, hit.instance);
+  path_set_hit(index, vec4u(bitcast<u32>(hit.u), bitcast<u32>(hit.v), hit.triangle, hit.instance));
 }
 `,
     [path, gated('BVH_FILTER', pathSample), traversal, gated('AREA_LIGHTS', areas), gated('MEDIA', volumeModule(traversal, areas))],

@@ -1,6 +1,7 @@
 import { bvhInstanceStruct } from '@glanz/bvh/wgsl';
 import { openPbrStruct } from '@glanz/openpbr';
 import { struct } from '@glanz/wgsl';
+import { blockLayout } from './blocks';
 
 /** Everything the kernels need to know about the picture, the camera and the surroundings. One uniform buffer. */
 export const frameStruct = struct('Frame', {
@@ -58,8 +59,7 @@ export const batchStruct = struct('Batch', {
   path_count: 'u32',
 });
 
-/** A light sample waiting for its visibility. */
-export const shadowStruct = struct('Shadow', {
+const SHADOW = {
   origin: 'vec3f',
   distance: 'f32',
   direction: 'vec3f',
@@ -67,21 +67,18 @@ export const shadowStruct = struct('Shadow', {
   contribution: 'vec3f',
   /** Light group. */
   group: 'u32',
-});
+} as const;
 
-/** A light sample that may pass surfaces that are not there. */
-export const mediaShadowStruct = struct('Shadow', {
-  origin: 'vec3f',
-  distance: 'f32',
-  direction: 'vec3f',
-  path: 'u32',
-  contribution: 'vec3f',
-  group: 'u32',
-  media: 'vec2u',
-});
+/** The interiors that a light sample starts in, where it may pass surfaces that are not there. */
+const MEDIA_SHADOW = { ...SHADOW, media: 'vec2u' } as const;
 
-/** Which struct a scene's kernels use. */
-export const shadowLayout = (flags: Readonly<Record<string, boolean>>) => (flags.NULL_SURFACES ? mediaShadowStruct : shadowStruct);
+/** Light samples waiting for their visibility: `shadow_load` and `shadow_store` of a `Shadow`. */
+const shadowBlocks = (fields: typeof SHADOW | typeof MEDIA_SHADOW) => blockLayout('Shadow', 'shadow', 'shadows', fields, struct('Shadow', fields));
+const shadows = shadowBlocks(SHADOW);
+const mediaShadows = shadowBlocks(MEDIA_SHADOW);
+
+/** Which records of light samples a scene's kernels use. */
+export const shadowRecords = (flags: Readonly<Record<string, boolean>>) => (flags.NULL_SURFACES ? mediaShadows : shadows);
 
 /**
  * An emissive triangle or one of the scene's lights, and its row of the alias table; or a node of the light tree: `a` middle,

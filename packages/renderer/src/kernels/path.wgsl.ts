@@ -1,4 +1,5 @@
-import { struct, wgslModule, type StructLayout, type WgslModule } from '@glanz/wgsl';
+import { wgslModule, type WgslModule } from '@glanz/wgsl';
+import { blockLayout, type BlockLayout } from './blocks';
 
 /** What decides how much a path carries. */
 export interface PathShape {
@@ -10,8 +11,10 @@ export interface PathShape {
 
 /** A path between two kernels, and the functions by which kernels add light to it. */
 export interface PathLayout {
-  readonly struct: StructLayout;
+  /** How paths lie in memory. */
+  readonly records: BlockLayout;
   /**
+   * - `fn path_<field>(index: u32)` and `fn path_set_<field>(index: u32, value)` for each field, see {@link blockLayout}.
    * - `fn path_deposit(index: u32, group: u32, value: vec3f)`: light of a group arrives.
    * - `fn path_clear(index: u32)`: no light so far.
    * - `fn path_plane(index: u32, plane: u32) -> vec4f`: what arrived; the first plane's w is the path's coverage.
@@ -110,40 +113,41 @@ export function pathLayout({ planes, flags }: PathShape): PathLayout {
   if (!layout) {
     const several = planes > 1;
     const fields = { ...COMMON, ...(several ? { planes: ['vec4f', planes] as const } : { radiance: 'vec3f' as const }), /** Index in the film. */ pixel: 'u32' } as const;
-    const path: StructLayout = struct('Path', { ...fields, ...(flags.PATH_STATE ? STATE : {}), ...(flags.CATCHER ? { role: 'u32' } : {}), ...(flags.MEDIA ? INTERIOR : {}) });
+    const records = blockLayout('Path', 'path', 'paths', { ...fields, ...(flags.PATH_STATE ? STATE : {}), ...(flags.CATCHER ? { role: 'u32' } : {}), ...(flags.MEDIA ? INTERIOR : {}) });
     const groups = flags.CATCHER ? planes / 4 : planes;
     const module = wgslModule(
       'renderer/path',
       several
         ? /* wgsl */ `
+fn path_add(index: u32, plane: u32, value: vec3f) { path_set_planes(index, plane, path_planes(index, plane) + vec4f(value, 0.0)); }
 //#if CATCHER
 const PATH_OBJECT = 0u;
 const PATH_WITH = 1u;
 const PATH_WITHOUT = 2u;
-fn path_deposit(index: u32, group: u32, value: vec3f) { paths[index].planes[paths[index].role * ${groups}u + group] += vec4f(value, 0.0); }
-fn path_behind(index: u32, group: u32, value: vec3f) { paths[index].planes[${3 * groups}u + group] += vec4f(value, 0.0); }
+fn path_deposit(index: u32, group: u32, value: vec3f) { path_add(index, path_role(index) * ${groups}u + group, value); }
+fn path_behind(index: u32, group: u32, value: vec3f) { path_add(index, ${3 * groups}u + group, value); }
 //#else
-fn path_deposit(index: u32, group: u32, value: vec3f) { paths[index].planes[group] += vec4f(value, 0.0); }
+fn path_deposit(index: u32, group: u32, value: vec3f) { path_add(index, group, value); }
 //#endif
 fn path_clear(index: u32) {
-  for (var plane = 0u; plane < ${planes}u; plane++) { paths[index].planes[plane] = vec4f(0.0); }
+  for (var plane = 0u; plane < ${planes}u; plane++) { path_set_planes(index, plane, vec4f(0.0)); }
 }
 fn path_plane(index: u32, plane: u32) -> vec4f {
-  var coverage = select(0.0, min(paths[index].alpha, 1.0), plane == 0u);
+  var coverage = select(0.0, min(path_alpha(index), 1.0), plane == 0u);
   //#if CATCHER
-  coverage = select(coverage, 1.0, plane == ${groups}u && paths[index].role == PATH_WITH);
+  coverage = select(coverage, 1.0, plane == ${groups}u && path_role(index) == PATH_WITH);
   //#endif
-  return vec4f(paths[index].planes[plane].xyz, coverage);
+  return vec4f(path_planes(index, plane).xyz, coverage);
 }
 `
         : /* wgsl */ `
-fn path_deposit(index: u32, group: u32, value: vec3f) { paths[index].radiance += value; }
-fn path_clear(index: u32) { paths[index].radiance = vec3f(0.0); }
-fn path_plane(index: u32, plane: u32) -> vec4f { return vec4f(paths[index].radiance, min(paths[index].alpha, 1.0)); }
+fn path_deposit(index: u32, group: u32, value: vec3f) { path_set_radiance(index, path_radiance(index) + value); }
+fn path_clear(index: u32) { path_set_radiance(index, vec3f(0.0)); }
+fn path_plane(index: u32, plane: u32) -> vec4f { return vec4f(path_radiance(index), min(path_alpha(index), 1.0)); }
 `,
-      [path.module],
+      [records.module],
     );
-    layouts.set(key, (layout = { struct: path, module }));
+    layouts.set(key, (layout = { records, module }));
   }
   return layout;
 }

@@ -37,7 +37,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
       path_clear(resolve_path(s, id.x, 2u * FILM_GROUPS));
       //#endif
       path_clear(resolve_path(s, id.x, 0u));
-      paths[resolve_path(s, id.x, 0u)].alpha = 0.0;
+      path_set_alpha(resolve_path(s, id.x, 0u), 0.0);
       atomicAdd(&queues.bad_samples, 1u);
     }
   }

@@ -1,7 +1,7 @@
 import { bvhNodeStruct } from '@glanz/bvh/wgsl';
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { GPU_STAGE_COMPUTE } from '../gpu/buffers';
-import { batchStruct, frameStruct, instanceStruct, lightStruct, materialStruct, shadowLayout } from './layout';
+import { batchStruct, frameStruct, instanceStruct, lightStruct, materialStruct, shadowRecords } from './layout';
 
 /** Light groups that a picture may have. */
 export const MAX_LIGHT_GROUPS = 16;
@@ -42,9 +42,9 @@ const RESOURCES = {
   frame: { type: 'Frame', space: 'uniform', deps: [frameStruct.module] },
   batch: { type: 'Batch', space: 'uniform', deps: [batchStruct.module] },
   // Its layout depends on the scene: the kernels bring it with `pathLayout`.
-  paths: { type: 'array<Path>', space: 'read_write' },
+  paths: { type: 'array<PathBlock>', space: 'read_write' },
   queues: { type: 'Queues', space: 'read_write', deps: [queues] },
-  shadows: { type: 'array<Shadow>', space: 'read_write', layout: shadowLayout },
+  shadows: { type: 'array<ShadowBlock>', space: 'read_write', layout: shadowRecords },
   dispatch: { type: 'array<u32, 8>', space: 'read_write' },
   nodes: { type: 'array<BvhNode>', space: 'read', deps: [bvhNodeStruct.module] },
   triangles: { type: 'array<vec4f>', space: 'read' },

@@ -32,7 +32,7 @@ struct ShadeResult {
 fn shade_sees_background(index: u32, depth: u32) -> bool {
   if ((frame.background & ${BACKGROUND_TRANSPARENT}u) == 0u) { return false; }
   //#if OPENPBR_TRANSMISSION
-  return paths[index].alpha > 1.0;
+  return path_alpha(index) > 1.0;
   //#else
   return depth == 0u;
   //#endif
@@ -41,23 +41,23 @@ fn shade_sees_background(index: u32, depth: u32) -> bool {
 // Radiance from outside the scene.
 fn shade_miss(index: u32, depth: u32) {
   //#if CATCHER
-  if (depth == 0u && paths[index].role == PATH_WITHOUT) { return; }
+  if (depth == 0u && path_role(index) == PATH_WITHOUT) { return; }
   //#endif
-  let direction = paths[index].direction;
+  let direction = path_direction(index);
   if (shade_sees_background(index, depth)) {
     // What is left of the light on its way is how much of the background shows.
-    paths[index].alpha = 1.0 - dot(paths[index].throughput, vec3f(0.2126, 0.7152, 0.0722));
+    path_set_alpha(index, 1.0 - dot(path_throughput(index), vec3f(0.2126, 0.7152, 0.0722)));
     return;
   }
   if (depth == 0u && (frame.background & ${BACKGROUND_HIDDEN}u) != 0u) { return; }
   var weight = 1.0;
   //#if ENVIRONMENT_SAMPLED
   if (depth > 0u) {
-    let pdf = paths[index].pdf;
+    let pdf = path_pdf(index);
     weight = pdf / (pdf + frame.environment_probability * environment_pdf(direction));
   }
   //#endif
-  var arriving = paths[index].throughput * environment_radiance(direction) * weight;
+  var arriving = path_throughput(index) * environment_radiance(direction) * weight;
   //#if CLAMP_INDIRECT
   arriving = shortcut_clamp(arriving, depth);
   //#endif
@@ -65,7 +65,7 @@ fn shade_miss(index: u32, depth: u32) {
 }
 
 fn shade_random(index: u32, iteration: u32) {
-  random_begin(paths[index].pixel, path_sample(index), iteration + 1u, frame.seed);
+  random_begin(path_pixel(index), path_sample(index), iteration + 1u, frame.seed);
 }
 
 // Russian roulette from the third scattering on, for paths that carry less than a sixteenth of what they began with:
@@ -83,15 +83,15 @@ fn shade_roulette(carried: vec3f, depth: u32) -> vec3f {
 fn shade_scattering(index: u32, iteration: u32, depth: u32) -> ShadeResult {
   var result: ShadeResult;
   // Light that was scattered does not show what is behind.
-  paths[index].alpha = min(paths[index].alpha, 1.0);
+  path_set_alpha(index, min(path_alpha(index), 1.0));
   if (depth + 1u >= frame.max_depth) { return result; }
   //#if BOUNCE_LIMITS
-  if ((paths[index].bounces & SHORTCUT_LAST) != 0u) { return result; }
+  if ((path_bounces(index) & SHORTCUT_LAST) != 0u) { return result; }
   //#endif
-  let origin = paths[index].origin;
-  let wo = -paths[index].direction;
-  let throughput = paths[index].throughput;
-  let stack = paths[index].media;
+  let origin = path_origin(index);
+  let wo = -path_direction(index);
+  let throughput = path_throughput(index);
+  let stack = path_media(index);
   let anisotropy = media_of(media_top(stack)).anisotropy;
   shade_random(index, iteration);
   //#if NEXT_EVENT
@@ -123,12 +123,12 @@ fn shade_scattering(index: u32, iteration: u32, depth: u32) -> ShadeResult {
   //#if PATH_STATE
   shortcut_bounce(index, density, SHORTCUT_VOLUME);
   //#endif
-  paths[index].pdf = density;
-  paths[index].direction = wi;
-  paths[index].cone = cone_pack(cone_width(paths[index].cone), vec3f(0.0));
-  paths[index].throughput = carried;
-  paths[index].travelled = 0.0;
-  paths[index].counters += 1u;
+  path_set_pdf(index, density);
+  path_set_direction(index, wi);
+  path_set_cone(index, cone_pack(cone_width(path_cone(index)), vec3f(0.0)));
+  path_set_throughput(index, carried);
+  path_set_travelled(index, 0.0);
+  path_set_counters(index, path_counters(index) + 1u);
   result.goes_on = true;
   return result;
 }
@@ -136,15 +136,15 @@ fn shade_scattering(index: u32, iteration: u32, depth: u32) -> ShadeResult {
 
 fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   var result: ShadeResult;
-  let hit = paths[index].hit;
+  let hit = path_hit(index);
   //#if PATH_DEPTH
-  let depth = paths[index].counters & 0xffffu;
+  let depth = path_counters(index) & 0xffffu;
   //#else
   let depth = iteration;
   //#endif
   //#if SCATTERING
   if (hit.w == ${HIT_WALKING}u) {
-    result.goes_on = any(paths[index].throughput > vec3f(0.0));
+    result.goes_on = any(path_throughput(index) > vec3f(0.0));
     return result;
   }
   if (hit.w == ${HIT_SCATTERED}u) { return shade_scattering(index, iteration, depth); }
@@ -153,19 +153,19 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
     shade_miss(index, depth);
     return result;
   }
-  let origin = paths[index].origin;
-  let direction = paths[index].direction;
-  var throughput = paths[index].throughput;
-  let width = cone_width(paths[index].cone);
+  let origin = path_origin(index);
+  let direction = path_direction(index);
+  var throughput = path_throughput(index);
+  let width = cone_width(path_cone(index));
   let wo = -direction;
   //#if CATCHER
   if (depth == 0u) {
     let caught = (instances[hit.w].traversal.flags & ${INSTANCE_CATCHER}u) != 0u;
-    if (paths[index].role == PATH_WITHOUT) {
+    if (path_role(index) == PATH_WITHOUT) {
       if (!caught) { return result; }
     } else if (caught) {
-      paths[index].role = PATH_WITH;
-      paths[index].alpha = 0.0;
+      path_set_role(index, PATH_WITH);
+      path_set_alpha(index, 0.0);
       if ((frame.background & ${BACKGROUND_HIDDEN}u) == 0u) { path_behind(index, frame.environment_group, environment_radiance(direction)); }
     }
   }
@@ -180,14 +180,14 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   //#endif
   var reach = distance(origin, s.position);
   //#if MEDIA
-  let stack = paths[index].media;
+  let stack = path_media(index);
   let crossing = media_cross(stack, s.material, front);
   //#if NULL_SURFACES
-  reach += paths[index].travelled;
+  reach += path_travelled(index);
   if (crossing.nothing) {
-    paths[index].origin = beyond;
-    paths[index].media = crossing.beyond;
-    paths[index].travelled = reach;
+    path_set_origin(index, beyond);
+    path_set_media(index, crossing.beyond);
+    path_set_travelled(index, reach);
     result.goes_on = true;
     return result;
   }
@@ -199,8 +199,8 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   if (any(emitted > vec3f(0.0))) {
     var weight = 1.0;
     if (depth > 0u) {
-      let pdf = paths[index].pdf;
-      weight = pdf / (pdf + light_pdf(s, reach, direction, cone_normal(paths[index].cone)));
+      let pdf = path_pdf(index);
+      weight = pdf / (pdf + light_pdf(s, reach, direction, cone_normal(path_cone(index))));
     }
     var arriving = throughput * emitted * weight;
     //#if CLAMP_INDIRECT
@@ -212,7 +212,7 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   // "depth" counts from 0, so this vertex ends edge depth + 1; the next edge must be allowed.
   var last = depth + 1u >= frame.max_depth;
   //#if BOUNCE_LIMITS
-  last = last || (paths[index].bounces & SHORTCUT_LAST) != 0u;
+  last = last || (path_bounces(index) & SHORTCUT_LAST) != 0u;
   //#endif
   //#if STRAIGHT
   // Going straight through is no edge, as it is none to light samples.
@@ -256,12 +256,12 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   let outer = media_material(max(crossing.outer, 1u));
   let outer_dispersive = crossing.outer != 0u && (materials[outer].flags & ${MATERIAL_DISPERSIVE}u) != 0u;
   if (outer_dispersive || (s.flags & ${MATERIAL_DISPERSIVE}u) != 0u) {
-    var wavelength = paths[index].wavelength;
+    var wavelength = path_wavelength(index);
     if (wavelength == 0.0) {
-      let chosen = dispersion_sample(paths[index].pixel, path_sample(index), throughput);
+      let chosen = dispersion_sample(path_pixel(index), path_sample(index), throughput);
       wavelength = chosen.wavelength;
       throughput = chosen.throughput;
-      paths[index].wavelength = wavelength;
+      path_set_wavelength(index, wavelength);
     }
     s.parameters.specular_ior = openpbr_dispersed_ior(s.parameters, wavelength);
     if (outer_dispersive) { outer_ior = openpbr_dispersed_ior(materials[outer].parameters, wavelength); }
@@ -336,9 +336,9 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   if (through && scattered.transmitted) {
     let kept = shade_roulette(throughput * scattered.weight, depth);
     if (all(kept == vec3f(0.0))) { return result; }
-    paths[index].origin = beyond;
-    paths[index].travelled = reach;
-    paths[index].throughput = kept;
+    path_set_origin(index, beyond);
+    path_set_travelled(index, reach);
+    path_set_throughput(index, kept);
     result.goes_on = true;
     return result;
   }
@@ -364,26 +364,26 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   let carried = shade_roulette(throughput * scattered.weight, depth);
   if (all(carried == vec3f(0.0))) { return result; }
   //#if OPENPBR_TRANSMISSION
-  if (!scattered.transmitted) { paths[index].alpha = min(paths[index].alpha, 1.0); }
-  paths[index].origin = select(start, beyond, scattered.transmitted);
+  if (!scattered.transmitted) { path_set_alpha(index, min(path_alpha(index), 1.0)); }
+  path_set_origin(index, select(start, beyond, scattered.transmitted));
   //#else
-  paths[index].origin = start;
+  path_set_origin(index, start);
   //#endif
   //#if MEDIA
   var next_stack = select(stack, crossing.beyond, scattered.transmitted);
   //#if OPENPBR_SUBSURFACE
   if (front && scattered.transmitted && scattered.subsurface) { next_stack.x |= 0x8000u; }
   //#endif
-  paths[index].media = next_stack;
-  paths[index].travelled = 0.0;
+  path_set_media(index, next_stack);
+  path_set_travelled(index, 0.0);
   //#endif
   //#if PATH_DEPTH
-  paths[index].counters += 1u;
+  path_set_counters(index, path_counters(index) + 1u);
   //#endif
-  paths[index].pdf = scattered.pdf;
-  paths[index].direction = next;
-  paths[index].cone = cone;
-  paths[index].throughput = carried;
+  path_set_pdf(index, scattered.pdf);
+  path_set_direction(index, next);
+  path_set_cone(index, cone);
+  path_set_throughput(index, carried);
   result.goes_on = true;
   return result;
 }
@@ -409,7 +409,7 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation_inde
   }
   workgroupBarrier();
   if (result.goes_on) { queues.items[((depth + 1u) & 1u) * queues.capacity + shade_next_base + next_slot] = index; }
-  if (result.asks) { shadows[shade_shadow_base + shadow_slot] = result.shadow; }
+  if (result.asks) { shadow_store(shade_shadow_base + shadow_slot, result.shadow); }
 }
 `,
     [path, pathSample, pathCone, surface, lights, openpbr, energy, random, shortcuts, bvhOffset, gated('MEDIA', media), gated('OPENPBR_TRANSMISSION', shadingNormal), gated('DISPERSION', dispersion)],

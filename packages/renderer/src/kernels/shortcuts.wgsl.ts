@@ -23,7 +23,7 @@ fn shortcut_clamp(value: vec3f, bounces: u32) -> vec3f {
 
 //#if NO_CAUSTICS
 // Whether light that comes in by this direction would be a caustic: a sharp bounce before a wide one, seen from the camera after it.
-fn shortcut_caustic(index: u32, pdf: f32) -> bool { return pdf >= SHORTCUT_SHARP && (paths[index].bounces & 255u) != 0u; }
+fn shortcut_caustic(index: u32, pdf: f32) -> bool { return pdf >= SHORTCUT_SHARP && (path_bounces(index) & 255u) != 0u; }
 //#endif
 
 //#if PATH_STATE
@@ -38,14 +38,14 @@ fn shortcut_kind(pdf: f32) -> u32 { return select(0u, 1u, pdf >= SHORTCUT_SHARP)
 
 // Takes note of a bounce.
 fn shortcut_bounce(index: u32, pdf: f32, kind: u32) {
-  let before = paths[index].bounces;
+  let before = path_bounces(index);
   let count = (before >> (8u * kind)) & 255u;
-  if (count < 127u) { paths[index].bounces = before + (1u << (8u * kind)); }
+  if (count < 127u) { path_set_bounces(index, before + (1u << (8u * kind))); }
   //#if BOUNCE_LIMITS
-  if (count >= frame.bounce_limits[kind]) { paths[index].bounces |= SHORTCUT_LAST; }
+  if (count >= frame.bounce_limits[kind]) { path_set_bounces(index, path_bounces(index) | SHORTCUT_LAST); }
   //#endif
   // GGX's peak density towards a viewer straight above is 1/(4π α²).
-  paths[index].spread = max(paths[index].spread, min(inverseSqrt(12.566370614359172 * max(pdf, 1e-12)), 1.0));
+  path_set_spread(index, max(path_spread(index), min(inverseSqrt(12.566370614359172 * max(pdf, 1e-12)), 1.0)));
 }
 //#endif
 
@@ -54,7 +54,7 @@ fn shortcut_bounce(index: u32, pdf: f32, kind: u32) {
 // and the noisier it is (Kaplanyan and Dachsbacher, "Path Space Regularization for Holistic and Robust Light Transport", 2013).
 fn shortcut_soften(index: u32, parameters: OpenPbrParameters) -> OpenPbrParameters {
   var soft = parameters;
-  let roughness = sqrt(frame.regularization * paths[index].spread);
+  let roughness = sqrt(frame.regularization * path_spread(index));
   soft.specular_roughness = max(soft.specular_roughness, roughness);
   soft.coat_roughness = max(soft.coat_roughness, roughness);
   return soft;

@@ -19,7 +19,7 @@ export function volumeModule(traversal: WgslModule, areas: WgslModule): WgslModu
     'renderer/volume',
     /* wgsl */ `
 fn volume_store(index: u32, hit: BvhHit) {
-  paths[index].hit = vec4u(bitcast<u32>(hit.u), bitcast<u32>(hit.v), hit.triangle, hit.instance);
+  path_set_hit(index, vec4u(bitcast<u32>(hit.u), bitcast<u32>(hit.v), hit.triangle, hit.instance));
 }
 
 fn volume_travel(index: u32, entry: u32) {
@@ -30,22 +30,22 @@ fn volume_travel(index: u32, entry: u32) {
     return;
   }
   //#endif
-  let hit = bvh_closest_hit(paths[index].origin, paths[index].direction, 0.0, 3.4e38);
+  let hit = bvh_closest_hit(path_origin(index), path_direction(index), 0.0, 3.4e38);
   //#if AREA_LIGHTS
-  area_light_gather(index, paths[index].origin, paths[index].direction, hit.t, paths[index].throughput, medium.extinction, false);
+  area_light_gather(index, path_origin(index), path_direction(index), hit.t, path_throughput(index), medium.extinction, false);
   //#endif
-  paths[index].throughput *= exp(-medium.extinction * hit.t);
+  path_set_throughput(index, path_throughput(index) * (exp(-medium.extinction * hit.t)));
   volume_store(index, hit);
 }
 
 //#if SCATTERING
 fn volume_walk(index: u32, entry: u32, medium: OpenPbrMedium) {
-  random_begin(paths[index].pixel, path_sample(index), 0x8000u + queues.depth, frame.seed);
+  random_begin(path_pixel(index), path_sample(index), 0x8000u + queues.depth, frame.seed);
   let open = media_index_matched(entry);
-  var origin = paths[index].origin;
-  var direction = paths[index].direction;
-  var throughput = paths[index].throughput;
-  var counters = paths[index].counters;
+  var origin = path_origin(index);
+  var direction = path_direction(index);
+  var throughput = path_throughput(index);
+  var counters = path_counters(index);
   for (var step = 0u; step < ${WALK_STEPS}u; step++) {
     if ((counters >> 16u) >= frame.max_volume_depth) {
       // From here on what scatters goes straight on, and only absorption counts.
@@ -53,7 +53,7 @@ fn volume_walk(index: u32, entry: u32, medium: OpenPbrMedium) {
       //#if AREA_LIGHTS
       area_light_gather(index, origin, direction, hit.t, throughput, medium.extinction - medium.scattering, false);
       //#endif
-      paths[index].throughput = throughput * exp((medium.scattering - medium.extinction) * hit.t);
+      path_set_throughput(index, throughput * exp((medium.scattering - medium.extinction) * hit.t));
       volume_store(index, hit);
       break;
     }
@@ -67,7 +67,7 @@ fn volume_walk(index: u32, entry: u32, medium: OpenPbrMedium) {
     //#endif
     if (hit.instance != 0xffffffffu || reach > 3e38) {
       let passed = exp(-medium.extinction * hit.t);
-      paths[index].throughput = throughput * passed / max(dot(share, passed), 1e-37);
+      path_set_throughput(index, throughput * passed / max(dot(share, passed), 1e-37));
       volume_store(index, hit);
       break;
     }
@@ -80,7 +80,7 @@ fn volume_walk(index: u32, entry: u32, medium: OpenPbrMedium) {
       code = ${HIT_SCATTERED}u;
     } else {
       // Light samples were not an alternative.
-      paths[index].pdf = 1e30;
+      path_set_pdf(index, 1e30);
       direction = openpbr_phase_sample(medium.anisotropy, -direction, random_2());
       let brightest = max(throughput.x, max(throughput.y, throughput.z));
       if (brightest < 0.0625) {
@@ -94,14 +94,14 @@ fn volume_walk(index: u32, entry: u32, medium: OpenPbrMedium) {
       }
     }
     if (code != 0u) {
-      paths[index].throughput = throughput;
-      paths[index].hit = vec4u(0u, 0u, 0u, code);
+      path_set_throughput(index, throughput);
+      path_set_hit(index, vec4u(0u, 0u, 0u, code));
       break;
     }
   }
-  paths[index].origin = origin;
-  paths[index].direction = direction;
-  paths[index].counters = counters;
+  path_set_origin(index, origin);
+  path_set_direction(index, direction);
+  path_set_counters(index, counters);
 }
 //#endif
 `,
