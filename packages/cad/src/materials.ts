@@ -72,10 +72,25 @@ const encode = (x: number) => Math.round(255 * (x <= 0.0031308 ? 12.92 * x : 1.0
 /** A linear colour as sRGB codes, `#rrggbb`. */
 export const hexOf = (color: CadColor): string => `#${color.map((x) => encode(x).toString(16).padStart(2, '0')).join('')}`;
 
+/** Whether a text is what a pattern says, case aside; `*` is anything. Pieces are taken where they come first, so time cannot grow out of hand as with regular expressions. */
+function matches(pattern: string, text: string): boolean {
+  const [first = '', ...rest] = pattern.toLowerCase().split(/\*+/);
+  const lower = text.toLowerCase();
+  const last = rest.pop();
+  if (last === undefined) return lower === first;
+  if (!lower.startsWith(first) || !lower.endsWith(last) || lower.length < first.length + last.length) return false;
+  let at = first.length;
+  for (const piece of rest) {
+    const found = lower.indexOf(piece, at);
+    if (found < 0) return false;
+    at = found + piece.length;
+  }
+  return at <= lower.length - last.length;
+}
+
 function fits({ part, color }: CadRule, name: string, path: readonly string[], shown: CadColor | undefined): boolean {
   if (part !== undefined) {
-    const pattern = new RegExp(`^${part.split(/\*+/).map((text) => text.replace(/[.+?^${}()|[\]\\]/g, '\\$&')).join('.*')}$`, 'i');
-    if (!pattern.test(name) && !pattern.test([...path, name].join('/'))) return false;
+    if (!matches(part, name) && !matches(part, [...path, name].join('/'))) return false;
   }
   if (color === undefined) return true;
   return shown !== undefined && shown.every((x, k) => Math.abs(encode(x) - Number.parseInt(color.slice(1 + 2 * k, 3 + 2 * k), 16)) <= 2);

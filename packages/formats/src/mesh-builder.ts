@@ -4,12 +4,13 @@ type Point = readonly [number, number, number];
 
 /** Numbers in single precision that grow as they come. */
 export class FloatList {
-  #numbers = new Float32Array(1024);
+  // Files may have a group for each triangle.
+  #numbers = new Float32Array(0);
   length = 0;
 
   push(...values: readonly number[]): void {
     if (this.length + values.length > this.#numbers.length) {
-      const wider = new Float32Array(2 * this.#numbers.length);
+      const wider = new Float32Array(Math.max(36, 2 * this.#numbers.length, this.length + values.length));
       wider.set(this.#numbers);
       this.#numbers = wider;
     }

@@ -2,7 +2,7 @@
 // the numbers of that moment are put into the document before anything is made of it.
 import { valueAt } from './animation';
 import type { Accessors } from './accessors';
-import { isObject, type Raw } from './check/context';
+import type { Raw } from './check/context';
 import type { GltfAnimation } from './json';
 
 /** A number (or numbers) of the document at a moment. */
@@ -36,30 +36,37 @@ export function pointedValues({ pointers, samplers }: GltfAnimation, time: numbe
  * @param warn Told of pointers that lead nowhere.
  */
 export function withValues(json: Raw, values: readonly PointedValue[], warn: (path: string, what: string) => void): Raw {
-  return values.reduce((document, { path, value }) => {
-    const changed = replaced(document, path, value);
-    if (changed === undefined) warn(`/${path.join('/')}`, 'is moved by an animation, but there is no such thing; nothing moves');
-    return (changed as Raw | undefined) ?? document;
-  }, json);
-}
-
-/** A copy with one value replaced; undefined if the way does not lead there, or to something else than such a value. */
-function replaced(owner: unknown, [key, ...rest]: readonly string[], value: PointedValue['value']): unknown {
-  if (key === undefined) return undefined;
-  if (Array.isArray(owner)) {
-    const index = /^(0|[1-9]\d{0,9})$/.test(key) ? Number(key) : -1;
-    if (!(index >= 0 && index < owner.length)) return undefined;
-    const entry = rest.length === 0 ? alike(owner[index], value) : replaced(owner[index], rest, value);
-    return entry === undefined ? undefined : owner.map((old: unknown, at) => (at === index ? entry : old));
+  // Each object on the way is copied once, however many values go through it.
+  const copies = new Set<unknown>();
+  const copyOf = <T extends object>(owner: T): T => {
+    if (copies.has(owner)) return owner;
+    const copy = (Array.isArray(owner) ? [...(owner as unknown[])] : { ...owner }) as T;
+    copies.add(copy);
+    return copy;
+  };
+  const document = copyOf(json) as Record<string, unknown>;
+  for (const { path, value } of values) {
+    let owner: Record<string, unknown> | unknown[] = document;
+    let at = 0;
+    for (; at < path.length - 1; at++) {
+      const key = keyIn(owner, path[at] as string);
+      const inside: unknown = key === undefined || !Object.hasOwn(owner, key) ? undefined : (owner as Record<string, unknown>)[key];
+      if (key === undefined || typeof inside !== 'object' || inside === null) break;
+      owner = (owner as Record<string, unknown>)[key] = copyOf(inside) as Record<string, unknown>;
+    }
+    const key = at === path.length - 1 ? keyIn(owner, path[at] as string) : undefined;
+    const old = key !== undefined && Object.hasOwn(owner, key) ? (owner as Record<string, unknown>)[key] : undefined;
+    if (key !== undefined && isAlike(old, value)) (owner as Record<string, unknown>)[key] = value;
+    else warn(`/${path.join('/')}`, 'is moved by an animation, but there is no such thing; nothing moves');
   }
-  if (!isObject(owner) || key === '__proto__') return undefined;
-  const entry = rest.length === 0 ? alike(Object.hasOwn(owner, key) ? owner[key] : undefined, value) : Object.hasOwn(owner, key) ? replaced(owner[key], rest, value) : undefined;
-  return entry === undefined ? undefined : { ...owner, [key]: entry };
+  return document;
 }
 
-/** The value, if it is of the kind that stands there now, or nothing does. */
-function alike(old: unknown, value: PointedValue['value']): PointedValue['value'] | undefined {
-  if (old === undefined) return value;
-  return typeof old === typeof value && Array.isArray(old) === Array.isArray(value) && (!Array.isArray(old) || !Array.isArray(value) || old.length === value.length) ? value : undefined;
+/** A key that may be set: an index within an array, or a name that no prototype is reached by. */
+function keyIn(owner: object, key: string): string | undefined {
+  if (Array.isArray(owner)) return /^(0|[1-9]\d{0,9})$/.test(key) && Number(key) < owner.length ? key : undefined;
+  return key === '__proto__' ? undefined : key;
 }
 
+/** Whether a value is of the kind that stands there now, or nothing does. */
+const isAlike = (old: unknown, value: PointedValue['value']): boolean => old === undefined || (typeof old === typeof value && Array.isArray(old) === Array.isArray(value) && (!Array.isArray(old) || old.length === (value as readonly number[]).length));

@@ -1,5 +1,5 @@
 import type { SceneWarning } from '@glanz/scene';
-import type { Raw } from './check/context';
+import { quote, type Raw } from './check/context';
 import { GltfError } from './error';
 
 /** A document out of its container. */
@@ -68,7 +68,7 @@ function parseJson(bytes: Uint8Array, name: string, warnings: SceneWarning[]): R
   const minor = (value: unknown) => (typeof value === 'string' ? Number(/^2\.(\d+)$/.exec(value)?.[1] ?? NaN) : NaN);
   const own = minor(version), least = minVersion === undefined ? 0 : minor(minVersion);
   if (!(own >= 0) || !(least <= own)) {
-    throw new GltfError('gltf/version', `${name} is of glTF version ${JSON.stringify(least <= own ? version : (minVersion ?? version))}; only 2.0 is known.`, { location: { file: name, path: '/asset/version' } });
+    throw new GltfError('gltf/version', `${name} is of glTF version ${quote(least <= own ? version : (minVersion ?? version))}; only 2.0 is known.`, { location: { file: name, path: '/asset/version' } });
   }
   if (least > 0 || own > 0) warnings.push({ code: 'gltf/version', message: `${name} is of glTF version ${String(version)}; it is read as 2.0.`, path: '/asset/version' });
   return json as unknown as Raw;

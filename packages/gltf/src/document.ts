@@ -110,7 +110,8 @@ export async function readDocument(checked: CheckedDocument, binary: Uint8Array<
     }
     return bytes.subarray(offset, offset + view.byteLength);
   };
-  const budget = new Budget(file, 'geometryBytes', options.limits);
+  const total = source.bytes.length + buffers.reduce((sum, bytes) => sum + (bytes && bytes.buffer !== source.bytes.buffer ? bytes.length : 0), 0);
+  const budget = new Budget(file, 'geometryBytes', options.limits, total);
   const unpacked = new Map<number, Uint8Array<ArrayBuffer>>();
   const viewBytes = (index: number): Uint8Array<ArrayBuffer> => {
     const view = json.bufferViews?.[index];
@@ -138,7 +139,7 @@ export async function readDocument(checked: CheckedDocument, binary: Uint8Array<
     return buffers[(packed ?? view)?.buffer ?? -1] !== undefined;
   };
   checkBytes((index) => (isThere(index) ? viewBytes(index) : undefined));
-  return { file, accessors: new Accessors(json, viewBytes, budget), viewBytes, isThere, draco, budget };
+  return { file, accessors: new Accessors(json, viewBytes, budget), viewBytes, isThere, draco, budget, bytes: total };
 }
 
 const short = (name: string, path: string, length: number, expected: number) =>
@@ -151,7 +152,7 @@ export async function readUri(uri: string, source: Source, signal: AbortSignal |
     const found = dataUri(uri);
     if (!found) throw unreadable();
     try {
-      return found.base64 ? fromBase64(found.data) : new TextEncoder().encode(decodeURIComponent(found.data));
+      return found.base64 ? fromBase64(found.data) : fromPercents(found.data);
     } catch (cause) {
       throw unreadable(cause);
     }
@@ -160,6 +161,19 @@ export async function readUri(uri: string, source: Source, signal: AbortSignal |
   const path = decoded(uri);
   if (/^[a-z][a-z0-9+.-]*:|^\/|^\\/i.test(path)) throw new GltfError('gltf/missing-resource', `${source.name} names "${uri}": only files beside the document are read.`, { location: { file: source.name } });
   return source.read(path, signal);
+}
+
+/** Bytes of text in which some are escaped by their numbers (RFC 3986, 2.1); they need not be UTF-8. */
+function fromPercents(text: string): Uint8Array<ArrayBuffer> {
+  const plain = new TextEncoder().encode(text);
+  const bytes = new Uint8Array(plain.length);
+  let length = 0;
+  for (let i = 0; i < plain.length; i++) {
+    const escaped = plain[i] === 0x25 ? /^[0-9a-f]{2}$/i.exec(String.fromCharCode(...plain.subarray(i + 1, i + 3))) : null;
+    bytes[length++] = escaped ? Number.parseInt(escaped[0], 16) : (plain[i] as number);
+    if (escaped) i += 2;
+  }
+  return bytes.slice(0, length);
 }
 
 /** @throws {Error} for text that is none. */

@@ -2,7 +2,7 @@ import { GlanzError, type GlanzErrorOptions } from '@glanz/scene';
 
 /** Text on one line of a sensible length: names and addresses come from the file and may hold anything. */
 export const oneLine = (text: string): string => {
-  const line = text.replace(/[\p{Cc}\u2028\u2029]+/gu, ' ');
+  const line = text.slice(0, 600).replace(/[\p{Cc}\u2028\u2029]+/gu, ' ');
   return line.length > 500 ? `${line.slice(0, 500)}…` : line;
 };
 

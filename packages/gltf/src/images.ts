@@ -6,6 +6,7 @@ import { readUri } from './document';
 import { GltfError } from './error';
 import type { GltfImage, GltfJson, GltfTexture } from './json';
 import type { Budget } from './limits';
+import { pictureSize } from './picture-header';
 import type { Source } from './source';
 
 /** Decoded pixels: RGBA, 8 bits a channel, straight alpha, top row first; colour codes as they are in the file. */
@@ -157,8 +158,11 @@ export class TextureTable {
     try {
       const type = formatOf(bytes);
       if (type === 'image/ktx2' && !this.#ktx2) throw new GltfError('gltf/missing-decoder', `${this.#source.name} has pictures in KTX2: pass decoders.ktx2, for which the package "three" has the transcoder.`, { location: { file: this.#source.name, path: `/images/${index}` } });
+      // Before a decoder allocates anything.
+      const said = pictureSize(bytes, type);
+      if (said) budget.take(4 * said.width * said.height, `/images/${index}`);
       const decoded = type === 'image/ktx2' ? await (this.#ktx2 as Ktx2Decoder)(bytes) : await decode(bytes, type);
-      budget.take(4 * decoded.width * decoded.height, `/images/${index}`);
+      if (!said) budget.take(4 * decoded.width * decoded.height, `/images/${index}`);
       return decoded;
     } catch (error) {
       if (error instanceof GltfError && error.code !== 'gltf/picture') throw error;

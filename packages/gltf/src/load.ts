@@ -2,7 +2,7 @@ import { createScene, type Scene, type SceneWarning } from '@glanz/scene';
 import { describeAnimations, posesAt, type NodePose } from './animation';
 import { pointedValues, withValues } from './animation-pointer';
 import { decodeImageInBrowser } from './browser-images';
-import type { Raw } from './check/context';
+import { isShallow, type Raw } from './check/context';
 import { checkDocument } from './check/index';
 import { openContainer } from './container';
 import { readDocument, type GltfDecoders } from './document';
@@ -15,6 +15,7 @@ import { Budget, DEFAULT_LIMITS, type GltfLimits } from './limits';
 import { indexOf, readNodes, sceneToShow } from './nodes';
 import type { PrimitiveReader } from './primitive';
 import { openSource, type GltfInput, type Source } from './source';
+import { WarningList } from './warnings';
 
 /** How far a load has come. */
 export interface GltfProgress {
@@ -72,6 +73,7 @@ export async function buildScene(source: Source, options: GltfOptions & { readon
   const { signal, onProgress } = options;
   signal?.throwIfAborted();
   const scene = createScene(source.name);
+  const warnings = (scene.warnings = new WarningList());
   const container = openContainer(source.bytes, source.name, scene.warnings);
   const checked = checkDocument(container.json, source.name, scene.warnings);
   onProgress?.({ stage: 'read', done: 1 });
@@ -89,7 +91,7 @@ export async function buildScene(source: Source, options: GltfOptions & { readon
   json.materials?.forEach(addMaterial);
   let done = 0;
   // Decoders have threads of their own: they are at work while geometry is read here.
-  const imageBytes = new Budget(source.name, 'imageBytes', options.limits);
+  const imageBytes = new Budget(source.name, 'imageBytes', options.limits, reader.bytes);
   const images = table.readImages(options.decodeImage, reader.viewBytes, imageBytes, signal, () => onProgress?.({ stage: 'images', done: ++done / table.imageCount }));
   images.catch(() => undefined);
   const shown = sceneToShow(json, options.scene, source.name);
@@ -123,7 +125,7 @@ export async function buildScene(source: Source, options: GltfOptions & { readon
       if (binding && table.failed.has(scene.textures[binding.texture]?.image ?? -1)) delete textures?.[parameter as keyof typeof textures];
     }
   }
-  scene.warnings = scene.warnings.map((warning) => ({ ...warning, message: oneLine(warning.message) }));
+  scene.warnings = warnings.finished(source.name, oneLine);
   return scene;
 }
 
@@ -140,6 +142,7 @@ async function readSurroundings({ scenes, extensions }: GltfJson, shown: number 
 function metadataOf({ asset, extensions }: GltfJson): Scene['metadata'] {
   const { version: _, minVersion: __, extensions: own, ...said } = asset as GltfJson['asset'] & { readonly extensions?: { readonly KHR_xmp_json_ld?: { readonly packet?: unknown } } };
   const xmp = extensions?.KHR_xmp_json_ld?.packets[(own?.KHR_xmp_json_ld?.packet as number | undefined) ?? 0];
+  if (!isShallow([said, xmp])) return undefined;
   const metadata = { ...said, ...(xmp === undefined ? {} : { xmp }) };
   return Object.keys(metadata).length > 0 ? metadata : undefined;
 }

@@ -1,6 +1,7 @@
 import { fromGltf, gltfTextures, type GltfMaterialFactors, type GltfTextureUse } from '@glanz/openpbr/gltf';
 import type { Material, SceneWarning, TextureBinding, TexturedParameter } from '@glanz/scene';
 import type { GltfMaterial, GltfTextureInfo } from './json';
+import { isShallow } from './check/context';
 import type { TextureTable } from './images';
 
 /** The material extensions that are read. */
@@ -81,6 +82,9 @@ export function readMaterial(material: GltfMaterial, index: number, table: Textu
   if (Object.keys(textures).length > 0) made.textures = textures;
   if (material.doubleSided === true) made.double_sided = true;
   if (material.alphaMode === 'MASK') made.opacity_threshold = material.alphaCutoff ?? 0.5;
-  if (material.extras !== undefined) made.extras = material.extras;
+  if (material.extras !== undefined) {
+    if (isShallow(material.extras)) made.extras = material.extras;
+    else warnings.push({ code: 'gltf/material', message: `Material ${index} ("${material.name ?? ''}"): its extras lie more than 100 deep in one another; they are left out.`, path: `/materials/${index}/extras` });
+  }
   return { made, uvSets };
 }

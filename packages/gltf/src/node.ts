@@ -58,13 +58,17 @@ export const packagedDecoders = (): GltfDecoders => ({
  * const scene = await loadGltfFile('models/button.glb');
  */
 export async function loadGltfFile(path: string | URL, options: GltfOptions = {}): Promise<Scene> {
-  const { readFile, realpath } = await import('node:fs/promises');
+  const { readFile, realpath, stat } = await import('node:fs/promises');
   const { basename, dirname, join, sep } = await import('node:path');
   const { fileURLToPath } = await import('node:url');
   const file = typeof path === 'string' ? path : fileURLToPath(path);
   const name = basename(file);
   const { signal } = options;
-  const read = async (at: string) => new Uint8Array(await readFile(at, signal ? { signal } : {}));
+  const read = async (at: string) => {
+    // Pipes and devices may never end.
+    if (!(await stat(at)).isFile()) throw new Error('it is no file');
+    return new Uint8Array(await readFile(at, signal ? { signal } : {}));
+  };
   let bytes: Uint8Array<ArrayBuffer>;
   try {
     bytes = await read(file);

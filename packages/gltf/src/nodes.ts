@@ -9,7 +9,7 @@ import type { Budget } from './limits';
 import type { UvSets } from './materials';
 import { compose, identity, isFinite4x4, multiply, type Matrix } from './matrix';
 import { unitNormals } from './normals';
-import { morphed, skinned } from './pose';
+import { jointMatrices, morphed, skinned } from './pose';
 import { openPrimitive, type PrimitiveData, type PrimitiveReader } from './primitive';
 import { tangentSet, withTangents } from './tangents';
 
@@ -130,7 +130,11 @@ class MeshReader {
   readonly #context: NodeContext;
   readonly #world: ReadonlyMap<number, Matrix>;
   readonly #opened = new Map<GltfPrimitive, PrimitiveData>();
-  readonly #shared = new Map<GltfPrimitive, number | undefined>();
+  /** Meshes by what they are made of: primitives may say the same. */
+  readonly #shared = new Map<string, number | undefined>();
+  readonly #keys = new Map<GltfPrimitive, string>();
+  readonly #variants = new Map<GltfPrimitive, Record<number, number> | undefined>();
+  readonly #joints = new Map<number, readonly (Matrix | undefined)[]>();
 
   /** Those that have been read, even if nothing came of it. */
   readonly shown = new Set<GltfPrimitive>();
@@ -145,22 +149,50 @@ class MeshReader {
     this.shown.add(primitive);
     const mesh = json.meshes?.[node.mesh as number];
     const material = primitive.material ?? defaultMaterial();
-    const weights = (poses.get(nodeIndex)?.weights ?? node.weights ?? mesh?.weights ?? []).map((w) => (Number.isFinite(w) ? w : 0));
-    const posed = node.skin !== undefined || weights.some((w) => w !== 0);
-    const variants = variantsOf(primitive);
-    if (!posed && this.#shared.has(primitive)) {
-      const known = this.#shared.get(primitive);
+    if (!this.#variants.has(primitive)) this.#variants.set(primitive, variantsOf(primitive));
+    const variants = this.#variants.get(primitive);
+    const own = poses.get(nodeIndex)?.weights ?? node.weights;
+    // Weights of the mesh itself give it one shape wherever it is.
+    const shared = node.skin === undefined && !own;
+    const key = shared ? this.#keyOf(primitive, material, mesh?.weights) : '';
+    if (shared && this.#shared.has(key)) {
+      const known = this.#shared.get(key);
       return known === undefined ? undefined : { mesh: known, material, variants };
     }
+    const weights = (own ?? mesh?.weights ?? []).map((w) => (Number.isFinite(w) ? w : 0));
     const label = (mesh?.name || node.name || `mesh ${node.mesh}`) + ((mesh?.primitives.length ?? 1) > 1 ? ` ${at}` : '');
     const made = this.#make(node, primitive, label, `/meshes/${node.mesh}/primitives/${at}`, material, weights, [material, ...Object.values(variants ?? {})]);
     const index = made && scene.meshes.push(made) - 1;
-    if (!posed) this.#shared.set(primitive, index);
+    if (shared) this.#shared.set(key, index);
     return index === undefined ? undefined : { mesh: index, material, variants };
   }
 
+  #keyOf(primitive: GltfPrimitive, material: number, weights: readonly number[] | undefined): string {
+    let key = this.#keys.get(primitive);
+    if (key === undefined) {
+      const { scene, uvSetsOf } = this.#context;
+      const { attributes, indices, mode, targets, extensions } = primitive;
+      const looks = [material, ...Object.values(this.#variants.get(primitive) ?? {})].map((index) => [uvSetsOf(index), tangentSet(scene.materials[index]), scene.materials[index]?.parameters.geometry_opacity === undefined]);
+      key = JSON.stringify([attributes, indices, mode, extensions?.KHR_draco_mesh_compression, weights?.some((w) => w !== 0) ? [targets, weights] : [], looks]);
+      this.#keys.set(primitive, key);
+    }
+    return key;
+  }
+
+  /** Matrices of a skin's joints, in the pose. */
+  #jointsOf(index: number): readonly (Matrix | undefined)[] {
+    let matrices = this.#joints.get(index);
+    if (!matrices) {
+      const { json, reader, scene } = this.#context;
+      const skin = json.skins?.[index];
+      matrices = jointMatrices(`skin ${index}`, skin?.joints ?? [], skin?.inverseBindMatrices === undefined ? undefined : reader.accessors.floats(skin.inverseBindMatrices, 16), this.#world, scene.warnings);
+      this.#joints.set(index, matrices);
+    }
+    return matrices;
+  }
+
   #make(node: GltfNode, primitive: GltfPrimitive, label: string, path: string, material: number, weights: readonly number[], materials: readonly number[]): Mesh | undefined {
-    const { json, scene, reader, uvSetsOf } = this.#context;
+    const { scene, reader, uvSetsOf } = this.#context;
     const opened = this.#opened.get(primitive) ?? openPrimitive(primitive, path, reader);
     // A mesh that is used once is not kept in its packed form.
     if (node.skin !== undefined || weights.length > 0) this.#opened.set(primitive, opened);
@@ -171,12 +203,11 @@ class MeshReader {
     }
     let made = readPrimitive(opened, label, opaque, uvSets, path, scene.warnings);
     if (!made) return undefined;
-    const skin = node.skin === undefined ? undefined : json.skins?.[node.skin];
     const blended = weights.some((w) => w !== 0);
     if (blended) made = morphed(made, opened, weights);
-    if (skin) made = skinned(made, opened, skin.joints, skin.inverseBindMatrices === undefined ? undefined : reader.accessors.floats(skin.inverseBindMatrices, 16), this.#world, scene.warnings);
+    if (node.skin !== undefined) made = skinned(made, opened, this.#jointsOf(node.skin), scene.warnings);
     // Blended normals are shorter than 1, and may even cancel out.
-    if ((skin || blended) && made.normals) unitNormals(made.normals, made.positions, made.indices, (message) => scene.warnings.push({ code: 'gltf/primitive', message: `${label}: ${message}`, path }));
+    if ((node.skin !== undefined || blended) && made.normals) unitNormals(made.normals, made.positions, made.indices, (message) => scene.warnings.push({ code: 'gltf/primitive', message: `${label}: ${message}`, path }));
     made = withoutUnusedVertices(made);
     const set = materials.map((index) => tangentSet(scene.materials[index])).find((wanted) => wanted !== undefined);
     return set === undefined ? made : withTangents(made, set);
@@ -198,7 +229,7 @@ function instancesOf({ reader, scene, instances }: NodeContext, node: GltfNode, 
   const path = `/nodes/${index}/extensions/EXT_mesh_gpu_instancing`;
   const warn = (number: number, what: string) => void warnings.push({ code: 'gltf/node', message: `${number} of ${count} instances at node "${node.name ?? ''}" have ${what}.`, path });
   const count = Math.max(0, ...['TRANSLATION', 'ROTATION', 'SCALE'].map((semantic) => (attributes[semantic] === undefined ? 0 : reader.accessors.at(attributes[semantic]).count)));
-  instances.take(count, path);
+  instances.check(count, path);
   const read = (semantic: string, size: number, initial: readonly number[]) => {
     const accessor = attributes[semantic];
     const values = accessor === undefined ? undefined : reader.accessors.floats(accessor, size);

@@ -49,3 +49,35 @@ function plainJpeg(bytes: Uint8Array<ArrayBuffer>, view: DataView): Uint8Array<A
   }
   return undefined;
 }
+
+/** What deflate can make of a byte at most. */
+const DEFLATE_RATIO = 1032;
+
+/**
+ * The size that a PNG, JPEG or WebP says it has; undefined if it does not say so where it should.
+ * @throws {Error} for a PNG that says more than its bytes can hold.
+ */
+export function pictureSize(bytes: Uint8Array, type: string): { readonly width: number; readonly height: number } | undefined {
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  if (type === 'image/png' && bytes.length >= 29) {
+    const size = { width: view.getUint32(16), height: view.getUint32(20) };
+    const bits = (bytes[24] as number) * ([1, 0, 3, 1, 2, 0, 4][bytes[25] as number] ?? 4);
+    if ((size.width * size.height * bits) / 8 > DEFLATE_RATIO * bytes.length + 65536) throw new Error(`it says that ${bytes.length} bytes hold ${size.width} × ${size.height} pixels`);
+    return size;
+  }
+  if (type === 'image/jpeg') {
+    for (let at = 2; at + 9 <= bytes.length; at += 2 + view.getUint16(at + 2)) {
+      const marker = view.getUint16(at);
+      if (marker < 0xffc0 || marker === 0xffff || marker === 0xffda) return undefined;
+      if (marker <= 0xffcf && ![0xffc4, 0xffc8, 0xffcc].includes(marker)) return { height: view.getUint16(at + 5), width: view.getUint16(at + 7) };
+    }
+  }
+  if (type === 'image/webp' && bytes.length >= 30) {
+    const kind = view.getUint32(12);
+    // "VP8X", "VP8L", "VP8 "
+    if (kind === 0x56503858) return { width: 1 + view.getUint16(24, true) + 65536 * (bytes[26] as number), height: 1 + view.getUint16(27, true) + 65536 * (bytes[29] as number) };
+    if (kind === 0x5650384c) return { width: 1 + (view.getUint32(21, true) & 0x3fff), height: 1 + ((view.getUint32(21, true) >>> 14) & 0x3fff) };
+    if (kind === 0x56503820) return { width: view.getUint16(26, true) & 0x3fff, height: view.getUint16(28, true) & 0x3fff };
+  }
+  return undefined;
+}

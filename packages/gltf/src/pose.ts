@@ -29,22 +29,29 @@ export function morphed(mesh: Mesh, primitive: PrimitiveData, weights: readonly 
 }
 
 /**
- * A mesh in the pose of its skeleton, in the world (glTF 2.0, section 3.7.3.3: the node's own transform does not count).
- * Matrices and weights that are not finite do not count, with a warning.
+ * Matrices of a skeleton's joints: from where a vertex is bound to where it is in the world. Those that are not finite are
+ * undefined, with a warning.
  * @param bind Inverse bind matrices, one after the other; absent: all are the identity.
  * @param world World transforms of the nodes.
  */
-export function skinned(mesh: Mesh, primitive: PrimitiveData, joints: readonly number[], bind: Float32Array | undefined, world: ReadonlyMap<number, Matrix>, warnings: SceneWarning[]): Mesh {
-  const warn = (message: string) => void warnings.push({ code: 'gltf/skin', message: `${mesh.name}: ${message}` });
-  const matrices = joints.map((joint, j) => {
+export function jointMatrices(name: string, joints: readonly number[], bind: Float32Array | undefined, world: ReadonlyMap<number, Matrix>, warnings: SceneWarning[]): readonly (Matrix | undefined)[] {
+  return joints.map((joint, j) => {
     const own = bind?.subarray(16 * j, 16 * j + 16);
     const at = world.get(joint) ?? identity();
     if (own && !own.every(Number.isFinite)) {
-      warn(`the bind matrix of joint ${j} is not finite; the joint does not count.`);
+      warnings.push({ code: 'gltf/skin', message: `${name}: the bind matrix of joint ${j} is not finite; the joint does not count.` });
       return undefined;
     }
     return own ? multiply(at, own) : at;
   });
+}
+
+/**
+ * A mesh in the pose of its skeleton, in the world (glTF 2.0, section 3.7.3.3: the node's own transform does not count).
+ * Weights that are not finite do not count, with a warning.
+ */
+export function skinned(mesh: Mesh, primitive: PrimitiveData, matrices: readonly (Matrix | undefined)[], warnings: SceneWarning[]): Mesh {
+  const warn = (message: string) => void warnings.push({ code: 'gltf/skin', message: `${mesh.name}: ${message}` });
   const sets: { joints: Float32Array; weights: Float32Array }[] = [];
   for (let set = 0; ; set++) {
     if (primitive.count(`JOINTS_${set}`) === undefined || primitive.count(`WEIGHTS_${set}`) === undefined) break;

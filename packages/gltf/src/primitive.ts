@@ -31,6 +31,8 @@ export interface PrimitiveReader {
   readonly isThere: (view: number) => boolean;
   readonly draco: unknown;
   readonly budget: Budget;
+  /** Bytes of the document and its buffers. */
+  readonly bytes: number;
 }
 
 /** Opens a primitive; one that is compressed is unpacked here. */

@@ -162,13 +162,18 @@ export function validateScene(scene: Scene): SceneWarning[] {
   });
   scene.textures.forEach((texture, index) => reference(texture.image, scene.images, `Texture ${index}`, 'image'));
   scene.materials.forEach((material, index) => checkMaterial(scene, material, index));
+  const seen = new Set<object>();
   scene.instances.forEach((instance, index) => {
     const what = `Instance ${index} ("${instance.name}")`;
     reference(instance.mesh, scene.meshes, what, 'mesh');
     reference(instance.material, scene.materials, what, 'material');
-    for (const [variant, material] of Object.entries(instance.variants ?? {})) {
-      reference(Number(variant), scene.variants ?? [], what, 'variant');
-      reference(material, scene.materials, what, 'material');
+    // Places of one mesh share the list.
+    if (instance.variants && !seen.has(instance.variants)) {
+      seen.add(instance.variants);
+      for (const [variant, material] of Object.entries(instance.variants)) {
+        reference(Number(variant), scene.variants ?? [], what, 'variant');
+        reference(material, scene.materials, what, 'material');
+      }
     }
     checkTransform(instance.transform, what);
     // glTF hides parts by a scale of 0, so this is no fault; the hierarchy leaves such a part out.

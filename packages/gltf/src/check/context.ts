@@ -7,17 +7,41 @@ export type Raw = { readonly [key: string]: unknown };
 /** Whether a value is a JSON object. */
 export const isObject = (value: unknown): value is Raw => typeof value === 'object' && value !== null && !Array.isArray(value);
 
+/** JSON text of a value as far as it is short and shallow; deep ones would overflow the stack of JSON.stringify. */
+function brief(value: unknown, depth: number): string {
+  if (typeof value === 'string') return JSON.stringify(value.slice(0, 60));
+  if (typeof value === 'number') return String(value);
+  if (typeof value !== 'object' || value === null) return JSON.stringify(value) ?? String(value);
+  if (depth === 4) return '…';
+  if (Array.isArray(value)) return `[${value.slice(0, 20).map((entry) => brief(entry, depth + 1)).join(',')}]`;
+  return `{${Object.keys(value).slice(0, 10).map((key) => `${JSON.stringify(key.slice(0, 60))}:${brief((value as Raw)[key], depth + 1)}`).join(',')}}`;
+}
+
 /** A value as it may be quoted in a message of one line. */
 export const quote = (value: unknown): string => {
-  const text = value === undefined ? 'missing' : (JSON.stringify(value) ?? String(value));
+  const text = value === undefined ? 'missing' : brief(value, 0);
   return text.length > 40 ? `${text.slice(0, 40)}…` : text;
 };
+
+/** Whether objects and arrays lie in one another at most `most` times. What passes through to the host must not overflow its stack. */
+export function isShallow(value: unknown, most = 100): boolean {
+  let level: unknown[] = [value];
+  for (let depth = 0; level.length > 0; depth++) {
+    const inside = level.flatMap((entry): unknown[] => (typeof entry === 'object' && entry !== null ? Object.values(entry) : []));
+    if (inside.length > 0 && depth === most) return false;
+    level = inside;
+  }
+  return true;
+}
 
 /** A property by its name; never one that all objects inherit, such as `constructor`. */
 export const own = (object: Raw, key: string): unknown => (Object.hasOwn(object, key) ? object[key] : undefined);
 
 /** What every check has at hand: the document, and the two ways to object. */
 export class CheckContext {
+  /** Lists that have been looked through: doing so for each part that refers to one would take the square of the time. */
+  readonly #lists = new Map<string, readonly Raw[]>();
+
   constructor(
     readonly json: Raw,
     readonly file: string,
@@ -35,9 +59,13 @@ export class CheckContext {
 
   /** A top-level array of objects; empty if it is not there. */
   list(key: string): readonly Raw[] {
-    const value = own(this.json, key);
-    if (value === undefined) return [];
-    return this.objects(value, `/${key}`);
+    let list = this.#lists.get(key);
+    if (!list) {
+      const value = own(this.json, key);
+      list = value === undefined ? [] : this.objects(value, `/${key}`);
+      this.#lists.set(key, list);
+    }
+    return list;
   }
 
   objects(value: unknown, path: string): readonly Raw[] {
