@@ -30,6 +30,20 @@ export function addLamps(scene: Scene): Scene {
 }
 // #endregion lamps
 
+// #region panels
+export function addPanels(scene: Scene): Scene {
+  return {
+    ...scene,
+    lights: [
+      ...scene.lights,
+      { type: 'rectangle', name: 'softbox', color: [1, 1, 1], intensity: 8, position: [-1, 1.5, 1], direction: [0.5, -0.7, -0.5], width: 0.8, height: 1.2, visible: false },
+      { type: 'disk', name: 'spotlight', color: [1, 0.9, 0.8], intensity: 10, position: [1.5, 1.5, 0], direction: [-1, -1, 0], radius: 0.2 },
+      { type: 'sphere', name: 'globe', color: [1, 0.8, 0.6], intensity: 5, position: [0, 1.8, -1], radius: 0.15 },
+    ],
+  };
+}
+// #endregion panels
+
 // #region emissive
 export const glow = (tracer: PathTracer) => tracer.setMaterial('lens', { emission_color: [0.03, 1, 0.2], emission_luminance: 4 });
 // #endregion emissive

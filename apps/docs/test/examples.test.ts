@@ -166,7 +166,7 @@ describe('lighting', () => {
     }));
 
   test('lamps, a glow', async () => {
-    const scene = lighting.addLamps(exampleScene());
+    const scene = lighting.addPanels(lighting.addLamps(exampleScene()));
     delete (scene as { environment?: unknown }).environment;
     await withTracer(async (tracer) => {
       expect(mean(await picture(tracer), 0)).toBeGreaterThan(0.001);
