@@ -114,7 +114,7 @@ export class SceneEditor {
     return this.#place(this.#changed(nameOrIndex, { catcher }));
   }
 
-  async setVisibility(nameOrIndex: string | number, visible: boolean): Promise<boolean> {
+  async setVisibility(nameOrIndex: string | number | readonly (string | number)[], visible: boolean): Promise<boolean> {
     const changed = () => ({ ...this.scene, instances: this.#changed(nameOrIndex, { visible }) });
     if (missingMeshes(changed(), this.#geometry.blas).length === 0) return this.#place(changed().instances);
     // Shown for the first time: their hierarchies come first.
@@ -174,8 +174,8 @@ export class SceneEditor {
     return found;
   }
 
-  #changed(nameOrIndex: string | number, change: Partial<Mutable<Instance>>): Instance[] {
-    const which = new Set(this.#instances(nameOrIndex));
+  #changed(nameOrIndex: string | number | readonly (string | number)[], change: Partial<Mutable<Instance>>): Instance[] {
+    const which = new Set([nameOrIndex].flat().flatMap((one) => this.#instances(one)));
     return this.scene.instances.map((instance, i) => (which.has(i) ? { ...instance, ...change } : instance));
   }
 

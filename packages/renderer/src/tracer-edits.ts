@@ -51,12 +51,12 @@ export abstract class TracerEdits {
   }
 
   /**
-   * Shows or hides the instances of a name, or the one of an index. Costs the upper level of the hierarchy, and for meshes
-   * shown for the first time their own. Restarts the film.
+   * Shows or hides the instances of a name, or the one of an index, or several of them at the price of one. Costs the upper
+   * level of the hierarchy, and for meshes shown for the first time their own. Restarts the film.
    *
    * @throws {RenderError} `renderer/instance`, `renderer/no-triangles` if nothing would be left to see.
    */
-  setVisibility(nameOrIndex: string | number, visible: boolean): Promise<void> {
+  setVisibility(nameOrIndex: string | number | readonly (string | number)[], visible: boolean): Promise<void> {
     return this.edit((editor) => editor.setVisibility(nameOrIndex, visible));
   }
 

@@ -88,8 +88,10 @@ export async function assemble(tracer: PathTracer, next: Assembly, before: Assem
   // First what appears, so that there is something to see at any time.
   const all = optionalParts();
   const was = before?.visible ?? all;
-  for (const name of all) if (next.visible.has(name) && !was.has(name)) await run(tracer.setVisibility(name, true));
-  for (const name of all) if (!next.visible.has(name) && was.has(name)) await run(tracer.setVisibility(name, false));
+  const appear = [...all].filter((name) => next.visible.has(name) && !was.has(name));
+  const vanish = [...all].filter((name) => !next.visible.has(name) && was.has(name));
+  if (appear.length > 0) await run(tracer.setVisibility(appear, true));
+  if (vanish.length > 0) await run(tracer.setVisibility(vanish, false));
   for (const [name, values] of Object.entries(next.materials)) if (!same(values, before?.materials[name])) await run(tracer.setMaterial(name, values));
   return edits;
 }

@@ -69,6 +69,7 @@ const EDITS: readonly (readonly [name: string, edit: (tracer: PathTracer) => Pro
   ['a transform', (t) => t.setInstanceTransform('sphere', moved(0.4, -0.3, 0.1)), (s) => Object.assign(s.instances[1] as object, { transform: moved(0.4, -0.3, 0.1) })],
   ['the transform of something that glows', (t) => t.setInstanceTransform('panel', moved(-1, -0.8, 0)), (s) => Object.assign(s.instances[2] as object, { transform: moved(-1, -0.8, 0) })],
   ['visibility', (t) => t.setVisibility('sphere', false), (s) => Object.assign(s.instances[1] as object, { visible: false })],
+  ['visibility of several', (t) => t.setVisibility(['sphere', 2], false), (s) => s.instances.slice(1, 3).forEach((instance) => Object.assign(instance, { visible: false }))],
   ['the material of an instance', (t) => t.setInstanceMaterial(1, 'blue'), (s) => Object.assign(s.instances[1] as object, { material: 3 })],
   ['a mesh for a smaller one', (t) => t.replaceMesh('sphere', square(0.5)), (s) => (s.meshes[1] = square(0.5))],
   ['a material’s value', (t) => t.setMaterial('ball', { specular_roughness: 0.7 }), (s) => ((s.materials[1] as Scene['materials'][number]).parameters = { base_color: [0.8, 0.2, 0.1], specular_roughness: 0.7 })],
