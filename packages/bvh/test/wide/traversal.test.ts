@@ -1,9 +1,9 @@
-import { compose, wgslModule } from '@glanz/wgsl';
-import { expectNoGpuErrors, runCompute, testDevice } from '@glanz/gpu';
+import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { afterAll, beforeAll, expect, test } from 'vitest';
-import { buildBlas, buildTlas, closestHitInstances, packTriangles, type TriangleMesh } from '../../src/index';
+import { closestHitInstances } from '../../src/index';
 import { widenBlas, widenTlas } from '../../src/wide/index';
-import { bvhAnyHit, bvhClosestHit, bvhInstanceStruct } from '../../src/wgsl-wide/index';
+import { bvhAnyHit, bvhClosestHit } from '../../src/wgsl-wide/index';
+import { trace as traceIn, upload, type Layout, type Placed } from '../gpu-trace';
 import { affine, direction, randomNumbers, sphere, strewn } from '../shapes';
 
 let device: GPUDevice;
@@ -14,94 +14,8 @@ afterAll(() => expectNoGpuErrors());
 
 const identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
-interface Placed {
-  readonly mesh: TriangleMesh;
-  readonly transform: ArrayLike<number>;
-}
-
-/** Buffers of a scene as a host lays them out: nodes of the TLAS first, then of each BLAS. */
-function upload(placed: readonly Placed[]) {
-  const parts = placed.map(({ mesh, transform }) => ({ mesh, transform, blas: buildBlas(mesh) }));
-  const tlas = buildTlas(parts.map(({ blas, transform }) => ({ bounds: blas.bounds, transform })));
-  const wide = widenTlas(tlas);
-  const nodes = [wide.nodes];
-  const triangles: Float32Array<ArrayBuffer>[] = [];
-  const starts: [number, number][] = [];
-  let node = wide.nodeCount, triangle = 0;
-  for (const { blas, mesh } of parts) {
-    const tree = widenBlas(blas);
-    starts.push([node, triangle]);
-    nodes.push(tree.nodes);
-    triangles.push(packTriangles(tree, mesh));
-    node += tree.nodeCount;
-    triangle += tree.triangleIndices.length;
-  }
-  const join = (arrays: (Float32Array | Uint32Array)[]) => {
-    const all = new Uint8Array(arrays.reduce((sum, a) => sum + a.byteLength, 0));
-    let at = 0;
-    for (const a of arrays) {
-      all.set(new Uint8Array(a.buffer, a.byteOffset, a.byteLength), at);
-      at += a.byteLength;
-    }
-    return all;
-  };
-  const instances = bvhInstanceStruct.allocate(wide.instanceOrder.length);
-  wide.instanceOrder.forEach((given, slot) => {
-    const row = (r: number) => tlas.toObject.subarray(12 * given + 4 * r, 12 * given + 4 * r + 4);
-    bvhInstanceStruct.write(instances, slot, { to_object_0: row(0), to_object_1: row(1), to_object_2: row(2), blas_node: starts[given]![0], triangle_offset: starts[given]![1], id: given, flags: 0 });
-  });
-  return { parts, tlas, nodes: join(nodes), triangles: join(triangles), instances };
-}
-
-interface GpuHit {
-  readonly t: number;
-  readonly u: number;
-  readonly v: number;
-  readonly triangle: number;
-  readonly instance: number;
-  readonly any: boolean;
-}
-
-/** Traces rays (origin xyz, tMin, direction xyz, tMax) on the GPU. */
-async function trace(placed: readonly Placed[], rays: Float32Array<ArrayBuffer>, accept?: string): Promise<GpuHit[]> {
-  const { nodes, triangles, instances } = upload(placed);
-  const count = rays.length / 8;
-  const host = wgslModule(
-    'test/host',
-    `@group(0) @binding(0) var<storage, read> nodes: array<BvhNode>;
-@group(0) @binding(1) var<storage, read> triangles: array<vec4f>;
-@group(0) @binding(2) var<storage, read> instances: array<BvhInstance>;
-@group(0) @binding(3) var<storage, read> rays: array<vec4f>;
-@group(0) @binding(4) var<storage, read_write> result: array<u32>;
-fn bvh_node(index: u32) -> BvhNode { return nodes[index]; }
-fn bvh_instance(index: u32) -> BvhInstance { return instances[index]; }
-fn bvh_triangle(index: u32) -> BvhTriangle {
-  let a = triangles[3u * index];
-  return BvhTriangle(a.xyz, bitcast<u32>(a.w), triangles[3u * index + 1u].xyz, triangles[3u * index + 2u].xyz);
-}
-${accept ?? ''}
-@compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3u) {
-  if (id.x >= ${count}u) { return; }
-  let o = rays[2u * id.x];
-  let d = rays[2u * id.x + 1u];
-  let hit = bvh_closest_hit(o.xyz, d.xyz, o.w, d.w);
-  let at = 8u * id.x;
-  result[at] = bitcast<u32>(hit.t);
-  result[at + 1u] = bitcast<u32>(hit.u);
-  result[at + 2u] = bitcast<u32>(hit.v);
-  if (hit.instance != BVH_MISS) {
-    result[at + 3u] = bvh_triangle(hit.triangle).id;
-    result[at + 4u] = instances[hit.instance].id;
-  } else { result[at + 4u] = 0xffffffffu; }
-  result[at + 5u] = select(0u, 1u, bvh_any_hit(o.xyz, d.xyz, o.w, d.w));
-}`,
-    [bvhClosestHit, bvhAnyHit],
-  );
-  const { code } = compose([host], { flags: { BVH_FILTER: accept !== undefined } });
-  const bytes = await runCompute(device, code, { inputs: [nodes, triangles, instances, rays], outputBytes: count * 32, workgroups: Math.ceil(count / 64) });
-  const f = new Float32Array(bytes), u = new Uint32Array(bytes);
-  return Array.from({ length: count }, (_, i) => ({ t: f[8 * i]!, u: f[8 * i + 1]!, v: f[8 * i + 2]!, triangle: u[8 * i + 3]!, instance: u[8 * i + 4]!, any: u[8 * i + 5] === 1 }));
-}
+const layout: Layout = { blas: widenBlas, tlas: widenTlas, modules: [bvhClosestHit, bvhAnyHit] };
+const trace = (placed: readonly Placed[], rays: Float32Array<ArrayBuffer>, accept?: string) => traceIn(device, layout, placed, rays, accept);
 
 for (const seed of [51, 52]) {
   test(`WGSL and CPU find the same hits in instances with shear and mirrors (seed ${seed})`, async () => {
@@ -115,7 +29,7 @@ for (const seed of [51, 52]) {
       rays.set([...origin, 0, ...origin.map((x) => (3 * (random() - 0.5) - x) * length), 1e30], 8 * i);
     }
     const hits = await trace(placed, rays);
-    const { parts, tlas } = upload(placed);
+    const { parts, tlas } = upload(placed, layout);
     let found = 0, other = 0;
     hits.forEach((hit, i) => {
       const ray = { origin: rays.subarray(8 * i, 8 * i + 3), direction: rays.subarray(8 * i + 4, 8 * i + 7) };
