@@ -26,6 +26,9 @@ import { Outline } from './viewer/outline';
 import { wireCommands } from './ui/commands';
 import { Session, type SessionStatus } from './viewer/session';
 
+/** Lets the page have its turn. */
+const pause = () => new Promise<void>((resolve) => setTimeout(resolve, 0));
+
 /** The page: joins controls, files and the session. */
 export class App {
   readonly #canvas = byId<HTMLCanvasElement>('picture');
@@ -180,7 +183,13 @@ export class App {
       const from = this.#store.state;
       const now = (): State => (this.#store.state === from ? begin : { ...begin, ...changedSince(from, this.#store.state) });
       const host = this.#host();
-      await present(scene, () => (this.#opened?.scene === scene ? this.#store.state : now()), { ...host, rig: this.#rigFor(scene) }, ({ stage, done }) => this.#status.prepare(stage, done));
+      // Each goes through all vertices or pixels: one after the other, with the page in between.
+      const rig = this.#rigFor(scene);
+      await pause();
+      host.environment(begin, scene);
+      await pause();
+      signal.throwIfAborted();
+      await present(scene, () => (this.#opened?.scene === scene ? this.#store.state : now()), { ...host, rig }, ({ stage, done }) => this.#status.prepare(stage, done));
       this.#adopt(opened, now());
     } catch (error) {
       this.#fail(error);

@@ -1,4 +1,4 @@
-import { validateScene, type Camera, type Scene } from '@glanz/scene';
+import { validationSteps, type Camera, type Scene } from '@glanz/scene';
 import { DeviceError, RenderError } from './errors';
 import { Film } from './film/film';
 import { showFirstLight } from './first-light';
@@ -10,7 +10,9 @@ import { Integrator } from './integrator';
 import type { KernelFeatures } from './kernels/pipelines';
 import type { PathTracerOptions, RenderStatistics } from './options';
 import { chooseCamera } from './scene/choose-camera';
-import { packGeometry, prepareGeometry } from './scene/geometry';
+import { prepareEnvironment } from './scene/environment';
+import { prepareGeometry } from './scene/geometry';
+import { breather } from './scene/hierarchies';
 import { hasInterior } from './scene/interiors';
 import { ownScene, SceneEditor } from './scene-editor';
 import { checkShortcuts, shortcutFlags } from './shortcuts';
@@ -37,10 +39,14 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
   checkShortcuts(options);
   checkDepth(options.maxDepth ?? 8);
   checkVolumeDepth(options.maxVolumeDepth ?? 256);
-  validateScene(scene);
+  // Each of the next goes through all vertices or pixels: the thread is handed back in between.
+  await pause();
+  const breathe = breather(VALIDATION_MS);
+  for (const _ of validationSteps(scene)) await breathe();
   checkInteriors(scene);
   const own = ownScene(scene);
   const { hierarchies, signal, onProgress } = options;
+  await pause();
   signal?.throwIfAborted();
   const t0 = performance.now();
   // A quarter of what the renderer weighs, and nobody needs it before there is a scene: a chunk of its own, loaded meanwhile.
@@ -48,13 +54,16 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
   loading.catch(() => {});
   onProgress?.({ stage: 'bvh', done: 0 });
   const geometry = await prepareGeometry(own, { hierarchies, signal, onProgress: (done) => onProgress?.({ stage: 'bvh', done }) });
-  const packed = await packGeometry(own, geometry, signal);
+  await pause();
+  const environment = prepareEnvironment(own.environment);
+  await pause();
   const { OPENPBR_TABLES } = await loading;
   const t1 = performance.now();
   onProgress?.({ stage: 'upload', done: 0 });
   const memory = new GpuMemory(device);
   try {
-    const gpuScene = await withErrorScopes(device, () => new GpuScene(device, memory, own, geometry, packed, { multipleScattering: options.multipleScattering ?? true, sampler: options.sampler ?? 'sobol', lightGroups: options.lightGroups ?? 'named', lightSampling: options.lightSampling ?? 'tree' }, OPENPBR_TABLES));
+    const gpuScene = await withErrorScopes(device, () => new GpuScene(device, memory, own, geometry, environment, { multipleScattering: options.multipleScattering ?? true, sampler: options.sampler ?? 'sobol', lightGroups: options.lightGroups ?? 'named', lightSampling: options.lightSampling ?? 'tree' }, OPENPBR_TABLES));
+    await gpuScene.fillShapes(signal);
     const t2 = performance.now();
     onProgress?.({ stage: 'upload', done: 1 });
     const cache = new KernelCache(device);
@@ -83,6 +92,12 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
     throw error;
   }
 }
+
+/** While a scene is checked, the thread is handed back after so many milliseconds. */
+const VALIDATION_MS = 6;
+
+/** Lets everything else that waits have its turn. */
+const pause = () => new Promise<void>((resolve) => setTimeout(resolve, 0));
 
 /** What decides the kernels' text: the scene, the camera and the options. */
 export function kernelFeatures(scene: GpuScene, camera: Camera, options: PathTracerOptions): KernelFeatures {

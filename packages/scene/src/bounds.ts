@@ -1,5 +1,6 @@
 import type { Instance, Scene } from './scene';
 import type { Mesh } from './mesh';
+import { usedVertices } from './used-vertices';
 
 /** An axis-aligned box in the world, metres. Empty: min is +∞ and max −∞. */
 export interface SceneBounds {
@@ -12,26 +13,33 @@ export interface SceneBounds {
  * not count, nor do lights and cameras.
  */
 export function sceneBounds(scene: Scene): SceneBounds {
-  const min: [number, number, number] = [Infinity, Infinity, Infinity];
-  const max: [number, number, number] = [-Infinity, -Infinity, -Infinity];
-  for (const instance of scene.instances) {
-    const mesh = scene.meshes[instance.mesh];
-    if (instance.visible !== false && mesh) growByMesh(mesh, instance, min, max);
-  }
-  return { min, max };
+  return boundsBy(scene, usedVertices);
 }
 
-function growByMesh({ positions, indices }: Mesh, { transform: m }: Instance, min: [number, number, number], max: [number, number, number]): void {
-  for (const r of [0, 1, 2] as const) {
-    const a = m[r] as number, b = m[4 + r] as number, c = m[8 + r] as number, d = m[12 + r] as number;
-    let low = min[r], high = max[r];
-    for (let i = 0; i < indices.length; i++) {
-      const v = 3 * (indices[i] as number);
-      const x = a * (positions[v] as number) + b * (positions[v + 1] as number) + c * (positions[v + 2] as number) + d;
-      if (x < low) low = x;
-      if (x > high) high = x;
-    }
-    min[r] = low;
-    max[r] = high;
+/** {@link sceneBounds}, with a memory for the vertices in use. */
+export function boundsBy(scene: Scene, used: (mesh: Mesh) => Uint8Array): SceneBounds {
+  const box = Float64Array.of(Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity);
+  for (const instance of scene.instances) {
+    const mesh = scene.meshes[instance.mesh];
+    if (instance.visible !== false && mesh) growByMesh(mesh, used(mesh), instance, box);
   }
+  const [x0, y0, z0, x1, y1, z1] = box as unknown as [number, number, number, number, number, number];
+  return { min: [x0, y0, z0], max: [x1, y1, z1] };
+}
+
+function growByMesh({ positions }: Mesh, used: Uint8Array, { transform: m }: Instance, box: Float64Array): void {
+  const [a, b, c, , d, e, f, , g, h, i, , tx, ty, tz] = Array.from(m) as [number, number, number, number, number, number, number, number, number, number, number, number, number, number, number];
+  let [x0, y0, z0, x1, y1, z1] = box as unknown as [number, number, number, number, number, number];
+  for (let n = 0, v = 0; n < used.length; n++, v += 3) {
+    if (used[n] === 0) continue;
+    const px = positions[v] as number, py = positions[v + 1] as number, pz = positions[v + 2] as number;
+    const x = a * px + d * py + g * pz + tx, y = b * px + e * py + h * pz + ty, z = c * px + f * py + i * pz + tz;
+    if (x < x0) x0 = x;
+    if (y < y0) y0 = y;
+    if (z < z0) z0 = z;
+    if (x > x1) x1 = x;
+    if (y > y1) y1 = y;
+    if (z > z1) z1 = z;
+  }
+  box.set([x0, y0, z0, x1, y1, z1]);
 }

@@ -1,8 +1,9 @@
-import { sceneBounds } from './bounds';
+import { boundsBy } from './bounds';
 import type { PerspectiveCamera } from './camera';
 import { SceneError } from './error';
 import type { Mesh } from './mesh';
 import type { Scene } from './scene';
+import { usedVertices } from './used-vertices';
 
 /** What {@link frameCamera} may be told. */
 export interface FrameCameraOptions {
@@ -40,14 +41,14 @@ interface Extents {
 }
 
 /** In doubles, and relative to the box's centre, so that a small part far from the origin keeps its digits. */
-function growByInstance(extents: Extents, { positions, indices }: Mesh, m: ArrayLike<number>, center: Vector, axes: readonly [Vector, Vector, Vector], tx: number, ty: number): void {
+function growByInstance(extents: Extents, { positions }: Mesh, used: Uint8Array, m: ArrayLike<number>, center: Vector, axes: readonly [Vector, Vector, Vector], tx: number, ty: number): void {
   const column = (k: number): Vector => [m[4 * k] as number, m[4 * k + 1] as number, m[4 * k + 2] as number];
   const origin = column(3);
   const moved: Vector = [origin[0] - center[0], origin[1] - center[1], origin[2] - center[2]];
   const [[rx, ry, rz, rw], [ux, uy, uz, uw], [bx, by, bz, bw]] = axes.map((axis): Row => [dot(axis, column(0)), dot(axis, column(1)), dot(axis, column(2)), dot(axis, moved)]) as [Row, Row, Row];
   let { right, left, top, bottom, near, far } = extents;
-  for (let i = 0; i < indices.length; i++) {
-    const v = 3 * (indices[i] as number);
+  for (let i = 0, v = 0; i < used.length; i++, v += 3) {
+    if (used[i] === 0) continue;
     const px = positions[v] as number, py = positions[v + 1] as number, pz = positions[v + 2] as number;
     const r = rx * px + ry * py + rz * pz + rw;
     const u = ux * px + uy * py + uz * pz + uw;
@@ -73,7 +74,9 @@ export function frameCamera(scene: Scene, { aspect, yfov = (35 * Math.PI) / 180,
   if (!(aspect > 0 && aspect < Infinity)) throw new SceneError('scene/value', `aspect is ${aspect}; it must be a positive number.`);
   if (!(yfov > 0 && yfov < Math.PI)) throw new SceneError('scene/value', `yfov is ${yfov}; it must lie between 0 and π.`);
   if (!(margin >= 0 && margin < 1)) throw new SceneError('scene/value', `margin is ${margin}; it must be at least 0 and less than 1.`);
-  const { min, max } = sceneBounds(scene);
+  const found = new Map<Mesh, Uint8Array>();
+  const used = (mesh: Mesh) => found.get(mesh) ?? (found.set(mesh, usedVertices(mesh)).get(mesh) as Uint8Array);
+  const { min, max } = boundsBy(scene, used);
   if (!(min[0] <= max[0])) throw new SceneError('scene/empty', 'The scene has no visible triangles: there is nothing to frame.');
   const center: Vector = [(min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2];
   const back = normalized(direction, 'direction');
@@ -82,8 +85,9 @@ export function frameCamera(scene: Scene, { aspect, yfov = (35 * Math.PI) / 180,
   const ty = Math.tan(yfov / 2) * (1 - margin);
   const tx = ty * aspect;
   const e: Extents = { right: -Infinity, left: -Infinity, top: -Infinity, bottom: -Infinity, near: -Infinity, far: Infinity };
-  for (const { mesh, transform, visible } of scene.instances) {
-    if (visible !== false && scene.meshes[mesh]) growByInstance(e, scene.meshes[mesh], transform, center, [right, up, back], tx, ty);
+  for (const { mesh: index, transform, visible } of scene.instances) {
+    const mesh = scene.meshes[index];
+    if (visible !== false && mesh) growByInstance(e, mesh, used(mesh), transform, center, [right, up, back], tx, ty);
   }
   // A camera at (x, y, d) in the frame sees a vertex (r, u, b) if |r − x| ≤ tx (d − b), and so for u: the edges' planes.
   const x = (e.right - e.left) / 2;

@@ -10,5 +10,5 @@ export { sceneBounds, type SceneBounds } from './bounds';
 export { defaultMaterial } from './default-material';
 export { SceneError } from './error';
 export { frameCamera, type FrameCameraOptions } from './frame-camera';
-export { validateScene } from './validate';
+export { validateScene, validationSteps } from './validate';
 export { withVariant } from './variant';

@@ -14,9 +14,19 @@ function reference(index: number, list: readonly unknown[], what: string, kind: 
   if (!(Number.isInteger(index) && index >= 0 && index < list.length)) fail('reference', `${what} refers to ${kind} ${index}; the scene has ${list.length}.`);
 }
 
-function finite(values: ArrayLike<number>, what: string): void {
-  for (let i = 0; i < values.length; i++) {
+function finite(values: ArrayLike<number>, what: string, from = 0, end = values.length): void {
+  for (let i = from; i < end; i++) {
     if (!Number.isFinite(values[i])) fail('not-finite', `${what} holds ${values[i]} at ${i}; every number must be finite.`);
+  }
+}
+
+/** Numbers and triangles that are looked at in one step: a millisecond or so. */
+const STEP = 1 << 16;
+
+function* finiteSteps(values: ArrayLike<number>, what: string): Generator<void> {
+  for (let from = 0; from < values.length; from += STEP) {
+    finite(values, what, from, Math.min(values.length, from + STEP));
+    yield;
   }
 }
 
@@ -32,29 +42,42 @@ function isFlat(p: Float32Array, a: number, b: number, c: number): boolean {
   return uy * vz === uz * vy && uz * vx === ux * vz && ux * vy === uy * vx;
 }
 
-function checkMesh(mesh: Mesh, index: number, warnings: SceneWarning[]): void {
+/** How many of the triangles whose indices lie between two places have no area. */
+function countFlat({ positions, indices }: Mesh, from: number, end: number, what: string): number {
+  const vertices = positions.length / 3;
+  let flat = 0;
+  for (let i = from; i < end; i += 3) {
+    const a = indices[i] as number, b = indices[i + 1] as number, c = indices[i + 2] as number;
+    if (a >= vertices || b >= vertices || c >= vertices) fail('reference', `${what}: triangle ${i / 3} refers to vertex ${Math.max(a, b, c)}; the mesh has ${vertices}.`);
+    if (a === b || b === c || a === c || isFlat(positions, 3 * a, 3 * b, 3 * c)) flat++;
+  }
+  return flat;
+}
+
+function* meshSteps(mesh: Mesh, index: number, warnings: SceneWarning[]): Generator<void> {
   const what = `Mesh ${index} ("${mesh.name}")`;
   const { positions, indices } = mesh;
   if (positions.length % 3 !== 0) fail('length', `${what}: positions has ${positions.length} numbers; it must have three a vertex.`);
   if (indices.length % 3 !== 0) fail('length', `${what}: indices has ${indices.length} entries; it must have three a triangle.`);
   const vertices = positions.length / 3;
-  finite(positions, `${what}: positions`);
+  yield* finiteSteps(positions, `${what}: positions`);
   let flat = 0;
-  for (let i = 0; i < indices.length; i += 3) {
-    const a = indices[i] as number, b = indices[i + 1] as number, c = indices[i + 2] as number;
-    if (a >= vertices || b >= vertices || c >= vertices) fail('reference', `${what}: triangle ${i / 3} refers to vertex ${Math.max(a, b, c)}; the mesh has ${vertices}.`);
-    if (a === b || b === c || a === c || isFlat(positions, 3 * a, 3 * b, 3 * c)) flat++;
+  for (let from = 0; from < indices.length; from += 3 * STEP) {
+    flat += countFlat(mesh, from, Math.min(indices.length, from + 3 * STEP), what);
+    yield;
   }
   if (flat > 0) warnings.push({ code: 'scene/degenerate', message: `${what} has ${flat} triangle${flat === 1 ? '' : 's'} without area; nothing hits ${flat === 1 ? 'it' : 'them'}.`, path: `/meshes/${index}` });
-  const attribute = (values: Float32Array | undefined, stride: number, name: string) => {
-    if (!values) return;
+  const attributes: readonly (readonly [values: Float32Array | undefined, stride: number, name: string])[] = [
+    [mesh.normals, 3, 'normals'],
+    [mesh.tangents, 4, 'tangents'],
+    [mesh.colors, 4, 'colors'],
+    ...(mesh.uvs ?? []).map((uv, set) => [uv, 2, `uvs[${set}]`] as const),
+  ];
+  for (const [values, stride, name] of attributes) {
+    if (!values) continue;
     length(values, stride * vertices, `${what}: ${name}`);
-    finite(values, `${what}: ${name}`);
-  };
-  attribute(mesh.normals, 3, 'normals');
-  attribute(mesh.tangents, 4, 'tangents');
-  attribute(mesh.colors, 4, 'colors');
-  mesh.uvs?.forEach((uv, set) => attribute(uv, 2, `uvs[${set}]`));
+    yield* finiteSteps(values, `${what}: ${name}`);
+  }
 }
 
 function checkMaterial(scene: Scene, material: Material, index: number): void {
@@ -147,8 +170,23 @@ function checkEnvironment(environment: Environment): void {
  * @throws {SceneError} at the first fault, saying where it is.
  */
 export function validateScene(scene: Scene): SceneWarning[] {
+  const steps = validationSteps(scene);
+  let step = steps.next();
+  while (!step.done) step = steps.next();
+  return step.value;
+}
+
+/**
+ * The same as {@link validateScene} in steps of a millisecond or so, for threads that have other things to do in between.
+ * The scene must stay as it is until the last step.
+ *
+ * @throws {SceneError} as {@link validateScene}, at the first step or a later one.
+ * @example
+ * for (const _ of validationSteps(scene)) await breathe();
+ */
+export function* validationSteps(scene: Scene): Generator<void, SceneWarning[]> {
   const warnings: SceneWarning[] = [];
-  scene.meshes.forEach((mesh, index) => checkMesh(mesh, index, warnings));
+  for (const [index, mesh] of scene.meshes.entries()) yield* meshSteps(mesh, index, warnings);
   scene.images.forEach((image, index) => {
     const what = `Image ${index} ("${image.name}")`;
     if (!(Number.isInteger(image.width) && Number.isInteger(image.height) && image.width > 0 && image.height > 0)) fail('value', `${what} has a size of ${image.width} × ${image.height}.`);

@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { createScene, defaultMaterial, SceneError, validateScene, type Scene } from '../src/index';
+import { createScene, defaultMaterial, SceneError, validateScene, validationSteps, type Scene } from '../src/index';
 
 const identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
@@ -134,4 +134,25 @@ describe('validateScene', () => {
     scene.environment = { type: 'constant', radiance: [1, -1, 0] };
     expect(() => validateScene(scene)).toThrow(SceneError);
   });
+});
+
+test('in steps: many for a large mesh, with the same findings and faults', () => {
+  const scene = whole();
+  const count = 500_000;
+  // Every tenth triangle is flat.
+  const positions = Float32Array.from({ length: 9 * count }, (_, i) => (Math.floor(i / 9) % 10 === 0 ? 0 : Math.sin(i)));
+  scene.meshes.push({ name: 'large', positions, indices: new Uint32Array(3 * count).map((_, i) => i) });
+  const run = () => {
+    const steps = validationSteps(scene);
+    for (let n = 0; ; n++) {
+      const step = steps.next();
+      if (step.done) return { n, warnings: step.value };
+    }
+  };
+  const { n, warnings } = run();
+  expect(n).toBeGreaterThan((12 * count) / 2 ** 18);
+  expect(warnings).toEqual(validateScene(scene));
+  expect(warnings.some(({ code, message }) => code === 'scene/degenerate' && message.includes(` ${count / 10} triangles`))).toBe(true);
+  positions[positions.length - 1] = NaN;
+  expect(run).toThrow(SceneError);
 });

@@ -31,7 +31,7 @@ export async function bundle(contents, outfile) {
     format: 'esm',
     target: 'node20',
     conditions: ['@glanz/source'],
-    external: ['webgpu', 'sharp', 'esbuild', 'playwright', '@sparticuz/chromium'],
+    external: ['webgpu', 'sharp', 'esbuild', 'vite', 'playwright', '@sparticuz/chromium'],
     // CommonJS dependencies expect a require to be there.
     banner: { js: "import { createRequire as __createRequire } from 'node:module'; const require = __createRequire(import.meta.url);" },
     logLevel: 'error',

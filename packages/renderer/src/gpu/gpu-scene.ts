@@ -6,7 +6,8 @@ import { instanceStruct, materialStruct, meshStruct } from '../kernels/layout';
 import type { ResourceName } from '../kernels/resources';
 import { prepareEnvironment, turnEnvironment, type EnvironmentData } from '../scene/environment';
 import type { LightGroupMode } from '../options';
-import { packInstances, packTlas, type Geometry, type MeshRegion, type PackedGeometry, type PackedMesh } from '../scene/geometry';
+import { packInstances, packTlas, shapeSlices, type Geometry, type MeshRegion, type PackedGeometry, type PackedMesh } from '../scene/geometry';
+import { breather } from '../scene/hierarchies';
 import { interiorFlags } from '../scene/interiors';
 import { lightGroupTable, type LightGroupTable } from '../scene/light-groups';
 import { buildLightTable, type LightSampling, type LightTable } from '../scene/lights';
@@ -17,6 +18,9 @@ import { toHalf, uploadTextures } from './texture-upload';
 
 /** Textures that shading binds besides the scene's own: environment, its table, two energy tables. */
 const OWN_TEXTURES = 4;
+
+/** While shapes are filled in, the thread is handed back after so many milliseconds; a slice more can follow. */
+const FILL_MS = 6;
 
 /** Options that decide the kernels' text. */
 export interface SceneChoices {
@@ -50,7 +54,7 @@ export class GpuScene {
   #lights: LightTable;
   #environment: EnvironmentData;
 
-  constructor(device: GPUDevice, memory: GpuMemory, scene: Scene, geometry: Geometry, packed: PackedGeometry, choices: SceneChoices, tables: EnergyTables) {
+  constructor(device: GPUDevice, memory: GpuMemory, scene: Scene, geometry: Geometry, environment: EnvironmentData, choices: SceneChoices, tables: EnergyTables) {
     this.#device = device;
     this.#memory = memory;
     this.#scene = scene;
@@ -65,11 +69,11 @@ export class GpuScene {
     this.#samplers = samplers;
 
     this.#bindings = packBindings(scene.materials, this.#plan);
-    this.#uploadShapes(packed);
+    this.#makeShapes(geometry);
     this.#lights = this.#buildLights();
     this.#upload('lights', this.#lights.records);
     this.#writeInstances();
-    this.#environment = prepareEnvironment(scene.environment);
+    this.#environment = environment;
     this.#uploadEnvironment();
     this.#energySampler = device.createSampler({ label: 'glanz energy', minFilter: 'linear', magFilter: 'linear' });
     this.#uploadEnergy(tables);
@@ -204,21 +208,36 @@ export class GpuScene {
   /** All shapes are new. Bindings are replaced. */
   updateShapes(geometry: Geometry, packed: PackedGeometry): void {
     this.#geometry = geometry;
-    this.#uploadShapes(packed);
+    this.#makeShapes(geometry);
+    for (const name of ['nodes', 'triangles', 'attributes'] as const) this.#memory.write(this.#buffers.get(name) as GPUBuffer, packed[name]);
     this.updatePlacement(geometry);
   }
 
-  #uploadShapes({ nodes, triangles, attributes }: PackedGeometry): void {
+  /** Makes the buffers of shapes, still empty but for what belongs to materials. */
+  #makeShapes({ nodeCount, triangleCount, attributeWords }: Geometry): void {
     const { records, first, count } = this.#bindings;
-    const heap = new Uint32Array(attributes.length + records.byteLength / 4);
-    heap.set(attributes);
-    heap.set(new Uint32Array(records), attributes.length);
     const bindingWords = records.byteLength / 4 / Math.max(1, count.reduce((a, b) => a + b, 0));
-    this.#firstBinding = first.map((index) => attributes.length + index * bindingWords);
-    this.#upload('nodes', nodes);
-    this.#upload('triangles', triangles);
-    this.#upload('attributes', heap);
+    this.#firstBinding = first.map((index) => attributeWords + index * bindingWords);
+    const make = (name: ResourceName, bytes: number) => {
+      this.#memory.release(this.#buffers.get(name));
+      const buffer = this.#memory.buffer(name, bytes, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST);
+      this.#buffers.set(name, buffer);
+      return buffer;
+    };
+    make('nodes', 64 * nodeCount);
+    make('triangles', 48 * triangleCount);
+    this.#memory.write(make('attributes', 4 * attributeWords + records.byteLength), records, 4 * attributeWords);
     this.#upload('materials', this.#packMaterials());
+  }
+
+  /** Fills the buffers of shapes, with the thread handed back every few milliseconds; belongs behind the constructor. */
+  async fillShapes(signal?: AbortSignal): Promise<void> {
+    const breathe = breather(FILL_MS);
+    for (const { buffer, offset, data } of shapeSlices(this.#scene, this.#geometry)) {
+      this.#memory.write(this.#buffers.get(buffer) as GPUBuffer, data, offset);
+      await breathe();
+      signal?.throwIfAborted();
+    }
   }
 
   /** Sorts the lights into groups anew; where that changes anything, materials are written again. */

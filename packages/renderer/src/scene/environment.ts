@@ -66,7 +66,8 @@ export function turnEnvironment(before: EnvironmentData, environment: Environmen
 function cellLuminance(source: LatLongEnvironment, pixels: Float32Array): { width: number; height: number; values: Float64Array } {
   const { width: w, height: h } = source;
   if (w <= MAX_CELLS[0] && h <= MAX_CELLS[1]) {
-    const values = Float64Array.from({ length: w * h }, (_, i) => luminance(pixels[4 * i] as number, pixels[4 * i + 1] as number, pixels[4 * i + 2] as number));
+    const values = new Float64Array(w * h);
+    for (let i = 0; i < values.length; i++) values[i] = luminance(pixels[4 * i] as number, pixels[4 * i + 1] as number, pixels[4 * i + 2] as number);
     return { width: w, height: h, values };
   }
   // The mean of a bilinear interpolant over a texel's square weighs the neighbours 1 : 6 : 1.

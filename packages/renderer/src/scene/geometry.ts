@@ -183,25 +183,62 @@ export async function prepareGeometry(scene: Scene, options: HierarchyOptions = 
   return layOutGeometry(scene, await prepareHierarchies(scene, options));
 }
 
-/** Writes shapes for the GPU, with the thread handed back now and then. */
-export async function packGeometry(scene: Scene, geometry: Geometry, signal?: AbortSignal): Promise<PackedGeometry> {
-  const nodes = new Float32Array(geometry.nodeCount * NODE_WORDS);
-  const triangles = new Float32Array(geometry.triangleCount * TRIANGLE_WORDS);
-  const attributes = new Uint32Array(geometry.attributeWords);
-  nodes.set(packTlas(geometry));
-  const breathe = breather();
+/** Bytes and triangles that are written at once: a few milliseconds of work. */
+const SLICE_BYTES = 1 << 21;
+const SLICE_TRIANGLES = 1 << 15;
+
+/** A part of one of the buffers of shapes. */
+export interface ShapeSlice {
+  readonly buffer: keyof PackedGeometry;
+  /** Where in the buffer, in bytes. */
+  readonly offset: number;
+  readonly data: ArrayBufferView<ArrayBuffer>;
+}
+
+function* slicesOf(buffer: ShapeSlice['buffer'], offset: number, array: Float32Array | Uint32Array): Generator<ShapeSlice> {
+  for (let at = 0; at < array.byteLength; at += SLICE_BYTES) yield { buffer, offset: offset + at, data: new Uint8Array(array.buffer as ArrayBuffer, array.byteOffset + at, Math.min(SLICE_BYTES, array.byteLength - at)) };
+}
+
+/**
+ * Shapes for the GPU, slice by slice: what {@link packGeometry} gives as a whole, without ever holding it. Slices are to be
+ * written or copied before the next is asked for.
+ */
+export function* shapeSlices(scene: Scene, geometry: Geometry): Generator<ShapeSlice> {
+  yield* slicesOf('nodes', 0, packTlas(geometry));
   for (const [index, mesh] of scene.meshes.entries()) {
     const region = geometry.regions[index] as MeshRegion;
-    const packed = packMesh(mesh, geometry.blas[index], region);
-    attributes.set(packed.record, (index * meshStruct.size) / 4);
-    if (!geometry.blas[index]) continue;
-    nodes.set(packed.nodes, region.firstNode * NODE_WORDS);
-    triangles.set(packed.triangles, region.firstTriangle * TRIANGLE_WORDS);
-    attributes.set(packed.attributes, region.firstWord);
+    const tree = geometry.blas[index];
+    yield { buffer: 'attributes', offset: index * meshStruct.size, data: meshRecord(mesh, tree, region) };
+    if (!tree) continue;
+    yield* slicesOf('nodes', 4 * region.firstNode * NODE_WORDS, tree.nodes.subarray(0, tree.nodeCount * NODE_WORDS));
+    const { positions, indices } = mesh;
+    for (let first = 0; first < tree.triangleIndices.length; first += SLICE_TRIANGLES) {
+      const data = packTriangles({ triangleIndices: tree.triangleIndices.subarray(first, first + SLICE_TRIANGLES) }, { positions, indices });
+      yield { buffer: 'triangles', offset: 4 * (region.firstTriangle + first) * TRIANGLE_WORDS, data };
+    }
+    let word = region.firstWord;
+    for (const array of attributesOf(mesh)) {
+      if (!array) continue;
+      yield* slicesOf('attributes', 4 * word, array);
+      word += array.length;
+    }
+  }
+}
+
+/** Writes shapes for the GPU, with the thread handed back now and then. */
+export async function packGeometry(scene: Scene, geometry: Geometry, signal?: AbortSignal): Promise<PackedGeometry> {
+  const packed = {
+    nodes: new Float32Array(geometry.nodeCount * NODE_WORDS),
+    triangles: new Float32Array(geometry.triangleCount * TRIANGLE_WORDS),
+    attributes: new Uint32Array(geometry.attributeWords),
+  };
+  const breathe = breather();
+  for (const { buffer, offset, data } of shapeSlices(scene, geometry)) {
+    new Uint8Array(packed[buffer].buffer).set(new Uint8Array(data.buffer, data.byteOffset, data.byteLength), offset);
     await breathe();
     signal?.throwIfAborted();
   }
-  return { nodes, triangles, attributes };
+  return packed;
 }
 
 /** One mesh as the kernels read it. */
@@ -213,24 +250,31 @@ export interface PackedMesh {
   readonly attributes: Uint32Array<ArrayBuffer>;
 }
 
-/** Writes one mesh for its region. */
-export function packMesh(mesh: Mesh, tree: Blas | undefined, { firstWord }: MeshRegion): PackedMesh {
+/** A mesh's row of the mesh table. */
+function meshRecord(mesh: Mesh, tree: Blas | undefined, { firstWord }: MeshRegion): Uint32Array<ArrayBuffer> {
   const record = meshStruct.allocate();
-  if (!tree) {
-    meshStruct.write(record, 0, Object.fromEntries(ATTRIBUTES.map((name) => [name, NONE])));
-    return { record: new Uint32Array(record), nodes: new Float32Array(), triangles: new Float32Array(), attributes: new Uint32Array() };
-  }
+  let at = firstWord;
+  attributesOf(mesh).forEach((array, i) => {
+    const present = tree !== undefined && array !== undefined && array.length > 0;
+    meshStruct.write(record, 0, { [ATTRIBUTES[i] as (typeof ATTRIBUTES)[number]]: present ? at : NONE });
+    if (present) at += array.length;
+  });
+  return new Uint32Array(record);
+}
+
+/** Writes one mesh for its region. */
+export function packMesh(mesh: Mesh, tree: Blas | undefined, region: MeshRegion): PackedMesh {
+  const record = meshRecord(mesh, tree, region);
+  if (!tree) return { record, nodes: new Float32Array(), triangles: new Float32Array(), attributes: new Uint32Array() };
   const attributes = new Uint32Array(attributeWords(mesh));
   let at = 0;
-  attributesOf(mesh).forEach((array, i) => {
-    const present = array !== undefined && array.length > 0;
-    meshStruct.write(record, 0, { [ATTRIBUTES[i] as (typeof ATTRIBUTES)[number]]: present ? firstWord + at : NONE });
-    if (!present) return;
+  for (const array of attributesOf(mesh)) {
+    if (!array) continue;
     attributes.set(array instanceof Uint32Array ? array : new Uint32Array(array.buffer, array.byteOffset, array.length), at);
     at += array.length;
-  });
+  }
   return {
-    record: new Uint32Array(record),
+    record,
     nodes: tree.nodes.subarray(0, tree.nodeCount * NODE_WORDS),
     triangles: packTriangles(tree, { positions: mesh.positions, indices: mesh.indices }),
     attributes,

@@ -23,11 +23,15 @@ export interface HierarchyOptions {
 /** The thread is handed back after so many milliseconds. */
 const SLICE_MS = 12;
 
-/** Gives a function to await between two steps of long work: it hands the thread back once in a while. */
-export function breather(): () => Promise<void> {
+/**
+ * Gives a function to await between two steps of long work: it hands the thread back once in a while.
+ *
+ * @param sliceMs After so many milliseconds.
+ */
+export function breather(sliceMs: number = SLICE_MS): () => Promise<void> {
   let last = performance.now();
   return async () => {
-    if (performance.now() - last < SLICE_MS) return;
+    if (performance.now() - last < sliceMs) return;
     await new Promise((resolve) => setTimeout(resolve, 0));
     last = performance.now();
   };

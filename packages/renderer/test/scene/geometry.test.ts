@@ -1,0 +1,45 @@
+import { buildBlas } from '@glanz/bvh';
+import { createScene } from '@glanz/scene';
+import { expect, test } from 'vitest';
+import { layOutGeometry, packGeometry, shapeSlices } from '../../src/scene/geometry';
+import { addSphere } from '../scenes';
+
+const grey = { name: 'grey', parameters: {} };
+
+test('slices of shapes are small, do not overlap and hold every triangle and attribute where its region says', async () => {
+  const scene = createScene('slices');
+  addSphere(scene, 1, [0, 0, 0], grey, 300);
+  addSphere(scene, 0.5, [2, 0, 0], grey, 12);
+  const blas = scene.meshes.map(({ positions, indices }) => buildBlas({ positions, indices }));
+  const geometry = layOutGeometry(scene, blas);
+  const sizes = { nodes: 64 * geometry.nodeCount, triangles: 48 * geometry.triangleCount, attributes: 4 * geometry.attributeWords };
+  const written = { nodes: new Uint8Array(sizes.nodes), triangles: new Uint8Array(sizes.triangles), attributes: new Uint8Array(sizes.attributes) };
+  let slices = 0;
+  for (const { buffer, offset, data } of shapeSlices(scene, geometry)) {
+    slices++;
+    expect(data.byteLength).toBeLessThanOrEqual(1 << 21);
+    const part = written[buffer].subarray(offset, offset + data.byteLength);
+    expect(part.length).toBe(data.byteLength);
+    expect(part.every((times) => times === 0)).toBe(true);
+    part.fill(1);
+  }
+  expect(slices).toBeGreaterThan(8);
+  for (const name of ['triangles', 'attributes'] as const) expect(written[name].every((times) => times === 1)).toBe(true);
+
+  const { nodes, triangles, attributes } = await packGeometry(scene, geometry);
+  const ids = new Uint32Array(triangles.buffer);
+  scene.meshes.forEach((mesh, index) => {
+    const region = geometry.regions[index]!, tree = blas[index]!;
+    expect(nodes.subarray(16 * region.firstNode, 16 * (region.firstNode + region.nodes))).toEqual(tree.nodes);
+    const words = new Uint32Array(attributes.buffer);
+    expect(words.subarray(region.firstWord, region.firstWord + mesh.indices.length)).toEqual(mesh.indices);
+    const normals = mesh.normals!;
+    expect(new Float32Array(attributes.buffer, 4 * (region.firstWord + mesh.indices.length), normals.length)).toEqual(normals);
+    for (let i = 0; i < region.triangles; i++) {
+      const triangle = tree.triangleIndices[i]!, at = 12 * (region.firstTriangle + i);
+      if (ids[at + 3] !== triangle) throw new Error(`stored triangle ${i} is ${ids[at + 3]}, not ${triangle}`);
+      const vertex = 3 * mesh.indices[3 * triangle + 2]!;
+      for (let k = 0; k < 3; k++) if (triangles[at + 8 + k] !== mesh.positions[vertex + k]) throw new Error(`stored triangle ${i} has another third vertex`);
+    }
+  });
+});

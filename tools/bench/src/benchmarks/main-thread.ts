@@ -1,0 +1,46 @@
+import { mkdirSync, writeFileSync } from 'node:fs';
+import { join, resolve } from 'node:path';
+import { timed, type Benchmark, type Figure } from '../benchmark';
+import { sphereFile } from '../main-thread/model';
+import { openPlayground } from '../main-thread/page';
+
+const FRAME = { value: 16, relation: '<=', source: 'one frame' } as const;
+
+/** How long the playground's own thread is not free while a large model is read, built and shown, in Chromium. */
+export const benchmark: Benchmark = {
+  description: "the longest task of the playground's own thread while a million triangles are loaded",
+  options: { profile: { type: 'string', help: '"yes": say which functions the long tasks are in (an unminified page)' } },
+  async run({ log, quick, values }) {
+    const runs = quick ? 1 : 5;
+    const folder = resolve('.cache/main-thread-models');
+    mkdirSync(folder, { recursive: true });
+    const figures: Figure[] = [], notes: string[] = [];
+    const page = await openPlayground(values['profile'] !== undefined);
+    try {
+      for (const normals of [true, false]) {
+        const { bytes, triangles } = await sphereFile(quick ? 100 : 518, normals);
+        const name = normals ? 'sphere-normals.glb' : 'sphere.glb';
+        writeFileSync(join(folder, name), bytes);
+        const what = `${triangles} triangles ${normals ? 'with' : 'without'} normals`;
+        const seen = [];
+        for (let i = 0; i < runs; i++) {
+          const one = await page.watch(name, join(folder, name));
+          seen.push(one);
+          log(`${what}: longest task ${one.longestTask.toFixed(1)} ms of the thread's time, ${one.longestTaskWall.toFixed(1)} by the clock; longest gap ${one.longestGap.toFixed(1)} ms; ${one.longTasks.length} entries of 50 ms and more; ${one.ms.toFixed(0)} ms in all`);
+          for (const line of one.profile ?? []) log(line);
+        }
+        figures.push(
+          timed(`${what}: longest task, the thread's own time`, 'ms', seen.map(({ longestTask }) => longestTask), quick ? undefined : FRAME),
+          timed(`${what}: longest task by the clock`, 'ms', seen.map(({ longestTaskWall }) => longestTaskWall)),
+          timed(`${what}: longest gap between messages, by the clock`, 'ms', seen.map(({ longestGap }) => longestGap)),
+          timed(`${what}: entries of 50 ms and more`, '1', seen.map(({ longTasks }) => longTasks.length)),
+          timed(`${what}: from the file to the picture`, 'ms', seen.map(({ ms }) => ms)),
+        );
+      }
+    } finally {
+      await page.close();
+    }
+    notes.push('The time of the thread itself leaves out what else the machine does; the GPU is software and shares the processor.');
+    return { settings: { runs, browser: `Chromium ${page.version}, headless`, viewport: '700 × 500', scale: 0.25, samples: 1 }, figures, notes };
+  },
+};
