@@ -27,7 +27,7 @@ export function* buildBalanced(mesh: TriangleMesh, count: number, settings: Buil
     while (!steps.next().done);
   }
   const scratch = Scratch.take();
-  scratch.models = kept;
+  scratch.kept = kept;
   const primitives = yield* part(makePrimitives(mesh, count, maxLeaf > 1, scratch), 0, 0.15);
   if (primitives.count === 0) return emptyTree(primitives);
   const order = yield* part(sortPrimitives(primitives, scratch), 0.15, 0.25);

@@ -1,4 +1,4 @@
-import type { Scratch } from './scratch';
+import type { Memory } from './scratch';
 import type { Sorted } from './gather';
 
 /** Cells of primitives that lie together: the upper levels of a tree are built over these. */
@@ -55,7 +55,7 @@ export function cutCell(codes: Uint32Array, first: number, end: number): number 
 }
 
 /** Cuts primitives into clusters, whose boxes, weights and references are still to be set. */
-export function cutClusters(primitives: Sorted, size: number, scratch: Scratch): Clusters {
+export function cutClusters(primitives: Sorted, size: number, scratch: Memory): Clusters {
   const starts = scratch.uint32(primitives.count + 1);
   const count = cutCells(primitives.codes, primitives.count, size, starts);
   return { primitives, starts, count, boxes: scratch.float32(6 * count), weights: scratch.uint32(count), references: scratch.uint32(count) };

@@ -1,6 +1,6 @@
 import { putBox } from '../layout';
 import { PAIR, pairUp, type Primitives } from './primitives';
-import type { Scratch } from './scratch';
+import type { Memory } from './scratch';
 
 /** In place of a second triangle. */
 export const NONE = 0xffffffff;
@@ -29,7 +29,7 @@ export class Gatherer implements Sorted {
   /**
    * @param codes Of the primitives in their order; overwritten.
    */
-  constructor(primitives: Primitives, order: Uint32Array, codes: Uint32Array, pairs: boolean, scratch: Scratch) {
+  constructor(primitives: Primitives, order: Uint32Array, codes: Uint32Array, pairs: boolean, scratch: Memory) {
     this.#pairs = pairs;
     this.#primitives = primitives;
     this.#order = order;

@@ -20,7 +20,8 @@ export class Insides {
   /** First primitive of the cluster at work. */
   #first = 0;
   #size = 0;
-  #emitted = 0;
+  /** Triangles that are written. */
+  end = 0;
 
   /**
    * @param maxLeaf 0: one primitive a leaf.
@@ -61,8 +62,8 @@ export class Insides {
     const { names } = this.#clusters.primitives;
     const { children } = this.#group;
     const triangles = this.#triangleIndices, below = this.#below, size = this.#size;
-    const start = this.#emitted, none = NONE;
-    let end = start;
+    const start = this.end, none = NONE;
+    let last = start;
     below[0] = id;
     for (let top = 1; top > 0; ) {
       const at = below[--top] as number;
@@ -72,11 +73,11 @@ export class Insides {
         continue;
       }
       const name = 2 * (this.#first + at);
-      triangles[end++] = names[name] as number;
+      triangles[last++] = names[name] as number;
       const second = names[name + 1] as number;
-      if (second !== none) triangles[end++] = second;
+      if (second !== none) triangles[last++] = second;
     }
-    this.#emitted = end;
-    return leafReference(start, end - start);
+    this.end = last;
+    return leafReference(start, last - start);
   }
 }

@@ -31,7 +31,7 @@ export class Levels {
   readonly #splitter: Splitter;
   readonly #group = new Agglomerator(0);
   /** Pending ranges, ten numbers each: bounds of the centres, first, end, word for the reference, depth. */
-  readonly #tasks: number[];
+  readonly tasks: number[];
   /** Bounds of the centres of the range at work, doubled: min xyz, max xyz. */
   readonly #centers = new Int32Array(6);
 
@@ -46,7 +46,7 @@ export class Levels {
     this.#maxDepth = maxDepth;
     this.#splitter = new Splitter(bins);
     this.#quantise(0, items.count);
-    this.#tasks = [...this.#centers, 0, items.count, 0, 0];
+    this.tasks = [...this.#centers, 0, items.count, 0, 0];
   }
 
   /**
@@ -56,7 +56,7 @@ export class Levels {
    * @returns Whether there is more to do.
    */
   step(items: number): boolean {
-    const tasks = this.#tasks, splitter = this.#splitter, order = this.#order, centers = this.#centers;
+    const tasks = this.tasks, splitter = this.#splitter, order = this.#order, centers = this.#centers;
     const { sides } = splitter;
     for (let left = items; tasks.length > 0 && left > 0; ) {
       const depth = tasks.pop() as number, slot = tasks.pop() as number, end = tasks.pop() as number, first = tasks.pop() as number;

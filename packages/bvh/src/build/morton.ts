@@ -1,5 +1,5 @@
 import type { Primitives } from './primitives';
-import type { Scratch } from './scratch';
+import type { Memory } from './scratch';
 
 /** Cells per axis. */
 const CELLS = 1024;
@@ -26,7 +26,7 @@ export class MortonSort {
   /** Ten bits spread to every third place. */
   readonly #spread = new Uint32Array(CELLS);
 
-  constructor(primitives: Primitives, scratch: Scratch) {
+  constructor(primitives: Primitives, scratch: Memory) {
     this.#primitives = primitives;
     const { count } = primitives;
     this.order = scratch.uint32(count);
@@ -47,7 +47,7 @@ export class MortonSort {
     const extent = Math.max(x1 - x, y1 - y, z1 - z);
     // Just below the number of cells, so that the largest centre falls into the last.
     const scale = extent > 0 ? (0.4999999 * CELLS) / extent : 0;
-    const ox = 2 * x, oy = 2 * y, oz = 2 * z, last = 1023;
+    const ox = 2 * x, oy = 2 * y, oz = 2 * z;
     for (let i = from, b = 6 * from; i < to; i++, b += 6) {
       const qx = (((boxes[b] as number) + (boxes[b + 3] as number) - ox) * scale) | 0;
       const qy = (((boxes[b + 1] as number) + (boxes[b + 4] as number) - oy) * scale) | 0;
@@ -55,8 +55,8 @@ export class MortonSort {
       const code = ((spread[qx] as number) << 2) | ((spread[qy] as number) << 1) | (spread[qz] as number);
       codes[i] = code;
       order[i] = i;
-      const second = DIGITS + ((code >>> DIGIT) & last), third = 2 * DIGITS + (code >>> (2 * DIGIT));
-      starts[code & last] = (starts[code & last] as number) + 1;
+      const second = DIGITS + ((code >>> DIGIT) & 1023), third = 2 * DIGITS + (code >>> (2 * DIGIT));
+      starts[code & 1023] = (starts[code & 1023] as number) + 1;
       starts[second] = (starts[second] as number) + 1;
       starts[third] = (starts[third] as number) + 1;
     }

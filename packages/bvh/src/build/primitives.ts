@@ -1,7 +1,7 @@
 import { BvhError } from '../error';
 import type { TriangleMesh } from '../blas';
 import { putBox } from '../layout';
-import type { Scratch } from './scratch';
+import type { Memory } from './scratch';
 
 /**
  * Two triangles become a pair if the surface of their common box is at most this part of their own boxes' together. At 1
@@ -51,7 +51,7 @@ export class PrimitiveMaker implements Primitives {
   readonly #pairs: boolean;
 
   /** @param pairs Whether to pair. */
-  constructor({ positions, indices }: TriangleMesh, triangles: number, pairs: boolean, scratch: Scratch) {
+  constructor({ positions, indices }: TriangleMesh, triangles: number, pairs: boolean, scratch: Memory) {
     this.boxes = scratch.float32(6 * triangles);
     this.triangles = scratch.uint32(triangles);
     this.#positions = positions;

@@ -1,3 +1,6 @@
+/** Where arrays come from. */
+export type Memory = Pick<Scratch, 'uint32' | 'float32'>;
+
 /** Blocks are found again where they are not larger than this times what is asked for. */
 const SLACK = 4;
 
@@ -7,7 +10,7 @@ const SLACK = 4;
  */
 export class Scratch {
   /** Where set, the objects that a build works with are put here. */
-  models: object[] | undefined;
+  kept: object[] | undefined;
   readonly #free: ArrayBuffer[];
   readonly #taken: ArrayBuffer[] = [];
 

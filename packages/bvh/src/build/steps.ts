@@ -59,7 +59,7 @@ export function* sortPrimitives(primitives: Primitives, scratch: Scratch): Steps
   const { count } = primitives;
   const sort = new MortonSort(primitives, scratch);
   yield* part(each(count, STEP, (from, to) => sort.encode(from, to)), 0, 0.25);
-  scratch.models?.push(sort);
+  scratch.kept?.push(sort);
   sort.begin();
   for (let pass = 0; pass < 3; pass++) {
     yield* part(each(count, STEP, (from, to) => sort.scatter(pass, from, to)), 0.25 * (pass + 1), 0.25 * (pass + 2));
@@ -101,7 +101,7 @@ export function* buildNodes(primitives: Sorted, leaves: Uint32Array, bins: numbe
   for (let rotations = true; ; rotations = false) {
     upper.count = 0;
     const levels = new Levels(upper, clusters, depth, bins);
-    scratch.models?.push(scratch, insides, levels);
+    scratch.kept?.push(scratch, insides, levels);
     while (levels.step(STEP)) yield rotations ? 0.6 + (0.3 * upper.count) / count : 0.95;
     encloseNodes(upper, 0, upper.count);
     if (rotations) yield* part(rotate(upper), 0.9, 0.95);
@@ -145,5 +145,5 @@ export function* keepNodes({ nodes: from, count: nodeCount }: NodeWriter): Steps
 export function emptyTree({ bounds }: Primitives): TriangleTree {
   const writer = new NodeWriter(1);
   writer.single(leafReference(0, 1));
-  return { nodes: writer.nodes, nodeCount: 1, triangleIndices: new Uint32Array(0), bounds };
+  return { ...writer.finish(), triangleIndices: new Uint32Array(0), bounds };
 }

@@ -2,6 +2,7 @@ import { GlanzError } from '@glanz/wgsl/error';
 import type { Blas, BlasOptions, TriangleMesh } from '../blas';
 import type { TreeBuilder } from '../build/builder';
 import { BvhError } from '../error';
+import type { TeamMemory } from './team';
 
 /** Options as they cross the boundary: functions cannot, so a builder of an entry of its own goes by its name. */
 export type SentOptions = Omit<BlasOptions, 'builder'> & { readonly builder?: 'balanced' | TreeBuilder['name'] };
@@ -11,13 +12,19 @@ export function sendableOptions({ builder, ...others }: BlasOptions): SentOption
 }
 
 /** To a worker. */
-export type BuildRequest = { readonly kind: 'build'; readonly id: number; readonly mesh: TriangleMesh; readonly options: SentOptions } | { readonly kind: 'warm-up' };
+export type BuildRequest =
+  | { readonly kind: 'build'; readonly id: number; readonly mesh: TriangleMesh; readonly options: SentOptions }
+  /** One of two that build together; the mesh is in memory that both see. */
+  | { readonly kind: 'together'; readonly id: number; readonly mesh: TriangleMesh; readonly options: SentOptions; readonly index: number; readonly memory: TeamMemory }
+  | { readonly kind: 'warm-up' };
 
 /** From a worker. `ready` comes once, first of all. */
 export type BuildReply =
   | { readonly kind: 'ready' }
   | { readonly kind: 'started'; readonly id: number }
   | { readonly kind: 'built'; readonly id: number; readonly blas: Blas }
+  /** The second of two has done its part, or has stopped because the other one did. */
+  | { readonly kind: 'helped'; readonly id: number }
   | { readonly kind: 'failed'; readonly id: number; readonly error: SentError };
 
 /** What of an error crosses the boundary: structured cloning would drop the class and the code. */

@@ -1,8 +1,12 @@
 import { buildBlas, type BlasOptions, type TriangleMesh } from '../blas';
 import { best, bestSplit } from '../build/best';
+import type { BuildSettings } from '../build/builder';
 import { fast } from '../build/fast';
+import type { TriangleTree } from '../build/steps';
 import { ownPort, type WorkerPort } from './port';
 import { buffersOf, sendableError, type BuildReply, type BuildRequest, type SentOptions } from './protocol';
+import { Team } from './team';
+import { buildTogether } from './together';
 
 export type { WorkerPort } from './port';
 
@@ -32,6 +36,9 @@ function receivedOptions({ builder, ...others }: SentOptions): BlasOptions {
   return named === undefined ? others : { ...others, builder: named };
 }
 
+/** In place of a tree that the other worker has. */
+const nothing = (): TriangleTree => ({ nodes: new Float32Array(0), nodeCount: 0, triangleIndices: new Uint32Array(0), bounds: new Float64Array(6) });
+
 /**
  * Answers build requests of a `BvhWorkers` pool. This module does so by itself where it is loaded as a worker and
  * nothing anywhere else; call it only to let a worker of your own, made by `createWorker`, do the builds.
@@ -47,10 +54,29 @@ export function serveBuilds(port: WorkerPort): void {
     buildBlas(sheet(WARM_EDGE + (left % 4)));
     setTimeout(() => warmUp(left - 1), 0);
   };
+  const together = ({ id, mesh, options, index, memory }: BuildRequest & { kind: 'together' }) => {
+    const team = new Team(index, memory);
+    if (index === 0) say({ kind: 'started', id });
+    try {
+      // eslint-disable-next-line require-yield
+      const build = function* (given: TriangleMesh, count: number, settings: BuildSettings) {
+        return buildTogether(given, count, settings, team) ?? nothing();
+      };
+      // The name is only for messages between threads.
+      const blas = buildBlas(mesh, { ...receivedOptions(options), builder: { name: 'fast', build } });
+      if (index === 1) return say({ kind: 'helped', id });
+      say({ kind: 'built', id, blas }, buffersOf(blas.nodes, blas.triangleIndices, blas.bounds.min, blas.bounds.max));
+    } catch (error) {
+      if (team.left) return say({ kind: 'helped', id });
+      team.giveUp();
+      say({ kind: 'failed', id, error: sendableError(error) });
+    }
+  };
   port.listen((message) => {
     const request = message as BuildRequest;
     if (request.kind === 'warm-up') return warmUp(WARM_BUILDS);
     worked = true;
+    if (request.kind === 'together') return together(request);
     const { id, mesh, options } = request;
     say({ kind: 'started', id });
     try {

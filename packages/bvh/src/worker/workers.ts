@@ -3,11 +3,15 @@ import { blasSteps, type Blas, type BlasOptions, type TriangleMesh } from '../bl
 import { BvhError } from '../error';
 import { connect, hardwareThreads, startWorker, type NodeWorkerLike, type WebWorkerLike, type WorkerLine } from './line';
 import { buffersOf, receivedError, sendableOptions, type BuildReply, type BuildRequest } from './protocol';
+import { teamMemory } from './team';
 
 export type { NodeWorkerLike, WebWorkerLike } from './line';
 
 /** Small builds are sent ahead until a worker has so many triangles to do: it should not wait for the next message. */
 const AHEAD = 16_384;
+
+/** A mesh of so many triangles is built by two workers together where nothing else waits for them and they can share memory. */
+const TOGETHER = 200_000;
 
 /** A build of more triangles is worth ending its worker when it is aborted; a smaller one is let run out, unheard. */
 const WORTH_ENDING = 100_000;
@@ -225,6 +229,12 @@ export class BvhWorkers {
   #crashed(seat: Seat, why: string): void {
     const lost = [...seat.jobs.values()];
     this.#restart(seat);
+    // Who builds together with a worker that is no more would wait for ever.
+    for (const other of this.#seats) {
+      if (!lost.some(({ id }) => other.jobs.has(id))) continue;
+      other.line?.terminate();
+      this.#restart(other);
+    }
     for (const job of lost) job.settle({ error: new BvhError('bvh/worker', `A worker ended during a build (${why}); the mesh may need more memory than there is.`) });
   }
 
@@ -237,6 +247,7 @@ export class BvhWorkers {
     if (seat.jobs.size === 0) seat.line?.hold(false);
     // First the next build, then whatever the caller does with this one.
     this.#next();
+    if (reply.kind === 'helped') return;
     if (reply.kind === 'failed') return job.settle({ error: receivedError(reply.error) });
     job.progress(1);
     job.settle(reply.blas);
@@ -280,7 +291,9 @@ export class BvhWorkers {
       for (const seat of this.#seats) if (seat.ready && (seat.jobs.size === 0 || seat.load < AHEAD) && seat.load < (free?.load ?? Infinity)) free = seat;
       const job = free && this.#queue.shift();
       if (!free || !job) return;
-      this.#send(free, job);
+      const idle = [...this.#seats].filter(({ ready, jobs }) => ready && jobs.size === 0);
+      if (idle.length >= 2 && this.#queue.length === 0 && canShare(job)) this.#sendTogether(idle.slice(0, 2), job);
+      else this.#send(free, job);
     }
   }
 
@@ -299,6 +312,26 @@ export class BvhWorkers {
       seat.jobs.delete(id);
       seat.load -= job.triangles;
       job.settle({ error });
+    }
+  }
+
+  /** Lets two workers build one mesh. */
+  #sendTogether(seats: readonly Seat[], job: Job): void {
+    const { id, options } = job;
+    try {
+      const memory = teamMemory(job.triangles);
+      const { positions, indices } = job.mesh;
+      const mesh: TriangleMesh = { positions: shared(positions), indices: indices && shared(indices) };
+      for (const [index, seat] of seats.entries()) {
+        seat.jobs.set(id, job);
+        seat.load += job.triangles;
+        seat.line?.hold(true);
+        this.#post(seat, { kind: 'together', id, mesh, options: sendableOptions(options), index, memory }, []);
+      }
+    } catch {
+      // No memory of that kind or not enough: one worker will do.
+      for (const seat of seats) if (seat.jobs.delete(id)) seat.load -= job.triangles;
+      this.#send(seats[0] as Seat, job);
     }
   }
 
@@ -337,6 +370,17 @@ export class BvhWorkers {
     }
     this.#building = false;
   }
+}
+
+/** Whether two workers may build it: memory can be shared, it is large, and it is not to be handed over. */
+const canShare = ({ triangles, transfer, options: { builder } }: Job) => typeof SharedArrayBuffer === 'function' && triangles >= TOGETHER && !transfer && (builder === undefined || builder === 'balanced');
+
+/** An array that several threads see: itself, or a copy. */
+function shared<T extends Float32Array | Uint32Array | Uint16Array>(array: T): T {
+  if (!(array.buffer instanceof ArrayBuffer)) return array;
+  const copy = new (array.constructor as new (buffer: SharedArrayBuffer) => T)(new SharedArrayBuffer(array.byteLength));
+  copy.set(array);
+  return copy;
 }
 
 const destroyed = () => new BvhError('bvh/destroyed', 'The workers were destroyed: create them anew for further builds.');

@@ -1,6 +1,6 @@
 import { getEventListeners, once } from 'node:events';
 import { Worker } from 'node:worker_threads';
-import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
+import { afterAll, afterEach, beforeAll, describe, expect, it, vi } from 'vitest';
 import { buildBlas, type Blas, type TriangleMesh } from '../../src/blas';
 import { best, bestSplit } from '../../src/build/best';
 import { fast } from '../../src/build/fast';
@@ -24,6 +24,12 @@ const meshes: TriangleMesh[] = [sphere(96), strewn(9000, 0.1, random), { positio
 /** About a second of work: there is time to do something meanwhile. */
 const big = () => strewn(700_000, 0.02, randomNumbers(5));
 
+/** How many messages of a kind the workers have been sent, from now on. */
+function counting(workers: readonly Worker[], kind: string): () => number {
+  const spies = workers.map((worker) => vi.spyOn(worker, 'postMessage'));
+  return () => spies.reduce((sum, { mock }) => sum + mock.calls.filter(([message]) => (message as { kind: string }).kind === kind).length, 0);
+}
+
 describe('BvhWorkers', () => {
   let worker: Awaited<ReturnType<typeof bundledWorker>>;
   const started: Worker[] = [];
@@ -45,6 +51,42 @@ describe('BvhWorkers', () => {
   afterEach(() => {
     for (const pool of pools.splice(0)) pool.destroy();
     started.length = 0;
+  });
+
+  it('lets two workers build a large mesh together, bit for bit what buildBlas builds', async () => {
+    const workers = await create();
+    const pieces = counting(started, 'together');
+    const large = sphere(480);
+    expect(large.indices.length / 3).toBeGreaterThan(200_000);
+    // Both have to be there.
+    while (pieces() === 0) expectSame(await workers.buildBlas(large), buildBlas(large));
+    const flat = strewn(260_000, 0.02, randomNumbers(13));
+    // Some on one spot, some broken, and pairs that only the order on the curve brings together.
+    for (let i = 0; i < flat.positions.length; i += 9 * 50) flat.positions.fill(i % 2 === 0 ? 0.25 : NaN, i, i + 9);
+    const several: readonly (readonly [TriangleMesh, object])[] = [
+      [flat, {}],
+      [flat, { maxLeafTriangles: 1, bins: 7 }],
+      [{ positions: new Float32Array(9 * 210_000).fill(1) }, {}],
+      [{ positions: large.positions.map((x, i) => (i % 3 === 0 ? 1000 * x : x)), indices: large.indices }, {}],
+    ];
+    for (const [i, [mesh, options]] of several.entries()) {
+      expectSame(await workers.buildBlas(mesh, options), buildBlas(mesh, options));
+      expect(pieces()).toBe(2 * (i + 2));
+    }
+    // A fault that only one of them meets; then both are there again.
+    const { positions, indices } = large;
+    for (const at of [5, indices.length - 5]) {
+      const broken = indices.slice();
+      broken[at] = 1e9;
+      await expect(workers.buildBlas({ positions, indices: broken })).rejects.toMatchObject({ code: 'bvh/indices' });
+    }
+    expectSame(await workers.buildBlas({ positions, indices }), buildBlas({ positions, indices }));
+    const control = new AbortController();
+    const aborted = workers.buildBlas({ positions, indices }, { signal: control.signal });
+    control.abort(new Error('enough'));
+    await expect(aborted).rejects.toThrow('enough');
+    const all = await Promise.all([0, 1, 2].map(() => workers.buildBlas({ positions, indices })));
+    for (const blas of all) expectSame(blas, all[0] as Blas);
   });
 
   it('builds what buildBlas builds, bit for bit, many meshes at once and with options', async () => {

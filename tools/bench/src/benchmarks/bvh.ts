@@ -4,6 +4,9 @@ import { fast } from '@glanz/bvh/fast';
 import { sahCost } from '@glanz/bvh/statistics';
 import { timed, wallTimes, type Benchmark, type Figure } from '../benchmark';
 import { benchMeshes, type BenchMesh } from '../bvh/meshes';
+import { overTinybvh, spreadOf, writeBvhPage, type BvhDetails, type MeshRow } from '../bvh/page';
+import { TINYBVH } from '../bvh/tinybvh';
+import { machine } from '../machine';
 import { diffuseRays, primaryRays, shadowRays } from '../bvh/ray-sets';
 import { coldTimes, servesBenchmark, slicedTimes, workerTimes } from '../bvh/threads';
 import { buildThree, threeCost } from '../bvh/three-mesh-bvh';
@@ -41,17 +44,21 @@ function treesOf(mesh: BenchMesh): Tree[] {
     }),
     three('three-mesh-bvh SAH', 'SAH', 4),
     three('three-mesh-bvh CENTER', 'CENTER'),
+    // Its default, which links this run to others.
+    ...(TINYBVH.some(({ here }) => here === mesh.name) ? [three('three-mesh-bvh SAH, leaves of 10', 'SAH')] : []),
   ];
 }
 
 /** Our builders beside three-mesh-bvh's, on the same meshes in the same process, with one evaluator for all trees. */
 export const benchmark: Benchmark = {
   description: 'building hierarchies, and what rays look at in them, beside three-mesh-bvh',
-  async run({ log, quick }) {
+  options: { pages: { type: 'string', help: 'folder to write the page of the docs and its data into' } },
+  async run({ log, quick, values }) {
     const figures: Figure[] = [], notes: string[] = [];
     if (servesBenchmark()) return { settings: {}, figures };
     const meshes = await benchMeshes(quick, (line) => notes.push(line));
     const runs = quick ? 2 : 5;
+    const rows: MeshRow[] = [];
     const ratios = { sah: [] as number[], center: [] as number[], cost: [] as number[], fast: [] as number[], best: [] as number[] };
     const figure = (name: string, unit: string, values: readonly number[], target?: Figure['target']) => figures.push(timed(name, unit, values, quick ? undefined : target));
     for (const mesh of meshes) {
@@ -103,6 +110,7 @@ export const benchmark: Benchmark = {
           if (kind === 'diffuse') diffuse.set(name, nodes + triangles);
         }
       }
+      rows.push({ name: mesh.name, triangles: mesh.indices.length / 3, times: Object.fromEntries([...times].map(([name, list]) => [name, spreadOf(list)])), costs: Object.fromEntries(costs), diffuse: Object.fromEntries(diffuse) });
       const gain = diffuse.get('best')! / diffuse.get('balanced')!;
       const cad = CAD_LIKE.test(mesh.name);
       if (cad) ratios.best.push(gain);
@@ -127,9 +135,17 @@ export const benchmark: Benchmark = {
     figure(`four times ${large.name}: one worker`, 'ms', one);
     figure(`four times ${large.name}: two workers`, 'ms', two);
     figure(`four times ${large.name}: one worker over two, minima`, '1', [least(one) / least(two)], { value: 1.6, relation: '>=', source: 'two workers' });
+    const alone = await workerTimes([large], 1, runs), together = await workerTimes([large], 2, runs);
+    figure(`${large.name}: on one worker`, 'ms', alone);
+    figure(`${large.name}: on two workers together`, 'ms', together);
+    figure(`${large.name}: one worker over two together, minima`, '1', [least(alone) / least(together)], { value: 1.6, relation: '>=', source: 'two workers' });
     const sliced = await slicedTimes(large, runs);
     figure(`${large.name}: in slices on the main thread`, 'ms', sliced.all);
     figure(`${large.name}: longest slice`, 'ms', sliced.longest, { value: 16, relation: '<=', source: 'one frame' });
-    return { settings: { runs, meshes: meshes.map(({ name }) => name), leaves: 'at most 4 triangles' }, figures, notes };
+    const tiny = overTinybvh(rows).flatMap(({ byCenter, bySah }) => [byCenter, bySah]);
+    if (tiny.length > 0) figure("all: balanced over tinybvh's AVX2 build, linked by three-mesh-bvh, geometric mean", '1', [geometricMean(tiny)], { value: 2, relation: '<=', source: 'twice as long as C++' });
+    const details: BvhDetails = { runs, rows, threads: { mesh: large.name, cold: cold!, warm: spreadOf(warm), one: spreadOf(one), two: spreadOf(two), alone: spreadOf(alone), together: spreadOf(together), sliced: spreadOf(sliced.all), longest: spreadOf(sliced.longest) } };
+    if (values['pages'] !== undefined) for (const file of writeBvhPage('bvh', { benchmark: 'bvh', machine: machine(), quick, figures, details }, values['pages'])) log(`wrote ${file}`);
+    return { details, settings: { runs, meshes: meshes.map(({ name }) => name), leaves: 'at most 4 triangles' }, figures, notes };
   },
 };

@@ -2,7 +2,9 @@ import { buildBlas, packTriangles } from '@glanz/bvh';
 import { createPushButton } from '@glanz/models';
 import { estimated, timed, wallTimes, type Benchmark, type Figure } from '../benchmark';
 import { merged, PUSH_BUTTONS } from '../bvh/meshes';
+import { writeBvhPage } from '../bvh/page';
 import { buildThree } from '../bvh/three-mesh-bvh';
+import { machine } from '../machine';
 
 /**
  * The first table of strahl's paper (2025): setting up the hierarchy of a push-button of three resolutions. Theirs is
@@ -10,7 +12,8 @@ import { buildThree } from '../bvh/three-mesh-bvh';
  */
 export const benchmark: Benchmark = {
   description: 'building hierarchies of the same models',
-  async run({ log, quick }) {
+  options: { pages: { type: 'string', help: 'folder to write the page of the docs and its data into' } },
+  async run({ log, quick, values }) {
     const runs = quick ? 3 : 30;
     const figures: Figure[] = [];
     for (const [level, name] of PUSH_BUTTONS) {
@@ -32,6 +35,7 @@ export const benchmark: Benchmark = {
       );
       log(`${name}: ${Math.min(...ours).toFixed(1)} ms, CENTER ${Math.min(...center).toFixed(1)} ms`);
     }
+    if (values['pages'] !== undefined) for (const file of writeBvhPage('paper-cpu', { benchmark: 'paper-cpu', machine: machine(), quick, figures }, values['pages'])) log(`wrote ${file}`);
     return { settings: { runs, model: 'push-button, all parts in one mesh' }, figures };
   },
 };
