@@ -3,8 +3,8 @@
  * seen changes the note.
  */
 export const NOTES: Readonly<Record<string, string>> = {
-  SunglassesKhronos: 'The lenses are black: their colour is, and what should shine on them is a thin film (KHR_materials_iridescence, with an index of refraction of 1 below it), which is kept in the material but not yet shaded.',
-  IridescentDishWithOlives: 'The glass has no rainbow yet: thin films are kept in the material but not yet shaded. All the rest is: olives behind two walls of glass, gold leaf.',
+  SunglassesKhronos: 'The lenses shine from violet to blue: a thin film over a nearly black body, brighter and more saturated here than in a preview, since the whole studio is reflected.',
+  IridescentDishWithOlives: 'Noisy at 16 samples: the olives are seen and lit through two walls of glass, each with a film.',
   TextureSettingsTest: 'The row "single-sided" shows its cross: surfaces are there from both sides. Rasterisers leave out the back of such a surface, and the tick behind it shows; a path tracer that did so would let light through walls.',
   NegativeScaleTest: 'The column "back" shows its crosses for the same reason as TextureSettingsTest: nothing is culled. That mirrored parts are wound and lit rightly shows in the balls below, which are alike.',
   'hotel-room': 'A closed room seen from outside, as all models are framed; walls that rasterisers cull hide what is in it. It has no lamps, so it is dark within: its own picture was lit in the viewer.',
