@@ -3,7 +3,7 @@
  * seen changes the note.
  */
 export const NOTES: Readonly<Record<string, string>> = {
-  SunglassesKhronos: 'The lenses shine from violet to blue: a thin film over a nearly black body, brighter and more saturated here than in a preview, since the whole studio is reflected.',
+  SunglassesKhronos: 'The lenses shine from violet to blue: a thin film over a nearly black body.',
   IridescentDishWithOlives: 'Noisy at 16 samples: the olives are seen and lit through two walls of glass, each with a film.',
   TextureSettingsTest: 'The row "single-sided" shows its cross: surfaces are there from both sides. Rasterisers leave out the back of such a surface, and the tick behind it shows; a path tracer that did so would let light through walls.',
   NegativeScaleTest: 'The column "back" shows its crosses for the same reason as TextureSettingsTest: nothing is culled. That mirrored parts are wound and lit rightly shows in the balls below, which are alike.',
