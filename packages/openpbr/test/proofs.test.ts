@@ -2,6 +2,7 @@ import { describe, expect, it, vi } from 'vitest';
 import { albedoBsdf, emittedRadiance, evalPdfBsdf, pdfBsdf, prepareBsdf, sampleBsdf, type Bsdf } from '../src/cpu/index';
 import { resolveParameters, type OpenPbrParameters, type OpenPbrVector } from '../src/parameters/index';
 import { direction } from './integrate';
+import { resultsOf } from './results';
 import { anyClear, anyCoated, uniform, unit, upperDirection } from './random';
 import { sphereFurnace } from './sphere';
 
@@ -11,6 +12,7 @@ import { sphereFurnace } from './sphere';
  */
 const FULL = process.env['GLANZ_PROOFS'] === 'full';
 const size = (full: number, small: number): number => (FULL ? full : small);
+const record = resultsOf('proofs');
 if (FULL) vi.setConfig({ testTimeout: 3_600_000 });
 
 /** Any material of all lobes, at the ends of its ranges more often than not. */
@@ -82,11 +84,13 @@ describe('the whole model', () => {
         }
       }
     }
+    record('finite', { materials, directions: 64 });
   });
 
   const furnaces = size(200, 24);
   it(`is within 0.985 and 1.006 in a white furnace: ${furnaces} random white materials by 3 angles (seed 301)`, () => {
     const next = uniform(301);
+    const seen = { least: Infinity, most: -Infinity, density: 0 };
     for (let i = 0; i < furnaces; i++) {
       const p = anyWhite(next);
       for (const mu of [1, 0.6, 0.2]) {
@@ -96,19 +100,27 @@ describe('the whole model', () => {
         expect(sum, JSON.stringify({ p, mu })).toBeGreaterThan(0.985);
         expect(sum, JSON.stringify({ p, mu })).toBeLessThan(1.006);
         expect(pdf, JSON.stringify({ p, mu })).toBeLessThan(1.004);
+        seen.least = Math.min(seen.least, sum);
+        seen.most = Math.max(seen.most, sum);
+        seen.density = Math.max(seen.density, pdf);
       }
     }
+    record('materials', { materials: furnaces, ...seen });
   });
 
   it('is reciprocal where it says so: single scattering, opaque, without coat and fuzz (seed 302)', () => {
     const next = uniform(302);
-    for (let i = 0; i < size(20_000, 1000); i++) {
+    const pairs = size(20_000, 1000);
+    let worst = 0;
+    for (let i = 0; i < pairs; i++) {
       const p: OpenPbrParameters = { ...anyExtreme(next), transmission_weight: 0, subsurface_weight: 0, coat_weight: 0, fuzz_weight: 0 };
       const a = unit(upperDirection(next, 0.02)), b = unit(upperDirection(next, 0.02));
       const there = evalPdfBsdf(prepareBsdf(p, a, { multipleScattering: false }), a, b).f[0] / b[2];
       const back = evalPdfBsdf(prepareBsdf(p, b, { multipleScattering: false }), b, a).f[0] / a[2];
       expect(Math.abs(there - back), JSON.stringify(p)).toBeLessThanOrEqual(1e-7 * Math.max(there, back));
+      if (there + back > 0) worst = Math.max(worst, Math.abs(there - back) / Math.max(there, back));
     }
+    record('reciprocity', { pairs, worst });
   });
 });
 
@@ -174,6 +186,7 @@ describe('chi-squared of the samples against the density', () => {
     subsurface: (next) => ({ subsurface_weight: 0.5 + 0.5 * next(), specular_ior: 1.3 + next() }),
     paper: (next) => ({ subsurface_weight: 1, geometry_thin_walled: true, subsurface_scatter_anisotropy: 2 * next() - 1 }),
     coat: (next) => ({ coat_weight: 1, coat_roughness: 0.4 + 0.6 * next(), base_metalness: next() }),
+    film: (next) => ({ thin_film_weight: next(), thin_film_thickness: next(), thin_film_ior: 1.2 + next(), transmission_weight: next() < 0.5 ? 0 : 1, specular_ior: 1.3 + next() }),
     fuzz: (next) => ({ fuzz_weight: 1, fuzz_roughness: 0.3 + 0.7 * next() }),
     everything: (next) => ({ ...anyCoated(next, 0.45), transmission_weight: 0.5 * next(), subsurface_weight: 0.5 * next(), fuzz_weight: next(), fuzz_roughness: 0.3 + 0.7 * next(), coat_roughness: 0.4 + 0.6 * next(), specular_ior: 1.4 + next() }),
   };
@@ -182,12 +195,17 @@ describe('chi-squared of the samples against the density', () => {
     it(`${name}: ${settings} settings, significance 0.01 with Šidák's correction (seed ${310 + index})`, () => {
       const next = uniform(310 + index);
       const limit = 1 - 0.99 ** (1 / settings);
+      let least = 1;
+      const samples = size(100_000, 30_000);
       for (let i = 0; i < settings; i++) {
         const p = resolveParameters({ specular_roughness: 0.45 + 0.55 * next(), ...lobe(next) });
         const wo = direction(0.1 + 0.9 * next(), 6 * next());
         const inside = !p.geometry_thin_walled && p.transmission_weight + p.subsurface_weight > 0 && next() < 0.4;
-        expect(fitOf(prepareBsdf(p, wo, { inside }), wo, size(100_000, 30_000), next), JSON.stringify({ p, wo, inside })).toBeGreaterThan(limit);
+        const fit = fitOf(prepareBsdf(p, wo, { inside }), wo, samples, next);
+        expect(fit, JSON.stringify({ p, wo, inside })).toBeGreaterThan(limit);
+        least = Math.min(least, fit);
       }
+      record(`chi-squared: ${name}`, { settings, samples, limit, least });
     });
   });
 });

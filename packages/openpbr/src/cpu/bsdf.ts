@@ -7,7 +7,7 @@ import { filmFacet, filmReflectance, filmShare, metalIndex, prepareFilm, type Co
 import { fuzzAlbedo, fuzzDensity, fuzzSample, prepareFuzz, type Fuzz } from './fuzz';
 import { ggx, ggxAlpha, ggxBound, ggxSample, halfVector, mirrorCosine, mirrorRoughness, viewRoughness, type Slopes } from './ggx';
 import { prepareThinSubsurface, type ThinSubsurface } from './subsurface';
-import { prepareTransmission, refract, refractGgx, refractHalf, type BsdfSide, type Transmission } from './transmission';
+import { prepareTransmission, refract, refractGgx, refractHalf, stretchedLoss, type BsdfSide, type Transmission } from './transmission';
 import { clamp, dot } from './vector';
 
 /** What {@link prepareBsdf} may be told. */
@@ -92,7 +92,9 @@ function prepareInterface(p: OpenPbrParameters, alpha: Slopes, wo: OpenPbrVector
   const epsilon = dielectricEpsilon(p.specular_ior, p.specular_weight);
   const share = energyShare(epsilon, viewRoughness(alpha, p.specular_roughness, wo), mu);
   const total = energyTotal(epsilon, mirrorRoughness(p.specular_roughness, p.specular_roughness_anisotropy), mirrorCosine(alpha, wo, mu));
-  const lost = multipleScattering ? Math.max(1 - total, 0) : 0;
+  // From inside, the critical angle is an edge that its facets are too few for.
+  const stretched = epsilon > 0 && p.specular_roughness_anisotropy > 0 && p.transmission_weight + p.subsurface_weight > 0;
+  const lost = multipleScattering ? Math.max(stretched ? stretchedLoss((1 + epsilon) / (1 - epsilon), alpha, wo) : 1 - total, 0) : 0;
   const bounced = lost * energyBounce(epsilon, mirrorRoughness(p.specular_roughness, p.specular_roughness_anisotropy));
   return { epsilon, share, bounced, bouncedThrough: lost - bounced };
 }

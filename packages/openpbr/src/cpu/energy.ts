@@ -23,11 +23,20 @@ const MIN_ROOT = Math.sqrt(TABLE_MIN_ROUGHNESS);
 const texel = (u: number, first: number, count: number, size: number): number => (u * (count - 1) + 0.5 + first) / size;
 const roughnessAxis = (r: number, count: number, size = count): number => texel(clamp((Math.sqrt(r) - MIN_ROOT) / (1 - MIN_ROOT), 0, 1), 0, count, size);
 const slice = (block: keyof typeof TABLE_BLOCKS, epsilon: number): number => texel(Math.sqrt(Math.abs(epsilon)), TABLE_BLOCKS[block][0], TABLE_BLOCKS[block][1], TABLE_DEPTH);
+const totalSlice = (epsilon: number): number => (epsilon >= 0 ? texel(Math.cbrt(epsilon), TABLE_BLOCKS.outerTotal[0], TABLE_BLOCKS.outerTotal[1], TABLE_DEPTH) : slice('innerTotal', epsilon));
+/** In the blocks of totals. */
+const totalRoughness = (r: number): number => texel(clamp((r - TABLE_MIN_ROUGHNESS) / (1 - TABLE_MIN_ROUGHNESS), 0, 1), 0, TABLE_ANGLES + 1, TABLE_ANGLES + 1);
 const angleAxis = (t: number): number => texel(t, 0, TABLE_ANGLES, TABLE_ANGLES + 1);
 
 function spread(r: number, mu: number): number {
   const x = Math.sqrt(mu);
   return (x * (1 + r)) / (x + r);
+}
+
+/** Where a cosine inside of the denser medium lies: the critical angle in the middle, and columns crowd around it. */
+function innerPosition(eta: number, mu: number): number {
+  const critical = Math.sqrt(1 - eta * eta);
+  return mu > critical ? 0.5 + 0.5 * Math.sqrt((mu - critical) / (1 - critical)) : (0.5 * Math.sqrt(mu)) / (Math.sqrt(mu) + Math.sqrt(critical - mu));
 }
 
 /** Cosine-weighted mean of the reflectance of a smooth interface, about; twin of `openpbr_fresnel_mean`. */
@@ -56,9 +65,7 @@ export function energyShare(epsilon: number, roughness: number, mu: number): num
     const fresnel = fresnelDielectric(eta, mu + 0.8 * r * r * (1 - mu));
     return Math.min(fresnel * tableLookup(OPENPBR_TABLES.dielectric, [angleAxis(spread(r, mu)), y, slice('outer', epsilon)]), 1);
   }
-  const critical = Math.sqrt(1 - eta * eta);
-  const t = mu > critical ? 0.5 + 0.5 * Math.sqrt((mu - critical) / (1 - critical)) : (0.5 * Math.sqrt(mu)) / (Math.sqrt(mu) + Math.sqrt(critical - mu));
-  const split = Math.min(tableLookup(OPENPBR_TABLES.dielectric, [angleAxis(t), y, slice('inner', epsilon)]), 1);
+  const split = Math.min(tableLookup(OPENPBR_TABLES.dielectric, [angleAxis(innerPosition(eta, mu)), y, slice('inner', epsilon)]), 1);
   const total = energyTotal(epsilon, roughness, mu);
   return split * total + (1 - total) * energyBounce(epsilon, roughness);
 }
@@ -81,13 +88,13 @@ export function energyShareMean(epsilon: number, roughness: number): number {
 export function energyBounce(epsilon: number, roughness: number): number {
   const reflected = fresnelMean(Math.abs(epsilon));
   if (epsilon >= 0) return reflected;
-  const y = roughnessAxis(Math.max(roughness, TABLE_MIN_ROUGHNESS), TABLE_ROUGHNESSES);
-  const lost = (block: 'outerTotal' | 'innerTotal') => 1 - tableLookup(OPENPBR_TABLES.dielectric, [(TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1), y, slice(block, epsilon)]);
-  return clamp(1 - ((1 - reflected) * lost('outerTotal')) / Math.max(lost('innerTotal'), 1e-4), 0, 1);
+  const lost = (sign: 1 | -1) => 1 - tableLookup(OPENPBR_TABLES.dielectric, [totalRoughness(roughness), (TABLE_ROUGHNESSES - 0.5) / TABLE_ROUGHNESSES, totalSlice(-sign * epsilon)]);
+  return clamp(1 - ((1 - reflected) * lost(1)) / Math.max(lost(-1), 1e-4), 0, 1);
 }
 
 /** Energy that an interface reflects and refracts by single scattering; twin of `openpbr_energy_total`. */
 export function energyTotal(epsilon: number, roughness: number, mu: number): number {
   const r = Math.max(roughness, TABLE_MIN_ROUGHNESS);
-  return tableLookup(OPENPBR_TABLES.dielectric, [angleAxis(spread(r, mu)), roughnessAxis(r, TABLE_ROUGHNESSES), slice(epsilon >= 0 ? 'outerTotal' : 'innerTotal', epsilon)]);
+  const t = epsilon >= 0 ? spread(r, mu) : 0.5 * (spread(r, mu) + innerPosition((1 + epsilon) / (1 - epsilon), mu));
+  return tableLookup(OPENPBR_TABLES.dielectric, [totalRoughness(r), texel(t, 0, TABLE_ROUGHNESSES - 1, TABLE_ROUGHNESSES), totalSlice(epsilon)]);
 }

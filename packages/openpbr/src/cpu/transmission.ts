@@ -1,8 +1,8 @@
 import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
 import { energyLost } from './energy';
-import { dielectricEpsilon } from './fresnel';
+import { dielectricEpsilon, fresnelDielectric } from './fresnel';
 import type { FilmShare } from './film';
-import { ggxDistribution, ggxMasking, mirrorCosine, mirrorRoughness, type Slopes } from './ggx';
+import { ggxDistribution, ggxMasking, ggxMaskingShadowing, ggxSample, mirrorCosine, mirrorRoughness, type Slopes } from './ggx';
 import { clamp, dot, normalize } from './vector';
 
 /** Where the viewer is; twin of the WGSL struct `OpenPbrSide`. */
@@ -41,6 +41,27 @@ export interface Transmission {
 }
 
 const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), channel(1), channel(2)];
+
+/** Heights along the cap of visible normals, and their parts: Gauss and Legendre's. */
+const HEIGHTS = [0.06943184, 0.33000948, 0.66999052, 0.93056816];
+const PARTS = [0.021740927, 0.040759066, 0.040759066, 0.021740927];
+
+/** Energy that single scattering loses, of a stretched highlight: summed over 32 facets as they are seen; twin of `openpbr_transmission_lost`. */
+export function stretchedLoss(eta: number, alpha: Slopes, wo: OpenPbrVector): number {
+  const turn = Math.atan2(alpha[1] * wo[1], alpha[0] * wo[0]) / (2 * Math.PI);
+  let lost = 0;
+  for (let i = 0; i < 32; i++) {
+    const h = ggxSample(alpha, wo, [turn + ((i & 7) + 0.25) / 8, HEIGHTS[i >> 3] as number]);
+    const c = clamp(dot(wo, h), 0, 1);
+    const reflected = fresnelDielectric(eta, c);
+    const mirrored: OpenPbrVector = [2 * c * h[0] - wo[0], 2 * c * h[1] - wo[1], 2 * c * h[2] - wo[2]];
+    const refracted = refract(eta, wo, h);
+    const up = mirrored[2] > 0 ? (reflected * ggxMaskingShadowing(alpha, wo, mirrored)) / ggxMasking(alpha, wo) : 0;
+    const down = refracted && refracted[2] < 0 ? (1 - reflected) * ggxMasking(alpha, [refracted[0], refracted[1], -refracted[2]]) : 0;
+    lost += (1 - up - down) * (PARTS[i >> 3] as number);
+  }
+  return lost;
+}
 
 /** What {@link prepareTransmission} needs to know of an interface. */
 interface Interface {

@@ -9,7 +9,7 @@ const innerTotal = inner + TABLE_LAYOUT.inner;
 export const TABLE_BLOCKS = {
   /** Share of the energy that is reflected by all scattering, over the Fresnel reflectance at the softened cosine; seen from the thinner medium. */
   outer: [0, TABLE_LAYOUT.outer],
-  /** Energy reflected and refracted by single scattering; seen from the thinner medium. */
+  /** Energy reflected and refracted by single scattering; seen from the thinner medium, over the cubic root of ε. */
   outerTotal: [outerTotal, TABLE_LAYOUT.outerTotal],
   /** The reflected part of single scattering; seen from the denser medium. */
   inner: [inner, TABLE_LAYOUT.inner],
@@ -20,7 +20,10 @@ export const TABLE_BLOCKS = {
 /** Depth of the dielectric table in slices. */
 export const TABLE_DEPTH = innerTotal + TABLE_LAYOUT.innerTotal;
 
-/** Angle samples of the dielectric table; one more column holds the mean over all directions. */
+/**
+ * Angle samples of the dielectric table; one more column holds the mean over all directions. In the blocks of totals the
+ * roughness lies along the rows instead, and the angles down the columns, with the mean in the last row.
+ */
 export const TABLE_ANGLES = TABLE_LAYOUT.angles;
 export const TABLE_ROUGHNESSES = TABLE_LAYOUT.roughnesses;
 export const TABLE_CONDUCTOR = TABLE_LAYOUT.conductor;

@@ -1,4 +1,4 @@
-import { ENCODED_CONDUCTOR, ENCODED_DIELECTRIC } from './encoded';
+import { ENCODED_CONDUCTOR, ENCODED_DIELECTRIC, ENCODED_SHEEN } from './encoded';
 
 /** A table of numbers, ready to become a texture. */
 export interface OpenPbrTable {
@@ -44,14 +44,15 @@ function decode({ width, height, depth, step: unit, text }: EncodedTable): Float
   return Float32Array.from(steps, (step) => step / unit);
 }
 
-function table(encoded: EncodedTable): OpenPbrTable {
+/** Blocks of the same width, below each other. */
+function table(first: EncodedTable, second?: EncodedTable): OpenPbrTable {
   let data: Float32Array<ArrayBuffer> | undefined;
   return {
-    width: encoded.width,
-    height: encoded.height,
-    depth: encoded.depth,
+    width: first.width,
+    height: first.height + (second?.height ?? 0),
+    depth: first.depth,
     get data() {
-      return (data ??= decode(encoded));
+      return (data ??= second ? Float32Array.of(...decode(first), ...decode(second)) : decode(first));
     },
   };
 }
@@ -67,5 +68,5 @@ function table(encoded: EncodedTable): OpenPbrTable {
  */
 export const OPENPBR_TABLES: { readonly dielectric: OpenPbrTable; readonly conductor: OpenPbrTable } = {
   dielectric: /* @__PURE__ */ table(ENCODED_DIELECTRIC),
-  conductor: /* @__PURE__ */ table(ENCODED_CONDUCTOR),
+  conductor: /* @__PURE__ */ table(ENCODED_CONDUCTOR, ENCODED_SHEEN),
 };

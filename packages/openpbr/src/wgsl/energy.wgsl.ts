@@ -15,6 +15,10 @@ const outer = slice('outer');
 const outerTotal = slice('outerTotal');
 const inner = slice('inner');
 const innerTotal = slice('innerTotal');
+// In the blocks of totals.
+const totalRough = axis(0, TABLE_ANGLES + 1, TABLE_ANGLES + 1);
+const totalAngle = axis(0, TABLE_ROUGHNESSES - 1, TABLE_ROUGHNESSES);
+const totalMean = float((TABLE_ROUGHNESSES - 0.5) / TABLE_ROUGHNESSES);
 const minRoot = Math.sqrt(TABLE_MIN_ROUGHNESS);
 const unit = `clamp((sqrt(r) - ${float(minRoot)}) * ${float(1 / (1 - minRoot))}, 0.0, 1.0)`;
 
@@ -54,11 +58,24 @@ fn openpbr_fresnel_mean(epsilon: f32) -> f32 {
   return select(1.0 - eta * eta * (1.0 - mean), mean, epsilon >= 0.0);
 }
 
+// Where a cosine inside of the denser medium lies: the critical angle in the middle, and columns crowd around it.
+fn openpbr_energy_inner_angle(eta: f32, mu: f32) -> f32 {
+  let critical = sqrt(1.0 - eta * eta);
+  return select(0.5 * sqrt(mu) / (sqrt(mu) + sqrt(max(critical - mu, 0.0))), 0.5 + 0.5 * sqrt(max(mu - critical, 0.0) / (1.0 - critical)), mu > critical);
+}
+
+fn openpbr_energy_total_at(epsilon: f32, r: f32, y: f32) -> f32 {
+  let e = abs(epsilon);
+  let z = select(${innerTotal[0]} + ${innerTotal[1]} * sqrt(e), ${outerTotal[0]} + ${outerTotal[1]} * pow(e, 0.33333333), epsilon >= 0.0);
+  return openpbr_table_dielectric(vec3f(${totalRough[0]} + ${totalRough[1]} * clamp((r - ${float(TABLE_MIN_ROUGHNESS)}) * ${float(1 / (1 - TABLE_MIN_ROUGHNESS))}, 0.0, 1.0), y, z));
+}
+
 // Energy that the interface reflects and refracts by single scattering.
 fn openpbr_energy_total(epsilon: f32, roughness: f32, mu: f32) -> f32 {
   let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
-  let z = sqrt(abs(epsilon));
-  return openpbr_table_dielectric(vec3f(${angle[0]} + ${angle[1]} * openpbr_energy_angle(r, mu), ${rough[0]} + ${rough[1]} * ${unit}, select(${innerTotal[0]} + ${innerTotal[1]} * z, ${outerTotal[0]} + ${outerTotal[1]} * z, epsilon >= 0.0)));
+  var t = openpbr_energy_angle(r, mu);
+  if (epsilon < 0.0) { t = 0.5 * (t + openpbr_energy_inner_angle((1.0 + epsilon) / (1.0 - epsilon), mu)); }
+  return openpbr_energy_total_at(epsilon, r, ${totalAngle[0]} + ${totalAngle[1]} * t);
 }
 
 // The part of what single scattering loses that is reflected after more bounces. Seen from the thinner medium, the mean
@@ -66,12 +83,8 @@ fn openpbr_energy_total(epsilon: f32, roughness: f32, mu: f32) -> f32 {
 fn openpbr_energy_bounce(epsilon: f32, roughness: f32) -> f32 {
   let reflected = openpbr_fresnel_mean(abs(epsilon));
   if (epsilon >= 0.0) { return reflected; }
-  let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
-  let z = sqrt(-epsilon);
-  let x = ${float((TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1))};
-  let y = ${rough[0]} + ${rough[1]} * ${unit};
-  let outside = 1.0 - openpbr_table_dielectric(vec3f(x, y, ${outerTotal[0]} + ${outerTotal[1]} * z));
-  let inside = 1.0 - openpbr_table_dielectric(vec3f(x, y, ${innerTotal[0]} + ${innerTotal[1]} * z));
+  let outside = 1.0 - openpbr_energy_total_at(-epsilon, roughness, ${totalMean});
+  let inside = 1.0 - openpbr_energy_total_at(epsilon, roughness, ${totalMean});
   return clamp(1.0 - (1.0 - reflected) * outside / max(inside, 1e-4), 0.0, 1.0);
 }
 
@@ -86,8 +99,7 @@ fn openpbr_energy_share(epsilon: f32, roughness: f32, mu: f32) -> f32 {
   if (epsilon > 0.0) {
     scale = openpbr_fresnel_dielectric(eta, mu + 0.8 * r * r * (1.0 - mu));
   } else {
-    let critical = sqrt(1.0 - eta * eta);
-    at.x = select(0.5 * sqrt(mu) / (sqrt(mu) + sqrt(max(critical - mu, 0.0))), 0.5 + 0.5 * sqrt(max(mu - critical, 0.0) / (1.0 - critical)), mu > critical);
+    at.x = openpbr_energy_inner_angle(eta, mu);
     at.z = ${inner[0]} + ${inner[1]} * z;
   }
   at.x = ${angle[0]} + ${angle[1]} * at.x;

@@ -144,8 +144,7 @@ struct OpenPbrFilmShare {
 // Sums over eight facets as they are seen; eta and share are those of the interface without the film.
 fn openpbr_film_share(film: OpenPbrFilm, eta: f32, share: f32, alpha: vec2f, wo: vec3f) -> OpenPbrFilmShare {
   if (film.weight <= 0.0) { return OpenPbrFilmShare(vec3f(0.0), vec3f(1.0), vec3f(1.0)); }
-  let flat = alpha * wo.xy;
-  let azimuth = select(vec2f(1.0, 0.0), flat * inverseSqrt(max(dot(flat, flat), 1e-30)), dot(flat, flat) > 1e-20);
+  let azimuth = openpbr_ggx_azimuth(alpha, wo);
   let across = 0.70710678 * vec2f(azimuth.x - azimuth.y, azimuth.x + azimuth.y);
   let so = openpbr_ggx_stretch(alpha, wo);
   var more = vec3f(0.0);

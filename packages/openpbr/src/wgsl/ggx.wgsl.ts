@@ -76,6 +76,12 @@ fn openpbr_ggx_bound(alpha: vec2f, wo: vec3f) -> f32 {
   return (1.0 - a * a) * s * s / (s * s + a * a * wo.z * wo.z);
 }
 
+// Where the viewer is, around the axis of the cap.
+fn openpbr_ggx_azimuth(alpha: vec2f, wo: vec3f) -> vec2f {
+  let flat = alpha * wo.xy;
+  return select(vec2f(1.0, 0.0), flat * inverseSqrt(max(dot(flat, flat), 1e-30)), dot(flat, flat) > 1e-20);
+}
+
 // The half vector at a place of the cap: a unit vector around its axis, and a height in [0, 1).
 fn openpbr_ggx_cap(alpha: vec2f, wo: vec3f, around: vec2f, height: f32, bound: f32) -> vec3f {
   let v = normalize(vec3f(alpha * wo.xy, wo.z));

@@ -1,0 +1,93 @@
+import { describe, expect, it } from 'vitest';
+import { resolveParameters, type OpenPbrParameters } from '../src/parameters/index';
+import { direction } from './integrate';
+import { resultsOf } from './results';
+import { sphereFurnace } from './sphere';
+
+/** As in proofs.test.ts: GLANZ_PROOFS=full takes all roughnesses and cosines, and more nodes. */
+const FULL = process.env['GLANZ_PROOFS'] === 'full';
+const ROUGHNESSES = FULL ? [0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1] : [0.15, 0.4, 0.7, 1];
+const COSINES = FULL ? [1, 0.85, 0.65, 0.45, 0.3, 0.15, 0.06] : [1, 0.6, 0.25, 0.08];
+const SIZE = FULL ? 56 : 40;
+/** The quadrature's own error: plain Lambert, whose albedo is 1, shows it. */
+const QUADRATURE = 1e-3;
+
+const WHITE = [1, 1, 1] as const;
+const METAL = { base_metalness: 1 } as const;
+const GLASS = { transmission_weight: 1 } as const;
+const COAT = { coat_weight: 1, coat_roughness: 0.2 } as const;
+
+interface Row {
+  readonly name: string;
+  readonly parameters: Partial<OpenPbrParameters>;
+  readonly low: number;
+  readonly high: number;
+  readonly inside?: boolean;
+  readonly azimuths?: readonly number[];
+}
+const row = (name: string, parameters: Partial<OpenPbrParameters>, [low, high]: readonly [number, number], more: Partial<Row> = {}): Row => ({ name, parameters, low, high, ...more });
+const AROUND = { azimuths: [0, 0.8, 1.57] };
+const ROWS: readonly Row[] = [
+  row('metal', METAL, [0.997, 1.001]),
+  row('diffuse', { specular_weight: 0 }, [0.999, 1.001]),
+  row('rough diffuse (EON)', { specular_weight: 0, base_diffuse_roughness: 1 }, [0.998, 1.002]),
+  row('dielectric over diffuse', {}, [0.997, 1.001]),
+  row('index 1.2 over diffuse', { specular_ior: 1.2 }, [0.9965, 1.001]),
+  row('index 2 over diffuse', { specular_ior: 2 }, [0.997, 1.001]),
+  row('half metal', { base_metalness: 0.5 }, [0.997, 1.001]),
+  row('glass', GLASS, [0.997, 1.004]),
+  row('glass of index 1.33', { ...GLASS, specular_ior: 1.33 }, [0.997, 1.004]),
+  row('glass of index 2.4', { ...GLASS, specular_ior: 2.4 }, [0.997, 1.004]),
+  row('glass from inside', GLASS, [0.996, 1.005], { inside: true }),
+  row('glass of index 1.33 from inside', { ...GLASS, specular_ior: 1.33 }, [0.996, 1.005], { inside: true }),
+  row('glass of index 2.4 from inside', { ...GLASS, specular_ior: 2.4 }, [0.995, 1.005], { inside: true }),
+  row('thin glass', { ...GLASS, geometry_thin_walled: true }, [0.997, 1.001]),
+  row('subsurface', { subsurface_weight: 1 }, [0.997, 1.004]),
+  row('paper', { subsurface_weight: 1, geometry_thin_walled: true }, [0.995, 1.001]),
+  row('coat over diffuse', COAT, [0.99, 1.001]),
+  row('rough coat over diffuse', { coat_weight: 1, coat_roughness: 0.7 }, [0.99, 1.001]),
+  row('coat over metal', { ...COAT, ...METAL }, [0.99, 1.002]),
+  row('coat over glass', { ...COAT, ...GLASS }, [0.99, 1.004]),
+  row('fuzz over diffuse', { fuzz_weight: 1 }, [0.99, 1.002]),
+  row('fuzz over metal', { fuzz_weight: 1, ...METAL }, [0.99, 1.002]),
+  row('film over diffuse', { thin_film_weight: 1, thin_film_ior: 1.8 }, [0.985, 1.01]),
+  row('film over metal', { thin_film_weight: 1, ...METAL }, [0.98, 1.002]),
+  row('film over glass', { thin_film_weight: 1, thin_film_ior: 1.8, ...GLASS }, [0.985, 1.01]),
+  row('soap bubble', { thin_film_weight: 1, thin_film_ior: 1.33, thin_film_thickness: 0.3, specular_ior: 1, ...GLASS, geometry_thin_walled: true }, [0.99, 1.005]),
+  row('stretched metal, anisotropy 0.5', { ...METAL, specular_roughness_anisotropy: 0.5 }, [0.955, 1.015], AROUND),
+  row('stretched metal, anisotropy 0.9', { ...METAL, specular_roughness_anisotropy: 0.9 }, [0.93, 1.018], AROUND),
+  row('stretched glass, anisotropy 0.5', { ...GLASS, specular_roughness_anisotropy: 0.5 }, [0.985, 1.01], AROUND),
+  row('stretched glass, anisotropy 0.9', { ...GLASS, specular_roughness_anisotropy: 0.9 }, [0.98, 1.012], AROUND),
+];
+
+describe('white furnace, lobe by lobe', () => {
+  const record = resultsOf('furnace');
+  for (const { name, parameters, low, high, inside = false, azimuths = [0.4] } of ROWS) {
+    it(`${name}: ${low} to ${high}`, () => {
+      const seen = { least: Infinity, most: -Infinity, density: 0 };
+      for (const specular_roughness of ROUGHNESSES) {
+        const p = resolveParameters({ base_color: WHITE, subsurface_color: WHITE, specular_roughness, ...parameters });
+        for (const mu of COSINES) {
+          for (const phi of azimuths) {
+            const { reflected, transmitted, pdf } = sphereFurnace(p, direction(mu, phi), { inside }, SIZE);
+            for (const i of [0, 1, 2] as const) {
+              const sum = reflected[i] + transmitted[i];
+              const at = `roughness ${specular_roughness}, cosine ${mu}, azimuth ${phi}`;
+              // Seen along the normal from inside, the critical angle is an edge right through the nodes.
+              const slack = inside && mu === 1 ? 0.012 : QUADRATURE;
+              expect(sum, at).toBeGreaterThan(low - slack);
+              expect(sum, at).toBeLessThan(high + slack);
+              if (inside && mu === 1) continue;
+              seen.least = Math.min(seen.least, sum);
+              seen.most = Math.max(seen.most, sum);
+            }
+            seen.density = Math.max(seen.density, pdf);
+          }
+        }
+      }
+      // Facets may send light to where it is lost: the density may miss some, never exceed.
+      expect(seen.density).toBeLessThan(1.004);
+      record(name, { ...seen, roughnesses: ROUGHNESSES, cosines: COSINES });
+    });
+  }
+});
