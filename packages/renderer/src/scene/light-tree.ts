@@ -22,16 +22,6 @@ export interface TreeLights {
   readonly energies: Float64Array;
 }
 
-/** Bounds of some lights. */
-interface Bounds {
-  low: [number, number, number];
-  high: [number, number, number];
-  axis: [number, number, number];
-  spread: number;
-  reach: number;
-  energy: number;
-}
-
 /** A node of the tree. */
 export interface LightTreeNode {
   readonly center: readonly [number, number, number];
@@ -61,56 +51,92 @@ const BINS = 12;
 /** A trail has 32 bits. */
 const MOST_LEVELS = 32;
 
-function boundsOf(lights: TreeLights, i: number): Bounds {
-  const at = (values: Float64Array, k: number) => values[k] as number;
-  return {
-    low: [at(lights.bounds, 6 * i), at(lights.bounds, 6 * i + 1), at(lights.bounds, 6 * i + 2)],
-    high: [at(lights.bounds, 6 * i + 3), at(lights.bounds, 6 * i + 4), at(lights.bounds, 6 * i + 5)],
-    axis: [at(lights.axes, 3 * i), at(lights.axes, 3 * i + 1), at(lights.axes, 3 * i + 2)],
-    spread: at(lights.spreads, i),
-    reach: at(lights.reaches, i),
-    energy: at(lights.energies, i),
-  };
+/** Numbers that bound some lights: lowest and highest corner, axis, then the three below. */
+const STRIDE = 12;
+const AXIS = 6;
+const SPREAD = 9;
+const REACH = 10;
+const ENERGY = 11;
+
+/**
+ * Bounds of lights and of sets of lights, in one array: the lights' own first, then places for sums. No objects, since every
+ * level of the tree goes over all lights twice, in a scene's first moments, when nothing is compiled yet.
+ */
+class BoundsStore {
+  readonly values: Float64Array;
+
+  constructor(lights: TreeLights, sums: number) {
+    const count = lights.energies.length;
+    const values = (this.values = new Float64Array(STRIDE * (count + sums)));
+    for (let i = 0; i < count; i++) {
+      values.set(lights.bounds.subarray(6 * i, 6 * i + 6), STRIDE * i);
+      values.set(lights.axes.subarray(3 * i, 3 * i + 3), STRIDE * i + AXIS);
+      values[STRIDE * i + SPREAD] = lights.spreads[i] as number;
+      values[STRIDE * i + REACH] = lights.reaches[i] as number;
+      values[STRIDE * i + ENERGY] = lights.energies[i] as number;
+    }
+  }
+
+  copy(to: number, from: number): void {
+    this.values.copyWithin(STRIDE * to, STRIDE * from, STRIDE * from + STRIDE);
+  }
+
+  /** Grows the bounds at `to` by those at `from`: the box around both, and the smallest cone around two. */
+  unite(to: number, from: number): void {
+    const v = this.values;
+    const a = STRIDE * to;
+    const b = STRIDE * from;
+    for (let k = 0; k < 3; k++) {
+      if ((v[b + k] as number) < (v[a + k] as number)) v[a + k] = v[b + k] as number;
+      if ((v[b + 3 + k] as number) > (v[a + 3 + k] as number)) v[a + 3 + k] = v[b + 3 + k] as number;
+    }
+    v[a + ENERGY] = (v[a + ENERGY] as number) + (v[b + ENERGY] as number);
+    v[a + REACH] = Math.max(v[a + REACH] as number, v[b + REACH] as number);
+    const [spreadA, spreadB] = [v[a + SPREAD] as number, v[b + SPREAD] as number];
+    if (spreadA >= Math.PI) return;
+    const cos = Math.min(1, Math.max(-1, (v[a + AXIS] as number) * (v[b + AXIS] as number) + (v[a + AXIS + 1] as number) * (v[b + AXIS + 1] as number) + (v[a + AXIS + 2] as number) * (v[b + AXIS + 2] as number)));
+    const between = Math.acos(cos);
+    if (Math.min(between + spreadB, Math.PI) <= spreadA) return;
+    if (Math.min(between + spreadA, Math.PI) <= spreadB) {
+      for (let k = 0; k < 3; k++) v[a + AXIS + k] = v[b + AXIS + k] as number;
+      v[a + SPREAD] = spreadB;
+      return;
+    }
+    const spread = (spreadA + between + spreadB) / 2;
+    // From a's axis towards b's: the part of b's across a's, where there is one.
+    const x = (v[b + AXIS] as number) - cos * (v[a + AXIS] as number);
+    const y = (v[b + AXIS + 1] as number) - cos * (v[a + AXIS + 1] as number);
+    const z = (v[b + AXIS + 2] as number) - cos * (v[a + AXIS + 2] as number);
+    const length = Math.sqrt(x * x + y * y + z * z);
+    if (spread >= Math.PI || length < 1e-9) {
+      v[a + SPREAD] = Math.PI;
+      return;
+    }
+    const turn = spread - spreadA;
+    const along = Math.cos(turn);
+    const aside = Math.sin(turn) / length;
+    v[a + AXIS] = along * (v[a + AXIS] as number) + aside * x;
+    v[a + AXIS + 1] = along * (v[a + AXIS + 1] as number) + aside * y;
+    v[a + AXIS + 2] = along * (v[a + AXIS + 2] as number) + aside * z;
+    v[a + SPREAD] = spread;
+  }
+
+  /** What it costs to have these lights in one node: energy, times where they are, times where they shine. */
+  cost(at: number): number {
+    const v = this.values;
+    const a = STRIDE * at;
+    const x = (v[a + 3] as number) - (v[a] as number);
+    const y = (v[a + 4] as number) - (v[a + 1] as number);
+    const z = (v[a + 5] as number) - (v[a + 2] as number);
+    const spread = v[a + SPREAD] as number;
+    const all = Math.min(spread + (v[a + REACH] as number), Math.PI);
+    // Directions that the cone shines into, weighed by the cosine beyond its spread.
+    const solidAngle = 2 * Math.PI * (1 - Math.cos(spread)) + (Math.PI / 2) * (2 * all * Math.sin(spread) - Math.cos(spread - 2 * all) - 2 * spread * Math.sin(spread) + Math.cos(spread));
+    return (v[a + ENERGY] as number) * solidAngle * (x * y + y * z + z * x);
+  }
 }
 
-/** The smallest cone around two. */
-function unite(a: Bounds, b: Bounds): void {
-  for (const k of [0, 1, 2] as const) {
-    a.low[k] = Math.min(a.low[k], b.low[k]);
-    a.high[k] = Math.max(a.high[k], b.high[k]);
-  }
-  a.energy += b.energy;
-  a.reach = Math.max(a.reach, b.reach);
-  const between = Math.acos(Math.min(1, Math.max(-1, a.axis[0] * b.axis[0] + a.axis[1] * b.axis[1] + a.axis[2] * b.axis[2])));
-  if (Math.min(between + b.spread, Math.PI) <= a.spread) return;
-  if (Math.min(between + a.spread, Math.PI) <= b.spread) {
-    a.axis = [...b.axis];
-    a.spread = b.spread;
-    return;
-  }
-  const spread = (a.spread + between + b.spread) / 2;
-  // From a's axis towards b's: the part of b's across a's, where there is one.
-  const across = [0, 1, 2].map((k) => (b.axis[k] as number) - Math.cos(between) * (a.axis[k] as number));
-  const length = Math.hypot(...across);
-  if (spread >= Math.PI || length < 1e-9) {
-    a.spread = Math.PI;
-    return;
-  }
-  const turn = spread - a.spread;
-  a.axis = [0, 1, 2].map((k) => Math.cos(turn) * (a.axis[k] as number) + (Math.sin(turn) / length) * (across[k] as number)) as Bounds['axis'];
-  a.spread = spread;
-}
-
-/** Directions that a cone shines into, weighed by the cosine beyond its spread. */
-function solidAngle({ spread, reach }: Bounds): number {
-  const all = Math.min(spread + reach, Math.PI);
-  return 2 * Math.PI * (1 - Math.cos(spread)) + (Math.PI / 2) * (2 * all * Math.sin(spread) - Math.cos(spread - 2 * all) - 2 * spread * Math.sin(spread) + Math.cos(spread));
-}
-
-function cost(bounds: Bounds): number {
-  const [x, y, z] = [0, 1, 2].map((k) => (bounds.high[k] as number) - (bounds.low[k] as number)) as [number, number, number];
-  return bounds.energy * solidAngle(bounds) * (x * y + y * z + z * x);
-}
+type BoundsNumbers = readonly [lowX: number, lowY: number, lowZ: number, highX: number, highY: number, highZ: number, x: number, y: number, z: number, spread: number, reach: number, energy: number];
 
 /**
  * Builds a tree.
@@ -122,52 +148,70 @@ export function buildLightTree(lights: TreeLights, near: readonly number[], dist
   const nodes: LightTreeNode[] = [];
   const trails = new Uint32Array(lights.energies.length);
   const order = Uint32Array.from([...near, ...distant]);
-  const center = (i: number, k: number) => (lights.bounds[6 * i + k] as number) + (lights.bounds[6 * i + 3 + k] as number);
-  const whole = (from: number, to: number): Bounds => {
-    const sum = boundsOf(lights, order[from] as number);
-    for (let i = from + 1; i < to; i++) unite(sum, boundsOf(lights, order[i] as number));
-    return sum;
+  // Twice the middles.
+  const centers = new Float64Array(3 * lights.energies.length);
+  for (let i = 0; i < centers.length; i++) {
+    const corner = 6 * Math.floor(i / 3) + (i % 3);
+    centers[i] = (lights.bounds[corner] as number) + (lights.bounds[corner + 3] as number);
+  }
+  const low = new Float64Array(3);
+  const high = new Float64Array(3);
+  const count = lights.energies.length;
+  // Places for sums: one for a node, one that grows in a sweep, and the bins.
+  const store = new BoundsStore(lights, 2 + BINS);
+  const [NODE, SUM, FIRST_BIN] = [count, count + 1, count + 2];
+  const filled = new Uint8Array(BINS);
+  const left = new Float64Array(BINS);
+  const right = new Float64Array(BINS);
+  const whole = (from: number, to: number): void => {
+    store.copy(NODE, order[from] as number);
+    for (let i = from + 1; i < to; i++) store.unite(NODE, order[i] as number);
+  };
+  /** Costs of the bins up to each, in either direction. */
+  const sweep = (costs: Float64Array, first: number, step: number): void => {
+    let any = false;
+    for (let n = 0, bin = first; n < BINS; n++, bin += step) {
+      if (filled[bin]) {
+        if (any) store.unite(SUM, FIRST_BIN + bin);
+        else store.copy(SUM, FIRST_BIN + bin);
+        any = true;
+      }
+      costs[bin] = any ? store.cost(SUM) : 0;
+    }
   };
 
   /** Sorts order[from, to) so that a split lies at the index returned. */
   const split = (from: number, to: number, level: number): number => {
     if (from < near.length && to > near.length) return near.length;
     if (from >= near.length) return (from + to) >> 1;
-    const low = [Infinity, Infinity, Infinity];
-    const high = [-Infinity, -Infinity, -Infinity];
+    low.fill(Infinity);
+    high.fill(-Infinity);
     for (let i = from; i < to; i++) {
-      for (let k = 0; k < 3; k++) {
-        const c = center(order[i] as number, k);
-        low[k] = Math.min(low[k] as number, c);
-        high[k] = Math.max(high[k] as number, c);
+      for (let k = 0, at = 3 * (order[i] as number); k < 3; k++, at++) {
+        const c = centers[at] as number;
+        if (c < (low[k] as number)) low[k] = c;
+        if (c > (high[k] as number)) high[k] = c;
       }
     }
-    const extents = low.map((value, k) => (high[k] as number) - value);
-    const axis = extents.indexOf(Math.max(...extents));
-    const extent = extents[axis] as number;
+    let axis = 0;
+    for (let k = 1; k < 3; k++) if ((high[k] as number) - (low[k] as number) > (high[axis] as number) - (low[axis] as number)) axis = k;
+    const start = low[axis] as number;
+    const extent = (high[axis] as number) - start;
     const middle = (from + to) >> 1;
     // Halves keep the way to a light within a trail's bits.
     const halves = extent <= 0 || Math.ceil(Math.log2(to - from)) + 1 >= MOST_LEVELS - level;
     if (!halves) {
-      const binOf = (i: number) => Math.min(BINS - 1, Math.floor((BINS * (center(i, axis) - (low[axis] as number))) / extent));
-      const bins: (Bounds | undefined)[] = new Array(BINS).fill(undefined);
+      const binOf = (light: number) => Math.min(BINS - 1, Math.floor((BINS * ((centers[3 * light + axis] as number) - start)) / extent));
+      filled.fill(0);
       for (let i = from; i < to; i++) {
         const light = order[i] as number;
         const bin = binOf(light);
-        const there = bins[bin];
-        if (there) unite(there, boundsOf(lights, light));
-        else bins[bin] = boundsOf(lights, light);
+        if (filled[bin]) store.unite(FIRST_BIN + bin, light);
+        else store.copy(FIRST_BIN + bin, light);
+        filled[bin] = 1;
       }
-      const sweep = (bins: readonly (Bounds | undefined)[]): number[] => {
-        let sum: Bounds | undefined;
-        return bins.map((bin) => {
-          if (bin && sum) unite(sum, bin);
-          else if (bin) sum = { ...bin, low: [...bin.low], high: [...bin.high], axis: [...bin.axis] };
-          return sum ? cost(sum) : 0;
-        });
-      };
-      const left = sweep(bins);
-      const right = sweep([...bins].reverse()).reverse();
+      sweep(left, 0, 1);
+      sweep(right, BINS - 1, -1);
       let best = 1;
       let least = Infinity;
       for (let at = 1; at < BINS; at++) {
@@ -184,29 +228,30 @@ export function buildLightTree(lights: TreeLights, near: readonly number[], dist
       }
       if (end > from && end < to) return end;
     }
-    order.subarray(from, to).sort((a, b) => center(a, axis) - center(b, axis) || a - b);
+    order.subarray(from, to).sort((a, b) => (centers[3 * a + axis] as number) - (centers[3 * b + axis] as number) || a - b);
     return middle;
   };
 
-  const write = (at: number, bounds: Bounds, distant: boolean, link: { readonly light: number } | { readonly child: number }): void => {
-    const { low, high, axis, spread, reach, energy } = bounds;
-    const middle = [0, 1, 2].map((k) => ((low[k] as number) + (high[k] as number)) / 2) as [number, number, number];
-    const radius = 0.5 * Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
-    nodes[at] = { center: middle, radius, axis, cosSpread: Math.cos(spread), cosReach: Math.cos(reach), energy, distant, ...link };
+  /** Makes a node of the sum in NODE. */
+  const write = (at: number, distant: boolean, link: { readonly light: number } | { readonly child: number }): void => {
+    const [lowX, lowY, lowZ, highX, highY, highZ, x, y, z, spread, reach, energy] = store.values.subarray(STRIDE * NODE, STRIDE * NODE + STRIDE) as unknown as BoundsNumbers;
+    const center = [(lowX + highX) / 2, (lowY + highY) / 2, (lowZ + highZ) / 2] as const;
+    const radius = 0.5 * Math.hypot(highX - lowX, highY - lowY, highZ - lowZ);
+    nodes[at] = { center, radius, axis: [x, y, z], cosSpread: Math.cos(spread), cosReach: Math.cos(reach), energy, distant, ...link };
   };
 
   const build = (at: number, from: number, to: number, level: number, trail: number): void => {
-    const bounds = whole(from, to);
+    whole(from, to);
     if (to - from === 1) {
       const light = order[from] as number;
       trails[light] = trail;
-      write(at, bounds, from >= near.length, { light });
+      write(at, from >= near.length, { light });
       return;
     }
     const middle = split(from, to, level);
     const child = nodes.length;
     nodes.length += 2;
-    write(at, bounds, from >= near.length, { child });
+    write(at, from >= near.length, { child });
     build(child, from, middle, level + 1, trail);
     build(child + 1, middle, to, level + 1, (trail | (1 << level)) >>> 0);
   };
