@@ -1,6 +1,6 @@
 import { encloseChildren, LEAF } from '../layout';
 import type { NodeWriter } from './node-writer';
-import { STEP, type Steps } from './steps';
+import { STEP, type Steps } from './slices';
 
 /** Later passes find the rotations that others have made possible. */
 const PASSES = 3;
