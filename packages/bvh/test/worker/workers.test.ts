@@ -54,7 +54,7 @@ describe('BvhWorkers', () => {
   });
 
   it('lets two workers build a large mesh together, bit for bit what buildBlas builds', async () => {
-    const workers = await create();
+    const workers = await create({ together: true });
     const pieces = counting(started, 'together');
     const large = sphere(480);
     expect(large.indices.length / 3).toBeGreaterThan(200_000);

@@ -45,7 +45,7 @@ export function coldTimes(mesh: BenchMesh): Promise<number[]> {
 
 /** Milliseconds for building `meshes` on so many workers, after a round that does not count. */
 export async function workerTimes(meshes: readonly BenchMesh[], count: number, runs: number): Promise<number[]> {
-  const workers = await BvhWorkers.create({ count, createWorker: () => again({ role: 'serve' }) });
+  const workers = await BvhWorkers.create({ count, together: true, createWorker: () => again({ role: 'serve' }) });
   if (workers.fallback) throw new Error(workers.fallback);
   const times: number[] = [];
   for (let i = -1; i < runs; i++) {
