@@ -1,13 +1,9 @@
-import { gated, wgslModule } from '@glanz/wgsl';
-import { FILM_BANDS } from '../tables/film';
+import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
+import { FILM_BANDS, type FilmBands } from '../tables/film';
 import { openpbrDielectric } from './dielectric.wgsl';
 import { openpbrFresnelDielectric } from './fresnel.wgsl';
 import { openpbrGgx } from './ggx.wgsl';
 import { openPbrStruct } from './record';
-
-const { wavenumbers, width, weights } = FILM_BANDS;
-const bands = (first: number): string => wavenumbers.slice(first, first + 4).join(', ');
-const columns = (first: number): string => [0, 1, 2, 3].map((i) => `vec3f(${weights.map((row) => row[first + i]).join(', ')})`).join(', ');
 
 /**
  * A thin film on the base, below the coat. Waves reflected by its two faces interfere; Airy's sum, with all its orders and
@@ -18,7 +14,12 @@ const columns = (first: number): string => [0, 1, 2, 3].map((i) => `vec3f(${weig
  * path, in closed form: eight such bands stand for the visible spectrum, and give red, green and blue (`FILM_BANDS`), with
  * no aliasing however thick the film. From inside, light beyond the critical angle is reflected whatever the film.
  */
-export const openpbrFilm = wgslModule(
+export const openpbrFilm = /* @__PURE__ */ filmModule(FILM_BANDS);
+
+function filmModule({ wavenumbers, width, weights }: FilmBands): WgslModule {
+  const bands = (first: number): string => wavenumbers.slice(first, first + 4).join(', ');
+  const columns = (first: number): string => [0, 1, 2, 3].map((i) => `vec3f(${weights.map((row) => row[first + i]).join(', ')})`).join(', ');
+  return wgslModule(
   'openpbr/film',
   /* wgsl */ `struct OpenPbrFilm {
   // Coverage.
@@ -167,3 +168,4 @@ fn openpbr_film_share(film: OpenPbrFilm, eta: f32, share: f32, alpha: vec2f, wo:
 //#endif`,
   [openPbrStruct.module, openpbrGgx, openpbrFresnelDielectric, gated('OPENPBR_DIELECTRIC', openpbrDielectric)],
 );
+}

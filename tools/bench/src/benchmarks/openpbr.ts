@@ -74,7 +74,7 @@ export const benchmark: Benchmark = {
   async run({ log, quick, gpu, seed = Math.floor(performance.timeOrigin + performance.now()) % 1_000_000 }) {
     const { gpu: api, adapterName, software } = await createGpu(gpu === undefined ? {} : { gpu });
     const small = quick || software;
-    const threads = small ? 1 << 14 : 1 << 22;
+    const threads = small ? 1 << 14 : 1 << 21;
     const runs = small ? 3 : 9;
     const figures: Figure[] = [];
     for (const [k, [name, materials]] of SETS.entries()) {
