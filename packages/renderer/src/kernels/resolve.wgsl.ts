@@ -12,8 +12,9 @@ export function resolveModule(path: WgslModule, film: WgslModule): WgslModule {
   return wgslModule(
     'renderer/resolve',
     /* wgsl */ `
+// Light is not negative. Coverage may be: behind glass it is one less what the path carries, which can be more than one.
 fn resolve_sound(v: vec4f) -> bool {
-  return all((bitcast<vec4u>(v) & vec4u(0x7f800000u)) != vec4u(0x7f800000u)) && all(v >= vec4f(0.0));
+  return all((bitcast<vec4u>(v) & vec4u(0x7f800000u)) != vec4u(0x7f800000u)) && all(v.xyz >= vec3f(0.0));
 }
 
 // The path that carries a plane of a sample.
