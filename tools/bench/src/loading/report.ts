@@ -83,7 +83,7 @@ export function loadingMarkdown({ machine, details: { three, browser, runs, rows
     '- `GltfWorker` does everything in one worker, which stays ready between loads. three.js unpacks Draco in up to four workers and all the rest on the page\'s own thread.',
     '- In Node three.js gets what it expects of a browser: `createImageBitmap` made of the same `sharp` that Glanz uses, and a Draco decoder of the same package without workers.',
     '',
-    `Taken in turns, ${runs} loads each after one that does not count; middle (smallest – largest). ${machine.cpu}, ${machine.cores} cores, Node ${machine.node}, Chromium ${browser}${machine.commit ? `, commit ${machine.commit.slice(0, 7)}` : ''}, ${machine.date.slice(0, 10)}. Data: [loading.json](./loading.json); again with \`npm run bench -- gltf --pages apps/docs/results\`.`,
+    `Taken in turns, ${runs} loads each after one that does not count; middle (smallest – largest). ${machine.cpu}, ${machine.cores} cores, Node ${machine.node}, Chromium ${browser}${machine.commit ? `, commit ${machine.commit.slice(0, 7)}` : ''}, ${machine.date.slice(0, 10)}. Data: \`loading.json\`; again with \`npm run bench -- gltf --pages apps/docs/results\`.`,
     '',
     '## Time to a scene',
     '',
