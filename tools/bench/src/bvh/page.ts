@@ -111,7 +111,7 @@ ${table(['what', 'mean ± 95 %'], shown.map(({ name, unit, mean, ci95 }) => [nam
 
 Measured on ${paper!.machine.cpu}, Node ${paper!.machine.node}, commit ${paper!.machine.commit ?? 'unknown'}, ${paper!.machine.date.slice(0, 10)}.
 `}
-Measured on ${machine.cpu}, ${machine.cores} cores, Node ${machine.node}, commit ${machine.commit ?? 'unknown'}, ${machine.date.slice(0, 10)}. \`npm run bench -- bvh --pages apps/docs/results\` and \`npm run bench -- paper-cpu --pages apps/docs/results\` write this page; the data are in \`bvh.json\`${shown.length === 0 ? '' : ' and \`paper-cpu.json\`'}.
+Measured on ${machine.cpu}, ${machine.cores} cores, Node ${machine.node}, commit ${machine.commit ?? 'unknown'}, ${machine.date.slice(0, 10)}. \`npm run bench -- bvh --pages apps/docs/results\` and \`npm run bench -- paper-cpu --pages apps/docs/results\` write this page; the data are in \`bvh.json\`${shown.length === 0 ? '' : ' and `paper-cpu.json`'}.
 `;
 }
 
