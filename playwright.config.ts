@@ -1,4 +1,5 @@
-import { existsSync, mkdirSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, mkdtempSync, renameSync, rmSync, writeFileSync } from 'node:fs';
+import { dirname } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { defineConfig, type LaunchOptions } from '@playwright/test';
 
@@ -6,26 +7,44 @@ import { defineConfig, type LaunchOptions } from '@playwright/test';
 const GPU_FLAGS = ['--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader', '--enable-features=Vulkan', '--use-vulkan=swiftshader', '--use-angle=swiftshader'];
 const QUIET_FLAGS = ['--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'];
 
-/** Chromium and the libraries it needs out of the npm package, inflated once into .cache: a bare machine has neither. */
+/**
+ * Chromium and the libraries it needs out of the npm package, inflated once into .cache: a bare machine has neither.
+ * Two processes may come at once (the unit tests start a browser too): each inflates into a folder of its own, which takes its
+ * place whole; a browser that is being written cannot be started.
+ */
 async function packagedChromium(): Promise<LaunchOptions> {
-  const folder = fileURLToPath(new URL('.cache/chromium', import.meta.url));
-  mkdirSync(folder, { recursive: true });
-  const { TMPDIR, AWS_LAMBDA_JS_RUNTIME } = process.env;
-  const { LD_LIBRARY_PATH, FONTCONFIG_PATH } = process.env;
+  const folder = fileURLToPath(new URL('.cache/browser', import.meta.url));
+  if (!existsSync(folder)) await inflateChromium(folder);
+  const { LD_LIBRARY_PATH } = process.env;
+  return {
+    executablePath: `${folder}/chromium`,
+    env: {
+      ...(process.env as Record<string, string>),
+      LD_LIBRARY_PATH: [`${folder}/al2023/lib`, LD_LIBRARY_PATH].filter(Boolean).join(':'),
+      FONTCONFIG_FILE: `${folder}/fonts.conf`,
+    },
+  };
+}
+
+async function inflateChromium(folder: string): Promise<void> {
+  mkdirSync(dirname(folder), { recursive: true });
+  const work = mkdtempSync(`${folder}-`);
+  const { TMPDIR, AWS_LAMBDA_JS_RUNTIME, LD_LIBRARY_PATH, FONTCONFIG_PATH, HOME } = process.env;
   // The package inflates into the system's temporary folder, and adds its libraries where it takes the machine for a bare one.
-  process.env['TMPDIR'] = folder;
+  process.env['TMPDIR'] = work;
   process.env['AWS_LAMBDA_JS_RUNTIME'] = 'nodejs20.x';
   try {
     const { default: chromium } = await import('@sparticuz/chromium');
-    const executablePath = await chromium.executablePath();
+    await chromium.executablePath();
     // The package's own list of font folders names none of these; without any font a page has no text.
-    writeFileSync(`${folder}/fonts.conf`, `<?xml version="1.0"?><fontconfig><dir>${folder}/fonts</dir><cachedir>${folder}/fonts-cache</cachedir></fontconfig>\n`);
-    const env = { ...process.env, TMPDIR: TMPDIR ?? '/tmp', FONTCONFIG_FILE: `${folder}/fonts.conf` } as Record<string, string>;
-    delete env['AWS_LAMBDA_JS_RUNTIME'];
-    delete env['FONTCONFIG_PATH'];
-    return { executablePath, env };
+    writeFileSync(`${work}/fonts.conf`, `<?xml version="1.0"?><fontconfig><dir>${folder}/fonts</dir><cachedir>${folder}/fonts-cache</cachedir></fontconfig>\n`);
+    renameSync(work, folder);
+  } catch (error) {
+    // Another process was first, and its folder is as good.
+    if (!['EEXIST', 'ENOTEMPTY'].includes((error as NodeJS.ErrnoException).code ?? '')) throw error;
   } finally {
-    restore({ TMPDIR, AWS_LAMBDA_JS_RUNTIME, LD_LIBRARY_PATH, FONTCONFIG_PATH });
+    rmSync(work, { recursive: true, force: true });
+    restore({ TMPDIR, AWS_LAMBDA_JS_RUNTIME, LD_LIBRARY_PATH, FONTCONFIG_PATH, HOME });
   }
 }
 
