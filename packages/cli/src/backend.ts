@@ -1,5 +1,5 @@
 import type { FilmLayer, PathTracerOptions, PathTracer, RenderStatistics } from '@glanz/renderer';
-import type { Scene } from '@glanz/scene';
+import type { CompressedFormat, Scene } from '@glanz/scene';
 import type { PoseOptions } from './options';
 
 /** The part of a `PathTracer` that the command needs. */
@@ -25,8 +25,12 @@ export interface ListedGpu {
 
 /** The machinery behind the command. The real one is loaded when it is needed, so that `--help` does not wait for it. */
 export interface Backend {
-  /** @param pose Which scene of the file, and at which moment; formats without such have one. */
-  loadModel(file: string, signal: AbortSignal, pose?: PoseOptions): Promise<Scene>;
+  /**
+   * @param pose Which scene of the file, and at which moment; formats without such have one.
+   * @param formats Compressed formats that the device reads, asked where a picture could stay in one. Default: none.
+   */
+  loadModel(file: string, signal: AbortSignal, pose?: PoseOptions, formats?: () => Promise<readonly CompressedFormat[]>): Promise<Scene>;
+  compressedFormats(device: GPUDevice): Promise<readonly CompressedFormat[]>;
   openGpu(name: string | undefined): Promise<OpenedGpu>;
   listGpus(): Promise<readonly ListedGpu[]>;
   createTracer(device: GPUDevice, scene: Scene, options: PathTracerOptions): Promise<Tracer>;
@@ -37,13 +41,16 @@ export type { FilmLayer, PathTracerOptions, RenderStatistics };
 /** The renderer on Dawn, the loaders with sharp. */
 export function nodeBackend(): Backend {
   return {
-    async loadModel(file, signal, pose = {}) {
+    async loadModel(file, signal, pose = {}, compressedFormats = undefined) {
       if (/\.(obj|stl)$/i.test(file)) {
         const { loadModelFile } = await import('@glanz/formats/node');
         return loadModelFile(file, { signal });
       }
       const { loadGltfFile } = await import('@glanz/gltf/node');
-      return loadGltfFile(file, { signal, ...pose });
+      return loadGltfFile(file, { signal, compressedFormats, ...pose });
+    },
+    async compressedFormats(device) {
+      return (await import('@glanz/renderer')).compressedFormats(device);
     },
     async openGpu(name) {
       const [{ requestDevice }, { createGpu }] = await Promise.all([import('@glanz/renderer'), import('@glanz/renderer/node')]);

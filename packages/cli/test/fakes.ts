@@ -108,6 +108,7 @@ export function fakeBackend(fake: FakeOptions = {}): FakeRun {
     edits,
     backend: {
       loadModel: fake.loadModel ?? (async () => fake.scene ?? triangleScene()),
+      compressedFormats: async () => [],
       openGpu: fake.openGpu ?? (async () => ({ device: { destroy: () => void destroyed.push('device') } as unknown as GPUDevice, adapterName: 'Fake 3000', software: false })),
       listGpus: fake.listGpus ?? (async () => FAKE_GPUS),
       createTracer,

@@ -4,6 +4,7 @@
 import type { Image } from '@glanz/scene';
 import { GltfError } from './error';
 import type { DecodedImage, ImageDecoder } from './images';
+import { imageOfPixels } from './lazy-pixels';
 import { plainPicture } from './picture-header';
 
 /**
@@ -23,22 +24,10 @@ export const decodeImageInBrowser: ImageDecoder = async (bytes, mimeType) => {
 
 /** A picture whose `data` are read from a bitmap (straight alpha, no colour conversion) when they are first asked for. */
 export function imageOfBitmap(bitmap: ImageBitmap): DecodedImage & { readonly bitmap: ImageBitmap } {
-  const hold = (data: DecodedImage['data']) => void Object.defineProperty(image, 'data', { value: data, writable: true, enumerable: true, configurable: true });
-  const image = {
-    width: bitmap.width,
-    height: bitmap.height,
-    bitmap,
-    get data(): DecodedImage['data'] {
-      const drawn = readByCanvas(bitmap);
-      const data = hasTransparency(drawn) ? (readByWebGl(bitmap) ?? drawn) : drawn;
-      hold(data);
-      return data;
-    },
-    set data(data: DecodedImage['data']) {
-      hold(data);
-    },
-  };
-  return image;
+  return imageOfPixels({ width: bitmap.width, height: bitmap.height, bitmap }, () => {
+    const drawn = readByCanvas(bitmap);
+    return hasTransparency(drawn) ? (readByWebGl(bitmap) ?? drawn) : drawn;
+  });
 }
 
 /** A picture with a name; one that is still a bitmap stays one. */

@@ -1,5 +1,5 @@
 import type { GltfPictureConversion } from '@glanz/openpbr/gltf';
-import type { Image, SceneWarning, Texture, WrapMode } from '@glanz/scene';
+import type { CompressedFormat, CompressedImage, Image, SceneWarning, Texture, WrapMode } from '@glanz/scene';
 import { namedImage } from './browser-images';
 import { convertImage, type DerivedPicture } from './convert-image';
 import { readUri } from './document';
@@ -16,13 +16,21 @@ export interface DecodedImage {
   readonly data: Uint8Array<ArrayBuffer> | Uint8ClampedArray<ArrayBuffer>;
   /** The same as a bitmap, straight alpha, no colour conversion, where the browser has one. See `Image.bitmap` of `@glanz/scene`. */
   readonly bitmap?: ImageBitmap;
+  /** The same in blocks, as GPUs read it. See `Image.compressed` of `@glanz/scene`. */
+  readonly compressed?: CompressedImage;
 }
 
 /** Turns the bytes of a PNG, JPEG or WebP file into pixels. */
 export type ImageDecoder = (bytes: Uint8Array<ArrayBuffer>, mimeType: string) => Promise<DecodedImage>;
 
-/** Turns the bytes of a KTX2 file into pixels. */
-export type Ktx2Decoder = (bytes: Uint8Array<ArrayBuffer>) => Promise<DecodedImage>;
+/**
+ * Turns the bytes of a KTX2 file into pixels, or into blocks in one of `formats` (what the GPU reads, the best first) with the
+ * pixels to be had when they are asked for.
+ */
+export type Ktx2Decoder = (bytes: Uint8Array<ArrayBuffer>, formats?: readonly CompressedFormat[]) => Promise<DecodedImage>;
+
+/** Formats that the GPU reads; or what tells them, asked at the first picture that could have one. */
+export type CompressedFormats = readonly CompressedFormat[] | (() => Promise<readonly CompressedFormat[]>);
 
 const FORMATS = [
   ['image/png', [0x89, 0x50, 0x4e, 0x47]],
@@ -71,12 +79,15 @@ export class TextureTable {
   readonly #source: Source;
   readonly #warnings: SceneWarning[];
   readonly #ktx2: Ktx2Decoder | undefined;
+  readonly #formats: () => Promise<readonly CompressedFormat[]>;
 
-  constructor(json: GltfJson, source: Source, warnings: SceneWarning[], ktx2?: Ktx2Decoder) {
+  constructor(json: GltfJson, source: Source, warnings: SceneWarning[], ktx2?: Ktx2Decoder, formats: CompressedFormats = []) {
     this.#json = json;
     this.#source = source;
     this.#warnings = warnings;
     this.#ktx2 = ktx2;
+    let told: Promise<readonly CompressedFormat[]> | undefined;
+    this.#formats = () => (told ??= typeof formats === 'function' ? formats() : Promise.resolve(formats));
   }
 
   /** The scene's texture for one of the document's, read as `colorSpace`; undefined (with a warning) if there is none. */
@@ -161,7 +172,7 @@ export class TextureTable {
       // Before a decoder allocates anything.
       const said = pictureSize(bytes, type);
       if (said) budget.take(4 * said.width * said.height, `/images/${index}`);
-      const decoded = type === 'image/ktx2' ? await (this.#ktx2 as Ktx2Decoder)(bytes) : await decode(bytes, type);
+      const decoded = type === 'image/ktx2' ? await (this.#ktx2 as Ktx2Decoder)(bytes, await this.#formats()) : await decode(bytes, type);
       if (!said) budget.take(4 * decoded.width * decoded.height, `/images/${index}`);
       return decoded;
     } catch (error) {

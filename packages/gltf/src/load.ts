@@ -8,7 +8,7 @@ import { openContainer } from './container';
 import { readDocument, type GltfDecoders } from './document';
 import { GltfError, oneLine } from './error';
 import { environmentOf, facesOf } from './image-light';
-import { TextureTable, type DecodedImage, type ImageDecoder } from './images';
+import { TextureTable, type CompressedFormats, type DecodedImage, type ImageDecoder } from './images';
 import type { GltfAnimation, GltfJson, GltfMaterial } from './json';
 import { readMaterial, type UvSets } from './materials';
 import { Budget, DEFAULT_LIMITS, type GltfLimits } from './limits';
@@ -34,6 +34,11 @@ export interface GltfOptions {
   readonly decoders?: GltfDecoders | undefined;
   /** Decodes pictures. Default: the browser does; in Node, the package `sharp`. */
   readonly decodeImage?: ImageDecoder | undefined;
+  /**
+   * Compressed formats that pictures in KTX2 may stay in, the best first: what `compressedFormats(device)` of `@glanz/renderer`
+   * tells. They take a quarter of the GPU's memory. Default: none, they are unpacked.
+   */
+  readonly compressedFormats?: CompressedFormats | undefined;
   /** Whether a document without triangles is a scene too (lights, cameras) rather than `gltf/no-triangles`. Default false. */
   readonly allowEmpty?: boolean | undefined;
   /** Which of the document's scenes, by its index or name. Default: the one that it shows by itself. */
@@ -81,7 +86,7 @@ export async function buildScene(source: Source, options: GltfOptions & { readon
   signal?.throwIfAborted();
   const animation = animationOf(reader, checked.json, options);
   const json = atMoment(checked.json, container.json, animation, options.time ?? 0, reader, scene.warnings);
-  const table = new TextureTable(json, source, scene.warnings, options.decoders?.ktx2);
+  const table = new TextureTable(json, source, scene.warnings, options.decoders?.ktx2, options.compressedFormats);
   const uvSets: UvSets[] = [];
   const addMaterial = (material: GltfMaterial) => {
     const read = readMaterial(material, scene.materials.length, table, scene.warnings);

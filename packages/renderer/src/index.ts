@@ -1,4 +1,5 @@
 export { DeviceError, RenderError } from './errors';
 export { requestDevice, type DeviceOptions } from './gpu/device';
+export { compressedFormats } from './scene/textures';
 export { PathTracer } from './path-tracer';
 export type { BounceLimits, FilmLayer, HierarchyBuilder, LightGroup, LightGroupMode, MemoryReport, PathTracerOptions, PickResult, PixelFilter, PrepareProgress, FirstLight, RenderOptions, RenderProgress, RenderStatistics } from './options';

@@ -2,7 +2,7 @@ export { GlanzError, type ErrorLocation, type GlanzErrorOptions } from '@glanz/w
 export { createScene, type Instance, type Scene, type SceneAnimation, type SceneWarning } from './scene';
 export type { Mesh } from './mesh';
 export type { Material, TextureBinding, TextureChannels, TexturedParameter } from './material';
-export type { Image, Texture, WrapMode } from './texture';
+export { compressedBytes, type CompressedFormat, type CompressedImage, type Image, type Texture, type WrapMode } from './texture';
 export type { DirectionalLight, DiskLight, Light, PointLight, RectangleLight, SphereLight, SpotLight } from './light';
 export type { Camera, OrthographicCamera, PanoramaCamera, PerspectiveCamera } from './camera';
 export type { ConstantEnvironment, Environment, LatLongEnvironment } from './environment';

@@ -5,6 +5,7 @@ import type { Light } from './light';
 import type { Material } from './material';
 import type { Mesh } from './mesh';
 import type { Scene, SceneWarning } from './scene';
+import { compressedBytes, type CompressedImage, type Image } from './texture';
 
 const fail = (code: 'reference' | 'length' | 'not-finite' | 'value', message: string): never => {
   throw new SceneError(`scene/${code}`, message);
@@ -176,6 +177,13 @@ export function validateScene(scene: Scene): SceneWarning[] {
   return step.value;
 }
 
+function checkCompressed({ width, height }: Image, { format, levels }: CompressedImage, what: string): void {
+  if (!['bc7-rgba-unorm', 'astc-4x4-unorm', 'etc2-rgba8unorm'].includes(format)) fail('value', `${what} is compressed as "${String(format)}", which is not known.`);
+  const most = 1 + Math.floor(Math.log2(Math.max(width, height)));
+  if (levels.length < 1 || levels.length > most) fail('length', `${what} of ${width} × ${height} pixels has ${levels.length} compressed levels, instead of 1 to ${most}.`);
+  levels.forEach((level, index) => length(level, compressedBytes(Math.max(1, width >> index), Math.max(1, height >> index)), `${what}, compressed level ${index}`));
+}
+
 /**
  * The same as {@link validateScene} in steps of a millisecond or so, for threads that have other things to do in between.
  * The scene must stay as it is until the last step.
@@ -190,11 +198,14 @@ export function* validationSteps(scene: Scene): Generator<void, SceneWarning[]> 
   scene.images.forEach((image, index) => {
     const what = `Image ${index} ("${image.name}")`;
     if (!(Number.isInteger(image.width) && Number.isInteger(image.height) && image.width > 0 && image.height > 0)) fail('value', `${what} has a size of ${image.width} × ${image.height}.`);
+    if (image.compressed) checkCompressed(image, image.compressed, what);
     if (image.bitmap) {
       // Its pixels are left where they are.
       if (image.bitmap.width !== image.width || image.bitmap.height !== image.height) fail('length', `${what} of ${image.width} × ${image.height} pixels has a bitmap of ${image.bitmap.width} × ${image.bitmap.height}.`);
       return;
     }
+    // Unpacking it would only be for looking.
+    if (image.compressed) return;
     length(image.data, 4 * image.width * image.height, `${what} of ${image.width} × ${image.height} pixels`);
     if (image.data instanceof Float32Array) finite(image.data, what);
   });

@@ -1,6 +1,6 @@
 import { BvhWorkers } from '@glanz/bvh/workers';
-import { PathTracer, requestDevice, type PathTracerOptions, type PrepareProgress, type RenderProgress } from '@glanz/renderer';
-import type { Camera, Scene } from '@glanz/scene';
+import { compressedFormats, PathTracer, requestDevice, type PathTracerOptions, type PrepareProgress, type RenderProgress } from '@glanz/renderer';
+import type { Camera, CompressedFormat, Scene } from '@glanz/scene';
 import type { ToneMapOptions } from '@glanz/tonemap';
 import { Display } from './display';
 import { Edits } from './edits';
@@ -111,6 +111,12 @@ export class Engine {
 
   get device(): GPUDevice | undefined {
     return this.#device;
+  }
+
+  /** What the device reads of compressed formats, once there is one; none where there will be none. */
+  async compressedFormats(): Promise<readonly CompressedFormat[]> {
+    await this.#ready.catch(() => undefined);
+    return this.#device ? compressedFormats(this.#device) : [];
   }
 
   get state(): ViewerState {

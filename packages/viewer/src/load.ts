@@ -1,5 +1,5 @@
 import type { GltfDecoders, GltfProgress } from '@glanz/gltf';
-import type { Environment, Scene } from '@glanz/scene';
+import type { CompressedFormat, Environment, Scene } from '@glanz/scene';
 import { isAbort, ViewerError } from './errors';
 
 /**
@@ -25,6 +25,8 @@ export interface LoadModelOptions {
   readonly decoders?: GltfDecoders | undefined;
   /** Starts the worker that reads glTF: a file of yours that calls `serveGltf` of `@glanz/gltf/worker` with decoders. */
   readonly createWorker?: (() => Worker) | undefined;
+  /** What the GPU reads of compressed formats: pictures in KTX2 stay packed. Default: they are unpacked. */
+  readonly compressedFormats?: (() => Promise<readonly CompressedFormat[]>) | undefined;
 }
 
 const MODEL = /\.(glb|gltf|obj|stl)$/i;
@@ -114,11 +116,11 @@ async function fetchBytes(url: URL, signal: AbortSignal | undefined): Promise<Ui
 type GltfSource = string | URL | { readonly files: ReadonlyMap<string, Blob>; readonly entry: string };
 
 async function readGltf(source: GltfSource, options: LoadModelOptions): Promise<Scene> {
-  const { signal, onProgress, decoders, createWorker } = options;
+  const { signal, onProgress, decoders, createWorker, compressedFormats } = options;
   const told = { signal, onProgress };
   try {
     const { loadGltfInWorker } = await import('@glanz/gltf/workers');
-    return await loadGltfInWorker(source, { ...told, createWorker });
+    return await loadGltfInWorker(source, { ...told, createWorker, ...(createWorker && compressedFormats ? { compressedFormats: await compressedFormats() } : {}) });
   } catch (error) {
     const { code } = error as { code?: unknown };
     // No worker can be had, or it lacks a decoder: then here.
@@ -127,7 +129,7 @@ async function readGltf(source: GltfSource, options: LoadModelOptions): Promise<
   signal?.throwIfAborted();
   const { loadGltf } = await import('@glanz/gltf');
   const meshopt = async () => (await import('meshoptimizer/decoder')).MeshoptDecoder;
-  return loadGltf(source, { ...told, decoders: { meshopt, ...decoders } });
+  return loadGltf(source, { ...told, compressedFormats, decoders: { meshopt, ...decoders } });
 }
 
 async function readOther(name: string, read: (path: string) => Promise<Uint8Array<ArrayBuffer> | undefined>, signal: AbortSignal | undefined): Promise<Scene> {

@@ -169,7 +169,7 @@ export class Viewer extends Emitter<ViewerEvents> {
     try {
       signal.throwIfAborted();
       const { decoders, createWorker } = this.#options;
-      const [scene, given] = await Promise.all([loadModel(source, { signal, decoders, createWorker, onProgress: progress }), loadEnvironment(this.#environment, signal)]);
+      const [scene, given] = await Promise.all([loadModel(source, { signal, decoders, createWorker, compressedFormats: () => this.#engine.compressedFormats(), onProgress: progress }), loadEnvironment(this.#environment, signal)]);
       signal.throwIfAborted();
       const surroundings = given ?? (this.#environment === 'scene' ? (scene.environment ?? (await loadEnvironment('studio'))) : undefined);
       const shown = withEnvironment(scene, this.#lit(surroundings));

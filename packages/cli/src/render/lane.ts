@@ -84,20 +84,16 @@ export class Lane {
       }
     };
     progress.stage('load model');
-    const { scene, environment, warnings } = await timed('loadMs', () => loader.load(options, signal));
+    const { scene, environment, warnings } = await timed('loadMs', () => loader.load(options, signal, async () => backend.compressedFormats(await this.#device(timed))));
     const camera = await cameraOf(shot.view, scene, options.width / options.height, io.cwd);
     const variant = variantIndex(scene, shot.variant);
     if (this.#toldOf !== scene) for (const warning of warnings.slice(0, MAX_WARNINGS)) progress.warning(warning);
     if (this.#toldOf !== scene && warnings.length > MAX_WARNINGS) progress.warning(`and ${warnings.length - MAX_WARNINGS} more; --json lists them all.`);
     this.#toldOf = scene;
     signal.throwIfAborted();
-    if (!this.#opened) {
-      progress.stage('start GPU');
-      this.#opened = await timed('deviceMs', () => backend.openGpu(this.#gpuName));
-      progress.line(`${this.#opened.software ? 'no GPU: rendering on the processor, ' : ''}${this.#opened.adapterName}`);
-      signal.throwIfAborted();
-    }
-    const { adapterName, software } = this.#opened;
+    await this.#device(timed);
+    signal.throwIfAborted();
+    const { adapterName, software } = this.#opened as OpenedGpu;
     const tracer = await timed('prepareMs', () => this.#prepared(options, scene, camera, variant));
 
     let noise: number | undefined;
@@ -121,6 +117,16 @@ export class Lane {
     progress.line(`${names}: ${options.width}×${options.height}, ${samples}${signal.aborted && options.noise === undefined ? ` of ${options.samples}` : ''} ${options.samples === 1 ? 'sample' : 'samples'} at ${rate(samplesPerSecond)}/s, ${duration(timings.totalMs)} in all`);
     if (statistics.badSamples > 0) progress.warning(`${shotLabel(shot)}: ${statistics.badSamples} samples were not numbers and were left out; please report the model.`);
     return { files, samples, ...(noise === undefined ? {} : { noise }), samplesPerSecond, camera: camera.name || camera.type, environment, adapter: { name: adapterName, software }, timings, statistics, warnings };
+  }
+
+  async #device(timed: <T>(key: keyof RenderTimings, run: () => Promise<T>) => Promise<T>): Promise<GPUDevice> {
+    const { backend, progress } = this.#context;
+    if (!this.#opened) {
+      progress.stage('start GPU');
+      this.#opened = await timed('deviceMs', () => backend.openGpu(this.#gpuName));
+      progress.line(`${this.#opened.software ? 'no GPU: rendering on the processor, ' : ''}${this.#opened.adapterName}`);
+    }
+    return this.#opened.device;
   }
 
   /** A tracer of the scene with an empty film, at the camera, in the variant. */

@@ -1,5 +1,5 @@
 import { resolve } from 'node:path';
-import type { Scene } from '@glanz/scene';
+import type { CompressedFormat, Scene } from '@glanz/scene';
 import type { Backend } from '../backend';
 import { chooseEnvironment } from '../environment';
 import { CliError } from '../errors';
@@ -27,17 +27,18 @@ export class SceneLoader {
     this.#cwd = cwd;
   }
 
-  load(options: RenderCommandOptions, signal: AbortSignal): Promise<PreparedScene> {
+  /** @param formats Compressed formats of the device that asks first; another one unpacks what it cannot read. */
+  load(options: RenderCommandOptions, signal: AbortSignal, formats?: () => Promise<readonly CompressedFormat[]>): Promise<PreparedScene> {
     const key = sceneKey(options);
     if (this.#last && key === this.#key) return this.#last;
     this.#key = key;
-    this.#last = this.#prepare(options, signal);
+    this.#last = this.#prepare(options, signal, formats);
     this.#last.catch(() => (this.#last = undefined));
     return this.#last;
   }
 
-  async #prepare(options: RenderCommandOptions, signal: AbortSignal): Promise<PreparedScene> {
-    const model = await this.#backend.loadModel(resolve(this.#cwd, options.model), signal, options.pose);
+  async #prepare(options: RenderCommandOptions, signal: AbortSignal, formats: (() => Promise<readonly CompressedFormat[]>) | undefined): Promise<PreparedScene> {
+    const model = await this.#backend.loadModel(resolve(this.#cwd, options.model), signal, options.pose, formats);
     const { environment, source, warnings } = await chooseEnvironment(model, options.env, { rotation: options.envRotation, intensity: options.envIntensity }, this.#cwd);
     const { environment: _replaced, ...rest } = model;
     const instances = markCatchers(model.instances, options.catchers);

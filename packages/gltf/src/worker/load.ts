@@ -1,4 +1,4 @@
-import type { Scene } from '@glanz/scene';
+import type { CompressedFormat, Scene } from '@glanz/scene';
 import { GltfError } from '../error';
 import type { LoadGltfOptions } from '../load';
 import type { GltfInput } from '../source';
@@ -8,6 +8,8 @@ export { received as receivedScene, type SentScene } from './protocol';
 
 /** What a load in a worker may be told. */
 export interface WorkerLoad extends Pick<LoadGltfOptions, 'signal' | 'onProgress' | 'allowEmpty' | 'scene' | 'animation' | 'time' | 'limits' | 'baseUrl'> {
+  /** As for `loadGltf`, known beforehand; for workers whose file has a decoder of KTX2. */
+  readonly compressedFormats?: readonly CompressedFormat[] | undefined;
   /** Hands given bytes over instead of copying them: they are empty afterwards, and nothing waits for a copy. Default false. */
   readonly transfer?: boolean | undefined;
 }
@@ -98,11 +100,11 @@ export class GltfWorker {
    * @throws {GltfError} As `loadGltf`, and `gltf/worker` where a worker cannot be started.
    */
   load(input: GltfInput, options: WorkerLoad = {}): Promise<Scene> {
-    const { signal, onProgress, transfer, baseUrl, allowEmpty, scene, animation, time, limits } = options;
+    const { signal, onProgress, transfer, baseUrl, allowEmpty, scene, animation, time, limits, compressedFormats } = options;
     return new Promise((resolve, reject) => {
       signal?.throwIfAborted();
       if (this.#destroyed) throw new GltfError('gltf/worker', 'This GltfWorker has been destroyed: make another.');
-      const sent: SentOptions = { allowEmpty, scene, animation, time, limits, ...(baseUrl === undefined ? {} : { baseUrl: new URL(baseUrl, location.href).href }) };
+      const sent: SentOptions = { allowEmpty, scene, animation, time, limits, compressedFormats, ...(baseUrl === undefined ? {} : { baseUrl: new URL(baseUrl, location.href).href }) };
       const request: LoadRequest = { input: input instanceof URL ? input.href : typeof input === 'string' ? (baseUrl === undefined && URL.canParse(input, location.href) ? new URL(input, location.href).href : input) : input, options: sent };
       const running = this.#idle ?? start(this.#createWorker);
       this.#idle = undefined;

@@ -1,10 +1,10 @@
-import type { Image, Scene } from '@glanz/scene';
+import type { CompressedFormat, Image, Scene } from '@glanz/scene';
 import { imageOfBitmap, namedImage } from '../browser-images';
 import type { GltfOptions, GltfProgress } from '../load';
 import type { GltfInput } from '../source';
 
 /** What of the options crosses the boundary. */
-export type SentOptions = Pick<GltfOptions, 'allowEmpty' | 'scene' | 'animation' | 'time' | 'limits'> & { readonly baseUrl?: string };
+export type SentOptions = Pick<GltfOptions, 'allowEmpty' | 'scene' | 'animation' | 'time' | 'limits'> & { readonly baseUrl?: string; readonly compressedFormats?: readonly CompressedFormat[] | undefined };
 
 /** To a worker: one load. */
 export interface LoadRequest {
@@ -39,6 +39,7 @@ export function buffersOf({ meshes, images, environment }: SentScene): Transfera
   for (const image of images) {
     if (image.bitmap) buffers.add(image.bitmap);
     else add((image as Image).data);
+    for (const level of image.bitmap ? [] : ((image as Image).compressed?.levels ?? [])) add(level);
   }
   if (environment?.type === 'latlong') add(environment.data);
   return [...buffers];

@@ -14,10 +14,10 @@ export interface DeviceOptions {
 const RAISED_LIMITS = ['maxStorageBufferBindingSize', 'maxBufferSize', 'maxTextureDimension2D', 'maxTextureArrayLayers', 'maxStorageBuffersPerShaderStage', 'maxSampledTexturesPerShaderStage'] as const;
 
 /** Features that are used when present and never required. */
-const WELCOME_FEATURES = ['timestamp-query', 'subgroups', 'float32-filterable'] as const;
+const WELCOME_FEATURES = ['timestamp-query', 'subgroups', 'float32-filterable', 'texture-compression-bc', 'texture-compression-astc', 'texture-compression-etc2'] as const;
 
 /**
- * Asks for a WebGPU device with everything Glanz can use: limits as high as the adapter offers, timestamp queries.
+ * Asks for a WebGPU device with everything Glanz can use: limits as high as the adapter offers, timestamp queries, compressed textures.
  *
  * @throws {DeviceError} `renderer/no-webgpu` without WebGPU, `renderer/no-adapter` without a usable GPU,
  * `renderer/no-device` when the adapter refuses a device.

@@ -12,7 +12,7 @@ import { interiorFlags } from '../scene/interiors';
 import { lightGroupTable, type LightGroupTable } from '../scene/light-groups';
 import { buildLightTable, type LightSampling, type LightTable } from '../scene/lights';
 import { hasCoatFrames, hasRanges, isOpaque, packBindings, packMaterial, texturedParameters, turnsTangent, usedTextures, type TexturedParameterInfo } from '../scene/materials';
-import { planTextures, type TexturePlan } from '../scene/textures';
+import { compressedFormats, planTextures, type TexturePlan } from '../scene/textures';
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_STORAGE, GPU_TEXTURE_BINDING, GPU_TEXTURE_COPY_DST, type GpuMemory } from './buffers';
 import { toHalf, uploadTextures } from './texture-upload';
 
@@ -63,7 +63,7 @@ export class GpuScene {
     this.#groups = lightGroupTable(scene, choices.lightGroups);
     this.#textured = texturedParameters(scene.materials);
     const slots = device.limits.maxSampledTexturesPerShaderStage - OWN_TEXTURES;
-    this.#plan = planTextures(scene, usedTextures(scene.materials), slots, device.limits);
+    this.#plan = planTextures(scene, usedTextures(scene.materials), slots, device.limits, compressedFormats(device));
     const { textures, samplers } = uploadTextures(device, memory, scene, this.#plan);
     this.#sceneTextures = textures;
     this.#samplers = samplers;

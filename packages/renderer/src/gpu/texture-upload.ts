@@ -1,8 +1,9 @@
-import type { Image, Scene } from '@glanz/scene';
+import { compressedBytes, type Image, type Scene } from '@glanz/scene';
 import { GPU_TEXTURE_BINDING, GPU_TEXTURE_COPY_DST, GPU_TEXTURE_RENDER, type GpuMemory } from './buffers';
-import { resizePixels, type TextureArray, type TexturePlan } from '../scene/textures';
+import { resizePixels, type TextureArray, type TextureFormat, type TexturePlan } from '../scene/textures';
 
-const BYTES = { rgba8unorm: 4, 'rgba8unorm-srgb': 4, rgba16float: 8 } as const;
+/** Bytes of a texel; a byte where sixteen share a block. */
+const bytesOf = (format: TextureFormat) => (format === 'rgba16float' ? 8 : format.startsWith('rgba8') ? 4 : 1);
 
 /** Each level is the box average of the one above; for sRGB textures the hardware averages linear light. */
 const MIP_SHADER = /* wgsl */ `
@@ -45,20 +46,21 @@ function layerBytes(image: Image, array: TextureArray): Uint8Array<ArrayBuffer> 
 export function uploadTextures(device: GPUDevice, memory: GpuMemory, scene: Scene, plan: TexturePlan): { textures: GPUTexture[]; samplers: GPUSampler[] } {
   const samplers = plan.samplers.map((descriptor) => device.createSampler(descriptor));
   const textures = plan.arrays.map((array, index) => {
-    const mipLevelCount = 1 + Math.floor(Math.log2(Math.max(array.width, array.height)));
-    const texel = BYTES[array.format];
+    const mipLevelCount = array.levels ?? 1 + Math.floor(Math.log2(Math.max(array.width, array.height)));
+    const texel = bytesOf(array.format);
     const texture = memory.texture(
       {
         label: `glanz scene texture ${index}`,
         size: [array.width, array.height, array.layers.length],
         format: array.format,
         mipLevelCount,
-        usage: GPU_TEXTURE_BINDING | GPU_TEXTURE_COPY_DST | GPU_TEXTURE_RENDER,
+        usage: GPU_TEXTURE_BINDING | GPU_TEXTURE_COPY_DST | (array.levels === undefined ? GPU_TEXTURE_RENDER : 0),
       },
-      Math.ceil((array.width * array.height * array.layers.length * texel * 4) / 3),
+      Math.ceil((array.width * array.height * array.layers.length * texel * (mipLevelCount > 1 ? 4 : 3)) / 3),
     );
     array.layers.forEach((image, layer) => {
       const picture = scene.images[image] as Image;
+      if (array.levels !== undefined) return writeBlocks(device, texture, picture, layer);
       const { bitmap } = picture;
       // A bitmap that was closed has no size.
       if (bitmap && bitmap.width === array.width && bitmap.height === array.height && array.format !== 'rgba16float') {
@@ -74,14 +76,22 @@ export function uploadTextures(device: GPUDevice, memory: GpuMemory, scene: Scen
   return { textures, samplers };
 }
 
+/** Levels smaller than a block are written as the block they are kept in. */
+function writeBlocks(device: GPUDevice, texture: GPUTexture, { width, height, compressed }: Image, layer: number): void {
+  compressed?.levels.forEach((level, mipLevel) => {
+    const [blocksX, blocksY] = [Math.ceil(Math.max(1, width >> mipLevel) / 4), Math.ceil(Math.max(1, height >> mipLevel) / 4)];
+    device.queue.writeTexture({ texture, mipLevel, origin: [0, 0, layer] }, level, { bytesPerRow: compressedBytes(4 * blocksX, 4), rowsPerImage: blocksY }, [4 * blocksX, 4 * blocksY, 1]);
+  });
+}
+
 function generateMips(device: GPUDevice, plan: TexturePlan, textures: readonly GPUTexture[]): void {
-  if (!textures.some((texture) => texture.mipLevelCount > 1)) return;
+  const made = textures.map((texture, index) => ({ texture, array: plan.arrays[index] as TextureArray })).filter(({ texture, array }) => texture.mipLevelCount > 1 && array.levels === undefined);
+  if (made.length === 0) return;
   const module = device.createShaderModule({ label: 'glanz mips', code: MIP_SHADER });
   const sampler = device.createSampler({ minFilter: 'linear', magFilter: 'linear' });
   const pipelines = new Map<string, GPURenderPipeline>();
   const encoder = device.createCommandEncoder({ label: 'glanz mips' });
-  textures.forEach((texture, index) => {
-    const { format, layers } = plan.arrays[index] as TextureArray;
+  for (const { texture, array: { format, layers } } of made) {
     let pipeline = pipelines.get(format);
     if (!pipeline) {
       pipeline = device.createRenderPipeline({ label: `glanz mips ${format}`, layout: 'auto', vertex: { module, entryPoint: 'corner' }, fragment: { module, entryPoint: 'average', targets: [{ format }] } });
@@ -104,6 +114,6 @@ function generateMips(device: GPUDevice, plan: TexturePlan, textures: readonly G
         pass.end();
       }
     }
-  });
+  }
   device.queue.submit([encoder.finish()]);
 }

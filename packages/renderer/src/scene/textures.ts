@@ -1,11 +1,26 @@
-import type { Image, Scene, Texture } from '@glanz/scene';
+import type { CompressedFormat, Image, Scene, Texture } from '@glanz/scene';
 import { DeviceError } from '../errors';
+
+/** Formats of texture arrays; pictures that come in blocks keep them. */
+export type TextureFormat = 'rgba8unorm' | 'rgba8unorm-srgb' | 'rgba16float' | CompressedFormat | `${CompressedFormat}-srgb`;
+
+const FEATURES: Readonly<Record<CompressedFormat, GPUFeatureName>> = { 'astc-4x4-unorm': 'texture-compression-astc', 'bc7-rgba-unorm': 'texture-compression-bc', 'etc2-rgba8unorm': 'texture-compression-etc2' };
+
+/**
+ * The compressed formats that a device reads, the best first: what loaders want to know to leave pictures packed.
+ *
+ * @example
+ * const scene = await loadGltf('lamp.gltf', { decoders, compressedFormats: compressedFormats(device) });
+ */
+export const compressedFormats = (device: { readonly features: Pick<ReadonlySet<string>, 'has'> }): CompressedFormat[] => (Object.keys(FEATURES) as CompressedFormat[]).filter((format) => device.features.has(FEATURES[format]));
 
 /** One texture array on the GPU: pictures of one size and format. */
 export interface TextureArray {
   readonly width: number;
   readonly height: number;
-  readonly format: 'rgba8unorm' | 'rgba8unorm-srgb' | 'rgba16float';
+  readonly format: TextureFormat;
+  /** Levels that the pictures bring along; `undefined` where they are made on the GPU, all of them. */
+  readonly levels: number | undefined;
   /** Indices of scene images, one a layer. */
   readonly layers: number[];
 }
@@ -23,9 +38,16 @@ export interface TexturePlan {
 
 const addressMode = { repeat: 'repeat', mirror: 'mirror-repeat', clamp: 'clamp-to-edge' } as const;
 
-function formatOf(image: Image, texture: Texture): TextureArray['format'] {
+function formatOf(image: Image, texture: Texture, compressed: readonly CompressedFormat[]): TextureFormat {
+  const format = compressedOf(image, compressed)?.format;
+  if (format) return texture.color_space === 'srgb' ? `${format}-srgb` : format;
   if (!image.bitmap && image.data instanceof Float32Array) return 'rgba16float';
   return texture.color_space === 'srgb' ? 'rgba8unorm-srgb' : 'rgba8unorm';
+}
+
+/** The blocks of a picture that stays in blocks on this device. */
+function compressedOf({ compressed, width, height }: Image, formats: readonly CompressedFormat[]): Image['compressed'] {
+  return compressed && formats.includes(compressed.format) && width % 4 === 0 && height % 4 === 0 ? compressed : undefined;
 }
 
 /**
@@ -34,28 +56,47 @@ function formatOf(image: Image, texture: Texture): TextureArray['format'] {
  *
  * @param used Indices of scene textures that materials refer to.
  * @param slots Texture arrays the shading kernel may bind.
+ * @param compressed Compressed formats that the device reads. Pictures in blocks cannot be resampled: where there are more
+ * sizes than slots, or one is too large, all of them are unpacked.
  * @throws {DeviceError} `renderer/limit` when even that does not fit.
  */
-export function planTextures(scene: Scene, used: Iterable<number>, slots: number, limits: { readonly maxTextureDimension2D: number; readonly maxTextureArrayLayers: number }): TexturePlan {
-  interface Draft {
-    width: number;
-    height: number;
-    format: TextureArray['format'];
-    layers: number[];
-  }
-  const drafts: Draft[] = [];
+export function planTextures(scene: Scene, used: Iterable<number>, slots: number, limits: TextureLimits, compressed: readonly CompressedFormat[] = []): TexturePlan {
   const textures = [...new Set(used)].sort((a, b) => a - b);
+  const drafts = draftArrays(scene, textures, limits, compressed);
+  const kept = drafts.filter((draft) => draft.levels !== undefined);
+  if (kept.length > 0 && (drafts.length > slots || kept.some(({ width, height }) => Math.max(width, height) > limits.maxTextureDimension2D))) return planTextures(scene, textures, slots, limits);
+  mergeArrays(drafts, slots, limits);
+  return placeTextures(scene, textures, drafts, compressed);
+}
+
+interface TextureLimits {
+  readonly maxTextureDimension2D: number;
+  readonly maxTextureArrayLayers: number;
+}
+
+interface Draft extends TextureArray {
+  width: number;
+  height: number;
+}
+
+function draftArrays(scene: Scene, textures: readonly number[], limits: TextureLimits, compressed: readonly CompressedFormat[]): Draft[] {
+  const drafts: Draft[] = [];
   for (const index of textures) {
     const texture = scene.textures[index] as Texture;
     const image = scene.images[texture.image] as Image;
-    const format = formatOf(image, texture);
-    const shrink = Math.max(1, image.width / limits.maxTextureDimension2D, image.height / limits.maxTextureDimension2D);
+    const format = formatOf(image, texture, compressed);
+    const levels = compressedOf(image, compressed)?.levels.length;
+    const shrink = levels !== undefined ? 1 : Math.max(1, image.width / limits.maxTextureDimension2D, image.height / limits.maxTextureDimension2D);
     const width = Math.max(1, Math.floor(image.width / shrink));
     const height = Math.max(1, Math.floor(image.height / shrink));
-    let draft = drafts.find((d) => d.width === width && d.height === height && d.format === format && (d.layers.includes(texture.image) || d.layers.length < limits.maxTextureArrayLayers));
-    if (!draft) drafts.push((draft = { width, height, format, layers: [] }));
+    let draft = drafts.find((d) => d.width === width && d.height === height && d.format === format && d.levels === levels && (d.layers.includes(texture.image) || d.layers.length < limits.maxTextureArrayLayers));
+    if (!draft) drafts.push((draft = { width, height, format, levels, layers: [] }));
     if (!draft.layers.includes(texture.image)) draft.layers.push(texture.image);
   }
+  return drafts;
+}
+
+function mergeArrays(drafts: Draft[], slots: number, limits: TextureLimits): void {
   while (drafts.length > slots) {
     const order = [...drafts].sort((a, b) => a.width * a.height * a.layers.length - b.width * b.height * b.layers.length);
     const merged = order.some((small) => {
@@ -71,12 +112,15 @@ export function planTextures(scene: Scene, used: Iterable<number>, slots: number
     });
     if (!merged) throw new DeviceError('renderer/limit', `The scene's textures need ${drafts.length} texture arrays, but this device binds only ${slots} (maxSampledTexturesPerShaderStage).`);
   }
+}
+
+function placeTextures(scene: Scene, textures: readonly number[], drafts: readonly Draft[], compressed: readonly CompressedFormat[]): TexturePlan {
   const samplers: GPUSamplerDescriptor[] = [];
   const samplings: [number, number][] = [];
   const placements = new Map<number, { sampling: number; layer: number; width: number; height: number }>();
   for (const index of textures) {
     const texture = scene.textures[index] as Texture;
-    const format = formatOf(scene.images[texture.image] as Image, texture);
+    const format = formatOf(scene.images[texture.image] as Image, texture, compressed);
     const array = drafts.findIndex((d) => d.format === format && d.layers.includes(texture.image));
     const draft = drafts[array] as Draft;
     const filter = texture.filter ?? 'linear';

@@ -1,4 +1,4 @@
-import { createScene } from '@glanz/scene';
+import { compressedBytes, createScene } from '@glanz/scene';
 import { describe, expect, it } from 'vitest';
 import { planTextures, resizePixels } from '../../src/scene/textures';
 import { toHalf } from '../../src/gpu/texture-upload';
@@ -39,6 +39,22 @@ describe('planTextures', () => {
       expect(target?.height).toBeGreaterThanOrEqual(height);
       expect(target?.format).toBe(space === 'srgb' ? 'rgba8unorm-srgb' : 'rgba8unorm');
     });
+  });
+
+  it('leaves pictures in blocks where the device reads them, all or none', () => {
+    const scene = sceneWith([[8, 8, 'srgb'], [8, 8, 'linear'], [8, 4, 'srgb'], [6, 8, 'linear'], [16, 4, 'srgb']]);
+    for (const index of [0, 1, 3]) {
+      const { width, height } = scene.images[index]!;
+      scene.images[index]!.compressed = { format: 'bc7-rgba-unorm', levels: [new Uint8Array(compressedBytes(width, height))] };
+    }
+    const formats = (...told: Parameters<typeof planTextures>) => planTextures(...told).arrays.map(({ format, levels }) => [format, levels]);
+    // 6 texels are no whole blocks.
+    const packed = [['bc7-rgba-unorm-srgb', 1], ['bc7-rgba-unorm', 1], ['rgba8unorm-srgb', undefined], ['rgba8unorm', undefined], ['rgba8unorm-srgb', undefined]];
+    const unpacked = ['rgba8unorm-srgb', 'rgba8unorm', 'rgba8unorm-srgb', 'rgba8unorm', 'rgba8unorm-srgb'].map((format) => [format, undefined]);
+    expect(formats(scene, [0, 1, 2, 3, 4], 12, limits, ['astc-4x4-unorm', 'bc7-rgba-unorm'])).toEqual(packed);
+    expect(formats(scene, [0, 1, 2, 3, 4], 12, limits, ['astc-4x4-unorm'])).toEqual(unpacked);
+    expect(formats(scene, [0, 1, 2, 3, 4], 3, limits, ['bc7-rgba-unorm']).every(([, levels]) => levels === undefined)).toBe(true);
+    expect(formats(scene, [0], 12, { ...limits, maxTextureDimension2D: 4 }, ['bc7-rgba-unorm'])).toEqual([['rgba8unorm-srgb', undefined]]);
   });
 
   it('keeps pictures within the device limits', () => {
