@@ -1,3 +1,4 @@
+import { readIes } from '@glanz/formats/ies';
 import { decodeEnvironment } from '@glanz/image/environment';
 import { PathTracer } from '@glanz/renderer';
 import type { Scene } from '@glanz/scene';
@@ -29,6 +30,13 @@ export function addLamps(scene: Scene): Scene {
   };
 }
 // #endregion lamps
+
+// #region profile
+export function addDownlight(scene: Scene, ies: Uint8Array): Scene {
+  const profile = readIes(ies); // candela, by the angles that the lamp was measured at
+  return { ...scene, lights: [...scene.lights, { type: 'profile', name: 'downlight', color: [1, 0.9, 0.8], intensity: 0.01, position: [0, 2.4, 0], direction: [0, -1, 0], profile }] };
+}
+// #endregion profile
 
 // #region panels
 export function addPanels(scene: Scene): Scene {

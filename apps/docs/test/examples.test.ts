@@ -176,6 +176,17 @@ describe('lighting', () => {
     }, scene);
   });
 
+  test('a lamp by its IES file', async () => {
+    const ies = new TextEncoder().encode('IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 3 1 1 2 0.1 0.1 0\n1 1 10\n0 45 90\n0\n900 400 0');
+    const scene = lighting.addDownlight({ ...exampleScene(), lights: [] }, ies);
+    delete (scene as { environment?: unknown }).environment;
+    await withTracer(async (tracer) => {
+      const pixels = await picture(tracer);
+      expect(mean(pixels, 0)).toBeGreaterThan(0.001);
+      expect(mean(pixels, 0)).toBeGreaterThan(mean(pixels, 2));
+    }, scene);
+  });
+
   test('onto a photograph', async () => {
     const create = vi.spyOn(PathTracer, 'create').mockImplementationOnce((d, scene, options) => PathTracer.create(d, scene, { ...options, ...SIZE, camera: 0 }));
     const tracer = await lighting.ontoPhotograph(device, exampleScene());

@@ -2,7 +2,7 @@ import { GlanzError, type SceneWarning } from '@glanz/scene';
 
 /**
  * Thrown for files that cannot be read. Codes: `formats/malformed`, `formats/truncated`, `formats/no-triangles`,
- * `formats/missing-resource`, `formats/missing-decoder` (an optional package is needed), `formats/unknown`.
+ * `formats/missing-resource`, `formats/missing-decoder` (an optional package is needed), `formats/unsupported`, `formats/unknown`.
  */
 export class FormatError extends GlanzError {}
 

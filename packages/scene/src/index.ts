@@ -3,7 +3,7 @@ export { createScene, type Instance, type Scene, type SceneAnimation, type Scene
 export type { Mesh } from './mesh';
 export type { Material, TextureBinding, TextureChannels, TexturedParameter } from './material';
 export { compressedBytes, type CompressedFormat, type CompressedImage, type Image, type Texture, type WrapMode } from './texture';
-export type { DirectionalLight, DiskLight, Light, PointLight, RectangleLight, SphereLight, SpotLight } from './light';
+export type { DirectionalLight, DiskLight, Light, LightProfile, PointLight, ProfileLight, RectangleLight, SphereLight, SpotLight } from './light';
 export type { Camera, OrthographicCamera, PanoramaCamera, PerspectiveCamera } from './camera';
 export type { ConstantEnvironment, Environment, LatLongEnvironment } from './environment';
 export { sceneBounds, type SceneBounds } from './bounds';

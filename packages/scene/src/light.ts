@@ -29,6 +29,40 @@ export interface SpotLight {
   outer_cone_angle: number;
 }
 
+/**
+ * How much a lamp was measured to shine which way: the luminous intensities of a photometric file (IES LM-63, type C), taken
+ * 1:1 as W/sr as glTF's candela are. Between the angles it is linear, beyond the last vertical one it is dark.
+ */
+export interface LightProfile {
+  /** Angles from the lamp's axis, radians, rising, 0 to π at most; two at least. */
+  readonly vertical: Float32Array;
+  /** Angles around it, radians, rising from 0, below 2π; one alone: the same all around. */
+  readonly horizontal: Float32Array;
+  /** W/sr, for each horizontal angle those of all vertical ones: stride `vertical.length`. */
+  readonly intensities: Float32Array;
+}
+
+/** A light without size that shines as a measured lamp does. */
+export interface ProfileLight {
+  type: 'profile';
+  name: string;
+  /** Light group that its light is kept in; see `PathTracerOptions.lightGroups` of the renderer. */
+  light_group?: string;
+  color: readonly [number, number, number];
+  /** Factor of the profile's intensities. */
+  intensity: number;
+  /** Metres. */
+  position: readonly [number, number, number];
+  /** Unit vector of the lamp's axis, the way that its vertical angle 0 points: down for a ceiling lamp. */
+  direction: readonly [number, number, number];
+  /**
+   * Where its horizontal angle 0 lies; what of it runs along the direction does not count. They go round counter-clockwise as
+   * seen against the direction's way, that is, by tangent × direction. Default: level, that is, across +Y.
+   */
+  tangent?: readonly [number, number, number];
+  profile: LightProfile;
+}
+
 /** Parallel light from infinitely far away. */
 export interface DirectionalLight {
   type: 'directional';
@@ -85,4 +119,4 @@ export interface SphereLight extends AreaLight {
 }
 
 /** A light other than an emissive mesh or the surroundings. */
-export type Light = PointLight | SpotLight | DirectionalLight | RectangleLight | DiskLight | SphereLight;
+export type Light = PointLight | SpotLight | ProfileLight | DirectionalLight | RectangleLight | DiskLight | SphereLight;

@@ -1,7 +1,7 @@
 import type { Camera } from './camera';
 import type { Environment } from './environment';
 import { SceneError } from './error';
-import type { Light } from './light';
+import type { Light, LightProfile } from './light';
 import type { Material } from './material';
 import type { Mesh } from './mesh';
 import type { Scene, SceneWarning } from './scene';
@@ -115,6 +115,15 @@ function spread(m: ArrayLike<number>): number {
   return lengths > 0 ? (a * (e * i - f * h) - d * (b * i - c * h) + g * (b * f - c * e)) / lengths : 0;
 }
 
+function checkProfile({ vertical, horizontal, intensities }: LightProfile, what: string): void {
+  const rising = (angles: Float32Array) => angles.every((angle, i) => i === 0 || angle > (angles[i - 1] as number));
+  for (const values of [vertical, horizontal, intensities]) finite(values, `${what}: profile`);
+  if (vertical.length < 2 || !rising(vertical) || (vertical[0] as number) < 0 || (vertical.at(-1) as number) > Math.PI + 1e-5) fail('value', `${what}: the profile's vertical angles must be two at least and rise within 0..π.`);
+  if (horizontal.length < 1 || !rising(horizontal) || horizontal[0] !== 0 || (horizontal.at(-1) as number) >= 2 * Math.PI) fail('value', `${what}: the profile's horizontal angles must rise from 0 and stay below 2π.`);
+  length(intensities, vertical.length * horizontal.length, `${what}: profile of ${vertical.length} × ${horizontal.length} angles`);
+  if (intensities.some((value) => value < 0)) fail('value', `${what}: the profile has a negative intensity.`);
+}
+
 function checkLight(light: Light, index: number): void {
   const what = `Light ${index} ("${light.name}")`;
   finite([light.intensity, ...light.color], what);
@@ -130,7 +139,8 @@ function checkLight(light: Light, index: number): void {
   const sizes = light.type === 'rectangle' ? [light.width, light.height] : light.type === 'disk' || light.type === 'sphere' ? [light.radius] : [];
   finite(sizes, `${what}: size`);
   if (sizes.some((size) => !(size > 0))) fail('value', `${what} has a size of ${sizes.join(' × ')}; it must be above 0.`);
-  if (light.type === 'rectangle' && light.tangent) {
+  if (light.type === 'profile') checkProfile(light.profile, what);
+  if ((light.type === 'rectangle' || light.type === 'profile') && light.tangent) {
     finite(light.tangent, `${what}: tangent`);
     const [d, t] = [light.direction, light.tangent];
     if (!(Math.hypot(d[1] * t[2] - d[2] * t[1], d[2] * t[0] - d[0] * t[2], d[0] * t[1] - d[1] * t[0]) > 0)) fail('value', `${what}: tangent lies along the direction.`);

@@ -137,6 +137,7 @@ export class GpuScene {
         ENVIRONMENT_SAMPLED: sampled,
         LIGHTS: lights,
         LIGHT_TREE: this.#lights.tree,
+        LIGHT_PROFILES: this.#lights.profiles,
         AREA_LIGHTS: this.#lights.areaCount > 0,
         CATCHER: this.#geometry.bare !== undefined,
         LIGHT_GROUPS: this.#choices.lightGroups !== 'off',

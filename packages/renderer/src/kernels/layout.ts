@@ -183,6 +183,10 @@ export const LIGHT_DIRECTIONAL = 3;
 export const LIGHT_RECTANGLE = 4;
 export const LIGHT_DISK = 5;
 export const LIGHT_SPHERE = 6;
+export const LIGHT_PROFILE = 7;
+/** Angles from the axis that a profile is kept at, a degree apart, and around it, where it differs there. */
+export const PROFILE_VERTICAL = 181;
+export const PROFILE_HORIZONTAL = 72;
 /** Added to a triangle light's kind: it shines from both sides. */
 export const LIGHT_TWO_SIDED = 16;
 /** Added to a triangle light's kind: the instance mirrors, so the front is where the world-space winding is clockwise. */

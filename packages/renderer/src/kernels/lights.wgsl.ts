@@ -1,8 +1,9 @@
 import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
 import { areaLightSampling } from './area-lights.wgsl';
 import { environment } from './environment.wgsl';
-import { GROUP_SHIFT, LIGHT_DIRECTIONAL, LIGHT_MIRRORED, LIGHT_POINT, LIGHT_RECTANGLE, LIGHT_SPOT, LIGHT_TWO_SIDED, lightStruct } from './layout';
+import { GROUP_SHIFT, LIGHT_DIRECTIONAL, LIGHT_MIRRORED, LIGHT_POINT, LIGHT_PROFILE, LIGHT_RECTANGLE, LIGHT_SPOT, LIGHT_TWO_SIDED, lightStruct } from './layout';
 import { lightChoice } from './light-choice.wgsl';
+import { lightProfile } from './light-profile.wgsl';
 import { random } from './random.wgsl';
 
 /** One light sample: where from, how much, how likely. */
@@ -75,7 +76,7 @@ fn light_table_sample(u: vec3f, position: vec3f, normal: vec3f) -> LightSample {
     result.pdf = choice;
     return result;
   }
-  if (kind == ${LIGHT_POINT}u || kind == ${LIGHT_SPOT}u) {
+  if (kind == ${LIGHT_POINT}u || kind == ${LIGHT_SPOT}u || kind == ${LIGHT_PROFILE}u) {
     let offset = light.a - position;
     let distance2 = max(dot(offset, offset), 1e-20);
     result.distance = sqrt(distance2);
@@ -86,6 +87,9 @@ fn light_table_sample(u: vec3f, position: vec3f, normal: vec3f) -> LightSample {
       let falloff = clamp(dot(-result.direction, light.b) * light.c.x + light.c.y, 0.0, 1.0);
       result.radiance *= falloff * falloff;
     }
+    //#if LIGHT_PROFILES
+    if (kind == ${LIGHT_PROFILE}u) { result.radiance *= light_profile(index, -result.direction); }
+    //#endif
     result.pdf = choice;
     return result;
   }
@@ -147,6 +151,6 @@ fn light_sample(u: vec4f, position: vec3f, normal: vec3f) -> LightSample {
   //#endif
 }
 `,
-    [surface, lightStruct.module, lightSampleStruct, environment, random, gated('LIGHTS', lightChoice), gated('AREA_LIGHTS', areaLightSampling)],
+    [surface, lightStruct.module, lightSampleStruct, environment, random, gated('LIGHTS', lightChoice), gated('LIGHT_PROFILES', lightProfile), gated('AREA_LIGHTS', areaLightSampling)],
   );
 }

@@ -1,5 +1,6 @@
-import type { DiskLight, Light, RectangleLight, SphereLight } from '@glanz/scene';
-import { LIGHT_DIRECTIONAL, LIGHT_DISK, LIGHT_HIDDEN, LIGHT_POINT, LIGHT_RECTANGLE, LIGHT_SPHERE, LIGHT_SPOT, lightStruct, NONE } from '../kernels/layout';
+import type { DiskLight, Light, ProfileLight, RectangleLight, SphereLight } from '@glanz/scene';
+import { LIGHT_DIRECTIONAL, LIGHT_DISK, LIGHT_HIDDEN, LIGHT_POINT, LIGHT_PROFILE, LIGHT_RECTANGLE, LIGHT_SPHERE, LIGHT_SPOT, lightStruct, NONE } from '../kernels/layout';
+import type { ProfileGrid } from './light-profile';
 import type { TreeLights } from './light-tree';
 
 type Vector = readonly [number, number, number];
@@ -15,17 +16,20 @@ const scaled = (v: Vector, factor: number): Vector => [v[0] * factor, v[1] * fac
 export const hasSize = (light: Light): light is RectangleLight | DiskLight | SphereLight => light.type === 'rectangle' || light.type === 'disk' || light.type === 'sphere';
 
 /** Unit vectors along a flat light's width and height, so that width × height is its direction. */
-function axesOf(light: RectangleLight | DiskLight): [Vector, Vector] {
+function axesOf(light: RectangleLight | DiskLight | ProfileLight): [Vector, Vector] {
   const n = unit(light.direction);
-  const tangent = light.type === 'rectangle' ? light.tangent : undefined;
+  const tangent = light.type === 'disk' ? undefined : light.tangent;
   // Straight up or down, level is any direction.
   const along = tangent ?? (Math.abs(n[1]) > 0.999999 ? [1, 0, 0] as const : cross([0, 1, 0], n));
   const height = unit(cross(n, along));
   return [cross(height, n), height];
 }
 
-/** Writes one of the scene's lights with what the tree needs to know, and returns its power. */
-export function writeLight(records: ArrayBuffer, tree: TreeLights, index: number, light: Light, sceneRadius: number, group: number): number {
+/**
+ * Writes one of the scene's lights with what the tree needs to know, and returns its power.
+ * @param profile For a light with one: it on the grid, and the record that it will begin at.
+ */
+export function writeLight(records: ArrayBuffer, tree: TreeLights, index: number, light: Light, sceneRadius: number, group: number, profile?: { readonly grid: ProfileGrid; readonly first: number }): number {
   const color = light.color.map((c) => c * light.intensity);
   const ids = [NONE, NONE, NONE, NONE];
   const bright = 0.2126 * (color[0] as number) + 0.7152 * (color[1] as number) + 0.0722 * (color[2] as number);
@@ -59,6 +63,13 @@ export function writeLight(records: ArrayBuffer, tree: TreeLights, index: number
       // Where the cone's edge is sharp, it is blurred over the 1e-3 above.
       note(light.position, [0, 0, 0], direction, Math.min(light.inner_cone_angle, light.outer_cone_angle), Math.max(light.outer_cone_angle - light.inner_cone_angle, 0.05), bright);
       return bright * 2 * Math.PI * (1 - outer);
+    }
+    case 'profile': {
+      const { grid, first } = profile as NonNullable<typeof profile>;
+      const direction = unit(light.direction);
+      lightStruct.write(records, index, { kind: LIGHT_PROFILE | group, a: light.position, b: direction, c: axesOf(light)[0], color, ids: [first, grid.around, 0, 0] });
+      note(light.position, [0, 0, 0], direction, grid.reach, 0.05, bright * grid.largest);
+      return bright * grid.power;
     }
     case 'rectangle': {
       const [x, y] = axesOf(light);

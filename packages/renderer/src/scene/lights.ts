@@ -1,10 +1,11 @@
 import { resolveParameters } from '@glanz/openpbr';
-import type { Instance, Material, Mesh, Scene } from '@glanz/scene';
+import type { Instance, Light, LightProfile, Material, Mesh, Scene } from '@glanz/scene';
 import { GROUP_SHIFT, LIGHT_MIRRORED, LIGHT_NODE_DISTANT, LIGHT_NODE_LEAF, LIGHT_TRIANGLE, LIGHT_TWO_SIDED, lightStruct, NONE } from '../kernels/layout';
 import { buildAliasTable } from './alias-table';
 import { EmissionEstimate } from './emission';
 import type { LightGroupTable } from './light-groups';
 import { buildLightTree, type LightTree, type TreeLights } from './light-tree';
+import { profileGrid, profileRecords, writeProfile, type ProfileGrid } from './light-profile';
 import { hasSize, writeLight } from './light-records';
 import { emittedRadiance } from './materials';
 import { determinant3, transformPoint } from './matrix';
@@ -14,9 +15,11 @@ export type LightSampling = 'tree' | 'power';
 
 /** All lights but the environment, ready for the GPU. */
 export interface LightTable {
-  /** Light records, behind them the nodes of the tree; at least one, so that the buffer is never empty. */
+  /** Light records, behind them the nodes of the tree, then the profiles of lamps; at least one, so that the buffer is never empty. */
   readonly records: ArrayBuffer;
   readonly count: number;
+  /** Whether some of them shine by a profile. */
+  readonly profiles: boolean;
   /** Whether there is a tree; its root follows the last light. */
   readonly tree: boolean;
   /** The lights with a size of their own: where their records begin, and how many there are. */
@@ -63,11 +66,12 @@ export function buildLightTable(scene: Scene, geometry: LightGeometry, sceneRadi
   count += scene.lights.length;
   const weights = new Float64Array(count);
   const bounds: TreeLights = { bounds: new Float64Array(6 * count), axes: new Float64Array(3 * count), spreads: new Float64Array(count), reaches: new Float64Array(count), energies: new Float64Array(count) };
+  const profiles = layProfiles(others);
   const lights = lightStruct.allocate(Math.max(count, 1));
   for (const { instance, slot, base } of emitters) writeTriangles(lights, weights, bounds, scene, instance, slot, base, geometry, groups);
-  [...areas, ...others].forEach((light, i) => (weights[firstArea + i] = writeLight(lights, bounds, firstArea + i, light, sceneRadius, groups.light(light) << GROUP_SHIFT)));
+  [...areas, ...others].forEach((light, i) => (weights[firstArea + i] = writeLight(lights, bounds, firstArea + i, light, sceneRadius, groups.light(light) << GROUP_SHIFT, light.type === 'profile' ? profiles.get(light.profile) : undefined)));
   const table = buildAliasTable(weights);
-  if (!table) return { records: lights, count: 0, tree: false, firstArea: 0, areaCount: 0, firstLight: firstLight.fill(NONE), power: 0 };
+  if (!table) return { records: lights, count: 0, profiles: false, tree: false, firstArea: 0, areaCount: 0, firstLight: firstLight.fill(NONE), power: 0 };
   const words = lightStruct.size / 4;
   const floats = new Float32Array(lights);
   const integers = new Uint32Array(lights);
@@ -81,7 +85,35 @@ export function buildLightTable(scene: Scene, geometry: LightGeometry, sceneRadi
   const isDistant = (i: number) => i >= firstArea + areas.length && others[i - firstArea - areas.length]?.type === 'directional';
   const tree = sampling === 'tree' ? buildLightTree(bounds, shining.filter((i) => !isDistant(i)), shining.filter(isDistant)) : undefined;
   if (tree) tree.trails.forEach((trail, i) => (integers[i * words + alias] = trail));
-  return { records: tree ? withNodes(lights, count, tree) : lights, count, tree: tree !== undefined, firstArea, areaCount: areas.length, firstLight, power: weights.reduce((sum, w) => sum + w, 0) };
+  const records = withProfiles(tree ? withNodes(lights, count, tree) : lights, profiles, others.flatMap((light, i) => (light.type === 'profile' ? [firstArea + areas.length + i] : [])));
+  return { records, count, profiles: profiles.size > 0, tree: tree !== undefined, firstArea, areaCount: areas.length, firstLight, power: weights.reduce((sum, w) => sum + w, 0) };
+}
+
+type Profiles = ReadonlyMap<LightProfile, { readonly grid: ProfileGrid; readonly first: number }>;
+
+/** The profiles of lights, one after the other; lights of one kind share theirs. */
+function layProfiles(lights: readonly Light[]): Profiles {
+  let first = 0;
+  const profiles = new Map<LightProfile, { grid: ProfileGrid; first: number }>();
+  for (const light of lights) {
+    if (light.type !== 'profile' || profiles.has(light.profile)) continue;
+    const grid = profileGrid(light.profile);
+    profiles.set(light.profile, { grid, first });
+    first += profileRecords(grid);
+  }
+  return profiles;
+}
+
+/** The records with the profiles behind them; `users` have counted from the first one's beginning. */
+function withProfiles(before: ArrayBuffer, profiles: Profiles, users: readonly number[]): ArrayBuffer {
+  if (users.length === 0) return before;
+  const count = before.byteLength / lightStruct.size;
+  const records = lightStruct.allocate([...profiles.values()].reduce((sum, { grid }) => sum + profileRecords(grid), count));
+  new Uint8Array(records).set(new Uint8Array(before));
+  for (const { grid, first } of profiles.values()) writeProfile(records, count + first, grid);
+  const integers = new Uint32Array(records);
+  for (const light of users) (integers[(light * lightStruct.size + lightStruct.offsetOf('ids')) / 4] as number) += count;
+  return records;
 }
 
 /** The light records with the nodes of the tree behind them. */
