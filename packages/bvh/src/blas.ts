@@ -43,9 +43,6 @@ function whole(name: string, value: number, min: number, max: number): void {
   if (!(Number.isInteger(value) && value >= min && value <= max)) throw new BvhError('bvh/options', `${name} is ${value}; it must be a whole number from ${min} to ${max}.`);
 }
 
-/** How many triangles a mesh has. */
-const triangleCount = (mesh: TriangleMesh): number => Math.floor((mesh.indices ? mesh.indices.length : mesh.positions.length / 3) / 3);
-
 /**
  * Builds the hierarchy of a mesh's triangles. Deterministic. No way from the root has more than `BLAS_MAX_DEPTH` inner
  * nodes, whatever the triangles. The mesh is read, not kept.
@@ -81,7 +78,7 @@ export function* blasSteps(mesh: TriangleMesh, options: BlasOptions = {}): Gener
   if (positions.length % 3 !== 0) fail('bvh/positions', 'positions', positions, 'three a vertex');
   if (indices && indices.length % 3 !== 0) fail('bvh/indices', 'indices', indices, 'three a triangle');
   if (!indices && positions.length % 9 !== 0) fail('bvh/indices', 'positions', positions, 'nine a triangle without indices');
-  const count = triangleCount(mesh);
+  const count = Math.floor((indices ? indices.length : positions.length / 3) / 3);
   if (count > MAX_PRIMITIVES) throw new BvhError('bvh/too-many', `${count} triangles are too many; one hierarchy holds ${MAX_PRIMITIVES}: split the mesh.`);
   const { nodes, nodeCount, triangleIndices, bounds } = yield* build(mesh, count, { maxLeaf: maxLeafTriangles, bins });
   return { nodes, nodeCount, triangleIndices, bounds: { min: Float32Array.from(bounds.subarray(0, 3)), max: Float32Array.from(bounds.subarray(3)) } };

@@ -24,7 +24,7 @@ export function* buildBalanced(mesh: TriangleMesh, count: number, settings: Buil
     models = [];
     const positions = new Float32Array(9 * MODEL).map((_, i) => Math.sin(i * (i % 30)));
     const steps = buildBalanced({ positions, indices: new Uint32Array(3 * MODEL).map((_, i) => i) }, MODEL, settings, models);
-    while (!steps.next().done);
+    while (!steps.next().done) yield 0;
   }
   const scratch = Scratch.take();
   scratch.kept = kept;

@@ -56,7 +56,7 @@ export class PrimitiveMaker implements Primitives {
     this.triangles = scratch.uint32(triangles);
     this.#positions = positions;
     // For both kinds the same machine code reads the same kind of array.
-    this.#indices = indices instanceof Uint16Array ? Uint32Array.from(indices) : indices;
+    this.#indices = indices instanceof Uint16Array ? new Uint32Array(indices) : indices;
     this.#pairs = pairs;
   }
 

@@ -72,7 +72,7 @@ export function* buildNodes(primitives: Sorted, leaves: Uint32Array, bins: numbe
   const writer = new NodeWriter(primitives.count, scratch.buffer(4 * NODE_WORDS * primitives.count));
   writer.count = count - 1;
   const insides = new Insides(clusters, writer, leaves, maxLeaf);
-  yield* part(each(count, STEP >> 4, (from, to) => insides.build(from, to)), 0, 0.6);
+  yield* part(each(count, STEP >> 5, (from, to) => insides.build(from, to)), 0, 0.6);
   if (count === 1) {
     if (writer.count === 0) writer.single(clusters.references[0] as number, clusters.boxes.subarray(0, 6));
     return writer;
@@ -84,15 +84,17 @@ export function* buildNodes(primitives: Sorted, leaves: Uint32Array, bins: numbe
     upper.count = 0;
     const levels = new Levels(upper, clusters, depth, bins);
     scratch.kept?.push(scratch, insides, levels);
+    yield 0.6;
     while (levels.step(STEP)) yield rotations ? 0.6 + (0.3 * upper.count) / count : 0.95;
     encloseNodes(upper, 0, upper.count);
+    yield 0.9;
     if (rotations) yield* part(rotate(upper), 0.9, 0.95);
-    if (crown(upper, clusters, writer) <= depth) return writer;
+    if ((yield* crown(upper, clusters, writer)) <= depth) return writer;
   }
 }
 
 /** Puts the nodes over the clusters before the others, depth first, joins them to the trees in the clusters, and gives their depth. */
-export function crown({ nodes: from, words: fromWords }: NodeWriter, { references }: Clusters, { nodes, words }: NodeWriter): number {
+export function* crown({ nodes: from, words: fromWords }: NodeWriter, { references }: Clusters, { nodes, words }: NodeWriter): Steps<number> {
   // References of the upper tree, the words where they belong, nodes above.
   const stack = [0, 0, 0];
   let count = 0, most = 0;
@@ -110,7 +112,7 @@ export function crown({ nodes: from, words: fromWords }: NodeWriter, { reference
     for (let k = 0; k < NODE_WORDS; k++) nodes[b + k] = from[a + k] as number;
     words[b + PARENT] = slot >>> 4;
     if (count > 0) words[slot] = count;
-    count++;
+    if (++count % STEP === 0) yield 0.95;
     stack.push(fromWords[a + RIGHT] as number, b + RIGHT, depth, fromWords[a + LEFT] as number, b + LEFT, depth);
   }
   return most;

@@ -140,12 +140,12 @@ export function buildTogether(mesh: TriangleMesh, count: number, settings: Build
   upper.count = clusters.count - 1;
   encloseNodes(upper, 0, upper.count);
   finish(rotate(upper));
-  if (crown(upper, clusters, writer) > depth) {
+  if (finish(crown(upper, clusters, writer)) > depth) {
     upper.count = 0;
     const levels = new Levels(upper, clusters, depth, bins);
     while (levels.step(Infinity));
     encloseNodes(upper, 0, upper.count);
-    crown(upper, clusters, writer);
+    finish(crown(upper, clusters, writer));
   }
   // Slices have memory of their own again.
   return { nodes: writer.nodes.slice(0, writer.count * NODE_WORDS), nodeCount: writer.count, triangleIndices: leaves.slice(), bounds };
