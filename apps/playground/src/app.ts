@@ -26,9 +26,6 @@ import { Outline } from './viewer/outline';
 import { wireCommands } from './ui/commands';
 import { Session, type SessionStatus } from './viewer/session';
 
-/** Lets the page have its turn. */
-const pause = () => new Promise<void>((resolve) => setTimeout(resolve, 0));
-
 /** The page: joins controls, files and the session. */
 export class App {
   readonly #canvas = byId<HTMLCanvasElement>('picture');
@@ -183,14 +180,12 @@ export class App {
       const from = this.#store.state;
       const now = (): State => (this.#store.state === from ? begin : { ...begin, ...changedSince(from, this.#store.state) });
       const host = this.#host();
-      // Each goes through all vertices or pixels: one after the other, with the page in between.
-      const rig = this.#rigFor(scene);
-      await pause();
-      host.environment(begin, scene);
-      await pause();
+      const rig = new CameraRig(this.#store, () => this.#aspect());
+      await rig.setScene(scene, begin);
+      await this.#environments.prepare(begin, scene);
       signal.throwIfAborted();
       await present(scene, () => (this.#opened?.scene === scene ? this.#store.state : now()), { ...host, rig }, ({ stage, done }) => this.#status.prepare(stage, done));
-      this.#adopt(opened, now());
+      this.#adopt(opened, now(), rig);
     } catch (error) {
       this.#fail(error);
       if (this.#loading === loading) this.#model.value = this.#canvas.dataset['sample'] ?? '';
@@ -202,18 +197,12 @@ export class App {
     }
   }
 
-  #rigFor(scene: Scene): CameraRig {
-    const rig = new CameraRig(this.#store, () => this.#aspect());
-    rig.setScene(scene);
-    return rig;
-  }
-
   /** Brings the page in line with the model that is shown now. */
-  #adopt(opened: Opened, state: State): void {
+  #adopt(opened: Opened, state: State, rig: CameraRig): void {
     const { scene, request, title } = opened;
     const again = this.#opened?.request === request;
     this.#opened = opened;
-    this.#rig.setScene(scene);
+    this.#rig.follow(rig);
     this.#messages.clearErrors();
     if (again) this.#store.set(state);
     else this.#store.load(state);

@@ -1,4 +1,4 @@
-import { validationSteps, type Camera, type Scene } from '@glanz/scene';
+import { inSlices, validationSteps, type Camera, type Scene } from '@glanz/scene';
 import { DeviceError, RenderError } from './errors';
 import { Film } from './film/film';
 import { showFirstLight } from './first-light';
@@ -9,10 +9,9 @@ import { KernelCache, type KernelSet } from './gpu/kernel-cache';
 import { Integrator } from './integrator';
 import type { KernelFeatures } from './kernels/pipelines';
 import type { PathTracerOptions, RenderStatistics } from './options';
-import { chooseCamera } from './scene/choose-camera';
-import { prepareEnvironment } from './scene/environment';
+import { cameraSteps } from './scene/choose-camera';
+import { environmentSteps } from './scene/environment';
 import { prepareGeometry } from './scene/geometry';
-import { breather } from './scene/hierarchies';
 import { hasInterior } from './scene/interiors';
 import { ownScene, SceneEditor } from './scene-editor';
 import { checkShortcuts, shortcutFlags } from './shortcuts';
@@ -41,11 +40,10 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
   checkVolumeDepth(options.maxVolumeDepth ?? 256);
   // Each of the next goes through all vertices or pixels: the thread is handed back in between.
   await pause();
-  const breathe = breather(VALIDATION_MS);
-  for (const _ of validationSteps(scene)) await breathe();
+  const { hierarchies, signal, onProgress } = options;
+  await inSlices(validationSteps(scene), { signal });
   checkInteriors(scene);
   const own = ownScene(scene);
-  const { hierarchies, signal, onProgress } = options;
   await pause();
   signal?.throwIfAborted();
   const t0 = performance.now();
@@ -55,19 +53,19 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
   onProgress?.({ stage: 'bvh', done: 0 });
   const geometry = await prepareGeometry(own, { hierarchies, signal, onProgress: (done) => onProgress?.({ stage: 'bvh', done }) });
   await pause();
-  const environment = prepareEnvironment(own.environment);
+  const environment = await inSlices(environmentSteps(own.environment), { signal });
   await pause();
   const { OPENPBR_TABLES } = await loading;
   const t1 = performance.now();
   onProgress?.({ stage: 'upload', done: 0 });
   const memory = new GpuMemory(device);
   try {
-    const gpuScene = await withErrorScopes(device, () => new GpuScene(device, memory, own, geometry, environment, { multipleScattering: options.multipleScattering ?? true, sampler: options.sampler ?? 'sobol', lightGroups: options.lightGroups ?? 'named', lightSampling: options.lightSampling ?? 'tree' }, OPENPBR_TABLES));
-    await gpuScene.fillShapes(signal);
+    const gpuScene = await withErrorScopes(device, () => new GpuScene(device, memory, own, geometry, environment, { multipleScattering: options.multipleScattering ?? true, sampler: options.sampler ?? 'sobol', lightGroups: options.lightGroups ?? 'named', lightSampling: options.lightSampling ?? 'tree' }));
+    await gpuScene.fill(OPENPBR_TABLES, signal);
     const t2 = performance.now();
     onProgress?.({ stage: 'upload', done: 1 });
     const cache = new KernelCache(device);
-    const camera = chooseCamera(own, options.camera, options.width / options.height);
+    const camera = await inSlices(cameraSteps(own, options.camera, options.width / options.height), { signal });
     const features = kernelFeatures(gpuScene, camera, options);
     let late = false;
     const { onFirstLight } = options;
@@ -92,9 +90,6 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
     throw error;
   }
 }
-
-/** While a scene is checked, the thread is handed back after so many milliseconds. */
-const VALIDATION_MS = 6;
 
 /** Lets everything else that waits have its turn. */
 const pause = () => new Promise<void>((resolve) => setTimeout(resolve, 0));

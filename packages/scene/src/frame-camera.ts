@@ -1,9 +1,9 @@
-import { boundsBy } from './bounds';
+import { boundsBy, usedOf } from './bounds';
 import type { PerspectiveCamera } from './camera';
 import { SceneError } from './error';
 import type { Mesh } from './mesh';
 import type { Scene } from './scene';
-import { usedVertices } from './used-vertices';
+import { finish, STEP } from './slices';
 
 /** What {@link frameCamera} may be told. */
 export interface FrameCameraOptions {
@@ -41,13 +41,13 @@ interface Extents {
 }
 
 /** In doubles, and relative to the box's centre, so that a small part far from the origin keeps its digits. */
-function growByInstance(extents: Extents, { positions }: Mesh, used: Uint8Array, m: ArrayLike<number>, center: Vector, axes: readonly [Vector, Vector, Vector], tx: number, ty: number): void {
+function growByInstance(extents: Extents, { positions }: Mesh, used: Uint8Array, from: number, to: number, m: ArrayLike<number>, center: Vector, axes: readonly [Vector, Vector, Vector], tx: number, ty: number): void {
   const column = (k: number): Vector => [m[4 * k] as number, m[4 * k + 1] as number, m[4 * k + 2] as number];
   const origin = column(3);
   const moved: Vector = [origin[0] - center[0], origin[1] - center[1], origin[2] - center[2]];
   const [[rx, ry, rz, rw], [ux, uy, uz, uw], [bx, by, bz, bw]] = axes.map((axis): Row => [dot(axis, column(0)), dot(axis, column(1)), dot(axis, column(2)), dot(axis, moved)]) as [Row, Row, Row];
   let { right, left, top, bottom, near, far } = extents;
-  for (let i = 0, v = 0; i < used.length; i++, v += 3) {
+  for (let i = from, v = 3 * from; i < to; i++, v += 3) {
     if (used[i] === 0) continue;
     const px = positions[v] as number, py = positions[v + 1] as number, pz = positions[v + 2] as number;
     const r = rx * px + ry * py + rz * pz + rw;
@@ -70,13 +70,22 @@ function growByInstance(extents: Extents, { positions }: Mesh, used: Uint8Array,
  *
  * @throws {SceneError} `scene/empty` if the scene has no visible triangles, `scene/value` for options out of range.
  */
-export function frameCamera(scene: Scene, { aspect, yfov = (35 * Math.PI) / 180, direction = [0.6, 0.45, 1], margin = 0.06 }: FrameCameraOptions): PerspectiveCamera {
+export function frameCamera(scene: Scene, options: FrameCameraOptions): PerspectiveCamera {
+  return finish(frameCameraSteps(scene, options));
+}
+
+/**
+ * The same as {@link frameCamera} in steps of a millisecond or so, for `inSlices`. The scene must stay as it is until the
+ * last step.
+ *
+ * @throws {SceneError} as {@link frameCamera}, at the first step or a later one.
+ */
+export function* frameCameraSteps(scene: Scene, { aspect, yfov = (35 * Math.PI) / 180, direction = [0.6, 0.45, 1], margin = 0.06 }: FrameCameraOptions): Generator<void, PerspectiveCamera> {
   if (!(aspect > 0 && aspect < Infinity)) throw new SceneError('scene/value', `aspect is ${aspect}; it must be a positive number.`);
   if (!(yfov > 0 && yfov < Math.PI)) throw new SceneError('scene/value', `yfov is ${yfov}; it must lie between 0 and π.`);
   if (!(margin >= 0 && margin < 1)) throw new SceneError('scene/value', `margin is ${margin}; it must be at least 0 and less than 1.`);
   const found = new Map<Mesh, Uint8Array>();
-  const used = (mesh: Mesh) => found.get(mesh) ?? (found.set(mesh, usedVertices(mesh)).get(mesh) as Uint8Array);
-  const { min, max } = boundsBy(scene, used);
+  const { min, max } = yield* boundsBy(scene, found);
   if (!(min[0] <= max[0])) throw new SceneError('scene/empty', 'The scene has no visible triangles: there is nothing to frame.');
   const center: Vector = [(min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2];
   const back = normalized(direction, 'direction');
@@ -87,7 +96,12 @@ export function frameCamera(scene: Scene, { aspect, yfov = (35 * Math.PI) / 180,
   const e: Extents = { right: -Infinity, left: -Infinity, top: -Infinity, bottom: -Infinity, near: -Infinity, far: Infinity };
   for (const { mesh: index, transform, visible } of scene.instances) {
     const mesh = scene.meshes[index];
-    if (visible !== false && mesh) growByInstance(e, mesh, used(mesh), transform, center, [right, up, back], tx, ty);
+    if (visible === false || !mesh) continue;
+    const used = yield* usedOf(mesh, found);
+    for (let from = 0; from < used.length; from += STEP) {
+      growByInstance(e, mesh, used, from, Math.min(used.length, from + STEP), transform, center, [right, up, back], tx, ty);
+      yield;
+    }
   }
   // A camera at (x, y, d) in the frame sees a vertex (r, u, b) if |r − x| ≤ tx (d − b), and so for u: the edges' planes.
   const x = (e.right - e.left) / 2;

@@ -6,9 +6,10 @@ export { compressedBytes, type CompressedFormat, type CompressedImage, type Imag
 export type { DirectionalLight, DiskLight, Light, LightProfile, PointLight, ProfileLight, RectangleLight, SphereLight, SpotLight } from './light';
 export type { Camera, OrthographicCamera, PanoramaCamera, PerspectiveCamera } from './camera';
 export type { ConstantEnvironment, Environment, LatLongEnvironment } from './environment';
-export { sceneBounds, type SceneBounds } from './bounds';
+export { sceneBounds, sceneBoundsSteps, type SceneBounds } from './bounds';
 export { defaultMaterial } from './default-material';
 export { SceneError } from './error';
-export { frameCamera, type FrameCameraOptions } from './frame-camera';
+export { frameCamera, frameCameraSteps, type FrameCameraOptions } from './frame-camera';
+export { inSlices, type SliceOptions } from './slices';
 export { validateScene, validationSteps } from './validate';
 export { withVariant } from './variant';

@@ -1,4 +1,5 @@
 import type { LatLongEnvironment } from './environment';
+import { finish } from './slices';
 import { STUDIOS } from './studios';
 
 export { STUDIOS, type StudioName } from './studios';
@@ -42,6 +43,9 @@ export interface StudioOptions {
 }
 
 type Vector = readonly [number, number, number];
+
+/** Rows that are made between two stops. */
+const ROWS = 8;
 
 const smooth = (low: number, high: number, x: number) => {
   const t = Math.min(Math.max((x - low) / (high - low), 0), 1);
@@ -96,6 +100,11 @@ function boxShare({ box, half, normal, right, up }: Placed, d: Vector, blur: num
  * scene.environment = studioEnvironment({ setup: STUDIOS['low-key'], rotation: 0.5 });
  */
 export function studioEnvironment(options: StudioOptions = {}): LatLongEnvironment {
+  return finish(studioSteps(options));
+}
+
+/** The same as {@link studioEnvironment} in steps of a millisecond or so, for `inSlices` of `@glanz/scene`. */
+export function* studioSteps(options: StudioOptions = {}): Generator<void, LatLongEnvironment> {
   const width = Math.max(16, Math.round((options.width ?? 512) / 2) * 2);
   const height = width / 2;
   const { backdrop, boxes } = options.setup ?? STUDIOS.neutral;
@@ -126,6 +135,7 @@ export function studioEnvironment(options: StudioOptions = {}): LatLongEnvironme
       data[at + 1] = g;
       data[at + 2] = b;
     }
+    if (j % ROWS === 0) yield;
   }
   return {
     type: 'latlong',

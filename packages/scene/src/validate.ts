@@ -5,6 +5,7 @@ import type { Light, LightProfile } from './light';
 import type { Material } from './material';
 import type { Mesh } from './mesh';
 import type { Scene, SceneWarning } from './scene';
+import { finish, STEP } from './slices';
 import { compressedBytes, type CompressedImage, type Image } from './texture';
 
 const fail = (code: 'reference' | 'length' | 'not-finite' | 'value', message: string): never => {
@@ -20,9 +21,6 @@ function finite(values: ArrayLike<number>, what: string, from = 0, end = values.
     if (!Number.isFinite(values[i])) fail('not-finite', `${what} holds ${values[i]} at ${i}; every number must be finite.`);
   }
 }
-
-/** Numbers and triangles that are looked at in one step: a millisecond or so. */
-const STEP = 1 << 16;
 
 function* finiteSteps(values: ArrayLike<number>, what: string): Generator<void> {
   for (let from = 0; from < values.length; from += STEP) {
@@ -157,7 +155,7 @@ function checkCamera(camera: Camera, index: number): void {
   } else if (camera.type === 'orthographic' && !(camera.xmag > 0 && camera.ymag > 0)) fail('value', `${what}: xmag and ymag are ${camera.xmag} and ${camera.ymag}; they must be positive.`);
 }
 
-function checkEnvironment(environment: Environment): void {
+function* environmentSteps(environment: Environment): Generator<void> {
   if (environment.type === 'constant') {
     finite(environment.radiance, 'The environment');
     if (environment.radiance.some((c) => c < 0)) fail('value', 'The environment has a negative radiance.');
@@ -167,7 +165,14 @@ function checkEnvironment(environment: Environment): void {
   if (!(Number.isInteger(width) && Number.isInteger(height) && width > 0 && height > 0)) fail('value', `The environment has a size of ${width} × ${height}.`);
   length(data, 3 * width * height, `The environment of ${width} × ${height} pixels`);
   finite([intensity, rotation], 'The environment');
-  for (let i = 0; i < data.length; i++) {
+  for (let from = 0; from < data.length; from += STEP) {
+    radiances(data, from, Math.min(data.length, from + STEP));
+    yield;
+  }
+}
+
+function radiances(data: Float32Array, from: number, end: number): void {
+  for (let i = from; i < end; i++) {
     if (!((data[i] as number) >= 0 && (data[i] as number) < Infinity)) fail('not-finite', `The environment holds ${data[i]} at ${i}; radiance must be finite and not negative.`);
   }
 }
@@ -181,10 +186,7 @@ function checkEnvironment(environment: Environment): void {
  * @throws {SceneError} at the first fault, saying where it is.
  */
 export function validateScene(scene: Scene): SceneWarning[] {
-  const steps = validationSteps(scene);
-  let step = steps.next();
-  while (!step.done) step = steps.next();
-  return step.value;
+  return finish(validationSteps(scene));
 }
 
 function checkCompressed({ width, height }: Image, { format, levels }: CompressedImage, what: string): void {
@@ -200,7 +202,7 @@ function checkCompressed({ width, height }: Image, { format, levels }: Compresse
  *
  * @throws {SceneError} as {@link validateScene}, at the first step or a later one.
  * @example
- * for (const _ of validationSteps(scene)) await breathe();
+ * const warnings = await inSlices(validationSteps(scene));
  */
 export function* validationSteps(scene: Scene): Generator<void, SceneWarning[]> {
   const warnings: SceneWarning[] = [];
@@ -246,6 +248,6 @@ export function* validationSteps(scene: Scene): Generator<void, SceneWarning[]> 
   });
   scene.lights.forEach(checkLight);
   scene.cameras.forEach(checkCamera);
-  if (scene.environment) checkEnvironment(scene.environment);
+  if (scene.environment) yield* environmentSteps(scene.environment);
   return warnings;
 }

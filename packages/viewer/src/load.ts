@@ -1,5 +1,5 @@
 import type { GltfDecoders, GltfProgress } from '@glanz/gltf';
-import type { CompressedFormat, Environment, Scene } from '@glanz/scene';
+import { inSlices, type CompressedFormat, type Environment, type Scene } from '@glanz/scene';
 import { isAbort, ViewerError } from './errors';
 
 /**
@@ -90,7 +90,7 @@ export async function loadModel(source: ModelSource, options: LoadModelOptions =
  */
 export async function loadEnvironment(source: EnvironmentSource, signal?: AbortSignal): Promise<Environment | undefined> {
   if (source === 'scene' || source === 'none') return undefined;
-  if (source === 'studio') return (await import('@glanz/scene/studio')).studioEnvironment();
+  if (source === 'studio') return inSlices((await import('@glanz/scene/studio')).studioSteps(), { signal });
   if (typeof source === 'object' && 'type' in source && !(source instanceof Blob)) return source as Environment;
   const bytes = source instanceof Blob ? await bytesOf(source) : await fetchBytes(new URL(source as string | URL, location.href), signal);
   if (!bytes) throw new ViewerError('viewer/environment', `The surroundings "${String(source).slice(0, 200)}" could not be fetched: check the address, and that its server allows this page to read it.`);

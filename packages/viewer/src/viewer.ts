@@ -1,4 +1,4 @@
-import { frameCamera, sceneBounds, type Camera, type Environment, type Material, type Scene } from '@glanz/scene';
+import { frameCamera, frameCameraSteps, inSlices, sceneBoundsSteps, type Camera, type Environment, type Material, type Scene } from '@glanz/scene';
 import type { PathTracer, PickResult } from '@glanz/renderer';
 import type { ToneMap } from '@glanz/tonemap';
 import { controlCamera, type ControlOptions } from './controls';
@@ -173,12 +173,14 @@ export class Viewer extends Emitter<ViewerEvents> {
       signal.throwIfAborted();
       const surroundings = given ?? (this.#environment === 'scene' ? (scene.environment ?? (await loadEnvironment('studio'))) : undefined);
       const shown = withEnvironment(scene, this.#lit(surroundings));
-      const camera = this.#chooseCamera(scene, options.camera ?? this.#options.camera ?? 'auto');
+      // Each goes through all vertices.
+      const camera = await inSlices(this.#cameraSteps(scene, options.camera ?? this.#options.camera ?? 'auto'), { signal });
+      const bounds = await inSlices(sceneBoundsSteps(scene), { signal });
       const tracer = await this.#engine.show(shown, fitCamera(camera, this.#aspect), signal, progress);
       this.#loaded = scene;
       this.#surroundings = surroundings;
       this.#home = camera;
-      this.#rig = new OrbitRig(camera, sceneBounds(scene), { damping: this.#damping, limits: this.#limits });
+      this.#rig = new OrbitRig(camera, bounds, { damping: this.#damping, limits: this.#limits });
       const variant = options.variant ?? this.#options.variant;
       this.#variant = variant !== undefined && scene.variants?.includes(variant) ? variant : undefined;
       if (this.#variant !== undefined) void tracer.setVariant(this.#variant).catch((error: unknown) => this.#fail(error));
@@ -594,13 +596,20 @@ export class Viewer extends Emitter<ViewerEvents> {
     };
   }
 
-  #chooseCamera(scene: Scene, camera: ViewerOptions['camera'] | 'keep'): Camera {
+  #chooseCamera(scene: Scene, camera: number | string): Camera {
+    const steps = this.#cameraSteps(scene, camera);
+    let step = steps.next();
+    while (!step.done) step = steps.next();
+    return step.value;
+  }
+
+  *#cameraSteps(scene: Scene, camera: ViewerOptions['camera'] | 'keep'): Generator<void, Camera> {
     const aspect = this.#aspect;
     if (typeof camera === 'object') return camera;
     if (typeof camera === 'function') return camera(scene, aspect);
     if (camera === 'keep' && this.#rig) return this.#rig.camera();
-    if (camera === 'frame') return frameCamera(scene, { aspect });
-    if (camera === 'auto' || camera === 'keep' || camera === undefined) return scene.cameras[0] ?? frameCamera(scene, { aspect });
+    if (camera === 'frame') return yield* frameCameraSteps(scene, { aspect });
+    if (camera === 'auto' || camera === 'keep' || camera === undefined) return scene.cameras[0] ?? (yield* frameCameraSteps(scene, { aspect }));
     const found = typeof camera === 'number' ? scene.cameras[camera] : scene.cameras.find(({ name }) => name === camera);
     if (!found) throw new ViewerError('viewer/camera', `The scene has no camera ${JSON.stringify(camera)}; it has: ${scene.cameras.map(({ name }) => name).join(', ') || 'none'}.`);
     return found;

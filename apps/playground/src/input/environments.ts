@@ -1,6 +1,11 @@
-import type { Environment, LatLongEnvironment, Scene } from '@glanz/scene';
-import { STUDIOS, studioEnvironment, type SoftBox, type StudioName } from '@glanz/scene/studio';
+import { inSlices, type Environment, type LatLongEnvironment, type Scene } from '@glanz/scene';
+import { STUDIOS, studioEnvironment, studioSteps, type SoftBox, type StudioName, type StudioSetup } from '@glanz/scene/studio';
 import type { State } from '../state/state';
+
+function setupOf({ studio, boxes }: State): StudioSetup {
+  const setup = STUDIOS[studio] ?? STUDIOS.neutral;
+  return boxes ? { ...setup, boxes } : setup;
+}
 
 /** Environments that have been loaded or made. */
 export class Environments {
@@ -38,11 +43,21 @@ export class Environments {
     return { ...source, intensity: (source.intensity ?? 1) * intensity, rotation: (source.rotation ?? 0) + rotation };
   }
 
-  #studio({ studio, boxes }: State): LatLongEnvironment {
-    if (this.#made?.studio !== studio || this.#made.boxes !== boxes) {
-      const setup = STUDIOS[studio] ?? STUDIOS.neutral;
-      this.#made = { studio, boxes, environment: studioEnvironment({ setup: boxes ? { ...setup, boxes } : setup }) };
-    }
+  /** Makes what {@link choose} will ask for, in slices. */
+  async prepare(state: State, scene: Pick<Scene, 'environment'> | undefined): Promise<void> {
+    const { environment: choice, studio, boxes } = state;
+    const own = choice === 'none' || choice === 'constant' || (choice === 'model' && scene?.environment) || (choice === 'file' && this.#file);
+    if (own || this.#isMade(state)) return;
+    this.#made = { studio, boxes, environment: await inSlices(studioSteps({ setup: setupOf(state) })) };
+  }
+
+  #isMade({ studio, boxes }: State): boolean {
+    return this.#made?.studio === studio && this.#made.boxes === boxes;
+  }
+
+  #studio(state: State): LatLongEnvironment {
+    const { studio, boxes } = state;
+    if (!this.#made || !this.#isMade(state)) this.#made = { studio, boxes, environment: studioEnvironment({ setup: setupOf(state) }) };
     return this.#made.environment;
   }
 }

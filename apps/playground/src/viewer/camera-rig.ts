@@ -1,15 +1,22 @@
-import { frameCamera, sceneBounds, type Camera, type Scene } from '@glanz/scene';
+import { frameCamera, frameCameraSteps, inSlices, sceneBounds, sceneBoundsSteps, type Camera, type PerspectiveCamera, type Scene, type SceneBounds } from '@glanz/scene';
 import type { OrbitView, State } from '../state/state';
 import type { Store } from '../state/store';
 import { directionOf, STANDARD_VIEWS, withLens, type StandardView } from './lens';
 import { fitCamera, OrbitCamera } from './orbit-camera';
+
+/** The field of view that the state asks for, radians. */
+const yfovOf = ({ lens: { fov } }: State) => (fov === null ? undefined : (fov * Math.PI) / 180);
+
+const framing = (aspect: number, yfov: number | undefined) => ({ aspect, ...(yfov === undefined ? {} : { yfov }) });
 
 /** The camera that the state asks for, and what hands and buttons do to it. */
 export class CameraRig {
   readonly #store: Store<State>;
   readonly #aspect: () => number;
   #scene: Scene | undefined;
-  #bounds: ReturnType<typeof sceneBounds> | undefined;
+  #bounds: SceneBounds | undefined;
+  /** The camera that sees all, and for which aspect and field of view. */
+  #framed: { readonly aspect: number; readonly yfov: number | undefined; readonly camera: PerspectiveCamera } | undefined;
   /** Whether the change that is being told is one of many in a row. */
   moving = false;
 
@@ -19,10 +26,26 @@ export class CameraRig {
     this.#aspect = aspect;
   }
 
-  /** @param scene As loaded: helpers such as the floor do not count. */
-  setScene(scene: Scene): void {
+  /**
+   * Finds what the rig needs to know of a scene, in slices.
+   *
+   * @param scene As loaded: helpers such as the floor do not count.
+   * @param state That will be asked for.
+   */
+  async setScene(scene: Scene, state: State): Promise<void> {
+    const bounds = await inSlices(sceneBoundsSteps(scene));
+    const aspect = this.#aspect(), yfov = yfovOf(state);
+    const framed = scene.cameras[state.camera] ? undefined : { aspect, yfov, camera: await inSlices(frameCameraSteps(scene, framing(aspect, yfov))) };
     this.#scene = scene;
-    this.#bounds = sceneBounds(scene);
+    this.#bounds = bounds;
+    this.#framed = framed;
+  }
+
+  /** Takes over what another rig knows of its scene. */
+  follow(rig: CameraRig): void {
+    this.#scene = rig.#scene;
+    this.#bounds = rig.#bounds;
+    this.#framed = rig.#framed;
   }
 
   /** The camera to render with. */
@@ -70,10 +93,15 @@ export class CameraRig {
     this.#store.set({ orbit: view, camera: -1 });
   }
 
-  #start({ camera: index, lens }: State, scene: Scene): Camera {
+  #start(state: State, scene: Scene): Camera {
+    const { camera: index, lens } = state;
     const aspect = this.#aspect();
     const camera = scene.cameras[index];
-    if (!camera) return frameCamera(scene, { aspect, ...(lens.fov === null ? {} : { yfov: (lens.fov * Math.PI) / 180 }) });
+    if (!camera) {
+      const yfov = yfovOf(state);
+      if (this.#framed?.aspect !== aspect || this.#framed.yfov !== yfov || scene !== this.#scene) this.#framed = { aspect, yfov, camera: frameCamera(scene, framing(aspect, yfov)) };
+      return this.#framed.camera;
+    }
     const fitted = fitCamera(camera, aspect);
     return lens.fov === null || fitted.type !== 'perspective' ? fitted : { ...fitted, yfov: (lens.fov * Math.PI) / 180 };
   }

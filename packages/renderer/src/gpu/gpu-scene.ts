@@ -21,6 +21,8 @@ const OWN_TEXTURES = 4;
 
 /** While shapes are filled in, the thread is handed back after so many milliseconds; a slice more can follow. */
 const FILL_MS = 6;
+/** Pixels are written so many bytes at a time. */
+const FILL_BYTES = 1 << 20;
 
 /** Options that decide the kernels' text. */
 export interface SceneChoices {
@@ -54,7 +56,7 @@ export class GpuScene {
   #lights: LightTable;
   #environment: EnvironmentData;
 
-  constructor(device: GPUDevice, memory: GpuMemory, scene: Scene, geometry: Geometry, environment: EnvironmentData, choices: SceneChoices, tables: EnergyTables) {
+  constructor(device: GPUDevice, memory: GpuMemory, scene: Scene, geometry: Geometry, environment: EnvironmentData, choices: SceneChoices) {
     this.#device = device;
     this.#memory = memory;
     this.#scene = scene;
@@ -74,9 +76,8 @@ export class GpuScene {
     this.#upload('lights', this.#lights.records);
     this.#writeInstances();
     this.#environment = environment;
-    this.#uploadEnvironment();
+    this.#makeEnvironment();
     this.#energySampler = device.createSampler({ label: 'glanz energy', minFilter: 'linear', magFilter: 'linear' });
-    this.#uploadEnergy(tables);
   }
 
   get environment(): EnvironmentData {
@@ -183,7 +184,10 @@ export class GpuScene {
     const before = this.#environment;
     this.#environment = turnEnvironment(before, environment) ?? prepareEnvironment(environment);
     const replaced = this.#environment.pixels !== before.pixels || this.#environment.table !== before.table;
-    if (replaced) this.#uploadEnvironment();
+    if (replaced) {
+      this.#makeEnvironment();
+      for (const _ of this.#environmentSlices());
+    }
     return (this.#updateGroups() && this.updateLights()) || replaced;
   }
 
@@ -231,9 +235,12 @@ export class GpuScene {
     this.#upload('materials', this.#packMaterials());
   }
 
-  /** Fills the buffers of shapes, with the thread handed back every few milliseconds; belongs behind the constructor. */
-  async fillShapes(signal?: AbortSignal): Promise<void> {
+  /** Fills what the constructor has made, with the thread handed back every few milliseconds; belongs behind it. */
+  async fill(tables: EnergyTables, signal?: AbortSignal): Promise<void> {
     const breathe = breather(FILL_MS);
+    for (const _ of this.#environmentSlices()) await breathe();
+    this.#uploadEnergy(tables);
+    await breathe();
     for (const { buffer, offset, data } of shapeSlices(this.#scene, this.#geometry)) {
       this.#memory.write(this.#buffers.get(buffer) as GPUBuffer, data, offset);
       await breathe();
@@ -321,18 +328,31 @@ export class GpuScene {
     this.#buffers.set(name, this.#memory.upload(name, data, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST));
   }
 
-  #uploadEnvironment(): void {
+  /** The pictures of the environment by their names; black where there are none. */
+  get #environmentPictures() {
     const none = { width: 1, height: 1, data: new Float32Array(4) };
-    this.#uploadFloats('environment', this.#environment.pixels ?? none);
-    this.#uploadFloats('environment_table', this.#environment.table ?? none);
+    return [['environment', this.#environment.pixels ?? none], ['environment_table', this.#environment.table ?? none]] as const;
   }
 
-  #uploadFloats(name: ResourceName, picture: { readonly width: number; readonly height: number; readonly data: Float32Array<ArrayBuffer> }): void {
-    this.#memory.release(this.#textures.get(name));
-    const { width, height, data } = picture;
-    const texture = this.#memory.texture({ label: `glanz ${name}`, size: [width, height], format: 'rgba32float', usage: GPU_TEXTURE_BINDING | GPU_TEXTURE_COPY_DST }, data.byteLength);
-    this.#device.queue.writeTexture({ texture }, data, { bytesPerRow: width * 16, rowsPerImage: height }, [width, height]);
-    this.#textures.set(name, texture);
+  /** Makes the textures of the environment, still empty. */
+  #makeEnvironment(): void {
+    for (const [name, { width, height, data }] of this.#environmentPictures) {
+      this.#memory.release(this.#textures.get(name));
+      this.#textures.set(name, this.#memory.texture({ label: `glanz ${name}`, size: [width, height], format: 'rgba32float', usage: GPU_TEXTURE_BINDING | GPU_TEXTURE_COPY_DST }, data.byteLength));
+    }
+  }
+
+  /** Fills the textures of the environment, some rows at a time. */
+  *#environmentSlices(): Generator<void> {
+    for (const [name, { width, height, data }] of this.#environmentPictures) {
+      const texture = this.#textures.get(name) as GPUTexture;
+      const rows = Math.max(1, Math.floor(FILL_BYTES / (16 * width)));
+      for (let y = 0; y < height; y += rows) {
+        const some = Math.min(rows, height - y);
+        this.#device.queue.writeTexture({ texture, origin: [0, y] }, data.subarray(4 * width * y, 4 * width * (y + some)), { bytesPerRow: width * 16, rowsPerImage: some }, [width, some]);
+        yield;
+      }
+    }
   }
 
   #uploadEnergy(tables: EnergyTables): void {
@@ -342,7 +362,8 @@ export class GpuScene {
     ] as const) {
       const { width, height, depth } = table;
       const dimension = name === 'energy_dielectric' ? '3d' : '2d';
-      const data = Uint16Array.from(table.data, toHalf);
+      const data = new Uint16Array(table.data.length);
+      for (let i = 0; i < data.length; i++) data[i] = toHalf(table.data[i] as number);
       const texture = this.#memory.texture({ label: `glanz ${name}`, size: [width, height, depth], dimension, format: 'r16float', usage: GPU_TEXTURE_BINDING | GPU_TEXTURE_COPY_DST }, data.byteLength);
       this.#device.queue.writeTexture({ texture }, data, { bytesPerRow: width * 2, rowsPerImage: height }, [width, height, depth]);
       this.#textures.set(name, texture);

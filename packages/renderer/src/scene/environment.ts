@@ -21,8 +21,19 @@ const MAX_CELLS = [1024, 512] as const;
 
 const luminance = (r: number, g: number, b: number) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
 
+/** Rows of this many pixels together are gone through between two stops: a millisecond or so. */
+const STEP = 1 << 15;
+
 /** Prepares an environment for the GPU. A constant one needs no table: BSDF sampling finds it everywhere. */
 export function prepareEnvironment(environment: Environment | undefined): EnvironmentData {
+  const steps = environmentSteps(environment);
+  let step = steps.next();
+  while (!step.done) step = steps.next();
+  return step.value;
+}
+
+/** The same as {@link prepareEnvironment} in steps of a millisecond or so, for `inSlices` of `@glanz/scene`. */
+export function* environmentSteps(environment: Environment | undefined): Generator<void, EnvironmentData> {
   if (!environment) return { radiance: [0, 0, 0], rotation: [1, 0], visible: true, meanLuminance: 0 };
   const visible = environment.visible ?? true;
   if (environment.type === 'constant') {
@@ -30,17 +41,13 @@ export function prepareEnvironment(environment: Environment | undefined): Enviro
   }
   const { width, height, data } = environment;
   const pixels = new Float32Array(width * height * 4);
-  for (let i = 0; i < width * height; i++) {
-    for (let c = 0; c < 3; c++) {
-      const value = data[3 * i + c] as number;
-      // A picture with broken pixels must not poison the film.
-      pixels[4 * i + c] = value > 0 ? Math.min(value, 3e38) : 0;
-    }
-    pixels[4 * i + 3] = 1;
+  for (let from = 0; from < width * height; from += STEP) {
+    copyPixels(pixels, data, from, Math.min(width * height, from + STEP));
+    yield;
   }
   const intensity = environment.intensity ?? 1;
   const rotation = environment.rotation ?? 0;
-  const { table, mean } = importance(environment, pixels);
+  const { table, mean } = yield* importance(environment, pixels);
   return {
     pixels: { width, height, data: pixels },
     radiance: [intensity, intensity, intensity],
@@ -50,6 +57,26 @@ export function prepareEnvironment(environment: Environment | undefined): Enviro
     meanLuminance: mean * intensity,
     source: data,
   };
+}
+
+function copyPixels(pixels: Float32Array, data: Float32Array, from: number, to: number): void {
+  for (let i = from; i < to; i++) {
+    for (let c = 0; c < 3; c++) {
+      const value = data[3 * i + c] as number;
+      // A picture with broken pixels must not poison the film.
+      pixels[4 * i + c] = value > 0 ? Math.min(value, 3e38) : 0;
+    }
+    pixels[4 * i + 3] = 1;
+  }
+}
+
+/** Does something for each row, with a stop once in a while. */
+function* eachRow(width: number, height: number, work: (y: number) => void): Generator<void> {
+  const rows = Math.max(1, Math.floor(STEP / width));
+  for (let y = 0; y < height; y++) {
+    work(y);
+    if (y % rows === rows - 1) yield;
+  }
 }
 
 /** The same picture turned, or in another strength, without going through its pixels; `undefined` if it is another one. */
@@ -63,11 +90,13 @@ export function turnEnvironment(before: EnvironmentData, environment: Environmen
 }
 
 /** Luminance of the picture, texel by texel; of a large one averaged over the cells of a coarser grid, as it is read: bilinearly. */
-function cellLuminance(source: LatLongEnvironment, pixels: Float32Array): { width: number; height: number; values: Float64Array } {
+function* cellLuminance(source: LatLongEnvironment, pixels: Float32Array): Generator<void, { width: number; height: number; values: Float64Array }> {
   const { width: w, height: h } = source;
   if (w <= MAX_CELLS[0] && h <= MAX_CELLS[1]) {
     const values = new Float64Array(w * h);
-    for (let i = 0; i < values.length; i++) values[i] = luminance(pixels[4 * i] as number, pixels[4 * i + 1] as number, pixels[4 * i + 2] as number);
+    yield* eachRow(w, h, (y) => {
+      for (let i = y * w; i < (y + 1) * w; i++) values[i] = luminance(pixels[4 * i] as number, pixels[4 * i + 1] as number, pixels[4 * i + 2] as number);
+    });
     return { width: w, height: h, values };
   }
   // The mean of a bilinear interpolant over a texel's square weighs the neighbours 1 : 6 : 1.
@@ -76,14 +105,16 @@ function cellLuminance(source: LatLongEnvironment, pixels: Float32Array): { widt
     const i = 4 * (y * w + ((x + w) % w));
     return luminance(pixels[i] as number, pixels[i + 1] as number, pixels[i + 2] as number);
   };
-  for (let y = 0; y < h; y++) for (let x = 0; x < w; x++) rows[y * w + x] = (own(x - 1, y) + 6 * own(x, y) + own(x + 1, y)) / 8;
+  yield* eachRow(w, h, (y) => {
+    for (let x = 0; x < w; x++) rows[y * w + x] = (own(x - 1, y) + 6 * own(x, y) + own(x + 1, y)) / 8;
+  });
   const width = Math.min(w, MAX_CELLS[0]);
   const height = Math.min(h, MAX_CELLS[1]);
   const values = new Float64Array(width * height);
   const areas = new Float64Array(width * height);
   const row = (x: number, y: number) => rows[Math.min(Math.max(y, 0), h - 1) * w + x] as number;
   // Each texel gives to the cells it overlaps, so no bright texel is lost when the sizes do not divide.
-  for (let y = 0; y < h; y++) {
+  yield* eachRow(w, h, (y) => {
     const y0 = (y * height) / h;
     const y1 = ((y + 1) * height) / h;
     for (let x = 0; x < w; x++) {
@@ -98,7 +129,7 @@ function cellLuminance(source: LatLongEnvironment, pixels: Float32Array): { widt
         }
       }
     }
-  }
+  });
   for (let i = 0; i < values.length; i++) values[i] = (values[i] as number) / (areas[i] as number);
   return { width, height, values };
 }
@@ -107,25 +138,25 @@ function cellLuminance(source: LatLongEnvironment, pixels: Float32Array): { widt
  * The distribution over cells. Densities are lowered by the mean radiance (MIS compensation, Karlík et al. 2019): what
  * BSDF sampling finds well anyway is left to it.
  */
-function importance(source: LatLongEnvironment, pixels: Float32Array): { table?: EnvironmentData['table'] & object; mean: number } {
-  const { width, height, values } = cellLuminance(source, pixels);
+function* importance(source: LatLongEnvironment, pixels: Float32Array): Generator<void, { table?: EnvironmentData['table'] & object; mean: number }> {
+  const { width, height, values } = yield* cellLuminance(source, pixels);
   let sum = 0;
   let solid = 0;
   const sines = Array.from({ length: height }, (_, y) => Math.cos((y * Math.PI) / height) - Math.cos(((y + 1) * Math.PI) / height));
-  for (let y = 0; y < height; y++) {
+  yield* eachRow(width, height, (y) => {
     for (let x = 0; x < width; x++) sum += (values[y * width + x] as number) * (sines[y] as number);
     solid += (sines[y] as number) * width;
-  }
+  });
   const mean = sum / solid;
   const weights = new Float64Array(width * height);
-  for (let y = 0; y < height; y++) {
-    for (let x = 0; x < width; x++) weights[y * width + x] = Math.max((values[y * width + x] as number) - mean, 0) * (sines[y] as number);
-  }
-  const total = weights.reduce((a, b) => a + b, 0);
+  let total = 0;
+  yield* eachRow(width, height, (y) => {
+    for (let x = 0; x < width; x++) total += weights[y * width + x] = Math.max((values[y * width + x] as number) - mean, 0) * (sines[y] as number);
+  });
   if (!(total > 0 && total < Infinity)) return { mean };
   const data = new Float32Array(width * height * 4);
   let above = 0;
-  for (let y = 0; y < height; y++) {
+  yield* eachRow(width, height, (y) => {
     const row = weights.subarray(y * width, (y + 1) * width);
     const rowTotal = row.reduce((a, b) => a + b, 0);
     above += rowTotal;
@@ -137,6 +168,6 @@ function importance(source: LatLongEnvironment, pixels: Float32Array): { table?:
       data[i + 1] = above / total;
       data[i + 2] = ((row[x] as number) / total) * width * height;
     }
-  }
+  });
   return { table: { width, height, data }, mean };
 }

@@ -25,7 +25,7 @@ interface TraceEvent {
   readonly dur?: number;
   readonly tdur?: number;
   readonly id?: string;
-  readonly args?: { readonly name?: string; readonly data?: { readonly cpuProfile?: { readonly nodes?: readonly ProfileNode[]; readonly samples?: readonly number[] }; readonly timeDeltas?: readonly number[]; readonly startTime?: number } };
+  readonly args?: { readonly name?: string; readonly data?: { readonly functionName?: string; readonly url?: string; readonly lineNumber?: number; readonly cpuProfile?: { readonly nodes?: readonly ProfileNode[]; readonly samples?: readonly number[] }; readonly timeDeltas?: readonly number[]; readonly startTime?: number } };
 }
 
 interface ProfileNode {
@@ -101,6 +101,12 @@ export async function openPlayground(profile: boolean) {
   };
 }
 
+/** The function that an event calls, where it says so. */
+function placeOf({ args }: TraceEvent): string {
+  const { functionName, url, lineNumber } = args?.data ?? {};
+  return url === undefined ? '' : ` (${functionName || 'anonymous'}, ${url.slice(url.lastIndexOf('/') + 1)}:${lineNumber ?? 0})`;
+}
+
 /** Which functions the samples in tasks over 8 ms fell into, by their chains of callers. */
 function longFunctions(events: readonly TraceEvent[], tasks: readonly TraceEvent[]): string[] {
   const long = tasks.filter(({ tdur = 0, name }) => tdur > 8000 && name.includes('RunTask')).sort((a, b) => b.tdur! - a.tdur!).slice(0, 12);
@@ -125,7 +131,7 @@ function longFunctions(events: readonly TraceEvent[], tasks: readonly TraceEvent
         });
       }
     }
-    lines.push(`task of ${(task.tdur! / 1000).toFixed(1)} ms (${(task.dur! / 1000).toFixed(1)} by the clock): ${inside.slice(0, 6).map(({ name, dur }) => `${name} ${(dur! / 1000).toFixed(1)}`).join(', ')}`);
+    lines.push(`task of ${(task.tdur! / 1000).toFixed(1)} ms (${(task.dur! / 1000).toFixed(1)} by the clock): ${inside.slice(0, 6).map((event) => `${event.name}${placeOf(event)} ${(event.dur! / 1000).toFixed(1)}`).join(', ')}`);
     for (const [key, us] of [...counts].sort((a, b) => b[1] - a[1]).slice(0, 6)) lines.push(`    ${(us / 1000).toFixed(1)} ms ${key}`);
   }
   return lines;
