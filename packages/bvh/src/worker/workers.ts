@@ -13,6 +13,9 @@ const AHEAD = 16_384;
 /** A mesh of so many triangles is built by two workers together where nothing else waits for them and they can share memory. */
 const TOGETHER = 200_000;
 
+/** On machines of so many threads a second one for the same mesh takes nothing from anybody. */
+const SPARE_THREADS = 4;
+
 /** A build of more triangles is worth ending its worker when it is aborted; a smaller one is let run out, unheard. */
 const WORTH_ENDING = 100_000;
 
@@ -34,8 +37,9 @@ export interface BvhWorkersOptions {
   /** Let each worker build small made-up meshes until there is work, so that its first real build runs optimised code. Default false. */
   readonly warmUp?: boolean;
   /**
-   * Let two workers build one mesh of 200,000 triangles or more where nothing else waits and memory can be shared. The
-   * result is the same; whether it comes sooner depends on the machine: measure. Default false.
+   * Let two workers build one mesh of 200,000 triangles or more where nothing else waits and memory can be shared (a page
+   * that is `crossOriginIsolated`, Node); elsewhere one builds it. The result is the same. Default: on machines of four
+   * threads and more. With fewer there is no core to spare: the page's own thread and the GPU's process have work too.
    */
   readonly together?: boolean;
 }
@@ -100,7 +104,7 @@ export class BvhWorkers {
   #destroyed = false;
   #building = false;
 
-  private constructor(count: number, { createWorker = startWorker, warmUp = false, together = false }: BvhWorkersOptions) {
+  private constructor(count: number, { createWorker = startWorker, warmUp = false, together = hardwareThreads() >= SPARE_THREADS }: BvhWorkersOptions) {
     this.#together = together;
     this.#createWorker = createWorker;
     this.#warmUp = warmUp;
