@@ -1,6 +1,7 @@
 import { readdirSync } from 'node:fs';
+import { createRequire } from 'node:module';
 import { dirname, join } from 'node:path';
-import { fileURLToPath } from 'node:url';
+import { fileURLToPath, pathToFileURL } from 'node:url';
 import { build } from 'esbuild';
 
 const folder = dirname(fileURLToPath(import.meta.url));
@@ -21,6 +22,12 @@ export function bundleBenchmark(name, outfile) {
   return bundle(`import { benchmark } from './benchmarks/${name}';\nimport { benchmarkMain } from './runner';\nawait benchmarkMain(${JSON.stringify(name)}, benchmark, process.argv.slice(2));\n`, outfile);
 }
 
+/** Draco looks for its WebAssembly beside its own file, so it stays where the loader finds it. */
+const draco = {
+  name: 'draco',
+  setup: (context) => context.onResolve({ filter: /^draco3dgltf$/ }, ({ path }) => ({ path: pathToFileURL(createRequire(join(folder, '../../../packages/gltf/package.json')).resolve(path)).href, external: true })),
+};
+
 /** Bundles TypeScript text that stands in this folder. */
 export async function bundle(contents, outfile) {
   await build({
@@ -34,6 +41,7 @@ export async function bundle(contents, outfile) {
     external: ['webgpu', 'sharp', 'esbuild', 'vite', 'playwright', '@sparticuz/chromium'],
     // CommonJS dependencies expect a require to be there.
     banner: { js: "import { createRequire as __createRequire } from 'node:module'; const require = __createRequire(import.meta.url);" },
+    plugins: [draco],
     logLevel: 'error',
   });
 }

@@ -6,7 +6,9 @@ import { createGpu } from '@glanz/renderer/node';
 import { timed, type Benchmark } from '../benchmark';
 import { GpuTracer } from '../bvh-brute/gpu';
 import { tryScenes } from '../bvh-brute/run';
+import { writeBvhPage, type BruteDetails } from '../bvh/page';
 import { BenchError } from '../error';
+import { machine } from '../machine';
 
 /** Ways to build that are tried in turn. */
 export const BUILDERS: readonly BlasOptions[] = [{}, { builder: fast }, { builder: best }, { builder: bestSplit }, { bins: 4 }];
@@ -14,7 +16,8 @@ export const BUILDERS: readonly BlasOptions[] = [{}, { builder: fast }, { builde
 /** No measurement but a trial: rays through random scenes against brute force. Ends with an error if any ray is lost. */
 export const benchmark: Benchmark = {
   description: 'rays through random scenes against brute force, on the CPU and the GPU (--seed N)',
-  async run({ log, quick, gpu, seed = 1 }) {
+  options: { pages: { type: 'string', help: 'folder to write the page of the docs and its data into' } },
+  async run({ log, quick, gpu, seed = 1, values }) {
     const { gpu: api, adapterName, software } = await createGpu(gpu === undefined ? { software: 'only' } : { gpu });
     const device = await requestDevice({ gpu: api });
     const gpus = await Promise.all((['binary', 'wide'] as const).map((layout) => GpuTracer.create(device, layout)));
@@ -23,6 +26,8 @@ export const benchmark: Benchmark = {
     const totals = await tryScenes({ seed, scenes, raysPerScene, gpuEvery, gpus, builders: BUILDERS, log });
     device.destroy();
     if (totals.wrong + totals.gpuWrong > 0) throw new BenchError('bench/wrong-hits', `${totals.wrong} rays on the CPU and ${totals.gpuWrong} on the GPU are wrong with seed ${seed}: see the lines above.`);
+    const details: BruteDetails = { seed, scenes, rays: totals.rays, wrong: totals.wrong, gpuRays: totals.gpuRays, gpuWrong: totals.gpuWrong };
+    if (values['pages'] !== undefined) for (const file of writeBvhPage('bvh-brute', { benchmark: 'bvh-brute', machine: machine(), quick, details }, values['pages'])) log(`wrote ${file}`);
     const none = { value: 0, relation: '<=' as const, source: 'no ray is lost' };
     return {
       settings: { seed, scenes, raysPerScene, gpuEvery },

@@ -52,7 +52,10 @@ function treesOf(mesh: BenchMesh): Tree[] {
 /** Our builders beside three-mesh-bvh's, on the same meshes in the same process, with one evaluator for all trees. */
 export const benchmark: Benchmark = {
   description: 'building hierarchies, and what rays look at in them, beside three-mesh-bvh',
-  options: { pages: { type: 'string', help: 'folder to write the page of the docs and its data into' } },
+  options: {
+    pages: { type: 'string', help: 'folder to write the page of the docs and its data into' },
+    busy: { type: 'string', help: '"yes": put it on that page as the run on a machine with other work' },
+  },
   async run({ log, quick, values }) {
     const figures: Figure[] = [], notes: string[] = [];
     if (servesBenchmark()) return { settings: {}, figures };
@@ -145,7 +148,7 @@ export const benchmark: Benchmark = {
     const tiny = overTinybvh(rows).flatMap(({ byCenter, bySah }) => [byCenter, bySah]);
     if (tiny.length > 0) figure("all: balanced over tinybvh's AVX2 build, linked by three-mesh-bvh, geometric mean", '1', [geometricMean(tiny)], { value: 2, relation: '<=', source: 'twice as long as C++' });
     const details: BvhDetails = { runs, rows, threads: { mesh: large.name, cold: cold!, warm: spreadOf(warm), one: spreadOf(one), two: spreadOf(two), alone: spreadOf(alone), together: spreadOf(together), sliced: spreadOf(sliced.all), longest: spreadOf(sliced.longest) } };
-    if (values['pages'] !== undefined) for (const file of writeBvhPage('bvh', { benchmark: 'bvh', machine: machine(), quick, figures, details }, values['pages'])) log(`wrote ${file}`);
+    if (values['pages'] !== undefined) for (const file of writeBvhPage(values['busy'] === undefined ? 'bvh' : 'bvh-busy', { benchmark: 'bvh', machine: machine(), quick, figures, details }, values['pages'])) log(`wrote ${file}`);
     return { details, settings: { runs, meshes: meshes.map(({ name }) => name), leaves: 'at most 4 triangles' }, figures, notes };
   },
 };

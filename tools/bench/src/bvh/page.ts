@@ -27,6 +27,16 @@ export interface BvhDetails {
   readonly threads: { readonly mesh: string; readonly cold: number; readonly warm: Spread; readonly one: Spread; readonly two: Spread; readonly alone: Spread; readonly together: Spread; readonly sliced: Spread; readonly longest: Spread };
 }
 
+/** What was tried against brute force. */
+export interface BruteDetails {
+  readonly seed: number;
+  readonly scenes: number;
+  readonly rays: number;
+  readonly wrong: number;
+  readonly gpuRays: number;
+  readonly gpuWrong: number;
+}
+
 interface Report<T> {
   readonly quick: boolean;
   readonly machine: { readonly cpu: string; readonly cores: number; readonly node: string; readonly commit?: string | undefined; readonly date: string };
@@ -58,51 +68,105 @@ export function overTinybvh(rows: readonly MeshRow[]): { readonly mesh: string; 
 
 const table = (head: readonly string[], rows: readonly (readonly string[])[]) => [`| ${head.join(' | ')} |`, `| ${head.map((_, i) => (i === 0 ? '---' : '--:')).join(' | ')} |`, ...rows.map((row) => `| ${row.join(' | ')} |`)].join('\n');
 
-/** The page of the documentation. */
-export function bvhMarkdown({ machine, details }: Report<BvhDetails> & { readonly details: BvhDetails }, paper?: Report<unknown>): string {
-  const { rows, runs, threads } = details;
-  const ratio = (name: string) => rows.map((row) => row.times[name]!.min / row.times['balanced']!.min);
+/** Least times of a builder over those of `balanced`, mesh by mesh. */
+const ratiosOf = (rows: readonly MeshRow[], name: string) => rows.map((row) => row.times[name]!.min / row.times['balanced']!.min);
+
+/** Times beside three-mesh-bvh's, and what is made of them. */
+function beside(rows: readonly MeshRow[]): string {
+  const sah = ratiosOf(rows, SAH), center = ratiosOf(rows, CENTER);
   const costs = rows.map((row) => row.costs['balanced']! / row.costs[SAH]!);
-  const tiny = overTinybvh(rows);
-  const ratios = (name: string) => table(
+  return `${table(
     ['mesh', 'triangles', 'balanced, ms', `SAH, ms`, 'CENTER, ms', 'SAH : balanced', 'CENTER : balanced', 'cost of balanced : SAH'],
-    rows.map((row, i) => [row.name, row.triangles.toLocaleString('en'), spread(row.times['balanced']!), spread(row.times[name]!), spread(row.times[CENTER]!), times(ratio(name)[i]!), times(ratio(CENTER)[i]!), costs[i]!.toFixed(3)]),
-  );
-  const shownBuilders = ['balanced', 'fast', 'best', 'best-split', SAH, CENTER];
+    rows.map((row, i) => [row.name, row.triangles.toLocaleString('en'), spread(row.times['balanced']!), spread(row.times[SAH]!), spread(row.times[CENTER]!), times(sah[i]!), times(center[i]!), costs[i]!.toFixed(3)]),
+  )}
+
+- SAH : balanced, geometric mean **${times(geometricMean(sah))}**, least **${times(Math.min(...sah))}** (asked: 4×, never under 3×)
+- CENTER : balanced, geometric mean **${times(geometricMean(center))}** (asked: 1×)
+- cost of balanced : SAH, geometric mean **${geometricMean(costs).toFixed(3)}** (asked: at most 1)`;
+}
+
+/** What diffuse rays look at in the trees of all builders, and how long those take. */
+function buildersTable(rows: readonly MeshRow[]): string {
+  const shown = ['balanced', 'fast', 'best', 'best-split', SAH, CENTER];
+  const relative = (name: string) => {
+    const list = ratiosOf(rows, name);
+    return `${times(geometricMean(list))} (${times(Math.min(...list))} – ${times(Math.max(...list))})`;
+  };
+  return table(['mesh', ...shown], [...rows.map((row) => [row.name, ...shown.map((name) => `${row.diffuse[name]!.toFixed(1)} in ${digits(row.times[name]!.min)} ms`)]), ['time : balanced, geometric mean (least – most)', ...shown.map((name) => (name === 'balanced' ? '1' : relative(name)))]]);
+}
+
+function threadsList({ mesh, cold, warm, alone, together, one, two, sliced, longest }: BvhDetails['threads']): string {
+  return `With ${mesh}:
+
+- first build in a fresh thread ${digits(cold)} ms, further ones ${spread(warm)} ms: **${times(cold / warm.median)}** (asked: at most 2×)
+- one mesh on one worker ${spread(alone)} ms, on two together ${spread(together)} ms: **${times(alone.min / together.min)}** as fast (asked: 1.6×)
+- four such meshes on one worker ${spread(one)} ms, on two ${spread(two)} ms: **${times(one.min / two.min)}** as fast (asked: 1.6×)
+- in slices on the main thread ${spread(sliced)} ms, the longest slice ${spread(longest)} ms (asked: at most 16)`;
+}
+
+function tinyList(rows: readonly MeshRow[]): string {
+  const tiny = overTinybvh(rows);
+  return `${table(['mesh', 'linked by CENTER', 'linked by SAH with leaves of 10'], tiny.map(({ mesh, byCenter, bySah }) => [mesh, times(byCenter), times(bySah)]))}
+
+Geometric mean: **${times(geometricMean(tiny.flatMap(({ byCenter, bySah }) => [byCenter, bySah])))}** of tinybvh's AVX2 time (asked: at most 2×).`;
+}
+
+/** Meshes of parts, as CAD programs write them. */
+const CAD_LIKE = /push-button|CAD/;
+
+/** What rays save in the trees of `best`. */
+function gains(rows: readonly MeshRow[]): string {
+  const of = (some: readonly MeshRow[]) => (1 - geometricMean(some.map(({ diffuse }) => diffuse['best']! / diffuse['balanced']!))) * 100;
+  const parts = rows.filter(({ name }) => CAD_LIKE.test(name));
+  return `In meshes of parts (${parts.map(({ name }) => name).join(', ')}) diffuse rays look at **${of(parts).toFixed(1)} %** less in trees of \`best\` than in those of \`balanced\` (asked: 15 %).`;
+}
+
+/** The page of the documentation. */
+export function bvhMarkdown({ machine, details }: Report<BvhDetails> & { readonly details: BvhDetails }, paper?: Report<unknown>, busy?: Report<BvhDetails>, brute?: Report<BruteDetails>): string {
+  const { rows, runs, threads } = details;
   const shown = paper?.figures?.filter(({ mean }) => mean !== undefined) ?? [];
   return `# Hierarchies
 
 How long [@glanz/bvh](../packages/bvh) builds, beside [three-mesh-bvh](https://github.com/gkjohnson/three-mesh-bvh) on the same meshes in the same process, in turns, one thread, after a first round that does not count. Median (least – largest) of ${runs} builds; ratios are of the least times. SAH has leaves of 4 triangles as ours have; one evaluator gives the surface area cost of all trees (1 a node, 1 a triangle).
 
-${ratios(SAH)}
-
-- SAH : balanced, geometric mean **${times(geometricMean(ratio(SAH)))}**, least **${times(Math.min(...ratio(SAH)))}** (asked: 4×, never under 3×)
-- CENTER : balanced, geometric mean **${times(geometricMean(ratio(CENTER)))}** (asked: 1×)
-- cost of balanced : SAH, geometric mean **${geometricMean(costs).toFixed(3)}** (asked: at most 1)
+${beside(rows)}
 
 ## Builders
 
 Nodes and triangles that a diffuse ray looks at (counted, the same rays for all), and least times.
 
-${table(['mesh', ...shownBuilders], rows.map((row) => [row.name, ...shownBuilders.map((name) => `${row.diffuse[name]!.toFixed(1)} in ${digits(row.times[name]!.min)} ms`)]))}
+${buildersTable(rows)}
+
+${gains(rows)}
 
 ## Beside C++
 
 tinybvh's AVX2 builder does not run here: three-mesh-bvh links it. Ours over tinybvh's is three-mesh-bvh's over tinybvh's, measured once on one machine, over three-mesh-bvh's over ours in this run.
 
-${table(['mesh', 'linked by CENTER', 'linked by SAH with leaves of 10'], tiny.map(({ mesh, byCenter, bySah }) => [mesh, times(byCenter), times(bySah)]))}
-
-Geometric mean: **${times(geometricMean(tiny.flatMap(({ byCenter, bySah }) => [byCenter, bySah])))}** of tinybvh's AVX2 time (asked: at most 2×).
+${tinyList(rows)}
 
 ## Threads
 
-With ${threads.mesh}:
+${threadsList(threads)}
+${busy?.details ? `
+## Two cores with other work
 
-- first build in a fresh thread ${digits(threads.cold)} ms, further ones ${spread(threads.warm)} ms: **${times(threads.cold / threads.warm.median)}** (asked: at most 2×)
-- one mesh on one worker ${spread(threads.alone)} ms, on two together ${spread(threads.together)} ms: **${times(threads.alone.min / threads.together.min)}** as fast (asked: 1.6×)
-- four such meshes on one worker ${spread(threads.one)} ms, on two ${spread(threads.two)} ms: **${times(threads.one.min / threads.two.min)}** as fast (asked: 1.6×)
-- in slices on the main thread ${spread(threads.sliced)} ms, the longest slice ${spread(threads.longest)} ms (asked: at most 16)
-${shown.length === 0 ? '' : `
+The same on ${busy.machine.cpu}, ${busy.machine.cores} cores that other programs use as well, Node ${busy.machine.node}, commit ${busy.machine.commit ?? 'unknown'}, ${busy.machine.date.slice(0, 10)}${busy.details.rows.length > rows.length ? '; with scanned and CAD meshes too, which the other machine does not have' : ''}. What needs a core to spare (workers, the first build, slices) is as slow here as it looks.
+
+${beside(busy.details.rows)}
+
+${buildersTable(busy.details.rows)}
+
+${gains(busy.details.rows)}
+
+${tinyList(busy.details.rows)}
+
+${threadsList(busy.details.threads)}
+` : ''}${brute?.details ? `
+## Against brute force
+
+${brute.details.rays.toLocaleString('en')} rays through ${brute.details.scenes.toLocaleString('en')} random scenes from 1 mm to 10 km, every builder in turn, each ray against every triangle: **${brute.details.wrong} wrong** on the CPU; ${brute.details.gpuRays.toLocaleString('en')} of them in WGSL as well, in both layouts: **${brute.details.gpuWrong} wrong**. \`npm run bench -- bvh-brute --seed ${brute.details.seed}\`, ${brute.machine.date.slice(0, 10)}, commit ${brute.machine.commit ?? 'unknown'}; other seeds, other scenes.
+` : ''}${shown.length === 0 ? '' : `
 ## The paper's table
 
 Setting up the hierarchy of a push-button in three resolutions, everything up to buffers that can be uploaded; strahl (2025) does so by three-mesh-bvh's CENTER split. Mean ± half of the 95 % interval of 30 runs.
@@ -111,18 +175,18 @@ ${table(['what', 'mean ± 95 %'], shown.map(({ name, unit, mean, ci95 }) => [nam
 
 Measured on ${paper!.machine.cpu}, Node ${paper!.machine.node}, commit ${paper!.machine.commit ?? 'unknown'}, ${paper!.machine.date.slice(0, 10)}.
 `}
-Measured on ${machine.cpu}, ${machine.cores} cores, Node ${machine.node}, commit ${machine.commit ?? 'unknown'}, ${machine.date.slice(0, 10)}. \`npm run bench -- bvh --pages apps/docs/results\` and \`npm run bench -- paper-cpu --pages apps/docs/results\` write this page; the data are in \`bvh.json\`${shown.length === 0 ? '' : ' and `paper-cpu.json`'}.
+Measured on ${machine.cpu}, ${machine.cores} cores, Node ${machine.node}, commit ${machine.commit ?? 'unknown'}, ${machine.date.slice(0, 10)}. \`npm run bench -- bvh --pages apps/docs/results\` and \`npm run bench -- paper-cpu --pages apps/docs/results\` write this page; the data are in \`bvh.json\`${busy ? ' and `bvh-busy.json` (`--busy yes`)' : ''}${shown.length === 0 ? '' : ' and `paper-cpu.json`'}.
 `;
 }
 
 /** Writes a report into the folder, and the page from all that is there. */
-export function writeBvhPage(name: 'bvh' | 'paper-cpu', report: object, folder: string): string[] {
+export function writeBvhPage(name: 'bvh' | 'bvh-busy' | 'bvh-brute' | 'paper-cpu', report: object, folder: string): string[] {
   mkdirSync(folder, { recursive: true });
   const file = (which: string) => join(folder, `${which}.json`);
   writeFileSync(file(name), `${JSON.stringify(report, null, 1)}\n`);
   const read = <T>(which: string) => (existsSync(file(which)) ? (JSON.parse(readFileSync(file(which), 'utf8')) as Report<T>) : undefined);
   const bvh = read<BvhDetails>('bvh');
   if (!bvh?.details) return [file(name)];
-  writeFileSync(join(folder, 'bvh.md'), bvhMarkdown({ ...bvh, details: bvh.details }, read('paper-cpu')));
+  writeFileSync(join(folder, 'bvh.md'), bvhMarkdown({ ...bvh, details: bvh.details }, read('paper-cpu'), read('bvh-busy'), read('bvh-brute')));
   return [file(name), join(folder, 'bvh.md')];
 }
