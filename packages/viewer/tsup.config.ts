@@ -5,4 +5,6 @@ export default glanzPackage({
   controls: 'src/controls.ts',
   orbit: 'src/orbit.ts',
   load: 'src/load.ts',
+  engine: 'src/engine.ts',
+  'fit-camera': 'src/fit-camera.ts',
 });

@@ -1,4 +1,5 @@
 import type { Scene } from '@glanz/scene';
+import { controlCamera } from '@glanz/viewer/controls';
 import { describeError, isAbort } from './errors';
 import { Environments } from './input/environments';
 import { isSample, linkOfPage, open, sampleTitle, stateFor, type Opened } from './input/opening';
@@ -18,7 +19,6 @@ import { StatusLine } from './ui/status-line';
 import { wireTabs } from './ui/tabs';
 import { wireTheme } from './ui/theme';
 import { Behind } from './viewer/behind';
-import { controlCamera } from './viewer/camera-controls';
 import { CameraRig } from './viewer/camera-rig';
 import { applyChange, present, type EffectsHost } from './viewer/effects';
 import { filmSize } from './viewer/film-size';
@@ -70,7 +70,13 @@ export class App {
     const { exposure, toneMap, samples, noise, layer } = { ...app.#store.state, ...app.#link?.state };
     app.#session = await Session.create(
       app.#canvas,
+      byId<HTMLCanvasElement>('layer-picture'),
       { exposure, toneMap, samples, noise, layer },
+      {
+        step: (seconds) => app.#step(seconds),
+        moving: () => app.#rig.moving,
+        camera: () => app.#rig.now,
+      },
       {
         onStatus: (status) => app.#told(status),
         onError: (error, retry) => app.#fail(error, retry),
@@ -108,15 +114,29 @@ export class App {
     this.#outline = new Outline(byId<HTMLCanvasElement>('outline'), this.#session);
     this.#selection.subscribe(({ instance }) => this.#outline?.show(instance));
     new ResizeObserver(() => this.#resize()).observe(this.#stage);
-    controlCamera(this.#canvas, {
-      orbit: (yaw, pitch) => this.#rig.move((orbit) => orbit.orbit(yaw, pitch)),
-      pan: (right, up) => this.#rig.move((orbit) => orbit.pan(right, up)),
-      zoom: (factor) => this.#rig.move((orbit) => orbit.zoom(factor)),
-      home: () => this.#rig.choose(this.#store.state.camera),
-      pick: (x, y) => void this.#pick(x / this.#canvas.clientWidth, y / this.#canvas.clientHeight),
-    });
+    const at = (x: number, y: number) => [x / this.#canvas.clientWidth, y / this.#canvas.clientHeight] as const;
+    controlCamera(
+      this.#canvas,
+      {
+        orbit: (yaw, pitch) => this.#rig.move((orbit) => orbit.orbit(yaw, pitch)),
+        pan: (right, up) => this.#rig.move((orbit) => orbit.pan(right, up)),
+        zoom: (factor) => this.#rig.move((orbit) => orbit.zoom(factor)),
+        home: () => this.#rig.choose(this.#store.state.camera),
+        pick: (x, y) => this.#pick(...at(x, y)),
+        focus: (x, y) => {
+          const hit = this.#session.pick(...at(x, y));
+          if (hit) this.#rig.move((orbit) => orbit.focus(hit.position));
+        },
+      },
+      // The key frames the chosen part.
+      { focus: 'pointer' },
+    );
     this.#store.subscribe((next, before, source) => {
       if (source !== 'load') applyChange(next, before, host);
+      else {
+        this.#rig.follow(true);
+        this.#session.look();
+      }
       // Light and finishing leave shapes where they are.
       if (next.camera !== before.camera || next.orbit !== before.orbit || next.lens !== before.lens || next.hidden !== before.hidden) this.#outline?.clear();
       if (next.scale !== before.scale) this.#resize();
@@ -202,7 +222,7 @@ export class App {
     const { scene, request, title } = opened;
     const again = this.#opened?.request === request;
     this.#opened = opened;
-    this.#rig.follow(rig);
+    this.#rig.adopt(rig);
     this.#messages.clearErrors();
     if (again) this.#store.set(state);
     else this.#store.load(state);
@@ -294,13 +314,20 @@ export class App {
     const { scale, orbit } = this.#store.state;
     this.#outline?.clear();
     this.#session.resize(filmSize(width, height, scale, ratio), filmSize(width, height, 'device', ratio));
-    if (this.#opened && !orbit) this.#session.setCamera(this.#rig.camera(), false);
+    // A first view fits the window; one that was turned stays.
+    if (this.#opened && !orbit) this.#rig.follow(true);
     this.#drawBehind();
+  }
+
+  #step(seconds: number): boolean {
+    const moved = this.#rig.step(seconds);
+    if (moved) this.#drawBehind();
+    return moved;
   }
 
   #drawBehind(): void {
     const scene = this.#opened?.scene;
-    if (scene) this.#behind.draw(this.#store.state, () => this.#environments.choose(this.#store.state, scene), () => this.#rig.camera(), this.#aspect());
+    if (scene) this.#behind.draw(this.#store.state, () => this.#environments.choose(this.#store.state, scene), () => this.#rig.now, this.#aspect());
   }
 
   #told(status: SessionStatus): void {

@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { expect, test, type Page } from '@playwright/test';
-import { triangle } from './files';
+import { triangle } from '@glanz/browser/files';
 import { checkAccessibility, dataOf, drop, errorWith, finished, open as openAt, photograph, pictureOf, pixelsOf, restarting, save, servePlayground, tab, watch } from './page';
 
 let origin = '';
@@ -159,7 +159,8 @@ test('the address holds the view: a reload brings back camera, material, light a
 });
 
 test('light: studios, a soft box, backgrounds that are saved as they are seen, and lights dimmed without a sample', async ({ page }) => {
-  // One pixel of the film to one of the screen, so that the saved picture can be compared.
+  // One pixel of the film to one of the screen, so that the saved picture can be compared; not many of them.
+  await page.setViewportSize({ width: 740, height: 420 });
   await open(page, 'model=cornell-box&scale=1&samples=2&depth=2&environment=studio');
   await finished(page);
   await tab(page, 'Light');

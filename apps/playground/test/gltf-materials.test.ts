@@ -5,7 +5,7 @@ import { loadGltf } from '@glanz/gltf';
 import { createCornellBox } from '@glanz/models';
 import { modelAsGltf, patchMaterials } from '../src/output/gltf-materials';
 import { initialState } from '../src/state/state';
-import { triangle } from './files';
+import { triangle } from '@glanz/browser/files';
 
 const io = new NodeIO().registerExtensions(ALL_EXTENSIONS);
 

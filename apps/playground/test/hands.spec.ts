@@ -1,5 +1,5 @@
 import { expect, test, type Page } from '@playwright/test';
-import { triangle } from './files';
+import { triangle } from '@glanz/browser/files';
 import { dataOf, drop, finished, open as openAt, photograph, pictureOf, pixelsOf, restarting, servePlayground, tab, watch } from './page';
 
 let origin = '';
@@ -71,6 +71,38 @@ test('an animation poses the model: its time moves a part, edits stay, and rest 
     await finished(page);
     expect(Math.abs((await red()) - rest)).toBeLessThan(0.1);
   }).toPass();
+});
+
+test('while a hand turns the model a small preview keeps up on the same canvas; the picture in full takes over, and ends the same', async ({ page }) => {
+  await open(page, 'model=cornell-box&scale=0.25&samples=8&depth=3');
+  await finished(page);
+  const before = await photograph(pictureOf(page));
+  const [width, canvas] = await pictureOf(page).evaluate((picture: HTMLCanvasElement) => [picture.dataset['film'], `${picture.width} ${picture.height}`] as const);
+  // Every film that is drawn and every state, as they come.
+  await page.evaluate(() => {
+    const picture = document.querySelector<HTMLCanvasElement>('#picture')!;
+    const seen = ((globalThis as { seen?: string[] }).seen = [] as string[]);
+    new MutationObserver(() => {
+      const now = `${picture.dataset['state']} ${picture.dataset['film']} of ${picture.width} ${picture.height}`;
+      if (seen.at(-1) !== now) seen.push(now);
+    }).observe(picture, { attributes: true });
+  });
+  await restarting(page, async () => {
+    await page.mouse.move(200, 250);
+    await page.mouse.down();
+    await page.mouse.move(240, 250, { steps: 6 });
+    await page.mouse.move(200, 250, { steps: 6 });
+    await page.mouse.up();
+  });
+  const seen = await page.evaluate(() => (globalThis as { seen?: string[] }).seen!);
+  const previews = seen.filter((line) => line.startsWith('moving')).map((line) => Number(line.split(' ')[1]));
+  expect(previews.length).toBeGreaterThan(0);
+  expect(Math.min(...previews)).toBeLessThan(0.8 * Number(width!.split(' ')[0]));
+  expect(seen.every((line) => line.endsWith(`of ${canvas}`))).toBe(true);
+  expect(seen.at(-1)).toBe(`done ${width} of ${canvas}`);
+  // Back where it began, nothing of the preview is left in the picture.
+  const after = await photograph(pictureOf(page));
+  after.cells.forEach((cell, i) => cell.forEach((value, k) => expect(Math.abs(value - before.cells[i]![k]!), `cell ${i}`).toBeLessThan(1)));
 });
 
 test('keys: undo, views, projection, hiding; the list of keys; none of them while typing', async ({ page }) => {

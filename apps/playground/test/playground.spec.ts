@@ -2,7 +2,7 @@ import { existsSync, readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
 import { expect, test, type Page } from '@playwright/test';
-import { hdr, triangle } from './files';
+import { hdr, triangle } from '@glanz/browser/files';
 import { dataOf, drop, errorWith, finished, open as openAt, photograph, pictureOf as canvasOf, pixelsOf, restarting, save, servePlayground, tab, watch } from './page';
 
 let origin = '';

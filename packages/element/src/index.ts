@@ -1,3 +1,4 @@
-export { defineGlanzViewer, glanzViewerClass, type ElementBlobOptions, type GlanzViewerConstructor, type GlanzViewerElement, type GlanzViewerEventMap } from './element';
+export { defineGlanzViewer, glanzViewerClass } from './element';
+export type { ElementBlobOptions, GlanzViewerConstructor, GlanzViewerElement, GlanzViewerEventMap } from './api';
 export { ATTRIBUTES, type AttributeKind, type AttributeName, type ReflectedProperties } from './attributes';
 export type { HotspotView } from './hotspots';

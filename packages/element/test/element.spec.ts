@@ -1,7 +1,5 @@
-import { readFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
 import { fileURLToPath } from 'node:url';
-import { hdr, injectFaults, photograph, pixelsOf, quads, servePage, watch, type Served } from '@glanz/browser';
+import { checkAccessibility, hdr, injectFaults, photograph, pixelsOf, quads, servePage, watch, type Served } from '@glanz/browser';
 import { expect, test, type Page } from '@playwright/test';
 import type { GlanzViewerElement } from '@glanz/element';
 
@@ -242,19 +240,10 @@ test('without WebGPU the poster stays and the reason is told', async ({ page }) 
 });
 
 test('axe finds nothing wrong, still and with controls, hotspots and a message', async ({ page }) => {
-  const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
-  const violations = async () => {
-    // The page's policy keeps strangers' scripts out; the debugger's are none.
-    await page.evaluate(axe);
-    return page.evaluate(async () => {
-      const { violations: found } = await (window as unknown as { axe: { run: () => Promise<{ violations: { id: string; nodes: { html: string }[] }[] }> } }).axe.run();
-      return found.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(' ')}`);
-    });
-  };
   await open(page);
-  expect(await violations()).toEqual([]);
+  expect(await checkAccessibility(page)).toEqual([]);
   await page.evaluate(() => document.querySelector('glanz-viewer')!.remove());
   await put(page, { src: 'bad.glb', alt: 'Two cards', 'camera-controls': '', ...FAST }, '<button slot="hotspot-a" data-position="0 0 0">A</button><div slot="poster">Soon</div>');
   await expect(page.getByRole('alert')).toBeVisible();
-  expect(await violations()).toEqual([]);
+  expect(await checkAccessibility(page)).toEqual([]);
 });

@@ -90,7 +90,7 @@ export class Integrator {
     return this.#kernels;
   }
 
-  /** The queue header; word 3 counts dropped samples. */
+  /** The queue header; word 3 counts dropped samples, word 7 rays. */
   get queues(): GPUBuffer {
     return this.#buffers.queues;
   }

@@ -15,15 +15,21 @@ export interface RenderLoop {
 
 /** Submissions on their way at once: one runs, one waits, so that the GPU never does. */
 const IN_FLIGHT = 2;
+/**
+ * Batches that take so many times the budget go one by one: where the GPU cannot keep to it, the pause between two of them is
+ * nothing to what whoever interrupts the work would have to wait for a second one.
+ */
+const LATE = 1.25;
 
 /** Submits batches until the target is reached, measures them, and gives the number of samples after each that is complete. */
 export async function* renderLoop({ scheduler, target, queue, submit, current, check }: RenderLoop): AsyncGenerator<number, void, undefined> {
   let reported = scheduler.samples;
   let lastDone = performance.now();
+  let last = 0;
   let before: { readonly paths: number; readonly milliseconds: number } | undefined;
   const inFlight: { batch: Batch; submitted: number; after: number; done: Promise<number> }[] = [];
   for (;;) {
-    while (inFlight.length < IN_FLIGHT && current()) {
+    while (inFlight.length < (last > LATE * scheduler.budget ? 1 : IN_FLIGHT) && current()) {
       const batch = scheduler.next(target);
       if (!batch) break;
       const submitted = performance.now();
@@ -42,6 +48,7 @@ export async function* renderLoop({ scheduler, target, queue, submit, current, c
     const shared = waited && before ? ((before.milliseconds + milliseconds) * paths) / (before.paths + paths) : milliseconds;
     before = { paths, milliseconds };
     scheduler.measured(oldest.batch, shared);
+    last = shared;
     if (!current()) {
       await Promise.all(inFlight.map(({ done }) => done));
       return;

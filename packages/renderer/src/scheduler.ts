@@ -15,6 +15,8 @@ export interface SchedulerOptions {
   readonly budgetMs: number;
 }
 
+/** What is left, with each batch, of the memory of a dearer one: half after about ten, which is a picture cut into bands. */
+const MEMORY = 0.93;
 /** No submission is smaller than this many paths, or launch costs would dominate. */
 const SMALLEST = 4096;
 
@@ -34,6 +36,8 @@ export class Scheduler {
   /** Whether batches of different sizes have told that. */
   #tried = false;
   #last: { readonly paths: number; readonly milliseconds: number } | undefined;
+  /** Milliseconds a path of the dearest batch of late, forgotten by and by. */
+  #dearest = 0;
   #sample: number;
   #pixel = 0;
 
@@ -98,13 +102,17 @@ export class Scheduler {
     this.#learnFixedCost(paths, milliseconds);
     // What every batch costs, however small, must not eat up most of the time.
     const budget = Math.max(this.budget, 3 * this.#fixed);
+    const each = Math.max(0, milliseconds - this.#fixed) / paths;
+    this.#dearest = Math.max(each, MEMORY * this.#dearest);
     if (milliseconds > budget * 1.5) {
       const factor = Math.max(0.25, (0.8 * budget) / milliseconds);
       this.#paths = Math.min(this.#capacity, Math.max(SMALLEST, Math.min(this.#paths, Math.floor(paths * factor))));
     } else if (milliseconds < budget * 0.7) {
       // By the speed of this batch, which may have been smaller than allowed; larger ones are faster still.
       const possible = (0.9 * budget * paths) / Math.max(milliseconds, 1e-3);
-      if (possible > this.#paths) this.#paths = Math.min(this.#capacity, Math.floor(possible), 4 * this.#paths);
+      // A band of sky is cheap, and what comes after it may be what was dear before.
+      const safe = this.#dearest > 0 ? Math.max(0, 1.4 * budget - this.#fixed) / this.#dearest : Infinity;
+      if (Math.min(possible, safe) > this.#paths) this.#paths = Math.min(this.#capacity, Math.floor(Math.min(possible, safe)), 4 * this.#paths);
     } else if (!this.#tried) {
       // One larger batch tells how much of the time was not for its paths.
       this.#paths = Math.min(this.#capacity, 2 * this.#paths);

@@ -69,6 +69,25 @@ describe('Scheduler', () => {
     expect(sizes.at(-2)).toBeGreaterThan(1_000_000);
   });
 
+  it('does not take the rest of a picture for its sky', () => {
+    // Bands of rows: the upper half costs a tenth of the lower one.
+    const scheduler = new Scheduler({ pixels: 256 * 256, capacity: 1 << 20, budgetMs: 16 });
+    const cost = ({ pixelOffset, pixelCount, sampleCount }: Batch) => {
+      const upper = Math.max(0, Math.min(pixelOffset + pixelCount, 32768) - pixelOffset);
+      return 1 + sampleCount * (upper * 2e-4 + (pixelCount - upper) * 2e-3);
+    };
+    const times: number[] = [];
+    for (let i = 0; i < 200; i++) {
+      const batch = scheduler.next(1000) as Batch;
+      times.push(cost(batch));
+      scheduler.measured(batch, times.at(-1)!);
+    }
+    // Once it has seen the picture; without a memory every change from sky to ground takes several times the budget.
+    expect(Math.max(...times.slice(40))).toBeLessThan(2 * 16);
+    // And it does not crawl: half of the budget is used on the whole.
+    expect(times.slice(40).reduce((sum, time) => sum + time, 0) / 160).toBeGreaterThan(0.35 * 16);
+  });
+
   it('grows to the capacity on a fast GPU', () => {
     const { batches } = simulate(1 << 16, 1 << 20, 30, 200, () => 0.5);
     expect(Math.max(...batches.map((b) => b.pixelCount * b.sampleCount))).toBe(1 << 20);

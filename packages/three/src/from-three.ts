@@ -2,7 +2,8 @@ import { createScene, type Scene } from '@glanz/scene';
 import { readCamera } from './cameras';
 import { ThreeError } from './error';
 import { meshOfPart, partsOf, type Part } from './geometry';
-import { Ambience, readEnvironment, readLight } from './lights';
+import { readEnvironment } from './environment';
+import { Ambience, readLight } from './lights';
 import { flipsOf, Materials } from './materials';
 import { numbersFrom, multiply } from './matrix';
 import { Textures, type ReadImage } from './textures';
@@ -90,7 +91,7 @@ export async function fromThree(root: ThreeObject, camera?: ThreeCamera, options
   await Promise.all(tasks);
   options.signal?.throwIfAborted();
   if (scene.instances.length === 0) throw new ThreeError('three/no-triangles', 'The scene of three.js has no visible triangles: there is nothing to show.');
-  const environment = readEnvironment(root, ambience, scene);
+  const environment = await readEnvironment(root, ambience, scene, textures);
   if (environment) scene.environment = environment;
   if (camera) {
     camera.updateMatrixWorld();
@@ -112,12 +113,30 @@ function placementsOf(mesh: ThreeMesh): Placement[] {
   });
 }
 
+/** What three takes for one of its colours, to be filled by it. */
+class Target implements Color {
+  r = 1;
+  g = 1;
+  b = 1;
+
+  setRGB(r: number, g: number, b: number): this {
+    [this.r, this.g, this.b] = [r, g, b];
+    return this;
+  }
+
+  fromArray(array: ArrayLike<number>, offset = 0): this {
+    return this.setRGB(array[offset] as number, array[offset + 1] as number, array[offset + 2] as number);
+  }
+}
+
 interface Batched {
   readonly maxInstanceCount: number;
   getVisibleAt(id: number): boolean;
   getGeometryIdAt(id: number): number;
   getGeometryRangeAt(id: number): { readonly start: number; readonly count: number } | null;
   getMatrixAt(id: number, target: Matrix): Matrix;
+  /** Since version 0.166. */
+  getColorAt?(id: number, target: Target): unknown;
 }
 
 /** The geometries of a BatchedMesh with the places of each. */
@@ -136,7 +155,9 @@ function batchesOf(mesh: ThreeMesh): { readonly part: Part; readonly placements:
     }
     const geometry = batched.getGeometryIdAt(id);
     const placements = byGeometry.get(geometry) ?? [];
-    placements.push({ transform: multiply(world, batched.getMatrixAt(id, matrix).elements) });
+    const tint = new Target();
+    batched.getColorAt?.(id, tint);
+    placements.push({ transform: multiply(world, batched.getMatrixAt(id, matrix).elements), ...(tint.r === 1 && tint.g === 1 && tint.b === 1 ? {} : { tint }) });
     byGeometry.set(geometry, placements);
   }
   return [...byGeometry].flatMap(([geometry, placements]) => {

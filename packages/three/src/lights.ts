@@ -1,12 +1,10 @@
-import type { Environment, LatLongEnvironment, Scene } from '@glanz/scene';
+import type { Scene } from '@glanz/scene';
 import { positionOf } from './matrix';
-import { floatsOf } from './textures';
-import type { Color, Loose, ThreeObject, ThreeTexture } from './types';
+import type { Color, Loose, ThreeObject } from './types';
 
 type Rgb = [number, number, number];
 
 const scaled = ({ r, g, b }: Color, k: number): Rgb => [r * k, g * k, b * k];
-const EQUIRECTANGULAR = [303, 304];
 
 /** Light without a place, which adds up to surroundings: radiance from above and from below. */
 export class Ambience {
@@ -76,53 +74,4 @@ function addRectangle(scene: Scene, name: string, { matrixWorld }: ThreeObject, 
   scene.meshes.push({ name, positions: Float32Array.of(-w, -h, 0, w, -h, 0, w, h, 0, -w, h, 0), indices: Uint32Array.of(0, 2, 1, 0, 3, 2) });
   scene.materials.push({ name, parameters: { base_weight: 0, specular_weight: 0, emission_luminance: strength, emission_color: radiance.map((value) => value / strength) as Rgb } });
   scene.instances.push({ name, mesh: scene.meshes.length - 1, material: scene.materials.length - 1, transform: Float64Array.from(matrixWorld.elements) });
-}
-
-/** The surroundings of a THREE.Scene, with its ambient light; `undefined` where there is neither. */
-export function readEnvironment(root: ThreeObject, ambience: Ambience, scene: Scene): Environment | undefined {
-  const { environment, background } = root as unknown as { readonly environment?: ThreeTexture | null; readonly background?: unknown };
-  const loose = root as unknown as Loose;
-  const intensity = (loose['environmentIntensity'] as number | undefined) ?? 1;
-  const turn = (loose['environmentRotation'] as { readonly x: number; readonly y: number; readonly z: number } | undefined) ?? { x: 0, y: 0, z: 0 };
-  const visible = background === environment && environment !== undefined && environment !== null;
-  const picture = environment ? readEquirectangular(environment, scene) : undefined;
-  if (Math.abs(turn.x) + Math.abs(turn.z) > 1e-6) scene.warnings.push({ code: 'three/environment', message: 'The environment is turned about another axis than +Y; only the turn about +Y is carried.' });
-  if (!picture) return ambience.dark ? undefined : ambient(ambience, visible);
-  if (!ambience.dark && intensity > 0) {
-    for (let j = 0; j < picture.height; j++) {
-      const side = j < picture.height / 2 ? ambience.above : ambience.below;
-      for (let i = 0; i < picture.width; i++) for (const k of [0, 1, 2] as const) picture.data[3 * (j * picture.width + i) + k] = (picture.data[3 * (j * picture.width + i) + k] as number) + side[k] / intensity;
-    }
-  }
-  return { ...picture, intensity, rotation: turn.y, visible };
-}
-
-function ambient({ above, below }: Ambience, visible: boolean): Environment {
-  if (above.every((value, k) => value === below[k])) return { type: 'constant', radiance: [...above], visible };
-  // Rows enough that the seam at the horizon, which is bilinear, is narrow.
-  const [width, height] = [4, 64];
-  const data = new Float32Array(width * height * 3);
-  for (let j = 0; j < height; j++) for (let i = 0; i < width; i++) data.set(j < height / 2 ? above : below, 3 * (j * width + i));
-  return { type: 'latlong', width, height, data, visible };
-}
-
-/** The picture of an equirectangular texture of numbers, top row first. */
-function readEquirectangular(texture: ThreeTexture, scene: Scene): LatLongEnvironment | undefined {
-  const image = (texture.source?.data ?? texture.image) as { readonly data?: ArrayLike<number>; readonly width?: number; readonly height?: number } | undefined;
-  const { data, width = 0, height = 0 } = image ?? {};
-  if (!EQUIRECTANGULAR.includes(texture.mapping) || !data || !ArrayBuffer.isView(data) || width * height === 0) {
-    scene.warnings.push({ code: 'three/environment', message: 'The environment is no equirectangular picture in memory (a cube, or prefiltered on the GPU): keep the one that was loaded, with mapping EquirectangularReflectionMapping, or set an environment of the scene yourself.' });
-    return undefined;
-  }
-  const rgba = floatsOf({ data, width, height }, texture.type);
-  const out = new Float32Array(width * height * 3);
-  for (let j = 0; j < height; j++) {
-    // Three's rows run upwards, unless it is told to turn the picture over.
-    const from = texture.flipY ? j : height - 1 - j;
-    for (let i = 0; i < width; i++) for (let k = 0; k < 3; k++) {
-      const value = rgba[4 * (from * width + i) + k] as number;
-      out[3 * (j * width + i) + k] = value > 0 ? Math.min(value, 3.4e38) : 0;
-    }
-  }
-  return { type: 'latlong', width, height, data: out };
 }

@@ -68,6 +68,11 @@ export class Textures {
     return index === undefined ? undefined : this.#scene.images[index];
   }
 
+  /** Pixels of a picture that becomes no texture, as they are in memory; `undefined` where they cannot be had. */
+  pixelsOf(source: unknown, texture: ThreeTexture): Promise<Pick<Image, 'width' | 'height' | 'data'> | undefined> {
+    return this.#readImage(texture, source).catch(() => undefined);
+  }
+
   #image(texture: ThreeTexture): Promise<number | undefined> {
     const source = texture.source?.data ?? texture.image;
     const known = this.#images.get(source);

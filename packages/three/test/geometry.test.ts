@@ -103,14 +103,17 @@ describe('instances', () => {
   });
 
   it('of a BatchedMesh too, each with its geometry', async () => {
-    const mesh = new THREE.BatchedMesh(4, 200, 400, new THREE.MeshStandardMaterial());
+    const mesh = new THREE.BatchedMesh(4, 200, 400, new THREE.MeshStandardMaterial({ color: new THREE.Color(0.5, 0.5, 0.5) }));
     const [box, ball] = [mesh.addGeometry(new THREE.BoxGeometry()), mesh.addGeometry(new THREE.SphereGeometry(1, 6, 4))];
     const ids = [mesh.addInstance(box), mesh.addInstance(ball), mesh.addInstance(box), mesh.addInstance(ball)];
     ids.forEach((id, i) => mesh.setMatrixAt(id, new THREE.Matrix4().makeTranslation(i, 0, 0)));
+    mesh.setColorAt(ids[1]!, new THREE.Color(0.5, 0.25, 1));
     mesh.setVisibleAt(ids[3]!, false);
     mesh.deleteInstance(ids[2]!);
     const scene = await fromThree(mesh);
     expect(scene.instances.map(({ mesh: index, transform }) => [scene.meshes[index]!.indices.length, transform[12]])).toEqual([[36, 0], [new THREE.SphereGeometry(1, 6, 4).index!.count, 1]]);
+    // Colours multiply that of the material; an instance that was given none is white.
+    expect(scene.instances.map(({ material }) => scene.materials[material]!.parameters.base_color)).toEqual([[0.5, 0.5, 0.5], [0.25, 0.125, 0.5]]);
   });
 });
 

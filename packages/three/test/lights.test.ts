@@ -108,12 +108,64 @@ describe('environment', () => {
     expect((await fromThree(root)).environment).toMatchObject({ visible: true });
   });
 
-  it('of a cube is told to be left out', async () => {
+  it('of 8 bits is decoded', async () => {
     const root = new THREE.Scene().add(new THREE.Mesh(new THREE.BoxGeometry(), new THREE.MeshStandardMaterial()));
-    root.environment = new THREE.CubeTexture();
-    const scene = await fromThree(root);
-    expect(scene.environment).toBeUndefined();
-    expect(scene.warnings.map(({ code }) => code)).toEqual(['three/environment']);
+    const texture = new THREE.DataTexture(Uint8Array.of(128, 255, 0, 255), 1, 1);
+    texture.mapping = THREE.EquirectangularReflectionMapping;
+    texture.colorSpace = THREE.SRGBColorSpace;
+    root.environment = texture;
+    // sRGB code 128 is 0.21586 (IEC 61966-2-1).
+    const { environment } = await fromThree(root);
+    [0.21586, 1, 0].forEach((value, k) => expect((environment as LatLongEnvironment).data[k]).toBeCloseTo(value, 4));
+  });
+
+  it('of a cube has each face where three shows it, upright and not mirrored', async () => {
+    const root = new THREE.Scene().add(new THREE.Mesh(new THREE.BoxGeometry(), new THREE.MeshStandardMaterial()));
+    const size = 8;
+    // Red tells the face; green grows to the right of the picture, blue downwards.
+    const face = (n: number) => {
+      const data = new Float32Array(size * size * 4);
+      for (let j = 0; j < size; j++) for (let i = 0; i < size; i++) data.set([n + 1, (i + 0.5) / size, (j + 0.5) / size, 1], 4 * (j * size + i));
+      return new THREE.DataTexture(data, size, size, THREE.RGBAFormat, THREE.FloatType);
+    };
+    root.environment = new THREE.CubeTexture(Array.from({ length: 6 }, (_, n) => face(n)) as never);
+    const { environment, warnings } = await fromThree(root);
+    expect(warnings).toEqual([]);
+    const { width, height, data } = environment as LatLongEnvironment;
+    const look = (...d: [number, number, number]) => {
+      const v = new THREE.Vector3(...d).normalize();
+      const [i, j] = [Math.floor((Math.atan2(v.z, v.x) / (2 * Math.PI) + 0.5) * width), Math.min(height - 1, Math.floor((Math.acos(v.y) / Math.PI) * height))];
+      return Array.from(data.subarray(3 * (j * width + i), 3 * (j * width + i) + 3));
+    };
+    // "Environment maps used in three.js will have pos-x and neg-x swapped" (documentation of CubeTextureLoader).
+    const sides = { 1: [-1, 0, 0], 2: [1, 0, 0], 3: [0, 1, 0], 4: [0, -1, 0], 5: [0, 0, 1], 6: [0, 0, -1] } as const;
+    for (const [red, [x, y, z]] of Object.entries(sides)) expect(look(x + 0.01, y, z + 0.01)[0]).toBeCloseTo(Number(red), 5);
+    // Somebody in the middle who looks at a wall sees its picture the right way round.
+    for (const [x, , z] of [sides[1], sides[2], sides[5], sides[6]]) {
+      const ahead = new THREE.Vector3(x, 0, z);
+      const right = ahead.clone().cross(new THREE.Vector3(0, 1, 0));
+      const [rightUp, leftDown] = [1, -1].map((side) => ahead.clone().addScaledVector(right, 0.8 * side).add(new THREE.Vector3(0, 0.6 * side, 0)));
+      const [a, b] = [look(...rightUp!.toArray()), look(...leftDown!.toArray())];
+      expect(a[0]).toBe(b[0]);
+      expect(a[1]).toBeGreaterThan(0.8);
+      expect(a[2]).toBeLessThan(0.3);
+      expect(b[1]).toBeLessThan(0.2);
+      expect(b[2]).toBeGreaterThan(0.7);
+    }
+    // The ceiling's and the floor's lower and upper edges meet the top and the bottom of the picture of +Z.
+    expect(look(0.01, 1, 0.8)[2]).toBeGreaterThan(0.8);
+    expect(look(0.01, -1, 0.8)[2]).toBeLessThan(0.2);
+  });
+
+  it('that cannot be read is told', async () => {
+    for (const [texture, word] of [[new THREE.CubeTexture(), 'six square faces'], [Object.assign(new THREE.Texture(), { mapping: THREE.CubeUVReflectionMapping }), 'PMREMGenerator'], [new THREE.Texture(), 'EquirectangularReflectionMapping']] as const) {
+      const root = new THREE.Scene().add(new THREE.Mesh(new THREE.BoxGeometry(), new THREE.MeshStandardMaterial()));
+      root.environment = texture;
+      const scene = await fromThree(root);
+      expect(scene.environment).toBeUndefined();
+      expect(scene.warnings.map(({ code }) => code)).toEqual(['three/environment']);
+      expect(scene.warnings[0]!.message).toContain(word);
+    }
   });
 });
 

@@ -22,8 +22,8 @@ export interface ControlOptions {
   readonly pan?: boolean;
   /** Wheel, pinch, plus and minus. Default true. */
   readonly zoom?: boolean;
-  /** Double click, double tap, F. Default true. */
-  readonly focus?: boolean;
+  /** Double click, double tap, F; `pointer` leaves the key alone. Default true. */
+  readonly focus?: boolean | 'pointer';
 }
 
 /** Radians of orbit for a drag over the whole height. */

@@ -1,61 +1,29 @@
-import { BvhWorkers } from '@glanz/bvh/workers';
-import { compressedFormats, PathTracer, requestDevice, type PathTracerOptions, type PrepareProgress, type RenderProgress } from '@glanz/renderer';
-import type { Camera, CompressedFormat, Scene } from '@glanz/scene';
+import { compressedFormats, type PathTracer, type PrepareProgress } from '@glanz/renderer';
+import type { CompressedFormat } from '@glanz/scene';
 import type { ToneMapOptions } from '@glanz/tonemap';
-import { Display } from './display';
+import { Connection } from './connection';
 import { Edits } from './edits';
-import { isAbort, ViewerError } from './errors';
+import type { EngineHost, EngineSettings, Take } from './engine-host';
+import { ViewerError } from './errors';
 import type { ViewerState } from './events';
 import { previewShare } from './handover';
-import { Losses } from './losses';
+import { RememberingHierarchies } from './hierarchies';
+import { makeTracer } from './make-tracer';
 import { PreviewController } from './preview';
-import { nextFrame, Visibility } from './visibility';
+import { nextFrame, soon, Visibility } from './visibility';
 
-/** What an engine asks of the viewer around it, and tells it. */
-export interface EngineHost {
-  /** Lets the camera go on; whether it has moved. */
-  readonly step: (seconds: number) => boolean;
-  /** Whether the camera is on its way, or about to be. */
-  readonly moving: () => boolean;
-  /** The camera for a picture of this shape. */
-  readonly camera: (aspect: number) => Camera;
-  readonly state: (state: ViewerState) => void;
-  readonly sample: (progress: RenderProgress) => void;
-  readonly converged: (samples: number, milliseconds: number) => void;
-  readonly drawn: (preview: boolean, milliseconds: number, size: readonly [number, number]) => void;
-  readonly error: (error: unknown, retry?: () => void) => void;
-  readonly lost: (reason: string) => void;
-  readonly restored: (milliseconds: number) => void;
-  /** The scene to prepare again on another device. */
-  readonly rescue: (tracer: PathTracer) => Scene;
-  /** A tracer was made again from that scene. */
-  readonly rescued: (tracer: PathTracer) => void;
-}
-
-/** How the engine works; may change at any time. */
-export interface EngineSettings extends ToneMapOptions {
-  samples: number;
-  noise: number | undefined;
-  maxDepth: number;
-  background: 'environment' | 'transparent';
-  maxSubmitMs: number;
-  readonly settleMs: number;
-  readonly previewDepth: number;
-  readonly tracer: Partial<PathTracerOptions>;
-  readonly requestDevice: (() => Promise<GPUDevice>) | undefined;
-}
+export type { EngineHost, EngineSettings, Take } from './engine-host';
+export type { ViewerState } from './events';
 
 /** Samples after which a preview that stands still has no more to gain. */
 const PREVIEW_SAMPLES = 16;
+/** A frame that began so many milliseconds ago was not of this turn of the screen. */
+const SCREEN_MS = 15;
 /** Milliseconds of one submission of the preview: it shall be one. */
 const PREVIEW_SUBMIT_MS = 50;
 
-/** Pauses between attempts to get a device back. */
-const RECONNECT_MS = [100, 300, 1000];
-
 type Size = readonly [number, number];
 const sameSize = (a: Size, b: Size) => a[0] === b[0] && a[1] === b[1];
-const soon = () => new Promise<void>((resolve) => setTimeout(resolve, 0));
 
 /**
  * Device, tracer and canvas: shows a small preview while something moves, refines the picture when it rests, sleeps when
@@ -63,22 +31,18 @@ const soon = () => new Promise<void>((resolve) => setTimeout(resolve, 0));
  */
 export class Engine {
   readonly settings: EngineSettings;
-  readonly #canvas: HTMLCanvasElement;
   readonly #host: EngineHost;
   readonly #edits = new Edits();
-  readonly #losses = new Losses();
+  readonly #connection: Connection;
   readonly #visibility: Visibility;
   readonly #preview: PreviewController;
-  #ready: Promise<void>;
-  #device: GPUDevice | undefined;
-  #display: Display | undefined;
-  #workers: Promise<BvhWorkers> | undefined;
+  #hierarchies: RememberingHierarchies | undefined;
   #tracer: PathTracer | undefined;
+  #source: ((former: PathTracer | undefined) => Take) | undefined;
   #film: Size = [1, 1];
   #canvasSize: Size = [1, 1];
   #state: ViewerState = 'empty';
   #preparing: AbortController | undefined;
-  #recovery: Promise<void> | undefined;
   #failed = false;
   #destroyed = false;
   #paused = false;
@@ -89,38 +53,66 @@ export class Engine {
   #settle = 0;
   #changed = 0;
   #lastStep = 0;
+  #lastPreview = -Infinity;
   #frame = 0;
   #interrupt = new AbortController();
   #wake: () => void = () => undefined;
 
+  /**
+   * @param canvas One that has no context yet, or had an engine before.
+   * @param budgetMs Milliseconds that a frame of the preview may take.
+   */
   constructor(canvas: HTMLCanvasElement, settings: EngineSettings, budgetMs: number, host: EngineHost) {
-    this.#canvas = canvas;
     this.settings = settings;
     this.#host = host;
     this.#preview = new PreviewController(budgetMs);
     this.#visibility = new Visibility(canvas, () => this.#stir());
-    this.#ready = this.#connect();
-    // Whoever waits for it is told; a page without a model is not.
-    this.#ready.catch(() => undefined);
+    const { exposure = 0, toneMap = 'neutral' } = settings;
+    this.#connection = new Connection(canvas, { exposure, toneMap }, {
+      lost: (reason) => this.#host.lost(reason),
+      recovering: () => {
+        this.#fresh = false;
+        this.#tell('recovering');
+        this.#stir();
+      },
+      back: () => this.#rebuild(),
+      restored: (milliseconds) => this.#host.restored(milliseconds),
+      failed: (error) => this.#fail(error),
+      error: (error) => this.#host.error(error),
+    }, settings.requestDevice);
+    // They warm up while the first model loads.
+    this.#connection.ready.then(() => this.#builder, () => undefined);
     void this.#run();
   }
 
+  /** The path tracer of the present scene; another one after each `show()` and each loss of the device. */
   get tracer(): PathTracer | undefined {
     return this.#tracer;
   }
 
+  /** The device in use; another one after each loss. */
   get device(): GPUDevice | undefined {
-    return this.#device;
+    return this.#connection.device;
+  }
+
+  /** When there was a first device. Rejects with the `DeviceError` or `ViewerError` that kept it from coming. */
+  get ready(): Promise<void> {
+    return this.#connection.ready;
   }
 
   /** What the device reads of compressed formats, once there is one; none where there will be none. */
   async compressedFormats(): Promise<readonly CompressedFormat[]> {
-    await this.#ready.catch(() => undefined);
-    return this.#device ? compressedFormats(this.#device) : [];
+    await this.#connection.ready.catch(() => undefined);
+    return this.device ? compressedFormats(this.device) : [];
   }
 
   get state(): ViewerState {
     return this.#state;
+  }
+
+  /** Whether the film holds a sample of the scene as it is now, in whatever size. */
+  get fresh(): boolean {
+    return this.#fresh;
   }
 
   /** Whether the film shows the whole picture as it is now. */
@@ -128,6 +120,12 @@ export class Engine {
     return this.#fresh && !this.#moving() && !!this.#tracer && sameSize([this.#tracer.width, this.#tracer.height], this.#film);
   }
 
+  /** Edits that wait for the next frame. */
+  get waiting(): number {
+    return this.#edits.size;
+  }
+
+  /** Adds no samples while it is set, but for one after each change. */
   get paused(): boolean {
     return this.#paused;
   }
@@ -137,12 +135,20 @@ export class Engine {
     this.#stir();
   }
 
-  /** Shows another scene. Until it is ready the former one stays, and it stays for good where this fails. */
-  async show(scene: Scene, camera: Camera, signal: AbortSignal, onProgress: (progress: PrepareProgress) => void): Promise<PathTracer> {
+  /**
+   * Shows another scene. Until it is ready the former one stays, and it stays for good where this fails.
+   *
+   * @param source Asked whenever a tracer is made: now without one, and after a loss of the device with the one that was lost.
+   * @throws {DeviceError} {RenderError} {SceneError} of the renderer; {ViewerError} `viewer/destroyed`, `viewer/device-lost`.
+   * @throws an `AbortError` where another scene is asked for meanwhile, and the signal's reason.
+   */
+  async show(source: (former: PathTracer | undefined) => Take, options: { readonly signal?: AbortSignal; readonly onProgress?: (progress: PrepareProgress) => void } = {}): Promise<PathTracer> {
     // One that failed before is asked for again.
-    await (this.#ready = this.#ready.catch(() => (this.#destroyed ? Promise.reject(new ViewerError('viewer/destroyed', 'This viewer has been destroyed.')) : this.#connect())));
+    await this.#connection.again();
     this.#edits.clear(new DOMException('another scene was shown', 'AbortError'));
-    return this.#prepare(scene, camera, signal, onProgress);
+    const tracer = await this.#prepare(() => source(undefined), options.signal, options.onProgress);
+    this.#source = source;
+    return tracer;
   }
 
   /** Changes the tracer between two frames; see `Viewer.edit`. */
@@ -170,7 +176,7 @@ export class Engine {
   /** Exposure and tone map, on the picture as it is. */
   async setView(view: ToneMapOptions): Promise<void> {
     Object.assign(this.settings, view);
-    await this.#display?.setView(view);
+    await this.#connection.setView(view);
     this.redraw();
   }
 
@@ -188,12 +194,11 @@ export class Engine {
 
   /** Tries again after a failure. */
   retry(): void {
-    this.#losses.forgive();
     this.#failed = false;
-    if (this.#tracer && !this.#device) this.#recover('retry');
-    else this.#stir();
+    if (!this.#tracer || !this.#connection.retry()) this.#stir();
   }
 
+  /** Frees everything, the device too. Idempotent. */
   destroy(): void {
     if (this.#destroyed) return;
     this.#destroyed = true;
@@ -203,64 +208,28 @@ export class Engine {
     cancelAnimationFrame(this.#frame);
     this.#visibility.destroy();
     this.#tracer?.destroy();
-    this.#display?.destroy();
-    this.#device?.destroy();
-    void this.#workers?.then((workers) => workers.destroy());
-    this.#tracer = this.#display = this.#device = undefined;
+    this.#connection.destroy();
+    this.#hierarchies?.destroy();
+    this.#tracer = undefined;
     this.#tell('destroyed');
   }
 
-  async #connect(): Promise<void> {
-    const device = await (this.settings.requestDevice ?? requestDevice)();
-    try {
-      if (this.#destroyed) throw new ViewerError('viewer/destroyed', 'This viewer has been destroyed.');
-      const { exposure = 0, toneMap = 'neutral' } = this.settings;
-      const display = await Display.create(this.#canvas, device, { exposure, toneMap });
-      if (this.#destroyed) {
-        display.destroy();
-        throw new ViewerError('viewer/destroyed', 'This viewer has been destroyed.');
-      }
-      this.#display = display;
-      // What was changed while it was made.
-      await display.setView({ exposure: this.settings.exposure ?? 0, toneMap: this.settings.toneMap ?? 'neutral' });
-    } catch (error) {
-      device.destroy();
-      throw error;
-    }
-    this.#device = device;
-    // They warm up while the first model loads.
-    this.#workers ??= BvhWorkers.create({ warmUp: true });
-    device.addEventListener('uncapturederror', (event) => {
-      event.preventDefault();
-      if (device === this.#device) this.#host.error(new ViewerError('viewer/gpu', `The GPU reports: ${event.error.message}`));
-    });
-    void device.lost.then(({ reason, message }) => {
-      if (device !== this.#device || this.#destroyed) return;
-      this.#device = undefined;
-      this.#host.lost(`${reason}${message ? `: ${message}` : ''}`);
-      this.#recover(reason);
-    });
+  get #builder(): RememberingHierarchies | undefined {
+    if (!this.#destroyed) this.#hierarchies ??= new RememberingHierarchies();
+    return this.#hierarchies;
   }
 
-  /** After a loss a browser may have no adapter for a while. */
-  async #reconnect(): Promise<void> {
-    for (const wait of RECONNECT_MS) {
-      try {
-        return await this.#connect();
-      } catch {
-        if (this.#destroyed) break;
-        await new Promise((resolve) => setTimeout(resolve, wait));
-      }
-    }
-    return this.#connect();
-  }
-
-  async #prepare(scene: Scene, camera: Camera, signal: AbortSignal, onProgress: (progress: PrepareProgress) => void): Promise<PathTracer> {
+  async #prepare(source: () => Take, signal: AbortSignal | undefined, onProgress: (progress: PrepareProgress) => void = () => undefined): Promise<PathTracer> {
     this.#preparing?.abort(new DOMException('another scene was asked for', 'AbortError'));
     const preparing = (this.#preparing = new AbortController());
     this.#stir();
     try {
-      const tracer = await this.#createTracer(scene, camera, AbortSignal.any([signal, preparing.signal]), onProgress);
+      const options = () => {
+        const [width, height] = this.#film;
+        const { maxDepth, background, tracer: more } = this.settings;
+        return { hierarchies: this.#builder, ...more, width, height, maxDepth, background, signal: signal ? AbortSignal.any([signal, preparing.signal]) : preparing.signal, onProgress };
+      };
+      const tracer = await makeTracer(this.#connection, source, options);
       if (preparing.signal.aborted || this.#destroyed) {
         tracer.destroy();
         preparing.signal.throwIfAborted();
@@ -268,7 +237,6 @@ export class Engine {
       }
       this.#tracer?.destroy();
       this.#tracer = tracer;
-      this.#display?.forget();
       this.#failed = false;
       this.#restarted();
       this.touch();
@@ -281,53 +249,18 @@ export class Engine {
     }
   }
 
-  /** Creates a tracer; where the device is lost meanwhile, once more on the next one. */
-  async #createTracer(scene: Scene, camera: Camera, signal: AbortSignal, onProgress: (progress: PrepareProgress) => void): Promise<PathTracer> {
-    for (let attempt = 0; ; attempt++) {
-      await this.#recovery;
-      const device = this.#device;
-      if (!device) throw new ViewerError('viewer/device-lost', 'The GPU was lost and has not come back.');
-      const hierarchies = await this.#workers;
-      const [width, height] = this.#film;
-      const { maxDepth, background, tracer } = this.settings;
-      try {
-        return await PathTracer.create(device, scene, { ...tracer, width, height, maxDepth, background, camera, signal, onProgress, ...(hierarchies ? { hierarchies } : {}) });
-      } catch (error) {
-        // The news of a loss may come later than its consequences.
-        await soon();
-        if (attempt > 0 || isAbort(error) || device === this.#device) throw error;
-      }
-    }
+  /** The scene as it was edited, on a device that came in place of a lost one. */
+  async #rebuild(): Promise<void> {
+    const [former, source] = [this.#tracer, this.#source];
+    // A scene that is being prepared takes the new device by itself.
+    if (former && source && !this.#preparing) await this.#prepare(() => source(former), undefined);
   }
 
-  /** A new device in place of a lost one, with the scene as it was edited. */
-  #recover(reason: string): void {
-    const started = performance.now();
-    const attempt = async () => {
-      this.#fresh = false;
-      this.#display?.destroy();
-      this.#display = undefined;
-      this.#tell('recovering');
-      // A device that somebody destroyed on purpose does not come back by waiting.
-      if (reason !== 'retry') await this.#losses.next();
-      await this.#reconnect();
-      this.#recovery = undefined;
-      const former = this.#tracer;
-      // A scene that is being prepared takes the new device by itself.
-      if (former && !this.#preparing) {
-        const { signal } = new AbortController();
-        this.#host.rescued(await this.#prepare(this.#host.rescue(former), former.camera, signal, () => undefined));
-      }
-      if (!this.#destroyed) this.#host.restored(performance.now() - started);
-    };
+  #fail(error: unknown): void {
+    this.#failed = true;
+    this.#tell('failed');
+    this.#host.error(error, () => this.retry());
     this.#stir();
-    this.#recovery = attempt().catch((error: unknown) => {
-      this.#recovery = undefined;
-      if (this.#destroyed || isAbort(error)) return;
-      this.#failed = true;
-      this.#tell('failed');
-      this.#host.error(error, () => this.retry());
-    });
   }
 
   /** Adds samples until the viewer is destroyed; sleeps where there is nothing to do. */
@@ -349,10 +282,7 @@ export class Engine {
         // Told apart by what follows: a loss is handled where the device announces it.
         await soon();
         await soon();
-        if (tracer === this.#tracer && this.#device && !this.#recovery && !this.#destroyed) {
-          this.#failed = true;
-          this.#host.error(error, () => this.retry());
-        }
+        if (tracer === this.#tracer && this.#connection.device && !this.#connection.recovery && !this.#destroyed) this.#fail(error);
       }
     }
   }
@@ -360,7 +290,7 @@ export class Engine {
   /** Why nothing is to be computed, or undefined. */
   #idleState(): ViewerState | undefined {
     if (this.#failed) return 'failed';
-    if (this.#recovery || (this.#tracer && !this.#device)) return 'recovering';
+    if (this.#connection.recovery || (this.#tracer && !this.#connection.device)) return 'recovering';
     if (this.#preparing) return 'loading';
     if (!this.#tracer) return 'empty';
     if (!this.#visibility.visible) return 'hidden';
@@ -375,10 +305,11 @@ export class Engine {
 
   /** A picture that is as small as it must be to keep up with hands. */
   async #previewFrame(tracer: PathTracer): Promise<void> {
-    await nextFrame();
+    // In step with the screen where the GPU keeps up; the first frame, and those of a slow GPU, do not wait for it as well.
+    await (performance.now() - this.#lastPreview < SCREEN_MS ? nextFrame() : soon());
     if (tracer !== this.#tracer || this.#destroyed || !this.#visibility.visible) return;
     this.#tell('moving');
-    const now = performance.now();
+    const now = (this.#lastPreview = performance.now());
     const stepped = this.#host.step(Math.max(0, now - this.#lastStep) / 1000);
     this.#lastStep = now;
     const plan = this.#preview.plan(this.#film[0] * this.#film[1]);
@@ -410,7 +341,7 @@ export class Engine {
   async #refine(tracer: PathTracer): Promise<void> {
     const { samples, noise, maxSubmitMs, maxDepth } = this.settings;
     this.#tell('rendering');
-    if (this.#fresh && !sameSize([tracer.width, tracer.height], this.#film)) this.#display?.keep({ buffer: tracer.beautyBuffer, size: [tracer.width, tracer.height] }, tracer.samples);
+    if (this.#fresh && !sameSize([tracer.width, tracer.height], this.#film)) this.#connection.display?.keep({ buffer: tracer.beautyBuffer, size: [tracer.width, tracer.height] }, tracer.samples);
     if (this.#fit(tracer, this.#film, maxDepth)) this.#fresh = false;
     const { signal } = this.#interrupt;
     const goal = this.#paused ? 1 : samples;
@@ -426,7 +357,7 @@ export class Engine {
     if (!this.#fresh && tracer.samples === 0) return;
     this.#fresh = true;
     this.#done = true;
-    this.#display?.forget();
+    this.#connection.display?.forget();
     this.redraw();
     this.#host.converged(tracer.samples, performance.now() - this.#changed);
   }
@@ -457,7 +388,8 @@ export class Engine {
     this.#fresh = false;
     this.#done = false;
     this.#changed = performance.now();
-    this.#display?.forget();
+    this.#connection.display?.forget();
+    this.#host.restarted?.();
   }
 
   #stir(): void {
@@ -472,8 +404,8 @@ export class Engine {
   }
 
   #draw(milliseconds = 0): void {
-    const [tracer, display] = [this.#tracer, this.#display];
-    if (!tracer || !display || !this.#fresh || !this.#device) return;
+    const [tracer, { device, display }] = [this.#tracer, this.#connection];
+    if (!tracer || !display || !this.#fresh || !device) return;
     const size: Size = [tracer.width, tracer.height];
     const preview = !sameSize(size, this.#film);
     if (preview) display.forget();

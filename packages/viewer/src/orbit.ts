@@ -13,6 +13,8 @@ export interface Orbit {
   readonly radius: number;
   /** What the camera turns about and looks at, metres. */
   readonly target: Vector;
+  /** Magnification of a parallel projection over that of its camera; `undefined` for others. */
+  readonly zoom?: number | undefined;
 }
 
 /** How far hands and calls may move the camera: least and most of each. What is left out is free. */
@@ -110,12 +112,12 @@ export class OrbitRig {
 
   /** Where the camera is going. */
   get goal(): Orbit {
-    return orbitOf(this.#goal);
+    return this.#orbitOf(this.#goal);
   }
 
   /** Where the camera is. */
   get orbitNow(): Orbit {
-    return orbitOf(this.#now);
+    return this.#orbitOf(this.#now);
   }
 
   /** Turns about the target; radians, positive to the right and up around the model. */
@@ -139,9 +141,9 @@ export class OrbitRig {
     this.#limit();
   }
 
-  /** Goes to an orbit; what is left out stays. `phi` stops half a degree short of the poles. Ignores what is not finite. */
+  /** Goes to an orbit; what is left out stays, but for the zoom, which goes with the radius. `phi` stops half a degree short of the poles. Ignores what is not finite. */
   setOrbit(orbit: Partial<Orbit>): void {
-    const { theta, phi, radius, target } = orbit;
+    const { theta, phi, radius, target, zoom } = orbit;
     if (Number.isFinite(theta)) {
       // The short way round.
       const turn = Math.PI * 2;
@@ -154,6 +156,7 @@ export class OrbitRig {
       this.#goal.distance = radius;
     }
     if (target?.every(Number.isFinite)) this.#goal.target = target;
+    if (zoom !== undefined && zoom > 0 && zoom < Infinity) this.#goal.zoom = zoom;
     this.#limit();
   }
 
@@ -229,6 +232,10 @@ export class OrbitRig {
     if (radius) goal.distance = clamp(goal.distance, ...radius);
   }
 
+  #orbitOf({ yaw, pitch, distance, target, zoom }: Pose): Orbit {
+    return { theta: yaw, phi: Math.PI / 2 - pitch, radius: distance, target, ...(this.#lens.type === 'orthographic' ? { zoom } : {}) };
+  }
+
   #poseOf(camera: Camera): Pose {
     const m = camera.transform;
     const eye: Vector = [m[12] as number, m[13] as number, m[14] as number];
@@ -243,8 +250,4 @@ export class OrbitRig {
 function axesOf({ yaw, pitch }: Pose): { readonly x: Vector; readonly y: Vector; readonly z: Vector } {
   const [cy, sy, cp, sp] = [Math.cos(yaw), Math.sin(yaw), Math.cos(pitch), Math.sin(pitch)];
   return { x: [cy, 0, -sy], y: [-sy * sp, cp, -cy * sp], z: [sy * cp, sp, cy * cp] };
-}
-
-function orbitOf({ yaw, pitch, distance, target }: Pose): Orbit {
-  return { theta: yaw, phi: Math.PI / 2 - pitch, radius: distance, target };
 }

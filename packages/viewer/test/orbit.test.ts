@@ -6,6 +6,36 @@ const front = { type: 'perspective', name: 'front', transform: [1, 0, 0, 0, 0, 1
 const eye = (rig: OrbitRig) => Array.from(rig.camera().transform).slice(12, 15);
 
 describe('OrbitRig', () => {
+  it('keeps its axes at right angles, whatever is done', () => {
+    const rig = new OrbitRig(front, bounds, { damping: 0 });
+    for (let i = 0; i < 50; i++) {
+      rig.orbit(Math.sin(i), Math.cos(3 * i));
+      rig.pan(Math.sin(5 * i), Math.cos(7 * i));
+      rig.zoom(1 + 0.5 * Math.sin(11 * i));
+      rig.jump();
+      const m = rig.camera().transform;
+      const dot = (a: number, b: number) => m[a]! * m[b]! + m[a + 1]! * m[b + 1]! + m[a + 2]! * m[b + 2]!;
+      [dot(0, 0), dot(4, 4), dot(8, 8), dot(0, 4), dot(0, 8), dot(4, 8)].forEach((value, k) => expect(value).toBeCloseTo(k < 3 ? 1 : 0, 9));
+    }
+  });
+
+  it('gives back the orbit that it was told, with the magnification of a parallel projection', () => {
+    for (const camera of [front, { type: 'orthographic', name: 'side', transform: front.transform, xmag: 4, ymag: 2 } as const]) {
+      const rig = new OrbitRig(camera, bounds, { damping: 0 });
+      rig.orbit(0.4, 0.2);
+      rig.zoom(3);
+      rig.pan(0.1, 0.2);
+      const other = new OrbitRig(camera, bounds, { damping: 0 });
+      other.setOrbit(rig.goal);
+      rig.jump();
+      other.jump();
+      expect(rig.goal.zoom).toBe(camera === front ? undefined : 3);
+      const [a, b] = [rig.camera(), other.camera()];
+      Array.from(a.transform).forEach((value, i) => expect(b.transform[i]).toBeCloseTo(value, 10));
+      if (b.type === 'orthographic') expect(b.ymag).toBeCloseTo(2 / 3, 12);
+    }
+  });
+
   it('begins where the camera stands, and turns about the point beside the centre of the scene', () => {
     const rig = new OrbitRig(front, bounds);
     Array.from(rig.camera().transform).forEach((value, i) => expect(value).toBeCloseTo(front.transform[i] as number, 12));

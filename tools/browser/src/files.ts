@@ -58,6 +58,24 @@ export function quads(list: readonly Quad[], change: (json: Record<string, unkno
   return glb(json, Buffer.concat([Buffer.from(positions.buffer), Buffer.from(indices.buffer)]));
 }
 
+/** One triangle in the plane z = 0, facing +z, matt in a colour; `change` edits the document. */
+export function triangle(colour: readonly [number, number, number], change: (json: Record<string, unknown>) => void = () => undefined): Buffer {
+  const positions = Float32Array.of(-1, -1, 0, 1, -1, 0, 0, 1, 0);
+  const json: Record<string, unknown> = {
+    asset: { version: '2.0' },
+    scene: 0,
+    scenes: [{ nodes: [0] }],
+    nodes: [{ name: 'Sail', mesh: 0 }],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, material: 0 }] }],
+    materials: [{ name: 'cloth', pbrMetallicRoughness: { baseColorFactor: [...colour, 1], metallicFactor: 0, roughnessFactor: 1 } }],
+    accessors: [{ bufferView: 0, componentType: 5126, count: 3, type: 'VEC3', min: [-1, -1, 0], max: [1, 1, 0] }],
+    bufferViews: [{ buffer: 0, byteLength: 36 }],
+    buffers: [{ byteLength: 36 }],
+  };
+  change(json);
+  return glb(json, Buffer.from(positions.buffer));
+}
+
 /** A Radiance picture of one colour, 4 × 2 pixels, flat RGBE: mantissas of 128 and exponent 129 are 1. */
 export function hdr(rgbe: readonly [number, number, number, number]): Buffer {
   return Buffer.concat([Buffer.from('#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n'), Buffer.from(Array.from({ length: 8 }, () => rgbe).flat())]);

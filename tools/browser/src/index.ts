@@ -1,4 +1,5 @@
-export { servePage, watch, type Served } from './page';
+export { checkAccessibility } from './accessibility';
+export { serveApp, servePage, watch, type Served } from './page';
 export { photograph, pixelsOf, type Pixels } from './pixels';
-export { glb, hdr, quads, type Quad } from './files';
+export { glb, hdr, quads, triangle, type Quad } from './files';
 export { injectFaults } from './faults';

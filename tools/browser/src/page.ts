@@ -2,7 +2,7 @@ import { mkdtempSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import type { Page } from '@playwright/test';
-import { build, preview } from 'vite';
+import { build, preview, type InlineConfig } from 'vite';
 
 /** A page on a free port of this machine. */
 export interface Served {
@@ -21,14 +21,25 @@ export async function servePage(root: string, headers: Record<string, string> = 
   const outDir = mkdtempSync(join(cache, 'page-'));
   const resolve = { conditions: ['@glanz/source', 'module', 'browser', 'import', 'default'] };
   await build({ root, base: './', configFile: false, logLevel: 'error', resolve, worker: { format: 'es' }, build: { outDir, emptyOutDir: true, target: 'es2022', chunkSizeWarningLimit: 2000 } });
-  const server = await preview({ root, configFile: false, logLevel: 'error', build: { outDir }, preview: { host: '127.0.0.1', port: 4273, strictPort: false, open: false, headers } });
-  const origin = server.resolvedUrls?.local[0]?.replace(/\/$/, '');
-  if (!origin) throw new Error('The preview server has no address.');
+  const served = await serveBuilt({ root, configFile: false, build: { outDir } }, headers);
   const close = async () => {
-    await server.close();
+    await served.close();
     rmSync(outDir, { recursive: true, force: true });
   };
-  return { origin, close };
+  return { origin: served.origin, close };
+}
+
+/** Builds an application by its own configuration, as a release would, and serves it. */
+export async function serveApp(root: string): Promise<Served> {
+  await build({ root, logLevel: 'error' });
+  return serveBuilt({ root });
+}
+
+async function serveBuilt(config: InlineConfig, headers: Record<string, string> = {}): Promise<Served> {
+  const server = await preview({ ...config, logLevel: 'error', preview: { host: '127.0.0.1', port: 4273, strictPort: false, open: false, headers } });
+  const origin = server.resolvedUrls?.local[0]?.replace(/\/$/, '');
+  if (!origin) throw new Error('The preview server has no address.');
+  return { origin, close: () => server.close() };
 }
 
 /** Collects errors of the page, and requests that leave this machine. */

@@ -11,6 +11,8 @@ export interface Pixels {
   readonly colours: number;
   /** Mean RGB of the nine cells of a 3 × 3 grid, row by row. */
   readonly cells: readonly (readonly [number, number, number])[];
+  /** Shares of pixels by the channel that leads by more than 16 codes. */
+  readonly leading: { readonly red: number; readonly green: number; readonly blue: number };
 }
 
 /** Decodes a PNG in the page's own browser and counts. */
@@ -24,6 +26,7 @@ export function pixelsOf(page: Page, png: Buffer): Promise<Pixels> {
     const { data } = context.getImageData(0, 0, width, height);
     const cells = Array.from({ length: 9 }, () => [0, 0, 0, 0] as [number, number, number, number]);
     const colours = new Set<number>();
+    const leading = { red: 0, green: 0, blue: 0 };
     let [sum, squares] = [0, 0];
     for (let y = 0, i = 0; y < height; y++) {
       for (let x = 0; x < width; x++, i += 4) {
@@ -34,6 +37,9 @@ export function pixelsOf(page: Page, png: Buffer): Promise<Pixels> {
         cell[2] += b;
         cell[3]++;
         colours.add((r << 16) | (g << 8) | b);
+        if (r > Math.max(g, b) + 16) leading.red += 4 / data.length;
+        if (g > Math.max(r, b) + 16) leading.green += 4 / data.length;
+        if (b > Math.max(r, g) + 16) leading.blue += 4 / data.length;
         sum += r + g + b;
         squares += r * r + g * g + b * b;
       }
@@ -47,6 +53,7 @@ export function pixelsOf(page: Page, png: Buffer): Promise<Pixels> {
       deviation: Math.sqrt(Math.max(0, squares / count - (sum / count) ** 2)),
       colours: colours.size,
       cells: cells.map(([r, g, b, n]) => [r / n, g / n, b / n] as [number, number, number]),
+      leading,
     };
   }, png.toString('base64'));
 }

@@ -47,11 +47,11 @@ export function renderPanel(context: Context): HTMLElement[] {
   const statistics = new StatisticsPanel();
   const showStatistics = () => {
     const { tracer } = session;
-    if (tracer) statistics.show(opened().scene, tracer.statistics, [tracer.width, tracer.height], session.adapterName, session.sampleMs);
+    if (tracer) statistics.show(opened().scene, tracer.statistics, session.film, session.adapterName, session.sampleMs, session.raysPerSecond);
   };
   let told = 0;
   onStatus(({ state }) => {
-    if (state === 'rendering' && performance.now() - told < 500) return;
+    if ((state === 'rendering' || state === 'moving') && performance.now() - told < 500) return;
     told = performance.now();
     showStatistics();
   });

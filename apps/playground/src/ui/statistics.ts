@@ -41,10 +41,11 @@ export class StatisticsPanel {
     this.element.append(this.#list, this.#bar, this.#legend, this.#warnings);
   }
 
-  show(scene: Scene, statistics: RenderStatistics, film: readonly [number, number], adapter: string, sampleMs: number | undefined): void {
+  show(scene: Scene, statistics: RenderStatistics, film: readonly [number, number], adapter: string, sampleMs: number | undefined, raysPerSecond: number | undefined): void {
     const rows: [key: string, title: string, value: string][] = [
       ['sample', 'A sample takes', sampleMs === undefined ? '…' : ms(sampleMs)],
       ['paths', 'Camera paths', sampleMs === undefined ? '…' : spokenMany((film[0] * film[1] * 1000) / sampleMs)],
+      ['rays', 'Rays', raysPerSecond === undefined ? '…' : spokenMany(raysPerSecond)],
       ['film', 'Film', `${film[0]} × ${film[1]}`],
       ['triangles', 'Triangles', whole.format(statistics.triangles)],
       ['instances', 'Parts', whole.format(statistics.instances)],

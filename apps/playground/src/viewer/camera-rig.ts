@@ -1,24 +1,34 @@
-import { frameCamera, frameCameraSteps, inSlices, sceneBounds, sceneBoundsSteps, type Camera, type PerspectiveCamera, type Scene, type SceneBounds } from '@glanz/scene';
+import { frameCamera, frameCameraSteps, inSlices, sceneBounds, sceneBoundsSteps, type Camera, type Scene, type SceneBounds } from '@glanz/scene';
+import { fitCamera } from '@glanz/viewer/fit-camera';
+import { OrbitRig, type Orbit } from '@glanz/viewer/orbit';
 import type { OrbitView, State } from '../state/state';
 import type { Store } from '../state/store';
 import { directionOf, STANDARD_VIEWS, withLens, type StandardView } from './lens';
-import { fitCamera, OrbitCamera } from './orbit-camera';
+
+/** Seconds in which 63 % of a movement is done; none of it where the user asks for less motion. */
+const DAMPING = 0.06;
+const damping = () => (matchMedia('(prefers-reduced-motion: reduce)').matches ? 0 : DAMPING);
 
 /** The field of view that the state asks for, radians. */
 const yfovOf = ({ lens: { fov } }: State) => (fov === null ? undefined : (fov * Math.PI) / 180);
-
 const framing = (aspect: number, yfov: number | undefined) => ({ aspect, ...(yfov === undefined ? {} : { yfov }) });
+/** What the camera that a state begins with hangs on, besides the scene. */
+const keyOf = ({ camera, lens: { fov } }: State, aspect: number) => [camera, fov, aspect].join();
 
-/** The camera that the state asks for, and what hands and buttons do to it. */
+const viewOf = ({ theta, phi, radius, target, zoom = 1 }: Orbit): OrbitView => ({ target, distance: radius, yaw: theta, pitch: Math.PI / 2 - phi, zoom });
+const orbitOf = ({ target, distance, yaw, pitch, zoom }: OrbitView): Orbit => ({ target, radius: distance, theta: yaw, phi: Math.PI / 2 - pitch, zoom });
+
+/** The camera that the state asks for, what hands and buttons do to it, and the one that follows it smoothly. */
 export class CameraRig {
   readonly #store: Store<State>;
   readonly #aspect: () => number;
   #scene: Scene | undefined;
   #bounds: SceneBounds | undefined;
-  /** The camera that sees all, and for which aspect and field of view. */
-  #framed: { readonly aspect: number; readonly yfov: number | undefined; readonly camera: PerspectiveCamera } | undefined;
-  /** Whether the change that is being told is one of many in a row. */
-  moving = false;
+  /** Goes where the state says. Made from the camera that the state begins with, which it is told again where that changes. */
+  #follower: OrbitRig | undefined;
+  #followed: Camera | undefined;
+  /** The camera that a state begins with, while what it hangs on stays: to frame a model one goes through its vertices. */
+  #known: { readonly key: string; readonly scene: Scene; readonly camera: Camera } | undefined;
 
   /** @param aspect Width over height of the film. */
   constructor(store: Store<State>, aspect: () => number) {
@@ -34,34 +44,62 @@ export class CameraRig {
    */
   async setScene(scene: Scene, state: State): Promise<void> {
     const bounds = await inSlices(sceneBoundsSteps(scene));
-    const aspect = this.#aspect(), yfov = yfovOf(state);
-    const framed = scene.cameras[state.camera] ? undefined : { aspect, yfov, camera: await inSlices(frameCameraSteps(scene, framing(aspect, yfov))) };
+    const aspect = this.#aspect();
+    const framed = scene.cameras[state.camera] ? undefined : await inSlices(frameCameraSteps(scene, framing(aspect, yfovOf(state))));
     this.#scene = scene;
     this.#bounds = bounds;
-    this.#framed = framed;
+    this.#follower = undefined;
+    this.#known = framed && { key: keyOf(state, aspect), scene, camera: framed };
   }
 
   /** Takes over what another rig knows of its scene. */
-  follow(rig: CameraRig): void {
+  adopt(rig: CameraRig): void {
     this.#scene = rig.#scene;
     this.#bounds = rig.#bounds;
-    this.#framed = rig.#framed;
+    this.#known = rig.#known;
+    this.#follower = undefined;
   }
 
-  /** The camera to render with. */
+  /** Whether the camera is on its way to where the state wants it. */
+  get moving(): boolean {
+    return this.#follower?.moving ?? false;
+  }
+
+  /** Lets it go on by so many seconds. @returns Whether it has moved. */
+  step(seconds: number): boolean {
+    return this.#follower?.step(seconds) ?? false;
+  }
+
+  /** The camera where it is now, to render with. */
+  get now(): Camera {
+    const { state } = this.#store;
+    if (!this.#scene) throw new Error('There is no scene to look at.');
+    const follower = this.#following(state, this.#scene);
+    return withLens(state.orbit || follower.moving ? follower.camera() : this.#start(state, this.#scene), state.lens, this.#aspect());
+  }
+
+  /** The state has changed. @param immediate Whether the camera is there at once: there is another model. */
+  follow(immediate = false): void {
+    const { state } = this.#store;
+    if (!this.#scene) return;
+    const follower = this.#following(state, this.#scene);
+    if (state.orbit) follower.setOrbit(orbitOf(state.orbit));
+    else follower.setCamera(this.#start(state, this.#scene));
+    if (immediate) follower.jump();
+  }
+
+  /** The camera that a state asks for. */
   camera(state: State = this.#store.state, scene: Scene | undefined = this.#scene): Camera {
     if (!scene) throw new Error('There is no scene to look at.');
     return withLens(state.orbit ? this.#orbit(state, scene).camera() : this.#start(state, scene), state.lens, this.#aspect());
   }
 
   /** Turns, shifts or zooms by hand. */
-  move(change: (orbit: OrbitCamera) => void): void {
+  move(change: (rig: OrbitRig) => void): void {
     if (!this.#scene) return;
-    const orbit = this.#orbit(this.#store.state, this.#scene);
-    change(orbit);
-    this.moving = true;
-    this.#store.set({ orbit: orbit.view });
-    this.moving = false;
+    const rig = this.#orbit(this.#store.state, this.#scene);
+    change(rig);
+    this.#store.set({ orbit: viewOf(rig.goal) });
   }
 
   /** A camera of the scene by its index, −1: one that sees all. */
@@ -85,34 +123,48 @@ export class CameraRig {
 
   #frame(what: Scene | undefined, direction: readonly [number, number, number]): void {
     if (!what || !this.#bounds) return;
-    const { lens } = this.#store.state;
     // Straight up has no "right": a hair aside.
     const aside = Math.hypot(direction[0], direction[2]) < 1e-3 ? ([0, direction[1], 1e-3] as const) : direction;
-    const camera = frameCamera(what, { aspect: this.#aspect(), direction: aside, ...(lens.fov === null ? {} : { yfov: (lens.fov * Math.PI) / 180 }) });
-    const { view } = new OrbitCamera(camera, this.#bounds);
-    this.#store.set({ orbit: view, camera: -1 });
+    const camera = frameCamera(what, { direction: aside, ...framing(this.#aspect(), yfovOf(this.#store.state)) });
+    this.#store.set({ orbit: viewOf(new OrbitRig(camera, this.#bounds).goal), camera: -1 });
   }
 
   #start(state: State, scene: Scene): Camera {
-    const { camera: index, lens } = state;
     const aspect = this.#aspect();
-    const camera = scene.cameras[index];
-    if (!camera) {
+    const key = keyOf(state, aspect);
+    if (this.#known?.key !== key || this.#known.scene !== scene) {
       const yfov = yfovOf(state);
-      if (this.#framed?.aspect !== aspect || this.#framed.yfov !== yfov || scene !== this.#scene) this.#framed = { aspect, yfov, camera: frameCamera(scene, framing(aspect, yfov)) };
-      return this.#framed.camera;
+      const own = scene.cameras[state.camera];
+      const fitted = own ? fitCamera(own, aspect) : frameCamera(scene, framing(aspect, yfov));
+      this.#known = { key, scene, camera: yfov === undefined || fitted.type !== 'perspective' ? fitted : { ...fitted, yfov } };
     }
-    const fitted = fitCamera(camera, aspect);
-    return lens.fov === null || fitted.type !== 'perspective' ? fitted : { ...fitted, yfov: (lens.fov * Math.PI) / 180 };
+    return this.#known.camera;
   }
 
-  #orbit(state: State, scene: Scene): OrbitCamera {
-    const orbit = new OrbitCamera(this.#start(state, scene), this.#bounds ?? sceneBounds(scene));
-    return state.orbit ? orbit.restore(state.orbit) : orbit;
+  /** A rig that is where the state wants it. */
+  #orbit(state: State, scene: Scene): OrbitRig {
+    const rig = new OrbitRig(this.#start(state, scene), this.#bounds ?? sceneBounds(scene), { damping: 0 });
+    if (state.orbit) rig.setOrbit(orbitOf(state.orbit));
+    rig.jump();
+    return rig;
   }
 
-  /** Where the camera is, as a view to keep. */
-  view(): OrbitView | undefined {
-    return this.#scene ? this.#orbit(this.#store.state, this.#scene).view : undefined;
+  /** The follower, with the lens that the state begins with. */
+  #following(state: State, scene: Scene): OrbitRig {
+    const start = this.#start(state, scene);
+    const former = this.#follower;
+    if (former && start === this.#followed) return former;
+    this.#followed = start;
+    const next = (this.#follower = new OrbitRig(start, this.#bounds ?? sceneBounds(scene), { damping: damping() }));
+    // From where it is, with another lens.
+    if (former) {
+      next.setOrbit(former.orbitNow);
+      next.jump();
+      next.setOrbit(former.goal);
+    } else if (state.orbit) {
+      next.setOrbit(orbitOf(state.orbit));
+      next.jump();
+    }
+    return next;
   }
 }

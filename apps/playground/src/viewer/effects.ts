@@ -84,8 +84,8 @@ export function applyChange(next: State, before: State, host: EffectsHost): void
     }
   }
   if (changed('variant')) session.edit('variant', (tracer) => tracer.setVariant(next.variant ?? undefined));
-  if (changed('depth')) session.edit('depth', (tracer) => tracer.setDepth(next.depth));
-  if (filmBackground(next) !== filmBackground(before)) session.edit('background', (tracer) => tracer.setBackground(filmBackground(next)));
+  if (changed('depth')) session.setDepth(next.depth);
+  if (filmBackground(next) !== filmBackground(before)) session.setBackground(filmBackground(next));
   if (changed(...ENVIRONMENT_FIELDS)) {
     const environment = host.environment(next, scene);
     session.edit('environment', (tracer) => tracer.setEnvironment(environment));
@@ -96,5 +96,8 @@ export function applyChange(next: State, before: State, host: EffectsHost): void
       if (wanted !== before.groups[name]) session.relight((tracer) => (tracer.lightGroups.some((group) => group.name === name) ? tracer.setLightGroup(name, wanted) : Promise.resolve()));
     }
   }
-  if (changed('camera', 'orbit', 'lens')) session.setCamera(rig.camera(next), rig.moving);
+  if (changed('camera', 'orbit', 'lens')) {
+    rig.follow();
+    session.look();
+  }
 }

@@ -9,16 +9,3 @@ export function filmSize(width: number, height: number, scale: Scale, devicePixe
   const factor = Math.min(wanted, Math.sqrt(MAX_PIXELS / Math.max(1, width * height)));
   return [Math.max(1, Math.round(width * factor)), Math.max(1, Math.round(height * factor))];
 }
-
-/** Milliseconds that a sample may take while the camera moves. */
-const MOVING_BUDGET_MS = 50;
-
-/**
- * By how much to shrink the film, in each direction, while the camera moves: 1, 2, 3 … 8.
- *
- * @param sampleMs Milliseconds that a sample of the full film takes; undefined where none has been seen.
- */
-export function movingDivisor(sampleMs: number | undefined): number {
-  if (sampleMs === undefined) return 1;
-  return Math.min(8, Math.max(1, Math.ceil(Math.sqrt(sampleMs / MOVING_BUDGET_MS))));
-}

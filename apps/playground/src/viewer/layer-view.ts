@@ -1,6 +1,6 @@
 import type { PathTracer } from '@glanz/renderer';
+import { toneMapPixels } from '@glanz/tonemap';
 import { layerPicture, type Layer } from '../output/layers';
-import type { Display } from './display';
 
 /** A layer is read again whenever there are so many times more samples, up to the most that layers average. */
 const GROWTH = 4;
@@ -9,36 +9,36 @@ const MOST = 64;
 /** What the layer view looks at. */
 export interface LayerSource {
   readonly tracer: () => PathTracer | undefined;
-  readonly display: () => Display;
   /** Whether the film holds a sample since it was last cleared. */
   readonly fresh: () => boolean;
-  readonly redraw: () => void;
   readonly report: (error: unknown) => void;
+  /** The name of what is on the screen. */
+  readonly shown: (layer: Layer) => void;
 }
 
-/** Shows a layer of the film in place of the beauty, and reads it again as it gets better. */
+/** Shows a layer of the film over the picture, and reads it again as it gets better. */
 export class LayerView {
   readonly #source: LayerSource;
+  readonly #canvas: HTMLCanvasElement;
   #wanted: Layer;
-  #shown: Layer = 'beauty';
   #busy = false;
   #next = 1;
 
-  constructor(source: LayerSource, layer: Layer) {
+  /** @param canvas Lies over the picture. */
+  constructor(source: LayerSource, canvas: HTMLCanvasElement, layer: Layer) {
     this.#source = source;
+    this.#canvas = canvas;
     this.#wanted = layer;
-  }
-
-  /** Name of what the canvas shows. */
-  get shown(): Layer {
-    return this.#source.display().showsLayer ? this.#shown : 'beauty';
+    canvas.hidden = true;
+    source.shown('beauty');
   }
 
   choose(layer: Layer): void {
+    if (layer === this.#wanted) return;
     this.#wanted = layer;
     if (layer === 'beauty') {
-      this.#source.display().setLayer(undefined, [1, 1]);
-      this.#source.redraw();
+      this.#canvas.hidden = true;
+      this.#source.shown('beauty');
     } else void this.#read();
   }
 
@@ -55,19 +55,18 @@ export class LayerView {
 
   async #read(): Promise<void> {
     const tracer = this.#source.tracer();
-    const display = this.#source.display();
     const layer = this.#wanted;
     if (!tracer || layer === 'beauty' || this.#busy || !this.#source.fresh()) return;
     this.#busy = true;
     try {
       const { width, height } = tracer;
       const picture = layerPicture(layer, await tracer.read(layer));
-      if (tracer !== this.#source.tracer() || picture.length !== width * height * 4) return;
-      if (layer === this.#wanted) {
-        display.setLayer(picture, [width, height]);
-        this.#shown = layer;
-        this.#source.redraw();
-      }
+      if (tracer !== this.#source.tracer() || picture.length !== width * height * 4 || layer !== this.#wanted) return;
+      this.#canvas.width = width;
+      this.#canvas.height = height;
+      this.#canvas.getContext('2d')?.putImageData(new ImageData(toneMapPixels(picture, width, height, { toneMap: 'linear', alpha: 'opaque' }), width, height), 0, 0);
+      this.#canvas.hidden = false;
+      this.#source.shown(layer);
     } catch (error) {
       if (tracer === this.#source.tracer()) this.#source.report(error);
     } finally {

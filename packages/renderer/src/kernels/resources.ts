@@ -33,7 +33,8 @@ struct Queues {
   next_count: atomic<u32>,
   shadow_count: atomic<u32>,
   capacity: u32,
-  reserved: u32,
+  // Rays traced, modulo 2^32.
+  rays: u32,
   items: array<u32>,
 }`,
 );

@@ -23,6 +23,7 @@ fn main() {
   atomicStore(&queues.next_count, 0u);
   atomicStore(&queues.shadow_count, 0u);
   queues.capacity = arrayLength(&queues.items) / 2u;
+  queues.rays += queues.active_count;
   schedule_write(0u, queues.active_count);
   schedule_write(4u, 0u);
 }
@@ -38,6 +39,7 @@ fn main() {
   queues.depth += 1u;
   queues.active_count = atomicExchange(&queues.next_count, 0u);
   queues.shadow_active = atomicExchange(&queues.shadow_count, 0u);
+  queues.rays += queues.active_count + queues.shadow_active;
   schedule_write(0u, queues.active_count);
   schedule_write(4u, queues.shadow_active);
 }

@@ -34,6 +34,23 @@ describe('light transport against analytic values', () => {
     tracer.destroy();
   });
 
+  it('counts its rays: one a sample into the void, with a light one more from each surface that sees it', async () => {
+    const scene = createScene();
+    addQuad(scene, 10, 0, lambert(0.5));
+    const paths = 16 * 16 * 4;
+    const { tracer } = await render(scene, { samples: 4, maxDepth: 1 });
+    expect(await tracer.readRayCount()).toBe(paths);
+    tracer.reset();
+    for await (const _ of tracer.render({ samples: 4 }));
+    expect(await tracer.readRayCount()).toBe(2 * paths);
+    tracer.destroy();
+    scene.lights.push({ type: 'directional', name: 'd', color: [1, 1, 1], intensity: 3, direction: [0, 0, -1] });
+    const lit = await render(scene, { samples: 4, maxDepth: 2 });
+    // From the camera, to the light, and on to what else there might be.
+    expect(await lit.tracer.readRayCount()).toBe(3 * paths);
+    lit.tracer.destroy();
+  });
+
   it('a point light gives ρ/π · I · cos θ / d²', async () => {
     const scene = createScene();
     addQuad(scene, 10, 0, lambert(0.5));

@@ -1,0 +1,64 @@
+import type { PickResult } from '@glanz/renderer';
+import type { BlobOptions, ModelSource, Orbit, Viewer, ViewerEvents } from '@glanz/viewer';
+import type { ReflectedProperties } from './attributes';
+import type { HotspotView } from './hotspots';
+
+/** What the element tells, as `CustomEvent`s that do not bubble; `detail` is that of the viewer's event of the same name. */
+export interface GlanzViewerEventMap {
+  load: CustomEvent<ViewerEvents['load']>;
+  /** `totalProgress`: share of the whole load, 0..1. */
+  progress: CustomEvent<ViewerEvents['progress'] & { readonly totalProgress: number }>;
+  error: CustomEvent<ViewerEvents['error']>;
+  sample: CustomEvent<ViewerEvents['sample']>;
+  converged: CustomEvent<ViewerEvents['converged']>;
+  'camera-change': CustomEvent<ViewerEvents['camera-change']>;
+  'device-lost': CustomEvent<ViewerEvents['device-lost']>;
+  'device-restored': CustomEvent<ViewerEvents['device-restored']>;
+  'poster-dismissed': CustomEvent<undefined>;
+  'variant-applied': CustomEvent<{ readonly variantName: string | null }>;
+}
+
+/** What `toBlob` of the element may be told: the viewer's options, or model-viewer's names for them. */
+export interface ElementBlobOptions extends BlobOptions {
+  readonly mimeType?: string;
+  readonly qualityArgument?: number;
+}
+
+/** The element `<glanz-viewer>`. Made by markup, or by `document.createElement('glanz-viewer')`, after `defineGlanzViewer()`. */
+export interface GlanzViewerElement extends HTMLElement, ReflectedProperties {
+  /** The viewer behind it, for all that has no attribute; `undefined` while the element is out of the page, or waits to be seen. */
+  readonly viewer: Viewer | undefined;
+  /** Whether the model that `src` names is there. */
+  readonly loaded: boolean;
+  /** Names of the looks that the model has. */
+  readonly availableVariants: readonly string[];
+  /** Shows a model that has no address: a file, files, or a scene. Stays until `src` changes. */
+  show(source: ModelSource): Promise<void>;
+  /** The picture as a file; see `Viewer.toBlob`. */
+  toBlob(options?: ElementBlobOptions): Promise<Blob>;
+  /** Where the camera goes around its target. */
+  getCameraOrbit(): Orbit | undefined;
+  /** Vertical field of view, degrees. */
+  getFieldOfView(): number;
+  /** Is where it was going. */
+  jumpCameraToGoal(): void;
+  /** Frames the model anew, as the attributes say. */
+  updateFraming(): void;
+  /** Shows the model under the poster, which `reveal="manual"` waits for. */
+  dismissPoster(): void;
+  /** Shows the poster again. */
+  showPoster(): void;
+  /** Where the hotspot of a slot is. */
+  queryHotspot(slot: string): HotspotView | undefined;
+  /** Moves a hotspot: `data-position` and `data-normal` of the element in its slot. */
+  updateHotspot(hotspot: { readonly name: string; readonly position?: string; readonly normal?: string }): void;
+  /** What lies under a point of the window, CSS pixels. */
+  pick(clientX: number, clientY: number): PickResult | undefined;
+  addEventListener<K extends keyof GlanzViewerEventMap>(type: K, listener: (event: GlanzViewerEventMap[K]) => void, options?: boolean | AddEventListenerOptions): void;
+  addEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | AddEventListenerOptions): void;
+}
+
+/** Constructor of {@link GlanzViewerElement}. */
+export interface GlanzViewerConstructor {
+  new (): GlanzViewerElement;
+}

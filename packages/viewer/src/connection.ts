@@ -1,0 +1,158 @@
+import { requestDevice } from '@glanz/renderer';
+import type { ToneMapOptions } from '@glanz/tonemap';
+import { Display } from './display';
+import { isAbort, ViewerError } from './errors';
+import { Losses } from './losses';
+
+/** What a connection tells its engine. */
+export interface ConnectionEvents {
+  /** The device is gone; another one is asked for. */
+  readonly lost: (reason: string) => void;
+  /** Another attempt to get one begins. */
+  readonly recovering: () => void;
+  /** There is another one: what was lost with the former is to be made again. */
+  readonly back: () => Promise<void>;
+  /** That is done, so many milliseconds after the loss. */
+  readonly restored: (milliseconds: number) => void;
+  /** No other one could be had, or what was lost could not be made again. */
+  readonly failed: (error: unknown) => void;
+  /** The device complains of something. */
+  readonly error: (error: unknown) => void;
+}
+
+/** Pauses between attempts to get a device back. */
+const RECONNECT_MS = [100, 300, 1000];
+
+const destroyed = () => new ViewerError('viewer/destroyed', 'This viewer has been destroyed.');
+
+/** A canvas's device and display, and others in their place when they are lost. */
+export class Connection {
+  readonly #canvas: HTMLCanvasElement;
+  readonly #events: ConnectionEvents;
+  readonly #request: () => Promise<GPUDevice>;
+  readonly #losses = new Losses();
+  #view: ToneMapOptions;
+  #ready: Promise<void>;
+  #device: GPUDevice | undefined;
+  #display: Display | undefined;
+  #recovery: Promise<void> | undefined;
+  #destroyed = false;
+
+  constructor(canvas: HTMLCanvasElement, view: ToneMapOptions, events: ConnectionEvents, request: () => Promise<GPUDevice> = requestDevice) {
+    this.#canvas = canvas;
+    this.#view = view;
+    this.#events = events;
+    this.#request = request;
+    this.#ready = this.#connect();
+    // Whoever waits for it is told; a page without a model is not.
+    this.#ready.catch(() => undefined);
+  }
+
+  get device(): GPUDevice | undefined {
+    return this.#device;
+  }
+
+  get display(): Display | undefined {
+    return this.#display;
+  }
+
+  /** Settles when a recovery that is under way has ended; `undefined` where none is. */
+  get recovery(): Promise<void> | undefined {
+    return this.#recovery;
+  }
+
+  /** When there was a first device; rejects with what kept it from coming. */
+  get ready(): Promise<void> {
+    return this.#ready;
+  }
+
+  /** As {@link ready}, but where that failed, it is tried again. */
+  again(): Promise<void> {
+    return (this.#ready = this.#ready.catch(() => (this.#destroyed ? Promise.reject(destroyed()) : this.#connect())));
+  }
+
+  /** Exposure and tone map, of this display and of those to come. */
+  async setView(view: ToneMapOptions): Promise<void> {
+    this.#view = { ...this.#view, ...view };
+    await this.#display?.setView(view);
+  }
+
+  /** Forgives former losses and, where there is no device, asks for one. @returns Whether it does. */
+  retry(): boolean {
+    this.#losses.forgive();
+    if (!this.#device) this.#recover('retry');
+    return !this.#device;
+  }
+
+  destroy(): void {
+    this.#destroyed = true;
+    this.#display?.destroy();
+    this.#device?.destroy();
+    this.#display = this.#device = undefined;
+  }
+
+  async #connect(): Promise<void> {
+    const device = await this.#request();
+    try {
+      if (this.#destroyed) throw destroyed();
+      const display = await Display.create(this.#canvas, device, this.#view);
+      if (this.#destroyed) {
+        display.destroy();
+        throw destroyed();
+      }
+      this.#display = display;
+      // What was changed while it was made.
+      await display.setView(this.#view);
+    } catch (error) {
+      device.destroy();
+      throw error;
+    }
+    this.#device = device;
+    device.addEventListener('uncapturederror', (event) => {
+      event.preventDefault();
+      if (device === this.#device) this.#events.error(new ViewerError('viewer/gpu', `The GPU reports: ${event.error.message}`));
+    });
+    void device.lost.then(({ reason, message }) => {
+      if (device !== this.#device || this.#destroyed) return;
+      this.#device = undefined;
+      this.#events.lost(`${reason}${message ? `: ${message}` : ''}`);
+      this.#recover(reason);
+    });
+  }
+
+  /** After a loss a browser may have no adapter for a while. */
+  async #reconnect(): Promise<void> {
+    for (const wait of RECONNECT_MS) {
+      try {
+        return await this.#connect();
+      } catch {
+        if (this.#destroyed) break;
+        await new Promise((resolve) => setTimeout(resolve, wait));
+      }
+    }
+    return this.#connect();
+  }
+
+  /** A new device in place of a lost one. */
+  #recover(reason: string): void {
+    const started = performance.now();
+    const attempt = async () => {
+      this.#display?.destroy();
+      this.#display = undefined;
+      this.#events.recovering();
+      // A device that somebody destroyed on purpose does not come back by waiting.
+      if (reason !== 'retry') await this.#losses.next();
+      await this.#reconnect();
+      this.#recovery = undefined;
+      await this.#events.back();
+      if (!this.#destroyed) this.#events.restored(performance.now() - started);
+    };
+    // Set before the attempt runs, for it asks.
+    this.#recovery = Promise.resolve()
+      .then(attempt)
+      .catch((error: unknown) => {
+        this.#recovery = undefined;
+        if (!this.#destroyed && !isAbort(error)) this.#events.failed(error);
+      });
+  }
+}

@@ -1,0 +1,59 @@
+import type { PathTracer, PathTracerOptions, RenderProgress } from '@glanz/renderer';
+import type { Camera, Scene } from '@glanz/scene';
+import type { ToneMapOptions } from '@glanz/tonemap';
+import type { ViewerState } from './events';
+
+/** What an `Engine` asks of the application around it, and tells it. */
+export interface EngineHost {
+  /** Lets the camera go on by so many seconds; whether it has moved. */
+  readonly step: (seconds: number) => boolean;
+  /** Whether the camera is on its way, or about to be. */
+  readonly moving: () => boolean;
+  /** The camera for a picture of this width over height. */
+  readonly camera: (aspect: number) => Camera;
+  readonly state: (state: ViewerState) => void;
+  /** The picture has more samples; those of previews are not told. */
+  readonly sample: (progress: RenderProgress) => void;
+  /** The picture has all it was asked for, so many milliseconds after the last change. */
+  readonly converged: (samples: number, milliseconds: number) => void;
+  /** A picture has gone to the canvas: a preview or not, the milliseconds that its samples took, its size in pixels. */
+  readonly drawn: (preview: boolean, milliseconds: number, size: readonly [number, number]) => void;
+  /** The film was cleared: what it shows from now on is another picture. */
+  readonly restarted?: () => void;
+  readonly error: (error: unknown, retry?: () => void) => void;
+  /** The device was lost; another one is asked for. */
+  readonly lost: (reason: string) => void;
+  /** There is another device, and the scene is back, so many milliseconds after the loss. */
+  readonly restored: (milliseconds: number) => void;
+}
+
+/** How an `Engine` works. Fields that are not read-only may change at any time; what needs an edit or a restart with it says so. */
+export interface EngineSettings extends ToneMapOptions {
+  /** Samples per pixel of the finished picture. With a change goes `restart()`. */
+  samples: number;
+  /** Stop where this relative noise is reached. With a change goes `restart()`. */
+  noise: number | undefined;
+  /** Most edges of a path. With a change goes `touch()`. */
+  maxDepth: number;
+  /** What is behind the model. With a change goes an edit by `PathTracer.setBackground()`. */
+  background: 'environment' | 'transparent';
+  /** GPU milliseconds that one submission should take at most while the picture is refined. */
+  maxSubmitMs: number;
+  /** Milliseconds without a movement after which the picture is refined. */
+  readonly settleMs: number;
+  /** Most edges of a path in previews that are smaller than the picture. */
+  readonly previewDepth: number;
+  /** More for the path tracers; those of a {@link Take} go over them. */
+  readonly tracer: Partial<PathTracerOptions>;
+  /** Default: `requestDevice()` of the renderer. */
+  readonly requestDevice: (() => Promise<GPUDevice>) | undefined;
+}
+
+/** What a path tracer is made from. */
+export interface Take {
+  readonly scene: Scene;
+  readonly camera: Camera;
+  readonly options?: Partial<PathTracerOptions>;
+  /** Edits that the tracer needs before its first sample. */
+  readonly ready?: (tracer: PathTracer) => Promise<void>;
+}

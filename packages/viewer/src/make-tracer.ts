@@ -1,0 +1,31 @@
+import { PathTracer, type HierarchyBuilder, type PathTracerOptions } from '@glanz/renderer';
+import type { Connection } from './connection';
+import type { Take } from './engine-host';
+import { isAbort, ViewerError } from './errors';
+import { soon } from './visibility';
+
+/**
+ * Makes a tracer ready for its first sample; where the device is lost meanwhile, once more on the next one.
+ *
+ * @param source Asked anew for each attempt, as are the options: what they say may have changed while a device was waited for.
+ */
+export async function makeTracer(connection: Connection, source: () => Take, optionsNow: () => Omit<PathTracerOptions, 'hierarchies'> & { readonly hierarchies: HierarchyBuilder | undefined }): Promise<PathTracer> {
+  for (let attempt = 0; ; attempt++) {
+    await connection.recovery;
+    const { device } = connection;
+    if (!device) throw new ViewerError('viewer/device-lost', 'The GPU was lost and has not come back.');
+    const { scene, camera, options, ready } = source();
+    const { hierarchies, ...others } = optionsNow();
+    let tracer: PathTracer | undefined;
+    try {
+      tracer = await PathTracer.create(device, scene, { ...others, ...(hierarchies ? { hierarchies } : {}), ...options, camera });
+      await ready?.(tracer);
+      return tracer;
+    } catch (error) {
+      tracer?.destroy();
+      // The news of a loss may come later than its consequences.
+      await soon();
+      if (attempt > 0 || isAbort(error) || (device === connection.device && !connection.recovery)) throw error;
+    }
+  }
+}

@@ -1,0 +1,260 @@
+import type { PathTracer } from '@glanz/renderer';
+import type { Scene } from '@glanz/scene';
+import type { ToneMap } from '@glanz/tonemap';
+import { Emitter } from './emitter';
+import { Engine, type EngineHost } from './engine';
+import { isAbort, ViewerError } from './errors';
+import type { ViewerEvents, ViewerState } from './events';
+import type { EnvironmentSource } from './load';
+import type { ViewerOptions } from './options';
+import { pictureSize } from './picture-size';
+import { Surroundings } from './surroundings';
+
+/** What of a {@link Viewer} can be set at any time: light, finishing, quality. */
+export abstract class ViewerSettings extends Emitter<ViewerEvents> {
+  /** The canvas that it draws on. */
+  readonly canvas: HTMLCanvasElement;
+  /** @internal */
+  protected readonly engine: Engine;
+  /** @internal */
+  protected readonly options: ViewerOptions;
+  /** @internal */
+  protected readonly surroundings: Surroundings;
+  /** @internal As the model came. */
+  protected loaded: Scene | undefined;
+  readonly #resize: ResizeObserver;
+  #pixelRatio: number | undefined;
+
+  /** @internal Use {@link createViewer}. */
+  constructor(canvas: HTMLCanvasElement, options: ViewerOptions) {
+    super();
+    options.signal?.throwIfAborted();
+    this.canvas = canvas;
+    this.options = options;
+    this.surroundings = new Surroundings(options.environment, options.environmentIntensity, options.environmentRotation);
+    this.#pixelRatio = options.pixelRatio;
+    const { preview = {} } = options;
+    this.engine = new Engine(
+      canvas,
+      {
+        samples: options.samples ?? 256,
+        noise: options.noise,
+        maxDepth: options.maxDepth ?? 8,
+        background: options.background ?? 'environment',
+        exposure: options.exposure ?? 0,
+        toneMap: options.toneMap ?? 'neutral',
+        maxSubmitMs: options.maxSubmitMs ?? 16,
+        settleMs: preview.settleMs ?? 180,
+        previewDepth: preview.maxDepth ?? 4,
+        tracer: options.tracer ?? {},
+        requestDevice: options.requestDevice,
+      },
+      preview.budgetMs ?? 12,
+      {
+        ...this.hands(),
+        state: (state) => this.emit('state', { state }),
+        sample: ({ samples, targetSamples, samplesPerSecond, remainingMs }) => this.emit('sample', { samples, target: targetSamples, samplesPerSecond, remainingMs }),
+        converged: (samples, milliseconds) => this.emit('converged', { samples, milliseconds }),
+        drawn: (preview, milliseconds, [width, height]) => this.emit('frame', { preview, milliseconds, width, height }),
+        error: (error, retry) => this.fail(error, retry),
+        lost: (reason) => this.emit('device-lost', { reason }),
+        restored: (milliseconds) => this.emit('device-restored', { milliseconds }),
+      },
+    );
+    this.#resize = new ResizeObserver(() => this.#resized());
+    this.#resize.observe(canvas);
+    this.#resized();
+  }
+
+  /** @internal What moves the camera. */
+  protected abstract hands(): Pick<EngineHost, 'step' | 'moving' | 'camera'>;
+
+  /** What it is doing. */
+  get state(): ViewerState {
+    return this.engine.state;
+  }
+
+  /** The scene as it has been edited; `undefined` before the first one is there. Read only. */
+  get scene(): Scene | undefined {
+    return this.engine.tracer?.scene;
+  }
+
+  /** The path tracer of the present scene, for what the viewer has no word for. Another one after each load and each loss of the device. */
+  get tracer(): PathTracer | undefined {
+    return this.engine.tracer;
+  }
+
+  /** The GPU device in use; another one after each loss. */
+  get device(): GPUDevice | undefined {
+    return this.engine.device;
+  }
+
+  /** Samples per pixel of the picture as it is. */
+  get sampleCount(): number {
+    return this.engine.current ? (this.engine.tracer?.samples ?? 0) : 0;
+  }
+
+  /**
+   * Other surroundings. They also serve the models that are loaded later.
+   * @returns When the picture shows them.
+   * @throws {ViewerError} `viewer/environment`; {ImageError} for a picture that cannot be read; the former ones stay.
+   */
+  async setEnvironment(source: EnvironmentSource, options: { readonly signal?: AbortSignal } = {}): Promise<void> {
+    this.check();
+    await this.surroundings.change(source, this.loaded, options.signal);
+    await this.#relight();
+  }
+
+  /** See {@link ViewerOptions.environmentIntensity}. */
+  get environmentIntensity(): number {
+    return this.surroundings.intensity;
+  }
+
+  set environmentIntensity(intensity: number) {
+    if (!(intensity >= 0 && intensity < Infinity) || intensity === this.surroundings.intensity) return;
+    this.surroundings.intensity = intensity;
+    this.#quietly(this.#relight());
+  }
+
+  /** See {@link ViewerOptions.environmentRotation}. */
+  get environmentRotation(): number {
+    return this.surroundings.rotation;
+  }
+
+  set environmentRotation(rotation: number) {
+    if (!Number.isFinite(rotation) || rotation === this.surroundings.rotation) return;
+    this.surroundings.rotation = rotation;
+    this.#quietly(this.#relight());
+  }
+
+  /** See {@link ViewerOptions.background}. */
+  get background(): 'environment' | 'transparent' {
+    return this.engine.settings.background;
+  }
+
+  set background(background: 'environment' | 'transparent') {
+    if (background === this.engine.settings.background) return;
+    this.engine.settings.background = background;
+    this.#quietly(this.engine.edit('background', (tracer) => tracer.setBackground(background)));
+  }
+
+  /** See {@link ViewerOptions.exposure}. */
+  get exposure(): number {
+    return this.engine.settings.exposure ?? 0;
+  }
+
+  set exposure(exposure: number) {
+    if (Number.isFinite(exposure) && exposure !== this.exposure) this.#quietly(this.engine.setView({ exposure }));
+  }
+
+  /** See {@link ViewerOptions.toneMap}. An unknown one is told by the `error` event. */
+  get toneMap(): ToneMap {
+    return this.engine.settings.toneMap ?? 'neutral';
+  }
+
+  set toneMap(toneMap: ToneMap) {
+    if (toneMap !== this.toneMap) this.#quietly(this.engine.setView({ toneMap }));
+  }
+
+  /** See {@link ViewerOptions.samples}. */
+  get samples(): number {
+    return this.engine.settings.samples;
+  }
+
+  set samples(samples: number) {
+    if (!(samples >= 1) || Math.floor(samples) === this.samples) return;
+    this.engine.settings.samples = Math.floor(samples);
+    this.engine.restart();
+  }
+
+  /** See {@link ViewerOptions.noise}. */
+  get noise(): number | undefined {
+    return this.engine.settings.noise;
+  }
+
+  set noise(noise: number | undefined) {
+    const wanted = noise !== undefined && noise > 0 ? noise : undefined;
+    if (wanted === this.noise) return;
+    this.engine.settings.noise = wanted;
+    this.engine.restart();
+  }
+
+  /** See {@link ViewerOptions.maxDepth}. */
+  get maxDepth(): number {
+    return this.engine.settings.maxDepth;
+  }
+
+  set maxDepth(depth: number) {
+    if (!(Number.isInteger(depth) && depth >= 1 && depth <= 65535) || depth === this.maxDepth) return;
+    this.engine.settings.maxDepth = depth;
+    if (this.scene) this.engine.touch();
+  }
+
+  /** See {@link ViewerOptions.pixelRatio}; `undefined` is the screen's own. */
+  get pixelRatio(): number | undefined {
+    return this.#pixelRatio;
+  }
+
+  set pixelRatio(ratio: number | undefined) {
+    this.#pixelRatio = ratio;
+    this.#resized();
+  }
+
+  /** Adds no samples while it is set, but for one after each change. */
+  get paused(): boolean {
+    return this.engine.paused;
+  }
+
+  set paused(paused: boolean) {
+    this.engine.paused = paused;
+  }
+
+  /** Frees everything, the device too. Idempotent. The canvas can serve another viewer. */
+  destroy(): void {
+    if (this.state === 'destroyed') return;
+    this.#resize.disconnect();
+    this.engine.destroy();
+    this.silence();
+  }
+
+  /** @internal Width over height of the canvas. */
+  protected get aspect(): number {
+    return Math.max(1, this.canvas.clientWidth) / Math.max(1, this.canvas.clientHeight);
+  }
+
+  /** @internal */
+  protected check(): void {
+    if (this.state === 'destroyed') throw new ViewerError('viewer/destroyed', 'This viewer has been destroyed.');
+  }
+
+  /** @internal */
+  protected theScene(): Scene {
+    this.check();
+    if (!this.scene) throw new ViewerError('viewer/no-scene', 'There is no scene yet: await load() first.');
+    return this.scene;
+  }
+
+  /** @internal Tells what failed. */
+  protected fail(error: unknown, retry?: () => void): void {
+    if (this.state === 'destroyed') return;
+    const { message, code } = (typeof error === 'object' && error !== null ? error : { message: String(error) }) as { message?: string; code?: unknown };
+    this.emit('error', { error, message: (message ?? 'Something failed.').split('\n')[0] as string, code: typeof code === 'string' ? code : 'unexpected', ...(retry ? { retry } : {}) });
+  }
+
+  /** For setters, which cannot throw later. */
+  #quietly(done: Promise<void>): void {
+    done.catch((error: unknown) => !isAbort(error) && this.fail(error));
+  }
+
+  #resized(): void {
+    const { canvas } = this;
+    const size = pictureSize(canvas.clientWidth, canvas.clientHeight, this.#pixelRatio, this.options.maxPixels);
+    this.engine.resize(size, size);
+  }
+
+  async #relight(): Promise<void> {
+    if (!this.scene) return;
+    const { lit } = this.surroundings;
+    await this.engine.edit('environment', (tracer) => tracer.setEnvironment(lit));
+  }
+}
