@@ -1,6 +1,8 @@
-import { photograph } from '@glanz/browser';
+import { readFileSync } from 'node:fs';
+import { gzipSync } from 'node:zlib';
+import { checkAccessibility, photograph } from '@glanz/browser';
 import { expect, test, type Page } from '@playwright/test';
-import { buildSite, serveSite, sitePages } from './site';
+import { buildSite, DIST, serveSite, sitePages } from './site';
 import { readExport } from '../src/read-export';
 
 let origin = '';
@@ -68,6 +70,42 @@ test('all pages load without a complaint, and every internal link and anchor lea
     });
   expect([...new Set(lost.map(({ from, to }) => `${from} → ${to.pathname}${to.hash}`))]).toEqual([]);
   expect(complaints).toEqual([]);
+});
+
+test('axe finds nothing on any page, light and dark, at three widths', async ({ page }) => {
+  // Some hundred pages, twice.
+  test.setTimeout(1_800_000);
+  await page.addInitScript(() => Object.defineProperty(navigator, 'gpu', { value: undefined, configurable: true }));
+  const faults = new Map<string, string[]>();
+  const look = async (path: string, width: number, colorScheme: 'light' | 'dark') => {
+    await page.setViewportSize({ width, height: 800 });
+    await page.emulateMedia({ colorScheme });
+    await page.goto(`${origin}${path}`, { waitUntil: 'load' });
+    for (const fault of await checkAccessibility(page)) faults.set(fault, [...(faults.get(fault) ?? []), `${path} ${width} ${colorScheme}`]);
+    if ((await page.evaluate(() => document.documentElement.scrollWidth)) > width) faults.set('wider than the window', [...(faults.get('wider than the window') ?? []), `${path} ${width}`]);
+  };
+  const pages = sitePages();
+  const written = pages.filter((path) => !path.startsWith('/api/'));
+  for (const path of written) for (const [width, scheme] of [[1280, 'light'], [1280, 'dark'], [360, 'dark']] as const) await look(path, width, scheme);
+  for (const path of ['/', '/live', '/openpbr/coat', '/results/']) await look(path, 768, 'light');
+  // The reference is made by one template: a page of each kind of symbol would do, these are the long ones.
+  for (const path of pages.filter((each) => each.startsWith('/api/')).filter((each) => /\/(viewer|renderer|element)\/$/.test(each))) await look(path, 360, 'light');
+  expect(Object.fromEntries([...faults].map(([fault, where]) => [fault, where.slice(0, 4)]))).toEqual({});
+});
+
+test('a page asks for at most 150 kB of script before the demo is asked for', async ({ page }) => {
+  const heavy: string[] = [];
+  for (const path of ['/', '/openpbr/coat', '/guide/getting-started']) {
+    const scripts = new Set<string>();
+    const hear = (request: { url(): string }) => void (new URL(request.url()).pathname.endsWith('.js') && scripts.add(new URL(request.url()).pathname));
+    page.on('request', hear);
+    await page.goto(`${origin}${path}`, { waitUntil: 'networkidle' });
+    page.off('request', hear);
+    const bytes = [...scripts].reduce((sum, script) => sum + gzipSync(readFileSync(DIST + script)).length, 0);
+    expect(scripts.size, `${path} has a script`).toBeGreaterThan(0);
+    if (bytes > 150_000) heavy.push(`${path}: ${Math.round(bytes / 1000)} kB`);
+  }
+  expect(heavy).toEqual([]);
 });
 
 test('the OpenPBR page lists the table of the package', async ({ page }) => {
