@@ -191,7 +191,7 @@ export class App {
     const title = request.kind === 'sample' ? sampleTitle(request.name) : (request.entry.split('/').at(-1) ?? request.entry);
     try {
       this.#status.prepare(request.kind === 'sample' ? 'make' : 'read');
-      const opened: Opened = early ? { scene: await early, request, title, name: request.kind === 'sample' ? request.name : title } : await open(request, title, { signal, onProgress: (stage, done) => this.#status.prepare(stage, done) });
+      const opened: Opened = early ? { scene: await early, request, title, name: request.kind === 'sample' ? request.name : title } : await open(request, title, { signal, compressedFormats: await this.#session.compressedFormats(), onProgress: (stage, done) => this.#status.prepare(stage, done) });
       signal.throwIfAborted();
       const { scene } = opened;
       const first = this.#opened === undefined;

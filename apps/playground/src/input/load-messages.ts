@@ -1,4 +1,5 @@
 import type { SentScene } from '@glanz/gltf/workers';
+import type { CompressedFormat } from '@glanz/scene';
 import type { SampleName } from './samples';
 
 /** A model of the playground. */
@@ -6,8 +7,8 @@ export type ModelRequest =
   | { readonly kind: 'sample'; readonly name: SampleName }
   | { readonly kind: 'files'; readonly files: ReadonlyMap<string, Blob>; readonly entry: string; readonly animation?: number; readonly time?: number };
 
-/** What the loading worker is asked: a model, or all parts that a push-button can be put together from. */
-export type LoadRequest = ModelRequest | { readonly kind: 'kit'; readonly level: 'low' | 'medium' };
+/** What the loading worker is asked: a model, with the formats that its pictures may stay packed in, or all parts that a push-button can be put together from. */
+export type LoadRequest = (ModelRequest & { readonly compressedFormats?: readonly CompressedFormat[] }) | { readonly kind: 'kit'; readonly level: 'low' | 'medium' };
 
 /** What it answers: any number of `progress`, then one of the others. */
 export type LoadReply =

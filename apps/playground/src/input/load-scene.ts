@@ -1,5 +1,5 @@
 import { receivedScene } from '@glanz/gltf/workers';
-import type { Scene } from '@glanz/scene';
+import type { CompressedFormat, Scene } from '@glanz/scene';
 import { PlaygroundError } from '../errors';
 import type { LoadReply, LoadRequest } from './load-messages';
 
@@ -8,8 +8,8 @@ import type { LoadReply, LoadRequest } from './load-messages';
  *
  * @throws {PlaygroundError} with the code and the message of the loader's error.
  */
-export function loadScene(request: LoadRequest, options: { readonly signal: AbortSignal; readonly onProgress?: (stage: string, done: number) => void }): Promise<Scene> {
-  const { signal, onProgress } = options;
+export function loadScene(request: LoadRequest, options: { readonly signal: AbortSignal; readonly onProgress?: (stage: string, done: number) => void; readonly compressedFormats?: readonly CompressedFormat[] }): Promise<Scene> {
+  const { signal, onProgress, compressedFormats } = options;
   signal.throwIfAborted();
   return new Promise((resolve, reject) => {
     const worker = new Worker(new URL('./load-worker.ts', import.meta.url), { type: 'module' });
@@ -26,6 +26,6 @@ export function loadScene(request: LoadRequest, options: { readonly signal: Abor
       else settle(() => reject(new PlaygroundError(data.code ?? 'playground/load', data.message)));
     };
     worker.onerror = (event) => settle(() => reject(new PlaygroundError('playground/worker', `The model loader failed: ${event.message || 'its script could not be started'}; reload the page.`)));
-    worker.postMessage(request);
+    worker.postMessage(request.kind === 'files' && compressedFormats ? { ...request, compressedFormats } : request);
   });
 }

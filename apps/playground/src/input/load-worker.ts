@@ -17,7 +17,7 @@ async function load(request: LoadRequest): Promise<Scene> {
     const folder = entry.slice(0, entry.length - name.length);
     if (/\.obj$/i.test(entry)) return readObj((await bytesOf(entry)) ?? new Uint8Array(), { name, read: (path) => bytesOf(folder + path), decodeImage: (bytes) => decodeImageInBrowser(bytes, 'application/octet-stream') });
     const onProgress = ({ stage, done }: { stage: string; done: number }) => reply({ kind: 'progress', stage, done });
-    return loadGltf({ files, entry }, { decoders, onProgress, animation: request.animation, time: request.time });
+    return loadGltf({ files, entry }, { decoders, onProgress, animation: request.animation, time: request.time, compressedFormats: request.compressedFormats });
   }
   if (request.kind === 'kit') return createPushButtonKit({ level: request.level });
   if (request.name === 'cornell-box') return createCornellBox();

@@ -1,5 +1,5 @@
 import type { LightGroupMode, PathTracer, PickResult, PrepareProgress } from '@glanz/renderer';
-import type { Camera, Scene } from '@glanz/scene';
+import type { Camera, CompressedFormat, Scene } from '@glanz/scene';
 import type { ToneMapOptions } from '@glanz/tonemap';
 import { Engine, type EngineHost, type ViewerState } from '@glanz/viewer/engine';
 import type { Layer } from '../output/layers';
@@ -111,6 +111,11 @@ export class Session {
 
   get tracer(): PathTracer | undefined {
     return this.#engine.tracer;
+  }
+
+  /** What the GPU reads of compressed formats. */
+  compressedFormats(): Promise<readonly CompressedFormat[]> {
+    return this.#engine.compressedFormats();
   }
 
   /** What the GPU calls itself. */
