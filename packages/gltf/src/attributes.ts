@@ -5,10 +5,11 @@ import type { PrimitiveData } from './primitive';
 
 /** Whether every number is finite. */
 function allFinite(values: Float32Array): boolean {
-  // What is not finite leaves NaN for good.
-  let sum = 0;
-  for (let i = 0; i < values.length; i++) sum += (values[i] as number) - (values[i] as number);
-  return sum === 0;
+  // Those that are not have all bits of the exponent set, and one more carries over into the sign. Sums would have to wait for each other.
+  const bits = new Int32Array(values.buffer, values.byteOffset, values.length);
+  let carried = 0;
+  for (let i = 0; i < bits.length; i++) carried |= ((bits[i] as number) & 0x7f800000) + 0x00800000;
+  return carried >= 0;
 }
 
 /** The largest of some numbers; 0 if there are none. */

@@ -3,6 +3,7 @@ import { BenchError } from '../error';
 import { openPage } from '../loading/chromium';
 import { CONTESTANTS, loadModels, type Contestant, type Load, type LoadModel } from '../loading/models';
 import { openNode } from '../loading/node';
+import { profileLoads } from '../loading/profile';
 import { geometricMean, PLACES, speedUp, writeLoadingPage, type LoadingDetails, type LoadingRow, type Place, type Spread } from '../loading/report';
 import { machine } from '../machine';
 
@@ -57,6 +58,16 @@ export const benchmark: Benchmark = {
     } finally {
       await page.close();
     }
+    const profiles: NonNullable<LoadingDetails['profiles']>[number][] = [];
+    const legible = await openPage(true);
+    try {
+      for (const { name, file } of models) {
+        const address = `/assets/${file.split('/').map(encodeURIComponent).join('/')}`, ms = quick ? 100 : 2000;
+        profiles.push({ model: name, glanz: await profileLoads(legible.page, 'glanz', address, ms), three: await profileLoads(legible.page, 'three', address, ms) });
+      }
+    } finally {
+      await legible.close();
+    }
     const node = openNode();
     for (const model of models) note(model, 'node', await inTurns(model, ['glanz', 'three'], runs, (contestant, file) => node.load(contestant as 'glanz' | 'three', file)));
     const target = quick ? undefined : ({ value: 1.5, relation: '>=', source: 'half as fast again' } as const);
@@ -68,7 +79,7 @@ export const benchmark: Benchmark = {
     }
     const best = geometricMean((Object.keys(PLACES) as Place[]).map((place) => speedUp(rows, place, 'glanz')!));
     figures.push(timed('everywhere: three.js over loadGltf, geometric mean', '1', [best], target));
-    const details: LoadingDetails = { three: THREE, browser: page.version, runs, rows };
+    const details: LoadingDetails = { three: THREE, browser: page.version, runs, rows, profiles };
     if (values['pages'] !== undefined) for (const file of writeLoadingPage({ machine: machine(), details }, values['pages'])) log(`wrote ${file}`);
     return { settings: { runs, models: models.map(({ name }) => name), three: THREE, browser: `Chromium ${page.version}, headless` }, figures, details };
   },

@@ -42,19 +42,19 @@ globalThis.loaders.three = async (input) => {
 `;
 
 /** Bundles with the sources of the workspace, for the page. */
-async function bundle(contents: string, folder: string): Promise<Uint8Array> {
-  const { outputFiles } = await build({ stdin: { contents, resolveDir: folder }, bundle: true, write: false, format: 'esm', minify: process.env['GLANZ_PROFILE'] === undefined, target: 'es2022', conditions: ['@glanz/source'], external: ['fs', 'path', 'crypto', 'node:*'], define: { 'process.versions': '{}' }, logLevel: 'error' });
+async function bundle(contents: string, folder: string, legible: boolean): Promise<Uint8Array> {
+  const { outputFiles } = await build({ stdin: { contents, resolveDir: folder }, bundle: true, write: false, format: 'esm', minify: !legible, target: 'es2022', conditions: ['@glanz/source'], external: ['fs', 'path', 'crypto', 'node:*'], define: { 'process.versions': '{}' }, logLevel: 'error' });
   return outputFiles[0]!.contents;
 }
 
-async function serve() {
+async function serve(legible: boolean) {
   const folder = resolve('tools/bench'), gltf = resolve('packages/gltf');
   const require = createRequire(join(gltf, 'package.json')), requireThree = createRequire(join(folder, 'package.json'));
   const files = new Map<string, string | Uint8Array>([
     ['/', '<!doctype html><script>globalThis.loaders = {};</script><script type="module" src="/ours.js"></script><script type="module" src="/three.js"></script>'],
-    ['/ours.js', await bundle(OURS, gltf)],
-    ['/own-worker.js', await bundle(WORKER, gltf)],
-    ['/three.js', await bundle(THREE, folder)],
+    ['/ours.js', await bundle(OURS, gltf, legible)],
+    ['/own-worker.js', await bundle(WORKER, gltf, legible)],
+    ['/three.js', await bundle(THREE, folder, legible)],
     ['/draco.wasm', readFileSync(join(dirname(require.resolve('draco3dgltf')), 'draco_decoder_gltf.wasm'))],
   ]);
   const threeDraco = join(dirname(requireThree.resolve('three')), '../examples/jsm/libs/draco/gltf');
@@ -74,9 +74,13 @@ async function serve() {
   return server;
 }
 
-/** A page in Chromium with all loaders. */
-export async function openPage() {
-  const server = await serve();
+/**
+ * A page in Chromium with all loaders.
+ *
+ * @param legible Whether functions keep their names, for profiles.
+ */
+export async function openPage(legible = false) {
+  const server = await serve(legible);
   const { chromium } = await import('playwright');
   const { default: config } = (await import('../../../../playwright.config')) as { default: { use?: { launchOptions?: Parameters<typeof chromium.launch>[0] } } };
   const browser = await chromium.launch(config.use?.launchOptions ?? {});

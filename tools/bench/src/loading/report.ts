@@ -1,6 +1,7 @@
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { CONTESTANTS, type Contestant } from './models';
+import { WORK, type Shares, type Work } from './profile';
 
 /** Where loads were measured. */
 export const PLACES = {
@@ -33,6 +34,8 @@ export interface LoadingDetails {
   readonly browser: string;
   readonly runs: number;
   readonly rows: readonly LoadingRow[];
+  /** Where the time of the calling thread goes when a model is loaded from memory in Chromium. */
+  readonly profiles?: readonly { readonly model: string; readonly glanz: Shares; readonly three: Shares }[];
 }
 
 /** A report of the benchmark. */
@@ -52,8 +55,36 @@ export function speedUp(rows: readonly LoadingRow[], place: Place, contestant: E
 const digits = (ms: number) => (ms < 10 ? ms.toFixed(1) : ms.toFixed(0));
 const spread = (s: Spread | undefined) => (s ? `${digits(s.median)} (${digits(s.min)} – ${digits(s.max)})` : '–');
 
+/** The shares of a load that no loader that uses the same decoders and the same browser can save. */
+const fixedShare = (shares: Shares) => shares.waiting + shares.decoder + shares.browser;
+
+/** Where the time goes, and how fast the loader would be if all that is its own took none. */
+function profileSection({ rows, profiles }: LoadingDetails): string[] {
+  if (!profiles) return [];
+  const kinds = Object.keys(WORK) as Work[];
+  const percent = (share: number) => (share < 0.005 ? '' : `${(100 * share).toFixed(0)} %`);
+  const bounds = profiles.flatMap(({ model, glanz }) => {
+    const times = rows.find((row) => row.model === model && row.place === 'bytes')?.times;
+    return times?.glanz && times.three ? [{ model, now: times.three.median / times.glanz.median, bound: times.three.median / times.glanz.median / fixedShare(glanz) }] : [];
+  });
+  const large = bounds.filter(({ model }) => rows.some((row) => row.model === model && row.place === 'bytes' && (row.times.three?.median ?? 0) > 20));
+  return [
+    '## Where the time goes',
+    '',
+    'Shares of the calling thread\'s time, sampled every tenth of a millisecond while a model is loaded from memory in Chromium again and again. What waits for others (pictures decoded by the browser, Draco in three.js\'s workers) is waiting; what the browser does on this thread itself is the browser\'s: with three.js\'s options for pictures that is a pass over all pixels.',
+    '',
+    `| model | | ${kinds.map((kind) => WORK[kind]).join(' | ')} |`,
+    `| --- | --- | ${kinds.map(() => '--:').join(' | ')} |`,
+    ...profiles.flatMap(({ model, glanz, three }) => [`| ${model} | loadGltf | ${kinds.map((kind) => percent(glanz[kind])).join(' | ')} |`, `| | three.js | ${kinds.map((kind) => percent(three[kind])).join(' | ')} |`]),
+    '',
+    `So of a load by Glanz the decoders and the browser have most in the models where there is something to wait for. Were checks, tangents and all else of the loader's own free, three.js ÷ loadGltf from memory would be ${bounds.map(({ model, now, bound }) => `${bound.toFixed(2)}× instead of ${now.toFixed(2)}× (${model})`).join(', ')}; of the models that take three.js more than 20 ms, **${geometricMean(large.map(({ bound }) => bound)).toFixed(2)}×** in the geometric mean.`,
+    '',
+  ];
+}
+
 /** The page of the documentation. */
-export function loadingMarkdown({ machine, details: { three, browser, runs, rows } }: LoadingReport): string {
+export function loadingMarkdown({ machine, details }: LoadingReport): string {
+  const { three, browser, runs, rows } = details;
   const names = Object.keys(CONTESTANTS) as Contestant[];
   const table = (place: Place) => {
     const own = rows.filter((row) => row.place === place);
@@ -94,6 +125,7 @@ export function loadingMarkdown({ machine, details: { three, browser, runs, rows
     '- Draco (chess-board): three.js unpacks its eight meshes side by side in workers; Glanz one after the other in one thread.',
     '- Small files and plain geometry (pirate, bunny): from an address they take about as long as the server and the copy of the bytes. From memory Glanz is slower by what its checks cost: about 3 ms for the 144,046 triangles of the bunny.',
     '',
+    ...profileSection(details),
     '## How long the page stands still',
     '',
     'Longest task of the page\'s own thread during a load, in milliseconds of its time on the processor. A frame has 16.',
