@@ -9,6 +9,7 @@ import { MATERIAL_EXTENSIONS } from './materials';
 import type { PrimitiveReader } from './primitive';
 import { decoded, type Source } from './source';
 import { dataUri } from './uri';
+import type { DracoWorkers } from './worker/draco-workers';
 
 /**
  * Decoders that the host hands in since they are heavy, each as it is or as a function that fetches it; the function is
@@ -17,6 +18,8 @@ import { dataUri } from './uri';
 export interface GltfDecoders {
   /** The module of `draco3dgltf`: `await createDecoderModule()`. */
   readonly draco?: unknown;
+  /** Lets workers unpack Draco-compressed meshes side by side. `draco` is needed beside it: it does what they cannot. */
+  readonly dracoWorkers?: DracoWorkers | undefined;
   /** `MeshoptDecoder` of `meshoptimizer/decoder`. */
   readonly meshopt?: unknown;
   /** Decodes KTX2 pictures; see {@link ktx2Decoder}. Without it, pictures in other formats are taken where a document has both. */
@@ -139,7 +142,7 @@ export async function readDocument(checked: CheckedDocument, binary: Uint8Array<
     return buffers[(packed ?? view)?.buffer ?? -1] !== undefined;
   };
   checkBytes((index) => (isThere(index) ? viewBytes(index) : undefined));
-  return { file, accessors: new Accessors(json, viewBytes, budget), viewBytes, isThere, draco, budget, bytes: total };
+  return { file, accessors: new Accessors(json, viewBytes, budget), viewBytes, isThere, draco, ahead: new Map(), budget, bytes: total };
 }
 
 const short = (name: string, path: string, length: number, expected: number) =>

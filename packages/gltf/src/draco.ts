@@ -45,6 +45,9 @@ export interface DracoPrimitive {
   readonly attributes: ReadonlyMap<string, { readonly numbers: Numbers; readonly accessor: GltfAccessor }>;
 }
 
+/** An attribute that a compressed mesh holds: its semantic, Draco's id, and what it is in the document. */
+export type DracoAttribute = readonly [semantic: string, id: number, accessor: GltfAccessor];
+
 /** The floats of an unpacked attribute, as `Accessors.floats` gives them. */
 export const dracoFloats = ({ numbers, accessor }: { readonly numbers: Numbers; readonly accessor: GltfAccessor }, size: number): Float32Array<ArrayBuffer> =>
   toFloats(numbers, accessor.componentType, accessor.normalized ?? false, ELEMENT_SIZE[accessor.type] as number, size);
@@ -57,7 +60,7 @@ export const dracoFloats = ({ numbers, accessor }: { readonly numbers: Numbers; 
  * @param checkSize Told the bytes that come out before they are allocated; may throw.
  * @throws {Error} if the data are broken.
  */
-export function unpackDraco(module: unknown, bytes: Uint8Array, attributes: readonly (readonly [semantic: string, id: number, accessor: GltfAccessor])[], checkSize: (bytes: number) => void): DracoPrimitive {
+export function unpackDraco(module: unknown, bytes: Uint8Array, attributes: readonly DracoAttribute[], checkSize: (bytes: number) => void): DracoPrimitive {
   const draco = module as DracoModule;
   const buffer = new draco.DecoderBuffer();
   const decoder = new draco.Decoder();

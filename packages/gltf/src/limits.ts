@@ -32,6 +32,11 @@ export class Budget {
     this.#limit = limits?.[name] ?? Math.min(DEFAULT_LIMITS[name], base + factor * fileBytes);
   }
 
+  /** What may still be taken. */
+  get left(): number {
+    return Math.max(0, this.#limit - this.#used);
+  }
+
   /** As {@link take}, but nothing is used up. */
   check(amount: number, path: string): void {
     this.take(amount, path);

@@ -100,6 +100,11 @@ export async function buildScene(source: Source, options: GltfOptions & { readon
   const images = table.readImages(options.decodeImage, reader.viewBytes, imageBytes, signal, () => onProgress?.({ stage: 'images', done: ++done / table.imageCount }));
   images.catch(() => undefined);
   const shown = sceneToShow(json, options.scene, source.name);
+  const dracoWorkers = reader.draco ? options.decoders?.dracoWorkers : undefined;
+  if (dracoWorkers) {
+    await (await import('./draco-ahead')).unpackAhead(json, shown, reader, dracoWorkers);
+    signal?.throwIfAborted();
+  }
   const surroundings = readSurroundings(json, shown, (index) => table.readImage(index, options.decodeImage, reader.viewBytes, imageBytes, signal), signal);
   surroundings.catch(() => undefined);
   let fallback: number | undefined;

@@ -1,5 +1,5 @@
 import type { Accessors } from './accessors';
-import { dracoFloats, unpackDraco, type DracoPrimitive } from './draco';
+import { dracoFloats, unpackDraco, type DracoAttribute, type DracoPrimitive } from './draco';
 import { GltfError } from './error';
 import type { GltfPrimitive } from './json';
 import type { Budget } from './limits';
@@ -30,15 +30,22 @@ export interface PrimitiveReader {
   /** Whether the buffer of a view has been read. */
   readonly isThere: (view: number) => boolean;
   readonly draco: unknown;
+  /** Primitives that workers have unpacked already. */
+  readonly ahead: Map<GltfPrimitive, DracoPrimitive>;
   readonly budget: Budget;
   /** Bytes of the document and its buffers. */
   readonly bytes: number;
 }
 
-/** Opens a primitive; one that is compressed is unpacked here. */
-export function openPrimitive(json: GltfPrimitive, path: string, { file, accessors, viewBytes, draco, budget }: PrimitiveReader): PrimitiveData {
+/** The attributes of a compressed primitive that the document knows. */
+export const dracoAttributes = ({ attributes, extensions }: GltfPrimitive, { accessors }: PrimitiveReader): DracoAttribute[] =>
+  Object.entries(extensions?.KHR_draco_mesh_compression?.attributes ?? {}).flatMap(([semantic, id]) => (attributes[semantic] === undefined ? [] : [[semantic, id, accessors.at(attributes[semantic])] as const]));
+
+/** Opens a primitive; one that is compressed and has not been unpacked yet is unpacked here. */
+export function openPrimitive(json: GltfPrimitive, path: string, reader: PrimitiveReader): PrimitiveData {
+  const { file, accessors, viewBytes, draco, budget, ahead } = reader;
   const packed = json.extensions?.KHR_draco_mesh_compression;
-  const unpacked: DracoPrimitive | undefined = packed && draco ? unpack(packed) : undefined;
+  const unpacked: DracoPrimitive | undefined = packed && draco ? (ahead.get(json) ?? unpack(packed)) : undefined;
   return {
     json,
     count: (semantic) => {
@@ -58,11 +65,10 @@ export function openPrimitive(json: GltfPrimitive, path: string, { file, accesso
     },
   };
 
-  function unpack({ bufferView, attributes }: NonNullable<typeof packed>): DracoPrimitive {
+  function unpack({ bufferView }: NonNullable<typeof packed>): DracoPrimitive {
     const at = `${path}/extensions/KHR_draco_mesh_compression`;
-    const wanted = Object.entries(attributes).flatMap(([semantic, id]) => (json.attributes[semantic] === undefined ? [] : [[semantic, id, accessors.at(json.attributes[semantic])] as const]));
     try {
-      return unpackDraco(draco, viewBytes(bufferView), wanted, (bytes) => budget.take(bytes, at));
+      return unpackDraco(draco, viewBytes(bufferView), dracoAttributes(json, reader), (bytes) => budget.take(bytes, at));
     } catch (cause) {
       if (cause instanceof GltfError) throw cause;
       throw new GltfError('gltf/malformed', `${file}: ${at} cannot be unpacked: ${cause instanceof Error ? cause.message : String(cause)}; export the file again.`, { cause, location: { file, path: at } });

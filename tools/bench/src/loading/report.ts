@@ -122,7 +122,7 @@ export function loadingMarkdown({ machine, details }: LoadingReport): string {
     'The aim, half as fast again in the mean, is not reached. Why:',
     '',
     '- Both use the same decoders (the browser\'s JPEG, Draco\'s and meshopt\'s own WebAssembly), and those take most of the time. What Glanz wins, it wins by decoding pictures while geometry is unpacked, by asking for them without the pass over the pixels that colour options cost (profiles are taken out of the bytes instead), and by not decoding what is not looked at. The largest picture alone bounds DamagedHelmet.',
-    '- Draco (chess-board): three.js unpacks its eight meshes side by side in workers; Glanz one after the other in one thread.',
+    '- Draco (chess-board): three.js unpacks its eight meshes side by side in up to four workers. Glanz does so too where there are threads for it (`decoders.dracoWorkers`, and in a worker of its own three threads or more); these times are of two cores and, with `loadGltf`, without such workers.',
     '- Small files and plain geometry (pirate, bunny): from an address they take about as long as the server and the copy of the bytes. From memory Glanz is slower by what its checks cost: about 3 ms for the 144,046 triangles of the bunny.',
     '',
     ...profileSection(details),
