@@ -4,6 +4,7 @@ import { describeError, isAbort } from './errors';
 import { Environments } from './input/environments';
 import { isSample, linkOfPage, open, sampleTitle, stateFor, type Opened } from './input/opening';
 import type { ModelRequest } from './input/load-messages';
+import type { Poser } from './input/poser';
 import { SAMPLES } from './input/samples';
 import { wireFiles } from './input/wire-files';
 import { Selection } from './selection';
@@ -46,6 +47,8 @@ export class App {
   #opened: Opened | undefined;
   #link: LinkContent | undefined;
   #loading: AbortController | undefined;
+  #poser: Poser | undefined;
+  #posing: Promise<boolean> | undefined;
   #context: Promise<Context> | undefined;
 
   private constructor() {
@@ -261,7 +264,7 @@ export class App {
       onStatus: (listener) => this.#statusListeners.push(listener),
       openFiles: (files) => void this.#open(files),
       pickFiles: () => byId('files').click(),
-      pose: () => void this.#pose(),
+      pose: () => this.#pose(),
       say: (text) => this.#say(text),
       fail: (error) => this.#fail(error),
       stageSize: () => [this.#stage.clientWidth, this.#stage.clientHeight],
@@ -272,13 +275,42 @@ export class App {
     return context;
   }
 
-  /** The model again, in the pose that the state says. */
-  async #pose(): Promise<void> {
-    const { clip, time } = this.#store.state;
-    const request = this.#opened?.request;
-    if (request?.kind !== 'files') return;
-    const { animation: _a, time: _t, ...rest } = request;
-    await this.load(clip === null ? rest : { ...rest, animation: clip, time }, undefined, this.#store.state);
+  /** The model in the pose that the state says. @returns Whether there is a model to pose, and it has been. */
+  async #pose(): Promise<boolean> {
+    // The last one that was asked for counts.
+    if (this.#posing) await this.#posing;
+    return (this.#posing ??= this.#poseNow().finally(() => (this.#posing = undefined)));
+  }
+
+  async #poseNow(): Promise<boolean> {
+    const opened = this.#opened;
+    const request = opened?.request;
+    if (!opened || request?.kind !== 'files') return false;
+    const [{ Poser }, { applyPose, movesMany, posedScene }] = await Promise.all([import('./input/poser'), import('./viewer/pose')]);
+    if (this.#poser?.request !== request) {
+      this.#poser?.destroy();
+      this.#poser = new Poser(request);
+    }
+    try {
+      const { clip, time } = this.#store.state;
+      const pose = await this.#poser.pose(clip, time);
+      if (this.#opened !== opened) return false;
+      const scene = posedScene(opened.scene, pose);
+      if (!scene) {
+        const { animation: _a, time: _t, ...rest } = request;
+        await this.load(clip === null ? rest : { ...rest, animation: clip, time }, undefined, this.#store.state);
+        return true;
+      }
+      this.#opened = { ...opened, scene };
+      this.#rig.pose(scene);
+      this.#outline?.clear();
+      if (movesMany(opened.scene, scene)) await present(scene, () => this.#store.state, this.#host());
+      else await this.#session.edit('pose', (tracer) => applyPose(tracer, scene, this.#store.state));
+      return true;
+    } catch (error) {
+      this.#fail(error);
+      return false;
+    }
   }
 
   async #dropPreset(name: string, x: number, y: number): Promise<void> {

@@ -66,6 +66,26 @@ test('an animation poses the model: its time moves a part, edits stay, and rest 
     await finished(page);
     expect(await red()).toBeGreaterThan(rest + 0.2);
   }).toPass();
+  const restarts = Number(await dataOf(page, 'restarts'));
+
+  // Played, the sail moves by itself, and the time with it; the picture of the moment at which it is stopped is finished.
+  await time.fill('0');
+  await time.press('Tab');
+  await page.getByRole('button', { name: 'Play the animation' }).click();
+  const seen = new Set<string>();
+  await expect.poll(async () => seen.add(await time.inputValue()).size, { message: 'the time goes on' }).toBeGreaterThan(3);
+  expect(Number(await dataOf(page, 'restarts'))).toBeGreaterThan(restarts + 3);
+  await page.getByRole('button', { name: 'Stop the animation' }).click();
+  await expect(page.getByRole('button', { name: 'Play the animation' })).toHaveAttribute('aria-pressed', 'false');
+  await finished(page);
+  // Half-way it would be a metre to the right of where it rests.
+  const moment = Number(await time.inputValue());
+  await expect(async () => {
+    await finished(page);
+    const [at, end] = [await red(), Math.min(1, Math.max(0, moment))];
+    expect(at - rest).toBeGreaterThan(0.1 * end);
+  }).toPass();
+
   await page.getByLabel('Animation', { exact: true }).selectOption('At rest');
   await expect(async () => {
     await finished(page);

@@ -8,6 +8,8 @@ import type { LoadReply, LoadRequest } from './load-messages';
 
 // Reading and making models takes seconds for large ones: here it does not stop the page, and can be stopped by it.
 
+const noPicture = () => Promise.resolve({ width: 1, height: 1, data: new Uint8ClampedArray(4) });
+
 async function load(request: LoadRequest): Promise<Scene> {
   if (request.kind === 'files') {
     const { files, entry } = request;
@@ -17,7 +19,7 @@ async function load(request: LoadRequest): Promise<Scene> {
     const folder = entry.slice(0, entry.length - name.length);
     if (/\.obj$/i.test(entry)) return readObj((await bytesOf(entry)) ?? new Uint8Array(), { name, read: (path) => bytesOf(folder + path), decodeImage: (bytes) => decodeImageInBrowser(bytes, 'application/octet-stream') });
     const onProgress = ({ stage, done }: { stage: string; done: number }) => reply({ kind: 'progress', stage, done });
-    return loadGltf({ files, entry }, { decoders, onProgress, animation: request.animation, time: request.time, compressedFormats: request.compressedFormats });
+    return loadGltf({ files, entry }, { decoders, onProgress, animation: request.animation, time: request.time, compressedFormats: request.compressedFormats, ...(request.shapesOnly ? { decodeImage: noPicture } : {}) });
   }
   if (request.kind === 'kit') return createPushButtonKit({ level: request.level });
   if (request.name === 'cornell-box') return createCornellBox();

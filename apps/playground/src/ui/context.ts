@@ -22,8 +22,8 @@ export interface Context {
   readonly onStatus: (listener: (status: SessionStatus) => void) => void;
   readonly openFiles: (files: ReadonlyMap<string, File>) => void;
   readonly pickFiles: () => void;
-  /** Loads the model again, posed by the state's animation. */
-  readonly pose: () => void;
+  /** Brings the model into the pose that the state's animation has. @returns Whether it is on its way to the screen. */
+  readonly pose: () => Promise<boolean>;
   readonly say: (text: string) => void;
   readonly fail: (error: unknown) => void;
   /** Size of the stage, CSS pixels. */

@@ -6,6 +6,8 @@ const PATHS = {
   image: 'M3 4.500h14v11H3zM3 13l4-4 4 4 2.5-2.500L17 14M13 7.500v.2',
   plus: 'M10 4.500v11M4.5 10h11',
   bin: 'M4.5 6h11M8 6V4h4v2M6 6l.7 10h6.600L14 6',
+  play: 'M6.5 4.500v11l9-5.500z',
+  pause: 'M7 5v10M13 5v10',
   copy: 'M7 7h9v9H7zM13 7V4H4v9h3',
 } as const;
 export type IconName = keyof typeof PATHS;

@@ -1,8 +1,8 @@
 import { LAYER_TITLES, LAYERS } from '../output/layers';
 import type { Scale } from '../state/state';
 import { changer, watch, type Context } from './context';
-import { element } from './elements';
 import { section, selectField, sliderField } from './fields';
+import { Playback } from './playback';
 import { StatisticsPanel } from './statistics';
 
 const SCALE_TITLES: Readonly<Record<Scale, string>> = { '0.125': 'Eighth', '0.25': 'Quarter', '0.5': 'Half', '1': 'Full', device: 'Screen pixels' };
@@ -28,9 +28,9 @@ export function renderPanel(context: Context): HTMLElement[] {
   });
 
   const variant = selectField({ id: 'variant', label: 'Variant', value: '' as string, choices: [], onInput: (value) => store.set({ variant: value === '' ? null : value }, { label: 'Variant' }) });
-  const clip = selectField({ id: 'clip', label: 'Animation', value: '' as string, choices: [], onInput: (value) => { store.set({ clip: value === '' ? null : Number(value), time: 0 }, { label: 'Animation' }); pose(); } });
-  const timePlace = element('div', {});
-  const looks = section('Model', variant.element, clip.element, timePlace);
+  const clip = selectField({ id: 'clip', label: 'Animation', value: '' as string, choices: [], onInput: (value) => { store.set({ clip: value === '' ? null : Number(value), time: 0 }, { label: 'Animation' }); void pose(); } });
+  const playback = new Playback(context);
+  const looks = section('Model', variant.element, clip.element, playback.element);
   const fill = () => {
     const { variants = [], animations = [] } = opened().scene;
     variant.setChoices([['', 'As made'], ...variants.map((name) => [name, name] as const)], store.state.variant ?? '');
@@ -39,7 +39,7 @@ export function renderPanel(context: Context): HTMLElement[] {
     clip.element.hidden = animations.length === 0;
     looks.hidden = variants.length === 0 && animations.length === 0;
     const playing = store.state.clip === null ? undefined : animations[store.state.clip];
-    timePlace.replaceChildren(...(playing ? [sliderField({ id: 'time', label: 'Time', unit: 's', value: store.state.time, range: [0, Math.max(playing.duration, 0.001)], onInput: (time) => { store.set({ time }, { label: 'Time' }); pose(); } }).element] : []));
+playback.show(playing?.duration);
   };
   onModel(fill);
   watch(store, ['variant', 'clip'], fill);

@@ -60,6 +60,14 @@ export class CameraRig {
     this.#follower = undefined;
   }
 
+  /** The same scene in another pose: bounds and the view of all stay, a camera of its own may have moved. */
+  pose(scene: Scene): void {
+    const own = scene.cameras[this.#store.state.camera];
+    this.#known = this.#known && !own ? { ...this.#known, scene } : undefined;
+    this.#scene = scene;
+    if (own) this.follow(true);
+  }
+
   /** Whether the camera is on its way to where the state wants it. */
   get moving(): boolean {
     return this.#follower?.moving ?? false;

@@ -207,12 +207,13 @@ export class Session {
    * Applies an edit between two frames: a GPU that is slow skips edits rather than pictures.
    *
    * @param key Of several edits with one key that wait, the last one counts; the fields of their values add up.
+   * @returns When it has taken effect, or has failed and was told.
    */
-  edit(key: string, apply: (tracer: PathTracer, merged: object) => void | Promise<void>, value: object = {}): void {
+  async edit(key: string, apply: (tracer: PathTracer, merged: object) => void | Promise<void>, value: object = {}): Promise<void> {
     // Whoever prepares a scene brings what was changed meanwhile.
     if (this.#preparing > 0) return;
     this.#askedAt ??= performance.now();
-    this.#engine.edit(key, apply, value).catch(this.#report);
+    await this.#engine.edit(key, apply, value).catch(this.#report);
   }
 
   /** Changes what is computed from the film without restarting it, e.g. the strength of a light group. */
