@@ -35,6 +35,14 @@ const tasks = {
   lint: { help: 'oxlint, warnings are errors', run: (args) => node(bin('oxlint', 'bin/oxlint'), ['--deny-warnings', ...args]) },
   unit: { help: 'unit and GPU tests: npm run unit -- --project bvh', run: (args) => node(bin('vitest', 'vitest.mjs'), ['run', ...args]) },
   test: { help: 'everything that must pass (--only a,b or --skip a,b: stages; --list)', run: (args) => node(join(root, 'tools/test.mjs'), args) },
+  release: {
+    help: 'with --dry-run: the same as release:dry',
+    run: async (args) => {
+      if (!args.includes('--dry-run')) throw new TaskError('A release is two commits of a maintainer: "npx changeset version", and after its review "npx changeset publish". See what would go out with --dry-run.');
+      await ensureBuilt({});
+      return node(join(root, 'tools/release-dry.mjs'), args.filter((arg) => arg !== '--dry-run'));
+    },
+  },
   'release:dry': { help: 'pack all packages as a release would, check them, and tell the next versions', build: true, run: (args) => node(join(root, 'tools/release-dry.mjs'), args) },
 };
 

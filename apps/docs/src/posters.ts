@@ -25,7 +25,7 @@ const SHOTS: Readonly<Record<string, Shot>> = {
 
 /** Path-traces the posters: sRGB codes, RGBA. */
 export async function* renderPosters(options: { readonly samples: number; readonly names: readonly string[]; readonly report: (line: string) => void }): AsyncGenerator<{ readonly name: string; readonly width: number; readonly height: number; readonly data: Uint8ClampedArray }> {
-  const [width, height] = [720, 480];
+  const [width, height] = [600, 400];
   const device = await requestDevice({ gpu: (await createGpu()).gpu });
   for (const [name, { scene, material, parameters }] of Object.entries(SHOTS)) {
     if (options.names.length > 0 && !options.names.includes(name)) continue;

@@ -11,7 +11,7 @@ const MOST_ROWS = 400;
 export class SceneTree {
   readonly elements: readonly HTMLElement[];
   readonly #context: Context;
-  readonly #search = element('input', { type: 'search', id: 'part-search', placeholder: 'Search parts', 'aria-label': 'Search parts' });
+  readonly #search = element('input', { type: 'search', id: 'part-search', placeholder: 'Search', 'aria-label': 'Search parts' });
   readonly #order = element('select', { id: 'part-order', 'aria-label': 'Order of parts' }, element('option', { value: 'file' }, 'As in file'), element('option', { value: 'material' }, 'By material'));
   readonly #list = element('ul', { class: 'tree', id: 'parts', 'aria-label': 'Parts' });
   readonly #showAll = element('button', { type: 'button', id: 'show-all', class: 'quiet', hidden: true }, 'Show all');
