@@ -3,6 +3,7 @@ import { dirname } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vitepress';
 import { apiReference } from './api';
+import { emptyHeaders } from './empty-headers';
 import { readmeLinks } from './readme-links';
 
 const packages = ['viewer', 'element', 'react', 'three', 'renderer', 'gltf', 'formats', 'cad', 'scene', 'openpbr', 'bvh', 'tonemap', 'image', 'wgsl', 'cli'];
@@ -35,8 +36,12 @@ export default defineConfig({
   markdown: {
     // As the API reference writes its links: underscores stay.
     anchor: { slugify: (text) => text.trim().toLowerCase().replace(/[^\p{L}\p{N}\s_-]+/gu, '').replace(/\s+/g, '-') },
-    config: (md) => void md.use(readmeLinks),
+    config: (md) => void md.use(readmeLinks).use(emptyHeaders),
+    // The usual ones have comments and keywords too faint for the ground of code blocks.
+    theme: { light: 'github-light-high-contrast', dark: 'github-dark-high-contrast' },
   },
+  // The theme's home page has no main landmark; its other pages have.
+  transformHtml: (html) => html.replace(/(<div class="VPContent is-home"[^>]*)>/, '$1 role="main">'),
   vite: {
     // Examples and demos run from the packages' sources; the pages need no build of them.
     resolve: { conditions: ['@glanz/source'] },

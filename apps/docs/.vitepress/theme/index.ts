@@ -13,7 +13,13 @@ import './style.css';
 
 export default {
   extends: DefaultTheme,
-  enhanceApp({ app }) {
+  enhanceApp({ app, router }) {
+    // As the built pages say it, for those who come here by a link.
+    router.onAfterRouteChange = () => {
+      const content = typeof document === 'undefined' ? null : document.getElementById('VPContent');
+      if (content?.classList.contains('is-home')) content.setAttribute('role', 'main');
+      else content?.removeAttribute('role');
+    };
     app.component('FigureGrid', FigureGrid);
     app.component('FigureTable', FigureTable);
     app.component('LiveBall', LiveBall);
