@@ -65,6 +65,14 @@ test('the first script is small, and controls come after the first model', async
   await open(page);
   const at = (name: RegExp) => asked.findIndex((url) => name.test(url));
   expect(at(/\/panels-[^/]+\.js$/)).toBeGreaterThan(at(/\/load-worker-[^/]+\.js$/));
+  // What the page's own thread has fetched: renderer, energy tables and the viewer's engine for the picture (some 160 kB), then panels.
+  // Workers are not in it.
+  const fetched = (urls: readonly string[]) => {
+    const scripts = new Set(urls.map((url) => new URL(url).pathname).filter((path) => path.endsWith('.js') && !path.includes('worker')));
+    return [...scripts].reduce((sum, path) => sum + gzipSync(readFileSync(dist + path.slice(1))).length, 0);
+  };
+  expect(fetched(asked.slice(0, at(/\/panels-[^/]+\.js$/)))).toBeLessThan(175_000);
+  expect(fetched(asked)).toBeLessThan(200_000);
   // Presets, encoders and decoders wait until somebody wants them.
   expect(asked.filter((url) => /\/(presets|png|exr|materialx|draco|meshopt)[^/]*\.(js|wasm)$/.test(url))).toEqual([]);
 });
