@@ -79,7 +79,7 @@ export const benchmark: Benchmark = {
     }
     const best = geometricMean((Object.keys(PLACES) as Place[]).map((place) => speedUp(rows, place, 'glanz')!));
     figures.push(timed('everywhere: three.js over loadGltf, geometric mean', '1', [best], target));
-    const details: LoadingDetails = { three: THREE, browser: page.version, runs, rows, profiles };
+    const details: LoadingDetails = { three: THREE, browser: page.version, runs, rows, profiled: machine(), profiles };
     if (values['pages'] !== undefined) for (const file of writeLoadingPage({ machine: machine(), details }, values['pages'])) log(`wrote ${file}`);
     return { settings: { runs, models: models.map(({ name }) => name), three: THREE, browser: `Chromium ${page.version}, headless` }, figures, details };
   },

@@ -35,6 +35,7 @@ export interface LoadingDetails {
   readonly runs: number;
   readonly rows: readonly LoadingRow[];
   /** Where the time of the calling thread goes when a model is loaded from memory in Chromium. */
+  readonly profiled?: { readonly commit?: string | undefined; readonly date: string };
   readonly profiles?: readonly { readonly model: string; readonly glanz: Shares; readonly three: Shares }[];
 }
 
@@ -59,7 +60,7 @@ const spread = (s: Spread | undefined) => (s ? `${digits(s.median)} (${digits(s.
 const fixedShare = (shares: Shares) => shares.waiting + shares.decoder + shares.browser;
 
 /** Where the time goes, and how fast the loader would be if all that is its own took none. */
-function profileSection({ rows, profiles }: LoadingDetails): string[] {
+function profileSection({ rows, profiles, profiled }: LoadingDetails): string[] {
   if (!profiles) return [];
   const kinds = Object.keys(WORK) as Work[];
   const percent = (share: number) => (share < 0.005 ? '' : `${(100 * share).toFixed(0)} %`);
@@ -71,7 +72,7 @@ function profileSection({ rows, profiles }: LoadingDetails): string[] {
   return [
     '## Where the time goes',
     '',
-    'Shares of the calling thread\'s time, sampled every tenth of a millisecond while a model is loaded from memory in Chromium again and again. What waits for others (pictures decoded by the browser, Draco in three.js\'s workers) is waiting; what the browser does on this thread itself is the browser\'s: with three.js\'s options for pictures that is a pass over all pixels.',
+    `Shares of the calling thread's time, sampled every tenth of a millisecond while a model is loaded from memory in Chromium again and again. What waits for others (pictures decoded by the browser, Draco in three.js's workers) is waiting; what the browser does on this thread itself is the browser's: with three.js's options for pictures that is a pass over all pixels.${profiled ? ` Commit ${profiled.commit ?? 'unknown'}, ${profiled.date.slice(0, 10)}.` : ''}`,
     '',
     `| model | | ${kinds.map((kind) => WORK[kind]).join(' | ')} |`,
     `| --- | --- | ${kinds.map(() => '--:').join(' | ')} |`,
