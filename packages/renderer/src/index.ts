@@ -2,4 +2,4 @@ export { DeviceError, RenderError } from './errors';
 export { requestDevice, type DeviceOptions } from './gpu/device';
 export { compressedFormats } from './scene/textures';
 export { PathTracer } from './path-tracer';
-export type { BounceLimits, FilmLayer, HierarchyBuilder, LightGroup, LightGroupMode, MemoryReport, PathTracerOptions, PickResult, PixelFilter, PrepareProgress, FirstLight, RenderOptions, RenderProgress, RenderStatistics } from './options';
+export type { BounceLimits, FilmLayer, HierarchyBuilder, LightGroup, LightGroupMode, MemoryReport, PathTracerOptions, PickResult, PixelFilter, PrepareProgress, FirstLight, RenderOptions, RenderProgress, RenderStatistics, Sampler } from './options';

@@ -55,15 +55,24 @@ export interface PathTracerOptions {
   /** Compensate the energy that single-scattering microfacet models lose. Default true; false is for tests against such references. */
   readonly multipleScattering?: boolean;
   /**
-   * Where the random numbers come from. `sobol` (default): Owen-scrambled Sobol points, which converge faster;
-   * `independent`: PCG. Both are unbiased.
+   * Where the random numbers come from. `blue-noise` (default): Owen-scrambled Sobol points that neighbouring pixels share
+   * out among themselves, so that what noise is left is fine-grained; `sobol`: Owen-scrambled Sobol points, each pixel by
+   * itself, with as much noise; `independent`: PCG, which converges slower. All are unbiased.
    */
-  readonly sampler?: 'sobol' | 'independent';
+  readonly sampler?: Sampler;
   /**
    * How light samples choose among emissive triangles and lights. `tree` (default): by what each may give to the place, as a
    * tree over them tells; `power`: by power alone, in constant time. Both are unbiased.
    */
   readonly lightSampling?: 'tree' | 'power';
+  /**
+   * What light does where a surface of few triangles has smooth normals and turns away from it, at the shadow terminator.
+   * `smooth` (default): rays start on the smooth surface that the normals stand for, and light that reaches this is not
+   * held back by the triangles. `faceted`: the triangles' horizons count; edges of the light follow them, and a little light
+   * is lost. Triangles whose normals lean more than 53° away, as at hard edges, and those without normals do not change.
+   * What lies closer to such a surface than it bulges between its corners casts no shadow on it there.
+   */
+  readonly shadowTerminator?: 'smooth' | 'faceted';
   /** Added to texture levels of detail. Default −1: a texel is half a pixel wide or finer; the pixel filter does the rest. */
   readonly textureLodBias?: number;
   /**
@@ -106,6 +115,9 @@ export interface BounceLimits {
   readonly transmission?: number;
   readonly volume?: number;
 }
+
+/** See {@link PathTracerOptions.sampler}. */
+export type Sampler = 'blue-noise' | 'sobol' | 'independent';
 
 /** See {@link PathTracerOptions.lightGroups}. */
 export type LightGroupMode = 'off' | 'named' | 'each';
@@ -175,7 +187,7 @@ export interface RenderStatistics {
   readonly lights: number;
   readonly bvhMs: number;
   readonly uploadMs: number;
-  /** Time until all pipelines were there; they compile side by side. */
+  /** Time until all pipelines were there; they compile side by side, while hierarchies are built and the scene is uploaded. */
   readonly compileMs: number;
   /** Bytes of GPU memory held. */
   readonly gpuBytes: number;

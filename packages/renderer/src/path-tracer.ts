@@ -341,7 +341,7 @@ export class PathTracer extends TracerEdits {
   async #applyFeatures(): Promise<void> {
     const edit = ++this.#edits;
     this.reset();
-    const wanted = kernelFeatures(this.#gpuScene, this.#camera, this.#options);
+    const wanted = kernelFeatures(this.#gpuScene.features(), this.#camera, this.#options);
     if (serves(this.#integrator.kernels.features, wanted)) return;
     const kernels = await this.#cache.get(wanted);
     // A later edit has asked for other kernels meanwhile, and will restart the film itself.

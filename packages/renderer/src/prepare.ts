@@ -11,6 +11,7 @@ import type { KernelFeatures } from './kernels/pipelines';
 import type { PathTracerOptions, RenderStatistics } from './options';
 import { cameraSteps } from './scene/choose-camera';
 import { environmentSteps } from './scene/environment';
+import { expectedFeatures, type SceneChoices } from './scene/features';
 import { prepareGeometry } from './scene/geometry';
 import { hasInterior } from './scene/interiors';
 import { ownScene, SceneEditor } from './scene-editor';
@@ -50,6 +51,15 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
   // A quarter of what the renderer weighs, and nobody needs it before there is a scene: a chunk of its own, loaded meanwhile.
   const loading = import('@glanz/openpbr/tables');
   loading.catch(() => {});
+  const choices: SceneChoices = { multipleScattering: options.multipleScattering ?? true, sampler: options.sampler ?? 'blue-noise', lightGroups: options.lightGroups ?? 'named', lightSampling: options.lightSampling ?? 'tree', shadowTerminator: options.shadowTerminator ?? 'smooth' };
+  const camera = await inSlices(cameraSteps(own, options.camera, options.width / options.height), { signal });
+  const cache = new KernelCache(device);
+  const compiling = new CompileClock();
+  // The kernels' text hangs on what the scene has, not on its shapes: the driver compiles while this thread or others build
+  // hierarchies. A guess that is wrong, or fails, has cost nothing: the right ones are asked for below.
+  const expected = kernelFeatures(expectedFeatures(device, own, choices), camera, options);
+  if (options.onFirstLight) cache.kernel('first', expected).catch(() => {});
+  compiling.watch(cache.get(expected)).catch(() => {});
   onProgress?.({ stage: 'bvh', done: 0 });
   const geometry = await prepareGeometry(own, { hierarchies, signal, onProgress: (done) => onProgress?.({ stage: 'bvh', done }) });
   await pause();
@@ -60,29 +70,26 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
   onProgress?.({ stage: 'upload', done: 0 });
   const memory = new GpuMemory(device);
   try {
-    const gpuScene = await withErrorScopes(device, () => new GpuScene(device, memory, own, geometry, environment, { multipleScattering: options.multipleScattering ?? true, sampler: options.sampler ?? 'sobol', lightGroups: options.lightGroups ?? 'named', lightSampling: options.lightSampling ?? 'tree' }));
+    const gpuScene = await withErrorScopes(device, () => new GpuScene(device, memory, own, geometry, environment, choices));
     await gpuScene.fill(OPENPBR_TABLES, signal);
     const t2 = performance.now();
     onProgress?.({ stage: 'upload', done: 1 });
-    const cache = new KernelCache(device);
-    const camera = await inSlices(cameraSteps(own, options.camera, options.width / options.height), { signal });
-    const features = kernelFeatures(gpuScene, camera, options);
+    const features = kernelFeatures(gpuScene.features(), camera, options);
     let late = false;
     const { onFirstLight } = options;
     const forget = onFirstLight && showFirstLight({ device, scene: gpuScene, geometry, camera, cache, features, options }, onFirstLight, () => late || signal?.aborted === true);
     let kernels: KernelSet;
     try {
-      kernels = await cache.get(features, (done) => onProgress?.({ stage: 'compile', done }));
+      kernels = await compiling.watch(cache.get(features, (done) => onProgress?.({ stage: 'compile', done })));
       signal?.throwIfAborted();
     } finally {
       late = true;
       forget?.();
     }
-    const t3 = performance.now();
     return await withErrorScopes(device, () => {
       const film = new Film(memory, options.width, options.height, kernels.features.planes);
       const integrator = new Integrator(device, memory, gpuScene, kernels, film, options.pathsInFlight, { maxDepth: options.maxDepth ?? 8, maxVolumeDepth: options.maxVolumeDepth ?? 256 });
-      const times = { bvhMs: t1 - t0, uploadMs: t2 - t1, compileMs: t3 - t2 };
+      const times = { bvhMs: t1 - t0, uploadMs: t2 - t1, compileMs: compiling.milliseconds };
       return { device, memory, editor: new SceneEditor(own, geometry, gpuScene, hierarchies), gpuScene, cache, integrator, film, camera, options, times };
     });
   } catch (error) {
@@ -91,12 +98,30 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
   }
 }
 
+/** From the first request for kernels to when the last of them were there. */
+class CompileClock {
+  readonly #from = performance.now();
+  #to = this.#from;
+
+  get milliseconds(): number {
+    return this.#to - this.#from;
+  }
+
+  /** Of what never comes, it knows nothing. */
+  watch<T>(kernels: Promise<T>): Promise<T> {
+    kernels.then(
+      () => (this.#to = performance.now()),
+      () => {},
+    );
+    return kernels;
+  }
+}
+
 /** Lets everything else that waits have its turn. */
 const pause = () => new Promise<void>((resolve) => setTimeout(resolve, 0));
 
-/** What decides the kernels' text: the scene, the camera and the options. */
-export function kernelFeatures(scene: GpuScene, camera: Camera, options: PathTracerOptions): KernelFeatures {
-  const features = scene.features();
+/** What decides the kernels' text: the scene's features, the camera and the options. */
+export function kernelFeatures(features: KernelFeatures, camera: Camera, options: PathTracerOptions): KernelFeatures {
   return { ...features, flags: { ...features.flags, ...viewFlags(camera, options.filter), ...shortcutFlags(options) } };
 }
 

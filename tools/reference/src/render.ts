@@ -24,12 +24,12 @@ export interface GroundTruthOptions {
   /** Default `full`. */
   readonly variant?: string;
   readonly seed?: number;
-  /** Default `sobol`. */
-  readonly sampler?: PathTracerOptions['sampler'] & string;
+  /** Default `blue-noise`. */
+  readonly sampler?: NonNullable<PathTracerOptions['sampler']>;
 }
 
 /** Renders a scene of the catalogue the way its reference was (single scattering) and compares. */
-export async function renderGroundTruth(device: GPUDevice, truth: GroundTruth, { samples, variant = 'full', seed = 0, sampler = 'sobol' }: GroundTruthOptions): Promise<{ picture: Float32Array; comparison: Comparison }> {
+export async function renderGroundTruth(device: GPUDevice, truth: GroundTruth, { samples, variant = 'full', seed = 0, sampler = 'blue-noise' }: GroundTruthOptions): Promise<{ picture: Float32Array; comparison: Comparison }> {
   const { width, height } = truth.description.film;
   const picture = await renderPicture(device, await truth.scene(), { width, height, samples, seed, sampler, maxDepth: truth.maxDepth(variant), camera: 0, multipleScattering: false });
   return { picture, comparison: comparePictures(picture, samples, truth.picture(variant), { width, height }, truth.tolerance) };

@@ -1,36 +1,23 @@
 import type { OPENPBR_TABLES } from '@glanz/openpbr/tables';
-import { requiredFeatures, resolveParameters } from '@glanz/openpbr';
 import type { Environment, Mesh, Scene } from '@glanz/scene';
 import type { KernelFeatures } from '../kernels/pipelines';
 import { instanceStruct, materialStruct, meshStruct } from '../kernels/layout';
 import type { ResourceName } from '../kernels/resources';
 import { prepareEnvironment, turnEnvironment, type EnvironmentData } from '../scene/environment';
-import type { LightGroupMode } from '../options';
+import { paintsAlpha, sceneFeatures, texturePlan, type SceneChoices, type VertexAlpha } from '../scene/features';
 import { packInstances, packTlas, shapeSlices, type Geometry, type MeshRegion, type PackedGeometry, type PackedMesh } from '../scene/geometry';
 import { breather } from '../scene/hierarchies';
-import { interiorFlags } from '../scene/interiors';
 import { lightGroupTable, type LightGroupTable } from '../scene/light-groups';
-import { buildLightTable, type LightSampling, type LightTable } from '../scene/lights';
-import { hasCoatFrames, hasRanges, isOpaque, packBindings, packMaterial, texturedParameters, turnsTangent, usedTextures, type TexturedParameterInfo } from '../scene/materials';
-import { compressedFormats, planTextures, type TexturePlan } from '../scene/textures';
+import { buildLightTable, type LightTable } from '../scene/lights';
+import { isOpaque, packBindings, packMaterial, texturedParameters, type TexturedParameterInfo } from '../scene/materials';
+import type { TexturePlan } from '../scene/textures';
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_STORAGE, GPU_TEXTURE_BINDING, GPU_TEXTURE_COPY_DST, type GpuMemory } from './buffers';
 import { toHalf, uploadTextures } from './texture-upload';
-
-/** Textures that shading binds besides the scene's own: environment, its table, two energy tables. */
-const OWN_TEXTURES = 4;
 
 /** While shapes are filled in, the thread is handed back after so many milliseconds; a slice more can follow. */
 const FILL_MS = 6;
 /** Pixels are written so many bytes at a time. */
 const FILL_BYTES = 1 << 20;
-
-/** Options that decide the kernels' text. */
-export interface SceneChoices {
-  readonly multipleScattering: boolean;
-  readonly sampler: 'sobol' | 'independent';
-  readonly lightGroups: LightGroupMode;
-  readonly lightSampling: LightSampling;
-}
 
 /** The energy tables, which come in a chunk of their own. */
 export type EnergyTables = typeof OPENPBR_TABLES;
@@ -51,7 +38,7 @@ export class GpuScene {
   readonly #buffers = new Map<ResourceName, GPUBuffer>();
   readonly #textures = new Map<ResourceName, GPUTexture>();
   readonly #energySampler: GPUSampler;
-  readonly #vertexAlpha = new WeakMap<Mesh, boolean>();
+  readonly #vertexAlpha: VertexAlpha = new WeakMap();
   #groups: LightGroupTable;
   #lights: LightTable;
   #environment: EnvironmentData;
@@ -64,8 +51,7 @@ export class GpuScene {
     this.#choices = choices;
     this.#groups = lightGroupTable(scene, choices.lightGroups);
     this.#textured = texturedParameters(scene.materials);
-    const slots = device.limits.maxSampledTexturesPerShaderStage - OWN_TEXTURES;
-    this.#plan = planTextures(scene, usedTextures(scene.materials), slots, device.limits, compressedFormats(device));
+    this.#plan = texturePlan(device, scene);
     const { textures, samplers } = uploadTextures(device, memory, scene, this.#plan);
     this.#sceneTextures = textures;
     this.#samplers = samplers;
@@ -113,45 +99,21 @@ export class GpuScene {
 
   /** What decides the kernels' text. */
   features(): KernelFeatures {
-    const parameters = this.#scene.materials.map((material) => resolveParameters(material.parameters));
-    const texturedNames = this.#textured.map(({ name }) => name);
-    const openpbrFlags = requiredFeatures(parameters, { textured: texturedNames, multipleScattering: this.#choices.multipleScattering });
-    const lights = this.#lights.count > 0;
-    const sampled = this.#environment.table !== undefined;
-    return {
-      flags: {
-        ...openpbrFlags,
-        TEXTURES: this.#textured.length > 0,
-        NORMAL_MAP: texturedNames.includes('geometry_normal'),
-        TEXTURE_RANGES: hasRanges(this.#scene.materials),
-        TANGENT_MAP: openpbrFlags.OPENPBR_ANISOTROPY && turnsTangent(this.#scene.materials),
-        // Where the mesh has no tangents, they follow the texture coordinates.
-        UV_FRAME: openpbrFlags.OPENPBR_ANISOTROPY || texturedNames.includes('geometry_normal') || texturedNames.includes('geometry_coat_normal'),
-        OPENPBR_COAT_FRAME: hasCoatFrames(this.#scene.materials),
-        // A coat dims what is emitted below it; vertex colours paint what only emits.
-        EMISSION_TEXTURES:
-          texturedNames.some((name) => name === 'emission_color' || name === 'emission_luminance' || (openpbrFlags.OPENPBR_COAT && name.startsWith('coat_'))) ||
-          (this.#geometry.hasVertexColors && parameters.some((p) => p.emission_luminance > 0 && p.base_weight === 0 && p.specular_weight === 0)),
-        VERTEX_COLORS: this.#geometry.hasVertexColors,
-        BVH_FILTER: this.#scene.instances.some((instance) => instance.visible !== false && !this.#opaque(instance.material)),
-        ENVIRONMENT_MAP: this.#environment.pixels !== undefined,
-        ENVIRONMENT_SAMPLED: sampled,
-        LIGHTS: lights,
-        LIGHT_TREE: this.#lights.tree,
-        LIGHT_PROFILES: this.#lights.profiles,
-        AREA_LIGHTS: this.#lights.areaCount > 0,
-        CATCHER: this.#geometry.bare !== undefined,
-        LIGHT_GROUPS: this.#choices.lightGroups !== 'off',
-        NEXT_EVENT: lights || sampled,
-        ...interiorFlags(this.#scene.materials),
-        SOBOL: this.#choices.sampler === 'sobol',
-      },
-      samplings: this.#plan.samplings,
+    const { count, tree, profiles, areaCount } = this.#lights;
+    return sceneFeatures(this.#scene, this.#choices, {
       textured: this.#textured,
-      textureCount: this.#sceneTextures.length,
-      samplerCount: this.#samplers.length,
-      planes: this.#groups.names.length * (this.#geometry.bare ? 4 : 1),
-    };
+      plan: this.#plan,
+      groups: this.#groups.names.length,
+      lights: count > 0,
+      tree,
+      profiles,
+      areaLights: areaCount > 0,
+      environmentMap: this.#environment.pixels !== undefined,
+      environmentSampled: this.#environment.table !== undefined,
+      vertexColors: this.#geometry.hasVertexColors,
+      catchers: this.#geometry.bare !== undefined,
+      isOpaque: (material) => this.#opaque(material),
+    });
   }
 
   /** Binding of one of the resources this scene owns. */
@@ -285,17 +247,7 @@ export class GpuScene {
   }
 
   #opaque(material: number): boolean {
-    const vertexAlpha = this.#scene.instances.some((instance) => instance.material === material && this.#hasVertexAlpha(this.#scene.meshes[instance.mesh] as Mesh));
-    return isOpaque(this.#scene.materials[material] as Scene['materials'][number], vertexAlpha);
-  }
-
-  #hasVertexAlpha(mesh: Mesh): boolean {
-    let found = this.#vertexAlpha.get(mesh);
-    if (found === undefined) {
-      found = mesh.colors?.some((value, i) => i % 4 === 3 && value < 1) ?? false;
-      this.#vertexAlpha.set(mesh, found);
-    }
-    return found;
+    return isOpaque(this.#scene.materials[material] as Scene['materials'][number], paintsAlpha(this.#scene, material, this.#vertexAlpha));
   }
 
   #packMaterial(buffer: ArrayBuffer, at: number, index: number): void {

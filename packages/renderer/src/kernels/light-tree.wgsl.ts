@@ -1,12 +1,13 @@
 import { wgslModule } from '@glanz/wgsl';
 import { frameStruct, LIGHT_NODE_DISTANT, LIGHT_NODE_LEAF, lightStruct } from './layout';
+import { random } from './random.wgsl';
 
 /**
  * The choice of a light by the tree that `buildLightTree` makes; pbrt 4's bound of how much a node may light a place. The
  * choice may depend on the surface's normal, which paths therefore remember, in 16 bits: whoever asks for a probability later
  * must ask with the same normal that the light was chosen with.
  *
- * - `fn light_tree_pick(u: f32, position: vec3f, normal: vec3f) -> LightPick`; the normal is 0 where light may come from all sides.
+ * - `fn light_tree_pick(draw: f32, position: vec3f, normal: vec3f) -> LightPick`; the normal is 0 where light may come from all sides.
  * - `fn light_tree_probability(light: u32, position: vec3f, normal: vec3f) -> f32`
  */
 export const lightTree = /* @__PURE__ */ wgslModule(
@@ -16,6 +17,8 @@ struct LightPick {
   light: u32,
   // 0: none lights the place.
   probability: f32,
+  // What is left of the draw: as uniform, and as evenly spread over those that chose this light.
+  rest: f32,
 }
 
 // Cosine and sine of a − b for angles from 0 to π, of 0 if b is the larger.
@@ -60,9 +63,15 @@ fn light_tree_pick(draw: f32, position: vec3f, normal: vec3f) -> LightPick {
   var node = frame.light_count;
   var u = draw;
   var probability = 1.0;
+  // Each choice takes bits off the draw: of 24, ten are kept.
+  var enough = 6.103515625e-5;
   for (var level = 0u; level < 33u; level++) {
     let child = lights[node].other;
-    if ((lights[node].kind & ${LIGHT_NODE_LEAF}u) != 0u) { return LightPick(child, probability); }
+    if (probability < enough) {
+      u = random_fresh();
+      enough = probability * 6.103515625e-5;
+    }
+    if ((lights[node].kind & ${LIGHT_NODE_LEAF}u) != 0u) { return LightPick(child, probability, min(u, 0.99999994)); }
     let first = light_tree_importance(child, position, normal);
     let sum = first + light_tree_importance(child + 1u, position, normal);
     if (!(sum > 0.0)) { break; }
@@ -77,7 +86,7 @@ fn light_tree_pick(draw: f32, position: vec3f, normal: vec3f) -> LightPick {
       probability *= 1.0 - share;
     }
   }
-  return LightPick(0u, 0.0);
+  return LightPick(0u, 0.0, 0.0);
 }
 
 fn light_tree_probability(light: u32, position: vec3f, normal: vec3f) -> f32 {
@@ -100,5 +109,5 @@ fn light_tree_probability(light: u32, position: vec3f, normal: vec3f) -> f32 {
   return 0.0;
 }
 `,
-  [lightStruct.module, frameStruct.module],
+  [lightStruct.module, frameStruct.module, random],
 );

@@ -51,19 +51,31 @@ fn light_pdf(s: Surface, reach: f32, direction: vec3f, normal: vec3f) -> f32 {
   return light_choice(s.light, s.position - reach * direction, normal) * (reach * reach) / max(cosine * area, 1e-30);
 }
 
-fn light_table_sample(u: vec3f, position: vec3f, normal: vec3f) -> LightSample {
+fn light_table_sample(draws: vec2f, position: vec3f, normal: vec3f) -> LightSample {
   var result = LightSample(vec3f(0.0, 1.0, 0.0), 0.0, vec3f(0.0), 0.0, false, 0u);
+  // One pair chooses the light and the place on it: the draws that choose a light are a strip of the square, as evenly
+  // spread as the square.
   //#if LIGHT_TREE
-  let pick = light_tree_pick(u.x, position, normal);
+  let pick = light_tree_pick(draws.x, position, normal);
   let index = pick.light;
   let chance = pick.probability;
   if (chance <= 0.0) { return result; }
+  let u = vec2f(pick.rest, draws.y);
   //#else
-  let at = u.x * f32(frame.light_count);
+  let at = draws.x * f32(frame.light_count);
   var index = min(u32(at), frame.light_count - 1u);
-  let inside = at - f32(index);
-  if (inside >= lights[index].keep) { index = lights[index].other; }
+  var rest = at - f32(index);
+  // Of many lights, the choice takes most bits.
+  if (frame.light_count > 1024u) { rest = random_fresh(); }
+  let keep = lights[index].keep;
+  if (rest >= keep) {
+    index = lights[index].other;
+    rest = (rest - keep) / max(1.0 - keep, 1e-7);
+  } else {
+    rest /= keep;
+  }
   let chance = lights[index].probability;
+  let u = vec2f(min(rest, 0.99999994), draws.y);
   //#endif
   let light = lights[index];
   let choice = (1.0 - frame.environment_probability) * chance;
@@ -95,7 +107,7 @@ fn light_table_sample(u: vec3f, position: vec3f, normal: vec3f) -> LightSample {
   }
   //#if AREA_LIGHTS
   if (kind >= ${LIGHT_RECTANGLE}u) {
-    let sample = area_light_sample(index, u.yz, position);
+    let sample = area_light_sample(index, u, position);
     result.direction = sample.direction;
     result.distance = sample.distance;
     result.radiance = light.color;
@@ -105,9 +117,9 @@ fn light_table_sample(u: vec3f, position: vec3f, normal: vec3f) -> LightSample {
   }
   //#endif
   // A uniform point on the triangle.
-  let root = sqrt(u.y);
-  let b1 = root * (1.0 - u.z);
-  let b2 = root * u.z;
+  let root = sqrt(u.x);
+  let b1 = root * (1.0 - u.y);
+  let b2 = root * u.y;
   let edge_1 = light.b - light.a;
   let edge_2 = light.c - light.a;
   var face = cross(edge_1, edge_2);
@@ -137,15 +149,18 @@ fn light_table_sample(u: vec3f, position: vec3f, normal: vec3f) -> LightSample {
 //#endif
 
 // "normal": of an opaque surface; 0 where light may come from all sides.
-fn light_sample(u: vec4f, position: vec3f, normal: vec3f) -> LightSample {
+fn light_sample(draws: vec2f, position: vec3f, normal: vec3f) -> LightSample {
+  var u = draws;
   //#if ENVIRONMENT_SAMPLED
-  if (u.w < frame.environment_probability) {
-    let direction = environment_sample(u.xy);
+  let share = frame.environment_probability;
+  if (u.x < share) {
+    let direction = environment_sample(vec2f(u.x / share, u.y));
     return LightSample(direction, 3.4e38, environment_radiance(direction), frame.environment_probability * environment_pdf(direction), true, frame.environment_group);
   }
+  u.x = min((u.x - share) / max(1.0 - share, 1e-7), 0.99999994);
   //#endif
   //#if LIGHTS
-  return light_table_sample(u.xyz, position, normal);
+  return light_table_sample(u, position, normal);
   //#else
   return LightSample(vec3f(0.0, 1.0, 0.0), 0.0, vec3f(0.0), 0.0, false, 0u);
   //#endif

@@ -33,7 +33,7 @@ export interface KernelFeatures {
 }
 
 /** Kernels with these flags do what those without do, only slower: a lobe of weight 0, a filter that accepts. */
-const HARMLESS = /^(OPENPBR_|BVH_FILTER$|VERTEX_COLORS$|EMISSION_TEXTURES$|LIGHTS$|LIGHT_TREE$|LIGHT_PROFILES$|AREA_LIGHTS$|NEXT_EVENT$|DISPERSION$)/;
+const HARMLESS = /^(OPENPBR_|BVH_FILTER$|VERTEX_COLORS$|EMISSION_TEXTURES$|LIGHTS$|LIGHT_TREE$|LIGHT_PROFILES$|AREA_LIGHTS$|NEXT_EVENT$|DISPERSION$|TERMINATOR_LIFT$)/;
 
 /**
  * Whether kernels for `present` features are right for `wanted` ones too: what a scene no longer has may stay in their text,

@@ -1,14 +1,23 @@
-import { wgslModule } from '@glanz/wgsl';
+import { gated, wgslModule } from '@glanz/wgsl';
+import { screenNoise } from './screen-noise.wgsl';
 
 /**
  * Random numbers named by pixel, sample and purpose, so a sample's numbers do not depend on the size of the batch it was
- * computed in. Two samplers:
+ * computed in. Three samplers:
  *
- * - SOBOL: pairs of the first two Sobol dimensions, shuffled and Owen-scrambled anew for each pixel and purpose (Burley 2020,
- *   "Practical Hash-based Owen Scrambling"; the hash of Vegdahl 2021, "Building a Better LK Hash"). The samples of a pixel
- *   spread evenly in each pair, which takes noise away; each number by itself is uniform, so nothing is biased.
+ * - SOBOL: pairs of two digital sequences that make a (0, 2)-sequence, shuffled and Owen-scrambled anew for each pixel and
+ *   purpose (Burley 2020, "Practical Hash-based Owen Scrambling"; the hash of Vegdahl 2021, "Building a Better LK Hash"). The
+ *   samples of a pixel spread evenly in each pair, which takes noise away; each number by itself is uniform, so nothing is
+ *   biased. The second sequence is the symmetric Pascal matrix modulo 2, C(i + j, i), the lower triangular times the upper one,
+ *   which is Sobol's: scrambled, they cannot be told apart.
+ * - SOBOL and SCREEN_NOISE: the same, shuffled and scrambled alike for all pixels, and shifted from one to the next so that
+ *   the samples of neighbouring pixels spread evenly too, see `screenNoise`.
  * - otherwise independent numbers: seeded by pcg4d, continued by PCG-RXS-M-XS (Jarzynski and Olano 2020, "Hash Functions for
  *   GPU Rendering").
+ *
+ * `fn random_begin(pixel, sample, stream, seed)` comes first; `fn random_next() -> f32`, `fn random_2() -> vec2f` and
+ * `fn random_3() -> vec3f` give numbers in [0, 1), `fn random_fresh() -> f32` one that is spread in no way, for what is left
+ * of another number after it has decided between thousands.
  */
 export const random = wgslModule(
   'renderer/random',
@@ -28,11 +37,22 @@ fn random_unit(bits: u32) -> f32 { return f32(bits >> 8u) * 5.9604644775390625e-
 var<private> random_key: vec3u;
 var<private> random_sample: u32;
 var<private> random_dimension: u32;
+// Numbers out of turn: those in turn keep their dimensions.
+var<private> random_extra: u32;
+//#if SCREEN_NOISE
+var<private> random_pixel: u32;
+//#endif
 
 fn random_begin(pixel: u32, sample: u32, stream: u32, seed: u32) {
   random_key = vec3u(pixel, stream, seed);
   random_sample = sample;
   random_dimension = 0u;
+  random_extra = 0x80000000u;
+  //#if SCREEN_NOISE
+  random_pixel = pixel;
+  screen_noise_begin(pixel, stream);
+  if (screen_noise_on) { random_key.x = 0xffffffffu; }
+  //#endif
 }
 
 // Owen scrambling of a number whose bits are in reverse.
@@ -46,25 +66,51 @@ fn random_scramble(reversed: u32, seed: u32) -> u32 {
   return x;
 }
 
+// The lower triangular Pascal matrix modulo 2: bit i of the result is the sum of the bits whose number is part of i.
+fn random_pascal(bits: u32) -> u32 {
+  var x = bits;
+  x ^= x << 16u;
+  x ^= (x & 0x00ff00ffu) << 8u;
+  x ^= (x & 0x0f0f0f0fu) << 4u;
+  x ^= (x & 0x33333333u) << 2u;
+  x ^= (x & 0x55555555u) << 1u;
+  return x;
+}
+
 fn random_2() -> vec2f {
   let seeds = random_pcg4d(vec4u(random_key, random_dimension));
   random_dimension++;
-  let index = reverseBits(random_scramble(reverseBits(random_sample), seeds.x));
-  // The second dimension's matrix is Pascal's triangle modulo 2: five steps for all 32 bits (reversed).
-  var second = index;
-  second ^= second >> 16u;
-  second ^= (second & 0xff00ff00u) >> 8u;
-  second ^= (second & 0xf0f0f0f0u) >> 4u;
-  second ^= (second & 0xccccccccu) >> 2u;
-  second ^= (second & 0xaaaaaaaau) >> 1u;
-  return vec2f(random_unit(reverseBits(random_scramble(index, seeds.y))), random_unit(reverseBits(random_scramble(second, seeds.z))));
+  var first = reverseBits(random_scramble(reverseBits(random_sample), seeds.x));
+  // C(i + j, i) is odd where i and j have no bit in common: where j is part of what i lacks.
+  var second = reverseBits(random_pascal(first));
+  //#if SCREEN_NOISE
+  if (screen_noise_on) {
+    let shift = screen_noise_2(random_scramble(screen_noise_place, seeds.w));
+    first ^= shift.x;
+    second ^= shift.y;
+  }
+  //#endif
+  return vec2f(random_unit(reverseBits(random_scramble(first, seeds.y))), random_unit(reverseBits(random_scramble(second, seeds.z))));
 }
 
 fn random_next() -> f32 {
   let seeds = random_pcg4d(vec4u(random_key, random_dimension));
   random_dimension++;
-  let index = reverseBits(random_scramble(reverseBits(random_sample), seeds.x));
+  var index = reverseBits(random_scramble(reverseBits(random_sample), seeds.x));
+  //#if SCREEN_NOISE
+  if (screen_noise_on) { index ^= random_pascal(reverseBits(random_scramble(screen_noise_place, seeds.w))); }
+  //#endif
   return random_unit(reverseBits(random_scramble(index, seeds.y)));
+}
+
+fn random_fresh() -> f32 {
+  var key = random_key;
+  //#if SCREEN_NOISE
+  key.x = random_pixel;
+  //#endif
+  let hash = random_pcg4d(vec4u(key, random_extra));
+  random_extra++;
+  return random_unit(random_pcg4d(hash ^ vec4u(random_sample, 0u, 0u, 0u)).x);
 }
 //#else
 var<private> random_state: u32;
@@ -80,6 +126,8 @@ fn random_next() -> f32 {
   return random_unit((word >> 22u) ^ word);
 }
 
+fn random_fresh() -> f32 { return random_next(); }
+
 fn random_2() -> vec2f {
   let x = random_next();
   return vec2f(x, random_next());
@@ -91,4 +139,5 @@ fn random_3() -> vec3f {
   return vec3f(xy, random_next());
 }
 `,
+  [gated('SCREEN_NOISE', screenNoise)],
 );

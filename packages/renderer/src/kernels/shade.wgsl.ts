@@ -95,7 +95,7 @@ fn shade_scattering(index: u32, iteration: u32, depth: u32) -> ShadeResult {
   let anisotropy = media_of(media_top(stack)).anisotropy;
   shade_random(index, iteration);
   //#if NEXT_EVENT
-  let light = light_sample(vec4f(random_2(), random_2()), origin, vec3f(0.0));
+  let light = light_sample(random_2(), origin, vec3f(0.0));
   if (light.pdf > 0.0) {
     let phase = openpbr_phase_eval(anisotropy, wo, light.direction);
     let weight = select(1.0, light.pdf / (light.pdf + phase), light.extended);
@@ -271,7 +271,19 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   //#else
   let bsdf = openpbr_prepare(s.parameters, local_wo);
   //#endif
+  //#if TERMINATOR_LIFT
+  // A surface that stands for a smooth one reflects from there: rays may leave it below the horizon of the triangle, and
+  // what is in their way decides (Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021).
+  //#if OPENPBR_TRANSMISSION
+  let lifted = s.parameters.transmission_weight <= 0.0 && any(s.lift != vec3f(0.0));
+  //#else
+  let lifted = any(s.lift != vec3f(0.0));
+  //#endif
+  let start = bvh_offset_origin(select(s.position, s.position + s.lift, lifted), geometric, s.magnitude);
+  //#else
+  let lifted = false;
   let start = bvh_offset_origin(s.position, geometric, s.magnitude);
+  //#endif
   shade_random(index, iteration);
 
   // The next vertex asks for the chance of a light with this normal, so it is rounded before.
@@ -282,7 +294,7 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   let cone = cone_pack(width + frame.cone_spread * distance(origin, s.position), geometric);
   //#endif
   //#if NEXT_EVENT
-  let light = light_sample(vec4f(random_2(), random_2()), start, cone_normal(cone));
+  let light = light_sample(random_2(), start, cone_normal(cone));
   let light_side = dot(geometric, light.direction);
   let local_wi = light.direction * to_world;
   //#if STRAIGHT
@@ -291,9 +303,9 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   let asked = true;
   //#endif
   //#if OPENPBR_TRANSMISSION
-  if (asked && light.pdf > 0.0 && light_side * local_wi.z > 0.0) {
+  if (asked && light.pdf > 0.0 && (light_side * local_wi.z > 0.0 || (lifted && local_wi.z > 0.0))) {
   //#else
-  if (asked && light.pdf > 0.0 && light_side > 0.0) {
+  if (asked && light.pdf > 0.0 && (light_side > 0.0 || lifted)) {
   //#endif
     let scatter = openpbr_eval_pdf(bsdf, local_wo, local_wi);
     if (any(scatter.xyz > vec3f(0.0))) {
@@ -312,14 +324,14 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
       result.asks = !shortcut_caustic(index, scatter.w);
       //#endif
       //#if OPENPBR_TRANSMISSION
-      if (light_side < 0.0) {
+      if (local_wi.z < 0.0) {
         result.shadow.origin = beyond;
         // Surroundings behind glass are not there either.
         if (light.extended && light.distance >= 3.4e38 && shade_sees_background(index, depth)) { result.asks = false; }
       }
       //#endif
       //#if MEDIA
-      let light_stack = select(stack, crossing.beyond, light_side < 0.0);
+      let light_stack = select(stack, crossing.beyond, local_wi.z < 0.0);
       //#if NULL_SURFACES
       result.shadow.media = light_stack;
       //#else
@@ -347,9 +359,9 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   let next = to_world * scattered.wi;
   // Shading normals must not send light through a surface, or hold it back.
   //#if OPENPBR_TRANSMISSION
-  if (dot(next, geometric) * scattered.wi.z <= 0.0) { return result; }
+  if (dot(next, geometric) * scattered.wi.z <= 0.0 && !(lifted && scattered.wi.z > 0.0)) { return result; }
   //#else
-  if (dot(next, geometric) <= 0.0) { return result; }
+  if (dot(next, geometric) <= 0.0 && !lifted) { return result; }
   //#endif
   //#if NO_CAUSTICS
   if (shortcut_caustic(index, scattered.pdf)) { return result; }

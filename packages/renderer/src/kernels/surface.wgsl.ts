@@ -200,6 +200,10 @@ struct Surface {
   double_area: f32,
   // Largest coordinate that went into the position; rounding errors are proportional to it.
   magnitude: f32,
+  //#if TERMINATOR_LIFT
+  // From the position to the smooth surface that the normals stand for, where that bulges towards the ray's side; else 0.
+  lift: vec3f,
+  //#endif
   //#if OPENPBR_COAT_FRAME
   // Of the coat, unit, on the front side.
   coat_normal: vec3f,
@@ -252,10 +256,20 @@ fn surface_load(hit: vec4u, origin: vec3f, direction: vec3f, cone_width: f32) ->
   let corners = attribute_corners(mesh, triangle);
   let normals = attribute_mesh(mesh, ${meshWord('normals')}u);
   if (normals != 0xffffffffu) {
-    let n = weights.x * attribute_3(normals + 3u * corners.x) + weights.y * attribute_3(normals + 3u * corners.y) + weights.z * attribute_3(normals + 3u * corners.z);
-    let world = surface_normal_to_world(columns, orientation, n);
+    let n = mat3x3f(attribute_3(normals + 3u * corners.x), attribute_3(normals + 3u * corners.y), attribute_3(normals + 3u * corners.z));
+    let world = surface_normal_to_world(columns, orientation, n * weights);
     let length2 = dot(world, world);
     if (length2 > 0.0) { s.normal = world * inverseSqrt(length2); }
+    //#if TERMINATOR_LIFT
+    let side = select(-1.0, 1.0, dot(s.geometric, direction) <= 0.0);
+    for (var i = 0u; i < 3u; i++) {
+      let corner = surface_normal_to_world(columns, orientation, n[i]);
+      let unit = corner * inverseSqrt(max(dot(corner, corner), 1e-37));
+      let height = side * dot(columns * (p - select(select(a, b, i == 1u), c, i == 2u)), unit);
+      // Corners whose normals lean further belong to hard edges.
+      s.lift -= side * weights[i] * smoothstep(0.6, 0.8, dot(unit, s.geometric)) * min(height, 0.0) * unit;
+    }
+    //#endif
   }
 
   //#if TEXTURES

@@ -38,27 +38,29 @@ var<private> frame = TestFrame(${COUNT}u);
 @group(0) @binding(0) var<storage, read> lights: array<Light>;
 @group(0) @binding(1) var<storage, read> places: array<vec4f>;
 @group(0) @binding(2) var<storage, read_write> result: array<f32>;
-// One place a workgroup: for each light the probability, then how often it is drawn and the largest difference of probabilities.
+// One place a workgroup: for each light the probability, then how often it is drawn and the largest difference of probabilities;
+// behind them the sum of what is left of the draws.
 @compute @workgroup_size(1) fn main(@builtin(global_invocation_id) id: vec3u) {
   let p = places[2u * id.x].xyz;
   let n = cone_normal(cone_pack(1.0, places[2u * id.x + 1u].xyz));
-  let at = id.x * ${2 * COUNT + 2}u;
+  let at = id.x * ${3 * COUNT + 2}u;
   for (var i = 0u; i < ${COUNT}u; i++) { result[at + i] = light_tree_probability(i, p, n); }
   for (var i = 0u; i < ${DRAWS}u; i++) {
     let pick = light_tree_pick((f32(i) + 0.5) / ${DRAWS}.0, p, n);
     if (pick.probability == 0.0) { result[at + ${2 * COUNT}u] += 1.0; continue; }
     result[at + ${COUNT}u + pick.light] += 1.0;
+    result[at + ${2 * COUNT + 2}u + pick.light] += pick.rest;
     result[at + ${2 * COUNT + 1}u] = max(result[at + ${2 * COUNT + 1}u], abs(pick.probability / result[at + pick.light] - 1.0));
   }
 }`,
       [lightTree, pathCone],
     );
-    const { code } = compose([host], { flags: {} });
+    const { code } = compose([host], { flags: { SOBOL: false, SCREEN_NOISE: false } });
     const input = Float32Array.from(places.flatMap(({ p, n }) => [...p, 0, ...n, 0]));
-    const numbers = new Float32Array(await runCompute(device, code, { inputs: [records, input], outputBytes: PLACES * (2 * COUNT + 2) * 4, workgroups: PLACES }));
+    const numbers = new Float32Array(await runCompute(device, code, { inputs: [records, input], outputBytes: PLACES * (3 * COUNT + 2) * 4, workgroups: PLACES }));
     let culled = 0;
     places.forEach(({ p, n }, place) => {
-      const row = numbers.subarray(place * (2 * COUNT + 2), (place + 1) * (2 * COUNT + 2));
+      const row = numbers.subarray(place * (3 * COUNT + 2), (place + 1) * (3 * COUNT + 2));
       const probabilities = row.subarray(0, COUNT);
       const total = probabilities.reduce((a, b) => a + b, 0);
       // Where a walk may end in the dark it does so as often as the sum lacks.
@@ -66,6 +68,11 @@ var<private> frame = TestFrame(${COUNT}u);
       expect(row[2 * COUNT + 1]).toBeLessThan(1e-3);
       // Evenly spread draws: each light's share to within the ends of its interval.
       for (let i = 0; i < COUNT; i++) expect(Math.abs(row[COUNT + i]! / DRAWS - probabilities[i]!)).toBeLessThanOrEqual(3 / DRAWS);
+      // What is left of them is spread as evenly, from 0 to 1.
+      for (let i = 0; i < COUNT; i++) {
+        const drawn = row[COUNT + i]!;
+        if (drawn > 0) expect(Math.abs(row[2 * COUNT + 2 + i]! / drawn - 0.5)).toBeLessThanOrEqual(1 / drawn + 1e-3);
+      }
       for (const i of [39]) expect(probabilities[i]).toBe(0);
       for (let i = 0; i < 36; i++) {
         if (probabilities[i]! > 0) continue;

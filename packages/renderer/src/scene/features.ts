@@ -1,0 +1,129 @@
+import { requiredFeatures, resolveParameters } from '@glanz/openpbr';
+import type { Mesh, Scene } from '@glanz/scene';
+import type { KernelFeatures } from '../kernels/pipelines';
+import type { LightGroupMode, Sampler } from '../options';
+import { interiorFlags } from './interiors';
+import { lightGroupTable } from './light-groups';
+import { hasSize } from './light-records';
+import type { LightSampling } from './lights';
+import { emittedRadiance, hasCoatFrames, hasRanges, isOpaque, texturedParameters, turnsTangent, usedTextures, type TexturedParameterInfo } from './materials';
+import { compressedFormats, planTextures, type TexturePlan } from './textures';
+
+/** Options that decide the kernels' text. */
+export interface SceneChoices {
+  readonly multipleScattering: boolean;
+  readonly sampler: Sampler;
+  readonly lightGroups: LightGroupMode;
+  readonly lightSampling: LightSampling;
+  readonly shadowTerminator: 'smooth' | 'faceted';
+}
+
+/** What about a scene decides the kernels' text, once its parts have been gone through. */
+export interface SceneFacts {
+  readonly textured: readonly TexturedParameterInfo[];
+  readonly plan: TexturePlan;
+  /** Number of light groups. */
+  readonly groups: number;
+  /** Whether there are any besides the environment. */
+  readonly lights: boolean;
+  readonly tree: boolean;
+  readonly profiles: boolean;
+  readonly areaLights: boolean;
+  readonly environmentMap: boolean;
+  readonly environmentSampled: boolean;
+  readonly vertexColors: boolean;
+  readonly catchers: boolean;
+  readonly isOpaque: (material: number) => boolean;
+}
+
+/** What decides the kernels' text. */
+export function sceneFeatures(scene: Scene, choices: SceneChoices, facts: SceneFacts): KernelFeatures {
+  const { textured, plan, lights, environmentSampled } = facts;
+  const parameters = scene.materials.map((material) => resolveParameters(material.parameters));
+  const names = textured.map(({ name }) => name);
+  const openpbrFlags = requiredFeatures(parameters, { textured: names, multipleScattering: choices.multipleScattering });
+  return {
+    flags: {
+      ...openpbrFlags,
+      TEXTURES: textured.length > 0,
+      NORMAL_MAP: names.includes('geometry_normal'),
+      TEXTURE_RANGES: hasRanges(scene.materials),
+      TANGENT_MAP: openpbrFlags.OPENPBR_ANISOTROPY && turnsTangent(scene.materials),
+      // Where the mesh has no tangents, they follow the texture coordinates.
+      UV_FRAME: openpbrFlags.OPENPBR_ANISOTROPY || names.includes('geometry_normal') || names.includes('geometry_coat_normal'),
+      OPENPBR_COAT_FRAME: hasCoatFrames(scene.materials),
+      // A coat dims what is emitted below it; vertex colours paint what only emits.
+      EMISSION_TEXTURES:
+        names.some((name) => name === 'emission_color' || name === 'emission_luminance' || (openpbrFlags.OPENPBR_COAT && name.startsWith('coat_'))) ||
+        (facts.vertexColors && parameters.some((p) => p.emission_luminance > 0 && p.base_weight === 0 && p.specular_weight === 0)),
+      VERTEX_COLORS: facts.vertexColors,
+      BVH_FILTER: scene.instances.some((instance) => instance.visible !== false && !facts.isOpaque(instance.material)),
+      ENVIRONMENT_MAP: facts.environmentMap,
+      ENVIRONMENT_SAMPLED: environmentSampled,
+      LIGHTS: lights,
+      LIGHT_TREE: facts.tree,
+      LIGHT_PROFILES: facts.profiles,
+      AREA_LIGHTS: facts.areaLights,
+      CATCHER: facts.catchers,
+      LIGHT_GROUPS: choices.lightGroups !== 'off',
+      NEXT_EVENT: lights || environmentSampled,
+      ...interiorFlags(scene.materials),
+      TERMINATOR_LIFT: choices.shadowTerminator === 'smooth' && scene.meshes.some(({ normals }) => normals !== undefined),
+      SOBOL: choices.sampler !== 'independent',
+      SCREEN_NOISE: choices.sampler === 'blue-noise',
+    },
+    samplings: plan.samplings,
+    textured,
+    textureCount: plan.arrays.length,
+    samplerCount: plan.samplers.length,
+    planes: facts.groups * (facts.catchers ? 4 : 1),
+  };
+}
+
+/** Textures that shading binds besides the scene's own: environment, its table, two energy tables. */
+const OWN_TEXTURES = 4;
+
+/** How the scene's textures lie in those that kernels can bind. */
+export function texturePlan(device: GPUDevice, scene: Scene): TexturePlan {
+  return planTextures(scene, usedTextures(scene.materials), device.limits.maxSampledTexturesPerShaderStage - OWN_TEXTURES, device.limits, compressedFormats(device));
+}
+
+/** Whether a mesh's vertex colours are somewhere less than opaque, as far as it is known. */
+export type VertexAlpha = WeakMap<Mesh, boolean>;
+
+/** Whether vertex colours make a material let light pass. */
+export function paintsAlpha(scene: Scene, material: number, known: VertexAlpha): boolean {
+  return scene.instances.some((instance) => {
+    if (instance.material !== material) return false;
+    const mesh = scene.meshes[instance.mesh] as Mesh;
+    let found = known.get(mesh);
+    if (found === undefined) known.set(mesh, (found = mesh.colors?.some((value, i) => i % 4 === 3 && value < 1) ?? false));
+    return found;
+  });
+}
+
+/**
+ * What {@link sceneFeatures} will most likely say, before anything has been built: kernels compile while the hierarchies are
+ * made. Where it is wrong (a lamp without power, a picture of even surroundings), nothing is lost but that work.
+ */
+export function expectedFeatures(device: GPUDevice, scene: Scene, choices: SceneChoices): KernelFeatures {
+  const shown = scene.instances.filter(({ visible, mesh }) => visible !== false && (scene.meshes[mesh] as Mesh).indices.length >= 3);
+  const glows = scene.materials.map((material) => emittedRadiance(resolveParameters(material.parameters)).some((value) => value > 0));
+  const lights = scene.lights.length > 0 || shown.some(({ material }) => glows[material]);
+  const { environment } = scene;
+  const vertexAlpha: VertexAlpha = new WeakMap();
+  return sceneFeatures(scene, choices, {
+    textured: texturedParameters(scene.materials),
+    plan: texturePlan(device, scene),
+    groups: lightGroupTable(scene, choices.lightGroups).names.length,
+    lights,
+    tree: lights && choices.lightSampling === 'tree',
+    profiles: scene.lights.some(({ type }) => type === 'profile'),
+    areaLights: scene.lights.some(hasSize),
+    environmentMap: environment?.type === 'latlong',
+    environmentSampled: environment?.type === 'latlong' && (environment.intensity ?? 1) > 0,
+    vertexColors: shown.some(({ mesh }) => (scene.meshes[mesh] as Mesh).colors !== undefined),
+    catchers: shown.some(({ catcher }) => catcher === true),
+    isOpaque: (material) => isOpaque(scene.materials[material] as Scene['materials'][number], paintsAlpha(scene, material, vertexAlpha)),
+  });
+}
