@@ -4,6 +4,8 @@ import { promisify } from 'node:util';
 import { createPushButton } from '@glanz/models';
 import { PathTracer, requestDevice } from '@glanz/renderer';
 import { createGpu } from '@glanz/renderer/node';
+import { benchWorkers, servesBenchmark } from '../bvh/threads';
+import { BenchError } from '../error';
 import { timed, type Benchmark, type BenchmarkContext, type Figure } from '../benchmark';
 
 /** Set in the processes that this benchmark starts: the GPU to use, or empty. */
@@ -24,8 +26,10 @@ interface Stages {
   readonly compileMs: number;
 }
 
-async function firstImage(gpu: string, size: number): Promise<Stages> {
+async function firstImage(gpu: string, size: number, threads: number): Promise<Stages> {
   const loaded = performance.now();
+  // As the viewer does: they start while the device and the model are on their way.
+  const workers = threads > 0 ? await benchWorkers(threads, true) : undefined;
   const { gpu: api, adapterName, software } = await createGpu(gpu === '' ? {} : { gpu });
   const graphics = await requestDevice({ gpu: api });
   const device = performance.now();
@@ -33,22 +37,25 @@ async function firstImage(gpu: string, size: number): Promise<Stages> {
   model.environment = { type: 'constant', radiance: [1, 1, 1] };
   const scene = performance.now();
   let firstLight: number | undefined;
-  const tracer = await PathTracer.create(graphics, model, { width: size, height: size, maxDepth: 5, camera: 0, onFirstLight: () => void graphics.queue.onSubmittedWorkDone().then(() => (firstLight = performance.now())) });
+  const tracer = await PathTracer.create(graphics, model, { width: size, height: size, maxDepth: 5, camera: 0, ...(workers ? { hierarchies: workers } : {}), onFirstLight: () => void graphics.queue.onSubmittedWorkDone().then(() => (firstLight = performance.now())) });
   const prepared = performance.now();
   for await (const progress of tracer.render({ samples: 1 })) void progress;
   await tracer.read('beauty');
   const sampled = performance.now();
   const { bvhMs, compileMs } = tracer.statistics;
   tracer.destroy();
+  workers?.destroy();
   graphics.destroy();
   return { adapterName, software, loaded, device, scene, ...(firstLight === undefined ? {} : { firstLight }), prepared, sampled, bvhMs, compileMs };
 }
 
-async function measure({ log, quick, gpu }: BenchmarkContext) {
+async function measure({ log, quick, gpu, values }: BenchmarkContext) {
   const size = quick ? 64 : 512;
+  const threads = Number(values['workers'] ?? 0);
+  if (!Number.isInteger(threads) || threads < 0) throw new BenchError('bench/option', `--workers ${values['workers']}: it must be a whole number, 0 for none.`);
   const runs: Stages[] = [];
   for (let i = 0; i < (quick ? 2 : 8); i++) {
-    const env = { ...process.env, [CHILD]: JSON.stringify([gpu ?? '', size]) };
+    const env = { ...process.env, [CHILD]: JSON.stringify([gpu ?? '', size, threads]) };
     const { stdout } = await promisify(execFile)(process.execPath, [fileURLToPath(import.meta.url)], { env });
     const stages = JSON.parse(stdout.slice(stdout.indexOf('{'))) as Stages;
     runs.push(stages);
@@ -69,21 +76,24 @@ async function measure({ log, quick, gpu }: BenchmarkContext) {
   ];
   const figures: Figure[] = rows.flatMap(([name, value]) => [timed(name, 'ms', warm.map(value)), timed(`${name}, first process`, 'ms', [value(cold)])]);
   return {
-    settings: { model: 'push-button medium', width: size, height: size, maxDepth: 5, environment: 'constant, radiance 1' },
+    settings: { model: 'push-button medium', workers: threads, width: size, height: size, maxDepth: 5, environment: 'constant, radiance 1' },
     gpu: { name: cold.adapterName, software: cold.software },
     figures,
-    notes: ['the first process may find the cache of the driver cold; the others find it warm'],
+    notes: ['the first process may find the cache of the driver cold; the others find it warm', 'pipelines compile while hierarchies are built and the scene is uploaded: their time counts from when they are asked for'],
   };
 }
 
 /** From the start of a process to its first image, each time in a new process. */
 export const benchmark: Benchmark = {
   description: 'from the start of a process to the first sample of the push-button with 107 k triangles',
+  options: { workers: { type: 'string', help: 'threads that build hierarchies; default 0: the main thread' } },
   async run(context) {
+    // A worker of the process below.
+    if (servesBenchmark()) return { settings: {}, figures: [] };
     const child = process.env[CHILD];
     if (child === undefined) return measure(context);
-    const [gpu, size] = JSON.parse(child) as [string, number];
-    process.stdout.write(JSON.stringify(await firstImage(gpu, size)));
+    const [gpu, size, threads] = JSON.parse(child) as [string, number, number];
+    process.stdout.write(JSON.stringify(await firstImage(gpu, size, threads)));
     // The parent wants this line alone: no report.
     process.exit(0);
   },

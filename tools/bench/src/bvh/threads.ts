@@ -43,10 +43,16 @@ export function coldTimes(mesh: BenchMesh): Promise<number[]> {
   });
 }
 
+/** So many workers of this benchmark. `warmUp` lets them run what they will run before they are asked to. */
+export async function benchWorkers(count: number, warmUp = false): Promise<BvhWorkers> {
+  const workers = await BvhWorkers.create({ count, together: true, warmUp, createWorker: () => again({ role: 'serve' }) });
+  if (workers.fallback) throw new Error(workers.fallback);
+  return workers;
+}
+
 /** Milliseconds for building `meshes` on so many workers, after a round that does not count. */
 export async function workerTimes(meshes: readonly BenchMesh[], count: number, runs: number): Promise<number[]> {
-  const workers = await BvhWorkers.create({ count, together: true, createWorker: () => again({ role: 'serve' }) });
-  if (workers.fallback) throw new Error(workers.fallback);
+  const workers = await benchWorkers(count);
   const times: number[] = [];
   for (let i = -1; i < runs; i++) {
     const start = performance.now();
