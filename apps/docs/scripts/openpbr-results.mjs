@@ -43,6 +43,8 @@ const furnace = table(
 );
 const sizes = Object.values(data.furnace)[0];
 const chi = Object.entries(data.proofs).filter(([name]) => name.startsWith('chi-squared: '));
+const densities = Object.entries(data.proofs).filter(([name]) => name.startsWith('density: '));
+const percentOf = (value) => `${(100 * value).toFixed(2)} %`;
 const oracle = table(
   ['setting', 'class', 'pairs', 'median', '90th percentile', 'worst', 'limit'],
   Object.entries(data.oracle).map(([name, row]) => [
@@ -75,7 +77,7 @@ ${furnace}
 
 ${materials ? `${materials.materials} random white materials of all lobes, without stretched highlights and rough diffuse, 3 angles each: ${number(materials.least)} to ${number(materials.most)}.` : ''}
 
-Stretched highlights are the weakest place: the energy that metal loses by single scattering is looked up for a round highlight of similar masking.
+Stretched highlights: what metal loses by single scattering is tabulated over roughness, anisotropy and both angles; for dielectrics it is summed over 64 facets as they are seen, and from inside, where the critical angle cuts through them, that is the weakest place.
 
 ## Samples against their density
 
@@ -83,7 +85,7 @@ Chi-squared of histograms over 320 equal parts of the sphere, significance 0.01 
 
 ${table(['lobe', 'settings', 'samples each', 'least probability', 'limit'], chi.map(([name, row]) => [name.slice(13), row.settings, row.samples.toLocaleString('en'), row.least.toExponential(1), row.limit.toExponential(1)]))}
 
-The density of the samples integrates to no more than ${number(Math.max(materials?.density ?? 0, ...Object.values(data.furnace).map((row) => row.density)))} anywhere above.
+${densities.length ? `The integral of the density, and the part of the samples that a facet sends to where there is nothing, make 1 within ${percentOf(Math.max(...densities.map(([, row]) => row.worst)))} for each of these settings.` : ''} The density integrates to no more than ${number(Math.max(materials?.density ?? 0, ...Object.values(data.furnace).map((row) => row.density)))} anywhere above.
 
 ## Reciprocity
 
@@ -95,14 +97,14 @@ ${finite ? `${finite.materials.toLocaleString('en')} random materials with param
 
 ## Against an independent implementation
 
-Values f(ω_o, ω_i) · cos θ_i of Adobe's openpbr-bsdf, brought to height-correlated masking. Class S is determined by the specification, and every pair must be within the limit (relative, or absolute); R is its recommended model; I leaves the choice to implementations, and the limits hold for the median and the 90th percentile of |a − b| / max(a, b, 0.02). Large worst values are where one of both is nearly dark.
+Values f(ω_o, ω_i) · cos θ_i of Adobe's openpbr-bsdf, brought to height-correlated masking. Rows that say so differ by choice, for the reasons below. Class S is determined by the specification, and every pair must be within the limit (relative, or absolute); R is its recommended model; I leaves the choice to implementations, and the limits hold for the median and the 90th percentile of |a − b| / max(a, b, 0.02). Large worst values are where one of both is nearly dark.
 
 ${oracle}
 
 Where we differ, and why:
 
 - **Multiple scattering**: the light that bounces among facets leaves by a lobe of its own and evenly, there by lobes that avoid the normal; that is most of the difference of rough metals and glasses.
-- **Thin walls** (\`glass_thin_*\`, \`kitchen_thin\`, not in the table): there rough walls lose or make up to 58 % of the light; here what goes through is a narrower lobe, since two refractions mostly undo each other.
+- **Thin walls** (\`glass_thin_*\`, \`kitchen_thin\`, by choice): there rough walls lose or make up to 58 % of the light; here what goes through is a narrower lobe, since two refractions mostly undo each other.
 - **Thin film**: there at three wavelengths; here over the visible spectrum. Rows without a remark are evaluated at the three.
 - **Coat**: rougher below by the rule proposed for the next version of the specification; darkening by the reflectance at the viewer's angle.
 - **Fuzz** does not roughen the coat below it. \`eon_half_weight\`: base_weight is outside of EON, as in the specification's text.

@@ -1,4 +1,4 @@
-import { describe, expect, it } from 'vitest';
+import { describe, expect, it, vi } from 'vitest';
 import { resolveParameters, type OpenPbrParameters } from '../src/parameters/index';
 import { direction } from './integrate';
 import { resultsOf } from './results';
@@ -9,6 +9,7 @@ const FULL = process.env['GLANZ_PROOFS'] === 'full';
 const ROUGHNESSES = FULL ? [0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1] : [0.15, 0.4, 0.7, 1];
 const COSINES = FULL ? [1, 0.85, 0.65, 0.45, 0.3, 0.15, 0.06] : [1, 0.6, 0.25, 0.08];
 const SIZE = FULL ? 56 : 40;
+if (FULL) vi.setConfig({ testTimeout: 3_600_000 });
 /** The quadrature's own error: plain Lambert, whose albedo is 1, shows it. */
 const QUADRATURE = 1e-3;
 
@@ -35,14 +36,14 @@ const ROWS: readonly Row[] = [
   row('index 1.2 over diffuse', { specular_ior: 1.2 }, [0.9965, 1.001]),
   row('index 2 over diffuse', { specular_ior: 2 }, [0.997, 1.001]),
   row('half metal', { base_metalness: 0.5 }, [0.997, 1.001]),
-  row('glass', GLASS, [0.997, 1.004]),
-  row('glass of index 1.33', { ...GLASS, specular_ior: 1.33 }, [0.997, 1.004]),
-  row('glass of index 2.4', { ...GLASS, specular_ior: 2.4 }, [0.997, 1.004]),
+  row('glass', GLASS, [0.997, 1.003]),
+  row('glass of index 1.33', { ...GLASS, specular_ior: 1.33 }, [0.997, 1.003]),
+  row('glass of index 2.4', { ...GLASS, specular_ior: 2.4 }, [0.997, 1.003]),
   row('glass from inside', GLASS, [0.996, 1.005], { inside: true }),
   row('glass of index 1.33 from inside', { ...GLASS, specular_ior: 1.33 }, [0.996, 1.005], { inside: true }),
   row('glass of index 2.4 from inside', { ...GLASS, specular_ior: 2.4 }, [0.995, 1.005], { inside: true }),
   row('thin glass', { ...GLASS, geometry_thin_walled: true }, [0.997, 1.001]),
-  row('subsurface', { subsurface_weight: 1 }, [0.997, 1.004]),
+  row('subsurface', { subsurface_weight: 1 }, [0.997, 1.003]),
   row('paper', { subsurface_weight: 1, geometry_thin_walled: true }, [0.995, 1.001]),
   row('coat over diffuse', COAT, [0.99, 1.001]),
   row('rough coat over diffuse', { coat_weight: 1, coat_roughness: 0.7 }, [0.99, 1.001]),
@@ -54,10 +55,16 @@ const ROWS: readonly Row[] = [
   row('film over metal', { thin_film_weight: 1, ...METAL }, [0.98, 1.002]),
   row('film over glass', { thin_film_weight: 1, thin_film_ior: 1.8, ...GLASS }, [0.985, 1.01]),
   row('soap bubble', { thin_film_weight: 1, thin_film_ior: 1.33, thin_film_thickness: 0.3, specular_ior: 1, ...GLASS, geometry_thin_walled: true }, [0.99, 1.005]),
-  row('stretched metal, anisotropy 0.5', { ...METAL, specular_roughness_anisotropy: 0.5 }, [0.955, 1.015], AROUND),
-  row('stretched metal, anisotropy 0.9', { ...METAL, specular_roughness_anisotropy: 0.9 }, [0.93, 1.018], AROUND),
-  row('stretched glass, anisotropy 0.5', { ...GLASS, specular_roughness_anisotropy: 0.5 }, [0.985, 1.01], AROUND),
-  row('stretched glass, anisotropy 0.9', { ...GLASS, specular_roughness_anisotropy: 0.9 }, [0.98, 1.012], AROUND),
+  // What the table of stretched mirrors leaves: 0.0055 (scripts/tables.mjs), and its mean.
+  row('stretched metal, anisotropy 0.5', { ...METAL, specular_roughness_anisotropy: 0.5 }, [0.994, 1.003], AROUND),
+  row('stretched metal, anisotropy 0.9', { ...METAL, specular_roughness_anisotropy: 0.9 }, [0.991, 1.003], AROUND),
+  row('stretched dielectric over diffuse, anisotropy 0.9', { specular_roughness_anisotropy: 0.9 }, [0.992, 1.004], AROUND),
+  // The sum over 64 facets is good to 0.006 from outside, and to 0.021 from inside (stretched.wgsl.ts); the sphere's quadrature misses 0.004 of very narrow highlights.
+  row('stretched glass, anisotropy 0.5', { ...GLASS, specular_roughness_anisotropy: 0.5 }, [0.994, 1.006], AROUND),
+  row('stretched glass, anisotropy 0.9', { ...GLASS, specular_roughness_anisotropy: 0.9 }, [0.994, 1.006], AROUND),
+  row('stretched glass from inside, anisotropy 0.5', { ...GLASS, specular_roughness_anisotropy: 0.5 }, [0.979, 1.021], { ...AROUND, inside: true }),
+  row('stretched glass from inside, anisotropy 0.9', { ...GLASS, specular_roughness_anisotropy: 0.9 }, [0.975, 1.026], { ...AROUND, inside: true }),
+  row('stretched coat over diffuse, anisotropy 0.9', { coat_weight: 1, coat_roughness: 0.5, coat_roughness_anisotropy: 0.9 }, [0.98, 1.01], AROUND),
 ];
 
 describe('white furnace, lobe by lobe', () => {

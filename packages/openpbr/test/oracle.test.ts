@@ -1,5 +1,5 @@
 import { describe, expect } from 'vitest';
-import { coatedBase, dispersedIor, evalBsdf, ggxAlpha, ggxMasking, ggxMaskingShadowing, prepareBsdf, type BsdfOptions, type Slopes } from '../src/cpu/index';
+import { coatDarkening, coatedBase, dielectricEpsilon, dispersedIor, evalBsdf, fresnelMean, ggxAlpha, ggxMasking, ggxMaskingShadowing, prepareBsdf, type BsdfOptions, type Slopes } from '../src/cpu/index';
 import { resolveParameters, type OpenPbrParameters, type OpenPbrVector } from '../src/parameters/index';
 import { direction, furnace, integrateHemisphere } from './integrate';
 import { resultsOf } from './results';
@@ -9,7 +9,7 @@ import { oracle, sharedIt, sharedPresent, type OraclePair, type OracleSetting } 
 // The parameters of the lobes that exist. Settings that touch others wait for those lobes.
 const KNOWN = /^(base_|specular_|transmission_|subsurface_|coat_|fuzz_|thin_film_|emission_|geometry_opacity$|geometry_tangent$|geometry_thin_walled$|exterior_ior$)/;
 
-/** The oracle disagrees with the specification's text here, and its notes say to follow the text. */
+/** The oracle's albedo disagrees with the specification's text here, and its notes say to follow the text. */
 const FOLLOWS_TEXT_INSTEAD = ['eon_half_weight'];
 
 /**
@@ -24,16 +24,21 @@ const PAPER = ['sss_thin', 'kitchen_thin'];
 /** There, fuzz roughens the coat below it, which the specification does not ask for. */
 const ROUGHENED_BY_FUZZ = ['fuzz_over_coat'];
 
-/** What bounces among the facets: an even lobe here, one that avoids the normal there. The lobe of single scattering is compared. */
-const BOUNCES = ['glass_dispersion'];
-
-
 /** The oracle refracts three wavelengths at once; here the host picks one, and evaluates the surface with its index. */
 const DISPERSED = ['glass_dispersion'];
 const WAVELENGTHS = [620, 540, 450] as const;
 
 /** There, a coat darkens metal by its mean reflectance, here by that at the viewer's angle (the specification's K_s): near the horizon that is darker. */
 const DARKER_AT_HORIZON = ['film_half_coated'];
+
+/** Median and 90th percentile of the differences where we differ by choice: as measured, rounded up. */
+// Thin walls: see above. Dispersion: what bounces among the facets leaves evenly here, there by a lobe that avoids the normal.
+const LISTED: Readonly<Record<string, readonly [median: number, p90: number]>> = {
+  glass_thin_r02: [0.015, 0.68],
+  glass_thin_r06: [0.36, 0.68],
+  kitchen_thin: [0.09, 0.46],
+  glass_dispersion: [0.002, 0.06],
+};
 
 /** There, films are evaluated at the wavelengths above; here, over the visible spectrum, or for comparison as there. Both hold for f. */
 const hasFilm = ({ params }: OracleSetting): boolean => (params.thin_film_weight ?? 0) > 0;
@@ -100,6 +105,20 @@ function gainOfCorrelation(p: OpenPbrParameters, wo: OpenPbrVector, side: BsdfOp
   }, 40);
 }
 
+/** The reflected light with the coat's darkening by its mean reflectance, for metal below it. */
+function darkenedEvenly(p: OpenPbrParameters, wo: OpenPbrVector, reflected: readonly number[]): number[] {
+  const coat = integrateHemisphere(p, wo, (wi) => coatOf(p, wo, wi), 40);
+  const epsilon = dielectricEpsilon(p.coat_ior, 1);
+  const roughness = coatedBase(p).specular_roughness;
+  const kept = fresnelMean(epsilon) * (1 - roughness) + fresnelMean(-epsilon) * roughness;
+  const ours = coatDarkening(p, wo[2]);
+  return reflected.map((value, i) => {
+    const albedo = p.base_weight * (p.base_color[i] as number) * p.specular_weight;
+    const even = 1 + p.coat_weight * p.coat_darkening * ((1 - kept) / (1 - kept * albedo) - 1);
+    return (coat[i] as number) + ((value - (coat[i] as number)) * even) / (ours[i] as number);
+  });
+}
+
 const quantile = (values: readonly number[], q: number): number => [...values].sort((a, b) => a - b)[Math.min(values.length - 1, Math.floor(q * values.length))] as number;
 
 describe('against an independent implementation', () => {
@@ -159,7 +178,24 @@ describe('against an independent implementation', () => {
       });
     }
 
-    if (tolerance && ![...FOLLOWS_TEXT_INSTEAD, ...THIN_WALLS, ...BOUNCES].includes(setting.id)) {
+    const listed = setting.id in LISTED;
+    if (tolerance && listed) {
+      sharedIt(`${setting.id}: all lobes together differ by choice, by no more than is listed`, () => {
+        const differences: number[] = [];
+        each((p, channels, { pair, wo, wi, side }) => {
+          const expected = expectedTotal(pair);
+          const values = evalBsdf(prepareBsdf(p, wo, side), wo, wi);
+          for (const i of channels) differences.push(Math.abs((values[i] as number) - (expected[i] as number)) / Math.max(values[i] as number, expected[i] as number, 0.02));
+        });
+        const worst = Math.max(...differences);
+        const [median, p90] = [quantile(differences, 0.5), quantile(differences, 0.9)];
+        record(`${setting.id} (ours by choice)`, { class: tolerance.cls, pairs: tame.length, worst, median, p90, limit: tolerance.cls === 'I' ? [tolerance.median, tolerance.p90] : [tolerance.rel, tolerance.abs], listed });
+        const [most, most90] = LISTED[setting.id] as readonly [number, number];
+        expect(median).toBeLessThanOrEqual(most);
+        expect(p90).toBeLessThanOrEqual(most90);
+      });
+    }
+    if (tolerance && !listed) {
       for (const spectrum of hasFilm(setting) ? [false, true] : [false]) sharedIt(`${setting.id}: all lobes together (class ${tolerance.cls})${spectrum ? ', over the spectrum' : ''}`, () => {
         const differences: number[] = [];
         const close: boolean[] = [];
@@ -195,12 +231,13 @@ describe('against an independent implementation', () => {
       sharedIt(`${setting.id}: reflected and transmitted parts of uniform light`, () => {
         for (const { mu, R, T, se } of setting.albedo) {
           if (mu <= 0 && !clear) continue;
-          if (mu < 0.1 && DARKER_AT_HORIZON.includes(setting.id)) continue;
           const side = sideOf(mu);
           const azimuth = (25 * Math.PI) / 180;
           const wo = mu > 0 ? turn(direction(mu, azimuth)) : over(turn(direction(mu, azimuth)));
           for (const { p, channels } of surfacesOf(setting)) {
-            const { reflected, transmitted } = clear ? sphereFurnace(p, wo, side, 40) : { reflected: furnace(p, wo, side, 40).albedo, transmitted: [0, 0, 0] };
+            const ours = clear ? sphereFurnace(p, wo, side, 40) : { reflected: furnace(p, wo, side, 40).albedo, transmitted: [0, 0, 0] };
+            const transmitted = ours.transmitted;
+            const reflected = DARKER_AT_HORIZON.includes(setting.id) ? darkenedEvenly(p, wo, ours.reflected) : ours.reflected;
             const gain = gainOfCorrelation(p, wo, side);
             for (const i of channels) {
               const slack = (other: number, error: number) => Math.max(albedoTolerance.rel * other, albedoTolerance.abs) + 4 * error;

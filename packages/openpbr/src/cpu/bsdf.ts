@@ -1,13 +1,14 @@
 import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
 import { coatedBase, coatEmission, coatPass, coatThrough, inCoat, outOfCoat, prepareCoat, type Coat } from './coat';
+import { interfaceEnergy } from './dielectric';
 import { cosineSample, eon } from './diffuse';
-import { energyBounce, energyLost, energyLostMean, energyShare, energyShareMean, energyTotal } from './energy';
+import { energyShare, energyShareMean, mirrorLost, mirrorLostMean } from './energy';
 import { dielectricEpsilon, fresnelDielectric, fresnelMetal, fresnelMetalMean } from './fresnel';
 import { filmFacet, filmReflectance, filmShare, metalIndex, prepareFilm, type ComplexIndex, type Film } from './film';
 import { fuzzAlbedo, fuzzDensity, fuzzSample, prepareFuzz, type Fuzz } from './fuzz';
-import { ggx, ggxAlpha, ggxBound, ggxSample, halfVector, mirrorCosine, mirrorRoughness, viewRoughness, type Slopes } from './ggx';
+import { ggx, ggxAlpha, ggxBound, ggxSample, halfVector, viewRoughness, type Slopes } from './ggx';
 import { prepareThinSubsurface, type ThinSubsurface } from './subsurface';
-import { prepareTransmission, refract, refractGgx, refractHalf, stretchedLoss, type BsdfSide, type Transmission } from './transmission';
+import { prepareTransmission, refract, refractGgx, refractHalf, type BsdfSide, type Transmission } from './transmission';
 import { clamp, dot } from './vector';
 
 /** What {@link prepareBsdf} may be told. */
@@ -36,7 +37,6 @@ export interface Bsdf {
     readonly tint: OpenPbrColor;
     readonly specularWeight: number;
     readonly metalness: number;
-    /** See {@link mirrorRoughness}. */
     readonly roughness: number;
     /** Directional albedo of multiple scattering, and its mean loss. */
     readonly bounced: OpenPbrColor;
@@ -90,13 +90,7 @@ function seenFrom(p: OpenPbrParameters, { inside = false, outerIor = 1 }: BsdfSi
 /** Share of light that an interface reflects, and what multiple scattering adds to either side; twin of `openpbr_dielectric_prepare`. */
 function prepareInterface(p: OpenPbrParameters, alpha: Slopes, wo: OpenPbrVector, mu: number, multipleScattering: boolean) {
   const epsilon = dielectricEpsilon(p.specular_ior, p.specular_weight);
-  const share = energyShare(epsilon, viewRoughness(alpha, p.specular_roughness, wo), mu);
-  const total = energyTotal(epsilon, mirrorRoughness(p.specular_roughness, p.specular_roughness_anisotropy), mirrorCosine(alpha, wo, mu));
-  // From inside, the critical angle is an edge that its facets are too few for.
-  const stretched = epsilon > 0 && p.specular_roughness_anisotropy > 0 && p.transmission_weight + p.subsurface_weight > 0;
-  const lost = multipleScattering ? Math.max(stretched ? stretchedLoss((1 + epsilon) / (1 - epsilon), alpha, wo) : 1 - total, 0) : 0;
-  const bounced = lost * energyBounce(epsilon, mirrorRoughness(p.specular_roughness, p.specular_roughness_anisotropy));
-  return { epsilon, share, bounced, bouncedThrough: lost - bounced };
+  return { epsilon, ...interfaceEnergy(epsilon, p.specular_roughness, alpha, wo, mu, multipleScattering) };
 }
 
 /**
@@ -113,10 +107,8 @@ export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multi
   const f0 = rgb((i) => p.base_weight * p.base_color[i]);
   const weight = Math.min(p.specular_weight, 1e6);
   const alpha = ggxAlpha(roughness, p.specular_roughness_anisotropy);
-  const mirror = mirrorRoughness(roughness, p.specular_roughness_anisotropy);
-  const mirrorMu = mirrorCosine(alpha, wo, mu);
-  const lost = multipleScattering ? energyLost(mirror, mirrorMu) : 0;
-  const meanLost = Math.max(energyLostMean(mirror), 1e-7);
+  const lost = multipleScattering ? mirrorLost(alpha, roughness, wo, mu) : 0;
+  const meanLost = Math.max(mirrorLostMean(alpha, roughness), 1e-7);
   const film = prepareFilm(whole, outerIor, inside, filmWavelengths);
   const index = rgbOf((i) => metalIndex(f0[i], p.specular_color[i]));
   const seen = mu + 0.8 * roughness * roughness * (1 - mu);
@@ -163,7 +155,7 @@ export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multi
     diffuseColor: p.base_color,
     diffuseRoughness: p.base_diffuse_roughness,
     albedo: rgb((i) => Math.min((below[i] + coat.albedo) * fuzz.below + fuzz.color[i], 1)),
-    metal: { f0, tint: p.specular_color, specularWeight: weight, metalness: p.base_metalness, roughness: mirror, bounced, meanLost, index },
+    metal: { f0, tint: p.specular_color, specularWeight: weight, metalness: p.base_metalness, roughness, bounced, meanLost, index },
     dielectric: { eta: (1 + face.epsilon) / (1 - face.epsilon), epsilon: face.epsilon, roughness, scale, bounced: rebounced },
     film,
     filmPass: filmed.pass,
@@ -233,7 +225,7 @@ function scatter(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector
   const [value, density] = ggx(b.alpha, wo, wi, h, b.bound);
   const sides = facet(b, c);
   const through = diffusePass(b, wi);
-  const bounced = (energyLost(b.metal.roughness, mirrorCosine(b.alpha, wi, wi[2])) / b.metal.meanLost / Math.PI) * wi[2];
+  const bounced = (mirrorLost(b.alpha, b.metal.roughness, wi, wi[2]) / b.metal.meanLost / Math.PI) * wi[2];
   const diffuse = eon(b.diffuseColor, b.diffuseRoughness, wo, wi);
   const paper = eon(b.subsurface.color, b.diffuseRoughness, wo, wi);
   const { frame } = b.coat;

@@ -1,7 +1,8 @@
 import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
-import { energyBounce, energyShare, energyTotal, fresnelMean } from './energy';
+import { interfaceEnergy } from './dielectric';
+import { energyShare, fresnelMean } from './energy';
 import { dielectricEpsilon, fresnelDielectric } from './fresnel';
-import { ggxAlpha, ggxBound, mirrorCosine, mirrorRoughness, viewRoughness, type Slopes } from './ggx';
+import { ggxAlpha, ggxBound, viewRoughness, type Slopes } from './ggx';
 import { clamp, dot } from './vector';
 
 const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), channel(1), channel(2)];
@@ -112,9 +113,7 @@ export function prepareCoat(p: OpenPbrParameters, baseWo: OpenPbrVector, multipl
   const alpha = ggxAlpha(roughness, p.coat_roughness_anisotropy);
   const epsilon = dielectricEpsilon(p.coat_ior, 1);
   const eta = (1 + epsilon) / (1 - epsilon);
-  const share = energyShare(epsilon, viewRoughness(alpha, roughness, wo), mu);
-  const total = energyTotal(epsilon, mirrorRoughness(roughness, p.coat_roughness_anisotropy), mirrorCosine(alpha, wo, mu));
-  const more = Math.max(1 - total, 0) * energyBounce(epsilon, mirrorRoughness(roughness, p.coat_roughness_anisotropy));
+  const { share, bounced: more } = interfaceEnergy(epsilon, roughness, alpha, wo, mu, multipleScattering);
   const absorption = absorptionOf(p);
   const darkening = coatDarkening(p, mu);
   return {

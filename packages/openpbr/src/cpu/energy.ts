@@ -1,6 +1,8 @@
-import { TABLE_ANGLES, TABLE_BLOCKS, TABLE_CONDUCTOR, TABLE_DEPTH, TABLE_HEIGHT_2D, TABLE_MIN_ROUGHNESS, TABLE_ROUGHNESSES } from '../tables/layout';
+import type { OpenPbrVector } from '../parameters/index';
+import { STRETCHED_FLATS, STRETCHED_POWER, STRETCHED_VIEWS, TABLE_ANGLES, TABLE_BLOCKS, TABLE_CONDUCTOR, TABLE_DEPTH, TABLE_HEIGHT_2D, TABLE_MIN_ROUGHNESS, TABLE_ROUGHNESSES } from '../tables/layout';
 import { OPENPBR_TABLES, type OpenPbrTable } from '../tables/tables';
 import { fresnelDielectric } from './fresnel';
+import { mirrorCosine, type Slopes } from './ggx';
 import { clamp } from './vector';
 
 /** What a texture with linear filtering and clamping gives at `coords` in [0, 1]. */
@@ -54,6 +56,36 @@ export function energyLost(roughness: number, mu: number): number {
 
 /** The cosine-weighted mean of {@link energyLost} over all directions; twin of `openpbr_energy_lost_mean`. */
 export const energyLostMean = (roughness: number): number => tableLookup(OPENPBR_TABLES.conductor, [(TABLE_CONDUCTOR + 0.5) / (TABLE_CONDUCTOR + 1), roughnessAxis(Math.max(roughness, TABLE_MIN_ROUGHNESS), TABLE_CONDUCTOR, TABLE_HEIGHT_2D)]);
+
+/**
+ * What a stretched mirror keeps more than a round one of the same masking; twin of `openpbr_energy_stretched`.
+ *
+ * @param x The table's column.
+ * @param along Where the slope along the view lies, as a coordinate.
+ */
+function stretchedMore(alpha: Slopes, roughness: number, x: number, along: number): number {
+  const flat = (1 - alpha[1] / alpha[0]) * STRETCHED_FLATS;
+  const block = Math.min(Math.floor(flat), STRETCHED_FLATS - 1);
+  const z = texel(clamp((roughness - TABLE_MIN_ROUGHNESS) / (1 - TABLE_MIN_ROUGHNESS), 0, 1), TABLE_BLOCKS.stretched[0], TABLE_BLOCKS.stretched[1], TABLE_DEPTH);
+  const at = (k: number) => (k < 0 ? 0 : tableLookup(OPENPBR_TABLES.dielectric, [x, texel(along, k * STRETCHED_VIEWS, STRETCHED_VIEWS, TABLE_ROUGHNESSES), z]));
+  return at(block - 1) * (1 - flat + block) + at(block) * (flat - block);
+}
+
+/** Energy that a perfect mirror loses by single scattering towards `w`, of cosine `mu`; twin of `openpbr_mirror_lost`. */
+export function mirrorLost(alpha: Slopes, roughness: number, w: OpenPbrVector, mu: number): number {
+  const cosine = mirrorCosine(alpha, w, mu);
+  const lost = energyLost(roughness, cosine);
+  if (alpha[0] <= alpha[1]) return lost;
+  const slope = Math.hypot(alpha[0] * w[0], alpha[1] * w[1]) / Math.max(Math.hypot(w[0], w[1]), 1e-20);
+  const along = clamp((slope - alpha[1]) / (alpha[0] - alpha[1]), 0, 1) ** (1 / STRETCHED_POWER);
+  return Math.max(lost - stretchedMore(alpha, roughness, angleAxis(spread(Math.max(roughness, TABLE_MIN_ROUGHNESS), cosine)), along), 0);
+}
+
+/** The cosine-weighted mean of {@link mirrorLost} over all directions; twin of `openpbr_mirror_lost_mean`. */
+export function mirrorLostMean(alpha: Slopes, roughness: number): number {
+  const lost = energyLostMean(roughness);
+  return alpha[0] > alpha[1] ? Math.max(lost - stretchedMore(alpha, roughness, (TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1), 0), 0) : lost;
+}
 
 /** Share of the energy that an interface reflects by all scattering, the rest being refracted; twin of `openpbr_energy_share`. */
 export function energyShare(epsilon: number, roughness: number, mu: number): number {

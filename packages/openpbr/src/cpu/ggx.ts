@@ -38,10 +38,7 @@ export function ggx(alpha: Slopes, wo: OpenPbrVector, wi: OpenPbrVector, h: Open
 /** Round roughness that reflects as large a share of the light towards `w`; twin of `openpbr_view_roughness`. */
 export const viewRoughness = (alpha: Slopes, roughness: number, w: OpenPbrVector): number => Math.sqrt(Math.min(Math.hypot(alpha[0] * w[0], alpha[1] * w[1], roughness * roughness * w[2]), 1));
 
-/** Roughness of the round highlight that loses as much by single scattering; twin of `openpbr_mirror_roughness`. */
-export const mirrorRoughness = (roughness: number, anisotropy: number): number => roughness * (1 - 0.065 * anisotropy * roughness);
-
-/** The cosine that goes with {@link mirrorRoughness}: `mu` of `w` if the highlight is round; twin of `openpbr_mirror_cosine`. */
+/** The cosine at which a round highlight has the same masking: `mu` of `w` if the highlight is round; twin of `openpbr_mirror_cosine`. */
 export const mirrorCosine = (alpha: Slopes, w: OpenPbrVector, mu: number): number => mu / Math.hypot(mu, (Math.hypot(alpha[0] * w[0], alpha[1] * w[1]) * Math.SQRT2) / Math.hypot(alpha[0], alpha[1]));
 
 /** The half vector, finite where two grazing directions cancel; twin of `openpbr_half`. */

@@ -1,8 +1,8 @@
 import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
-import { energyLost } from './energy';
-import { dielectricEpsilon, fresnelDielectric } from './fresnel';
+import { mirrorLost } from './energy';
+import { dielectricEpsilon } from './fresnel';
 import type { FilmShare } from './film';
-import { ggxDistribution, ggxMasking, ggxMaskingShadowing, ggxSample, mirrorCosine, mirrorRoughness, type Slopes } from './ggx';
+import { ggxDistribution, ggxMasking, type Slopes } from './ggx';
 import { clamp, dot, normalize } from './vector';
 
 /** Where the viewer is; twin of the WGSL struct `OpenPbrSide`. */
@@ -41,27 +41,6 @@ export interface Transmission {
 }
 
 const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), channel(1), channel(2)];
-
-/** Heights along the cap of visible normals, and their parts: Gauss and Legendre's. */
-const HEIGHTS = [0.06943184, 0.33000948, 0.66999052, 0.93056816];
-const PARTS = [0.021740927, 0.040759066, 0.040759066, 0.021740927];
-
-/** Energy that single scattering loses, of a stretched highlight: summed over 32 facets as they are seen; twin of `openpbr_transmission_lost`. */
-export function stretchedLoss(eta: number, alpha: Slopes, wo: OpenPbrVector): number {
-  const turn = Math.atan2(alpha[1] * wo[1], alpha[0] * wo[0]) / (2 * Math.PI);
-  let lost = 0;
-  for (let i = 0; i < 32; i++) {
-    const h = ggxSample(alpha, wo, [turn + ((i & 7) + 0.25) / 8, HEIGHTS[i >> 3] as number]);
-    const c = clamp(dot(wo, h), 0, 1);
-    const reflected = fresnelDielectric(eta, c);
-    const mirrored: OpenPbrVector = [2 * c * h[0] - wo[0], 2 * c * h[1] - wo[1], 2 * c * h[2] - wo[2]];
-    const refracted = refract(eta, wo, h);
-    const up = mirrored[2] > 0 ? (reflected * ggxMaskingShadowing(alpha, wo, mirrored)) / ggxMasking(alpha, wo) : 0;
-    const down = refracted && refracted[2] < 0 ? (1 - reflected) * ggxMasking(alpha, [refracted[0], refracted[1], -refracted[2]]) : 0;
-    lost += (1 - up - down) * (PARTS[i >> 3] as number);
-  }
-  return lost;
-}
 
 /** What {@link prepareTransmission} needs to know of an interface. */
 interface Interface {
@@ -122,12 +101,11 @@ export function prepareTransmission(outer: OpenPbrParameters, face: Interface, b
   });
   const narrowing = clamp(0.65 * Math.max(eta, 1 / eta) - 0.35, 0, 1);
   const path = 1 / Math.sqrt(Math.max(1 - (1 - mu * mu) / (eta * eta), 1e-4));
-  const cosine = mirrorCosine(alpha, wo, mu);
-  const lost = (roughness: number) => (multipleScattering ? energyLost(mirrorRoughness(roughness, outer.specular_roughness_anisotropy), cosine) : 0);
+  const lostBy = (roughness: number): number => (multipleScattering ? mirrorLost(alpha, roughness, wo, mu) : 0);
   const mirror = rgb((i) => amount * reflected[i] * outer.specular_color[i]);
   const color = rgb((i) => amount * (1 - reflected[i]) * Math.max(tint[i], 1e-7) ** path);
-  const mirrorLost = lost(outer.specular_roughness);
-  const colorLost = lost(outer.specular_roughness * narrowing);
+  const reflectedLost = lostBy(outer.specular_roughness);
+  const colorLost = lostBy(outer.specular_roughness * narrowing);
   return {
     eta,
     fresnelEta,
@@ -142,8 +120,8 @@ export function prepareTransmission(outer: OpenPbrParameters, face: Interface, b
     thin,
     thinAlpha: [Math.max(alpha[0] * narrowing ** 2, 1e-4), Math.max(alpha[1] * narrowing ** 2, 1e-4)],
     mirror,
-    mirrorAlbedo: rgb((i) => mirror[i] * (1 - mirrorLost)),
-    mirrorBounced: rgb((i) => mirror[i] * mirrorLost),
+    mirrorAlbedo: rgb((i) => mirror[i] * (1 - reflectedLost)),
+    mirrorBounced: rgb((i) => mirror[i] * reflectedLost),
   };
 }
 

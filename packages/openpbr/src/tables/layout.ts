@@ -5,6 +5,8 @@ const outerTotal = TABLE_LAYOUT.outer;
 const inner = outerTotal + TABLE_LAYOUT.outerTotal;
 const innerTotal = inner + TABLE_LAYOUT.inner;
 
+const stretched = innerTotal + TABLE_LAYOUT.innerTotal;
+
 /** The dielectric table's blocks: first slice and number of slices. Names as in scripts/tables.mjs. */
 export const TABLE_BLOCKS = {
   /** Share of the energy that is reflected by all scattering, over the Fresnel reflectance at the softened cosine; seen from the thinner medium. */
@@ -15,10 +17,15 @@ export const TABLE_BLOCKS = {
   inner: [inner, TABLE_LAYOUT.inner],
   /** Energy reflected and refracted by single scattering; seen from the denser medium. */
   innerTotal: [innerTotal, TABLE_LAYOUT.innerTotal],
+  /**
+   * What stretched mirrors keep by single scattering, less what round ones of the same masking do; over the roughness. Rows:
+   * slopes along the view, for each of the anisotropies; the last column holds the means, less the round one's.
+   */
+  stretched: [stretched, TABLE_LAYOUT.stretched],
 } as const;
 
 /** Depth of the dielectric table in slices. */
-export const TABLE_DEPTH = innerTotal + TABLE_LAYOUT.innerTotal;
+export const TABLE_DEPTH = stretched + TABLE_LAYOUT.stretched;
 
 /**
  * Angle samples of the dielectric table; one more column holds the mean over all directions. In the blocks of totals the
@@ -44,6 +51,11 @@ export const TABLE_BLOCKS_2D = {
 
 /** Height of the two-dimensional table in rows. */
 export const TABLE_HEIGHT_2D = TABLE_LAYOUT.conductor + 3 * SHEEN_ROWS;
+
+/** Anisotropies 1/n, 2/n, … 1, and slopes along the view, of the block of stretched mirrors; the slopes' share of the range is the coordinate to this power. */
+export const STRETCHED_FLATS = 4;
+export const STRETCHED_VIEWS = TABLE_LAYOUT.roughnesses / STRETCHED_FLATS;
+export const STRETCHED_POWER = 1.25;
 
 /** The tables' first roughness, which is that of the smallest slope. */
 export const TABLE_MIN_ROUGHNESS = 0.01;

@@ -6,7 +6,7 @@ export interface OpenPbrTable {
   readonly height: number;
   /** 1 for a two-dimensional table. */
   readonly depth: number;
-  /** `width × height × depth` numbers in [0, 2], x fastest. Decoded at the first access; half floats hold them well enough. */
+  /** `width × height × depth` numbers in [-0.1, 2], x fastest. Decoded at the first access; half floats hold them well enough. */
   readonly data: Float32Array<ArrayBuffer>;
 }
 

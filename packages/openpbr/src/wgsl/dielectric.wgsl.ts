@@ -1,8 +1,9 @@
-import { wgslModule } from '@glanz/wgsl';
+import { gated, wgslModule } from '@glanz/wgsl';
 import { openpbrEnergy } from './energy.wgsl';
 import { openpbrFresnelDielectric } from './fresnel.wgsl';
 import { openpbrGgx } from './ggx.wgsl';
 import { openPbrStruct } from './record';
+import { openpbrStretched } from './stretched.wgsl';
 
 /**
  * The dielectric interface of the base: specular_weight changes its index of refraction, and with it everything else.
@@ -37,12 +38,22 @@ fn openpbr_dielectric_prepare(p: OpenPbrParameters, alpha: vec2f, wo: vec3f, mu:
   d.roughness = p.specular_roughness;
   d.share = openpbr_energy_share(d.epsilon, openpbr_view_roughness(alpha, d.roughness, wo), mu);
   //#if OPENPBR_MULTISCATTER
-  let roughness = openpbr_mirror_roughness(d.roughness, p.specular_roughness_anisotropy);
-  let lost = max(1.0 - openpbr_energy_total(d.epsilon, roughness, openpbr_mirror_cosine(alpha, wo, mu)), 0.0);
-  d.bounced = lost * openpbr_energy_bounce(d.epsilon, roughness);
+  let bounce = openpbr_energy_bounce(d.epsilon, d.roughness);
+  //#if OPENPBR_ANISOTROPY
+  if (alpha.x > alpha.y) {
+    let kept = openpbr_stretched(d.eta, alpha, wo);
+    let lost = max(1.0 - kept.x - kept.y, 0.0);
+    d.bounced = lost * bounce;
+    d.bounced_through = lost - d.bounced;
+    d.share = min(kept.x + d.bounced, 1.0);
+    return d;
+  }
+  //#endif
+  let lost = max(1.0 - openpbr_energy_total(d.epsilon, d.roughness, mu), 0.0);
+  d.bounced = lost * bounce;
   d.bounced_through = lost - d.bounced;
   //#endif
   return d;
 }`,
-  [openPbrStruct.module, openpbrGgx, openpbrFresnelDielectric, openpbrEnergy],
+  [openPbrStruct.module, openpbrGgx, openpbrFresnelDielectric, openpbrEnergy, gated('OPENPBR_ANISOTROPY', openpbrStretched)],
 );

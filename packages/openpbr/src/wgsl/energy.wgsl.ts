@@ -1,6 +1,7 @@
 import { wgslModule } from '@glanz/wgsl';
-import { TABLE_ANGLES, TABLE_BLOCKS, TABLE_CONDUCTOR, TABLE_DEPTH, TABLE_HEIGHT_2D, TABLE_MIN_ROUGHNESS, TABLE_ROUGHNESSES } from '../tables/layout';
+import { STRETCHED_FLATS, STRETCHED_POWER, STRETCHED_VIEWS, TABLE_ANGLES, TABLE_BLOCKS, TABLE_CONDUCTOR, TABLE_DEPTH, TABLE_HEIGHT_2D, TABLE_MIN_ROUGHNESS, TABLE_ROUGHNESSES } from '../tables/layout';
 import { openpbrFresnelDielectric } from './fresnel.wgsl';
+import { openpbrGgx } from './ggx.wgsl';
 
 const float = (value: number): string => (Number.isInteger(value) ? `${value}.0` : String(value));
 /** `(u·(count - 1) + ½ + first) / size`: the texture coordinate of u ∈ [0, 1] between two texels' centres, as an offset and a factor. */
@@ -15,6 +16,10 @@ const outer = slice('outer');
 const outerTotal = slice('outerTotal');
 const inner = slice('inner');
 const innerTotal = slice('innerTotal');
+const stretchedRough = slice('stretched');
+const stretchedView = axis(0, STRETCHED_VIEWS, TABLE_ROUGHNESSES);
+const stretchedBlock = float(STRETCHED_VIEWS / TABLE_ROUGHNESSES);
+const linear = `clamp((r - ${float(TABLE_MIN_ROUGHNESS)}) * ${float(1 / (1 - TABLE_MIN_ROUGHNESS))}, 0.0, 1.0)`;
 // In the blocks of totals.
 const totalRough = axis(0, TABLE_ANGLES + 1, TABLE_ANGLES + 1);
 const totalAngle = axis(0, TABLE_ROUGHNESSES - 1, TABLE_ROUGHNESSES);
@@ -47,6 +52,41 @@ fn openpbr_energy_lost_mean(roughness: f32) -> f32 {
   let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
   return openpbr_table_conductor(vec2f(${float((TABLE_CONDUCTOR + 0.5) / (TABLE_CONDUCTOR + 1))}, ${metalRough[0]} + ${metalRough[1]} * ${unit}));
 }
+
+//#if OPENPBR_ANISOTROPY
+// What a stretched highlight keeps more of than a round one of the same masking; "x" is the column, "along" where the slope
+// along the view lies between the least and the most.
+fn openpbr_energy_stretched(alpha: vec2f, roughness: f32, x: f32, along: f32) -> f32 {
+  let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
+  let flat = (1.0 - alpha.y / alpha.x) * ${float(STRETCHED_FLATS)};
+  let block = min(floor(flat), ${float(STRETCHED_FLATS - 1)});
+  let at = vec3f(x, ${stretchedView[0]} + ${stretchedView[1]} * along + ${stretchedBlock} * block, ${stretchedRough[0]} + ${stretchedRough[1]} * ${linear});
+  let rounder = select(0.0, openpbr_table_dielectric(at - vec3f(0.0, ${stretchedBlock}, 0.0)), block > 0.0);
+  return mix(rounder, openpbr_table_dielectric(at), flat - block);
+}
+//#endif
+
+// Energy that a perfect mirror loses by single scattering towards w.
+fn openpbr_mirror_lost(alpha: vec2f, roughness: f32, w: vec3f, mu: f32) -> f32 {
+  let cosine = openpbr_mirror_cosine(alpha, w, mu);
+  let lost = openpbr_energy_lost(roughness, cosine);
+  //#if OPENPBR_ANISOTROPY
+  if (alpha.x > alpha.y) {
+    let slope = length(alpha * w.xy) / max(length(w.xy), 1e-20);
+    let along = pow(clamp((slope - alpha.y) / (alpha.x - alpha.y), 0.0, 1.0), ${1 / STRETCHED_POWER});
+    return max(lost - openpbr_energy_stretched(alpha, roughness, ${angle[0]} + ${angle[1]} * openpbr_energy_angle(max(roughness, ${TABLE_MIN_ROUGHNESS}), cosine), along), 0.0);
+  }
+  //#endif
+  return lost;
+}
+
+fn openpbr_mirror_lost_mean(alpha: vec2f, roughness: f32) -> f32 {
+  let lost = openpbr_energy_lost_mean(roughness);
+  //#if OPENPBR_ANISOTROPY
+  if (alpha.x > alpha.y) { return max(lost - openpbr_energy_stretched(alpha, roughness, ${float((TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1))}, 0.0), 0.0); }
+  //#endif
+  return lost;
+}
 //#endif
 
 //#if OPENPBR_INTERFACE
@@ -58,23 +98,29 @@ fn openpbr_fresnel_mean(epsilon: f32) -> f32 {
   return select(1.0 - eta * eta * (1.0 - mean), mean, epsilon >= 0.0);
 }
 
+//#if OPENPBR_INNER
 // Where a cosine inside of the denser medium lies: the critical angle in the middle, and columns crowd around it.
 fn openpbr_energy_inner_angle(eta: f32, mu: f32) -> f32 {
   let critical = sqrt(1.0 - eta * eta);
   return select(0.5 * sqrt(mu) / (sqrt(mu) + sqrt(max(critical - mu, 0.0))), 0.5 + 0.5 * sqrt(max(mu - critical, 0.0) / (1.0 - critical)), mu > critical);
 }
 
+//#endif
 fn openpbr_energy_total_at(epsilon: f32, r: f32, y: f32) -> f32 {
-  let e = abs(epsilon);
-  let z = select(${innerTotal[0]} + ${innerTotal[1]} * sqrt(e), ${outerTotal[0]} + ${outerTotal[1]} * pow(e, 0.33333333), epsilon >= 0.0);
-  return openpbr_table_dielectric(vec3f(${totalRough[0]} + ${totalRough[1]} * clamp((r - ${float(TABLE_MIN_ROUGHNESS)}) * ${float(1 / (1 - TABLE_MIN_ROUGHNESS))}, 0.0, 1.0), y, z));
+  var z = ${outerTotal[0]} + ${outerTotal[1]} * pow(abs(epsilon), 0.33333333);
+  //#if OPENPBR_INNER
+  if (epsilon < 0.0) { z = ${innerTotal[0]} + ${innerTotal[1]} * sqrt(-epsilon); }
+  //#endif
+  return openpbr_table_dielectric(vec3f(${totalRough[0]} + ${totalRough[1]} * ${linear}, y, z));
 }
 
 // Energy that the interface reflects and refracts by single scattering.
 fn openpbr_energy_total(epsilon: f32, roughness: f32, mu: f32) -> f32 {
   let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
   var t = openpbr_energy_angle(r, mu);
+  //#if OPENPBR_INNER
   if (epsilon < 0.0) { t = 0.5 * (t + openpbr_energy_inner_angle((1.0 + epsilon) / (1.0 - epsilon), mu)); }
+  //#endif
   return openpbr_energy_total_at(epsilon, r, ${totalAngle[0]} + ${totalAngle[1]} * t);
 }
 
@@ -82,10 +128,14 @@ fn openpbr_energy_total(epsilon: f32, roughness: f32, mu: f32) -> f32 {
 // reflectance; from inside, where total reflection dominates, such that as much goes through to either side.
 fn openpbr_energy_bounce(epsilon: f32, roughness: f32) -> f32 {
   let reflected = openpbr_fresnel_mean(abs(epsilon));
-  if (epsilon >= 0.0) { return reflected; }
-  let outside = 1.0 - openpbr_energy_total_at(-epsilon, roughness, ${totalMean});
-  let inside = 1.0 - openpbr_energy_total_at(epsilon, roughness, ${totalMean});
-  return clamp(1.0 - (1.0 - reflected) * outside / max(inside, 1e-4), 0.0, 1.0);
+  //#if OPENPBR_INNER
+  if (epsilon < 0.0) {
+    let outside = 1.0 - openpbr_energy_total_at(-epsilon, roughness, ${totalMean});
+    let inside = 1.0 - openpbr_energy_total_at(epsilon, roughness, ${totalMean});
+    return clamp(1.0 - (1.0 - reflected) * outside / max(inside, 1e-4), 0.0, 1.0);
+  }
+  //#endif
+  return reflected;
 }
 
 // Share of the energy that the interface reflects by all scattering, the rest being refracted.
@@ -94,18 +144,15 @@ fn openpbr_energy_share(epsilon: f32, roughness: f32, mu: f32) -> f32 {
   let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
   let eta = (1.0 + epsilon) / (1.0 - epsilon);
   let z = sqrt(abs(epsilon));
-  var at = vec3f(openpbr_energy_angle(r, mu), ${rough[0]} + ${rough[1]} * ${unit}, ${outer[0]} + ${outer[1]} * z);
-  var scale = 1.0;
-  if (epsilon > 0.0) {
-    scale = openpbr_fresnel_dielectric(eta, mu + 0.8 * r * r * (1.0 - mu));
-  } else {
-    at.x = openpbr_energy_inner_angle(eta, mu);
-    at.z = ${inner[0]} + ${inner[1]} * z;
+  let y = ${rough[0]} + ${rough[1]} * ${unit};
+  //#if OPENPBR_INNER
+  if (epsilon < 0.0) {
+    let direct = openpbr_table_dielectric(vec3f(${angle[0]} + ${angle[1]} * openpbr_energy_inner_angle(eta, mu), y, ${inner[0]} + ${inner[1]} * z));
+    return mix(openpbr_energy_bounce(epsilon, roughness), min(direct, 1.0), openpbr_energy_total(epsilon, roughness, mu));
   }
-  at.x = ${angle[0]} + ${angle[1]} * at.x;
-  let share = min(openpbr_table_dielectric(at) * scale, 1.0);
-  if (epsilon > 0.0) { return share; }
-  return mix(openpbr_energy_bounce(epsilon, roughness), share, openpbr_energy_total(epsilon, roughness, mu));
+  //#endif
+  let outside = openpbr_table_dielectric(vec3f(${angle[0]} + ${angle[1]} * openpbr_energy_angle(r, mu), y, ${outer[0]} + ${outer[1]} * z));
+  return min(outside * openpbr_fresnel_dielectric(eta, mu + 0.8 * r * r * (1.0 - mu)), 1.0);
 }
 
 // The cosine-weighted mean of openpbr_energy_share over all directions.
@@ -113,11 +160,17 @@ fn openpbr_energy_share_mean(epsilon: f32, roughness: f32) -> f32 {
   if (epsilon == 0.0) { return 0.0; }
   let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
   let z = sqrt(abs(epsilon));
-  // From inside, the rougher the surface the more of it comes from bounces, which know less of the index.
   var through = 1.0 - openpbr_fresnel_mean(epsilon);
-  if (epsilon < 0.0) { through += 0.3 * r * r * r * r * (1.0 - through); }
-  return 1.0 - min(through * openpbr_table_dielectric(vec3f(${float((TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1))}, ${rough[0]} + ${rough[1]} * ${unit}, select(${inner[0]} + ${inner[1]} * z, ${outer[0]} + ${outer[1]} * z, epsilon > 0.0))), 1.0);
+  var slice = ${outer[0]} + ${outer[1]} * z;
+  //#if OPENPBR_INNER
+  // From inside, the rougher the surface the more of it comes from bounces, which know less of the index.
+  if (epsilon < 0.0) {
+    through += 0.3 * r * r * r * r * (1.0 - through);
+    slice = ${inner[0]} + ${inner[1]} * z;
+  }
+  //#endif
+  return 1.0 - min(through * openpbr_table_dielectric(vec3f(${float((TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1))}, ${rough[0]} + ${rough[1]} * ${unit}, slice)), 1.0);
 }
 //#endif`,
-  [openpbrFresnelDielectric],
+  [openpbrGgx, openpbrFresnelDielectric],
 );

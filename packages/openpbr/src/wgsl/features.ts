@@ -12,6 +12,8 @@ export interface OpenPbrFlags {
   readonly OPENPBR_DIELECTRIC: boolean;
   /** A dielectric interface of the base or of the coat: OPENPBR_DIELECTRIC or OPENPBR_COAT. */
   readonly OPENPBR_INTERFACE: boolean;
+  /** Interfaces seen from their denser side: OPENPBR_TRANSMISSION, or an index of refraction below 1. */
+  readonly OPENPBR_INNER: boolean;
   /** Light through the surface: refraction, thin walls; comes with OPENPBR_DIELECTRIC. */
   readonly OPENPBR_TRANSMISSION: boolean;
   /** Light may enter the subsurface; comes with OPENPBR_TRANSMISSION. */
@@ -79,6 +81,7 @@ export function requiredFeatures(materials: readonly Partial<OpenPbrParameters>[
     OPENPBR_COAT_FRAME: all.some((p) => p.coat_weight > 0 && (p.geometry_coat_normal !== null || p.geometry_coat_tangent !== null)) || (coat && (isTextured('geometry_coat_normal') || isTextured('geometry_coat_tangent'))),
     OPENPBR_DIELECTRIC: dielectric,
     OPENPBR_INTERFACE: dielectric || coat,
+    OPENPBR_INNER: transmission || (dielectric && insulators.some((p) => p.specular_ior < 1)) || all.some((p) => p.coat_weight > 0 && p.coat_ior < 1) || isTextured('specular_ior') || isTextured('coat_ior'),
     OPENPBR_TRANSMISSION: transmission,
     OPENPBR_SUBSURFACE: below.length > 0,
     OPENPBR_THIN_SUBSURFACE: thinBelow,

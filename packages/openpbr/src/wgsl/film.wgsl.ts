@@ -81,12 +81,27 @@ fn openpbr_film_ratio(a: vec2f, b: vec2f) -> vec2f {
   return vec2f(dot(a, b), a.y * b.x - a.x * b.y) / dot(b, b);
 }
 
+// Cosines and sines of turns, to single precision on every device: see openpbr_circle.
+fn openpbr_film_phase(turns: vec4f) -> mat2x4f {
+  let quarter = round(4.0 * turns);
+  let x = (turns - 0.25 * quarter) * 6.2831853;
+  let x2 = x * x;
+  let c = 1.0 + x2 * (-0.5 + x2 * (0.041666667 + x2 * (-0.0013888889 + x2 * 0.000024801587)));
+  let s = x * (1.0 + x2 * (-0.16666667 + x2 * (0.0083333333 + x2 * (-0.0001984127 + x2 * 0.0000027557319))));
+  let left = quarter - 4.0 * floor(0.25 * quarter);
+  let odd = (left == vec4f(1.0)) | (left == vec4f(3.0));
+  let back = left >= vec4f(2.0);
+  let cosine = select(c, -s, odd);
+  let sine = select(s, c, odd);
+  return mat2x4f(select(cosine, -cosine, back), select(sine, -sine, back));
+}
+
 // Of four bands, for one polarisation: amplitudes of the near and the far face, phase, and what of the wave's coherence is left.
-fn openpbr_film_wave(near: f32, far: vec2f, cosine: vec4f, sine: vec4f, kept: f32) -> vec4f {
+fn openpbr_film_wave(near: f32, far: vec2f, phase: mat2x4f, kept: f32) -> vec4f {
   let a = near * near;
   let b = dot(far, far);
   let rest = max(1.0 - a * b, 1e-7);
-  let x = near * (far.x * cosine - far.y * sine);
+  let x = near * (far.x * phase[0] - far.y * phase[1]);
   return ((a + b) * (1.0 - kept * kept * a * b) - 2.0 * a * b * (1.0 - kept * kept) + 2.0 * kept * rest * x) / (rest * (1.0 + kept * kept * a * b + 2.0 * kept * x));
 }
 
@@ -107,12 +122,10 @@ fn openpbr_film_reflect(film: OpenPbrFilm, base: vec2f, tangential: f32) -> vec3
   let near_p = (square.y * q.x - square.x * q.y) / (square.y * q.x + square.x * q.y);
   let path = film.path * q.y;
   let kept = exp(${-width} * path);
-  let turns_a = path * vec4f(${bands(0)});
-  let turns_b = path * vec4f(${bands(4)});
-  let angle_a = 6.2831853 * (turns_a - round(turns_a));
-  let angle_b = 6.2831853 * (turns_b - round(turns_b));
-  let a = openpbr_film_wave(near_s, far_s, cos(angle_a), sin(angle_a), kept) + openpbr_film_wave(near_p, far_p, cos(angle_a), sin(angle_a), kept);
-  let b = openpbr_film_wave(near_s, far_s, cos(angle_b), sin(angle_b), kept) + openpbr_film_wave(near_p, far_p, cos(angle_b), sin(angle_b), kept);
+  let first = openpbr_film_phase(path * vec4f(${bands(0)}));
+  let second = openpbr_film_phase(path * vec4f(${bands(4)}));
+  let a = openpbr_film_wave(near_s, far_s, first, kept) + openpbr_film_wave(near_p, far_p, first, kept);
+  let b = openpbr_film_wave(near_s, far_s, second, kept) + openpbr_film_wave(near_p, far_p, second, kept);
   return clamp(0.5 * (mat4x3f(${columns(0)}) * a + mat4x3f(${columns(4)}) * b), vec3f(0.0), vec3f(1.0));
 }
 

@@ -8,9 +8,8 @@ import { openpbrCircle } from './circle.wgsl';
  * sampled by `openpbr_ggx_sample`). Their ratio is exact however narrow the lobe.
  *
  * The energy tables know round highlights only. For a stretched one `openpbr_view_roughness` is the round roughness that
- * reflects the same share of the light (the slope across the view counts the more, the lower the view), and
- * `openpbr_mirror_roughness` with `openpbr_mirror_cosine` the view that loses as much by single scattering (the same
- * masking). They are exact for round highlights; the latter two are fits, chosen to lose energy rather than to make it.
+ * reflects the same share of the light (the slope across the view counts the more, the lower the view), about, and
+ * `openpbr_mirror_cosine` the view that has the same masking. They are exact for round highlights.
  */
 export const openpbrGgx = wgslModule(
   'openpbr/ggx',
@@ -47,14 +46,6 @@ fn openpbr_ggx(alpha: vec2f, wo: vec3f, wi: vec3f, h: vec3f, bound: f32) -> vec2
 fn openpbr_view_roughness(alpha: vec2f, roughness: f32, w: vec3f) -> f32 {
   //#if OPENPBR_ANISOTROPY
   return sqrt(min(length(vec3f(alpha * w.xy, roughness * roughness * w.z)), 1.0));
-  //#else
-  return roughness;
-  //#endif
-}
-
-fn openpbr_mirror_roughness(roughness: f32, anisotropy: f32) -> f32 {
-  //#if OPENPBR_ANISOTROPY
-  return roughness * (1.0 - 0.065 * anisotropy * roughness);
   //#else
   return roughness;
   //#endif

@@ -21,7 +21,6 @@ export const openpbrMetal = wgslModule(
   weight: f32,
   // Directional albedo of single scattering towards the viewer, about: the reflectance at a typical visible facet.
   albedo: vec3f,
-  // See openpbr_mirror_roughness.
   roughness: f32,
   // Directional albedo of multiple scattering, and its mean loss.
   bounced: vec3f,
@@ -47,9 +46,9 @@ fn openpbr_metal_prepare(p: OpenPbrParameters, alpha: vec2f, wo: vec3f, mu: f32)
   metal.albedo = metal.weight * openpbr_f82(metal.f0, f90, metal.edge, seen);
   //#endif
   //#if OPENPBR_MULTISCATTER
-  metal.roughness = openpbr_mirror_roughness(p.specular_roughness, p.specular_roughness_anisotropy);
-  metal.mean_lost = max(openpbr_energy_lost_mean(metal.roughness), 1e-7);
-  let lost = openpbr_energy_lost(metal.roughness, openpbr_mirror_cosine(alpha, wo, mu));
+  metal.roughness = p.specular_roughness;
+  metal.mean_lost = max(openpbr_mirror_lost_mean(alpha, metal.roughness), 1e-7);
+  let lost = openpbr_mirror_lost(alpha, metal.roughness, wo, mu);
   metal.albedo *= 1.0 - lost;
   var mean = openpbr_f82_mean(metal.f0, f90, metal.edge);
   //#if OPENPBR_THIN_FILM
@@ -68,7 +67,7 @@ fn openpbr_metal_fresnel(metal: OpenPbrMetal, c: f32) -> vec3f {
 //#if OPENPBR_MULTISCATTER
 // f · cos θ_i of multiple scattering.
 fn openpbr_metal_bounced(metal: OpenPbrMetal, alpha: vec2f, wi: vec3f) -> vec3f {
-  return metal.bounced * (openpbr_energy_lost(metal.roughness, openpbr_mirror_cosine(alpha, wi, wi.z)) / metal.mean_lost * wi.z * 0.31830989);
+  return metal.bounced * (openpbr_mirror_lost(alpha, metal.roughness, wi, wi.z) / metal.mean_lost * wi.z * 0.31830989);
 }
 //#endif`,
   [openPbrStruct.module, openpbrGgx, openpbrFresnelMetal, gated('OPENPBR_MULTISCATTER', openpbrEnergy), gated('OPENPBR_THIN_FILM', openpbrFilm)],

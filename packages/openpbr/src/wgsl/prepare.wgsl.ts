@@ -66,7 +66,7 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
   //#if OPENPBR_TRANSMISSION
   var face = p;
   face.specular_color = select(p.specular_color, vec3f(1.0), side.inside);
-  b.dielectric = openpbr_transmission_interface(face, b.alpha, wo, mu);
+  b.dielectric = openpbr_dielectric_prepare(face, b.alpha, wo, mu);
   //#if OPENPBR_THIN_FILM
   let filmed = openpbr_film_share(b.film, b.dielectric.eta, b.dielectric.share, b.alpha, wo);
   b.film.passed = filmed.passed;

@@ -55,46 +55,6 @@ export const openpbrTransmission = wgslModule(
   //#endif
 }
 
-//#if OPENPBR_ANISOTROPY
-//#if OPENPBR_MULTISCATTER
-// Energy that single scattering loses, of a stretched highlight, which no table knows: summed over 32 facets as they are seen.
-fn openpbr_transmission_lost(eta: f32, alpha: vec2f, wo: vec3f) -> f32 {
-  let azimuth = openpbr_ggx_azimuth(alpha, wo);
-  let so = openpbr_ggx_stretch(alpha, wo);
-  var lost = 0.0;
-  for (var i = 0u; i < 32u; i++) {
-    let place = openpbr_circle((f32(i & 7u) + 0.25) * 0.125);
-    let around = vec2f(azimuth.x * place.x - azimuth.y * place.y, azimuth.x * place.y + azimuth.y * place.x);
-    let h = openpbr_ggx_cap(alpha, wo, around, vec4f(0.06943184, 0.33000948, 0.66999052, 0.93056816)[i >> 3u], 1.0);
-    let c = clamp(dot(wo, h), 0.0, 1.0);
-    let reflected = openpbr_fresnel_dielectric(eta, c);
-    let mirrored = 2.0 * c * h - wo;
-    let refracted = openpbr_refract(eta, wo, h);
-    var seen = select(0.0, reflected * mirrored.z * (wo.z + so) / (wo.z * openpbr_ggx_stretch(alpha, mirrored) + mirrored.z * so), mirrored.z > 0.0);
-    seen += select(0.0, (1.0 - reflected) * 2.0 * refracted.z / (refracted.z - openpbr_ggx_stretch(alpha, refracted)), refracted.z < 0.0);
-    lost += (1.0 - seen) * select(0.040759066, 0.021740927, i < 8u || i > 23u);
-  }
-  return lost;
-}
-//#endif
-//#endif
-
-// The interface as it is seen, with what is lost of stretched highlights.
-fn openpbr_transmission_interface(p: OpenPbrParameters, alpha: vec2f, wo: vec3f, mu: f32) -> OpenPbrDielectric {
-  var d = openpbr_dielectric_prepare(p, alpha, wo, mu);
-  //#if OPENPBR_ANISOTROPY
-  //#if OPENPBR_MULTISCATTER
-  // From inside, the critical angle is an edge that 32 facets are too few for.
-  if (d.epsilon > 0.0 && p.specular_roughness_anisotropy > 0.0 && p.transmission_weight + p.subsurface_weight > 0.0) {
-    let lost = max(openpbr_transmission_lost(d.eta, alpha, wo), 0.0);
-    d.bounced = lost * openpbr_energy_bounce(d.epsilon, openpbr_mirror_roughness(d.roughness, p.specular_roughness_anisotropy));
-    d.bounced_through = lost - d.bounced;
-  }
-  //#endif
-  //#endif
-  return d;
-}
-
 // "outer" is the surface without what a coat does to its index, relative to the viewer's side; "d" the interface of the
 // opaque part, "weight" the share of the surface that is dielectric.
 //#if OPENPBR_THIN_FILM
@@ -128,9 +88,8 @@ fn openpbr_transmission_prepare(outer: OpenPbrParameters, d: OpenPbrDielectric, 
     t.color = (amount * (1.0 - reflected)) * tint;
     t.albedo = t.color;
     //#if OPENPBR_MULTISCATTER
-    let cosine = openpbr_mirror_cosine(alpha, wo, mu);
-    t.mirror_bounced = t.mirror * openpbr_energy_lost(openpbr_mirror_roughness(d.roughness, outer.specular_roughness_anisotropy), cosine);
-    t.bounced = t.color * openpbr_energy_lost(openpbr_mirror_roughness(d.roughness * narrowing, outer.specular_roughness_anisotropy), cosine);
+    t.mirror_bounced = t.mirror * openpbr_mirror_lost(alpha, d.roughness, wo, mu);
+    t.bounced = t.color * openpbr_mirror_lost(alpha, d.roughness * narrowing, wo, mu);
     t.mirror_albedo -= t.mirror_bounced;
     t.albedo -= t.bounced;
     //#endif
@@ -149,11 +108,11 @@ fn openpbr_transmission_prepare(outer: OpenPbrParameters, d: OpenPbrDielectric, 
   var clear = d;
   var bare = d;
   //#if OPENPBR_COAT
-  bare = openpbr_transmission_interface(outer, alpha, wo, mu);
+  bare = openpbr_dielectric_prepare(outer, alpha, wo, mu);
   // The coat leaves the base a smaller step of the index, which reflects less, but bends the light no less in the end.
   if (!inside) { t.color *= min((1.0 - d.share + 1e-6) / (1.0 - bare.share + 1e-6), 8.0); }
   //#else
-  if (inside) { bare = openpbr_transmission_interface(outer, alpha, wo, mu); }
+  if (inside) { bare = openpbr_dielectric_prepare(outer, alpha, wo, mu); }
   //#endif
   if (inside) { clear = bare; }
   t.mirror_eta = clear.eta;
