@@ -103,7 +103,7 @@ ${oracle}
 
 Where we differ, and why:
 
-- **Multiple scattering**: the light that bounces among facets leaves by a lobe of its own and evenly, there by lobes that avoid the normal; that is most of the difference of rough metals and glasses.
+- **Multiple scattering**: the light that bounces among facets leaves by a lobe of its own and evenly, there by lobes that avoid the normal; that is most of the difference of rough metals and glasses, and all of that of \`glass_dispersion\`.
 - **Thin walls** (\`glass_thin_*\`, \`kitchen_thin\`, by choice): there rough walls lose or make up to 58 % of the light; here what goes through is a narrower lobe, since two refractions mostly undo each other.
 - **Thin film**: there at three wavelengths; here over the visible spectrum. Rows without a remark are evaluated at the three.
 - **Coat**: rougher below by the rule proposed for the next version of the specification; darkening by the reflectance at the viewer's angle.

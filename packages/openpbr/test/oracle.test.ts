@@ -107,7 +107,7 @@ function gainOfCorrelation(p: OpenPbrParameters, wo: OpenPbrVector, side: BsdfOp
 
 /** The reflected light with the coat's darkening by its mean reflectance, for metal below it. */
 function darkenedEvenly(p: OpenPbrParameters, wo: OpenPbrVector, reflected: readonly number[]): number[] {
-  const coat = integrateHemisphere(p, wo, (wi) => coatOf(p, wo, wi), 40);
+  const coat = integrateHemisphere(p, wo, (wi) => coatOf(p, wo, wi), 24);
   const epsilon = dielectricEpsilon(p.coat_ior, 1);
   const roughness = coatedBase(p).specular_roughness;
   const kept = fresnelMean(epsilon) * (1 - roughness) + fresnelMean(-epsilon) * roughness;
