@@ -54,6 +54,7 @@ export const benchmark: Benchmark = {
   description: 'building hierarchies, and what rays look at in them, beside three-mesh-bvh',
   options: {
     pages: { type: 'string', help: 'folder to write the page of the docs and its data into' },
+    brief: { type: 'string', help: '"yes": only balanced beside three-mesh-bvh, on all meshes, and the threads; nothing of rays. For a machine that is lent for minutes' },
     busy: { type: 'string', help: '"yes": put it on that page as the run on a machine with other work' },
   },
   async run({ log, quick, values }) {
@@ -61,11 +62,12 @@ export const benchmark: Benchmark = {
     if (servesBenchmark()) return { settings: {}, figures };
     const meshes = await benchMeshes(quick, (line) => notes.push(line));
     const runs = quick ? 2 : 5;
+    const brief = values['brief'] === 'yes';
     const rows: MeshRow[] = [];
     const ratios = { sah: [] as number[], center: [] as number[], cost: [] as number[], fast: [] as number[], best: [] as number[] };
     const figure = (name: string, unit: string, values: readonly number[], target?: Figure['target']) => figures.push(timed(name, unit, values, quick ? undefined : target));
     for (const mesh of meshes) {
-      const trees = treesOf(mesh);
+      const trees = treesOf(mesh).filter(({ name }) => !brief || name === 'balanced' || /^three-mesh-bvh (SAH|CENTER)$/.test(name));
       const times = new Map(trees.map(({ name }) => [name, [] as number[]]));
       // Taken in turns, so that a disturbance of the machine meets all alike; `best` is slow and comes less often.
       for (let i = -1; i < runs; i++) {
@@ -85,8 +87,14 @@ export const benchmark: Benchmark = {
       for (const name of ['three-mesh-bvh SAH', 'three-mesh-bvh CENTER']) figure(`${mesh.name}: ${name} over balanced`, '1', times.get(name)!.map((t, i) => t / times.get('balanced')![i]!));
       ratios.sah.push(time('three-mesh-bvh SAH') / time('balanced'));
       ratios.center.push(time('three-mesh-bvh CENTER') / time('balanced'));
-      ratios.fast.push(time('balanced') / time('fast'));
       ratios.cost.push(costs.get('balanced')! / costs.get('three-mesh-bvh SAH')!);
+      log(`${mesh.name}: ${time('balanced').toFixed(1)} ms, SAH ${ratios.sah.at(-1)!.toFixed(2)}×, CENTER ${ratios.center.at(-1)!.toFixed(2)}×, cost ${ratios.cost.at(-1)!.toFixed(3)} of SAH's`);
+      const row = { name: mesh.name, triangles: mesh.indices.length / 3, times: Object.fromEntries([...times].map(([name, list]) => [name, spreadOf(list)])), costs: Object.fromEntries(costs) };
+      if (brief) {
+        rows.push({ ...row, diffuse: {} });
+        continue;
+      }
+      ratios.fast.push(time('balanced') / time('fast'));
 
       // What rays look at: counted, not timed, with the same rays for all trees.
       const size = quick ? 32 : 128;
@@ -113,19 +121,19 @@ export const benchmark: Benchmark = {
           if (kind === 'diffuse') diffuse.set(name, nodes + triangles);
         }
       }
-      rows.push({ name: mesh.name, triangles: mesh.indices.length / 3, times: Object.fromEntries([...times].map(([name, list]) => [name, spreadOf(list)])), costs: Object.fromEntries(costs), diffuse: Object.fromEntries(diffuse) });
+      rows.push({ ...row, diffuse: Object.fromEntries(diffuse) });
       const gain = diffuse.get('best')! / diffuse.get('balanced')!;
       const cad = CAD_LIKE.test(mesh.name);
       if (cad) ratios.best.push(gain);
       figure(`${mesh.name}: best over balanced, nodes and triangles per diffuse ray`, '1', [gain], cad ? { value: 0.85, relation: '<=', source: 'a sixth less in models of parts' } : undefined);
-      log(`${mesh.name}: ${time('balanced').toFixed(1)} ms, SAH ${ratios.sah.at(-1)!.toFixed(2)}×, CENTER ${ratios.center.at(-1)!.toFixed(2)}×, cost ${ratios.cost.at(-1)!.toFixed(3)} of SAH's; fast ${time('fast').toFixed(1)} ms, best ${time('best').toFixed(0)} ms; per diffuse ray ${[...diffuse].map(([name, x]) => `${name} ${x.toFixed(1)}`).join(', ')}`);
+      log(`${mesh.name}: fast ${time('fast').toFixed(1)} ms, best ${time('best').toFixed(0)} ms; per diffuse ray ${[...diffuse].map(([name, x]) => `${name} ${x.toFixed(1)}`).join(', ')}`);
     }
     figure('all: three-mesh-bvh SAH over balanced, geometric mean of minima', '1', [geometricMean(ratios.sah)], { value: 4, relation: '>=', source: 'four times as fast' });
     figure('all: three-mesh-bvh SAH over balanced, least', '1', [least(ratios.sah)], { value: 3, relation: '>=', source: 'three times as fast on any mesh' });
     figure('all: three-mesh-bvh CENTER over balanced, geometric mean of minima', '1', [geometricMean(ratios.center)], { value: 1, relation: '>=', source: 'no slower than CENTER' });
     figure("all: SAH cost over three-mesh-bvh SAH's, geometric mean", '1', [geometricMean(ratios.cost)], { value: 1, relation: '<=', source: 'trees as good' });
-    figure('all: balanced over fast, geometric mean of minima', '1', [geometricMean(ratios.fast)], { value: 2, relation: '>=', source: 'twice as fast' });
-    figure('CAD-like: best over balanced, nodes and triangles per diffuse ray, geometric mean', '1', [geometricMean(ratios.best)], { value: 0.85, relation: '<=', source: 'a sixth less' });
+    if (!brief) figure('all: balanced over fast, geometric mean of minima', '1', [geometricMean(ratios.fast)], { value: 2, relation: '>=', source: 'twice as fast' });
+    if (!brief) figure('CAD-like: best over balanced, nodes and triangles per diffuse ray, geometric mean', '1', [geometricMean(ratios.best)], { value: 0.85, relation: '<=', source: 'a sixth less' });
 
     const large = meshes.reduce((a, b) => (b.indices.length > a.indices.length ? b : a));
     log(`threads, with ${large.name}`);
@@ -145,10 +153,10 @@ export const benchmark: Benchmark = {
     const sliced = await slicedTimes(large, runs);
     figure(`${large.name}: in slices on the main thread`, 'ms', sliced.all);
     figure(`${large.name}: longest slice`, 'ms', sliced.longest, { value: 16, relation: '<=', source: 'one frame' });
-    const tiny = overTinybvh(rows).flatMap(({ byCenter, bySah }) => [byCenter, bySah]);
+    const tiny = brief ? [] : overTinybvh(rows).flatMap(({ byCenter, bySah }) => [byCenter, bySah]);
     if (tiny.length > 0) figure("all: balanced over tinybvh's AVX2 build, linked by three-mesh-bvh, geometric mean", '1', [geometricMean(tiny)], { value: 2, relation: '<=', source: 'twice as long as C++' });
     const details: BvhDetails = { runs, rows, threads: { mesh: large.name, cold: cold!, warm: spreadOf(warm), one: spreadOf(one), two: spreadOf(two), alone: spreadOf(alone), together: spreadOf(together), sliced: spreadOf(sliced.all), longest: spreadOf(sliced.longest) } };
-    if (values['pages'] !== undefined) for (const file of writeBvhPage(values['busy'] === undefined ? 'bvh' : 'bvh-busy', { benchmark: 'bvh', machine: machine(), quick, figures, details }, values['pages'])) log(`wrote ${file}`);
+    if (values['pages'] !== undefined) for (const file of writeBvhPage(brief ? 'bvh-brief' : values['busy'] === undefined ? 'bvh' : 'bvh-busy', { benchmark: 'bvh', machine: machine(), quick, figures, details }, values['pages'])) log(`wrote ${file}`);
     return { details, settings: { runs, meshes: meshes.map(({ name }) => name), leaves: 'at most 4 triangles' }, figures, notes };
   },
 };
