@@ -1,4 +1,4 @@
-import { inSlices, validationSteps, type Camera, type Scene } from '@glanz/scene';
+import { inSlices, SceneError, validationSteps, type Camera, type Scene } from '@glanz/scene';
 import { DeviceError, RenderError } from './errors';
 import { Film } from './film/film';
 import { showFirstLight } from './first-light';
@@ -52,7 +52,10 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
   const loading = import('@glanz/openpbr/tables');
   loading.catch(() => {});
   const choices: SceneChoices = { multipleScattering: options.multipleScattering ?? true, sampler: options.sampler ?? 'blue-noise', lightGroups: options.lightGroups ?? 'named', lightSampling: options.lightSampling ?? 'tree', shadowTerminator: options.shadowTerminator ?? 'smooth' };
-  const camera = await inSlices(cameraSteps(own, options.camera, options.width / options.height), { signal });
+  const camera = await inSlices(cameraSteps(own, options.camera, options.width / options.height), { signal }).catch((cause: unknown) => {
+    // What cannot be framed cannot be rendered, and that is what was asked for.
+    throw cause instanceof SceneError && cause.code === 'scene/empty' ? new RenderError('renderer/no-triangles', 'The scene has no visible triangles: nothing to render.', { cause }) : cause;
+  });
   const cache = new KernelCache(device);
   const compiling = new CompileClock();
   // The kernels' text hangs on what the scene has, not on its shapes: the driver compiles while this thread or others build
