@@ -32,7 +32,9 @@ export const dataOf = async (page: Page, name: string): Promise<string> => (awai
 /** Opens the page and waits for a scene and its controls. */
 export async function open(page: Page, address: string): Promise<void> {
   await page.goto(address);
-  await expect.poll(() => dataOf(page, 'scene'), { message: 'a scene is shown' }).not.toBe('');
+  // Where none comes, what the page says meanwhile tells why.
+  const shown = async () => ((await dataOf(page, 'scene')) === '' ? (await page.locator('.status, .messages').allInnerTexts()).join(' ').replace(/\s+/g, ' ') : 'a scene');
+  await expect.poll(shown, { message: 'a scene is shown' }).toBe('a scene');
   await expect(page.locator('body')).toHaveAttribute('data-panels', 'ready');
 }
 
