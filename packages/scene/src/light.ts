@@ -1,10 +1,15 @@
-/** A light without size. World space. Colours are linear Rec.709 and multiply the intensity. */
-export interface PointLight {
-  type: 'point';
+/** What all lights have in common. */
+interface NamedLight {
   name: string;
   /** Light group that its light is kept in; see `PathTracerOptions.lightGroups` of the renderer. */
   light_group?: string;
+  /** Linear Rec.709; multiplies the intensity. */
   color: readonly [number, number, number];
+}
+
+/** A light without size. World space. Colours are linear Rec.709 and multiply the intensity. */
+export interface PointLight extends NamedLight {
+  type: 'point';
   /** Radiant intensity, W/sr (glTF: candela, taken 1:1). */
   intensity: number;
   /** Metres. */
@@ -12,12 +17,8 @@ export interface PointLight {
 }
 
 /** A point light with a cone, falling off smoothly between the two angles (glTF KHR_lights_punctual). */
-export interface SpotLight {
+export interface SpotLight extends NamedLight {
   type: 'spot';
-  name: string;
-  /** Light group that its light is kept in; see `PathTracerOptions.lightGroups` of the renderer. */
-  light_group?: string;
-  color: readonly [number, number, number];
   /** Radiant intensity on the axis, W/sr. */
   intensity: number;
   position: readonly [number, number, number];
@@ -43,12 +44,8 @@ export interface LightProfile {
 }
 
 /** A light without size that shines as a measured lamp does. */
-export interface ProfileLight {
+export interface ProfileLight extends NamedLight {
   type: 'profile';
-  name: string;
-  /** Light group that its light is kept in; see `PathTracerOptions.lightGroups` of the renderer. */
-  light_group?: string;
-  color: readonly [number, number, number];
   /** Factor of the profile's intensities. */
   intensity: number;
   /** Metres. */
@@ -64,12 +61,8 @@ export interface ProfileLight {
 }
 
 /** Parallel light from infinitely far away. */
-export interface DirectionalLight {
+export interface DirectionalLight extends NamedLight {
   type: 'directional';
-  name: string;
-  /** Light group that its light is kept in; see `PathTracerOptions.lightGroups` of the renderer. */
-  light_group?: string;
-  color: readonly [number, number, number];
   /** Irradiance on a perpendicular surface, W/m² (glTF: lux, taken 1:1). */
   intensity: number;
   /** Unit vector the light travels along. */
@@ -77,11 +70,7 @@ export interface DirectionalLight {
 }
 
 /** What the lights with a size have in common. They block no light and reflect none: what lies behind them is seen through them. */
-interface AreaLight {
-  name: string;
-  /** Light group that its light is kept in; see `PathTracerOptions.lightGroups` of the renderer. */
-  light_group?: string;
-  color: readonly [number, number, number];
+interface AreaLight extends NamedLight {
   /** Radiance, W/(sr·m²), the same in all directions it shines into. */
   intensity: number;
   /** Its middle, metres. */
