@@ -108,6 +108,25 @@ describe('writing', () => {
     expect(Object.keys(result.timings as object)).toEqual(['loadMs', 'environmentMs', 'deviceMs', 'prepareMs', 'renderMs', 'readMs', 'writeMs', 'totalMs']);
   });
 
+  it('the time of loading is that of the model, whoever it waits for', async () => {
+    const cwd = folder(), io = fakeIo(cwd);
+    const fake = {
+      // Its pictures are in KTX2: 5 ms before it asks what the GPU reads, 7 after.
+      loadModel: async (...[, , , formats]: Parameters<Backend['loadModel']>) => {
+        io.time += 5;
+        await formats?.();
+        io.time += 7;
+        return triangleScene();
+      },
+      openGpu: async () => {
+        io.time += 900;
+        return { device: { destroy: () => undefined } as unknown as GPUDevice, adapterName: 'Slow', software: false };
+      },
+    };
+    const { out } = await run(['render', 'm.glb', ...SIZE, '--json'], cwd, fake, io);
+    expect((JSON.parse(out) as { timings: object }).timings).toMatchObject({ loadMs: 12, environmentMs: 0, deviceMs: 900, totalMs: 912 });
+  });
+
   it('--quiet leaves stderr empty', async () => {
     expect((await run(['render', 'm.glb', ...SIZE, '-q'], folder())).err).toBe('');
   });

@@ -12,7 +12,9 @@ import { cameraOf } from './views';
 
 /** Milliseconds per stage. */
 export interface RenderTimings {
+  /** The model alone, even where it has waited for the GPU to say which formats it reads. */
   loadMs: number;
+  /** Surroundings, made or read. */
   environmentMs: number;
   deviceMs: number;
   /** All of the preparation; its parts are in the statistics. */
@@ -84,7 +86,9 @@ export class Lane {
       }
     };
     progress.stage('load model');
-    const { scene, environment, warnings } = await timed('loadMs', () => loader.load(options, signal, async () => backend.compressedFormats(await this.#device(timed))));
+    const { scene, environment, warnings } = await timed('loadMs', () => loader.load(options, signal, async () => backend.compressedFormats(await this.#device(timed)), (run) => timed('environmentMs', run)));
+    // A model whose pictures can stay packed asks the GPU what it reads: until it runs, nothing is loaded.
+    timings.loadMs -= timings.deviceMs + timings.environmentMs;
     const camera = await cameraOf(shot.view, scene, options.width / options.height, io.cwd);
     const variant = variantIndex(scene, shot.variant);
     if (this.#toldOf !== scene) for (const warning of warnings.slice(0, MAX_WARNINGS)) progress.warning(warning);

@@ -12,6 +12,8 @@ export interface PreparedScene {
   readonly warnings: readonly string[];
 }
 
+type Timed = <T>(run: () => Promise<T>) => Promise<T>;
+
 /** What decides a prepared scene, as text. */
 export const sceneKey = ({ model, pose, env, envRotation, envIntensity, catchers }: RenderCommandOptions): string => JSON.stringify([model, pose, env, envRotation, envIntensity, catchers]);
 
@@ -27,19 +29,22 @@ export class SceneLoader {
     this.#cwd = cwd;
   }
 
-  /** @param formats Compressed formats of the device that asks first; another one unpacks what it cannot read. */
-  load(options: RenderCommandOptions, signal: AbortSignal, formats?: () => Promise<readonly CompressedFormat[]>): Promise<PreparedScene> {
+  /**
+   * @param formats Compressed formats of the device that asks first; another one unpacks what it cannot read.
+   * @param timeEnvironment Runs what makes the surroundings, and measures it.
+   */
+  load(options: RenderCommandOptions, signal: AbortSignal, formats?: () => Promise<readonly CompressedFormat[]>, timeEnvironment: Timed = (run) => run()): Promise<PreparedScene> {
     const key = sceneKey(options);
     if (this.#last && key === this.#key) return this.#last;
     this.#key = key;
-    this.#last = this.#prepare(options, signal, formats);
+    this.#last = this.#prepare(options, signal, formats, timeEnvironment);
     this.#last.catch(() => (this.#last = undefined));
     return this.#last;
   }
 
-  async #prepare(options: RenderCommandOptions, signal: AbortSignal, formats: (() => Promise<readonly CompressedFormat[]>) | undefined): Promise<PreparedScene> {
+  async #prepare(options: RenderCommandOptions, signal: AbortSignal, formats: (() => Promise<readonly CompressedFormat[]>) | undefined, timeEnvironment: Timed): Promise<PreparedScene> {
     const model = await this.#backend.loadModel(resolve(this.#cwd, options.model), signal, options.pose, formats);
-    const { environment, source, warnings } = await chooseEnvironment(model, options.env, { rotation: options.envRotation, intensity: options.envIntensity }, this.#cwd);
+    const { environment, source, warnings } = await timeEnvironment(() => chooseEnvironment(model, options.env, { rotation: options.envRotation, intensity: options.envIntensity }, this.#cwd));
     const { environment: _replaced, ...rest } = model;
     const instances = markCatchers(model.instances, options.catchers);
     return {
