@@ -268,8 +268,10 @@ export class Engine {
     while (!this.#destroyed) {
       const idle = this.#idleState();
       if (idle || !this.#tracer) {
+        // Before the state is told: who hears it may have work at once.
+        const woken = new Promise<void>((resolve) => (this.#wake = resolve));
         this.#tell(idle ?? 'empty');
-        await new Promise<void>((resolve) => (this.#wake = resolve));
+        await woken;
         this.#lastStep = performance.now();
         continue;
       }
@@ -325,10 +327,12 @@ export class Engine {
     this.#edits.apply(() => this.#edited());
     if (changed) this.#restarted();
     const before = tracer.samples;
-    if (before >= PREVIEW_SAMPLES && this.#fresh) return;
+    // In its full size it is the picture already, and that gets as many samples as were asked for.
+    const most = sameSize([tracer.width, tracer.height], this.#film) ? this.#goal : Infinity;
+    if (before >= Math.min(PREVIEW_SAMPLES, most) && this.#fresh) return;
     const started = performance.now();
     let samples = before;
-    for await (const progress of tracer.render({ samples: before + plan.samples, maxSubmitMs: PREVIEW_SUBMIT_MS })) samples = progress.samples;
+    for await (const progress of tracer.render({ samples: Math.min(before + plan.samples, Math.max(most, before)), maxSubmitMs: PREVIEW_SUBMIT_MS })) samples = progress.samples;
     // A film that an edit has restarted meanwhile has none.
     if (tracer !== this.#tracer || this.#destroyed || tracer.samples === 0) return;
     const milliseconds = performance.now() - started;
@@ -344,8 +348,7 @@ export class Engine {
     if (this.#fresh && !sameSize([tracer.width, tracer.height], this.#film)) this.#connection.display?.keep({ buffer: tracer.beautyBuffer, size: [tracer.width, tracer.height] }, tracer.samples);
     if (this.#fit(tracer, this.#film, maxDepth)) this.#fresh = false;
     const { signal } = this.#interrupt;
-    const goal = this.#paused ? 1 : samples;
-    for await (const progress of tracer.render({ samples: goal, signal, maxSubmitMs, ...(noise === undefined || this.#paused ? {} : { noise }) })) {
+    for await (const progress of tracer.render({ samples: this.#goal, signal, maxSubmitMs, ...(noise === undefined || this.#paused ? {} : { noise }) })) {
       if (tracer !== this.#tracer) return;
       this.#fresh = true;
       this.#host.sample({ ...progress, targetSamples: samples });
@@ -360,6 +363,11 @@ export class Engine {
     this.#connection.display?.forget();
     this.redraw();
     this.#host.converged(tracer.samples, performance.now() - this.#changed);
+  }
+
+  /** Samples of the picture in full. */
+  get #goal(): number {
+    return this.#paused ? 1 : this.settings.samples;
   }
 
   /** Gives the film a size and a depth. @returns Whether it was restarted. */

@@ -65,6 +65,8 @@ export class OrbitRig {
   #lens: Camera;
   readonly #radius: number;
   readonly #center: Vector;
+  /** Where the lens's own camera stands. */
+  #stand: Pose;
   #goal: Pose;
   #now: Pose;
   /** Seconds, see {@link OrbitRigOptions.damping}. */
@@ -79,7 +81,8 @@ export class OrbitRig {
     this.#lens = camera;
     this.damping = options.damping ?? 0.06;
     this.#limits = options.limits ?? {};
-    this.#goal = this.#poseOf(camera);
+    this.#stand = this.#poseOf(camera);
+    this.#goal = { ...this.#stand };
     this.#limit();
     this.#now = { ...this.#goal };
   }
@@ -106,8 +109,7 @@ export class OrbitRig {
 
   /** Whether the camera is still on its way. */
   get moving(): boolean {
-    const [a, b] = [this.#now, this.#goal];
-    return a.yaw !== b.yaw || a.pitch !== b.pitch || a.distance !== b.distance || a.zoom !== b.zoom || a.target.some((value, k) => value !== b.target[k]);
+    return !samePose(this.#now, this.#goal);
   }
 
   /** Where the camera is going. */
@@ -168,7 +170,8 @@ export class OrbitRig {
   /** Goes to where a camera stands. Its lens and projection are taken at once. */
   setCamera(camera: Camera): void {
     this.#lens = camera;
-    this.#goal = this.#poseOf(camera);
+    this.#stand = this.#poseOf(camera);
+    this.#goal = { ...this.#stand };
     this.#limit();
   }
 
@@ -214,9 +217,13 @@ export class OrbitRig {
     return true;
   }
 
-  /** The camera to render with, where it is now. */
+  /**
+   * The camera to render with, where it is now. While it stands where a camera was given, it is that camera, to the last bit:
+   * a roll, a focus beside the target and straight up and down are for looking, and go with the first movement.
+   */
   camera(): Camera {
     const pose = this.#now;
+    if (samePose(pose, this.#stand)) return this.#lens;
     const { x, y, z } = axesOf(pose);
     const transform = [...x, 0, ...y, 0, ...z, 0, ...add(pose.target, z, pose.distance), 1];
     if (this.#lens.type === 'orthographic') return { ...this.#lens, transform, xmag: this.#lens.xmag / pose.zoom, ymag: this.#lens.ymag / pose.zoom };
@@ -246,6 +253,8 @@ export class OrbitRig {
     return { yaw: Math.atan2(back[0], back[2]), pitch: clamp(Math.asin(clamp(back[1], -1, 1)), -STEEPEST, STEEPEST), distance, target: add(eye, back, -distance), zoom: 1 };
   }
 }
+
+const samePose = (a: Pose, b: Pose) => a.yaw === b.yaw && a.pitch === b.pitch && a.distance === b.distance && a.zoom === b.zoom && a.target.every((value, k) => value === b.target[k]);
 
 function axesOf({ yaw, pitch }: Pose): { readonly x: Vector; readonly y: Vector; readonly z: Vector } {
   const [cy, sy, cp, sp] = [Math.cos(yaw), Math.sin(yaw), Math.cos(pitch), Math.sin(pitch)];

@@ -42,6 +42,30 @@ describe('OrbitRig', () => {
     expect(rig.goal).toEqual({ theta: 0, phi: Math.PI / 2, radius: 5, target: [0, 0, 0] });
   });
 
+  it('is the camera that it was given, to the last bit, until it moves and again when it is back', () => {
+    // Rolled by a third of a turn, not looking at the middle, with a lens that is focused beside it.
+    const [c, k] = [Math.cos(1.1), Math.sin(1.1)];
+    const rolled = { ...front, transform: [c, k, 0, 0, -k, c, 0, 0, 0, 0, 1, 0, 0.1, 0.2, 5.3, 1], lens_radius: 0.1, focus_distance: 1.7 };
+    const rig = new OrbitRig(rolled, bounds, { damping: 0 });
+    expect(rig.camera()).toEqual(rolled);
+    rig.orbit(0.3, 0);
+    rig.step(0.016);
+    const turned = rig.camera();
+    expect(turned).not.toEqual(rolled);
+    // Upright, and sharp at what it turns about.
+    expect(turned.transform[1]).toBe(0);
+    expect(turned).toMatchObject({ focus_distance: rig.goal.radius });
+    rig.yfov = 0.5;
+    rig.setCamera(rolled);
+    rig.step(0.016);
+    expect(rig.camera()).toEqual(rolled);
+    rig.yfov = 0.5;
+    expect(rig.camera()).toEqual({ ...rolled, yfov: 0.5 });
+    // Where limits do not let it stand, it is not.
+    const limited = new OrbitRig(rolled, bounds, { damping: 0, limits: { radius: [1, 2] } });
+    expect(Math.hypot(...eye(limited))).toBeLessThan(2.3);
+  });
+
   it('stands where spherical coordinates say', () => {
     const rig = new OrbitRig(front, bounds, { damping: 0 });
     const [theta, phi, radius] = [0.7, 1.1, 3];

@@ -1,3 +1,5 @@
+import { decodeExr } from '@glanz/image';
+import { frameCamera } from '@glanz/scene';
 import { createViewer, type ViewerOptions } from '@glanz/viewer';
 
 // Tests drive the viewer by hand, through the window.
@@ -5,4 +7,6 @@ const bytes = (base64: string) => Uint8Array.from(atob(base64), (c) => c.charCod
 Object.assign(window, {
   make: (options: ViewerOptions = {}) => createViewer(document.querySelector('canvas') as HTMLCanvasElement, options),
   file: (base64: string, name: string) => new File([bytes(base64)], name),
+  frameCamera,
+  decodeExr,
 });
