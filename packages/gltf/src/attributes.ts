@@ -1,6 +1,6 @@
 import type { Mesh, SceneWarning } from '@glanz/scene';
 import type { UvSets } from './materials';
-import { makeUnit, unitNormals } from './normals';
+import { makeUnit, unitNormals, windByNormals } from './normals';
 import type { PrimitiveData } from './primitive';
 
 /** Whether every number is finite. */
@@ -82,6 +82,7 @@ export function readPrimitive(primitive: PrimitiveData, name: string, opaque: bo
   const normals = attribute('NORMAL', 3);
   if (normals) {
     mesh.normals = unitNormals(normals, positions, indices, warn);
+    if (windByNormals(indices, positions, mesh.normals)) warn('its normals point to the back of each of its triangles, which are turned round.');
     const tangents = attribute('TANGENT', 4);
     if (tangents && makeUnit(tangents, 4)) mesh.tangents = tangents;
     else if (tangents) warn('TANGENT holds vectors of length 0 and is left out.');

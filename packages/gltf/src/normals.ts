@@ -44,3 +44,25 @@ export function unitNormals(normals: Float32Array<ArrayBuffer>, positions: Float
   warn(`${made} normals have no length; they are made from the triangles.`);
   return normals;
 }
+
+/**
+ * Turns all triangles round, in place, if the normals of each of them point to its back: exporters that write a mirrored mesh
+ * forget one of the two. The normals are what its maker saw; light that falls on such a front would find it turned away.
+ * The first triangle that agrees with its normals ends the search, mostly at once.
+ * @returns Whether it did.
+ */
+export function windByNormals(indices: Uint32Array, positions: Float32Array, normals: Float32Array): boolean {
+  let against = 0;
+  for (let i = 0; i < indices.length; i += 3) {
+    const a = 3 * (indices[i] as number), b = 3 * (indices[i + 1] as number), c = 3 * (indices[i + 2] as number);
+    const p = (v: number, k: number) => positions[v + k] as number, n = (k: number) => (normals[a + k] as number) + (normals[b + k] as number) + (normals[c + k] as number);
+    const ux = p(b, 0) - p(a, 0), uy = p(b, 1) - p(a, 1), uz = p(b, 2) - p(a, 2);
+    const vx = p(c, 0) - p(a, 0), vy = p(c, 1) - p(a, 1), vz = p(c, 2) - p(a, 2);
+    const along = (uy * vz - uz * vy) * n(0) + (uz * vx - ux * vz) * n(1) + (ux * vy - uy * vx) * n(2);
+    if (along > 0) return false;
+    if (along < 0) against++;
+  }
+  if (against === 0) return false;
+  for (let i = 0; i < indices.length; i += 3) [indices[i + 1], indices[i + 2]] = [indices[i + 2] as number, indices[i + 1] as number];
+  return true;
+}

@@ -73,6 +73,25 @@ describe('attributes', () => {
     expect(scene.warnings.map(({ message }) => message)).toEqual(['mesh: 1 normals have no length; they are made from the triangles.']);
   });
 
+  test('triangles whose normals all point to their backs are turned round, with a warning; one that agrees keeps them all', async () => {
+    const facing = (z: readonly number[]) => new Float32Array(z.flatMap((value) => [0, 0, value]));
+    const load = (z: readonly number[]) => primitive((t, p) => p.setAttribute('POSITION', t.accessor('VEC3', QUAD)).setAttribute('NORMAL', t.accessor('VEC3', facing(z))).setIndices(t.accessor('SCALAR', new Uint16Array([0, 1, 2, 2, 1, 3]))));
+    const turned = await load([-1, -1, -1, -1]);
+    // Clockwise from +z, so that the front is where the normals point.
+    const { positions, indices } = turned.meshes[0]!;
+    for (let i = 0; i < 6; i += 3) {
+      const [a, b, c] = [0, 1, 2].map((k) => 3 * indices[i + k]!) as [number, number, number];
+      expect((positions[b]! - positions[a]!) * (positions[c + 1]! - positions[a + 1]!) - (positions[b + 1]! - positions[a + 1]!) * (positions[c]! - positions[a]!)).toBe(-1);
+    }
+    expect(turned.warnings).toEqual([expect.objectContaining({ code: 'gltf/primitive', message: expect.stringContaining('turned round') })]);
+    // The second triangle agrees: corners 1, 2 and 3.
+    for (const z of [[1, 1, 1, 1], [-1, 1, -1, 1]]) {
+      const kept = await load(z);
+      expect(Array.from(kept.meshes[0]!.indices)).toEqual([0, 1, 2, 2, 1, 3]);
+      expect(kept.warnings).toEqual([]);
+    }
+  });
+
   test('without normals a mesh stays flat, and its tangents count for nothing', async () => {
     const { meshes } = await primitive((t, p) => p.setAttribute('POSITION', t.accessor('VEC3', QUAD)).setAttribute('TANGENT', t.accessor('VEC4', new Float32Array(16).fill(1))));
     expect(meshes[0]!.normals).toBeUndefined();

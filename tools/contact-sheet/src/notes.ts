@@ -33,6 +33,8 @@ export const NOTES: Readonly<Record<string, string>> = {
   EmissiveStrengthTest: 'The glowing cubes light the walls around them, which rasterisers leave dark.',
   'glass-table': 'Its plate has no KHR_materials_volume, so glTF has it thin: nothing behind it is displaced.',
   AlphaBlendModeTest: 'Blended parts cast lighter shadows, in proportion to their opacity.',
+  'blenderio-01_vertex_count_32bit': 'A blue box. Its triangles are wound inwards and its normals point outwards; the normals count, as a warning tells. Rasterisers cull its outside.',
+  'webp-babylon': 'Black and rough, as its pictures are.',
   UnlitTest: 'Unlit colours are emitted, so that they come out as they are whatever the surroundings.',
   SpecularTest: 'Dark, as its base colour is black: only the highlights differ.',
   teapot: 'Open below its lid and through its spout, as the original patches are.',
