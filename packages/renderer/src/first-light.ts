@@ -21,8 +21,8 @@ export interface FirstLightSource {
 }
 
 /**
- * Draws the scene with the first-light kernel and hands the picture over, unless `late` says that there is something better
- * by then.
+ * Draws the scene with the first-light kernel, as soon as its shapes are there, and hands the picture over, unless `late`
+ * says that there is something better by then.
  *
  * @returns Frees the picture; to be called when the tracer is there.
  */

@@ -185,8 +185,13 @@ export interface RenderStatistics {
   readonly instances: number;
   /** Emissive triangles and lights of the scene. */
   readonly lights: number;
+  /** Time to check the scene, to frame it where it has no camera, and to write the kernels' text. */
+  readonly checkMs: number;
   readonly bvhMs: number;
+  /** Time to write it all to the GPU. */
   readonly uploadMs: number;
+  /** Of that, what comes after the shapes: lights, surroundings and energy tables. */
+  readonly lightMs: number;
   /** Time until all pipelines were there; they compile side by side, while hierarchies are built and the scene is uploaded. */
   readonly compileMs: number;
   /** Bytes of GPU memory held. */

@@ -1,11 +1,11 @@
-import { inSlices, SceneError, validationSteps, type Camera, type Scene } from '@glanz/scene';
+import { breathe, inSlices, SceneError, validationSteps, type Camera, type Scene } from '@glanz/scene';
 import { DeviceError, RenderError } from './errors';
 import { Film } from './film/film';
 import { showFirstLight } from './first-light';
 import { GpuMemory } from './gpu/buffers';
 import { withErrorScopes } from './gpu/error-scopes';
 import { GpuScene } from './gpu/gpu-scene';
-import { KernelCache, type KernelSet } from './gpu/kernel-cache';
+import { KernelCache } from './gpu/kernel-cache';
 import { Integrator } from './integrator';
 import type { KernelFeatures } from './kernels/pipelines';
 import type { PathTracerOptions, RenderStatistics } from './options';
@@ -30,24 +30,24 @@ export interface Prepared {
   readonly camera: Camera;
   readonly options: PathTracerOptions;
   /** Times of the preparation. */
-  readonly times: Pick<RenderStatistics, 'bvhMs' | 'uploadMs' | 'compileMs'>;
+  readonly times: Pick<RenderStatistics, 'checkMs' | 'bvhMs' | 'uploadMs' | 'lightMs' | 'compileMs'>;
 }
 
 /** Builds, uploads and compiles what a tracer needs, see `PathTracer.create`. */
 export async function prepareTracer(device: GPUDevice, scene: Scene, options: PathTracerOptions): Promise<Prepared> {
+  const begun = performance.now();
   checkSize(options.width, options.height);
   checkShortcuts(options);
   checkDepth(options.maxDepth ?? 8);
   checkVolumeDepth(options.maxVolumeDepth ?? 256);
   // Each of the next goes through all vertices or pixels: the thread is handed back in between.
-  await pause();
-  const { hierarchies, signal, onProgress } = options;
+  await breathe();
+  const { hierarchies, signal, onProgress, onFirstLight } = options;
   await inSlices(validationSteps(scene), { signal });
   checkInteriors(scene);
   const own = ownScene(scene);
-  await pause();
+  await breathe();
   signal?.throwIfAborted();
-  const t0 = performance.now();
   // A quarter of what the renderer weighs, and nobody needs it before there is a scene: a chunk of its own, loaded meanwhile.
   const loading = import('@glanz/openpbr/tables');
   loading.catch(() => {});
@@ -61,43 +61,50 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
   // The kernels' text hangs on what the scene has, not on its shapes: the driver compiles while this thread or others build
   // hierarchies. A guess that is wrong, or fails, has cost nothing: the right ones are asked for below.
   const expected = kernelFeatures(expectedFeatures(device, own, choices), camera, options);
-  if (options.onFirstLight) cache.kernel('first', expected).catch(() => {});
+  if (onFirstLight) cache.kernel('first', expected).catch(() => {});
   compiling.watch(cache.get(expected)).catch(() => {});
+  const t0 = performance.now();
   onProgress?.({ stage: 'bvh', done: 0 });
+  const surroundings = () => inSlices(environmentSteps(own.environment), { signal });
+  // Where other threads build, this one has time for them; otherwise the first picture comes first.
+  const early = hierarchies && surroundings();
+  early?.catch(() => {});
   const geometry = await prepareGeometry(own, { hierarchies, signal, onProgress: (done) => onProgress?.({ stage: 'bvh', done }) });
-  await pause();
-  const environment = await inSlices(environmentSteps(own.environment), { signal });
-  await pause();
-  const { OPENPBR_TABLES } = await loading;
+  await breathe();
   const t1 = performance.now();
   onProgress?.({ stage: 'upload', done: 0 });
   const memory = new GpuMemory(device);
+  let late = false;
+  let forget: (() => void) | undefined;
   try {
-    const gpuScene = await withErrorScopes(device, () => new GpuScene(device, memory, own, geometry, environment, choices));
-    await gpuScene.fill(OPENPBR_TABLES, signal);
+    const gpuScene = await withErrorScopes(device, () => new GpuScene(device, memory, own, geometry, choices));
+    await gpuScene.fill(signal);
+    if (onFirstLight) {
+      forget = showFirstLight({ device, scene: gpuScene, geometry, camera, cache, features: expected, options }, onFirstLight, () => late || signal?.aborted === true);
+      await breathe();
+    }
+    const shaped = performance.now();
+    const { OPENPBR_TABLES } = await loading;
+    await gpuScene.light(await (early ?? surroundings()), OPENPBR_TABLES);
+    signal?.throwIfAborted();
     const t2 = performance.now();
     onProgress?.({ stage: 'upload', done: 1 });
     const features = kernelFeatures(gpuScene.features(), camera, options);
-    let late = false;
-    const { onFirstLight } = options;
-    const forget = onFirstLight && showFirstLight({ device, scene: gpuScene, geometry, camera, cache, features, options }, onFirstLight, () => late || signal?.aborted === true);
-    let kernels: KernelSet;
-    try {
-      kernels = await compiling.watch(cache.get(features, (done) => onProgress?.({ stage: 'compile', done })));
-      signal?.throwIfAborted();
-    } finally {
-      late = true;
-      forget?.();
-    }
+    const kernels = await compiling.watch(cache.get(features, (done) => onProgress?.({ stage: 'compile', done })));
+    signal?.throwIfAborted();
+    late = true;
     return await withErrorScopes(device, () => {
       const film = new Film(memory, options.width, options.height, kernels.features.planes);
       const integrator = new Integrator(device, memory, gpuScene, kernels, film, options.pathsInFlight, { maxDepth: options.maxDepth ?? 8, maxVolumeDepth: options.maxVolumeDepth ?? 256 });
-      const times = { bvhMs: t1 - t0, uploadMs: t2 - t1, compileMs: compiling.milliseconds };
+      const times = { checkMs: t0 - begun, bvhMs: t1 - t0, uploadMs: t2 - t1, lightMs: t2 - shaped, compileMs: compiling.milliseconds };
       return { device, memory, editor: new SceneEditor(own, geometry, gpuScene, hierarchies), gpuScene, cache, integrator, film, camera, options, times };
     });
   } catch (error) {
     memory.destroy();
     throw error;
+  } finally {
+    late = true;
+    forget?.();
   }
 }
 
@@ -119,9 +126,6 @@ class CompileClock {
     return kernels;
   }
 }
-
-/** Lets everything else that waits have its turn. */
-const pause = () => new Promise<void>((resolve) => setTimeout(resolve, 0));
 
 /** What decides the kernels' text: the scene's features, the camera and the options. */
 export function kernelFeatures(features: KernelFeatures, camera: Camera, options: PathTracerOptions): KernelFeatures {

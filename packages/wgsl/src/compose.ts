@@ -60,7 +60,7 @@ function forEachKeptLine(module: WgslModule, flags: Readonly<Record<string, bool
   const lines = module.code.split('\n');
   for (const [index, text] of lines.entries()) {
     const line = index + 1;
-    const match = GATE.exec(text);
+    const match = text.includes('//#') ? GATE.exec(text) : null;
     if (!match) {
       if (text.trimStart().startsWith('//#')) throw unbalanced(line, `"${text.trim()}" is not a gate (//#if FLAG, //#if !FLAG, //#else, //#endif)`);
       if (active()) emit(text, line);

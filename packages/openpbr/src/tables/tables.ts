@@ -22,26 +22,38 @@ interface EncodedTable {
 /** The inverse of `encode` in scripts/tables.mjs. */
 function decode({ width, height, depth, step: unit, text }: EncodedTable): Float32Array<ArrayBuffer> {
   const steps = new Int32Array(width * height * depth);
-  const row = width;
-  const slice = width * height;
   let at = 0;
   const digit = (): number => {
     const code = text.charCodeAt(at++);
     return code - 40 - (code > 92 ? 1 : 0) - (code > 96 ? 1 : 0);
   };
   for (let i = 0; i < steps.length; i++) {
-    const left = i % row > 0;
-    const up = i % slice >= row;
-    const deep = i >= slice;
-    const get = (condition: boolean, offset: number): number => (condition ? (steps[i - offset] as number) : 0);
-    const predicted =
-      get(left, 1) + get(up, row) + get(deep, slice) - get(left && up, 1 + row) - get(left && deep, 1 + slice) - get(up && deep, row + slice) + get(left && up && deep, 1 + row + slice);
     let code = digit();
     // "~" stands for a difference of three digits.
     if (text.charCodeAt(at - 1) === 126) code = (digit() * 80 + digit()) * 80 + digit();
-    steps[i] = predicted + (code % 2 === 0 ? code / 2 : -(code + 1) / 2);
+    steps[i] = code % 2 === 0 ? code / 2 : -(code + 1) / 2;
   }
-  return Float32Array.from(steps, (step) => step / unit);
+  // What is written is the difference along x, of those along y, of those along z.
+  sumAlong(steps, 1, width);
+  sumAlong(steps, width, width * height);
+  sumAlong(steps, width * height, steps.length);
+  const data = new Float32Array(steps.length);
+  for (let i = 0; i < data.length; i++) data[i] = (steps[i] as number) / unit;
+  return data;
+}
+
+/** Adds to each number the one `stride` before it, in blocks of their own of `block` numbers. */
+function sumAlong(steps: Int32Array, stride: number, block: number): void {
+  for (let from = 0; from < steps.length; from += block) {
+    for (let i = from + stride; i < from + block; i++) steps[i] = (steps[i] as number) + (steps[i - stride] as number);
+  }
+}
+
+function joined(first: Float32Array, second: Float32Array): Float32Array<ArrayBuffer> {
+  const all = new Float32Array(first.length + second.length);
+  all.set(first);
+  all.set(second, first.length);
+  return all;
 }
 
 /** Blocks of the same width, below each other. */
@@ -52,7 +64,7 @@ function table(first: EncodedTable, second?: EncodedTable): OpenPbrTable {
     height: first.height + (second?.height ?? 0),
     depth: first.depth,
     get data() {
-      return (data ??= second ? Float32Array.of(...decode(first), ...decode(second)) : decode(first));
+      return (data ??= second ? joined(decode(first), decode(second)) : decode(first));
     },
   };
 }

@@ -3,16 +3,17 @@ import type { Environment, Mesh, Scene } from '@glanz/scene';
 import type { KernelFeatures } from '../kernels/pipelines';
 import { instanceStruct, materialStruct, meshStruct } from '../kernels/layout';
 import type { ResourceName } from '../kernels/resources';
-import { prepareEnvironment, turnEnvironment, type EnvironmentData } from '../scene/environment';
+import { prepareEnvironment, roughEnvironment, turnEnvironment, type EnvironmentData } from '../scene/environment';
 import { paintsAlpha, sceneFeatures, texturePlan, type SceneChoices, type VertexAlpha } from '../scene/features';
 import { packInstances, packTlas, shapeSlices, type Geometry, type MeshRegion, type PackedGeometry, type PackedMesh } from '../scene/geometry';
 import { breather } from '../scene/hierarchies';
 import { lightGroupTable, type LightGroupTable } from '../scene/light-groups';
-import { buildLightTable, type LightTable } from '../scene/lights';
+import { buildLightTable, noLights, type LightTable } from '../scene/lights';
 import { isOpaque, packBindings, packMaterial, texturedParameters, type TexturedParameterInfo } from '../scene/materials';
 import type { TexturePlan } from '../scene/textures';
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_STORAGE, GPU_TEXTURE_BINDING, GPU_TEXTURE_COPY_DST, type GpuMemory } from './buffers';
-import { toHalf, uploadTextures } from './texture-upload';
+import { withErrorScopes } from './error-scopes';
+import { toHalves, uploadTextures } from './texture-upload';
 
 /** While shapes are filled in, the thread is handed back after so many milliseconds; a slice more can follow. */
 const FILL_MS = 6;
@@ -22,7 +23,11 @@ const FILL_BYTES = 1 << 20;
 /** The energy tables, which come in a chunk of their own. */
 export type EnergyTables = typeof OPENPBR_TABLES;
 
-/** A scene on the GPU. A cache: everything here can be made again from the `Scene`. */
+/**
+ * A scene on the GPU. A cache: everything here can be made again from the `Scene`. It comes in three steps, since a first
+ * picture needs no lights: the constructor makes what is the size of the scene, `fill()` writes the shapes into it, and
+ * `light()` adds lights, surroundings and energy tables.
+ */
 export class GpuScene {
   readonly #device: GPUDevice;
   readonly #memory: GpuMemory;
@@ -43,7 +48,7 @@ export class GpuScene {
   #lights: LightTable;
   #environment: EnvironmentData;
 
-  constructor(device: GPUDevice, memory: GpuMemory, scene: Scene, geometry: Geometry, environment: EnvironmentData, choices: SceneChoices) {
+  constructor(device: GPUDevice, memory: GpuMemory, scene: Scene, geometry: Geometry, choices: SceneChoices) {
     this.#device = device;
     this.#memory = memory;
     this.#scene = scene;
@@ -58,11 +63,9 @@ export class GpuScene {
 
     this.#bindings = packBindings(scene.materials, this.#plan);
     this.#makeShapes(geometry);
-    this.#lights = this.#buildLights();
-    this.#upload('lights', this.#lights.records);
+    this.#lights = noLights(scene);
+    this.#environment = roughEnvironment(scene.environment);
     this.#writeInstances();
-    this.#environment = environment;
-    this.#makeEnvironment();
     this.#energySampler = device.createSampler({ label: 'glanz energy', minFilter: 'linear', magFilter: 'linear' });
   }
 
@@ -197,17 +200,31 @@ export class GpuScene {
     this.#upload('materials', this.#packMaterials());
   }
 
-  /** Fills what the constructor has made, with the thread handed back every few milliseconds; belongs behind it. */
-  async fill(tables: EnergyTables, signal?: AbortSignal): Promise<void> {
+  /** Writes the shapes, with the thread handed back every few milliseconds. */
+  async fill(signal?: AbortSignal): Promise<void> {
     const breathe = breather(FILL_MS);
-    for (const _ of this.#environmentSlices()) await breathe();
-    this.#uploadEnergy(tables);
-    await breathe();
     for (const { buffer, offset, data } of shapeSlices(this.#scene, this.#geometry)) {
       this.#memory.write(this.#buffers.get(buffer) as GPUBuffer, data, offset);
       await breathe();
       signal?.throwIfAborted();
     }
+  }
+
+  /** Adds what lights the scene, with the thread handed back every few milliseconds. */
+  async light(environment: EnvironmentData, tables: EnergyTables): Promise<void> {
+    const breathe = breather(FILL_MS);
+    await withErrorScopes(this.#device, () => {
+      this.#environment = environment;
+      this.#makeEnvironment();
+      this.#uploadEnergy(tables);
+    });
+    await breathe();
+    for (const _ of this.#environmentSlices()) await breathe();
+    await withErrorScopes(this.#device, () => {
+      this.#lights = this.#buildLights();
+      this.#upload('lights', this.#lights.records);
+      if (this.#lights.count > 0) this.#writeInstances();
+    });
   }
 
   /** Sorts the lights into groups anew; where that changes anything, materials are written again. */
@@ -314,8 +331,7 @@ export class GpuScene {
     ] as const) {
       const { width, height, depth } = table;
       const dimension = name === 'energy_dielectric' ? '3d' : '2d';
-      const data = new Uint16Array(table.data.length);
-      for (let i = 0; i < data.length; i++) data[i] = toHalf(table.data[i] as number);
+      const data = toHalves(table.data);
       const texture = this.#memory.texture({ label: `glanz ${name}`, size: [width, height, depth], dimension, format: 'r16float', usage: GPU_TEXTURE_BINDING | GPU_TEXTURE_COPY_DST }, data.byteLength);
       this.#device.queue.writeTexture({ texture }, data, { bytesPerRow: width * 2, rowsPerImage: height }, [width, height, depth]);
       this.#textures.set(name, texture);

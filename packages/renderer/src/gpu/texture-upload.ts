@@ -37,9 +37,22 @@ export function toHalf(value: number): number {
   return sign + (((exponent << 10) | (mantissa >>> 13)) + ((mantissa & 0x1fff) > 0x1000 || ((mantissa & 0x1fff) === 0x1000 && (mantissa & 0x2000) !== 0) ? 1 : 0));
 }
 
+/** The half bits of many numbers, as {@link toHalf} gives them one by one. */
+export function toHalves(values: Float32Array): Uint16Array<ArrayBuffer> {
+  const bits = new Uint32Array(values.buffer, values.byteOffset, values.length);
+  const halves = new Uint16Array(values.length);
+  for (let i = 0; i < halves.length; i++) {
+    const word = bits[i] as number;
+    const size = word & 0x7fffffff;
+    // From the smallest normal half to where rounding would leave the range, halves are floats with bits cut off.
+    halves[i] = size >= 0x38800000 && size < 0x477fe000 ? ((word >>> 16) & 0x8000) | ((size - 0x38000000 + 0xfff + ((size >>> 13) & 1)) >>> 13) : toHalf(values[i] as number);
+  }
+  return halves;
+}
+
 function layerBytes(image: Image, array: TextureArray): Uint8Array<ArrayBuffer> | Uint8ClampedArray<ArrayBuffer> | Uint16Array<ArrayBuffer> {
   const data = image.width === array.width && image.height === array.height ? image.data : resizePixels(image.data, image.width, image.height, array.width, array.height);
-  return data instanceof Float32Array ? Uint16Array.from(data, toHalf) : data;
+  return data instanceof Float32Array ? toHalves(data) : data;
 }
 
 /** Creates, fills and mips the texture arrays of a plan. */

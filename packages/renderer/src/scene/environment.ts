@@ -59,6 +59,27 @@ export function* environmentSteps(environment: Environment | undefined): Generat
   };
 }
 
+/** Rows and columns of a picture that {@link roughEnvironment} looks at. */
+const ROUGH = 32;
+
+/** What a first picture needs of an environment: how bright it is on average, from some of its pixels. */
+export function roughEnvironment(environment: Environment | undefined): EnvironmentData {
+  if (environment?.type !== 'latlong') return prepareEnvironment(environment);
+  const { width, height, data, intensity = 1, visible = true } = environment;
+  let sum = 0;
+  let solid = 0;
+  for (let i = 0; i < ROUGH; i++) {
+    const sine = Math.sin((Math.PI * (i + 0.5)) / ROUGH);
+    for (let j = 0; j < ROUGH; j++) {
+      const pixel = 3 * (Math.floor((height * (i + 0.5)) / ROUGH) * width + Math.floor((width * (j + 0.5)) / ROUGH));
+      const [r, g, b] = data.subarray(pixel, pixel + 3) as unknown as [number, number, number];
+      sum += sine * luminance(r, g, b);
+      solid += sine;
+    }
+  }
+  return { radiance: [intensity, intensity, intensity], rotation: [1, 0], visible, meanLuminance: (intensity * sum) / solid };
+}
+
 function copyPixels(pixels: Float32Array, data: Float32Array, from: number, to: number): void {
   for (let i = from; i < to; i++) {
     for (let c = 0; c < 3; c++) {

@@ -1,5 +1,5 @@
 import { buildBlas, type Blas } from '@glanz/bvh';
-import type { Mesh } from '@glanz/scene';
+import { breathe, type Mesh } from '@glanz/scene';
 
 /** Builds the hierarchies of meshes in the renderer's place. A pool of workers is one: `BvhWorkers` of `@glanz/bvh/workers`. */
 export interface HierarchyBuilder {
@@ -32,7 +32,7 @@ export function breather(sliceMs: number = SLICE_MS): () => Promise<void> {
   let last = performance.now();
   return async () => {
     if (performance.now() - last < sliceMs) return;
-    await new Promise((resolve) => setTimeout(resolve, 0));
+    await breathe();
     last = performance.now();
   };
 }

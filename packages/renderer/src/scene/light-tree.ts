@@ -69,8 +69,8 @@ class BoundsStore {
     const count = lights.energies.length;
     const values = (this.values = new Float64Array(STRIDE * (count + sums)));
     for (let i = 0; i < count; i++) {
-      values.set(lights.bounds.subarray(6 * i, 6 * i + 6), STRIDE * i);
-      values.set(lights.axes.subarray(3 * i, 3 * i + 3), STRIDE * i + AXIS);
+      for (let k = 0; k < 6; k++) values[STRIDE * i + k] = lights.bounds[6 * i + k] as number;
+      for (let k = 0; k < 3; k++) values[STRIDE * i + AXIS + k] = lights.axes[3 * i + k] as number;
       values[STRIDE * i + SPREAD] = lights.spreads[i] as number;
       values[STRIDE * i + REACH] = lights.reaches[i] as number;
       values[STRIDE * i + ENERGY] = lights.energies[i] as number;
@@ -86,27 +86,28 @@ class BoundsStore {
     const v = this.values;
     const a = STRIDE * to;
     const b = STRIDE * from;
-    for (let k = 0; k < 3; k++) {
-      if ((v[b + k] as number) < (v[a + k] as number)) v[a + k] = v[b + k] as number;
-      if ((v[b + 3 + k] as number) > (v[a + 3 + k] as number)) v[a + 3 + k] = v[b + 3 + k] as number;
-    }
+    if ((v[b] as number) < (v[a] as number)) v[a] = v[b] as number;
+    if ((v[b + 1] as number) < (v[a + 1] as number)) v[a + 1] = v[b + 1] as number;
+    if ((v[b + 2] as number) < (v[a + 2] as number)) v[a + 2] = v[b + 2] as number;
+    if ((v[b + 3] as number) > (v[a + 3] as number)) v[a + 3] = v[b + 3] as number;
+    if ((v[b + 4] as number) > (v[a + 4] as number)) v[a + 4] = v[b + 4] as number;
+    if ((v[b + 5] as number) > (v[a + 5] as number)) v[a + 5] = v[b + 5] as number;
     v[a + ENERGY] = (v[a + ENERGY] as number) + (v[b + ENERGY] as number);
-    v[a + REACH] = Math.max(v[a + REACH] as number, v[b + REACH] as number);
-    const [spreadA, spreadB] = [v[a + SPREAD] as number, v[b + SPREAD] as number];
+    if ((v[b + REACH] as number) > (v[a + REACH] as number)) v[a + REACH] = v[b + REACH] as number;
+    const spreadA = v[a + SPREAD] as number, spreadB = v[b + SPREAD] as number;
     if (spreadA >= Math.PI) return;
-    const cos = Math.min(1, Math.max(-1, (v[a + AXIS] as number) * (v[b + AXIS] as number) + (v[a + AXIS + 1] as number) * (v[b + AXIS + 1] as number) + (v[a + AXIS + 2] as number) * (v[b + AXIS + 2] as number)));
+    const ax = v[a + AXIS] as number, ay = v[a + AXIS + 1] as number, az = v[a + AXIS + 2] as number;
+    const bx = v[b + AXIS] as number, by = v[b + AXIS + 1] as number, bz = v[b + AXIS + 2] as number;
+    const cos = Math.min(1, Math.max(-1, ax * bx + ay * by + az * bz));
     const between = Math.acos(cos);
     if (Math.min(between + spreadB, Math.PI) <= spreadA) return;
     if (Math.min(between + spreadA, Math.PI) <= spreadB) {
-      for (let k = 0; k < 3; k++) v[a + AXIS + k] = v[b + AXIS + k] as number;
-      v[a + SPREAD] = spreadB;
+      v.copyWithin(a + AXIS, b + AXIS, b + SPREAD + 1);
       return;
     }
     const spread = (spreadA + between + spreadB) / 2;
     // From a's axis towards b's: the part of b's across a's, where there is one.
-    const x = (v[b + AXIS] as number) - cos * (v[a + AXIS] as number);
-    const y = (v[b + AXIS + 1] as number) - cos * (v[a + AXIS + 1] as number);
-    const z = (v[b + AXIS + 2] as number) - cos * (v[a + AXIS + 2] as number);
+    const x = bx - cos * ax, y = by - cos * ay, z = bz - cos * az;
     const length = Math.sqrt(x * x + y * y + z * z);
     if (spread >= Math.PI || length < 1e-9) {
       v[a + SPREAD] = Math.PI;
@@ -115,9 +116,9 @@ class BoundsStore {
     const turn = spread - spreadA;
     const along = Math.cos(turn);
     const aside = Math.sin(turn) / length;
-    v[a + AXIS] = along * (v[a + AXIS] as number) + aside * x;
-    v[a + AXIS + 1] = along * (v[a + AXIS + 1] as number) + aside * y;
-    v[a + AXIS + 2] = along * (v[a + AXIS + 2] as number) + aside * z;
+    v[a + AXIS] = along * ax + aside * x;
+    v[a + AXIS + 1] = along * ay + aside * y;
+    v[a + AXIS + 2] = along * az + aside * z;
     v[a + SPREAD] = spread;
   }
 
@@ -135,8 +136,6 @@ class BoundsStore {
     return (v[a + ENERGY] as number) * solidAngle * (x * y + y * z + z * x);
   }
 }
-
-type BoundsNumbers = readonly [lowX: number, lowY: number, lowZ: number, highX: number, highY: number, highZ: number, x: number, y: number, z: number, spread: number, reach: number, energy: number];
 
 /**
  * Builds a tree.
@@ -234,10 +233,11 @@ export function buildLightTree(lights: TreeLights, near: readonly number[], dist
 
   /** Makes a node of the sum in NODE. */
   const write = (at: number, distant: boolean, link: { readonly light: number } | { readonly child: number }): void => {
-    const [lowX, lowY, lowZ, highX, highY, highZ, x, y, z, spread, reach, energy] = store.values.subarray(STRIDE * NODE, STRIDE * NODE + STRIDE) as unknown as BoundsNumbers;
+    const v = store.values, n = STRIDE * NODE;
+    const lowX = v[n] as number, lowY = v[n + 1] as number, lowZ = v[n + 2] as number, highX = v[n + 3] as number, highY = v[n + 4] as number, highZ = v[n + 5] as number;
     const center = [(lowX + highX) / 2, (lowY + highY) / 2, (lowZ + highZ) / 2] as const;
     const radius = 0.5 * Math.hypot(highX - lowX, highY - lowY, highZ - lowZ);
-    nodes[at] = { center, radius, axis: [x, y, z], cosSpread: Math.cos(spread), cosReach: Math.cos(reach), energy, distant, ...link };
+    nodes[at] = { center, radius, axis: [v[n + AXIS] as number, v[n + AXIS + 1] as number, v[n + AXIS + 2] as number], cosSpread: Math.cos(v[n + SPREAD] as number), cosReach: Math.cos(v[n + REACH] as number), energy: v[n + ENERGY] as number, distant, ...link };
   };
 
   const build = (at: number, from: number, to: number, level: number, trail: number): void => {

@@ -4,7 +4,7 @@ import { GROUP_SHIFT, LIGHT_MIRRORED, LIGHT_NODE_DISTANT, LIGHT_NODE_LEAF, LIGHT
 import { buildAliasTable } from './alias-table';
 import { EmissionEstimate } from './emission';
 import type { LightGroupTable } from './light-groups';
-import { buildLightTree, type LightTree, type TreeLights } from './light-tree';
+import { buildLightTree, type LightTree, type LightTreeNode, type TreeLights } from './light-tree';
 import { profileGrid, profileRecords, writeProfile, type ProfileGrid } from './light-profile';
 import { hasSize, writeLight } from './light-records';
 import { emittedRadiance } from './materials';
@@ -39,6 +39,9 @@ export interface LightGeometry {
   readonly leafTriangle: (mesh: number, triangle: number) => number;
 }
 
+/** The table of a scene without lights, or before they are known. */
+export const noLights = ({ instances }: Scene): LightTable => ({ records: lightStruct.allocate(), count: 0, profiles: false, tree: false, firstArea: 0, areaCount: 0, firstLight: new Uint32Array(instances.length).fill(NONE), power: 0 });
+
 const luminance = (c: ArrayLike<number>) => 0.2126 * (c[0] as number) + 0.7152 * (c[1] as number) + 0.0722 * (c[2] as number);
 
 /**
@@ -71,11 +74,11 @@ export function buildLightTable(scene: Scene, geometry: LightGeometry, sceneRadi
   for (const { instance, slot, base } of emitters) writeTriangles(lights, weights, bounds, scene, instance, slot, base, geometry, groups);
   [...areas, ...others].forEach((light, i) => (weights[firstArea + i] = writeLight(lights, bounds, firstArea + i, light, sceneRadius, groups.light(light) << GROUP_SHIFT, light.type === 'profile' ? profiles.get(light.profile) : undefined)));
   const table = buildAliasTable(weights);
-  if (!table) return { records: lights, count: 0, profiles: false, tree: false, firstArea: 0, areaCount: 0, firstLight: firstLight.fill(NONE), power: 0 };
+  if (!table) return noLights(scene);
   const words = lightStruct.size / 4;
   const floats = new Float32Array(lights);
   const integers = new Uint32Array(lights);
-  const [probability, alias, keep] = [lightStruct.offsetOf('probability') / 4, lightStruct.offsetOf('other') / 4, lightStruct.offsetOf('keep') / 4];
+  const [probability, alias, keep] = [wordOf('probability'), wordOf('other'), wordOf('keep')];
   for (let i = 0; i < count; i++) {
     floats[i * words + probability] = table.probability[i] as number;
     integers[i * words + alias] = table.alias[i] as number;
@@ -116,20 +119,32 @@ function withProfiles(before: ArrayBuffer, profiles: Profiles, users: readonly n
   return records;
 }
 
-/** The light records with the nodes of the tree behind them. */
+/** Where a field of a light record lies, in words. */
+const wordOf = (field: Parameters<typeof lightStruct.offsetOf>[0]): number => lightStruct.offsetOf(field) / 4;
+
+/** The light records with the nodes of the tree behind them. Written word by word: thousands of them, while nothing is compiled yet. */
 function withNodes(lights: ArrayBuffer, count: number, { nodes }: LightTree): ArrayBuffer {
   const records = lightStruct.allocate(count + nodes.length);
   new Uint8Array(records).set(new Uint8Array(lights));
-  nodes.forEach(({ center, radius, axis, cosSpread, cosReach, energy, distant, light, child }, i) => {
-    lightStruct.write(records, count + i, {
-      a: center,
-      kind: (light === undefined ? 0 : LIGHT_NODE_LEAF) | (distant ? LIGHT_NODE_DISTANT : 0),
-      b: axis,
-      probability: radius,
-      c: [cosSpread, cosReach, energy],
-      other: light ?? count + (child as number),
-    });
-  });
+  const floats = new Float32Array(records);
+  const integers = new Uint32Array(records);
+  const words = lightStruct.size / 4;
+  const at = { a: wordOf('a'), kind: wordOf('kind'), b: wordOf('b'), probability: wordOf('probability'), c: wordOf('c'), other: wordOf('other') };
+  for (let i = 0, row = count * words; i < nodes.length; i++, row += words) {
+    const { center, radius, axis, cosSpread, cosReach, energy, distant, light, child } = nodes[i] as LightTreeNode;
+    floats[row + at.a] = center[0];
+    floats[row + at.a + 1] = center[1];
+    floats[row + at.a + 2] = center[2];
+    integers[row + at.kind] = (light === undefined ? 0 : LIGHT_NODE_LEAF) | (distant ? LIGHT_NODE_DISTANT : 0);
+    floats[row + at.b] = axis[0];
+    floats[row + at.b + 1] = axis[1];
+    floats[row + at.b + 2] = axis[2];
+    floats[row + at.probability] = radius;
+    floats[row + at.c] = cosSpread;
+    floats[row + at.c + 1] = cosReach;
+    floats[row + at.c + 2] = energy;
+    integers[row + at.other] = light ?? count + (child as number);
+  }
   return records;
 }
 
@@ -147,12 +162,16 @@ function writeTriangles(records: ArrayBuffer, weights: Float64Array, bounds: Tre
   const floats = new Float32Array(records);
   const integers = new Uint32Array(records);
   const words = lightStruct.size / 4;
-  const at = { a: lightStruct.offsetOf('a') / 4, b: lightStruct.offsetOf('b') / 4, c: lightStruct.offsetOf('c') / 4, kind: lightStruct.offsetOf('kind') / 4, ids: lightStruct.offsetOf('ids') / 4 };
+  const at = { a: wordOf('a'), b: wordOf('b'), c: wordOf('c'), kind: wordOf('kind'), ids: wordOf('ids') };
   const p = new Float64Array(9);
-  for (let triangle = 0; triangle < mesh.indices.length / 3; triangle++) {
-    const corner = (k: number) => mesh.indices[3 * triangle + k] as number;
-    for (let k = 0; k < 3; k++) transformPoint(instance.transform, mesh.positions[3 * corner(k)] as number, mesh.positions[3 * corner(k) + 1] as number, mesh.positions[3 * corner(k) + 2] as number, p, 3 * k);
+  const { positions, indices } = mesh;
+  // No functions and no lists within: thousands of triangles, while nothing is compiled yet.
+  for (let triangle = 0; triangle < indices.length / 3; triangle++) {
     const row = (base + triangle) * words;
+    for (let k = 0; k < 3; k++) {
+      const vertex = 3 * (indices[3 * triangle + k] as number);
+      transformPoint(instance.transform, positions[vertex] as number, positions[vertex + 1] as number, positions[vertex + 2] as number, p, 3 * k);
+    }
     for (let k = 0; k < 3; k++) {
       floats[row + at.a + k] = p[k] as number;
       floats[row + at.b + k] = p[3 + k] as number;
@@ -162,12 +181,12 @@ function writeTriangles(records: ArrayBuffer, weights: Float64Array, bounds: Tre
     integers[row + at.ids] = slot;
     integers[row + at.ids + 1] = geometry.leafTriangle(instance.mesh, triangle);
     integers[row + at.ids + 2] = instance.material;
-    const [ax, ay, az] = [0, 1, 2].map((k) => (p[3 + k] as number) - (p[k] as number)) as [number, number, number];
-    const [bx, by, bz] = [0, 1, 2].map((k) => (p[6 + k] as number) - (p[k] as number)) as [number, number, number];
-    const normal = [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx] as const;
-    const length = Math.hypot(...normal);
+    const ax = (p[3] as number) - (p[0] as number), ay = (p[4] as number) - (p[1] as number), az = (p[5] as number) - (p[2] as number);
+    const bx = (p[6] as number) - (p[0] as number), by = (p[7] as number) - (p[1] as number), bz = (p[8] as number) - (p[2] as number);
+    const nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
+    const length = Math.hypot(nx, ny, nz);
     const area = 0.5 * length;
-    const texel = estimate && uvs ? estimate.mean([0, 1, 2].flatMap((k) => [uvs[2 * corner(k)] as number, uvs[2 * corner(k) + 1] as number]) as [number, number, number, number, number, number]) : 1;
+    const texel = estimate && uvs ? estimate.mean(cornersOf(uvs, indices, triangle)) : 1;
     const power = Math.PI * area * radiance * sides * texel;
     if (!(Number.isFinite(power) && power > 0)) continue;
     const i = base + triangle;
@@ -175,10 +194,19 @@ function writeTriangles(records: ArrayBuffer, weights: Float64Array, bounds: Tre
     bounds.energies[i] = area * radiance * texel;
     bounds.spreads[i] = sides === 2 ? Math.PI : 0;
     bounds.reaches[i] = Math.PI / 2;
+    bounds.axes[3 * i] = (mirrored * nx) / length;
+    bounds.axes[3 * i + 1] = (mirrored * ny) / length;
+    bounds.axes[3 * i + 2] = (mirrored * nz) / length;
     for (let k = 0; k < 3; k++) {
-      bounds.axes[3 * i + k] = (mirrored * (normal[k] as number)) / length;
       bounds.bounds[6 * i + k] = Math.min(p[k] as number, p[3 + k] as number, p[6 + k] as number);
       bounds.bounds[6 * i + 3 + k] = Math.max(p[k] as number, p[3 + k] as number, p[6 + k] as number);
     }
   }
 }
+
+/** The texture coordinates of a triangle's corners. */
+const cornersOf = (uvs: Float32Array, indices: Uint32Array, triangle: number) =>
+  [0, 1, 2].flatMap((k) => {
+    const vertex = indices[3 * triangle + k] as number;
+    return [uvs[2 * vertex] as number, uvs[2 * vertex + 1] as number];
+  }) as [number, number, number, number, number, number];

@@ -1,3 +1,4 @@
+import { OPENPBR_TABLES } from '@glanz/openpbr/tables';
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import type { Environment, Scene } from '@glanz/scene';
 import { afterAll, beforeAll, expect, it } from 'vitest';
@@ -50,7 +51,8 @@ it.each(SCENES)('kernels that begin to compile before hierarchies are built are 
   change(scene);
   const memory = new GpuMemory(device);
   try {
-    const gpuScene = new GpuScene(device, memory, scene, await prepareGeometry(scene), prepareEnvironment(scene.environment), CHOICES);
+    const gpuScene = new GpuScene(device, memory, scene, await prepareGeometry(scene), CHOICES);
+    await gpuScene.light(prepareEnvironment(scene.environment), OPENPBR_TABLES);
     expect(expectedFeatures(device, scene, CHOICES)).toEqual(gpuScene.features());
   } finally {
     memory.destroy();

@@ -1,6 +1,6 @@
 import type { LatLongEnvironment } from '@glanz/scene';
 import { describe, expect, it } from 'vitest';
-import { prepareEnvironment } from '../../src/scene/environment';
+import { prepareEnvironment, roughEnvironment } from '../../src/scene/environment';
 
 const picture = (width: number, height: number, value: (x: number, y: number) => number): LatLongEnvironment => {
   const data = new Float32Array(width * height * 3);
@@ -39,5 +39,16 @@ describe('prepareEnvironment', () => {
     const data = prepareEnvironment(environment).pixels?.data;
     expect(Array.from(data?.subarray(0, 3) ?? [])).toEqual([0, expect.closeTo(3e38, -36), 0]);
     expect(data?.every(Number.isFinite)).toBe(true);
+  });
+});
+
+describe('roughEnvironment', () => {
+  it('is about as bright as the whole, in size, strength and visibility as it will be', () => {
+    const sky = picture(200, 99, (_, y) => 5 * Math.exp(-y / 30));
+    for (const environment of [sky, { ...sky, intensity: 3, visible: false }, { type: 'constant', radiance: [1, 2, 3] } as const, undefined]) {
+      const [rough, whole] = [roughEnvironment(environment), prepareEnvironment(environment)];
+      expect(Math.abs(rough.meanLuminance - whole.meanLuminance)).toBeLessThanOrEqual(0.02 * whole.meanLuminance);
+      expect([rough.radiance, rough.visible, rough.pixels, rough.table]).toEqual([whole.radiance, whole.visible, undefined, undefined]);
+    }
   });
 });
