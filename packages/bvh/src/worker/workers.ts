@@ -3,7 +3,7 @@ import { blasSteps, type Blas, type BlasOptions, type TriangleMesh } from '../bl
 import { BvhError } from '../error';
 import { connect, hardwareThreads, startWorker, type NodeWorkerLike, type WebWorkerLike, type WorkerLine } from './line';
 import { buffersOf, receivedError, sendableOptions, type BuildReply, type BuildRequest } from './protocol';
-import { teamMemory } from './team';
+import { teamMemory, type TeamMemory } from './team';
 
 export type { NodeWorkerLike, WebWorkerLike } from './line';
 
@@ -99,6 +99,10 @@ export class BvhWorkers {
   readonly #queue: Job[] = [];
   /** Builds by signal: one listener serves them all, however many meshes share a signal. */
   readonly #signals = new Map<AbortSignal, { readonly jobs: Set<Job>; readonly abort: () => void }>();
+  /** What two workers share for a build, and whether one of them is done with it. */
+  readonly #teams = new Map<number, { readonly memory: TeamMemory; half: boolean }>();
+  /** What the last two have left. Held weakly, so that it goes when memory is short. */
+  #spare: WeakRef<TeamMemory> | undefined;
   #fallback: string | undefined;
   #nextId = 0;
   #destroyed = false;
@@ -239,6 +243,7 @@ export class BvhWorkers {
 
   #crashed(seat: Seat, why: string): void {
     const lost = [...seat.jobs.values()];
+    for (const { id } of lost) this.#teams.delete(id);
     this.#restart(seat);
     // Who builds together with a worker that is no more would wait for ever.
     for (const other of this.#seats) {
@@ -256,12 +261,25 @@ export class BvhWorkers {
     seat.jobs.delete(reply.id);
     seat.load -= job.triangles;
     if (seat.jobs.size === 0) seat.line?.hold(false);
+    this.#leave(reply);
     // First the next build, then whatever the caller does with this one.
     this.#next();
     if (reply.kind === 'helped') return;
     if (reply.kind === 'failed') return job.settle({ error: receivedError(reply.error) });
     job.progress(1);
     job.settle(reply.blas);
+  }
+
+  /** Keeps what two workers have shared once both are done with it. */
+  #leave({ id, kind }: { readonly id: number; readonly kind: BuildReply['kind'] }): void {
+    const team = this.#teams.get(id);
+    if (!team) return;
+    if (kind === 'failed') this.#teams.delete(id);
+    else if (!team.half) team.half = true;
+    else {
+      this.#teams.delete(id);
+      this.#spare = new WeakRef(team.memory);
+    }
   }
 
   #watch(signal: AbortSignal, job: Job): void {
@@ -285,6 +303,7 @@ export class BvhWorkers {
 
   #abort(job: Job, reason: unknown): void {
     job.settle({ error: reason });
+    this.#teams.delete(job.id);
     const at = this.#queue.indexOf(job);
     if (at >= 0) this.#queue.splice(at, 1);
     for (const seat of this.#seats) {
@@ -330,7 +349,9 @@ export class BvhWorkers {
   #sendTogether(seats: readonly Seat[], job: Job): void {
     const { id, options } = job;
     try {
-      const memory = teamMemory(job.triangles);
+      const memory = teamMemory(job.triangles, this.#spare?.deref());
+      this.#spare = undefined;
+      this.#teams.set(id, { memory, half: false });
       const { positions, indices } = job.mesh;
       const mesh: TriangleMesh = { positions: shared(positions), indices: indices && shared(indices) };
       for (const [index, seat] of seats.entries()) {
@@ -341,6 +362,7 @@ export class BvhWorkers {
       }
     } catch {
       // No memory of that kind or not enough: one worker will do.
+      this.#teams.delete(id);
       for (const seat of seats) if (seat.jobs.delete(id)) seat.load -= job.triangles;
       this.#send(seats[0] as Seat, job);
     }
