@@ -1,4 +1,5 @@
 // npm run bench:pack — one bundled file per benchmark under .gpu-bench/, for machines that have nothing but a GPU.
+// `--browser` packs Chromium and its pages as well (browser/pack.mjs).
 // Each file carries its code and makes its models where it runs; equal-time's scenes and references lie beside it. With `tools/gpu/pack.sh` beside it:
 //   . .gpu/setup.sh && $GPU_NODE .gpu-bench/paper-gpu.mjs --json out.json
 import { execFileSync } from 'node:child_process';
@@ -28,6 +29,7 @@ const missing = await packData(data);
 const dataBytes = readdirSync(data, { recursive: true }).reduce((sum, file) => sum + statSync(join(data, file)).size, 0);
 total += dataBytes;
 process.stdout.write(`.gpu-bench/equal-time-data ${(dataBytes / 1024).toFixed(0)} KiB${missing.length === 0 ? '' : `, without ${missing.join(', ')}, which are not here`}\n`);
+if (process.argv.includes('--browser')) await (await import('./browser/pack.mjs')).packBrowser();
 let commit = 'unknown';
 try {
   commit = execFileSync('git', ['rev-parse', '--short', 'HEAD'], { cwd: root, encoding: 'utf8' }).trim();

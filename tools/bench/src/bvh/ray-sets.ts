@@ -43,11 +43,22 @@ export function inRoom({ name, positions, indices }: BenchMesh): { mesh: BenchMe
   return { mesh: all, bounds };
 }
 
-/** One ray through each pixel of a square picture of the whole box from the front right above, in tiles of 8 × 8 pixels. */
-export function primaryRays(bounds: Aabb, size: number): Float32Array<ArrayBuffer> {
+/** Where a camera stands, in radii of the mesh from its middle, and the tangent of half its angle. */
+export interface View {
+  readonly from: readonly [number, number, number];
+  readonly tangent: number;
+}
+
+/** From near: the mesh fills the picture. */
+export const NEAR: View = { from: [1.2, 0.9, 1.6], tangent: 0.4 };
+/** From a corner of the room with a lens of 60°: the mesh covers a fifth of the picture, its room the rest. */
+export const AFAR: View = { from: [2.2, 1.6, 2.3], tangent: 0.577 };
+
+/** One ray through each pixel of a square picture from the front right above, in tiles of 8 × 8 pixels. */
+export function primaryRays(bounds: Aabb, size: number, { from, tangent }: View = NEAR): Float32Array<ArrayBuffer> {
   const random = randomNumbers(1);
   const { center, radius } = sphereAround(bounds);
-  const eye = [center[0]! + 1.2 * radius, center[1]! + 0.9 * radius, center[2]! + 1.6 * radius];
+  const eye = from.map((x, k) => center[k]! + x * radius);
   const length = Math.hypot(...eye.map((x, k) => center[k]! - x));
   const ahead = eye.map((x, k) => (center[k]! - x) / length);
   const across = Math.hypot(ahead[2]!, ahead[0]!);
@@ -60,7 +71,7 @@ export function primaryRays(bounds: Aabb, size: number): Float32Array<ArrayBuffe
       const x = ((8 * (tile % (size / 8)) + (pixel % 8) + random()) / size) * 2 - 1, y = ((8 * Math.floor(tile / (size / 8)) + Math.floor(pixel / 8) + random()) / size) * 2 - 1;
       for (let k = 0; k < 3; k++) {
         rays[at + k] = eye[k]!;
-        rays[at + 4 + k] = ahead[k]! + 0.4 * (x * right[k]! + y * up[k]!);
+        rays[at + 4 + k] = ahead[k]! + tangent * (x * right[k]! + y * up[k]!);
       }
       rays[at + 7] = FAR;
     }

@@ -1,9 +1,8 @@
-import { createReadStream, existsSync, readFileSync, statSync } from 'node:fs';
-import { createServer } from 'node:http';
-import type { AddressInfo } from 'node:net';
+import { copyFileSync, existsSync, mkdirSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { dirname, join, resolve } from 'node:path';
-import { build } from 'esbuild';
+import { launchChromium, packedBrowser } from '../browser/chromium';
+import { serveFolders } from '../browser/serve';
 import { ASSETS, type Contestant, type From, type Load } from './models';
 
 const COUNT = `const count = (scene) => scene.instances.reduce((sum, { mesh }) => sum + scene.meshes[mesh].indices.length / 3, 0);`;
@@ -43,35 +42,31 @@ globalThis.loaders.three = async (input) => {
 
 /** Bundles with the sources of the workspace, for the page. */
 async function bundle(contents: string, folder: string, legible: boolean): Promise<Uint8Array> {
+  const { build } = await import('esbuild');
   const { outputFiles } = await build({ stdin: { contents, resolveDir: folder }, bundle: true, write: false, format: 'esm', minify: !legible, target: 'es2022', conditions: ['@glanz/source'], external: ['fs', 'path', 'crypto', 'node:*'], define: { 'process.versions': '{}' }, logLevel: 'error' });
   return outputFiles[0]!.contents;
 }
 
-async function serve(legible: boolean) {
+/** Writes the page with all loaders into a folder. */
+export async function buildLoaders(out: string, legible: boolean): Promise<void> {
   const folder = resolve('tools/bench'), gltf = resolve('packages/gltf');
   const require = createRequire(join(gltf, 'package.json')), requireThree = createRequire(join(folder, 'package.json'));
-  const files = new Map<string, string | Uint8Array>([
-    ['/', '<!doctype html><script>globalThis.loaders = {};</script><script type="module" src="/ours.js"></script><script type="module" src="/three.js"></script>'],
-    ['/ours.js', await bundle(OURS, gltf, legible)],
-    ['/own-worker.js', await bundle(WORKER, gltf, legible)],
-    ['/three.js', await bundle(THREE, folder, legible)],
-    ['/draco.wasm', readFileSync(join(dirname(require.resolve('draco3dgltf')), 'draco_decoder_gltf.wasm'))],
-  ]);
+  mkdirSync(join(out, 'three-draco'), { recursive: true });
+  writeFileSync(join(out, 'index.html'), '<!doctype html><script>globalThis.loaders = {};</script><script type="module" src="/ours.js"></script><script type="module" src="/three.js"></script>');
+  writeFileSync(join(out, 'ours.js'), await bundle(OURS, gltf, legible));
+  writeFileSync(join(out, 'own-worker.js'), await bundle(WORKER, gltf, legible));
+  writeFileSync(join(out, 'three.js'), await bundle(THREE, folder, legible));
+  copyFileSync(join(dirname(require.resolve('draco3dgltf')), 'draco_decoder_gltf.wasm'), join(out, 'draco.wasm'));
   const threeDraco = join(dirname(requireThree.resolve('three')), '../examples/jsm/libs/draco/gltf');
-  for (const name of ['draco_decoder.js', 'draco_wasm_wrapper.js', 'draco_decoder.wasm']) if (existsSync(join(threeDraco, name))) files.set(`/three-draco/${name}`, readFileSync(join(threeDraco, name)));
-  const server = createServer((request, response) => {
-    const path = decodeURIComponent(new URL(request.url!, 'http://x').pathname);
-    const body = files.get(path);
-    const type = path.endsWith('.js') ? 'text/javascript' : path.endsWith('.wasm') ? 'application/wasm' : path === '/' ? 'text/html' : 'application/octet-stream';
-    const file = join(ASSETS, path.slice('/assets'.length));
-    if (body !== undefined) response.writeHead(200, { 'content-type': type }).end(body);
-    else if (path.startsWith('/assets/') && file.startsWith(ASSETS) && existsSync(file)) {
-      response.writeHead(200, { 'content-type': type, 'content-length': statSync(file).size, 'cache-control': 'no-store' });
-      createReadStream(file).pipe(response);
-    } else response.writeHead(404).end();
-  });
-  await new Promise<void>((done) => server.listen(0, '127.0.0.1', done));
-  return server;
+  for (const name of ['draco_decoder.js', 'draco_wasm_wrapper.js', 'draco_decoder.wasm']) if (existsSync(join(threeDraco, name))) copyFileSync(join(threeDraco, name), join(out, 'three-draco', name));
+}
+
+async function serve(legible: boolean) {
+  const packed = packedBrowser();
+  const name = legible ? 'loaders-legible' : 'loaders';
+  const folder = packed === undefined ? resolve('.cache', name) : join(packed, name);
+  if (packed === undefined) await buildLoaders(folder, legible);
+  return serveFolders({ '/': folder, '/assets/': ASSETS });
 }
 
 /**
@@ -80,12 +75,10 @@ async function serve(legible: boolean) {
  * @param legible Whether functions keep their names, for profiles.
  */
 export async function openPage(legible = false) {
+  const { browser } = await launchChromium();
   const server = await serve(legible);
-  const { chromium } = await import('playwright');
-  const { default: config } = (await import('../../../../playwright.config')) as { default: { use?: { launchOptions?: Parameters<typeof chromium.launch>[0] } } };
-  const browser = await chromium.launch(config.use?.launchOptions ?? {});
   const page = await browser.newPage();
-  await page.goto(`http://127.0.0.1:${(server.address() as AddressInfo).port}/`);
+  await page.goto(`${server.origin}/`);
   await page.waitForFunction(() => 'three' in (globalThis as unknown as { loaders: object }).loaders && 'worker' in (globalThis as unknown as { loaders: object }).loaders);
   const load = (loader: Contestant, file: string, from: From): Promise<Load> =>
     page.evaluate(async ([name, address, where]) => {
@@ -108,7 +101,7 @@ export async function openPage(legible = false) {
     },
     async close() {
       await browser.close();
-      server.close();
+      await server.close();
     },
   };
 }

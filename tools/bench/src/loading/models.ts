@@ -5,8 +5,8 @@ import { BenchError } from '../error';
 /** Models beside the repository: large pictures, Draco, meshopt, many meshes, many triangles. */
 const MODELS = ['DamagedHelmet', 'chess-board', 'pirate-meshopt', 'lamborghini', 'bunny-casual-effects'];
 
-/** Where the models lie. */
-export const ASSETS = resolve('../shared/assets');
+/** Where the models lie; `GLANZ_ASSETS` names another place. */
+export const ASSETS = resolve(process.env['GLANZ_ASSETS'] ?? '../shared/assets');
 
 /** A model to load. */
 export interface LoadModel {

@@ -1,4 +1,5 @@
-import { resolve } from 'node:path';
+import { launchChromium, type Chromium } from '../browser/chromium';
+import { servePlayground } from '../browser/playground';
 
 /** What the page's own thread did while something went on. */
 export interface Blocked {
@@ -34,16 +35,15 @@ interface ProfileNode {
   readonly callFrame: { readonly functionName: string; readonly url?: string; readonly lineNumber?: number };
 }
 
-/** The playground, built from the sources of the workspace, in Chromium on the software GPU. */
-export async function openPlayground(profile: boolean) {
-  const [{ build, preview }, { chromium }] = await Promise.all([import('vite'), import('playwright')]);
-  const { default: config } = (await import('../../../../playwright.config')) as { default: { use?: { launchOptions?: Parameters<typeof chromium.launch>[0] } } };
-  const root = resolve('apps/playground');
-  const outDir = resolve('.cache/main-thread');
-  await build({ root, logLevel: 'error', build: { outDir, emptyOutDir: true, ...(profile ? { minify: false } : {}) } });
-  const server = await preview({ root, logLevel: 'error', build: { outDir }, preview: { host: '127.0.0.1', port: 4373, strictPort: false, open: false } });
-  const origin = server.resolvedUrls!.local[0]!.replace(/\/$/, '');
-  const browser = await chromium.launch(config.use?.launchOptions ?? {});
+/**
+ * The playground, built from the sources of the workspace, in Chromium.
+ *
+ * @param profile Whether to say which functions long tasks are in.
+ */
+export async function openPlayground(profile: boolean, gpu: Chromium['gpu'] = 'software') {
+  const { browser } = await launchChromium(gpu);
+  const server = await servePlayground(profile);
+  const { origin } = server;
   return {
     version: browser.version(),
     /** Opens a file in a page of its own and looks at its thread until the first picture of it is there. */
