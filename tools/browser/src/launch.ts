@@ -22,11 +22,12 @@ export async function launchOptions(folder: string): Promise<LaunchOptions> {
 
 /** How to start a Chromium that lies inflated in a folder. */
 export function inflated(folder: string): LaunchOptions {
-  const { LD_LIBRARY_PATH } = process.env;
+  // Drivers that are named for other programs would hide the software GPU that comes with the browser.
+  const { LD_LIBRARY_PATH, VK_DRIVER_FILES: _, VK_ICD_FILENAMES: __, ...others } = process.env;
   return {
     executablePath: `${folder}/chromium`,
     env: {
-      ...(process.env as Record<string, string>),
+      ...(others as Record<string, string>),
       LD_LIBRARY_PATH: [`${folder}/al2023/lib`, LD_LIBRARY_PATH].filter(Boolean).join(':'),
       FONTCONFIG_FILE: `${folder}/fonts.conf`,
     },

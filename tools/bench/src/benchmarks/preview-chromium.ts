@@ -1,6 +1,6 @@
 import { launchChromium } from '../browser/chromium';
 import { latency, turn, watchFrames, type Turned } from '../browser/hand';
-import { servePlayground } from '../browser/playground';
+import { firstFilm, servePlayground } from '../browser/playground';
 import { timed, type Benchmark, type Figure } from '../benchmark';
 
 /** Sizes of the picture, pixels. */
@@ -24,7 +24,7 @@ export const benchmark: Benchmark = {
         await watchFrames(page);
         await page.goto(`${server.origin}/?model=push-button&samples=100000`);
         const canvas = page.locator('#picture');
-        await page.waitForSelector('#picture[data-film]', { state: 'attached', timeout: 300_000 });
+        await firstFilm(page);
         // The panels take what they take; the picture gets the rest.
         const box = (await canvas.boundingBox())!;
         await page.setViewportSize({ width: Math.round(width + 700 + width - box.width), height: Math.round(height + 300 + height - box.height) });

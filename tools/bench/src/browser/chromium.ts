@@ -14,7 +14,7 @@ interface Playwright {
   readonly chromium: BrowserType;
 }
 
-/** The machine's own GPU, without a screen. */
+/** The machine's own GPU, without a screen; `GLANZ_CHROMIUM_FLAGS` names others. */
 const GPU_FLAGS = ['--no-sandbox', '--enable-unsafe-webgpu', '--enable-features=Vulkan,WebGPU', '--use-vulkan=native', '--use-angle=vulkan', '--disable-vulkan-surface', '--ignore-gpu-blocklist'];
 
 /** What a browser of the benchmarks runs on. */
@@ -35,7 +35,9 @@ export async function launchChromium(gpu: Chromium['gpu'] = 'software'): Promise
   const options = packed === undefined ? await launchOptions(resolve('.cache/browser')) : packedOptions(resolve(packed));
   // A bare machine has Playwright's core beside the browser, and nothing else of it.
   const { chromium } = packed === undefined ? await import('playwright') : ((await import(pathToFileURL(createRequire(join(resolve(packed), 'x.js')).resolve('playwright-core')).href)) as { default: Playwright }).default;
-  return { browser: await chromium.launch({ ...options, args: gpu === 'hardware' ? GPU_FLAGS : SOFTWARE_GPU }), gpu };
+    const { VK_DRIVER_FILES, GLANZ_CHROMIUM_FLAGS } = process.env;
+  const hardware = { ...options, args: GLANZ_CHROMIUM_FLAGS?.split(' ') ?? GPU_FLAGS, env: { ...options.env, ...(VK_DRIVER_FILES === undefined ? {} : { VK_DRIVER_FILES }) } };
+  return { browser: await chromium.launch(gpu === 'hardware' ? hardware : { ...options, args: SOFTWARE_GPU }), gpu };
 }
 
 function packedOptions(folder: string): LaunchOptions {

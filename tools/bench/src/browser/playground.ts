@@ -1,4 +1,6 @@
 import { join, resolve } from 'node:path';
+import type { Page } from 'playwright';
+import { BenchError } from '../error';
 import { packedBrowser } from './chromium';
 import { serveFolders } from './serve';
 
@@ -19,4 +21,15 @@ export async function servePlayground(legible = false): Promise<{ readonly origi
   const outDir = resolve('.cache/bench-playground');
   await buildPlayground(outDir, legible);
   return serveFolders({ '/': outDir });
+}
+
+/**
+ * Waits until the playground has drawn something.
+ *
+ * @throws {BenchError} `bench/browser` with what the page says where it cannot.
+ */
+export async function firstFilm(page: Page): Promise<void> {
+  await page.waitForSelector('#picture[data-film], #picture[data-state="unavailable"]', { state: 'attached', timeout: 300_000 });
+  const { state } = await page.locator('#picture').evaluate((picture: HTMLElement) => ({ ...picture.dataset }));
+  if (state === 'unavailable') throw new BenchError('bench/browser', `The playground has no GPU here: ${(await page.locator('#notice').textContent()) ?? ''}`);
 }

@@ -1,5 +1,5 @@
 import { launchChromium, type Chromium } from '../browser/chromium';
-import { servePlayground } from '../browser/playground';
+import { firstFilm, servePlayground } from '../browser/playground';
 
 /** What the page's own thread did while something went on. */
 export interface Blocked {
@@ -51,6 +51,7 @@ export async function openPlayground(profile: boolean, gpu: Chromium['gpu'] = 's
       const page = await browser.newPage({ viewport: { width: 700, height: 500 } });
       try {
         await page.goto(`${origin}/?model=cornell-box&scale=0.25&samples=1&depth=2`);
+        await firstFilm(page);
         await page.waitForSelector('#picture[data-state="done"]', { state: 'attached', timeout: 300_000 });
         await page.evaluate(() => {
           const seen = { gap: 0, long: [] as number[], done: false };
