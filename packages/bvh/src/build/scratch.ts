@@ -18,18 +18,19 @@ export class Scratch {
     this.#free = free;
   }
 
-  static #kept: WeakRef<ArrayBuffer[]> | undefined;
+  /** What the last build has given back; who knows that more builds come may hold on to it. */
+  static left: WeakRef<ArrayBuffer[]> | undefined;
 
   /** Takes what the last build has given back. */
   static take(): Scratch {
-    const free = Scratch.#kept?.deref() ?? [];
-    Scratch.#kept = undefined;
+    const free = Scratch.left?.deref() ?? [];
+    Scratch.left = undefined;
     return new Scratch(free);
   }
 
   /** Leaves all blocks to the next build; they must not be used any more. */
   giveBack(): void {
-    Scratch.#kept = new WeakRef(this.#taken);
+    Scratch.left = new WeakRef(this.#taken);
   }
 
   /** A block of at least that many bytes. */

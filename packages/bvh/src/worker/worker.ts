@@ -2,6 +2,7 @@ import { buildBlas, type BlasOptions, type TriangleMesh } from '../blas';
 import { best, bestSplit } from '../build/best';
 import type { BuildSettings } from '../build/builder';
 import { fast } from '../build/fast';
+import { Scratch } from '../build/scratch';
 import type { TriangleTree } from '../build/steps';
 import { ownPort, type WorkerPort } from './port';
 import { buffersOf, sendableError, type BuildReply, type BuildRequest, type SentOptions } from './protocol';
@@ -13,6 +14,9 @@ export type { WorkerPort } from './port';
 /** Builds to warm up with, and quads along an edge of the mesh: the optimising compilers have had all they need after about a tenth of a second. */
 const WARM_BUILDS = 24;
 const WARM_EDGE = 40;
+
+/** So long after its last build a worker lets its working memory go. */
+const HOLD_MS = 1000;
 
 /** A wavy sheet of quads, each row with triangles of another size: splits, pairs and rotations all have work. */
 function sheet(edge: number): TriangleMesh {
@@ -48,6 +52,14 @@ const nothing = (): TriangleTree => ({ nodes: new Float32Array(0), nodeCount: 0,
 export function serveBuilds(port: WorkerPort): void {
   const say = (reply: BuildReply, transfer?: readonly ArrayBuffer[]) => port.post(reply, transfer);
   let worked = false;
+  // Meshes come several at a time: working memory stays between them, which fresh would cost half as much as a build.
+  let held: readonly ArrayBuffer[] | undefined;
+  let letGo: ReturnType<typeof setTimeout> | undefined;
+  const holdMemory = () => {
+    held = Scratch.left?.deref();
+    clearTimeout(letGo);
+    if (held) letGo = setTimeout(() => (held = undefined), HOLD_MS);
+  };
   const warmUp = (left: number) => {
     // One build at a time, so that a request need not wait; the first one ends it.
     if (worked || left === 0) return;
@@ -81,6 +93,7 @@ export function serveBuilds(port: WorkerPort): void {
     say({ kind: 'started', id });
     try {
       const blas = buildBlas(mesh, receivedOptions(options));
+      holdMemory();
       say({ kind: 'built', id, blas }, buffersOf(blas.nodes, blas.triangleIndices, blas.bounds.min, blas.bounds.max));
     } catch (error) {
       say({ kind: 'failed', id, error: sendableError(error) });

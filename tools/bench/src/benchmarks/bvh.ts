@@ -55,6 +55,7 @@ export const benchmark: Benchmark = {
   options: {
     pages: { type: 'string', help: 'folder to write the page of the docs and its data into' },
     brief: { type: 'string', help: '"yes": only balanced beside three-mesh-bvh, on all meshes, and the threads; nothing of rays. For a machine that is lent for minutes' },
+    threads: { type: 'string', help: '"yes": only the threads, with the largest mesh' },
     busy: { type: 'string', help: '"yes": put it on that page as the run on a machine with other work' },
   },
   async run({ log, quick, values }) {
@@ -66,7 +67,8 @@ export const benchmark: Benchmark = {
     const rows: MeshRow[] = [];
     const ratios = { sah: [] as number[], center: [] as number[], cost: [] as number[], fast: [] as number[], best: [] as number[] };
     const figure = (name: string, unit: string, values: readonly number[], target?: Figure['target']) => figures.push(timed(name, unit, values, quick ? undefined : target));
-    for (const mesh of meshes) {
+    const onlyThreads = values['threads'] === 'yes';
+    for (const mesh of onlyThreads ? [] : meshes) {
       const trees = treesOf(mesh).filter(({ name }) => !brief || name === 'balanced' || /^three-mesh-bvh (SAH|CENTER)$/.test(name));
       const times = new Map(trees.map(({ name }) => [name, [] as number[]]));
       // Taken in turns, so that a disturbance of the machine meets all alike; `best` is slow and comes less often.
@@ -128,12 +130,14 @@ export const benchmark: Benchmark = {
       figure(`${mesh.name}: best over balanced, nodes and triangles per diffuse ray`, '1', [gain], cad ? { value: 0.85, relation: '<=', source: 'a sixth less in models of parts' } : undefined);
       log(`${mesh.name}: fast ${time('fast').toFixed(1)} ms, best ${time('best').toFixed(0)} ms; per diffuse ray ${[...diffuse].map(([name, x]) => `${name} ${x.toFixed(1)}`).join(', ')}`);
     }
-    figure('all: three-mesh-bvh SAH over balanced, geometric mean of minima', '1', [geometricMean(ratios.sah)], { value: 4, relation: '>=', source: 'four times as fast' });
-    figure('all: three-mesh-bvh SAH over balanced, least', '1', [least(ratios.sah)], { value: 3, relation: '>=', source: 'three times as fast on any mesh' });
-    figure('all: three-mesh-bvh CENTER over balanced, geometric mean of minima', '1', [geometricMean(ratios.center)], { value: 1, relation: '>=', source: 'no slower than CENTER' });
-    figure("all: SAH cost over three-mesh-bvh SAH's, geometric mean", '1', [geometricMean(ratios.cost)], { value: 1, relation: '<=', source: 'trees as good' });
-    if (!brief) figure('all: balanced over fast, geometric mean of minima', '1', [geometricMean(ratios.fast)], { value: 2, relation: '>=', source: 'twice as fast' });
-    if (!brief) figure('CAD-like: best over balanced, nodes and triangles per diffuse ray, geometric mean', '1', [geometricMean(ratios.best)], { value: 0.85, relation: '<=', source: 'a sixth less' });
+    if (!onlyThreads) {
+      figure('all: three-mesh-bvh SAH over balanced, geometric mean of minima', '1', [geometricMean(ratios.sah)], { value: 4, relation: '>=', source: 'four times as fast' });
+      figure('all: three-mesh-bvh SAH over balanced, least', '1', [least(ratios.sah)], { value: 3, relation: '>=', source: 'three times as fast on any mesh' });
+      figure('all: three-mesh-bvh CENTER over balanced, geometric mean of minima', '1', [geometricMean(ratios.center)], { value: 1, relation: '>=', source: 'no slower than CENTER' });
+      figure("all: SAH cost over three-mesh-bvh SAH's, geometric mean", '1', [geometricMean(ratios.cost)], { value: 1, relation: '<=', source: 'trees as good' });
+      if (!brief) figure('all: balanced over fast, geometric mean of minima', '1', [geometricMean(ratios.fast)], { value: 2, relation: '>=', source: 'twice as fast' });
+      if (!brief) figure('CAD-like: best over balanced, nodes and triangles per diffuse ray, geometric mean', '1', [geometricMean(ratios.best)], { value: 0.85, relation: '<=', source: 'a sixth less' });
+    }
 
     const large = meshes.reduce((a, b) => (b.indices.length > a.indices.length ? b : a));
     log(`threads, with ${large.name}`);
@@ -142,21 +146,21 @@ export const benchmark: Benchmark = {
     figure(`${large.name}: further builds in that thread`, 'ms', warm);
     figure(`${large.name}: first build over the median of further ones`, '1', [cold! / [...warm].sort((a, b) => a - b)[warm.length >> 1]!], { value: 2, relation: '<=', source: 'cold within twice of warm' });
     const four = [large, large, large, large];
-    const one = await workerTimes(four, 1, runs), two = await workerTimes(four, 2, runs);
+    const [one, two] = await workerTimes(four, runs);
     figure(`four times ${large.name}: one worker`, 'ms', one);
     figure(`four times ${large.name}: two workers`, 'ms', two);
     figure(`four times ${large.name}: one worker over two, minima`, '1', [least(one) / least(two)], { value: 1.6, relation: '>=', source: 'two workers' });
-    const alone = await workerTimes([large], 1, runs), together = await workerTimes([large], 2, runs);
+    const [alone, together] = await workerTimes([large], 3 * runs);
     figure(`${large.name}: on one worker`, 'ms', alone);
     figure(`${large.name}: on two workers together`, 'ms', together);
     figure(`${large.name}: one worker over two together, minima`, '1', [least(alone) / least(together)], { value: 1.6, relation: '>=', source: 'two workers' });
     const sliced = await slicedTimes(large, runs);
     figure(`${large.name}: in slices on the main thread`, 'ms', sliced.all);
     figure(`${large.name}: longest slice`, 'ms', sliced.longest, { value: 16, relation: '<=', source: 'one frame' });
-    const tiny = brief ? [] : overTinybvh(rows).flatMap(({ byCenter, bySah }) => [byCenter, bySah]);
+    const tiny = brief || onlyThreads ? [] : overTinybvh(rows).flatMap(({ byCenter, bySah }) => [byCenter, bySah]);
     if (tiny.length > 0) figure("all: balanced over tinybvh's AVX2 build, linked by three-mesh-bvh, geometric mean", '1', [geometricMean(tiny)], { value: 2, relation: '<=', source: 'twice as long as C++' });
     const details: BvhDetails = { runs, rows, threads: { mesh: large.name, cold: cold!, warm: spreadOf(warm), one: spreadOf(one), two: spreadOf(two), alone: spreadOf(alone), together: spreadOf(together), sliced: spreadOf(sliced.all), longest: spreadOf(sliced.longest) } };
-    if (values['pages'] !== undefined) for (const file of writeBvhPage(brief ? 'bvh-brief' : values['busy'] === undefined ? 'bvh' : 'bvh-busy', { benchmark: 'bvh', machine: machine(), quick, figures, details }, values['pages'])) log(`wrote ${file}`);
+    if (values['pages'] !== undefined && !onlyThreads) for (const file of writeBvhPage(brief ? 'bvh-brief' : values['busy'] === undefined ? 'bvh' : 'bvh-busy', { benchmark: 'bvh', machine: machine(), quick, figures, details }, values['pages'])) log(`wrote ${file}`);
     return { details, settings: { runs, meshes: meshes.map(({ name }) => name), leaves: 'at most 4 triangles' }, figures, notes };
   },
 };

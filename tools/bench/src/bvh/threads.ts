@@ -50,16 +50,21 @@ export async function benchWorkers(count: number, warmUp = false): Promise<BvhWo
   return workers;
 }
 
-/** Milliseconds for building `meshes` on so many workers, after a round that does not count. */
-export async function workerTimes(meshes: readonly BenchMesh[], count: number, runs: number): Promise<number[]> {
-  const workers = await benchWorkers(count);
-  const times: number[] = [];
+/**
+ * Milliseconds for building `meshes` on one worker and on two, after a round of each that does not count; taken in turns, so
+ * that a disturbance of the machine meets both alike.
+ */
+export async function workerTimes(meshes: readonly BenchMesh[], runs: number): Promise<readonly [one: number[], two: number[]]> {
+  const pools = [await benchWorkers(1), await benchWorkers(2)] as const;
+  const times: readonly [number[], number[]] = [[], []];
   for (let i = -1; i < runs; i++) {
-    const start = performance.now();
-    await Promise.all(meshes.map((mesh) => workers.buildBlas(mesh)));
-    if (i >= 0) times.push(performance.now() - start);
+    for (const [k, workers] of pools.entries()) {
+      const start = performance.now();
+      await Promise.all(meshes.map((mesh) => workers.buildBlas(mesh)));
+      if (i >= 0) times[k]!.push(performance.now() - start);
+    }
   }
-  workers.destroy();
+  for (const workers of pools) workers.destroy();
   return times;
 }
 
