@@ -23,6 +23,9 @@ export interface ConnectionEvents {
 /** Pauses between attempts to get a device back. */
 const RECONNECT_MS = [100, 300, 1000];
 
+/** Codes of errors that do not pass. */
+const FOR_GOOD: ReadonlySet<unknown> = new Set(['renderer/no-webgpu', 'viewer/no-canvas']);
+
 const destroyed = () => new ViewerError('viewer/destroyed', 'This viewer has been destroyed.');
 
 /** A canvas's device and display, and others in their place when they are lost. */
@@ -43,7 +46,7 @@ export class Connection {
     this.#view = view;
     this.#events = events;
     this.#request = request;
-    this.#ready = this.#connect();
+    this.#ready = this.#first();
     // Whoever waits for it is told; a page without a model is not.
     this.#ready.catch(() => undefined);
   }
@@ -68,7 +71,7 @@ export class Connection {
 
   /** As {@link ready}, but where that failed, it is tried again. */
   again(): Promise<void> {
-    return (this.#ready = this.#ready.catch(() => (this.#destroyed ? Promise.reject(destroyed()) : this.#connect())));
+    return (this.#ready = this.#ready.catch(() => (this.#destroyed ? Promise.reject(destroyed()) : this.#first())));
   }
 
   /** Exposure and tone map, of this display and of those to come. */
@@ -89,6 +92,16 @@ export class Connection {
     this.#display?.destroy();
     this.#device?.destroy();
     this.#display = this.#device = undefined;
+  }
+
+  /** The GPU's process may fall over before there is a device that could be lost; another one comes up then, as after a loss. */
+  async #first(): Promise<void> {
+    try {
+      await this.#connect();
+    } catch (error) {
+      if (this.#destroyed || FOR_GOOD.has((error as { code?: unknown }).code)) throw error;
+      await this.#reconnect();
+    }
   }
 
   async #connect(): Promise<void> {

@@ -245,6 +245,30 @@ test('a lost device comes back with the scene as it was edited, and its variant'
   expect(green[1]).toBeGreaterThan(1.5 * green[2]);
 });
 
+test('a GPU that falls over while the page starts is asked for again; one that is not there is told of', async ({ page }) => {
+  // As when the GPU's process ends: for a while no adapter, then one whose device does not come.
+  await page.addInitScript(() => {
+    const { requestAdapter } = GPU.prototype;
+    const { requestDevice } = GPUAdapter.prototype;
+    const asked = Object.assign(window, { adapters: 0, devices: 0, never: location.search === '?never' });
+    GPU.prototype.requestAdapter = async function (...given) {
+      return ++asked.adapters === 1 || asked.never ? null : requestAdapter.apply(this, given);
+    };
+    GPUAdapter.prototype.requestDevice = async function (...given) {
+      if (++asked.devices === 1) throw new DOMException('A valid external Instance reference no longer exists.', 'OperationError');
+      return requestDevice.apply(this, given);
+    };
+  });
+  await open(page);
+  expect((await shot(page)).cells[3]![0]).toBeGreaterThan(50);
+  expect(await heard(page, 'error')).toEqual([]);
+  expect(await page.evaluate(() => [(window as unknown as { adapters: number }).adapters, (window as unknown as { devices: number }).devices])).toEqual([3, 2]);
+
+  await page.goto(`${served.origin}/?never`);
+  const code = await page.evaluate((base64) => window.make().load(window.file(base64, 'model.glb')).catch((error: { code: string }) => error.code), model.toString('base64'));
+  expect(code).toBe('renderer/no-adapter');
+});
+
 test('toBlob gives the picture as a file; destroy ends everything, twice if need be', async ({ page }) => {
   await open(page, { background: 'transparent', pixelRatio: 1, samples: 4 });
   const shown = await shot(page);
