@@ -7,6 +7,7 @@ const seed = Number(process.env['GLANZ_FUZZ_SEED'] ?? 20261121);
 const first = Number(process.env['GLANZ_FUZZ_FIRST'] ?? 0);
 
 test(`${count} spoiled documents (seed ${seed}, from ${first}): each is a sound scene or a typed error`, { timeout: 120_000 + count * 20 }, async () => {
-  const findings = await fuzz({ count, seed, first, onProgress: (done) => process.stderr.write(`${done} of ${count}\n`) });
+  const { findings, done } = await fuzz({ count, seed, first, onProgress: (now) => process.stderr.write(`${now} of ${count}\n`) });
   expect(findings.map(({ mutant, what }) => `mutant ${mutant}: ${what}`)).toEqual([]);
+  expect(done).toBe(count);
 });

@@ -22,6 +22,9 @@ export interface FuzzFinding {
   readonly what: string;
 }
 
+/** What a worker says: which mutant comes next, a bad end, or that all are done, with how often each end was: `scene`, or an error's code. */
+export type FuzzMessage = { readonly at: number } | { readonly finding: FuzzFinding } | { readonly done: Readonly<Record<string, number>> };
+
 const outside = /^\/|\.\.|^[a-z]+:/i;
 
 const port = parentPort;
@@ -30,12 +33,15 @@ if (port) {
   const draco: unknown = await draco3d.createDecoderModule();
   // Pictures are other people's decoders: here it counts that the loader takes what they give or throw.
   const decodeImage = (bytes: Uint8Array) => (bytes.length % 2 ? Promise.reject(new Error('broken')) : Promise.resolve({ width: 1, height: 1, data: new Uint8Array(4) }));
+  const say = (message: FuzzMessage) => port.postMessage(message);
+  const ends: Record<string, number> = {};
+  const count = (end: string) => void (ends[end] = (ends[end] ?? 0) + 1);
   for (let mutant = first; mutant < end; mutant += step) {
     const random = new Random(seed + mutant * 7919);
     const bytes = mutate(random.pick(parts), random);
-    port.postMessage({ at: mutant });
+    say({ at: mutant });
     const begun = performance.now();
-    const bad = (what: string) => port.postMessage({ finding: { mutant, what } satisfies FuzzFinding });
+    const bad = (what: string) => say({ finding: { mutant, what } });
     const read: string[] = [];
     try {
       const files = new Map<string, Uint8Array<ArrayBuffer>>([['folder/document.gltf', bytes]]);
@@ -48,8 +54,10 @@ if (port) {
         ...(random.below(3) === 0 ? { time: random.below(100) / 50 } : {}),
       });
       validateScene(scene);
+      count('scene');
       for (const { message } of scene.warnings) if (/[\n\r\u2028]/.test(message)) bad('a warning of several lines');
     } catch (error) {
+      count(error instanceof GltfError ? error.code : 'none');
       if (!(error instanceof GltfError)) bad(error instanceof Error ? (error.stack ?? error.message) : String(error));
       else if (/[\n\r\u2028]/.test(error.message)) bad('a message of several lines');
     }
@@ -58,5 +66,5 @@ if (port) {
     const took = performance.now() - begun;
     if (took > 5000) bad(`takes ${Math.round(took)} ms`);
   }
-  port.postMessage({ done: true });
+  say({ done: ends });
 }
