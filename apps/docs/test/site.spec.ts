@@ -72,23 +72,35 @@ test('all pages load without a complaint, and every internal link and anchor lea
   expect(complaints).toEqual([]);
 });
 
+const WIDTHS = [360, 768, 1280] as const, SCHEMES = ['light', 'dark'] as const;
+const LOOKS = WIDTHS.flatMap((width) => SCHEMES.map((scheme) => [width, scheme] as const));
+/** One page of each kind: home, guide, package, reference of an entry and of a package, parameters, results, table, live examples, list. */
+const KINDS = ['/', '/guide/getting-started', '/packages/viewer', '/api/', '/api/viewer', '/api/viewer/orbit', '/api/openpbr/presets', '/openpbr/coat', '/openpbr/parameters', '/openpbr/presets', '/results/', '/results/assets', '/guide/viewers', '/how/hierarchies', '/live'];
+
+/** In which widths and themes a page is looked at: one of each kind in all six, others that are written by hand in two, the generated reference in one each, by turns. */
+function looksOf(path: string, index: number): readonly (readonly [number, 'light' | 'dark'])[] {
+  // GLANZ_AXE=all looks at all pages in all ways, which takes a quarter of an hour.
+  if (process.env['GLANZ_AXE'] === 'all' || KINDS.includes(path)) return LOOKS;
+  if (path.startsWith('/api/')) return [LOOKS[index % LOOKS.length]!];
+  return index % 2 === 0 ? [[1280, 'light'], [360, 'dark']] : [[768, 'dark'], [360, 'light']];
+}
+
 test('axe finds nothing on any page, light and dark, at three widths', async ({ page }) => {
-  // Dozens of pages, three times each.
-  test.setTimeout(900_000);
+  // Dozens of pages, several times each.
+  test.setTimeout(process.env['GLANZ_AXE'] === 'all' ? 7_200_000 : 900_000);
   await page.addInitScript(() => Object.defineProperty(navigator, 'gpu', { value: undefined, configurable: true }));
   // Colours that fade from one theme to the other are looked at when they have.
   await page.addInitScript(() => document.addEventListener('DOMContentLoaded', () => document.head.append(Object.assign(document.createElement('style'), { textContent: '* { transition: none !important }' }))));
   const faults = new Map<string, string[]>();
   const tell = (fault: string, where: string) => void faults.set(fault, [...(faults.get(fault) ?? []), where]);
   const pages = sitePages();
-  // The reference is made by one template; these are its longest pages.
-  const looked = [...pages.filter((path) => !path.startsWith('/api/')), ...pages.filter((path) => /^\/api\/(viewer|renderer|element)\/$/.test(path))];
-  expect(looked.length).toBeGreaterThan(50);
-  for (const path of looked) {
-    await page.emulateMedia({ colorScheme: 'light' });
-    await page.setViewportSize({ width: 1280, height: 800 });
+  expect(KINDS.filter((path) => !pages.includes(path)), 'kinds without a page').toEqual([]);
+  for (const [index, path] of pages.entries()) {
+    const looks = looksOf(path, index);
+    await page.emulateMedia({ colorScheme: looks[0]![1] });
+    await page.setViewportSize({ width: looks[0]![0], height: 800 });
     await page.goto(`${origin}${path}`, { waitUntil: 'load' });
-    for (const [width, scheme] of [[1280, 'light'], [768, 'dark'], [360, 'light']] as const) {
+    for (const [width, scheme] of looks) {
       await page.emulateMedia({ colorScheme: scheme });
       await page.setViewportSize({ width, height: 800 });
       await expect(page.locator('html.dark')).toHaveCount(scheme === 'dark' ? 1 : 0);
