@@ -123,7 +123,10 @@ test('the page keeps its picture when its size changes, saves it, and has no acc
     await expect.poll(async () => (await pictureOf(page).evaluate((canvas: HTMLCanvasElement) => Math.abs(canvas.width / canvas.height - canvas.clientWidth / canvas.clientHeight)))).toBeLessThan(0.05);
     await done(page);
     expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(width);
-    expect(await checkAccessibility(page)).toEqual([]);
+    for (const scheme of ['light', 'dark'] as const) {
+      await page.emulateMedia({ colorScheme: scheme });
+      expect(await checkAccessibility(page), `${scheme} at ${width}`).toEqual([]);
+    }
   }
   const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Download picture' }).click()]);
   expect(download.suggestedFilename()).toBe('gb22-fg-p-rc-g-pa-c.png');

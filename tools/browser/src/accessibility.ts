@@ -14,6 +14,8 @@ export async function checkAccessibility(page: Page): Promise<string[]> {
   // A page's policy may keep strangers' scripts out; the debugger's are none.
   if (!(await page.evaluate(() => 'axe' in globalThis))) await page.evaluate(script);
   return page.evaluate(async () => {
+    // What fades is looked at when it has: a theme that has just been changed, a menu that comes.
+    for (const animation of document.getAnimations()) if (animation.effect?.getComputedTiming().endTime !== Infinity) animation.finish();
     const { violations } = await (globalThis as unknown as { axe: Axe }).axe.run(document, { resultTypes: ['violations'] });
     return violations.flatMap(({ id, nodes }) => nodes.map(({ target, failureSummary }) => `${id}: ${target.join(' ')}: ${failureSummary.split('\n')[1]?.trim() ?? ''}`));
   });

@@ -57,6 +57,8 @@ export class Configurator {
     const aspect = Math.max(1, page.#stage.clientWidth) / Math.max(1, page.#stage.clientHeight);
     await page.#viewer.load(scene, { camera: frameCamera(scene, { aspect, direction: PRODUCT, yfov: (25 * Math.PI) / 180, margin: 0.04 }) });
     await page.#apply();
+    // Until there is something to see, the page says what it is doing.
+    await page.#frame();
     page.#stage.dataset['ready'] = '';
   }
 
