@@ -1,18 +1,22 @@
 import { wgslModule } from '@glanz/wgsl/module';
 
 /**
- * `fn bvh_offset_origin(position: vec3f, normal: vec3f, magnitude: f32) -> vec3f`: where a secondary ray starts so that it
+ * `const BVH_OFFSET = 3.8146973e-6;
+
+fn bvh_offset_origin(position: vec3f, normal: vec3f, magnitude: f32) -> vec3f`: where a secondary ray starts so that it
  * does not meet the surface it leaves.
  *
  * `normal` is the geometric normal, unit, on the side that the ray goes to. `magnitude` is the largest coordinate that
  * went into `position`, before anything cancels out: of the triangle's vertices in the world, with the translation of the
- * instance. Rounding errors are proportional to it. The step is 2^-18 of it: 4 µm for a model of one metre.
+ * instance. Rounding errors are proportional to it. The step is `BVH_OFFSET`, 2^-18, of it: 4 µm for a model of one metre.
  */
 export const bvhOffset = wgslModule(
   'bvh/offset',
   /* wgsl */ `
+const BVH_OFFSET = 3.8146973e-6;
+
 fn bvh_offset_origin(position: vec3f, normal: vec3f, magnitude: f32) -> vec3f {
-  return position + normal * (magnitude * 3.8146973e-6);
+  return position + normal * (magnitude * BVH_OFFSET);
 }
 `,
 );

@@ -1,3 +1,4 @@
+import { bvhOffset } from '@glanz/bvh/wgsl';
 import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
 import type { TexturedParameterInfo } from '../scene/materials';
 import { random } from './random.wgsl';
@@ -237,8 +238,7 @@ fn surface_load(hit: vec4u, origin: vec3f, direction: vec3f, cone_width: f32) ->
   let x = instances[hit.w].to_world_0;
   let y = instances[hit.w].to_world_1;
   let z = instances[hit.w].to_world_2;
-  let p = a + u * edge_1 + v * edge_2;
-  s.position = vec3f(dot(x.xyz, p) + x.w, dot(y.xyz, p) + y.w, dot(z.xyz, p) + z.w);
+  var p = a + u * edge_1 + v * edge_2;
   let reach = vec4f(max(abs(a), max(abs(b), abs(c))), 1.0);
   s.magnitude = max(dot(abs(x), reach), max(dot(abs(y), reach), dot(abs(z), reach)));
   let columns = transpose(mat3x3f(x.xyz, y.xyz, z.xyz));
@@ -246,6 +246,19 @@ fn surface_load(hit: vec4u, origin: vec3f, direction: vec3f, cone_width: f32) ->
   let area = surface_normal_to_world(columns, orientation, cross(edge_1, edge_2));
   s.double_area = length(area);
   s.geometric = area / max(s.double_area, 1e-37);
+  // Within the length of a ray's first step from an edge, rounding and that step may lead behind the wall that meets this one
+  // there, and light would leak through the corner. Such points are moved inwards as far; not more than a few of these
+  // lengths, though, as needles would want.
+  let sides = mat3x3f(columns * (edge_2 - edge_1), columns * edge_2, columns * edge_1);
+  let lengths = sqrt(vec3f(dot(sides[0], sides[0]), dot(sides[1], sides[1]), dot(sides[2], sides[2])));
+  let step = s.magnitude * BVH_OFFSET;
+  if (any(weights * s.double_area < step * lengths)) {
+    let kept = max(weights, min(step * lengths / max(s.double_area, 1e-37), vec3f(1.0)));
+    let inside = kept / (kept.x + kept.y + kept.z);
+    let pulled = a + inside.y * edge_1 + inside.z * edge_2;
+    if (distance(columns * pulled, columns * p) <= 4.0 * step) { p = pulled; }
+  }
+  s.position = vec3f(dot(x.xyz, p) + x.w, dot(y.xyz, p) + y.w, dot(z.xyz, p) + z.w);
   s.normal = s.geometric;
   s.id = instances[hit.w].id;
   s.material = instances[hit.w].material;
@@ -350,6 +363,6 @@ fn surface_load(hit: vec4u, origin: vec3f, direction: vec3f, cone_width: f32) ->
   return s;
 }
 `,
-    [material, instanceStruct.module, tangent, gated('TEXTURES', attributes)],
+    [material, instanceStruct.module, tangent, bvhOffset, gated('TEXTURES', attributes)],
   );
 }
