@@ -1,6 +1,6 @@
 // npm run bench:pack — one bundled file per benchmark under .gpu-bench/, for machines that have nothing but a GPU.
 // `--browser` packs Chromium and its pages as well (browser/pack.mjs).
-// Each file carries its code and makes its models where it runs; equal-time's scenes and references lie beside it. With `tools/gpu/pack.sh` beside it:
+// Each file carries its code and makes its models where it runs; scenes and references of equal-time and groundtruth lie beside it. With `tools/gpu/pack.sh` beside it:
 //   . .gpu/setup.sh && $GPU_NODE .gpu-bench/paper-gpu.mjs --json out.json
 import { execFileSync } from 'node:child_process';
 import { mkdirSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
@@ -24,7 +24,7 @@ for (const name of benchmarkNames()) {
 execFileSync(process.execPath, [join(root, 'packages/gltf/test/fuzz/pack.mjs'), join(out, 'fuzz-gltf.mjs')], { stdio: ['ignore', 'ignore', 'inherit'] });
 total += statSync(join(out, 'fuzz-gltf.mjs')).size;
 process.stdout.write(`.gpu-bench/fuzz-gltf.mjs ${(statSync(join(out, 'fuzz-gltf.mjs')).size / 1024).toFixed(0)} KiB\n`);
-// What equal-time reads: scenes, references and decoded textures.
+// What equal-time and groundtruth read: scenes, references and decoded textures.
 const packer = join(root, 'tools/bench/.cache/pack-data.mjs');
 await bundle("export { packData } from './equal-time/pack-data';", packer);
 const { packData } = await import(pathToFileURL(packer).href);

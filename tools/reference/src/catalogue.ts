@@ -112,8 +112,14 @@ export class GroundTruth {
   readonly description: SceneDescription;
   readonly tolerance: Tolerance;
 
-  /** @throws {ReferenceError} `reference/absent` without the catalogue, `reference/unknown-scene` */
-  constructor(name: string) {
+  readonly #loading: GltfOptions;
+
+  /**
+   * @param loading How its pictures are decoded, where it is read.
+   * @throws {ReferenceError} `reference/absent` without the catalogue, `reference/unknown-scene`
+   */
+  constructor(name: string, loading: GltfOptions = {}) {
+    this.#loading = loading;
     const scenes = catalogueFolder();
     if (!scenes) throw new ReferenceError('reference/absent', 'The ground-truth catalogue is not here: set GLANZ_GROUNDTRUTH to its folder "scenes".');
     this.folder = join(scenes, name);
@@ -137,7 +143,7 @@ export class GroundTruth {
   }
 
   /** The scene with the reference's camera first, and its surroundings. */
-  async scene(options: GltfOptions = {}): Promise<Scene> {
+  async scene(options: GltfOptions = this.#loading): Promise<Scene> {
     const scene = await loadGltfFile(join(this.folder, 'scene.glb'), options);
     scene.materials = scene.materials.map(applyExtras);
     scene.cameras = [lookAt(this.description.camera)];

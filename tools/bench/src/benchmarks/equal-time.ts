@@ -10,7 +10,7 @@ import { measure, type Measurement, type MeasurementPlan } from '../equal-time/m
 import { makeReference, type CrossCheck, type ReferencePlan } from '../equal-time/reference';
 import { equalTimeMarkdown, writePages, type EqualTimeReport } from '../equal-time/report';
 import { CATALOGUE_SIZE, SCENES } from '../equal-time/scenes';
-import { overall, ratios, type EqualTimeDetails, type Quantity, type SceneInfo } from '../equal-time/summary';
+import { joinDetails, overall, ratios, type EqualTimeDetails, type Quantity, type SceneInfo } from '../equal-time/summary';
 import { machine } from '../machine';
 
 /** Set in the processes that this benchmark starts: what they are to do. */
@@ -27,7 +27,7 @@ const OPTIONS = {
   size: { type: 'string', help: `pixels across and down, a multiple of ${CATALOGUE_SIZE} (512)` },
   'reference-samples': { type: 'string', help: 'samples a pixel of the product scenes’ references (16384)' },
   deadline: { type: 'string', help: 'seconds after which nothing new is begun' },
-  from: { type: 'string', help: 'measures nothing: takes the data of this report' },
+  from: { type: 'string', help: 'measures nothing: takes the data of these reports, separated by commas' },
   pages: { type: 'string', help: 'folder to write the table and the plots into' },
 } as const;
 
@@ -148,6 +148,15 @@ async function measureAll({ log, quick, gpu, values }: BenchmarkContext): Promis
   };
 }
 
+/** Reports of some scenes each, as one report. */
+function joined(files: readonly string[]): EqualTimeReport & BenchmarkResult {
+  const reports = files.map((file) => JSON.parse(readFileSync(file, 'utf8')) as EqualTimeReport & BenchmarkResult);
+  const [first] = reports as [(typeof reports)[number], ...typeof reports];
+  const details = joinDetails(reports.map((report) => report.details));
+  const quick = reports.some((report) => report.quick);
+  return { ...first, quick, details, settings: { ...first.settings, scenes: details.scenes.map(({ name }) => name) }, figures: figuresOf(details, !quick && first.gpu?.software === false), notes: reports.flatMap(({ notes = [] }) => notes) };
+}
+
 /** Error at equal time, ours beside the strongest open competitor's, each in a process of its own on the same files. */
 export const benchmark: Benchmark = {
   description: 'error after 0.1, 0.3, 1 and 3 s of GPU time against three-gpu-pathtracer',
@@ -157,7 +166,7 @@ export const benchmark: Benchmark = {
     if (child !== undefined) return runJob(JSON.parse(child) as Job);
     const { values } = context;
     const from = values['from'];
-    const earlier = from === undefined ? undefined : (JSON.parse(readFileSync(from, 'utf8')) as EqualTimeReport & BenchmarkResult);
+    const earlier = from === undefined ? undefined : joined(from.split(','));
     const result = earlier ?? { ...(await measureAll(context)), machine: machine(), quick: context.quick };
     if (values['pages'] !== undefined) for (const file of writePages(result as EqualTimeReport, values['pages'])) context.log(`wrote ${file}`);
     else context.log(equalTimeMarkdown(result as EqualTimeReport));

@@ -3,6 +3,7 @@ import { createGpu } from '@glanz/renderer/node';
 import { requestDevice } from '@glanz/renderer';
 import { GROUND_TRUTH_CASES, GroundTruth, catalogueFolder, comparePictures, convergenceSlope, failures, measureConvergence, renderGroundTruth } from '@glanz/reference';
 import { estimated, type Benchmark, type Figure } from '../benchmark';
+import { decodePixels, packedFolder, usePackedCatalogue } from '../equal-time/load';
 import { BenchError } from '../error';
 
 /** Targets for relMSE × samples, of a renderer with Sobol sampling and MIS compensation. */
@@ -17,6 +18,7 @@ export const benchmark: Benchmark = {
     slopes: { type: 'string', help: 'most samples per pixel for the slopes of convergence, 16 at least; without it they are not measured' },
   },
   async run({ log, quick, gpu, values }) {
+    usePackedCatalogue();
     if (!catalogueFolder()) throw new BenchError('bench/missing-data', 'groundtruth needs the ground-truth catalogue: set GLANZ_GROUNDTRUTH to its folder "scenes".');
     const { gpu: api, adapterName, software } = await createGpu(gpu === undefined ? {} : { gpu });
     const device = await requestDevice({ gpu: api });
@@ -34,7 +36,7 @@ export const benchmark: Benchmark = {
     let agreeing = 0;
     for (const { scene, variant } of cases) {
       const name = variant === 'full' ? scene : `${scene}.${variant}`;
-      const truth = new GroundTruth(scene);
+      const truth = new GroundTruth(scene, packedFolder() ? { decodeImage: (bytes) => decodePixels(bytes) } : {});
       const { width, height } = truth.description.film;
       const sum = new Float32Array(width * height * 3);
       const perSample: number[] = [];

@@ -26,6 +26,12 @@ export function packedFolder(): string | undefined {
   return existsSync(folder) ? folder : undefined;
 }
 
+/** Makes the packed ground-truth catalogue the one that is read, where there is one and no other was asked for. */
+export function usePackedCatalogue(): void {
+  const folder = packedFolder();
+  if (folder) process.env['GLANZ_GROUNDTRUTH'] ??= join(folder, 'groundtruth');
+}
+
 /** A file of the sample assets: from the packed data, from the folder that GLANZ_ASSETS names, or from `shared/assets` beside the checkout. */
 export function assetFile(path: string): string | undefined {
   const packed = packedFolder();

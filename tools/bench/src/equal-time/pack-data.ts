@@ -1,11 +1,11 @@
 import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
-import { catalogueFolder } from '@glanz/reference';
+import { catalogueFolder, GROUND_TRUTH_CASES } from '@glanz/reference';
 import { assetFile, decodePixels, glbImages, packPixels, pixelsName } from './load';
-import { HELMET_FILES, SCENES } from './scenes';
+import { HELMET_FILES } from './scenes';
 
-/** Files of a catalogue scene that a measurement reads. */
-const WANTED = /^(scene\.(json|glb)|env\.hdr|ref(\.se)?\.f32|ref\.stats\.json)$/;
+/** Files of a catalogue scene that a measurement reads: of the references, not those of other microfacet models. */
+const WANTED = /^(scene\.(json|glb)|env\.hdr|ref(\.(?!sep\b)\w+)*\.(f32|stats\.json))$/;
 
 function copy(from: string, to: string): void {
   mkdirSync(dirname(to), { recursive: true });
@@ -20,8 +20,7 @@ export async function packData(folder: string): Promise<string[]> {
   const missing: string[] = [];
   const models: string[] = [];
   const catalogue = catalogueFolder();
-  for (const { name, truth } of SCENES) {
-    if (truth !== 'catalogue') continue;
+  for (const name of new Set(GROUND_TRUTH_CASES.map(({ scene }) => scene))) {
     if (!catalogue || !existsSync(join(catalogue, name))) {
       missing.push(name);
       continue;

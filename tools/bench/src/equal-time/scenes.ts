@@ -7,7 +7,7 @@ import { GROUND_TRUTH_CASES, GroundTruth, catalogueFolder } from '@glanz/referen
 import { frameCamera, type Environment, type PerspectiveCamera } from '@glanz/scene';
 import { studioEnvironment } from '@glanz/scene/studio';
 import { BenchError } from '../error';
-import { assetFile, decodePixels, loadGltfBytes, packedFolder } from './load';
+import { assetFile, decodePixels, loadGltfBytes, usePackedCatalogue } from './load';
 import type { Task } from './contestant';
 import type { Reference } from './pictures';
 
@@ -32,8 +32,7 @@ function groundTruth(name: string, title: string): EqualTimeScene {
     title,
     truth: 'catalogue',
     async load(size) {
-      const packed = packedFolder();
-      if (packed) process.env['GLANZ_GROUNDTRUTH'] ??= join(packed, 'groundtruth');
+      usePackedCatalogue();
       if (!catalogueFolder()) throw new BenchError('bench/missing-data', `${name} needs the ground-truth catalogue: set GLANZ_GROUNDTRUTH to its folder "scenes".`);
       const truth = new GroundTruth(name);
       const scene = await truth.scene({ decodeImage: (bytes) => decodePixels(bytes) });

@@ -1,3 +1,4 @@
+import { BenchError } from '../error';
 import type { ContestantName } from './contestants';
 import type { Measurement, Point } from './measure';
 import type { CrossCheck } from './reference';
@@ -17,6 +18,26 @@ export interface EqualTimeDetails {
   readonly scenes: readonly SceneInfo[];
   readonly measurements: readonly Measurement[];
   readonly crossChecks: readonly CrossCheck[];
+}
+
+/**
+ * What was measured in pieces, as one. Of a scene in several pieces the last counts.
+ *
+ * @throws {BenchError} `bench/option` where the pieces were measured in different ways.
+ */
+export function joinDetails(pieces: readonly EqualTimeDetails[]): EqualTimeDetails {
+  const way = ({ budgetsMs, size, runs }: EqualTimeDetails) => JSON.stringify({ budgetsMs, size, runs });
+  const [first] = pieces as readonly [EqualTimeDetails, ...EqualTimeDetails[]];
+  const other = pieces.find((piece) => way(piece) !== way(first));
+  if (other) throw new BenchError('bench/option', `--from: reports of different measurements cannot be one: ${way(first)} and ${way(other)}.`);
+  const names = [...new Set(pieces.flatMap(({ scenes }) => scenes.map(({ name }) => name)))];
+  const last = names.map((name) => pieces.findLast(({ scenes }) => scenes.some((scene) => scene.name === name)) as EqualTimeDetails);
+  return {
+    ...first,
+    scenes: names.flatMap((name, i) => last[i]!.scenes.filter((scene) => scene.name === name)),
+    measurements: names.flatMap((name, i) => last[i]!.measurements.filter(({ scene }) => scene === name)),
+    crossChecks: names.flatMap((name, i) => last[i]!.crossChecks.filter(({ scene }) => scene === name)),
+  };
 }
 
 /** What two contestants can be compared by. */

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { fairQuantity, geometricMean, overall, ratios, valueAfter, valueAt } from '../../src/equal-time/summary';
+import { fairQuantity, geometricMean, joinDetails, overall, ratios, valueAfter, valueAt } from '../../src/equal-time/summary';
 import { DETAILS, measurement } from './details';
 
 const PEER = 'three-gpu-pathtracer';
@@ -40,5 +40,26 @@ describe('values', () => {
     const m = measurement('box', 'glanz', 1e-4);
     const sunk = { ...m, points: m.points.map((run) => run.map((point) => ({ ...point, relMse: -1e-6, relMseWithReference: 1e-4 }))) };
     expect(valueAt(sunk, 'relMSE', 0)).toBeCloseTo(0.05 * 1.01e-4, 10);
+  });
+});
+
+describe('pieces', () => {
+  const piece = (name: string) => ({
+    ...DETAILS,
+    scenes: DETAILS.scenes.filter((scene) => scene.name === name),
+    measurements: DETAILS.measurements.filter(({ scene }) => scene === name),
+    crossChecks: DETAILS.crossChecks.filter(({ scene }) => scene === name),
+  });
+
+  it('are the whole when joined, and a scene that was measured again counts as it was last', () => {
+    expect(joinDetails([piece('box'), piece('product')])).toEqual(DETAILS);
+    const again = { ...piece('box'), measurements: [measurement('box', 'glanz', 5e-5)] };
+    const joined = joinDetails([DETAILS, again]);
+    expect(joined.scenes).toEqual(DETAILS.scenes);
+    expect(joined.measurements).toEqual([...again.measurements, ...piece('product').measurements]);
+  });
+
+  it('of different sizes are refused', () => {
+    expect(() => joinDetails([piece('box'), { ...piece('product'), size: 256 }])).toThrow(/different measurements/);
   });
 });
