@@ -1,9 +1,11 @@
 import type { Camera, Scene } from '@glanz/scene';
 import { TileGrid } from './adaptive';
 import { DeviceError, RenderError } from './errors';
-import { FEATURE_SAMPLES, forBands, renderFeatures } from './film/feature-pass';
+import { FeatureLayers } from './film/feature-layers';
+import { forBands, renderFeatures } from './film/feature-pass';
 import { Film } from './film/film';
-import { groupLayer, LAYER_SOURCES, unpackLayer, varianceLayer, type FeatureLayer, type GroupWeights } from './film/layers';
+import { GroupSettings } from './film/group-settings';
+import { groupLayer, varianceLayer, type GroupWeights } from './film/layers';
 import { packFrame } from './frame';
 import type { GpuMemory } from './gpu/buffers';
 import type { GpuScene } from './gpu/gpu-scene';
@@ -50,9 +52,8 @@ export class PathTracer extends TracerEdits {
   #rendering = false;
   #destroyed = false;
   #failure: DeviceError | undefined;
-  readonly #features = new Map<KernelName, { readonly samples: number; readonly done: Promise<void> }>();
-  /** By name; groups that were never set are not in it. */
-  readonly #groups = new Map<string, LightGroup>();
+  readonly #features: FeatureLayers;
+  readonly #groups: GroupSettings;
   #firstWeights: GroupWeights = [];
   readonly #times: Prepared['times'];
   #badSamples = 0;
@@ -71,6 +72,8 @@ export class PathTracer extends TracerEdits {
     this.#camera = this.#shownCamera = prepared.camera;
     this.#options = prepared.options;
     this.#times = prepared.times;
+    this.#groups = new GroupSettings(() => this.#gpuScene.groups.names);
+    this.#features = new FeatureLayers({ render: (kernel, samples) => this.#renderFeatures(kernel, samples), copy: (name) => readBuffer(this.#device, this.#film.buffer(name) as GPUBuffer, this.#film.pixels * 16) });
     void this.#device.lost.then((info) => {
       if (!this.#destroyed) this.#failure ??= new DeviceError('renderer/device-lost', `The GPU device was lost (${info.reason}): ${info.message || 'no details'}. The scene is safe: request a new device and create the tracer again.`);
     });
@@ -180,9 +183,8 @@ export class PathTracer extends TracerEdits {
   async read(layer: FilmLayer): Promise<Float32Array<ArrayBuffer> | Uint32Array<ArrayBuffer>>;
   async read(layer: FilmLayer): Promise<Float32Array<ArrayBuffer> | Uint32Array<ArrayBuffer>> {
     this.#check();
-    const bytes = this.#film.pixels * 16;
     if (layer === 'beauty') {
-      const pixels = new Float32Array(await readBuffer(this.#device, this.#film.beauty, bytes));
+      const pixels = new Float32Array(await readBuffer(this.#device, this.#film.beauty, this.#film.pixels * 16));
       const counters = new Uint32Array(await readBuffer(this.#device, this.#integrator.queues, 32));
       this.#badSamples = counters[3] as number;
       return pixels;
@@ -193,7 +195,7 @@ export class PathTracer extends TracerEdits {
       const weights = this.#integrator.pathsPerSample > 1 ? [...this.#firstWeights, ...this.#firstWeights] : this.#firstWeights;
       return varianceLayer(total as Float32Array, moment as Float32Array, weights);
     }
-    return this.#readFeature(layer, bytes);
+    return this.#features.read(layer, this.samples);
   }
 
   /**
@@ -201,7 +203,7 @@ export class PathTracer extends TracerEdits {
    * the option `lightGroups` makes some.
    */
   get lightGroups(): readonly LightGroup[] {
-    return this.#gpuScene.groups.names.map((name) => this.#groups.get(name) ?? { name, intensity: 1, color: [1, 1, 1] });
+    return this.#groups.list;
   }
 
   /**
@@ -214,13 +216,8 @@ export class PathTracer extends TracerEdits {
   async setLightGroup(name: string, settings: Partial<Pick<LightGroup, 'intensity' | 'color'>>): Promise<void> {
     this.#check();
     if (this.#options.lightGroups === 'off') throw new RenderError('renderer/light-groups', "This tracer keeps no light groups: it was made with lightGroups 'off'.");
-    const group = this.#lightGroup(name);
-    const next = { ...group, ...settings, name };
-    if (![next.intensity, ...next.color].every((value) => value >= 0 && value < Infinity)) {
-      throw new RenderError('renderer/light-groups', `Light group "${name}": intensity and colour must be finite and not negative.`);
-    }
-    this.#groups.set(name, next);
-    this.#integrator.writeGroups(this.#groupWeights(), this.#firstWeights);
+    this.#groups.set(name, settings);
+    this.#integrator.writeGroups(this.#groups.weights, this.#firstWeights);
     const kernel = await this.#cache.kernel('relight', this.#integrator.kernels.features);
     if (!this.#destroyed) forBands(this.#film.pixels, (batch) => this.#integrator.submitPixels('relight', kernel, batch));
   }
@@ -234,8 +231,8 @@ export class PathTracer extends TracerEdits {
   async readLightGroup(name: string): Promise<Float32Array<ArrayBuffer>> {
     this.#check();
     if (this.#integrator.pathsPerSample > 1) throw new RenderError('renderer/light-groups', 'With catchers the picture is no sum of its light groups: they can be set, but not read one by one.');
-    const plane = this.#gpuScene.groups.names.indexOf(this.#lightGroup(name).name);
-    const weight = this.#groupWeights()[plane] as GroupWeights[number];
+    const plane = this.#groups.plane(name);
+    const weight = this.#groups.weights[plane] as GroupWeights[number];
     const [total, block, moment] = await this.#readFilm('film_total', 'film_block', 'film_moment');
     return groupLayer(total as Float32Array, block as Float32Array, moment as Float32Array, plane, weight);
   }
@@ -262,7 +259,7 @@ export class PathTracer extends TracerEdits {
     this.#frameDirty = true;
     const { flags } = this.#integrator.kernels.features;
     if (Object.entries(viewFlags(this.#camera, this.#options.filter)).every(([name, value]) => flags[name] === value)) this.#shownCamera = this.#camera;
-    this.#firstWeights = this.#groupWeights();
+    this.#firstWeights = this.#groups.weights;
     this.#integrator.writeGroups(this.#firstWeights, this.#firstWeights);
     // Keeps what was learned about the GPU's speed.
     if (this.#sampling) this.#sampling = this.#newSampling(this.#sampling.paths);
@@ -395,19 +392,7 @@ export class PathTracer extends TracerEdits {
     this.#frameDirty = false;
   }
 
-  async #readFeature(layer: FeatureLayer, bytes: number): Promise<Float32Array<ArrayBuffer> | Uint32Array<ArrayBuffer>> {
-    const { kernel, buffers } = LAYER_SOURCES[layer];
-    const target = Math.min(FEATURE_SAMPLES, Math.max(1, this.samples));
-    // Layers read at the same time share one pass.
-    let pass = this.#features.get(kernel);
-    if (!pass || pass.samples < target) this.#features.set(kernel, (pass = { samples: target, done: this.#renderFeatures(kernel, target, pass?.done) }));
-    await pass.done;
-    const sources = await Promise.all(buffers.map((name) => readBuffer(this.#device, this.#film.buffer(name) as GPUBuffer, bytes)));
-    return unpackLayer(layer, sources, pass.samples);
-  }
-
-  async #renderFeatures(name: KernelName, samples: number, after: Promise<void> | undefined): Promise<void> {
-    await after;
+  async #renderFeatures(name: KernelName, samples: number): Promise<void> {
     const kernel = await this.#cache.kernel(name, this.#integrator.kernels.features);
     this.#check();
     this.#writeFrame();
@@ -428,16 +413,5 @@ export class PathTracer extends TracerEdits {
     this.#film = new Film(this.#memory, width, height, this.#integrator.kernels.features.planes);
     this.#sampling = undefined;
     this.#integrator.rebind(this.#film);
-  }
-
-  #lightGroup(name: string): LightGroup {
-    const groups = this.lightGroups;
-    const group = groups.find((known) => known.name === name);
-    if (!group) throw new RenderError('renderer/light-groups', `There is no light group "${name}"; there are: ${groups.map((known) => known.name).join(', ')}.`);
-    return group;
-  }
-
-  #groupWeights(): GroupWeights {
-    return this.lightGroups.map(({ intensity, color }) => [intensity * color[0], intensity * color[1], intensity * color[2]]);
   }
 }

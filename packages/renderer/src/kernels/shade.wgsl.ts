@@ -1,9 +1,11 @@
 import { bvhOffset } from '@glanz/bvh/wgsl';
 import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
-import { BACKGROUND_HIDDEN, BACKGROUND_TRANSPARENT, GROUP_SHIFT, HIT_SCATTERED, HIT_WALKING, INSTANCE_CATCHER, MATERIAL_DISPERSIVE, MATERIAL_INTERIOR, MATERIAL_STRAIGHT } from './layout';
+import { BACKGROUND_HIDDEN, GROUP_SHIFT, HIT_SCATTERED, HIT_WALKING, INSTANCE_CATCHER, MATERIAL_DISPERSIVE, MATERIAL_INTERIOR, MATERIAL_STRAIGHT } from './layout';
 import { dispersion } from './dispersion.wgsl';
 import { media } from './media.wgsl';
 import { random } from './random.wgsl';
+import { shadeCommon } from './shade-common.wgsl';
+import { shadeScattering } from './shade-scattering.wgsl';
 import { shadingNormal } from './shading-normal.wgsl';
 import { shortcuts } from './shortcuts.wgsl';
 import { pathCone, pathSample } from './path.wgsl';
@@ -13,6 +15,7 @@ import { pathCone, pathSample } from './path.wgsl';
  * next direction. Light samples and BSDF samples are combined by the balance heuristic (Veach 1997, section 9.2).
  */
 export function shadeModule(path: WgslModule, surface: WgslModule, lights: WgslModule, openpbr: WgslModule, energy: WgslModule): WgslModule {
+  const common = shadeCommon(path);
   return wgslModule(
     'renderer/shade',
     /* wgsl */ `
@@ -20,23 +23,6 @@ var<workgroup> shade_next: atomic<u32>;
 var<workgroup> shade_shadow: atomic<u32>;
 var<workgroup> shade_next_base: u32;
 var<workgroup> shade_shadow_base: u32;
-
-struct ShadeResult {
-  goes_on: bool,
-  asks: bool,
-  shadow: Shadow,
-}
-
-// Whether a path that leaves the scene shows what is behind a transparent picture: one that came here straight from the
-// camera, or through glass and nothing else. Such paths still have the alpha of 2 that they began with.
-fn shade_sees_background(index: u32, depth: u32) -> bool {
-  if ((frame.background & ${BACKGROUND_TRANSPARENT}u) == 0u) { return false; }
-  //#if OPENPBR_TRANSMISSION
-  return path_alpha(index) > 1.0;
-  //#else
-  return depth == 0u;
-  //#endif
-}
 
 // Radiance from outside the scene.
 fn shade_miss(index: u32, depth: u32) {
@@ -63,76 +49,6 @@ fn shade_miss(index: u32, depth: u32) {
   //#endif
   path_deposit(index, frame.environment_group, arriving);
 }
-
-fn shade_random(index: u32, iteration: u32) {
-  random_begin(path_pixel(index), path_sample(index), iteration + 1u, frame.seed);
-}
-
-// Russian roulette from the third scattering on, for paths that carry less than a sixteenth of what they began with:
-// earlier, the noise it adds outweighs the rays it saves. Zero: the path ends.
-fn shade_roulette(carried: vec3f, depth: u32) -> vec3f {
-  let brightest = max(carried.x, max(carried.y, carried.z));
-  if (!(brightest > 0.0)) { return vec3f(0.0); }
-  if (depth < 2u || brightest >= 0.0625) { return carried; }
-  let survival = 16.0 * brightest;
-  return select(vec3f(0.0), carried / survival, random_next() < survival);
-}
-
-//#if SCATTERING
-// A scattering event in an interior without an optical surface.
-fn shade_scattering(index: u32, iteration: u32, depth: u32) -> ShadeResult {
-  var result: ShadeResult;
-  // Light that was scattered does not show what is behind.
-  path_set_alpha(index, min(path_alpha(index), 1.0));
-  if (depth + 1u >= frame.max_depth) { return result; }
-  //#if BOUNCE_LIMITS
-  if ((path_bounces(index) & SHORTCUT_LAST) != 0u) { return result; }
-  //#endif
-  let origin = path_origin(index);
-  let wo = -path_direction(index);
-  let throughput = path_throughput(index);
-  let stack = path_media(index);
-  let anisotropy = media_of(media_top(stack)).anisotropy;
-  shade_random(index, iteration);
-  //#if NEXT_EVENT
-  let light = light_sample(random_2(), origin, vec3f(0.0));
-  if (light.pdf > 0.0) {
-    let phase = openpbr_phase_eval(anisotropy, wo, light.direction);
-    let weight = select(1.0, light.pdf / (light.pdf + phase), light.extended);
-    result.asks = true;
-    result.shadow.origin = origin;
-    result.shadow.distance = light.distance;
-    result.shadow.direction = light.direction;
-    result.shadow.path = index;
-    result.shadow.group = light.group;
-    result.shadow.contribution = throughput * light.radiance * (phase * weight / light.pdf);
-    //#if CLAMP_INDIRECT
-    result.shadow.contribution = shortcut_clamp(result.shadow.contribution, depth + 1u);
-    //#endif
-    //#if NULL_SURFACES
-    result.shadow.media = stack;
-    //#else
-    result.shadow.contribution *= media_transmittance(stack, light.distance);
-    //#endif
-  }
-  //#endif
-  let wi = openpbr_phase_sample(anisotropy, wo, random_2());
-  let carried = shade_roulette(throughput, depth);
-  if (all(carried == vec3f(0.0))) { return result; }
-  let density = openpbr_phase_eval(anisotropy, wo, wi);
-  //#if PATH_STATE
-  shortcut_bounce(index, density, SHORTCUT_VOLUME);
-  //#endif
-  path_set_pdf(index, density);
-  path_set_direction(index, wi);
-  path_set_cone(index, cone_pack(cone_width(path_cone(index)), vec3f(0.0)));
-  path_set_throughput(index, carried);
-  path_set_travelled(index, 0.0);
-  path_set_counters(index, path_counters(index) + 1u);
-  result.goes_on = true;
-  return result;
-}
-//#endif
 
 fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   var result: ShadeResult;
@@ -424,6 +340,6 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation_inde
   if (result.asks) { shadow_store(shade_shadow_base + shadow_slot, result.shadow); }
 }
 `,
-    [path, pathSample, pathCone, surface, lights, openpbr, energy, random, shortcuts, bvhOffset, gated('MEDIA', media), gated('OPENPBR_TRANSMISSION', shadingNormal), gated('DISPERSION', dispersion)],
+    [common, path, pathSample, pathCone, surface, lights, openpbr, energy, random, shortcuts, bvhOffset, gated('MEDIA', media), gated('SCATTERING', shadeScattering(common, path, lights, openpbr)), gated('OPENPBR_TRANSMISSION', shadingNormal), gated('DISPERSION', dispersion)],
   );
 }

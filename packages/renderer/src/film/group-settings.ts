@@ -1,0 +1,39 @@
+import { RenderError } from '../errors';
+import type { LightGroup } from '../options';
+import type { GroupWeights } from './layers';
+
+/** How the light groups of a picture are set, see `PathTracer.setLightGroup`. */
+export class GroupSettings {
+  readonly #names: () => readonly string[];
+  /** By name; groups that were never set are not in it. */
+  readonly #set = new Map<string, LightGroup>();
+
+  /** @param names Of the groups that there are now, in the order of the film's planes. */
+  constructor(names: () => readonly string[]) {
+    this.#names = names;
+  }
+
+  get list(): readonly LightGroup[] {
+    return this.#names().map((name) => this.#set.get(name) ?? { name, intensity: 1, color: [1, 1, 1] });
+  }
+
+  get weights(): GroupWeights {
+    return this.list.map(({ intensity, color }) => [intensity * color[0], intensity * color[1], intensity * color[2]]);
+  }
+
+  /** The plane of a group. @throws {RenderError} `renderer/light-groups` if there is none of this name. */
+  plane(name: string): number {
+    const plane = this.#names().indexOf(name);
+    if (plane < 0) throw new RenderError('renderer/light-groups', `There is no light group "${name}"; there are: ${this.#names().join(', ')}.`);
+    return plane;
+  }
+
+  /** @throws {RenderError} `renderer/light-groups` for an unknown group or a value out of range */
+  set(name: string, settings: Partial<Pick<LightGroup, 'intensity' | 'color'>>): void {
+    const next = { ...(this.list[this.plane(name)] as LightGroup), ...settings, name };
+    if (![next.intensity, ...next.color].every((value) => value >= 0 && value < Infinity)) {
+      throw new RenderError('renderer/light-groups', `Light group "${name}": intensity and colour must be finite and not negative.`);
+    }
+    this.#set.set(name, next);
+  }
+}
