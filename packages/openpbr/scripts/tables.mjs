@@ -90,25 +90,46 @@ function totalCosineOf(epsilon, t, r) {
   return Math.max(high, 1e-9);
 }
 
+/**
+ * Linear interpolation of what is curved misses to one side, by an eighth of the second difference in the middle between two
+ * nodes. Values a sixteenth off at the nodes miss by half as much, to either side: in three dimensions 0.6 of the error in
+ * the mean square.
+ *
+ * @param {number[][][]} grid Rows in columns in slices; any number of nodes along each.
+ * @param {number} [edge] A node along the rows where what is tabulated has an edge.
+ */
+function centred(grid, edge = -1) {
+  const second = (before, at, after) => (before === undefined || after === undefined ? 0 : before - 2 * at + after);
+  return grid.map((slice, k) =>
+    slice.map((row, j) =>
+      row.map((value, i) => value - (second(grid[k - 1]?.[j][i], value, grid[k + 1]?.[j][i]) + second(slice[j - 1]?.[i], value, slice[j + 1]?.[i]) + (i === edge ? 0 : second(row[i - 1], value, row[i + 1]))) / 16),
+    ),
+  );
+}
+
 function dielectric() {
   const { angles, roughnesses, outer, outerTotal, inner, innerTotal } = LAYOUT;
   const values = [];
-  const slices = (count, sign, row) => {
-    for (let k = 0; k < count; k++) {
-      for (let j = 0; j < roughnesses; j++) values.push(...row(sign * epsilonOf(k, count), roughness(j, roughnesses)));
-    }
+  // Rows of angles, then their mean.
+  const slices = (count, sign, position, measure, mean, edge) => {
+    const places = Array.from({ length: count }, (_, k) => Array.from({ length: roughnesses }, (__, j) => [sign * epsilonOf(k, count), roughness(j, roughnesses)]));
+    const rows = places.map((slice) =>
+      slice.map(([epsilon, r]) => {
+        const bounced = bounce(epsilon, r);
+        return Array.from({ length: angles }, (_, i) => measure(epsilon, r, position(i / (angles - 1), epsilon, r), bounced));
+      }),
+    );
+    centred(rows, edge).forEach((slice, k) => slice.forEach((row, j) => values.push(...row, mean(...places[k][j], row))));
   };
   // Roughness along the rows, linear; angles down the columns, the mean in the last row.
   const totals = (count, epsilonAt) => {
-    for (let k = 0; k < count; k++) {
-      const epsilon = epsilonAt(k, count);
-      const columns = Array.from({ length: angles + 1 }, (_, i) => {
-        const r = MIN_ROUGHNESS + ((1 - MIN_ROUGHNESS) * i) / angles;
-        const column = Array.from({ length: roughnesses - 1 }, (__, j) => kept(epsilon, r, totalCosineOf(epsilon, j / (roughnesses - 2), r)));
-        return [...column, average((mu) => interpolate(column, totalPosition(epsilon, mu, r)))];
-      });
-      for (let j = 0; j < roughnesses; j++) values.push(...columns.map((column) => column[j]));
-    }
+    const rough = Array.from({ length: angles + 1 }, (_, i) => MIN_ROUGHNESS + ((1 - MIN_ROUGHNESS) * i) / angles);
+    const epsilons = Array.from({ length: count }, (_, k) => epsilonAt(k, count));
+    const columns = epsilons.map((epsilon) => rough.map((r) => Array.from({ length: roughnesses - 1 }, (_, j) => kept(epsilon, r, totalCosineOf(epsilon, j / (roughnesses - 2), r)))));
+    centred(columns).forEach((slice, k) => {
+      const whole = slice.map((column, i) => [...column, average((mu) => interpolate(column, totalPosition(epsilons[k], mu, rough[i])))]);
+      for (let j = 0; j < roughnesses; j++) values.push(...whole.map((column) => column[j]));
+    });
   };
   const sample = (position, measure) => Array.from({ length: angles }, (_, i) => measure(position(i / (angles - 1))));
   const total = (epsilon, r) => {
@@ -130,26 +151,34 @@ function dielectric() {
     const { reflect, transmit } = albedo([r * r, r * r], etaOf(epsilon), mu);
     return reflect / (reflect + transmit);
   };
-  slices(outer, 1, (epsilon, r) => {
-    const eta = etaOf(epsilon);
-    const bounced = bounce(epsilon, r);
-    const row = sample((t) => cosineOf(t, r), (mu) => (MARGIN.share * share(epsilon, r, mu, bounced)) / fresnelDielectric(eta, softened(mu, r)));
-    const mean = average((mu) => interpolate(row, (Math.sqrt(mu) * (1 + r)) / (Math.sqrt(mu) + r)) * fresnelDielectric(eta, softened(mu, r)));
-    return [...row, (MARGIN.outer * (1 - mean)) / meanThrough(epsilon)];
-  });
+  slices(
+    outer,
+    1,
+    (t, _, r) => cosineOf(t, r),
+    (epsilon, r, mu, bounced) => (MARGIN.share * share(epsilon, r, mu, bounced)) / fresnelDielectric(etaOf(epsilon), softened(mu, r)),
+    (epsilon, r, row) => {
+      const mean = average((mu) => interpolate(row, (Math.sqrt(mu) * (1 + r)) / (Math.sqrt(mu) + r)) * fresnelDielectric(etaOf(epsilon), softened(mu, r)));
+      return (MARGIN.outer * (1 - mean)) / meanThrough(epsilon);
+    },
+  );
   totals(outerTotal, cubicEpsilonOf);
-  slices(inner, -1, (epsilon, r) => {
-    const eta = etaOf(epsilon);
-    const bounced = bounce(epsilon, r);
-    const row0 = total(epsilon, r).slice(0, -1);
-    const row = sample((t) => innerCosineOf(t, eta), (mu) => split(epsilon, r, mu));
-    const critical = Math.sqrt(Math.max(0, 1 - eta * eta));
-    const mean = average((mu) => {
-      const direct = interpolate(row0, (Math.sqrt(mu) * (1 + r)) / (Math.sqrt(mu) + r));
-      return interpolate(row, innerPosition(mu, critical)) * direct + (1 - direct) * bounced;
-    });
-    return [...row, (MARGIN.inner * (1 - mean)) / (meanThrough(epsilon) + 0.3 * r ** 4 * (1 - meanThrough(epsilon)))];
-  });
+  slices(
+    inner,
+    -1,
+    (t, epsilon) => innerCosineOf(t, etaOf(epsilon)),
+    split,
+    (epsilon, r, row) => {
+      const bounced = bounce(epsilon, r);
+      const row0 = total(epsilon, r).slice(0, -1);
+      const critical = Math.sqrt(Math.max(0, 1 - etaOf(epsilon) ** 2));
+      const mean = average((mu) => {
+        const direct = interpolate(row0, (Math.sqrt(mu) * (1 + r)) / (Math.sqrt(mu) + r));
+        return interpolate(row, innerPosition(mu, critical)) * direct + (1 - direct) * bounced;
+      });
+      return (MARGIN.inner * (1 - mean)) / (meanThrough(epsilon) + 0.3 * r ** 4 * (1 - meanThrough(epsilon)));
+    },
+    (angles - 1) / 2,
+  );
   totals(innerTotal, (k, count) => -epsilonOf(k, count));
   values.push(...stretched());
   return { width: angles + 1, height: roughnesses, depth: outer + outerTotal + inner + innerTotal + LAYOUT.stretched, values };
@@ -176,7 +205,7 @@ function stretched() {
     }
     return sum;
   };
-  return Array.from({ length: LAYOUT.stretched }, (_, j) => {
+  const grid = Array.from({ length: LAYOUT.stretched }, (_, j) => {
     const r = MIN_ROUGHNESS + ((1 - MIN_ROUGHNESS) * j) / (LAYOUT.stretched - 1);
     const cosines = Array.from({ length: LAYOUT.angles }, (__, i) => Math.min(cosineOf(i / (LAYOUT.angles - 1), r), 1));
     const round = cosines.map((mu) => mirror([r * r, r * r], 1.5, mu).mirror);
@@ -195,9 +224,23 @@ function stretched() {
           }),
           meanMore,
         ];
-      }).flat();
-    }).flat();
-  }).flat();
+      });
+    });
+  });
+  // As `centred`, over four dimensions; at anisotropy 0 there is no more.
+  const at = (j, k, row, i) => (k < 0 ? 0 : (grid[j]?.[k]?.[row]?.[i] ?? NaN));
+  const second = (value, before, after) => (Number.isNaN(before + after) ? 0 : before - 2 * value + after);
+  return grid.flatMap((blocks, j) =>
+    blocks.flatMap((rows, k) =>
+      rows.flatMap((values, row) =>
+        values.map((value, i) => {
+          const even = second(value, at(j - 1, k, row, i), at(j + 1, k, row, i)) + second(value, at(j, k - 1, row, i), at(j, k + 1, row, i));
+          const angle = i < LAYOUT.angles - 1 ? second(value, at(j, k, row, i - 1), at(j, k, row, i + 1)) : 0;
+          return value - (even + second(value, at(j, k, row - 1, i), at(j, k, row + 1, i)) + angle) / 16;
+        }),
+      ),
+    ),
+  );
 }
 
 function conductor() {

@@ -155,20 +155,22 @@ struct OpenPbrFilmShare {
   passed: vec3f,
 }
 
-// Sums over eight facets as they are seen; eta and share are those of the interface without the film.
+// Sums over sixteen facets as they are seen: four along the cap by Gauss and Legendre, four around it whose cosines are
+// Chebyshev's. "eta" and "share" are those of the interface without the film.
 fn openpbr_film_share(film: OpenPbrFilm, eta: f32, share: f32, alpha: vec2f, wo: vec3f) -> OpenPbrFilmShare {
   if (film.weight <= 0.0) { return OpenPbrFilmShare(vec3f(0.0), vec3f(1.0), vec3f(1.0)); }
   let azimuth = openpbr_ggx_azimuth(alpha, wo);
-  let across = 0.70710678 * vec2f(azimuth.x - azimuth.y, azimuth.x + azimuth.y);
+  var around = vec2f(0.92387953 * azimuth.x - 0.38268343 * azimuth.y, 0.38268343 * azimuth.x + 0.92387953 * azimuth.y);
   let so = openpbr_ggx_stretch(alpha, wo);
   var more = vec3f(0.0);
   var through = vec3f(0.0);
   var plain = 0.0;
-  for (var i = 0u; i < 8u; i++) {
-    let h = openpbr_ggx_cap(alpha, wo, select(across, -across, (i & 1u) == 1u), vec4f(0.06943184, 0.33000948, 0.66999052, 0.93056816)[i >> 1u], 1.0);
+  for (var i = 0u; i < 16u; i++) {
+    let h = openpbr_ggx_cap(alpha, wo, around, vec4f(0.06943184, 0.33000948, 0.66999052, 0.93056816)[i >> 2u], 1.0);
+    around = vec2f(-around.y, around.x);
     let c = clamp(dot(wo, h), 0.0, 1.0);
     let wi = 2.0 * c * h - wo;
-    let part = select(0.16303629, 0.08696371, i < 2u || i > 5u);
+    let part = select(0.08151814, 0.04348186, i < 4u || i > 11u);
     let seen = select(0.0, part * wi.z * (wo.z + so) / (wo.z * openpbr_ggx_stretch(alpha, wi) + wi.z * so), wi.z > 0.0);
     let clear = openpbr_fresnel_dielectric(eta, c);
     let change = film.weight * (openpbr_film_facet(film, c) - clear);
