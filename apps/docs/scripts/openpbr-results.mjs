@@ -47,7 +47,7 @@ const densities = Object.entries(data.proofs).filter(([name]) => name.startsWith
 const percentOf = (value) => `${(100 * value).toFixed(2)} %`;
 const oracle = table(
   ['setting', 'class', 'pairs', 'median', '90th percentile', 'worst', 'limit'],
-  Object.entries(data.oracle).map(([name, row]) => [
+  Object.entries(data.oracle).filter(([name]) => !name.startsWith('albedo: ')).map(([name, row]) => [
     name,
     row.class,
     row.pairs,
@@ -57,6 +57,7 @@ const oracle = table(
     row.class === 'I' ? `${percent(row.limit[0])}, ${percent(row.limit[1])}` : `${percent(row.limit[0])} or ${row.limit[1]}`,
   ]),
 );
+const albedos = Object.entries(data.oracle).filter(([name]) => name.startsWith('albedo: '));
 const { finite, materials, reciprocity } = data.proofs;
 
 const page = `---
@@ -77,7 +78,7 @@ ${furnace}
 
 ${materials ? `${materials.materials} random white materials of all lobes, without stretched highlights and rough diffuse, 3 angles each: ${number(materials.least)} to ${number(materials.most)}.` : ''}
 
-Stretched highlights: what metal loses by single scattering is tabulated over roughness, anisotropy and both angles; for dielectrics it is summed over 64 facets as they are seen, and from inside, where the critical angle cuts through them, that is the weakest place.
+Stretched highlights: what metal loses by single scattering is tabulated over roughness, anisotropy and both angles; for dielectrics it is summed over 64 facets as they are seen, and from inside over 160, within the critical angle and within what mirrors upwards.
 
 ## Samples against their density
 
@@ -101,13 +102,17 @@ Values f(ω_o, ω_i) · cos θ_i of Adobe's openpbr-bsdf, brought to height-corr
 
 ${oracle}
 
+${albedos.length ? `The reflected and transmitted parts of uniform light are within the limits too, of every setting, but for these, which differ by choice:
+
+${table(['setting', 'angles', 'beyond the limit', 'largest difference', 'limit'], albedos.map(([name, row]) => [name.slice(8), row.angles, row.beyond, number(row.worst, 3), `${percent(row.limit[0])} or ${row.limit[1]}`]))}` : ''}
+
 Where we differ, and why:
 
 - **Multiple scattering**: the light that bounces among facets leaves by a lobe of its own and evenly, there by lobes that avoid the normal; that is most of the difference of rough metals and glasses, and all of that of \`glass_dispersion\`.
-- **Thin walls** (\`glass_thin_*\`, \`kitchen_thin\`, by choice): there rough walls lose or make up to 58 % of the light; here what goes through is a narrower lobe, since two refractions mostly undo each other.
-- **Thin film**: there at three wavelengths; here over the visible spectrum. Rows without a remark are evaluated at the three.
+- **Thin walls** (\`glass_thin_*\`, \`kitchen_thin\`, by choice): there rough walls lose or make up to 58 % of the light; here what goes through is a narrower lobe, since two refractions mostly undo each other, and white walls of any kind give back all. Paper (\`sss_thin\`): there it gives back up to 9 % more than it gets.
+- **Thin film**: there at three wavelengths; here over the visible spectrum. Rows without a remark are evaluated at the three; over the spectrum the parts of uniform light differ by up to 0.11 from those (\`film_bubble\` near the horizon), and by less than the limit where the view is steep.
 - **Coat**: rougher below by the rule proposed for the next version of the specification; darkening by the reflectance at the viewer's angle.
-- **Fuzz** does not roughen the coat below it. \`eon_half_weight\`: base_weight is outside of EON, as in the specification's text.
+- **Fuzz** does not roughen the coat below it. \`eon_half_weight\`: base_weight is outside of EON, as in the specification's text; there it is part of the colour, and what bounces in the rough surface is darker.
 `;
 writeFileSync(at('../results/openpbr.json'), `${JSON.stringify(data, undefined, 1)}\n`);
 writeFileSync(at('../results/openpbr.md'), page.replace(/\n{3,}/g, '\n\n'));

@@ -96,36 +96,43 @@ fn openpbr_film_phase(turns: vec4f) -> mat2x4f {
   return mat2x4f(select(cosine, -cosine, back), select(sine, -sine, back));
 }
 
-// Of four bands, for one polarisation: amplitudes of the near and the far face, phase, and what of the wave's coherence is left.
-fn openpbr_film_wave(near: f32, far: vec2f, phase: mat2x4f, kept: f32) -> vec4f {
+// What gets through, of four bands and for one polarisation: 1 less Airy's sum, without a difference of nearly equal numbers.
+// Amplitude of the near face, and of the far one; what either lets through; phase, and what of the wave's coherence is left.
+fn openpbr_film_wave(near: f32, far: vec2f, through: vec2f, phase: mat2x4f, kept: f32) -> vec4f {
   let a = near * near;
-  let b = dot(far, far);
-  let rest = max(1.0 - a * b, 1e-7);
-  let x = near * (far.x * phase[0] - far.y * phase[1]);
-  return ((a + b) * (1.0 - kept * kept * a * b) - 2.0 * a * b * (1.0 - kept * kept) + 2.0 * kept * rest * x) / (rest * (1.0 + kept * kept * a * b + 2.0 * kept * x));
+  let rest = max(through.x + a * through.y, 1e-7);
+  let faded = 1.0 - kept * kept + kept * kept * rest;
+  return through.x * through.y * faded / (rest * (2.0 - faded + (2.0 * kept * near) * (far.x * phase[0] - far.y * phase[1])));
 }
 
-// On a base of complex index; "tangential" is the square of the part of the wave's vector that all layers share.
-fn openpbr_film_reflect(film: OpenPbrFilm, base: vec2f, tangential: f32) -> vec3f {
+// What gets through to a base of complex index, or is lost in it; "tangential" is the square of the part of the wave's
+// vector that all layers share.
+fn openpbr_film_through(film: OpenPbrFilm, base: vec2f, tangential: f32) -> vec3f {
   let square = vec2f(film.outer, film.index) * vec2f(film.outer, film.index);
   let across = square - tangential;
-  if (min(across.x, across.y) <= 0.0) { return vec3f(1.0); }
+  if (min(across.x, across.y) <= 0.0) { return vec3f(0.0); }
   let q = sqrt(across);
   let inner = vec2f(base.x * base.x - base.y * base.y, 2.0 * base.x * base.y);
   let difference = inner.x - tangential;
   let size = length(vec2f(difference, inner.y));
   let below = sqrt(max(0.5 * vec2f(size + difference, size - difference), vec2f(0.0)));
   let up = vec2f(q.y, 0.0);
-  let far_s = openpbr_film_ratio(up - below, up + below);
-  let far_p = openpbr_film_ratio(inner * q.y - square.y * below, inner * q.y + square.y * below);
-  let near_s = (q.x - q.y) / (q.x + q.y);
-  let near_p = (square.y * q.x - square.x * q.y) / (square.y * q.x + square.x * q.y);
+  let whole_s = up + below;
+  let whole_p = inner * q.y + square.y * below;
+  let far_s = openpbr_film_ratio(up - below, whole_s);
+  let far_p = openpbr_film_ratio(inner * q.y - square.y * below, whole_p);
+  let sum = vec2f(q.x + q.y, square.y * q.x + square.x * q.y);
+  let near = vec2f(q.x - q.y, square.y * q.x - square.x * q.y) / sum;
+  let entered = 4.0 * q.x * q.y * vec2f(1.0, square.x * square.y) / (sum * sum);
+  let left = 4.0 * q.y * max(vec2f(below.x / dot(whole_s, whole_s), square.y * dot(inner, below) / dot(whole_p, whole_p)), vec2f(0.0));
+  let through_s = vec2f(entered.x, left.x);
+  let through_p = vec2f(entered.y, left.y);
   let path = film.path * q.y;
   let kept = exp(${-width} * path);
   let first = openpbr_film_phase(path * vec4f(${bands(0)}));
   let second = openpbr_film_phase(path * vec4f(${bands(4)}));
-  let a = openpbr_film_wave(near_s, far_s, first, kept) + openpbr_film_wave(near_p, far_p, first, kept);
-  let b = openpbr_film_wave(near_s, far_s, second, kept) + openpbr_film_wave(near_p, far_p, second, kept);
+  let a = openpbr_film_wave(near.x, far_s, through_s, first, kept) + openpbr_film_wave(near.y, far_p, through_p, first, kept);
+  let b = openpbr_film_wave(near.x, far_s, through_s, second, kept) + openpbr_film_wave(near.y, far_p, through_p, second, kept);
   return clamp(0.5 * (mat4x3f(${columns(0)}) * a + mat4x3f(${columns(4)}) * b), vec3f(0.0), vec3f(1.0));
 }
 
@@ -135,16 +142,16 @@ fn openpbr_film_metal(film: OpenPbrFilm, specular_weight: f32, c: f32, clear: ve
   if (film.weight <= 0.0) { return clear; }
   var color = vec3f(0.0);
   for (var i = 0; i < 3; i++) {
-    color[i] = openpbr_film_reflect(film, vec2f(film.metal_n[i], film.metal_k[i]), (1.0 - c * c) * film.grazing)[i];
+    color[i] = 1.0 - openpbr_film_through(film, vec2f(film.metal_n[i], film.metal_k[i]), (1.0 - c * c) * film.grazing)[i];
   }
   return mix(clear, min(specular_weight * color, vec3f(1.0)), film.weight);
 }
 //#endif
 
 //#if OPENPBR_DIELECTRIC
-// Reflectance of the dielectric for a facet seen at cosine c.
+// What the dielectric lets through for a facet seen at cosine c.
 fn openpbr_film_facet(film: OpenPbrFilm, c: f32) -> vec3f {
-  return openpbr_film_reflect(film, vec2f(film.base, 0.0), (1.0 - c * c) * film.viewer);
+  return openpbr_film_through(film, vec2f(film.base, 0.0), (1.0 - c * c) * film.viewer);
 }
 
 struct OpenPbrFilmShare {
@@ -172,9 +179,9 @@ fn openpbr_film_share(film: OpenPbrFilm, eta: f32, share: f32, alpha: vec2f, wo:
     let wi = 2.0 * c * h - wo;
     let part = select(0.08151814, 0.04348186, i < 4u || i > 11u);
     let seen = select(0.0, part * wi.z * (wo.z + so) / (wo.z * openpbr_ggx_stretch(alpha, wi) + wi.z * so), wi.z > 0.0);
-    let clear = openpbr_fresnel_dielectric(eta, c);
-    let change = film.weight * (openpbr_film_facet(film, c) - clear);
-    plain += part * (1.0 - clear);
+    let clear = 1.0 - openpbr_fresnel_dielectric(eta, c);
+    let change = film.weight * (clear - openpbr_film_facet(film, c));
+    plain += part * clear;
     more += seen * change;
     through += part * change;
   }
