@@ -147,17 +147,22 @@ function lostOf(b: Bsdf, wo: OpenPbrVector): number {
 
 const RINGS = 20;
 const SECTORS = 16;
-/** Parts of a bin, along either side: refracted light ends at an edge, and what 8 × 8 parts know of bins on it shows in 100,000 samples. */
-const SUB = size(24, 8);
+/**
+ * Points in a bin, of a Fibonacci lattice: refracted light ends at an edge, and a grid of as many points (24 × 24 even) knows
+ * so little of the bins on it that 100,000 samples show it; a lattice has as many heights as points.
+ */
+const POINTS = 377;
+const STEP = 233;
 
 /** Probability of a chi-square as large as that of samples against the density, over bins of equal solid angle on the sphere. */
 function fitOf(b: Bsdf, wo: OpenPbrVector, samples: number, next: () => number): number {
   const expected = new Float64Array(RINGS * SECTORS);
-  const cell = (4 * Math.PI) / (RINGS * SECTORS * SUB * SUB);
-  for (let i = 0; i < RINGS * SUB; i++) {
-    for (let j = 0; j < SECTORS * SUB; j++) {
-      const bin = Math.floor(i / SUB) * SECTORS + Math.floor(j / SUB);
-      expected[bin] = (expected[bin] as number) + samples * cell * pdfBsdf(b, wo, direction(-1 + (2 * (i + 0.5)) / (RINGS * SUB), (2 * Math.PI * (j + 0.5)) / (SECTORS * SUB)));
+  const cell = (4 * Math.PI) / (RINGS * SECTORS * POINTS);
+  for (let bin = 0; bin < expected.length; bin++) {
+    for (let i = 0; i < POINTS; i++) {
+      const z = (Math.floor(bin / SECTORS) + (i + 0.5) / POINTS) / RINGS;
+      const turn = ((bin % SECTORS) + ((i * STEP) % POINTS) / POINTS) / SECTORS;
+      expected[bin] = (expected[bin] as number) + samples * cell * pdfBsdf(b, wo, direction(-1 + 2 * z, 2 * Math.PI * turn));
     }
   }
   const hits = new Float64Array(RINGS * SECTORS);
