@@ -62,7 +62,7 @@ const ratio = (a: Complex, b: Complex): Complex => {
 };
 
 /**
- * Reflectance of a film on a base (Airy's sum, unpolarised) brought to red, green and blue; twin of `openpbr_film_reflect`.
+ * Reflectance of a film on a base (Airy's sum, unpolarised) brought to red, green and blue; 1 less what `openpbr_film_through` gives.
  * The visible spectrum is a sum of Lorentzian bands: of such a band Airy's sum is known in closed form, with all its orders.
  *
  * @param tangential Square of the tangential part of the wave's vector, which all layers share; sin² of the angle in air.
