@@ -26,6 +26,7 @@ import { filmSize } from './viewer/film-size';
 import { Outline } from './viewer/outline';
 import { wireCommands } from './ui/commands';
 import { Session, type SessionStatus } from './viewer/session';
+import { chosenInVariant, wornMaterial } from './viewer/worn';
 
 /** The page: joins controls, files and the session. */
 export class App {
@@ -143,6 +144,8 @@ export class App {
       // Light and finishing leave shapes where they are.
       if (next.camera !== before.camera || next.orbit !== before.orbit || next.lens !== before.lens || next.hidden !== before.hidden) this.#outline?.clear();
       if (next.scale !== before.scale) this.#resize();
+      // Whoever goes on editing edits what is seen.
+      if (next.variant !== before.variant && source !== 'load' && this.#opened) this.#selection.choose(chosenInVariant(this.#opened.scene, this.#selection.chosen, before.variant, next.variant));
       this.#drawBehind();
     });
     this.#model.addEventListener('change', () => {
@@ -331,7 +334,7 @@ export class App {
       this.#store.set({ lens: { ...lens, focus: picked.depth, stop: lens.stop || 2.8 } }, { label: 'Focus' });
       return;
     }
-    this.#selection.choose({ material: part.material, instance: picked.instance });
+    this.#selection.choose({ material: wornMaterial(this.#opened!.scene, picked.instance, this.#store.state.variant), instance: picked.instance });
     this.#canvas.dataset['picked'] = part.name || `part ${picked.instance + 1}`;
   }
 

@@ -69,7 +69,14 @@ test('a model from file to file: converge, material, variant, .mtlx, a bad file,
 
   // A variant, and back by the history.
   await tab(page, 'Render');
+  await page.evaluate(() => {
+    const list = document.querySelector<HTMLSelectElement>('#material')!;
+    list.value = '0';
+    list.dispatchEvent(new Event('change'));
+  });
   await restarting(page, () => page.getByLabel('Variant', { exact: true }).selectOption('storm'));
+  // The material to edit is the one that is seen.
+  await expect(page.locator('#material option:checked')).toHaveText('storm cloth');
   const storm = await halves(page);
   expect(storm.left[0]).toBeGreaterThan(1.4 * storm.left[2]);
   await restarting(page, () => page.getByRole('button', { name: 'Undo: Variant' }).click());
@@ -77,6 +84,12 @@ test('a model from file to file: converge, material, variant, .mtlx, a bad file,
   await restarting(page, () => page.keyboard.press('Control+Shift+Z'));
   expect((await halves(page)).left[0]).toBeGreaterThan(1.4 * storm.left[2]);
   await restarting(page, () => page.getByLabel('Variant', { exact: true }).selectOption('As made'));
+  await expect(page.locator('#material option:checked')).toHaveText('cloth');
+  await page.evaluate(() => {
+    const list = document.querySelector<HTMLSelectElement>('#material')!;
+    list.value = '2';
+    list.dispatchEvent(new Event('change'));
+  });
 
   // A MaterialX document goes to the chosen material.
   await tab(page, 'Material');

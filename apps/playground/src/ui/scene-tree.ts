@@ -1,3 +1,4 @@
+import { wornMaterial } from '../viewer/worn';
 import type { Context } from './context';
 import { element } from './elements';
 import { toHex } from './fields';
@@ -71,10 +72,10 @@ export class SceneTree {
   }
 
   #row(index: number, name: string, material: number): HTMLElement {
-    const { selection, opened } = this.#context;
+    const { selection, opened, store } = this.#context;
     const { scene } = opened();
     const part = element('button', { type: 'button', class: 'part', title: scene.materials[material]?.name }, element('i', { class: 'swatch' }), element('span', {}, name));
-    part.addEventListener('click', () => selection.choose({ material, instance: index }));
+    part.addEventListener('click', () => selection.choose({ material: wornMaterial(opened().scene, index, store.state.variant), instance: index }));
     const eye = element('button', { type: 'button', class: 'eye', 'aria-label': `Show ${name}`, title: 'Hide or show; Alt: show only this one' });
     eye.addEventListener('click', (event) => this.#toggle(index, event.altKey));
     return element('li', { 'data-part': index }, part, eye);
