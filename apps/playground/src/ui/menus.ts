@@ -64,7 +64,7 @@ async function copy(text: string, say: (text: string) => void, what: string): Pr
 /** A link to the view, and a program that makes the same picture. */
 export function shareMenu(context: Context): HTMLElement[] {
   const { store, opened, rig, session, say, fail } = context;
-  const code = element('pre', { class: 'snippet', id: 'snippet', tabindex: 0, 'aria-label': 'Code that makes this picture' });
+  const code = element('pre', { class: 'snippet', id: 'snippet', role: 'group', tabindex: 0, 'aria-label': 'Code that makes this picture' });
   const note = element('p', { class: 'note', id: 'share-note' });
   byId('share-menu').addEventListener('toggle', (event) => {
     if ((event as ToggleEvent).newState !== 'open') return;
