@@ -4,6 +4,7 @@ import { fast } from '@glanz/bvh/fast';
 import { requestDevice } from '@glanz/renderer';
 import { createGpu } from '@glanz/renderer/node';
 import { createPushButton } from '@glanz/models';
+import { BenchError } from '../error';
 import { timed, type Benchmark, type Figure } from '../benchmark';
 import { GpuRays, type Layout, type LoadedRays } from '../bvh/gpu-rays';
 import { assembly, merged, noisySphere, PUSH_BUTTONS, type BenchMesh } from '../bvh/meshes';
@@ -38,14 +39,21 @@ function meshes(quick: boolean): BenchMesh[] {
 /** Rays a second on the GPU: one ray a thread, workgroups of 64, through both levels, written to memory. */
 export const benchmark: Benchmark = {
   description: 'rays a second on the GPU: primary, shadow and diffuse, by layout, builder and mesh',
-  async run({ log, quick, gpu }) {
+  options: {
+    size: { type: 'string', help: 'edge of the square picture whose pixels send rays, a multiple of 8; default 1024. More rays hide better that a launch ends with its slowest ones' },
+    brief: { type: 'string', help: '"yes": only balanced beside the plain loop, on the meshes of the prototype' },
+  },
+  async run({ log, quick, gpu, values }) {
     const { gpu: api, adapterName, software } = await createGpu(gpu === undefined ? {} : { gpu });
     const device = await requestDevice({ gpu: api });
     const small = quick || software;
-    const size = small ? 64 : 1024, runs = small ? 2 : 7;
+    const size = values['size'] === undefined ? (small ? 64 : 1024) : Number(values['size']);
+    if (!(Number.isInteger(size) && size >= 8 && size % 8 === 0)) throw new BenchError('bench/option', `--size ${values['size']}: it must be a multiple of 8.`);
+    const brief = values['brief'] === 'yes';
+    const runs = small ? 2 : 7;
     const figures: Figure[] = [], notes: string[] = [];
     if (!device.features.has('timestamp-query')) notes.push('no timestamp queries: wall times');
-    for (const alone of meshes(small)) {
+    for (const alone of meshes(small).filter(({ name }) => !brief || small || PROTOTYPE[name] !== undefined)) {
       const { mesh, bounds } = inRoom(alone);
       const { name } = mesh;
       log(`${name}: ${mesh.indices.length / 3} triangles`);
@@ -53,7 +61,7 @@ export const benchmark: Benchmark = {
       let sets: Float32Array<ArrayBuffer>[] | undefined;
       const expected: Uint32Array[] = [];
       const balanced: number[][] = [];
-      for (const [variant, layout, options] of VARIANTS) {
+      for (const [variant, layout, options] of brief ? VARIANTS.slice(0, 2) : VARIANTS) {
         const blas = buildBlas(mesh, options);
         const tracer = await GpuRays.create(device, layout, blas, mesh);
         if (!sets) {
