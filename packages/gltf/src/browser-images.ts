@@ -7,6 +7,22 @@ import type { DecodedImage, ImageDecoder } from './images';
 import { imageOfPixels } from './lazy-pixels';
 import { plainPicture } from './picture-header';
 
+/** Smaller pictures than this are read and decoded in no time. */
+const WORTH_WAITING = 100_000;
+
+let taken: Promise<unknown> | undefined;
+
+/**
+ * Resolves when the browser has read the pictures that it was given to decode so far. It decodes on threads of its own, but
+ * reads on the one that gave them, which must not be busy until then: a load of large pictures would take a quarter longer.
+ */
+export async function picturesTaken(): Promise<void> {
+  const last = taken;
+  await last;
+  // Nothing is held on to for the sake of the next load.
+  if (taken === last) taken = undefined;
+}
+
 /**
  * Decodes by the browser; exact to the codes in the file, whatever their alpha. The picture stays the browser's bitmap until
  * somebody asks for its `data`.
@@ -19,6 +35,7 @@ export const decodeImageInBrowser: ImageDecoder = async (bytes, mimeType) => {
   // pixels, half as long again as decoding, even where there is nothing of the kind.
   const plain = plainPicture(bytes);
   const blob = new Blob(plain ?? [bytes], { type: mimeType });
+  if (bytes.length > WORTH_WAITING) taken = Promise.all([taken, blob.arrayBuffer()]).catch(() => undefined);
   return imageOfBitmap(await (plain ? createImageBitmap(blob) : createImageBitmap(blob, { colorSpaceConversion: 'none', premultiplyAlpha: 'none' })));
 };
 

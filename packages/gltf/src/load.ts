@@ -1,7 +1,7 @@
 import { createScene, type Scene, type SceneWarning } from '@glanz/scene';
 import { describeAnimations, posesAt, type NodePose } from './animation';
 import { pointedValues, withValues } from './animation-pointer';
-import { decodeImageInBrowser } from './browser-images';
+import { decodeImageInBrowser, picturesTaken } from './browser-images';
 import { isShallow, type Raw } from './check/context';
 import { checkDocument } from './check/index';
 import { openContainer } from './container';
@@ -99,6 +99,8 @@ export async function buildScene(source: Source, options: GltfOptions & { readon
   const imageBytes = new Budget(source.name, 'imageBytes', options.limits, reader.bytes);
   const images = table.readImages(options.decodeImage, reader.viewBytes, imageBytes, signal, () => onProgress?.({ stage: 'images', done: ++done / table.imageCount }));
   images.catch(() => undefined);
+  await picturesTaken();
+  signal?.throwIfAborted();
   const shown = sceneToShow(json, options.scene, source.name);
   const dracoWorkers = reader.draco ? options.decoders?.dracoWorkers : undefined;
   if (dracoWorkers) {
