@@ -63,11 +63,12 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
   const expected = kernelFeatures(expectedFeatures(device, own, choices), camera, options);
   if (onFirstLight) cache.kernel('first', expected).catch(() => {});
   compiling.watch(cache.get(expected)).catch(() => {});
+  await breathe();
   const t0 = performance.now();
   onProgress?.({ stage: 'bvh', done: 0 });
   const surroundings = () => inSlices(environmentSteps(own.environment), { signal });
   // Where other threads build, this one has time for them; otherwise the first picture comes first.
-  const early = hierarchies && surroundings();
+  const early = hierarchies && breathe().then(surroundings);
   early?.catch(() => {});
   const geometry = await prepareGeometry(own, { hierarchies, signal, onProgress: (done) => onProgress?.({ stage: 'bvh', done }) });
   await breathe();

@@ -19,6 +19,8 @@ import { toHalves, uploadTextures } from './texture-upload';
 const FILL_MS = 6;
 /** Pixels are written so many bytes at a time. */
 const FILL_BYTES = 1 << 20;
+/** So much may wait for the GPU's process. */
+const QUEUE_BYTES = 2 << 20;
 
 /** The energy tables, which come in a chunk of their own. */
 export type EnergyTables = typeof OPENPBR_TABLES;
@@ -31,6 +33,8 @@ export type EnergyTables = typeof OPENPBR_TABLES;
 export class GpuScene {
   readonly #device: GPUDevice;
   readonly #memory: GpuMemory;
+  /** Bytes written since the GPU's process was waited for. */
+  #waiting = 0;
   readonly #scene: Scene;
   #geometry: Geometry;
   readonly #choices: SceneChoices;
@@ -205,9 +209,20 @@ export class GpuScene {
     const breathe = breather(FILL_MS);
     for (const { buffer, offset, data } of shapeSlices(this.#scene, this.#geometry)) {
       this.#memory.write(this.#buffers.get(buffer) as GPUBuffer, data, offset);
-      await breathe();
+      await this.#keepUp(data.byteLength, breathe);
       signal?.throwIfAborted();
     }
+  }
+
+  /**
+   * Waits for the GPU's process now and then: where it is another one than the page's, what is written waits in a queue between
+   * them, and the page's thread would stand still once that is full.
+   */
+  async #keepUp(bytes: number, breathe: () => Promise<void>): Promise<void> {
+    this.#waiting += bytes;
+    if (this.#waiting < QUEUE_BYTES) return breathe();
+    this.#waiting = 0;
+    await this.#device.queue.onSubmittedWorkDone();
   }
 
   /** Adds what lights the scene, with the thread handed back every few milliseconds. */
@@ -219,7 +234,7 @@ export class GpuScene {
       this.#uploadEnergy(tables);
     });
     await breathe();
-    for (const _ of this.#environmentSlices()) await breathe();
+    for (const bytes of this.#environmentSlices()) await this.#keepUp(bytes, breathe);
     await withErrorScopes(this.#device, () => {
       this.#lights = this.#buildLights();
       this.#upload('lights', this.#lights.records);
@@ -311,15 +326,15 @@ export class GpuScene {
     }
   }
 
-  /** Fills the textures of the environment, some rows at a time. */
-  *#environmentSlices(): Generator<void> {
+  /** Fills the textures of the environment, some rows at a time; gives their bytes. */
+  *#environmentSlices(): Generator<number> {
     for (const [name, { width, height, data }] of this.#environmentPictures) {
       const texture = this.#textures.get(name) as GPUTexture;
       const rows = Math.max(1, Math.floor(FILL_BYTES / (16 * width)));
       for (let y = 0; y < height; y += rows) {
         const some = Math.min(rows, height - y);
         this.#device.queue.writeTexture({ texture, origin: [0, y] }, data.subarray(4 * width * y, 4 * width * (y + some)), { bytesPerRow: width * 16, rowsPerImage: some }, [width, some]);
-        yield;
+        yield 16 * width * some;
       }
     }
   }
