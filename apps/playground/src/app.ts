@@ -1,4 +1,4 @@
-import type { Scene } from '@glanz/scene';
+import { breathe, type Scene } from '@glanz/scene';
 import { controlCamera } from '@glanz/viewer/controls';
 import { describeError, isAbort } from './errors';
 import { Environments } from './input/environments';
@@ -211,7 +211,8 @@ export class App {
       await this.#environments.prepare(begin, scene);
       signal.throwIfAborted();
       await present(scene, () => (this.#opened?.scene === scene ? this.#store.state : now()), { ...host, rig }, ({ stage, done }) => this.#status.prepare(stage, done));
-      this.#adopt(opened, now(), rig);
+      await breathe();
+      await this.#adopt(opened, now(), rig);
     } catch (error) {
       this.#fail(error);
       if (this.#loading === loading) this.#model.value = this.#canvas.dataset['sample'] ?? '';
@@ -223,8 +224,8 @@ export class App {
     }
   }
 
-  /** Brings the page in line with the model that is shown now. */
-  #adopt(opened: Opened, state: State, rig: CameraRig): void {
+  /** Brings the page in line with the model that is shown now, a panel at a time: together they would take more than a frame. */
+  async #adopt(opened: Opened, state: State, rig: CameraRig): Promise<void> {
     const { scene, request, title } = opened;
     const again = this.#opened?.request === request;
     this.#opened = opened;
@@ -235,20 +236,26 @@ export class App {
     const { exposure, toneMap, samples, noise, layer } = state;
     this.#session.setView({ exposure, toneMap, samples, noise, layer }).catch((error: unknown) => this.#fail(error));
     if (this.#link?.model === opened.name) this.#link = undefined;
+    await breathe();
+    if (this.#opened?.request !== request) return;
     if (!again) this.#selection.choose({ material: scene.instances[0]?.material ?? 0 });
     const sample = request.kind === 'sample' ? request.name : undefined;
     this.#model.querySelector('option[data-file]')?.remove();
     if (!sample) this.#model.append(element('option', { value: '(file)', 'data-file': true }, title));
     this.#model.value = sample ?? '(file)';
     this.#canvas.dataset['sample'] = this.#model.value;
-    this.#canvas.dataset['scene'] = title;
     this.#canvas.setAttribute('aria-label', `Path-traced picture of ${title}`);
     document.title = `${title} – Glanz playground`;
     if (scene.warnings.length > 0) {
       const more = scene.warnings.length > 1 ? ` (and ${scene.warnings.length - 1} more, under Statistics)` : '';
       this.#messages.show({ kind: 'note', text: `${scene.warnings[0]?.message ?? ''}${more}`, code: scene.warnings[0]?.code ?? '' });
     }
-    for (const listener of this.#modelListeners) listener();
+    for (const listener of this.#modelListeners) {
+      await breathe();
+      if (this.#opened?.request !== request) return;
+      listener();
+    }
+    this.#canvas.dataset['scene'] = title;
     this.#drawBehind();
     this.#context ??= this.#makePanels();
     this.#context.catch((error: unknown) => this.#fail(error));

@@ -1,4 +1,4 @@
-import type { LatLongEnvironment } from '@glanz/scene';
+import { breathe, type LatLongEnvironment } from '@glanz/scene';
 import { STUDIOS, type SoftBox } from '@glanz/scene/studio';
 import { toneMap } from '@glanz/tonemap';
 import { watch, type Context } from './context';
@@ -6,6 +6,7 @@ import { element } from './elements';
 import { colourField, sliderField } from './fields';
 
 const DEGREE = Math.PI / 180;
+const TONES = { toneMap: 'neutral', exposure: -0.5 } as const;
 
 /** Draws a small lat-long picture so that the front (+Z) is in the middle. */
 export function drawLatLong(canvas: HTMLCanvasElement, { width, height, data }: LatLongEnvironment): void {
@@ -18,8 +19,10 @@ export function drawLatLong(canvas: HTMLCanvasElement, { width, height, data }: 
       // u = ¾ is +Z; azimuth from there towards +X grows to the right, which is against u.
       const u = (((0.75 - ((x + 0.5) / canvas.width - 0.5)) % 1) + 1) % 1;
       const at = (row * width + Math.floor(u * width)) * 3;
-      const rgb = toneMap([data[at] as number, data[at + 1] as number, data[at + 2] as number], { toneMap: 'neutral', exposure: -0.5 });
-      picture.data.set([...rgb.map((v) => 255 * v), 255], (y * canvas.width + x) * 4);
+      const rgb = toneMap([data[at] as number, data[at + 1] as number, data[at + 2] as number], TONES);
+      const to = (y * canvas.width + x) * 4;
+      for (let k = 0; k < 3; k++) picture.data[to + k] = 255 * (rgb[k] as number);
+      picture.data[to + 3] = 255;
     }
   }
   context.putImageData(picture, 0, 0);
@@ -76,7 +79,11 @@ export class SkyEditor {
   #show(): void {
     const { environments, store, opened } = this.#context;
     const environment = environments.choose({ ...store.state, intensity: 1, rotation: 0 }, opened().scene);
-    if (environment?.type === 'latlong' && environment.data !== this.#drawn?.data) drawLatLong(this.#canvas, (this.#drawn = environment));
+    if (environment?.type === 'latlong' && environment.data !== this.#drawn?.data) {
+      this.#drawn = environment;
+      // By itself: a model that has just come has other panels to show.
+      void breathe().then(() => this.#drawn === environment && drawLatLong(this.#canvas, environment));
+    }
     const boxes = this.#boxes();
     if (!boxes[this.#chosen]) this.#chosen = -1;
     const handles = [...this.#map.querySelectorAll('button')];
