@@ -154,7 +154,8 @@ function joined(files: readonly string[]): EqualTimeReport & BenchmarkResult {
   const [first] = reports as [(typeof reports)[number], ...typeof reports];
   const details = joinDetails(reports.map((report) => report.details));
   const quick = reports.some((report) => report.quick);
-  return { ...first, quick, details, settings: { ...first.settings, scenes: details.scenes.map(({ name }) => name) }, figures: figuresOf(details, !quick && first.gpu?.software === false), notes: reports.flatMap(({ notes = [] }) => notes) };
+  const commits = [...new Set(reports.flatMap((report) => report.machine.commit?.split(', ') ?? []))];
+  return { ...first, machine: { ...first.machine, commit: commits.join(', ') }, quick, details, settings: { ...first.settings, scenes: details.scenes.map(({ name }) => name) }, figures: figuresOf(details, !quick && first.gpu?.software === false), notes: reports.flatMap(({ notes = [] }) => notes).filter((note) => !details.measurements.some(({ scene, contestant }) => note.startsWith(`${scene}:`) || note.startsWith(`${scene}, ${contestant}:`))) };
 }
 
 /** Error at equal time, ours beside the strongest open competitor's, each in a process of its own on the same files. */
