@@ -2,33 +2,18 @@ import { spawn, type ChildProcess } from 'node:child_process';
 import { existsSync, mkdirSync, readdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { build } from 'esbuild';
 import sharp from 'sharp';
 import { beforeAll, expect, it } from 'vitest';
 import { temporaryFolder } from './fakes';
 import { makeGlb } from './glb';
+import { bundleProgram } from './program';
 
 // The program as a process of its own: real signals, real streams, a real exit status. Bundled here from the sources,
 // so that it is tested whether or not the packages have been built.
 const folder = fileURLToPath(new URL('../.cache/', import.meta.url));
 const program = join(folder, 'glanz.mjs');
 
-beforeAll(async () => {
-  mkdirSync(folder, { recursive: true });
-  await build({
-    entryPoints: [fileURLToPath(new URL('../src/glanz.ts', import.meta.url))],
-    outfile: program,
-    bundle: true,
-    platform: 'node',
-    format: 'esm',
-    target: 'node20',
-    conditions: ['@glanz/source'],
-    external: ['webgpu', 'sharp', '@sparticuz/chromium', 'draco3dgltf', 'meshoptimizer', 'meshoptimizer/*'],
-    // Some dependencies of dependencies are CommonJS and ask for Node's modules by require().
-    banner: { js: "import { createRequire as glanzRequire } from 'node:module'; const require = glanzRequire(import.meta.url);" },
-    logLevel: 'error',
-  });
-});
+beforeAll(() => bundleProgram(program));
 
 interface Ended {
   readonly code: number | null;

@@ -1,5 +1,5 @@
 import { execFile } from 'node:child_process';
-import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -9,7 +9,7 @@ import { expect, test } from '@playwright/test';
 import type { decodeExr } from '@glanz/image';
 import type { frameCamera } from '@glanz/scene';
 import type { Viewer, ViewerOptions } from '@glanz/viewer';
-import { build } from 'esbuild';
+import { bundleProgram } from '../../cli/test/program';
 
 declare global {
   interface Window {
@@ -60,19 +60,7 @@ test.afterAll(async () => {
 /** Runs `glanz` in Node on the SwiftShader that the browser brings, file for file the same driver. */
 async function glanz(browser: string, argv: readonly string[]): Promise<string> {
   const program = fileURLToPath(new URL('../.cache/glanz.mjs', import.meta.url));
-  mkdirSync(dirname(program), { recursive: true });
-  await build({
-    entryPoints: [fileURLToPath(new URL('../../cli/src/glanz.ts', import.meta.url))],
-    outfile: program,
-    bundle: true,
-    platform: 'node',
-    format: 'esm',
-    target: 'node20',
-    conditions: ['@glanz/source'],
-    external: ['webgpu', 'sharp', '@sparticuz/chromium', 'draco3dgltf', 'meshoptimizer', 'meshoptimizer/*'],
-    banner: { js: "import { createRequire as glanzRequire } from 'node:module'; const require = glanzRequire(import.meta.url);" },
-    logLevel: 'error',
-  });
+  await bundleProgram(program);
   const driver = { VK_DRIVER_FILES: join(browser, 'vk_swiftshader_icd.json'), VK_ICD_FILENAMES: join(browser, 'vk_swiftshader_icd.json'), LD_LIBRARY_PATH: [browser, process.env['LD_LIBRARY_PATH']].filter(Boolean).join(':') };
   const { stdout } = await promisify(execFile)(process.execPath, [program, ...argv], { cwd: folder, env: { ...process.env, ...driver }, maxBuffer: 1 << 26 });
   return stdout;
