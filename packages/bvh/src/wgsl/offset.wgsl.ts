@@ -1,10 +1,8 @@
 import { wgslModule } from '@glanz/wgsl/module';
 
 /**
- * `const BVH_OFFSET = 3.8146973e-6;
-
-fn bvh_offset_origin(position: vec3f, normal: vec3f, magnitude: f32) -> vec3f`: where a secondary ray starts so that it
- * does not meet the surface it leaves.
+ * `fn bvh_offset_origin(position: vec3f, normal: vec3f, magnitude: f32) -> vec3f`: where a secondary ray starts so that it
+ * does not meet the surface it leaves; `const BVH_OFFSET`: how far that is, of `magnitude`.
  *
  * `normal` is the geometric normal, unit, on the side that the ray goes to. `magnitude` is the largest coordinate that
  * went into `position`, before anything cancels out: of the triangle's vertices in the world, with the translation of the

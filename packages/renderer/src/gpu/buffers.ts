@@ -46,7 +46,7 @@ export class GpuMemory {
     return buffer;
   }
 
-  /** A buffer filled with `data`, uploaded in slices that never stall the main thread for long. */
+  /** A buffer filled with `data`. All at once: what is large enough to fill the queue to the GPU's process is written by who can wait in between. */
   upload(label: string, data: ArrayBufferView<ArrayBuffer> | ArrayBuffer, usage: GPUBufferUsageFlags): GPUBuffer {
     const buffer = this.buffer(label, data.byteLength, usage | GPU_BUFFER_COPY_DST);
     this.write(buffer, data);
