@@ -75,15 +75,19 @@ test('an animation poses the model: its time moves a part, edits stay, and rest 
   const seen = new Set<string>();
   await expect.poll(async () => seen.add(await time.inputValue()).size, { message: 'the time goes on' }).toBeGreaterThan(3);
   expect(Number(await dataOf(page, 'restarts'))).toBeGreaterThan(restarts + 3);
-  await page.getByRole('button', { name: 'Stop the animation' }).click();
-  await expect(page.getByRole('button', { name: 'Play the animation' })).toHaveAttribute('aria-pressed', 'false');
-  await finished(page);
+  // It goes round: a stop just after it began anew would show the sail at rest, which tells nothing, so it is played on until it stops later.
+  let moment = 0;
+  await expect(async () => {
+    await page.getByRole('button', { name: 'Stop the animation' }).click();
+    await expect(page.getByRole('button', { name: 'Play the animation' })).toHaveAttribute('aria-pressed', 'false');
+    moment = Number(await time.inputValue());
+    if (!(moment > 0.25)) await page.getByRole('button', { name: 'Play the animation' }).click();
+    expect(moment).toBeGreaterThan(0.25);
+  }).toPass();
   // Half-way it would be a metre to the right of where it rests.
-  const moment = Number(await time.inputValue());
   await expect(async () => {
     await finished(page);
-    const [at, end] = [await red(), Math.min(1, Math.max(0, moment))];
-    expect(at - rest).toBeGreaterThan(0.1 * end);
+    expect((await red()) - rest).toBeGreaterThan(0.1 * Math.min(1, moment));
   }).toPass();
 
   await page.getByLabel('Animation', { exact: true }).selectOption('At rest');
