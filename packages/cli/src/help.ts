@@ -138,6 +138,11 @@ MODEL
                         first animation where --time is given.
       --variant NAME    Look of KHR_materials_variants, by name or number; "all"
                         for each. May be given several times.
+      --back-face-culling M
+                        Leave out faces that show their back, where they are not
+                        double-sided, to look into a room from outside: for the
+                        "camera" alone, while light still meets the walls, or
+                        for "all", so that light falls in. Default "off".
 
 MANY PICTURES
   Each variant is rendered from each view; what is the same stays on the GPU.

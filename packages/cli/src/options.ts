@@ -7,7 +7,7 @@ import { parseBench } from './commands/bench';
 import { parseInfo } from './commands/info';
 import { parseServe } from './commands/serve';
 import { formatOf, type OutputTarget } from './output/formats';
-import { parseBounces, parseFilter, parseLightGroups, type QualityOptions } from './quality';
+import { parseBounces, parseCulling, parseFilter, parseLightGroups, type QualityOptions } from './quality';
 import { checkPlaceholders } from './render/shots';
 import { parseView, turntable, type View } from './render/views';
 
@@ -107,6 +107,7 @@ const OPTIONS = {
   'clamp-indirect': { type: 'string' },
   regularization: { type: 'string' },
   'no-caustics': { type: 'boolean' },
+  'back-face-culling': { type: 'string' },
   exposure: { type: 'string' },
   tonemap: { type: 'string' },
   bits: { type: 'string' },
@@ -239,6 +240,7 @@ export function renderOptions(values: RenderValues, model: string): RenderComman
       ...(values['clamp-indirect'] === undefined ? {} : { clampIndirect: number('clamp-indirect', values['clamp-indirect'], 0, { min: 1e-6, max: 1e30 }) }),
       ...(values.regularization === undefined ? {} : { regularization: number('regularization', values.regularization, 0, { min: 0, max: 1 }) }),
       ...(values['no-caustics'] ? { caustics: false } : {}),
+      ...(values['back-face-culling'] === undefined ? {} : { backFaceCulling: parseCulling(values['back-face-culling']) }),
       ...(values['light-groups'] === undefined ? {} : { lightGroups: parseLightGroups(values['light-groups']) }),
     },
   };

@@ -2,7 +2,7 @@ import type { PathTracerOptions } from '@glanz/renderer';
 import { CliError } from './errors';
 
 /** What the command line passes on to the tracer as it is. Empty: the tracer's defaults. */
-export type QualityOptions = Pick<PathTracerOptions, 'filter' | 'lightGroups' | 'clampIndirect' | 'regularization' | 'caustics' | 'maxBounces'>;
+export type QualityOptions = Pick<PathTracerOptions, 'filter' | 'lightGroups' | 'clampIndirect' | 'regularization' | 'caustics' | 'maxBounces' | 'backFaceCulling'>;
 
 const FILTERS = ['box', 'gaussian', 'blackman-harris'] as const;
 
@@ -12,6 +12,15 @@ const GROUPS = ['off', 'named', 'each'] as const;
 export function parseLightGroups(text: string): (typeof GROUPS)[number] {
   const mode = GROUPS.find((known) => known === text);
   if (!mode) throw new CliError('cli/usage', `--light-groups must be one of ${GROUPS.join(', ')}, not "${text}".`);
+  return mode;
+}
+
+const CULLING = ['off', 'camera', 'all'] as const;
+
+/** `--back-face-culling MODE`. @throws {CliError} `cli/usage` */
+export function parseCulling(text: string): (typeof CULLING)[number] {
+  const mode = CULLING.find((known) => known === text);
+  if (!mode) throw new CliError('cli/usage', `--back-face-culling must be one of ${CULLING.join(', ')}, not "${text}".`);
   return mode;
 }
 

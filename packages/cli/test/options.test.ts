@@ -43,7 +43,7 @@ describe('glanz render', () => {
   });
 
   it('reads every option, before or after the model', () => {
-    const argv = ['--env', 'a.hdr', '--env-rotation', '180', '--env-intensity=2', 'm.gltf', '--size', '640X480', '--samples', '16', '--noise', '0.01', '--depth', '3', '--seed', '4294967295', '--camera', '1', '--exposure', '-1.5', '--tonemap', 'agx', '--transparent', '--catcher', 'floor', '--filter', 'gaussian:2', '--light-groups', 'each', '--max-bounces', 'diffuse=2,volume=9', '--clamp-indirect', '10', '--regularization', '0.25', '--no-caustics', '--scene', '1', '--animation', 'walk', '--time', '-0.5', '--variant', 'street', '--variant', 'all', '--gpu', 'H200', '-o', 'x.PNG', '-o', 'y.exr', '--bits', '16'];
+    const argv = ['--env', 'a.hdr', '--env-rotation', '180', '--env-intensity=2', 'm.gltf', '--size', '640X480', '--samples', '16', '--noise', '0.01', '--depth', '3', '--seed', '4294967295', '--camera', '1', '--exposure', '-1.5', '--tonemap', 'agx', '--transparent', '--catcher', 'floor', '--filter', 'gaussian:2', '--light-groups', 'each', '--max-bounces', 'diffuse=2,volume=9', '--clamp-indirect', '10', '--regularization', '0.25', '--no-caustics', '--back-face-culling', 'all', '--scene', '1', '--animation', 'walk', '--time', '-0.5', '--variant', 'street', '--variant', 'all', '--gpu', 'H200', '-o', 'x.PNG', '-o', 'y.exr', '--bits', '16'];
     expect(options(...argv)).toEqual({
       model: 'm.gltf',
       pose: { scene: 1, animation: 'walk', time: -0.5 },
@@ -63,7 +63,7 @@ describe('glanz render', () => {
       toneMap: 'agx',
       transparent: true,
       catchers: ['floor'],
-      quality: { filter: { type: 'gaussian', radius: 2 }, lightGroups: 'each', maxBounces: { diffuse: 2, volume: 9 }, clampIndirect: 10, regularization: 0.25, caustics: false },
+      quality: { filter: { type: 'gaussian', radius: 2 }, lightGroups: 'each', maxBounces: { diffuse: 2, volume: 9 }, clampIndirect: 10, regularization: 0.25, caustics: false, backFaceCulling: 'all' },
     });
   });
 
@@ -115,6 +115,7 @@ describe('complains in one line, saying what to do', () => {
     [['render', 'm.glb', '--regularization', '2'], 'from 0 to 1'],
     [['render', 'm.glb', '--clamp-indirect', '0'], '--clamp-indirect must be'],
     [['render', 'm.glb', '--light-groups', 'some'], 'must be one of off, named, each'],
+    [['render', 'm.glb', '--back-face-culling', 'front'], 'must be one of off, camera, all'],
     [['render', 'm.glb', '--filter', 'mitchell'], 'Known: box, gaussian, blackman-harris'],
     [['render', 'm.glb', '--filter', 'box:0'], 'above 0 up to 16'],
     [['render', 'm.glb', '--tonemap', 'film'], 'Known: neutral, aces, agx, reinhard, linear'],

@@ -36,6 +36,7 @@ export const ATTRIBUTES = {
   noise: 'number',
   'max-depth': 'number',
   'pixel-ratio': 'number',
+  'back-face-culling': 'text',
 } as const satisfies Readonly<Record<string, AttributeKind>>;
 
 /** Name of an attribute of the element. */

@@ -79,7 +79,11 @@ function makeClass(): GlanzViewerConstructor {
       if (name === 'loading' && now === 'eager' && this.isConnected && !this.#viewer) this.#start();
       const viewer = this.#viewer;
       if (!viewer) return;
-      if (name === 'src') {
+      if (name === 'back-face-culling') {
+        // Of a path tracer it is part, so there is another one.
+        this.#stop();
+        this.#start();
+      } else if (name === 'src') {
         this.#source = undefined;
         this.#load(viewer);
       } else if (name === 'variant-name') this.#setVariant(viewer);
@@ -176,6 +180,11 @@ function makeClass(): GlanzViewerConstructor {
       return image === 'neutral' || image === 'legacy' ? 'studio' : image;
     }
 
+    get #culling(): 'off' | 'camera' | 'all' {
+      const mode = this.getAttribute('back-face-culling');
+      return mode === 'camera' || mode === 'all' ? mode : 'off';
+    }
+
     #number(name: AttributeName): number | undefined {
       return numberOf(this.getAttribute(name)) ?? undefined;
     }
@@ -184,7 +193,7 @@ function makeClass(): GlanzViewerConstructor {
       this.#watch?.disconnect();
       const shadow = this.#shadow;
       if (this.#viewer || !shadow) return;
-      const viewer = (this.#viewer = createViewer(shadow.canvas, { environment: this.#environment, background: this.#background, controls: false, camera: (scene, aspect) => cameraOf(scene, aspect, this.#view) }));
+      const viewer = (this.#viewer = createViewer(shadow.canvas, { environment: this.#environment, background: this.#background, controls: false, tracer: { backFaceCulling: this.#culling }, camera: (scene, aspect) => cameraOf(scene, aspect, this.#view) }));
       this.#apply(viewer);
       this.#listen(viewer, shadow);
       if (load) this.#load(viewer);

@@ -125,6 +125,19 @@ test('hands and keys move it where camera-controls is, within limits, and the ne
   expect(await orbit()).toEqual(before);
 });
 
+test('back-face-culling shows what is behind the backs of faces, and without it they are there', async ({ page }) => {
+  await open(page, { 'camera-orbit': '180deg 90deg 5m' });
+  // Seen from behind, the right card is on the left.
+  const card = (cells: readonly (readonly number[])[]) => cells[3]!.map((value) => Math.round(value));
+  expect(card((await shot(page)).cells)).not.toEqual([0x20, 0x40, 0x80]);
+  await page.evaluate(() => void (document.querySelector('glanz-viewer')!.backFaceCulling = 'camera'));
+  await expect.poll(async () => (await heard(page, 'load')).length).toBe(2);
+  await done(page);
+  expect(card((await shot(page)).cells)).toEqual([0x20, 0x40, 0x80]);
+  await page.evaluate(() => void (document.querySelector('glanz-viewer')!.cameraOrbit = '0deg 90deg 5m'));
+  await expect.poll(async () => { await done(page); return card((await shot(page)).cells)[0]!; }).toBeGreaterThan(0x60);
+});
+
 test('hotspots stay on the model, hide behind it, and can be moved', async ({ page }) => {
   await open(page, {}, '<button slot="hotspot-a" data-position="-1.2 0 0" data-normal="0 0 1" data-visibility-attribute="visible">Left</button><button slot="hotspot-back" data-position="1.2 0 0" data-normal="0 0 -1" data-visibility-attribute="visible">Back</button>');
   const centre = async (name: string) => {

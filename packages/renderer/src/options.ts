@@ -73,6 +73,17 @@ export interface PathTracerOptions {
    * What lies closer to such a surface than it bulges between its corners casts no shadow on it there.
    */
   readonly shadowTerminator?: 'smooth' | 'faceted';
+  /**
+   * Leaves out the faces that show the camera their back, where their material is not `double_sided`, as rasterisers do: one looks into
+   * a room from outside whose walls face inwards. `off` (default): all surfaces are there from both sides. `camera`: only what the
+   * camera sees itself changes, straight or through smooth thin walls; light, shadows and reflections find all faces where they are, so
+   * the walls still keep the sun out of the room, and a mirror outside shows them. `all`: the model is cut open for light too, which
+   * falls into the room where the camera looks in; turning the view cuts it elsewhere, and mirrors show the cut. What glows is not
+   * cut: it shines on, and only the camera looks through its back. Materials that let light through are never culled: those with
+   * transmission, subsurface, or opacity without a threshold. Front is where the winding is counter-clockwise, in mirroring instances
+   * clockwise.
+   */
+  readonly backFaceCulling?: BackFaceCulling;
   /** Added to texture levels of detail. Default −1: a texel is half a pixel wide or finer; the pixel filter does the rest. */
   readonly textureLodBias?: number;
   /**
@@ -115,6 +126,9 @@ export interface BounceLimits {
   readonly transmission?: number;
   readonly volume?: number;
 }
+
+/** See {@link PathTracerOptions.backFaceCulling}. */
+export type BackFaceCulling = 'off' | 'camera' | 'all';
 
 /** See {@link PathTracerOptions.sampler}. */
 export type Sampler = 'blue-noise' | 'sobol' | 'independent';

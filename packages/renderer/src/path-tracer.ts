@@ -314,7 +314,7 @@ export class PathTracer extends TracerEdits {
   /** What lies under a pixel (whole or fractional coordinates from the upper left corner), found on the CPU. */
   pick(x: number, y: number): PickResult | undefined {
     this.#check();
-    return pickPixel(this.scene, this.#editor.geometry, this.#camera, this.#film.width, this.#film.height, x, y);
+    return pickPixel(this.scene, this.#editor.geometry, this.#camera, this.#film.width, this.#film.height, x, y, (this.#options.backFaceCulling ?? 'off') !== 'off' ? (material) => this.#gpuScene.culls(material) : undefined);
   }
 
   /** Frees all GPU memory. Idempotent; a running `render()` ends. */

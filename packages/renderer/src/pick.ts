@@ -1,15 +1,18 @@
-import { closestHitInstances, type BlasMesh } from '@glanz/bvh';
+import { closestHitInstances, type BlasMesh, type InstanceHit, type Ray } from '@glanz/bvh';
+import { forEachHitInstances } from '@glanz/bvh/all-hits';
 import type { Camera, Instance, Mesh, Scene } from '@glanz/scene';
 import type { PickResult } from './options';
 import { cameraUniforms } from './scene/camera';
 import type { Geometry } from './scene/geometry';
-import { transformPoint } from './scene/matrix';
+import { determinant3, transformPoint } from './scene/matrix';
 
 /**
  * What lies under a point of the film, through the middle of the lens. Textured opacity is not looked at: a hole in a
  * leaf still picks the leaf.
+ *
+ * @param culls Whether a material's back faces are looked through; without it, none are.
  */
-export function pickPixel(scene: Scene, geometry: Geometry, camera: Camera, width: number, height: number, x: number, y: number): PickResult | undefined {
+export function pickPixel(scene: Scene, geometry: Geometry, camera: Camera, width: number, height: number, x: number, y: number, culls?: (material: number) => boolean): PickResult | undefined {
   const view = cameraUniforms(camera, width, height);
   const sx = ((2 * x) / width - 1) * view.half_extent[0];
   const sy = (1 - (2 * y) / height) * view.half_extent[1];
@@ -26,7 +29,8 @@ export function pickPixel(scene: Scene, geometry: Geometry, camera: Camera, widt
     const { mesh } = scene.instances[index] as Instance;
     return { blas: geometry.blas[mesh] as BlasMesh['blas'], mesh: scene.meshes[mesh] as Mesh };
   });
-  const hit = closestHitInstances(geometry.tlas, parts, { origin, direction });
+  const ray: Ray = { origin, direction };
+  const hit = culls ? nearestSeen(scene, geometry, parts, ray, culls) : closestHitInstances(geometry.tlas, parts, ray);
   if (!hit) return undefined;
   const index = geometry.shown[hit.instance] as number;
   const instance = scene.instances[index] as Instance;
@@ -39,4 +43,27 @@ export function pickPixel(scene: Scene, geometry: Geometry, camera: Camera, widt
   transformPoint(instance.transform, ...local, position);
   const depth = position.reduce((sum, p, k) => sum + (p - (view.camera_origin[k] as number)) * (view.camera_forward[k] as number), 0);
   return { instance: index, material: instance.material, position, distance: hit.t, depth };
+}
+
+/** The nearest triangle whose front a ray comes to, or whose material has no back that is looked through. */
+function nearestSeen(scene: Scene, geometry: Geometry, parts: readonly BlasMesh[], ray: Ray, culls: (material: number) => boolean): InstanceHit | undefined {
+  let hit: InstanceHit | undefined;
+  forEachHitInstances(geometry.tlas, parts, ray, (t, u, v, triangle, nth) => {
+    if (hit && t >= hit.t) return;
+    const instance = scene.instances[geometry.shown[nth] as number] as Instance;
+    if (!culls(instance.material) || isFront(instance, scene.meshes[instance.mesh] as Mesh, triangle, ray.direction)) hit = { t, u, v, triangle, instance: nth };
+  });
+  return hit;
+}
+
+/** Whether a ray comes to the front of a triangle, which its winding tells; in a mirroring instance, the other way round. */
+function isFront({ transform }: Instance, { positions, indices }: Mesh, triangle: number, direction: ArrayLike<number>): boolean {
+  const [a, b, c] = [0, 1, 2].map((corner) => {
+    const [x, y, z] = positions.subarray(3 * (indices[3 * triangle + corner] as number)) as unknown as [number, number, number];
+    const placed: number[] = [];
+    transformPoint(transform, x, y, z, placed);
+    return placed;
+  }) as [number[], number[], number[]];
+  const from = (corner: number[]) => corner.map((value, k) => value - (a[k] as number));
+  return determinant3([...from(b), 0, ...from(c), 0, ...Array.from(direction)]) * determinant3(transform) <= 0;
 }

@@ -51,7 +51,7 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
   // A quarter of what the renderer weighs, and nobody needs it before there is a scene: a chunk of its own, loaded meanwhile.
   const loading = import('@glanz/openpbr/tables');
   loading.catch(() => {});
-  const choices: SceneChoices = { multipleScattering: options.multipleScattering ?? true, sampler: options.sampler ?? 'blue-noise', lightGroups: options.lightGroups ?? 'named', lightSampling: options.lightSampling ?? 'tree', shadowTerminator: options.shadowTerminator ?? 'smooth' };
+  const choices: SceneChoices = { multipleScattering: options.multipleScattering ?? true, sampler: options.sampler ?? 'blue-noise', lightGroups: options.lightGroups ?? 'named', lightSampling: options.lightSampling ?? 'tree', shadowTerminator: options.shadowTerminator ?? 'smooth', backFaceCulling: options.backFaceCulling ?? 'off' };
   const camera = await inSlices(cameraSteps(own, options.camera, options.width / options.height), { signal }).catch((cause: unknown) => {
     // What cannot be framed cannot be rendered, and that is what was asked for.
     throw cause instanceof SceneError && cause.code === 'scene/empty' ? new RenderError('renderer/no-triangles', 'The scene has no visible triangles: nothing to render.', { cause }) : cause;

@@ -38,7 +38,8 @@ export interface Material {
   textures?: Partial<Record<TexturedParameter, TextureBinding>>;
   /**
    * Whether the back side emits as the front does (glTF `doubleSided`). Default false: emission leaves from the front
-   * (counter-clockwise) side only. Reflection is always two-sided.
+   * (counter-clockwise) side only. Reflection is two-sided all the same; whether the camera sees the back of a material that is
+   * not double-sided is the renderer's option `backFaceCulling`.
    */
   double_sided?: boolean;
   /** Opacity below this counts as 0 and from it on as 1 (glTF alphaMode MASK). Absent: `geometry_opacity` is a coverage. */

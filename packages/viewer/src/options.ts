@@ -58,8 +58,8 @@ export interface ViewerOptions {
   readonly createWorker?: () => Worker;
   /** Asks for the device, also again after it was lost. Default: `requestDevice()` of the renderer. The viewer destroys it. */
   readonly requestDevice?: () => Promise<GPUDevice>;
-  /** More for the path tracer: filter, light groups, biased shortcuts. */
-  readonly tracer?: Pick<PathTracerOptions, 'filter' | 'lightGroups' | 'clampIndirect' | 'regularization' | 'caustics' | 'maxBounces' | 'sampler' | 'textureLodBias' | 'seed' | 'maxVolumeDepth' | 'pathsInFlight'>;
+  /** More for the path tracer: filter, light groups, biased shortcuts, back-face culling. */
+  readonly tracer?: Pick<PathTracerOptions, 'filter' | 'lightGroups' | 'clampIndirect' | 'regularization' | 'caustics' | 'maxBounces' | 'backFaceCulling' | 'sampler' | 'textureLodBias' | 'seed' | 'maxVolumeDepth' | 'pathsInFlight'>;
   /** Destroys the viewer when it aborts. */
   readonly signal?: AbortSignal;
 }

@@ -4,6 +4,7 @@ import type { KernelFeatures } from '../kernels/pipelines';
 import { instanceStruct, materialStruct, meshStruct } from '../kernels/layout';
 import type { ResourceName } from '../kernels/resources';
 import { prepareEnvironment, roughEnvironment, turnEnvironment, type EnvironmentData } from '../scene/environment';
+import { isOneSided } from '../scene/culling';
 import { paintsAlpha, sceneFeatures, texturePlan, type SceneChoices, type VertexAlpha } from '../scene/features';
 import { packInstances, packTlas, shapeSlices, type Geometry, type MeshRegion, type PackedGeometry, type PackedMesh } from '../scene/geometry';
 import { breather } from '../scene/hierarchies';
@@ -121,6 +122,11 @@ export class GpuScene {
       catchers: this.#geometry.bare !== undefined,
       isOpaque: (material) => this.#opaque(material),
     });
+  }
+
+  /** Whether the camera looks through a material's back faces. */
+  culls(material: number): boolean {
+    return this.#choices.backFaceCulling !== 'off' && isOneSided(this.#scene.materials[material] as Scene['materials'][number], this.#opaque(material));
   }
 
   /** Binding of one of the resources this scene owns. */
@@ -283,7 +289,8 @@ export class GpuScene {
   }
 
   #packMaterial(buffer: ArrayBuffer, at: number, index: number): void {
-    packMaterial(buffer, at, this.#scene.materials[index] as Scene['materials'][number], this.#firstBinding[index] as number, this.#bindings.count[index] as number, this.#opaque(index), this.#groups.material(this.#scene.materials[index] as Scene['materials'][number]));
+    const material = this.#scene.materials[index] as Scene['materials'][number];
+    packMaterial(buffer, at, material, this.#firstBinding[index] as number, this.#bindings.count[index] as number, this.#opaque(index), this.culls(index), this.#groups.material(material));
   }
 
   #packMaterials(): ArrayBuffer {

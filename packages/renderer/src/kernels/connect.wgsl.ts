@@ -19,7 +19,7 @@ export const connect = (path: WgslModule, traversal: WgslModule, straight: WgslM
 fn main(@builtin(global_invocation_id) id: vec3u) {
   if (id.x >= queues.shadow_active) { return; }
   let shadow = shadow_load(id.x);
-  //#if BVH_FILTER
+  //#if OPACITY
   opacity_begin(path_pixel(shadow.path), path_sample(shadow.path), 2u * queues.depth + 1u);
   //#endif
   //#if CATCHER
@@ -57,5 +57,5 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   //#endif
 }
 `,
-  [path, gated('BVH_FILTER', pathSample), traversal, gated('NULL_SURFACES', media), gated('NULL_SURFACES', mediaFront), gated('STRAIGHT', straight)],
+  [path, gated('OPACITY', pathSample), traversal, gated('NULL_SURFACES', media), gated('NULL_SURFACES', mediaFront), gated('STRAIGHT', straight)],
 );

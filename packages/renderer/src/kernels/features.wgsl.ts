@@ -18,18 +18,24 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   let first = batch.sample_offset == 0u;
   if (first) {
     feature_ids[pixel] = vec4u(0xffffffffu);
-    //#if BVH_FILTER
+    //#if OPACITY
     opacity_begin(pixel, 0u, 0xffffu);
     //#endif
     let ray = camera_ray(at, vec2f(0.5), vec2f(0.5));
+    //#if CULLING
+    culling_begin(ray.direction, true);
+    //#endif
     let hit = bvh_closest_hit(ray.origin, ray.direction, 0.0, 3.4e38);
     if (hit.instance != 0xffffffffu) { feature_ids[pixel] = vec4u(instances[hit.instance].id, instances[hit.instance].material, 0u, 0u); }
   }
   random_begin(pixel, batch.sample_offset, 0u, frame.seed);
   let offset = filter_offset(random_2());
   let ray = camera_ray(at, offset, random_2());
-  //#if BVH_FILTER
+  //#if OPACITY
   opacity_begin(pixel, batch.sample_offset, 0u);
+  //#endif
+  //#if CULLING
+  culling_begin(ray.direction, true);
   //#endif
   let hit = bvh_closest_hit(ray.origin, ray.direction, 0.0, 3.4e38);
   var albedo = vec4f(0.0);

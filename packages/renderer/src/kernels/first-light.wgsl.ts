@@ -15,6 +15,9 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   if (id.x >= batch.pixel_count) { return; }
   let pixel = batch.pixel_offset + id.x;
   let ray = camera_ray(vec2u(pixel % frame.size.x, pixel / frame.size.x), vec2f(0.5), vec2f(0.5));
+  //#if CULLING
+  culling_begin(ray.direction, true);
+  //#endif
   let hit = bvh_closest_hit(ray.origin, ray.direction, 0.0, 3.4e38);
   if (hit.instance == 0xffffffffu) {
     let shown = (frame.background & ${BACKGROUND_HIDDEN}u) == 0u;

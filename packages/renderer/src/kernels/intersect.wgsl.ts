@@ -13,8 +13,15 @@ export function intersect(path: WgslModule, traversal: WgslModule): WgslModule {
 fn main(@builtin(global_invocation_id) id: vec3u) {
   if (id.x >= queues.active_count) { return; }
   let index = queues.items[(queues.depth & 1u) * queues.capacity + id.x];
-  //#if BVH_FILTER
+  //#if OPACITY
   opacity_begin(path_pixel(index), path_sample(index), 2u * queues.depth);
+  //#endif
+  //#if CULLING
+  //#if PATH_DEPTH
+  culling_begin(path_direction(index), (path_counters(index) & 0xffffu) == 0u);
+  //#else
+  culling_begin(path_direction(index), queues.depth == 0u);
+  //#endif
   //#endif
   //#if CATCHER
   traversal_root = select(0u, frame.catcher_root, path_role(index) == PATH_WITHOUT && queues.depth > 0u);
@@ -33,6 +40,6 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   path_set_hit(index, vec4u(bitcast<u32>(hit.u), bitcast<u32>(hit.v), hit.triangle, hit.instance));
 }
 `,
-    [path, gated('BVH_FILTER', pathSample), traversal, gated('AREA_LIGHTS', areas), gated('MEDIA', volumeModule(traversal, areas))],
+    [path, gated('OPACITY', pathSample), traversal, gated('AREA_LIGHTS', areas), gated('MEDIA', volumeModule(traversal, areas))],
   );
 }

@@ -137,8 +137,10 @@ export const MATERIAL_DISPERSIVE = 64;
 export const MATERIAL_STRAIGHT = 128;
 /** Bits 8 to 15 of a material's flags: its priority where interiors overlap. */
 export const MATERIAL_PRIORITY_SHIFT = 8;
-/** Bits 16 and up of a material's flags and of a light's kind: its light group. */
-export const GROUP_SHIFT = 16;
+/** The camera does not see its back faces. */
+export const MATERIAL_CULLED = 1 << 16;
+/** Bits 17 and up of a material's flags and of a light's kind: its light group. */
+export const GROUP_SHIFT = 17;
 
 /** Word offsets of a mesh's attributes in the attribute heap; NONE where absent. */
 export const meshStruct = struct('MeshShading', {

@@ -2,6 +2,7 @@ import { openpbr } from '@glanz/openpbr';
 import { compose, createShaderModule, type WgslModule } from '@glanz/wgsl';
 import { DeviceError } from '../errors';
 import { OPACITY_ID, type TexturedParameterInfo } from '../scene/materials';
+import { accept } from './accept.wgsl';
 import { connect } from './connect.wgsl';
 import { filmModule, relightModule } from './film.wgsl';
 import { pathLayout } from './path.wgsl';
@@ -33,7 +34,7 @@ export interface KernelFeatures {
 }
 
 /** Kernels with these flags do what those without do, only slower: a lobe of weight 0, a filter that accepts. */
-const HARMLESS = /^(OPENPBR_|BVH_FILTER$|VERTEX_COLORS$|EMISSION_TEXTURES$|LIGHTS$|LIGHT_TREE$|LIGHT_PROFILES$|AREA_LIGHTS$|NEXT_EVENT$|DISPERSION$|TERMINATOR_LIFT$)/;
+const HARMLESS = /^(OPENPBR_|OPACITY$|CULLING$|CULLING_ALL$|VERTEX_COLORS$|EMISSION_TEXTURES$|LIGHTS$|LIGHT_TREE$|LIGHT_PROFILES$|AREA_LIGHTS$|NEXT_EVENT$|DISPERSION$|TERMINATOR_LIFT$)/;
 
 /**
  * Whether kernels for `present` features are right for `wanted` ones too: what a scene no longer has may stay in their text,
@@ -61,17 +62,17 @@ interface KernelText {
   readonly root: WgslModule;
   readonly resources: readonly ResourceName[];
   readonly textures: boolean;
-  /** Where they differ from the scene's. */
+  /** Where they are not the scene's. */
   readonly flags?: Readonly<Record<string, boolean>>;
 }
 
 function kernelText(name: KernelName, features: KernelFeatures): KernelText {
   const { flags } = features;
   const material = materialModule(features.samplings, features.textured);
-  const opacity = opacityModule(material, OPACITY_ID);
   const surface = surfaceModule(material);
-  const traversal = (kind: 'closest' | 'any') => traversalModule(kind, flags.BVH_FILTER === true ? opacity : undefined);
-  const filter: ResourceName[] = flags.BVH_FILTER ? ['frame', 'batch', 'attributes', 'materials'] : flags.CATCHER ? ['frame', 'batch'] : [];
+  const traversal = (kind: 'closest' | 'any', chosen = flags) => traversalModule(kind, chosen.OPACITY || chosen.CULLING ? accept(opacityModule(material, OPACITY_ID)) : undefined);
+  const filter: ResourceName[] = flags.OPACITY ? ['frame', 'batch', 'attributes', 'materials'] : flags.CATCHER ? ['frame', 'batch'] : [];
+  const culling: ResourceName[] = [...(flags.CULLING ? (['materials'] as const) : []), ...(flags.CULLING_ALL ? (['frame'] as const) : [])];
   const energy: ResourceName[] = ['energy_dielectric', 'energy_conductor', 'energy_sampler'];
   // What subsurface scatters depends on how its surface reflects.
   const walking: ResourceName[] = flags.OPENPBR_SUBSURFACE ? energy : [];
@@ -87,13 +88,15 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
     case 'advance':
       return { root: advance, resources: ['queues', 'dispatch'], textures: false };
     case 'intersect': {
-      const resources = [...new Set([...filter, ...(flags.SCATTERING ? (['frame', 'batch'] as const) : []), ...(flags.AREA_LIGHTS ? (['frame', 'lights'] as const) : []), ...(flags.MEDIA ? (['materials'] as const) : []), ...walking])];
-      return { root: intersect(path, traversal('closest')), resources: [...resources, 'paths', 'queues', 'nodes', 'triangles', 'instances'], textures: flags.BVH_FILTER === true };
+      const resources = [...new Set([...filter, ...(flags.SCATTERING ? (['frame', 'batch'] as const) : []), ...(flags.AREA_LIGHTS ? (['frame', 'lights'] as const) : []), ...culling, ...(flags.MEDIA ? (['materials'] as const) : []), ...walking])];
+      return { root: intersect(path, traversal('closest')), resources: [...resources, 'paths', 'queues', 'nodes', 'triangles', 'instances'], textures: flags.OPACITY === true };
     }
     case 'connect': {
+      // Light meets all faces that are there for others than the camera alone.
+      const shadowFlags = { ...flags, CULLING: flags.CULLING_ALL === true };
       const walls: ResourceName[] = flags.STRAIGHT ? ['frame', 'attributes', ...energy] : [];
-      const resources = [...new Set([...filter, ...(flags.NULL_SURFACES ? (['materials'] as const) : []), ...(flags.NULL_SURFACES ? walking : []), ...walls])];
-      return { root: connect(path, traversal(flags.NULL_SURFACES ? 'closest' : 'any'), straight(surface, openpbr)), resources: [...resources, 'paths', 'queues', 'shadows', 'nodes', 'triangles', 'instances'], textures: flags.BVH_FILTER === true || flags.STRAIGHT === true };
+      const resources = [...new Set([...filter, ...(flags.CULLING_ALL ? culling : []), ...(flags.NULL_SURFACES ? (['materials'] as const) : []), ...(flags.NULL_SURFACES ? walking : []), ...walls])];
+      return { root: connect(path, traversal(flags.NULL_SURFACES ? 'closest' : 'any', shadowFlags), straight(surface, openpbr)), resources: [...resources, 'paths', 'queues', 'shadows', 'nodes', 'triangles', 'instances'], textures: flags.OPACITY === true || flags.STRAIGHT === true, flags: shadowFlags };
     }
     case 'shade':
       return {
@@ -108,10 +111,12 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
     case 'noise':
       return { root: noiseModule(film), resources: ['frame', ...filmBuffers, 'film_noise'], textures: false };
     case 'position':
-      return { root: positionModule(traversal('closest')), resources: [...new Set<ResourceName>(['frame', 'batch', ...filter, 'nodes', 'triangles', 'instances', 'feature_position'])], textures: flags.BVH_FILTER === true };
-    case 'first':
+      return { root: positionModule(traversal('closest')), resources: [...new Set<ResourceName>(['frame', 'batch', ...filter, ...culling, 'nodes', 'triangles', 'instances', 'feature_position'])], textures: flags.OPACITY === true };
+    case 'first': {
+      const firstFlags = { ...flags, OPACITY: false, CATCHER: false };
       // Neither opacity nor catchers: they would bring half of the renderer.
-      return { root: firstLightModule(traversalModule('closest', undefined)), resources: ['frame', 'batch', 'nodes', 'triangles', 'instances', 'materials', 'beauty'], textures: false, flags: { BVH_FILTER: false, CATCHER: false } };
+      return { root: firstLightModule(traversal('closest', firstFlags)), resources: ['frame', 'batch', 'nodes', 'triangles', 'instances', 'materials', 'beauty'], textures: false, flags: firstFlags };
+    }
     case 'features':
       return {
         root: featuresModule(surface, openpbr, energyHost, traversal('closest')),
@@ -137,7 +142,8 @@ export function kernelSource(name: KernelName, features: KernelFeatures): Kernel
         ...Array.from({ length: features.samplerCount }, (_, i) => [`scene_sampler_${i}`, 'sampler'] as const),
       ]
     : [];
-  const flags = { ...features.flags, ...text.flags };
+  const own = text.flags ?? features.flags;
+  const flags = { ...own, BVH_FILTER: own.OPACITY === true || own.CULLING === true };
   const bindings = bindingModule(name, text.resources, sceneBindings, flags);
   const shader = compose([bindings, text.root], { flags });
   return {

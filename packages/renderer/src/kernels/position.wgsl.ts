@@ -14,8 +14,11 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   random_begin(pixel, batch.sample_offset, 0u, frame.seed);
   let offset = filter_offset(random_2());
   let ray = camera_ray(vec2u(pixel % frame.size.x, pixel / frame.size.x), offset, random_2());
-  //#if BVH_FILTER
+  //#if OPACITY
   opacity_begin(pixel, batch.sample_offset, 0u);
+  //#endif
+  //#if CULLING
+  culling_begin(ray.direction, true);
   //#endif
   let hit = bvh_closest_hit(ray.origin, ray.direction, 0.0, 3.4e38);
   var sum = select(feature_position[pixel], vec4f(0.0), batch.sample_offset == 0u);

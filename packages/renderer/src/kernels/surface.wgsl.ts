@@ -167,7 +167,7 @@ fn opacity_at(hit: BvhHit) -> f32 {
 
 // Crossing a surface of opacity α goes on with probability 1 − α. The decision hangs on ray, instance and triangle alone,
 // not on the order of traversal, so the nearest accepted hit is well defined.
-fn bvh_accept(hit: BvhHit) -> bool {
+fn opacity_accept(hit: BvhHit) -> bool {
   let opacity = opacity_at(hit);
   if (opacity >= 1.0) { return true; }
   let seed = vec4u(opacity_key.xy, opacity_key.z + 0x10000u * (frame.seed & 0xffffu), (hit.triangle * 0x9e3779b9u) ^ (hit.instance * 0x85ebca6bu + 1u));

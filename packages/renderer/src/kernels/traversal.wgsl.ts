@@ -5,9 +5,9 @@ import { wgslModule, type WgslModule } from '@glanz/wgsl';
  * The ray traversal over the scene's buffers: what @glanz/bvh asks its host for, and the traversal itself.
  *
  * @param kind The query that the kernel makes; the other's text stays out.
- * @param opacity Module with `bvh_accept`, for scenes with surfaces that are not fully there.
+ * @param accept Module with `bvh_accept`, for scenes with surfaces that some rays pass.
  */
-export function traversalModule(kind: 'closest' | 'any', opacity: WgslModule | undefined): WgslModule {
+export function traversalModule(kind: 'closest' | 'any', accept: WgslModule | undefined): WgslModule {
   const query = kind === 'any' ? bvhAnyHit : bvhClosestHit;
   return wgslModule(
     `renderer/traversal-${kind}`,
@@ -25,6 +25,6 @@ fn bvh_triangle(index: u32) -> BvhTriangle {
   return BvhTriangle(a.xyz, bitcast<u32>(a.w), triangles[3u * index + 1u].xyz, triangles[3u * index + 2u].xyz);
 }
 `,
-    opacity ? [query, opacity] : [query],
+    accept ? [query, accept] : [query],
   );
 }

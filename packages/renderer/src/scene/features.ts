@@ -1,7 +1,8 @@
 import { requiredFeatures, resolveParameters } from '@glanz/openpbr';
 import type { Mesh, Scene } from '@glanz/scene';
 import type { KernelFeatures } from '../kernels/pipelines';
-import type { LightGroupMode, Sampler } from '../options';
+import type { BackFaceCulling, LightGroupMode, Sampler } from '../options';
+import { isOneSided } from './culling';
 import { interiorFlags } from './interiors';
 import { lightGroupTable } from './light-groups';
 import { hasSize } from './light-records';
@@ -16,6 +17,7 @@ export interface SceneChoices {
   readonly lightGroups: LightGroupMode;
   readonly lightSampling: LightSampling;
   readonly shadowTerminator: 'smooth' | 'faceted';
+  readonly backFaceCulling: BackFaceCulling;
 }
 
 /** What about a scene decides the kernels' text, once its parts have been gone through. */
@@ -41,6 +43,7 @@ export function sceneFeatures(scene: Scene, choices: SceneChoices, facts: SceneF
   const { textured, plan, lights, environmentSampled } = facts;
   const parameters = scene.materials.map((material) => resolveParameters(material.parameters));
   const names = textured.map(({ name }) => name);
+  const culled = choices.backFaceCulling !== 'off' && scene.instances.some(({ visible, material }) => visible !== false && isOneSided(scene.materials[material] as Scene['materials'][number], facts.isOpaque(material)));
   const openpbrFlags = requiredFeatures(parameters, { textured: names, multipleScattering: choices.multipleScattering });
   return {
     flags: {
@@ -57,7 +60,9 @@ export function sceneFeatures(scene: Scene, choices: SceneChoices, facts: SceneF
         names.some((name) => name === 'emission_color' || name === 'emission_luminance' || (openpbrFlags.OPENPBR_COAT && name.startsWith('coat_'))) ||
         (facts.vertexColors && parameters.some((p) => p.emission_luminance > 0 && p.base_weight === 0 && p.specular_weight === 0)),
       VERTEX_COLORS: facts.vertexColors,
-      BVH_FILTER: scene.instances.some((instance) => instance.visible !== false && !facts.isOpaque(instance.material)),
+      OPACITY: scene.instances.some((instance) => instance.visible !== false && !facts.isOpaque(instance.material)),
+      CULLING: culled,
+      CULLING_ALL: culled && choices.backFaceCulling === 'all',
       ENVIRONMENT_MAP: facts.environmentMap,
       ENVIRONMENT_SAMPLED: environmentSampled,
       LIGHTS: lights,

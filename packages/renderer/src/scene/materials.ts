@@ -1,6 +1,6 @@
 import { openPbrStruct, packOpenPbr, resolveParameters, type OpenPbrParameters } from '@glanz/openpbr';
 import type { Material, Scene, TextureBinding } from '@glanz/scene';
-import { bindingStruct, GROUP_SHIFT, MATERIAL_DISPERSIVE, MATERIAL_EMISSIVE, MATERIAL_INDEX_MATCHED, MATERIAL_INTERIOR, MATERIAL_MASK, MATERIAL_OPAQUE, MATERIAL_PRIORITY_SHIFT, MATERIAL_STRAIGHT, MATERIAL_TWO_SIDED_EMISSION, materialStruct } from '../kernels/layout';
+import { bindingStruct, GROUP_SHIFT, MATERIAL_CULLED, MATERIAL_DISPERSIVE, MATERIAL_EMISSIVE, MATERIAL_INDEX_MATCHED, MATERIAL_INTERIOR, MATERIAL_MASK, MATERIAL_OPAQUE, MATERIAL_PRIORITY_SHIFT, MATERIAL_STRAIGHT, MATERIAL_TWO_SIDED_EMISSION, materialStruct } from '../kernels/layout';
 import { hasInterior, isDispersive, isIndexMatched, isStraight } from './interiors';
 import type { TexturePlan } from './textures';
 
@@ -108,7 +108,7 @@ export function isOpaque(material: Material, hasVertexAlpha: boolean): boolean {
 }
 
 /** Writes one material's record. `firstBinding` is a word offset into the attribute heap. */
-export function packMaterial(buffer: ArrayBuffer, index: number, material: Material, firstBinding: number, bindingCount: number, opaque: boolean, group: number): void {
+export function packMaterial(buffer: ArrayBuffer, index: number, material: Material, firstBinding: number, bindingCount: number, opaque: boolean, culled: boolean, group: number): void {
   const parameters = resolveParameters(material.parameters);
   const packed = openPbrStruct.allocate();
   packOpenPbr(packed, 0, parameters);
@@ -127,6 +127,7 @@ export function packMaterial(buffer: ArrayBuffer, index: number, material: Mater
       (isIndexMatched(material) ? MATERIAL_INDEX_MATCHED : 0) |
       (isStraight(material) ? MATERIAL_STRAIGHT : 0) |
       (isDispersive(material) ? MATERIAL_DISPERSIVE : 0) |
+      (culled ? MATERIAL_CULLED : 0) |
       ((material.dielectric_priority ?? 0) << MATERIAL_PRIORITY_SHIFT) |
       (group << GROUP_SHIFT),
     opacity_threshold: material.opacity_threshold ?? 0,

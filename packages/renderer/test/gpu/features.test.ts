@@ -16,7 +16,7 @@ beforeAll(async () => {
 });
 afterAll(() => expectNoGpuErrors());
 
-const CHOICES: SceneChoices = { multipleScattering: true, sampler: 'blue-noise', lightGroups: 'named', lightSampling: 'tree', shadowTerminator: 'smooth' };
+const CHOICES: SceneChoices = { multipleScattering: true, sampler: 'blue-noise', lightGroups: 'named', lightSampling: 'tree', shadowTerminator: 'smooth', backFaceCulling: 'all' };
 
 const plain = (): Scene => {
   const scene = createScene();
