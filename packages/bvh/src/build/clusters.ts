@@ -19,23 +19,24 @@ export interface Clusters {
  * Cuts primitives sorted by their Morton codes into octree cells of at most `size` primitives. Cells of equal codes are
  * cut by count.
  *
+ * @param ends Ends of the ranges still to cut, the next one last.
+ * @param first Where the next one begins.
+ * @param limit The border of cells to stop at.
  * @returns Number of cells; their starts are written, and one entry more for the end.
  */
-export function cutCells(codes: Uint32Array, count: number, size: number, starts: Uint32Array): number {
+export function cutCells(codes: Uint32Array, size: number, starts: Uint32Array, ends: number[], first: number, limit: number): number {
   let cells = 0;
-  // Ends of the ranges still to cut; ranges are cut from the left, so the starts come out in order.
-  const ends = [count];
-  let first = 0;
-  while (ends.length > 0) {
+  // Ranges are cut from the left, so the starts come out in order.
+  while (first < limit) {
     const end = ends[ends.length - 1] as number;
     if (end - first > size) ends.push(cutCell(codes, first, end));
     else {
-      if (end > first) starts[cells++] = first;
+      starts[cells++] = first;
       first = end;
       ends.pop();
     }
   }
-  starts[cells] = count;
+  starts[cells] = limit;
   return cells;
 }
 
@@ -57,6 +58,6 @@ export function cutCell(codes: Uint32Array, first: number, end: number): number 
 /** Cuts primitives into clusters, whose boxes, weights and references are still to be set. */
 export function cutClusters(primitives: Sorted, size: number, scratch: Memory): Clusters {
   const starts = scratch.uint32(primitives.count + 1);
-  const count = cutCells(primitives.codes, primitives.count, size, starts);
+  const count = cutCells(primitives.codes, size, starts, [primitives.count], 0, primitives.count);
   return { primitives, starts, count, boxes: scratch.float32(6 * count), weights: scratch.uint32(count), references: scratch.uint32(count) };
 }

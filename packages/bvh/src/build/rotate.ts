@@ -3,7 +3,7 @@ import type { NodeWriter } from './node-writer';
 import { STEP, type Steps } from './slices';
 
 /** Later passes find the rotations that others have made possible. */
-const PASSES = 3;
+export const PASSES = 3;
 
 /** Half the surface of the box around two boxes, given by the words where they start. */
 function joined(n: Float32Array, a: number, b: number): number {
@@ -34,7 +34,8 @@ export function* rotate({ nodes, words, count }: NodeWriter): Steps<void> {
   }
 }
 
-function rotateAt(nodes: Float32Array, words: Uint32Array, node: number): void {
+/** Improves the tree at a node. */
+export function rotateAt(nodes: Float32Array, words: Uint32Array, node: number): void {
   // Words of a node: the box of a child starts at 8 × its side, its upper corner 4 later; its reference is at 3 + 4 × side.
   const INNER = 0x80000000;
   const base = 16 * node;

@@ -1,3 +1,4 @@
+import type { TriangleMesh } from '../blas';
 import { BvhError } from '../error';
 
 /** Numbers of a member's report. */
@@ -13,6 +14,8 @@ export interface TeamMemory {
   /** Room for the nodes, and for those of the upper levels. */
   readonly nodes: SharedArrayBuffer;
   readonly upper: SharedArrayBuffer;
+  /** Room for the mesh, where it does not lie in shared memory already. */
+  readonly mesh: SharedArrayBuffer | undefined;
 }
 
 /** Memory of an earlier build serves the next where it is not larger than this times what that needs. */
@@ -22,18 +25,34 @@ const SLACK = 4;
 const arrayBytes = (triangles: number) => 128 * triangles + (1 << 16);
 const nodeBytes = (triangles: number) => 64 * triangles;
 
+/** Shared memory of at least so many bytes: that one, if it is not much too large. */
+const room = (bytes: number, spare?: SharedArrayBuffer) => (spare && spare.byteLength >= bytes && spare.byteLength <= SLACK * bytes ? spare : new SharedArrayBuffer(bytes));
+
 /**
- * What two workers share for so many triangles.
+ * What two workers share for a mesh of so many triangles, and the mesh as both see it: arrays that are not shared are copied.
  *
  * @param spare What an earlier build has left, if both have left it: fresh memory costs a fifth of a build. It is not cleared.
  */
-export function teamMemory(triangles: number, spare?: TeamMemory): TeamMemory {
-  const bytes = arrayBytes(triangles), had = spare?.arrays.byteLength ?? 0;
-  const { arrays, nodes, upper } =
-    spare && had >= bytes && had <= SLACK * bytes
-      ? spare
-      : { arrays: new SharedArrayBuffer(bytes), nodes: new SharedArrayBuffer(nodeBytes(triangles)), upper: new SharedArrayBuffer(nodeBytes(triangles)) };
-  return { control: new SharedArrayBuffer(BYTES + 2 * 8 * REPORT), arrays, nodes, upper };
+export function teamMemory(mesh: TriangleMesh, triangles: number, spare?: TeamMemory): { readonly memory: TeamMemory; readonly mesh: TriangleMesh } {
+  const { positions, indices } = mesh;
+  const copied = [positions, indices].reduce((bytes, array) => bytes + (array?.buffer instanceof ArrayBuffer ? array.byteLength : 0), 0);
+  const memory: TeamMemory = {
+    control: new SharedArrayBuffer(BYTES + 2 * 8 * REPORT),
+    arrays: room(arrayBytes(triangles), spare?.arrays),
+    nodes: room(nodeBytes(triangles), spare?.nodes),
+    upper: room(nodeBytes(triangles), spare?.upper),
+    mesh: copied > 0 ? room(copied, spare?.mesh) : undefined,
+  };
+  let offset = 0;
+  const shared = <T extends Float32Array | Uint32Array | Uint16Array>(array: T): T => {
+    if (!(array.buffer instanceof ArrayBuffer) || !memory.mesh) return array;
+    const copy = new (array.constructor as new (buffer: SharedArrayBuffer, offset: number, length: number) => T)(memory.mesh, offset, array.length);
+    copy.set(array);
+    offset += array.byteLength;
+    return copy;
+  };
+  // Positions first: what has four bytes each begins at a whole place.
+  return { memory, mesh: { positions: shared(positions), indices: indices && shared(indices) } };
 }
 
 /**

@@ -2,24 +2,20 @@ import type { TriangleMesh } from '../blas';
 import { GROUP_MAX } from '../build/agglomerate';
 import { buildBalanced } from '../build/balanced';
 import type { BuildSettings } from '../build/builder';
-import { cutClusters } from '../build/clusters';
+import { cutCell, cutCells, type Clusters } from '../build/clusters';
 import { Gatherer, NONE, type Sorted } from '../build/gather';
 import { CLUSTER_DEPTH, Insides } from '../build/insides';
 import { encloseNodes, Levels } from '../build/levels';
 import { MortonSort } from '../build/morton';
 import { NodeWriter } from '../build/node-writer';
 import { PrimitiveMaker } from '../build/primitives';
-import { rotate } from '../build/rotate';
 import { crown, STEP, type Steps, type TriangleTree } from '../build/steps';
 import { BLAS_MAX_DEPTH, LEAF, LEFT, NODE_WORDS, PARENT, RIGHT } from '../layout';
 import type { Team } from './team';
+import { shareCrown, shareLevels, shareRotations } from './together-upper';
 
 const DIGIT = 10;
 const DIGITS = 1 << DIGIT;
-/** Numbers of a pending range of {@link Levels}; its first and end lie at the 6th and 7th place, the word for its reference at the 8th. */
-const TASK = 10;
-/** Ranges that the upper levels are cut into before they are shared out. */
-const SHARES = 12;
 
 function finish<T>(steps: Steps<T>): T {
   let step = steps.next();
@@ -109,38 +105,32 @@ export function buildTogether(mesh: TriangleMesh, count: number, settings: Build
   team.meet();
   const primitives: Sorted = { ...sorted, codes, count: left + right };
 
-  // Clusters: their starts each for itself, what is found out about them for both.
-  let own = true;
-  const clusters = cutClusters(primitives, GROUP_MAX, { float32: (length) => team.float32(length), uint32: (length) => (own ? ((own = false), new Uint32Array(length)) : team.uint32(length)) });
-  const { starts, references } = clusters;
-  let middle = 0;
-  while ((starts[middle] as number) < primitives.count / 2) middle++;
+  // Clusters, each those of its half; their starts each for itself, what is found out about them for both.
+  const starts = index === 0 ? order2 : codes2;
+  const { middle, count: clusterCount } = shareCells(primitives, starts, team);
+  const clusters: Clusters = { primitives, starts, count: clusterCount, boxes: team.float32(6 * clusterCount), weights: team.uint32(clusterCount), references: team.uint32(clusterCount) };
+  const { references } = clusters;
   const writer = writerOver(team.memory.nodes, primitives.count);
   const leaves = team.uint32(triangleCount);
   const insides = new Insides(clusters, writer, leaves, maxLeaf);
-  const [c0, c1] = range(clusters.count, middle);
+  const [c0, c1] = range(clusterCount, middle);
   // As if each cluster before had all the nodes that it can have.
   writer.count = clusters.count - 1 + (starts[c0] as number) - c0;
   for (let i = 0; i < (starts[c0] as number); i++) insides.end += primitives.names[2 * i + 1] === NONE ? 1 : 2;
   const begun = writer.count;
   insides.build(c0, c1);
-  const ends = team.meet([writer.count]);
-  const surplus = index === 1 ? begun - (ends[0][0] as number) : 0;
-  if (index === 1) moveDown(writer, begun, surplus, references, c0, c1);
-  writer.count = (ends[0][0] as number) + (ends[1][0] as number) - (clusters.count - 1 + (starts[middle] as number) - middle);
+  const ends = team.meet([writer.count, begun]);
+  const nodeCount = (ends[0][0] as number) + (ends[1][0] as number) - (ends[1][1] as number);
+  if (index === 1) moveDown(writer, begun, begun - (ends[0][0] as number), references, c0, c1);
+  writer.count = nodeCount;
 
-  // The upper levels: the first cuts both, then each its part.
   const depth = BLAS_MAX_DEPTH - CLUSTER_DEPTH;
   const upper = writerOver(team.memory.upper, clusters.count);
-  // What the clusters are like is known of one's own only.
-  team.meet();
-  shareLevels(new Levels(upper, clusters, depth, bins), upper, index);
-  team.meet();
+  shareLevels(new Levels(upper, clusters, depth, bins), upper, team);
+  shareRotations(upper, team);
+  const rotated = shareCrown(upper, clusters, writer, depth, team);
   if (index === 1) return undefined;
-  upper.count = clusters.count - 1;
-  encloseNodes(upper, 0, upper.count);
-  finish(rotate(upper));
-  if (finish(crown(upper, clusters, writer)) > depth) {
+  if (rotated > depth) {
     upper.count = 0;
     const levels = new Levels(upper, clusters, depth, bins);
     while (levels.step(Infinity));
@@ -154,6 +144,28 @@ export function buildTogether(mesh: TriangleMesh, count: number, settings: Build
 /** A writer over shared memory; everywhere but here it has memory of its own. */
 const writerOver = (buffer: SharedArrayBuffer, capacity: number) => new NodeWriter(capacity, buffer as ArrayBufferLike as ArrayBuffer);
 
+/**
+ * Cuts clusters, each those of about a half.
+ *
+ * @param starts Gets where one's own begin, at their places among all. There are fewer clusters than primitives.
+ * @returns Where the second one's begin, and how many there are.
+ */
+function shareCells({ codes, count }: Sorted, starts: Uint32Array, team: Team): { readonly middle: number; readonly count: number } {
+  // The border of cells that lies next to the middle, and what is still to be cut there.
+  const ends = [count];
+  let border = 0;
+  for (let end = count; end - border > GROUP_MAX; end = ends[ends.length - 1] as number) {
+    const cut = cutCell(codes, border, end);
+    if (cut <= count / 2) border = cut;
+    else ends.push(cut);
+  }
+  const cells = team.index === 0 ? cutCells(codes, GROUP_MAX, starts, [count], 0, border) : cutCells(codes, GROUP_MAX, starts, ends, border, count);
+  const [before, behind] = team.meet([cells]);
+  const middle = before[0] as number;
+  if (team.index === 1) starts.copyWithin(middle, 0, cells + 1);
+  return { middle, count: middle + (behind[0] as number) };
+}
+
 /** Moves the nodes from `begun` on, and all that names them, down by some places. */
 function moveDown({ nodes, words, count }: NodeWriter, begun: number, by: number, references: Uint32Array, c0: number, c1: number): void {
   if (by === 0) return;
@@ -163,32 +175,4 @@ function moveDown({ nodes, words, count }: NodeWriter, begun: number, by: number
   }
   nodes.copyWithin((begun - by) * NODE_WORDS, begun * NODE_WORDS, count * NODE_WORDS);
   for (let cluster = c0; cluster < c1; cluster++) if ((references[cluster] as number) < LEAF) references[cluster] = (references[cluster] as number) - by;
-}
-
-/** Builds one's part of the levels: nodes get the places that they have when one worker does all, depth first. */
-function shareLevels(levels: Levels, upper: NodeWriter, index: number): void {
-  const { tasks } = levels;
-  const size = (task: readonly number[]) => (task[7] as number) - (task[6] as number);
-  const pending: { task: number[]; node: number }[] = [{ task: tasks.splice(0), node: 0 }];
-  while (pending.length < SHARES) {
-    const largest = pending.reduce((best, { task }, i) => (size(task) > size((pending[best] as (typeof pending)[0]).task) ? i : best), 0);
-    const { task, node } = pending[largest] as (typeof pending)[0];
-    if (size(task) <= GROUP_MAX) break;
-    tasks.push(...task);
-    upper.count = node;
-    levels.step(1);
-    const right = tasks.splice(0, TASK), left = tasks.splice(0);
-    // Depth first: all the nodes of the left side come before the right one's.
-    pending.splice(largest, 1, { task: left, node: node + 1 }, { task: right, node: node + size(left) });
-  }
-  const all = pending.reduce((sum, { task }) => sum + size(task), 0);
-  let before = 0;
-  for (const { task, node } of pending) {
-    const mine = (before + size(task) / 2 < all / 2 ? 0 : 1) === index;
-    before += size(task);
-    if (!mine) continue;
-    tasks.push(...task);
-    upper.count = node;
-    while (levels.step(Infinity));
-  }
 }

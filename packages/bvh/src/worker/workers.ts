@@ -1,6 +1,6 @@
-import { breathe } from '../async';
-import { blasSteps, type Blas, type BlasOptions, type TriangleMesh } from '../blas';
+import type { Blas, BlasOptions, TriangleMesh } from '../blas';
 import { BvhError } from '../error';
+import { BuildsHere, type Job } from './here';
 import { connect, hardwareThreads, startWorker, type NodeWorkerLike, type WebWorkerLike, type WorkerLine } from './line';
 import { buffersOf, receivedError, sendableOptions, type BuildReply, type BuildRequest } from './protocol';
 import { teamMemory, type TeamMemory } from './team';
@@ -18,9 +18,6 @@ const SPARE_THREADS = 4;
 
 /** A build of more triangles is worth ending its worker when it is aborted; a smaller one is let run out, unheard. */
 const WORTH_ENDING = 100_000;
-
-/** Without workers the thread is handed back after so many milliseconds of building; a step more can follow. */
-const SLICE_MS = 6;
 
 /** A worker that has not reported by then will not. */
 const START_MS = 15_000;
@@ -57,18 +54,6 @@ export interface WorkerBuildOptions extends BlasOptions {
   readonly transfer?: boolean;
 }
 
-interface Job {
-  readonly id: number;
-  readonly mesh: TriangleMesh;
-  readonly options: BlasOptions;
-  readonly transfer: boolean;
-  readonly triangles: number;
-  readonly progress: (done: number) => void;
-  /** Ends the promise. Calls after the first do nothing. */
-  readonly settle: (result: Blas | { readonly error: unknown }) => void;
-  settled: boolean;
-}
-
 /** A place in the pool for one worker after another. */
 interface Seat {
   line: WorkerLine | undefined;
@@ -97,6 +82,7 @@ export class BvhWorkers {
   readonly #together: boolean;
   readonly #seats: Set<Seat>;
   readonly #queue: Job[] = [];
+  readonly #here = new BuildsHere();
   /** Builds by signal: one listener serves them all, however many meshes share a signal. */
   readonly #signals = new Map<AbortSignal, { readonly jobs: Set<Job>; readonly abort: () => void }>();
   /** What two workers share for a build, and whether one of them is done with it. */
@@ -106,7 +92,6 @@ export class BvhWorkers {
   #fallback: string | undefined;
   #nextId = 0;
   #destroyed = false;
-  #building = false;
 
   private constructor(count: number, { createWorker = startWorker, warmUp = false, together = hardwareThreads() >= SPARE_THREADS }: BvhWorkersOptions) {
     this.#together = together;
@@ -315,7 +300,7 @@ export class BvhWorkers {
 
   /** Gives what waits to the workers that have least to do, or builds it here. */
   #next(): void {
-    if (this.#fallback !== undefined) void this.#buildHere();
+    if (this.#fallback !== undefined) void this.#here.run(this.#queue);
     for (;;) {
       let free: Seat | undefined;
       for (const seat of this.#seats) if (seat.ready && (seat.jobs.size === 0 || seat.load < AHEAD) && seat.load < (free?.load ?? Infinity)) free = seat;
@@ -349,11 +334,9 @@ export class BvhWorkers {
   #sendTogether(seats: readonly Seat[], job: Job): void {
     const { id, options } = job;
     try {
-      const memory = teamMemory(job.triangles, this.#spare?.deref());
+      const { memory, mesh } = teamMemory(job.mesh, job.triangles, this.#spare?.deref());
       this.#spare = undefined;
       this.#teams.set(id, { memory, half: false });
-      const { positions, indices } = job.mesh;
-      const mesh: TriangleMesh = { positions: shared(positions), indices: indices && shared(indices) };
       for (const [index, seat] of seats.entries()) {
         seat.jobs.set(id, job);
         seat.load += job.triangles;
@@ -371,49 +354,9 @@ export class BvhWorkers {
   #post(seat: Seat, request: BuildRequest, transfer: readonly ArrayBuffer[]): void {
     seat.line?.post(request, transfer);
   }
-
-  async #buildHere(): Promise<void> {
-    if (this.#building) return;
-    this.#building = true;
-    let until = -Infinity;
-    while (this.#queue.length > 0) {
-      if (performance.now() > until) {
-        await breathe();
-        until = performance.now() + SLICE_MS;
-        continue;
-      }
-      const job = this.#queue.shift() as Job;
-      try {
-        job.progress(0);
-        const steps = blasSteps(job.mesh, job.options);
-        // What settles the job otherwise, an abort say, ends its build.
-        for (let step = steps.next(); !job.settled; step = steps.next()) {
-          if (step.done) {
-            job.progress(1);
-            job.settle(step.value);
-          } else if (performance.now() > until) {
-            job.progress(step.value);
-            await breathe();
-            until = performance.now() + SLICE_MS;
-          }
-        }
-      } catch (error) {
-        job.settle({ error });
-      }
-    }
-    this.#building = false;
-  }
 }
 
 /** Whether two workers may build it: memory can be shared, it is large, and it is not to be handed over. */
 const canShare = ({ triangles, transfer, options: { builder } }: Job) => typeof SharedArrayBuffer === 'function' && triangles >= TOGETHER && !transfer && (builder === undefined || builder === 'balanced');
-
-/** An array that several threads see: itself, or a copy. */
-function shared<T extends Float32Array | Uint32Array | Uint16Array>(array: T): T {
-  if (!(array.buffer instanceof ArrayBuffer)) return array;
-  const copy = new (array.constructor as new (buffer: SharedArrayBuffer) => T)(new SharedArrayBuffer(array.byteLength));
-  copy.set(array);
-  return copy;
-}
 
 const destroyed = () => new BvhError('bvh/destroyed', 'The workers were destroyed: create them anew for further builds.');
