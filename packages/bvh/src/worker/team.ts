@@ -1,5 +1,6 @@
 import type { TriangleMesh } from '../blas';
 import { BvhError } from '../error';
+import type { Copy } from './copy';
 
 /** Numbers of a member's report. */
 const REPORT = 16;
@@ -29,11 +30,12 @@ const nodeBytes = (triangles: number) => 64 * triangles;
 const room = (bytes: number, spare?: SharedArrayBuffer) => (spare && spare.byteLength >= bytes && spare.byteLength <= SLACK * bytes ? spare : new SharedArrayBuffer(bytes));
 
 /**
- * What two workers share for a mesh of so many triangles, and the mesh as both see it: arrays that are not shared are copied.
+ * What two workers share for a mesh of so many triangles, and the mesh as both see it; the arrays that
+ * are not shared are still to be copied.
  *
  * @param spare What an earlier build has left, if both have left it: fresh memory costs a fifth of a build. It is not cleared.
  */
-export function teamMemory(mesh: TriangleMesh, triangles: number, spare?: TeamMemory): { readonly memory: TeamMemory; readonly mesh: TriangleMesh } {
+export function teamMemory(mesh: TriangleMesh, triangles: number, spare?: TeamMemory): { readonly memory: TeamMemory; readonly mesh: TriangleMesh; readonly copies: readonly Copy[] } {
   const { positions, indices } = mesh;
   const copied = [positions, indices].reduce((bytes, array) => bytes + (array?.buffer instanceof ArrayBuffer ? array.byteLength : 0), 0);
   const memory: TeamMemory = {
@@ -44,15 +46,16 @@ export function teamMemory(mesh: TriangleMesh, triangles: number, spare?: TeamMe
     mesh: copied > 0 ? room(copied, spare?.mesh) : undefined,
   };
   let offset = 0;
+  const copies: Copy[] = [];
   const shared = <T extends Float32Array | Uint32Array | Uint16Array>(array: T): T => {
     if (!(array.buffer instanceof ArrayBuffer) || !memory.mesh) return array;
-    const copy = new (array.constructor as new (buffer: SharedArrayBuffer, offset: number, length: number) => T)(memory.mesh, offset, array.length);
-    copy.set(array);
+    const to = new (array.constructor as new (buffer: SharedArrayBuffer, offset: number, length: number) => T)(memory.mesh, offset, array.length);
+    copies.push({ from: array, to });
     offset += array.byteLength;
-    return copy;
+    return to;
   };
   // Positions first: what has four bytes each begins at a whole place.
-  return { memory, mesh: { positions: shared(positions), indices: indices && shared(indices) } };
+  return { memory, mesh: { positions: shared(positions), indices: indices && shared(indices) }, copies };
 }
 
 /**

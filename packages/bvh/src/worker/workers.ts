@@ -1,5 +1,6 @@
 import type { Blas, BlasOptions, TriangleMesh } from '../blas';
 import { BvhError } from '../error';
+import { copyAll, roomFor, type Copy } from './copy';
 import { BuildsHere, type Job } from './here';
 import { connect, hardwareThreads, startWorker, type NodeWorkerLike, type WebWorkerLike, type WorkerLine } from './line';
 import { buffersOf, receivedError, sendableOptions, type BuildReply, type BuildRequest } from './protocol';
@@ -315,40 +316,73 @@ export class BvhWorkers {
   #send(seat: Seat, job: Job): void {
     const { id, options, transfer } = job;
     const { positions, indices } = job.mesh;
-    const sent = <T extends Float32Array | Uint32Array | Uint16Array>(array: T): T => (array.buffer instanceof ArrayBuffer && !(transfer && array.byteLength === array.buffer.byteLength) ? (array.slice() as T) : array);
-    seat.jobs.set(id, job);
-    seat.load += job.triangles;
-    try {
-      const mesh: TriangleMesh = { positions: sent(positions), indices: indices && sent(indices) };
-      seat.line?.hold(true);
-      this.#post(seat, { kind: 'build', id, mesh, options: sendableOptions(options) }, buffersOf(mesh.positions, mesh.indices));
-    } catch (error) {
-      // Options that cannot be cloned, arrays that are none or were given away.
-      seat.jobs.delete(id);
-      seat.load -= job.triangles;
-      job.settle({ error });
-    }
+    const copies: Copy[] = [];
+    const sent = <T extends Float32Array | Uint32Array | Uint16Array>(from: T): T => {
+      if (!(from.buffer instanceof ArrayBuffer) || (transfer && from.byteLength === from.buffer.byteLength)) return from;
+      const to = roomFor(from);
+      copies.push({ from, to });
+      return to;
+    };
+    const mesh = () => ({ positions: sent(positions), indices: indices && sent(indices) });
+    // What fails: options that cannot be cloned, arrays that are none or were given away.
+    this.#deliver([seat], job, mesh, copies, (own) => this.#post(seat, { kind: 'build', id, mesh: own, options: sendableOptions(options) }, buffersOf(own.positions, own.indices)), (error) => job.settle({ error }));
   }
 
   /** Lets two workers build one mesh. */
   #sendTogether(seats: readonly Seat[], job: Job): void {
     const { id, options } = job;
-    try {
-      const { memory, mesh } = teamMemory(job.mesh, job.triangles, this.#spare?.deref());
+    const copies: Copy[] = [];
+    let memory: TeamMemory;
+    const mesh = () => {
+      const team = teamMemory(job.mesh, job.triangles, this.#spare?.deref());
       this.#spare = undefined;
-      this.#teams.set(id, { memory, half: false });
-      for (const [index, seat] of seats.entries()) {
-        seat.jobs.set(id, job);
-        seat.load += job.triangles;
-        seat.line?.hold(true);
-        this.#post(seat, { kind: 'together', id, mesh, options: sendableOptions(options), index, memory }, []);
-      }
-    } catch {
+      this.#teams.set(id, { memory: (memory = team.memory), half: false });
+      copies.push(...team.copies);
+      return team.mesh;
+    };
+    const post = (own: TriangleMesh) => seats.forEach((seat, index) => this.#post(seat, { kind: 'together', id, mesh: own, options: sendableOptions(options), index, memory }, []));
+    this.#deliver(seats, job, mesh, copies, post, () => {
       // No memory of that kind or not enough: one worker will do.
       this.#teams.delete(id);
-      for (const seat of seats) if (seat.jobs.delete(id)) seat.load -= job.triangles;
       this.#send(seats[0] as Seat, job);
+    });
+  }
+
+  /**
+   * Gives a job to workers, once its mesh is copied.
+   *
+   * @param make Makes the mesh that is sent, and says what is to be copied into it.
+   * @param failed What to do where one of the steps throws; the workers are free again.
+   */
+  #deliver(seats: readonly Seat[], job: Job, make: () => TriangleMesh, copies: readonly Copy[], post: (mesh: TriangleMesh) => void, failed: (error: unknown) => void): void {
+    for (const seat of seats) {
+      seat.jobs.set(job.id, job);
+      seat.load += job.triangles;
+      seat.line?.hold(true);
     }
+    // A worker that ended meanwhile, or was ended by an abort, has another in its seat.
+    const waiting = () => seats.every(({ jobs }) => jobs.get(job.id) === job);
+    const attempt = (step: () => void) => {
+      try {
+        step();
+      } catch (error) {
+        if (!waiting()) return;
+        for (const seat of seats) {
+          seat.jobs.delete(job.id);
+          seat.load -= job.triangles;
+          if (seat.jobs.size === 0) seat.line?.hold(false);
+        }
+        failed(error);
+      }
+    };
+    attempt(() => {
+      const mesh = make();
+      const copied = copyAll(copies);
+      const go = () => waiting() && post(mesh);
+      if (!copied) return go();
+      const fail = (error: unknown) => attempt(() => { throw error; });
+      void copied.then(() => attempt(go), fail).then(() => this.#next());
+    });
   }
 
   #post(seat: Seat, request: BuildRequest, transfer: readonly ArrayBuffer[]): void {

@@ -202,6 +202,33 @@ describe('BvhWorkers', () => {
     expect(getEventListeners(signal, 'abort')).toHaveLength(0);
   });
 
+  it('gives up a large mesh that is still being copied, and takes the next', async () => {
+    for (const together of [false, true]) {
+      // A clock on which every look takes five milliseconds: each piece is a turn of its own.
+      let now = performance.now();
+      const clock = vi.spyOn(performance, 'now').mockImplementation(() => (now += 5));
+      const workers = await create({ together });
+      const large = sphere(480), controller = new AbortController();
+      const pieces = counting(started, 'build'), halves = counting(started, 'together');
+      const aborted = workers.buildBlas(large, { signal: controller.signal });
+      const gone = workers.buildBlas(sphere(480));
+      controller.abort();
+      await expect(aborted).rejects.toMatchObject({ name: 'AbortError' });
+      expect(pieces() + halves()).toBe(0);
+      expectSame(await gone, buildBlas(large));
+      const later = [counting(started, 'build'), counting(started, 'together')];
+      const sent = () => later.reduce((sum, count) => sum + count(), 0);
+      const before = sent();
+      const last = workers.buildBlas(large);
+      workers.destroy();
+      await expect(last).rejects.toMatchObject({ code: 'bvh/destroyed' });
+      await new Promise((resolve) => setTimeout(resolve, 50));
+      expect(sent()).toBe(before);
+      clock.mockRestore();
+      started.length = 0;
+    }
+  });
+
   it('lets a short build run out when it is aborted, and says nothing of it', async () => {
     const workers = await create({ count: 1 });
     const controller = new AbortController();

@@ -1,0 +1,40 @@
+import { afterEach, expect, test, vi } from 'vitest';
+import { copyAll, roomFor } from '../../src/worker/copy';
+
+afterEach(() => void vi.restoreAllMocks());
+
+/** Numbers 0, 1, 2 … that begin within a larger buffer. */
+const counting = (length: number) => Float32Array.from({ length: length + 3 }, (_, i) => i - 3).subarray(3);
+
+/** A clock on which every look takes five milliseconds. */
+function slowClock(): void {
+  let now = 0;
+  vi.spyOn(performance, 'now').mockImplementation(() => (now += 5));
+}
+
+test('little is copied at once, and arrays that were given away are refused, though they are empty', () => {
+  const from = counting(1000), indices = Uint16Array.of(1, 2, 3);
+  const copies = [from, indices].map((array) => ({ from: array, to: roomFor(array) }));
+  expect(copyAll(copies)).toBe(undefined);
+  expect(copies.map(({ to }) => to)).toEqual([from, indices]);
+  const gone = new Float32Array(9);
+  structuredClone(gone, { transfer: [gone.buffer] });
+  expect(() => copyAll([{ from: gone, to: roomFor(gone) }])).toThrow(TypeError);
+});
+
+test('much is copied piece by piece, with the thread handed back, and what goes away in between is told', async () => {
+  slowClock();
+  const from = counting(1_000_003), empty = new Uint32Array(0);
+  const copies = [from, empty, from].map((array) => ({ from: array, to: roomFor(array) }));
+  let between = 0;
+  const ticking = setInterval(() => between++, 0);
+  await copyAll(copies);
+  clearInterval(ticking);
+  expect(between).toBeGreaterThan(3);
+  for (const { from: given, to } of copies) expect(Buffer.compare(Buffer.from(to.buffer), Buffer.from(given.slice().buffer))).toBe(0);
+
+  const going = counting(1_000_003);
+  const copied = copyAll([{ from: going, to: roomFor(going) }]);
+  structuredClone(going, { transfer: [going.buffer as ArrayBuffer] });
+  await expect(copied).rejects.toThrow(TypeError);
+});
