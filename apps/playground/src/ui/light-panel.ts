@@ -1,10 +1,11 @@
+import { inSlices } from '@glanz/scene';
 import { STUDIOS, studioEnvironment, type StudioName } from '@glanz/scene/studio';
 import { BACKGROUNDS, type Background, type EnvironmentChoice, type State } from '../state/state';
 import { changer, watch, type Context } from './context';
 import { element } from './elements';
 import { checkField, colourField, section, selectField, sliderField } from './fields';
 import { lightGroups } from './light-groups';
-import { drawLatLong, SkyEditor } from './sky-editor';
+import { latLongSteps, SkyEditor } from './sky-editor';
 
 const BACKGROUND_TITLES: Readonly<Record<Background, string>> = { environment: 'Environment', blurred: 'Environment, blurred', color: 'One colour', transparent: 'Transparent' };
 const STUDIO_TITLES: Readonly<Record<StudioName, string>> = { neutral: 'Neutral', 'high-key': 'High key', 'low-key': 'Low key', window: 'Window', duotone: 'Duotone', overcast: 'Overcast', 'clear-sky': 'Clear sky', sunset: 'Sunset' };
@@ -13,7 +14,7 @@ const STUDIO_TITLES: Readonly<Record<StudioName, string>> = { neutral: 'Neutral'
 function studioButtons({ store }: Context): HTMLElement {
   const buttons = (Object.keys(STUDIOS) as StudioName[]).map((name) => {
     const canvas = element('canvas', { width: 64, height: 32, 'aria-hidden': 'true' });
-    drawLatLong(canvas, studioEnvironment({ setup: STUDIOS[name], width: 64 }));
+    void inSlices(latLongSteps(canvas, studioEnvironment({ setup: STUDIOS[name], width: 64 })));
     const button = element('button', { type: 'button', class: 'studio', 'data-studio': name }, canvas, STUDIO_TITLES[name]);
     button.addEventListener('click', () => store.set({ environment: 'studio', studio: name, boxes: null }, { label: STUDIO_TITLES[name] }));
     return button;

@@ -1,4 +1,4 @@
-import { breathe, type LatLongEnvironment } from '@glanz/scene';
+import { breathe, inSlices, type LatLongEnvironment } from '@glanz/scene';
 import { STUDIOS, type SoftBox } from '@glanz/scene/studio';
 import { toneMap } from '@glanz/tonemap';
 import { watch, type Context } from './context';
@@ -8,12 +8,21 @@ import { colourField, sliderField } from './fields';
 const DEGREE = Math.PI / 180;
 const TONES = { toneMap: 'neutral', exposure: -0.5 } as const;
 
-/** Draws a small lat-long picture so that the front (+Z) is in the middle. */
-export function drawLatLong(canvas: HTMLCanvasElement, { width, height, data }: LatLongEnvironment): void {
+/** Rows of a picture that are drawn between two stops. */
+const ROWS = 8;
+
+/**
+ * Draws a small lat-long picture so that the front (+Z) is in the middle, a few rows a step; it is seen with the last one.
+ *
+ * @param wanted Whether to go on: another one may have taken its place.
+ */
+export function* latLongSteps(canvas: HTMLCanvasElement, { width, height, data }: LatLongEnvironment, wanted = () => true): Generator<void, void> {
   const context = canvas.getContext('2d');
   if (!context) return;
   const picture = context.createImageData(canvas.width, canvas.height);
   for (let y = 0; y < canvas.height; y++) {
+    if (y % ROWS === 0) yield;
+    if (!wanted()) return;
     const row = Math.floor(((y + 0.5) / canvas.height) * height);
     for (let x = 0; x < canvas.width; x++) {
       // u = ¾ is +Z; azimuth from there towards +X grows to the right, which is against u.
@@ -82,7 +91,7 @@ export class SkyEditor {
     if (environment?.type === 'latlong' && environment.data !== this.#drawn?.data) {
       this.#drawn = environment;
       // By itself: a model that has just come has other panels to show.
-      void breathe().then(() => this.#drawn === environment && drawLatLong(this.#canvas, environment));
+      void breathe().then(() => inSlices(latLongSteps(this.#canvas, environment, () => this.#drawn === environment)));
     }
     const boxes = this.#boxes();
     if (!boxes[this.#chosen]) this.#chosen = -1;

@@ -17,7 +17,7 @@ import { withErrorScopes } from './error-scopes';
 import { toHalves, uploadTextures } from './texture-upload';
 
 /** While shapes are filled in, the thread is handed back after so many milliseconds; a slice more can follow. */
-const FILL_MS = 6;
+const FILL_MS = 4;
 /** Pixels are written so many bytes at a time. */
 const FILL_BYTES = 1 << 20;
 /** So much may wait for the GPU's process. */

@@ -183,9 +183,9 @@ export async function prepareGeometry(scene: Scene, options: HierarchyOptions = 
   return layOutGeometry(scene, await prepareHierarchies(scene, options));
 }
 
-/** Bytes and triangles that are written at once: a few milliseconds of work. */
-const SLICE_BYTES = 1 << 21;
-const SLICE_TRIANGLES = 1 << 15;
+/** Bytes and triangles that are written at once: a millisecond or two of work. */
+const SLICE_BYTES = 1 << 20;
+const SLICE_TRIANGLES = 1 << 14;
 
 /** A part of one of the buffers of shapes. */
 export interface ShapeSlice {
