@@ -223,7 +223,7 @@ function makeClass(): GlanzViewerConstructor {
       viewer.environmentRotation = degrees('environment-rotation') ?? 0;
       viewer.damping = (this.#number('interpolation-decay') ?? 60) / 1000;
       viewer.autoRotateDelay = (this.#number('auto-rotate-delay') ?? 3000) / 1000;
-      const speed = this.hasAttribute('auto-rotate') ? (degrees('rotation-per-second') ?? Math.PI / 6) : 0;
+      const speed = this.hasAttribute('auto-rotate') ? (degrees('rotation-per-second') ?? Math.PI / 32) : 0;
       if (speed !== viewer.autoRotate) viewer.autoRotate = speed;
       const controls = this.hasAttribute('camera-controls') && { pan: !this.hasAttribute('disable-pan'), zoom: !this.hasAttribute('disable-zoom'), focus: !this.hasAttribute('disable-tap') };
       // Not for nothing: a drag that is under way would end.
