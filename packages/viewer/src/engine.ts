@@ -4,11 +4,12 @@ import type { ToneMapOptions } from '@glanz/tonemap';
 import { Connection } from './connection';
 import { Edits } from './edits';
 import type { EngineHost, EngineSettings, Take } from './engine-host';
-import { ViewerError } from './errors';
 import type { ViewerState } from './events';
+import { FilmFit } from './film-fit';
 import { previewShare } from './handover';
 import { RememberingHierarchies } from './hierarchies';
 import { makeTracer } from './make-tracer';
+import { Preparation } from './preparation';
 import { PreviewController } from './preview';
 import { nextFrame, soon, Visibility } from './visibility';
 
@@ -35,6 +36,8 @@ export class Engine {
   readonly #edits = new Edits();
   readonly #connection: Connection;
   readonly #visibility: Visibility;
+  readonly #films = new FilmFit();
+  readonly #preparation = new Preparation(() => this.#wake());
   readonly #preview: PreviewController;
   #hierarchies: RememberingHierarchies | undefined;
   #tracer: PathTracer | undefined;
@@ -42,7 +45,6 @@ export class Engine {
   #film: Size = [1, 1];
   #canvasSize: Size = [1, 1];
   #state: ViewerState = 'empty';
-  #preparing: AbortController | undefined;
   #failed = false;
   #destroyed = false;
   #paused = false;
@@ -203,7 +205,7 @@ export class Engine {
     if (this.#destroyed) return;
     this.#destroyed = true;
     this.#stir();
-    this.#preparing?.abort(new DOMException('the viewer was destroyed', 'AbortError'));
+    this.#preparation.destroy();
     this.#edits.clear(new DOMException('the viewer was destroyed', 'AbortError'));
     cancelAnimationFrame(this.#frame);
     this.#visibility.destroy();
@@ -219,41 +221,28 @@ export class Engine {
     return this.#hierarchies;
   }
 
-  async #prepare(source: () => Take, signal: AbortSignal | undefined, onProgress: (progress: PrepareProgress) => void = () => undefined): Promise<PathTracer> {
-    this.#preparing?.abort(new DOMException('another scene was asked for', 'AbortError'));
-    const preparing = (this.#preparing = new AbortController());
-    this.#stir();
-    try {
-      const options = () => {
-        const [width, height] = this.#film;
-        const { maxDepth, background, tracer: more } = this.settings;
-        return { hierarchies: this.#builder, ...more, width, height, maxDepth, background, signal: signal ? AbortSignal.any([signal, preparing.signal]) : preparing.signal, onProgress };
-      };
-      const tracer = await makeTracer(this.#connection, source, options);
-      if (preparing.signal.aborted || this.#destroyed) {
-        tracer.destroy();
-        preparing.signal.throwIfAborted();
-        throw new ViewerError('viewer/destroyed', 'This viewer has been destroyed.');
-      }
+  #prepare(source: () => Take, signal: AbortSignal | undefined, onProgress: (progress: PrepareProgress) => void = () => undefined): Promise<PathTracer> {
+    const options = (wanted: AbortSignal) => {
+      const [width, height] = this.#film;
+      const { maxDepth, background, tracer: more } = this.settings;
+      return { hierarchies: this.#builder, ...more, width, height, maxDepth, background, signal: signal ? AbortSignal.any([signal, wanted]) : wanted, onProgress };
+    };
+    const prepared = this.#preparation.run((wanted) => makeTracer(this.#connection, source, () => options(wanted)), (tracer) => {
       this.#tracer?.destroy();
       this.#tracer = tracer;
       this.#failed = false;
       this.#restarted();
       this.touch();
-      return tracer;
-    } finally {
-      if (this.#preparing === preparing) {
-        this.#preparing = undefined;
-        this.#wake();
-      }
-    }
+    });
+    this.#stir();
+    return prepared;
   }
 
   /** The scene as it was edited, on a device that came in place of a lost one. */
   async #rebuild(): Promise<void> {
     const [former, source] = [this.#tracer, this.#source];
     // A scene that is being prepared takes the new device by itself.
-    if (former && source && !this.#preparing) await this.#prepare(() => source(former), undefined);
+    if (former && source && !this.#preparation.running) await this.#prepare(() => source(former), undefined);
   }
 
   #fail(error: unknown): void {
@@ -293,7 +282,7 @@ export class Engine {
   #idleState(): ViewerState | undefined {
     if (this.#failed) return 'failed';
     if (this.#connection.recovery || (this.#tracer && !this.#connection.device)) return 'recovering';
-    if (this.#preparing) return 'loading';
+    if (this.#preparation.running) return 'loading';
     if (!this.#tracer) return 'empty';
     if (!this.#visibility.visible) return 'hidden';
     if (this.#moving()) return undefined;
@@ -319,7 +308,7 @@ export class Engine {
     const changed = stepped || this.#dirtyCamera || this.#edits.size > 0;
     if (stepped || this.#dirtyCamera) {
       // What stands still keeps its size: samples gather.
-      this.#fit(tracer, size, plan.divisor > 1 ? Math.min(this.settings.previewDepth, this.settings.maxDepth) : this.settings.maxDepth);
+      this.#films.fit(tracer, size, plan.divisor > 1 ? Math.min(this.settings.previewDepth, this.settings.maxDepth) : this.settings.maxDepth);
       this.#dirtyCamera = false;
       tracer.setCamera(this.#host.camera(this.#film[0] / this.#film[1])).catch((error: unknown) => this.#host.error(error));
       this.#settle = now + this.settings.settleMs;
@@ -346,7 +335,7 @@ export class Engine {
     const { samples, noise, maxSubmitMs, maxDepth } = this.settings;
     this.#tell('rendering');
     if (this.#fresh && !sameSize([tracer.width, tracer.height], this.#film)) this.#connection.display?.keep({ buffer: tracer.beautyBuffer, size: [tracer.width, tracer.height] }, tracer.samples);
-    if (this.#fit(tracer, this.#film, maxDepth)) this.#fresh = false;
+    if (this.#films.fit(tracer, this.#film, maxDepth)) this.#fresh = false;
     const { signal } = this.#interrupt;
     for await (const progress of tracer.render({ samples: this.#goal, signal, maxSubmitMs, ...(noise === undefined || this.#paused ? {} : { noise }) })) {
       if (tracer !== this.#tracer) return;
@@ -369,21 +358,6 @@ export class Engine {
   get #goal(): number {
     return this.#paused ? 1 : this.settings.samples;
   }
-
-  /** Gives the film a size and a depth. @returns Whether it was restarted. */
-  #fit(tracer: PathTracer, [width, height]: Size, depth: number): boolean {
-    const resized = tracer.width !== width || tracer.height !== height;
-    const deeper = this.#depths.get(tracer) !== depth;
-    if (resized) tracer.resize(width, height);
-    if (deeper) {
-      tracer.setDepth(depth);
-      this.#depths.set(tracer, depth);
-    }
-    return resized || deeper;
-  }
-
-  /** Depths that tracers have been given. */
-  readonly #depths = new WeakMap<PathTracer, number>();
 
   /** An edit has taken effect, perhaps by kernels that came late and restarted the film. */
   #edited(): void {

@@ -1,0 +1,52 @@
+import type { PathTracer } from '@glanz/renderer';
+import { ViewerError } from './errors';
+
+/** The making of a scene's tracer: one at a time, the last one asked for. */
+export class Preparation {
+  readonly #ended: () => void;
+  #control: AbortController | undefined;
+  #destroyed = false;
+
+  /** @param ended Told when a tracer is there, or will not be, and none other is being made. */
+  constructor(ended: () => void) {
+    this.#ended = ended;
+  }
+
+  /** Whether a tracer is being made. */
+  get running(): boolean {
+    return this.#control !== undefined;
+  }
+
+  /**
+   * Makes a tracer. One that is being made already is given up.
+   *
+   * @param make Starts at once; its signal says that it is not wanted any more.
+   * @param take Gets the tracer while this still counts as running, so that nobody sees the time in between.
+   * @throws what `make` throws; an `AbortError` where another one is asked for meanwhile; {ViewerError} `viewer/destroyed`.
+   */
+  async run(make: (signal: AbortSignal) => Promise<PathTracer>, take: (tracer: PathTracer) => void): Promise<PathTracer> {
+    this.#control?.abort(new DOMException('another scene was asked for', 'AbortError'));
+    const control = (this.#control = new AbortController());
+    try {
+      const tracer = await make(control.signal);
+      if (control.signal.aborted || this.#destroyed) {
+        tracer.destroy();
+        control.signal.throwIfAborted();
+        throw new ViewerError('viewer/destroyed', 'This viewer has been destroyed.');
+      }
+      take(tracer);
+      return tracer;
+    } finally {
+      if (this.#control === control) {
+        this.#control = undefined;
+        this.#ended();
+      }
+    }
+  }
+
+  /** Gives up what is being made, and all that would be. */
+  destroy(): void {
+    this.#destroyed = true;
+    this.#control?.abort(new DOMException('the viewer was destroyed', 'AbortError'));
+  }
+}
