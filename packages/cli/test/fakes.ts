@@ -25,7 +25,7 @@ export function triangleScene(): Scene {
   };
 }
 
-const STATISTICS: RenderStatistics = { triangles: 1, instances: 1, lights: 0, checkMs: 0.5, bvhMs: 1, uploadMs: 2, lightMs: 1, compileMs: 3, gpuBytes: 4, memory: { shapes: 1, lights: 0, materials: 1, textures: 0, environment: 0, paths: 1, film: 1, other: 0, pathsInFlight: 1, perPath: 1, perTriangle: 1, perPixel: 1, perTexel: 0 }, badSamples: 0 };
+const STATISTICS: RenderStatistics = { triangles: 1, instances: 1, lights: 0, checkMs: 0.5, textMs: 0.5, bvhMs: 1, uploadMs: 2, lightMs: 1, compileMs: 3, gpuBytes: 4, memory: { shapes: 1, lights: 0, materials: 1, textures: 0, environment: 0, paths: 1, film: 1, other: 0, pathsInFlight: 1, perPath: 1, perTriangle: 1, perPixel: 1, perTexel: 0 }, badSamples: 0 };
 
 /** A tracer that counts samples and whose every pixel holds (x/width, y/height, 0.25); what was asked of it is recorded. */
 export interface FakeRun {

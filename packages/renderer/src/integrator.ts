@@ -49,26 +49,42 @@ export class Integrator {
   #kernels: KernelSet;
   #film: Film;
 
-  constructor(device: GPUDevice, memory: GpuMemory, scene: GpuScene, kernels: KernelSet, film: Film, wanted: number | undefined, limits: DepthLimits) {
+  /** @param features Those of the kernels that {@link begin} will bring. */
+  constructor(device: GPUDevice, memory: GpuMemory, scene: GpuScene, features: KernelFeatures, film: Film, wanted: number | undefined, limits: DepthLimits) {
     this.#device = device;
     this.#memory = memory;
     this.#scene = scene;
-    this.#kernels = kernels;
+    this.#kernels = { features, kernels: {} };
     this.#film = film;
     this.limits = limits;
     this.#wanted = wanted;
     // A sample of the whole picture; more when the GPU turns out to be fast.
-    const capacity = Math.min(pathLimit(device, wanted, kernels.features), Math.max(1 << 16, film.pixels));
+    const capacity = Math.min(pathLimit(device, wanted, features), Math.max(1 << 16, film.pixels));
     this.#capacity = capacity;
     this.#buffers = {
       frame: memory.buffer('frame', frameStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
       batch: memory.buffer('batch', batchStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
       light_groups: memory.buffer('light groups', 2 * MAX_LIGHT_GROUPS * 16, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
-      paths: memory.buffer('paths', pathLayout(kernels.features).records.bytes(capacity), GPU_BUFFER_STORAGE),
+      paths: memory.buffer('paths', pathLayout(features).records.bytes(capacity), GPU_BUFFER_STORAGE),
       queues: memory.buffer('queues', (QUEUE_WORDS + 2 * capacity) * 4, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC | GPU_BUFFER_COPY_DST),
-      shadows: memory.buffer('shadows', shadowRecords(kernels.features.flags).bytes(kernels.features.flags.NEXT_EVENT ? capacity : 1), GPU_BUFFER_STORAGE),
+      shadows: memory.buffer('shadows', shadowRecords(features.flags).bytes(features.flags.NEXT_EVENT ? capacity : 1), GPU_BUFFER_STORAGE),
       dispatch: memory.buffer('dispatch', 32, GPU_BUFFER_STORAGE | GPU_BUFFER_INDIRECT),
     };
+  }
+
+  /**
+   * Does what the first batch wants of a kernel ahead of it, while others still compile: binds it, and with one of those that
+   * come early lets the browser make what it checks indirect dispatches with.
+   */
+  rehearse(name: KernelName, kernel: Kernel): void {
+    this.#group(name, kernel);
+    // The sizes are all zeroes yet: nothing runs.
+    if (name === 'generate') this.#pass('glanz rehearsal', (pass) => this.#run(pass, name, kernel, { indirect: 0 }));
+  }
+
+  /** The kernels are there, for the features that it was made with. */
+  begin(kernels: KernelSet): void {
+    this.#kernels = kernels;
   }
 
   /** Paths that there is memory for. */

@@ -199,8 +199,11 @@ export interface RenderStatistics {
   readonly instances: number;
   /** Emissive triangles and lights of the scene. */
   readonly lights: number;
-  /** Time to check the scene, to frame it where it has no camera, and to write the kernels' text. */
+  /** Time to check the scene, and to frame it where it has no camera. */
   readonly checkMs: number;
+  /** Time to write the kernels' text and hand it to the driver. */
+  readonly textMs: number;
+  /** Time from when the hierarchies were asked for until the last was there. Where other threads build them, the text is written meanwhile. */
   readonly bvhMs: number;
   /** Time to write it all to the GPU. */
   readonly uploadMs: number;

@@ -3,11 +3,12 @@ import { DeviceError, RenderError } from './errors';
 import { Film } from './film/film';
 import { showFirstLight } from './first-light';
 import { GpuMemory } from './gpu/buffers';
+import { energyTextures } from './gpu/energy-textures';
 import { withErrorScopes } from './gpu/error-scopes';
 import { GpuScene } from './gpu/gpu-scene';
 import { KernelCache } from './gpu/kernel-cache';
 import { Integrator } from './integrator';
-import type { KernelFeatures } from './kernels/pipelines';
+import type { Kernel, KernelFeatures, KernelName } from './kernels/pipelines';
 import type { PathTracerOptions, RenderStatistics } from './options';
 import { cameraSteps } from './scene/choose-camera';
 import { environmentSteps } from './scene/environment';
@@ -30,7 +31,7 @@ export interface Prepared {
   readonly camera: Camera;
   readonly options: PathTracerOptions;
   /** Times of the preparation. */
-  readonly times: Pick<RenderStatistics, 'checkMs' | 'bvhMs' | 'uploadMs' | 'lightMs' | 'compileMs'>;
+  readonly times: Pick<RenderStatistics, 'checkMs' | 'textMs' | 'bvhMs' | 'uploadMs' | 'lightMs' | 'compileMs'>;
 }
 
 /** Builds, uploads and compiles what a tracer needs, see `PathTracer.create`. */
@@ -44,8 +45,8 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
   await breathe();
   const { hierarchies, signal, onProgress, onFirstLight } = options;
   await inSlices(validationSteps(scene), { signal });
-  checkInteriors(scene);
   const own = ownScene(scene);
+  checkInteriors(own);
   await breathe();
   signal?.throwIfAborted();
   // A quarter of what the renderer weighs, and nobody needs it before there is a scene: a chunk of its own, loaded meanwhile.
@@ -56,23 +57,33 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
     // What cannot be framed cannot be rendered, and that is what was asked for.
     throw cause instanceof SceneError && cause.code === 'scene/empty' ? new RenderError('renderer/no-triangles', 'The scene has no visible triangles: nothing to render.', { cause }) : cause;
   });
+  const expected = kernelFeatures(expectedFeatures(device, own, choices), camera, options);
+  const checked = performance.now();
+  let asked = checked;
+  const build = () => {
+    asked = performance.now();
+    onProgress?.({ stage: 'bvh', done: 0 });
+    return prepareGeometry(own, { hierarchies, signal, onProgress: (done) => onProgress?.({ stage: 'bvh', done }) });
+  };
+  // Other threads begin at once, and this one does meanwhile what needs no shapes. Alone, it has the drivers begin first.
+  const building = hierarchies && build();
+  building?.catch(() => {});
+  if (building) await breathe();
   const cache = new KernelCache(device);
   const compiling = new CompileClock();
   // The kernels' text hangs on what the scene has, not on its shapes: the driver compiles while this thread or others build
   // hierarchies. A guess that is wrong, or fails, has cost nothing: the right ones are asked for below.
-  const expected = kernelFeatures(expectedFeatures(device, own, choices), camera, options);
   if (onFirstLight) cache.kernel('first', expected).catch(() => {});
   compiling.watch(cache.get(expected)).catch(() => {});
+  const textMs = compiling.elapsed;
   await breathe();
-  const t0 = performance.now();
-  onProgress?.({ stage: 'bvh', done: 0 });
-  const surroundings = () => inSlices(environmentSteps(own.environment), { signal });
-  // Where other threads build, this one has time for them; otherwise the first picture comes first.
-  const early = hierarchies && breathe().then(surroundings);
+  // All that lights and lit surfaces need and that does not hang on shapes.
+  const surroundings = async () => [await inSlices(environmentSteps(own.environment), { signal }), energyTextures((await loading).OPENPBR_TABLES)] as const;
+  const early = building && surroundings();
   early?.catch(() => {});
-  const geometry = await prepareGeometry(own, { hierarchies, signal, onProgress: (done) => onProgress?.({ stage: 'bvh', done }) });
-  await breathe();
+  const geometry = await (building ?? build());
   const t1 = performance.now();
+  await breathe();
   onProgress?.({ stage: 'upload', done: 0 });
   const memory = new GpuMemory(device);
   let late = false;
@@ -85,21 +96,29 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
       await breathe();
     }
     const shaped = performance.now();
-    const { OPENPBR_TABLES } = await loading;
-    await gpuScene.light(await (early ?? surroundings()), OPENPBR_TABLES);
+    await gpuScene.light(...(await (early ?? surroundings())));
     signal?.throwIfAborted();
     const t2 = performance.now();
     onProgress?.({ stage: 'upload', done: 1 });
     const features = kernelFeatures(gpuScene.features(), camera, options);
-    const kernels = await compiling.watch(cache.get(features, (done) => onProgress?.({ stage: 'compile', done })));
+    const [film, integrator] = await withErrorScopes(device, () => {
+      const picture = new Film(memory, options.width, options.height, features.planes);
+      return [picture, new Integrator(device, memory, gpuScene, features, picture, options.pathsInFlight, { maxDepth: options.maxDepth ?? 8, maxVolumeDepth: options.maxVolumeDepth ?? 256 })] as const;
+    });
+    const rehearsals: Promise<void>[] = [];
+    const hear = (done: number, name?: KernelName, kernel?: Kernel) => {
+      onProgress?.({ stage: 'compile', done });
+      if (!name || !kernel) return;
+      const rehearsal = withErrorScopes(device, () => integrator.rehearse(name, kernel));
+      rehearsal.catch(() => {});
+      rehearsals.push(rehearsal);
+    };
+    integrator.begin(await compiling.watch(cache.get(features, hear)));
+    await Promise.all(rehearsals);
     signal?.throwIfAborted();
     late = true;
-    return await withErrorScopes(device, () => {
-      const film = new Film(memory, options.width, options.height, kernels.features.planes);
-      const integrator = new Integrator(device, memory, gpuScene, kernels, film, options.pathsInFlight, { maxDepth: options.maxDepth ?? 8, maxVolumeDepth: options.maxVolumeDepth ?? 256 });
-      const times = { checkMs: t0 - begun, bvhMs: t1 - t0, uploadMs: t2 - t1, lightMs: t2 - shaped, compileMs: compiling.milliseconds };
-      return { device, memory, editor: new SceneEditor(own, geometry, gpuScene, hierarchies), gpuScene, cache, integrator, film, camera, options, times };
-    });
+    const times = { checkMs: checked - begun, textMs, bvhMs: t1 - asked, uploadMs: t2 - t1, lightMs: t2 - shaped, compileMs: compiling.milliseconds };
+    return { device, memory, editor: new SceneEditor(own, geometry, gpuScene, hierarchies), gpuScene, cache, integrator, film, camera, options, times };
   } catch (error) {
     memory.destroy();
     throw error;
@@ -116,6 +135,10 @@ class CompileClock {
 
   get milliseconds(): number {
     return this.#to - this.#from;
+  }
+
+  get elapsed(): number {
+    return performance.now() - this.#from;
   }
 
   /** Of what never comes, it knows nothing. */

@@ -13,7 +13,7 @@ export function ownScene(scene: Scene): Scene {
   return {
     ...scene,
     meshes: [...scene.meshes],
-    materials: scene.materials.map((material) => ({ ...material })),
+    materials: scene.materials.map((material) => ({ ...material, parameters: { ...material.parameters } })),
     instances: scene.instances.map((instance) => ({ ...instance })),
     lights: scene.lights.map((light) => ({ ...light })),
   };

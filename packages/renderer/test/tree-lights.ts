@@ -1,4 +1,4 @@
-import type { TreeLights } from '../src/scene/light-tree';
+import { LIGHT_TREE_DISTANT, LIGHT_TREE_LEAF, LIGHT_TREE_NODE, type LightTree, type TreeLights } from '../src/scene/light-tree';
 
 /** Random numbers in [0, 1) by Mulberry32. */
 export function random(seed: number): () => number {
@@ -36,4 +36,24 @@ export function randomLights(count: number, seed: number): TreeLights {
     lights.energies[i] = 0.01 + next() ** 3;
   }
   return lights;
+}
+
+/** The nodes of a tree, as objects. */
+export function treeNodes({ count, values, kinds, links }: LightTree) {
+  const { center, radius, axis, cosSpread, cosReach, energy, stride } = LIGHT_TREE_NODE;
+  return Array.from({ length: count }, (_, node) => {
+    const at = (place: number) => values[stride * node + place]!;
+    const leaf = (kinds[node]! & LIGHT_TREE_LEAF) !== 0;
+    return {
+      center: [at(center), at(center + 1), at(center + 2)] as const,
+      radius: at(radius),
+      axis: [at(axis), at(axis + 1), at(axis + 2)] as const,
+      cosSpread: at(cosSpread),
+      cosReach: at(cosReach),
+      energy: at(energy),
+      distant: (kinds[node]! & LIGHT_TREE_DISTANT) !== 0,
+      light: leaf ? links[node] : undefined,
+      child: leaf ? undefined : links[node],
+    };
+  });
 }

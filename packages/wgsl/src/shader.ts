@@ -13,10 +13,38 @@ const oneLine = (text: string) => text.trim().replace(/\s*\n\s*/g, ' ');
  * @param label Appears in the browser's own messages.
  * @throws {ShaderError} code `wgsl/compile` with the first error, its module, its line and the text of that line.
  */
-export async function createShaderModule(device: GPUDevice, shader: ComposedWgsl, label: string): Promise<GPUShaderModule> {
+export function createShaderModule(device: GPUDevice, shader: ComposedWgsl, label: string): Promise<GPUShaderModule> {
+  return beginShaderModule(device, shader, label).checked;
+}
+
+/** What {@link beginShaderModule} gives. */
+export interface PendingShaderModule {
+  /** To make pipelines of at once, with `create…PipelineAsync`; of a faulty one they come to nothing. */
+  readonly module: GPUShaderModule;
+  /** The same, once the compiler has found nothing wrong with it. Rejects as {@link createShaderModule} does. */
+  readonly checked: Promise<GPUShaderModule>;
+}
+
+/**
+ * As {@link createShaderModule}, for those who do not want to wait for the compiler's word before they ask for pipelines: the
+ * driver has its work a round trip earlier. Await `checked` before the pipelines: where both fail, it says why.
+ *
+ * @param label Appears in the browser's own messages.
+ * @example
+ * const { module, checked } = beginShaderModule(device, shader, 'shade');
+ * const pipeline = device.createComputePipelineAsync({ layout: 'auto', compute: { module } });
+ * pipeline.catch(() => {});   // where the text is at fault, the next line throws
+ * await checked;
+ * const ready = await pipeline;
+ */
+export function beginShaderModule(device: GPUDevice, shader: ComposedWgsl, label: string): PendingShaderModule {
   device.pushErrorScope('validation');
   const module = device.createShaderModule({ label, code: shader.code });
-  const [validation, info] = await Promise.all([device.popErrorScope(), module.getCompilationInfo()]);
+  return { module, checked: check(module, Promise.all([device.popErrorScope(), module.getCompilationInfo()]), shader, label) };
+}
+
+async function check(module: GPUShaderModule, word: Promise<[GPUError | null, GPUCompilationInfo]>, shader: ComposedWgsl, label: string): Promise<GPUShaderModule> {
+  const [validation, info] = await word;
   const errors = info.messages.filter((message) => message.type === 'error');
   const first = errors[0];
   if (first) {

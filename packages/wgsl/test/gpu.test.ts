@@ -1,6 +1,6 @@
 import { expectNoGpuErrors, runCompute, testDevice } from '@glanz/gpu';
 import { afterEach, describe, expect, it } from 'vitest';
-import { compose, createShaderModule, ShaderError, struct, wgslModule, type StructLayout, type WgslFieldType } from '../src';
+import { beginShaderModule, compose, createShaderModule, ShaderError, struct, wgslModule, type StructLayout, type WgslFieldType } from '../src';
 import { randomSource, type RandomSource } from './random';
 
 afterEach(() => expectNoGpuErrors());
@@ -106,5 +106,18 @@ describe('createShaderModule', () => {
     expect(message).toContain('"return x / 2u;"');
     expect(message).not.toContain('\n');
     // afterEach: the device has no uncaptured error.
+  });
+
+  it('pipelines may be asked for before the compiler has had its word, which is the error of both', async () => {
+    const device = await testDevice();
+    const good = beginShaderModule(device, compose([entry('out[0] = square(3.0);')]), 'good');
+    const pipeline = device.createComputePipelineAsync({ layout: 'auto', compute: { module: good.module, entryPoint: 'main' } });
+    expect(await good.checked).toBe(good.module);
+    expect(await pipeline).toBeTruthy();
+    const bad = beginShaderModule(device, compose([entry('out[0] = missing();')]), 'bad');
+    const none = device.createComputePipelineAsync({ layout: 'auto', compute: { module: bad.module, entryPoint: 'main' } });
+    const [word, nothing] = await Promise.allSettled([bad.checked, none]);
+    expect(word).toMatchObject({ status: 'rejected', reason: { code: 'wgsl/compile', location: { module: 'test/entry', line: 3 } } });
+    expect(nothing.status).toBe('rejected');
   });
 });

@@ -1,4 +1,3 @@
-import type { OPENPBR_TABLES } from '@glanz/openpbr/tables';
 import type { Environment, Mesh, Scene } from '@glanz/scene';
 import type { KernelFeatures } from '../kernels/pipelines';
 import { instanceStruct, materialStruct, meshStruct } from '../kernels/layout';
@@ -6,15 +5,16 @@ import type { ResourceName } from '../kernels/resources';
 import { prepareEnvironment, roughEnvironment, turnEnvironment, type EnvironmentData } from '../scene/environment';
 import { isOneSided } from '../scene/culling';
 import { paintsAlpha, sceneFeatures, texturePlan, type SceneChoices, type VertexAlpha } from '../scene/features';
-import { packInstances, packTlas, shapeSlices, type Geometry, type MeshRegion, type PackedGeometry, type PackedMesh } from '../scene/geometry';
+import { joinSlices, packInstances, packTlas, shapeSlices, type Geometry, type MeshRegion, type PackedGeometry, type PackedMesh } from '../scene/geometry';
 import { breather } from '../scene/hierarchies';
 import { lightGroupTable, type LightGroupTable } from '../scene/light-groups';
 import { buildLightTable, noLights, type LightTable } from '../scene/lights';
 import { isOpaque, packBindings, packMaterial, texturedParameters, type TexturedParameterInfo } from '../scene/materials';
 import type { TexturePlan } from '../scene/textures';
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_STORAGE, GPU_TEXTURE_BINDING, GPU_TEXTURE_COPY_DST, type GpuMemory } from './buffers';
+import type { EnergyTextures } from './energy-textures';
 import { withErrorScopes } from './error-scopes';
-import { toHalves, uploadTextures } from './texture-upload';
+import { uploadTextures } from './texture-upload';
 
 /** While shapes are filled in, the thread is handed back after so many milliseconds; a slice more can follow. */
 const FILL_MS = 4;
@@ -22,9 +22,6 @@ const FILL_MS = 4;
 const FILL_BYTES = 1 << 20;
 /** So much may wait for the GPU's process. */
 const QUEUE_BYTES = 2 << 20;
-
-/** The energy tables, which come in a chunk of their own. */
-export type EnergyTables = typeof OPENPBR_TABLES;
 
 /**
  * A scene on the GPU. A cache: everything here can be made again from the `Scene`. It comes in three steps, since a first
@@ -213,7 +210,7 @@ export class GpuScene {
   /** Writes the shapes, with the thread handed back every few milliseconds. */
   async fill(signal?: AbortSignal): Promise<void> {
     const breathe = breather(FILL_MS);
-    for (const { buffer, offset, data } of shapeSlices(this.#scene, this.#geometry)) {
+    for (const { buffer, offset, data } of joinSlices(shapeSlices(this.#scene, this.#geometry))) {
       this.#memory.write(this.#buffers.get(buffer) as GPUBuffer, data, offset);
       await this.#keepUp(data.byteLength, breathe);
       signal?.throwIfAborted();
@@ -232,12 +229,12 @@ export class GpuScene {
   }
 
   /** Adds what lights the scene, with the thread handed back every few milliseconds. */
-  async light(environment: EnvironmentData, tables: EnergyTables): Promise<void> {
+  async light(environment: EnvironmentData, energy: EnergyTextures): Promise<void> {
     const breathe = breather(FILL_MS);
     await withErrorScopes(this.#device, () => {
       this.#environment = environment;
       this.#makeEnvironment();
-      this.#uploadEnergy(tables);
+      this.#uploadEnergy(energy);
     });
     await breathe();
     for (const bytes of this.#environmentSlices()) await this.#keepUp(bytes, breathe);
@@ -346,16 +343,11 @@ export class GpuScene {
     }
   }
 
-  #uploadEnergy(tables: EnergyTables): void {
-    for (const [name, table] of [
-      ['energy_dielectric', tables.dielectric],
-      ['energy_conductor', tables.conductor],
-    ] as const) {
-      const { width, height, depth } = table;
-      const dimension = name === 'energy_dielectric' ? '3d' : '2d';
-      const data = toHalves(table.data);
-      const texture = this.#memory.texture({ label: `glanz ${name}`, size: [width, height, depth], dimension, format: 'r16float', usage: GPU_TEXTURE_BINDING | GPU_TEXTURE_COPY_DST }, data.byteLength);
-      this.#device.queue.writeTexture({ texture }, data, { bytesPerRow: width * 2, rowsPerImage: height }, [width, height, depth]);
+  #uploadEnergy(energy: EnergyTextures): void {
+    for (const name of ['energy_dielectric', 'energy_conductor'] as const) {
+      const { size, dimension, data } = energy[name];
+      const texture = this.#memory.texture({ label: `glanz ${name}`, size, dimension, format: 'r16float', usage: GPU_TEXTURE_BINDING | GPU_TEXTURE_COPY_DST }, data.byteLength);
+      this.#device.queue.writeTexture({ texture }, data, { bytesPerRow: size[0] * 2, rowsPerImage: size[1] }, size);
       this.#textures.set(name, texture);
     }
   }

@@ -9,12 +9,15 @@ export interface KernelSet {
 /** Compiled when they are first asked for. */
 const ON_DEMAND: ReadonlySet<KernelName> = new Set(['features', 'position', 'relight', 'noise', 'first']);
 
+/** Told how far kernels are, 0..1, and which of them has come last. */
+type Hear = (done: number, name?: KernelName, kernel?: Kernel) => void;
+
 /** Kernels that are there or under way, with those who want to hear how far they are. */
 interface Compilation {
   readonly set: Promise<KernelSet>;
-  /** 0..1. */
-  done: number;
-  readonly heard: Set<(done: number) => void>;
+  readonly count: number;
+  readonly ready: Map<KernelName, Kernel>;
+  readonly heard: Set<Hear>;
 }
 
 const cachesOf = new WeakMap<GPUDevice, { readonly sets: Map<string, Compilation>; readonly kernels: Map<string, Promise<Kernel>> }>();
@@ -35,38 +38,39 @@ export class KernelCache {
 
   /**
    * All kernels of the main loop, compiled side by side.
-   * @param onProgress Told how far they are, 1 at the end, whoever has asked for them first.
+   * @param hear Told how far they are, 1 at the end, and each one as it comes, whoever has asked for them first.
    */
-  async get(features: KernelFeatures, onProgress?: (done: number) => void): Promise<KernelSet> {
+  async get(features: KernelFeatures, hear?: Hear): Promise<KernelSet> {
     const key = JSON.stringify(features);
     let compilation = this.#sets.get(key);
     if (!compilation) {
       this.#sets.set(key, (compilation = this.#compile(features)));
       compilation.set.catch(() => this.#sets.delete(key));
     }
-    if (!onProgress) return compilation.set;
-    onProgress(compilation.done);
-    compilation.heard.add(onProgress);
+    if (!hear) return compilation.set;
+    const { ready, count, heard, set } = compilation;
+    if (ready.size === 0) hear(0);
+    let done = 0;
+    for (const [name, kernel] of ready) hear(++done / count, name, kernel);
+    heard.add(hear);
     try {
-      return await compilation.set;
+      return await set;
     } finally {
-      compilation.heard.delete(onProgress);
+      heard.delete(hear);
     }
   }
 
   #compile(features: KernelFeatures): Compilation {
     const names = KERNELS.filter((name) => !ON_DEMAND.has(name) && (name !== 'connect' || features.flags.NEXT_EVENT === true));
-    const heard = new Set<(done: number) => void>();
-    let ready = 0;
+    const heard = new Set<Hear>();
+    const ready = new Map<KernelName, Kernel>();
     const compile = async (name: KernelName) => {
       const kernel = await this.kernel(name, features);
-      compilation.done = ++ready / names.length;
-      for (const hear of heard) hear(compilation.done);
-      return [name, kernel] as const;
+      ready.set(name, kernel);
+      for (const hear of heard) hear(ready.size / names.length, name, kernel);
     };
-    // Each waits for its driver before it says how far it is, and so for this to be there.
-    const compilation: Compilation = { set: Promise.all(names.map(compile)).then((compiled) => ({ features, kernels: Object.fromEntries(compiled) as KernelSet['kernels'] })), done: 0, heard };
-    return compilation;
+    const set = Promise.all(names.map(compile)).then(() => ({ features, kernels: Object.fromEntries(ready) as KernelSet['kernels'] }));
+    return { set, count: names.length, ready, heard };
   }
 
   /** One kernel. */

@@ -1,6 +1,5 @@
 import { wgslModule } from '@glanz/wgsl';
 import { frameStruct } from './layout';
-import { random } from './random.wgsl';
 
 /**
  * Camera rays. Perspective through a pinhole, or through a thin lens with planar focus (CAMERA_LENS) that is round or a
@@ -67,5 +66,5 @@ fn camera_ray(pixel: vec2u, offset: vec2f, lens: vec2f) -> CameraRay {
   //#endif
 }
 `,
-  [frameStruct.module, random],
+  [frameStruct.module],
 );

@@ -1,6 +1,7 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { camera } from './camera.wgsl';
 import { filter } from './filter.wgsl';
+import { random } from './random.wgsl';
 
 /**
  * First-hit features of one sample per pixel: albedo with coverage, shading normal with depth, and (for sample 0, through
@@ -57,6 +58,6 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   feature_normal[pixel] = normal;
 }
 `,
-    [surface, openpbr, energy, camera, filter, traversal],
+    [surface, openpbr, energy, camera, filter, random, traversal],
   );
 }

@@ -2,6 +2,7 @@ import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { camera } from './camera.wgsl';
 import { filter } from './filter.wgsl';
 import { pathCone, pathSample } from './path.wgsl';
+import { random } from './random.wgsl';
 
 /** Starts the paths of a batch: path i is sample ⌊i / pixels⌋ of pixel i mod pixels. */
 export const generate = (path: WgslModule): WgslModule => wgslModule(
@@ -40,5 +41,5 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   queues.items[index] = index;
 }
 `,
-  [path, pathSample, pathCone, camera, filter],
+  [path, pathSample, pathCone, camera, filter, random],
 );

@@ -1,5 +1,5 @@
 import { openpbr } from '@glanz/openpbr';
-import { compose, createShaderModule, type WgslModule } from '@glanz/wgsl';
+import { beginShaderModule, compose, type WgslModule } from '@glanz/wgsl';
 import { DeviceError } from '../errors';
 import { OPACITY_ID, type TexturedParameterInfo } from '../scene/materials';
 import { accept } from './accept.wgsl';
@@ -47,7 +47,8 @@ export function serves(present: KernelFeatures, wanted: KernelFeatures): boolean
   return Object.entries(needs).every(([name, value]) => has[name] === value || (has[name] === true && HARMLESS.test(name) && name !== 'OPENPBR_MULTISCATTER'));
 }
 
-export const KERNELS = ['generate', 'begin', 'intersect', 'shade', 'advance', 'connect', 'resolve', 'features', 'position', 'relight', 'noise', 'first'] as const;
+/** In the order in which they are compiled: `shade` takes longest, and has the others' time too. */
+export const KERNELS = ['shade', 'generate', 'begin', 'intersect', 'advance', 'connect', 'resolve', 'features', 'position', 'relight', 'noise', 'first'] as const;
 export type KernelName = (typeof KERNELS)[number];
 
 /** A compiled kernel and the names of what it binds, in order. */
@@ -150,14 +151,17 @@ export function kernelSource(name: KernelName, features: KernelFeatures): Kernel
     key: `${name}\n${shader.code}`,
     async compile(device) {
       const layout = bindGroupLayout(device, name, text.resources, sceneBindings);
-      const module = await createShaderModule(device, shader, `glanz ${name}`);
+      const { module, checked } = beginShaderModule(device, shader, `glanz ${name}`);
+      // Asked for at once, so that the driver works while the next kernel's text is read.
+      const compiled = device.createComputePipelineAsync({
+        label: `glanz ${name}`,
+        layout: device.createPipelineLayout({ label: `glanz ${name}`, bindGroupLayouts: [layout] }),
+        compute: { module, entryPoint: 'main' },
+      });
+      compiled.catch(() => {});
+      await checked;
       try {
-        const pipeline = await device.createComputePipelineAsync({
-          label: `glanz ${name}`,
-          layout: device.createPipelineLayout({ label: `glanz ${name}`, bindGroupLayouts: [layout] }),
-          compute: { module, entryPoint: 'main' },
-        });
-        return { pipeline, layout, resources: text.resources, sceneBindings };
+        return { pipeline: await compiled, layout, resources: text.resources, sceneBindings };
       } catch (cause) {
         throw new DeviceError('renderer/gpu-error', `The GPU refused the kernel "${name}": ${(cause as Error).message}`, { cause });
       }

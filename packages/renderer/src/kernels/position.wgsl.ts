@@ -1,6 +1,7 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { camera } from './camera.wgsl';
 import { filter } from './filter.wgsl';
+import { random } from './random.wgsl';
 
 /** Sums of world positions of the first surface, with the number of hits. Run on demand, with the picture's camera rays. */
 export function positionModule(traversal: WgslModule): WgslModule {
@@ -30,6 +31,6 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   feature_position[pixel] = sum;
 }
 `,
-    [camera, filter, traversal],
+    [camera, filter, random, traversal],
   );
 }

@@ -1,5 +1,5 @@
-import { resolveParameters } from '@glanz/openpbr';
 import type { Material } from '@glanz/scene';
+import { parametersOf } from './parameters';
 
 /**
  * Whether a material's back faces are left out where back faces are culled: not those of materials that let light
@@ -8,6 +8,6 @@ import type { Material } from '@glanz/scene';
  * @param opaque Whether it is fully there wherever it is.
  */
 export function isOneSided(material: Material, opaque: boolean): boolean {
-  const { transmission_weight, subsurface_weight } = resolveParameters(material.parameters);
+  const { transmission_weight, subsurface_weight } = parametersOf(material);
   return material.double_sided !== true && transmission_weight === 0 && subsurface_weight === 0 && (opaque || material.opacity_threshold !== undefined);
 }

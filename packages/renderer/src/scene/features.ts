@@ -1,4 +1,4 @@
-import { requiredFeatures, resolveParameters } from '@glanz/openpbr';
+import { requiredFeatures } from '@glanz/openpbr';
 import type { Mesh, Scene } from '@glanz/scene';
 import type { KernelFeatures } from '../kernels/pipelines';
 import type { BackFaceCulling, LightGroupMode, Sampler } from '../options';
@@ -8,6 +8,7 @@ import { lightGroupTable } from './light-groups';
 import { hasSize } from './light-records';
 import type { LightSampling } from './lights';
 import { emittedRadiance, hasCoatFrames, hasRanges, isOpaque, texturedParameters, turnsTangent, usedTextures, type TexturedParameterInfo } from './materials';
+import { parametersOf } from './parameters';
 import { compressedFormats, planTextures, type TexturePlan } from './textures';
 
 /** Options that decide the kernels' text. */
@@ -41,7 +42,7 @@ export interface SceneFacts {
 /** What decides the kernels' text. */
 export function sceneFeatures(scene: Scene, choices: SceneChoices, facts: SceneFacts): KernelFeatures {
   const { textured, plan, lights, environmentSampled } = facts;
-  const parameters = scene.materials.map((material) => resolveParameters(material.parameters));
+  const parameters = scene.materials.map((material) => parametersOf(material));
   const names = textured.map(({ name }) => name);
   const culled = choices.backFaceCulling !== 'off' && scene.instances.some(({ visible, material }) => visible !== false && isOneSided(scene.materials[material] as Scene['materials'][number], facts.isOpaque(material)));
   const openpbrFlags = requiredFeatures(parameters, { textured: names, multipleScattering: choices.multipleScattering });
@@ -113,7 +114,7 @@ export function paintsAlpha(scene: Scene, material: number, known: VertexAlpha):
  */
 export function expectedFeatures(device: GPUDevice, scene: Scene, choices: SceneChoices): KernelFeatures {
   const shown = scene.instances.filter(({ visible, mesh }) => visible !== false && (scene.meshes[mesh] as Mesh).indices.length >= 3);
-  const glows = scene.materials.map((material) => emittedRadiance(resolveParameters(material.parameters)).some((value) => value > 0));
+  const glows = scene.materials.map((material) => emittedRadiance(parametersOf(material)).some((value) => value > 0));
   const lights = scene.lights.length > 0 || shown.some(({ material }) => glows[material]);
   const { environment } = scene;
   const vertexAlpha: VertexAlpha = new WeakMap();

@@ -1,11 +1,11 @@
 import { buildTlas, packTriangles, type Blas, type Tlas } from '@glanz/bvh';
 import { bvhInstanceStruct } from '@glanz/bvh/wgsl';
-import { resolveParameters } from '@glanz/openpbr';
 import type { Instance, Material, Mesh, Scene } from '@glanz/scene';
 import { INSTANCE_CATCHER, instanceStruct, meshStruct, NONE } from '../kernels/layout';
 import { RenderError } from '../errors';
 import { emittedRadiance } from './materials';
 import { breather, buildHierarchies, type HierarchyOptions } from './hierarchies';
+import { parametersOf } from './parameters';
 
 /** Node words: 16 a node. */
 const NODE_WORDS = 16;
@@ -114,7 +114,7 @@ const boxesOf = (scene: Scene, blas: readonly (Blas | undefined)[], which: reado
 
 function placeBare(scene: Scene, blas: readonly (Blas | undefined)[], shown: readonly number[]): Placement['bare'] {
   if (!shown.some((index) => scene.instances[index]?.catcher)) return undefined;
-  const glows = scene.materials.map((material: Material) => emittedRadiance(resolveParameters(material.parameters)).some((c) => c > 0));
+  const glows = scene.materials.map((material: Material) => emittedRadiance(parametersOf(material)).some((c) => c > 0));
   const which = shown.filter((index) => scene.instances[index]?.catcher || glows[(scene.instances[index] as Instance).material]);
   const tlas = buildTlas(boxesOf(scene, blas, which));
   return tlas.instanceOrder.length > 0 ? { tlas, shown: which } : undefined;
@@ -142,8 +142,6 @@ export function packTlas({ tlas, bare, order }: Placement): Float32Array<ArrayBu
 }
 
 const attributesOf = (mesh: Mesh) => [mesh.indices, mesh.normals, mesh.tangents, mesh.colors, mesh.uvs?.[0], mesh.uvs?.[1]];
-
-const ATTRIBUTES = ['indices', 'normals', 'tangents', 'colors', 'uv0', 'uv1'] as const;
 
 /** Words that a mesh's attributes take. */
 export function attributeWords(mesh: Mesh): number {
@@ -205,10 +203,12 @@ function* slicesOf(buffer: ShapeSlice['buffer'], offset: number, array: Float32A
  */
 export function* shapeSlices(scene: Scene, geometry: Geometry): Generator<ShapeSlice> {
   yield* slicesOf('nodes', 0, packTlas(geometry));
+  const records = new Uint32Array(scene.meshes.length * RECORD_WORDS);
+  scene.meshes.forEach((mesh, index) => writeRecord(records, index * RECORD_WORDS, mesh, geometry.blas[index], geometry.regions[index] as MeshRegion));
+  yield* slicesOf('attributes', 0, records);
   for (const [index, mesh] of scene.meshes.entries()) {
     const region = geometry.regions[index] as MeshRegion;
     const tree = geometry.blas[index];
-    yield { buffer: 'attributes', offset: index * meshStruct.size, data: meshRecord(mesh, tree, region) };
     if (!tree) continue;
     yield* slicesOf('nodes', 4 * region.firstNode * NODE_WORDS, tree.nodes.subarray(0, tree.nodeCount * NODE_WORDS));
     const { positions, indices } = mesh;
@@ -223,6 +223,34 @@ export function* shapeSlices(scene: Scene, geometry: Geometry): Generator<ShapeS
       word += array.length;
     }
   }
+}
+
+/** Slices up to so many bytes together are given as one. */
+const JOINED_BYTES = 1 << 18;
+
+/**
+ * The same with fewer slices: those that follow each other in their buffer are joined while they are small, since each write
+ * costs more than the bytes of a small mesh.
+ */
+export function* joinSlices(slices: Iterable<ShapeSlice>): Generator<ShapeSlice> {
+  const open = new Map<ShapeSlice['buffer'], { offset: number; bytes: number; readonly memory: Uint8Array<ArrayBuffer> }>();
+  for (const slice of slices) {
+    const { buffer, offset, data } = slice;
+    if (2 * data.byteLength > JOINED_BYTES) {
+      yield slice;
+      continue;
+    }
+    let joined = open.get(buffer);
+    if (!joined) open.set(buffer, (joined = { offset, bytes: 0, memory: new Uint8Array(JOINED_BYTES) }));
+    if (offset !== joined.offset + joined.bytes || joined.bytes + data.byteLength > JOINED_BYTES) {
+      if (joined.bytes > 0) yield { buffer, offset: joined.offset, data: joined.memory.subarray(0, joined.bytes) };
+      joined.offset = offset;
+      joined.bytes = 0;
+    }
+    joined.memory.set(new Uint8Array(data.buffer, data.byteOffset, data.byteLength), joined.bytes);
+    joined.bytes += data.byteLength;
+  }
+  for (const [buffer, { offset, bytes, memory }] of open) if (bytes > 0) yield { buffer, offset, data: memory.subarray(0, bytes) };
 }
 
 /** Writes shapes for the GPU, with the thread handed back now and then. */
@@ -250,21 +278,24 @@ export interface PackedMesh {
   readonly attributes: Uint32Array<ArrayBuffer>;
 }
 
-/** A mesh's row of the mesh table. */
-function meshRecord(mesh: Mesh, tree: Blas | undefined, { firstWord }: MeshRegion): Uint32Array<ArrayBuffer> {
-  const record = meshStruct.allocate();
-  let at = firstWord;
+const RECORD_WORDS = meshStruct.size / 4;
+/** Where a row of the mesh table says where each attribute begins, in words. */
+const ATTRIBUTE_PLACES = (['indices', 'normals', 'tangents', 'colors', 'uv0', 'uv1'] as const).map((name) => meshStruct.offsetOf(name) / 4);
+
+/** Writes a mesh's row of the mesh table. */
+function writeRecord(records: Uint32Array, at: number, mesh: Mesh, tree: Blas | undefined, { firstWord }: MeshRegion): void {
+  let word = firstWord;
   attributesOf(mesh).forEach((array, i) => {
     const present = tree !== undefined && array !== undefined && array.length > 0;
-    meshStruct.write(record, 0, { [ATTRIBUTES[i] as (typeof ATTRIBUTES)[number]]: present ? at : NONE });
-    if (present) at += array.length;
+    records[at + (ATTRIBUTE_PLACES[i] as number)] = present ? word : NONE;
+    if (present) word += array.length;
   });
-  return new Uint32Array(record);
 }
 
 /** Writes one mesh for its region. */
 export function packMesh(mesh: Mesh, tree: Blas | undefined, region: MeshRegion): PackedMesh {
-  const record = meshRecord(mesh, tree, region);
+  const record = new Uint32Array(RECORD_WORDS);
+  writeRecord(record, 0, mesh, tree, region);
   if (!tree) return { record, nodes: new Float32Array(), triangles: new Float32Array(), attributes: new Uint32Array() };
   const attributes = new Uint32Array(attributeWords(mesh));
   let at = 0;

@@ -1,23 +1,23 @@
-import { resolveParameters } from '@glanz/openpbr';
 import type { Material } from '@glanz/scene';
+import { parametersOf } from './parameters';
 
 /** Whether light may go through the material's surface into an inside. */
 export function hasInterior(material: Material): boolean {
-  const p = resolveParameters(material.parameters);
+  const p = parametersOf(material);
   if (p.geometry_thin_walled || (p.base_metalness >= 1 && !material.textures?.base_metalness)) return false;
   return p.transmission_weight > 0 || p.subsurface_weight > 0;
 }
 
 /** Whether what is inside scatters light. */
 function scatters(material: Material): boolean {
-  const p = resolveParameters(material.parameters);
+  const p = parametersOf(material);
   const milky = p.transmission_weight > 0 && p.transmission_depth > 0 && p.transmission_scatter.some((c) => c > 0);
   return hasInterior(material) && (milky || p.subsurface_weight > 0);
 }
 
 /** Whether the material's surface is none: all light passes, unbent and untinted, where there is air around. */
 export function isIndexMatched(material: Material): boolean {
-  const p = resolveParameters(material.parameters);
+  const p = parametersOf(material);
   const matched = p.specular_weight === 0 || p.specular_ior === 1;
   const clear = p.transmission_weight === 1 && (p.transmission_depth > 0 || p.transmission_color.every((c) => c === 1));
   const bare = p.base_metalness === 0 && p.coat_weight === 0 && p.fuzz_weight === 0;
@@ -26,7 +26,7 @@ export function isIndexMatched(material: Material): boolean {
 
 /** Whether the index of refraction varies with the wavelength, where light goes through. */
 export function isDispersive(material: Material): boolean {
-  const { transmission_weight, transmission_dispersion_scale } = resolveParameters(material.parameters);
+  const { transmission_weight, transmission_dispersion_scale } = parametersOf(material);
   return hasInterior(material) && transmission_weight > 0 && transmission_dispersion_scale > 0;
 }
 
@@ -35,7 +35,7 @@ const SMOOTH = 0.01;
 
 /** Whether light that goes through the surface goes straight on: a smooth thin wall that scatters nothing. */
 export function isStraight(material: Material): boolean {
-  const p = resolveParameters(material.parameters);
+  const p = parametersOf(material);
   const { textures } = material;
   // Textures only lower a roughness.
   return p.geometry_thin_walled && p.transmission_weight > 0 && p.subsurface_weight === 0 && p.specular_roughness <= SMOOTH && (p.base_metalness < 1 || textures?.base_metalness !== undefined);

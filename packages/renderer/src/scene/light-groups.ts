@@ -1,9 +1,9 @@
-import { resolveParameters } from '@glanz/openpbr';
 import type { Light, Material, Scene } from '@glanz/scene';
 import { RenderError } from '../errors';
 import { MAX_LIGHT_GROUPS } from '../kernels/resources';
 import type { LightGroupMode } from '../options';
 import { emittedRadiance } from './materials';
+import { parametersOf } from './parameters';
 
 /** What has no group of its own. */
 const REST = 'rest';
@@ -18,7 +18,7 @@ export interface LightGroupTable {
   material(material: Material): number;
 }
 
-const shines = (material: Material) => emittedRadiance(resolveParameters(material.parameters)).some((c) => c > 0);
+const shines = (material: Material) => emittedRadiance(parametersOf(material)).some((c) => c > 0);
 
 /**
  * Sorts a scene's lights into groups.

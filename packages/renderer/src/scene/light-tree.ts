@@ -22,26 +22,35 @@ export interface TreeLights {
   readonly energies: Float64Array;
 }
 
-/** A node of the tree. */
-export interface LightTreeNode {
-  readonly center: readonly [number, number, number];
-  /** Of the sphere around its box. */
-  readonly radius: number;
-  readonly axis: readonly [number, number, number];
-  readonly cosSpread: number;
-  readonly cosReach: number;
-  readonly energy: number;
-  /** Its lights are infinitely far away. */
-  readonly distant: boolean;
-  /** Of a leaf: the light. */
-  readonly light?: number;
-  /** Of an inner node: the first of two children, which follow each other. */
-  readonly child?: number;
-}
+/** Numbers of a node in `LightTree.values`, from its first on. */
+export const LIGHT_TREE_NODE = {
+  /** Three: the middle of the sphere around its lights. */
+  center: 0,
+  radius: 3,
+  /** Three: a unit vector. */
+  axis: 4,
+  cosSpread: 7,
+  cosReach: 8,
+  energy: 9,
+  /** How many there are. */
+  stride: 10,
+} as const;
 
-/** The tree; its root is node 0. */
+/** A bit of `LightTree.kinds`: the node is a leaf, of one light. */
+export const LIGHT_TREE_LEAF = 1;
+/** A bit of `LightTree.kinds`: the node's lights are infinitely far away. */
+export const LIGHT_TREE_DISTANT = 2;
+
+/** The tree; its root is node 0. Columns, not objects: see {@link BoundsStore}. */
 export interface LightTree {
-  readonly nodes: readonly LightTreeNode[];
+  /** Nodes. */
+  readonly count: number;
+  /** By node, as {@link LIGHT_TREE_NODE} says. */
+  readonly values: Float64Array;
+  /** By node: {@link LIGHT_TREE_LEAF}, {@link LIGHT_TREE_DISTANT}. */
+  readonly kinds: Uint8Array;
+  /** By node: of a leaf, its light; else the first of two children, which follow each other. */
+  readonly links: Uint32Array;
   /** By light: the way to it from the root, a bit a level from the lowest on; 1 is the second child. */
   readonly trails: Uint32Array;
 }
@@ -51,12 +60,17 @@ const BINS = 12;
 /** A trail has 32 bits. */
 const MOST_LEVELS = 32;
 
-/** Numbers that bound some lights: lowest and highest corner, axis, then the three below. */
-const STRIDE = 12;
+/** Numbers that bound some lights: lowest and highest corner, axis, then the four below. */
+const STRIDE = 13;
 const AXIS = 6;
 const SPREAD = 9;
 const REACH = 10;
 const ENERGY = 11;
+/** Cosine of the spread. */
+const COS = 12;
+
+/** More than rounding moves a cosine. */
+const CLEARLY = 1e-9;
 
 /**
  * Bounds of lights and of sets of lights, in one array: the lights' own first, then places for sums. No objects, since every
@@ -74,6 +88,7 @@ class BoundsStore {
       values[STRIDE * i + SPREAD] = lights.spreads[i] as number;
       values[STRIDE * i + REACH] = lights.reaches[i] as number;
       values[STRIDE * i + ENERGY] = lights.energies[i] as number;
+      values[STRIDE * i + COS] = Math.cos(lights.spreads[i] as number);
     }
   }
 
@@ -99,10 +114,13 @@ class BoundsStore {
     const ax = v[a + AXIS] as number, ay = v[a + AXIS + 1] as number, az = v[a + AXIS + 2] as number;
     const bx = v[b + AXIS] as number, by = v[b + AXIS + 1] as number, bz = v[b + AXIS + 2] as number;
     const cos = Math.min(1, Math.max(-1, ax * bx + ay * by + az * bz));
+    // Most lights are flat, and within the cone of those before them.
+    if (spreadB === 0 && cos > (v[a + COS] as number) + CLEARLY) return;
     const between = Math.acos(cos);
     if (Math.min(between + spreadB, Math.PI) <= spreadA) return;
     if (Math.min(between + spreadA, Math.PI) <= spreadB) {
       v.copyWithin(a + AXIS, b + AXIS, b + SPREAD + 1);
+      v[a + COS] = v[b + COS] as number;
       return;
     }
     const spread = (spreadA + between + spreadB) / 2;
@@ -111,6 +129,7 @@ class BoundsStore {
     const length = Math.sqrt(x * x + y * y + z * z);
     if (spread >= Math.PI || length < 1e-9) {
       v[a + SPREAD] = Math.PI;
+      v[a + COS] = -1;
       return;
     }
     const turn = spread - spreadA;
@@ -120,6 +139,7 @@ class BoundsStore {
     v[a + AXIS + 1] = along * ay + aside * y;
     v[a + AXIS + 2] = along * az + aside * z;
     v[a + SPREAD] = spread;
+    v[a + COS] = Math.cos(spread);
   }
 
   /** What it costs to have these lights in one node: energy, times where they are, times where they shine. */
@@ -131,8 +151,9 @@ class BoundsStore {
     const z = (v[a + 5] as number) - (v[a + 2] as number);
     const spread = v[a + SPREAD] as number;
     const all = Math.min(spread + (v[a + REACH] as number), Math.PI);
+    const sin = Math.sin(spread), cos = v[a + COS] as number;
     // Directions that the cone shines into, weighed by the cosine beyond its spread.
-    const solidAngle = 2 * Math.PI * (1 - Math.cos(spread)) + (Math.PI / 2) * (2 * all * Math.sin(spread) - Math.cos(spread - 2 * all) - 2 * spread * Math.sin(spread) + Math.cos(spread));
+    const solidAngle = 2 * Math.PI * (1 - cos) + (Math.PI / 2) * (2 * all * sin - Math.cos(spread - 2 * all) - 2 * spread * sin + cos);
     return (v[a + ENERGY] as number) * solidAngle * (x * y + y * z + z * x);
   }
 }
@@ -143,25 +164,25 @@ class BoundsStore {
  * @param near Indices of the lights that are in it and have a place, each with an energy above 0.
  * @param distant Those infinitely far away; of all there is one at least.
  */
-export function buildLightTree(lights: TreeLights, near: readonly number[], distant: readonly number[] = []): LightTree {
-  const nodes: LightTreeNode[] = [];
-  const trails = new Uint32Array(lights.energies.length);
-  const order = Uint32Array.from([...near, ...distant]);
-  // Twice the middles.
-  const centers = new Float64Array(3 * lights.energies.length);
-  for (let i = 0; i < centers.length; i++) {
-    const corner = 6 * Math.floor(i / 3) + (i % 3);
-    centers[i] = (lights.bounds[corner] as number) + (lights.bounds[corner + 3] as number);
-  }
-  const low = new Float64Array(3);
-  const high = new Float64Array(3);
+export function buildLightTree(lights: TreeLights, near: ArrayLike<number>, distant: ArrayLike<number> = []): LightTree {
   const count = lights.energies.length;
+  const firstDistant = near.length;
+  const order = new Uint32Array(firstDistant + distant.length);
+  order.set(near);
+  order.set(distant, firstDistant);
+  const nodes = 2 * order.length - 1;
+  const tree = { count: nodes, values: new Float64Array(LIGHT_TREE_NODE.stride * nodes), kinds: new Uint8Array(nodes), links: new Uint32Array(nodes), trails: new Uint32Array(count) };
+  // Twice the middles.
+  const centers = new Float64Array(3 * count);
+  for (let i = 0; i < count; i++) for (let k = 0; k < 3; k++) centers[3 * i + k] = (lights.bounds[6 * i + k] as number) + (lights.bounds[6 * i + 3 + k] as number);
   // Places for sums: one for a node, one that grows in a sweep, and the bins.
   const store = new BoundsStore(lights, 2 + BINS);
   const [NODE, SUM, FIRST_BIN] = [count, count + 1, count + 2];
   const filled = new Uint8Array(BINS);
   const left = new Float64Array(BINS);
   const right = new Float64Array(BINS);
+  /** By place in the order, while a node is split. */
+  const bins = new Uint8Array(order.length);
   const whole = (from: number, to: number): void => {
     store.copy(NODE, order[from] as number);
     for (let i = from + 1; i < to; i++) store.unite(NODE, order[i] as number);
@@ -169,59 +190,76 @@ export function buildLightTree(lights: TreeLights, near: readonly number[], dist
   /** Costs of the bins up to each, in either direction. */
   const sweep = (costs: Float64Array, first: number, step: number): void => {
     let any = false;
+    let cost = 0;
     for (let n = 0, bin = first; n < BINS; n++, bin += step) {
       if (filled[bin]) {
         if (any) store.unite(SUM, FIRST_BIN + bin);
         else store.copy(SUM, FIRST_BIN + bin);
         any = true;
+        cost = store.cost(SUM);
       }
-      costs[bin] = any ? store.cost(SUM) : 0;
+      costs[bin] = cost;
     }
+  };
+  /** The bin after which the lights in bins are best cut. */
+  const bestCut = (): number => {
+    sweep(left, 0, 1);
+    sweep(right, BINS - 1, -1);
+    let best = 1;
+    let least = Infinity;
+    for (let at = 1; at < BINS; at++) {
+      const sum = (left[at - 1] as number) + (right[at] as number);
+      if (sum < least) {
+        best = at;
+        least = sum;
+      }
+    }
+    return best;
   };
 
   /** Sorts order[from, to) so that a split lies at the index returned. */
   const split = (from: number, to: number, level: number): number => {
-    if (from < near.length && to > near.length) return near.length;
-    if (from >= near.length) return (from + to) >> 1;
-    low.fill(Infinity);
-    high.fill(-Infinity);
-    for (let i = from; i < to; i++) {
-      for (let k = 0, at = 3 * (order[i] as number); k < 3; k++, at++) {
-        const c = centers[at] as number;
-        if (c < (low[k] as number)) low[k] = c;
-        if (c > (high[k] as number)) high[k] = c;
+    if (from < firstDistant && to > firstDistant) return firstDistant;
+    const middle = (from + to) >> 1;
+    if (from >= firstDistant) return middle;
+    let axis = 0, start = 0, extent = -Infinity;
+    for (let k = 0; k < 3; k++) {
+      let low = Infinity, high = -Infinity;
+      for (let i = from; i < to; i++) {
+        const c = centers[3 * (order[i] as number) + k] as number;
+        if (c < low) low = c;
+        if (c > high) high = c;
+      }
+      if (high - low > extent) {
+        axis = k;
+        start = low;
+        extent = high - low;
       }
     }
-    let axis = 0;
-    for (let k = 1; k < 3; k++) if ((high[k] as number) - (low[k] as number) > (high[axis] as number) - (low[axis] as number)) axis = k;
-    const start = low[axis] as number;
-    const extent = (high[axis] as number) - start;
-    const middle = (from + to) >> 1;
     // Halves keep the way to a light within a trail's bits.
     const halves = extent <= 0 || Math.ceil(Math.log2(to - from)) + 1 >= MOST_LEVELS - level;
     if (!halves) {
-      const binOf = (light: number) => Math.min(BINS - 1, Math.floor((BINS * ((centers[3 * light + axis] as number) - start)) / extent));
+      let best = BINS - 1;
       filled.fill(0);
       for (let i = from; i < to; i++) {
-        const light = order[i] as number;
-        const bin = binOf(light);
-        if (filled[bin]) store.unite(FIRST_BIN + bin, light);
-        else store.copy(FIRST_BIN + bin, light);
-        filled[bin] = 1;
+        const bin = Math.min(BINS - 1, Math.floor((BINS * ((centers[3 * (order[i] as number) + axis] as number) - start)) / extent));
+        bins[i] = bin;
       }
-      sweep(left, 0, 1);
-      sweep(right, BINS - 1, -1);
-      let best = 1;
-      let least = Infinity;
-      for (let at = 1; at < BINS; at++) {
-        const sum = (left[at - 1] as number) + (right[at] as number);
-        if (sum < least) [best, least] = [at, sum];
+      // Two lie in the first bin and the last, and every cut is the same.
+      if (to - from > 2) {
+        for (let i = from; i < to; i++) {
+          const bin = bins[i] as number;
+          if (filled[bin]) store.unite(FIRST_BIN + bin, order[i] as number);
+          else store.copy(FIRST_BIN + bin, order[i] as number);
+          filled[bin] = 1;
+        }
+        best = bestCut();
       }
       // Partition in place.
       let end = from;
       for (let i = from; i < to; i++) {
+        if ((bins[i] as number) >= best) continue;
         const light = order[i] as number;
-        if (binOf(light) >= best) continue;
         order[i] = order[end] as number;
         order[end++] = light;
       }
@@ -232,30 +270,36 @@ export function buildLightTree(lights: TreeLights, near: readonly number[], dist
   };
 
   /** Makes a node of the sum in NODE. */
-  const write = (at: number, distant: boolean, link: { readonly light: number } | { readonly child: number }): void => {
-    const v = store.values, n = STRIDE * NODE;
-    const lowX = v[n] as number, lowY = v[n + 1] as number, lowZ = v[n + 2] as number, highX = v[n + 3] as number, highY = v[n + 4] as number, highZ = v[n + 5] as number;
-    const center = [(lowX + highX) / 2, (lowY + highY) / 2, (lowZ + highZ) / 2] as const;
-    const radius = 0.5 * Math.hypot(highX - lowX, highY - lowY, highZ - lowZ);
-    nodes[at] = { center, radius, axis: [v[n + AXIS] as number, v[n + AXIS + 1] as number, v[n + AXIS + 2] as number], cosSpread: Math.cos(v[n + SPREAD] as number), cosReach: Math.cos(v[n + REACH] as number), energy: v[n + ENERGY] as number, distant, ...link };
+  const write = (node: number): void => {
+    const v = store.values, n = STRIDE * NODE, { values } = tree, at = LIGHT_TREE_NODE.stride * node;
+    for (let k = 0; k < 3; k++) {
+      values[at + LIGHT_TREE_NODE.center + k] = ((v[n + k] as number) + (v[n + 3 + k] as number)) / 2;
+      values[at + LIGHT_TREE_NODE.axis + k] = v[n + AXIS + k] as number;
+    }
+    values[at + LIGHT_TREE_NODE.radius] = 0.5 * Math.hypot((v[n + 3] as number) - (v[n] as number), (v[n + 4] as number) - (v[n + 1] as number), (v[n + 5] as number) - (v[n + 2] as number));
+    values[at + LIGHT_TREE_NODE.cosSpread] = Math.cos(v[n + SPREAD] as number);
+    values[at + LIGHT_TREE_NODE.cosReach] = Math.cos(v[n + REACH] as number);
+    values[at + LIGHT_TREE_NODE.energy] = v[n + ENERGY] as number;
   };
 
-  const build = (at: number, from: number, to: number, level: number, trail: number): void => {
+  let made = 1;
+  const build = (node: number, from: number, to: number, level: number, trail: number): void => {
     whole(from, to);
+    write(node);
+    tree.kinds[node] = (to - from === 1 ? LIGHT_TREE_LEAF : 0) | (from >= firstDistant ? LIGHT_TREE_DISTANT : 0);
     if (to - from === 1) {
       const light = order[from] as number;
-      trails[light] = trail;
-      write(at, from >= near.length, { light });
+      tree.links[node] = light;
+      tree.trails[light] = trail;
       return;
     }
     const middle = split(from, to, level);
-    const child = nodes.length;
-    nodes.length += 2;
-    write(at, from >= near.length, { child });
+    const child = made;
+    made += 2;
+    tree.links[node] = child;
     build(child, from, middle, level + 1, trail);
     build(child + 1, middle, to, level + 1, (trail | (1 << level)) >>> 0);
   };
-  nodes.length = 1;
   build(0, 0, order.length, 0, 0);
-  return { nodes, trails };
+  return tree;
 }

@@ -1,14 +1,14 @@
-import { resolveParameters } from '@glanz/openpbr';
 import type { Instance, Light, LightProfile, Material, Mesh, Scene } from '@glanz/scene';
 import { GROUP_SHIFT, LIGHT_MIRRORED, LIGHT_NODE_DISTANT, LIGHT_NODE_LEAF, LIGHT_TRIANGLE, LIGHT_TWO_SIDED, lightStruct, NONE } from '../kernels/layout';
-import { buildAliasTable } from './alias-table';
+import { buildAliasTable, type AliasTable } from './alias-table';
 import { EmissionEstimate } from './emission';
 import type { LightGroupTable } from './light-groups';
-import { buildLightTree, type LightTree, type LightTreeNode, type TreeLights } from './light-tree';
+import { buildLightTree, LIGHT_TREE_DISTANT, LIGHT_TREE_LEAF, LIGHT_TREE_NODE, type LightTree, type TreeLights } from './light-tree';
 import { profileGrid, profileRecords, writeProfile, type ProfileGrid } from './light-profile';
 import { hasSize, writeLight } from './light-records';
 import { emittedRadiance } from './materials';
 import { determinant3, transformPoint } from './matrix';
+import { parametersOf } from './parameters';
 
 /** How the lights are chosen from, see `PathTracerOptions.lightSampling`. */
 export type LightSampling = 'tree' | 'power';
@@ -58,7 +58,7 @@ export function buildLightTable(scene: Scene, geometry: LightGeometry, sceneRadi
   scene.instances.forEach((instance, index) => {
     const slot = geometry.instanceSlots[index] as number;
     const material = scene.materials[instance.material] as Material;
-    if (slot === NONE || luminance(emittedRadiance(resolveParameters(material.parameters))) <= 0) return;
+    if (slot === NONE || luminance(emittedRadiance(parametersOf(material))) <= 0) return;
     firstLight[index] = count;
     emitters.push({ instance: index, slot, base: count });
     count += (scene.meshes[instance.mesh] as Mesh).indices.length / 3;
@@ -75,21 +75,39 @@ export function buildLightTable(scene: Scene, geometry: LightGeometry, sceneRadi
   [...areas, ...others].forEach((light, i) => (weights[firstArea + i] = writeLight(lights, bounds, firstArea + i, light, sceneRadius, groups.light(light) << GROUP_SHIFT, light.type === 'profile' ? profiles.get(light.profile) : undefined)));
   const table = buildAliasTable(weights);
   if (!table) return noLights(scene);
-  const words = lightStruct.size / 4;
+  const isDistant = (i: number) => i >= firstArea + areas.length && others[i - firstArea - areas.length]?.type === 'directional';
+  const tree = sampling === 'tree' ? treeOf(bounds, weights, isDistant) : undefined;
+  writeChances(lights, table, tree);
+  const records = withProfiles(tree ? withNodes(lights, count, tree) : lights, profiles, others.flatMap((light, i) => (light.type === 'profile' ? [firstArea + areas.length + i] : [])));
+  return { records, count, profiles: profiles.size > 0, tree: tree !== undefined, firstArea, areaCount: areas.length, firstLight, power: sumOf(weights) };
+}
+
+function sumOf(values: Float64Array): number {
+  let sum = 0;
+  for (let i = 0; i < values.length; i++) sum += values[i] as number;
+  return sum;
+}
+
+/** The tree over the lights that shine. */
+function treeOf(bounds: TreeLights, weights: Float64Array, isDistant: (light: number) => boolean): LightTree {
+  const near: number[] = [];
+  const distant: number[] = [];
+  for (let i = 0; i < weights.length; i++) if ((weights[i] as number) > 0) (isDistant(i) ? distant : near).push(i);
+  return buildLightTree(bounds, near, distant);
+}
+
+/** Writes how likely each light is without a tree, and the way to it in one. */
+function writeChances(lights: ArrayBuffer, { probability, alias, keep }: AliasTable, tree: LightTree | undefined): void {
   const floats = new Float32Array(lights);
   const integers = new Uint32Array(lights);
-  const [probability, alias, keep] = [wordOf('probability'), wordOf('other'), wordOf('keep')];
-  for (let i = 0; i < count; i++) {
-    floats[i * words + probability] = table.probability[i] as number;
-    integers[i * words + alias] = table.alias[i] as number;
-    floats[i * words + keep] = table.keep[i] as number;
+  const others = tree?.trails ?? alias;
+  const words = lightStruct.size / 4;
+  const at = { probability: wordOf('probability'), other: wordOf('other'), keep: wordOf('keep') };
+  for (let i = 0, row = 0; i < others.length; i++, row += words) {
+    floats[row + at.probability] = probability[i] as number;
+    integers[row + at.other] = others[i] as number;
+    floats[row + at.keep] = keep[i] as number;
   }
-  const shining = [...weights.keys()].filter((i) => (weights[i] as number) > 0);
-  const isDistant = (i: number) => i >= firstArea + areas.length && others[i - firstArea - areas.length]?.type === 'directional';
-  const tree = sampling === 'tree' ? buildLightTree(bounds, shining.filter((i) => !isDistant(i)), shining.filter(isDistant)) : undefined;
-  if (tree) tree.trails.forEach((trail, i) => (integers[i * words + alias] = trail));
-  const records = withProfiles(tree ? withNodes(lights, count, tree) : lights, profiles, others.flatMap((light, i) => (light.type === 'profile' ? [firstArea + areas.length + i] : [])));
-  return { records, count, profiles: profiles.size > 0, tree: tree !== undefined, firstArea, areaCount: areas.length, firstLight, power: weights.reduce((sum, w) => sum + w, 0) };
 }
 
 type Profiles = ReadonlyMap<LightProfile, { readonly grid: ProfileGrid; readonly first: number }>;
@@ -123,27 +141,26 @@ function withProfiles(before: ArrayBuffer, profiles: Profiles, users: readonly n
 const wordOf = (field: Parameters<typeof lightStruct.offsetOf>[0]): number => lightStruct.offsetOf(field) / 4;
 
 /** The light records with the nodes of the tree behind them. Written word by word: thousands of them, while nothing is compiled yet. */
-function withNodes(lights: ArrayBuffer, count: number, { nodes }: LightTree): ArrayBuffer {
-  const records = lightStruct.allocate(count + nodes.length);
+function withNodes(lights: ArrayBuffer, count: number, { count: nodes, values, kinds, links }: LightTree): ArrayBuffer {
+  const records = lightStruct.allocate(count + nodes);
   new Uint8Array(records).set(new Uint8Array(lights));
   const floats = new Float32Array(records);
   const integers = new Uint32Array(records);
   const words = lightStruct.size / 4;
   const at = { a: wordOf('a'), kind: wordOf('kind'), b: wordOf('b'), probability: wordOf('probability'), c: wordOf('c'), other: wordOf('other') };
-  for (let i = 0, row = count * words; i < nodes.length; i++, row += words) {
-    const { center, radius, axis, cosSpread, cosReach, energy, distant, light, child } = nodes[i] as LightTreeNode;
-    floats[row + at.a] = center[0];
-    floats[row + at.a + 1] = center[1];
-    floats[row + at.a + 2] = center[2];
-    integers[row + at.kind] = (light === undefined ? 0 : LIGHT_NODE_LEAF) | (distant ? LIGHT_NODE_DISTANT : 0);
-    floats[row + at.b] = axis[0];
-    floats[row + at.b + 1] = axis[1];
-    floats[row + at.b + 2] = axis[2];
-    floats[row + at.probability] = radius;
-    floats[row + at.c] = cosSpread;
-    floats[row + at.c + 1] = cosReach;
-    floats[row + at.c + 2] = energy;
-    integers[row + at.other] = light ?? count + (child as number);
+  const { center, radius, axis, cosSpread, cosReach, energy, stride } = LIGHT_TREE_NODE;
+  for (let i = 0, row = count * words, from = 0; i < nodes; i++, row += words, from += stride) {
+    const kind = kinds[i] as number;
+    for (let k = 0; k < 3; k++) {
+      floats[row + at.a + k] = values[from + center + k] as number;
+      floats[row + at.b + k] = values[from + axis + k] as number;
+    }
+    floats[row + at.probability] = values[from + radius] as number;
+    floats[row + at.c] = values[from + cosSpread] as number;
+    floats[row + at.c + 1] = values[from + cosReach] as number;
+    floats[row + at.c + 2] = values[from + energy] as number;
+    integers[row + at.kind] = (kind & LIGHT_TREE_LEAF ? LIGHT_NODE_LEAF : 0) | (kind & LIGHT_TREE_DISTANT ? LIGHT_NODE_DISTANT : 0);
+    integers[row + at.other] = (links[i] as number) + (kind & LIGHT_TREE_LEAF ? 0 : count);
   }
   return records;
 }
@@ -152,7 +169,7 @@ function writeTriangles(records: ArrayBuffer, weights: Float64Array, bounds: Tre
   const instance = scene.instances[index] as Instance;
   const mesh = scene.meshes[instance.mesh] as Mesh;
   const material = scene.materials[instance.material] as Material;
-  const radiance = luminance(emittedRadiance(resolveParameters(material.parameters)));
+  const radiance = luminance(emittedRadiance(parametersOf(material)));
   const sides = material.double_sided ? 2 : 1;
   const mirrored = determinant3(instance.transform) < 0 ? -1 : 1;
   const kind = LIGHT_TRIANGLE | (material.double_sided ? LIGHT_TWO_SIDED : 0) | (mirrored < 0 ? LIGHT_MIRRORED : 0) | (groups.material(material) << GROUP_SHIFT);
@@ -164,13 +181,15 @@ function writeTriangles(records: ArrayBuffer, weights: Float64Array, bounds: Tre
   const words = lightStruct.size / 4;
   const at = { a: wordOf('a'), b: wordOf('b'), c: wordOf('c'), kind: wordOf('kind'), ids: wordOf('ids') };
   const p = new Float64Array(9);
+  // Whatever kind of list it is, the loop's machine code sees one.
+  const transform = Float64Array.from(instance.transform);
   const { positions, indices } = mesh;
   // No functions and no lists within: thousands of triangles, while nothing is compiled yet.
   for (let triangle = 0; triangle < indices.length / 3; triangle++) {
     const row = (base + triangle) * words;
     for (let k = 0; k < 3; k++) {
       const vertex = 3 * (indices[3 * triangle + k] as number);
-      transformPoint(instance.transform, positions[vertex] as number, positions[vertex + 1] as number, positions[vertex + 2] as number, p, 3 * k);
+      transformPoint(transform, positions[vertex] as number, positions[vertex + 1] as number, positions[vertex + 2] as number, p, 3 * k);
     }
     for (let k = 0; k < 3; k++) {
       floats[row + at.a + k] = p[k] as number;

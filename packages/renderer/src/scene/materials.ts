@@ -1,7 +1,8 @@
-import { openPbrStruct, packOpenPbr, resolveParameters, type OpenPbrParameters } from '@glanz/openpbr';
+import { openPbrStruct, packOpenPbr, type OpenPbrParameters } from '@glanz/openpbr';
 import type { Material, Scene, TextureBinding } from '@glanz/scene';
 import { bindingStruct, GROUP_SHIFT, MATERIAL_CULLED, MATERIAL_DISPERSIVE, MATERIAL_EMISSIVE, MATERIAL_INDEX_MATCHED, MATERIAL_INTERIOR, MATERIAL_MASK, MATERIAL_OPAQUE, MATERIAL_PRIORITY_SHIFT, MATERIAL_STRAIGHT, MATERIAL_TWO_SIDED_EMISSION, materialStruct } from '../kernels/layout';
 import { hasInterior, isDispersive, isIndexMatched, isStraight } from './interiors';
+import { parametersOf } from './parameters';
 import type { TexturePlan } from './textures';
 
 /** A parameter that some material textures, with its number in the GPU records. */
@@ -109,7 +110,7 @@ export function isOpaque(material: Material, hasVertexAlpha: boolean): boolean {
 
 /** Writes one material's record. `firstBinding` is a word offset into the attribute heap. */
 export function packMaterial(buffer: ArrayBuffer, index: number, material: Material, firstBinding: number, bindingCount: number, opaque: boolean, culled: boolean, group: number): void {
-  const parameters = resolveParameters(material.parameters);
+  const parameters = parametersOf(material);
   const packed = openPbrStruct.allocate();
   packOpenPbr(packed, 0, parameters);
   const emissive = emittedRadiance(parameters).some((c) => c > 0);

@@ -3,6 +3,7 @@ import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import type { Environment, Scene } from '@glanz/scene';
 import { afterAll, beforeAll, expect, it } from 'vitest';
 import { GpuMemory } from '../../src/gpu/buffers';
+import { energyTextures } from '../../src/gpu/energy-textures';
 import { GpuScene } from '../../src/gpu/gpu-scene';
 import { PathTracer } from '../../src/index';
 import { prepareEnvironment } from '../../src/scene/environment';
@@ -52,7 +53,7 @@ it.each(SCENES)('kernels that begin to compile before hierarchies are built are 
   const memory = new GpuMemory(device);
   try {
     const gpuScene = new GpuScene(device, memory, scene, await prepareGeometry(scene), CHOICES);
-    await gpuScene.light(prepareEnvironment(scene.environment), OPENPBR_TABLES);
+    await gpuScene.light(prepareEnvironment(scene.environment), energyTextures(OPENPBR_TABLES));
     expect(expectedFeatures(device, scene, CHOICES)).toEqual(gpuScene.features());
   } finally {
     memory.destroy();

@@ -8,7 +8,7 @@ import { lightTree } from '../../src/kernels/light-tree.wgsl';
 import { pathCone } from '../../src/kernels/path.wgsl';
 import { buildLightTree } from '../../src/scene/light-tree';
 import { addQuad, camera, createScene, lambert, meanOf } from '../scenes';
-import { random, randomLights, randomUnit } from '../tree-lights';
+import { random, randomLights, randomUnit, treeNodes } from '../tree-lights';
 
 let device: GPUDevice;
 beforeAll(async () => {
@@ -24,9 +24,9 @@ describe('the choice by the light tree', () => {
   it('has the probability that is asked for, and leaves out no light that shines on the place', async () => {
     const lights = randomLights(COUNT, 77);
     const tree = buildLightTree(lights, [...Array(COUNT - 4).keys()], [36, 37, 38]);
-    const records = lightStruct.allocate(COUNT + tree.nodes.length);
+    const records = lightStruct.allocate(COUNT + tree.count);
     for (let i = 0; i < COUNT; i++) lightStruct.write(records, i, { other: tree.trails[i]!, probability: i < 39 ? 1 : 0 });
-    tree.nodes.forEach(({ center, radius, axis, cosSpread, cosReach, energy, light, child, distant }, i) =>
+    treeNodes(tree).forEach(({ center, radius, axis, cosSpread, cosReach, energy, light, child, distant }, i) =>
       lightStruct.write(records, COUNT + i, { a: center, kind: (light === undefined ? 0 : LIGHT_NODE_LEAF) | (distant ? LIGHT_NODE_DISTANT : 0), b: axis, probability: radius, c: [cosSpread, cosReach, energy], other: light ?? COUNT + child! }),
     );
     const next = random(4);

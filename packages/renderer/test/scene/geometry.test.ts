@@ -1,7 +1,7 @@
 import { buildBlas } from '@glanz/bvh';
 import { createScene } from '@glanz/scene';
 import { expect, test } from 'vitest';
-import { layOutGeometry, packGeometry, shapeSlices } from '../../src/scene/geometry';
+import { joinSlices, layOutGeometry, packGeometry, shapeSlices, type ShapeSlice } from '../../src/scene/geometry';
 import { addSphere } from '../scenes';
 
 const grey = { name: 'grey', parameters: {} };
@@ -46,4 +46,29 @@ test('slices of shapes are small, do not overlap and hold every triangle and att
       for (let k = 0; k < 3; k++) if (triangles[at + 8 + k] !== mesh.positions[vertex + k]) throw new Error(`stored triangle ${i} has another third vertex`);
     }
   });
+});
+
+test('joined slices write the same bytes to the same places, in far fewer pieces where meshes are small', () => {
+  const scene = createScene('joined');
+  for (let i = 0; i < 40; i++) addSphere(scene, 0.1, [i, 0, 0], grey, 8 + 2 * (i % 4));
+  addSphere(scene, 1, [0, 2, 0], grey, 200);
+  // A mesh that nobody uses lies between the others without a word of its own.
+  scene.instances.splice(20, 1);
+  const blas = scene.meshes.map(({ positions, indices }, i) => (i === 20 ? undefined : buildBlas({ positions, indices })));
+  const geometry = layOutGeometry(scene, blas);
+  const sizes = { nodes: 64 * geometry.nodeCount, triangles: 48 * geometry.triangleCount, attributes: 4 * geometry.attributeWords };
+  const write = (slices: Iterable<ShapeSlice>) => {
+    const memory = { nodes: new Uint8Array(sizes.nodes).fill(7), triangles: new Uint8Array(sizes.triangles).fill(7), attributes: new Uint8Array(sizes.attributes).fill(7) };
+    let count = 0;
+    for (const { buffer, offset, data } of slices) {
+      count++;
+      memory[buffer].set(new Uint8Array(data.buffer, data.byteOffset, data.byteLength), offset);
+    }
+    return { memory, count };
+  };
+  const single = write(shapeSlices(scene, geometry));
+  const joined = write(joinSlices(shapeSlices(scene, geometry)));
+  for (const name of ['nodes', 'triangles', 'attributes'] as const) same(joined.memory[name], single.memory[name]);
+  expect(single.count).toBeGreaterThan(4 * 40);
+  expect(joined.count).toBeLessThan(40);
 });

@@ -1,17 +1,18 @@
 import { describe, expect, it } from 'vitest';
 import { buildLightTree, type TreeLights } from '../../src/scene/light-tree';
-import { randomLights } from '../tree-lights';
+import { randomLights, treeNodes } from '../tree-lights';
 
 const angle = (a: ArrayLike<number>, b: ArrayLike<number>) => Math.acos(Math.min(1, Math.max(-1, a[0]! * b[0]! + a[1]! * b[1]! + a[2]! * b[2]!)));
 
 /** The lights under each node, found by walking. */
-function under(tree: ReturnType<typeof buildLightTree>, node: number): number[] {
+function under(tree: { readonly nodes: ReturnType<typeof treeNodes> }, node: number): number[] {
   const { light, child } = tree.nodes[node]!;
   return light !== undefined ? [light] : [...under(tree, child!), ...under(tree, child! + 1)];
 }
 
-function check(lights: TreeLights, near: number[], distant: number[] = []): ReturnType<typeof buildLightTree> {
-  const tree = buildLightTree(lights, near, distant);
+function check(lights: TreeLights, near: number[], distant: number[] = []): void {
+  const built = buildLightTree(lights, near, distant);
+  const tree = { nodes: treeNodes(built), trails: built.trails };
   expect(under(tree, 0).sort((a, b) => a - b)).toEqual([...near, ...distant].sort((a, b) => a - b));
   expect(tree.nodes).toHaveLength(2 * (near.length + distant.length) - 1);
   for (const i of [...near, ...distant]) {
@@ -35,7 +36,6 @@ function check(lights: TreeLights, near: number[], distant: number[] = []): Retu
       expect(node.cosReach).toBeLessThanOrEqual(Math.cos(lights.reaches[i]!) + 1e-12);
     }
   });
-  return tree;
 }
 
 describe('buildLightTree', () => {
