@@ -2,5 +2,5 @@ export { DeviceError, RenderError } from './errors';
 export { requestDevice, type DeviceOptions } from './gpu/device';
 export { compressedFormats } from './scene/textures';
 export { PathTracer } from './path-tracer';
-export type { BounceLimits, FilmLayer, HierarchyBuilder, LightGroup, LightGroupMode, MemoryReport, PathTracerOptions, PickResult, PixelFilter, PrepareProgress, FirstLight, RenderOptions, RenderProgress, RenderStatistics, Sampler } from './options';
+export type { BackFaceCulling, BounceLimits, FilmLayer, HierarchyBuilder, LightGroup, LightGroupMode, MemoryReport, PathTracerOptions, PickResult, PixelFilter, PrepareProgress, FirstLight, RenderOptions, RenderProgress, RenderStatistics, Sampler } from './options';
 export { warmUp, type WarmUpOptions } from './warm-up';
