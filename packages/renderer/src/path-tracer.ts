@@ -1,6 +1,6 @@
 import type { Camera, Scene } from '@glanz/scene';
 import { TileGrid } from './adaptive';
-import { DeviceError, RenderError } from './errors';
+import { deviceLost, RenderError, type DeviceError } from './errors';
 import { FeatureLayers } from './film/feature-layers';
 import { forBands, renderFeatures } from './film/feature-pass';
 import { Film } from './film/film';
@@ -75,7 +75,7 @@ export class PathTracer extends TracerEdits {
     this.#groups = new GroupSettings(() => this.#gpuScene.groups.names);
     this.#features = new FeatureLayers({ render: (kernel, samples) => this.#renderFeatures(kernel, samples), copy: (name) => readBuffer(this.#device, this.#film.buffer(name) as GPUBuffer, this.#film.pixels * 16) });
     void this.#device.lost.then((info) => {
-      if (!this.#destroyed) this.#failure ??= new DeviceError('renderer/device-lost', `The GPU device was lost (${info.reason}): ${info.message || 'no details'}. The scene is safe: request a new device and create the tracer again.`);
+      if (!this.#destroyed) this.#failure ??= deviceLost(info);
     });
   }
 

@@ -1,5 +1,5 @@
 import { breathe, inSlices, SceneError, validationSteps, type Camera, type Scene } from '@glanz/scene';
-import { DeviceError, RenderError } from './errors';
+import { DeviceError, deviceLost, RenderError } from './errors';
 import { Film } from './film/film';
 import { showFirstLight } from './first-light';
 import { GpuMemory } from './gpu/buffers';
@@ -37,6 +37,8 @@ export interface Prepared {
 /** Builds, uploads and compiles what a tracer needs, see `PathTracer.create`. */
 export async function prepareTracer(device: GPUDevice, scene: Scene, options: PathTracerOptions): Promise<Prepared> {
   const begun = performance.now();
+  let lost: GPUDeviceLostInfo | undefined;
+  void device.lost.then((info) => (lost = info));
   checkSize(options.width, options.height);
   checkShortcuts(options);
   checkDepth(options.maxDepth ?? 8);
@@ -116,6 +118,8 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
     integrator.begin(await compiling.watch(cache.get(features, hear)));
     await Promise.all(rehearsals);
     signal?.throwIfAborted();
+    // A device that is lost says yes to everything.
+    if (lost) throw deviceLost(lost);
     late = true;
     const times = { checkMs: checked - begun, textMs, bvhMs: t1 - asked, uploadMs: t2 - t1, lightMs: t2 - shaped, compileMs: compiling.milliseconds };
     return { device, memory, editor: new SceneEditor(own, geometry, gpuScene, hierarchies), gpuScene, cache, integrator, film, camera, options, times };

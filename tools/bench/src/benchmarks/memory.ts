@@ -1,7 +1,7 @@
 import { createPushButton } from '@glanz/models';
 import { PathTracer, requestDevice } from '@glanz/renderer';
 import { createGpu } from '@glanz/renderer/node';
-import type { Instance, Scene } from '@glanz/scene';
+import { createScene, type Instance, type Scene } from '@glanz/scene';
 import { timed, type Benchmark, type Figure } from '../benchmark';
 
 /** Bindings that every WebGPU device has. */
@@ -21,9 +21,23 @@ function instanced(): Scene {
   return { ...scene, instances };
 }
 
-/** Whether large scenes run within WebGPU's default limits, and what a path, a triangle and a pixel cost in bytes. */
+/** Sixty squares, each with a picture of its own as base colour: of eight sizes, 8 bits a channel or half floats. */
+function textured(data: (length: number) => Uint8Array<ArrayBuffer> | Float32Array<ArrayBuffer>): Scene {
+  const scene = createScene('sixty textures');
+  scene.meshes.push({ name: 'square', positions: Float32Array.of(-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0), indices: Uint32Array.of(0, 1, 2, 0, 2, 3), uvs: [Float32Array.of(0, 1, 1, 1, 1, 0, 0, 0)] });
+  for (let i = 0; i < 60; i++) {
+    const [width, height] = [64 << (i % 4), 64 << (i % 2)];
+    scene.images.push({ name: `image ${i}`, width, height, data: data(4 * width * height) });
+    scene.textures.push({ image: i, color_space: i % 3 === 0 ? 'linear' : 'srgb' });
+    scene.materials.push({ name: `material ${i}`, parameters: {}, textures: { base_color: { texture: i, channels: 'rgb' } } });
+    scene.instances.push({ name: `square ${i}`, mesh: 0, material: i, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 2.1 * (i % 10), 2.1 * Math.floor(i / 10), 0, 1] });
+  }
+  return scene;
+}
+
+/** Whether large scenes run within WebGPU's default limits, and what a path, a triangle, a pixel and a texel cost in bytes. */
 export const benchmark: Benchmark = {
-  description: "GPU memory by purpose within WebGPU's default limits: a model of 1.07 million triangles, and 10 million as instances",
+  description: "GPU memory by purpose within WebGPU's default limits: a model of 1.07 million triangles, 10 million as instances, and 60 textures",
   async run({ log, quick, gpu }) {
     const { gpu: api, adapterName, software } = await createGpu(gpu === undefined ? {} : { gpu });
     const device = await requestDevice({ gpu: api, defaultLimits: true });
@@ -33,6 +47,8 @@ export const benchmark: Benchmark = {
     const cases: readonly (readonly [string, () => Scene])[] = [
       ['push-button high', () => createPushButton({ level: 'high' })],
       ['100 push-buttons medium', instanced],
+      ['60 textures of 8 bits', () => textured((length) => new Uint8Array(length).fill(128))],
+      ['60 textures of floats', () => textured((length) => new Float32Array(length).fill(0.5))],
     ];
     for (const [name, make] of cases) {
       log(`${name}: building the model`);
@@ -46,6 +62,13 @@ export const benchmark: Benchmark = {
       if (!pixels.every((value) => value >= 0 && value < Infinity)) throw new Error(`${name}: the picture holds values that are no radiance`);
       const { triangles, memory, gpuBytes, badSamples } = tracer.statistics;
       const visible = scene.instances.reduce((sum, { mesh }) => sum + (scene.meshes[mesh]?.indices.length ?? 0) / 3, 0);
+      if (memory.textures > 0) {
+        // Of a scene that is all textures the rest says nothing.
+        one(`${name}: textures`, 'MiB', memory.textures / 2 ** 20);
+        one(`${name}: bytes per texel, with smaller levels`, 'B', memory.perTexel);
+        tracer.destroy();
+        continue;
+      }
       one(`${name}: triangles seen`, '1', visible);
       one(`${name}: triangles stored`, '1', triangles);
       one(`${name}: GPU memory`, 'MiB', gpuBytes / 2 ** 20);
