@@ -1,6 +1,6 @@
 import { describe, expect, it, vi } from 'vitest';
 import { resolveParameters, type OpenPbrParameters } from '../src/parameters/index';
-import { direction } from './integrate';
+import { direction, furnaceBelowOne } from './integrate';
 import { resultsOf } from './results';
 import { sphereFurnace } from './sphere';
 
@@ -33,6 +33,7 @@ const ROWS: readonly Row[] = [
   row('diffuse', { specular_weight: 0 }, [0.999, 1.001]),
   row('rough diffuse (EON)', { specular_weight: 0, base_diffuse_roughness: 1 }, [0.998, 1.002]),
   row('dielectric over diffuse', {}, [0.997, 1.001]),
+  row('dielectric over rough diffuse (EON)', { base_diffuse_roughness: 1 }, [0.99, 1.001]),
   row('index 1.2 over diffuse', { specular_ior: 1.2 }, [0.9965, 1.001]),
   row('index 2 over diffuse', { specular_ior: 2 }, [0.997, 1.001]),
   row('half metal', { base_metalness: 0.5 }, [0.997, 1.001]),
@@ -42,6 +43,9 @@ const ROWS: readonly Row[] = [
   row('glass from inside', GLASS, [0.996, 1.004], { inside: true }),
   row('glass of index 1.33 from inside', { ...GLASS, specular_ior: 1.33 }, [0.996, 1.004], { inside: true }),
   row('glass of index 2.4 from inside', { ...GLASS, specular_ior: 2.4 }, [0.996, 1.004], { inside: true }),
+  row('glass of index 1.05 from inside', { ...GLASS, specular_ior: 1.05 }, [0.997, 1.002], { inside: true }),
+  row('glass of index 1.01 from inside', { ...GLASS, specular_ior: 1.01 }, [0.997, 1.002], { inside: true }),
+  row('glass of index 1.001 from inside', { ...GLASS, specular_ior: 1.001 }, [0.997, 1.002], { inside: true }),
   row('thin glass', { ...GLASS, geometry_thin_walled: true }, [0.997, 1.001]),
   row('subsurface', { subsurface_weight: 1 }, [0.997, 1.003]),
   row('paper', { subsurface_weight: 1, geometry_thin_walled: true }, [0.995, 1.001]),
@@ -95,6 +99,26 @@ describe('white furnace, lobe by lobe', () => {
       // Facets may send light to where it is lost: the density may miss some, never exceed.
       expect(seen.density).toBeLessThan(1.004);
       record(name, { ...seen, roughnesses: ROUGHNESSES, cosines: COSINES });
+    });
+  }
+
+  for (const specular_ior of [0.3, 0.6, 0.8, 0.9, 0.99, 0.999]) {
+    const name = `index ${specular_ior} over diffuse`;
+    it(`${name}: 0.997 to 1.002`, () => {
+      const seen = { least: Infinity, most: -Infinity };
+      for (const specular_roughness of ROUGHNESSES) {
+        const p = resolveParameters({ base_color: WHITE, specular_roughness, specular_ior });
+        // Seen along the normal, the critical angle is an edge right through the nodes.
+        for (const mu of [0.97, ...COSINES.slice(1)]) {
+          const sum = furnaceBelowOne(p, direction(mu), SIZE);
+          const at = `roughness ${specular_roughness}, cosine ${mu}`;
+          expect(sum, at).toBeGreaterThan(0.997 - QUADRATURE);
+          expect(sum, at).toBeLessThan(1.002 + QUADRATURE);
+          seen.least = Math.min(seen.least, sum);
+          seen.most = Math.max(seen.most, sum);
+        }
+      }
+      record(name, { ...seen, roughnesses: ROUGHNESSES, cosines: [0.97, ...COSINES.slice(1)] });
     });
   }
 });

@@ -9,7 +9,7 @@ import { anyClear, anyCoated, anySurface, lowerDirection, single, uniform, upper
 afterEach(() => expectNoGpuErrors());
 
 /** Every lobe of an opaque surface. */
-const OPAQUE = (): OpenPbrFlags => ({ ...ALL, OPENPBR_THIN_FILM: false, OPENPBR_FUZZ: false, OPENPBR_INNER: false, OPENPBR_TRANSMISSION: false, OPENPBR_SUBSURFACE: false, OPENPBR_THIN_SUBSURFACE: false, OPENPBR_THIN_WALLED: false });
+const OPAQUE = (): OpenPbrFlags => ({ ...ALL, OPENPBR_THIN_FILM: false, OPENPBR_FUZZ: false, OPENPBR_INNER: false, OPENPBR_INNER_SUMS: false, OPENPBR_TRANSMISSION: false, OPENPBR_SUBSURFACE: false, OPENPBR_THIN_SUBSURFACE: false, OPENPBR_THIN_WALLED: false });
 
 const ALL: OpenPbrFlags = {
   OPENPBR_SPECULAR: true,
@@ -18,6 +18,7 @@ const ALL: OpenPbrFlags = {
   OPENPBR_DIELECTRIC: true,
   OPENPBR_INTERFACE: true,
   OPENPBR_INNER: true,
+  OPENPBR_INNER_SUMS: true,
   OPENPBR_TRANSMISSION: true,
   OPENPBR_SUBSURFACE: true,
   OPENPBR_THIN_SUBSURFACE: true,
@@ -161,6 +162,9 @@ describe('WGSL against its CPU twin', () => {
   const filmed = (next: () => number): Partial<OpenPbrParameters> => ({ thin_film_weight: Math.fround(0.2 + 0.8 * next()), thin_film_thickness: Math.fround(next()), thin_film_ior: Math.fround(1.1 + 1.5 * next()) });
   it('every lobe below a film, 1024 random surfaces (seed 16)', () => compare({ ...OPAQUE(), OPENPBR_THIN_FILM: true }, cases(1024, 16, (next) => ({ ...anyCoated(next, 0.3), ...filmed(next) }))));
   it('a film on what lets light through, 1024 random surfaces from either side (seed 47)', () => compare(ALL, through(1024, 47, (next) => ({ ...anyClear(next, 0.3), ...filmed(next) }))));
+  gated('dielectric of an index below 1 over diffuse', 20, { base_metalness: 0, specular_weight: 1, specular_ior: 0.7 });
+  gated('coat of an index below 1 over black', 19, { base_metalness: 0, base_weight: 0, specular_weight: 0, coat_weight: 1, coat_ior: 0.8, coat_roughness: 0.4 });
+  gated('dielectric over rough diffuse', 21, { base_metalness: 0, specular_weight: 1, base_diffuse_roughness: 0.8 });
   gated('film on metal', 17, { base_metalness: 1, specular_weight: 1, thin_film_weight: 1, thin_film_ior: 1.6, thin_film_thickness: 0.4 });
   gated('film on diffuse', 18, { base_metalness: 0, specular_weight: 1, specular_ior: 1.5, thin_film_weight: 0.7, thin_film_ior: 2, thin_film_thickness: 0.3 });
   gated('film on glass', 48, { base_metalness: 0, transmission_weight: 1, specular_weight: 1, specular_ior: 1.5, thin_film_weight: 1, thin_film_ior: 1.8, thin_film_thickness: 0.6 });

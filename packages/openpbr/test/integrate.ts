@@ -1,5 +1,5 @@
 import { gaussLegendre } from '../scripts/microfacet.mjs';
-import { coatedBase, evalPdfBsdf, ggxAlpha, ggxBound, ggxSample, prepareBsdf, type BsdfOptions, type Slopes } from '../src/cpu/index';
+import { coatedBase, evalBsdf, evalPdfBsdf, ggxAlpha, ggxBound, ggxSample, prepareBsdf, type BsdfOptions, type Slopes } from '../src/cpu/index';
 import type { OpenPbrParameters, OpenPbrVector } from '../src/parameters/index';
 
 /** A direction by cosine and azimuth. */
@@ -69,4 +69,27 @@ export function furnace(p: OpenPbrParameters, wo: OpenPbrVector, options?: BsdfO
   };
   const [r, g, bl, pdf] = integrateHemisphere(p, wo, both, size) as [number, number, number, number];
   return { albedo: [r, g, bl], pdf };
+}
+
+/**
+ * Directional albedo of an opaque dielectric of an index below 1 over Lambert. The facets' part as {@link furnace}; the
+ * diffuse part, which knows no azimuth and has an edge at the critical angle, by nodes on either side of that.
+ */
+export function furnaceBelowOne(p: OpenPbrParameters, wo: OpenPbrVector, size = 40): number {
+  const above = furnace({ ...p, base_weight: 0 }, wo, {}, size).albedo[1];
+  const [whole, facets] = [prepareBsdf(p, wo), prepareBsdf({ ...p, base_weight: 0 }, wo)];
+  const critical = Math.sqrt(1 - p.specular_ior ** 2);
+  const { nodes, weights } = rule(256);
+  let below = 0;
+  const add = (mu: number, weight: number): void => {
+    const wi = direction(mu, 2);
+    below += 2 * Math.PI * weight * (evalBsdf(whole, wo, wi)[1] - evalBsdf(facets, wo, wi)[1]);
+  };
+  // Closer towards the edge.
+  nodes.forEach((x, i) => {
+    const weight = 2 * x * (weights[i] as number);
+    add(critical * (1 - x * x), critical * weight);
+    add(critical + (1 - critical) * x * x, (1 - critical) * weight);
+  });
+  return above + below;
 }

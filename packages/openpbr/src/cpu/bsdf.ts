@@ -1,7 +1,7 @@
 import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
 import { coatedBase, coatEmission, coatPass, coatThrough, inCoat, outOfCoat, prepareCoat, type Coat } from './coat';
-import { interfaceEnergy } from './dielectric';
-import { cosineSample, eon } from './diffuse';
+import { interfaceEnergy, isSummed } from './dielectric';
+import { cosineSample, diffuseGain, diffuseGrazing, eon } from './diffuse';
 import { energyShare, energyShareMean, mirrorLost, mirrorLostMean } from './energy';
 import { dielectricEpsilon, fresnelDielectric, fresnelMetal, fresnelMetalMean } from './fresnel';
 import { filmFacet, filmReflectance, filmShare, metalIndex, prepareFilm, type ComplexIndex, type Film } from './film';
@@ -30,6 +30,8 @@ export interface Bsdf {
   readonly diffuseScale: number;
   readonly diffuseColor: OpenPbrColor;
   readonly diffuseRoughness: number;
+  /** What rough diffuse light gets more at grazing angles; see `diffuseGain`. */
+  readonly diffuseGrazing: number;
   /** Directional albedo. */
   readonly albedo: OpenPbrColor;
   readonly metal: {
@@ -90,7 +92,7 @@ function seenFrom(p: OpenPbrParameters, { inside = false, outerIor = 1 }: BsdfSi
 /** Share of light that an interface reflects, and what multiple scattering adds to either side; twin of `openpbr_dielectric_prepare`. */
 function prepareInterface(p: OpenPbrParameters, alpha: Slopes, wo: OpenPbrVector, mu: number, multipleScattering: boolean) {
   const epsilon = dielectricEpsilon(p.specular_ior, p.specular_weight);
-  return { epsilon, ...interfaceEnergy(epsilon, p.specular_roughness, alpha, wo, mu, multipleScattering) };
+  return { epsilon, ...interfaceEnergy(epsilon, p.specular_roughness, alpha, wo, mu, isSummed(p, epsilon), multipleScattering) };
 }
 
 /**
@@ -135,7 +137,9 @@ export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multi
   const facets = sum(specular) + sum(transmission.albedo);
   const all = facets + sum(spread) + down;
   const reflected = energyShareMean(face.epsilon, roughness);
-  const coupling = (1 - 0.08 * p.base_diffuse_roughness * reflected) / Math.max(1 - reflected, 1e-4);
+  const grazing = diffuseGrazing(p.base_diffuse_roughness, roughness, reflected);
+  const even = 1 - p.base_diffuse_roughness * ((0.0025 * reflected) / (reflected + 0.01) + (face.epsilon < 0 ? 0.03 * reflected : 0));
+  const coupling = (even * diffuseGain(grazing, mu)) / Math.max(1 - reflected, 1e-4);
   const coat = prepareCoat(whole, wo, multipleScattering);
   // A highlight comes from about as low as it is seen, spread light from everywhere.
   const highlight = coatPass(coat, mu);
@@ -154,6 +158,7 @@ export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multi
     subsurface: { ...subsurface, back: subsurface.back * coupling, through: subsurface.through * coupling },
     diffuseColor: p.base_color,
     diffuseRoughness: p.base_diffuse_roughness,
+    diffuseGrazing: grazing,
     albedo: rgb((i) => Math.min((below[i] + coat.albedo) * fuzz.below + fuzz.color[i], 1)),
     metal: { f0, tint: p.specular_color, specularWeight: weight, metalness: p.base_metalness, roughness, bounced, meanLost, index },
     dielectric: { eta: (1 + face.epsilon) / (1 - face.epsilon), epsilon: face.epsilon, roughness, scale, bounced: rebounced },
@@ -197,7 +202,7 @@ function reflectionChance(b: Bsdf, { reflected, through }: ReturnType<typeof fac
 }
 
 /** Cosine, and what the interface lets through on the way of the light to the diffuse lobe. */
-const diffusePass = (b: Bsdf, wi: OpenPbrVector): number => wi[2] * (1 - energyShare(b.dielectric.epsilon, viewRoughness(b.alpha, b.dielectric.roughness, wi), wi[2]));
+const diffusePass = (b: Bsdf, wi: OpenPbrVector): number => wi[2] * diffuseGain(b.diffuseGrazing, wi[2]) * (1 - energyShare(b.dielectric.epsilon, viewRoughness(b.alpha, b.dielectric.roughness, wi), wi[2]));
 
 /** The facet that lets light through from `wi` to `wo`. */
 const throughHalf = ({ transmission: { thin, eta } }: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): OpenPbrVector => (thin ? halfVector(wo, [wi[0], wi[1], -wi[2]]) : refractHalf(eta, wo, wi));
@@ -224,7 +229,7 @@ function scatter(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector
   const c = clamp(dot(wo, h), 0, 1);
   const [value, density] = ggx(b.alpha, wo, wi, h, b.bound);
   const sides = facet(b, c);
-  const through = diffusePass(b, wi);
+  const through = b.diffuseScale > 0 || b.subsurface.back > 0 ? diffusePass(b, wi) : 0;
   const bounced = (mirrorLost(b.alpha, b.metal.roughness, wi, wi[2]) / b.metal.meanLost / Math.PI) * wi[2];
   const diffuse = eon(b.diffuseColor, b.diffuseRoughness, wo, wi);
   const paper = eon(b.subsurface.color, b.diffuseRoughness, wo, wi);

@@ -113,7 +113,7 @@ export function prepareCoat(p: OpenPbrParameters, baseWo: OpenPbrVector, multipl
   const alpha = ggxAlpha(roughness, p.coat_roughness_anisotropy);
   const epsilon = dielectricEpsilon(p.coat_ior, 1);
   const eta = (1 + epsilon) / (1 - epsilon);
-  const { share, bounced: more } = interfaceEnergy(epsilon, roughness, alpha, wo, mu, multipleScattering);
+  const { share, bounced: more } = interfaceEnergy(epsilon, roughness, alpha, wo, mu, epsilon < 0, multipleScattering);
   const absorption = absorptionOf(p);
   const darkening = coatDarkening(p, mu);
   return {

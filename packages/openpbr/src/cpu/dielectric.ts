@@ -1,7 +1,9 @@
-import type { OpenPbrVector } from '../parameters/index';
+import type { OpenPbrParameters, OpenPbrVector } from '../parameters/index';
 import { energyBounce, energyShare, energyTotal } from './energy';
 import { viewRoughness, type Slopes } from './ggx';
+import { insideEnergy } from './inside';
 import { stretchedEnergy } from './stretched';
+import { INSIDE_NEAR } from '../tables/layout';
 
 /** What an interface does with the light towards a viewer; see the WGSL struct `OpenPbrDielectric`. */
 export interface InterfaceEnergy {
@@ -12,13 +14,25 @@ export interface InterfaceEnergy {
   readonly bouncedThrough: number;
 }
 
-/** Of an interface with (η - 1)/(η + 1) = `epsilon`; the twin of `openpbr_dielectric_prepare`'s energies. */
-export function interfaceEnergy(epsilon: number, roughness: number, alpha: Slopes, wo: OpenPbrVector, mu: number, multipleScattering: boolean): InterfaceEnergy {
-  const share = energyShare(epsilon, viewRoughness(alpha, roughness, wo), mu);
-  if (!multipleScattering) return { share, bounced: 0, bouncedThrough: 0 };
+/**
+ * Whether the interface's energies from its denser side are summed over facets: where something lies below it, and near index
+ * 1. For what is clear alone the tables do, since nothing but the choice of samples hangs on its share.
+ */
+export const isSummed = (p: OpenPbrParameters, epsilon: number): boolean =>
+  epsilon < 0 && (epsilon > -INSIDE_NEAR || (1 - p.transmission_weight) * (p.geometry_thin_walled ? 1 : 1 - p.subsurface_weight) > 0);
+
+/**
+ * Of an interface with (η - 1)/(η + 1) = `epsilon`; the twin of `openpbr_interface_energy`.
+ *
+ * @param summed From {@link isSummed}.
+ */
+export function interfaceEnergy(epsilon: number, roughness: number, alpha: Slopes, wo: OpenPbrVector, mu: number, summed: boolean, multipleScattering: boolean): InterfaceEnergy {
+  const eta = (1 + epsilon) / (1 - epsilon);
+  const kept = summed ? insideEnergy(eta, alpha, wo) : multipleScattering && alpha[0] > alpha[1] ? stretchedEnergy(eta, alpha, wo) : undefined;
   const bounce = energyBounce(epsilon, roughness);
-  const stretched = alpha[0] > alpha[1] ? stretchedEnergy((1 + epsilon) / (1 - epsilon), alpha, wo) : undefined;
-  const lost = Math.max(1 - (stretched ? stretched[0] + stretched[1] : energyTotal(epsilon, roughness, mu)), 0);
+  const lost = Math.max(1 - (kept ? kept[0] + kept[1] : energyTotal(epsilon, roughness, mu)), 0);
+  const share = kept ? Math.min(kept[0] + lost * bounce, 1) : energyShare(epsilon, viewRoughness(alpha, roughness, wo), mu);
+  if (!multipleScattering) return { share, bounced: 0, bouncedThrough: 0 };
   const bounced = lost * bounce;
-  return { share: stretched ? Math.min(stretched[0] + bounced, 1) : share, bounced, bouncedThrough: lost - bounced };
+  return { share, bounced, bouncedThrough: lost - bounced };
 }

@@ -26,6 +26,18 @@ export function eon(albedo: OpenPbrColor, roughness: number, wo: OpenPbrVector, 
   return [channel(albedo[0]), channel(albedo[1]), channel(albedo[2])];
 }
 
+/**
+ * How much rough diffuse light below an interface wants at grazing angles; twin of `openpbr_diffuse_grazing`.
+ *
+ * @param reflected Mean share that the interface reflects.
+ * @param specularRoughness Of the interface.
+ */
+export const diffuseGrazing = (roughness: number, specularRoughness: number, reflected: number): number =>
+  ((0.055 * roughness * reflected) / (reflected + 0.01)) * Math.max(1 / (1 + 10 * specularRoughness * specularRoughness), 0.3);
+
+/** Factor on it for either direction; twin of `openpbr_diffuse_gain`. */
+export const diffuseGain = (grazing: number, mu: number): number => 1 + grazing * ((1 - mu) ** 3 - 0.1);
+
 /** A direction with density cos θ / π; twin of `openpbr_cosine_sample`. */
 export function cosineSample(u: readonly [number, number, ...number[]]): OpenPbrVector {
   const phi = 2 * Math.PI * u[0];

@@ -1,5 +1,5 @@
 import type { OpenPbrVector } from '../parameters/index';
-import { STRETCHED_FLATS, STRETCHED_POWER, STRETCHED_VIEWS, TABLE_ANGLES, TABLE_BLOCKS, TABLE_CONDUCTOR, TABLE_DEPTH, TABLE_HEIGHT_2D, TABLE_MIN_ROUGHNESS, TABLE_ROUGHNESSES } from '../tables/layout';
+import { INNER_MEAN, INNER_MEAN_NODES, STRETCHED_FLATS, STRETCHED_POWER, STRETCHED_VIEWS, TABLE_ANGLES, TABLE_BLOCKS, TABLE_CONDUCTOR, TABLE_DEPTH, TABLE_HEIGHT_2D, TABLE_MIN_ROUGHNESS, TABLE_ROUGHNESSES } from '../tables/layout';
 import { OPENPBR_TABLES, type OpenPbrTable } from '../tables/tables';
 import { fresnelDielectric } from './fresnel';
 import { mirrorCosine, type Slopes } from './ggx';
@@ -105,12 +105,29 @@ export function energyShare(epsilon: number, roughness: number, mu: number): num
 /** The cosine-weighted mean of {@link energyShare} over all directions; twin of `openpbr_energy_share_mean`. */
 export function energyShareMean(epsilon: number, roughness: number): number {
   if (epsilon === 0) return 0;
-  const r = Math.max(roughness, TABLE_MIN_ROUGHNESS);
-  const y = roughnessAxis(r, TABLE_ROUGHNESSES);
-  const smooth = 1 - fresnelMean(epsilon);
-  const through = epsilon < 0 ? smooth + 0.3 * r ** 4 * (1 - smooth) : smooth;
-  return 1 - Math.min(through * tableLookup(OPENPBR_TABLES.dielectric, [(TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1), y, slice(epsilon > 0 ? 'outer' : 'inner', epsilon)]), 1);
+  if (epsilon < 0) return innerShareMean(epsilon, roughness);
+  const y = roughnessAxis(Math.max(roughness, TABLE_MIN_ROUGHNESS), TABLE_ROUGHNESSES);
+  return 1 - Math.min((1 - fresnelMean(epsilon)) * tableLookup(OPENPBR_TABLES.dielectric, [(TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1), y, slice('outer', epsilon)]), 1);
 }
+
+/** From inside, Gauss's two nodes between each two columns of the table: what is interpolated is what has to come out. */
+function innerShareMean(epsilon: number, roughness: number): number {
+  const eta = (1 + epsilon) / (1 - epsilon);
+  const critical = Math.sqrt(1 - eta * eta);
+  let through = 0;
+  for (let i = 0; i < INNER_MEAN_NODES; i++) {
+    const x = (2 * Math.floor(i / 2) + 1 + (i % 2 === 0 ? -1 : 1) / Math.sqrt(3)) / INNER_MEAN_NODES;
+    const rest = x * x + (1 - x) * (1 - x);
+    const below = (critical * x * x) / rest;
+    const above = critical + (1 - critical) * x * x;
+    through += (1 - energyShare(epsilon, roughness, below)) * below * ((critical * 2 * x * (1 - x)) / (rest * rest));
+    through += (1 - energyShare(epsilon, roughness, above)) * above * ((1 - critical) * 2 * x);
+  }
+  return 1 - (2 * INNER_MEAN / INNER_MEAN_NODES) * through;
+}
+
+/** Cosine-weighted mean of what single scattering loses. */
+const energyTotalLostMean = (epsilon: number, roughness: number): number => 1 - tableLookup(OPENPBR_TABLES.dielectric, [totalRoughness(roughness), (TABLE_ROUGHNESSES - 0.5) / TABLE_ROUGHNESSES, totalSlice(epsilon)]);
 
 /**
  * The part of what single scattering loses that is reflected after more bounces; twin of `openpbr_energy_bounce`. Seen from
@@ -120,8 +137,7 @@ export function energyShareMean(epsilon: number, roughness: number): number {
 export function energyBounce(epsilon: number, roughness: number): number {
   const reflected = fresnelMean(Math.abs(epsilon));
   if (epsilon >= 0) return reflected;
-  const lost = (sign: 1 | -1) => 1 - tableLookup(OPENPBR_TABLES.dielectric, [totalRoughness(roughness), (TABLE_ROUGHNESSES - 0.5) / TABLE_ROUGHNESSES, totalSlice(-sign * epsilon)]);
-  return clamp(1 - ((1 - reflected) * lost(1)) / Math.max(lost(-1), 1e-4), 0, 1);
+  return clamp(1 - ((1 - reflected) * energyTotalLostMean(-epsilon, roughness)) / Math.max(energyTotalLostMean(epsilon, roughness), 1e-4), 0, 1);
 }
 
 /** Energy that an interface reflects and refracts by single scattering; twin of `openpbr_energy_total`. */

@@ -59,3 +59,9 @@ export const STRETCHED_POWER = 1.25;
 
 /** The tables' first roughness, which is that of the smallest slope. */
 export const TABLE_MIN_ROUGHNESS = 0.01;
+
+/** Nearer to index 1 than this ε the tables are too coarse for what is seen from inside: it is summed over facets. */
+export const INSIDE_NEAR = 0.04;
+/** Nodes on either side of the critical angle for the mean share from inside, and a factor on what goes through, by as much as they can miss. */
+export const INNER_MEAN_NODES = 16;
+export const INNER_MEAN = 1.001;

@@ -70,6 +70,9 @@ fn openpbr_coat_interface(p: OpenPbrParameters) -> OpenPbrParameters {
   layer.specular_ior = p.coat_ior;
   layer.specular_roughness = p.coat_roughness;
   layer.specular_roughness_anisotropy = p.coat_roughness_anisotropy;
+  // Something lies below it.
+  layer.transmission_weight = 0.0;
+  layer.subsurface_weight = 0.0;
   return layer;
 }
 

@@ -2,8 +2,10 @@ import { gated, wgslModule } from '@glanz/wgsl';
 import { openpbrEnergy } from './energy.wgsl';
 import { openpbrFresnelDielectric } from './fresnel.wgsl';
 import { openpbrGgx } from './ggx.wgsl';
+import { openpbrInside } from './inside.wgsl';
 import { openPbrStruct } from './record';
 import { openpbrStretched } from './stretched.wgsl';
+import { INSIDE_NEAR } from '../tables/layout';
 
 /**
  * The dielectric interface of the base: specular_weight changes its index of refraction, and with it everything else.
@@ -31,29 +33,49 @@ fn openpbr_dielectric_epsilon(p: OpenPbrParameters) -> f32 {
   return sign(epsilon) * min(abs(epsilon) * sqrt(p.specular_weight), 0.9999);
 }
 
+// With what single scattering reflects and lets through.
+fn openpbr_dielectric_summed(given: OpenPbrDielectric, kept: vec2f) -> OpenPbrDielectric {
+  var d = given;
+  let lost = max(1.0 - kept.x - kept.y, 0.0);
+  let bounced = lost * openpbr_energy_bounce(d.epsilon, d.roughness);
+  d.share = min(kept.x + bounced, 1.0);
+  //#if OPENPBR_MULTISCATTER
+  d.bounced = bounced;
+  d.bounced_through = lost - bounced;
+  //#endif
+  return d;
+}
+
 fn openpbr_dielectric_prepare(p: OpenPbrParameters, alpha: vec2f, wo: vec3f, mu: f32) -> OpenPbrDielectric {
   var d: OpenPbrDielectric;
   d.epsilon = openpbr_dielectric_epsilon(p);
   d.eta = (1.0 + d.epsilon) / (1.0 - d.epsilon);
   d.roughness = p.specular_roughness;
+  var summed = false;
+  //#if OPENPBR_INNER_SUMS
+  // Where something lies below the interface, and near index 1. For what is clear alone the tables do, since nothing but the
+  // choice of samples hangs on its share.
+  let opaque = (1.0 - p.transmission_weight) * select(1.0 - p.subsurface_weight, 1.0, p.geometry_thin_walled != 0u);
+  summed = d.epsilon < 0.0 && (d.epsilon > -${INSIDE_NEAR} || opaque > 0.0);
+  //#endif
+  //#if OPENPBR_ANISOTROPY
+  //#if OPENPBR_MULTISCATTER
+  summed = summed || alpha.x > alpha.y;
+  //#endif
+  if (summed) { return openpbr_dielectric_summed(d, openpbr_stretched(d.eta, alpha, wo)); }
+  //#else
+  //#if OPENPBR_INNER_SUMS
+  if (summed) { return openpbr_dielectric_summed(d, openpbr_inside(d.eta, alpha, wo)); }
+  //#endif
+  //#endif
   d.share = openpbr_energy_share(d.epsilon, openpbr_view_roughness(alpha, d.roughness, wo), mu);
   //#if OPENPBR_MULTISCATTER
   let bounce = openpbr_energy_bounce(d.epsilon, d.roughness);
-  //#if OPENPBR_ANISOTROPY
-  if (alpha.x > alpha.y) {
-    let kept = openpbr_stretched(d.eta, alpha, wo);
-    let lost = max(1.0 - kept.x - kept.y, 0.0);
-    d.bounced = lost * bounce;
-    d.bounced_through = lost - d.bounced;
-    d.share = min(kept.x + d.bounced, 1.0);
-    return d;
-  }
-  //#endif
   let lost = max(1.0 - openpbr_energy_total(d.epsilon, d.roughness, mu), 0.0);
   d.bounced = lost * bounce;
   d.bounced_through = lost - d.bounced;
   //#endif
   return d;
 }`,
-  [openPbrStruct.module, openpbrGgx, openpbrFresnelDielectric, openpbrEnergy, gated('OPENPBR_ANISOTROPY', openpbrStretched)],
+  [openPbrStruct.module, openpbrGgx, openpbrFresnelDielectric, openpbrEnergy, gated('OPENPBR_ANISOTROPY', openpbrStretched), gated('OPENPBR_INNER_SUMS', openpbrInside)],
 );

@@ -1,5 +1,6 @@
 import type { OpenPbrParameterName, OpenPbrParameters } from '../parameters/index';
 import { resolveParameters } from '../parameters/index';
+import { INSIDE_NEAR } from '../tables/layout';
 
 /** The composer's flags that the modules of this package ask for. A lobe whose flag is false is not in the text, whatever the parameters say. */
 export interface OpenPbrFlags {
@@ -14,6 +15,11 @@ export interface OpenPbrFlags {
   readonly OPENPBR_INTERFACE: boolean;
   /** Interfaces seen from their denser side: OPENPBR_TRANSMISSION, or an index of refraction below 1. */
   readonly OPENPBR_INNER: boolean;
+  /**
+   * From their denser side interfaces are summed over facets where the tables are too coarse: over something opaque that is or
+   * may be of a lower index than what it lies in, and for what is clear near the index of that; comes with OPENPBR_INNER.
+   */
+  readonly OPENPBR_INNER_SUMS: boolean;
   /** Light through the surface: refraction, thin walls; comes with OPENPBR_DIELECTRIC. */
   readonly OPENPBR_TRANSMISSION: boolean;
   /** Light may enter the subsurface; comes with OPENPBR_TRANSMISSION. */
@@ -22,7 +28,7 @@ export interface OpenPbrFlags {
   readonly OPENPBR_THIN_SUBSURFACE: boolean;
   /** Thin walls among what lets light through. */
   readonly OPENPBR_THIN_WALLED: boolean;
-  /** The table of the losses of mirrors is read: OPENPBR_METAL or OPENPBR_THIN_WALLED. */
+  /** The table of the losses of mirrors is read: OPENPBR_METAL, OPENPBR_THIN_WALLED or OPENPBR_INNER. */
   readonly OPENPBR_LOSSES: boolean;
   readonly OPENPBR_COAT: boolean;
   /** A film that interferes on the base. */
@@ -75,18 +81,25 @@ export function requiredFeatures(materials: readonly Partial<OpenPbrParameters>[
   const diffuse = thinBelow || opaque.some((p) => p.base_weight > 0 && p.base_color.some((c) => c > 0));
   const specular = metal || dielectric || coat;
   const lambert = diffuse || !specular;
+  const inner = transmission || (dielectric && insulators.some((p) => p.specular_ior < 1)) || all.some((p) => p.coat_weight > 0 && p.coat_ior < 1) || isTextured('specular_ior') || isTextured('coat_ior');
+  // What is outside may be any of the clear materials, with its index.
+  const media = [1, ...clear.filter((p) => !p.geometry_thin_walled).map((p) => p.specular_ior)];
+  const step = (p: OpenPbrParameters, outer: number) => (Math.abs(p.specular_ior - outer) / (p.specular_ior + outer)) * Math.sqrt(p.specular_weight);
+  const isNear = (p: OpenPbrParameters, outer: number) => p.specular_ior !== outer && (step(p, outer) < INSIDE_NEAR + 1e-4 || isTextured('specular_weight'));
+  const sums = isTextured('specular_ior') || isTextured('coat_ior') || media.some((outer) => solid.some((p) => dielectric && p.specular_ior < outer) || all.some((p) => p.coat_weight > 0 && p.coat_ior < outer) || clear.some((p) => isNear(p, outer)));
   return {
     OPENPBR_SPECULAR: specular,
     OPENPBR_METAL: metal,
     OPENPBR_COAT_FRAME: all.some((p) => p.coat_weight > 0 && (p.geometry_coat_normal !== null || p.geometry_coat_tangent !== null)) || (coat && (isTextured('geometry_coat_normal') || isTextured('geometry_coat_tangent'))),
     OPENPBR_DIELECTRIC: dielectric,
     OPENPBR_INTERFACE: dielectric || coat,
-    OPENPBR_INNER: transmission || (dielectric && insulators.some((p) => p.specular_ior < 1)) || all.some((p) => p.coat_weight > 0 && p.coat_ior < 1) || isTextured('specular_ior') || isTextured('coat_ior'),
+    OPENPBR_INNER: inner,
+    OPENPBR_INNER_SUMS: inner && sums,
     OPENPBR_TRANSMISSION: transmission,
     OPENPBR_SUBSURFACE: below.length > 0,
     OPENPBR_THIN_SUBSURFACE: thinBelow,
     OPENPBR_THIN_WALLED: thin,
-    OPENPBR_LOSSES: metal || thin,
+    OPENPBR_LOSSES: metal || thin || inner,
     OPENPBR_COAT: coat,
     OPENPBR_THIN_FILM: specular && all.some(film),
     OPENPBR_FUZZ: all.some((p) => p.fuzz_weight > 0),

@@ -1,4 +1,5 @@
 import { gated, wgslModule } from '@glanz/wgsl';
+import { openpbrEon } from './diffuse.wgsl';
 import { openpbrGgx } from './ggx.wgsl';
 import { openPbrStruct } from './record';
 import { openpbrSurface } from './surface.wgsl';
@@ -137,13 +138,15 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
   //#endif
   //#if OPENPBR_DIELECTRIC
   let reflected = openpbr_energy_share_mean(b.dielectric.epsilon, b.dielectric.roughness);
-  b.diffuse_scale /= max(1.0 - reflected, 1e-4);
+  var coupling = 1.0 / max(1.0 - reflected, 1e-4);
   //#if OPENPBR_DIFFUSE_ROUGHNESS
+  b.diffuse_grazing = openpbr_diffuse_grazing(b.diffuse_roughness, b.dielectric.roughness, reflected);
   // EON is not as even as Lambert: where it peaks, the weights would give back more than they get.
-  b.diffuse_scale *= 1.0 - 0.08 * b.diffuse_roughness * reflected;
+  coupling *= (1.0 - b.diffuse_roughness * (0.0025 * reflected / (reflected + 0.01) + select(0.0, 0.03 * reflected, b.dielectric.epsilon < 0.0))) * openpbr_diffuse_gain(b.diffuse_grazing, mu);
   //#endif
+  b.diffuse_scale *= coupling;
   //#if OPENPBR_THIN_SUBSURFACE
-  b.subsurface.coupling = (1.0 - 0.08 * p.base_diffuse_roughness * reflected) / max(1.0 - reflected, 1e-4);
+  b.subsurface.coupling = coupling;
   //#endif
   //#endif
   //#endif
@@ -211,5 +214,5 @@ fn openpbr_below_film(b: OpenPbrBsdf, color: vec3f) -> vec3f {
   return color;
   //#endif
 }`,
-  [openPbrStruct.module, openpbrSurface, gated('OPENPBR_SPECULAR', openpbrGgx)],
+  [openPbrStruct.module, openpbrSurface, gated('OPENPBR_SPECULAR', openpbrGgx), gated('OPENPBR_DIFFUSE_ROUGHNESS', openpbrEon)],
 );

@@ -21,6 +21,10 @@ export const openpbrSurface = wgslModule(
   diffuse_scale: f32,
   diffuse_color: vec3f,
   diffuse_roughness: f32,
+  //#if OPENPBR_DIFFUSE_ROUGHNESS
+  // What rough diffuse light below an interface gets more at grazing angles: see openpbr_diffuse_gain.
+  diffuse_grazing: f32,
+  //#endif
   // Directional albedo.
   albedo: vec3f,
   dielectric_weight: f32,
