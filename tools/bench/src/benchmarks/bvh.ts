@@ -56,7 +56,7 @@ export const benchmark: Benchmark = {
     pages: { type: 'string', help: 'folder to write the page of the docs and its data into' },
     brief: { type: 'string', help: '"yes": only balanced beside three-mesh-bvh, on all meshes, and the threads; nothing of rays. For a machine that is lent for minutes' },
     threads: { type: 'string', help: '"yes": only the threads, with the largest mesh' },
-    busy: { type: 'string', help: '"yes": put it on that page as the run on a machine with other work' },
+    'two-cores': { type: 'string', help: '"yes": put it on that page as the run on a machine of two cores' },
   },
   async run({ log, quick, values }) {
     const figures: Figure[] = [], notes: string[] = [];
@@ -160,7 +160,7 @@ export const benchmark: Benchmark = {
     const tiny = brief || onlyThreads ? [] : overTinybvh(rows).flatMap(({ byCenter, bySah }) => [byCenter, bySah]);
     if (tiny.length > 0) figure("all: balanced over tinybvh's AVX2 build, linked by three-mesh-bvh, geometric mean", '1', [geometricMean(tiny)], { value: 2, relation: '<=', source: 'twice as long as C++' });
     const details: BvhDetails = { runs, rows, threads: { mesh: large.name, cold: cold!, warm: spreadOf(warm), one: spreadOf(one), two: spreadOf(two), alone: spreadOf(alone), together: spreadOf(together), sliced: spreadOf(sliced.all), longest: spreadOf(sliced.longest) } };
-    if (values['pages'] !== undefined && !onlyThreads) for (const file of writeBvhPage(brief ? 'bvh-brief' : values['busy'] === undefined ? 'bvh' : 'bvh-busy', { benchmark: 'bvh', machine: machine(), quick, figures, details }, values['pages'])) log(`wrote ${file}`);
+    if (values['pages'] !== undefined && !onlyThreads) for (const file of writeBvhPage(brief ? 'bvh-brief' : values['two-cores'] === undefined ? 'bvh' : 'bvh-two-cores', { benchmark: 'bvh', machine: machine(), quick, figures, details }, values['pages'])) log(`wrote ${file}`);
     return { details, settings: { runs, meshes: meshes.map(({ name }) => name), leaves: 'at most 4 triangles' }, figures, notes };
   },
 };
