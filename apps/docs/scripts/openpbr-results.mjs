@@ -78,7 +78,7 @@ ${furnace}
 
 ${materials ? `${materials.materials} random white materials of all lobes, without stretched highlights and rough diffuse, 3 angles each: ${number(materials.least)} to ${number(materials.most)}.` : ''}
 
-Stretched highlights: what metal loses by single scattering is tabulated over roughness, anisotropy and both angles; for dielectrics it is summed over 64 facets as they are seen, and from inside over 160, within the critical angle and within what mirrors upwards. Indices below 1 over something opaque, and those near 1 from inside, are summed over 96 of those; their mean over all directions is that of the table that the light comes in by.
+Stretched highlights: what metal loses by single scattering is tabulated over roughness, anisotropy and both angles; for dielectrics it is summed over 64 facets as they are seen, and from inside over 160, within the critical angle and within what mirrors upwards. Indices below 1 over something opaque, and those near 1 from inside, are summed over 96 of those, for the viewer, for the light, and for the mean over all directions at 16 of them.
 
 ## Samples against their density
 

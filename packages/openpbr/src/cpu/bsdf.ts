@@ -1,12 +1,12 @@
 import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
 import { coatedBase, coatEmission, coatPass, coatThrough, inCoat, outOfCoat, prepareCoat, type Coat } from './coat';
-import { interfaceEnergy, isSummed } from './dielectric';
+import { interfaceEnergy, isOverOpaque, isSummed, lightShare, summedShareMean } from './dielectric';
 import { cosineSample, diffuseGain, diffuseGrazing, eon } from './diffuse';
-import { energyShare, energyShareMean, mirrorLost, mirrorLostMean } from './energy';
+import { energyShareMean, mirrorLost, mirrorLostMean } from './energy';
 import { dielectricEpsilon, fresnelDielectric, fresnelMetal, fresnelMetalMean } from './fresnel';
 import { filmFacet, filmReflectance, filmShare, metalIndex, prepareFilm, type ComplexIndex, type Film } from './film';
 import { fuzzAlbedo, fuzzDensity, fuzzSample, prepareFuzz, type Fuzz } from './fuzz';
-import { ggx, ggxAlpha, ggxBound, ggxSample, halfVector, viewRoughness, type Slopes } from './ggx';
+import { ggx, ggxAlpha, ggxBound, ggxSample, halfVector, type Slopes } from './ggx';
 import { prepareThinSubsurface, type ThinSubsurface } from './subsurface';
 import { prepareTransmission, refract, refractGgx, refractHalf, type BsdfSide, type Transmission } from './transmission';
 import { clamp, dot } from './vector';
@@ -46,7 +46,7 @@ export interface Bsdf {
     /** Its complex index per channel, below a film. */
     readonly index: readonly [ComplexIndex, ComplexIndex, ComplexIndex];
   };
-  readonly dielectric: { readonly eta: number; readonly epsilon: number; readonly roughness: number; readonly scale: OpenPbrColor; readonly bounced: OpenPbrColor };
+  readonly dielectric: { readonly eta: number; readonly epsilon: number; readonly summed: boolean; readonly roughness: number; readonly scale: OpenPbrColor; readonly bounced: OpenPbrColor };
   readonly film: Film;
   /** Factor on what lies below the interface, by the film. */
   readonly filmPass: OpenPbrColor;
@@ -92,7 +92,8 @@ function seenFrom(p: OpenPbrParameters, { inside = false, outerIor = 1 }: BsdfSi
 /** Share of light that an interface reflects, and what multiple scattering adds to either side; twin of `openpbr_dielectric_prepare`. */
 function prepareInterface(p: OpenPbrParameters, alpha: Slopes, wo: OpenPbrVector, mu: number, multipleScattering: boolean) {
   const epsilon = dielectricEpsilon(p.specular_ior, p.specular_weight);
-  return { epsilon, ...interfaceEnergy(epsilon, p.specular_roughness, alpha, wo, mu, isSummed(p, epsilon), multipleScattering) };
+  const summed = isSummed(p, epsilon);
+  return { epsilon, summed, ...interfaceEnergy(epsilon, p.specular_roughness, alpha, wo, mu, summed, multipleScattering) };
 }
 
 /**
@@ -136,7 +137,7 @@ export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multi
   const down = sum(beneath);
   const facets = sum(specular) + sum(transmission.albedo);
   const all = facets + sum(spread) + down;
-  const reflected = energyShareMean(face.epsilon, roughness);
+  const reflected = face.summed && isOverOpaque(p) ? summedShareMean(face.epsilon, roughness) : energyShareMean(face.epsilon, roughness);
   const grazing = diffuseGrazing(p.base_diffuse_roughness, roughness, reflected);
   const even = 1 - p.base_diffuse_roughness * ((0.0025 * reflected) / (reflected + 0.01) + (face.epsilon < 0 ? 0.03 * reflected : 0));
   const coupling = (even * diffuseGain(grazing, mu)) / Math.max(1 - reflected, 1e-4);
@@ -161,7 +162,7 @@ export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multi
     diffuseGrazing: grazing,
     albedo: rgb((i) => Math.min((below[i] + coat.albedo) * fuzz.below + fuzz.color[i], 1)),
     metal: { f0, tint: p.specular_color, specularWeight: weight, metalness: p.base_metalness, roughness, bounced, meanLost, index },
-    dielectric: { eta: (1 + face.epsilon) / (1 - face.epsilon), epsilon: face.epsilon, roughness, scale, bounced: rebounced },
+    dielectric: { eta: (1 + face.epsilon) / (1 - face.epsilon), epsilon: face.epsilon, summed: face.summed, roughness, scale, bounced: rebounced },
     film,
     filmPass: filmed.pass,
     transmission,
@@ -202,7 +203,7 @@ function reflectionChance(b: Bsdf, { reflected, through }: ReturnType<typeof fac
 }
 
 /** Cosine, and what the interface lets through on the way of the light to the diffuse lobe. */
-const diffusePass = (b: Bsdf, wi: OpenPbrVector): number => wi[2] * diffuseGain(b.diffuseGrazing, wi[2]) * (1 - energyShare(b.dielectric.epsilon, viewRoughness(b.alpha, b.dielectric.roughness, wi), wi[2]));
+const diffusePass = (b: Bsdf, wi: OpenPbrVector): number => wi[2] * diffuseGain(b.diffuseGrazing, wi[2]) * (1 - lightShare(b.dielectric, b.alpha, wi));
 
 /** The facet that lets light through from `wi` to `wo`. */
 const throughHalf = ({ transmission: { thin, eta } }: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): OpenPbrVector => (thin ? halfVector(wo, [wi[0], wi[1], -wi[2]]) : refractHalf(eta, wo, wi));

@@ -1,9 +1,9 @@
 import type { OpenPbrParameters, OpenPbrVector } from '../parameters/index';
 import { energyBounce, energyShare, energyTotal } from './energy';
-import { viewRoughness, type Slopes } from './ggx';
+import { ggxAlpha, viewRoughness, type Slopes } from './ggx';
 import { insideEnergy } from './inside';
 import { stretchedEnergy } from './stretched';
-import { INSIDE_NEAR } from '../tables/layout';
+import { INNER_SUM_NODES, INSIDE_NEAR } from '../tables/layout';
 
 /** What an interface does with the light towards a viewer; see the WGSL struct `OpenPbrDielectric`. */
 export interface InterfaceEnergy {
@@ -18,8 +18,25 @@ export interface InterfaceEnergy {
  * Whether the interface's energies from its denser side are summed over facets: where something lies below it, and near index
  * 1. For what is clear alone the tables do, since nothing but the choice of samples hangs on its share.
  */
-export const isSummed = (p: OpenPbrParameters, epsilon: number): boolean =>
-  epsilon < 0 && (epsilon > -INSIDE_NEAR || (1 - p.transmission_weight) * (p.geometry_thin_walled ? 1 : 1 - p.subsurface_weight) > 0);
+export const isSummed = (p: OpenPbrParameters, epsilon: number): boolean => epsilon < 0 && (epsilon > -INSIDE_NEAR || isOverOpaque(p));
+
+/** Whether something opaque lies below the interface. */
+export const isOverOpaque = (p: OpenPbrParameters): boolean => (1 - p.transmission_weight) * (p.geometry_thin_walled ? 1 : 1 - p.subsurface_weight) > 0;
+
+/** The cosine-weighted mean of the summed share over all directions, with a round highlight. */
+export function summedShareMean(epsilon: number, roughness: number): number {
+  const eta = (1 + epsilon) / (1 - epsilon);
+  const critical = Math.sqrt(Math.max(1 - eta * eta, 0));
+  const alpha = ggxAlpha(roughness, 0);
+  let through = 0;
+  for (const [x, weight] of INNER_SUM_NODES) {
+    for (const [mu, step] of [[critical * (1 - x * x), critical], [critical + (1 - critical) * x * x, 1 - critical]] as const) {
+      const wo: OpenPbrVector = [Math.sqrt(Math.max(1 - mu * mu, 0)), 0, mu];
+      through += (1 - interfaceEnergy(epsilon, roughness, alpha, wo, mu, true, false).share) * mu * step * x * weight;
+    }
+  }
+  return 1 - 4 * through;
+}
 
 /**
  * Of an interface with (η - 1)/(η + 1) = `epsilon`; the twin of `openpbr_interface_energy`.
@@ -35,4 +52,14 @@ export function interfaceEnergy(epsilon: number, roughness: number, alpha: Slope
   if (!multipleScattering) return { share, bounced: 0, bouncedThrough: 0 };
   const bounced = lost * bounce;
   return { share, bounced, bouncedThrough: lost - bounced };
+}
+
+/**
+ * Share of light from `wi` that an interface reflects, as {@link interfaceEnergy} has it for a viewer there, so that what
+ * goes down and comes up again is the same both ways; but for stretched highlights, where it is that of the tables. Twin of
+ * `openpbr_light_share`.
+ */
+export function lightShare({ epsilon, summed, roughness }: { readonly epsilon: number; readonly summed: boolean; readonly roughness: number }, alpha: Slopes, wi: OpenPbrVector): number {
+  if (summed) return interfaceEnergy(epsilon, roughness, alpha, wi, wi[2], true, false).share;
+  return energyShare(epsilon, viewRoughness(alpha, roughness, wi), wi[2]);
 }

@@ -65,3 +65,15 @@ export const INSIDE_NEAR = 0.04;
 /** Nodes on either side of the critical angle for the mean share from inside, and a factor on what goes through, by as much as they can miss. */
 export const INNER_MEAN_NODES = 16;
 export const INNER_MEAN = 1.001;
+
+/** Gauss and Legendre's nodes and weights, halved to 0 to 1: for the mean share of an interface that is summed over facets, on either side of the critical angle. */
+export const INNER_SUM_NODES = [
+  [0.01985507175123188, 0.05061426814518813],
+  [0.10166676129318664, 0.11119051722668724],
+  [0.2372337950418355, 0.15685332293894366],
+  [0.4082826787521751, 0.181341891689181],
+  [0.5917173212478249, 0.181341891689181],
+  [0.7627662049581645, 0.15685332293894366],
+  [0.8983332387068134, 0.11119051722668724],
+  [0.9801449282487681, 0.05061426814518813],
+] as const;

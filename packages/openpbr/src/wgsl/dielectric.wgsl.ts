@@ -5,7 +5,7 @@ import { openpbrGgx } from './ggx.wgsl';
 import { openpbrInside } from './inside.wgsl';
 import { openPbrStruct } from './record';
 import { openpbrStretched } from './stretched.wgsl';
-import { INSIDE_NEAR } from '../tables/layout';
+import { INNER_SUM_NODES, INSIDE_NEAR } from '../tables/layout';
 
 /**
  * The dielectric interface of the base: specular_weight changes its index of refraction, and with it everything else.
@@ -26,6 +26,11 @@ export const openpbrDielectric = wgslModule(
   // The part of the share that comes from multiple scattering, and the part of the rest that does.
   bounced: f32,
   bounced_through: f32,
+  //#if OPENPBR_INNER_SUMS
+  // Seen from the denser side, summed over facets; and the share's mean where something opaque lies below, else negative.
+  summed: bool,
+  mean: f32,
+  //#endif
 }
 
 fn openpbr_dielectric_epsilon(p: OpenPbrParameters) -> f32 {
@@ -46,6 +51,28 @@ fn openpbr_dielectric_summed(given: OpenPbrDielectric, kept: vec2f) -> OpenPbrDi
   return d;
 }
 
+// The parts of the light that single scattering reflects and lets through, where tables are too coarse.
+fn openpbr_dielectric_kept(eta: f32, alpha: vec2f, wo: vec3f) -> vec2f {
+  //#if OPENPBR_ANISOTROPY
+  return openpbr_stretched(eta, alpha, wo);
+  //#else
+  //#if OPENPBR_INNER_SUMS
+  return openpbr_inside(eta, alpha, wo);
+  //#else
+  return vec2f(0.0);
+  //#endif
+  //#endif
+}
+
+// Share of light from wi that the interface reflects, as it has it for a viewer there, so that what goes down and comes up
+// again is the same both ways; but for stretched highlights, where it is that of the tables.
+fn openpbr_light_share(d: OpenPbrDielectric, alpha: vec2f, wi: vec3f) -> f32 {
+  //#if OPENPBR_INNER_SUMS
+  if (d.summed) { return openpbr_dielectric_summed(d, openpbr_dielectric_kept(d.eta, alpha, wi)).share; }
+  //#endif
+  return openpbr_energy_share(d.epsilon, openpbr_view_roughness(alpha, d.roughness, wi), wi.z);
+}
+
 fn openpbr_dielectric_prepare(p: OpenPbrParameters, alpha: vec2f, wo: vec3f, mu: f32) -> OpenPbrDielectric {
   var d: OpenPbrDielectric;
   d.epsilon = openpbr_dielectric_epsilon(p);
@@ -56,16 +83,39 @@ fn openpbr_dielectric_prepare(p: OpenPbrParameters, alpha: vec2f, wo: vec3f, mu:
   // Where something lies below the interface, and near index 1. For what is clear alone the tables do, since nothing but the
   // choice of samples hangs on its share.
   let opaque = (1.0 - p.transmission_weight) * select(1.0 - p.subsurface_weight, 1.0, p.geometry_thin_walled != 0u);
-  summed = d.epsilon < 0.0 && (d.epsilon > -${INSIDE_NEAR} || opaque > 0.0);
+  d.summed = d.epsilon < 0.0 && (d.epsilon > -${INSIDE_NEAR} || opaque > 0.0);
+  d.mean = -1.0;
+  summed = d.summed;
   //#endif
   //#if OPENPBR_ANISOTROPY
   //#if OPENPBR_MULTISCATTER
   summed = summed || alpha.x > alpha.y;
   //#endif
-  if (summed) { return openpbr_dielectric_summed(d, openpbr_stretched(d.eta, alpha, wo)); }
-  //#else
+  //#endif
   //#if OPENPBR_INNER_SUMS
-  if (summed) { return openpbr_dielectric_summed(d, openpbr_inside(d.eta, alpha, wo)); }
+  if (summed) {
+    // First as it is seen, then for the mean: Gauss's nodes on either side of the critical angle.
+    var nodes = array<vec2f, ${INNER_SUM_NODES.length}>(${INNER_SUM_NODES.map(([x, weight]) => `vec2f(${x}, ${weight})`).join(', ')});
+    let critical = sqrt(max(1.0 - d.eta * d.eta, 0.0));
+    let mean = d.summed && opaque > 0.0;
+    let count = select(1u, ${2 * INNER_SUM_NODES.length + 1}u, mean);
+    var result = d;
+    var through = 0.0;
+    for (var i = 0u; i < count; i++) {
+      let node = nodes[(max(i, 1u) - 1u) >> 1u];
+      let is_above = (i & 1u) == 0u;
+      let m = select(critical * (1.0 - node.x * node.x), critical + (1.0 - critical) * node.x * node.x, is_above);
+      let w = select(vec3f(sqrt(max(1.0 - m * m, 0.0)), 0.0, m), wo, i == 0u);
+      let flat = vec2f(max(d.roughness * d.roughness, 1e-4));
+      let seen = openpbr_dielectric_summed(d, openpbr_dielectric_kept(d.eta, select(flat, alpha, i == 0u), w));
+      if (i == 0u) { result = seen; } else { through += (1.0 - seen.share) * m * select(critical, 1.0 - critical, is_above) * node.x * node.y; }
+    }
+    if (mean) { result.mean = 1.0 - 4.0 * through; }
+    return result;
+  }
+  //#else
+  //#if OPENPBR_ANISOTROPY
+  if (summed) { return openpbr_dielectric_summed(d, openpbr_dielectric_kept(d.eta, alpha, wo)); }
   //#endif
   //#endif
   d.share = openpbr_energy_share(d.epsilon, openpbr_view_roughness(alpha, d.roughness, wo), mu);

@@ -137,7 +137,13 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
   spread += b.subsurface.back * openpbr_below_film(b, b.subsurface.color);
   //#endif
   //#if OPENPBR_DIELECTRIC
-  let reflected = openpbr_energy_share_mean(b.dielectric.epsilon, b.dielectric.roughness);
+  var reflected: f32;
+  //#if OPENPBR_INNER_SUMS
+  reflected = b.dielectric.mean;
+  if (reflected < 0.0) { reflected = openpbr_energy_share_mean(b.dielectric.epsilon, b.dielectric.roughness); }
+  //#else
+  reflected = openpbr_energy_share_mean(b.dielectric.epsilon, b.dielectric.roughness);
+  //#endif
   var coupling = 1.0 / max(1.0 - reflected, 1e-4);
   //#if OPENPBR_DIFFUSE_ROUGHNESS
   b.diffuse_grazing = openpbr_diffuse_grazing(b.diffuse_roughness, b.dielectric.roughness, reflected);

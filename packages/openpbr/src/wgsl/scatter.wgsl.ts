@@ -28,7 +28,7 @@ fn openpbr_diffuse(color: vec3f, roughness: f32, wo: vec3f, wi: vec3f) -> vec3f 
 // Cosine, and what the interface lets through on the way of the light to the diffuse lobe.
 fn openpbr_diffuse_pass(b: OpenPbrBsdf, wi: vec3f) -> f32 {
   //#if OPENPBR_DIELECTRIC
-  let passes = wi.z * (1.0 - openpbr_energy_share(b.dielectric.epsilon, openpbr_view_roughness(b.alpha, b.dielectric.roughness, wi), wi.z));
+  let passes = wi.z * (1.0 - openpbr_light_share(b.dielectric, b.alpha, wi));
   //#if OPENPBR_DIFFUSE_ROUGHNESS
   return passes * openpbr_diffuse_gain(b.diffuse_grazing, wi.z);
   //#else
