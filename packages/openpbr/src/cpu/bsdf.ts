@@ -123,7 +123,8 @@ export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multi
   const insulator = 1 - p.base_metalness;
   const face = prepareInterface(p, alpha, wo, mu, multipleScattering);
   const outer = { ...p, specular_color: tint, specular_ior: inside ? 1 / whole.specular_ior : whole.specular_ior };
-  const bare = prepareInterface(outer, alpha, wo, mu, multipleScattering);
+  // From inside nothing opaque lies beyond it.
+  const bare = prepareInterface(inside ? { ...outer, transmission_weight: 1 } : outer, alpha, wo, mu, multipleScattering);
   const filmed = filmShare(film, (1 + face.epsilon) / (1 - face.epsilon), face.share, alpha, wo);
   const clear = inside ? filmShare(film, (1 + bare.epsilon) / (1 - bare.epsilon), bare.share, alpha, wo) : filmed;
   const transmission = prepareTransmission(outer, face, bare, clear, alpha, wo, mu, insulator, inside ? given.coat_weight : 0, inside, multipleScattering);

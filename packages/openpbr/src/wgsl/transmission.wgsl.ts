@@ -107,12 +107,15 @@ fn openpbr_transmission_prepare(outer: OpenPbrParameters, d: OpenPbrDielectric, 
   //#endif
   var clear = d;
   var bare = d;
+  // From inside nothing opaque lies beyond it.
+  var beyond = outer;
+  beyond.transmission_weight = select(outer.transmission_weight, 1.0, inside);
   //#if OPENPBR_COAT
-  bare = openpbr_dielectric_prepare(outer, alpha, wo, mu);
+  bare = openpbr_dielectric_prepare(beyond, alpha, wo, mu);
   // The coat leaves the base a smaller step of the index, which reflects less, but bends the light no less in the end.
   if (!inside) { t.color *= min((1.0 - d.share + 1e-6) / (1.0 - bare.share + 1e-6), 8.0); }
   //#else
-  if (inside) { bare = openpbr_dielectric_prepare(outer, alpha, wo, mu); }
+  if (inside) { bare = openpbr_dielectric_prepare(beyond, alpha, wo, mu); }
   //#endif
   if (inside) { clear = bare; }
   t.mirror_eta = clear.eta;
