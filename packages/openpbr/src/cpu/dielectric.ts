@@ -24,7 +24,7 @@ export const isSummed = (p: OpenPbrParameters, epsilon: number): boolean => epsi
 export const isOverOpaque = (p: OpenPbrParameters): boolean => (1 - p.transmission_weight) * (p.geometry_thin_walled ? 1 : 1 - p.subsurface_weight) > 0;
 
 /** The cosine-weighted mean of the summed share over all directions, with a round highlight. */
-export function summedShareMean(epsilon: number, roughness: number): number {
+function sumShareMean(epsilon: number, roughness: number): number {
   const eta = (1 + epsilon) / (1 - epsilon);
   const critical = Math.sqrt(Math.max(1 - eta * eta, 0));
   const alpha = ggxAlpha(roughness, 0);
@@ -36,6 +36,14 @@ export function summedShareMean(epsilon: number, roughness: number): number {
     }
   }
   return 1 - 4 * through;
+}
+
+const remembered = { epsilon: 0, roughness: 0, mean: 0 };
+
+/** {@link sumShareMean}; remembered for the last interface, for one is mostly looked at from many sides. */
+export function summedShareMean(epsilon: number, roughness: number): number {
+  if (remembered.epsilon !== epsilon || remembered.roughness !== roughness) Object.assign(remembered, { epsilon, roughness, mean: sumShareMean(epsilon, roughness) });
+  return remembered.mean;
 }
 
 /**
