@@ -137,8 +137,13 @@ test('the OpenPBR page lists the table of the package', async ({ page }) => {
 test('search finds a guide without the network', async ({ page }) => {
   const complaints = watchPage(page);
   await page.goto(`${origin}/`);
-  await page.keyboard.press('Control+k');
-  await page.locator('.VPLocalSearchBox input').fill('depth of field');
+  const input = page.locator('.VPLocalSearchBox input');
+  // Keys are heard once the page's script has run.
+  await expect(async () => {
+    if (!(await input.isVisible())) await page.keyboard.press('Control+k');
+    await expect(input).toBeVisible({ timeout: 2000 });
+  }).toPass();
+  await input.fill('depth of field');
   await expect(page.locator('.VPLocalSearchBox .result', { hasText: 'Cameras and framing' }).first()).toBeVisible();
   expect(complaints).toEqual([]);
 });
