@@ -1,5 +1,5 @@
 /**
- * Fits src/tables/film.ts and prints it: `node scripts/film.mjs`, about a minute. Deterministic.
+ * Fits src/tables/film.ts and prints it: `node scripts/film.mjs`, a second. Deterministic.
  *
  * What a film's waves add up to, as red, green and blue, depends on the visible spectrum only through the Fourier transforms
  * of the three sensitivities over wavenumbers, taken at the optical path. A sum of Lorentzian bands has transforms of damped
@@ -85,13 +85,15 @@ function fit(wavenumbers, width) {
 }
 
 const COUNT = 8;
-let wavenumbers = Array.from({ length: COUNT }, (_, i) => 1.48 + (0.87 * i) / (COUNT - 1));
+/** The shader adds up phases in whole numbers, so that no digit is lost however thick the film: middles are of whole steps. */
+const STEPS = 256;
+let wavenumbers = Array.from({ length: COUNT }, (_, i) => Math.round((1.48 + (0.87 * i) / (COUNT - 1)) * STEPS) / STEPS);
 let width = 0.3;
 let best = fit(wavenumbers, width);
-for (let step = 0.05; step > 2e-4; ) {
+for (let step = 16; step > 1 / 32; ) {
   let better = false;
-  for (let k = 0; k <= COUNT; k++) {
-    for (const move of [step, -step]) {
+  for (let k = step < 1 ? COUNT : 0; k <= COUNT; k++) {
+    for (const move of [step / STEPS, -step / STEPS]) {
       const moved = wavenumbers.map((v, i) => (i === k ? v + move : v));
       const wider = k === COUNT ? Math.max(width + 2 * move, 0.005) : width;
       const tried = fit(moved, wider);
@@ -100,4 +102,9 @@ for (let step = 0.05; step > 2e-4; ) {
   }
   if (!better) step /= 2;
 }
-process.stdout.write(`${JSON.stringify({ wavenumbers: wavenumbers.map((v) => +v.toFixed(4)), width: +width.toFixed(5), weights: best.weights.map((row) => row.map((w) => +w.toFixed(5))), error: best.error })}\n`);
+/** Five digits, the last number such that they add up to 1. */
+const row = (weights) => {
+  const rounded = weights.slice(0, -1).map((w) => +w.toFixed(5));
+  return [...rounded, +(1 - rounded.reduce((sum, w) => sum + w, 0)).toFixed(5)];
+};
+process.stdout.write(`${JSON.stringify({ wavenumbers, width: +width.toFixed(5), weights: best.weights.map(row), error: best.error })}\n`);

@@ -90,6 +90,7 @@ export function lowerDirection(next: () => number, floor = 0): OpenPbrVector {
   return [x, y, -z];
 }
 
-function rounded(p: OpenPbrParameters): OpenPbrParameters {
+/** What single precision makes of a surface, so that both sides of a comparison have the same one. */
+export function rounded(p: OpenPbrParameters): OpenPbrParameters {
   return Object.fromEntries(Object.entries(p).map(([name, value]) => [name, typeof value === 'number' ? Math.fround(value) : Array.isArray(value) ? single(value as unknown as OpenPbrVector) : value])) as unknown as OpenPbrParameters;
 }

@@ -113,9 +113,10 @@ const PARTS = [0.04348186, 0.08151814, 0.08151814, 0.04348186];
 export interface FilmShare {
   /** What it adds to the part of the light that single scattering reflects. */
   readonly more: OpenPbrColor;
-  /** Factor on what single scattering lets through, and on all that goes through. */
+  /** Factor on what single scattering lets through, and on all that goes through; the latter less the former. */
   readonly direct: OpenPbrColor;
   readonly pass: OpenPbrColor;
+  readonly apart: OpenPbrColor;
 }
 
 /**
@@ -125,7 +126,7 @@ export interface FilmShare {
  * @param share The part of the light that it reflects.
  */
 export function filmShare(film: Film, eta: number, share: number, alpha: Slopes, wo: OpenPbrVector): FilmShare {
-  if (film.weight <= 0) return { more: [0, 0, 0], direct: [1, 1, 1], pass: [1, 1, 1] };
+  if (film.weight <= 0) return { more: [0, 0, 0], direct: [1, 1, 1], pass: [1, 1, 1], apart: [0, 0, 0] };
   const turn = Math.atan2(alpha[1] * wo[1], alpha[0] * wo[0]) / (2 * Math.PI);
   const more = [0, 0, 0];
   const through = [0, 0, 0];
@@ -145,9 +146,12 @@ export function filmShare(film: Film, eta: number, share: number, alpha: Slopes,
       through[k] = (through[k] as number) + part * change;
     }
   }
+  const part = rgb((i) => (through[i] as number) / Math.max(plain, 1e-5));
+  const taken = rgb((i) => (more[i] as number) / Math.max(1 - share, 1e-5));
   return {
     more: rgb((i) => more[i] as number),
-    direct: rgb((i) => Math.max(1 - (through[i] as number) / Math.max(plain, 1e-5), 0)),
-    pass: rgb((i) => Math.max(1 - (more[i] as number) / Math.max(1 - share, 1e-5), 0)),
+    direct: rgb((i) => Math.max(1 - part[i], 0)),
+    pass: rgb((i) => Math.max(1 - taken[i], 0)),
+    apart: rgb((i) => part[i] - taken[i]),
   };
 }

@@ -75,7 +75,8 @@ export function prepareTransmission(outer: OpenPbrParameters, face: Interface, b
     const total = rgb((i) => amount * tint[i] + enters);
     const kept = inside ? 1 : Math.min((1 - face.share + 1e-6) / (1 - bare.share + 1e-6), 8);
     const color = rgb((i) => total[i] * kept);
-    const direct = Math.max(1 - bare.share - bare.bouncedThrough, 0);
+    const bounced = Math.min(bare.bouncedThrough, 1 - bare.share);
+    const direct = 1 - bare.share - bounced;
     const mirror = rgb((i) => weight * share * outer.specular_color[i]);
     return {
       eta,
@@ -84,7 +85,7 @@ export function prepareTransmission(outer: OpenPbrParameters, face: Interface, b
       share,
       color,
       albedo: rgb((i) => color[i] * direct * film.direct[i]),
-      bounced: rgb((i) => color[i] * Math.max((1 - bare.share) * film.pass[i] - direct * film.direct[i], 0)),
+      bounced: rgb((i) => color[i] * Math.max(bounced * film.pass[i] + direct * film.apart[i], 0)),
       exit,
       thin,
       thinAlpha: alpha,

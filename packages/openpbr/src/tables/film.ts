@@ -1,6 +1,6 @@
 /** The visible spectrum as a sum of bands of Lorentzian shape, over wavenumbers. */
 export interface FilmBands {
-  /** Their middles, in 1/µm. */
+  /** Their middles, in 1/µm: multiples of 1/256, which the shader counts in. */
   readonly wavenumbers: readonly number[];
   /** Coherence is lost by e^(−width · optical path in µm). */
   readonly width: number;
@@ -14,11 +14,11 @@ export interface FilmBands {
  * 3 µm thick are within 0.02, 0.003 in the mean; three wavelengths alone miss by up to 0.6.
  */
 export const FILM_BANDS: FilmBands = {
-  wavenumbers: [1.4308, 1.6348, 1.7227, 1.838, 1.9396, 2.1546, 2.2726, 2.5453],
-  width: 0.48984,
+  wavenumbers: [1.4296875, 1.63671875, 1.72265625, 1.8359375, 1.9375, 2.15625, 2.2734375, 2.5390625],
+  width: 0.49922,
   weights: [
-    [-0.29008, 1.67779, 0.54186, -0.45071, -0.49558, -0.07198, 0.12729, -0.03859],
-    [-0.04868, -0.45614, 0.51017, 0.90696, 0.36458, -0.09129, -0.15756, -0.02804],
-    [-0.02307, -0.00295, -0.09944, -0.1542, -0.05775, 0.7085, 0.76063, -0.13172],
+    [-0.29636, 1.7287, 0.50891, -0.44133, -0.51768, -0.07248, 0.13014, -0.0399],
+    [-0.05092, -0.47317, 0.51618, 0.90803, 0.38185, -0.09672, -0.15694, -0.02831],
+    [-0.02376, -0.00276, -0.09874, -0.15495, -0.06254, 0.72397, 0.75767, -0.13889],
   ],
 };

@@ -27,10 +27,9 @@ fn openpbr_facet(b: OpenPbrBsdf, c: f32) -> OpenPbrFacet {
   //#if OPENPBR_DIELECTRIC
   let opaque = openpbr_fresnel_dielectric(b.dielectric.eta, c);
   //#if OPENPBR_THIN_FILM
-  // What the film lets through.
-  var film = vec3f(1.0);
+  var film: OpenPbrFilmLight;
   if (b.film.weight > 0.0) { film = openpbr_film_facet(b.film, c); }
-  facet.reflected += b.dielectric_scale * mix(vec3f(opaque), 1.0 - film, b.film.weight);
+  facet.reflected += b.dielectric_scale * mix(vec3f(opaque), film.reflected, b.film.weight);
   //#else
   facet.reflected += b.dielectric_scale * opaque;
   //#endif
@@ -46,8 +45,8 @@ fn openpbr_facet(b: OpenPbrBsdf, c: f32) -> OpenPbrFacet {
   let clear = openpbr_fresnel_dielectric(b.transmission.mirror_eta, c);
   facet.through = b.transmission.color * (1.0 - openpbr_fresnel_dielectric(b.transmission.fresnel_eta, c));
   //#if OPENPBR_THIN_FILM
-  facet.reflected += b.transmission.mirror * mix(vec3f(clear), 1.0 - film, b.film.weight);
-  facet.through *= 1.0 - b.film.weight + b.film.weight * film / max(1.0 - clear, 1e-6);
+  facet.reflected += b.transmission.mirror * mix(vec3f(clear), film.reflected, b.film.weight);
+  facet.through *= 1.0 - b.film.weight + b.film.weight * film.through / max(1.0 - clear, 1e-6);
   //#else
   facet.reflected += b.transmission.mirror * clear;
   //#endif

@@ -17,7 +17,7 @@ import { openPbrStruct } from './record';
 export const openpbrFilm = /* @__PURE__ */ filmModule(FILM_BANDS);
 
 function filmModule({ wavenumbers, width, weights }: FilmBands): WgslModule {
-  const bands = (first: number): string => wavenumbers.slice(first, first + 4).join(', ');
+  const bands = (first: number): string => wavenumbers.slice(first, first + 4).map((wavenumber) => `${256 * wavenumber}u`).join(', ');
   const columns = (first: number): string => [0, 1, 2, 3].map((i) => `vec3f(${weights.map((row) => row[first + i]).join(', ')})`).join(', ');
   return wgslModule(
   'openpbr/film',
@@ -70,9 +70,9 @@ fn openpbr_film_prepare(p: OpenPbrParameters, outer_ior: f32, inside: bool) -> O
   let root = sqrt(r);
   // 1 - √r
   let rest = (1.0 - r) / (1.0 + root);
-  let n = mix((1.0 + root) / rest, (1.0 - r) / (1.0 + r), p.specular_color);
-  film.metal_n = n;
-  film.metal_k = sqrt(max((n * (1.0 + root) - rest) * (1.0 + root - n * rest) / (1.0 - r), vec3f(0.0)));
+  film.metal_n = mix((1.0 + root) / rest, (1.0 - r) / (1.0 + r), p.specular_color);
+  // √((r (n + 1)² - (n - 1)²) / (1 - r)), without its differences of nearly equal numbers.
+  film.metal_k = sqrt(4.0 * r * p.specular_color * (2.0 * (1.0 - p.specular_color) / rest + p.specular_color * rest / (1.0 + r)) / ((1.0 + r) * rest));
   //#endif
   return film;
 }
@@ -81,41 +81,76 @@ fn openpbr_film_ratio(a: vec2f, b: vec2f) -> vec2f {
   return vec2f(dot(a, b), a.y * b.x - a.x * b.y) / dot(b, b);
 }
 
-// Cosines and sines of turns, to single precision on every device: see openpbr_circle.
-fn openpbr_film_phase(turns: vec4f) -> mat2x4f {
-  let quarter = round(4.0 * turns);
-  let x = (turns - 0.25 * quarter) * 6.2831853;
+// The upper half of a number's digits: products of such are exact.
+fn openpbr_film_coarse(x: f32) -> f32 {
+  return bitcast<f32>(bitcast<u32>(x) & 0xfffff000u);
+}
+
+// path · √(index² - tangential) in steps of 2⁻²⁴ µm, given that root in single precision. A phase is many turns, of which only
+// the last part counts: single precision would keep five digits of it. Films beyond 255 µm have lost their coherence.
+fn openpbr_film_steps(index: f32, tangential: f32, root: f32, path: f32) -> u32 {
+  let high = openpbr_film_coarse(index);
+  let near = high * high - tangential;
+  let far = ((high * high - near) - tangential) + (index - high) * (index + high);
+  let q = openpbr_film_coarse(root);
+  let fine = root - q;
+  let missing = 0.5 * ((((near - q * q) - 2.0 * q * fine) - fine * fine) + far) / root;
+  let p = openpbr_film_coarse(path);
+  let head = u32(round(min(p * q, 255.0) * 16777216.0));
+  return head + bitcast<u32>(i32(round((p * fine + (path - p) * root + path * missing) * 16777216.0)));
+}
+
+// Cosines and sines of turns that are counted in steps of 2⁻³², to single precision on every device: see openpbr_circle.
+fn openpbr_film_phase(turns: vec4u) -> mat2x4f {
+  let quarter = (turns + 0x20000000u) >> vec4u(30u);
+  let x = vec4f(bitcast<vec4i>(turns - (quarter << vec4u(30u)))) * 1.4629180792671596e-9;
   let x2 = x * x;
   let c = 1.0 + x2 * (-0.5 + x2 * (0.041666667 + x2 * (-0.0013888889 + x2 * 0.000024801587)));
   let s = x * (1.0 + x2 * (-0.16666667 + x2 * (0.0083333333 + x2 * (-0.0001984127 + x2 * 0.0000027557319))));
-  let left = quarter - 4.0 * floor(0.25 * quarter);
-  let odd = (left == vec4f(1.0)) | (left == vec4f(3.0));
-  let back = left >= vec4f(2.0);
+  let odd = (quarter & vec4u(1u)) == vec4u(1u);
+  let back = quarter >= vec4u(2u);
   let cosine = select(c, -s, odd);
   let sine = select(s, c, odd);
   return mat2x4f(select(cosine, -cosine, back), select(sine, -sine, back));
 }
 
-// What gets through, of four bands and for one polarisation: 1 less Airy's sum, without a difference of nearly equal numbers.
+// Of four bands and for one polarisation, by Airy's sum: what is reflected, and what gets through. Both without a difference of
+// nearly equal numbers, so that a film that hardly reflects, and one that hardly lets anything through, keep their digits.
 // Amplitude of the near face, and of the far one; what either lets through; phase, and what of the wave's coherence is left.
-fn openpbr_film_wave(near: f32, far: vec2f, through: vec2f, phase: mat2x4f, kept: f32) -> vec4f {
+fn openpbr_film_wave(near: f32, far: vec2f, through: vec2f, phase: mat2x4f, kept: f32) -> mat2x4f {
   let a = near * near;
+  let b = dot(far, far);
   let rest = max(through.x + a * through.y, 1e-7);
+  let real = far.x * phase[0] - far.y * phase[1];
+  let imaginary = far.x * phase[1] + far.y * phase[0];
+  let first = near + real;
+  let back = 1.0 + (kept * near) * real;
+  let aside = (kept * near) * imaginary;
+  // Rounding may take it to nothing; it is not below (1 - √(a b))².
+  let all = rest * max(back * back + aside * aside, vec4f(0.25 * rest * rest));
+  let apart = (1.0 - kept) * (a * through.y * (1.0 - kept * b) + b * through.x * (1.0 - kept * a));
   let faded = 1.0 - kept * kept + kept * kept * rest;
-  return through.x * through.y * faded / (rest * (2.0 - faded + (2.0 * kept * near) * (far.x * phase[0] - far.y * phase[1])));
+  return mat2x4f(((kept * rest) * (first * first + imaginary * imaginary) + apart) / all, (through.x * through.y * faded) / all);
 }
 
-// What gets through to a base of complex index, or is lost in it; "tangential" is the square of the part of the wave's
-// vector that all layers share.
-fn openpbr_film_through(film: OpenPbrFilm, base: vec2f, tangential: f32) -> vec3f {
+// As red, green and blue: what is reflected, and what gets through, or is lost in what lies below.
+struct OpenPbrFilmLight {
+  reflected: vec3f,
+  through: vec3f,
+}
+
+// On a base of complex index; "tangential" is the square of the part of the wave's vector that all layers share.
+fn openpbr_film_light(film: OpenPbrFilm, base: vec2f, tangential: f32) -> OpenPbrFilmLight {
   let square = vec2f(film.outer, film.index) * vec2f(film.outer, film.index);
   let across = square - tangential;
-  if (min(across.x, across.y) <= 0.0) { return vec3f(0.0); }
+  if (min(across.x, across.y) <= 0.0) { return OpenPbrFilmLight(vec3f(1.0), vec3f(0.0)); }
   let q = sqrt(across);
   let inner = vec2f(base.x * base.x - base.y * base.y, 2.0 * base.x * base.y);
   let difference = inner.x - tangential;
-  let size = length(vec2f(difference, inner.y));
-  let below = sqrt(max(0.5 * vec2f(size + difference, size - difference), vec2f(0.0)));
+  // The root of a complex number: its larger part, and from that the smaller one, which as a difference would have few digits.
+  let larger = sqrt(0.5 * (length(vec2f(difference, inner.y)) + abs(difference)));
+  let smaller = 0.5 * inner.y / max(larger, 1e-18);
+  let below = select(vec2f(smaller, larger), vec2f(larger, smaller), difference >= 0.0);
   let up = vec2f(q.y, 0.0);
   let whole_s = up + below;
   let whole_p = inner * q.y + square.y * below;
@@ -129,11 +164,14 @@ fn openpbr_film_through(film: OpenPbrFilm, base: vec2f, tangential: f32) -> vec3
   let through_p = vec2f(entered.y, left.y);
   let path = film.path * q.y;
   let kept = exp(${-width} * path);
-  let first = openpbr_film_phase(path * vec4f(${bands(0)}));
-  let second = openpbr_film_phase(path * vec4f(${bands(4)}));
+  let steps = openpbr_film_steps(film.index, tangential, q.y, film.path);
+  let first = openpbr_film_phase(steps * vec4u(${bands(0)}));
+  let second = openpbr_film_phase(steps * vec4u(${bands(4)}));
   let a = openpbr_film_wave(near.x, far_s, through_s, first, kept) + openpbr_film_wave(near.y, far_p, through_p, first, kept);
   let b = openpbr_film_wave(near.x, far_s, through_s, second, kept) + openpbr_film_wave(near.y, far_p, through_p, second, kept);
-  return clamp(0.5 * (mat4x3f(${columns(0)}) * a + mat4x3f(${columns(4)}) * b), vec3f(0.0), vec3f(1.0));
+  let one = mat4x3f(${columns(0)});
+  let other = mat4x3f(${columns(4)});
+  return OpenPbrFilmLight(clamp(0.5 * (one * a[0] + other * b[0]), vec3f(0.0), vec3f(1.0)), clamp(0.5 * (one * a[1] + other * b[1]), vec3f(0.0), vec3f(1.0)));
 }
 
 //#if OPENPBR_METAL
@@ -142,50 +180,56 @@ fn openpbr_film_metal(film: OpenPbrFilm, specular_weight: f32, c: f32, clear: ve
   if (film.weight <= 0.0) { return clear; }
   var color = vec3f(0.0);
   for (var i = 0; i < 3; i++) {
-    color[i] = 1.0 - openpbr_film_through(film, vec2f(film.metal_n[i], film.metal_k[i]), (1.0 - c * c) * film.grazing)[i];
+    color[i] = openpbr_film_light(film, vec2f(film.metal_n[i], film.metal_k[i]), (1.0 - c * c) * film.grazing).reflected[i];
   }
   return mix(clear, min(specular_weight * color, vec3f(1.0)), film.weight);
 }
 //#endif
 
 //#if OPENPBR_DIELECTRIC
-// What the dielectric lets through for a facet seen at cosine c.
-fn openpbr_film_facet(film: OpenPbrFilm, c: f32) -> vec3f {
-  return openpbr_film_through(film, vec2f(film.base, 0.0), (1.0 - c * c) * film.viewer);
+// Of the dielectric, for a facet seen at cosine c.
+fn openpbr_film_facet(film: OpenPbrFilm, c: f32) -> OpenPbrFilmLight {
+  return openpbr_film_light(film, vec2f(film.base, 0.0), (1.0 - c * c) * film.viewer);
 }
 
 struct OpenPbrFilmShare {
   // What the film adds to the part of the light that single scattering reflects.
   more: vec3f,
-  // Factor on what single scattering lets through, and on all that goes through.
+  // Factor on what single scattering lets through, and on all that goes through; the latter less the former.
   direct: vec3f,
   passed: vec3f,
+  apart: vec3f,
 }
 
 // Sums over sixteen facets as they are seen: four along the cap by Gauss and Legendre, four around it whose cosines are
 // Chebyshev's. "eta" and "share" are those of the interface without the film.
 fn openpbr_film_share(film: OpenPbrFilm, eta: f32, share: f32, alpha: vec2f, wo: vec3f) -> OpenPbrFilmShare {
-  if (film.weight <= 0.0) { return OpenPbrFilmShare(vec3f(0.0), vec3f(1.0), vec3f(1.0)); }
+  if (film.weight <= 0.0) { return OpenPbrFilmShare(vec3f(0.0), vec3f(1.0), vec3f(1.0), vec3f(0.0)); }
   let azimuth = openpbr_ggx_azimuth(alpha, wo);
   var around = vec2f(0.92387953 * azimuth.x - 0.38268343 * azimuth.y, 0.38268343 * azimuth.x + 0.92387953 * azimuth.y);
   let so = openpbr_ggx_stretch(alpha, wo);
+  // Of what the film adds, what is seen, and what is shadowed.
   var more = vec3f(0.0);
-  var through = vec3f(0.0);
-  var plain = 0.0;
+  var hidden = vec3f(0.0);
+  var clear = 0.0;
   for (var i = 0u; i < 16u; i++) {
     let h = openpbr_ggx_cap(alpha, wo, around, vec4f(0.06943184, 0.33000948, 0.66999052, 0.93056816)[i >> 2u], 1.0);
     around = vec2f(-around.y, around.x);
     let c = clamp(dot(wo, h), 0.0, 1.0);
     let wi = 2.0 * c * h - wo;
+    let flat = alpha * wi.xy;
+    let si = openpbr_ggx_stretch(alpha, wi);
+    let shadowed = select(1.0, wo.z * dot(flat, flat) / ((si + wi.z) * (wo.z * si + wi.z * so)), wi.z > 0.0);
     let part = select(0.08151814, 0.04348186, i < 4u || i > 11u);
-    let seen = select(0.0, part * wi.z * (wo.z + so) / (wo.z * openpbr_ggx_stretch(alpha, wi) + wi.z * so), wi.z > 0.0);
-    let clear = 1.0 - openpbr_fresnel_dielectric(eta, c);
-    let change = film.weight * (clear - openpbr_film_facet(film, c));
-    plain += part * clear;
-    more += seen * change;
-    through += part * change;
+    let bare = openpbr_fresnel_dielectric(eta, c);
+    let change = (part * film.weight) * (openpbr_film_facet(film, c).reflected - bare);
+    clear += part * (1.0 - bare);
+    more += (1.0 - shadowed) * change;
+    hidden += shadowed * change;
   }
-  return OpenPbrFilmShare(more, max(1.0 - through / max(plain, 1e-5), vec3f(0.0)), max(1.0 - more / max(1.0 - share, 1e-5), vec3f(0.0)));
+  let through = max(clear, 1e-5);
+  let taken = more / max(1.0 - share, 1e-5);
+  return OpenPbrFilmShare(more, max(1.0 - (more + hidden) / through, vec3f(0.0)), max(1.0 - taken, vec3f(0.0)), (hidden + taken * (max(1.0 - share, 1e-5) - through)) / through);
 }
 //#endif`,
   [openPbrStruct.module, openpbrGgx, openpbrFresnelDielectric, gated('OPENPBR_DIELECTRIC', openpbrDielectric)],

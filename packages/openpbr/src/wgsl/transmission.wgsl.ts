@@ -122,15 +122,16 @@ fn openpbr_transmission_prepare(outer: OpenPbrParameters, d: OpenPbrDielectric, 
   t.mirror = (weight * t.share) * outer.specular_color;
   t.mirror_bounced = t.mirror * clear.bounced;
   t.mirror_albedo = t.mirror * max(clear.share - clear.bounced, 0.0);
-  let direct = max(1.0 - bare.share - bare.bounced_through, 0.0);
+  let bounced = min(bare.bounced_through, 1.0 - bare.share);
+  let direct = 1.0 - bare.share - bounced;
   //#if OPENPBR_THIN_FILM
   var changed = filmed;
   if (inside) { changed = openpbr_film_share(film, bare.eta, bare.share, alpha, wo); }
   t.mirror_albedo = t.mirror * max(clear.share - clear.bounced + changed.more, vec3f(0.0));
-  t.bounced = t.color * max((1.0 - bare.share) * changed.passed - direct * changed.direct, vec3f(0.0));
+  t.bounced = t.color * max(bounced * changed.passed + direct * changed.apart, vec3f(0.0));
   t.albedo = t.color * direct * changed.direct;
   //#else
-  t.bounced = t.color * (1.0 - bare.share - direct);
+  t.bounced = t.color * bounced;
   t.albedo = t.color * direct;
   //#endif
   return t;
