@@ -1,5 +1,5 @@
 import type { OpenPbrVector } from '../parameters/index';
-import { INNER_MEAN, INNER_MEAN_NODES, STRETCHED_FLATS, STRETCHED_POWER, STRETCHED_VIEWS, TABLE_ANGLES, TABLE_BLOCKS, TABLE_CONDUCTOR, TABLE_DEPTH, TABLE_HEIGHT_2D, TABLE_MIN_ROUGHNESS, TABLE_ROUGHNESSES } from '../tables/layout';
+import { INNER_MEAN, INNER_MEAN_NODES, STRETCHED_FLATS, STRETCHED_VIEWS, TABLE_ANGLES, TABLE_BLOCKS, TABLE_CONDUCTOR, TABLE_DEPTH, TABLE_HEIGHT_2D, TABLE_MIN_ROUGHNESS, TABLE_ROUGHNESSES } from '../tables/layout';
 import { OPENPBR_TABLES, type OpenPbrTable } from '../tables/tables';
 import { fresnelDielectric } from './fresnel';
 import { mirrorCosine, type Slopes } from './ggx';
@@ -55,10 +55,14 @@ export function energyLost(roughness: number, mu: number): number {
 }
 
 /** The cosine-weighted mean of {@link energyLost} over all directions; twin of `openpbr_energy_lost_mean`. */
-export const energyLostMean = (roughness: number): number => tableLookup(OPENPBR_TABLES.conductor, [(TABLE_CONDUCTOR + 0.5) / (TABLE_CONDUCTOR + 1), roughnessAxis(Math.max(roughness, TABLE_MIN_ROUGHNESS), TABLE_CONDUCTOR, TABLE_HEIGHT_2D)]);
+export function energyLostMean(roughness: number): number {
+  const r = Math.max(roughness, TABLE_MIN_ROUGHNESS);
+  return r ** 3 * tableLookup(OPENPBR_TABLES.conductor, [(TABLE_CONDUCTOR + 0.5) / (TABLE_CONDUCTOR + 1), roughnessAxis(r, TABLE_CONDUCTOR, TABLE_HEIGHT_2D)]);
+}
 
 /**
- * What a stretched mirror keeps more than a round one of the same masking; twin of `openpbr_energy_stretched`.
+ * What a stretched mirror keeps more than a round one of the same masking, and in the last column how much less of the round
+ * one's mean it loses; twin of `openpbr_energy_stretched`.
  *
  * @param x The table's column.
  * @param along Where the slope along the view lies, as a coordinate.
@@ -76,15 +80,17 @@ export function mirrorLost(alpha: Slopes, roughness: number, w: OpenPbrVector, m
   const cosine = mirrorCosine(alpha, w, mu);
   const lost = energyLost(roughness, cosine);
   if (alpha[0] <= alpha[1]) return lost;
-  const slope = Math.hypot(alpha[0] * w[0], alpha[1] * w[1]) / Math.max(Math.hypot(w[0], w[1]), 1e-20);
-  const along = clamp((slope - alpha[1]) / (alpha[0] - alpha[1]), 0, 1) ** (1 / STRETCHED_POWER);
-  return Math.max(lost - stretchedMore(alpha, roughness, angleAxis(spread(Math.max(roughness, TABLE_MIN_ROUGHNESS), cosine)), along), 0);
+  const slope = clamp(Math.hypot(alpha[0] * w[0], alpha[1] * w[1]) / Math.max(Math.hypot(w[0], w[1]), 1e-20), alpha[1], alpha[0]);
+  const along = (alpha[1] * (alpha[0] - slope)) / (slope * (alpha[0] - alpha[1]));
+  // Angles crowd towards the normal.
+  const t = 1 - Math.max(1 - spread(Math.max(roughness, TABLE_MIN_ROUGHNESS), cosine), 0) ** 0.75;
+  return Math.max(lost - stretchedMore(alpha, roughness, angleAxis(t), along), 0);
 }
 
 /** The cosine-weighted mean of {@link mirrorLost} over all directions; twin of `openpbr_mirror_lost_mean`. */
 export function mirrorLostMean(alpha: Slopes, roughness: number): number {
   const lost = energyLostMean(roughness);
-  return alpha[0] > alpha[1] ? Math.max(lost - stretchedMore(alpha, roughness, (TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1), 0), 0) : lost;
+  return alpha[0] > alpha[1] ? lost * (1 - stretchedMore(alpha, roughness, (TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1), 0)) : lost;
 }
 
 /** Share of the energy that an interface reflects by all scattering, the rest being refracted; twin of `openpbr_energy_share`. */

@@ -19,7 +19,8 @@ export const TABLE_BLOCKS = {
   innerTotal: [innerTotal, TABLE_LAYOUT.innerTotal],
   /**
    * What stretched mirrors keep by single scattering, less what round ones of the same masking do; over the roughness. Rows:
-   * slopes along the view, for each of the anisotropies; the last column holds the means, less the round one's.
+   * slopes along the view, for each of the anisotropies; the last column holds by how much of the round one's
+   * the mean loss is less.
    */
   stretched: [stretched, TABLE_LAYOUT.stretched],
 } as const;
@@ -52,10 +53,9 @@ export const TABLE_BLOCKS_2D = {
 /** Height of the two-dimensional table in rows. */
 export const TABLE_HEIGHT_2D = TABLE_LAYOUT.conductor + 3 * SHEEN_ROWS;
 
-/** Anisotropies 1/n, 2/n, … 1, and slopes along the view, of the block of stretched mirrors; the slopes' share of the range is the coordinate to this power. */
-export const STRETCHED_FLATS = 4;
+/** Anisotropies 1/n, 2/n, … 1, and slopes along the view, of the block of stretched mirrors; one over the slope is linear. */
+export const STRETCHED_FLATS = 6;
 export const STRETCHED_VIEWS = TABLE_LAYOUT.roughnesses / STRETCHED_FLATS;
-export const STRETCHED_POWER = 1.25;
 
 /** The tables' first roughness, which is that of the smallest slope. */
 export const TABLE_MIN_ROUGHNESS = 0.01;

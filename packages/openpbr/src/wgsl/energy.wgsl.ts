@@ -1,5 +1,5 @@
 import { wgslModule } from '@glanz/wgsl';
-import { INNER_MEAN, INNER_MEAN_NODES, STRETCHED_FLATS, STRETCHED_POWER, STRETCHED_VIEWS, TABLE_ANGLES, TABLE_BLOCKS, TABLE_CONDUCTOR, TABLE_DEPTH, TABLE_HEIGHT_2D, TABLE_MIN_ROUGHNESS, TABLE_ROUGHNESSES } from '../tables/layout';
+import { INNER_MEAN, INNER_MEAN_NODES, STRETCHED_FLATS, STRETCHED_VIEWS, TABLE_ANGLES, TABLE_BLOCKS, TABLE_CONDUCTOR, TABLE_DEPTH, TABLE_HEIGHT_2D, TABLE_MIN_ROUGHNESS, TABLE_ROUGHNESSES } from '../tables/layout';
 import { openpbrFresnelDielectric } from './fresnel.wgsl';
 import { openpbrGgx } from './ggx.wgsl';
 
@@ -50,12 +50,12 @@ fn openpbr_energy_lost(roughness: f32, mu: f32) -> f32 {
 // Its cosine-weighted mean over all directions.
 fn openpbr_energy_lost_mean(roughness: f32) -> f32 {
   let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
-  return openpbr_table_conductor(vec2f(${float((TABLE_CONDUCTOR + 0.5) / (TABLE_CONDUCTOR + 1))}, ${metalRough[0]} + ${metalRough[1]} * ${unit}));
+  return r * r * r * openpbr_table_conductor(vec2f(${float((TABLE_CONDUCTOR + 0.5) / (TABLE_CONDUCTOR + 1))}, ${metalRough[0]} + ${metalRough[1]} * ${unit}));
 }
 
 //#if OPENPBR_ANISOTROPY
-// What a stretched highlight keeps more of than a round one of the same masking; "x" is the column, "along" where the slope
-// along the view lies between the least and the most.
+// What a stretched highlight keeps more of than a round one of the same masking; "x" is the column, "along" where one over the
+// slope along the view lies between the least and the most. The last column holds how much less of the round one's mean it loses.
 fn openpbr_energy_stretched(alpha: vec2f, roughness: f32, x: f32, along: f32) -> f32 {
   let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
   let flat = (1.0 - alpha.y / alpha.x) * ${float(STRETCHED_FLATS)};
@@ -72,9 +72,11 @@ fn openpbr_mirror_lost(alpha: vec2f, roughness: f32, w: vec3f, mu: f32) -> f32 {
   let lost = openpbr_energy_lost(roughness, cosine);
   //#if OPENPBR_ANISOTROPY
   if (alpha.x > alpha.y) {
-    let slope = length(alpha * w.xy) / max(length(w.xy), 1e-20);
-    let along = pow(clamp((slope - alpha.y) / (alpha.x - alpha.y), 0.0, 1.0), ${1 / STRETCHED_POWER});
-    return max(lost - openpbr_energy_stretched(alpha, roughness, ${angle[0]} + ${angle[1]} * openpbr_energy_angle(max(roughness, ${TABLE_MIN_ROUGHNESS}), cosine), along), 0.0);
+    let slope = clamp(length(alpha * w.xy) / max(length(w.xy), 1e-20), alpha.y, alpha.x);
+    let along = alpha.y * (alpha.x - slope) / (slope * (alpha.x - alpha.y));
+    // Angles crowd towards the normal.
+    let rest = sqrt(max(1.0 - openpbr_energy_angle(max(roughness, ${TABLE_MIN_ROUGHNESS}), cosine), 0.0));
+    return max(lost - openpbr_energy_stretched(alpha, roughness, ${angle[0]} + ${angle[1]} * (1.0 - rest * sqrt(rest)), along), 0.0);
   }
   //#endif
   return lost;
@@ -83,7 +85,7 @@ fn openpbr_mirror_lost(alpha: vec2f, roughness: f32, w: vec3f, mu: f32) -> f32 {
 fn openpbr_mirror_lost_mean(alpha: vec2f, roughness: f32) -> f32 {
   let lost = openpbr_energy_lost_mean(roughness);
   //#if OPENPBR_ANISOTROPY
-  if (alpha.x > alpha.y) { return max(lost - openpbr_energy_stretched(alpha, roughness, ${float((TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1))}, 0.0), 0.0); }
+  if (alpha.x > alpha.y) { return lost * (1.0 - openpbr_energy_stretched(alpha, roughness, ${float((TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1))}, 0.0)); }
   //#endif
   return lost;
 }
