@@ -1,5 +1,5 @@
 import type { OpenPbrVector } from '../parameters/index';
-import { INNER_MEAN, INNER_MEAN_NODES, STRETCHED_FLATS, STRETCHED_VIEWS, TABLE_ANGLES, TABLE_BLOCKS, TABLE_CONDUCTOR, TABLE_DEPTH, TABLE_HEIGHT_2D, TABLE_MIN_ROUGHNESS, TABLE_ROUGHNESSES } from '../tables/layout';
+import { STRETCHED_FLATS, STRETCHED_VIEWS, TABLE_ANGLES, TABLE_BLOCKS, TABLE_CONDUCTOR, TABLE_DEPTH, TABLE_HEIGHT_2D, TABLE_MIN_ROUGHNESS, TABLE_ROUGHNESSES } from '../tables/layout';
 import { OPENPBR_TABLES, type OpenPbrTable } from '../tables/tables';
 import { fresnelDielectric } from './fresnel';
 import { mirrorCosine, type Slopes } from './ggx';
@@ -108,28 +108,14 @@ export function energyShare(epsilon: number, roughness: number, mu: number): num
   return split * total + (1 - total) * energyBounce(epsilon, roughness);
 }
 
-/** The cosine-weighted mean of {@link energyShare} over all directions; twin of `openpbr_energy_share_mean`. */
+/**
+ * The cosine-weighted mean of {@link energyShare} over all directions, seen from the thinner medium; 0 from inside, where the
+ * model sums it over facets instead. Twin of `openpbr_energy_share_mean`.
+ */
 export function energyShareMean(epsilon: number, roughness: number): number {
-  if (epsilon === 0) return 0;
-  if (epsilon < 0) return innerShareMean(epsilon, roughness);
+  if (epsilon <= 0) return 0;
   const y = roughnessAxis(Math.max(roughness, TABLE_MIN_ROUGHNESS), TABLE_ROUGHNESSES);
   return 1 - Math.min((1 - fresnelMean(epsilon)) * tableLookup(OPENPBR_TABLES.dielectric, [(TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1), y, slice('outer', epsilon)]), 1);
-}
-
-/** From inside, Gauss's two nodes between each two columns of the table: what is interpolated is what has to come out. */
-function innerShareMean(epsilon: number, roughness: number): number {
-  const eta = (1 + epsilon) / (1 - epsilon);
-  const critical = Math.sqrt(1 - eta * eta);
-  let through = 0;
-  for (let i = 0; i < INNER_MEAN_NODES; i++) {
-    const x = (2 * Math.floor(i / 2) + 1 + (i % 2 === 0 ? -1 : 1) / Math.sqrt(3)) / INNER_MEAN_NODES;
-    const rest = x * x + (1 - x) * (1 - x);
-    const below = (critical * x * x) / rest;
-    const above = critical + (1 - critical) * x * x;
-    through += (1 - energyShare(epsilon, roughness, below)) * below * ((critical * 2 * x * (1 - x)) / (rest * rest));
-    through += (1 - energyShare(epsilon, roughness, above)) * above * ((1 - critical) * 2 * x);
-  }
-  return 1 - (2 * INNER_MEAN / INNER_MEAN_NODES) * through;
 }
 
 /** Cosine-weighted mean of what single scattering loses. */

@@ -62,9 +62,6 @@ export const TABLE_MIN_ROUGHNESS = 0.01;
 
 /** Nearer to index 1 than this ε the tables are too coarse for what is seen from inside: it is summed over facets. */
 export const INSIDE_NEAR = 0.04;
-/** Nodes on either side of the critical angle for the mean share from inside, and a factor on what goes through, by as much as they can miss. */
-export const INNER_MEAN_NODES = 16;
-export const INNER_MEAN = 1.001;
 
 /** Gauss and Legendre's nodes and weights, halved to 0 to 1: for the mean share of an interface that is summed over facets, on either side of the critical angle. */
 export const INNER_SUM_NODES = [

@@ -1,5 +1,5 @@
 import { wgslModule } from '@glanz/wgsl';
-import { INNER_MEAN, INNER_MEAN_NODES, STRETCHED_FLATS, STRETCHED_VIEWS, TABLE_ANGLES, TABLE_BLOCKS, TABLE_CONDUCTOR, TABLE_DEPTH, TABLE_HEIGHT_2D, TABLE_MIN_ROUGHNESS, TABLE_ROUGHNESSES } from '../tables/layout';
+import { STRETCHED_FLATS, STRETCHED_VIEWS, TABLE_ANGLES, TABLE_BLOCKS, TABLE_CONDUCTOR, TABLE_DEPTH, TABLE_HEIGHT_2D, TABLE_MIN_ROUGHNESS, TABLE_ROUGHNESSES } from '../tables/layout';
 import { openpbrFresnelDielectric } from './fresnel.wgsl';
 import { openpbrGgx } from './ggx.wgsl';
 
@@ -162,34 +162,10 @@ fn openpbr_energy_share(epsilon: f32, roughness: f32, mu: f32) -> f32 {
   return min(outside * openpbr_fresnel_dielectric(eta, mu + 0.8 * r * r * (1.0 - mu)), 1.0);
 }
 
-//#if OPENPBR_INNER
-// Its mean from inside: Gauss's two nodes between each two columns of the table, since what is interpolated is what has to come out.
-fn openpbr_energy_inner_mean(epsilon: f32, roughness: f32) -> f32 {
-  let eta = (1.0 + epsilon) / (1.0 - epsilon);
-  let critical = sqrt(1.0 - eta * eta);
-  let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
-  let bounce = openpbr_energy_bounce(epsilon, roughness);
-  var through = 0.0;
-  // Not a constant: compilers would unroll it.
-  let count = select(0u, ${2 * INNER_MEAN_NODES}u, epsilon < 0.0);
-  for (var i = 0u; i < count; i++) {
-    let x = (2.0 * f32(i >> 2u) + 1.0 + select(-0.57735027, 0.57735027, (i & 2u) != 0u)) * ${1 / INNER_MEAN_NODES};
-    let rest = x * x + (1.0 - x) * (1.0 - x);
-    let is_above = (i & 1u) == 1u;
-    let mu = select(critical * x * x / rest, critical + (1.0 - critical) * x * x, is_above);
-    let step = select(critical * (1.0 - x) / (rest * rest), 1.0 - critical, is_above);
-    through += (1.0 - openpbr_energy_inner_share(epsilon, r, mu, bounce)) * mu * step * x;
-  }
-  return 1.0 - ${4 * INNER_MEAN / INNER_MEAN_NODES} * through;
-}
-
-//#endif
-// The cosine-weighted mean of openpbr_energy_share over all directions.
+// The cosine-weighted mean of openpbr_energy_share over all directions, seen from the thinner medium. From inside it is summed
+// (openpbr_dielectric_prepare), or counts for nothing, since nothing opaque lies below: 0.
 fn openpbr_energy_share_mean(epsilon: f32, roughness: f32) -> f32 {
-  if (epsilon == 0.0) { return 0.0; }
-  //#if OPENPBR_INNER
-  if (epsilon < 0.0) { return openpbr_energy_inner_mean(epsilon, roughness); }
-  //#endif
+  if (epsilon <= 0.0) { return 0.0; }
   let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
   return 1.0 - min((1.0 - openpbr_fresnel_mean(epsilon)) * openpbr_table_dielectric(vec3f(${float((TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1))}, ${rough[0]} + ${rough[1]} * ${unit}, ${outer[0]} + ${outer[1]} * sqrt(epsilon))), 1.0);
 }
