@@ -72,13 +72,13 @@ What the tests of [\`@glanz/openpbr\`](/packages/openpbr) find; how much was tri
 
 ## White furnace
 
-White surfaces in uniform light should give back all of it: 1. The least and the most found, over ${sizes?.roughnesses.length ?? ''} roughnesses from ${sizes?.roughnesses[0] ?? ''} to ${sizes?.roughnesses.at(-1) ?? ''} and ${sizes?.cosines.length ?? ''} angles down to cosine ${sizes?.cosines.at(-1) ?? ''}, by deterministic quadrature that is itself good to 0.001. Seen along the normal from inside of glass the quadrature is good to 0.012 only, and that angle is left out. In the other columns what we measured of three-gpu-pathtracer 0.0.26, by rendering, and of Adobe's openpbr-bsdf, by its samples' weights; empty where we did not.
+White surfaces in uniform light should give back all of it: 1. The least and the most found, over ${sizes?.roughnesses.length ?? ''} roughnesses from ${sizes?.roughnesses[0] ?? ''} to ${sizes?.roughnesses.at(-1) ?? ''} and ${sizes?.cosines.length ?? ''} angles down to cosine ${sizes?.cosines.at(-1) ?? ''}, by deterministic quadrature that is itself good to 0.001. Seen along the normal from inside of glass the quadrature is good to 0.012 only, and that angle is left out; surfaces of an index below 1 are seen from cosine 0.97 instead. Stretched metal has a quadrature of its own, good to 0.0001. In the other columns what we measured of three-gpu-pathtracer 0.0.26, by rendering, and of Adobe's openpbr-bsdf, by its samples' weights; empty where we did not.
 
 ${furnace}
 
 ${materials ? `${materials.materials} random white materials of all lobes, without stretched highlights and rough diffuse, 3 angles each: ${number(materials.least)} to ${number(materials.most)}.` : ''}
 
-Stretched highlights: what metal loses by single scattering is tabulated over roughness, anisotropy and both angles; for dielectrics it is summed over 64 facets as they are seen, and from inside over 160, within the critical angle and within what mirrors upwards. Indices below 1 over something opaque, and those near 1 from inside, are summed over 96 of those, for the viewer, for the light, and for the mean over all directions at 16 of them.
+Stretched highlights: what metal loses by single scattering is tabulated over roughness, anisotropy and both angles, and comes back reciprocally; for dielectrics it is summed over 64 facets as they are seen, and from inside over 160, within the critical angle and within what mirrors upwards. Indices below 1 over something opaque, and those near 1 from inside, are summed over 96 of those, for the viewer, for the light, and for the mean over all directions at 16 of them.
 
 ## Samples against their density
 
@@ -86,7 +86,7 @@ Chi-squared of histograms over 320 equal parts of the sphere, significance 0.01 
 
 ${table(['lobe', 'settings', 'samples each', 'least probability', 'limit'], chi.map(([name, row]) => [name.slice(13), row.settings, row.samples.toLocaleString('en'), row.least.toExponential(1), row.limit.toExponential(1)]))}
 
-${densities.length ? `The integral of the density, and the part of the samples that a facet sends to where there is nothing, make 1 within ${percentOf(Math.max(...densities.map(([, row]) => row.worst)))} for each of these settings.` : ''} The density integrates to no more than ${number(Math.max(materials?.density ?? 0, ...Object.values(data.furnace).map((row) => row.density)))} anywhere above.
+${densities.length ? `The integral of the density, and the part of the samples that a facet sends to where there is nothing, make 1 within ${percentOf(Math.max(...densities.map(([, row]) => row.worst)))} for each of these settings.` : ''} The density integrates to no more than ${number(Math.max(materials?.density ?? 0, ...Object.values(data.furnace).map((row) => row.density ?? 0)))} anywhere above.
 
 ## Reciprocity
 
