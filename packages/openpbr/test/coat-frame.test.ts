@@ -148,8 +148,8 @@ describe('a coat with a normal of its own', () => {
       const { parameters, wo, wi, u } = cases[i]!;
       const b = prepareBsdf(parameters, wo);
       const near = (actual: number, expected: number, floor: number, what: string) => expect(Math.abs(actual - expected) / Math.max(Math.abs(expected), floor), `${what} of case ${i}: ${actual} for ${expected}`).toBeLessThan(1e-4);
-      evalBsdf(b, wo, wi).forEach((value, k) => near(gpu.f[k]!, value, 1e-3, 'f'));
-      near(gpu.pdf, pdfBsdf(b, wo, wi), 1e-3, 'density');
+      evalBsdf(b, wo, wi).forEach((value, k) => near(gpu.f[k]!, value, 1e-4, 'f'));
+      near(gpu.pdf, pdfBsdf(b, wo, wi), 1e-4, 'density');
       const edges = [b.coatProbability, b.coatProbability + (1 - b.coatProbability) * b.specularProbability];
       if (edges.some((edge) => Math.abs(u[2] - edge) < 1e-4)) return;
       const s = sampleBsdf(b, wo, u);
