@@ -108,17 +108,24 @@ export class TileGrid {
 
   /** Numbers of all pixels, tile by tile. */
   allPixels(): Uint32Array<ArrayBuffer> {
-    return this.pixels(Array.from({ length: this.count }, (_, tile) => tile));
+    const { width, height } = this;
+    const out = new Uint32Array(width * height);
+    for (let y0 = 0, at = 0; y0 < height; y0 += TILE) for (let x0 = 0; x0 < width; x0 += TILE) at = this.#write(out, at, x0, y0);
+    return out;
   }
 
   /** Numbers of the pixels of some tiles, tile by tile. */
   pixels(tiles: readonly number[]): Uint32Array<ArrayBuffer> {
     const out = new Uint32Array(tiles.reduce((sum, tile) => sum + this.pixelsIn(tile), 0));
     let at = 0;
-    for (const tile of tiles) {
-      const [x0, y0] = [(tile % this.columns) * TILE, Math.floor(tile / this.columns) * TILE];
-      for (let y = y0; y < Math.min(y0 + TILE, this.height); y++) for (let x = x0; x < Math.min(x0 + TILE, this.width); x++) out[at++] = y * this.width + x;
-    }
+    for (const tile of tiles) at = this.#write(out, at, (tile % this.columns) * TILE, Math.floor(tile / this.columns) * TILE);
     return out;
+  }
+
+  /** Writes the numbers of a tile's pixels from `at` on; where the next tile's belong. */
+  #write(out: Uint32Array, at: number, x0: number, y0: number): number {
+    const x1 = Math.min(x0 + TILE, this.width), y1 = Math.min(y0 + TILE, this.height);
+    for (let y = y0; y < y1; y++) for (let x = x0; x < x1; x++) out[at++] = y * this.width + x;
+    return at;
   }
 }

@@ -1,4 +1,4 @@
-import { breathe, inSlices, SceneError, validationSteps, type Camera, type Scene } from '@glanz/scene';
+import { breathe, inSlices, SceneError, validationSteps, type Camera, type Instance, type Scene } from '@glanz/scene';
 import { DeviceError, deviceLost, RenderError } from './errors';
 import { Film } from './film/film';
 import { showFirstLight } from './first-light';
@@ -13,8 +13,10 @@ import type { PathTracerOptions, RenderStatistics } from './options';
 import { cameraSteps } from './scene/choose-camera';
 import { environmentSteps } from './scene/environment';
 import { expectedFeatures, type SceneChoices } from './scene/features';
-import { prepareGeometry } from './scene/geometry';
+import { isShown, prepareGeometry } from './scene/geometry';
 import { hasInterior } from './scene/interiors';
+import { lightGroupTable } from './scene/light-groups';
+import { lightSteps } from './scene/lights';
 import { ownScene, SceneEditor } from './scene-editor';
 import { checkShortcuts, shortcutFlags } from './shortcuts';
 import { viewFlags } from './view';
@@ -79,18 +81,23 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
   compiling.watch(cache.get(expected)).catch(() => {});
   const textMs = compiling.elapsed;
   await breathe();
-  // All that lights and lit surfaces need and that does not hang on shapes.
-  const surroundings = async () => [await inSlices(environmentSteps(own.environment), { signal }), energyTextures((await loading).OPENPBR_TABLES)] as const;
-  const early = building && surroundings();
-  early?.catch(() => {});
-  const geometry = await (building ?? build());
-  const t1 = performance.now();
-  await breathe();
-  onProgress?.({ stage: 'upload', done: 0 });
+  // All that lights and lit surfaces need and that does not hang on shapes: done while others build those.
+  const surroundings = async () => {
+    const groups = lightGroupTable(own, choices.lightGroups);
+    const lights = await inSlices(lightSteps(own, (index) => isShown(own, own.instances[index] as Instance), groups, choices.lightSampling), { signal });
+    return [await inSlices(environmentSteps(own.environment), { signal }), energyTextures((await loading).OPENPBR_TABLES), lights] as const;
+  };
   const memory = new GpuMemory(device);
+  const makeFilm = (planes: number) => withErrorScopes(device, () => new Film(memory, options.width, options.height, planes));
   let late = false;
   let forget: (() => void) | undefined;
   try {
+    const early = building && ([surroundings(), makeFilm(expected.planes)] as const);
+    for (const work of early ?? []) work.catch(() => {});
+    const geometry = await (building ?? build());
+    const t1 = performance.now();
+    await breathe();
+    onProgress?.({ stage: 'upload', done: 0 });
     const gpuScene = await withErrorScopes(device, () => new GpuScene(device, memory, own, geometry, choices));
     await gpuScene.fill(signal);
     if (onFirstLight) {
@@ -98,15 +105,18 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
       await breathe();
     }
     const shaped = performance.now();
-    await gpuScene.light(...(await (early ?? surroundings())));
+    await gpuScene.light(...(await (early?.[0] ?? surroundings())));
     signal?.throwIfAborted();
     const t2 = performance.now();
     onProgress?.({ stage: 'upload', done: 1 });
     const features = kernelFeatures(gpuScene.features(), camera, options);
-    const [film, integrator] = await withErrorScopes(device, () => {
-      const picture = new Film(memory, options.width, options.height, features.planes);
-      return [picture, new Integrator(device, memory, gpuScene, features, picture, options.pathsInFlight, { maxDepth: options.maxDepth ?? 8, maxVolumeDepth: options.maxVolumeDepth ?? 256 })] as const;
-    });
+    let film = await early?.[1];
+    if (film?.planes !== features.planes) {
+      film?.destroy();
+      film = await makeFilm(features.planes);
+    }
+    const picture = film;
+    const integrator = await withErrorScopes(device, () => new Integrator(device, memory, gpuScene, features, picture, options.pathsInFlight, { maxDepth: options.maxDepth ?? 8, maxVolumeDepth: options.maxVolumeDepth ?? 256 }));
     const rehearsals: Promise<void>[] = [];
     const hear = (done: number, name?: KernelName, kernel?: Kernel) => {
       onProgress?.({ stage: 'compile', done });
@@ -122,7 +132,7 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
     if (lost) throw deviceLost(lost);
     late = true;
     const times = { checkMs: checked - begun, textMs, bvhMs: t1 - asked, uploadMs: t2 - t1, lightMs: t2 - shaped, compileMs: compiling.milliseconds };
-    return { device, memory, editor: new SceneEditor(own, geometry, gpuScene, hierarchies), gpuScene, cache, integrator, film, camera, options, times };
+    return { device, memory, editor: new SceneEditor(own, geometry, gpuScene, hierarchies), gpuScene, cache, integrator, film: picture, camera, options, times };
   } catch (error) {
     memory.destroy();
     throw error;

@@ -68,6 +68,10 @@ function smallScene(): Scene {
  * const tracer = await PathTracer.create(device, scene, { width, height, hierarchies });
  */
 export async function warmUp(device: GPUDevice, options: WarmUpOptions = {}): Promise<void> {
+  // Engines compile what goes over typed arrays for as long as no buffer has been detached, and throw it all away when the first
+  // one is, as those are that go to workers or come from the GPU. Thus one is now.
+  const gone = new ArrayBuffer(8);
+  structuredClone(gone, { transfer: [gone] });
   try {
     const tracer = await PathTracer.create(device, smallScene(), { ...options, width: 8, height: 8, pathsInFlight: 64, onFirstLight: () => {} });
     try {

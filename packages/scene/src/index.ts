@@ -10,6 +10,6 @@ export { sceneBounds, sceneBoundsSteps, type SceneBounds } from './bounds';
 export { defaultMaterial } from './default-material';
 export { SceneError } from './error';
 export { frameCamera, frameCameraSteps, type FrameCameraOptions } from './frame-camera';
-export { breathe, inSlices, type SliceOptions } from './slices';
+export { breathe, finish, inSlices, type SliceOptions, type Steps } from './slices';
 export { validateScene, validationSteps } from './validate';
 export { withVariant } from './variant';

@@ -14,6 +14,8 @@ export type { WorkerPort } from './port';
 /** Builds to warm up with, and quads along an edge of the mesh: the optimising compilers have had all they need after about a tenth of a second. */
 const WARM_BUILDS = 24;
 const WARM_EDGE = 40;
+/** As many as these builds have together: what has been asked for meanwhile may make them needless. */
+const WARM_TRIANGLES = 2 * WARM_BUILDS * WARM_EDGE ** 2;
 
 /** So long after its last build a worker lets its working memory go. */
 const HOLD_MS = 1000;
@@ -50,8 +52,13 @@ const nothing = (): TriangleTree => ({ nodes: new Float32Array(0), nodeCount: 0,
  * @param port What the worker hears and says.
  */
 export function serveBuilds(port: WorkerPort): void {
+  // Engines take it that no buffer is ever detached when they compile what goes over typed arrays, and throw all of that away
+  // when one is, as the first answer's would be. Thus one is now, while nothing is compiled yet.
+  const gone = new ArrayBuffer(8);
+  structuredClone(gone, { transfer: [gone] });
   const say = (reply: BuildReply, transfer?: readonly ArrayBuffer[]) => port.post(reply, transfer);
-  let worked = false;
+  /** Triangles of the builds that were asked for. */
+  let built = 0;
   // Meshes come several at a time: working memory stays between them, which fresh would cost half as much as a build.
   let held: readonly ArrayBuffer[] | undefined;
   let letGo: ReturnType<typeof setTimeout> | undefined;
@@ -61,8 +68,8 @@ export function serveBuilds(port: WorkerPort): void {
     if (held) letGo = setTimeout(() => (held = undefined), HOLD_MS);
   };
   const warmUp = (left: number) => {
-    // One build at a time, so that a request need not wait; the first one ends it.
-    if (worked || left === 0) return;
+    // One build at a time, so that a request waits for two milliseconds at most.
+    if (built >= WARM_TRIANGLES || left === 0) return;
     buildBlas(sheet(WARM_EDGE + (left % 4)));
     setTimeout(() => warmUp(left - 1), 0);
   };
@@ -87,7 +94,7 @@ export function serveBuilds(port: WorkerPort): void {
   port.listen((message) => {
     const request = message as BuildRequest;
     if (request.kind === 'warm-up') return warmUp(WARM_BUILDS);
-    worked = true;
+    built += Math.floor((request.mesh.indices?.length ?? request.mesh.positions.length / 3) / 3);
     if (request.kind === 'together') return together(request);
     const { id, mesh, options } = request;
     say({ kind: 'started', id });

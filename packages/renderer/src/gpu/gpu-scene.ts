@@ -8,7 +8,7 @@ import { paintsAlpha, sceneFeatures, texturePlan, type SceneChoices, type Vertex
 import { joinSlices, packInstances, packTlas, shapeSlices, type Geometry, type MeshRegion, type PackedGeometry, type PackedMesh } from '../scene/geometry';
 import { breather } from '../scene/hierarchies';
 import { lightGroupTable, type LightGroupTable } from '../scene/light-groups';
-import { buildLightTable, noLights, type LightTable } from '../scene/lights';
+import { buildLightTable, noLights, placeLights, type GatheredLights, type LightTable } from '../scene/lights';
 import { isOpaque, packBindings, packMaterial, texturedParameters, type TexturedParameterInfo } from '../scene/materials';
 import type { TexturePlan } from '../scene/textures';
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_STORAGE, GPU_TEXTURE_BINDING, GPU_TEXTURE_COPY_DST, type GpuMemory } from './buffers';
@@ -228,8 +228,11 @@ export class GpuScene {
     await this.#device.queue.onSubmittedWorkDone();
   }
 
-  /** Adds what lights the scene, with the thread handed back every few milliseconds. */
-  async light(environment: EnvironmentData, energy: EnergyTextures): Promise<void> {
+  /**
+   * Adds what lights the scene, with the thread handed back every few milliseconds.
+   * @param gathered The lights, as `lightSteps()` has found them, whose memory is used; else they are found here, in one go.
+   */
+  async light(environment: EnvironmentData, energy: EnergyTextures, gathered?: GatheredLights): Promise<void> {
     const breathe = breather(FILL_MS);
     await withErrorScopes(this.#device, () => {
       this.#environment = environment;
@@ -239,7 +242,7 @@ export class GpuScene {
     await breathe();
     for (const bytes of this.#environmentSlices()) await this.#keepUp(bytes, breathe);
     await withErrorScopes(this.#device, () => {
-      this.#lights = this.#buildLights();
+      this.#lights = this.#buildLights(gathered);
       this.#upload('lights', this.#lights.records);
       if (this.#lights.count > 0) this.#writeInstances();
     });
@@ -296,19 +299,23 @@ export class GpuScene {
     return buffer;
   }
 
-  #buildLights(): LightTable {
-    const inverse = new Map<number, Uint32Array>();
-    const leafTriangle = (mesh: number, triangle: number) => {
-      let order = inverse.get(mesh);
+  #buildLights(gathered?: GatheredLights): LightTable {
+    const leaves = new Map<number, Uint32Array>();
+    const leafTriangles = (mesh: number): Uint32Array => {
+      let order = leaves.get(mesh);
       if (!order) {
-        const leaves = this.#geometry.blas[mesh]?.triangleIndices ?? new Uint32Array();
         order = new Uint32Array((this.#scene.meshes[mesh] as Mesh).indices.length / 3);
-        leaves.forEach((input, leaf) => ((order as Uint32Array)[input] = leaf));
-        inverse.set(mesh, order);
+        const { firstTriangle } = this.#geometry.regions[mesh] as MeshRegion;
+        const inputs = this.#geometry.blas[mesh]?.triangleIndices ?? new Uint32Array();
+        for (let leaf = 0; leaf < inputs.length; leaf++) order[inputs[leaf] as number] = firstTriangle + leaf;
+        leaves.set(mesh, order);
       }
-      return (this.#geometry.regions[mesh] as MeshRegion).firstTriangle + (order[triangle] as number);
+      return order;
     };
-    return buildLightTable(this.#scene, { instanceSlots: this.#geometry.instanceSlots, leafTriangle }, this.#geometry.radius, this.#groups, this.#choices.lightSampling);
+    const places = { instanceSlots: this.#geometry.instanceSlots, leafTriangles };
+    const { radius } = this.#geometry;
+    const placed = gathered && placeLights(this.#scene, gathered, places, radius);
+    return placed ?? buildLightTable(this.#scene, places, radius, this.#groups, this.#choices.lightSampling);
   }
 
   #upload(name: ResourceName, data: ArrayBufferView<ArrayBuffer> | ArrayBuffer): void {

@@ -3,7 +3,7 @@ import { frameStruct, LIGHT_NODE_DISTANT, LIGHT_NODE_LEAF, lightStruct } from '.
 import { random } from './random.wgsl';
 
 /**
- * The choice of a light by the tree that `buildLightTree` makes; pbrt 4's bound of how much a node may light a place. The
+ * The choice of a light by the tree that `lightTreeSteps` makes; pbrt 4's bound of how much a node may light a place. The
  * choice may depend on the surface's normal, which paths therefore remember, in 16 bits: whoever asks for a probability later
  * must ask with the same normal that the light was chosen with.
  *

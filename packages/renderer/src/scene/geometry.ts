@@ -65,7 +65,8 @@ export interface PackedGeometry {
   readonly attributes: Uint32Array<ArrayBuffer>;
 }
 
-const isShown = (scene: Scene, instance: Instance) => instance.visible !== false && (scene.meshes[instance.mesh] as Mesh).indices.length >= 3;
+/** Whether an instance is there to be seen, as far as the scene itself tells. */
+export const isShown = (scene: Scene, instance: Instance) => instance.visible !== false && (scene.meshes[instance.mesh] as Mesh).indices.length >= 3;
 
 /** Meshes that visible instances use, in order. */
 function usedMeshes(scene: Scene): number[] {

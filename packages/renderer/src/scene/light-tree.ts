@@ -1,3 +1,5 @@
+import type { Steps } from '@glanz/scene';
+
 /**
  * A binary tree over lights, to pick those that matter at a place: Conty Estévez and Kulla, "Importance Sampling of Many
  * Lights with Adaptive Tree Splitting" (2018), as pbrt 4 has it, without the splitting. Each node bounds where its lights
@@ -56,6 +58,9 @@ export interface LightTree {
 }
 
 const BINS = 12;
+
+/** Lights that are gone through between two stops, once for each level. */
+const STEP_LIGHTS = 4096;
 
 /** A trail has 32 bits. */
 const MOST_LEVELS = 32;
@@ -158,70 +163,139 @@ class BoundsStore {
   }
 }
 
+/** Axis that the centres of some lights spread most along, where they begin on it and how far they reach. */
+interface Spread {
+  readonly axis: number;
+  readonly start: number;
+  readonly extent: number;
+}
+
 /**
- * Builds a tree.
- *
- * @param near Indices of the lights that are in it and have a place, each with an energy above 0.
- * @param distant Those infinitely far away; of all there is one at least.
+ * What a tree is built with. A class, since its methods are the same for every tree: machine code that the engine has made for
+ * one scene's serves the next.
  */
-export function buildLightTree(lights: TreeLights, near: ArrayLike<number>, distant: ArrayLike<number> = []): LightTree {
-  const count = lights.energies.length;
-  const firstDistant = near.length;
-  const order = new Uint32Array(firstDistant + distant.length);
-  order.set(near);
-  order.set(distant, firstDistant);
-  const nodes = 2 * order.length - 1;
-  const tree = { count: nodes, values: new Float64Array(LIGHT_TREE_NODE.stride * nodes), kinds: new Uint8Array(nodes), links: new Uint32Array(nodes), trails: new Uint32Array(count) };
-  // Twice the middles.
-  const centers = new Float64Array(3 * count);
-  for (let i = 0; i < count; i++) for (let k = 0; k < 3; k++) centers[3 * i + k] = (lights.bounds[6 * i + k] as number) + (lights.bounds[6 * i + 3 + k] as number);
-  // Places for sums: one for a node, one that grows in a sweep, and the bins.
-  const store = new BoundsStore(lights, 2 + BINS);
-  const [NODE, SUM, FIRST_BIN] = [count, count + 1, count + 2];
-  const filled = new Uint8Array(BINS);
-  const left = new Float64Array(BINS);
-  const right = new Float64Array(BINS);
+class LightTreeBuilder {
+  readonly tree: LightTree;
+  readonly #order: Uint32Array;
+  readonly #firstDistant: number;
+  /** Twice the middles of all lights, stride 3. */
+  readonly #centers: Float64Array;
+  readonly #store: BoundsStore;
+  /** Places for sums: one for a node, one that grows in a sweep, and the bins. */
+  readonly #node: number;
+  readonly #sum: number;
+  readonly #firstBin: number;
+  readonly #filled = new Uint8Array(BINS);
+  readonly #left = new Float64Array(BINS);
+  readonly #right = new Float64Array(BINS);
   /** By place in the order, while a node is split. */
-  const bins = new Uint8Array(order.length);
-  const whole = (from: number, to: number): void => {
-    store.copy(NODE, order[from] as number);
-    for (let i = from + 1; i < to; i++) store.unite(NODE, order[i] as number);
-  };
-  /** Costs of the bins up to each, in either direction. */
-  const sweep = (costs: Float64Array, first: number, step: number): void => {
-    let any = false;
-    let cost = 0;
-    for (let n = 0, bin = first; n < BINS; n++, bin += step) {
-      if (filled[bin]) {
-        if (any) store.unite(SUM, FIRST_BIN + bin);
-        else store.copy(SUM, FIRST_BIN + bin);
-        any = true;
-        cost = store.cost(SUM);
+  readonly #bins: Uint8Array;
+  /** Node, range of the order, level and trail of each that waits to be made: one a level, and one more. */
+  readonly #waiting = new Uint32Array(5 * (MOST_LEVELS + 2));
+  #made = 1;
+
+  constructor(lights: TreeLights, near: ArrayLike<number>, distant: ArrayLike<number>) {
+    const count = lights.energies.length;
+    this.#firstDistant = near.length;
+    this.#order = new Uint32Array(near.length + distant.length);
+    this.#order.set(near);
+    this.#order.set(distant, near.length);
+    const nodes = 2 * this.#order.length - 1;
+    this.tree = { count: nodes, values: new Float64Array(LIGHT_TREE_NODE.stride * nodes), kinds: new Uint8Array(nodes), links: new Uint32Array(nodes), trails: new Uint32Array(count) };
+    this.#centers = new Float64Array(3 * count);
+    for (let i = 0; i < count; i++) for (let k = 0; k < 3; k++) this.#centers[3 * i + k] = (lights.bounds[6 * i + k] as number) + (lights.bounds[6 * i + 3 + k] as number);
+    this.#store = new BoundsStore(lights, 2 + BINS);
+    [this.#node, this.#sum, this.#firstBin] = [count, count + 1, count + 2];
+    this.#bins = new Uint8Array(this.#order.length);
+  }
+
+  /** Makes all nodes. */
+  *steps(): Steps<LightTree> {
+    const waiting = this.#waiting;
+    let work = 0;
+    // The last first: left comes before right.
+    for (let top = this.#wait(0, 0, 0, this.#order.length, 0, 0); top > 0; ) {
+      top -= 5;
+      const node = waiting[top] as number, from = waiting[top + 1] as number, to = waiting[top + 2] as number, level = waiting[top + 3] as number, trail = waiting[top + 4] as number;
+      const middle = this.#makeNode(node, from, to, level, trail);
+      if (middle > from) {
+        const child = this.tree.links[node] as number;
+        top = this.#wait(top, child + 1, middle, to, level + 1, trail | (1 << level));
+        top = this.#wait(top, child, from, middle, level + 1, trail);
       }
-      costs[bin] = cost;
+      work += to - from;
+      if (work < STEP_LIGHTS) continue;
+      work = 0;
+      yield;
     }
-  };
-  /** The bin after which the lights in bins are best cut. */
-  const bestCut = (): number => {
-    sweep(left, 0, 1);
-    sweep(right, BINS - 1, -1);
-    let best = 1;
-    let least = Infinity;
-    for (let at = 1; at < BINS; at++) {
-      const sum = (left[at - 1] as number) + (right[at] as number);
-      if (sum < least) {
-        best = at;
-        least = sum;
-      }
+    return this.tree;
+  }
+
+  #wait(top: number, node: number, from: number, to: number, level: number, trail: number): number {
+    const waiting = this.#waiting;
+    waiting[top] = node;
+    waiting[top + 1] = from;
+    waiting[top + 2] = to;
+    waiting[top + 3] = level;
+    waiting[top + 4] = trail;
+    return top + 5;
+  }
+
+  /** Makes one node; where its second child begins in the order, or `from` for a leaf. */
+  #makeNode(node: number, from: number, to: number, level: number, trail: number): number {
+    this.#whole(from, to);
+    this.#write(node);
+    const { kinds, links, trails } = this.tree;
+    kinds[node] = (to - from === 1 ? LIGHT_TREE_LEAF : 0) | (from >= this.#firstDistant ? LIGHT_TREE_DISTANT : 0);
+    if (to - from === 1) {
+      const light = this.#order[from] as number;
+      links[node] = light;
+      trails[light] = trail;
+      return from;
     }
-    return best;
-  };
+    links[node] = this.#made;
+    this.#made += 2;
+    return this.#split(from, to, level);
+  }
+
+  #whole(from: number, to: number): void {
+    this.#store.copy(this.#node, this.#order[from] as number);
+    for (let i = from + 1; i < to; i++) this.#store.unite(this.#node, this.#order[i] as number);
+  }
+
+  /** Makes a node of the sum at #node. */
+  #write(node: number): void {
+    const v = this.#store.values, n = STRIDE * this.#node, { values } = this.tree, at = LIGHT_TREE_NODE.stride * node;
+    for (let k = 0; k < 3; k++) {
+      values[at + LIGHT_TREE_NODE.center + k] = ((v[n + k] as number) + (v[n + 3 + k] as number)) / 2;
+      values[at + LIGHT_TREE_NODE.axis + k] = v[n + AXIS + k] as number;
+    }
+    values[at + LIGHT_TREE_NODE.radius] = 0.5 * Math.hypot((v[n + 3] as number) - (v[n] as number), (v[n + 4] as number) - (v[n + 1] as number), (v[n + 5] as number) - (v[n + 2] as number));
+    values[at + LIGHT_TREE_NODE.cosSpread] = Math.cos(v[n + SPREAD] as number);
+    values[at + LIGHT_TREE_NODE.cosReach] = Math.cos(v[n + REACH] as number);
+    values[at + LIGHT_TREE_NODE.energy] = v[n + ENERGY] as number;
+  }
 
   /** Sorts order[from, to) so that a split lies at the index returned. */
-  const split = (from: number, to: number, level: number): number => {
-    if (from < firstDistant && to > firstDistant) return firstDistant;
+  #split(from: number, to: number, level: number): number {
+    if (from < this.#firstDistant && to > this.#firstDistant) return this.#firstDistant;
     const middle = (from + to) >> 1;
-    if (from >= firstDistant) return middle;
+    if (from >= this.#firstDistant) return middle;
+    const spread = this.#widest(from, to);
+    // Halves keep the way to a light within a trail's bits.
+    const halves = spread.extent <= 0 || Math.ceil(Math.log2(to - from)) + 1 >= MOST_LEVELS - level;
+    if (!halves) {
+      const end = this.#partition(from, to, this.#bin(from, to, spread));
+      if (end > from && end < to) return end;
+    }
+    const centers = this.#centers;
+    const { axis } = spread;
+    this.#order.subarray(from, to).sort((a, b) => (centers[3 * a + axis] as number) - (centers[3 * b + axis] as number) || a - b);
+    return middle;
+  }
+
+  #widest(from: number, to: number): Spread {
+    const order = this.#order, centers = this.#centers;
     let axis = 0, start = 0, extent = -Infinity;
     for (let k = 0; k < 3; k++) {
       let low = Infinity, high = -Infinity;
@@ -236,70 +310,72 @@ export function buildLightTree(lights: TreeLights, near: ArrayLike<number>, dist
         extent = high - low;
       }
     }
-    // Halves keep the way to a light within a trail's bits.
-    const halves = extent <= 0 || Math.ceil(Math.log2(to - from)) + 1 >= MOST_LEVELS - level;
-    if (!halves) {
-      let best = BINS - 1;
-      filled.fill(0);
-      for (let i = from; i < to; i++) {
-        const bin = Math.min(BINS - 1, Math.floor((BINS * ((centers[3 * (order[i] as number) + axis] as number) - start)) / extent));
-        bins[i] = bin;
-      }
-      // Two lie in the first bin and the last, and every cut is the same.
-      if (to - from > 2) {
-        for (let i = from; i < to; i++) {
-          const bin = bins[i] as number;
-          if (filled[bin]) store.unite(FIRST_BIN + bin, order[i] as number);
-          else store.copy(FIRST_BIN + bin, order[i] as number);
-          filled[bin] = 1;
-        }
-        best = bestCut();
-      }
-      // Partition in place.
-      let end = from;
-      for (let i = from; i < to; i++) {
-        if ((bins[i] as number) >= best) continue;
-        const light = order[i] as number;
-        order[i] = order[end] as number;
-        order[end++] = light;
-      }
-      if (end > from && end < to) return end;
-    }
-    order.subarray(from, to).sort((a, b) => (centers[3 * a + axis] as number) - (centers[3 * b + axis] as number) || a - b);
-    return middle;
-  };
+    return { axis, start, extent };
+  }
 
-  /** Makes a node of the sum in NODE. */
-  const write = (node: number): void => {
-    const v = store.values, n = STRIDE * NODE, { values } = tree, at = LIGHT_TREE_NODE.stride * node;
-    for (let k = 0; k < 3; k++) {
-      values[at + LIGHT_TREE_NODE.center + k] = ((v[n + k] as number) + (v[n + 3 + k] as number)) / 2;
-      values[at + LIGHT_TREE_NODE.axis + k] = v[n + AXIS + k] as number;
+  /** Sorts lights into bins; the first bin beyond the best cut. */
+  #bin(from: number, to: number, { axis, start, extent }: Spread): number {
+    const order = this.#order, centers = this.#centers, bins = this.#bins, filled = this.#filled, store = this.#store;
+    for (let i = from; i < to; i++) bins[i] = Math.min(BINS - 1, Math.floor((BINS * ((centers[3 * (order[i] as number) + axis] as number) - start)) / extent));
+    // Two lie in the first bin and the last, and every cut is the same.
+    if (to - from <= 2) return BINS - 1;
+    filled.fill(0);
+    for (let i = from; i < to; i++) {
+      const bin = bins[i] as number;
+      if (filled[bin]) store.unite(this.#firstBin + bin, order[i] as number);
+      else store.copy(this.#firstBin + bin, order[i] as number);
+      filled[bin] = 1;
     }
-    values[at + LIGHT_TREE_NODE.radius] = 0.5 * Math.hypot((v[n + 3] as number) - (v[n] as number), (v[n + 4] as number) - (v[n + 1] as number), (v[n + 5] as number) - (v[n + 2] as number));
-    values[at + LIGHT_TREE_NODE.cosSpread] = Math.cos(v[n + SPREAD] as number);
-    values[at + LIGHT_TREE_NODE.cosReach] = Math.cos(v[n + REACH] as number);
-    values[at + LIGHT_TREE_NODE.energy] = v[n + ENERGY] as number;
-  };
+    this.#sweep(this.#left, 0, 1);
+    this.#sweep(this.#right, BINS - 1, -1);
+    let best = 1;
+    let least = Infinity;
+    for (let at = 1; at < BINS; at++) {
+      const sum = (this.#left[at - 1] as number) + (this.#right[at] as number);
+      if (sum < least) {
+        best = at;
+        least = sum;
+      }
+    }
+    return best;
+  }
 
-  let made = 1;
-  const build = (node: number, from: number, to: number, level: number, trail: number): void => {
-    whole(from, to);
-    write(node);
-    tree.kinds[node] = (to - from === 1 ? LIGHT_TREE_LEAF : 0) | (from >= firstDistant ? LIGHT_TREE_DISTANT : 0);
-    if (to - from === 1) {
-      const light = order[from] as number;
-      tree.links[node] = light;
-      tree.trails[light] = trail;
-      return;
+  /** Costs of the bins up to each, in either direction. */
+  #sweep(costs: Float64Array, first: number, step: number): void {
+    const store = this.#store;
+    let any = false;
+    let cost = 0;
+    for (let n = 0, bin = first; n < BINS; n++, bin += step) {
+      if (this.#filled[bin]) {
+        if (any) store.unite(this.#sum, this.#firstBin + bin);
+        else store.copy(this.#sum, this.#firstBin + bin);
+        any = true;
+        cost = store.cost(this.#sum);
+      }
+      costs[bin] = cost;
     }
-    const middle = split(from, to, level);
-    const child = made;
-    made += 2;
-    tree.links[node] = child;
-    build(child, from, middle, level + 1, trail);
-    build(child + 1, middle, to, level + 1, (trail | (1 << level)) >>> 0);
-  };
-  build(0, 0, order.length, 0, 0);
-  return tree;
+  }
+
+  /** Brings the lights of the bins before a cut to the front; where the others begin. */
+  #partition(from: number, to: number, cut: number): number {
+    const order = this.#order, bins = this.#bins;
+    let end = from;
+    for (let i = from; i < to; i++) {
+      if ((bins[i] as number) >= cut) continue;
+      const light = order[i] as number;
+      order[i] = order[end] as number;
+      order[end++] = light;
+    }
+    return end;
+  }
+}
+
+/**
+ * Builds a tree.
+ *
+ * @param near Indices of the lights that are in it and have a place, each with an energy above 0.
+ * @param distant Those infinitely far away; of all there is one at least.
+ */
+export function lightTreeSteps(lights: TreeLights, near: ArrayLike<number>, distant: ArrayLike<number> = []): Steps<LightTree> {
+  return new LightTreeBuilder(lights, near, distant).steps();
 }

@@ -1,13 +1,12 @@
-import type { Instance, Light, LightProfile, Material, Mesh, Scene } from '@glanz/scene';
-import { GROUP_SHIFT, LIGHT_MIRRORED, LIGHT_NODE_DISTANT, LIGHT_NODE_LEAF, LIGHT_TRIANGLE, LIGHT_TWO_SIDED, lightStruct, NONE } from '../kernels/layout';
+import { finish, type Instance, type Light, type LightProfile, type Material, type Mesh, type Scene, type Steps } from '@glanz/scene';
+import { GROUP_SHIFT, LIGHT_NODE_DISTANT, LIGHT_NODE_LEAF, lightStruct, NONE } from '../kernels/layout';
 import { buildAliasTable, type AliasTable } from './alias-table';
-import { EmissionEstimate } from './emission';
 import type { LightGroupTable } from './light-groups';
-import { buildLightTree, LIGHT_TREE_DISTANT, LIGHT_TREE_LEAF, LIGHT_TREE_NODE, type LightTree, type TreeLights } from './light-tree';
 import { profileGrid, profileRecords, writeProfile, type ProfileGrid } from './light-profile';
 import { hasSize, writeLight } from './light-records';
+import { LIGHT_TREE_DISTANT, LIGHT_TREE_LEAF, LIGHT_TREE_NODE, lightTreeSteps, type LightTree, type TreeLights } from './light-tree';
+import { luminance, nameTriangles, triangleSteps, wordOf } from './light-triangles';
 import { emittedRadiance } from './materials';
-import { determinant3, transformPoint } from './matrix';
 import { parametersOf } from './parameters';
 
 /** How the lights are chosen from, see `PathTracerOptions.lightSampling`. */
@@ -35,33 +34,54 @@ export interface LightTable {
 export interface LightGeometry {
   /** Scene instance → record in the instance buffer, or NONE for an invisible one. */
   readonly instanceSlots: Uint32Array;
-  /** Mesh index → input triangle → absolute leaf-order triangle. */
-  readonly leafTriangle: (mesh: number, triangle: number) => number;
+  /** Of a mesh: input triangle → absolute leaf-order triangle. */
+  readonly leafTriangles: (mesh: number) => Uint32Array;
 }
 
 /** The table of a scene without lights, or before they are known. */
 export const noLights = ({ instances }: Scene): LightTable => ({ records: lightStruct.allocate(), count: 0, profiles: false, tree: false, firstArea: 0, areaCount: 0, firstLight: new Uint32Array(instances.length).fill(NONE), power: 0 });
 
-const luminance = (c: ArrayLike<number>) => 0.2126 * (c[0] as number) + 0.7152 * (c[1] as number) + 0.0722 * (c[2] as number);
+/** A glowing instance: its triangles' records begin at `base`. */
+interface Emitter {
+  readonly instance: number;
+  readonly base: number;
+  readonly triangles: number;
+}
+
+/** All that can be told of a scene's lights before its shapes have their places: {@link placeLights} adds the rest. */
+export interface GatheredLights {
+  /** As `LightTable.records`, without what names shapes, and without chances. */
+  readonly records: ArrayBuffer;
+  readonly count: number;
+  readonly profiles: boolean;
+  readonly tree: LightTree | undefined;
+  readonly firstArea: number;
+  readonly areaCount: number;
+  readonly firstLight: Uint32Array;
+  readonly emitters: readonly Emitter[];
+  /** Power of each; of directional lights for a scene with a radius of 1. */
+  readonly weights: Float64Array;
+  readonly directional: readonly number[];
+}
 
 /**
- * Collects emissive triangles and the scene's lights into one table: triangles, lights with a size, lights without.
+ * Collects emissive triangles and the scene's lights: triangles, lights with a size, lights without.
  *
- * @param sceneRadius Radius of the scene's bounding sphere, metres, to weigh directional lights.
+ * @param shows Whether a scene's instance is there to be seen.
  * @param groups Which light group each belongs to.
  * @param sampling Whether a tree is built over them.
  */
-export function buildLightTable(scene: Scene, geometry: LightGeometry, sceneRadius: number, groups: LightGroupTable, sampling: LightSampling): LightTable {
+export function* lightSteps(scene: Scene, shows: (instance: number) => boolean, groups: LightGroupTable, sampling: LightSampling): Steps<GatheredLights> {
   const firstLight = new Uint32Array(scene.instances.length).fill(NONE);
-  const emitters: { instance: number; slot: number; base: number }[] = [];
+  const emitters: Emitter[] = [];
   let count = 0;
   scene.instances.forEach((instance, index) => {
-    const slot = geometry.instanceSlots[index] as number;
     const material = scene.materials[instance.material] as Material;
-    if (slot === NONE || luminance(emittedRadiance(parametersOf(material))) <= 0) return;
+    if (!shows(index) || luminance(emittedRadiance(parametersOf(material))) <= 0) return;
+    const triangles = (scene.meshes[instance.mesh] as Mesh).indices.length / 3;
     firstLight[index] = count;
-    emitters.push({ instance: index, slot, base: count });
-    count += (scene.meshes[instance.mesh] as Mesh).indices.length / 3;
+    emitters.push({ instance: index, base: count, triangles });
+    count += triangles;
   });
   const firstArea = count;
   const areas = scene.lights.filter(hasSize);
@@ -71,15 +91,37 @@ export function buildLightTable(scene: Scene, geometry: LightGeometry, sceneRadi
   const bounds: TreeLights = { bounds: new Float64Array(6 * count), axes: new Float64Array(3 * count), spreads: new Float64Array(count), reaches: new Float64Array(count), energies: new Float64Array(count) };
   const profiles = layProfiles(others);
   const lights = lightStruct.allocate(Math.max(count, 1));
-  for (const { instance, slot, base } of emitters) writeTriangles(lights, weights, bounds, scene, instance, slot, base, geometry, groups);
-  [...areas, ...others].forEach((light, i) => (weights[firstArea + i] = writeLight(lights, bounds, firstArea + i, light, sceneRadius, groups.light(light) << GROUP_SHIFT, light.type === 'profile' ? profiles.get(light.profile) : undefined)));
+  for (const { instance, base } of emitters) yield* triangleSteps(lights, weights, bounds, scene, instance, base, groups);
+  [...areas, ...others].forEach((light, i) => (weights[firstArea + i] = writeLight(lights, bounds, firstArea + i, light, 1, groups.light(light) << GROUP_SHIFT, light.type === 'profile' ? profiles.get(light.profile) : undefined)));
+  const firstOther = firstArea + areas.length;
+  const placesOf = (type: Light['type']) => others.flatMap((light, i) => (light.type === type ? [firstOther + i] : []));
+  const directional = placesOf('directional');
+  const tree = sampling === 'tree' ? yield* treeOf(bounds, weights, new Set(directional)) : undefined;
+  const records = withProfiles(tree ? withNodes(lights, count, tree) : lights, profiles, placesOf('profile'));
+  return { records, count, profiles: profiles.size > 0, tree, firstArea, areaCount: areas.length, firstLight, emitters, weights, directional };
+}
+
+/**
+ * Makes the table, in the memory of what was gathered.
+ *
+ * @param sceneRadius Radius of the scene's bounding sphere, metres, to weigh directional lights.
+ * @returns Undefined where something glows that has no place after all: to be gathered without it.
+ */
+export function placeLights(scene: Scene, lights: GatheredLights, geometry: LightGeometry, sceneRadius: number): LightTable | undefined {
+  const { records, count, profiles, tree, firstArea, areaCount, firstLight, emitters, weights, directional } = lights;
+  if (emitters.some(({ instance }) => geometry.instanceSlots[instance] === NONE)) return undefined;
+  for (const i of directional) (weights[i] as number) *= sceneRadius * sceneRadius;
   const table = buildAliasTable(weights);
   if (!table) return noLights(scene);
-  const isDistant = (i: number) => i >= firstArea + areas.length && others[i - firstArea - areas.length]?.type === 'directional';
-  const tree = sampling === 'tree' ? treeOf(bounds, weights, isDistant) : undefined;
-  writeChances(lights, table, tree);
-  const records = withProfiles(tree ? withNodes(lights, count, tree) : lights, profiles, others.flatMap((light, i) => (light.type === 'profile' ? [firstArea + areas.length + i] : [])));
-  return { records, count, profiles: profiles.size > 0, tree: tree !== undefined, firstArea, areaCount: areas.length, firstLight, power: sumOf(weights) };
+  for (const { instance, base, triangles } of emitters) nameTriangles(records, base, triangles, geometry.instanceSlots[instance] as number, geometry.leafTriangles((scene.instances[instance] as Instance).mesh));
+  writeChances(records, table, tree);
+  return { records, count, profiles, tree: tree !== undefined, firstArea, areaCount, firstLight, power: sumOf(weights) };
+}
+
+/** The table in one go. */
+export function buildLightTable(scene: Scene, geometry: LightGeometry, sceneRadius: number, groups: LightGroupTable, sampling: LightSampling): LightTable {
+  const lights = finish(lightSteps(scene, (instance) => geometry.instanceSlots[instance] !== NONE, groups, sampling));
+  return placeLights(scene, lights, geometry, sceneRadius) as LightTable;
 }
 
 function sumOf(values: Float64Array): number {
@@ -88,12 +130,12 @@ function sumOf(values: Float64Array): number {
   return sum;
 }
 
-/** The tree over the lights that shine. */
-function treeOf(bounds: TreeLights, weights: Float64Array, isDistant: (light: number) => boolean): LightTree {
+/** The tree over the lights that shine, if any does. */
+function* treeOf(bounds: TreeLights, weights: Float64Array, directional: ReadonlySet<number>): Steps<LightTree | undefined> {
   const near: number[] = [];
   const distant: number[] = [];
-  for (let i = 0; i < weights.length; i++) if ((weights[i] as number) > 0) (isDistant(i) ? distant : near).push(i);
-  return buildLightTree(bounds, near, distant);
+  for (let i = 0; i < weights.length; i++) if ((weights[i] as number) > 0) (directional.has(i) ? distant : near).push(i);
+  return near.length + distant.length > 0 ? yield* lightTreeSteps(bounds, near, distant) : undefined;
 }
 
 /** Writes how likely each light is without a tree, and the way to it in one. */
@@ -137,9 +179,6 @@ function withProfiles(before: ArrayBuffer, profiles: Profiles, users: readonly n
   return records;
 }
 
-/** Where a field of a light record lies, in words. */
-const wordOf = (field: Parameters<typeof lightStruct.offsetOf>[0]): number => lightStruct.offsetOf(field) / 4;
-
 /** The light records with the nodes of the tree behind them. Written word by word: thousands of them, while nothing is compiled yet. */
 function withNodes(lights: ArrayBuffer, count: number, { count: nodes, values, kinds, links }: LightTree): ArrayBuffer {
   const records = lightStruct.allocate(count + nodes);
@@ -164,68 +203,3 @@ function withNodes(lights: ArrayBuffer, count: number, { count: nodes, values, k
   }
   return records;
 }
-
-function writeTriangles(records: ArrayBuffer, weights: Float64Array, bounds: TreeLights, scene: Scene, index: number, slot: number, base: number, geometry: LightGeometry, groups: LightGroupTable): void {
-  const instance = scene.instances[index] as Instance;
-  const mesh = scene.meshes[instance.mesh] as Mesh;
-  const material = scene.materials[instance.material] as Material;
-  const radiance = luminance(emittedRadiance(parametersOf(material)));
-  const sides = material.double_sided ? 2 : 1;
-  const mirrored = determinant3(instance.transform) < 0 ? -1 : 1;
-  const kind = LIGHT_TRIANGLE | (material.double_sided ? LIGHT_TWO_SIDED : 0) | (mirrored < 0 ? LIGHT_MIRRORED : 0) | (groups.material(material) << GROUP_SHIFT);
-  const binding = material.textures?.emission_color;
-  const estimate = binding ? new EmissionEstimate(scene, binding) : undefined;
-  const uvs = binding ? mesh.uvs?.[binding.uv ?? 0] : undefined;
-  const floats = new Float32Array(records);
-  const integers = new Uint32Array(records);
-  const words = lightStruct.size / 4;
-  const at = { a: wordOf('a'), b: wordOf('b'), c: wordOf('c'), kind: wordOf('kind'), ids: wordOf('ids') };
-  const p = new Float64Array(9);
-  // Whatever kind of list it is, the loop's machine code sees one.
-  const transform = Float64Array.from(instance.transform);
-  const { positions, indices } = mesh;
-  // No functions and no lists within: thousands of triangles, while nothing is compiled yet.
-  for (let triangle = 0; triangle < indices.length / 3; triangle++) {
-    const row = (base + triangle) * words;
-    for (let k = 0; k < 3; k++) {
-      const vertex = 3 * (indices[3 * triangle + k] as number);
-      transformPoint(transform, positions[vertex] as number, positions[vertex + 1] as number, positions[vertex + 2] as number, p, 3 * k);
-    }
-    for (let k = 0; k < 3; k++) {
-      floats[row + at.a + k] = p[k] as number;
-      floats[row + at.b + k] = p[3 + k] as number;
-      floats[row + at.c + k] = p[6 + k] as number;
-    }
-    integers[row + at.kind] = kind;
-    integers[row + at.ids] = slot;
-    integers[row + at.ids + 1] = geometry.leafTriangle(instance.mesh, triangle);
-    integers[row + at.ids + 2] = instance.material;
-    const ax = (p[3] as number) - (p[0] as number), ay = (p[4] as number) - (p[1] as number), az = (p[5] as number) - (p[2] as number);
-    const bx = (p[6] as number) - (p[0] as number), by = (p[7] as number) - (p[1] as number), bz = (p[8] as number) - (p[2] as number);
-    const nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
-    const length = Math.hypot(nx, ny, nz);
-    const area = 0.5 * length;
-    const texel = estimate && uvs ? estimate.mean(cornersOf(uvs, indices, triangle)) : 1;
-    const power = Math.PI * area * radiance * sides * texel;
-    if (!(Number.isFinite(power) && power > 0)) continue;
-    const i = base + triangle;
-    weights[i] = power;
-    bounds.energies[i] = area * radiance * texel;
-    bounds.spreads[i] = sides === 2 ? Math.PI : 0;
-    bounds.reaches[i] = Math.PI / 2;
-    bounds.axes[3 * i] = (mirrored * nx) / length;
-    bounds.axes[3 * i + 1] = (mirrored * ny) / length;
-    bounds.axes[3 * i + 2] = (mirrored * nz) / length;
-    for (let k = 0; k < 3; k++) {
-      bounds.bounds[6 * i + k] = Math.min(p[k] as number, p[3 + k] as number, p[6 + k] as number);
-      bounds.bounds[6 * i + 3 + k] = Math.max(p[k] as number, p[3 + k] as number, p[6 + k] as number);
-    }
-  }
-}
-
-/** The texture coordinates of a triangle's corners. */
-const cornersOf = (uvs: Float32Array, indices: Uint32Array, triangle: number) =>
-  [0, 1, 2].flatMap((k) => {
-    const vertex = indices[3 * triangle + k] as number;
-    return [uvs[2 * vertex] as number, uvs[2 * vertex + 1] as number];
-  }) as [number, number, number, number, number, number];

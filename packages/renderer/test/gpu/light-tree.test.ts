@@ -1,12 +1,12 @@
 import { compose, wgslModule } from '@glanz/wgsl';
 import { expectNoGpuErrors, runCompute, testDevice } from '@glanz/gpu';
-import type { Scene } from '@glanz/scene';
+import { finish, type Scene } from '@glanz/scene';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { PathTracer, type PathTracerOptions } from '../../src/index';
 import { LIGHT_NODE_DISTANT, LIGHT_NODE_LEAF, lightStruct } from '../../src/kernels/layout';
 import { lightTree } from '../../src/kernels/light-tree.wgsl';
 import { pathCone } from '../../src/kernels/path.wgsl';
-import { buildLightTree } from '../../src/scene/light-tree';
+import { lightTreeSteps } from '../../src/scene/light-tree';
 import { addQuad, camera, createScene, lambert, meanOf } from '../scenes';
 import { random, randomLights, randomUnit, treeNodes } from '../tree-lights';
 
@@ -23,7 +23,7 @@ const DRAWS = 4096;
 describe('the choice by the light tree', () => {
   it('has the probability that is asked for, and leaves out no light that shines on the place', async () => {
     const lights = randomLights(COUNT, 77);
-    const tree = buildLightTree(lights, [...Array(COUNT - 4).keys()], [36, 37, 38]);
+    const tree = finish(lightTreeSteps(lights, [...Array(COUNT - 4).keys()], [36, 37, 38]));
     const records = lightStruct.allocate(COUNT + tree.count);
     for (let i = 0; i < COUNT; i++) lightStruct.write(records, i, { other: tree.trails[i]!, probability: i < 39 ? 1 : 0 });
     treeNodes(tree).forEach(({ center, radius, axis, cosSpread, cosReach, energy, light, child, distant }, i) =>

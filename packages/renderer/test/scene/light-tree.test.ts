@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
-import { buildLightTree, type TreeLights } from '../../src/scene/light-tree';
+import { finish } from '@glanz/scene';
+import { lightTreeSteps, type TreeLights } from '../../src/scene/light-tree';
 import { randomLights, treeNodes } from '../tree-lights';
 
 const angle = (a: ArrayLike<number>, b: ArrayLike<number>) => Math.acos(Math.min(1, Math.max(-1, a[0]! * b[0]! + a[1]! * b[1]! + a[2]! * b[2]!)));
@@ -11,7 +12,7 @@ function under(tree: { readonly nodes: ReturnType<typeof treeNodes> }, node: num
 }
 
 function check(lights: TreeLights, near: number[], distant: number[] = []): void {
-  const built = buildLightTree(lights, near, distant);
+  const built = finish(lightTreeSteps(lights, near, distant));
   const tree = { nodes: treeNodes(built), trails: built.trails };
   expect(under(tree, 0).sort((a, b) => a - b)).toEqual([...near, ...distant].sort((a, b) => a - b));
   expect(tree.nodes).toHaveLength(2 * (near.length + distant.length) - 1);
@@ -38,7 +39,7 @@ function check(lights: TreeLights, near: number[], distant: number[] = []): void
   });
 }
 
-describe('buildLightTree', () => {
+describe('lightTreeSteps', () => {
   it.each([1, 2, 3, 17, 400])('bounds %i lights, and its trails lead to them', (count) => {
     check(randomLights(count, 5 + count), [...Array(count).keys()]);
   });
