@@ -6,8 +6,8 @@ import { PathTracer } from './path-tracer';
 export type WarmUpOptions = Omit<Partial<PathTracerOptions>, 'width' | 'height' | 'camera' | 'pathsInFlight' | 'onProgress' | 'onFirstLight'>;
 
 /** Quads on a side: enough triangles for the engine to compile the loops that go over them. */
-const LIT = 40;
-const GLOWING = 24;
+const LIT = 72;
+const GLOWING = 56;
 
 /** A wavy square of 2 × 2 m around a place on the z axis. */
 function waves(quads: number, z: number): Mesh {

@@ -21,6 +21,8 @@ export type BuildRequest =
 /** From a worker. `ready` comes once, first of all. */
 export type BuildReply =
   | { readonly kind: 'ready' }
+  /** Has run what it was to warm up with, or has had real work in its place. */
+  | { readonly kind: 'warmed' }
   | { readonly kind: 'started'; readonly id: number }
   | { readonly kind: 'built'; readonly id: number; readonly blas: Blas }
   /** The second of two has done its part, or has stopped because the other one did. */

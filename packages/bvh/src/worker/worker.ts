@@ -69,7 +69,7 @@ export function serveBuilds(port: WorkerPort): void {
   };
   const warmUp = (left: number) => {
     // One build at a time, so that a request waits for two milliseconds at most.
-    if (built >= WARM_TRIANGLES || left === 0) return;
+    if (built >= WARM_TRIANGLES || left === 0) return say({ kind: 'warmed' });
     buildBlas(sheet(WARM_EDGE + (left % 4)));
     setTimeout(() => warmUp(left - 1), 0);
   };

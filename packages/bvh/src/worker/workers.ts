@@ -1,12 +1,20 @@
-import type { Blas, BlasOptions, TriangleMesh } from '../blas';
+import type { Blas, TriangleMesh } from '../blas';
 import { BvhError } from '../error';
 import { copyAll, roomFor, type Copy } from './copy';
 import { BuildsHere, type Job } from './here';
 import { connect, hardwareThreads, startWorker, type NodeWorkerLike, type WebWorkerLike, type WorkerLine } from './line';
+import type { BvhWorkersOptions, WorkerBuildOptions } from './options';
 import { buffersOf, receivedError, sendableOptions, type BuildReply, type BuildRequest } from './protocol';
 import { teamMemory, type TeamMemory } from './team';
 
 export type { NodeWorkerLike, WebWorkerLike } from './line';
+export type { BvhWorkersOptions, WorkerBuildOptions } from './options';
+
+/** Where there is no more to build than so many triangles, one worker does it all: others would compile their code anew for it. */
+const SHARE = 48_000;
+
+/** Workers that warm up at a time: the calling thread has work too, and all share the threads that compile. */
+const WARM_AT_ONCE = 2;
 
 /** Small builds are sent ahead until a worker has so many triangles to do: it should not wait for the next message. */
 const AHEAD = 16_384;
@@ -23,38 +31,6 @@ const WORTH_ENDING = 100_000;
 /** A worker that has not reported by then will not. */
 const START_MS = 15_000;
 
-/** What {@link BvhWorkers.create} may be told. */
-export interface BvhWorkersOptions {
-  /** Workers, at least 1. Default: the machine's threads, at most 8. */
-  readonly count?: number;
-  /**
-   * Makes a worker that runs `@glanz/bvh/worker`, where the package's own way does not fit a bundler or a page's policy,
-   * e.g. `() => new Worker(myUrl, { type: 'module' })`, or one of Node's `worker_threads`.
-   */
-  readonly createWorker?: () => WebWorkerLike | NodeWorkerLike;
-  /** Let each worker build small made-up meshes until there is work, so that its first real build runs optimised code. Default false. */
-  readonly warmUp?: boolean;
-  /**
-   * Let two workers build one mesh of 200,000 triangles or more where nothing else waits and memory can be shared (a page
-   * that is `crossOriginIsolated`, Node); elsewhere one builds it. The result is the same. Default: on machines of four
-   * threads and more. With fewer there is no core to spare: the page's own thread and the GPU's process have work too.
-   */
-  readonly together?: boolean;
-}
-
-/** What {@link BvhWorkers.buildBlas} may be told besides the options of `buildBlas`. */
-export interface WorkerBuildOptions extends BlasOptions {
-  /** Gives up: the promise rejects at once with the signal's reason. */
-  readonly signal?: AbortSignal | undefined;
-  /** Told 0 when the build begins and 1 when it is done; in between only where builds run on the calling thread. */
-  readonly onProgress?: ((done: number) => void) | undefined;
-  /**
-   * Hand the mesh's buffers over instead of copying them: the caller's arrays are empty from then on. For arrays that
-   * fill their buffers; others are copied. Arrays over a SharedArrayBuffer are never copied. Default false.
-   */
-  readonly transfer?: boolean;
-}
-
 /** A place in the pool for one worker after another. */
 interface Seat {
   line: WorkerLine | undefined;
@@ -65,7 +41,12 @@ interface Seat {
   readonly jobs: Map<number, Job>;
   /** Their triangles. */
   load: number;
+  warmth: Warmth;
 }
+
+/** How far a worker is with warming up, where that is asked for. */
+type Warmth = (typeof WARMTHS)[number];
+const WARMTHS = ['warm', 'warming', 'cold'] as const;
 
 /**
  * Builds hierarchies off the calling thread, several at a time. Module workers in browsers, `worker_threads` in Node.
@@ -92,13 +73,17 @@ export class BvhWorkers {
   #spare: WeakRef<TeamMemory> | undefined;
   #fallback: string | undefined;
   #nextId = 0;
+  /** Triangles of all builds that were asked for since there was last nothing to do. */
+  #burst = 0;
+  /** Builds are about to be given out. */
+  #giving = false;
   #destroyed = false;
 
   private constructor(count: number, { createWorker = startWorker, warmUp = false, together = hardwareThreads() >= SPARE_THREADS }: BvhWorkersOptions) {
     this.#together = together;
     this.#createWorker = createWorker;
     this.#warmUp = warmUp;
-    this.#seats = new Set(Array.from({ length: count }, () => ({ line: undefined, ready: false, timer: undefined, jobs: new Map<number, Job>(), load: 0 })));
+    this.#seats = new Set(Array.from({ length: count }, () => ({ line: undefined, ready: false, timer: undefined, jobs: new Map<number, Job>(), load: 0, warmth: 'cold' })));
   }
 
   /**
@@ -160,8 +145,16 @@ export class BvhWorkers {
         settled: false,
       };
       if (signal) this.#watch(signal, job);
+      if (this.#queue.length === 0 && [...this.#seats].every(({ jobs }) => jobs.size === 0)) this.#burst = 0;
       this.#queue.push(job);
-      this.#next();
+      this.#burst += job.triangles;
+      // How many workers are worth it shows when all of a scene's builds have been asked for.
+      if (this.#giving) return;
+      this.#giving = true;
+      queueMicrotask(() => {
+        this.#giving = false;
+        this.#next();
+      });
     });
   }
 
@@ -182,6 +175,7 @@ export class BvhWorkers {
   #start(seat: Seat): Promise<void> {
     return new Promise<void>((resolve, reject) => {
       seat.ready = false;
+      seat.warmth = 'cold';
       seat.line = undefined;
       const failed = (why: string) => {
         clearTimeout(seat.timer);
@@ -198,10 +192,14 @@ export class BvhWorkers {
           this.#createWorker(),
           (message) => {
             const reply = message as BuildReply;
+            if (reply.kind === 'warmed') {
+              seat.warmth = 'warm';
+              return this.#warmNext();
+            }
             if (reply.kind !== 'ready') return this.#answered(seat, reply);
             clearTimeout(seat.timer);
             seat.ready = true;
-            if (this.#warmUp) this.#post(seat, { kind: 'warm-up' }, []);
+            this.#warmNext();
             seat.line?.hold(false);
             resolve();
             this.#next();
@@ -212,6 +210,17 @@ export class BvhWorkers {
         failed(error instanceof Error ? error.message : String(error));
       }
     });
+  }
+
+  /** Lets workers that are there warm up, a few at a time. */
+  #warmNext(): void {
+    if (!this.#warmUp) return;
+    const seats = [...this.#seats].filter(({ ready }) => ready);
+    const free = WARM_AT_ONCE - seats.filter(({ warmth }) => warmth === 'warming').length;
+    for (const seat of seats.filter(({ warmth }) => warmth === 'cold').slice(0, free)) {
+      seat.warmth = 'warming';
+      this.#post(seat, { kind: 'warm-up' }, []);
+    }
   }
 
   #restart(seat: Seat): void {
@@ -240,7 +249,7 @@ export class BvhWorkers {
     for (const job of lost) job.settle({ error: new BvhError('bvh/worker', `A worker ended during a build (${why}); the mesh may need more memory than there is.`) });
   }
 
-  #answered(seat: Seat, reply: Exclude<BuildReply, { kind: 'ready' }>): void {
+  #answered(seat: Seat, reply: Exclude<BuildReply, { kind: 'ready' | 'warmed' }>): void {
     const job = seat.jobs.get(reply.id);
     if (!job) return;
     if (reply.kind === 'started') return job.progress(0);
@@ -302,12 +311,13 @@ export class BvhWorkers {
   /** Gives what waits to the workers that have least to do, or builds it here. */
   #next(): void {
     if (this.#fallback !== undefined) void this.#here.run(this.#queue);
+    const seats = [...this.#seats].filter(({ ready }) => ready).sort((a, b) => WARMTHS.indexOf(a.warmth) - WARMTHS.indexOf(b.warmth)).slice(0, Math.max(1, Math.ceil(this.#burst / SHARE)));
     for (;;) {
       let free: Seat | undefined;
-      for (const seat of this.#seats) if (seat.ready && (seat.jobs.size === 0 || seat.load < AHEAD) && seat.load < (free?.load ?? Infinity)) free = seat;
+      for (const seat of seats) if ((seat.jobs.size === 0 || seat.load < AHEAD) && seat.load < (free?.load ?? Infinity)) free = seat;
       const job = free && this.#queue.shift();
       if (!free || !job) return;
-      const idle = [...this.#seats].filter(({ ready, jobs }) => ready && jobs.size === 0);
+      const idle = seats.filter(({ jobs }) => jobs.size === 0);
       if (this.#together && idle.length >= 2 && this.#queue.length === 0 && canShare(job)) this.#sendTogether(idle.slice(0, 2), job);
       else this.#send(free, job);
     }

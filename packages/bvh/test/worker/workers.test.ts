@@ -267,6 +267,43 @@ describe('BvhWorkers', () => {
     expectSame(await workers.buildBlas(sphere(64)), buildBlas(sphere(64)));
   });
 
+  it('warms up two at a time, and one after another all of them', async () => {
+    const sent: Worker[] = [];
+    const done: Worker[] = [];
+    let most = 0;
+    await create({
+      count: 4,
+      warmUp: true,
+      createWorker() {
+        const made = worker.start();
+        const post = made.postMessage.bind(made);
+        made.postMessage = (message, transfer) => {
+          if ((message as { kind: string }).kind === 'warm-up') sent.push(made);
+          most = Math.max(most, sent.length - done.length);
+          post(message, transfer as never);
+        };
+        made.on('message', ({ kind }: { kind: string }) => kind === 'warmed' && done.push(made));
+        return made;
+      },
+    });
+    await vi.waitFor(() => expect(done).toHaveLength(4), { timeout: 30_000, interval: 20 });
+    expect(new Set(sent).size).toBe(4);
+    expect(most).toBe(2);
+  });
+
+  it('asks no more workers than the triangles are worth', async () => {
+    const workers = await create({ count: 3 });
+    const busy = async (list: readonly TriangleMesh[]) => {
+      const counts = started.map((each) => counting([each], 'build'));
+      const before = counts.map((count) => count());
+      await Promise.all(list.map((mesh) => workers.buildBlas(mesh)));
+      return counts.filter((count, i) => count() > (before[i] as number)).length;
+    };
+    expect(await busy(Array.from({ length: 20 }, () => sphere(24)))).toBe(1);
+    await vi.waitFor(async () => expect(await busy(Array.from({ length: 6 }, () => sphere(150)))).toBe(3), { timeout: 30_000, interval: 20 });
+    expect(await busy(Array.from({ length: 20 }, () => sphere(24)))).toBe(1);
+  });
+
   it('builds here where no worker can be made, whatever the cause, and hands the thread back in between', async () => {
     const causes: (() => Worker)[] = [
       () => { throw new Error('refused by policy'); },
