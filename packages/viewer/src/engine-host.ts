@@ -47,6 +47,8 @@ export interface EngineSettings extends ToneMapOptions {
   readonly tracer: Partial<PathTracerOptions>;
   /** Default: `requestDevice()` of the renderer. */
   readonly requestDevice: (() => Promise<GPUDevice>) | undefined;
+  /** Whether the first device warms up until there is a scene. Default: unless the CPU imitates it. */
+  readonly warmUp?: boolean | undefined;
 }
 
 /** What a path tracer is made from. */

@@ -82,8 +82,8 @@ export class Engine {
       failed: (error) => this.#fail(error),
       error: (error) => this.#host.error(error),
     }, settings.requestDevice);
-    // They warm up while the first model loads.
-    this.#connection.ready.then(() => this.#builder, () => undefined);
+    // All warms up while the first model loads.
+    this.#connection.ready.then(() => this.device && this.#builder && this.#preparation.warmUp(this.device, this.#builder, settings.warmUp), () => undefined);
     void this.#run();
   }
 

@@ -58,6 +58,11 @@ export interface ViewerOptions {
   readonly createWorker?: () => Worker;
   /** Asks for the device, also again after it was lost. Default: `requestDevice()` of the renderer. The viewer destroys it. */
   readonly requestDevice?: () => Promise<GPUDevice>;
+  /**
+   * Whether the device and the JavaScript engine do ahead, while the first model loads, what its first picture would wait for:
+   * about a tenth of a second of the page's thread, in slices. Default: unless the CPU imitates the GPU.
+   */
+  readonly warmUp?: boolean;
   /** More for the path tracer: filter, light groups, biased shortcuts, back-face culling. */
   readonly tracer?: Pick<PathTracerOptions, 'filter' | 'lightGroups' | 'clampIndirect' | 'regularization' | 'caustics' | 'maxBounces' | 'backFaceCulling' | 'sampler' | 'textureLodBias' | 'seed' | 'maxVolumeDepth' | 'pathsInFlight'>;
   /** Destroys the viewer when it aborts. */

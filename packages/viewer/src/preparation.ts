@@ -1,9 +1,10 @@
-import type { PathTracer } from '@glanz/renderer';
+import { isSoftware, warmUp, type HierarchyBuilder, type PathTracer } from '@glanz/renderer';
 import { ViewerError } from './errors';
 
 /** The making of a scene's tracer: one at a time, the last one asked for. */
 export class Preparation {
   readonly #ended: () => void;
+  readonly #warming = new AbortController();
   #control: AbortController | undefined;
   #destroyed = false;
 
@@ -18,6 +19,17 @@ export class Preparation {
   }
 
   /**
+   * Does ahead, until the first tracer is asked for, what that one would pay for, see `warmUp` of the renderer.
+   *
+   * @param wanted Undefined: where the GPU is one. What the CPU imitates is busy enough.
+   */
+  warmUp(device: GPUDevice, hierarchies: HierarchyBuilder, wanted: boolean | undefined): void {
+    const { adapterInfo } = device as { readonly adapterInfo?: GPUAdapterInfo };
+    if (this.#warming.signal.aborted || !(wanted ?? !(adapterInfo && isSoftware(adapterInfo)))) return;
+    void warmUp(device, { hierarchies, signal: this.#warming.signal });
+  }
+
+  /**
    * Makes a tracer. One that is being made already is given up.
    *
    * @param make Starts at once; its signal says that it is not wanted any more.
@@ -25,6 +37,7 @@ export class Preparation {
    * @throws what `make` throws; an `AbortError` where another one is asked for meanwhile; {ViewerError} `viewer/destroyed`.
    */
   async run(make: (signal: AbortSignal) => Promise<PathTracer>, take: (tracer: PathTracer) => void): Promise<PathTracer> {
+    this.#warming.abort();
     this.#control?.abort(new DOMException('another scene was asked for', 'AbortError'));
     const control = (this.#control = new AbortController());
     try {
@@ -47,6 +60,7 @@ export class Preparation {
   /** Gives up what is being made, and all that would be. */
   destroy(): void {
     this.#destroyed = true;
+    this.#warming.abort();
     this.#control?.abort(new DOMException('the viewer was destroyed', 'AbortError'));
   }
 }

@@ -48,6 +48,7 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
         previewDepth: preview.maxDepth ?? 4,
         tracer: options.tracer ?? {},
         requestDevice: options.requestDevice,
+        warmUp: options.warmUp,
       },
       preview.budgetMs ?? 12,
       {

@@ -9,6 +9,7 @@ declare global {
     file: (base64: string, name: string) => File;
     viewer: Viewer;
     loseGpu: () => void;
+    kernels: string[];
     heard: { type: string; [key: string]: unknown }[];
   }
 }
@@ -75,6 +76,36 @@ test('a model appears as it is, events tell of it, and the view is the one asked
   expect(Math.max(...totals)).toBe(1);
   expect(await heard(page, 'error')).toEqual([]);
   expect((await heard(page, 'state')).map((event) => event['state']).filter((state, i, all) => state !== all[i - 1])).toEqual(['loading', 'moving', 'rendering', 'done']);
+});
+
+test('warms up until there is a model, where that is asked for or the GPU is none that the CPU imitates', async ({ page }) => {
+  await page.addInitScript(() => {
+    window.kernels = [];
+    // Bound again below.
+    // eslint-disable-next-line @typescript-eslint/unbound-method
+    const { createComputePipelineAsync } = GPUDevice.prototype;
+    GPUDevice.prototype.createComputePipelineAsync = function (descriptor) {
+      window.kernels.push(descriptor.label ?? '');
+      return createComputePipelineAsync.call(this, descriptor);
+    };
+  });
+  const pictures: Awaited<ReturnType<typeof shot>>[] = [];
+  for (const warmUp of [undefined, true]) {
+    await page.goto(served.origin);
+    await page.evaluate(
+      (options) => void (window.viewer = window.make(options)),
+      { samples: 12, maxDepth: 3, pixelRatio: 0.5, camera: front, environment: sky, ...(warmUp ? { warmUp } : {}) } as ViewerOptions,
+    );
+    // The viewer's own comes with the device, and right before the rest where there is more.
+    await expect.poll(() => page.evaluate(() => window.kernels)).toContain(warmUp ? 'glanz shade' : 'glanz viewer blend');
+    if (!warmUp) await page.waitForTimeout(500);
+    expect((await page.evaluate(() => window.kernels)).includes('glanz shade')).toBe(warmUp === true);
+    // It is given up in the middle.
+    await page.evaluate((base64) => window.viewer.load(window.file(base64, 'model.glb')), model.toString('base64'));
+    await done(page);
+    pictures.push(await shot(page));
+  }
+  expect(pictures[1]).toEqual(pictures[0]);
 });
 
 test('a drag turns the model: a small preview while it moves, then the picture in full again', async ({ page }) => {

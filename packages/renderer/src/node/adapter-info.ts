@@ -12,14 +12,6 @@ export interface GpuDescription {
   readonly software: boolean;
 }
 
-/** Names of rasterisers that run on the CPU: SwiftShader, Mesa's llvmpipe/lavapipe, Windows' WARP. */
-const CPU_NAMES = /swiftshader|llvmpipe|lavapipe|basic render|warp/i;
-
-/** Whether an adapter computes on the CPU. */
-export function isSoftware(info: GPUAdapterInfo): boolean {
-  return info.isFallbackAdapter === true || CPU_NAMES.test(`${info.architecture} ${info.device} ${info.description}`);
-}
-
 /** Mesa's major version where the adapter is one of Mesa's software rasterisers, e.g. 25; `undefined` for any other adapter. */
 export function lavapipeVersion(info: GPUAdapterInfo): number | undefined {
   if (!/llvmpipe|lavapipe/i.test(`${info.device} ${info.description}`)) return undefined;

@@ -1,5 +1,6 @@
 import { DeviceError } from '../errors';
-import { isSoftware, lavapipeVersion, type GpuDescription } from './adapter-info';
+import { isSoftware } from '../gpu/software';
+import { lavapipeVersion, type GpuDescription } from './adapter-info';
 import { createPinned, firstLine, listAdapters, loadDawn, type Dawn } from './dawn';
 import { packagedSwiftShader } from './swiftshader';
 import { canSwitchDrivers, chromiumSwiftShaders, driverEnvironment, installedLavapipe, restoreDriverEnvironment, switchToDriver, type DriverEnvironment, type VulkanDriver } from './vulkan-driver';
