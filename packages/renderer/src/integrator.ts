@@ -3,6 +3,7 @@ import type { Film } from './film/film';
 import type { GroupWeights } from './film/layers';
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_COPY_SRC, GPU_BUFFER_INDIRECT, GPU_BUFFER_STORAGE, GPU_BUFFER_UNIFORM, type GpuMemory } from './gpu/buffers';
 import type { GpuScene } from './gpu/gpu-scene';
+import { isSoftware } from './gpu/software';
 import type { KernelSet } from './gpu/kernel-cache';
 import { CONNECT_CROSSINGS } from './kernels/connect.wgsl';
 import { BLOCK } from './kernels/blocks';
@@ -44,6 +45,12 @@ export class Integrator {
   readonly #buffers: Record<OwnBuffer, GPUBuffer>;
   readonly #groups = new Map<KernelName, GPUBindGroup>();
   readonly #wanted: number | undefined;
+  /**
+   * Whether the GPU itself says how many threads a kernel shall have: only as many as there are paths left. A CPU, for which
+   * each group of threads is work, gains by that. For a GPU those that end at once are nothing, and it is slow with WebGPU,
+   * which checks each number on the GPU before it believes it: a path of 256 edges takes 22 times as long on an H200.
+   */
+  readonly #counted: boolean;
   #capacity: number;
   limits: DepthLimits;
   #kernels: KernelSet;
@@ -58,6 +65,8 @@ export class Integrator {
     this.#film = film;
     this.limits = limits;
     this.#wanted = wanted;
+    const { adapterInfo } = device as { readonly adapterInfo?: GPUAdapterInfo };
+    this.#counted = adapterInfo !== undefined && isSoftware(adapterInfo);
     // A sample of the whole picture; more when the GPU turns out to be fast.
     const capacity = Math.min(pathLimit(device, wanted, features), Math.max(1 << 16, film.pixels));
     this.#capacity = capacity;
@@ -79,7 +88,7 @@ export class Integrator {
   rehearse(name: KernelName, kernel: Kernel): void {
     this.#group(name, kernel);
     // The sizes are all zeroes yet: nothing runs.
-    if (name === 'generate') this.#pass('glanz rehearsal', (pass) => this.#run(pass, name, kernel, { indirect: 0 }));
+    if (name === 'generate' && this.#counted) this.#pass('glanz rehearsal', (pass) => this.#run(pass, name, kernel, { indirect: 0 }));
   }
 
   /** The kernels are there, for the features that it was made with. */
@@ -167,13 +176,15 @@ export class Integrator {
       const run = (name: KernelName, work: number | { readonly indirect: number }) => this.#run(pass, name, kernels[name] as Kernel, work);
       run('begin', 1);
       run('generate', Math.ceil(paths / 64));
+      // Kernels end at once in threads beyond the paths that are left.
+      const sized = (indirect: number) => (this.#counted ? { indirect } : Math.ceil(paths / 64));
       const steps = this.#steps(features.flags);
       for (let step = 1; step <= steps; step++) {
-        run('intersect', { indirect: 0 });
-        run('shade', { indirect: 0 });
+        run('intersect', sized(0));
+        run('shade', sized(0));
         if (step === steps) break;
         run('advance', 1);
-        if (features.flags.NEXT_EVENT) run('connect', { indirect: 16 });
+        if (features.flags.NEXT_EVENT) run('connect', sized(16));
       }
       run('resolve', Math.ceil(batch.pixelCount / 64));
     });
