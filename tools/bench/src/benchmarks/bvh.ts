@@ -3,7 +3,7 @@ import { best, bestSplit } from '@glanz/bvh/best';
 import { fast } from '@glanz/bvh/fast';
 import { sahCost } from '@glanz/bvh/statistics';
 import { timed, wallTimes, type Benchmark, type Figure } from '../benchmark';
-import { benchMeshes, type BenchMesh } from '../bvh/meshes';
+import { benchMeshes, partsOf, type BenchMesh } from '../bvh/meshes';
 import { overTinybvh, spreadOf, writeBvhPage, type BvhDetails, type MeshRow } from '../bvh/page';
 import { TINYBVH } from '../bvh/tinybvh';
 import { machine } from '../machine';
@@ -150,6 +150,11 @@ export const benchmark: Benchmark = {
     figure(`four times ${large.name}: one worker`, 'ms', one);
     figure(`four times ${large.name}: two workers`, 'ms', two);
     figure(`four times ${large.name}: one worker over two, minima`, '1', [least(one) / least(two)], { value: 1.6, relation: '>=', source: 'two workers' });
+    const parts = partsOf(quick ? 'low' : 'high');
+    const [oneOfParts, twoOfParts] = await workerTimes(parts.meshes, 3 * runs);
+    figure(`${parts.name}: one worker`, 'ms', oneOfParts);
+    figure(`${parts.name}: two workers`, 'ms', twoOfParts);
+    figure(`${parts.name}: one worker over two, minima`, '1', [least(oneOfParts) / least(twoOfParts)], { value: 1.6, relation: '>=', source: 'two workers' });
     const [alone, together] = await workerTimes([large], 3 * runs);
     figure(`${large.name}: on one worker`, 'ms', alone);
     figure(`${large.name}: on two workers together`, 'ms', together);
@@ -159,8 +164,8 @@ export const benchmark: Benchmark = {
     figure(`${large.name}: longest slice`, 'ms', sliced.longest, { value: 16, relation: '<=', source: 'one frame' });
     const tiny = brief || onlyThreads ? [] : overTinybvh(rows).flatMap(({ byCenter, bySah }) => [byCenter, bySah]);
     if (tiny.length > 0) figure("all: balanced over tinybvh's AVX2 build, linked by three-mesh-bvh, geometric mean", '1', [geometricMean(tiny)], { value: 2, relation: '<=', source: 'twice as long as C++' });
-    const details: BvhDetails = { runs, rows, threads: { mesh: large.name, cold: cold!, warm: spreadOf(warm), one: spreadOf(one), two: spreadOf(two), alone: spreadOf(alone), together: spreadOf(together), sliced: spreadOf(sliced.all), longest: spreadOf(sliced.longest) } };
-    if (values['pages'] !== undefined && !onlyThreads) for (const file of writeBvhPage(brief ? 'bvh-brief' : values['two-cores'] === undefined ? 'bvh' : 'bvh-two-cores', { benchmark: 'bvh', machine: machine(), quick, figures, details }, values['pages'])) log(`wrote ${file}`);
+    const details: BvhDetails = { runs, rows, threads: { mesh: large.name, cold: cold!, warm: spreadOf(warm), one: spreadOf(one), two: spreadOf(two), parts: { name: parts.name, one: spreadOf(oneOfParts), two: spreadOf(twoOfParts) }, alone: spreadOf(alone), together: spreadOf(together), sliced: spreadOf(sliced.all), longest: spreadOf(sliced.longest) } };
+    if (values['pages'] !== undefined) for (const file of writeBvhPage(onlyThreads ? 'bvh-threads' : brief ? 'bvh-brief' : values['two-cores'] === undefined ? 'bvh' : 'bvh-two-cores', { benchmark: 'bvh', machine: machine(), quick, figures, details }, values['pages'])) log(`wrote ${file}`);
     return { details, settings: { runs, meshes: meshes.map(({ name }) => name), leaves: 'at most 4 triangles' }, figures, notes };
   },
 };

@@ -26,6 +26,13 @@ export function merged(name: string, scene: Scene): BenchMesh {
   return { name, positions, indices };
 }
 
+/** The meshes of a push-button, each by itself, as a scene has them. */
+export function partsOf(level: PushButtonLevel): { readonly name: string; readonly meshes: readonly BenchMesh[] } {
+  const meshes = createPushButton({ level }).meshes.map(({ name, positions, indices }) => ({ name, positions: new Float32Array(positions), indices: new Uint32Array(indices) }));
+  const triangles = meshes.reduce((sum, { indices }) => sum + indices.length / 3, 0);
+  return { name: `push-button of ${triangles.toLocaleString('en')} triangles in ${meshes.length} meshes`, meshes };
+}
+
 /** A sphere of latitude-longitude quads whose radius varies by a smooth noise and a fine one. */
 export function noisySphere(name: string, rings: number): BenchMesh {
   const segments = 2 * rings;

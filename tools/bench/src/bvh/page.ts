@@ -24,7 +24,7 @@ export interface MeshRow {
 export interface BvhDetails {
   readonly runs: number;
   readonly rows: readonly MeshRow[];
-  readonly threads: { readonly mesh: string; readonly cold: number; readonly warm: Spread; readonly one: Spread; readonly two: Spread; readonly alone: Spread; readonly together: Spread; readonly sliced: Spread; readonly longest: Spread };
+  readonly threads: { readonly mesh: string; readonly cold: number; readonly warm: Spread; readonly one: Spread; readonly two: Spread; readonly parts?: { readonly name: string; readonly one: Spread; readonly two: Spread }; readonly alone: Spread; readonly together: Spread; readonly sliced: Spread; readonly longest: Spread };
 }
 
 /** What was tried against brute force. */
@@ -96,12 +96,13 @@ function buildersTable(rows: readonly MeshRow[]): string {
   return table(['mesh', ...shown], [...rows.map((row) => [row.name, ...shown.map((name) => `${row.diffuse[name]!.toFixed(1)} in ${digits(row.times[name]!.min)} ms`)]), ['time : balanced, geometric mean (least – most)', ...shown.map((name) => (name === 'balanced' ? '1' : relative(name)))]]);
 }
 
-function threadsList({ mesh, cold, warm, alone, together, one, two, sliced, longest }: BvhDetails['threads']): string {
+function threadsList({ mesh, cold, warm, alone, together, one, two, parts, sliced, longest }: BvhDetails['threads']): string {
   return `With ${mesh}:
 
 - first build in a fresh thread ${digits(cold)} ms, further ones ${spread(warm)} ms: **${times(cold / warm.median)}** (asked: at most 2×)
 - one mesh on one worker ${spread(alone)} ms, on two together ${spread(together)} ms: **${times(alone.min / together.min)}** as fast (asked: 1.6×)
-- four such meshes on one worker ${spread(one)} ms, on two ${spread(two)} ms: **${times(one.min / two.min)}** as fast (asked: 1.6×)
+- four such meshes on one worker ${spread(one)} ms, on two ${spread(two)} ms: **${times(one.min / two.min)}** as fast (asked: 1.6×)${parts ? `
+- ${parts.name} on one worker ${spread(parts.one)} ms, on two ${spread(parts.two)} ms: **${times(parts.one.min / parts.two.min)}** as fast (asked: 1.6×)` : ''}
 - in slices on the main thread ${spread(sliced)} ms, the longest slice ${spread(longest)} ms (asked: at most 16)`;
 }
 
@@ -123,7 +124,7 @@ function gains(rows: readonly MeshRow[]): string {
 }
 
 /** The page of the documentation. */
-export function bvhMarkdown({ machine, details }: Report<BvhDetails> & { readonly details: BvhDetails }, paper?: Report<unknown>, small?: Report<BvhDetails>, brute?: Report<BruteDetails>, brief?: Report<BvhDetails>): string {
+export function bvhMarkdown({ machine, details }: Report<BvhDetails> & { readonly details: BvhDetails }, paper?: Report<unknown>, small?: Report<BvhDetails>, brute?: Report<BruteDetails>, brief?: Report<BvhDetails>, alone?: Report<BvhDetails>): string {
   const { rows, runs, threads } = details;
   const shown = paper?.figures?.filter(({ mean }) => mean !== undefined) ?? [];
   return `# Hierarchies
@@ -149,7 +150,11 @@ ${tinyList(rows)}
 ## Threads
 
 ${threadsList(threads)}
-${brief?.details ? `
+${alone?.details ? `
+With several meshes, as scenes have them, two workers share the builds; on one mesh they wait for each other now and then. By themselves, on ${alone.machine.cpu}, ${alone.machine.cores} cores, Node ${alone.machine.node}, commit ${alone.machine.commit ?? 'unknown'}, ${alone.machine.date.slice(0, 10)}, a machine that others shared:
+
+${threadsList(alone.details.threads)}
+` : ''}${brief?.details ? `
 ## Scanned and CAD meshes too
 
 \`balanced\` beside three-mesh-bvh alone, on ${brief.machine.cpu}, ${brief.machine.cores} cores, Node ${brief.machine.node}, commit ${brief.machine.commit ?? 'unknown'}, ${brief.machine.date.slice(0, 10)}${(brief.notes ?? []).map((note) => `; ${note}`).join('')}.
@@ -184,18 +189,18 @@ ${table(['what', 'mean ± 95 %'], shown.map(({ name, unit, mean, ci95 }) => [nam
 
 Measured on ${paper!.machine.cpu}, Node ${paper!.machine.node}, commit ${paper!.machine.commit ?? 'unknown'}, ${paper!.machine.date.slice(0, 10)}.
 `}
-Measured on ${machine.cpu}, ${machine.cores} cores, Node ${machine.node}, commit ${machine.commit ?? 'unknown'}, ${machine.date.slice(0, 10)}. \`npm run bench -- bvh --pages apps/docs/results\` and \`npm run bench -- paper-cpu --pages apps/docs/results\` write this page; the data are in \`bvh.json\`${brief ? ', `bvh-brief.json` (`--brief yes`)' : ''}${small ? ' and `bvh-two-cores.json` (`--two-cores yes`)' : ''}${shown.length === 0 ? '' : ' and `paper-cpu.json`'}.
+Measured on ${machine.cpu}, ${machine.cores} cores, Node ${machine.node}, commit ${machine.commit ?? 'unknown'}, ${machine.date.slice(0, 10)}. \`npm run bench -- bvh --pages apps/docs/results\` and \`npm run bench -- paper-cpu --pages apps/docs/results\` write this page; the data are in \`bvh.json\`${brief ? ', `bvh-brief.json` (`--brief yes`)' : ''}${alone ? ', `bvh-threads.json` (`--threads yes`)' : ''}${small ? ' and `bvh-two-cores.json` (`--two-cores yes`)' : ''}${shown.length === 0 ? '' : ' and `paper-cpu.json`'}.
 `;
 }
 
 /** Writes a report into the folder, and the page from all that is there. */
-export function writeBvhPage(name: 'bvh' | 'bvh-brief' | 'bvh-two-cores' | 'bvh-brute' | 'paper-cpu', report: object, folder: string): string[] {
+export function writeBvhPage(name: 'bvh' | 'bvh-brief' | 'bvh-threads' | 'bvh-two-cores' | 'bvh-brute' | 'paper-cpu', report: object, folder: string): string[] {
   mkdirSync(folder, { recursive: true });
   const file = (which: string) => join(folder, `${which}.json`);
   writeFileSync(file(name), `${JSON.stringify(report, null, 1)}\n`);
   const read = <T>(which: string) => (existsSync(file(which)) ? (JSON.parse(readFileSync(file(which), 'utf8')) as Report<T>) : undefined);
   const bvh = read<BvhDetails>('bvh');
   if (!bvh?.details) return [file(name)];
-  writeFileSync(join(folder, 'bvh.md'), bvhMarkdown({ ...bvh, details: bvh.details }, read('paper-cpu'), read('bvh-two-cores'), read('bvh-brute'), read('bvh-brief')));
+  writeFileSync(join(folder, 'bvh.md'), bvhMarkdown({ ...bvh, details: bvh.details }, read('paper-cpu'), read('bvh-two-cores'), read('bvh-brute'), read('bvh-brief'), read('bvh-threads')));
   return [file(name), join(folder, 'bvh.md')];
 }
