@@ -85,6 +85,7 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
   const surroundings = async () => {
     const groups = lightGroupTable(own, choices.lightGroups);
     const lights = await inSlices(lightSteps(own, (index) => isShown(own, own.instances[index] as Instance), groups, choices.lightSampling), { signal });
+    await breathe();
     return [await inSlices(environmentSteps(own.environment), { signal }), energyTextures((await loading).OPENPBR_TABLES), lights] as const;
   };
   const memory = new GpuMemory(device);

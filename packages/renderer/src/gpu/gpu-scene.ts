@@ -1,4 +1,4 @@
-import type { Environment, Mesh, Scene } from '@glanz/scene';
+import { inSlices, type Environment, type Mesh, type Scene } from '@glanz/scene';
 import type { KernelFeatures } from '../kernels/pipelines';
 import { instanceStruct, materialStruct, meshStruct } from '../kernels/layout';
 import type { ResourceName } from '../kernels/resources';
@@ -8,7 +8,7 @@ import { paintsAlpha, sceneFeatures, texturePlan, type SceneChoices, type Vertex
 import { joinSlices, packInstances, packTlas, shapeSlices, type Geometry, type MeshRegion, type PackedGeometry, type PackedMesh } from '../scene/geometry';
 import { breather } from '../scene/hierarchies';
 import { lightGroupTable, type LightGroupTable } from '../scene/light-groups';
-import { buildLightTable, noLights, placeLights, type GatheredLights, type LightTable } from '../scene/lights';
+import { buildLightTable, noLights, placingSteps, type GatheredLights, type LightGeometry, type LightTable } from '../scene/lights';
 import { isOpaque, packBindings, packMaterial, texturedParameters, type TexturedParameterInfo } from '../scene/materials';
 import type { TexturePlan } from '../scene/textures';
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_STORAGE, GPU_TEXTURE_BINDING, GPU_TEXTURE_COPY_DST, type GpuMemory } from './buffers';
@@ -241,11 +241,19 @@ export class GpuScene {
     });
     await breathe();
     for (const bytes of this.#environmentSlices()) await this.#keepUp(bytes, breathe);
+    const placed = gathered && (await inSlices(placingSteps(this.#scene, gathered, this.#places, this.#geometry.radius), { sliceMs: FILL_MS }));
+    this.#lights = placed ?? this.#buildLights();
+    const { records } = this.#lights;
     await withErrorScopes(this.#device, () => {
-      this.#lights = this.#buildLights(gathered);
-      this.#upload('lights', this.#lights.records);
+      this.#memory.release(this.#buffers.get('lights'));
+      this.#buffers.set('lights', this.#memory.buffer('lights', records.byteLength, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST));
       if (this.#lights.count > 0) this.#writeInstances();
     });
+    for (let at = 0; at < records.byteLength; at += FILL_BYTES) {
+      const bytes = Math.min(FILL_BYTES, records.byteLength - at);
+      this.#memory.write(this.#buffers.get('lights') as GPUBuffer, new Uint8Array(records, at, bytes), at);
+      await this.#keepUp(bytes, breathe);
+    }
   }
 
   /** Sorts the lights into groups anew; where that changes anything, materials are written again. */
@@ -299,7 +307,8 @@ export class GpuScene {
     return buffer;
   }
 
-  #buildLights(gathered?: GatheredLights): LightTable {
+  /** Where shapes are, as lights name them. */
+  get #places(): LightGeometry {
     const leaves = new Map<number, Uint32Array>();
     const leafTriangles = (mesh: number): Uint32Array => {
       let order = leaves.get(mesh);
@@ -312,10 +321,11 @@ export class GpuScene {
       }
       return order;
     };
-    const places = { instanceSlots: this.#geometry.instanceSlots, leafTriangles };
-    const { radius } = this.#geometry;
-    const placed = gathered && placeLights(this.#scene, gathered, places, radius);
-    return placed ?? buildLightTable(this.#scene, places, radius, this.#groups, this.#choices.lightSampling);
+    return { instanceSlots: this.#geometry.instanceSlots, leafTriangles };
+  }
+
+  #buildLights(): LightTable {
+    return buildLightTable(this.#scene, this.#places, this.#geometry.radius, this.#groups, this.#choices.lightSampling);
   }
 
   #upload(name: ResourceName, data: ArrayBufferView<ArrayBuffer> | ArrayBuffer): void {

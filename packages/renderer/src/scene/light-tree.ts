@@ -1,4 +1,7 @@
 import type { Steps } from '@glanz/scene';
+import { AXIS, BoundsStore, ENERGY, REACH, SPREAD, STRIDE, type TreeLights } from './light-bounds';
+
+export type { TreeLights } from './light-bounds';
 
 /**
  * A binary tree over lights, to pick those that matter at a place: Conty Estévez and Kulla, "Importance Sampling of Many
@@ -9,20 +12,6 @@ import type { Steps } from '@glanz/scene';
  * Built top down by the surface area orientation heuristic over 12 bins along the longest axis. Lights that are infinitely far
  * away hang in a branch of their own below the root; they have a direction and no place.
  */
-
-/** What the tree needs to know of lights. */
-export interface TreeLights {
-  /** Lowest and highest corner, stride 6. */
-  readonly bounds: Float64Array;
-  /** Unit vector that it shines along, stride 3. */
-  readonly axes: Float64Array;
-  /** Largest angle between the axis and a normal, radians: 0 for a flat light, π for one that shines all around. */
-  readonly spreads: Float64Array;
-  /** Angle from a normal up to which it shines, radians. */
-  readonly reaches: Float64Array;
-  /** Irradiance at a distance of 1 m, face to face: radiance × area, or radiant intensity. */
-  readonly energies: Float64Array;
-}
 
 /** Numbers of a node in `LightTree.values`, from its first on. */
 export const LIGHT_TREE_NODE = {
@@ -65,111 +54,6 @@ const STEP_LIGHTS = 4096;
 /** A trail has 32 bits. */
 const MOST_LEVELS = 32;
 
-/** Numbers that bound some lights: lowest and highest corner, axis, then the four below. */
-const STRIDE = 13;
-const AXIS = 6;
-const SPREAD = 9;
-const REACH = 10;
-const ENERGY = 11;
-/** Cosine of the spread. */
-const COS = 12;
-
-/** More than rounding moves a cosine. */
-const CLEARLY = 1e-9;
-
-/**
- * Bounds of lights and of sets of lights, in one array: the lights' own first, then places for sums. No objects, since every
- * level of the tree goes over all lights twice, in a scene's first moments, when nothing is compiled yet.
- */
-class BoundsStore {
-  readonly values: Float64Array;
-
-  constructor(lights: TreeLights, sums: number) {
-    const count = lights.energies.length;
-    const values = (this.values = new Float64Array(STRIDE * (count + sums)));
-    for (let i = 0; i < count; i++) {
-      for (let k = 0; k < 6; k++) values[STRIDE * i + k] = lights.bounds[6 * i + k] as number;
-      for (let k = 0; k < 3; k++) values[STRIDE * i + AXIS + k] = lights.axes[3 * i + k] as number;
-      values[STRIDE * i + SPREAD] = lights.spreads[i] as number;
-      values[STRIDE * i + REACH] = lights.reaches[i] as number;
-      values[STRIDE * i + ENERGY] = lights.energies[i] as number;
-      values[STRIDE * i + COS] = Math.cos(lights.spreads[i] as number);
-    }
-  }
-
-  copy(to: number, from: number): void {
-    this.values.copyWithin(STRIDE * to, STRIDE * from, STRIDE * from + STRIDE);
-  }
-
-  /** Grows the bounds at `to` by those at `from`: the box around both, and the smallest cone around two. */
-  unite(to: number, from: number): void {
-    const v = this.values;
-    const a = STRIDE * to;
-    const b = STRIDE * from;
-    if ((v[b] as number) < (v[a] as number)) v[a] = v[b] as number;
-    if ((v[b + 1] as number) < (v[a + 1] as number)) v[a + 1] = v[b + 1] as number;
-    if ((v[b + 2] as number) < (v[a + 2] as number)) v[a + 2] = v[b + 2] as number;
-    if ((v[b + 3] as number) > (v[a + 3] as number)) v[a + 3] = v[b + 3] as number;
-    if ((v[b + 4] as number) > (v[a + 4] as number)) v[a + 4] = v[b + 4] as number;
-    if ((v[b + 5] as number) > (v[a + 5] as number)) v[a + 5] = v[b + 5] as number;
-    v[a + ENERGY] = (v[a + ENERGY] as number) + (v[b + ENERGY] as number);
-    if ((v[b + REACH] as number) > (v[a + REACH] as number)) v[a + REACH] = v[b + REACH] as number;
-    const spreadA = v[a + SPREAD] as number, spreadB = v[b + SPREAD] as number;
-    if (spreadA >= Math.PI) return;
-    const ax = v[a + AXIS] as number, ay = v[a + AXIS + 1] as number, az = v[a + AXIS + 2] as number;
-    const bx = v[b + AXIS] as number, by = v[b + AXIS + 1] as number, bz = v[b + AXIS + 2] as number;
-    const cos = Math.min(1, Math.max(-1, ax * bx + ay * by + az * bz));
-    // Most lights are flat, and within the cone of those before them.
-    if (spreadB === 0 && cos > (v[a + COS] as number) + CLEARLY) return;
-    const between = Math.acos(cos);
-    if (Math.min(between + spreadB, Math.PI) <= spreadA) return;
-    if (Math.min(between + spreadA, Math.PI) <= spreadB) {
-      v.copyWithin(a + AXIS, b + AXIS, b + SPREAD + 1);
-      v[a + COS] = v[b + COS] as number;
-      return;
-    }
-    const spread = (spreadA + between + spreadB) / 2;
-    // From a's axis towards b's: the part of b's across a's, where there is one.
-    const x = bx - cos * ax, y = by - cos * ay, z = bz - cos * az;
-    const length = Math.sqrt(x * x + y * y + z * z);
-    if (spread >= Math.PI || length < 1e-9) {
-      v[a + SPREAD] = Math.PI;
-      v[a + COS] = -1;
-      return;
-    }
-    const turn = spread - spreadA;
-    const along = Math.cos(turn);
-    const aside = Math.sin(turn) / length;
-    v[a + AXIS] = along * ax + aside * x;
-    v[a + AXIS + 1] = along * ay + aside * y;
-    v[a + AXIS + 2] = along * az + aside * z;
-    v[a + SPREAD] = spread;
-    v[a + COS] = Math.cos(spread);
-  }
-
-  /** What it costs to have these lights in one node: energy, times where they are, times where they shine. */
-  cost(at: number): number {
-    const v = this.values;
-    const a = STRIDE * at;
-    const x = (v[a + 3] as number) - (v[a] as number);
-    const y = (v[a + 4] as number) - (v[a + 1] as number);
-    const z = (v[a + 5] as number) - (v[a + 2] as number);
-    const spread = v[a + SPREAD] as number;
-    const all = Math.min(spread + (v[a + REACH] as number), Math.PI);
-    const sin = Math.sin(spread), cos = v[a + COS] as number;
-    // Directions that the cone shines into, weighed by the cosine beyond its spread.
-    const solidAngle = 2 * Math.PI * (1 - cos) + (Math.PI / 2) * (2 * all * sin - Math.cos(spread - 2 * all) - 2 * spread * sin + cos);
-    return (v[a + ENERGY] as number) * solidAngle * (x * y + y * z + z * x);
-  }
-}
-
-/** Axis that the centres of some lights spread most along, where they begin on it and how far they reach. */
-interface Spread {
-  readonly axis: number;
-  readonly start: number;
-  readonly extent: number;
-}
-
 /**
  * What a tree is built with. A class, since its methods are the same for every tree: machine code that the engine has made for
  * one scene's serves the next.
@@ -190,6 +74,11 @@ class LightTreeBuilder {
   readonly #right = new Float64Array(BINS);
   /** By place in the order, while a node is split. */
   readonly #bins: Uint8Array;
+  /** Least and largest centres of a node's lights, and the axis that is split along. */
+  readonly #reach = new Float64Array(6);
+  #axis = 0;
+  #start = 0;
+  #extent = 0;
   /** Node, range of the order, level and trail of each that waits to be made: one a level, and one more. */
   readonly #waiting = new Uint32Array(5 * (MOST_LEVELS + 2));
   #made = 1;
@@ -203,10 +92,15 @@ class LightTreeBuilder {
     const nodes = 2 * this.#order.length - 1;
     this.tree = { count: nodes, values: new Float64Array(LIGHT_TREE_NODE.stride * nodes), kinds: new Uint8Array(nodes), links: new Uint32Array(nodes), trails: new Uint32Array(count) };
     this.#centers = new Float64Array(3 * count);
-    for (let i = 0; i < count; i++) for (let k = 0; k < 3; k++) this.#centers[3 * i + k] = (lights.bounds[6 * i + k] as number) + (lights.bounds[6 * i + 3 + k] as number);
-    this.#store = new BoundsStore(lights, 2 + BINS);
+    this.#store = new BoundsStore(count, 2 + BINS);
     [this.#node, this.#sum, this.#firstBin] = [count, count + 1, count + 2];
     this.#bins = new Uint8Array(this.#order.length);
+  }
+
+  /** Takes in what is known of the lights from one index to another. */
+  take(lights: TreeLights, from: number, to: number): void {
+    this.#store.take(lights, from, to);
+    for (let i = from; i < to; i++) for (let k = 0; k < 3; k++) this.#centers[3 * i + k] = (lights.bounds[6 * i + k] as number) + (lights.bounds[6 * i + 3 + k] as number);
   }
 
   /** Makes all nodes. */
@@ -217,6 +111,9 @@ class LightTreeBuilder {
     for (let top = this.#wait(0, 0, 0, this.#order.length, 0, 0); top > 0; ) {
       top -= 5;
       const node = waiting[top] as number, from = waiting[top + 1] as number, to = waiting[top + 2] as number, level = waiting[top + 3] as number, trail = waiting[top + 4] as number;
+      const large = to - from > STEP_LIGHTS;
+      if (large) yield* this.#gather(from, to);
+      else this.#gatherAll(from, to);
       const middle = this.#makeNode(node, from, to, level, trail);
       if (middle > from) {
         const child = this.tree.links[node] as number;
@@ -241,9 +138,8 @@ class LightTreeBuilder {
     return top + 5;
   }
 
-  /** Makes one node; where its second child begins in the order, or `from` for a leaf. */
+  /** Makes one node of what was gathered; where its second child begins in the order, or `from` for a leaf. */
   #makeNode(node: number, from: number, to: number, level: number, trail: number): number {
-    this.#whole(from, to);
     this.#write(node);
     const { kinds, links, trails } = this.tree;
     kinds[node] = (to - from === 1 ? LIGHT_TREE_LEAF : 0) | (from >= this.#firstDistant ? LIGHT_TREE_DISTANT : 0);
@@ -258,9 +154,64 @@ class LightTreeBuilder {
     return this.#split(from, to, level);
   }
 
-  #whole(from: number, to: number): void {
-    this.#store.copy(this.#node, this.#order[from] as number);
-    for (let i = from + 1; i < to; i++) this.#store.unite(this.#node, this.#order[i] as number);
+  /** Gathers what a node and its split need to know of order[from, to): the sum of its lights, and their bins. */
+  #gatherAll(from: number, to: number): void {
+    this.#begin(from);
+    this.#add(from + 1, to);
+    if (this.#choose(from, to)) this.#fill(from, to, to - from > 2);
+  }
+
+  /** The same in pieces, of many lights. */
+  *#gather(from: number, to: number): Steps<void> {
+    this.#begin(from);
+    for (let at = from + 1; at < to; at += STEP_LIGHTS, yield) this.#add(at, Math.min(to, at + STEP_LIGHTS));
+    if (this.#choose(from, to)) for (let at = from; at < to; at += STEP_LIGHTS, yield) this.#fill(at, Math.min(to, at + STEP_LIGHTS), true);
+  }
+
+  #begin(from: number): void {
+    const light = this.#order[from] as number;
+    this.#store.copy(this.#node, light);
+    for (let k = 0; k < 3; k++) this.#reach[k] = this.#reach[3 + k] = this.#centers[3 * light + k] as number;
+    this.#filled.fill(0);
+  }
+
+  /** Adds the lights of order[from, to) to the node's sum, and to how far their centres reach. */
+  #add(from: number, to: number): void {
+    const order = this.#order, centers = this.#centers, reach = this.#reach, store = this.#store;
+    for (let i = from; i < to; i++) {
+      const light = order[i] as number;
+      store.unite(this.#node, light);
+      for (let k = 0; k < 3; k++) {
+        const c = centers[3 * light + k] as number;
+        if (c < (reach[k] as number)) reach[k] = c;
+        else if (c > (reach[3 + k] as number)) reach[3 + k] = c;
+      }
+    }
+  }
+
+  /** Chooses the axis along which the centres reach farthest; whether there is anything to split along it. */
+  #choose(from: number, to: number): boolean {
+    const reach = this.#reach;
+    this.#axis = 0;
+    for (let k = 1; k < 3; k++) if ((reach[3 + k] as number) - (reach[k] as number) > (reach[3 + this.#axis] as number) - (reach[this.#axis] as number)) this.#axis = k;
+    this.#start = reach[this.#axis] as number;
+    this.#extent = (reach[3 + this.#axis] as number) - this.#start;
+    return this.#extent > 0 && to <= this.#firstDistant && to - from > 1;
+  }
+
+  /** Sorts the lights of order[from, to) into bins, and sums them up there if that tells anything. */
+  #fill(from: number, to: number, sum: boolean): void {
+    const order = this.#order, centers = this.#centers, bins = this.#bins, filled = this.#filled, store = this.#store;
+    const axis = this.#axis, start = this.#start, extent = this.#extent;
+    for (let i = from; i < to; i++) {
+      const light = order[i] as number;
+      const bin = Math.min(BINS - 1, Math.floor((BINS * ((centers[3 * light + axis] as number) - start)) / extent));
+      bins[i] = bin;
+      if (!sum) continue;
+      if (filled[bin]) store.unite(this.#firstBin + bin, light);
+      else store.copy(this.#firstBin + bin, light);
+      filled[bin] = 1;
+    }
   }
 
   /** Makes a node of the sum at #node. */
@@ -276,56 +227,25 @@ class LightTreeBuilder {
     values[at + LIGHT_TREE_NODE.energy] = v[n + ENERGY] as number;
   }
 
-  /** Sorts order[from, to) so that a split lies at the index returned. */
+  /** Sorts order[from, to), whose bins are known, so that a split lies at the index returned. */
   #split(from: number, to: number, level: number): number {
     if (from < this.#firstDistant && to > this.#firstDistant) return this.#firstDistant;
     const middle = (from + to) >> 1;
     if (from >= this.#firstDistant) return middle;
-    const spread = this.#widest(from, to);
     // Halves keep the way to a light within a trail's bits.
-    const halves = spread.extent <= 0 || Math.ceil(Math.log2(to - from)) + 1 >= MOST_LEVELS - level;
+    const halves = this.#extent <= 0 || Math.ceil(Math.log2(to - from)) + 1 >= MOST_LEVELS - level;
     if (!halves) {
-      const end = this.#partition(from, to, this.#bin(from, to, spread));
+      // Two lie in the first bin and the last, and every cut is the same.
+      const end = this.#partition(from, to, to - from > 2 ? this.#bestCut() : BINS - 1);
       if (end > from && end < to) return end;
     }
-    const centers = this.#centers;
-    const { axis } = spread;
+    const centers = this.#centers, axis = this.#axis;
     this.#order.subarray(from, to).sort((a, b) => (centers[3 * a + axis] as number) - (centers[3 * b + axis] as number) || a - b);
     return middle;
   }
 
-  #widest(from: number, to: number): Spread {
-    const order = this.#order, centers = this.#centers;
-    let axis = 0, start = 0, extent = -Infinity;
-    for (let k = 0; k < 3; k++) {
-      let low = Infinity, high = -Infinity;
-      for (let i = from; i < to; i++) {
-        const c = centers[3 * (order[i] as number) + k] as number;
-        if (c < low) low = c;
-        if (c > high) high = c;
-      }
-      if (high - low > extent) {
-        axis = k;
-        start = low;
-        extent = high - low;
-      }
-    }
-    return { axis, start, extent };
-  }
-
-  /** Sorts lights into bins; the first bin beyond the best cut. */
-  #bin(from: number, to: number, { axis, start, extent }: Spread): number {
-    const order = this.#order, centers = this.#centers, bins = this.#bins, filled = this.#filled, store = this.#store;
-    for (let i = from; i < to; i++) bins[i] = Math.min(BINS - 1, Math.floor((BINS * ((centers[3 * (order[i] as number) + axis] as number) - start)) / extent));
-    // Two lie in the first bin and the last, and every cut is the same.
-    if (to - from <= 2) return BINS - 1;
-    filled.fill(0);
-    for (let i = from; i < to; i++) {
-      const bin = bins[i] as number;
-      if (filled[bin]) store.unite(this.#firstBin + bin, order[i] as number);
-      else store.copy(this.#firstBin + bin, order[i] as number);
-      filled[bin] = 1;
-    }
+  /** The bin before which the lights are best cut. */
+  #bestCut(): number {
     this.#sweep(this.#left, 0, 1);
     this.#sweep(this.#right, BINS - 1, -1);
     let best = 1;
@@ -376,6 +296,9 @@ class LightTreeBuilder {
  * @param near Indices of the lights that are in it and have a place, each with an energy above 0.
  * @param distant Those infinitely far away; of all there is one at least.
  */
-export function lightTreeSteps(lights: TreeLights, near: ArrayLike<number>, distant: ArrayLike<number> = []): Steps<LightTree> {
-  return new LightTreeBuilder(lights, near, distant).steps();
+export function* lightTreeSteps(lights: TreeLights, near: ArrayLike<number>, distant: ArrayLike<number> = []): Steps<LightTree> {
+  const builder = new LightTreeBuilder(lights, near, distant);
+  const count = lights.energies.length;
+  for (let from = 0; from < count; from += STEP_LIGHTS, yield) builder.take(lights, from, Math.min(count, from + STEP_LIGHTS));
+  return yield* builder.steps();
 }

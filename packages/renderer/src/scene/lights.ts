@@ -48,7 +48,7 @@ interface Emitter {
   readonly triangles: number;
 }
 
-/** All that can be told of a scene's lights before its shapes have their places: {@link placeLights} adds the rest. */
+/** All that can be told of a scene's lights before its shapes have their places: {@link placingSteps} adds the rest. */
 export interface GatheredLights {
   /** As `LightTable.records`, without what names shapes, and without chances. */
   readonly records: ArrayBuffer;
@@ -96,8 +96,9 @@ export function* lightSteps(scene: Scene, shows: (instance: number) => boolean, 
   const firstOther = firstArea + areas.length;
   const placesOf = (type: Light['type']) => others.flatMap((light, i) => (light.type === type ? [firstOther + i] : []));
   const directional = placesOf('directional');
+  yield;
   const tree = sampling === 'tree' ? yield* treeOf(bounds, weights, new Set(directional)) : undefined;
-  const records = withProfiles(tree ? withNodes(lights, count, tree) : lights, profiles, placesOf('profile'));
+  const records = withProfiles(tree ? yield* withNodes(lights, count, tree) : lights, profiles, placesOf('profile'));
   return { records, count, profiles: profiles.size > 0, tree, firstArea, areaCount: areas.length, firstLight, emitters, weights, directional };
 }
 
@@ -107,21 +108,26 @@ export function* lightSteps(scene: Scene, shows: (instance: number) => boolean, 
  * @param sceneRadius Radius of the scene's bounding sphere, metres, to weigh directional lights.
  * @returns Undefined where something glows that has no place after all: to be gathered without it.
  */
-export function placeLights(scene: Scene, lights: GatheredLights, geometry: LightGeometry, sceneRadius: number): LightTable | undefined {
+export function* placingSteps(scene: Scene, lights: GatheredLights, geometry: LightGeometry, sceneRadius: number): Steps<LightTable | undefined> {
   const { records, count, profiles, tree, firstArea, areaCount, firstLight, emitters, weights, directional } = lights;
   if (emitters.some(({ instance }) => geometry.instanceSlots[instance] === NONE)) return undefined;
   for (const i of directional) (weights[i] as number) *= sceneRadius * sceneRadius;
   const table = buildAliasTable(weights);
   if (!table) return noLights(scene);
-  for (const { instance, base, triangles } of emitters) nameTriangles(records, base, triangles, geometry.instanceSlots[instance] as number, geometry.leafTriangles((scene.instances[instance] as Instance).mesh));
+  yield;
+  for (const { instance, base, triangles } of emitters) {
+    nameTriangles(records, base, triangles, geometry.instanceSlots[instance] as number, geometry.leafTriangles((scene.instances[instance] as Instance).mesh));
+    yield;
+  }
   writeChances(records, table, tree);
+  yield;
   return { records, count, profiles, tree: tree !== undefined, firstArea, areaCount, firstLight, power: sumOf(weights) };
 }
 
 /** The table in one go. */
 export function buildLightTable(scene: Scene, geometry: LightGeometry, sceneRadius: number, groups: LightGroupTable, sampling: LightSampling): LightTable {
   const lights = finish(lightSteps(scene, (instance) => geometry.instanceSlots[instance] !== NONE, groups, sampling));
-  return placeLights(scene, lights, geometry, sceneRadius) as LightTable;
+  return finish(placingSteps(scene, lights, geometry, sceneRadius)) as LightTable;
 }
 
 function sumOf(values: Float64Array): number {
@@ -179,16 +185,28 @@ function withProfiles(before: ArrayBuffer, profiles: Profiles, users: readonly n
   return records;
 }
 
-/** The light records with the nodes of the tree behind them. Written word by word: thousands of them, while nothing is compiled yet. */
-function withNodes(lights: ArrayBuffer, count: number, { count: nodes, values, kinds, links }: LightTree): ArrayBuffer {
-  const records = lightStruct.allocate(count + nodes);
+/** Nodes that are written between two stops. */
+const STEP_NODES = 4096;
+
+/** The light records with the nodes of the tree behind them. */
+function* withNodes(lights: ArrayBuffer, count: number, tree: LightTree): Steps<ArrayBuffer> {
+  const records = lightStruct.allocate(count + tree.count);
   new Uint8Array(records).set(new Uint8Array(lights));
+  for (let first = 0; first < tree.count; first += STEP_NODES) {
+    yield;
+    writeNodes(records, count, tree, first, Math.min(tree.count, first + STEP_NODES));
+  }
+  return records;
+}
+
+/** Writes nodes behind `count` lights. Word by word: thousands of them, while nothing is compiled yet. */
+function writeNodes(records: ArrayBuffer, count: number, { values, kinds, links }: LightTree, first: number, end: number): void {
   const floats = new Float32Array(records);
   const integers = new Uint32Array(records);
   const words = lightStruct.size / 4;
   const at = { a: wordOf('a'), kind: wordOf('kind'), b: wordOf('b'), probability: wordOf('probability'), c: wordOf('c'), other: wordOf('other') };
   const { center, radius, axis, cosSpread, cosReach, energy, stride } = LIGHT_TREE_NODE;
-  for (let i = 0, row = count * words, from = 0; i < nodes; i++, row += words, from += stride) {
+  for (let i = first, row = (count + first) * words, from = first * stride; i < end; i++, row += words, from += stride) {
     const kind = kinds[i] as number;
     for (let k = 0; k < 3; k++) {
       floats[row + at.a + k] = values[from + center + k] as number;
@@ -201,5 +219,4 @@ function withNodes(lights: ArrayBuffer, count: number, { count: nodes, values, k
     integers[row + at.kind] = (kind & LIGHT_TREE_LEAF ? LIGHT_NODE_LEAF : 0) | (kind & LIGHT_TREE_DISTANT ? LIGHT_NODE_DISTANT : 0);
     integers[row + at.other] = (links[i] as number) + (kind & LIGHT_TREE_LEAF ? 0 : count);
   }
-  return records;
 }

@@ -3,7 +3,7 @@ import { describe, expect, it } from 'vitest';
 import { NONE, lightStruct } from '../../src/kernels/layout';
 import { prepareGeometry } from '../../src/scene/geometry';
 import { lightGroupTable } from '../../src/scene/light-groups';
-import { buildLightTable, lightSteps, placeLights, type LightGeometry } from '../../src/scene/lights';
+import { buildLightTable, lightSteps, placingSteps, type LightGeometry } from '../../src/scene/lights';
 import { emittedRadiance } from '../../src/scene/materials';
 import { parametersOf } from '../../src/scene/parameters';
 import { addQuad, createScene } from '../scenes';
@@ -31,7 +31,7 @@ describe('lights', () => {
     const places = placesOf(instanceSlots);
     for (const sampling of ['tree', 'power'] as const) {
       const gathered = finish(lightSteps(scene, () => true, groups, sampling));
-      const table = placeLights(scene, gathered, places, radius)!;
+      const table = finish(placingSteps(scene, gathered, places, radius))!;
       expect(table).toEqual(buildLightTable(scene, places, radius, groups, sampling));
       expect(table.count).toBe(6);
       // Two triangles, one that does not glow left out, two more: which shapes they are.
@@ -50,7 +50,7 @@ describe('lights', () => {
     const { instanceSlots, radius } = await prepareGeometry(scene);
     expect(instanceSlots[0]).toBe(NONE);
     const groups = lightGroupTable(scene, 'named');
-    expect(placeLights(scene, finish(lightSteps(scene, () => true, groups, 'tree')), placesOf(instanceSlots), radius)).toBeUndefined();
+    expect(finish(placingSteps(scene, finish(lightSteps(scene, () => true, groups, 'tree')), placesOf(instanceSlots), radius))).toBeUndefined();
     const { count, firstLight } = buildLightTable(scene, placesOf(instanceSlots), radius, groups, 'tree');
     expect([count, ...firstLight]).toEqual([4, NONE, NONE, 0]);
   });

@@ -1,10 +1,25 @@
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
+import { createPushButton } from '@glanz/models';
+import { sceneToGlb } from '@glanz/models/gltf';
 import { timed, type Benchmark, type Figure } from '../benchmark';
 import { sphereFile } from '../main-thread/model';
 import { openPlayground } from '../main-thread/page';
 
 const FRAME = { value: 16, relation: '<=', source: 'one frame' } as const;
+
+/** What is loaded: one mesh with and without normals, and one of many parts whose lamp is made of tens of thousands of triangles. */
+async function models(quick: boolean): Promise<readonly { readonly what: string; readonly name: string; readonly bytes: Uint8Array }[]> {
+  const rings = quick ? 100 : 518;
+  const [smooth, flat] = [await sphereFile(rings, true), await sphereFile(rings, false)];
+  const button = createPushButton({ level: quick ? 'low' : 'high' });
+  const triangles = button.meshes.reduce((sum, { indices }) => sum + indices.length / 3, 0);
+  return [
+    { what: `${smooth.triangles} triangles with normals`, name: 'sphere-normals.glb', bytes: smooth.bytes },
+    { what: `${flat.triangles} triangles without normals`, name: 'sphere.glb', bytes: flat.bytes },
+    { what: `push-button of ${triangles} triangles, with a glowing lens`, name: 'push-button.glb', bytes: await sceneToGlb(button) },
+  ];
+}
 
 /** How long the playground's own thread is not free while a large model is read, built and shown, in Chromium. */
 export const benchmark: Benchmark = {
@@ -18,11 +33,8 @@ export const benchmark: Benchmark = {
     const gpu = values['hardware'] === 'yes' ? 'hardware' : 'software';
     const page = await openPlayground(values['profile'] !== undefined, gpu);
     try {
-      for (const normals of [true, false]) {
-        const { bytes, triangles } = await sphereFile(quick ? 100 : 518, normals);
-        const name = normals ? 'sphere-normals.glb' : 'sphere.glb';
+      for (const { what, name, bytes } of await models(quick)) {
         writeFileSync(join(folder, name), bytes);
-        const what = `${triangles} triangles ${normals ? 'with' : 'without'} normals`;
         const seen = [];
         for (let i = 0; i < runs; i++) {
           const one = await page.watch(name, join(folder, name));
