@@ -111,13 +111,11 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
     const t2 = performance.now();
     onProgress?.({ stage: 'upload', done: 1 });
     const features = kernelFeatures(gpuScene.features(), camera, options);
-    let film = await early?.[1];
-    if (film?.planes !== features.planes) {
-      film?.destroy();
-      film = await makeFilm(features.planes);
-    }
-    const picture = film;
-    const integrator = await withErrorScopes(device, () => new Integrator(device, memory, gpuScene, features, picture, options.pathsInFlight, { maxDepth: options.maxDepth ?? 8, maxVolumeDepth: options.maxVolumeDepth ?? 256 }));
+    const ahead = await early?.[1];
+    const fits = ahead?.planes === features.planes;
+    if (!fits) ahead?.destroy();
+    const film = fits ? ahead : await makeFilm(features.planes);
+    const integrator = await withErrorScopes(device, () => new Integrator(device, memory, gpuScene, features, film, options.pathsInFlight, { maxDepth: options.maxDepth ?? 8, maxVolumeDepth: options.maxVolumeDepth ?? 256 }));
     const rehearsals: Promise<void>[] = [];
     const hear = (done: number, name?: KernelName, kernel?: Kernel) => {
       onProgress?.({ stage: 'compile', done });
@@ -133,7 +131,7 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
     if (lost) throw deviceLost(lost);
     late = true;
     const times = { checkMs: checked - begun, textMs, bvhMs: t1 - asked, uploadMs: t2 - t1, lightMs: t2 - shaped, compileMs: compiling.milliseconds };
-    return { device, memory, editor: new SceneEditor(own, geometry, gpuScene, hierarchies), gpuScene, cache, integrator, film: picture, camera, options, times };
+    return { device, memory, editor: new SceneEditor(own, geometry, gpuScene, hierarchies), gpuScene, cache, integrator, film, camera, options, times };
   } catch (error) {
     memory.destroy();
     throw error;

@@ -1,4 +1,5 @@
-import { LIGHT_TREE_DISTANT, LIGHT_TREE_LEAF, LIGHT_TREE_NODE, type LightTree, type TreeLights } from '../src/scene/light-tree';
+import type { TreeLights } from '../src/scene/light-bounds';
+import { LIGHT_TREE_DISTANT, LIGHT_TREE_LEAF, LIGHT_TREE_NODE, type LightTree } from '../src/scene/light-tree';
 
 /** Random numbers in [0, 1) by Mulberry32. */
 export function random(seed: number): () => number {

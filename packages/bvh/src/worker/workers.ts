@@ -2,16 +2,14 @@ import type { Blas, TriangleMesh } from '../blas';
 import { BvhError } from '../error';
 import { copyAll, roomFor, type Copy } from './copy';
 import { BuildsHere, type Job } from './here';
-import { connect, hardwareThreads, startWorker, type NodeWorkerLike, type WebWorkerLike, type WorkerLine } from './line';
+import { connect, hardwareThreads, startWorker, type NodeWorkerLike, type WebWorkerLike } from './line';
 import type { BvhWorkersOptions, WorkerBuildOptions } from './options';
 import { buffersOf, receivedError, sendableOptions, type BuildReply, type BuildRequest } from './protocol';
+import { seatsWorth, type Seat } from './seat';
 import { teamMemory, type TeamMemory } from './team';
 
 export type { NodeWorkerLike, WebWorkerLike } from './line';
 export type { BvhWorkersOptions, WorkerBuildOptions } from './options';
-
-/** Where there is no more to build than so many triangles, one worker does it all: others would compile their code anew for it. */
-const SHARE = 48_000;
 
 /** Workers that warm up at a time: the calling thread has work too, and all share the threads that compile. */
 const WARM_AT_ONCE = 2;
@@ -30,23 +28,6 @@ const WORTH_ENDING = 100_000;
 
 /** A worker that has not reported by then will not. */
 const START_MS = 15_000;
-
-/** A place in the pool for one worker after another. */
-interface Seat {
-  line: WorkerLine | undefined;
-  ready: boolean;
-  /** Waits for a worker to report. */
-  timer: ReturnType<typeof setTimeout> | undefined;
-  /** Builds that were sent and not answered, abandoned ones too. */
-  readonly jobs: Map<number, Job>;
-  /** Their triangles. */
-  load: number;
-  warmth: Warmth;
-}
-
-/** How far a worker is with warming up, where that is asked for. */
-type Warmth = (typeof WARMTHS)[number];
-const WARMTHS = ['warm', 'warming', 'cold'] as const;
 
 /**
  * Builds hierarchies off the calling thread, several at a time. Module workers in browsers, `worker_threads` in Node.
@@ -311,7 +292,7 @@ export class BvhWorkers {
   /** Gives what waits to the workers that have least to do, or builds it here. */
   #next(): void {
     if (this.#fallback !== undefined) void this.#here.run(this.#queue);
-    const seats = [...this.#seats].filter(({ ready }) => ready).sort((a, b) => WARMTHS.indexOf(a.warmth) - WARMTHS.indexOf(b.warmth)).slice(0, Math.max(1, Math.ceil(this.#burst / SHARE)));
+    const seats = seatsWorth(this.#seats, this.#burst);
     for (;;) {
       let free: Seat | undefined;
       for (const seat of seats) if ((seat.jobs.size === 0 || seat.load < AHEAD) && seat.load < (free?.load ?? Infinity)) free = seat;

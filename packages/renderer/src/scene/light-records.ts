@@ -1,7 +1,13 @@
 import type { DiskLight, Light, ProfileLight, RectangleLight, SphereLight } from '@glanz/scene';
 import { LIGHT_DIRECTIONAL, LIGHT_DISK, LIGHT_HIDDEN, LIGHT_POINT, LIGHT_PROFILE, LIGHT_RECTANGLE, LIGHT_SPHERE, LIGHT_SPOT, lightStruct, NONE } from '../kernels/layout';
 import type { ProfileGrid } from './light-profile';
-import type { TreeLights } from './light-tree';
+import type { TreeLights } from './light-bounds';
+
+/** Luminance of a colour, linear Rec. 709. */
+export const luminance = (c: ArrayLike<number>): number => 0.2126 * (c[0] as number) + 0.7152 * (c[1] as number) + 0.0722 * (c[2] as number);
+
+/** Where a field of a light record lies, in words. */
+export const wordOf = (field: Parameters<typeof lightStruct.offsetOf>[0]): number => lightStruct.offsetOf(field) / 4;
 
 type Vector = readonly [number, number, number];
 
@@ -32,7 +38,7 @@ function axesOf(light: RectangleLight | DiskLight | ProfileLight): [Vector, Vect
 export function writeLight(records: ArrayBuffer, tree: TreeLights, index: number, light: Light, sceneRadius: number, group: number, profile?: { readonly grid: ProfileGrid; readonly first: number }): number {
   const color = light.color.map((c) => c * light.intensity);
   const ids = [NONE, NONE, NONE, NONE];
-  const bright = 0.2126 * (color[0] as number) + 0.7152 * (color[1] as number) + 0.0722 * (color[2] as number);
+  const bright = luminance(color);
   const note = (middle: Vector, extent: Vector, axis: Vector, spread: number, reach: number, energy: number) => {
     for (let k = 0; k < 3; k++) {
       tree.bounds[6 * index + k] = (middle[k] as number) - (extent[k] as number);

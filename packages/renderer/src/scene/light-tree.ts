@@ -1,8 +1,6 @@
 import type { Steps } from '@glanz/scene';
 import { AXIS, BoundsStore, ENERGY, REACH, SPREAD, STRIDE, type TreeLights } from './light-bounds';
 
-export type { TreeLights } from './light-bounds';
-
 /**
  * A binary tree over lights, to pick those that matter at a place: Conty Estévez and Kulla, "Importance Sampling of Many
  * Lights with Adaptive Tree Splitting" (2018), as pbrt 4 has it, without the splitting. Each node bounds where its lights

@@ -2,16 +2,11 @@ import type { Instance, Material, Mesh, Scene, Steps } from '@glanz/scene';
 import { GROUP_SHIFT, LIGHT_MIRRORED, LIGHT_TRIANGLE, LIGHT_TWO_SIDED, lightStruct } from '../kernels/layout';
 import { EmissionEstimate } from './emission';
 import type { LightGroupTable } from './light-groups';
-import type { TreeLights } from './light-tree';
+import { luminance, wordOf } from './light-records';
+import type { TreeLights } from './light-bounds';
 import { emittedRadiance } from './materials';
 import { determinant3, transformPoint } from './matrix';
 import { parametersOf } from './parameters';
-
-/** Luminance of a colour, linear Rec. 709. */
-export const luminance = (c: ArrayLike<number>): number => 0.2126 * (c[0] as number) + 0.7152 * (c[1] as number) + 0.0722 * (c[2] as number);
-
-/** Where a field of a light record lies, in words. */
-export const wordOf = (field: Parameters<typeof lightStruct.offsetOf>[0]): number => lightStruct.offsetOf(field) / 4;
 
 /** The texture coordinates of a triangle's corners. */
 const cornersOf = (uvs: Float32Array, indices: Uint32Array, triangle: number) =>

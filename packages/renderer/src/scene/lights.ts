@@ -1,11 +1,12 @@
 import { finish, type Instance, type Light, type LightProfile, type Material, type Mesh, type Scene, type Steps } from '@glanz/scene';
 import { GROUP_SHIFT, LIGHT_NODE_DISTANT, LIGHT_NODE_LEAF, lightStruct, NONE } from '../kernels/layout';
 import { buildAliasTable, type AliasTable } from './alias-table';
+import type { TreeLights } from './light-bounds';
 import type { LightGroupTable } from './light-groups';
 import { profileGrid, profileRecords, writeProfile, type ProfileGrid } from './light-profile';
-import { hasSize, writeLight } from './light-records';
-import { LIGHT_TREE_DISTANT, LIGHT_TREE_LEAF, LIGHT_TREE_NODE, lightTreeSteps, type LightTree, type TreeLights } from './light-tree';
-import { luminance, nameTriangles, triangleSteps, wordOf } from './light-triangles';
+import { hasSize, luminance, wordOf, writeLight } from './light-records';
+import { LIGHT_TREE_DISTANT, LIGHT_TREE_LEAF, LIGHT_TREE_NODE, lightTreeSteps, type LightTree } from './light-tree';
+import { nameTriangles, triangleSteps } from './light-triangles';
 import { emittedRadiance } from './materials';
 import { parametersOf } from './parameters';
 

@@ -1,6 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { finish } from '@glanz/scene';
-import { lightTreeSteps, type TreeLights } from '../../src/scene/light-tree';
+import type { TreeLights } from '../../src/scene/light-bounds';
+import { lightTreeSteps } from '../../src/scene/light-tree';
 import { randomLights, treeNodes } from '../tree-lights';
 
 const angle = (a: ArrayLike<number>, b: ArrayLike<number>) => Math.acos(Math.min(1, Math.max(-1, a[0]! * b[0]! + a[1]! * b[1]! + a[2]! * b[2]!)));
