@@ -125,14 +125,15 @@ function dielectric() {
     );
     centred(rows, edge).forEach((slice, k) => slice.forEach((row, j) => values.push(...row, mean(...places[k][j], row))));
   };
-  // Roughness along the rows, linear; angles down the columns, the mean in the last row.
+  // What is lost: it is tiny where surfaces are smooth, and 1 less it would have few digits. Roughness along the rows, linear;
+  // angles down the columns, the mean in the last row.
   const totals = (count, epsilonAt) => {
     const rough = Array.from({ length: angles + 1 }, (_, i) => MIN_ROUGHNESS + ((1 - MIN_ROUGHNESS) * i) / angles);
     const epsilons = Array.from({ length: count }, (_, k) => epsilonAt(k, count));
     const columns = epsilons.map((epsilon) => rough.map((r) => Array.from({ length: roughnesses - 1 }, (_, j) => kept(epsilon, r, totalCosineOf(epsilon, j / (roughnesses - 2), r)))));
     centred(columns).forEach((slice, k) => {
       const whole = slice.map((column, i) => [...column, average((mu) => interpolate(column, totalPosition(epsilons[k], mu, rough[i])))]);
-      for (let j = 0; j < roughnesses; j++) values.push(...whole.map((column) => column[j]));
+      for (let j = 0; j < roughnesses; j++) values.push(...whole.map((column) => 1 - column[j]));
     });
   };
   const sample = (position, measure) => Array.from({ length: angles }, (_, i) => measure(position(i / (angles - 1))));

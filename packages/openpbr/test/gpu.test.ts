@@ -1,10 +1,11 @@
 import { expectNoGpuErrors } from '@glanz/gpu';
 import { afterEach, describe, expect, it } from 'vitest';
-import { albedoBsdf, emittedRadiance, evalBsdf, evalPdfBsdf, pdfBsdf, prepareBsdf, refractHalf, sampleBsdf } from '../src/cpu/index';
+import { albedoBsdf, evalBsdf, ggxSample, pdfBsdf, prepareBsdf, refract, sampleBsdf } from '../src/cpu/index';
 import { resolveParameters, type OpenPbrParameters, type OpenPbrVector } from '../src/parameters/index';
 import { requiredFeatures, type OpenPbrFlags } from '../src/wgsl/index';
+import { expectTwins } from './agree';
 import { onGpu, type GpuCase } from './gpu';
-import { anyClear, anyCoated, anySurface, lowerDirection, rounded, single, uniform, upperDirection } from './random';
+import { anyClear, anyCoated, anySurface, lowerDirection, rounded, single, uniform, unit, upperDirection } from './random';
 
 afterEach(() => expectNoGpuErrors());
 
@@ -35,75 +36,19 @@ const ALL: OpenPbrFlags = {
   OPENPBR_EMISSION: true,
 };
 
-/** The largest relative difference seen, by quantity; differences below `floor` do not count. */
-class Differences {
-  readonly worst = new Map<string, { difference: number; at: string }>();
-  add(name: string, actual: number, expected: number, floor: number, at: string): void {
-    const difference = Math.abs(actual - expected) / Math.max(Math.abs(expected), floor);
-    // A NaN compares false with everything: it must win.
-    if (!(difference <= (this.worst.get(name)?.difference ?? -1))) this.worst.set(name, { difference, at });
-  }
-  expectBelow(limit: number): void {
-    for (const [name, { difference, at }] of this.worst) expect(difference, `${name} at ${at}`).toBeLessThanOrEqual(limit);
-  }
+async function compare(flags: OpenPbrFlags, list: readonly GpuCase[]): Promise<void> {
+  expectTwins(await onGpu(flags, list), list, flags.OPENPBR_MULTISCATTER);
 }
 
-async function compare(flags: OpenPbrFlags, cases: readonly GpuCase[], limit = 1e-4): Promise<void> {
-  const results = await onGpu(flags, cases);
-  const differences = new Differences();
-  results.forEach((gpu, i) => {
-    const { parameters, wo, wi, u } = cases[i] as GpuCase;
-    const options = { multipleScattering: flags.OPENPBR_MULTISCATTER, ...(cases[i] as GpuCase).side };
-    const b = prepareBsdf(parameters, wo, options);
-    const at = `case ${i}: wo ${wo.join(' ')}, wi ${wi.join(' ')}, roughness ${parameters.specular_roughness}`;
-    const triple = (name: string, actual: OpenPbrVector, expected: OpenPbrVector, floor: number) => [0, 1, 2].forEach((k) => differences.add(name, actual[k] as number, expected[k] as number, floor, at));
-    triple('eval', gpu.f, evalBsdf(b, wo, wi), 1e-4);
-    differences.add('pdf', gpu.pdf, pdfBsdf(b, wo, wi), 1e-4, at);
-    triple('eval of eval_pdf', gpu.together, gpu.f, 0.1);
-    differences.add('pdf of eval_pdf', gpu.togetherPdf, gpu.pdf, 0.1, at);
-    triple('albedo', gpu.albedo, albedoBsdf(b, wo), 1e-4);
-    triple('emission', gpu.emission, emittedRadiance(parameters, wo), 1e-6);
-    differences.add('opacity', gpu.opacity, parameters.geometry_opacity, 1e-6, at);
-    // The lobe is chosen by comparing u.z with a probability: on the edge single precision may choose the other one.
-    const nearly = new Set<boolean>();
-    const facets = (1 - b.coatProbability) * b.specularProbability;
-    const edges = [b.coatProbability, b.coatProbability + facets];
-    if (flags.OPENPBR_TRANSMISSION) {
-      // Whether a facet reflects hangs on the facet.
-      const chances = [0, 1].map((k) => sampleBsdf(b, wo, [u[0], u[1], Math.min(Math.max(u[2] + (k - 0.5) * 2e-5 * facets * (1 - b.fuzzProbability), 0), 1 - 1e-9)]));
-      if (chances[0]?.transmitted !== chances[1]?.transmitted) return;
-      if (chances[0]?.subsurface !== chances[1]?.subsurface) nearly.add(true);
-    }
-    // Fuzz is chosen before all others.
-    if (b.fuzzProbability > 0) edges.splice(0, 2, ...edges.map((edge) => b.fuzzProbability + edge * (1 - b.fuzzProbability)), b.fuzzProbability);
-    if (edges.some((edge) => Math.abs(u[2] - edge) < 1e-5)) return;
-    const s = sampleBsdf(b, wo, u);
-    triple('sampled direction', gpu.wi, s.valid || gpu.valid ? s.wi : gpu.wi, 1);
-    if (Math.abs(s.wi[2]) > 1e-3) {
-      expect(gpu.valid, `valid at ${at}`).toBe(s.valid);
-      expect(gpu.transmitted, `transmitted at ${at}`).toBe(s.transmitted);
-      // So does the medium, where there are two; its weight is then another one.
-      if (gpu.subsurface !== s.subsurface && nearly.has(true)) return;
-      expect(gpu.subsurface, `subsurface at ${at}`).toBe(s.subsurface);
-      if (!gpu.valid) return;
-      // The direction is good to 2e-6, near the horizon much of its cosine: the weight is that of the direction as it is. The
-      // density hangs on the facet too, whose last digits the direction does not tell: it is compared where the cosine has digits enough.
-      const there = evalPdfBsdf(b, wo, gpu.wi);
-      const { subsurface: part, subsurfaceChance: enters } = b.transmission;
-      const medium = (k: 0 | 1 | 2): number => (!s.transmitted || enters === 0 ? 1 : gpu.subsurface ? part[k] / enters : (1 - part[k]) / (1 - enters));
-      triple('weight', gpu.weight, [0, 1, 2].map((k) => (medium(k as 0 | 1 | 2) * (there.f[k] as number)) / there.pdf) as unknown as OpenPbrVector, 1e-3);
-      if (Math.abs(s.wi[2]) > 0.025) differences.add('density of the sample', gpu.samplePdf, s.pdf, 1e-3, at);
-    }
-  });
-  differences.expectBelow(limit);
-}
-
+/** From anywhere above to anywhere above; some straight back, and some where a mirror would send it, for highlights that are narrow. */
 function cases(count: number, seed: number, surface: (next: () => number) => OpenPbrParameters): GpuCase[] {
   const next = uniform(seed);
   return Array.from({ length: count }, () => {
     const parameters = surface(next);
-    const wo = upperDirection(next, 0.02);
-    const wi = next() < 0.1 ? single([wo[0], wo[1], -wo[2]]) : upperDirection(next, 0.02);
+    const wo = upperDirection(next);
+    const kind = next();
+    const off = (x: number): number => 0.02 * (next() - 0.5) - x;
+    const wi = kind < 0.1 ? single([wo[0], wo[1], -wo[2]]) : kind < 0.3 ? single(unit([off(wo[0]), off(wo[1]), wo[2]])) : upperDirection(next);
     return { parameters, wo, wi, u: single([next(), next(), next() * 0.999]) };
   });
 }
@@ -112,36 +57,28 @@ function cases(count: number, seed: number, surface: (next: () => number) => Ope
 const COMPILE_MS = 300_000;
 
 describe('WGSL against its CPU twin', () => {
-  it('every lobe at once, 2048 random surfaces (seed 1)', () => compare(OPAQUE(), cases(2048, 1, (next) => anySurface(next, 0.3))));
-  it('single scattering only (seed 2)', () => compare({ ...OPAQUE(), OPENPBR_MULTISCATTER: false }, cases(1024, 2, (next) => anySurface(next, 0.3))));
+  it('every lobe at once, 2048 random surfaces (seed 1)', () => compare(OPAQUE(), cases(2048, 1, (next) => anySurface(next, 0))));
+  it('single scattering only (seed 2)', () => compare({ ...OPAQUE(), OPENPBR_MULTISCATTER: false }, cases(1024, 2, (next) => anySurface(next, 0))));
 
-  it('every lobe below a coat, 2048 random surfaces (seed 8)', () => compare(OPAQUE(), cases(2048, 8, (next) => anyCoated(next, 0.3))));
-  it('every lobe below fuzz, 1024 random surfaces (seed 14)', () => compare({ ...ALL, OPENPBR_THIN_FILM: false, OPENPBR_THIN_WALLED: false, OPENPBR_THIN_SUBSURFACE: false }, cases(1024, 14, (next) => ({ ...anyCoated(next, 0.3), fuzz_weight: Math.fround(next()), fuzz_color: single([next(), next(), next()]), fuzz_roughness: Math.fround(0.1 + 0.9 * next()), geometry_thin_walled: false }))), COMPILE_MS);
-  it('single scattering below a coat (seed 9)', () => compare({ ...OPAQUE(), OPENPBR_MULTISCATTER: false }, cases(512, 9, (next) => anyCoated(next, 0.3))));
+  it('every lobe below a coat, 2048 random surfaces (seed 8)', () => compare(OPAQUE(), cases(2048, 8, (next) => anyCoated(next, 0))));
+  it('every lobe below fuzz, 1024 random surfaces (seed 14)', () => compare({ ...ALL, OPENPBR_THIN_FILM: false, OPENPBR_THIN_WALLED: false, OPENPBR_THIN_SUBSURFACE: false }, cases(1024, 14, (next) => ({ ...anyCoated(next, 0), fuzz_weight: Math.fround(next()), fuzz_color: single([next(), next(), next()]), fuzz_roughness: Math.fround(0.1 + 0.9 * next()), geometry_thin_walled: false }))), COMPILE_MS);
+  it('single scattering below a coat (seed 9)', () => compare({ ...OPAQUE(), OPENPBR_MULTISCATTER: false }, cases(512, 9, (next) => anyCoated(next, 0))));
 
-  const through = (count: number, seed: number, surface: (next: () => number) => OpenPbrParameters = (next) => anyClear(next, 0.3)): GpuCase[] => {
+  /**
+   * From either side, of indices down to 1, to where facets refract, or anywhere below.
+   *
+   * @param isFar No index near that of what is outside, for which the shader must be told of both.
+   */
+  const through = (count: number, seed: number, surface: (next: () => number) => OpenPbrParameters = (next) => anyClear(next, 0), isFar = false): GpuCase[] => {
     const next = uniform(seed);
     return cases(count, seed + 1000, surface).map((one) => {
-      const inside = !one.parameters.geometry_thin_walled && next() < 0.5;
       const outerIor = next() < 0.3 ? Math.fround(1 + 0.4 * next()) : 1;
-      // Near index 1 the refracting facet is a small difference of large vectors.
-      const step = one.parameters.specular_ior / outerIor;
-      const side = { inside, outerIor: Math.abs(step - 1) < 0.1 ? Math.fround(one.parameters.specular_ior / 1.1) : outerIor };
-      const wi = next() < 0.5 ? one.wi : lowerDirection(next, 0.02);
-      // A facet seen edge on has a cosine of few digits, and lets through as little as that.
-      const { eta } = prepareBsdf(one.parameters, one.wo, side).transmission;
-      const h = refractHalf(eta, one.wo, wi);
-      const edge = Math.min(...[one.wo, wi].map((w) => Math.abs(w[0] * h[0] + w[1] * h[1] + w[2] * h[2])));
-      // And where a change of the direction's last digit changes the value by more than the limit, nothing can be compared.
-      // The facet is a sum of nearly opposite vectors: it has as many digits fewer as that is short.
-      const digits = Math.min(1, Math.hypot(one.wo[0] + eta * wi[0], one.wo[1] + eta * wi[1], one.wo[2] + eta * wi[2]));
-      const values = [[1, 1], [1 + 1e-6, 1], [1, 1 + 1e-6]].map(([x = 1, y = 1]) => {
-        const wo: OpenPbrVector = [one.wo[0] * x, one.wo[1] * y, one.wo[2]];
-        const { f, pdf } = evalPdfBsdf(prepareBsdf(one.parameters, wo, side), wo, wi);
-        return [...f, pdf];
-      });
-      const lost = values.some((row) => row.some((value, k) => Math.abs(value - (values[0]?.[k] as number)) > 2e-5 * digits * value));
-      return { ...one, side, wi: wi[2] < 0 && (edge < 0.03 || lost) ? upperDirection(next, 0.02) : wi };
+      const side = { inside: !one.parameters.geometry_thin_walled && next() < 0.5, outerIor: isFar && one.parameters.specular_ior < 1.1 * outerIor ? 1 : outerIor };
+      const kind = next();
+      if (kind > 0.5) return { ...one, side };
+      const { transmission, alpha } = prepareBsdf(one.parameters, one.wo, side);
+      const bent = kind < 0.25 && !transmission.thin ? refract(transmission.eta, one.wo, ggxSample(alpha, one.wo, [next(), next()])) : undefined;
+      return { ...one, side, wi: bent ? single(bent) : lowerDirection(next) };
     });
   };
   it('light through every lobe at once, 2048 random surfaces from either side (seed 40)', () => compare({ ...ALL, OPENPBR_THIN_FILM: false }, through(2048, 40)), COMPILE_MS);
@@ -149,16 +86,16 @@ describe('WGSL against its CPU twin', () => {
 
   const gated = (name: string, seed: number, fixed: Partial<OpenPbrParameters>): void => {
     it(`${name} alone, the other lobes left out of the text (seed ${seed})`, async () => {
-      const surface = (next: () => number): OpenPbrParameters => rounded({ ...anySurface(next, 0.3), base_diffuse_roughness: 0, specular_roughness_anisotropy: 0, emission_luminance: 0, ...fixed });
-      const list = (fixed.transmission_weight !== undefined ? through : cases)(512, seed, surface);
+      const surface = (next: () => number): OpenPbrParameters => rounded({ ...anySurface(next, 0), base_diffuse_roughness: 0, specular_roughness_anisotropy: 0, emission_luminance: 0, ...fixed });
+      const list = fixed.transmission_weight !== undefined ? through(512, seed, surface, true) : cases(512, seed, surface);
       const flags = requiredFeatures(list.map((one) => one.parameters));
       expect(Object.values(flags)).toContain(false);
       await compare(flags, list);
     });
   };
   const filmed = (next: () => number): Partial<OpenPbrParameters> => ({ thin_film_weight: Math.fround(0.2 + 0.8 * next()), thin_film_thickness: Math.fround(next()), thin_film_ior: Math.fround(1.1 + 1.5 * next()) });
-  it('every lobe below a film, 1024 random surfaces (seed 16)', () => compare({ ...OPAQUE(), OPENPBR_THIN_FILM: true }, cases(1024, 16, (next) => ({ ...anyCoated(next, 0.3), ...filmed(next) }))));
-  it('a film on what lets light through, 1024 random surfaces from either side (seed 47)', () => compare(ALL, through(1024, 47, (next) => ({ ...anyClear(next, 0.3), ...filmed(next) }))), COMPILE_MS);
+  it('every lobe below a film, 1024 random surfaces (seed 16)', () => compare({ ...OPAQUE(), OPENPBR_THIN_FILM: true }, cases(1024, 16, (next) => ({ ...anyCoated(next, 0), ...filmed(next) }))));
+  it('a film on what lets light through, 1024 random surfaces from either side (seed 47)', () => compare(ALL, through(1024, 47, (next) => ({ ...anyClear(next, 0), ...filmed(next) }))), COMPILE_MS);
   gated('dielectric of an index below 1 over diffuse', 20, { base_metalness: 0, specular_weight: 1, specular_ior: 0.7 });
   gated('coat of an index below 1 over black', 19, { base_metalness: 0, base_weight: 0, specular_weight: 0, coat_weight: 1, coat_ior: 0.8, coat_roughness: 0.4 });
   gated('dielectric over rough diffuse', 21, { base_metalness: 0, specular_weight: 1, base_diffuse_roughness: 0.8 });

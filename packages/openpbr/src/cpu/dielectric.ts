@@ -1,5 +1,5 @@
 import type { OpenPbrParameters, OpenPbrVector } from '../parameters/index';
-import { energyBounce, energyShare, energyTotal } from './energy';
+import { energyBounce, energyShare, energyTotalLost } from './energy';
 import { ggxAlpha, viewRoughness, type Slopes } from './ggx';
 import { insideEnergy } from './inside';
 import { stretchedEnergy } from './stretched';
@@ -55,7 +55,7 @@ export function interfaceEnergy(epsilon: number, roughness: number, alpha: Slope
   const eta = (1 + epsilon) / (1 - epsilon);
   const kept = summed ? insideEnergy(eta, alpha, wo) : multipleScattering && alpha[0] > alpha[1] ? stretchedEnergy(eta, alpha, wo) : undefined;
   const bounce = energyBounce(epsilon, roughness);
-  const lost = Math.max(1 - (kept ? kept[0] + kept[1] : energyTotal(epsilon, roughness, mu)), 0);
+  const lost = Math.max(kept ? 1 - kept[0] - kept[1] : energyTotalLost(epsilon, roughness, mu), 0);
   const share = kept ? Math.min(kept[0] + lost * bounce, 1) : energyShare(epsilon, viewRoughness(alpha, roughness, wo), mu);
   if (!multipleScattering) return { share, bounced: 0, bouncedThrough: 0 };
   const bounced = lost * bounce;

@@ -104,8 +104,8 @@ export function energyShare(epsilon: number, roughness: number, mu: number): num
     return Math.min(fresnel * tableLookup(OPENPBR_TABLES.dielectric, [angleAxis(spread(r, mu)), y, slice('outer', epsilon)]), 1);
   }
   const split = Math.min(tableLookup(OPENPBR_TABLES.dielectric, [angleAxis(innerPosition(eta, mu)), y, slice('inner', epsilon)]), 1);
-  const total = energyTotal(epsilon, roughness, mu);
-  return split * total + (1 - total) * energyBounce(epsilon, roughness);
+  const lost = energyTotalLost(epsilon, roughness, mu);
+  return split * (1 - lost) + lost * energyBounce(epsilon, roughness);
 }
 
 /**
@@ -119,7 +119,7 @@ export function energyShareMean(epsilon: number, roughness: number): number {
 }
 
 /** Cosine-weighted mean of what single scattering loses. */
-const energyTotalLostMean = (epsilon: number, roughness: number): number => 1 - tableLookup(OPENPBR_TABLES.dielectric, [totalRoughness(roughness), (TABLE_ROUGHNESSES - 0.5) / TABLE_ROUGHNESSES, totalSlice(epsilon)]);
+const energyTotalLostMean = (epsilon: number, roughness: number): number => tableLookup(OPENPBR_TABLES.dielectric, [totalRoughness(roughness), (TABLE_ROUGHNESSES - 0.5) / TABLE_ROUGHNESSES, totalSlice(epsilon)]);
 
 /**
  * The part of what single scattering loses that is reflected after more bounces; twin of `openpbr_energy_bounce`. Seen from
@@ -132,8 +132,8 @@ export function energyBounce(epsilon: number, roughness: number): number {
   return clamp(1 - ((1 - reflected) * energyTotalLostMean(-epsilon, roughness)) / Math.max(energyTotalLostMean(epsilon, roughness), 1e-4), 0, 1);
 }
 
-/** Energy that an interface reflects and refracts by single scattering; twin of `openpbr_energy_total`. */
-export function energyTotal(epsilon: number, roughness: number, mu: number): number {
+/** Energy that single scattering by an interface neither reflects nor refracts; twin of `openpbr_energy_total_lost`. */
+export function energyTotalLost(epsilon: number, roughness: number, mu: number): number {
   const r = Math.max(roughness, TABLE_MIN_ROUGHNESS);
   const t = epsilon >= 0 ? spread(r, mu) : 0.5 * (spread(r, mu) + innerPosition((1 + epsilon) / (1 - epsilon), mu));
   return tableLookup(OPENPBR_TABLES.dielectric, [totalRoughness(r), texel(t, 0, TABLE_ROUGHNESSES - 1, TABLE_ROUGHNESSES), totalSlice(epsilon)]);

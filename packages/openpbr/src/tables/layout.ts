@@ -11,11 +11,11 @@ const stretched = innerTotal + TABLE_LAYOUT.innerTotal;
 export const TABLE_BLOCKS = {
   /** Share of the energy that is reflected by all scattering, over the Fresnel reflectance at the softened cosine; seen from the thinner medium. */
   outer: [0, TABLE_LAYOUT.outer],
-  /** Energy reflected and refracted by single scattering; seen from the thinner medium, over the cubic root of ε. */
+  /** Energy that single scattering loses; seen from the thinner medium, over the cubic root of ε. */
   outerTotal: [outerTotal, TABLE_LAYOUT.outerTotal],
   /** The reflected part of single scattering; seen from the denser medium. */
   inner: [inner, TABLE_LAYOUT.inner],
-  /** Energy reflected and refracted by single scattering; seen from the denser medium. */
+  /** Energy that single scattering loses; seen from the denser medium. */
   innerTotal: [innerTotal, TABLE_LAYOUT.innerTotal],
   /**
    * What stretched mirrors keep by single scattering, less what round ones of the same masking do; over the roughness. Rows:

@@ -41,7 +41,12 @@ export const openpbr = wgslModule(
   //#if OPENPBR_TRANSMISSION
   if (wi.z < 0.0) { return openpbr_scatter_through(b, wo, wi, openpbr_through_half(b, wo, wi)); }
   //#endif
-  return openpbr_scatter(b, wo, wi, openpbr_half(wo, wi));
+  let h = openpbr_half(wo, wi);
+  //#if OPENPBR_COAT_FRAME
+  return openpbr_scatter(b, wo, wi, h, h * b.coat.frame);
+  //#else
+  return openpbr_scatter(b, wo, wi, h);
+  //#endif
 }
 
 fn openpbr_eval(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec3f {

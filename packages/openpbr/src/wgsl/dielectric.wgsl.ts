@@ -121,7 +121,7 @@ fn openpbr_dielectric_prepare(p: OpenPbrParameters, alpha: vec2f, wo: vec3f, mu:
   d.share = openpbr_energy_share(d.epsilon, openpbr_view_roughness(alpha, d.roughness, wo), mu);
   //#if OPENPBR_MULTISCATTER
   let bounce = openpbr_energy_bounce(d.epsilon, d.roughness);
-  let lost = max(1.0 - openpbr_energy_total(d.epsilon, d.roughness, mu), 0.0);
+  let lost = max(openpbr_energy_total_lost(d.epsilon, d.roughness, mu), 0.0);
   d.bounced = lost * bounce;
   d.bounced_through = lost - d.bounced;
   //#endif

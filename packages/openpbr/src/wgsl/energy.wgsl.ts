@@ -108,7 +108,7 @@ fn openpbr_energy_inner_angle(eta: f32, mu: f32) -> f32 {
 }
 
 //#endif
-fn openpbr_energy_total_at(epsilon: f32, r: f32, y: f32) -> f32 {
+fn openpbr_energy_total_lost_at(epsilon: f32, r: f32, y: f32) -> f32 {
   var z = ${outerTotal[0]} + ${outerTotal[1]} * pow(abs(epsilon), 0.33333333);
   //#if OPENPBR_INNER
   if (epsilon < 0.0) { z = ${innerTotal[0]} + ${innerTotal[1]} * sqrt(-epsilon); }
@@ -116,14 +116,15 @@ fn openpbr_energy_total_at(epsilon: f32, r: f32, y: f32) -> f32 {
   return openpbr_table_dielectric(vec3f(${totalRough[0]} + ${totalRough[1]} * ${linear}, y, z));
 }
 
-// Energy that the interface reflects and refracts by single scattering.
-fn openpbr_energy_total(epsilon: f32, roughness: f32, mu: f32) -> f32 {
+// Energy that single scattering by the interface neither reflects nor refracts. Where it is tiny it keeps its digits, which 1
+// less it would not.
+fn openpbr_energy_total_lost(epsilon: f32, roughness: f32, mu: f32) -> f32 {
   let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
   var t = openpbr_energy_angle(r, mu);
   //#if OPENPBR_INNER
   if (epsilon < 0.0) { t = 0.5 * (t + openpbr_energy_inner_angle((1.0 + epsilon) / (1.0 - epsilon), mu)); }
   //#endif
-  return openpbr_energy_total_at(epsilon, r, ${totalAngle[0]} + ${totalAngle[1]} * t);
+  return openpbr_energy_total_lost_at(epsilon, r, ${totalAngle[0]} + ${totalAngle[1]} * t);
 }
 
 // The part of what single scattering loses that is reflected after more bounces. Seen from the thinner medium, the mean
@@ -132,8 +133,8 @@ fn openpbr_energy_bounce(epsilon: f32, roughness: f32) -> f32 {
   let reflected = openpbr_fresnel_mean(abs(epsilon));
   //#if OPENPBR_INNER
   if (epsilon < 0.0) {
-    let outside = 1.0 - openpbr_energy_total_at(-epsilon, roughness, ${totalMean});
-    let inside = 1.0 - openpbr_energy_total_at(epsilon, roughness, ${totalMean});
+    let outside = openpbr_energy_total_lost_at(-epsilon, roughness, ${totalMean});
+    let inside = openpbr_energy_total_lost_at(epsilon, roughness, ${totalMean});
     return clamp(1.0 - (1.0 - reflected) * outside / max(inside, 1e-4), 0.0, 1.0);
   }
   //#endif
@@ -144,7 +145,7 @@ fn openpbr_energy_bounce(epsilon: f32, roughness: f32) -> f32 {
 fn openpbr_energy_inner_share(epsilon: f32, r: f32, mu: f32, bounce: f32) -> f32 {
   let eta = (1.0 + epsilon) / (1.0 - epsilon);
   let direct = openpbr_table_dielectric(vec3f(${angle[0]} + ${angle[1]} * openpbr_energy_inner_angle(eta, mu), ${rough[0]} + ${rough[1]} * ${unit}, ${inner[0]} + ${inner[1]} * sqrt(-epsilon)));
-  return mix(bounce, min(direct, 1.0), openpbr_energy_total(epsilon, r, mu));
+  return mix(min(direct, 1.0), bounce, openpbr_energy_total_lost(epsilon, r, mu));
 }
 
 //#endif

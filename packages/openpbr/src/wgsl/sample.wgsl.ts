@@ -15,6 +15,10 @@ fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample {
 //#endif
   var s: OpenPbrSample;
   var h = vec3f(0.0, 0.0, 1.0);
+  //#if OPENPBR_COAT_FRAME
+  // Of the coat, where that was sampled.
+  var coat_h = vec3f(0.0);
+  //#endif
   //#if OPENPBR_SUBSURFACE
   var medium = 1.0;
   //#endif
@@ -53,8 +57,9 @@ fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample {
     //#endif
     //#endif
     //#if OPENPBR_COAT_FRAME
-    h = openpbr_ggx_sample(alpha, select(wo, wo * b.coat.frame, top), u.xy, bound);
-    h = select(h, b.coat.frame * h, top);
+    let facet = openpbr_ggx_sample(alpha, select(wo, wo * b.coat.frame, top), u.xy, bound);
+    h = select(facet, b.coat.frame * facet, top);
+    coat_h = select(vec3f(0.0), facet, top);
     //#else
     h = openpbr_ggx_sample(alpha, wo, u.xy, bound);
     //#endif
@@ -109,7 +114,11 @@ fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample {
   if (fuzzy) { s.wi = openpbr_fuzz_sample(b.fuzz, u.xy); }
   //#endif
   //#endif
+  //#if OPENPBR_COAT_FRAME
+  let f = openpbr_scatter(b, wo, s.wi, h, select(h * b.coat.frame, coat_h, coat_h.z > 0.0));
+  //#else
   let f = openpbr_scatter(b, wo, s.wi, h);
+  //#endif
   s.pdf = f.w;
   s.valid = f.w > 0.0;
   s.weight = select(vec3f(0.0), f.xyz / f.w, s.valid);

@@ -75,7 +75,12 @@ fn openpbr_scatter_through(b: OpenPbrBsdf, wo: vec3f, wi: vec3f, h: vec3f) -> ve
 //#endif
 
 // (f · |cos θ_i|, pdf) of a pair of directions with its half vector.
+//#if OPENPBR_COAT_FRAME
+// And that in the coat's frame: turned there and back it would lose the digits that a narrow highlight hangs on.
+fn openpbr_scatter(b: OpenPbrBsdf, wo: vec3f, wi: vec3f, h: vec3f, coat_h: vec3f) -> vec4f {
+//#else
 fn openpbr_scatter(b: OpenPbrBsdf, wo: vec3f, wi: vec3f, h: vec3f) -> vec4f {
+//#endif
   //#if OPENPBR_TRANSMISSION
   if (wi.z < 0.0) { return openpbr_scatter_through(b, wo, wi, h); }
   //#endif
@@ -119,7 +124,7 @@ fn openpbr_scatter(b: OpenPbrBsdf, wo: vec3f, wi: vec3f, h: vec3f) -> vec4f {
   //#if OPENPBR_COAT
   //#if OPENPBR_COAT_FRAME
   let coat_wi = wi * b.coat.frame;
-  let top = select(vec2f(0.0), openpbr_ggx(b.coat.alpha, wo * b.coat.frame, vec3f(coat_wi.xy, max(coat_wi.z, 1e-5)), h * b.coat.frame, b.coat.bound), coat_wi.z > 0.0);
+  let top = select(vec2f(0.0), openpbr_ggx(b.coat.alpha, wo * b.coat.frame, vec3f(coat_wi.xy, max(coat_wi.z, 1e-5)), coat_h, b.coat.bound), coat_wi.z > 0.0);
   let coat_mu = max(coat_wi.z, 1e-5);
   //#else
   let top = openpbr_ggx(b.coat.alpha, wo, wi, h, b.coat.bound);
