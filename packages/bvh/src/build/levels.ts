@@ -31,22 +31,30 @@ export class Levels {
   readonly #splitter: Splitter;
   readonly #group = new Agglomerator(0);
   /** Pending ranges, ten numbers each: bounds of the centres, first, end, word for the reference, depth. */
-  readonly tasks: number[];
+  readonly tasks: number[] = [];
   /** Bounds of the centres of the range at work, doubled: min xyz, max xyz. */
   readonly #centers = new Int32Array(6);
 
   /**
    * @param maxDepth Most inner nodes on the way to an item; 2 ** maxDepth must not be less than the number of items.
+   * @param order A number for each item, to work in.
+   * @param words Four for each.
    */
-  constructor(writer: NodeWriter, items: Items, maxDepth: number, bins: number) {
+  constructor(writer: NodeWriter, items: Items, maxDepth: number, bins: number, order = new Uint32Array(items.count), words = new Int32Array(4 * items.count)) {
     this.#writer = writer;
     this.#items = items;
-    this.#order = new Uint32Array(items.count).map((_, i) => i);
-    this.#words = new Int32Array(4 * items.count);
+    this.#order = order;
+    this.#words = words;
     this.#maxDepth = maxDepth;
     this.#splitter = new Splitter(bins);
-    this.#quantise(0, items.count);
-    this.tasks = [...this.#centers, 0, items.count, 0, 0];
+  }
+
+  /** Makes the whole the first task. */
+  begin(): void {
+    const { count } = this.#items, order = this.#order;
+    for (let i = 0; i < count; i++) order[i] = i;
+    this.#quantise(0, count);
+    this.tasks.push(...this.#centers, 0, count, 0, 0);
   }
 
   /**

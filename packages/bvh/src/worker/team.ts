@@ -4,11 +4,16 @@ import type { Copy } from './copy';
 
 /** Numbers of a member's report. */
 const REPORT = 16;
-const BYTES = 16;
+
+/** Words that both change: who has come to the meeting point, how many meetings there were, whether one has given up, what is published; then the counters. */
+const [COME, MEETINGS, LEFT_ALONE, PUBLISHED, COUNTERS] = [0, 1, 2, 3, 4];
+/** Counters that {@link Team.take} may be asked for. */
+const COUNTER_MAX = 4;
+const BYTES = 4 * (COUNTERS + COUNTER_MAX);
 
 /** What two workers share while they build one hierarchy together. */
 export interface TeamMemory {
-  /** Who has come to the meeting point, how many meetings there were, whether it is over; then the members' reports. */
+  /** What the members tell each other: words for their meetings, then their reports. */
   readonly control: SharedArrayBuffer;
   /** Room for all arrays that both look at. */
   readonly arrays: SharedArrayBuffer;
@@ -23,7 +28,7 @@ export interface TeamMemory {
 const SLACK = 4;
 
 /** Bytes of the arrays for so many triangles, and of the nodes. */
-const arrayBytes = (triangles: number) => 128 * triangles + (1 << 16);
+const arrayBytes = (triangles: number) => 140 * triangles + (1 << 16);
 const nodeBytes = (triangles: number) => 64 * triangles;
 
 /** Shared memory of at least so many bytes: that one, if it is not much too large. */
@@ -39,7 +44,7 @@ export function teamMemory(mesh: TriangleMesh, triangles: number, spare?: TeamMe
   const { positions, indices } = mesh;
   const copied = [positions, indices].reduce((bytes, array) => bytes + (array?.buffer instanceof ArrayBuffer ? array.byteLength : 0), 0);
   const memory: TeamMemory = {
-    control: new SharedArrayBuffer(BYTES + 2 * 8 * REPORT),
+    control: new SharedArrayBuffer(BYTES + 4 * 8 * REPORT),
     arrays: room(arrayBytes(triangles), spare?.arrays),
     nodes: room(nodeBytes(triangles), spare?.nodes),
     upper: room(nodeBytes(triangles), spare?.upper),
@@ -69,6 +74,7 @@ export class Team {
   /** Whether the other one has given up. */
   left = false;
   #taken = 0;
+  #meetings = 0;
 
   /** @param index 0 or 1. */
   constructor(
@@ -76,7 +82,7 @@ export class Team {
     memory: TeamMemory,
   ) {
     this.memory = memory;
-    this.#control = new Int32Array(memory.control, 0, BYTES / 4);
+    this.#control = new Int32Array(memory.control, 0, COUNTERS + COUNTER_MAX);
     this.#reports = new Float64Array(memory.control, BYTES);
   }
 
@@ -92,36 +98,65 @@ export class Team {
     return new Uint32Array(this.memory.arrays, this.#block(4 * length), length) as Uint32Array as Uint32Array<ArrayBuffer>;
   }
 
+  int32(length: number): Int32Array<ArrayBuffer> {
+    return new Int32Array(this.memory.arrays, this.#block(4 * length), length) as Int32Array as Int32Array<ArrayBuffer>;
+  }
+
   float32(length: number): Float32Array<ArrayBuffer> {
     return new Float32Array(this.memory.arrays, this.#block(4 * length), length) as Float32Array as Float32Array<ArrayBuffer>;
   }
 
   /** Waits for the other one, and gives what both have to say, the first one's words first. */
   meet(report: readonly number[] = []): readonly [Float64Array, Float64Array] {
-    this.#reports.set(report, this.index * REPORT);
-    this.#wait();
-    const said = [0, 1].map((index) => this.#reports.slice(index * REPORT, (index + 1) * REPORT)) as [Float64Array, Float64Array];
-    // Nobody reports again before both have read.
-    this.#wait();
-    return said;
+    // Reports of one meeting stay while the next one's are written: only who has read them comes to that.
+    const first = 2 * (this.#meetings++ & 1);
+    this.#reports.set(report, (first + this.index) * REPORT);
+    const control = this.#control;
+    const meeting = Atomics.load(control, MEETINGS);
+    if (Atomics.add(control, COME, 1) === 1) {
+      Atomics.store(control, COME, 0);
+      Atomics.add(control, MEETINGS, 1);
+      Atomics.notify(control, MEETINGS);
+    } else this.#wait(MEETINGS, meeting);
+    this.#goOn();
+    return [0, 1].map((index) => this.#reports.slice((first + index) * REPORT, (first + index + 1) * REPORT)) as [Float64Array, Float64Array];
   }
 
-  #wait(): void {
-    const control = this.#control;
-    const meeting = Atomics.load(control, 1);
-    if (Atomics.add(control, 0, 1) === 1) {
-      Atomics.store(control, 0, 0);
-      Atomics.add(control, 1, 1);
-      Atomics.notify(control, 1);
-    } else while (Atomics.load(control, 1) === meeting) Atomics.wait(control, 1, meeting);
-    this.left = Atomics.load(control, 2) !== 0;
-    if (this.left) throw new BvhError('bvh/worker', 'The other worker of a build has given up.');
+  /** Tells the other one, who may ask for it at any time, that something is ready. */
+  publish(): void {
+    Atomics.store(this.#control, PUBLISHED, 1);
+    Atomics.notify(this.#control, PUBLISHED);
+  }
+
+  /** Waits until the other one has published. */
+  published(): void {
+    this.#wait(PUBLISHED, 0);
+    this.#goOn();
+  }
+
+  /** The next number of a counter, each of which one of both gets: 0, 1, 2 … So whoever is faster does more. */
+  take(counter: number): number {
+    return Atomics.add(this.#control, COUNTERS + counter, 1);
   }
 
   /** Lets the other one go: its next meeting throws. */
   giveUp(): void {
-    Atomics.store(this.#control, 2, 1);
-    Atomics.add(this.#control, 1, 1);
-    Atomics.notify(this.#control, 1);
+    const control = this.#control;
+    Atomics.store(control, LEFT_ALONE, 1);
+    for (const word of [MEETINGS, PUBLISHED]) {
+      Atomics.add(control, word, 1);
+      Atomics.notify(control, word);
+    }
+  }
+
+  /** Waits until a word is not that any more, or nobody will change it: the other one may have given up before this one came. */
+  #wait(word: number, value: number): void {
+    const control = this.#control;
+    while (Atomics.load(control, word) === value && Atomics.load(control, LEFT_ALONE) === 0) Atomics.wait(control, word, value);
+  }
+
+  #goOn(): void {
+    this.left = Atomics.load(this.#control, LEFT_ALONE) !== 0;
+    if (this.left) throw new BvhError('bvh/worker', 'The other worker of a build has given up.');
   }
 }

@@ -1,23 +1,59 @@
 import { GROUP_MAX } from '../build/agglomerate';
 import type { Clusters } from '../build/clusters';
-import { encloseNodes, type Levels } from '../build/levels';
+import { encloseNodes, Levels } from '../build/levels';
 import type { NodeWriter } from '../build/node-writer';
 import { PASSES, rotateAt } from '../build/rotate';
-import { LEAF, leafFirst, LEFT, NODE_WORDS, PARENT, RIGHT } from '../layout';
+import { LEAF, LEFT, NODE_WORDS, RIGHT } from '../layout';
 import type { Team } from './team';
 
-/** Numbers of a pending range of {@link Levels}; its first and end lie at the 6th and 7th place, the word for its reference at the 8th. */
+/** Numbers of a pending range of {@link Levels}; its first and end lie at the 6th and 7th place. */
 const TASK = 10;
 /** Ranges that the upper levels are cut into before they are shared out. */
-const SHARES = 12;
+const SHARES = 24;
 
 /**
- * Builds the upper levels, each its part: nodes get the places that they have when one worker does all, depth first. The
- * first cuts both into parts, so that neither waits.
+ * Builds the upper levels: nodes get the places that they have when one worker does all, depth first. The second cuts
+ * ranges, while the first does something else; then whoever is free takes the largest that is left.
+ *
+ * @param meanwhile What the first does before it helps.
+ * @returns What that gave; undefined to the second.
  */
-export function shareLevels(levels: Levels, upper: NodeWriter, team: Team): void {
+export function shareLevels<T>(upper: NodeWriter, clusters: Clusters, maxDepth: number, bins: number, team: Team, meanwhile: () => T): T | undefined {
+  const { count } = clusters;
+  const levels = new Levels(upper, clusters, maxDepth, bins, team.uint32(count), team.int32(4 * count));
+  const shares = team.int32((TASK + 1) * SHARES + 1);
+  let result: T | undefined;
+  let tops: number[] = [];
+  if (team.index === 1) {
+    tops = cutShares(levels, upper, shares);
+    team.publish();
+  } else {
+    result = meanwhile();
+    team.published();
+  }
+  for (let share = team.take(3); share < (shares[0] as number); share = team.take(3)) {
+    const [node, ...task] = shares.subarray((TASK + 1) * share + 1, (TASK + 1) * (share + 1) + 1) as unknown as number[];
+    levels.tasks.push(...task);
+    upper.count = node as number;
+    while (levels.step(Infinity));
+    encloseNodes(upper, node as number, upper.count);
+  }
+  team.meet();
+  upper.count = count - 1;
+  // Nobody looks at boxes before the next meeting.
+  for (const node of tops) encloseNodes(upper, node, node + 1);
+  return result;
+}
+
+/**
+ * Cuts the whole into ranges: how many, then for each where its nodes begin and the task, the largest first.
+ *
+ * @returns The nodes above them, children first.
+ */
+function cutShares(levels: Levels, upper: NodeWriter, shares: Int32Array): number[] {
   const { tasks } = levels;
   const size = (task: readonly number[]) => (task[7] as number) - (task[6] as number);
+  levels.begin();
   const pending: { task: number[]; node: number }[] = [{ task: tasks.splice(0), node: 0 }];
   const tops: number[] = [];
   while (pending.length < SHARES) {
@@ -32,21 +68,10 @@ export function shareLevels(levels: Levels, upper: NodeWriter, team: Team): void
     // Depth first: all the nodes of the left side come before the right one's.
     pending.splice(largest, 1, { task: left, node: node + 1 }, { task: right, node: node + size(left) });
   }
-  const all = pending.reduce((sum, { task }) => sum + size(task), 0);
-  let before = 0;
-  for (const { task, node } of pending) {
-    const mine = (before + size(task) / 2 < all / 2 ? 0 : 1) === team.index;
-    before += size(task);
-    if (!mine) continue;
-    tasks.push(...task);
-    upper.count = node;
-    while (levels.step(Infinity));
-    encloseNodes(upper, node, node + size(task) - 1);
-  }
-  team.meet();
-  upper.count = all - 1;
-  if (team.index === 0) for (const node of tops.sort((a, b) => b - a)) encloseNodes(upper, node, node + 1);
-  team.meet();
+  pending.sort((a, b) => size(b.task) - size(a.task));
+  shares[0] = pending.length;
+  shares.set(pending.flatMap(({ task, node }) => [node, ...task]), 1);
+  return tops.sort((a, b) => b - a);
 }
 
 /** The nodes as the walk depth first meets them, the last one first. */
@@ -85,45 +110,4 @@ export function shareRotations(upper: NodeWriter, team: Team): void {
     for (const node of above) rotateAt(nodes, words, node);
     team.meet();
   }
-}
-
-/**
- * Puts the nodes over the clusters before the others, depth first, as `crown` does, each one's half of them.
- *
- * @returns Their depth; nothing is written where it is more than `maxDepth`.
- */
-export function shareCrown(upper: NodeWriter, { references }: Clusters, { nodes, words }: NodeWriter, maxDepth: number, team: Team): number {
-  const { count, nodes: from, words: fromWords } = upper;
-  const order = new Uint32Array(count), places = new Uint32Array(count), parents = new Uint32Array(count), depths = new Uint16Array(count);
-  const stack = [0, 0];
-  let most = 0;
-  for (let place = 0; place < count; place++) {
-    const parent = stack.pop() as number, node = stack.pop() as number, base = node * NODE_WORDS;
-    order[place] = node;
-    places[node] = place;
-    parents[place] = parent;
-    const depth = (depths[place] = place === 0 ? 1 : (depths[parent] as number) + 1);
-    if (depth > most) most = depth;
-    const left = fromWords[base + LEFT] as number, right = fromWords[base + RIGHT] as number;
-    if (right < LEAF) stack.push(right, place);
-    if (left < LEAF) stack.push(left, place);
-  }
-  if (most > maxDepth) return most;
-  const [first, end] = team.index === 0 ? [0, count >>> 1] : [count >>> 1, count];
-  for (let place = first; place < end; place++) {
-    const a = (order[place] as number) * NODE_WORDS, b = place * NODE_WORDS;
-    for (let k = 0; k < NODE_WORDS; k++) nodes[b + k] = from[a + k] as number;
-    words[b + PARENT] = parents[place] as number;
-    for (const side of [LEFT, RIGHT]) {
-      let reference = fromWords[a + side] as number;
-      if (reference < LEAF) reference = places[reference] as number;
-      else {
-        reference = references[leafFirst(reference)] as number;
-        if (reference < LEAF) words[reference * NODE_WORDS + PARENT] = place;
-      }
-      words[b + side] = reference;
-    }
-  }
-  team.meet();
-  return most;
 }

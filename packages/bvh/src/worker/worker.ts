@@ -6,6 +6,7 @@ import { Scratch } from '../build/scratch';
 import type { TriangleTree } from '../build/steps';
 import { ownPort, type WorkerPort } from './port';
 import { buffersOf, sendableError, type BuildReply, type BuildRequest, type SentOptions } from './protocol';
+import { HOLD_MS } from './spare';
 import { Team } from './team';
 import { buildTogether } from './together';
 
@@ -16,9 +17,6 @@ const WARM_BUILDS = 24;
 const WARM_EDGE = 40;
 /** As many as these builds have together: what has been asked for meanwhile may make them needless. */
 const WARM_TRIANGLES = 2 * WARM_BUILDS * WARM_EDGE ** 2;
-
-/** So long after its last build a worker lets its working memory go. */
-const HOLD_MS = 1000;
 
 /** A wavy sheet of quads, each row with triangles of another size: splits, pairs and rotations all have work. */
 function sheet(edge: number): TriangleMesh {

@@ -6,6 +6,7 @@ import { connect, hardwareThreads, startWorker, type NodeWorkerLike, type WebWor
 import type { BvhWorkersOptions, WorkerBuildOptions } from './options';
 import { buffersOf, receivedError, sendableOptions, type BuildReply, type BuildRequest } from './protocol';
 import { seatsWorth, type Seat } from './seat';
+import { Spare } from './spare';
 import { teamMemory, type TeamMemory } from './team';
 
 export type { NodeWorkerLike, WebWorkerLike } from './line';
@@ -50,8 +51,8 @@ export class BvhWorkers {
   readonly #signals = new Map<AbortSignal, { readonly jobs: Set<Job>; readonly abort: () => void }>();
   /** What two workers share for a build, and whether one of them is done with it. */
   readonly #teams = new Map<number, { readonly memory: TeamMemory; half: boolean }>();
-  /** What the last two have left. Held weakly, so that it goes when memory is short. */
-  #spare: WeakRef<TeamMemory> | undefined;
+  /** What the last two have left. */
+  readonly #spare = new Spare<TeamMemory>();
   #fallback: string | undefined;
   #nextId = 0;
   /** Triangles of all builds that were asked for since there was last nothing to do. */
@@ -142,6 +143,7 @@ export class BvhWorkers {
   /** Ends all workers. Builds that are not done reject with `bvh/destroyed`. */
   destroy(): void {
     this.#destroyed = true;
+    this.#spare.clear();
     for (const seat of this.#seats) {
       clearTimeout(seat.timer);
       seat.line?.terminate();
@@ -254,7 +256,7 @@ export class BvhWorkers {
     else if (!team.half) team.half = true;
     else {
       this.#teams.delete(id);
-      this.#spare = new WeakRef(team.memory);
+      this.#spare.leave(team.memory);
     }
   }
 
@@ -325,8 +327,7 @@ export class BvhWorkers {
     const copies: Copy[] = [];
     let memory: TeamMemory;
     const mesh = () => {
-      const team = teamMemory(job.mesh, job.triangles, this.#spare?.deref());
-      this.#spare = undefined;
+      const team = teamMemory(job.mesh, job.triangles, this.#spare.take());
       this.#teams.set(id, { memory: (memory = team.memory), half: false });
       copies.push(...team.copies);
       return team.mesh;

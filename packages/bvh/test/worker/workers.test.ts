@@ -80,7 +80,7 @@ describe('BvhWorkers', () => {
       broken[at] = 1e9;
       await expect(workers.buildBlas({ positions, indices: broken })).rejects.toMatchObject({ code: 'bvh/indices' });
     }
-    expectSame(await workers.buildBlas({ positions, indices }), buildBlas({ positions, indices }));
+    for (const before = pieces(); pieces() === before; ) expectSame(await workers.buildBlas({ positions, indices }), buildBlas({ positions, indices }));
     const control = new AbortController();
     const aborted = workers.buildBlas({ positions, indices }, { signal: control.signal });
     control.abort(new Error('enough'));

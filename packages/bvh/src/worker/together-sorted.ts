@@ -1,0 +1,106 @@
+import type { TriangleMesh } from '../blas';
+import { Gatherer, type Sorted } from '../build/gather';
+import { MortonSort } from '../build/morton';
+import { PrimitiveMaker } from '../build/primitives';
+import type { Memory } from '../build/scratch';
+import { STEP } from '../build/steps';
+import type { Team } from './team';
+
+const DIGIT = 10;
+const DIGITS = 1 << DIGIT;
+
+/** Hands out what it was given, in that order. */
+const prepared = (floats: readonly Float32Array[], words: readonly Uint32Array[]): Memory => {
+  const f = [...floats], w = [...words];
+  return { float32: () => f.shift() as Float32Array<ArrayBuffer>, uint32: () => w.shift() as Uint32Array<ArrayBuffer> };
+};
+
+/** Where the second one begins, at a border of the steps in which one worker would do all. */
+const half = (length: number) => Math.min(length, Math.ceil(Math.ceil(length / STEP) / 2) * STEP);
+
+/** Triangles as primitives, each step's where its first triangle has its place: between steps there are gaps. */
+interface Parts {
+  readonly boxes: Float32Array;
+  readonly triangles: Uint32Array;
+  /** Primitives of each step. */
+  readonly counts: Uint32Array;
+  /** Of all. */
+  readonly count: number;
+  readonly triangleCount: number;
+  /** Box of all: min xyz, max xyz. */
+  readonly bounds: Float64Array;
+}
+
+/** Makes a mesh's triangles into primitives, as `PrimitiveMaker` does. */
+export function sharePrimitives(mesh: TriangleMesh, count: number, pairs: boolean, team: Team): Parts {
+  const boxes = team.float32(6 * count), triangles = team.uint32(count), counts = team.uint32(Math.ceil(count / STEP));
+  const maker = new PrimitiveMaker(mesh, count, pairs, prepared([boxes], [triangles]));
+  let own = 0;
+  for (let step = team.take(0); step < counts.length; step = team.take(0)) {
+    const from = (maker.count = step * STEP);
+    maker.add(from, Math.min(count, from + STEP));
+    own += counts[step] = maker.count - from;
+  }
+  const made = team.meet([own, maker.triangleCount, ...maker.bounds]);
+  const sum = (k: number) => (made[0][k] as number) + (made[1][k] as number);
+  const bounds = maker.bounds.map((_, k) => (k < 3 ? Math.min : Math.max)(made[0][2 + k] as number, made[1][2 + k] as number));
+  return { boxes, triangles, counts, count: sum(0), triangleCount: sum(1), bounds };
+}
+
+/** Sorts primitives along a space-filling curve and copies them into that order, as `MortonSort` and `Gatherer` do. */
+export function shareSorting(parts: Parts, pairs: boolean, team: Team): Sorted {
+  const { index } = team;
+  const { boxes, triangles, counts, count, bounds } = parts;
+
+  let order = team.uint32(count), codes = team.uint32(count), order2 = team.uint32(count), codes2 = team.uint32(count);
+  const none = new Uint32Array(0);
+  const sort = new MortonSort({ boxes, triangles, count, bounds }, prepared([], [order, codes, none, none]));
+  for (let step = 0, place = 0, next = team.take(1); step < counts.length; place += counts[step++] as number) {
+    if (step !== next) continue;
+    sort.encode(step * STEP, step * STEP + (counts[step] as number), place);
+    next = team.take(1);
+  }
+  team.meet();
+
+  const histograms = [team.uint32(DIGITS), team.uint32(DIGITS)] as const;
+  const middle = count >>> 1;
+  const [first, end] = index === 0 ? [0, middle] : [middle, count];
+  for (let pass = 0; pass < 3; pass++) {
+    const own = histograms[index] as Uint32Array, shift = pass * DIGIT;
+    own.fill(0);
+    for (let i = first; i < end; i++) {
+      const digit = ((codes[i] as number) >>> shift) & (DIGITS - 1);
+      own[digit] = (own[digit] as number) + 1;
+    }
+    team.meet();
+    const starts = new Uint32Array(DIGITS);
+    for (let digit = 0, sum = 0; digit < DIGITS; digit++) {
+      starts[digit] = sum + (index === 0 ? 0 : (histograms[0][digit] as number));
+      sum += (histograms[0][digit] as number) + (histograms[1][digit] as number);
+    }
+    for (let i = first; i < end; i++) {
+      const code = codes[i] as number, digit = (code >>> shift) & (DIGITS - 1);
+      const place = starts[digit] as number;
+      starts[digit] = place + 1;
+      codes2[place] = code;
+      order2[place] = order[i] as number;
+    }
+    team.meet();
+    [order, order2] = [order2, order];
+    [codes, codes2] = [codes2, codes];
+  }
+
+  // With pairs; the second half moves up to the first.
+  const sorted = { boxes: team.float32(6 * count), names: team.uint32(2 * count) };
+  const [from, to] = index === 0 ? [0, half(count)] : [half(count), count];
+  const gatherer = new Gatherer({ boxes, triangles, count: to - from, bounds }, order.subarray(from), codes.subarray(from), pairs, prepared([sorted.boxes.subarray(6 * from)], [sorted.names.subarray(2 * from)]));
+  for (let at = 0; at < to - from; at += STEP) gatherer.add(at, Math.min(to - from, at + STEP));
+  const gathered = team.meet([gatherer.count]);
+  const [left, right] = [gathered[0][0] as number, gathered[1][0] as number];
+  if (index === 0 && left < half(count)) {
+    const behind = half(count);
+    for (const [array, stride] of [[sorted.boxes, 6], [sorted.names, 2], [codes, 1]] as const) array.copyWithin(stride * left, stride * behind, stride * (behind + right));
+  }
+  team.meet();
+  return { ...sorted, codes, count: left + right };
+}
