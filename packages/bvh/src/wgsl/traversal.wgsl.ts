@@ -6,10 +6,12 @@ import { bvhTypes } from './types.wgsl';
 const box = wgslModule(
   'bvh/box',
   /* wgsl */ `
-// Where the ray enters a box; larger than t_max if it does not. The far side is moved out by eight ulps, so that rounding
+// Where the ray enters a box, given by the bits of its corners; larger than t_max if it does not. The far side is moved out by eight ulps, so that rounding
 // loses no hit on the border (Ize 2013, "Robust BVH Ray Traversal"): half an ulp or two for the sum, and the two and a half
 // that WGSL allows for the reciprocal, on both sides.
-fn bvh_enter_box(ray: BvhRay, low: vec3f, high: vec3f, t_min: f32, t_max: f32) -> f32 {
+fn bvh_enter_box(ray: BvhRay, min_words: vec4u, max_words: vec4u, t_min: f32, t_max: f32) -> f32 {
+  let low = bitcast<vec3f>(min_words.xyz);
+  let high = bitcast<vec3f>(max_words.xyz);
   let near = fma(select(high, low, ray.forward), ray.inverse, ray.near);
   let far = fma(select(low, high, ray.forward), ray.inverse, ray.far);
   let enter = max(max(near.x, near.y), max(near.z, t_min));
@@ -43,6 +45,7 @@ fn bvh_${name}_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> $
   var top = 1u;
   var reference = 0u;
   var ray = bvh_ray(origin, direction);
+  var frame: BvhFrame;
   var instance = BVH_MISS;
   var first_node = 0u;
   var first_triangle = 0u;
@@ -51,15 +54,17 @@ fn bvh_${name}_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> $
       let node = bvh_node(first_node + reference);
       let left = bvh_enter_box(ray, node.left_min, node.left_max, t_min, hit.t);
       let right = bvh_enter_box(ray, node.right_min, node.right_max, t_min, hit.t);
+      let left_child = node.left_min.w;
+      let right_child = node.left_max.w;
       let in_left = left < BVH_OUTSIDE;
       let in_right = right < BVH_OUTSIDE;
       if (in_left && in_right) {
         let swap = right < left;
-        stack[top] = select(node.right, node.left, swap);
+        stack[top] = select(right_child, left_child, swap);
         top++;
-        reference = select(node.left, node.right, swap);
+        reference = select(left_child, right_child, swap);
       } else if (in_left || in_right) {
-        reference = select(node.right, node.left, in_left);
+        reference = select(right_child, left_child, in_left);
       } else {
         top--;
         reference = stack[top];
@@ -78,6 +83,7 @@ fn bvh_${name}_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> $
         vec3f(dot(placed.to_object_0, point), dot(placed.to_object_1, point), dot(placed.to_object_2, point)),
         vec3f(dot(placed.to_object_0.xyz, direction), dot(placed.to_object_1.xyz, direction), dot(placed.to_object_2.xyz, direction)),
       );
+      frame = bvh_frame(ray.direction);
       first_node = placed.blas_node;
       first_triangle = placed.triangle_offset;
       stack[top] = BVH_END;
@@ -85,7 +91,6 @@ fn bvh_${name}_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> $
       reference = 0u;
       continue;
     } else {
-      let frame = bvh_frame(ray.direction);
       let first = first_triangle + (reference & 0x7ffffffu);
       let end = first + ((reference >> 27u) & 15u) + 1u;
       for (var triangle = first; triangle < end; triangle++) {

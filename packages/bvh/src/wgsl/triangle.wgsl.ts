@@ -31,8 +31,7 @@ fn bvh_ray(origin: vec3f, direction: vec3f) -> BvhRay {
   return BvhRay(origin, direction, inverse, inverse >= vec3f(0.0), -start - margin, margin - start);
 }
 
-// Two unit vectors perpendicular to the ray's direction, and the direction over its squared length. Made anew at each
-// leaf: nodes outnumber leaves, and registers are dearer than the few multiplications.
+// Two unit vectors perpendicular to the ray's direction, and the direction over its squared length.
 struct BvhFrame {
   x: vec3f,
   y: vec3f,
