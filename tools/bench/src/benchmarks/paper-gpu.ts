@@ -31,7 +31,8 @@ function kernelFigures(level: string, times: readonly KernelTime[]): Figure[] {
   return times.flatMap(({ kernel, milliseconds, workgroups }) => {
     const name = kernel.replace('glanz ', '');
     const share = timed(`${level}: share of ${name}`, '%', [(100 * milliseconds) / all]);
-    return name === 'intersect' || name === 'connect' ? [share, timed(`${level}: rays of ${name}`, 'Mrays/s', [(64 * workgroups) / milliseconds / 1e3])] : [share];
+    // Known where launches are indirect.
+    return workgroups > 0 && (name === 'intersect' || name === 'connect') ? [share, timed(`${level}: rays of ${name}`, 'Mrays/s', [(64 * workgroups) / milliseconds / 1e3])] : [share];
   });
 }
 
