@@ -2,7 +2,7 @@ import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../paramete
 import { coatedBase, coatEmission, coatPass, coatThrough, inCoat, outOfCoat, prepareCoat, type Coat } from './coat';
 import { interfaceEnergy, isOverOpaque, isSummed, lightShare, summedShareMean } from './dielectric';
 import { cosineSample, diffuseGain, diffuseGrazing, eon } from './diffuse';
-import { energyShareMean, mirrorLost, mirrorLostMean } from './energy';
+import { energyShareMean, mirrorLost, mirrorLostMean, stretchedShareMean } from './energy';
 import { dielectricEpsilon, fresnelDielectric, fresnelMetal, fresnelMetalMean } from './fresnel';
 import { filmFacet, filmReflectance, filmShare, metalIndex, prepareFilm, type ComplexIndex, type Film } from './film';
 import { fuzzAlbedo, fuzzDensity, fuzzSample, prepareFuzz, type Fuzz } from './fuzz';
@@ -138,7 +138,7 @@ export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multi
   const down = sum(beneath);
   const facets = sum(specular) + sum(transmission.albedo);
   const all = facets + sum(spread) + down;
-  const reflected = face.summed && isOverOpaque(p) ? summedShareMean(face.epsilon, roughness) : energyShareMean(face.epsilon, roughness);
+  const reflected = stretchedShareMean(face.epsilon, alpha, roughness, face.summed && isOverOpaque(p) ? summedShareMean(face.epsilon, roughness) : energyShareMean(face.epsilon, roughness));
   const grazing = diffuseGrazing(p.base_diffuse_roughness, roughness, reflected);
   const even = 1 - p.base_diffuse_roughness * ((0.0025 * reflected) / (reflected + 0.01) + (face.epsilon < 0 ? 0.03 * reflected : 0));
   const coupling = (even * diffuseGain(grazing, mu)) / Math.max(1 - reflected, 1e-4);

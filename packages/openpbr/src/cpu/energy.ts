@@ -118,6 +118,18 @@ export function energyShareMean(epsilon: number, roughness: number): number {
   return 1 - Math.min((1 - fresnelMean(epsilon)) * tableLookup(OPENPBR_TABLES.dielectric, [(TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1), y, slice('outer', epsilon)]), 1);
 }
 
+/**
+ * {@link energyShareMean} of a stretched highlight, whose share at `viewRoughness` is a little more in the mean; from inside
+ * it is what is given. Twin of `openpbr_energy_stretched_mean`.
+ *
+ * @param reflected The mean share with a round highlight.
+ */
+export function stretchedShareMean(epsilon: number, [x, y]: Slopes, roughness: number, reflected: number): number {
+  if (epsilon <= 0) return reflected;
+  const stretched = (x * x - y * y) / (x * x + y * y);
+  return reflected + ((1 - reflected) * 0.03 * roughness ** 2 * (1.03 - roughness) * stretched ** 3 * epsilon) / (epsilon + 0.06);
+}
+
 /** Cosine-weighted mean of what single scattering loses. */
 const energyTotalLostMean = (epsilon: number, roughness: number): number => tableLookup(OPENPBR_TABLES.dielectric, [totalRoughness(roughness), (TABLE_ROUGHNESSES - 0.5) / TABLE_ROUGHNESSES, totalSlice(epsilon)]);
 

@@ -9,4 +9,4 @@ export { dispersedIor, phaseEval, phaseSample, transmissionMedium, type Medium }
 export { dielectricEpsilon, fresnelDielectric, fresnelMetal, fresnelMetalMean } from './fresnel';
 export { ggx, ggxAlpha, ggxBound, ggxDistribution, ggxMasking, ggxMaskingShadowing, ggxSample, halfVector, mirrorCosine, viewRoughness, type Slopes } from './ggx';
 export { cosineSample, eon } from './diffuse';
-export { energyBounce, energyLost, energyLostMean, mirrorLost, mirrorLostMean, energyShare, energyShareMean, energyTotalLost, fresnelMean, tableLookup } from './energy';
+export { energyBounce, energyLost, energyLostMean, mirrorLost, mirrorLostMean, energyShare, energyShareMean, stretchedShareMean, energyTotalLost, fresnelMean, tableLookup } from './energy';

@@ -1,4 +1,6 @@
 import type { OpenPbrVector } from '../parameters/index';
+import { STRETCHED_AROUND, STRETCHED_HEIGHTS, STRETCHED_MIRRORS } from '../tables/layout';
+import { seenFacets } from './conic';
 import { fresnelDielectric } from './fresnel';
 import { ggxSample, type Slopes } from './ggx';
 import { facetSeen, insideEnergy, type Kept } from './inside';
@@ -12,20 +14,20 @@ import { clamp, dot } from './vector';
  */
 export const stretchedEnergy = (eta: number, alpha: Slopes, wo: OpenPbrVector): Kept => (eta < 1 ? insideEnergy(eta, alpha, wo) : fromOutside(eta, alpha, wo));
 
-/** A sum over 64 facets. */
-function fromOutside(eta: number, alpha: Slopes, wo: OpenPbrVector): Kept {
-  const turn = Math.atan2(alpha[1] * wo[1], alpha[0] * wo[0]) / (2 * Math.PI);
+/** What is reflected over the facets that mirror upwards, since that has an edge; what passes, which has none, over the whole cap. */
+function fromOutside(eta: number, alpha: Slopes, given: OpenPbrVector): Kept {
+  const wo: OpenPbrVector = [given[0], given[1], Math.max(given[2], 1e-5)];
+  const { upwards, sum } = seenFacets(alpha, wo);
+  const reflectance = (h: OpenPbrVector): number => fresnelDielectric(eta, clamp(dot(wo, h), 0, 1));
   let reflected = 0;
+  sum(STRETCHED_MIRRORS, upwards, upwards, (weight, h) => (reflected += weight * reflectance(h) * Math.max(facetSeen(eta, alpha, wo, h)[0], 0)));
+  const turn = Math.atan2(alpha[1] * wo[1], alpha[0] * wo[0]) / (2 * Math.PI);
   let through = 0;
-  for (let i = 0; i < 64; i++) {
-    const y = (i + 0.5) / 64;
-    const u = clamp(y, 0.002, 0.998);
-    const h = ggxSample(alpha, wo, [turn + i * 0.618034, u * u * (3 - 2 * u)]);
-    const [up, down] = facetSeen(eta, alpha, wo, h);
-    const reflectance = fresnelDielectric(eta, clamp(dot(wo, h), 0, 1));
-    const weight = 0.09375 * y * (1 - y);
-    reflected += weight * reflectance * up;
-    through += weight * (1 - reflectance) * down;
-  }
+  STRETCHED_HEIGHTS.forEach(([height, weight], k) => {
+    for (let i = 0; i < STRETCHED_AROUND; i++) {
+      const h = ggxSample(alpha, wo, [turn + (i + 0.382 * k) / STRETCHED_AROUND, height]);
+      through += (weight / STRETCHED_AROUND) * (1 - reflectance(h)) * facetSeen(eta, alpha, wo, h)[1];
+    }
+  });
   return [reflected, through];
 }

@@ -74,3 +74,15 @@ export const INNER_SUM_NODES = [
   [0.8983332387068134, 0.11119051722668724],
   [0.9801449282487681, 0.05061426814518813],
 ] as const;
+
+/** Facets that a stretched dielectric's energies from outside are summed over: of those that mirror upwards, and of all, around the cap at each height. */
+export const STRETCHED_MIRRORS = 32;
+export const STRETCHED_AROUND = 10;
+
+/** Heights of the cap and weights of what passes there: Gauss and Legendre's over the root of the rest, since what passes vanishes at the rim. */
+export const STRETCHED_HEIGHTS = [
+  [0.13404290741652147, 0.3237026417246205],
+  [0.5511127007083099, 0.4369310725907613],
+  [0.8910937442931661, 0.2152140822717851],
+  [0.9951792190105739, 0.024152203412833254],
+] as const;

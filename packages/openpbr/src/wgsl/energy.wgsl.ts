@@ -170,6 +170,17 @@ fn openpbr_energy_share_mean(epsilon: f32, roughness: f32) -> f32 {
   let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
   return 1.0 - min((1.0 - openpbr_fresnel_mean(epsilon)) * openpbr_table_dielectric(vec3f(${float((TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1))}, ${rough[0]} + ${rough[1]} * ${unit}, ${outer[0]} + ${outer[1]} * sqrt(epsilon))), 1.0);
 }
+
+//#if OPENPBR_ANISOTROPY
+// The same for a stretched highlight: the share at openpbr_view_roughness lets a little less through in the mean, up to 0.0043,
+// which this has within 0.001 (0.0002 in the mean square) for indices 1.05 to 3.
+fn openpbr_energy_stretched_mean(epsilon: f32, alpha: vec2f, roughness: f32, reflected: f32) -> f32 {
+  let square = alpha * alpha;
+  let stretched = (square.x - square.y) / (square.x + square.y);
+  let less = 0.03 * roughness * roughness * (1.03 - roughness) * stretched * stretched * stretched * max(epsilon, 0.0) / (abs(epsilon) + 0.06);
+  return reflected + (1.0 - reflected) * less;
+}
+//#endif
 //#endif`,
   [openpbrGgx, openpbrFresnelDielectric],
 );

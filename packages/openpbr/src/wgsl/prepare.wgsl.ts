@@ -144,6 +144,9 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
   //#else
   reflected = openpbr_energy_share_mean(b.dielectric.epsilon, b.dielectric.roughness);
   //#endif
+  //#if OPENPBR_ANISOTROPY
+  reflected = openpbr_energy_stretched_mean(b.dielectric.epsilon, b.alpha, b.dielectric.roughness, reflected);
+  //#endif
   var coupling = 1.0 / max(1.0 - reflected, 1e-4);
   //#if OPENPBR_DIFFUSE_ROUGHNESS
   b.diffuse_grazing = openpbr_diffuse_grazing(b.diffuse_roughness, b.dielectric.roughness, reflected);
