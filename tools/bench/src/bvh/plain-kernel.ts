@@ -10,9 +10,9 @@ export const plainQuery = (query: 'closest' | 'any') => {
   return wgslModule(
     `bench/plain-${query}`,
     /* wgsl */ `
-fn plain_box(origin: vec3f, inverse: vec3f, low: vec3f, high: vec3f, t_min: f32, t_max: f32) -> f32 {
-  let a = (low - origin) * inverse;
-  let b = (high - origin) * inverse;
+fn plain_box(origin: vec3f, inverse: vec3f, low: vec4u, high: vec4u, t_min: f32, t_max: f32) -> f32 {
+  let a = (bitcast<vec3f>(low.xyz) - origin) * inverse;
+  let b = (bitcast<vec3f>(high.xyz) - origin) * inverse;
   let near = min(a, b);
   let far = max(a, b);
   let enter = max(max(near.x, near.y), max(near.z, t_min));
@@ -32,12 +32,14 @@ fn bvh_${query}_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> 
       let node = bvh_node(first_node + reference);
       let left = plain_box(origin, inverse, node.left_min, node.left_max, t_min, hit.t);
       let right = plain_box(origin, inverse, node.right_min, node.right_max, t_min, hit.t);
+      let left_child = node.left_min.w;
+      let right_child = node.left_max.w;
       if (max(left, right) < 3.4028234e38) {
-        stack[top] = select(node.right, node.left, right < left);
+        stack[top] = select(right_child, left_child, right < left);
         top++;
-        reference = select(node.left, node.right, right < left);
+        reference = select(left_child, right_child, right < left);
       } else if (min(left, right) < 3.4028234e38) {
-        reference = select(node.right, node.left, left < right);
+        reference = select(right_child, left_child, left < right);
       } else {
         top--;
         reference = stack[top];
