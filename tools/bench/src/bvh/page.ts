@@ -151,7 +151,7 @@ ${tinyList(rows)}
 
 ${threadsList(threads)}
 ${alone?.details ? `
-With several meshes, as scenes have them, two workers share the builds; on one mesh they wait for each other now and then. By themselves, on ${alone.machine.cpu}, ${alone.machine.cores} cores, Node ${alone.machine.node}, commit ${alone.machine.commit ?? 'unknown'}, ${alone.machine.date.slice(0, 10)}, a machine that others shared:
+With several meshes, as scenes have them, two workers share the builds; of one mesh each takes the next part of every stage. By themselves, on ${alone.machine.cpu}, ${alone.machine.cores} cores, Node ${alone.machine.node}, commit ${alone.machine.commit ?? 'unknown'}, ${alone.machine.date.slice(0, 10)}, a machine that others shared:
 
 ${threadsList(alone.details.threads)}
 ` : ''}${brief?.details ? `
