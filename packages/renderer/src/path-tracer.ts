@@ -11,17 +11,16 @@ import type { GpuMemory } from './gpu/buffers';
 import type { GpuScene } from './gpu/gpu-scene';
 import type { KernelCache } from './gpu/kernel-cache';
 import { memoryReport } from './gpu/memory-report';
-import { readBuffer } from './gpu/read-buffer';
+import { readBuffer, readFloats } from './gpu/read-buffer';
 import type { Integrator } from './integrator';
 import { serves, type KernelName } from './kernels/pipelines';
 import type { FilmLayer, LightGroup, PathTracerOptions, PickResult, RenderOptions, RenderProgress, RenderStatistics } from './options';
 import { pickPixel } from './pick';
-import { checkDepth, checkSize, kernelFeatures, prepareTracer, type Prepared } from './prepare';
+import { checkDepth, checkedSamples, checkSize, kernelFeatures, prepareTracer, type Prepared } from './prepare';
 import { Sampling } from './sampling';
 import { cameraUniforms } from './scene/camera';
 import { chooseCamera } from './scene/choose-camera';
 import type { SceneEditor } from './scene-editor';
-import type { Batch } from './scheduler';
 import { TracerEdits } from './tracer-edits';
 import { viewFlags } from './view';
 
@@ -143,17 +142,15 @@ export class PathTracer extends TracerEdits {
    * @throws {DeviceError} `renderer/device-lost`, `renderer/gpu-error`
    */
   async *render(options: RenderOptions = {}): AsyncGenerator<RenderProgress, void, undefined> {
-    const target = options.samples ?? (options.noise === undefined ? 64 : 65536);
     this.#check();
-    if (!Number.isInteger(target) || target < 1) throw new RenderError('renderer/samples', `The number of samples must be a whole number of at least 1, not ${target}.`);
-    if (options.noise !== undefined && !(options.noise > 0)) throw new RenderError('renderer/samples', `The noise to reach must be above 0, not ${options.noise}.`);
+    const samples = checkedSamples(options);
     if (this.#rendering) throw new RenderError('renderer/busy', 'This tracer is already rendering: finish or abort the other render() first.');
     this.#rendering = true;
     try {
       const generation = this.#generation;
       const sampling = (this.#sampling ??= this.#newSampling());
       yield* sampling.render({
-        samples: target,
+        samples,
         noise: options.noise,
         budgetMs: options.maxSubmitMs ?? 30,
         current: () => generation === this.#generation && !options.signal?.aborted && !this.#destroyed,
@@ -184,7 +181,7 @@ export class PathTracer extends TracerEdits {
   async read(layer: FilmLayer): Promise<Float32Array<ArrayBuffer> | Uint32Array<ArrayBuffer>> {
     this.#check();
     if (layer === 'beauty') {
-      const pixels = new Float32Array(await readBuffer(this.#device, this.#film.beauty, this.#film.pixels * 16));
+      const pixels = await readFloats(this.#device, this.#film.beauty, this.#film.pixels * 16);
       const counters = new Uint32Array(await readBuffer(this.#device, this.#integrator.queues, 32));
       this.#badSamples = counters[3] as number;
       return pixels;
@@ -353,11 +350,6 @@ export class PathTracer extends TracerEdits {
     if (this.#failure) throw this.#failure;
   }
 
-  #submit(batch: Batch): void {
-    this.#writeFrame();
-    this.#integrator.submit(batch);
-  }
-
   #newSampling(paths?: number): Sampling {
     const film = this.#film;
     film.setPixels(undefined);
@@ -367,7 +359,10 @@ export class PathTracer extends TracerEdits {
         height: film.height,
         capacity: Math.floor(this.#integrator.limit / this.#integrator.pathsPerSample),
         queue: this.#device.queue,
-        submit: (batch) => this.#submit(batch),
+        submit: (batch) => {
+          this.#writeFrame();
+          this.#integrator.submit(batch);
+        },
         check: () => {
           if (this.#failure) throw this.#failure;
         },
@@ -383,7 +378,7 @@ export class PathTracer extends TracerEdits {
     this.#check();
     const { columns, rows } = new TileGrid(this.#film.width, this.#film.height);
     this.#integrator.submitTiles(kernel, columns, rows);
-    return new Float32Array(await readBuffer(this.#device, this.#film.buffer('film_noise') as GPUBuffer, 16 * columns * rows));
+    return readFloats(this.#device, this.#film.buffer('film_noise') as GPUBuffer, 16 * columns * rows);
   }
 
   #writeFrame(): void {
@@ -400,12 +395,7 @@ export class PathTracer extends TracerEdits {
   }
 
   #readFilm(...names: readonly string[]): Promise<Float32Array[]> {
-    return Promise.all(
-      names.map(async (name) => {
-        const buffer = this.#film.buffer(name) as GPUBuffer;
-        return new Float32Array(await readBuffer(this.#device, buffer, buffer.size));
-      }),
-    );
+    return Promise.all(names.map((name) => readFloats(this.#device, this.#film.buffer(name) as GPUBuffer)));
   }
 
   #replaceFilm(width: number, height: number): void {

@@ -9,7 +9,7 @@ import { GpuScene } from './gpu/gpu-scene';
 import { KernelCache } from './gpu/kernel-cache';
 import { Integrator } from './integrator';
 import type { Kernel, KernelFeatures, KernelName } from './kernels/pipelines';
-import type { PathTracerOptions, RenderStatistics } from './options';
+import type { PathTracerOptions, RenderOptions, RenderStatistics } from './options';
 import { cameraSteps } from './scene/choose-camera';
 import { environmentSteps } from './scene/environment';
 import { expectedFeatures, type SceneChoices } from './scene/features';
@@ -173,6 +173,16 @@ export function kernelFeatures(features: KernelFeatures, camera: Camera, options
 const MOST_EVENTS = 0xffff;
 /** An interior's place in a path's stack has 15 bits, and 0 stands for none. */
 const MOST_INTERIORS = 0x7fff;
+
+/**
+ * The samples that are asked for.
+ * @throws {RenderError} `renderer/samples`
+ */
+export function checkedSamples({ noise, samples = noise === undefined ? 64 : 65536 }: RenderOptions): number {
+  if (!Number.isInteger(samples) || samples < 1) throw new RenderError('renderer/samples', `The number of samples must be a whole number of at least 1, not ${samples}.`);
+  if (noise !== undefined && !(noise > 0)) throw new RenderError('renderer/samples', `The noise to reach must be above 0, not ${noise}.`);
+  return samples;
+}
 
 /** @throws {RenderError} `renderer/option` */
 export function checkDepth(maxDepth: number): void {

@@ -19,3 +19,8 @@ export async function readBuffer(device: GPUDevice, source: GPUBuffer, bytes: nu
     staging.destroy();
   }
 }
+
+/** The same as numbers; the whole buffer, unless told otherwise. */
+export async function readFloats(device: GPUDevice, source: GPUBuffer, bytes = source.size): Promise<Float32Array<ArrayBuffer>> {
+  return new Float32Array(await readBuffer(device, source, bytes));
+}
