@@ -36,9 +36,10 @@ fn bvh_enter_four(kinds: u32, place: u32, octant: u32, inside: vec4<bool>) -> Bv
 
 fn bvh_enter_children(ray: BvhRay, octant: u32, node: BvhNode, t_min: f32, t_max: f32) -> BvhEntered {
   // A byte unpacks to its 255th part.
-  let step = vec3f(bitcast<f32>((node.steps & 0xffu) << 23u), bitcast<f32>((node.steps & 0xff00u) << 15u), bitcast<f32>((node.steps & 0xff0000u) << 7u));
+  let steps = node.frame.w;
+  let step = vec3f(bitcast<f32>((steps & 0xffu) << 23u), bitcast<f32>((steps & 0xff00u) << 15u), bitcast<f32>((steps & 0xff0000u) << 7u));
   let scale = step * 255.0 * ray.inverse;
-  let start = (node.origin - ray.origin) * ray.inverse;
+  let start = (bitcast<vec3f>(node.frame.xyz) - ray.origin) * ray.inverse;
   // More than all rounding here can be, so that no hit on a border is lost.
   let slack = (abs(start) + abs(scale)) * 4.7683716e-7;
   let near = start - slack;
@@ -59,7 +60,7 @@ fn bvh_enter_children(ray: BvhRay, octant: u32, node: BvhNode, t_min: f32, t_max
   for (var half = 0u; half < 2u; half++) {
     let enter = max(max(unpack4x8unorm(near_x[half]) * scale.x + near.x, unpack4x8unorm(near_y[half]) * scale.y + near.y), max(unpack4x8unorm(near_z[half]) * scale.z + near.z, vec4f(t_min)));
     let leave = min(min(unpack4x8unorm(far_x[half]) * scale.x + far.x, unpack4x8unorm(far_y[half]) * scale.y + far.y), min(unpack4x8unorm(far_z[half]) * scale.z + far.z, vec4f(t_max)));
-    let four = bvh_enter_four(node.kinds[half], 4u * half, octant, enter <= leave);
+    let four = bvh_enter_four(node.children[2u + half], 4u * half, octant, enter <= leave);
     entered.nodes |= four.nodes;
     entered.primitives |= four.primitives;
   }
@@ -90,6 +91,7 @@ fn bvh_${name}_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> $
   var ray = bvh_ray(origin, direction);
   var octant = bvh_octant(ray.inverse);
   var group = vec2u(0u, 0x80000000u);
+  var frame: BvhFrame;
   var instance = BVH_MISS;
   var first_node = 0u;
   var first_triangle = 0u;
@@ -106,6 +108,7 @@ fn bvh_${name}_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> $
         vec3f(dot(placed.to_object_0.xyz, direction), dot(placed.to_object_1.xyz, direction), dot(placed.to_object_2.xyz, direction)),
       );
       octant = bvh_octant(ray.inverse);
+      frame = bvh_frame(ray.direction);
       first_node = placed.blas_node;
       first_triangle = placed.triangle_offset;
       if (group.y > 0xffffffu) {
@@ -137,14 +140,13 @@ fn bvh_${name}_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> $
     }
     let node = bvh_node(first_node + group.x + countOneBits(before & 0xffu));
     let entered = bvh_enter_children(ray, octant, node, t_min, hit.t);
-    group = vec2u(node.child, entered.nodes | (node.steps >> 24u));
+    group = vec2u(node.children.x, entered.nodes | (node.frame.w >> 24u));
     if (instance == BVH_MISS) {
       waiting = entered.primitives;
-      first_waiting = node.primitive;
+      first_waiting = node.children.y;
     } else {
-      let frame = bvh_frame(ray.direction);
       for (var left = entered.primitives; left != 0u; left &= left - 1u) {
-        let triangle = first_triangle + node.primitive + countTrailingZeros(left);
+        let triangle = first_triangle + node.children.y + countTrailingZeros(left);
         let found = bvh_intersect_triangle(ray.origin, frame, bvh_triangle(triangle));
         if (found.x > t_min && found.x < hit.t) {
           let candidate = BvhHit(found.x, found.y, found.z, triangle, instance);
