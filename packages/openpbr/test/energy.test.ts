@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { albedoBsdf, evalBsdf, prepareBsdf } from '../src/cpu/index';
 import { resolveParameters, type OpenPbrParameters } from '../src/parameters/index';
-import { direction, furnace } from './integrate';
+import { direction, furnace, whiteDielectric } from './integrate';
 import { anySurface, uniform, upperDirection } from './random';
 import { primitives, sharedIt } from './shared';
 
@@ -51,6 +51,15 @@ describe('energy', () => {
     for (const row of primitives()['ggx_directional_albedo'] as unknown as { r: number; mu: number; E_F1_correlated: number }[]) {
       const p = resolveParameters({ base_metalness: 1, base_color: WHITE, specular_roughness: row.r });
       expect(Math.abs(furnace(p, direction(row.mu), { multipleScattering: false }, 64).albedo[0] - row.E_F1_correlated), `roughness ${row.r}, cosine ${row.mu}`).toBeLessThan(1e-3);
+    }
+  });
+
+  it('of clear glass is 1 within 0.0025 from outside, to the normal and to the horizon, 200 random views, indices and roughnesses (seed 68)', () => {
+    const next = uniform(68);
+    for (let i = 0; i < 200; i++) {
+      const p = resolveParameters({ transmission_weight: 1, specular_ior: 1.03 + 1.5 * next(), specular_roughness: next() < 0.3 ? 1 : 0.03 + 0.97 * next() });
+      const sum = whiteDielectric(p, direction(next() < 0.5 ? 1 - 0.2 * next() : 0.02 + 0.98 * next() ** 2));
+      expect(Math.abs(sum - 1), `${sum} for ${JSON.stringify([p.specular_ior, p.specular_roughness])}`).toBeLessThan(0.0025);
     }
   });
 

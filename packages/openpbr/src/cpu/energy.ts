@@ -147,6 +147,6 @@ export function energyBounce(epsilon: number, roughness: number): number {
 /** Energy that single scattering by an interface neither reflects nor refracts; twin of `openpbr_energy_total_lost`. */
 export function energyTotalLost(epsilon: number, roughness: number, mu: number): number {
   const r = Math.max(roughness, TABLE_MIN_ROUGHNESS);
-  const t = epsilon >= 0 ? spread(r, mu) : 0.5 * (spread(r, mu) + innerPosition((1 + epsilon) / (1 - epsilon), mu));
+  const t = epsilon >= 0 ? 1 - Math.max(1 - spread(r, mu), 0) ** 0.6 : 0.5 * (spread(r, mu) + innerPosition((1 + epsilon) / (1 - epsilon), mu));
   return tableLookup(OPENPBR_TABLES.dielectric, [totalRoughness(r), texel(t, 0, TABLE_ROUGHNESSES - 1, TABLE_ROUGHNESSES), totalSlice(epsilon)]);
 }

@@ -120,9 +120,11 @@ fn openpbr_energy_total_lost_at(epsilon: f32, r: f32, y: f32) -> f32 {
 // less it would not.
 fn openpbr_energy_total_lost(epsilon: f32, roughness: f32, mu: f32) -> f32 {
   let r = max(roughness, ${TABLE_MIN_ROUGHNESS});
-  var t = openpbr_energy_angle(r, mu);
+  let angle = openpbr_energy_angle(r, mu);
+  // Columns crowd towards the normal.
+  var t = 1.0 - pow(max(1.0 - angle, 1e-9), 0.6);
   //#if OPENPBR_INNER
-  if (epsilon < 0.0) { t = 0.5 * (t + openpbr_energy_inner_angle((1.0 + epsilon) / (1.0 - epsilon), mu)); }
+  if (epsilon < 0.0) { t = 0.5 * (angle + openpbr_energy_inner_angle((1.0 + epsilon) / (1.0 - epsilon), mu)); }
   //#endif
   return openpbr_energy_total_lost_at(epsilon, r, ${totalAngle[0]} + ${totalAngle[1]} * t);
 }
