@@ -31,30 +31,24 @@ export class Levels {
   readonly #splitter: Splitter;
   readonly #group = new Agglomerator(0);
   /** Pending ranges, ten numbers each: bounds of the centres, first, end, word for the reference, depth. */
-  readonly tasks: number[] = [];
+  readonly tasks: number[];
   /** Bounds of the centres of the range at work, doubled: min xyz, max xyz. */
   readonly #centers = new Int32Array(6);
 
   /**
    * @param maxDepth Most inner nodes on the way to an item; 2 ** maxDepth must not be less than the number of items.
-   * @param order A number for each item, to work in.
-   * @param words Four for each.
+   * @param order The items' numbers, rising.
+   * @param words Four numbers for each item, to work in.
    */
-  constructor(writer: NodeWriter, items: Items, maxDepth: number, bins: number, order = new Uint32Array(items.count), words = new Int32Array(4 * items.count)) {
+  constructor(writer: NodeWriter, items: Items, maxDepth: number, bins: number, order = new Uint32Array(items.count).map((_, i) => i), words = new Int32Array(4 * items.count)) {
     this.#writer = writer;
     this.#items = items;
     this.#order = order;
     this.#words = words;
     this.#maxDepth = maxDepth;
     this.#splitter = new Splitter(bins);
-  }
-
-  /** Makes the whole the first task. */
-  begin(): void {
-    const { count } = this.#items, order = this.#order;
-    for (let i = 0; i < count; i++) order[i] = i;
-    this.#quantise(0, count);
-    this.tasks.push(...this.#centers, 0, count, 0, 0);
+    this.#quantise(0, items.count);
+    this.tasks = [...this.#centers, 0, items.count, 0, 0];
   }
 
   /**
@@ -75,9 +69,8 @@ export class Levels {
         this.#join(first, size, slot, depth);
         continue;
       }
-      let extent = 0;
-      for (let k = 0; k < 3; k++) extent = Math.max(extent, (centers[k + 3] as number) - (centers[k] as number));
-      if (extent < COARSE) this.#quantise(first, end);
+      const [x, y, z, x1, y1, z1] = centers as unknown as [number, number, number, number, number, number];
+      if (Math.max(x1 - x, y1 - y, z1 - z) < COARSE) this.#quantise(first, end);
       // With the levels that halving would need from here on.
       splitter.split(this.#words, order, first, depth + 33 - Math.clz32(size - 1) < this.#maxDepth ? end : first, centers);
       let { cut } = splitter;

@@ -37,8 +37,8 @@ export class MortonSort {
     for (let i = 1; i < CELLS; i++) spread[i] = ((spread[i >> 1] as number) << 3) | (i & 1);
   }
 
-  /** Finds the codes of the primitives from one to another, and puts them behind each other from `place` on. */
-  encode(from: number, to: number, place = from): void {
+  /** Finds the codes of the primitives from one to another. */
+  encode(from: number, to: number): void {
     const { boxes, bounds } = this.#primitives;
     const DIGITS = 1024, DIGIT = 10;
     const { order, codes } = this;
@@ -48,13 +48,13 @@ export class MortonSort {
     // Just below the number of cells, so that the largest centre falls into the last.
     const scale = extent > 0 ? (0.4999999 * CELLS) / extent : 0;
     const ox = 2 * x, oy = 2 * y, oz = 2 * z;
-    for (let i = from, at = place, b = 6 * from; i < to; i++, at++, b += 6) {
+    for (let i = from, b = 6 * from; i < to; i++, b += 6) {
       const qx = (((boxes[b] as number) + (boxes[b + 3] as number) - ox) * scale) | 0;
       const qy = (((boxes[b + 1] as number) + (boxes[b + 4] as number) - oy) * scale) | 0;
       const qz = (((boxes[b + 2] as number) + (boxes[b + 5] as number) - oz) * scale) | 0;
       const code = ((spread[qx] as number) << 2) | ((spread[qy] as number) << 1) | (spread[qz] as number);
-      codes[at] = code;
-      order[at] = i;
+      codes[i] = code;
+      order[i] = i;
       const second = DIGITS + ((code >>> DIGIT) & 1023), third = 2 * DIGITS + (code >>> (2 * DIGIT));
       starts[code & 1023] = (starts[code & 1023] as number) + 1;
       starts[second] = (starts[second] as number) + 1;

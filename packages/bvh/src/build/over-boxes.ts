@@ -14,7 +14,6 @@ export function buildOverBoxes(boxes: Float32Array, count: number, maxDepth: num
     return writer.finish();
   }
   const levels = new Levels(writer, { boxes, weights: new Uint32Array(count).fill(1), count }, maxDepth, 16);
-  levels.begin();
   while (levels.step(count));
   encloseNodes(writer, 0, writer.count);
   return writer.finish();

@@ -54,10 +54,12 @@ export function shareSorting(parts: Parts, pairs: boolean, team: Team): Sorted {
 
   let order = team.uint32(count), codes = team.uint32(count), order2 = team.uint32(count), codes2 = team.uint32(count);
   const none = new Uint32Array(0);
-  const sort = new MortonSort({ boxes, triangles, count, bounds }, prepared([], [order, codes, none, none]));
   for (let step = 0, place = 0, next = team.take(1); step < counts.length; place += counts[step++] as number) {
     if (step !== next) continue;
-    sort.encode(step * STEP, step * STEP + (counts[step] as number), place);
+    const from = step * STEP, own = counts[step] as number;
+    const sort = new MortonSort({ boxes: boxes.subarray(6 * from), triangles, count: own, bounds }, prepared([], [order.subarray(place), codes.subarray(place), none, none]));
+    sort.encode(0, own);
+    for (let i = place; i < place + own; i++) order[i] = (order[i] as number) + from;
     next = team.take(1);
   }
   team.meet();

@@ -1,6 +1,6 @@
 import { GROUP_MAX } from '../build/agglomerate';
 import type { Clusters } from '../build/clusters';
-import { encloseNodes, Levels } from '../build/levels';
+import { encloseNodes, Levels, type Items } from '../build/levels';
 import type { NodeWriter } from '../build/node-writer';
 import { PASSES, rotateAt } from '../build/rotate';
 import { LEAF, LEFT, NODE_WORDS, RIGHT } from '../layout';
@@ -20,14 +20,20 @@ const SHARES = 24;
  */
 export function shareLevels<T>(upper: NodeWriter, clusters: Clusters, maxDepth: number, bins: number, team: Team, meanwhile: () => T): T | undefined {
   const { count } = clusters;
-  const levels = new Levels(upper, clusters, maxDepth, bins, team.uint32(count), team.int32(4 * count));
-  const shares = team.int32((TASK + 1) * SHARES + 1);
+  const order = team.uint32(count), words = team.int32(4 * count), shares = team.int32((TASK + 1) * SHARES + 1);
+  const levelsOver = (items: Items) => new Levels(upper, items, maxDepth, bins, order, words);
+  let levels: Levels;
   let result: T | undefined;
   let tops: number[] = [];
   if (team.index === 1) {
+    for (let i = 0; i < count; i++) order[i] = i;
+    levels = levelsOver(clusters);
     tops = cutShares(levels, upper, shares);
     team.publish();
   } else {
+    // No items are its own: it works on what the other one has begun.
+    levels = levelsOver({ ...clusters, count: 0 });
+    levels.tasks.length = 0;
     result = meanwhile();
     team.published();
   }
@@ -53,7 +59,6 @@ export function shareLevels<T>(upper: NodeWriter, clusters: Clusters, maxDepth: 
 function cutShares(levels: Levels, upper: NodeWriter, shares: Int32Array): number[] {
   const { tasks } = levels;
   const size = (task: readonly number[]) => (task[7] as number) - (task[6] as number);
-  levels.begin();
   const pending: { task: number[]; node: number }[] = [{ task: tasks.splice(0), node: 0 }];
   const tops: number[] = [];
   while (pending.length < SHARES) {

@@ -45,7 +45,6 @@ export function buildTogether(mesh: TriangleMesh, count: number, settings: Build
     // Rotations make few trees too deep: these stay as they were.
     upper.count = 0;
     const levels = new Levels(upper, clusters, depth, bins);
-    levels.begin();
     while (levels.step(Infinity));
     encloseNodes(upper, 0, upper.count);
     finish(crown(upper, clusters, writer));
