@@ -68,7 +68,8 @@ fn openpbr_dielectric_kept(eta: f32, alpha: vec2f, wo: vec3f) -> vec2f {
 // again is the same both ways; but for stretched highlights, where it is that of the tables.
 fn openpbr_light_share(d: OpenPbrDielectric, alpha: vec2f, wi: vec3f) -> f32 {
   //#if OPENPBR_INNER_SUMS
-  if (d.summed) { return openpbr_dielectric_summed(d, openpbr_dielectric_kept(d.eta, alpha, wi)).share; }
+  // Only indices below 1 are: the sum from outside would be text for nothing.
+  if (d.summed) { return openpbr_dielectric_summed(d, openpbr_inside(d.eta, alpha, wi)).share; }
   //#endif
   return openpbr_energy_share(d.epsilon, openpbr_view_roughness(alpha, d.roughness, wi), wi.z);
 }
