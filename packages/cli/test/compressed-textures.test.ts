@@ -7,17 +7,18 @@ import { nodeBackend } from '../src/backend';
 const lamp = fileURLToPath(new URL('../../../../shared/assets/AnisotropyBarnLamp-KTX2-Basisu/AnisotropyBarnLamp.gltf', import.meta.url));
 const note = existsSync(lamp) ? '' : ' (skipped: ../shared/assets is not there)';
 
-test.skipIf(note !== '')(`a lamp with pictures in KTX2: a quarter of the memory, and the same picture${note}`, { timeout: 300_000 }, async () => {
+test.skipIf(note !== '')(`a lamp with pictures in KTX2: packed where the device reads blocks, else unpacked, and the same picture${note}`, { timeout: 300_000 }, async () => {
   const backend = nodeBackend();
   const { device } = await backend.openGpu('software');
   const { signal } = new AbortController();
-  const formats = await backend.compressedFormats(device);
-  expect(formats.length, 'the software driver reads compressed formats').toBeGreaterThan(0);
+  // A software driver is not asked for blocks: what comes packed all the same is unpacked for it.
+  expect(await backend.compressedFormats(device)).toEqual([]);
+  const formats = ['bc7-rgba-unorm'] as const;
   let asked = 0;
   const packed = await backend.loadModel(lamp, signal, {}, async () => (asked++, formats));
   expect(asked).toBe(1);
   // One is made of two of the file's, and so is not in blocks.
-  expect(packed.images.filter(({ compressed }) => compressed && formats.includes(compressed.format)).length).toBe(packed.images.length - 1);
+  expect(packed.images.filter(({ compressed }) => compressed && formats.some((format) => format === compressed.format)).length).toBe(packed.images.length - 1);
   const plain = await backend.loadModel(lamp, signal);
   expect(plain.images.some((image) => image.compressed)).toBe(false);
   // Asked for, the pixels are there, and the same.
@@ -33,8 +34,7 @@ test.skipIf(note !== '')(`a lamp with pictures in KTX2: a quarter of the memory,
   };
   const [a, b] = [await draw(packed), await draw(plain)];
   device.destroy();
-  // The file's pictures have one level only; unpacked ones get them all, a third more.
-  expect(b.textures / a.textures).toBeCloseTo(16 / 3, 2);
+  expect(b.textures).toBe(a.textures);
   const mean = (pixels: Float32Array) => pixels.reduce((sum, value) => sum + value, 0) / pixels.length;
   expect(mean(b.pixels)).toBeGreaterThan(0.1);
   const difference = a.pixels.reduce((sum, value, i) => sum + Math.abs(value - b.pixels[i]!), 0) / a.pixels.length;

@@ -1,5 +1,6 @@
 import type { CompressedFormat, Image, Scene, Texture } from '@glanz/scene';
 import { DeviceError } from '../errors';
+import { isSoftware } from '../gpu/software';
 
 /** Formats of texture arrays; pictures that come in blocks keep them. */
 export type TextureFormat = 'rgba8unorm' | 'rgba8unorm-srgb' | 'rgba16float' | CompressedFormat | `${CompressedFormat}-srgb`;
@@ -7,12 +8,17 @@ export type TextureFormat = 'rgba8unorm' | 'rgba8unorm-srgb' | 'rgba16float' | C
 const FEATURES: Readonly<Record<CompressedFormat, GPUFeatureName>> = { 'astc-4x4-unorm': 'texture-compression-astc', 'bc7-rgba-unorm': 'texture-compression-bc', 'etc2-rgba8unorm': 'texture-compression-etc2' };
 
 /**
- * The compressed formats that a device reads, the best first: what loaders want to know to leave pictures packed.
+ * The compressed formats that a device reads, the best first: what loaders want to know to leave pictures packed. None where
+ * the CPU does the work of a GPU: such drivers unpack pictures by themselves, so nothing is saved, and SwiftShader was seen to
+ * read zeros from them on some processors.
  *
  * @example
  * const scene = await loadGltf('lamp.gltf', { decoders, compressedFormats: compressedFormats(device) });
  */
-export const compressedFormats = (device: { readonly features: Pick<ReadonlySet<string>, 'has'> }): CompressedFormat[] => (Object.keys(FEATURES) as CompressedFormat[]).filter((format) => device.features.has(FEATURES[format]));
+export function compressedFormats(device: { readonly features: Pick<ReadonlySet<string>, 'has'>; readonly adapterInfo?: GPUAdapterInfo }): CompressedFormat[] {
+  if (device.adapterInfo && isSoftware(device.adapterInfo)) return [];
+  return (Object.keys(FEATURES) as CompressedFormat[]).filter((format) => device.features.has(FEATURES[format]));
+}
 
 /** One texture array on the GPU: pictures of one size and format. */
 export interface TextureArray {
