@@ -11,7 +11,7 @@ const project = (name: string, dir: string) => ({
     root: dir,
     include: ['test/**/*.test.ts'],
     pool: 'forks' as const,
-    testTimeout: 120_000,
+    testTimeout: 300_000,
     hookTimeout: 120_000,
   },
 });
