@@ -1,6 +1,6 @@
 export { DeviceError, RenderError } from './errors';
 export { requestDevice, type DeviceOptions } from './gpu/device';
-export { isSoftware } from './gpu/software';
+export { isSoftware } from './software';
 export { compressedFormats } from './scene/textures';
 export { PathTracer } from './path-tracer';
 export type { BackFaceCulling, BounceLimits, FilmLayer, HierarchyBuilder, LightGroup, LightGroupMode, MemoryReport, PathTracerOptions, PickResult, PixelFilter, PrepareProgress, FirstLight, RenderOptions, RenderProgress, RenderStatistics, Sampler } from './options';

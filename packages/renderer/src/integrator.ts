@@ -3,7 +3,7 @@ import type { Film } from './film/film';
 import type { GroupWeights } from './film/layers';
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_COPY_SRC, GPU_BUFFER_INDIRECT, GPU_BUFFER_STORAGE, GPU_BUFFER_UNIFORM, type GpuMemory } from './gpu/buffers';
 import type { GpuScene } from './gpu/gpu-scene';
-import { isSoftware } from './gpu/software';
+import { isSoftware } from './software';
 import type { KernelSet } from './gpu/kernel-cache';
 import { CONNECT_CROSSINGS } from './kernels/connect.wgsl';
 import { BLOCK } from './kernels/blocks';

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { isSoftware } from '../src/gpu/software';
+import { isSoftware } from '../src/software';
 
 const info = (fields: Partial<GPUAdapterInfo>) => ({ vendor: '', architecture: '', device: '', description: '', isFallbackAdapter: false, ...fields }) as GPUAdapterInfo;
 

@@ -1,6 +1,6 @@
 import type { CompressedFormat, Image, Scene, Texture } from '@glanz/scene';
 import { DeviceError } from '../errors';
-import { isSoftware } from '../gpu/software';
+import { isSoftware } from '../software';
 
 /** Formats of texture arrays; pictures that come in blocks keep them. */
 export type TextureFormat = 'rgba8unorm' | 'rgba8unorm-srgb' | 'rgba16float' | CompressedFormat | `${CompressedFormat}-srgb`;
