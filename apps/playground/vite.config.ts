@@ -1,4 +1,5 @@
 import { defineConfig } from 'vite';
+import { publishedModules } from '../../tools/pipeline/published-source.mjs';
 
 /** Where a browser window can open: not on servers, not in automated runs. */
 const hasScreen = !process.env['CI'] && (process.platform !== 'linux' || !!(process.env['DISPLAY'] ?? process.env['WAYLAND_DISPLAY']));
@@ -13,5 +14,6 @@ export default defineConfig({
   // Found here rather than when a model is first opened, which would reload the page under the user's hands.
   optimizeDeps: { include: ['@glanz/gltf > @gltf-transform/core', '@glanz/gltf > @gltf-transform/extensions', '@glanz/gltf > gl-matrix', '@glanz/image > fflate', 'meshoptimizer/decoder', 'draco3dgltf/draco_decoder_gltf_nodejs.js'] },
   build: { target: 'es2022', chunkSizeWarningLimit: 900, rolldownOptions: { input: ['index.html', 'configurator.html'].map((page) => `${import.meta.dirname}/${page}`) } },
-  worker: { format: 'es' },
+  plugins: [publishedModules()],
+  worker: { format: 'es', plugins: () => [publishedModules()] },
 });

@@ -1,4 +1,4 @@
-// An esbuild plugin for what our packages publish.
+// What our packages publish, as a plugin of esbuild for their builds, and of Vite for pages that are made from their sources.
 //
 // 1. It tells bundlers which top-level constants may be dropped. `const coat = wgslModule(…, [other.module])` looks like
 //    a side effect: a call, and a property read in its arguments. `sideEffects: false` helps only across files, and an
@@ -94,3 +94,11 @@ export const publishedSource = {
     build.onLoad({ filter: /[\\/]src[\\/].*\.ts$/ }, async ({ path }) => ({ contents: preparePublished(await readFile(path, 'utf8'), path), loader: 'ts' }));
   },
 };
+
+/** The same for pages: in builds only, so that what a developer looks at in the browser is the source. */
+export const publishedModules = () => ({
+  name: 'published-source',
+  apply: 'build',
+  enforce: 'pre',
+  transform: (code, id) => (/[\\/]packages[\\/][^\\/]+[\\/]src[\\/].*\.ts$/.test(id) ? { code: preparePublished(code, id), map: null } : undefined),
+});

@@ -2,6 +2,7 @@ import { existsSync } from 'node:fs';
 import { dirname } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vitepress';
+import { publishedModules } from '../../../tools/pipeline/published-source.mjs';
 import { apiReference } from './api';
 import { emptyHeaders } from './empty-headers';
 import { readmeLinks } from './readme-links';
@@ -46,6 +47,7 @@ export default defineConfig({
     // Examples and demos run from the packages' sources; the pages need no build of them.
     resolve: { conditions: ['@glanz/source'] },
     ssr: { noExternal: [/^@glanz\//], resolve: { conditions: ['@glanz/source'] } },
+    plugins: [publishedModules()],
     build: { target: 'es2022', chunkSizeWarningLimit: 700 },
     server: { fs: { allow: [dirname(fileURLToPath(new URL('../../..', import.meta.url)))] } },
   },

@@ -1,6 +1,6 @@
 import { build } from 'esbuild';
 import { describe, expect, it } from 'vitest';
-import { preparePublished } from '../published-source.mjs';
+import { preparePublished, publishedModules } from '../published-source.mjs';
 
 /** What a bundler keeps of a module that is imported for nothing, not trusting `sideEffects`. */
 async function leftover(code: string): Promise<string> {
@@ -77,5 +77,15 @@ describe('WGSL templates', () => {
   it('alone are touched: other templates keep their spaces', () => {
     const code = 'export const help = () => `\n  // this stays\n`;';
     expect(preparePublished(code)).toBe(code);
+  });
+});
+
+describe('pages built from the sources', () => {
+  const transform = publishedModules().transform as (code: string, id: string) => { code: string } | undefined;
+  const code = "export const m = wgslModule('m', /* wgsl */ `  // why\n  let a = 1;`);";
+
+  it('ship packages as they are published, and leave the rest alone', () => {
+    expect(transform(code, '/x/packages/bvh/src/a/b.ts')!.code).toBe(preparePublished(code));
+    for (const id of ['/x/apps/playground/src/a.ts', '/x/node_modules/packages/b/src/a.js', '/x/packages/bvh/src/a.ts?worker']) expect(transform(code, id)).toBeUndefined();
   });
 });
