@@ -81,7 +81,7 @@ describe('WGSL templates', () => {
 });
 
 describe('pages built from the sources', () => {
-  const transform = publishedModules().transform as (code: string, id: string) => { code: string } | undefined;
+  const { transform } = publishedModules();
   const code = "export const m = wgslModule('m', /* wgsl */ `  // why\n  let a = 1;`);";
 
   it('ship packages as they are published, and leave the rest alone', () => {
