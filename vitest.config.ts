@@ -1,4 +1,15 @@
 import { defineConfig } from 'vitest/config';
+import { BaseSequencer, type TestSpecification } from 'vitest/node';
+
+/** Files that take minutes begin first, or the last of them would run alone at the end, beside an idle core. */
+const LONG = ['reference/test/groundtruth', 'reference/test/slope', 'gpu/adaptive', 'gpu/dispersion', 'gpu/straight', 'openpbr/test/oracle', 'docs/test/examples', 'openpbr/test/gpu', 'test/gpu/'];
+
+class LongestFirst extends BaseSequencer {
+  override async sort(files: TestSpecification[]): Promise<TestSpecification[]> {
+    const place = ({ moduleId }: TestSpecification) => [...LONG, ''].findIndex((part) => moduleId.includes(part));
+    return (await super.sort(files)).sort((a, b) => place(a) - place(b));
+  }
+}
 
 // Packages are tested from their sources (condition "@glanz/source"), so tests need no build.
 // Forks, not threads: the software Vulkan driver must be opened on a process's main thread.
@@ -27,5 +38,6 @@ export default defineConfig({
     // One GPU process at a time on two cores keeps the software driver from starving itself.
     maxWorkers: 2,
     fileParallelism: true,
+    sequence: { sequencer: LongestFirst },
   },
 });

@@ -44,8 +44,8 @@ function exampleScene(): Scene {
   return scene;
 }
 
-async function withTracer<T>(use: (tracer: PathTracer) => Promise<T> | T, scene = exampleScene()): Promise<T> {
-  const tracer = await PathTracer.create(device, scene, { ...SIZE, camera: 0 });
+async function withTracer<T>(use: (tracer: PathTracer) => Promise<T> | T, scene = exampleScene(), size = SIZE): Promise<T> {
+  const tracer = await PathTracer.create(device, scene, { ...size, camera: 0 });
   try {
     return await use(tracer);
   } finally {
@@ -256,13 +256,14 @@ describe('progress', () => {
       const button = new EventTarget();
       const stopped = progressive.renderUntilClicked(tracer, button as HTMLButtonElement);
       setTimeout(() => button.dispatchEvent(new Event('click')), 50);
-      expect((await stopped).length).toBe(4 * SIZE.width * SIZE.height);
+      expect((await stopped).length).toBe(4 * 8 * 8);
       expect(tracer.samples).toBeLessThan(4096);
       const abort = new AbortController();
       tracer.reset();
       await progressive.keepRendering(tracer, abort.signal, () => tracer.samples >= 8 && abort.abort());
       expect(tracer.samples).toBeGreaterThanOrEqual(8);
-    }));
+      // Thousands of samples of few pixels.
+    }, exampleScene(), { width: 8, height: 8 }));
 
   test('edits of every kind', () =>
     withTracer(async (tracer) => {

@@ -8,23 +8,23 @@ export interface GroundTruthCase {
 
 const one = (scene: string, samples: number, variant = 'full'): GroundTruthCase => ({ scene, variant, samples });
 
-/** What is compared, and with how many samples in tests. */
+/** What is compared, and with how many samples in tests, which is a question of their time: `bench -- groundtruth` takes as many as the references are worth. */
 export const GROUND_TRUTH_CASES: readonly GroundTruthCase[] = [
   one('cornell_diffuse', 64),
   one('cornell_diffuse', 64, 'direct'),
   one('cornell_diffuse', 64, 'bounce2'),
-  one('cornell_spheres', 64),
+  one('cornell_spheres', 32),
   one('dof', 64),
   one('env_soft', 64),
-  one('env_sun', 64),
-  one('furnace_closed', 128),
+  one('env_sun', 32),
+  one('furnace_closed', 64),
   one('furnace_diffuse', 128),
   one('furnace_glass', 128),
   one('furnace_metal', 128),
   one('glass_caustic', 64),
-  one('medium_scatter', 64),
+  one('medium_scatter', 32),
   one('metals_f82', 64),
   one('punctual', 64),
   one('textured', 64),
-  one('veach_mis', 64),
+  one('veach_mis', 32),
 ];

@@ -133,7 +133,7 @@ describe('dispersion', () => {
     });
     scene.materials.push(glass({ specular_ior: n, transmission_dispersion_scale: 1, transmission_dispersion_abbe_number: abbe }));
     scene.instances.push({ name: 'wedge', mesh: 0, material: 0, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] });
-    const seen = meanOf(await picture(scene, 4096, { maxDepth: 3, camera: { ...camera, yfov: 1e-4 }, multipleScattering: false }), SIZE, 0, 0, SIZE, SIZE);
+    const seen = meanOf(await picture(scene, 1024, { maxDepth: 3, camera: { ...camera, yfov: 1e-4 }, multipleScattering: false }), SIZE, 0, 0, SIZE, SIZE);
     const fresnel = (eta: number, cosine: number) => {
       const g = Math.sqrt(eta * eta - 1 + cosine * cosine);
       return 0.5 * ((g - cosine) / (g + cosine)) ** 2 * (1 + ((cosine * (g + cosine) - 1) / (cosine * (g - cosine) + 1)) ** 2);
@@ -164,7 +164,7 @@ describe('dispersion', () => {
     const region = [4, 4, 12, 12] as const;
     const options = { maxDepth: 6 };
     const dispersed: Vector[] = [];
-    for (let seed = 0; seed < 6; seed++) dispersed.push(meanOf(await picture(scene({ specular_ior: n, transmission_dispersion_scale: 1, transmission_dispersion_abbe_number: abbe }), 512, { ...options, seed }), SIZE, ...region));
+    for (let seed = 0; seed < 6; seed++) dispersed.push(meanOf(await picture(scene({ specular_ior: n, transmission_dispersion_scale: 1, transmission_dispersion_abbe_number: abbe }), 256, { ...options, seed }), SIZE, ...region));
     const curves = receptors();
     const sum = [0, 0, 0];
     const squares = [0, 0, 0];
@@ -173,7 +173,7 @@ describe('dispersion', () => {
       const weights = curves.map((curve) => curve.slice(i - 10, i + 10).reduce((a, b) => a + b));
       if (Math.max(...weights) < 1e-3) continue;
       const pair: Vector[] = [];
-      for (const seed of [1, 2]) pair.push(meanOf(await picture(scene({ specular_ior: cauchy(n, abbe, 380 + i) }), 128, { ...options, seed: 100 * seed + i }), SIZE, ...region));
+      for (const seed of [1, 2]) pair.push(meanOf(await picture(scene({ specular_ior: cauchy(n, abbe, 380 + i) }), 64, { ...options, seed: 100 * seed + i }), SIZE, ...region));
       for (const k of [0, 1, 2] as const) {
         sum[k]! += (weights[k]! * (pair[0]![k] + pair[1]![k])) / 2;
         squares[k]! += (weights[k]! * (pair[0]![k] - pair[1]![k]) / 2) ** 2;
@@ -186,14 +186,14 @@ describe('dispersion', () => {
       expect(Math.abs(mean - sum[k]!)).toBeLessThan(4 * Math.sqrt(variance + squares[k]!) + 0.002 * sum[k]!);
     }
     // The same without dispersion is another picture: the comparison can fail.
-    const plain = meanOf(await picture(scene({ specular_ior: n }), 1024, options), SIZE, ...region);
+    const plain = meanOf(await picture(scene({ specular_ior: n }), 512, options), SIZE, ...region);
     expect(Math.abs(plain[2] - sum[2]!)).toBeGreaterThan(0.01 * sum[2]!);
   }, 120_000);
 
   it('leaves white light white', async () => {
     const scene: Scene = { ...createScene(), environment: { type: 'constant', radiance: [1, 1, 1] } };
     addSphere(scene, 0.8, [0, 0, 0], glass({ transmission_dispersion_scale: 1, transmission_dispersion_abbe_number: 10, specular_roughness: 0.2 }), 64);
-    const seen = meanOf(await picture(scene, 1024, { maxDepth: 48 }), SIZE, 4, 4, 12, 12);
+    const seen = meanOf(await picture(scene, 512, { maxDepth: 48 }), SIZE, 4, 4, 12, 12);
     for (const value of seen) expect(Math.abs(value - 1)).toBeLessThan(0.01);
   });
 
