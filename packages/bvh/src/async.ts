@@ -12,8 +12,8 @@ export interface AsyncBuildOptions extends BlasOptions {
 
 /** Lets everything else that waits have its turn. */
 export function breathe(): Promise<void> {
-  const { scheduler } = globalThis as { scheduler?: { yield?: () => Promise<void> } };
-  return scheduler?.yield?.() ?? new Promise((resolve) => setTimeout(resolve, 0));
+  const { scheduler, setImmediate: soon = setTimeout } = globalThis as { scheduler?: { yield?: () => Promise<void> }; setImmediate?: (task: () => void) => unknown };
+  return scheduler?.yield?.() ?? new Promise((resolve) => void soon(resolve));
 }
 
 /**

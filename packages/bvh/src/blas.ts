@@ -70,7 +70,7 @@ export function* blasSteps(mesh: TriangleMesh, options: BlasOptions = {}): Gener
   whole('maxLeafTriangles', maxLeafTriangles, 1, LEAF_MAX);
   whole('bins', bins, 2, 64);
   const build = builder === 'balanced' ? buildBalanced : (builder as TreeBuilder | undefined)?.build;
-  if (typeof build !== 'function') throw new BvhError('bvh/options', `builder is ${builder as string}; it must be 'balanced', or be imported.`);
+  if (typeof build !== 'function') throw new BvhError('bvh/options', `builder is ${builder as string}; it must be 'balanced' or imported.`);
   const { positions, indices } = mesh;
   const fail = (code: string, what: string, values: ArrayLike<number>, per: string) => {
     throw new BvhError(code, `${what} has ${values.length} entries; it must have ${per}.`);
@@ -80,8 +80,8 @@ export function* blasSteps(mesh: TriangleMesh, options: BlasOptions = {}): Gener
   if (!indices && positions.length % 9 !== 0) fail('bvh/indices', 'positions', positions, 'nine a triangle without indices');
   const count = Math.floor((indices ? indices.length : positions.length / 3) / 3);
   if (count > MAX_PRIMITIVES) throw new BvhError('bvh/too-many', `${count} triangles are too many; one hierarchy holds ${MAX_PRIMITIVES}: split the mesh.`);
-  const { nodes, nodeCount, triangleIndices, bounds } = yield* build(mesh, count, { maxLeaf: maxLeafTriangles, bins });
-  return { nodes, nodeCount, triangleIndices, bounds: { min: Float32Array.from(bounds.subarray(0, 3)), max: Float32Array.from(bounds.subarray(3)) } };
+  const { bounds, ...tree } = yield* build(mesh, count, { maxLeaf: maxLeafTriangles, bins });
+  return { ...tree, bounds: { min: new Float32Array(bounds.subarray(0, 3)), max: new Float32Array(bounds.subarray(3)) } };
 }
 
 /**

@@ -56,11 +56,11 @@ export interface Aabb {
 /** The box around both children of the root; min > max for an empty tree. */
 export function rootBounds(nodes: Float32Array): Aabb {
   const min = new Float32Array(3).fill(Infinity), max = new Float32Array(3).fill(-Infinity);
-  for (const [low, high] of [[LEFT_MIN, LEFT_MAX], [RIGHT_MIN, RIGHT_MAX]] as const) {
+  for (const low of [LEFT_MIN, RIGHT_MIN]) {
     if (nodes[low] === FAR) continue;
     for (let k = 0; k < 3; k++) {
       min[k] = Math.min(min[k] as number, nodes[low + k] as number);
-      max[k] = Math.max(max[k] as number, nodes[high + k] as number);
+      max[k] = Math.max(max[k] as number, nodes[low + LEFT_MAX + k] as number);
     }
   }
   return { min, max };

@@ -26,7 +26,8 @@ export class NodeWriter {
   under(slot: number): number {
     const { words } = this;
     const node = this.count++;
-    if (slot > 0) words[slot] = node;
+    // The root's is in a word that its box will take.
+    words[slot] = node;
     words[node * NODE_WORDS + PARENT] = slot >>> 4;
     words[node * NODE_WORDS + RESERVED] = 0;
     return node;

@@ -80,7 +80,7 @@ export class PrimitiveMaker implements Primitives {
         a = indices[a] as number;
         b = indices[b] as number;
         c = indices[c] as number;
-        if (a >= limit || b >= limit || c >= limit) throw new BvhError('bvh/indices', `Triangle ${i} uses vertex ${Math.max(a, b, c)} of ${limit}: indices must be below that.`);
+        if (a >= limit || b >= limit || c >= limit) throw new BvhError('bvh/indices', `Triangle ${i} uses vertex ${Math.max(a, b, c)} of ${limit}; it must be below.`);
       }
       a *= 3;
       b *= 3;

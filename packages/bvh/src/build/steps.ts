@@ -1,5 +1,5 @@
 import type { TriangleMesh } from '../blas';
-import { BLAS_MAX_DEPTH, LEAF, leafFirst, leafReference, LEFT, NODE_WORDS, PARENT, RIGHT } from '../layout';
+import { BLAS_MAX_DEPTH, LEAF, leafFirst, leafReference, NODE_WORDS, PARENT, RIGHT } from '../layout';
 import { GROUP_MAX } from './agglomerate';
 import { cutClusters, type Clusters } from './clusters';
 import { Gatherer, type Sorted } from './gather';
@@ -95,27 +95,32 @@ export function* buildNodes(primitives: Sorted, leaves: Uint32Array, bins: numbe
 
 /** Puts the nodes over the clusters before the others, depth first, joins them to the trees in the clusters, and gives their depth. */
 export function* crown({ nodes: from, words: fromWords }: NodeWriter, { references }: Clusters, { nodes, words }: NodeWriter): Steps<number> {
-  // References of the upper tree, the words where they belong, nodes above.
-  const stack = [0, 0, 0];
+  // Right sides that wait: their node, the word where it belongs, and how many are above.
+  const stack: number[] = [];
   let count = 0, most = 0;
-  while (stack.length > 0) {
-    const depth = (stack.pop() as number) + 1, slot = stack.pop() as number;
-    let reference = stack.pop() as number;
-    if (reference >= LEAF) {
-      reference = references[leafFirst(reference)] as number;
-      words[slot] = reference;
-      if (reference < LEAF) words[reference * NODE_WORDS + PARENT] = slot >>> 4;
-      continue;
-    }
-    if (depth > most) most = depth;
-    const a = reference * NODE_WORDS, b = count * NODE_WORDS;
+  for (let node = 0, slot = 0, depth = 1; ; depth++) {
+    most = Math.max(most, depth);
+    const a = node * NODE_WORDS, b = count * NODE_WORDS;
+    // The root's is in a word that the copy takes.
+    words[slot] = count;
     for (let k = 0; k < NODE_WORDS; k++) nodes[b + k] = from[a + k] as number;
     words[b + PARENT] = slot >>> 4;
-    if (count > 0) words[slot] = count;
     if (++count % STEP === 0) yield 0.95;
-    stack.push(fromWords[a + RIGHT] as number, b + RIGHT, depth, fromWords[a + LEFT] as number, b + LEFT, depth);
+    for (let side = RIGHT; side > 0; side -= 4) {
+      const child = fromWords[a + side] as number;
+      if (child < LEAF) {
+        stack.push(child, b + side, depth);
+        continue;
+      }
+      const reference = references[leafFirst(child)] as number;
+      words[b + side] = reference;
+      if (reference < LEAF) words[reference * NODE_WORDS + PARENT] = b >>> 4;
+    }
+    if (stack.length === 0) return most;
+    depth = stack.pop() as number;
+    slot = stack.pop() as number;
+    node = stack.pop() as number;
   }
-  return most;
 }
 
 /** Copies nodes out of scratch memory. */

@@ -5,8 +5,8 @@ import type { Copy } from './copy';
 /** Numbers of a member's report. */
 const REPORT = 16;
 
-/** Words that both change: who has come to the meeting point, how many meetings there were, whether one has given up, what is published; then the counters. */
-const [COME, MEETINGS, LEFT_ALONE, PUBLISHED, COUNTERS] = [0, 1, 2, 3, 4];
+/** Words that all change: who has come to the meeting point, how many meetings there were, whether one has given up, what is published, how much of the mesh is copied; then the counters. */
+const [COME, MEETINGS, LEFT_ALONE, PUBLISHED, COPIED, COUNTERS] = [0, 1, 2, 3, 4, 6];
 /** Counters that {@link Team.take} may be asked for. */
 const COUNTER_MAX = 4;
 const BYTES = 4 * (COUNTERS + COUNTER_MAX);
@@ -36,9 +36,11 @@ const room = (bytes: number, spare?: SharedArrayBuffer) => (spare && spare.byteL
 
 /**
  * What two workers share for a mesh of so many triangles, and the mesh as both see it; the arrays that
- * are not shared are still to be copied.
+ * are not shared are still to be copied, which they may be while both are at it: see {@link tellCopied}.
  *
  * @param spare What an earlier build has left, if both have left it: fresh memory costs a fifth of a build. It is not cleared.
+ * @throws {RangeError} where there is not so much memory.
+ * @throws {TypeError} for arrays that were given away.
  */
 export function teamMemory(mesh: TriangleMesh, triangles: number, spare?: TeamMemory): { readonly memory: TeamMemory; readonly mesh: TriangleMesh; readonly copies: readonly Copy[] } {
   const { positions, indices } = mesh;
@@ -55,12 +57,30 @@ export function teamMemory(mesh: TriangleMesh, triangles: number, spare?: TeamMe
   const shared = <T extends Float32Array | Uint32Array | Uint16Array>(array: T): T => {
     if (!(array.buffer instanceof ArrayBuffer) || !memory.mesh) return array;
     const to = new (array.constructor as new (buffer: SharedArrayBuffer, offset: number, length: number) => T)(memory.mesh, offset, array.length);
-    copies.push({ from: array, to });
+    // Throws where it was given away, for it looks like an empty one then.
+    copies.push({ from: array.subarray() as T, to });
     offset += array.byteLength;
     return to;
   };
   // Positions first: what has four bytes each begins at a whole place.
   return { memory, mesh: { positions: shared(positions), indices: indices && shared(indices) }, copies };
+}
+
+/** Tells both workers how many entries of the mesh's arrays are copied, those of all copies one after the other. */
+export function tellCopied({ control }: TeamMemory, entries: number): void {
+  const words = new Int32Array(control);
+  Atomics.store(words, COPIED, entries);
+  Atomics.notify(words, COPIED);
+}
+
+/** Lets both go, whatever they wait for: it throws. */
+export function release({ control }: TeamMemory): void {
+  const words = new Int32Array(control);
+  Atomics.store(words, LEFT_ALONE, 1);
+  for (const word of [MEETINGS, PUBLISHED, COPIED]) {
+    Atomics.add(words, word, 1);
+    Atomics.notify(words, word);
+  }
 }
 
 /**
@@ -117,8 +137,8 @@ export class Team {
       Atomics.store(control, COME, 0);
       Atomics.add(control, MEETINGS, 1);
       Atomics.notify(control, MEETINGS);
-    } else this.#wait(MEETINGS, meeting);
-    this.#goOn();
+    } else this.#wait(MEETINGS, meeting + 1);
+    this.#throwIfLeft();
     return [0, 1].map((index) => this.#reports.slice((first + index) * REPORT, (first + index + 1) * REPORT)) as [Float64Array, Float64Array];
   }
 
@@ -130,8 +150,14 @@ export class Team {
 
   /** Waits until the other one has published. */
   published(): void {
-    this.#wait(PUBLISHED, 0);
-    this.#goOn();
+    this.#wait(PUBLISHED, 1);
+    this.#throwIfLeft();
+  }
+
+  /** Waits until so many entries of the mesh's arrays are copied. */
+  copied(entries: number): void {
+    this.#wait(COPIED, entries);
+    this.#throwIfLeft();
   }
 
   /** The next number of a counter, each of which one of both gets: 0, 1, 2 … So whoever is faster does more. */
@@ -141,21 +167,16 @@ export class Team {
 
   /** Lets the other one go: its next meeting throws. */
   giveUp(): void {
-    const control = this.#control;
-    Atomics.store(control, LEFT_ALONE, 1);
-    for (const word of [MEETINGS, PUBLISHED]) {
-      Atomics.add(control, word, 1);
-      Atomics.notify(control, word);
-    }
+    release(this.memory);
   }
 
-  /** Waits until a word is not that any more, or nobody will change it: the other one may have given up before this one came. */
-  #wait(word: number, value: number): void {
+  /** Waits until a word is at least that, or nobody will change it: the other one may have given up before this one came. */
+  #wait(word: number, least: number): void {
     const control = this.#control;
-    while (Atomics.load(control, word) === value && Atomics.load(control, LEFT_ALONE) === 0) Atomics.wait(control, word, value);
+    for (let now = Atomics.load(control, word); now < least && Atomics.load(control, LEFT_ALONE) === 0; now = Atomics.load(control, word)) Atomics.wait(control, word, now);
   }
 
-  #goOn(): void {
+  #throwIfLeft(): void {
     this.left = Atomics.load(this.#control, LEFT_ALONE) !== 0;
     if (this.left) throw new BvhError('bvh/worker', 'The other worker of a build has given up.');
   }

@@ -31,14 +31,24 @@ interface Parts {
   readonly bounds: Float64Array;
 }
 
-/** Makes a mesh's triangles into primitives, as `PrimitiveMaker` does. */
+/** How many entries must have been copied for the triangles before `end`; positions come first. */
+function needed({ positions, indices }: TriangleMesh, end: number, { memory }: Team): number {
+  const copied = ({ buffer, length }: Float32Array | Uint32Array | Uint16Array, upTo = length) => (buffer === (memory.mesh as unknown) ? Math.min(length, upTo) : 0);
+  if (!indices) return copied(positions, 9 * end);
+  // Short indices become long ones before the first triangle.
+  return copied(positions) + copied(indices, indices instanceof Uint16Array ? undefined : 3 * end);
+}
+
+/** Makes a mesh's triangles into primitives, as `PrimitiveMaker` does; the mesh may still be arriving. */
 export function sharePrimitives(mesh: TriangleMesh, count: number, pairs: boolean, team: Team): Parts {
+  team.copied(needed(mesh, 0, team));
   const boxes = team.float32(6 * count), triangles = team.uint32(count), counts = team.uint32(Math.ceil(count / STEP));
   const maker = new PrimitiveMaker(mesh, count, pairs, prepared([boxes], [triangles]));
   let own = 0;
   for (let step = team.take(0); step < counts.length; step = team.take(0)) {
-    const from = (maker.count = step * STEP);
-    maker.add(from, Math.min(count, from + STEP));
+    const from = (maker.count = step * STEP), to = Math.min(count, from + STEP);
+    team.copied(needed(mesh, to, team));
+    maker.add(from, to);
     own += counts[step] = maker.count - from;
   }
   const made = team.meet([own, maker.triangleCount, ...maker.bounds]);

@@ -80,39 +80,45 @@ function cutShares(levels: Levels, upper: NodeWriter, shares: Int32Array): numbe
 }
 
 /** The nodes as the walk depth first meets them, the last one first. */
-function backwards({ words, count }: NodeWriter, order: Uint32Array): void {
+function backwards(words: Uint32Array, order: Uint32Array): void {
   const stack = [0];
-  for (let i = count - 1; i >= 0; i--) {
-    const node = (order[i] = stack.pop() as number), base = node * NODE_WORDS;
-    const left = words[base + LEFT] as number, right = words[base + RIGHT] as number;
-    if (right < LEAF) stack.push(right);
-    if (left < LEAF) stack.push(left);
+  for (let i = order.length - 1; i >= 0; i--) {
+    const node = (order[i] = stack.pop() as number);
+    for (const at of [RIGHT, LEFT]) {
+      const child = words[node * NODE_WORDS + at] as number;
+      if (child < LEAF) stack.push(child);
+    }
   }
 }
 
 /**
- * The rotations of `rotate`, with the same outcome. What the walk meets last hangs on nothing that it meets before but on
- * the nodes above the border: the second does the last half, the first the other one, and then those nodes.
+ * The rotations of `rotate`, with the same outcome: any order with children before their parents leads to it, at first that
+ * in which nodes were written, the last one first. The second does the last half of the nodes, which hang on nothing that
+ * comes before; the first does the other half, but for those that hang on the last one: these wait.
  */
-export function shareRotations(upper: NodeWriter, team: Team): void {
-  const { nodes, words, count } = upper;
-  const order = new Uint32Array(count), middle = count >>> 1;
+export function shareRotations({ nodes, words, count }: NodeWriter, team: Team): void {
+  const order = new Uint32Array(count).map((_, i) => count - 1 - i), middle = count >>> 1;
+  /** Whether a node is one of the first half and hangs on none of the last one. */
+  const free = new Uint8Array(count);
   for (let pass = 0; pass < PASSES; pass++) {
-    backwards(upper, order);
-    // Both have walked before either turns anything.
+    if (pass > 0) backwards(words, order);
+    // Both have walked, and all boxes are there, before either turns anything.
     team.meet();
-    const above: number[] = [];
+    const waiting: number[] = [];
     if (team.index === 1) for (let i = 0; i < middle; i++) rotateAt(nodes, words, order[i] as number);
     else {
-      let open = middle > 0 ? (order[middle - 1] as number) : -1;
+      free.fill(0);
       for (let i = middle; i < count; i++) {
-        const node = order[i] as number, base = node * NODE_WORDS;
-        if (words[base + LEFT] === open || words[base + RIGHT] === open) above.push((open = node));
-        else rotateAt(nodes, words, node);
+        const node = order[i] as number, left = words[node * NODE_WORDS + LEFT] as number, right = words[node * NODE_WORDS + RIGHT] as number;
+        if ((left < LEAF && free[left] === 0) || (right < LEAF && free[right] === 0)) waiting.push(node);
+        else {
+          free[node] = 1;
+          rotateAt(nodes, words, node);
+        }
       }
     }
     team.meet();
-    for (const node of above) rotateAt(nodes, words, node);
+    for (const node of waiting) rotateAt(nodes, words, node);
     team.meet();
   }
 }

@@ -7,7 +7,7 @@ import type { BvhWorkersOptions, WorkerBuildOptions } from './options';
 import { buffersOf, receivedError, sendableOptions, type BuildReply, type BuildRequest } from './protocol';
 import { seatsWorth, type Seat } from './seat';
 import { Spare } from './spare';
-import { teamMemory, type TeamMemory } from './team';
+import { release, teamMemory, tellCopied, type TeamMemory } from './team';
 
 export type { NodeWorkerLike, WebWorkerLike } from './line';
 export type { BvhWorkersOptions, WorkerBuildOptions } from './options';
@@ -236,9 +236,7 @@ export class BvhWorkers {
     const job = seat.jobs.get(reply.id);
     if (!job) return;
     if (reply.kind === 'started') return job.progress(0);
-    seat.jobs.delete(reply.id);
-    seat.load -= job.triangles;
-    if (seat.jobs.size === 0) seat.line?.hold(false);
+    this.#free(seat, job);
     this.#leave(reply);
     // First the next build, then whatever the caller does with this one.
     this.#next();
@@ -316,65 +314,67 @@ export class BvhWorkers {
       copies.push({ from, to });
       return to;
     };
-    const mesh = () => ({ positions: sent(positions), indices: indices && sent(indices) });
-    // What fails: options that cannot be cloned, arrays that are none or were given away.
-    this.#deliver([seat], job, mesh, copies, (own) => this.#post(seat, { kind: 'build', id, mesh: own, options: sendableOptions(options) }, buffersOf(own.positions, own.indices)), (error) => job.settle({ error }));
-  }
-
-  /** Lets two workers build one mesh. */
-  #sendTogether(seats: readonly Seat[], job: Job): void {
-    const { id, options } = job;
-    const copies: Copy[] = [];
-    let memory: TeamMemory;
-    const mesh = () => {
-      const team = teamMemory(job.mesh, job.triangles, this.#spare.take());
-      this.#teams.set(id, { memory: (memory = team.memory), half: false });
-      copies.push(...team.copies);
-      return team.mesh;
-    };
-    const post = (own: TriangleMesh) => seats.forEach((seat, index) => this.#post(seat, { kind: 'together', id, mesh: own, options: sendableOptions(options), index, memory }, []));
-    this.#deliver(seats, job, mesh, copies, post, () => {
-      // No memory of that kind or not enough: one worker will do.
-      this.#teams.delete(id);
-      this.#send(seats[0] as Seat, job);
-    });
-  }
-
-  /**
-   * Gives a job to workers, once its mesh is copied.
-   *
-   * @param make Makes the mesh that is sent, and says what is to be copied into it.
-   * @param failed What to do where one of the steps throws; the workers are free again.
-   */
-  #deliver(seats: readonly Seat[], job: Job, make: () => TriangleMesh, copies: readonly Copy[], post: (mesh: TriangleMesh) => void, failed: (error: unknown) => void): void {
-    for (const seat of seats) {
-      seat.jobs.set(job.id, job);
-      seat.load += job.triangles;
-      seat.line?.hold(true);
-    }
     // A worker that ended meanwhile, or was ended by an abort, has another in its seat.
-    const waiting = () => seats.every(({ jobs }) => jobs.get(job.id) === job);
-    const attempt = (step: () => void) => {
+    const waiting = () => seat.jobs.get(id) === job;
+    const attempt = (step: () => unknown) => {
       try {
-        step();
+        return step();
       } catch (error) {
+        // What fails: options that cannot be cloned, arrays that are none or were given away.
         if (!waiting()) return;
-        for (const seat of seats) {
-          seat.jobs.delete(job.id);
-          seat.load -= job.triangles;
-          if (seat.jobs.size === 0) seat.line?.hold(false);
-        }
-        failed(error);
+        this.#free(seat, job);
+        job.settle({ error });
       }
     };
+    this.#occupy(seat, job);
     attempt(() => {
-      const mesh = make();
+      const mesh = { positions: sent(positions), indices: indices && sent(indices) };
+      const go = () => waiting() && this.#post(seat, { kind: 'build', id, mesh, options: sendableOptions(options) }, buffersOf(mesh.positions, mesh.indices));
       const copied = copyAll(copies);
-      const go = () => waiting() && post(mesh);
       if (!copied) return go();
       const fail = (error: unknown) => attempt(() => { throw error; });
       void copied.then(() => attempt(go), fail).then(() => this.#next());
     });
+  }
+
+  /** Lets two workers build one mesh. They begin with what is there, while the rest of it is copied. */
+  #sendTogether(seats: readonly Seat[], job: Job): void {
+    const { id, options } = job;
+    let team: ReturnType<typeof teamMemory>;
+    for (const seat of seats) this.#occupy(seat, job);
+    try {
+      team = teamMemory(job.mesh, job.triangles, this.#spare.take());
+      const { memory, mesh } = team;
+      this.#teams.set(id, { memory, half: false });
+      seats.forEach((seat, index) => this.#post(seat, { kind: 'together', id, mesh, options: sendableOptions(options), index, memory }, []));
+    } catch {
+      // No memory of that kind or not enough: one worker will do.
+      this.#teams.delete(id);
+      for (const seat of seats) this.#free(seat, job);
+      return this.#send(seats[0] as Seat, job);
+    }
+    const { memory, copies } = team;
+    const fail = (error: unknown) => {
+      job.settle({ error });
+      release(memory);
+    };
+    try {
+      copyAll(copies, (entries) => tellCopied(memory, entries))?.catch(fail);
+    } catch (error) {
+      fail(error);
+    }
+  }
+
+  #occupy(seat: Seat, job: Job): void {
+    seat.jobs.set(job.id, job);
+    seat.load += job.triangles;
+    seat.line?.hold(true);
+  }
+
+  #free(seat: Seat, job: Job): void {
+    seat.jobs.delete(job.id);
+    seat.load -= job.triangles;
+    if (seat.jobs.size === 0) seat.line?.hold(false);
   }
 
   #post(seat: Seat, request: BuildRequest, transfer: readonly ArrayBuffer[]): void {

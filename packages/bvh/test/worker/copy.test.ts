@@ -28,9 +28,18 @@ test('much is copied piece by piece, with the thread handed back, and what goes 
   const copies = [from, empty, from].map((array) => ({ from: array, to: roomFor(array) }));
   let between = 0;
   const ticking = setInterval(() => between++, 0);
-  await copyAll(copies);
+  const told: number[] = [];
+  await copyAll(copies, (entries) => {
+    told.push(entries);
+    const [first, , last] = copies.map(({ to }) => to);
+    // What was told of is there, and nothing behind it.
+    const seen = [...first!.slice(-1), ...last!.slice(-1)].map((number) => number !== 0);
+    expect(seen).toEqual([entries >= 1_000_003, entries === 2_000_006]);
+  });
   clearInterval(ticking);
   expect(between).toBeGreaterThan(3);
+  expect(told).toEqual([...told].sort((a, b) => a - b));
+  expect(told.at(-1)).toBe(2_000_006);
   for (const { from: given, to } of copies) expect(Buffer.compare(Buffer.from(to.buffer), Buffer.from(given.slice().buffer))).toBe(0);
 
   const going = counting(1_000_003);

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { Team, teamMemory } from '../../src/worker/team';
+import { release, Team, teamMemory, tellCopied } from '../../src/worker/team';
 
 const mesh = { positions: new Float32Array(9 * 100) };
 const both = () => {
@@ -31,15 +31,24 @@ describe('Team', () => {
     const [a, b] = both();
     b.publish();
     a.published();
-    expect(a.left).toBe(false);
+    tellCopied(a.memory, 300);
+    for (const team of [a, b]) team.copied(300);
+    expect([a.left, b.left]).toEqual([false, false]);
   });
 
   it('throws where the other one has given up before, instead of waiting for ever', () => {
-    for (const wait of [(team: Team) => team.meet(), (team: Team) => team.published()]) {
+    for (const wait of [(team: Team) => team.meet(), (team: Team) => team.published(), (team: Team) => team.copied(1)]) {
       const [a, b] = both();
       a.giveUp();
       expect(() => wait(b)).toThrow(expect.objectContaining({ code: 'bvh/worker' }) as Error);
       expect(b.left).toBe(true);
+    }
+  });
+
+  it('throws at both where the mesh does not come', () => {
+    for (const team of both()) {
+      release(team.memory);
+      expect(() => team.copied(1)).toThrow(expect.objectContaining({ code: 'bvh/worker' }) as Error);
     }
   });
 });

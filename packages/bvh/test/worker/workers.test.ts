@@ -1,4 +1,5 @@
 import { getEventListeners, once } from 'node:events';
+import { setImmediate as soon } from 'node:timers/promises';
 import { Worker } from 'node:worker_threads';
 import { afterAll, afterEach, beforeAll, describe, expect, it, vi } from 'vitest';
 import { buildBlas, type Blas, type TriangleMesh } from '../../src/blas';
@@ -81,6 +82,21 @@ describe('BvhWorkers', () => {
       await expect(workers.buildBlas({ positions, indices: broken })).rejects.toMatchObject({ code: 'bvh/indices' });
     }
     for (const before = pieces(); pieces() === before; ) expectSame(await workers.buildBlas({ positions, indices }), buildBlas({ positions, indices }));
+    // Given away while both wait for the rest of it; then they do not wait any more.
+    for (const turns of [0, 1, 5]) {
+      const given = { positions: positions.slice(), indices: indices.slice() };
+      let now = 0;
+      // A clock on which every look takes five milliseconds: the thread is handed back after each piece.
+      const clock = vi.spyOn(performance, 'now').mockImplementation(() => (now += 5));
+      const build = workers.buildBlas(given);
+      for (let turn = 0; turn < turns; turn++) await soon();
+      structuredClone(given, { transfer: [given.indices.buffer] });
+      await expect(build).rejects.toThrow(TypeError);
+      clock.mockRestore();
+    }
+    // Short indices.
+    const few = { positions: positions.slice(0, 3 * 60_000), indices: Uint16Array.from({ length: 3 * 230_000 }, (_, i) => (i * 7919) % 60_000) };
+    for (const before = pieces(); pieces() === before; ) expectSame(await workers.buildBlas(few), buildBlas(few));
     const control = new AbortController();
     const aborted = workers.buildBlas({ positions, indices }, { signal: control.signal });
     control.abort(new Error('enough'));
