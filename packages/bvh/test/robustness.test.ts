@@ -4,10 +4,10 @@ import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { best, bestSplit } from '../src/build/best';
 import { fast } from '../src/build/fast';
 import { allHits } from '../src/cpu/all-hits';
-import { anyHit, BLAS_MAX_DEPTH, buildBlas, buildTlas, closestHit, packTriangles, type BlasOptions, type TriangleMesh } from '../src/index';
+import { anyHit, BLAS_MAX_DEPTH, buildBlas, buildTlas, closestHit, type BlasOptions, type TriangleMesh } from '../src/index';
 import { bvhStatistics } from '../src/statistics';
 import { widenBlas, widenTlas } from '../src/wide/index';
-import { bvhClosestHit, bvhInstanceStruct, bvhOffset } from '../src/wgsl/index';
+import { bvhBuffers, bvhClosestHit, bvhOffset, packHierarchy } from '../src/wgsl/index';
 import { bvhClosestHit as bvhClosestHitWide } from '../src/wgsl-wide/index';
 import { bruteForce, direction, randomNumbers, sphere } from './shapes';
 
@@ -89,26 +89,12 @@ describe('on the GPU', () => {
     const identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
     const binary = buildTlas([{ bounds: blas.bounds, transform: identity }]);
     const [tlas, tree] = layout === 'wide' ? [widenTlas(binary), widenBlas(blas)] : [binary, blas];
-    const nodes = new Uint32Array(tlas.nodes.length + tree.nodes.length);
-    nodes.set(new Uint32Array(tlas.nodes.buffer));
-    nodes.set(new Uint32Array(tree.nodes.buffer), tlas.nodes.length);
-    const instances = bvhInstanceStruct.allocate(1);
-    const row = (r: number) => binary.toObject.subarray(4 * r, 4 * r + 4);
-    bvhInstanceStruct.write(instances, 0, { to_object_0: row(0), to_object_1: row(1), to_object_2: row(2), blas_node: tlas.nodeCount, triangle_offset: 0, id: 0, flags: 0 });
+    const packed = packHierarchy(tlas, [{ blas: tree, mesh }]);
     const magnitude = mesh.positions.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
     const host = wgslModule(
       'test/bounce',
       /* wgsl */ `
-@group(0) @binding(0) var<storage, read> nodes: array<BvhNode>;
-@group(0) @binding(1) var<storage, read> triangles: array<vec4f>;
-@group(0) @binding(2) var<storage, read> instances: array<BvhInstance>;
 @group(0) @binding(3) var<storage, read_write> result: array<vec2u>;
-fn bvh_node(index: u32) -> BvhNode { return nodes[index]; }
-fn bvh_instance(index: u32) -> BvhInstance { return instances[index]; }
-fn bvh_triangle(index: u32) -> BvhTriangle {
-  let a = triangles[3u * index];
-  return BvhTriangle(a.xyz, bitcast<u32>(a.w), triangles[3u * index + 1u].xyz, triangles[3u * index + 2u].xyz);
-}
 var<private> state: u32;
 fn random() -> f32 {
   state = state * 747796405u + 2891336453u;
@@ -148,10 +134,10 @@ fn random_direction() -> vec3f {
   }
   result[id.x] = vec2u(hits, repeated);
 }`,
-      [layout === 'wide' ? bvhClosestHitWide : bvhClosestHit, bvhOffset],
+      [layout === 'wide' ? bvhClosestHitWide : bvhClosestHit, bvhBuffers(), bvhOffset],
     );
     const { code } = compose([host], { flags: { BVH_FILTER: false } });
-    const result = new Uint32Array(await runCompute(device, code, { inputs: [nodes, packTriangles(tree, mesh), instances], outputBytes: 8 * paths, workgroups: Math.ceil(paths / 64) }));
+    const result = new Uint32Array(await runCompute(device, code, { inputs: [packed.nodes, packed.triangles, packed.instances], outputBytes: 8 * paths, workgroups: Math.ceil(paths / 64) }));
     let short = 0, repeated = 0;
     for (let i = 0; i < paths; i++) {
       if (result[2 * i] !== BOUNCES) short++;

@@ -152,7 +152,7 @@ test('BVH_FILTER lets the host turn hits down', async () => {
   const layers = [layer(2), layer(1), layer(0)];
   const [all] = await trace(layers, rays);
   expect(all).toMatchObject({ instance: 0, any: true });
-  const [second] = await trace(layers, rays, 'fn bvh_accept(hit: BvhHit) -> bool { return instances[hit.instance].id == 1u; }');
+  const [second] = await trace(layers, rays, 'fn bvh_accept(hit: BvhHit) -> bool { return bvh_instance(hit.instance).id == 1u; }');
   expect(second).toMatchObject({ instance: 1, any: true });
   const [none] = await trace(layers, rays, 'fn bvh_accept(hit: BvhHit) -> bool { return false; }');
   expect(none).toMatchObject({ instance: 0xffffffff, any: false });

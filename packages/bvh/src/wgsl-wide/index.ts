@@ -1,4 +1,6 @@
+export { bvhBuffers, type BvhBindings } from '../wgsl/buffers.wgsl';
 export { bvhOffset } from '../wgsl/offset.wgsl';
+export { packHierarchy, type HierarchyPart, type PackedHierarchy } from '../wgsl/pack';
 export { bvhInstanceStruct } from '../wgsl/structs';
 export { WIDE_STACK_SIZE as BVH_STACK_SIZE } from '../wide/layout';
 export { bvhNodeStruct } from './structs';

@@ -1,5 +1,5 @@
-import { packTriangles, type Blas, type BlasMesh, type Tlas } from '@glanz/bvh';
-import { bvhAnyHit, bvhClosestHit, bvhInstanceStruct } from '@glanz/bvh/wgsl';
+import type { BlasMesh, Tlas } from '@glanz/bvh';
+import { bvhAnyHit, bvhBuffers, bvhClosestHit, packHierarchy, type HierarchyPart } from '@glanz/bvh/wgsl';
 import { bvhAnyHit as wideAnyHit, bvhClosestHit as wideClosestHit } from '@glanz/bvh/wgsl-wide';
 import { widenBlas, widenTlas } from '@glanz/bvh/wide';
 import { compose, wgslModule } from '@glanz/wgsl';
@@ -10,17 +10,8 @@ export type Layout = 'binary' | 'wide';
 const host = (layout: Layout) => wgslModule(
   'bench/bvh-brute',
   /* wgsl */ `
-@group(0) @binding(0) var<storage, read> nodes: array<BvhNode>;
-@group(0) @binding(1) var<storage, read> triangles: array<vec4f>;
-@group(0) @binding(2) var<storage, read> instances: array<BvhInstance>;
 @group(0) @binding(3) var<storage, read> rays: array<vec4f>;
 @group(0) @binding(4) var<storage, read_write> result: array<vec4u>;
-fn bvh_node(index: u32) -> BvhNode { return nodes[index]; }
-fn bvh_instance(index: u32) -> BvhInstance { return instances[index]; }
-fn bvh_triangle(index: u32) -> BvhTriangle {
-  let a = triangles[3u * index];
-  return BvhTriangle(a.xyz, bitcast<u32>(a.w), triangles[3u * index + 1u].xyz, triangles[3u * index + 2u].xyz);
-}
 @compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3u) {
   if (2u * id.x >= arrayLength(&rays)) { return; }
   let o = rays[2u * id.x];
@@ -30,12 +21,12 @@ fn bvh_triangle(index: u32) -> BvhTriangle {
   var instance = BVH_MISS;
   if (hit.instance != BVH_MISS) {
     triangle = bvh_triangle(hit.triangle).id;
-    instance = instances[hit.instance].id;
+    instance = bvh_instance(hit.instance).id;
   }
   result[2u * id.x] = vec4u(bitcast<u32>(hit.t), bitcast<u32>(hit.u), bitcast<u32>(hit.v), triangle);
   result[2u * id.x + 1u] = vec4u(instance, select(0u, 1u, bvh_any_hit(o.xyz, d.xyz, o.w, d.w)), 0u, 0u);
 }`,
-  layout === 'binary' ? [bvhClosestHit, bvhAnyHit] : [wideClosestHit, wideAnyHit],
+  [bvhBuffers(), ...(layout === 'binary' ? [bvhClosestHit, bvhAnyHit] : [wideClosestHit, wideAnyHit])],
 );
 
 /** What the GPU has found. */
@@ -47,6 +38,12 @@ export interface GpuHits {
   /** 0xffffffff: a miss. */
   readonly instance: Uint32Array;
   readonly any: Uint8Array;
+}
+
+/** Each BLAS in the wide layout, once. */
+function widened(parts: readonly BlasMesh[]): HierarchyPart[] {
+  const wide = new Map([...new Set(parts.map(({ blas }) => blas))].map((blas) => [blas, widenBlas(blas)]));
+  return parts.map(({ blas, mesh }) => ({ blas: wide.get(blas)!, mesh }));
 }
 
 /** Traces rays through two-level scenes by the package's WGSL. */
@@ -71,40 +68,17 @@ export class GpuTracer {
     const device = this.#device;
     const count = rays.length / 8;
     const wide = this.layout === 'wide';
-    const tlas = wide ? widenTlas(binary) : binary;
-    const starts = new Map<Blas, [number, number]>();
-    const nodes: ArrayBufferView[] = [tlas.nodes], triangles: ArrayBufferView[] = [];
-    let node = tlas.nodeCount, triangle = 0;
-    for (const { blas, mesh } of parts) {
-      if (starts.has(blas)) continue;
-      starts.set(blas, [node, triangle]);
-      const tree = wide ? widenBlas(blas) : blas;
-      nodes.push(tree.nodes);
-      triangles.push(packTriangles(tree, mesh));
-      node += tree.nodeCount;
-      triangle += tree.triangleIndices.length;
-    }
-    const instances = bvhInstanceStruct.allocate(tlas.instanceOrder.length);
-    tlas.instanceOrder.forEach((given, slot) => {
-      const row = (r: number) => tlas.toObject.subarray(12 * given + 4 * r, 12 * given + 4 * r + 4);
-      const [first, offset] = starts.get(parts[given]!.blas)!;
-      bvhInstanceStruct.write(instances, slot, { to_object_0: row(0), to_object_1: row(1), to_object_2: row(2), blas_node: first, triangle_offset: offset, id: given, flags: 0 });
-    });
+    const hierarchy = packHierarchy(wide ? widenTlas(binary) : binary, wide ? widened(parts) : parts);
     const buffers: GPUBuffer[] = [];
-    const upload = (views: readonly ArrayBufferView[]) => {
-      const size = views.reduce((sum, { byteLength }) => sum + byteLength, 0);
-      const buffer = device.createBuffer({ size: Math.max(64, size), usage: GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST });
-      let at = 0;
-      for (const view of views) {
-        device.queue.writeBuffer(buffer, at, view.buffer as ArrayBuffer, view.byteOffset, view.byteLength);
-        at += view.byteLength;
-      }
+    const upload = (data: ArrayBuffer | Float32Array<ArrayBuffer>) => {
+      const buffer = device.createBuffer({ size: data.byteLength, usage: GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST });
+      device.queue.writeBuffer(buffer, 0, data);
       buffers.push(buffer);
       return buffer;
     };
     const output = device.createBuffer({ size: 32 * count, usage: GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_SRC });
     const staging = device.createBuffer({ size: 32 * count, usage: GPUBufferUsage.COPY_DST | GPUBufferUsage.MAP_READ });
-    const bound = [upload(nodes), upload(triangles), upload([new Uint8Array(instances)]), upload([rays]), output];
+    const bound = [upload(hierarchy.nodes), upload(hierarchy.triangles), upload(hierarchy.instances), upload(rays), output];
     buffers.push(output, staging);
     const encoder = device.createCommandEncoder();
     const pass = encoder.beginComputePass();

@@ -1,4 +1,4 @@
-import { buildTlas, packTriangles, type Blas } from '@glanz/bvh';
+import { buildTlas, type Blas } from '@glanz/bvh';
 import { widenBlas, widenTlas } from '@glanz/bvh/wide';
 import * as binary from '@glanz/bvh/wgsl';
 import * as wide from '@glanz/bvh/wgsl-wide';
@@ -21,17 +21,8 @@ const kernel = (layout: Layout, query: 'closest' | 'any') => {
   const traversal = layout === 'plain' ? plainQuery(query) : query === 'any' ? modules.bvhAnyHit : modules.bvhClosestHit;
   const host = wgslModule(
     'bench/rays',
-    `@group(0) @binding(0) var<storage, read> nodes: array<BvhNode>;
-@group(0) @binding(1) var<storage, read> triangles: array<vec4f>;
-@group(0) @binding(2) var<storage, read> instances: array<BvhInstance>;
-@group(0) @binding(3) var<storage, read> rays: array<vec4f>;
+    `@group(0) @binding(3) var<storage, read> rays: array<vec4f>;
 @group(0) @binding(4) var<storage, read_write> results: array<vec2u>;
-fn bvh_node(index: u32) -> BvhNode { return nodes[index]; }
-fn bvh_instance(index: u32) -> BvhInstance { return instances[index]; }
-fn bvh_triangle(index: u32) -> BvhTriangle {
-  let a = triangles[3u * index];
-  return BvhTriangle(a.xyz, bitcast<u32>(a.w), triangles[3u * index + 1u].xyz, triangles[3u * index + 2u].xyz);
-}
 @compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3u) {
   if (id.x >= arrayLength(&rays) / 2u) { return; }
   let o = rays[2u * id.x];
@@ -45,7 +36,7 @@ fn bvh_triangle(index: u32) -> BvhTriangle {
   results[id.x] = vec2u(bitcast<u32>(hit.t), id_of_triangle);`
   }
 }`,
-    [traversal],
+    [traversal, binary.bvhBuffers()],
   );
   return compose([host], { flags: { BVH_FILTER: false } }).code;
 };
@@ -74,18 +65,14 @@ export class GpuRays {
   static async create(device: GPUDevice, layout: Layout, blas: Blas, mesh: BenchMesh): Promise<GpuRays> {
     const tlas = buildTlas([{ bounds: blas.bounds, transform: IDENTITY }]);
     const upper = layout === 'wide' ? widenTlas(tlas) : tlas, lower = layout === 'wide' ? widenBlas(blas) : blas;
-    const nodes = new Uint8Array(upper.nodes.byteLength + lower.nodes.byteLength);
-    nodes.set(new Uint8Array(upper.nodes.buffer, upper.nodes.byteOffset, upper.nodes.byteLength));
-    nodes.set(new Uint8Array(lower.nodes.buffer, lower.nodes.byteOffset, lower.nodes.byteLength), upper.nodes.byteLength);
-    const instances = binary.bvhInstanceStruct.allocate(1);
-    binary.bvhInstanceStruct.write(instances, 0, { to_object_0: [1, 0, 0, 0], to_object_1: [0, 1, 0, 0], to_object_2: [0, 0, 1, 0], blas_node: upper.nodeCount, triangle_offset: 0, id: 0, flags: 0 });
+    const { nodes, triangles, instances } = binary.packHierarchy(upper, [{ blas: lower, mesh }]);
     const bindGroupLayout = device.createBindGroupLayout({ entries: [0, 1, 2, 3, 4].map((binding) => ({ binding, visibility: GPUShaderStage.COMPUTE, buffer: { type: binding < 4 ? 'read-only-storage' : 'storage' } })) });
     const pipeline = (query: 'closest' | 'any') => {
       const module = device.createShaderModule({ label: `bench ${layout} ${query}`, code: kernel(layout, query) });
       return device.createComputePipelineAsync({ layout: device.createPipelineLayout({ bindGroupLayouts: [bindGroupLayout] }), compute: { module, entryPoint: 'main' } });
     };
     const [closest, any] = await Promise.all([pipeline('closest'), pipeline('any')]);
-    return new GpuRays(device, bindGroupLayout, { closest, any }, [nodes, packTriangles(lower, mesh), instances]);
+    return new GpuRays(device, bindGroupLayout, { closest, any }, [nodes, triangles, instances]);
   }
 
   #buffer(size: number, usage: number, data?: ArrayBuffer | ArrayBufferView<ArrayBuffer>): GPUBuffer {
