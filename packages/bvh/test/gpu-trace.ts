@@ -14,7 +14,7 @@ export interface Placed {
 export interface Layout {
   readonly blas: (blas: Blas) => Blas | WideBlas;
   readonly tlas: (tlas: Tlas) => Tlas | WideTlas;
-  readonly modules: readonly WgslModule[];
+  readonly traversal: (query: 'closest' | 'any', stackSize: number) => WgslModule;
 }
 
 /** Buffers of a scene, with what they were made of. */
@@ -40,7 +40,7 @@ export interface GpuHit {
  * @param accept The text of `bvh_accept`, if candidates are to be asked about.
  */
 export async function trace(device: GPUDevice, layout: Layout, placed: readonly Placed[], rays: Float32Array<ArrayBuffer>, accept?: string): Promise<GpuHit[]> {
-  const { nodes, triangles, instances } = upload(placed, layout);
+  const { nodes, triangles, instances, stackSize } = upload(placed, layout);
   const count = rays.length / 8;
   const host = wgslModule(
     'test/host',
@@ -62,7 +62,7 @@ ${accept ?? ''}
   } else { result[at + 4u] = 0xffffffffu; }
   result[at + 5u] = select(0u, 1u, bvh_any_hit(o.xyz, d.xyz, o.w, d.w));
 }`,
-    [...layout.modules, bvhBuffers()],
+    [layout.traversal('closest', stackSize), layout.traversal('any', stackSize), bvhBuffers()],
   );
   const { code } = compose([host], { flags: { BVH_FILTER: accept !== undefined } });
   const bytes = await runCompute(device, code, { inputs: [nodes, triangles, instances, rays], outputBytes: count * 32, workgroups: Math.ceil(count / 64) });

@@ -2,7 +2,7 @@ import { compose, wgslModule } from '@glanz/wgsl';
 import { expectNoGpuErrors, runCompute, testDevice } from '@glanz/gpu';
 import { afterAll, beforeAll, expect, test } from 'vitest';
 import { closestHitInstances } from '../src/index';
-import { bvhAnyHit, bvhClosestHit, bvhOffset } from '../src/wgsl/index';
+import { bvhOffset, bvhTraversal } from '../src/wgsl/index';
 import { trace as traceIn, upload, type Layout, type Placed } from './gpu-trace';
 import { affine, direction, randomNumbers, sphere, strewn } from './shapes';
 
@@ -14,7 +14,7 @@ afterAll(() => expectNoGpuErrors());
 
 const identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
-const layout: Layout = { blas: (blas) => blas, tlas: (tlas) => tlas, modules: [bvhClosestHit, bvhAnyHit] };
+const layout: Layout = { blas: (blas) => blas, tlas: (tlas) => tlas, traversal: bvhTraversal };
 const trace = (placed: readonly Placed[], rays: Float32Array<ArrayBuffer>, accept?: string) => traceIn(device, layout, placed, rays, accept);
 
 for (const seed of [51, 52]) {

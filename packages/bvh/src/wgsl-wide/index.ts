@@ -4,4 +4,4 @@ export { packHierarchy, type HierarchyPart, type PackedHierarchy } from '../wgsl
 export { bvhInstanceStruct } from '../wgsl/structs';
 export { WIDE_STACK_SIZE as BVH_STACK_SIZE } from '../wide/layout';
 export { bvhNodeStruct } from './structs';
-export { bvhAnyHit, bvhClosestHit, bvhTypes } from './traversal.wgsl';
+export { bvhAnyHit, bvhClosestHit, bvhTraversal, bvhTypes } from './traversal.wgsl';

@@ -1,6 +1,7 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl/module';
 import { bvhTriangleTest } from '../wgsl/triangle.wgsl';
 import { bvhRecords } from '../wgsl/types.wgsl';
+import { checkedStackSize } from '../wgsl/stack-size';
 import { WIDE_STACK_SIZE } from '../wide/layout';
 import { bvhNodeStruct } from './structs';
 
@@ -78,14 +79,16 @@ fn bvh_enter_children(ray: BvhRay, octant: u32, node: BvhNode, t_min: f32, t_max
  * while one of its nodes is looked at, so one entry a level is enough. One loop serves both levels: "waiting" are the
  * instances of the node of the TLAS that was looked at last. Bounded, as every node and instance is visited at most once.
  */
-const traversal = (name: 'closest' | 'any'): WgslModule => {
+const traversal = (name: 'closest' | 'any', stackSize = WIDE_STACK_SIZE): WgslModule => {
   const any = name === 'any';
+  // Where the stack may be too small for the trees after all: hits are lost, but rays come to an end.
+  const guard = stackSize < WIDE_STACK_SIZE ? ` && top < ${stackSize}u` : '';
   return wgslModule(
     `bvh/wide-${name}-hit`,
     /* wgsl */ `
 fn bvh_${name}_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> ${any ? 'bool' : 'BvhHit'} {
   var hit = BvhHit(t_max, 0.0, 0.0, 0u, BVH_MISS);
-  var stack: array<vec2u, ${WIDE_STACK_SIZE}>;
+  var stack: array<vec2u, ${stackSize}>;
   var top = 0u;
   var bottom = 0u;
   var ray = bvh_ray(origin, direction);
@@ -111,7 +114,7 @@ fn bvh_${name}_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> $
       frame = bvh_frame(ray.direction);
       first_node = placed.blas_node;
       first_triangle = placed.triangle_offset;
-      if (group.y > 0xffffffu) {
+      if (group.y > 0xffffffu${guard}) {
         stack[top] = group;
         top++;
       }
@@ -134,7 +137,7 @@ fn bvh_${name}_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> $
     let bit = firstLeadingBit(group.y);
     group.y ^= 1u << bit;
     let before = group.y & ((1u << ((bit - 24u) ^ octant)) - 1u);
-    if (group.y > 0xffffffu) {
+    if (group.y > 0xffffffu${guard}) {
       stack[top] = group;
       top++;
     }
@@ -174,3 +177,12 @@ export const bvhClosestHit: WgslModule = traversal('closest');
 
 /** `fn bvh_any_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> bool` over the wide layout. See {@link bvhClosestHit}. */
 export const bvhAnyHit: WgslModule = traversal('any');
+
+/**
+ * {@link bvhClosestHit} or {@link bvhAnyHit} with a stack for trees that are less deep than they might be: see the function
+ * of the same name of `@glanz/bvh/wgsl`.
+ *
+ * @param stackSize As `packHierarchy` tells it, or more. With less, rays lose hits where they enter more than it holds.
+ * @throws {BvhError} `bvh/options` for what is no whole number from 3 to `BVH_STACK_SIZE`.
+ */
+export const bvhTraversal = (query: 'closest' | 'any', stackSize: number): WgslModule => traversal(query, checkedStackSize(stackSize, WIDE_STACK_SIZE));

@@ -3,5 +3,5 @@ export { bvhBuffers, type BvhBindings } from './buffers.wgsl';
 export { bvhOffset } from './offset.wgsl';
 export { packHierarchy, type HierarchyPart, type PackedHierarchy } from './pack';
 export { bvhInstanceStruct, bvhNodeStruct } from './structs';
-export { bvhAnyHit, bvhClosestHit } from './traversal.wgsl';
+export { bvhAnyHit, bvhClosestHit, bvhTraversal } from './traversal.wgsl';
 export { bvhTypes } from './types.wgsl';

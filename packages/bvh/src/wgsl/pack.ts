@@ -3,6 +3,7 @@ import { BvhError } from '../error';
 import { TRIANGLE_WORDS } from '../layout';
 import type { Tlas } from '../tlas';
 import type { WideBlas, WideTlas } from '../wide/widen';
+import { stackSizeOf } from './stack-size';
 import { bvhInstanceStruct } from './structs';
 
 /** A mesh with its hierarchy, in either layout. */
@@ -20,6 +21,8 @@ export interface PackedHierarchy {
   readonly triangles: Float32Array<ArrayBuffer>;
   /** As `bvhInstanceStruct` lays them out, in the TLAS's leaf order; `id` is the instance as given to `buildTlas`. */
   readonly instances: ArrayBuffer;
+  /** Entries that a ray's stack needs for these trees: see `bvhTraversal`. A TLAS of other transforms may be deeper. */
+  readonly stackSize: number;
 }
 
 /** Bytes of what stands for instances where there are none: buffers cannot be empty. */
@@ -62,5 +65,5 @@ export function packHierarchy(tlas: Pick<Tlas | WideTlas, 'nodes' | 'nodeCount' 
   for (const [blas, [first]] of starts) put(blas.nodes, first);
   const triangles = new Float32Array(TRIANGLE_WORDS * Math.max(1, triangleCount));
   meshes.reduce((at, packed) => (triangles.set(packed, at), at + packed.length), 0);
-  return { nodes: nodes.buffer, triangles, instances: instanceOrder.length > 0 ? instances : new ArrayBuffer(NO_INSTANCE) };
+  return { nodes: nodes.buffer, triangles, instances: instanceOrder.length > 0 ? instances : new ArrayBuffer(NO_INSTANCE), stackSize: stackSizeOf(tlas, starts.keys()) };
 }

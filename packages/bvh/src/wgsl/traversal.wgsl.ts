@@ -1,5 +1,6 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl/module';
 import { BVH_STACK_SIZE } from '../layout';
+import { checkedStackSize } from './stack-size';
 import { bvhTriangleTest } from './triangle.wgsl';
 import { bvhTypes } from './types.wgsl';
 
@@ -33,14 +34,17 @@ const BVH_END = 0xffffffffu;
  * end mark, of which there is one at the bottom of the stack and one where an instance was entered. Bounded, as every
  * reference is visited at most once.
  */
-const traversal = (name: 'closest' | 'any'): WgslModule => {
+const traversal = (name: 'closest' | 'any', stackSize = BVH_STACK_SIZE): WgslModule => {
   const any = name === 'any';
+  // Where the stack may be too small for the trees after all: hits are lost, but rays come to an end. A place is left for the
+  // mark of an instance.
+  const guard = stackSize < BVH_STACK_SIZE ? `if (top < ${stackSize - 1}u) ` : '';
   return wgslModule(
     `bvh/${name}-hit`,
     /* wgsl */ `
 fn bvh_${name}_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> ${any ? 'bool' : 'BvhHit'} {
   var hit = BvhHit(t_max, 0.0, 0.0, 0u, BVH_MISS);
-  var stack: array<u32, ${BVH_STACK_SIZE}>;
+  var stack: array<u32, ${stackSize}>;
   stack[0] = BVH_END;
   var top = 1u;
   var reference = 0u;
@@ -60,8 +64,10 @@ fn bvh_${name}_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> $
       let in_right = right < BVH_OUTSIDE;
       if (in_left && in_right) {
         let swap = right < left;
-        stack[top] = select(right_child, left_child, swap);
-        top++;
+        ${guard}{
+          stack[top] = select(right_child, left_child, swap);
+          top++;
+        }
         reference = select(left_child, right_child, swap);
       } else if (in_left || in_right) {
         reference = select(right_child, left_child, in_left);
@@ -132,3 +138,12 @@ export const bvhClosestHit: WgslModule = traversal('closest');
 
 /** `fn bvh_any_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> bool`: whether there is a triangle with t_min < t < t_max. See {@link bvhClosestHit}. */
 export const bvhAnyHit: WgslModule = traversal('any');
+
+/**
+ * {@link bvhClosestHit} or {@link bvhAnyHit} with a stack for trees that are less deep than they might be. WGSL clears all of
+ * it for each ray, so a smaller one makes rays a few per cent faster. Make it once a pipeline: two modules of one name do not go together.
+ *
+ * @param stackSize As `packHierarchy` tells it, or more. With less, rays lose hits where they enter more than it holds.
+ * @throws {BvhError} `bvh/options` for what is no whole number from 3 to {@link BVH_STACK_SIZE}.
+ */
+export const bvhTraversal = (query: 'closest' | 'any', stackSize: number): WgslModule => traversal(query, checkedStackSize(stackSize, BVH_STACK_SIZE));

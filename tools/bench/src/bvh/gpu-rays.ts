@@ -16,9 +16,9 @@ export const RESULT_WORDS = 2;
 
 const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
-const kernel = (layout: Layout, query: 'closest' | 'any') => {
+const kernel = (layout: Layout, query: 'closest' | 'any', stackSize: number) => {
   const modules = layout === 'wide' ? wide : binary;
-  const traversal = layout === 'plain' ? plainQuery(query) : query === 'any' ? modules.bvhAnyHit : modules.bvhClosestHit;
+  const traversal = layout === 'plain' ? plainQuery(query) : modules.bvhTraversal(query, stackSize);
   const host = wgslModule(
     'bench/rays',
     `@group(0) @binding(3) var<storage, read> rays: array<vec4f>;
@@ -65,10 +65,10 @@ export class GpuRays {
   static async create(device: GPUDevice, layout: Layout, blas: Blas, mesh: BenchMesh): Promise<GpuRays> {
     const tlas = buildTlas([{ bounds: blas.bounds, transform: IDENTITY }]);
     const upper = layout === 'wide' ? widenTlas(tlas) : tlas, lower = layout === 'wide' ? widenBlas(blas) : blas;
-    const { nodes, triangles, instances } = binary.packHierarchy(upper, [{ blas: lower, mesh }]);
+    const { nodes, triangles, instances, stackSize } = binary.packHierarchy(upper, [{ blas: lower, mesh }]);
     const bindGroupLayout = device.createBindGroupLayout({ entries: [0, 1, 2, 3, 4].map((binding) => ({ binding, visibility: GPUShaderStage.COMPUTE, buffer: { type: binding < 4 ? 'read-only-storage' : 'storage' } })) });
     const pipeline = (query: 'closest' | 'any') => {
-      const module = device.createShaderModule({ label: `bench ${layout} ${query}`, code: kernel(layout, query) });
+      const module = device.createShaderModule({ label: `bench ${layout} ${query}`, code: kernel(layout, query, stackSize) });
       return device.createComputePipelineAsync({ layout: device.createPipelineLayout({ bindGroupLayouts: [bindGroupLayout] }), compute: { module, entryPoint: 'main' } });
     };
     const [closest, any] = await Promise.all([pipeline('closest'), pipeline('any')]);
