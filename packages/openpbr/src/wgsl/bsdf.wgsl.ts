@@ -38,15 +38,14 @@ import { openpbrSubsurface } from './subsurface.wgsl';
 export const openpbr = wgslModule(
   'openpbr',
   /* wgsl */ `fn openpbr_eval_pdf(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec4f {
+  //#if !OPENPBR_TRANSMISSION
+  if (min(wo.z, wi.z) <= 0.0) { return vec4f(0.0); }
+  //#endif
+  var h = openpbr_half(wo, wi);
   //#if OPENPBR_TRANSMISSION
-  if (wi.z < 0.0) { return openpbr_scatter_through(b, wo, wi, openpbr_through_half(b, wo, wi)); }
+  if (wi.z < 0.0) { h = openpbr_through_half(b, wo, wi); }
   //#endif
-  let h = openpbr_half(wo, wi);
-  //#if OPENPBR_COAT_FRAME
-  return openpbr_scatter(b, wo, wi, h, h * b.coat.frame);
-  //#else
-  return openpbr_scatter(b, wo, wi, h);
-  //#endif
+  return openpbr_scatter(b, wo, wi, openpbr_facet(b, wo, h));
 }
 
 fn openpbr_eval(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec3f {

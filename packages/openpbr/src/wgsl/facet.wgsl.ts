@@ -6,17 +6,32 @@ import { openpbrSurface } from './surface.wgsl';
 /** What one facet of the base does: metal, dielectric and clear part at once, and whether it reflects when it is sampled. */
 export const openpbrFacet = wgslModule(
   'openpbr/facet',
-  /* wgsl */ `//#if OPENPBR_SPECULAR
-// What a facet seen at cosine c reflects, all microfacet lobes of the base, and what it lets through.
+  /* wgsl */ `// A facet that sends light between two directions.
 struct OpenPbrFacet {
+  // Its normal, their half vector.
+  h: vec3f,
+  //#if OPENPBR_COAT_FRAME
+  // In the coat's frame: turned there and back it would lose the digits that a narrow highlight hangs on.
+  coat_h: vec3f,
+  //#endif
+  //#if OPENPBR_SPECULAR
+  // What it reflects, all microfacet lobes of the base, and what it lets through.
   reflected: vec3f,
   //#if OPENPBR_TRANSMISSION
   through: vec3f,
   //#endif
+  //#endif
 }
 
-fn openpbr_facet(b: OpenPbrBsdf, c: f32) -> OpenPbrFacet {
+// Films make it costly, and compilers copy it to every place that calls it: one for samples, one for pairs of directions.
+fn openpbr_facet(b: OpenPbrBsdf, wo: vec3f, h: vec3f) -> OpenPbrFacet {
   var facet: OpenPbrFacet;
+  facet.h = h;
+  //#if OPENPBR_COAT_FRAME
+  facet.coat_h = h * b.coat.frame;
+  //#endif
+  //#if OPENPBR_SPECULAR
+  let c = clamp(dot(wo, h), 0.0, 1.0);
   //#if OPENPBR_METAL
   //#if OPENPBR_THIN_FILM
   facet.reflected += b.metal.weight * openpbr_film_metal(b.film, b.metal.f90, c, openpbr_f82(b.metal.f0, b.metal.f90, b.metal.edge, c));
@@ -51,9 +66,9 @@ fn openpbr_facet(b: OpenPbrBsdf, c: f32) -> OpenPbrFacet {
   facet.reflected += b.transmission.mirror * clear;
   //#endif
   //#endif
+  //#endif
   return facet;
 }
-//#endif
 
 //#if OPENPBR_TRANSMISSION
 // Probability that a facet reflects, once it is sampled; else it lets light through.

@@ -22,6 +22,11 @@ fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample {
   //#if OPENPBR_SUBSURFACE
   var medium = 1.0;
   //#endif
+  //#if OPENPBR_TRANSMISSION
+  // Whether a facet was sampled, not the direction. What is left of the random number tells whether it reflects.
+  var by_facet = false;
+  var side = 0.0;
+  //#endif
   //#if OPENPBR_SPECULAR
   //#if OPENPBR_COAT
   let top = u.z < b.coat.probability;
@@ -50,16 +55,16 @@ fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample {
     let bound = b.bound;
   //#endif
     //#if OPENPBR_TRANSMISSION
-    // What is left of the random number tells whether the facet reflects.
-    let side = chosen / limit;
+    by_facet = true;
+    side = chosen / limit;
     //#if OPENPBR_THIN_WALLED
     if (b.transmission.thin && side >= b.transmission.chance) { alpha = b.transmission.thin_alpha; }
     //#endif
     //#endif
     //#if OPENPBR_COAT_FRAME
-    let facet = openpbr_ggx_sample(alpha, select(wo, wo * b.coat.frame, top), u.xy, bound);
-    h = select(facet, b.coat.frame * facet, top);
-    coat_h = select(vec3f(0.0), facet, top);
+    let normal = openpbr_ggx_sample(alpha, select(wo, wo * b.coat.frame, top), u.xy, bound);
+    h = select(normal, b.coat.frame * normal, top);
+    coat_h = select(vec3f(0.0), normal, top);
     //#else
     h = openpbr_ggx_sample(alpha, wo, u.xy, bound);
     //#endif
@@ -67,24 +72,6 @@ fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample {
     //#if OPENPBR_COAT_FRAME
     // Down below the coat's plane: lost, though it may be above that of the base.
     if (top && dot(s.wi, b.coat.frame[2]) <= 0.0) { return s; }
-    //#endif
-    //#if OPENPBR_TRANSMISSION
-    let c = clamp(dot(wo, h), 0.0, 1.0);
-    // Below 0 for the coat, which always reflects.
-    let chance = openpbr_reflection_chance(b, openpbr_facet(b, c));
-    s.transmitted = side >= chance;
-    //#if OPENPBR_SUBSURFACE
-    medium = (side - chance) / (1.0 - chance);
-    //#endif
-    if (s.transmitted) {
-      //#if OPENPBR_THIN_WALLED
-      if (b.transmission.thin) { s.wi.z = -s.wi.z; } else { s.wi = openpbr_refract(b.transmission.eta, wo, h); }
-      //#else
-      s.wi = openpbr_refract(b.transmission.eta, wo, h);
-      //#endif
-    }
-    // A facet may reflect downwards or refract upwards: lost.
-    if (s.transmitted != (s.wi.z < 0.0)) { return s; }
     //#endif
   }
   //#if OPENPBR_COSINE
@@ -114,11 +101,30 @@ fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample {
   if (fuzzy) { s.wi = openpbr_fuzz_sample(b.fuzz, u.xy); }
   //#endif
   //#endif
+  var facet = openpbr_facet(b, wo, h);
   //#if OPENPBR_COAT_FRAME
-  let f = openpbr_scatter(b, wo, s.wi, h, select(h * b.coat.frame, coat_h, coat_h.z > 0.0));
-  //#else
-  let f = openpbr_scatter(b, wo, s.wi, h);
+  facet.coat_h = select(facet.coat_h, coat_h, coat_h.z > 0.0);
   //#endif
+  //#if OPENPBR_TRANSMISSION
+  if (by_facet) {
+    // Below 0 for the coat, which always reflects.
+    let chance = openpbr_reflection_chance(b, facet);
+    s.transmitted = side >= chance;
+    //#if OPENPBR_SUBSURFACE
+    medium = (side - chance) / (1.0 - chance);
+    //#endif
+    if (s.transmitted) {
+      //#if OPENPBR_THIN_WALLED
+      if (b.transmission.thin) { s.wi.z = -s.wi.z; } else { s.wi = openpbr_refract(b.transmission.eta, wo, h); }
+      //#else
+      s.wi = openpbr_refract(b.transmission.eta, wo, h);
+      //#endif
+    }
+    // A facet may reflect downwards or refract upwards: lost.
+    if (s.transmitted != (s.wi.z < 0.0)) { return s; }
+  }
+  //#endif
+  let f = openpbr_scatter(b, wo, s.wi, facet);
   s.pdf = f.w;
   s.valid = f.w > 0.0;
   s.weight = select(vec3f(0.0), f.xyz / f.w, s.valid);

@@ -42,19 +42,18 @@ fn openpbr_diffuse_pass(b: OpenPbrBsdf, wi: vec3f) -> f32 {
 
 //#if OPENPBR_TRANSMISSION
 // (f · |cos θ_i|, pdf) of a pair of directions on either side, with its facet.
-fn openpbr_scatter_through(b: OpenPbrBsdf, wo: vec3f, wi: vec3f, h: vec3f) -> vec4f {
+fn openpbr_scatter_through(b: OpenPbrBsdf, wo: vec3f, wi: vec3f, facet: OpenPbrFacet) -> vec4f {
   if (wo.z <= 0.0) { return vec4f(0.0); }
-  let facet = openpbr_facet(b, clamp(dot(wo, h), 0.0, 1.0));
   let probability = b.specular_probability * (1.0 - openpbr_reflection_chance(b, facet));
   var ggx: vec2f;
   //#if OPENPBR_THIN_WALLED
   if (b.transmission.thin) {
-    ggx = openpbr_ggx(b.transmission.thin_alpha, wo, vec3f(wi.xy, -wi.z), h, 1.0);
+    ggx = openpbr_ggx(b.transmission.thin_alpha, wo, vec3f(wi.xy, -wi.z), facet.h, 1.0);
   } else {
-    ggx = openpbr_refract_ggx(b.transmission.eta, b.alpha, wo, wi, h);
+    ggx = openpbr_refract_ggx(b.transmission.eta, b.alpha, wo, wi, facet.h);
   }
   //#else
-  ggx = openpbr_refract_ggx(b.transmission.eta, b.alpha, wo, wi, h);
+  ggx = openpbr_refract_ggx(b.transmission.eta, b.alpha, wo, wi, facet.h);
   //#endif
   var result = vec4f(facet.through * ggx.x, probability * ggx.y);
   //#if OPENPBR_COSINE
@@ -74,22 +73,15 @@ fn openpbr_scatter_through(b: OpenPbrBsdf, wo: vec3f, wi: vec3f, h: vec3f) -> ve
 }
 //#endif
 
-// (f · |cos θ_i|, pdf) of a pair of directions with its half vector.
-//#if OPENPBR_COAT_FRAME
-// And that in the coat's frame: turned there and back it would lose the digits that a narrow highlight hangs on.
-fn openpbr_scatter(b: OpenPbrBsdf, wo: vec3f, wi: vec3f, h: vec3f, coat_h: vec3f) -> vec4f {
-//#else
-fn openpbr_scatter(b: OpenPbrBsdf, wo: vec3f, wi: vec3f, h: vec3f) -> vec4f {
-//#endif
+// (f · |cos θ_i|, pdf) of a pair of directions with its facet.
+fn openpbr_scatter(b: OpenPbrBsdf, wo: vec3f, wi: vec3f, facet: OpenPbrFacet) -> vec4f {
   //#if OPENPBR_TRANSMISSION
-  if (wi.z < 0.0) { return openpbr_scatter_through(b, wo, wi, h); }
+  if (wi.z < 0.0) { return openpbr_scatter_through(b, wo, wi, facet); }
   //#endif
   if (min(wo.z, wi.z) <= 0.0) { return vec4f(0.0); }
   var result = vec4f(0.0);
   //#if OPENPBR_SPECULAR
-  let c = clamp(dot(wo, h), 0.0, 1.0);
-  let ggx = openpbr_ggx(b.alpha, wo, wi, h, b.bound);
-  let facet = openpbr_facet(b, c);
+  let ggx = openpbr_ggx(b.alpha, wo, wi, facet.h, b.bound);
   var facet_probability = b.specular_probability;
   //#if OPENPBR_TRANSMISSION
   facet_probability *= openpbr_reflection_chance(b, facet);
@@ -124,13 +116,13 @@ fn openpbr_scatter(b: OpenPbrBsdf, wo: vec3f, wi: vec3f, h: vec3f) -> vec4f {
   //#if OPENPBR_COAT
   //#if OPENPBR_COAT_FRAME
   let coat_wi = wi * b.coat.frame;
-  let top = select(vec2f(0.0), openpbr_ggx(b.coat.alpha, wo * b.coat.frame, vec3f(coat_wi.xy, max(coat_wi.z, 1e-5)), coat_h, b.coat.bound), coat_wi.z > 0.0);
+  let top = select(vec2f(0.0), openpbr_ggx(b.coat.alpha, wo * b.coat.frame, vec3f(coat_wi.xy, max(coat_wi.z, 1e-5)), facet.coat_h, b.coat.bound), coat_wi.z > 0.0);
   let coat_mu = max(coat_wi.z, 1e-5);
   //#else
-  let top = openpbr_ggx(b.coat.alpha, wo, wi, h, b.coat.bound);
+  let top = openpbr_ggx(b.coat.alpha, wo, wi, facet.h, b.coat.bound);
   let coat_mu = wi.z;
   //#endif
-  let mirrored = b.coat.scale * openpbr_fresnel_dielectric(b.coat.eta, c) * top.x;
+  let mirrored = b.coat.scale * openpbr_fresnel_dielectric(b.coat.eta, clamp(dot(wo, facet.h), 0.0, 1.0)) * top.x;
   result = vec4f(result.xyz * openpbr_coat_pass(b.coat, coat_mu) + mirrored, mix(result.w, top.y, b.coat.probability));
   //#endif
   //#if OPENPBR_FUZZ
