@@ -62,7 +62,7 @@ const ratio = (a: Complex, b: Complex): Complex => {
 };
 
 /**
- * Reflectance of a film on a base (Airy's sum, unpolarised) brought to red, green and blue; 1 less what `openpbr_film_through` gives.
+ * Reflectance of a film on a base (Airy's sum, unpolarised) brought to red, green and blue; twin of `openpbr_film_light`.
  * The visible spectrum is a sum of Lorentzian bands: of such a band Airy's sum is known in closed form, with all its orders.
  *
  * @param tangential Square of the tangential part of the wave's vector, which all layers share; sin² of the angle in air.
@@ -102,7 +102,7 @@ export function filmReflectance({ index, outer, path, bands }: Film, [n, k]: Com
 }
 
 
-/** Reflectance of the film on the dielectric for a facet seen at the cosine `c`; twin of `openpbr_film_facet`. */
+/** Reflectance of the film on the dielectric for a facet seen at the cosine `c`; twin of `openpbr_film_dielectric`. */
 export const filmFacet = (film: Film, c: number): OpenPbrColor => filmReflectance(film, [film.base, 0], (1 - c * c) * film.viewer);
 
 /** Where along the cap of visible normals, and how much: Gauss and Legendre's; around it, four places whose cosines are Chebyshev's. */
@@ -120,7 +120,7 @@ export interface FilmShare {
 }
 
 /**
- * Sums over sixteen facets as they are seen; twin of `openpbr_film_share`.
+ * Sums over sixteen facets as they are seen; twin of `openpbr_film_sums` with `openpbr_film_share`.
  *
  * @param eta Relative index of the interface without the film.
  * @param share The part of the light that it reflects.

@@ -32,9 +32,12 @@ fn openpbr_facet(b: OpenPbrBsdf, wo: vec3f, h: vec3f) -> OpenPbrFacet {
   //#endif
   //#if OPENPBR_SPECULAR
   let c = clamp(dot(wo, h), 0.0, 1.0);
+  //#if OPENPBR_THIN_FILM
+  let film = openpbr_film_facet(b.film, c, b.film.bases);
+  //#endif
   //#if OPENPBR_METAL
   //#if OPENPBR_THIN_FILM
-  facet.reflected += b.metal.weight * openpbr_film_metal(b.film, b.metal.f90, c, openpbr_f82(b.metal.f0, b.metal.f90, b.metal.edge, c));
+  facet.reflected += b.metal.weight * openpbr_film_metal(b.film, b.metal.f90, film.metal, openpbr_f82(b.metal.f0, b.metal.f90, b.metal.edge, c));
   //#else
   facet.reflected += openpbr_metal_fresnel(b.metal, c);
   //#endif
@@ -42,9 +45,7 @@ fn openpbr_facet(b: OpenPbrBsdf, wo: vec3f, h: vec3f) -> OpenPbrFacet {
   //#if OPENPBR_DIELECTRIC
   let opaque = openpbr_fresnel_dielectric(b.dielectric.eta, c);
   //#if OPENPBR_THIN_FILM
-  var film: OpenPbrFilmLight;
-  if (b.film.weight > 0.0) { film = openpbr_film_facet(b.film, c); }
-  facet.reflected += b.dielectric_scale * mix(vec3f(opaque), film.reflected, b.film.weight);
+  facet.reflected += b.dielectric_scale * mix(vec3f(opaque), film.dielectric.reflected, b.film.weight);
   //#else
   facet.reflected += b.dielectric_scale * opaque;
   //#endif
@@ -60,8 +61,8 @@ fn openpbr_facet(b: OpenPbrBsdf, wo: vec3f, h: vec3f) -> OpenPbrFacet {
   let clear = openpbr_fresnel_dielectric(b.transmission.mirror_eta, c);
   facet.through = b.transmission.color * (1.0 - openpbr_fresnel_dielectric(b.transmission.fresnel_eta, c));
   //#if OPENPBR_THIN_FILM
-  facet.reflected += b.transmission.mirror * mix(vec3f(clear), film.reflected, b.film.weight);
-  facet.through *= 1.0 - b.film.weight + b.film.weight * film.through / max(1.0 - clear, 1e-6);
+  facet.reflected += b.transmission.mirror * mix(vec3f(clear), film.dielectric.reflected, b.film.weight);
+  facet.through *= 1.0 - b.film.weight + b.film.weight * film.dielectric.through / max(1.0 - clear, 1e-6);
   //#else
   facet.reflected += b.transmission.mirror * clear;
   //#endif

@@ -24,20 +24,19 @@ function filmModule({ wavenumbers, width, weights }: FilmBands): WgslModule {
   /* wgsl */ `struct OpenPbrFilm {
   // Coverage.
   weight: f32,
-  // Indices of the film, of what lies on it and of the dielectric below, over that of what is outside of the object.
+  // Indices of the film and of what lies on it, over that of what is outside of the object.
   index: f32,
   outer: f32,
-  base: f32,
+  // Complex ones of what lies below: those of metal for red, green and blue, and that of the dielectric.
+  n: vec4f,
+  k: vec4f,
+  // The first of these bases that there is, and one more than the last.
+  bases: vec2u,
   // Optical path through the film and back, in µm, over the part of the wave's vector across it.
   path: f32,
   // Square of the part of the wave's vector along the surface at grazing angles: outside, and on the viewer's side.
   grazing: f32,
   viewer: f32,
-  //#if OPENPBR_METAL
-  // Complex index of the metal below.
-  metal_n: vec3f,
-  metal_k: vec3f,
-  //#endif
   //#if OPENPBR_DIELECTRIC
   // Factor on what lies below the interface.
   passed: vec3f,
@@ -62,18 +61,21 @@ fn openpbr_film_prepare(p: OpenPbrParameters, outer_ior: f32, inside: bool) -> O
   var below = p;
   below.specular_ior = p.specular_ior / film.outer;
   let epsilon = openpbr_dielectric_epsilon(below);
-  film.base = film.outer * (1.0 + epsilon) / (1.0 - epsilon);
-  if (inside) { film.viewer = film.base * film.base; }
+  film.n.w = film.outer * (1.0 + epsilon) / (1.0 - epsilon);
+  if (inside) { film.viewer = film.n.w * film.n.w; }
   //#endif
+  film.bases = vec2u(3u, 4u);
   //#if OPENPBR_METAL
   let r = clamp(p.base_weight * p.base_color, vec3f(0.0), vec3f(0.999));
   let root = sqrt(r);
   // 1 - √r
   let rest = (1.0 - r) / (1.0 + root);
-  film.metal_n = mix((1.0 + root) / rest, (1.0 - r) / (1.0 + r), p.specular_color);
+  film.n = vec4f(mix((1.0 + root) / rest, (1.0 - r) / (1.0 + r), p.specular_color), film.n.w);
   // √((r (n + 1)² - (n - 1)²) / (1 - r)), without its differences of nearly equal numbers.
-  film.metal_k = sqrt(4.0 * r * p.specular_color * (2.0 * (1.0 - p.specular_color) / rest + p.specular_color * rest / (1.0 + r)) / ((1.0 + r) * rest));
+  film.k = vec4f(sqrt(4.0 * r * p.specular_color * (2.0 * (1.0 - p.specular_color) / rest + p.specular_color * rest / (1.0 + r)) / ((1.0 + r) * rest)), 0.0);
+  film.bases = vec2u(select(0u, 3u, p.base_metalness <= 0.0), select(4u, 3u, p.base_metalness >= 1.0));
   //#endif
+  if (film.weight <= 0.0) { film.bases = vec2u(0u); }
   return film;
 }
 
@@ -174,22 +176,100 @@ fn openpbr_film_light(film: OpenPbrFilm, base: vec2f, tangential: f32) -> OpenPb
   return OpenPbrFilmLight(clamp(0.5 * (one * a[0] + other * b[0]), vec3f(0.0), vec3f(1.0)), clamp(0.5 * (one * a[1] + other * b[1]), vec3f(0.0), vec3f(1.0)));
 }
 
-//#if OPENPBR_METAL
-// Reflectance of metal for a facet seen at cosine c; "clear" is that without the film.
-fn openpbr_film_metal(film: OpenPbrFilm, specular_weight: f32, c: f32, clear: vec3f) -> vec3f {
-  if (film.weight <= 0.0) { return clear; }
-  var color = vec3f(0.0);
-  for (var i = 0; i < 3; i++) {
-    color[i] = openpbr_film_light(film, vec2f(film.metal_n[i], film.metal_k[i]), (1.0 - c * c) * film.grazing).reflected[i];
+//#if OPENPBR_DIELECTRIC
+// Of the dielectric, for a facet seen at cosine c.
+fn openpbr_film_dielectric(film: OpenPbrFilm, c: f32) -> OpenPbrFilmLight {
+  return openpbr_film_light(film, vec2f(film.n.w, 0.0), (1.0 - c * c) * film.viewer);
+}
+//#endif
+
+// Of a facet seen at cosine c: what metal below the film reflects, and the light of the dielectric.
+struct OpenPbrFilmFacet {
+  //#if OPENPBR_METAL
+  metal: vec3f,
+  //#endif
+  //#if OPENPBR_DIELECTRIC
+  dielectric: OpenPbrFilmLight,
+  //#endif
+}
+
+// On the bases from the first to before the last.
+fn openpbr_film_facet(film: OpenPbrFilm, c: f32, bases: vec2u) -> OpenPbrFilmFacet {
+  var facet: OpenPbrFilmFacet;
+  //#if OPENPBR_METAL
+  // One loop for all, since this is what takes long to compile; its length hangs on the material, so that nobody unrolls it.
+  for (var i = bases.x; i < bases.y; i++) {
+    let base = vec2f(film.n[i], film.k[i]);
+    //#if OPENPBR_DIELECTRIC
+    // From inside metal looks as it does from outside.
+    facet.dielectric = openpbr_film_light(film, base, (1.0 - c * c) * select(film.grazing, film.viewer, i == 3u));
+    let reflected = facet.dielectric.reflected;
+    //#else
+    let reflected = openpbr_film_light(film, base, (1.0 - c * c) * film.grazing).reflected;
+    //#endif
+    facet.metal = select(facet.metal, reflected, vec3u(0u, 1u, 2u) == vec3u(i));
   }
+  //#else
+  if (bases.x < bases.y) { facet.dielectric = openpbr_film_dielectric(film, c); }
+  //#endif
+  return facet;
+}
+
+//#if OPENPBR_METAL
+// Reflectance of metal: "color" is that below the film, "clear" that without.
+fn openpbr_film_metal(film: OpenPbrFilm, specular_weight: f32, color: vec3f, clear: vec3f) -> vec3f {
   return mix(clear, min(specular_weight * color, vec3f(1.0)), film.weight);
 }
 //#endif
 
 //#if OPENPBR_DIELECTRIC
-// Of the dielectric, for a facet seen at cosine c.
-fn openpbr_film_facet(film: OpenPbrFilm, c: f32) -> OpenPbrFilmLight {
-  return openpbr_film_light(film, vec2f(film.base, 0.0), (1.0 - c * c) * film.viewer);
+// Sums over the facets of an interface.
+struct OpenPbrFilmSum {
+  // Of what the film adds to what they reflect, what is seen, and what is shadowed.
+  more: vec3f,
+  hidden: vec3f,
+  // What they let through without the film.
+  through: f32,
+}
+
+// One more facet: its part of all, with how much of that is shadowed, and what it reflects with and without the film.
+fn openpbr_film_add(sum: OpenPbrFilmSum, part: f32, shadowed: f32, weight: f32, color: vec3f, bare: f32) -> OpenPbrFilmSum {
+  let change = (part * weight) * (color - bare);
+  return OpenPbrFilmSum(sum.more + (1.0 - shadowed) * change, sum.hidden + shadowed * change, sum.through + part * (1.0 - bare));
+}
+
+// Of the opaque part's interface and of the clear one: the film is the same, without it they are not.
+struct OpenPbrFilmSums {
+  opaque: OpenPbrFilmSum,
+  //#if OPENPBR_TRANSMISSION
+  clear: OpenPbrFilmSum,
+  //#endif
+}
+
+// Over sixteen facets as they are seen: four along the cap by Gauss and Legendre, four around it whose cosines are Chebyshev's.
+// "eta" are the indices of the two interfaces without the film.
+fn openpbr_film_sums(film: OpenPbrFilm, eta: vec2f, alpha: vec2f, wo: vec3f) -> OpenPbrFilmSums {
+  var sums: OpenPbrFilmSums;
+  if (film.bases.y <= 3u) { return sums; }
+  let azimuth = openpbr_ggx_azimuth(alpha, wo);
+  var around = vec2f(0.92387953 * azimuth.x - 0.38268343 * azimuth.y, 0.38268343 * azimuth.x + 0.92387953 * azimuth.y);
+  let so = openpbr_ggx_stretch(alpha, wo);
+  for (var i = 0u; i < 16u; i++) {
+    let h = openpbr_ggx_cap(alpha, wo, around, vec4f(0.06943184, 0.33000948, 0.66999052, 0.93056816)[i >> 2u], 1.0);
+    around = vec2f(-around.y, around.x);
+    let c = clamp(dot(wo, h), 0.0, 1.0);
+    let wi = 2.0 * c * h - wo;
+    let flat = alpha * wi.xy;
+    let si = openpbr_ggx_stretch(alpha, wi);
+    let shadowed = select(1.0, wo.z * dot(flat, flat) / ((si + wi.z) * (wo.z * si + wi.z * so)), wi.z > 0.0);
+    let part = select(0.08151814, 0.04348186, i < 4u || i > 11u);
+    let color = openpbr_film_dielectric(film, c).reflected;
+    sums.opaque = openpbr_film_add(sums.opaque, part, shadowed, film.weight, color, openpbr_fresnel_dielectric(eta.x, c));
+    //#if OPENPBR_TRANSMISSION
+    sums.clear = openpbr_film_add(sums.clear, part, shadowed, film.weight, color, openpbr_fresnel_dielectric(eta.y, c));
+    //#endif
+  }
+  return sums;
 }
 
 struct OpenPbrFilmShare {
@@ -201,35 +281,13 @@ struct OpenPbrFilmShare {
   apart: vec3f,
 }
 
-// Sums over sixteen facets as they are seen: four along the cap by Gauss and Legendre, four around it whose cosines are
-// Chebyshev's. "eta" and "share" are those of the interface without the film.
-fn openpbr_film_share(film: OpenPbrFilm, eta: f32, share: f32, alpha: vec2f, wo: vec3f) -> OpenPbrFilmShare {
-  if (film.weight <= 0.0) { return OpenPbrFilmShare(vec3f(0.0), vec3f(1.0), vec3f(1.0), vec3f(0.0)); }
-  let azimuth = openpbr_ggx_azimuth(alpha, wo);
-  var around = vec2f(0.92387953 * azimuth.x - 0.38268343 * azimuth.y, 0.38268343 * azimuth.x + 0.92387953 * azimuth.y);
-  let so = openpbr_ggx_stretch(alpha, wo);
-  // Of what the film adds, what is seen, and what is shadowed.
-  var more = vec3f(0.0);
-  var hidden = vec3f(0.0);
-  var clear = 0.0;
-  for (var i = 0u; i < 16u; i++) {
-    let h = openpbr_ggx_cap(alpha, wo, around, vec4f(0.06943184, 0.33000948, 0.66999052, 0.93056816)[i >> 2u], 1.0);
-    around = vec2f(-around.y, around.x);
-    let c = clamp(dot(wo, h), 0.0, 1.0);
-    let wi = 2.0 * c * h - wo;
-    let flat = alpha * wi.xy;
-    let si = openpbr_ggx_stretch(alpha, wi);
-    let shadowed = select(1.0, wo.z * dot(flat, flat) / ((si + wi.z) * (wo.z * si + wi.z * so)), wi.z > 0.0);
-    let part = select(0.08151814, 0.04348186, i < 4u || i > 11u);
-    let bare = openpbr_fresnel_dielectric(eta, c);
-    let change = (part * film.weight) * (openpbr_film_facet(film, c).reflected - bare);
-    clear += part * (1.0 - bare);
-    more += (1.0 - shadowed) * change;
-    hidden += shadowed * change;
-  }
-  let through = max(clear, 1e-5);
-  let taken = more / max(1.0 - share, 1e-5);
-  return OpenPbrFilmShare(more, max(1.0 - (more + hidden) / through, vec3f(0.0)), max(1.0 - taken, vec3f(0.0)), (hidden + taken * (max(1.0 - share, 1e-5) - through)) / through);
+// "share" is what the interface reflects without the film.
+fn openpbr_film_share(sum: OpenPbrFilmSum, share: f32) -> OpenPbrFilmShare {
+  let through = max(sum.through, 1e-5);
+  let rest = max(1.0 - share, 1e-5);
+  let taken = sum.more / rest;
+  let direct = max(1.0 - (sum.more + sum.hidden) / through, vec3f(0.0));
+  return OpenPbrFilmShare(sum.more, direct, max(1.0 - taken, vec3f(0.0)), (sum.hidden + taken * (rest - through)) / through);
 }
 //#endif`,
   [openPbrStruct.module, openpbrGgx, openpbrFresnelDielectric, gated('OPENPBR_DIELECTRIC', openpbrDielectric)],

@@ -40,20 +40,22 @@ fn openpbr_metal_prepare(p: OpenPbrParameters, alpha: vec2f, wo: vec3f, mu: f32)
   metal.f90 = f90;
   metal.edge = f90 * openpbr_f82_edge(f0, p.specular_color);
   let seen = mu + 0.8 * p.specular_roughness * p.specular_roughness * (1.0 - mu);
+  var tint = openpbr_f82(metal.f0, f90, metal.edge, seen);
+  var mean = openpbr_f82_mean(metal.f0, f90, metal.edge);
   //#if OPENPBR_THIN_FILM
-  metal.albedo = metal.weight * openpbr_film_metal(film, f90, seen, openpbr_f82(metal.f0, f90, metal.edge, seen));
-  //#else
-  metal.albedo = metal.weight * openpbr_f82(metal.f0, f90, metal.edge, seen);
+  // Either facet below the film, by one loop, as in openpbr_film_facet; over the bases that are metal.
+  let bases = min(film.bases, vec2u(3u));
+  for (var i = 0u; i < min(bases.y - bases.x, 2u); i++) {
+    let color = openpbr_film_facet(film, select(0.7, seen, i == 0u), bases).metal;
+    if (i == 0u) { tint = openpbr_film_metal(film, f90, color, tint); } else { mean = openpbr_film_metal(film, f90, color, mean); }
+  }
   //#endif
+  metal.albedo = metal.weight * tint;
   //#if OPENPBR_MULTISCATTER
   metal.roughness = p.specular_roughness;
   metal.mean_lost = max(openpbr_mirror_lost_mean(alpha, metal.roughness), 1e-7);
   let lost = openpbr_mirror_lost(alpha, metal.roughness, wo, mu);
   metal.albedo *= 1.0 - lost;
-  var mean = openpbr_f82_mean(metal.f0, f90, metal.edge);
-  //#if OPENPBR_THIN_FILM
-  mean = openpbr_film_metal(film, f90, 0.7, mean);
-  //#endif
   let limit = clamp(f90, 1e-6, 1.0);
   metal.bounced = metal.weight * lost * (1.0 - metal.mean_lost) * mean * mean / max(limit - mean * metal.mean_lost, vec3f(1e-7));
   //#endif

@@ -68,14 +68,14 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
   var face = p;
   face.specular_color = select(p.specular_color, vec3f(1.0), side.inside);
   b.dielectric = openpbr_dielectric_prepare(face, b.alpha, wo, mu);
-  //#if OPENPBR_THIN_FILM
-  let filmed = openpbr_film_share(b.film, b.dielectric.eta, b.dielectric.share, b.alpha, wo);
-  b.film.passed = filmed.passed;
-  //#endif
   var outer = face;
   outer.specular_ior = select(whole.specular_ior, 1.0 / whole.specular_ior, side.inside);
   //#if OPENPBR_THIN_FILM
-  b.transmission = openpbr_transmission_prepare(outer, b.dielectric, b.film, filmed, b.alpha, wo, mu, b.dielectric_weight, side.inside);
+  let epsilon = openpbr_dielectric_epsilon(outer);
+  let films = openpbr_film_sums(b.film, vec2f(b.dielectric.eta, (1.0 + epsilon) / (1.0 - epsilon)), b.alpha, wo);
+  let filmed = openpbr_film_share(films.opaque, b.dielectric.share);
+  b.film.passed = filmed.passed;
+  b.transmission = openpbr_transmission_prepare(outer, b.dielectric, films, filmed, b.alpha, wo, mu, b.dielectric_weight, side.inside);
   //#else
   b.transmission = openpbr_transmission_prepare(outer, b.dielectric, b.alpha, wo, mu, b.dielectric_weight, side.inside);
   //#endif
@@ -89,7 +89,7 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
   b.dielectric = openpbr_dielectric_prepare(p, b.alpha, wo, mu);
   b.dielectric_scale = b.dielectric_weight * p.specular_color;
   //#if OPENPBR_THIN_FILM
-  let filmed = openpbr_film_share(b.film, b.dielectric.eta, b.dielectric.share, b.alpha, wo);
+  let filmed = openpbr_film_share(openpbr_film_sums(b.film, vec2f(b.dielectric.eta), b.alpha, wo).opaque, b.dielectric.share);
   b.film.passed = filmed.passed;
   //#endif
   //#endif

@@ -56,9 +56,9 @@ export const openpbrTransmission = wgslModule(
 }
 
 // "outer" is the surface without what a coat does to its index, relative to the viewer's side; "d" the interface of the
-// opaque part, "weight" the share of the surface that is dielectric.
+// opaque part, "weight" the share of the surface that is dielectric; "films" and "filmed" what the film changes there.
 //#if OPENPBR_THIN_FILM
-fn openpbr_transmission_prepare(outer: OpenPbrParameters, d: OpenPbrDielectric, film: OpenPbrFilm, filmed: OpenPbrFilmShare, alpha: vec2f, wo: vec3f, mu: f32, weight: f32, inside: bool) -> OpenPbrTransmission {
+fn openpbr_transmission_prepare(outer: OpenPbrParameters, d: OpenPbrDielectric, films: OpenPbrFilmSums, filmed: OpenPbrFilmShare, alpha: vec2f, wo: vec3f, mu: f32, weight: f32, inside: bool) -> OpenPbrTransmission {
 //#else
 fn openpbr_transmission_prepare(outer: OpenPbrParameters, d: OpenPbrDielectric, alpha: vec2f, wo: vec3f, mu: f32, weight: f32, inside: bool) -> OpenPbrTransmission {
 //#endif
@@ -126,7 +126,7 @@ fn openpbr_transmission_prepare(outer: OpenPbrParameters, d: OpenPbrDielectric, 
   let direct = 1.0 - bare.share - bounced;
   //#if OPENPBR_THIN_FILM
   var changed = filmed;
-  if (inside) { changed = openpbr_film_share(film, bare.eta, bare.share, alpha, wo); }
+  if (inside) { changed = openpbr_film_share(films.clear, bare.share); }
   t.mirror_albedo = t.mirror * max(clear.share - clear.bounced + changed.more, vec3f(0.0));
   t.bounced = t.color * max(bounced * changed.passed + direct * changed.apart, vec3f(0.0));
   t.albedo = t.color * direct * changed.direct;
