@@ -73,7 +73,7 @@ describe('cameras', () => {
     const scene = createScene();
     addQuad(scene, 0.05, 0, glow(1));
     const size = 48;
-    const { pixels, tracer } = await render(scene, camera, { width: size, height: size, samples: 1024, background: 'transparent' });
+    const { pixels, tracer } = await render(scene, camera, { width: size, height: size, samples: 512, background: 'transparent' });
     tracer.destroy();
     // Lens coordinates of each pixel's centre, right and up.
     const shrink = 1 / 1 - 1 / 3;
