@@ -3,7 +3,6 @@ import type { Film } from './film/film';
 import type { GroupWeights } from './film/layers';
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_COPY_SRC, GPU_BUFFER_INDIRECT, GPU_BUFFER_STORAGE, GPU_BUFFER_UNIFORM, type GpuMemory } from './gpu/buffers';
 import type { GpuScene } from './gpu/gpu-scene';
-import { isSoftware } from './software';
 import type { KernelSet } from './gpu/kernel-cache';
 import { CONNECT_CROSSINGS } from './kernels/connect.wgsl';
 import { BLOCK } from './kernels/blocks';
@@ -13,6 +12,7 @@ import { MAX_LIGHT_GROUPS } from './kernels/resources';
 import type { Kernel, KernelFeatures, KernelName } from './kernels/pipelines';
 import { WALK_STEPS } from './kernels/volume.wgsl';
 import type { Batch } from './scheduler';
+import { isSoftware } from './software';
 
 /** Queue header words before the items. */
 const QUEUE_WORDS = 8;
