@@ -1,7 +1,7 @@
 import { defineConfig } from 'vitest/config';
 import { BaseSequencer, type TestSpecification } from 'vitest/node';
 
-/** Files that take minutes begin first, or the last of them would run alone at the end, beside an idle core. */
+/** Files that take minutes begin first: alone at the end the last of them would not keep both cores busy. */
 const LONG = ['reference/test/groundtruth', 'reference/test/slope', 'gpu/adaptive', 'gpu/dispersion', 'gpu/straight', 'openpbr/test/oracle', 'docs/test/examples', 'openpbr/test/gpu', 'test/gpu/'];
 
 class LongestFirst extends BaseSequencer {
