@@ -12,7 +12,7 @@
 export interface WgslModule {
   /** Unique name; appears in error messages, e.g. `openpbr/coat`. */
   readonly name: string;
-  /** WGSL text: functions, structs, constants. Library modules hold no bindings and no storage pointers. */
+  /** WGSL text: functions, structs, constants. Library modules hold no storage pointers, and no bindings but those whose numbers the host gives. */
   readonly code: string;
   /** Modules whose declarations this one uses. A gated dependency counts only when its flag is set. */
   readonly deps: readonly (WgslModule | GatedDependency)[];

@@ -95,7 +95,7 @@ export function* buildNodes(primitives: Sorted, leaves: Uint32Array, bins: numbe
 
 /** Puts the nodes over the clusters before the others, depth first, joins them to the trees in the clusters, and gives their depth. */
 export function* crown({ nodes: from, words: fromWords }: NodeWriter, { references }: Clusters, { nodes, words }: NodeWriter): Steps<number> {
-  // Right sides that wait: their node, the word where it belongs, and how many are above.
+  // Nodes of the upper tree that wait, left ones above right ones; the words where they belong, nodes above.
   const stack: number[] = [];
   let count = 0, most = 0;
   for (let node = 0, slot = 0, depth = 1; ; depth++) {

@@ -182,7 +182,7 @@ export const bvhAnyHit: WgslModule = traversal('any');
  * {@link bvhClosestHit} or {@link bvhAnyHit} with a stack for trees that are less deep than they might be: see the function
  * of the same name of `@glanz/bvh/wgsl`.
  *
- * @param stackSize As `packHierarchy` tells it, or more. With less, rays lose hits where they enter more than it holds.
+ * @param stackSize Entries. As `packHierarchy` tells it, or more. With less, rays lose hits where they enter more than it holds.
  * @throws {BvhError} `bvh/options` for what is no whole number from 3 to `BVH_STACK_SIZE`.
  */
 export const bvhTraversal = (query: 'closest' | 'any', stackSize: number): WgslModule => traversal(query, checkedStackSize(stackSize, WIDE_STACK_SIZE));

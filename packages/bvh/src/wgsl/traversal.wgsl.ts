@@ -140,10 +140,11 @@ export const bvhClosestHit: WgslModule = traversal('closest');
 export const bvhAnyHit: WgslModule = traversal('any');
 
 /**
- * {@link bvhClosestHit} or {@link bvhAnyHit} with a stack for trees that are less deep than they might be. WGSL clears all of
- * it for each ray, so a smaller one makes rays a few per cent faster. Make it once a pipeline: two modules of one name do not go together.
+ * {@link bvhClosestHit} or {@link bvhAnyHit} with a stack for trees that are less deep than they might be: WGSL clears all of
+ * it for each ray. Make it once for each pipeline, and do not put it beside the constant of the same query: `compose` refuses
+ * two modules of one name.
  *
- * @param stackSize As `packHierarchy` tells it, or more. With less, rays lose hits where they enter more than it holds.
+ * @param stackSize Entries. As `packHierarchy` tells it, or more. With less, rays lose hits where they enter more than it holds.
  * @throws {BvhError} `bvh/options` for what is no whole number from 3 to {@link BVH_STACK_SIZE}.
  */
 export const bvhTraversal = (query: 'closest' | 'any', stackSize: number): WgslModule => traversal(query, checkedStackSize(stackSize, BVH_STACK_SIZE));

@@ -5,7 +5,10 @@ import type { Copy } from './copy';
 /** Numbers of a member's report. */
 const REPORT = 16;
 
-/** Words that all change: who has come to the meeting point, how many meetings there were, whether one has given up, what is published, how much of the mesh is copied; then the counters, so that the reports begin at whole numbers. */
+/**
+ * Words that are for all to see: who has come to the meeting point, how many meetings there were, whether one has given up,
+ * what is published, how much of the mesh is copied; then the counters, an even number of words on, as doubles follow them.
+ */
 const [COME, MEETINGS, LEFT_ALONE, PUBLISHED, COPIED, COUNTERS] = [0, 1, 2, 3, 4, 6];
 /** Counters that {@link Team.take} may be asked for. */
 const COUNTER_MAX = 4;

@@ -348,7 +348,7 @@ export class BvhWorkers {
       this.#teams.set(id, { memory, half: false });
       seats.forEach((seat, index) => this.#post(seat, { kind: 'together', id, mesh, options: sendableOptions(options), index, memory }, []));
     } catch {
-      // No memory of that kind or not enough: one worker will do.
+      // No memory of that kind or not enough: one worker will do. Where the mesh is at fault, it will tell.
       this.#teams.delete(id);
       for (const seat of seats) this.#free(seat, job);
       return this.#send(seats[0] as Seat, job);
