@@ -23,26 +23,26 @@ fn bvh_octant(direction: vec3f) -> u32 {
   return dot(select(vec3u(0u), vec3u(4u, 2u, 1u), direction >= vec3f(0.0)), vec3u(1u));
 }
 
-fn bvh_enter_four(kinds: u32, place: u32, octant: u32, inside: vec4<bool>) -> BvhEntered {
-  var entered = BvhEntered(0u, 0u);
-  for (var i = 0u; i < 4u; i++) {
-    if (inside[i]) {
-      let kind = (kinds >> (8u * i)) & 0xffu;
-      if (kind >= 0xe0u) { entered.nodes |= 1u << (24u + ((place + i) ^ octant)); }
-      else { entered.primitives |= ((1u << (kind >> 5u)) - 1u) << (kind & 31u); }
-    }
-  }
-  return entered;
+// Not unpack4x8unorm, whose scaling to 1 is work for nothing.
+fn bvh_bytes(word: u32) -> vec4f {
+  return vec4f((vec4u(word) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(255u));
+}
+
+// Which of four boxes the ray is in, a bit each; a box has a byte of every word.
+fn bvh_inside_four(near_words: vec3u, far_words: vec3u, scale: vec3f, near: vec3f, far: vec3f, t_min: f32, t_max: f32) -> u32 {
+  let enter = max(max(bvh_bytes(near_words.x) * scale.x + near.x, bvh_bytes(near_words.y) * scale.y + near.y), max(bvh_bytes(near_words.z) * scale.z + near.z, vec4f(t_min)));
+  let leave = min(min(bvh_bytes(far_words.x) * scale.x + far.x, bvh_bytes(far_words.y) * scale.y + far.y), min(bvh_bytes(far_words.z) * scale.z + far.z, vec4f(t_max)));
+  // Sums of bits, as they are quicker than "or" on one GPU at least.
+  return dot(select(vec4u(0u), vec4u(1u, 2u, 4u, 8u), enter <= leave), vec4u(1u));
 }
 
 fn bvh_enter_children(ray: BvhRay, octant: u32, node: BvhNode, t_min: f32, t_max: f32) -> BvhEntered {
-  // A byte unpacks to its 255th part.
   let steps = node.frame.w;
   let step = vec3f(bitcast<f32>((steps & 0xffu) << 23u), bitcast<f32>((steps & 0xff00u) << 15u), bitcast<f32>((steps & 0xff0000u) << 7u));
-  let scale = step * 255.0 * ray.inverse;
+  let scale = step * ray.inverse;
   let start = (bitcast<vec3f>(node.frame.xyz) - ray.origin) * ray.inverse;
   // More than all rounding here can be, so that no hit on a border is lost.
-  let slack = (abs(start) + abs(scale)) * 4.7683716e-7;
+  let slack = (abs(start) + abs(scale) * 255.0) * 4.7683716e-7;
   let near = start - slack;
   let far = start + slack;
   let low_x = node.boxes[0].xy;
@@ -57,15 +57,21 @@ fn bvh_enter_children(ray: BvhRay, octant: u32, node: BvhNode, t_min: f32, t_max
   let far_x = select(low_x, high_x, ray.forward.x);
   let far_y = select(low_y, high_y, ray.forward.y);
   let far_z = select(low_z, high_z, ray.forward.z);
-  var entered = BvhEntered(0u, 0u);
-  for (var half = 0u; half < 2u; half++) {
-    let enter = max(max(unpack4x8unorm(near_x[half]) * scale.x + near.x, unpack4x8unorm(near_y[half]) * scale.y + near.y), max(unpack4x8unorm(near_z[half]) * scale.z + near.z, vec4f(t_min)));
-    let leave = min(min(unpack4x8unorm(far_x[half]) * scale.x + far.x, unpack4x8unorm(far_y[half]) * scale.y + far.y), min(unpack4x8unorm(far_z[half]) * scale.z + far.z, vec4f(t_max)));
-    let four = bvh_enter_four(node.children[2u + half], 4u * half, octant, enter <= leave);
-    entered.nodes |= four.nodes;
-    entered.primitives |= four.primitives;
+  let inside = bvh_inside_four(vec3u(near_x.x, near_y.x, near_z.x), vec3u(far_x.x, far_y.x, far_z.x), scale, near, far, t_min, t_max)
+    | (bvh_inside_four(vec3u(near_x.y, near_y.y, near_z.y), vec3u(far_x.y, far_y.y, far_z.y), scale, near, far, t_min, t_max) << 4u);
+  // Bits change places as their numbers do under "xor octant".
+  let are_nodes = steps >> 24u;
+  var nodes = inside & are_nodes;
+  nodes = select(nodes, ((nodes & 0x55u) << 1u) | ((nodes >> 1u) & 0x55u), (octant & 1u) != 0u);
+  nodes = select(nodes, ((nodes & 0x33u) << 2u) | ((nodes >> 2u) & 0x33u), (octant & 2u) != 0u);
+  nodes = select(nodes, ((nodes & 0x0fu) << 4u) | (nodes >> 4u), (octant & 4u) != 0u);
+  var primitives = 0u;
+  for (var leaves = inside & ~are_nodes; leaves != 0u; leaves &= leaves - 1u) {
+    let place = countTrailingZeros(leaves);
+    let kind = (select(node.children.z, node.children.w, place >= 4u) >> (8u * (place & 3u))) & 0xffu;
+    primitives |= ((1u << (kind >> 5u)) - 1u) << (kind & 31u);
   }
-  return entered;
+  return BvhEntered(nodes << 24u, primitives);
 }
 `,
   [bvhTypes, bvhTriangleTest],
@@ -76,8 +82,9 @@ fn bvh_enter_children(ray: BvhRay, octant: u32, node: BvhNode, t_min: f32, t_max
  *
  * "group" holds the child nodes of one node that are still to visit: the first of all its child nodes, and a word with those
  * entered (upper byte, the highest bit is next) and those there are (lower byte). The stack takes what is left of a group
- * while one of its nodes is looked at, so one entry a level is enough. One loop serves both levels: "waiting" are the
- * instances of the node of the TLAS that was looked at last. Bounded, as every node and instance is visited at most once.
+ * while one of its nodes is looked at, so one entry a level is enough. The inner loop goes down until a node has primitives to
+ * test, so that neighbouring threads test theirs together. It serves both levels: "waiting" are the instances of the node of
+ * the TLAS that was looked at last. Bounded, as every node and instance is visited at most once.
  */
 const traversal = (name: 'closest' | 'any', stackSize = WIDE_STACK_SIZE): WgslModule => {
   const any = name === 'any';
@@ -101,55 +108,30 @@ fn bvh_${name}_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> $
   var waiting = 0u;
   var first_waiting = 0u;
   loop {
-    if (waiting != 0u && instance == BVH_MISS) {
-      instance = first_waiting + countTrailingZeros(waiting);
-      waiting &= waiting - 1u;
-      let placed = bvh_instance(instance);
-      let point = vec4f(origin, 1.0);
-      ray = bvh_ray(
-        vec3f(dot(placed.to_object_0, point), dot(placed.to_object_1, point), dot(placed.to_object_2, point)),
-        vec3f(dot(placed.to_object_0.xyz, direction), dot(placed.to_object_1.xyz, direction), dot(placed.to_object_2.xyz, direction)),
-      );
-      octant = bvh_octant(ray.inverse);
-      frame = bvh_frame(ray.direction);
-      first_node = placed.blas_node;
-      first_triangle = placed.triangle_offset;
+    var primitives = 0u;
+    var first_primitive = 0u;
+    while (primitives == 0u) {
+      if (group.y <= 0xffffffu) {
+        if (top == bottom) { break; }
+        top--;
+        group = stack[top];
+      }
+      let bit = firstLeadingBit(group.y);
+      group.y ^= 1u << bit;
+      let before = group.y & ((1u << ((bit - 24u) ^ octant)) - 1u);
       if (group.y > 0xffffffu${guard}) {
         stack[top] = group;
         top++;
       }
-      bottom = top;
-      group = vec2u(0u, 0x80000000u);
-    } else if (group.y <= 0xffffffu) {
-      if (top == bottom) {
-        if (instance == BVH_MISS) { break; }
-        // Out of the instance.
-        instance = BVH_MISS;
-        first_node = 0u;
-        bottom = 0u;
-        ray = bvh_ray(origin, direction);
-        octant = bvh_octant(ray.inverse);
-        continue;
-      }
-      top--;
-      group = stack[top];
+      let node = bvh_node(first_node + group.x + countOneBits(before & 0xffu));
+      let entered = bvh_enter_children(ray, octant, node, t_min, hit.t);
+      group = vec2u(node.children.x, entered.nodes | (node.frame.w >> 24u));
+      primitives = entered.primitives;
+      first_primitive = node.children.y;
     }
-    let bit = firstLeadingBit(group.y);
-    group.y ^= 1u << bit;
-    let before = group.y & ((1u << ((bit - 24u) ^ octant)) - 1u);
-    if (group.y > 0xffffffu${guard}) {
-      stack[top] = group;
-      top++;
-    }
-    let node = bvh_node(first_node + group.x + countOneBits(before & 0xffu));
-    let entered = bvh_enter_children(ray, octant, node, t_min, hit.t);
-    group = vec2u(node.children.x, entered.nodes | (node.frame.w >> 24u));
-    if (instance == BVH_MISS) {
-      waiting = entered.primitives;
-      first_waiting = node.children.y;
-    } else {
-      for (var left = entered.primitives; left != 0u; left &= left - 1u) {
-        let triangle = first_triangle + node.children.y + countTrailingZeros(left);
+    if (primitives != 0u && instance != BVH_MISS) {
+      for (; primitives != 0u; primitives &= primitives - 1u) {
+        let triangle = first_triangle + first_primitive + countTrailingZeros(primitives);
         let found = bvh_intersect_triangle(ray.origin, frame, bvh_triangle(triangle));
         if (found.x > t_min && found.x < hit.t) {
           let candidate = BvhHit(found.x, found.y, found.z, triangle, instance);
@@ -159,7 +141,40 @@ fn bvh_${name}_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> $
           ${any ? 'return true;' : 'hit = candidate;'}
         }
       }
+      continue;
     }
+    if (primitives != 0u) {
+      waiting = primitives;
+      first_waiting = first_primitive;
+    } else if (instance == BVH_MISS) {
+      break;
+    } else if (waiting == 0u) {
+      // Out of the instance, and no other beside it: on in the TLAS.
+      instance = BVH_MISS;
+      first_node = 0u;
+      bottom = 0u;
+      ray = bvh_ray(origin, direction);
+      octant = bvh_octant(ray.inverse);
+      continue;
+    }
+    instance = first_waiting + countTrailingZeros(waiting);
+    waiting &= waiting - 1u;
+    let placed = bvh_instance(instance);
+    let point = vec4f(origin, 1.0);
+    ray = bvh_ray(
+      vec3f(dot(placed.to_object_0, point), dot(placed.to_object_1, point), dot(placed.to_object_2, point)),
+      vec3f(dot(placed.to_object_0.xyz, direction), dot(placed.to_object_1.xyz, direction), dot(placed.to_object_2.xyz, direction)),
+    );
+    octant = bvh_octant(ray.inverse);
+    frame = bvh_frame(ray.direction);
+    first_node = placed.blas_node;
+    first_triangle = placed.triangle_offset;
+    if (group.y > 0xffffffu${guard}) {
+      stack[top] = group;
+      top++;
+    }
+    bottom = top;
+    group = vec2u(0u, 0x80000000u);
   }
   return ${any ? 'false' : 'hit'};
 }
