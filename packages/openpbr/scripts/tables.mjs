@@ -174,7 +174,7 @@ function dielectric() {
     -1,
     (t, epsilon) => innerCosineOf(t, etaOf(epsilon)),
     split,
-    // Its mean is summed over facets where it counts (openpbr_dielectric_prepare): nobody reads this column.
+    // Its mean is summed over facets where it counts (openpbr_dielectric_seen): nobody reads this column.
     (epsilon, r, row) => row.at(-1),
     (angles - 1) / 2,
   );

@@ -89,7 +89,7 @@ function seenFrom(p: OpenPbrParameters, { inside = false, outerIor = 1 }: BsdfSi
   return { ...p, specular_ior: p.specular_ior / outerIor, coat_ior: p.coat_ior / outerIor, coat_weight: inside ? 0 : p.coat_weight, fuzz_weight: inside ? 0 : p.fuzz_weight };
 }
 
-/** Share of light that an interface reflects, and what multiple scattering adds to either side; twin of `openpbr_dielectric_prepare`. */
+/** Share of light that an interface reflects, and what multiple scattering adds to either side; twin of `openpbr_dielectric_seen`. */
 function prepareInterface(p: OpenPbrParameters, alpha: Slopes, wo: OpenPbrVector, mu: number, multipleScattering: boolean) {
   const epsilon = dielectricEpsilon(p.specular_ior, p.specular_weight);
   const summed = isSummed(p, epsilon);

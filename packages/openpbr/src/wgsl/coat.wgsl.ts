@@ -131,20 +131,30 @@ fn openpbr_coat_darkening(p: OpenPbrParameters, base: OpenPbrParameters, epsilon
   return mix(vec3f(1.0), (1.0 - kept) / (1.0 - kept * albedo), p.coat_weight * p.coat_darkening);
 }
 
-// "base" is openpbr_coat_base(p).
-//#if OPENPBR_COAT_FRAME
-fn openpbr_coat_prepare(p: OpenPbrParameters, base: OpenPbrParameters, base_wo: vec3f, base_mu: f32) -> OpenPbrCoat {
+// Its slopes, and where it has one, its frame.
+fn openpbr_coat_shape(p: OpenPbrParameters, wo: vec3f) -> OpenPbrCoat {
   var coat: OpenPbrCoat;
-  coat.frame = openpbr_coat_frame(p, base_wo);
-  let wo = base_wo * coat.frame;
-  let mu = clamp(wo.z, 1e-5, 1.0);
-//#else
-fn openpbr_coat_prepare(p: OpenPbrParameters, base: OpenPbrParameters, wo: vec3f, mu: f32) -> OpenPbrCoat {
-  var coat: OpenPbrCoat;
-//#endif
+  //#if OPENPBR_COAT_FRAME
+  coat.frame = openpbr_coat_frame(p, wo);
+  //#endif
   coat.alpha = openpbr_alpha(p.coat_roughness, p.coat_roughness_anisotropy);
-  coat.bound = openpbr_ggx_bound(coat.alpha, wo);
-  let surface = openpbr_dielectric_prepare(openpbr_coat_interface(p), coat.alpha, wo, mu);
+  coat.bound = openpbr_ggx_bound(coat.alpha, openpbr_coat_view(coat, wo));
+  return coat;
+}
+
+// A direction in the coat's frame.
+fn openpbr_coat_view(coat: OpenPbrCoat, w: vec3f) -> vec3f {
+  //#if OPENPBR_COAT_FRAME
+  return w * coat.frame;
+  //#else
+  return w;
+  //#endif
+}
+
+// "base" is openpbr_coat_base(p); "surface" the coat's own interface.
+fn openpbr_coat_prepare(shape: OpenPbrCoat, surface: OpenPbrDielectric, p: OpenPbrParameters, base: OpenPbrParameters, wo: vec3f) -> OpenPbrCoat {
+  var coat = shape;
+  let mu = clamp(openpbr_coat_view(coat, wo).z, 1e-5, 1.0);
   coat.eta = surface.eta;
   // Few bounces: they are left in the highlight.
   coat.scale = p.coat_weight * surface.share / max(surface.share - surface.bounced, 0.1 * surface.share + 1e-7);

@@ -27,7 +27,8 @@ export const openpbrDielectric = wgslModule(
   bounced: f32,
   bounced_through: f32,
   //#if OPENPBR_INNER_SUMS
-  // Seen from the denser side, summed over facets; and the share's mean where something opaque lies below, else negative.
+  // Seen from the denser side, summed over facets; and the share's mean where something opaque lies below (0 until it is seen),
+  // else negative.
   summed: bool,
   mean: f32,
   //#endif
@@ -74,18 +75,27 @@ fn openpbr_light_share(d: OpenPbrDielectric, alpha: vec2f, wi: vec3f) -> f32 {
   return openpbr_energy_share(d.epsilon, openpbr_view_roughness(alpha, d.roughness, wi), wi.z);
 }
 
-fn openpbr_dielectric_prepare(p: OpenPbrParameters, alpha: vec2f, wo: vec3f, mu: f32) -> OpenPbrDielectric {
+// All but what openpbr_dielectric_seen works out.
+fn openpbr_dielectric(p: OpenPbrParameters) -> OpenPbrDielectric {
   var d: OpenPbrDielectric;
   d.epsilon = openpbr_dielectric_epsilon(p);
   d.eta = (1.0 + d.epsilon) / (1.0 - d.epsilon);
   d.roughness = p.specular_roughness;
-  var summed = false;
   //#if OPENPBR_INNER_SUMS
   // Where something lies below the interface, and near index 1. For what is clear alone the tables do, since nothing but the
   // choice of samples hangs on its share.
-  let opaque = (1.0 - p.transmission_weight) * select(1.0 - p.subsurface_weight, 1.0, p.geometry_thin_walled != 0u);
-  d.summed = d.epsilon < 0.0 && (d.epsilon > -${INSIDE_NEAR} || opaque > 0.0);
-  d.mean = -1.0;
+  let opaque = (1.0 - p.transmission_weight) * select(1.0 - p.subsurface_weight, 1.0, p.geometry_thin_walled != 0u) > 0.0;
+  d.summed = d.epsilon < 0.0 && (d.epsilon > -${INSIDE_NEAR} || opaque);
+  d.mean = select(-1.0, 0.0, d.summed && opaque);
+  //#endif
+  return d;
+}
+
+// As it is seen from wo.
+fn openpbr_dielectric_seen(given: OpenPbrDielectric, alpha: vec2f, wo: vec3f) -> OpenPbrDielectric {
+  var d = given;
+  var summed = false;
+  //#if OPENPBR_INNER_SUMS
   summed = d.summed;
   //#endif
   //#if OPENPBR_ANISOTROPY
@@ -98,7 +108,7 @@ fn openpbr_dielectric_prepare(p: OpenPbrParameters, alpha: vec2f, wo: vec3f, mu:
     // First as it is seen, then for the mean: Gauss's nodes on either side of the critical angle.
     var nodes = array<vec2f, ${INNER_SUM_NODES.length}>(${INNER_SUM_NODES.map(([x, weight]) => `vec2f(${x}, ${weight})`).join(', ')});
     let critical = sqrt(max(1.0 - d.eta * d.eta, 0.0));
-    let mean = d.summed && opaque > 0.0;
+    let mean = d.mean >= 0.0;
     let count = select(1u, ${2 * INNER_SUM_NODES.length + 1}u, mean);
     var result = d;
     var through = 0.0;
@@ -119,6 +129,7 @@ fn openpbr_dielectric_prepare(p: OpenPbrParameters, alpha: vec2f, wo: vec3f, mu:
   if (summed) { return openpbr_dielectric_summed(d, openpbr_dielectric_kept(d.eta, alpha, wo)); }
   //#endif
   //#endif
+  let mu = clamp(wo.z, 1e-5, 1.0);
   d.share = openpbr_energy_share(d.epsilon, openpbr_view_roughness(alpha, d.roughness, wo), mu);
   //#if OPENPBR_MULTISCATTER
   let bounce = openpbr_energy_bounce(d.epsilon, d.roughness);

@@ -166,7 +166,7 @@ fn openpbr_energy_share(epsilon: f32, roughness: f32, mu: f32) -> f32 {
 }
 
 // The cosine-weighted mean of openpbr_energy_share over all directions, seen from the thinner medium. From inside it is summed
-// (openpbr_dielectric_prepare), or counts for nothing, since nothing opaque lies below: 0.
+// (openpbr_dielectric_seen), or counts for nothing, since nothing opaque lies below: 0.
 fn openpbr_energy_share_mean(epsilon: f32, roughness: f32) -> f32 {
   if (epsilon <= 0.0) { return 0.0; }
   let r = max(roughness, ${TABLE_MIN_ROUGHNESS});

@@ -20,6 +20,8 @@ export interface OpenPbrFlags {
    * may be of a lower index than what it lies in, and for what is clear near the index of that; comes with OPENPBR_INNER.
    */
   readonly OPENPBR_INNER_SUMS: boolean;
+  /** There may be several interfaces on one surface that are summed over facets (OPENPBR_ANISOTROPY, OPENPBR_INNER_SUMS): one loop goes through them. */
+  readonly OPENPBR_INTERFACE_LOOP: boolean;
   /** Light through the surface: refraction, thin walls; comes with OPENPBR_DIELECTRIC. */
   readonly OPENPBR_TRANSMISSION: boolean;
   /** Light may enter the subsurface; comes with OPENPBR_TRANSMISSION. */
@@ -87,6 +89,7 @@ export function requiredFeatures(materials: readonly Partial<OpenPbrParameters>[
   const step = (p: OpenPbrParameters, outer: number) => (Math.abs(p.specular_ior - outer) / (p.specular_ior + outer)) * Math.sqrt(p.specular_weight);
   const isNear = (p: OpenPbrParameters, outer: number) => p.specular_ior !== outer && (step(p, outer) < INSIDE_NEAR + 1e-4 || isTextured('specular_weight'));
   const sums = isTextured('specular_ior') || isTextured('coat_ior') || media.some((outer) => solid.some((p) => dielectric && p.specular_ior < outer) || all.some((p) => p.coat_weight > 0 && p.coat_ior < outer) || clear.some((p) => isNear(p, outer)));
+  const stretched = specular && all.some((p) => p.specular_roughness_anisotropy > 0 || (p.coat_weight > 0 && p.coat_roughness_anisotropy > 0));
   return {
     OPENPBR_SPECULAR: specular,
     OPENPBR_METAL: metal,
@@ -95,6 +98,7 @@ export function requiredFeatures(materials: readonly Partial<OpenPbrParameters>[
     OPENPBR_INTERFACE: dielectric || coat,
     OPENPBR_INNER: inner,
     OPENPBR_INNER_SUMS: inner && sums,
+    OPENPBR_INTERFACE_LOOP: dielectric && (transmission || coat) && (stretched || (inner && sums)),
     OPENPBR_TRANSMISSION: transmission,
     OPENPBR_SUBSURFACE: below.length > 0,
     OPENPBR_THIN_SUBSURFACE: thinBelow,
@@ -106,7 +110,7 @@ export function requiredFeatures(materials: readonly Partial<OpenPbrParameters>[
     OPENPBR_DIFFUSE: lambert,
     OPENPBR_COSINE: lambert || ((metal || dielectric) && multipleScattering),
     OPENPBR_DIFFUSE_ROUGHNESS: diffuse && solid.some((p) => p.base_diffuse_roughness > 0),
-    OPENPBR_ANISOTROPY: specular && all.some((p) => p.specular_roughness_anisotropy > 0 || (p.coat_weight > 0 && p.coat_roughness_anisotropy > 0)),
+    OPENPBR_ANISOTROPY: stretched,
     OPENPBR_MULTISCATTER: multipleScattering,
     OPENPBR_EMISSION: all.some((p) => p.emission_luminance > 0),
   };

@@ -1,6 +1,7 @@
 import { gated, wgslModule } from '@glanz/wgsl';
 import { openpbrEon } from './diffuse.wgsl';
 import { openpbrGgx } from './ggx.wgsl';
+import { openpbrInterfaces } from './interfaces.wgsl';
 import { openPbrStruct } from './record';
 import { openpbrSurface } from './surface.wgsl';
 
@@ -42,6 +43,45 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
   b.alpha = openpbr_alpha(p.specular_roughness, p.specular_roughness_anisotropy);
   b.bound = openpbr_ggx_bound(b.alpha, wo);
   //#endif
+  //#if OPENPBR_INTERFACE
+  var interfaces: OpenPbrInterfaces;
+  var wanted = 0u;
+  //#if OPENPBR_DIELECTRIC
+  wanted = OPENPBR_SEE_BASE;
+  //#if OPENPBR_TRANSMISSION
+  var face = p;
+  face.specular_color = select(p.specular_color, vec3f(1.0), side.inside);
+  interfaces.base = openpbr_dielectric(face);
+  var outer = face;
+  outer.specular_ior = select(whole.specular_ior, 1.0 / whole.specular_ior, side.inside);
+  // From inside nothing opaque lies beyond it.
+  var beyond = outer;
+  beyond.transmission_weight = select(outer.transmission_weight, 1.0, side.inside);
+  interfaces.bare = openpbr_dielectric(beyond);
+  //#if OPENPBR_COAT
+  let clear = p.geometry_thin_walled == 0u && max(p.transmission_weight, p.subsurface_weight) > 0.0;
+  //#else
+  let clear = side.inside;
+  //#endif
+  wanted |= select(0u, OPENPBR_SEE_BARE, clear);
+  //#else
+  interfaces.base = openpbr_dielectric(p);
+  //#endif
+  //#endif
+  //#if OPENPBR_COAT
+  b.coat = openpbr_coat_shape(whole, wo);
+  interfaces.coat = openpbr_dielectric(openpbr_coat_interface(whole));
+  wanted |= select(0u, OPENPBR_SEE_COAT, whole.coat_weight > 0.0);
+  interfaces = openpbr_interfaces_seen(interfaces, wanted, b.alpha, wo, b.coat);
+  //#else
+  interfaces = openpbr_interfaces_seen(interfaces, wanted, b.alpha, wo);
+  //#endif
+  //#if OPENPBR_TRANSMISSION
+  //#if !OPENPBR_COAT
+  if (!side.inside) { interfaces.bare = interfaces.base; }
+  //#endif
+  //#endif
+  //#endif
   //#if OPENPBR_THIN_FILM
   //#if OPENPBR_TRANSMISSION
   b.film = openpbr_film_prepare(whole, side.outer_ior, side.inside);
@@ -64,20 +104,16 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
   //#endif
   b.diffuse_scale = b.dielectric_weight * p.base_weight;
   //#if OPENPBR_DIELECTRIC
+  b.dielectric = interfaces.base;
   //#if OPENPBR_TRANSMISSION
-  var face = p;
-  face.specular_color = select(p.specular_color, vec3f(1.0), side.inside);
-  b.dielectric = openpbr_dielectric_prepare(face, b.alpha, wo, mu);
-  var outer = face;
-  outer.specular_ior = select(whole.specular_ior, 1.0 / whole.specular_ior, side.inside);
   //#if OPENPBR_THIN_FILM
   let epsilon = openpbr_dielectric_epsilon(outer);
   let films = openpbr_film_sums(b.film, vec2f(b.dielectric.eta, (1.0 + epsilon) / (1.0 - epsilon)), b.alpha, wo);
   let filmed = openpbr_film_share(films.opaque, b.dielectric.share);
   b.film.passed = filmed.passed;
-  b.transmission = openpbr_transmission_prepare(outer, b.dielectric, films, filmed, b.alpha, wo, mu, b.dielectric_weight, side.inside);
+  b.transmission = openpbr_transmission_prepare(outer, b.dielectric, interfaces.bare, films, filmed, b.alpha, wo, mu, b.dielectric_weight, side.inside);
   //#else
-  b.transmission = openpbr_transmission_prepare(outer, b.dielectric, b.alpha, wo, mu, b.dielectric_weight, side.inside);
+  b.transmission = openpbr_transmission_prepare(outer, b.dielectric, interfaces.bare, b.alpha, wo, mu, b.dielectric_weight, side.inside);
   //#endif
   b.bound = select(b.bound, 1.0, b.transmission.share > 0.0);
   b.dielectric_scale = (b.dielectric_weight * (1.0 - b.transmission.share)) * face.specular_color;
@@ -86,7 +122,6 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
   b.diffuse_scale *= 1.0 - p.subsurface_weight;
   //#endif
   //#else
-  b.dielectric = openpbr_dielectric_prepare(p, b.alpha, wo, mu);
   b.dielectric_scale = b.dielectric_weight * p.specular_color;
   //#if OPENPBR_THIN_FILM
   let filmed = openpbr_film_share(openpbr_film_sums(b.film, vec2f(b.dielectric.eta), b.alpha, wo).opaque, b.dielectric.share);
@@ -179,7 +214,7 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
   b.specular_probability = select(0.5, min(bright / total, 1.0), total > 0.0);
   //#endif
   //#if OPENPBR_COAT
-  b.coat = openpbr_coat_prepare(whole, p, wo, mu);
+  b.coat = openpbr_coat_prepare(b.coat, interfaces.coat, whole, p, wo);
   // A highlight comes from about as low as it is seen, spread light from everywhere.
   b.albedo = specular * openpbr_coat_pass(b.coat, mu);
   //#if OPENPBR_COSINE
@@ -223,5 +258,5 @@ fn openpbr_below_film(b: OpenPbrBsdf, color: vec3f) -> vec3f {
   return color;
   //#endif
 }`,
-  [openPbrStruct.module, openpbrSurface, gated('OPENPBR_SPECULAR', openpbrGgx), gated('OPENPBR_DIFFUSE_ROUGHNESS', openpbrEon)],
+  [openPbrStruct.module, openpbrSurface, gated('OPENPBR_INTERFACE', openpbrInterfaces), gated('OPENPBR_SPECULAR', openpbrGgx), gated('OPENPBR_DIFFUSE_ROUGHNESS', openpbrEon)],
 );

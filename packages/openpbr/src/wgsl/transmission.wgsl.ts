@@ -55,12 +55,13 @@ export const openpbrTransmission = wgslModule(
   //#endif
 }
 
-// "outer" is the surface without what a coat does to its index, relative to the viewer's side; "d" the interface of the
-// opaque part, "weight" the share of the surface that is dielectric; "films" and "filmed" what the film changes there.
+// "outer" is the surface without what a coat does to its index, relative to the viewer's side; "d" and "bare" the interfaces of
+// the opaque and of the clear part, "weight" the share of the surface that is dielectric; "films" and "filmed" what the film
+// changes there.
 //#if OPENPBR_THIN_FILM
-fn openpbr_transmission_prepare(outer: OpenPbrParameters, d: OpenPbrDielectric, films: OpenPbrFilmSums, filmed: OpenPbrFilmShare, alpha: vec2f, wo: vec3f, mu: f32, weight: f32, inside: bool) -> OpenPbrTransmission {
+fn openpbr_transmission_prepare(outer: OpenPbrParameters, d: OpenPbrDielectric, bare: OpenPbrDielectric, films: OpenPbrFilmSums, filmed: OpenPbrFilmShare, alpha: vec2f, wo: vec3f, mu: f32, weight: f32, inside: bool) -> OpenPbrTransmission {
 //#else
-fn openpbr_transmission_prepare(outer: OpenPbrParameters, d: OpenPbrDielectric, alpha: vec2f, wo: vec3f, mu: f32, weight: f32, inside: bool) -> OpenPbrTransmission {
+fn openpbr_transmission_prepare(outer: OpenPbrParameters, d: OpenPbrDielectric, bare: OpenPbrDielectric, alpha: vec2f, wo: vec3f, mu: f32, weight: f32, inside: bool) -> OpenPbrTransmission {
 //#endif
   var t: OpenPbrTransmission;
   t.share = outer.transmission_weight;
@@ -106,16 +107,9 @@ fn openpbr_transmission_prepare(outer: OpenPbrParameters, d: OpenPbrDielectric, 
   t.color = total;
   //#endif
   var clear = d;
-  var bare = d;
-  // From inside nothing opaque lies beyond it.
-  var beyond = outer;
-  beyond.transmission_weight = select(outer.transmission_weight, 1.0, inside);
   //#if OPENPBR_COAT
-  bare = openpbr_dielectric_prepare(beyond, alpha, wo, mu);
   // The coat leaves the base a smaller step of the index, which reflects less, but bends the light no less in the end.
   if (!inside) { t.color *= min((1.0 - d.share + 1e-6) / (1.0 - bare.share + 1e-6), 8.0); }
-  //#else
-  if (inside) { bare = openpbr_dielectric_prepare(beyond, alpha, wo, mu); }
   //#endif
   if (inside) { clear = bare; }
   t.mirror_eta = clear.eta;
