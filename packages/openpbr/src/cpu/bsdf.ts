@@ -1,7 +1,7 @@
 import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
 import { coatedBase, coatEmission, coatPass, coatThrough, inCoat, outOfCoat, prepareCoat, type Coat } from './coat';
 import { interfaceEnergy, isOverOpaque, isSummed, lightShare, summedShareMean } from './dielectric';
-import { cosineSample, diffuseGain, diffuseGrazing, eon } from './diffuse';
+import { cosineSample, diffuseEven, diffuseGain, diffuseGrazing, eon } from './diffuse';
 import { energyShareMean, mirrorLost, mirrorLostMean, stretchedShareMean } from './energy';
 import { dielectricEpsilon, fresnelDielectric, fresnelMetal, fresnelMetalMean } from './fresnel';
 import { filmFacet, filmReflectance, filmShare, metalIndex, prepareFilm, type ComplexIndex, type Film } from './film';
@@ -139,8 +139,8 @@ export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multi
   const facets = sum(specular) + sum(transmission.albedo);
   const all = facets + sum(spread) + down;
   const reflected = stretchedShareMean(face.epsilon, alpha, roughness, face.summed && isOverOpaque(p) ? summedShareMean(face.epsilon, roughness) : energyShareMean(face.epsilon, roughness));
-  const grazing = diffuseGrazing(p.base_diffuse_roughness, roughness, reflected);
-  const even = 1 - p.base_diffuse_roughness * ((0.0025 * reflected) / (reflected + 0.01) + (face.epsilon < 0 ? 0.03 * reflected : 0));
+  const grazing = diffuseGrazing(p.base_diffuse_roughness, roughness, reflected, face.epsilon);
+  const even = diffuseEven(p.base_diffuse_roughness, reflected, face.epsilon);
   const coupling = (even * diffuseGain(grazing, mu)) / Math.max(1 - reflected, 1e-4);
   const coat = prepareCoat(whole, wo, multipleScattering);
   // A highlight comes from about as low as it is seen, spread light from everywhere.

@@ -31,12 +31,20 @@ export function eon(albedo: OpenPbrColor, roughness: number, wo: OpenPbrVector, 
  *
  * @param reflected Mean share that the interface reflects.
  * @param specularRoughness Of the interface.
+ * @param epsilon (η - 1)/(η + 1) of the interface; negative seen from its denser side.
  */
-export const diffuseGrazing = (roughness: number, specularRoughness: number, reflected: number): number =>
-  ((0.055 * roughness * reflected) / (reflected + 0.01)) * Math.max(1 / (1 + 10 * specularRoughness * specularRoughness), 0.3);
+export function diffuseGrazing(roughness: number, specularRoughness: number, reflected: number, epsilon: number): number {
+  const square = specularRoughness * specularRoughness;
+  if (epsilon < 0) return ((0.055 * roughness * reflected) / (reflected + 0.01)) * Math.max(1 / (1 + 10 * square), 0.3);
+  return roughness * reflected * ((0.0993 * (1 - 2.19 * reflected)) / ((reflected + 0.0416) * (1 + 27.4 * square * specularRoughness)) + (0.248 * square) / (1 + 9.8 * reflected));
+}
+
+/** Factor on all of it; twin of `openpbr_diffuse_even`. */
+export const diffuseEven = (roughness: number, reflected: number, epsilon: number): number =>
+  1 + roughness * reflected * (epsilon < 0 ? -0.0025 / (reflected + 0.01) - 0.03 : 0.0009 / (reflected + 0.005));
 
 /** Factor on it for either direction; twin of `openpbr_diffuse_gain`. */
-export const diffuseGain = (grazing: number, mu: number): number => 1 + grazing * ((1 - mu) ** 3 - 0.1);
+export const diffuseGain = (grazing: number, mu: number): number => 1 + grazing * ((1 - mu) ** 3 / (1 + 0.4 * mu) - 0.08);
 
 /** A direction with density cos θ / π; twin of `openpbr_cosine_sample`. */
 export function cosineSample(u: readonly [number, number, ...number[]]): OpenPbrVector {

@@ -184,9 +184,8 @@ fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf {
   //#endif
   var coupling = 1.0 / max(1.0 - reflected, 1e-4);
   //#if OPENPBR_DIFFUSE_ROUGHNESS
-  b.diffuse_grazing = openpbr_diffuse_grazing(b.diffuse_roughness, b.dielectric.roughness, reflected);
-  // EON is not as even as Lambert: where it peaks, the weights would give back more than they get.
-  coupling *= (1.0 - b.diffuse_roughness * (0.0025 * reflected / (reflected + 0.01) + select(0.0, 0.03 * reflected, b.dielectric.epsilon < 0.0))) * openpbr_diffuse_gain(b.diffuse_grazing, mu);
+  b.diffuse_grazing = openpbr_diffuse_grazing(b.diffuse_roughness, b.dielectric.roughness, reflected, b.dielectric.epsilon);
+  coupling *= openpbr_diffuse_gain(b.diffuse_grazing, mu) * openpbr_diffuse_even(b.diffuse_roughness, reflected, b.dielectric.epsilon);
   //#endif
   b.diffuse_scale *= coupling;
   //#if OPENPBR_THIN_SUBSURFACE
