@@ -32,7 +32,7 @@ fn openpbr_diffuse_grazing(roughness: f32, specular_roughness: f32, reflected: f
   if (epsilon < 0.0) { return 0.055 * roughness * reflected / (reflected + 0.01) * max(1.0 / (1.0 + 10.0 * square), 0.3); }
   //#endif
   let peak = 0.0993 * (1.0 - 2.19 * reflected) / ((reflected + 0.0416) * (1.0 + 27.4 * square * specular_roughness));
-  return roughness * reflected * (peak + 0.248 * square / (1.0 + 9.8 * reflected));
+  return roughness * (1.19 - 0.13 * roughness) * reflected * (peak + 0.248 * square / (1.0 + 9.8 * reflected));
 }
 
 // A factor on all of it, for what the fit leaves. Seen from the denser side it would give back more than it gets where it peaks.
