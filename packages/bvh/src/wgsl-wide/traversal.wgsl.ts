@@ -1,4 +1,5 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl/module';
+import { bvhObjectRay } from '../wgsl/object-ray.wgsl';
 import { bvhTriangleTest } from '../wgsl/triangle.wgsl';
 import { bvhRecords } from '../wgsl/types.wgsl';
 import { checkedStackSize } from '../wgsl/stack-size';
@@ -160,11 +161,7 @@ fn bvh_${name}_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> $
     instance = first_waiting + countTrailingZeros(waiting);
     waiting &= waiting - 1u;
     let placed = bvh_instance(instance);
-    let point = vec4f(origin, 1.0);
-    ray = bvh_ray(
-      vec3f(dot(placed.to_object_0, point), dot(placed.to_object_1, point), dot(placed.to_object_2, point)),
-      vec3f(dot(placed.to_object_0.xyz, direction), dot(placed.to_object_1.xyz, direction), dot(placed.to_object_2.xyz, direction)),
-    );
+    ray = bvh_object_ray(placed, origin, direction);
     octant = bvh_octant(ray.inverse);
     frame = bvh_frame(ray.direction);
     first_node = placed.blas_node;
@@ -179,7 +176,7 @@ fn bvh_${name}_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> $
   return ${any ? 'false' : 'hit'};
 }
 `,
-    [bvhTypes, children],
+    [bvhTypes, bvhObjectRay, children],
   );
 };
 

@@ -1,5 +1,6 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl/module';
 import { BVH_STACK_SIZE } from '../layout';
+import { bvhObjectRay } from './object-ray.wgsl';
 import { checkedStackSize } from './stack-size';
 import { bvhTriangleTest } from './triangle.wgsl';
 import { bvhTypes } from './types.wgsl';
@@ -84,11 +85,7 @@ fn bvh_${name}_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> $
     } else if (instance == BVH_MISS) {
       instance = reference & 0x7ffffffu;
       let placed = bvh_instance(instance);
-      let point = vec4f(origin, 1.0);
-      ray = bvh_ray(
-        vec3f(dot(placed.to_object_0, point), dot(placed.to_object_1, point), dot(placed.to_object_2, point)),
-        vec3f(dot(placed.to_object_0.xyz, direction), dot(placed.to_object_1.xyz, direction), dot(placed.to_object_2.xyz, direction)),
-      );
+      ray = bvh_object_ray(placed, origin, direction);
       frame = bvh_frame(ray.direction);
       first_node = placed.blas_node;
       first_triangle = placed.triangle_offset;
@@ -116,7 +113,7 @@ fn bvh_${name}_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> $
   return ${any ? 'false' : 'hit'};
 }
 `,
-    [bvhTypes, box],
+    [bvhTypes, bvhObjectRay, box],
   );
 };
 
