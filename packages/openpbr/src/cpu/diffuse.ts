@@ -29,8 +29,9 @@ export function eon(albedo: OpenPbrColor, roughness: number, wo: OpenPbrVector, 
 /**
  * How much rough diffuse light below an interface wants at grazing angles; twin of `openpbr_diffuse_grazing`.
  *
- * @param reflected Mean share that the interface reflects.
- * @param specularRoughness Of the interface.
+ * @param roughness σ in [0, 1] of the diffuse lobe.
+ * @param specularRoughness Of the interface, in [0, 1].
+ * @param reflected Mean share that the interface reflects, in [0, 1].
  * @param epsilon (η - 1)/(η + 1) of the interface; negative seen from its denser side.
  */
 export function diffuseGrazing(roughness: number, specularRoughness: number, reflected: number, epsilon: number): number {
@@ -39,11 +40,11 @@ export function diffuseGrazing(roughness: number, specularRoughness: number, ref
   return roughness * (1.19 - 0.13 * roughness) * reflected * ((0.0993 * (1 - 2.19 * reflected)) / ((reflected + 0.0416) * (1 + 27.4 * square * specularRoughness)) + (0.248 * square) / (1 + 9.8 * reflected));
 }
 
-/** Factor on all of it; twin of `openpbr_diffuse_even`. */
+/** Factor on all of it, for what the fit leaves; takes what {@link diffuseGrazing} does. Twin of `openpbr_diffuse_even`. */
 export const diffuseEven = (roughness: number, reflected: number, epsilon: number): number =>
   1 + roughness * reflected * (epsilon < 0 ? -0.0025 / (reflected + 0.01) - 0.03 : 0.0009 / (reflected + 0.005));
 
-/** Factor on it for either direction; twin of `openpbr_diffuse_gain`. */
+/** Factor on it for either direction, of {@link diffuseGrazing} and the direction's cosine; twin of `openpbr_diffuse_gain`. */
 export const diffuseGain = (grazing: number, mu: number): number => 1 + grazing * ((1 - mu) ** 3 / (1 + 0.4 * mu) - 0.08);
 
 /** A direction with density cos θ / π; twin of `openpbr_cosine_sample`. */

@@ -20,7 +20,7 @@ export interface OpenPbrFlags {
    * may be of a lower index than what it lies in, and for what is clear near the index of that; comes with OPENPBR_INNER.
    */
   readonly OPENPBR_INNER_SUMS: boolean;
-  /** There may be several interfaces on one surface that are summed over facets (OPENPBR_ANISOTROPY, OPENPBR_INNER_SUMS): one loop goes through them. */
+  /** There may be several interfaces on one surface that are summed over facets (OPENPBR_ANISOTROPY, OPENPBR_INNER_SUMS): one loop goes through them; comes with OPENPBR_DIELECTRIC, and with OPENPBR_TRANSMISSION or OPENPBR_COAT. */
   readonly OPENPBR_INTERFACE_LOOP: boolean;
   /** Light through the surface: refraction, thin walls; comes with OPENPBR_DIELECTRIC. */
   readonly OPENPBR_TRANSMISSION: boolean;
