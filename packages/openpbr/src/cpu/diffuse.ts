@@ -37,7 +37,7 @@ export function eon(albedo: OpenPbrColor, roughness: number, wo: OpenPbrVector, 
 export function diffuseGrazing(roughness: number, specularRoughness: number, reflected: number, epsilon: number): number {
   const square = specularRoughness * specularRoughness;
   if (epsilon < 0) return ((0.055 * roughness * reflected) / (reflected + 0.01)) * Math.max(1 / (1 + 10 * square), 0.3);
-  return roughness * (1.19 - 0.13 * roughness) * reflected * ((0.0993 * (1 - 2.19 * reflected)) / ((reflected + 0.0416) * (1 + 27.4 * square * specularRoughness)) + (0.248 * square) / (1 + 9.8 * reflected));
+  return roughness * (1.19 - 0.13 * roughness) * reflected * ((0.1023 * (1 - 2.19 * reflected)) / ((reflected + 0.0416) * (1 + 23 * square * specularRoughness)) + (0.248 * square) / (1 + 9.8 * reflected));
 }
 
 /** Factor on all of it, for what the fit leaves; takes what {@link diffuseGrazing} does. Twin of `openpbr_diffuse_even`. */
