@@ -8,6 +8,7 @@ import { GroupSettings } from './film/group-settings';
 import { groupLayer, varianceLayer, type GroupWeights } from './film/layers';
 import { packFrame } from './frame';
 import type { GpuMemory } from './gpu/buffers';
+import { onDeviceLost } from './gpu/device-loss';
 import type { GpuScene } from './gpu/gpu-scene';
 import type { KernelCache } from './gpu/kernel-cache';
 import { memoryReport } from './gpu/memory-report';
@@ -58,6 +59,7 @@ export class PathTracer extends TracerEdits {
   #badSamples = 0;
   #rays = 0;
   #frameDirty = true;
+  readonly #ignoreLoss: () => void;
 
   private constructor(prepared: Prepared) {
     super();
@@ -73,9 +75,7 @@ export class PathTracer extends TracerEdits {
     this.#times = prepared.times;
     this.#groups = new GroupSettings(() => this.#gpuScene.groups.names);
     this.#features = new FeatureLayers({ render: (kernel, samples) => this.#renderFeatures(kernel, samples), copy: (name) => readBuffer(this.#device, this.#film.buffer(name) as GPUBuffer, this.#film.pixels * 16) });
-    void this.#device.lost.then((info) => {
-      if (!this.#destroyed) this.#failure ??= deviceLost(info);
-    });
+    this.#ignoreLoss = onDeviceLost(this.#device, (info) => (this.#failure ??= deviceLost(info)));
   }
 
   /**
@@ -318,6 +318,7 @@ export class PathTracer extends TracerEdits {
   destroy(): void {
     if (this.#destroyed) return;
     this.#destroyed = true;
+    this.#ignoreLoss();
     this.#generation++;
     this.#memory.destroy();
   }

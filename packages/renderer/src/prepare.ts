@@ -3,6 +3,7 @@ import { DeviceError, deviceLost, RenderError } from './errors';
 import { Film } from './film/film';
 import { showFirstLight } from './first-light';
 import { GpuMemory } from './gpu/buffers';
+import { lossInfo } from './gpu/device-loss';
 import { energyTextures } from './gpu/energy-textures';
 import { withErrorScopes } from './gpu/error-scopes';
 import { GpuScene } from './gpu/gpu-scene';
@@ -39,8 +40,8 @@ export interface Prepared {
 /** Builds, uploads and compiles what a tracer needs, see `PathTracer.create`. */
 export async function prepareTracer(device: GPUDevice, scene: Scene, options: PathTracerOptions): Promise<Prepared> {
   const begun = performance.now();
-  let lost: GPUDeviceLostInfo | undefined;
-  void device.lost.then((info) => (lost = info));
+  // A device that is lost says yes to everything: whether it was is looked at in the end.
+  lossInfo(device);
   checkSize(options.width, options.height);
   checkShortcuts(options);
   checkDepth(options.maxDepth ?? 8);
@@ -127,7 +128,7 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
     integrator.begin(await compiling.watch(cache.get(features, hear)));
     await Promise.all(rehearsals);
     signal?.throwIfAborted();
-    // A device that is lost says yes to everything.
+    const lost = lossInfo(device);
     if (lost) throw deviceLost(lost);
     late = true;
     const times = { checkMs: checked - begun, textMs, bvhMs: t1 - asked, uploadMs: t2 - t1, lightMs: t2 - shaped, compileMs: compiling.milliseconds };
