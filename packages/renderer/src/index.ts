@@ -1,5 +1,6 @@
 export { DeviceError, RenderError } from './errors';
 export { requestDevice, type DeviceOptions } from './gpu/device';
+export { decodeFilmState, encodeFilmState, type FilmState } from './film/film-state';
 export { isSoftware } from './software';
 export { compressedFormats } from './scene/textures';
 export { PathTracer } from './path-tracer';

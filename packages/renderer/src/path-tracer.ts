@@ -4,6 +4,8 @@ import { deviceLost, RenderError, type DeviceError } from './errors';
 import { FeatureLayers } from './film/feature-layers';
 import { forBands, renderFeatures } from './film/feature-pass';
 import { Film } from './film/film';
+import { checkFilmState, FILM_SUMS, type FilmState } from './film/film-state';
+import { filmFingerprint } from './film/fingerprint';
 import { GroupSettings } from './film/group-settings';
 import { groupLayer, varianceLayer, type GroupWeights } from './film/layers';
 import { packFrame } from './frame';
@@ -18,7 +20,7 @@ import { serves, type KernelName } from './kernels/pipelines';
 import type { FilmLayer, LightGroup, PathTracerOptions, PickResult, RenderOptions, RenderProgress, RenderStatistics } from './options';
 import { pickPixel } from './pick';
 import { checkDepth, checkedSamples, checkSize, kernelFeatures, prepareTracer, type Prepared } from './prepare';
-import { Sampling } from './sampling';
+import { Sampling, type SamplingState } from './sampling';
 import { cameraUniforms } from './scene/camera';
 import { chooseCamera } from './scene/choose-camera';
 import type { SceneEditor } from './scene-editor';
@@ -215,8 +217,7 @@ export class PathTracer extends TracerEdits {
     if (this.#options.lightGroups === 'off') throw new RenderError('renderer/light-groups', "This tracer keeps no light groups: it was made with lightGroups 'off'.");
     this.#groups.set(name, settings);
     this.#integrator.writeGroups(this.#groups.weights, this.#firstWeights);
-    const kernel = await this.#cache.kernel('relight', this.#integrator.kernels.features);
-    if (!this.#destroyed) forBands(this.#film.pixels, (batch) => this.#integrator.submitPixels('relight', kernel, batch));
+    await this.#relight();
   }
 
   /**
@@ -232,6 +233,50 @@ export class PathTracer extends TracerEdits {
     const weight = this.#groups.weights[plane] as GroupWeights[number];
     const [total, block, moment] = await this.#readFilm('film_total', 'film_block', 'film_moment');
     return groupLayer(total as Float32Array, block as Float32Array, moment as Float32Array, plane, weight);
+  }
+
+  /**
+   * Copies what the film has accumulated, and where its sampling stands, to the CPU: to go on from there on another device,
+   * in another process, or after the tab was closed. Exact at any time, also while `render()` runs.
+   *
+   * @throws {DeviceError} `renderer/device-lost`, `renderer/out-of-memory`
+   */
+  async saveFilm(): Promise<FilmState> {
+    this.#check();
+    // All copies are submitted in one turn, behind the batches that the sampling counts as given out.
+    const sampling = (this.#sampling ??= this.#newSampling()).state;
+    const { width, height, planes } = this.#film;
+    const weights = { first: this.#firstWeights, last: this.#groups.weights };
+    const fingerprint = this.#fingerprint();
+    const [counters, ...sums] = await Promise.all([readBuffer(this.#device, this.#integrator.queues, 32), ...this.#copyFilm(...FILM_SUMS)]);
+    this.#badSamples = new Uint32Array(counters)[3] as number;
+    const samples = Math.max(sampling.sample, sampling.tiles ? sampling.counts.reduce((most, count) => Math.max(most, count), 0) : 0);
+    return { width, height, planes, samples, badSamples: this.#badSamples, fingerprint, sampling, weights, sums: Object.fromEntries(FILM_SUMS.map((name, i) => [name, sums[i]])) as unknown as FilmState['sums'] };
+  }
+
+  /**
+   * Puts a saved film in place of the tracer's. The next `render()` goes on from there; what comes out is bit for bit what
+   * it would have been without the interruption on the same kind of device. A running `render()` ends.
+   *
+   * @param state Of a tracer with the same scene, camera and options. It is not changed and can be used again.
+   * @returns When the film holds it.
+   * @throws {RenderError} `renderer/film-state` if it is of another size, scene, camera, or other options.
+   */
+  async restoreFilm(state: FilmState): Promise<void> {
+    this.#check();
+    const film = this.#film;
+    checkFilmState(state, { width: film.width, height: film.height, planes: film.planes, fingerprint: this.#fingerprint() }, new TileGrid(film.width, film.height).count);
+    this.reset();
+    this.#sampling = this.#newSampling(this.#sampling?.paths, state.sampling);
+    this.#firstWeights = state.weights.first;
+    this.#integrator.writeGroups(this.#groups.weights, this.#firstWeights);
+    for (const name of FILM_SUMS) this.#memory.write(film.buffer(name) as GPUBuffer, state.sums[name]);
+    this.#memory.write(this.#integrator.queues, Uint32Array.of(state.badSamples), 12);
+    this.#badSamples = state.badSamples;
+    // The light groups were set otherwise when it was saved.
+    if (JSON.stringify(this.#groups.weights) !== JSON.stringify(state.weights.last)) await this.#relight();
+    await this.#device.queue.onSubmittedWorkDone();
+    this.#check();
   }
 
   /**
@@ -351,9 +396,18 @@ export class PathTracer extends TracerEdits {
     if (this.#failure) throw this.#failure;
   }
 
-  #newSampling(paths?: number): Sampling {
+  /** Composes the beauty again from the film's sums. */
+  async #relight(): Promise<void> {
+    const kernel = await this.#cache.kernel('relight', this.#integrator.kernels.features);
+    if (!this.#destroyed) forBands(this.#film.pixels, (batch) => this.#integrator.submitPixels('relight', kernel, batch));
+  }
+
+  #fingerprint(): string {
+    return filmFingerprint(this.scene, this.#shownCamera, this.#options);
+  }
+
+  #newSampling(paths?: number, state?: SamplingState): Sampling {
     const film = this.#film;
-    film.setPixels(undefined);
     return new Sampling(
       {
         width: film.width,
@@ -371,12 +425,14 @@ export class PathTracer extends TracerEdits {
         measure: () => this.#measureNoise(),
       },
       paths,
+      state,
     );
   }
 
   async #measureNoise(): Promise<Float32Array> {
     const kernel = await this.#cache.kernel('noise', this.#integrator.kernels.features);
     this.#check();
+    this.#writeFrame();
     const { columns, rows } = new TileGrid(this.#film.width, this.#film.height);
     this.#integrator.submitTiles(kernel, columns, rows);
     return readFloats(this.#device, this.#film.buffer('film_noise') as GPUBuffer, 16 * columns * rows);
@@ -395,8 +451,12 @@ export class PathTracer extends TracerEdits {
     await renderFeatures(this.#device, this.#integrator, name, kernel, this.#film, samples);
   }
 
+  #copyFilm(...names: readonly string[]): Promise<Float32Array<ArrayBuffer>>[] {
+    return names.map((name) => readFloats(this.#device, this.#film.buffer(name) as GPUBuffer));
+  }
+
   #readFilm(...names: readonly string[]): Promise<Float32Array[]> {
-    return Promise.all(names.map((name) => readFloats(this.#device, this.#film.buffer(name) as GPUBuffer)));
+    return Promise.all(this.#copyFilm(...names));
   }
 
   #replaceFilm(width: number, height: number): void {

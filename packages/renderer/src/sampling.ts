@@ -15,6 +15,20 @@ export interface SamplingHost extends Pick<RenderLoop, 'queue' | 'submit' | 'che
   readonly measure: () => Promise<Float32Array>;
 }
 
+/** Where a {@link Sampling} stands: with the film's sums all that a later one needs to go on from there. */
+export interface SamplingState {
+  /** Samples of each tile, row by row; for the tiles under way the number is `sample`. */
+  readonly counts: Uint32Array<ArrayBuffer>;
+  /** Tiles that are sampled together at the moment; `undefined`: all. */
+  readonly tiles: Uint32Array<ArrayBuffer> | undefined;
+  /** Completed samples of the pixels under way. */
+  readonly sample: number;
+  /** Pixels under way, in their order, that have one sample more. */
+  readonly pixel: number;
+  /** Samples at which a noise target lets the pixels under way be judged next; 0 without one. */
+  readonly until: number;
+}
+
 /** What one `render()` asks for. */
 export interface SamplingGoal {
   /** Most samples per pixel. */
@@ -44,17 +58,33 @@ export class Sampling {
   readonly #host: SamplingHost;
   readonly #grid: TileGrid;
   /** Samples of each tile, but for the tiles under way. */
-  readonly #counts: Uint32Array;
+  readonly #counts: Uint32Array<ArrayBuffer>;
   #scheduler: Scheduler;
   /** Tiles that the scheduler works on; `undefined`: all. */
   #under: readonly number[] | undefined;
+  /** Samples to which a noise target drives the tiles under way before it looks at the noise again; 0 without one. */
+  #until: number;
 
-  /** @param paths Paths a batch may begin with, from what was learned before. */
-  constructor(host: SamplingHost, paths?: number) {
+  /**
+   * @param paths Paths a batch may begin with, from what was learned before.
+   * @param state Of a film of the same size, to go on from.
+   */
+  constructor(host: SamplingHost, paths?: number, state?: SamplingState) {
     this.#host = host;
     this.#grid = new TileGrid(host.width, host.height);
-    this.#counts = new Uint32Array(this.#grid.count);
-    this.#scheduler = new Scheduler({ pixels: host.width * host.height, capacity: host.capacity, budgetMs: 30 }, paths);
+    this.#counts = state ? state.counts.slice() : new Uint32Array(this.#grid.count);
+    this.#under = state?.tiles && [...state.tiles];
+    this.#until = state?.until ?? 0;
+    const list = this.#under && this.#grid.pixels(this.#under);
+    host.setPixels(list);
+    const options = { pixels: list?.length ?? host.width * host.height, capacity: host.capacity, budgetMs: 30 };
+    this.#scheduler = new Scheduler(options, paths, state?.sample, state?.pixel);
+  }
+
+  /** Where the sampling stands once everything that was submitted by now is done. */
+  get state(): SamplingState {
+    const { samples: sample, pixel } = this.#scheduler;
+    return { counts: this.#counts.slice(), tiles: this.#under && Uint32Array.from(this.#under), sample, pixel, until: this.#until };
   }
 
   /** Completed samples of the pixels that have most. */
@@ -78,6 +108,10 @@ export class Sampling {
     const pace: Pace = { start: performance.now(), traced: 0, left: goal.noise === undefined ? undefined : Infinity, noise: undefined };
     // A sample that was cut off in the middle of the picture is completed first: lists change between samples only.
     if (this.#scheduler.partial) yield* this.#run(this.#scheduler.samples + 1, goal, pace);
+    // Noise is looked at after the same numbers of samples, wherever an earlier render() was cut off.
+    if (goal.noise === undefined) this.#until = 0;
+    const until = Math.min(this.#until, goal.samples);
+    if (this.#scheduler.samples < until) yield* this.#run(until, goal, pace);
     while (goal.current()) {
       this.#settle();
       let tiles: readonly number[] = [...this.#counts.keys()];
@@ -95,7 +129,8 @@ export class Sampling {
       }
       const [least, next = Infinity] = [...new Set(tiles.map((tile) => this.#counts[tile] as number))].sort((a, b) => a - b) as [number, number?];
       this.#take(tiles.filter((tile) => this.#counts[tile] === least), least);
-      yield* this.#run(Math.min(goal.samples, next, goal.noise === undefined ? Infinity : nextCheck(least)), goal, pace);
+      this.#until = goal.noise === undefined ? 0 : Math.min(next, nextCheck(least));
+      yield* this.#run(Math.min(goal.samples, goal.noise === undefined ? next : this.#until), goal, pace);
     }
   }
 

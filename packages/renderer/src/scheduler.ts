@@ -44,10 +44,12 @@ export class Scheduler {
   /**
    * @param paths Paths that the first batch may hold.
    * @param samples Samples that the pixels have already.
+   * @param pixel Pixels, from the first on, that have one sample more: the next batch is the rest of that sample.
    */
-  constructor(options: SchedulerOptions, paths = SMALLEST * 4, samples = 0) {
+  constructor(options: SchedulerOptions, paths = SMALLEST * 4, samples = 0, pixel = 0) {
     this.pixels = options.pixels;
     this.#sample = samples;
+    this.#pixel = pixel;
     this.#capacity = options.capacity;
     this.budget = options.budgetMs;
     this.#paths = Math.min(paths, options.capacity);
@@ -66,6 +68,11 @@ export class Scheduler {
   /** Whether some pixels have a sample more than the others: the last batch was a band. */
   get partial(): boolean {
     return this.#pixel > 0;
+  }
+
+  /** Pixels that have a sample more than {@link samples}: those of the bands of a sample that is under way. */
+  get pixel(): number {
+    return this.#pixel;
   }
 
   /** A scheduler for other pixels, which have `samples` samples, that remembers the GPU's speed. */

@@ -1,0 +1,86 @@
+import type { Camera, Scene } from '@glanz/scene';
+import type { PathTracerOptions } from '../options';
+
+/** Words of a large array that are hashed, spread evenly over it. */
+const PROBES = 256;
+
+/** FNV-1a over 32-bit words, in two lanes with different primes. */
+class Hash {
+  #a = 0x811c9dc5;
+  #b = 0x9e3779b9;
+  readonly #float = new Float64Array(1);
+  readonly #words = new Uint32Array(this.#float.buffer);
+
+  word(word: number): void {
+    this.#a = Math.imul(this.#a ^ word, 0x01000193);
+    this.#b = Math.imul(this.#b ^ (word >>> 3) ^ (word << 7), 0x85ebca6b);
+  }
+
+  number(value: number): void {
+    this.#float[0] = value;
+    this.word(this.#words[0] as number);
+    this.word(this.#words[1] as number);
+  }
+
+  text(text: string): void {
+    this.word(text.length);
+    for (let i = 0; i < text.length; i++) this.word(text.charCodeAt(i));
+  }
+
+  /** Length and {@link PROBES} of the values, which tells models apart without reading all of them. */
+  probe(values: ArrayLike<number> | undefined): void {
+    this.word(values?.length ?? -1);
+    if (!values) return;
+    const step = Math.max(1, Math.floor(values.length / PROBES));
+    for (let i = 0; i < values.length; i += step) this.number(values[i] as number);
+  }
+
+  get value(): string {
+    return [this.#a, this.#b].map((lane) => (lane >>> 0).toString(16).padStart(8, '0')).join('');
+  }
+}
+
+/** Options that decide the value of a sample; the others decide when and where samples are taken. */
+function samplingOptions(options: PathTracerOptions): unknown[] {
+  const { seed, maxDepth, maxVolumeDepth, background, filter, lightGroups, clampIndirect, regularization, caustics } = options;
+  const { maxBounces, multipleScattering, sampler, lightSampling, shadowTerminator, backFaceCulling, textureLodBias } = options;
+  return [
+    [seed ?? 0, maxDepth ?? 8, maxVolumeDepth ?? 256, background ?? 'environment', filter ?? 'box', lightGroups ?? 'named'],
+    [clampIndirect, regularization ?? 0, caustics ?? true, maxBounces, multipleScattering ?? true, sampler ?? 'blue-noise'],
+    [lightSampling ?? 'tree', shadowTerminator ?? 'smooth', backFaceCulling ?? 'off', textureLodBias ?? -1],
+  ];
+}
+
+/**
+ * A hash over what the samples of a film depend on: the options, the camera and the scene (of vertices, texels and pixels
+ * only {@link PROBES} of an array are read). Two films with different values must not be continued in each other's place.
+ * 64 bits against mistakes, not against malice.
+ */
+export function filmFingerprint(scene: Scene, camera: Camera, options: PathTracerOptions): string {
+  const hash = new Hash();
+  hash.text(JSON.stringify(samplingOptions(options)));
+  hash.text(JSON.stringify({ ...camera, name: '', transform: [] }));
+  for (const value of Array.from(camera.transform)) hash.number(value);
+  for (const { positions, normals, uvs, colors, indices } of scene.meshes) {
+    for (const values of [positions, normals, ...(uvs ?? []), colors, indices]) hash.probe(values);
+  }
+  for (const { parameters, ...rest } of scene.materials) hash.text(JSON.stringify([parameters, rest]));
+  for (const { width, height, data, compressed } of scene.images) {
+    hash.word(width);
+    hash.word(height);
+    hash.probe(data);
+    hash.probe(compressed?.levels[0]);
+  }
+  hash.text(JSON.stringify(scene.textures));
+  hash.text(JSON.stringify(scene.lights));
+  const { environment } = scene;
+  hash.text(JSON.stringify(environment?.type === 'latlong' ? { ...environment, data: [] } : (environment ?? null)));
+  if (environment?.type === 'latlong') hash.probe(environment.data);
+  for (const { mesh, material, visible, catcher, transform } of scene.instances) {
+    hash.word(mesh);
+    hash.word(material);
+    hash.word((visible === false ? 1 : 0) | (catcher ? 2 : 0));
+    for (let i = 0; i < 16; i++) hash.number(transform[i] as number);
+  }
+  return hash.value;
+}

@@ -1,0 +1,52 @@
+import { describe, expect, it } from 'vitest';
+import { decodeFilmState, encodeFilmState, type FilmState } from '../../src/index';
+
+const state = (tiles?: Uint32Array<ArrayBuffer>): FilmState => {
+  const sums = (length: number) => Float32Array.from({ length }, (_, i) => (i === 3 ? Infinity : 0.1 * i - 1));
+  return {
+    width: 9,
+    height: 2,
+    planes: 3,
+    samples: 17,
+    badSamples: 2,
+    fingerprint: 'äbc',
+    weights: { first: [[1, 1, 1]], last: [[0.5, 0, 2]] },
+    sampling: { counts: Uint32Array.of(17, 16), tiles, sample: 16, pixel: 5, until: 96 },
+    sums: { film_block: sums(4 * 18 * 3), film_total: sums(4 * 18 * 3), film_moment: sums(4 * 18), beauty: sums(4 * 18) },
+  };
+};
+
+describe('a film as bytes', () => {
+  it.each([undefined, Uint32Array.of(1)])('comes back as it was (tiles: %s)', (tiles) => {
+    expect(decodeFilmState(encodeFilmState(state(tiles)))).toEqual(state(tiles));
+  });
+
+  it('is read from the middle of a larger buffer', () => {
+    const bytes = encodeFilmState(state());
+    const larger = new Uint8Array(bytes.length + 3);
+    larger.set(bytes, 3);
+    expect(decodeFilmState(larger.subarray(3))).toEqual(state());
+  });
+
+  it('is refused when it is cut off anywhere, or longer', () => {
+    const bytes = encodeFilmState(state());
+    const typed = expect.objectContaining({ code: 'renderer/film-state' }) as Error;
+    for (let length = 0; length < bytes.length; length += 7) expect(() => decodeFilmState(bytes.subarray(0, length))).toThrow(typed);
+    expect(() => decodeFilmState(Uint8Array.from([...bytes, 0, 0, 0, 0]))).toThrow(typed);
+  });
+
+  it('is refused, or read, but never fails otherwise with any byte of its header changed', () => {
+    const bytes = encodeFilmState(state());
+    for (let at = 0; at < 320; at++) {
+      for (const value of [0, 0x22, 0x39, 0x7d, 0xff]) {
+        const spoiled = bytes.slice();
+        spoiled[at] = value;
+        try {
+          decodeFilmState(spoiled);
+        } catch (error) {
+          expect((error as { code?: string }).code, `byte ${at} as ${value}: ${String(error)}`).toBe('renderer/film-state');
+        }
+      }
+    }
+  });
+});
