@@ -1,6 +1,8 @@
 import { dirname, isAbsolute, join } from 'node:path';
+import { isEnvironmentFile } from './environment';
 import { CliError } from './errors';
-import { readInput } from './input';
+import { MAX_SETTINGS_BYTES, readInput } from './input';
+import { liesBelow } from './output/confine';
 import { BATCH_KEYS, renderOptions, type RenderCommandOptions, type RenderValues } from './options';
 
 const wrong = (file: string, message: string) => new CliError('cli/batch', `${file}: ${message}`, { location: { file } });
@@ -66,6 +68,29 @@ function valuesOf(row: Readonly<Record<string, unknown>>, file: string, where: s
   return { values: values as RenderValues, model };
 }
 
+/** What a row of a batch file asks for. */
+export interface BatchRequest {
+  readonly options: RenderCommandOptions;
+  /** Whether the file, not the command line, says where to write. */
+  readonly ownOutput: boolean;
+  /** For messages: `picture 3`. */
+  readonly where: string;
+}
+
+/**
+ * Makes sure that a batch file, which may come from somebody else, writes below a folder only.
+ *
+ * @param paths With the names of variants and views in them.
+ * @param root Default: the folder of the batch file.
+ * @throws {CliError} `cli/batch`
+ */
+export async function checkBatchOutputs(paths: readonly string[], { where }: BatchRequest, file: string, cwd: string, root = dirname(file)): Promise<void> {
+  for (const path of paths) {
+    if (await liesBelow(path, root, cwd)) continue;
+    throw wrong(file, `${where}: "${path}" lies outside the folder "${root}", and a batch writes below it only. Change the path, or name another folder by --output-root.`);
+  }
+}
+
 /**
  * The pictures that a batch file asks for. JSON: a list of objects, or `{ "defaults": {…}, "pictures": […] }`; CSV: a line of
  * names, then a line for each picture. Names are those of the options of `glanz render`, and `model`; several variants, views
@@ -74,8 +99,8 @@ function valuesOf(row: Readonly<Record<string, unknown>>, file: string, where: s
  *
  * @throws {CliError} `cli/input`, `cli/batch`, `cli/usage`
  */
-export async function readBatch(file: string, cwd: string, given: RenderValues & { readonly model?: string | undefined }): Promise<RenderCommandOptions[]> {
-  const text = new TextDecoder().decode(await readInput(file, cwd, 'the batch')).replace(/^\uFEFF/, '');
+export async function readBatch(file: string, cwd: string, given: RenderValues & { readonly model?: string | undefined }): Promise<BatchRequest[]> {
+  const text = new TextDecoder().decode(await readInput(file, cwd, 'the batch', { maxBytes: MAX_SETTINGS_BYTES })).replace(/^\uFEFF/, '');
   let rows: readonly (readonly [where: string, row: Readonly<Record<string, unknown>>])[];
   if (/\.csv$/i.test(file)) {
     const [names = [], ...lines] = parseCsv(text);
@@ -106,10 +131,12 @@ export async function readBatch(file: string, cwd: string, given: RenderValues &
     const placed: RenderValues = {
       ...values,
       ...(values.output ? { output: values.output.map(near) } : {}),
-      ...(values.env !== undefined && values.env !== 'studio' && values.env !== 'none' ? { env: near(values.env) } : {}),
+      ...(isEnvironmentFile(values.env) ? { env: near(values.env) } : {}),
     };
     try {
-      return renderOptions({ ...given, ...placed }, row['model'] === undefined || row['model'] === '' ? model : near(model));
+      const options = renderOptions({ ...given, ...placed }, row['model'] === undefined || row['model'] === '' ? model : near(model));
+      // A name that the model gives has no folder; that of the command line is the user's own word.
+      return { options, ownOutput: values.output !== undefined, where };
     } catch (error) {
       throw error instanceof CliError ? new CliError(error.code, `${file}, ${where}: ${error.message}`, { cause: error, location: { file } }) : error;
     }

@@ -1,7 +1,6 @@
-import { readFile } from 'node:fs/promises';
-import { resolve } from 'node:path';
 import { frameCamera, type Camera, type Scene } from '@glanz/scene';
 import { CliError } from './errors';
+import { MAX_SETTINGS_BYTES, readInput } from './input';
 
 type Vector = readonly [number, number, number];
 
@@ -105,10 +104,7 @@ export async function chooseCamera(scene: Scene, choice: string | undefined, asp
   const named = scene.cameras.find(({ name }) => name === choice) ?? (/^\d+$/.test(choice) ? scene.cameras[Number(choice)] : undefined);
   if (named) return named;
   if (/\.json$/i.test(choice)) {
-    const text = await readFile(resolve(cwd, choice), 'utf8').catch((cause: unknown) => {
-      throw new CliError('cli/input', `Cannot read the camera "${choice}": ${(cause as Error).message}.`, { cause, location: { file: choice } });
-    });
-    return cameraFromJson(text, aspect);
+    return cameraFromJson(new TextDecoder().decode(await readInput(choice, cwd, 'the camera', { maxBytes: MAX_SETTINGS_BYTES })), aspect);
   }
   const names = scene.cameras.map(({ name }, i) => `${i} "${name}"`).join(', ');
   throw wrong(`The model has no camera "${choice}"; ${names ? `it has ${names}` : 'it has none'}.`);

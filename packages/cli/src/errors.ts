@@ -1,4 +1,5 @@
 import { GlanzError } from '@glanz/scene';
+import { visible } from './visible';
 
 /**
  * Something the user can put right. Codes: `cli/usage` (unknown option, impossible value), `cli/input` (a file that
@@ -8,7 +9,7 @@ import { GlanzError } from '@glanz/scene';
 export class CliError extends GlanzError {}
 
 /** What the process ends with. Listed in the manual page. */
-export const EXIT = { ok: 0, failure: 1, usage: 2, input: 3, output: 4, gpu: 5, internal: 70, interrupted: 130, terminated: 143 } as const;
+export const EXIT = { ok: 0, failure: 1, usage: 2, input: 3, output: 4, gpu: 5, internal: 70, hangup: 129, interrupted: 130, terminated: 143 } as const;
 
 const GPU_CODES = new Set(['renderer/no-webgpu', 'renderer/no-adapter', 'renderer/no-device', 'renderer/no-gpu', 'renderer/gpu-not-found']);
 
@@ -23,11 +24,13 @@ export function exitCodeOf(error: unknown): number {
   return EXIT.failure;
 }
 
-/** The error as one line for people. */
+const oneLine = (text: string) => visible(text.replace(/\s*\n\s*/g, ' '));
+
+/** The error as one line for people. Control characters, which names in files bring along, are made visible. */
 export function errorLine(error: unknown): string {
-  if (error instanceof GlanzError) return `${error.message.replace(/\s*\n\s*/g, ' ')} [${error.code}]`;
+  if (error instanceof GlanzError) return `${oneLine(error.message)} [${error.code}]`;
   const message = error instanceof Error ? error.message : String(error);
-  return `internal error: ${message.replace(/\s*\n\s*/g, ' ')} — please report this; GLANZ_DEBUG=1 shows where it happened.`;
+  return `internal error: ${oneLine(message)} — please report this; GLANZ_DEBUG=1 shows where it happened.`;
 }
 
 /** The error as `--json` prints it. */

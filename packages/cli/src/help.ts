@@ -167,6 +167,8 @@ MANY PICTURES
                         beside the pictures, .glanz-journal.jsonl, knows.
       --gpu NAME        Given several times, each GPU takes the next picture
                         when it is done with one.
+      --output-root DIR Let the batch file write below this folder. Default: the
+                        folder that the batch file is in.
   A picture that fails does not keep the others; the exit status is that of the
   first failure. With Ctrl-C, unfinished pictures are not written.
 
@@ -188,7 +190,8 @@ MACHINE
 EXIT STATUS
   0 done · 1 rendering failed · 2 wrong usage · 3 a file cannot be read or is
   broken · 4 a file cannot be written · 5 no usable GPU · 70 a fault of glanz ·
-  130 ended by Ctrl-C after writing what there was (143 by SIGTERM)
+  130 ended by Ctrl-C after writing what there was (143 by SIGTERM,
+  129 by SIGHUP)
 
 EXAMPLES
   glanz render helmet.glb

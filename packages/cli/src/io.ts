@@ -1,7 +1,7 @@
-/** Signals that end a rendering early. */
-export type Interrupt = 'SIGINT' | 'SIGTERM';
+/** Signals that end a render early. */
+export type Interrupt = 'SIGINT' | 'SIGTERM' | 'SIGHUP';
 
-/** The world as a command sees it; tests hand in their own. */
+/** The environment of a command; tests bring their own. */
 export interface CliIo {
   /** Machine-readable output and help. */
   readonly stdout: (text: string) => void;
@@ -21,13 +21,30 @@ export interface CliIo {
   readonly onInterrupt: (handler: (signal: Interrupt) => void) => () => void;
 }
 
-/** The world of this process. */
+const broken = new WeakSet<NodeJS.WriteStream>();
+const watched = new WeakSet<NodeJS.WriteStream>();
+
+/**
+ * Writes until the stream breaks: after a reader has closed its end of the pipe, or a terminal is gone, text is dropped.
+ * Without a listener the stream's error would end the process, and with it the render.
+ */
+function writerOf(stream: NodeJS.WriteStream): (text: string) => void {
+  if (!watched.has(stream)) {
+    watched.add(stream);
+    stream.on('error', () => broken.add(stream));
+  }
+  return (text) => {
+    if (!broken.has(stream)) stream.write(text);
+  };
+}
+
+/** The environment of this process. A stdout or stderr that closes early goes quiet; it does not end the process. */
 export function nodeIo(): CliIo {
   const { env, stderr, stdout } = process;
   const interactive = stderr.isTTY === true && env.TERM !== 'dumb';
   return {
-    stdout: (text) => void stdout.write(text),
-    stderr: (text) => void stderr.write(text),
+    stdout: writerOf(stdout),
+    stderr: writerOf(stderr),
     interactive,
     columns: () => stderr.columns ?? 80,
     color: env.NO_COLOR ? false : env.FORCE_COLOR ? env.FORCE_COLOR !== '0' : interactive,
@@ -35,7 +52,7 @@ export function nodeIo(): CliIo {
     debug: Boolean(env.GLANZ_DEBUG),
     now: () => performance.now(),
     onInterrupt(handler) {
-      const signals: Interrupt[] = ['SIGINT', 'SIGTERM'];
+      const signals: Interrupt[] = ['SIGINT', 'SIGTERM', 'SIGHUP'];
       const listeners = signals.map((signal) => {
         // `once`: the second signal meets the system's default and ends the process.
         const listener = () => handler(signal);

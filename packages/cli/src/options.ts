@@ -62,6 +62,8 @@ export interface RenderCommand extends ReportOptions {
   readonly options: RenderCommandOptions | undefined;
   /** A batch file. */
   readonly batch: string | undefined;
+  /** The folder below which the batch file may write; default: its own. */
+  readonly outputRoot: string | undefined;
   /** What the command line says, for pictures of a batch that do not say otherwise. */
   readonly values: RenderValues & { readonly model?: string | undefined };
   /** Pictures that are there already are not made again. */
@@ -101,6 +103,7 @@ const OPTIONS = {
   time: { type: 'string' },
   batch: { type: 'string' },
   resume: { type: 'boolean' },
+  'output-root': { type: 'string' },
   filter: { type: 'string' },
   'light-groups': { type: 'string' },
   'max-bounces': { type: 'string' },
@@ -125,7 +128,7 @@ const OPTIONS = {
 export type RenderValues = Omit<Partial<ReturnType<typeof parse>['values']>, (typeof NOT_OF_PICTURES)[number]>;
 
 /** Options of the command, not of a picture. */
-const NOT_OF_PICTURES = ['json', 'quiet', 'list-gpus', 'gpu', 'help', 'version', 'batch', 'resume'] as const;
+const NOT_OF_PICTURES = ['json', 'quiet', 'list-gpus', 'gpu', 'help', 'version', 'batch', 'resume', 'output-root'] as const;
 
 /** Options that a picture of a batch may have. */
 export const BATCH_KEYS: Readonly<Record<string, 'text' | 'boolean' | 'list'>> = Object.fromEntries(
@@ -285,11 +288,13 @@ export function parseCommand(argv: readonly string[]): Command {
   }
   if (rest.length > 0) throw usage(`One model at a time: what is "${rest[0]}"? Several go into a batch file: --batch.`);
   if (model === undefined && values.batch === undefined) throw usage('No model given. Use glanz render MODEL, a .glb or .gltf file.');
+  if (values['output-root'] !== undefined && values.batch === undefined) throw usage('--output-root limits where a batch file may write, and belongs to --batch.');
   return {
     kind: 'render',
     ...report,
     options: values.batch === undefined ? renderOptions(values, model as string) : undefined,
     batch: values.batch,
+    outputRoot: values['output-root'],
     values: { ...values, model },
     resume: values.resume ?? false,
     gpus: values.gpu ?? [],

@@ -1,5 +1,6 @@
 import { styleText } from 'node:util';
 import type { CliIo } from './io';
+import { visible } from './visible';
 
 /** Minutes and seconds, or hours and minutes, for people. */
 export function duration(milliseconds: number): string {
@@ -89,22 +90,26 @@ export class ProgressReporter {
     this.#draw(bar + (bar ? plain : plain.trimStart().slice(0, Math.max(10, this.#io.columns() - 1))));
   }
 
-  /** A line that stays. */
+  /** A line that stays. Control characters in it are made visible. */
   line(text: string): void {
-    if (this.#quiet) return;
-    this.clear();
-    this.#io.stderr(`${text}\n`);
+    this.#print(visible(text));
   }
 
   /** A warning, as a line that stays. */
   warning(text: string): void {
-    this.line(`${this.#style('yellow', 'warning:')} ${text}`);
+    this.#print(`${this.#style('yellow', 'warning:')} ${visible(text)}`);
   }
 
   /** Takes the rewritten line away. */
   clear(): void {
     if (this.#shown) this.#io.stderr('\r\x1b[2K');
     this.#shown = false;
+  }
+
+  #print(text: string): void {
+    if (this.#quiet) return;
+    this.clear();
+    this.#io.stderr(`${text}\n`);
   }
 
   #draw(text: string): void {

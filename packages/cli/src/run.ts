@@ -11,6 +11,7 @@ import { nodeIo, type CliIo } from './io';
 import { parseCommand } from './options';
 import { ProgressReporter } from './progress';
 import { version } from './version';
+import { jsonLine, visible } from './visible';
 
 /**
  * Runs the `glanz` command in this process.
@@ -40,12 +41,12 @@ export async function runCli(argv: readonly string[], io: CliIo = nodeIo(), back
     if (command.kind === 'serve') return await serveCommand(command, io);
     if (command.kind === 'list-gpus') return await listGpusCommand(command, io, backend);
     const { result, exitCode } = await renderCommand(command, io, backend, new ProgressReporter(io, command.quiet));
-    if (json) io.stdout(`${JSON.stringify(result ?? { ok: false, error: { code: 'cli/interrupted', message: 'Interrupted before the first sample.' } })}\n`);
+    if (json) io.stdout(jsonLine(result ?? { ok: false, error: { code: 'cli/interrupted', message: 'Interrupted before the first sample.' } }));
     return exitCode;
   } catch (error) {
     io.stderr(`glanz: ${errorLine(error)}\n`);
-    if (io.debug && error instanceof Error) io.stderr(`${error.stack ?? ''}\n${error.cause instanceof Error ? `caused by ${error.cause.stack}\n` : ''}`);
-    if (json) io.stdout(`${JSON.stringify({ ok: false, error: describeError(error) })}\n`);
+    if (io.debug && error instanceof Error) io.stderr(`${[error.stack ?? '', ...(error.cause instanceof Error ? [`caused by ${error.cause.stack}`] : [])].join('\n').split('\n').map(visible).join('\n')}\n`);
+    if (json) io.stdout(jsonLine({ ok: false, error: describeError(error) }));
     return exitCodeOf(error);
   }
 }

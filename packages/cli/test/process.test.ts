@@ -1,9 +1,9 @@
-import { spawn, type ChildProcess } from 'node:child_process';
+import { execFileSync, spawn, type ChildProcess } from 'node:child_process';
 import { existsSync, mkdirSync, readdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import sharp from 'sharp';
-import { beforeAll, expect, it } from 'vitest';
+import { beforeAll, describe, expect, it } from 'vitest';
 import { temporaryFolder } from './fakes';
 import { makeGlb } from './glb';
 import { bundleProgram } from './program';
@@ -70,6 +70,49 @@ it('SIGINT writes the picture; the process ends by itself with 130', async () =>
   expect([code, signal], err).toEqual([130, null]);
   expect(JSON.parse(out)).toMatchObject({ ok: true, interrupted: 'SIGINT' });
   expect((await sharp(join(cwd, 'red.png')).metadata()).height).toBe(48);
+});
+
+it.skipIf(process.platform === 'win32')('SIGHUP writes the image like SIGINT and SIGTERM; the process ends by itself with 129', async () => {
+  const cwd = temporaryFolder({ 'red.glb': makeGlb({ camera: true }) });
+  let sent = false;
+  const { code, signal, out, err } = await start(['render', 'red.glb', '--gpu', 'software', '--size', '48x48', '--samples', '1000000', '--depth', '3', '--json'], cwd, (text, child) => {
+    if (!sent && /render \d+\//.test(text)) sent = child.kill('SIGHUP');
+  });
+  expect([code, signal], err).toEqual([129, null]);
+  expect(JSON.parse(out)).toMatchObject({ ok: true, interrupted: 'SIGHUP' });
+  expect((await sharp(join(cwd, 'red.png')).metadata()).height).toBe(48);
+});
+
+describe.skipIf(process.platform === 'win32')('a reader that closes its end of a pipe', () => {
+  const quality = ['--gpu', 'software', '--size', '16x16', '--samples', '64', '--depth', '2'];
+  // The shell's own redirections, and the exit status of the program rather than that of the pipe's last.
+  const piped = (argv: readonly string[], redirections: string, cwd: string) =>
+    execFileSync('sh', ['-c', `("$@"; echo $? > status) ${redirections}`, 'sh', process.execPath, program, ...argv], { cwd, encoding: 'utf8' });
+  const status = (cwd: string) => readFileSync(join(cwd, 'status'), 'utf8').trim();
+
+  it.each([
+    ['stderr', '2>&1 >/dev/null | head -1', /^load model\n$/],
+    ['stderr, closed from the beginning', '2>&1 >/dev/null | true', /^$/],
+    ['stdout', '2>/dev/null | true', /^$/],
+    ['both', '2>&1 | head -1', /^load model\n$/],
+  ])('of %s does not end the render', (_what, redirections, seen) => {
+    const cwd = temporaryFolder({ 'red.glb': makeGlb({ camera: true }) });
+    expect(piped(['render', 'red.glb', '--json', ...quality], redirections, cwd)).toMatch(seen);
+    expect([status(cwd), readdirSync(cwd).sort()]).toEqual(['0', ['red.glb', 'red.png', 'status']]);
+    expect(statSync(join(cwd, 'red.png')).size).toBeGreaterThan(100);
+  });
+
+  it('sees an error still by the exit status', () => {
+    const cwd = temporaryFolder();
+    piped(['render', 'gone.glb', '--json'], '2>&1 >/dev/null | true', cwd);
+    expect(status(cwd)).toBe('3');
+  });
+
+  it.skipIf(!existsSync('/dev/full'))('a full disk behind stdout is a failure of what belongs there', () => {
+    const cwd = temporaryFolder({ 'red.glb': makeGlb({ camera: true }) });
+    piped(['info', 'red.glb'], '> /dev/full', cwd);
+    expect(status(cwd)).toBe('4');
+  });
 });
 
 it('a batch that is killed goes on where it was, and its pictures are those of runs of their own', { timeout: 600_000 }, async () => {

@@ -16,7 +16,7 @@ describe('help and version', () => {
     const { code, out, err } = await run(['--help'], '.');
     expect([code, err]).toEqual([0, '']);
     for (const heading of ['NAME', 'SYNOPSIS', 'DESCRIPTION', 'EXIT STATUS', 'EXAMPLES']) expect(out).toContain(`\n${heading}\n`.trimStart());
-    for (const option of ['output', 'env', 'env-rotation', 'env-intensity', 'size', 'samples', 'noise', 'depth', 'seed', 'camera', 'filter', 'light-groups', 'max-bounces', 'clamp-indirect', 'regularization', 'no-caustics', 'back-face-culling', 'exposure', 'tonemap', 'bits', 'transparent', 'catcher', 'scene', 'animation', 'time', 'variant', 'view', 'turntable', 'elevation', 'batch', 'resume', 'lod', 'materials', 'strip', 'tolerance', 'runs', 'port', 'host', 'json', 'quiet', 'list-gpus', 'gpu', 'help', 'version']) {
+    for (const option of ['output', 'env', 'env-rotation', 'env-intensity', 'size', 'samples', 'noise', 'depth', 'seed', 'camera', 'filter', 'light-groups', 'max-bounces', 'clamp-indirect', 'regularization', 'no-caustics', 'back-face-culling', 'exposure', 'tonemap', 'bits', 'transparent', 'catcher', 'scene', 'animation', 'time', 'variant', 'view', 'turntable', 'elevation', 'batch', 'resume', 'output-root', 'lod', 'materials', 'strip', 'tolerance', 'runs', 'port', 'host', 'json', 'quiet', 'list-gpus', 'gpu', 'help', 'version']) {
       expect(out).toMatch(new RegExp(`--${option}\\b`));
     }
     for (const line of out.split('\n')) expect(line.length, line).toBeLessThanOrEqual(80);

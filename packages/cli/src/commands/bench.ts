@@ -9,6 +9,7 @@ import type { CliIo } from '../io';
 import type { ReportOptions } from '../options';
 import { rate, type ProgressReporter } from '../progress';
 import { version } from '../version';
+import { jsonLine, visible } from '../visible';
 
 /** `glanz bench`. */
 export interface BenchCommand extends ReportOptions {
@@ -153,10 +154,10 @@ export async function benchCommand({ model, width, height, samples, runs, gpu: n
         const samplesPerSecond = 1000 / middle;
         const result: BenchResult = { ok: true, version: version(), model: model ?? 'built-in', adapter: { name: adapterName, software }, width, height, samples, depth: DEPTH, triangles: statistics.triangles, loadMs, prepareMs, firstSampleMs, msPerSample, samplesPerSecond, megapathsPerSecond: (samplesPerSecond * width * height) / 1e6, statistics };
         progress.clear();
-        if (json) io.stdout(`${JSON.stringify(result)}\n`);
+        if (json) io.stdout(jsonLine(result));
         else {
           const spread = `${Math.min(...msPerSample).toFixed(2)} – ${Math.max(...msPerSample).toFixed(2)}`;
-          io.stdout(`${result.model}, ${width}×${height}, ${statistics.triangles.toLocaleString('en')} triangles, ${adapterName}\n  ${middle.toFixed(2)} ms a sample (${spread}, ${runs} runs of ${samples}) · ${rate(samplesPerSecond)} samples/s · ${result.megapathsPerSecond.toFixed(2)} million paths/s\n  load ${loadMs.toFixed(0)} ms · prepare ${prepareMs.toFixed(0)} ms · first sample ${firstSampleMs.toFixed(0)} ms · GPU memory ${(statistics.gpuBytes / 1e6).toFixed(0)} MB\n`);
+          io.stdout(`${visible(`${result.model}, ${width}×${height}, ${statistics.triangles.toLocaleString('en')} triangles, ${adapterName}`)}\n  ${middle.toFixed(2)} ms a sample (${spread}, ${runs} runs of ${samples}) · ${rate(samplesPerSecond)} samples/s · ${result.megapathsPerSecond.toFixed(2)} million paths/s\n  load ${loadMs.toFixed(0)} ms · prepare ${prepareMs.toFixed(0)} ms · first sample ${firstSampleMs.toFixed(0)} ms · GPU memory ${(statistics.gpuBytes / 1e6).toFixed(0)} MB\n`);
         }
         return EXIT.ok;
       } finally {

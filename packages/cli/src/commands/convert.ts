@@ -6,6 +6,7 @@ import { checkInput } from '../input';
 import type { CliIo } from '../io';
 import type { ReportOptions } from '../options';
 import { checkWritable } from '../output/write';
+import { jsonLine, visible } from '../visible';
 
 /** Everything `glanz convert` can be told, checked. */
 export interface ConvertCommandOptions {
@@ -70,7 +71,7 @@ export async function convertCommand({ options, json, quiet }: ReturnType<typeof
   const made = await convert(resolve(io.cwd, input), resolve(io.cwd, output), { levels, strip, ...(materials === undefined ? {} : { materials: resolve(io.cwd, materials) }), ...(tolerance === undefined ? {} : { tolerance: { metres: tolerance } }) });
   // Paths as the user gives them.
   const files = made.map((file) => ({ ...file, path: isAbsolute(output) ? file.path : relative(io.cwd, file.path) }));
-  if (json) io.stdout(`${JSON.stringify({ ok: true, model: input, files, totalMs: io.now() - start })}\n`);
-  else if (!quiet) for (const { path, bytes, triangles, parts, materials: looks } of files) io.stderr(`${path}: ${triangles} triangles, ${parts} parts, ${looks} materials, ${(bytes / 1000).toFixed(1)} kB\n`);
+  if (json) io.stdout(jsonLine({ ok: true, model: input, files, totalMs: io.now() - start }));
+  else if (!quiet) for (const { path, bytes, triangles, parts, materials: looks } of files) io.stderr(`${visible(path)}: ${triangles} triangles, ${parts} parts, ${looks} materials, ${(bytes / 1000).toFixed(1)} kB\n`);
   return EXIT.ok;
 }

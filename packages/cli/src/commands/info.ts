@@ -6,6 +6,7 @@ import { CliError, EXIT } from '../errors';
 import { checkInput } from '../input';
 import type { CliIo } from '../io';
 import type { PoseOptions, ReportOptions } from '../options';
+import { jsonLine, visible } from '../visible';
 
 /** `glanz info`. */
 export interface InfoCommand extends ReportOptions {
@@ -118,6 +119,6 @@ function lines(info: ModelInfo): string[] {
 export async function infoCommand({ model, pose, json }: InfoCommand, io: CliIo, backend: Backend): Promise<number> {
   await checkInput(model, io.cwd, 'the model');
   const info = describeScene(await backend.loadModel(resolve(io.cwd, model), new AbortController().signal, pose), model);
-  io.stdout(json ? `${JSON.stringify({ ok: true, ...info })}\n` : `${basename(model)}\n${lines(info).map((line) => `  ${line}\n`).join('')}`);
+  io.stdout(json ? jsonLine({ ok: true, ...info }) : `${[basename(model), ...lines(info).map((line) => `  ${line}`)].map(visible).join('\n')}\n`);
   return EXIT.ok;
 }

@@ -1,8 +1,9 @@
 import { mkdir } from 'node:fs/promises';
 import { dirname, resolve } from 'node:path';
 import type { Backend, RenderStatistics } from '../backend';
-import { readBatch } from '../batch-file';
+import { checkBatchOutputs, readBatch } from '../batch-file';
 import { CliError, describeError, errorLine, EXIT, exitCodeOf } from '../errors';
+import { isEnvironmentFile } from '../environment';
 import { checkInput } from '../input';
 import type { CliIo, Interrupt } from '../io';
 import type { RenderCommand, RenderCommandOptions } from '../options';
@@ -87,10 +88,18 @@ export async function renderCommand(command: RenderCommand, io: CliIo, backend: 
   });
   try {
     const loader = new SceneLoader(backend, io.cwd);
-    const requests = command.batch === undefined ? [command.options as RenderCommandOptions] : await readBatch(command.batch, io.cwd, command.values);
-    for (const { model } of requests) await checkInput(model, io.cwd, 'the model');
+    const requests = command.batch === undefined ? [{ options: command.options as RenderCommandOptions, ownOutput: false, where: '' }] : await readBatch(command.batch, io.cwd, command.values);
+    for (const { options: { model, env } } of requests) {
+      await checkInput(model, io.cwd, 'the model');
+      if (isEnvironmentFile(env)) await checkInput(env, io.cwd, 'the environment');
+    }
     const shots: Shot[] = [];
-    for (const options of requests) shots.push(...shotsOf(options, options.variants.includes('all') ? await variantsOf(options, loader, run) : []));
+    for (const request of requests) {
+      const { options } = request;
+      const asked = shotsOf(options, options.variants.includes('all') ? await variantsOf(options, loader, run) : []);
+      if (command.batch !== undefined && request.ownOutput) await checkBatchOutputs(asked.flatMap(({ outputs }) => outputs.map(({ path }) => path)), request, command.batch, io.cwd, command.outputRoot);
+      shots.push(...asked);
+    }
     checkDistinct(shots);
     run.many = command.batch !== undefined || shots.length > 1;
     for (const { outputs } of shots) {
@@ -122,7 +131,8 @@ interface Run {
   many?: boolean;
 }
 
-const exitOf = ({ interrupted }: Run) => (interrupted === null ? EXIT.ok : interrupted === 'SIGINT' ? EXIT.interrupted : EXIT.terminated);
+const EXIT_OF_INTERRUPT = { SIGINT: EXIT.interrupted, SIGTERM: EXIT.terminated, SIGHUP: EXIT.hangup } as const;
+const exitOf = ({ interrupted }: Run) => (interrupted === null ? EXIT.ok : EXIT_OF_INTERRUPT[interrupted]);
 
 async function variantsOf(options: RenderCommandOptions, loader: SceneLoader, { progress, signal }: Run): Promise<readonly string[]> {
   progress.stage('load model');

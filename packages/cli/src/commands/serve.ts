@@ -8,6 +8,7 @@ import { parseArgs } from 'node:util';
 import { CliError, EXIT } from '../errors';
 import type { CliIo } from '../io';
 import type { ReportOptions } from '../options';
+import { jsonLine, visible } from '../visible';
 
 /** `glanz serve`. */
 export interface ServeCommand extends ReportOptions {
@@ -78,8 +79,8 @@ export async function serveCommand({ port, host, json, quiet }: ServeCommand, io
   });
   const { port: actual } = server.address() as AddressInfo;
   const url = `http://${host.includes(':') ? `[${host}]` : host}:${actual}/`;
-  if (json) io.stdout(`${JSON.stringify({ ok: true, url })}\n`);
-  else if (!quiet) io.stderr(`${url} — Ctrl-C ends\n`);
+  if (json) io.stdout(jsonLine({ ok: true, url }));
+  else if (!quiet) io.stderr(`${visible(url)} — Ctrl-C ends\n`);
   await new Promise<void>((done) => {
     const stop = io.onInterrupt(() => {
       stop();

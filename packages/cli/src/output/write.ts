@@ -15,6 +15,8 @@ export interface WrittenFile {
   readonly bytes: number;
 }
 
+const REPLACE = constants.O_WRONLY | constants.O_CREAT | constants.O_TRUNC | (constants.O_NOFOLLOW ?? 0);
+
 const reason = (cause: unknown) => {
   const { code, message } = cause as NodeJS.ErrnoException;
   const known: Record<string, string> = { ENOENT: 'its folder does not exist', EACCES: 'permission denied', EPERM: 'permission denied', EROFS: 'the file system is read-only', ENOSPC: 'the disk is full', ENOTDIR: 'its folder is not a folder', EISDIR: 'it is a folder' };
@@ -63,7 +65,8 @@ export async function writePicture(picture: Picture, target: OutputTarget, displ
   const file = resolve(cwd, target.path);
   const partial = `${file}.${process.pid}.partial`;
   try {
-    await writeFile(partial, bytes);
+    // Not through a link that somebody has put in its place.
+    await writeFile(partial, bytes, { flag: REPLACE });
     await rename(partial, file);
   } catch (cause) {
     await rm(partial, { force: true }).catch(() => undefined);

@@ -1,5 +1,5 @@
 import { createHash } from 'node:crypto';
-import { appendFile, readFile, stat } from 'node:fs/promises';
+import { appendFile, constants, readFile, stat } from 'node:fs/promises';
 import { dirname, join, resolve } from 'node:path';
 import { CliError } from '../errors';
 import type { WrittenFile } from '../output/write';
@@ -8,6 +8,9 @@ import type { Shot } from './shots';
 
 /** Lies beside the first file of a picture. A line of JSON for each picture that is done. */
 export const JOURNAL = '.glanz-journal.jsonl';
+
+// Not through a link that somebody has put in its place.
+const APPEND = constants.O_WRONLY | constants.O_CREAT | constants.O_APPEND | (constants.O_NOFOLLOW ?? 0);
 
 const fileOf = (shot: Shot, cwd: string) => join(dirname(resolve(cwd, (shot.outputs[0] as Shot['outputs'][number]).path)), JOURNAL);
 
@@ -49,7 +52,7 @@ export class Journal {
   /** Notes that a picture is done; its files are there already. */
   async done(shot: Shot, files: readonly WrittenFile[]): Promise<void> {
     const file = fileOf(shot, this.#cwd);
-    await appendFile(file, `${JSON.stringify({ key: await keyOf(shot, this.#cwd), files })}\n`).catch((cause: unknown) => {
+    await appendFile(file, `${JSON.stringify({ key: await keyOf(shot, this.#cwd), files })}\n`, { flag: APPEND }).catch((cause: unknown) => {
       throw new CliError('cli/output', `Cannot write "${file}": ${(cause as Error).message}.`, { cause, location: { file } });
     });
   }

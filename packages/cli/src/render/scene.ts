@@ -44,7 +44,7 @@ export class SceneLoader {
 
   async #prepare(options: RenderCommandOptions, signal: AbortSignal, formats: (() => Promise<readonly CompressedFormat[]>) | undefined, timeEnvironment: Timed): Promise<PreparedScene> {
     const model = await this.#backend.loadModel(resolve(this.#cwd, options.model), signal, options.pose, formats);
-    const { environment, source, warnings } = await timeEnvironment(() => chooseEnvironment(model, options.env, { rotation: options.envRotation, intensity: options.envIntensity }, this.#cwd));
+    const { environment, source, warnings } = await timeEnvironment(() => chooseEnvironment(model, options.env, { rotation: options.envRotation, intensity: options.envIntensity }, this.#cwd, signal));
     const { environment: _replaced, ...rest } = model;
     const instances = markCatchers(model.instances, options.catchers);
     return {
