@@ -3,9 +3,13 @@ import { publishedSource } from './tools/pipeline/published-source.mjs';
 
 /**
  * One build recipe for every package: ESM with declarations, one file per entry, chunks shared between entries.
- * `entries` maps the name of the output file to its source file.
+ * `entries` maps the name of the output file to its source file. `client` writes `'use client'` into each file, which a
+ * package of React components needs under server components.
  */
-export function glanzPackage(entries: Record<string, string>, options: { readonly external?: readonly string[]; readonly platform?: 'node' | 'neutral' } = {}) {
+export function glanzPackage(
+  entries: Record<string, string>,
+  options: { readonly external?: readonly string[]; readonly platform?: 'node' | 'neutral'; readonly client?: boolean } = {},
+) {
   return defineConfig({
     entry: entries,
     format: ['esm'],
@@ -13,7 +17,9 @@ export function glanzPackage(entries: Record<string, string>, options: { readonl
     platform: options.platform ?? 'neutral',
     sourcemap: false,
     clean: true,
-    treeshake: true,
+    // Rollup, which does this second pass, removes directives, banner included; esbuild's own pass keeps them.
+    treeshake: !options.client,
+    ...(options.client ? { banner: { js: "'use client';" } } : {}),
     splitting: true,
     external: [...(options.external ?? [])],
     esbuildPlugins: [publishedSource],

@@ -1,5 +1,5 @@
 // node tools/check-published.mjs — what the registry would get: publint and attw on the tarballs, and the declarations
-// as consumers see them, with every module resolution that can read an export map.
+// as consumers see them, with every module resolution that can read an export map, and the directives that frameworks read.
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join, relative } from 'node:path';
 import { bin, capture } from './pipeline/process.mjs';
@@ -44,12 +44,29 @@ async function checkConsumer(variant, { folder, packages }, verdicts) {
 
 const host = (ts, folder) => ({ getCanonicalFileName: (name) => relative(folder, name), getCurrentDirectory: () => folder, getNewLine: () => ts.sys.newLine });
 
+/** `text` without the blank space and comments that it begins with. */
+const pastComments = (text) => text.replace(/^(?:\s+|\/\/.*|\/\*[\s\S]*?\*\/)+/, '');
+
+/**
+ * Under server components, files with hooks say that they belong to the client: `'use client'`, before any other statement.
+ * Without it `next build` fails with "useRef is not a function".
+ */
+function checkDirectives(p, { folder }, verdicts) {
+  if (!p.manifest.peerDependencies?.react) return;
+  for (const { specifier, conditions } of entriesOf(p)) {
+    const file = join(folder, 'node_modules', p.name, conditions.default);
+    const starts = /^(['"])use client\1\s*;/.test(pastComments(readFileSync(file, 'utf8')));
+    verdicts.expect(starts, `${specifier}: ${relative(folder, file)} does not begin with 'use client'.`);
+  }
+}
+
 export async function checkPublished() {
   const verdicts = new Verdicts();
   const consumer = await installPacked();
   for (const p of consumer.packages) {
     await lintPackage(p, verdicts);
     await checkTypesResolve(p, verdicts);
+    checkDirectives(p, consumer, verdicts);
   }
   await checkConsumer({ name: 'nodenext', module: 'NodeNext', resolution: 'NodeNext', types: ['@webgpu/types'] }, consumer, verdicts);
   await checkConsumer({ name: 'bundler', module: 'ESNext', resolution: 'Bundler', types: ['@webgpu/types'] }, consumer, verdicts);

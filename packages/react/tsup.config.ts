@@ -1,4 +1,4 @@
 import { glanzPackage } from '../../tsup.base';
 
-// Under server components a component with effects says where it runs.
-export default { ...glanzPackage({ index: 'src/index.ts' }, { external: ['react'] }), banner: { js: "'use client';" } };
+// A component with effects says that it runs on the client, so that server components may render it.
+export default glanzPackage({ index: 'src/index.ts' }, { external: ['react'], client: true });

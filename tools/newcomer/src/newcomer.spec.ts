@@ -2,7 +2,7 @@ import { createPushButton } from '@glanz/models';
 import { sceneToGlb } from '@glanz/models/gltf';
 import { photograph } from '@glanz/browser';
 import { expect, test, type Page } from '@playwright/test';
-import { linesOf, Project, quickStart } from './project';
+import { fileFromGuide, linesOf, Project, quickStart } from './project';
 
 const only = process.env['GLANZ_NEWCOMER_ONLY'];
 const wanted = (name: string) => test.skip(only !== undefined && only !== name, 'GLANZ_NEWCOMER_ONLY asks for another');
@@ -104,4 +104,26 @@ test('a page that a server rendered', async ({ page: browser }) => {
   const built = await sees(browser, await project.serve('preview'), 'glanz-viewer');
   report('a page that a server rendered', linesOf(code), { 'first pixels of the build': built.seconds });
   expect(built.complaints).toEqual([]);
+});
+
+test('Next.js', async ({ page: browser }) => {
+  wanted('next');
+  project = new Project('next');
+  project.manifest({ next: '^16.4.6', react: '^19.3.1', 'react-dom': '^19.3.1' }, { typescript: '~6.0.3', '@types/react': '^19.3.0', '@types/react-dom': '^19', '@types/node': '^20' });
+  // This project lies inside the repository, whose lockfile Next.js would take for its root.
+  project.write('next.config.mjs', 'export default { turbopack: { root: import.meta.dirname } };\n');
+  // As the template has it.
+  project.write('app/layout.tsx', "import type { ReactNode } from 'react';\n\nexport default function Layout({ children }: { children: ReactNode }) {\n  return <html lang=\"en\"><head><link rel=\"icon\" href=\"data:,\" /></head><body>{children}</body></html>;\n}\n");
+  for (const file of ['app/page.tsx', 'app/product.tsx', 'app/product/page.tsx']) project.write(file, fileFromGuide('react', file));
+  project.write('public/chair.glb', await model());
+  await project.install();
+  await project.timed('next build', () => project.next('build'));
+  const origin = await project.serveNext();
+  const html = await (await fetch(origin)).text();
+  expect(html).toMatch(/<glanz-viewer [^>]*src="\/chair.glb"/);
+  const server = await sees(browser, origin, 'glanz-viewer');
+  const client = await sees(await browser.context().newPage(), `${origin}/product`, 'glanz-viewer');
+  report('Next.js', linesOf(fileFromGuide('react', 'app/page.tsx')), { 'first pixels in a server component': server.seconds, 'first pixels in a client component': client.seconds });
+  expect(server.complaints).toEqual([]);
+  expect(client.complaints).toEqual([]);
 });

@@ -3,6 +3,7 @@ import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
+const NEXT = join('node_modules', 'next', 'dist', 'bin', 'next');
 const root = fileURLToPath(new URL('../../../', import.meta.url));
 
 /** The first block of a language in a README: what people paste. */
@@ -11,6 +12,15 @@ export function quickStart(packageName: string, language: string): string {
   const block = new RegExp(`\`\`\`${language}\n([\\s\\S]*?)\n\`\`\``).exec(text)?.[1];
   if (block === undefined) throw new Error(`packages/${packageName}/README.md has no block of ${language}.`);
   return block;
+}
+
+/** A block of a page of the documentation that names its file, as ```tsx [app/page.tsx] does: what people paste into that file. */
+export function fileFromGuide(guide: string, path: string): string {
+  const text = readFileSync(join(root, 'apps/docs/guide', `${guide}.md`), 'utf8');
+  const name = path.replace(/[.[\]]/g, '\\$&');
+  const block = new RegExp(`\`\`\`\\w+ \\[${name}\\]\n([\\s\\S]*?)\n\`\`\``).exec(text)?.[1];
+  if (block === undefined) throw new Error(`apps/docs/guide/${guide}.md has no block for ${path}.`);
+  return `${block}\n`;
 }
 
 /** Lines that somebody would have to write. */
@@ -48,9 +58,9 @@ export class Project {
   }
 
   /** Runs a program in the project; its output where it fails. */
-  run(command: string, args: readonly string[]): Promise<string> {
+  run(command: string, args: readonly string[], env: Record<string, string> = {}): Promise<string> {
     return new Promise((resolve, reject) => {
-      execFile(command, args, { cwd: this.folder, env: { ...process.env, NODE_OPTIONS: '' }, maxBuffer: 1 << 26 }, (error, stdout, stderr) => (error ? reject(new Error(`${command} ${args.join(' ')}\n${stdout}\n${stderr}`)) : resolve(stdout)));
+      execFile(command, args, { cwd: this.folder, env: { ...process.env, NODE_OPTIONS: '', ...env }, maxBuffer: 1 << 26 }, (error, stdout, stderr) => (error ? reject(new Error(`${command} ${args.join(' ')}\n${stdout}\n${stderr}`)) : resolve(stdout)));
     });
   }
 
@@ -62,9 +72,23 @@ export class Project {
     return this.run(process.execPath, [join('node_modules', 'vite', 'bin', 'vite.js'), ...args]);
   }
 
+  next(...args: string[]): Promise<string> {
+    return this.run(process.execPath, [NEXT, ...args], { NEXT_TELEMETRY_DISABLED: '1' });
+  }
+
+  /** Starts the server of a finished Next.js build. @returns Its address. */
+  serveNext(): Promise<string> {
+    return this.#start([NEXT, 'start', '--hostname', '127.0.0.1', '--port', '0'], { NEXT_TELEMETRY_DISABLED: '1' });
+  }
+
   /** Starts a server of Vite's. @returns Its address. */
   serve(...args: string[]): Promise<string> {
-    const child = (this.#server = spawn(process.execPath, [join('node_modules', 'vite', 'bin', 'vite.js'), ...args, '--host', '127.0.0.1'], { cwd: this.folder, stdio: ['ignore', 'pipe', 'pipe'] }));
+    return this.#start([join('node_modules', 'vite', 'bin', 'vite.js'), ...args, '--host', '127.0.0.1']);
+  }
+
+  /** Starts a server, a program of Node's that prints its address. */
+  #start(args: readonly string[], env: Record<string, string> = {}): Promise<string> {
+    const child = (this.#server = spawn(process.execPath, args, { cwd: this.folder, stdio: ['ignore', 'pipe', 'pipe'], env: { ...process.env, ...env } }));
     return new Promise((resolve, reject) => {
       let printed = '';
       const hear = (data: Buffer) => {
@@ -75,7 +99,7 @@ export class Project {
       };
       child.stdout.on('data', hear);
       child.stderr.on('data', hear);
-      child.on('close', (code) => reject(new Error(`vite ${args.join(' ')} ended with ${code}:\n${printed}`)));
+      child.on('close', (code) => reject(new Error(`${args.join(' ')} ended with ${code}:\n${printed}`)));
     });
   }
 
