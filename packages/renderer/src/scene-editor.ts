@@ -19,7 +19,13 @@ export function ownScene(scene: Scene): Scene {
   };
 }
 
-const names = (list: readonly { readonly name: string }[]) => list.map(({ name }) => name).join(', ') || 'none';
+/** Names listed in an error message, at most. */
+const LISTED_NAMES = 50;
+
+const names = (list: readonly { readonly name: string }[]) => {
+  const listed = list.slice(0, LISTED_NAMES).map(({ name }) => name).join(', ') || 'none';
+  return list.length > LISTED_NAMES ? `${listed} and ${list.length - LISTED_NAMES} more` : listed;
+};
 
 /**
  * Edits of a scene that is on the GPU. Each changes the scene and writes what depends on it, no more, and tells whether
@@ -34,6 +40,8 @@ export class SceneEditor {
   readonly #plain: number[];
   /** Hierarchies of meshes that are or were in the scene, so that a part that comes back costs nothing to build. */
   readonly #trees = new WeakMap<Mesh, Blas>();
+  /** Instances by name, which no edit changes; made at the first look-up by name. */
+  #named: Map<string, number[]> | undefined;
   #geometry: Geometry;
   #version = 0;
 
@@ -167,10 +175,22 @@ export class SceneEditor {
     return index;
   }
 
+  get #byName(): ReadonlyMap<string, readonly number[]> {
+    if (!this.#named) {
+      this.#named = new Map();
+      for (const [i, { name }] of this.scene.instances.entries()) {
+        const same = this.#named.get(name);
+        if (same) same.push(i);
+        else this.#named.set(name, [i]);
+      }
+    }
+    return this.#named;
+  }
+
   /** Indices of the instances of a name, or the one of an index. */
-  #instances(nameOrIndex: string | number): number[] {
-    const found = this.scene.instances.flatMap(({ name }, i) => (i === nameOrIndex || name === nameOrIndex ? [i] : []));
-    if (found.length === 0) throw new RenderError('renderer/instance', `The scene has no instance ${JSON.stringify(nameOrIndex)}; it has: ${names(this.scene.instances)}.`);
+  #instances(nameOrIndex: string | number): readonly number[] {
+    const found = typeof nameOrIndex === 'string' ? this.#byName.get(nameOrIndex) : this.scene.instances[nameOrIndex] && [nameOrIndex];
+    if (!found) throw new RenderError('renderer/instance', `The scene has no instance ${JSON.stringify(nameOrIndex)}; it has: ${names(this.scene.instances)}.`);
     return found;
   }
 

@@ -4,11 +4,12 @@ import { instanceStruct, materialStruct, meshStruct } from '../kernels/layout';
 import type { ResourceName } from '../kernels/resources';
 import { prepareEnvironment, roughEnvironment, turnEnvironment, type EnvironmentData } from '../scene/environment';
 import { isOneSided } from '../scene/culling';
-import { paintsAlpha, sceneFeatures, texturePlan, type SceneChoices, type VertexAlpha } from '../scene/features';
+import { sceneFeatures, texturePlan, type SceneChoices } from '../scene/features';
 import { joinSlices, packInstances, packTlas, shapeSlices, type Geometry, type MeshRegion, type PackedGeometry, type PackedMesh } from '../scene/geometry';
 import { breather } from '../scene/hierarchies';
 import { lightGroupTable, type LightGroupTable } from '../scene/light-groups';
 import { buildLightTable, noLights, placingSteps, type GatheredLights, type LightGeometry, type LightTable } from '../scene/lights';
+import { MaterialUse } from '../scene/material-use';
 import { isOpaque, packBindings, packMaterial, texturedParameters, type TexturedParameterInfo } from '../scene/materials';
 import type { TexturePlan } from '../scene/textures';
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_STORAGE, GPU_TEXTURE_BINDING, GPU_TEXTURE_COPY_DST, type GpuMemory } from './buffers';
@@ -45,7 +46,9 @@ export class GpuScene {
   readonly #buffers = new Map<ResourceName, GPUBuffer>();
   readonly #textures = new Map<ResourceName, GPUTexture>();
   readonly #energySampler: GPUSampler;
-  readonly #vertexAlpha: VertexAlpha = new WeakMap();
+  /** Both are derived when they are first asked for after an edit that they depend on, and kept until the next. */
+  #use: MaterialUse | undefined;
+  #features: KernelFeatures | undefined;
   #groups: LightGroupTable;
   #lights: LightTable;
   #environment: EnvironmentData;
@@ -102,8 +105,12 @@ export class GpuScene {
     return Math.min(0.9, Math.max(0.1, power / (power + this.#lights.power)));
   }
 
-  /** What decides the kernels' text. */
+  /** What decides the kernels' text. Derived once after an edit; a camera move derives nothing. */
   features(): KernelFeatures {
+    return (this.#features ??= this.#deriveFeatures());
+  }
+
+  #deriveFeatures(): KernelFeatures {
     const { count, tree, profiles, areaCount } = this.#lights;
     return sceneFeatures(this.#scene, this.#choices, {
       textured: this.#textured,
@@ -118,6 +125,7 @@ export class GpuScene {
       vertexColors: this.#geometry.hasVertexColors,
       catchers: this.#geometry.bare !== undefined,
       isOpaque: (material) => this.#opaque(material),
+      isVisible: (material) => this.#materialUse.isVisible(material),
     });
   }
 
@@ -144,6 +152,7 @@ export class GpuScene {
    * @param emission Whether what it emits may have changed: only then the lights are gone through.
    */
   updateMaterial(index: number, emission: boolean): boolean {
+    this.#features = undefined;
     if (emission) this.#updateGroups();
     const record = materialStruct.allocate();
     this.#packMaterial(record, 0, index);
@@ -154,6 +163,7 @@ export class GpuScene {
   /** Re-reads the scene's environment. Returns true if bindings were replaced: not for another rotation or strength of the same picture. */
   updateEnvironment(environment: Environment | undefined): boolean {
     const before = this.#environment;
+    this.#features = undefined;
     this.#environment = turnEnvironment(before, environment) ?? prepareEnvironment(environment);
     const replaced = this.#environment.pixels !== before.pixels || this.#environment.table !== before.table;
     if (replaced) {
@@ -165,7 +175,7 @@ export class GpuScene {
 
   /** Instances have moved, appeared, vanished, or wear another material. Returns true if bindings were replaced. */
   updatePlacement(geometry: Geometry): boolean {
-    this.#geometry = geometry;
+    this.#setGeometry(geometry);
     this.#memory.write(this.#buffers.get('nodes') as GPUBuffer, packTlas(geometry));
     this.#updateGroups();
     return this.updateLights();
@@ -184,10 +194,16 @@ export class GpuScene {
 
   /** All shapes are new. Bindings are replaced. */
   updateShapes(geometry: Geometry, packed: PackedGeometry): void {
-    this.#geometry = geometry;
+    this.#setGeometry(geometry);
     this.#makeShapes(geometry);
     for (const name of ['nodes', 'triangles', 'attributes'] as const) this.#memory.write(this.#buffers.get(name) as GPUBuffer, packed[name]);
     this.updatePlacement(geometry);
+  }
+
+  #setGeometry(geometry: Geometry): void {
+    this.#geometry = geometry;
+    this.#use = undefined;
+    this.#features = undefined;
   }
 
   /** Makes the buffers of shapes, still empty but for what belongs to materials. */
@@ -243,6 +259,7 @@ export class GpuScene {
     for (const bytes of this.#environmentSlices()) await this.#keepUp(bytes, breathe);
     const placed = gathered && (await inSlices(placingSteps(this.#scene, gathered, this.#places, this.#geometry.radius), { sliceMs: FILL_MS }));
     this.#lights = placed ?? this.#buildLights();
+    this.#features = undefined;
     const { records } = this.#lights;
     await withErrorScopes(this.#device, () => {
       this.#memory.release(this.#buffers.get('lights'));
@@ -267,6 +284,7 @@ export class GpuScene {
 
   /** Re-reads the scene's lights and what its instances emit. Returns true if bindings were replaced. */
   updateLights(): boolean {
+    this.#features = undefined;
     const before = this.#lights.records.byteLength;
     this.#lights = this.#buildLights();
     const replaced = this.#writeInstances();
@@ -292,8 +310,12 @@ export class GpuScene {
     return replaced;
   }
 
+  get #materialUse(): MaterialUse {
+    return (this.#use ??= new MaterialUse(this.#scene));
+  }
+
   #opaque(material: number): boolean {
-    return isOpaque(this.#scene.materials[material] as Scene['materials'][number], paintsAlpha(this.#scene, material, this.#vertexAlpha));
+    return isOpaque(this.#scene.materials[material] as Scene['materials'][number], this.#materialUse.hasVertexAlpha(material));
   }
 
   #packMaterial(buffer: ArrayBuffer, at: number, index: number): void {

@@ -1,5 +1,5 @@
 import { requiredFeatures } from '@glanz/openpbr';
-import type { Mesh, Scene } from '@glanz/scene';
+import type { Material, Mesh, Scene } from '@glanz/scene';
 import type { KernelFeatures } from '../kernels/pipelines';
 import type { BackFaceCulling, LightGroupMode, Sampler } from '../options';
 import { isOneSided } from './culling';
@@ -7,6 +7,7 @@ import { interiorFlags } from './interiors';
 import { lightGroupTable } from './light-groups';
 import { hasSize } from './light-records';
 import type { LightSampling } from './lights';
+import { MaterialUse } from './material-use';
 import { emittedRadiance, hasCoatFrames, hasRanges, isOpaque, texturedParameters, turnsTangent, usedTextures, type TexturedParameterInfo } from './materials';
 import { parametersOf } from './parameters';
 import { compressedFormats, planTextures, type TexturePlan } from './textures';
@@ -37,6 +38,8 @@ export interface SceneFacts {
   readonly vertexColors: boolean;
   readonly catchers: boolean;
   readonly isOpaque: (material: number) => boolean;
+  /** Whether a visible instance has the material. */
+  readonly isVisible: (material: number) => boolean;
 }
 
 /** What decides the kernels' text. */
@@ -44,7 +47,8 @@ export function sceneFeatures(scene: Scene, choices: SceneChoices, facts: SceneF
   const { textured, plan, lights, environmentSampled } = facts;
   const parameters = scene.materials.map((material) => parametersOf(material));
   const names = textured.map(({ name }) => name);
-  const culled = choices.backFaceCulling !== 'off' && scene.instances.some(({ visible, material }) => visible !== false && isOneSided(scene.materials[material] as Scene['materials'][number], facts.isOpaque(material)));
+  const visible = scene.materials.flatMap((material, index) => (facts.isVisible(index) ? [{ material, opaque: facts.isOpaque(index) }] : []));
+  const culled = choices.backFaceCulling !== 'off' && visible.some(({ material, opaque }) => isOneSided(material, opaque));
   const openpbrFlags = requiredFeatures(parameters, { textured: names, multipleScattering: choices.multipleScattering });
   return {
     flags: {
@@ -61,7 +65,7 @@ export function sceneFeatures(scene: Scene, choices: SceneChoices, facts: SceneF
         names.some((name) => name === 'emission_color' || name === 'emission_luminance' || (openpbrFlags.OPENPBR_COAT && name.startsWith('coat_'))) ||
         (facts.vertexColors && parameters.some((p) => p.emission_luminance > 0 && p.base_weight === 0 && p.specular_weight === 0)),
       VERTEX_COLORS: facts.vertexColors,
-      OPACITY: scene.instances.some((instance) => instance.visible !== false && !facts.isOpaque(instance.material)),
+      OPACITY: visible.some(({ opaque }) => !opaque),
       CULLING: culled,
       CULLING_ALL: culled && choices.backFaceCulling === 'all',
       ENVIRONMENT_MAP: facts.environmentMap,
@@ -94,20 +98,6 @@ export function texturePlan(device: GPUDevice, scene: Scene): TexturePlan {
   return planTextures(scene, usedTextures(scene.materials), device.limits.maxSampledTexturesPerShaderStage - OWN_TEXTURES, device.limits, compressedFormats(device));
 }
 
-/** Whether a mesh's vertex colours are somewhere less than opaque, as far as it is known. */
-export type VertexAlpha = WeakMap<Mesh, boolean>;
-
-/** Whether vertex colours make a material let light pass. */
-export function paintsAlpha(scene: Scene, material: number, known: VertexAlpha): boolean {
-  return scene.instances.some((instance) => {
-    if (instance.material !== material) return false;
-    const mesh = scene.meshes[instance.mesh] as Mesh;
-    let found = known.get(mesh);
-    if (found === undefined) known.set(mesh, (found = mesh.colors?.some((value, i) => i % 4 === 3 && value < 1) ?? false));
-    return found;
-  });
-}
-
 /**
  * What {@link sceneFeatures} will most likely say, before anything has been built: kernels compile while the hierarchies are
  * made. Where it is wrong (a lamp without power, a picture of even surroundings), nothing is lost but that work.
@@ -117,7 +107,7 @@ export function expectedFeatures(device: GPUDevice, scene: Scene, choices: Scene
   const glows = scene.materials.map((material) => emittedRadiance(parametersOf(material)).some((value) => value > 0));
   const lights = scene.lights.length > 0 || shown.some(({ material }) => glows[material]);
   const { environment } = scene;
-  const vertexAlpha: VertexAlpha = new WeakMap();
+  const use = new MaterialUse(scene);
   return sceneFeatures(scene, choices, {
     textured: texturedParameters(scene.materials),
     plan: texturePlan(device, scene),
@@ -130,6 +120,7 @@ export function expectedFeatures(device: GPUDevice, scene: Scene, choices: Scene
     environmentSampled: environment?.type === 'latlong' && (environment.intensity ?? 1) > 0,
     vertexColors: shown.some(({ mesh }) => (scene.meshes[mesh] as Mesh).colors !== undefined),
     catchers: shown.some(({ catcher }) => catcher === true),
-    isOpaque: (material) => isOpaque(scene.materials[material] as Scene['materials'][number], paintsAlpha(scene, material, vertexAlpha)),
+    isOpaque: (material) => isOpaque(scene.materials[material] as Material, use.hasVertexAlpha(material)),
+    isVisible: (material) => use.isVisible(material),
   });
 }
