@@ -1,9 +1,16 @@
-import type { FilmLayer, PathTracerOptions, PathTracer, RenderStatistics } from '@glanz/renderer';
+import type { FilmLayer, FilmState, PathTracerOptions, PathTracer, RenderStatistics } from '@glanz/renderer';
 import type { CompressedFormat, Scene } from '@glanz/scene';
 import type { PoseOptions } from './options';
 
 /** The part of a `PathTracer` that the command needs. */
-export type Tracer = Pick<PathTracer, 'render' | 'read' | 'reset' | 'setCamera' | 'setVariant' | 'readLightGroup' | 'lightGroups' | 'samples' | 'statistics' | 'destroy'>;
+export type Tracer = Pick<PathTracer, 'render' | 'read' | 'reset' | 'setCamera' | 'setVariant' | 'readLightGroup' | 'lightGroups' | 'saveFilm' | 'restoreFilm' | 'samples' | 'statistics' | 'destroy'>;
+
+/** Films as bytes, for files. */
+export interface FilmCodec {
+  readonly encode: (state: FilmState) => Uint8Array;
+  /** @throws {RenderError} `renderer/film-state` */
+  readonly decode: (bytes: Uint8Array) => FilmState;
+}
 
 /** A device and what it is called. */
 export interface OpenedGpu {
@@ -31,12 +38,18 @@ export interface Backend {
    */
   loadModel(file: string, signal: AbortSignal, pose?: PoseOptions, formats?: () => Promise<readonly CompressedFormat[]>): Promise<Scene>;
   compressedFormats(device: GPUDevice): Promise<readonly CompressedFormat[]>;
-  openGpu(name: string | undefined): Promise<OpenedGpu>;
+  /**
+   * A new device of a new adapter.
+   *
+   * @param onError Called with each error that the device reports outside of a call of the renderer.
+   */
+  openGpu(name: string | undefined, onError?: (error: Error) => void): Promise<OpenedGpu>;
   listGpus(): Promise<readonly ListedGpu[]>;
   createTracer(device: GPUDevice, scene: Scene, options: PathTracerOptions): Promise<Tracer>;
+  filmCodec(): Promise<FilmCodec>;
 }
 
-export type { FilmLayer, PathTracerOptions, RenderStatistics };
+export type { FilmLayer, FilmState, PathTracerOptions, RenderStatistics };
 
 /** The renderer on Dawn, the loaders with sharp. */
 export function nodeBackend(): Backend {
@@ -52,11 +65,16 @@ export function nodeBackend(): Backend {
     async compressedFormats(device) {
       return (await import('@glanz/renderer')).compressedFormats(device);
     },
-    async openGpu(name) {
-      const [{ requestDevice }, { createGpu }] = await Promise.all([import('@glanz/renderer'), import('@glanz/renderer/node')]);
+    async openGpu(name, onError = () => undefined) {
+      const [{ DeviceError, requestDevice }, { createGpu }] = await Promise.all([import('@glanz/renderer'), import('@glanz/renderer/node')]);
       const software = name?.toLowerCase() === 'software';
       const { gpu, adapterName, software: isSoftware } = await createGpu(software ? { software: 'only' } : name === undefined ? {} : { gpu: name });
-      return { device: await requestDevice({ gpu }), adapterName, software: isSoftware };
+      const device = await requestDevice({ gpu });
+      device.addEventListener('uncapturederror', ({ error }) => {
+        const memory = error instanceof GPUOutOfMemoryError;
+        onError(new DeviceError(memory ? 'renderer/out-of-memory' : 'renderer/gpu-error', `The GPU ${memory ? 'has not enough memory' : 'refused work'}: ${error.message}`));
+      });
+      return { device, adapterName, software: isSoftware };
     },
     async listGpus() {
       const { listGpus } = await import('@glanz/renderer/node');
@@ -65,6 +83,10 @@ export function nodeBackend(): Backend {
     async createTracer(device, scene, options) {
       const { PathTracer } = await import('@glanz/renderer');
       return PathTracer.create(device, scene, options);
+    },
+    async filmCodec() {
+      const { decodeFilmState, encodeFilmState } = await import('@glanz/renderer');
+      return { encode: encodeFilmState, decode: decodeFilmState };
     },
   };
 }

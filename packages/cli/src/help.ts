@@ -62,7 +62,8 @@ DESCRIPTION
   is none.
 
   Progress goes to stderr; stdout has what --json, info and bench print. Ctrl-C
-  writes what has been accumulated so far; a second Ctrl-C ends at once.
+  writes what has been accumulated so far; a second Ctrl-C ends at once. When
+  the GPU is lost, the image goes on on a new device, with the same pixels.
 
 PICTURE
   -o, --output FILE     Where to write; the ending decides the format. May be
@@ -165,8 +166,15 @@ MANY PICTURES
       --resume          Leave out pictures that an earlier run has finished, if
                         neither options nor files have changed since. A journal
                         beside the pictures, .glanz-journal.jsonl, knows.
+      --checkpoint FILE Keep the samples in FILE while rendering, at most every
+                        30 seconds, and when it is interrupted. The same
+                        command goes on from there; --samples may be raised. A
+                        file that belongs to another image is refused. Deleted
+                        when the image is written. May hold {model}, {variant}
+                        and {view}.
       --gpu NAME        Given several times, each GPU takes the next picture
-                        when it is done with one.
+                        when it is done with one. A GPU that is lost for good
+                        leaves its image, with the samples so far, to the rest.
       --output-root DIR Let the batch file write below this folder. Default: the
                         folder that the batch file is in.
   A picture that fails does not keep the others; the exit status is that of the
@@ -189,9 +197,9 @@ MACHINE
 
 EXIT STATUS
   0 done · 1 rendering failed · 2 wrong usage · 3 a file cannot be read or is
-  broken · 4 a file cannot be written · 5 no usable GPU · 70 a fault of glanz ·
-  130 ended by Ctrl-C after writing what there was (143 by SIGTERM,
-  129 by SIGHUP)
+  broken · 4 a file cannot be written · 5 no usable GPU, or lost for good ·
+  70 a fault of glanz · 130 ended by Ctrl-C after writing what there was (143 by
+  SIGTERM, 129 by SIGHUP)
 
 EXAMPLES
   glanz render helmet.glb

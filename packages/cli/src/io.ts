@@ -17,6 +17,8 @@ export interface CliIo {
   readonly debug: boolean;
   /** Milliseconds, monotonic. */
   readonly now: () => number;
+  /** Resolves after so many milliseconds, or when `signal` aborts. */
+  readonly wait: (milliseconds: number, signal: AbortSignal) => Promise<void>;
   /** Calls `handler` at the first interrupt; a second one ends the process at once. Returns how to stop listening. */
   readonly onInterrupt: (handler: (signal: Interrupt) => void) => () => void;
 }
@@ -51,6 +53,17 @@ export function nodeIo(): CliIo {
     cwd: process.cwd(),
     debug: Boolean(env.GLANZ_DEBUG),
     now: () => performance.now(),
+    wait: (milliseconds, signal) =>
+      new Promise((done) => {
+        if (signal.aborted) return done();
+        const end = () => {
+          clearTimeout(timer);
+          signal.removeEventListener('abort', end);
+          done();
+        };
+        const timer = setTimeout(end, milliseconds);
+        signal.addEventListener('abort', end);
+      }),
     onInterrupt(handler) {
       const signals: Interrupt[] = ['SIGINT', 'SIGTERM', 'SIGHUP'];
       const listeners = signals.map((signal) => {

@@ -68,6 +68,8 @@ export interface RenderCommand extends ReportOptions {
   readonly values: RenderValues & { readonly model?: string | undefined };
   /** Pictures that are there already are not made again. */
   readonly resume: boolean;
+  /** Where samples are kept for a later run; may hold {model}, {variant} and {view}. */
+  readonly checkpoint: string | undefined;
   /** Names of GPUs that share the work; none: the best one. */
   readonly gpus: readonly string[];
 }
@@ -103,6 +105,7 @@ const OPTIONS = {
   time: { type: 'string' },
   batch: { type: 'string' },
   resume: { type: 'boolean' },
+  checkpoint: { type: 'string' },
   'output-root': { type: 'string' },
   filter: { type: 'string' },
   'light-groups': { type: 'string' },
@@ -128,7 +131,7 @@ const OPTIONS = {
 export type RenderValues = Omit<Partial<ReturnType<typeof parse>['values']>, (typeof NOT_OF_PICTURES)[number]>;
 
 /** Options of the command, not of a picture. */
-const NOT_OF_PICTURES = ['json', 'quiet', 'list-gpus', 'gpu', 'help', 'version', 'batch', 'resume', 'output-root'] as const;
+const NOT_OF_PICTURES = ['json', 'quiet', 'list-gpus', 'gpu', 'help', 'version', 'batch', 'resume', 'checkpoint', 'output-root'] as const;
 
 /** Options that a picture of a batch may have. */
 export const BATCH_KEYS: Readonly<Record<string, 'text' | 'boolean' | 'list'>> = Object.fromEntries(
@@ -216,7 +219,7 @@ export function renderOptions(values: RenderValues, model: string): RenderComman
   if (!isToneMap(toneMap)) throw usage(`There is no tone map "${toneMap}". Known: ${TONE_MAPS.join(', ')}.`);
   const bits = values.bits === undefined ? undefined : number('bits', values.bits, 8, { whole: true, min: 8, max: 32 });
   const files = values.output ?? [defaultOutput(model)];
-  files.forEach(checkPlaceholders);
+  for (const file of files) checkPlaceholders(file);
   const time = values.time === undefined ? undefined : number('time', values.time, 0, { min: -1e9, max: 1e9 });
   return {
     model,
@@ -289,6 +292,7 @@ export function parseCommand(argv: readonly string[]): Command {
   if (rest.length > 0) throw usage(`One model at a time: what is "${rest[0]}"? Several go into a batch file: --batch.`);
   if (model === undefined && values.batch === undefined) throw usage('No model given. Use glanz render MODEL, a .glb or .gltf file.');
   if (values['output-root'] !== undefined && values.batch === undefined) throw usage('--output-root limits where a batch file may write, and belongs to --batch.');
+  if (values.checkpoint !== undefined) checkPlaceholders(values.checkpoint, '--checkpoint');
   return {
     kind: 'render',
     ...report,
@@ -297,6 +301,7 @@ export function parseCommand(argv: readonly string[]): Command {
     outputRoot: values['output-root'],
     values: { ...values, model },
     resume: values.resume ?? false,
+    checkpoint: values.checkpoint,
     gpus: values.gpu ?? [],
   };
 }

@@ -3,7 +3,7 @@ import { join } from 'node:path';
 import { describe, expect, it } from 'vitest';
 import { parseCsv } from '../src/batch-file';
 import type { BatchResult, RenderResult } from '../src/index';
-import { fakeIo, run, temporaryFolder, triangleScene } from './fakes';
+import { fakeDevice, fakeIo, run, temporaryFolder, triangleScene } from './fakes';
 
 const SIZE = ['--size', '4x4', '--samples', '2'];
 const VARIANTS = ['red', 'green', 'deep blue'];
@@ -157,7 +157,7 @@ describe('several GPUs', () => {
     const opened: (string | undefined)[] = [];
     const openGpu = async (name: string | undefined) => {
       opened.push(name);
-      return { device: { destroy: () => undefined } as unknown as GPUDevice, adapterName: `Fake ${name}`, software: false };
+      return { device: fakeDevice(), adapterName: `Fake ${name}`, software: false };
     };
     const { code, out, created } = await run(['render', 'm.glb', ...SIZE, '--variant', 'all', '--view', 'front', '--view', 'iso', '--gpu', 'a', '--gpu', 'b', '--json'], cwd, { scene, openGpu });
     expect([code, opened.sort(), created.length]).toEqual([0, ['a', 'b'], 2]);

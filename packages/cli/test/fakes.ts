@@ -1,9 +1,9 @@
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { createScene, type Scene } from '@glanz/scene';
+import { createScene, GlanzError, type Scene } from '@glanz/scene';
 import { onTestFinished } from 'vitest';
-import type { Backend, PathTracerOptions, RenderStatistics, Tracer } from '../src/backend';
+import type { Backend, FilmState, PathTracerOptions, RenderStatistics, Tracer } from '../src/backend';
 import { runCli, type CliIo, type Interrupt } from '../src/index';
 
 /** A folder that is gone after the test, with the given files. */
@@ -27,6 +27,8 @@ export function triangleScene(): Scene {
 
 const STATISTICS: RenderStatistics = { triangles: 1, instances: 1, lights: 0, checkMs: 0.5, textMs: 0.5, bvhMs: 1, uploadMs: 2, lightMs: 1, compileMs: 3, gpuBytes: 4, memory: { shapes: 1, lights: 0, materials: 1, textures: 0, environment: 0, paths: 1, film: 1, other: 0, pathsInFlight: 1, perPath: 1, perTriangle: 1, perPixel: 1, perTexel: 0 }, badSamples: 0 };
 
+const filmOf = (samples: number, width: number, height: number) => ({ samples, width, height, sums: {} }) as unknown as FilmState;
+
 /** A tracer that counts samples and whose every pixel holds (x/width, y/height, 0.25); what was asked of it is recorded. */
 export interface FakeRun {
   backend: Backend;
@@ -41,10 +43,40 @@ export const FAKE_GPUS = [
   { name: 'SwiftShader Device', backend: 'vulkan', driver: '', software: true },
 ];
 
+/** The part of a device that the command touches; it can be lost. */
+export interface FakeDevice extends GPUDevice {
+  /** Loses it, as a driver does. Gives the error that the renderer then throws. */
+  lose(): GlanzError;
+}
+
+class DeviceError extends GlanzError {}
+
+export function fakeDevice(onDestroy: () => void = () => undefined): FakeDevice {
+  let lost: (info: GPUDeviceLostInfo) => void = () => undefined;
+  const device = {
+    lost: new Promise<GPUDeviceLostInfo>((done) => (lost = done)),
+    queue: { onSubmittedWorkDone: async () => undefined },
+    destroy: onDestroy,
+    lose() {
+      lost({ reason: 'unknown', message: 'injected' } as GPUDeviceLostInfo);
+      return new DeviceError('renderer/device-lost', 'The GPU device was lost.');
+    },
+  };
+  return device as unknown as FakeDevice;
+}
+
 export interface FakeOptions {
   readonly scene?: Scene;
-  /** Called before each sample is yielded. */
-  readonly onSample?: (sample: number) => void;
+  /** Called before each sample is yielded, with the device that makes it. */
+  readonly onSample?: (sample: number, device: FakeDevice) => void;
+  /** Called before a layer is read. */
+  readonly onRead?: (layer: string, device: FakeDevice) => void;
+  /** Called when a film is copied. */
+  readonly onSave?: () => void;
+  /** Called before an edit. */
+  readonly onEdit?: (what: string, to: unknown, device: FakeDevice) => void;
+  /** Gives the event loop, and files that are being written, time between samples. */
+  readonly slowly?: boolean;
   readonly lightGroups?: readonly { readonly name: string; readonly intensity: number; readonly color: readonly [number, number, number] }[];
   readonly loadModel?: Backend['loadModel'];
   readonly openGpu?: Backend['openGpu'];
@@ -55,7 +87,7 @@ export function fakeBackend(fake: FakeOptions = {}): FakeRun {
   const created: FakeRun['created'] = [];
   const destroyed: string[] = [];
   const edits: FakeRun['edits'] = [];
-  const createTracer = async (_device: GPUDevice, scene: Scene, options: PathTracerOptions): Promise<Tracer> => {
+  const createTracer = async (device: GPUDevice, scene: Scene, options: PathTracerOptions): Promise<Tracer> => {
     created.push({ scene, options });
     options.signal?.throwIfAborted();
     const { width, height } = options;
@@ -67,14 +99,16 @@ export function fakeBackend(fake: FakeOptions = {}): FakeRun {
       },
       statistics: STATISTICS,
       async *render({ samples: target = 64, signal }: { samples?: number; signal?: AbortSignal } = {}) {
-        for (let s = 1; s <= target; s++) {
-          fake.onSample?.(s);
+        for (let s = samples + 1; s <= target; s++) {
+          if (fake.slowly) await new Promise((done) => setTimeout(done, 2));
+          fake.onSample?.(s, device as FakeDevice);
           if (signal?.aborted) return;
           samples = s;
           yield { samples: s, targetSamples: target, elapsedMs: s * 100, remainingMs: (target - s) * 100, samplesPerSecond: 10 };
         }
       },
       async read(layer: string) {
+        fake.onRead?.(layer, device as FakeDevice);
         if (layer === 'beauty') return interleaved((x, y, k) => [x / width, y / height, 0.25, options.background === 'transparent' ? 0.5 : 1][k] as number);
         if (layer === 'albedo') return interleaved((_x, _y, k) => [0.5, 0.25, 0.125, 1][k] as number);
         if (layer === 'normal') return interleaved((_x, _y, k) => [0, 0, 1, 0][k] as number);
@@ -86,11 +120,21 @@ export function fakeBackend(fake: FakeOptions = {}): FakeRun {
       reset() {
         samples = 0;
       },
+      async saveFilm() {
+        fake.onSave?.();
+        return filmOf(samples, width, height);
+      },
+      async restoreFilm(state: FilmState) {
+        if (state.width !== width) throw new DeviceError('renderer/film-state', 'The saved film cannot be resumed here.');
+        samples = state.samples;
+        edits.push(['film', samples]);
+      },
       async setCamera(camera: unknown) {
         edits.push(['camera', (camera as { name?: string }).name]);
         samples = 0;
       },
       async setVariant(variant: unknown) {
+        fake.onEdit?.('variant', variant, device as FakeDevice);
         edits.push(['variant', variant]);
         samples = 0;
       },
@@ -109,9 +153,13 @@ export function fakeBackend(fake: FakeOptions = {}): FakeRun {
     backend: {
       loadModel: fake.loadModel ?? (async () => fake.scene ?? triangleScene()),
       compressedFormats: async () => [],
-      openGpu: fake.openGpu ?? (async () => ({ device: { destroy: () => void destroyed.push('device') } as unknown as GPUDevice, adapterName: 'Fake 3000', software: false })),
+      openGpu: fake.openGpu ?? (async () => ({ device: fakeDevice(() => destroyed.push('device')), adapterName: 'Fake 3000', software: false })),
       listGpus: fake.listGpus ?? (async () => FAKE_GPUS),
       createTracer,
+      filmCodec: async () => ({
+        encode: ({ samples, width, height }) => new TextEncoder().encode(JSON.stringify([samples, width, height])),
+        decode: (bytes) => filmOf(...(JSON.parse(new TextDecoder().decode(bytes)) as [number, number, number])),
+      }),
     },
   };
 }
@@ -124,6 +172,8 @@ export interface FakeIo extends CliIo {
   /** Moves the clock. */
   time: number;
   listening: number;
+  /** Milliseconds that were to be waited; nothing is. */
+  readonly waits: number[];
 }
 
 export function fakeIo(cwd: string, settings: { readonly interactive?: boolean; readonly columns?: number } = {}): FakeIo {
@@ -144,6 +194,11 @@ export function fakeIo(cwd: string, settings: { readonly interactive?: boolean; 
     cwd,
     debug: false,
     now: () => io.time,
+    wait: async (milliseconds) => {
+      io.waits.push(milliseconds);
+      await new Promise((done) => setImmediate(done));
+    },
+    waits: [],
     onInterrupt(handler) {
       handlers.add(handler);
       return () => void handlers.delete(handler);

@@ -6,7 +6,7 @@ import { toneMapPixels } from '@glanz/tonemap';
 import sharp from 'sharp';
 import { describe, expect, it } from 'vitest';
 import type { Backend } from '../src/backend';
-import { FAKE_GPUS, fakeIo, run, temporaryFolder, triangleScene } from './fakes';
+import { FAKE_GPUS, fakeDevice, fakeIo, run, temporaryFolder, triangleScene } from './fakes';
 
 const SIZE = ['--size', '8x6', '--samples', '4'];
 const folder = () => temporaryFolder({ 'm.glb': 'not read by the fake' });
@@ -16,7 +16,7 @@ describe('help and version', () => {
     const { code, out, err } = await run(['--help'], '.');
     expect([code, err]).toEqual([0, '']);
     for (const heading of ['NAME', 'SYNOPSIS', 'DESCRIPTION', 'EXIT STATUS', 'EXAMPLES']) expect(out).toContain(`\n${heading}\n`.trimStart());
-    for (const option of ['output', 'env', 'env-rotation', 'env-intensity', 'size', 'samples', 'noise', 'depth', 'seed', 'camera', 'filter', 'light-groups', 'max-bounces', 'clamp-indirect', 'regularization', 'no-caustics', 'back-face-culling', 'exposure', 'tonemap', 'bits', 'transparent', 'catcher', 'scene', 'animation', 'time', 'variant', 'view', 'turntable', 'elevation', 'batch', 'resume', 'output-root', 'lod', 'materials', 'strip', 'tolerance', 'runs', 'port', 'host', 'json', 'quiet', 'list-gpus', 'gpu', 'help', 'version']) {
+    for (const option of ['output', 'env', 'env-rotation', 'env-intensity', 'size', 'samples', 'noise', 'depth', 'seed', 'camera', 'filter', 'light-groups', 'max-bounces', 'clamp-indirect', 'regularization', 'no-caustics', 'back-face-culling', 'exposure', 'tonemap', 'bits', 'transparent', 'catcher', 'scene', 'animation', 'time', 'variant', 'view', 'turntable', 'elevation', 'batch', 'resume', 'checkpoint', 'output-root', 'lod', 'materials', 'strip', 'tolerance', 'runs', 'port', 'host', 'json', 'quiet', 'list-gpus', 'gpu', 'help', 'version']) {
       expect(out).toMatch(new RegExp(`--${option}\\b`));
     }
     for (const line of out.split('\n')) expect(line.length, line).toBeLessThanOrEqual(80);
@@ -120,7 +120,7 @@ describe('writing', () => {
       },
       openGpu: async () => {
         io.time += 900;
-        return { device: { destroy: () => undefined } as unknown as GPUDevice, adapterName: 'Slow', software: false };
+        return { device: fakeDevice(), adapterName: 'Slow', software: false };
       },
     };
     const { out } = await run(['render', 'm.glb', ...SIZE, '--json'], cwd, fake, io);
@@ -266,7 +266,7 @@ describe('errors are one line with a code, and an exit status', () => {
   it('rendering fails: 1, and everything is freed', async () => {
     class DeviceError extends GlanzError {}
     const onSample = () => {
-      throw new DeviceError('renderer/device-lost', 'The GPU device was lost.');
+      throw new DeviceError('renderer/out-of-memory', 'The GPU has not enough memory.');
     };
     const { code, destroyed, io } = await run(['render', 'm.glb', ...SIZE], folder(), { onSample });
     expect([code, destroyed, io.listening]).toEqual([1, ['tracer', 'device'], 0]);

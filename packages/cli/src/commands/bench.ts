@@ -1,11 +1,12 @@
 import { resolve } from 'node:path';
 import { parseArgs } from 'node:util';
-import { createScene, frameCamera, type Instance, type Material, type Scene } from '@glanz/scene';
+import { createScene, frameCamera, GlanzError, type Instance, type Material, type Scene } from '@glanz/scene';
 import { studioEnvironment } from '@glanz/scene/studio';
 import type { Backend, RenderStatistics } from '../backend';
-import { CliError, EXIT } from '../errors';
+import { CliError, EXIT, EXIT_OF_INTERRUPT } from '../errors';
 import { checkInput } from '../input';
-import type { CliIo } from '../io';
+import type { CliIo, Interrupt } from '../io';
+import { GPU_ADVICE } from '../render/gpu';
 import type { ReportOptions } from '../options';
 import { rate, type ProgressReporter } from '../progress';
 import { version } from '../version';
@@ -116,13 +117,18 @@ export function benchScene(): Scene {
 export async function benchCommand({ model, width, height, samples, runs, gpu: name, json }: BenchCommand, io: CliIo, backend: Backend, progress: ProgressReporter): Promise<number> {
   if (model !== undefined) await checkInput(model, io.cwd, 'the model');
   const abort = new AbortController();
-  const stopListening = io.onInterrupt(() => abort.abort());
+  const failures: Error[] = [];
+  let interrupted: Interrupt | undefined;
+  const stopListening = io.onInterrupt((signal) => {
+    interrupted = signal;
+    abort.abort();
+  });
   try {
     const begun = io.now();
     const loaded = model === undefined ? benchScene() : await backend.loadModel(resolve(io.cwd, model), abort.signal);
     const scene: Scene = { ...loaded, environment: loaded.environment ?? studioEnvironment() };
     const loadMs = io.now() - begun;
-    const { device, adapterName, software } = await backend.openGpu(name);
+    const { device, adapterName, software } = await backend.openGpu(name, (error) => failures.push(error));
     progress.line(`${software ? 'no GPU: rendering on the processor, ' : ''}${adapterName}`);
     try {
       const preparing = io.now();
@@ -143,12 +149,13 @@ export async function benchCommand({ model, width, height, samples, runs, gpu: n
           for await (const state of tracer.render({ samples, signal: abort.signal, maxSubmitMs: 200 })) {
             progress.samples(state);
           }
-          if (abort.signal.aborted) return EXIT.interrupted;
+          if (interrupted) return EXIT_OF_INTERRUPT[interrupted];
           // The film is read so that nothing is still under way.
           await tracer.read('beauty');
           msPerSample.push((io.now() - start) / samples);
         }
         progress.prefix = '';
+        if (failures[0]) throw failures[0];
         const middle = [...msPerSample].sort((a, b) => a - b)[runs >> 1] as number;
         const { statistics } = tracer;
         const samplesPerSecond = 1000 / middle;
@@ -166,6 +173,10 @@ export async function benchCommand({ model, width, height, samples, runs, gpu: n
     } finally {
       device.destroy();
     }
+  } catch (error) {
+    if (interrupted && abort.signal.aborted && (error as Error | undefined)?.name === 'AbortError') return EXIT_OF_INTERRUPT[interrupted];
+    if (error instanceof GlanzError && error.code === 'renderer/device-lost') throw new CliError('cli/gpu-lost', `The GPU was lost while it was measured (${error.message.split('.')[0] as string}). ${GPU_ADVICE}`, { cause: error });
+    throw error;
   } finally {
     stopListening();
     progress.clear();

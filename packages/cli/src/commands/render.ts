@@ -2,7 +2,7 @@ import { mkdir } from 'node:fs/promises';
 import { dirname, resolve } from 'node:path';
 import type { Backend, RenderStatistics } from '../backend';
 import { checkBatchOutputs, readBatch } from '../batch-file';
-import { CliError, describeError, errorLine, EXIT, exitCodeOf } from '../errors';
+import { CliError, describeError, errorLine, EXIT, EXIT_OF_INTERRUPT, exitCodeOf } from '../errors';
 import { isEnvironmentFile } from '../environment';
 import { checkInput } from '../input';
 import type { CliIo, Interrupt } from '../io';
@@ -10,7 +10,9 @@ import type { RenderCommand, RenderCommandOptions } from '../options';
 import { checkWritable, type WrittenFile } from '../output/write';
 import { duration, type ProgressReporter } from '../progress';
 import { Journal } from '../render/journal';
+import { GpuGoneError } from '../render/gpu';
 import { Lane, type RenderedShot, type RenderTimings } from '../render/lane';
+import { JobQueue, type Job } from '../render/queue';
 import { SceneLoader } from '../render/scene';
 import { checkDistinct, shotLabel, shotsOf, type Shot } from '../render/shots';
 import { version } from '../version';
@@ -28,6 +30,10 @@ export interface RenderResult {
   /** Paths per pixel in the picture. */
   readonly samples: number;
   readonly targetSamples: number;
+  /** Those of them that a checkpoint brought along. */
+  readonly resumedSamples: number;
+  /** How often the GPU was lost while it was made; its pixels do not depend on that. */
+  readonly gpuLosses: number;
   /** Relative error of the picture when it was last looked at; only with `--noise`. */
   readonly noise?: number;
   readonly samplesPerSecond: number;
@@ -55,6 +61,12 @@ export interface FailedPicture {
   readonly error: { readonly code: string; readonly message: string };
 }
 
+/** A GPU that was lost for good, or never found. */
+export interface LostGpu {
+  readonly gpu: string;
+  readonly error: { readonly code: string; readonly message: string };
+}
+
 /** What `--json` prints for several pictures. */
 export interface BatchResult {
   /** Whether every picture is there. */
@@ -66,6 +78,8 @@ export interface BatchResult {
   /** Finished by an earlier run, with `--resume`. */
   readonly skipped: number;
   readonly failed: number;
+  /** GPUs that were lost for good; the others, if there were any, have gone on with their pictures. */
+  readonly gpusLost: readonly LostGpu[];
   readonly interrupted: Interrupt | null;
   readonly totalMs: number;
 }
@@ -96,14 +110,14 @@ export async function renderCommand(command: RenderCommand, io: CliIo, backend: 
     const shots: Shot[] = [];
     for (const request of requests) {
       const { options } = request;
-      const asked = shotsOf(options, options.variants.includes('all') ? await variantsOf(options, loader, run) : []);
+      const asked = shotsOf(options, options.variants.includes('all') ? await variantsOf(options, loader, run) : [], command.checkpoint);
       if (command.batch !== undefined && request.ownOutput) await checkBatchOutputs(asked.flatMap(({ outputs }) => outputs.map(({ path }) => path)), request, command.batch, io.cwd, command.outputRoot);
       shots.push(...asked);
     }
     checkDistinct(shots);
     run.many = command.batch !== undefined || shots.length > 1;
-    for (const { outputs } of shots) {
-      for (const { path } of outputs) {
+    for (const { outputs, checkpoint } of shots) {
+      for (const path of [...outputs.map((target) => target.path), ...(checkpoint === undefined ? [] : [checkpoint])]) {
         if (run.many) await mkdir(dirname(resolve(io.cwd, path)), { recursive: true }).catch(() => undefined);
         await checkWritable(path, io.cwd);
       }
@@ -112,7 +126,7 @@ export async function renderCommand(command: RenderCommand, io: CliIo, backend: 
   } catch (error) {
     // An abort that a stage answered by throwing is the user's wish, not a fault.
     if (run.interrupted !== null && abort.signal.aborted && (error as Error | undefined)?.name === 'AbortError') {
-      progress.line('nothing has been accumulated yet; no file written.');
+      progress.line('no image written.');
       return { result: undefined, exitCode: exitOf(run) };
     }
     throw error;
@@ -131,7 +145,6 @@ interface Run {
   many?: boolean;
 }
 
-const EXIT_OF_INTERRUPT = { SIGINT: EXIT.interrupted, SIGTERM: EXIT.terminated, SIGHUP: EXIT.hangup } as const;
 const exitOf = ({ interrupted }: Run) => (interrupted === null ? EXIT.ok : EXIT_OF_INTERRUPT[interrupted]);
 
 async function variantsOf(options: RenderCommandOptions, loader: SceneLoader, { progress, signal }: Run): Promise<readonly string[]> {
@@ -145,9 +158,9 @@ const named = ({ variant, view }: Shot) => ({ ...(variant === undefined ? {} : {
 
 const resultOf = (shot: Shot, made: RenderedShot, interrupted: Interrupt | null): RenderResult => {
   const { options } = shot;
-  const { files, samples, noise, samplesPerSecond, camera, environment, adapter, timings, statistics, warnings } = made;
+  const { files, samples, resumedSamples, gpuLosses, noise, samplesPerSecond, camera, environment, adapter, timings, statistics, warnings } = made;
   return {
-    ok: true, version: version(), model: options.model, files, width: options.width, height: options.height, samples, targetSamples: options.samples, ...(noise === undefined ? {} : { noise }), samplesPerSecond, interrupted,
+    ok: true, version: version(), model: options.model, files, width: options.width, height: options.height, samples, targetSamples: options.samples, resumedSamples, gpuLosses, ...(noise === undefined ? {} : { noise }), samplesPerSecond, interrupted,
     depth: options.depth, seed: options.seed, ...named(shot), camera, environment, adapter, timings, statistics, warnings,
   };
 };
@@ -155,7 +168,7 @@ const resultOf = (shot: Shot, made: RenderedShot, interrupted: Interrupt | null)
 async function renderOne(shot: Shot, { gpus }: RenderCommand, loader: SceneLoader, run: Run): Promise<RenderOutcome> {
   const lane = new Lane({ ...run, loader, keepPartial: true }, gpus[0]);
   try {
-    const made = await lane.render(shot);
+    const made = await lane.render({ shot, lostGpus: 0 });
     if (made) return { result: resultOf(shot, made, run.interrupted), exitCode: exitOf(run) };
     run.progress.line('nothing has been accumulated yet; no file written.');
     return { result: undefined, exitCode: exitOf(run) || EXIT.failure };
@@ -164,51 +177,134 @@ async function renderOne(shot: Shot, { gpus }: RenderCommand, loader: SceneLoade
   }
 }
 
-/** Each GPU takes the next picture when it is done with one. What fails is told, and the others go on. */
+/** Each GPU takes the next picture when it is done with one. What fails is reported, and the others go on. */
 async function renderMany(shots: readonly Shot[], { gpus, resume }: RenderCommand, loader: SceneLoader, run: Run): Promise<RenderOutcome> {
-  const { io, progress, signal } = run;
+  const { io, progress } = run;
   const start = io.now();
   const journal = new Journal(io.cwd);
   const waiting: Shot[] = [];
   for (const shot of shots) if (!resume || !(await journal.isDone(shot))) waiting.push(shot);
   const skipped = shots.length - waiting.length;
   if (skipped > 0) progress.line(`${skipped} of ${shots.length} pictures are there already.`);
-  const pictures: (RenderResult | FailedPicture)[] = [];
-  let exitCode = 0, next = 0, begun = skipped;
+  const batch = new Batch(waiting, skipped, journal, run);
   const names: readonly (string | undefined)[] = gpus.length === 0 ? [undefined] : gpus;
   progress.shared = names.length > 1;
-  const work = async (name: string | undefined): Promise<void> => {
-    // Loaders keep the last model, which lanes would take from one another.
-    const lane = new Lane({ ...run, loader: names.length > 1 ? new SceneLoader(run.backend, io.cwd) : loader, keepPartial: false }, name);
-    try {
-      while (next < waiting.length && !signal.aborted) {
-        const shot = waiting[next++] as Shot;
-        progress.prefix = `[${++begun}/${shots.length}] `;
-        try {
-          const made = await lane.render(shot);
-          if (!made) continue;
-          await journal.done(shot, made.files);
-          pictures.push(resultOf(shot, made, null));
-        } catch (error) {
-          if (signal.aborted) return;
-          // Without a GPU, or with a bug, the next picture fares no better.
-          if (exitCodeOf(error) === EXIT.gpu || exitCodeOf(error) === EXIT.internal) throw error;
-          exitCode ||= exitCodeOf(error);
-          progress.warning(`${shotLabel(shot)}: ${errorLine(error)}`);
-          pictures.push({ ok: false, model: shot.options.model, files: shot.outputs.map(({ path }) => path), ...named(shot), error: describeError(error) });
-        }
-      }
-    } finally {
-      lane.close();
-    }
-  };
-  await Promise.all(names.map(work));
+  // Loaders keep the last model, which lanes would take from one another.
+  await batch.run(names.map((name) => new Lane({ ...run, loader: names.length > 1 ? new SceneLoader(run.backend, io.cwd) : loader, keepPartial: false }, name)));
   progress.prefix = '';
+  const { pictures, exitCode, gpusLost } = batch;
   const failed = pictures.filter(({ ok }) => !ok).length;
-  const missing = shots.length - skipped - pictures.length;
+  const missing = waiting.length - pictures.length;
   progress.line(`${shots.length - failed - missing} of ${shots.length} pictures in ${duration(io.now() - start)}${failed > 0 ? `, ${failed} failed` : ''}${missing > 0 ? '; --resume goes on' : ''}`);
   return {
-    result: { ok: failed === 0 && missing === 0, version: version(), pictures, total: shots.length, skipped, failed, interrupted: run.interrupted, totalMs: io.now() - start },
+    result: { ok: failed === 0 && missing === 0, version: version(), pictures, total: shots.length, skipped, failed, gpusLost, interrupted: run.interrupted, totalMs: io.now() - start },
     exitCode: exitOf(run) || exitCode,
   };
+}
+
+/** The pictures of a run, shared out among lanes. */
+class Batch {
+  readonly pictures: (RenderResult | FailedPicture)[] = [];
+  readonly gpusLost: LostGpu[] = [];
+  /** That of the first failure. */
+  exitCode = 0;
+  readonly #queue: JobQueue;
+  readonly #total: number;
+  readonly #journal: Journal;
+  readonly #run: Run;
+  #begun: number;
+  #lanes = 0;
+  readonly #causes: unknown[] = [];
+  #fatal: { readonly error: unknown } | undefined;
+
+  constructor(shots: readonly Shot[], skipped: number, journal: Journal, run: Run) {
+    this.#queue = new JobQueue(shots);
+    this.#total = shots.length + skipped;
+    this.#begun = skipped;
+    this.#journal = journal;
+    this.#run = run;
+  }
+
+  /**
+   * Makes all pictures. Lanes whose GPU is gone leave their work to the others; without any lane the rest fails.
+   * @throws the error of the first lane if none has ever had a GPU, and faults of our own.
+   */
+  async run(lanes: readonly Lane[]): Promise<void> {
+    const { signal } = this.#run;
+    const stop = () => this.#queue.close();
+    signal.addEventListener('abort', stop);
+    if (signal.aborted) stop();
+    this.#lanes = lanes.length;
+    try {
+      await Promise.all(lanes.map((lane) => this.#work(lane)));
+    } finally {
+      signal.removeEventListener('abort', stop);
+      for (const lane of lanes) lane.close();
+    }
+    if (this.#fatal) throw this.#fatal.error;
+    if (this.#causes.length === 0 || signal.aborted) return;
+    const rest = this.#queue.rest();
+    // Not one picture was begun: the GPUs that were asked for are not there.
+    if (this.pictures.length === 0 && lanes.every(({ everOpened }) => !everOpened)) throw this.#causes[0];
+    const reasons = this.gpusLost.map(({ error }) => error.message).join(' ');
+    for (const { shot } of rest) this.#fail(shot, new CliError('cli/gpu-lost', `No GPU is left to render it. ${reasons}`), false);
+  }
+
+  async #work(lane: Lane): Promise<void> {
+    const { progress, signal } = this.#run;
+    let unlucky = false;
+    for (let job = await this.#queue.take(); job; job = await this.#queue.take()) {
+      const { shot } = job;
+      progress.prefix = `[${Math.min(++this.#begun, this.#total)}/${this.#total}] `;
+      try {
+        const made = await lane.render(job);
+        if (made) {
+          await this.#journal.done(shot, made.files);
+          this.pictures.push(resultOf(shot, made, null));
+        }
+        unlucky = false;
+      } catch (error) {
+        const gone = exitCodeOf(error) === EXIT.gpu;
+        if (signal.aborted) this.#queue.close();
+        else if (exitCodeOf(error) === EXIT.internal) {
+          // A bug: the next picture fares no better.
+          this.#fatal ??= { error };
+          this.#queue.close();
+        } else if (gone && !this.#blames(error, job, unlucky)) {
+          this.#begun--;
+          this.#leave(lane, job, error);
+          return;
+        } else this.#fail(shot, error);
+        unlucky = gone;
+      }
+      this.#queue.done();
+    }
+  }
+
+  /** Whether a picture is to blame for the loss of a GPU that still gives devices, rather than the GPU. */
+  #blames(error: unknown, job: Job, unlucky: boolean): boolean {
+    if (!(error instanceof GpuGoneError) || !error.givesDevices) return false;
+    job.lostGpus++;
+    // Lost on two GPUs; or on the only one there is, unless the picture before fared like this.
+    return job.lostGpus > 1 || (this.#lanes === 1 && !unlucky);
+  }
+
+  /** A lane ends and hands over its picture with the samples so far. */
+  #leave(lane: Lane, job: Job, error: unknown): void {
+    this.#lanes--;
+    this.gpusLost.push({ gpu: lane.label, error: describeError(error) });
+    this.#causes.push(error);
+    this.#run.progress.warning(`${errorLine(error)}${this.#lanes > 0 ? ' The other GPUs go on with its pictures.' : ''}`);
+    if (this.#lanes > 0 || !lane.everOpened) this.#queue.giveBack(job);
+    else {
+      this.#fail(job.shot, error, false);
+      this.#queue.done();
+    }
+  }
+
+  #fail(shot: Shot, error: unknown, tell = true): void {
+    this.exitCode ||= exitCodeOf(error);
+    if (tell) this.#run.progress.warning(`${shotLabel(shot)}: ${errorLine(error)}`);
+    this.pictures.push({ ok: false, model: shot.options.model, files: shot.outputs.map(({ path }) => path), ...named(shot), error: describeError(error) });
+  }
 }

@@ -1,4 +1,4 @@
-import { access, constants, rename, rm, stat, writeFile } from 'node:fs/promises';
+import { access, constants, open, rename, rm, stat } from 'node:fs/promises';
 import { dirname, resolve } from 'node:path';
 import { encodeHdr } from '@glanz/image/hdr';
 import { CliError } from '../errors';
@@ -56,21 +56,39 @@ export function encodePicture(picture: Picture, target: OutputTarget, display: D
 }
 
 /**
+ * Writes a file that appears whole or not at all.
+ *
+ * @param path Relative to `cwd`, or absolute.
+ * @param parts One after the other.
+ * @param sync Whether the bytes are on the disk before the file appears, so that it survives a power failure.
+ * @throws {CliError} `cli/output`
+ */
+export async function writeWhole(path: string, cwd: string, parts: readonly Uint8Array[], { sync = false } = {}): Promise<void> {
+  const file = resolve(cwd, path);
+  const partial = `${file}.${process.pid}.partial`;
+  try {
+    // Not through a link that somebody has put in its place.
+    const handle = await open(partial, REPLACE);
+    try {
+      for (const part of parts) await handle.writeFile(part);
+      if (sync) await handle.sync();
+    } finally {
+      await handle.close();
+    }
+    await rename(partial, file);
+  } catch (cause) {
+    await rm(partial, { force: true }).catch(() => undefined);
+    throw unwritable(path, cause);
+  }
+}
+
+/**
  * Encodes and writes one output. The file appears whole or not at all.
  *
  * @throws {CliError} `cli/output`
  */
 export async function writePicture(picture: Picture, target: OutputTarget, display: DisplayOptions, cwd: string): Promise<WrittenFile> {
   const bytes = encodePicture(picture, target, display);
-  const file = resolve(cwd, target.path);
-  const partial = `${file}.${process.pid}.partial`;
-  try {
-    // Not through a link that somebody has put in its place.
-    await writeFile(partial, bytes, { flag: REPLACE });
-    await rename(partial, file);
-  } catch (cause) {
-    await rm(partial, { force: true }).catch(() => undefined);
-    throw unwritable(target.path, cause);
-  }
+  await writeWhole(target.path, cwd, [bytes]);
   return { path: target.path, format: target.format, bits: target.bits, bytes: bytes.length };
 }

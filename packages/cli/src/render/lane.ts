@@ -1,12 +1,16 @@
-import type { Camera, Scene } from '@glanz/scene';
-import type { Backend, OpenedGpu, RenderStatistics, Tracer } from '../backend';
+import { GlanzError, type Camera, type Scene } from '@glanz/scene';
+import type { Backend, FilmState, OpenedGpu, RenderStatistics, Tracer } from '../backend';
+import { CliError } from '../errors';
 import type { CliIo } from '../io';
 import type { RenderCommandOptions } from '../options';
-import type { Picture, PictureLayers } from '../output/picture';
 import { writePicture, type WrittenFile } from '../output/write';
 import { duration, rate, type ProgressReporter } from '../progress';
-import { version } from '../version';
-import { sceneKey, variantIndex, type SceneLoader } from './scene';
+import { CheckpointFile } from './checkpoint-file';
+import { Checkpoints } from './checkpoints';
+import { GpuGoneError, LaneGpu } from './gpu';
+import type { Job } from './queue';
+import { readPicture } from './read-picture';
+import { sceneKey, variantIndex, type PreparedScene, type SceneLoader } from './scene';
 import { shotLabel, type Shot } from './shots';
 import { cameraOf } from './views';
 
@@ -14,7 +18,7 @@ import { cameraOf } from './views';
 export interface RenderTimings {
   /** The model alone, even where it has waited for the GPU to say which formats it reads. */
   loadMs: number;
-  /** Surroundings, made or read. */
+  /** The environment, made or read. */
   environmentMs: number;
   deviceMs: number;
   /** All of the preparation; its parts are in the statistics. */
@@ -29,6 +33,10 @@ export interface RenderTimings {
 export interface RenderedShot {
   readonly files: readonly WrittenFile[];
   readonly samples: number;
+  /** Samples that a checkpoint brought along. */
+  readonly resumedSamples: number;
+  /** How often the GPU was lost, and its work went on on a new device. */
+  readonly gpuLosses: number;
   /** Relative error of the picture when it was last looked at; only with `--noise`. */
   readonly noise?: number;
   readonly samplesPerSecond: number;
@@ -54,30 +62,94 @@ export interface LaneContext {
 const MAX_WARNINGS = 5;
 const LABELS = { bvh: 'build hierarchy', upload: 'upload', compile: 'compile kernels' } as const;
 
+type Timed = <T>(key: keyof RenderTimings, run: () => Promise<T>) => Promise<T>;
+
+/** One picture while it is made, across devices. */
+interface Making {
+  readonly shot: Shot;
+  readonly start: number;
+  readonly timings: RenderTimings;
+  readonly timed: Timed;
+  readonly checkpoints: Checkpoints;
+  readonly file: CheckpointFile | undefined;
+  /** Samples that this run did not make. */
+  readonly resumed: number;
+  /** What the file had in it. */
+  readonly read: FilmState | undefined;
+  readonly lossesBefore: number;
+  noise: number | undefined;
+}
+
 /**
- * One GPU, making one picture after another. Pictures of the same scene share a tracer: another variant or view is an edit, and
- * the film begins anew, so that its pixels are those of a tracer of its own.
+ * One GPU, making one picture after another. Pictures of the same scene share a tracer: another variant or view is an edit,
+ * and the film restarts, so that its pixels are those of a tracer of its own. When the GPU is lost, the picture goes on on a
+ * new device from its last checkpoint, with the same pixels as without the loss.
  */
 export class Lane {
   readonly #context: LaneContext;
-  readonly #gpuName: string | undefined;
-  #opened: OpenedGpu | undefined;
+  readonly #gpu: LaneGpu;
   #tracer: Tracer | undefined;
   #key = '';
   #toldOf: Scene | undefined;
 
   constructor(context: LaneContext, gpuName: string | undefined) {
     this.#context = context;
-    this.#gpuName = gpuName;
+    this.#gpu = new LaneGpu(context, gpuName);
   }
 
-  /** Makes and writes a picture; undefined if it was stopped before there was anything to write. */
-  async render(shot: Shot): Promise<RenderedShot | undefined> {
-    const { io, backend, progress, loader, signal, keepPartial } = this.#context;
-    const { options } = shot;
+  /** For messages. */
+  get label(): string {
+    return this.#gpu.label;
+  }
+
+  /** Whether it has ever had a device. */
+  get everOpened(): boolean {
+    return this.#gpu.everOpened;
+  }
+
+  /**
+   * Makes and writes a picture; undefined if it was stopped before there was anything to write.
+   *
+   * @param job Its film is where rendering begins, and where it stood if this throws.
+   * @throws {GpuGoneError} when the GPU is lost for good
+   */
+  async render(job: Job): Promise<RenderedShot | undefined> {
+    const { shot } = job;
+    const making = await this.#begin(job);
+    const { checkpoints } = making;
+    this.#gpu.progressed();
+    let reached = checkpoints.latest?.samples ?? 0;
+    for (;;) {
+      try {
+        return await this.#attempt(making);
+      } catch (error) {
+        await checkpoints.settled();
+        const loss = await this.#gpu.lossBehind(error);
+        this.#drop();
+        const film = checkpoints.latest;
+        if (film) job.film = film;
+        if (!loss) {
+          this.#gpu.forgive();
+          throw await this.#withCheckpoint(error, making);
+        }
+        if ((film?.samples ?? 0) > reached) this.#gpu.progressed();
+        reached = film?.samples ?? 0;
+        try {
+          await this.#gpu.replace(loss);
+        } catch (cause) {
+          throw await this.#withCheckpoint(cause, making);
+        }
+        this.#context.progress.warning(`${shotLabel(shot)}: the GPU was lost; going on from ${reached === 0 ? 'the first sample' : `sample ${reached}`} on a new device.`);
+      }
+    }
+  }
+
+  /** What is kept of a picture on its way, and where it begins. */
+  async #begin({ shot, film }: Job): Promise<Making> {
+    const { io, progress, backend } = this.#context;
     const start = io.now();
     const timings: RenderTimings = { loadMs: 0, environmentMs: 0, deviceMs: 0, prepareMs: 0, renderMs: 0, readMs: 0, writeMs: 0, totalMs: 0 };
-    const timed = async <T>(key: keyof RenderTimings, run: () => Promise<T>): Promise<T> => {
+    const timed: Timed = async (key, run) => {
       const from = io.now();
       try {
         return await run();
@@ -85,58 +157,136 @@ export class Lane {
         timings[key] += io.now() - from;
       }
     };
-    progress.stage('load model');
-    const { scene, environment, warnings } = await timed('loadMs', () => loader.load(options, signal, async () => backend.compressedFormats(await this.#device(timed)), (run) => timed('environmentMs', run)));
-    // A model whose pictures can stay packed asks the GPU what it reads: until it runs, nothing is loaded.
-    timings.loadMs -= timings.deviceMs + timings.environmentMs;
+    const codec = () => backend.filmCodec();
+    const file = shot.checkpoint === undefined ? undefined : new CheckpointFile(shot.checkpoint, shot, io.cwd);
+    const read = film ? undefined : await file?.read(codec);
+    if (read) progress.line(`${shot.checkpoint}: going on from sample ${read.samples}`);
+    const resumed = film ?? read;
+    const checkpoints = new Checkpoints({ io, progress, codec, file, pixels: shot.options.width * shot.options.height }, resumed, read);
+    return { shot, start, timings, timed, checkpoints, file, resumed: resumed?.samples ?? 0, read, lossesBefore: this.#gpu.losses, noise: undefined };
+  }
+
+  /** Renders on the device there is, from the last checkpoint to the end. */
+  async #attempt(making: Making): Promise<RenderedShot | undefined> {
+    const { io, signal, keepPartial, progress } = this.#context;
+    const { shot, timings, timed, checkpoints, file } = making;
+    const { options } = shot;
+    const { scene, environment, warnings } = await this.#load(options, timings, timed);
     const camera = await cameraOf(shot.view, scene, options.width / options.height, io.cwd);
     const variant = variantIndex(scene, shot.variant);
-    if (this.#toldOf !== scene) for (const warning of warnings.slice(0, MAX_WARNINGS)) progress.warning(warning);
-    if (this.#toldOf !== scene && warnings.length > MAX_WARNINGS) progress.warning(`and ${warnings.length - MAX_WARNINGS} more; --json lists them all.`);
-    this.#toldOf = scene;
+    this.#tell(scene, warnings);
     signal.throwIfAborted();
     await this.#device(timed);
     signal.throwIfAborted();
-    const { adapterName, software } = this.#opened as OpenedGpu;
+    const { adapterName, software } = this.#gpu.opened as OpenedGpu;
     const tracer = await timed('prepareMs', () => this.#prepared(options, scene, camera, variant));
-
-    let noise: number | undefined;
-    await timed('renderMs', async () => {
-      // Nobody is looking at a canvas here: larger submissions than in a page, still far from any watchdog.
-      for await (const state of tracer.render({ samples: options.samples, ...(options.noise === undefined ? {} : { noise: options.noise }), signal, maxSubmitMs: 200 })) {
-        noise = state.noise ?? noise;
-        progress.samples(state);
-      }
-    });
+    await this.#restore(tracer, making);
+    await timed('renderMs', () => this.#sample(tracer, making));
     const { samples } = tracer;
+    if (signal.aborted && file && samples > 0) {
+      await checkpoints.save(tracer);
+      if ((await checkpoints.flush()) > 0) progress.line(`${file.path}: ${samples} samples; the same command goes on from there`);
+    }
     if (samples === 0 || (signal.aborted && !keepPartial)) return undefined;
     progress.stage('write');
     const picture = await timed('readMs', () => readPicture(tracer, options, samples));
+    await this.#flushed();
     const files: WrittenFile[] = [];
     for (const target of shot.outputs) files.push(await timed('writeMs', () => writePicture(picture, target, options, io.cwd)));
-    timings.totalMs = io.now() - start;
+    await checkpoints.settled();
+    if (!signal.aborted) await file?.remove();
+    timings.totalMs = io.now() - making.start;
     const { statistics } = tracer;
-    const samplesPerSecond = timings.renderMs > 0 ? samples / (timings.renderMs / 1000) : 0;
+    const samplesPerSecond = timings.renderMs > 0 ? Math.max(0, samples - making.resumed) / (timings.renderMs / 1000) : 0;
+    const gpuLosses = this.#gpu.losses - making.lossesBefore;
     const names = files.map(({ path }) => path).join(', ');
     progress.line(`${names}: ${options.width}×${options.height}, ${samples}${signal.aborted && options.noise === undefined ? ` of ${options.samples}` : ''} ${options.samples === 1 ? 'sample' : 'samples'} at ${rate(samplesPerSecond)}/s, ${duration(timings.totalMs)} in all`);
     if (statistics.badSamples > 0) progress.warning(`${shotLabel(shot)}: ${statistics.badSamples} samples were not numbers and were left out; please report the model.`);
-    return { files, samples, ...(noise === undefined ? {} : { noise }), samplesPerSecond, camera: camera.name || camera.type, environment, adapter: { name: adapterName, software }, timings, statistics, warnings };
+    const { noise, resumed } = making;
+    return { files, samples, resumedSamples: resumed, gpuLosses, ...(noise === undefined ? {} : { noise }), samplesPerSecond, camera: camera.name || camera.type, environment, adapter: { name: adapterName, software }, timings, statistics, warnings };
   }
 
-  async #device(timed: <T>(key: keyof RenderTimings, run: () => Promise<T>) => Promise<T>): Promise<GPUDevice> {
-    const { backend, progress } = this.#context;
-    if (!this.#opened) {
-      progress.stage('start GPU');
-      this.#opened = await timed('deviceMs', () => backend.openGpu(this.#gpuName));
-      progress.line(`${this.#opened.software ? 'no GPU: rendering on the processor, ' : ''}${this.#opened.adapterName}`);
+  async #load(options: RenderCommandOptions, timings: RenderTimings, timed: Timed): Promise<PreparedScene> {
+    const { backend, progress, loader, signal } = this.#context;
+    progress.stage('load model');
+    const { deviceMs, environmentMs } = timings;
+    const prepared = await timed('loadMs', () => loader.load(options, signal, async () => backend.compressedFormats(await this.#device(timed)), (run) => timed('environmentMs', run)));
+    // A model whose pictures can stay packed asks the GPU what it reads: until it runs, nothing is loaded.
+    timings.loadMs -= timings.deviceMs - deviceMs + (timings.environmentMs - environmentMs);
+    return prepared;
+  }
+
+  #tell(scene: Scene, warnings: readonly string[]): void {
+    const { progress } = this.#context;
+    if (this.#toldOf === scene) return;
+    this.#toldOf = scene;
+    for (const warning of warnings.slice(0, MAX_WARNINGS)) progress.warning(warning);
+    if (warnings.length > MAX_WARNINGS) progress.warning(`and ${warnings.length - MAX_WARNINGS} more; --json lists them all.`);
+  }
+
+  async #restore(tracer: Tracer, { checkpoints, file, read, shot }: Making): Promise<void> {
+    const film = checkpoints.latest;
+    if (!film) return;
+    try {
+      await tracer.restoreFilm(film);
+    } catch (error) {
+      if (!(error instanceof GlanzError) || error.code !== 'renderer/film-state') throw error;
+      if (file && film === read) throw new CliError('cli/checkpoint', `The checkpoint "${file.path}" belongs to another image: ${error.message} Repeat the command that wrote it, or name another file by --checkpoint.`, { cause: error, location: { file: file.path } });
+      // Another GPU may read other formats of textures, which makes it another scene.
+      this.#context.progress.warning(`${shotLabel(shot)}: begins from the first sample, since this GPU cannot go on with the samples of another.`);
+      checkpoints.forget();
+      tracer.reset();
     }
-    return this.#opened.device;
+  }
+
+  async #sample(tracer: Tracer, making: Making): Promise<void> {
+    const { progress, signal } = this.#context;
+    const { shot: { options }, checkpoints } = making;
+    checkpoints.restart();
+    // Nobody is looking at a canvas here: larger submissions than in a page, still far from any watchdog.
+    for await (const state of tracer.render({ samples: options.samples, ...(options.noise === undefined ? {} : { noise: options.noise }), signal, maxSubmitMs: 200 })) {
+      making.noise = state.noise ?? making.noise;
+      progress.samples(state);
+      this.#gpu.check();
+      checkpoints.tick(tracer);
+    }
+    await checkpoints.settled();
+  }
+
+  /** Throws what the device has had to say of the work so far, before anything is written. */
+  async #flushed(): Promise<void> {
+    await (this.#gpu.opened as OpenedGpu).device.queue.onSubmittedWorkDone();
+    // Errors arrive as events, after the promise.
+    await new Promise((done) => setImmediate(done));
+    this.#gpu.check();
+  }
+
+  /** The error to end with, after the last checkpoint has been written. */
+  async #withCheckpoint(error: unknown, { checkpoints, file }: Making): Promise<unknown> {
+    const samples = await checkpoints.flush();
+    const kept = `${samples} samples are in "${file?.path}": the same command goes on from there.`;
+    if (!(error instanceof GpuGoneError)) {
+      if (samples > 0) this.#context.progress.line(kept);
+      return error;
+    }
+    const rest = samples > 0 ? kept : file ? 'There was no checkpoint yet.' : 'With --checkpoint FILE, a later run goes on from the last samples.';
+    return new GpuGoneError(`${error.message} ${rest}`, error.givesDevices, error.cause);
+  }
+
+  async #device(timed: Timed): Promise<GPUDevice> {
+    const { progress } = this.#context;
+    if (!this.#gpu.opened) {
+      progress.stage('start GPU');
+      const { software, adapterName } = await timed('deviceMs', () => this.#gpu.open());
+      progress.line(`${software ? 'no GPU: rendering on the processor, ' : ''}${adapterName}`);
+    }
+    return (this.#gpu.opened as unknown as OpenedGpu).device;
   }
 
   /** A tracer of the scene with an empty film, at the camera, in the variant. */
   async #prepared(options: RenderCommandOptions, scene: Scene, camera: Camera, variant: number | undefined): Promise<Tracer> {
     const { backend, progress, signal } = this.#context;
-    const { device } = this.#opened as OpenedGpu;
+    const { device } = this.#gpu.opened as OpenedGpu;
     const { width, height, depth, seed, quality, transparent } = options;
     const key = JSON.stringify([sceneKey(options), width, height, depth, seed, quality, transparent]);
     if (this.#tracer && key === this.#key) {
@@ -145,8 +295,7 @@ export class Lane {
       this.#tracer.reset();
       return this.#tracer;
     }
-    this.#tracer?.destroy();
-    this.#tracer = undefined;
+    this.#drop();
     this.#tracer = await backend.createTracer(device, scene, {
       width,
       height,
@@ -163,36 +312,15 @@ export class Lane {
     return this.#tracer;
   }
 
+  /** The next picture gets a tracer of its own. */
+  #drop(): void {
+    this.#tracer?.destroy();
+    this.#tracer = undefined;
+  }
+
   /** Gives the GPU back. */
   close(): void {
-    this.#tracer?.destroy();
-    this.#opened?.device.destroy();
-    this.#tracer = this.#opened = undefined;
+    this.#drop();
+    this.#gpu.close();
   }
-}
-
-async function lightLayers(tracer: Tracer): Promise<PictureLayers['lights']> {
-  const groups = tracer.lightGroups;
-  if (groups.length < 2) return [];
-  return Promise.all(groups.map(async ({ name }) => ({ name, data: await tracer.readLightGroup(name) })));
-}
-
-async function readPicture(tracer: Tracer, options: RenderCommandOptions, samples: number): Promise<Picture> {
-  const { width, height, outputs } = options;
-  const beauty = await tracer.read('beauty');
-  const base = { width, height, beauty, samples, software: `Glanz ${version()}` };
-  if (!outputs.some(({ format }) => format === 'exr')) return base;
-  return {
-    ...base,
-    layers: {
-      albedo: await tracer.read('albedo'),
-      normal: await tracer.read('normal'),
-      position: await tracer.read('position'),
-      variance: await tracer.read('variance'),
-      lights: await lightLayers(tracer),
-      depth: await tracer.read('depth'),
-      objectId: await tracer.read('objectId'),
-      materialId: await tracer.read('materialId'),
-    },
-  };
 }

@@ -11,6 +11,8 @@ export interface Shot {
   readonly view: View;
   /** With the names of variant and view in them. */
   readonly outputs: readonly OutputTarget[];
+  /** Likewise; `undefined`: samples are kept in memory only. */
+  readonly checkpoint: string | undefined;
 }
 
 const PLACEHOLDER = /\{(\w+)\}/g;
@@ -20,8 +22,8 @@ const NAMES = ['model', 'variant', 'view'];
 export const hasPlaceholders = (path: string): boolean => path.search(PLACEHOLDER) >= 0;
 
 /** @throws {CliError} `cli/usage` for a place that nothing is known for. */
-export function checkPlaceholders(path: string): void {
-  for (const [whole, name] of path.matchAll(PLACEHOLDER)) if (!NAMES.includes(name as string)) throw new CliError('cli/usage', `--output "${path}": ${whole} is unknown. Known: ${NAMES.map((known) => `{${known}}`).join(', ')}.`);
+export function checkPlaceholders(path: string, option = '--output'): void {
+  for (const [whole, name] of path.matchAll(PLACEHOLDER)) if (!NAMES.includes(name as string)) throw new CliError('cli/usage', `${option} "${path}": ${whole} is unknown. Known: ${NAMES.map((known) => `{${known}}`).join(', ')}.`);
 }
 
 function filled(path: string, names: Readonly<Record<string, string>>, several: readonly string[]): string {
@@ -33,15 +35,16 @@ function filled(path: string, names: Readonly<Record<string, string>>, several: 
 /**
  * All pictures of a request: each variant from each view.
  * @param all Names of the model's variants, for `--variant all`.
+ * @param checkpoint See `RenderCommand.checkpoint`.
  */
-export function shotsOf(options: RenderCommandOptions, all: readonly string[] = []): Shot[] {
+export function shotsOf(options: RenderCommandOptions, all: readonly string[] = [], checkpoint?: string): Shot[] {
   const variants = options.variants.flatMap((variant) => (variant === 'all' ? all : [variant]));
   const model = fileNamePart((options.model.split(/[\\/]/).pop() as string).replace(/\.[^.]*$/, ''));
   const several = [...(variants.length > 1 ? ['variant'] : []), ...(options.views.length > 1 ? ['view'] : [])];
   return (variants.length === 0 ? [undefined] : variants).flatMap((variant) =>
     options.views.map((view) => {
       const names = { model, variant: variant === undefined ? 'default' : fileNamePart(variant), view: view.name };
-      return { options, variant, view, outputs: options.outputs.map((target) => ({ ...target, path: filled(target.path, names, several) })) };
+      return { options, variant, view, outputs: options.outputs.map((target) => ({ ...target, path: filled(target.path, names, several) })), checkpoint: checkpoint === undefined ? undefined : filled(checkpoint, names, several) };
     }),
   );
 }
@@ -49,8 +52,8 @@ export function shotsOf(options: RenderCommandOptions, all: readonly string[] = 
 /** @throws {CliError} `cli/usage` if two pictures would have the same name. */
 export function checkDistinct(shots: readonly Shot[]): void {
   const seen = new Set<string>();
-  for (const { outputs } of shots) {
-    for (const { path } of outputs) {
+  for (const { outputs, checkpoint } of shots) {
+    for (const path of [...outputs.map((target) => target.path), ...(checkpoint === undefined ? [] : [checkpoint])]) {
       if (seen.has(path)) throw new CliError('cli/usage', `Two pictures would be written to "${path}": put {model}, {variant} or {view} into the name, or give each its own.`);
       seen.add(path);
     }

@@ -1,0 +1,31 @@
+import type { Tracer } from '../backend';
+import type { RenderCommandOptions } from '../options';
+import type { Picture, PictureLayers } from '../output/picture';
+import { version } from '../version';
+
+async function lightLayers(tracer: Tracer): Promise<PictureLayers['lights']> {
+  const groups = tracer.lightGroups;
+  if (groups.length < 2) return [];
+  return Promise.all(groups.map(async ({ name }) => ({ name, data: await tracer.readLightGroup(name) })));
+}
+
+/** Copies from the GPU what the outputs need. */
+export async function readPicture(tracer: Tracer, options: RenderCommandOptions, samples: number): Promise<Picture> {
+  const { width, height, outputs } = options;
+  const beauty = await tracer.read('beauty');
+  const base = { width, height, beauty, samples, software: `Glanz ${version()}` };
+  if (!outputs.some(({ format }) => format === 'exr')) return base;
+  return {
+    ...base,
+    layers: {
+      albedo: await tracer.read('albedo'),
+      normal: await tracer.read('normal'),
+      position: await tracer.read('position'),
+      variance: await tracer.read('variance'),
+      lights: await lightLayers(tracer),
+      depth: await tracer.read('depth'),
+      objectId: await tracer.read('objectId'),
+      materialId: await tracer.read('materialId'),
+    },
+  };
+}

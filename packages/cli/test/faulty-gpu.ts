@@ -1,0 +1,72 @@
+import { nodeBackend, type Backend, type FilmState, type OpenedGpu } from '../src/index';
+
+/** A real device under test. */
+export interface FaultyDevice {
+  readonly device: GPUDevice;
+  /** Of the devices of a backend, from 0. */
+  readonly index: number;
+  readonly name: string | undefined;
+  /** Submissions so far. */
+  submits: number;
+  /** Loses it as a driver does: reason `unknown`, and everything that is under way fails. */
+  readonly lose: () => void;
+}
+
+/** What happens to the devices. */
+export interface Faults {
+  /** Called before each submission. */
+  readonly onSubmit?: (device: FaultyDevice) => void;
+  /** Called before each copy of a film to the CPU and after it. */
+  readonly onSave?: (device: FaultyDevice, film?: FilmState) => void;
+  /** Called before a device is opened; throws if there is none. */
+  readonly onOpen?: (index: number, name: string | undefined) => void;
+}
+
+/** The real backend, whose devices can be lost at any submission. */
+export function faultyBackend({ onSubmit, onSave, onOpen }: Faults): { readonly backend: Backend; readonly devices: FaultyDevice[] } {
+  const real = nodeBackend();
+  const devices: FaultyDevice[] = [];
+  const backend: Backend = {
+    ...real,
+    async openGpu(name, onError): Promise<OpenedGpu> {
+      onOpen?.(devices.length, name);
+      const opened = await real.openGpu('software', onError);
+      const { device } = opened;
+      let fire: (info: GPUDeviceLostInfo) => void = () => undefined;
+      const injected = new Promise<GPUDeviceLostInfo>((done) => (fire = done));
+      Object.defineProperty(device, 'lost', { value: Promise.race([injected, device.lost]) });
+      const faulty: FaultyDevice = {
+        device,
+        index: devices.length,
+        name,
+        submits: 0,
+        lose() {
+          fire({ reason: 'unknown', message: 'injected loss' } as GPUDeviceLostInfo);
+          device.destroy();
+        },
+      };
+      devices.push(faulty);
+      const { queue } = device;
+      const submit = queue.submit.bind(queue);
+      queue.submit = (buffers) => {
+        faulty.submits++;
+        onSubmit?.(faulty);
+        return submit(buffers);
+      };
+      return { ...opened, adapterName: name ?? opened.adapterName };
+    },
+    async createTracer(device, scene, options) {
+      const tracer = await real.createTracer(device, scene, options);
+      const save = tracer.saveFilm.bind(tracer);
+      tracer.saveFilm = async () => {
+        const faulty = devices.find((one) => one.device === device) as FaultyDevice;
+        onSave?.(faulty);
+        const film = await save();
+        onSave?.(faulty, film);
+        return film;
+      };
+      return tracer;
+    },
+  };
+  return { backend, devices };
+}

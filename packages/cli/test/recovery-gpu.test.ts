@@ -1,0 +1,114 @@
+import { existsSync, readdirSync, readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { GlanzError } from '@glanz/scene';
+import { describe, expect, it } from 'vitest';
+import type { BatchResult, RenderResult } from '../src/index';
+import { runCli } from '../src/index';
+import { fakeIo, temporaryFolder, type FakeIo } from './fakes';
+import { faultyBackend, type Faults } from './faulty-gpu';
+import { makeGlb } from './glb';
+
+class DeviceError extends GlanzError {}
+
+// The real renderer on the software GPU, whose device is lost at chosen submissions.
+const QUALITY = ['--size', '48x32', '--samples', '24', '--depth', '3', '--seed', '7', '--bits', '16'];
+const OUTPUTS = ['-o', 'x.png', '-o', 'x.exr', '-o', 'x.hdr'];
+const files = ['x.png', 'x.exr', 'x.hdr'];
+const folder = () => temporaryFolder({ 'red.glb': makeGlb({ camera: true }), 'shoe.glb': makeGlb({ camera: true, variants: true }) });
+
+/** A clock that runs a thousand times as fast, so that a checkpoint is due after every batch. */
+function hastyIo(cwd: string): FakeIo {
+  const io = fakeIo(cwd);
+  return Object.assign(Object.create(io) as FakeIo, { now: () => 1000 * performance.now() });
+}
+
+async function glanz(argv: readonly string[], cwd: string, faults: Faults = {}, io: FakeIo = hastyIo(cwd)) {
+  const { backend, devices } = faultyBackend(faults);
+  const code = await runCli(['render', ...argv, '--json'], io, backend);
+  const out = io.out.join('');
+  return { code, out, err: io.err.join(''), devices, result: JSON.parse(out) as RenderResult };
+}
+
+const bytes = (cwd: string, names: readonly string[] = files) => names.map((name) => readFileSync(join(cwd, name)));
+const same = (a: readonly Buffer[], b: readonly Buffer[]) => a.map((one, i) => Buffer.compare(one, b[i] as Buffer));
+
+describe('the files are the same bit for bit', () => {
+  it('when the GPU is lost while it is prepared, at samples, and at the last copy', async () => {
+    const whole = folder();
+    const plain = await glanz(['red.glb', ...OUTPUTS, ...QUALITY], whole);
+    expect(plain.code, plain.err).toBe(0);
+    expect(plain.result).toMatchObject({ gpuLosses: 0, resumedSamples: 0, samples: 24 });
+    const submits = plain.devices[0]!.submits;
+    expect(submits).toBeGreaterThan(10);
+    const expected = bytes(whole);
+    for (const point of [1, Math.round(submits / 3), submits - 12, submits]) {
+      const cwd = folder();
+      const { code, err, devices, result } = await glanz(['red.glb', ...OUTPUTS, ...QUALITY], cwd, { onSubmit: (device) => device.index === 0 && device.submits === point && device.lose() });
+      expect([point, code, devices.length], err).toEqual([point, 0, 2]);
+      expect(same(bytes(cwd), expected), `lost at ${point} of ${submits}`).toEqual([0, 0, 0]);
+      expect(result).toMatchObject({ samples: 24, gpuLosses: 1 });
+      expect(readdirSync(cwd).sort()).toEqual(['red.glb', 'shoe.glb', ...files].sort());
+    }
+  });
+
+  it('when it goes on from a checkpoint towards a noise target, lost again while the next one is copied', async () => {
+    const argv = ['red.glb', '-o', 'x.exr', '--size', '40x24', '--samples', '1024', '--noise', '0.006', '--depth', '3', '--bits', '32'];
+    const whole = folder();
+    const plain = await glanz(argv, whole);
+    expect(plain.code, plain.err).toBe(0);
+    const cwd = folder();
+    const saved = new Map<number, number>();
+    const { code, err, devices, result } = await glanz(argv, cwd, {
+      onSave({ index, lose }, film) {
+        if (film) return;
+        saved.set(index, (saved.get(index) ?? 0) + 1);
+        if (index < 2 && saved.get(index) === 2) lose();
+      },
+    });
+    expect([code, devices.length], err).toEqual([0, 3]);
+    expect(err.match(/going on from sample [1-9]\d*/g)?.length, err).toBe(2);
+    expect([result.samples, result.noise]).toEqual([plain.result.samples, plain.result.noise]);
+    expect(same(bytes(cwd, ['x.exr']), bytes(whole, ['x.exr']))).toEqual([0]);
+  });
+
+  it('in a batch, lost in the third of four', async () => {
+    const argv = ['shoe.glb', '--variant', 'red', '--variant', 'green', '--view', 'front', '--view', 'iso', ...QUALITY];
+    const names = ['shoe-red-front.png', 'shoe-red-iso.png', 'shoe-green-front.png', 'shoe-green-iso.png'];
+    const whole = folder();
+    expect((await glanz(argv, whole)).code).toBe(0);
+    const cwd = folder();
+    let armed = 0;
+    const { code, err, devices, out } = await glanz(argv, cwd, {
+      onSubmit({ index, lose }) {
+        if (index === 0 && existsSync(join(cwd, names[1]!)) && ++armed === 6) lose();
+      },
+    });
+    expect([code, devices.length], err).toEqual([0, 2]);
+    expect((JSON.parse(out) as BatchResult).pictures.map((picture) => (picture as RenderResult).gpuLosses)).toEqual([0, 0, 1, 0]);
+    expect(same(bytes(cwd, names), bytes(whole, names))).toEqual([0, 0, 0, 0]);
+  });
+
+  it('when the GPU is gone for good, and a later run goes on from --checkpoint', async () => {
+    const argv = ['red.glb', ...OUTPUTS, ...QUALITY, '--samples', '300'];
+    const whole = folder();
+    expect((await glanz(argv, whole)).code).toBe(0);
+    const cwd = folder();
+    let saves = 0;
+    const first = await glanz([...argv, '--checkpoint', 'x.ckpt'], cwd, {
+      onSave: ({ lose }, film) => film && ++saves === 2 && lose(),
+      onOpen(index) {
+        if (index > 0) throw new DeviceError('renderer/no-adapter', 'WebGPU found no usable GPU.');
+      },
+    });
+    expect([first.code, readdirSync(cwd).includes('x.ckpt'), readdirSync(cwd).includes('x.png')], first.err).toEqual([5, true, false]);
+    expect(first.err).toMatch(/\d+ samples are in "x\.ckpt": the same command goes on from there\. \[cli\/gpu-lost\]\n$/);
+    // The wrong scene is refused, whatever its settings.
+    const wrong = await glanz([...argv.map((word) => (word === 'red.glb' ? 'shoe.glb' : word)), '--checkpoint', 'x.ckpt'], cwd);
+    expect([wrong.code, wrong.err]).toEqual([3, expect.stringContaining('belongs to another image')]);
+    const second = await glanz([...argv, '--checkpoint', 'x.ckpt'], cwd);
+    expect(second.code, second.err).toBe(0);
+    expect(second.result.resumedSamples).toBeGreaterThan(0);
+    expect(same(bytes(cwd), bytes(whole))).toEqual([0, 0, 0]);
+    expect(existsSync(join(cwd, 'x.ckpt'))).toBe(false);
+  });
+});
