@@ -57,10 +57,11 @@ export function valueAt(times: Float32Array, values: Float32Array, interpolation
 }
 
 /**
- * Poses of the nodes at a time. Values that are not finite do not count.
+ * Poses of the nodes at a time. Values that are not finite do not count, with a warning.
  * @param time Seconds from the animation's beginning.
+ * @param warn Takes the number of a sampler and what is wrong with it.
  */
-export function posesAt({ channels, samplers }: GltfAnimation, time: number, accessors: Accessors): Map<number, NodePose> {
+export function posesAt({ channels, samplers }: GltfAnimation, time: number, accessors: Accessors, warn: (sampler: number, what: string) => void): Map<number, NodePose> {
   const poses = new Map<number, NodePose>();
   const read = new Map<number, Float32Array>();
   const numbers = (accessor: number) => {
@@ -68,12 +69,20 @@ export function posesAt({ channels, samplers }: GltfAnimation, time: number, acc
     read.set(accessor, known);
     return known;
   };
+  for (const sampler of new Set(channels.map((channel) => channel.sampler))) {
+    const times = numbers((samplers[sampler] as (typeof samplers)[number]).input);
+    const rise = times.every((at, key) => at >= (key === 0 ? 0 : (times[key - 1] as number)) && at < Infinity);
+    if (!rise) warn(sampler, 'has times that do not rise from 0 or later; the keys around a time may be the wrong ones');
+  }
   for (const { sampler, target } of channels) {
     const { input, output, interpolation } = samplers[sampler] as (typeof samplers)[number];
     const turns = target.path === 'rotation';
     const value = valueAt(numbers(input), numbers(output), interpolation, time, turns);
     const good = turns ? unit(value) : value.every(Number.isFinite) ? value : undefined;
-    if (!good) continue;
+    if (!good) {
+      warn(sampler, `has a value for the ${target.path} of node ${target.node} that is not finite or has no length; it does not count`);
+      continue;
+    }
     const pose = poses.get(target.node) ?? {};
     pose[target.path as keyof NodePose] = good;
     poses.set(target.node, pose);

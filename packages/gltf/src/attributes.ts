@@ -84,17 +84,38 @@ export function readPrimitive(primitive: PrimitiveData, name: string, opaque: bo
     mesh.normals = unitNormals(normals, positions, indices, warn);
     if (windByNormals(indices, positions, mesh.normals)) warn('its normals point to the back of each of its triangles, which are turned round.');
     const tangents = attribute('TANGENT', 4);
-    if (tangents && makeUnit(tangents, 4)) mesh.tangents = tangents;
+    if (tangents && makeUnit(tangents, 4)) mesh.tangents = withSigns(tangents, warn);
     else if (tangents) warn('TANGENT holds vectors of length 0 and is left out.');
   }
+  if (!normals && primitive.count('TANGENT') !== undefined) warn('TANGENT has no normals beside it and is left out.');
   const [uv0, uv1] = uvSets.map((set) => attribute(`TEXCOORD_${set}`, 2));
   if (uv0 || uv1) mesh.uvs = uv1 ? [uv0 ?? new Float32Array(2 * vertices), uv1] : [uv0 as Float32Array<ArrayBuffer>];
   const colors = attribute('COLOR_0', 4);
   if (colors) {
-    for (let i = 0; i < colors.length; i++) colors[i] = i % 4 === 3 && opaque ? 1 : Math.min(Math.max(colors[i] as number, 0), 1);
+    let clamped = 0;
+    for (let i = 0; i < colors.length; i++) {
+      const value = colors[i] as number;
+      const good = Math.min(Math.max(value, 0), 1);
+      if (Math.abs(good - value) > 1e-3) clamped++;
+      colors[i] = i % 4 === 3 && opaque ? 1 : good;
+    }
+    if (clamped > 0) warn(`COLOR_0 holds ${clamped} numbers below 0 or above 1; they are clamped.`);
     mesh.colors = colors;
   }
   return mesh;
+}
+
+/** Tangents with a handedness of −1 or 1, in place; without it there is no bitangent. */
+function withSigns(tangents: Float32Array<ArrayBuffer>, warn: (message: string) => void): Float32Array<ArrayBuffer> {
+  let wrong = 0;
+  for (let i = 3; i < tangents.length; i += 4) {
+    const sign = tangents[i] as number;
+    if (Math.abs(sign) === 1) continue;
+    if (!(Math.abs(Math.abs(sign) - 1) <= 1e-2)) wrong++;
+    tangents[i] = sign < 0 ? -1 : 1;
+  }
+  if (wrong > 0) warn(`TANGENT has ${wrong} handednesses that are neither −1 nor 1; their signs are taken.`);
+  return tangents;
 }
 
 /** The triangles whose corners exist and are finite. Positions that are not become 0, since nothing may be NaN. */

@@ -35,6 +35,7 @@ function openGlb(bytes: Uint8Array<ArrayBuffer>, view: DataView, name: string, w
   if (version !== 2) throw new GltfError('gltf/version', `${name} is a GLB of version ${version}; only version 2 is known.`, { location: { file: name, byteOffset: 4 } });
   const total = view.getUint32(8, true);
   if (total > bytes.length) throw truncated(total, 8);
+  if (total < bytes.length) warnings.push({ code: 'gltf/container', message: `${name} goes on for ${bytes.length - total} bytes after its end, which are not read.` });
   let json: Raw | undefined;
   let binary: Uint8Array<ArrayBuffer> | undefined;
   for (let at = 12; at + 8 <= total; ) {
@@ -56,6 +57,10 @@ function openGlb(bytes: Uint8Array<ArrayBuffer>, view: DataView, name: string, w
 
 function parseJson(bytes: Uint8Array, name: string, warnings: SceneWarning[]): Raw {
   let json: unknown;
+  // TextDecoder skips it.
+  if (bytes[0] === 0xef && bytes[1] === 0xbb && bytes[2] === 0xbf) {
+    warnings.push({ code: 'gltf/container', message: `${name}: its JSON starts with a byte order mark, which glTF does not allow; it is skipped.` });
+  }
   try {
     json = JSON.parse(new TextDecoder('utf-8', { fatal: true }).decode(bytes));
   } catch (cause) {

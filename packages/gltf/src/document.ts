@@ -1,6 +1,7 @@
 import type { SceneWarning } from '@glanz/scene';
 import { Accessors } from './accessors';
 import type { CheckedDocument } from './check/index';
+import { fromBase64, fromPercents } from './data-bytes';
 import { GltfError } from './error';
 import type { Ktx2Decoder } from './images';
 import type { GltfMeshopt } from './json';
@@ -96,6 +97,10 @@ export async function readDocument(checked: CheckedDocument, binary: Uint8Array<
       const path = `/buffers/${index}`;
       const embedded = buffer.uri === undefined;
       const bytes = embedded ? (index === 0 ? binary : undefined) : await readUri(buffer.uri, source, options.signal);
+      // Chunks are padded to multiples of 4 bytes (glTF 2.0, 4.4.3.3).
+      if (embedded && bytes && bytes.length > buffer.byteLength + 3) {
+        warnings.push({ code: 'gltf/container', message: `${file}: the binary chunk has ${bytes.length} bytes, but ${path} only ${buffer.byteLength}; the others are not read.`, path });
+      }
       if (!bytes) {
         if (neededBuffers.has(index)) throw new GltfError('gltf/malformed', `${file}: ${path} has no uri, and the file no binary chunk for it.`, { location: { file, path } });
         return undefined;
@@ -164,25 +169,4 @@ export async function readUri(uri: string, source: Source, signal: AbortSignal |
   const path = decoded(uri);
   if (/^[a-z][a-z0-9+.-]*:|^\/|^\\/i.test(path)) throw new GltfError('gltf/missing-resource', `${source.name} names "${uri}": only files beside the document are read.`, { location: { file: source.name } });
   return source.read(path, signal);
-}
-
-/** Bytes of text in which some are escaped by their numbers (RFC 3986, 2.1); they need not be UTF-8. */
-function fromPercents(text: string): Uint8Array<ArrayBuffer> {
-  const plain = new TextEncoder().encode(text);
-  const bytes = new Uint8Array(plain.length);
-  let length = 0;
-  for (let i = 0; i < plain.length; i++) {
-    const escaped = plain[i] === 0x25 ? /^[0-9a-f]{2}$/i.exec(String.fromCharCode(...plain.subarray(i + 1, i + 3))) : null;
-    bytes[length++] = escaped ? Number.parseInt(escaped[0], 16) : (plain[i] as number);
-    if (escaped) i += 2;
-  }
-  return bytes.slice(0, length);
-}
-
-/** @throws {Error} for text that is none. */
-function fromBase64(text: string): Uint8Array<ArrayBuffer> {
-  const binary = atob(text.includes('%') ? decodeURIComponent(text) : text);
-  const bytes = new Uint8Array(binary.length);
-  for (let i = 0; i < binary.length; i++) bytes[i] = binary.charCodeAt(i);
-  return bytes;
 }

@@ -7,6 +7,7 @@ import { GltfError } from './error';
 import type { GltfImage, GltfJson, GltfTexture } from './json';
 import type { Budget } from './limits';
 import { pictureSize } from './picture-header';
+import { pictureType, wrongType } from './picture-type';
 import type { Source } from './source';
 
 /** Decoded pixels: RGBA, 8 bits a channel, straight alpha, top row first; colour codes as they are in the file. */
@@ -32,22 +33,6 @@ export type Ktx2Decoder = (bytes: Uint8Array<ArrayBuffer>, formats?: readonly Co
 /** Formats that the GPU reads; or what tells them, asked at the first picture that could have one. */
 export type CompressedFormats = readonly CompressedFormat[] | (() => Promise<readonly CompressedFormat[]>);
 
-const FORMATS = [
-  ['image/png', [0x89, 0x50, 0x4e, 0x47]],
-  ['image/jpeg', [0xff, 0xd8, 0xff]],
-  ['image/webp', [0x52, 0x49, 0x46, 0x46]],
-  ['image/ktx2', [0xab, 0x4b, 0x54, 0x58, 0x20, 0x32, 0x30, 0xbb, 0x0d, 0x0a, 0x1a, 0x0a]],
-  // After the length of the first box: "ftypavif" or "ftypavis".
-  ['image/avif', [undefined, undefined, undefined, undefined, 0x66, 0x74, 0x79, 0x70, 0x61, 0x76, 0x69]],
-] as const;
-
-/** The type of a picture by its first bytes. Decoders know more formats than glTF: SVG, for one, may name other files. */
-function formatOf(bytes: Uint8Array): string {
-  const found = FORMATS.find(([, magic]) => magic.every((byte, at) => byte === undefined || bytes[at] === byte));
-  if (!found) throw new Error('it is no PNG, JPEG, WebP, AVIF or KTX2');
-  return found[0];
-}
-
 /** The picture behind a texture: a better one where the document offers it and it can be read, else the plain one. */
 function sourceOf(texture: GltfTexture | undefined, ktx2: boolean): number | undefined {
   const by = (name: string) => texture?.extensions?.[name]?.source;
@@ -71,7 +56,8 @@ export class TextureTable {
   readonly textures: Texture[] = [];
   /** Pictures (as the scene counts them) that could not be decoded. */
   readonly failed = new Set<number>();
-  readonly #broken = new Map<number, SceneWarning>();
+  /** What is wrong with pictures that have been read: one warning each. */
+  readonly #notes = new Map<number, SceneWarning>();
   readonly #wanted = new Map<string, number>();
   readonly #pictures: Picture[] = [];
   readonly #places = new Map<string, number>();
@@ -155,7 +141,7 @@ export class TextureTable {
 
   #nameOf(index: number): string {
     const image = this.#json.images?.[index] as GltfImage;
-    return image.name ?? image.uri?.slice(0, 80) ?? `image ${index}`;
+    return image.name ?? (image.uri === undefined ? `image ${index}` : String(image.uri).slice(0, 80));
   }
 
   /**
@@ -167,7 +153,9 @@ export class TextureTable {
     const image = this.#json.images?.[index] as GltfImage;
     const bytes = image.uri === undefined ? viewBytes(image.bufferView ?? -1) : await readUri(image.uri, this.#source, signal);
     try {
-      const type = formatOf(bytes);
+      const type = pictureType(bytes);
+      const declared = wrongType(image, type);
+      if (declared !== undefined) this.#notes.set(index, { code: 'gltf/image', message: `${this.#source.name}: image ${index} ("${this.#nameOf(index)}") says that it is ${declared}, but its bytes are ${type}; the bytes count.`, path: `/images/${index}` });
       if (type === 'image/ktx2' && !this.#ktx2) throw new GltfError('gltf/missing-decoder', `${this.#source.name} has pictures in KTX2: pass decoders.ktx2, for which the package "three" has the transcoder.`, { location: { file: this.#source.name, path: `/images/${index}` } });
       // Before a decoder allocates anything.
       const said = pictureSize(bytes, type);
@@ -177,7 +165,7 @@ export class TextureTable {
       return decoded;
     } catch (error) {
       if (error instanceof GltfError && error.code !== 'gltf/picture') throw error;
-      this.#broken.set(index, { code: 'gltf/image', message: `${this.#source.name}: image ${index} ("${this.#nameOf(index)}") cannot be decoded and is left out: ${error instanceof Error ? error.message.split('\n')[0] : String(error)}.`, path: `/images/${index}` });
+      this.#notes.set(index, { code: 'gltf/image', message: `${this.#source.name}: image ${index} ("${this.#nameOf(index)}") cannot be decoded and is left out: ${error instanceof Error ? error.message.split('\n')[0] : String(error)}.`, path: `/images/${index}` });
       return undefined;
     }
   }
@@ -190,7 +178,7 @@ export class TextureTable {
    */
   async readImages(decode: ImageDecoder, viewBytes: (index: number) => Uint8Array<ArrayBuffer>, budget: Budget, signal: AbortSignal | undefined, onImage: () => void): Promise<Image[]> {
     const read = (index: number) => this.readImage(index, decode, viewBytes, budget, signal);
-    const wanted = [...new Set(this.#pictures.flatMap((picture) => ('image' in picture ? [picture.image] : picture.sources.filter((index) => index !== undefined))))];
+    const wanted = this.shownImages;
     // The first ones begin before this returns, so that decoders, which have threads of their own, are at work while geometry is read.
     const decoding = new Map<number, Promise<DecodedImage | undefined>>();
     for (const [at, index] of wanted.entries()) {
@@ -217,8 +205,14 @@ export class TextureTable {
     return images;
   }
 
-  /** Warnings about the pictures that could not be decoded, in their order. */
-  get brokenPictures(): readonly SceneWarning[] {
-    return [...this.#broken].sort(([a], [b]) => a - b).map(([, warning]) => warning);
+  /** The document's images that materials show. */
+  get shownImages(): number[] {
+    const all = this.#pictures.flatMap((picture) => ('image' in picture ? [picture.image] : picture.sources.filter((index) => index !== undefined)));
+    return [...new Set(all)];
+  }
+
+  /** Warnings about the pictures that have been read, in their order. */
+  get pictureWarnings(): readonly SceneWarning[] {
+    return [...this.#notes].sort(([a], [b]) => a - b).map(([, warning]) => warning);
   }
 }

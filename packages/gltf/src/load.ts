@@ -15,6 +15,7 @@ import { Budget, DEFAULT_LIMITS, type GltfLimits } from './limits';
 import { indexOf, readNodes, sceneToShow } from './nodes';
 import type { PrimitiveReader } from './primitive';
 import { openSource, type GltfInput, type Source } from './source';
+import { checkUnreadImages } from './unread-images';
 import { WarningList } from './warnings';
 
 /** How far a load has come. */
@@ -115,11 +116,15 @@ export async function buildScene(source: Source, options: GltfOptions & { readon
     reader,
     scene,
     shown,
-    poses: animation ? posesAt(animation, options.time ?? 0, reader.accessors) : new Map<number, NodePose>(),
+    poses: animation ? posesAt(animation, options.time ?? 0, reader.accessors, (sampler, what) => {
+      const path = `/animations/${checked.json.animations?.indexOf(animation)}/samplers/${sampler}`;
+      scene.warnings.push({ code: 'gltf/animation', message: `${source.name}: ${path} ${what}.`, path });
+    }) : new Map<number, NodePose>(),
     instances: new Budget(source.name, 'instances', options.limits),
     defaultMaterial: () => (fallback ??= addMaterial({ name: 'default' })),
     uvSetsOf: (material) => uvSets[material] as UvSets,
   });
+  checkUnreadImages(json, table.shownImages, reader, (path, what) => void scene.warnings.push({ code: 'gltf/image', message: `${source.name}: ${path} ${what}.`, path }));
   const metadata = metadataOf(json);
   if (metadata) scene.metadata = metadata;
   if (json.animations?.length) scene.animations = describeAnimations(json);
@@ -130,7 +135,7 @@ export async function buildScene(source: Source, options: GltfOptions & { readon
   scene.images = await images;
   const environment = await surroundings;
   if (environment) scene.environment = environment;
-  scene.warnings.push(...table.brokenPictures);
+  scene.warnings.push(...table.pictureWarnings);
   scene.textures = table.textures;
   for (const { textures } of scene.materials) {
     for (const [parameter, binding] of Object.entries(textures ?? {})) {

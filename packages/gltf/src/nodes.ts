@@ -9,7 +9,7 @@ import type { Budget } from './limits';
 import type { UvSets } from './materials';
 import { compose, identity, isFinite4x4, multiply, type Matrix } from './matrix';
 import { unitNormals } from './normals';
-import { jointMatrices, morphed, skinned } from './pose';
+import { isSkinnable, jointMatrices, morphed, skinned } from './pose';
 import { openPrimitive, type PrimitiveData, type PrimitiveReader } from './primitive';
 import { tangentSet, withTangents } from './tangents';
 
@@ -83,9 +83,10 @@ export function readNodes(context: NodeContext): void {
     if (light && visible) readLight(light, name, transform, scene);
     const mesh = node.mesh === undefined ? undefined : json.meshes?.[node.mesh];
     if (!mesh) continue;
-    // Some bones pull no vertex of a mesh; where the skin's node is does not count.
-    const places = node.skin === undefined ? instancesOf(context, node, transform, index) : [identity()];
+    const own = node.skin !== undefined && mesh.primitives.every(isSkinnable) ? [] : instancesOf(context, node, transform, index);
     mesh.primitives.forEach((primitive, at) => {
+      // A skin places what it moves; where its node is does not count.
+      const places = node.skin !== undefined && isSkinnable(primitive) ? [identity()] : own;
       const read = meshes.read(index, node, primitive, at);
       if (!read) return;
       context.instances.take(places.length, `/nodes/${index}`);
@@ -153,7 +154,7 @@ class MeshReader {
     const variants = this.#variants.get(primitive);
     const own = poses.get(nodeIndex)?.weights ?? node.weights;
     // Weights of the mesh itself give it one shape wherever it is.
-    const shared = node.skin === undefined && !own;
+    const shared = (node.skin === undefined || !isSkinnable(primitive)) && !own;
     const key = shared ? this.#keyOf(primitive, material, mesh?.weights) : '';
     if (shared && this.#shared.has(key)) {
       const known = this.#shared.get(key);
@@ -205,9 +206,10 @@ class MeshReader {
     if (!made) return undefined;
     const blended = weights.some((w) => w !== 0);
     if (blended) made = morphed(made, opened, weights);
-    if (node.skin !== undefined) made = skinned(made, opened, this.#jointsOf(node.skin), scene.warnings);
+    const posed = node.skin !== undefined && isSkinnable(primitive);
+    if (posed) made = skinned(made, opened, this.#jointsOf(node.skin as number), scene.warnings);
     // Blended normals are shorter than 1, and may even cancel out.
-    if ((node.skin !== undefined || blended) && made.normals) unitNormals(made.normals, made.positions, made.indices, (message) => scene.warnings.push({ code: 'gltf/primitive', message: `${label}: ${message}`, path }));
+    if ((posed || blended) && made.normals) unitNormals(made.normals, made.positions, made.indices, (message) => scene.warnings.push({ code: 'gltf/primitive', message: `${label}: ${message}`, path }));
     made = withoutUnusedVertices(made);
     const set = materials.map((index) => tangentSet(scene.materials[index])).find((wanted) => wanted !== undefined);
     return set === undefined ? made : withTangents(made, set);

@@ -46,20 +46,64 @@ export function jointMatrices(name: string, joints: readonly number[], bind: Flo
   });
 }
 
+/** Which joints move each vertex, and how much: four of each for every vertex. */
+interface Influences {
+  readonly joints: Float32Array;
+  readonly weights: Float32Array;
+}
+
+/** How far the weights of a vertex may be from a sum of 1 before this is reported: those of 8 bits, four sets of them. */
+const SUM_TOLERANCE = 0.05;
+
+/** Whether a primitive has what a skin moves it by. */
+export const isSkinnable = ({ attributes }: { readonly attributes: object }): boolean => 'JOINTS_0' in attributes && 'WEIGHTS_0' in attributes;
+
+/** The sets of influences of a primitive. What does not count in them is reported. */
+function influencesOf(
+  name: string,
+  primitive: PrimitiveData,
+  vertices: number,
+  joints: number,
+  warnings: SceneWarning[],
+): Influences[] {
+  const warn = (message: string) => void warnings.push({ code: 'gltf/skin', message: `${name}: ${message}` });
+  const sets: Influences[] = [];
+  const sums = new Float64Array(vertices);
+  for (let set = 0; ; set++) {
+    const semantics = [`JOINTS_${set}`, `WEIGHTS_${set}`] as const;
+    const [jointCount, weightCount] = semantics.map((semantic) => primitive.count(semantic));
+    // One without the other has been reported when the document was checked.
+    if (jointCount === undefined || weightCount === undefined) break;
+    if (jointCount !== vertices || weightCount !== vertices) {
+      warn(`${semantics.join(' and ')} have ${jointCount} and ${weightCount} entries for ${vertices} vertices and do not count.`);
+      continue;
+    }
+    const influences = { joints: primitive.floats(semantics[0], 4), weights: primitive.floats(semantics[1], 4) };
+    let infinite = 0, negative = 0, beyond = 0;
+    for (let i = 0; i < influences.weights.length; i++) {
+      const weight = influences.weights[i] as number;
+      if (!Number.isFinite(weight)) infinite++;
+      else if (weight < 0) negative++;
+      else sums[i >> 2] = (sums[i >> 2] as number) + weight;
+      if ((influences.joints[i] as number) >= joints) beyond++;
+    }
+    if (infinite > 0) warn(`${semantics[1]} holds numbers that are not finite; they do not count.`);
+    if (negative > 0) warn(`${semantics[1]} holds ${negative} negative numbers; they do not count.`);
+    if (beyond > 0) warn(`${semantics[0]} names a joint that does not exist ${beyond} times (the skin has ${joints}); it does not count.`);
+    sets.push(influences);
+  }
+  const off = sums.reduce((count, sum) => count + (Math.abs(sum - 1) > SUM_TOLERANCE ? 1 : 0), 0);
+  if (sets.length > 0 && off > 0) warn(`the weights of ${off} vertices do not add up to 1; they are scaled, and vertices without any stay where they are.`);
+  return sets;
+}
+
 /**
  * A mesh in the pose of its skeleton, in the world (glTF 2.0, section 3.7.3.3: the node's own transform does not count).
- * Weights that are not finite do not count, with a warning.
+ * Weights that are not finite or below 0, and joints that do not exist, do not count, with a warning.
  */
 export function skinned(mesh: Mesh, primitive: PrimitiveData, matrices: readonly (Matrix | undefined)[], warnings: SceneWarning[]): Mesh {
-  const warn = (message: string) => void warnings.push({ code: 'gltf/skin', message: `${mesh.name}: ${message}` });
-  const sets: { joints: Float32Array; weights: Float32Array }[] = [];
-  for (let set = 0; ; set++) {
-    if (primitive.count(`JOINTS_${set}`) === undefined || primitive.count(`WEIGHTS_${set}`) === undefined) break;
-    const weights = primitive.floats(`WEIGHTS_${set}`, 4);
-    if (!weights.every(Number.isFinite)) warn(`WEIGHTS_${set} holds numbers that are not finite; they do not count.`);
-    sets.push({ joints: primitive.floats(`JOINTS_${set}`, 4), weights });
-  }
   const vertices = mesh.positions.length / 3;
+  const sets = influencesOf(mesh.name, primitive, vertices, matrices.length, warnings);
   const positions = new Float32Array(mesh.positions.length);
   const normals = mesh.normals && new Float32Array(mesh.normals.length);
   const tangents = mesh.tangents?.slice();

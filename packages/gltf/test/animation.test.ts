@@ -89,3 +89,14 @@ test('channels that make no sense are left out, with a warning each; the others 
   expect(scene.instances[0]!.transform[12]).toBe(1);
   expect(scene.warnings.map(({ path }) => path)).toEqual(['/animations/0/samplers/1', '/animations/0/samplers/2', '/animations/0/samplers/3', '/animations/0/channels/2', '/animations/0/channels/3', '/animations/0/channels/4', '/animations/0/channels/5']);
 });
+
+test('keys that do not count are reported when the scene is posed by them', async () => {
+  const posed = async (times: number[], values: number[]) => {
+    const { warnings, instances } = await loadGltf(await animated('translation', 'LINEAR', times, values), { time: 1 });
+    return [instances[0]!.transform[12], warnings.map(({ path, message }) => [path, message])];
+  };
+  expect(await posed([0, 2], [1, 0, 0, 3, 0, 0])).toEqual([2, []]);
+  expect(await posed([0, 2], [1, 0, 0, NaN, 0, 0])).toEqual([0, [['/animations/0/samplers/0', expect.stringMatching(/translation of node \d that is not finite/)]]]);
+  const [, warnings] = await posed([2, 0, 1], [1, 0, 0, 3, 0, 0, 5, 0, 0]);
+  expect(warnings).toEqual([['/animations/0/samplers/0', expect.stringMatching(/times that do not rise/)]]);
+});

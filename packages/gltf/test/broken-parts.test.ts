@@ -22,6 +22,30 @@ const REPAIRED: readonly (readonly [what: string, path: string, change: (json: T
   ['morph targets in one primitive only', '/meshes/0/primitives', (json) => json['meshes'][0].primitives.push({ attributes: { POSITION: 0 }, targets: [{ POSITION: 0 }] })],
   ['weights for morph targets that are not there', '/meshes/0/weights', (json) => (json['meshes'][0].weights = [1, 2])],
   ['indices of a mesh that nothing shows', '/meshes/1/primitives/0', (json) => { json['meshes'].push({ primitives: [{ attributes: { POSITION: 0 }, indices: 2 }] }); json['accessors'].push({ bufferView: 0, componentType: 5121, type: 'SCALAR', count: 36 }); }],
+  ['children without an entry', '/nodes/0/children', (json) => (json['nodes'][0].children = [])],
+  ['a scene without an entry', '/scenes/1/nodes', (json) => json['scenes'].push({ nodes: [] })],
+  ['a list without an entry', '/cameras', (json) => (json['cameras'] = [])],
+  ['extensions without an entry', '/extensionsUsed', (json) => (json['extensionsUsed'] = [])],
+  ['variants without an entry', '/extensions/KHR_materials_variants/variants', (json) => (json['extensions'] = { KHR_materials_variants: { variants: [] } })],
+  ['an extension that is named twice', '/extensionsUsed', (json) => (json['extensionsUsed'] = ['KHR_materials_unlit', 'KHR_materials_unlit'])],
+  ['an extension that is required, but not used', '/extensionsUsed', (json) => (json['extensionsRequired'] = ['KHR_materials_unlit'])],
+  ['an extension of a material that is not declared', '/extensionsUsed', (json) => (json['materials'] = [{ extensions: { KHR_materials_unlit: {} } }])],
+  ['an extension of a texture that is not declared', '/extensionsUsed', (json) => (json['materials'] = [{ pbrMetallicRoughness: { baseColorTexture: { index: 0, extensions: { KHR_texture_transform: {} } } } }])],
+  ['a buffer of a type that is none', '/buffers/1/uri', (json) => json['buffers'].push({ byteLength: 3, uri: 'data:text/plain;base64,AAAA' })],
+  ['a buffer without a type', '/buffers/1/uri', (json) => json['buffers'].push({ byteLength: 3, uri: 'data:;base64,AAAA' })],
+  ['a buffer as text', '/buffers/1/uri', (json) => json['buffers'].push({ byteLength: 4, uri: 'data:application/octet-stream,AAAA' })],
+  ['normalised floats', '/accessors/0/normalized', (json) => (json['accessors'][0].normalized = true)],
+  ['texture coordinates of bytes', '/meshes/0/primitives/0/attributes/TEXCOORD_0', (json) => { json['accessors'].push({ bufferView: 0, componentType: 5121, type: 'VEC2', count: 3 }); json['meshes'][0].primitives[0].attributes.TEXCOORD_0 = 2; }],
+  ['a matrix beside a scale', '/nodes/0/matrix', (json) => Object.assign(json['nodes'][0], { matrix: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1], scale: [1, 1, 1] })],
+  ['a skin without a mesh', '/nodes/1/skin', (json) => { json['skins'] = [{ joints: [0] }]; json['nodes'].push({ skin: 0 }); }],
+  ['weights without a mesh', '/nodes/1/weights', (json) => json['nodes'].push({ weights: [1] })],
+  ['weights of a node for morph targets that are not there', '/nodes/0/weights', (json) => (json['nodes'][0].weights = [1])],
+  ['a camera of no type', '/cameras/0/type', (json) => (json['cameras'] = [{ perspective: { yfov: 1, znear: 1 } }])],
+  ['a camera of both types', '/cameras/0', (json) => (json['cameras'] = [{ type: 'perspective', perspective: { yfov: 1, znear: 1 }, orthographic: { xmag: 1, ymag: 1, znear: 0, zfar: 1 } }])],
+  ['an aspect ratio of 0', '/cameras/0/perspective/aspectRatio', (json) => (json['cameras'] = [{ type: 'perspective', perspective: { yfov: 1, znear: 1, aspectRatio: 0 } }])],
+  ['a spot light whose inner cone is the wider one', '/extensions/KHR_lights_punctual/lights/0/spot', (json) => (json['extensions'] = { KHR_lights_punctual: { lights: [{ type: 'spot', spot: { innerConeAngle: 1, outerConeAngle: 0.5 } }] } })],
+  ['two channels that move the same', '/animations/0/channels/1', (json) => { json['accessors'].push({ bufferView: 0, componentType: 5126, type: 'SCALAR', count: 3 }); json['animations'] = [{ samplers: [{ input: 2, output: 0 }], channels: [{ sampler: 0, target: { node: 0, path: 'scale' } }, { sampler: 0, target: { node: 0, path: 'scale' } }] }]; }],
+  ['a channel that moves a node with a matrix', '/animations/0/channels/0', (json) => { json['accessors'].push({ bufferView: 0, componentType: 5126, type: 'SCALAR', count: 3 }); json['nodes'][0].matrix = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]; json['animations'] = [{ samplers: [{ input: 2, output: 0 }], channels: [{ sampler: 0, target: { node: 0, path: 'scale' } }] }]; }],
   ['a later minor version', '/asset/version', (json) => (json['asset'] = { version: '2.1', minVersion: '2.1' })],
 ];
 
@@ -30,6 +54,60 @@ test.each(REPAIRED)('%s', async (_, path, change) => {
   expect(scene.warnings.map((warning) => warning.path)).toContain(path);
   expect(scene.instances.length).toBeGreaterThan(0);
   validateScene(scene);
+});
+
+/** What an attribute of the triangle, four numbers a vertex, is reported for. */
+async function attributeWarnings(semantic: string, numbers: readonly number[], others: TriangleJson = {}): Promise<string[]> {
+  const { json, binary } = triangle();
+  const all = new Uint8Array(44 + 48);
+  all.set(binary);
+  new Float32Array(all.buffer, 44, 12).set(numbers);
+  json['buffers'][0].byteLength = all.length;
+  json['bufferViews'].push({ buffer: 0, byteOffset: 44, byteLength: 48 });
+  json['accessors'].push({ bufferView: 2, componentType: 5126, type: 'VEC4', count: 3 });
+  Object.assign(json['meshes'][0].primitives[0].attributes, { [semantic]: 2, ...others });
+  return (await loadGltf(glb(json, all))).warnings.map(({ message }) => message);
+}
+
+test('colours that are clamped', async () => {
+  expect(await attributeWarnings('COLOR_0', [0, 0.5, 1, 1, 0, 2, 0, 1, -3, 0, 0, 1])).toEqual(['node: COLOR_0 holds 2 numbers below 0 or above 1; they are clamped.']);
+  expect(await attributeWarnings('COLOR_0', [0, 0.5, 1, 1, 0, 1, 0, 1, 1, 0, 0, 1])).toEqual([]);
+});
+
+test('tangents without a handedness, or without normals', async () => {
+  // Positions serve as normals, which make sense but at the first vertex.
+  const warnings = await attributeWarnings('TANGENT', [1, 0, 0, 1, 1, 0, 0, 0, 1, 0, 0, -0.5], { NORMAL: 0 });
+  expect(warnings).toContain('node: TANGENT has 2 handednesses that are neither −1 nor 1; their signs are taken.');
+  expect(await attributeWarnings('TANGENT', [1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, -1])).toEqual(['node: TANGENT has no normals beside it and is left out.']);
+});
+
+test('a byte order mark before the JSON is skipped, and reported', async () => {
+  const { json, binary } = triangle();
+  const text = `\ufeff${JSON.stringify(json)}`;
+  const plain = JSON.stringify({ ...json, buffers: [{ byteLength: 44, uri: `data:application/octet-stream;base64,${Buffer.from(binary).toString('base64')}` }] });
+  for (const bytes of [glb(text, binary), new TextEncoder().encode(`\ufeff${plain}`)]) {
+    const { warnings, instances } = await loadGltf(bytes);
+    expect([instances.length, warnings.map(({ code, message }) => [code, message])]).toEqual([1, [['gltf/container', expect.stringMatching(/starts with a byte order mark/)]]]);
+  }
+  expect((await loadGltf(new TextEncoder().encode(plain))).warnings).toEqual([]);
+});
+
+test('bytes after the end of a GLB, and more of them in its binary chunk than its buffer has', async () => {
+  const { json, binary } = triangle();
+  const good = glb(json, binary);
+  expect((await loadGltf(new Uint8Array([...good, 1, 2, 3]))).warnings.map(({ message }) => message)).toEqual([expect.stringMatching(/goes on for 3 bytes after its end/)]);
+  const long = new Uint8Array(48);
+  long.set(binary);
+  expect((await loadGltf(glb(json, long))).warnings.map(({ path, message }) => [path, message])).toEqual([['/buffers/0', expect.stringMatching(/has 48 bytes, but \/buffers\/0 only 44/)]]);
+});
+
+test('compressed data that are not declared are unpacked all the same', async () => {
+  let unpacked = 0;
+  const meshopt = { ready: Promise.resolve(), decodeGltfBuffer: (target: Uint8Array, _count: number, _size: number, source: Uint8Array) => { unpacked++; target.set(source); } };
+  const { warnings } = await loadGltf(spoiled((json) => {
+    json['bufferViews'][0].extensions = { EXT_meshopt_compression: { buffer: 0, byteLength: 36, byteStride: 12, count: 3, mode: 'ATTRIBUTES' } };
+  }), { decoders: { meshopt } });
+  expect([unpacked, warnings.map(({ code }) => code)]).toEqual([1, ['gltf/extension']]);
 });
 
 test('an index that restarts primitives in graphics interfaces is told', async () => {

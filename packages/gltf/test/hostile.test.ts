@@ -79,6 +79,8 @@ describe('lists that multiply', { timeout: 60_000 }, () => {
     'joints of a skin in each place': (json) => {
       place(json, many(N, () => ({ mesh: 0, skin: 0 })));
       json['skins'] = [{ joints: many(N, (i) => i) }];
+      json['accessors'].push({ bufferView: 0, componentType: 5121, type: 'VEC4', count: 3 }, { bufferView: 0, componentType: 5121, type: 'VEC4', count: 3, normalized: true });
+      Object.assign(json['meshes'][0].primitives[0].attributes, { JOINTS_0: 2, WEIGHTS_0: 3 });
     },
     'morph targets of a mesh in each place': (json) => {
       json['meshes'][0].weights = many(N, () => 1e-9);

@@ -21,10 +21,11 @@ export function repairAnimations(context: CheckContext, facts: readonly (Accesso
     };
     const samplers = objects('samplers').map((sampler, at) => repairSampler(context, sampler, `${path}/samplers/${at}`, facts));
     const pointers: { sampler: number; path: readonly string[] }[] = [];
+    const moved = new Set<string>();
     const kept = objects('channels').filter((channel, at) => {
       const pointer = pointerOf(context, channel, `${path}/channels/${at}`, samplers, facts);
       if (pointer) pointers.push(pointer);
-      return pointer === undefined && isSoundChannel(context, channel, `${path}/channels/${at}`, samplers, facts);
+      return pointer === undefined && isSoundChannel(context, channel, `${path}/channels/${at}`, samplers, facts, moved);
     });
     const name = own(animation, 'name');
     return { ...(typeof name === 'string' ? { name } : {}), samplers: samplers.map((sampler) => sampler ?? { input: 0, output: 0, interpolation: 'STEP' }), channels: kept, pointers };
@@ -49,7 +50,8 @@ function repairSampler(context: CheckContext, sampler: unknown, path: string, fa
   return { input, output, interpolation };
 }
 
-function isSoundChannel(context: CheckContext, channel: unknown, path: string, samplers: readonly (Raw | undefined)[], facts: readonly (AccessorFacts | undefined)[]): boolean {
+/** @param moved Parts of nodes that channels before this one move. */
+function isSoundChannel(context: CheckContext, channel: unknown, path: string, samplers: readonly (Raw | undefined)[], facts: readonly (AccessorFacts | undefined)[], moved: Set<string>): boolean {
   const lost = (what: string) => {
     context.warn('gltf/animation', path, `${what}; it is left out`);
     return false;
@@ -59,19 +61,22 @@ function isSoundChannel(context: CheckContext, channel: unknown, path: string, s
   const at = own(channel, 'sampler');
   if (typeof at !== 'number' || !(at in samplers)) return lost(`has ${quote(at)} as sampler, which is none`);
   const sampler = samplers[at];
-  const node = own(target, 'node'), moved = own(target, 'path');
+  const node = own(target, 'node'), part = own(target, 'path');
   // The specification has channels without a node ignored.
   if (!sampler || node === undefined) return false;
   const nodes = context.list('nodes');
   if (typeof node !== 'number' || !nodes[node]) return lost(`moves node ${quote(node)}, which is none`);
-  const type = typeof moved === 'string' && Object.hasOwn(PATHS, moved) ? PATHS[moved] : undefined;
-  if (type === undefined) return lost(`moves ${quote(moved)}, which is no part of a node`);
+  const type = typeof part === 'string' && Object.hasOwn(PATHS, part) ? PATHS[part] : undefined;
+  if (type === undefined) return lost(`moves ${quote(part)}, which is no part of a node`);
   const keys = (facts[sampler['input'] as number] as AccessorFacts).count * (sampler['interpolation'] === 'CUBICSPLINE' ? 3 : 1);
   const values = facts[sampler['output'] as number] as AccessorFacts;
-  if (values.type !== type) return lost(`has values of ${values.type} for ${moved as string}, but they must be ${type}`);
-  const size = moved === 'weights' ? targetCount(context, nodes[node] as Raw) : 1;
+  if (values.type !== type) return lost(`has values of ${values.type} for ${part as string}, but they must be ${type}`);
+  const size = part === 'weights' ? targetCount(context, nodes[node] as Raw) : 1;
   if (size === 0) return lost('moves morph targets that are not there');
   if (values.count !== keys * size) return lost(`has ${values.count} values, but its times ask for ${keys * size}`);
+  if (moved.has(`${node} ${part as string}`)) context.warn('gltf/animation', path, `moves the ${part as string} of node ${node}, as another channel does; the last one counts`);
+  moved.add(`${node} ${part as string}`);
+  if (part !== 'weights' && own(nodes[node] as Raw, 'matrix') !== undefined) context.warn('gltf/animation', path, `moves the ${part as string} of node ${node}, which has a matrix; the animation replaces it`);
   return true;
 }
 

@@ -57,15 +57,27 @@ export class CheckContext {
     this.warnings.push({ code, message: `${this.file}: ${path} ${what}.`, path });
   }
 
+  /** Whether the document says that it uses an extension. */
+  uses(extension: string): boolean {
+    const names = own(this.json, 'extensionsUsed');
+    return Array.isArray(names) && names.includes(extension);
+  }
+
   /** A top-level array of objects; empty if it is not there. */
   list(key: string): readonly Raw[] {
     let list = this.#lists.get(key);
     if (!list) {
       const value = own(this.json, key);
       list = value === undefined ? [] : this.objects(value, `/${key}`);
+      if (value !== undefined) this.notEmpty(list, `/${key}`);
       this.#lists.set(key, list);
     }
     return list;
+  }
+
+  /** Warns of a list without entries: the schema of glTF 2.0 asks for one at least (`minItems`). */
+  notEmpty(list: readonly unknown[], path: string): void {
+    if (list.length === 0) this.warn('gltf/empty', path, 'is empty, but must have an entry or be left out');
   }
 
   objects(value: unknown, path: string): readonly Raw[] {
@@ -116,6 +128,7 @@ export class CheckContext {
     if (!Array.isArray(value)) this.fail(`${path}/${key}`, `is ${quote(value)}, but must be an array`);
     value.forEach((entry, at) => this.reference(entry, `${path}/${key}/${at}`, list, kind));
     if (new Set(value).size !== value.length) this.fail(`${path}/${key}`, `names a ${kind} twice`);
+    this.notEmpty(value, `${path}/${key}`);
     return value as number[];
   }
 }

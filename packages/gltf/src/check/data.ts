@@ -1,6 +1,10 @@
+import { dataUri } from '../uri';
 import { own, quote, type CheckContext, type Raw } from './context';
 
 const MAX = Number.MAX_SAFE_INTEGER;
+
+/** Types that a buffer's data: uri may have (glTF 2.0, 3.6.1.1). */
+const BUFFER_TYPES: readonly string[] = ['application/octet-stream', 'application/gltf-buffer'];
 
 /** Bytes of one component, by glTF's number for its type. */
 const COMPONENT_BYTES: Readonly<Record<number, number>> = { 5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4 };
@@ -29,14 +33,27 @@ const MESHOPT_RATIO = 1024;
 export interface AccessorFacts {
   readonly componentType: number;
   readonly type: string;
+  readonly normalized: boolean;
   readonly count: number;
 }
 
-/** Bytes of an element; columns of matrices start at multiples of 4. */
-function elementBytes(type: unknown, componentType: number): number {
+/** How elements of an accessor lie in a buffer view. */
+interface ElementLayout {
+  /** Bytes from one element to the next where the buffer view has no stride. */
+  readonly step: number;
+  /** Bytes up to the end of the last component: what the last element must have. */
+  readonly used: number;
+  /** Bytes of a component, of which each element starts at a multiple. */
+  readonly alignment: number;
+}
+
+/** Columns of matrices start at multiples of 4 bytes (glTF 2.0, 3.6.2.4); nothing is read after the last one. */
+function layoutOf(type: unknown, componentType: number): ElementLayout {
   const [rows, columns] = SHAPES.get(type) as readonly [number, number];
-  const column = rows * (COMPONENT_BYTES[componentType] as number);
-  return columns === 1 ? column : (Math.ceil(column / 4) * 4) * columns;
+  const alignment = COMPONENT_BYTES[componentType] as number;
+  const column = rows * alignment;
+  const padded = columns === 1 ? column : Math.ceil(column / 4) * 4;
+  return { step: padded * columns, used: padded * (columns - 1) + column, alignment };
 }
 
 /** Checks buffers and buffer views: whole numbers, and each view within its buffer. Returns the views. */
@@ -47,6 +64,11 @@ export function checkBuffers(context: CheckContext): readonly Raw[] {
     context.integer(buffer, 'byteLength', path, 1, MAX);
     const uri = own(buffer, 'uri');
     if (uri !== undefined && typeof uri !== 'string') context.fail(`${path}/uri`, `is ${quote(uri)}, but must be a text`);
+    const data = typeof uri === 'string' ? dataUri(uri) : undefined;
+    if (data && !(data.base64 && BUFFER_TYPES.includes(data.type))) {
+      const what = `${data.base64 ? 'base64' : 'text'} of the type "${data.type}"`;
+      context.warn('gltf/data', `${path}/uri`, `is a data: uri of ${what}, but must be base64 of ${BUFFER_TYPES.join(' or ')}; it is read all the same`);
+    }
   });
   const within = (view: Raw, path: string): number => {
     const buffer = buffers[context.integer(view, 'buffer', path, 0, buffers.length - 1)] as Raw;
@@ -94,44 +116,60 @@ export function checkAccessors(context: CheckContext, views: readonly Raw[], nee
       context.warn('gltf/accessor', path, what);
       return undefined;
     }
-    const size = elementBytes(type, componentType);
+    const layout = layoutOf(type, componentType);
     const view = context.index(accessor, 'bufferView', path, views, 'buffer view');
     const offset = context.integer(accessor, 'byteOffset', path, 0, MAX, 0);
-    if (view !== undefined) checkRange(context, path, views[view] as Raw, offset, count, size, COMPONENT_BYTES[componentType] as number, true);
+    if (view !== undefined) checkRange(context, path, views[view] as Raw, offset, count, layout, true);
     else {
-      zeroFilled += count * size;
-      if (zeroFilled > ZERO_FILL_LIMIT) context.fail(path, `asks for ${count * size} bytes of zeros that are not in the file; at most ${ZERO_FILL_LIMIT} are made in all`);
+      const bytes = count * layout.step;
+      zeroFilled += bytes;
+      if (zeroFilled > ZERO_FILL_LIMIT) context.fail(path, `asks for ${bytes} bytes of zeros that are not in the file; at most ${ZERO_FILL_LIMIT} are made in all`);
     }
     const sparse = context.object(accessor, 'sparse', path);
-    if (sparse) checkSparse(context, `${path}/sparse`, sparse, views, count, size, COMPONENT_BYTES[componentType] as number);
+    if (sparse) checkSparse(context, `${path}/sparse`, sparse, views, count, layout);
     for (const key of ['min', 'max']) {
       const bounds = own(accessor, key);
       const [rows, columns] = SHAPES.get(type) as readonly [number, number];
       if (bounds !== undefined && !(Array.isArray(bounds) && bounds.length === rows * columns && bounds.every((x) => typeof x === 'number'))) context.warn('gltf/accessor', `${path}/${key}`, `is ${quote(bounds)}, but must be ${rows * columns} numbers; it is not used`);
     }
-    return { componentType, type: type as string, count };
+    const normalized = own(accessor, 'normalized') ?? false;
+    if (typeof normalized !== 'boolean' || (normalized && (componentType === 5125 || componentType === 5126))) {
+      context.warn('gltf/accessor', `${path}/normalized`, `is ${quote(normalized)} for components of ${componentType}; they are taken as they are`);
+    }
+    return { componentType, type: type as string, normalized: normalized === true, count };
   });
 }
 
-function checkRange(context: CheckContext, path: string, view: Raw, offset: number, count: number, size: number, alignment: number, strided: boolean): void {
-  const stride = strided ? ((own(view, 'byteStride') as number | undefined) ?? size) : size;
-  if (stride < size) context.fail(path, `has elements of ${size} bytes in a buffer view with a stride of ${stride}`);
+function checkRange(
+  context: CheckContext,
+  path: string,
+  view: Raw,
+  offset: number,
+  count: number,
+  { step, used, alignment }: ElementLayout,
+  strided: boolean,
+): void {
+  const stride = strided ? ((own(view, 'byteStride') as number | undefined) ?? step) : step;
+  if (stride < step) context.fail(path, `has elements of ${step} bytes in a buffer view with a stride of ${stride}`);
   const start = ((own(view, 'byteOffset') as number | undefined) ?? 0) + offset;
   if (offset % alignment !== 0 || start % alignment !== 0) context.fail(path, `starts at byte ${start}, which is no multiple of its components' ${alignment} bytes`);
-  const end = offset + stride * (count - 1) + size;
+  const end = offset + stride * (count - 1) + used;
   if (end > (view['byteLength'] as number)) context.fail(path, `reads to byte ${end} of a buffer view of ${view['byteLength']}`);
 }
 
-function checkSparse(context: CheckContext, path: string, sparse: Raw, views: readonly Raw[], length: number, size: number, alignment: number): void {
+function checkSparse(context: CheckContext, path: string, sparse: Raw, views: readonly Raw[], length: number, layout: ElementLayout): void {
   const count = context.integer(sparse, 'count', path, 1, length);
   const indices = context.object(sparse, 'indices', path) ?? context.fail(path, 'has no indices');
   const values = context.object(sparse, 'values', path) ?? context.fail(path, 'has no values');
   const indexBytes = { 5121: 1, 5123: 2, 5125: 4 }[own(indices, 'componentType') as number] ?? context.fail(`${path}/indices/componentType`, `is ${quote(own(indices, 'componentType'))}, but must be 5121, 5123 or 5125`);
-  const parts = [['indices', indices, indexBytes, indexBytes], ['values', values, size, alignment]] as const;
-  for (const [name, part, bytes, aligned] of parts) {
+  const index: ElementLayout = { step: indexBytes, used: indexBytes, alignment: indexBytes };
+  for (const [name, part, elements] of [['indices', indices, index], ['values', values, layout]] as const) {
     const at = `${path}/${name}`;
     const view = views[context.integer(part, 'bufferView', at, 0, views.length - 1)] as Raw;
-    checkRange(context, at, view, context.integer(part, 'byteOffset', at, 0, MAX, 0), count, bytes, aligned, false);
+    checkRange(context, at, view, context.integer(part, 'byteOffset', at, 0, MAX, 0), count, elements, false);
+    if (own(view, 'byteStride') !== undefined) {
+      context.warn('gltf/data', at, 'lie in a buffer view with a byteStride, which sparse data must not have; they are read without gaps');
+    }
   }
 }
 

@@ -7,6 +7,7 @@ import type { GltfJson } from '../json';
 import { repairAnimations } from './animations';
 import { CheckContext, isObject, own, quote, type Raw } from './context';
 import { checkAccessors, checkBuffers, checkSparseIndices } from './data';
+import { extensionsUsed } from './extensions';
 import { repairImageLights } from './image-lights';
 import { checkMeshes, neededAccessors } from './meshes';
 import { checkNodes, checkSkins } from './nodes';
@@ -32,10 +33,7 @@ export interface CheckedDocument {
  */
 export function checkDocument(json: Raw, file: string, warnings: SceneWarning[]): CheckedDocument {
   const context = new CheckContext(json, file, warnings);
-  for (const key of ['extensionsUsed', 'extensionsRequired']) {
-    const names = own(json, key);
-    if (names !== undefined && !(Array.isArray(names) && names.every((name) => typeof name === 'string'))) context.fail(`/${key}`, `is ${quote(names)}, but must be an array of names`);
-  }
+  const used = extensionsUsed(context);
   const views = checkBuffers(context);
   const needed = neededAccessors(context);
   const facts = checkAccessors(context, views, needed);
@@ -45,7 +43,7 @@ export function checkDocument(json: Raw, file: string, warnings: SceneWarning[])
     ...named(context, mesh, `/meshes/${index}`),
     primitives: (mesh['primitives'] as readonly Raw[]).map((primitive, at) => withSoundVariants(context, primitive, `/meshes/${index}/primitives/${at}`, variants?.length ?? 0, materials)),
   }));
-  const nodes = checkNodes(context, facts);
+  const nodes = checkNodes(context, facts, meshes);
   checkSkins(context, facts);
   checkPictures(context);
   checkNames(context);
@@ -54,6 +52,7 @@ export function checkDocument(json: Raw, file: string, warnings: SceneWarning[])
   const accessors = context.list('accessors');
   const checked = {
     ...json,
+    ...(used ? { extensionsUsed: used } : {}),
     accessors,
     animations: repairAnimations(context, facts),
     meshes,

@@ -11,6 +11,25 @@ const ATTRIBUTES: ReadonlyMap<string, readonly string[]> = new Map([
   ['WEIGHTS_0', ['VEC4']],
 ]);
 
+const [BYTE, UNSIGNED_BYTE, SHORT, UNSIGNED_SHORT, FLOAT] = [5120, 5121, 5122, 5123, 5126] as const;
+const FLOATS = [`${FLOAT}`], CODES = [`${UNSIGNED_BYTE} normalized`, `${UNSIGNED_SHORT} normalized`];
+
+/** Components that attributes may have (glTF 2.0, 3.7.2.1). */
+const COMPONENTS: ReadonlyMap<string, readonly string[]> = new Map([
+  ['POSITION', FLOATS],
+  ['NORMAL', FLOATS],
+  ['TANGENT', FLOATS],
+  ['TEXCOORD_0', [...FLOATS, ...CODES]],
+  ['COLOR_0', [...FLOATS, ...CODES]],
+  ['JOINTS_0', [`${UNSIGNED_BYTE}`, `${UNSIGNED_SHORT}`]],
+  ['WEIGHTS_0', [...FLOATS, ...CODES]],
+]);
+const SMALL = [BYTE, UNSIGNED_BYTE, SHORT, UNSIGNED_SHORT].flatMap((component) => [`${component}`, `${component} normalized`]);
+const SIGNED = [`${BYTE} normalized`, `${SHORT} normalized`];
+
+/** What KHR_mesh_quantization adds. */
+const QUANTIZED: ReadonlyMap<string, readonly string[]> = new Map([['POSITION', SMALL], ['NORMAL', SIGNED], ['TANGENT', SIGNED], ['TEXCOORD_0', SMALL]]);
+
 /** Draco's ids have 32 bits. */
 const MAX_ID = 2 ** 32 - 1;
 
@@ -95,12 +114,20 @@ function checkAttributes(context: CheckContext, path: string, attributes: Raw, f
   for (const [semantic, accessor] of Object.entries(attributes)) {
     const at = `${path}/${semantic}`;
     context.reference(accessor, at, facts, 'accessor');
-    const { type } = facts[accessor] as AccessorFacts;
+    const { type, componentType, normalized } = facts[accessor] as AccessorFacts;
     if (semantic === 'POSITION' && type !== 'VEC3') context.fail(at, `is a ${type}, but positions are VEC3`);
-    const types = ATTRIBUTES.get(semantic.startsWith('TEXCOORD_') ? 'TEXCOORD_0' : semantic);
+    const kind = semantic.replace(/^(TEXCOORD|JOINTS|WEIGHTS)_\d+$/, '$1_0');
+    const types = ATTRIBUTES.get(kind);
     if (types && !types.includes(type)) context.warn('gltf/primitive', at, `is a ${quote(type)}, but must be ${types.join(' or ')}; it is left out`);
     else kept[semantic] = accessor;
+    const components = `${componentType}${normalized ? ' normalized' : ''}`;
+    const allowed = [...(COMPONENTS.get(kind) ?? [components]), ...(context.uses('KHR_mesh_quantization') ? (QUANTIZED.get(kind) ?? []) : [])];
+    if (!allowed.includes(components)) context.warn('gltf/primitive', at, `has components of ${components}, but must have ${allowed.join(' or ')}; they are taken as they are`);
   }
-  if (kept['JOINTS_0'] !== undefined && kept['WEIGHTS_0'] === undefined) context.warn('gltf/skin', path, 'has JOINTS_0 without WEIGHTS_0; the mesh keeps its shape');
+  for (const semantic of Object.keys(kept)) {
+    const [, kind, set] = /^(JOINTS|WEIGHTS)_(\d+)$/.exec(semantic) ?? [];
+    const other = kind === 'JOINTS' ? `WEIGHTS_${set}` : `JOINTS_${set}`;
+    if (kind !== undefined && kept[other] === undefined) context.warn('gltf/skin', path, `has ${semantic} without ${other}; it does not move the mesh`);
+  }
   return kept;
 }

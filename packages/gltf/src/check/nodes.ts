@@ -3,10 +3,13 @@ import type { AccessorFacts } from './data';
 
 const TRANSFORMS = [['matrix', 16], ['translation', 3], ['rotation', 4], ['scale', 3]] as const;
 
-/** Checks the node tree: references, no node below itself or in two places, transforms of numbers. Returns repaired nodes. */
-export function checkNodes(context: CheckContext, facts: readonly (AccessorFacts | undefined)[]): readonly Raw[] {
+/**
+ * Checks the node tree: references, no node below itself or in two places, transforms of numbers. Returns repaired nodes.
+ * @param meshes Checked.
+ */
+export function checkNodes(context: CheckContext, facts: readonly (AccessorFacts | undefined)[], meshes: readonly Raw[]): readonly Raw[] {
   const nodes = context.list('nodes');
-  const meshes = context.list('meshes'), skins = context.list('skins'), cameras = context.list('cameras');
+  const skins = context.list('skins'), cameras = context.list('cameras');
   const parents = new Int32Array(nodes.length).fill(-1);
   const checked = nodes.map((node, index) => {
     const path = `/nodes/${index}`;
@@ -17,6 +20,7 @@ export function checkNodes(context: CheckContext, facts: readonly (AccessorFacts
       parents[child] = index;
     });
     checkInstancing(context, node, path, facts);
+    checkMeshParts(context, node, path, meshes);
     const repaired = repairTransform(context, node, path);
     const camera = own(node, 'camera');
     if (camera === undefined || (typeof camera === 'number' && cameras[camera])) return repaired;
@@ -27,6 +31,28 @@ export function checkNodes(context: CheckContext, facts: readonly (AccessorFacts
   refuseCircles(context, parents);
   checkScenes(context, nodes, parents);
   return checked;
+}
+
+/** Warns of a skin or weights that the node's mesh has no use for. */
+function checkMeshParts(context: CheckContext, node: Raw, path: string, meshes: readonly Raw[]): void {
+  const mesh = own(node, 'mesh');
+  const primitives = typeof mesh === 'number' ? ((meshes[mesh] as Raw)['primitives'] as readonly Raw[]) : [];
+  for (const [key, code] of [['skin', 'gltf/skin'], ['weights', 'gltf/node']] as const) {
+    if (own(node, key) !== undefined && mesh === undefined) context.warn(code, `${path}/${key}`, 'is on a node without a mesh and does nothing');
+  }
+  if (own(node, 'skin') !== undefined && primitives.some(({ attributes }) => own(attributes as Raw, 'JOINTS_0') === undefined)) {
+    context.warn('gltf/skin', `${path}/skin`, `poses mesh ${mesh as number}, which has a primitive without JOINTS_0; that one keeps its shape at its node`);
+  }
+  const weights = own(node, 'weights'), targets = targetsOf(primitives);
+  if (mesh !== undefined && Array.isArray(weights) && weights.length !== targets) {
+    context.warn('gltf/node', `${path}/weights`, `are ${weights.length}, but mesh ${mesh as number} has ${targets} morph targets`);
+  }
+}
+
+/** How many morph targets a mesh has, by its first primitive. */
+function targetsOf([primitive]: readonly Raw[]): number {
+  const targets = primitive && own(primitive, 'targets');
+  return Array.isArray(targets) ? targets.length : 0;
 }
 
 /** A node with one parent at most lies in a circle if going up never ends. */
@@ -60,6 +86,9 @@ function repairTransform(context: CheckContext, node: Raw, path: string): Raw {
     const value = own(node, key);
     if (value === undefined) continue;
     if (!Array.isArray(value) || value.length !== length || !value.every((x) => typeof x === 'number')) context.fail(`${path}/${key}`, `is ${quote(value)}, but must be ${length} numbers`);
+  }
+  if (own(node, 'matrix') !== undefined && TRANSFORMS.some(([key]) => key !== 'matrix' && own(node, key) !== undefined)) {
+    context.warn('gltf/node', `${path}/matrix`, 'is beside a translation, rotation or scale, but a node has one or the other; the matrix is taken');
   }
   const weights = own(node, 'weights');
   if (weights !== undefined && !(Array.isArray(weights) && weights.every((w) => typeof w === 'number'))) {

@@ -44,9 +44,9 @@ function checkImage(context: CheckContext, image: Raw, path: string): void {
     return;
   }
   if (typeof uri !== 'string') return warn(`has the uri ${quote(uri)}, which is no text`);
-  if (uri.startsWith('data:')) {
+  if (/^data:/i.test(uri)) {
     const data = dataUri(uri);
-        if (!data || (data.base64 && !isBase64(data.data))) warn('has a data: uri that cannot be read');
+    if (!data || (data.base64 && !isBase64(data.data))) warn('has a data: uri that cannot be read');
     else if (!IMAGE_TYPE.test(data.type) || (mimeType !== undefined && mimeType !== data.type)) warn(`has a data: uri of the type "${data.type}"${mimeType === undefined ? '' : ` and the mimeType ${quote(mimeType)}`}; the bytes tell`);
   } else if (/^[a-z][a-z0-9+.-]*:/i.test(uri) || uri === '' || uri.startsWith(':')) warn(`has the uri ${quote(uri)}, which names no file beside the document`);
 }

@@ -137,6 +137,10 @@ export function repairLights(context: CheckContext): readonly Raw[] | undefined 
     if (typeof name === 'string') made['name'] = name;
     if (light['type'] === 'spot') {
       if (!isObject(spot)) context.warn('gltf/light', `${at}/spot`, 'is missing; glTF\'s initial cone is taken');
+      const [inner, outer] = (['innerConeAngle', 'outerConeAngle'] as const).map((key) => (isObject(spot) ? own(spot, key) : undefined));
+      if (!areConeAngles(inner ?? 0, outer ?? Math.PI / 4)) {
+        context.warn('gltf/light', `${at}/spot`, `has the cone angles ${quote(inner)} and ${quote(outer)}, but must have 0 ≤ inner < outer ≤ π/2; they are clamped`);
+      }
       const angle = (key: string) => (isObject(spot) && number(own(spot, key)) ? { [key]: own(spot, key) } : {});
       made['spot'] = { ...angle('innerConeAngle'), ...angle('outerConeAngle') };
     }
@@ -144,17 +148,26 @@ export function repairLights(context: CheckContext): readonly Raw[] | undefined 
   });
 }
 
+/** Exporters write π/2 in single precision. */
+const areConeAngles = (inner: unknown, outer: unknown): boolean =>
+  typeof inner === 'number' && typeof outer === 'number' && inner >= 0 && inner < outer && outer <= Math.PI / 2 + 1e-6;
+
 /** Cameras in order; their places count, so one that makes no sense stays as one that the loader leaves out. */
 export function repairCameras(context: CheckContext): readonly Raw[] {
-  return context.list('cameras').map((camera) => {
+  return context.list('cameras').map((camera, index) => {
+    const path = `/cameras/${index}`;
     const number = (value: unknown) => (typeof value === 'number' && Number.isFinite(value) ? value : 0);
     const name = typeof camera['name'] === 'string' ? { name: camera['name'] } : {};
     const orthographic = own(camera, 'orthographic'), perspective = own(camera, 'perspective');
-    if (own(camera, 'type') === 'orthographic') {
+    const type = own(camera, 'type');
+    if (type !== 'perspective' && type !== 'orthographic') context.warn('gltf/camera', `${path}/type`, `is ${quote(type)}, but must be "perspective" or "orthographic"; perspective is taken`);
+    if (orthographic !== undefined && perspective !== undefined) context.warn('gltf/camera', path, `is both perspective and orthographic; its type is ${quote(type)}`);
+    if (type === 'orthographic') {
       const { xmag, ymag, znear, zfar } = isObject(orthographic) ? orthographic : ({} as Raw);
       return { ...name, type: 'orthographic', orthographic: { xmag: number(xmag), ymag: number(ymag), znear: number(znear), zfar: number(zfar) } };
     }
     const { yfov, aspectRatio, znear } = isObject(perspective) ? perspective : ({} as Raw);
+    if (aspectRatio !== undefined && !(number(aspectRatio) > 0)) context.warn('gltf/camera', `${path}/perspective/aspectRatio`, `is ${quote(aspectRatio)}, but must be above 0; the image's is taken`);
     return { ...name, type: 'perspective', perspective: { yfov: number(yfov), znear: number(znear), ...(number(aspectRatio) > 0 ? { aspectRatio } : {}) } };
   });
 }

@@ -11,6 +11,7 @@ export function repairVariants(context: CheckContext): readonly { readonly name:
     context.warn('gltf/variant', path, `is ${quote(variants)}, but must be an array; there are no variants`);
     return undefined;
   }
+  context.notEmpty(variants, path);
   return variants.map((variant: unknown, index) => {
     const name = isObject(variant) ? own(variant, 'name') : undefined;
     if (typeof name === 'string') return { name };
