@@ -26,10 +26,10 @@ function pointed(channels: readonly { pointer: unknown; from: number[]; to: numb
     }),
     channels: channels.map(({ pointer }, sampler) => ({ sampler, target: { path: 'pointer', extensions: { KHR_animation_pointer: { pointer } } } })),
   }];
-  json['extensionsUsed'] = ['KHR_animation_pointer'];
   json['materials'] = [{ name: 'm', pbrMetallicRoughness: { baseColorFactor: [1, 1, 1, 1] }, extensions: { KHR_materials_emissive_strength: {} }, emissiveFactor: [1, 1, 1] }];
   json['meshes'][0].primitives[0].material = 0;
   more(json);
+  json['extensionsUsed'] ??= [...new Set([...JSON.stringify(json).matchAll(/"(KHR_\w+)":/g)].map(([, name]) => name))];
   return glb(json, bytes);
 }
 

@@ -11,7 +11,7 @@ function withKtx2(picture: Uint8Array, { required = false, plain = false } = {})
   json['buffers'][0].uri = 'a.bin';
   json['extensionsUsed'] = ['KHR_texture_basisu'];
   if (required) json['extensionsRequired'] = ['KHR_texture_basisu'];
-  json['images'] = [{ uri: 'a.ktx2' }, { uri: 'a.png' }];
+  json['images'] = [{ uri: 'a.ktx2' }, ...(plain ? [{ uri: 'a.png' }] : [])];
   json['textures'] = [{ ...(plain ? { source: 1 } : {}), extensions: { KHR_texture_basisu: { source: 0 } } }];
   json['materials'] = [{ pbrMetallicRoughness: { baseColorTexture: { index: 0 } } }];
   json['meshes'][0].primitives[0].material = 0;

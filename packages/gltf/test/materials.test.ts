@@ -160,7 +160,7 @@ describe('textures', () => {
   });
 
   test('a broken picture below a formula counts as white', async () => {
-    const scene = await withMaterial({ extensions: { KHR_materials_sheen: { sheenColorFactor: [0.25, 0.5, 0], sheenColorTexture: { index: 0 } } } }, (json) => { json['images'] = [{ uri: 'data:image/png;base64,iVBORw0KGgo=' }]; json['textures'] = [{ source: 0 }]; });
+    const scene = await withMaterial({ extensions: { KHR_materials_sheen: { sheenColorFactor: [0.25, 0.5, 0], sheenColorTexture: { index: 0 } } } }, (json) => { json['images'] = [{ uri: 'data:image/png;base64,iVBORw0KGgo=' }]; json['textures'] = [{ source: 0 }]; json['extensionsUsed'] = ['KHR_materials_sheen']; });
     const { fuzz_color: color } = bound(scene);
     expect(color!.data).toEqual([188, 255, 0, 128]);
     expect(scene.warnings.map(({ code }) => code)).toEqual(['gltf/image']);

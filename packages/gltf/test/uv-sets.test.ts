@@ -20,6 +20,7 @@ function withSets(material: object): { json: TriangleJson; bytes: Uint8Array<Arr
   json['images'] = [{ uri: PNG }];
   json['textures'] = [{ source: 0 }];
   json['materials'] = [material];
+  json['extensionsUsed'] = ['KHR_texture_transform', 'KHR_materials_variants'];
   json['meshes'][0].primitives[0].material = 0;
   return { json, bytes };
 }
