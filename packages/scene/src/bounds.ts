@@ -1,7 +1,8 @@
-import type { Instance, Scene } from './scene';
-import type { Mesh } from './mesh';
-import { finish, STEP, type Steps } from './slices';
-import { usedVertices } from './used-vertices';
+import { extentSteps, type FoundVertices } from './extents';
+import type { Scene } from './scene';
+import { finish, type Steps } from './slices';
+
+const AXES = [[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, 0, 0], [0, -1, 0], [0, 0, -1]] as const;
 
 /** An axis-aligned box in the world, metres. Empty: min is +∞ and max −∞. */
 export interface SceneBounds {
@@ -25,42 +26,8 @@ export function* sceneBoundsSteps(scene: Scene): Generator<void, SceneBounds> {
   return yield* boundsBy(scene, new Map());
 }
 
-/** The vertices of a mesh that triangles use, found once. */
-export function* usedOf(mesh: Mesh, found: Map<Mesh, Uint8Array>): Steps<Uint8Array> {
-  let used = found.get(mesh);
-  if (!used) found.set(mesh, (used = yield* usedVertices(mesh)));
-  return used;
-}
-
 /** {@link sceneBoundsSteps}, with a memory for the vertices in use. */
-export function* boundsBy(scene: Scene, found: Map<Mesh, Uint8Array>): Steps<SceneBounds> {
-  const box = Float64Array.of(Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity);
-  for (const instance of scene.instances) {
-    const mesh = scene.meshes[instance.mesh];
-    if (instance.visible === false || !mesh) continue;
-    const used = yield* usedOf(mesh, found);
-    for (let from = 0; from < used.length; from += STEP) {
-      growByMesh(mesh, used, from, Math.min(used.length, from + STEP), instance, box);
-      yield;
-    }
-  }
-  const [x0, y0, z0, x1, y1, z1] = box as unknown as [number, number, number, number, number, number];
-  return { min: [x0, y0, z0], max: [x1, y1, z1] };
-}
-
-function growByMesh({ positions }: Mesh, used: Uint8Array, from: number, to: number, { transform: m }: Instance, box: Float64Array): void {
-  const [a, b, c, , d, e, f, , g, h, i, , tx, ty, tz] = Array.from(m) as [number, number, number, number, number, number, number, number, number, number, number, number, number, number, number];
-  let [x0, y0, z0, x1, y1, z1] = box as unknown as [number, number, number, number, number, number];
-  for (let n = from, v = 3 * from; n < to; n++, v += 3) {
-    if (used[n] === 0) continue;
-    const px = positions[v] as number, py = positions[v + 1] as number, pz = positions[v + 2] as number;
-    const x = a * px + d * py + g * pz + tx, y = b * px + e * py + h * pz + ty, z = c * px + f * py + i * pz + tz;
-    if (x < x0) x0 = x;
-    if (y < y0) y0 = y;
-    if (z < z0) z0 = z;
-    if (x > x1) x1 = x;
-    if (y > y1) y1 = y;
-    if (z > z1) z1 = z;
-  }
-  box.set([x0, y0, z0, x1, y1, z1]);
+export function* boundsBy(scene: Scene, found: FoundVertices): Steps<SceneBounds> {
+  const [x1, y1, z1, x0, y0, z0] = (yield* extentSteps(scene, AXES, [0, 0, 0], found)) as unknown as [number, number, number, number, number, number];
+  return { min: [0 - x0, 0 - y0, 0 - z0], max: [x1, y1, z1] };
 }

@@ -317,33 +317,43 @@ export function packMesh(mesh: Mesh, tree: Blas | undefined, region: MeshRegion)
 export function packInstances(scene: Scene, geometry: Geometry, firstLight: Uint32Array): ArrayBuffer {
   const { tlas, order, bare } = geometry;
   const buffer = instanceStruct.allocate(order.length + (bare?.tlas.instanceOrder.length ?? 0));
-  tlas.instanceOrder.forEach((given, slot) => writeInstance(buffer, slot, scene, geometry, order[slot] as number, tlas.toObject.subarray(12 * given, 12 * given + 12), firstLight));
-  bare?.tlas.instanceOrder.forEach((given, i) => writeInstance(buffer, order.length + i, scene, geometry, bare.shown[given] as number, bare.tlas.toObject.subarray(12 * given, 12 * given + 12), firstLight));
+  const [floats, words] = [new Float32Array(buffer), new Uint32Array(buffer)];
+  tlas.instanceOrder.forEach((given, slot) => writeInstance(floats, words, slot, scene, geometry, order[slot] as number, tlas.toObject, given, firstLight));
+  bare?.tlas.instanceOrder.forEach((given, i) => writeInstance(floats, words, order.length + i, scene, geometry, bare.shown[given] as number, bare.tlas.toObject, given, firstLight));
   return buffer;
 }
 
-function writeInstance(buffer: ArrayBuffer, slot: number, scene: Scene, geometry: Geometry, index: number, inverse: Float64Array, firstLight: Uint32Array): void {
-  const instance = scene.instances[index] as Instance;
-  const m = instance.transform;
-  const traversal = bvhInstanceStruct.allocate();
-  bvhInstanceStruct.write(traversal, 0, {
-    to_object_0: inverse.subarray(0, 4),
-    to_object_1: inverse.subarray(4, 8),
-    to_object_2: inverse.subarray(8, 12),
-    blas_node: (geometry.regions[instance.mesh] as MeshRegion).firstNode,
-    triangle_offset: (geometry.regions[instance.mesh] as MeshRegion).firstTriangle,
-    id: index,
-    flags: instance.catcher ? INSTANCE_CATCHER : 0,
-  });
-  const row = (r: number) => [m[r] as number, m[4 + r] as number, m[8 + r] as number, m[12 + r] as number];
-  instanceStruct.write(buffer, slot, {
-    traversal,
-    to_world_0: row(0),
-    to_world_1: row(1),
-    to_world_2: row(2),
-    material: instance.material,
-    mesh: instance.mesh,
-    first_light: firstLight[index] as number,
-    id: index,
-  });
+const INSTANCE_WORDS = instanceStruct.size / 4;
+const traversalWord = (name: Parameters<typeof bvhInstanceStruct.offsetOf>[0]) => (instanceStruct.offsetOf('traversal') + bvhInstanceStruct.offsetOf(name)) / 4;
+/** Where the members of a record are, in words. */
+const AT = {
+  toObject: traversalWord('to_object_0'),
+  blasNode: traversalWord('blas_node'),
+  triangleOffset: traversalWord('triangle_offset'),
+  traversalId: traversalWord('id'),
+  flags: traversalWord('flags'),
+  toWorld: instanceStruct.offsetOf('to_world_0') / 4,
+  material: instanceStruct.offsetOf('material') / 4,
+  mesh: instanceStruct.offsetOf('mesh') / 4,
+  firstLight: instanceStruct.offsetOf('first_light') / 4,
+  id: instanceStruct.offsetOf('id') / 4,
+};
+
+/** Writes word by word, for there may be hundreds of thousands. `given` says which rows of `toObject` are the instance's. */
+function writeInstance(floats: Float32Array, words: Uint32Array, slot: number, scene: Scene, geometry: Geometry, index: number, toObject: Float64Array, given: number, firstLight: Uint32Array): void {
+  const { transform, mesh, material, catcher } = scene.instances[index] as Instance;
+  const { firstNode, firstTriangle } = geometry.regions[mesh] as MeshRegion;
+  const at = slot * INSTANCE_WORDS;
+  for (let k = 0; k < 12; k++) {
+    floats[at + AT.toObject + k] = toObject[12 * given + k] as number;
+    floats[at + AT.toWorld + k] = transform[4 * (k & 3) + (k >> 2)] as number;
+  }
+  words[at + AT.blasNode] = firstNode;
+  words[at + AT.triangleOffset] = firstTriangle;
+  words[at + AT.traversalId] = index;
+  words[at + AT.flags] = catcher ? INSTANCE_CATCHER : 0;
+  words[at + AT.material] = material;
+  words[at + AT.mesh] = mesh;
+  words[at + AT.firstLight] = firstLight[index] as number;
+  words[at + AT.id] = index;
 }

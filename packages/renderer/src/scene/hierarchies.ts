@@ -56,6 +56,7 @@ export async function buildHierarchies(meshes: readonly Mesh[], { hierarchies, s
     return built;
   }
   const shares = new Float64Array(meshes.length);
+  let finished = 0;
   const control = new AbortController();
   const abort = () => control.abort(signal?.reason);
   signal?.throwIfAborted();
@@ -67,8 +68,10 @@ export async function buildHierarchies(meshes: readonly Mesh[], { hierarchies, s
     const { positions, indices } = meshes[i] as Mesh;
     const progress = (done: number) => {
       if (control.signal.aborted || !(done > (shares[i] as number))) return;
-      shares[i] = Math.min(1, done);
-      onProgress?.(shares.reduce((sum, share, k) => sum + share * (meshes[k] as Mesh).indices.length, 0) / total);
+      const share = Math.min(1, done);
+      finished += (share - (shares[i] as number)) * (meshes[i] as Mesh).indices.length;
+      shares[i] = share;
+      onProgress?.(Math.min(1, finished / total));
     };
     built[i] = await hierarchies.buildBlas({ positions, indices }, { signal: control.signal, onProgress: progress });
     progress(1);

@@ -30,8 +30,16 @@ export function lightGroupTable(scene: Scene, mode: LightGroupMode): LightGroupT
   const environmentName = nameOf(scene.environment?.light_group, 'environment');
   const lightName = (light: Light) => nameOf(light.light_group, light.name);
   const materialName = (material: Material) => nameOf(material.light_group, material.name);
-  const emitters = new Set(scene.instances.map(({ material }) => scene.materials[material] as Material).filter(shines));
-  const names = [...new Set([...(scene.environment ? [environmentName] : []), ...scene.lights.map(lightName), ...[...emitters].map(materialName)])];
+  // In the order in which instances first use them.
+  const emitters: Material[] = [];
+  const seen = new Uint8Array(scene.materials.length);
+  for (const { material: index } of scene.instances) {
+    if (seen[index]) continue;
+    seen[index] = 1;
+    const material = scene.materials[index] as Material;
+    if (shines(material)) emitters.push(material);
+  }
+  const names = [...new Set([...(scene.environment ? [environmentName] : []), ...scene.lights.map(lightName), ...emitters.map(materialName)])];
   if (names.length === 0) names.push(REST);
   if (names.length > MAX_LIGHT_GROUPS) {
     throw new RenderError('renderer/light-groups', `The scene has ${names.length} light groups; at most ${MAX_LIGHT_GROUPS} can be kept apart. Give lights that belong together one light_group.`);

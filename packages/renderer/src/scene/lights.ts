@@ -76,9 +76,9 @@ export function* lightSteps(scene: Scene, shows: (instance: number) => boolean, 
   const firstLight = new Uint32Array(scene.instances.length).fill(NONE);
   const emitters: Emitter[] = [];
   let count = 0;
+  const glows = scene.materials.map((material: Material) => luminance(emittedRadiance(parametersOf(material))) > 0);
   scene.instances.forEach((instance, index) => {
-    const material = scene.materials[instance.material] as Material;
-    if (!shows(index) || luminance(emittedRadiance(parametersOf(material))) <= 0) return;
+    if (!glows[instance.material] || !shows(index)) return;
     const triangles = (scene.meshes[instance.mesh] as Mesh).indices.length / 3;
     firstLight[index] = count;
     emitters.push({ instance: index, base: count, triangles });
