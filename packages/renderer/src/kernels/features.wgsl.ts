@@ -42,11 +42,14 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   var albedo = vec4f(0.0);
   var normal = vec4f(0.0);
   if (hit.instance != 0xffffffffu) {
-    let s = surface_load(vec4u(bitcast<u32>(hit.u), bitcast<u32>(hit.v), hit.triangle, hit.instance), ray.origin, ray.direction, frame.cone_width);
+    var s = surface_load(vec4u(bitcast<u32>(hit.u), bitcast<u32>(hit.v), hit.triangle, hit.instance), ray.origin, ray.direction, frame.cone_width);
     let side = select(-1.0, 1.0, dot(s.geometric, ray.direction) <= 0.0);
     let n = side * s.normal;
     let cosine = clamp(-dot(n, ray.direction), 1e-3, 1.0);
     let local_wo = vec3f(sqrt(1.0 - cosine * cosine), 0.0, cosine);
+    //#if OPENPBR_COAT_FRAME
+    s.parameters = surface_coated(s, side, surface_view_frame(surface_facing(n, -ray.direction), -ray.direction), -ray.direction);
+    //#endif
     albedo = vec4f(clamp(openpbr_albedo(openpbr_prepare(s.parameters, local_wo), local_wo), vec3f(0.0), vec3f(1.0)), 1.0);
     normal = vec4f(n, distance(ray.origin, s.position));
   }

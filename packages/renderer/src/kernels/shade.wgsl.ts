@@ -156,8 +156,7 @@ fn shade_path(index: u32, iteration: u32) -> ShadeResult {
   let to_world = mat3x3f(tangent, bitangent, normal);
   let local_wo = wo * to_world;
   //#if OPENPBR_COAT_FRAME
-  s.parameters.geometry_coat_normal = side * s.coat_normal * to_world;
-  s.parameters.geometry_coat_tangent = s.coat_tangent * to_world;
+  s.parameters = surface_coated(s, side, to_world, wo);
   //#endif
   //#if REGULARIZE
   //#if STRAIGHT

@@ -9,15 +9,22 @@ import { wgslModule } from '@glanz/wgsl';
  *
  * `fn normal_bend(n: vec3f, g: vec3f, wo: vec3f, eta: f32) -> vec3f`: `g` is the geometric normal on the viewer's side; `eta`
  * the index beyond over that on the viewer's side, 1 where light goes straight on.
+ *
+ * `fn normal_raise(n: vec3f, g: vec3f, wo: vec3f, least: f32) -> vec3f`: the part of it for mirrors; the cosine between the
+ * mirrored ray and `g` becomes at least about `least`.
  */
 export const shadingNormal = /* @__PURE__ */ wgslModule(
   'renderer/shading-normal',
   /* wgsl */ `
-fn normal_bend(n: vec3f, g: vec3f, wo: vec3f, eta: f32) -> vec3f {
-  var bent = n;
-  let mirrored = reflect(-wo, bent);
+fn normal_raise(n: vec3f, g: vec3f, wo: vec3f, least: f32) -> vec3f {
+  let mirrored = reflect(-wo, n);
   let up = dot(mirrored, g);
-  if (up < 0.02) { bent = normalize(wo + normalize(mirrored + g * (0.02 - up))); }
+  if (up >= least) { return n; }
+  return normalize(wo + normalize(mirrored + g * (least - up)));
+}
+
+fn normal_bend(n: vec3f, g: vec3f, wo: vec3f, eta: f32) -> vec3f {
+  var bent = normal_raise(n, g, wo, 0.02);
   let c = dot(wo, bent);
   let k = 1.0 - (1.0 - c * c) / (eta * eta);
   if (k <= 0.0 || abs(eta - 1.0) < 1e-3) { return bent; }

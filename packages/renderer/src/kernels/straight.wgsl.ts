@@ -10,11 +10,15 @@ import { shadingNormal } from './shading-normal.wgsl';
 export const straight = (surface: WgslModule, openpbr: WgslModule): WgslModule => wgslModule(
   'renderer/straight',
   /* wgsl */ `
-fn straight_transmittance(s: Surface, direction: vec3f) -> vec3f {
+fn straight_transmittance(given: Surface, direction: vec3f) -> vec3f {
+  var s = given;
   let wo = -direction;
   let side = select(-1.0, 1.0, dot(s.geometric, wo) >= 0.0);
   let normal = normal_bend(surface_facing(side * s.normal, wo), side * s.geometric, wo, 1.0);
   let mu = clamp(dot(normal, wo), 0.0, 1.0);
+  //#if OPENPBR_COAT_FRAME
+  s.parameters = surface_coated(s, side, surface_view_frame(normal, wo), wo);
+  //#endif
   let b = openpbr_prepare(s.parameters, vec3f(sqrt(1.0 - mu * mu), 0.0, mu));
   var passed = b.transmission.albedo;
   //#if OPENPBR_COAT

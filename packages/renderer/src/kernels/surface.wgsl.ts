@@ -2,6 +2,7 @@ import { bvhOffset } from '@glanz/bvh/wgsl';
 import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
 import type { TexturedParameterInfo } from '../scene/materials';
 import { random } from './random.wgsl';
+import { shadingNormal } from './shading-normal.wgsl';
 import { tangent } from './tangent.wgsl';
 import { bindingStruct, instanceStruct, materialStruct, MATERIAL_MASK, meshStruct } from './layout';
 
@@ -218,6 +219,40 @@ fn surface_facing(normal: vec3f, wo: vec3f) -> vec3f {
   return select(normal, normalize(normal + wo * (1e-3 - facing)), facing < 1e-3);
 }
 
+//#if OPENPBR_COAT_FRAME
+// The parameters with the coat's frame as seen from the base's, whose columns are tangent, bitangent and normal on the
+// viewer's side. The coat reflects almost everything at grazing angles, so a mirrored ray below the base's plane or below
+// the triangle would leave the silhouette black: its normal faces the viewer, and is bent until that ray leaves above both.
+fn surface_coated(s: Surface, side: f32, to_world: mat3x3f, wo: vec3f) -> OpenPbrParameters {
+  var parameters = s.parameters;
+  var coat = surface_facing(side * s.coat_normal, wo);
+  coat = normal_raise(coat, to_world[2], wo, min(0.02, dot(to_world[2], wo)));
+  //#if TERMINATOR_LIFT
+  // Rays from the smooth surface may leave below the triangle's horizon.
+  //#if OPENPBR_TRANSMISSION
+  let lifted = parameters.transmission_weight <= 0.0 && any(s.lift != vec3f(0.0));
+  //#else
+  let lifted = any(s.lift != vec3f(0.0));
+  //#endif
+  //#else
+  let lifted = false;
+  //#endif
+  let geometric = side * s.geometric;
+  if (!lifted) { coat = normal_raise(coat, geometric, wo, min(0.02, dot(geometric, wo))); }
+  parameters.geometry_coat_normal = coat * to_world;
+  parameters.geometry_coat_tangent = s.coat_tangent * to_world;
+  return parameters;
+}
+
+// A frame of that normal in which the viewer lies over the tangent.
+fn surface_view_frame(normal: vec3f, wo: vec3f) -> mat3x3f {
+  let across = cross(normal, wo);
+  let sine2 = dot(across, across);
+  let bitangent = select(surface_tangent(normal), across * inverseSqrt(max(sine2, 1e-30)), sine2 > 1e-12);
+  return mat3x3f(cross(bitangent, normal), bitangent, normal);
+}
+//#endif
+
 fn surface_normal_to_world(columns: mat3x3f, orientation: f32, n: vec3f) -> vec3f {
   return orientation * (cross(columns[1], columns[2]) * n.x + cross(columns[2], columns[0]) * n.y + cross(columns[0], columns[1]) * n.z);
 }
@@ -363,6 +398,6 @@ fn surface_load(hit: vec4u, origin: vec3f, direction: vec3f, cone_width: f32) ->
   return s;
 }
 `,
-    [material, instanceStruct.module, tangent, bvhOffset, gated('TEXTURES', attributes)],
+    [material, instanceStruct.module, tangent, bvhOffset, gated('TEXTURES', attributes), gated('OPENPBR_COAT_FRAME', shadingNormal)],
   );
 }
