@@ -70,7 +70,10 @@ export function nodeBackend(): Backend {
       const software = name?.toLowerCase() === 'software';
       const { gpu, adapterName, software: isSoftware } = await createGpu(software ? { software: 'only' } : name === undefined ? {} : { gpu: name });
       const device = await requestDevice({ gpu });
-      device.addEventListener('uncapturederror', ({ error }) => {
+      device.addEventListener('uncapturederror', (event) => {
+        // Dawn would print it to stdout, where nothing but results belong.
+        event.preventDefault();
+        const { error } = event;
         const memory = error instanceof GPUOutOfMemoryError;
         onError(new DeviceError(memory ? 'renderer/out-of-memory' : 'renderer/gpu-error', `The GPU ${memory ? 'has not enough memory' : 'refused work'}: ${error.message}`));
       });

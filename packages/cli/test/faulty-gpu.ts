@@ -18,12 +18,14 @@ export interface Faults {
   readonly onSubmit?: (device: FaultyDevice) => void;
   /** Called before each copy of a film to the CPU and after it. */
   readonly onSave?: (device: FaultyDevice, film?: FilmState) => void;
+  /** Labels of the buffers for which there is no memory. */
+  readonly outOfMemory?: RegExp;
   /** Called before a device is opened; throws if there is none. */
   readonly onOpen?: (index: number, name: string | undefined) => void;
 }
 
 /** The real backend, whose devices can be lost at any submission. */
-export function faultyBackend({ onSubmit, onSave, onOpen }: Faults): { readonly backend: Backend; readonly devices: FaultyDevice[] } {
+export function faultyBackend({ onSubmit, onSave, onOpen, outOfMemory }: Faults): { readonly backend: Backend; readonly devices: FaultyDevice[] } {
   const real = nodeBackend();
   const devices: FaultyDevice[] = [];
   const backend: Backend = {
@@ -46,6 +48,9 @@ export function faultyBackend({ onSubmit, onSave, onOpen }: Faults): { readonly 
         },
       };
       devices.push(faulty);
+      const create = device.createBuffer.bind(device);
+      // Nothing has so much: the device reports an error and gives a buffer that cannot be used.
+      device.createBuffer = (descriptor) => create(outOfMemory?.test(descriptor.label ?? '') ? { ...descriptor, size: 2 ** 50 } : descriptor);
       const { queue } = device;
       const submit = queue.submit.bind(queue);
       queue.submit = (buffers) => {

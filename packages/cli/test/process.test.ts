@@ -22,8 +22,8 @@ interface Ended {
   readonly err: string;
 }
 
-function start(argv: readonly string[], cwd: string, onErr: (text: string, child: ChildProcess) => void = () => undefined, onOut: (text: string, child: ChildProcess) => unknown = () => undefined): Promise<Ended> {
-  const child = spawn(process.execPath, [program, ...argv], { cwd, stdio: ['ignore', 'pipe', 'pipe'] });
+function start(argv: readonly string[], cwd: string, onErr: (text: string, child: ChildProcess) => void = () => undefined, onOut: (text: string, child: ChildProcess) => unknown = () => undefined, env: NodeJS.ProcessEnv = {}): Promise<Ended> {
+  const child = spawn(process.execPath, [program, ...argv], { cwd, stdio: ['ignore', 'pipe', 'pipe'], env: { ...process.env, ...env } });
   let [out, err] = ['', ''];
   child.stdout.on('data', (chunk: Buffer) => {
     out += chunk.toString();
@@ -113,6 +113,47 @@ describe.skipIf(process.platform === 'win32')('a reader that closes its end of a
     piped(['info', 'red.glb'], '> /dev/full', cwd);
     expect(status(cwd)).toBe('4');
   });
+});
+
+describe('the GPU is lost', () => {
+  const dawn = fileURLToPath(new URL('faulty-dawn.mjs', import.meta.url));
+  const argv = ['render', 'red.glb', '--gpu', 'software', '--size', '32x24', '--samples', '40', '--depth', '3', '-o', 'x.exr', '-o', 'x.png', '--json'];
+  const folderWithModel = () => temporaryFolder({ 'red.glb': makeGlb({ camera: true }) });
+  const files = (cwd: string) => ['x.exr', 'x.png'].map((name) => readFileSync(join(cwd, name)));
+
+  it('and comes back: exit status 0, and the same files bit for bit', async () => {
+    const [whole, cwd] = [folderWithModel(), folderWithModel()];
+    expect((await start(argv, whole)).code).toBe(0);
+    const { code, out, err } = await start(argv, cwd, undefined, undefined, { GPU_WEBGPU: dawn, GLANZ_TEST_LOSE_AT: '9' });
+    expect(code, err).toBe(0);
+    expect(JSON.parse(out)).toMatchObject({ ok: true, samples: 40, gpuLosses: 1 });
+    expect(files(cwd).map((file, i) => Buffer.compare(file, files(whole)[i] as Buffer))).toEqual([0, 0]);
+  });
+
+  it('and SIGTERM ends the waiting for it', async () => {
+    const cwd = folderWithModel();
+    let sent = 0;
+    const { code, signal, err } = await start(argv, cwd, (text, child) => {
+      if (sent === 0 && /wait for the GPU/.test(text)) sent = child.kill('SIGTERM') ? 1 : 0;
+    }, undefined, { GPU_WEBGPU: dawn, GLANZ_TEST_LOSE_AT: '9', GLANZ_TEST_DEVICES: '1' });
+    expect([code, signal, readdirSync(cwd)], err).toEqual([143, null, ['red.glb']]);
+  });
+
+  it('and does not come back: 5, and advice', async () => {
+    const cwd = folderWithModel();
+    const { code, out, err } = await start(argv, cwd, undefined, undefined, { GPU_WEBGPU: dawn, GLANZ_TEST_LOSE_AT: '9', GLANZ_TEST_DEVICES: '1' });
+    expect([code, readdirSync(cwd)], err).toEqual([5, ['red.glb']]);
+    expect(err.trim().split('\n').at(-1)).toMatch(/^glanz: The GPU "llvmpipe.*" was lost and gives no new device after 5 attempts \(.*injected refusal\)\. Often it ran out of memory, .* \[cli\/gpu-lost\]$/);
+    expect(JSON.parse(out)).toMatchObject({ ok: false, error: { code: 'cli/gpu-lost' } });
+  });
+});
+
+it('no memory for a layer of an EXR: exit status 1, no file, and nothing on stdout but the object', async () => {
+  const cwd = temporaryFolder({ 'red.glb': makeGlb({ camera: true }) });
+  const env = { GPU_WEBGPU: fileURLToPath(new URL('faulty-dawn.mjs', import.meta.url)), GLANZ_TEST_NO_MEMORY: 'glanz film albedo' };
+  const { code, out, err } = await start(['render', 'red.glb', '--gpu', 'software', '--size', '16x16', '--samples', '2', '-o', 'x.exr', '--json'], cwd, undefined, undefined, env);
+  expect([code, readdirSync(cwd)], err).toEqual([1, ['red.glb']]);
+  expect(JSON.parse(out)).toMatchObject({ ok: false, error: { code: expect.stringMatching(/^renderer\/(gpu-error|out-of-memory)$/) } });
 });
 
 it('a batch that is killed goes on where it was, and its pictures are those of runs of their own', { timeout: 600_000 }, async () => {

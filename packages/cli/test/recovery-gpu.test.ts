@@ -112,3 +112,10 @@ describe('the files are the same bit for bit', () => {
     expect(existsSync(join(cwd, 'x.ckpt'))).toBe(false);
   });
 });
+
+it.each(['albedo', 'ids', 'position', 'total', 'read'])('no memory for the buffer "%s" of the film: a typed error, status 1, and no file', async (name) => {
+  const cwd = folder();
+  const { code, err, out } = await glanz(['red.glb', ...OUTPUTS, ...QUALITY], cwd, { outOfMemory: new RegExp(`^glanz (film )?${name}$`) });
+  expect([code, readdirSync(cwd).sort()], err).toEqual([1, ['red.glb', 'shoe.glb']]);
+  expect((JSON.parse(out) as unknown as { error: { code: string } }).error.code).toMatch(/^renderer\/(out-of-memory|gpu-error)$/);
+});
