@@ -55,9 +55,9 @@ it("three variants from four views by one command: bit for bit the film that a v
     for (const variant of [...VARIANTS].reverse()) {
       await tracer.setCamera(camera(view));
       await tracer.setVariant(variant);
-      tracer.resize(5, 4);
+      await tracer.resize(5, 4);
       await refine(tracer, 1, 0);
-      tracer.resize(width, height);
+      await tracer.resize(width, height);
       await refine(tracer, SAMPLES, stops++ % 4);
       expect(tracer.samples).toBe(SAMPLES);
       const film = await tracer.read('beauty');

@@ -2,6 +2,7 @@ import { DeviceError } from './errors';
 import type { Film } from './film/film';
 import type { GroupWeights } from './film/layers';
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_COPY_SRC, GPU_BUFFER_INDIRECT, GPU_BUFFER_STORAGE, GPU_BUFFER_UNIFORM, type GpuMemory } from './gpu/buffers';
+import { inErrorScopes } from './gpu/error-scopes';
 import type { GpuScene } from './gpu/gpu-scene';
 import type { KernelSet } from './gpu/kernel-cache';
 import { CONNECT_CROSSINGS } from './kernels/connect.wgsl';
@@ -52,6 +53,9 @@ export class Integrator {
    */
   readonly #counted: boolean;
   #capacity: number;
+  #growing = false;
+  /** A number of paths that the GPU has refused memory for. */
+  #refused = Infinity;
   limits: DepthLimits;
   #kernels: KernelSet;
   #film: Film;
@@ -120,14 +124,39 @@ export class Integrator {
     return this.#buffers.queues;
   }
 
-  /** From now on these kernels; they bind anew. */
-  use(kernels: KernelSet): void {
-    this.#kernels = kernels;
-    const { flags } = kernels.features;
+  /**
+   * Makes the buffers that other kernels need, where those there are too small.
+   * @returns `use` puts kernels and buffers in place; `discard` frees the buffers. Nothing has changed before.
+   */
+  prepare(kernels: KernelSet): { readonly use: () => void; readonly discard: () => void } {
     // Paths that carry more may be too large for as many of them.
-    this.#capacity = Math.min(this.#capacity, this.limit);
-    this.#grow('shadows', flags.NEXT_EVENT ? shadowRecords(flags).bytes(this.capacity) : 0);
-    this.#grow('paths', pathLayout(kernels.features).records.bytes(this.capacity));
+    const capacity = Math.min(this.#capacity, pathLimit(this.#device, this.#wanted, kernels.features));
+    const made = this.#makePathBuffers(kernels.features, capacity, (name, bytes) => this.#buffers[name].size < bytes);
+    return {
+      use: () => {
+        this.#kernels = kernels;
+        this.#capacity = capacity;
+        this.#refused = Infinity;
+        this.#replace(made);
+      },
+      discard: () => Object.values(made).forEach((buffer) => this.#memory.release(buffer)),
+    };
+  }
+
+  #makePathBuffers(features: KernelFeatures, paths: number, needed: (name: 'paths' | 'shadows', bytes: number) => boolean): Partial<Record<OwnBuffer, GPUBuffer>> {
+    const bytes = {
+      paths: pathLayout(features).records.bytes(paths),
+      shadows: features.flags.NEXT_EVENT ? shadowRecords(features.flags).bytes(paths) : 0,
+    };
+    const names = (['paths', 'shadows'] as const).filter((name) => needed(name, bytes[name]));
+    return Object.fromEntries(names.map((name) => [name, this.#memory.buffer(name, bytes[name], GPU_BUFFER_STORAGE)]));
+  }
+
+  #replace(made: Partial<Record<OwnBuffer, GPUBuffer>>): void {
+    for (const [name, buffer] of Object.entries(made) as [OwnBuffer, GPUBuffer][]) {
+      this.#memory.release(this.#buffers[name]);
+      this.#buffers[name] = buffer;
+    }
     this.rebind();
   }
 
@@ -149,29 +178,47 @@ export class Integrator {
     this.#memory.write(this.#buffers.light_groups, data);
   }
 
-  /** Makes room for a batch. */
-  #reserve(paths: number): void {
-    if (paths <= this.#capacity) return;
-    const { features } = this.#kernels;
-    this.#capacity = paths;
-    this.#grow('paths', pathLayout(features).records.bytes(paths));
-    this.#grow('shadows', features.flags.NEXT_EVENT ? shadowRecords(features.flags).bytes(paths) : 0);
-    const { queues } = this.#buffers;
-    this.#buffers.queues = this.#memory.buffer('queues', (QUEUE_WORDS + 2 * paths) * 4, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC | GPU_BUFFER_COPY_DST);
-    // The count of dropped samples goes on.
-    const encoder = this.#device.createCommandEncoder({ label: 'glanz queues' });
-    encoder.copyBufferToBuffer(queues, 0, this.#buffers.queues, 0, QUEUE_WORDS * 4);
-    this.#device.queue.submit([encoder.finish()]);
-    this.#memory.release(queues);
-    this.rebind();
+  /**
+   * Paths that a batch may hold now. Where it could hold more, memory for those is asked for, and used once the GPU has
+   * granted it; where it has not, batches stay as they are.
+   */
+  room(paths: number): number {
+    const wanted = Math.min(paths, this.limit);
+    if (wanted > this.#capacity && wanted < this.#refused && !this.#growing) {
+      this.#growing = true;
+      this.#grow(wanted)
+        .catch(() => (this.#refused = Math.min(this.#refused, wanted)))
+        .finally(() => (this.#growing = false));
+    }
+    return this.#capacity;
   }
 
-  /** Traces the batch's paths and adds them to the film. */
+  async #grow(paths: number): Promise<void> {
+    const kernels = this.#kernels;
+    const { result: made, verified } = inErrorScopes(this.#device, 'more paths at once', () => ({
+      ...this.#makePathBuffers(kernels.features, paths, (name, bytes) => this.#buffers[name].size < bytes),
+      queues: this.#memory.buffer('queues', (QUEUE_WORDS + 2 * paths) * 4, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC | GPU_BUFFER_COPY_DST),
+    }));
+    const discard = () => Object.values(made).forEach((buffer) => this.#memory.release(buffer));
+    await verified.catch((error: unknown) => {
+      discard();
+      throw error;
+    });
+    // Other kernels have come meanwhile, whose paths may be larger.
+    if (kernels !== this.#kernels || this.#memory.destroyed) return discard();
+    this.#capacity = paths;
+    // The counts of dropped samples and of rays go on.
+    const encoder = this.#device.createCommandEncoder({ label: 'glanz queues' });
+    encoder.copyBufferToBuffer(this.#buffers.queues, 0, made.queues, 0, QUEUE_WORDS * 4);
+    this.#device.queue.submit([encoder.finish()]);
+    this.#replace(made);
+  }
+
+  /** Traces the batch's paths, which there must be {@link room} for, and adds them to the film. */
   submit(batch: Batch): void {
     this.#writeBatch(batch);
     const { kernels, features } = this.#kernels;
     const paths = batch.pixelCount * batch.sampleCount * this.pathsPerSample;
-    this.#reserve(paths);
     this.#pass('glanz batch', (pass) => {
       const run = (name: KernelName, work: number | { readonly indirect: number }) => this.#run(pass, name, kernels[name] as Kernel, work);
       run('begin', 1);
@@ -209,12 +256,6 @@ export class Integrator {
       pass.setBindGroup(0, this.#group('noise', kernel));
       pass.dispatchWorkgroups(columns, rows);
     });
-  }
-
-  #grow(name: 'shadows' | 'paths', bytes: number): void {
-    if (this.#buffers[name].size >= bytes) return;
-    this.#memory.release(this.#buffers[name]);
-    this.#buffers[name] = this.#memory.buffer(name, bytes, GPU_BUFFER_STORAGE);
   }
 
   #pass(label: string, encode: (pass: GPUComputePassEncoder) => void): void {

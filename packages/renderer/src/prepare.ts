@@ -1,5 +1,5 @@
 import { breathe, inSlices, SceneError, validationSteps, type Camera, type Instance, type Scene } from '@glanz/scene';
-import { DeviceError, deviceLost, RenderError } from './errors';
+import { deviceLost, RenderError } from './errors';
 import { Film } from './film/film';
 import { showFirstLight } from './first-light';
 import { GpuMemory } from './gpu/buffers';
@@ -10,12 +10,13 @@ import { GpuScene } from './gpu/gpu-scene';
 import { KernelCache } from './gpu/kernel-cache';
 import { Integrator } from './integrator';
 import type { Kernel, KernelFeatures, KernelName } from './kernels/pipelines';
-import type { PathTracerOptions, RenderOptions, RenderStatistics } from './options';
+import { checkDepth, checkInteriors, checkSize, checkVolumeDepth } from './option-checks';
+import type { PathTracerOptions, RenderStatistics } from './options';
+import { cameraUniforms } from './scene/camera';
 import { cameraSteps } from './scene/choose-camera';
 import { environmentSteps } from './scene/environment';
 import { expectedFeatures, type SceneChoices } from './scene/features';
 import { isShown, prepareGeometry } from './scene/geometry';
-import { hasInterior } from './scene/interiors';
 import { lightGroupTable } from './scene/light-groups';
 import { lightSteps } from './scene/lights';
 import { ownScene, SceneEditor } from './scene-editor';
@@ -62,6 +63,7 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
     // What cannot be framed cannot be rendered, and that is what was asked for.
     throw cause instanceof SceneError && cause.code === 'scene/empty' ? new RenderError('renderer/no-triangles', 'The scene has no visible triangles: nothing to render.', { cause }) : cause;
   });
+  cameraUniforms(camera, options.width, options.height);
   const expected = kernelFeatures(expectedFeatures(device, own, choices), camera, options);
   const checked = performance.now();
   let asked = checked;
@@ -90,7 +92,7 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
     return [await inSlices(environmentSteps(own.environment), { signal }), energyTextures((await loading).OPENPBR_TABLES), lights] as const;
   };
   const memory = new GpuMemory(device);
-  const makeFilm = (planes: number) => withErrorScopes(device, () => new Film(memory, options.width, options.height, planes));
+  const makeFilm = (planes: number) => withErrorScopes(device, `an image of ${options.width} × ${options.height} pixels`, () => new Film(memory, options.width, options.height, planes));
   let late = false;
   let forget: (() => void) | undefined;
   try {
@@ -100,7 +102,7 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
     const t1 = performance.now();
     await breathe();
     onProgress?.({ stage: 'upload', done: 0 });
-    const gpuScene = await withErrorScopes(device, () => new GpuScene(device, memory, own, geometry, choices));
+    const gpuScene = await withErrorScopes(device, 'the shapes and textures of this scene', () => new GpuScene(device, memory, own, geometry, choices));
     await gpuScene.fill(signal);
     if (onFirstLight) {
       forget = showFirstLight({ device, scene: gpuScene, geometry, camera, cache, features: expected, options }, onFirstLight, () => late || signal?.aborted === true);
@@ -116,17 +118,19 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
     const fits = ahead?.planes === features.planes;
     if (!fits) ahead?.destroy();
     const film = fits ? ahead : await makeFilm(features.planes);
-    const integrator = await withErrorScopes(device, () => new Integrator(device, memory, gpuScene, features, film, options.pathsInFlight, { maxDepth: options.maxDepth ?? 8, maxVolumeDepth: options.maxVolumeDepth ?? 256 }));
+    const integrator = await withErrorScopes(device, 'the paths', () => new Integrator(device, memory, gpuScene, features, film, options.pathsInFlight, { maxDepth: options.maxDepth ?? 8, maxVolumeDepth: options.maxVolumeDepth ?? 256 }));
     const rehearsals: Promise<void>[] = [];
     const hear = (done: number, name?: KernelName, kernel?: Kernel) => {
+      if (signal?.aborted) return;
       onProgress?.({ stage: 'compile', done });
       if (!name || !kernel) return;
-      const rehearsal = withErrorScopes(device, () => integrator.rehearse(name, kernel));
+      const rehearsal = withErrorScopes(device, `the kernel "${name}"`, () => integrator.rehearse(name, kernel));
       rehearsal.catch(() => {});
       rehearsals.push(rehearsal);
     };
-    integrator.begin(await compiling.watch(cache.get(features, hear)));
-    await Promise.all(rehearsals);
+    // The driver goes on compiling, for a later tracer; this one need not wait for it.
+    integrator.begin(await untilAborted(compiling.watch(cache.get(features, hear)), signal));
+    await untilAborted(Promise.all(rehearsals), signal);
     signal?.throwIfAborted();
     const lost = lossInfo(device);
     if (lost) throw deviceLost(lost);
@@ -140,6 +144,20 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
     late = true;
     forget?.();
   }
+}
+
+/** The promise, or a rejection with the signal's reason as soon as it aborts. */
+async function untilAborted<T>(promise: Promise<T>, signal: AbortSignal | undefined): Promise<T> {
+  if (!signal) return promise;
+  promise.catch(() => {});
+  let stop = () => {};
+  const aborted = new Promise<never>((_, reject) => {
+    const abort = () => reject(signal.reason as Error);
+    if (signal.aborted) abort();
+    signal.addEventListener('abort', abort, { once: true });
+    stop = () => signal.removeEventListener('abort', abort);
+  });
+  return Promise.race([promise, aborted]).finally(stop);
 }
 
 /** From the first request for kernels to when the last of them were there. */
@@ -168,42 +186,4 @@ class CompileClock {
 /** What decides the kernels' text: the scene's features, the camera and the options. */
 export function kernelFeatures(features: KernelFeatures, camera: Camera, options: PathTracerOptions): KernelFeatures {
   return { ...features, flags: { ...features.flags, ...viewFlags(camera, options.filter), ...shortcutFlags(options) } };
-}
-
-/** Paths count edges and scattering events in 16 bits each. */
-const MOST_EVENTS = 0xffff;
-/** An interior's place in a path's stack has 15 bits, and 0 stands for none. */
-const MOST_INTERIORS = 0x7fff;
-
-/**
- * The samples that are asked for.
- * @throws {RenderError} `renderer/samples`
- */
-export function checkedSamples({ noise, samples = noise === undefined ? 64 : 65536 }: RenderOptions): number {
-  if (!Number.isInteger(samples) || samples < 1) throw new RenderError('renderer/samples', `The number of samples must be a whole number of at least 1, not ${samples}.`);
-  if (noise !== undefined && !(noise > 0)) throw new RenderError('renderer/samples', `The noise to reach must be above 0, not ${noise}.`);
-  return samples;
-}
-
-/** @throws {RenderError} `renderer/option` */
-export function checkDepth(maxDepth: number): void {
-  if (!Number.isInteger(maxDepth) || maxDepth < 1 || maxDepth > MOST_EVENTS) throw new RenderError('renderer/option', `maxDepth must be a whole number of at least 1 and at most ${MOST_EVENTS}, not ${maxDepth}.`);
-}
-
-/** @throws {RenderError} `renderer/option` */
-function checkVolumeDepth(maxVolumeDepth: number): void {
-  if (!Number.isInteger(maxVolumeDepth) || maxVolumeDepth < 0 || maxVolumeDepth > MOST_EVENTS) throw new RenderError('renderer/option', `maxVolumeDepth must be a whole number of at most ${MOST_EVENTS}, not ${maxVolumeDepth}.`);
-}
-
-/** @throws {DeviceError} `renderer/limit` where a path has too few bits to say in which of the materials it is. */
-function checkInteriors({ materials }: Scene): void {
-  const last = materials.findLastIndex(hasInterior);
-  if (last >= MOST_INTERIORS) throw new DeviceError('renderer/limit', `Material ${last} ("${materials[last]?.name}") lets light into its inside; only the first ${MOST_INTERIORS} materials of a scene may: move it up, or give it geometry_thin_walled.`);
-}
-
-/** @throws {RenderError} `renderer/size` */
-export function checkSize(width: number, height: number): void {
-  if (!Number.isInteger(width) || !Number.isInteger(height) || width < 1 || height < 1) {
-    throw new RenderError('renderer/size', `A picture of ${width} × ${height} pixels cannot be rendered: both must be whole numbers of at least 1.`);
-  }
 }

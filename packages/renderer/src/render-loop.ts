@@ -6,7 +6,12 @@ export interface RenderLoop {
   /** Samples per pixel to reach. */
   readonly target: number;
   readonly queue: GPUQueue;
-  readonly submit: (batch: Batch) => void;
+  /** Submits a batch. The promise rejects if the GPU refuses it. */
+  readonly submit: (batch: Batch) => Promise<void>;
+  /** Paths that there is memory for, when a batch could hold so many: asks for more memory where that is more. */
+  readonly room: (paths: number) => number;
+  /** Settles when batches may be submitted again; `undefined`: now. */
+  readonly ready: () => Promise<void> | undefined;
   /** Whether the picture is still the one the loop began with, and wanted. */
   readonly current: () => boolean;
   /** Throws if the device failed. */
@@ -22,19 +27,25 @@ const IN_FLIGHT = 2;
 const LATE = 1.25;
 
 /** Submits batches until the target is reached, measures them, and gives the number of samples after each that is complete. */
-export async function* renderLoop({ scheduler, target, queue, submit, current, check }: RenderLoop): AsyncGenerator<number, void, undefined> {
+export async function* renderLoop(loop: RenderLoop): AsyncGenerator<number, void, undefined> {
+  const { scheduler, target, queue, submit, room, ready, current, check } = loop;
   let reported = scheduler.samples;
   let lastDone = performance.now();
   let last = 0;
   let before: { readonly paths: number; readonly milliseconds: number } | undefined;
-  const inFlight: { batch: Batch; submitted: number; after: number; done: Promise<number> }[] = [];
+  const inFlight: { batch: Batch; submitted: number; after: number; done: Promise<number>; verified: Promise<void> }[] = [];
   for (;;) {
     while (inFlight.length < (last > LATE * scheduler.budget ? 1 : IN_FLIGHT) && current()) {
-      const batch = scheduler.next(target);
+      const wait = ready();
+      if (wait) {
+        await wait;
+        continue;
+      }
+      const batch = scheduler.next(target, room(scheduler.paths));
       if (!batch) break;
       const submitted = performance.now();
-      submit(batch);
-      inFlight.push({ batch, submitted, after: scheduler.samples, done: queue.onSubmittedWorkDone().then(() => performance.now() - Math.max(submitted, lastDone)) });
+      const verified = submit(batch);
+      inFlight.push({ batch, submitted, after: scheduler.samples, verified, done: queue.onSubmittedWorkDone().then(() => performance.now() - Math.max(submitted, lastDone)) });
     }
     const oldest = inFlight.shift();
     if (!oldest) return;
@@ -42,6 +53,7 @@ export async function* renderLoop({ scheduler, target, queue, submit, current, c
     const waited = oldest.submitted < lastDone;
     lastDone = performance.now();
     check();
+    await oldest.verified;
     // News of the batch before may have come late, which would make this one look short and the next one far too long: of
     // batches that follow each other, the time of two counts.
     const paths = oldest.batch.pixelCount * oldest.batch.sampleCount;

@@ -4,7 +4,7 @@ import { renderLoop, type RenderLoop } from './render-loop';
 import { Scheduler } from './scheduler';
 
 /** What a {@link Sampling} works on. */
-export interface SamplingHost extends Pick<RenderLoop, 'queue' | 'submit' | 'check'> {
+export interface SamplingHost extends Pick<RenderLoop, 'queue' | 'submit' | 'room' | 'ready' | 'check'> {
   readonly width: number;
   readonly height: number;
   /** Paths that fit. */

@@ -2,6 +2,7 @@ import type { Blas } from '@glanz/bvh';
 import { createScene, validateScene, type Environment, type Instance, type Light, type Material, type Mesh, type Scene } from '@glanz/scene';
 import { RenderError } from './errors';
 import type { GpuScene } from './gpu/gpu-scene';
+import { checkParameters } from './scene/check-parameters';
 import { attributeWords, layOutGeometry, missingMeshes, packGeometry, packMesh, packTlas, placeInstances, prepareHierarchies, type Geometry, type MeshRegion } from './scene/geometry';
 import type { HierarchyBuilder } from './scene/hierarchies';
 import { findMaterial } from './scene/materials';
@@ -19,6 +20,18 @@ export function ownScene(scene: Scene): Scene {
   };
 }
 
+/** A change of the scene that is ready to be made: what takes time has been done, and nothing has been changed yet. */
+export interface SceneChange {
+  /** Whether another change has been made since, which this one does not take into account. */
+  readonly isStale: () => boolean;
+  /** Makes it, in the scene and on the GPU. @returns Whether buffers or textures were replaced. */
+  readonly apply: () => boolean;
+  /** Takes the scene back to what it was before. */
+  readonly undo: () => void;
+  /** Writes shapes to the GPU again that it has overwritten, once everything else has been taken back. */
+  readonly rewrite?: () => void;
+}
+
 /** Names listed in an error message, at most. */
 const LISTED_NAMES = 50;
 
@@ -28,9 +41,8 @@ const names = (list: readonly { readonly name: string }[]) => {
 };
 
 /**
- * Edits of a scene that is on the GPU. Each changes the scene and writes what depends on it, no more, and tells whether
- * buffers were replaced, so that kernels bind anew. What takes time (hierarchies) is prepared first, then all is changed at
- * once: between two edits the scene is always whole.
+ * Edits of a scene that is on the GPU. Each method checks what it is given and prepares what takes time (hierarchies), and
+ * gives the change, which is then made at once: between two changes the scene is always whole.
  */
 export class SceneEditor {
   readonly scene: Scene;
@@ -58,83 +70,124 @@ export class SceneEditor {
     return this.#geometry;
   }
 
-  setMaterial(nameOrIndex: string | number, parameters: Material['parameters']): boolean {
+  setMaterial(nameOrIndex: string | number, parameters: Material['parameters']): SceneChange {
     const index = this.#material(nameOrIndex);
     const material = this.scene.materials[index] as Material;
+    checkParameters(material.name, parameters);
     const before = material.parameters;
-    material.parameters = { ...before, ...parameters };
-    const emission = Object.entries(parameters).some(([name, value]) => name.startsWith('emission_') && JSON.stringify(before[name as keyof typeof before]) !== JSON.stringify(value));
-    return this.#gpu.updateMaterial(index, emission);
+    return {
+      isStale: () => material.parameters !== before,
+      apply: () => {
+        material.parameters = { ...before, ...parameters };
+        const emission = Object.entries(parameters).some(([name, value]) => name.startsWith('emission_') && JSON.stringify(before[name as keyof typeof before]) !== JSON.stringify(value));
+        return this.#gpu.updateMaterial(index, emission);
+      },
+      undo: () => (material.parameters = before),
+    };
   }
 
-  setLight(nameOrIndex: string | number, change: Partial<Light>): boolean {
+  setLight(nameOrIndex: string | number, change: Partial<Light>): SceneChange {
     const { lights } = this.scene;
     const index = typeof nameOrIndex === 'number' ? nameOrIndex : lights.findIndex(({ name }) => name === nameOrIndex);
     const light = lights[index];
     if (!light) throw new RenderError('renderer/light', `The scene has no light ${JSON.stringify(nameOrIndex)}; it has: ${names(lights)}.`);
     const next = { ...light, ...change, type: light.type } as Light;
     validateScene({ ...createScene(), lights: [next] });
-    lights[index] = next;
-    return this.#gpu.updateLights();
+    return {
+      isStale: () => lights[index] !== light,
+      apply: () => {
+        lights[index] = next;
+        return this.#gpu.updateLights();
+      },
+      undo: () => (lights[index] = light),
+    };
   }
 
-  setEnvironment(environment: Environment | undefined): boolean {
+  setEnvironment(environment: Environment | undefined): SceneChange {
     if (environment) validateScene({ ...createScene(), environment });
-    if (environment) this.scene.environment = environment;
-    else delete this.scene.environment;
-    return this.#gpu.updateEnvironment(environment);
+    return this.#changeEnvironment(environment);
   }
 
-  adjustEnvironment(change: { readonly rotation?: number; readonly intensity?: number; readonly visible?: boolean }): boolean {
+  adjustEnvironment(change: { readonly rotation?: number; readonly intensity?: number; readonly visible?: boolean }): SceneChange {
     const { environment } = this.scene;
     if (!environment) throw new RenderError('renderer/environment', 'The scene has no environment to change; set one with setEnvironment().');
-    for (const [name, value] of Object.entries(change)) {
-      if (typeof value === 'number' && !Number.isFinite(value)) throw new RenderError('renderer/environment', `The environment's ${name} must be finite, not ${value}.`);
+    for (const name of ['rotation', 'intensity'] as const) {
+      const value = change[name];
+      if (value !== undefined && !Number.isFinite(value)) throw new RenderError('renderer/environment', `The environment's ${name} must be finite, not ${String(value)}.`);
     }
+    if (change.intensity !== undefined && change.intensity < 0) throw new RenderError('renderer/environment', `The environment's intensity must be at least 0, not ${change.intensity}.`);
     if (environment.type === 'constant' && change.intensity !== undefined) throw new RenderError('renderer/environment', 'A constant environment has no intensity; set another radiance with setEnvironment().');
     const { visible = environment.visible ?? true } = change;
-    const next: Environment = environment.type === 'latlong' ? { ...environment, ...change, visible } : { ...environment, visible };
-    // The picture was validated when it was set.
-    this.scene.environment = next;
-    return this.#gpu.updateEnvironment(next);
+    // The pixels were validated when they were set.
+    return this.#changeEnvironment(environment.type === 'latlong' ? { ...environment, ...change, visible } : { ...environment, visible });
   }
 
-  setTransform(nameOrIndex: string | number, transform: ArrayLike<number>): boolean | Promise<boolean> {
+  #changeEnvironment(environment: Environment | undefined): SceneChange {
+    const before = this.scene.environment;
+    const set = (value: Environment | undefined) => {
+      if (value) this.scene.environment = value;
+      else delete this.scene.environment;
+    };
+    return {
+      isStale: () => this.scene.environment !== before,
+      apply: () => {
+        set(environment);
+        return this.#gpu.updateEnvironment(environment);
+      },
+      undo: () => set(before),
+    };
+  }
+
+  setTransform(nameOrIndex: string | number, transform: ArrayLike<number>): SceneChange | Promise<SceneChange> {
     if (transform.length !== 16 || !Array.from(transform).every(Number.isFinite)) throw new RenderError('renderer/transform', 'A transform must be 16 finite numbers, column-major.');
     return this.#place(this.#changed(nameOrIndex, { transform: Array.from(transform) }));
   }
 
-  setMaterialOf(nameOrIndex: string | number, material: string | number): boolean | Promise<boolean> {
+  setMaterialOf(nameOrIndex: string | number, material: string | number): SceneChange | Promise<SceneChange> {
     const index = this.#material(material);
     const instances = this.#changed(nameOrIndex, { material: index });
-    this.#instances(nameOrIndex).forEach((i) => (this.#plain[i] = index));
-    return this.#place(instances);
+    const which = this.#instances(nameOrIndex);
+    const before = which.map((i) => this.#plain[i] as number);
+    const withPlain = (change: SceneChange): SceneChange => ({
+      ...change,
+      apply: () => {
+        which.forEach((i) => (this.#plain[i] = index));
+        return change.apply();
+      },
+      undo: () => {
+        which.forEach((i, k) => (this.#plain[i] = before[k] as number));
+        change.undo();
+      },
+    });
+    const placed = this.#place(instances);
+    return placed instanceof Promise ? placed.then(withPlain) : withPlain(placed);
   }
 
-  setVariant(variant: string | number | undefined): boolean | Promise<boolean> {
+  setVariant(variant: string | number | undefined): SceneChange | Promise<SceneChange> {
     const all = this.scene.variants ?? [];
     const index = typeof variant === 'string' ? all.indexOf(variant) : variant;
     if (index !== undefined && all[index] === undefined) throw new RenderError('renderer/variant', `The scene has no variant ${JSON.stringify(variant)}; it has: ${all.join(', ') || 'none'}.`);
     return this.#place(this.scene.instances.map((instance, i) => ({ ...instance, material: (index === undefined ? undefined : instance.variants?.[index]) ?? (this.#plain[i] as number) })));
   }
 
-  setCatcher(nameOrIndex: string | number, catcher: boolean): boolean | Promise<boolean> {
+  setCatcher(nameOrIndex: string | number, catcher: boolean): SceneChange | Promise<SceneChange> {
     return this.#place(this.#changed(nameOrIndex, { catcher }));
   }
 
-  async setVisibility(nameOrIndex: string | number | readonly (string | number)[], visible: boolean): Promise<boolean> {
+  async setVisibility(nameOrIndex: string | number | readonly (string | number)[], visible: boolean): Promise<SceneChange> {
     const changed = () => ({ ...this.scene, instances: this.#changed(nameOrIndex, { visible }) });
     if (missingMeshes(changed(), this.#geometry.blas).length === 0) return this.#place(changed().instances);
     // Shown for the first time: their hierarchies come first.
     return this.#reshape(changed);
   }
 
-  async replaceMesh(nameOrIndex: string | number, mesh: Mesh): Promise<boolean> {
+  async replaceMesh(nameOrIndex: string | number, mesh: Mesh): Promise<SceneChange> {
     const index = typeof nameOrIndex === 'number' ? nameOrIndex : this.scene.meshes.findIndex(({ name }) => name === nameOrIndex);
     if (!this.scene.meshes[index]) throw new RenderError('renderer/mesh', `The scene has no mesh ${JSON.stringify(nameOrIndex)}; it has: ${names(this.scene.meshes)}.`);
     validateScene({ ...createScene(), meshes: [mesh] });
     const changed = () => ({ ...this.scene, meshes: this.scene.meshes.map((old, i) => (i === index ? mesh : old)) });
     await this.#build(changed());
+    const before = this.scene.meshes[index] as Mesh;
     const region = this.#geometry.regions[index] as MeshRegion;
     const tree = this.#trees.get(mesh);
     const fits = tree && tree.nodeCount <= region.nodes && tree.triangleIndices.length <= region.triangles && attributeWords(mesh) <= region.words;
@@ -143,8 +196,11 @@ export class SceneEditor {
     const blas = this.#blas(next);
     const { triangleCount, hasVertexColors } = layOutGeometry(next, blas);
     const geometry: Geometry = { ...this.#geometry, ...placeInstances(next, blas), blas, hasVertexColors, triangleCount };
-    this.#commit(next, geometry);
-    return this.#gpu.updateMesh(geometry, index, packMesh(mesh, tree, region));
+    const old = this.#trees.get(before);
+    return {
+      ...this.#commit(next, geometry, () => this.#gpu.updateMesh(geometry, index, packMesh(mesh, tree, region))),
+      ...(old ? { rewrite: () => this.#gpu.rewriteMesh(index, packMesh(before, old, region)) } : {}),
+    };
   }
 
   #blas(scene: Scene): (Blas | undefined)[] {
@@ -162,11 +218,24 @@ export class SceneEditor {
     });
   }
 
-  #commit(scene: Scene, geometry: Geometry): void {
-    this.#version++;
-    this.scene.instances = scene.instances;
-    this.scene.meshes = scene.meshes;
-    this.#geometry = geometry;
+  /** The change to other instances, meshes and where they lie. */
+  #commit({ instances, meshes }: Scene, geometry: Geometry, upload: () => boolean): SceneChange {
+    const version = this.#version;
+    const before = { instances: this.scene.instances, meshes: this.scene.meshes, geometry: this.#geometry };
+    const set = (state: typeof before) => {
+      this.#version++;
+      this.scene.instances = state.instances;
+      this.scene.meshes = state.meshes;
+      this.#geometry = state.geometry;
+    };
+    return {
+      isStale: () => version !== this.#version,
+      apply: () => {
+        set({ instances, meshes, geometry });
+        return upload();
+      },
+      undo: () => set(before),
+    };
   }
 
   #material(nameOrIndex: string | number): number {
@@ -200,16 +269,15 @@ export class SceneEditor {
   }
 
   /** Other instances of the same shapes. The old ones stay if the new ones show nothing. */
-  #place(instances: Instance[]): boolean | Promise<boolean> {
+  #place(instances: Instance[]): SceneChange | Promise<SceneChange> {
     const geometry = { ...this.#geometry, ...placeInstances({ ...this.scene, instances }, this.#geometry.blas) };
     // The first catcher brings a second hierarchy.
     if (packTlas(geometry).length > 16 * geometry.tlasNodes) return this.#reshape(() => ({ ...this.scene, instances }));
-    this.#commit({ ...this.scene, instances }, geometry);
-    return this.#gpu.updatePlacement(geometry);
+    return this.#commit({ ...this.scene, instances }, geometry, () => this.#gpu.updatePlacement(geometry));
   }
 
-  /** Everything is laid out anew, and once more if another edit came in between. */
-  async #reshape(changed: () => Scene): Promise<boolean> {
+  /** Everything is laid out again, and once more if another change came in between. */
+  async #reshape(changed: () => Scene): Promise<SceneChange> {
     for (;;) {
       const version = this.#version;
       const next = changed();
@@ -217,9 +285,10 @@ export class SceneEditor {
       const geometry = layOutGeometry(next, this.#blas(next));
       const packed = await packGeometry(next, geometry);
       if (version !== this.#version) continue;
-      this.#commit(next, geometry);
-      this.#gpu.updateShapes(geometry, packed);
-      return true;
+      return this.#commit(next, geometry, () => {
+        this.#gpu.updateShapes(geometry, packed);
+        return true;
+      });
     }
   }
 }

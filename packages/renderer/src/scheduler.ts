@@ -80,14 +80,18 @@ export class Scheduler {
     return new Scheduler({ pixels, capacity: this.#capacity, budgetMs: this.budget }, this.#paths, samples);
   }
 
-  /** The next piece up to `target` samples, or `undefined` when all have been given out. */
-  next(target: number): Batch | undefined {
+  /**
+   * The next piece up to `target` samples, or `undefined` when all have been given out.
+   * @param room Paths that there is memory for at the moment.
+   */
+  next(target: number, room = Infinity): Batch | undefined {
     if (this.#sample >= target) return undefined;
-    if (this.#pixel > 0 || this.#paths < this.pixels) {
+    const paths = Math.min(this.#paths, Math.max(1, room));
+    if (this.#pixel > 0 || paths < this.pixels) {
       const pixelOffset = this.#pixel;
       const rest = this.pixels - pixelOffset;
       // Bands of equal size: a sliver at the end would be launched for nothing.
-      const bands = Math.ceil(rest / this.#paths);
+      const bands = Math.ceil(rest / paths);
       const pixelCount = Math.ceil(rest / bands);
       const batch = { pixelOffset, pixelCount, sampleOffset: this.#sample, sampleCount: 1 };
       this.#pixel += pixelCount;
@@ -97,7 +101,7 @@ export class Scheduler {
       }
       return batch;
     }
-    const sampleCount = Math.min(Math.floor(this.#paths / this.pixels), target - this.#sample);
+    const sampleCount = Math.min(Math.floor(paths / this.pixels), target - this.#sample);
     const batch = { pixelOffset: 0, pixelCount: this.pixels, sampleOffset: this.#sample, sampleCount };
     this.#sample += sampleCount;
     return batch;

@@ -1,17 +1,25 @@
 import type { Environment, Light, Material, Mesh } from '@glanz/scene';
-import type { SceneEditor } from './scene-editor';
+import type { SceneChange, SceneEditor } from './scene-editor';
 
-/** The edits that a `PathTracer` takes while it lives. Each changes the tracer's own scene, restarts the film and costs what it touches. */
+/**
+ * The edits that a `PathTracer` takes while it lives. Each changes the tracer's own scene, restarts the film and costs what it touches.
+ *
+ * An edit is made as a whole or not at all. Where the GPU refuses it (`renderer/out-of-memory`, `renderer/gpu-error`, a
+ * shader that does not compile), the promise rejects, and scene, film and samples are what they were before; where that
+ * turns out only when kernels are there, edits made meanwhile are taken back with it, and the film begins again.
+ */
 export abstract class TracerEdits {
-  /** @internal Runs an edit, binds what it replaced, and brings kernels that it calls for. */
-  protected abstract edit(change: (editor: SceneEditor) => boolean | Promise<boolean>): Promise<void>;
+  /** @internal Makes an edit, and brings the kernels that it needs. */
+  protected abstract edit(prepare: (editor: SceneEditor) => SceneChange | Promise<SceneChange>): Promise<void>;
 
   /**
    * Changes parameters of a material and restarts the film. Where the change calls for kernels that are not there yet
    * (a lobe appears), the old ones serve until the new ones are ready.
    *
    * @returns When the picture shows the change in full.
-   * @throws {RenderError} `renderer/material` if there is no such material.
+   * @param parameters Names and values as `OPENPBR_PARAMETERS` of `@glanz/openpbr` has them.
+   * @throws {RenderError} `renderer/material` if there is no such material, for unknown names, numbers that are not finite, and values
+   * out of range. Nothing is changed then.
    */
   setMaterial(nameOrIndex: string | number, parameters: Material['parameters']): Promise<void> {
     return this.edit((editor) => editor.setMaterial(nameOrIndex, parameters));
@@ -26,15 +34,16 @@ export abstract class TracerEdits {
     return this.edit((editor) => editor.setLight(nameOrIndex, change));
   }
 
-  /** Replaces the surroundings and restarts the film. The same picture in another rotation or strength is not gone through again. */
+  /** Replaces the environment and restarts the film. The same pixels with another rotation or intensity are not read again. */
   setEnvironment(environment: Environment | undefined): Promise<void> {
     return this.edit((editor) => editor.setEnvironment(environment));
   }
 
   /**
-   * Turns the surroundings, dims them, or hides them from the camera, at the cost of a uniform. Restarts the film.
+   * Rotates the environment, changes its intensity, or hides it from the camera, at the cost of a uniform. Restarts the film.
    *
-   * @throws {RenderError} `renderer/environment` without surroundings, for numbers that are not finite, and for the intensity of a constant.
+   * @throws {RenderError} `renderer/environment` without an environment, for numbers that are not finite, a negative intensity, and the
+   * intensity of a constant.
    */
   adjustEnvironment(change: { readonly rotation?: number; readonly intensity?: number; readonly visible?: boolean }): Promise<void> {
     return this.edit((editor) => editor.adjustEnvironment(change));

@@ -31,12 +31,18 @@ export class FeatureLayers {
     // Layers read at the same time share one pass.
     let pass = this.#passes.get(kernel);
     if (!pass || pass.samples < wanted) this.#passes.set(kernel, (pass = { samples: wanted, done: this.#render(kernel, wanted, pass?.done) }));
-    await pass.done;
+    try {
+      await pass.done;
+    } catch (error) {
+      // The next read tries again.
+      if (this.#passes.get(kernel) === pass) this.#passes.delete(kernel);
+      throw error;
+    }
     return unpackLayer(layer, await Promise.all(buffers.map((name) => this.#source.copy(name))), pass.samples);
   }
 
   async #render(kernel: KernelName, samples: number, after: Promise<void> | undefined): Promise<void> {
-    await after;
+    await after?.catch(() => {});
     await this.#source.render(kernel, samples);
   }
 }

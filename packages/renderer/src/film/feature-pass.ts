@@ -1,3 +1,4 @@
+import { inErrorScopes } from '../gpu/error-scopes';
 import type { Film } from './film';
 import { MAX_THREADS, type Integrator } from '../integrator';
 import type { Kernel, KernelName } from '../kernels/pipelines';
@@ -11,10 +12,23 @@ export function forBands(pixels: number, run: (batch: Batch) => void, sampleOffs
   for (let pixelOffset = 0; pixelOffset < pixels; pixelOffset += MAX_THREADS) run({ pixelOffset, pixelCount: Math.min(MAX_THREADS, pixels - pixelOffset), sampleOffset, sampleCount: 1 });
 }
 
-/** Renders what a kernel knows of the first surfaces anew, with `samples` samples a pixel. */
+/**
+ * Renders what a kernel knows of the first surfaces from scratch, with `samples` samples a pixel. Buffers of the film that the kernel
+ * binds for the first time are made here; they are freed where the GPU refuses them, so that a later attempt makes them again.
+ *
+ * @throws {DeviceError} `renderer/out-of-memory`, `renderer/gpu-error`
+ */
 export async function renderFeatures(device: GPUDevice, integrator: Integrator, name: KernelName, kernel: Kernel, film: Film, samples: number): Promise<void> {
+  const refused = (error: unknown) => {
+    film.release(...kernel.resources.filter((resource) => resource.startsWith('feature_')));
+    integrator.rebind();
+    throw error;
+  };
   for (let sample = 0; sample < samples; sample++) {
-    forBands(film.pixels, (batch) => integrator.submitPixels(name, kernel, batch), sample);
+    const run = () => forBands(film.pixels, (batch) => integrator.submitPixels(name, kernel, batch), sample);
+    const { verified } = inErrorScopes(device, `the film's layers (${name})`, run);
+    // The first pass makes the buffers: none is worth its time without them.
+    if (sample === 0 || sample % 4 === 3 || sample === samples - 1) await verified.catch(refused);
     if (sample % 4 === 3) await device.queue.onSubmittedWorkDone();
   }
 }

@@ -58,6 +58,14 @@ export class Film {
     return this.#buffers.get(name) ?? (ON_DEMAND.has(name) ? this.#make(name, 16) : undefined);
   }
 
+  /** Frees buffers that were made when they were first bound; they are made again when they are bound again. */
+  release(...names: readonly string[]): void {
+    for (const name of names) {
+      this.#memory.release(this.#buffers.get(name));
+      this.#buffers.delete(name);
+    }
+  }
+
   /** Zeroes the sums. */
   clear(encoder: GPUCommandEncoder): void {
     for (const name of ['film_block', 'film_total', 'film_moment', 'beauty']) encoder.clearBuffer(this.#buffers.get(name) as GPUBuffer);

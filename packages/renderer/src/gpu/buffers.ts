@@ -12,9 +12,15 @@ export class GpuMemory {
   readonly #device: GPUDevice;
   readonly #live = new Map<GPUBuffer | GPUTexture, { readonly label: string; readonly bytes: number }>();
   #bytes = 0;
+  #destroyed = false;
 
   constructor(device: GPUDevice) {
     this.#device = device;
+  }
+
+  /** Whether all has been destroyed. */
+  get destroyed(): boolean {
+    return this.#destroyed;
   }
 
   /** Bytes held now. */
@@ -79,6 +85,7 @@ export class GpuMemory {
   }
 
   destroy(): void {
+    this.#destroyed = true;
     for (const resource of this.#live.keys()) this.release(resource);
   }
 

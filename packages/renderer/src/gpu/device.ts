@@ -1,6 +1,6 @@
 import { DeviceError } from '../errors';
 
-/** What {@link requestDevice} may be told. */
+/** Options for {@link requestDevice}. */
 export interface DeviceOptions {
   /** Where to look for adapters; default `navigator.gpu`. In Node pass what `createGpu()` of `@glanz/renderer/node` gives. */
   readonly gpu?: GPU;
@@ -8,6 +8,11 @@ export interface DeviceOptions {
   readonly powerPreference?: GPUPowerPreference;
   /** Stay within WebGPU's default limits even where the adapter offers more. Default false. */
   readonly defaultLimits?: boolean;
+  /**
+   * Called with errors that the device reports outside of any error scope. Glanz runs its own calls inside scopes and throws what the
+   * GPU refuses, so these come from other code that uses the device. Default: the browser writes them to its console.
+   */
+  readonly onError?: (error: DeviceError) => void;
 }
 
 /** Limits that large scenes profit from; each is raised to what the adapter offers. */
@@ -35,8 +40,22 @@ export async function requestDevice(options: DeviceOptions = {}): Promise<GPUDev
   if (!options.defaultLimits) for (const name of RAISED_LIMITS) requiredLimits[name] = adapter.limits[name];
   const requiredFeatures = WELCOME_FEATURES.filter((feature) => adapter.features.has(feature)) as GPUFeatureName[];
   try {
-    return await adapter.requestDevice({ label: 'glanz', requiredFeatures, requiredLimits });
+    const device = await adapter.requestDevice({ label: 'glanz', requiredFeatures, requiredLimits });
+    const { onError } = options;
+    if (onError) {
+      device.addEventListener('uncapturederror', (event) => {
+        event.preventDefault();
+        onError(uncaptured((event as GPUUncapturedErrorEvent).error));
+      });
+    }
+    return device;
   } catch (cause) {
     throw new DeviceError('renderer/no-device', `The GPU refused a device: ${(cause as Error).message}`, { cause });
   }
+}
+
+/** WebGPU's classes of errors are not global everywhere: they are told apart by their names. */
+function uncaptured(error: GPUError): DeviceError {
+  const memory = error.constructor.name === 'GPUOutOfMemoryError';
+  return new DeviceError(memory ? 'renderer/out-of-memory' : 'renderer/gpu-error', `The GPU reported an error outside of any error scope: ${error.message}`);
 }

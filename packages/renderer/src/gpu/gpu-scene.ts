@@ -24,6 +24,22 @@ const FILL_BYTES = 1 << 20;
 /** So much may wait for the GPU's process. */
 const QUEUE_BYTES = 2 << 20;
 
+interface EditLog {
+  readonly made: (GPUBuffer | GPUTexture)[];
+  readonly replaced: (GPUBuffer | GPUTexture)[];
+}
+
+/** What {@link GpuScene.record} gives: an edit that has been made, and can still be taken back. */
+export interface RecordedEdit<T> {
+  readonly result: T;
+  /** Whether the GPU may yet refuse it: it was asked for memory. */
+  readonly allocated: boolean;
+  /** Frees what was replaced. The edit cannot be taken back any more. */
+  readonly settle: () => void;
+  /** Takes the edit back, here and in the `Scene`. Edits made after it must have been taken back before. */
+  readonly undo: () => void;
+}
+
 /**
  * A scene on the GPU. A cache: everything here can be made again from the `Scene`. It comes in three steps, since a first
  * picture needs no lights: the constructor makes what is the size of the scene, `fill()` writes the shapes into it, and
@@ -52,6 +68,8 @@ export class GpuScene {
   #groups: LightGroupTable;
   #lights: LightTable;
   #environment: EnvironmentData;
+  /** What the edit that is being made has allocated and replaced; `undefined` while the scene is prepared. */
+  #log: EditLog | undefined;
 
   constructor(device: GPUDevice, memory: GpuMemory, scene: Scene, geometry: Geometry, choices: SceneChoices) {
     this.#device = device;
@@ -103,6 +121,58 @@ export class GpuScene {
     const radius = this.#geometry.radius;
     const power = this.#environment.meanLuminance * 4 * Math.PI * Math.PI * radius * radius;
     return Math.min(0.9, Math.max(0.1, power / (power + this.#lights.power)));
+  }
+
+  /**
+   * Makes an edit by the `update…` methods, keeping what it replaces until it is settled.
+   * @param restoreScene Takes the `Scene` back to what it was before the edit.
+   * @throws What `edit` throws, with the edit taken back.
+   */
+  record<T>(edit: () => T, restoreScene: () => void): RecordedEdit<T> {
+    const log: EditLog = { made: [], replaced: [] };
+    const [geometry, lights, groups, environment, firstBinding] = [this.#geometry, this.#lights, this.#groups, this.#environment, this.#firstBinding];
+    const [buffers, textures] = [[...this.#buffers], [...this.#textures]];
+    const undo = () => {
+      restoreScene();
+      [this.#geometry, this.#lights, this.#groups, this.#environment, this.#firstBinding] = [geometry, lights, groups, environment, firstBinding];
+      for (const [name, buffer] of buffers) this.#buffers.set(name, buffer);
+      for (const [name, texture] of textures) this.#textures.set(name, texture);
+      for (const resource of log.made) this.#memory.release(resource);
+      this.#use = undefined;
+      this.#features = undefined;
+      this.rewrite();
+    };
+    this.#log = log;
+    try {
+      const result = edit();
+      return { result, allocated: log.made.length > 0, settle: () => log.replaced.forEach((resource) => this.#memory.release(resource)), undo };
+    } catch (error) {
+      undo();
+      throw error;
+    } finally {
+      this.#log = undefined;
+    }
+  }
+
+  /** Writes all records of fixed size again. */
+  rewrite(): void {
+    const write = (name: ResourceName, data: ArrayBufferView<ArrayBuffer> | ArrayBuffer) => this.#memory.write(this.#buffers.get(name) as GPUBuffer, data);
+    write('nodes', packTlas(this.#geometry));
+    write('materials', this.#packMaterials());
+    write('lights', this.#lights.records);
+    write('instances', packInstances(this.#scene, this.#geometry, this.#lights.firstLight));
+  }
+
+  /** Puts a buffer in place of the one of this name. */
+  #replaceBuffer(name: ResourceName, buffer: GPUBuffer): void {
+    this.#retire(this.#buffers.get(name));
+    this.#log?.made.push(buffer);
+    this.#buffers.set(name, buffer);
+  }
+
+  #retire(resource: GPUBuffer | GPUTexture | undefined): void {
+    if (resource && this.#log) this.#log.replaced.push(resource);
+    else this.#memory.release(resource);
   }
 
   /** What decides the kernels' text. Derived once after an edit; a camera move derives nothing. */
@@ -183,13 +253,22 @@ export class GpuScene {
 
   /** A mesh was replaced by one that fits into its region. Returns true if bindings were replaced. */
   updateMesh(geometry: Geometry, index: number, packed: PackedMesh): boolean {
+    this.#writeMesh(geometry, index, packed);
+    return this.updatePlacement(geometry);
+  }
+
+  /** Writes a mesh into its region again, after an edit that had written another one there was taken back. */
+  rewriteMesh(index: number, packed: PackedMesh): void {
+    this.#writeMesh(this.#geometry, index, packed);
+  }
+
+  #writeMesh(geometry: Geometry, index: number, packed: PackedMesh): void {
     const region = geometry.regions[index] as MeshRegion;
     const write = (name: ResourceName, data: ArrayBufferView<ArrayBuffer>, offset: number) => this.#memory.write(this.#buffers.get(name) as GPUBuffer, data, offset);
     write('nodes', packed.nodes, region.firstNode * 64);
     write('triangles', packed.triangles, region.firstTriangle * 48);
     write('attributes', packed.record, index * meshStruct.size);
     write('attributes', packed.attributes, region.firstWord * 4);
-    return this.updatePlacement(geometry);
   }
 
   /** All shapes are new. Bindings are replaced. */
@@ -212,9 +291,8 @@ export class GpuScene {
     const bindingWords = records.byteLength / 4 / Math.max(1, count.reduce((a, b) => a + b, 0));
     this.#firstBinding = first.map((index) => attributeWords + index * bindingWords);
     const make = (name: ResourceName, bytes: number) => {
-      this.#memory.release(this.#buffers.get(name));
       const buffer = this.#memory.buffer(name, bytes, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST);
-      this.#buffers.set(name, buffer);
+      this.#replaceBuffer(name, buffer);
       return buffer;
     };
     make('nodes', 64 * nodeCount);
@@ -250,7 +328,7 @@ export class GpuScene {
    */
   async light(environment: EnvironmentData, energy: EnergyTextures, gathered?: GatheredLights): Promise<void> {
     const breathe = breather(FILL_MS);
-    await withErrorScopes(this.#device, () => {
+    await withErrorScopes(this.#device, 'the environment', () => {
       this.#environment = environment;
       this.#makeEnvironment();
       this.#uploadEnergy(energy);
@@ -261,9 +339,8 @@ export class GpuScene {
     this.#lights = placed ?? this.#buildLights();
     this.#features = undefined;
     const { records } = this.#lights;
-    await withErrorScopes(this.#device, () => {
-      this.#memory.release(this.#buffers.get('lights'));
-      this.#buffers.set('lights', this.#memory.buffer('lights', records.byteLength, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST));
+    await withErrorScopes(this.#device, 'the lights of this scene', () => {
+      this.#replaceBuffer('lights', this.#memory.buffer('lights', records.byteLength, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST));
       if (this.#lights.count > 0) this.#writeInstances();
     });
     for (let at = 0; at < records.byteLength; at += FILL_BYTES) {
@@ -302,9 +379,8 @@ export class GpuScene {
     const before = this.#buffers.get('instances');
     const replaced = !before || before.size < records.byteLength;
     if (replaced) {
-      this.#memory.release(before);
       const bytes = Math.max(records.byteLength, this.#scene.instances.length * instanceStruct.size);
-      this.#buffers.set('instances', this.#memory.buffer('instances', bytes, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST));
+      this.#replaceBuffer('instances', this.#memory.buffer('instances', bytes, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST));
     }
     this.#memory.write(this.#buffers.get('instances') as GPUBuffer, records);
     return replaced;
@@ -351,8 +427,7 @@ export class GpuScene {
   }
 
   #upload(name: ResourceName, data: ArrayBufferView<ArrayBuffer> | ArrayBuffer): void {
-    this.#memory.release(this.#buffers.get(name));
-    this.#buffers.set(name, this.#memory.upload(name, data, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST));
+    this.#replaceBuffer(name, this.#memory.upload(name, data, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST));
   }
 
   /** The pictures of the environment by their names; black where there are none. */
@@ -364,8 +439,10 @@ export class GpuScene {
   /** Makes the textures of the environment, still empty. */
   #makeEnvironment(): void {
     for (const [name, { width, height, data }] of this.#environmentPictures) {
-      this.#memory.release(this.#textures.get(name));
-      this.#textures.set(name, this.#memory.texture({ label: `glanz ${name}`, size: [width, height], format: 'rgba32float', usage: GPU_TEXTURE_BINDING | GPU_TEXTURE_COPY_DST }, data.byteLength));
+      const texture = this.#memory.texture({ label: `glanz ${name}`, size: [width, height], format: 'rgba32float', usage: GPU_TEXTURE_BINDING | GPU_TEXTURE_COPY_DST }, data.byteLength);
+      this.#retire(this.#textures.get(name));
+      this.#log?.made.push(texture);
+      this.#textures.set(name, texture);
     }
   }
 

@@ -18,6 +18,36 @@ export interface CameraUniforms {
   readonly cone_spread: number;
 }
 
+/** Metres from the origin; in single precision nothing of a scene is left beyond. */
+const MAX_DISTANCE = 1e12;
+
+function refuse(camera: Camera, why: string): never {
+  throw new RenderError('renderer/camera', `Camera "${camera.name}" ${why}`);
+}
+
+/** Refuses what cannot be rendered, and what would be rendered as something else. */
+function checkCamera(camera: Camera): void {
+  const { transform } = camera;
+  if (transform?.length !== 16) refuse(camera, `has a transform of ${transform?.length ?? 0} numbers; it must have 16, column-major.`);
+  const values = Array.from(transform);
+  const broken = values.findIndex((value) => !Number.isFinite(value));
+  if (broken >= 0) refuse(camera, `has ${values[broken]} in its transform, at ${broken}; every number must be finite.`);
+  const far = values.slice(12, 15).find((value) => Math.abs(value) > MAX_DISTANCE);
+  if (far !== undefined) refuse(camera, `is ${Math.abs(far)} m away from the origin; it must be within ${MAX_DISTANCE} m.`);
+  if (camera.type === 'panorama') return;
+  if (camera.type === 'orthographic') {
+    const { xmag, ymag } = camera;
+    if (![xmag, ymag].every((half) => half > 0 && half <= MAX_DISTANCE)) refuse(camera, `has a view of no usable size: xmag ${xmag}, ymag ${ymag}.`);
+    return;
+  }
+  if (camera.type !== 'perspective') refuse(camera, `is of the unknown type ${JSON.stringify((camera as Camera).type)}; there are perspective, orthographic and panorama.`);
+  const { yfov, lens_radius = 0, focus_distance = 1, lens_blades = 0, lens_rotation = 0 } = camera;
+  if (!(yfov > 0 && yfov < Math.PI)) refuse(camera, `has a vertical field of view of ${yfov} rad; it must lie between 0 and π.`);
+  if (!(lens_radius >= 0 && lens_radius <= MAX_DISTANCE)) refuse(camera, `has a lens radius of ${lens_radius} m; it must be finite and at least 0.`);
+  if (!(focus_distance > 0 && focus_distance < Infinity)) refuse(camera, `has a focus distance of ${focus_distance} m; it must be finite and above 0.`);
+  if (!(lens_blades >= 0 && lens_blades < Infinity) || !Number.isFinite(lens_rotation)) refuse(camera, `has ${lens_blades} lens blades, rotated by ${lens_rotation} rad; both must be finite.`);
+}
+
 function axis(transform: ArrayLike<number>, column: number): number[] {
   const v = [0, 1, 2].map((i) => transform[column * 4 + i] as number);
   const length = Math.hypot(...v);
@@ -33,9 +63,10 @@ const cross = (a: readonly number[], b: readonly number[]) => [
 
 /**
  * Packs a camera for a film of `width` × `height` pixels. The film keeps the vertical field of view.
- * @throws {RenderError} `renderer/camera` for a degenerate transform or field of view.
+ * @throws {RenderError} `renderer/camera` for numbers that are not finite or absurd, a degenerate transform, or a field of view out of range.
  */
 export function cameraUniforms(camera: Camera, width: number, height: number): CameraUniforms {
+  checkCamera(camera);
   const forward = axis(camera.transform, 2).map((x) => -x);
   const upHint = axis(camera.transform, 1);
   const right = cross(forward, upHint);
@@ -47,15 +78,13 @@ export function cameraUniforms(camera: Camera, width: number, height: number): C
   const base = { camera_origin, camera_right: unitRight, camera_up: up, camera_forward: forward, lens_radius: 0, focus_distance: 1, lens_blades: 0, lens_rotation: 0, cone_width: 0 };
   if (camera.type === 'panorama') return { ...base, half_extent: [Math.PI, Math.PI / 2], cone_spread: Math.PI / height };
   if (camera.type === 'orthographic') {
-    if (!(camera.xmag > 0) || !(camera.ymag > 0)) throw new RenderError('renderer/camera', `Camera "${camera.name}" has a view of no size: xmag ${camera.xmag}, ymag ${camera.ymag}.`);
     // The film's shape decides the width, as for perspective.
     return { ...base, half_extent: [(camera.ymag * width) / height, camera.ymag], cone_width: (2 * camera.ymag) / height, cone_spread: 0 };
   }
-  if (!(camera.yfov > 0) || !(camera.yfov < Math.PI)) throw new RenderError('renderer/camera', `Camera "${camera.name}" has a vertical field of view of ${camera.yfov} rad; it must lie between 0 and π.`);
   const tangent = Math.tan(camera.yfov / 2);
   return {
     ...base,
-    lens_radius: Math.max(camera.lens_radius ?? 0, 0),
+    lens_radius: camera.lens_radius ?? 0,
     focus_distance: Math.max(camera.focus_distance ?? 1, 1e-6),
     lens_blades: Math.floor(camera.lens_blades ?? 0),
     lens_rotation: camera.lens_rotation ?? 0,

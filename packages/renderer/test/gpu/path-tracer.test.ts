@@ -295,10 +295,10 @@ describe('the session', () => {
     expect(await value()).toBeCloseTo(0.5, 5);
     await tracer.setMaterial(0, { emission_luminance: 3 });
     expect(await value()).toBeCloseTo(3.5, 4);
-    tracer.resize(5, 7);
+    await tracer.resize(5, 7);
     expect(await value()).toBeCloseTo(3.5, 4);
     expect((await tracer.read('beauty')).length).toBe(5 * 7 * 4);
-    tracer.setCamera({ ...camera, transform: [-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 3, 1] });
+    await tracer.setCamera({ ...camera, transform: [-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 3, 1] });
     expect(await value()).toBeCloseTo(2, 5);
     tracer.destroy();
   });
