@@ -1,7 +1,7 @@
-import { existsSync } from 'node:fs';
+import { existsSync, readFileSync } from 'node:fs';
 import { validateScene } from '@glanz/scene';
 import { describe, expect, test } from 'vitest';
-import { GltfError, loadGltfFile } from '../src/node';
+import { decodeImage, GltfError, loadGltf, loadGltfFile } from '../src/node';
 import { presence, sharedIndex, sharedPath } from './shared';
 
 interface Case {
@@ -14,7 +14,10 @@ interface Case {
 type Outcome = 'reject' | 'accept-with-warning' | 'accept';
 
 const { present, note } = presence('bad/index.json');
-const cases = sharedIndex<Case>('bad/index.json').filter(({ kind, file }) => kind === 'gltf' && existsSync(sharedPath(`bad/${file}`)));
+const stored = sharedIndex<Case>('bad/index.json').filter(({ file }) => existsSync(sharedPath(`bad/${file}`)));
+const cases = stored.filter(({ kind }) => kind === 'gltf');
+/** PNG, JPEG and WebP; ktx2.test.ts has the others. */
+const pictures = stored.filter(({ kind, file }) => kind === 'image' && !file.endsWith('.ktx2'));
 
 async function judge({ file }: Case): Promise<{ outcome: Outcome; fault?: string }> {
   try {
@@ -48,5 +51,21 @@ describe.skipIf(!present)(`files that are broken, hostile or odd${note}`, () => 
     expect(Object.keys(Object.prototype)).toEqual([]);
     expect(missed).toEqual([]);
     expect(cases.length).toBeGreaterThan(1000);
+  });
+
+  test('each picture is decoded, left out with a warning or refused, as its label says', { timeout: 120_000 }, async () => {
+    const missed: string[] = [];
+    for (const { file, expect: expected, alsoOk = [] } of pictures) {
+      const uri = `data:image/png;base64,${readFileSync(sharedPath(`bad/${file}`)).toString('base64')}`;
+      const document = { asset: { version: '2.0' }, images: [{ uri }], textures: [{ source: 0 }], materials: [{ normalTexture: { index: 0 } }] };
+      const load = loadGltf(new TextEncoder().encode(JSON.stringify(document)), { allowEmpty: true, decodeImage });
+      const outcome = await load.then(
+        ({ warnings }): Outcome => (warnings.some(({ message }) => message.includes('cannot be decoded and is left out')) ? 'reject' : warnings.length > 0 ? 'accept-with-warning' : 'accept'),
+        (error: unknown): Outcome => { if (error instanceof GltfError) return 'reject'; throw error; },
+      );
+      if (outcome !== expected && !alsoOk.includes(outcome)) missed.push(`${file}: ${outcome} instead of ${expected}`);
+    }
+    expect(missed).toEqual([]);
+    expect(pictures.length).toBeGreaterThan(40);
   });
 });

@@ -24,6 +24,19 @@ export interface DecodeOptions {
 /** Default of {@link DecodeOptions.maxPixels}. */
 export const MAX_PIXELS = 2 ** 26;
 
+/**
+ * Memory for a picture, zeros.
+ * @param numbers A pixel.
+ * @throws {ImageError} `image/size` if there is not as much.
+ */
+export function allocateFloats(what: string, width: number, height: number, numbers: number): Float32Array<ArrayBuffer> {
+  try {
+    return new Float32Array(width * height * numbers);
+  } catch (cause) {
+    throw new ImageError('image/size', `${what}: there is no memory for ${width}×${height} pixels; scale the picture down.`, { cause });
+  }
+}
+
 /** @throws {ImageError} `image/size` unless both sides are positive integers and their product is within the limit. */
 export function checkSize(what: string, width: number, height: number, maxPixels: number = MAX_PIXELS): void {
   if (!Number.isInteger(width) || !Number.isInteger(height) || width < 1 || height < 1) {

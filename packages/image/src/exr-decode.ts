@@ -1,4 +1,4 @@
-import { checkSize, ImageError, type DecodeOptions, type ImageWarning } from './error';
+import { allocateFloats, checkSize, ImageError, type DecodeOptions, type ImageWarning } from './error';
 import { unpackB44 } from './exr-b44';
 import { bytesOf, rawSize, type ExrBlock } from './exr-block';
 import { unpackDwa } from './exr-dwa';
@@ -25,6 +25,8 @@ export interface ExrImage {
   readonly channels: ReadonlyMap<string, ExrChannel>;
   /** The header's attributes of type `string`. */
   readonly attributes: ReadonlyMap<string, string>;
+  /** x and y of red, green, blue and white, if the file says them; without, they are Rec.709's. */
+  readonly chromaticities?: readonly number[];
   /** What was worked around. */
   readonly warnings: readonly ImageWarning[];
 }
@@ -79,12 +81,13 @@ export function decodeExr(bytes: Uint8Array, options: DecodeOptions = {}): ExrIm
     several,
     tile,
     columns,
-    out: new Map(channels.map(({ name, type }) => [name, { type, data: type === 'uint' ? new Uint32Array(width * height) : new Float32Array(width * height) }])),
+    out: new Map(channels.map(({ name, type }) => [name, { type, data: type === 'uint' ? new Uint32Array(allocateFloats('EXR', width, height, 1).buffer) : allocateFloats('EXR', width, height, 1) }])),
     seen: new Uint8Array(blocks),
   };
   const misplaced = header.tile || several ? readByTable(reader, table, picture) : readInOrder(reader, table, picture);
   const warnings: ImageWarning[] = misplaced === 0 ? [] : [{ code: 'image/offsets', message: `EXR: ${misplaced} of ${blocks} line offsets are wrong; the file may be incomplete.` }];
-  return { width, height, channels: picture.out, attributes: header.attributes, warnings };
+  if (header.cropped) warnings.push({ code: 'image/window', message: `EXR: the ${width}×${height} pixels of the data window are read, which are not those of the display window.` });
+  return { width, height, channels: picture.out, attributes: header.attributes, ...(header.chromaticities ? { chromaticities: header.chromaticities } : {}), warnings };
 }
 
 interface Picture {
@@ -140,8 +143,10 @@ function readBlock(reader: Reader, { header, tile, columns, out, seen }: Picture
   const x = (index % columns) * tile.width, y = Math.floor(index / columns) * tile.height;
   const block: ExrBlock = { channels, width: Math.min(tile.width, width - x), lines: Math.min(tile.height, height - y) };
   const size = rawSize(block);
+  const { ratio, unpack } = METHODS[compression];
+  if (packed.length < Math.floor(size / ratio)) throw corrupt(`has ${packed.length} bytes, which cannot hold the ${size} that its lines have`);
   // What does not get smaller is kept as it is, by all compressions.
-  const raw = packed.length === size ? packed : packed.length < size ? METHODS[compression].unpack(packed, block, size) : undefined;
+  const raw = packed.length === size ? packed : packed.length < size ? unpack(packed, block, size) : undefined;
   if (!raw) throw corrupt(`does not hold ${block.lines} lines of ${size / block.lines} bytes`);
   store(raw, block, out, width, x, y);
   return index;

@@ -51,6 +51,10 @@ export interface ExrHeader {
   /** Absent: lines. */
   readonly tile?: { readonly width: number; readonly height: number };
   readonly attributes: ReadonlyMap<string, string>;
+  /** Whether the pixels that are there are other ones than those of the whole picture (data window and display window). */
+  readonly cropped: boolean;
+  /** x and y of red, green, blue and white. */
+  readonly chromaticities?: readonly number[];
   /** Bytes of an uncompressed line. */
   readonly lineBytes: number;
 }
@@ -104,7 +108,11 @@ export function readHeader(reader: Reader, tiled: boolean): ExrHeader | undefine
   const window = attribute('dataWindow', 16);
   const [x0, y0, x1, y1] = [0, 4, 8, 12].map((at) => window.getInt32(at, true)) as [number, number, number, number];
   const width = x1 - x0 + 1;
-  const common = { channels, compression, x0, y0, width, height: y1 - y0 + 1, attributes, lineBytes: width * channels.reduce((sum, channel) => sum + bytesOf(channel), 0) };
+  const display = header.get('displayWindow');
+  const cropped = display?.length === 16 && display.some((byte, i) => byte !== window.getUint8(i));
+  const colours = header.get('chromaticities');
+  const chromaticities = colours?.length === 32 ? Array.from({ length: 8 }, (_, i) => new DataView(colours.buffer, colours.byteOffset).getFloat32(4 * i, true)) : undefined;
+  const common = { channels, compression, x0, y0, width, height: y1 - y0 + 1, attributes, cropped, ...(chromaticities ? { chromaticities } : {}), lineBytes: width * channels.reduce((sum, channel) => sum + bytesOf(channel), 0) };
   const type = attributes.get('type');
   if (type?.startsWith('deep')) throw new ImageError('image/unsupported', 'EXR: deep pictures are not supported; save as a flat image.');
   if (!tiled && type !== 'tiledimage') return common;

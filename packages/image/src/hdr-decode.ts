@@ -1,4 +1,5 @@
-import { checkSize, ImageError, type DecodeOptions, type ImageWarning } from './error';
+import { allocateFloats, checkSize, ImageError, type DecodeOptions, type ImageWarning } from './error';
+import { primariesWarning } from './primaries';
 
 /** A decoded linear picture. */
 export interface HdrImage {
@@ -17,8 +18,8 @@ interface Header {
   readonly rowMajor: boolean;
   readonly flipX: boolean;
   readonly flipY: boolean;
-  /** Product of all EXPOSURE lines. */
-  readonly exposure: number;
+  /** Product of all EXPOSURE and COLORCORR lines, of red, green and blue. */
+  readonly exposure: readonly [number, number, number];
   readonly warnings: ImageWarning[];
   /** Where the pixels start. */
   readonly offset: number;
@@ -43,17 +44,24 @@ function readHeader(bytes: Uint8Array): Header {
   };
   const warnings: ImageWarning[] = [];
   let format: string | undefined;
-  let exposure = 1;
+  let primaries: readonly number[] | undefined;
+  const exposure: [number, number, number] = [1, 1, 1];
+  const usable = (factor: number) => factor > 1e-18 && factor < 1e18;
   line();
   for (let text = line(); text !== ''; text = line()) {
     const [, key, value] = /^([A-Z]+)\s*=\s*(.*?)\s*$/.exec(text) ?? [];
     if (key === 'FORMAT') format = value;
     else if (key === 'EXPOSURE') {
       const factor = Number(value);
-      if (factor > 1e-18 && factor < 1e18) exposure *= factor;
+      if (usable(factor)) for (let k = 0; k < 3; k++) (exposure[k] as number) *= factor;
       else warnings.push({ code: 'image/exposure', message: `HDR: ignored the impossible exposure "${value}".` });
-    }
+    } else if (key === 'COLORCORR') {
+      const factors = value?.split(/\s+/).map(Number) ?? [];
+      if (factors.length === 3 && factors.every(usable)) factors.forEach((factor, k) => ((exposure[k] as number) *= factor));
+      else warnings.push({ code: 'image/exposure', message: `HDR: ignored the impossible colour correction "${value}".` });
+    } else if (key === 'PRIMARIES') primaries = value?.split(/\s+/).map(Number);
   }
+  warnings.push(...primariesWarning('HDR', primaries));
   if (format === undefined) warnings.push({ code: 'image/no-format', message: 'HDR: the header names no format; taken as 32-bit_rle_rgbe.' });
   else if (format !== '32-bit_rle_rgbe') {
     throw new ImageError('image/unsupported', `HDR: format "${format.slice(0, 40)}" is not supported, only 32-bit_rle_rgbe; convert the picture.`);
@@ -116,9 +124,19 @@ function readLine(bytes: Uint8Array, start: number, length: number, line: Uint8A
 }
 
 /**
+ * Bytes that a line takes at least: one pixel, and markers of the older run-length scheme, the first of which repeats it
+ * up to 255 times and each one more 256 times as often. The newer scheme takes more.
+ */
+function shortestLine(length: number): number {
+  let bytes = 4;
+  for (let reached = 1, run = 255; reached < length; reached += run, run *= 256) bytes += 4;
+  return bytes;
+}
+
+/**
  * Decodes a Radiance HDR (RGBE) picture: flat pixels, old and new run-length coding, all eight orientations.
- * A component is mantissa · 2^(exponent − 136), divided by the header's EXPOSURE if there is one, which makes it the
- * radiance that was put in.
+ * A component is mantissa · 2^(exponent − 136), divided by the header's EXPOSURE and COLORCORR if there are any, which
+ * makes it the radiance that was put in.
  *
  * @throws {ImageError} `image/format`, `image/header`, `image/size`, `image/truncated`, `image/corrupt`, or
  * `image/unsupported` for XYZE colours.
@@ -129,14 +147,12 @@ export function decodeHdr(bytes: Uint8Array, options: DecodeOptions = {}): HdrIm
   const { width, height, rowMajor, flipX, flipY, exposure, warnings, offset } = readHeader(bytes);
   checkSize('HDR', width, height, options.maxPixels);
   const [lines, length] = rowMajor ? [height, width] : [width, height];
-  // The least a line can take: one pixel, and a run for the rest, in whichever scheme is shorter.
-  const least = lines * (length === 1 ? 4 : 8);
+  const least = lines * shortestLine(length);
   if (bytes.length - offset < least) {
     throw new ImageError('image/truncated', `HDR: ${width}×${height} pixels take at least ${least} bytes, but ${bytes.length - offset} are there.`, { location: { byteOffset: offset } });
   }
-  const scale = new Float64Array(256);
-  for (let e = 1; e < 256; e++) scale[e] = 2 ** (e - 136) / exposure;
-  const data = new Float32Array(width * height * 3);
+  const scales = exposure.map((factor) => Float64Array.from({ length: 256 }, (_, e) => (e === 0 ? 0 : 2 ** (e - 136) / factor)));
+  const data = allocateFloats('HDR', width, height, 3);
   const line = new Uint8Array(length * 4);
   let at = offset;
   for (let i = 0; i < lines; i++) {
@@ -144,8 +160,8 @@ export function decodeHdr(bytes: Uint8Array, options: DecodeOptions = {}): HdrIm
     for (let j = 0; j < length; j++) {
       const [column, row] = rowMajor ? [j, i] : [i, j];
       const pixel = ((flipY ? height - 1 - row : row) * width + (flipX ? width - 1 - column : column)) * 3;
-      const factor = scale[line[j * 4 + 3] as number] as number;
-      for (let k = 0; k < 3; k++) data[pixel + k] = Math.min((line[j * 4 + k] as number) * factor, MAX_FLOAT);
+      const exponent = line[j * 4 + 3] as number;
+      for (let k = 0; k < 3; k++) data[pixel + k] = Math.min((line[j * 4 + k] as number) * ((scales[k] as Float64Array)[exponent] as number), MAX_FLOAT);
     }
   }
   return { width, height, data, warnings };

@@ -2,6 +2,17 @@ import { describe, expect, it } from 'vitest';
 import { decodeEnvironment, encodeExr, encodeHdr, ImageError } from '../src/index';
 import { hasShared, shared } from './shared';
 
+const exr = () => encodeExr({ width: 1, height: 1, compression: 'none', layers: [{ name: '', channels: { R: Float32Array.of(1), G: Float32Array.of(1), B: Float32Array.of(1) } }] });
+
+/** A picture of one pixel with numbers put over those of an attribute in its header. */
+function patched(attribute: string, values: Float32Array | Int32Array): Uint8Array {
+  const bytes = exr();
+  // Two names that end with zeros, and the size.
+  const at = String.fromCharCode(...bytes).indexOf(attribute) + attribute.length + 4;
+  bytes.set(new Uint8Array(values.buffer), at);
+  return bytes;
+}
+
 describe('decodeEnvironment', () => {
   it('tells HDR from EXR by the first bytes', () => {
     const data = Float32Array.of(1, 2, 4, 0.5, 0.25, 0);
@@ -16,6 +27,27 @@ describe('decodeEnvironment', () => {
   it('takes grey from Y, and names the channels when there is no colour', () => {
     expect([...decodeEnvironment(encodeExr({ width: 1, height: 1, layers: [{ name: '', channels: { Y: Float32Array.of(3) } }] })).data]).toEqual([3, 3, 3]);
     expect(() => decodeEnvironment(encodeExr({ width: 1, height: 1, layers: [{ name: 'depth', channels: { Z: Float32Array.of(3) } }] }))).toThrow(/only depth\.Z/);
+  });
+  it('warns where Y is taken as grey beside other colours, and not beside a depth', () => {
+    const decode = (...names: string[]) => decodeEnvironment(encodeExr({ width: 1, height: 1, layers: [{ name: '', channels: Object.fromEntries(names.map((name, i) => [name, Float32Array.of(i + 1)])) }] }));
+    for (const [names, grey, unread] of [[['X', 'Y', 'Z'], 2, 'X, Z'], [['Y', 'RY', 'BY'], 1, 'RY, BY'], [['R', 'Y'], 2, 'R']] as const) {
+      const image = decode(...names);
+      expect([...image.data], names.join()).toEqual([grey, grey, grey]);
+      expect(image.warnings.map(({ code }) => code), names.join()).toEqual(['image/grey']);
+      expect(image.warnings[0]?.message).toContain(`${unread} not read`);
+    }
+    expect(decode('Y', 'Z', 'A').warnings).toEqual([]);
+    expect([...decode('R', 'G', 'B', 'X', 'Y').data]).toEqual([1, 2, 3]);
+  });
+  it('warns of colours that are not those of Rec.709', () => {
+    const primaries = (...numbers: number[]) => decodeEnvironment(patched('chromaticities\0chromaticities\0', Float32Array.from(numbers))).warnings.map(({ code }) => code);
+    expect(primaries(0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329)).toEqual([]);
+    // ACES 2065-1 (SMPTE ST 2065-1).
+    expect(primaries(0.7347, 0.2653, 0, 1, 0.0001, -0.077, 0.32168, 0.33767)).toEqual(['image/primaries']);
+    expect(primaries(NaN, 0, 0, 0, 0, 0, 0, 0)).toEqual([]);
+  });
+  it('warns of a part of a larger picture', () => {
+    expect(decodeEnvironment(patched('displayWindow\0box2i\0', Int32Array.of(0, 0, 7, 0))).warnings.map(({ code }) => code)).toEqual(['image/window']);
   });
   it('makes radiance of NaN, infinities and negatives, and says so', () => {
     const exr = encodeExr({ width: 1, height: 1, layers: [{ name: '', type: 'float', channels: { R: Float32Array.of(NaN), G: Float32Array.of(Infinity), B: Float32Array.of(-1) } }] });

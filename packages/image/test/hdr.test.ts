@@ -64,6 +64,40 @@ describe('decodeHdr', () => {
     expect(warnings.map((w) => w.code)).toEqual(['image/exposure']);
   });
 
+  it('divides by the product of the colour corrections', () => {
+    const { data, warnings } = decodeHdr(file('#?RGBE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2\nCOLORCORR= 1 2 4\nCOLORCORR=1 2\n\n-Y 1 +X 1\n', 128, 128, 128, 129));
+    expect([...data]).toEqual([1 / 2, 1 / 4, 1 / 8]);
+    expect(warnings.map(({ message }) => message)).toEqual(['HDR: ignored the impossible colour correction "1 2".']);
+  });
+
+  it('warns of colours that are not those of Rec.709', () => {
+    const warnings = (primaries: string) => decodeHdr(file(`#?RGBE\nFORMAT=32-bit_rle_rgbe\nPRIMARIES=${primaries}\n\n-Y 1 +X 1\n`, 128, 128, 128, 129)).warnings.map(({ code }) => code);
+    // Radiance's own, and what Photoshop writes.
+    expect(warnings('0.640 0.330 0.290 0.600 0.150 0.060 0.333 0.333')).toEqual([]);
+    expect(warnings('0 0 0 0 0 0 0 0')).toEqual([]);
+    expect(warnings('none')).toEqual([]);
+    // ITU-R BT.2020.
+    expect(warnings('0.708 0.292 0.170 0.797 0.131 0.046 0.3127 0.3290')).toEqual(['image/primaries']);
+  });
+
+  it.each([[256, 8], [257, 12], [65_536, 12], [65_537, 16]])('a line of %d pixels is not shorter than %d bytes', (length, bytes) => {
+    // The shortest there is: a pixel, and runs whose counts add up to the rest.
+    const line = [9, 9, 9, 129];
+    for (let rest = length - 1, run = 1; rest > 0; run *= 256) {
+      const count = Math.min(255, Math.ceil((rest % (run * 256)) / run) || 255);
+      line.push(1, 1, 1, count);
+      rest -= count * run;
+    }
+    expect(codeOf(() => decodeHdr(file(`${HEAD}-Y 1 +X ${length}\n`, ...line.slice(0, bytes - 1))))).toBe('image/truncated');
+    expect(() => decodeHdr(file(`${HEAD}-Y 1000 +X ${length}\n`, ...new Array<number>(1000 * bytes - 1).fill(0)))).toThrow(`take at least ${1000 * bytes} bytes`);
+  });
+
+  it('a picture for which there is no memory is an error of the decoder', () => {
+    const bytes = new Uint8Array(HEAD.length + 20 + 16 * 200_000);
+    bytes.set(file(`${HEAD}-Y 200000 +X 200000\n`));
+    expect(codeOf(() => decodeHdr(bytes, { maxPixels: Infinity }))).toBe('image/size');
+  });
+
   it('refuses what is not a picture, with a code', () => {
     expect(codeOf(() => decodeHdr(new Uint8Array(0)))).toBe('image/format');
     expect(codeOf(() => decodeHdr(Uint8Array.of(0x89, 0x50, 0x4e, 0x47)))).toBe('image/format');
