@@ -1,6 +1,14 @@
+import { mkdirSync, writeFileSync } from 'node:fs';
 import { glanzPackage } from '../../tsup.base';
+import { customElements } from './scripts/custom-elements.mjs';
 
-export default glanzPackage({
-  index: 'src/index.ts',
-  define: 'src/define.ts',
-});
+export default {
+  ...glanzPackage({
+    index: 'src/index.ts',
+    define: 'src/define.ts',
+  }),
+  onSuccess: async () => {
+    mkdirSync('dist', { recursive: true });
+    writeFileSync('dist/custom-elements.json', `${JSON.stringify(customElements(process.cwd()), undefined, 2)}\n`);
+  },
+};

@@ -5,16 +5,25 @@ import type { HotspotView } from './hotspots';
 
 /** What the element tells, as `CustomEvent`s that do not bubble; `detail` is that of the viewer's event of the same name. */
 export interface GlanzViewerEventMap {
+  /** The model that `src` names, or that `show()` was given, is loaded. */
   load: CustomEvent<ViewerEvents['load']>;
-  /** `totalProgress`: share of the whole load, 0..1. */
+  /** Loading goes on. `totalProgress`: share of the whole load, 0..1. */
   progress: CustomEvent<ViewerEvents['progress'] & { readonly totalProgress: number }>;
+  /** Something failed: `message` in one line, `code`, and `retry` where trying again can help. */
   error: CustomEvent<ViewerEvents['error']>;
+  /** The image has one more sample per pixel. */
   sample: CustomEvent<ViewerEvents['sample']>;
+  /** The image is finished: `samples` or `noise` is reached. */
   converged: CustomEvent<ViewerEvents['converged']>;
+  /** The camera moved, by the user or by the page. */
   'camera-change': CustomEvent<ViewerEvents['camera-change']>;
+  /** The GPU was lost; the element asks for another. */
   'device-lost': CustomEvent<ViewerEvents['device-lost']>;
+  /** Another GPU device renders after a loss. */
   'device-restored': CustomEvent<ViewerEvents['device-restored']>;
+  /** The poster went. */
   'poster-dismissed': CustomEvent<undefined>;
+  /** The variant that `variant-name` names is shown. */
   'variant-applied': CustomEvent<{ readonly variantName: string | null }>;
 }
 

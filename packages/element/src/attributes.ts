@@ -3,39 +3,131 @@ export type AttributeKind = 'text' | 'flag' | 'number';
 
 /**
  * The attributes of the element. Names that model-viewer has mean what they mean there. The property of each is its name in
- * camel case, and reflects.
+ * camel case, and reflects. `custom-elements.json`, which editors read, is made of these comments.
  */
 export const ATTRIBUTES = {
+  /** Address of the model: glTF, GLB, OBJ or STL. */
   src: 'text',
+  /** Name of the model, for those who do not see it. */
   alt: 'text',
+  /** Address of an image that is shown until the model is rendered. */
   poster: 'text',
+  /**
+   * When the model is loaded: near the window (`auto`, `lazy`), or at once.
+   * @values auto, lazy, eager
+   * @defaultValue auto
+   */
   loading: 'text',
+  /**
+   * When the poster goes: at the first whole frame, or at `dismissPoster()`.
+   * @values auto, manual
+   * @defaultValue auto
+   */
   reveal: 'text',
+  /** Pointers and keys move the camera. */
   'camera-controls': 'flag',
+  /** With `camera-controls`: the camera does not pan. */
   'disable-pan': 'flag',
+  /** With `camera-controls`: a double tap does not move the target. */
   'disable-tap': 'flag',
+  /** With `camera-controls`: the camera does not zoom. */
   'disable-zoom': 'flag',
+  /**
+   * CSS `touch-action` of the canvas while `camera-controls` is set.
+   * @defaultValue pan-y
+   */
   'touch-action': 'text',
+  /**
+   * Where the camera is: `theta phi radius`, in deg or rad, and m, cm, mm or %.
+   * @defaultValue 0deg 75deg 105%
+   */
   'camera-orbit': 'text',
+  /**
+   * The point that the camera looks at: `x y z`, or `auto`, the middle of the model.
+   * @defaultValue auto
+   */
   'camera-target': 'text',
+  /**
+   * Vertical field of view, in deg or rad.
+   * @defaultValue 30deg
+   */
   'field-of-view': 'text',
+  /**
+   * Lower limits of `camera-orbit`.
+   * @defaultValue auto
+   */
   'min-camera-orbit': 'text',
+  /**
+   * Upper limits of `camera-orbit`.
+   * @defaultValue auto
+   */
   'max-camera-orbit': 'text',
+  /**
+   * Milliseconds in which 63 % of a camera movement is done.
+   * @defaultValue 60
+   */
   'interpolation-decay': 'number',
+  /** The camera orbits by itself. */
   'auto-rotate': 'flag',
+  /**
+   * Milliseconds after an interaction before the camera orbits again.
+   * @defaultValue 3000
+   */
   'auto-rotate-delay': 'number',
+  /**
+   * Speed of `auto-rotate`, in deg or rad.
+   * @defaultValue 5.625deg
+   */
   'rotation-per-second': 'text',
+  /**
+   * Light: address of a .hdr or .exr, `neutral` (a studio), or `auto`: the model's own, or else the studio.
+   * @defaultValue auto
+   */
   'environment-image': 'text',
+  /**
+   * Factor of the environment's light.
+   * @defaultValue 1
+   */
   'environment-intensity': 'number',
+  /**
+   * Rotation of the environment about the vertical axis, in deg or rad.
+   * @defaultValue 0
+   */
   'environment-rotation': 'text',
+  /** Address of a .hdr or .exr that lights the model and is visible behind it. Without it the background is transparent. */
   'skybox-image': 'text',
+  /**
+   * Factor of the image's brightness.
+   * @defaultValue 1
+   */
   exposure: 'number',
+  /**
+   * View transform from radiance to the screen.
+   * @values neutral, aces, agx, reinhard, linear
+   * @defaultValue neutral
+   */
   'tone-mapping': 'text',
+  /** Name of the model's material variant; its own without. */
   'variant-name': 'text',
+  /**
+   * Samples per pixel at which the image is finished.
+   * @defaultValue 256
+   */
   samples: 'number',
+  /** Relative noise at which the image is finished, if it comes before `samples`. */
   noise: 'number',
+  /**
+   * Most surfaces that a path meets.
+   * @defaultValue 8
+   */
   'max-depth': 'number',
+  /** Film pixels per CSS pixel; the screen's without. */
   'pixel-ratio': 'number',
+  /**
+   * Faces that are seen from behind are left out: for the camera alone, or for all rays.
+   * @values off, camera, all
+   * @defaultValue off
+   */
   'back-face-culling': 'text',
 } as const satisfies Readonly<Record<string, AttributeKind>>;
 

@@ -46,7 +46,22 @@ function slot(name: string, ...fallback: Node[]): HTMLSlotElement {
   return element;
 }
 
-/** Fills an element's shadow. Sheets are constructed and styles set by script, which strict content security policies allow. */
+/**
+ * Fills an element's shadow. Sheets are constructed and styles set by script, which strict content security policies allow.
+ *
+ * @slot poster - Shown until the model is rendered; in place of the `poster` attribute.
+ * @slot progress-bar - In place of the bar that shows how far the load is.
+ * @slot hotspot-* - Stays at its `data-position` on the model.
+ * @csspart canvas - The canvas that shows the model.
+ * @csspart poster - The box of the poster.
+ * @csspart progress-bar - The bar that shows how far the load is.
+ * @csspart message - The line that reports an error.
+ * @cssprop --poster-color - Background of the poster.
+ * @cssprop --progress-bar-color - Colour of the bar.
+ * @cssprop --progress-bar-height - Height of the bar.
+ * @cssprop --min-hotspot-opacity - Opacity of a hotspot that is hidden by the model.
+ * @cssprop --max-hotspot-opacity - Opacity of a hotspot that is visible.
+ */
 export function fillShadow(host: HTMLElement): Shadow {
   const root = host.shadowRoot ?? host.attachShadow({ mode: 'open' });
   const sheet = new CSSStyleSheet();

@@ -1,18 +1,18 @@
 import type { GlanzViewerElement, GlanzViewerEventMap, ReflectedProperties } from '@glanz/element';
-import { createElement, forwardRef, useEffect, useImperativeHandle, useRef, type CSSProperties, type ForwardRefExoticComponent, type ReactNode, type RefAttributes } from 'react';
+import { createElement, forwardRef, useEffect, useImperativeHandle, useRef, type ForwardRefExoticComponent, type RefAttributes } from 'react';
+import { attributesOf } from './attributes';
+import type { GlanzViewerTag, HtmlProps } from './html';
 
 type Source = Parameters<GlanzViewerElement['show']>[0];
 type Detail<K extends keyof GlanzViewerEventMap> = GlanzViewerEventMap[K]['detail'];
 
-/** The attributes of `<glanz-viewer>` in camel case, and what it tells. */
-export interface GlanzViewerProps extends Partial<Omit<ReflectedProperties, 'src'>> {
+/**
+ * Props of {@link GlanzViewer}: the attributes of `<glanz-viewer>` in camel case, its events as functions of their detail, and
+ * everything that React takes for an HTML element (`onClick`, `className`, `title`, `aria-…`, `data-…`, children for its slots).
+ */
+export interface GlanzViewerProps extends Partial<Omit<ReflectedProperties, 'src'>>, HtmlProps {
   /** An address, a file, files, or a scene. */
   readonly src?: Source | null;
-  /** Elements in its slots: `<button slot="hotspot-seat" data-position="0 0.45 0">`, `<img slot="poster">`. */
-  readonly children?: ReactNode;
-  readonly className?: string;
-  readonly id?: string;
-  readonly style?: CSSProperties;
   readonly onLoad?: (detail: Detail<'load'>) => void;
   readonly onProgress?: (detail: Detail<'progress'>) => void;
   readonly onError?: (detail: Detail<'error'>) => void;
@@ -38,16 +38,6 @@ const EVENTS = {
   onDeviceRestored: 'device-restored',
 } as const;
 
-/** Properties as the attributes that a server can write too: flags as presence, nothing for what is not there. */
-function attributesOf(props: Readonly<Record<string, unknown>>): Record<string, string> {
-  const attributes: Record<string, string> = {};
-  for (const [name, value] of Object.entries(props)) {
-    if (value === undefined || value === null || value === false || typeof value === 'function') continue;
-    attributes[name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`)] = value === true ? '' : String(value);
-  }
-  return attributes;
-}
-
 /**
  * `<glanz-viewer>` as a component. On a server it is the bare tag with its children, the poster say; in the browser the
  * element's code is fetched when the first one is there. Its ref is the element, and so leads to the `Viewer`.
@@ -72,7 +62,7 @@ export const GlanzViewer: ForwardRefExoticComponent<GlanzViewerProps & RefAttrib
     return () => listeners.abort();
   }, []);
 
-  const { src, children, className, id, style, ...rest } = props;
+  const { src, children, ...rest } = props;
   const address = typeof src === 'string' || src instanceof URL ? String(src) : undefined;
   const source = address === undefined && src ? src : undefined;
   useEffect(() => {
@@ -87,14 +77,19 @@ export const GlanzViewer: ForwardRefExoticComponent<GlanzViewerProps & RefAttrib
     'glanz-viewer',
     {
       ref: element,
-      ...attributesOf(rest),
+      ...attributesOf(rest, EVENTS),
       ...(address === undefined ? {} : { src: address }),
-      ...(className === undefined ? {} : { class: className }),
-      ...(id === undefined ? {} : { id }),
-      ...(style === undefined ? {} : { style }),
       // What the element itself adds is its own affair.
       suppressHydrationWarning: true,
     },
     children,
   );
 });
+
+declare module 'react' {
+  namespace JSX {
+    interface IntrinsicElements {
+      'glanz-viewer': GlanzViewerTag;
+    }
+  }
+}

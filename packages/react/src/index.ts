@@ -1,2 +1,3 @@
 export { GlanzViewer, type GlanzViewerProps } from './glanz-viewer';
+export type { GlanzViewerTag, HtmlProps } from './html';
 export type { GlanzViewerElement, GlanzViewerEventMap } from '@glanz/element';

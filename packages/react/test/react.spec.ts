@@ -73,3 +73,16 @@ test('what a server rendered is taken over without a complaint', async ({ page }
   await page.evaluate(([given, text]) => window.start(given as GlanzViewerProps, text as string), [props, html] as const);
   await expect.poll(() => heard(page)).toEqual(['load', 'converged 6']);
 });
+
+test('HTML attributes and handlers reach the element, and change with the props', async ({ page }) => {
+  await page.evaluate((props) => window.start({ src: 'red.glb', title: 'first', tabIndex: 0, onClick: ({ currentTarget }) => window.heard.push(`click ${currentTarget.localName}`), ...props }), FAST);
+  await expect.poll(() => heard(page)).toEqual(['load', 'converged 6']);
+  const viewer = page.locator('glanz-viewer');
+  await viewer.click();
+  expect(await heard(page)).toEqual(['load', 'converged 6', 'click glanz-viewer']);
+  expect(await viewer.getAttribute('tabindex')).toBe('0');
+  await page.evaluate((props) => window.give({ src: 'red.glb', title: 'second', hidden: true, ...props }), FAST);
+  await expect(viewer).toHaveAttribute('title', 'second');
+  await expect(viewer).toHaveAttribute('hidden', '');
+  expect(await viewer.getAttribute('tabindex')).toBeNull();
+});
