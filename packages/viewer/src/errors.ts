@@ -2,7 +2,7 @@ import { GlanzError } from '@glanz/scene';
 
 /**
  * The viewer was asked for something it cannot do. Codes: `viewer/no-canvas`, `viewer/destroyed`, `viewer/no-scene`,
- * `viewer/no-model`, `viewer/environment`, `viewer/variant`, `viewer/camera`, `viewer/blob`, `viewer/device-lost`, `viewer/gpu`.
+ * `viewer/no-model`, `viewer/environment`, `viewer/camera`, `viewer/blob`, `viewer/device-lost`, `viewer/gpu`.
  */
 export class ViewerError extends GlanzError {}
 
