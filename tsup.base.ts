@@ -15,7 +15,7 @@ export function glanzPackage(
     format: ['esm'],
     target: 'es2022',
     platform: options.platform ?? 'neutral',
-    sourcemap: false,
+    sourcemap: true,
     clean: true,
     // Rollup, which does this second pass, removes directives, banner included; esbuild's own pass keeps them.
     treeshake: !options.client,

@@ -1,9 +1,11 @@
 // node tools/check-sizes.mjs — what a page pays for everything that a package exports, minified by esbuild and gzipped,
 // by itself and with all its dependencies, against a budget. Budgets hold for what is there when the entry is imported; what
-// it loads later by import() stands beside it.
+// it loads later by import() stands beside it. READMEs and the documentation state the same sizes; --write puts them there.
 import { PEERS, bundle } from './pipeline/bundle.mjs';
 import { installPacked } from './pipeline/packed.mjs';
 import { Verdicts, columns, runAlone } from './pipeline/report.mjs';
+import { root } from './pipeline/process.mjs';
+import { compareSizeTexts } from './pipeline/size-texts.mjs';
 import { entriesOf } from './pipeline/workspace.mjs';
 
 /**
@@ -23,10 +25,11 @@ const BUDGETS = [
 
 const kB = (bytes) => (bytes / 1000).toFixed(2);
 
-export async function checkSizes() {
+export async function checkSizes({ write = process.argv.includes('--write') } = {}) {
   const verdicts = new Verdicts();
   const consumer = await installPacked();
   const rows = [];
+  const measured = new Map();
   for (const p of consumer.packages.filter(({ short }) => short !== 'cli')) {
     const foreign = Object.keys(p.manifest.dependencies ?? {}).flatMap((name) => [name, `${name}/*`]);
     for (const { path, specifier } of entriesOf(p)) {
@@ -36,6 +39,7 @@ export async function checkSizes() {
         const own = await bundle(consumer, code, { external: [...PEERS, ...foreign] });
         const all = await bundle(consumer, code, { external: PEERS });
         const { limit, withDependencies, without } = BUDGETS.find((budget) => budget.specifier === specifier) ?? {};
+        measured.set(specifier.replace('@glanz/', ''), { own: own.gzip, all: all.gzip, lazy: all.lazy });
         rows.push([specifier, kB(own.gzip), kB(all.gzip), all.lazy > 0 ? kB(all.lazy) : '', limit === undefined ? '' : `${limit} ${withDependencies ? 'with all' : 'own'}`]);
         if (limit === undefined) return;
         const size = (withDependencies ? all : own).gzip;
@@ -48,6 +52,8 @@ export async function checkSizes() {
     }
   }
   for (const { specifier } of BUDGETS) verdicts.expect(rows.some(([name]) => name === specifier), `${specifier} has a budget but was not measured.`);
+  const texts = compareSizeTexts(measured, consumer.packages.map(({ short }) => short).filter((short) => short !== 'cli'), { base: root, write });
+  verdicts.expect(texts.length === 0, texts.join('\n'));
   verdicts.table.push(...columns([['entry', 'own kB', 'with dependencies', 'loaded later', 'budget'], ...rows], [1, 2, 3]));
   return verdicts;
 }

@@ -55,6 +55,7 @@ async function build() {
 const STAGES = [
   { name: 'imports', title: 'who imports whom', run: check('./check-imports.mjs', 'checkImports') },
   { name: 'exports', title: 'export maps and builds agree', run: check('./check-exports.mjs', 'checkExports') },
+  { name: 'manifests', title: 'what all manifests share, LICENSE and CHANGELOG', run: check('./check-manifests.mjs', 'checkManifests') },
   { name: 'lint', title: 'oxlint, warnings are errors', run: () => program(bin('oxlint', 'bin/oxlint'), ['--deny-warnings']) },
   { name: 'types', title: 'TypeScript 7, the whole repository', run: () => program(bin('typescript-native', 'bin/tsc'), ['--noEmit', '-p', 'tsconfig.json']) },
   { name: 'docs', title: 'a doc comment on every exported symbol', run: check('./check-docs.mjs', 'checkDocs') },
