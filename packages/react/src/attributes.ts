@@ -1,3 +1,4 @@
+import type { AttributeName } from '@glanz/element';
 import type { HtmlProps } from './html';
 
 /** Props that React handles itself, and hands to the element under their own name. */
@@ -9,7 +10,7 @@ const STATES = new Set(['contentEditable', 'draggable', 'spellCheck']);
 type Cased<Name> = Name extends `on${Capitalize<string>}` | `aria-${string}` | Lowercase<string> ? never : Name;
 type CasedHtml = Exclude<Cased<keyof HtmlProps>, 'className' | 'dangerouslySetInnerHTML' | 'suppressContentEditableWarning' | 'suppressHydrationWarning'>;
 
-/** HTML attributes that React writes with capitals: in HTML they have neither these nor hyphens, unlike those of the element. */
+/** HTML attributes that React writes with capitals: in HTML they have no hyphens, unlike those of the element. */
 const CASED: Readonly<Record<CasedHtml, true>> = {
   accessKey: true,
   autoCapitalize: true,
@@ -32,10 +33,21 @@ const CASED: Readonly<Record<CasedHtml, true>> = {
   tabIndex: true,
 };
 
-/** The name in HTML of a prop. */
+type Single<Name> = Name extends `${string}-${string}` ? never : Name;
+
+/** Attributes of the element that are one word; the others have hyphens. */
+const WORDS: Readonly<Record<Single<AttributeName>, true>> = { src: true, alt: true, poster: true, loading: true, reveal: true, exposure: true, samples: true, noise: true };
+
+/**
+ * The name under which React writes a prop as an attribute. React 19 sets a property where the element has one of this name, and
+ * so makes `title="undefined"` of a title that is taken away, and `hidden=""` no flag. No property begins with a capital, and
+ * attributes of HTML are the same in any case.
+ */
 function attributeName(prop: string): string {
   if (prop === 'className') return 'class';
-  return prop in CASED ? prop.toLowerCase() : prop.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
+  if (/^(aria|data)-/.test(prop) || prop in WORDS) return prop;
+  if (prop in CASED || !/[A-Z-]/.test(prop)) return prop.charAt(0).toUpperCase() + prop.slice(1).toLowerCase();
+  return prop.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
 }
 
 /**

@@ -81,8 +81,12 @@ test('HTML attributes and handlers reach the element, and change with the props'
   await viewer.click();
   expect(await heard(page)).toEqual(['load', 'converged 6', 'click glanz-viewer']);
   expect(await viewer.getAttribute('tabindex')).toBe('0');
-  await page.evaluate((props) => window.give({ src: 'red.glb', title: 'second', hidden: true, ...props }), FAST);
+  await page.evaluate((props) => window.give({ src: 'red.glb', title: 'second', hidden: true, inert: true, draggable: false, spellCheck: false, ...props }), FAST);
   await expect(viewer).toHaveAttribute('title', 'second');
   await expect(viewer).toHaveAttribute('hidden', '');
-  expect(await viewer.getAttribute('tabindex')).toBeNull();
+  const state = () => viewer.evaluate(({ inert, draggable, spellcheck, title, tabIndex }: HTMLElement) => ({ inert, draggable, spellcheck, title, tabIndex }));
+  expect(await state()).toEqual({ inert: true, draggable: false, spellcheck: false, title: 'second', tabIndex: -1 });
+  await page.evaluate((props) => window.give({ src: 'red.glb', hidden: false, draggable: true, ...props }), FAST);
+  await expect(viewer).not.toHaveAttribute('hidden');
+  expect(await state()).toMatchObject({ inert: false, draggable: true, title: '' });
 });
