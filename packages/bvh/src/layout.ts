@@ -94,3 +94,16 @@ export function copyBox(to: Float32Array, at: number, stride: number, from: Floa
   to[at + 1] = from[b + 4] as number;
   to[at + 2] = from[b + 5] as number;
 }
+
+/** Inner nodes in an order in which parents come before their children, whatever their places in memory. */
+export function parentsFirst(words: Uint32Array, nodeCount: number): Uint32Array<ArrayBuffer> {
+  const order = new Uint32Array(nodeCount);
+  for (let next = 0, found = 1; next < found; next++) {
+    const base = (order[next] as number) * NODE_WORDS;
+    for (const side of [LEFT, RIGHT]) {
+      const reference = words[base + side] as number;
+      if (reference < LEAF) order[found++] = reference;
+    }
+  }
+  return order;
+}

@@ -1,4 +1,4 @@
-import { FAR, LEAF, LEFT, LEFT_MIN, leafCount, NODE_WORDS, PARENT, RIGHT, RIGHT_MIN } from './layout';
+import { FAR, LEAF, LEFT, LEFT_MIN, leafCount, NODE_WORDS, PARENT, parentsFirst, RIGHT, RIGHT_MIN } from './layout';
 
 /** The nodes of a BLAS or TLAS. */
 export interface BvhNodes {
@@ -42,7 +42,7 @@ export function bvhStatistics(bvh: BvhNodes): BvhStatistics {
   const leafDepths: number[] = [0];
   const depths = new Uint8Array(nodeCount);
   let depth = 0, leaves = 0;
-  for (let node = 0; node < nodeCount; node++) {
+  for (const node of parentsFirst(words, nodeCount)) {
     const base = node * NODE_WORDS;
     const own = node === 0 ? 1 : (depths[words[base + PARENT] as number] as number) + 1;
     depths[node] = own;

@@ -27,7 +27,8 @@ export interface Tlas {
 }
 
 /**
- * Builds the hierarchy over instances: a millisecond for a thousand. Rebuild it when instances move; their BLAS stay.
+ * Builds the hierarchy over instances: a millisecond for a thousand. Rebuild it when instances move; their BLAS stay. Where few
+ * of many instances move, appear or vanish, `DynamicTlas` of `@glanz/bvh/dynamic-tlas` costs less.
  * No way from the root has more than {@link TLAS_MAX_DEPTH} inner nodes.
  *
  * @throws {BvhError} `bvh/transform` for a transform without 16 numbers, `bvh/too-many` beyond 4 million instances.
@@ -40,31 +41,44 @@ export function buildTlas(instances: readonly TlasInstance[]): Tlas {
   const kept = new Uint32Array(length);
   let count = 0;
   for (let i = 0; i < length; i++) {
-    const { bounds: { min, max }, transform: m } = instances[i] as TlasInstance;
-    if (m.length !== 16) throw new BvhError('bvh/transform', `Instance ${i} has a transform of ${m.length} numbers; it must have 16.`);
-    const exists = invertAffine(m, toObject, 12 * i) && (min[0] as number) <= (max[0] as number);
-    let sum = 0;
-    for (let r = 0; r < 3; r++) {
-      let low = m[12 + r] as number, high = low;
-      // What rounding may take off in world and object space together, so that no hit near the border is lost.
-      let slack = Math.abs(low);
-      for (let k = 0; k < 3; k++) {
-        const p = (m[4 * k + r] as number) * (min[k] as number), q = (m[4 * k + r] as number) * (max[k] as number);
-        low += p < q ? p : q;
-        high += p < q ? q : p;
-        slack += Math.max(Math.abs(p), Math.abs(q));
-      }
-      slack *= 2 ** -22;
-      const at = 6 * count + r;
-      boxes[at] = low - slack;
-      boxes[at + 3] = high + slack;
-      // Finite only if each part is: six numbers of 3.4e38 at most cannot overflow a double.
-      sum += (boxes[at] as number) + (boxes[at + 3] as number);
-    }
-    if (exists && Number.isFinite(sum)) kept[count++] = i;
+    const instance = instances[i] as TlasInstance;
+    checkTransform(instance, i);
+    if (placeInstance(instance, boxes, 6 * count, toObject, 12 * i)) kept[count++] = i;
   }
   const { nodes, nodeCount } = buildOverBoxes(boxes, count, TLAS_MAX_DEPTH);
   return { nodes, nodeCount, instanceOrder: kept.slice(0, count), toObject, bounds: rootBounds(nodes) };
+}
+
+/** @throws {BvhError} `bvh/transform` */
+export function checkTransform({ transform }: TlasInstance, index: number): void {
+  if (transform.length !== 16) throw new BvhError('bvh/transform', `Instance ${index} has a transform of ${transform.length} numbers; it must have 16.`);
+}
+
+/**
+ * Writes an instance's box in the world, six numbers, and the 12 of its `toObject`.
+ *
+ * @returns False where nothing can hit it: its rows of `toObject` may be NaN, and the box means nothing.
+ */
+export function placeInstance({ bounds: { min, max }, transform: m }: TlasInstance, boxes: Float32Array, at: number, toObject: Float64Array, to: number): boolean {
+  const exists = invertAffine(m, toObject, to) && (min[0] as number) <= (max[0] as number);
+  let sum = 0;
+  for (let r = 0; r < 3; r++) {
+    let low = m[12 + r] as number, high = low;
+    // What rounding may take off in world and object space together, so that no hit near the border is lost.
+    let slack = Math.abs(low);
+    for (let k = 0; k < 3; k++) {
+      const p = (m[4 * k + r] as number) * (min[k] as number), q = (m[4 * k + r] as number) * (max[k] as number);
+      low += p < q ? p : q;
+      high += p < q ? q : p;
+      slack += Math.max(Math.abs(p), Math.abs(q));
+    }
+    slack *= 2 ** -22;
+    boxes[at + r] = low - slack;
+    boxes[at + 3 + r] = high + slack;
+    // Finite only if each part is: six numbers of 3.4e38 at most cannot overflow a double.
+    sum += (boxes[at + r] as number) + (boxes[at + 3 + r] as number);
+  }
+  return exists && Number.isFinite(sum);
 }
 
 /** Writes the rows of the inverse of an affine matrix; false (and NaN) where there is none. */

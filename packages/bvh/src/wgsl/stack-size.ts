@@ -1,5 +1,5 @@
 import { BvhError } from '../error';
-import { NODE_WORDS, PARENT } from '../layout';
+import { NODE_WORDS, PARENT, parentsFirst } from '../layout';
 import { WIDE_WORDS } from '../wide/layout';
 
 /** Nodes of either layout. */
@@ -14,8 +14,8 @@ export function depthOf({ nodes, nodeCount }: AnyNodes): number {
   const wide = nodes.length === WIDE_WORDS * nodeCount;
   const depths = new Uint8Array(nodeCount).fill(1, 0, 1);
   let most = 1;
-  // Nodes come after those above them.
-  for (let node = 0; node < nodeCount; node++) {
+  // Wide nodes come after those above them.
+  for (const node of wide ? depths.keys() : parentsFirst(words, nodeCount)) {
     if (!wide && node > 0) depths[node] = (depths[words[node * NODE_WORDS + PARENT] as number] as number) + 1;
     const depth = depths[node] as number;
     most = Math.max(most, depth);

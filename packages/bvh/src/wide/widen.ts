@@ -1,5 +1,5 @@
 import type { Blas } from '../blas';
-import { FAR, LEAF, LEFT, leafCount, leafFirst, NODE_WORDS, RIGHT, type Aabb } from '../layout';
+import { FAR, LEAF, LEFT, leafCount, leafFirst, NODE_WORDS, parentsFirst, RIGHT, type Aabb } from '../layout';
 import type { Tlas } from '../tlas';
 import { WIDE_BLAS_DEPTH, WIDE_LEAF_MAX, WIDE_NODE, WIDE_TLAS_DEPTH, WIDE_WORDS, WIDTH } from './layout';
 
@@ -44,7 +44,7 @@ export function widenTlas(tlas: Tlas): WideTlas {
 function heightsOf(words: Uint32Array, nodeCount: number): Uint8Array {
   const heights = new Uint8Array(nodeCount);
   const height = (reference: number) => ((reference & LEAF) === 0 ? (heights[reference] as number) : leafCount(reference) > WIDE_LEAF_MAX ? 1 : 0);
-  for (let node = nodeCount - 1; node >= 0; node--) heights[node] = 1 + Math.max(height(words[node * NODE_WORDS + LEFT] as number), height(words[node * NODE_WORDS + RIGHT] as number));
+  for (const node of parentsFirst(words, nodeCount).reverse()) heights[node] = 1 + Math.max(height(words[node * NODE_WORDS + LEFT] as number), height(words[node * NODE_WORDS + RIGHT] as number));
   return heights;
 }
 

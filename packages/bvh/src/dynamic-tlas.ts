@@ -1,0 +1,445 @@
+import { buildOverBoxes } from './build/over-boxes';
+import { BvhError } from './error';
+import { FAR, LEAF, LEFT, leafFirst, leafReference, LEFT_MAX, NODE_WORDS, PARENT, RESERVED, RIGHT, rootBounds, TLAS_MAX_DEPTH, type Aabb } from './layout';
+import { REBUILD_ABOVE } from './refit-quality';
+import { checkTransform, placeInstance, type Tlas, type TlasInstance } from './tlas';
+
+/** Updates of more than this part of the instances rebuild the hierarchy at once. */
+const REBUILD_PART = 1 / 4;
+/** Fewer changes than this never lead to a rebuild. */
+const REBUILD_LEAST = 64;
+
+/** The slot that stands for a new root above the present one. */
+const ABOVE_ROOT = -1;
+const NOWHERE = -2;
+
+/** Where the box of a slot begins; its upper corner lies four words on. A slot is the word of a reference. */
+const boxAt = (slot: number): number => slot - LEFT + (slot & LEFT_MAX);
+
+/** Half the surface. */
+const surface = (x: number, y: number, z: number): number => x * y + y * z + z * x;
+
+/**
+ * A TLAS that changes in place: moving, adding or removing one of `n` instances costs about log n, where `buildTlas` costs n.
+ * Takes part in every query as the TLAS of `buildTlas` does, and finds the same hits. Deterministic: the same changes give
+ * the same nodes.
+ *
+ * A removed leaf leaves its place to its sibling; an added one goes where it enlarges the boxes least, found by branch and
+ * bound (Bittner, Hapala and Havran 2013, "Fast Insertion-Based Optimization of Bounding Volume Hierarchies"). An instance
+ * that moves within its parent's box is refitted, any other is removed and added. The whole is rebuilt when the surface area
+ * cost has risen by half, after as many changes as there are instances, and for an update of more than a quarter of them.
+ *
+ * @example
+ * const tlas = new DynamicTlas(placed.map(({ blas, transform }) => ({ bounds: blas.bounds, transform })));
+ * tlas.update([[7, { bounds: blas.bounds, transform: moved }], [8, undefined]]); // 7 moves, 8 disappears
+ * for (const node of tlas.takeChangedNodes()) upload(node, tlas.nodes.subarray(16 * node, 16 * node + 16));
+ */
+export class DynamicTlas implements Tlas {
+  /** Instance `i` is leaf `i`, whether it can be hit or not. */
+  readonly instanceOrder: Uint32Array<ArrayBuffer>;
+  /** 12 numbers an instance, as in {@link Tlas.toObject}; only those of instances that can be hit mean anything. */
+  readonly toObject: Float64Array<ArrayBuffer>;
+  readonly bounds: Aabb = { min: new Float32Array(3), max: new Float32Array(3) };
+  /** Memory for as many nodes as there may be. */
+  #memory: Float32Array<ArrayBuffer>;
+  #words: Uint32Array<ArrayBuffer>;
+  #nodes: Float32Array<ArrayBuffer>;
+  #nodeCount = 0;
+  #count = 0;
+  /** By instance: the word of the reference to it; −1 where it is not in the tree. */
+  readonly #slots: Int32Array;
+  /** By node: inner nodes on the longest way down, itself included. */
+  readonly #heights: Uint8Array;
+  /** Sum of half the surfaces of all boxes but the root's, and what the cost was after the last build. */
+  #surfaces = 0;
+  #builtCost = 0;
+  #changes = 0;
+  readonly #changed: number[] = [];
+  readonly #isChanged: Uint8Array;
+  /** The box of the instance at work: min xyz, max xyz. */
+  readonly #box = new Float32Array(6);
+  /** A box on its way into a slot. */
+  readonly #fitted = new Float32Array(6);
+
+  /**
+   * @param instances What can be hit. `undefined`: not in the hierarchy for now, but may be put into it by {@link update}.
+   * @throws {BvhError} `bvh/transform` for a transform without 16 numbers, `bvh/too-many` beyond 4 million instances.
+   */
+  constructor(instances: readonly (TlasInstance | undefined)[]) {
+    const { length } = instances;
+    if (length > 2 ** TLAS_MAX_DEPTH) throw new BvhError('bvh/too-many', `${length} instances are too many; one hierarchy holds ${2 ** TLAS_MAX_DEPTH}.`);
+    const capacity = Math.max(length - 1, 1);
+    this.instanceOrder = new Uint32Array(length).map((_, i) => i);
+    this.toObject = new Float64Array(12 * length).fill(NaN);
+    this.#memory = this.#nodes = new Float32Array(capacity * NODE_WORDS);
+    this.#words = new Uint32Array(this.#memory.buffer);
+    this.#slots = new Int32Array(length).fill(-1);
+    this.#heights = new Uint8Array(capacity);
+    this.#isChanged = new Uint8Array(capacity);
+    const boxes = new Float32Array(6 * length);
+    const present = new Uint8Array(length);
+    for (const [i, instance] of instances.entries()) {
+      if (!instance) continue;
+      checkTransform(instance, i);
+      if (placeInstance(instance, boxes, 6 * i, this.toObject, 12 * i)) present[i] = 1;
+    }
+    this.#build(boxes, present);
+  }
+
+  /** As in {@link Tlas.nodes}, but for their order: a child may lie before its parent. Another view after an update. */
+  get nodes(): Float32Array<ArrayBuffer> {
+    return this.#nodes;
+  }
+
+  get nodeCount(): number {
+    return this.#nodeCount;
+  }
+
+  /** How many instances are in the hierarchy. */
+  get count(): number {
+    return this.#count;
+  }
+
+  /** Whether an instance is in the hierarchy: it was given, and something can hit it. */
+  has(instance: number): boolean {
+    return (this.#slots[instance] ?? -1) >= 0;
+  }
+
+  /**
+   * Moves, adds and removes instances.
+   *
+   * @param changes The number of an instance and where it is now; `undefined` takes it out. The last word on an instance counts.
+   * @throws {BvhError} `bvh/instance` for a number that was not given to the constructor, `bvh/transform`. Nothing has changed then.
+   */
+  update(changes: readonly (readonly [instance: number, placing: TlasInstance | undefined])[]): void {
+    for (const [instance, placing] of changes) {
+      if (this.#slots[instance] === undefined) throw new BvhError('bvh/instance', `There is no instance ${instance}; the hierarchy was made for ${this.#slots.length}.`);
+      if (placing) checkTransform(placing, instance);
+    }
+    this.#changes += changes.length;
+    const least = Math.max(REBUILD_LEAST, this.#count);
+    if (changes.length > Math.max(REBUILD_LEAST, this.#slots.length * REBUILD_PART)) return this.#rebuild(changes);
+    for (let i = 0; i < changes.length; i++) {
+      const [instance, placing] = changes[i] as (typeof changes)[number];
+      if (!this.#change(instance, placing)) return this.#rebuild(changes.slice(i));
+    }
+    if (this.#changes >= least || (this.#changes >= Math.max(REBUILD_LEAST, least / 16) && this.#cost() > REBUILD_ABOVE * this.#builtCost)) this.#rebuild([]);
+    else this.#finish();
+  }
+
+  /** The nodes that were written since this was last asked for, rising; at first, all of them. For uploads. */
+  takeChangedNodes(): Uint32Array<ArrayBuffer> {
+    const changed = Uint32Array.from(this.#changed.filter((node) => node < this.#nodeCount)).sort();
+    for (const node of this.#changed) this.#isChanged[node] = 0;
+    this.#changed.length = 0;
+    return changed;
+  }
+
+  /** False where the depth does not suffice: the hierarchy is then whole, without the instance. */
+  #change(instance: number, placing: TlasInstance | undefined): boolean {
+    const box = this.#box;
+    const slot = this.#slots[instance] as number;
+    const isPlaced = placing !== undefined && placeInstance(placing, box, 0, this.toObject, 12 * instance);
+    if (!isPlaced) {
+      if (slot >= 0) this.#remove(instance, slot);
+      return true;
+    }
+    if (slot >= 0) {
+      if (this.#staysInside(slot)) {
+        this.#setBox(slot, box);
+        this.#refit(slot >>> 4);
+        return true;
+      }
+      this.#remove(instance, slot);
+    }
+    return this.#insert(instance);
+  }
+
+  /** Whether the box at work lies within that of the node which holds a slot. */
+  #staysInside(slot: number): boolean {
+    const box = this.#box, memory = this.#memory;
+    const node = slot >>> 4;
+    if (node === 0) return true;
+    const at = boxAt(this.#slotOf(node));
+    for (let k = 0; k < 3; k++) if ((box[k] as number) < (memory[at + k] as number) || (box[3 + k] as number) > (memory[at + 4 + k] as number)) return false;
+    return true;
+  }
+
+  /** The slot that refers to a node other than the root. */
+  #slotOf(node: number): number {
+    const base = (this.#words[node * NODE_WORDS + PARENT] as number) * NODE_WORDS;
+    return base + (this.#words[base + LEFT] === node ? LEFT : RIGHT);
+  }
+
+  #mark(node: number): void {
+    if (this.#isChanged[node]) return;
+    this.#isChanged[node] = 1;
+    this.#changed.push(node);
+  }
+
+  #surfaceAt(slot: number): number {
+    const memory = this.#memory, at = boxAt(slot);
+    return surface((memory[at + 4] as number) - (memory[at] as number), (memory[at + 5] as number) - (memory[at + 1] as number), (memory[at + 6] as number) - (memory[at + 2] as number));
+  }
+
+  #setBox(slot: number, box: Float32Array): void {
+    const memory = this.#memory, at = boxAt(slot);
+    this.#surfaces -= this.#surfaceAt(slot);
+    for (let k = 0; k < 3; k++) {
+      memory[at + k] = box[k] as number;
+      memory[at + 4 + k] = box[3 + k] as number;
+    }
+    this.#surfaces += this.#surfaceAt(slot);
+    this.#mark(slot >>> 4);
+  }
+
+  /** Copies reference and box of one slot to another, and tells what is referred to where it is now. */
+  #copySlot(from: number, to: number): void {
+    const memory = this.#memory;
+    const a = boxAt(from), b = boxAt(to);
+    this.#surfaces -= this.#surfaceAt(to);
+    for (let k = 0; k < 3; k++) {
+      memory[b + k] = memory[a + k] as number;
+      memory[b + 4 + k] = memory[a + 4 + k] as number;
+    }
+    this.#surfaces += this.#surfaceAt(to);
+    this.#refer(to, this.#words[from] as number);
+  }
+
+  /** Writes a reference, and where it is into what it refers to. */
+  #refer(slot: number, reference: number): void {
+    this.#words[slot] = reference;
+    this.#mark(slot >>> 4);
+    if (reference >= LEAF) this.#slots[leafFirst(reference)] = slot;
+    else {
+      this.#words[reference * NODE_WORDS + PARENT] = slot >>> 4;
+      this.#mark(reference);
+    }
+  }
+
+  /** Makes a slot one that no ray reaches. */
+  #clear(slot: number, reference: number): void {
+    this.#setBox(slot, this.#fitted.fill(FAR));
+    this.#words[slot] = reference;
+  }
+
+  /** A new node without surface, to be filled by its maker. */
+  #newNode(): number {
+    const node = this.#nodeCount++;
+    this.#memory.fill(0, node * NODE_WORDS, (node + 1) * NODE_WORDS);
+    this.#heights[node] = 0;
+    this.#mark(node);
+    return node;
+  }
+
+  /** Frees a node that nothing refers to: the last node takes its place. @returns Where `watched` is now. */
+  #freeNode(node: number, watched: number): number {
+    const last = --this.#nodeCount;
+    this.#surfaces -= this.#surfaceAt(node * NODE_WORDS + LEFT) + this.#surfaceAt(node * NODE_WORDS + RIGHT);
+    if (node === last) return watched;
+    const slot = this.#slotOf(last);
+    const to = node * NODE_WORDS, from = last * NODE_WORDS;
+    this.#memory.copyWithin(to, from, from + NODE_WORDS);
+    this.#heights[node] = this.#heights[last] as number;
+    this.#refer(slot, node);
+    this.#refer(to + LEFT, this.#words[to + LEFT] as number);
+    this.#refer(to + RIGHT, this.#words[to + RIGHT] as number);
+    return watched === last ? node : watched;
+  }
+
+  #remove(instance: number, slot: number): void {
+    const sibling = slot ^ LEFT_MAX;
+    const node = slot >>> 4;
+    this.#slots[instance] = -1;
+    this.#count--;
+    if (this.#count < 2) {
+      // What is left, if anything, is the root's first child.
+      const rest = this.#words[sibling] as number;
+      if (this.#count === 1 && slot === LEFT) this.#copySlot(RIGHT, LEFT);
+      else if (this.#count === 0) this.#clear(LEFT, rest);
+      this.#clear(RIGHT, rest);
+      return;
+    }
+    if (node === 0) {
+      const child = this.#words[sibling] as number;
+      this.#copySlot(child * NODE_WORDS + LEFT, LEFT);
+      this.#copySlot(child * NODE_WORDS + RIGHT, RIGHT);
+      this.#freeNode(child, 0);
+      this.#refit(0);
+      return;
+    }
+    const above = this.#slotOf(node);
+    this.#copySlot(sibling, above);
+    this.#refit(this.#freeNode(node, above >>> 4));
+  }
+
+  /** Puts the box at work into the tree. False where the depth does not suffice. */
+  #insert(instance: number): boolean {
+    const reference = leafReference(instance, 1);
+    if (this.#count < 2) {
+      const slot = this.#count === 0 ? LEFT : RIGHT;
+      this.#setBox(slot, this.#box);
+      this.#refer(slot, reference);
+      if (slot === LEFT) this.#words[RIGHT] = reference;
+      this.#heights[0] = 1;
+      this.#count++;
+      return true;
+    }
+    const slot = this.#bestSlot();
+    if (slot === NOWHERE) return false;
+    this.#count++;
+    const node = this.#newNode();
+    const left = node * NODE_WORDS + LEFT, right = node * NODE_WORDS + RIGHT;
+    if (slot === ABOVE_ROOT) {
+      // The new node takes the root's children.
+      this.#copySlot(LEFT, left);
+      this.#copySlot(RIGHT, right);
+      this.#setBox(RIGHT, this.#box);
+      this.#refer(RIGHT, reference);
+      this.#refer(LEFT, node);
+      this.#refit(node);
+      return true;
+    }
+    this.#copySlot(slot, left);
+    this.#setBox(right, this.#box);
+    this.#refer(right, reference);
+    this.#refer(slot, node);
+    this.#refit(node);
+    return true;
+  }
+
+  #heightOf(reference: number): number {
+    return reference < LEAF ? (this.#heights[reference] as number) : 0;
+  }
+
+  /** Half the surface of the box around that of a slot and the one at work. */
+  #surfaceWith(slot: number): number {
+    const memory = this.#memory, box = this.#box, at = boxAt(slot);
+    const side = (k: number) => Math.max(memory[at + 4 + k] as number, box[3 + k] as number) - Math.min(memory[at + k] as number, box[k] as number);
+    return surface(side(0), side(1), side(2));
+  }
+
+  /** Where the box at work adds least to the surfaces: its sibling-to-be. */
+  #bestSlot(): number {
+    const words = this.#words;
+    const own = surface((this.#box[3] as number) - (this.#box[0] as number), (this.#box[4] as number) - (this.#box[1] as number), (this.#box[5] as number) - (this.#box[2] as number));
+    let best = NOWHERE, least = Infinity;
+    if ((this.#heights[0] as number) < TLAS_MAX_DEPTH) {
+      best = ABOVE_ROOT;
+      least = this.#rootSurface();
+    }
+    // Slots yet to visit, three numbers each: what the boxes above them grow by, inner nodes above them, the slot.
+    const stack = [0, 1, RIGHT, 0, 1, LEFT];
+    while (stack.length > 0) {
+      const slot = stack.pop() as number, depth = stack.pop() as number, grown = stack.pop() as number;
+      if (grown + own >= least) continue;
+      const reference = words[slot] as number;
+      const joined = this.#surfaceWith(slot);
+      if (grown + joined < least && depth + 1 + this.#heightOf(reference) <= TLAS_MAX_DEPTH) {
+        least = grown + joined;
+        best = slot;
+      }
+      if (reference >= LEAF) continue;
+      const below = grown + joined - this.#surfaceAt(slot);
+      if (below + own >= least) continue;
+      const left = reference * NODE_WORDS + LEFT, right = reference * NODE_WORDS + RIGHT;
+      const isLeftFirst = this.#surfaceWith(left) - this.#surfaceAt(left) <= this.#surfaceWith(right) - this.#surfaceAt(right);
+      stack.push(below, depth + 1, isLeftFirst ? right : left, below, depth + 1, isLeftFirst ? left : right);
+    }
+    return best;
+  }
+
+  /** Fits boxes and heights from a node up to the root, or to where nothing changes any more. */
+  #refit(node: number): void {
+    const words = this.#words, memory = this.#memory, box = this.#fitted, heights = this.#heights;
+    for (;;) {
+      const base = node * NODE_WORDS;
+      const height = 1 + Math.max(this.#heightOf(words[base + LEFT] as number), this.#heightOf(words[base + RIGHT] as number));
+      const isSameHeight = heights[node] === height;
+      heights[node] = height;
+      if (node === 0) return;
+      const slot = this.#slotOf(node), at = boxAt(slot);
+      let isSame = isSameHeight;
+      for (let k = 0; k < 3; k++) {
+        box[k] = Math.min(memory[base + k] as number, memory[base + 8 + k] as number);
+        box[3 + k] = Math.max(memory[base + 4 + k] as number, memory[base + 12 + k] as number);
+        isSame &&= box[k] === memory[at + k] && box[3 + k] === memory[at + 4 + k];
+      }
+      if (isSame) return;
+      this.#setBox(slot, box);
+      node = slot >>> 4;
+    }
+  }
+
+  #rootSurface(): number {
+    const { min, max } = rootBounds(this.#memory);
+    const side = (k: number) => Math.max(0, (max[k] as number) - (min[k] as number));
+    return surface(side(0), side(1), side(2));
+  }
+
+  /** The surface area cost, but for what is the same in all trees. */
+  #cost(): number {
+    const root = this.#rootSurface();
+    return root > 0 ? this.#surfaces / root : 0;
+  }
+
+  #rebuild(changes: readonly (readonly [instance: number, placing: TlasInstance | undefined])[]): void {
+    const slots = this.#slots, memory = this.#memory;
+    const boxes = new Float32Array(6 * slots.length);
+    const present = new Uint8Array(slots.length);
+    for (let i = 0; i < slots.length; i++) {
+      const slot = slots[i] as number;
+      if (slot < 0) continue;
+      present[i] = 1;
+      for (let k = 0; k < 3; k++) {
+        boxes[6 * i + k] = memory[boxAt(slot) + k] as number;
+        boxes[6 * i + 3 + k] = memory[boxAt(slot) + 4 + k] as number;
+      }
+    }
+    for (const [instance, placing] of changes) present[instance] = placing && placeInstance(placing, boxes, 6 * instance, this.toObject, 12 * instance) ? 1 : 0;
+    this.#build(boxes, present);
+  }
+
+  #build(boxes: Float32Array, present: Uint8Array): void {
+    const kept = new Uint32Array(present.length);
+    let count = 0;
+    for (let i = 0; i < present.length; i++) {
+      if (!present[i]) continue;
+      boxes.copyWithin(6 * count, 6 * i, 6 * i + 6);
+      kept[count++] = i;
+    }
+    const { nodes, nodeCount } = buildOverBoxes(boxes, count, TLAS_MAX_DEPTH);
+    this.#memory.set(nodes);
+    this.#nodeCount = nodeCount;
+    this.#count = count;
+    this.#slots.fill(-1);
+    this.#surfaces = 0;
+    const words = this.#words;
+    for (let node = nodeCount - 1; node >= 0; node--) {
+      const base = node * NODE_WORDS;
+      for (const slot of [base + LEFT, base + RIGHT]) {
+        const reference = words[slot] as number;
+        if (reference >= LEAF) {
+          const instance = kept[leafFirst(reference)] as number;
+          words[slot] = leafReference(instance, 1);
+          if (this.#memory[boxAt(slot)] !== FAR) this.#slots[instance] = slot;
+        }
+        this.#surfaces += this.#surfaceAt(slot);
+      }
+      words[base + RESERVED] = 0;
+      // Built trees have children behind their parents.
+      this.#heights[node] = 1 + Math.max(this.#heightOf(words[base + LEFT] as number), this.#heightOf(words[base + RIGHT] as number));
+      this.#mark(node);
+    }
+    this.#changes = 0;
+    this.#builtCost = this.#cost();
+    this.#finish();
+  }
+
+  #finish(): void {
+    if (this.#nodes.length !== this.#nodeCount * NODE_WORDS) this.#nodes = this.#memory.subarray(0, this.#nodeCount * NODE_WORDS);
+    const { min, max } = rootBounds(this.#memory);
+    this.bounds.min.set(min);
+    this.bounds.max.set(max);
+  }
+}
