@@ -1,4 +1,5 @@
 import { readFileSync } from 'node:fs';
+import { deflateRawSync } from 'node:zlib';
 import { expect, test, type Page } from '@playwright/test';
 import { triangle } from '@glanz/browser/files';
 import { checkAccessibility, dataOf, drop, errorWith, finished, open as openAt, photograph, pictureOf, pixelsOf, restarting, save, servePlayground, tab, watch } from './page';
@@ -169,6 +170,15 @@ test('the address holds the view: a reload brings back camera, material, light a
   await open(page, 'model=cornell-box&scale=0.25&samples=2&depth=2', '#v1.spoiled');
   await finished(page);
   await expect(page.locator('[role=alert]')).toHaveCount(0);
+
+  // Nor is one with values that the page itself would never write.
+  const absurd = { samples: 2, depth: 1.5, scale: '0.25', exposure: 1e30, hidden: [1e9, -1], camera: 1e9, clip: 3, variant: 'none such', orbit: { target: [0, 1, 0], distance: 1e30, yaw: 1e30, pitch: 7 }, lens: { fov: 0, stop: -2 }, boxes: [{}], groups: { x: 1 }, materials: { 0: { base_color: 'red' }, 1: { base_metalness: 1e30 }, 99: {} } };
+  await page.goto('about:blank');
+  await open(page, 'model=cornell-box&scale=0.25&samples=2&depth=2', `#v1.${deflateRawSync(JSON.stringify({ m: 'cornell-box', s: absurd })).toString('base64url')}`);
+  await finished(page);
+  await expect(page.locator('[role=alert]')).toHaveCount(0);
+  await tab(page, 'Render');
+  await expect(page.locator('#depth')).toHaveValue('2');
 });
 
 test('light: studios, a soft box, backgrounds that are saved as they are seen, and lights dimmed without a sample', async ({ page }) => {

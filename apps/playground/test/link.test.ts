@@ -45,3 +45,28 @@ test('fields of another kind than the state has are left out', async () => {
   const link = await encodeLink({ model: 'a', state });
   expect((await decodeLink(link))?.state).toEqual({ rotation: 12, orbit: null });
 });
+
+test('numbers are brought into the ranges of the page, and what is deep inside is of its own kind', async () => {
+  const read = async (state: object) => (await decodeLink(await encodeLink({ model: 'a', state: state as Partial<State> })))?.state;
+  for (const [depth, expected] of [[0, 1], [1.5, 2], [1e9, 64], [-3, 1]] as const) expect(await read({ depth })).toEqual({ depth: expected });
+  expect(await read({ samples: 1e9, noise: -1, exposure: 1e30, intensity: -5, rotation: 1e30, backgroundBlur: 0, constant: [-1, 2, 1e30], camera: -7.2, time: -1, clip: 0.4 })).toEqual({
+    samples: 65536, noise: 0, exposure: 8, intensity: 0, rotation: 3600, backgroundBlur: 2, constant: [0, 2, 1e4], camera: -1, time: 0, clip: 0,
+  });
+  for (const wrong of [5, 'far', [], {}, { target: [1, 2], distance: 1, yaw: 0, pitch: 0 }, { target: [1, 2, null], distance: 1, yaw: 0, pitch: 0 }, { target: [0, 0, 0], distance: '1', yaw: 0, pitch: 0 }]) {
+    expect(await read({ orbit: wrong }), JSON.stringify(wrong)).toEqual({});
+  }
+  expect(await read({ orbit: { target: [1e30, 0, 0], distance: -1, yaw: 1e30, pitch: 9, zoom: 0 } })).toEqual({ orbit: { target: [1e9, 0, 0], distance: 1e-9, yaw: 1000, pitch: Math.PI / 2, zoom: 0.001 } });
+  expect(await read({ lens: { projection: 'fisheye', fov: 400, stop: -1, blades: 2.6, focus: 'near' } })).toEqual({ lens: { projection: 'perspective', fov: 170, stop: 0, blades: 3, focus: null } });
+  expect(await read({ boxes: [{ azimuth: 0, elevation: 0, width: 9, height: 0, radiance: -1 }] })).toEqual({ boxes: [{ azimuth: 0, elevation: 0, width: Math.PI - 0.01, height: 0.01, radiance: 0 }] });
+  for (const boxes of [7, ['x'], [{}], [null], Array.from({ length: 65 }, () => edited.boxes?.[0])]) expect(await read({ boxes })).toEqual({});
+  expect(await read({ groups: { a: { intensity: 1e9, color: 'red' }, b: 3 }, materials: { 0: { base_metalness: 1 }, 1: 5, 2: null }, hidden: [1.5], variant: 4, studio: 'barn', toneMap: 'film', scale: 3, floor: 1, environment: null })).toEqual({
+    groups: { a: { intensity: 1000, color: [1, 1, 1] } },
+    materials: { 0: { base_metalness: 1 } },
+  });
+});
+
+test('a few letters that unpack to megabytes are no link', async () => {
+  const link = await encodeLink({ model: 'a'.repeat(20_000_000), state: {} });
+  expect(link.length).toBeLessThan(50_000);
+  expect(await decodeLink(link)).toBeUndefined();
+});

@@ -33,7 +33,12 @@ export interface ElementBlobOptions extends BlobOptions {
   readonly qualityArgument?: number;
 }
 
-/** The element `<glanz-viewer>`. Made by markup, or by `document.createElement('glanz-viewer')`, after `defineGlanzViewer()`. */
+/**
+ * The element `<glanz-viewer>`. Made by markup, or by `document.createElement('glanz-viewer')`, after `defineGlanzViewer()`.
+ * Setting a property to what it cannot be (NaN, an infinity, another type, a number out of range) throws an `ElementError`
+ * `element/property`; a text in markup that its attribute does not take is reported by the `error` event as
+ * `element/attribute`, and the default is used.
+ */
 export interface GlanzViewerElement extends HTMLElement, ReflectedProperties {
   /** The viewer behind it, for all that has no attribute; `undefined` while the element is out of the page, or waits to be seen. */
   readonly viewer: Viewer | undefined;
@@ -43,7 +48,10 @@ export interface GlanzViewerElement extends HTMLElement, ReflectedProperties {
   readonly availableVariants: readonly string[];
   /** Shows a model that has no address: a file, files, or a scene. Stays until `src` changes. */
   show(source: ModelSource): Promise<void>;
-  /** The picture as a file; see `Viewer.toBlob`. */
+  /**
+   * The picture as a file; see `Viewer.toBlob`.
+   * @throws {ElementError} `element/no-model` where no model was asked for; what the load of the model throws.
+   */
   toBlob(options?: ElementBlobOptions): Promise<Blob>;
   /** Where the camera goes around its target. */
   getCameraOrbit(): Orbit | undefined;

@@ -140,40 +140,5 @@ type Value<Kind extends AttributeKind> = Kind extends 'flag' ? boolean : Kind ex
 /** The properties that reflect the attributes; `null` where an attribute is not there. */
 export type ReflectedProperties = { -readonly [Name in AttributeName as Camel<Name>]: Value<(typeof ATTRIBUTES)[Name]> };
 
-const camel = (name: string) => name.replace(/-([a-z])/g, (_, letter: string) => letter.toUpperCase());
-
-/** Gives a class the properties that reflect the attributes. */
-export function reflectAttributes(prototype: HTMLElement): void {
-  for (const [name, kind] of Object.entries(ATTRIBUTES) as [AttributeName, AttributeKind][]) {
-    Object.defineProperty(prototype, camel(name), {
-      configurable: true,
-      enumerable: true,
-      get(this: HTMLElement) {
-        if (kind === 'flag') return this.hasAttribute(name);
-        return kind === 'number' ? numberOf(this.getAttribute(name)) : this.getAttribute(name);
-      },
-      set(this: HTMLElement, value: unknown) {
-        if (kind === 'flag') this.toggleAttribute(name, Boolean(value));
-        else if (value === null || value === undefined) this.removeAttribute(name);
-        else this.setAttribute(name, String(value));
-      },
-    });
-  }
-}
-
-/** Takes over what was set on an element before its class was there. */
-export function adoptProperties(element: HTMLElement): void {
-  for (const name of Object.keys(ATTRIBUTES).map(camel)) {
-    if (!Object.hasOwn(element, name)) continue;
-    const own = element as unknown as Record<string, unknown>;
-    const value = own[name];
-    delete own[name];
-    own[name] = value;
-  }
-}
-
-/** The number that a text says, or `null`. */
-export function numberOf(text: string | null): number | null {
-  const value = text === null || text.trim() === '' ? Number.NaN : Number(text);
-  return Number.isFinite(value) ? value : null;
-}
+/** The name of an attribute's property. */
+export const camel = (name: string) => name.replace(/-([a-z])/g, (_, letter: string) => letter.toUpperCase());

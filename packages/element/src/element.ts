@@ -1,17 +1,19 @@
 import { TONE_MAPS, type ToneMap } from '@glanz/tonemap';
 import type { PickResult } from '@glanz/renderer';
+import type { Scene } from '@glanz/scene';
 import { createViewer, type EnvironmentSource, type ModelSource, type Orbit, type Viewer } from '@glanz/viewer';
 import type { ElementBlobOptions, GlanzViewerConstructor, GlanzViewerElement, GlanzViewerEventMap } from './api';
-import { adoptProperties, ATTRIBUTES, numberOf, reflectAttributes, type AttributeName } from './attributes';
+import { attributeFault, numberIn, TONE_MAP_NAMES } from './attribute-checks';
+import { ATTRIBUTES, type AttributeName } from './attributes';
+import { ElementError } from './errors';
 import { HotspotLayer, readVector, viewHotspot, type HotspotView } from './hotspots';
+import { adoptProperties, reflectAttributes } from './reflect';
 import { fillShadow, type Shadow } from './shadow';
 import { angle } from './units';
 import { cameraOf, describeView, limitsOf, orbitOf, type ViewAttributes } from './view';
 
 const VIEW: ReadonlySet<string> = new Set(['camera-orbit', 'camera-target', 'field-of-view', 'min-camera-orbit', 'max-camera-orbit']);
 const LIGHT: ReadonlySet<string> = new Set(['environment-image', 'skybox-image']);
-/** Names that model-viewer has for what is meant here. */
-const TONE_MAP_NAMES: Readonly<Record<string, ToneMap>> = { commerce: 'neutral', auto: 'neutral', none: 'linear' };
 /** Milliseconds after the last movement before the view is told to those who hear it. */
 const SPEAK_MS = 600;
 
@@ -33,6 +35,8 @@ function makeClass(): GlanzViewerConstructor {
     #revealed = false;
     #source: ModelSource | undefined;
     #speaking: ReturnType<typeof setTimeout> | undefined;
+    /** Texts that their attributes do not take, which have been reported. */
+    readonly #faults = new Map<AttributeName, string>();
 
     get viewer(): Viewer | undefined {
       return this.#viewer;
@@ -47,7 +51,7 @@ function makeClass(): GlanzViewerConstructor {
     }
 
     connectedCallback(): void {
-      adoptProperties(this);
+      for (const error of adoptProperties(this)) this.#fail(error);
       if (!this.#shadow) {
         this.#shadow = fillShadow(this);
         this.#hotspots = new HotspotLayer(this, this.#shadow.hotspots, () => this.#viewer && this.#hotspots?.update(this.#viewer));
@@ -79,6 +83,7 @@ function makeClass(): GlanzViewerConstructor {
       if (name === 'loading' && now === 'eager' && this.isConnected && !this.#viewer) this.#start();
       const viewer = this.#viewer;
       if (!viewer) return;
+      this.#checkAttribute(name);
       if (name === 'back-face-culling') {
         // Of a path tracer it is part, so there is another one.
         this.#stop();
@@ -91,7 +96,7 @@ function makeClass(): GlanzViewerConstructor {
         viewer.background = this.#background;
         viewer.setEnvironment(this.#environment).catch((error: unknown) => this.#fail(error));
       } else if (VIEW.has(name)) {
-        if (name === 'field-of-view' && viewer.scene) viewer.fieldOfView = cameraOf(viewer.scene, this.#aspect, this.#view).yfov;
+        if (name === 'field-of-view' && viewer.scene) this.#attempt(() => void (viewer.fieldOfView = cameraOf(viewer.scene as Scene, this.#aspect, this.#view).yfov));
         this.#look(viewer, name === 'min-camera-orbit' || name === 'max-camera-orbit');
       } else this.#apply(viewer);
     }
@@ -105,9 +110,17 @@ function makeClass(): GlanzViewerConstructor {
     async toBlob({ mimeType, qualityArgument, ...options }: ElementBlobOptions = {}): Promise<Blob> {
       if (!this.#viewer) this.#start();
       const viewer = this.#viewer as Viewer;
+      if (!viewer.scene && !this.#source && !this.getAttribute('src')) throw new ElementError('element/no-model', 'There is no picture: set src, or call show(), first.');
       if (!viewer.scene) await new Promise<void>((resolve, reject) => {
-        viewer.on('load', () => resolve(), { once: true });
-        viewer.on('error', ({ error }) => reject(error as Error), { once: true });
+        const listening = new AbortController();
+        const { signal } = listening;
+        const end = (settle: () => void) => () => {
+          listening.abort();
+          settle();
+        };
+        viewer.on('load', end(resolve), { signal });
+        viewer.on('error', ({ error }) => end(() => reject(error as Error))(), { signal });
+        viewer.on('state', ({ state }) => state === 'destroyed' && end(() => reject(new DOMException('the element was removed', 'AbortError')))(), { signal });
       });
       return viewer.toBlob({ ...(mimeType === undefined ? {} : { type: mimeType }), ...(qualityArgument === undefined ? {} : { quality: qualityArgument }), ...options });
     }
@@ -186,7 +199,7 @@ function makeClass(): GlanzViewerConstructor {
     }
 
     #number(name: AttributeName): number | undefined {
-      return numberOf(this.getAttribute(name)) ?? undefined;
+      return numberIn(name, this.getAttribute(name));
     }
 
     #start(load = true): void {
@@ -194,6 +207,7 @@ function makeClass(): GlanzViewerConstructor {
       const shadow = this.#shadow;
       if (this.#viewer || !shadow) return;
       const viewer = (this.#viewer = createViewer(shadow.canvas, { environment: this.#environment, background: this.#background, controls: false, tracer: { backFaceCulling: this.#culling }, camera: (scene, aspect) => cameraOf(scene, aspect, this.#view) }));
+      for (const name of Object.keys(ATTRIBUTES) as AttributeName[]) this.#checkAttribute(name);
       this.#apply(viewer);
       this.#listen(viewer, shadow);
       if (load) this.#load(viewer);
@@ -217,8 +231,7 @@ function makeClass(): GlanzViewerConstructor {
       viewer.pixelRatio = this.#number('pixel-ratio');
       viewer.exposure = Math.log2(Math.max(1e-6, this.#number('exposure') ?? 1));
       const tone = this.getAttribute('tone-mapping') ?? 'neutral';
-      const known = TONE_MAP_NAMES[tone] ?? (TONE_MAPS.includes(tone as ToneMap) ? (tone as ToneMap) : 'neutral');
-      viewer.toneMap = known;
+      viewer.toneMap = Object.hasOwn(TONE_MAP_NAMES, tone) ? (TONE_MAP_NAMES[tone] as ToneMap) : TONE_MAPS.includes(tone as ToneMap) ? (tone as ToneMap) : 'neutral';
       viewer.environmentIntensity = this.#number('environment-intensity') ?? 1;
       viewer.environmentRotation = degrees('environment-rotation') ?? 0;
       viewer.damping = (this.#number('interpolation-decay') ?? 60) / 1000;
@@ -242,7 +255,7 @@ function makeClass(): GlanzViewerConstructor {
         this.#loaded = true;
         message.hidden = true;
         progress.classList.add('gone');
-        viewer.orbitLimits = limitsOf(detail.scene, this.#aspect, this.#view);
+        this.#attempt(() => void (viewer.orbitLimits = limitsOf(detail.scene, this.#aspect, this.#view)));
         this.#speak(`${this.#name} is there.`);
         this.#tell('load', detail);
       });
@@ -325,8 +338,28 @@ function makeClass(): GlanzViewerConstructor {
     #look(viewer: Viewer, limits: boolean): void {
       const { scene } = viewer;
       if (!scene) return;
-      if (limits) viewer.orbitLimits = limitsOf(scene, this.#aspect, this.#view);
-      else viewer.setOrbit(orbitOf(scene, this.#aspect, this.#view));
+      this.#attempt(() => {
+        if (limits) viewer.orbitLimits = limitsOf(scene, this.#aspect, this.#view);
+        else viewer.setOrbit(orbitOf(scene, this.#aspect, this.#view));
+      });
+    }
+
+    /** Reports a text that its attribute does not take; the default is used in its place. */
+    #checkAttribute(name: AttributeName): void {
+      const text = this.getAttribute(name);
+      const takes = text === null ? undefined : attributeFault(name, text);
+      if (takes === undefined) this.#faults.delete(name);
+      else if (this.#faults.get(name) !== text) this.#fail(new ElementError('element/attribute', `The attribute ${name} of <glanz-viewer> is "${(text as string).slice(0, 60)}"; it takes ${takes}. The default is used.`));
+      if (takes !== undefined) this.#faults.set(name, text as string);
+    }
+
+    /** Does what attributes ask for; what cannot be done is reported. */
+    #attempt(change: () => void): void {
+      try {
+        change();
+      } catch (error) {
+        this.#fail(error);
+      }
     }
 
     #fail(error: unknown): void {

@@ -1,10 +1,14 @@
+/** Radians and metres beyond which a number says nothing of use. */
+const [MOST_TURN, FAR] = [1e6, 1e12];
+
 /** Radians of an angle: `45deg`, `0.8rad`, `0.1turn`; degrees where no unit is given. `undefined` for anything else. */
 export function angle(text: string): number | undefined {
   const match = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)(deg|rad|turn)?$/i.exec(text);
   if (!match) return undefined;
   const value = Number(match[1]);
   const unit = match[2]?.toLowerCase();
-  return unit === 'rad' ? value : unit === 'turn' ? value * 2 * Math.PI : (value * Math.PI) / 180;
+  const radians = unit === 'rad' ? value : unit === 'turn' ? value * 2 * Math.PI : (value * Math.PI) / 180;
+  return Math.abs(radians) <= MOST_TURN ? radians : undefined;
 }
 
 /** A length: metres of `2m`, `20cm`, `5mm`, or a share of `105%`. */
@@ -12,6 +16,7 @@ export function length(text: string): { readonly metres: number } | { readonly s
   const match = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)(m|cm|mm|%)?$/i.exec(text);
   if (!match) return undefined;
   const value = Number(match[1]);
+  if (!(Math.abs(value) <= FAR)) return undefined;
   const unit = match[2]?.toLowerCase();
   return unit === '%' ? { share: value / 100 } : { metres: value * (unit === 'cm' ? 0.01 : unit === 'mm' ? 0.001 : 1) };
 }

@@ -260,3 +260,60 @@ test('axe finds nothing wrong, still and with controls, hotspots and a message',
   await expect(page.getByRole('alert')).toBeVisible();
   expect(await checkAccessibility(page)).toEqual([]);
 });
+
+test('what a property or an attribute cannot be is a typed error, and the picture stays', async ({ page }) => {
+  await open(page);
+  const before = await shot(page);
+  const result = await page.evaluate(() => {
+    const element = document.querySelector('glanz-viewer')!;
+    const own = element as unknown as Record<string, unknown>;
+    const attributes = () => JSON.stringify(element.getAttributeNames().sort().map((name) => [name, element.getAttribute(name)]));
+    const before = attributes();
+    const bad: string[] = [];
+    for (const [names, values] of [
+      [['exposure', 'samples', 'noise', 'maxDepth', 'pixelRatio', 'environmentIntensity', 'interpolationDecay', 'autoRotateDelay'], [NaN, Infinity, -1, 1e30, {}, true]],
+      [['cameraOrbit', 'cameraTarget', 'fieldOfView', 'src', 'toneMapping'], [NaN, Infinity, {}, true, () => 1]],
+    ] as const) {
+      for (const name of names) {
+        for (const value of values) {
+          try {
+            own[name] = value;
+            bad.push(`${name} = ${String(value)} was taken`);
+          } catch (error) {
+            if ((error as { code?: string }).code !== 'element/property') bad.push(`${name} = ${String(value)}: ${String(error)}`);
+          }
+        }
+      }
+    }
+    return { bad, same: attributes() === before };
+  });
+  expect(result).toEqual({ bad: [], same: true });
+
+  // In markup nothing can throw.
+  const wrong: Record<string, string> = { exposure: 'bright', samples: '1e30', 'max-depth': '2.5', 'pixel-ratio': '-1', 'camera-target': '1m up 2m', 'field-of-view': '200deg', 'max-camera-orbit': 'auto auto -3m', 'environment-rotation': 'NaN', 'tone-mapping': 'film', 'camera-orbit': '0deg 90deg 1e30m' };
+  await page.evaluate((given) => {
+    for (const [name, text] of Object.entries(given)) document.querySelector('glanz-viewer')!.setAttribute(name, text);
+  }, wrong);
+  // A limit that leaves no distance reads well, but no camera can keep to it.
+  expect((await heard(page, 'error')).map(({ code }) => code).sort()).toEqual([...Array<string>(9).fill('element/attribute'), 'viewer/camera'].sort());
+  const kept = await page.evaluate(() => {
+    const { viewer } = document.querySelector('glanz-viewer')!;
+    return [viewer!.exposure, viewer!.samples, viewer!.maxDepth, viewer!.toneMap, viewer!.environmentRotation, Number.isFinite(viewer!.orbit!.radius)];
+  });
+  expect(kept).toEqual([0, 256, 8, 'neutral', 0, true]);
+  await page.evaluate(({ given, fast }) => {
+    for (const name of Object.keys(given)) document.querySelector('glanz-viewer')!.removeAttribute(name);
+    for (const [name, text] of Object.entries(fast)) document.querySelector('glanz-viewer')!.setAttribute(name, text);
+  }, { given: wrong, fast: FAST });
+  await page.evaluate(() => document.querySelector('glanz-viewer')!.jumpCameraToGoal());
+  await done(page);
+  expect((await shot(page)).cells).toEqual(before.cells);
+
+  // The same from the start, and a picture that nobody will ever see is not waited for.
+  const told = await page.evaluate(async () => {
+    document.querySelector('glanz-viewer')!.remove();
+    const element = window.put({ samples: 'many', loading: 'eager' });
+    return element.toBlob().then(() => 'a picture', (error: { code?: string }) => error.code);
+  });
+  expect(told).toBe('element/no-model');
+});

@@ -9,7 +9,10 @@ export type ToneMap = (typeof TONE_MAPS)[number];
 /** Linear Rec.709, three numbers. */
 export type Rgb = readonly [number, number, number];
 
-/** Thrown on wrong arguments. Codes: `tonemap/unknown`, `tonemap/size`, `tonemap/exposure`, `tonemap/destroyed`. */
+/**
+ * Thrown on wrong arguments, and where the GPU refuses a shader. Codes: `tonemap/unknown`, `tonemap/size`, `tonemap/exposure`,
+ * `tonemap/pipeline`, `tonemap/destroyed`.
+ */
 export class ToneMapError extends GlanzError {}
 
 /** Whether `name` is one of {@link TONE_MAPS}. */

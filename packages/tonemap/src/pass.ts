@@ -3,7 +3,7 @@ import { wgslModule } from '@glanz/wgsl/module';
 import { ToneMapError, type ToneMap } from './names';
 import { toneMapOperator } from './operators';
 import { tonemapSrgb } from './srgb';
-import type { ToneMapOptions } from './tone-map';
+import { checkToneMapOptions, type ToneMapOptions } from './tone-map';
 
 /** How {@link ToneMapPass} is made. */
 export interface ToneMapPassOptions extends ToneMapOptions {
@@ -84,6 +84,9 @@ export class ToneMapPass {
   readonly #uniforms: GPUBuffer;
   readonly #pipelines = new Map<ToneMap, Promise<GPURenderPipeline>>();
   #settings: Required<ToneMapPassSettings>;
+  /** The tone map of the pipeline in use. */
+  #drawn: ToneMap;
+  #destroyed = false;
   #pipeline: GPURenderPipeline | undefined;
   #bound: { readonly source: GPUBuffer; readonly pipeline: GPURenderPipeline; readonly group: GPUBindGroup } | undefined;
 
@@ -91,16 +94,18 @@ export class ToneMapPass {
     this.#device = device;
     this.#format = options.format;
     this.#settings = { exposure: options.exposure ?? 0, toneMap: options.toneMap ?? 'neutral', alpha: options.alpha ?? 'premultiplied', filter: options.filter ?? 'bilinear' };
+    this.#drawn = this.#settings.toneMap;
     this.#uniforms = device.createBuffer({ label: 'tonemap', size: 32, usage: UNIFORM_COPY_DST });
   }
 
   /**
    * Makes the pass and the pipeline of its first tone map.
    *
-   * @throws {ToneMapError} `tonemap/unknown` for an unknown tone map.
+   * @throws {ToneMapError} `tonemap/unknown` for an unknown tone map, `tonemap/exposure`, `tonemap/pipeline` where the GPU's
+   * driver does not compile the shader.
    */
   static async create(device: GPUDevice, options: ToneMapPassOptions): Promise<ToneMapPass> {
-    toneMapOperator(options.toneMap ?? 'neutral');
+    checkToneMapOptions(options);
     const pass = new ToneMapPass(device, options);
     try {
       pass.#pipeline = await pass.#pipelineOf(pass.#settings.toneMap);
@@ -120,15 +125,23 @@ export class ToneMapPass {
    * Changes exposure (EV), tone map, alpha or filter. All but a tone map that has not been used before take effect at
    * once; until such a one is compiled, draws go on with the previous curve, and the promise tells when it is in use.
    *
-   * @throws {ToneMapError} `tonemap/unknown` for an unknown tone map; nothing is changed then.
+   * @throws {ToneMapError} `tonemap/unknown` for an unknown tone map, `tonemap/exposure`: nothing is changed then.
+   * `tonemap/pipeline` where the GPU's driver does not compile the shader: the tone map stays the previous one.
    */
   async setOptions(settings: ToneMapPassSettings): Promise<void> {
-    if (settings.toneMap !== undefined) toneMapOperator(settings.toneMap);
+    checkToneMapOptions(settings);
     this.#settings = { ...this.#settings, ...settings };
     const { toneMap } = this.#settings;
-    const pipeline = await this.#pipelineOf(toneMap);
-    // A later call may have asked for another tone map meanwhile: the last one wins.
-    if (this.#pipeline && this.#settings.toneMap === toneMap) this.#pipeline = pipeline;
+    try {
+      const pipeline = await this.#pipelineOf(toneMap);
+      // A later call may have asked for another tone map meanwhile: the last one wins.
+      if (this.#destroyed || this.#settings.toneMap !== toneMap) return;
+      this.#pipeline = pipeline;
+      this.#drawn = toneMap;
+    } catch (error) {
+      if (this.#settings.toneMap === toneMap) this.#settings = { ...this.#settings, toneMap: this.#drawn };
+      throw error;
+    }
   }
 
   /**
@@ -164,6 +177,7 @@ export class ToneMapPass {
 
   /** Frees the pass's buffer. May be called any number of times. */
   destroy(): void {
+    this.#destroyed = true;
     this.#pipeline = this.#bound = undefined;
     this.#pipelines.clear();
     this.#uniforms.destroy();
@@ -179,17 +193,20 @@ export class ToneMapPass {
     return made;
   }
 
-  #createPipeline(toneMap: ToneMap): Promise<GPURenderPipeline> {
+  async #createPipeline(toneMap: ToneMap): Promise<GPURenderPipeline> {
     const label = `tonemap ${toneMap}`;
     const { code } = compose([passModule(toneMap)], { flags: { TONEMAP_ENCODE: !this.#format.endsWith('-srgb') } });
     const module = this.#device.createShaderModule({ label, code });
-    // Texts and layout are ours alone: a fault in them shows in the promise, and in the tests.
-    return this.#device.createRenderPipelineAsync({
-      label,
-      layout: 'auto',
-      vertex: { module },
-      fragment: { module, targets: [{ format: this.#format }] },
-    });
+    try {
+      return await this.#device.createRenderPipelineAsync({
+        label,
+        layout: 'auto',
+        vertex: { module },
+        fragment: { module, targets: [{ format: this.#format }] },
+      });
+    } catch (cause) {
+      throw new ToneMapError('tonemap/pipeline', `The GPU's driver did not compile the tone map "${toneMap}": ${(cause as Error).message}. Use another tone map, or update the driver.`, { cause });
+    }
   }
 }
 

@@ -7,8 +7,24 @@ import { srgbEncode } from './srgb';
 export interface ToneMapOptions {
   /** Default `neutral`. */
   readonly toneMap?: ToneMap;
-  /** Exposure in stops (EV): the colour is multiplied by 2^exposure first. Default 0. */
+  /** Exposure in stops (EV), -64..64: the colour is multiplied by 2^exposure first. Default 0. */
   readonly exposure?: number;
+}
+
+/** Stops in either direction; beyond, products leave the range of single precision. */
+const MOST_STOPS = 64;
+
+/**
+ * Checks a tone map and an exposure that come from outside. What is left out is not checked.
+ *
+ * @throws {ToneMapError} `tonemap/unknown` for an unknown tone map; `tonemap/exposure` for an exposure that is no number from
+ * -64 to 64.
+ */
+export function checkToneMapOptions({ toneMap: name, exposure }: ToneMapOptions): void {
+  if (name !== undefined) toneMapOperator(name);
+  if (exposure !== undefined && !(typeof exposure === 'number' && Math.abs(exposure) <= MOST_STOPS)) {
+    throw new ToneMapError('tonemap/exposure', `The exposure is ${String(exposure)}; it must be a number of stops from -${MOST_STOPS} to ${MOST_STOPS}.`);
+  }
 }
 
 /** How {@link toneMapPixels} writes. */
@@ -33,10 +49,12 @@ interface Outputs {
  *
  * @param rgb Linear Rec.709. NaN and negative components count as 0, +∞ as very bright.
  * @returns Three codes in 0..1, finite whatever came in.
+ * @throws {ToneMapError} `tonemap/unknown`, `tonemap/exposure`
  * @example
  * toneMap([4, 2, 1], { toneMap: 'agx', exposure: -1 });
  */
 export function toneMap(rgb: Rgb, options: ToneMapOptions = {}): [number, number, number] {
+  checkToneMapOptions(options);
   const scale = 2 ** (options.exposure ?? 0);
   return mapRgb(toneMapOperator(options.toneMap ?? 'neutral').map(mapRgb(rgb, (v) => v * scale)), srgbEncode);
 }
@@ -46,7 +64,7 @@ export function toneMap(rgb: Rgb, options: ToneMapOptions = {}): [number, number
  *
  * @param rgba Linear RGBA, stride 4, row-major, with RGB already multiplied by alpha, as a path tracer's film holds it.
  * @returns sRGB codes, RGBA, stride 4; alpha linear and 0 where it was NaN.
- * @throws {ToneMapError} `tonemap/size` if the array does not hold width × height pixels.
+ * @throws {ToneMapError} `tonemap/size` if the array does not hold width × height pixels; `tonemap/unknown`, `tonemap/exposure`.
  */
 export function toneMapPixels<O extends keyof Outputs = 'uint8'>(
   rgba: Float32Array,
@@ -58,6 +76,7 @@ export function toneMapPixels<O extends keyof Outputs = 'uint8'>(
   if (!Number.isInteger(width) || !Number.isInteger(height) || rgba.length !== count * 4) {
     throw new ToneMapError('tonemap/size', `${width}×${height} RGBA pixels need ${count * 4} floats, but ${rgba.length} were given.`);
   }
+  checkToneMapOptions(options);
   const output = options.output ?? 'uint8';
   const { map } = toneMapOperator(options.toneMap ?? 'neutral');
   const exposure = 2 ** (options.exposure ?? 0);

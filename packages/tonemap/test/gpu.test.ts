@@ -162,6 +162,39 @@ describe('ToneMapPass', () => {
     source.destroy();
   });
 
+  it('reports a shader that does not compile by a typed error, and keeps the curve that does', async () => {
+    const source = upload(picture(SIZE, SIZE, () => [0.5, 0.25, 0.1, 1]));
+    let broken = '';
+    const driver = new Proxy(device, {
+      get(target, name) {
+        if (name === 'createRenderPipelineAsync' && broken) return (given: GPURenderPipelineDescriptor) => (given.label?.includes(broken) ? Promise.reject(new Error('internal compiler error')) : target.createRenderPipelineAsync(given));
+        const value = Reflect.get(target, name, target) as unknown;
+        return typeof value === 'function' ? (value as (...all: unknown[]) => unknown).bind(target) : value;
+      },
+    });
+    const refused = expect.objectContaining({ name: 'ToneMapError', code: 'tonemap/pipeline', cause: expect.objectContaining({ message: 'internal compiler error' }) as unknown });
+    const pass = await ToneMapPass.create(driver, { format: 'rgba8unorm' });
+    broken = 'agx';
+    await expect(pass.setOptions({ toneMap: 'agx', exposure: 1 })).rejects.toEqual(refused);
+    expect(pass.settings).toMatchObject({ toneMap: 'neutral', exposure: 1 });
+    const gpu = await drawn(pass, source, [SIZE, SIZE]);
+    const cpu = toneMapPixels(new Float32Array([0.5, 0.25, 0.1, 1]), 1, 1, { toneMap: 'neutral', exposure: 1 });
+    for (let k = 0; k < 4; k++) expect(Math.abs((gpu[k] as number) - (cpu[k] as number))).toBeLessThanOrEqual(1);
+    // Not for ever.
+    broken = '';
+    await pass.setOptions({ toneMap: 'agx' });
+    expect(pass.settings.toneMap).toBe('agx');
+    broken = 'aces';
+    await expect(ToneMapPass.create(driver, { format: 'rgba8unorm', toneMap: 'aces' })).rejects.toEqual(refused);
+    for (const exposure of [NaN, Infinity, 1e30, '1' as never]) {
+      await expect(pass.setOptions({ exposure, toneMap: 'linear' })).rejects.toMatchObject({ code: 'tonemap/exposure' });
+      await expect(ToneMapPass.create(driver, { format: 'rgba8unorm', exposure })).rejects.toMatchObject({ code: 'tonemap/exposure' });
+    }
+    expect(pass.settings).toMatchObject({ toneMap: 'agx', exposure: 1 });
+    pass.destroy();
+    source.destroy();
+  });
+
   it('opaque ignores coverage; pixels that are not numbers come out as defined ones', async () => {
     const source = upload(picture(SIZE, SIZE, (x) => (x < 32 ? [NaN, Infinity, 0.5, NaN] : [0.5, 0.5, 0.5, 0])));
     const pass = await ToneMapPass.create(device, { format: 'rgba8unorm', toneMap: 'linear', alpha: 'opaque' });

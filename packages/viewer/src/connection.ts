@@ -1,5 +1,5 @@
 import { requestDevice } from '@glanz/renderer';
-import type { ToneMapOptions } from '@glanz/tonemap';
+import { checkToneMapOptions, type ToneMapOptions } from '@glanz/tonemap';
 import { Display } from './display';
 import { isAbort, ViewerError } from './errors';
 import { Losses } from './losses';
@@ -39,6 +39,8 @@ export class Connection {
   #device: GPUDevice | undefined;
   #display: Display | undefined;
   #recovery: Promise<void> | undefined;
+  /** A request for a device that is no recovery. */
+  #connecting: Promise<void> | undefined;
   #destroyed = false;
 
   constructor(canvas: HTMLCanvasElement, view: ToneMapOptions, events: ConnectionEvents, request: () => Promise<GPUDevice> = requestDevice) {
@@ -46,9 +48,7 @@ export class Connection {
     this.#view = view;
     this.#events = events;
     this.#request = request;
-    this.#ready = this.#first();
-    // Whoever waits for it is told; a page without a model is not.
-    this.#ready.catch(() => undefined);
+    this.#ready = this.#begin();
   }
 
   get device(): GPUDevice | undefined {
@@ -69,22 +69,54 @@ export class Connection {
     return this.#ready;
   }
 
-  /** As {@link ready}, but where that failed, it is tried again. */
-  again(): Promise<void> {
-    return (this.#ready = this.#ready.catch(() => (this.#destroyed ? Promise.reject(destroyed()) : this.#first())));
+  /**
+   * Makes sure that there is a device: the one in use, the one that a recovery brings, or else a new one, however often the
+   * GPU was lost before.
+   *
+   * @throws {DeviceError} {ViewerError} where no device can be had.
+   */
+  async again(): Promise<void> {
+    for (;;) {
+      if (this.#destroyed) throw destroyed();
+      if (this.#device) return;
+      if (!this.#recovery) break;
+      await this.#recovery;
+    }
+    if (!this.#connecting) {
+      this.#losses.forgive();
+      this.#ready = this.#begin();
+    }
+    await this.#connecting;
   }
 
-  /** Exposure and tone map, of this display and of those to come. */
+  /** Exposure and tone map that are in use, and that a new device will have. */
+  get view(): ToneMapOptions {
+    return this.#view;
+  }
+
+  /**
+   * Sets exposure and tone map, of this display and of those to come.
+   * @throws {ToneMapError} `tonemap/unknown`, `tonemap/exposure`, `tonemap/pipeline`; what was refused is not kept.
+   */
   async setView(view: ToneMapOptions): Promise<void> {
+    checkToneMapOptions(view);
     this.#view = { ...this.#view, ...view };
-    await this.#display?.setView(view);
+    const display = this.#display;
+    try {
+      await display?.setView(view);
+    } catch (error) {
+      // A shader that does not compile must not keep the next device from coming.
+      if (display && display === this.#display) this.#view = { ...this.#view, toneMap: display.toneMap };
+      throw error;
+    }
   }
 
-  /** Forgives former losses and, where there is no device, asks for one. @returns Whether it does. */
+  /** Forgives former losses and, where there is no device, asks for one. @returns Whether one is asked for. */
   retry(): boolean {
     this.#losses.forgive();
-    if (!this.#device) this.#recover('retry');
-    return !this.#device;
+    if (this.#device || this.#destroyed) return false;
+    if (!this.#recovery && !this.#connecting) this.#recover('retry');
+    return true;
   }
 
   destroy(): void {
@@ -92,6 +124,13 @@ export class Connection {
     this.#display?.destroy();
     this.#device?.destroy();
     this.#display = this.#device = undefined;
+  }
+
+  #begin(): Promise<void> {
+    const connecting = this.#first().finally(() => (this.#connecting = undefined));
+    // Whoever waits for it gets the error; a page without a model does not.
+    connecting.catch(() => undefined);
+    return (this.#connecting = connecting);
   }
 
   /** The GPU's process may fall over before there is a device that could be lost; another one comes up then, as after a loss. */
@@ -117,6 +156,9 @@ export class Connection {
       // What was changed while it was made.
       await display.setView(this.#view);
     } catch (error) {
+      // The canvas lets go of the device first: a browser may give no adapter for a while otherwise.
+      this.#display?.destroy();
+      this.#display = undefined;
       device.destroy();
       throw error;
     }

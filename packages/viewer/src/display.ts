@@ -1,6 +1,7 @@
-import { ToneMapPass, type ToneMapOptions } from '@glanz/tonemap';
+import { ToneMapPass, type ToneMap, type ToneMapOptions } from '@glanz/tonemap';
 import { compose } from '@glanz/wgsl/compose';
 import { viewerBlend } from './blend.wgsl';
+import { withErrorScopes } from './error-scopes';
 import { ViewerError } from './errors';
 
 /** A picture in a buffer of the GPU: vec4f per pixel. */
@@ -12,6 +13,12 @@ export interface GpuPicture {
 /** GPUBufferUsage; the names exist as globals in browsers only. */
 const [COPY_DST, UNIFORM, STORAGE] = [0x8, 0x40, 0x80];
 
+/** A preview that is kept, and the buffer of the full size in which it is mixed into the picture. */
+interface Preview extends GpuPicture {
+  readonly samples: number;
+  readonly mixed: GPUBuffer;
+}
+
 /** A canvas of one device: draws films through the tone map, mixed with the preview that came before them. */
 export class Display {
   readonly #canvas: HTMLCanvasElement;
@@ -20,34 +27,49 @@ export class Display {
   readonly #pass: ToneMapPass;
   readonly #blend: GPUComputePipeline;
   readonly #uniforms: GPUBuffer;
-  #small: (GpuPicture & { readonly samples: number }) | undefined;
-  #mixed: GPUBuffer | undefined;
+  #small: Preview | undefined;
+  /** Counts previews: one whose memory came late is not kept. */
+  #turn = 0;
 
-  private constructor(canvas: HTMLCanvasElement, device: GPUDevice, context: GPUCanvasContext, pass: ToneMapPass, blend: GPUComputePipeline) {
+  private constructor(canvas: HTMLCanvasElement, device: GPUDevice, context: GPUCanvasContext, pass: ToneMapPass, blend: GPUComputePipeline, uniforms: GPUBuffer) {
     this.#canvas = canvas;
     this.#device = device;
     this.#context = context;
     this.#pass = pass;
     this.#blend = blend;
-    this.#uniforms = device.createBuffer({ label: 'glanz viewer blend', size: 32, usage: UNIFORM | COPY_DST });
+    this.#uniforms = uniforms;
   }
 
+  /**
+   * Compiles what drawing needs, and gives the canvas to the device.
+   *
+   * @throws {ToneMapError} `tonemap/pipeline`; {ViewerError} `viewer/no-canvas`, `viewer/gpu`, `viewer/out-of-memory`.
+   */
   static async create(canvas: HTMLCanvasElement, device: GPUDevice, view: ToneMapOptions): Promise<Display> {
     const format = navigator.gpu.getPreferredCanvasFormat();
-    const module = device.createShaderModule({ label: 'glanz viewer blend', code: compose([viewerBlend]).code });
-    const [pass, blend] = await Promise.all([
-      ToneMapPass.create(device, { format, ...view }),
-      device.createComputePipelineAsync({ label: 'glanz viewer blend', layout: 'auto', compute: { module, entryPoint: 'viewer_blend' } }),
-    ]);
-    const context = canvas.getContext('webgpu');
-    if (!context) throw new ViewerError('viewer/no-canvas', 'The canvas gives no WebGPU context: it may have one of another kind already; use a fresh canvas.');
-    context.configure({ device, format, alphaMode: 'premultiplied' });
-    return new Display(canvas, device, context, pass, blend);
+    const passing = withErrorScopes(device, 'drawing', () => ToneMapPass.create(device, { format, ...view }));
+    passing.catch(() => undefined);
+    try {
+      const [pass, blend] = await Promise.all([passing, compileBlend(device)]);
+      const context = canvas.getContext('webgpu');
+      if (!context) throw new ViewerError('viewer/no-canvas', 'The canvas gives no WebGPU context: it may have one of another kind already; use a fresh canvas.');
+      const uniforms = await withErrorScopes(device, 'drawing', () => device.createBuffer({ label: 'glanz viewer blend', size: 32, usage: UNIFORM | COPY_DST }));
+      context.configure({ device, format, alphaMode: 'premultiplied' });
+      return new Display(canvas, device, context, pass, blend, uniforms);
+    } catch (error) {
+      passing.then((pass) => pass.destroy(), () => undefined);
+      throw error;
+    }
   }
 
-  /** Changes exposure and tone map. */
+  /** Changes exposure and tone map. @throws {ToneMapError} */
   setView(view: ToneMapOptions): Promise<void> {
     return this.#pass.setOptions(view);
+  }
+
+  /** The tone map that is set. */
+  get toneMap(): ToneMap {
+    return this.#pass.settings.toneMap;
   }
 
   /** Samples of the preview that is kept, 0 without one. */
@@ -55,22 +77,41 @@ export class Display {
     return this.#small?.samples ?? 0;
   }
 
-  /** Keeps a copy of a picture, to be mixed into those that follow. */
-  keep({ buffer, size }: GpuPicture, samples: number): void {
+  /**
+   * Keeps a copy of a preview, to be mixed into the pictures that follow. Where there is no memory for it, they appear
+   * without the transition.
+   *
+   * @param fullSize Of the pictures that follow.
+   */
+  async keep({ buffer, size }: GpuPicture, samples: number, fullSize: readonly [number, number]): Promise<void> {
     this.forget();
+    const turn = this.#turn;
     const bytes = size[0] * size[1] * 16;
-    const copy = this.#device.createBuffer({ label: 'glanz viewer preview', size: bytes, usage: STORAGE | COPY_DST });
-    const encoder = this.#device.createCommandEncoder({ label: 'glanz viewer keep' });
-    encoder.copyBufferToBuffer(buffer, 0, copy, 0, bytes);
-    this.#device.queue.submit([encoder.finish()]);
-    this.#small = { buffer: copy, size, samples };
+    const made: GPUBuffer[] = [];
+    const device = this.#device;
+    try {
+      await withErrorScopes(device, 'the preview', () => {
+        const copy = device.createBuffer({ label: 'glanz viewer preview', size: bytes, usage: STORAGE | COPY_DST });
+        made.push(copy, device.createBuffer({ label: 'glanz viewer mixed', size: fullSize[0] * fullSize[1] * 16, usage: STORAGE }));
+        const encoder = device.createCommandEncoder({ label: 'glanz viewer keep' });
+        encoder.copyBufferToBuffer(buffer, 0, copy, 0, bytes);
+        device.queue.submit([encoder.finish()]);
+      });
+    } catch {
+      for (const one of made) one.destroy();
+      return;
+    }
+    const [copy, mixed] = made as [GPUBuffer, GPUBuffer];
+    if (turn === this.#turn) this.#small = { buffer: copy, mixed, size, samples };
+    else for (const one of made) one.destroy();
   }
 
-  /** Lets go of what was kept. */
+  /** Drops what was kept. */
   forget(): void {
+    this.#turn++;
     this.#small?.buffer.destroy();
-    this.#mixed?.destroy();
-    this.#small = this.#mixed = undefined;
+    this.#small?.mixed.destroy();
+    this.#small = undefined;
   }
 
   /**
@@ -97,20 +138,28 @@ export class Display {
     this.#context.unconfigure();
   }
 
-  #mix(encoder: GPUCommandEncoder, film: GpuPicture, small: GpuPicture, share: number): GPUBuffer {
+  #mix(encoder: GPUCommandEncoder, film: GpuPicture, small: Preview, share: number): GPUBuffer {
     const [width, height] = film.size;
-    if (this.#mixed?.size !== width * height * 16) {
-      this.#mixed?.destroy();
-      this.#mixed = this.#device.createBuffer({ label: 'glanz viewer mixed', size: width * height * 16, usage: STORAGE });
-    }
+    const { mixed } = small;
+    if (mixed.size !== width * height * 16) return film.buffer;
     this.#device.queue.writeBuffer(this.#uniforms, 0, new Float32Array([width, height, ...small.size, share, 0, 0, 0]));
-    const buffers = [this.#uniforms, film.buffer, small.buffer, this.#mixed];
+    const buffers = [this.#uniforms, film.buffer, small.buffer, mixed];
     const group = this.#device.createBindGroup({ label: 'glanz viewer blend', layout: this.#blend.getBindGroupLayout(0), entries: buffers.map((buffer, binding) => ({ binding, resource: { buffer } })) });
     const pass = encoder.beginComputePass({ label: 'glanz viewer blend' });
     pass.setPipeline(this.#blend);
     pass.setBindGroup(0, group);
     pass.dispatchWorkgroups(Math.ceil(width / 8), Math.ceil(height / 8));
     pass.end();
-    return this.#mixed;
+    return mixed;
+  }
+}
+
+async function compileBlend(device: GPUDevice): Promise<GPUComputePipeline> {
+  const label = 'glanz viewer blend';
+  const module = device.createShaderModule({ label, code: compose([viewerBlend]).code });
+  try {
+    return await device.createComputePipelineAsync({ label, layout: 'auto', compute: { module, entryPoint: 'viewer_blend' } });
+  } catch (cause) {
+    throw new ViewerError('viewer/gpu', `The GPU's driver did not compile the shader that draws the picture: ${(cause as Error).message}. Update the driver, or use another browser.`, { cause });
   }
 }

@@ -1,50 +1,71 @@
 type Apply = (merged: object) => void | Promise<void> | undefined;
 
-interface Waiting {
+/** One call of an edit. */
+interface Call {
   readonly apply: Apply;
   readonly value: object;
-  readonly done: ((error?: unknown) => void)[];
+  readonly resolve: () => void;
+  readonly reject: (error: unknown) => void;
 }
+
+/** Whether the device went away under an edit: it is applied again to the next one. */
+const isLoss = (error: unknown) => (error as { code?: unknown } | null)?.code === 'renderer/device-lost';
 
 /** Edits that wait for their turn. Of several with one key the last one counts; the fields of their values add up. */
 export class Edits {
-  readonly #waiting = new Map<unknown, Waiting>();
+  readonly #waiting = new Map<unknown, readonly Call[]>();
 
   get size(): number {
     return this.#waiting.size;
   }
 
-  /** @returns When it, or a later one with its key, has taken effect. */
+  /**
+   * @returns When it, or a later one with its key, has taken effect.
+   * @throws what `apply` throws. Others with its key that wait with it take effect all the same.
+   */
   add(key: unknown, apply: Apply, value: object = {}): Promise<void> {
-    return new Promise((resolve, reject) => {
-      const former = this.#waiting.get(key);
-      const done = [...(former?.done ?? []), (error?: unknown) => (error === undefined ? resolve() : reject(error as Error))];
-      this.#waiting.set(key, { apply, value: { ...former?.value, ...value }, done });
-    });
+    return new Promise((resolve, reject) => this.#waiting.set(key, [...(this.#waiting.get(key) ?? []), { apply, value, resolve, reject }]));
   }
 
   /** Applies all in the order they first came. @returns Whether there were any. */
   apply(finished: () => void): boolean {
-    const waiting = [...this.#waiting.values()];
+    const waiting = [...this.#waiting];
     this.#waiting.clear();
-    for (const { apply, value, done } of waiting) {
-      const settle = (error?: unknown) => {
-        for (const tell of done) tell(error);
-        finished();
-      };
-      try {
-        Promise.resolve(apply(value)).then(() => settle(), settle);
-      } catch (error) {
-        settle(error);
-      }
-    }
+    for (const [key, calls] of waiting) void this.#run(key, calls).then(finished);
     return waiting.length > 0;
   }
 
-  /** Forgets all; whoever waits for them is told why. */
+  /** Drops all; whoever waits for them gets the reason. */
   clear(reason: unknown): void {
-    const waiting = [...this.#waiting.values()];
+    const waiting = [...this.#waiting.values()].flat();
     this.#waiting.clear();
-    for (const { done } of waiting) for (const tell of done) tell(reason);
+    for (const { reject } of waiting) reject(reason);
+  }
+
+  async #run(key: unknown, calls: readonly Call[]): Promise<void> {
+    const last = calls[calls.length - 1] as Call;
+    try {
+      await last.apply(Object.assign({}, ...calls.map(({ value }) => value)) as object);
+      for (const { resolve } of calls) resolve();
+      return;
+    } catch (error) {
+      if (isLoss(error)) return this.#again(key, calls);
+      if (calls.length === 1) return last.reject(error);
+    }
+    // One of them was refused, which is no fault of the others.
+    for (const call of calls) {
+      try {
+        await call.apply(call.value);
+        call.resolve();
+      } catch (error) {
+        if (isLoss(error)) this.#again(key, [call]);
+        else call.reject(error);
+      }
+    }
+  }
+
+  /** Ahead of what has come since. */
+  #again(key: unknown, calls: readonly Call[]): void {
+    this.#waiting.set(key, [...calls, ...(this.#waiting.get(key) ?? [])]);
   }
 }

@@ -1,9 +1,10 @@
 import { compressedFormats, type PathTracer, type PrepareProgress } from '@glanz/renderer';
 import type { CompressedFormat } from '@glanz/scene';
-import type { ToneMapOptions } from '@glanz/tonemap';
+import { checkToneMapOptions, type ToneMapOptions } from '@glanz/tonemap';
 import { Connection } from './connection';
 import { Edits } from './edits';
 import type { EngineHost, EngineSettings, Take } from './engine-host';
+import { isAbort } from './errors';
 import type { ViewerState } from './events';
 import { FilmFit } from './film-fit';
 import { previewShare } from './handover';
@@ -11,6 +12,7 @@ import { RememberingHierarchies } from './hierarchies';
 import { makeTracer } from './make-tracer';
 import { Preparation } from './preparation';
 import { PreviewController } from './preview';
+import { untilAborted } from './until-aborted';
 import { nextFrame, soon, Visibility } from './visibility';
 
 export type { EngineHost, EngineSettings, Take } from './engine-host';
@@ -24,6 +26,18 @@ const SCREEN_MS = 15;
 const PREVIEW_SUBMIT_MS = 50;
 
 type Size = readonly [number, number];
+/** Gives what a tracer is made from: of a scene as it came, or as it was edited in the tracer whose device was lost. */
+type Source = (former: PathTracer | undefined) => Take;
+
+/** Options of {@link Engine.show}. */
+export interface ShowOptions {
+  /** Ends the wait at once when it aborts. */
+  readonly signal?: AbortSignal;
+  readonly onProgress?: (progress: PrepareProgress) => void;
+  /** Called when the tracer has taken the place of the former one, before its first frame. */
+  readonly onTaken?: () => void;
+}
+
 const sameSize = (a: Size, b: Size) => a[0] === b[0] && a[1] === b[1];
 
 /**
@@ -41,7 +55,9 @@ export class Engine {
   readonly #preview: PreviewController;
   #hierarchies: RememberingHierarchies | undefined;
   #tracer: PathTracer | undefined;
-  #source: ((former: PathTracer | undefined) => Take) | undefined;
+  /** The device that the tracer is on, perhaps a lost one. */
+  #tracerDevice: GPUDevice | undefined;
+  #source: Source | undefined;
   #film: Size = [1, 1];
   #canvasSize: Size = [1, 1];
   #state: ViewerState = 'empty';
@@ -144,13 +160,20 @@ export class Engine {
    * @throws {DeviceError} {RenderError} {SceneError} of the renderer; {ViewerError} `viewer/destroyed`, `viewer/device-lost`.
    * @throws an `AbortError` where another scene is asked for meanwhile, and the signal's reason.
    */
-  async show(source: (former: PathTracer | undefined) => Take, options: { readonly signal?: AbortSignal; readonly onProgress?: (progress: PrepareProgress) => void } = {}): Promise<PathTracer> {
-    // One that failed before is asked for again.
-    await this.#connection.again();
-    this.#edits.clear(new DOMException('another scene was shown', 'AbortError'));
-    const tracer = await this.#prepare(() => source(undefined), options.signal, options.onProgress);
-    this.#source = source;
-    return tracer;
+  async show(source: Source, options: ShowOptions = {}): Promise<PathTracer> {
+    const { signal } = options;
+    signal?.throwIfAborted();
+    const failed = this.#failed;
+    this.#failed = false;
+    try {
+      // A device that could not be had before, or that was lost too often, is asked for again.
+      await untilAborted(this.#connection.again(), signal);
+      this.#edits.clear(new DOMException('another scene was shown', 'AbortError'));
+      return await this.#prepare(() => source(undefined), source, options);
+    } catch (error) {
+      this.#keepFormer(failed);
+      throw error;
+    }
   }
 
   /** Changes the tracer between two frames; see `Viewer.edit`. */
@@ -175,10 +198,19 @@ export class Engine {
     this.touch();
   }
 
-  /** Exposure and tone map, on the picture as it is. */
+  /**
+   * Exposure and tone map, on the picture as it is.
+   * @throws {ToneMapError} for what cannot be set; the settings stay as they were then.
+   */
   async setView(view: ToneMapOptions): Promise<void> {
+    checkToneMapOptions(view);
     Object.assign(this.settings, view);
-    await this.#connection.setView(view);
+    try {
+      await this.#connection.setView(view);
+    } catch (error) {
+      Object.assign(this.settings, this.#connection.view);
+      throw error;
+    }
     this.redraw();
   }
 
@@ -191,13 +223,21 @@ export class Engine {
   /** Draws with the next frame of the screen. */
   redraw(): void {
     cancelAnimationFrame(this.#frame);
-    this.#frame = requestAnimationFrame(() => this.#draw());
+    this.#frame = requestAnimationFrame(() => {
+      try {
+        this.#draw();
+      } catch (error) {
+        this.#failUnlessLost(error, this.#tracer);
+      }
+    });
   }
 
   /** Tries again after a failure. */
   retry(): void {
+    if (this.#destroyed) return;
     this.#failed = false;
-    if (!this.#tracer || !this.#connection.retry()) this.#stir();
+    if (!this.#connection.retry()) this.#keepFormer(false);
+    this.#stir();
   }
 
   /** Frees everything, the device too. Idempotent. */
@@ -212,7 +252,7 @@ export class Engine {
     this.#tracer?.destroy();
     this.#connection.destroy();
     this.#hierarchies?.destroy();
-    this.#tracer = undefined;
+    this.#tracer = this.#tracerDevice = undefined;
     this.#tell('destroyed');
   }
 
@@ -221,28 +261,41 @@ export class Engine {
     return this.#hierarchies;
   }
 
-  #prepare(source: () => Take, signal: AbortSignal | undefined, onProgress: (progress: PrepareProgress) => void = () => undefined): Promise<PathTracer> {
+  async #prepare(make: () => Take, source: Source, { signal, onProgress, onTaken }: ShowOptions = {}): Promise<PathTracer> {
     const options = (wanted: AbortSignal) => {
       const [width, height] = this.#film;
       const { maxDepth, background, tracer: more } = this.settings;
-      return { hierarchies: this.#builder, ...more, width, height, maxDepth, background, signal: signal ? AbortSignal.any([signal, wanted]) : wanted, onProgress };
+      return { hierarchies: this.#builder, ...more, width, height, maxDepth, background, signal: wanted, onProgress: (progress: PrepareProgress) => void (wanted.aborted || onProgress?.(progress)) };
     };
-    const prepared = this.#preparation.run((wanted) => makeTracer(this.#connection, source, () => options(wanted)), (tracer) => {
+    const prepared = this.#preparation.run((wanted) => makeTracer(this.#connection, make, () => options(wanted)), ({ tracer, device }) => {
       this.#tracer?.destroy();
       this.#tracer = tracer;
+      this.#tracerDevice = device;
+      this.#source = source;
       this.#failed = false;
       this.#restarted();
+      onTaken?.();
       this.touch();
-    });
+    }, signal);
     this.#stir();
-    return prepared;
+    return (await prepared).tracer;
   }
 
   /** The scene as it was edited, on a device that came in place of a lost one. */
   async #rebuild(): Promise<void> {
     const [former, source] = [this.#tracer, this.#source];
     // A scene that is being prepared takes the new device by itself.
-    if (former && source && !this.#preparation.running) await this.#prepare(() => source(former), undefined);
+    if (former && source && !this.#preparation.running) await this.#prepare(() => source(former), source);
+  }
+
+  /** What was to replace the scene did not come: the former one stays, on the device that there is now. */
+  #keepFormer(failed: boolean): void {
+    const { device, recovery } = this.#connection;
+    if (this.#destroyed || !this.#tracer || recovery || this.#preparation.running) return;
+    if (!device) this.#failed = true;
+    else if (this.#tracerDevice !== device) this.#rebuild().catch((error: unknown) => isAbort(error) || this.#fail(error));
+    else this.#failed = failed;
+    this.#stir();
   }
 
   #fail(error: unknown): void {
@@ -250,6 +303,17 @@ export class Engine {
     this.#tell('failed');
     this.#host.error(error, () => this.retry());
     this.#stir();
+  }
+
+  /** What happens to a tracer whose device was lost is no failure: another one takes its place. */
+  #failUnlessLost(error: unknown, tracer: PathTracer | undefined): void {
+    if (this.#current(tracer)) this.#fail(error);
+  }
+
+  /** Whether a tracer is the one that is shown, on a device that is alive. */
+  #current(tracer: PathTracer | undefined): boolean {
+    const { device, recovery } = this.#connection;
+    return !this.#destroyed && tracer === this.#tracer && device !== undefined && device === this.#tracerDevice && !recovery;
   }
 
   /** Adds samples until the viewer is destroyed; sleeps where there is nothing to do. */
@@ -273,7 +337,7 @@ export class Engine {
         // Told apart by what follows: a loss is handled where the device announces it.
         await soon();
         await soon();
-        if (tracer === this.#tracer && this.#connection.device && !this.#connection.recovery && !this.#destroyed) this.#fail(error);
+        this.#failUnlessLost(error, tracer);
       }
     }
   }
@@ -310,7 +374,7 @@ export class Engine {
       // What stands still keeps its size: samples gather.
       this.#films.fit(tracer, size, plan.divisor > 1 ? Math.min(this.settings.previewDepth, this.settings.maxDepth) : this.settings.maxDepth);
       this.#dirtyCamera = false;
-      tracer.setCamera(this.#host.camera(this.#film[0] / this.#film[1])).catch((error: unknown) => this.#host.error(error));
+      tracer.setCamera(this.#host.camera(this.#film[0] / this.#film[1])).catch((error: unknown) => this.#current(tracer) && this.#host.error(error));
       this.#settle = now + this.settings.settleMs;
     }
     this.#edits.apply(() => this.#edited());
@@ -334,7 +398,7 @@ export class Engine {
   async #refine(tracer: PathTracer): Promise<void> {
     const { samples, noise, maxSubmitMs, maxDepth } = this.settings;
     this.#tell('rendering');
-    if (this.#fresh && !sameSize([tracer.width, tracer.height], this.#film)) this.#connection.display?.keep({ buffer: tracer.beautyBuffer, size: [tracer.width, tracer.height] }, tracer.samples);
+    if (this.#fresh && !sameSize([tracer.width, tracer.height], this.#film)) void this.#connection.display?.keep({ buffer: tracer.beautyBuffer, size: [tracer.width, tracer.height] }, tracer.samples, this.#film);
     if (this.#films.fit(tracer, this.#film, maxDepth)) this.#fresh = false;
     const { signal } = this.#interrupt;
     for await (const progress of tracer.render({ samples: this.#goal, signal, maxSubmitMs, ...(noise === undefined || this.#paused ? {} : { noise }) })) {
@@ -392,7 +456,7 @@ export class Engine {
     const preview = !sameSize(size, this.#film);
     if (preview) display.forget();
     const share = display.kept > 0 ? previewShare(tracer.samples, display.kept, this.settings.samples) : 0;
-    if (share === 0) display.forget();
+    if (share === 0 && display.kept > 0) display.forget();
     display.draw({ buffer: tracer.beautyBuffer, size }, this.#canvasSize, share);
     this.#host.drawn(this.#state === 'moving', milliseconds, size);
   }

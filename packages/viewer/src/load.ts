@@ -33,6 +33,16 @@ const MODEL = /\.(glb|gltf|obj|stl)$/i;
 const ENVIRONMENT = /\.(hdr|exr|pic)$/i;
 
 const isScene = (source: ModelSource): source is Scene => typeof source === 'object' && 'meshes' in source && 'instances' in source;
+const isFiles = (source: unknown): source is readonly File[] | FileList => typeof source === 'object' && source !== null && Symbol.iterator in source && [...(source as Iterable<unknown>)].every((file) => file instanceof Blob);
+
+/** An address as the page understands it. @throws {ViewerError} with the code, for what is none. */
+function addressOf(source: string | URL, code: 'viewer/no-model' | 'viewer/environment'): URL {
+  try {
+    return new URL(source, location.href);
+  } catch (cause) {
+    throw new ViewerError(code, `"${String(source).slice(0, 200)}" is no address that can be fetched.`, { cause });
+  }
+}
 const pathOf = (address: string | URL) => String(address).replace(/[?#].*$/, '');
 
 /** Files by their paths, of whatever a drop, an input or a program gives. */
@@ -57,7 +67,7 @@ export function sortFiles(files: ReadonlyMap<string, Blob>): { readonly model?: 
 /**
  * Reads a model, glTF in a worker where one can be had.
  *
- * @throws {ViewerError} `viewer/no-model` if there is none among the files.
+ * @throws {ViewerError} `viewer/no-model` if there is none among the files, or the source is none.
  * @throws {GltfError} {FormatError} for files that cannot be read.
  * @example
  * const scene = await loadModel('chair.glb', { signal });
@@ -67,10 +77,13 @@ export async function loadModel(source: ModelSource, options: LoadModelOptions =
   signal?.throwIfAborted();
   if (typeof source === 'string' || source instanceof URL) {
     if (!/\.(obj|stl)$/i.test(pathOf(source))) return readGltf(source, options);
-    const base = new URL(source, location.href);
+    const base = addressOf(source, 'viewer/no-model');
     return readOther(decodeURIComponent(base.pathname.slice(base.pathname.lastIndexOf('/') + 1)), (path) => fetchBytes(new URL(path, base), signal), signal);
   }
-  if (isScene(source)) return source;
+  if (!(source instanceof Blob || source instanceof Map || isFiles(source))) {
+    if (typeof source === 'object' && source !== null && isScene(source)) return source;
+    throw new ViewerError('viewer/no-model', `A model is an address, a file, files or a scene, not ${source === null ? 'null' : `of the type "${typeof source}"`}.`);
+  }
   const files = filesOf(source);
   const { model } = sortFiles(files);
   // A Blob without a name may be anything; glTF is what it is taken for.
@@ -91,8 +104,12 @@ export async function loadModel(source: ModelSource, options: LoadModelOptions =
 export async function loadEnvironment(source: EnvironmentSource, signal?: AbortSignal): Promise<Environment | undefined> {
   if (source === 'scene' || source === 'none') return undefined;
   if (source === 'studio') return inSlices((await import('@glanz/scene/studio')).studioSteps(), { signal });
-  if (typeof source === 'object' && 'type' in source && !(source instanceof Blob)) return source as Environment;
-  const bytes = source instanceof Blob ? await bytesOf(source) : await fetchBytes(new URL(source as string | URL, location.href), signal);
+  if (typeof source === 'object' && source !== null && !(source instanceof Blob) && !(source instanceof URL)) {
+    if (source.type === 'latlong' || source.type === 'constant') return source;
+    throw new ViewerError('viewer/environment', `An environment has the type latlong or constant, not ${JSON.stringify((source as { type?: unknown }).type)?.slice(0, 40)}.`);
+  }
+  if (typeof source !== 'string' && typeof source !== 'object' || source === null) throw new ViewerError('viewer/environment', `An environment is a name, an address, a file or data, not ${String(source)}.`);
+  const bytes = source instanceof Blob ? await bytesOf(source) : await fetchBytes(addressOf(source, 'viewer/environment'), signal);
   if (!bytes) throw new ViewerError('viewer/environment', `The surroundings "${String(source).slice(0, 200)}" could not be fetched: check the address, and that its server allows this page to read it.`);
   const { decodeEnvironment } = await import('@glanz/image/environment');
   signal?.throwIfAborted();

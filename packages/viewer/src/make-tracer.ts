@@ -4,28 +4,37 @@ import type { Take } from './engine-host';
 import { isAbort, ViewerError } from './errors';
 import { soon } from './visibility';
 
+/** A tracer and the device that it is on. */
+export interface MadeTracer {
+  readonly tracer: PathTracer;
+  readonly device: GPUDevice;
+}
+
 /**
- * Makes a tracer ready for its first sample; where the device is lost meanwhile, once more on the next one.
+ * Makes a tracer ready for its first sample; where the device is lost meanwhile, once more on the next one. The connection
+ * gives up after some losses, and so does this.
  *
- * @param source Asked anew for each attempt, as are the options: what they say may have changed while a device was waited for.
+ * @param source Asked again for each attempt, as are the options: what they say may have changed while a device was waited for.
  */
-export async function makeTracer(connection: Connection, source: () => Take, optionsNow: () => Omit<PathTracerOptions, 'hierarchies'> & { readonly hierarchies: HierarchyBuilder | undefined }): Promise<PathTracer> {
-  for (let attempt = 0; ; attempt++) {
+export async function makeTracer(connection: Connection, source: () => Take, optionsNow: () => Omit<PathTracerOptions, 'hierarchies'> & { readonly hierarchies: HierarchyBuilder | undefined }): Promise<MadeTracer> {
+  for (;;) {
     await connection.recovery;
     const { device } = connection;
     if (!device) throw new ViewerError('viewer/device-lost', 'The GPU was lost and has not come back.');
     const { scene, camera, options, ready } = source();
     const { hierarchies, ...others } = optionsNow();
+    const lost = () => device !== connection.device || connection.recovery !== undefined;
     let tracer: PathTracer | undefined;
     try {
       tracer = await PathTracer.create(device, scene, { ...others, ...(hierarchies ? { hierarchies } : {}), ...options, camera });
       await ready?.(tracer);
-      return tracer;
+      if (!lost()) return { tracer, device };
+      tracer.destroy();
     } catch (error) {
       tracer?.destroy();
       // The news of a loss may come later than its consequences.
       await soon();
-      if (attempt > 0 || isAbort(error) || (device === connection.device && !connection.recovery)) throw error;
+      if (isAbort(error) || others.signal?.aborted || !lost()) throw error;
     }
   }
 }

@@ -1,4 +1,5 @@
 import type { Camera, SceneBounds } from '@glanz/scene';
+import { checkedAmount, checkedCamera, checkedFieldOfView, checkedLimits, checkedOrbit, checkedPoint, checkedSetting, checkedZoom } from './checks';
 
 /** Three numbers in the world, metres. */
 export type Vector = readonly [number, number, number];
@@ -69,31 +70,42 @@ export class OrbitRig {
   #stand: Pose;
   #goal: Pose;
   #now: Pose;
-  /** Seconds, see {@link OrbitRigOptions.damping}. */
-  damping: number;
+  #damping: number;
   #limits: OrbitLimits;
 
-  /** @param bounds Of the scene: the point to turn about lies beside its centre, and steps suit its size. */
+  /**
+   * @param bounds Of the scene: the point to turn about lies beside its centre, and steps suit its size.
+   * @throws {ViewerError} `viewer/camera` for a camera or limits that nothing can be seen with; `viewer/option` for the damping.
+   */
   constructor(camera: Camera, bounds: SceneBounds, options: OrbitRigOptions = {}) {
     const finite = bounds.min[0] <= bounds.max[0];
     this.#center = finite ? ([0, 1, 2].map((k) => ((bounds.min[k] as number) + (bounds.max[k] as number)) / 2) as unknown as Vector) : [0, 0, 0];
     this.#radius = finite ? Math.max(0.5 * Math.hypot(bounds.max[0] - bounds.min[0], bounds.max[1] - bounds.min[1], bounds.max[2] - bounds.min[2]), 1e-6) : 1;
-    this.#lens = camera;
-    this.damping = options.damping ?? 0.06;
-    this.#limits = options.limits ?? {};
+    this.#lens = checkedCamera(camera);
+    this.#damping = checkedSetting('damping', options.damping ?? 0.06);
+    this.#limits = checkedLimits(options.limits ?? {});
     this.#stand = this.#poseOf(camera);
     this.#goal = { ...this.#stand };
     this.#limit();
     this.#now = { ...this.#goal };
   }
 
-  /** How far the camera may go; what is beyond comes back. */
+  /** Seconds, see {@link OrbitRigOptions.damping}. Setting it throws {ViewerError} `viewer/option` for what is no such time. */
+  get damping(): number {
+    return this.#damping;
+  }
+
+  set damping(seconds: number) {
+    this.#damping = checkedSetting('damping', seconds);
+  }
+
+  /** How far the camera may go; what is beyond comes back. Setting it throws {ViewerError} `viewer/camera` for what is no range. */
   get limits(): OrbitLimits {
     return this.#limits;
   }
 
   set limits(limits: OrbitLimits) {
-    this.#limits = limits;
+    this.#limits = checkedLimits(limits);
     this.#limit();
   }
 
@@ -122,66 +134,96 @@ export class OrbitRig {
     return this.#orbitOf(this.#now);
   }
 
-  /** Turns about the target; radians, positive to the right and up around the model. */
+  /**
+   * Turns about the target; radians, positive to the right and up around the model.
+   * @throws {ViewerError} `viewer/camera` for what is not finite.
+   */
   orbit(yaw: number, pitch: number): void {
+    checkedAmount(yaw, 'yaw');
+    checkedAmount(pitch, 'pitch');
     this.#goal.yaw += yaw;
     this.#goal.pitch = clamp(this.#goal.pitch + pitch, -STEEPEST, STEEPEST);
     this.#limit();
   }
 
-  /** Moves sideways and up, in heights of the picture at the target's distance. */
+  /**
+   * Moves sideways and up, in heights of the picture at the target's distance.
+   * @throws {ViewerError} `viewer/camera` for what is not finite, or goes too far away.
+   */
   pan(right: number, up: number): void {
+    checkedAmount(right, 'right');
+    checkedAmount(up, 'up');
     const { x, y } = axesOf(this.#goal);
     const height = this.#lens.type === 'orthographic' ? (2 * this.#lens.ymag) / this.#goal.zoom : 2 * this.#goal.distance * (this.#lens.type === 'perspective' ? Math.tan(this.#lens.yfov / 2) : 1);
-    this.#goal.target = add(add(this.#goal.target, x, right * height), y, up * height);
+    this.#goal.target = checkedPoint(add(add(this.#goal.target, x, right * height), y, up * height), 'target');
   }
 
-  /** Comes nearer by a factor: 2 halves the distance. */
+  /**
+   * Comes nearer by a factor: 2 halves the distance.
+   * @throws {ViewerError} `viewer/camera` unless the factor is a number from 1e-6 to 1e6.
+   */
   zoom(factor: number): void {
+    checkedZoom(factor);
     this.#goal.distance = clamp(this.#goal.distance / factor, this.#radius * 1e-3, this.#radius * 200);
     this.#goal.zoom = clamp(this.#goal.zoom * factor, 1e-3, 1e3);
     this.#limit();
   }
 
-  /** Goes to an orbit; what is left out stays, but for the zoom, which goes with the radius. `phi` stops half a degree short of the poles. Ignores what is not finite. */
+  /**
+   * Goes to an orbit; what is left out stays, but for the zoom, which goes with the radius. `phi` stops half a degree short of
+   * the poles.
+   *
+   * @throws {ViewerError} `viewer/camera` for NaN, infinities, other types, a radius or zoom that is not above 0, and numbers
+   * beyond all sense. Nothing has changed then.
+   */
   setOrbit(orbit: Partial<Orbit>): void {
-    const { theta, phi, radius, target, zoom } = orbit;
-    if (Number.isFinite(theta)) {
+    const { theta, phi, radius, target, zoom } = checkedOrbit(orbit);
+    if (theta !== undefined) {
       // The short way round.
       const turn = Math.PI * 2;
       const from = this.#goal.yaw;
-      this.#goal.yaw = from + ((((theta as number) - from + Math.PI) % turn) + turn) % turn - Math.PI;
+      this.#goal.yaw = from + ((((theta - from + Math.PI) % turn) + turn) % turn) - Math.PI;
     }
-    if (Number.isFinite(phi)) this.#goal.pitch = clamp(Math.PI / 2 - (phi as number), -STEEPEST, STEEPEST);
-    if (radius !== undefined && radius > 0 && radius < Infinity) {
+    if (phi !== undefined) this.#goal.pitch = clamp(Math.PI / 2 - phi, -STEEPEST, STEEPEST);
+    if (radius !== undefined) {
       this.#goal.zoom *= this.#goal.distance / radius;
       this.#goal.distance = radius;
     }
-    if (target?.every(Number.isFinite)) this.#goal.target = target;
-    if (zoom !== undefined && zoom > 0 && zoom < Infinity) this.#goal.zoom = zoom;
+    if (target !== undefined) this.#goal.target = target;
+    if (zoom !== undefined) this.#goal.zoom = zoom;
     this.#limit();
   }
 
-  /** Looks at a point from the same side, as far away as before. */
+  /**
+   * Looks at a point from the same side, as far away as before.
+   * @throws {ViewerError} `viewer/camera` unless it is three finite numbers.
+   */
   focus(target: Vector): void {
-    this.#goal.target = target;
+    this.#goal.target = checkedPoint(target, 'target');
   }
 
-  /** Goes to where a camera stands. Its lens and projection are taken at once. */
+  /**
+   * Goes to where a camera stands. Its lens and projection are taken at once.
+   * @throws {ViewerError} `viewer/camera` for a camera that nothing can be seen with. Nothing has changed then.
+   */
   setCamera(camera: Camera): void {
-    this.#lens = camera;
+    this.#lens = checkedCamera(camera);
     this.#stand = this.#poseOf(camera);
     this.#goal = { ...this.#stand };
     this.#limit();
   }
 
-  /** Vertical field of view of a perspective camera, radians; `undefined` for others. */
+  /**
+   * Vertical field of view of a perspective camera, radians in (0, π); `undefined` for others, where setting it changes nothing.
+   * Setting it throws {ViewerError} `viewer/camera` for what is no such angle.
+   */
   get yfov(): number | undefined {
     return this.#lens.type === 'perspective' ? this.#lens.yfov : undefined;
   }
 
   set yfov(yfov: number | undefined) {
-    if (this.#lens.type === 'perspective' && yfov !== undefined && yfov > 0 && yfov < Math.PI) this.#lens = { ...this.#lens, yfov };
+    if (yfov !== undefined) checkedFieldOfView(yfov);
+    if (this.#lens.type === 'perspective' && yfov !== undefined) this.#lens = { ...this.#lens, yfov };
   }
 
   /** Is where it was going. */
@@ -198,7 +240,8 @@ export class OrbitRig {
   step(seconds: number): boolean {
     if (!this.moving) return false;
     const [now, goal] = [this.#now, this.#goal];
-    const share = this.damping > 0 ? 1 - Math.exp(-clamp(seconds, 0, 0.1) / this.damping) : 1;
+    const passed = seconds > 0 ? Math.min(seconds, 0.1) : 0;
+    const share = this.#damping > 0 ? 1 - Math.exp(-passed / this.#damping) : 1;
     const near = Math.max(goal.distance, 1e-9);
     const left = Math.max(Math.abs(goal.yaw - now.yaw), Math.abs(goal.pitch - now.pitch), Math.abs(Math.log(goal.distance / now.distance)), Math.abs(Math.log(goal.zoom / now.zoom)), Math.hypot(...goal.target.map((value, k) => value - (now.target[k] as number))) / near);
     if (share >= 1 || left * (1 - share) < REST) {

@@ -1,5 +1,6 @@
 import { isSoftware, warmUp, type HierarchyBuilder, type PathTracer } from '@glanz/renderer';
 import { ViewerError } from './errors';
+import { untilAborted } from './until-aborted';
 
 /** The making of a scene's tracer: one at a time, the last one asked for. */
 export class Preparation {
@@ -30,25 +31,24 @@ export class Preparation {
   }
 
   /**
-   * Makes a tracer. One that is being made already is given up.
+   * Makes a tracer. One that is being made already is given up at once; what still comes of it is freed.
    *
    * @param make Starts at once; its signal says that it is not wanted any more.
    * @param take Gets the tracer while this still counts as running, so that nobody sees the time in between.
-   * @throws what `make` throws; an `AbortError` where another one is asked for meanwhile; {ViewerError} `viewer/destroyed`.
+   * @param signal Of the caller.
+   * @throws what `make` throws; an `AbortError` where another one is asked for meanwhile; the signal's reason; {ViewerError}
+   * `viewer/destroyed`.
    */
-  async run(make: (signal: AbortSignal) => Promise<PathTracer>, take: (tracer: PathTracer) => void): Promise<PathTracer> {
+  async run<T extends { readonly tracer: PathTracer }>(make: (signal: AbortSignal) => Promise<T>, take: (made: T) => void, signal?: AbortSignal): Promise<T> {
     this.#warming.abort();
     this.#control?.abort(new DOMException('another scene was asked for', 'AbortError'));
     const control = (this.#control = new AbortController());
+    const either = signal ? AbortSignal.any([signal, control.signal]) : control.signal;
     try {
-      const tracer = await make(control.signal);
-      if (control.signal.aborted || this.#destroyed) {
-        tracer.destroy();
-        control.signal.throwIfAborted();
-        throw new ViewerError('viewer/destroyed', 'This viewer has been destroyed.');
-      }
-      take(tracer);
-      return tracer;
+      if (this.#destroyed) throw new ViewerError('viewer/destroyed', 'This viewer has been destroyed.');
+      const made = await untilAborted(make(either), either, ({ tracer }) => tracer.destroy());
+      take(made);
+      return made;
     } finally {
       if (this.#control === control) {
         this.#control = undefined;

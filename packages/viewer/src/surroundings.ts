@@ -1,51 +1,88 @@
-import type { Environment, Scene } from '@glanz/scene';
+import type { PathTracer } from '@glanz/renderer';
+import { createScene, inSlices, validationSteps, type Environment, type Scene } from '@glanz/scene';
 import { loadEnvironment, type EnvironmentSource } from './load';
 import type { Vector } from './orbit';
 
-/** The surroundings that a viewer was given, and how bright and how turned they are. */
-export class Surroundings {
-  #source: EnvironmentSource;
-  #loaded: Environment | undefined;
+interface Setting {
+  readonly source: EnvironmentSource;
+  readonly loaded: Environment | undefined;
   /** Factor. */
-  intensity: number;
+  readonly intensity: number;
   /** Radians about +Y. */
-  rotation: number;
+  readonly rotation: number;
+}
+
+/** The environment that a viewer was given, and how bright and how turned it is. What a tracer refuses is not kept. */
+export class Surroundings {
+  #now: Setting;
+  /** What was last seen to work. */
+  #accepted: Setting;
 
   constructor(source: EnvironmentSource = 'scene', intensity = 1, rotation = 0) {
-    this.#source = source;
-    this.intensity = intensity;
-    this.rotation = rotation;
+    this.#now = this.#accepted = { source, loaded: undefined, intensity, rotation };
   }
 
-  /** Others, from now on. @throws for what cannot be read; the former ones stay. */
-  async change(source: EnvironmentSource, scene: Scene | undefined, signal: AbortSignal | undefined): Promise<void> {
+  get intensity(): number {
+    return this.#now.intensity;
+  }
+
+  get rotation(): number {
+    return this.#now.rotation;
+  }
+
+  /** Another brightness or rotation. With a scene, {@link apply} has to follow. */
+  adjust(change: Partial<Pick<Setting, 'intensity' | 'rotation'>>, hasScene: boolean): void {
+    this.#set(change, hasScene);
+  }
+
+  /**
+   * Another environment, from now on. With a scene, {@link apply} has to follow.
+   * @throws for what cannot be read, or is no environment; the former one stays.
+   */
+  async change(source: EnvironmentSource, scene: Scene | undefined, signal: AbortSignal): Promise<void> {
     const given = await loadEnvironment(source, signal);
-    signal?.throwIfAborted();
-    this.#source = source;
-    this.#loaded = await forScene(source, given, scene);
+    signal.throwIfAborted();
+    const loaded = await forScene(source, given, scene);
+    // Without a tracer nobody else looks at it.
+    if (!scene && loaded) await inSlices(validationSteps({ ...createScene(), environment: loaded }), { signal });
+    signal.throwIfAborted();
+    this.#set({ source, loaded }, scene !== undefined);
   }
 
-  /** Fetches what is needed besides the scene, while that is on its way. @returns What makes them the surroundings of the scene. */
+  /** Lights a tracer's scene. @throws {SceneError} {DeviceError} of the tracer; the last environment that worked is set again then. */
+  async apply(tracer: PathTracer): Promise<void> {
+    const tried = this.#now;
+    try {
+      await tracer.setEnvironment(lit(tried));
+      this.#accepted = tried;
+    } catch (error) {
+      const lost = (error as { code?: unknown }).code === 'renderer/device-lost';
+      if (this.#now === tried && !lost) this.#now = this.#accepted;
+      throw error;
+    }
+  }
+
+  /** Fetches what is needed besides the scene, while that is on its way. @returns What makes it the environment of the scene. */
   async fetch(signal: AbortSignal): Promise<(scene: Scene) => Promise<{ readonly lit: Environment | undefined; readonly adopt: () => void }>> {
-    const source = this.#source;
+    const { source } = this.#now;
     const given = await loadEnvironment(source, signal);
     return async (scene) => {
-      const environment = await forScene(source, given, scene);
-      return { lit: this.#lit(environment), adopt: () => void (source === this.#source && (this.#loaded = environment)) };
+      const loaded = await forScene(source, given, scene);
+      return { lit: lit({ ...this.#now, loaded }), adopt: () => source === this.#now.source && this.#set({ loaded }, false) };
     };
   }
 
-  /** As they light the scene now. */
-  get lit(): Environment | undefined {
-    return this.#lit(this.#loaded);
+  #set(change: Partial<Setting>, tried: boolean): void {
+    this.#now = { ...this.#now, ...change };
+    if (!tried) this.#accepted = this.#now;
   }
+}
 
-  #lit(environment: Environment | undefined): Environment | undefined {
-    if (!environment) return undefined;
-    const { intensity: k, rotation } = this;
-    if (environment.type === 'constant') return { ...environment, radiance: environment.radiance.map((value) => value * k) as unknown as Vector };
-    return { ...environment, intensity: (environment.intensity ?? 1) * k, rotation: (environment.rotation ?? 0) + rotation };
-  }
+/** An environment as it lights the scene. */
+function lit({ loaded, intensity: k, rotation }: Setting): Environment | undefined {
+  if (!loaded) return undefined;
+  if (loaded.type === 'constant') return { ...loaded, radiance: loaded.radiance.map((value) => value * k) as unknown as Vector };
+  return { ...loaded, intensity: (loaded.intensity ?? 1) * k, rotation: (loaded.rotation ?? 0) + rotation };
 }
 
 /** `scene` without surroundings of its own is the studio. */

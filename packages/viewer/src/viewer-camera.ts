@@ -1,5 +1,6 @@
 import type { PickResult } from '@glanz/renderer';
 import { frameCamera, frameCameraSteps, type Camera, type Scene, type SceneBounds } from '@glanz/scene';
+import { checkedCamera, checkedDirection, checkedAmount, checkedFieldOfView, checkedLimits, checkedSetting } from './checks';
 import { controlCamera, type ControlOptions } from './controls';
 import type { EngineHost } from './engine';
 import { ViewerError } from './errors';
@@ -14,8 +15,7 @@ const calm = () => typeof matchMedia === 'function' && matchMedia('(prefers-redu
 
 /** Where a {@link Viewer} looks from, and what hands do to that. */
 export abstract class ViewerCamera extends ViewerSettings {
-  /** See {@link ViewerOptions.autoRotateDelay}. */
-  autoRotateDelay: number;
+  #autoRotateDelay: number;
   #damping: number;
   #controls: boolean | ControlOptions;
   #stopControls: () => void = () => undefined;
@@ -30,8 +30,8 @@ export abstract class ViewerCamera extends ViewerSettings {
   constructor(canvas: HTMLCanvasElement, options: ViewerOptions) {
     super(canvas, options);
     this.#autoRotate = options.autoRotate ?? 0;
-    this.autoRotateDelay = options.autoRotateDelay ?? 3;
-    this.#limits = options.orbitLimits ?? {};
+    this.#autoRotateDelay = options.autoRotateDelay ?? 3;
+    this.#limits = checkedLimits(options.orbitLimits ?? {});
     this.#damping = calm() ? 0 : (options.damping ?? 0.06);
     this.#controls = options.controls ?? true;
     this.#applyControls();
@@ -53,8 +53,17 @@ export abstract class ViewerCamera extends ViewerSettings {
   }
 
   set autoRotate(speed: number) {
-    this.#autoRotate = Number.isFinite(speed) ? speed : 0;
+    this.#autoRotate = checkedSetting('autoRotate', speed);
     if (this.#rig) this.engine.touch();
+  }
+
+  /** See {@link ViewerOptions.autoRotateDelay}. */
+  get autoRotateDelay(): number {
+    return this.#autoRotateDelay;
+  }
+
+  set autoRotateDelay(seconds: number) {
+    this.#autoRotateDelay = checkedSetting('autoRotateDelay', seconds);
   }
 
   /** The camera that the picture is, or is being, taken with. `undefined` before there is a scene. */
@@ -62,10 +71,14 @@ export abstract class ViewerCamera extends ViewerSettings {
     return this.#rig && fitCamera(this.#rig.camera(), this.aspect);
   }
 
-  /** Goes to where a camera stands, smoothly unless `immediate`. The user turns about what lies ahead of it. */
+  /**
+   * Goes to where a camera stands, smoothly unless `immediate`. The user turns about what lies ahead of it.
+   * @throws {ViewerError} `viewer/no-scene`; `viewer/camera` for a camera that the scene does not have, or that nothing can be
+   * seen with. The view stays as it was then.
+   */
   setCamera(camera: Camera | number | string, options: { readonly immediate?: boolean } = {}): void {
     const scene = this.theScene();
-    this.#rig?.setCamera(typeof camera === 'object' ? camera : this.#chooseCamera(scene, camera));
+    this.#rig?.setCamera(typeof camera === 'number' || typeof camera === 'string' ? this.#chooseCamera(scene, camera) : camera);
     this.#moved(options.immediate);
   }
 
@@ -74,7 +87,11 @@ export abstract class ViewerCamera extends ViewerSettings {
     return this.#rig?.goal;
   }
 
-  /** Goes to an orbit, smoothly unless `immediate`; what is left out stays as it is. */
+  /**
+   * Goes to an orbit, smoothly unless `immediate`; what is left out stays as it is.
+   * @throws {ViewerError} `viewer/no-scene`; `viewer/camera` for NaN, infinities, other types, and a radius that is not above 0.
+   * The view stays as it was then.
+   */
   setOrbit(orbit: Partial<Orbit>, options: { readonly immediate?: boolean } = {}): void {
     this.theScene();
     this.#rig?.setOrbit(orbit);
@@ -87,7 +104,8 @@ export abstract class ViewerCamera extends ViewerSettings {
   }
 
   set damping(seconds: number) {
-    if (!(seconds >= 0) || calm()) return;
+    checkedSetting('damping', seconds);
+    if (calm()) return;
     this.#damping = seconds;
     if (this.#rig) this.#rig.damping = seconds;
   }
@@ -98,9 +116,9 @@ export abstract class ViewerCamera extends ViewerSettings {
   }
 
   set orbitLimits(limits: OrbitLimits) {
-    this.#limits = limits;
+    this.#limits = checkedLimits(limits);
     if (!this.#rig) return;
-    this.#rig.limits = limits;
+    this.#rig.limits = this.#limits;
     this.#moved(false);
   }
 
@@ -110,16 +128,20 @@ export abstract class ViewerCamera extends ViewerSettings {
   }
 
   set fieldOfView(yfov: number | undefined) {
+    if (yfov !== undefined) checkedFieldOfView(yfov);
     if (!this.#rig || yfov === undefined) return;
     this.#rig.yfov = yfov;
     this.#moved(true);
   }
 
-  /** Frames the whole model, from where the camera looks or from a direction (from the model towards the camera). */
+  /**
+   * Frames the whole model, from where the camera looks or from a direction (from the model towards the camera).
+   * @throws {ViewerError} `viewer/no-scene`; `viewer/camera` for a direction without length or of other than finite numbers.
+   */
   frame(options: { readonly direction?: Vector; readonly immediate?: boolean } = {}): void {
     const scene = this.theScene();
     const m = (this.#rig as OrbitRig).camera().transform;
-    const direction = options.direction ?? ([m[8], m[9], m[10]] as unknown as Vector);
+    const direction = options.direction === undefined ? ([m[8], m[9], m[10]] as unknown as Vector) : checkedDirection(options.direction, 'direction');
     this.#rig?.setCamera(frameCamera(scene, { aspect: this.aspect, direction, ...(this.fieldOfView === undefined ? {} : { yfov: this.fieldOfView }) }));
     this.#moved(options.immediate);
   }
@@ -131,7 +153,7 @@ export abstract class ViewerCamera extends ViewerSettings {
     this.#moved(options.immediate);
   }
 
-  /** Looks at what lies under a point of the canvas; CSS pixels. @returns What lies there. */
+  /** Looks at what lies under a point of the canvas; CSS pixels. @returns What lies there. @throws as {@link pick}. */
   focus(x: number, y: number): PickResult | undefined {
     const hit = this.pick(x, y);
     if (hit) {
@@ -141,8 +163,13 @@ export abstract class ViewerCamera extends ViewerSettings {
     return hit;
   }
 
-  /** What lies under a point of the canvas; CSS pixels from its upper left corner. */
+  /**
+   * What lies under a point of the canvas; CSS pixels from its upper left corner.
+   * @throws {ViewerError} `viewer/camera` for what are no finite numbers.
+   */
   pick(x: number, y: number): PickResult | undefined {
+    checkedAmount(x, 'x');
+    checkedAmount(y, 'y');
     const tracer = this.engine.tracer;
     return tracer?.pick((x / Math.max(1, this.canvas.clientWidth)) * tracer.width, (y / Math.max(1, this.canvas.clientHeight)) * tracer.height);
   }
@@ -252,8 +279,8 @@ export abstract class ViewerCamera extends ViewerSettings {
   /** @internal The camera that an option means. */
   protected *cameraSteps(scene: Scene, camera: ViewerOptions['camera'] | 'keep'): Generator<void, Camera> {
     const { aspect } = this;
-    if (typeof camera === 'object') return camera;
-    if (typeof camera === 'function') return camera(scene, aspect);
+    if (typeof camera === 'object') return checkedCamera(camera);
+    if (typeof camera === 'function') return checkedCamera(camera(scene, aspect));
     if (camera === 'keep' && this.#rig) return this.#rig.camera();
     if (camera === 'frame') return yield* frameCameraSteps(scene, { aspect });
     if (camera === 'auto' || camera === 'keep' || camera === undefined) return scene.cameras[0] ?? (yield* frameCameraSteps(scene, { aspect }));

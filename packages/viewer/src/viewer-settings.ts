@@ -1,6 +1,7 @@
 import type { PathTracer } from '@glanz/renderer';
 import type { Scene } from '@glanz/scene';
-import type { ToneMap } from '@glanz/tonemap';
+import { checkToneMapOptions, type ToneMap } from '@glanz/tonemap';
+import { checkedChoice, checkedSetting } from './checks';
 import { Emitter } from './emitter';
 import { Engine, type EngineHost } from './engine';
 import { isAbort, ViewerError } from './errors';
@@ -9,8 +10,25 @@ import type { EnvironmentSource } from './load';
 import type { ViewerOptions } from './options';
 import { pictureSize } from './picture-size';
 import { Surroundings } from './surroundings';
+import { untilAborted } from './until-aborted';
 
-/** What of a {@link Viewer} can be set at any time: light, finishing, quality. */
+const BACKGROUNDS = ['environment', 'transparent'] as const;
+
+/** @throws {ViewerError} `viewer/no-canvas`, `viewer/option`; {ToneMapError} `tonemap/unknown`. */
+function checkOptions(canvas: HTMLCanvasElement, options: ViewerOptions): void {
+  if (typeof (canvas as HTMLCanvasElement | null)?.getContext !== 'function') throw new ViewerError('viewer/no-canvas', 'A viewer draws on a canvas element: pass one as the first argument.');
+  for (const name of ['samples', 'noise', 'maxDepth', 'pixelRatio', 'maxPixels', 'environmentIntensity', 'environmentRotation', 'exposure', 'damping', 'autoRotate', 'autoRotateDelay', 'maxSubmitMs'] as const) {
+    if (options[name] !== undefined) checkedSetting(name, options[name]);
+  }
+  for (const name of ['budgetMs', 'settleMs', 'maxDepth'] as const) if (options.preview?.[name] !== undefined) checkedSetting(`preview.${name}`, options.preview[name]);
+  if (options.background !== undefined) checkedChoice('background', options.background, BACKGROUNDS);
+  if (options.toneMap !== undefined) checkToneMapOptions({ toneMap: options.toneMap });
+}
+
+/**
+ * What of a {@link Viewer} can be set at any time: light, finishing, quality. Setting a property to what it cannot be (NaN, an
+ * infinity, another type, a number outside of its range) throws a {@link ViewerError} `viewer/option` and changes nothing.
+ */
 export abstract class ViewerSettings extends Emitter<ViewerEvents> {
   /** The canvas that it draws on. */
   readonly canvas: HTMLCanvasElement;
@@ -24,11 +42,13 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
   protected loaded: Scene | undefined;
   readonly #resize: ResizeObserver;
   #pixelRatio: number | undefined;
+  #lighting: AbortController | undefined;
 
   /** @internal Use {@link createViewer}. */
   constructor(canvas: HTMLCanvasElement, options: ViewerOptions) {
     super();
     options.signal?.throwIfAborted();
+    checkOptions(canvas, options);
     this.canvas = canvas;
     this.options = options;
     this.surroundings = new Surroundings(options.environment, options.environmentIntensity, options.environmentRotation);
@@ -37,8 +57,8 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
     this.engine = new Engine(
       canvas,
       {
-        samples: options.samples ?? 256,
-        noise: options.noise,
+        samples: Math.floor(options.samples ?? 256),
+        noise: options.noise || undefined,
         maxDepth: options.maxDepth ?? 8,
         background: options.background ?? 'environment',
         exposure: options.exposure ?? 0,
@@ -96,13 +116,22 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
   }
 
   /**
-   * Other surroundings. They also serve the models that are loaded later.
-   * @returns When the picture shows them.
-   * @throws {ViewerError} `viewer/environment`; {ImageError} for a picture that cannot be read; the former ones stay.
+   * Another environment. It also serves the models that are loaded later. A later call aborts an earlier one.
+   * @returns When the picture shows it.
+   * @throws {ViewerError} `viewer/environment`; {ImageError} for a picture that cannot be read; {SceneError} for data that is no
+   * environment; {DeviceError} where the GPU has no memory for it. The former one stays.
+   * @throws the signal's reason, or an `AbortError`, when aborted.
    */
   async setEnvironment(source: EnvironmentSource, options: { readonly signal?: AbortSignal } = {}): Promise<void> {
     this.check();
-    await this.surroundings.change(source, this.loaded, options.signal);
+    this.#lighting?.abort(new DOMException('another environment was asked for', 'AbortError'));
+    const lighting = (this.#lighting = new AbortController());
+    const signal = options.signal ? AbortSignal.any([options.signal, lighting.signal]) : lighting.signal;
+    try {
+      await untilAborted(this.surroundings.change(source, this.loaded, signal), signal);
+    } finally {
+      if (this.#lighting === lighting) this.#lighting = undefined;
+    }
     await this.#relight();
   }
 
@@ -112,8 +141,8 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
   }
 
   set environmentIntensity(intensity: number) {
-    if (!(intensity >= 0 && intensity < Infinity) || intensity === this.surroundings.intensity) return;
-    this.surroundings.intensity = intensity;
+    if (checkedSetting('environmentIntensity', intensity) === this.surroundings.intensity) return;
+    this.surroundings.adjust({ intensity }, this.scene !== undefined);
     this.#quietly(this.#relight());
   }
 
@@ -123,8 +152,8 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
   }
 
   set environmentRotation(rotation: number) {
-    if (!Number.isFinite(rotation) || rotation === this.surroundings.rotation) return;
-    this.surroundings.rotation = rotation;
+    if (checkedSetting('environmentRotation', rotation) === this.surroundings.rotation) return;
+    this.surroundings.adjust({ rotation }, this.scene !== undefined);
     this.#quietly(this.#relight());
   }
 
@@ -134,7 +163,7 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
   }
 
   set background(background: 'environment' | 'transparent') {
-    if (background === this.engine.settings.background) return;
+    if (checkedChoice('background', background, BACKGROUNDS) === this.engine.settings.background) return;
     this.engine.settings.background = background;
     this.#quietly(this.engine.edit('background', (tracer) => tracer.setBackground(background)));
   }
@@ -145,15 +174,16 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
   }
 
   set exposure(exposure: number) {
-    if (Number.isFinite(exposure) && exposure !== this.exposure) this.#quietly(this.engine.setView({ exposure }));
+    if (checkedSetting('exposure', exposure) !== this.exposure) this.#quietly(this.engine.setView({ exposure }));
   }
 
-  /** See {@link ViewerOptions.toneMap}. An unknown one is told by the `error` event. */
+  /** See {@link ViewerOptions.toneMap}. Setting an unknown one throws {ToneMapError} `tonemap/unknown`. */
   get toneMap(): ToneMap {
     return this.engine.settings.toneMap ?? 'neutral';
   }
 
   set toneMap(toneMap: ToneMap) {
+    checkToneMapOptions({ toneMap });
     if (toneMap !== this.toneMap) this.#quietly(this.engine.setView({ toneMap }));
   }
 
@@ -163,8 +193,9 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
   }
 
   set samples(samples: number) {
-    if (!(samples >= 1) || Math.floor(samples) === this.samples) return;
-    this.engine.settings.samples = Math.floor(samples);
+    const whole = Math.floor(checkedSetting('samples', samples));
+    if (whole === this.samples) return;
+    this.engine.settings.samples = whole;
     this.engine.restart();
   }
 
@@ -174,7 +205,7 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
   }
 
   set noise(noise: number | undefined) {
-    const wanted = noise !== undefined && noise > 0 ? noise : undefined;
+    const wanted = noise === undefined ? undefined : checkedSetting('noise', noise) || undefined;
     if (wanted === this.noise) return;
     this.engine.settings.noise = wanted;
     this.engine.restart();
@@ -186,7 +217,7 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
   }
 
   set maxDepth(depth: number) {
-    if (!(Number.isInteger(depth) && depth >= 1 && depth <= 65535) || depth === this.maxDepth) return;
+    if (checkedSetting('maxDepth', depth) === this.maxDepth) return;
     this.engine.settings.maxDepth = depth;
     if (this.scene) this.engine.touch();
   }
@@ -197,7 +228,7 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
   }
 
   set pixelRatio(ratio: number | undefined) {
-    this.#pixelRatio = ratio;
+    this.#pixelRatio = ratio === undefined ? undefined : checkedSetting('pixelRatio', ratio);
     this.#resized();
   }
 
@@ -214,6 +245,7 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
   destroy(): void {
     if (this.state === 'destroyed') return;
     this.#resize.disconnect();
+    this.#lighting?.abort(new DOMException('the viewer was destroyed', 'AbortError'));
     this.engine.destroy();
     this.silence();
   }
@@ -255,7 +287,6 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
 
   async #relight(): Promise<void> {
     if (!this.scene) return;
-    const { lit } = this.surroundings;
-    await this.engine.edit('environment', (tracer) => tracer.setEnvironment(lit));
+    await this.engine.edit('environment', (tracer) => this.surroundings.apply(tracer));
   }
 }

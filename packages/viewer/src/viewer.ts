@@ -1,6 +1,7 @@
 import type { PathTracer } from '@glanz/renderer';
 import { inSlices, sceneBoundsSteps, type Camera, type Material, type Scene } from '@glanz/scene';
 import { pictureBlob, type BlobOptions } from './blob';
+import { checkedSetting } from './checks';
 import type { Take } from './engine';
 import { isAbort, ViewerError } from './errors';
 import type { LoadStage } from './events';
@@ -8,6 +9,7 @@ import { fitCamera } from './fit-camera';
 import { loadModel, type ModelSource } from './load';
 import type { ViewerOptions } from './options';
 import { withEnvironment } from './surroundings';
+import { untilAborted } from './until-aborted';
 import { plainScene } from './variants';
 import { ViewerCamera } from './viewer-camera';
 
@@ -68,20 +70,7 @@ export class Viewer extends ViewerCamera {
     };
     try {
       signal.throwIfAborted();
-      const { decoders, createWorker } = this.options;
-      const [scene, surround] = await Promise.all([loadModel(source, { signal, decoders, createWorker, compressedFormats: () => this.engine.compressedFormats(), onProgress }), this.surroundings.fetch(signal)]);
-      signal.throwIfAborted();
-      const { lit, adopt } = await surround(scene);
-      // Each goes through all vertices.
-      const camera = await inSlices(this.cameraSteps(scene, options.camera ?? this.options.camera ?? 'auto'), { signal });
-      const bounds = await inSlices(sceneBoundsSteps(scene), { signal });
-      const wanted = options.variant ?? this.options.variant;
-      const variant = wanted !== undefined && scene.variants?.includes(wanted) ? wanted : undefined;
-      await this.engine.show((former) => this.#take(former, { scene, shown: withEnvironment(scene, lit), camera: fitCamera(camera, this.aspect), variant }), { signal, onProgress });
-      this.loaded = scene;
-      this.#variant = variant;
-      adopt();
-      this.beginAt(camera, bounds);
+      const scene = await untilAborted(this.#prepare(source, options, signal, onProgress), signal);
       this.emit('load', { scene, milliseconds: performance.now() - started });
       return scene;
     } catch (error) {
@@ -139,12 +128,12 @@ export class Viewer extends ViewerCamera {
   /**
    * The picture as a file, as large as the picture is. Waits until it has `samples` samples (default 1) at its full size.
    *
-   * @throws {ViewerError} `viewer/no-scene`, `viewer/blob` where the browser cannot write this type.
+   * @throws {ViewerError} `viewer/no-scene`, `viewer/option`, `viewer/blob` where the browser cannot write this type.
    * @throws the signal's reason, when aborted.
    */
   async toBlob(options: BlobOptions = {}): Promise<Blob> {
     this.theScene();
-    await this.#sampled(Math.min(options.samples ?? 1, this.samples), options.signal);
+    await this.#sampled(Math.min(checkedSetting('samples', options.samples ?? 1), this.samples), options.signal);
     const { tracer } = this;
     if (!tracer) throw new ViewerError('viewer/no-scene', 'There is no picture: load a model first.');
     return pictureBlob(tracer, { exposure: this.exposure, toneMap: this.toneMap }, options);
@@ -154,6 +143,31 @@ export class Viewer extends ViewerCamera {
   override destroy(): void {
     this.#loading?.abort(new DOMException('the viewer was destroyed', 'AbortError'));
     super.destroy();
+  }
+
+  /** Reads a model and has it shown. */
+  async #prepare(source: ModelSource, options: LoadOptions, signal: AbortSignal, onProgress: (progress: { stage: LoadStage; done: number }) => void): Promise<Scene> {
+    const { decoders, createWorker } = this.options;
+    const reading = loadModel(source, { signal, decoders, createWorker, compressedFormats: () => this.engine.compressedFormats(), onProgress });
+    const [scene, surround] = await Promise.all([reading, this.surroundings.fetch(signal)]);
+    signal.throwIfAborted();
+    const { lit, adopt } = await surround(scene);
+    // Each goes through all vertices.
+    const camera = await inSlices(this.cameraSteps(scene, options.camera ?? this.options.camera ?? 'auto'), { signal });
+    const bounds = await inSlices(sceneBoundsSteps(scene), { signal });
+    const wanted = options.variant ?? this.options.variant;
+    const variant = wanted !== undefined && scene.variants?.includes(wanted) ? wanted : undefined;
+    await this.engine.show((former) => this.#take(former, { scene, shown: withEnvironment(scene, lit), camera: fitCamera(camera, this.aspect), variant }), {
+      signal,
+      onProgress,
+      onTaken: () => {
+        this.loaded = scene;
+        this.#variant = variant;
+        adopt();
+        this.beginAt(camera, bounds);
+      },
+    });
+    return scene;
   }
 
   /** A scene as it was loaded, or as it was edited until its tracer was lost; its variant goes on top. */
@@ -190,7 +204,8 @@ export class Viewer extends ViewerCamera {
  * Makes a canvas show path-traced models. Returns at once; the GPU is asked for meanwhile, and `load()` waits for it.
  *
  * @param canvas One that has no context yet, or had a viewer before. Its size is that of its CSS box.
- * @throws {ViewerError} through `load()`: `viewer/no-canvas`. {DeviceError} through `load()`: `renderer/no-webgpu`, …
+ * @throws {ViewerError} `viewer/option` for options out of their ranges, `viewer/no-canvas` for what is no canvas; through
+ * `load()`: `viewer/no-canvas` for one that has another context. {ToneMapError} `tonemap/unknown`. {DeviceError} through `load()`: `renderer/no-webgpu`, …
  * @example
  * const viewer = createViewer(document.querySelector('canvas'), { samples: 200 });
  * viewer.on('converged', ({ samples }) => console.log(samples));

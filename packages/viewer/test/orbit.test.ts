@@ -117,14 +117,25 @@ describe('OrbitRig', () => {
     expect(rig.goal.target[1]).toBeCloseTo(2 * 5 * Math.tan(0.3), 10);
   });
 
-  it('stays off the poles, and keeps what is not finite out', () => {
+  it('stays off the poles, and refuses what is not finite', () => {
     const rig = new OrbitRig(front, bounds, { damping: 0 });
     rig.orbit(0, 10);
-    rig.setOrbit({ theta: Number.NaN, radius: Infinity, target: [0, Number.NaN, 0] });
     rig.step(0.016);
+    const before = rig.goal;
+    for (const wrong of [{ theta: Number.NaN }, { radius: Infinity }, { theta: 1, radius: 0 }, { target: [0, Number.NaN, 0] as const }, { phi: '1' as never }]) {
+      expect(() => rig.setOrbit(wrong)).toThrow(expect.objectContaining({ code: 'viewer/camera' }));
+    }
+    for (const wrong of [Number.NaN, Infinity, -1e30]) {
+      for (const change of [() => rig.orbit(wrong, 0), () => rig.orbit(0, wrong), () => rig.pan(wrong, 0), () => rig.zoom(wrong), () => rig.focus([0, wrong, 0]), () => void (rig.yfov = wrong), () => rig.setCamera({ ...front, yfov: wrong })]) {
+        expect(change).toThrow(expect.objectContaining({ code: 'viewer/camera' }));
+      }
+      expect(() => void (rig.damping = wrong)).toThrow(expect.objectContaining({ code: 'viewer/option' }));
+    }
+    expect(rig.goal).toEqual(before);
+    rig.step(Number.NaN);
     expect(rig.goal.phi).toBeCloseTo((0.5 * Math.PI) / 180, 10);
     expect(eye(rig).every(Number.isFinite)).toBe(true);
-    rig.zoom(1e9);
+    rig.zoom(1e6);
     expect(rig.goal.radius).toBeGreaterThan(0);
   });
 

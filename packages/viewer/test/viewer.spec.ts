@@ -1,18 +1,8 @@
 import { fileURLToPath } from 'node:url';
-import { hdr, injectFaults, photograph, pixelsOf, quads, servePage, watch, type Served } from '@glanz/browser';
+import { hdr, injectFaults, pixelsOf, servePage, watch, type Served } from '@glanz/browser';
 import { expect, test, type Page } from '@playwright/test';
-import type { Viewer, ViewerOptions } from '@glanz/viewer';
-
-declare global {
-  interface Window {
-    make: (options?: ViewerOptions) => Viewer;
-    file: (base64: string, name: string) => File;
-    viewer: Viewer;
-    loseGpu: () => void;
-    kernels: string[];
-    heard: { type: string; [key: string]: unknown }[];
-  }
-}
+import type { ViewerOptions } from '@glanz/viewer';
+import { canvas, done, front, heard, model, open as openAt, shot, sky } from './open';
 
 let served: Served;
 test.beforeAll(async () => void (served = await servePage(fileURLToPath(new URL('page', import.meta.url)))));
@@ -23,40 +13,7 @@ let complaints: string[] = [];
 test.beforeEach(({ page }) => void (complaints = watch(page, served.origin)));
 test.afterEach(() => expect(complaints).toEqual([]));
 
-// A red square on the left, a green one on the right that is blue at night; under a constant white sky.
-const model = quads([
-  { name: 'left', colour: [0.9, 0.02, 0.02], at: [-1.2, 0, 0] },
-  { name: 'right', colour: [0.02, 0.8, 0.02], at: [1.2, 0, 0], variants: { night: [0.02, 0.02, 0.9] } },
-]);
-const sky = { type: 'constant', radiance: [1, 1, 1] } as const;
-const front: ViewerOptions['camera'] = { type: 'perspective', name: 'front', transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1], yfov: 0.6, aspect: 1.6 };
-
-/** A viewer of the model in its first view, done unless that takes too many samples. */
-async function open(page: Page, options: ViewerOptions = {}, bytes = model): Promise<void> {
-  await page.goto(served.origin);
-  await page.evaluate(
-    async ([base64, given]) => {
-      const viewer = (window.viewer = window.make(given as ViewerOptions));
-      window.heard = [];
-      for (const type of ['load', 'progress', 'error', 'sample', 'converged', 'camera-change', 'device-lost', 'device-restored', 'state', 'frame', 'pick'] as const) viewer.on(type, (detail) => void window.heard.push({ ...structuredCloneable(detail), type }));
-      await viewer.load(window.file(base64 as string, 'model.glb'));
-      function structuredCloneable(detail: object) {
-        return Object.fromEntries(Object.entries(detail).filter(([, value]) => typeof value !== 'function' && typeof value !== 'object'));
-      }
-    },
-    [bytes.toString('base64'), { samples: 12, maxDepth: 3, pixelRatio: 0.5, camera: front, environment: sky, ...options }] as const,
-  );
-  if (options.samples === undefined || options.samples < 100) await done(page);
-}
-
-const done = (page: Page) => expect.poll(() => page.evaluate(() => window.viewer.state), { message: 'the picture is done' }).toBe('done');
-const canvas = (page: Page) => page.locator('canvas');
-const heard = (page: Page, type: string) => page.evaluate((wanted) => window.heard.filter((event) => event.type === wanted), type);
-const shot = async (page: Page) => {
-  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
-  // The ring around a canvas that has the keyboard is no part of the picture.
-  return photograph(canvas(page), 'canvas { outline: none }');
-};
+const open = (page: Page, options?: ViewerOptions, bytes?: Buffer) => openAt(page, served.origin, options, bytes);
 
 test('a model appears as it is, events tell of it, and the view is the one asked for', async ({ page }) => {
   await open(page);

@@ -2,4 +2,4 @@ export { checkAccessibility } from './accessibility';
 export { serveApp, servePage, watch, type Served } from './page';
 export { photograph, pixelsOf, type Pixels } from './pixels';
 export { glb, hdr, quads, triangle, type Quad } from './files';
-export { injectFaults } from './faults';
+export { injectFaults, type GpuFaults } from './faults';

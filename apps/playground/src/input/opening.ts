@@ -35,13 +35,14 @@ export function stateFor(scene: Scene, request: ModelRequest, before: State, { l
   const environment = first || before.environment === 'file' ? before.environment : wanted;
   const state: State = { ...forAnotherModel(before), environment, camera: scene.cameras.length > 0 ? 0 : -1 };
   if (link?.model !== nameOf(request)) return state;
-  const { materials = {}, hidden = [], variant = null, ...others } = link.state;
+  const { materials = {}, hidden = [], variant = null, clip = null, ...others } = link.state;
   return {
     ...state,
     ...others,
     materials: checkedMaterials(scene, materials),
     hidden: hidden.filter((index) => Number.isInteger(index) && scene.instances[index] !== undefined),
     variant: scene.variants?.includes(variant ?? '') ? variant : null,
+    clip: clip !== null && scene.animations?.[clip] ? clip : null,
     camera: scene.cameras[link.state.camera ?? state.camera] ? (link.state.camera ?? state.camera) : -1,
   };
 }

@@ -1,3 +1,4 @@
+import { readFields } from './link-fields';
 import { initialState, type State } from './state';
 
 /** What a link holds beside the state. */
@@ -26,7 +27,7 @@ export function difference(state: State): Partial<State> {
   return Object.fromEntries(names.map((name) => [name, state[name]])) as Partial<State>;
 }
 
-async function through(bytes: Uint8Array<ArrayBuffer>, stream: CompressionStream | DecompressionStream): Promise<Uint8Array<ArrayBuffer>> {
+async function through(bytes: Uint8Array<ArrayBuffer>, stream: CompressionStream): Promise<Uint8Array<ArrayBuffer>> {
   return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
 }
 
@@ -38,29 +39,36 @@ export async function encodeLink({ model, state }: LinkContent): Promise<string>
   return VERSION + text.replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '');
 }
 
+/** Bytes of JSON in a link at most: a few letters can be packed that unpack to gigabytes. */
+const MOST_BYTES = 4_194_304;
+
+/** @throws where the bytes are no deflated text, or too long a one. */
+async function unpack(bytes: Uint8Array<ArrayBuffer>): Promise<string> {
+  const reader = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate-raw')).getReader();
+  const decoder = new TextDecoder();
+  let [text, length] = ['', 0];
+  for (;;) {
+    const { done, value } = await reader.read();
+    if (done) return text + decoder.decode();
+    length += value.length;
+    if (length > MOST_BYTES) {
+      await reader.cancel();
+      throw new RangeError('The link holds too much.');
+    }
+    text += decoder.decode(value, { stream: true });
+  }
+}
+
 /** @returns Undefined where the text is no link of this format, or is broken. */
 export async function decodeLink(text: string): Promise<LinkContent | undefined> {
   const body = text.replace(/^#/, '');
   if (!body.startsWith(VERSION)) return undefined;
   try {
     const bytes = Uint8Array.from(atob(body.slice(VERSION.length).replaceAll('-', '+').replaceAll('_', '/')), (c) => c.charCodeAt(0));
-    const json = JSON.parse(new TextDecoder().decode(await through(bytes, new DecompressionStream('deflate-raw')))) as { m?: unknown; s?: unknown };
+    const json = JSON.parse(await unpack(bytes)) as { m?: unknown; s?: unknown };
     if (typeof json.m !== 'string' || typeof json.s !== 'object' || json.s === null) return undefined;
-    return { model: json.m, state: wellFormed(json.s as Record<string, unknown>) };
+    return { model: json.m, state: readFields(json.s as Record<string, unknown>) };
   } catch {
     return undefined;
   }
-}
-
-/** Only known fields whose values are of the kind that the initial state has: an address comes from anywhere. */
-function wellFormed(given: Record<string, unknown>): Partial<State> {
-  const initial = initialState('studio') as unknown as Record<string, unknown>;
-  const nullable = new Set(['orbit', 'boxes', 'variant', 'clip']);
-  const kind = (value: unknown) => (Array.isArray(value) ? `array${value.every((one) => typeof one === 'number' && Number.isFinite(one)) ? '' : ' of others'}` : value === null ? 'null' : typeof value);
-  const fits = (name: string, value: unknown) => {
-    if (nullable.has(name)) return value === null || ['object', 'string', 'number', 'array of others', 'array'].includes(kind(value));
-    if (typeof value === 'number' && !Number.isFinite(value)) return false;
-    return kind(value) === kind(initial[name]) && (!Array.isArray(value) || name === 'hidden' || value.length === (initial[name] as unknown[]).length);
-  };
-  return Object.fromEntries(Object.entries(given).filter(([name, value]) => Object.hasOwn(initial, name) && fits(name, value))) as Partial<State>;
 }
