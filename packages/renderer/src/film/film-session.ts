@@ -239,7 +239,10 @@ export class FilmSession {
           integrator.submit(batch);
         });
         this.#watch(verified);
-        return Promise.all([this.#cleared, verified]).then(() => {});
+        const sound = Promise.all([this.#cleared, verified]).then(() => {});
+        // Of several refused batches the loop reports the first.
+        sound.catch(() => {});
+        return sound;
       },
       room: (wanted: number) => Math.floor(integrator.room(wanted * integrator.pathsPerSample) / integrator.pathsPerSample),
       ready,
