@@ -1,4 +1,4 @@
-import { DeviceError, PathTracer, requestDevice } from '@glanz/renderer';
+import { decodeFilmState, DeviceError, encodeFilmState, PathTracer, requestDevice, type FilmState } from '@glanz/renderer';
 import type { Scene } from '@glanz/scene';
 
 // #region progress
@@ -38,17 +38,38 @@ export async function keepRendering(tracer: PathTracer, signal: AbortSignal, dra
 }
 // #endregion edits
 
+// #region film
+export async function save(tracer: PathTracer): Promise<Uint8Array> {
+  return encodeFilmState(await tracer.saveFilm());
+}
+
+export async function resume(tracer: PathTracer, bytes: Uint8Array) {
+  await tracer.restoreFilm(decodeFilmState(bytes));
+  for await (const _ of tracer.render({ samples: 1024 }));
+}
+// #endregion film
+
 // #region lost
-export async function renderThroughLosses(scene: Scene, size: { width: number; height: number }, draw: (tracer: PathTracer) => void) {
+export async function renderThroughLosses(
+  scene: Scene,
+  size: { width: number; height: number },
+  draw: (tracer: PathTracer) => void,
+) {
+  let saved: FilmState | undefined;
   for (let attempt = 0; ; attempt++) {
     const device = await requestDevice();
     try {
       const tracer = await PathTracer.create(device, scene, size);
-      for await (const _ of tracer.render({ samples: 256 })) draw(tracer);
+      if (saved) await tracer.restoreFilm(saved);
+      for await (const { samples } of tracer.render({ samples: 256 })) {
+        draw(tracer);
+        // Twice as many samples as at the last copy: few copies, and at most half of the work is lost.
+        if (samples >= 2 * (saved?.samples ?? 8)) saved = await tracer.saveFilm();
+      }
       return await tracer.read('beauty');
     } catch (error) {
       const lost = error instanceof DeviceError && error.code === 'renderer/device-lost';
-      if (!lost || attempt === 2) throw error; // the scene lives on the CPU: nothing but time was lost
+      if (!lost || attempt === 2) throw error;
     } finally {
       device.destroy();
     }
