@@ -2,6 +2,9 @@ import type { Camera, Scene } from '@glanz/scene';
 import type { GltfCamera } from './json';
 import type { Matrix } from './matrix';
 
+/** Metres that cameras of a scene may be away from the origin, and that they may see: what `validateScene` accepts. */
+const MAX_DISTANCE = 1e12;
+
 /** How far the axes of a transform are from lying in a plane: the volume that they span over that of a box, 0 to 1. */
 function spread(matrix: Matrix): number {
   const m = (i: number) => matrix[i] as number;
@@ -15,6 +18,7 @@ export function readCamera({ name, type, perspective, orthographic }: GltfCamera
   const common = { name: name || nodeName || `camera ${scene.cameras.length}`, transform: [...transform] };
   const leaveOut = (what: string) => void scene.warnings.push({ code: 'gltf/camera', message: `Camera "${common.name}" ${what}; it is left out.` });
   if (!(spread(transform) > 1e-5)) return leaveOut("is flattened by its node's scale");
+  if (!transform.slice(12, 15).every((x) => Math.abs(x) <= MAX_DISTANCE)) return leaveOut(`is more than ${MAX_DISTANCE} m away from the origin`);
   let made: Camera;
   if (type === 'perspective') {
     const { yfov = 0, aspectRatio = 0 } = perspective ?? {};
@@ -22,7 +26,7 @@ export function readCamera({ name, type, perspective, orthographic }: GltfCamera
     made = { type: 'perspective', ...common, yfov, ...(aspectRatio > 0 ? { aspect: aspectRatio } : {}) };
   } else {
     const xmag = Math.abs(orthographic?.xmag ?? 0), ymag = Math.abs(orthographic?.ymag ?? 0);
-    if (!(xmag > 0 && ymag > 0 && xmag < Infinity && ymag < Infinity)) return leaveOut('has a view of no size');
+    if (![xmag, ymag].every((half) => half > 0 && half <= MAX_DISTANCE)) return leaveOut(`has a view of ${xmag} and ${ymag} m`);
     made = { type: 'orthographic', ...common, xmag, ymag };
   }
   scene.cameras.push(made);

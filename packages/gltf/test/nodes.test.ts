@@ -106,6 +106,17 @@ describe('cameras', () => {
   });
 });
 
+test('cameras that cannot be rendered with are left out', async () => {
+  const scene = await loadGltf(spoiled((json) => {
+    json['cameras'] = [{ type: 'perspective', perspective: { yfov: 1, znear: 1 } }, { type: 'orthographic', orthographic: { xmag: 1, ymag: 1e13, znear: 0, zfar: 1 } }];
+    json['nodes'].push({ name: 'far', camera: 0, translation: [0, 0, 1e30] }, { name: 'wide', camera: 1 }, { name: 'good', camera: 0, translation: [0, 1e12, 0] });
+    json['scenes'][0].nodes = [0, 1, 2, 3];
+  }));
+  expect(scene.cameras.map(({ name }) => name)).toEqual(['good']);
+  expect(scene.warnings.map(({ message }) => message)).toEqual([expect.stringMatching(/"far" is more than 1000000000000 m away/), expect.stringMatching(/"wide" has a view of 1 and 10000000000000 m/)]);
+  expect(validateScene(scene)).toEqual([]);
+});
+
 test('punctual lights shine along their −z, with glTF\'s numbers', async () => {
   const { document, scene, accessor } = start();
   const extension = document.createExtension(KHRLightsPunctual);

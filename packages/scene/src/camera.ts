@@ -2,19 +2,19 @@
 export interface PerspectiveCamera {
   type: 'perspective';
   name: string;
-  /** Camera to world, 16 numbers, column-major; scale is ignored. */
+  /** Camera to world, 16 finite numbers, column-major; scale is ignored. At most 1e12 m away from the origin. */
   transform: ArrayLike<number>;
   /** Vertical field of view, radians, in (0, π). */
   yfov: number;
-  /** Width over height the author had in mind; a film of another shape keeps the vertical field of view. */
+  /** Width over height the author had in mind; a film of another shape keeps the vertical field of view. Above 0. */
   aspect?: number;
-  /** Radius of the thin lens, metres; default 0, a pinhole. */
+  /** Radius of the thin lens, metres, 0 to 1e12; default 0, a pinhole. */
   lens_radius?: number;
   /** Sides of the aperture, a regular polygon with its corners on the lens's edge; below 3 (default 0) it is round. */
   lens_blades?: number;
   /** Turns the aperture's polygon, radians, counter-clockwise as the camera sees it; at 0 a corner points to the right. */
   lens_rotation?: number;
-  /** Distance of the plane in focus along the axis, metres; default 1. Only matters with a lens. */
+  /** Distance of the plane in focus along the axis, metres, above 0; default 1. Only matters with a lens. */
   focus_distance?: number;
 }
 
@@ -23,9 +23,9 @@ export interface OrthographicCamera {
   type: 'orthographic';
   name: string;
   transform: ArrayLike<number>;
-  /** Half the width of the view, metres. */
+  /** Half the width of the view, metres, above 0 and at most 1e12. */
   xmag: number;
-  /** Half the height of the view, metres. */
+  /** Half the height of the view, metres, above 0 and at most 1e12. */
   ymag: number;
 }
 

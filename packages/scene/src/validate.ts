@@ -1,4 +1,4 @@
-import type { Camera } from './camera';
+import type { Camera, PerspectiveCamera } from './camera';
 import type { Environment } from './environment';
 import { SceneError } from './error';
 import type { Light, LightProfile } from './light';
@@ -154,14 +154,40 @@ function checkLight(light: Light, index: number): void {
   }
 }
 
+/** Metres from the origin where a camera may be, and sizes of what it sees: single precision has no details beyond. */
+const MAX_DISTANCE = 1e12;
+
 function checkCamera(camera: Camera, index: number): void {
   const what = `Camera ${index} ("${camera.name}")`;
   checkTransform(camera.transform, what);
   if (!(Math.abs(spread(camera.transform)) > 1e-6)) fail('value', `${what}: transform cannot be inverted: its axes have no length or lie in one plane.`);
-  if (camera.type === 'perspective') {
-    if (!(camera.yfov > 0 && camera.yfov < Math.PI)) fail('value', `${what}: yfov is ${camera.yfov}; it must lie between 0 and π.`);
-    finite([camera.lens_radius ?? 0, camera.focus_distance ?? 1, camera.lens_blades ?? 0, camera.lens_rotation ?? 0], `${what}: lens`);
-  } else if (camera.type === 'orthographic' && !(camera.xmag > 0 && camera.ymag > 0)) fail('value', `${what}: xmag and ymag are ${camera.xmag} and ${camera.ymag}; they must be positive.`);
+  const far = [12, 13, 14].map((k) => Math.abs(camera.transform[k] as number)).find((distance) => distance > MAX_DISTANCE);
+  if (far !== undefined) fail('value', `${what} is ${far} m away from the origin; it must be within ${MAX_DISTANCE} m.`);
+  switch (camera.type) {
+    case 'perspective':
+      return checkPerspective(camera, what);
+    case 'orthographic': {
+      const { xmag, ymag } = camera;
+      const usable = [xmag, ymag].every((half) => half > 0 && half <= MAX_DISTANCE);
+      if (!usable) fail('value', `${what}: xmag and ymag are ${xmag} and ${ymag}; they must be above 0 and at most ${MAX_DISTANCE} m.`);
+      return;
+    }
+    case 'panorama':
+      return;
+    default:
+      fail('value', `${what} has the unknown type "${String((camera as Camera).type)}"; it must be perspective, orthographic or panorama.`);
+  }
+}
+
+function checkPerspective(camera: PerspectiveCamera, what: string): void {
+  const { yfov, aspect = 1, lens_radius = 0, focus_distance = 1, lens_blades = 0, lens_rotation = 0 } = camera;
+  if (!(yfov > 0 && yfov < Math.PI)) fail('value', `${what}: yfov is ${yfov}; it must lie between 0 and π.`);
+  finite([aspect], `${what}: aspect`);
+  if (!(aspect > 0)) fail('value', `${what}: aspect is ${aspect}; it must be above 0.`);
+  finite([lens_radius, focus_distance, lens_blades, lens_rotation], `${what}: lens`);
+  if (!(lens_radius >= 0 && lens_radius <= MAX_DISTANCE)) fail('value', `${what}: lens_radius is ${lens_radius}; it must lie between 0 and ${MAX_DISTANCE} m.`);
+  if (!(focus_distance > 0)) fail('value', `${what}: focus_distance is ${focus_distance}; it must be above 0.`);
+  if (!(lens_blades >= 0)) fail('value', `${what}: lens_blades is ${lens_blades}; it must be at least 0.`);
 }
 
 function* environmentSteps(environment: Environment): Generator<void> {
@@ -187,7 +213,8 @@ function radiances(data: Float32Array, from: number, end: number): void {
 }
 
 /**
- * Checks that the parts of a scene fit together: indices, lengths of arrays, finite numbers, ranges.
+ * Checks that the parts of a scene fit together: indices, lengths of arrays, finite numbers, ranges. A camera that cannot be
+ * rendered with (see `Camera` for its ranges) is a fault as well.
  * One pass over the data: tens of milliseconds for a million triangles.
  *
  * @returns What is odd but harmless: `scene/degenerate` (triangles without area), `scene/flattened` (an instance whose

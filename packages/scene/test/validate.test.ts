@@ -63,6 +63,13 @@ const faults: [string, (scene: Scene) => void, string, RegExp][] = [
   ['a camera whose axes lie in a plane', (s) => (s.cameras[1]!.transform = [1, 0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 0, 1]), 'scene/value', /Camera 1/],
   ['a NaN camera', (s) => (s.cameras[0]!.transform = identity.with(12, NaN)), 'scene/not-finite', /Camera 0/],
   ['a lens of NaN', (s) => Object.assign(s.cameras[0]!, { lens_radius: NaN }), 'scene/not-finite', /Camera 0/],
+  ...[NaN, Infinity, -Infinity].map((x): (typeof faults)[number] => [`a camera at ${x}`, (s) => (s.cameras[0]!.transform = identity.with(13, x)), 'scene/not-finite', /Camera 0 .*at 13/]),
+  ...[1e30, -1e13].map((x): (typeof faults)[number] => [`a camera at ${x}`, (s) => (s.cameras[1]!.transform = identity.with(14, x)), 'scene/value', /Camera 1 .*away from the origin/]),
+  ...[0, -1, NaN, Infinity, Math.PI, 4].map((yfov): (typeof faults)[number] => [`a field of view of ${yfov}`, (s) => Object.assign(s.cameras[0]!, { yfov }), 'scene/value', /Camera 0 .*yfov/]),
+  ...[NaN, Infinity].flatMap((x) => ['aspect', 'lens_radius', 'focus_distance', 'lens_blades', 'lens_rotation'].map((key): (typeof faults)[number] => [`${key} of ${x}`, (s) => Object.assign(s.cameras[0]!, { [key]: x }), 'scene/not-finite', /Camera 0/])),
+  ...[['aspect', 0], ['aspect', -1], ['lens_radius', -1e-3], ['lens_radius', 1e30], ['focus_distance', 0], ['focus_distance', -1], ['lens_blades', -5]].map(([key, x]): (typeof faults)[number] => [`${key} of ${x}`, (s) => Object.assign(s.cameras[0]!, { [key!]: x }), 'scene/value', new RegExp(`Camera 0 .*${key}`)]),
+  ...[NaN, Infinity, -1, 1e30].map((ymag): (typeof faults)[number] => [`a view as high as ${ymag}`, (s) => Object.assign(s.cameras[1]!, { ymag }), 'scene/value', /Camera 1 .*ymag/]),
+  ['a camera of an unknown type', (s) => Object.assign(s.cameras[0]!, { type: 'fisheye' }), 'scene/value', /Camera 0 .*fisheye/],
   ['a view of no size', (s) => ((s.cameras[1] as { xmag: number }).xmag = 0), 'scene/value', /Camera 1/],
   ['an environment of a wrong length', (s) => ((s.environment as { data: Float32Array }).data = new Float32Array(5)), 'scene/length', /environment/],
   ['a negative sky', (s) => ((s.environment as { data: Float32Array }).data[3] = -1), 'scene/not-finite', /-1 at 3/],
@@ -70,6 +77,14 @@ const faults: [string, (scene: Scene) => void, string, RegExp][] = [
 
 describe('validateScene', () => {
   test('a sound scene passes without a word', () => expect(validateScene(whole())).toEqual([]));
+
+  test('cameras at the ends of their ranges pass', () => {
+    const scene = whole();
+    Object.assign(scene.cameras[0]!, { transform: identity.with(12, 1e12), yfov: 3.14159, aspect: 1e-3, lens_radius: 0, focus_distance: 1e-6, lens_blades: 0, lens_rotation: -7 });
+    Object.assign(scene.cameras[1]!, { xmag: 1e-6, ymag: 1e12 });
+    scene.cameras.push({ type: 'panorama', name: 'p', transform: identity });
+    expect(validateScene(scene)).toEqual([]);
+  });
 
   test.each(faults)('%s', (_, spoil, code, message) => {
     const scene = whole();
