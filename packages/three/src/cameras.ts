@@ -12,8 +12,22 @@ export function readCamera(camera: ThreeCamera, scene: Scene): Camera | undefine
   if ((loose['view'] as { readonly enabled?: boolean } | null | undefined)?.enabled) scene.warnings.push({ code: 'three/camera', message: `Camera "${name}" has a view offset, which is not carried.` });
   if (loose['isPerspectiveCamera'] === true) {
     const half = Math.tan((((loose['fov'] as number) / 2) * Math.PI) / 180) / zoom;
-    const focus = loose['focus'] as number | undefined;
-    return { type: 'perspective', name, transform, yfov: 2 * Math.atan(half), aspect: loose['aspect'] as number, ...(focus === undefined ? {} : { focus_distance: focus }) };
+    // A canvas without a size gives an aspect of NaN or infinity, which the image's replaces.
+    const usable = (key: 'aspect' | 'focus') => {
+      const value = loose[key] as number | undefined;
+      if (value === undefined || (value > 0 && value < Infinity)) return value;
+      scene.warnings.push({ code: 'three/camera', message: `Camera "${name}" has the ${key} ${value}, which is not carried.` });
+      return undefined;
+    };
+    const aspect = usable('aspect'), focus = usable('focus');
+    return {
+      type: 'perspective',
+      name,
+      transform,
+      yfov: 2 * Math.atan(half),
+      ...(aspect === undefined ? {} : { aspect }),
+      ...(focus === undefined ? {} : { focus_distance: focus }),
+    };
   }
   if (loose['isOrthographicCamera'] === true) {
     const [left, right, top, bottom] = [loose['left'], loose['right'], loose['top'], loose['bottom']] as [number, number, number, number];

@@ -1,5 +1,5 @@
 import * as THREE from 'three';
-import type { LatLongEnvironment, Scene } from '@glanz/scene';
+import { validateScene, type LatLongEnvironment, type Scene } from '@glanz/scene';
 import { describe, expect, it } from 'vitest';
 import { fromThree } from '../src/index';
 
@@ -170,6 +170,15 @@ describe('environment', () => {
 });
 
 describe('cameras', () => {
+  it('of a canvas without a size: the aspect is not carried, and the scene is valid', async () => {
+    const camera = new THREE.PerspectiveCamera(50, 0 / 0, 0.1, 100);
+    camera.focus = 0;
+    camera.updateMatrixWorld();
+    const scene = await fromThree(new THREE.Mesh(new THREE.BoxGeometry(), new THREE.MeshStandardMaterial()), camera);
+    expect(scene.warnings.map(({ message }) => message)).toEqual([expect.stringMatching(/has the aspect NaN/), expect.stringMatching(/has the focus 0/)]);
+    expect(validateScene(scene)).toEqual([]);
+  });
+
   it('see what three\'s see', async () => {
     const camera = new THREE.PerspectiveCamera(50, 1.5, 0.1, 100);
     camera.position.set(3, 2, 5);
