@@ -66,17 +66,10 @@ export function nodeBackend(): Backend {
       return (await import('@glanz/renderer')).compressedFormats(device);
     },
     async openGpu(name, onError = () => undefined) {
-      const [{ DeviceError, requestDevice }, { createGpu }] = await Promise.all([import('@glanz/renderer'), import('@glanz/renderer/node')]);
+      const [{ requestDevice }, { createGpu }] = await Promise.all([import('@glanz/renderer'), import('@glanz/renderer/node')]);
       const software = name?.toLowerCase() === 'software';
       const { gpu, adapterName, software: isSoftware } = await createGpu(software ? { software: 'only' } : name === undefined ? {} : { gpu: name });
-      const device = await requestDevice({ gpu });
-      device.addEventListener('uncapturederror', (event) => {
-        // Dawn would print it to stdout, where nothing but results belong.
-        event.preventDefault();
-        const { error } = event;
-        const memory = error instanceof GPUOutOfMemoryError;
-        onError(new DeviceError(memory ? 'renderer/out-of-memory' : 'renderer/gpu-error', `The GPU ${memory ? 'has not enough memory' : 'refused work'}: ${error.message}`));
-      });
+      const device = await requestDevice({ gpu, onError });
       return { device, adapterName, software: isSoftware };
     },
     async listGpus() {

@@ -1,3 +1,4 @@
+import type { FilmLayer } from '../src/backend';
 import { nodeBackend, type Backend, type FilmState, type OpenedGpu } from '../src/index';
 
 /** A real device under test. */
@@ -18,6 +19,8 @@ export interface Faults {
   readonly onSubmit?: (device: FaultyDevice) => void;
   /** Called before each copy of a film to the CPU and after it. */
   readonly onSave?: (device: FaultyDevice, film?: FilmState) => void;
+  /** Called before each layer is read. */
+  readonly onRead?: (device: FaultyDevice, layer: string) => void;
   /** Labels of the buffers for which there is no memory. */
   readonly outOfMemory?: RegExp;
   /** Called before a device is opened; throws if there is none. */
@@ -25,7 +28,7 @@ export interface Faults {
 }
 
 /** The real backend, whose devices can be lost at any submission. */
-export function faultyBackend({ onSubmit, onSave, onOpen, outOfMemory }: Faults): { readonly backend: Backend; readonly devices: FaultyDevice[] } {
+export function faultyBackend({ onSubmit, onSave, onRead, onOpen, outOfMemory }: Faults): { readonly backend: Backend; readonly devices: FaultyDevice[] } {
   const real = nodeBackend();
   const devices: FaultyDevice[] = [];
   const backend: Backend = {
@@ -63,8 +66,13 @@ export function faultyBackend({ onSubmit, onSave, onOpen, outOfMemory }: Faults)
     async createTracer(device, scene, options) {
       const tracer = await real.createTracer(device, scene, options);
       const save = tracer.saveFilm.bind(tracer);
+      const faulty = devices.find((one) => one.device === device) as FaultyDevice;
+      const read = tracer.read.bind(tracer) as (layer: FilmLayer) => Promise<Float32Array<ArrayBuffer>>;
+      tracer.read = ((layer: FilmLayer) => {
+        onRead?.(faulty, layer);
+        return read(layer);
+      }) as typeof tracer.read;
       tracer.saveFilm = async () => {
-        const faulty = devices.find((one) => one.device === device) as FaultyDevice;
         onSave?.(faulty);
         const film = await save();
         onSave?.(faulty, film);

@@ -38,14 +38,18 @@ describe('the files are the same bit for bit', () => {
     const plain = await glanz(['red.glb', ...OUTPUTS, ...QUALITY], whole);
     expect(plain.code, plain.err).toBe(0);
     expect(plain.result).toMatchObject({ gpuLosses: 0, resumedSamples: 0, samples: 24 });
-    const submits = plain.devices[0]!.submits;
-    expect(submits).toBeGreaterThan(10);
+    expect(plain.devices[0]!.submits).toBeGreaterThan(20);
     const expected = bytes(whole);
-    for (const point of [1, Math.round(submits / 3), submits - 12, submits]) {
+    // How many submissions there are depends on the machine's speed; these come before the first sample, or are certain.
+    const points = [1, 12, 'beauty', 'materialId'] as const;
+    for (const point of points) {
       const cwd = folder();
-      const { code, err, devices, result } = await glanz(['red.glb', ...OUTPUTS, ...QUALITY], cwd, { onSubmit: (device) => device.index === 0 && device.submits === point && device.lose() });
+      const { code, err, devices, result } = await glanz(['red.glb', ...OUTPUTS, ...QUALITY], cwd, {
+        onSubmit: ({ index, submits: nth, lose }) => index === 0 && nth === point && lose(),
+        onRead: ({ index, lose }, layer) => index === 0 && layer === point && lose(),
+      });
       expect([point, code, devices.length], err).toEqual([point, 0, 2]);
-      expect(same(bytes(cwd), expected), `lost at ${point} of ${submits}`).toEqual([0, 0, 0]);
+      expect(same(bytes(cwd), expected), `lost at ${point}`).toEqual([0, 0, 0]);
       expect(result).toMatchObject({ samples: 24, gpuLosses: 1 });
       expect(readdirSync(cwd).sort()).toEqual(['red.glb', 'shoe.glb', ...files].sort());
     }

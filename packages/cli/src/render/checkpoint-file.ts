@@ -104,7 +104,12 @@ export class CheckpointFile {
         at += bytesRead;
       }
       if (createHash('sha256').update(bytes).digest('hex') !== header.sha256) throw broken('its content is damaged');
-      return (await codec()).decode(bytes);
+      const { decode } = await codec();
+      try {
+        return decode(bytes);
+      } catch (cause) {
+        throw broken('its film is of another version', cause);
+      }
     } finally {
       await handle.close();
     }
