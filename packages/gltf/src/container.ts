@@ -38,7 +38,8 @@ function openGlb(bytes: Uint8Array<ArrayBuffer>, view: DataView, name: string, w
   if (total < bytes.length) warnings.push({ code: 'gltf/container', message: `${name} goes on for ${bytes.length - total} bytes after its end, which are not read.` });
   let json: Raw | undefined;
   let binary: Uint8Array<ArrayBuffer> | undefined;
-  for (let at = 12; at + 8 <= total; ) {
+  let at = 12, chunks = 0;
+  for (; at + 8 <= total; chunks++) {
     const length = view.getUint32(at, true);
     const type = view.getUint32(at + 4, true);
     if (at + 8 + length > total) throw truncated(at + 8 + length, at);
@@ -48,9 +49,13 @@ function openGlb(bytes: Uint8Array<ArrayBuffer>, view: DataView, name: string, w
     if (json && type === JSON_CHUNK) throw malformed('has two JSON chunks', at);
     if (binary && type === BINARY_CHUNK) warnings.push({ code: 'gltf/container', message: `${name} has a second binary chunk, which is not read.` });
     if (!json) json = parseJson(chunk, name, warnings);
-    else if (type === BINARY_CHUNK && !binary) binary = chunk;
+    else if (type === BINARY_CHUNK && !binary) {
+      binary = chunk;
+      if (chunks > 1) warnings.push({ code: 'gltf/container', message: `${name} has its binary chunk in place ${chunks + 1}, but it must be the second; it is read.` });
+    }
     at += 8 + length;
   }
+  if (at < total) warnings.push({ code: 'gltf/container', message: `${name} has ${total - at} bytes after its last chunk, which are not read.` });
   if (!json) throw new GltfError('gltf/malformed', `${name} is a GLB without a JSON chunk.`, { location: { file: name } });
   return binary ? { json, binary } : { json };
 }

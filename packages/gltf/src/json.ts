@@ -85,7 +85,8 @@ export interface GltfNode {
   readonly extensions?: {
     readonly KHR_lights_punctual?: { readonly light: number };
     readonly KHR_node_visibility?: { readonly visible?: boolean };
-    readonly EXT_mesh_gpu_instancing?: { readonly attributes?: { readonly [semantic: string]: number } };
+    /** `count` is put in when the document is checked: the entries of its attributes. */
+    readonly EXT_mesh_gpu_instancing?: { readonly attributes: { readonly [semantic: string]: number }; readonly count: number };
   };
 }
 

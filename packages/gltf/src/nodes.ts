@@ -225,12 +225,12 @@ function variantsOf({ extensions }: GltfPrimitive): Record<number, number> | und
 
 /** The places of a node's mesh: one, or those of EXT_mesh_gpu_instancing. */
 function instancesOf({ reader, scene, instances }: NodeContext, node: GltfNode, transform: Matrix, index: number): Matrix[] {
-  const attributes = node.extensions?.EXT_mesh_gpu_instancing?.attributes;
-  if (!attributes) return [transform];
+  const instancing = node.extensions?.EXT_mesh_gpu_instancing;
+  if (!instancing) return [transform];
+  const { attributes, count } = instancing;
   const { warnings } = scene;
   const path = `/nodes/${index}/extensions/EXT_mesh_gpu_instancing`;
   const warn = (number: number, what: string) => void warnings.push({ code: 'gltf/node', message: `${number} of ${count} instances at node "${node.name ?? ''}" have ${what}.`, path });
-  const count = Math.max(0, ...['TRANSLATION', 'ROTATION', 'SCALE'].map((semantic) => (attributes[semantic] === undefined ? 0 : reader.accessors.at(attributes[semantic]).count)));
   instances.check(count, path);
   const read = (semantic: string, size: number, initial: readonly number[]) => {
     const accessor = attributes[semantic];

@@ -28,6 +28,9 @@ export function morphed(mesh: Mesh, primitive: PrimitiveData, weights: readonly 
   return result;
 }
 
+/** Exporters invert matrices in single precision. */
+const isAffine = (m: Float32Array): boolean => [0, 0, 0, 1].every((x, k) => Math.abs((m[4 * k + 3] as number) - x) < 1e-3);
+
 /**
  * Matrices of a skeleton's joints: from where a vertex is bound to where it is in the world. Those that are not finite are
  * undefined, with a warning.
@@ -41,6 +44,10 @@ export function jointMatrices(name: string, joints: readonly number[], bind: Flo
     if (own && !own.every(Number.isFinite)) {
       warnings.push({ code: 'gltf/skin', message: `${name}: the bind matrix of joint ${j} is not finite; the joint does not count.` });
       return undefined;
+    }
+    if (own && !isAffine(own)) {
+      warnings.push({ code: 'gltf/skin', message: `${name}: the bind matrix of joint ${j} is not affine; its last row is taken as 0, 0, 0, 1.` });
+      return multiply(at, own.map((x, i) => (i % 4 < 3 ? x : i === 15 ? 1 : 0)));
     }
     return own ? multiply(at, own) : at;
   });

@@ -46,6 +46,14 @@ const REPAIRED: readonly (readonly [what: string, path: string, change: (json: T
   ['a spot light whose inner cone is the wider one', '/extensions/KHR_lights_punctual/lights/0/spot', (json) => (json['extensions'] = { KHR_lights_punctual: { lights: [{ type: 'spot', spot: { innerConeAngle: 1, outerConeAngle: 0.5 } }] } })],
   ['two channels that move the same', '/animations/0/channels/1', (json) => { json['accessors'].push({ bufferView: 0, componentType: 5126, type: 'SCALAR', count: 3 }); json['animations'] = [{ samplers: [{ input: 2, output: 0 }], channels: [{ sampler: 0, target: { node: 0, path: 'scale' } }, { sampler: 0, target: { node: 0, path: 'scale' } }] }]; }],
   ['a channel that moves a node with a matrix', '/animations/0/channels/0', (json) => { json['accessors'].push({ bufferView: 0, componentType: 5126, type: 'SCALAR', count: 3 }); json['nodes'][0].matrix = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]; json['animations'] = [{ samplers: [{ input: 2, output: 0 }], channels: [{ sampler: 0, target: { node: 0, path: 'scale' } }] }]; }],
+  ['instances placed by nothing', '/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes', (json) => { json['extensionsUsed'] = ['EXT_mesh_gpu_instancing']; json['nodes'][0].extensions = { EXT_mesh_gpu_instancing: { attributes: {} } }; }],
+  ['instances turned by three numbers', '/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes/ROTATION', (json) => { json['extensionsUsed'] = ['EXT_mesh_gpu_instancing']; json['nodes'][0].extensions = { EXT_mesh_gpu_instancing: { attributes: { ROTATION: 0 } } }; }],
+  ['morph targets of one number', '/meshes/0/primitives/0/targets/0/POSITION', (json) => { json['meshes'][0].primitives[0].targets = [{ POSITION: 1 }]; json['meshes'][0].weights = [1]; }],
+  ['morph targets that move colours', '/meshes/0/primitives/0/targets/0/COLOR_0', (json) => { Object.assign(json['meshes'][0].primitives[0], { attributes: { POSITION: 0, COLOR_0: 0 }, targets: [{ COLOR_0: 0 }] }); json['meshes'][0].weights = [1]; }],
+  ['morph targets without an entry', '/meshes/0/primitives/0/targets', (json) => (json['meshes'][0].primitives[0].targets = [])],
+  ['bind matrices of bytes', '/skins/0/inverseBindMatrices', (json) => { json['accessors'].push({ bufferView: 0, componentType: 5121, type: 'MAT4', count: 1 }); json['skins'] = [{ joints: [0], inverseBindMatrices: 2 }]; }],
+  ['translations of bytes', '/animations/0/channels/0', (json) => { json['accessors'].push({ bufferView: 0, componentType: 5126, type: 'SCALAR', count: 3 }, { bufferView: 0, componentType: 5121, type: 'VEC3', count: 3, normalized: true }); json['animations'] = [{ samplers: [{ input: 2, output: 3 }], channels: [{ sampler: 0, target: { node: 0, path: 'translation' } }] }]; }],
+  ['rotations of plain shorts', '/animations/0/channels/0', (json) => { json['accessors'].push({ bufferView: 0, componentType: 5126, type: 'SCALAR', count: 3 }, { bufferView: 0, componentType: 5122, type: 'VEC4', count: 3 }); json['animations'] = [{ samplers: [{ input: 2, output: 3 }], channels: [{ sampler: 0, target: { node: 0, path: 'rotation' } }] }]; }],
   ['a later minor version', '/asset/version', (json) => (json['asset'] = { version: '2.1', minVersion: '2.1' })],
 ];
 
@@ -99,6 +107,23 @@ test('bytes after the end of a GLB, and more of them in its binary chunk than it
   const long = new Uint8Array(48);
   long.set(binary);
   expect((await loadGltf(glb(json, long))).warnings.map(({ path, message }) => [path, message])).toEqual([['/buffers/0', expect.stringMatching(/has 48 bytes, but \/buffers\/0 only 44/)]]);
+});
+
+test('chunks of a GLB out of place', async () => {
+  const { json, binary } = triangle();
+  const good = glb(json, binary);
+  const words = (...numbers: number[]) => [...new Uint8Array(Uint32Array.from(numbers).buffer)];
+  const withBytes = (at: number, added: readonly number[]) => {
+    const bytes = Uint8Array.from([...good.subarray(0, at), ...added, ...good.subarray(at)]);
+    new DataView(bytes.buffer).setUint32(8, bytes.length, true);
+    return bytes;
+  };
+  const second = 20 + new DataView(good.buffer).getUint32(12, true);
+  const messages = async (bytes: Uint8Array<ArrayBuffer>) => (await loadGltf(bytes)).warnings.map(({ message }) => message);
+  expect(await messages(withBytes(good.length, words(0)))).toEqual([expect.stringMatching(/has 4 bytes after its last chunk/)]);
+  // A chunk of another kind, which may lie anywhere after the others.
+  expect(await messages(withBytes(good.length, words(4, 0x12345678, 0)))).toEqual([]);
+  expect(await messages(withBytes(second, words(4, 0x12345678, 0)))).toEqual([expect.stringMatching(/has its binary chunk in place 3/)]);
 });
 
 test('compressed data that are not declared are unpacked all the same', async () => {

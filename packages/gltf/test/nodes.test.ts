@@ -56,6 +56,14 @@ describe('instances', () => {
     near(place(loaded, 1, [1, 0, 0]), [1, 2, 7]);
   });
 
+  test('attributes of instances that place nothing count them all the same', async () => {
+    const { instances, warnings } = await loadGltf(spoiled((json) => {
+      json['extensionsUsed'] = ['EXT_mesh_gpu_instancing'];
+      json['nodes'][0].extensions = { EXT_mesh_gpu_instancing: { attributes: { _ID: 1 } } };
+    }));
+    expect([instances.length, warnings]).toEqual([3, []]);
+  });
+
   test('a skinned mesh stands where its joints are, wherever its own node is', async () => {
     const { document, scene, accessor } = start();
     const joints = [document.createNode('root').setTranslation([0, 0, 3]), document.createNode('tip').setTranslation([0, 2, 0]).setRotation([0, 0, HALF, HALF])];

@@ -88,3 +88,19 @@ test('a later set of another type is left out', async () => {
   const { warnings } = await load({ change: (json) => Object.assign(json['meshes'][0].primitives[0].attributes, { JOINTS_1: 1, WEIGHTS_1: 0 }) });
   expect(warnings).toEqual([expect.stringMatching(/WEIGHTS_1 is a "VEC3", but must be VEC4/), expect.stringMatching(/has JOINTS_1 without WEIGHTS_1/)]);
 });
+
+test('a bind matrix with another last row than 0, 0, 0, 1 is repaired', async () => {
+  // Moves by 1 along x; the fourth row would mix the joint's own place into the axes.
+  const matrix = [1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1];
+  const { warnings, positions } = await load({
+    change: (json) => {
+      const bytes = Buffer.from(new Float32Array([...matrix, ...matrix]).buffer);
+      json['buffers'].push({ byteLength: bytes.length, uri: `data:application/octet-stream;base64,${bytes.toString('base64')}` });
+      json['bufferViews'].push({ buffer: 1, byteLength: bytes.length });
+      json['accessors'].push({ bufferView: 3, componentType: 5126, type: 'MAT4', count: 2 });
+      json['skins'][0].inverseBindMatrices = 3;
+    },
+  });
+  expect(warnings).toEqual([expect.stringMatching(/skin 0: the bind matrix of joint 0 is not affine/), expect.stringMatching(/joint 1 is not affine/)]);
+  expect(positions).toEqual([11, 0, 0, 12, 0, 0, 11, 1, 0]);
+});

@@ -71,6 +71,8 @@ function isSoundChannel(context: CheckContext, channel: unknown, path: string, s
   const keys = (facts[sampler['input'] as number] as AccessorFacts).count * (sampler['interpolation'] === 'CUBICSPLINE' ? 3 : 1);
   const values = facts[sampler['output'] as number] as AccessorFacts;
   if (values.type !== type) return lost(`has values of ${values.type} for ${part as string}, but they must be ${type}`);
+  const exact = part === 'translation' || part === 'scale';
+  if (values.componentType !== 5126 && (exact || !values.normalized)) context.warn('gltf/animation', path, `has values of ${values.componentType}, but the ${part as string} must be floats${exact ? '' : ' or normalized'}; they are taken as they are`);
   const size = part === 'weights' ? targetCount(context, nodes[node] as Raw) : 1;
   if (size === 0) return lost('moves morph targets that are not there');
   if (values.count !== keys * size) return lost(`has ${values.count} values, but its times ask for ${keys * size}`);

@@ -95,18 +95,26 @@ function checkPrimitive(context: CheckContext, path: string, primitive: Raw, fac
   const kept = checkAttributes(context, `${path}/attributes`, attributes, facts);
   const vertices = facts[kept['POSITION'] as number]?.count;
   const targets = own(primitive, 'targets');
+  let sound: Raw[] | undefined;
   if (targets !== undefined) {
-    context.objects(targets, `${path}/targets`).forEach((target, t) => {
+    const list = context.objects(targets, `${path}/targets`);
+    context.notEmpty(list, `${path}/targets`);
+    sound = list.map((target, t) => {
+      const moved: Record<string, unknown> = {};
       for (const [semantic, accessor] of Object.entries(target)) {
         const at = `${path}/targets/${t}/${semantic}`;
         context.reference(accessor, at, facts, 'accessor');
-        const count = (facts[accessor] as AccessorFacts).count;
+        const { count, type } = facts[accessor] as AccessorFacts;
         if (kept[semantic] === undefined) context.warn('gltf/primitive', at, 'moves an attribute that is not there');
         if (vertices !== undefined && count !== vertices) context.fail(at, `moves ${count} vertices of ${vertices}`);
+        if (/^(TEXCOORD|COLOR)_\d+$/.test(semantic)) context.warn('gltf/primitive', at, 'is not read: morph targets move positions, normals and tangents');
+        else if (['POSITION', 'NORMAL', 'TANGENT'].includes(semantic) && type !== 'VEC3') context.warn('gltf/primitive', at, `is a ${quote(type)}, but must be VEC3; it is left out`);
+        else moved[semantic] = accessor;
       }
+      return moved;
     });
   }
-  return { ...primitive, attributes: kept };
+  return { ...primitive, attributes: kept, ...(sound ? { targets: sound } : {}) };
 }
 
 function checkAttributes(context: CheckContext, path: string, attributes: Raw, facts: readonly (AccessorFacts | undefined)[]): Raw {

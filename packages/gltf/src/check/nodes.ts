@@ -19,9 +19,8 @@ export function checkNodes(context: CheckContext, facts: readonly (AccessorFacts
       if (parents[child] !== -1) context.fail(`${path}/children/${at}`, `is node ${child}, which already is a child of node ${parents[child]}; a node has one parent`);
       parents[child] = index;
     });
-    checkInstancing(context, node, path, facts);
     checkMeshParts(context, node, path, meshes);
-    const repaired = repairTransform(context, node, path);
+    const repaired = repairInstancing(context, repairTransform(context, node, path), path, facts);
     const camera = own(node, 'camera');
     if (camera === undefined || (typeof camera === 'number' && cameras[camera])) return repaired;
     context.warn('gltf/camera', `${path}/camera`, `is ${quote(camera)}, which names no camera; it is left out`);
@@ -113,17 +112,32 @@ function repairTransform(context: CheckContext, node: Raw, path: string): Raw {
   return repaired;
 }
 
-function checkInstancing(context: CheckContext, node: Raw, path: string, facts: readonly (AccessorFacts | undefined)[]): void {
-  const instancing = context.extension(node, 'EXT_mesh_gpu_instancing', path);
-  const attributes = instancing && context.object(instancing, 'attributes', `${path}/extensions/EXT_mesh_gpu_instancing`);
+/** What places instances, with the type of its values. */
+const PLACES: ReadonlyMap<string, string> = new Map([['TRANSLATION', 'VEC3'], ['ROTATION', 'VEC4'], ['SCALE', 'VEC3']]);
+
+/** A node with sound attributes of EXT_mesh_gpu_instancing: each of its type, all with as many entries. */
+function repairInstancing(context: CheckContext, node: Raw, path: string, facts: readonly (AccessorFacts | undefined)[]): Raw {
+  const name = 'EXT_mesh_gpu_instancing';
+  const instancing = context.extension(node, name, path);
+  if (!instancing) return node;
+  const at = `${path}/extensions/${name}`;
+  const attributes = context.object(instancing, 'attributes', at) ?? {};
+  const kept: Record<string, unknown> = {};
   let count: number | undefined;
-  for (const [semantic, accessor] of Object.entries(attributes ?? {})) {
-    const at = `${path}/extensions/EXT_mesh_gpu_instancing/attributes/${semantic}`;
-    context.reference(accessor, at, facts, 'accessor');
-    const entries = facts[accessor]?.count;
-    if (count !== undefined && entries !== count) context.fail(at, `has ${entries} entries where others have ${count}`);
+  for (const [semantic, accessor] of Object.entries(attributes)) {
+    const place = `${at}/attributes/${semantic}`;
+    context.reference(accessor, place, facts, 'accessor');
+    const { type, count: entries } = facts[accessor] as AccessorFacts;
+    if (count !== undefined && entries !== count) context.fail(place, `has ${entries} entries where others have ${count}`);
     count = entries;
+    const expected = PLACES.get(semantic) ?? type;
+    if (type === expected) kept[semantic] = accessor;
+    else context.warn('gltf/node', place, `is a ${quote(type)}, but must be ${expected}; it is left out`);
   }
+  const { [name]: _, ...others } = own(node, 'extensions') as Raw;
+  if (count !== undefined) return { ...node, extensions: { ...others, [name]: { ...instancing, attributes: kept, count } } };
+  context.warn('gltf/node', `${at}/attributes`, 'is empty; the node is shown once');
+  return { ...node, extensions: others };
 }
 
 /** Checks skins: joints that exist, and a matrix for each where there are any. */
@@ -137,7 +151,8 @@ export function checkSkins(context: CheckContext, facts: readonly (AccessorFacts
     if (skeleton !== undefined && !(typeof skeleton === 'number' && nodes[skeleton])) context.warn('gltf/skin', `${path}/skeleton`, `is ${quote(skeleton)}, which names no node; it is not used`);
     const matrices = context.index(skin, 'inverseBindMatrices', path, facts, 'accessor');
     if (matrices === undefined) return;
-    const { type, count } = facts[matrices] as AccessorFacts;
+    const { type, count, componentType } = facts[matrices] as AccessorFacts;
+    if (componentType !== 5126) context.warn('gltf/skin', `${path}/inverseBindMatrices`, `has components of ${componentType}, but must have floats; they are taken as they are`);
     if (type !== 'MAT4' || count < joints.length) context.fail(`${path}/inverseBindMatrices`, `has ${count} entries of ${type}, but must have a MAT4 for each of ${joints.length} joints`);
   });
 }
