@@ -68,6 +68,43 @@ describe('a render whose GPU is lost', () => {
     for (let i = 1; i < at.length; i++) expect(at[i]! - at[i - 1]!).toBeGreaterThanOrEqual(1000);
   });
 
+  it('takes no checkpoint of a film that is larger than a quarter of the memory, and says so where one is wanted', async () => {
+    const cwd = folder();
+    const { io, tick } = ticking(cwd);
+    let saves = 0;
+    const fake: FakeOptions = {
+      onSave: () => saves++,
+      onSample(sample) {
+        io.time += 1e9;
+        tick();
+        if (sample === 50) throw new DeviceError('renderer/gpu-error', 'enough');
+      },
+    };
+    const { code, err } = await run(['render', 'm.glb', '--size', '65536x65536', '--samples', '100', '--checkpoint', 'm.ckpt'], cwd, fake, io);
+    expect([code, saves]).toEqual([1, 0]);
+    expect(err).toContain('warning: a film of 275 GB is too large to be copied on this machine: there will be no checkpoints.');
+  });
+
+  it('a checkpoint that cannot be taken does not keep the image, and is reported once', async () => {
+    const cwd = folder();
+    const { io, tick } = ticking(cwd);
+    const fake: FakeOptions = {
+      onSample: tick,
+      onSave() {
+        throw new DeviceError('renderer/out-of-memory', 'The GPU has not enough memory.');
+      },
+    };
+    const { code, err } = await run(['render', 'm.glb', ...SIZE, '--checkpoint', 'm.ckpt'], cwd, fake, io);
+    expect([code, images(cwd)], err).toEqual([0, ['m.png']]);
+    expect(err.match(/no checkpoint could be taken: The GPU has not enough memory\./g)?.length).toBe(1);
+    const other = folder();
+    const without = ticking(other);
+    expect((await run(['render', 'm.glb', ...SIZE], other, { ...fake, onSample: without.tick }, without.io)).err).not.toContain('checkpoint');
+    const stopped = fakeIo(cwd);
+    const interrupted = await run(['render', 'm.glb', ...SIZE, '--checkpoint', 'm.ckpt'], cwd, { ...fake, onSample: (sample) => sample === 9 && stopped.interrupt() }, stopped);
+    expect([interrupted.code, images(cwd), existsSync(join(cwd, 'm.ckpt'))], interrupted.err).toEqual([130, ['m.png'], false]);
+  });
+
   it('is lost while it is read: what has been rendered is not rendered again', async () => {
     const cwd = folder();
     const { io, tick } = ticking(cwd);

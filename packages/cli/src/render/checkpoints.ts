@@ -1,3 +1,5 @@
+import { totalmem } from 'node:os';
+import { GlanzError } from '@glanz/scene';
 import type { FilmCodec, FilmState, Tracer } from '../backend';
 import type { CliIo } from '../io';
 import type { ProgressReporter } from '../progress';
@@ -14,6 +16,8 @@ const WAIT_SHARE = 10;
 const SHORTEST_MS = 1000;
 /** Between two writes of the file. */
 const FILE_MS = 30_000;
+/** Share of the machine's memory that a copy may take. */
+const MEMORY_SHARE = 1 / 4;
 /** Bytes a pixel of a film with one light group. */
 const BYTES_PER_PIXEL = 64;
 
@@ -44,6 +48,8 @@ export class Checkpoints {
   #interval: number;
   #nextWrite: number;
   #warned = false;
+  /** Whether there is memory for a copy. */
+  readonly #fits: boolean;
 
   /**
    * @param resumed What rendering begins with.
@@ -53,7 +59,10 @@ export class Checkpoints {
     this.#written = read;
     this.#context = context;
     this.#latest = resumed;
-    this.#interval = Math.max(SHORTEST_MS, this.#copyMs(BYTES_PER_PIXEL * context.pixels) * SHARE);
+    const bytes = BYTES_PER_PIXEL * context.pixels;
+    this.#interval = Math.max(SHORTEST_MS, this.#copyMs(bytes) * SHARE);
+    this.#fits = bytes <= totalmem() * MEMORY_SHARE;
+    if (!this.#fits && context.file) this.#warn(`a film of ${(bytes / 1e9).toFixed(0)} GB is too large to be copied on this machine: there will be no checkpoints.`);
     const now = context.io.now();
     this.#next = now + this.#interval;
     this.#nextWrite = now + FILE_MS;
@@ -67,7 +76,7 @@ export class Checkpoints {
   /** Takes a checkpoint if it is time for one. Does not wait for it. */
   tick(tracer: Pick<Tracer, 'saveFilm'>): void {
     const { io } = this.#context;
-    if (this.#saving || io.now() < this.#next) return;
+    if (!this.#fits || this.#saving || io.now() < this.#next) return;
     const start = io.now();
     this.#saving = tracer
       .saveFilm()
@@ -76,8 +85,7 @@ export class Checkpoints {
         this.#interval = Math.max(SHORTEST_MS, this.#copyMs(bytesOf(state)) * SHARE, (io.now() - start) * WAIT_SHARE);
         if (this.#context.file && io.now() >= this.#nextWrite) this.#write();
       })
-      // What the device has to say of it, rendering finds out too.
-      .catch(() => undefined)
+      .catch((error: unknown) => this.#failed(error))
       .finally(() => {
         this.#next = io.now() + this.#interval;
         this.#saving = undefined;
@@ -92,7 +100,12 @@ export class Checkpoints {
   /** Takes a checkpoint of a film at rest. */
   async save(tracer: Pick<Tracer, 'saveFilm'>): Promise<void> {
     await this.#saving;
-    this.#latest = await tracer.saveFilm();
+    if (!this.#fits) return;
+    try {
+      this.#latest = await tracer.saveFilm();
+    } catch (error) {
+      this.#failed(error);
+    }
   }
 
   /** Waits for what is under way. */
@@ -115,23 +128,31 @@ export class Checkpoints {
   }
 
   #write(): void {
-    const { io, file, codec, progress } = this.#context;
+    const { io, file, codec } = this.#context;
     const state = this.#latest as FilmState;
     if (!file || this.#writing || this.#written === state) return;
     const start = io.now();
     this.#writing = file
       .write(state, codec)
       .then(() => void (this.#written = state))
-      .catch((error: unknown) => {
-        // The image is worth more than its checkpoint.
-        if (!this.#warned) progress.warning(`${(error as Error).message} Rendering goes on without.`);
-        this.#warned = true;
-      })
+      // The image is worth more than its checkpoint.
+      .catch((error: unknown) => this.#warn(`${(error as Error).message} Rendering goes on without.`))
       .finally(() => {
         // Packing and hashing take the thread about as long as copying does; the disk works beside it.
         this.#nextWrite = io.now() + Math.max(FILE_MS, 2 * SHARE * this.#copyMs(bytesOf(state)), (io.now() - start) * WAIT_SHARE);
         this.#writing = undefined;
       });
+  }
+
+  #failed(error: unknown): void {
+    // A loss is found by rendering too.
+    if (error instanceof GlanzError && error.code === 'renderer/device-lost') return;
+    if (this.#context.file) this.#warn(`no checkpoint could be taken: ${(error as Error).message}`);
+  }
+
+  #warn(text: string): void {
+    if (!this.#warned) this.#context.progress.warning(text);
+    this.#warned = true;
   }
 
   #copyMs(bytes: number): number {

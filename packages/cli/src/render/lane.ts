@@ -60,6 +60,8 @@ export interface LaneContext {
 }
 
 const MAX_WARNINGS = 5;
+/** Milliseconds between two looks at whether a checkpoint is due. */
+const TICK_MS = 1000;
 const LABELS = { bvh: 'build hierarchy', upload: 'upload', compile: 'compile kernels' } as const;
 
 type Timed = <T>(key: keyof RenderTimings, run: () => Promise<T>) => Promise<T>;
@@ -118,7 +120,7 @@ export class Lane {
     const making = await this.#begin(job);
     const { checkpoints } = making;
     this.#gpu.progressed();
-    let reached = checkpoints.latest?.samples ?? 0;
+    let reached = checkpoints.latest;
     for (;;) {
       try {
         return await this.#attempt(making);
@@ -132,14 +134,15 @@ export class Lane {
           this.#gpu.forgive();
           throw await this.#withCheckpoint(error, making);
         }
-        if ((film?.samples ?? 0) > reached) this.#gpu.progressed();
-        reached = film?.samples ?? 0;
+        // Between two checkpoints there are batches, if not whole samples.
+        if (film !== reached) this.#gpu.progressed();
+        reached = film;
         try {
           await this.#gpu.replace(loss);
         } catch (cause) {
           throw await this.#withCheckpoint(cause, making);
         }
-        this.#context.progress.warning(`${shotLabel(shot)}: the GPU was lost; going on from ${reached === 0 ? 'the first sample' : `sample ${reached}`} on a new device.`);
+        this.#context.progress.warning(`${shotLabel(shot)}: the GPU was lost; going on from ${film && film.samples > 0 ? `sample ${film.samples}` : 'the first sample'} on a new device.`);
       }
     }
   }
@@ -243,12 +246,18 @@ export class Lane {
     const { progress, signal } = this.#context;
     const { shot: { options }, checkpoints } = making;
     checkpoints.restart();
-    // Nobody is looking at a canvas here: larger submissions than in a page, still far from any watchdog.
-    for await (const state of tracer.render({ samples: options.samples, ...(options.noise === undefined ? {} : { noise: options.noise }), signal, maxSubmitMs: 200 })) {
-      making.noise = state.noise ?? making.noise;
-      progress.samples(state);
-      this.#gpu.check();
-      checkpoints.tick(tracer);
+    // A sample of a large image may take longer than the interval.
+    const timer = setInterval(() => checkpoints.tick(tracer), TICK_MS);
+    try {
+      // Nobody is looking at a canvas here: larger submissions than in a page, still far from any watchdog.
+      for await (const state of tracer.render({ samples: options.samples, ...(options.noise === undefined ? {} : { noise: options.noise }), signal, maxSubmitMs: 200 })) {
+        making.noise = state.noise ?? making.noise;
+        progress.samples(state);
+        this.#gpu.check();
+        checkpoints.tick(tracer);
+      }
+    } finally {
+      clearInterval(timer);
     }
     await checkpoints.settled();
   }
