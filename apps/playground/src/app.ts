@@ -84,9 +84,10 @@ export class App {
       {
         onStatus: (status) => app.#told(status),
         onError: (error, retry) => app.#fail(error, retry),
-        onRecovered: () => {
+        onRecovered: (samples) => {
           app.#messages.clearErrors();
-          app.#messages.show({ kind: 'note', text: 'The GPU was lost and is back; the picture starts anew.', code: 'playground/recovered' });
+          const now = samples > 0 ? `keeps its ${samples} samples` : 'starts again';
+          app.#messages.show({ kind: 'note', text: `The GPU was lost and is back; the picture ${now}.`, code: 'playground/recovered' });
         },
         onShown: (ms) => (app.#canvas.dataset['shownAfter'] = ms.toFixed(1)),
       },

@@ -24,7 +24,15 @@ export interface EngineHost {
   /** The device was lost; another one is asked for. */
   readonly lost: (reason: string) => void;
   /** There is another device, and the scene is back, so many milliseconds after the loss. */
-  readonly restored: (milliseconds: number) => void;
+  readonly restored: (milliseconds: number, samples: RestoredSamples) => void;
+}
+
+/** What is left of an image after its device was lost. */
+export interface RestoredSamples {
+  /** Samples per pixel that the image has again. */
+  readonly samples: number;
+  /** Samples per pixel that it had and that have to be taken again. */
+  readonly lostSamples: number;
 }
 
 /** How an `Engine` works. Fields that are not read-only may change at any time; what needs an edit or a restart with it says so. */
@@ -47,6 +55,8 @@ export interface EngineSettings extends ToneMapOptions {
   readonly tracer: Partial<PathTracerOptions>;
   /** Default: `requestDevice()` of the renderer. */
   readonly requestDevice: (() => Promise<GPUDevice>) | undefined;
+  /** Whether copies of the film are kept, so that its samples outlive a lost device. Default true. May change at any time. */
+  keepSamples?: boolean | undefined;
   /** Whether the first device warms up until there is a scene. Default: unless the CPU imitates it. */
   readonly warmUp?: boolean | undefined;
 }

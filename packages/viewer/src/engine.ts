@@ -7,6 +7,7 @@ import type { EngineHost, EngineSettings, Take } from './engine-host';
 import { isAbort } from './errors';
 import type { ViewerState } from './events';
 import { FilmFit } from './film-fit';
+import { FilmKeeper } from './film-keeper';
 import { previewShare } from './handover';
 import { RememberingHierarchies } from './hierarchies';
 import { makeTracer } from './make-tracer';
@@ -51,6 +52,7 @@ export class Engine {
   readonly #connection: Connection;
   readonly #visibility: Visibility;
   readonly #films = new FilmFit();
+  readonly #keeper = new FilmKeeper();
   readonly #preparation = new Preparation(() => this.#wake());
   readonly #preview: PreviewController;
   #hierarchies: RememberingHierarchies | undefined;
@@ -66,6 +68,11 @@ export class Engine {
   #paused = false;
   /** Whether the film holds a sample since it was last cleared. */
   #fresh = false;
+  /** Samples of the image when its device was lost, and how many of them came back. */
+  #lostSamples = 0;
+  #keptSamples = 0;
+  /** Whether a film that the GPU has no memory for was reported. */
+  #smaller = false;
   #done = false;
   #dirtyCamera = true;
   #settle = 0;
@@ -87,14 +94,22 @@ export class Engine {
     this.#visibility = new Visibility(canvas, () => this.#stir());
     const { exposure = 0, toneMap = 'neutral' } = settings;
     this.#connection = new Connection(canvas, { exposure, toneMap }, {
-      lost: (reason) => this.#host.lost(reason),
+      lost: (reason) => {
+        if (this.current) this.#lostSamples = this.#tracer?.samples ?? 0;
+        this.#host.lost(reason);
+      },
       recovering: () => {
         this.#fresh = false;
         this.#tell('recovering');
         this.#stir();
       },
       back: () => this.#rebuild(),
-      restored: (milliseconds) => this.#host.restored(milliseconds),
+      restored: (milliseconds) => {
+        const samples = this.#keptSamples;
+        const lostSamples = Math.max(0, this.#lostSamples - samples);
+        this.#lostSamples = this.#keptSamples = 0;
+        this.#host.restored(milliseconds, { samples, lostSamples });
+      },
       failed: (error) => this.#fail(error),
       error: (error) => this.#host.error(error),
     }, settings.requestDevice);
@@ -135,7 +150,12 @@ export class Engine {
 
   /** Whether the film shows the whole picture as it is now. */
   get current(): boolean {
-    return this.#fresh && !this.#moving() && !!this.#tracer && sameSize([this.#tracer.width, this.#tracer.height], this.#film);
+    return this.#fresh && !this.#moving() && !!this.#tracer && sameSize([this.#tracer.width, this.#tracer.height], this.#full);
+  }
+
+  /** Pixels of the image in full, as far as the GPU has memory for them. */
+  get #full(): Size {
+    return this.#films.sizeFor(this.#film);
   }
 
   /** Edits that wait for the next frame. */
@@ -179,6 +199,7 @@ export class Engine {
   /** Changes the tracer between two frames; see `Viewer.edit`. */
   edit(key: unknown, apply: (tracer: PathTracer, merged: object) => void | Promise<void>, value: object = {}): Promise<void> {
     const applied = this.#edits.add(key, (merged) => (this.#tracer ? apply(this.#tracer, merged) : undefined), value);
+    this.#tryAgain();
     this.touch();
     return applied;
   }
@@ -193,8 +214,10 @@ export class Engine {
   /** Sizes of the picture and of the canvas, pixels. */
   resize(film: Size, canvas: Size): void {
     if (sameSize(film, this.#film) && sameSize(canvas, this.#canvasSize)) return;
+    if (!sameSize(film, this.#film)) this.#films.forget();
     this.#film = film;
     this.#canvasSize = canvas;
+    this.#tryAgain();
     this.touch();
   }
 
@@ -217,6 +240,7 @@ export class Engine {
   /** Starts the present work anew, with settings that have changed. */
   restart(): void {
     this.#done = false;
+    this.#tryAgain();
     this.#stir();
   }
 
@@ -261,18 +285,37 @@ export class Engine {
     return this.#hierarchies;
   }
 
-  async #prepare(make: () => Take, source: Source, { signal, onProgress, onTaken }: ShowOptions = {}): Promise<PathTracer> {
+  async #prepare(make: () => Take, source: Source, { signal, onProgress, onTaken }: ShowOptions = {}, recovers = false): Promise<PathTracer> {
+    if (!recovers) this.#films.forget();
     const options = (wanted: AbortSignal) => {
-      const [width, height] = this.#film;
+      const [width, height] = this.#full;
       const { maxDepth, background, tracer: more } = this.settings;
       return { hierarchies: this.#builder, ...more, width, height, maxDepth, background, signal: wanted, onProgress: (progress: PrepareProgress) => void (wanted.aborted || onProgress?.(progress)) };
     };
-    const prepared = this.#preparation.run((wanted) => makeTracer(this.#connection, make, () => options(wanted)), ({ tracer, device }) => {
+    let restored = false;
+    const restoring = (): Take => {
+      const take = make();
+      const ready = async (tracer: PathTracer) => {
+        await take.ready?.(tracer);
+        this.#films.adopt(tracer, this.settings.maxDepth);
+        restored = recovers && (await this.#restore(tracer));
+      };
+      return { ...take, ready };
+    };
+    const prepared = this.#preparation.run((wanted) => makeTracer(this.#connection, restoring, () => options(wanted)), ({ tracer, device }) => {
       this.#tracer?.destroy();
       this.#tracer = tracer;
       this.#tracerDevice = device;
       this.#source = source;
       this.#failed = false;
+      if (restored) {
+        this.#keptSamples = tracer.samples;
+        this.#fresh = true;
+        this.#done = false;
+        this.redraw();
+        return;
+      }
+      if (!recovers) this.#lostSamples = 0;
       this.#restarted();
       onTaken?.();
       this.touch();
@@ -285,7 +328,20 @@ export class Engine {
   async #rebuild(): Promise<void> {
     const [former, source] = [this.#tracer, this.#source];
     // A scene that is being prepared takes the new device by itself.
-    if (former && source && !this.#preparation.running) await this.#prepare(() => source(former), source);
+    if (former && source && !this.#preparation.running) await this.#prepare(() => source(former), source, {}, true);
+  }
+
+  /** Puts the samples that were kept into the film of a new tracer. @returns Whether they are in it. */
+  async #restore(tracer: PathTracer): Promise<boolean> {
+    const { kept } = this.#keeper;
+    // A view or a scene that has changed since is another image.
+    if (!kept || this.#moving()) return false;
+    try {
+      await tracer.restoreFilm(kept);
+    } catch {
+      return false;
+    }
+    return !this.#moving() && kept === this.#keeper.kept;
   }
 
   /** What was to replace the scene did not come: the former one stays, on the device that there is now. */
@@ -296,6 +352,11 @@ export class Engine {
     else if (this.#tracerDevice !== device) this.#rebuild().catch((error: unknown) => isAbort(error) || this.#fail(error));
     else this.#failed = failed;
     this.#stir();
+  }
+
+  /** A failure may have passed with what has changed. One for want of a device has not. */
+  #tryAgain(): void {
+    if (this.#failed && this.#connection.device && this.#connection.device === this.#tracerDevice) this.#failed = false;
   }
 
   #fail(error: unknown): void {
@@ -367,12 +428,14 @@ export class Engine {
     const now = (this.#lastPreview = performance.now());
     const stepped = this.#host.step(Math.max(0, now - this.#lastStep) / 1000);
     this.#lastStep = now;
-    const plan = this.#preview.plan(this.#film[0] * this.#film[1]);
-    const size = this.#film.map((pixels) => Math.max(1, Math.round(pixels / plan.divisor))) as unknown as Size;
+    const full = this.#full;
+    const plan = this.#preview.plan(full[0] * full[1]);
+    const size = full.map((pixels) => Math.max(1, Math.round(pixels / plan.divisor))) as unknown as Size;
     const changed = stepped || this.#dirtyCamera || this.#edits.size > 0;
     if (stepped || this.#dirtyCamera) {
       // What stands still keeps its size: samples gather.
-      this.#films.fit(tracer, size, plan.divisor > 1 ? Math.min(this.settings.previewDepth, this.settings.maxDepth) : this.settings.maxDepth);
+      await this.#fit(tracer, size, plan.divisor > 1 ? Math.min(this.settings.previewDepth, this.settings.maxDepth) : this.settings.maxDepth);
+      if (tracer !== this.#tracer || this.#destroyed) return;
       this.#dirtyCamera = false;
       tracer.setCamera(this.#host.camera(this.#film[0] / this.#film[1])).catch((error: unknown) => this.#current(tracer) && this.#host.error(error));
       this.#settle = now + this.settings.settleMs;
@@ -381,7 +444,7 @@ export class Engine {
     if (changed) this.#restarted();
     const before = tracer.samples;
     // In its full size it is the picture already, and that gets as many samples as were asked for.
-    const most = sameSize([tracer.width, tracer.height], this.#film) ? this.#goal : Infinity;
+    const most = sameSize([tracer.width, tracer.height], this.#full) ? this.#goal : Infinity;
     if (before >= Math.min(PREVIEW_SAMPLES, most) && this.#fresh) return;
     const started = performance.now();
     let samples = before;
@@ -398,13 +461,17 @@ export class Engine {
   async #refine(tracer: PathTracer): Promise<void> {
     const { samples, noise, maxSubmitMs, maxDepth } = this.settings;
     this.#tell('rendering');
-    if (this.#fresh && !sameSize([tracer.width, tracer.height], this.#film)) void this.#connection.display?.keep({ buffer: tracer.beautyBuffer, size: [tracer.width, tracer.height] }, tracer.samples, this.#film);
-    if (this.#films.fit(tracer, this.#film, maxDepth)) this.#fresh = false;
+    const full = this.#full;
+    if (this.#fresh && !sameSize([tracer.width, tracer.height], full)) void this.#connection.display?.keep({ buffer: tracer.beautyBuffer, size: [tracer.width, tracer.height] }, tracer.samples, full);
+    if (await this.#fit(tracer, full, maxDepth)) this.#fresh = false;
+    // Another size may be wanted by now, or is all that there is memory for.
+    if (tracer !== this.#tracer || this.#destroyed || this.#moving() || !sameSize([tracer.width, tracer.height], this.#full)) return;
     const { signal } = this.#interrupt;
     for await (const progress of tracer.render({ samples: this.#goal, signal, maxSubmitMs, ...(noise === undefined || this.#paused ? {} : { noise }) })) {
       if (tracer !== this.#tracer) return;
       this.#fresh = true;
       this.#host.sample({ ...progress, targetSamples: samples });
+      if (this.settings.keepSamples !== false) this.#keeper.offer(tracer, false);
       this.redraw();
       if (this.#moving()) return;
     }
@@ -413,9 +480,25 @@ export class Engine {
     if (!this.#fresh && tracer.samples === 0) return;
     this.#fresh = true;
     this.#done = true;
+    if (this.settings.keepSamples !== false) this.#keeper.offer(tracer, true);
     this.#connection.display?.forget();
     this.redraw();
     this.#host.converged(tracer.samples, performance.now() - this.#changed);
+  }
+
+  /** Gives the film a size; where the GPU has no memory for it, the film keeps what it has. @returns Whether it was restarted. */
+  async #fit(tracer: PathTracer, size: Size, depth: number): Promise<boolean> {
+    try {
+      const restarted = await this.#films.fit(tracer, size, depth);
+      if (sameSize(size, this.#film)) this.#smaller = false;
+      return restarted;
+    } catch (error) {
+      if (!this.#current(tracer)) throw error;
+      // Once: smaller ones are tried until one fits.
+      if (!this.#smaller) this.#host.error(error);
+      this.#smaller = true;
+      return false;
+    }
   }
 
   /** Samples of the picture in full. */
@@ -433,6 +516,7 @@ export class Engine {
   #restarted(): void {
     this.#fresh = false;
     this.#done = false;
+    this.#keeper.clear();
     this.#changed = performance.now();
     this.#connection.display?.forget();
     this.#host.restarted?.();
@@ -453,7 +537,7 @@ export class Engine {
     const [tracer, { device, display }] = [this.#tracer, this.#connection];
     if (!tracer || !display || !this.#fresh || !device) return;
     const size: Size = [tracer.width, tracer.height];
-    const preview = !sameSize(size, this.#film);
+    const preview = !sameSize(size, this.#full);
     if (preview) display.forget();
     const share = display.kept > 0 ? previewShare(tracer.samples, display.kept, this.settings.samples) : 0;
     if (share === 0 && display.kept > 0) display.forget();

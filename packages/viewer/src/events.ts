@@ -28,8 +28,11 @@ export interface ViewerEvents {
   'camera-change': { readonly camera: Camera; readonly orbit: Orbit; readonly source: CameraChangeSource };
   /** The GPU went away; the viewer asks for it again by itself. */
   'device-lost': { readonly reason: string };
-  /** There is a GPU again, and the scene is back as it was edited. */
-  'device-restored': { readonly milliseconds: number };
+  /**
+   * There is a GPU again, and the scene is back as it was edited. `samples`: samples per pixel that were kept and are back;
+   * `lostSamples`: those that have to be taken again.
+   */
+  'device-restored': { readonly milliseconds: number; readonly samples: number; readonly lostSamples: number };
   /** The state has changed. */
   state: { readonly state: ViewerState };
   /** A picture has gone to the canvas. `preview`: a small one of a view that moves; `milliseconds`: what it took to make. */

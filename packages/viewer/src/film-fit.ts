@@ -1,49 +1,61 @@
 import type { PathTracer } from '@glanz/renderer';
 
-/** What a tracer has been asked for. */
-interface Asked {
-  depth: number;
-  /** Pixels that its film is about to get. */
-  size?: readonly [number, number];
-  /** Why it did not get them; thrown once. */
-  error?: unknown;
-}
+type Size = readonly [number, number];
 
-/** Sizes and depths of tracers' films. */
+/** Pixels of a film below which a smaller one is not worth trying. */
+const LEAST_PIXELS = 4096;
+
+const aspectOf = ([width, height]: Size) => width / height;
+
+/** Sizes and depths of tracers' films. Where the GPU has no memory for a size, films stay smaller until another one is wanted. */
 export class FilmFit {
-  readonly #asked = new WeakMap<PathTracer, Asked>();
+  /** Depths that tracers have been given. */
+  readonly #depths = new WeakMap<PathTracer, number>();
+  #mostPixels = Infinity;
+  /** The size of the film there is, where no other one can be had. */
+  #only: Size | undefined;
+
+  /** The size of a film for an image: the image's own, or the largest of its shape that the GPU may have memory for. */
+  sizeFor([width, height]: Size): Size {
+    if (this.#only) return this.#only;
+    const scale = Math.sqrt(this.#mostPixels / (width * height));
+    return scale >= 1 ? [width, height] : [Math.max(1, Math.floor(width * scale)), Math.max(1, Math.floor(height * scale))];
+  }
+
+  /** Tries whole sizes again: there is another scene, another device, or another size of the image. */
+  forget(): void {
+    this.#mostPixels = Infinity;
+    this.#only = undefined;
+  }
+
+  /** Takes over a tracer as it was made. */
+  adopt(tracer: PathTracer, depth: number): void {
+    this.#depths.set(tracer, depth);
+  }
 
   /**
-   * Gives a tracer a size in pixels and a depth of paths. The size comes when the GPU has memory for it.
+   * Gives a tracer a size in pixels and a depth of paths.
    *
-   * @returns Whether its film was restarted, or will be.
-   * @throws the error of an earlier size that the GPU refused.
+   * @returns Whether its film was restarted.
+   * @throws {DeviceError} where the GPU refuses the size. The film is what it was, and {@link sizeFor} is smaller then.
    */
-  fit(tracer: PathTracer, [width, height]: readonly [number, number], depth: number): boolean {
-    let asked = this.#asked.get(tracer);
-    if (!asked) this.#asked.set(tracer, (asked = { depth: NaN }));
-    const known = asked;
-    const { error } = known;
-    if (error !== undefined) {
-      delete known.error;
-      throw error;
-    }
-    const [nextWidth, nextHeight] = known.size ?? [tracer.width, tracer.height];
-    const resized = nextWidth !== width || nextHeight !== height;
-    const deeper = known.depth !== depth;
+  async fit(tracer: PathTracer, size: Size, depth: number): Promise<boolean> {
+    const before: Size = [tracer.width, tracer.height];
+    const resized = before[0] !== size[0] || before[1] !== size[1];
     if (resized) {
-      const size = [width, height] as const;
-      known.size = size;
-      tracer
-        .resize(width, height)
-        .catch((cause: unknown) => (known.error = cause))
-        .finally(() => {
-          if (known.size === size) delete known.size;
-        });
+      try {
+        await tracer.resize(...size);
+      } catch (error) {
+        this.#mostPixels = Math.floor((size[0] * size[1]) / 2);
+        const alike = Math.abs(aspectOf(size) / aspectOf(before) - 1) < 0.02;
+        if (this.#mostPixels <= (alike ? before[0] * before[1] : LEAST_PIXELS)) this.#only = before;
+        throw error;
+      }
     }
+    const deeper = this.#depths.get(tracer) !== depth;
     if (deeper) {
       tracer.setDepth(depth);
-      known.depth = depth;
+      this.#depths.set(tracer, depth);
     }
     return resized || deeper;
   }

@@ -59,6 +59,12 @@ export interface ViewerOptions {
   /** Asks for the device, also again after it was lost. Default: `requestDevice()` of the renderer. The viewer destroys it. */
   readonly requestDevice?: () => Promise<GPUDevice>;
   /**
+   * Whether copies of the image's samples are kept in CPU memory, so that the image goes on where it was when the GPU was lost:
+   * at doubling numbers of samples, at least three seconds apart, and when it is done; never while something moves. A copy
+   * takes 64 bytes a pixel, and 32 more for each further light group; films of more than 128 MiB are not copied. Default true.
+   */
+  readonly keepSamples?: boolean;
+  /**
    * Whether the device and the JavaScript engine do ahead, while the first model loads, what its first picture would wait for:
    * about a tenth of a second of the page's thread, in slices. Default: unless the CPU imitates the GPU.
    */

@@ -69,6 +69,7 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
         tracer: options.tracer ?? {},
         requestDevice: options.requestDevice,
         warmUp: options.warmUp,
+        keepSamples: options.keepSamples,
       },
       preview.budgetMs ?? 12,
       {
@@ -79,7 +80,7 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
         drawn: (preview, milliseconds, [width, height]) => this.emit('frame', { preview, milliseconds, width, height }),
         error: (error, retry) => this.fail(error, retry),
         lost: (reason) => this.emit('device-lost', { reason }),
-        restored: (milliseconds) => this.emit('device-restored', { milliseconds }),
+        restored: (milliseconds, samples) => this.emit('device-restored', { milliseconds, ...samples }),
       },
     );
     this.#resize = new ResizeObserver(() => this.#resized());

@@ -173,10 +173,16 @@ export class Viewer extends ViewerCamera {
   /** A scene as it was loaded, or as it was edited until its tracer was lost; its variant goes on top. */
   #take(former: PathTracer | undefined, first: { readonly scene: Scene; readonly shown: Scene; readonly camera: Camera; readonly variant: string | undefined }): Take {
     const variant = former ? this.#variant : first.variant;
+    const groups = former?.lightGroups ?? [];
     return {
       scene: former ? plainScene(former.scene, first.scene, variant) : first.shown,
       camera: former?.camera ?? first.camera,
-      ...(variant === undefined ? {} : { ready: (tracer) => tracer.setVariant(variant) }),
+      ready: async (tracer) => {
+        if (variant !== undefined) await tracer.setVariant(variant);
+        for (const { name, intensity, color } of groups) {
+          if (intensity !== 1 || color.some((value) => value !== 1)) await tracer.setLightGroup(name, { intensity, color });
+        }
+      },
     };
   }
 

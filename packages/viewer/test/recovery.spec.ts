@@ -1,6 +1,6 @@
 import { fileURLToPath } from 'node:url';
 import { injectFaults, servePage, watch, type Served } from '@glanz/browser';
-import { expect, test } from '@playwright/test';
+import { expect, test, type Page } from '@playwright/test';
 import { done, heard, model, open, shot } from './open';
 
 let served: Served;
@@ -109,4 +109,111 @@ test('an abort, a newer load and destroy() end a load at once, although the driv
     return { end, after: faults.live(), errors: faults.errors };
   });
   expect(left).toMatchObject({ end: 'AbortError', after: {}, errors: [] });
+});
+
+/** Waits until nothing more is copied from the GPU. */
+const copied = async (page: Page) => {
+  for (let [before, now] = [-1, 0]; before !== now; ) {
+    before = now;
+    await page.waitForTimeout(400);
+    now = await page.evaluate(() => window.gpuFaults.count['mapAsync'] ?? 0);
+  }
+};
+const film = (page: Page) => page.evaluate(async () => Array.from(await window.viewer.tracer!.read('beauty')).join());
+const lose = async (page: Page) => {
+  const before = (await heard(page, 'device-restored')).length;
+  await page.evaluate(() => {
+    window.heard = window.heard.filter(({ type }) => type !== 'sample');
+    window.loseGpu();
+  });
+  await expect.poll(async () => (await heard(page, 'device-restored')).length).toBe(before + 1);
+  return (await heard(page, 'device-restored')).at(-1)!;
+};
+
+test('samples outlive a lost GPU: a finished image is the same to the last bit and is not rendered again', async ({ page }) => {
+  await injectFaults(page);
+  await open(page, served.origin);
+  await page.evaluate(() => window.viewer.setMaterial('left', { base_color: [0.9, 0.9, 0.02] }));
+  await done(page);
+  await copied(page);
+  const before = await film(page);
+  for (const _ of [1, 2]) {
+    expect(await lose(page)).toMatchObject({ samples: 12, lostSamples: 0 });
+    await done(page);
+    expect(await film(page)).toBe(before);
+    expect(await heard(page, 'sample')).toEqual([]);
+  }
+  expect(await page.evaluate(() => window.viewer.sampleCount)).toBe(12);
+  // More of them go on from there: the same as without a loss.
+  await page.evaluate(() => void (window.viewer.samples = 20));
+  await expect.poll(async () => (await heard(page, 'sample')).at(-1)?.['samples']).toBe(20);
+  await done(page);
+  expect((await heard(page, 'sample')).every((event) => (event['samples'] as number) > 12)).toBe(true);
+  const resumed = await film(page);
+  await page.evaluate(() => window.viewer.tracer!.reset());
+  await page.evaluate(() => window.viewer.edit(() => undefined));
+  await done(page);
+  expect(await film(page)).toBe(resumed);
+});
+
+test('an image that is being rendered goes on where it was copied; without a copy the event says what was lost', async ({ page }) => {
+  await injectFaults(page);
+  await open(page, served.origin, { samples: 1_000_000 });
+  const samples = async () => ((await heard(page, 'sample')).at(-1)?.['samples'] as number | undefined) ?? 0;
+  // The first copy is made after three seconds.
+  await expect.poll(samples).toBeGreaterThan(1);
+  await page.waitForTimeout(4500);
+  const restored = await lose(page);
+  const kept = restored['samples'] as number;
+  expect(kept).toBeGreaterThan(0);
+  expect(restored['lostSamples']).toBeGreaterThanOrEqual(0);
+  await expect.poll(samples).toBeGreaterThan(kept);
+  expect((await heard(page, 'sample'))[0]!['samples']).toBeGreaterThan(kept);
+
+  // A view that has moved meanwhile is another image.
+  await page.evaluate(() => {
+    window.viewer.on('device-lost', () => window.viewer.setOrbit({ theta: 0.5 }, { immediate: true }), { once: true });
+  });
+  const moved = await lose(page);
+  expect(moved['samples']).toBe(0);
+  expect(moved['lostSamples']).toBeGreaterThanOrEqual(kept);
+  await expect.poll(samples).toBeGreaterThan(0);
+  expect(await page.evaluate(() => window.viewer.camera!.transform[12])).not.toBe(0);
+
+  await page.evaluate(() => window.viewer.destroy());
+  await open(page, served.origin, { keepSamples: false });
+  await copied(page);
+  expect(await lose(page)).toMatchObject({ samples: 0, lostSamples: 12 });
+  await done(page);
+  expect(await heard(page, 'error')).toEqual([]);
+});
+
+test('without memory for a larger film the image stays as large as it can, with one error, and the viewer goes on', async ({ page }) => {
+  await injectFaults(page);
+  await open(page, served.origin);
+  // Films of up to a third of the new size's.
+  await page.evaluate(() => {
+    window.gpuFaults.memory = window.gpuFaults.bytes() + 1_500_000;
+    Object.assign(document.querySelector('canvas')!.style, { width: '640px', height: '400px' });
+  });
+  await expect.poll(async () => (await heard(page, 'error')).length).toBe(1);
+  await done(page);
+  const errors = await heard(page, 'error');
+  expect(errors.map(({ code }) => code)).toEqual(['renderer/out-of-memory']);
+  const size = await page.evaluate(() => [window.viewer.tracer!.width, window.viewer.tracer!.height, window.viewer.sampleCount]);
+  expect(size[0]).toBeLessThan(320);
+  expect(size[2]).toBe(12);
+  expect(size[0]! / size[1]!).toBeCloseTo(1.6, 1);
+  const { cells } = await shot(page);
+  expect(cells[3]![0]).toBeGreaterThan(2 * cells[3]![1]);
+  // Edits and movements work, and with memory the next size is the whole one again.
+  await page.evaluate(() => window.viewer.setOrbit({ theta: 0.3 }, { immediate: true }));
+  await done(page);
+  await page.evaluate(() => {
+    window.gpuFaults.memory = undefined;
+    document.querySelector('canvas')!.style.width = '600px';
+  });
+  await expect.poll(() => page.evaluate(() => window.viewer.tracer!.width)).toBe(300);
+  await done(page);
+  expect(await heard(page, 'error')).toHaveLength(1);
 });

@@ -32,6 +32,8 @@ export interface GpuFaults {
   complain(message: string): void;
   /** Makes the page believe that its tab is hidden, or visible again. */
   hide(hidden: boolean): void;
+  /** Bytes of the buffers and textures that are alive. */
+  bytes(): number;
   /** GPU objects that were made and not destroyed on devices that are alive, by their kind; empty where nothing leaks. */
   live(): Record<string, number>;
 }
@@ -98,6 +100,7 @@ function wrapWebGpu(first: object): void {
       Object.defineProperty(document, 'visibilityState', { configurable: true, value: hidden ? 'hidden' : 'visible' });
       document.dispatchEvent(new Event('visibilitychange'));
     },
+    bytes: () => [...state.values()].flatMap(({ alive, objects }) => (alive ? [...objects.values()] : [])).reduce((sum, { bytes }) => sum + bytes, 0),
     live: () => {
       const live: Record<string, number> = {};
       for (const { alive, objects } of state.values()) {

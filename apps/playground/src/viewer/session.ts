@@ -22,8 +22,8 @@ export interface SessionStatus {
 export interface SessionEvents {
   readonly onStatus: (status: SessionStatus) => void;
   readonly onError: (error: unknown, retry?: () => void) => void;
-  /** The device was lost and there is a new one. */
-  readonly onRecovered: () => void;
+  /** The device was lost and there is a new one; the picture has so many samples per pixel again. */
+  readonly onRecovered: (samples: number) => void;
   /** An edit is on the screen: milliseconds since it was asked for. */
   readonly onShown?: (ms: number) => void;
 }
@@ -92,7 +92,7 @@ export class Session {
         },
         error: (error, retry) => this.#events.onError(error, retry),
         lost: () => this.#tell(),
-        restored: () => this.#events.onRecovered(),
+        restored: (_milliseconds, { samples }) => this.#events.onRecovered(samples),
       },
     );
     this.#layers = new LayerView({ tracer: () => this.#engine.tracer, fresh: () => this.#engine.fresh, report: (error) => this.#report(error), shown: (name) => (canvas.dataset['layer'] = name) }, layer, view.layer);

@@ -65,10 +65,12 @@ export function filmFingerprint(scene: Scene, camera: Camera, options: PathTrace
     for (const values of [positions, normals, ...(uvs ?? []), colors, indices]) hash.probe(values);
   }
   for (const { parameters, ...rest } of scene.materials) hash.text(JSON.stringify([parameters, rest]));
-  for (const { width, height, data, compressed } of scene.images) {
+  for (const image of scene.images) {
+    const { width, height, bitmap, compressed } = image;
     hash.word(width);
     hash.word(height);
-    hash.probe(data);
+    // Pixels that nobody has asked for yet would be unpacked, which takes time and memory.
+    if (!bitmap && !compressed) hash.probe(image.data);
     hash.probe(compressed?.levels[0]);
   }
   hash.text(JSON.stringify(scene.textures));
