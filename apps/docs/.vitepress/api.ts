@@ -2,7 +2,7 @@
 import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { dirname, join, relative } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { Application, ReflectionKind, type TypeDocOptions } from 'typedoc';
+import { Application, ReflectionKind, type DeclarationReflection, type TypeDocOptions } from 'typedoc';
 import type { PluginOptions } from 'typedoc-plugin-markdown';
 
 const docs = fileURLToPath(new URL('..', import.meta.url));
@@ -89,10 +89,29 @@ async function generate(entries: readonly Entry[]): Promise<ApiPage[]> {
     // Entries that only narrow a package's main one have nothing of their own to tell.
     if ((module.children ?? []).every((child) => child.kind === ReflectionKind.Reference)) project.removeReflection(module);
   }
+  for (const module of project.children ?? []) {
+    const source = entries.find(({ name }) => name === module.name)?.source;
+    if (source) sortByExports(module, readFileSync(source, 'utf8'));
+  }
   const kept = new Set((project.children ?? []).map(({ name }) => name));
   await app.generateOutputs(project);
   mendAnchors();
   return entries.filter(({ name }) => kept.has(name)).map(({ name }) => ({ text: `@glanz/${name}`, link: `/api/${name}` }));
+}
+
+/** A page begins with what can be called, in the order in which its entry exports it; then errors, then types. */
+function sortByExports(module: DeclarationReflection, source: string): void {
+  const text = source.replace(/\/\*[\s\S]*?\*\//g, '');
+  const values = new Map<string, number>();
+  for (const [, list, name] of text.matchAll(/^export \{([^}]*)\}|^export (?:async )?(?:function|class|const) (\w+)/gm)) {
+    for (const item of name === undefined ? (list ?? '').split(',') : [name]) {
+      if (!item.trim().startsWith('type ')) values.set(item.trim().split(/\s+/).at(-1) ?? '', values.size);
+    }
+  }
+  const place = ({ name }: { readonly name: string }) => (values.get(name) ?? 20_000) + (name.endsWith('Error') ? 10_000 : 0);
+  const first = ({ children }: { readonly children: readonly { readonly name: string }[] }) => Math.min(...children.map(place));
+  module.groups?.sort((a, b) => first(a) - first(b));
+  for (const group of module.groups ?? []) group.children.sort((a, b) => place(a) - place(b));
 }
 
 /** The plugin numbers some anchors that need no number (type aliases beside a class): such links lose it. */

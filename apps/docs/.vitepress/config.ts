@@ -1,10 +1,12 @@
 import { existsSync } from 'node:fs';
-import { dirname } from 'node:path';
+import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vitepress';
 import { publishedModules } from '../../../tools/pipeline/published-source.mjs';
 import { apiReference } from './api';
 import { emptyHeaders } from './empty-headers';
+import { packageFacts, packageLine } from './package-facts';
+import { buildPlayground } from './playground';
 import { readmeLinks } from './readme-links';
 
 const packages = ['viewer', 'element', 'react', 'three', 'renderer', 'gltf', 'formats', 'cad', 'scene', 'openpbr', 'bvh', 'tonemap', 'image', 'wgsl', 'cli'];
@@ -23,6 +25,9 @@ const results = [
   .map(([text, link]) => ({ text: text as string, link: link as string }))
   .filter(({ link }) => existsSync(new URL(`..${link.endsWith('/') ? `${link}index` : link}.md`, import.meta.url)));
 
+/** A page of its own, not one of VitePress's: links to it load it. `npm run docs` has it not; `npm start` does. */
+const PLAYGROUND = '/playground/index.html';
+
 export default defineConfig({
   title: 'Glanz',
   description: 'A physically based path tracer for the web: glTF in, OpenPBR materials, WebGPU, photoreal image out.',
@@ -37,10 +42,11 @@ export default defineConfig({
   markdown: {
     // As the API reference writes its links: underscores stay.
     anchor: { slugify: (text) => text.trim().toLowerCase().replace(/[^\p{L}\p{N}\s_-]+/gu, '').replace(/\s+/g, '-') },
-    config: (md) => void md.use(readmeLinks).use(emptyHeaders),
+    config: (md) => void md.use(readmeLinks).use(packageLine).use(emptyHeaders),
     // The usual ones have comments and keywords too faint for the ground of code blocks.
     theme: { light: 'github-light-high-contrast', dark: 'github-dark-high-contrast' },
   },
+  buildEnd: ({ outDir }) => buildPlayground(join(outDir, 'playground')),
   // The theme's home page has no main landmark; its other pages have.
   transformHtml: (html) => html.replace(/(<div class="VPContent is-home"[^>]*)>/, '$1 role="main">'),
   vite: {
@@ -53,6 +59,8 @@ export default defineConfig({
   },
   themeConfig: {
     logo: '/mark.svg',
+    // Packages have versions of their own, on their pages; most pages come here for the viewer.
+    siteTitle: `Glanz <small class="site-version" title="Version of @glanz/viewer">${packageFacts('viewer').version}</small>`,
     search: { provider: 'local', options: { detailedView: true } },
     outline: [2, 3],
     nav: [
@@ -70,6 +78,7 @@ export default defineConfig({
         items: [
           { text: 'Getting started', link: '/guide/getting-started' },
           { text: 'A live picture', link: '/live' },
+          { text: 'Playground', link: PLAYGROUND, target: '_self' },
           { text: 'Where it stands', link: '/guide/status' },
           { text: 'Conventions', link: '/guide/conventions' },
         ],

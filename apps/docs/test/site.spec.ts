@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs';
 import { gzipSync } from 'node:zlib';
 import { checkAccessibility, photograph } from '@glanz/browser';
 import { expect, test, type Page } from '@playwright/test';
-import { buildSite, DIST, serveSite, sitePages } from './site';
+import { buildSite, DIST, fileFor, serveSite, sitePages } from './site';
 import { readExport } from '../src/read-export';
 
 let origin = '';
@@ -65,6 +65,7 @@ test('all pages load without a complaint, and every internal link and anchor lea
   const lost = links
     .filter(({ to }) => to.origin === origin)
     .filter(({ to }) => {
+      if (to.pathname.startsWith('/playground/')) return fileFor(to.pathname) === undefined;
       const ids = anchors.get(to.pathname);
       return !ids || (to.hash !== '' && !ids.has(decodeURIComponent(to.hash.slice(1))));
     });
@@ -145,6 +146,46 @@ test('search finds a guide without the network', async ({ page }) => {
   }).toPass();
   await input.fill('depth of field');
   await expect(page.locator('.VPLocalSearchBox .result', { hasText: 'Cameras and framing' }).first()).toBeVisible();
+  expect(complaints).toEqual([]);
+});
+
+test('search finds "next.js", in the guide about React first', async ({ page }) => {
+  await page.goto(`${origin}/`);
+  const input = page.locator('.VPLocalSearchBox input');
+  await expect(async () => {
+    if (!(await input.isVisible())) await page.keyboard.press('Control+k');
+    await expect(input).toBeVisible({ timeout: 2000 });
+  }).toPass();
+  for (const words of ['next.js', 'Next.js App Router', 'nextjs']) {
+    await input.fill(words);
+    const first = page.locator('.VPLocalSearchBox .result').first();
+    await expect(first, words).toContainText('Next.js');
+    await expect(first).toHaveAttribute('href', /\/guide\/react/);
+  }
+});
+
+test('reference pages begin with what can be called, not with an error or a helper', async ({ page }) => {
+  for (const [path, name] of [['viewer', 'createViewer'], ['renderer', 'requestDevice'], ['element', 'defineGlanzViewer'], ['three', 'fromThree']] as const) {
+    await page.goto(`${origin}/api/${path}`);
+    await expect(page.locator('.vp-doc h3').first(), path).toContainText(name);
+  }
+});
+
+test('pages show a version, those of packages their own and how stable it is', async ({ page }) => {
+  const { version } = JSON.parse(readFileSync(new URL('../../../packages/viewer/package.json', import.meta.url), 'utf8')) as { version: string };
+  await page.goto(`${origin}/guide/viewer`);
+  await expect(page.locator('.VPNavBarTitle .site-version')).toHaveText(version);
+  await page.goto(`${origin}/packages/viewer`);
+  await expect(page.locator('.package-facts')).toHaveText(`Version ${version} · beta`);
+});
+
+test('the playground is one click away', async ({ page }) => {
+  const complaints = watchPage(page);
+  await page.addInitScript(() => Object.defineProperty(navigator, 'gpu', { value: undefined, configurable: true }));
+  await page.goto(`${origin}/`);
+  await page.getByRole('link', { name: 'Playground' }).first().click();
+  await expect(page).toHaveURL(`${origin}/playground/index.html`);
+  await expect(page.locator('canvas').first()).toBeAttached();
   expect(complaints).toEqual([]);
 });
 

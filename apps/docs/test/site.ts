@@ -29,20 +29,20 @@ export async function buildSite(): Promise<void> {
   await promisify(execFile)(process.execPath, [join(vitepress, 'bin/vitepress.js'), 'build', docs], { cwd: docs, maxBuffer: 1 << 24 });
 }
 
-/** Every page of the built site, as a path of its address. */
+/** Every page of the built site, as a path of its address, less the playground, which has tests of its own. */
 export function sitePages(folder = DIST): string[] {
   return readdirSync(folder, { withFileTypes: true })
     .flatMap((entry) => {
       const path = join(folder, entry.name);
-      if (entry.isDirectory()) return sitePages(path);
+      if (entry.isDirectory()) return entry.name === 'playground' ? [] : sitePages(path);
       if (!entry.name.endsWith('.html') || entry.name === '404.html') return [];
       return [`/${relative(DIST, path).replace(/\.html$/, '').replace(/(^|\/)index$/, '$1')}`];
     })
     .sort();
 }
 
-/** The file that a static host with clean addresses answers a path with. */
-function fileFor(path: string): string | undefined {
+/** The file that a static host with clean addresses answers a path with; `undefined` if there is none. */
+export function fileFor(path: string): string | undefined {
   const base = join(DIST, normalize(decodeURIComponent(path)));
   if (!base.startsWith(DIST)) return undefined;
   return [base, `${base}.html`, join(base, 'index.html')].find((file) => existsSync(file) && statSync(file).isFile());
