@@ -1,7 +1,7 @@
 // node tools/check-published.mjs — what the registry would get: publint and attw on the tarballs, and the declarations
 // as consumers see them, with every module resolution that can read an export map, and the directives that frameworks read.
 import { copyFileSync, existsSync, readFileSync, realpathSync, writeFileSync } from 'node:fs';
-import { join, relative } from 'node:path';
+import { dirname, join, relative } from 'node:path';
 import { bin, capture, root } from './pipeline/process.mjs';
 import { installPacked } from './pipeline/packed.mjs';
 import { Verdicts, runAlone } from './pipeline/report.mjs';
@@ -87,6 +87,14 @@ function checkFiles(p, { folder }, verdicts) {
   for (const peer of Object.keys(p.manifest.peerDependencies ?? {})) {
     if (p.manifest.peerDependenciesMeta?.[peer]?.optional) continue;
     verdicts.expect(texts.some((text) => text.includes(`"${peer}"`) || text.includes(`'${peer}'`)), `${p.name}: the peer ${peer} is required, and no entry imports it.`);
+  }
+  for (const field of ['unpkg', 'jsdelivr']) {
+    const file = p.manifest[field];
+    if (file === undefined) continue;
+    // It stands alone: what it imports lies beside it.
+    const text = existsSync(join(dir, file)) ? readFileSync(join(dir, file), 'utf8') : undefined;
+    const lost = [...(text ?? '').matchAll(/(?:from|import\()\s*"([^"]+)"/g)].map(([, path]) => path).filter((path) => !existsSync(join(dir, dirname(file), path)) && !path.startsWith('node:'));
+    verdicts.expect(text !== undefined && lost.length === 0, `${p.name}: "${field}" names ${file}, which ${text === undefined ? 'the tarball lacks' : `imports ${lost.join(', ')}`}.`);
   }
   const { customElements } = p.manifest;
   if (customElements === undefined) return;

@@ -1,6 +1,9 @@
 // node tools/check-sizes.mjs — what a page pays for everything that a package exports, minified by esbuild and gzipped,
 // by itself and with all its dependencies, against a budget. Budgets hold for what is there when the entry is imported; what
 // it loads later by import() stands beside it. READMEs and the documentation state the same sizes; --write puts them there.
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { gzipSync } from 'node:zlib';
 import { PEERS, bundle } from './pipeline/bundle.mjs';
 import { installPacked } from './pipeline/packed.mjs';
 import { Verdicts, columns, runAlone } from './pipeline/report.mjs';
@@ -22,6 +25,9 @@ const BUDGETS = [
   { specifier: '@glanz/element', limit: 10 },
   { specifier: '@glanz/react', limit: 1.5 },
 ];
+
+/** Files that pages take as they are: kB, gzipped. */
+const FILES = [{ specifier: '@glanz/element', file: 'dist/glanz-viewer.min.js', limit: 215 }];
 
 const kB = (bytes) => (bytes / 1000).toFixed(2);
 
@@ -50,6 +56,11 @@ export async function checkSizes({ write = process.argv.includes('--write') } = 
         verdicts.expect(carried < 4000, `${specifier} carries the data of ${without} (${carried} bytes of ${heaviest}).`);
       });
     }
+  }
+  for (const { specifier, file, limit } of FILES) {
+    const size = gzipSync(readFileSync(join(consumer.folder, 'node_modules', specifier, file)), { level: 9 }).byteLength;
+    rows.push([`${specifier}/${file}`, kB(size), kB(size), '', `${limit} own`]);
+    verdicts.expect(size <= limit * 1000, `${specifier}: ${file} takes ${kB(size)} kB gzipped, over its budget of ${limit} kB.`);
   }
   for (const { specifier } of BUDGETS) verdicts.expect(rows.some(([name]) => name === specifier), `${specifier} has a budget but was not measured.`);
   const texts = compareSizeTexts(measured, consumer.packages.map(({ short }) => short).filter((short) => short !== 'cli'), { base: root, write });

@@ -1,6 +1,8 @@
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { glanzPackage } from '../../tsup.base';
 import { customElements } from './scripts/custom-elements.mjs';
+import { writeSample } from './scripts/sample.mjs';
+import { buildSingleFile } from './scripts/single-file.mjs';
 
 export default {
   ...glanzPackage({
@@ -10,5 +12,7 @@ export default {
   onSuccess: async () => {
     mkdirSync('dist', { recursive: true });
     writeFileSync('dist/custom-elements.json', `${JSON.stringify(customElements(process.cwd()), undefined, 2)}\n`);
+    await buildSingleFile(process.cwd(), 'dist');
+    await writeSample(process.cwd(), 'dist/push-button.glb');
   },
 };

@@ -22,6 +22,8 @@ function fingerprint(p, dependencies) {
   // The command brings the playground along.
   const playground = join(root, 'apps/playground');
   if (p.short === 'cli' && existsSync(playground)) inputs.push(...filesUnder(join(playground, 'src')), join(playground, 'index.html'), join(playground, 'vite.config.ts'));
+  // The element brings a sample model along, made by the tools.
+  if (p.short === 'element') inputs.push(...filesUnder(join(root, 'tools/models/src')));
   for (const file of inputs) {
     if (existsSync(file)) hash.update(relative(root, file)).update('\0').update(readFileSync(file)).update('\0');
   }

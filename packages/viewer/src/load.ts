@@ -1,5 +1,5 @@
 import type { GltfDecoders, GltfProgress } from '@glanz/gltf';
-import { inSlices, type CompressedFormat, type Environment, type Scene } from '@glanz/scene';
+import { GlanzError, inSlices, type CompressedFormat, type Environment, type Scene } from '@glanz/scene';
 import { isAbort, ViewerError } from './errors';
 
 /**
@@ -139,9 +139,10 @@ async function readGltf(source: GltfSource, options: LoadModelOptions): Promise<
     const { loadGltfInWorker } = await import('@glanz/gltf/workers');
     return await loadGltfInWorker(source, { ...told, createWorker, ...(createWorker && compressedFormats ? { compressedFormats: await compressedFormats() } : {}) });
   } catch (error) {
-    const { code } = error as { code?: unknown };
-    // No worker can be had, or it lacks a decoder: then here.
-    if (isAbort(error) || (code !== 'gltf/worker' && code !== 'gltf/missing-decoder')) throw error;
+    // Without a worker, or where it lacks a decoder, the file is read here, in slices. What browsers throw for a worker of another
+    // origin or a policy differs, and none of it is a GlanzError.
+    const refused = error instanceof GlanzError && error.code !== 'gltf/worker' && error.code !== 'gltf/missing-decoder';
+    if (isAbort(error) || refused) throw error;
   }
   signal?.throwIfAborted();
   const { loadGltf } = await import('@glanz/gltf');

@@ -2,7 +2,7 @@ import { createPushButton } from '@glanz/models';
 import { sceneToGlb } from '@glanz/models/gltf';
 import { photograph } from '@glanz/browser';
 import { expect, test, type Page } from '@playwright/test';
-import { fileFromGuide, linesOf, Project, quickStart } from './project';
+import { commandsOf, fileFromGuide, linesOf, Project, quickStart } from './project';
 
 const only = process.env['GLANZ_NEWCOMER_ONLY'];
 const wanted = (name: string) => test.skip(only !== undefined && only !== name, 'GLANZ_NEWCOMER_ONLY asks for another');
@@ -54,6 +54,39 @@ test('plain TypeScript', async ({ page: browser }) => {
   expect(linesOf(code)).toBeLessThanOrEqual(15);
   expect(built.complaints).toEqual([]);
   expect(dev.complaints).toEqual([]);
+});
+
+test('Getting started, its files and commands', async ({ page: browser }) => {
+  wanted('start');
+  project = new Project('start');
+  project.manifest({}, VITE);
+  project.write('tsconfig.json', TSCONFIG);
+  for (const file of ['index.html', 'src/main.ts']) project.write(file, fileFromGuide('getting-started', file));
+  await project.install();
+  for (const line of commandsOf('getting-started', '@glanz/viewer')) await project.run('sh', ['-c', line]);
+  await project.timed('tsc', () => project.run('npx', ['--no-install', 'tsc', '-p', '.']));
+  await project.timed('vite build', () => project.vite('build'));
+  const built = await sees(browser, await project.serve('preview'), 'canvas');
+  report('Getting started', linesOf(fileFromGuide('getting-started', 'src/main.ts')), { 'first pixels of the build': built.seconds });
+  expect(built.complaints.filter((text) => !text.includes('favicon'))).toEqual([]);
+});
+
+test('two lines of plain HTML, the element from another origin', async ({ page: browser }) => {
+  wanted('html');
+  project = new Project('html');
+  const code = quickStart('element', 'html');
+  project.manifest({}, VITE);
+  await project.install();
+  const network = await project.network('@glanz/element');
+  const local = code.replaceAll('https://cdn.jsdelivr.net/npm/@glanz/element', network);
+  expect(local).not.toContain('https:');
+  // Vite only serves the page: nothing of it is built.
+  project.write('index.html', `<!doctype html>\n<link rel="icon" href="data:,">\n${local}\n`);
+  const origin = (await project.serve('dev')).replace('127.0.0.1', 'localhost');
+  const seen = await sees(browser, origin, 'glanz-viewer');
+  report('two lines of plain HTML', linesOf(code), { 'first pixels': seen.seconds });
+  expect(linesOf(code)).toBe(2);
+  expect(seen.complaints).toEqual([]);
 });
 
 test('React', async ({ page: browser }) => {

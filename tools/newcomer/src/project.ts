@@ -1,6 +1,8 @@
 import { execFile, spawn, type ChildProcess } from 'node:child_process';
-import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { dirname, join } from 'node:path';
+import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { createServer, type Server } from 'node:http';
+import type { AddressInfo } from 'node:net';
+import { dirname, extname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 const NEXT = join('node_modules', 'next', 'dist', 'bin', 'next');
@@ -23,6 +25,14 @@ export function fileFromGuide(guide: string, path: string): string {
   return `${block}\n`;
 }
 
+/** Shell commands of a page of the documentation, the block that contains `has`: lines without those that install, since no registry has the packages. */
+export function commandsOf(guide: string, has: string): string[] {
+  const text = readFileSync(join(root, 'apps/docs/guide', `${guide}.md`), 'utf8');
+  const block = [...text.matchAll(/```sh\n([\s\S]*?)\n```/g)].map(([, lines = '']) => lines).find((lines) => lines.includes(has));
+  if (block === undefined) throw new Error(`apps/docs/guide/${guide}.md has no commands with ${has}.`);
+  return block.split('\n').filter((line) => !line.startsWith('npm install'));
+}
+
 /** Lines that somebody would have to write. */
 export const linesOf = (code: string): number => code.split('\n').filter((line) => line.trim() !== '').length;
 
@@ -31,6 +41,7 @@ export class Project {
   readonly folder: string;
   readonly timings: Record<string, number> = {};
   #server: ChildProcess | undefined;
+  #network: Server | undefined;
 
   constructor(name: string) {
     this.folder = join(root, '.cache', 'newcomer', name);
@@ -81,6 +92,21 @@ export class Project {
     return this.#start([NEXT, 'start', '--hostname', '127.0.0.1', '--port', '0'], { NEXT_TELEMETRY_DISABLED: '1' });
   }
 
+  /** Serves files of an installed package to pages of any origin, as a content delivery network does. @returns Its address. */
+  async network(packageName: string): Promise<string> {
+    const types: Record<string, string> = { '.js': 'text/javascript', '.glb': 'model/gltf-binary' };
+    const server = createServer((request, response) => {
+      const path = new URL(request.url ?? '/', 'http://localhost').pathname;
+      const file = join(this.folder, 'node_modules', packageName, path);
+      const found = !path.includes('..') && existsSync(file);
+      response.writeHead(found ? 200 : 404, { 'access-control-allow-origin': '*', 'content-type': types[extname(file)] ?? 'text/plain' });
+      response.end(found ? readFileSync(file) : '');
+    });
+    this.#network = server;
+    await new Promise<void>((resolve) => server.listen(0, '127.0.0.1', resolve));
+    return `http://127.0.0.1:${(server.address() as AddressInfo).port}`;
+  }
+
   /** Starts a server of Vite's. @returns Its address. */
   serve(...args: string[]): Promise<string> {
     return this.#start([join('node_modules', 'vite', 'bin', 'vite.js'), ...args, '--host', '127.0.0.1']);
@@ -107,5 +133,7 @@ export class Project {
     this.#server?.removeAllListeners('close');
     this.#server?.kill();
     this.#server = undefined;
+    this.#network?.close();
+    this.#network = undefined;
   }
 }

@@ -32,10 +32,25 @@ export function hardwareThreads(): number {
   return navigator?.hardwareConcurrency ?? builtin<{ availableParallelism(): number }>('node:os')?.availableParallelism() ?? 1;
 }
 
-/** Starts the package's own worker file: a file of this origin, so that no content security policy has to be widened. */
+let elsewhere: string | undefined;
+
+/**
+ * Starts the package's own worker file. From this page's origin no content security policy has to be widened for it. From
+ * another one, a content delivery network say, browsers refuse; there a worker of a Blob imports the file, unless the policy
+ * forbids that.
+ */
 export function startWorker(): WebWorkerLike | NodeWorkerLike {
-  // In this form bundlers find the file.
-  if (typeof Worker === 'function') return new Worker(new URL('./worker.js', import.meta.url), { type: 'module', name: 'glanz-bvh' });
+  if (typeof Worker === 'function') {
+    try {
+      // In this form bundlers find the file.
+      return new Worker(new URL('./worker.js', import.meta.url), { type: 'module', name: 'glanz-bvh' });
+    } catch (error) {
+      if ((error as Error).name !== 'SecurityError') throw error;
+      const { url } = import.meta;
+      elsewhere ??= URL.createObjectURL(new Blob([`import ${JSON.stringify(new URL('./worker.js', url).href)};`], { type: 'text/javascript' }));
+      return new Worker(elsewhere, { type: 'module', name: 'glanz-bvh' });
+    }
+  }
   const threads = builtin<{ readonly Worker: new (url: URL) => NodeWorkerLike }>('node:worker_threads');
   if (!threads) throw new BvhError('bvh/worker', 'There are no workers here: neither Worker nor process.getBuiltinModule (Node 20.16 or later).');
   // Not in that form, or they would add the file a second time.

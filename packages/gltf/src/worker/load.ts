@@ -72,7 +72,8 @@ function start(createWorker: () => Worker): Running {
 /**
  * Loads glTF documents in workers: reading, checking, unpacking and decoding pictures all happen there, and the arrays of
  * a scene are handed over without a copy. The calling thread is never busy for longer than a message takes. The worker is a
- * file of this origin (no Blob), so no content security policy has to be widened beyond `worker-src 'self'`.
+ * file of this origin, so no content security policy has to be widened beyond `worker-src 'self'`. A package that comes from
+ * another origin needs `worker-src blob:`.
  *
  * One worker stands ready from the beginning and stays so between loads, with its decoders; loads at the same time have one
  * each.
@@ -168,5 +169,20 @@ export async function loadGltfInWorker(input: GltfInput, options: WorkerGltfOpti
   }
 }
 
-/** In this form bundlers find the file. */
-const startWorker = () => new Worker(new URL('./worker.js', import.meta.url), { type: 'module', name: 'glanz-gltf' });
+let elsewhere: string | undefined;
+
+/**
+ * Starts the package's own worker file. Browsers refuse one of another origin, a content delivery network say; there a worker of
+ * a Blob imports the file, unless the page's content security policy forbids that.
+ */
+function startWorker(): Worker {
+  try {
+    // In this form bundlers find the file.
+    return new Worker(new URL('./worker.js', import.meta.url), { type: 'module', name: 'glanz-gltf' });
+  } catch (error) {
+    if ((error as Error).name !== 'SecurityError') throw error;
+    const { url } = import.meta;
+    elsewhere ??= URL.createObjectURL(new Blob([`import ${JSON.stringify(new URL('./worker.js', url).href)};`], { type: 'text/javascript' }));
+    return new Worker(elsewhere, { type: 'module', name: 'glanz-gltf' });
+  }
+}

@@ -14,7 +14,7 @@ import { isOpaque, packBindings, packMaterial, texturedParameters, type Textured
 import type { TexturePlan } from '../scene/textures';
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_STORAGE, GPU_TEXTURE_BINDING, GPU_TEXTURE_COPY_DST, type GpuMemory } from './buffers';
 import type { EnergyTextures } from './energy-textures';
-import { inErrorScopes, withErrorScopes } from './error-scopes';
+import { withErrorScopes } from './error-scopes';
 import { uploadTextures } from './texture-upload';
 
 /** While shapes are filled in, the thread is handed back after so many milliseconds; a slice more can follow. */
@@ -304,14 +304,11 @@ export class GpuScene {
   /** Writes the shapes, with the thread handed back every few milliseconds. */
   async fill(signal?: AbortSignal): Promise<void> {
     const breathe = breather(FILL_MS);
-    const written: Promise<void>[] = [];
     for (const { buffer, offset, data } of joinSlices(shapeSlices(this.#scene, this.#geometry))) {
-      const { verified } = inErrorScopes(this.#device, 'the shapes of this scene', () => this.#memory.write(this.#buffers.get(buffer) as GPUBuffer, data, offset));
-      written.push(verified);
+      this.#memory.write(this.#buffers.get(buffer) as GPUBuffer, data, offset);
       await this.#keepUp(data.byteLength, breathe);
       signal?.throwIfAborted();
     }
-    await Promise.all(written);
   }
 
   /**
@@ -337,14 +334,7 @@ export class GpuScene {
       this.#uploadEnergy(energy);
     });
     await breathe();
-    const written: Promise<void>[] = [];
-    const slices = this.#environmentSlices();
-    for (;;) {
-      const { result: slice, verified } = inErrorScopes(this.#device, 'the environment', () => slices.next());
-      written.push(verified);
-      if (slice.done) break;
-      await this.#keepUp(slice.value, breathe);
-    }
+    for (const bytes of this.#environmentSlices()) await this.#keepUp(bytes, breathe);
     const placed = gathered && (await inSlices(placingSteps(this.#scene, gathered, this.#places, this.#geometry.radius), { sliceMs: FILL_MS }));
     this.#lights = placed ?? this.#buildLights();
     this.#features = undefined;
@@ -355,11 +345,9 @@ export class GpuScene {
     });
     for (let at = 0; at < records.byteLength; at += FILL_BYTES) {
       const bytes = Math.min(FILL_BYTES, records.byteLength - at);
-      const { verified } = inErrorScopes(this.#device, 'the lights of this scene', () => this.#memory.write(this.#buffers.get('lights') as GPUBuffer, new Uint8Array(records, at, bytes), at));
-      written.push(verified);
+      this.#memory.write(this.#buffers.get('lights') as GPUBuffer, new Uint8Array(records, at, bytes), at);
       await this.#keepUp(bytes, breathe);
     }
-    await Promise.all(written);
   }
 
   /** Sorts the lights into groups anew; where that changes anything, materials are written again. */

@@ -1,0 +1,85 @@
+// Builds the whole element into one file, glanz-viewer.min.js: for pages without a bundler, from any origin. Its workers run the
+// same file, so that nothing else is fetched for a plain .glb, and each serves what its name says. What only some files need
+// (OBJ and STL, HDR and EXR, meshopt) lies beside it and is fetched by import() when such a file is opened.
+import { mkdir, readFile, writeFile } from 'node:fs/promises';
+import { join, resolve } from 'node:path';
+import { build } from 'esbuild';
+import { preparePublished } from '../../../tools/pipeline/published-source.mjs';
+
+const MAIN = 'glanz-viewer.min.js';
+
+const ENTRY = `
+import { defineGlanzViewer } from '../element/src/element';
+import { serveBuilds } from '@glanz/bvh/worker';
+import { serveGltf } from '../gltf/src/worker/serve';
+export { GlanzError } from '@glanz/wgsl/error';
+
+if (typeof WorkerGlobalScope === 'undefined') defineGlanzViewer();
+else if (self.name === 'glanz-gltf') serveGltf();
+else if (self.name === 'glanz-bvh') {
+  serveBuilds({ post: (message, transfer = []) => self.postMessage(message, transfer), listen: (listener) => self.addEventListener('message', ({ data }) => listener(data)) });
+}
+`;
+
+/** Modules that have files of their own, by the name that the sources import. */
+const LATER = {
+  '@glanz/formats': 'glanz-viewer.formats.min.js',
+  '@glanz/image/environment': 'glanz-viewer.environment.min.js',
+  'meshoptimizer/decoder': 'glanz-viewer.meshopt.min.js',
+};
+
+/** What a module says of the other files of its package, and what it says where there is one file. */
+const REPLACED = [
+  ["new Worker(new URL('./worker.js', import.meta.url)", 'new Worker(import.meta.url', ['bvh/src/worker/line.ts', 'gltf/src/worker/load.ts']],
+  ["new URL('./worker.js', url)", 'new URL(url)', ['bvh/src/worker/line.ts', 'gltf/src/worker/load.ts']],
+  ['if (port) serveBuilds(port);', '', ['bvh/src/worker/worker.ts']],
+];
+
+const SETTINGS = { bundle: true, minify: true, format: 'esm', platform: 'browser', target: 'es2022', conditions: ['@glanz/source'], external: ['node:*'], legalComments: 'none', write: false };
+
+/** Reads sources as they are published, with `REPLACED`; `missing` loses each text that was there. */
+const sources = (missing) => ({
+  name: 'sources',
+  setup(context) {
+    context.onLoad({ filter: /[\\/]src[\\/].*\.ts$/ }, async ({ path }) => {
+      let text = await readFile(path, 'utf8');
+      for (const [from, to, files] of REPLACED) {
+        const file = files.find((one) => path.replaceAll('\\', '/').endsWith(one));
+        if (!file || !text.includes(from)) continue;
+        text = text.replaceAll(from, to);
+        missing.delete(`${file}: ${from}`);
+      }
+      return { contents: preparePublished(text, path), loader: 'ts' };
+    });
+  },
+});
+
+/** Resolves some modules to files beside the result. */
+const beside = (files) => ({
+  name: 'beside',
+  setup(context) {
+    context.onResolve({ filter: /^(@glanz\/|meshoptimizer\/)/ }, ({ path }) => (Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined));
+  },
+});
+
+/**
+ * @param {string} folder The package's.
+ * @param {string} to Where the files go.
+ * @returns {Promise<string[]>} Their names, that of the single file first.
+ */
+export async function buildSingleFile(folder, to) {
+  const missing = new Set(REPLACED.flatMap(([from, , files]) => files.map((file) => `${file}: ${from}`)));
+  const resolveDir = resolve(folder, '../viewer');
+  await mkdir(to, { recursive: true });
+  const write = async (contents, name, files) => {
+    const stdin = { contents, resolveDir, sourcefile: name, loader: 'js' };
+    const { outputFiles } = await build({ ...SETTINGS, stdin, plugins: [beside(files), sources(missing)] });
+    await writeFile(join(to, name), outputFiles[0].contents);
+    return name;
+  };
+  const names = [await write(ENTRY, MAIN, LATER)];
+  if (missing.size > 0) throw new Error(`The single file cannot be built, since these texts are not in the sources any more: ${[...missing].join('; ')}.`);
+  // Their errors are of the same class.
+  for (const [module, name] of Object.entries(LATER)) names.push(await write(`export * from '${module}';`, name, { '@glanz/wgsl/error': MAIN }));
+  return names;
+}
