@@ -92,6 +92,31 @@ describe('the files are the same bit for bit', () => {
     expect(same(bytes(cwd, names), bytes(whole, names))).toEqual([0, 0, 0, 0]);
   });
 
+  it('when one of two GPUs is gone for good: its image goes on on the other from its last checkpoint', async () => {
+    const argv = ['shoe.glb', '--variant', 'red', '--variant', 'green', '--view', 'front', '--view', 'iso', ...QUALITY, '--samples', '200'];
+    const names = ['shoe-red-front.png', 'shoe-red-iso.png', 'shoe-green-front.png', 'shoe-green-iso.png'];
+    const whole = folder();
+    expect((await glanz(argv, whole)).code).toBe(0);
+    const cwd = folder();
+    let gone = false;
+    const { code, err, out } = await glanz([...argv, '--gpu', 'good', '--gpu', 'bad'], cwd, {
+      onSave({ name, lose }, film) {
+        if (name !== 'bad' || !film || film.samples === 0) return;
+        gone = true;
+        lose();
+      },
+      onOpen(_index, name) {
+        if (gone && name === 'bad') throw new DeviceError('renderer/no-adapter', 'WebGPU found no usable GPU.');
+      },
+    });
+    expect(code, err).toBe(0);
+    const { pictures, gpusLost } = JSON.parse(out) as BatchResult;
+    expect(gpusLost).toMatchObject([{ gpu: 'bad', error: { code: 'cli/gpu-lost' } }]);
+    expect((pictures as RenderResult[]).map(({ adapter }) => adapter.name)).toEqual(['good', 'good', 'good', 'good']);
+    expect((pictures as RenderResult[]).filter(({ resumedSamples }) => resumedSamples > 0).length).toBe(1);
+    expect(same(bytes(cwd, names), bytes(whole, names))).toEqual([0, 0, 0, 0]);
+  });
+
   it('when the GPU is gone for good, and a later run goes on from --checkpoint', async () => {
     const argv = ['red.glb', ...OUTPUTS, ...QUALITY, '--samples', '300'];
     const whole = folder();
