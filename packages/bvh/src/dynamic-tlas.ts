@@ -1,8 +1,9 @@
 import { buildOverBoxes } from './build/over-boxes';
 import { BvhError } from './error';
 import { FAR, LEAF, LEFT, leafFirst, leafReference, LEFT_MAX, NODE_WORDS, PARENT, RESERVED, RIGHT, rootBounds, TLAS_MAX_DEPTH, type Aabb } from './layout';
+import { checkTransform, placeInstance } from './place-instance';
 import { REBUILD_ABOVE } from './refit-quality';
-import { checkTransform, placeInstance, type Tlas, type TlasInstance } from './tlas';
+import type { Tlas, TlasInstance } from './tlas';
 
 /** Updates of more than this part of the instances rebuild the hierarchy at once. */
 const REBUILD_PART = 1 / 4;

@@ -28,11 +28,11 @@ export function packFrame(camera: Camera, film: Pick<Film, 'width' | 'height'>, 
     environment_probability: scene.environmentProbability,
     environment_rotation: environment.rotation,
     environment_group: scene.groups.environment,
-    catcher_root: geometry.tlas.nodeCount,
+    catcher_root: geometry.placement.bareRoot,
     environment_cells: [environment.table?.width ?? 1, environment.table?.height ?? 1],
     lod_bias: options.textureLodBias ?? -1,
     ...shortcutUniforms(options),
-    scene_scale: geometry.radius,
+    scene_scale: geometry.placement.radius,
     filter_radius: resolveFilter(options.filter).radius,
   });
   return data;

@@ -133,7 +133,7 @@ export class PathTracer extends TracerEdits {
     const triangles = geometry.triangleCount;
     return {
       triangles,
-      instances: geometry.order.length,
+      instances: geometry.placement.tlas.count,
       lights: this.#gpuScene.lightCount,
       ...this.#times,
       gpuBytes: this.#memory.bytes,

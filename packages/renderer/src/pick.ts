@@ -25,14 +25,12 @@ export function pickPixel(scene: Scene, geometry: Geometry, camera: Camera, widt
   const length = Math.hypot(...toward);
   const direction = toward.map((d) => d / length);
 
-  const parts = geometry.shown.map((index): BlasMesh => {
-    const { mesh } = scene.instances[index] as Instance;
-    return { blas: geometry.blas[mesh] as BlasMesh['blas'], mesh: scene.meshes[mesh] as Mesh };
-  });
+  const parts = partsOf(scene, geometry);
+  const { tlas } = geometry.placement;
   const ray: Ray = { origin, direction };
-  const hit = culls ? nearestSeen(scene, geometry, parts, ray, culls) : closestHitInstances(geometry.tlas, parts, ray);
+  const hit = culls ? nearestSeen(scene, geometry, parts, ray, culls) : closestHitInstances(tlas, parts, ray);
   if (!hit) return undefined;
-  const index = geometry.shown[hit.instance] as number;
+  const index = hit.instance;
   const instance = scene.instances[index] as Instance;
   const { positions, indices } = scene.meshes[instance.mesh] as Mesh;
   const local = [0, 1, 2].map((k) => {
@@ -45,12 +43,24 @@ export function pickPixel(scene: Scene, geometry: Geometry, camera: Camera, widt
   return { instance: index, material: instance.material, position, distance: hit.t, depth };
 }
 
+/** What each instance is made of, by the list of hierarchies: another one whenever a mesh is replaced. */
+const partsKnown = /* @__PURE__ */ new WeakMap<Geometry['blas'], readonly BlasMesh[]>();
+
+function partsOf(scene: Scene, { blas }: Geometry): readonly BlasMesh[] {
+  let parts = partsKnown.get(blas);
+  if (!parts) {
+    const byMesh = scene.meshes.map((mesh, i): BlasMesh => ({ blas: blas[i] as BlasMesh['blas'], mesh }));
+    partsKnown.set(blas, (parts = scene.instances.map(({ mesh }) => byMesh[mesh] as BlasMesh)));
+  }
+  return parts;
+}
+
 /** The nearest triangle whose front a ray comes to, or whose material has no back that is looked through. */
 function nearestSeen(scene: Scene, geometry: Geometry, parts: readonly BlasMesh[], ray: Ray, culls: (material: number) => boolean): InstanceHit | undefined {
   let hit: InstanceHit | undefined;
-  forEachHitInstances(geometry.tlas, parts, ray, (t, u, v, triangle, nth) => {
+  forEachHitInstances(geometry.placement.tlas, parts, ray, (t, u, v, triangle, nth) => {
     if (hit && t >= hit.t) return;
-    const instance = scene.instances[geometry.shown[nth] as number] as Instance;
+    const instance = scene.instances[nth] as Instance;
     if (!culls(instance.material) || isFront(instance, scene.meshes[instance.mesh] as Mesh, triangle, ray.direction)) hit = { t, u, v, triangle, instance: nth };
   });
   return hit;

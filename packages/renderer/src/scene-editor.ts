@@ -3,11 +3,11 @@ import { createScene, validateScene, type Environment, type Instance, type Light
 import { RenderError } from './errors';
 import type { GpuScene } from './gpu/gpu-scene';
 import { checkParameters } from './scene/check-parameters';
-import { attributeWords, layOutGeometry, missingMeshes, packGeometry, packMesh, packTlas, placeInstances, prepareHierarchies, type Geometry, type MeshRegion } from './scene/geometry';
+import { attributeWords, layOutGeometry, packGeometry, packMesh, prepareHierarchies, type Geometry, type MeshRegion } from './scene/geometry';
 import type { HierarchyBuilder } from './scene/hierarchies';
-import { findMaterial } from './scene/materials';
-
-type Mutable<T> = { -readonly [K in keyof T]: T[K] };
+import { emittedRadiance, findMaterial } from './scene/materials';
+import { parametersOf } from './scene/parameters';
+import { isShown } from './scene/placement';
 
 /** A copy that the tracer may edit: big arrays are shared, for edits replace them and never write into them. */
 export function ownScene(scene: Scene): Scene {
@@ -75,14 +75,22 @@ export class SceneEditor {
     const material = this.scene.materials[index] as Material;
     checkParameters(material.name, parameters);
     const before = material.parameters;
+    const glows = () => emittedRadiance(parametersOf(material)).some((c) => c > 0);
+    const set = (next: Material['parameters']) => {
+      const glowed = glows();
+      material.parameters = next;
+      const { placement, blas } = this.#geometry;
+      // What begins or ceases to glow belongs to what is seen beside catchers, or no longer.
+      if (placement.bare && glows() !== glowed) placement.update(this.scene, blas, this.scene.instances.flatMap((instance, i) => (instance.material === index ? [i] : [])), false);
+    };
     return {
       isStale: () => material.parameters !== before,
       apply: () => {
-        material.parameters = { ...before, ...parameters };
+        set({ ...before, ...parameters });
         const emission = Object.entries(parameters).some(([name, value]) => name.startsWith('emission_') && JSON.stringify(before[name as keyof typeof before]) !== JSON.stringify(value));
         return this.#gpu.updateMaterial(index, emission);
       },
-      undo: () => (material.parameters = before),
+      undo: () => set(before),
     };
   }
 
@@ -140,12 +148,11 @@ export class SceneEditor {
 
   setTransform(nameOrIndex: string | number, transform: ArrayLike<number>): SceneChange | Promise<SceneChange> {
     if (transform.length !== 16 || !Array.from(transform).every(Number.isFinite)) throw new RenderError('renderer/transform', 'A transform must be 16 finite numbers, column-major.');
-    return this.#place(this.#changed(nameOrIndex, { transform: Array.from(transform) }));
+    return this.#change(this.#instances(nameOrIndex), (instance) => ({ ...instance, transform: Array.from(transform) }), true);
   }
 
   setMaterialOf(nameOrIndex: string | number, material: string | number): SceneChange | Promise<SceneChange> {
     const index = this.#material(material);
-    const instances = this.#changed(nameOrIndex, { material: index });
     const which = this.#instances(nameOrIndex);
     const before = which.map((i) => this.#plain[i] as number);
     const withPlain = (change: SceneChange): SceneChange => ({
@@ -159,7 +166,7 @@ export class SceneEditor {
         change.undo();
       },
     });
-    const placed = this.#place(instances);
+    const placed = this.#change(which, (instance) => ({ ...instance, material: index }), false);
     return placed instanceof Promise ? placed.then(withPlain) : withPlain(placed);
   }
 
@@ -167,18 +174,18 @@ export class SceneEditor {
     const all = this.scene.variants ?? [];
     const index = typeof variant === 'string' ? all.indexOf(variant) : variant;
     if (index !== undefined && all[index] === undefined) throw new RenderError('renderer/variant', `The scene has no variant ${JSON.stringify(variant)}; it has: ${all.join(', ') || 'none'}.`);
-    return this.#place(this.scene.instances.map((instance, i) => ({ ...instance, material: (index === undefined ? undefined : instance.variants?.[index]) ?? (this.#plain[i] as number) })));
+    const materialOf = (instance: Instance, i: number) => (index === undefined ? undefined : instance.variants?.[index]) ?? (this.#plain[i] as number);
+    const which = [...this.scene.instances.keys()].filter((i) => materialOf(this.scene.instances[i] as Instance, i) !== this.scene.instances[i]?.material);
+    return this.#change(which, (instance, i) => ({ ...instance, material: materialOf(instance, i) }), false);
   }
 
   setCatcher(nameOrIndex: string | number, catcher: boolean): SceneChange | Promise<SceneChange> {
-    return this.#place(this.#changed(nameOrIndex, { catcher }));
+    return this.#change(this.#instances(nameOrIndex), (instance) => ({ ...instance, catcher }), false);
   }
 
-  async setVisibility(nameOrIndex: string | number | readonly (string | number)[], visible: boolean): Promise<SceneChange> {
-    const changed = () => ({ ...this.scene, instances: this.#changed(nameOrIndex, { visible }) });
-    if (missingMeshes(changed(), this.#geometry.blas).length === 0) return this.#place(changed().instances);
-    // Shown for the first time: their hierarchies come first.
-    return this.#reshape(changed);
+  setVisibility(nameOrIndex: string | number | readonly (string | number)[], visible: boolean): SceneChange | Promise<SceneChange> {
+    const which = [...new Set([nameOrIndex].flat().flatMap((one) => this.#instances(one)))];
+    return this.#change(which, (instance) => ({ ...instance, visible }), true);
   }
 
   async replaceMesh(nameOrIndex: string | number, mesh: Mesh): Promise<SceneChange> {
@@ -190,12 +197,12 @@ export class SceneEditor {
     const before = this.scene.meshes[index] as Mesh;
     const region = this.#geometry.regions[index] as MeshRegion;
     const tree = this.#trees.get(mesh);
-    const fits = tree && tree.nodeCount <= region.nodes && tree.triangleIndices.length <= region.triangles && attributeWords(mesh) <= region.words;
-    if (!fits) return this.#reshape(changed);
     const next = changed();
     const blas = this.#blas(next);
-    const { triangleCount, hasVertexColors } = layOutGeometry(next, blas);
-    const geometry: Geometry = { ...this.#geometry, ...placeInstances(next, blas), blas, hasVertexColors, triangleCount };
+    const { placement, triangleCount, hasVertexColors } = layOutGeometry(next, blas);
+    const fits = placement.nodeCapacity <= this.#geometry.tlasNodes && tree && tree.nodeCount <= region.nodes && tree.triangleIndices.length <= region.triangles && attributeWords(mesh) <= region.words;
+    if (!fits) return this.#reshape(changed);
+    const geometry: Geometry = { ...this.#geometry, placement, blas, hasVertexColors, triangleCount };
     const old = this.#trees.get(before);
     return {
       ...this.#commit(next, geometry, () => this.#gpu.updateMesh(geometry, index, packMesh(mesh, tree, region))),
@@ -263,17 +270,40 @@ export class SceneEditor {
     return found;
   }
 
-  #changed(nameOrIndex: string | number | readonly (string | number)[], change: Partial<Mutable<Instance>>): Instance[] {
-    const which = new Set([nameOrIndex].flat().flatMap((one) => this.#instances(one)));
-    return this.scene.instances.map((instance, i) => (which.has(i) ? { ...instance, ...change } : instance));
-  }
-
-  /** Other instances of the same shapes. The old ones stay if the new ones show nothing. */
-  #place(instances: Instance[]): SceneChange | Promise<SceneChange> {
-    const geometry = { ...this.#geometry, ...placeInstances({ ...this.scene, instances }, this.#geometry.blas) };
-    // The first catcher brings a second hierarchy.
-    if (packTlas(geometry).length > 16 * geometry.tlasNodes) return this.#reshape(() => ({ ...this.scene, instances }));
-    return this.#commit({ ...this.scene, instances }, geometry, () => this.#gpu.updatePlacement(geometry));
+  /**
+   * Changes some instances, at a cost that depends on how many.
+   * @param moves Whether the change is one of transforms or visibility.
+   */
+  #change(which: readonly number[], changed: (instance: Instance, index: number) => Instance, moves: boolean): SceneChange | Promise<SceneChange> {
+    const version = this.#version;
+    const geometry = this.#geometry;
+    const { placement, blas } = geometry;
+    const { instances } = this.scene;
+    const changes = which.map((index) => ({ index, before: instances[index] as Instance, after: changed(instances[index] as Instance, index) }));
+    // Meshes that are shown for the first time bring hierarchies, and the first catcher an upper level that has no room yet.
+    const isMissing = moves && changes.some(({ after }) => !blas[after.mesh] && isShown(this.scene, after));
+    const lacksRoom = geometry.tlasNodes < 2 * placement.bareRoot && changes.some(({ after }) => after.catcher && after.visible !== false);
+    if (isMissing || lacksRoom) {
+      const reshaped = () => {
+        const next = [...this.scene.instances];
+        for (const index of which) next[index] = changed(next[index] as Instance, index);
+        return { ...this.scene, instances: next };
+      };
+      return this.#reshape(reshaped);
+    }
+    const set = (state: 'before' | 'after') => {
+      this.#version++;
+      for (const change of changes) this.scene.instances[change.index] = change[state];
+      placement.update(this.scene, blas, which, moves);
+    };
+    return {
+      isStale: () => version !== this.#version,
+      apply: () => {
+        set('after');
+        return this.#gpu.updateInstances(geometry, changes);
+      },
+      undo: () => set('before'),
+    };
   }
 
   /** Everything is laid out again, and once more if another change came in between. */

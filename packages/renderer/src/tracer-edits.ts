@@ -50,8 +50,8 @@ export abstract class TracerEdits {
   }
 
   /**
-   * Moves the instances of a name, or the one of an index: object to world, 16 numbers, column-major. Costs the upper level
-   * of the hierarchy. Restarts the film.
+   * Moves the instances of a name, or the one of an index: object to world, 16 numbers, column-major. Costs what
+   * moves, however many other instances there are; light tables too, if it emits. Restarts the film.
    *
    * @throws {RenderError} `renderer/instance`, `renderer/transform`, `renderer/no-triangles` if nothing would be left to see.
    */
@@ -60,8 +60,8 @@ export abstract class TracerEdits {
   }
 
   /**
-   * Shows or hides the instances of a name, or the one of an index, or several of them at the price of one. Costs the upper
-   * level of the hierarchy, and for meshes shown for the first time their own. Restarts the film.
+   * Shows or hides the instances of a name, or the one of an index, or several of them at once. Costs what appears and
+   * disappears, and for meshes shown for the first time their hierarchies. Restarts the film.
    *
    * @throws {RenderError} `renderer/instance`, `renderer/no-triangles` if nothing would be left to see.
    */

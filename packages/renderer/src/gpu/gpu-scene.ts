@@ -1,20 +1,22 @@
-import { inSlices, type Environment, type Mesh, type Scene } from '@glanz/scene';
+import { inSlices, type Environment, type Instance, type Material, type Mesh, type Scene } from '@glanz/scene';
 import type { KernelFeatures } from '../kernels/pipelines';
 import { instanceStruct, materialStruct, meshStruct } from '../kernels/layout';
 import type { ResourceName } from '../kernels/resources';
 import { prepareEnvironment, roughEnvironment, turnEnvironment, type EnvironmentData } from '../scene/environment';
 import { isOneSided } from '../scene/culling';
 import { sceneFeatures, texturePlan, type SceneChoices } from '../scene/features';
-import { joinSlices, packInstances, packTlas, shapeSlices, type Geometry, type MeshRegion, type PackedGeometry, type PackedMesh } from '../scene/geometry';
+import { joinSlices, packInstances, shapeSlices, type Geometry, type MeshRegion, type PackedGeometry, type PackedMesh } from '../scene/geometry';
 import { breather } from '../scene/hierarchies';
 import { lightGroupTable, type LightGroupTable } from '../scene/light-groups';
 import { buildLightTable, noLights, placingSteps, type GatheredLights, type LightGeometry, type LightTable } from '../scene/lights';
 import { MaterialUse } from '../scene/material-use';
-import { isOpaque, packBindings, packMaterial, texturedParameters, type TexturedParameterInfo } from '../scene/materials';
+import { emittedRadiance, isOpaque, packBindings, packMaterial, texturedParameters, type TexturedParameterInfo } from '../scene/materials';
+import { parametersOf } from '../scene/parameters';
+import type { NodeRange } from '../scene/placement';
 import type { TexturePlan } from '../scene/textures';
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_STORAGE, GPU_TEXTURE_BINDING, GPU_TEXTURE_COPY_DST, type GpuMemory } from './buffers';
 import type { EnergyTextures } from './energy-textures';
-import { withErrorScopes } from './error-scopes';
+import { inErrorScopes, withErrorScopes } from './error-scopes';
 import { uploadTextures } from './texture-upload';
 
 /** While shapes are filled in, the thread is handed back after so many milliseconds; a slice more can follow. */
@@ -23,6 +25,16 @@ const FILL_MS = 4;
 const FILL_BYTES = 1 << 20;
 /** So much may wait for the GPU's process. */
 const QUEUE_BYTES = 2 << 20;
+
+/** Instance records up to so far apart are written at once, with those in between. */
+const JOINED_RECORDS = 8;
+
+/** An instance before and after an edit. */
+export interface InstanceChange {
+  readonly index: number;
+  readonly before: Instance;
+  readonly after: Instance;
+}
 
 interface EditLog {
   readonly made: (GPUBuffer | GPUTexture)[];
@@ -67,6 +79,8 @@ export class GpuScene {
   #features: KernelFeatures | undefined;
   #groups: LightGroupTable;
   #lights: LightTable;
+  /** Of the scene when the lights were gathered: directional lights are weighed by it. */
+  #lightsRadius = 0;
   #environment: EnvironmentData;
   /** What the edit that is being made has allocated and replaced; `undefined` while the scene is prepared. */
   #log: EditLog | undefined;
@@ -118,7 +132,7 @@ export class GpuScene {
   get environmentProbability(): number {
     if (!this.#environment.table) return 0;
     if (this.#lights.count === 0) return 1;
-    const radius = this.#geometry.radius;
+    const { radius } = this.#geometry.placement;
     const power = this.#environment.meanLuminance * 4 * Math.PI * Math.PI * radius * radius;
     return Math.min(0.9, Math.max(0.1, power / (power + this.#lights.power)));
   }
@@ -130,11 +144,11 @@ export class GpuScene {
    */
   record<T>(edit: () => T, restoreScene: () => void): RecordedEdit<T> {
     const log: EditLog = { made: [], replaced: [] };
-    const [geometry, lights, groups, environment, firstBinding] = [this.#geometry, this.#lights, this.#groups, this.#environment, this.#firstBinding];
+    const [geometry, lights, lightsRadius, groups, environment, firstBinding] = [this.#geometry, this.#lights, this.#lightsRadius, this.#groups, this.#environment, this.#firstBinding];
     const [buffers, textures] = [[...this.#buffers], [...this.#textures]];
     const undo = () => {
       restoreScene();
-      [this.#geometry, this.#lights, this.#groups, this.#environment, this.#firstBinding] = [geometry, lights, groups, environment, firstBinding];
+      [this.#geometry, this.#lights, this.#lightsRadius, this.#groups, this.#environment, this.#firstBinding] = [geometry, lights, lightsRadius, groups, environment, firstBinding];
       for (const [name, buffer] of buffers) this.#buffers.set(name, buffer);
       for (const [name, texture] of textures) this.#textures.set(name, texture);
       for (const resource of log.made) this.#memory.release(resource);
@@ -157,7 +171,7 @@ export class GpuScene {
   /** Writes all records of fixed size again. */
   rewrite(): void {
     const write = (name: ResourceName, data: ArrayBufferView<ArrayBuffer> | ArrayBuffer) => this.#memory.write(this.#buffers.get(name) as GPUBuffer, data);
-    write('nodes', packTlas(this.#geometry));
+    this.#writeAllNodes();
     write('materials', this.#packMaterials());
     write('lights', this.#lights.records);
     write('instances', packInstances(this.#scene, this.#geometry, this.#lights.firstLight));
@@ -193,7 +207,7 @@ export class GpuScene {
       environmentMap: this.#environment.pixels !== undefined,
       environmentSampled: this.#environment.table !== undefined,
       vertexColors: this.#geometry.hasVertexColors,
-      catchers: this.#geometry.bare !== undefined,
+      catchers: this.#geometry.placement.bare !== undefined,
       isOpaque: (material) => this.#opaque(material),
       isVisible: (material) => this.#materialUse.isVisible(material),
     });
@@ -224,9 +238,8 @@ export class GpuScene {
   updateMaterial(index: number, emission: boolean): boolean {
     this.#features = undefined;
     if (emission) this.#updateGroups();
-    const record = materialStruct.allocate();
-    this.#packMaterial(record, 0, index);
-    this.#memory.write(this.#buffers.get('materials') as GPUBuffer, record, index * materialStruct.size);
+    this.#writeMaterial(index);
+    this.#writeNodes(this.#geometry.placement.takeChangedNodes());
     return emission && this.updateLights();
   }
 
@@ -246,9 +259,48 @@ export class GpuScene {
   /** Instances have moved, appeared, vanished, or wear another material. Returns true if bindings were replaced. */
   updatePlacement(geometry: Geometry): boolean {
     this.#setGeometry(geometry);
-    this.#memory.write(this.#buffers.get('nodes') as GPUBuffer, packTlas(geometry));
+    this.#writeAllNodes();
     this.#updateGroups();
-    return this.updateLights();
+    // Meshes may have brought vertex colours that let light pass.
+    this.#memory.write(this.#buffers.get('materials') as GPUBuffer, this.#packMaterials());
+    const replaced = this.updateLights();
+    this.#writeInstances();
+    return replaced;
+  }
+
+  /**
+   * Some instances have moved, appeared, disappeared or got another material; the geometry's placement has followed. Writes
+   * what depends on them. Returns true if bindings were replaced.
+   */
+  updateInstances(geometry: Geometry, changes: readonly InstanceChange[]): boolean {
+    const { placement } = geometry;
+    this.#geometry = geometry;
+    this.#writeNodes(placement.takeChangedNodes());
+    const isUseSame = this.#use ? changes.map(({ before, after }) => this.#use?.replace(before, after)).every((same) => same) : false;
+    if (!isUseSame || (placement.bare !== undefined) !== this.#features?.flags['CATCHER']) this.#features = undefined;
+    const assigned = new Set(changes.flatMap(({ before, after }) => (before.material === after.material ? [] : [before.material, after.material])));
+    for (const index of assigned) this.#writeMaterial(index);
+    const emits = changes.some(({ before, after }) => this.#emits(before) || this.#emits(after));
+    if (emits) this.#updateGroups();
+    const weighs = placement.radius !== this.#lightsRadius && this.#scene.lights.some(({ type }) => type === 'directional');
+    const indices = changes.map(({ index }) => index);
+    if (emits || weighs) return this.updateLights(indices);
+    this.#writeRecords(indices);
+    return false;
+  }
+
+  #emits({ material }: Instance): boolean {
+    return emittedRadiance(parametersOf(this.#scene.materials[material] as Material)).some((c) => c > 0);
+  }
+
+  #writeNodes(ranges: readonly NodeRange[]): void {
+    for (const { first, nodes } of ranges) this.#memory.write(this.#buffers.get('nodes') as GPUBuffer, nodes, 64 * first);
+  }
+
+  #writeAllNodes(): void {
+    const { placement } = this.#geometry;
+    placement.takeChangedNodes();
+    this.#writeNodes(placement.allNodes());
   }
 
   /** A mesh was replaced by one that fits into its region. Returns true if bindings were replaced. */
@@ -304,11 +356,15 @@ export class GpuScene {
   /** Writes the shapes, with the thread handed back every few milliseconds. */
   async fill(signal?: AbortSignal): Promise<void> {
     const breathe = breather(FILL_MS);
+    const written: Promise<void>[] = [];
+    this.#geometry.placement.takeChangedNodes();
     for (const { buffer, offset, data } of joinSlices(shapeSlices(this.#scene, this.#geometry))) {
-      this.#memory.write(this.#buffers.get(buffer) as GPUBuffer, data, offset);
+      const { verified } = inErrorScopes(this.#device, 'the shapes of this scene', () => this.#memory.write(this.#buffers.get(buffer) as GPUBuffer, data, offset));
+      written.push(verified);
       await this.#keepUp(data.byteLength, breathe);
       signal?.throwIfAborted();
     }
+    await Promise.all(written);
   }
 
   /**
@@ -334,8 +390,16 @@ export class GpuScene {
       this.#uploadEnergy(energy);
     });
     await breathe();
-    for (const bytes of this.#environmentSlices()) await this.#keepUp(bytes, breathe);
-    const placed = gathered && (await inSlices(placingSteps(this.#scene, gathered, this.#places, this.#geometry.radius), { sliceMs: FILL_MS }));
+    const written: Promise<void>[] = [];
+    const slices = this.#environmentSlices();
+    for (;;) {
+      const { result: slice, verified } = inErrorScopes(this.#device, 'the environment', () => slices.next());
+      written.push(verified);
+      if (slice.done) break;
+      await this.#keepUp(slice.value, breathe);
+    }
+    const placed = gathered && (await inSlices(placingSteps(this.#scene, gathered, this.#places, this.#geometry.placement.radius), { sliceMs: FILL_MS }));
+    this.#lightsRadius = this.#geometry.placement.radius;
     this.#lights = placed ?? this.#buildLights();
     this.#features = undefined;
     const { records } = this.#lights;
@@ -345,9 +409,11 @@ export class GpuScene {
     });
     for (let at = 0; at < records.byteLength; at += FILL_BYTES) {
       const bytes = Math.min(FILL_BYTES, records.byteLength - at);
-      this.#memory.write(this.#buffers.get('lights') as GPUBuffer, new Uint8Array(records, at, bytes), at);
+      const { verified } = inErrorScopes(this.#device, 'the lights of this scene', () => this.#memory.write(this.#buffers.get('lights') as GPUBuffer, new Uint8Array(records, at, bytes), at));
+      written.push(verified);
       await this.#keepUp(bytes, breathe);
     }
+    await Promise.all(written);
   }
 
   /** Sorts the lights into groups anew; where that changes anything, materials are written again. */
@@ -359,31 +425,49 @@ export class GpuScene {
     return true;
   }
 
-  /** Re-reads the scene's lights and what its instances emit. Returns true if bindings were replaced. */
-  updateLights(): boolean {
+  /**
+   * Re-reads the scene's lights and what its instances emit. Returns true if bindings were replaced.
+   * @param changed Instances whose records are to be written besides those that name other lights than before.
+   */
+  updateLights(changed: readonly number[] = []): boolean {
     this.#features = undefined;
-    const before = this.#lights.records.byteLength;
+    const before = this.#lights;
     this.#lights = this.#buildLights();
-    const replaced = this.#writeInstances();
-    if (this.#lights.records.byteLength === before) {
-      this.#memory.write(this.#buffers.get('lights') as GPUBuffer, this.#lights.records);
-      return replaced;
+    this.#lightsRadius = this.#geometry.placement.radius;
+    const { firstLight, records } = this.#lights;
+    const indices = [...changed];
+    for (let i = 0; i < firstLight.length; i++) if (firstLight[i] !== before.firstLight[i]) indices.push(i);
+    this.#writeRecords(indices);
+    if (records.byteLength === before.records.byteLength) {
+      this.#memory.write(this.#buffers.get('lights') as GPUBuffer, records);
+      return false;
     }
-    this.#upload('lights', this.#lights.records);
+    this.#upload('lights', records);
     return true;
   }
 
-  /** Returns true if the buffer was replaced: it has room for hidden instances, but not for catchers' second records. */
-  #writeInstances(): boolean {
+  /** Writes the records of all instances. Each has its own, hidden or not, so that the buffer is never replaced. */
+  #writeInstances(): void {
     const records = packInstances(this.#scene, this.#geometry, this.#lights.firstLight);
-    const before = this.#buffers.get('instances');
-    const replaced = !before || before.size < records.byteLength;
-    if (replaced) {
-      const bytes = Math.max(records.byteLength, this.#scene.instances.length * instanceStruct.size);
-      this.#replaceBuffer('instances', this.#memory.buffer('instances', bytes, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST));
-    }
+    if (!this.#buffers.has('instances')) this.#replaceBuffer('instances', this.#memory.buffer('instances', records.byteLength, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST));
     this.#memory.write(this.#buffers.get('instances') as GPUBuffer, records);
-    return replaced;
+  }
+
+  /** Writes the records of some instances. */
+  #writeRecords(indices: readonly number[]): void {
+    const sorted = Uint32Array.from(indices).sort();
+    for (let i = 0; i < sorted.length; ) {
+      const first = sorted[i++] as number;
+      let end = first + 1;
+      while (i < sorted.length && (sorted[i] as number) <= end + JOINED_RECORDS) end = (sorted[i++] as number) + 1;
+      this.#memory.write(this.#buffers.get('instances') as GPUBuffer, packInstances(this.#scene, this.#geometry, this.#lights.firstLight, first, end), first * instanceStruct.size);
+    }
+  }
+
+  #writeMaterial(index: number): void {
+    const record = materialStruct.allocate();
+    this.#packMaterial(record, 0, index);
+    this.#memory.write(this.#buffers.get('materials') as GPUBuffer, record, index * materialStruct.size);
   }
 
   get #materialUse(): MaterialUse {
@@ -419,11 +503,11 @@ export class GpuScene {
       }
       return order;
     };
-    return { instanceSlots: this.#geometry.instanceSlots, leafTriangles };
+    return { instanceSlots: this.#geometry.placement.instanceSlots, leafTriangles };
   }
 
   #buildLights(): LightTable {
-    return buildLightTable(this.#scene, this.#places, this.#geometry.radius, this.#groups, this.#choices.lightSampling);
+    return buildLightTable(this.#scene, this.#places, this.#geometry.placement.radius, this.#groups, this.#choices.lightSampling);
   }
 
   #upload(name: ResourceName, data: ArrayBufferView<ArrayBuffer> | ArrayBuffer): void {

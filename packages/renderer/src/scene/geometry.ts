@@ -1,36 +1,13 @@
-import { buildTlas, packTriangles, type Blas, type Tlas } from '@glanz/bvh';
+import { packTriangles, type Blas } from '@glanz/bvh';
 import { bvhInstanceStruct } from '@glanz/bvh/wgsl';
-import type { Instance, Material, Mesh, Scene } from '@glanz/scene';
+import type { Instance, Mesh, Scene } from '@glanz/scene';
 import { INSTANCE_CATCHER, instanceStruct, meshStruct, NONE } from '../kernels/layout';
-import { RenderError } from '../errors';
-import { emittedRadiance } from './materials';
 import { breather, buildHierarchies, type HierarchyOptions } from './hierarchies';
-import { parametersOf } from './parameters';
+import { isShown, Placement } from './placement';
 
 /** Node words: 16 a node. */
 const NODE_WORDS = 16;
 const TRIANGLE_WORDS = 12;
-/** Words of a node that refer to its children. */
-const LEFT_CHILD = 3;
-const RIGHT_CHILD = 7;
-
-/** Where the instances are: made anew whenever one moves. */
-export interface Placement {
-  readonly tlas: Tlas;
-  /** The scene's instance of each instance given to the TLAS. */
-  readonly shown: readonly number[];
-  /** Scene instances in the order of their GPU records. */
-  readonly order: Uint32Array;
-  /** Scene instance → GPU record, or NONE. */
-  readonly instanceSlots: Uint32Array;
-  /**
-   * A second hierarchy behind the first, of the catchers and of what glows, which belongs to the surroundings as they do:
-   * what a catcher would look like without the rest. Its records follow the others.
-   */
-  readonly bare: { readonly tlas: Tlas; readonly shown: readonly number[] } | undefined;
-  readonly center: readonly [number, number, number];
-  readonly radius: number;
-}
 
 /** A part of the GPU's buffers that belongs to one mesh, in nodes, triangles and words. */
 export interface MeshRegion {
@@ -43,9 +20,11 @@ export interface MeshRegion {
 }
 
 /** A scene's shapes: hierarchies, and where everything lies in the GPU's buffers. */
-export interface Geometry extends Placement {
+export interface Geometry {
+  /** Changes in place as instances move, appear and disappear. */
+  readonly placement: Placement;
   readonly blas: readonly (Blas | undefined)[];
-  /** Nodes kept for the TLAS at the beginning of the node buffer. */
+  /** Nodes kept for the upper levels at the beginning of the node buffer. */
   readonly tlasNodes: number;
   readonly regions: readonly MeshRegion[];
   readonly nodeCount: number;
@@ -58,15 +37,12 @@ export interface Geometry extends Placement {
 
 /** Shapes as the kernels read them. */
 export interface PackedGeometry {
-  /** TLAS nodes first, then the nodes of each mesh in use. */
+  /** Upper levels first, then the nodes of each mesh in use. */
   readonly nodes: Float32Array<ArrayBuffer>;
   readonly triangles: Float32Array<ArrayBuffer>;
   /** Mesh table, then vertex attributes. Texture binding records follow. */
   readonly attributes: Uint32Array<ArrayBuffer>;
 }
-
-/** Whether an instance is there to be seen, as far as the scene itself tells. */
-export const isShown = (scene: Scene, instance: Instance) => instance.visible !== false && (scene.meshes[instance.mesh] as Mesh).indices.length >= 3;
 
 /** Meshes that visible instances use, in order. */
 function usedMeshes(scene: Scene): number[] {
@@ -91,57 +67,6 @@ export async function prepareHierarchies(scene: Scene, options: HierarchyOptions
   return all;
 }
 
-/**
- * Places the instances.
- *
- * @throws {RenderError} `renderer/no-triangles` if nothing can be seen.
- */
-export function placeInstances(scene: Scene, blas: readonly (Blas | undefined)[]): Placement {
-  const shown = scene.instances.flatMap((instance, index) => (isShown(scene, instance) && (blas[instance.mesh] as Blas).triangleIndices.length > 0 ? [index] : []));
-  if (shown.length === 0) throw new RenderError('renderer/no-triangles', 'The scene has no visible triangles: nothing to render.');
-  const tlas = buildTlas(boxesOf(scene, blas, shown));
-  if (tlas.instanceOrder.length === 0) throw new RenderError('renderer/no-triangles', 'Every instance has a transform that flattens it: nothing to render.');
-  const order = Uint32Array.from(tlas.instanceOrder, (i) => shown[i] as number);
-  const instanceSlots = new Uint32Array(scene.instances.length).fill(NONE);
-  order.forEach((instance, slot) => (instanceSlots[instance] = slot));
-  const { min, max } = tlas.bounds;
-  const center = [0, 1, 2].map((k) => ((min[k] as number) + (max[k] as number)) / 2) as [number, number, number];
-  const radius = 0.5 * Math.hypot(...[0, 1, 2].map((k) => (max[k] as number) - (min[k] as number)));
-  return { tlas, shown, order, instanceSlots, bare: placeBare(scene, blas, shown), center, radius };
-}
-
-const boxesOf = (scene: Scene, blas: readonly (Blas | undefined)[], which: readonly number[]) =>
-  which.map((index) => ({ bounds: (blas[(scene.instances[index] as Instance).mesh] as Blas).bounds, transform: (scene.instances[index] as Instance).transform }));
-
-function placeBare(scene: Scene, blas: readonly (Blas | undefined)[], shown: readonly number[]): Placement['bare'] {
-  if (!shown.some((index) => scene.instances[index]?.catcher)) return undefined;
-  const glows = scene.materials.map((material: Material) => emittedRadiance(parametersOf(material)).some((c) => c > 0));
-  const which = shown.filter((index) => scene.instances[index]?.catcher || glows[(scene.instances[index] as Instance).material]);
-  const tlas = buildTlas(boxesOf(scene, blas, which));
-  return tlas.instanceOrder.length > 0 ? { tlas, shown: which } : undefined;
-}
-
-const LEAF = 0x80000000;
-
-/** The nodes of both hierarchies, as they lie at the beginning of the node buffer. */
-export function packTlas({ tlas, bare, order }: Placement): Float32Array<ArrayBuffer> {
-  const first = tlas.nodes.subarray(0, tlas.nodeCount * NODE_WORDS);
-  if (!bare) return first;
-  const nodes = new Float32Array((tlas.nodeCount + bare.tlas.nodeCount) * NODE_WORDS);
-  nodes.set(first);
-  nodes.set(bare.tlas.nodes.subarray(0, bare.tlas.nodeCount * NODE_WORDS), first.length);
-  const words = new Uint32Array(nodes.buffer);
-  for (let node = tlas.nodeCount; node < tlas.nodeCount + bare.tlas.nodeCount; node++) {
-    for (const child of [LEFT_CHILD, RIGHT_CHILD]) {
-      const at = node * NODE_WORDS + child;
-      const reference = words[at] as number;
-      // Leaves name records, inner nodes nodes: both lie behind those of the first hierarchy.
-      words[at] = reference >= LEAF ? reference + order.length : reference + tlas.nodeCount;
-    }
-  }
-  return nodes;
-}
-
 const attributesOf = (mesh: Mesh) => [mesh.indices, mesh.normals, mesh.tangents, mesh.colors, mesh.uvs?.[0], mesh.uvs?.[1]];
 
 /** Words that a mesh's attributes take. */
@@ -155,9 +80,8 @@ export function attributeWords(mesh: Mesh): number {
  * @throws {RenderError} `renderer/no-triangles` if nothing can be seen.
  */
 export function layOutGeometry(scene: Scene, blas: readonly (Blas | undefined)[]): Geometry {
-  const placement = placeInstances(scene, blas);
-  // A node has two children: one less than there are instances, and room for those that are hidden now.
-  const tlasNodes = Math.max(packTlas(placement).length / NODE_WORDS, scene.instances.length, 1);
+  const placement = new Placement(scene, blas);
+  const tlasNodes = placement.nodeCapacity;
   const regions: MeshRegion[] = [];
   let nodeCount = tlasNodes;
   let triangleCount = 0;
@@ -170,7 +94,7 @@ export function layOutGeometry(scene: Scene, blas: readonly (Blas | undefined)[]
     triangleCount += region.triangles;
     words += region.words;
   });
-  return { ...placement, blas, tlasNodes, regions, nodeCount, triangleCount, attributeWords: words, hasVertexColors: scene.meshes.some((mesh, i) => blas[i] !== undefined && mesh.colors !== undefined) };
+  return { placement, blas, tlasNodes, regions, nodeCount, triangleCount, attributeWords: words, hasVertexColors: scene.meshes.some((mesh, i) => blas[i] !== undefined && mesh.colors !== undefined) };
 }
 
 /**
@@ -203,7 +127,7 @@ function* slicesOf(buffer: ShapeSlice['buffer'], offset: number, array: Float32A
  * written or copied before the next is asked for.
  */
 export function* shapeSlices(scene: Scene, geometry: Geometry): Generator<ShapeSlice> {
-  yield* slicesOf('nodes', 0, packTlas(geometry));
+  for (const { first, nodes } of geometry.placement.allNodes()) yield* slicesOf('nodes', 4 * first * NODE_WORDS, nodes);
   const records = new Uint32Array(scene.meshes.length * RECORD_WORDS);
   scene.meshes.forEach((mesh, index) => writeRecord(records, index * RECORD_WORDS, mesh, geometry.blas[index], geometry.regions[index] as MeshRegion));
   yield* slicesOf('attributes', 0, records);
@@ -313,13 +237,11 @@ export function packMesh(mesh: Mesh, tree: Blas | undefined, region: MeshRegion)
   };
 }
 
-/** Writes the instance records in GPU order, those of the second hierarchy behind the others. */
-export function packInstances(scene: Scene, geometry: Geometry, firstLight: Uint32Array): ArrayBuffer {
-  const { tlas, order, bare } = geometry;
-  const buffer = instanceStruct.allocate(order.length + (bare?.tlas.instanceOrder.length ?? 0));
+/** Writes the records of the scene's instances from `from` up to `to`. */
+export function packInstances(scene: Scene, geometry: Geometry, firstLight: Uint32Array, from = 0, to = scene.instances.length): ArrayBuffer {
+  const buffer = instanceStruct.allocate(to - from);
   const [floats, words] = [new Float32Array(buffer), new Uint32Array(buffer)];
-  tlas.instanceOrder.forEach((given, slot) => writeInstance(floats, words, slot, scene, geometry, order[slot] as number, tlas.toObject, given, firstLight));
-  bare?.tlas.instanceOrder.forEach((given, i) => writeInstance(floats, words, order.length + i, scene, geometry, bare.shown[given] as number, bare.tlas.toObject, given, firstLight));
+  for (let index = from; index < to; index++) writeInstance(floats, words, (index - from) * INSTANCE_WORDS, scene, geometry, index, firstLight);
   return buffer;
 }
 
@@ -339,13 +261,13 @@ const AT = {
   id: instanceStruct.offsetOf('id') / 4,
 };
 
-/** Writes word by word, for there may be hundreds of thousands. `given` says which rows of `toObject` are the instance's. */
-function writeInstance(floats: Float32Array, words: Uint32Array, slot: number, scene: Scene, geometry: Geometry, index: number, toObject: Float64Array, given: number, firstLight: Uint32Array): void {
+/** Writes word by word, for there may be hundreds of thousands. */
+function writeInstance(floats: Float32Array, words: Uint32Array, at: number, scene: Scene, { regions, placement }: Geometry, index: number, firstLight: Uint32Array): void {
   const { transform, mesh, material, catcher } = scene.instances[index] as Instance;
-  const { firstNode, firstTriangle } = geometry.regions[mesh] as MeshRegion;
-  const at = slot * INSTANCE_WORDS;
+  const { firstNode, firstTriangle } = regions[mesh] as MeshRegion;
+  const { toObject } = placement.tlas;
   for (let k = 0; k < 12; k++) {
-    floats[at + AT.toObject + k] = toObject[12 * given + k] as number;
+    floats[at + AT.toObject + k] = toObject[12 * index + k] as number;
     floats[at + AT.toWorld + k] = transform[4 * (k & 3) + (k >> 2)] as number;
   }
   words[at + AT.blasNode] = firstNode;

@@ -1,4 +1,4 @@
-import type { Mesh, Scene } from '@glanz/scene';
+import type { Instance, Mesh, Scene } from '@glanz/scene';
 
 const alphaKnown = new WeakMap<Float32Array, boolean>();
 
@@ -21,15 +21,30 @@ function hasAlpha({ colors }: Mesh): boolean {
 export class MaterialUse {
   readonly #visible: Uint32Array;
   readonly #translucent: Uint32Array;
+  readonly #alpha: readonly boolean[];
 
   constructor({ materials, meshes, instances }: Scene) {
     this.#visible = new Uint32Array(materials.length);
     this.#translucent = new Uint32Array(materials.length);
-    const alpha = meshes.map(hasAlpha);
-    for (const { material, mesh, visible } of instances) {
-      if (visible !== false) (this.#visible[material] as number)++;
-      if (alpha[mesh]) (this.#translucent[material] as number)++;
-    }
+    this.#alpha = meshes.map(hasAlpha);
+    for (const instance of instances) this.#count(instance, 1);
+  }
+
+  /**
+   * Counts an instance as it is now, and no longer as it was. Its mesh must be one of those given to the constructor.
+   * @returns Whether all answers are the same as before.
+   */
+  replace(before: Instance, after: Instance): boolean {
+    const answers = () => [before.material, after.material].map((material) => `${this.isVisible(material)} ${this.hasVertexAlpha(material)}`).join();
+    const known = answers();
+    this.#count(before, -1);
+    this.#count(after, 1);
+    return answers() === known;
+  }
+
+  #count({ material, mesh, visible }: Instance, by: number): void {
+    if (visible !== false) (this.#visible[material] as number) += by;
+    if (this.#alpha[mesh]) (this.#translucent[material] as number) += by;
   }
 
   /** Whether a visible instance has the material. */

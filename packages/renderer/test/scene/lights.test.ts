@@ -26,7 +26,7 @@ const placesOf = (slots: Uint32Array): LightGeometry => ({ instanceSlots: slots,
 describe('lights', () => {
   it('gathered before shapes have their places, they are the table that is built after', async () => {
     const scene = glowing();
-    const { instanceSlots, radius } = await prepareGeometry(scene);
+    const { instanceSlots, radius } = (await prepareGeometry(scene)).placement;
     const groups = lightGroupTable(scene, 'named');
     const places = placesOf(instanceSlots);
     for (const sampling of ['tree', 'power'] as const) {
@@ -47,7 +47,7 @@ describe('lights', () => {
   it('what glows and has no place after all is told, and left out when it is built anew', async () => {
     const scene = glowing();
     scene.instances[0]!.transform = FLAT;
-    const { instanceSlots, radius } = await prepareGeometry(scene);
+    const { instanceSlots, radius } = (await prepareGeometry(scene)).placement;
     expect(instanceSlots[0]).toBe(NONE);
     const groups = lightGroupTable(scene, 'named');
     expect(finish(placingSteps(scene, finish(lightSteps(scene, () => true, groups, 'tree')), placesOf(instanceSlots), radius))).toBeUndefined();
