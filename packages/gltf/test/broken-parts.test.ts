@@ -54,6 +54,7 @@ const REPAIRED: readonly (readonly [what: string, path: string, change: (json: T
   ['bind matrices of bytes', '/skins/0/inverseBindMatrices', (json) => { json['accessors'].push({ bufferView: 0, componentType: 5121, type: 'MAT4', count: 1 }); json['skins'] = [{ joints: [0], inverseBindMatrices: 2 }]; }],
   ['translations of bytes', '/animations/0/channels/0', (json) => { json['accessors'].push({ bufferView: 0, componentType: 5126, type: 'SCALAR', count: 3 }, { bufferView: 0, componentType: 5121, type: 'VEC3', count: 3, normalized: true }); json['animations'] = [{ samplers: [{ input: 2, output: 3 }], channels: [{ sampler: 0, target: { node: 0, path: 'translation' } }] }]; }],
   ['rotations of plain shorts', '/animations/0/channels/0', (json) => { json['accessors'].push({ bufferView: 0, componentType: 5126, type: 'SCALAR', count: 3 }, { bufferView: 0, componentType: 5122, type: 'VEC4', count: 3 }); json['animations'] = [{ samplers: [{ input: 2, output: 3 }], channels: [{ sampler: 0, target: { node: 0, path: 'rotation' } }] }]; }],
+  ['indices with a stride', '/meshes/0/primitives/0/indices', (json) => { json['buffers'][0].byteLength = 44; json['bufferViews'][1] = { buffer: 0, byteOffset: 32, byteLength: 12, byteStride: 4 }; }],
   ['a later minor version', '/asset/version', (json) => (json['asset'] = { version: '2.1', minVersion: '2.1' })],
 ];
 

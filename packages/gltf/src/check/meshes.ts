@@ -82,6 +82,8 @@ function checkPrimitive(context: CheckContext, path: string, primitive: Raw, fac
   const indices = context.index(primitive, 'indices', path, facts, 'accessor');
   if (indices !== undefined) {
     const { type, componentType } = facts[indices] as AccessorFacts;
+    const view = own(context.list('accessors')[indices] as Raw, 'bufferView');
+    if (typeof view === 'number' && own(views[view] as Raw, 'byteStride') !== undefined) context.warn('gltf/data', `${path}/indices`, 'lie in a buffer view with a byteStride, which indices must not have; they are read with it');
     if (type !== 'SCALAR' || ![5121, 5123, 5125].includes(componentType)) context.fail(`${path}/indices`, `is a ${type} of ${componentType}, but indices are unsigned whole numbers`);
   }
   const draco = context.extension(primitive, 'KHR_draco_mesh_compression', path);
