@@ -1,7 +1,7 @@
+import { FaultRecorder, instrumentDevice, type Fault } from '@glanz/gpu/faults';
 import { createGpu } from '@glanz/renderer/node';
 import type { LatLongEnvironment, Mesh, Scene } from '@glanz/scene';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import { FaultRecorder, instrumentDevice, type Fault } from '../../../../tools/gpu/src/faults';
 import { PathTracer, requestDevice, type PathTracerOptions } from '../../src/index';
 import { addQuad, addSphere, camera, createScene, lambert } from '../scenes';
 

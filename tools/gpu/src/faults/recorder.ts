@@ -28,7 +28,7 @@ export interface LiveObject {
 const CREATES_MEMORY = /^create(Buffer|Texture|QuerySet)$/;
 const CREATES_PIPELINE = /^create(Compute|Render)Pipeline(Async)?$/;
 const CAN_BE_INVALID = /^(create(Buffer|Texture|BindGroup|BindGroupLayout|PipelineLayout|Sampler|QuerySet)|submit|writeBuffer|writeTexture|copyExternalImageToTexture)$/;
-const ANSWERS = /(Async|onSubmittedWorkDone|popErrorScope|getCompilationInfo)$/;
+const ANSWERS = /(Async|onSubmittedWorkDone|popErrorScope)$/;
 
 /** The faults that a call can meet, in the order of {@link FAULTS}. */
 export function faultsOf({ call }: Pick<FaultPoint, 'call'>): Fault[] {
