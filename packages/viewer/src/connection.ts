@@ -1,7 +1,7 @@
 import { requestDevice } from '@glanz/renderer';
 import { checkToneMapOptions, type ToneMapOptions } from '@glanz/tonemap';
 import { Display } from './display';
-import { isAbort, ViewerError } from './errors';
+import { destroyed, isAbort, ViewerError } from './errors';
 import { Losses } from './losses';
 
 /** What a connection tells its engine. */
@@ -26,8 +26,6 @@ const RECONNECT_MS = [100, 300, 1000];
 /** Codes of errors that do not pass. */
 const FOR_GOOD: ReadonlySet<unknown> = new Set(['renderer/no-webgpu', 'viewer/no-canvas']);
 
-const destroyed = () => new ViewerError('viewer/destroyed', 'This viewer has been destroyed.');
-
 /** A canvas's device and display, and others in their place when they are lost. */
 export class Connection {
   readonly #canvas: HTMLCanvasElement;
@@ -37,6 +35,8 @@ export class Connection {
   #view: ToneMapOptions;
   #ready: Promise<void>;
   #device: GPUDevice | undefined;
+  /** A device whose display is being made. */
+  #coming: GPUDevice | undefined;
   #display: Display | undefined;
   #recovery: Promise<void> | undefined;
   /** A request for a device that is no recovery. */
@@ -123,7 +123,8 @@ export class Connection {
     this.#destroyed = true;
     this.#display?.destroy();
     this.#device?.destroy();
-    this.#display = this.#device = undefined;
+    this.#coming?.destroy();
+    this.#display = this.#device = this.#coming = undefined;
   }
 
   #begin(): Promise<void> {
@@ -144,10 +145,10 @@ export class Connection {
   }
 
   async #connect(): Promise<void> {
-    const device = await this.#request();
+    const device = (this.#coming = await this.#request());
     try {
       if (this.#destroyed) throw destroyed();
-      const display = await Display.create(this.#canvas, device, this.#view);
+      const display = await Display.create(this.#canvas, device, this.#view, () => !this.#destroyed);
       if (this.#destroyed) {
         display.destroy();
         throw destroyed();
@@ -163,6 +164,7 @@ export class Connection {
       throw error;
     }
     this.#device = device;
+    this.#coming = undefined;
     device.addEventListener('uncapturederror', (event) => {
       event.preventDefault();
       if (device === this.#device) this.#events.error(new ViewerError('viewer/gpu', `The GPU reports: ${event.error.message}`));

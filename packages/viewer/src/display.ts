@@ -2,7 +2,7 @@ import { ToneMapPass, type ToneMap, type ToneMapOptions } from '@glanz/tonemap';
 import { compose } from '@glanz/wgsl/compose';
 import { viewerBlend } from './blend.wgsl';
 import { withErrorScopes } from './error-scopes';
-import { ViewerError } from './errors';
+import { destroyed, ViewerError } from './errors';
 
 /** A picture in a buffer of the GPU: vec4f per pixel. */
 export interface GpuPicture {
@@ -43,17 +43,24 @@ export class Display {
   /**
    * Compiles what drawing needs, and gives the canvas to the device.
    *
-   * @throws {ToneMapError} `tonemap/pipeline`; {ViewerError} `viewer/no-canvas`, `viewer/gpu`, `viewer/out-of-memory`.
+   * @param wanted Whether it is still wanted, once the shaders are there.
+   * @throws {ToneMapError} `tonemap/pipeline`; {ViewerError} `viewer/no-canvas`, `viewer/gpu`, `viewer/out-of-memory`;
+   * `viewer/destroyed` where it is not wanted any more.
    */
-  static async create(canvas: HTMLCanvasElement, device: GPUDevice, view: ToneMapOptions): Promise<Display> {
+  static async create(canvas: HTMLCanvasElement, device: GPUDevice, view: ToneMapOptions, wanted: () => boolean): Promise<Display> {
     const format = navigator.gpu.getPreferredCanvasFormat();
     const passing = withErrorScopes(device, 'drawing', () => ToneMapPass.create(device, { format, ...view }));
     passing.catch(() => undefined);
     try {
       const [pass, blend] = await Promise.all([passing, compileBlend(device)]);
+      if (!wanted()) throw destroyed();
       const context = canvas.getContext('webgpu');
       if (!context) throw new ViewerError('viewer/no-canvas', 'The canvas gives no WebGPU context: it may have one of another kind already; use a fresh canvas.');
       const uniforms = await withErrorScopes(device, 'drawing', () => device.createBuffer({ label: 'glanz viewer blend', size: 32, usage: UNIFORM | COPY_DST }));
+      if (!wanted()) {
+        uniforms.destroy();
+        throw destroyed();
+      }
       context.configure({ device, format, alphaMode: 'premultiplied' });
       return new Display(canvas, device, context, pass, blend, uniforms);
     } catch (error) {
@@ -121,13 +128,15 @@ export class Display {
    * @param share Of the kept preview in it, 0..1.
    */
   draw(film: GpuPicture, canvasSize: readonly [number, number], share: number): void {
-    const [width, height] = canvasSize;
+    // A canvas is a texture, whose sides are limited; the page stretches it.
+    const scale = Math.min(1, this.#device.limits.maxTextureDimension2D / Math.max(...canvasSize));
+    const [width, height] = canvasSize.map((pixels) => Math.max(1, Math.floor(pixels * scale))) as [number, number];
     // Only now, since a change of size wipes the canvas.
     if (this.#canvas.width !== width) this.#canvas.width = width;
     if (this.#canvas.height !== height) this.#canvas.height = height;
     const encoder = this.#device.createCommandEncoder({ label: 'glanz viewer' });
     const source = this.#small && share > 0 ? this.#mix(encoder, film, this.#small, share) : film.buffer;
-    this.#pass.draw(encoder, source, film.size, this.#context.getCurrentTexture().createView(), canvasSize);
+    this.#pass.draw(encoder, source, film.size, this.#context.getCurrentTexture().createView(), [width, height]);
     this.#device.queue.submit([encoder.finish()]);
   }
 

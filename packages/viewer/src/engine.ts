@@ -448,7 +448,10 @@ export class Engine {
     if (before >= Math.min(PREVIEW_SAMPLES, most) && this.#fresh) return;
     const started = performance.now();
     let samples = before;
-    for await (const progress of tracer.render({ samples: Math.min(before + plan.samples, Math.max(most, before)), maxSubmitMs: PREVIEW_SUBMIT_MS })) samples = progress.samples;
+    for await (const progress of tracer.render({ samples: Math.min(before + plan.samples, Math.max(most, before)), maxSubmitMs: PREVIEW_SUBMIT_MS })) {
+      ({ samples } = progress);
+      if (!this.#visibility.visible) break;
+    }
     // A film that an edit has restarted meanwhile has none.
     if (tracer !== this.#tracer || this.#destroyed || tracer.samples === 0) return;
     const milliseconds = performance.now() - started;

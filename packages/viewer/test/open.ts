@@ -8,6 +8,7 @@ declare global {
     file: (base64: string, name: string) => File;
     viewer: Viewer;
     retries: (() => void)[];
+    order: string[];
     kernels: string[];
     heard: { type: string; [key: string]: unknown }[];
   }

@@ -12,6 +12,10 @@ export interface GpuFaults {
   readonly injected: readonly string[];
   /** Loses the device just before the nth call of these functions: counted from 1, over all devices. */
   loseAt: Readonly<Record<string, number>>;
+  /** The reason of those losses; default `unknown`. */
+  lossReason: 'unknown' | 'destroyed';
+  /** Called before each call that is counted, with its number among all of them. */
+  onCall: ((n: number, name: string) => void) | undefined;
   /** Makes the nth `createBuffer` or `createTexture` fail for lack of memory; both count as `allocations`. */
   outOfMemoryAt: number | undefined;
   /** Bytes that all buffers and textures may have together; a larger total is out of memory. */
@@ -77,6 +81,8 @@ function wrapWebGpu(first: object): void {
     errors: [] as string[],
     injected: [] as string[],
     loseAt: {} as Record<string, number>,
+    lossReason: 'unknown' as 'unknown' | 'destroyed',
+    onCall: undefined as ((n: number, name: string) => void) | undefined,
     outOfMemoryAt: undefined as number | undefined,
     memory: undefined as number | undefined,
     failPipelines: undefined as string | undefined,
@@ -125,11 +131,13 @@ function wrapWebGpu(first: object): void {
       },
     });
   };
+  let calls = 0;
   const visit = (device: GPUDevice | undefined, name: string) => {
     count[name] = (count[name] ?? 0) + 1;
+    faults.onCall?.(++calls, name);
     if (device && faults.loseAt[name] === count[name]) {
       faults.injected.push(`lost before ${name} ${count[name]}`);
-      state.get(device)?.lose('unknown');
+      state.get(device)?.lose(faults.lossReason);
     }
   };
 
