@@ -14,14 +14,16 @@ import { emittedRadiance, isOpaque, packBindings, packMaterial, texturedParamete
 import { parametersOf } from '../scene/parameters';
 import type { NodeRange } from '../scene/placement';
 import type { TexturePlan } from '../scene/textures';
-import { GPU_BUFFER_COPY_DST, GPU_BUFFER_STORAGE, GPU_TEXTURE_BINDING, GPU_TEXTURE_COPY_DST, type GpuMemory } from './buffers';
+import type { GpuMemory } from './buffers';
 import type { EnergyTextures } from './energy-textures';
+import { fillEnvironmentTextures, makeEnvironmentTextures } from './environment-textures';
 import { inErrorScopes, withErrorScopes } from './error-scopes';
+import { SceneResources, type ResourceLog } from './scene-resources';
 import { uploadTextures } from './texture-upload';
 
 /** While shapes are filled in, the thread is handed back after so many milliseconds; a slice more can follow. */
 const FILL_MS = 4;
-/** Pixels are written so many bytes at a time. */
+/** Lights are written so many bytes at a time. */
 const FILL_BYTES = 1 << 20;
 /** So much may wait for the GPU's process. */
 const QUEUE_BYTES = 2 << 20;
@@ -36,22 +38,6 @@ export interface InstanceChange {
   readonly after: Instance;
 }
 
-interface EditLog {
-  readonly made: (GPUBuffer | GPUTexture)[];
-  readonly replaced: (GPUBuffer | GPUTexture)[];
-}
-
-/** What {@link GpuScene.record} gives: an edit that has been made, and can still be taken back. */
-export interface RecordedEdit<T> {
-  readonly result: T;
-  /** Whether the GPU may yet refuse it: it was asked for memory. */
-  readonly allocated: boolean;
-  /** Frees what was replaced. The edit cannot be taken back any more. */
-  readonly settle: () => void;
-  /** Takes the edit back, here and in the `Scene`. Edits made after it must have been taken back before. */
-  readonly undo: () => void;
-}
-
 /**
  * A scene on the GPU. A cache: everything here can be made again from the `Scene`. It comes in three steps, since a first
  * picture needs no lights: the constructor makes what is the size of the scene, `fill()` writes the shapes into it, and
@@ -59,7 +45,6 @@ export interface RecordedEdit<T> {
  */
 export class GpuScene {
   readonly #device: GPUDevice;
-  readonly #memory: GpuMemory;
   /** Bytes written since the GPU's process was waited for. */
   #waiting = 0;
   readonly #scene: Scene;
@@ -71,8 +56,7 @@ export class GpuScene {
   #firstBinding: number[] = [];
   readonly #sceneTextures: readonly GPUTexture[];
   readonly #samplers: readonly GPUSampler[];
-  readonly #buffers = new Map<ResourceName, GPUBuffer>();
-  readonly #textures = new Map<ResourceName, GPUTexture>();
+  readonly #resources: SceneResources;
   readonly #energySampler: GPUSampler;
   /** Both are derived when they are first asked for after an edit that they depend on, and kept until the next. */
   #use: MaterialUse | undefined;
@@ -82,12 +66,10 @@ export class GpuScene {
   /** Of the scene when the lights were gathered: directional lights are weighed by it. */
   #lightsRadius = 0;
   #environment: EnvironmentData;
-  /** What the edit that is being made has allocated and replaced; `undefined` while the scene is prepared. */
-  #log: EditLog | undefined;
 
   constructor(device: GPUDevice, memory: GpuMemory, scene: Scene, geometry: Geometry, choices: SceneChoices) {
     this.#device = device;
-    this.#memory = memory;
+    this.#resources = new SceneResources(memory);
     this.#scene = scene;
     this.#geometry = geometry;
     this.#choices = choices;
@@ -140,53 +122,26 @@ export class GpuScene {
   /**
    * Makes an edit by the `update…` methods, keeping what it replaces until it is settled.
    * @param restoreScene Takes the `Scene` back to what it was before the edit.
+   * @returns To be settled or undone; later edits must have been undone before.
    * @throws What `edit` throws, with the edit taken back.
    */
-  record<T>(edit: () => T, restoreScene: () => void): RecordedEdit<T> {
-    const log: EditLog = { made: [], replaced: [] };
+  record<T>(edit: () => T, restoreScene: () => void): ResourceLog & { readonly result: T } {
     const [geometry, lights, lightsRadius, groups, environment, firstBinding] = [this.#geometry, this.#lights, this.#lightsRadius, this.#groups, this.#environment, this.#firstBinding];
-    const [buffers, textures] = [[...this.#buffers], [...this.#textures]];
-    const undo = () => {
+    return this.#resources.record(edit, () => {
       restoreScene();
       [this.#geometry, this.#lights, this.#lightsRadius, this.#groups, this.#environment, this.#firstBinding] = [geometry, lights, lightsRadius, groups, environment, firstBinding];
-      for (const [name, buffer] of buffers) this.#buffers.set(name, buffer);
-      for (const [name, texture] of textures) this.#textures.set(name, texture);
-      for (const resource of log.made) this.#memory.release(resource);
       this.#use = undefined;
       this.#features = undefined;
       this.rewrite();
-    };
-    this.#log = log;
-    try {
-      const result = edit();
-      return { result, allocated: log.made.length > 0, settle: () => log.replaced.forEach((resource) => this.#memory.release(resource)), undo };
-    } catch (error) {
-      undo();
-      throw error;
-    } finally {
-      this.#log = undefined;
-    }
+    });
   }
 
   /** Writes all records of fixed size again. */
   rewrite(): void {
-    const write = (name: ResourceName, data: ArrayBufferView<ArrayBuffer> | ArrayBuffer) => this.#memory.write(this.#buffers.get(name) as GPUBuffer, data);
     this.#writeAllNodes();
-    write('materials', this.#packMaterials());
-    write('lights', this.#lights.records);
-    write('instances', packInstances(this.#scene, this.#geometry, this.#lights.firstLight));
-  }
-
-  /** Puts a buffer in place of the one of this name. */
-  #replaceBuffer(name: ResourceName, buffer: GPUBuffer): void {
-    this.#retire(this.#buffers.get(name));
-    this.#log?.made.push(buffer);
-    this.#buffers.set(name, buffer);
-  }
-
-  #retire(resource: GPUBuffer | GPUTexture | undefined): void {
-    if (resource && this.#log) this.#log.replaced.push(resource);
-    else this.#memory.release(resource);
+    this.#resources.write('materials', this.#packMaterials());
+    this.#resources.write('lights', this.#lights.records);
+    this.#resources.write('instances', packInstances(this.#scene, this.#geometry, this.#lights.firstLight));
   }
 
   /** What decides the kernels' text. Derived once after an edit; a camera move derives nothing. */
@@ -220,9 +175,9 @@ export class GpuScene {
 
   /** Binding of one of the resources this scene owns. */
   resource(name: string): GPUBindingResource | undefined {
-    const buffer = this.#buffers.get(name as ResourceName);
+    const buffer = this.#resources.buffer(name as ResourceName);
     if (buffer) return { buffer };
-    const texture = this.#textures.get(name as ResourceName);
+    const texture = this.#resources.texture(name as ResourceName);
     if (texture) return texture.createView();
     if (name === 'energy_sampler') return this.#energySampler;
     const [, kind, index] = /^scene_(texture|sampler)_(\d+)$/.exec(name) ?? [];
@@ -250,8 +205,8 @@ export class GpuScene {
     this.#environment = turnEnvironment(before, environment) ?? prepareEnvironment(environment);
     const replaced = this.#environment.pixels !== before.pixels || this.#environment.table !== before.table;
     if (replaced) {
-      this.#makeEnvironment();
-      for (const _ of this.#environmentSlices());
+      makeEnvironmentTextures(this.#resources, this.#environment);
+      for (const _ of fillEnvironmentTextures(this.#device.queue, this.#resources, this.#environment));
     }
     return (this.#updateGroups() && this.updateLights()) || replaced;
   }
@@ -262,7 +217,7 @@ export class GpuScene {
     this.#writeAllNodes();
     this.#updateGroups();
     // Meshes may have brought vertex colours that let light pass.
-    this.#memory.write(this.#buffers.get('materials') as GPUBuffer, this.#packMaterials());
+    this.#resources.write('materials', this.#packMaterials());
     const replaced = this.updateLights();
     this.#writeInstances();
     return replaced;
@@ -294,7 +249,7 @@ export class GpuScene {
   }
 
   #writeNodes(ranges: readonly NodeRange[]): void {
-    for (const { first, nodes } of ranges) this.#memory.write(this.#buffers.get('nodes') as GPUBuffer, nodes, 64 * first);
+    for (const { first, nodes } of ranges) this.#resources.write('nodes', nodes, 64 * first);
   }
 
   #writeAllNodes(): void {
@@ -316,18 +271,17 @@ export class GpuScene {
 
   #writeMesh(geometry: Geometry, index: number, packed: PackedMesh): void {
     const region = geometry.regions[index] as MeshRegion;
-    const write = (name: ResourceName, data: ArrayBufferView<ArrayBuffer>, offset: number) => this.#memory.write(this.#buffers.get(name) as GPUBuffer, data, offset);
-    write('nodes', packed.nodes, region.firstNode * 64);
-    write('triangles', packed.triangles, region.firstTriangle * 48);
-    write('attributes', packed.record, index * meshStruct.size);
-    write('attributes', packed.attributes, region.firstWord * 4);
+    this.#resources.write('nodes', packed.nodes, region.firstNode * 64);
+    this.#resources.write('triangles', packed.triangles, region.firstTriangle * 48);
+    this.#resources.write('attributes', packed.record, index * meshStruct.size);
+    this.#resources.write('attributes', packed.attributes, region.firstWord * 4);
   }
 
   /** All shapes are new. Bindings are replaced. */
   updateShapes(geometry: Geometry, packed: PackedGeometry): void {
     this.#setGeometry(geometry);
     this.#makeShapes(geometry);
-    for (const name of ['nodes', 'triangles', 'attributes'] as const) this.#memory.write(this.#buffers.get(name) as GPUBuffer, packed[name]);
+    for (const name of ['nodes', 'triangles', 'attributes'] as const) this.#resources.write(name, packed[name]);
     this.updatePlacement(geometry);
   }
 
@@ -342,15 +296,11 @@ export class GpuScene {
     const { records, first, count } = this.#bindings;
     const bindingWords = records.byteLength / 4 / Math.max(1, count.reduce((a, b) => a + b, 0));
     this.#firstBinding = first.map((index) => attributeWords + index * bindingWords);
-    const make = (name: ResourceName, bytes: number) => {
-      const buffer = this.#memory.buffer(name, bytes, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST);
-      this.#replaceBuffer(name, buffer);
-      return buffer;
-    };
-    make('nodes', 64 * nodeCount);
-    make('triangles', 48 * triangleCount);
-    this.#memory.write(make('attributes', 4 * attributeWords + records.byteLength), records, 4 * attributeWords);
-    this.#upload('materials', this.#packMaterials());
+    this.#resources.make('nodes', 64 * nodeCount);
+    this.#resources.make('triangles', 48 * triangleCount);
+    this.#resources.make('attributes', 4 * attributeWords + records.byteLength);
+    this.#resources.write('attributes', records, 4 * attributeWords);
+    this.#resources.upload('materials', this.#packMaterials());
   }
 
   /** Writes the shapes, with the thread handed back every few milliseconds. */
@@ -359,7 +309,7 @@ export class GpuScene {
     const written: Promise<void>[] = [];
     this.#geometry.placement.takeChangedNodes();
     for (const { buffer, offset, data } of joinSlices(shapeSlices(this.#scene, this.#geometry))) {
-      const { verified } = inErrorScopes(this.#device, 'the shapes of this scene', () => this.#memory.write(this.#buffers.get(buffer) as GPUBuffer, data, offset));
+      const { verified } = inErrorScopes(this.#device, 'the shapes of this scene', () => this.#resources.write(buffer, data, offset));
       written.push(verified);
       await this.#keepUp(data.byteLength, breathe);
       signal?.throwIfAborted();
@@ -386,12 +336,12 @@ export class GpuScene {
     const breathe = breather(FILL_MS);
     await withErrorScopes(this.#device, 'the environment', () => {
       this.#environment = environment;
-      this.#makeEnvironment();
+      makeEnvironmentTextures(this.#resources, this.#environment);
       this.#uploadEnergy(energy);
     });
     await breathe();
     const written: Promise<void>[] = [];
-    const slices = this.#environmentSlices();
+    const slices = fillEnvironmentTextures(this.#device.queue, this.#resources, this.#environment);
     for (;;) {
       const { result: slice, verified } = inErrorScopes(this.#device, 'the environment', () => slices.next());
       written.push(verified);
@@ -404,12 +354,12 @@ export class GpuScene {
     this.#features = undefined;
     const { records } = this.#lights;
     await withErrorScopes(this.#device, 'the lights of this scene', () => {
-      this.#replaceBuffer('lights', this.#memory.buffer('lights', records.byteLength, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST));
+      this.#resources.make('lights', records.byteLength);
       if (this.#lights.count > 0) this.#writeInstances();
     });
     for (let at = 0; at < records.byteLength; at += FILL_BYTES) {
       const bytes = Math.min(FILL_BYTES, records.byteLength - at);
-      const { verified } = inErrorScopes(this.#device, 'the lights of this scene', () => this.#memory.write(this.#buffers.get('lights') as GPUBuffer, new Uint8Array(records, at, bytes), at));
+      const { verified } = inErrorScopes(this.#device, 'the lights of this scene', () => this.#resources.write('lights', new Uint8Array(records, at, bytes), at));
       written.push(verified);
       await this.#keepUp(bytes, breathe);
     }
@@ -421,7 +371,7 @@ export class GpuScene {
     const before = this.#groups.names;
     this.#groups = lightGroupTable(this.#scene, this.#choices.lightGroups);
     if (before.length === this.#groups.names.length && before.every((name, i) => name === this.#groups.names[i])) return false;
-    this.#memory.write(this.#buffers.get('materials') as GPUBuffer, this.#packMaterials());
+    this.#resources.write('materials', this.#packMaterials());
     return true;
   }
 
@@ -439,18 +389,18 @@ export class GpuScene {
     for (let i = 0; i < firstLight.length; i++) if (firstLight[i] !== before.firstLight[i]) indices.push(i);
     this.#writeRecords(indices);
     if (records.byteLength === before.records.byteLength) {
-      this.#memory.write(this.#buffers.get('lights') as GPUBuffer, records);
+      this.#resources.write('lights', records);
       return false;
     }
-    this.#upload('lights', records);
+    this.#resources.upload('lights', records);
     return true;
   }
 
   /** Writes the records of all instances. Each has its own, hidden or not, so that the buffer is never replaced. */
   #writeInstances(): void {
     const records = packInstances(this.#scene, this.#geometry, this.#lights.firstLight);
-    if (!this.#buffers.has('instances')) this.#replaceBuffer('instances', this.#memory.buffer('instances', records.byteLength, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST));
-    this.#memory.write(this.#buffers.get('instances') as GPUBuffer, records);
+    if (!this.#resources.buffer('instances')) this.#resources.make('instances', records.byteLength);
+    this.#resources.write('instances', records);
   }
 
   /** Writes the records of some instances. */
@@ -460,14 +410,14 @@ export class GpuScene {
       const first = sorted[i++] as number;
       let end = first + 1;
       while (i < sorted.length && (sorted[i] as number) <= end + JOINED_RECORDS) end = (sorted[i++] as number) + 1;
-      this.#memory.write(this.#buffers.get('instances') as GPUBuffer, packInstances(this.#scene, this.#geometry, this.#lights.firstLight, first, end), first * instanceStruct.size);
+      this.#resources.write('instances', packInstances(this.#scene, this.#geometry, this.#lights.firstLight, first, end), first * instanceStruct.size);
     }
   }
 
   #writeMaterial(index: number): void {
     const record = materialStruct.allocate();
     this.#packMaterial(record, 0, index);
-    this.#memory.write(this.#buffers.get('materials') as GPUBuffer, record, index * materialStruct.size);
+    this.#resources.write('materials', record, index * materialStruct.size);
   }
 
   get #materialUse(): MaterialUse {
@@ -510,45 +460,11 @@ export class GpuScene {
     return buildLightTable(this.#scene, this.#places, this.#geometry.placement.radius, this.#groups, this.#choices.lightSampling);
   }
 
-  #upload(name: ResourceName, data: ArrayBufferView<ArrayBuffer> | ArrayBuffer): void {
-    this.#replaceBuffer(name, this.#memory.upload(name, data, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST));
-  }
-
-  /** The pictures of the environment by their names; black where there are none. */
-  get #environmentPictures() {
-    const none = { width: 1, height: 1, data: new Float32Array(4) };
-    return [['environment', this.#environment.pixels ?? none], ['environment_table', this.#environment.table ?? none]] as const;
-  }
-
-  /** Makes the textures of the environment, still empty. */
-  #makeEnvironment(): void {
-    for (const [name, { width, height, data }] of this.#environmentPictures) {
-      const texture = this.#memory.texture({ label: `glanz ${name}`, size: [width, height], format: 'rgba32float', usage: GPU_TEXTURE_BINDING | GPU_TEXTURE_COPY_DST }, data.byteLength);
-      this.#retire(this.#textures.get(name));
-      this.#log?.made.push(texture);
-      this.#textures.set(name, texture);
-    }
-  }
-
-  /** Fills the textures of the environment, some rows at a time; gives their bytes. */
-  *#environmentSlices(): Generator<number> {
-    for (const [name, { width, height, data }] of this.#environmentPictures) {
-      const texture = this.#textures.get(name) as GPUTexture;
-      const rows = Math.max(1, Math.floor(FILL_BYTES / (16 * width)));
-      for (let y = 0; y < height; y += rows) {
-        const some = Math.min(rows, height - y);
-        this.#device.queue.writeTexture({ texture, origin: [0, y] }, data.subarray(4 * width * y, 4 * width * (y + some)), { bytesPerRow: width * 16, rowsPerImage: some }, [width, some]);
-        yield 16 * width * some;
-      }
-    }
-  }
-
   #uploadEnergy(energy: EnergyTextures): void {
     for (const name of ['energy_dielectric', 'energy_conductor'] as const) {
       const { size, dimension, data } = energy[name];
-      const texture = this.#memory.texture({ label: `glanz ${name}`, size, dimension, format: 'r16float', usage: GPU_TEXTURE_BINDING | GPU_TEXTURE_COPY_DST }, data.byteLength);
+      const texture = this.#resources.makeTexture(name, { size, dimension, format: 'r16float' }, data.byteLength);
       this.#device.queue.writeTexture({ texture }, data, { bytesPerRow: size[0] * 2, rowsPerImage: size[1] }, size);
-      this.#textures.set(name, texture);
     }
   }
 }
