@@ -1,0 +1,67 @@
+import { FAULTS, type Fault } from '@glanz/gpu/faults';
+import { requestDevice } from '@glanz/renderer';
+import { createGpu } from '@glanz/renderer/node';
+import type { Benchmark, Figure } from '../benchmark';
+import { BenchError } from '../error';
+import { cliCampaign } from '../faults/cli';
+import { survived, type Outcome, type Subject } from '../faults/outcome';
+import { tracerCampaign } from '../faults/tracer';
+import { viewerCampaign } from '../faults/viewer';
+
+const SUBJECTS: readonly Subject[] = ['tracer', 'viewer', 'cli'];
+
+/** Points tried and survived, by subject and fault. */
+export function summary(outcomes: readonly Outcome[]): { readonly subject: Subject; readonly fault: string; readonly tried: number; readonly survived: number }[] {
+  const rows = new Map<string, { subject: Subject; fault: string; tried: number; survived: number }>();
+  for (const outcome of outcomes) {
+    const key = `${outcome.subject} ${outcome.fault}`;
+    const row = rows.get(key) ?? { subject: outcome.subject, fault: outcome.fault, tried: 0, survived: 0 };
+    row.tried++;
+    if (survived(outcome)) row.survived++;
+    rows.set(key, row);
+  }
+  return [...rows.values()];
+}
+
+const list = <T extends string>(text: string | undefined, all: readonly T[], option: string): readonly T[] => {
+  if (text === undefined) return all;
+  const names = text.split(',');
+  for (const name of names) if (!all.includes(name as T)) throw new BenchError('bench/option', `--${option} ${name}: it must be of ${all.join(', ')}.`);
+  return names as T[];
+};
+
+/** Faults injected into every distinct call to the GPU, see `faults/`. */
+export const benchmark: Benchmark = {
+  description: 'faults injected into every distinct GPU call of the tracer, the viewer and the command line: how many are survived',
+  options: {
+    subject: { type: 'string', help: `of ${SUBJECTS.join(', ')}; default all` },
+    fault: { type: 'string', help: `of ${FAULTS.join(', ')}; default all` },
+    only: { type: 'string', help: 'part of the names of points, e.g. "in resize"' },
+    every: { type: 'string', help: 'takes each k-th trial' },
+  },
+  async run({ log, quick, gpu: name, values }) {
+    const subjects = list(values['subject'], SUBJECTS, 'subject');
+    const faults = list(values['fault'], FAULTS, 'fault') as readonly Fault[];
+    const every = values['every'] === undefined ? (quick ? 40 : 1) : Number(values['every']);
+    if (!Number.isInteger(every) || every < 1) throw new BenchError('bench/option', `--every ${values['every']}: it must be a whole number of at least 1.`);
+    const outcomes: Outcome[] = [];
+    const notReached: string[] = [];
+    const onOutcome = (outcome: Outcome, done: number, of: number) => {
+      if (!survived(outcome) || done % 50 === 0) log(`${done}/${of} ${survived(outcome) ? 'survived' : 'FAILED'} ${outcome.ending}: ${outcome.fault} at ${outcome.point}${outcome.detail === undefined ? '' : `: ${outcome.detail}`}`);
+    };
+    const campaign = { faults, every, only: values['only'] ?? '', onOutcome };
+    const keep = (result: { readonly outcomes: readonly Outcome[]; readonly notReached: readonly string[] }) => {
+      outcomes.push(...result.outcomes);
+      notReached.push(...result.notReached);
+    };
+    const { gpu, adapterName, software } = await createGpu(name === undefined ? { software: 'only' } : { gpu: name });
+    if (subjects.includes('tracer')) keep(await tracerCampaign({ ...campaign, open: () => requestDevice({ gpu }) }));
+    if (subjects.includes('viewer')) keep(await viewerCampaign(values['fault'] === undefined ? { every, only: campaign.only, onOutcome } : campaign));
+    if (subjects.includes('cli')) keep(await cliCampaign(campaign));
+    const rows = summary(outcomes);
+    const figures = rows.map(({ subject, fault, tried, survived: good }): Figure => ({ name: `${subject}, ${fault}: survived`, unit: '1', runs: 1, median: good, target: { value: tried, relation: '>=', source: 'all points tried' } }));
+    const notes = outcomes.filter((outcome) => !survived(outcome)).map(({ subject, fault, point, ending, detail }) => `${subject}: ${fault} at ${point}: ${ending}${detail === undefined ? '' : ` (${detail})`}`);
+    if (notes.length > 0) process.exitCode = 1;
+    return { settings: { subjects, faults, every, only: campaign.only }, figures, gpu: { name: adapterName, software }, notes, details: { summary: rows, outcomes, notReached } };
+  },
+};
