@@ -2,10 +2,11 @@ import type { Camera } from '@glanz/scene';
 import { forBands } from './film/feature-pass';
 import { packFrame } from './frame';
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_COPY_SRC, GPU_BUFFER_STORAGE, GPU_BUFFER_UNIFORM, GpuMemory } from './gpu/buffers';
+import { inErrorScopes } from './gpu/error-scopes';
 import type { GpuScene } from './gpu/gpu-scene';
 import type { KernelCache } from './gpu/kernel-cache';
 import { batchStruct } from './kernels/layout';
-import type { KernelFeatures } from './kernels/pipelines';
+import type { Kernel, KernelFeatures } from './kernels/pipelines';
 import type { FirstLight, PathTracerOptions } from './options';
 import type { Geometry } from './scene/geometry';
 
@@ -34,6 +35,11 @@ export function showFirstLight(source: FirstLightSource, show: (picture: FirstLi
   const draw = async () => {
     const kernel = await cache.kernel('first', features);
     if (late()) return;
+    const { result: beauty, verified } = inErrorScopes(device, 'the first image', () => encode(kernel));
+    await verified;
+    if (!late()) show({ buffer: beauty, width, height });
+  };
+  const encode = (kernel: Kernel): GPUBuffer => {
     const own: Record<string, GPUBuffer> = {
       frame: memory.upload('first frame', packFrame(camera, { width, height }, scene, geometry, options), GPU_BUFFER_UNIFORM),
       batch: memory.buffer('first batch', batchStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
@@ -53,7 +59,7 @@ export function showFirstLight(source: FirstLightSource, show: (picture: FirstLi
       pass.end();
       device.queue.submit([encoder.finish()]);
     });
-    show({ buffer: own['beauty'] as GPUBuffer, width, height });
+    return own['beauty'] as GPUBuffer;
   };
   // Nobody waits for it: what is wrong with the device, the tracer will say itself.
   draw().catch(() => {});

@@ -1,6 +1,6 @@
 import type { Scene } from '@glanz/scene';
 import { DeviceError, RenderError } from './errors';
-import type { RenderOptions } from './options';
+import type { PathTracerOptions, RenderOptions } from './options';
 import { hasInterior } from './scene/interiors';
 
 /** Paths count edges and scattering events in 16 bits each. */
@@ -12,10 +12,38 @@ const MOST_INTERIORS = 0x7fff;
  * The samples that are asked for.
  * @throws {RenderError} `renderer/samples`
  */
-export function checkedSamples({ noise, samples = noise === undefined ? 64 : 65536 }: RenderOptions): number {
+export function checkedSamples({ noise, samples = noise === undefined ? 64 : 65536, maxSubmitMs = 30 }: RenderOptions): number {
+  if (!(maxSubmitMs > 0)) throw new RenderError('renderer/samples', `maxSubmitMs must be above 0, not ${maxSubmitMs}.`);
   if (!Number.isInteger(samples) || samples < 1) throw new RenderError('renderer/samples', `The number of samples must be a whole number of at least 1, not ${samples}.`);
   if (noise !== undefined && !(noise > 0)) throw new RenderError('renderer/samples', `The noise to reach must be above 0, not ${noise}.`);
   return samples;
+}
+
+/** The values that an option with a choice of them can have. */
+const CHOICES: { readonly [Name in keyof PathTracerOptions]?: readonly PathTracerOptions[Name][] } = {
+  background: ['environment', 'transparent'],
+  lightGroups: ['off', 'named', 'each'],
+  sampler: ['blue-noise', 'sobol', 'independent'],
+  lightSampling: ['tree', 'power'],
+  shadowTerminator: ['smooth', 'faceted'],
+  backFaceCulling: ['off', 'camera', 'all'],
+};
+
+/**
+ * Checks the choices among the options, and those that are plain numbers.
+ * @throws {RenderError} `renderer/option`
+ */
+export function checkOptions(options: Partial<PathTracerOptions>): void {
+  for (const [name, choices] of Object.entries(CHOICES)) {
+    const value = options[name as keyof PathTracerOptions];
+    if (value === undefined || (choices as readonly unknown[]).includes(value)) continue;
+    throw new RenderError('renderer/option', `${name} must be one of ${choices.map((choice) => `"${String(choice)}"`).join(', ')}, not ${JSON.stringify(value)}.`);
+  }
+  const { seed = 0, textureLodBias = 0, pathsInFlight = 1 } = options;
+  for (const [name, value] of Object.entries({ seed, textureLodBias })) {
+    if (!Number.isFinite(value)) throw new RenderError('renderer/option', `${name} must be finite, not ${value}.`);
+  }
+  if (!(pathsInFlight >= 1)) throw new RenderError('renderer/option', `pathsInFlight must be at least 1, not ${pathsInFlight}.`);
 }
 
 /** @throws {RenderError} `renderer/option` */

@@ -11,7 +11,7 @@ import type { GpuScene } from './gpu/gpu-scene';
 import { memoryReport } from './gpu/memory-report';
 import { readBuffer } from './gpu/read-buffer';
 import type { Integrator } from './integrator';
-import { checkDepth, checkSize } from './option-checks';
+import { checkDepth, checkOptions, checkSize } from './option-checks';
 import type { FilmLayer, LightGroup, PathTracerOptions, PickResult, RenderOptions, RenderProgress, RenderStatistics } from './options';
 import { pickPixel } from './pick';
 import { kernelFeatures, prepareTracer, type Prepared } from './prepare';
@@ -293,6 +293,7 @@ export class PathTracer extends TracerEdits {
   /** Shows the surroundings behind the scene, or leaves the background empty. Restarts the film. */
   setBackground(background: NonNullable<PathTracerOptions['background']>): void {
     this.#check();
+    checkOptions({ background });
     this.#options = { ...this.#options, background };
     this.reset();
   }

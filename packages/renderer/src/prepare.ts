@@ -10,7 +10,7 @@ import { GpuScene } from './gpu/gpu-scene';
 import { KernelCache } from './gpu/kernel-cache';
 import { Integrator } from './integrator';
 import type { Kernel, KernelFeatures, KernelName } from './kernels/pipelines';
-import { checkDepth, checkInteriors, checkSize, checkVolumeDepth } from './option-checks';
+import { checkDepth, checkInteriors, checkOptions, checkSize, checkVolumeDepth } from './option-checks';
 import type { PathTracerOptions, RenderStatistics } from './options';
 import { cameraUniforms } from './scene/camera';
 import { cameraSteps } from './scene/choose-camera';
@@ -45,6 +45,7 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
   // A device that is lost says yes to everything: whether it was is looked at in the end.
   lossInfo(device);
   checkSize(options.width, options.height);
+  checkOptions(options);
   checkShortcuts(options);
   checkDepth(options.maxDepth ?? 8);
   checkVolumeDepth(options.maxVolumeDepth ?? 256);

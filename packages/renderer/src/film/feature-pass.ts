@@ -16,19 +16,25 @@ export function forBands(pixels: number, run: (batch: Batch) => void, sampleOffs
  * Renders what a kernel knows of the first surfaces from scratch, with `samples` samples a pixel. Buffers of the film that the kernel
  * binds for the first time are made here; they are freed where the GPU refuses them, so that a later attempt makes them again.
  *
+ * @param prepare Writes the frame uniforms, if they have changed.
  * @throws {DeviceError} `renderer/out-of-memory`, `renderer/gpu-error`
  */
-export async function renderFeatures(device: GPUDevice, integrator: Integrator, name: KernelName, kernel: Kernel, film: Film, samples: number): Promise<void> {
+export async function renderFeatures(device: GPUDevice, integrator: Integrator, name: KernelName, kernel: Kernel, film: Film, samples: number, prepare: () => void): Promise<void> {
   const refused = (error: unknown) => {
     film.release(...kernel.resources.filter((resource) => resource.startsWith('feature_')));
     integrator.rebind();
     throw error;
   };
+  const checks: Promise<void>[] = [];
   for (let sample = 0; sample < samples; sample++) {
-    const run = () => forBands(film.pixels, (batch) => integrator.submitPixels(name, kernel, batch), sample);
-    const { verified } = inErrorScopes(device, `the film's layers (${name})`, run);
-    // The first pass makes the buffers: none is worth its time without them.
-    if (sample === 0 || sample % 4 === 3 || sample === samples - 1) await verified.catch(refused);
+    const run = () => {
+      if (sample === 0) prepare();
+      forBands(film.pixels, (batch) => integrator.submitPixels(name, kernel, batch), sample);
+    };
+    checks.push(inErrorScopes(device, `the film's layers (${name})`, run).verified);
+    // The first pass makes the buffers: the others are not worth their time without them.
+    if (sample === 0) await Promise.all(checks).catch(refused);
     if (sample % 4 === 3) await device.queue.onSubmittedWorkDone();
   }
+  await Promise.all(checks).catch(refused);
 }

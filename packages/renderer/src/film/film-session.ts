@@ -105,6 +105,10 @@ export class FilmSession {
   #watch(verified: Promise<void>): void {
     const generation = this.#generation;
     verified.catch(() => {
+      if (this.#host.memory.destroyed) return;
+      // Bind groups that were refused must not be used again, nor uniforms relied on that were perhaps not written.
+      this.#host.integrator.rebind();
+      this.#frameDirty = true;
       if (generation === this.#generation) this.#broken = true;
     });
   }
@@ -178,8 +182,15 @@ export class FilmSession {
 
   /** See `PathTracer.setLightGroup`. */
   async setGroup(name: string, settings: Partial<Pick<LightGroup, 'intensity' | 'color'>>): Promise<void> {
-    this.groups.set(name, settings);
-    await this.#relight();
+    const undo = this.groups.set(name, settings);
+    try {
+      await this.#relight();
+    } catch (error) {
+      undo();
+      this.#host.integrator.rebind();
+      this.#host.integrator.writeGroups(this.groups.weights, this.#firstWeights);
+      throw error;
+    }
   }
 
   /** See `PathTracer.saveFilm`. */
@@ -204,12 +215,16 @@ export class FilmSession {
     const { width, height, planes } = film;
     checkFilmState(state, { width, height, planes, fingerprint: fingerprint() }, new TileGrid(width, height).count);
     this.restart();
-    this.#sampling = this.#newSampling(this.#sampling?.paths, state.sampling);
-    this.#firstWeights = state.weights.first;
-    integrator.writeGroups(this.groups.weights, this.#firstWeights);
-    for (const name of FILM_SUMS) memory.write(film.buffer(name) as GPUBuffer, state.sums[name]);
-    memory.write(integrator.queues, Uint32Array.of(state.badSamples), BAD_SAMPLES);
+    const { verified } = inErrorScopes(device, 'the saved film', () => {
+      this.#sampling = this.#newSampling(this.#sampling?.paths, state.sampling);
+      this.#firstWeights = state.weights.first;
+      integrator.writeGroups(this.groups.weights, this.#firstWeights);
+      for (const name of FILM_SUMS) memory.write(film.buffer(name) as GPUBuffer, state.sums[name]);
+      memory.write(integrator.queues, Uint32Array.of(state.badSamples), BAD_SAMPLES);
+    });
+    this.#watch(verified);
     this.#badSamples = state.badSamples;
+    await verified;
     // The light groups were set otherwise when it was saved.
     if (JSON.stringify(this.groups.weights) !== JSON.stringify(state.weights.last)) await this.#relight();
     await device.queue.onSubmittedWorkDone();
@@ -221,8 +236,10 @@ export class FilmSession {
     const { cache, device, integrator, memory } = this.#host;
     const kernel = await cache.kernel('relight', integrator.kernels.features);
     if (memory.destroyed) return;
-    integrator.writeGroups(this.groups.weights, this.#firstWeights);
-    await withErrorScopes(device, 'the light groups', () => forBands(this.#film.pixels, (batch) => integrator.submitPixels('relight', kernel, batch)));
+    await withErrorScopes(device, 'the light groups', () => {
+      integrator.writeGroups(this.groups.weights, this.#firstWeights);
+      forBands(this.#film.pixels, (batch) => integrator.submitPixels('relight', kernel, batch));
+    });
   }
 
   #newSampling(paths?: number, state?: SamplingState): Sampling {
@@ -267,6 +284,7 @@ export class FilmSession {
     } catch (error) {
       film.release('film_noise');
       integrator.rebind();
+      this.#frameDirty = true;
       throw error;
     }
     return readFloats(device, film.buffer('film_noise') as GPUBuffer, 16 * columns * rows);
@@ -277,8 +295,12 @@ export class FilmSession {
     const kernel = await cache.kernel(name, integrator.kernels.features);
     await ready();
     check();
-    this.#writeFrame();
-    await renderFeatures(device, integrator, name, kernel, this.#film, samples);
+    try {
+      await renderFeatures(device, integrator, name, kernel, this.#film, samples, () => this.#writeFrame());
+    } catch (error) {
+      this.#frameDirty = true;
+      throw error;
+    }
   }
 
   #writeFrame(): void {

@@ -28,12 +28,21 @@ export class GroupSettings {
     return plane;
   }
 
-  /** @throws {RenderError} `renderer/light-groups` for an unknown group or a value out of range */
-  set(name: string, settings: Partial<Pick<LightGroup, 'intensity' | 'color'>>): void {
+  /**
+   * @returns Sets the group back to what it was.
+   * @throws {RenderError} `renderer/light-groups` for an unknown group or a value out of range
+   */
+  set(name: string, settings: Partial<Pick<LightGroup, 'intensity' | 'color'>>): () => void {
+    const before = this.#set.get(name);
     const next = { ...(this.list[this.plane(name)] as LightGroup), ...settings, name };
     if (![next.intensity, ...next.color].every((value) => value >= 0 && value < Infinity)) {
       throw new RenderError('renderer/light-groups', `Light group "${name}": intensity and colour must be finite and not negative.`);
     }
     this.#set.set(name, next);
+    return () => {
+      if (this.#set.get(name) !== next) return;
+      if (before) this.#set.set(name, before);
+      else this.#set.delete(name);
+    };
   }
 }

@@ -1,6 +1,7 @@
 import { openpbr } from '@glanz/openpbr';
 import { beginShaderModule, compose, type WgslModule } from '@glanz/wgsl';
 import { DeviceError } from '../errors';
+import { inErrorScopes, lossOr } from '../gpu/error-scopes';
 import { OPACITY_ID, type TexturedParameterInfo } from '../scene/materials';
 import { accept } from './accept.wgsl';
 import { connect } from './connect.wgsl';
@@ -150,20 +151,25 @@ export function kernelSource(name: KernelName, features: KernelFeatures): Kernel
   return {
     key: `${name}\n${shader.code}`,
     async compile(device) {
-      const layout = bindGroupLayout(device, name, text.resources, sceneBindings);
-      const { module, checked } = beginShaderModule(device, shader, `glanz ${name}`);
-      // Asked for at once, so that the driver works while the next kernel's text is read.
-      const compiled = device.createComputePipelineAsync({
-        label: `glanz ${name}`,
-        layout: device.createPipelineLayout({ label: `glanz ${name}`, bindGroupLayouts: [layout] }),
-        compute: { module, entryPoint: 'main' },
+      const { result, verified } = inErrorScopes(device, `the kernel "${name}"`, () => {
+        const layout = bindGroupLayout(device, name, text.resources, sceneBindings);
+        const { module, checked } = beginShaderModule(device, shader, `glanz ${name}`);
+        // Asked for at once, so that the driver works while the next kernel's text is read.
+        const compiled = device.createComputePipelineAsync({
+          label: `glanz ${name}`,
+          layout: device.createPipelineLayout({ label: `glanz ${name}`, bindGroupLayouts: [layout] }),
+          compute: { module, entryPoint: 'main' },
+        });
+        compiled.catch(() => {});
+        return { layout, checked, compiled };
       });
-      compiled.catch(() => {});
+      const { layout, checked, compiled } = result;
       await checked;
+      await verified;
       try {
         return { pipeline: await compiled, layout, resources: text.resources, sceneBindings };
       } catch (cause) {
-        throw new DeviceError('renderer/gpu-error', `The GPU refused the kernel "${name}": ${(cause as Error).message}`, { cause });
+        throw await lossOr(device, new DeviceError('renderer/gpu-error', `The GPU refused the kernel "${name}": ${(cause as Error).message}`, { cause }));
       }
     },
   };
