@@ -16,6 +16,7 @@ const results = [
   ['Results', '/results/'],
   ['Speed and memory', '/results/speed'],
   ['Truth', '/results/truth'],
+  ['Reliability', '/results/reliability'],
   ['Error at equal time', '/results/equal-time'],
   ['Hierarchies', '/results/bvh'],
   ['OpenPBR', '/results/openpbr'],

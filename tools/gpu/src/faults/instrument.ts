@@ -39,6 +39,16 @@ function gpuError(filter: GPUErrorFilter, message: string): GPUError {
   return { message } as GPUError;
 }
 
+/** Dawn for Node keeps listeners, and what they capture, for good: here that is not the device. */
+function collectUncaptured(device: GPUDevice, recorder: FaultRecorder, listeners: ReadonlySet<unknown>): void {
+  const reference = new WeakRef(device);
+  device.addEventListener('uncapturederror', (event) => {
+    if (listeners.size > 0 || reference.deref()?.onuncapturederror) return;
+    event.preventDefault();
+    recorder.uncaptured.push((event as GPUUncapturedErrorEvent).error.message);
+  });
+}
+
 /** What is known of an instrumented device. */
 interface Instrumented {
   /** Loses it now, for the reason that drivers give (`unknown`), or by `destroy()`. */
@@ -79,12 +89,7 @@ export function instrumentDevice(device: GPUDevice, recorder: FaultRecorder): GP
   };
   const pushErrorScope = device.pushErrorScope.bind(device);
   const popErrorScope = device.popErrorScope.bind(device);
-  device.addEventListener('uncapturederror', (event) => {
-    if (listeners.size === 0 && !device.onuncapturederror) {
-      event.preventDefault();
-      recorder.uncaptured.push((event as GPUUncapturedErrorEvent).error.message);
-    }
-  });
+  collectUncaptured(device, recorder, listeners);
   replace(device, 'addEventListener', (original) => (...args: unknown[]) => {
     if (args[0] === 'uncapturederror') listeners.add(args[1] as (event: GPUUncapturedErrorEvent) => void);
     return original(...args);
