@@ -131,6 +131,6 @@ function judge(run: Run, expected: Run): { readonly ending: Ending; readonly det
     const missing = Object.keys(expected.files).filter((name) => run.files[name] === undefined);
     return missing.length === 0 ? { ending: 'image' } : { ending: 'silent', detail: `exit status 0 without ${missing.join(', ')}` };
   }
-  const code = /\[((?:renderer|cli|viewer|scene)\/[\w-]+)\]/.exec(run.err)?.[1];
+  const code = /\[([a-z]+\/[\w-]+)\]/.exec(run.err)?.[1];
   return code === undefined || run.code === 70 || run.code === null ? { ending: 'untyped', detail: `exit status ${run.code}: ${last}` } : { ending: 'error', detail: code };
 }
