@@ -19,8 +19,8 @@ export function checkedSamples({ noise, samples = noise === undefined ? 64 : 655
   return samples;
 }
 
-/** The values that an option with a choice of them can have. */
-const CHOICES: { readonly [Name in keyof PathTracerOptions]?: readonly PathTracerOptions[Name][] } = {
+/** The values that an option with a choice of them can have, the default first. */
+export const CHOICES: { readonly [Name in keyof PathTracerOptions]?: readonly PathTracerOptions[Name][] } = {
   background: ['environment', 'transparent'],
   lightGroups: ['off', 'named', 'each'],
   sampler: ['blue-noise', 'sobol', 'independent'],

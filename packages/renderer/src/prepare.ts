@@ -1,4 +1,4 @@
-import { breathe, inSlices, SceneError, validationSteps, type Camera, type Instance, type Scene } from '@glanz/scene';
+import { breathe, inSlices, SceneError, untilAborted, validationSteps, type Camera, type Instance, type Scene } from '@glanz/scene';
 import { deviceLost, RenderError } from './errors';
 import { Film } from './film/film';
 import { showFirstLight } from './first-light';
@@ -146,20 +146,6 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
     late = true;
     forget?.();
   }
-}
-
-/** The promise, or a rejection with the signal's reason as soon as it aborts. */
-async function untilAborted<T>(promise: Promise<T>, signal: AbortSignal | undefined): Promise<T> {
-  if (!signal) return promise;
-  promise.catch(() => {});
-  let stop = () => {};
-  const aborted = new Promise<never>((_, reject) => {
-    const abort = () => reject(signal.reason as Error);
-    if (signal.aborted) abort();
-    signal.addEventListener('abort', abort, { once: true });
-    stop = () => signal.removeEventListener('abort', abort);
-  });
-  return Promise.race([promise, aborted]).finally(stop);
 }
 
 /** From the first request for kernels to when the last of them were there. */

@@ -13,3 +13,4 @@ export { frameCamera, frameCameraSteps, type FrameCameraOptions } from './frame-
 export { breathe, finish, inSlices, type SliceOptions, type Steps } from './slices';
 export { validateScene, validationSteps } from './validate';
 export { withVariant } from './variant';
+export { untilAborted } from './until-aborted';

@@ -13,7 +13,7 @@ import { RememberingHierarchies } from './hierarchies';
 import { makeTracer } from './make-tracer';
 import { Preparation } from './preparation';
 import { PreviewController } from './preview';
-import { untilAborted } from './until-aborted';
+import { untilAborted } from '@glanz/scene';
 import { nextFrame, soon, Visibility } from './visibility';
 
 export type { EngineHost, EngineSettings, Take } from './engine-host';

@@ -1,6 +1,6 @@
 import { isSoftware, warmUp, type HierarchyBuilder, type PathTracer } from '@glanz/renderer';
 import { ViewerError } from './errors';
-import { untilAborted } from './until-aborted';
+import { untilAborted } from '@glanz/scene';
 
 /** The making of a scene's tracer: one at a time, the last one asked for. */
 export class Preparation {

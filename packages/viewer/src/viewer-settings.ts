@@ -10,7 +10,7 @@ import type { EnvironmentSource } from './load';
 import type { ViewerOptions } from './options';
 import { pictureSize } from './picture-size';
 import { Surroundings } from './surroundings';
-import { untilAborted } from './until-aborted';
+import { untilAborted } from '@glanz/scene';
 
 const BACKGROUNDS = ['environment', 'transparent'] as const;
 

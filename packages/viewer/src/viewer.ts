@@ -1,5 +1,5 @@
 import type { PathTracer } from '@glanz/renderer';
-import { inSlices, sceneBoundsSteps, type Camera, type Material, type Scene } from '@glanz/scene';
+import { inSlices, sceneBoundsSteps, untilAborted, type Camera, type Material, type Scene } from '@glanz/scene';
 import { pictureBlob, type BlobOptions } from './blob';
 import { checkedSetting } from './checks';
 import type { Take } from './engine';
@@ -9,7 +9,6 @@ import { fitCamera } from './fit-camera';
 import { loadModel, type ModelSource } from './load';
 import type { ViewerOptions } from './options';
 import { withEnvironment } from './surroundings';
-import { untilAborted } from './until-aborted';
 import { plainScene } from './variants';
 import { ViewerCamera } from './viewer-camera';
 

@@ -2,7 +2,7 @@ import { mkdtempSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import type { Page } from '@playwright/test';
-import { build, preview, type InlineConfig } from 'vite';
+import type { InlineConfig } from 'vite';
 
 /** A page on a free port of this machine. */
 export interface Served {
@@ -18,6 +18,8 @@ const cache = fileURLToPath(new URL('../../../.cache', import.meta.url));
  * @param headers Of every answer, a content security policy say.
  */
 export async function servePage(root: string, headers: Record<string, string> = {}): Promise<Served> {
+  // Loaded when it is needed: benchmarks that are packed for bare machines bring this file, but no bundler.
+  const { build } = await import('vite');
   const outDir = mkdtempSync(join(cache, 'page-'));
   const resolve = { conditions: ['@glanz/source', 'module', 'browser', 'import', 'default'] };
   await build({ root, base: './', configFile: false, logLevel: 'error', resolve, worker: { format: 'es' }, build: { outDir, emptyOutDir: true, target: 'es2022', chunkSizeWarningLimit: 2000 } });
@@ -31,11 +33,13 @@ export async function servePage(root: string, headers: Record<string, string> = 
 
 /** Builds an application by its own configuration, as a release would, and serves it. */
 export async function serveApp(root: string): Promise<Served> {
+  const { build } = await import('vite');
   await build({ root, logLevel: 'error' });
   return serveBuilt({ root });
 }
 
 async function serveBuilt(config: InlineConfig, headers: Record<string, string> = {}): Promise<Served> {
+  const { preview } = await import('vite');
   const server = await preview({ ...config, logLevel: 'error', preview: { host: '127.0.0.1', port: 4273, strictPort: false, open: false, headers } });
   const origin = server.resolvedUrls?.local[0]?.replace(/\/$/, '');
   if (!origin) throw new Error('The preview server has no address.');

@@ -1,4 +1,5 @@
 import type { Camera, Scene } from '@glanz/scene';
+import { CHOICES } from '../option-checks';
 import type { PathTracerOptions } from '../options';
 
 /** Words of a large array that are hashed, spread evenly over it. */
@@ -40,15 +41,23 @@ class Hash {
   }
 }
 
-/** Options that decide the value of a sample; the others decide when and where samples are taken. */
+/** Options that decide the value of a sample, with their defaults; the others decide when and where samples are taken. */
+const DEFAULTS: { readonly [Name in keyof PathTracerOptions]?: PathTracerOptions[Name] | null } = {
+  seed: 0,
+  maxDepth: 8,
+  maxVolumeDepth: 256,
+  filter: 'box',
+  clampIndirect: null,
+  regularization: 0,
+  caustics: true,
+  maxBounces: null,
+  multipleScattering: true,
+  textureLodBias: -1,
+};
+
 function samplingOptions(options: PathTracerOptions): unknown[] {
-  const { seed, maxDepth, maxVolumeDepth, background, filter, lightGroups, clampIndirect, regularization, caustics } = options;
-  const { maxBounces, multipleScattering, sampler, lightSampling, shadowTerminator, backFaceCulling, textureLodBias } = options;
-  return [
-    [seed ?? 0, maxDepth ?? 8, maxVolumeDepth ?? 256, background ?? 'environment', filter ?? 'box', lightGroups ?? 'named'],
-    [clampIndirect, regularization ?? 0, caustics ?? true, maxBounces, multipleScattering ?? true, sampler ?? 'blue-noise'],
-    [lightSampling ?? 'tree', shadowTerminator ?? 'smooth', backFaceCulling ?? 'off', textureLodBias ?? -1],
-  ];
+  const choices = Object.entries(CHOICES).map(([name, [first]]) => [name, first] as const);
+  return [...Object.entries(DEFAULTS), ...choices].map(([name, initial]) => options[name as keyof PathTracerOptions] ?? initial);
 }
 
 /**

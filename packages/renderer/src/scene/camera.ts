@@ -1,4 +1,4 @@
-import type { Camera } from '@glanz/scene';
+import { createScene, validateScene, type Camera } from '@glanz/scene';
 import { RenderError } from '../errors';
 
 /** The camera's part of the frame uniforms. */
@@ -18,34 +18,14 @@ export interface CameraUniforms {
   readonly cone_spread: number;
 }
 
-/** Metres from the origin; in single precision nothing of a scene is left beyond. */
-const MAX_DISTANCE = 1e12;
-
-function refuse(camera: Camera, why: string): never {
-  throw new RenderError('renderer/camera', `Camera "${camera.name}" ${why}`);
-}
-
 /** Refuses what cannot be rendered, and what would be rendered as something else. */
 function checkCamera(camera: Camera): void {
-  const { transform } = camera;
-  if (transform?.length !== 16) refuse(camera, `has a transform of ${transform?.length ?? 0} numbers; it must have 16, column-major.`);
-  const values = Array.from(transform);
-  const broken = values.findIndex((value) => !Number.isFinite(value));
-  if (broken >= 0) refuse(camera, `has ${values[broken]} in its transform, at ${broken}; every number must be finite.`);
-  const far = values.slice(12, 15).find((value) => Math.abs(value) > MAX_DISTANCE);
-  if (far !== undefined) refuse(camera, `is ${Math.abs(far)} m away from the origin; it must be within ${MAX_DISTANCE} m.`);
-  if (camera.type === 'panorama') return;
-  if (camera.type === 'orthographic') {
-    const { xmag, ymag } = camera;
-    if (![xmag, ymag].every((half) => half > 0 && half <= MAX_DISTANCE)) refuse(camera, `has a view of no usable size: xmag ${xmag}, ymag ${ymag}.`);
-    return;
+  if (camera.transform?.length !== 16) throw new RenderError('renderer/camera', `Camera "${camera.name}" needs a transform of 16 numbers, column-major.`);
+  try {
+    validateScene({ ...createScene(), cameras: [camera] });
+  } catch (cause) {
+    throw new RenderError('renderer/camera', (cause as Error).message, { cause });
   }
-  if (camera.type !== 'perspective') refuse(camera, `is of the unknown type ${JSON.stringify((camera as Camera).type)}; there are perspective, orthographic and panorama.`);
-  const { yfov, lens_radius = 0, focus_distance = 1, lens_blades = 0, lens_rotation = 0 } = camera;
-  if (!(yfov > 0 && yfov < Math.PI)) refuse(camera, `has a vertical field of view of ${yfov} rad; it must lie between 0 and π.`);
-  if (!(lens_radius >= 0 && lens_radius <= MAX_DISTANCE)) refuse(camera, `has a lens radius of ${lens_radius} m; it must be finite and at least 0.`);
-  if (!(focus_distance > 0 && focus_distance < Infinity)) refuse(camera, `has a focus distance of ${focus_distance} m; it must be finite and above 0.`);
-  if (!(lens_blades >= 0 && lens_blades < Infinity) || !Number.isFinite(lens_rotation)) refuse(camera, `has ${lens_blades} lens blades, rotated by ${lens_rotation} rad; both must be finite.`);
 }
 
 function axis(transform: ArrayLike<number>, column: number): number[] {

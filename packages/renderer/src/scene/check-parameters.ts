@@ -26,23 +26,21 @@ function nearest(name: string, names: readonly string[]): string | undefined {
  * @throws {RenderError} `renderer/material` for names that OpenPBR does not have, and values that it does not allow.
  */
 export function checkParameters(material: string, parameters: Material['parameters']): void {
-  const refuse = (why: string) => new RenderError('renderer/material', `Material "${material}" was not changed: ${why}`);
+  const refuse = (why: string, cause?: unknown) => new RenderError('renderer/material', `Material "${material}" was not changed: ${why}`, { cause });
   let warnings: ReturnType<typeof validateParameters>['warnings'];
   try {
     ({ warnings } = validateParameters(parameters));
   } catch (cause) {
-    throw new RenderError('renderer/material', `Material "${material}" was not changed: ${(cause as Error).message}`, { cause });
+    throw refuse((cause as Error).message, cause);
   }
   const [first] = warnings;
   if (!first) return;
-  const { code, parameter, message } = first;
-  const value = JSON.stringify(parameters[parameter as keyof typeof parameters]);
+  const { code, parameter } = first;
   if (code === 'openpbr/unknown-parameter') {
     const meant = nearest(parameter, OPENPBR_PARAMETER_NAMES);
     throw refuse(`OpenPBR has no parameter "${parameter}"${meant ? `; did you mean "${meant}"?` : '.'}`);
   }
-  if (code === 'openpbr/not-finite') throw refuse(`${parameter} must be finite.`);
-  if (code === 'openpbr/no-direction') throw refuse(`${parameter} has no length.`);
-  const [min, max] = OPENPBR_PARAMETERS[parameter as keyof typeof OPENPBR_PARAMETERS]?.range ?? [];
-  throw refuse(min === undefined ? message : `${parameter} is ${value}; it must be ${max === Infinity ? `at least ${min}` : `from ${min} to ${max}`}.`);
+  const [min = '-∞', max = '∞'] = OPENPBR_PARAMETERS[parameter as keyof typeof OPENPBR_PARAMETERS].range ?? [];
+  const value = String(parameters[parameter as keyof typeof parameters]);
+  throw refuse(`${parameter} is ${value}; it must be ${code === 'openpbr/no-direction' ? 'a vector with a length' : `finite and from ${min} to ${max}`}.`);
 }
