@@ -26,7 +26,7 @@ interface Report {
 declare const data: Readonly<Record<string, Results>>;
 export { data };
 
-const FILES = ['paper-gpu', 'rays', 'rays-many', 'first-image', 'memory', 'furnace', 'film-faults', 'openpbr-cost', 'faults-tracer', 'faults-viewer', 'faults-cli', 'soak'];
+const FILES = ['paper-gpu', 'rays', 'rays-many', 'first-image', 'memory', 'furnace', 'film-faults', 'openpbr-cost', 'faults-tracer', 'faults-tracer-h200', 'faults-viewer', 'faults-cli', 'soak'];
 
 const number = (value: number, unit: string) => `${Math.abs(value) >= 1e5 ? Math.round(value).toLocaleString('en') : value === 0 ? '0' : Number(value.toPrecision(4)).toString()}${unit === '1' ? '' : ` ${unit}`}`;
 
