@@ -43,9 +43,9 @@ describe('names from files are printed with control characters made visible', ()
 
   it.each([
     ['a warning', [], 0, `odd ${SHOWN} (/nodes/${SHOWN})`],
-    ['a camera that is not there', ['--camera', 'gone'], 2, `it has 0 "${SHOWN}"`],
-    ['a variant that is not there', ['--variant', 'gone'], 2, `it has "${SHOWN}"`],
-    ['a part that is not there', ['--catcher', 'gone'], 2, `it has "${SHOWN}"`],
+    ['a missing camera', ['--camera', 'gone'], 2, `it has 0 "${SHOWN}"`],
+    ['a missing variant', ['--variant', 'gone'], 2, `it has "${SHOWN}"`],
+    ['a missing part', ['--catcher', 'gone'], 2, `it has "${SHOWN}"`],
     ['a word of the command line', ['--size', EVIL], 2, `not "${SHOWN}"`],
   ])('by render: %s', async (_what, argv, status, text) => {
     const { code, err, out } = await run(['render', 'm.glb', ...SIZE, ...argv, '--json'], folder(), { scene });
