@@ -5,8 +5,8 @@
 //    entry here is one file with its chunks. So each computed initializer becomes `/* @__PURE__ */ (() => …)()`, which
 //    esbuild, Rollup, webpack and terser drop when nobody uses the constant. It is honest because importing a module
 //    of ours does nothing, which tools/check-entries.mjs tests.
-// 2. It takes comments and indentation out of WGSL templates, which no minifier looks into. Line breaks stay, so that
-//    errors still name the line of the source.
+// 2. It takes comments, indentation and the spaces around operators out of WGSL templates, which no minifier looks into.
+//    Line breaks stay, so that errors still name the line of the source.
 import { readFile } from 'node:fs/promises';
 import ts from 'typescript';
 
@@ -29,6 +29,20 @@ function computes(node) {
 
 const isWgsl = (node, source) => /\/\*\s*wgsl\s*\*\/\s*$/.test(source.text.slice(node.getFullStart(), node.getStart(source)));
 
+const OPERATOR = /[-+*/%=<>!&|^~]/;
+
+/**
+ * A line of WGSL without the spaces that separate nothing: those beside punctuation. Between two operators they stay, for
+ * `a - -b` and `array<f32> = x` mean something else without them. Lines that remain comments stay as they are.
+ */
+function closeUp(line) {
+  if (line.includes('//')) return line;
+  return line.replace(/(?<=(\S)) +(?=(\S))/g, (spaces, before, after) => {
+    const separates = /\w/.test(before) && /\w/.test(after);
+    return separates || (OPERATOR.test(before) && OPERATOR.test(after)) ? spaces : '';
+  });
+}
+
 /** One literal piece of a WGSL template. A comment that runs on into a substitution is left alone. */
 function shrinkPiece(text, continues, goesOn) {
   const lines = text.split('\n');
@@ -37,7 +51,7 @@ function shrinkPiece(text, continues, goesOn) {
       if (i === 0 && continues) return line;
       const runsOn = goesOn && i === lines.length - 1;
       const bare = runsOn ? line : line.replace(/(?<!\/)\/\/(?!#).*$/, '').trimEnd();
-      return bare.trimStart();
+      return closeUp(bare.trimStart());
     })
     .join('\n');
 }

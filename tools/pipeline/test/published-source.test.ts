@@ -1,6 +1,11 @@
+import { readdirSync, readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
 import { build } from 'esbuild';
 import { describe, expect, it } from 'vitest';
+
 import { preparePublished, publishedModules } from '../published-source.mjs';
+
+const root = fileURLToPath(new URL('../../..', import.meta.url));
 
 /** What a bundler keeps of a module that is imported for nothing, not trusting `sideEffects`. */
 async function leftover(code: string): Promise<string> {
@@ -61,12 +66,30 @@ describe('constants', () => {
 describe('WGSL templates', () => {
   it('lose comments and indentation, and keep gates and line breaks', () => {
     const code = 'export const m = f(/* wgsl */ `\n  // why\n  fn a() { // what\n    //#if COAT\n    b(); //!\n    //#endif\n\n  }`);';
-    expect(preparePublished(code)).toContain('`\n\nfn a() {\n//#if COAT\nb();\n//#endif\n\n}`');
+    expect(preparePublished(code)).toContain('`\n\nfn a(){\n//#if COAT\nb();\n//#endif\n\n}`');
+  });
+
+  it('lose the spaces that separate nothing', () => {
+    const code = 'export const m = f(/* wgsl */ `  let a : array<vec2f, 4> = b(c, -d) - -e * &f[g] / h; if (i < -j && k > = l) { return m; }`);';
+    expect(preparePublished(code)).toContain('`let a:array<vec2f,4> =b(c,-d)- -e* &f[g]/h;if(i< -j&&k> =l){return m;}`');
+  });
+
+  it('of all packages keep their tokens', () => {
+    // The longest operators first, as section 3.3 of the WGSL specification reads them.
+    const token = /\/\/#.*|<<=|>>=|&&|->|--|==|>=|>>|<<|<=|!=|\+\+|\|\||[-+*/%&|^]=|[\w.]+|[^\s\w]/g;
+    const templates = (text: string) => [...text.matchAll(/\/\* wgsl \*\/ `((?:[^`\\]|\\.)*)`/g)].map(([, wgsl]) => wgsl!.replace(/(?<!\/)\/\/(?!#).*$/gm, '').match(token));
+    const files = ['wgsl', 'bvh', 'openpbr', 'tonemap', 'renderer', 'viewer'].flatMap((name) => readdirSync(`${root}/packages/${name}/src`, { recursive: true, encoding: 'utf8' }).map((path) => `packages/${name}/src/${path}`));
+    const shaders = files.filter((path) => path.endsWith('.wgsl.ts'));
+    expect(shaders.length).toBeGreaterThan(40);
+    for (const path of shaders) {
+      const text = readFileSync(`${root}/${path}`, 'utf8');
+      expect(templates(preparePublished(text)), path).toEqual(templates(text));
+    }
   });
 
   it('keep a comment that runs on into a substitution, and what follows a substitution', () => {
     const code = 'export const m = f(/* wgsl */ `\n  // about ${name} in units\n  const x = ${value};  // said\n  let y = 1;`);';
-    expect(preparePublished(code)).toContain('`\n// about ${name} in units\nconst x = ${value};  // said\nlet y = 1;`');
+    expect(preparePublished(code)).toContain('`\n// about ${name} in units\nconst x= ${value};  // said\nlet y=1;`');
   });
 
   it('are found inside functions and inside substitutions', () => {

@@ -1,5 +1,5 @@
 import type { Scene } from '@glanz/scene';
-import { decodeLink, type LinkContent } from '../state/link';
+import type { LinkContent } from '../state/link';
 import { forAnotherModel, type State, type Values } from '../state/state';
 import { loadScene } from './load-scene';
 import type { ModelRequest } from './load-messages';
@@ -53,6 +53,8 @@ function checkedMaterials(scene: Scene, materials: State['materials']): State['m
 
 /** The link in the page's address, with values of materials that its table allows. */
 export async function linkOfPage(): Promise<LinkContent | undefined> {
+  if (location.hash.length <= 1) return undefined;
+  const { decodeLink } = await import('../state/link');
   const link = await decodeLink(location.hash);
   if (!link?.state.materials) return link;
   const { validateParameters } = await import('@glanz/openpbr/parameters');

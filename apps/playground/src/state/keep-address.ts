@@ -1,4 +1,3 @@
-import { difference, encodeLink, LONGEST_LINK } from './link';
 import type { State } from './state';
 import type { Store } from './store';
 
@@ -11,6 +10,8 @@ export function keepAddress(store: Store<State>, model: () => string | undefined
   const write = async () => {
     const name = model();
     if (!name) return;
+    // Who only looks does not need it.
+    const { difference, encodeLink, LONGEST_LINK } = await import('./link');
     const link = await encodeLink({ model: name, state: difference(store.state) });
     if (link.length <= LONGEST_LINK) history.replaceState(history.state, '', `#${link}`);
   };

@@ -6,18 +6,6 @@ const whole = new Intl.NumberFormat('en');
 const ms = (value: number) => (value < 10 ? `${value.toFixed(1)} ms` : value < 10_000 ? `${Math.round(value)} ms` : `${(value / 1000).toFixed(1)} s`);
 const mebibytes = (bytes: number) => `${(bytes / 1048576).toFixed(bytes < 10485760 ? 1 : 0)} MiB`;
 
-/** Milliseconds as people say them: `12 s`, `3 min 5 s`, `2 h 10 min`. */
-export function spokenTime(milliseconds: number): string {
-  const seconds = Math.ceil(milliseconds / 1000);
-  if (!Number.isFinite(seconds)) return '…';
-  if (seconds < 60) return `${seconds} s`;
-  if (seconds < 3600) return `${Math.floor(seconds / 60)} min ${seconds % 60} s`;
-  return `${Math.floor(seconds / 3600)} h ${Math.floor((seconds % 3600) / 60)} min`;
-}
-
-/** Samples per second with as many digits as it deserves. */
-export const spokenRate = (rate: number): string => `${rate >= 100 ? Math.round(rate) : rate.toPrecision(2)} samples/s`;
-
 /** A number of something per second: `12 M/s`. */
 const spokenMany = (rate: number) => (rate >= 1e9 ? `${(rate / 1e9).toPrecision(3)} G/s` : rate >= 1e6 ? `${(rate / 1e6).toPrecision(3)} M/s` : `${(rate / 1e3).toPrecision(3)} k/s`);
 

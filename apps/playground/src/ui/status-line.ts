@@ -1,6 +1,6 @@
 import type { SessionStatus } from '../viewer/session';
 import { byId } from './elements';
-import { spokenRate, spokenTime } from './statistics';
+import { spokenRate, spokenTime } from './figures';
 
 const STAGES: Readonly<Record<string, string>> = {
   make: 'Making the model',
