@@ -6,13 +6,13 @@ defineGlanzViewer();
 const element = document.createElement('glanz-viewer');
 export const same: GlanzViewerElement = element;
 element.cameraControls = true;
-element.exposure = 2;
+element.exposureEv = 2;
 element.variantName = null;
 element.addEventListener('load', ({ detail }) => detail.scene.meshes.length);
 element.addEventListener('click', (event) => event instanceof Event && element.dismissPoster());
 export const found: GlanzViewerElement | null = document.querySelector('glanz-viewer');
 
 // @ts-expect-error An exposure is a number.
-element.exposure = 'bright';
+element.exposureEv = 'bright';
 // @ts-expect-error There is no such property.
 element.cameraControl = true;

@@ -11,7 +11,7 @@ export function Component() {
       src="/chair.glb"
       alt="An oak chair"
       cameraControls
-      exposure={1.2}
+      exposureEv={1.2}
       variantName={null}
       className="chair"
       style={{ height: '60vh' }}
@@ -40,7 +40,7 @@ export function Tag() {
       alt="An oak chair"
       camera-controls=""
       auto-rotate
-      exposure={1.2}
+      exposure-ev={1.2}
       samples="64"
       class="chair"
       title="Chair"
@@ -58,7 +58,7 @@ export const wrongName: GlanzViewerProps = { cameraControl: true };
 // @ts-expect-error The event has a detail of its own, not React's event.
 export const wrongEvent: GlanzViewerProps = { onLoad: (event) => event.currentTarget };
 // @ts-expect-error An exposure is a number.
-export const wrongAttribute = <glanz-viewer exposure="bright" />;
+export const wrongAttribute = <glanz-viewer exposure-ev="bright" />;
 // @ts-expect-error React 18 would write false as text, which turns the flag on.
 export const wrongTagFlag = <glanz-viewer camera-controls={false} />;
 // @ts-expect-error There is no such attribute.

@@ -82,6 +82,7 @@ export default defineConfig({
           { text: 'Playground', link: PLAYGROUND, target: '_self' },
           { text: 'Where it stands', link: '/guide/status' },
           { text: 'Conventions', link: '/guide/conventions' },
+          { text: 'Names and units', link: '/guide/names' },
         ],
       },
       {

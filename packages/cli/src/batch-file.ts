@@ -3,7 +3,7 @@ import { isEnvironmentFile } from './environment';
 import { CliError } from './errors';
 import { MAX_SETTINGS_BYTES, readInput } from './input';
 import { liesBelow } from './output/confine';
-import { BATCH_KEYS, renderOptions, type RenderCommandOptions, type RenderValues } from './options';
+import { BATCH_KEYS, presentNames, renderOptions, type RenderCommandOptions, type RenderValues } from './options';
 
 const wrong = (file: string, message: string) => new CliError('cli/batch', `${file}: ${message}`, { location: { file } });
 
@@ -97,9 +97,15 @@ export async function checkBatchOutputs(paths: readonly string[], { where }: Bat
  * and outputs are a list, or stand with semicolons between them. What a picture does not say is taken from the defaults and
  * from the command line. Paths are relative to the file.
  *
+ * @param warn Gets a warning for each picture that uses a former name of an option.
  * @throws {CliError} `cli/input`, `cli/batch`, `cli/usage`
  */
-export async function readBatch(file: string, cwd: string, given: RenderValues & { readonly model?: string | undefined }): Promise<BatchRequest[]> {
+export async function readBatch(
+  file: string,
+  cwd: string,
+  given: RenderValues & { readonly model?: string | undefined },
+  warn: (text: string) => void = () => undefined,
+): Promise<BatchRequest[]> {
   const text = new TextDecoder().decode(await readInput(file, cwd, 'the batch', { maxBytes: MAX_SETTINGS_BYTES })).replace(/^\uFEFF/, '');
   let rows: readonly (readonly [where: string, row: Readonly<Record<string, unknown>>])[];
   if (/\.csv$/i.test(file)) {
@@ -125,7 +131,8 @@ export async function readBatch(file: string, cwd: string, given: RenderValues &
   const folder = dirname(file);
   const near = (path: string) => (isAbsolute(path) || folder === '.' ? path : join(folder, path));
   return rows.map(([where, row]) => {
-    const { values, model = given.model } = valuesOf(row, file, where);
+    const { values: said, model = given.model } = valuesOf(row, file, where);
+    const values = presentNames(said, warn);
     if (model === undefined) throw wrong(file, `${where}: "model" is missing.`);
     // Files that the batch names lie beside it; those of the command line, where one is.
     const placed: RenderValues = {

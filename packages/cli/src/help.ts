@@ -84,7 +84,7 @@ PICTURE
       --exposure EV     Brighten (or darken) by stops, .png only. Default 0.
                         Or as a camera does, for scenes in cd/m2:
                         f/8,1/125,iso200.
-      --tonemap NAME    neutral, aces, agx, reinhard or linear, .png only.
+      --tone-map NAME   neutral, aces, agx, reinhard or linear, .png only.
                         Default neutral: base colours stay what they are.
 
 LIGHT AND VIEW

@@ -70,6 +70,8 @@ export interface RenderCommand extends ReportOptions {
   readonly resume: boolean;
   /** Where samples are kept for a later run; may hold {model}, {variant} and {view}. */
   readonly checkpoint: string | undefined;
+  /** Warnings about the command line itself. */
+  readonly warnings: readonly string[];
   /** Names of GPUs that share the work; none: the best one. */
   readonly gpus: readonly string[];
 }
@@ -115,6 +117,7 @@ const OPTIONS = {
   'no-caustics': { type: 'boolean' },
   'back-face-culling': { type: 'string' },
   exposure: { type: 'string' },
+  'tone-map': { type: 'string' },
   tonemap: { type: 'string' },
   bits: { type: 'string' },
   transparent: { type: 'boolean' },
@@ -126,6 +129,25 @@ const OPTIONS = {
   help: { type: 'boolean', short: 'h' },
   version: { type: 'boolean', short: 'V' },
 } satisfies ParseArgsConfig['options'];
+
+/** Former names of options, with the present ones. They work until the next minor version; whoever uses one is warned. */
+export const FORMER_NAMES = { tonemap: 'tone-map' } as const satisfies Partial<Record<keyof typeof OPTIONS, keyof typeof OPTIONS>>;
+
+/** The warning about a former name. */
+export const formerNameWarning = (name: keyof typeof FORMER_NAMES): string => `"${name}" is deprecated: the option is called "${FORMER_NAMES[name]}".`;
+
+/** Values under the present names of their options; a value that has its present name too is kept. Warns once for each name. */
+export function presentNames<T extends RenderValues>(values: T, warn: (text: string) => void): T {
+  const present = { ...values };
+  for (const [former, name] of Object.entries(FORMER_NAMES) as [keyof typeof FORMER_NAMES, 'tone-map'][]) {
+    const value = present[former];
+    if (value === undefined) continue;
+    warn(formerNameWarning(former));
+    present[name] ??= value;
+    delete present[former];
+  }
+  return present;
+}
 
 /** What the command line said of pictures, not yet checked. */
 export type RenderValues = Omit<Partial<ReturnType<typeof parse>['values']>, (typeof NOT_OF_PICTURES)[number]>;
@@ -180,7 +202,7 @@ function parse(argv: readonly string[]) {
     const { code, message } = cause as Error & { code?: string };
     const option = /'([^' ]*)/.exec(message)?.[1] ?? '';
     if (code === 'ERR_PARSE_ARGS_UNKNOWN_OPTION') {
-      const guess = closest(option.replace(/^-+/, ''), Object.keys(OPTIONS));
+      const guess = closest(option.replace(/^-+/, ''), Object.keys(OPTIONS).filter((name) => !Object.hasOwn(FORMER_NAMES, name)));
       throw usage(`Unknown option "${option}".${guess ? ` Did you mean --${guess}?` : ''} See glanz --help.`);
     }
     if (code === 'ERR_PARSE_ARGS_INVALID_OPTION_VALUE') throw usage(`${(message.split('\n')[0] as string).replace(/\.?$/, '.')} See glanz --help.`);
@@ -215,7 +237,7 @@ const indexOrName = (text: string): string | number => (/^\d+$/.test(text) ? Num
 /** Checks what was said of a picture. @throws {CliError} `cli/usage` */
 export function renderOptions(values: RenderValues, model: string): RenderCommandOptions {
   const [width, height] = parseSize(values.size ?? '1024x768');
-  const toneMap = values.tonemap ?? 'neutral';
+  const toneMap = values['tone-map'] ?? 'neutral';
   if (!isToneMap(toneMap)) throw usage(`There is no tone map "${toneMap}". Known: ${TONE_MAPS.join(', ')}.`);
   const bits = values.bits === undefined ? undefined : number('bits', values.bits, 8, { whole: true, min: 8, max: 32 });
   const files = values.output ?? [defaultOutput(model)];
@@ -274,7 +296,9 @@ export function parseCommand(argv: readonly string[]): Command {
   if (first === 'info') return parseInfo(argv.slice(1));
   if (first === 'bench') return parseBench(argv.slice(1));
   if (first === 'serve') return parseServe(argv.slice(1));
-  const { values, positionals } = parse(argv);
+  const { values: given, positionals } = parse(argv);
+  const warnings: string[] = [];
+  const values = presentNames(given, (text) => warnings.push(text));
   if (values.version) return { kind: 'version' };
   const report: ReportOptions = { json: values.json ?? false, quiet: values.quiet ?? false };
   if (values['list-gpus']) return { kind: 'list-gpus', ...report };
@@ -302,6 +326,7 @@ export function parseCommand(argv: readonly string[]): Command {
     values: { ...values, model },
     resume: values.resume ?? false,
     checkpoint: values.checkpoint,
+    warnings,
     gpus: values.gpu ?? [],
   };
 }

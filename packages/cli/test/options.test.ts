@@ -43,7 +43,7 @@ describe('glanz render', () => {
   });
 
   it('reads every option, before or after the model', () => {
-    const argv = ['--env', 'a.hdr', '--env-rotation', '180', '--env-intensity=2', 'm.gltf', '--size', '640X480', '--samples', '16', '--noise', '0.01', '--depth', '3', '--seed', '4294967295', '--camera', '1', '--exposure', '-1.5', '--tonemap', 'agx', '--transparent', '--catcher', 'floor', '--filter', 'gaussian:2', '--light-groups', 'each', '--max-bounces', 'diffuse=2,volume=9', '--clamp-indirect', '10', '--regularization', '0.25', '--no-caustics', '--back-face-culling', 'all', '--scene', '1', '--animation', 'walk', '--time', '-0.5', '--variant', 'street', '--variant', 'all', '--gpu', 'H200', '-o', 'x.PNG', '-o', 'y.exr', '--bits', '16'];
+    const argv = ['--env', 'a.hdr', '--env-rotation', '180', '--env-intensity=2', 'm.gltf', '--size', '640X480', '--samples', '16', '--noise', '0.01', '--depth', '3', '--seed', '4294967295', '--camera', '1', '--exposure', '-1.5', '--tone-map', 'agx', '--transparent', '--catcher', 'floor', '--filter', 'gaussian:2', '--light-groups', 'each', '--max-bounces', 'diffuse=2,volume=9', '--clamp-indirect', '10', '--regularization', '0.25', '--no-caustics', '--back-face-culling', 'all', '--scene', '1', '--animation', 'walk', '--time', '-0.5', '--variant', 'street', '--variant', 'all', '--gpu', 'H200', '-o', 'x.PNG', '-o', 'y.exr', '--bits', '16'];
     expect(options(...argv)).toEqual({
       model: 'm.gltf',
       pose: { scene: 1, animation: 'walk', time: -0.5 },
@@ -87,7 +87,7 @@ it('help and version', () => {
 describe('complains in one line, saying what to do', () => {
   it.each([
     [['render', 'm.glb', '--sample', '3'], 'Unknown option "--sample". Did you mean --samples?'],
-    [['render', 'm.glb', '--tonmap=agx'], 'Did you mean --tonemap?'],
+    [['render', 'm.glb', '--tonmap=agx'], 'Did you mean --tone-map?'],
     [['render', 'm.glb', '--zzz'], 'Unknown option "--zzz". See glanz --help.'],
     [['render', 'm.glb', '-x'], 'Unknown option "-x"'],
     [['render', 'm.glb', '--size'], 'argument missing'],
@@ -118,7 +118,7 @@ describe('complains in one line, saying what to do', () => {
     [['render', 'm.glb', '--back-face-culling', 'front'], 'must be one of off, camera, all'],
     [['render', 'm.glb', '--filter', 'mitchell'], 'Known: box, gaussian, blackman-harris'],
     [['render', 'm.glb', '--filter', 'box:0'], 'above 0 up to 16'],
-    [['render', 'm.glb', '--tonemap', 'film'], 'Known: neutral, aces, agx, reinhard, linear'],
+    [['render', 'm.glb', '--tone-map', 'film'], 'Known: neutral, aces, agx, reinhard, linear'],
     [['render', 'm.glb', '-o', 'out.jpg'], 'must end in .png, .exr or .hdr'],
     [['render', 'm.glb', '-o', 'out'], 'must end in'],
     [['render', 'm.glb', '-o', 'out.png', '--bits', '32'], '.png has 8 or 16'],

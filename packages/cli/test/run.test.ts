@@ -16,7 +16,7 @@ describe('help and version', () => {
     const { code, out, err } = await run(['--help'], '.');
     expect([code, err]).toEqual([0, '']);
     for (const heading of ['NAME', 'SYNOPSIS', 'DESCRIPTION', 'EXIT STATUS', 'EXAMPLES']) expect(out).toContain(`\n${heading}\n`.trimStart());
-    for (const option of ['output', 'env', 'env-rotation', 'env-intensity', 'size', 'samples', 'noise', 'depth', 'seed', 'camera', 'filter', 'light-groups', 'max-bounces', 'clamp-indirect', 'regularization', 'no-caustics', 'back-face-culling', 'exposure', 'tonemap', 'bits', 'transparent', 'catcher', 'scene', 'animation', 'time', 'variant', 'view', 'turntable', 'elevation', 'batch', 'resume', 'checkpoint', 'output-root', 'lod', 'materials', 'strip', 'tolerance', 'runs', 'port', 'host', 'json', 'quiet', 'list-gpus', 'gpu', 'help', 'version']) {
+    for (const option of ['output', 'env', 'env-rotation', 'env-intensity', 'size', 'samples', 'noise', 'depth', 'seed', 'camera', 'filter', 'light-groups', 'max-bounces', 'clamp-indirect', 'regularization', 'no-caustics', 'back-face-culling', 'exposure', 'tone-map', 'bits', 'transparent', 'catcher', 'scene', 'animation', 'time', 'variant', 'view', 'turntable', 'elevation', 'batch', 'resume', 'checkpoint', 'output-root', 'lod', 'materials', 'strip', 'tolerance', 'runs', 'port', 'host', 'json', 'quiet', 'list-gpus', 'gpu', 'help', 'version']) {
       expect(out).toMatch(new RegExp(`--${option}\\b`));
     }
     for (const line of out.split('\n')) expect(line.length, line).toBeLessThanOrEqual(80);
@@ -44,7 +44,7 @@ it('parts become catchers by name, and a name that no part has is refused', asyn
 describe('writing', () => {
   it('a PNG holds the tone-mapped film', async () => {
     const cwd = folder();
-    const { code, err, out, destroyed } = await run(['render', 'm.glb', ...SIZE, '--tonemap', 'agx', '--exposure', '-1'], cwd);
+    const { code, err, out, destroyed } = await run(['render', 'm.glb', ...SIZE, '--tone-map', 'agx', '--exposure', '-1'], cwd);
     expect([code, out]).toEqual([0, '']);
     expect(err).toContain('m.png: 8×6, 4 samples');
     expect(destroyed).toEqual(['tracer', 'device']);
@@ -52,6 +52,19 @@ describe('writing', () => {
     const wanted = toneMapPixels(film, 8, 6, { toneMap: 'agx', exposure: -1 });
     const read = await sharp(join(cwd, 'm.png')).ensureAlpha().raw().toBuffer();
     expect(Buffer.compare(read, Buffer.from(wanted))).toBe(0);
+  });
+
+  it('former names of options work, on the command line and in a batch, and warn once', async () => {
+    const cwd = temporaryFolder({ 'm.glb': 'not read by the fake', 'rows.json': JSON.stringify(['a', 'b'].map((name) => ({ model: 'm.glb', tonemap: 'agx', output: `${name}.png` }))) });
+    const png = (name: string) => readFileSync(join(cwd, `${name}.png`));
+    const now = await run(['render', 'm.glb', ...SIZE, '--tone-map', 'agx', '-o', 'now.png'], cwd);
+    expect([now.code, now.err]).toEqual([0, expect.not.stringContaining('warning')]);
+    for (const [argv, file] of [[['m.glb', '--tonemap', 'agx', '-o', 'former.png'], 'former'], [['--batch', 'rows.json'], 'b']] as const) {
+      const { code, err } = await run(['render', ...argv, ...SIZE], cwd);
+      expect([code, err.split('"tonemap" is deprecated: the option is called "tone-map"').length - 1]).toEqual([0, 1]);
+      expect(Buffer.compare(png(file), png('now'))).toBe(0);
+    }
+    expect((await run(['render', 'm.glb', ...SIZE, '--tonemap', 'film'], cwd)).err).toContain('There is no tone map "film"');
   });
 
   it('several formats at once: 16-bit PNG, EXR with its layers, HDR', async () => {
@@ -85,7 +98,7 @@ describe('writing', () => {
 
   it('--transparent asks the tracer for it and keeps alpha straight', async () => {
     const cwd = folder();
-    const { created } = await run(['render', 'm.glb', ...SIZE, '--transparent', '--tonemap', 'linear'], cwd);
+    const { created } = await run(['render', 'm.glb', ...SIZE, '--transparent', '--tone-map', 'linear'], cwd);
     expect(created[0]?.options.background).toBe('transparent');
     const read = await sharp(join(cwd, 'm.png')).raw().toBuffer({ resolveWithObject: true });
     expect(read.info.channels).toBe(4);

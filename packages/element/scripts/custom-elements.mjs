@@ -41,7 +41,8 @@ function attributesOf(source) {
     const values = tag(doc, 'values')?.split(',').map((value) => `'${value.trim()}'`).join(' | ');
     const byDefault = tag(doc, 'defaultValue');
     const type = { text: values ?? TYPES[property.initializer.text] };
-    return { name, fieldName: camel(name), type, description: doc.description, ...(byDefault === undefined ? {} : { default: byDefault }) };
+    const deprecated = tag(doc, 'deprecated');
+    return { name, fieldName: camel(name), type, description: doc.description, ...(byDefault === undefined ? {} : { default: byDefault }), ...(deprecated === undefined ? {} : { deprecated }) };
   });
 }
 
@@ -52,10 +53,12 @@ function eventsOf(source) {
 }
 
 function membersOf(source, attributes) {
-  const fields = attributes.map(({ name, fieldName, type, description }) => ({ kind: 'field', name: fieldName, type, description, attribute: name, reflects: true }));
+  const fields = attributes.map(({ name, fieldName, type, description, deprecated }) => (
+    { kind: 'field', name: fieldName, type, description, attribute: name, reflects: true, ...(deprecated === undefined ? {} : { deprecated }) }
+  ));
   const own = find(source, 'GlanzViewerElement').members.flatMap((member) => {
     const { description } = comment(member);
-    if (nameOf(member).endsWith('EventListener')) return [];
+    if (nameOf(member).endsWith('EventListener') || attributes.some(({ fieldName }) => fieldName === nameOf(member))) return [];
     if (ts.isPropertySignature(member)) return [{ kind: 'field', name: nameOf(member), type: { text: member.type.getText() }, description, readonly: true }];
     const parameters = member.parameters.map((one) => ({ name: one.name.getText(), type: { text: one.type.getText() }, ...(one.questionToken ? { optional: true } : {}) }));
     return [{ kind: 'method', name: nameOf(member), parameters, return: { type: { text: member.type.getText() } }, description }];

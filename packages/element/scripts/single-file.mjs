@@ -1,6 +1,6 @@
 // Builds the whole element into one file, glanz-viewer.min.js: for pages without a bundler, from any origin. Its workers run the
 // same file, so that nothing else is fetched for a plain .glb, and each serves what its name says. What only some files need
-// (OBJ and STL, HDR and EXR, meshopt) lies beside it and is fetched by import() when such a file is opened.
+// (OBJ and STL, HDR and EXR, meshopt), and what saves images, lies beside it and is fetched by import() when it is needed.
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join, resolve } from 'node:path';
 import { build } from 'esbuild';
@@ -26,6 +26,7 @@ const LATER = {
   '@glanz/formats': 'glanz-viewer.formats.min.js',
   '@glanz/image/environment': 'glanz-viewer.environment.min.js',
   'meshoptimizer/decoder': 'glanz-viewer.meshopt.min.js',
+  './save-image': 'glanz-viewer.save.min.js',
 };
 
 /** What a module says of the other files of its package, and what it says where there is one file. */
@@ -58,7 +59,7 @@ const sources = (missing) => ({
 const beside = (files) => ({
   name: 'beside',
   setup(context) {
-    context.onResolve({ filter: /^(@glanz\/|meshoptimizer\/)/ }, ({ path }) => (Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined));
+    context.onResolve({ filter: /^(@glanz\/|meshoptimizer\/|\.\/save-image$)/ }, ({ path }) => (Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined));
   },
 });
 
@@ -80,6 +81,6 @@ export async function buildSingleFile(folder, to) {
   const names = [await write(ENTRY, MAIN, LATER)];
   if (missing.size > 0) throw new Error(`The single file cannot be built, since these texts are not in the sources any more: ${[...missing].join('; ')}.`);
   // Their errors are of the same class.
-  for (const [module, name] of Object.entries(LATER)) names.push(await write(`export * from '${module}';`, name, { '@glanz/wgsl/error': MAIN }));
+  for (const [module, name] of Object.entries(LATER)) names.push(await write(`export * from '${module.replace(/^\.\//, './src/')}';`, name, { '@glanz/wgsl/error': MAIN }));
   return names;
 }

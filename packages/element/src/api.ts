@@ -42,6 +42,11 @@ export interface ElementBlobOptions extends BlobOptions {
 export interface GlanzViewerElement extends HTMLElement, ReflectedProperties {
   /** The viewer behind it, for all that has no attribute; `undefined` while the element is out of the page, or waits to be seen. */
   readonly viewer: Viewer | undefined;
+  /**
+   * Factor of the image's brightness, as in model-viewer.
+   * @deprecated Use `exposureEv`, the factor's base-2 logarithm. Supported until the next minor version.
+   */
+  exposure: number | null;
   /** Whether the model that `src` names is there. */
   readonly loaded: boolean;
   /** Names of the looks that the model has. */

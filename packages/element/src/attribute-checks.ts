@@ -6,6 +6,7 @@ type Range = readonly [low: number, high: number];
 
 /** What the attributes that are numbers may be. */
 const NUMBERS: Readonly<Partial<Record<AttributeName, Range>>> = {
+  'exposure-ev': [-64, 64],
   exposure: [0, 1e9],
   samples: [1, 2 ** 24],
   noise: [0, 1000],

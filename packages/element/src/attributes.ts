@@ -97,8 +97,13 @@ export const ATTRIBUTES = {
   /** Address of a .hdr or .exr that lights the model and is visible behind it. Without it the background is transparent. */
   'skybox-image': 'text',
   /**
-   * Factor of the image's brightness.
-   * @defaultValue 1
+   * Exposure in EV (stops): 1 doubles the image's brightness, -1 halves it.
+   * @defaultValue 0
+   */
+  'exposure-ev': 'number',
+  /**
+   * Factor of the image's brightness, as in model-viewer; ignored where `exposure-ev` is given.
+   * @deprecated Use `exposure-ev`, the factor's base-2 logarithm. Supported until the next minor version.
    */
   exposure: 'number',
   /**

@@ -18,6 +18,14 @@ const LIGHT: ReadonlySet<string> = new Set(['environment-image', 'skybox-image']
 const SPEAK_MS = 600;
 
 let made: GlanzViewerConstructor | undefined;
+let warned = false;
+
+/** Once per page: `exposure` is a factor, which the viewer, the command line and the playground do not use. */
+function warnOfExposure(): void {
+  // oxlint-disable-next-line no-console
+  if (!warned) console.warn('<glanz-viewer>: "exposure", a factor, is deprecated; use "exposure-ev", its base-2 logarithm.');
+  warned = true;
+}
 
 /** The class of the element, made when it is first asked for: a server has no `HTMLElement`. */
 export function glanzViewerClass(): GlanzViewerConstructor {
@@ -229,7 +237,9 @@ function makeClass(): GlanzViewerConstructor {
       viewer.noise = this.#number('noise');
       viewer.maxDepth = this.#number('max-depth') ?? 8;
       viewer.pixelRatio = this.#number('pixel-ratio');
-      viewer.exposure = Math.log2(Math.max(1e-6, this.#number('exposure') ?? 1));
+      const factor = this.#number('exposure');
+      if (factor !== undefined) warnOfExposure();
+      viewer.exposure = this.#number('exposure-ev') ?? Math.log2(Math.max(1e-6, factor ?? 1));
       const tone = this.getAttribute('tone-mapping') ?? 'neutral';
       viewer.toneMap = Object.hasOwn(TONE_MAP_NAMES, tone) ? (TONE_MAP_NAMES[tone] as ToneMap) : TONE_MAPS.includes(tone as ToneMap) ? (tone as ToneMap) : 'neutral';
       viewer.environmentIntensity = this.#number('environment-intensity') ?? 1;

@@ -10,6 +10,8 @@ test('the manifest lists every attribute with its property, its type and a sente
   expect(element.attributes.map(({ name }) => name)).toEqual(Object.keys(ATTRIBUTES));
   expect(element.attributes.find(({ name }) => name === 'camera-controls')).toMatchObject({ fieldName: 'cameraControls', type: { text: 'boolean' } });
   expect(element.attributes.find(({ name }) => name === 'samples')).toMatchObject({ type: { text: 'number' }, default: '256' });
+  expect(element.attributes.find(({ name }) => name === 'exposure')).toHaveProperty('deprecated', expect.stringContaining('exposure-ev'));
+  expect(element.attributes.filter((attribute) => 'deprecated' in attribute)).toHaveLength(1);
   expect(element.attributes.find(({ name }) => name === 'loading')?.type.text).toBe("'auto' | 'lazy' | 'eager'");
   for (const [name, kind] of Object.entries(ATTRIBUTES)) expect(element.members.filter(({ attribute }) => attribute === name), kind).toHaveLength(1);
 });

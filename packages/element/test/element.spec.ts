@@ -82,11 +82,21 @@ test('attributes and properties reflect, and reach the picture', async ({ page }
   await page.evaluate(() => document.querySelector('glanz-viewer')!.removeAttribute('variant-name'));
   await expect.poll(async () => { await done(page); return Math.abs((await shot(page)).cells[5]![1] - day.cells[5]![1]); }).toBeLessThan(3);
 
-  // Twice the light, as model-viewer means exposure.
-  await viewer(page).evaluate((element) => element.setAttribute('exposure', '0.25'));
-  await expect.poll(() => page.evaluate(() => document.querySelector('glanz-viewer')!.viewer!.exposure)).toBe(-2);
+  const exposure = () => page.evaluate(() => document.querySelector('glanz-viewer')!.viewer!.exposure);
+  await viewer(page).evaluate((element) => element.setAttribute('exposure-ev', '-2'));
+  expect(await exposure()).toBe(-2);
   await expect.poll(async () => (await shot(page)).cells[3]![0]).toBeLessThan(0.8 * day.cells[3]![0]);
+  expect(complaints).toEqual([]);
+  // The factor of model-viewer: exposure-ev comes first, and the page is warned once.
+  await page.evaluate(() => void (document.querySelector('glanz-viewer')!.exposure = 0.5));
+  expect(await exposure()).toBe(-2);
+  await page.evaluate(() => void (document.querySelector('glanz-viewer')!.exposureEv = null));
+  expect(await exposure()).toBe(-1);
+  await page.evaluate(() => void (document.querySelector('glanz-viewer')!.exposure = 4));
+  expect(await exposure()).toBe(2);
   await page.evaluate(() => void (document.querySelector('glanz-viewer')!.exposure = null));
+  expect(await exposure()).toBe(0);
+  expect(complaints.splice(0)).toEqual([expect.stringMatching(/^warning: .*"exposure", a factor, is deprecated; use "exposure-ev"/)]);
 
   await page.evaluate(() => void (document.querySelector('glanz-viewer')!.skyboxImage = 'red.hdr'));
   await expect.poll(async () => { await done(page); const { mean } = await shot(page); return mean[0] / (mean[1] + 1); }).toBeGreaterThan(3);
@@ -271,7 +281,7 @@ test('what a property or an attribute cannot be is a typed error, and the pictur
     const before = attributes();
     const bad: string[] = [];
     for (const [names, values] of [
-      [['exposure', 'samples', 'noise', 'maxDepth', 'pixelRatio', 'environmentIntensity', 'interpolationDecay', 'autoRotateDelay'], [NaN, Infinity, -1, 1e30, {}, true]],
+      [['exposure', 'exposureEv', 'samples', 'noise', 'maxDepth', 'pixelRatio', 'environmentIntensity', 'interpolationDecay', 'autoRotateDelay'], [NaN, Infinity, -65, 1e30, {}, true]],
       [['cameraOrbit', 'cameraTarget', 'fieldOfView', 'src', 'toneMapping'], [NaN, Infinity, {}, true, () => 1]],
     ] as const) {
       for (const name of names) {
@@ -290,7 +300,7 @@ test('what a property or an attribute cannot be is a typed error, and the pictur
   expect(result).toEqual({ bad: [], same: true });
 
   // In markup nothing can throw.
-  const wrong: Record<string, string> = { exposure: 'bright', samples: '1e30', 'max-depth': '2.5', 'pixel-ratio': '-1', 'camera-target': '1m up 2m', 'field-of-view': '200deg', 'max-camera-orbit': 'auto auto -3m', 'environment-rotation': 'NaN', 'tone-mapping': 'film', 'camera-orbit': '0deg 90deg 1e30m' };
+  const wrong: Record<string, string> = { 'exposure-ev': 'bright', samples: '1e30', 'max-depth': '2.5', 'pixel-ratio': '-1', 'camera-target': '1m up 2m', 'field-of-view': '200deg', 'max-camera-orbit': 'auto auto -3m', 'environment-rotation': 'NaN', 'tone-mapping': 'film', 'camera-orbit': '0deg 90deg 1e30m' };
   await page.evaluate((given) => {
     for (const [name, text] of Object.entries(given)) document.querySelector('glanz-viewer')!.setAttribute(name, text);
   }, wrong);

@@ -104,12 +104,20 @@ test('where the policy forbids workers of a Blob, the model is read and its hier
   expect(await page.evaluate(() => document.querySelector('glanz-viewer')?.shadowRoot?.querySelector<HTMLElement>('[role=alert]')?.hidden)).toBe(true);
 });
 
-test('other formats and environments come from files beside it', async ({ page }) => {
+test('other formats, environments and what saves images come from files beside it', async ({ page }) => {
   const { errors } = await open(page, '/other');
   const [r, g] = await middle(page);
   expect(r).toBeGreaterThan(2 * g);
   expect(errors).toEqual([]);
-  expect([...new Set(asked)].sort()).toEqual(['/glanz-viewer.environment.min.js', '/glanz-viewer.formats.min.js', '/glanz-viewer.min.js']);
+  const files = ['/glanz-viewer.environment.min.js', '/glanz-viewer.formats.min.js', '/glanz-viewer.min.js'];
+  expect([...new Set(asked)].sort()).toEqual(files);
+  const blob = await page.evaluate(async () => {
+    const { type, size } = await document.querySelector('glanz-viewer')!.toBlob();
+    return { type, size };
+  });
+  expect(blob).toEqual({ type: 'image/png', size: expect.any(Number) });
+  expect(blob.size).toBeGreaterThan(1000);
+  expect([...new Set(asked)].sort()).toEqual([...files, '/glanz-viewer.save.min.js'].sort());
 });
 
 test('the file takes at most 215 kB, gzipped', () => {

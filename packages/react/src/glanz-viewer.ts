@@ -13,6 +13,11 @@ type Detail<K extends keyof GlanzViewerEventMap> = GlanzViewerEventMap[K]['detai
 export interface GlanzViewerProps extends Partial<Omit<ReflectedProperties, 'src'>>, HtmlProps {
   /** An address, a file, files, or a scene. */
   readonly src?: Source | null;
+  /**
+   * Factor of the image's brightness, as in model-viewer.
+   * @deprecated Use `exposureEv`, the factor's base-2 logarithm. Supported until the next minor version.
+   */
+  readonly exposure?: number | null;
   readonly onLoad?: (detail: Detail<'load'>) => void;
   readonly onProgress?: (detail: Detail<'progress'>) => void;
   readonly onError?: (detail: Detail<'error'>) => void;

@@ -3,6 +3,9 @@ import { DeviceError, RenderError } from './errors';
 import type { PathTracerOptions, RenderOptions } from './options';
 import { hasInterior } from './scene/interiors';
 
+/** Default of `RenderOptions.maxSubmitMs`: a frame at 60 Hz. */
+export const DEFAULT_SUBMIT_MS = 16;
+
 /** Paths count edges and scattering events in 16 bits each. */
 const MOST_EVENTS = 0xffff;
 /** An interior's place in a path's stack has 15 bits, and 0 stands for none. */
@@ -12,7 +15,7 @@ const MOST_INTERIORS = 0x7fff;
  * The samples that are asked for.
  * @throws {RenderError} `renderer/samples`
  */
-export function checkedSamples({ noise, samples = noise === undefined ? 64 : 65536, maxSubmitMs = 30 }: RenderOptions): number {
+export function checkedSamples({ noise, samples = noise === undefined ? 64 : 65536, maxSubmitMs = DEFAULT_SUBMIT_MS }: RenderOptions): number {
   if (!(maxSubmitMs > 0)) throw new RenderError('renderer/samples', `maxSubmitMs must be above 0, not ${maxSubmitMs}.`);
   if (!Number.isInteger(samples) || samples < 1) throw new RenderError('renderer/samples', `The number of samples must be a whole number of at least 1, not ${samples}.`);
   if (noise !== undefined && !(noise > 0)) throw new RenderError('renderer/samples', `The noise to reach must be above 0, not ${noise}.`);

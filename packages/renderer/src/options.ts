@@ -168,7 +168,7 @@ export interface RenderOptions {
    */
   readonly noise?: number;
   readonly signal?: AbortSignal;
-  /** Milliseconds of GPU time that one submission should take at most. Default 30: a page stays responsive, no watchdog fires. */
+  /** Milliseconds of GPU time that one submission should take at most. Default 16, one frame at 60 Hz: a page stays responsive, and no watchdog fires. */
   readonly maxSubmitMs?: number;
 }
 

@@ -2,7 +2,7 @@ export { createViewer, Viewer, type LoadOptions } from './viewer';
 export type { PreviewOptions, ViewerOptions } from './options';
 export type { CameraChangeSource, LoadStage, ViewerEvents, ViewerState } from './events';
 export { Emitter, type ListenOptions } from './emitter';
-export type { BlobOptions } from './blob';
+export type { BlobOptions } from './save-image';
 export type { ControlOptions } from './controls';
 export type { EnvironmentSource, ModelSource } from './load';
 export type { Orbit, OrbitLimits, Vector } from './orbit';

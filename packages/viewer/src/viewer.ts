@@ -1,6 +1,5 @@
 import type { PathTracer } from '@glanz/renderer';
 import { inSlices, sceneBoundsSteps, untilAborted, type Camera, type Material, type Scene } from '@glanz/scene';
-import { pictureBlob, type BlobOptions } from './blob';
 import { checkedSetting } from './checks';
 import type { Take } from './engine';
 import { isAbort, ViewerError } from './errors';
@@ -9,6 +8,7 @@ import { fitCamera } from './fit-camera';
 import { loadModel, type ModelSource } from './load';
 import type { ViewerOptions } from './options';
 import { withEnvironment } from './surroundings';
+import type { BlobOptions } from './save-image';
 import { plainScene } from './variants';
 import { ViewerCamera } from './viewer-camera';
 
@@ -135,6 +135,7 @@ export class Viewer extends ViewerCamera {
     await this.#sampled(Math.min(checkedSetting('samples', options.samples ?? 1), this.samples), options.signal);
     const { tracer } = this;
     if (!tracer) throw new ViewerError('viewer/no-scene', 'There is no picture: load a model first.');
+    const { pictureBlob } = await import('./save-image');
     return pictureBlob(tracer, { exposure: this.exposure, toneMap: this.toneMap }, options);
   }
 

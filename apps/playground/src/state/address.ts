@@ -12,6 +12,14 @@ const number = (text: string | null, low: number, high: number, initial: number,
 
 const one = <T extends string>(text: string | null, choices: readonly T[], initial: T): T => choices.find((choice) => choice === text) ?? initial;
 
+/** A value of the query, under its present name or the former one. */
+const renamed = (query: URLSearchParams, name: string, former: string): string | null => {
+  const value = query.get(former);
+  // oxlint-disable-next-line no-console
+  if (value !== null) console.warn(`"?${former}=" is deprecated; it is called "?${name}=".`);
+  return query.get(name) ?? value;
+};
+
 /** The first state by the page's query, e.g. `?model=cornell-box&samples=64&scale=0.5`: what a person would type. */
 export function stateFromQuery(search: string): { readonly model: SampleName; readonly state: State } {
   const query = new URLSearchParams(search);
@@ -28,7 +36,7 @@ export function stateFromQuery(search: string): { readonly model: SampleName; re
     rotation: number(query.get('rotation'), -180, 180, 0),
     background: one(query.get('background'), BACKGROUNDS, 'environment'),
     exposure: number(query.get('exposure'), -8, 8, 0),
-    toneMap: one(query.get('tonemap'), TONE_MAPS, 'neutral'),
+    toneMap: one(renamed(query, 'tone-map', 'tonemap'), TONE_MAPS, 'neutral'),
     layer: one(query.get('layer'), LAYERS, 'beauty'),
   };
   return { model, state };

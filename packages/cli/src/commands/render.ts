@@ -102,7 +102,13 @@ export async function renderCommand(command: RenderCommand, io: CliIo, backend: 
   });
   try {
     const loader = new SceneLoader(backend, io.cwd);
-    const requests = command.batch === undefined ? [{ options: command.options as RenderCommandOptions, ownOutput: false, where: '' }] : await readBatch(command.batch, io.cwd, command.values);
+    const warned = new Set<string>();
+    const warn = (text: string) => {
+      if (!warned.has(text)) progress.warning(text);
+      warned.add(text);
+    };
+    for (const text of command.warnings) warn(text);
+    const requests = command.batch === undefined ? [{ options: command.options as RenderCommandOptions, ownOutput: false, where: '' }] : await readBatch(command.batch, io.cwd, command.values, warn);
     for (const { options: { model, env } } of requests) {
       await checkInput(model, io.cwd, 'the model');
       if (isEnvironmentFile(env)) await checkInput(env, io.cwd, 'the environment');

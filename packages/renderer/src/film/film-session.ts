@@ -6,7 +6,7 @@ import type { KernelCache } from '../gpu/kernel-cache';
 import { readBuffer, readFloats } from '../gpu/read-buffer';
 import type { Integrator } from '../integrator';
 import type { KernelName } from '../kernels/pipelines';
-import { checkedSamples } from '../option-checks';
+import { checkedSamples, DEFAULT_SUBMIT_MS } from '../option-checks';
 import type { FilmLayer, LightGroup, RenderOptions, RenderProgress } from '../options';
 import { Sampling, type SamplingState } from '../sampling';
 import { FeatureLayers } from './feature-layers';
@@ -138,7 +138,7 @@ export class FilmSession {
       yield* sampling.render({
         samples,
         noise: options.noise,
-        budgetMs: options.maxSubmitMs ?? 30,
+        budgetMs: options.maxSubmitMs ?? DEFAULT_SUBMIT_MS,
         current: () => generation === this.#generation && !options.signal?.aborted,
       });
     } finally {

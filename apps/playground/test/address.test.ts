@@ -1,0 +1,12 @@
+import { expect, test, vi } from 'vitest';
+import { stateFromQuery } from '../src/state/address';
+
+test('the tone map has the name of the command line option; the former name works and warns', () => {
+  const warn = vi.spyOn(console, 'warn').mockImplementation(() => undefined);
+  expect(stateFromQuery('?tone-map=agx&exposure=1').state).toMatchObject({ toneMap: 'agx', exposure: 1 });
+  expect(warn).not.toHaveBeenCalled();
+  expect(stateFromQuery('?tonemap=aces').state.toneMap).toBe('aces');
+  expect(warn.mock.calls).toEqual([[expect.stringContaining('"?tone-map="')]]);
+  expect(stateFromQuery('?tonemap=aces&tone-map=agx').state.toneMap).toBe('agx');
+  warn.mockRestore();
+});
