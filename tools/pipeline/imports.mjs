@@ -151,7 +151,10 @@ export function checkPackage(p, { arrows, all, rootManifest, base }) {
   const problems = [];
   const { manifest } = p;
   const published = p.group === 'packages';
-  const runtime = new Set(Object.keys({ ...manifest.dependencies, ...manifest.peerDependencies }));
+  // What a build puts into the package is a development dependency that sources may import.
+  const bundled = manifest.glanz?.bundled ?? [];
+  for (const name of bundled) if (!manifest.devDependencies?.[name]) problems.push(`packages/${p.short}/package.json: glanz.bundled names "${name}", which is not among devDependencies.`);
+  const runtime = new Set([...Object.keys({ ...manifest.dependencies, ...manifest.peerDependencies }), ...bundled]);
   const anywhere = new Set([...runtime, ...Object.keys({ ...manifest.devDependencies, ...rootManifest.devDependencies })]);
   const used = new Set();
   const graph = new Map();

@@ -1,10 +1,11 @@
 // Builds the whole element into one file, glanz-viewer.min.js: for pages without a bundler, from any origin. Its workers run the
 // same file, so that nothing else is fetched for a plain .glb, and each serves what its name says. What only some files need
-// (OBJ and STL, HDR and EXR, meshopt), and what saves images, lies beside it and is fetched by import() when it is needed.
+// (OBJ and STL, HDR and EXR, meshopt, Draco, KTX2), and what saves images, lies beside it and is fetched by import() when it is needed.
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join, resolve } from 'node:path';
 import { build } from 'esbuild';
 import { preparePublished } from '../../../tools/pipeline/published-source.mjs';
+import { packedWasm } from './wasm.mjs';
 
 const MAIN = 'glanz-viewer.min.js';
 
@@ -27,6 +28,13 @@ const LATER = {
   '@glanz/image/environment': 'glanz-viewer.environment.min.js',
   'meshoptimizer/decoder': 'glanz-viewer.meshopt.min.js',
   './save-image': 'glanz-viewer.save.min.js',
+};
+
+/** The same for modules of src/decoders, by their names there; of each, what it exports. */
+const DECODERS = {
+  draco: { file: 'glanz-viewer.draco.min.js', exports: 'default' },
+  basis: { file: 'glanz-viewer.basis.min.js', exports: 'default' },
+  ktx2: { file: 'glanz-viewer.ktx2.min.js', exports: 'ktx2Decoder' },
 };
 
 /** What a module says of the other files of its package, and what it says where there is one file. */
@@ -60,6 +68,7 @@ const beside = (files) => ({
   name: 'beside',
   setup(context) {
     context.onResolve({ filter: /^(@glanz\/|meshoptimizer\/|\.\/save-image$)/ }, ({ path }) => (Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined));
+    context.onResolve({ filter: /^\.\/(draco|basis|ktx2)$/ }, ({ path, importer }) => (/[\\/]decoders[\\/]index\.ts$/.test(importer) ? { path: `./${DECODERS[path.slice(2)].file}`, external: true } : undefined));
   },
 });
 
@@ -74,7 +83,7 @@ export async function buildSingleFile(folder, to) {
   await mkdir(to, { recursive: true });
   const write = async (contents, name, files) => {
     const stdin = { contents, resolveDir, sourcefile: name, loader: 'js' };
-    const { outputFiles } = await build({ ...SETTINGS, stdin, plugins: [beside(files), sources(missing)] });
+    const { outputFiles } = await build({ ...SETTINGS, stdin, plugins: [beside(files), packedWasm(folder), sources(missing)] });
     await writeFile(join(to, name), outputFiles[0].contents);
     return name;
   };
@@ -82,5 +91,6 @@ export async function buildSingleFile(folder, to) {
   if (missing.size > 0) throw new Error(`The single file cannot be built, since these texts are not in the sources any more: ${[...missing].join('; ')}.`);
   // Their errors are of the same class.
   for (const [module, name] of Object.entries(LATER)) names.push(await write(`export * from '${module.replace(/^\.\//, './src/')}';`, name, { '@glanz/wgsl/error': MAIN }));
+  for (const [module, { file, exports }] of Object.entries(DECODERS)) names.push(await write(`export { ${exports} } from '../element/src/decoders/${module}';`, file, { '@glanz/wgsl/error': MAIN }));
   return names;
 }

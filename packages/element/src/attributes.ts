@@ -134,6 +134,16 @@ export const ATTRIBUTES = {
    * @defaultValue off
    */
   'back-face-culling': 'text',
+  /**
+   * Address of an ES module that replaces the package's decoder of Draco. Its default export is the module of `draco3dgltf`, or a
+   * function that returns it or a promise of it.
+   */
+  'draco-decoder': 'text',
+  /**
+   * Address of an ES module that replaces the package's transcoder of KTX2. Its default export is the module of the Basis
+   * Universal transcoder, or a function that returns it or a promise of it.
+   */
+  'ktx2-transcoder': 'text',
 } as const satisfies Readonly<Record<string, AttributeKind>>;
 
 /** Name of an attribute of the element. */

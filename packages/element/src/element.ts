@@ -5,6 +5,7 @@ import { createViewer, type EnvironmentSource, type ModelSource, type Orbit, typ
 import type { ElementBlobOptions, GlanzViewerConstructor, GlanzViewerElement, GlanzViewerEventMap } from './api';
 import { attributeFault, numberIn, TONE_MAP_NAMES } from './attribute-checks';
 import { ATTRIBUTES, type AttributeName } from './attributes';
+import { packagedDecoders, type DecoderAddresses } from './decoders';
 import { ElementError } from './errors';
 import { HotspotLayer, readVector, viewHotspot, type HotspotView } from './hotspots';
 import { adoptProperties, reflectAttributes } from './reflect';
@@ -206,6 +207,18 @@ function makeClass(): GlanzViewerConstructor {
       return mode === 'camera' || mode === 'all' ? mode : 'off';
     }
 
+    get #decoders(): DecoderAddresses {
+      const text = (name: AttributeName) => this.getAttribute(name);
+      return {
+        get draco() {
+          return text('draco-decoder');
+        },
+        get ktx2() {
+          return text('ktx2-transcoder');
+        },
+      };
+    }
+
     #number(name: AttributeName): number | undefined {
       return numberIn(name, this.getAttribute(name));
     }
@@ -214,7 +227,7 @@ function makeClass(): GlanzViewerConstructor {
       this.#watch?.disconnect();
       const shadow = this.#shadow;
       if (this.#viewer || !shadow) return;
-      const viewer = (this.#viewer = createViewer(shadow.canvas, { environment: this.#environment, background: this.#background, controls: false, tracer: { backFaceCulling: this.#culling }, camera: (scene, aspect) => cameraOf(scene, aspect, this.#view) }));
+      const viewer = (this.#viewer = createViewer(shadow.canvas, { environment: this.#environment, background: this.#background, controls: false, decoders: packagedDecoders(this.#decoders), tracer: { backFaceCulling: this.#culling }, camera: (scene, aspect) => cameraOf(scene, aspect, this.#view) }));
       for (const name of Object.keys(ATTRIBUTES) as AttributeName[]) this.#checkAttribute(name);
       this.#apply(viewer);
       this.#listen(viewer, shadow);

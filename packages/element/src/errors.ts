@@ -1,4 +1,7 @@
 import { GlanzError } from '@glanz/scene';
 
-/** A property or an attribute of `<glanz-viewer>` got a value that it does not take. Codes: `element/property`, `element/attribute`, `element/no-model`. */
+/**
+ * A property or an attribute of `<glanz-viewer>` got a value that it does not take, or a decoder does not start. Codes:
+ * `element/property`, `element/attribute`, `element/no-model`, `element/decoder`.
+ */
 export class ElementError extends GlanzError {}

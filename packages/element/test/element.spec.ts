@@ -2,6 +2,7 @@ import { fileURLToPath } from 'node:url';
 import { checkAccessibility, hdr, injectFaults, photograph, pixelsOf, quads, servePage, watch, type Served } from '@glanz/browser';
 import { expect, test, type Page } from '@playwright/test';
 import type { GlanzViewerElement } from '@glanz/element';
+import { dracoModel, ktx2Model } from './packed';
 
 interface TestWindow {
   put: (attributes: Record<string, string>, children?: string) => GlanzViewerElement;
@@ -22,10 +23,11 @@ test.use({ viewport: { width: 640, height: 480 } });
 let complaints: string[] = [];
 test.beforeEach(async ({ page }) => {
   complaints = watch(page, served.origin);
-  await page.route('**/*.glb', (route) => {
+  await page.route('**/*.glb', async (route) => {
     const name = new URL(route.request().url()).pathname;
     if (name.includes('bad')) return route.fulfill({ body: Buffer.from('no model') });
-    return route.fulfill({ body: name.includes('other') ? other : model });
+    const packed = name.includes('draco') ? await dracoModel() : name.includes('ktx2') ? ktx2Model() : undefined;
+    return route.fulfill({ body: packed ?? (name.includes('other') ? other : model) });
   });
   await page.route('**/*.hdr', (route) => route.fulfill({ body: hdr([128, 0, 0, 129]) }));
 });
@@ -326,4 +328,26 @@ test('what a property or an attribute cannot be is a typed error, and the pictur
     return element.toBlob().then(() => 'a picture', (error: { code?: string }) => error.code);
   });
   expect(told).toBe('element/no-model');
+});
+
+test('decoders can be replaced, and one that does not start is an error that says which attribute to look at', async ({ page }) => {
+  await page.route('**/my-*.js', (route) => route.fulfill({ contentType: 'text/javascript', body: `export default () => { throw new Error('asked ${new URL(route.request().url()).pathname}'); };` }));
+  await page.goto(served.origin);
+  for (const [attribute, file] of [['draco-decoder', 'draco'], ['ktx2-transcoder', 'ktx2']] as const) {
+    await put(page, { src: `${file}.glb`, [attribute]: `my-${file}.js`, ...FAST });
+    await expect.poll(() => heard(page, 'error')).toEqual([expect.objectContaining({ code: 'element/decoder', message: expect.stringMatching(new RegExp(`${attribute}="my-${file}\\.js".*asked /my-${file}\\.js`)) })]);
+    // The page's policy forbids WebAssembly, so the package's own does not start either. Now the address is read again.
+    await page.evaluate((name) => {
+      window.heard.length = 0;
+      const element = document.querySelector('glanz-viewer')!;
+      element.removeAttribute(name);
+      element.src = `again-${element.src}`;
+    }, attribute);
+    await expect.poll(() => heard(page, 'error')).toEqual([expect.objectContaining({ code: 'element/decoder', message: expect.stringContaining("'wasm-unsafe-eval'") })]);
+    await page.evaluate(() => {
+      window.heard.length = 0;
+      document.querySelector('glanz-viewer')!.remove();
+    });
+  }
+  complaints = complaints.filter((text) => !/Content Security Policy/.test(text));
 });

@@ -8,6 +8,7 @@ import { gzipSync } from 'node:zlib';
 import { hdr, photograph, quads } from '@glanz/browser';
 import { expect, test, type Page } from '@playwright/test';
 import { buildSingleFile } from '../scripts/single-file.mjs';
+import { dracoModel, ktx2Model } from './packed';
 
 // Plain HTML on one origin, the file on another, as from a content delivery network.
 
@@ -17,6 +18,8 @@ const servers: Server[] = [];
 let network = '';
 let site = '';
 let policy: string | undefined;
+let draco: Buffer = Buffer.alloc(0);
+const ktx2 = ktx2Model();
 
 const model = quads([{ name: 'red', colour: [0.9, 0.02, 0.02] }]);
 const OBJ = 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n';
@@ -33,6 +36,7 @@ async function listen(answer: (path: string) => { readonly body: string | Uint8A
 }
 
 test.beforeAll(async () => {
+  draco = await dracoModel();
   await buildSingleFile(fileURLToPath(new URL('..', import.meta.url)), folder);
   const files = await listen(
     (path) => {
@@ -44,6 +48,8 @@ test.beforeAll(async () => {
   network = `http://127.0.0.1:${files}`;
   const pages = await listen(
     (path) => {
+      if (path.endsWith('/draco.glb')) return { body: draco, type: 'model/gltf-binary' };
+      if (path.endsWith('/ktx2.glb')) return { body: ktx2, type: 'model/gltf-binary' };
       if (path.endsWith('.glb')) return { body: model, type: 'model/gltf-binary' };
       if (path.endsWith('.obj')) return { body: OBJ, type: 'text/plain' };
       if (path.endsWith('.hdr')) return { body: hdr([128, 0, 0, 129]), type: 'image/vnd.radiance' };
@@ -51,6 +57,7 @@ test.beforeAll(async () => {
       const attributes = 'alt="A card" samples="6" max-depth="3" pixel-ratio="0.5" camera-orbit="0deg 90deg 3m" field-of-view="35deg"';
       if (path === '/') return { body: html(`<glanz-viewer src="red.glb" ${attributes}></glanz-viewer>`), type: 'text/html' };
       if (path === '/other') return { body: html(`<glanz-viewer src="card.obj" environment-image="red.hdr" ${attributes}></glanz-viewer>`), type: 'text/html' };
+      if (path === '/draco' || path === '/ktx2') return { body: html(`<glanz-viewer src="${path.slice(1)}.glb" ${attributes}></glanz-viewer>`), type: 'text/html' };
       return undefined;
     },
     () => (policy === undefined ? {} : { 'content-security-policy': policy }),
@@ -119,6 +126,16 @@ test('other formats, environments and what saves images come from files beside i
   expect(blob.size).toBeGreaterThan(1000);
   expect([...new Set(asked)].sort()).toEqual([...files, '/glanz-viewer.save.min.js'].sort());
 });
+
+for (const [kind, files] of [['draco', ['draco']], ['ktx2', ['basis', 'ktx2']]] as const) {
+  test(`a model in ${kind} is shown by itself; its decoder comes from beside the file`, async ({ page }) => {
+    const { errors } = await open(page, `/${kind}`);
+    const [r, g] = await middle(page);
+    expect(r).toBeGreaterThan(2 * g);
+    expect(errors).toEqual([]);
+    expect([...new Set(asked)].sort()).toEqual([...files.map((name) => `/glanz-viewer.${name}.min.js`), '/glanz-viewer.min.js'].sort());
+  });
+}
 
 test('the file takes at most 215 kB, gzipped', () => {
   expect(gzipSync(readFileSync(join(folder, 'glanz-viewer.min.js')), { level: 9 }).length).toBeLessThanOrEqual(215_000);

@@ -1,5 +1,5 @@
 import type { GltfPictureConversion } from '@glanz/openpbr/gltf';
-import type { CompressedFormat, CompressedImage, Image, SceneWarning, Texture, WrapMode } from '@glanz/scene';
+import { GlanzError, type CompressedFormat, type CompressedImage, type Image, type SceneWarning, type Texture, type WrapMode } from '@glanz/scene';
 import { namedImage } from './browser-images';
 import { convertImage, type DerivedPicture } from './convert-image';
 import { readUri } from './document';
@@ -164,7 +164,8 @@ export class TextureTable {
       if (!said) budget.take(4 * decoded.width * decoded.height, `/images/${index}`);
       return decoded;
     } catch (error) {
-      if (error instanceof GltfError && error.code !== 'gltf/picture') throw error;
+      // A decoder that does not start is of another package.
+      if (error instanceof GlanzError && error.code !== 'gltf/picture') throw error;
       this.#notes.set(index, { code: 'gltf/image', message: `${this.#source.name}: image ${index} ("${this.#nameOf(index)}") cannot be decoded and is left out: ${error instanceof Error ? error.message.split('\n')[0] : String(error)}.`, path: `/images/${index}` });
       return undefined;
     }

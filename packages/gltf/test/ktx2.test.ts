@@ -1,4 +1,5 @@
 import { existsSync, readFileSync } from 'node:fs';
+import { GlanzError } from '@glanz/scene';
 import { describe, expect, test } from 'vitest';
 import { GltfError, ktx2Decoder, loadGltf } from '../src/index';
 import { loadGltfFile } from '../src/node';
@@ -31,6 +32,11 @@ describe('without a decoder', () => {
   test('a file that has only KTX2 says what to install', async () => {
     await expect(loadGltf({ files: withKtx2(HEADER, { required: true }) }, { decodeImage })).rejects.toMatchObject({ code: 'gltf/missing-decoder', message: expect.stringMatching(/decoders\.ktx2.*"three"/) });
   });
+});
+
+test('a decoder that does not start is an error, since the file is sound', async () => {
+  const ktx2 = async () => { throw new GlanzError('element/decoder', 'It does not start.'); };
+  await expect(loadGltf({ files: withKtx2(HEADER, { required: true }) }, { decodeImage, decoders: { ktx2 } })).rejects.toMatchObject({ code: 'element/decoder' });
 });
 
 test('a picture that lies about its size never gets to the transcoder', async () => {

@@ -6,11 +6,11 @@ import { GlanzViewer } from '../src/index';
 describe('on a server', () => {
   it('renders the tag with its attributes and its poster, and nothing runs', () => {
     expect(typeof document).toBe('undefined');
-    const html = renderToString(createElement(GlanzViewer, { src: 'chair.glb', alt: 'An oak chair', cameraControls: true, autoRotate: false, fieldOfView: '30deg', exposureEv: 1.5, samples: null, className: 'hero', style: { height: 400 }, onLoad: () => undefined }, createElement('img', { slot: 'poster', src: 'chair.webp', alt: '' })));
+    const html = renderToString(createElement(GlanzViewer, { src: 'chair.glb', alt: 'An oak chair', cameraControls: true, autoRotate: false, fieldOfView: '30deg', exposureEv: 1.5, samples: null, dracoDecoder: '/draco.js', ktx2Transcoder: '/basis.js', className: 'hero', style: { height: 400 }, onLoad: () => undefined }, createElement('img', { slot: 'poster', src: 'chair.webp', alt: '' })));
     // React tells the browser of the picture before.
     const from = html.indexOf('<glanz-viewer ');
     const tag = html.slice(from, html.indexOf('>', from) + 1);
-    for (const attribute of ['src="chair.glb"', 'alt="An oak chair"', 'camera-controls=""', 'field-of-view="30deg"', 'exposure-ev="1.5"', 'class="hero"', 'style="height:400px"']) expect(tag).toContain(attribute);
+    for (const attribute of ['src="chair.glb"', 'alt="An oak chair"', 'camera-controls=""', 'field-of-view="30deg"', 'exposure-ev="1.5"', 'draco-decoder="/draco.js"', 'ktx2-transcoder="/basis.js"', 'class="hero"', 'style="height:400px"']) expect(tag).toContain(attribute);
     for (const absent of ['auto-rotate', 'samples', 'onLoad', 'on-load', 'suppress']) expect(tag).not.toContain(absent);
     expect(html).toContain('<img slot="poster" src="chair.webp" alt=""/>');
   });

@@ -145,7 +145,7 @@ async function readGltf(source: GltfSource, options: LoadModelOptions): Promise<
     if (isAbort(error) || refused) throw error;
   }
   signal?.throwIfAborted();
-  const { loadGltf } = await import('@glanz/gltf');
+  const { loadGltf } = await import('./gltf');
   const meshopt = async () => (await import('meshoptimizer/decoder')).MeshoptDecoder;
   return loadGltf(source, { ...told, compressedFormats, decoders: { meshopt, ...decoders } });
 }
@@ -155,6 +155,6 @@ async function readOther(name: string, read: (path: string) => Promise<Uint8Arra
   if (!bytes) throw new ViewerError('viewer/no-model', `The model "${name}" could not be fetched: check the address, and that its server allows this page to read it.`);
   const { readObj, readStl } = await import('@glanz/formats');
   if (/\.stl$/i.test(name)) return readStl(bytes, { name });
-  const { decodeImageInBrowser } = await import('@glanz/gltf');
+  const { decodeImageInBrowser } = await import('./gltf');
   return readObj(bytes, { name, read, decodeImage: (picture) => decodeImageInBrowser(picture, 'application/octet-stream'), ...(signal ? { signal } : {}) });
 }

@@ -27,8 +27,8 @@ export interface Quad {
   readonly variants?: Readonly<Record<string, readonly [number, number, number]>>;
 }
 
-/** A glTF file of squares, with `KHR_materials_variants` where one names variants. `change` edits the document. */
-export function quads(list: readonly Quad[], change: (json: Record<string, unknown>) => void = () => undefined): Buffer {
+/** A glTF file of squares, with `KHR_materials_variants` where one names variants. `change` edits the document; `more` is added to its buffer. */
+export function quads(list: readonly Quad[], change: (json: Record<string, unknown>) => void = () => undefined, more: Buffer = Buffer.alloc(0)): Buffer {
   const positions = Float32Array.of(-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0);
   const indices = Uint32Array.of(0, 1, 2, 0, 2, 3);
   const matt = (name: string, colour: readonly number[]) => ({ name, pbrMetallicRoughness: { baseColorFactor: [...colour, 1], metallicFactor: 0, roughnessFactor: 1 } });
@@ -55,7 +55,7 @@ export function quads(list: readonly Quad[], change: (json: Record<string, unkno
     ...(names.length > 0 ? { extensionsUsed: ['KHR_materials_variants'], extensions: { KHR_materials_variants: { variants: names.map((name) => ({ name })) } } } : {}),
   };
   change(json);
-  return glb(json, Buffer.concat([Buffer.from(positions.buffer), Buffer.from(indices.buffer)]));
+  return glb(json, Buffer.concat([Buffer.from(positions.buffer), Buffer.from(indices.buffer), more]));
 }
 
 /** One triangle in the plane z = 0, facing +z, matt in a colour; `change` edits the document. */

@@ -20,9 +20,10 @@ const cache = fileURLToPath(new URL('../../../.cache', import.meta.url));
 export async function servePage(root: string, headers: Record<string, string> = {}): Promise<Served> {
   // Loaded when it is needed: benchmarks that are packed for bare machines bring this file, but no bundler.
   const { build } = await import('vite');
+  const { basisModule } = await import('../../pipeline/basis-module.mjs');
   const outDir = mkdtempSync(join(cache, 'page-'));
   const resolve = { conditions: ['@glanz/source', 'module', 'browser', 'import', 'default'] };
-  await build({ root, base: './', configFile: false, logLevel: 'error', resolve, worker: { format: 'es' }, build: { outDir, emptyOutDir: true, target: 'es2022', chunkSizeWarningLimit: 2000 } });
+  await build({ root, base: './', configFile: false, logLevel: 'error', resolve, plugins: [basisModule()], worker: { format: 'es', plugins: () => [basisModule()] }, build: { outDir, emptyOutDir: true, target: 'es2022', chunkSizeWarningLimit: 2000 } });
   const served = await serveBuilt({ root, configFile: false, build: { outDir } }, headers);
   const close = async () => {
     await served.close();

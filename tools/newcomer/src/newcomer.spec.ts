@@ -1,7 +1,10 @@
 import { createPushButton } from '@glanz/models';
 import { sceneToGlb } from '@glanz/models/gltf';
 import { photograph } from '@glanz/browser';
+import { WebIO } from '@gltf-transform/core';
+import { KHRDracoMeshCompression, KHRONOS_EXTENSIONS } from '@gltf-transform/extensions';
 import { expect, test, type Page } from '@playwright/test';
+import draco from 'draco3dgltf';
 import { commandsOf, fileFromGuide, linesOf, Project, quickStart } from './project';
 
 const only = process.env['GLANZ_NEWCOMER_ONLY'];
@@ -18,6 +21,14 @@ const TSCONFIG = JSON.stringify({ compilerOptions: { target: 'ES2022', lib: ['ES
 const page = (body: string) => `<!doctype html>\n<html lang="en"><head><meta charset="utf-8" /><link rel="icon" href="data:," /><title>newcomer</title></head><body style="margin: 0">${body}</body></html>\n`;
 
 const model = async () => new Uint8Array(await sceneToGlb(createPushButton({ level: 'low' })));
+
+/** The same model as an exporter compresses it: what shows it has found the decoder's chunk. */
+const compressed = async () => {
+  const io = new WebIO().registerExtensions(KHRONOS_EXTENSIONS).registerDependencies({ 'draco3d.encoder': await draco.createEncoderModule(), 'draco3d.decoder': await draco.createDecoderModule() });
+  const document = await io.readBinary(await model());
+  document.createExtension(KHRDracoMeshCompression).setRequired(true);
+  return io.writeBinary(document);
+};
 
 /** Opens a page and waits until the element shows a path-traced model. @returns What the page complained about. */
 async function sees(browser: Page, address: string, selector: string): Promise<{ readonly seconds: number; readonly complaints: readonly string[] }> {
@@ -99,7 +110,7 @@ test('React', async ({ page: browser }) => {
   project.write('src/Chair.tsx', code);
   // As the template has it.
   project.write('src/main.tsx', "import { StrictMode } from 'react'\nimport { createRoot } from 'react-dom/client'\nimport { Chair } from './Chair'\n\ncreateRoot(document.getElementById('root')!).render(<StrictMode><Chair /></StrictMode>)\n");
-  project.write('public/chair.glb', await model());
+  project.write('public/chair.glb', await compressed());
   project.write('public/chair.webp', Buffer.from('R0lGODlhAQABAIAAAAAAAP///yH5BAEAAAAALAAAAAABAAEAAAIBRAA7', 'base64'));
   await project.install();
   await project.timed('tsc', () => project.run('npx', ['--no-install', 'tsc', '-p', '.']));
@@ -148,7 +159,7 @@ test('Next.js', async ({ page: browser }) => {
   // As the template has it.
   project.write('app/layout.tsx', "import type { ReactNode } from 'react';\n\nexport default function Layout({ children }: { children: ReactNode }) {\n  return <html lang=\"en\"><head><link rel=\"icon\" href=\"data:,\" /></head><body>{children}</body></html>;\n}\n");
   for (const file of ['app/page.tsx', 'app/product.tsx', 'app/product/page.tsx']) project.write(file, fileFromGuide('react', file));
-  project.write('public/chair.glb', await model());
+  project.write('public/chair.glb', await compressed());
   await project.install();
   await project.timed('next build', () => project.next('build'));
   const origin = await project.serveNext();

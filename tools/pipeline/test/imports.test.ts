@@ -56,6 +56,14 @@ async function judge(changes: Record<string, string>) {
 }
 
 describe('the import check', () => {
+  it('lets sources import what the build puts into the package, which must be installed for it', async () => {
+    const source = { 'packages/image/src/index.ts': `import { E } from '@glanz/wgsl/error';\nimport { zlibSync } from 'fflate';\nimport decode from 'draco';\nexport { E, zlibSync, decode };` };
+    const bundled = (more: object) => ({ ...source, 'packages/image/package.json': JSON.stringify({ ...JSON.parse(manifest('image', ['@glanz/wgsl', 'fflate'])), ...more }) });
+    expect(await judge(source)).toContain('"draco" is not declared');
+    expect(await judge(bundled({ glanz: { bundled: ['draco'] }, devDependencies: { draco: '1' } }))).toBe('');
+    expect(await judge(bundled({ glanz: { bundled: ['draco'] } }))).toContain('not among devDependencies');
+  });
+
   it('has nothing to say about a good house', async () => {
     expect(await judge({})).toBe('');
   });

@@ -1,0 +1,1 @@
+export { ktx2Decoder } from '@glanz/gltf';
