@@ -163,11 +163,20 @@ export class App {
   /** Opens what was dropped or picked: a model, an environment, a material, or several of them. */
   async #open(files: ReadonlyMap<string, File> | Promise<ReadonlyMap<string, File>>): Promise<void> {
     try {
-      const { sortFiles } = await import('./input/files');
+      const { environmentNote, sortFiles } = await import('./input/files');
       const given = await files;
       const { model, environment, material } = sortFiles(given);
+      let note: string | undefined;
       if (environment) {
-        await this.#environments.load(environment);
+        try {
+          await this.#environments.load(environment);
+        } catch (error) {
+          // A model that came with it is shown all the same.
+          if (!model) throw error;
+          note = environmentNote(error);
+        }
+      }
+      if (environment && !note) {
         this.#messages.clearErrors();
         // Another file under the same choice is no change of state.
         if (this.#store.state.environment === 'file') this.#session.edit('environment', (tracer) => tracer.setEnvironment(this.#environments.choose(this.#store.state, this.#opened?.scene)));
@@ -175,6 +184,7 @@ export class App {
         for (const listener of this.#environmentListeners) listener();
       }
       if (model) await this.load({ kind: 'files', files: model.files, entry: model.entry });
+      if (note) this.#messages.show({ kind: 'note', text: note, code: 'playground/environment', stays: true });
       if (material && !model && this.#opened) {
         const [{ materialFromFiles }, { replaceMaterial }] = await Promise.all([import('./output/materialx'), import('./ui/material/edits')]);
         const { parameters, slots, name, notes } = await materialFromFiles(material, given);

@@ -248,8 +248,10 @@ test('dropped models: broken ones are told in a line and the former scene stays,
 
   await drop(page, [{ name: 'cut.glb', bytes: bad[0]![1] }]);
   await expect(errorWith(page, 'gltf/truncated')).toBeVisible();
-  await drop(page, [{ name: 'sail.glb', bytes: good }]);
+  // An environment that is broken does not keep the model out that came with it.
+  await drop(page, [{ name: 'sail.glb', bytes: good }, { name: 'dark.hdr', bytes: bad.at(-1)![1] }]);
   await expect.poll(() => dataOf(page, 'scene')).toBe('sail.glb');
+  await expect(page.locator('[role=status][data-code="playground/environment"]')).toContainText('HDR');
   await finished(page);
   await expect(page.locator('[role=alert]')).toHaveCount(0);
   await expect(page.locator('[data-statistic=triangles]')).toHaveText('1');

@@ -11,6 +11,8 @@ export interface GlanzViewerEventMap {
   progress: CustomEvent<ViewerEvents['progress'] & { readonly totalProgress: number }>;
   /** Something failed: `message` in one line, `code`, and `retry` where trying again can help. */
   error: CustomEvent<ViewerEvents['error']>;
+  /** An environment cannot be fetched or read; the model is shown without it. `message` in one line, and `code`. */
+  warning: CustomEvent<Omit<ViewerEvents['warning'], 'error'> & { readonly error: unknown }>;
   /** The image has one more sample per pixel. */
   sample: CustomEvent<ViewerEvents['sample']>;
   /** The image is finished: `samples` or `noise` is reached. */

@@ -103,7 +103,7 @@ function makeClass(): GlanzViewerConstructor {
       } else if (name === 'variant-name') this.#setVariant(viewer);
       else if (LIGHT.has(name)) {
         viewer.background = this.#background;
-        viewer.setEnvironment(this.#environment).catch((error: unknown) => this.#fail(error));
+        viewer.setEnvironment(this.#environment).catch((error: unknown) => this.#fail(error, 'warning'));
       } else if (VIEW.has(name)) {
         if (name === 'field-of-view' && viewer.scene) this.#attempt(() => void (viewer.fieldOfView = cameraOf(viewer.scene as Scene, this.#aspect, this.#view).yfov));
         this.#look(viewer, name === 'min-camera-orbit' || name === 'max-camera-orbit');
@@ -268,7 +268,7 @@ function makeClass(): GlanzViewerConstructor {
     }
 
     #listen(viewer: Viewer, { bar, progress, message }: Shadow): void {
-      for (const type of ['sample', 'converged', 'device-lost', 'device-restored'] as const) viewer.on(type, (detail) => this.#tell(type, detail));
+      for (const type of ['warning', 'sample', 'converged', 'device-lost', 'device-restored'] as const) viewer.on(type, (detail) => this.#tell(type, detail));
       viewer.on('progress', (detail) => {
         progress.classList.remove('gone');
         bar.style.transform = `scaleX(${detail.total.toFixed(3)})`;
@@ -385,10 +385,10 @@ function makeClass(): GlanzViewerConstructor {
       }
     }
 
-    #fail(error: unknown): void {
+    #fail(error: unknown, type: 'error' | 'warning' = 'error'): void {
       if ((error as { name?: string }).name === 'AbortError') return;
       const { message = 'Something failed.', code } = error as { message?: string; code?: string };
-      this.#tell('error', { error, message: message.split('\n')[0] as string, code: code ?? 'unexpected' });
+      this.#tell(type, { error, message: message.split('\n')[0] as string, code: code ?? 'unexpected' });
     }
 
     #speak(text: string): void {

@@ -29,7 +29,7 @@ test.beforeEach(async ({ page }) => {
     const packed = name.includes('draco') ? await dracoModel() : name.includes('ktx2') ? ktx2Model() : undefined;
     return route.fulfill({ body: packed ?? (name.includes('other') ? other : model) });
   });
-  await page.route('**/*.hdr', (route) => route.fulfill({ body: hdr([128, 0, 0, 129]) }));
+  await page.route('**/*.hdr', (route) => route.fulfill({ body: route.request().url().includes('bad') ? Buffer.from('no image') : hdr([128, 0, 0, 129]) }));
 });
 test.afterEach(() => expect(complaints).toEqual([]));
 
@@ -350,4 +350,16 @@ test('decoders can be replaced, and one that does not start is an error that say
     });
   }
   complaints = complaints.filter((text) => !/Content Security Policy/.test(text));
+});
+
+test('a broken environment is a warning, at the start and later, and the model is there', async ({ page }) => {
+  await open(page, { 'environment-image': 'bad.hdr' });
+  expect(await heard(page, 'load')).toHaveLength(1);
+  await expect.poll(() => heard(page, 'warning')).toEqual([{ code: 'viewer/environment', message: expect.stringMatching(/studio/) }]);
+  const before = await shot(page);
+  await page.evaluate(() => void (document.querySelector('glanz-viewer')!.environmentImage = 'bad2.hdr'));
+  await expect.poll(() => heard(page, 'warning')).toEqual([expect.anything(), { code: 'image/format', message: expect.stringMatching(/HDR/) }]);
+  expect(Math.abs((await shot(page)).cells[3]![0] - before.cells[3]![0])).toBeLessThan(2);
+  expect(await heard(page, 'error')).toEqual([]);
+  await expect(page.locator('glanz-viewer').getByRole('alert')).toBeHidden();
 });

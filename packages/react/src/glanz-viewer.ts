@@ -21,6 +21,7 @@ export interface GlanzViewerProps extends Partial<Omit<ReflectedProperties, 'src
   readonly onLoad?: (detail: Detail<'load'>) => void;
   readonly onProgress?: (detail: Detail<'progress'>) => void;
   readonly onError?: (detail: Detail<'error'>) => void;
+  readonly onWarning?: (detail: Detail<'warning'>) => void;
   readonly onSample?: (detail: Detail<'sample'>) => void;
   readonly onConverged?: (detail: Detail<'converged'>) => void;
   readonly onCameraChange?: (detail: Detail<'camera-change'>) => void;
@@ -34,6 +35,7 @@ const EVENTS = {
   onLoad: 'load',
   onProgress: 'progress',
   onError: 'error',
+  onWarning: 'warning',
   onSample: 'sample',
   onConverged: 'converged',
   onCameraChange: 'camera-change',

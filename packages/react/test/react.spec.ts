@@ -63,6 +63,9 @@ test('a file as src', async ({ page }) => {
   await expect.poll(() => heard(page)).toEqual(['load', 'converged 6']);
   const [r, g] = await middle(page);
   expect(g).toBeGreaterThan(1.5 * r);
+  await page.route('**/bad.hdr', (route) => route.fulfill({ body: 'no image' }));
+  await page.evaluate((props) => window.give({ src: window.seen.element!.viewer!.scene!, environmentImage: 'bad.hdr', ...props }), FAST);
+  await expect.poll(async () => (await heard(page)).filter((what) => what.startsWith('warning'))).not.toEqual([]);
   await page.evaluate((props) => window.give({ src: new File(['no'], 'bad.glb'), ...props }), FAST);
   await expect.poll(async () => (await heard(page)).at(-1)).toMatch(/^error gltf\//);
 });

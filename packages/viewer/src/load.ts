@@ -110,7 +110,7 @@ export async function loadEnvironment(source: EnvironmentSource, signal?: AbortS
   }
   if (typeof source !== 'string' && typeof source !== 'object' || source === null) throw new ViewerError('viewer/environment', `An environment is a name, an address, a file or data, not ${String(source)}.`);
   const bytes = source instanceof Blob ? await bytesOf(source) : await fetchBytes(addressOf(source, 'viewer/environment'), signal);
-  if (!bytes) throw new ViewerError('viewer/environment', `The surroundings "${String(source).slice(0, 200)}" could not be fetched: check the address, and that its server allows this page to read it.`);
+  if (!bytes) throw new ViewerError('viewer/environment', `The environment "${String(source).slice(0, 200)}" could not be fetched: check the address, and that its server allows this page to read it.`);
   const { decodeEnvironment } = await import('@glanz/image/environment');
   signal?.throwIfAborted();
   const { width, height, data } = decodeEnvironment(bytes);

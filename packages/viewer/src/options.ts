@@ -18,7 +18,10 @@ export interface ViewerOptions {
   readonly pixelRatio?: number;
   /** Pixels of the picture at most; beyond, it is enlarged. Default 4,194,304. */
   readonly maxPixels?: number;
-  /** Surroundings. Default `scene`: the model's own, or else a studio. Changed by `setEnvironment()`. */
+  /**
+   * Surroundings. Default `scene`: the model's own, or else a studio. Changed by `setEnvironment()`. Where it cannot be fetched or
+   * read, a studio lights the model, and the `warning` event says why.
+   */
   readonly environment?: EnvironmentSource;
   /** Multiplies the surroundings. Default 1. Changeable. */
   readonly environmentIntensity?: number;

@@ -1,5 +1,6 @@
 import type { PathTracer } from '@glanz/renderer';
 import { createScene, inSlices, validationSteps, type Environment, type Scene } from '@glanz/scene';
+import { ViewerError } from './errors';
 import { loadEnvironment, type EnvironmentSource } from './load';
 import type { Vector } from './orbit';
 
@@ -10,6 +11,13 @@ interface Setting {
   readonly intensity: number;
   /** Radians about +Y. */
   readonly rotation: number;
+}
+
+/** An environment for one scene. */
+interface Prepared {
+  readonly lit: Environment | undefined;
+  readonly warning: ViewerError | undefined;
+  readonly adopt: () => void;
 }
 
 /** The environment that a viewer was given, and how bright and how turned it is. What a tracer refuses is not kept. */
@@ -62,13 +70,22 @@ export class Surroundings {
     }
   }
 
-  /** Fetches what is needed besides the scene, while that is on its way. @returns What makes it the environment of the scene. */
-  async fetch(signal: AbortSignal): Promise<(scene: Scene) => Promise<{ readonly lit: Environment | undefined; readonly adopt: () => void }>> {
+  /**
+   * Fetches what is needed besides the scene, while that is on its way: the studio where the environment cannot be had.
+   * @returns What makes it the environment of the scene; `warning`: why the studio replaces the environment.
+   */
+  async fetch(signal: AbortSignal): Promise<(scene: Scene) => Promise<Prepared>> {
     const { source } = this.#now;
-    const given = await loadEnvironment(source, signal);
+    let warning: ViewerError | undefined;
+    const given = await loadEnvironment(source, signal).catch((cause: unknown) => {
+      signal.throwIfAborted();
+      const [why] = (cause instanceof Error ? cause.message : String(cause)).split('\n');
+      warning = new ViewerError('viewer/environment', `${why} The studio lights the model instead.`, { cause });
+      return loadEnvironment('studio', signal);
+    });
     return async (scene) => {
       const loaded = await forScene(source, given, scene);
-      return { lit: lit({ ...this.#now, loaded }), adopt: () => source === this.#now.source && this.#set({ loaded }, false) };
+      return { lit: lit({ ...this.#now, loaded }), warning, adopt: () => source === this.#now.source && this.#set({ loaded }, false) };
     };
   }
 

@@ -47,7 +47,8 @@ export class Viewer extends ViewerCamera {
 
   /**
    * Loads a model and shows it. Until it is ready the former one stays, and it stays where this fails. A load that comes
-   * later aborts this one.
+   * later aborts this one. An environment that cannot be fetched or read does not fail the load: the studio lights the model,
+   * and the `warning` event says why.
    *
    * @returns The scene as it was loaded.
    * @throws {GltfError} {FormatError} for files that cannot be read; {ViewerError} `viewer/no-model`, `viewer/destroyed`;
@@ -151,7 +152,7 @@ export class Viewer extends ViewerCamera {
     const reading = loadModel(source, { signal, decoders, createWorker, compressedFormats: () => this.engine.compressedFormats(), onProgress });
     const [scene, surround] = await Promise.all([reading, this.surroundings.fetch(signal)]);
     signal.throwIfAborted();
-    const { lit, adopt } = await surround(scene);
+    const { lit, warning, adopt } = await surround(scene);
     // Each goes through all vertices.
     const camera = await inSlices(this.cameraSteps(scene, options.camera ?? this.options.camera ?? 'auto'), { signal });
     const bounds = await inSlices(sceneBoundsSteps(scene), { signal });
@@ -164,6 +165,7 @@ export class Viewer extends ViewerCamera {
         this.loaded = scene;
         this.#variant = variant;
         adopt();
+        if (warning) this.emit('warning', { error: warning, message: warning.message, code: warning.code });
         this.beginAt(camera, bounds);
       },
     });

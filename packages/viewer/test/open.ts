@@ -29,7 +29,7 @@ export async function open(page: Page, origin: string, options: ViewerOptions = 
     async ([base64, given]) => {
       const viewer = (window.viewer = window.make(given as ViewerOptions));
       window.heard = [];
-      for (const type of ['load', 'progress', 'error', 'sample', 'converged', 'camera-change', 'device-lost', 'device-restored', 'state', 'frame', 'pick'] as const) viewer.on(type, (detail) => void window.heard.push({ ...structuredCloneable(detail), type }));
+      for (const type of ['load', 'progress', 'error', 'warning', 'sample', 'converged', 'camera-change', 'device-lost', 'device-restored', 'state', 'frame', 'pick'] as const) viewer.on(type, (detail) => void window.heard.push({ ...structuredCloneable(detail), type }));
       await viewer.load(window.file(base64 as string, 'model.glb'));
       function structuredCloneable(detail: object) {
         return Object.fromEntries(Object.entries(detail).filter(([, value]) => typeof value !== 'function' && typeof value !== 'object'));

@@ -159,3 +159,25 @@ test('of two environments that are asked for, the later one is shown, and the ea
   const { mean } = await shot(page);
   expect(mean[0]).toBeGreaterThan(4 * mean[1]);
 });
+
+test('an environment that is missing or broken is a warning, and the studio lights the model', async ({ page }) => {
+  await page.route('**/missing.hdr', (route) => route.fulfill({ status: 404, body: 'nothing' }));
+  await page.route('**/broken.exr', (route) => route.fulfill({ body: Buffer.from([0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0, 9, 9, 9]) }));
+  await open(page, served.origin, { environment: 'studio', samples: 2 });
+  const studio = await shot(page);
+  for (const [environment, why] of [['missing.hdr', /could not be fetched/], ['broken.exr', /EXR/]] as const) {
+    await open(page, served.origin, { environment, samples: 2 });
+    expect(await heard(page, 'load')).toHaveLength(1);
+    expect(await heard(page, 'error')).toEqual([]);
+    expect(await heard(page, 'warning')).toEqual([{ type: 'warning', code: 'viewer/environment', message: expect.stringMatching(why) }]);
+    const { cells } = await shot(page);
+    cells.forEach((cell, i) => cell.forEach((value, k) => expect(Math.abs(value - studio.cells[i]![k]!)).toBeLessThan(2)));
+  }
+  // A call that waits for its environment gets the error.
+  expect(await page.evaluate(() => window.viewer.setEnvironment('missing.hdr').catch((error: { code: string }) => error.code))).toBe('viewer/environment');
+  // And a broken model is an error, whatever lights it.
+  expect(await page.evaluate(() => window.viewer.load(new File(['no'], 'bad.glb')).catch((error: { code: string }) => error.code))).toMatch(/^gltf\//);
+  expect(await heard(page, 'error')).toHaveLength(1);
+  expect(await heard(page, 'warning')).toHaveLength(1);
+  complaints = complaints.filter((text) => !text.includes('404'));
+});

@@ -1,4 +1,4 @@
-import { PlaygroundError } from '../errors';
+import { describeError, PlaygroundError } from '../errors';
 
 /** What a user gave, sorted: a model with everything that lies beside it, an environment, a material, or several of them. */
 export interface GivenFiles {
@@ -33,6 +33,9 @@ export function sortFiles(files: ReadonlyMap<string, File>): GivenFiles {
   const material = look === undefined ? undefined : files.get(look);
   return { ...(entry === undefined ? {} : { model: { files, entry } }), ...(environment ? { environment } : {}), ...(material ? { material } : {}) };
 }
+
+/** What the page says of an environment that cannot be read, and came together with a model. */
+export const environmentNote = (error: unknown): string => `${describeError(error).message} The model is lit as the page was before.`;
 
 /** Files of a file input; of a folder input with their paths. */
 export function filesOfInput(input: HTMLInputElement): Map<string, File> {

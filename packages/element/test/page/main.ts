@@ -9,7 +9,7 @@ Object.assign(window, {
   file: (base64: string, name: string) => new File([bytes(base64)], name),
   put: (attributes: Record<string, string>, children = '') => {
     const element = document.createElement('glanz-viewer');
-    for (const type of ['load', 'progress', 'error', 'sample', 'converged', 'camera-change', 'device-lost', 'device-restored', 'poster-dismissed', 'variant-applied'] as const) element.addEventListener(type, (event) => void heard.push({ type, detail: plain((event as CustomEvent<object | null>).detail) }));
+    for (const type of ['load', 'progress', 'error', 'warning', 'sample', 'converged', 'camera-change', 'device-lost', 'device-restored', 'poster-dismissed', 'variant-applied'] as const) element.addEventListener(type, (event) => void heard.push({ type, detail: plain((event as CustomEvent<object | null>).detail) }));
     for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
     // Children come as markup, as they would in a page.
     element.append(document.createRange().createContextualFragment(children));

@@ -15,6 +15,7 @@ function App({ first }: { readonly first: GlanzViewerProps }) {
     ref: (element: GlanzViewerElement | null) => void (seen.element = element),
     onLoad: () => void heard.push('load'),
     onConverged: ({ samples }) => void heard.push(`converged ${samples}`),
+    onWarning: ({ code }) => void heard.push(`warning ${code}`),
     onError: ({ code }) => void heard.push(`error ${code}`),
     ...props,
   });
