@@ -7,4 +7,5 @@ export default glanzPackage({
   load: 'src/load.ts',
   engine: 'src/engine.ts',
   'fit-camera': 'src/fit-camera.ts',
+  'render-image': 'src/render-image.ts',
 });

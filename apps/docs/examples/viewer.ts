@@ -64,3 +64,22 @@ export async function save(viewer: Viewer): Promise<Blob> {
   return viewer.toBlob({ type: 'image/png', samples: 64 });
 }
 // #endregion save
+
+// #region render
+export async function render(
+  viewer: Viewer,
+  bar: HTMLProgressElement,
+  signal: AbortSignal,
+  [width, height] = [3840, 2160],
+): Promise<Blob> {
+  return viewer.toBlob({
+    type: 'image/png', // or jpeg, webp, x-exr
+    width,
+    height,
+    samples: 1024, // or noise: 0.01
+    background: 'transparent', // gives an alpha channel
+    onProgress: ({ share }) => void (bar.value = share),
+    signal,
+  });
+}
+// #endregion render

@@ -60,6 +60,13 @@ test('the viewer: it starts, tells, is edited, looked at, pinned to, dropped on 
   expect(after.mean[1]).not.toBeCloseTo(before.mean[1], 0);
   expect(await page.evaluate(() => window.viewer.scene!.instances.map(({ visible }) => visible))).toEqual([undefined, false]);
   expect(await page.evaluate(async () => (await window.examples.save(window.viewer)).type)).toBe('image/png');
+  const rendered = await page.evaluate(async () => {
+    const bar = document.createElement('progress');
+    const blob = await window.examples.render(window.viewer, bar, new AbortController().signal, [8, 6]);
+    const { width, height } = await createImageBitmap(blob);
+    return [width, height, bar.value];
+  });
+  expect(rendered).toEqual([8, 6, 1]);
   await page.evaluate(() => window.examples.look(window.viewer));
   expect(await page.evaluate(() => window.viewer.orbit!.theta)).toBeCloseTo(Math.PI / 4, 6);
   await page.evaluate(() => void (window.viewer.autoRotate = 0));

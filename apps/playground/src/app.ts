@@ -1,5 +1,6 @@
-import { breathe, type Scene } from '@glanz/scene';
+import { breathe, type Camera, type Scene } from '@glanz/scene';
 import { controlCamera } from '@glanz/viewer/controls';
+import { fitCamera } from '@glanz/viewer/fit-camera';
 import { describeError, isAbort } from './errors';
 import { Environments } from './input/environments';
 import { isSample, linkOfPage, open, sampleTitle, stateFor, type Opened } from './input/opening';
@@ -79,7 +80,7 @@ export class App {
       {
         step: (seconds) => app.#step(seconds),
         moving: () => app.#rig.moving,
-        camera: () => app.#rig.now,
+        camera: (aspect) => app.#cameraFor(aspect),
       },
       {
         onStatus: (status) => app.#told(status),
@@ -291,7 +292,11 @@ export class App {
       stageSize: () => [this.#stage.clientWidth, this.#stage.clientHeight],
     };
     const { makePanels } = await import('./ui/panels');
-    makePanels(context, () => this.#behind.saved(this.#store.state));
+    const behindFor = (aspect: number) => {
+      const { state } = this.#store;
+      return this.#behind.rendered(state, this.#environments.choose(state, this.#opened?.scene), this.#cameraFor(aspect), aspect);
+    };
+    makePanels(context, () => this.#behind.saved(this.#store.state), behindFor);
     document.body.dataset['panels'] = 'ready';
     return context;
   }
@@ -358,6 +363,14 @@ export class App {
 
   #aspect(): number {
     return Math.max(1, this.#stage.clientWidth) / Math.max(1, this.#stage.clientHeight);
+  }
+
+  /** The camera as it is now, for an image of this width over height. */
+  #cameraFor(aspect: number): Camera {
+    const { now } = this.#rig;
+    const [width, height] = this.#session.film;
+    // The film on the screen has the stage's shape, but for the rounding of its pixels.
+    return aspect === width / height ? now : fitCamera(now.type === 'perspective' ? { ...now, aspect: this.#aspect() } : now, aspect);
   }
 
   #resize(): void {

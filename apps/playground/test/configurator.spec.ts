@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { expect, test, type Page } from '@playwright/test';
-import { checkAccessibility, dataOf, errorWith, pictureOf, pixelsOf, servePlayground, watch } from './page';
+import { checkAccessibility, dataOf, errorWith, pictureOf, pixelsOf, renderToFile, servePlayground, watch, type RenderSettings } from './page';
 
 let origin = '';
 let close: () => Promise<void> = async () => undefined;
@@ -32,9 +32,16 @@ async function choose(page: Page, id: string): Promise<void> {
   await done(page);
 }
 
+/** Saves the image by the dialog, at a quarter of the canvas's size. */
+async function saveImage(page: Page, settings: Partial<RenderSettings> = {}) {
+  const [width, height] = await pictureOf(page).evaluate((canvas) => [canvas.clientWidth, canvas.clientHeight].map((side) => Math.round(side / 4)));
+  await page.getByRole('button', { name: 'Save image' }).click();
+  return renderToFile(page, { width: width!, height: height!, ...settings });
+}
+
 /** Of the saved picture: the share of pixels that the button covers, and of those the shares that are clearly red, green. */
 async function shares(page: Page): Promise<{ readonly covered: number; readonly red: number; readonly green: number }> {
-  const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Download picture' }).click()]);
+  const download = await saveImage(page);
   return page.evaluate(async (base64) => {
     const bitmap = await createImageBitmap(new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], { type: 'image/png' }));
     const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d')!;
@@ -128,7 +135,19 @@ test('the page keeps its picture when its size changes, saves it, and has no acc
       expect(await checkAccessibility(page), `${scheme} at ${width}`).toEqual([]);
     }
   }
-  const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Download picture' }).click()]);
+  await page.setViewportSize({ width: 900, height: 560 });
+  const jpeg = await saveImage(page, { width: 48, height: 32, samples: 2, format: 'JPEG' });
+  expect(jpeg.suggestedFilename()).toBe('gb22-fg-p-rc-g-pa-c.jpg');
+  const { width, height } = await pixelsOf(page, readFileSync(await jpeg.path()));
+  expect([width, height]).toEqual([48, 32]);
+  await page.getByRole('button', { name: 'Save image' }).click();
+  for (const scheme of ['light', 'dark'] as const) {
+    await page.emulateMedia({ colorScheme: scheme });
+    expect(await checkAccessibility(page), `the dialog, ${scheme}`).toEqual([]);
+    if (process.env['GLANZ_SCREENSHOTS']) await page.screenshot({ path: `${process.env['GLANZ_SCREENSHOTS']}/configurator-${scheme}.png` });
+  }
+  await page.keyboard.press('Escape');
+  const download = await saveImage(page);
   expect(download.suggestedFilename()).toBe('gb22-fg-p-rc-g-pa-c.png');
   const { deviation, colours } = await pixelsOf(page, readFileSync(await download.path()));
   expect(colours).toBeGreaterThan(500);

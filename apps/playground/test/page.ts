@@ -58,6 +58,32 @@ export const errorWith = (page: Page, code: string): Locator => page.locator(`[r
 /** Shows one of the panels beside the picture. */
 export const tab = (page: Page, name: 'Scene' | 'Material' | 'Light' | 'Camera' | 'Render'): Promise<void> => page.getByRole('tab', { name }).click();
 
+/** What the dialog for images is told, by the ids of its controls. */
+export interface RenderSettings {
+  readonly width: number;
+  readonly height: number;
+  readonly samples?: number;
+  readonly format?: string;
+  readonly transparent?: boolean;
+}
+
+/** Fills the open dialog. */
+export async function fillRenderDialog(page: Page, { width, height, samples, format, transparent }: RenderSettings): Promise<void> {
+  await page.getByLabel('Width, pixels').fill(String(width));
+  await page.getByLabel('Height, pixels').fill(String(height));
+  if (samples !== undefined) await page.getByRole('spinbutton', { name: 'Samples per pixel' }).fill(String(samples));
+  if (format !== undefined) await page.getByLabel('Format').selectOption({ label: format });
+  if (transparent !== undefined) await page.getByLabel('Transparent background').setChecked(transparent);
+}
+
+/** Renders with the open dialog, to a file, and closes it. */
+export async function renderToFile(page: Page, settings: RenderSettings): Promise<Download> {
+  await fillRenderDialog(page, settings);
+  const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Save file' }).click()]);
+  await page.getByRole('dialog').getByRole('button', { name: 'Close' }).click();
+  return download;
+}
+
 /** Saves something by the export menu. */
 export async function save(page: Page, name: string): Promise<Download> {
   if (!(await page.locator('#export-menu').isVisible())) await page.locator('#export').click();

@@ -3,7 +3,8 @@ import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
 import { expect, test, type Page } from '@playwright/test';
 import { hdr, triangle } from '@glanz/browser/files';
-import { dataOf, drop, errorWith, finished, open as openAt, photograph, pictureOf as canvasOf, pixelsOf, restarting, save, servePlayground, tab, watch } from './page';
+import { decodeExr } from '@glanz/image';
+import { checkAccessibility, dataOf, drop, errorWith, fillRenderDialog, finished, open as openAt, photograph, pictureOf as canvasOf, pixelsOf, renderToFile, restarting, save, servePlayground, tab, watch } from './page';
 
 let origin = '';
 let close: () => Promise<void> = async () => undefined;
@@ -52,6 +53,73 @@ test('the Cornell box appears: light above, red left, green right; the saved pic
   for (const channel of ['R', 'A', 'albedo.G', 'normal.X', 'depth.Z', 'object.id', 'material.id']) expect(header).toContain(`${channel}\0`);
 });
 
+test('an image of any size is rendered, to a file or the clipboard; the screen keeps its samples', async ({ page, context }) => {
+  await context.grantPermissions(['clipboard-read', 'clipboard-write'], { origin });
+  await open(page, 'model=cornell-box&scale=0.125&samples=4&depth=3');
+  await finished(page);
+  const restarts = await dataOf(page, 'restarts');
+  const dialog = page.getByRole('dialog', { name: 'Render image' });
+  const show = async () => {
+    await page.locator('#export').click();
+    await page.getByRole('button', { name: 'Render image' }).click();
+    await expect(dialog).toBeVisible();
+  };
+  await show();
+  for (const scheme of ['light', 'dark'] as const) {
+    await page.emulateMedia({ colorScheme: scheme });
+    expect(await checkAccessibility(page), scheme).toEqual([]);
+    if (process.env['GLANZ_SCREENSHOTS']) await page.screenshot({ path: `${process.env['GLANZ_SCREENSHOTS']}/render-${scheme}.png` });
+  }
+  // The size does not depend on the film of the screen, which has an eighth of the stage's pixels.
+  await expect(page.getByLabel('Width, pixels')).toHaveValue(String((await canvasOf(page).boundingBox())!.width));
+  const png = await renderToFile(page, { width: 60, height: 90, samples: 3, format: 'PNG, 16 bits' });
+  expect(png.suggestedFilename()).toBe('cornell-box.png');
+  const bytes = readFileSync(await png.path());
+  expect([bytes.readUInt32BE(16), bytes.readUInt32BE(20), bytes[24]]).toEqual([60, 90, 16]);
+  expect(bytes.includes('3 samples per pixel')).toBe(true);
+  // A taller image shows all of the box: red left, green right.
+  const { cells } = await pixelsOf(page, bytes);
+  expect(cells[3]![0]).toBeGreaterThan(1.3 * cells[3]![1]);
+  expect(cells[5]![1]).toBeGreaterThan(1.1 * cells[5]![0]);
+
+  await show();
+  const exr = readFileSync(await (await renderToFile(page, { width: 33, height: 21, samples: 2, format: 'EXR, linear, with all layers and lights' })).path());
+  const { width, height, channels } = decodeExr(exr);
+  expect([width, height, channels.has('albedo.G'), channels.has('depth.Z')]).toEqual([33, 21, true, true]);
+
+  // The clipboard, with an alpha channel.
+  await show();
+  await fillRenderDialog(page, { width: 40, height: 40, samples: 1, format: 'PNG, 8 bits', transparent: true });
+  await page.getByRole('button', { name: 'Copy to clipboard' }).click();
+  await expect(dialog.getByRole('status')).toHaveText('The image, 40 × 40, is on the clipboard.');
+  const copied = await page.evaluate(async () => {
+    const [item] = await navigator.clipboard.read();
+    const bitmap = await createImageBitmap(await item!.getType('image/png'));
+    return [bitmap.width, bitmap.height];
+  });
+  expect(copied).toEqual([40, 40]);
+
+  // Cancelled, and closed while it renders.
+  for (const end of ['Cancel', 'Close']) {
+    await fillRenderDialog(page, { width: 64, height: 64, samples: 60_000 });
+    await page.getByRole('button', { name: 'Save file' }).click();
+    await expect(dialog).toContainText('of 60000 samples');
+    await page.screenshot(process.env['GLANZ_SCREENSHOTS'] ? { path: `${process.env['GLANZ_SCREENSHOTS']}/render-running.png` } : {});
+    await dialog.getByRole('button', { name: end }).click();
+    if (end === 'Cancel') await expect(dialog.getByRole('status')).toHaveText('Cancelled.');
+    else await expect(dialog).toHaveCount(0);
+  }
+  // What the GPU cannot hold is an error in the dialog.
+  await show();
+  await fillRenderDialog(page, { width: 16_384, height: 16_384, samples: 1 });
+  await page.getByRole('button', { name: 'Save file' }).click();
+  await expect(dialog.getByRole('alert')).toContainText(/\w/);
+  if (process.env['GLANZ_SCREENSHOTS']) await page.screenshot({ path: `${process.env['GLANZ_SCREENSHOTS']}/render-error.png` });
+  await page.keyboard.press('Escape');
+  await finished(page);
+  expect([await dataOf(page, 'restarts'), await dataOf(page, 'samples')]).toEqual([restarts, '4']);
+});
+
 test('the first script is small, and controls come after the first model', async ({ page }) => {
   const dist = fileURLToPath(new URL('../dist/', import.meta.url));
   const html = readFileSync(`${dist}index.html`, 'utf8');
@@ -74,7 +142,7 @@ test('the first script is small, and controls come after the first model', async
   expect(fetched(asked.slice(0, at(/\/panels-[^/]+\.js$/)))).toBeLessThan(175_000);
   expect(fetched(asked)).toBeLessThan(200_000);
   // Presets, encoders and decoders wait until somebody wants them.
-  expect(asked.filter((url) => /\/(presets|png|exr|materialx|draco|meshopt)[^/]*\.(js|wasm)$/.test(url))).toEqual([]);
+  expect(asked.filter((url) => /\/(presets|png|exr|materialx|draco|meshopt|render|render-dialog|render-image|save-image)(-[^/]*)?\.(js|wasm|css)$/.test(url))).toEqual([]);
 });
 
 test('hierarchies are built on workers, which stay for the next model', async ({ page }) => {

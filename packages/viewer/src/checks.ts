@@ -14,6 +14,9 @@ const RANGES = {
   maxDepth: [1, 65535],
   pixelRatio: [1e-3, 16],
   maxPixels: [1, 2 ** 28],
+  width: [1, 65_536],
+  height: [1, 65_536],
+  quality: [0, 1],
   environmentIntensity: [0, 1e9],
   environmentRotation: [-MOST_TURN, MOST_TURN],
   exposure: [-64, 64],
@@ -27,7 +30,7 @@ const RANGES = {
 } as const;
 
 /** Settings that are whole numbers. */
-const WHOLE: ReadonlySet<string> = new Set(['maxDepth', 'preview.maxDepth', 'maxPixels']);
+const WHOLE: ReadonlySet<string> = new Set(['maxDepth', 'preview.maxDepth', 'maxPixels', 'width', 'height']);
 
 type Code = 'viewer/option' | 'viewer/camera';
 

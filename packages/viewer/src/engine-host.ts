@@ -69,3 +69,10 @@ export interface Take {
   /** Edits that the tracer needs before its first sample. */
   readonly ready?: (tracer: PathTracer) => Promise<void>;
 }
+
+/** Makes another tracer of the scene as it is, see `Engine.copyFor`. */
+export interface TracerCopy {
+  /** @throws as `PathTracer.create`. */
+  readonly create: (options: Pick<PathTracerOptions, 'width' | 'height' | 'background' | 'signal'>) => Promise<PathTracer>;
+  readonly ready: Take['ready'] | undefined;
+}

@@ -1,9 +1,9 @@
-import { compressedFormats, type PathTracer, type PrepareProgress } from '@glanz/renderer';
+import { compressedFormats, PathTracer, type PrepareProgress } from '@glanz/renderer';
 import type { CompressedFormat } from '@glanz/scene';
 import { checkToneMapOptions, type ToneMapOptions } from '@glanz/tonemap';
 import { Connection } from './connection';
 import { Edits } from './edits';
-import type { EngineHost, EngineSettings, Take } from './engine-host';
+import type { EngineHost, EngineSettings, Take, TracerCopy } from './engine-host';
 import { isAbort } from './errors';
 import type { ViewerState } from './events';
 import { FilmFit } from './film-fit';
@@ -16,7 +16,7 @@ import { PreviewController } from './preview';
 import { untilAborted } from '@glanz/scene';
 import { nextFrame, soon, Visibility } from './visibility';
 
-export type { EngineHost, EngineSettings, Take } from './engine-host';
+export type { EngineHost, EngineSettings, Take, TracerCopy } from './engine-host';
 export type { ViewerState } from './events';
 
 /** Samples after which a preview that stands still has no more to gain. */
@@ -156,6 +156,25 @@ export class Engine {
   /** Pixels of the image in full, as far as the GPU has memory for them. */
   get #full(): Size {
     return this.#films.sizeFor(this.#film);
+  }
+
+  /** Pixels of the image in full, as far as the GPU has memory for them. */
+  get imageSize(): Size {
+    return this.#full;
+  }
+
+  /**
+   * What makes another tracer of the scene as it is now.
+   * @param aspect Width over height of its image, which the camera fits.
+   */
+  copyFor(aspect: number): TracerCopy | undefined {
+    const { device } = this;
+    if (!this.#source || !device || !this.#current(this.#tracer)) return undefined;
+    const take = this.#source(this.#tracer);
+    const { maxDepth, background, tracer } = this.settings;
+    const builder = this.#builder;
+    const options = { ...(builder ? { hierarchies: builder } : {}), ...tracer, maxDepth, background, ...take.options, camera: this.#host.camera(aspect) };
+    return { ready: take.ready, create: (more) => PathTracer.create(device, take.scene, { ...options, ...more }) };
   }
 
   /** Edits that wait for the next frame. */

@@ -3,6 +3,7 @@ export type { PreviewOptions, ViewerOptions } from './options';
 export type { CameraChangeSource, LoadStage, ViewerEvents, ViewerState } from './events';
 export { Emitter, type ListenOptions } from './emitter';
 export type { BlobOptions } from './save-image';
+export type { ImageProgress } from './render-image';
 export type { ControlOptions } from './controls';
 export type { EnvironmentSource, ModelSource } from './load';
 export type { Orbit, OrbitLimits, Vector } from './orbit';

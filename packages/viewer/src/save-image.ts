@@ -1,30 +1,169 @@
 import type { PathTracer } from '@glanz/renderer';
+import { inSlices } from '@glanz/scene';
 import { toneMapPixels, type ToneMapOptions } from '@glanz/tonemap/tone-map';
+import { checkedChoice, checkedSetting } from './checks';
+import type { Engine } from './engine';
 import { ViewerError } from './errors';
+import { imageProgress, renderImage, type ImageProgress } from './render-image';
+import type { Viewer } from './viewer';
 
-/** What `Viewer.toBlob` may be told. */
+/** Options of `Viewer.toBlob`. */
 export interface BlobOptions {
-  /** A type that the browser can write: `image/png` (default), `image/jpeg`, `image/webp`. */
+  /** `image/png` (default), `image/jpeg`, `image/webp`, or `image/x-exr`: linear, as half floats. */
   readonly type?: string;
-  /** 0..1 for types that lose something. */
+  /** 0..1, for types that lose something. */
   readonly quality?: number;
-  /** Samples per pixel to wait for. Default 1: the picture as it is. */
+  /** Pixels, 1..65536. Default: the size on the screen; of one side alone, the other in the shape of the canvas. */
+  readonly width?: number;
+  readonly height?: number;
+  /** Samples per pixel. Default: the viewer's `samples` and `noise`; 65,536 at most where `noise` is given. */
   readonly samples?: number;
+  /** Stop where this relative noise is reached; see `RenderOptions.noise` of the renderer. */
+  readonly noise?: number;
+  /** What is behind the model; `transparent` gives an alpha channel. Default: as on the screen. */
+  readonly background?: 'environment' | 'transparent';
+  /** Called after each sample, or group of samples. */
+  readonly onProgress?: (progress: ImageProgress) => void;
+  /** Ends the rendering. */
   readonly signal?: AbortSignal;
 }
 
-/** Reads the film, through the tone map, into a file of the browser's making. */
-export async function pictureBlob(tracer: PathTracer, view: ToneMapOptions, { type = 'image/png', quality, signal }: BlobOptions): Promise<Blob> {
+/** Samples of an image that has a noise target alone. */
+const MOST_SAMPLES = 65_536;
+/** Pixels that are tone-mapped in one step, about a millisecond. */
+const STEP = 8192;
+
+/** What an image is to be, checked. */
+interface Wanted {
+  readonly size: readonly [number, number] | undefined;
+  readonly samples: number;
+  readonly noise: number | undefined;
+  readonly background: 'environment' | 'transparent';
+  /** Whether the goal is the one on the screen. */
+  readonly usual: boolean;
+}
+
+/** @throws {ViewerError} `viewer/option` */
+function checked(viewer: Viewer, options: BlobOptions): Wanted {
+  const { width, height, samples, noise, background } = options;
+  for (const [name, value] of [['width', width], ['height', height]] as const) if (value !== undefined) checkedSetting(name, value);
+  if (options.quality !== undefined) checkedSetting('quality', options.quality);
+  const aspect = Math.max(1, viewer.canvas.clientWidth) / Math.max(1, viewer.canvas.clientHeight);
+  const size = width === undefined && height === undefined ? undefined : ([width ?? Math.max(1, Math.round((height as number) * aspect)), height ?? Math.max(1, Math.round((width as number) / aspect))] as const);
+  const usual = samples === undefined && noise === undefined;
+  return {
+    size,
+    samples: samples === undefined ? (usual ? viewer.samples : MOST_SAMPLES) : Math.floor(checkedSetting('samples', samples)),
+    noise: usual ? viewer.noise : noise === undefined ? undefined : checkedSetting('noise', noise) || undefined,
+    background: background === undefined ? viewer.background : checkedChoice('background', background, ['environment', 'transparent']),
+    usual,
+  };
+}
+
+/**
+ * Waits until the image on the screen is the wanted one.
+ * @returns Its tracer, or `undefined` where it never will be, or nobody knows when: then it has to be rendered separately.
+ */
+async function screenImage(viewer: Viewer, engine: Engine, wanted: Wanted, { onProgress }: BlobOptions, signal: AbortSignal): Promise<PathTracer | undefined> {
+  const { size, samples, noise, background, usual } = wanted;
+  if (background !== viewer.background || (!usual && noise !== undefined)) return undefined;
+  const whole = () => {
+    const { tracer } = engine;
+    if (!tracer || !engine.current || tracer.samples === 0) return undefined;
+    if (size && (tracer.width !== size[0] || tracer.height !== size[1])) return undefined;
+    return tracer.samples >= samples || (usual && viewer.state === 'done') ? tracer : undefined;
+  };
+  const idle = () => viewer.state === 'paused' || viewer.state === 'hidden' || viewer.autoRotate !== 0;
+  const ready = whole();
+  if (ready || size || samples > viewer.samples || idle()) return ready;
+  const listening = new AbortController();
+  try {
+    const started = performance.now();
+    return await new Promise<PathTracer | undefined>((resolve, reject) => {
+      const options = { signal: listening.signal };
+      const look = () => {
+        const tracer = whole();
+        if (tracer || idle()) resolve(tracer);
+      };
+      viewer.on('sample', (progress) => {
+        onProgress?.(imageProgress(progress.samples, samples, performance.now() - started, progress.remainingMs, usual && noise !== undefined));
+        look();
+      }, options);
+      viewer.on('converged', () => queueMicrotask(look), options);
+      viewer.on('state', ({ state }) => {
+        if (state === 'failed') reject(new ViewerError('viewer/no-scene', 'The viewer failed before the image was rendered; see its error event.'));
+        else queueMicrotask(look);
+      }, options);
+      signal.addEventListener('abort', () => reject(signal.reason as Error), options);
+    });
+  } finally {
+    listening.abort();
+  }
+}
+
+/** The codes of an image, tone-mapped in slices. */
+async function codesOf(film: Float32Array, view: ToneMapOptions, alpha: 'opaque' | 'straight', signal: AbortSignal): Promise<Uint8ClampedArray<ArrayBuffer>> {
+  const codes = new Uint8ClampedArray(film.length);
+  function* steps(): Generator<void, void> {
+    for (let at = 0; at < film.length; at += 4 * STEP) {
+      const part = film.subarray(at, at + 4 * STEP);
+      codes.set(toneMapPixels(part, part.length / 4, 1, { ...view, alpha }), at);
+      yield;
+    }
+  }
+  await inSlices(steps(), { signal });
+  return codes;
+}
+
+/** Linear RGBA as OpenEXR. */
+async function exrBlob(film: Float32Array, { width, height, samples }: PathTracer, type: string): Promise<Blob> {
+  const { encodeExr } = await import('@glanz/image/exr');
+  const plane = (channel: number) => Float32Array.from({ length: film.length / 4 }, (_, i) => film[4 * i + channel] as number);
+  const attributes = { software: 'Glanz', samples: String(samples) };
+  const layers = [{ name: '', channels: { R: plane(0), G: plane(1), B: plane(2), A: plane(3) } }];
+  return new Blob([encodeExr({ width, height, attributes, layers })], { type });
+}
+
+/** Writes the film of a tracer as a file. @throws {ViewerError} `viewer/blob` */
+async function fileOf(tracer: PathTracer, view: ToneMapOptions, { type = 'image/png', quality }: BlobOptions, signal: AbortSignal): Promise<Blob> {
   const { width, height } = tracer;
   const film = await tracer.read('beauty');
-  signal?.throwIfAborted();
-  const opaque = type === 'image/jpeg';
-  const pixels = toneMapPixels(film, width, height, { ...view, alpha: opaque ? 'opaque' : 'straight' });
+  signal.throwIfAborted();
+  if (type === 'image/x-exr') return exrBlob(film, tracer, type);
+  const codes = await codesOf(film, view, type === 'image/jpeg' ? 'opaque' : 'straight', signal);
   const canvas = new OffscreenCanvas(width, height);
   const context = canvas.getContext('2d');
-  if (!context) throw new ViewerError('viewer/blob', 'The browser gives no canvas to write the picture with.');
-  context.putImageData(new ImageData(pixels, width, height), 0, 0);
-  const blob = await canvas.convertToBlob({ type, ...(quality === undefined ? {} : { quality }) });
+  if (!context) throw new ViewerError('viewer/blob', `The browser has no canvas of ${width} × ${height} pixels to write the image with.`);
+  context.putImageData(new ImageData(codes, width, height), 0, 0);
+  const blob = await canvas.convertToBlob({ type, ...(quality === undefined ? {} : { quality }) }).catch((cause: unknown) => {
+    throw new ViewerError('viewer/blob', `The browser cannot write an image of ${width} × ${height} pixels as "${type}".`, { cause });
+  });
   if (blob.type !== type) throw new ViewerError('viewer/blob', `This browser cannot write "${type}": choose image/png.`);
   return blob;
+}
+
+/** See `Viewer.toBlob`. */
+export async function imageBlob(viewer: Viewer, engine: Engine, options: BlobOptions): Promise<Blob> {
+  const wanted = checked(viewer, options);
+  const ended = new AbortController();
+  const stop = viewer.on('state', ({ state }) => {
+    if (state === 'destroyed') ended.abort(new DOMException('the viewer was destroyed', 'AbortError'));
+  });
+  const signal = options.signal ? AbortSignal.any([options.signal, ended.signal]) : ended.signal;
+  const view = { exposure: viewer.exposure, toneMap: viewer.toneMap };
+  try {
+    signal.throwIfAborted();
+    const shown = await screenImage(viewer, engine, wanted, options, signal);
+    if (shown) return await fileOf(shown, view, options, signal);
+    const { samples, noise, background } = wanted;
+    const [width, height] = wanted.size ?? engine.imageSize;
+    const tracer = await renderImage(engine, { width, height, samples, noise, background, onProgress: options.onProgress, signal });
+    try {
+      return await fileOf(tracer, view, options, signal);
+    } finally {
+      tracer.destroy();
+    }
+  } finally {
+    stop();
+  }
 }

@@ -1,8 +1,7 @@
 import type { PathTracer } from '@glanz/renderer';
 import { inSlices, sceneBoundsSteps, untilAborted, type Camera, type Material, type Scene } from '@glanz/scene';
-import { checkedSetting } from './checks';
 import type { Take } from './engine';
-import { isAbort, ViewerError } from './errors';
+import { isAbort } from './errors';
 import type { LoadStage } from './events';
 import { fitCamera } from './fit-camera';
 import { loadModel, type ModelSource } from './load';
@@ -126,18 +125,21 @@ export class Viewer extends ViewerCamera {
   }
 
   /**
-   * The picture as a file, as large as the picture is. Waits until it has `samples` samples (default 1) at its full size.
+   * The image as a file, at the screen's size or any other, with the viewer's target samples unless others are asked for.
+   * Where the image on the screen is or will be the one that is asked for, it is used; otherwise the scene and the view at the
+   * time of the call are rendered separately, on a path tracer of their own, and the screen's image keeps its samples.
    *
-   * @throws {ViewerError} `viewer/no-scene`, `viewer/option`, `viewer/blob` where the browser cannot write this type.
-   * @throws the signal's reason, when aborted.
+   * @throws {ViewerError} `viewer/no-scene`, `viewer/option`, `viewer/blob` where the browser cannot write this type or size.
+   * @throws {DeviceError} `renderer/limit`, `renderer/out-of-memory` for a size that the GPU cannot hold; `renderer/device-lost`
+   * @throws the signal's reason, when aborted; an `AbortError` when the viewer is destroyed.
+   * @example
+   * const blob = await viewer.toBlob({ width: 3840, height: 2160, samples: 1024, onProgress: ({ share }) => (bar.value = share) });
    */
   async toBlob(options: BlobOptions = {}): Promise<Blob> {
     this.theScene();
-    await this.#sampled(Math.min(checkedSetting('samples', options.samples ?? 1), this.samples), options.signal);
-    const { tracer } = this;
-    if (!tracer) throw new ViewerError('viewer/no-scene', 'There is no picture: load a model first.');
-    const { pictureBlob } = await import('./save-image');
-    return pictureBlob(tracer, { exposure: this.exposure, toneMap: this.toneMap }, options);
+    const { imageBlob } = await import('./save-image');
+    this.check();
+    return imageBlob(this, this.engine, options);
   }
 
   /** Frees everything, the device too. Idempotent. The canvas can serve another viewer. */
@@ -186,25 +188,6 @@ export class Viewer extends ViewerCamera {
         }
       },
     };
-  }
-
-  async #sampled(samples: number, signal: AbortSignal | undefined): Promise<void> {
-    signal?.throwIfAborted();
-    if (this.engine.current && (this.tracer?.samples ?? 0) >= samples && this.sampleCount >= samples) return;
-    const listening = new AbortController();
-    try {
-      await new Promise<void>((resolve, reject) => {
-        const options = { signal: listening.signal };
-        this.on('sample', (progress) => progress.samples >= samples && resolve(), options);
-        this.on('converged', () => resolve(), options);
-        this.on('state', ({ state }) => {
-          if (state === 'failed' || state === 'destroyed') reject(new ViewerError('viewer/no-scene', 'The viewer failed before the picture was there; see its error event.'));
-        }, options);
-        signal?.addEventListener('abort', () => reject(signal.reason as Error), options);
-      });
-    } finally {
-      listening.abort();
-    }
   }
 }
 

@@ -257,6 +257,59 @@ test('a GPU that falls over while the page starts is asked for again; one that i
   expect(code).toBe('renderer/no-adapter');
 });
 
+/** Images that are not the one on the screen, which keeps its samples meanwhile. */
+async function saveAtOtherSizes(page: Page): Promise<void> {
+  await page.evaluate(() => void (window.viewer.pixelRatio = 0.2));
+  await expect.poll(() => page.evaluate(() => [window.viewer.tracer!.width, window.viewer.state])).toEqual([64, 'done']);
+  const made = await page.evaluate(async () => {
+    const { viewer } = window;
+    const look = async (blob: Blob) => {
+      const bitmap = await createImageBitmap(blob);
+      const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d')!;
+      context.drawImage(bitmap, 0, 0);
+      return { size: [bitmap.width, bitmap.height], corner: context.getImageData(0, 0, 1, 1).data[3], type: blob.type };
+    };
+    const bytes = async (blob: Blob) => Array.from(new Uint8Array(await blob.arrayBuffer())).join();
+    const progress: { samples: number; target: number; share: number }[] = [];
+    const onProgress = ({ samples, target, share }: { samples: number; target: number; share: number }) => void progress.push({ samples, target, share });
+    const large = await look(await viewer.toBlob({ width: 90, height: 60, samples: 6, background: 'environment', type: 'image/webp', onProgress }));
+    const tall = await look(await viewer.toBlob({ height: 50 }));
+    const noise = await look(await viewer.toBlob({ width: 32, noise: 10 }));
+    const stop = new AbortController();
+    const aborted = await viewer.toBlob({ width: 64, samples: 10_000, signal: stop.signal, onProgress: () => stop.abort(new Error('enough')) }).catch(String);
+    const refused = await Promise.all([{ width: 0.5 }, { height: Number.NaN }, { width: 70_000 }, { quality: 2 }, { noise: -1 }].map((options) => viewer.toBlob(options).catch(({ code }: { code: string }) => code)));
+    const after = [viewer.sampleCount, viewer.state];
+    // More samples than the screen gets: rendered separately, and the same as on a screen that gets as many.
+    const apart = await bytes(await viewer.toBlob({ samples: 8 }));
+    viewer.samples = 8;
+    const screen = await bytes(await viewer.toBlob());
+    viewer.samples = 4;
+    return { large, tall, noise, aborted, refused, after, progress, same: apart === screen, paused: await (async () => {
+      viewer.paused = true;
+      viewer.samples = 9;
+      const { size } = await look(await viewer.toBlob());
+      viewer.paused = false;
+      viewer.autoRotate = 1;
+      await look(await viewer.toBlob({ samples: 5 }));
+      viewer.autoRotate = 0;
+      return size;
+    })() };
+  });
+  expect(made).toMatchObject({
+    large: { size: [90, 60], corner: 255, type: 'image/webp' },
+    tall: { size: [80, 50], corner: 0 },
+    noise: { size: [32, 20] },
+    aborted: 'Error: enough',
+    refused: Array<string>(5).fill('viewer/option'),
+    after: [4, 'done'],
+    same: true,
+    paused: [64, 40],
+  });
+  expect(made.progress.at(-1)).toEqual({ samples: 6, target: 6, share: 1 });
+  expect(made.progress.every(({ share }, k) => k === 0 || share >= made.progress[k - 1]!.share)).toBe(true);
+  expect(await heard(page, 'error')).toEqual([]);
+}
+
 test('toBlob gives the picture as a file; destroy ends everything, twice if need be', async ({ page }) => {
   await open(page, { background: 'transparent', pixelRatio: 1, samples: 4 });
   const shown = await shot(page);
@@ -275,6 +328,7 @@ test('toBlob gives the picture as a file; destroy ends everything, twice if need
   expect(file.left[3]).toBe(255);
   expect(file.left[0]).toBeGreaterThan(2 * file.left[1]!);
   expect(shown.width).toBe(320);
+  await saveAtOtherSizes(page);
   const lost = await page.evaluate(async () => {
     const { device } = window.viewer;
     window.viewer.destroy();

@@ -1,9 +1,9 @@
 import { createViewer, type Viewer } from '@glanz/viewer';
 import { frameCamera, type Scene } from '@glanz/scene';
-import { isAbort } from '../errors';
-import { download } from '../output/save';
+import { describeError, isAbort } from '../errors';
 import { byId, element } from '../ui/elements';
 import { Messages } from '../ui/messages';
+import type { RenderFormat } from '../ui/render-dialog';
 import { assemble, assemblyOf, type Assembly } from './assembly';
 import { CATALOGUE, choicesOf, chosen, combinations, FEATURES, sentence, usual, type Configuration, type FeatureName } from './catalogue';
 import { OptionsForm } from './options-form';
@@ -12,6 +12,13 @@ import { orderCode, parseOrderCode } from './order-code';
 /** From the button towards the camera. */
 const PRODUCT = [0.7, 0.4, 0.6] as const;
 const VIEWS = { front: [0, 0.0001, 1], side: [1, 0.12, 0.12], back: [0.62, 0.32, -1] } as const;
+
+const FORMATS: readonly RenderFormat[] = [
+  { id: 'png', title: 'PNG', extension: 'png', type: 'image/png', alpha: true },
+  { id: 'jpeg', title: 'JPEG', extension: 'jpg', type: 'image/jpeg', alpha: false },
+  { id: 'webp', title: 'WebP', extension: 'webp', type: 'image/webp', alpha: true },
+  { id: 'exr', title: 'EXR, linear', extension: 'exr', type: 'image/x-exr', alpha: true },
+];
 
 /** The picture is sharp from here on: enough for a catalogue. */
 const SAMPLES = 512;
@@ -151,7 +158,7 @@ export class Configurator {
       this.choose(Object.fromEntries(FEATURES.map((feature) => [feature, any(feature)])) as Configuration);
     });
     byId('copy').addEventListener('click', () => void this.#copy());
-    byId('save').addEventListener('click', () => void this.#save());
+    byId('save').addEventListener('click', () => void this.#save().catch((error: unknown) => this.#messages.show({ kind: 'error', text: describeError(error).message, code: describeError(error).code })));
   }
 
   async #copy(): Promise<void> {
@@ -165,15 +172,21 @@ export class Configurator {
   }
 
   async #save(): Promise<void> {
-    const button = byId<HTMLButtonElement>('save');
-    button.disabled = true;
-    try {
-      const blob = await this.#viewer.toBlob({ type: 'image/png' });
-      download(new Uint8Array(await blob.arrayBuffer()), `${orderCode(this.#configuration).toLowerCase()}.png`, 'image/png');
-    } catch (error) {
-      this.#messages.show({ kind: 'error', text: error instanceof Error ? error.message : String(error) });
-    } finally {
-      button.disabled = false;
-    }
+    const { showRenderDialog } = await import('../ui/render-dialog');
+    const viewer = this.#viewer;
+    const ratio = window.devicePixelRatio || 1;
+    const [width, height] = [this.#canvas.clientWidth, this.#canvas.clientHeight].map((side) => Math.max(1, Math.round(side * ratio)));
+    showRenderDialog({
+      name: orderCode(this.#configuration).toLowerCase(),
+      screen: [width as number, height as number],
+      samples: viewer.samples,
+      noise: 0,
+      transparent: true,
+      formats: FORMATS,
+      render: ({ format, noise, transparent, ...request }) => {
+        const { type } = FORMATS.find(({ id }) => id === format) as RenderFormat;
+        return viewer.toBlob({ ...request, type, background: transparent ? 'transparent' : 'environment', ...(noise === undefined ? {} : { noise }) });
+      },
+    });
   }
 }

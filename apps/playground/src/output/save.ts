@@ -71,7 +71,7 @@ export async function pictureAsExr(tracer: PathTracer): Promise<Uint8Array<Array
 }
 
 /** Hands bytes to the browser's downloads. */
-export function download(bytes: Uint8Array<ArrayBuffer> | string, name: string, type: string): void {
+export function download(bytes: Uint8Array<ArrayBuffer> | string | Blob, name: string, type: string): void {
   const url = URL.createObjectURL(new Blob([bytes], { type }));
   const link = document.createElement('a');
   link.href = url;

@@ -1,3 +1,4 @@
+import type { BehindFor } from '../output/render';
 import { download, fileName, pictureAsExr, pictureAsPng, type Behind } from '../output/save';
 import { encodeLink, difference, LONGEST_LINK } from '../state/link';
 import type { Context } from './context';
@@ -20,20 +21,29 @@ function item(id: string, title: string, note: string, run: () => void | Promise
 }
 
 /** Pictures, models and materials to keep. */
-export function exportMenu(context: Context, behind: () => Behind | undefined): HTMLElement[] {
+export function exportMenu(context: Context, behind: () => Behind | undefined, behindFor: BehindFor): HTMLElement[] {
   const { session, store, opened, selection, fail } = context;
   const name = () => fileName(opened().title);
+  const render = async (format?: string) => {
+    const { openRenderDialog } = await import('../output/render');
+    byId('export-menu').hidePopover();
+    openRenderDialog(context, behindFor, format);
+  };
   const png = (bits: 8 | 16) => async () => {
-    const { tracer } = session;
+    const { tracer, current } = session;
     const { exposure, toneMap } = store.state;
-    if (tracer) download(await pictureAsPng(tracer, { exposure, toneMap }, bits, behind()), `${name()}.png`, 'image/png');
+    // While something moves, the film is that of the preview, which may be much smaller than the screen.
+    if (!tracer || !current) return render(bits === 8 ? 'png' : 'png-16');
+    download(await pictureAsPng(tracer, { exposure, toneMap }, bits, behind()), `${name()}.png`, 'image/png');
   };
   return [
     element('h2', {}, 'Picture'),
+    item('render-image', 'Render image …', 'At any size, to a file or the clipboard', () => render(), fail),
     item('save-png', 'Save PNG', '8 bits, as on the screen', png(8), fail),
     item('save-png-16', 'Save 16-bit PNG', 'Tone-mapped, for retouching', png(16), fail),
     item('save-exr', 'Save EXR', 'Linear light, with all layers and lights', async () => {
-      if (session.tracer) download(await pictureAsExr(session.tracer), `${name()}.exr`, 'image/x-exr');
+      if (!session.tracer || !session.current) return render('exr');
+      download(await pictureAsExr(session.tracer), `${name()}.exr`, 'image/x-exr');
     }, fail),
     element('h2', {}, 'Model'),
     item('save-gltf', 'Save glTF', 'The model with its materials as edited', async () => {

@@ -1,3 +1,4 @@
+import type { BehindFor } from '../output/render';
 import type { Behind } from '../output/save';
 import { cameraPanel } from './camera-panel';
 import type { Context } from './context';
@@ -19,12 +20,12 @@ function presets(context: Context): HTMLElement {
 }
 
 /** Makes all panels: not needed for the first picture, so not in the first script. */
-export function makePanels(context: Context, behind: () => Behind | undefined): void {
+export function makePanels(context: Context, behind: () => Behind | undefined, behindFor: BehindFor): void {
   byId('scene-panel').append(...new SceneTree(context).elements);
   byId('panel-material').append(new MaterialInspector(context, presets(context)).element);
   byId('panel-light').append(...lightPanel(context));
   byId('panel-camera').append(...cameraPanel(context));
   byId('panel-render').append(...renderPanel(context));
-  byId('export-menu').append(...exportMenu(context, behind));
+  byId('export-menu').append(...exportMenu(context, behind, behindFor));
   byId('share-menu').append(...shareMenu(context));
 }

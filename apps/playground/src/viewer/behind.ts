@@ -36,6 +36,16 @@ export class Behind {
     this.#backdrop.draw(environment, backgroundBlur, camera, aspect, { exposure, toneMap });
   }
 
+  /** What an image of another shape than the screen's has behind it. */
+  async rendered(state: State, environment: Environment | undefined, camera: Camera, aspect: number): Promise<SavedBehind | undefined> {
+    if (state.background !== 'blurred') return this.saved(state);
+    const { Backdrop } = await import('./backdrop');
+    const backdrop = new Backdrop(document.createElement('canvas'));
+    const { backgroundBlur, exposure, toneMap } = state;
+    backdrop.draw(environment, backgroundBlur, camera, aspect, { exposure, toneMap });
+    return backdrop.picture && { picture: backdrop.picture };
+  }
+
   /** What a saved picture has behind it. */
   saved({ background, backgroundColor }: State): SavedBehind | undefined {
     if (background === 'color') return { color: codes(backgroundColor) };

@@ -124,6 +124,16 @@ export class Session {
     return description || device || [vendor, architecture].filter(Boolean).join(' ') || 'unnamed';
   }
 
+  /** What renders images of other sizes. */
+  get engine(): Engine {
+    return this.#engine;
+  }
+
+  /** Whether the film holds the whole image as it is now, at its full size. */
+  get current(): boolean {
+    return this.#engine.current;
+  }
+
   get paused(): boolean {
     return this.#engine.paused;
   }

@@ -1,0 +1,60 @@
+import type { PathTracer } from '@glanz/renderer';
+import { renderImage } from '@glanz/viewer/render-image';
+import type { Context } from '../ui/context';
+import { showRenderDialog, type RenderFormat, type RenderRequest } from '../ui/render-dialog';
+import { fileName, pictureAsExr, pictureAsPng, type Behind } from './save';
+
+const FORMATS: readonly RenderFormat[] = [
+  { id: 'png', title: 'PNG, 8 bits', extension: 'png', type: 'image/png', alpha: true },
+  { id: 'png-16', title: 'PNG, 16 bits', extension: 'png', type: 'image/png', alpha: true },
+  { id: 'exr', title: 'EXR, linear, with all layers and lights', extension: 'exr', type: 'image/x-exr', alpha: true },
+];
+
+/** The size of the stage in the screen's own pixels. */
+function screenSize({ stageSize }: Context): readonly [number, number] {
+  const ratio = window.devicePixelRatio || 1;
+  const [width, height] = stageSize().map((side) => Math.max(1, Math.round(side * ratio)));
+  return [width as number, height as number];
+}
+
+/** What is behind an image of this shape. */
+export type BehindFor = (aspect: number) => Behind | undefined | Promise<Behind | undefined>;
+
+async function write(tracer: PathTracer, { format }: RenderRequest, context: Context, behind: Behind | undefined): Promise<Blob> {
+  const { exposure, toneMap } = context.store.state;
+  if (format === 'exr') return new Blob([await pictureAsExr(tracer)], { type: 'image/x-exr' });
+  return new Blob([await pictureAsPng(tracer, { exposure, toneMap }, format === 'png-16' ? 16 : 8, behind)], { type: 'image/png' });
+}
+
+/** Opens the dialog that renders the image at any size. The screen's image waits meanwhile, and keeps its samples. */
+export function openRenderDialog(context: Context, behindFor: BehindFor, format?: string): void {
+  const { session, store, opened } = context;
+  const { samples, noise, background } = store.state;
+  showRenderDialog({
+    name: fileName(opened().title),
+    screen: screenSize(context),
+    samples,
+    noise,
+    transparent: background === 'transparent',
+    formats: FORMATS,
+    format,
+    render: async (request) => {
+      const { width, height, transparent } = request;
+      const now = store.state.background;
+      const composed = !transparent && (now === 'color' || now === 'blurred');
+      const behind = composed ? await behindFor(width / height) : undefined;
+      const { paused } = session;
+      session.setPaused(true);
+      try {
+        const tracer = await renderImage(session.engine, { ...request, background: transparent || composed ? 'transparent' : 'environment' });
+        try {
+          return await write(tracer, request, context, behind);
+        } finally {
+          tracer.destroy();
+        }
+      } finally {
+        session.setPaused(paused);
+      }
+    },
+  });
+}

@@ -1,0 +1,210 @@
+import type { ImageProgress } from '@glanz/viewer';
+import { describeError, isAbort } from '../errors';
+import { download } from '../output/save';
+import '../style/render-dialog.css';
+import { element } from './elements';
+
+/** A kind of file that a page can write. */
+export interface RenderFormat {
+  readonly id: string;
+  readonly title: string;
+  readonly extension: string;
+  readonly type: string;
+  /** Whether it has an alpha channel. */
+  readonly alpha: boolean;
+}
+
+/** What the dialog asks for. */
+export interface RenderRequest {
+  /** Pixels. */
+  readonly width: number;
+  readonly height: number;
+  /** Samples per pixel, the most where `noise` is given. */
+  readonly samples: number;
+  /** Relative noise to reach. */
+  readonly noise: number | undefined;
+  readonly transparent: boolean;
+  readonly format: string;
+  readonly signal: AbortSignal;
+  readonly onProgress: (progress: ImageProgress) => void;
+}
+
+/** The page around the dialog. */
+export interface RenderHost {
+  /** File name without its extension. */
+  readonly name: string;
+  /** Pixels of the image on the screen, and what the dialog begins with. */
+  readonly screen: readonly [number, number];
+  readonly samples: number;
+  /** 0: none. */
+  readonly noise: number;
+  readonly transparent: boolean;
+  readonly formats: readonly RenderFormat[];
+  /** That of the dialog's first choice; default: the first. */
+  readonly format?: string | undefined;
+  readonly render: (request: RenderRequest) => Promise<Blob>;
+}
+
+const [MOST_SIDE, MOST_SAMPLES, LEAST_NOISE] = [16_384, 65_536, 0.001];
+/** What a noise target begins with. */
+const USUAL_NOISE = 0.02;
+
+const SIZES: readonly (readonly [title: string, width: number, height: number])[] = [
+  ['Full HD', 1920, 1080],
+  ['4K', 3840, 2160],
+  ['Square', 2048, 2048],
+  ['A4 at 300 dpi', 2480, 3508],
+];
+
+const sizeText = (width: number, height: number) => `${width} × ${height}`;
+
+/** Time to wait, in words. */
+export function waitText(ms: number): string {
+  const seconds = Math.ceil(ms / 1000);
+  if (seconds < 90) return `${seconds} s`;
+  return seconds < 5400 ? `${Math.round(seconds / 60)} min` : `${(seconds / 3600).toFixed(1)} h`;
+}
+
+/** A number box that keeps to its range. */
+function numberBox(id: string, label: string, value: number, [low, high]: readonly [number, number], step: number | 'any'): HTMLInputElement {
+  const box = element('input', { type: 'number', id, min: low, max: high, step, value, required: true, 'aria-label': label, inputmode: 'decimal' });
+  box.addEventListener('change', () => {
+    const typed = box.valueAsNumber;
+    const kept = Number.isFinite(typed) ? Math.min(Math.max(step === 1 ? Math.round(typed) : typed, low), high) : value;
+    box.value = String(kept);
+  });
+  return box;
+}
+
+const row = (label: string, id: string, ...controls: HTMLElement[]) => element('div', { class: 'render-row' }, element('label', { for: id }, label), ...controls);
+
+const select = (id: string, choices: readonly (readonly [value: string, title: string])[], value: string): HTMLSelectElement => {
+  const made = element('select', { id }, ...choices.map(([key, title]) => element('option', { value: key }, title)));
+  made.value = value;
+  return made;
+};
+
+/** Shows a dialog that renders the image at any size, to a file or the clipboard. It is removed from the page when it closes. */
+export function showRenderDialog(host: RenderHost): void {
+  const [screenWidth, screenHeight] = host.screen;
+  const size = select('render-size', [['screen', `Screen, ${sizeText(screenWidth, screenHeight)}`], ...SIZES.map(([title, width, height], k) => [String(k), `${title}, ${sizeText(width, height)}`] as const), ['own', 'Custom']], 'screen');
+  const width = numberBox('render-width', 'Width, pixels', screenWidth, [1, MOST_SIDE], 1);
+  const height = numberBox('render-height', 'Height, pixels', screenHeight, [1, MOST_SIDE], 1);
+  const goal = select('render-goal', [['samples', 'Samples per pixel'], ['noise', 'Noise target']], host.noise > 0 ? 'noise' : 'samples');
+  const samples = numberBox('render-samples', 'Samples per pixel', host.samples, [1, MOST_SAMPLES], 1);
+  const noise = numberBox('render-noise', 'Noise, relative', host.noise || USUAL_NOISE, [LEAST_NOISE, 1], 'any');
+  const format = select('render-format', host.formats.map(({ id, title }) => [id, title]), host.format ?? host.formats[0]?.id ?? '');
+  const transparent = element('input', { type: 'checkbox', id: 'render-transparent' });
+  transparent.checked = host.transparent;
+  const inputs = element(
+    'fieldset',
+    {},
+    row('Size', 'render-size', size),
+    element('div', { class: 'render-row' }, element('span', {}), element('div', { class: 'render-pair' }, width, '×', height, 'pixels')),
+    row('Stop at', 'render-goal', goal),
+    element('div', { class: 'render-row' }, element('span', {}), element('div', { class: 'render-pair' }, samples, noise)),
+    row('Format', 'render-format', format),
+    row('Transparent background', 'render-transparent', transparent),
+  );
+  const bar = element('progress', { max: 1, value: 0, 'aria-label': 'Rendered' });
+  const figures = element('p', { class: 'note', id: 'render-figures' });
+  const progress = element('div', { class: 'render-progress', hidden: true }, bar, figures);
+  const said = element('p', { class: 'note', role: 'status' });
+  const wrong = element('p', { class: 'render-error', role: 'alert', hidden: true });
+  const copy = element('button', { type: 'button', id: 'render-copy' }, 'Copy to clipboard');
+  const save = element('button', { type: 'submit', id: 'render-save', class: 'primary' }, 'Save file');
+  const cancel = element('button', { type: 'button', id: 'render-cancel', hidden: true }, 'Cancel');
+  const close = element('button', { type: 'button', class: 'quiet square', 'aria-label': 'Close' }, '×');
+  const form = element('form', { method: 'dialog', novalidate: true }, inputs, progress, said, wrong, element('div', { class: 'render-actions' }, cancel, copy, save));
+  const dialog = element('dialog', { id: 'render-dialog', class: 'dialog render-dialog', 'aria-labelledby': 'render-title' }, element('header', {}, element('h2', { id: 'render-title' }, 'Render image'), close), form);
+  let running: AbortController | undefined;
+
+  const chosen = () => host.formats.find(({ id }) => id === format.value) as RenderFormat;
+  const follow = () => {
+    const preset = SIZES[Number(size.value)];
+    const [w, h] = size.value === 'screen' ? host.screen : preset ? [preset[1], preset[2]] : [width.value, height.value];
+    [width.value, height.value] = [String(w), String(h)];
+    [samples.hidden, noise.hidden] = [goal.value === 'noise', goal.value !== 'noise'];
+    transparent.disabled = !chosen().alpha;
+    copy.disabled = running !== undefined || chosen().type !== 'image/png' || typeof ClipboardItem === 'undefined';
+    copy.title = chosen().type === 'image/png' ? '' : 'The clipboard takes PNG only';
+  };
+  const busy = (controller: AbortController | undefined) => {
+    running = controller;
+    inputs.disabled = controller !== undefined;
+    [progress.hidden, cancel.hidden] = [controller === undefined, controller === undefined];
+    [save.hidden, copy.hidden] = [controller !== undefined, controller !== undefined];
+    follow();
+  };
+
+  /** Renders as the dialog says. */
+  const render = async (signal: AbortSignal): Promise<Blob> => {
+    bar.value = 0;
+    figures.textContent = 'Preparing';
+    return host.render({
+      width: width.valueAsNumber,
+      height: height.valueAsNumber,
+      samples: goal.value === 'noise' ? MOST_SAMPLES : samples.valueAsNumber,
+      noise: goal.value === 'noise' ? noise.valueAsNumber : undefined,
+      transparent: transparent.checked && chosen().alpha,
+      format: format.value,
+      signal,
+      onProgress: ({ samples: done, target, remainingMs, share }) => {
+        bar.value = share;
+        const left = Number.isFinite(remainingMs) && remainingMs > 0 ? ` · ${waitText(remainingMs)} left` : '';
+        figures.textContent = goal.value === 'noise' ? `${done} samples${left}` : `${done} of ${target} samples${left}`;
+      },
+    });
+  };
+  const run = async (keep: (blob: Promise<Blob>) => Promise<string>) => {
+    if (running) return;
+    const controller = new AbortController();
+    busy(controller);
+    wrong.hidden = true;
+    said.textContent = '';
+    cancel.focus();
+    try {
+      said.textContent = await keep(render(controller.signal));
+    } catch (error) {
+      if (controller.signal.aborted || isAbort(error)) said.textContent = 'Cancelled.';
+      else {
+        const { message, code } = describeError(error);
+        wrong.textContent = message;
+        wrong.dataset['code'] = code;
+        wrong.hidden = false;
+      }
+    } finally {
+      busy(undefined);
+      if (dialog.open) save.focus();
+    }
+  };
+  const made = () => sizeText(width.valueAsNumber, height.valueAsNumber);
+
+  form.addEventListener('submit', (event) => {
+    event.preventDefault();
+    const name = `${host.name}.${chosen().extension}`;
+    void run(async (blob) => {
+      download(await blob, name, chosen().type);
+      return `${name}, ${made()}, is in your downloads.`;
+    });
+  });
+  copy.addEventListener('click', () => void run(async (blob) => {
+    // Written at once, while the browser still counts the click: the item waits for the image.
+    const written = navigator.clipboard.write([new ClipboardItem({ 'image/png': blob })]);
+    written.catch(() => undefined);
+    await blob;
+    await written;
+    return `The image, ${made()}, is on the clipboard.`;
+  }));
+  cancel.addEventListener('click', () => running?.abort());
+  close.addEventListener('click', () => dialog.close());
+  dialog.addEventListener('close', () => {
+    running?.abort();
+    dialog.remove();
+  });
+  for (const one of [size, goal, format]) one.addEventListener('change', follow);
+  for (const one of [width, height]) one.addEventListener('input', () => void (size.value = 'own'));
+  busy(undefined);
+  document.body.append(dialog);
+  dialog.showModal();
+}
