@@ -3,14 +3,13 @@ import { controlCamera } from '@glanz/viewer/controls';
 import { fitCamera } from '@glanz/viewer/fit-camera';
 import { describeError, isAbort } from './errors';
 import { Environments } from './input/environments';
-import { isSample, linkOfPage, open, sampleTitle, stateFor, type Opened } from './input/opening';
+import { isSample, linkOfPage, open, sampleTitle, stateFor, type Opened, type OpenedLink } from './input/opening';
 import type { ModelRequest } from './input/load-messages';
 import type { Poser } from './input/poser';
 import { SAMPLES } from './input/samples';
 import { wireFiles } from './input/wire-files';
 import { Selection } from './selection';
 import { stateFromQuery } from './state/address';
-import type { LinkContent } from './state/link';
 import { keepAddress } from './state/keep-address';
 import type { State } from './state/state';
 import { Store } from './state/store';
@@ -47,7 +46,7 @@ export class App {
   #session!: Session;
   #outline: Outline | undefined;
   #opened: Opened | undefined;
-  #link: LinkContent | undefined;
+  #link: OpenedLink | undefined;
   #loading: AbortController | undefined;
   #poser: Poser | undefined;
   #posing: Promise<boolean> | undefined;
@@ -71,7 +70,8 @@ export class App {
    */
   static async start(early: { readonly request: ModelRequest; readonly scene: Promise<Scene> }): Promise<void> {
     const app = new App();
-    app.#link = await linkOfPage();
+    const link = (app.#link = await linkOfPage());
+    app.#environments.expect(link?.files?.environment ?? '');
     const { exposure, toneMap, samples, noise, layer } = { ...app.#store.state, ...app.#link?.state };
     app.#session = await Session.create(
       app.#canvas,
@@ -98,8 +98,8 @@ export class App {
     const wanted = app.#link && isSample(app.#link.model) ? app.#link.model : undefined;
     if (wanted && early.request.kind === 'sample' && wanted !== early.request.name) await app.load({ kind: 'sample', name: wanted });
     else await app.load(early.request, early.scene);
-    if (app.#link && !wanted) app.#messages.show({ kind: 'note', text: `This link belongs to "${app.#link.model}": drop that file to see it as it was shared.`, code: 'playground/link-file', stays: true });
-    keepAddress(app.#store, () => app.#opened?.name);
+    if (link?.note) app.#messages.show({ kind: 'note', text: link.note, code: 'playground/link-file', stays: true });
+    keepAddress(app.#store, () => app.#opened?.name, () => app.#environments.fileName);
     // Somebody put another link into the address.
     window.addEventListener('hashchange', () => location.reload());
   }

@@ -1,5 +1,6 @@
 import { expect, test } from 'vitest';
-import { decodeLink, difference, encodeLink } from '../src/state/link';
+import { decodeLink, difference, encodeLink, linkContent } from '../src/state/link';
+import { textForReceiver, textForSender } from '../src/state/link-texts';
 import { initialState, type State } from '../src/state/state';
 
 const edited: State = {
@@ -28,6 +29,23 @@ test('an untouched state is a short link, a worked-on one still fits into a mess
 test('pictures are not in the link, nor is what is as at the beginning', () => {
   const image = { name: 'p', width: 1, height: 1, data: new Uint8Array(4) };
   expect(Object.keys(difference({ ...initialState('none'), samples: 9, slots: { '0/base_color': { image, color_space: 'srgb', binding: { channels: 'rgb' } } } }))).toEqual(['samples', 'environment']);
+});
+
+test('a link names the files that it cannot hold, to who makes it and who opens it', async () => {
+  const image = { name: 'p', width: 1, height: 1, data: new Uint8Array(4) };
+  const slot = { image, color_space: 'srgb', binding: { channels: 'rgb' } } as const;
+  const whole = linkContent('push-button', edited, 'old.hdr');
+  expect(whole).toEqual({ model: 'push-button', state: difference(edited) });
+  expect([textForSender(whole, false), textForReceiver(whole, false)]).toEqual(['', '']);
+  const content = linkContent('chair.glb', { ...initialState('file'), slots: { '0/base_color': slot, '1/base_color': null } }, 'sky.exr');
+  const opened = await decodeLink(await encodeLink(content));
+  expect(opened).toEqual({ ...content, files: { environment: 'sky.exr', images: 2 } });
+  for (const text of [textForSender(content, true), textForReceiver(opened!, true)]) expect(text).toContain('the model "chair.glb", the environment "sky.exr" and 2 changes of images on materials');
+  // Links that were made before name no file.
+  expect(textForReceiver((await decodeLink(await encodeLink({ model: 'a', state: { environment: 'file' } })))!, false)).toContain('made with the environment, which it does not hold. Drop that file');
+  // What an address says is read with care.
+  const spoiled = await decodeLink(await encodeLink({ model: 'a', state: {}, files: { environment: 'x'.repeat(1000), images: -1 } }));
+  expect(spoiled?.files).toEqual({ environment: 'x'.repeat(200) });
 });
 
 test('what is no link, of another version, or spoiled anywhere gives nothing, and never throws', async () => {

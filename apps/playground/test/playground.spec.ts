@@ -358,6 +358,19 @@ test('a dropped .hdr lights the scene and is seen behind it', async ({ page }) =
     expect(mean[0]).toBeGreaterThan(190);
     expect(mean[1]).toBeLessThan(mean[0] - 60);
   }).toPass({ timeout: 30_000 });
+
+  // A link cannot hold the file: who makes it is told so, and who opens it.
+  await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
+  await page.getByRole('button', { name: 'Share' }).click();
+  await expect(page.locator('#share-note')).toContainText('red room.hdr');
+  await page.locator('#copy-link').click();
+  await expect(page.locator('#messages [role=status]', { hasText: 'on the clipboard' })).toContainText('does not hold the environment "red room.hdr"');
+  const link = await page.evaluate(() => navigator.clipboard.readText());
+  await page.goto('about:blank');
+  await openAt(page, `${origin}/?model=cornell-box${new URL(link).hash}`);
+  await expect(page.locator('[data-code="playground/link-file"]')).toContainText('made with the environment "red room.hdr"');
+  await tab(page, 'Light');
+  await expect(page.locator('#environment option:checked')).toHaveText('red room.hdr (not loaded)');
 });
 
 test('a lost device is replaced, and edits survive it', async ({ page }) => {

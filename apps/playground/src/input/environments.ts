@@ -14,9 +14,19 @@ export class Environments {
   /** The last one made: turning and dimming it makes no other. */
   #made: { readonly studio: StudioName; readonly boxes: readonly SoftBox[] | null; readonly environment: LatLongEnvironment } | undefined;
 
-  /** Name of the file that was loaded, or empty. */
+  /** Name of the file that lights the scene: loaded, or named by a link that does not hold it; or empty. */
   get fileName(): string {
     return this.#fileName;
+  }
+
+  /** Whether the file is there. */
+  get hasFile(): boolean {
+    return this.#file !== undefined;
+  }
+
+  /** The file that a link was made with. It is named until a file is loaded. */
+  expect(name: string): void {
+    if (!this.#file) this.#fileName = name;
   }
 
   /**

@@ -51,11 +51,18 @@ function checkedMaterials(scene: Scene, materials: State['materials']): State['m
   return Object.fromEntries(Object.entries(materials).filter(([index, values]) => scene.materials[Number(index)] && typeof values === 'object' && values !== null));
 }
 
+/** A link that was opened. */
+export interface OpenedLink extends LinkContent {
+  /** What it was made with and does not hold; empty where it holds everything. */
+  readonly note: string;
+}
+
 /** The link in the page's address, with values of materials that its table allows. */
-export async function linkOfPage(): Promise<LinkContent | undefined> {
+export async function linkOfPage(): Promise<OpenedLink | undefined> {
   if (location.hash.length <= 1) return undefined;
-  const { decodeLink } = await import('../state/link');
-  const link = await decodeLink(location.hash);
+  const [{ decodeLink }, { textForReceiver }] = await Promise.all([import('../state/link'), import('../state/link-texts')]);
+  const content = await decodeLink(location.hash);
+  const link = content && { ...content, note: textForReceiver(content, !isSample(content.model)) };
   if (!link?.state.materials) return link;
   const { validateParameters } = await import('@glanz/openpbr/parameters');
   const materials: Record<string, Values> = {};

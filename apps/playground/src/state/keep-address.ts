@@ -5,14 +5,14 @@ import type { Store } from './store';
 const WAIT_MS = 400;
 
 /** Keeps the page's address a link to what it shows: a reload, or a bookmark, brings it back. */
-export function keepAddress(store: Store<State>, model: () => string | undefined): void {
+export function keepAddress(store: Store<State>, model: () => string | undefined, environment: () => string): void {
   let timer = 0;
   const write = async () => {
     const name = model();
     if (!name) return;
     // Who only looks does not need it.
-    const { difference, encodeLink, LONGEST_LINK } = await import('./link');
-    const link = await encodeLink({ model: name, state: difference(store.state) });
+    const { encodeLink, linkContent, LONGEST_LINK } = await import('./link');
+    const link = await encodeLink(linkContent(name, store.state, environment()));
     if (link.length <= LONGEST_LINK) history.replaceState(history.state, '', `#${link}`);
   };
   store.subscribe((_next, _before, source) => {

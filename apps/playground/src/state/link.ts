@@ -6,13 +6,23 @@ export interface LinkContent {
   /** Name of a sample, or of the file that the edits belong to. */
   readonly model: string;
   readonly state: Partial<State>;
+  /** Files that the image is made with and that the link cannot hold, besides the model. */
+  readonly files?: LinkFiles;
+}
+
+/** See {@link LinkContent.files}. */
+export interface LinkFiles {
+  /** Name of the file that lights the scene. */
+  readonly environment?: string;
+  /** How many images of materials were replaced or taken away. */
+  readonly images?: number;
 }
 
 /** The format of links; others are not read. */
 const VERSION = 'v1.';
 /** A link longer than this is broken by some programs that pass it on. */
 export const LONGEST_LINK = 8000;
-/** Pictures do not fit into an address; the file that lights the scene does not either, but its name would say nothing. */
+/** Images do not fit into an address. Neither does the file that lights the scene: the link names it. */
 const LEFT_OUT: readonly (keyof State)[] = ['slots', 'layer'];
 
 const equal = (a: unknown, b: unknown) => JSON.stringify(a) === JSON.stringify(b);
@@ -27,13 +37,20 @@ export function difference(state: State): Partial<State> {
   return Object.fromEntries(names.map((name) => [name, state[name]])) as Partial<State>;
 }
 
+/** What a link to a state of a model holds. @param environment Name of the file that lights the scene where the state says so. */
+export function linkContent(model: string, state: State, environment: string): LinkContent {
+  const images = Object.keys(state.slots).length;
+  const files: LinkFiles = { ...(state.environment === 'file' && environment ? { environment } : {}), ...(images > 0 ? { images } : {}) };
+  return { model, state: difference(state), ...(Object.keys(files).length > 0 ? { files } : {}) };
+}
+
 async function through(bytes: Uint8Array<ArrayBuffer>, stream: CompressionStream): Promise<Uint8Array<ArrayBuffer>> {
   return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
 }
 
 /** The part of an address behind `#`: versioned, deflated JSON in the alphabet that addresses take. */
-export async function encodeLink({ model, state }: LinkContent): Promise<string> {
-  const json = JSON.stringify({ m: model, s: state }, rounded);
+export async function encodeLink({ model, state, files }: LinkContent): Promise<string> {
+  const json = JSON.stringify({ m: model, s: state, f: files }, rounded);
   const packed = await through(new TextEncoder().encode(json), new CompressionStream('deflate-raw'));
   const text = btoa(Array.from(packed, (byte) => String.fromCharCode(byte)).join(''));
   return VERSION + text.replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '');
@@ -59,15 +76,28 @@ async function unpack(bytes: Uint8Array<ArrayBuffer>): Promise<string> {
   }
 }
 
+/** Names longer than this are cut: an address comes from anywhere. */
+const LONGEST_NAME = 200;
+
+function readFiles(given: unknown): LinkFiles | undefined {
+  const { environment, images } = (typeof given === 'object' && given !== null ? given : {}) as { environment?: unknown; images?: unknown };
+  const files: LinkFiles = {
+    ...(typeof environment === 'string' ? { environment: environment.slice(0, LONGEST_NAME) } : {}),
+    ...(Number.isInteger(images) && (images as number) > 0 ? { images: Math.min(images as number, 1000) } : {}),
+  };
+  return Object.keys(files).length > 0 ? files : undefined;
+}
+
 /** @returns Undefined where the text is no link of this format, or is broken. */
 export async function decodeLink(text: string): Promise<LinkContent | undefined> {
   const body = text.replace(/^#/, '');
   if (!body.startsWith(VERSION)) return undefined;
   try {
     const bytes = Uint8Array.from(atob(body.slice(VERSION.length).replaceAll('-', '+').replaceAll('_', '/')), (c) => c.charCodeAt(0));
-    const json = JSON.parse(await unpack(bytes)) as { m?: unknown; s?: unknown };
+    const json = JSON.parse(await unpack(bytes)) as { m?: unknown; s?: unknown; f?: unknown };
     if (typeof json.m !== 'string' || typeof json.s !== 'object' || json.s === null) return undefined;
-    return { model: json.m, state: readFields(json.s as Record<string, unknown>) };
+    const files = readFiles(json.f);
+    return { model: json.m, state: readFields(json.s as Record<string, unknown>), ...(files ? { files } : {}) };
   } catch {
     return undefined;
   }

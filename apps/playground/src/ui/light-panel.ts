@@ -36,7 +36,7 @@ export function lightPanel(context: Context): HTMLElement[] {
     value: initial.environment,
     choices: [],
     onInput: (value) => {
-      if (value === 'file' && environments.fileName === '') {
+      if (value === 'file' && !environments.hasFile) {
         choice.set(store.state.environment);
         return pickFiles();
       }
@@ -47,7 +47,7 @@ export function lightPanel(context: Context): HTMLElement[] {
     const choices: (readonly [EnvironmentChoice, string])[] = [
       ['studio', 'Studio or sky'],
       ['constant', 'One colour'],
-      ['file', environments.fileName || 'Picture file (.hdr, .exr)…'],
+      ['file', environments.hasFile ? environments.fileName : environments.fileName ? `${environments.fileName} (not loaded)` : 'Picture file (.hdr, .exr)…'],
       ['none', 'Model’s lights only'],
     ];
     if (opened().scene.environment || environment === 'model') choices.unshift(['model', 'The model’s own']);

@@ -1,6 +1,7 @@
 import type { BehindFor } from '../output/render';
 import { download, fileName, pictureAsExr, pictureAsPng, type Behind } from '../output/save';
-import { encodeLink, difference, LONGEST_LINK } from '../state/link';
+import { encodeLink, linkContent, LONGEST_LINK, type LinkContent } from '../state/link';
+import { textForSender } from '../state/link-texts';
 import type { Context } from './context';
 import { byId, element } from './elements';
 
@@ -60,15 +61,21 @@ export function exportMenu(context: Context, behind: () => Behind | undefined, b
   ];
 }
 
+/** What a link to the view as it is holds. */
+const contentOf = ({ opened, store, environments }: Context): LinkContent => linkContent(opened().name, store.state, environments.fileName);
+
+/** What a link to the view as it is leaves out, in words; empty where it holds everything. */
+const leftOutOf = (context: Context): string => textForSender(contentOf(context), context.opened().request.kind === 'files');
+
 /** The address of the view as it is. */
 export async function linkTo(context: Context): Promise<string> {
-  const link = await encodeLink({ model: context.opened().name, state: difference(context.store.state) });
+  const link = await encodeLink(contentOf(context));
   return `${location.origin}${location.pathname}#${link}`;
 }
 
-async function copy(text: string, say: (text: string) => void, what: string): Promise<void> {
+async function copy(text: string, say: (text: string) => void, what: string, more = ''): Promise<void> {
   await navigator.clipboard.writeText(text);
-  say(`${what} is on the clipboard.`);
+  say(`${what} is on the clipboard. ${more}`.trim());
 }
 
 /** A link to the view, and a program that makes the same picture. */
@@ -78,8 +85,8 @@ export function shareMenu(context: Context): HTMLElement[] {
   const note = element('p', { class: 'note', id: 'share-note' });
   byId('share-menu').addEventListener('toggle', (event) => {
     if ((event as ToggleEvent).newState !== 'open') return;
-    const { scene, name, request } = opened();
-    note.textContent = request.kind === 'files' ? `The link holds camera, materials and light, not "${name}" itself: whoever opens it drops the file.` : '';
+    const { scene, name } = opened();
+    note.textContent = leftOutOf(context);
     void import('../output/snippet').then(({ codeSnippet }) => {
       const { tracer } = session;
       code.textContent = codeSnippet(scene, name, store.state, rig.camera(), tracer ? [tracer.width, tracer.height] : [1024, 768]);
@@ -89,7 +96,7 @@ export function shareMenu(context: Context): HTMLElement[] {
     element('h2', {}, 'Link'),
     item('copy-link', 'Copy link', 'Camera, materials, light and settings', async () => {
       const link = await linkTo(context);
-      await copy(link, say, link.length > LONGEST_LINK ? 'The link, which is too long for some programs,' : 'The link');
+      await copy(link, say, link.length > LONGEST_LINK ? 'The link, which is too long for some programs,' : 'The link', leftOutOf(context));
     }, fail),
     note,
     element('h2', {}, 'Code'),
