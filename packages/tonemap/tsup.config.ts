@@ -10,4 +10,5 @@ export default glanzPackage({
   reinhard: 'src/reinhard.ts',
   linear: 'src/linear.ts',
   srgb: 'src/srgb.ts',
+  'css-color': 'src/css-color.ts',
 });

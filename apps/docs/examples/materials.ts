@@ -1,6 +1,7 @@
 import { OPENPBR_PARAMETERS, validateParameters, type OpenPbrParameters } from '@glanz/openpbr/parameters';
 import type { PathTracer } from '@glanz/renderer';
 import type { Material } from '@glanz/scene';
+import { cssColor } from '@glanz/tonemap/css-color';
 
 // #region materials
 export const chrome: Material = {
@@ -22,6 +23,7 @@ export const brushed: Material = {
 // #region edit
 export async function repaint(tracer: PathTracer) {
   await tracer.setMaterial('housing', { base_color: [0.8, 0.1, 0.1] }); // by name, or by index
+  await tracer.setMaterial('housing', { base_color: cssColor('#ff8000') });
 }
 // #endregion edit
 

@@ -25,7 +25,7 @@ export function tell(viewer: Viewer, bar: HTMLProgressElement, line: HTMLElement
 // #region edit
 export async function dress(viewer: Viewer): Promise<void> {
   await viewer.setVariant('night');
-  await viewer.setMaterial('left', { base_color: [0.9, 0.6, 0.02], specular_roughness: 0.2 });
+  await viewer.setMaterial('left', { base_color: 'gold', specular_roughness: 0.2 });
   await viewer.edit((tracer) => tracer.setVisibility('right', false), { key: 'right' });
 }
 // #endregion edit

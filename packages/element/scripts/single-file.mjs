@@ -28,6 +28,7 @@ const LATER = {
   '@glanz/image/environment': 'glanz-viewer.environment.min.js',
   'meshoptimizer/decoder': 'glanz-viewer.meshopt.min.js',
   './save-image': 'glanz-viewer.save.min.js',
+  './material-colors': 'glanz-viewer.colors.min.js',
 };
 
 /** The same for modules of src/decoders, by their names there; of each, what it exports. */
@@ -67,7 +68,7 @@ const sources = (missing) => ({
 const beside = (files) => ({
   name: 'beside',
   setup(context) {
-    context.onResolve({ filter: /^(@glanz\/|meshoptimizer\/|\.\/save-image$)/ }, ({ path }) => (Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined));
+    context.onResolve({ filter: /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors)$)/ }, ({ path }) => (Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined));
     context.onResolve({ filter: /^\.\/(draco|basis|ktx2)$/ }, ({ path, importer }) => (/[\\/]decoders[\\/]index\.ts$/.test(importer) ? { path: `./${DECODERS[path.slice(2)].file}`, external: true } : undefined));
   },
 });

@@ -301,6 +301,23 @@ test('what a property or an attribute cannot be is a typed error, and the pictur
   });
   expect(result).toEqual({ bad: [], same: true });
 
+  // Edits by the viewer: what is refused is not stored, and CSS colours are taken.
+  const edits = await page.evaluate(async () => {
+    const { viewer } = document.querySelector('glanz-viewer')!;
+    const edit = (parameters: object) => viewer!.setMaterial('left', parameters).then(() => 'taken', ({ code }: { code: string }) => code);
+    const parameters = () => viewer!.scene!.materials.find(({ name }) => name === 'left')!.parameters;
+    const before = JSON.stringify(parameters());
+    const refused = [await edit({ base_colour: 'red' }), await edit({ base_metalness: 2 }), await edit({ base_color: 'reddish' })];
+    const same = JSON.stringify(parameters()) === before;
+    const { base_color } = parameters();
+    const taken = await edit({ base_color: 'red' });
+    const red = parameters().base_color;
+    await edit({ base_color });
+    return { refused, same, taken, red };
+  });
+  expect(edits).toEqual({ refused: ['renderer/material', 'renderer/material', 'tonemap/color'], same: true, taken: 'taken', red: [1, 0, 0] });
+  await done(page);
+
   // In markup nothing can throw.
   const wrong: Record<string, string> = { 'exposure-ev': 'bright', samples: '1e30', 'max-depth': '2.5', 'pixel-ratio': '-1', 'camera-target': '1m up 2m', 'field-of-view': '200deg', 'max-camera-orbit': 'auto auto -3m', 'environment-rotation': 'NaN', 'tone-mapping': 'film', 'camera-orbit': '0deg 90deg 1e30m' };
   await page.evaluate((given) => {

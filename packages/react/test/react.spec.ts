@@ -47,6 +47,12 @@ test('under Strict Mode it loads once, converges, follows its props, and lets go
   await page.evaluate((props) => window.give(props), { src: 'red.glb', variantName: 'night', ...FAST });
   await expect.poll(() => heard(page)).toEqual(['load', 'converged 6', 'converged 6']);
   const night = await middle(page);
+  const edits = await page.evaluate(async () => {
+    const viewer = window.seen.element!.viewer!;
+    const edit = (parameters: object) => viewer.setMaterial('red', parameters).then(() => 'taken', ({ code }: { code: string }) => code);
+    return [await edit({ base_colour: 'red' }), await edit({ base_metalness: 2 }), await edit({ base_color: 'reddish' }), await edit({ base_color: 'rgb(255 0 0)' })];
+  });
+  expect(edits).toEqual(['renderer/material', 'renderer/material', 'tonemap/color', 'taken']);
   expect(night[2]).toBeGreaterThan(2 * night[0]);
   // What is not given any more is taken away.
   await expect(page.locator('glanz-viewer')).not.toHaveAttribute('camera-controls');

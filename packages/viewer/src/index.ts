@@ -4,6 +4,7 @@ export type { CameraChangeSource, LoadStage, ViewerEvents, ViewerState } from '.
 export { Emitter, type ListenOptions } from './emitter';
 export type { BlobOptions } from './save-image';
 export type { ImageProgress } from './render-image';
+export type { MaterialEdit } from './material-colors';
 export type { ControlOptions } from './controls';
 export type { EnvironmentSource, ModelSource } from './load';
 export type { Orbit, OrbitLimits, Vector } from './orbit';

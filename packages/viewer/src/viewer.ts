@@ -1,5 +1,5 @@
 import type { PathTracer } from '@glanz/renderer';
-import { inSlices, sceneBoundsSteps, untilAborted, type Camera, type Material, type Scene } from '@glanz/scene';
+import { inSlices, sceneBoundsSteps, untilAborted, type Camera, type Scene } from '@glanz/scene';
 import type { Take } from './engine';
 import { isAbort } from './errors';
 import type { LoadStage } from './events';
@@ -7,6 +7,7 @@ import { fitCamera } from './fit-camera';
 import { loadModel, type ModelSource } from './load';
 import type { ViewerOptions } from './options';
 import { withEnvironment } from './surroundings';
+import type { linearColors, MaterialEdit } from './material-colors';
 import type { BlobOptions } from './save-image';
 import { plainScene } from './variants';
 import { ViewerCamera } from './viewer-camera';
@@ -31,6 +32,7 @@ const STAGES: Readonly<Record<LoadStage, readonly [number, number]>> = { read: [
 export class Viewer extends ViewerCamera {
   #loading: AbortController | undefined;
   #variant: string | undefined;
+  #colors: Promise<{ readonly linearColors: typeof linearColors }> | undefined;
 
   /** @internal Use {@link createViewer}. */
   constructor(canvas: HTMLCanvasElement, options: ViewerOptions) {
@@ -96,13 +98,21 @@ export class Viewer extends ViewerCamera {
   }
 
   /**
-   * Changes parameters of a material; see `PathTracer.setMaterial`. Several calls before the next frame add up.
+   * Changes parameters of a material; see `PathTracer.setMaterial`. Several calls before the next frame add up. Colours are linear
+   * Rec.709, or CSS colours as text, which are converted from sRGB: a name, `#rgb`, `#rrggbb`, `rgb()` or `hsl()`. Of a call that
+   * is refused nothing is stored.
    * @returns When the picture shows it.
-   * @throws {RenderError} `renderer/material`; {ViewerError} `viewer/no-scene`.
+   * @throws {RenderError} `renderer/material`; {ToneMapError} `tonemap/color` for what is no CSS colour; {ViewerError} `viewer/no-scene`.
+   * @example
+   * await viewer.setMaterial('seat', { base_color: 'rebeccapurple', specular_roughness: 0.2 });
    */
-  setMaterial(nameOrIndex: string | number, parameters: Material['parameters']): Promise<void> {
+  setMaterial(nameOrIndex: string | number, parameters: MaterialEdit): Promise<void> {
     this.theScene();
-    return this.engine.edit(`material ${nameOrIndex}`, (tracer, merged) => tracer.setMaterial(nameOrIndex, merged), parameters);
+    if (Object.values(parameters).some((value) => typeof value === 'string')) this.#colors ??= import('./material-colors');
+    const colors = this.#colors;
+    // Once the module has been asked for, all edits wait for it, so that they stay in their order.
+    const set = (tracer: PathTracer, edit: object) => colors ? colors.then((module) => tracer.setMaterial(nameOrIndex, module.linearColors(nameOrIndex, edit))) : tracer.setMaterial(nameOrIndex, edit);
+    return this.engine.edit(`material ${nameOrIndex}`, set, parameters);
   }
 
   /**

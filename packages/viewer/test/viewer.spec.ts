@@ -1,3 +1,4 @@
+import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { hdr, injectFaults, pixelsOf, servePage, watch, type Served } from '@glanz/browser';
 import { expect, test, type Page } from '@playwright/test';
@@ -134,6 +135,45 @@ test('two fingers pinch', async ({ page }) => {
   expect(await radius()).toBeCloseTo(before / 2, 5);
 });
 
+/** CSS colours of a material; leaves it yellow. */
+async function paintByName(page: Page): Promise<void> {
+  const table = readFileSync(new URL('../../tonemap/src/css-color-names.ts', import.meta.url), 'utf8');
+  const named = [...table.matchAll(/\b([a-z]+) ([0-9a-f]{6})\b/g)].map(([, name, code]) => [name!, `#${code!}`] as const);
+  expect(named).toHaveLength(148);
+  const { browser, ...found } = await page.evaluate(async (names) => {
+    const { viewer } = window;
+    const color = () => viewer.scene!.materials.find(({ name }) => name === 'right')!.parameters.base_color;
+    const refused = (edit: object) => viewer.setMaterial('right', edit).then(() => 'taken', ({ code, message }: { code: string; message: string }) => `${code}: ${message}`);
+    const context = new OffscreenCanvas(1, 1).getContext('2d')!;
+    const browser = names.map((name) => ((context.fillStyle = name), context.fillStyle));
+    // A number that comes after a text stays after it, although the text's parser has to be fetched first.
+    const first = viewer.setMaterial('right', { base_color: 'rebeccapurple' });
+    await new Promise((resolve) => requestAnimationFrame(resolve));
+    await Promise.all([first, viewer.setMaterial('right', { base_color: [0.9, 0.9, 0.02] })]);
+    const ordered = color();
+    await viewer.setMaterial('right', { base_color: '#ff8000', coat_color: 'rgb(0 255 0)' });
+    const orange = color();
+    const wrong = await Promise.all([{ base_color: 'rebecapurple' }, { base_color: '#ff800080' }, { base_colour: 'red' }, { base_metalness: 'red' }].map(refused));
+    // Two edits of one frame, one of which is refused.
+    const pair = await Promise.all([refused({ base_color: 'white', base_metalness: 2 }), refused({ specular_roughness: 0.4 })]);
+    const kept = color();
+    await viewer.setMaterial('right', { base_color: [0.9, 0.9, 0.02], coat_color: 'white' });
+    return { browser, ordered, orange, wrong, pair, kept };
+  }, named.map(([name]) => name));
+  expect(browser).toEqual(named.map(([, code]) => code));
+  expect(found.ordered).toEqual([0.9, 0.9, 0.02]);
+  const orange = [1, ((128 / 255 + 0.055) / 1.055) ** 2.4, 0];
+  orange.forEach((value, k) => expect(found.orange![k]).toBeCloseTo(value, 6));
+  expect(found.kept).toEqual(found.orange);
+  expect(found.wrong).toEqual([
+    expect.stringMatching(/^tonemap\/color: Material "right" was not changed: base_color is "rebecapurple"; did you mean "rebeccapurple"\?/),
+    expect.stringMatching(/^tonemap\/color: .*must be opaque/),
+    expect.stringMatching(/^renderer\/material: .*did you mean "base_color"\?/),
+    expect.stringMatching(/^renderer\/material: .*base_metalness/),
+  ]);
+  expect(found.pair).toEqual([expect.stringMatching(/^renderer\/material: .*base_metalness is 2/), 'taken']);
+}
+
 test('variant, material, exposure, surroundings and background reach the picture', async ({ page }) => {
   await open(page);
   const right = async () => (await shot(page)).cells[5]!;
@@ -149,6 +189,7 @@ test('variant, material, exposure, surroundings and background reach the picture
   await page.evaluate(() => window.viewer.setMaterial('right', { base_color: [0.9, 0.9, 0.02] }));
   await done(page);
   expect((await right())[0]).toBeGreaterThan(green[0] + 30);
+  await paintByName(page);
 
   const bright = await shot(page);
   await page.evaluate(() => void (window.viewer.exposure = -2));

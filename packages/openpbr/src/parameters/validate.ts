@@ -75,7 +75,7 @@ export function validateParameters(given: Partial<OpenPbrParameters>): Validated
     } else if (value === null && info.type === 'vector3') {
       result[name] = null;
     } else {
-      if (!isTriple(value)) throw wrong('three numbers');
+      if (!isTriple(value)) throw wrong(typeof value === 'string' ? 'three numbers; cssColor() of @glanz/tonemap/css-color makes them of CSS colours' : 'three numbers');
       const initial = info.default as readonly number[] | null;
       const numbers = Array.from(value, (component, i) => repair(component, initial?.[i] ?? 0));
       result[name] = info.type === 'vector3' ? unit(name, numbers, warnings) : numbers;
