@@ -1,5 +1,6 @@
 import type { Camera } from '@glanz/scene';
 import { ViewerError } from './errors';
+import type { ViewerOptions } from './options';
 import type { Orbit, OrbitLimits, Vector } from './orbit';
 
 /** Metres: beyond, single precision, in which the GPU computes, has no digits left for a model. */
@@ -55,6 +56,15 @@ export function checkedSetting(name: keyof typeof RANGES, value: unknown): numbe
   const checked = number(value, name, low, high, 'viewer/option');
   if (WHOLE.has(name) && !Number.isInteger(checked)) throw new ViewerError('viewer/option', `${name} is ${checked}; it must be a whole number.`);
   return checked;
+}
+
+/** Checks all settings that are given; those of the preview lie in an object of their own. @throws {ViewerError} `viewer/option` */
+export function checkSettings(options: ViewerOptions): void {
+  for (const name of Object.keys(RANGES) as (keyof typeof RANGES)[]) {
+    const [group, inner] = name.split('.') as [keyof ViewerOptions, string?];
+    const value = inner === undefined ? options[group] : (options.preview as Readonly<Record<string, unknown>> | undefined)?.[inner];
+    if (value !== undefined) checkedSetting(name, value);
+  }
 }
 
 /** @throws {ViewerError} `viewer/option` unless the value is one of the choices. */

@@ -1,7 +1,7 @@
 import type { PathTracer } from '@glanz/renderer';
 import { inSlices } from '@glanz/scene';
 import { toneMapPixels, type ToneMapOptions } from '@glanz/tonemap/tone-map';
-import { checkedChoice, checkedSetting } from './checks';
+import type { checkedChoice, checkedSetting } from './checks';
 import type { Engine } from './engine';
 import { ViewerError } from './errors';
 import { imageProgress, renderImage, type ImageProgress } from './render-image';
@@ -33,6 +33,12 @@ const MOST_SAMPLES = 65_536;
 /** Pixels that are tone-mapped in one step, about a millisecond. */
 const STEP = 8192;
 
+/** Passed in: imported, they would be a chunk of their own in every page. */
+interface Checks {
+  readonly checkedChoice: typeof checkedChoice;
+  readonly checkedSetting: typeof checkedSetting;
+}
+
 /** What an image is to be, checked. */
 interface Wanted {
   readonly size: readonly [number, number] | undefined;
@@ -44,8 +50,9 @@ interface Wanted {
 }
 
 /** @throws {ViewerError} `viewer/option` */
-function checked(viewer: Viewer, options: BlobOptions): Wanted {
+function checked(viewer: Viewer, options: BlobOptions, checks: Checks): Wanted {
   const { width, height, samples, noise, background } = options;
+  const { checkedChoice, checkedSetting } = checks;
   for (const [name, value] of [['width', width], ['height', height]] as const) if (value !== undefined) checkedSetting(name, value);
   if (options.quality !== undefined) checkedSetting('quality', options.quality);
   const aspect = Math.max(1, viewer.canvas.clientWidth) / Math.max(1, viewer.canvas.clientHeight);
@@ -143,8 +150,8 @@ async function fileOf(tracer: PathTracer, view: ToneMapOptions, { type = 'image/
 }
 
 /** See `Viewer.toBlob`. */
-export async function imageBlob(viewer: Viewer, engine: Engine, options: BlobOptions): Promise<Blob> {
-  const wanted = checked(viewer, options);
+export async function imageBlob(viewer: Viewer, engine: Engine, options: BlobOptions, checks: Checks): Promise<Blob> {
+  const wanted = checked(viewer, options, checks);
   const ended = new AbortController();
   const stop = viewer.on('state', ({ state }) => {
     if (state === 'destroyed') ended.abort(new DOMException('the viewer was destroyed', 'AbortError'));

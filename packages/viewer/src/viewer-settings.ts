@@ -1,7 +1,7 @@
 import type { PathTracer } from '@glanz/renderer';
 import type { Scene } from '@glanz/scene';
 import { checkToneMapOptions, type ToneMap } from '@glanz/tonemap';
-import { checkedChoice, checkedSetting } from './checks';
+import { checkedChoice, checkedSetting, checkSettings } from './checks';
 import { Emitter } from './emitter';
 import { Engine, type EngineHost } from './engine';
 import { isAbort, ViewerError } from './errors';
@@ -17,10 +17,7 @@ const BACKGROUNDS = ['environment', 'transparent'] as const;
 /** @throws {ViewerError} `viewer/no-canvas`, `viewer/option`; {ToneMapError} `tonemap/unknown`. */
 function checkOptions(canvas: HTMLCanvasElement, options: ViewerOptions): void {
   if (typeof (canvas as HTMLCanvasElement | null)?.getContext !== 'function') throw new ViewerError('viewer/no-canvas', 'A viewer draws on a canvas element: pass one as the first argument.');
-  for (const name of ['samples', 'noise', 'maxDepth', 'pixelRatio', 'maxPixels', 'environmentIntensity', 'environmentRotation', 'exposure', 'damping', 'autoRotate', 'autoRotateDelay', 'maxSubmitMs'] as const) {
-    if (options[name] !== undefined) checkedSetting(name, options[name]);
-  }
-  for (const name of ['budgetMs', 'settleMs', 'maxDepth'] as const) if (options.preview?.[name] !== undefined) checkedSetting(`preview.${name}`, options.preview[name]);
+  checkSettings(options);
   if (options.background !== undefined) checkedChoice('background', options.background, BACKGROUNDS);
   if (options.toneMap !== undefined) checkToneMapOptions({ toneMap: options.toneMap });
 }

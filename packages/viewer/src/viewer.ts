@@ -1,5 +1,6 @@
 import type { PathTracer } from '@glanz/renderer';
 import { inSlices, sceneBoundsSteps, untilAborted, type Camera, type Scene } from '@glanz/scene';
+import { checkedChoice, checkedSetting } from './checks';
 import type { Take } from './engine';
 import { isAbort } from './errors';
 import type { LoadStage } from './events';
@@ -149,7 +150,7 @@ export class Viewer extends ViewerCamera {
     this.theScene();
     const { imageBlob } = await import('./save-image');
     this.check();
-    return imageBlob(this, this.engine, options);
+    return imageBlob(this, this.engine, options, { checkedChoice, checkedSetting });
   }
 
   /** Frees everything, the device too. Idempotent. The canvas can serve another viewer. */
