@@ -23,7 +23,10 @@ export const brushed: Material = {
 // #region edit
 export async function repaint(tracer: PathTracer) {
   await tracer.setMaterial('housing', { base_color: [0.8, 0.1, 0.1] }); // by name, or by index
-  await tracer.setMaterial('housing', { base_color: cssColor('#ff8000') });
+}
+
+export async function repaintByName(tracer: PathTracer, color: string) {
+  await tracer.setMaterial('housing', { base_color: cssColor(color) });
 }
 // #endregion edit
 

@@ -220,6 +220,9 @@ describe('materials', () => {
     withTracer(async (tracer) => {
       await materials.repaint(tracer);
       expect(tracer.scene.materials[1]?.parameters.base_color).toEqual([0.8, 0.1, 0.1]);
+      await materials.repaintByName(tracer, 'lime');
+      expect(tracer.scene.materials[1]?.parameters.base_color).toEqual([0, 1, 0]);
+      await expect(tracer.setMaterial(1, { base_color: 'lime' } as never)).rejects.toThrow('cssColor()');
       const warn = vi.spyOn(console, 'warn').mockImplementation(() => undefined);
       expect(materials.fromUser({ specular_roughness: 3 })).toMatchObject({ specular_roughness: 1 });
       expect(warn).toHaveBeenCalledOnce();
