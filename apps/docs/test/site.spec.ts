@@ -202,6 +202,10 @@ test('a browser without WebGPU is told what to do', async ({ page }) => {
   await page.goto(`${origin}/live`);
   await expect(page.getByRole('alert').first()).toContainText('renderer/no-webgpu');
   await expect(page.getByRole('alert').first()).toContainText('https');
+  // The poster stays, and nothing claims to be on its way.
+  const live = page.locator('.live').first();
+  await expect(live.locator('.live-poster')).toBeVisible();
+  await expect(live.locator('figcaption')).toHaveText('An illuminated push-button, path-traced');
   expect(complaints).toEqual([]);
 });
 
@@ -215,6 +219,10 @@ test('the live page path-traces the push-button, and a new lens colour restarts 
   await expect(live.getByRole('alert')).toHaveCount(0);
   expect(Number(await live.getAttribute('data-samples'))).toBeGreaterThanOrEqual(1);
   const canvas = live.locator('canvas');
+  // Few samples are worse than the poster, which so stays. An edit shows what the poster does not.
+  expect(await live.evaluate((figure) => (figure.querySelector('.live-poster') !== null) === (Number((figure as HTMLElement).dataset['samples']) < 64))).toBe(true);
+  await page.getByRole('slider', { name: 'Exposure' }).fill('0.25');
+  await expect(live.locator('.live-poster')).toHaveCount(0);
   const green = await photograph(canvas);
   expect(green.colours).toBeGreaterThan(1000);
   expect(green.deviation).toBeGreaterThan(15);

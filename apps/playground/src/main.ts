@@ -1,6 +1,6 @@
 import { loadScene } from './input/load-scene';
 import { SAMPLES, type SampleName } from './input/samples';
-import { explain } from './ui/explain';
+import { explained } from './ui/explain';
 
 /** The model is made while the renderer's script arrives. */
 function loadEarly() {
@@ -13,10 +13,8 @@ function loadEarly() {
   return { request, scene };
 }
 
-try {
+await explained(async () => {
   const early = loadEarly();
   const { App } = await import('./app');
   await App.start(early);
-} catch (error) {
-  explain(error);
-}
+});

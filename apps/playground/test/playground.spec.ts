@@ -445,3 +445,27 @@ test('without WebGPU the page says so and what to do', async ({ page }) => {
   await expect(page.locator('#notice li').first()).toContainText('Chrome');
   await expect(page.getByRole('button', { name: 'Export' })).toBeDisabled();
 });
+
+test('without a GPU the page says so before its scripts are there; when one comes after all, the page works', async ({ page }) => {
+  const scripts: (() => void)[] = [];
+  await page.route('**/assets/app-*.js', async (route) => {
+    await new Promise<void>((resolve) => scripts.push(resolve));
+    await route.continue();
+  });
+  await page.addInitScript(() => {
+    const { requestAdapter } = GPU.prototype;
+    let asked = 0;
+    GPU.prototype.requestAdapter = async function (...given) {
+      return ++asked === 1 ? null : requestAdapter.apply(this, given);
+    };
+  });
+  await page.goto(`${origin}/?model=cornell-box&scale=0.25&samples=1&depth=2`);
+  await expect(page.getByRole('heading', { name: 'The GPU cannot be used' })).toBeVisible();
+  await expect(errorWith(page, 'renderer/no-adapter')).toBeVisible();
+  await expect(page.locator('#preparing')).toBeHidden();
+  await expect.poll(() => scripts.length).toBeGreaterThan(0);
+  for (const script of scripts) script();
+  await finished(page);
+  await expect(page.locator('#notice')).toBeHidden();
+  await expect(page.locator('#model')).toBeEnabled();
+});

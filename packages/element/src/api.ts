@@ -11,7 +11,7 @@ export interface GlanzViewerEventMap {
   progress: CustomEvent<ViewerEvents['progress'] & { readonly totalProgress: number }>;
   /** Something failed: `message` in one line, `code`, and `retry` where trying again can help. */
   error: CustomEvent<ViewerEvents['error']>;
-  /** An environment cannot be fetched or read; the model is shown without it. `message` in one line, and `code`. */
+  /** An environment cannot be fetched or read, and the model is shown without it; or the GPU has not come yet. `message` in one line, and `code`. */
   warning: CustomEvent<Omit<ViewerEvents['warning'], 'error'> & { readonly error: unknown }>;
   /** The image has one more sample per pixel. */
   sample: CustomEvent<ViewerEvents['sample']>;

@@ -9,6 +9,7 @@ const NUMBERS: Readonly<Partial<Record<AttributeName, Range>>> = {
   'exposure-ev': [-64, 64],
   exposure: [0, 1e9],
   samples: [1, 2 ** 24],
+  'poster-samples': [1, 2 ** 24],
   noise: [0, 1000],
   'max-depth': [1, 65535],
   'pixel-ratio': [1e-3, 16],

@@ -13,13 +13,19 @@ export const ATTRIBUTES = {
   /** Address of an image that is shown until the model is rendered. */
   poster: 'text',
   /**
+   * With `reveal="auto"`: samples per pixel that the image must have before the poster goes. It also goes when the image is finished and
+   * when the user moves the camera.
+   * @defaultValue 64
+   */
+  'poster-samples': 'number',
+  /**
    * When the model is loaded: near the window (`auto`, `lazy`), or at once.
    * @values auto, lazy, eager
    * @defaultValue auto
    */
   loading: 'text',
   /**
-   * When the poster goes: at the first whole frame, or at `dismissPoster()`.
+   * When the poster goes: by itself, once the image is better (see `poster-samples`), or at `dismissPoster()`.
    * @values auto, manual
    * @defaultValue auto
    */

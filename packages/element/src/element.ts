@@ -15,6 +15,8 @@ import { cameraOf, describeView, limitsOf, orbitOf, type ViewAttributes } from '
 
 const VIEW: ReadonlySet<string> = new Set(['camera-orbit', 'camera-target', 'field-of-view', 'min-camera-orbit', 'max-camera-orbit']);
 const LIGHT: ReadonlySet<string> = new Set(['environment-image', 'skybox-image']);
+/** Samples per pixel from which on an image is better than its poster: it has an eighth of the noise of its first sample. */
+const POSTER_SAMPLES = 64;
 /** Milliseconds after the last movement before the view is told to those who hear it. */
 const SPEAK_MS = 600;
 
@@ -267,10 +269,16 @@ function makeClass(): GlanzViewerConstructor {
       if (viewer.controls) viewer.canvas.style.touchAction = this.getAttribute('touch-action') ?? 'pan-y';
     }
 
-    #listen(viewer: Viewer, { bar, progress, message }: Shadow): void {
-      for (const type of ['warning', 'sample', 'converged', 'device-lost', 'device-restored'] as const) viewer.on(type, (detail) => this.#tell(type, detail));
+    #listen(viewer: Viewer, { bar, poster, progress, message }: Shadow): void {
+      for (const type of ['sample', 'converged', 'device-lost', 'device-restored'] as const) viewer.on(type, (detail) => this.#tell(type, detail));
+      const alert = (text: string) => {
+        progress.classList.add('gone');
+        message.textContent = text;
+        message.hidden = false;
+      };
       viewer.on('progress', (detail) => {
-        progress.classList.remove('gone');
+        // Not beside the news that there is no GPU: nothing goes on until there is one.
+        progress.classList.toggle('gone', !message.hidden);
         bar.style.transform = `scaleX(${detail.total.toFixed(3)})`;
         this.#tell('progress', { ...detail, totalProgress: detail.total });
       });
@@ -278,28 +286,39 @@ function makeClass(): GlanzViewerConstructor {
         this.#loaded = true;
         message.hidden = true;
         progress.classList.add('gone');
+        // A poster that stays for a while does not keep the pointer from the model.
+        poster.classList.toggle('through', this.getAttribute('reveal') !== 'manual');
         this.#attempt(() => void (viewer.orbitLimits = limitsOf(detail.scene, this.#aspect, this.#view)));
         this.#speak(`${this.#name} is there.`);
         this.#tell('load', detail);
       });
       viewer.on('error', (detail) => {
-        progress.classList.add('gone');
-        message.textContent = detail.message;
-        message.hidden = false;
+        alert(detail.message);
         this.#tell('error', detail);
       });
+      viewer.on('warning', (detail) => {
+        if (detail.code !== 'viewer/environment') alert(detail.message);
+        this.#tell('warning', detail);
+      });
+      viewer.on('converged', () => this.#reveal());
       viewer.on('device-restored', () => void (message.hidden = true));
       viewer.on('camera-change', (detail) => {
         this.#tell('camera-change', detail);
+        // The poster shows another view now.
+        if (detail.source !== 'api') this.#reveal();
         if (detail.source !== 'user') return;
         clearTimeout(this.#speaking);
         this.#speaking = setTimeout(() => this.#speak(`${this.#name}, seen ${describeView(detail.orbit)}.`), SPEAK_MS);
       });
       viewer.on('frame', ({ preview }) => {
         this.#hotspots?.update(viewer);
-        // A poster gives way to a whole picture only, or to a hand that moves the model.
-        if (!this.#revealed && this.getAttribute('reveal') !== 'manual' && (!preview || !this.#hasPoster)) this.dismissPoster();
+        if (!this.#hasPoster || (!preview && viewer.sampleCount >= (this.#number('poster-samples') ?? POSTER_SAMPLES))) this.#reveal();
       });
+    }
+
+    /** Dismisses the poster, unless the page does. */
+    #reveal(): void {
+      if (this.getAttribute('reveal') !== 'manual') this.dismissPoster();
     }
 
     get #hasPoster(): boolean {
@@ -343,6 +362,7 @@ function makeClass(): GlanzViewerConstructor {
 
     async #loadSource(viewer: Viewer, source: ModelSource): Promise<void> {
       this.#loaded = false;
+      if (this.#shadow) this.#shadow.message.hidden = true;
       this.#speak(`${this.#name} is loading.`);
       viewer.orbitLimits = {};
       const variant = this.getAttribute('variant-name');

@@ -6,6 +6,7 @@ canvas { display: block; outline-offset: -2px; border-radius: inherit; }
 .poster { display: block; overflow: hidden; pointer-events: none; background: var(--poster-color, transparent); transition: opacity 0.3s; }
 .poster.gone { opacity: 0; visibility: hidden; transition: opacity 0.3s, visibility 0s 0.3s; }
 .poster img, .poster ::slotted(*) { display: block; width: 100%; height: 100%; object-fit: contain; pointer-events: auto; }
+.poster.through img, .poster.through ::slotted(*) { pointer-events: none; }
 .hotspots { pointer-events: none; overflow: hidden; }
 .hotspot { position: absolute; left: 0; top: 0; will-change: transform; }
 .hotspot[hidden] { display: none; }

@@ -25,6 +25,8 @@ test.beforeEach(async ({ page }) => {
   complaints = watch(page, served.origin);
   await page.route('**/*.glb', async (route) => {
     const name = new URL(route.request().url()).pathname;
+    // A server that does not answer.
+    if (name.includes('never')) return undefined;
     if (name.includes('bad')) return route.fulfill({ body: Buffer.from('no model') });
     const packed = name.includes('draco') ? await dracoModel() : name.includes('ktx2') ? ktx2Model() : undefined;
     return route.fulfill({ body: packed ?? (name.includes('other') ? other : model) });
@@ -184,6 +186,33 @@ test('a poster waits for the picture, or for the page; loading waits for the eye
   expect(await heard(page, 'poster-dismissed')).toEqual([]);
   await page.evaluate(() => document.querySelector('glanz-viewer')!.dismissPoster());
   await expect(page.getByText('Wait')).toBeHidden();
+
+  // By itself it goes when the image is better.
+  const dismissedAfter = () => page.evaluate(() => {
+    const at = window.heard.findIndex(({ type }) => type === 'poster-dismissed');
+    return at < 0 ? undefined : Number(window.heard.slice(0, at).findLast(({ type }) => type === 'sample')?.detail['samples'] ?? 0);
+  });
+  const again = async (attributes: Record<string, string>) => {
+    await page.evaluate(() => {
+      document.querySelector('glanz-viewer')!.remove();
+      window.heard.length = 0;
+    });
+    await put(page, { src: 'model.glb', alt: 'Two cards', ...FAST, ...attributes }, '<p slot="poster">Wait</p>');
+  };
+  await again({ samples: '30', 'poster-samples': '20' });
+  await expect.poll(dismissedAfter).toBeGreaterThanOrEqual(19);
+  expect(await dismissedAfter()).toBeLessThan(29);
+  // Or when it is finished before, or when the user moves the model.
+  await again({});
+  await expect.poll(dismissedAfter).toBeGreaterThanOrEqual(7);
+  await again({ samples: '100000', 'camera-controls': '' });
+  await expect.poll(async () => (await heard(page, 'sample')).length).toBeGreaterThan(0);
+  expect(await dismissedAfter()).toBeUndefined();
+  await page.mouse.move(160, 140);
+  await page.mouse.down();
+  await page.mouse.move(200, 140, { steps: 3 });
+  await page.mouse.up();
+  await expect(page.getByText('Wait')).toBeHidden();
 });
 
 test('a bad file is told; the former picture stays; the next good one clears the message', async ({ page }) => {
@@ -258,10 +287,21 @@ test('toBlob, by our names and by model-viewer\'s', async ({ page }) => {
 test('without WebGPU the poster stays and the reason is told', async ({ page }) => {
   await page.addInitScript(() => Object.defineProperty(navigator, 'gpu', { value: undefined }));
   await page.goto(served.origin);
-  await put(page, { src: 'model.glb', alt: 'Two cards', ...FAST }, '<p slot="poster">Instead</p>');
+  // Said at once: the model is not waited for.
+  await put(page, { src: 'never.glb', alt: 'Two cards', ...FAST }, '<p slot="poster">Instead</p>');
   await expect.poll(async () => (await heard(page, 'error')).map(({ code }) => code)).toEqual(['renderer/no-webgpu']);
   await expect(page.getByText('Instead')).toBeVisible();
   await expect(page.getByRole('alert')).toContainText('WebGPU');
+});
+
+test('without a GPU the reason is said at the first refusal, and is an error when no GPU comes', async ({ page }) => {
+  await page.addInitScript(() => void (GPU.prototype.requestAdapter = async () => null));
+  await page.goto(served.origin);
+  await put(page, { src: 'never.glb', alt: 'Two cards', ...FAST }, '<p slot="poster">Instead</p>');
+  await expect.poll(() => page.evaluate(() => window.heard.map(({ type, detail }) => `${type} ${String(detail['code'])}`))).toEqual(['warning renderer/no-adapter', 'error renderer/no-adapter']);
+  await expect(page.getByText('Instead')).toBeVisible();
+  await expect(page.getByRole('alert')).toContainText('graphics driver');
+  expect(await page.evaluate(() => document.querySelector('glanz-viewer')!.shadowRoot!.querySelector('.progress')!.classList.contains('gone'))).toBe(true);
 });
 
 test('axe finds nothing wrong, still and with controls, hotspots and a message', async ({ page }) => {

@@ -6,6 +6,8 @@ import { Losses } from './losses';
 
 /** What a connection tells its engine. */
 export interface ConnectionEvents {
+  /** There is no device, but it is asked for again for about two seconds. */
+  readonly missing: (error: unknown) => void;
   /** The device is gone; another one is asked for. */
   readonly lost: (reason: string) => void;
   /** Another attempt to get one begins. */
@@ -140,6 +142,7 @@ export class Connection {
       await this.#connect();
     } catch (error) {
       if (this.#destroyed || FOR_GOOD.has((error as { code?: unknown }).code)) throw error;
+      this.#events.missing(error);
       await this.#reconnect();
     }
   }

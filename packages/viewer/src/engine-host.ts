@@ -21,6 +21,8 @@ export interface EngineHost {
   /** The film was cleared: what it shows from now on is another picture. */
   readonly restarted?: () => void;
   readonly error: (error: unknown, retry?: () => void) => void;
+  /** The first device has not come; it is asked for again for about two seconds before {@link Engine.ready} rejects. */
+  readonly missing?: (error: unknown) => void;
   /** The device was lost; another one is asked for. */
   readonly lost: (reason: string) => void;
   /** There is another device, and the scene is back, so many milliseconds after the loss. */

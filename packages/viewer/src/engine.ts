@@ -94,6 +94,7 @@ export class Engine {
     this.#visibility = new Visibility(canvas, () => this.#stir());
     const { exposure = 0, toneMap = 'neutral' } = settings;
     this.#connection = new Connection(canvas, { exposure, toneMap }, {
+      missing: (error) => this.#host.missing?.(error),
       lost: (reason) => {
         if (this.current) this.#lostSamples = this.#tracer?.samples ?? 0;
         this.#host.lost(reason);
@@ -193,6 +194,14 @@ export class Engine {
   }
 
   /**
+   * Makes sure that there is a device: one that could not be had before, or that was lost too often, is asked for again.
+   * @throws {DeviceError} {ViewerError} `viewer/device-lost`, `viewer/destroyed`.
+   */
+  connect(): Promise<void> {
+    return this.#connection.again();
+  }
+
+  /**
    * Shows another scene. Until it is ready the former one stays, and it stays for good where this fails.
    *
    * @param source Asked whenever a tracer is made: now without one, and after a loss of the device with the one that was lost.
@@ -205,8 +214,7 @@ export class Engine {
     const failed = this.#failed;
     this.#failed = false;
     try {
-      // A device that could not be had before, or that was lost too often, is asked for again.
-      await untilAborted(this.#connection.again(), signal);
+      await untilAborted(this.connect(), signal);
       this.#edits.clear(new DOMException('another scene was shown', 'AbortError'));
       return await this.#prepare(() => source(undefined), source, options);
     } catch (error) {

@@ -1,6 +1,5 @@
 import type { PickResult } from '@glanz/renderer';
-import type { Camera, Scene } from '@glanz/scene';
-import type { ViewerError } from './errors';
+import type { Camera, GlanzError, Scene } from '@glanz/scene';
 import type { Orbit } from './orbit';
 
 /**
@@ -22,10 +21,11 @@ export interface ViewerEvents {
   /** Something failed. `code` is that of a `GlanzError`, or `unexpected`. `retry` is there where trying again makes sense. */
   error: { readonly error: unknown; readonly message: string; readonly code: string; readonly retry?: () => void };
   /**
-   * Something was replaced or left out, and the model is shown all the same: an environment that cannot be fetched or read, for which
-   * the studio stands in (`viewer/environment`). `error.cause` is what went wrong.
+   * The viewer works around something: an environment cannot be fetched or read, and a studio lights the model (`viewer/environment`;
+   * `error.cause` is what went wrong); or there is no GPU (`renderer/no-adapter`, `renderer/no-device`), and the viewer asks for it
+   * again for about two seconds before `load()` fails.
    */
-  warning: { readonly error: ViewerError; readonly message: string; readonly code: string };
+  warning: { readonly error: GlanzError; readonly message: string; readonly code: string };
   /** The picture has more samples. `remainingMs` is an estimate, `Infinity` where there is none. */
   sample: { readonly samples: number; readonly target: number; readonly samplesPerSecond: number; readonly remainingMs: number };
   /** The picture has all samples, or is as free of noise as asked for. */

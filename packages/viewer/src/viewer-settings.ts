@@ -1,5 +1,5 @@
 import type { PathTracer } from '@glanz/renderer';
-import type { Scene } from '@glanz/scene';
+import { GlanzError, untilAborted, type Scene } from '@glanz/scene';
 import { checkToneMapOptions, type ToneMap } from '@glanz/tonemap';
 import { checkedChoice, checkedSetting, checkSettings } from './checks';
 import { Emitter } from './emitter';
@@ -10,7 +10,6 @@ import type { EnvironmentSource } from './load';
 import type { ViewerOptions } from './options';
 import { pictureSize } from './picture-size';
 import { Surroundings } from './surroundings';
-import { untilAborted } from '@glanz/scene';
 
 const BACKGROUNDS = ['environment', 'transparent'] as const;
 
@@ -76,6 +75,7 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
         converged: (samples, milliseconds) => this.emit('converged', { samples, milliseconds }),
         drawn: (preview, milliseconds, [width, height]) => this.emit('frame', { preview, milliseconds, width, height }),
         error: (error, retry) => this.fail(error, retry),
+        missing: (error) => this.warn(error instanceof GlanzError ? error : new ViewerError('viewer/gpu', `There is no GPU: ${String(error)}`, { cause: error })),
         lost: (reason) => this.emit('device-lost', { reason }),
         restored: (milliseconds, samples) => this.emit('device-restored', { milliseconds, ...samples }),
       },
@@ -270,6 +270,11 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
     if (this.state === 'destroyed') return;
     const { message, code } = (typeof error === 'object' && error !== null ? error : { message: String(error) }) as { message?: string; code?: unknown };
     this.emit('error', { error, message: (message ?? 'Something failed.').split('\n')[0] as string, code: typeof code === 'string' ? code : 'unexpected', ...(retry ? { retry } : {}) });
+  }
+
+  /** @internal Tells what is replaced or waited for. */
+  protected warn(error: GlanzError): void {
+    this.emit('warning', { error, message: error.message.split('\n')[0] as string, code: error.code });
   }
 
   /** For setters, which cannot throw later. */

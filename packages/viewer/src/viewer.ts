@@ -76,6 +76,8 @@ export class Viewer extends ViewerCamera {
       this.emit('load', { scene, milliseconds: performance.now() - started });
       return scene;
     } catch (error) {
+      // What is still on its way is of no use.
+      loading.abort(error);
       if (!isAbort(error)) this.fail(error, () => void this.load(source, options).catch(() => undefined));
       throw error;
     } finally {
@@ -163,7 +165,7 @@ export class Viewer extends ViewerCamera {
   async #prepare(source: ModelSource, options: LoadOptions, signal: AbortSignal, onProgress: (progress: { stage: LoadStage; done: number }) => void): Promise<Scene> {
     const { decoders, createWorker } = this.options;
     const reading = loadModel(source, { signal, decoders, createWorker, compressedFormats: () => this.engine.compressedFormats(), onProgress });
-    const [scene, surround] = await Promise.all([reading, this.surroundings.fetch(signal)]);
+    const [scene, surround] = await Promise.all([reading, this.surroundings.fetch(signal), this.engine.connect()]);
     signal.throwIfAborted();
     const { lit, warning, adopt } = await surround(scene);
     // Each goes through all vertices.
@@ -178,7 +180,7 @@ export class Viewer extends ViewerCamera {
         this.loaded = scene;
         this.#variant = variant;
         adopt();
-        if (warning) this.emit('warning', { error: warning, message: warning.message, code: warning.code });
+        if (warning) this.warn(warning);
         this.beginAt(camera, bounds);
       },
     });

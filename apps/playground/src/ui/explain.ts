@@ -1,8 +1,8 @@
-import { describeError } from '../errors';
+import { describeError, PlaygroundError } from '../errors';
 import { byId, element } from './elements';
 
-/** Says why there is no picture and what to do, where the picture would be. */
-export function explain(error: unknown): void {
+/** Says why there is no picture and what to do, where the picture would be. @returns Takes that back. */
+export function explain(error: unknown): () => void {
   const { message, code } = describeError(error);
   const missing = code === 'renderer/no-webgpu';
   const advice = missing
@@ -18,5 +18,35 @@ export function explain(error: unknown): void {
   notice.hidden = false;
   byId('preparing').hidden = true;
   byId('picture').dataset['state'] = 'unavailable';
-  for (const control of document.querySelectorAll<HTMLButtonElement | HTMLInputElement | HTMLSelectElement>('button, input, select')) control.disabled = true;
+  const controls = [...document.querySelectorAll<HTMLButtonElement | HTMLInputElement | HTMLSelectElement>('button, input, select')].filter(({ disabled }) => !disabled);
+  for (const control of controls) control.disabled = true;
+  return () => {
+    notice.hidden = true;
+    for (const control of controls) control.disabled = false;
+  };
+}
+
+/**
+ * Says at once what is missing, before anything is fetched or made: WebGPU, or a GPU.
+ *
+ * @param start Starts the page. It asks for a GPU more than once; where one comes late, the page works.
+ */
+export async function explained(start: () => Promise<void>): Promise<void> {
+  let back = () => undefined as void;
+  let settled = false;
+  try {
+    const { gpu } = navigator as { readonly gpu?: GPU };
+    if (!gpu) throw new PlaygroundError('renderer/no-webgpu', 'This browser does not offer WebGPU here.');
+    const missing = (adapter: GPUAdapter | null) => {
+      if (!adapter && !settled) back = explain(new PlaygroundError('renderer/no-adapter', 'WebGPU finds no usable GPU.'));
+    };
+    gpu.requestAdapter({ powerPreference: 'high-performance' }).then(missing, () => undefined);
+    await start();
+    back();
+  } catch (error) {
+    back();
+    explain(error);
+  } finally {
+    settled = true;
+  }
 }
