@@ -1,12 +1,21 @@
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join, resolve } from 'node:path';
+import { fileURLToPath } from 'node:url';
 import { FAULTS, type Fault } from '@glanz/gpu/faults';
 import { requestDevice } from '@glanz/renderer';
 import { createGpu } from '@glanz/renderer/node';
-import type { Benchmark, Figure } from '../benchmark';
+import type { Benchmark, BenchmarkResult, Figure } from '../benchmark';
 import { BenchError } from '../error';
 import { cliCampaign } from '../faults/cli';
+import { untilDone } from '../faults/isolate';
+import { Journal } from '../faults/journal';
 import { survived, type Outcome, type Subject } from '../faults/outcome';
 import { tracerCampaign } from '../faults/tracer';
 import { viewerCampaign } from '../faults/viewer';
+
+/** Set for the process that a campaign on tracers is run in. */
+const CHILD = 'GLANZ_FAULTS_CHILD';
 
 const SUBJECTS: readonly Subject[] = ['tracer', 'viewer', 'cli'];
 
@@ -38,30 +47,45 @@ export const benchmark: Benchmark = {
     fault: { type: 'string', help: `of ${FAULTS.join(', ')}; default all` },
     only: { type: 'string', help: 'part of the names of points, e.g. "in resize"' },
     every: { type: 'string', help: 'takes each k-th trial' },
+    journal: { type: 'string', help: 'file that notes each trial, for a run that goes on where another stopped' },
   },
   async run({ log, quick, gpu: name, values }) {
     const subjects = list(values['subject'], SUBJECTS, 'subject');
     const faults = list(values['fault'], FAULTS, 'fault') as readonly Fault[];
     const every = values['every'] === undefined ? (quick ? 40 : 1) : Number(values['every']);
     if (!Number.isInteger(every) || every < 1) throw new BenchError('bench/option', `--every ${values['every']}: it must be a whole number of at least 1.`);
-    const outcomes: Outcome[] = [];
-    const notReached: string[] = [];
     const onOutcome = (outcome: Outcome, done: number, of: number) => {
       if (!survived(outcome) || done % 50 === 0) log(`${done}/${of} ${survived(outcome) ? 'survived' : 'FAILED'} ${outcome.ending}: ${outcome.fault} at ${outcome.point}${outcome.detail === undefined ? '' : `: ${outcome.detail}`}`);
     };
-    const campaign = { faults, every, only: values['only'] ?? '', onOutcome };
-    const keep = (result: { readonly outcomes: readonly Outcome[]; readonly notReached: readonly string[] }) => {
-      outcomes.push(...result.outcomes);
-      notReached.push(...result.notReached);
-    };
     const { gpu, adapterName, software } = await createGpu(name === undefined ? { software: 'only' } : { gpu: name });
-    if (subjects.includes('tracer')) keep(await tracerCampaign({ ...campaign, open: () => requestDevice({ gpu }) }));
-    if (subjects.includes('viewer')) keep(await viewerCampaign(values['fault'] === undefined ? { every, only: campaign.only, onOutcome } : campaign));
-    if (subjects.includes('cli')) keep(await cliCampaign(campaign));
-    const rows = summary(outcomes);
-    const figures = rows.map(({ subject, fault, tried, survived: good }): Figure => ({ name: `${subject}, ${fault}: survived`, unit: '1', runs: 1, median: good, target: { value: tried, relation: '>=', source: 'all points tried' } }));
-    const notes = outcomes.filter((outcome) => !survived(outcome)).map(({ subject, fault, point, ending, detail }) => `${subject}: ${fault} at ${point}: ${ending}${detail === undefined ? '' : ` (${detail})`}`);
-    if (notes.length > 0) process.exitCode = 1;
-    return { settings: { subjects, faults, every, only: campaign.only }, figures, gpu: { name: adapterName, software }, notes, details: { summary: rows, outcomes, notReached } };
+    const isChild = process.env[CHILD] !== undefined;
+    const folder = values['journal'] === undefined ? mkdtempSync(join(tmpdir(), 'glanz-faults-')) : undefined;
+    const file = resolve(folder ?? '', values['journal'] ?? 'journal.jsonl');
+    try {
+      const only = values['only'] ?? '';
+      const campaign = { faults, every, only, onOutcome };
+      if (subjects.includes('tracer') && isChild) await tracerCampaign({ ...campaign, journal: new Journal(file), open: () => requestDevice({ gpu }) });
+      else if (subjects.includes('tracer')) {
+        const options = { subject: 'tracer', fault: values['fault'], only: values['only'], every: String(every), gpu: name, journal: file };
+        const args = Object.entries(options).flatMap(([option, value]) => (value === undefined ? [] : [`--${option}`, value]));
+        await untilDone([process.execPath, fileURLToPath(import.meta.url), ...args], file, { ...process.env, [CHILD]: '1' });
+      }
+      const journal = new Journal(file);
+      if (subjects.includes('viewer')) await viewerCampaign(values['fault'] === undefined ? { every, only, journal, onOutcome } : { ...campaign, journal });
+      if (subjects.includes('cli')) await cliCampaign({ ...campaign, journal });
+      if (isChild) return { settings: {}, figures: [] };
+      return report(journal, { subjects, faults, every, only }, { name: adapterName, software });
+    } finally {
+      if (folder !== undefined) rmSync(folder, { recursive: true, force: true });
+    }
   },
 };
+
+function report({ outcomes, missed }: Journal, settings: BenchmarkResult['settings'], gpu: { readonly name: string; readonly software: boolean }): BenchmarkResult {
+  const rows = summary(outcomes);
+  const figures = rows.map(({ subject, fault, tried, survived: good }): Figure => ({ name: `${subject}, ${fault}: survived`, unit: '1', runs: 1, median: good, target: { value: tried, relation: '>=', source: 'all points tried' } }));
+  const notes = outcomes.filter((outcome) => !survived(outcome)).map(({ subject, fault, point, ending, detail }) => `${subject}: ${fault} at ${point}: ${ending}${detail === undefined ? '' : ` (${detail})`}`);
+  if (notes.length > 0) process.exitCode = 1;
+  const notReached = missed.map(({ subject, point, fault }) => `${subject}: ${point} (${fault})`);
+  return { settings, figures, gpu, notes, details: { summary: rows, outcomes, notReached } };
+}

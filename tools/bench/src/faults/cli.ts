@@ -5,6 +5,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { quads } from '@glanz/browser/files';
 import { faultsOf, type Fault, type FaultPoint } from '@glanz/gpu/faults';
+import type { Journal } from './journal';
 import type { Ending, Outcome } from './outcome';
 import { repository } from './repository';
 
@@ -14,6 +15,7 @@ export interface CliCampaign {
   readonly only?: string;
   readonly every?: number;
   readonly boundMs?: number;
+  readonly journal: Journal;
   readonly onOutcome?: (outcome: Outcome, done: number, of: number) => void;
 }
 
@@ -53,7 +55,7 @@ async function bundlePrograms(): Promise<{ readonly program: string; readonly da
  * Injects faults into every distinct call to the GPU that `glanz render` makes, for one image and for a batch; each trial is
  * a process. Right files and exit status 0, or a typed error and no wrong file.
  */
-export async function cliCampaign({ faults, only = '', every = 1, boundMs = 120_000, onOutcome }: CliCampaign): Promise<{ readonly outcomes: Outcome[]; readonly notReached: string[] }> {
+export async function cliCampaign({ faults, only = '', every = 1, boundMs = 120_000, journal, onOutcome }: CliCampaign): Promise<void> {
   const { program, dawn } = await bundlePrograms();
   const folder = mkdtempSync(join(tmpdir(), 'glanz-faults-'));
   const model = quads([
@@ -100,22 +102,21 @@ export async function cliCampaign({ faults, only = '', every = 1, boundMs = 120_
         for (const fault of faultsOf(point)) if ((!faults || faults.includes(fault)) && `${point.name} of ${job}`.includes(only)) trials.push({ job, point, fault });
       }
     }
-    const outcomes: Outcome[] = [];
-    const notReached: string[] = [];
     const chosen = trials.filter((_, i) => i % every === 0);
-    for (const { job, point, fault } of chosen) {
-      const expected = wanted[job] as Run;
+    for (const [i, { job, point, fault }] of chosen.entries()) {
+      const trial = { subject: 'cli', point: `${point.name} of ${job}`, fault } as const;
+      if (journal.has(trial)) continue;
+      journal.begin(trial);
       const run = await start(job, { point: point.name, fault });
-      const name = `${point.name} of ${job}`;
-      if (!run.hung && run.recorded?.struck === undefined) {
-        notReached.push(`${name} (${fault})`);
+      // A process that a signal has ended says nothing of what it reached.
+      if (!run.hung && run.code !== null && run.recorded?.struck === undefined) {
+        journal.miss(trial);
         continue;
       }
-      const outcome: Outcome = { subject: 'cli', point: name, fault, ...judge(run, expected) };
-      outcomes.push(outcome);
-      onOutcome?.(outcome, outcomes.length, chosen.length);
+      const outcome: Outcome = { ...trial, ...judge(run, wanted[job] as Run) };
+      journal.end(outcome);
+      onOutcome?.(outcome, i + 1, chosen.length);
     }
-    return { outcomes, notReached };
   } finally {
     rmSync(folder, { recursive: true, force: true });
   }
@@ -124,6 +125,7 @@ export async function cliCampaign({ faults, only = '', every = 1, boundMs = 120_
 function judge(run: Run, expected: Run): { readonly ending: Ending; readonly detail?: string } {
   const last = run.err.trim().split('\n').findLast((line) => !line.startsWith('Warning: max'))?.slice(0, 200) ?? '';
   if (run.hung) return { ending: 'hang', detail: last };
+  if (run.code === null) return { ending: 'crash', detail: last };
   const wrong = Object.entries(run.files).filter(([name, digest]) => expected.files[name] !== digest).map(([name]) => name);
   if (wrong.length > 0) return { ending: 'silent', detail: `${wrong.join(', ')} with other pixels, exit status ${run.code}` };
   if (/UnhandledPromiseRejection|unhandledRejection/.test(run.err)) return { ending: 'unhandled', detail: last };
@@ -132,5 +134,5 @@ function judge(run: Run, expected: Run): { readonly ending: Ending; readonly det
     return missing.length === 0 ? { ending: 'image' } : { ending: 'silent', detail: `exit status 0 without ${missing.join(', ')}` };
   }
   const code = /\[([a-z]+\/[\w-]+)\]/.exec(run.err)?.[1];
-  return code === undefined || run.code === 70 || run.code === null ? { ending: 'untyped', detail: `exit status ${run.code}: ${last}` } : { ending: 'error', detail: code };
+  return code === undefined || run.code === 70 ? { ending: 'untyped', detail: `exit status ${run.code}: ${last}` } : { ending: 'error', detail: code };
 }

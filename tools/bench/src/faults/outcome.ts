@@ -6,9 +6,9 @@ export type Subject = 'tracer' | 'viewer' | 'cli';
 
 /**
  * How a fault ended. `image`: the right image, bit for bit. `error`: a typed error, and the call repeated without the fault
- * gave the right image. The others are failures.
+ * gave the right image. The others are failures; `crash`: the process died.
  */
-export type Ending = 'image' | 'error' | 'silent' | 'hang' | 'unhandled' | 'untyped' | 'unusable' | 'not-rolled-back' | 'leak';
+export type Ending = 'image' | 'error' | 'crash' | 'silent' | 'hang' | 'unhandled' | 'untyped' | 'unusable' | 'not-rolled-back' | 'leak';
 
 /** One injected fault and how it ended. */
 export interface Outcome {

@@ -1,6 +1,7 @@
 import { setTimeout as sleep } from 'node:timers/promises';
 import { faultsOf, FaultRecorder, instrumentDevice, type Fault, type FaultPoint } from '@glanz/gpu/faults';
 import type { PathTracer } from '@glanz/renderer';
+import type { Journal } from './journal';
 import { attempt, codeOf, describe, type Ending, type Outcome, type Trial } from './outcome';
 import { createTracer, digest, look, STEPS, type Step } from './tracer-steps';
 
@@ -18,6 +19,8 @@ export interface TracerCampaign {
   readonly every?: number;
   /** Bound on each call in milliseconds; default 60,000. */
   readonly boundMs?: number;
+  /** Where trials are noted; those that it has already are not made again. */
+  readonly journal: Journal;
   /** Called after each trial. */
   readonly onOutcome?: (outcome: Outcome, done: number, of: number) => void;
 }
@@ -43,7 +46,7 @@ interface Prepared {
  * Injects faults into every distinct call to the GPU that a `PathTracer` makes: while it is created, rendered, read, edited,
  * saved and restored, and destroyed. Each trial has a tracer of its own.
  */
-export async function tracerCampaign({ open, faults, only = '', steps, every = 1, boundMs = 60_000, onOutcome }: TracerCampaign): Promise<{ readonly outcomes: Outcome[]; readonly notReached: string[] }> {
+export async function tracerCampaign({ open, faults, only = '', steps, every = 1, boundMs = 60_000, journal, onOutcome }: TracerCampaign): Promise<void> {
   const recorder = new FaultRecorder();
   // Kept for good: Dawn for Node has crashed on devices that were collected, or destroyed while they compiled.
   const opened: GPUDevice[] = [];
@@ -87,9 +90,10 @@ export async function tracerCampaign({ open, faults, only = '', steps, every = 1
       }
     }
     const chosen = trials.filter((_, i) => i % every === 0);
-    const outcomes: Outcome[] = [];
-    const notReached: string[] = [];
-    for (const { of, point, fault } of chosen) {
+    for (const [i, { of, point, fault }] of chosen.entries()) {
+      const name = { subject: 'tracer', point: point.name, fault } as const;
+      if (journal.has(name)) continue;
+      journal.begin(name);
       rejections.length = 0;
       const alone = isLoss(fault) || fault === 'compile' || /Pipeline|ShaderModule|Layout|popErrorScope/.test(point.call);
       const used = alone ? await device() : warm;
@@ -101,15 +105,14 @@ export async function tracerCampaign({ open, faults, only = '', steps, every = 1
       if (alone) used.destroy();
       else if (ending === 'hang' || ending === 'unusable') warm = await device();
       if (recorder.struck === undefined && run.reached === false) {
-        notReached.push(`${point.name} (${fault})`);
+        journal.miss(name);
         continue;
       }
-      const outcome: Outcome = { subject: 'tracer', point: point.name, fault, ending, ...(detail === undefined ? {} : { detail }) };
-      outcomes.push(outcome);
-      onOutcome?.(outcome, outcomes.length, chosen.length);
+      const outcome: Outcome = { ...name, ending, ...(detail === undefined ? {} : { detail }) };
+      journal.end(outcome);
+      onOutcome?.(outcome, i + 1, chosen.length);
     }
     warm.destroy();
-    return { outcomes, notReached };
   } finally {
     process.off('unhandledRejection', listen);
   }

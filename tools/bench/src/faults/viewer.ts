@@ -4,6 +4,7 @@ import { faultsOf, type Fault, type FaultPoint } from '@glanz/gpu/faults';
 import { quads } from '@glanz/browser/files';
 import { launchOptions } from '@glanz/browser/launch';
 import type { Viewer, ViewerOptions } from '@glanz/viewer';
+import type { Journal } from './journal';
 import type { Ending, Outcome } from './outcome';
 import type { PageFaults } from './page';
 import { repository } from './repository';
@@ -14,6 +15,7 @@ export interface ViewerCampaign {
   readonly only?: string;
   readonly every?: number;
   readonly boundMs?: number;
+  readonly journal: Journal;
   readonly onOutcome?: (outcome: Outcome, done: number, of: number) => void;
 }
 
@@ -123,7 +125,7 @@ async function run({ base64, plan, boundMs }: { readonly base64: string; readonl
  * Injects faults into every distinct call to the GPU that a viewer in Chromium makes while it loads a model, edits it, is
  * resized, read and destroyed, and hides its tab in each of these phases. Each trial is a page of its own.
  */
-export async function viewerCampaign({ faults, only = '', every = 1, boundMs = 90_000, onOutcome }: ViewerCampaign): Promise<{ readonly outcomes: Outcome[]; readonly notReached: string[] }> {
+export async function viewerCampaign({ faults, only = '', every = 1, boundMs = 90_000, journal, onOutcome }: ViewerCampaign): Promise<void> {
   const root = repository();
   const [{ build }, { chromium }, { servePage, watch }] = await Promise.all([import('esbuild'), import('playwright'), import('@glanz/browser')]);
   const bundled = await build({ entryPoints: [join(root, 'tools/bench/src/faults/page.ts')], bundle: true, write: false, format: 'iife', target: 'es2022', conditions: ['@glanz/source'], logLevel: 'error' });
@@ -157,19 +159,19 @@ export async function viewerCampaign({ faults, only = '', every = 1, boundMs = 9
     }
     if (!faults) for (const hide of PHASES) trials.push({ name: `tab in ${hide}`, fault: 'tab-hidden', plan: { hide } });
     const chosen = trials.filter(({ name }) => name.includes(only)).filter((_, i) => i % every === 0);
-    const outcomes: Outcome[] = [];
-    const notReached: string[] = [];
-    for (const { name, fault, plan } of chosen) {
+    for (const [i, { name, fault, plan }] of chosen.entries()) {
+      const trial = { subject: 'viewer', point: name, fault } as const;
+      if (journal.has(trial)) continue;
+      journal.begin(trial);
       const end = await start(plan);
       if (plan.point !== undefined && !end.struck) {
-        notReached.push(`${name} (${fault})`);
+        journal.miss(trial);
         continue;
       }
-      const outcome: Outcome = { subject: 'viewer', point: name, fault, ...judge(end, reference.film, end.complaints) };
-      outcomes.push(outcome);
-      onOutcome?.(outcome, outcomes.length, chosen.length);
+      const outcome: Outcome = { ...trial, ...judge(end, reference.film, end.complaints) };
+      journal.end(outcome);
+      onOutcome?.(outcome, i + 1, chosen.length);
     }
-    return { outcomes, notReached };
   } finally {
     await browser.close();
     await served.close();

@@ -4,6 +4,7 @@ import { FaultRecorder, instrumentDevice, loseDevice } from '@glanz/gpu/faults';
 import { requestDevice, type PathTracer } from '@glanz/renderer';
 import { createGpu } from '@glanz/renderer/node';
 import { expect, it } from 'vitest';
+import { Journal } from '../../src/faults/journal';
 import { survived } from '../../src/faults/outcome';
 import { tracerCampaign } from '../../src/faults/tracer';
 import { createTracer, look } from '../../src/faults/tracer-steps';
@@ -12,7 +13,9 @@ const open = async () => requestDevice({ gpu: (await createGpu({ software: 'only
 
 it('a fixed part of the campaign: no memory, refused calls and refused mappings, at each 8th call, end in the right image or a typed error', async () => {
   const steps = ['create', 'read albedo', 'setMaterial that begins to emit', 'setVisibility of a new mesh', 'resize', 'saveFilm'];
-  const { outcomes } = await tracerCampaign({ open, steps, faults: ['out-of-memory', 'validation', 'map'], every: 8 });
+  const journal = new Journal();
+  await tracerCampaign({ open, steps, faults: ['out-of-memory', 'validation', 'map'], every: 8, journal });
+  const { outcomes } = journal;
   expect(outcomes.filter((outcome) => !survived(outcome))).toEqual([]);
   expect(outcomes.length).toBeGreaterThan(15);
 });

@@ -100,7 +100,14 @@ export function instrumentDevice(device: GPUDevice, recorder: FaultRecorder): GP
   });
 
   // Loss: the reason must be what drivers give, while the device really is gone.
-  const destroy = device.destroy.bind(device);
+  // Once: the specification says that a second call does nothing, but Dawn 0.6.2 for Node has crashed in it.
+  const destroyNative = device.destroy.bind(device);
+  let isDestroyed = false;
+  const destroy = () => {
+    if (isDestroyed) return;
+    isDestroyed = true;
+    destroyNative();
+  };
   let announce: (info: GPUDeviceLostInfo) => void = () => {};
   const injected = new Promise<GPUDeviceLostInfo>((resolve) => (announce = resolve));
   Object.defineProperty(device, 'lost', { configurable: true, value: Promise.race([injected, device.lost]) });
