@@ -136,6 +136,12 @@ test('the page keeps its picture when its size changes, saves it, and has no acc
     }
   }
   await page.setViewportSize({ width: 900, height: 560 });
+  // A button that stands out keeps its contrast below the pointer.
+  await page.getByRole('button', { name: 'Save image' }).hover();
+  for (const scheme of ['light', 'dark'] as const) {
+    await page.emulateMedia({ colorScheme: scheme });
+    expect(await checkAccessibility(page), `the pointer on the button, ${scheme}`).toEqual([]);
+  }
   const jpeg = await saveImage(page, { width: 48, height: 32, samples: 2, format: 'JPEG' });
   expect(jpeg.suggestedFilename()).toBe('gb22-fg-p-rc-g-pa-c.jpg');
   const { width, height } = await pixelsOf(page, readFileSync(await jpeg.path()));
