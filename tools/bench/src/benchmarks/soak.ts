@@ -19,11 +19,14 @@ export const benchmark: Benchmark = {
   description: 'a long random run of loads, edits, orbits, resizes and losses: memory and GPU objects over time, and their slope',
   options: {
     minutes: { type: 'string', help: 'how long; default 30' },
+    losses: { type: 'string', help: 'probability that an edit meets a lost device; default 0.02, 0 for none' },
     svg: { type: 'string', help: 'file for the plot' },
   },
   async run({ log, quick, gpu: name, seed = 1, values }) {
     const minutes = values['minutes'] === undefined ? (quick ? 0.5 : 30) : Number(values['minutes']);
     if (!(minutes > 0)) throw new BenchError('bench/option', `--minutes ${values['minutes']}: it must be a number above 0.`);
+    const lossRate = Number(values['losses'] ?? 0.02);
+    if (!(lossRate >= 0 && lossRate <= 1)) throw new BenchError('bench/option', `--losses ${values['losses']}: it must be a number from 0 to 1.`);
     const { gpu, adapterName, software } = await createGpu(name === undefined ? { software: 'only' } : { gpu: name });
     // Caches fill at first: five minutes, or a sixth of a short run.
     const settled = Math.min(300, 10 * minutes);
@@ -32,6 +35,7 @@ export const benchmark: Benchmark = {
       open: () => requestDevice({ gpu }),
       seconds: 60 * minutes,
       seed,
+      lossRate,
       onPoint: ({ seconds, heapBytes, externalBytes, rssBytes, gpuObjects, losses }) => {
         if (seconds < said) return;
         said = seconds + Math.min(60, 6 * minutes);
@@ -53,7 +57,7 @@ export const benchmark: Benchmark = {
     if (errors.length > 0) process.exitCode = 1;
     const one = (what: string, unit: string, value: number): Figure => ({ name: what, unit, runs: 1, median: value });
     return {
-      settings: { minutes, seed, settledSeconds: settled },
+      settings: { minutes, seed, losses: lossRate, settledSeconds: settled },
       figures: [one('loads', '1', loads), one('edits', '1', edits), one('losses of the device', '1', losses), one('most GPU memory at once', 'KiB', peak.gpuBytes / 1024), one('most GPU objects at once', '1', peak.gpuObjects), ...slopes],
       gpu: { name: adapterName, software },
       notes: errors,

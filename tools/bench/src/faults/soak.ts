@@ -22,6 +22,8 @@ export interface SoakOptions {
   readonly open: () => Promise<GPUDevice>;
   readonly seconds: number;
   readonly seed: number;
+  /** Probability that an edit meets a lost device, 0 to 1; 0 keeps one device for the whole run. */
+  readonly lossRate: number;
   readonly onPoint?: (point: SoakPoint) => void;
 }
 
@@ -51,11 +53,8 @@ function uniform(seed: number): () => number {
 setFlagsFromString('--expose-gc');
 const collect = runInNewContext('gc') as () => void;
 
-/**
- * Loads, edits, orbits, resizes, reads, loses the device, and destroys, in a random order of the seed, for as long as it is
- * told; measures between loads.
- */
-export async function soak({ open, seconds, seed, onPoint }: SoakOptions): Promise<SoakResult> {
+/** Loads, edits, orbits, resizes, reads, loses the device and destroys, in a random order of the seed; measures between loads. */
+export async function soak({ open, seconds, seed, lossRate, onPoint }: SoakOptions): Promise<SoakResult> {
   const next = uniform(seed);
   const recorder = new FaultRecorder();
   const points: SoakPoint[] = [];
@@ -75,8 +74,8 @@ export async function soak({ open, seconds, seed, onPoint }: SoakOptions): Promi
       const step = STEPS[Math.floor(STEPS.length * next())]!;
       for (let count = 1 + Math.floor(4 * next()); count > 0; count--) {
         await step.before?.(tracer);
-        // One load in twelve loses its device, sometimes with a call under way.
-        if (next() < 0.02) {
+        // Sometimes with a call under way.
+        if (next() < lossRate) {
           lost = true;
           loseDevice(device, next() < 0.5 ? 'unknown' : 'destroyed');
           losses++;

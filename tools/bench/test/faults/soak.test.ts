@@ -20,7 +20,7 @@ describe('slope', () => {
 
 it('ten seconds of loads, edits and losses leave no GPU object and no unexpected error', async () => {
   const { gpu } = await createGpu({ software: 'only' });
-  const { points, loads, edits, errors } = await soak({ open: () => requestDevice({ gpu }), seconds: 10, seed: 7 });
+  const { points, loads, edits, errors } = await soak({ open: () => requestDevice({ gpu }), seconds: 10, seed: 7, lossRate: 0.02 });
   expect(errors).toEqual([]);
   expect([loads > 0, edits > 0, points.length > 0]).toEqual([true, true, true]);
   expect(points.filter(({ gpuObjects, gpuBytes }) => gpuObjects > 0 || gpuBytes > 0)).toEqual([]);
