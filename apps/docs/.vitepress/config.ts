@@ -26,6 +26,15 @@ const results = [
   .map(([text, link]) => ({ text: text as string, link: link as string }))
   .filter(({ link }) => existsSync(new URL(`..${link.endsWith('/') ? `${link}index` : link}.md`, import.meta.url)));
 
+/**
+ * Words of a text or a query for the search: also those with a dot as one, so that "nextjs" finds "Next.js". It is sent to the
+ * browser as text, and so uses nothing from outside.
+ */
+const searchWords = (text: string): string[] => {
+  const dotted = text.match(/[\p{L}\p{N}]+(?:\.[\p{L}\p{N}]+)+/gu) ?? [];
+  return [...text.split(/[\n\r\p{Z}\p{P}]+/u), ...dotted.map((word) => word.replaceAll('.', ''))];
+};
+
 /** A page of its own, not one of VitePress's: links to it load it. `npm run docs` has it not; `npm start` does. */
 const PLAYGROUND = '/playground/index.html';
 
@@ -62,7 +71,7 @@ export default defineConfig({
     logo: '/mark.svg',
     // Packages have versions of their own, on their pages; most pages come here for the viewer.
     siteTitle: `Glanz <small class="site-version" title="Version of @glanz/viewer">${packageFacts('viewer').version}</small>`,
-    search: { provider: 'local', options: { detailedView: true } },
+    search: { provider: 'local', options: { detailedView: true, miniSearch: { options: { tokenize: searchWords } } } },
     outline: [2, 3],
     nav: [
       { text: 'Start', link: '/guide/getting-started' },

@@ -12,7 +12,7 @@ export async function show(canvas: HTMLCanvasElement, url: string) {
   const tracer = await PathTracer.create(device, scene, { width, height });
 
   const format = navigator.gpu.getPreferredCanvasFormat();
-  const context = canvas.getContext('webgpu')!;
+  const context = canvas.getContext('webgpu') as GPUCanvasContext;
   context.configure({ device, format, alphaMode: 'premultiplied' });
   const pass = await ToneMapPass.create(device, { format, toneMap: 'neutral' });
 

@@ -6,12 +6,15 @@ import { createGpu } from '@glanz/renderer/node';
 import { studioEnvironment } from '@glanz/scene/studio';
 import { toneMapPixels } from '@glanz/tonemap';
 
-const [width, height] = [1024, 768];
+const [width, height] = [640, 480];
 const device = await requestDevice({ gpu: (await createGpu()).gpu });
-const scene = await loadGltfFile('model.glb');
+const scene = await loadGltfFile('push-button.glb');
 scene.environment ??= studioEnvironment();
 const tracer = await PathTracer.create(device, scene, { width, height });
-for await (const { samples, remainingMs } of tracer.render({ samples: 256 })) process.stderr.write(`${samples}, ${Math.ceil(remainingMs / 1000)} s left\n`);
-const data = toneMapPixels(await tracer.read('beauty'), width, height, { toneMap: 'neutral', output: 'uint8' });
-await writeFile('picture.png', encodePng({ width, height, data }));
+for await (const { samples, remainingMs } of tracer.render({ samples: 64 })) {
+  process.stderr.write(`${samples}, ${Math.ceil(remainingMs / 1000)} s left\n`);
+}
+const film = await tracer.read('beauty');
+const data = toneMapPixels(film, width, height, { toneMap: 'neutral' });
+await writeFile('push-button.png', encodePng({ width, height, data }));
 device.destroy();

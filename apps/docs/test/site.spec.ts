@@ -149,14 +149,14 @@ test('search finds a guide without the network', async ({ page }) => {
   expect(complaints).toEqual([]);
 });
 
-test('search finds "next.js", in the guide about React first', async ({ page }) => {
+test('search finds "next.js" and "nextjs", in the guide about React first', async ({ page }) => {
   await page.goto(`${origin}/`);
   const input = page.locator('.VPLocalSearchBox input');
   await expect(async () => {
     if (!(await input.isVisible())) await page.keyboard.press('Control+k');
     await expect(input).toBeVisible({ timeout: 2000 });
   }).toPass();
-  for (const words of ['next.js', 'Next.js App Router']) {
+  for (const words of ['next.js', 'nextjs', 'NextJS', 'Next.js App Router']) {
     await input.fill(words);
     const first = page.locator('.VPLocalSearchBox .result').first();
     await expect(first, words).toContainText('Next.js');

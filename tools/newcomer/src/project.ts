@@ -8,30 +8,54 @@ import { fileURLToPath } from 'node:url';
 const NEXT = join('node_modules', 'next', 'dist', 'bin', 'next');
 const root = fileURLToPath(new URL('../../../', import.meta.url));
 
+/** A page: a guide of the documentation by its name, or the README of a package by `@glanz/…`; of one section, by its heading. */
+function textOf(page: string, section?: string): string {
+  const path = page.startsWith('@glanz/') ? `packages/${page.slice('@glanz/'.length)}/README.md` : `apps/docs/guide/${page}.md`;
+  const text = readFileSync(join(root, path), 'utf8');
+  if (section === undefined) return text;
+  const from = text.indexOf(`\n## ${section}\n`);
+  if (from < 0) throw new Error(`${path} has no section "${section}".`);
+  const to = text.indexOf('\n## ', from + 1);
+  return text.slice(from, to < 0 ? undefined : to);
+}
+
 /** The first block of a language in a README: what people paste. */
 export function quickStart(packageName: string, language: string): string {
-  const text = readFileSync(join(root, 'packages', packageName, 'README.md'), 'utf8');
-  const block = new RegExp(`\`\`\`${language}\n([\\s\\S]*?)\n\`\`\``).exec(text)?.[1];
+  const block = new RegExp(`\`\`\`${language}\n([\\s\\S]*?)\n\`\`\``).exec(textOf(`@glanz/${packageName}`))?.[1];
   if (block === undefined) throw new Error(`packages/${packageName}/README.md has no block of ${language}.`);
   return block;
 }
 
-/** A block of a page of the documentation that names its file, as ```tsx [app/page.tsx] does: what people paste into that file. */
-export function fileFromGuide(guide: string, path: string): string {
-  const text = readFileSync(join(root, 'apps/docs/guide', `${guide}.md`), 'utf8');
+/**
+ * A block that names its file, as ```tsx [app/page.tsx] does, or `<<< ../examples/node.ts [render.mjs]`, which shows a file of
+ * the repository: what people paste into that file.
+ */
+export function fileFrom(page: string, path: string, section?: string): string {
+  const text = textOf(page, section);
   const name = path.replace(/[.[\]]/g, '\\$&');
   const block = new RegExp(`\`\`\`\\w+ \\[${name}\\]\n([\\s\\S]*?)\n\`\`\``).exec(text)?.[1];
-  if (block === undefined) throw new Error(`apps/docs/guide/${guide}.md has no block for ${path}.`);
-  return `${block}\n`;
+  if (block !== undefined) return `${block}\n`;
+  const shown = new RegExp(`^<<< (\\S+) \\[${name}\\]$`, 'm').exec(text)?.[1];
+  if (shown === undefined) throw new Error(`${page} has no block for ${path}.`);
+  return readFileSync(join(root, 'apps/docs/guide', shown), 'utf8');
 }
 
-/** Shell commands of a page of the documentation, the block that contains `has`: lines without those that install, since no registry has the packages. */
-export function commandsOf(guide: string, has: string): string[] {
-  const text = readFileSync(join(root, 'apps/docs/guide', `${guide}.md`), 'utf8');
-  const block = [...text.matchAll(/```sh\n([\s\S]*?)\n```/g)].map(([, lines = '']) => lines).find((lines) => lines.includes(has));
-  if (block === undefined) throw new Error(`apps/docs/guide/${guide}.md has no commands with ${has}.`);
-  return block.split('\n').filter((line) => !line.startsWith('npm install'));
+/** What the newcomer's project stands for, or does by itself: no registry has the packages. */
+const BY_ITSELF = /^(npm (install|create|run) |npx create-next-app@|cd )/;
+
+/** Lines of the block of shell commands of a page that contains `has`. */
+function shellBlock(page: string, has: string, section?: string): string[] {
+  const block = [...textOf(page, section).matchAll(/```sh\n([\s\S]*?)\n```/g)].map(([, lines = '']) => lines).find((lines) => lines.includes(has));
+  if (block === undefined) throw new Error(`${page} has no commands with ${has}.`);
+  return block.split('\n');
 }
+
+/** Shell commands of a page, those of the block that contains `has`, without those that make the project and install. */
+export const commandsFrom = (page: string, has: string, section?: string): string[] => shellBlock(page, has, section).filter((line) => !BY_ITSELF.test(line));
+
+/** Packages that the block installs. */
+export const installedBy = (page: string, has: string, section?: string): string[] =>
+  shellBlock(page, has, section).flatMap((line) => /^npm install (.+)$/.exec(line)?.[1]?.split(' ') ?? []);
 
 /** Lines that somebody would have to write. */
 export const linesOf = (code: string): number => code.split('\n').filter((line) => line.trim() !== '').length;
@@ -59,6 +83,29 @@ export class Project {
     const tarballs = JSON.parse(process.env['GLANZ_NEWCOMER'] ?? '{}') as Record<string, string>;
     const local = Object.fromEntries(Object.entries(tarballs).map(([name, file]) => [name, `file:${file}`]));
     this.write('package.json', JSON.stringify({ name: 'newcomer', private: true, version: '0.0.0', type: 'module', dependencies: { ...dependencies, ...local }, devDependencies, overrides: local }, undefined, 2));
+  }
+
+  readonly #imports = new Set<string>();
+
+  /** Does what a page says: its files, then, in an installed project, its commands, which install all that the files import. */
+  paste(page: string, files: readonly string[], section?: string): void {
+    for (const file of files) {
+      const content = fileFrom(page, file, section);
+      this.write(file, content);
+      for (const [, name] of content.matchAll(/(?:from|import) '(@glanz\/\w+)/g)) this.#imports.add(name as string);
+    }
+  }
+
+  async type(page: string, has: string, section?: string): Promise<void> {
+    // The template has it.
+    mkdirSync(join(this.folder, 'public'), { recursive: true });
+    const lines = commandsFrom(page, has, section);
+    if (lines.length === 0) throw new Error(`${page}: nothing is left of the commands with ${has}.`);
+    const installed = installedBy(page, has, section);
+    const used = [...this.#imports, ...lines.flatMap((line) => /node_modules\/(@glanz\/\w+)/.exec(line)?.[1] ?? [])];
+    const missing = used.filter((name) => !installed.includes(name));
+    if (missing.length > 0) throw new Error(`${page} does not install ${missing.join(', ')}.`);
+    for (const line of lines) await this.run('sh', ['-c', line]);
   }
 
   async timed<T>(what: string, run: () => Promise<T>): Promise<T> {
