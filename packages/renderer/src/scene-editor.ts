@@ -3,6 +3,7 @@ import { createScene, validateScene, type Environment, type Instance, type Light
 import { RenderError } from './errors';
 import type { GpuScene } from './gpu/gpu-scene';
 import { checkParameters } from './scene/check-parameters';
+import { hasSameTexels } from './scene/environment';
 import { attributeWords, layOutGeometry, packGeometry, packMesh, prepareHierarchies, type Geometry, type MeshRegion } from './scene/geometry';
 import type { HierarchyBuilder } from './scene/hierarchies';
 import { emittedRadiance, findMaterial } from './scene/materials';
@@ -112,7 +113,9 @@ export class SceneEditor {
   }
 
   setEnvironment(environment: Environment | undefined): SceneChange {
-    if (environment) validateScene({ ...createScene(), environment });
+    // Texels that are on the GPU have been validated: of an image at another rotation only the numbers beside it are, with a black texel.
+    const checked = hasSameTexels(this.#gpu.environment, environment) ? { ...environment, width: 1, height: 1, data: new Float32Array(3) } : environment;
+    if (checked) validateScene({ ...createScene(), environment: checked });
     return this.#changeEnvironment(environment);
   }
 

@@ -34,7 +34,13 @@ export abstract class TracerEdits {
     return this.edit((editor) => editor.setLight(nameOrIndex, change));
   }
 
-  /** Replaces the environment and restarts the film. The same pixels with another rotation or intensity are not read again. */
+  /**
+   * Replaces the environment and restarts the film. The `data` array of the present environment with another rotation, intensity or
+   * visibility is neither validated nor read again, and costs what {@link adjustEnvironment} costs. So do not change its texels in
+   * place; pass another array.
+   *
+   * @throws {SceneError} for values that an environment cannot have.
+   */
   setEnvironment(environment: Environment | undefined): Promise<void> {
     return this.edit((editor) => editor.setEnvironment(environment));
   }

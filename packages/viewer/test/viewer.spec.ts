@@ -201,6 +201,27 @@ test('variant, material, exposure, surroundings and background reach the picture
   await done(page);
   const red = await shot(page);
   expect(red.mean[0]).toBeGreaterThan(4 * red.mean[1]);
+
+  // Turning it and changing its intensity goes without a pass over its texels; the fingerprint of a saved film reads some.
+  const reads = () => page.evaluate(() => [Number(document.body.dataset['reads']), (window.viewer.tracer!.scene.environment as { intensity?: number }).intensity ?? 1]);
+  await page.evaluate(() => {
+    const texels = new Float32Array(64 * 32 * 3).map((_, i) => (i % 3 === 0 ? 1 : 0));
+    const data = new Proxy(texels, {
+      get(target, key) {
+        if (typeof key === 'string' && /^\d+$/.test(key)) document.body.dataset['reads'] = String(Number(document.body.dataset['reads'] ?? 0) + 1);
+        const value: unknown = Reflect.get(target, key, target);
+        return typeof value === 'function' ? value.bind(target) : value;
+      },
+    });
+    return window.viewer.setEnvironment({ type: 'latlong', width: 64, height: 32, data });
+  });
+  const [set] = await reads();
+  expect(set).toBeGreaterThanOrEqual(64 * 32 * 3);
+  await page.evaluate(() => void Object.assign(window.viewer, { environmentRotation: 1, environmentIntensity: 0.5 }));
+  await done(page);
+  const [turned, intensity] = await reads();
+  expect(intensity).toBe(0.5);
+  expect(turned! - set!).toBeLessThan(64 * 32 * 3);
   await page.evaluate(() => void (window.viewer.background = 'transparent'));
   await done(page);
   const corner = (await pixelsOf(page, await page.screenshot({ clip: { x: 2, y: 2, width: 8, height: 8 } }))).mean;

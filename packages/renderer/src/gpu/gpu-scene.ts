@@ -198,15 +198,15 @@ export class GpuScene {
     return emission && this.updateLights();
   }
 
-  /** Re-reads the scene's environment. Returns true if bindings were replaced: not for another rotation or strength of the same picture. */
+  /** Takes the scene's environment. Returns true if bindings were replaced: not for another rotation or intensity of the same image. */
   updateEnvironment(environment: Environment | undefined): boolean {
     const before = this.#environment;
     this.#features = undefined;
     this.#environment = turnEnvironment(before, environment) ?? prepareEnvironment(environment);
     const replaced = this.#environment.pixels !== before.pixels || this.#environment.table !== before.table;
     if (replaced) {
-      makeEnvironmentTextures(this.#resources, this.#environment);
-      for (const _ of fillEnvironmentTextures(this.#device.queue, this.#resources, this.#environment));
+      makeEnvironmentTextures(this.#resources, this.#environment, before);
+      for (const _ of fillEnvironmentTextures(this.#device.queue, this.#resources, this.#environment, before));
     }
     return (this.#updateGroups() && this.updateLights()) || replaced;
   }

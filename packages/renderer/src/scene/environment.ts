@@ -13,8 +13,18 @@ export interface EnvironmentData {
   readonly table?: { readonly width: number; readonly height: number; readonly data: Float32Array<ArrayBuffer> };
   /** Mean luminance over the sphere. */
   readonly meanLuminance: number;
-  /** The picture that all this is made from. */
-  readonly source?: Float32Array;
+  /** What the image gives at every rotation and intensity; absent for constant light. */
+  readonly image?: PreparedImage;
+}
+
+/** What is computed from the texels of a lat-long image, and serves every rotation and intensity of it. */
+interface PreparedImage {
+  /** The texels as the scene has them. */
+  readonly source: Float32Array;
+  /** The importance cells, which an image without light does not use. */
+  readonly table: EnvironmentData['table'];
+  /** Mean luminance over the sphere at an intensity of 1. */
+  readonly mean: number;
 }
 
 const MAX_CELLS = [1024, 512] as const;
@@ -45,17 +55,21 @@ export function* environmentSteps(environment: Environment | undefined): Generat
     copyPixels(pixels, data, from, Math.min(width * height, from + STEP));
     yield;
   }
-  const intensity = environment.intensity ?? 1;
-  const rotation = environment.rotation ?? 0;
   const { table, mean } = yield* importance(environment, pixels);
+  return placed(environment, { width, height, data: pixels }, { source: data, table, mean });
+}
+
+/** An image at the rotation and intensity of an environment. */
+function placed(environment: LatLongEnvironment, pixels: EnvironmentData['pixels'] & object, image: PreparedImage): EnvironmentData {
+  const { intensity = 1, rotation = 0, visible = true } = environment;
   return {
-    pixels: { width, height, data: pixels },
+    pixels,
     radiance: [intensity, intensity, intensity],
     rotation: [Math.cos(rotation), Math.sin(rotation)],
     visible,
-    ...(table && intensity > 0 ? { table } : {}),
-    meanLuminance: mean * intensity,
-    source: data,
+    ...(image.table && intensity > 0 ? { table: image.table } : {}),
+    meanLuminance: image.mean * intensity,
+    image,
   };
 }
 
@@ -100,14 +114,20 @@ function* eachRow(width: number, height: number, work: (y: number) => void): Gen
   }
 }
 
-/** The same picture turned, or in another strength, without going through its pixels; `undefined` if it is another one. */
+/**
+ * Whether an environment has the texels of one that was prepared before. The array decides, not the numbers in it: they must not
+ * change in place.
+ */
+export function hasSameTexels(before: EnvironmentData, environment: Environment | undefined): environment is LatLongEnvironment {
+  const { pixels, image } = before;
+  if (environment?.type !== 'latlong' || !image || environment.data !== image.source) return false;
+  return environment.width === pixels?.width && environment.height === pixels.height;
+}
+
+/** The same image at another rotation or intensity, without reading its texels; `undefined` if it is another image. */
 export function turnEnvironment(before: EnvironmentData, environment: Environment | undefined): EnvironmentData | undefined {
-  if (environment?.type !== 'latlong' || environment.data !== before.source) return undefined;
-  if (before.pixels?.width !== environment.width || before.pixels.height !== environment.height) return undefined;
-  const { intensity = 1, rotation = 0, visible = true } = environment;
-  // In the dark there is no table to keep.
-  if (!(before.radiance[0] > 0) || !(intensity > 0)) return undefined;
-  return { ...before, radiance: [intensity, intensity, intensity], rotation: [Math.cos(rotation), Math.sin(rotation)], visible, meanLuminance: (before.meanLuminance / before.radiance[0]) * intensity };
+  if (!before.pixels || !before.image || !hasSameTexels(before, environment)) return undefined;
+  return placed(environment, before.pixels, before.image);
 }
 
 /** Luminance of the picture, texel by texel; of a large one averaged over the cells of a coarser grid, as it is read: bilinearly. */

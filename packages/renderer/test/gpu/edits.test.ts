@@ -76,6 +76,19 @@ const EDITS: readonly (readonly [name: string, edit: (tracer: PathTracer) => Pro
   ['an emission', (t) => t.setMaterial('glow', { emission_luminance: 7 }), (s) => ((s.materials[2] as Scene['materials'][number]).parameters = { base_weight: 0, specular_weight: 0, emission_luminance: 7 })],
 ];
 
+/** An environment that counts the texel components that are read from its array. */
+function counted(rotation = 0) {
+  const count = { reads: 0 };
+  const data = new Proxy(picture.slice(), {
+    get(target, key) {
+      if (typeof key === 'string' && /^\d+$/.test(key)) count.reads++;
+      const value: unknown = Reflect.get(target, key, target);
+      return typeof value === 'function' ? value.bind(target) : value;
+    },
+  });
+  return { count, environment: { ...sky(rotation), data } };
+}
+
 describe('edits of a live tracer', () => {
   it.each(EDITS)('%s: the picture of a tracer made for the edited scene, and nothing compiled', async (_, edit, change) => {
     const tracer = await PathTracer.create(device, stage(), options);
@@ -90,6 +103,34 @@ describe('edits of a live tracer', () => {
     expect(largest(after, before)).toBeGreaterThan(1e-3);
     // The order of nodes in the hierarchy may differ, not what they hold; sums are in the same order.
     expect(largest(after, expected)).toBeLessThan(1e-5);
+    tracer.destroy();
+  });
+
+  it('the same environment at another rotation or intensity, even 0, is set without reading a texel', async () => {
+    const { count, environment } = counted();
+    const tracer = await PathTracer.create(device, { ...stage(), environment }, options);
+    const turned = { ...environment, rotation: 1.2 };
+    const next: LatLongEnvironment[] = [turned, { ...turned, intensity: 0 }, { ...turned, intensity: 0.5 }];
+    for (const setting of next) {
+      expect(count.reads).toBeGreaterThanOrEqual(picture.length);
+      count.reads = 0;
+      await tracer.setEnvironment(setting);
+      expect(count.reads).toBe(0);
+      // A control: texels that are not on the GPU are read.
+      await tracer.setEnvironment(sky(0));
+      await tracer.setEnvironment(setting);
+    }
+    await tracer.setEnvironment(turned);
+    for (const setting of next) await tracer.setEnvironment(setting);
+    const expected = { ...stage(), environment: { ...sky(1.2), intensity: 0.5 } };
+    expect(largest(await beauty(tracer), await fresh(expected))).toBeLessThan(1e-5);
+    // Numbers beside the texels are validated as ever, and so is a size that the texels do not have.
+    const refused = (change: object) => tracer.setEnvironment({ ...environment, ...change }).then(() => 'none', (error: { code?: string }) => error.code);
+    expect(await refused({ rotation: Number.NaN })).toBe('scene/not-finite');
+    expect(await refused({ width: 32 })).toBe('scene/length');
+    // The array, not the object around it, is what is known.
+    const other = Object.assign(environment, { data: counted().environment.data.fill(Number.NaN) });
+    expect(await refused({ data: other.data })).toBe('scene/not-finite');
     tracer.destroy();
   });
 

@@ -1,6 +1,6 @@
 import type { LatLongEnvironment } from '@glanz/scene';
 import { describe, expect, it } from 'vitest';
-import { prepareEnvironment, roughEnvironment } from '../../src/scene/environment';
+import { prepareEnvironment, roughEnvironment, turnEnvironment } from '../../src/scene/environment';
 
 const picture = (width: number, height: number, value: (x: number, y: number) => number): LatLongEnvironment => {
   const data = new Float32Array(width * height * 3);
@@ -50,5 +50,20 @@ describe('roughEnvironment', () => {
       expect(Math.abs(rough.meanLuminance - whole.meanLuminance)).toBeLessThanOrEqual(0.02 * whole.meanLuminance);
       expect([rough.radiance, rough.visible, rough.pixels, rough.table]).toEqual([whole.radiance, whole.visible, undefined, undefined]);
     }
+  });
+});
+
+describe('turnEnvironment', () => {
+  const sky = picture(32, 16, (x, y) => (x === 9 && y === 3 ? 100 : 0.3));
+
+  it('gives what preparing the image again gives, from each setting to each, darkness included', () => {
+    const settings: LatLongEnvironment[] = [sky, { ...sky, rotation: 2 }, { ...sky, intensity: 0 }, { ...sky, intensity: 0.3, visible: false }];
+    for (const from of settings) for (const to of settings) expect(turnEnvironment(prepareEnvironment(from), to)).toEqual(prepareEnvironment(to));
+  });
+
+  it('knows another image by its array and by its size', () => {
+    const before = prepareEnvironment(sky);
+    const others = [{ ...sky, data: sky.data.slice() }, { ...sky, width: 16, height: 32 }, { type: 'constant', radiance: [1, 1, 1] } as const, undefined];
+    for (const other of others) expect(turnEnvironment(before, other)).toBeUndefined();
   });
 });
