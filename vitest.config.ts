@@ -32,7 +32,7 @@ export default defineConfig({
     projects: [
       ...['wgsl', 'scene', 'bvh', 'openpbr', 'gltf', 'formats', 'cad', 'tonemap', 'image', 'renderer', 'cli', 'viewer', 'element', 'react', 'three'].map((name) => project(name, `packages/${name}`)),
       project('docs', 'apps/docs'),
-      ...['models', 'bench', 'reference', 'gpu', 'pipeline'].map((name) => project(`tools-${name}`, `tools/${name}`)),
+      ...['models', 'bench', 'reference', 'gpu', 'operations', 'pipeline'].map((name) => project(`tools-${name}`, `tools/${name}`)),
       project('playground', 'apps/playground'),
     ],
     // One GPU process at a time on two cores keeps the software driver from starving itself.
