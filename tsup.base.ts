@@ -1,5 +1,9 @@
 import { defineConfig } from 'tsup';
+import rootManifest from './package.json' with { type: 'json' };
+import { errorsPage } from './tools/pipeline/manifest.mjs';
 import { publishedSource } from './tools/pipeline/published-source.mjs';
+
+const page = errorsPage(rootManifest);
 
 /**
  * One build recipe for every package: ESM with declarations, one file per entry, chunks shared between entries.
@@ -21,6 +25,8 @@ export function glanzPackage(
     treeshake: !options.client,
     ...(options.client ? { banner: { js: "'use client';" } } : {}),
     splitting: true,
+    // Without an address the name stays, and errors end without a link.
+    define: page === undefined ? {} : { GLANZ_ERRORS_PAGE: JSON.stringify(page) },
     external: [...(options.external ?? [])],
     esbuildPlugins: [publishedSource],
     // The condition "@glanz/source" must not apply here: published declarations point at published packages.

@@ -1,6 +1,7 @@
 import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { join, relative } from 'node:path';
+import { errorsPage } from './manifest.mjs';
 import { TaskError, bin, capture, root } from './process.mjs';
 import { entriesOf, internalDependencies, publishedPackages, topological } from './workspace.mjs';
 
@@ -13,6 +14,8 @@ function filesUnder(folder) {
     .map((entry) => join(entry.parentPath ?? entry.path, entry.name))
     .sort();
 }
+
+const rootManifest = JSON.parse(readFileSync(join(root, 'package.json'), 'utf8'));
 
 /** A hash of all that a package's build reads; contents, not times, so that a fresh clone or a changed branch is judged right. */
 function fingerprint(p, dependencies) {
@@ -27,6 +30,7 @@ function fingerprint(p, dependencies) {
   for (const file of inputs) {
     if (existsSync(file)) hash.update(relative(root, file)).update('\0').update(readFileSync(file)).update('\0');
   }
+  hash.update(errorsPage(rootManifest) ?? '');
   for (const dependency of dependencies) hash.update(dependency);
   return hash.digest('hex');
 }

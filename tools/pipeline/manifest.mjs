@@ -16,6 +16,16 @@ export function webAddress(rootManifest) {
   return url.trim().replace(/^git\+/, '').replace(/\.git$/, '').replace(/\/$/, '');
 }
 
+/**
+ * Address of the page on errors, which ends messages in development builds: in the documentation (`homepage` of the root),
+ * else its source in the repository; `undefined` while the root's manifest has neither.
+ */
+export function errorsPage(rootManifest) {
+  if (rootManifest.homepage) return `${rootManifest.homepage.replace(/\/$/, '')}/guide/errors`;
+  const web = webAddress(rootManifest);
+  return web && `${web}/blob/HEAD/apps/docs/guide/errors.md`;
+}
+
 /** The fields that a package takes from the root, `undefined` for one that it must not have. */
 export function commonFields(rootManifest, folder, ownKeywords) {
   const web = webAddress(rootManifest);

@@ -45,7 +45,7 @@ const REPLACED = [
   ['if (port) serveBuilds(port);', '', ['bvh/src/worker/worker.ts']],
 ];
 
-const SETTINGS = { bundle: true, minify: true, format: 'esm', platform: 'browser', target: 'es2022', conditions: ['@glanz/source'], external: ['node:*'], legalComments: 'none', write: false };
+const SETTINGS = { bundle: true, minify: true, format: 'esm', platform: 'browser', target: 'es2022', conditions: ['@glanz/source'], define: { 'process.env.NODE_ENV': '"production"' }, external: ['node:*'], legalComments: 'none', write: false };
 
 /** Reads sources as they are published, with `REPLACED`; `missing` loses each text that was there. */
 const sources = (missing) => ({

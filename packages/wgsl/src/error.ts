@@ -20,9 +20,24 @@ export interface GlanzErrorOptions {
   readonly location?: ErrorLocation;
 }
 
+// Text that builds replace: ours by the address of the page on errors, the user's bundler by its mode.
+declare const GLANZ_ERRORS_PAGE: string;
+declare const process: { readonly env: { readonly NODE_ENV?: string } };
+
+/** Where a code is explained, in development builds of packages that were built with the address of the documentation. */
+function explanation(code: string): string {
+  try {
+    if (process.env.NODE_ENV === 'development') return ` See ${GLANZ_ERRORS_PAGE}#${code.replace('/', '-')}`;
+  } catch {
+    // Browsers have no `process`, and sources no address.
+  }
+  return '';
+}
+
 /**
  * The base of every error that Glanz throws on purpose. `code` is stable and meant for programs; `message` is one line
- * for people: what was wrong, where, and what to do.
+ * for people: what was wrong, where, and what to do. In development builds (`process.env.NODE_ENV` is `development`, which
+ * bundlers replace) the message ends with the address of the code's paragraph in the documentation.
  *
  * @example
  * try { … } catch (error) { if (error instanceof GlanzError && error.code === 'gltf/truncated') … }
@@ -34,7 +49,7 @@ export class GlanzError extends Error {
   readonly location: ErrorLocation | undefined;
 
   constructor(code: string, message: string, options: GlanzErrorOptions = {}) {
-    super(message, options.cause === undefined ? undefined : { cause: options.cause });
+    super(message + explanation(code), options.cause === undefined ? undefined : { cause: options.cause });
     this.name = new.target.name;
     this.code = code;
     this.location = options.location;

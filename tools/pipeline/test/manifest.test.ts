@@ -6,7 +6,7 @@ import { fileURLToPath } from 'node:url';
 import { promisify } from 'node:util';
 import { afterAll, describe, expect, it } from 'vitest';
 import { checkManifests } from '../../check-manifests.mjs';
-import { absoluteLinks, completeManifest, webAddress } from '../manifest.mjs';
+import { absoluteLinks, completeManifest, errorsPage, webAddress } from '../manifest.mjs';
 
 const run = promisify(execFile);
 const hook = fileURLToPath(new URL('../../pack-hook.mjs', import.meta.url));
@@ -45,6 +45,13 @@ it('relative links become absolute outside of code', () => {
   expect(text).toContain(`[rules](${WEB}/blob/HEAD/CONTRIBUTING.md#rules)`);
   expect(text).toContain(`![image](${WEB}/raw/HEAD/media/a.webp)`);
   for (const same of ['(https://developer.mozilla.org)', '(#below)', '[kept](../scene)']) expect(text).toContain(same);
+});
+
+it('the page on errors is part of the documentation, else of the repository', () => {
+  const repository = { type: 'git', url: `git+${WEB}.git` };
+  expect(errorsPage({ repository, homepage: 'https://glanz.example/' })).toBe('https://glanz.example/guide/errors');
+  expect(errorsPage({ repository })).toBe(`${WEB}/blob/HEAD/apps/docs/guide/errors.md`);
+  expect(errorsPage({ repository: { type: 'git', url: '' } })).toBeUndefined();
 });
 
 describe('npm pack', () => {
