@@ -19,7 +19,7 @@ export function benchmarkNames() {
  * outside: it is a native module, and GPU_WEBGPU may name another copy at run time.
  */
 export function bundleBenchmark(name, outfile) {
-  return bundle(`import { benchmark } from './benchmarks/${name}';\nimport { benchmarkMain } from './runner';\nawait benchmarkMain(${JSON.stringify(name)}, benchmark, process.argv.slice(2));\n`, outfile);
+  return bundle(`import { benchmark } from './benchmarks/${name}';\nimport { benchmarkMain } from './runner';\nawait benchmarkMain(${JSON.stringify(name)}, benchmark, process.argv.slice(2));\n`, outfile, name === 'hashes' ? [observedWgsl] : []);
 }
 
 /** Draco looks for its WebAssembly beside its own file, so it stays where the loader finds it. */
@@ -28,8 +28,14 @@ const draco = {
   setup: (context) => context.onResolve({ filter: /^draco3dgltf$/ }, ({ path }) => ({ path: pathToFileURL(createRequire(join(folder, '../../../packages/gltf/package.json')).resolve(path)).href, external: true })),
 };
 
+/** `hashes` looks at the programs that the renderer composes, see hashes/observed-wgsl.ts. */
+const observedWgsl = {
+  name: 'observed-wgsl',
+  setup: (context) => context.onResolve({ filter: /^@glanz\/wgsl$/ }, ({ importer }) => (/[\\/]packages[\\/]renderer[\\/]src[\\/]/.test(importer) ? { path: join(folder, 'hashes/observed-wgsl.ts') } : undefined)),
+};
+
 /** Bundles TypeScript text that stands in this folder. */
-export async function bundle(contents, outfile) {
+export async function bundle(contents, outfile, plugins = []) {
   await build({
     stdin: { contents, resolveDir: folder, loader: 'ts' },
     outfile,
@@ -41,7 +47,7 @@ export async function bundle(contents, outfile) {
     external: ['webgpu', 'sharp', 'esbuild', 'vite', 'playwright', '@sparticuz/chromium'],
     // CommonJS dependencies expect a require to be there.
     banner: { js: "import { createRequire as __createRequire } from 'node:module'; const require = __createRequire(import.meta.url);" },
-    plugins: [draco],
+    plugins: [draco, ...plugins],
     logLevel: 'error',
   });
 }
