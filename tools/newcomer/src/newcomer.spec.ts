@@ -103,6 +103,21 @@ test('Getting started, by hand', async ({ page: browser }) => {
   expect(built.complaints.filter(notIcon)).toEqual([]);
 });
 
+test('the renderer, as its README begins', async ({ page: browser }) => {
+  wanted('renderer');
+  project = new Project('renderer');
+  project.manifest({}, VITE);
+  project.write('tsconfig.json', TSCONFIG);
+  project.paste('@glanz/renderer', ['index.html', 'src/main.ts']);
+  await project.install();
+  await project.type('@glanz/renderer', 'create vite');
+  await project.timed('tsc', () => project.run('npx', ['--no-install', 'tsc', '-p', '.']));
+  await project.timed('vite build', () => project.vite('build'));
+  const built = await sees(browser, await project.serve('preview'), 'canvas');
+  report('the renderer', linesOf(fileFrom('@glanz/renderer', 'src/main.ts')), { 'first pixels of the build': built.seconds });
+  expect(built.complaints.filter(notIcon)).toEqual([]);
+});
+
 test('Getting started, in Node', async ({ page: browser }) => {
   wanted('node');
   project = new Project('node');
