@@ -73,6 +73,8 @@ export class Engine {
   #keptSamples = 0;
   /** Whether a film that the GPU has no memory for was reported. */
   #smaller = false;
+  /** The time has come to try the whole size again. */
+  #growing = false;
   #done = false;
   #dirtyCamera = true;
   #settle = 0;
@@ -412,7 +414,9 @@ export class Engine {
         // Before the state is told: who hears it may have work at once.
         const woken = new Promise<void>((resolve) => (this.#wake = resolve));
         this.#tell(idle ?? 'empty');
+        const retry = idle === 'done' && this.#smaller ? setTimeout(() => ((this.#growing = true), this.#stir()), this.#films.retryMs) : undefined;
         await woken;
+        clearTimeout(retry);
         this.#lastStep = performance.now();
         continue;
       }
@@ -420,6 +424,7 @@ export class Engine {
       this.#interrupt = new AbortController();
       try {
         if (this.#moving()) await this.#previewFrame(tracer);
+        else if (this.#growing) await this.#grow(tracer);
         else await this.#refine(tracer);
       } catch (error) {
         // Told apart by what follows: a loss is handled where the device announces it.
@@ -439,7 +444,7 @@ export class Engine {
     if (!this.#visibility.visible) return 'hidden';
     if (this.#moving()) return undefined;
     if (this.#paused && this.current) return 'paused';
-    return this.#done ? 'done' : undefined;
+    return this.#done && !this.#growing ? 'done' : undefined;
   }
 
   #moving(): boolean {
@@ -529,6 +534,16 @@ export class Engine {
       this.#smaller = true;
       return false;
     }
+  }
+
+  /** Tries the whole size again, while an image that had to be smaller is shown. */
+  async #grow(tracer: PathTracer): Promise<void> {
+    this.#growing = false;
+    if (!this.#smaller) return;
+    const { display } = this.#connection;
+    display?.keep({ buffer: tracer.beautyBuffer, size: [tracer.width, tracer.height] }, tracer.samples, this.#film);
+    if (await this.#films.grow(tracer, this.#film)) this.#smaller = this.#fresh = this.#done = false;
+    else display?.forget();
   }
 
   /** Samples of the picture in full. */

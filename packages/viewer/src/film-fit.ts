@@ -2,18 +2,31 @@ import type { PathTracer } from '@glanz/renderer';
 
 type Size = readonly [number, number];
 
-/** Pixels of a film below which a smaller one is not worth trying. */
-const LEAST_PIXELS = 4096;
+/** Pixels of a film below which a smaller one is not tried. */
+const LEAST_PIXELS = 16;
 
-const aspectOf = ([width, height]: Size) => width / height;
+/** When a size that was refused is tried again, after the image is done: the first time, and at most. Doubled in between. */
+const [RETRY_MS, MOST_RETRY_MS] = [4_000, 256_000];
 
-/** Sizes and depths of tracers' films. Where the GPU has no memory for a size, films stay smaller until another one is wanted. */
+/** Whether one size is the other one scaled, and rounded. */
+const isScaled = (one: Size, other: Size) => Math.abs((other[0] * one[1]) / one[0] - other[1]) < 1;
+
+/**
+ * Sizes and depths of tracers' films. Where the GPU has no memory for a size, films are smaller until that size fits, or another
+ * one is wanted.
+ */
 export class FilmFit {
   /** Depths that tracers have been given. */
   readonly #depths = new WeakMap<PathTracer, number>();
   #mostPixels = Infinity;
   /** The size of the film there is, where no other one can be had. */
   #only: Size | undefined;
+  #retryMs = RETRY_MS;
+
+  /** Milliseconds after which to {@link grow} a film that had to be smaller. */
+  get retryMs(): number {
+    return this.#retryMs;
+  }
 
   /** The size of a film for an image: the image's own, or the largest of its shape that the GPU may have memory for. */
   sizeFor([width, height]: Size): Size {
@@ -26,6 +39,23 @@ export class FilmFit {
   forget(): void {
     this.#mostPixels = Infinity;
     this.#only = undefined;
+    this.#retryMs = RETRY_MS;
+  }
+
+  /**
+   * Tries the whole size of an image whose film had to be smaller: memory may be free by now.
+   *
+   * @returns Whether the film has that size, and was restarted. Otherwise everything is as before, and the next try is later.
+   */
+  async grow(tracer: PathTracer, size: Size): Promise<boolean> {
+    try {
+      await tracer.resize(...size);
+    } catch {
+      this.#retryMs = Math.min(2 * this.#retryMs, MOST_RETRY_MS);
+      return false;
+    }
+    this.forget();
+    return true;
   }
 
   /** Takes over a tracer as it was made. */
@@ -47,8 +77,8 @@ export class FilmFit {
         await tracer.resize(...size);
       } catch (error) {
         this.#mostPixels = Math.floor((size[0] * size[1]) / 2);
-        const alike = Math.abs(aspectOf(size) / aspectOf(before) - 1) < 0.02;
-        if (this.#mostPixels <= (alike ? before[0] * before[1] : LEAST_PIXELS)) this.#only = before;
+        // The film there is does, where its shape is right and there is nothing between it and what was refused.
+        if (this.#mostPixels <= (isScaled(size, before) ? before[0] * before[1] : LEAST_PIXELS)) this.#only = before;
         throw error;
       }
     }

@@ -217,3 +217,25 @@ test('without memory for a larger film the image stays as large as it can, with 
   await done(page);
   expect(await heard(page, 'error')).toHaveLength(1);
 });
+
+test('a film that had to be smaller takes the whole size, and its shape, once there is memory', async ({ page }) => {
+  await injectFaults(page);
+  await open(page, served.origin);
+  await page.evaluate(() => {
+    window.gpuFaults.memory = window.gpuFaults.bytes() + 600_000;
+    Object.assign(document.querySelector('canvas')!.style, { width: '440px', height: '440px' });
+  });
+  await expect.poll(async () => (await heard(page, 'error')).map(({ code }) => code)).toEqual(['renderer/out-of-memory']);
+  await done(page);
+  const [width, height] = await page.evaluate(() => [window.viewer.tracer!.width, window.viewer.tracer!.height]);
+  expect(width).toBeLessThan(220);
+  expect(height).toBe(width);
+  // Nobody touches the page.
+  await page.evaluate(() => void (window.gpuFaults.memory = undefined));
+  await expect.poll(() => page.evaluate(() => [window.viewer.tracer!.width, window.viewer.tracer!.height])).toEqual([220, 220]);
+  await done(page);
+  expect(await page.evaluate(() => window.viewer.sampleCount)).toBe(12);
+  const { cells } = await shot(page);
+  expect(cells[3]![0]).toBeGreaterThan(2 * cells[3]![1]);
+  expect(await heard(page, 'error')).toHaveLength(1);
+});
