@@ -4,8 +4,9 @@
 // npm test -- --list              the stages
 // npm test -- --only types,unit   some of them
 // npm test -- --skip e2e          all but some
-import { existsSync, mkdirSync, readFileSync, rmSync } from 'node:fs';
-import { join } from 'node:path';
+// npm test -- --full              at full size what is a sample otherwise: every page in every width and theme
+import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { join, relative } from 'node:path';
 import { parseArgs } from 'node:util';
 import { ensureBuilt } from './pipeline/build.mjs';
 import { TaskError, bin, main, root, stream } from './pipeline/process.mjs';
@@ -27,6 +28,30 @@ function readReport(file) {
   return existsSync(file) ? JSON.parse(readFileSync(file, 'utf8')) : undefined;
 }
 
+/** Seconds by test file, slowest first. @type {Map<string, [file: string, seconds: number][]>} */
+const times = new Map();
+
+/** Notes the time of each file of a stage. @returns {string[][]} The slowest files, as lines of a table. */
+function noteTimes(stage, entries) {
+  const byFile = new Map();
+  for (const [file, ms] of entries) byFile.set(file, (byFile.get(file) ?? 0) + ms / 1000);
+  const files = [...byFile].map(([file, time]) => [relative(root, file).replaceAll('\\', '/'), Number(time.toFixed(1))]).sort((a, b) => b[1] - a[1]);
+  times.set(stage, files);
+  writeFileSync(join(reports, 'times.json'), `${JSON.stringify(Object.fromEntries(times), undefined, 1)}\n`);
+  return columns([['slowest files', 'seconds'], ...files.slice(0, 12).map(([file, time]) => [file, String(time)])], [1]);
+}
+
+/** File and time of each test of Playwright's report. */
+function playwrightTimes({ config, suites }) {
+  const entries = [];
+  const visit = (suite) => {
+    for (const { file, tests } of suite.specs ?? []) for (const { results } of tests) entries.push([join(config.rootDir, file), results.reduce((sum, { duration }) => sum + duration, 0)]);
+    for (const child of suite.suites ?? []) visit(child);
+  };
+  for (const suite of suites) visit(suite);
+  return entries;
+}
+
 async function unit() {
   const file = join(reports, 'vitest.json');
   const code = await node(bin('vitest', 'vitest.mjs'), ['run', '--reporter=default', '--reporter=json', `--outputFile.json=${file}`]);
@@ -34,16 +59,19 @@ async function unit() {
   const { numPassedTests: passed = 0, numFailedTests = 0, numPendingTests: skipped = 0 } = report ?? {};
   // Errors outside of tests, and files that do not load, fail the run without failing a test.
   const failed = Math.max(numFailedTests, code === 0 ? 0 : 1, passed === 0 ? 1 : 0);
-  return { passed, failed, skipped, lines: failed > numFailedTests ? [report ? 'a test file or a hook failed outside of its tests: see above' : 'vitest left no report'] : [] };
+  const table = noteTimes('unit', (report?.testResults ?? []).map(({ name, startTime, endTime }) => [name, endTime - startTime]));
+  return { passed, failed, skipped, table, lines: failed > numFailedTests ? [report ? 'a test file or a hook failed outside of its tests: see above' : 'vitest left no report'] : [] };
 }
 
 async function e2e() {
   if (!existsSync(join(root, 'playwright.config.ts'))) return { passed: 0, failed: 1, lines: ['there is no playwright.config.ts'] };
   const file = join(reports, 'playwright.json');
   const code = await node(bin('@playwright/test', 'cli.js'), ['test', '--reporter=list,json'], { env: { PLAYWRIGHT_JSON_OUTPUT_NAME: file } });
-  const { expected: passed = 0, unexpected = 0, flaky = 0, skipped = 0 } = readReport(file)?.stats ?? {};
+  const report = readReport(file);
+  const { expected: passed = 0, unexpected = 0, flaky = 0, skipped = 0 } = report?.stats ?? {};
   const failed = Math.max(unexpected + flaky, code === 0 && passed > 0 ? 0 : 1);
-  return { passed, failed, skipped, lines: failed > 0 && unexpected + flaky === 0 ? [`playwright ended with code ${code}, ${passed} tests passed`] : [] };
+  const table = report ? noteTimes('e2e', playwrightTimes(report)) : [];
+  return { passed, failed, skipped, table, lines: failed > 0 && unexpected + flaky === 0 ? [`playwright ended with code ${code}, ${passed} tests passed`] : [] };
 }
 
 async function build() {
@@ -71,15 +99,16 @@ const STAGES = [
 function chosenStages() {
   let values;
   try {
-    ({ values } = parseArgs({ options: { only: { type: 'string' }, skip: { type: 'string' }, list: { type: 'boolean' } } }));
+    ({ values } = parseArgs({ options: { only: { type: 'string' }, skip: { type: 'string' }, list: { type: 'boolean' }, full: { type: 'boolean' } } }));
   } catch (error) {
-    throw new TaskError(`${error.message} Options: --only a,b, --skip a,b, --list.`);
+    throw new TaskError(`${error.message} Options: --only a,b, --skip a,b, --full, --list.`);
   }
   const names = (text) => text.split(',').map((name) => name.trim());
   for (const name of [...(values.only ? names(values.only) : []), ...(values.skip ? names(values.skip) : [])]) {
     if (!STAGES.some((stage) => stage.name === name)) throw new TaskError(`there is no stage "${name}"; stages: ${STAGES.map((stage) => stage.name).join(', ')}.`);
   }
   if (values.list) return undefined;
+  if (values.full) process.env['GLANZ_FULL'] = '1';
   return STAGES.filter(({ name }) => (values.only ? names(values.only).includes(name) : true) && !(values.skip && names(values.skip).includes(name)));
 }
 

@@ -4,8 +4,8 @@ import { direction, furnaceBelowOne, whiteDielectric, whiteMetal } from './integ
 import { resultsOf } from './results';
 import { sphereFurnace } from './sphere';
 
-/** As in proofs.test.ts: GLANZ_PROOFS=full takes all roughnesses and cosines, and more nodes. */
-const FULL = process.env['GLANZ_PROOFS'] === 'full';
+/** As in proofs.test.ts: GLANZ_FULL=1 takes all roughnesses and cosines, and more nodes. */
+const FULL = process.env['GLANZ_FULL'] !== undefined;
 const ROUGHNESSES = FULL ? [0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1] : [0.15, 0.4, 0.7, 1];
 const COSINES = FULL ? [1, 0.85, 0.65, 0.45, 0.3, 0.15, 0.06] : [1, 0.6, 0.25, 0.08];
 const SIZE = FULL ? 56 : 40;

@@ -7,10 +7,10 @@ import { anyClear, anyCoated, uniform, unit, upperDirection } from './random';
 import { sphereFurnace } from './sphere';
 
 /**
- * The proofs of the whole model. `GLANZ_PROOFS=full npx vitest run --project openpbr test/proofs` runs them at full size:
+ * The proofs of the whole model. `GLANZ_FULL=1 npx vitest run --project openpbr test/proofs` runs them at full size:
  * 20,000 materials by 64 directions, 200 furnaces by 3 angles, 60 settings a lobe.
  */
-const FULL = process.env['GLANZ_PROOFS'] === 'full';
+const FULL = process.env['GLANZ_FULL'] !== undefined;
 const size = (full: number, small: number): number => (FULL ? full : small);
 const record = resultsOf('proofs');
 if (FULL) vi.setConfig({ testTimeout: 3_600_000 });
