@@ -528,7 +528,9 @@ export class Engine {
       if (sameSize(size, this.#film)) this.#smaller = false;
       return restarted;
     } catch (error) {
-      if (!this.#current(tracer)) throw error;
+      // A lost device refuses nothing: its successor may have memory for all of it.
+      if (!this.#current(tracer) || (error as { code?: unknown }).code === 'renderer/device-lost') throw error;
+      this.#films.refuse(tracer, size);
       // Once: smaller ones are tried until one fits.
       if (!this.#smaller) this.#host.error(error);
       this.#smaller = true;

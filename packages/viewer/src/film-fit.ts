@@ -35,7 +35,7 @@ export class FilmFit {
     return scale >= 1 ? [width, height] : [Math.max(1, Math.floor(width * scale)), Math.max(1, Math.floor(height * scale))];
   }
 
-  /** Tries whole sizes again: there is another scene, another device, or another size of the image. */
+  /** Tries whole sizes again: there is another scene, or another size of the image. */
   forget(): void {
     this.#mostPixels = Infinity;
     this.#only = undefined;
@@ -67,26 +67,24 @@ export class FilmFit {
    * Gives a tracer a size in pixels and a depth of paths.
    *
    * @returns Whether its film was restarted.
-   * @throws {DeviceError} where the GPU refuses the size. The film is what it was, and {@link sizeFor} is smaller then.
+   * @throws {DeviceError} where the GPU refuses the size. The film is what it was.
    */
   async fit(tracer: PathTracer, size: Size, depth: number): Promise<boolean> {
-    const before: Size = [tracer.width, tracer.height];
-    const resized = before[0] !== size[0] || before[1] !== size[1];
-    if (resized) {
-      try {
-        await tracer.resize(...size);
-      } catch (error) {
-        this.#mostPixels = Math.floor((size[0] * size[1]) / 2);
-        // The film there is does, where its shape is right and there is nothing between it and what was refused.
-        if (this.#mostPixels <= (isScaled(size, before) ? before[0] * before[1] : LEAST_PIXELS)) this.#only = before;
-        throw error;
-      }
-    }
+    const resized = tracer.width !== size[0] || tracer.height !== size[1];
+    if (resized) await tracer.resize(...size);
     const deeper = this.#depths.get(tracer) !== depth;
     if (deeper) {
       tracer.setDepth(depth);
       this.#depths.set(tracer, depth);
     }
     return resized || deeper;
+  }
+
+  /** Notes that the GPU has refused a size: {@link sizeFor} is smaller from then on. */
+  refuse(tracer: PathTracer, size: Size): void {
+    const present: Size = [tracer.width, tracer.height];
+    this.#mostPixels = Math.floor((size[0] * size[1]) / 2);
+    // The film there is does, where its shape is right and there is nothing between it and what was refused.
+    if (this.#mostPixels <= (isScaled(size, present) ? present[0] * present[1] : LEAST_PIXELS)) this.#only = present;
   }
 }
