@@ -29,7 +29,8 @@ export function glanzPackage(
     define: page === undefined ? {} : { GLANZ_ERRORS_PAGE: JSON.stringify(page) },
     external: [...(options.external ?? [])],
     esbuildPlugins: [publishedSource],
+    // What imports of shader sources are is declared in wesl.d.ts, named from the package's folder.
     // The condition "@glanz/source" must not apply here: published declarations point at published packages.
-    dts: { compilerOptions: { ignoreDeprecations: '6.0', customConditions: [] } },
+    dts: { compilerOptions: { ignoreDeprecations: '6.0', customConditions: [], types: ['@webgpu/types', 'node', '../../wesl'] } },
   });
 }

@@ -1,5 +1,6 @@
 import { defineConfig } from 'vitest/config';
 import { BaseSequencer, type TestSpecification } from 'vitest/node';
+import { weslModules } from './tools/pipeline/wesl.mjs';
 
 /** Files that take minutes begin first: alone at the end the last of them would not keep both cores busy. */
 const LONG = ['reference/test/groundtruth', 'reference/test/slope', 'gpu/adaptive', 'gpu/dispersion', 'gpu/straight', 'openpbr/test/oracle', 'docs/test/examples', 'openpbr/test/gpu', 'test/gpu/'];
@@ -15,6 +16,7 @@ class LongestFirst extends BaseSequencer {
 // Forks, not threads: the software Vulkan driver must be opened on a process's main thread.
 const resolve = { conditions: ['@glanz/source', 'module', 'import', 'default'] };
 const project = (name: string, dir: string) => ({
+  plugins: [weslModules()],
   resolve,
   ssr: { resolve: { conditions: ['@glanz/source', 'node', 'module', 'import', 'default'] } },
   test: {

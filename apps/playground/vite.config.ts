@@ -1,6 +1,7 @@
 import { defineConfig } from 'vite';
 import { basisModule } from '../../tools/pipeline/basis-module.mjs';
 import { publishedModules } from '../../tools/pipeline/published-source.mjs';
+import { weslModules } from '../../tools/pipeline/wesl.mjs';
 
 /** Where a browser window can open: not on servers, not in automated runs. */
 const hasScreen = !process.env['CI'] && (process.platform !== 'linux' || !!(process.env['DISPLAY'] ?? process.env['WAYLAND_DISPLAY']));
@@ -15,6 +16,6 @@ export default defineConfig({
   // Found here rather than when a model is first opened, which would reload the page under the user's hands.
   optimizeDeps: { include: ['@glanz/gltf > @gltf-transform/core', '@glanz/gltf > @gltf-transform/extensions', '@glanz/gltf > gl-matrix', '@glanz/image > fflate', 'meshoptimizer/decoder', '@glanz/element > draco3dgltf/draco_decoder_gltf_nodejs.js'] },
   build: { target: 'es2022', chunkSizeWarningLimit: 900, rolldownOptions: { input: ['index.html', 'configurator.html'].map((page) => `${import.meta.dirname}/${page}`) } },
-  plugins: [publishedModules(), basisModule()],
-  worker: { format: 'es', plugins: () => [publishedModules(), basisModule()] },
+  plugins: [weslModules(), publishedModules(), basisModule()],
+  worker: { format: 'es', plugins: () => [weslModules(), publishedModules(), basisModule()] },
 });

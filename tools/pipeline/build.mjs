@@ -21,7 +21,7 @@ const rootManifest = JSON.parse(readFileSync(join(root, 'package.json'), 'utf8')
 function fingerprint(p, dependencies) {
   const hash = createHash('sha256');
   const scripts = join(p.dir, 'scripts');
-  const inputs = [...filesUnder(join(p.dir, 'src')), ...(existsSync(scripts) ? filesUnder(scripts) : []), join(p.dir, 'package.json'), join(p.dir, 'tsup.config.ts'), join(root, 'tsup.base.ts'), join(root, 'tools/pipeline/published-source.mjs'), join(root, 'tsconfig.base.json'), join(root, 'pnpm-lock.yaml')];
+  const inputs = [...filesUnder(join(p.dir, 'src')), ...(existsSync(scripts) ? filesUnder(scripts) : []), join(p.dir, 'package.json'), join(p.dir, 'tsup.config.ts'), join(root, 'tsup.base.ts'), join(root, 'tools/pipeline/published-source.mjs'), join(root, 'tools/pipeline/wesl.mjs'), join(root, 'tsconfig.base.json'), join(root, 'pnpm-lock.yaml')];
   // The command brings the playground along.
   const playground = join(root, 'apps/playground');
   if (p.short === 'cli' && existsSync(playground)) inputs.push(...filesUnder(join(playground, 'src')), join(playground, 'index.html'), join(playground, 'vite.config.ts'));

@@ -6,9 +6,10 @@
 //    esbuild, Rollup, webpack and terser drop when nobody uses the constant. It is honest because importing a module
 //    of ours does nothing, which tools/check-entries.mjs tests.
 // 2. It takes comments, indentation and the spaces around operators out of WGSL templates, which no minifier looks into.
-//    Line breaks stay, so that errors still name the line of the source.
+//    Line breaks stay, so that errors still name the line of the source. `.wesl` files become modules likewise.
 import { readFile } from 'node:fs/promises';
 import ts from 'typescript';
+import { closeUp, weslSource } from './wesl.mjs';
 
 /** True unless the expression is plainly a value: literals, names, functions, and arrays or objects of them. */
 function computes(node) {
@@ -28,20 +29,6 @@ function computes(node) {
 }
 
 const isWgsl = (node, source) => /\/\*\s*wgsl\s*\*\/\s*$/.test(source.text.slice(node.getFullStart(), node.getStart(source)));
-
-const OPERATOR = /[-+*/%=<>!&|^~]/;
-
-/**
- * A line of WGSL without the spaces that separate nothing: those beside punctuation. Between two operators they stay, for
- * `a - -b` and `array<f32> = x` mean something else without them. Lines that remain comments stay as they are.
- */
-function closeUp(line) {
-  if (line.includes('//')) return line;
-  return line.replace(/(?<=(\S)) +(?=(\S))/g, (spaces, before, after) => {
-    const separates = /\w/.test(before) && /\w/.test(after);
-    return separates || (OPERATOR.test(before) && OPERATOR.test(after)) ? spaces : '';
-  });
-}
 
 /** One literal piece of a WGSL template. A comment that runs on into a substitution is left alone. */
 function shrinkPiece(text, continues, goesOn) {
@@ -105,6 +92,7 @@ export function preparePublished(text, fileName = 'module.ts') {
 export const publishedSource = {
   name: 'published-source',
   setup(build) {
+    weslSource({ shrink: true }).setup(build);
     build.onLoad({ filter: /[\\/]src[\\/].*\.ts$/ }, async ({ path }) => ({ contents: preparePublished(await readFile(path, 'utf8'), path), loader: 'ts' }));
   },
 };

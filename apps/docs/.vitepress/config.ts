@@ -3,6 +3,7 @@ import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vitepress';
 import { publishedModules } from '../../../tools/pipeline/published-source.mjs';
+import { weslModules } from '../../../tools/pipeline/wesl.mjs';
 import { apiReference } from './api';
 import { emptyHeaders } from './empty-headers';
 import { packageFacts, packageLine } from './package-facts';
@@ -63,7 +64,7 @@ export default defineConfig({
     // Examples and demos run from the packages' sources; the pages need no build of them.
     resolve: { conditions: ['@glanz/source'] },
     ssr: { noExternal: [/^@glanz\//], resolve: { conditions: ['@glanz/source'] } },
-    plugins: [publishedModules()],
+    plugins: [weslModules(), publishedModules()],
     build: { target: 'es2022', chunkSizeWarningLimit: 700 },
     server: { fs: { allow: [dirname(fileURLToPath(new URL('../../..', import.meta.url)))] } },
   },

@@ -2,6 +2,7 @@
 import { mkdirSync, mkdtempSync, rmSync, statSync } from 'node:fs';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { build } from 'esbuild';
+import { weslSource } from '../../../tools/pipeline/wesl.mjs';
 
 const at = (path) => fileURLToPath(new URL(path, import.meta.url));
 mkdirSync(at('../.vitepress/cache'), { recursive: true });
@@ -15,6 +16,7 @@ try {
     bundle: true,
     format: 'esm',
     platform: 'node',
+    plugins: [weslSource()],
     external: ['webgpu', '@sparticuz/chromium'],
   });
   const { renderHero } = await import(pathToFileURL(`${folder}/hero.mjs`).href);

@@ -4,6 +4,7 @@ import { mkdirSync, mkdtempSync, readdirSync, rmSync } from 'node:fs';
 import { basename, join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { build } from 'esbuild';
+import { weslSource } from '../../../tools/pipeline/wesl.mjs';
 import sharp from 'sharp';
 
 const at = (path) => fileURLToPath(new URL(path, import.meta.url));
@@ -13,7 +14,7 @@ mkdirSync(at('../public/how'), { recursive: true });
 const folder = mkdtempSync(at('../.vitepress/cache/how-'));
 try {
   // Bundled from the sources; what is native stays outside.
-  await build({ stdin: { contents: "export * from './how-pictures';\n", resolveDir: at('../src'), loader: 'ts' }, outfile: join(folder, 'how.mjs'), conditions: ['@glanz/source'], bundle: true, format: 'esm', platform: 'node', target: 'node20', external: ['webgpu', '@sparticuz/chromium'] });
+  await build({ stdin: { contents: "export * from './how-pictures';\n", resolveDir: at('../src'), loader: 'ts' }, outfile: join(folder, 'how.mjs'), conditions: ['@glanz/source'], bundle: true, format: 'esm', platform: 'node', target: 'node20', plugins: [weslSource()], external: ['webgpu', '@sparticuz/chromium'] });
   const { howMain } = await import(pathToFileURL(join(folder, 'how.mjs')).href);
   await howMain([folder, ...process.argv.slice(2)]);
   // Noise is what they show: nothing may be smoothed away.

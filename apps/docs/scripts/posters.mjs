@@ -2,6 +2,7 @@
 import { mkdirSync, mkdtempSync, rmSync, statSync } from 'node:fs';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { build } from 'esbuild';
+import { weslSource } from '../../../tools/pipeline/wesl.mjs';
 
 const at = (path) => fileURLToPath(new URL(path, import.meta.url));
 mkdirSync(at('../.vitepress/cache'), { recursive: true });
@@ -9,7 +10,7 @@ mkdirSync(at('../public/posters'), { recursive: true });
 const folder = mkdtempSync(at('../.vitepress/cache/posters-'));
 try {
   // Bundled from the sources; what is native stays outside.
-  await build({ entryPoints: [at('../src/posters.ts')], outfile: `${folder}/posters.mjs`, conditions: ['@glanz/source'], bundle: true, format: 'esm', platform: 'node', external: ['webgpu', '@sparticuz/chromium'] });
+  await build({ entryPoints: [at('../src/posters.ts')], outfile: `${folder}/posters.mjs`, conditions: ['@glanz/source'], bundle: true, format: 'esm', platform: 'node', plugins: [weslSource()], external: ['webgpu', '@sparticuz/chromium'] });
   const { renderPosters } = await import(pathToFileURL(`${folder}/posters.mjs`).href);
   const { default: sharp } = await import('sharp');
   const [samples = '96', ...names] = process.argv.slice(2);

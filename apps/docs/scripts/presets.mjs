@@ -9,13 +9,14 @@ import { basename, join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
 import { build } from 'esbuild';
+import { weslSource } from '../../../tools/pipeline/wesl.mjs';
 
 const at = (path) => fileURLToPath(new URL(path, import.meta.url));
 const { values, positionals: names } = parseArgs({ allowPositionals: true, options: { samples: { type: 'string', default: '256' }, pack: { type: 'string' }, from: { type: 'string' } } });
 
 /** Bundled from the sources; what is native stays outside. */
 const pack = (contents, outfile) =>
-  build({ stdin: { contents, resolveDir: at('../src'), loader: 'ts' }, outfile, conditions: ['@glanz/source'], bundle: true, format: 'esm', platform: 'node', target: 'node20', external: ['webgpu', '@sparticuz/chromium'] });
+  build({ stdin: { contents, resolveDir: at('../src'), loader: 'ts' }, outfile, conditions: ['@glanz/source'], bundle: true, format: 'esm', platform: 'node', target: 'node20', plugins: [weslSource()], external: ['webgpu', '@sparticuz/chromium'] });
 
 async function convert(folder) {
   const { default: sharp } = await import('sharp');

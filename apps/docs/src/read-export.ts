@@ -1,5 +1,6 @@
 import { fileURLToPath } from 'node:url';
 import { build } from 'esbuild';
+import { weslSource } from '../../../tools/pipeline/wesl.mjs';
 
 /**
  * Evaluates one export of a module of this repository, from sources, at build time: pages that tell about code read it
@@ -14,6 +15,7 @@ export async function readExport(specifier: string, name: string): Promise<unkno
     bundle: true,
     format: 'esm',
     platform: 'neutral',
+    plugins: [weslSource()],
     write: false,
   });
   const { value } = (await import(`data:text/javascript;base64,${Buffer.from(outputFiles[0]!.contents).toString('base64')}`)) as { value: unknown };

@@ -27,6 +27,7 @@ import * as materialx from '../examples/materialx';
 import { productShot } from '../examples/product-shot';
 import * as progressive from '../examples/progressive';
 import { createSpheres } from '../examples/spheres';
+import { weslSource } from '../../../tools/pipeline/wesl.mjs';
 
 // Examples that want a canvas run in the browser: site.spec.ts.
 
@@ -311,7 +312,7 @@ test('the Node example as it is printed, at a smaller size', async () => {
     const source = await readFile(new URL('../examples/node.ts', import.meta.url), 'utf8');
     const contents = source.replace('[640, 480]', '[32, 24]').replace('samples: 64', 'samples: 4');
     expect(contents).not.toMatch(/640|64/);
-    await build({ stdin: { contents, resolveDir: fileURLToPath(new URL('../examples', import.meta.url)), loader: 'ts' }, outfile: join(folder, 'node.mjs'), conditions: ['@glanz/source'], bundle: true, format: 'esm', platform: 'node', external: ['webgpu', 'sharp', '@sparticuz/chromium'] });
+    await build({ stdin: { contents, resolveDir: fileURLToPath(new URL('../examples', import.meta.url)), loader: 'ts' }, outfile: join(folder, 'node.mjs'), conditions: ['@glanz/source'], bundle: true, format: 'esm', platform: 'node', external: ['webgpu', 'sharp', '@sparticuz/chromium'], plugins: [weslSource()] });
     await writeFile(join(folder, 'push-button.glb'), triangleGlb());
     const { stderr } = await promisify(execFile)(process.execPath, ['node.mjs'], { cwd: folder });
     expect(stderr).toContain('4, 0 s left');

@@ -2,6 +2,7 @@ import { dirname } from 'node:path';
 import { mkdirSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { build } from 'esbuild';
+import { weslSource } from '../../../tools/pipeline/wesl.mjs';
 
 /** Bundles `glanz` from the sources into one file, so that it runs whether or not the packages have been built. */
 export async function bundleProgram(outfile: string): Promise<void> {
@@ -17,6 +18,7 @@ export async function bundleProgram(outfile: string): Promise<void> {
     external: ['webgpu', 'sharp', '@sparticuz/chromium', 'draco3dgltf', 'meshoptimizer', 'meshoptimizer/*'],
     // Some dependencies of dependencies are CommonJS and ask for Node's modules by require().
     banner: { js: "import { createRequire as glanzRequire } from 'node:module'; const require = glanzRequire(import.meta.url);" },
+    plugins: [weslSource()],
     logLevel: 'error',
   });
 }

@@ -5,6 +5,7 @@ import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join, resolve } from 'node:path';
 import { build } from 'esbuild';
 import { preparePublished } from '../../../tools/pipeline/published-source.mjs';
+import { weslSource } from '../../../tools/pipeline/wesl.mjs';
 import { packedWasm } from './wasm.mjs';
 
 const MAIN = 'glanz-viewer.min.js';
@@ -84,7 +85,7 @@ export async function buildSingleFile(folder, to) {
   await mkdir(to, { recursive: true });
   const write = async (contents, name, files) => {
     const stdin = { contents, resolveDir, sourcefile: name, loader: 'js' };
-    const { outputFiles } = await build({ ...SETTINGS, stdin, plugins: [beside(files), packedWasm(folder), sources(missing)] });
+    const { outputFiles } = await build({ ...SETTINGS, stdin, plugins: [beside(files), packedWasm(folder), weslSource({ shrink: true }), sources(missing)] });
     await writeFile(join(to, name), outputFiles[0].contents);
     return name;
   };

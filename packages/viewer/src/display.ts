@@ -1,6 +1,6 @@
 import { ToneMapPass, type ToneMap, type ToneMapOptions } from '@glanz/tonemap';
 import { compose } from '@glanz/wgsl/compose';
-import { viewerBlend } from './blend.wgsl';
+import viewerBlend from './blend.wesl';
 import { withErrorScopes } from './error-scopes';
 import { destroyed, ViewerError } from './errors';
 

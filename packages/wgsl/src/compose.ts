@@ -30,13 +30,14 @@ export interface ComposedWgsl {
 
 interface Gate {
   readonly line: number;
+  /** Whether the text around it is kept. */
   readonly outer: boolean;
-  readonly condition: boolean;
-  active: boolean;
-  elseSeen: boolean;
+  readonly met: boolean;
+  elseSeen?: boolean;
 }
 
-const GATE = /^\s*\/\/#(if|else|endif)\b\s*(!?)\s*([A-Za-z_]\w*)?\s*$/;
+/** Anywhere in a line: a keyword, and after `if` its flags. */
+const GATE = /\/\/#(\w*)(?:(?<=#if)\s+(!?\w+(?:\s*&&\s*!?\w+)*))?/;
 
 /** `enable f16;`, `requires …;`, `diagnostic(…);`: WGSL takes them only before all declarations. */
 const DIRECTIVE = /^\s*(?:enable\s|requires\s|diagnostic\s*\().*;\s*$/;
@@ -52,39 +53,42 @@ function flagValue(flags: Readonly<Record<string, boolean>>, name: string, modul
   return flags[name] === true;
 }
 
-/** Calls `emit` with each line of the module's text that its gates let through. */
+/** Calls `emit` with each line of the module's text that its gates let through, or with what they let through of it. */
 function forEachKeptLine(module: WgslModule, flags: Readonly<Record<string, boolean>>, emit: (text: string, line: number) => void): void {
   const gates: Gate[] = [];
-  const active = () => gates.length === 0 || (gates[gates.length - 1] as Gate).active;
-  const unbalanced = (line: number, what: string) => new WgslComposeError('wgsl/unbalanced-gate', `WGSL module "${module.name}" line ${line}: ${what}.`, { location: { module: module.name, line } });
-  const lines = module.code.split('\n');
-  for (const [index, text] of lines.entries()) {
-    const line = index + 1;
-    const match = text.includes('//#') ? GATE.exec(text) : null;
-    if (!match) {
-      if (text.trimStart().startsWith('//#')) throw unbalanced(line, `"${text.trim()}" is not a gate (//#if FLAG, //#if !FLAG, //#else, //#endif)`);
-      if (active()) emit(text, line);
-      continue;
-    }
-    const [, kind, negation, flag] = match;
-    if (kind === 'if') {
-      if (!flag) throw unbalanced(line, '//#if without a flag');
-      const condition = flagValue(flags, flag, module.name, line) !== (negation === '!');
-      const outer = active();
-      gates.push({ line, outer, condition, active: outer && condition, elseSeen: false });
-    } else {
+  let live = true;
+  let line = 0;
+  const unbalanced = (what: string) => new WgslComposeError('wgsl/unbalanced-gate', `WGSL module "${module.name}" line ${line}: ${what}.`, { location: { module: module.name, line } });
+  for (const text of module.code.split('\n')) {
+    line++;
+    // Text, keyword, flags, text, keyword, flags, text, …
+    const parts = text.split(GATE);
+    let kept = live ? (parts[0] as string) : '';
+    for (let i = 1; i < parts.length; i += 3) {
+      const kind = parts[i] as string;
       const gate = gates[gates.length - 1];
-      if (!gate) throw unbalanced(line, `//#${kind} without //#if`);
-      if (kind === 'endif') gates.pop();
+      if (kind === 'if') {
+        if (!parts[i + 1]) throw unbalanced('//#if without a flag');
+        const met = (parts[i + 1] as string).split('&&').every((part) => flagValue(flags, part.replace('!', '').trim(), module.name, line) !== part.includes('!'));
+        gates.push({ line, outer: live, met });
+        live &&= met;
+      } else if (kind !== 'else' && kind !== 'endif') throw unbalanced(`"${text.trim()}" is not a gate (//#if FLAG, //#else, //#endif)`);
+      else if (!gate) throw unbalanced(`//#${kind} without //#if`);
+      else if (kind === 'endif') live = (gates.pop() as Gate).outer;
       else {
-        if (gate.elseSeen) throw unbalanced(line, 'second //#else');
+        if (gate.elseSeen) throw unbalanced('second //#else');
         gate.elseSeen = true;
-        gate.active = gate.outer && !gate.condition;
+        live = gate.outer && !gate.met;
       }
+      if (live) kept += parts[i + 2] as string;
     }
+    if (parts.length > 1 ? kept.trim() : live) emit(kept, line);
   }
   const open = gates.pop();
-  if (open) throw unbalanced(open.line, '//#if is never closed');
+  if (open) {
+    line = open.line;
+    throw unbalanced('//#if is never closed');
+  }
 }
 
 /** Dependencies before dependents, each module once, in a stable order. */

@@ -2,11 +2,11 @@
  * A piece of WGSL with a name and what it needs. Modules are plain frozen values: they can be exported from any file,
  * put together by {@link compose}, and dropped by a bundler when nobody imports them.
  *
- * Inside `code`, these lines gate text (they nest):
+ * Inside `code`, gates keep or leave out text. They nest, and stand on lines of their own or inside of a line:
  * ```wgsl
- * //#if COAT          keeps what follows when the flag COAT is true
+ * //#if COAT          keeps what follows when the flag COAT is true; `//#if COAT && !FUZZ` asks for two
  * //#else
- * //#endif            `//#if !COAT` negates
+ * //#endif
  * ```
  */
 export interface WgslModule {

@@ -90,13 +90,30 @@ describe('gates', () => {
     expect(compose([module], { flags: { X: true } }).code).not.toContain('b');
   });
 
+  it('stand inside of lines: what they let through of a line stays in it', () => {
+    const module = wgslModule('m', 'a(//#if X b,//#else c,//#endif d);\n//#if X e;//#endif//#if !X f;//#endif\n  //#if X//#if Y g;//#else h;//#endif//#endif');
+    const kept = (flags: Record<string, boolean>) => compose([module], { flags }).code.split('\n').map((line) => line.replace(/\s/g, ''));
+    expect(kept({ X: true, Y: false })).toEqual(['a(b,d);', 'e;', 'h;', '']);
+    expect(kept({ X: false, Y: false })).toEqual(['a(c,d);', 'f;', '']);
+    expect(compose([module], { flags: { X: true, Y: true } }).locate(3)).toEqual({ module: 'm', line: 3 });
+  });
+
+  it('take several flags, all of which must hold', () => {
+    const module = wgslModule('m', '//#if X && !Y\na\n//#else\nb\n//#endif\n//#if X&&Y c;//#endif');
+    expect(linesOf(compose([module], { flags: { X: true, Y: false } }).code)).toEqual(['a']);
+    expect(linesOf(compose([module], { flags: { X: true, Y: true } }).code)).toEqual(['b', ' c;']);
+    expect(failure(() => compose([module], { flags: { X: true } })).code).toBe('wgsl/unknown-flag');
+  });
+
   it.each([
     ['//#if X', /line 1.*never closed/],
     ['a\n//#endif', /line 2.*without \/\/#if/],
     ['//#else', /line 1.*without \/\/#if/],
     ['//#if X\n//#else\n//#else\n//#endif', /line 3.*second/],
     ['//#if\n//#endif', /line 1.*without a flag/],
-    ['//#if X && Y\n//#endif', /line 1.*not a gate/],
+    ['//#if X &&\n//#elsif', /line 2.*not a gate/],
+    ['a //#endif', /line 1.*without \/\/#if/],
+    ['//#if X //#else b //#else', /line 1.*second/],
     ['//#elif X', /line 1.*not a gate/],
     ['//#ifdef X\n//#endif', /line 1.*not a gate/],
   ])('that are wrong are told with their line: %j', (code, message) => {

@@ -3,6 +3,7 @@ import { createRequire } from 'node:module';
 import { dirname, join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { build } from 'esbuild';
+import { weslSource } from '../../pipeline/wesl.mjs';
 
 const folder = dirname(fileURLToPath(import.meta.url));
 
@@ -47,7 +48,7 @@ export async function bundle(contents, outfile, plugins = []) {
     external: ['webgpu', 'sharp', 'esbuild', 'vite', 'playwright', '@sparticuz/chromium'],
     // CommonJS dependencies expect a require to be there.
     banner: { js: "import { createRequire as __createRequire } from 'node:module'; const require = __createRequire(import.meta.url);" },
-    plugins: [draco, ...plugins],
+    plugins: [weslSource(), draco, ...plugins],
     logLevel: 'error',
   });
 }

@@ -21,9 +21,10 @@ export async function servePage(root: string, headers: Record<string, string> = 
   // Loaded when it is needed: benchmarks that are packed for bare machines bring this file, but no bundler.
   const { build } = await import('vite');
   const { basisModule } = await import('../../pipeline/basis-module.mjs');
+  const { weslModules } = await import('../../pipeline/wesl.mjs');
   const outDir = mkdtempSync(join(cache, 'page-'));
   const resolve = { conditions: ['@glanz/source', 'module', 'browser', 'import', 'default'] };
-  await build({ root, base: './', configFile: false, logLevel: 'error', resolve, plugins: [basisModule()], worker: { format: 'es', plugins: () => [basisModule()] }, build: { outDir, emptyOutDir: true, target: 'es2022', chunkSizeWarningLimit: 2000 } });
+  await build({ root, base: './', configFile: false, logLevel: 'error', resolve, plugins: [weslModules(), basisModule()], worker: { format: 'es', plugins: () => [weslModules(), basisModule()] }, build: { outDir, emptyOutDir: true, target: 'es2022', chunkSizeWarningLimit: 2000 } });
   const served = await serveBuilt({ root, configFile: false, build: { outDir } }, headers);
   const close = async () => {
     await served.close();

@@ -3,6 +3,7 @@ import { mkdirSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { build } from 'esbuild';
+import { weslSource } from '../../pipeline/wesl.mjs';
 
 const folder = dirname(fileURLToPath(import.meta.url));
 const outfile = join(folder, '../.cache/contact-sheet.mjs');
@@ -17,6 +18,7 @@ await build({
   conditions: ['@glanz/source'],
   external: ['webgpu', 'sharp', 'draco3dgltf', 'meshoptimizer', 'three', '@sparticuz/chromium'],
   banner: { js: "import { createRequire as __createRequire } from 'node:module'; const require = __createRequire(import.meta.url);" },
+  plugins: [weslSource()],
   logLevel: 'error',
 });
 const { contactSheet } = await import(pathToFileURL(outfile).href);

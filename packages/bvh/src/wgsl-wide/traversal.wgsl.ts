@@ -1,13 +1,14 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl/module';
-import { bvhObjectRay } from '../wgsl/object-ray.wgsl';
-import { bvhTriangleTest } from '../wgsl/triangle.wgsl';
-import { bvhRecords } from '../wgsl/types.wgsl';
+import bvhObjectRay from '../wgsl/object_ray.wesl';
+import bvhTriangleTest from '../wgsl/triangle.wesl';
+import records from '../wgsl/records.wesl';
 import { checkedStackSize } from '../wgsl/stack-size';
+import { BvhInstance } from '../wgsl/structs';
 import { WIDE_STACK_SIZE } from '../wide/layout';
 import { bvhNodeStruct } from './structs';
 
 /** The structs of the traversal: `BvhNode`, `BvhInstance`, `BvhTriangle`, `BvhHit` and the constant `BVH_MISS`. */
-export const bvhTypes = wgslModule('bvh/wide-types', '', [bvhNodeStruct.module, bvhRecords]);
+export const bvhTypes = wgslModule('bvh/wide-types', '', [bvhNodeStruct.module, BvhInstance, records]);
 
 const children = wgslModule(
   'bvh/wide-children',

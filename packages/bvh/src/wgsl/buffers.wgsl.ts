@@ -1,5 +1,6 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl/module';
-import { bvhRecords } from './types.wgsl';
+import records from './records.wesl';
+import { BvhInstance } from './structs';
 
 /** Where {@link bvhBuffers} binds its three buffers. */
 export interface BvhBindings {
@@ -29,5 +30,5 @@ fn bvh_triangle(index: u32) -> BvhTriangle {
   return BvhTriangle(first.xyz, bitcast<u32>(first.w), bvh_triangles[3u * index + 1u].xyz, bvh_triangles[3u * index + 2u].xyz);
 }
 `,
-    [bvhRecords],
+    [BvhInstance, records],
   );

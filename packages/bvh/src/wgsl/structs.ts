@@ -31,3 +31,6 @@ export const bvhInstanceStruct = struct('BvhInstance', {
   id: 'u32',
   flags: 'u32',
 });
+
+/** The module of {@link bvhInstanceStruct}, by the name that shaders import. */
+export const BvhInstance = bvhInstanceStruct.module;

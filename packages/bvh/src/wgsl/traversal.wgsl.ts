@@ -1,8 +1,8 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl/module';
 import { BVH_STACK_SIZE } from '../layout';
-import { bvhObjectRay } from './object-ray.wgsl';
+import bvhObjectRay from './object_ray.wesl';
 import { checkedStackSize } from './stack-size';
-import { bvhTriangleTest } from './triangle.wgsl';
+import bvhTriangleTest from './triangle.wesl';
 import { bvhTypes } from './types.wgsl';
 
 const box = wgslModule(

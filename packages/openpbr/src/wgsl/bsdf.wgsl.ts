@@ -1,7 +1,7 @@
 import { gated, wgslModule } from '@glanz/wgsl';
 import { openpbrEmission, openpbrOpacity } from './emission.wgsl';
-import { openpbrMedium } from './medium.wgsl';
-import { openpbrPhase } from './phase.wgsl';
+import openpbrMedium from './medium.wesl';
+import openpbrPhase from './phase.wesl';
 import { openpbrSample } from './sample.wgsl';
 import { openpbrScatter } from './scatter.wgsl';
 import { openpbrSubsurface } from './subsurface.wgsl';

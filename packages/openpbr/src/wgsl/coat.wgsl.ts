@@ -1,8 +1,8 @@
 import { wgslModule } from '@glanz/wgsl';
 import { openpbrDielectric } from './dielectric.wgsl';
 import { openpbrEnergy } from './energy.wgsl';
-import { openpbrFresnelDielectric } from './fresnel.wgsl';
-import { openpbrGgx } from './ggx.wgsl';
+import openpbrFresnelDielectric from './fresnel_dielectric.wesl';
+import openpbrGgx from './ggx.wesl';
 import { openPbrStruct } from './record';
 
 /**

@@ -1,7 +1,7 @@
 import { gated, wgslModule } from '@glanz/wgsl';
 import { openpbrEnergy } from './energy.wgsl';
-import { openpbrFresnelDielectric } from './fresnel.wgsl';
-import { openpbrGgx } from './ggx.wgsl';
+import openpbrFresnelDielectric from './fresnel_dielectric.wesl';
+import openpbrGgx from './ggx.wesl';
 import { openpbrInside } from './inside.wgsl';
 import { openPbrStruct } from './record';
 import { openpbrStretched } from './stretched.wgsl';

@@ -1,5 +1,5 @@
 import { wgslModule } from '@glanz/wgsl';
-import { openpbrCircle } from './circle.wgsl';
+import openpbrCircle from './circle.wesl';
 
 /** `openpbr_cosine_sample(u)`: a direction with density cos θ / π. */
 export const openpbrCosine = wgslModule(

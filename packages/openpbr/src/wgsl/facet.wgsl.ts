@@ -1,5 +1,5 @@
 import { gated, wgslModule } from '@glanz/wgsl';
-import { openpbrFresnelDielectric } from './fresnel.wgsl';
+import openpbrFresnelDielectric from './fresnel_dielectric.wesl';
 import { openpbrSurface } from './surface.wgsl';
 
 

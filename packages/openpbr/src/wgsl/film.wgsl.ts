@@ -1,8 +1,8 @@
 import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
 import { FILM_BANDS, type FilmBands } from '../tables/film';
 import { openpbrDielectric } from './dielectric.wgsl';
-import { openpbrFresnelDielectric } from './fresnel.wgsl';
-import { openpbrGgx } from './ggx.wgsl';
+import openpbrFresnelDielectric from './fresnel_dielectric.wesl';
+import openpbrGgx from './ggx.wesl';
 import { openPbrStruct } from './record';
 
 /**

@@ -1,17 +1,14 @@
 export { openPbrStruct, packOpenPbr } from './record';
 export { requiredFeatures, type FeatureOptions, type OpenPbrFlags } from './features';
 export { openpbr } from './bsdf.wgsl';
-export { openpbrGgx } from './ggx.wgsl';
-export { openpbrFresnelDielectric, openpbrFresnelMetal } from './fresnel.wgsl';
 export { openpbrCosine, openpbrEon } from './diffuse.wgsl';
 export { openpbrMetal } from './metal.wgsl';
 export { openpbrDielectric } from './dielectric.wgsl';
 export { openpbrTransmission } from './transmission.wgsl';
 export { openpbrSubsurface } from './subsurface.wgsl';
-export { openpbrMedium } from './medium.wgsl';
-export { openpbrPhase } from './phase.wgsl';
 export { openpbrFilm } from './film.wgsl';
 export { openpbrFuzz } from './fuzz.wgsl';
 export { openpbrCoat } from './coat.wgsl';
 export { openpbrEnergy } from './energy.wgsl';
 export { openpbrEmission, openpbrOpacity } from './emission.wgsl';
+export { openpbrFresnelDielectric, openpbrFresnelMetal, openpbrGgx, openpbrMedium, openpbrPhase } from './modules';

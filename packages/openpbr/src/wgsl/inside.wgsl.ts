@@ -1,8 +1,8 @@
 import { wgslModule } from '@glanz/wgsl';
 import { openpbrEnergy } from './energy.wgsl';
-import { openpbrFresnelDielectric } from './fresnel.wgsl';
-import { openpbrGgx } from './ggx.wgsl';
-import { openpbrSeen } from './seen.wgsl';
+import openpbrFresnelDielectric from './fresnel_dielectric.wesl';
+import openpbrGgx from './ggx.wesl';
+import openpbrSeen from './seen.wesl';
 
 /**
  * `openpbr_inside(eta, alpha, wo)`: the parts of the light that a dielectric reflects and lets through by single scattering,

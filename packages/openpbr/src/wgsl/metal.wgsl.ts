@@ -1,8 +1,8 @@
 import { gated, wgslModule } from '@glanz/wgsl';
 import { openpbrEnergy } from './energy.wgsl';
 import { openpbrFilm } from './film.wgsl';
-import { openpbrFresnelMetal } from './fresnel.wgsl';
-import { openpbrGgx } from './ggx.wgsl';
+import openpbrFresnelMetal from './fresnel_metal.wesl';
+import openpbrGgx from './ggx.wesl';
 import { openPbrStruct } from './record';
 
 /**

@@ -1,6 +1,6 @@
 import { gated, wgslModule } from '@glanz/wgsl';
 import { openpbrEon } from './diffuse.wgsl';
-import { openpbrGgx } from './ggx.wgsl';
+import openpbrGgx from './ggx.wesl';
 import { openpbrInterfaces } from './interfaces.wgsl';
 import { openPbrStruct } from './record';
 import { openpbrSurface } from './surface.wgsl';

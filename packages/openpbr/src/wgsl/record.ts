@@ -1,5 +1,5 @@
 import { struct } from '@glanz/wgsl';
-import { OPENPBR_PARAMETER_NAMES, type OpenPbrColor, type OpenPbrParameterName, type OpenPbrParameters, type OpenPbrVector } from '../parameters/index';
+import { OPENPBR_PARAMETER_NAMES, type OpenPbrColor, type OpenPbrParameterName, type OpenPbrParameters as Parameters, type OpenPbrVector } from '../parameters/index';
 
 /**
  * The WGSL struct `OpenPbrParameters`: every parameter, under the specification's names. Put it into a storage or uniform
@@ -52,6 +52,9 @@ export const openPbrStruct = /* @__PURE__ */ struct('OpenPbrParameters', {
   subsurface_scatter_anisotropy: 'f32',
 });
 
+/** The module of {@link openPbrStruct}, by the name that shaders import. */
+export const OpenPbrParameters = openPbrStruct.module;
+
 /** What `null` stands for. */
 const UNPERTURBED: Partial<Record<OpenPbrParameterName, OpenPbrVector>> = {
   geometry_normal: [0, 0, 1],
@@ -67,7 +70,7 @@ const UNPERTURBED: Partial<Record<OpenPbrParameterName, OpenPbrVector>> = {
  * @param index Which record.
  * @param parameters Resolved parameters ({@link resolveParameters}): values are written as they are.
  */
-export function packOpenPbr(buffer: ArrayBuffer, index: number, parameters: OpenPbrParameters): void {
+export function packOpenPbr(buffer: ArrayBuffer, index: number, parameters: Parameters): void {
   const values: Partial<Record<OpenPbrParameterName, number | OpenPbrColor>> = {};
   for (const name of OPENPBR_PARAMETER_NAMES) {
     const value = parameters[name] ?? UNPERTURBED[name] ?? 0;

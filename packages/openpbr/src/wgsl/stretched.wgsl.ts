@@ -1,8 +1,8 @@
 import { gated, wgslModule } from '@glanz/wgsl';
-import { openpbrFresnelDielectric } from './fresnel.wgsl';
-import { openpbrGgx } from './ggx.wgsl';
+import openpbrFresnelDielectric from './fresnel_dielectric.wesl';
+import openpbrGgx from './ggx.wesl';
 import { openpbrInside } from './inside.wgsl';
-import { openpbrSeen } from './seen.wgsl';
+import openpbrSeen from './seen.wesl';
 import { STRETCHED_AROUND, STRETCHED_HEIGHTS, STRETCHED_MIRRORS } from '../tables/layout';
 
 const count = STRETCHED_MIRRORS + STRETCHED_AROUND * STRETCHED_HEIGHTS.length;

@@ -1,7 +1,7 @@
 import { wgslModule } from '@glanz/wgsl';
 import { openpbrDielectric } from './dielectric.wgsl';
 import { openpbrEnergy } from './energy.wgsl';
-import { openpbrMedium } from './medium.wgsl';
+import openpbrMedium from './medium.wesl';
 import { openPbrStruct } from './record';
 
 /**

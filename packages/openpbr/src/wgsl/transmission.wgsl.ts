@@ -2,7 +2,7 @@ import { gated, wgslModule } from '@glanz/wgsl';
 import { openpbrDielectric } from './dielectric.wgsl';
 import { openpbrEnergy } from './energy.wgsl';
 import { openpbrFilm } from './film.wgsl';
-import { openpbrGgx } from './ggx.wgsl';
+import openpbrGgx from './ggx.wesl';
 import { openPbrStruct } from './record';
 
 /**

@@ -3,7 +3,7 @@ import { GROUP_SHIFT, LIGHT_HIDDEN, LIGHT_RECTANGLE, LIGHT_SPHERE, frameStruct, 
 import { lightChoice } from './light-choice.wgsl';
 import { pathCone } from './path.wgsl';
 import { shortcuts } from './shortcuts.wgsl';
-import { tangent } from './tangent.wgsl';
+import tangent from './tangent.wesl';
 
 /**
  * Rectangles, disks and spheres of light. They are no surfaces: they block nothing and reflect nothing, so a ray gathers all

@@ -1,5 +1,5 @@
 import { wgslModule } from '@glanz/wgsl';
-import { random } from './random.wgsl';
+import random from './random.wesl';
 
 /**
  * Dispersion: a path that meets a surface whose index of refraction varies with the wavelength draws one wavelength and

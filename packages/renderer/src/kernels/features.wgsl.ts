@@ -1,7 +1,7 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { camera } from './camera.wgsl';
 import { filter } from './filter.wgsl';
-import { random } from './random.wgsl';
+import random from './random.wesl';
 
 /**
  * First-hit features of one sample per pixel: albedo with coverage, shading normal with depth, and (for sample 0, through

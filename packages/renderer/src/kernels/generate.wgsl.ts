@@ -2,7 +2,7 @@ import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { camera } from './camera.wgsl';
 import { filter } from './filter.wgsl';
 import { pathCone, pathSample } from './path.wgsl';
-import { random } from './random.wgsl';
+import random from './random.wesl';
 
 /** Starts the paths of a batch: path i is sample ⌊i / pixels⌋ of pixel i mod pixels. */
 export const generate = (path: WgslModule): WgslModule => wgslModule(

@@ -49,6 +49,9 @@ export const frameStruct = struct('Frame', {
   mean_luminance: 'f32',
 });
 
+/** The module of {@link frameStruct}, by the name that shaders import. */
+export const Frame = frameStruct.module;
+
 /** The part of the picture and the samples that one batch works on. */
 export const batchStruct = struct('Batch', {
   pixel_offset: 'u32',

@@ -1,6 +1,6 @@
 import { wgslModule } from '@glanz/wgsl';
 import { frameStruct, LIGHT_NODE_DISTANT, LIGHT_NODE_LEAF, lightStruct } from './layout';
-import { random } from './random.wgsl';
+import random from './random.wesl';
 
 /**
  * The choice of a light by the tree that `lightTreeSteps` makes; pbrt 4's bound of how much a node may light a place. The

@@ -4,7 +4,7 @@ import { environment } from './environment.wgsl';
 import { GROUP_SHIFT, LIGHT_DIRECTIONAL, LIGHT_MIRRORED, LIGHT_POINT, LIGHT_PROFILE, LIGHT_RECTANGLE, LIGHT_SPOT, LIGHT_TWO_SIDED, lightStruct } from './layout';
 import { lightChoice } from './light-choice.wgsl';
 import { lightProfile } from './light-profile.wgsl';
-import { random } from './random.wgsl';
+import random from './random.wesl';
 
 /** One light sample: where from, how much, how likely. */
 const lightSampleStruct = wgslModule(

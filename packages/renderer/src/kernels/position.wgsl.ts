@@ -1,7 +1,7 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { camera } from './camera.wgsl';
 import { filter } from './filter.wgsl';
-import { random } from './random.wgsl';
+import random from './random.wesl';
 
 /** Sums of world positions of the first surface, with the number of hits. Run on demand, with the picture's camera rays. */
 export function positionModule(traversal: WgslModule): WgslModule {

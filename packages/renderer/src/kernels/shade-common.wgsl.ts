@@ -1,7 +1,7 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { BACKGROUND_TRANSPARENT } from './layout';
 import { pathSample } from './path.wgsl';
-import { random } from './random.wgsl';
+import random from './random.wesl';
 
 /** What all vertices of a path have in common, on surfaces and between them. The host declares `frame` and `Shadow`. */
 export function shadeCommon(path: WgslModule): WgslModule {

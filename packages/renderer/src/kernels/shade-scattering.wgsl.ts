@@ -1,7 +1,7 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { media } from './media.wgsl';
 import { pathCone } from './path.wgsl';
-import { random } from './random.wgsl';
+import random from './random.wesl';
 import { shortcuts } from './shortcuts.wgsl';
 
 /**

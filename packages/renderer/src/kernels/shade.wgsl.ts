@@ -3,10 +3,10 @@ import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
 import { BACKGROUND_HIDDEN, GROUP_SHIFT, HIT_SCATTERED, HIT_WALKING, INSTANCE_CATCHER, MATERIAL_DISPERSIVE, MATERIAL_INTERIOR, MATERIAL_STRAIGHT } from './layout';
 import { dispersion } from './dispersion.wgsl';
 import { media } from './media.wgsl';
-import { random } from './random.wgsl';
+import random from './random.wesl';
 import { shadeCommon } from './shade-common.wgsl';
 import { shadeScattering } from './shade-scattering.wgsl';
-import { shadingNormal } from './shading-normal.wgsl';
+import shadingNormal from './shading_normal.wesl';
 import { shortcuts } from './shortcuts.wgsl';
 import { pathCone, pathSample } from './path.wgsl';
 

@@ -1,6 +1,6 @@
 import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
 import { energyHost } from './energy.wgsl';
-import { shadingNormal } from './shading-normal.wgsl';
+import shadingNormal from './shading_normal.wesl';
 
 /**
  * `fn straight_transmittance(s: Surface, direction: vec3f) -> vec3f`: what a smooth thin wall lets through. Light goes on

@@ -1,9 +1,9 @@
 import { bvhOffset } from '@glanz/bvh/wgsl';
 import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
 import type { TexturedParameterInfo } from '../scene/materials';
-import { random } from './random.wgsl';
-import { shadingNormal } from './shading-normal.wgsl';
-import { tangent } from './tangent.wgsl';
+import random from './random.wesl';
+import shadingNormal from './shading_normal.wesl';
+import tangent from './tangent.wesl';
 import { bindingStruct, instanceStruct, materialStruct, MATERIAL_MASK, meshStruct } from './layout';
 
 const word = (field: Parameters<typeof bindingStruct.offsetOf>[0]) => bindingStruct.offsetOf(field) / 4;

@@ -3,7 +3,7 @@ import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
 import { HIT_SCATTERED, HIT_WALKING } from './layout';
 import { media } from './media.wgsl';
 import { pathSample } from './path.wgsl';
-import { random } from './random.wgsl';
+import random from './random.wesl';
 
 /** Scattering events in one run of the kernel, so that none runs long. */
 export const WALK_STEPS = 16;

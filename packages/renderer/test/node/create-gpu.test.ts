@@ -3,12 +3,13 @@ import { existsSync, mkdtempSync, readdirSync, rmSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { Worker } from 'node:worker_threads';
-import { buildSync } from 'esbuild';
+import { build } from 'esbuild';
 import { tmpdir } from 'node:os';
 import { pathToFileURL } from 'node:url';
 import { promisify } from 'node:util';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { createGpu, listGpus } from '../../src/node';
+import { weslSource } from '../../../../tools/pipeline/wesl.mjs';
 
 const root = join(import.meta.dirname, '../../../..');
 const require = createRequire(import.meta.url);
@@ -16,7 +17,7 @@ const packaged = process.platform === 'linux' && process.arch === 'x64' && exist
 
 // The choice of drivers is a matter of a whole process, so each case runs in one of its own.
 let folder: string;
-beforeAll(() => {
+beforeAll(async () => {
   folder = mkdtempSync(join(root, 'node_modules/.glanz-node-'));
   const contents = `import { createGpu } from ${JSON.stringify(join(root, 'packages/renderer/src/node.ts'))};
 try {
@@ -29,7 +30,7 @@ try {
 } catch (error) {
   console.log(JSON.stringify({ code: error.code, message: error.message }));
 }`;
-  buildSync({ stdin: { contents, resolveDir: root }, bundle: true, platform: 'node', format: 'esm', external: ['webgpu'], conditions: ['@glanz/source'], outfile: join(folder, 'probe.mjs'), logLevel: 'silent' });
+  await build({ plugins: [weslSource()], stdin: { contents, resolveDir: root }, bundle: true, platform: 'node', format: 'esm', external: ['webgpu'], conditions: ['@glanz/source'], outfile: join(folder, 'probe.mjs'), logLevel: 'silent' });
 });
 afterAll(() => rmSync(folder, { recursive: true, force: true }));
 
@@ -92,7 +93,7 @@ describe('createGpu', () => {
 
   it('does nothing on import, in a worker thread too', async () => {
     const url = pathToFileURL(join(folder, 'import-only.mjs')).href;
-    buildSync({ entryPoints: [join(root, 'packages/renderer/src/node.ts')], bundle: true, platform: 'node', format: 'esm', external: ['webgpu'], conditions: ['@glanz/source'], outfile: join(folder, 'import-only.mjs'), logLevel: 'silent' });
+    await build({ plugins: [weslSource()], entryPoints: [join(root, 'packages/renderer/src/node.ts')], bundle: true, platform: 'node', format: 'esm', external: ['webgpu'], conditions: ['@glanz/source'], outfile: join(folder, 'import-only.mjs'), logLevel: 'silent' });
     const worker = new Worker(`import(${JSON.stringify(url)}).then((m) => require('node:worker_threads').parentPort.postMessage([Object.keys(m).length, 'GPUBufferUsage' in globalThis, process.env.VK_DRIVER_FILES]))`, { eval: true, stdout: true, stderr: true });
     const [exports, defined] = await new Promise<unknown[]>((resolve, reject) => worker.once('message', resolve).once('error', reject));
     expect(exports).toBeGreaterThan(1);

@@ -15,6 +15,11 @@ const SIZE = 64;
 const SAMPLES = 4;
 const ASSET_SAMPLES = 2;
 
+/** Sample assets that are rendered by default: textures of several kinds, alpha, vertex colours, mirrored instances. */
+const FILM_ASSETS: ReadonlySet<string> = new Set(
+  ['AlphaBlendModeTest', 'AttenuationTest', 'BoxTextured', 'Duck', 'MultiUVTest', 'NegativeScaleTest', 'TextureSettingsTest', 'VertexColorTest'].map((name) => `asset ${name}`),
+);
+
 const LAYER_CHANNELS = { beauty: 4, variance: 1, albedo: 3, normal: 3, position: 3, depth: 1, objectId: 1, materialId: 1 } as const;
 
 /** Renders one case and gives the hashes of its layers. */
@@ -69,20 +74,21 @@ export const benchmark: Benchmark = {
   options: {
     against: { type: 'string', help: 'file of an earlier run; exit status 1 if a hash differs' },
     only: { type: 'string', help: 'part of the names of scenes, e.g. "material" or "asset Duck"' },
-    assets: { type: 'string', help: 'no: leaves the sample assets out' },
+    assets: { type: 'string', help: 'some (default): programs of all sample assets and films of eight; all: films of all; no: none' },
     films: { type: 'string', help: 'no: compares programs alone, compiles and renders nothing' },
   },
   async run({ log, quick, gpu: gpuName, values }) {
     const before = values['against'] === undefined ? undefined : readReport(values['against']);
-    const assets = quick || values['assets'] === 'no' ? [] : assetCases();
-    const notes = assets === undefined ? ['The sample assets are not present: their scenes were skipped.'] : quick || values['assets'] === 'no' ? ['The sample assets were left out.'] : [];
+    const which = values['assets'] ?? (quick ? 'no' : 'some');
+    if (!['all', 'some', 'no'].includes(which)) throw new BenchError('bench/option', `--assets ${which}: it must be all, some or no.`);
+    const assets = which === 'no' ? [] : assetCases();
+    const notes = assets === undefined ? ['The sample assets are not present: their scenes were skipped.'] : which === 'no' ? ['The sample assets were left out.'] : [];
+    if (which === 'some' && assets) notes.push(`Of the sample assets, films of ${FILM_ASSETS.size} were rendered and programs of all composed; --assets all renders all.`);
     const wanted = values['only'] ?? '';
     const cases = [...HASH_CASES, ...(assets ?? [])].filter(({ name }) => name.includes(wanted));
     if (cases.length === 0) throw new BenchError('bench/option', `--only ${wanted}: no scene has this in its name.`);
     const render = values['films'] !== 'no';
     const { gpu, adapterName, software } = await createGpu(gpuName === undefined ? { software: 'only' } : { gpu: gpuName });
-    const device = await requestDevice({ gpu });
-    if (!render) device.createComputePipelineAsync = () => Promise.reject(new Error(REFUSED));
     const films: HashEntry[] = [];
     const programs = new Map<string, HashEntry>();
     const flagSets = new Map<string, Readonly<Record<string, boolean>>>();
@@ -90,25 +96,30 @@ export const benchmark: Benchmark = {
     try {
       for (const [index, one] of cases.entries()) {
         const start = performance.now();
+        const compiled = render && (!one.name.startsWith('asset ') || which === 'all' || FILM_ASSETS.has(one.name));
+        // Of its own: a device remembers what it has compiled, and programs would not be composed again.
+        const device = await requestDevice({ gpu });
+        if (!compiled) device.createComputePipelineAsync = () => Promise.reject(new Error(REFUSED));
         observePrograms(({ kernel, code, flags }) => {
           const hash = programDigest(code);
           programs.set(`${one.name} ${kernel} ${hash}`, { scene: one.name, part: kernel, hash });
           flagSets.set(JSON.stringify(flags), flags);
         });
         try {
-          if (render) films.push(...(await filmHashes(device, one, one.name.startsWith('asset ') ? ASSET_SAMPLES : SAMPLES)));
+          if (compiled) films.push(...(await filmHashes(device, one, one.name.startsWith('asset ') ? ASSET_SAMPLES : SAMPLES)));
           else await composeOnly(device, one);
         } catch (error) {
           const reason = (error as Error).message.split('\n', 1)[0]!;
           // Every scene of the project can be rendered; an asset may need a decoder that is not installed.
           if (!one.name.startsWith('asset ')) throw new BenchError('bench/failed', `${one.name}: ${reason}`, { cause: error });
           skipped.push(`${one.name}: ${reason}`);
+        } finally {
+          device.destroy();
         }
         log(`${index + 1}/${cases.length} ${one.name}: ${((performance.now() - start) / 1000).toFixed(1)} s`);
       }
     } finally {
       observePrograms(undefined);
-      device.destroy();
     }
     const { neverOn, neverOff } = unusedFlags([...flagSets.values()]);
     const details: Hashes = { films, programs: numbered([...programs.values()]), skipped };
@@ -128,12 +139,12 @@ export const benchmark: Benchmark = {
     }
     if (before) {
       const partial = wanted !== '' || (assets ?? []).length === 0;
-      const changed = [...table('film', render ? differences(before.films, films, partial) : []), ...table('program', differences(before.programs, details.programs, partial || !render))];
+      const changed = [...table('film', render ? differences(before.films, films, partial || which !== 'all') : []), ...table('program', differences(before.programs, details.programs, partial || !render))];
       figures.push({ name: 'hashes that differ', unit: '1', runs: 1, median: changed.length, target: { value: 0, relation: '<=', source: String(values['against']) } });
       notes.push(...changed);
       if (changed.length > 0) process.exitCode = 1;
     }
-    return { settings: { size: SIZE, samples: SAMPLES, assetSamples: ASSET_SAMPLES, seed: 1, only: wanted, films: render }, gpu: { name: adapterName, software }, figures, notes, details };
+    return { settings: { assets: which, size: SIZE, samples: SAMPLES, assetSamples: ASSET_SAMPLES, seed: 1, only: wanted, films: render }, gpu: { name: adapterName, software }, figures, notes, details };
   },
 };
 

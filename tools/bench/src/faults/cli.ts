@@ -41,9 +41,10 @@ const JOBS: Readonly<Record<'single' | 'batch', readonly string[]>> = {
 /** Bundles the program and the GPU with faults, so that nothing must have been built. */
 async function bundlePrograms(): Promise<{ readonly program: string; readonly dawn: string }> {
   const { build } = await import('esbuild');
+  const { weslSource } = await import('../../../pipeline/wesl.mjs');
   const root = repository();
   const external = ['webgpu', 'sharp', '@sparticuz/chromium', 'draco3dgltf', 'meshoptimizer', 'meshoptimizer/*'];
-  const common = { bundle: true, platform: 'node' as const, format: 'esm' as const, target: 'node20', conditions: ['@glanz/source'], external, logLevel: 'error' as const };
+  const common = { bundle: true, platform: 'node' as const, format: 'esm' as const, target: 'node20', conditions: ['@glanz/source'], external, plugins: [weslSource()], logLevel: 'error' as const };
   const banner = { js: "import { createRequire as glanzRequire } from 'node:module'; const require = glanzRequire(import.meta.url);" };
   const [program, dawn] = [join(root, 'packages/cli/.cache/faults-glanz.mjs'), join(root, 'tools/bench/.cache/faults-dawn.mjs')];
   await build({ ...common, banner, entryPoints: [join(root, 'packages/cli/src/glanz.ts')], outfile: program });

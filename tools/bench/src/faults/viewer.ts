@@ -127,8 +127,8 @@ async function run({ base64, plan, boundMs }: { readonly base64: string; readonl
  */
 export async function viewerCampaign({ faults, only = '', every = 1, boundMs = 90_000, journal, onOutcome }: ViewerCampaign): Promise<void> {
   const root = repository();
-  const [{ build }, { chromium }, { servePage, watch }] = await Promise.all([import('esbuild'), import('playwright'), import('@glanz/browser')]);
-  const bundled = await build({ entryPoints: [join(root, 'tools/bench/src/faults/page.ts')], bundle: true, write: false, format: 'iife', target: 'es2022', conditions: ['@glanz/source'], logLevel: 'error' });
+  const [{ build }, { weslSource }, { chromium }, { servePage, watch }] = await Promise.all([import('esbuild'), import('../../../pipeline/wesl.mjs'), import('playwright'), import('@glanz/browser')]);
+  const bundled = await build({ entryPoints: [join(root, 'tools/bench/src/faults/page.ts')], bundle: true, write: false, format: 'iife', target: 'es2022', conditions: ['@glanz/source'], plugins: [weslSource()], logLevel: 'error' });
   const script = bundled.outputFiles[0]!.text;
   mkdirSync(join(root, '.cache'), { recursive: true });
   const served = await servePage(join(root, 'packages/viewer/test/page'));

@@ -43,7 +43,8 @@ globalThis.loaders.three = async (input) => {
 /** Bundles with the sources of the workspace, for the page. */
 async function bundle(contents: string, folder: string, legible: boolean): Promise<Uint8Array> {
   const { build } = await import('esbuild');
-  const { outputFiles } = await build({ stdin: { contents, resolveDir: folder }, bundle: true, write: false, format: 'esm', minify: !legible, target: 'es2022', conditions: ['@glanz/source'], external: ['fs', 'path', 'crypto', 'node:*'], define: { 'process.versions': '{}' }, logLevel: 'error' });
+  const { weslSource } = await import('../../../pipeline/wesl.mjs');
+  const { outputFiles } = await build({ stdin: { contents, resolveDir: folder }, bundle: true, write: false, format: 'esm', minify: !legible, target: 'es2022', conditions: ['@glanz/source'], external: ['fs', 'path', 'crypto', 'node:*'], define: { 'process.versions': '{}' }, plugins: [weslSource()], logLevel: 'error' });
   return outputFiles[0]!.contents;
 }
 

@@ -1,4 +1,6 @@
-import { wgslModule } from '@glanz/wgsl/module';
+// The modules in WESL that are published, with their types and documentation.
+import type { WgslModule } from '@glanz/wgsl/module';
+import offset from './offset.wesl';
 
 /**
  * `fn bvh_offset_origin(position: vec3f, normal: vec3f, magnitude: f32) -> vec3f`: where a secondary ray starts so that it
@@ -8,13 +10,4 @@ import { wgslModule } from '@glanz/wgsl/module';
  * went into `position`, before anything cancels out: of the triangle's vertices in the world, with the translation of the
  * instance. Rounding errors are proportional to it. The step is `BVH_OFFSET`, 2^-18, of it: 4 µm for a model of one metre.
  */
-export const bvhOffset = wgslModule(
-  'bvh/offset',
-  /* wgsl */ `
-const BVH_OFFSET = 3.8146973e-6;
-
-fn bvh_offset_origin(position: vec3f, normal: vec3f, magnitude: f32) -> vec3f {
-  return position + normal * (magnitude * BVH_OFFSET);
-}
-`,
-);
+export const bvhOffset: WgslModule = offset;

@@ -1,0 +1,106 @@
+// The official linker of WESL and ours agree: each shader source, linked by both under many sets of flags, has the same
+// declarations, token by token. So the dialect cannot drift from the language that editors and other tools know.
+import { existsSync, readdirSync, readFileSync } from 'node:fs';
+import { basename, dirname, join, relative, resolve, sep } from 'node:path';
+import { link } from 'wesl';
+import { describe, expect, it } from 'vitest';
+import { compose, type WgslModule } from '../../../packages/wgsl/src/index';
+import { wgslDeclarations } from '../../bench/src/hashes/digest';
+import { isHost, parseWesl } from '../wesl.mjs';
+
+type Flags = Readonly<Record<string, boolean>>;
+
+const root = resolve(import.meta.dirname, '../../..');
+
+/** The `src` folder of a file. */
+const sourceOf = (file: string) => file.slice(0, file.indexOf(`${sep}src${sep}`) + 4);
+
+/** What the official linker is given: texts by their paths from the `src` folder. */
+type Sources = Record<string, string>;
+
+const key = (file: string) => `./${relative(sourceOf(file), file).split(sep).join('/')}`;
+
+/** A file with all that it imports; modules that TypeScript makes are given as the text that they compose to. */
+async function collect(file: string, sources: Sources = {}): Promise<Sources> {
+  if (sources[key(file)] !== undefined) return sources;
+  const text = (sources[key(file)] = readFileSync(file, 'utf8'));
+  for (const { path, name } of parseWesl(text, file).imports) {
+    const target = resolve(path[0] === 'package' ? sourceOf(file) : dirname(file), ...path.slice(1));
+    if (existsSync(`${target}.wesl`)) {
+      await collect(`${target}.wesl`, sources);
+      continue;
+    }
+    const typescript = join(dirname(target), `${basename(target).replaceAll('_', '-')}.ts`);
+    const made = ((await import(/* @vite-ignore */ typescript)) as Record<string, WgslModule>)[name]!;
+    const known = sources[key(`${target}.wesl`)] ?? '';
+    if (!known.includes(`struct ${name} `)) sources[key(`${target}.wesl`)] = `${known}${compose([made]).code}`;
+  }
+  return sources;
+}
+
+/** Names of the flags in these texts. */
+const flagsOf = (sources: Sources) =>
+  [...new Set(Object.values(sources).flatMap((text) => [...text.matchAll(/@(?:if|elif)\(([^)]*)\)/g)].flatMap(([, condition]) => condition!.match(/\w+/g)!)))].sort();
+
+/** All sets of flags where they are few, else none, all, each alone and without each. */
+function flagSets(names: readonly string[]): Flags[] {
+  const set = (isOn: (index: number) => boolean): Flags => Object.fromEntries(names.map((name, index) => [name, isOn(index)]));
+  if (names.length <= 6) return Array.from({ length: 2 ** names.length }, (_, bits) => set((index) => ((bits >> index) & 1) === 1));
+  return [set(() => false), set(() => true), ...names.flatMap((_, at) => [set((index) => index === at), set((index) => index !== at)])];
+}
+
+/** Declarations by name. */
+function byName(code: string): Map<string, string> {
+  return new Map(
+    wgslDeclarations(code).map((declaration) => {
+      const name = /^(?:@ \w+ (?:\( [^)]*\) )?)*(?:fn|struct|const|override|alias|var(?: < [^>]* >)?) (\w+)/.exec(declaration)?.[1];
+      if (name === undefined) throw new Error(`This declaration has no name: ${declaration.slice(0, 80)}`);
+      // The official linker writes no comma after the last of a list.
+      return [name, declaration.replace(/ ,(?= [)\]}])/g, '')];
+    }),
+  );
+}
+
+const files = readdirSync(join(root, 'packages'))
+  .flatMap((name) => readdirSync(join(root, 'packages', name, 'src'), { recursive: true, encoding: 'utf8' }).map((path) => join(root, 'packages', name, 'src', path)))
+  .filter((file) => file.endsWith('.wesl') && !isHost([basename(file, '.wesl')]))
+  .sort();
+
+it('there are shader sources', () => {
+  expect(files.length).toBeGreaterThan(10);
+});
+
+describe.each(files.map((file) => ({ name: relative(root, file), file })))('$name', ({ file }) => {
+  it('is the same by both linkers, under every set of flags', async () => {
+    const sources = await collect(file);
+    const module = ((await import(/* @vite-ignore */ file)) as { default: WgslModule }).default;
+    const supplied = new Set(Object.entries(sources).flatMap(([path, text]) => (isHost([basename(path, '.wesl')]) ? [...byName(text.replace(/^import .*;$/gm, '')).keys()] : [])));
+    for (const flags of flagSets(flagsOf(sources))) {
+      const official = byName((await link({ weslSrc: sources, rootModuleName: key(file), conditions: flags })).dest);
+      // Without what the host supplies, and the structs of that.
+      const ours = byName(compose([module], { flags }).code);
+      for (const name of supplied) official.delete(name);
+      const own = byName(compose([{ ...module, deps: [] }], { flags }).code);
+      for (const [name, declaration] of own) expect(official.get(name), `${name} under ${JSON.stringify(flags)}`).toBe(declaration);
+      const reached = reachable(own.keys(), ours);
+      for (const [name, declaration] of official) {
+        if (ours.has(name)) expect(declaration, `${name} under ${JSON.stringify(flags)}`).toBe(ours.get(name));
+      }
+      // What the file's own declarations need is in both.
+      expect([...reached].filter((name) => !official.has(name)), JSON.stringify(flags)).toEqual([]);
+    }
+  });
+});
+
+/** Names that some declarations need, directly or not. */
+function reachable(from: Iterable<string>, declarations: ReadonlyMap<string, string>): Set<string> {
+  const found = new Set<string>();
+  const visit = (name: string) => {
+    const declaration = declarations.get(name);
+    if (found.has(name) || declaration === undefined) return;
+    found.add(name);
+    for (const token of declaration.split(' ')) visit(token);
+  };
+  for (const name of from) visit(name);
+  return found;
+}

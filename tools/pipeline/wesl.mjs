@@ -1,0 +1,401 @@
+// Shader source in WESL (https://wesl-lang.dev), turned into the modules that @glanz/wgsl composes at run time.
+//
+// `import package::a::b::name;` becomes a dependency, `@if(FLAG) … @elif(FLAG) … @else …` on declarations, members,
+// parameters, statements and imports becomes gates. Nothing else changes, and every line keeps its number: line n of a
+// module's text is line n of its file. No parser of WESL is in what we publish.
+import { existsSync, readFileSync } from 'node:fs';
+import { dirname, join, relative, resolve, sep } from 'node:path';
+
+/** A `.wesl` file that cannot be turned into a module: what is wrong, with file and line. */
+export class WeslError extends Error {
+  name = 'WeslError';
+}
+
+const TOKEN = /\/\/[^\n]*|\/\*|[A-Za-z_]\w*|(?:\d|\.\d)(?:[eEpP][-+]|[\w.])*|::|&&|\|\||\S/g;
+
+/** Tokens with their places. Comments are listed apart. */
+function tokenize(text, fail) {
+  const tokens = [];
+  const comments = [];
+  TOKEN.lastIndex = 0;
+  for (let match; (match = TOKEN.exec(text)); ) {
+    const from = match.index;
+    if (match[0] === '/*') {
+      // They nest.
+      let depth = 0;
+      const edge = /\/\*|\*\//g;
+      edge.lastIndex = from;
+      for (let found; (found = edge.exec(text)); ) {
+        depth += found[0] === '/*' ? 1 : -1;
+        if (depth === 0) break;
+      }
+      if (depth !== 0) fail(from, 'a block comment never ends');
+      comments.push({ from, to: edge.lastIndex });
+      TOKEN.lastIndex = edge.lastIndex;
+    } else if (match[0].startsWith('//')) comments.push({ from, to: TOKEN.lastIndex });
+    else tokens.push({ text: match[0], from, to: TOKEN.lastIndex });
+  }
+  return { tokens, comments };
+}
+
+const CLOSING = { '(': ')', '[': ']', '{': '}', '<': '>' };
+
+/**
+ * Reads a WESL file.
+ *
+ * @param {string} text
+ * @param {string} file For messages.
+ * @returns {{ imports: { path: string[], name: string, flag: string | undefined, line: number }[], edits: { from: number, to: number, text: string }[], comments: { from: number, to: number }[] }}
+ *   `edits` turn the text into one with gates. `path` is the module of an imported name.
+ * @throws {WeslError}
+ */
+export function parseWesl(text, file = 'module.wesl') {
+  const fail = (at, message) => {
+    throw new WeslError(`${file}:${text.slice(0, at).split('\n').length}: ${message}.`);
+  };
+  const { tokens, comments } = tokenize(text, fail);
+  const imports = [];
+  const edits = [];
+  let next = 0;
+  const peek = () => tokens[next]?.text;
+  const here = () => tokens[next]?.from ?? text.length;
+  const take = (expected) => {
+    const token = tokens[next];
+    if (!token) return fail(text.length, expected ? `"${expected}" is missing at the end` : 'the file ends too soon');
+    if (expected !== undefined && token.text !== expected) fail(token.from, `"${token.text}" stands where "${expected}" is expected`);
+    next++;
+    return token;
+  };
+  const endOfLast = () => tokens[next - 1].to;
+
+  /** Skips the bracket that is next, with all that it encloses. */
+  const skipBracket = () => {
+    const open = take();
+    for (const close = CLOSING[open.text]; peek() !== close; ) skipToken();
+    take();
+  };
+  const skipToken = () => {
+    if (peek() === undefined) fail(text.length, 'the file ends inside of a bracket');
+    if (peek() === '@' && /^(if|elif|else)$/.test(tokens[next + 1]?.text ?? '')) fail(here(), `@${tokens[next + 1].text} stands where no declaration, member, parameter, statement or import begins`);
+    if (peek() in CLOSING && peek() !== '<') skipBracket();
+    else take();
+  };
+  const skipTo = (...ends) => {
+    while (!ends.includes(peek())) skipToken();
+  };
+
+  /** `(A && !B)` as the composer reads it, `A&&!B`. */
+  const condition = () => {
+    const from = take('(').from;
+    const parts = [];
+    do {
+      if (parts.length > 0) take('&&');
+      let negated = false;
+      while (peek() === '!') {
+        take();
+        negated = !negated;
+      }
+      const flag = take();
+      if (!/^[A-Za-z_]\w*$/.test(flag.text)) fail(flag.from, 'a condition is a flag, !flag, or several of them with && between; for || use a flag that stands for both');
+      parts.push(`${negated ? '!' : ''}${flag.text}`);
+    } while (peek() === '&&');
+    if (peek() !== ')') fail(from, 'a condition is a flag, !flag, or several of them with && between; for || use a flag that stands for both');
+    take(')');
+    return parts.join('&&');
+  };
+
+  /** The attributes before an element; at most one of them is a gate. */
+  const attributes = () => {
+    let gate;
+    while (peek() === '@') {
+      const { from } = take('@');
+      const name = take();
+      if (/^(if|elif|else)$/.test(name.text)) {
+        if (gate) fail(from, 'an element has two conditions: join them by &&');
+        gate = { kind: name.text, from, condition: name.text === 'else' ? undefined : condition(), to: 0 };
+        gate.to = endOfLast();
+      } else if (peek() === '(') skipBracket();
+    }
+    return gate;
+  };
+
+  const importTree = (path) => {
+    const found = [];
+    const branch = (before) => {
+      if (peek() === '{') {
+        take('{');
+        while (peek() !== '}') {
+          branch(before);
+          if (peek() !== '}') take(',');
+        }
+        take('}');
+        return;
+      }
+      const name = take();
+      if (!/^[A-Za-z_]\w*$/.test(name.text)) fail(name.from, `"${name.text}" is no name to import`);
+      if (peek() === '::') {
+        take('::');
+        branch([...before, name.text]);
+      } else if (peek() === 'as') fail(here(), 'imports cannot be renamed: names are unique in all of the project');
+      else found.push({ path: before, name: name.text, at: name.from });
+    };
+    branch(path);
+    return found;
+  };
+
+  const importStatement = (from, gate) => {
+    if (gate && (gate.kind !== 'if' || gate.condition.includes('&'))) fail(from, 'an import is gated by @if(FLAG) or @if(!FLAG)');
+    take('import');
+    for (const { path, name, at } of importTree([])) {
+      if (path.length === 0) fail(at, `"import ${name}" names no module`);
+      imports.push({ path, name, flag: gate?.condition, line: text.slice(0, at).split('\n').length });
+    }
+    take(';');
+    // Line breaks stay.
+    edits.push({ from, to: endOfLast(), text: text.slice(from, endOfLast()).replace(/[^\n]+/g, '') });
+  };
+
+  const block = () => {
+    take('{');
+    sequence(statement, '}');
+    take('}');
+  };
+
+  const declaration = () => {
+    if (peek() === 'fn') {
+      take();
+      take();
+      take('(');
+      sequence(listed(')'), ')');
+      take(')');
+      skipTo('{');
+      block();
+    } else if (peek() === 'struct') {
+      take();
+      take();
+      take('{');
+      sequence(listed('}'), '}');
+      take('}');
+      if (peek() === ';') take();
+    } else {
+      if (peek() !== ';') skipTo(';');
+      take(';');
+    }
+  };
+
+  /** A member of a struct or a parameter. */
+  const listed = (close) => () => {
+    let depth = 0;
+    while (depth > 0 || (peek() !== ',' && peek() !== close)) {
+      if (peek() === '<') depth++;
+      if (peek() === '>') depth--;
+      skipToken();
+    }
+    if (peek() === ',') take();
+  };
+
+  const clause = () => {
+    if (peek() !== 'case' && peek() !== 'default') fail(here(), `"${peek()}" stands where a case is expected`);
+    skipTo('{');
+    block();
+  };
+
+  const statement = () => {
+    switch (peek()) {
+      case '{':
+        return block();
+      case 'if':
+      case 'for':
+      case 'while':
+        take();
+        skipTo('{');
+        block();
+        while (peek() === 'else') {
+          take();
+          skipTo('{');
+          block();
+        }
+        return undefined;
+      case 'loop':
+      case 'continuing':
+        take();
+        skipTo('{');
+        return block();
+      case 'switch':
+        take();
+        skipTo('{');
+        take('{');
+        sequence(clause, '}');
+        take('}');
+        return undefined;
+      default:
+        skipTo(';', '}');
+        take(';');
+        return undefined;
+    }
+  };
+
+  /** Elements up to a closing bracket, or to the end of the file, with their chains of conditions. */
+  const sequence = (element, close) => {
+    // How many gates of the chain are open.
+    let open = 0;
+    let end = 0;
+    const closeChain = () => {
+      if (open > 0) edits.push({ from: end, to: end, text: `${'//#endif'.repeat(open)}${/\w/.test(text[end] ?? '') ? ' ' : ''}` });
+      open = 0;
+    };
+    while (peek() !== close) {
+      if (peek() === undefined) fail(text.length, `"${close}" is missing at the end`);
+      const from = here();
+      const gate = attributes();
+      if (!gate || gate.kind === 'if') closeChain();
+      if (peek() === 'import' && close === undefined) {
+        importStatement(from, gate);
+        continue;
+      }
+      if (gate) {
+        if (gate.kind !== 'if' && open === 0) fail(gate.from, `@${gate.kind} without @if before it`);
+        const start = gate.kind === 'if' ? '' : '//#else';
+        const gap = /\s/.test(text[gate.to] ?? ' ') ? '' : ' ';
+        edits.push({ from: gate.from, to: gate.to, text: `${start}${gate.condition === undefined ? '' : `//#if ${gate.condition}`}${gap}` });
+        if (gate.condition !== undefined) open++;
+      }
+      element();
+      end = endOfLast();
+      if (gate?.kind === 'else') closeChain();
+    }
+    closeChain();
+  };
+
+  sequence(declaration, undefined);
+  for (const { from, to } of comments) if (text.slice(from, to).includes('//#')) fail(from, 'a comment must not hold "//#", which marks gates');
+  return { imports, edits, comments };
+}
+
+const OPERATOR = /[-+*/%=<>!&|^~]/;
+
+/**
+ * A line of WGSL without the spaces that separate nothing: those beside punctuation. Between two operators they stay, for
+ * `a - -b` and `array<f32> = x` mean something else without them. Lines with comments stay as they are.
+ */
+export function closeUp(line) {
+  if (line.includes('//')) return line;
+  return line.replace(/(?<=(\S)) +(?=(\S))/g, (spaces, before, after) => {
+    const separates = /\w/.test(before) && /\w/.test(after);
+    return separates || (OPERATOR.test(before) && OPERATOR.test(after)) ? spaces : '';
+  });
+}
+
+/** A line with gates, without the spaces that separate nothing. */
+const closeUpGated = (line) =>
+  line
+    .split(/(\/\/#(?:if [\w!&]+|else|endif))/)
+    .map((part, i) => {
+      if (i % 2) return part;
+      const shut = closeUp(part.trim());
+      return i > 0 && /^\w/.test(shut) ? ` ${shut}` : shut;
+    })
+    .join('');
+
+function apply(text, edits) {
+  let result = text;
+  for (const edit of [...edits].sort((a, b) => b.from - a.from || b.to - a.to)) result = result.slice(0, edit.from) + edit.text + result.slice(edit.to);
+  return result;
+}
+
+/** The text with gates for the composer, line by line that of the file. @param {boolean} shrink Without comments and spaces that separate nothing. */
+function gatedText(text, { edits, comments }, shrink) {
+  if (!shrink) return apply(text, edits);
+  const bare = apply(text, [...edits, ...comments.map(({ from, to }) => ({ from, to, text: text.slice(from, to).replace(/[^\n]+/g, '') || ' ' }))]);
+  return bare.split('\n').map(closeUpGated).join('\n');
+}
+
+/** The nearest folder with a package.json, and its name without the scope. */
+function packageOf(file) {
+  for (let folder = dirname(file); folder !== dirname(folder); folder = dirname(folder)) {
+    const manifest = join(folder, 'package.json');
+    if (existsSync(manifest)) return { folder, short: JSON.parse(readFileSync(manifest, 'utf8')).name.split('/').at(-1) };
+  }
+  throw new WeslError(`${file}: it lies in no package.`);
+}
+
+/** Files that only declare what the host of a library supplies, so that editors know it. */
+export const isHost = (path) => path.at(-1) === 'host';
+
+/**
+ * The file that an imported module is in.
+ * @returns {{ file: string, wesl: boolean }} `wesl` false: TypeScript that exports a module by the imported name.
+ * @throws {WeslError}
+ */
+function resolveModule({ path, name, line }, file, source) {
+  const [root, ...rest] = path;
+  const folder = root === 'package' ? source : root === 'super' ? dirname(file) : undefined;
+  if (folder === undefined) throw new WeslError(`${file}:${line}: "${root}" is no root of a path: package or super.`);
+  const base = resolve(folder, ...rest);
+  if (existsSync(`${base}.wesl`)) return { file: `${base}.wesl`, wesl: true };
+  const typescript = `${join(dirname(base), (rest.at(-1) ?? '').replaceAll('_', '-'))}.ts`;
+  if (existsSync(typescript)) return { file: typescript, wesl: false };
+  throw new WeslError(`${file}:${line}: there is no module ${path.join('::')} to import ${name} from: neither ${base}.wesl nor ${typescript}.`);
+}
+
+/**
+ * A WESL file as a JavaScript module whose default export is its `WgslModule`. Its name is `<package>/<file>`, with
+ * hyphens for underscores.
+ *
+ * @param {string} text
+ * @param {string} file Absolute path.
+ * @param {{ shrink?: boolean }} options `shrink`: leaves out comments and spaces, for what is published.
+ * @returns {{ code: string, map: { version: 3, sources: string[], sourcesContent: string[], names: string[], mappings: string } }}
+ * @throws {WeslError}
+ */
+export function compileWesl(text, file, { shrink = false } = {}) {
+  const parsed = parseWesl(text, file);
+  const { folder, short } = packageOf(file);
+  const source = join(folder, 'src');
+  const names = new Map();
+  const dependencies = new Map();
+  const used = new Set(['wgslModule']);
+  let imports = '';
+  for (const entry of parsed.imports) {
+    if (isHost(entry.path)) continue;
+    const { file: target, wesl } = resolveModule(entry, file, source);
+    const specifier = `./${relative(dirname(file), target).split(sep).join('/')}`.replace(/^\.\/\.\.\//, '../').replace(/\.ts$/, '');
+    const key = wesl ? specifier : `${specifier} ${entry.name}`;
+    let name = names.get(key);
+    if (name === undefined) {
+      names.set(key, (name = `module${names.size}`));
+      imports += `import ${wesl ? name : `{ ${entry.name} as ${name} }`} from ${JSON.stringify(specifier)};`;
+    }
+    if (entry.flag !== undefined) used.add('gated');
+    const dependency = entry.flag === undefined ? name : `/* @__PURE__ */ gated(${JSON.stringify(entry.flag)}, ${name})`;
+    dependencies.set(dependency, dependency);
+  }
+  const title = `${short}/${file.split(/[\\/]/).at(-1).replace(/\.wesl$/, '').replaceAll('_', '-')}`;
+  const template = gatedText(text, parsed, shrink).replace(/[\\`]|\$(?=\{)/g, '\\$&');
+  // All on the first line, so that each line of the result is that of the file.
+  const code = `import { ${[...used].sort().join(', ')} } from "@glanz/wgsl/module";${imports}export default /* @__PURE__ */ wgslModule(${JSON.stringify(title)}, \`${template}\`, [${[...dependencies.values()].join(', ')}]);\n`;
+  const mappings = `AAAA${';AACA'.repeat(text.split('\n').length - 1)}`;
+  return { code, map: { version: 3, sources: [file.split(/[\\/]/).at(-1)], sourcesContent: [text], names: [], mappings } };
+}
+
+/** For esbuild and tsup. @param {{ shrink?: boolean }} options */
+export const weslSource = (options = {}) => ({
+  name: 'wesl',
+  setup(build) {
+    build.onLoad({ filter: /\.wesl$/ }, ({ path }) => {
+      const { code, map } = compileWesl(readFileSync(path, 'utf8'), path, options);
+      return { contents: `${code}//# sourceMappingURL=data:application/json;base64,${Buffer.from(JSON.stringify(map)).toString('base64')}`, loader: 'js', resolveDir: dirname(path) };
+    });
+  },
+});
+
+/** For Vite, Vitest and VitePress. Builds leave out comments and spaces. */
+export const weslModules = () => {
+  let shrink = false;
+  return {
+    name: 'wesl',
+    enforce: 'pre',
+    configResolved: ({ command }) => void (shrink = command === 'build'),
+    transform: (text, id) => (id.endsWith('.wesl') ? compileWesl(text, id, { shrink }) : undefined),
+  };
+};
