@@ -237,18 +237,22 @@ export function parseWesl(text, file = 'module.wesl') {
 
   /** Elements up to a closing bracket, or to the end of the file, with their chains of conditions. */
   const sequence = (element, close) => {
-    // How many gates of the chain are open.
+    // How many gates of the chain are open, and the condition of a chain that is one @if alone.
     let open = 0;
     let end = 0;
+    let alone;
     const closeChain = () => {
       if (open > 0) edits.push({ from: end, to: end, text: `${'//#endif'.repeat(open)}${/\w/.test(text[end] ?? '') ? ' ' : ''}` });
       open = 0;
+      alone = undefined;
     };
     while (peek() !== close) {
       if (peek() === undefined) fail(text.length, `"${close}" is missing at the end`);
       const from = here();
       const gate = attributes();
-      if (!gate || gate.kind === 'if') closeChain();
+      // Neighbours of one condition share a gate.
+      const shared = gate?.kind === 'if' && gate.condition === alone && peek() !== 'import';
+      if ((!gate || gate.kind === 'if') && !shared) closeChain();
       if (peek() === 'import' && close === undefined) {
         importStatement(from, gate);
         continue;
@@ -257,8 +261,10 @@ export function parseWesl(text, file = 'module.wesl') {
         if (gate.kind !== 'if' && open === 0) fail(gate.from, `@${gate.kind} without @if before it`);
         const start = gate.kind === 'if' ? '' : '//#else';
         const gap = /\s/.test(text[gate.to] ?? ' ') ? '' : ' ';
-        edits.push({ from: gate.from, to: gate.to, text: `${start}${gate.condition === undefined ? '' : `//#if ${gate.condition}`}${gap}` });
-        if (gate.condition !== undefined) open++;
+        const marks = shared ? '' : `${start}${gate.condition === undefined ? '' : `//#if ${gate.condition}`}`;
+        edits.push({ from: gate.from, to: gate.to, text: `${marks}${gap}` });
+        if (gate.condition !== undefined && !shared) open++;
+        alone = gate.kind === 'if' ? gate.condition : undefined;
       }
       element();
       end = endOfLast();
@@ -373,7 +379,7 @@ export function compileWesl(text, file, { shrink = false } = {}) {
   const title = `${short}/${file.split(/[\\/]/).at(-1).replace(/\.wesl$/, '').replaceAll('_', '-')}`;
   const template = gatedText(text, parsed, shrink).replace(/[\\`]|\$(?=\{)/g, '\\$&');
   // All on the first line, so that each line of the result is that of the file.
-  const code = `import { ${[...used].sort().join(', ')} } from "@glanz/wgsl/module";${imports}export default /* @__PURE__ */ wgslModule(${JSON.stringify(title)}, \`${template}\`, [${[...dependencies.values()].join(', ')}]);\n`;
+  const code = `import { ${[...used].sort().join(', ')} } from "@glanz/wgsl/module";${imports}export default /* @__PURE__ */ wgslModule(${JSON.stringify(title)}, \`${template}\`${dependencies.size > 0 ? `, [${[...dependencies.values()].join(', ')}]` : ''});\n`;
   const mappings = `AAAA${';AACA'.repeat(text.split('\n').length - 1)}`;
   return { code, map: { version: 3, sources: [file.split(/[\\/]/).at(-1)], sourcesContent: [text], names: [], mappings } };
 }

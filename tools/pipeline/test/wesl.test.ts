@@ -60,6 +60,13 @@ describe('conditions', () => {
     expect(kept(text, { A: false })).toEqual(['fn f() { switch (x) {', 'default: { }', '} }']);
   });
 
+  it('that neighbours share become one gate, but an @else belongs to the last of them alone', () => {
+    const text = 'fn f() {\n  @if(A) a();\n  @if(A) b();\n  @else c();\n  @if(A) d();\n  e();\n  @if(A) g();\n}';
+    expect(kept(text, { A: true })).toEqual(['fn f() {', 'a();', 'b();', 'd();', 'e();', 'g();', '}']);
+    expect(kept(text, { A: false })).toEqual(['fn f() {', 'c();', 'e();', '}']);
+    expect(compiled('@if(A) const a = 1;\n@if(A) const b = 2;\n@if(B) const c = 3;', true).text).toBe('//#if A const a=1;\nconst b=2;//#endif\n//#if B const c=3;//#endif');
+  });
+
   it('leave each line at its number', () => {
     const text = '// one\nimport package::shapes::circle::{\n  circle,\n};\n@if(A)\nfn f() {\n  @if(B) x(); @else y();\n}\n';
     const module = wgslModule('m', compiled(text).text);

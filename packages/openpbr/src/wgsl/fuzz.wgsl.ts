@@ -1,6 +1,6 @@
 import { wgslModule } from '@glanz/wgsl';
 import { SHEEN_COLUMNS, SHEEN_ROWS, TABLE_BLOCKS_2D, TABLE_HEIGHT_2D } from '../tables/layout';
-import { openpbrCosine } from './diffuse.wgsl';
+import openpbrCosine from './cosine.wesl';
 import { openPbrStruct } from './record';
 
 const float = (value: number): string => (Number.isInteger(value) ? `${value}.0` : String(value));

@@ -1,7 +1,6 @@
 export { openPbrStruct, packOpenPbr } from './record';
 export { requiredFeatures, type FeatureOptions, type OpenPbrFlags } from './features';
 export { openpbr } from './bsdf.wgsl';
-export { openpbrCosine, openpbrEon } from './diffuse.wgsl';
 export { openpbrMetal } from './metal.wgsl';
 export { openpbrDielectric } from './dielectric.wgsl';
 export { openpbrTransmission } from './transmission.wgsl';
@@ -11,4 +10,4 @@ export { openpbrFuzz } from './fuzz.wgsl';
 export { openpbrCoat } from './coat.wgsl';
 export { openpbrEnergy } from './energy.wgsl';
 export { openpbrEmission, openpbrOpacity } from './emission.wgsl';
-export { openpbrFresnelDielectric, openpbrFresnelMetal, openpbrGgx, openpbrMedium, openpbrPhase } from './modules';
+export { openpbrCosine, openpbrEon, openpbrFresnelDielectric, openpbrFresnelMetal, openpbrGgx, openpbrMedium, openpbrPhase } from './modules';

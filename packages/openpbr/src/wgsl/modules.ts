@@ -1,5 +1,7 @@
 // The modules in WESL that are published, with their types and documentation.
 import type { WgslModule } from '@glanz/wgsl';
+import cosine from './cosine.wesl';
+import eon from './eon.wesl';
 import ggx from './ggx.wesl';
 import fresnelDielectric from './fresnel_dielectric.wesl';
 import fresnelMetal from './fresnel_metal.wesl';
@@ -55,3 +57,12 @@ export const openpbrMedium: WgslModule = medium;
  * ```
  */
 export const openpbrPhase: WgslModule = phase;
+
+/** `openpbr_cosine_sample(u)`: a direction with density cos θ / π. */
+export const openpbrCosine: WgslModule = cosine;
+
+/**
+ * Energy-preserving Oren-Nayar (Portsmouth, Kutz and Hill 2024): `openpbr_eon` is f without the cosine. The directional
+ * albedo of its single-scattering part is the paper's polynomial.
+ */
+export const openpbrEon: WgslModule = eon;

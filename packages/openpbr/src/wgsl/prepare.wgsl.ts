@@ -1,5 +1,5 @@
 import { gated, wgslModule } from '@glanz/wgsl';
-import { openpbrEon } from './diffuse.wgsl';
+import openpbrEon from './eon.wesl';
 import openpbrGgx from './ggx.wesl';
 import { openpbrInterfaces } from './interfaces.wgsl';
 import { openPbrStruct } from './record';

@@ -1,5 +1,5 @@
 import { gated, wgslModule } from '@glanz/wgsl';
-import { openpbrCosine } from './diffuse.wgsl';
+import openpbrCosine from './cosine.wesl';
 import { openpbrScatter } from './scatter.wgsl';
 
 

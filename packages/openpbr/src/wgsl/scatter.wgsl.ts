@@ -1,5 +1,6 @@
 import { gated, wgslModule } from '@glanz/wgsl';
-import { openpbrCosine, openpbrEon } from './diffuse.wgsl';
+import openpbrEon from './eon.wesl';
+import openpbrCosine from './cosine.wesl';
 import { openpbrFacet } from './facet.wgsl';
 import { openpbrPrepare } from './prepare.wgsl';
 

@@ -1,6 +1,6 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
-import { camera } from './camera.wgsl';
-import { filter } from './filter.wgsl';
+import camera from './camera.wesl';
+import filter from './filter.wesl';
 import random from './random.wesl';
 
 /**

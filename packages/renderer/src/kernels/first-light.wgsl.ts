@@ -1,6 +1,6 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { BACKGROUND_HIDDEN, BACKGROUND_TRANSPARENT } from './layout';
-import { camera } from './camera.wgsl';
+import camera from './camera.wesl';
 
 /**
  * What can be shown before the kernels of the renderer are there: base colours of flat facets under a lamp at the camera, as

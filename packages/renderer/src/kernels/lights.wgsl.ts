@@ -1,6 +1,6 @@
 import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
 import { areaLightSampling } from './area-lights.wgsl';
-import { environment } from './environment.wgsl';
+import environment from './environment.wesl';
 import { GROUP_SHIFT, LIGHT_DIRECTIONAL, LIGHT_MIRRORED, LIGHT_POINT, LIGHT_PROFILE, LIGHT_RECTANGLE, LIGHT_SPOT, LIGHT_TWO_SIDED, lightStruct } from './layout';
 import { lightChoice } from './light-choice.wgsl';
 import { lightProfile } from './light-profile.wgsl';

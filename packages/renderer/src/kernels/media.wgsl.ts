@@ -1,6 +1,6 @@
 import { openpbrMedium, openpbrSubsurface } from '@glanz/openpbr/wgsl';
 import { gated, wgslModule } from '@glanz/wgsl';
-import { energyHost } from './energy.wgsl';
+import energyHost from './energy.wesl';
 import { instanceStruct, MATERIAL_INDEX_MATCHED, MATERIAL_INTERIOR, MATERIAL_PRIORITY_SHIFT, materialStruct } from './layout';
 
 /**

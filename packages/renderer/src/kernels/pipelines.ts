@@ -9,7 +9,7 @@ import { filmModule, relightModule } from './film.wgsl';
 import { pathLayout } from './path.wgsl';
 import { noiseModule } from './noise.wgsl';
 import { positionModule } from './position.wgsl';
-import { energyHost } from './energy.wgsl';
+import energyHost from './energy.wesl';
 import { featuresModule } from './features.wgsl';
 import { firstLightModule } from './first-light.wgsl';
 import { generate } from './generate.wgsl';

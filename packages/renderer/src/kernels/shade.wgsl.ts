@@ -1,7 +1,7 @@
 import { bvhOffset } from '@glanz/bvh/wgsl';
 import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
 import { BACKGROUND_HIDDEN, GROUP_SHIFT, HIT_SCATTERED, HIT_WALKING, INSTANCE_CATCHER, MATERIAL_DISPERSIVE, MATERIAL_INTERIOR, MATERIAL_STRAIGHT } from './layout';
-import { dispersion } from './dispersion.wgsl';
+import dispersion from './dispersion.wesl';
 import { media } from './media.wgsl';
 import random from './random.wesl';
 import { shadeCommon } from './shade-common.wgsl';

@@ -1,5 +1,5 @@
 import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
-import { energyHost } from './energy.wgsl';
+import energyHost from './energy.wesl';
 import shadingNormal from './shading_normal.wesl';
 
 /**
