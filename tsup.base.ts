@@ -29,8 +29,9 @@ export function glanzPackage(
     define: page === undefined ? {} : { GLANZ_ERRORS_PAGE: JSON.stringify(page) },
     external: [...(options.external ?? [])],
     esbuildPlugins: [publishedSource],
-    // What imports of shader sources are is declared in wesl.d.ts, named from the package's folder.
+    // What imports of shader sources and of gl-matrix's modules are is declared in wesl.d.ts and gl-matrix.d.ts, named from the
+    // package's folder.
     // The condition "@glanz/source" must not apply here: published declarations point at published packages.
-    dts: { compilerOptions: { ignoreDeprecations: '6.0', customConditions: [], types: ['@webgpu/types', 'node', '../../wesl'] } },
+    dts: { compilerOptions: { ignoreDeprecations: '6.0', customConditions: [], types: ['@webgpu/types', 'node', '../../wesl', '../../gl-matrix'] } },
   });
 }

@@ -14,7 +14,7 @@ export default defineConfig({
   server: { port: 5173, open: hasScreen },
   preview: { port: 4173 },
   // Found here rather than when a model is first opened, which would reload the page under the user's hands.
-  optimizeDeps: { include: ['@glanz/gltf > @gltf-transform/core', '@glanz/gltf > @gltf-transform/extensions', '@glanz/gltf > gl-matrix', '@glanz/image > fflate', 'meshoptimizer/decoder', '@glanz/element > draco3dgltf/draco_decoder_gltf_nodejs.js'] },
+  optimizeDeps: { include: ['@glanz/image > fflate', 'meshoptimizer/decoder', '@glanz/element > draco3dgltf/draco_decoder_gltf_nodejs.js'] },
   build: { target: 'es2022', chunkSizeWarningLimit: 900, rolldownOptions: { input: ['index.html', 'configurator.html'].map((page) => `${import.meta.dirname}/${page}`) } },
   plugins: [weslModules(), publishedModules(), basisModule()],
   worker: { format: 'es', plugins: () => [weslModules(), publishedModules(), basisModule()] },

@@ -164,7 +164,7 @@ export class App {
   /** Opens what was dropped or picked: a model, an environment, a material, or several of them. */
   async #open(files: ReadonlyMap<string, File> | Promise<ReadonlyMap<string, File>>): Promise<void> {
     try {
-      const { environmentNote, sortFiles } = await import('./input/files');
+      const { environmentNote, sortFiles } = await import('./input/sort-files');
       const given = await files;
       const { model, environment, material } = sortFiles(given);
       let note: string | undefined;

@@ -1,4 +1,5 @@
 import type { Mesh } from '@glanz/scene';
+import { cross, dot, subtract } from 'gl-matrix/esm/vec3.js';
 
 /** Cosine of the largest angle between a triangle and the normals at its corners: 60°. */
 const LEAST_COSINE = 0.5;
@@ -16,16 +17,14 @@ export function withSoundNormals(mesh: Mesh): Mesh {
   const fitting = indices.slice();
   for (let t = 0; t < indices.length; t += 3) {
     const [a, b, c] = [indices[t], indices[t + 1], indices[t + 2]].map((v) => 3 * (v as number)) as [number, number, number];
-    const u = [0, 1, 2].map((k) => (P[b + k] as number) - (P[a + k] as number)) as [number, number, number];
-    const v = [0, 1, 2].map((k) => (P[c + k] as number) - (P[a + k] as number)) as [number, number, number];
-    const cross = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]] as const;
-    const length = Math.hypot(...cross);
+    const corner0 = P.subarray(a);
+    const across = cross([0, 0, 0], subtract([0, 0, 0], P.subarray(b), corner0), subtract([0, 0, 0], P.subarray(c), corner0));
+    const length = Math.hypot(...across);
     if (!(length > 0)) continue;
-    const normal = [cross[0] / length, cross[1] / length, cross[2] / length] as const;
+    const normal = [across[0] / length, across[1] / length, across[2] / length] as const;
     for (let corner = t; corner < t + 3; corner++) {
       const from = 3 * (indices[corner] as number);
-      const cosine = normal[0] * (N[from] as number) + normal[1] * (N[from + 1] as number) + normal[2] * (N[from + 2] as number);
-      if (cosine >= LEAST_COSINE) continue;
+      if (dot(normal, N.subarray(from)) >= LEAST_COSINE) continue;
       fitting[corner] = P.length / 3 + sources.push(from) - 1;
       added.push(...normal);
     }

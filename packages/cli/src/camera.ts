@@ -1,4 +1,5 @@
 import { frameCamera, type Camera, type Scene } from '@glanz/scene';
+import { cross, distance, subtract } from 'gl-matrix/esm/vec3.js';
 import { CliError } from './errors';
 import { MAX_SETTINGS_BYTES, readInput } from './input';
 
@@ -20,8 +21,6 @@ function optionalNumber(object: Record<string, unknown>, name: string, min: numb
   return value;
 }
 
-const subtract = (a: Vector, b: Vector): Vector => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-const cross = (a: Vector, b: Vector): Vector => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 function unit(a: Vector): Vector | undefined {
   const length = Math.hypot(...a);
   return length > 1e-12 && Number.isFinite(length) ? [a[0] / length, a[1] / length, a[2] / length] : undefined;
@@ -29,11 +28,11 @@ function unit(a: Vector): Vector | undefined {
 
 /** Camera-to-world matrix, column-major, that looks from one point to another along −Z. */
 export function lookAt(position: Vector, target: Vector, up: Vector): number[] {
-  const back = unit(subtract(position, target));
+  const back = unit(subtract([0, 0, 0], position, target));
   if (!back) throw wrong('--camera: "position" and "target" are the same point.');
-  const right = unit(cross(up, back)) ?? unit(cross([0, 0, -1], back)) ?? unit(cross([1, 0, 0], back));
+  const right = [up, [0, 0, -1], [1, 0, 0]].map((side) => unit(cross([0, 0, 0], side, back))).find((axis) => axis);
   if (!right) throw wrong('--camera: no direction is up.');
-  const above = cross(back, right);
+  const above = cross([0, 0, 0], back, right);
   return [...right, 0, ...above, 0, ...back, 0, ...position, 1];
 }
 
@@ -79,7 +78,7 @@ export function cameraFromJson(text: string, aspect = 1): Camera {
     return { type, ...base, xmag: (height * aspect) / 2, ymag: height / 2 };
   }
   const lens = optionalNumber(object, 'lens_radius', 0, 1e6);
-  const focus = optionalNumber(object, 'focus_distance', 1e-6, 1e9) ?? Math.hypot(...subtract(position, target));
+  const focus = optionalNumber(object, 'focus_distance', 1e-6, 1e9) ?? distance(position, target);
   const blades = optionalNumber(object, 'lens_blades', 0, 64);
   const rotation = optionalNumber(object, 'lens_rotation', -36000, 36000);
   return {

@@ -1,4 +1,5 @@
 import type { Mesh } from '@glanz/scene';
+import { add, cross, subtract } from 'gl-matrix/esm/vec3.js';
 
 /**
  * Normals for a mesh that has none: triangles of the same smoothing group share them where they share a place, weighted by
@@ -12,9 +13,9 @@ export function smoothNormals(mesh: Mesh, groups: readonly number[]): Mesh {
   const sums = new Map<string, [number, number, number]>();
   const triangles = indices.length / 3;
   const faces = Array.from({ length: triangles }, (_, t): [number, number, number] => {
-    const p = (c: number, k: number) => positions[3 * (indices[3 * t + c] as number) + k] as number;
-    const u = [0, 1, 2].map((k) => p(1, k) - p(0, k)) as [number, number, number], v = [0, 1, 2].map((k) => p(2, k) - p(0, k)) as [number, number, number];
-    return [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+    const [a, b, c] = [0, 1, 2].map((corner) => positions.subarray(3 * (indices[3 * t + corner] as number))) as [Float32Array, Float32Array, Float32Array];
+    const normal = subtract([0, 0, 0], b, a);
+    return cross(normal, normal, subtract([0, 0, 0], c, a));
   });
   const keyOf = (corner: number): string => {
     const t = Math.floor(corner / 3);
@@ -23,7 +24,7 @@ export function smoothNormals(mesh: Mesh, groups: readonly number[]): Mesh {
   for (let corner = 0; corner < indices.length; corner++) {
     const face = faces[Math.floor(corner / 3)] as [number, number, number];
     const sum = sums.get(keyOf(corner)) ?? [0, 0, 0];
-    sums.set(keyOf(corner), [sum[0] + face[0], sum[1] + face[1], sum[2] + face[2]]);
+    sums.set(keyOf(corner), add([0, 0, 0], sum, face));
   }
   const made = new Map<string, number>();
   const source: number[] = [], normals: number[] = [];

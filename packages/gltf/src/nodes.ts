@@ -1,4 +1,5 @@
 import type { Instance, Mesh, Scene } from '@glanz/scene';
+import { fromRotationTranslationScale, multiply } from 'gl-matrix/esm/mat4.js';
 import type { NodePose } from './animation';
 import { maximum, readPrimitive, withoutUnusedVertices } from './attributes';
 import { readCamera } from './cameras';
@@ -7,7 +8,7 @@ import type { GltfJson, GltfNode, GltfPrimitive } from './json';
 import { readLight } from './lights';
 import type { Budget } from './limits';
 import type { UvSets } from './materials';
-import { compose, identity, isFinite4x4, multiply, type Matrix } from './matrix';
+import { identity, isFinite4x4, type Matrix } from './matrix';
 import { unitNormals } from './normals';
 import { isSkinnable, jointMatrices, morphed, skinned } from './pose';
 import { openPrimitive, type PrimitiveData, type PrimitiveReader } from './primitive';
@@ -37,7 +38,8 @@ interface Placed {
 
 function localMatrix(node: GltfNode, pose: NodePose | undefined): Matrix {
   if (node.matrix && !pose) return [...node.matrix];
-  return compose(pose?.translation ?? node.translation ?? [0, 0, 0], pose?.rotation ?? node.rotation ?? [0, 0, 0, 1], pose?.scale ?? node.scale ?? [1, 1, 1]);
+  const rotation = pose?.rotation ?? node.rotation ?? [0, 0, 0, 1];
+  return fromRotationTranslationScale(identity(), rotation, pose?.translation ?? node.translation ?? [0, 0, 0], pose?.scale ?? node.scale ?? [1, 1, 1]);
 }
 
 /** All nodes of a scene, parents before children, in the order of the document. */
@@ -57,7 +59,7 @@ function placedNodes({ json, shown, poses }: NodeContext): Map<number, Placed> {
   for (let entry = stack.pop(); entry; entry = stack.pop()) {
     if (placed.has(entry.node)) continue;
     const node = nodes[entry.node] as GltfNode;
-    const own = { world: multiply(entry.parent.world, localMatrix(node, poses.get(entry.node))), visible: entry.parent.visible && node.extensions?.KHR_node_visibility?.visible !== false };
+    const own = { world: multiply(identity(), entry.parent.world, localMatrix(node, poses.get(entry.node))), visible: entry.parent.visible && node.extensions?.KHR_node_visibility?.visible !== false };
     placed.set(entry.node, own);
     push(node.children ?? [], own);
   }
@@ -248,7 +250,8 @@ function instancesOf({ reader, scene, instances }: NodeContext, node: GltfNode, 
       turn = [0, 0, 0, 1];
       unturned++;
     }
-    const place = multiply(transform, compose(translation(i), turn, scale(i)));
+    const place = identity();
+    multiply(place, transform, fromRotationTranslationScale(place, turn, translation(i), scale(i)));
     if (isFinite4x4(place)) places.push(place);
   }
   if (unturned > 0) warn(unturned, 'a rotation of length 0; they are not turned');

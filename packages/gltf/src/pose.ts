@@ -1,5 +1,8 @@
 import type { Mesh, SceneWarning } from '@glanz/scene';
-import { identity, multiply, type Matrix } from './matrix';
+import { adjoint, determinant, fromMat4, transpose } from 'gl-matrix/esm/mat3.js';
+import { multiply } from 'gl-matrix/esm/mat4.js';
+import { add, scale, transformMat3 } from 'gl-matrix/esm/vec3.js';
+import { identity, type Matrix } from './matrix';
 import type { PrimitiveData } from './primitive';
 
 /** A mesh with its morph targets blended in by `weights` (glTF 2.0, section 3.7.2.2). */
@@ -47,9 +50,9 @@ export function jointMatrices(name: string, joints: readonly number[], bind: Flo
     }
     if (own && !isAffine(own)) {
       warnings.push({ code: 'gltf/skin', message: `${name}: the bind matrix of joint ${j} is not affine; its last row is taken as 0, 0, 0, 1.` });
-      return multiply(at, own.map((x, i) => (i % 4 < 3 ? x : i === 15 ? 1 : 0)));
+      return multiply(identity(), at, own.map((x, i) => (i % 4 < 3 ? x : i === 15 ? 1 : 0)));
     }
-    return own ? multiply(at, own) : at;
+    return own ? multiply(identity(), at, own) : at;
   });
 }
 
@@ -114,7 +117,14 @@ export function skinned(mesh: Mesh, primitive: PrimitiveData, matrices: readonly
   const positions = new Float32Array(mesh.positions.length);
   const normals = mesh.normals && new Float32Array(mesh.normals.length);
   const tangents = mesh.tangents?.slice();
-  const blended = new Float64Array(16);
+  const blended = new Float64Array(16), translation = blended.subarray(12);
+  const linear = new Float64Array(9), cofactors = new Float64Array(9);
+  const vector: [number, number, number] = [0, 0, 0];
+  /** A vector of `source` through a 3 × 3 matrix. */
+  const turned = (source: Float32Array, at: number, matrix: Float64Array) => {
+    for (let k = 0; k < 3; k++) vector[k] = source[at + k] as number;
+    return transformMat3(vector, vector, matrix);
+  };
   for (let v = 0; v < vertices; v++) {
     blended.fill(0);
     let total = 0;
@@ -130,10 +140,16 @@ export function skinned(mesh: Mesh, primitive: PrimitiveData, matrices: readonly
     // A vertex without weights stays where it is.
     if (total === 0) blended.set([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
     else for (let i = 0; i < 16; i++) blended[i] = (blended[i] as number) / total;
-    transformVector(blended, mesh.positions, positions, 3 * v, 1);
-    if (normals && mesh.normals) transformNormal(blended, mesh.normals, normals, 3 * v);
+    fromMat4(linear, blended);
+    write(positions, 3 * v, add(vector, turned(mesh.positions, 3 * v, linear), translation));
+    if (normals && mesh.normals) {
+      // The cofactors are the inverse transpose times the determinant.
+      transpose(cofactors, adjoint(cofactors, linear));
+      write(normals, 3 * v, scale(vector, turned(mesh.normals, 3 * v, cofactors), determinant(linear) < 0 ? -1 : 1));
+      normalize(normals, 3 * v);
+    }
     if (tangents && mesh.tangents) {
-      transformVector(blended, mesh.tangents, tangents, 4 * v, 0);
+      write(tangents, 4 * v, turned(mesh.tangents, 4 * v, linear));
       normalize(tangents, 4 * v);
     }
   }
@@ -143,31 +159,12 @@ export function skinned(mesh: Mesh, primitive: PrimitiveData, matrices: readonly
   return result;
 }
 
-function transformVector(m: Float64Array, source: Float32Array, out: Float32Array, at: number, w: number): void {
-  const x = source[at] as number, y = source[at + 1] as number, z = source[at + 2] as number;
-  for (let r = 0; r < 3; r++) {
-    const value = Math.fround((m[r] as number) * x + (m[4 + r] as number) * y + (m[8 + r] as number) * z + (m[12 + r] as number) * w);
-    out[at + r] = Number.isFinite(value) ? value : 0;
+/** Numbers that are not finite in single precision become 0. */
+function write(out: Float32Array, at: number, vector: readonly number[]): void {
+  for (let k = 0; k < 3; k++) {
+    const value = Math.fround(vector[k] as number);
+    out[at + k] = Number.isFinite(value) ? value : 0;
   }
-}
-
-/** By the cofactors, which are the inverse transpose times the determinant. */
-function transformNormal(m: Float64Array, source: Float32Array, out: Float32Array, at: number): void {
-  const c = (a: number, b: number) => (m[a] as number) * (m[b] as number);
-  const x = source[at] as number, y = source[at + 1] as number, z = source[at + 2] as number;
-  const cofactors = [
-    c(5, 10) - c(6, 9), c(6, 8) - c(4, 10), c(4, 9) - c(5, 8),
-    c(9, 2) - c(10, 1), c(10, 0) - c(8, 2), c(8, 1) - c(9, 0),
-    c(1, 6) - c(2, 5), c(2, 4) - c(0, 6), c(0, 5) - c(1, 4),
-  ];
-  const determinant = (m[0] as number) * (cofactors[0] as number) + (m[1] as number) * (cofactors[1] as number) + (m[2] as number) * (cofactors[2] as number);
-  const sign = determinant < 0 ? -1 : 1;
-  for (let r = 0; r < 3; r++) {
-    // Row r of the cofactor matrix, which is stored column by column of m.
-    const value = Math.fround(sign * ((cofactors[r] as number) * x + (cofactors[3 + r] as number) * y + (cofactors[6 + r] as number) * z));
-    out[at + r] = Number.isFinite(value) ? value : 0;
-  }
-  normalize(out, at);
 }
 
 function normalize(values: Float32Array, at: number): void {

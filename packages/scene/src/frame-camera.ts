@@ -67,8 +67,9 @@ export function* frameCameraSteps(scene: Scene, { aspect, yfov = (35 * Math.PI) 
   const x = (toRight - toLeft) / 2;
   const y = (toTop - toBottom) / 2;
   let d = Math.max((toRight + toLeft) / (2 * tx), (toTop + toBottom) / (2 * ty));
-  // Seen edge-on, a line or a point has no size to go by: it is looked at from as far as it is deep, or from a metre away.
-  if (!(d > near)) d = near + (near - far || 1);
+  // A line seen along its length, a point, and a cone whose tip would touch the camera have no size to go by: they are seen from
+  // as far as they are deep, or from a metre away.
+  if (!(d - near > 1e-6 * (near - far))) d = near + (near - far || 1);
   const eye = [0, 1, 2].map((k) => (center[k] as number) + (right[k] as number) * x + (up[k] as number) * y + (back[k] as number) * d);
   return { type: 'perspective', name: 'framed', transform: [...right, 0, ...up, 0, ...back, 0, ...eye, 1], yfov, aspect, focus_distance: d - (near + far) / 2 };
 }

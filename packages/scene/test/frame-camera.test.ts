@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { createScene, frameCamera, type SceneError, type FrameCameraOptions, type Scene } from '../src/index';
+import { createScene, defaultMaterial, frameCamera, type SceneError, type FrameCameraOptions, type Scene } from '../src/index';
 import { points, sample } from './sample';
 
 for (const options of [{ aspect: 1 }, { aspect: 3 }, { aspect: 0.4, yfov: 1.2 }, { aspect: 1.5, direction: [-3, 0.1, -1] }, { aspect: 1, margin: 0.3 }] satisfies FrameCameraOptions[]) {
@@ -53,6 +53,24 @@ test('a line seen from its end, and a point, are looked at from outside', () => 
     scene.meshes[0]!.positions = new Float32Array(positions);
     const { transform: m } = frameCamera(scene, { aspect: 1, direction: [0, 0, 1] });
     expect([m[12], m[13], m[14]]).toEqual([positions[0], positions[1], distance]);
+  }
+});
+
+test('a cone that points at the camera is seen from outside, however numbers round', () => {
+  for (let i = 0; i < 200; i++) {
+    const [x, y] = [Math.sin(i), 0.3 * Math.cos(3 * i)];
+    const length = Math.hypot(x, y, 1);
+    // Its tip reaches 1 m, its base lies at the origin and is narrower than the view.
+    const direction = [x / length, y / length, 1 / length] as const;
+    const scene = createScene();
+    const across = [direction[2], 0, -direction[0]] as const;
+    const positions = [direction, across.map((c) => 0.05 * c), across.map((c) => -0.05 * c)].flat();
+    scene.meshes.push({ name: 'cone', positions: Float32Array.from(positions), indices: Uint32Array.of(0, 1, 2) });
+    scene.materials.push(defaultMaterial());
+    scene.instances.push({ name: 'cone', mesh: 0, material: 0, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] });
+    const { transform } = frameCamera(scene, { aspect: 1, direction });
+    const eye = [transform[12]!, transform[13]!, transform[14]!] as const;
+    expect(Math.hypot(eye[0] - direction[0], eye[1] - direction[1], eye[2] - direction[2])).toBeCloseTo(1, 4);
   }
 });
 

@@ -1,11 +1,12 @@
 import { createScene, type Scene } from '@glanz/scene';
+import { multiply } from 'gl-matrix/esm/mat4.js';
 import { readCamera } from './cameras';
 import { ThreeError } from './error';
 import { meshOfPart, partsOf, type Part } from './geometry';
 import { readEnvironment } from './environment';
 import { Ambience, readLight } from './lights';
 import { flipsOf, Materials } from './materials';
-import { numbersFrom, multiply } from './matrix';
+import { numbersFrom } from './matrix';
 import { Textures, type ReadImage } from './textures';
 import type { Color, Matrix, ThreeCamera, ThreeMaterial, ThreeMesh, ThreeObject } from './types';
 
@@ -109,7 +110,7 @@ function placementsOf(mesh: ThreeMesh): Placement[] {
   return Array.from({ length: count }, (_, i) => {
     const own = Array.from({ length: 16 }, (__, k) => instanceMatrix.array[16 * i + k] as number);
     const c = instanceColor?.array;
-    return { transform: multiply(world, own), ...(c ? { tint: { r: c[3 * i] as number, g: c[3 * i + 1] as number, b: c[3 * i + 2] as number } } : {}) };
+    return { transform: multiply(new Float64Array(16), world, own), ...(c ? { tint: { r: c[3 * i] as number, g: c[3 * i + 1] as number, b: c[3 * i + 2] as number } } : {}) };
   });
 }
 
@@ -157,7 +158,7 @@ function batchesOf(mesh: ThreeMesh): { readonly part: Part; readonly placements:
     const placements = byGeometry.get(geometry) ?? [];
     const tint = new Target();
     batched.getColorAt?.(id, tint);
-    placements.push({ transform: multiply(world, batched.getMatrixAt(id, matrix).elements), ...(tint.r === 1 && tint.g === 1 && tint.b === 1 ? {} : { tint }) });
+    placements.push({ transform: multiply(new Float64Array(16), world, batched.getMatrixAt(id, matrix).elements), ...(tint.r === 1 && tint.g === 1 && tint.b === 1 ? {} : { tint }) });
     byGeometry.set(geometry, placements);
   }
   return [...byGeometry].flatMap(([geometry, placements]) => {

@@ -1,4 +1,5 @@
-import { numbersFrom, multiply, transformNormal, transformPoint, type Mat4 } from './matrix';
+import { multiply } from 'gl-matrix/esm/mat4.js';
+import { numbersFrom, transformNormal, transformPoint, type Mat4 } from './matrix';
 import type { Attribute, Matrix, ThreeMesh } from './types';
 
 interface Skeleton {
@@ -53,7 +54,7 @@ function skin(mesh: ThreeMesh, positions: Float32Array, normals: Float32Array | 
   const { skeleton, bindMatrix, bindMatrixInverse } = mesh as unknown as { readonly skeleton: Skeleton; readonly bindMatrix: Matrix; readonly bindMatrixInverse: Matrix };
   const { skinIndex, skinWeight } = mesh.geometry.attributes;
   if (!skeleton || !skinIndex || !skinWeight) return;
-  const bones = skeleton.bones.map(({ matrixWorld }, i) => multiply(numbersFrom(matrixWorld), numbersFrom(skeleton.boneInverses[i] as Matrix)));
+  const bones = skeleton.bones.map(({ matrixWorld }, i) => multiply(new Float64Array(16), matrixWorld.elements, (skeleton.boneInverses[i] as Matrix).elements));
   const [bind, back] = [numbersFrom(bindMatrix), numbersFrom(bindMatrixInverse)];
   for (let i = 0; i < positions.length / 3; i++) {
     const sum: Mat4 = new Float64Array(16);
@@ -62,7 +63,7 @@ function skin(mesh: ThreeMesh, positions: Float32Array, normals: Float32Array | 
       const bone = bones[skinIndex.getComponent(i, j)];
       if (weight !== 0 && bone) for (let k = 0; k < 16; k++) sum[k] = (sum[k] as number) + weight * (bone[k] as number);
     }
-    const whole = multiply(back, multiply(sum, bind));
+    const whole = multiply(sum, back, multiply(sum, sum, bind));
     transformPoint(whole, positions, 3 * i);
     if (normals) transformNormal(whole, normals, 3 * i);
   }

@@ -1,4 +1,5 @@
 import type { Camera, SceneBounds } from '@glanz/scene';
+import { distance, dot, lerp, scaleAndAdd, subtract } from 'gl-matrix/esm/vec3.js';
 import { checkedAmount, checkedCamera, checkedFieldOfView, checkedLimits, checkedOrbit, checkedPoint, checkedSetting, checkedZoom } from './checks';
 
 /** Three numbers in the world, metres. */
@@ -50,7 +51,6 @@ const STEEPEST = (89.5 * Math.PI) / 180;
 /** What is left of a movement when it is called over: of a radian, of the distance. */
 const REST = 2e-4;
 
-const add = (a: Vector, b: Vector, scale: number): Vector => [a[0] + b[0] * scale, a[1] + b[1] * scale, a[2] + b[2] * scale];
 const clamp = (value: number, low: number, high: number) => Math.min(Math.max(value, low), high);
 
 /**
@@ -79,8 +79,8 @@ export class OrbitRig {
    */
   constructor(camera: Camera, bounds: SceneBounds, options: OrbitRigOptions = {}) {
     const finite = bounds.min[0] <= bounds.max[0];
-    this.#center = finite ? ([0, 1, 2].map((k) => ((bounds.min[k] as number) + (bounds.max[k] as number)) / 2) as unknown as Vector) : [0, 0, 0];
-    this.#radius = finite ? Math.max(0.5 * Math.hypot(bounds.max[0] - bounds.min[0], bounds.max[1] - bounds.min[1], bounds.max[2] - bounds.min[2]), 1e-6) : 1;
+    this.#center = finite ? lerp([0, 0, 0], bounds.min, bounds.max, 0.5) : [0, 0, 0];
+    this.#radius = finite ? Math.max(0.5 * distance(bounds.min, bounds.max), 1e-6) : 1;
     this.#lens = checkedCamera(camera);
     this.#damping = checkedSetting('damping', options.damping ?? 0.06);
     this.#limits = checkedLimits(options.limits ?? {});
@@ -155,7 +155,7 @@ export class OrbitRig {
     checkedAmount(up, 'up');
     const { x, y } = axesOf(this.#goal);
     const height = this.#lens.type === 'orthographic' ? (2 * this.#lens.ymag) / this.#goal.zoom : 2 * this.#goal.distance * (this.#lens.type === 'perspective' ? Math.tan(this.#lens.yfov / 2) : 1);
-    this.#goal.target = checkedPoint(add(add(this.#goal.target, x, right * height), y, up * height), 'target');
+    this.#goal.target = checkedPoint(scaleAndAdd([0, 0, 0], scaleAndAdd([0, 0, 0], this.#goal.target, x, right * height), y, up * height), 'target');
   }
 
   /**
@@ -243,7 +243,7 @@ export class OrbitRig {
     const passed = seconds > 0 ? Math.min(seconds, 0.1) : 0;
     const share = this.#damping > 0 ? 1 - Math.exp(-passed / this.#damping) : 1;
     const near = Math.max(goal.distance, 1e-9);
-    const left = Math.max(Math.abs(goal.yaw - now.yaw), Math.abs(goal.pitch - now.pitch), Math.abs(Math.log(goal.distance / now.distance)), Math.abs(Math.log(goal.zoom / now.zoom)), Math.hypot(...goal.target.map((value, k) => value - (now.target[k] as number))) / near);
+    const left = Math.max(Math.abs(goal.yaw - now.yaw), Math.abs(goal.pitch - now.pitch), Math.abs(Math.log(goal.distance / now.distance)), Math.abs(Math.log(goal.zoom / now.zoom)), distance(goal.target, now.target) / near);
     if (share >= 1 || left * (1 - share) < REST) {
       this.jump();
       return true;
@@ -255,7 +255,7 @@ export class OrbitRig {
       // Distances go by ratios: coming nearer looks as fast from afar as from close by.
       distance: now.distance * (goal.distance / now.distance) ** share,
       zoom: now.zoom * (goal.zoom / now.zoom) ** share,
-      target: now.target.map((value, k) => mix(value, goal.target[k] as number)) as unknown as Vector,
+      target: lerp([0, 0, 0], now.target, goal.target, share),
     };
     return true;
   }
@@ -268,7 +268,7 @@ export class OrbitRig {
     const pose = this.#now;
     if (samePose(pose, this.#stand)) return this.#lens;
     const { x, y, z } = axesOf(pose);
-    const transform = [...x, 0, ...y, 0, ...z, 0, ...add(pose.target, z, pose.distance), 1];
+    const transform = [...x, 0, ...y, 0, ...z, 0, ...scaleAndAdd([0, 0, 0], pose.target, z, pose.distance), 1];
     if (this.#lens.type === 'orthographic') return { ...this.#lens, transform, xmag: this.#lens.xmag / pose.zoom, ymag: this.#lens.ymag / pose.zoom };
     if (this.#lens.type === 'panorama') return { ...this.#lens, transform };
     return { ...this.#lens, transform, focus_distance: pose.distance };
@@ -291,9 +291,9 @@ export class OrbitRig {
     const eye: Vector = [m[12] as number, m[13] as number, m[14] as number];
     const length = Math.hypot(m[8] as number, m[9] as number, m[10] as number) || 1;
     const back: Vector = [(m[8] as number) / length, (m[9] as number) / length, (m[10] as number) / length];
-    const ahead = [0, 1, 2].reduce((sum, k) => sum + ((eye[k] as number) - (this.#center[k] as number)) * (back[k] as number), 0);
-    const distance = ahead > 0.05 * this.#radius ? ahead : this.#radius;
-    return { yaw: Math.atan2(back[0], back[2]), pitch: clamp(Math.asin(clamp(back[1], -1, 1)), -STEEPEST, STEEPEST), distance, target: add(eye, back, -distance), zoom: 1 };
+    const ahead = dot(subtract([0, 0, 0], eye, this.#center), back);
+    const away = ahead > 0.05 * this.#radius ? ahead : this.#radius;
+    return { yaw: Math.atan2(back[0], back[2]), pitch: clamp(Math.asin(clamp(back[1], -1, 1)), -STEEPEST, STEEPEST), distance: away, target: scaleAndAdd([0, 0, 0], eye, back, -away), zoom: 1 };
   }
 }
 

@@ -1,4 +1,5 @@
 import type { Camera } from '@glanz/scene';
+import { dot, subtract } from 'gl-matrix/esm/vec3.js';
 import type { Vector } from './orbit';
 
 /** Where a point of the world falls on the picture. */
@@ -25,9 +26,8 @@ export function project(camera: Camera, aspect: number, point: Vector): Projecti
     const length = Math.hypot(...v) || 1;
     return [v[0] / length, v[1] / length, v[2] / length];
   };
-  const to = [0, 1, 2].map((k) => point[k as 0 | 1 | 2] - (m[12 + k] as number));
-  const along = (axis: Vector) => (to[0] as number) * axis[0] + (to[1] as number) * axis[1] + (to[2] as number) * axis[2];
-  const [right, up, ahead] = [along(unit(0)), along(unit(4)), -along(unit(8))];
+  const to = subtract([0, 0, 0], point, [m[12] as number, m[13] as number, m[14] as number]);
+  const [right, up, ahead] = [dot(to, unit(0)), dot(to, unit(4)), -dot(to, unit(8))];
   const distance = Math.hypot(...to);
   if (camera.type === 'panorama') {
     const x = Math.atan2(right, ahead) / (2 * Math.PI) + 0.5;

@@ -1,4 +1,5 @@
 import { frameCamera, sceneBounds, type Camera, type PerspectiveCamera, type Scene } from '@glanz/scene';
+import { dot, lerp, scaleAndAdd, subtract } from 'gl-matrix/esm/vec3.js';
 import { chooseCamera, lookAt } from '../camera';
 
 /** Where a picture is taken from. */
@@ -55,19 +56,20 @@ export async function cameraOf(view: View, scene: Scene, aspect: number, cwd: st
  */
 function turntableCamera({ name, step, count, elevation }: View & { kind: 'turntable' }, scene: Scene, aspect: number): PerspectiveCamera {
   const { min, max } = sceneBounds(scene);
-  const center = [0, 1, 2].map((k) => ((min[k] as number) + (max[k] as number)) / 2) as Vector;
+  const center = lerp([0, 0, 0], min, max, 0.5);
   let distance = 0;
   let framed: PerspectiveCamera | undefined;
   for (let i = 0; i < count; i++) {
     framed = frameCamera(scene, { aspect, direction: directionOf((360 * i) / count, elevation) });
-    const { transform: m, yfov } = framed;
-    const from = [0, 1, 2].map((k) => (m[12 + k] as number) - (center[k] as number));
-    const along = (column: number) => [0, 1, 2].reduce((sum, k) => sum + (m[4 * column + k] as number) * (from[k] as number), 0);
+    const { transform, yfov } = framed;
+    const m = Array.from(transform);
+    const from = subtract([0, 0, 0], m.slice(12), center);
+    const along = (column: number) => dot(m.slice(4 * column), from);
     // Framed cameras stand aside of the middle; standing in front of it asks for the same angle from further away.
     const ty = Math.tan(yfov / 2) * (1 - 0.06);
     distance = Math.max(distance, along(2) + Math.max(Math.abs(along(0)) / (ty * aspect), Math.abs(along(1)) / ty));
   }
   const direction = directionOf((360 * step) / count, elevation);
-  const eye = center.map((c, k) => c + distance * (direction[k] as number)) as Vector;
+  const eye = scaleAndAdd([0, 0, 0], center, direction, distance);
   return { ...(framed as PerspectiveCamera), name, transform: lookAt(eye, center, [0, 1, 0]), focus_distance: distance };
 }

@@ -1,4 +1,5 @@
 import { createScene, type PerspectiveCamera, type Scene } from '@glanz/scene';
+import { cross, subtract } from 'gl-matrix/esm/vec3.js';
 import { MeshBuilder } from '../shapes/mesh-builder';
 import type { Tessellation } from '../shapes/tessellation';
 import { CONTACT_BLOCKS } from './contact-block';
@@ -21,12 +22,12 @@ const PARTS: readonly Part[] = [...FRONT, ...MOUNT, ...CONTACT_BLOCKS];
 
 /** A camera at `eye` that looks at `target`, metres. */
 function lookAt(eye: readonly [number, number, number], target: readonly [number, number, number], yfov: number): PerspectiveCamera {
-  const back = eye.map((value, i) => value - target[i]!);
+  const back = subtract([0, 0, 0], eye, target);
   const distance = Math.hypot(...back);
   const z = back.map((value) => value / distance) as [number, number, number];
   const flat = Math.hypot(z[0], z[2]);
   const x = [z[2] / flat, 0, -z[0] / flat] as const;
-  const y = [z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2], z[0] * x[1] - z[1] * x[0]] as const;
+  const y = cross([0, 0, 0], z, x);
   return { type: 'perspective', name: 'Product view', transform: [...x, 0, ...y, 0, ...z, 0, ...eye, 1], yfov, focus_distance: distance };
 }
 

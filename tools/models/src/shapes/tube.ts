@@ -1,3 +1,4 @@
+import { cross, dot, scale, scaleAndAdd, subtract } from 'gl-matrix/esm/vec3.js';
 import type { MeshBuilder } from './mesh-builder';
 
 type Vector = readonly [number, number, number];
@@ -5,9 +6,6 @@ type Vector = readonly [number, number, number];
 /** A path to run a tube along. */
 export type Curve = (t: number) => Vector;
 
-const subtract = (a: Vector, b: Vector): Vector => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-const crossed = (a: Vector, b: Vector): Vector => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-const dot = (a: Vector, b: Vector) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const unit = (a: Vector): Vector => {
   const length = Math.hypot(...a);
   return [a[0] / length, a[1] / length, a[2] / length];
@@ -23,20 +21,17 @@ const unit = (a: Vector): Vector => {
  */
 export function tube(builder: MeshBuilder, curve: Curve, radius: number, steps: number, segments: number): void {
   const centres = Array.from({ length: steps + 1 }, (_, i) => curve(i / steps));
-  const tangents = centres.map((_, i) => unit(subtract(centres[Math.min(i + 1, steps)]!, centres[Math.max(i - 1, 0)]!)));
+  const tangents = centres.map((_, i) => unit(subtract([0, 0, 0], centres[Math.min(i + 1, steps)]!, centres[Math.max(i - 1, 0)]!)));
   const t0 = tangents[0]!;
-  let side = unit(crossed(t0, Math.abs(t0[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0]));
+  let side = unit(cross([0, 0, 0], t0, Math.abs(t0[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0]));
   const sides: Vector[] = [side];
   for (let i = 0; i < steps; i++) {
-    const v1 = subtract(centres[i + 1]!, centres[i]!);
+    const v1 = subtract([0, 0, 0], centres[i + 1]!, centres[i]!);
     const c1 = dot(v1, v1);
-    const reflect = (v: Vector, axis: Vector, c: number): Vector => {
-      const k = (2 / c) * dot(axis, v);
-      return [v[0] - k * axis[0], v[1] - k * axis[1], v[2] - k * axis[2]];
-    };
+    const reflect = (v: Vector, axis: Vector, c: number): Vector => scaleAndAdd([0, 0, 0], v, axis, (-2 / c) * dot(axis, v));
     const sideL = reflect(side, v1, c1);
     const tangentL = reflect(tangents[i]!, v1, c1);
-    const v2 = subtract(tangents[i + 1]!, tangentL);
+    const v2 = subtract([0, 0, 0], tangents[i + 1]!, tangentL);
     const c2 = dot(v2, v2);
     side = unit(c2 > 1e-20 ? reflect(sideL, v2, c2) : sideL);
     sides.push(side);
@@ -44,12 +39,11 @@ export function tube(builder: MeshBuilder, curve: Curve, radius: number, steps: 
   const first = builder.vertexCount;
   const at = (i: number, j: number): { p: Vector; n: Vector } => {
     const u = sides[i]!;
-    const v = crossed(tangents[i]!, u);
+    const v = cross([0, 0, 0], tangents[i]!, u);
     const angle = (j / segments) * 2 * Math.PI;
     const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
-    const n: Vector = [u[0] * cos + v[0] * sin, u[1] * cos + v[1] * sin, u[2] * cos + v[2] * sin];
-    const c = centres[i]!;
-    return { p: [c[0] + n[0] * radius, c[1] + n[1] * radius, c[2] + n[2] * radius], n };
+    const n = scaleAndAdd([0, 0, 0], scale([0, 0, 0], u, cos), v, sin);
+    return { p: scaleAndAdd([0, 0, 0], centres[i]!, n, radius), n };
   };
   for (let i = 0; i <= steps; i++) {
     for (let j = 0; j < segments; j++) {
@@ -68,7 +62,7 @@ export function tube(builder: MeshBuilder, curve: Curve, radius: number, steps: 
     [steps, 1],
   ] as const) {
     const t = tangents[i]!;
-    const n: Vector = [t[0] * sign, t[1] * sign, t[2] * sign];
+    const n = scale([0, 0, 0], t, sign);
     const rim = builder.vertexCount;
     for (let j = 0; j < segments; j++) builder.vertex(...at(i, j).p, ...n);
     for (let j = 1; j + 1 < segments; j++) {

@@ -1,0 +1,38 @@
+import { describeError, PlaygroundError } from '../errors';
+
+/** What a user gave, sorted: a model with everything that lies beside it, an environment, a material, or several of them. */
+export interface GivenFiles {
+  readonly model?: { readonly files: ReadonlyMap<string, File>; readonly entry: string };
+  readonly environment?: File;
+  /** A MaterialX document. */
+  readonly material?: File;
+}
+
+const MODEL = /\.(glb|gltf|obj|stl)$/i;
+const ENVIRONMENT = /\.(hdr|exr|pic)$/i;
+const MATERIAL = /\.mtlx$/i;
+
+/**
+ * Finds the model, the environment and the material among files.
+ *
+ * @param files By path, folders separated by `/`.
+ * @throws {PlaygroundError} `playground/no-model` if there is none of them.
+ */
+export function sortFiles(files: ReadonlyMap<string, File>): GivenFiles {
+  const paths = [...files.keys()];
+  // Of several documents the one nearest to the top, as asset folders keep variants below.
+  const depth = (path: string) => path.split('/').length;
+  const entry = paths.filter((path) => MODEL.test(path)).sort((a, b) => depth(a) - depth(b) || a.localeCompare(b))[0];
+  const surroundings = paths.find((path) => ENVIRONMENT.test(path));
+  const look = paths.find((path) => MATERIAL.test(path));
+  if (entry === undefined && surroundings === undefined && look === undefined) {
+    const names = paths.slice(0, 3).map((path) => `"${path}"`);
+    throw new PlaygroundError('playground/no-model', `There is no .glb, .gltf, .obj, .stl, .hdr, .exr or .mtlx among the files${names.length > 0 ? ` (${names.join(', ')}${paths.length > 3 ? ', …' : ''})` : ''}.`);
+  }
+  const environment = surroundings === undefined ? undefined : files.get(surroundings);
+  const material = look === undefined ? undefined : files.get(look);
+  return { ...(entry === undefined ? {} : { model: { files, entry } }), ...(environment ? { environment } : {}), ...(material ? { material } : {}) };
+}
+
+/** What the page says of an environment that cannot be read, and came together with a model. */
+export const environmentNote = (error: unknown): string => `${describeError(error).message} The model is lit as the page was before.`;
