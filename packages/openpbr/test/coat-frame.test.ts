@@ -6,12 +6,12 @@ import { expectTwins } from './agree';
 import { gpuShader, onGpu, type GpuCase } from './gpu';
 import { direction, furnace } from './integrate';
 import { anyCoated, single, uniform, upperDirection } from './random';
-import { oracle, sharedIt } from './shared';
+import { oracle } from './oracle/index';
 
 const dot = (a: OpenPbrVector, b: OpenPbrVector) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
 describe('a coat with a normal of its own', () => {
-  sharedIt('against an independent implementation: every pair of its lobe, and all lobes together', () => {
+  it('against an independent implementation: every pair of its lobe, and all lobes together', () => {
     const setting = oracle().settings.find(({ id }) => id === 'coat_normal_tilt')!;
     const p = resolveParameters(setting.params);
     const alone = resolveParameters({ ...setting.params, base_weight: 0, specular_weight: 0 });

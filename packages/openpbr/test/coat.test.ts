@@ -5,7 +5,7 @@ import { requiredFeatures } from '../src/wgsl/index';
 import { gpuShader } from './gpu';
 import { direction, furnace } from './integrate';
 import { anyCoated, anySurface, uniform, upperDirection } from './random';
-import { primitives, sharedIt, type Triple } from './shared';
+import { primitives, type Triple } from './oracle/index';
 
 const WHITE = [1, 1, 1] as const;
 const COSINES = [1, 0.85, 0.6, 0.35, 0.15, 0.05, 0.01];
@@ -15,7 +15,7 @@ const QUADRATURE = 5e-4;
 const near = (actual: number, expected: number, rel: number, what: string) => expect(Math.abs(actual - expected), `${what}: ${actual} for ${expected}`).toBeLessThanOrEqual(rel * Math.abs(expected));
 
 describe('coat against independent numbers', () => {
-  sharedIt('roughening of what lies below, and darkening', () => {
+  it('roughening of what lies below, and darkening', () => {
     type Row = { coat_ior: number; base_roughness: number; coat_roughness: number; roughened_pr261: number; K_smooth_mu1: number; K_rough: number; Delta_E05_rough: number };
     const rows = primitives()['coat'] as unknown as Row[];
     expect(rows.length).toBeGreaterThan(3);
@@ -33,7 +33,7 @@ describe('coat against independent numbers', () => {
     }
   });
 
-  sharedIt('absorption', () => {
+  it('absorption', () => {
     for (const row of primitives()['coat_absorption'] as unknown as { coat_color: Triple; coat_ior: number; mu_i: number; mu_o: number; T_pair: Triple }[]) {
       const p = resolveParameters({ coat_weight: 1, coat_color: row.coat_color, coat_ior: row.coat_ior });
       coatTransmittance(p, row.mu_i, row.mu_o).forEach((value, i) => near(value, row.T_pair[i] as number, 1e-5, 'transmittance'));

@@ -3,7 +3,7 @@ import { albedoBsdf, evalBsdf, prepareBsdf } from '../src/cpu/index';
 import { resolveParameters, type OpenPbrParameters } from '../src/parameters/index';
 import { direction, furnace, whiteDielectric } from './integrate';
 import { anySurface, uniform, upperDirection } from './random';
-import { primitives, sharedIt } from './shared';
+import { primitives } from './oracle/index';
 
 const WHITE = [1, 1, 1] as const;
 const ROUGHNESSES = [0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1];
@@ -48,7 +48,7 @@ describe('white furnace: nothing is lost, nothing is made', () => {
 });
 
 describe('energy', () => {
-  sharedIt('of single scattering is lost just as independent numbers say', () => {
+  it('of single scattering is lost just as independent numbers say', () => {
     for (const row of primitives()['ggx_directional_albedo'] as unknown as { r: number; mu: number; E_F1_correlated: number }[]) {
       const p = resolveParameters({ base_metalness: 1, base_color: WHITE, specular_roughness: row.r });
       expect(Math.abs(furnace(p, direction(row.mu), { multipleScattering: false }, 64).albedo[0] - row.E_F1_correlated), `roughness ${row.r}, cosine ${row.mu}`).toBeLessThan(1e-3);

@@ -7,7 +7,7 @@ import { requiredFeatures } from '../src/wgsl/index';
 import { openpbrFilm } from '../src/wgsl/film.wgsl';
 import { direction } from './integrate';
 import { uniform } from './random';
-import { primitives, sharedIt, type Triple } from './shared';
+import { primitives, type Triple } from './oracle/index';
 import { sphereFurnace } from './sphere';
 
 afterEach(() => expectNoGpuErrors());
@@ -28,14 +28,14 @@ interface Row {
 describe('reflectance of a film', () => {
   const rows = (): Row[] => primitives()['thin_film_airy'] as unknown as Row[];
 
-  sharedIt("is Airy's at three wavelengths", () => {
+  it("is Airy's at three wavelengths", () => {
     for (const row of rows()) {
       const color = filmReflectance(filmOf(row.n_film, row.thickness_nm / 1000, ORACLE_WAVELENGTHS), row.base, 1 - row.mu * row.mu);
       color.forEach((value, i) => expect(Math.abs(value - (row.R_620_540_450[i] as number)), JSON.stringify(row)).toBeLessThan(1e-6));
     }
   });
 
-  sharedIt('is that of the visible spectrum within 0.02, and 0.005 in the mean square', () => {
+  it('is that of the visible spectrum within 0.02, and 0.005 in the mean square', () => {
     let squares = 0, count = 0;
     for (const row of rows()) {
       const color = filmReflectance(filmOf(row.n_film, row.thickness_nm / 1000), row.base, 1 - row.mu * row.mu);
@@ -50,7 +50,7 @@ describe('reflectance of a film', () => {
     expect(Math.sqrt(squares / count)).toBeLessThan(5e-3);
   });
 
-  sharedIt('has the complex index of a metal', () => {
+  it('has the complex index of a metal', () => {
     for (const { F0, edge, n, k } of primitives()['gulbrandsen'] as { F0: number; edge: number; n: number; k: number }[]) {
       if (F0 > 0.999) continue;
       const [ours, absorption] = metalIndex(F0, edge);

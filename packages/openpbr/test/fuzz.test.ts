@@ -6,13 +6,13 @@ import { requiredFeatures } from '../src/wgsl/index';
 import { gpuShader } from './gpu';
 import { direction } from './integrate';
 import { uniform, upperDirection } from './random';
-import { oracle, primitives, sharedIt } from './shared';
+import { oracle, primitives } from './oracle/index';
 import { sphereFurnace } from './sphere';
 
 const fuzzy = (fuzz_roughness: number, extra: Partial<OpenPbrParameters> = {}): OpenPbrParameters => resolveParameters({ base_color: [1, 1, 1], fuzz_weight: 1, fuzz_roughness, ...extra });
 
 describe('fuzz against independent numbers', () => {
-  sharedIt('energy: our simulation against the published table, within 2 % or 0.004', () => {
+  it('energy: our simulation against the published table, within 2 % or 0.004', () => {
     const rows = (oracle() as unknown as { primitives: { fuzz_ltc: { roughness: number; wo: OpenPbrVector; wi: OpenPbrVector; table: { aInv_bInv_R: [number, number, number]; fcos: number } }[] } }).primitives.fuzz_ltc;
     expect(rows.length).toBeGreaterThan(20);
     let near = 0;
@@ -27,7 +27,7 @@ describe('fuzz against independent numbers', () => {
     expect(near / rows.length).toBeGreaterThanOrEqual(0.9);
   });
 
-  sharedIt('energy against the published rational fit, within its error of 0.06', () => {
+  it('energy against the published rational fit, within its error of 0.06', () => {
     for (const { roughness, wo, fit } of primitives()['fuzz_ltc'] as unknown as { roughness: number; wo: OpenPbrVector; fit: { aInv_bInv_R: number[] } }[]) {
       expect(Math.abs(fuzzAlbedo(roughness, wo[2]) - (fit.aInv_bInv_R[2] as number))).toBeLessThan(0.06);
     }

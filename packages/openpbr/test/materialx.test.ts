@@ -4,7 +4,7 @@ import { document as documented, dress } from '../../../apps/docs/examples/mater
 import { MaterialXError, readMaterialX, writeMaterialX, type MaterialXMaterial, type MaterialXTexture } from '../src/materialx/index';
 import { OPENPBR_PARAMETER_NAMES, OPENPBR_PARAMETERS, resolveParameters, type OpenPbrParameterName, type OpenPbrParameters } from '../src/parameters/index';
 import { OPENPBR_PRESET_NAMES, OPENPBR_PRESETS } from '../src/presets/index';
-import { presets as shared, sharedIt } from './shared';
+import { presets as shared } from './oracle/index';
 
 const counter = new OperationCounter(/\/packages\/openpbr\/src\/materialx\//);
 afterAll(() => counter.end());
@@ -87,7 +87,7 @@ describe('values', () => {
     expect(parameters.subsurface_radius).toBe(2);
   });
 
-  sharedIt('the specification\'s example materials, written as its documents are', () => {
+  it('the specification\'s example materials, written as its documents are', () => {
     for (const [name, overrides] of Object.entries(shared())) {
       const inputs = Object.entries(overrides).map(([key, value]) => `<input name="${key}" type="${OPENPBR_PARAMETERS[key as OpenPbrParameterName].type}" value="${Array.isArray(value) ? value.join(', ') : value}" />`);
       const { parameters } = only(wrap(inputs.join('\n'), '', 'colorspace="acescg"'));

@@ -1,10 +1,10 @@
-import { describe, expect } from 'vitest';
+import { describe, expect, it } from 'vitest';
 import { coatDarkening, coatedBase, dielectricEpsilon, dispersedIor, evalBsdf, fresnelMean, ggxAlpha, ggxMasking, ggxMaskingShadowing, prepareBsdf, type BsdfOptions, type Slopes } from '../src/cpu/index';
 import { resolveParameters, type OpenPbrParameters, type OpenPbrVector } from '../src/parameters/index';
 import { direction, furnace, integrateHemisphere } from './integrate';
 import { resultsOf } from './results';
 import { sphereFurnace } from './sphere';
-import { oracle, sharedIt, sharedPresent, type OraclePair, type OracleSetting } from './shared';
+import { oracle, type OraclePair, type OracleSetting } from './oracle/index';
 
 // The parameters of the lobes that exist. Settings that touch others wait for those lobes.
 const KNOWN = /^(base_|specular_|transmission_|subsurface_|coat_|fuzz_|thin_film_|emission_|geometry_opacity$|geometry_tangent$|geometry_thin_walled$|exterior_ior$)/;
@@ -47,7 +47,7 @@ const LISTED_ALBEDO: Readonly<Record<string, number>> = { eon_half_weight: 0.05,
 /** There, films are evaluated at the wavelengths above; here, over the visible spectrum, or for comparison as there. Both hold for f. */
 const hasFilm = ({ params }: OracleSetting): boolean => (params.thin_film_weight ?? 0) > 0;
 
-const settings = sharedPresent ? oracle().settings.filter((s) => Object.keys(s.params).every((name) => KNOWN.test(name))) : [];
+const settings = oracle().settings.filter((s) => Object.keys(s.params).every((name) => KNOWN.test(name)));
 
 /** The host turns directions into the frame of the tangent. */
 function frameOf({ params }: OracleSetting): (v: OpenPbrVector) => OpenPbrVector {
@@ -127,7 +127,7 @@ const quantile = (values: readonly number[], q: number): number => [...values].s
 
 describe('against an independent implementation', () => {
   const record = resultsOf('oracle');
-  sharedIt('has at least twenty settings to compare', () => {
+  it('has at least twenty settings to compare', () => {
     expect(settings.length).toBeGreaterThanOrEqual(20);
   });
 
@@ -151,7 +151,7 @@ describe('against an independent implementation', () => {
     };
 
     if (lobes.spec) {
-      sharedIt(`${setting.id}: every pair of the microfacet lobe`, () => {
+      it(`${setting.id}: every pair of the microfacet lobe`, () => {
         const { rel, abs } = lobes.spec as { rel: number; abs: number };
         let compared = 0;
         each((p, channels, { pair, wo, wi, side }) => {
@@ -168,7 +168,7 @@ describe('against an independent implementation', () => {
     }
 
     if (lobes.coat && !ROUGHENED_BY_FUZZ.includes(setting.id)) {
-      sharedIt(`${setting.id}: every pair of the coat's lobe`, () => {
+      it(`${setting.id}: every pair of the coat's lobe`, () => {
         const { rel, abs } = lobes.coat as { rel: number; abs: number };
         let compared = 0;
         each((p, _, { pair, wo, wi, up }) => {
@@ -184,7 +184,7 @@ describe('against an independent implementation', () => {
 
     const listed = setting.id in LISTED;
     if (tolerance && listed) {
-      sharedIt(`${setting.id}: all lobes together differ by choice, by no more than is listed`, () => {
+      it(`${setting.id}: all lobes together differ by choice, by no more than is listed`, () => {
         const differences: number[] = [];
         each((p, channels, { pair, wo, wi, side }) => {
           const expected = expectedTotal(pair);
@@ -200,7 +200,7 @@ describe('against an independent implementation', () => {
       });
     }
     if (tolerance && !listed) {
-      for (const spectrum of hasFilm(setting) ? [false, true] : [false]) sharedIt(`${setting.id}: all lobes together (class ${tolerance.cls})${spectrum ? ', over the spectrum' : ''}`, () => {
+      for (const spectrum of hasFilm(setting) ? [false, true] : [false]) it(`${setting.id}: all lobes together (class ${tolerance.cls})${spectrum ? ', over the spectrum' : ''}`, () => {
         const differences: number[] = [];
         const close: boolean[] = [];
         let worst = 0;
@@ -232,7 +232,7 @@ describe('against an independent implementation', () => {
     }
 
     if (setting.id in LISTED_ALBEDO) {
-      sharedIt(`${setting.id}: parts of uniform light differ by choice, by no more than is listed, and no light is made or lost but by colour`, () => {
+      it(`${setting.id}: parts of uniform light differ by choice, by no more than is listed, and no light is made or lost but by colour`, () => {
         let [worst, beyond, angles] = [0, 0, 0];
         const p = parametersOf(setting);
         const white = { base_weight: 1, base_color: [1, 1, 1], transmission_color: [1, 1, 1], subsurface_color: [1, 1, 1] } as const;
@@ -254,7 +254,7 @@ describe('against an independent implementation', () => {
     }
 
     if (!FOLLOWS_TEXT_INSTEAD.includes(setting.id) && ![...THIN_WALLS, ...PAPER].includes(setting.id)) {
-      sharedIt(`${setting.id}: reflected and transmitted parts of uniform light`, () => {
+      it(`${setting.id}: reflected and transmitted parts of uniform light`, () => {
         for (const { mu, R, T, se } of setting.albedo) {
           if (mu <= 0 && !clear) continue;
           const side = sideOf(mu);

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { dielectricEpsilon, energyBounce, energyLost, energyShare, energyTotalLost, eon, fresnelDielectric, fresnelMean, fresnelMetal, fresnelMetalMean, ggxAlpha, ggxDistribution, ggxMasking, ggxMaskingShadowing, ggxSample } from '../src/cpu/index';
-import { primitives, sharedIt, type Triple } from './shared';
+import { primitives, type Triple } from './oracle/index';
 
 const near = (actual: number, expected: number, rel: number, abs = 0) => {
   const slack = Math.max(rel * Math.abs(expected), abs);
@@ -8,15 +8,15 @@ const near = (actual: number, expected: number, rel: number, abs = 0) => {
 };
 
 describe('primitives against independent numbers', () => {
-  sharedIt('Fresnel of a dielectric', () => {
+  it('Fresnel of a dielectric', () => {
     for (const row of primitives()['fresnel_dielectric'] as { eta: number; mu: number; F: number }[]) near(fresnelDielectric(row.eta, row.mu), row.F, 1e-6);
   });
 
-  sharedIt('mean Fresnel reflectance, about', () => {
+  it('mean Fresnel reflectance, about', () => {
     for (const row of primitives()['fresnel_average'] as { eta: number; exact: number }[]) near(fresnelMean((row.eta - 1) / (row.eta + 1)), row.exact, 0, 6e-3);
   });
 
-  sharedIt('specular_weight as a change of the index of refraction', () => {
+  it('specular_weight as a change of the index of refraction', () => {
     for (const row of primitives()['specular_weight_ior'] as { eta: number; weight: number; eta_mod: number; F_mu05_v11: number }[]) {
       const epsilon = dielectricEpsilon(row.eta, row.weight);
       const eta = (1 + epsilon) / (1 - epsilon);
@@ -25,7 +25,7 @@ describe('primitives against independent numbers', () => {
     }
   });
 
-  sharedIt('F82 tint', () => {
+  it('F82 tint', () => {
     for (const row of primitives()['f82_tint'] as { F0: Triple; tint: Triple; mu?: number; F_clamped: Triple; average: Triple }[]) {
       // Rows without an angle hold averages, of the formula that is not clamped.
       if (row.mu === undefined) fresnelMetalMean(row.F0, row.tint).forEach((value, i) => near(value, Math.max(row.average[i] as number, 0), 1e-5));
@@ -33,13 +33,13 @@ describe('primitives against independent numbers', () => {
     }
   });
 
-  sharedIt('slopes of an anisotropic surface', () => {
+  it('slopes of an anisotropic surface', () => {
     for (const row of primitives()['anisotropy_alpha'] as { r: number; a: number; alpha: [number, number] }[]) {
       ggxAlpha(row.r, row.a).forEach((value, i) => near(value, Math.max(row.alpha[i] as number, 1e-4), 1e-6));
     }
   });
 
-  sharedIt('GGX: distribution, masking, visible normals, densities', () => {
+  it('GGX: distribution, masking, visible normals, densities', () => {
     for (const row of primitives()['ggx'] as unknown as { alpha: [number, number]; wo: Triple; u: [number, number]; h: Triple; D: number; G1o: number; wi: Triple; G2_correlated: number }[]) {
       const h = ggxSample(row.alpha, row.wo, row.u);
       h.forEach((value, i) => near(value, row.h[i] as number, 1e-5, 1e-6));
@@ -49,14 +49,14 @@ describe('primitives against independent numbers', () => {
     }
   });
 
-  sharedIt('EON diffuse', () => {
+  it('EON diffuse', () => {
     for (const row of primitives()['eon'] as { rho: number; r: number; wo: Triple; wi: Triple; f: number }[]) {
       // The numbers use the closed form of the directional albedo, the lobe its polynomial fit.
       near(eon([row.rho, row.rho, row.rho], row.r, row.wo, row.wi)[0], row.f, 2e-3);
     }
   });
 
-  sharedIt('energy tables', () => {
+  it('energy tables', () => {
     type Row = { r: number; mu: number; E_F1_correlated: number; 'eta1.5': { R_corr: number }; 'eta0.6667': { R_corr: number } };
     for (const row of primitives()['ggx_directional_albedo'] as unknown as Row[]) {
       near(1 - energyLost(row.r, row.mu), row.E_F1_correlated, 1e-3);

@@ -5,7 +5,7 @@ import { requiredFeatures } from '../src/wgsl/index';
 import { gpuShader } from './gpu';
 import { direction } from './integrate';
 import { anyClear, uniform, unit, upperDirection } from './random';
-import { primitives, sharedIt, type Triple } from './shared';
+import { primitives, type Triple } from './oracle/index';
 import { sphereFurnace } from './sphere';
 
 const COSINES = [1, 0.85, 0.6, 0.35, 0.15, 0.05];
@@ -17,7 +17,7 @@ const near = (actual: number, expected: number, rel: number, what: string) => ex
 const over = ([x, y, z]: OpenPbrVector): OpenPbrVector => [x, -y, -z];
 
 describe('transmission against independent numbers', () => {
-  sharedIt('refraction by facets', () => {
+  it('refraction by facets', () => {
     const rows = primitives()['ggx_transmission'] as unknown as { alpha: number; eta: number; wo: Triple; wi: Triple; fcos_separable: number }[];
     expect(rows.length).toBeGreaterThan(10);
     for (const row of rows) {
@@ -28,7 +28,7 @@ describe('transmission against independent numbers', () => {
     }
   });
 
-  sharedIt('a smooth thin wall', () => {
+  it('a smooth thin wall', () => {
     for (const row of primitives()['thin_wall_smooth'] as unknown as { eta: number; mu: number; R: number; T_white: number }[]) {
       const { reflected, transmitted } = sphereFurnace(resolveParameters({ transmission_weight: 1, geometry_thin_walled: true, specular_roughness: 0.02, specular_ior: row.eta }), direction(row.mu));
       // 0.02 is not quite smooth near grazing, and the table of the share is 0.2 % high.
@@ -37,7 +37,7 @@ describe('transmission against independent numbers', () => {
     }
   });
 
-  sharedIt('dispersion', () => {
+  it('dispersion', () => {
     for (const row of primitives()['dispersion'] as unknown as { n_d: number; abbe: number; scale: number; n_620_540_450: Triple; n_F_d_C: Triple }[]) {
       const p = resolveParameters({ specular_ior: row.n_d, transmission_dispersion_scale: row.scale, transmission_dispersion_abbe_number: row.abbe });
       [620, 540, 450].forEach((wavelength, i) => near(dispersedIor(p, wavelength), row.n_620_540_450[i] as number, 1e-6, `${wavelength} nm`));
@@ -45,7 +45,7 @@ describe('transmission against independent numbers', () => {
     }
   });
 
-  sharedIt('the interior medium', () => {
+  it('the interior medium', () => {
     for (const row of primitives()['transmission_medium_v11'] as unknown as { color: Triple; depth: number; scatter: Triple; mu_a: Triple; mu_s: Triple }[]) {
       const { extinction, scattering } = transmissionMedium(resolveParameters({ transmission_color: row.color, transmission_depth: row.depth, transmission_scatter: row.scatter }));
       scattering.forEach((value, i) => near(value, row.mu_s[i] as number, 1e-6, 'scattering'));

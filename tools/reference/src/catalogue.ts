@@ -1,7 +1,7 @@
 import { existsSync, readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { decodeHdr } from '@glanz/image';
+import { decodeExr, decodeHdr, type ExrImage } from '@glanz/image';
 import { loadGltfFile, type GltfOptions } from '@glanz/gltf/node';
 import type { Environment, Material, PerspectiveCamera, Scene } from '@glanz/scene';
 import { ReferenceError } from './error';
@@ -44,19 +44,34 @@ export interface ReferencePicture {
   readonly stats: { readonly spp: number; readonly relmse_eps: number; readonly relmse_1spp: number; readonly relmse_of_reference: number };
 }
 
-/** The catalogue's folder: `GLANZ_GROUNDTRUTH`, or `shared/groundtruth/scenes` beside the checkout; `undefined` if it is not there. */
+const OWN = 'tools/reference/scenes';
+
+/**
+ * The catalogue's folder: `GLANZ_GROUNDTRUTH`, or the repository's own; `undefined` if it is not there, as for a bundle that
+ * runs elsewhere.
+ */
 export function catalogueFolder(): string | undefined {
   const named = process.env['GLANZ_GROUNDTRUTH'];
-  if (named) return existsSync(join(named, 'index.json')) ? named : undefined;
+  if (named) return existsSync(join(named, 'tolerances.json')) ? named : undefined;
   // Looked for upwards, since a bundle lies elsewhere than this source.
   for (let folder = dirname(fileURLToPath(import.meta.url)); ; folder = dirname(folder)) {
-    const candidate = join(folder, 'shared/groundtruth/scenes');
-    if (existsSync(join(candidate, 'index.json'))) return candidate;
+    const candidate = join(folder, OWN);
+    if (existsSync(join(candidate, 'tolerances.json'))) return candidate;
     if (folder === dirname(folder)) return undefined;
   }
 }
 
 const json = <T>(file: string) => JSON.parse(readFileSync(file, 'utf8')) as T;
+
+/** Channels of an EXR as RGB, stride 3. */
+function rgbOf({ width, height, channels }: ExrImage, file: string, layer: string): Float32Array {
+  const planes = ['R', 'G', 'B'].map((name) => {
+    const data = channels.get(`${layer}${name}`)?.data;
+    if (!data) throw new ReferenceError('reference/channels', `${file} has no channel ${layer}${name}.`);
+    return data;
+  });
+  return Float32Array.from({ length: 3 * width * height }, (_, i) => planes[i % 3]![Math.floor(i / 3)]!);
+}
 
 function floats(file: string): Float32Array {
   const bytes = readFileSync(file);
@@ -135,11 +150,20 @@ export class GroundTruth {
     return found.max_path_edges;
   }
 
-  /** The reference picture of a variant. */
+  /**
+   * The reference picture of a variant: an EXR with the channels R, G, B and `standard_error.R`, …, or, in catalogues with full
+   * precision, float32 files for both.
+   *
+   * @throws {ReferenceError} `reference/unknown-variant`, `reference/channels`
+   */
   picture(variant = 'full'): ReferencePicture {
     this.maxDepth(variant);
     const stem = join(this.folder, variant === 'full' ? 'ref' : `ref.${variant}`);
-    return { mean: floats(`${stem}.f32`), standardError: floats(`${stem}.se.f32`), stats: json(`${stem}.stats.json`) };
+    const stats = json<ReferencePicture['stats']>(`${stem}.stats.json`);
+    const file = `${stem}.exr`;
+    if (!existsSync(file)) return { mean: floats(`${stem}.f32`), standardError: floats(`${stem}.se.f32`), stats };
+    const image = decodeExr(readFileSync(file));
+    return { mean: rgbOf(image, file, ''), standardError: rgbOf(image, file, 'standard_error.'), stats };
   }
 
   /** The scene with the reference's camera first, and its surroundings. */

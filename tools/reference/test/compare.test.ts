@@ -1,7 +1,8 @@
 import { existsSync } from 'node:fs';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { describe, expect, it } from 'vitest';
+import { afterEach, describe, expect, it, vi } from 'vitest';
+import { GROUND_TRUTH_CASES } from '../src/cases';
 import type { ReferencePicture, Tolerance } from '../src/catalogue';
 import { comparePictures, failures, relMse } from '../src/compare';
 
@@ -66,8 +67,12 @@ describe('comparePictures', () => {
     expect(() => verdict(new Float32Array(12))).toThrow(/pixels/);
   });
 
-  const script = join(import.meta.dirname, '../../../../shared/groundtruth/compare.mjs');
-  it.runIf(existsSync(script))('agrees with the script that came with the catalogue (skipped where the catalogue is absent)', async () => {
+  const full = join(import.meta.dirname, '../../../../shared/groundtruth');
+  const script = join(full, 'compare.mjs');
+  afterEach(() => vi.unstubAllEnvs());
+
+  it.runIf(existsSync(script))('agrees with the script that came with the catalogue in full precision (skipped where that is absent)', async () => {
+    vi.stubEnv('GLANZ_GROUNDTRUTH', join(full, 'scenes'));
     const other = (await import(/* @vite-ignore */ pathToFileURL(script).href)) as {
       compare(folder: string, candidate: Float32Array, spp: number): { ok: boolean; relMSE: number; efficiency: number; checks: { value: number; limit: number; ok: boolean }[] };
       loadRef(folder: string): { img: Float32Array };
@@ -88,6 +93,38 @@ describe('comparePictures', () => {
         }
         expect(ours.efficiency).toBeCloseTo(theirs.efficiency, 6);
       }
+    }
+  });
+});
+
+describe('the catalogue', () => {
+  const full = join(import.meta.dirname, '../../../../shared/groundtruth/scenes');
+  afterEach(() => vi.unstubAllEnvs());
+
+  it('has all references, finite, of the size of the film', async () => {
+    const { GroundTruth } = await import('../src/catalogue');
+    for (const { scene, variant } of GROUND_TRUTH_CASES) {
+      const truth = new GroundTruth(scene);
+      const { mean, standardError } = truth.picture(variant);
+      const { width, height } = truth.description.film;
+      expect([mean.length, standardError.length], scene).toEqual([3 * width * height, 3 * width * height]);
+      expect(mean.every((value) => value >= 0 && value < 65_504) && standardError.every((value) => value >= 0 && value < 65_504), scene).toBe(true);
+    }
+  });
+
+  it.runIf(existsSync(full))('is that in full precision, rounded to half floats (skipped where that is absent)', async () => {
+    const { GroundTruth } = await import('../src/catalogue');
+    for (const { scene, variant } of GROUND_TRUTH_CASES) {
+      const half = new GroundTruth(scene).picture(variant);
+      vi.stubEnv('GLANZ_GROUNDTRUTH', full);
+      const float = new GroundTruth(scene).picture(variant);
+      vi.unstubAllEnvs();
+      // Half the distance between neighbours, below 2^-14 that of subnormal numbers.
+      for (const of of ['mean', 'standardError'] as const) {
+        const far = half[of].findIndex((value, i) => Math.abs(value - float[of][i]!) > Math.max(2 ** -11 * float[of][i]!, 2 ** -25));
+        expect(far, `${scene} ${variant} ${of}`).toBe(-1);
+      }
+      expect(half.stats).toEqual(float.stats);
     }
   });
 });

@@ -1,20 +1,9 @@
-import { existsSync, readFileSync } from 'node:fs';
-import { it } from 'vitest';
-import type { OpenPbrParameters } from '../src/parameters/index';
+import { readFileSync } from 'node:fs';
+import { gunzipSync } from 'node:zlib';
+import type { OpenPbrParameters } from '../../src/parameters/index';
 
-// Independent numbers live beside the repository; where they are absent, the tests that need them say so in their names.
-const FOLDER = new URL('../../../../shared/openpbr/', import.meta.url);
-
-/** Whether the independent numbers are there. */
-export const sharedPresent = existsSync(FOLDER);
-
-/** `it`, or a skipped test that says why. */
-export function sharedIt(name: string, run: () => void | Promise<void>, timeout?: number): void {
-  if (sharedPresent) it(name, run, timeout);
-  else it.skip(`${name} — SKIPPED: the oracle folder ../shared/openpbr is not here`, run);
-}
-
-const read = (file: string): unknown => JSON.parse(readFileSync(new URL(file, FOLDER), 'utf8'));
+const bytes = (file: string) => readFileSync(new URL(`./${file}`, import.meta.url));
+const read = (file: string): unknown => JSON.parse((file.endsWith('.gz') ? gunzipSync(bytes(file)) : bytes(file)).toString());
 
 /** The specification's example materials. */
 export const presets = (): Record<string, Partial<OpenPbrParameters>> => (read('presets.json') as { presets: Record<string, Partial<OpenPbrParameters>> }).presets;
@@ -50,5 +39,5 @@ export interface Oracle {
   furnace: { id: string; params: string; mu: number[]; RT: number[]; se: number }[];
 }
 
-export const oracle = (): Oracle => read('reference.json') as Oracle;
-export const primitives = (): Record<string, Record<string, unknown>[]> => read('primitives_own.json') as Record<string, Record<string, unknown>[]>;
+export const oracle = (): Oracle => read('reference.json.gz') as Oracle;
+export const primitives = (): Record<string, Record<string, unknown>[]> => read('primitives.json') as Record<string, Record<string, unknown>[]>;

@@ -5,7 +5,7 @@ import { assetFile, decodePixels, glbImages, packPixels, pixelsName } from './lo
 import { HELMET_FILES } from './scenes';
 
 /** Files of a catalogue scene that a measurement reads: of the references, not those of other microfacet models. */
-const WANTED = /^(scene\.(json|glb)|env\.hdr|ref(\.(?!sep\b)\w+)*\.(f32|stats\.json))$/;
+const WANTED = /^(scene\.(json|glb)|env\.hdr|ref(\.(?!sep\b)\w+)*\.(exr|f32|stats\.json))$/;
 
 function copy(from: string, to: string): void {
   mkdirSync(dirname(to), { recursive: true });
@@ -28,7 +28,7 @@ export async function packData(folder: string): Promise<string[]> {
     for (const file of readdirSync(join(catalogue, name)).filter((entry) => WANTED.test(entry))) copy(join(catalogue, name, file), join(folder, 'groundtruth', name, file));
     models.push(join(catalogue, name, 'scene.glb'));
   }
-  if (catalogue) for (const file of ['index.json', 'tolerances.json']) copy(join(catalogue, file), join(folder, 'groundtruth', file));
+  if (catalogue) copy(join(catalogue, 'tolerances.json'), join(folder, 'groundtruth', 'tolerances.json'));
   for (const path of Object.values(HELMET_FILES)) {
     const file = assetFile(path);
     if (!file) missing.push(path);
