@@ -53,5 +53,5 @@ export function weslModules(): {
   readonly name: string;
   readonly enforce: 'pre';
   configResolved(config: { readonly command: 'build' | 'serve' }): void;
-  transform(text: string, id: string): ReturnType<typeof compileWesl> | undefined;
+  transform(text: string, id: string): { code: string; map: ReturnType<typeof compileWesl>['map'] | null } | undefined;
 };

@@ -286,10 +286,12 @@ const OPERATOR = /[-+*/%=<>!&|^~]/;
  */
 export function closeUp(line) {
   if (line.includes('//')) return line;
-  return line.replace(/(?<=(\S)) +(?=(\S))/g, (spaces, before, after) => {
+  const closed = line.replace(/(?<=(\S)) +(?=(\S))/g, (spaces, before, after) => {
     const separates = /\w/.test(before) && /\w/.test(after);
     return separates || (OPERATOR.test(before) && OPERATOR.test(after)) ? spaces : '';
   });
+  // 1.0 is 1. and 0.5 is .5; what a substitution may go on with stays.
+  return closed.replace(/(?<=\d\.)0(?=[^\w.])/g, '').replace(/(?<![\w.])0(?=\.\d)/g, '');
 }
 
 /** A line with gates, without the spaces that separate nothing. */
@@ -402,6 +404,11 @@ export const weslModules = () => {
     name: 'wesl',
     enforce: 'pre',
     configResolved: ({ command }) => void (shrink = command === 'build'),
-    transform: (text, id) => (id.endsWith('.wesl') ? compileWesl(text, id, { shrink }) : undefined),
+    transform: (text, id) => {
+      if (!id.endsWith('.wesl')) return undefined;
+      const { code, map } = compileWesl(text, id, { shrink });
+      // A page that is built names no lines of its sources.
+      return shrink ? { code: code.replace(/\n\n+/g, '\n').replace('`\n', '`'), map: null } : { code, map };
+    },
   };
 };
