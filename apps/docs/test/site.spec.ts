@@ -81,13 +81,13 @@ const KINDS = ['/', '/guide/getting-started', '/packages/viewer', '/api/', '/api
 const isFull = process.env['GLANZ_FULL'] !== undefined;
 
 /**
- * In which widths and themes a page is looked at: one of each kind in all six, others that are written by hand in two, of the
- * generated reference each fifth page in one, by turns. `npm test -- --full` looks at all pages in all six.
+ * In which widths and themes a page is looked at: one of each kind in all six, others that are written by hand in one, by
+ * turns, and so each fifth page of the generated reference. `npm test -- --full` looks at all pages in all six.
  */
 function looksOf(path: string, index: number): readonly (readonly [number, 'light' | 'dark'])[] {
   if (isFull || KINDS.includes(path)) return LOOKS;
   if (path.startsWith('/api/')) return index % 5 === 0 ? [LOOKS[(index / 5) % LOOKS.length]!] : [];
-  return index % 2 === 0 ? [[1280, 'light'], [360, 'dark']] : [[768, 'dark'], [360, 'light']];
+  return [LOOKS[index % LOOKS.length]!];
 }
 
 test('axe finds nothing on any page, light and dark, at three widths', async ({ page }) => {
