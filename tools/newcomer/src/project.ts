@@ -97,8 +97,8 @@ export class Project {
   }
 
   async type(page: string, has: string, section?: string): Promise<void> {
-    // The template has it.
-    mkdirSync(join(this.folder, 'public'), { recursive: true });
+    // As the templates have it: browsers ask for an icon by themselves.
+    this.write('public/favicon.ico', Buffer.from('R0lGODlhAQABAIAAAAAAAP///yH5BAEAAAAALAAAAAABAAEAAAIBRAA7', 'base64'));
     const lines = commandsFrom(page, has, section);
     if (lines.length === 0) throw new Error(`${page}: nothing is left of the commands with ${has}.`);
     const installed = installedBy(page, has, section);

@@ -47,8 +47,8 @@ export interface ReferencePicture {
 const OWN = 'tools/reference/scenes';
 
 /**
- * The catalogue's folder: `GLANZ_GROUNDTRUTH`, or the repository's own; `undefined` if it is not there, as for a bundle that
- * runs elsewhere.
+ * The folder of the catalogue: the one that `GLANZ_GROUNDTRUTH` names, or `tools/reference/scenes`; `undefined` where neither is
+ * found, such as in a bundle outside of the repository.
  */
 export function catalogueFolder(): string | undefined {
   const named = process.env['GLANZ_GROUNDTRUTH'];

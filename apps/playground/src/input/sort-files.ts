@@ -23,13 +23,13 @@ export function sortFiles(files: ReadonlyMap<string, File>): GivenFiles {
   // Of several documents the one nearest to the top, as asset folders keep variants below.
   const depth = (path: string) => path.split('/').length;
   const entry = paths.filter((path) => MODEL.test(path)).sort((a, b) => depth(a) - depth(b) || a.localeCompare(b))[0];
-  const surroundings = paths.find((path) => ENVIRONMENT.test(path));
+  const environmentPath = paths.find((path) => ENVIRONMENT.test(path));
   const look = paths.find((path) => MATERIAL.test(path));
-  if (entry === undefined && surroundings === undefined && look === undefined) {
+  if (entry === undefined && environmentPath === undefined && look === undefined) {
     const names = paths.slice(0, 3).map((path) => `"${path}"`);
     throw new PlaygroundError('playground/no-model', `There is no .glb, .gltf, .obj, .stl, .hdr, .exr or .mtlx among the files${names.length > 0 ? ` (${names.join(', ')}${paths.length > 3 ? ', …' : ''})` : ''}.`);
   }
-  const environment = surroundings === undefined ? undefined : files.get(surroundings);
+  const environment = environmentPath === undefined ? undefined : files.get(environmentPath);
   const material = look === undefined ? undefined : files.get(look);
   return { ...(entry === undefined ? {} : { model: { files, entry } }), ...(environment ? { environment } : {}), ...(material ? { material } : {}) };
 }
