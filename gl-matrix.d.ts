@@ -1,5 +1,5 @@
-// gl-matrix declares types for 'gl-matrix' alone. Sources here import single modules, which every bundler tree-shakes; these are the
-// functions that they use, over any kind of array.
+// gl-matrix declares types for 'gl-matrix' alone. Sources here import single modules, which every bundler tree-shakes;
+// these are the functions that they use, over any kind of array.
 
 /** What a function writes into, and gives back. It may be one of the arguments. */
 interface GlMatrixOut {
@@ -37,5 +37,10 @@ declare module 'gl-matrix/esm/mat4.js' {
   /** a · b: b first, then a. */
   export function multiply<Out extends GlMatrixOut>(out: Out, a: M, b: M): Out;
   /** Scaled, then rotated by the unit quaternion xyzw, then translated. */
-  export function fromRotationTranslationScale<Out extends GlMatrixOut>(out: Out, rotation: M, translation: M, scale: M): Out;
+  export function fromRotationTranslationScale<Out extends GlMatrixOut>(
+    out: Out,
+    rotation: M,
+    translation: M,
+    scale: M,
+  ): Out;
 }

@@ -6,9 +6,17 @@ import { launchOptions } from './tools/browser/src/launch';
 export default defineConfig({
   projects: ['packages/viewer', 'packages/element', 'packages/react', 'packages/three', 'apps/playground', 'apps/docs']
     .filter((folder) => existsSync(new URL(`${folder}/test`, import.meta.url)))
-    .map((folder) => ({ name: folder.slice(folder.indexOf('/') + 1), testDir: `${folder}/test`, testMatch: '**/*.spec.ts' }))
+    .map((folder) => ({
+      name: folder.slice(folder.indexOf('/') + 1),
+      testDir: `${folder}/test`,
+      testMatch: '**/*.spec.ts',
+    }))
     // Wants packed packages and the registry: npm run newcomer brings them.
-    .concat(process.env['GLANZ_NEWCOMER'] ? [{ name: 'newcomer', testDir: 'tools/newcomer/src', testMatch: '**/*.spec.ts' }] : []),
+    .concat(
+      process.env['GLANZ_NEWCOMER']
+        ? [{ name: 'newcomer', testDir: 'tools/newcomer/src', testMatch: '**/*.spec.ts' }]
+        : [],
+    ),
   outputDir: '.cache/playwright',
   // The software GPU takes all cores for one page.
   workers: 1,

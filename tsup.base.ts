@@ -12,7 +12,11 @@ const page = errorsPage(rootManifest);
  */
 export function glanzPackage(
   entries: Record<string, string>,
-  options: { readonly external?: readonly string[]; readonly platform?: 'node' | 'neutral'; readonly client?: boolean } = {},
+  options: {
+    readonly external?: readonly string[];
+    readonly platform?: 'node' | 'neutral';
+    readonly client?: boolean;
+  } = {},
 ) {
   return defineConfig({
     entry: entries,
@@ -29,9 +33,15 @@ export function glanzPackage(
     define: page === undefined ? {} : { GLANZ_ERRORS_PAGE: JSON.stringify(page) },
     external: [...(options.external ?? [])],
     esbuildPlugins: [publishedSource],
-    // What imports of shader sources and of gl-matrix's modules are is declared in wesl.d.ts and gl-matrix.d.ts, named from the
-    // package's folder.
-    // The condition "@glanz/source" must not apply here: published declarations point at published packages.
-    dts: { compilerOptions: { ignoreDeprecations: '6.0', customConditions: [], types: ['@webgpu/types', 'node', '../../wesl', '../../gl-matrix'] } },
+    // What imports of shader sources and of gl-matrix's modules are is declared in wesl.d.ts and gl-matrix.d.ts, named
+    // from the package's folder. The condition "@glanz/source" must not apply here: published declarations point at
+    // published packages.
+    dts: {
+      compilerOptions: {
+        ignoreDeprecations: '6.0',
+        customConditions: [],
+        types: ['@webgpu/types', 'node', '../../wesl', '../../gl-matrix'],
+      },
+    },
   });
 }

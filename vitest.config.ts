@@ -3,7 +3,17 @@ import { BaseSequencer, type TestSpecification } from 'vitest/node';
 import { weslModules } from './tools/pipeline/wesl.mjs';
 
 /** Files that take minutes begin first: alone at the end the last of them would not keep both cores busy. */
-const LONG = ['reference/test/groundtruth', 'reference/test/slope', 'gpu/adaptive', 'gpu/dispersion', 'gpu/straight', 'openpbr/test/oracle', 'docs/test/examples', 'openpbr/test/gpu', 'test/gpu/'];
+const LONG = [
+  'reference/test/groundtruth',
+  'reference/test/slope',
+  'gpu/adaptive',
+  'gpu/dispersion',
+  'gpu/straight',
+  'openpbr/test/oracle',
+  'docs/test/examples',
+  'openpbr/test/gpu',
+  'test/gpu/',
+];
 
 class LongestFirst extends BaseSequencer {
   override async sort(files: TestSpecification[]): Promise<TestSpecification[]> {
@@ -32,9 +42,27 @@ const project = (name: string, dir: string) => ({
 export default defineConfig({
   test: {
     projects: [
-      ...['wgsl', 'scene', 'bvh', 'openpbr', 'gltf', 'formats', 'cad', 'tonemap', 'image', 'renderer', 'cli', 'viewer', 'element', 'react', 'three'].map((name) => project(name, `packages/${name}`)),
+      ...[
+        'wgsl',
+        'scene',
+        'bvh',
+        'openpbr',
+        'gltf',
+        'formats',
+        'cad',
+        'tonemap',
+        'image',
+        'renderer',
+        'cli',
+        'viewer',
+        'element',
+        'react',
+        'three',
+      ].map((name) => project(name, `packages/${name}`)),
       project('docs', 'apps/docs'),
-      ...['models', 'bench', 'reference', 'gpu', 'operations', 'pipeline'].map((name) => project(`tools-${name}`, `tools/${name}`)),
+      ...['models', 'bench', 'reference', 'gpu', 'operations', 'pipeline'].map((name) =>
+        project(`tools-${name}`, `tools/${name}`),
+      ),
       project('playground', 'apps/playground'),
     ],
     // One GPU process at a time on two cores keeps the software driver from starving itself.

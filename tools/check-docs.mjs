@@ -32,7 +32,9 @@ function bareMembers(checker, symbol) {
 export async function checkDocs() {
   const verdicts = new Verdicts();
   const packages = publishedPackages();
-  const files = packages.flatMap((p) => entriesOf(p).map(({ conditions }) => join(p.dir, conditions['@glanz/source']))).filter((file) => existsSync(file));
+  const files = packages
+    .flatMap((p) => entriesOf(p).map(({ conditions }) => join(p.dir, conditions['@glanz/source'])))
+    .filter((file) => existsSync(file));
   const { config } = ts.readConfigFile(join(root, 'tsconfig.base.json'), ts.sys.readFile);
   const { options } = ts.convertCompilerOptionsFromJson(config.compilerOptions, root);
   const checker = ts.createProgram(files, { ...options, noEmit: true });
@@ -54,7 +56,10 @@ export async function checkDocs() {
         if (!declaration || declaration.getSourceFile().fileName.includes('node_modules')) continue;
         total++;
         const { line } = declaration.getSourceFile().getLineAndCharacterOfPosition(declaration.getStart());
-        verdicts.expect(hasDoc(types, symbol), `${relative(root, declaration.getSourceFile().fileName)}:${line + 1}: ${name}, exported by ${specifier}, has no doc comment.`);
+        verdicts.expect(
+          hasDoc(types, symbol),
+          `${relative(root, declaration.getSourceFile().fileName)}:${line + 1}: ${name}, exported by ${specifier}, has no doc comment.`,
+        );
         const count = bareMembers(types, symbol);
         members += count.total;
         bare += count.bare;

@@ -38,9 +38,19 @@ export async function checkEntries() {
   for (const { specifier } of packages.flatMap(entriesOf)) {
     const { code, output } = await capture(process.execPath, [probe, specifier], { cwd: folder, timeoutMs: 20_000 });
     const [printed = '', report] = output.split('\u0001');
-    if (!verdicts.expect(code === 0 && report !== undefined, `import '${specifier}' failed with code ${code}: ${output.trim().split('\n').slice(0, 6).join(' ')}`)) continue;
+    if (
+      !verdicts.expect(
+        code === 0 && report !== undefined,
+        `import '${specifier}' failed with code ${code}: ${output.trim().split('\n').slice(0, 6).join(' ')}`,
+      )
+    )
+      continue;
     const { added, ms, exports, handles } = JSON.parse(report);
-    const faults = [printed.trim() === '' ? '' : `printed ${JSON.stringify(printed.slice(0, 200))}`, ...Object.entries(added).map(([what, names]) => `added ${what} ${names.join(', ')}`), handles.length > 0 ? `left ${handles.join(', ')} open` : ''].filter(Boolean);
+    const faults = [
+      printed.trim() === '' ? '' : `printed ${JSON.stringify(printed.slice(0, 200))}`,
+      ...Object.entries(added).map(([what, names]) => `added ${what} ${names.join(', ')}`),
+      handles.length > 0 ? `left ${handles.join(', ')} open` : '',
+    ].filter(Boolean);
     verdicts.expect(faults.length === 0, `import '${specifier}' ${faults.join('; ')}.`);
     verdicts.expect(exports > 0, `${specifier} exports nothing.`);
     rows.push([specifier, String(exports), ms.toFixed(0)]);

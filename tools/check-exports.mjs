@@ -14,7 +14,15 @@ async function tsupEntries(p) {
   mkdirSync(folder, { recursive: true });
   const outfile = join(folder, `${p.short}-${process.pid}.mjs`);
   try {
-    await build({ entryPoints: [join(p.dir, 'tsup.config.ts')], outfile, bundle: true, platform: 'node', format: 'esm', external: ['tsup', 'typescript', 'esbuild', 'vite'], logLevel: 'silent' });
+    await build({
+      entryPoints: [join(p.dir, 'tsup.config.ts')],
+      outfile,
+      bundle: true,
+      platform: 'node',
+      format: 'esm',
+      external: ['tsup', 'typescript', 'esbuild', 'vite'],
+      logLevel: 'silent',
+    });
     const { default: config } = await import(pathToFileURL(outfile).href);
     return (Array.isArray(config) ? config : [config]).reduce((all, { entry }) => ({ ...all, ...entry }), {});
   } finally {
@@ -30,18 +38,26 @@ export function manifestProblems({ name, short, manifest }, built, fileExists) {
   const published = manifest.publishConfig?.exports ?? {};
 
   if (name !== `@glanz/${short}`) say(`is called ${name}, not @glanz/${short}.`);
-  for (const [key, value] of Object.entries({ type: 'module', license: 'MIT' })) if (manifest[key] !== value) say(`"${key}" must be ${JSON.stringify(value)}.`);
+  for (const [key, value] of Object.entries({ type: 'module', license: 'MIT' }))
+    if (manifest[key] !== value) say(`"${key}" must be ${JSON.stringify(value)}.`);
   // Entries that do something when they are imported are named, file by file; nothing else may.
   const effects = manifest.sideEffects;
-  const named = Object.values(manifest.exports ?? {}).flatMap((conditions) => [conditions['@glanz/source'], conditions.default]);
-  if (effects !== false && !(Array.isArray(effects) && effects.every((file) => named.includes(file)))) say('"sideEffects" must be false, or list entries that are for their effect alone.');
+  const named = Object.values(manifest.exports ?? {}).flatMap((conditions) => [
+    conditions['@glanz/source'],
+    conditions.default,
+  ]);
+  if (effects !== false && !(Array.isArray(effects) && effects.every((file) => named.includes(file))))
+    say('"sideEffects" must be false, or list entries that are for their effect alone.');
   if (!manifest.description) say('has no description.');
   if (!manifest.engines?.node) say('has no engines.node.');
   if (manifest.publishConfig?.access !== 'public') say('publishConfig.access must be "public".');
   if (!manifest.files?.includes('dist')) say('"files" must hold "dist".');
   if (!fileExists('README.md')) say('has no README.md.');
   if (manifest.exports?.['./package.json'] !== './package.json') say('does not export ./package.json.');
-  if (!same(Object.keys(manifest.exports ?? {}), Object.keys(published))) say(`exports and publishConfig.exports differ in their paths: ${Object.keys(manifest.exports ?? {}).join(' ')} against ${Object.keys(published).join(' ')}.`);
+  if (!same(Object.keys(manifest.exports ?? {}), Object.keys(published)))
+    say(
+      `exports and publishConfig.exports differ in their paths: ${Object.keys(manifest.exports ?? {}).join(' ')} against ${Object.keys(published).join(' ')}.`,
+    );
 
   const outputs = new Set();
   for (const [path, conditions] of Object.entries(manifest.exports ?? {})) {
@@ -51,13 +67,16 @@ export function manifestProblems({ name, short, manifest }, built, fileExists) {
       continue;
     }
     const { '@glanz/source': source, types, default: file } = conditions;
-    if (!same(published[path], { types, default: file })) say(`publishConfig.exports["${path}"] must be the workspace's without @glanz/source.`);
+    if (!same(published[path], { types, default: file }))
+      say(`publishConfig.exports["${path}"] must be the workspace's without @glanz/source.`);
     const output = /^\.\/dist\/(.+)\.js$/.exec(file)?.[1];
-    if (!output || types !== `./dist/${output}.d.ts`) say(`exports["${path}"] must name ./dist/x.d.ts and ./dist/x.js of one x.`);
+    if (!output || types !== `./dist/${output}.d.ts`)
+      say(`exports["${path}"] must name ./dist/x.d.ts and ./dist/x.js of one x.`);
     else {
       outputs.add(output);
       if (!built[output]) say(`tsup.config.ts does not build "${output}", which exports["${path}"] names.`);
-      else if (`./${built[output]}` !== source) say(`exports["${path}"] has its source in ${source}, but tsup builds "${output}" from ${built[output]}.`);
+      else if (`./${built[output]}` !== source)
+        say(`exports["${path}"] has its source in ${source}, but tsup builds "${output}" from ${built[output]}.`);
     }
     if (!fileExists(source)) say(`exports["${path}"] names ${source}, which does not exist.`);
   }
@@ -66,12 +85,18 @@ export function manifestProblems({ name, short, manifest }, built, fileExists) {
     if (!output || !built[output]) say(`bin.${command} names ${file}, which tsup does not build.`);
     else outputs.add(output);
   }
-  for (const output of Object.keys(built)) if (!outputs.has(output)) say(`tsup builds "${output}", which nothing exports.`);
+  for (const output of Object.keys(built))
+    if (!outputs.has(output)) say(`tsup builds "${output}", which nothing exports.`);
   for (const [dependency, range] of Object.entries({ ...manifest.dependencies, ...manifest.peerDependencies })) {
-    if (dependency.startsWith('@glanz/') ? range !== 'workspace:^' : range !== 'catalog:' && !/^([\^~]|>=)?\d/.test(range)) say(`dependency ${dependency}: "${range}" (wanted: workspace:^ inside, catalog: outside).`);
+    if (
+      dependency.startsWith('@glanz/') ? range !== 'workspace:^' : range !== 'catalog:' && !/^([\^~]|>=)?\d/.test(range)
+    )
+      say(`dependency ${dependency}: "${range}" (wanted: workspace:^ inside, catalog: outside).`);
   }
   // A binding to a library needs that library; all other peers are for those who want them.
-  for (const peer of Object.keys(manifest.peerDependencies ?? {})) if (peer !== short && !peer.startsWith('@glanz/') && !manifest.peerDependenciesMeta?.[peer]?.optional) say(`the peer ${peer} must be optional.`);
+  for (const peer of Object.keys(manifest.peerDependencies ?? {}))
+    if (peer !== short && !peer.startsWith('@glanz/') && !manifest.peerDependenciesMeta?.[peer]?.optional)
+      say(`the peer ${peer} must be optional.`);
   return problems;
 }
 
@@ -81,7 +106,9 @@ export async function checkExports() {
     const problems = manifestProblems(p, await tsupEntries(p), (file) => existsSync(join(p.dir, file)));
     verdicts.expect(problems.length === 0, problems.join('\n'));
   }
-  verdicts.table.push(`${publishedPackages().length} packages, ${publishedPackages().flatMap(entriesOf).length} entries`);
+  verdicts.table.push(
+    `${publishedPackages().length} packages, ${publishedPackages().flatMap(entriesOf).length} entries`,
+  );
   return verdicts;
 }
 

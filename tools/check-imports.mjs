@@ -17,11 +17,16 @@ export async function checkImports(base = root) {
   const cycle = findArrowCycle(arrows);
   verdicts.expect(!cycle, `ARCHITECTURE.md: the arrows form a circle: ${cycle?.join(' → ')}`);
   for (const p of packages) {
-    if (p.group === 'packages') verdicts.expect(arrows.has(p.short), `ARCHITECTURE.md: packages/${p.short} has no row in the table of rooms.`);
+    if (p.group === 'packages')
+      verdicts.expect(arrows.has(p.short), `ARCHITECTURE.md: packages/${p.short} has no row in the table of rooms.`);
     const { problems } = checkPackage(p, { arrows, all, rootManifest, base });
     verdicts.expect(problems.length === 0, problems.join('\n'));
   }
-  for (const name of arrows.keys()) verdicts.expect(all.get(`@glanz/${name}`)?.group === 'packages', `ARCHITECTURE.md: the table of rooms names packages/${name}, which does not exist.`);
+  for (const name of arrows.keys())
+    verdicts.expect(
+      all.get(`@glanz/${name}`)?.group === 'packages',
+      `ARCHITECTURE.md: the table of rooms names packages/${name}, which does not exist.`,
+    );
   return verdicts;
 }
 

@@ -1,5 +1,6 @@
-// node tools/check-manifests.mjs — each package's manifest has what it shares with the others from the root's manifest, a label
-// of stability, and its LICENSE and CHANGELOG beside it, so that npm packs them as pnpm does. With --write: makes it so.
+// node tools/check-manifests.mjs — each package's manifest has what it shares with the others from the root's manifest,
+// a label of stability, and its LICENSE and CHANGELOG beside it, so that npm packs them as pnpm does. With --write:
+// makes it so.
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { STABILITY, completeManifest } from './pipeline/manifest.mjs';
@@ -18,9 +19,16 @@ export async function checkManifests({ base = root, write = process.argv.include
     const where = `packages/${short}`;
     const own = (manifest.keywords ?? []).filter((word) => !(rootManifest.keywords ?? []).includes(word));
     verdicts.expect(own.length >= 2, `${where}: "keywords" has fewer than two of its own.`);
-    verdicts.expect(STABILITY.includes(manifest.glanz?.stability), `${where}: "glanz.stability" must be one of ${STABILITY.join(', ')}.`);
+    verdicts.expect(
+      STABILITY.includes(manifest.glanz?.stability),
+      `${where}: "glanz.stability" must be one of ${STABILITY.join(', ')}.`,
+    );
     const files = [
-      ['package.json', textOf(completeManifest(manifest, rootManifest, where)), 'differs from what the root\'s package.json says'],
+      [
+        'package.json',
+        textOf(completeManifest(manifest, rootManifest, where)),
+        "differs from what the root's package.json says",
+      ],
       ['LICENSE', license, 'is not the LICENSE of the root'],
     ];
     for (const [file, text, fault] of files) {
@@ -31,10 +39,13 @@ export async function checkManifests({ base = root, write = process.argv.include
     }
     const changelog = join(dir, 'CHANGELOG.md');
     // Changesets adds its entries below the first line.
-    if (write && !existsSync(changelog)) writeFileSync(changelog, `# ${name}\n\nNo version before 0.1.0 was published.\n`);
+    if (write && !existsSync(changelog))
+      writeFileSync(changelog, `# ${name}\n\nNo version before 0.1.0 was published.\n`);
     else verdicts.expect(existsSync(changelog), `${where} has no CHANGELOG.md: ${HOW}.`);
   }
-  verdicts.table.push(`${publishedPackages(base).length} packages${rootManifest.repository?.url ? '' : '; the root\'s "repository.url" is empty, so nothing can be published'}`);
+  verdicts.table.push(
+    `${publishedPackages(base).length} packages${rootManifest.repository?.url ? '' : '; the root\'s "repository.url" is empty, so nothing can be published'}`,
+  );
   return verdicts;
 }
 

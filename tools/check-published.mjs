@@ -1,5 +1,6 @@
 // node tools/check-published.mjs — what the registry would get: publint and attw on the tarballs, and the declarations
-// as consumers see them, with every module resolution that can read an export map, and the directives that frameworks read.
+// as consumers see them, with every module resolution that can read an export map, and the directives that frameworks
+// read.
 import { copyFileSync, existsSync, readFileSync, realpathSync, writeFileSync } from 'node:fs';
 import { dirname, join, relative } from 'node:path';
 import { bin, capture, root } from './pipeline/process.mjs';
@@ -11,12 +12,27 @@ async function lintPackage(p, verdicts) {
   const { publint } = await import('publint');
   const { formatMessage } = await import('publint/utils');
   const bytes = readFileSync(p.tarball);
-  const { messages } = await publint({ level: 'warning', pack: { tarball: bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength) } });
-  verdicts.expect(messages.length === 0, `publint ${p.name}: ${messages.map((message) => formatMessage(message, p.manifest)).join('; ')}`);
+  const { messages } = await publint({
+    level: 'warning',
+    pack: { tarball: bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength) },
+  });
+  verdicts.expect(
+    messages.length === 0,
+    `publint ${p.name}: ${messages.map((message) => formatMessage(message, p.manifest)).join('; ')}`,
+  );
 }
 
 async function checkTypesResolve(p, verdicts) {
-  const { code, output } = await capture(process.execPath, [bin('@arethetypeswrong/cli', 'dist/index.js'), p.tarball, '--profile', 'esm-only', '--no-color', '--no-emoji', '-f', 'ascii']);
+  const { code, output } = await capture(process.execPath, [
+    bin('@arethetypeswrong/cli', 'dist/index.js'),
+    p.tarball,
+    '--profile',
+    'esm-only',
+    '--no-color',
+    '--no-emoji',
+    '-f',
+    'ascii',
+  ]);
   verdicts.expect(code === 0, `attw ${p.name}:\n${output.trim()}`);
 }
 
@@ -27,7 +43,10 @@ async function checkTypesResolve(p, verdicts) {
 async function checkConsumer(variant, { folder, packages }, verdicts) {
   const specifiers = packages.flatMap((p) => entriesOf(p).map(({ specifier }) => specifier));
   const file = join(folder, `consumer-${variant.name}.mts`);
-  writeFileSync(file, `${specifiers.map((specifier, i) => `import * as entry${i} from '${specifier}';`).join('\n')}\nexport const entries: object[] = [${specifiers.map((_, i) => `entry${i}`).join(', ')}];\n`);
+  writeFileSync(
+    file,
+    `${specifiers.map((specifier, i) => `import * as entry${i} from '${specifier}';`).join('\n')}\nexport const entries: object[] = [${specifiers.map((_, i) => `entry${i}`).join(', ')}];\n`,
+  );
   await compile(variant, [file], folder, verdicts, `${specifiers.length} entries`);
 }
 
@@ -41,26 +60,54 @@ async function checkSnippets(variant, files, { folder }, verdicts) {
 async function compile(variant, files, folder, verdicts, what) {
   const { default: ts } = await import('typescript');
   const { options, errors } = ts.convertCompilerOptionsFromJson(
-    { target: 'ES2022', module: variant.module, moduleResolution: variant.resolution, lib: ['ES2023', 'DOM'], types: variant.types, strict: true, exactOptionalPropertyTypes: true, noUncheckedIndexedAccess: true, verbatimModuleSyntax: true, skipLibCheck: false, noEmit: true, ...variant.options },
+    {
+      target: 'ES2022',
+      module: variant.module,
+      moduleResolution: variant.resolution,
+      lib: ['ES2023', 'DOM'],
+      types: variant.types,
+      strict: true,
+      exactOptionalPropertyTypes: true,
+      noUncheckedIndexedAccess: true,
+      verbatimModuleSyntax: true,
+      skipLibCheck: false,
+      noEmit: true,
+      ...variant.options,
+    },
     folder,
   );
   if (errors.length > 0) throw new Error(ts.formatDiagnostics(errors, host(ts, folder)));
   const program = ts.createProgram(files, options);
   // TypeScript's own DOM declarations and @webgpu/types overlap; only what is ours is judged.
-  const ours = program.getSourceFiles().filter(({ fileName }) => fileName.startsWith(folder) && !/node_modules\/(?!@glanz\/[^/]+\/dist\/)/.test(fileName.slice(folder.length)));
-  const diagnostics = ours.flatMap((source) => [...program.getSyntacticDiagnostics(source), ...program.getSemanticDiagnostics(source)]);
-  verdicts.expect(diagnostics.length === 0, `declarations under ${variant.name}:\n${ts.formatDiagnostics(diagnostics, host(ts, folder)).trim()}`);
+  const ours = program
+    .getSourceFiles()
+    .filter(
+      ({ fileName }) =>
+        fileName.startsWith(folder) && !/node_modules\/(?!@glanz\/[^/]+\/dist\/)/.test(fileName.slice(folder.length)),
+    );
+  const diagnostics = ours.flatMap((source) => [
+    ...program.getSyntacticDiagnostics(source),
+    ...program.getSemanticDiagnostics(source),
+  ]);
+  verdicts.expect(
+    diagnostics.length === 0,
+    `declarations under ${variant.name}:\n${ts.formatDiagnostics(diagnostics, host(ts, folder)).trim()}`,
+  );
   verdicts.table.push(`declarations, ${variant.name}: ${what}, ${ours.length} files, ${diagnostics.length} errors`);
 }
 
-const host = (ts, folder) => ({ getCanonicalFileName: (name) => relative(folder, name), getCurrentDirectory: () => folder, getNewLine: () => ts.sys.newLine });
+const host = (ts, folder) => ({
+  getCanonicalFileName: (name) => relative(folder, name),
+  getCurrentDirectory: () => folder,
+  getNewLine: () => ts.sys.newLine,
+});
 
 /** `text` without the blank space and comments that it begins with. */
 const pastComments = (text) => text.replace(/^(?:\s+|\/\/.*|\/\*[\s\S]*?\*\/)+/, '');
 
 /**
- * Under server components, files with hooks say that they belong to the client: `'use client'`, before any other statement.
- * Without it `next build` fails with "useRef is not a function".
+ * Under server components, files with hooks say that they belong to the client: `'use client'`, before any other
+ * statement. Without it `next build` fails with "useRef is not a function".
  */
 function checkDirectives(p, { folder }, verdicts) {
   if (!p.manifest.peerDependencies?.react) return;
@@ -74,32 +121,50 @@ function checkDirectives(p, { folder }, verdicts) {
 /** The files that every tarball has, and source maps that lead to sources inside the package alone. */
 function checkFiles(p, { folder }, verdicts) {
   const dir = join(folder, 'node_modules', p.name);
-  for (const file of ['README.md', 'LICENSE', 'CHANGELOG.md']) verdicts.expect(existsSync(join(dir, file)), `${p.name}: the tarball has no ${file}.`);
+  for (const file of ['README.md', 'LICENSE', 'CHANGELOG.md'])
+    verdicts.expect(existsSync(join(dir, file)), `${p.name}: the tarball has no ${file}.`);
   for (const { specifier, conditions } of entriesOf(p)) {
     const map = join(dir, `${conditions.default}.map`);
-    if (!verdicts.expect(existsSync(map), `${specifier}: the tarball has no source map of ${conditions.default}.`)) continue;
+    if (!verdicts.expect(existsSync(map), `${specifier}: the tarball has no source map of ${conditions.default}.`))
+      continue;
     const { sources, sourcesContent } = JSON.parse(readFileSync(map, 'utf8'));
-    const outside = sources.filter((source, i) => !source.startsWith('../src/') || typeof sourcesContent?.[i] !== 'string');
-    verdicts.expect(outside.length === 0, `${specifier}: its source map names ${outside.slice(0, 3).join(', ')}, which is not in it.`);
+    const outside = sources.filter(
+      (source, i) => !source.startsWith('../src/') || typeof sourcesContent?.[i] !== 'string',
+    );
+    verdicts.expect(
+      outside.length === 0,
+      `${specifier}: its source map names ${outside.slice(0, 3).join(', ')}, which is not in it.`,
+    );
   }
   // Who installs the package must install its peers: only what it imports may be one.
   const texts = entriesOf(p).map(({ conditions }) => readFileSync(join(dir, conditions.default), 'utf8'));
   for (const peer of Object.keys(p.manifest.peerDependencies ?? {})) {
     if (p.manifest.peerDependenciesMeta?.[peer]?.optional) continue;
-    verdicts.expect(texts.some((text) => text.includes(`"${peer}"`) || text.includes(`'${peer}'`)), `${p.name}: the peer ${peer} is required, and no entry imports it.`);
+    verdicts.expect(
+      texts.some((text) => text.includes(`"${peer}"`) || text.includes(`'${peer}'`)),
+      `${p.name}: the peer ${peer} is required, and no entry imports it.`,
+    );
   }
   for (const field of ['unpkg', 'jsdelivr']) {
     const file = p.manifest[field];
     if (file === undefined) continue;
     // It stands alone: what it imports lies beside it.
     const text = existsSync(join(dir, file)) ? readFileSync(join(dir, file), 'utf8') : undefined;
-    const lost = [...(text ?? '').matchAll(/(?:from|import\()\s*"([^"]+)"/g)].map(([, path]) => path).filter((path) => !existsSync(join(dir, dirname(file), path)) && !path.startsWith('node:'));
-    verdicts.expect(text !== undefined && lost.length === 0, `${p.name}: "${field}" names ${file}, which ${text === undefined ? 'the tarball lacks' : `imports ${lost.join(', ')}`}.`);
+    const lost = [...(text ?? '').matchAll(/(?:from|import\()\s*"([^"]+)"/g)]
+      .map(([, path]) => path)
+      .filter((path) => !existsSync(join(dir, dirname(file), path)) && !path.startsWith('node:'));
+    verdicts.expect(
+      text !== undefined && lost.length === 0,
+      `${p.name}: "${field}" names ${file}, which ${text === undefined ? 'the tarball lacks' : `imports ${lost.join(', ')}`}.`,
+    );
   }
   const { customElements } = p.manifest;
   if (customElements === undefined) return;
   const [module] = JSON.parse(readFileSync(join(dir, customElements), 'utf8')).modules;
-  verdicts.expect(existsSync(join(dir, module.path)), `${p.name}: ${customElements} names ${module.path}, which the tarball lacks.`);
+  verdicts.expect(
+    existsSync(join(dir, module.path)),
+    `${p.name}: ${customElements} names ${module.path}, which the tarball lacks.`,
+  );
   verdicts.expect(module.declarations[0].attributes.length > 20, `${p.name}: ${customElements} lists no attributes.`);
 }
 
@@ -112,16 +177,36 @@ export async function checkPublished() {
     checkFiles(p, consumer, verdicts);
     checkDirectives(p, consumer, verdicts);
   }
-  await checkConsumer({ name: 'nodenext', module: 'NodeNext', resolution: 'NodeNext', types: ['@webgpu/types'] }, consumer, verdicts);
-  await checkConsumer({ name: 'bundler', module: 'ESNext', resolution: 'Bundler', types: ['@webgpu/types'] }, consumer, verdicts);
+  await checkConsumer(
+    { name: 'nodenext', module: 'NodeNext', resolution: 'NodeNext', types: ['@webgpu/types'] },
+    consumer,
+    verdicts,
+  );
+  await checkConsumer(
+    { name: 'bundler', module: 'ESNext', resolution: 'Bundler', types: ['@webgpu/types'] },
+    consumer,
+    verdicts,
+  );
   // The WebGPU types that TypeScript 6 brings itself must do as well.
-  await checkConsumer({ name: 'bundler-without-webgpu-types', module: 'ESNext', resolution: 'Bundler', types: [] }, consumer, verdicts);
+  await checkConsumer(
+    { name: 'bundler-without-webgpu-types', module: 'ESNext', resolution: 'Bundler', types: [] },
+    consumer,
+    verdicts,
+  );
   const bundler = { module: 'ESNext', resolution: 'Bundler', types: ['@webgpu/types'] };
   await checkSnippets({ ...bundler, name: 'element' }, ['element.mts'], consumer, verdicts);
-  for (const [name, types] of [['react-18', '@types/react-18'], ['react-19', '@types/react']]) {
+  for (const [name, types] of [
+    ['react-18', '@types/react-18'],
+    ['react-19', '@types/react'],
+  ]) {
     // Of @glanz/react's own file too: a project has one version.
     const at = realpathSync(join(root, 'packages/react/node_modules', types));
-    await checkSnippets({ ...bundler, name, options: { jsx: 'react-jsx', paths: { react: [at], 'react/*': [`${at}/*`] } } }, ['react.tsx'], consumer, verdicts);
+    await checkSnippets(
+      { ...bundler, name, options: { jsx: 'react-jsx', paths: { react: [at], 'react/*': [`${at}/*`] } } },
+      ['react.tsx'],
+      consumer,
+      verdicts,
+    );
   }
   return verdicts;
 }

@@ -1,6 +1,7 @@
 // node tools/check-sizes.mjs — what a page pays for everything that a package exports, minified by esbuild and gzipped,
-// by itself and with all its dependencies, against a budget. Budgets hold for what is there when the entry is imported; what
-// it loads later by import() stands beside it. READMEs and the documentation state the same sizes; --write puts them there.
+// by itself and with all its dependencies, against a budget. Budgets hold for what is there when the entry is imported;
+// what it loads later by import() stands beside it. READMEs and the documentation state the same sizes; --write puts
+// them there.
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { gzipSync } from 'node:zlib';
@@ -48,26 +49,52 @@ export async function checkSizes({ write = process.argv.includes('--write') } = 
         const all = await bundle(consumer, code, { external: PEERS });
         const { limit, withDependencies, without } = BUDGETS.find((budget) => budget.specifier === specifier) ?? {};
         measured.set(specifier.replace('@glanz/', ''), { own: own.gzip, all: all.gzip, lazy: all.lazy });
-        rows.push([specifier, kB(own.gzip), kB(all.gzip), all.lazy > 0 ? kB(all.lazy) : '', limit === undefined ? '' : `${limit} ${withDependencies ? 'with all' : 'own'}`]);
+        rows.push([
+          specifier,
+          kB(own.gzip),
+          kB(all.gzip),
+          all.lazy > 0 ? kB(all.lazy) : '',
+          limit === undefined ? '' : `${limit} ${withDependencies ? 'with all' : 'own'}`,
+        ]);
         if (limit === undefined) return;
         const size = (withDependencies ? all : own).gzip;
         verdicts.expect(size <= limit * 1000, `${specifier}: ${kB(size)} kB min+gz, over its budget of ${limit} kB.`);
         if (!without) return;
-        const [heaviest] = Object.entries((await bundle(consumer, `export * from '${without}';`)).inputs).sort((a, b) => b[1] - a[1])[0];
+        const [heaviest] = Object.entries((await bundle(consumer, `export * from '${without}';`)).inputs).sort(
+          (a, b) => b[1] - a[1],
+        )[0];
         const carried = all.inputs[heaviest] ?? 0;
-        verdicts.expect(carried < 4000, `${specifier} carries the data of ${without} (${carried} bytes of ${heaviest}).`);
+        verdicts.expect(
+          carried < 4000,
+          `${specifier} carries the data of ${without} (${carried} bytes of ${heaviest}).`,
+        );
       });
     }
   }
   for (const { specifier, file, limit } of FILES) {
-    const size = gzipSync(readFileSync(join(consumer.folder, 'node_modules', specifier, file)), { level: 9 }).byteLength;
+    const size = gzipSync(readFileSync(join(consumer.folder, 'node_modules', specifier, file)), {
+      level: 9,
+    }).byteLength;
     rows.push([`${specifier}/${file}`, kB(size), kB(size), '', `${limit} own`]);
-    verdicts.expect(size <= limit * 1000, `${specifier}: ${file} takes ${kB(size)} kB gzipped, over its budget of ${limit} kB.`);
+    verdicts.expect(
+      size <= limit * 1000,
+      `${specifier}: ${file} takes ${kB(size)} kB gzipped, over its budget of ${limit} kB.`,
+    );
   }
-  for (const { specifier } of BUDGETS) verdicts.expect(rows.some(([name]) => name === specifier), `${specifier} has a budget but was not measured.`);
-  const texts = compareSizeTexts(measured, consumer.packages.map(({ short }) => short).filter((short) => short !== 'cli'), { base: root, write });
+  for (const { specifier } of BUDGETS)
+    verdicts.expect(
+      rows.some(([name]) => name === specifier),
+      `${specifier} has a budget but was not measured.`,
+    );
+  const texts = compareSizeTexts(
+    measured,
+    consumer.packages.map(({ short }) => short).filter((short) => short !== 'cli'),
+    { base: root, write },
+  );
   verdicts.expect(texts.length === 0, texts.join('\n'));
-  verdicts.table.push(...columns([['entry', 'own kB', 'with dependencies', 'loaded later', 'budget'], ...rows], [1, 2, 3]));
+  verdicts.table.push(
+    ...columns([['entry', 'own kB', 'with dependencies', 'loaded later', 'budget'], ...rows], [1, 2, 3]),
+  );
   return verdicts;
 }
 

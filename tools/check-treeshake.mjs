@@ -12,18 +12,48 @@ import { entriesOf } from './pipeline/workspace.mjs';
  * same entry exports it.
  */
 const SYMBOLS = [
-  { from: '@glanz/wgsl', symbol: 'struct', has: ['wgsl/unknown-field'], lacks: ['wgsl/unbalanced-gate', 'getCompilationInfo'] },
-  { from: '@glanz/wgsl', symbol: 'compose', has: ['wgsl/unbalanced-gate'], lacks: ['wgsl/field-length', 'getCompilationInfo'] },
+  {
+    from: '@glanz/wgsl',
+    symbol: 'struct',
+    has: ['wgsl/unknown-field'],
+    lacks: ['wgsl/unbalanced-gate', 'getCompilationInfo'],
+  },
+  {
+    from: '@glanz/wgsl',
+    symbol: 'compose',
+    has: ['wgsl/unbalanced-gate'],
+    lacks: ['wgsl/field-length', 'getCompilationInfo'],
+  },
   { from: '@glanz/scene', symbol: 'SceneError', has: ['extends'], lacks: ['scene/empty', 'yfov'] },
   { from: '@glanz/bvh', symbol: 'buildBlas', has: ['bvh/positions'], lacks: ['bvh/transform'] },
-  { from: '@glanz/bvh/wgsl', symbol: 'bvhOffset', has: ['fn bvh_offset'], lacks: ['fn bvh_intersect_triangle', 'fn bvh_enter_box'] },
+  {
+    from: '@glanz/bvh/wgsl',
+    symbol: 'bvhOffset',
+    has: ['fn bvh_offset'],
+    lacks: ['fn bvh_intersect_triangle', 'fn bvh_enter_box'],
+  },
   { from: '@glanz/openpbr', symbol: 'OPENPBR_PARAMETERS', has: ['specular_roughness'], lacks: ['fn openpbr_'] },
   { from: '@glanz/openpbr', symbol: 'openPbrStruct', has: ['base_color'], lacks: ['fn openpbr_sample'] },
-  { from: '@glanz/tonemap', symbol: 'tonemapAgx', has: ['fn tonemap_agx'], lacks: ['fn tonemap_aces', 'createRenderPipeline', 'fn tonemap_neutral'] },
+  {
+    from: '@glanz/tonemap',
+    symbol: 'tonemapAgx',
+    has: ['fn tonemap_agx'],
+    lacks: ['fn tonemap_aces', 'createRenderPipeline', 'fn tonemap_neutral'],
+  },
   { from: '@glanz/tonemap', symbol: 'toneMap', has: ['agx'], lacks: ['createRenderPipeline'] },
   { from: '@glanz/image', symbol: 'decodeHdr', has: ['32-bit_rle_rgbe'], lacks: ['IHDR', 'chlist'] },
-  { from: '@glanz/gltf', symbol: 'GltfError', has: ['extends'], lacks: ['KHR_lights_punctual', 'KHR_materials_emissive_strength'] },
-  { from: '@glanz/renderer', symbol: 'requestDevice', has: ['renderer/no-adapter'], lacks: ['@compute', 'fn bvh_', 'fn openpbr_'] },
+  {
+    from: '@glanz/gltf',
+    symbol: 'GltfError',
+    has: ['extends'],
+    lacks: ['KHR_lights_punctual', 'KHR_materials_emissive_strength'],
+  },
+  {
+    from: '@glanz/renderer',
+    symbol: 'requestDevice',
+    has: ['renderer/no-adapter'],
+    lacks: ['@compute', 'fn bvh_', 'fn openpbr_'],
+  },
 ];
 
 export async function checkTreeShaking() {
@@ -45,13 +75,26 @@ export async function checkTreeShaking() {
       if (path === './node' || path === './worker') continue;
       await verdicts.attempt(`import '${specifier}'`, async () => {
         const trusting = await bundle(consumer, `import '${specifier}';`, { external: PEERS });
-        verdicts.expect(trusting.text.trim() === '', `import '${specifier}' leaves ${trusting.bytes} bytes: ${trusting.text.slice(0, 160)}`);
+        verdicts.expect(
+          trusting.text.trim() === '',
+          `import '${specifier}' leaves ${trusting.bytes} bytes: ${trusting.text.slice(0, 160)}`,
+        );
         // Without believing sideEffects, what other people's dependencies leave is theirs; ours must be gone.
-        const { inputs, text } = await bundle(consumer, `import '${specifier}';`, { external: PEERS, keepEffects: true });
+        const { inputs, text } = await bundle(consumer, `import '${specifier}';`, {
+          external: PEERS,
+          keepEffects: true,
+        });
         const ours = Object.entries(inputs).filter(([file, bytes]) => bytes > 0 && file.includes('@glanz/'));
         // Imports of the library that a package binds to stay, and do nothing of ours.
-        const bare = text.replace(/import\s*\{[^}]*\}\s*from\s*"(react|three)";?/g, '').replace(/"use client";?/g, '').trim() === '';
-        verdicts.expect(bare || ours.length === 0, `import '${specifier}' runs code: ${ours.map(([file, bytes]) => `${file} (${bytes} bytes)`).join(', ')}: ${text.slice(0, 200)}`);
+        const bare =
+          text
+            .replace(/import\s*\{[^}]*\}\s*from\s*"(react|three)";?/g, '')
+            .replace(/"use client";?/g, '')
+            .trim() === '';
+        verdicts.expect(
+          bare || ours.length === 0,
+          `import '${specifier}' runs code: ${ours.map(([file, bytes]) => `${file} (${bytes} bytes)`).join(', ')}: ${text.slice(0, 200)}`,
+        );
       });
     }
   }
@@ -62,7 +105,9 @@ export async function checkTreeShaking() {
       const faults = [
         ...has.filter((marker) => !one.text.includes(marker)).map((marker) => `lacks "${marker}"`),
         ...lacks.filter((marker) => one.text.includes(marker)).map((marker) => `drags in "${marker}"`),
-        ...lacks.filter((marker) => !whole.text.includes(marker)).map((marker) => `"${marker}" is nowhere in the package: choose another marker`),
+        ...lacks
+          .filter((marker) => !whole.text.includes(marker))
+          .map((marker) => `"${marker}" is nowhere in the package: choose another marker`),
       ];
       verdicts.expect(faults.length === 0, `{ ${symbol} } from ${from}: ${faults.join('; ')}.`);
       rows.push([`{ ${symbol} }`, from, (one.gzip / 1000).toFixed(2), (whole.gzip / 1000).toFixed(2)]);

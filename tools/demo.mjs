@@ -25,11 +25,25 @@ await main(async () => {
     const code = await stream(process.execPath, [join(root, 'tools/models/write.mjs'), 'push-button-medium']);
     if (code !== 0) throw new TaskError(`the model could not be written (code ${code}).`);
   }
-  const size = (await hasRealGpu()) ? ['--size', '1280x960', '--samples', '1024'] : ['--size', '640x480', '--samples', '48'];
+  const size = (await hasRealGpu())
+    ? ['--size', '1280x960', '--samples', '1024']
+    : ['--size', '640x480', '--samples', '48'];
   rmSync(picture, { force: true });
-  const code = await stream(process.execPath, [glanz, 'render', model, '-o', picture, ...size, ...process.argv.slice(2)]);
+  const code = await stream(process.execPath, [
+    glanz,
+    'render',
+    model,
+    '-o',
+    picture,
+    ...size,
+    ...process.argv.slice(2),
+  ]);
   if (!existsSync(picture)) throw new TaskError(`no picture was made (glanz ended with code ${code}).`, code || 1);
-  process.stderr.write(`\n${relative(process.cwd(), picture) || picture} is done, after ${Math.round((performance.now() - start) / 1000)} s.\n`);
-  process.stderr.write('Next: npm start opens the playground, where you drop a .glb of your own; npm run glanz -- --help tells about the command.\n');
+  process.stderr.write(
+    `\n${relative(process.cwd(), picture) || picture} is done, after ${Math.round((performance.now() - start) / 1000)} s.\n`,
+  );
+  process.stderr.write(
+    'Next: npm start opens the playground, where you drop a .glb of your own; npm run glanz -- --help tells about the command.\n',
+  );
   return code;
 });

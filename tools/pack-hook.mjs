@@ -1,5 +1,5 @@
-// Runs around the packing and publishing of one package, from its folder: as "prepack", "postpack" and "prepublishOnly" of its
-// manifest, so that npm, pnpm and changesets all come through here.
+// Runs around the packing and publishing of one package, from its folder: as "prepack", "postpack" and "prepublishOnly"
+// of its manifest, so that npm, pnpm and changesets all come through here.
 //
 // prepack     links of the README become absolute, because a registry's page has nothing beside it
 // postpack    the README is again that of the repository
@@ -24,9 +24,12 @@ await main(async () => {
   if (step === 'postpack') return restore();
   if (step === 'prepublish') {
     if (web) return undefined;
-    throw new TaskError('The package.json of the root has no "repository.url", so nothing is published: set it, then run "node tools/check-manifests.mjs --write" and commit.');
+    throw new TaskError(
+      'The package.json of the root has no "repository.url", so nothing is published: set it, then run "node tools/check-manifests.mjs --write" and commit.',
+    );
   }
-  if (step !== 'prepack') throw new TaskError(`pack-hook: there is no step "${step}"; steps: prepack, postpack, prepublish.`);
+  if (step !== 'prepack')
+    throw new TaskError(`pack-hook: there is no step "${step}"; steps: prepack, postpack, prepublish.`);
   // An earlier run may have been ended between the two steps.
   restore();
   if (!web) return undefined;

@@ -13,7 +13,12 @@ async function plannedReleases() {
   const file = join(root, '.cache', 'release.json');
   mkdirSync(join(root, '.cache'), { recursive: true });
   rmSync(file, { force: true });
-  const { code, output } = await capture(process.execPath, [bin('@changesets/cli', 'bin.js'), 'status', '--output', relative(root, file)]);
+  const { code, output } = await capture(process.execPath, [
+    bin('@changesets/cli', 'bin.js'),
+    'status',
+    '--output',
+    relative(root, file),
+  ]);
   if (code !== 0) throw new Error(`changeset status failed:\n${output.trim()}`);
   return JSON.parse(readFileSync(file, 'utf8')).releases;
 }
@@ -23,12 +28,25 @@ await main(async () => {
   const releases = new Map((await plannedReleases()).map((release) => [release.name, release]));
   const rows = packages.map((p) => {
     const release = releases.get(p.name);
-    return [p.name, release ? `${release.oldVersion} → ${release.newVersion}` : `${p.manifest.version}, unchanged`, release ? String(release.changesets.length) : '0', (statSync(p.tarball).size / 1000).toFixed(1), relative(root, p.tarball)];
+    return [
+      p.name,
+      release ? `${release.oldVersion} → ${release.newVersion}` : `${p.manifest.version}, unchanged`,
+      release ? String(release.changesets.length) : '0',
+      (statSync(p.tarball).size / 1000).toFixed(1),
+      relative(root, p.tarball),
+    ];
   });
-  process.stdout.write(`${columns([['package', 'version', 'changesets', 'kB', 'tarball'], ...rows], [2, 3]).join('\n')}\n`);
+  process.stdout.write(
+    `${columns([['package', 'version', 'changesets', 'kB', 'tarball'], ...rows], [2, 3]).join('\n')}\n`,
+  );
   const verdicts = await checkPublished();
-  const without = publishedPackages().filter(({ name, manifest }) => manifest.version === '0.0.0' && !releases.has(name));
-  verdicts.expect(without.length === 0, `no changeset releases ${without.map(({ name }) => name).join(', ')}, which was never released.`);
+  const without = publishedPackages().filter(
+    ({ name, manifest }) => manifest.version === '0.0.0' && !releases.has(name),
+  );
+  verdicts.expect(
+    without.length === 0,
+    `no changeset releases ${without.map(({ name }) => name).join(', ')}, which was never released.`,
+  );
   for (const line of [...verdicts.table, ...verdicts.lines]) process.stdout.write(`${line}\n`);
   process.stdout.write(`${verdicts.passed} passed, ${verdicts.failed} failed\n`);
   return verdicts.failed > 0 ? 1 : 0;

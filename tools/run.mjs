@@ -4,6 +4,7 @@
 import { existsSync } from 'node:fs';
 import { join } from 'node:path';
 import { ensureBuilt } from './pipeline/build.mjs';
+import { formatArguments } from './pipeline/format.mjs';
 import { ensureInstalled } from './pipeline/install.mjs';
 import { TaskError, bin, main, root, stream } from './pipeline/process.mjs';
 
@@ -23,32 +24,86 @@ const tasks = {
       return 0;
     },
   },
-  demo: { help: 'path-trace the push-button into out/demo.png', build: ['cli'], run: (args) => node(join(root, 'tools/demo.mjs'), args) },
+  demo: {
+    help: 'path-trace the push-button into out/demo.png',
+    build: ['cli'],
+    run: (args) => node(join(root, 'tools/demo.mjs'), args),
+  },
   start: { help: 'serve the playground', run: (args) => startPlayground(args) },
-  glanz: { help: 'the glanz command: npm run glanz -- render model.glb -o out.png', build: ['cli'], run: (args) => node(join(root, 'packages/cli/dist/glanz.js'), args, { cwd: userFolder() }) },
-  bench: { help: 'run a benchmark: npm run bench -- <name> --json FILE', run: (args) => node(join(root, 'tools/bench/src/main.mjs'), args, { cwd: userFolder() }) },
-  'bench:pack': { help: 'bundle every benchmark for bare GPU machines into .gpu-bench/', run: (args) => node(join(root, 'tools/bench/src/pack.mjs'), args) },
-  'contact-sheet': { help: 'render a folder of models into one page: npm run contact-sheet -- FOLDER', run: (args) => node(join(root, 'tools/contact-sheet/src/main.mjs'), args) },
-  newcomer: { help: "a newcomer's first minutes, timed: packed packages, a fresh project, the README's quick start, pixels", build: true, run: (args) => node(join(root, 'tools/newcomer/src/main.mjs'), args) },
-  docs: { help: 'serve the documentation', run: (args) => node(bin('vitepress', 'bin/vitepress.js', join(root, 'apps/docs')), ['dev', join(root, 'apps/docs'), ...args], { cwd: join(root, 'apps/docs') }) },
-  typecheck: { help: 'check the types of everything', run: (args) => node(bin('typescript-native', 'bin/tsc'), ['--noEmit', '-p', 'tsconfig.json', ...args]) },
-  lint: { help: 'oxlint, warnings are errors', run: (args) => node(bin('oxlint', 'bin/oxlint'), ['--deny-warnings', ...args]) },
-  unit: { help: 'unit and GPU tests: npm run unit -- --project bvh', run: (args) => node(bin('vitest', 'vitest.mjs'), ['run', ...args]) },
-  test: { help: 'everything that must pass (--only a,b or --skip a,b: stages; --list)', run: (args) => node(join(root, 'tools/test.mjs'), args) },
+  glanz: {
+    help: 'the glanz command: npm run glanz -- render model.glb -o out.png',
+    build: ['cli'],
+    run: (args) => node(join(root, 'packages/cli/dist/glanz.js'), args, { cwd: userFolder() }),
+  },
+  bench: {
+    help: 'run a benchmark: npm run bench -- <name> --json FILE',
+    run: (args) => node(join(root, 'tools/bench/src/main.mjs'), args, { cwd: userFolder() }),
+  },
+  'bench:pack': {
+    help: 'bundle every benchmark for bare GPU machines into .gpu-bench/',
+    run: (args) => node(join(root, 'tools/bench/src/pack.mjs'), args),
+  },
+  'contact-sheet': {
+    help: 'render a folder of models into one page: npm run contact-sheet -- FOLDER',
+    run: (args) => node(join(root, 'tools/contact-sheet/src/main.mjs'), args),
+  },
+  newcomer: {
+    help: "a newcomer's first minutes, timed: packed packages, a fresh project, the README's quick start, pixels",
+    build: true,
+    run: (args) => node(join(root, 'tools/newcomer/src/main.mjs'), args),
+  },
+  docs: {
+    help: 'serve the documentation',
+    run: (args) =>
+      node(bin('vitepress', 'bin/vitepress.js', join(root, 'apps/docs')), ['dev', join(root, 'apps/docs'), ...args], {
+        cwd: join(root, 'apps/docs'),
+      }),
+  },
+  typecheck: {
+    help: 'check the types of everything',
+    run: (args) => node(bin('typescript-native', 'bin/tsc'), ['--noEmit', '-p', 'tsconfig.json', ...args]),
+  },
+  format: {
+    help: 'format the sources, lines up to 120 columns (--check: only say which are not)',
+    run: (args) => node(bin('prettier', 'bin/prettier.cjs'), formatArguments(args.includes('--check'))),
+  },
+  lint: {
+    help: 'oxlint, warnings are errors',
+    run: (args) => node(bin('oxlint', 'bin/oxlint'), ['--deny-warnings', ...args]),
+  },
+  unit: {
+    help: 'unit and GPU tests: npm run unit -- --project bvh',
+    run: (args) => node(bin('vitest', 'vitest.mjs'), ['run', ...args]),
+  },
+  test: {
+    help: 'everything that must pass (--only a,b or --skip a,b: stages; --list)',
+    run: (args) => node(join(root, 'tools/test.mjs'), args),
+  },
   release: {
     help: 'with --dry-run: the same as release:dry',
     run: async (args) => {
-      if (!args.includes('--dry-run')) throw new TaskError('A release is two commits of a maintainer: "npx changeset version", and after its review "npx changeset publish". See what would go out with --dry-run.');
+      if (!args.includes('--dry-run'))
+        throw new TaskError(
+          'A release is two commits of a maintainer: "npx changeset version", and after its review "npx changeset publish". See what would go out with --dry-run.',
+        );
       await ensureBuilt({});
-      return node(join(root, 'tools/release-dry.mjs'), args.filter((arg) => arg !== '--dry-run'));
+      return node(
+        join(root, 'tools/release-dry.mjs'),
+        args.filter((arg) => arg !== '--dry-run'),
+      );
     },
   },
-  'release:dry': { help: 'pack all packages as a release would, check them, and tell the next versions', build: true, run: (args) => node(join(root, 'tools/release-dry.mjs'), args) },
+  'release:dry': {
+    help: 'pack all packages as a release would, check them, and tell the next versions',
+    build: true,
+    run: (args) => node(join(root, 'tools/release-dry.mjs'), args),
+  },
 };
 
 function startPlayground(args) {
   const playground = join(root, 'apps/playground');
-  if (!existsSync(join(playground, 'index.html'))) throw new TaskError('apps/playground has no index.html: this checkout is incomplete.');
+  if (!existsSync(join(playground, 'index.html')))
+    throw new TaskError('apps/playground has no index.html: this checkout is incomplete.');
   return node(bin('vite', 'bin/vite.js', playground), [...args], { cwd: playground });
 }
 
@@ -57,7 +112,13 @@ await main(async () => {
   const task = name === undefined ? undefined : tasks[name];
   if (!task) {
     const width = Math.max(...Object.keys(tasks).map((key) => key.length));
-    process.stderr.write(`${name === undefined ? '' : `glanz: there is no task "${name}". `}Tasks of node tools/run.mjs:\n${Object.entries(tasks).map(([key, { help }]) => `  ${key.padEnd(width)}  ${help}\n`).join('')}`);
+    process.stderr.write(
+      `${name === undefined ? '' : `glanz: there is no task "${name}". `}Tasks of node tools/run.mjs:\n${Object.entries(
+        tasks,
+      )
+        .map(([key, { help }]) => `  ${key.padEnd(width)}  ${help}\n`)
+        .join('')}`,
+    );
     return name === undefined ? 0 : 1;
   }
   await ensureInstalled({ force: name === 'install' && args.includes('--force') });

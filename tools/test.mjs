@@ -9,6 +9,7 @@ import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node
 import { join, relative } from 'node:path';
 import { parseArgs } from 'node:util';
 import { ensureBuilt } from './pipeline/build.mjs';
+import { formatArguments } from './pipeline/format.mjs';
 import { TaskError, bin, main, root, stream } from './pipeline/process.mjs';
 import { columns } from './pipeline/report.mjs';
 
@@ -18,7 +19,11 @@ const node = (script, args, options) => stream(process.execPath, [script, ...arg
 /** A stage that is one program: it passes if the program ends well. */
 async function program(script, args) {
   const code = await node(script, args);
-  return { passed: code === 0 ? 1 : 0, failed: code === 0 ? 0 : 1, lines: code === 0 ? [] : [`ended with code ${code}`] };
+  return {
+    passed: code === 0 ? 1 : 0,
+    failed: code === 0 ? 0 : 1,
+    lines: code === 0 ? [] : [`ended with code ${code}`],
+  };
 }
 
 /** A stage that is a check of ours. */
@@ -35,17 +40,24 @@ const times = new Map();
 function noteTimes(stage, entries) {
   const byFile = new Map();
   for (const [file, ms] of entries) byFile.set(file, (byFile.get(file) ?? 0) + ms / 1000);
-  const files = [...byFile].map(([file, time]) => [relative(root, file).replaceAll('\\', '/'), Number(time.toFixed(1))]).sort((a, b) => b[1] - a[1]);
+  const files = [...byFile]
+    .map(([file, time]) => [relative(root, file).replaceAll('\\', '/'), Number(time.toFixed(1))])
+    .sort((a, b) => b[1] - a[1]);
   times.set(stage, files);
   writeFileSync(join(reports, 'times.json'), `${JSON.stringify(Object.fromEntries(times), undefined, 1)}\n`);
-  return columns([['slowest files', 'seconds'], ...files.slice(0, 12).map(([file, time]) => [file, String(time)])], [1]);
+  return columns(
+    [['slowest files', 'seconds'], ...files.slice(0, 12).map(([file, time]) => [file, String(time)])],
+    [1],
+  );
 }
 
 /** File and time of each test of Playwright's report. */
 function playwrightTimes({ config, suites }) {
   const entries = [];
   const visit = (suite) => {
-    for (const { file, tests } of suite.specs ?? []) for (const { results } of tests) entries.push([join(config.rootDir, file), results.reduce((sum, { duration }) => sum + duration, 0)]);
+    for (const { file, tests } of suite.specs ?? [])
+      for (const { results } of tests)
+        entries.push([join(config.rootDir, file), results.reduce((sum, { duration }) => sum + duration, 0)]);
     for (const child of suite.suites ?? []) visit(child);
   };
   for (const suite of suites) visit(suite);
@@ -54,43 +66,98 @@ function playwrightTimes({ config, suites }) {
 
 async function unit() {
   const file = join(reports, 'vitest.json');
-  const code = await node(bin('vitest', 'vitest.mjs'), ['run', '--reporter=default', '--reporter=json', `--outputFile.json=${file}`]);
+  const code = await node(bin('vitest', 'vitest.mjs'), [
+    'run',
+    '--reporter=default',
+    '--reporter=json',
+    `--outputFile.json=${file}`,
+  ]);
   const report = readReport(file);
   const { numPassedTests: passed = 0, numFailedTests = 0, numPendingTests: skipped = 0 } = report ?? {};
   // Errors outside of tests, and files that do not load, fail the run without failing a test.
   const failed = Math.max(numFailedTests, code === 0 ? 0 : 1, passed === 0 ? 1 : 0);
-  const table = noteTimes('unit', (report?.testResults ?? []).map(({ name, startTime, endTime }) => [name, endTime - startTime]));
-  return { passed, failed, skipped, table, lines: failed > numFailedTests ? [report ? 'a test file or a hook failed outside of its tests: see above' : 'vitest left no report'] : [] };
+  const table = noteTimes(
+    'unit',
+    (report?.testResults ?? []).map(({ name, startTime, endTime }) => [name, endTime - startTime]),
+  );
+  return {
+    passed,
+    failed,
+    skipped,
+    table,
+    lines:
+      failed > numFailedTests
+        ? [report ? 'a test file or a hook failed outside of its tests: see above' : 'vitest left no report']
+        : [],
+  };
 }
 
 async function e2e() {
-  if (!existsSync(join(root, 'playwright.config.ts'))) return { passed: 0, failed: 1, lines: ['there is no playwright.config.ts'] };
+  if (!existsSync(join(root, 'playwright.config.ts')))
+    return { passed: 0, failed: 1, lines: ['there is no playwright.config.ts'] };
   const file = join(reports, 'playwright.json');
-  const code = await node(bin('@playwright/test', 'cli.js'), ['test', '--reporter=list,json'], { env: { PLAYWRIGHT_JSON_OUTPUT_NAME: file } });
+  const code = await node(bin('@playwright/test', 'cli.js'), ['test', '--reporter=list,json'], {
+    env: { PLAYWRIGHT_JSON_OUTPUT_NAME: file },
+  });
   const report = readReport(file);
   const { expected: passed = 0, unexpected = 0, flaky = 0, skipped = 0 } = report?.stats ?? {};
   const failed = Math.max(unexpected + flaky, code === 0 && passed > 0 ? 0 : 1);
   const table = report ? noteTimes('e2e', playwrightTimes(report)) : [];
-  return { passed, failed, skipped, table, lines: failed > 0 && unexpected + flaky === 0 ? [`playwright ended with code ${code}, ${passed} tests passed`] : [] };
+  return {
+    passed,
+    failed,
+    skipped,
+    table,
+    lines: failed > 0 && unexpected + flaky === 0 ? [`playwright ended with code ${code}, ${passed} tests passed`] : [],
+  };
 }
 
 async function build() {
   const { built, fresh } = await ensureBuilt();
-  return { passed: built.length + fresh.length, failed: 0, table: [`${built.length} built, ${fresh.length} up to date`] };
+  return {
+    passed: built.length + fresh.length,
+    failed: 0,
+    table: [`${built.length} built, ${fresh.length} up to date`],
+  };
 }
 
 /** @type {{ name: string, title: string, run: () => Promise<import('./pipeline/report.mjs').CheckResult> }[]} */
 const STAGES = [
   { name: 'imports', title: 'who imports whom', run: check('./check-imports.mjs', 'checkImports') },
   { name: 'exports', title: 'export maps and builds agree', run: check('./check-exports.mjs', 'checkExports') },
-  { name: 'manifests', title: 'what all manifests share, LICENSE and CHANGELOG', run: check('./check-manifests.mjs', 'checkManifests') },
-  { name: 'lint', title: 'oxlint, warnings are errors', run: () => program(bin('oxlint', 'bin/oxlint'), ['--deny-warnings']) },
-  { name: 'types', title: 'TypeScript 7, the whole repository', run: () => program(bin('typescript-native', 'bin/tsc'), ['--noEmit', '-p', 'tsconfig.json']) },
+  {
+    name: 'manifests',
+    title: 'what all manifests share, LICENSE and CHANGELOG',
+    run: check('./check-manifests.mjs', 'checkManifests'),
+  },
+  {
+    name: 'lint',
+    title: 'oxlint, warnings are errors',
+    run: () => program(bin('oxlint', 'bin/oxlint'), ['--deny-warnings']),
+  },
+  {
+    name: 'format',
+    title: 'prettier, lines up to 120 columns',
+    run: () => program(bin('prettier', 'bin/prettier.cjs'), formatArguments(true)),
+  },
+  {
+    name: 'types',
+    title: 'TypeScript 7, the whole repository',
+    run: () => program(bin('typescript-native', 'bin/tsc'), ['--noEmit', '-p', 'tsconfig.json']),
+  },
   { name: 'docs', title: 'a doc comment on every exported symbol', run: check('./check-docs.mjs', 'checkDocs') },
   { name: 'build', title: 'every package', run: build },
-  { name: 'published', title: 'publint, attw, declarations at consumers', run: check('./check-published.mjs', 'checkPublished') },
+  {
+    name: 'published',
+    title: 'publint, attw, declarations at consumers',
+    run: check('./check-published.mjs', 'checkPublished'),
+  },
   { name: 'sizes', title: 'budgets', run: check('./check-sizes.mjs', 'checkSizes') },
-  { name: 'treeshake', title: 'one symbol brings only itself', run: check('./check-treeshake.mjs', 'checkTreeShaking') },
+  {
+    name: 'treeshake',
+    title: 'one symbol brings only itself',
+    run: check('./check-treeshake.mjs', 'checkTreeShaking'),
+  },
   { name: 'entries', title: 'importing does nothing, in bare Node', run: check('./check-entries.mjs', 'checkEntries') },
   { name: 'unit', title: 'unit and GPU tests', run: unit },
   { name: 'e2e', title: 'playground and documentation in Chromium', run: e2e },
@@ -99,24 +166,36 @@ const STAGES = [
 function chosenStages() {
   let values;
   try {
-    ({ values } = parseArgs({ options: { only: { type: 'string' }, skip: { type: 'string' }, list: { type: 'boolean' }, full: { type: 'boolean' } } }));
+    ({ values } = parseArgs({
+      options: {
+        only: { type: 'string' },
+        skip: { type: 'string' },
+        list: { type: 'boolean' },
+        full: { type: 'boolean' },
+      },
+    }));
   } catch (error) {
     throw new TaskError(`${error.message} Options: --only a,b, --skip a,b, --full, --list.`);
   }
   const names = (text) => text.split(',').map((name) => name.trim());
   for (const name of [...(values.only ? names(values.only) : []), ...(values.skip ? names(values.skip) : [])]) {
-    if (!STAGES.some((stage) => stage.name === name)) throw new TaskError(`there is no stage "${name}"; stages: ${STAGES.map((stage) => stage.name).join(', ')}.`);
+    if (!STAGES.some((stage) => stage.name === name))
+      throw new TaskError(`there is no stage "${name}"; stages: ${STAGES.map((stage) => stage.name).join(', ')}.`);
   }
   if (values.list) return undefined;
   if (values.full) process.env['GLANZ_FULL'] = '1';
-  return STAGES.filter(({ name }) => (values.only ? names(values.only).includes(name) : true) && !(values.skip && names(values.skip).includes(name)));
+  return STAGES.filter(
+    ({ name }) =>
+      (values.only ? names(values.only).includes(name) : true) && !(values.skip && names(values.skip).includes(name)),
+  );
 }
 
 const seconds = (ms) => `${(ms / 1000).toFixed(1)} s`;
 
 await main(async () => {
   const stages = chosenStages();
-  if (!stages) return void process.stdout.write(`${columns(STAGES.map(({ name, title }) => [name, title])).join('\n')}\n`);
+  if (!stages)
+    return void process.stdout.write(`${columns(STAGES.map(({ name, title }) => [name, title])).join('\n')}\n`);
   rmSync(reports, { recursive: true, force: true });
   mkdirSync(reports, { recursive: true });
   const start = performance.now();
@@ -130,15 +209,33 @@ await main(async () => {
     try {
       result = await run();
     } catch (error) {
-      result = { passed: 0, failed: 1, lines: [error instanceof TaskError ? error.message : (error?.stack ?? String(error))] };
+      result = {
+        passed: 0,
+        failed: 1,
+        lines: [error instanceof TaskError ? error.message : (error?.stack ?? String(error))],
+      };
     }
     for (const line of [...(result.table ?? []), ...(result.lines ?? [])]) process.stdout.write(`${line}\n`);
     passed += result.passed;
     failed += result.failed;
-    rows.push([name, String(result.passed), String(result.failed), String(result.skipped ?? 0), seconds(performance.now() - from)]);
+    rows.push([
+      name,
+      String(result.passed),
+      String(result.failed),
+      String(result.skipped ?? 0),
+      seconds(performance.now() - from),
+    ]);
   }
-  rows.push(['all', String(passed), String(failed), String(rows.reduce((sum, row) => sum + Number(row[3]), 0)), seconds(performance.now() - start)]);
-  process.stdout.write(`\n${columns([['stage', 'passed', 'failed', 'skipped', 'time'], ...rows], [1, 2, 3, 4]).join('\n')}\n\n`);
+  rows.push([
+    'all',
+    String(passed),
+    String(failed),
+    String(rows.reduce((sum, row) => sum + Number(row[3]), 0)),
+    seconds(performance.now() - start),
+  ]);
+  process.stdout.write(
+    `\n${columns([['stage', 'passed', 'failed', 'skipped', 'time'], ...rows], [1, 2, 3, 4]).join('\n')}\n\n`,
+  );
   process.stdout.write(`checks: ${passed} passed, ${failed} failed\n`);
   return failed > 0 ? 1 : 0;
 });

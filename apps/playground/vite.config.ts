@@ -4,9 +4,11 @@ import { publishedModules } from '../../tools/pipeline/published-source.mjs';
 import { weslModules } from '../../tools/pipeline/wesl.mjs';
 
 /** Where a browser window can open: not on servers, not in automated runs. */
-const hasScreen = !process.env['CI'] && (process.platform !== 'linux' || !!(process.env['DISPLAY'] ?? process.env['WAYLAND_DISPLAY']));
+const hasScreen =
+  !process.env['CI'] && (process.platform !== 'linux' || !!(process.env['DISPLAY'] ?? process.env['WAYLAND_DISPLAY']));
 
-// The workspace's packages are read from their sources (condition "@glanz/source"): the playground needs no build of them.
+// The workspace's packages are read from their sources (condition "@glanz/source"): the playground needs no build of
+// them.
 export default defineConfig({
   root: import.meta.dirname,
   base: './',
@@ -14,8 +16,18 @@ export default defineConfig({
   server: { port: 5173, open: hasScreen },
   preview: { port: 4173 },
   // Found here rather than when a model is first opened, which would reload the page under the user's hands.
-  optimizeDeps: { include: ['@glanz/image > fflate', 'meshoptimizer/decoder', '@glanz/element > draco3dgltf/draco_decoder_gltf_nodejs.js'] },
-  build: { target: 'es2022', chunkSizeWarningLimit: 900, rolldownOptions: { input: ['index.html', 'configurator.html'].map((page) => `${import.meta.dirname}/${page}`) } },
+  optimizeDeps: {
+    include: [
+      '@glanz/image > fflate',
+      'meshoptimizer/decoder',
+      '@glanz/element > draco3dgltf/draco_decoder_gltf_nodejs.js',
+    ],
+  },
+  build: {
+    target: 'es2022',
+    chunkSizeWarningLimit: 900,
+    rolldownOptions: { input: ['index.html', 'configurator.html'].map((page) => `${import.meta.dirname}/${page}`) },
+  },
   plugins: [weslModules(), publishedModules(), basisModule()],
   worker: { format: 'es', plugins: () => [weslModules(), publishedModules(), basisModule()] },
 });

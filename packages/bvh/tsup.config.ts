@@ -1,3 +1,29 @@
 import { glanzPackage } from '../../tsup.base';
 
-export default glanzPackage({ index: 'src/index.ts', blas: 'src/blas.ts', fast: 'src/build/fast.ts', best: 'src/build/best.ts', async: 'src/async.ts', tlas: 'src/tlas.ts', 'dynamic-tlas': 'src/dynamic-tlas.ts', refit: 'src/refit.ts', statistics: 'src/statistics.ts', queries: 'src/cpu/queries.ts', batch: 'src/cpu/batch.ts', 'all-hits': 'src/cpu/all-hits.ts', distance: 'src/cpu/distance.ts', overlap: 'src/cpu/overlap.ts', serialize: 'src/serialize.ts', cache: 'src/cache.ts', 'indexed-db': 'src/indexed-db.ts', node: 'src/node.ts', 'refit-quality': 'src/refit-quality.ts', 'tree-quality': 'src/tree-quality.ts', wgsl: 'src/wgsl/index.ts', wide: 'src/wide/index.ts', 'wgsl-wide': 'src/wgsl-wide/index.ts', workers: 'src/worker/workers.ts', worker: 'src/worker/worker.ts' });
+export default glanzPackage({
+  index: 'src/index.ts',
+  blas: 'src/blas.ts',
+  fast: 'src/build/fast.ts',
+  best: 'src/build/best.ts',
+  async: 'src/async.ts',
+  tlas: 'src/tlas.ts',
+  'dynamic-tlas': 'src/dynamic-tlas.ts',
+  refit: 'src/refit.ts',
+  statistics: 'src/statistics.ts',
+  queries: 'src/cpu/queries.ts',
+  batch: 'src/cpu/batch.ts',
+  'all-hits': 'src/cpu/all-hits.ts',
+  distance: 'src/cpu/distance.ts',
+  overlap: 'src/cpu/overlap.ts',
+  serialize: 'src/serialize.ts',
+  cache: 'src/cache.ts',
+  'indexed-db': 'src/indexed-db.ts',
+  node: 'src/node.ts',
+  'refit-quality': 'src/refit-quality.ts',
+  'tree-quality': 'src/tree-quality.ts',
+  wgsl: 'src/wgsl/index.ts',
+  wide: 'src/wide/index.ts',
+  'wgsl-wide': 'src/wgsl-wide/index.ts',
+  workers: 'src/worker/workers.ts',
+  worker: 'src/worker/worker.ts',
+});

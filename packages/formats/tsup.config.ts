@@ -1,3 +1,9 @@
 import { glanzPackage } from '../../tsup.base';
 
-export default glanzPackage({ index: 'src/index.ts', obj: 'src/obj.ts', stl: 'src/stl.ts', ies: 'src/ies.ts', node: 'src/node.ts' });
+export default glanzPackage({
+  index: 'src/index.ts',
+  obj: 'src/obj.ts',
+  stl: 'src/stl.ts',
+  ies: 'src/ies.ts',
+  node: 'src/node.ts',
+});

@@ -1,3 +1,8 @@
 import { glanzPackage } from '../../tsup.base';
 
-export default glanzPackage({ index: 'src/index.ts', node: 'src/node.ts', workers: 'src/worker/load.ts', worker: 'src/worker/worker.ts' });
+export default glanzPackage({
+  index: 'src/index.ts',
+  node: 'src/node.ts',
+  workers: 'src/worker/load.ts',
+  worker: 'src/worker/worker.ts',
+});

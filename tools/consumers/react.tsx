@@ -1,5 +1,5 @@
-// What a React project may write. tools/check-published.mjs compiles it against the packed declarations, with the types of React
-// 18 and 19.
+// What a React project may write. tools/check-published.mjs compiles it against the packed declarations, with the types
+// of React 18 and 19.
 import { GlanzViewer, type GlanzViewerElement, type GlanzViewerProps } from '@glanz/react';
 import { useRef } from 'react';
 
@@ -46,7 +46,9 @@ export function Tag() {
       title="Chair"
       onClick={(event) => event.currentTarget.viewer?.pick(event.clientX, event.clientY)}
     >
-      <button slot="hotspot-seat" data-position="0 0.45 0">Seat</button>
+      <button slot="hotspot-seat" data-position="0 0.45 0">
+        Seat
+      </button>
     </glanz-viewer>
   );
 }

@@ -7,6 +7,15 @@ import { build } from 'esbuild';
 const here = fileURLToPath(new URL('.', import.meta.url));
 const outfile = join(here, '.cache', 'write.mjs');
 mkdirSync(join(here, '.cache'), { recursive: true });
-await build({ entryPoints: [join(here, 'src/write.ts')], outfile, bundle: true, platform: 'node', format: 'esm', target: 'node20', conditions: ['@glanz/source'], logLevel: 'error' });
+await build({
+  entryPoints: [join(here, 'src/write.ts')],
+  outfile,
+  bundle: true,
+  platform: 'node',
+  format: 'esm',
+  target: 'node20',
+  conditions: ['@glanz/source'],
+  logLevel: 'error',
+});
 const { writeModels } = await import(pathToFileURL(outfile).href);
 process.exitCode = await writeModels(relative('.', join(here, '../../out/models')), process.argv.slice(2));

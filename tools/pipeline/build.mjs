@@ -17,14 +17,32 @@ function filesUnder(folder) {
 
 const rootManifest = JSON.parse(readFileSync(join(root, 'package.json'), 'utf8'));
 
-/** A hash of all that a package's build reads; contents, not times, so that a fresh clone or a changed branch is judged right. */
+/**
+ * A hash of all that a package's build reads; contents, not times, so that a fresh clone or a changed branch is judged
+ * right.
+ */
 function fingerprint(p, dependencies) {
   const hash = createHash('sha256');
   const scripts = join(p.dir, 'scripts');
-  const inputs = [...filesUnder(join(p.dir, 'src')), ...(existsSync(scripts) ? filesUnder(scripts) : []), join(p.dir, 'package.json'), join(p.dir, 'tsup.config.ts'), join(root, 'tsup.base.ts'), join(root, 'tools/pipeline/published-source.mjs'), join(root, 'tools/pipeline/wesl.mjs'), join(root, 'tsconfig.base.json'), join(root, 'pnpm-lock.yaml')];
+  const inputs = [
+    ...filesUnder(join(p.dir, 'src')),
+    ...(existsSync(scripts) ? filesUnder(scripts) : []),
+    join(p.dir, 'package.json'),
+    join(p.dir, 'tsup.config.ts'),
+    join(root, 'tsup.base.ts'),
+    join(root, 'tools/pipeline/published-source.mjs'),
+    join(root, 'tools/pipeline/wesl.mjs'),
+    join(root, 'tsconfig.base.json'),
+    join(root, 'pnpm-lock.yaml'),
+  ];
   // The command brings the playground along.
   const playground = join(root, 'apps/playground');
-  if (p.short === 'cli' && existsSync(playground)) inputs.push(...filesUnder(join(playground, 'src')), join(playground, 'index.html'), join(playground, 'vite.config.ts'));
+  if (p.short === 'cli' && existsSync(playground))
+    inputs.push(
+      ...filesUnder(join(playground, 'src')),
+      join(playground, 'index.html'),
+      join(playground, 'vite.config.ts'),
+    );
   // The element brings a sample model along, made by the tools.
   if (p.short === 'element') inputs.push(...filesUnder(join(root, 'tools/models/src')));
   for (const file of inputs) {
@@ -39,7 +57,10 @@ const stampOf = (p) => join(cache, `${p.short}.sha256`);
 
 function isBuilt(p, print) {
   if (!existsSync(stampOf(p)) || readFileSync(stampOf(p), 'utf8') !== print) return false;
-  const files = [...entriesOf(p).flatMap(({ conditions }) => [conditions.types, conditions.default]), ...Object.values(p.manifest.bin ?? {})];
+  const files = [
+    ...entriesOf(p).flatMap(({ conditions }) => [conditions.types, conditions.default]),
+    ...Object.values(p.manifest.bin ?? {}),
+  ];
   return files.every((file) => typeof file !== 'string' || existsSync(join(p.dir, file)));
 }
 
@@ -56,7 +77,10 @@ async function withLock(task) {
       if (error.code !== 'EEXIST') throw error;
       const owner = existsSync(lock) ? Number(readFileSync(lock, 'utf8')) : 0;
       if (owner > 0 && !isAlive(owner)) rmSync(lock, { force: true });
-      else if (Date.now() > deadline) throw new TaskError(`another build (process ${owner}) holds .cache/build.lock for ten minutes; delete that file if it is stale.`);
+      else if (Date.now() > deadline)
+        throw new TaskError(
+          `another build (process ${owner}) holds .cache/build.lock for ten minutes; delete that file if it is stale.`,
+        );
       else await new Promise((resolve) => setTimeout(resolve, 200));
     }
   }
@@ -79,17 +103,26 @@ function isAlive(pid) {
 /**
  * Builds the published packages whose sources changed, dependencies first, two at a time.
  *
- * @param {{ only?: string[], force?: boolean, log?: (line: string) => void }} options `only`: short names; what they depend on is built too.
+ * @param {{ only?: string[], force?: boolean, log?: (line: string) => void }} options `only`: short names; what they
+ * depend on is built too.
  * @returns {Promise<{ built: string[], fresh: string[] }>} short names.
  */
 export function ensureBuilt({ only, force = false, log = (line) => process.stderr.write(`${line}\n`) } = {}) {
   return withLock(async () => {
     const order = topological(publishedPackages());
     const wanted = new Set(only ?? order.map((p) => p.short));
-    for (const p of [...order].reverse()) if (wanted.has(p.short)) for (const name of internalDependencies(p)) wanted.add(name.slice('@glanz/'.length));
+    for (const p of [...order].reverse())
+      if (wanted.has(p.short)) for (const name of internalDependencies(p)) wanted.add(name.slice('@glanz/'.length));
     const packages = order.filter((p) => wanted.has(p.short));
     const prints = new Map();
-    for (const p of packages) prints.set(p.name, fingerprint(p, internalDependencies(p).map((name) => prints.get(name))));
+    for (const p of packages)
+      prints.set(
+        p.name,
+        fingerprint(
+          p,
+          internalDependencies(p).map((name) => prints.get(name)),
+        ),
+      );
 
     const built = [];
     const fresh = [];
@@ -101,7 +134,9 @@ export function ensureBuilt({ only, force = false, log = (line) => process.stder
       if (!force && isBuilt(p, print)) return void fresh.push(p.short);
       const from = performance.now();
       rmSync(stampOf(p), { force: true });
-      const { code, output } = await limited(() => capture(process.execPath, [bin('tsup', 'dist/cli-default.js')], { cwd: p.dir }));
+      const { code, output } = await limited(() =>
+        capture(process.execPath, [bin('tsup', 'dist/cli-default.js')], { cwd: p.dir }),
+      );
       if (code !== 0) throw new TaskError(`the build of ${p.name} failed:\n${output.trim()}`);
       mkdirSync(cache, { recursive: true });
       writeFileSync(stampOf(p), print);

@@ -1,5 +1,6 @@
-// The codes of errors and warnings that a package's sources contain, found in their syntax: 'package/what' as a literal, or a
-// template `package/${what}` in a function, whose calls carry the rest. The documentation has a paragraph for each.
+// The codes of errors and warnings that a package's sources contain, found in their syntax: 'package/what' as a
+// literal, or a template `package/${what}` in a function, whose calls carry the rest. The documentation has a paragraph
+// for each.
 import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import ts from 'typescript';
@@ -14,10 +15,20 @@ function helpersOf(source, shape, helpers) {
   const visit = (node, enclosing) => {
     let inside = enclosing;
     if (ts.isFunctionDeclaration(node) && node.name) inside = { name: node.name.text, parameters: node.parameters };
-    if (ts.isVariableDeclaration(node) && node.initializer && ts.isArrowFunction(node.initializer)) inside = { name: node.name.getText(), parameters: node.initializer.parameters };
-    if (inside && ts.isTemplateExpression(node) && node.templateSpans.length === 1 && shape.test(`${node.head.text}x`) && node.templateSpans[0].literal.text === '') {
-      const place = inside.parameters.findIndex((one) => one.name.getText() === node.templateSpans[0].expression.getText());
-      if (place >= 0 && !NAMES.has(node.parent.expression?.getText())) helpers.set(inside.name, { prefix: node.head.text, place });
+    if (ts.isVariableDeclaration(node) && node.initializer && ts.isArrowFunction(node.initializer))
+      inside = { name: node.name.getText(), parameters: node.initializer.parameters };
+    if (
+      inside &&
+      ts.isTemplateExpression(node) &&
+      node.templateSpans.length === 1 &&
+      shape.test(`${node.head.text}x`) &&
+      node.templateSpans[0].literal.text === ''
+    ) {
+      const place = inside.parameters.findIndex(
+        (one) => one.name.getText() === node.templateSpans[0].expression.getText(),
+      );
+      if (place >= 0 && !NAMES.has(node.parent.expression?.getText()))
+        helpers.set(inside.name, { prefix: node.head.text, place });
     }
     ts.forEachChild(node, (child) => visit(child, inside));
   };
@@ -60,6 +71,8 @@ export function codesIn(packageName, files) {
 
 /** The codes of the package whose sources lie in `folder`. */
 export function errorCodes(packageName, folder) {
-  const files = readdirSync(folder, { recursive: true, encoding: 'utf8' }).filter((file) => file.endsWith('.ts')).sort();
+  const files = readdirSync(folder, { recursive: true, encoding: 'utf8' })
+    .filter((file) => file.endsWith('.ts'))
+    .sort();
   return codesIn(packageName, new Map(files.map((file) => [file, readFileSync(join(folder, file), 'utf8')])));
 }

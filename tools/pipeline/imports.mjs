@@ -23,9 +23,11 @@ export function readArrows(markdown) {
     if (!name || cells.length < 5) continue;
     const may = cells[3];
     const row = new Map();
-    if (/^every package above$/.test(may)) for (const above of arrows.keys()) row.set(above, { typesOnly: false, errorOnly: false });
+    if (/^every package above$/.test(may))
+      for (const above of arrows.keys()) row.set(above, { typesOnly: false, errorOnly: false });
     else if (may !== 'nothing') {
-      for (const [, target, note = ''] of may.matchAll(/`([a-z]+)`(?: \(([^)]*)\))?/g)) row.set(target, { typesOnly: note.includes('types only'), errorOnly: note.includes('GlanzError') });
+      for (const [, target, note = ''] of may.matchAll(/`([a-z]+)`(?: \(([^)]*)\))?/g))
+        row.set(target, { typesOnly: note.includes('types only'), errorOnly: note.includes('GlanzError') });
     }
     arrows.set(name, row);
   }
@@ -70,16 +72,35 @@ export function readImports(text, fileName = 'file.ts') {
   const source = ts.createSourceFile(fileName, text, ts.ScriptTarget.Latest, true, kind);
   const found = [];
   const add = (literal, typeOnly) => {
-    if (literal && ts.isStringLiteralLike(literal)) found.push({ specifier: literal.text, line: source.getLineAndCharacterOfPosition(literal.getStart(source)).line + 1, typeOnly });
+    if (literal && ts.isStringLiteralLike(literal))
+      found.push({
+        specifier: literal.text,
+        line: source.getLineAndCharacterOfPosition(literal.getStart(source)).line + 1,
+        typeOnly,
+      });
   };
-  const namedTypesOnly = (bindings) => bindings !== undefined && 'elements' in bindings && bindings.elements.length > 0 && bindings.elements.every((element) => element.isTypeOnly);
+  const namedTypesOnly = (bindings) =>
+    bindings !== undefined &&
+    'elements' in bindings &&
+    bindings.elements.length > 0 &&
+    bindings.elements.every((element) => element.isTypeOnly);
   const visit = (node) => {
     if (ts.isImportDeclaration(node)) {
       const clause = node.importClause;
-      add(node.moduleSpecifier, clause !== undefined && (clause.isTypeOnly || (clause.name === undefined && namedTypesOnly(clause.namedBindings))));
-    } else if (ts.isExportDeclaration(node)) add(node.moduleSpecifier, node.isTypeOnly || namedTypesOnly(node.exportClause));
+      add(
+        node.moduleSpecifier,
+        clause !== undefined &&
+          (clause.isTypeOnly || (clause.name === undefined && namedTypesOnly(clause.namedBindings))),
+      );
+    } else if (ts.isExportDeclaration(node))
+      add(node.moduleSpecifier, node.isTypeOnly || namedTypesOnly(node.exportClause));
     else if (ts.isImportTypeNode(node) && ts.isLiteralTypeNode(node.argument)) add(node.argument.literal, true);
-    else if (ts.isCallExpression(node) && (node.expression.kind === ts.SyntaxKind.ImportKeyword || (ts.isIdentifier(node.expression) && node.expression.text === 'require'))) add(node.arguments[0], false);
+    else if (
+      ts.isCallExpression(node) &&
+      (node.expression.kind === ts.SyntaxKind.ImportKeyword ||
+        (ts.isIdentifier(node.expression) && node.expression.text === 'require'))
+    )
+      add(node.arguments[0], false);
     ts.forEachChild(node, visit);
   };
   visit(source);
@@ -90,7 +111,11 @@ const builtins = new Set(builtinModules);
 export const isBuiltin = (specifier) => specifier.startsWith('node:') || builtins.has(specifier);
 
 /** `@scope/name` or `name` of a bare specifier. */
-export const packageOf = (specifier) => specifier.split('/').slice(0, specifier.startsWith('@') ? 2 : 1).join('/');
+export const packageOf = (specifier) =>
+  specifier
+    .split('/')
+    .slice(0, specifier.startsWith('@') ? 2 : 1)
+    .join('/');
 
 const SKIP = new Set(['node_modules', 'dist', 'out', '.cache', 'cache', 'api', '.gpu']);
 
@@ -138,13 +163,15 @@ function scriptOf(path) {
 }
 
 /** Files that may use Node: the thin edge of a library, and the command line as a whole. */
-const isNodeFile = (p, file) => p.short === 'cli' || /^src[\\/](node\.ts$|node[\\/]|.*\.node\.ts$)/.test(relative(p.dir, file));
+const isNodeFile = (p, file) =>
+  p.short === 'cli' || /^src[\\/](node\.ts$|node[\\/]|.*\.node\.ts$)/.test(relative(p.dir, file));
 
 /**
  * Checks one package.
  *
  * @param {import('./workspace.mjs').Package} p
- * @param {{ arrows: Map<string, Map<string, Arrow>>, all: Map<string, import('./workspace.mjs').Package>, rootManifest: any, base: string }} house
+ * @param {{ arrows: Map<string, Map<string, Arrow>>, all: Map<string, import('./workspace.mjs').Package>, rootManifest:
+ * any, base: string }} house
  * @returns {{ problems: string[], imports: number }}
  */
 export function checkPackage(p, { arrows, all, rootManifest, base }) {
@@ -153,9 +180,16 @@ export function checkPackage(p, { arrows, all, rootManifest, base }) {
   const published = p.group === 'packages';
   // What a build puts into the package is a development dependency that sources may import.
   const bundled = manifest.glanz?.bundled ?? [];
-  for (const name of bundled) if (!manifest.devDependencies?.[name]) problems.push(`packages/${p.short}/package.json: glanz.bundled names "${name}", which is not among devDependencies.`);
+  for (const name of bundled)
+    if (!manifest.devDependencies?.[name])
+      problems.push(
+        `packages/${p.short}/package.json: glanz.bundled names "${name}", which is not among devDependencies.`,
+      );
   const runtime = new Set([...Object.keys({ ...manifest.dependencies, ...manifest.peerDependencies }), ...bundled]);
-  const anywhere = new Set([...runtime, ...Object.keys({ ...manifest.devDependencies, ...rootManifest.devDependencies })]);
+  const anywhere = new Set([
+    ...runtime,
+    ...Object.keys({ ...manifest.devDependencies, ...rootManifest.devDependencies }),
+  ]);
   const used = new Set();
   const graph = new Map();
   let imports = 0;
@@ -170,16 +204,25 @@ export function checkPackage(p, { arrows, all, rootManifest, base }) {
       if (specifier.startsWith('.')) {
         const target = resolveRelative(file, specifier.split('?')[0]);
         if (!target) {
-          if (!specifier.includes('?') && !/\.(css|json|wasm|vue|data)$/.test(specifier) && existsSync(join(dirname(file), specifier)) === false) complain(`"${specifier}" is no file.`);
+          if (
+            !specifier.includes('?') &&
+            !/\.(css|json|wasm|vue|data)$/.test(specifier) &&
+            existsSync(join(dirname(file), specifier)) === false
+          )
+            complain(`"${specifier}" is no file.`);
           continue;
         }
         const leaves = relative(p.dir, target).startsWith('..');
-        if (leaves && (isSource ? published : /[\\/](packages|apps|tools)[\\/][^\\/]+[\\/]src[\\/]/.test(target))) complain(`"${specifier}" reaches outside of its package; import the other package by its name.`);
+        if (leaves && (isSource ? published : /[\\/](packages|apps|tools)[\\/][^\\/]+[\\/]src[\\/]/.test(target)))
+          complain(`"${specifier}" reaches outside of its package; import the other package by its name.`);
         if (isSource && relative(p.dir, target).startsWith(`src${sep}`)) edges.push({ target, typeOnly });
         continue;
       }
       if (isBuiltin(specifier)) {
-        if (isSource && published && !isNodeFile(p, file)) complain(`"${specifier}": Node's modules belong in node.ts, node/ or the command line; this file must run in a browser too.`);
+        if (isSource && published && !isNodeFile(p, file))
+          complain(
+            `"${specifier}": Node's modules belong in node.ts, node/ or the command line; this file must run in a browser too.`,
+          );
         continue;
       }
       if (specifier.startsWith('virtual:')) continue;
@@ -187,29 +230,43 @@ export function checkPackage(p, { arrows, all, rootManifest, base }) {
       const internal = all.get(name);
       if (internal === p) {
         if (isSource) complain(`"${specifier}": a package does not import itself by name.`);
-        else if (!entriesOf(p).some((entry) => entry.specifier === specifier)) complain(`"${specifier}" is not exported by ${name}.`);
+        else if (!entriesOf(p).some((entry) => entry.specifier === specifier))
+          complain(`"${specifier}" is not exported by ${name}.`);
         continue;
       }
       if (isSource) used.add(name);
-      if (!(isSource && published ? runtime : anywhere).has(name)) complain(`"${name}" is not declared in ${p.short}/package.json.`);
+      if (!(isSource && published ? runtime : anywhere).has(name))
+        complain(`"${name}" is not declared in ${p.short}/package.json.`);
       if (!internal) {
         if (name.startsWith('@glanz/')) complain(`there is no package ${name}.`);
         continue;
       }
-      if (!entriesOf(internal).some((entry) => entry.specifier === specifier)) complain(`"${specifier}" is not exported by ${name}; exported: ${entriesOf(internal).map((entry) => entry.specifier).join(', ')}.`);
+      if (!entriesOf(internal).some((entry) => entry.specifier === specifier))
+        complain(
+          `"${specifier}" is not exported by ${name}; exported: ${entriesOf(internal)
+            .map((entry) => entry.specifier)
+            .join(', ')}.`,
+        );
       if (!isSource || !published) continue;
       const arrow = arrows.get(p.short)?.get(internal.short);
       if (internal.group !== 'packages') complain(`a published package must not import ${name}.`);
       else if (!arrow) complain(`${p.short} → ${internal.short} is no arrow of ARCHITECTURE.md.`);
-      else if (arrow.typesOnly && !typeOnly) complain(`${p.short} → ${internal.short} is for types only: use import type.`);
-      else if (arrow.errorOnly && specifier !== `${name}/error`) complain(`${p.short} may import ${name}/error and nothing else of it.`);
+      else if (arrow.typesOnly && !typeOnly)
+        complain(`${p.short} → ${internal.short} is for types only: use import type.`);
+      else if (arrow.errorOnly && specifier !== `${name}/error`)
+        complain(`${p.short} may import ${name}/error and nothing else of it.`);
     }
     if (isSource) graph.set(file, edges);
   }
 
   // Cycles among files: types may point both ways, running code may not.
-  const cycle = findCycle([...graph.keys()], (file) => (graph.get(file) ?? []).filter((edge) => !edge.typeOnly).map((edge) => edge.target));
-  if (cycle) problems.push(`${p.short}: files import each other in a circle: ${cycle.map((file) => relative(p.dir, file)).join(' → ')}`);
+  const cycle = findCycle([...graph.keys()], (file) =>
+    (graph.get(file) ?? []).filter((edge) => !edge.typeOnly).map((edge) => edge.target),
+  );
+  if (cycle)
+    problems.push(
+      `${p.short}: files import each other in a circle: ${cycle.map((file) => relative(p.dir, file)).join(' → ')}`,
+    );
 
   if (published) {
     // No browser entry may reach a file of the Node edge.
@@ -220,18 +277,26 @@ export function checkPackage(p, { arrows, all, rootManifest, base }) {
       const visit = (file, path) => {
         if (seen.has(file)) return;
         seen.add(file);
-        if (isNodeFile(p, file)) problems.push(`${specifier} reaches ${relative(p.dir, file)}, which needs Node: ${path.map((f) => relative(p.dir, f)).join(' → ')}`);
+        if (isNodeFile(p, file))
+          problems.push(
+            `${specifier} reaches ${relative(p.dir, file)}, which needs Node: ${path.map((f) => relative(p.dir, f)).join(' → ')}`,
+          );
         for (const { target, typeOnly } of graph.get(file) ?? []) if (!typeOnly) visit(target, [...path, target]);
       };
       visit(entry, [entry]);
     }
     for (const name of runtime) {
       const internal = all.get(name);
-      if (internal && !arrows.get(p.short)?.has(internal.short)) problems.push(`packages/${p.short}/package.json: ${name} is no arrow of ARCHITECTURE.md.`);
+      if (internal && !arrows.get(p.short)?.has(internal.short))
+        problems.push(`packages/${p.short}/package.json: ${name} is no arrow of ARCHITECTURE.md.`);
     }
     // A program supplies the optional peers of the libraries it uses without importing them itself.
-    const supplied = new Set([...runtime].flatMap((name) => Object.keys(all.get(name)?.manifest.peerDependencies ?? {})));
-    for (const name of Object.keys(manifest.dependencies ?? {})) if (!used.has(name) && !supplied.has(name)) problems.push(`packages/${p.short}/package.json: the dependency ${name} is never imported.`);
+    const supplied = new Set(
+      [...runtime].flatMap((name) => Object.keys(all.get(name)?.manifest.peerDependencies ?? {})),
+    );
+    for (const name of Object.keys(manifest.dependencies ?? {}))
+      if (!used.has(name) && !supplied.has(name))
+        problems.push(`packages/${p.short}/package.json: the dependency ${name} is never imported.`);
   }
   return { problems, imports };
 }

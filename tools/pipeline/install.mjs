@@ -13,7 +13,8 @@ export function isInstalled(folder = root) {
 /** Installs the workspace's dependencies if they are missing or older than the lockfile. */
 export async function ensureInstalled({ force = false } = {}) {
   const major = Number(process.versions.node.split('.')[0]);
-  if (major < 20) throw new TaskError(`Node ${process.versions.node} is too old; Glanz needs Node 20 or newer (https://nodejs.org).`);
+  if (major < 20)
+    throw new TaskError(`Node ${process.versions.node} is too old; Glanz needs Node 20 or newer (https://nodejs.org).`);
   if (!force && isInstalled()) return false;
   process.stderr.write(`glanz: installing dependencies (pnpm ${PNPM_VERSION} through npx)\n`);
   const { command, args, shell } = pnpm(['install', '--frozen-lockfile']);

@@ -11,14 +11,19 @@ export const STABILITY = ['experimental', 'beta', 'stable'];
 
 /** The address of the repository as a browser opens it, or `undefined` while the root's manifest has none. */
 export function webAddress(rootManifest) {
-  const url = typeof rootManifest.repository === 'string' ? rootManifest.repository : (rootManifest.repository?.url ?? '');
+  const url =
+    typeof rootManifest.repository === 'string' ? rootManifest.repository : (rootManifest.repository?.url ?? '');
   if (url.trim() === '') return undefined;
-  return url.trim().replace(/^git\+/, '').replace(/\.git$/, '').replace(/\/$/, '');
+  return url
+    .trim()
+    .replace(/^git\+/, '')
+    .replace(/\.git$/, '')
+    .replace(/\/$/, '');
 }
 
 /**
- * Address of the page on errors, which ends messages in development builds: in the documentation (`homepage` of the root),
- * else its source in the repository; `undefined` while the root's manifest has neither.
+ * Address of the page on errors, which ends messages in development builds: in the documentation (`homepage` of the
+ * root), else its source in the repository; `undefined` while the root's manifest has neither.
  */
 export function errorsPage(rootManifest) {
   if (rootManifest.homepage) return `${rootManifest.homepage.replace(/\/$/, '')}/guide/errors`;
@@ -47,7 +52,18 @@ const HOOKS = {
   prepublishOnly: 'node ../../tools/pack-hook.mjs prepublish',
 };
 
-const FIRST = ['name', 'version', 'description', 'keywords', 'author', 'license', 'homepage', 'bugs', 'repository', 'glanz'];
+const FIRST = [
+  'name',
+  'version',
+  'description',
+  'keywords',
+  'author',
+  'license',
+  'homepage',
+  'bugs',
+  'repository',
+  'glanz',
+];
 
 /** A package's manifest as it should be: its own fields, and those of the root. */
 export function completeManifest(manifest, rootManifest, folder) {
@@ -61,20 +77,23 @@ export function completeManifest(manifest, rootManifest, folder) {
 }
 
 /**
- * Links of a README as the registry's page needs them: those that are relative in the repository become absolute. Code blocks
- * stay as they are.
+ * Links of a README as the registry's page needs them: those that are relative in the repository become absolute. Code
+ * blocks stay as they are.
  */
 export function absoluteLinks(markdown, web, folder) {
   const parts = markdown.split(/(^```[\s\S]*?^```)/m);
   return parts
     .map((part, i) => {
       if (i % 2 === 1) return part;
-      return part.replace(/(!?)(\[(?:[^\]\\]|\\.)*\]\()(?![a-z][a-z0-9+.-]*:|#|\/)([^)\s]+)/gi, (_, image, text, href) => {
-        const [path, hash = ''] = href.split(/(?=#)/);
-        const target = join(folder, path).replaceAll('\\', '/').replace(/\/$/, '');
-        const kind = image ? 'raw' : /\.[a-z0-9]+$/i.test(target) || target === 'LICENSE' ? 'blob' : 'tree';
-        return `${image}${text}${web}/${kind}/HEAD/${target === '.' ? '' : target}${hash}`;
-      });
+      return part.replace(
+        /(!?)(\[(?:[^\]\\]|\\.)*\]\()(?![a-z][a-z0-9+.-]*:|#|\/)([^)\s]+)/gi,
+        (_, image, text, href) => {
+          const [path, hash = ''] = href.split(/(?=#)/);
+          const target = join(folder, path).replaceAll('\\', '/').replace(/\/$/, '');
+          const kind = image ? 'raw' : /\.[a-z0-9]+$/i.test(target) || target === 'LICENSE' ? 'blob' : 'tree';
+          return `${image}${text}${web}/${kind}/HEAD/${target === '.' ? '' : target}${hash}`;
+        },
+      );
     })
     .join('');
 }

@@ -24,7 +24,8 @@ let installed;
  * Installs the packed packages into `.cache/consumer/node_modules`, each with links to its dependencies and to
  * the peers that it cannot do without, none to its optional ones. Once per process.
  *
- * @returns {Promise<{ folder: string, packages: (import('./workspace.mjs').Package & { tarball: string })[] }>} `manifest` is the published one.
+ * @returns {Promise<{ folder: string, packages: (import('./workspace.mjs').Package & { tarball: string })[] }>}
+ * `manifest` is the published one.
  */
 export function installPacked() {
   installed ??= install();
@@ -50,7 +51,9 @@ async function install() {
       symlinkSync(realpathSync(join(p.dir, 'node_modules', name)), link, 'junction');
     }
     // A binding to a library is of no use without it, nor are its declarations without the library's.
-    const needed = Object.keys(manifest.peerDependencies ?? {}).filter((name) => !manifest.peerDependenciesMeta?.[name]?.optional);
+    const needed = Object.keys(manifest.peerDependencies ?? {}).filter(
+      (name) => !manifest.peerDependenciesMeta?.[name]?.optional,
+    );
     for (const name of needed.flatMap((peer) => [peer, `@types/${peer}`])) {
       const link = join(to, 'node_modules', name);
       if (!existsSync(join(p.dir, 'node_modules', name))) continue;

@@ -39,7 +39,12 @@ const SIGNAL_CODES = { SIGINT: 130, SIGTERM: 143, SIGKILL: 137 };
  */
 export function stream(command, args, { cwd = root, env = {}, stdout = 'inherit', shell = false } = {}) {
   return new Promise((resolve, reject) => {
-    const child = spawn(command, args, { cwd, env: { ...process.env, ...env }, stdio: ['inherit', stdout === 'stderr' ? 2 : 'inherit', 'inherit'], shell });
+    const child = spawn(command, args, {
+      cwd,
+      env: { ...process.env, ...env },
+      stdio: ['inherit', stdout === 'stderr' ? 2 : 'inherit', 'inherit'],
+      shell,
+    });
     const release = passSignals(child);
     child.on('error', (error) => {
       release();
@@ -55,7 +60,12 @@ export function stream(command, args, { cwd = root, env = {}, stdout = 'inherit'
 /** Runs a program and gives back what it printed: `{ code, output }`, both streams in the order they came. */
 export function capture(command, args, { cwd = root, env = {}, timeoutMs = 600_000, shell = false } = {}) {
   return new Promise((resolve) => {
-    const child = spawn(command, args, { cwd, env: { ...process.env, ...env }, stdio: ['ignore', 'pipe', 'pipe'], shell });
+    const child = spawn(command, args, {
+      cwd,
+      env: { ...process.env, ...env },
+      stdio: ['ignore', 'pipe', 'pipe'],
+      shell,
+    });
     const chunks = [];
     const timer = setTimeout(() => {
       chunks.push(Buffer.from(`\nended after ${timeoutMs / 1000} s without finishing\n`));
@@ -74,7 +84,8 @@ export function capture(command, args, { cwd = root, env = {}, timeoutMs = 600_0
 /** Path of a script inside an installed package, to be run by this Node: no shell wrappers, no PATH. */
 export function bin(packageName, script, from = root) {
   const path = join(from, 'node_modules', packageName, script);
-  if (!existsSync(path)) throw new TaskError(`${packageName} is not installed: run npm install, or npx -y pnpm@${PNPM_VERSION} install.`);
+  if (!existsSync(path))
+    throw new TaskError(`${packageName} is not installed: run npm install, or npx -y pnpm@${PNPM_VERSION} install.`);
   return path;
 }
 
@@ -93,7 +104,9 @@ export async function main(task) {
     const code = await task();
     if (typeof code === 'number') process.exitCode = code;
   } catch (error) {
-    process.stderr.write(error instanceof TaskError ? `glanz: ${error.message}\n` : `glanz: ${error?.stack ?? error}\n`);
+    process.stderr.write(
+      error instanceof TaskError ? `glanz: ${error.message}\n` : `glanz: ${error?.stack ?? error}\n`,
+    );
     process.exitCode = error instanceof TaskError ? error.exitCode : 1;
   }
 }

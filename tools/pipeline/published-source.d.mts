@@ -6,7 +6,10 @@ export function preparePublished(text: string, fileName?: string): string;
 /** The esbuild plugin that applies {@link preparePublished} to every source file. */
 export const publishedSource: Plugin;
 
-/** The same for pages that Vite, of whatever version, builds from the packages' sources; where it serves them, sources stay as they are. */
+/**
+ * The same for pages that Vite, of whatever version, builds from the packages' sources; where it serves them, sources
+ * stay as they are.
+ */
 export const publishedModules: () => {
   readonly name: string;
   readonly apply: 'build';

@@ -1,11 +1,14 @@
-// What our packages publish, as a plugin of esbuild for their builds, and of Vite for pages that are made from their sources.
+// What our packages publish, as a plugin of esbuild for their builds, and of Vite for pages that are made from their
+// sources.
 //
-// 1. It tells bundlers which top-level constants may be dropped. `const coat = wgslModule(…, [other.module])` looks like
+// 1. It tells bundlers which top-level constants may be dropped. `const coat = wgslModule(…, [other.module])` looks
+// like
 //    a side effect: a call, and a property read in its arguments. `sideEffects: false` helps only across files, and an
 //    entry here is one file with its chunks. So each computed initializer becomes `/* @__PURE__ */ (() => …)()`, which
 //    esbuild, Rollup, webpack and terser drop when nobody uses the constant. It is honest because importing a module
 //    of ours does nothing, which tools/check-entries.mjs tests.
-// 2. It takes comments, indentation and the spaces around operators out of WGSL templates, which no minifier looks into.
+// 2. It takes comments, indentation and the spaces around operators out of WGSL templates, which no minifier looks
+// into.
 //    Line breaks stay, so that errors still name the line of the source. `.wesl` files become modules likewise.
 import { readFile } from 'node:fs/promises';
 import ts from 'typescript';
@@ -13,10 +16,22 @@ import { closeUp, weslSource } from './wesl.mjs';
 
 /** True unless the expression is plainly a value: literals, names, functions, and arrays or objects of them. */
 function computes(node) {
-  if (ts.isFunctionLike(node) || ts.isIdentifier(node) || ts.isLiteralExpression(node) || ts.isTypeNode(node)) return false;
-  if (node.kind === ts.SyntaxKind.TrueKeyword || node.kind === ts.SyntaxKind.FalseKeyword || node.kind === ts.SyntaxKind.NullKeyword) return false;
+  if (ts.isFunctionLike(node) || ts.isIdentifier(node) || ts.isLiteralExpression(node) || ts.isTypeNode(node))
+    return false;
+  if (
+    node.kind === ts.SyntaxKind.TrueKeyword ||
+    node.kind === ts.SyntaxKind.FalseKeyword ||
+    node.kind === ts.SyntaxKind.NullKeyword
+  )
+    return false;
   if (ts.isPrefixUnaryExpression(node)) return !ts.isNumericLiteral(node.operand);
-  if (ts.isParenthesizedExpression(node) || ts.isAsExpression(node) || ts.isSatisfiesExpression(node) || ts.isNonNullExpression(node)) return computes(node.expression);
+  if (
+    ts.isParenthesizedExpression(node) ||
+    ts.isAsExpression(node) ||
+    ts.isSatisfiesExpression(node) ||
+    ts.isNonNullExpression(node)
+  )
+    return computes(node.expression);
   if (ts.isArrayLiteralExpression(node)) return node.elements.some(computes);
   if (ts.isObjectLiteralExpression(node)) {
     return node.properties.some((property) => {
@@ -28,7 +43,8 @@ function computes(node) {
   return true;
 }
 
-const isWgsl = (node, source) => /\/\*\s*wgsl\s*\*\/\s*$/.test(source.text.slice(node.getFullStart(), node.getStart(source)));
+const isWgsl = (node, source) =>
+  /\/\*\s*wgsl\s*\*\/\s*$/.test(source.text.slice(node.getFullStart(), node.getStart(source)));
 
 /** One literal piece of a WGSL template. A comment that runs on into a substitution is left alone. */
 function shrinkPiece(text, continues, goesOn) {
@@ -57,7 +73,9 @@ function wgslEdits(source) {
     if (ts.isNoSubstitutionTemplateLiteral(node) && isWgsl(node, source)) piece(node, 1, 1, false, false);
     else if (ts.isTemplateExpression(node) && isWgsl(node, source)) {
       piece(node.head, 1, 2, false, true);
-      node.templateSpans.forEach(({ literal }, i) => piece(literal, 1, i === node.templateSpans.length - 1 ? 1 : 2, true, i < node.templateSpans.length - 1));
+      node.templateSpans.forEach(({ literal }, i) =>
+        piece(literal, 1, i === node.templateSpans.length - 1 ? 1 : 2, true, i < node.templateSpans.length - 1),
+      );
       node.templateSpans.forEach(({ expression }) => visit(expression));
     } else ts.forEachChild(node, visit);
   };
@@ -74,7 +92,10 @@ function pureEdits(source) {
       // A destructured constant reads properties at its own place; leave it be.
       if (!initializer || !ts.isIdentifier(name) || !computes(initializer)) continue;
       const from = initializer.getStart(source);
-      edits.push({ from, to: from, text: '/* @__PURE__ */ (() => (' }, { from: initializer.end, to: initializer.end, text: '))()' });
+      edits.push(
+        { from, to: from, text: '/* @__PURE__ */ (() => (' },
+        { from: initializer.end, to: initializer.end, text: '))()' },
+      );
     }
   }
   return edits;
@@ -93,7 +114,10 @@ export const publishedSource = {
   name: 'published-source',
   setup(build) {
     weslSource({ shrink: true }).setup(build);
-    build.onLoad({ filter: /[\\/]src[\\/].*\.ts$/ }, async ({ path }) => ({ contents: preparePublished(await readFile(path, 'utf8'), path), loader: 'ts' }));
+    build.onLoad({ filter: /[\\/]src[\\/].*\.ts$/ }, async ({ path }) => ({
+      contents: preparePublished(await readFile(path, 'utf8'), path),
+      loader: 'ts',
+    }));
   },
 };
 
@@ -102,5 +126,8 @@ export const publishedModules = () => ({
   name: 'published-source',
   apply: 'build',
   enforce: 'pre',
-  transform: (code, id) => (/[\\/]packages[\\/][^\\/]+[\\/]src[\\/].*\.ts$/.test(id) ? { code: preparePublished(code, id), map: null } : undefined),
+  transform: (code, id) =>
+    /[\\/]packages[\\/][^\\/]+[\\/]src[\\/].*\.ts$/.test(id)
+      ? { code: preparePublished(code, id), map: null }
+      : undefined,
 });

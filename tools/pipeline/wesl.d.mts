@@ -43,7 +43,14 @@ export interface WeslOptions {
  * A WESL file as a JavaScript module whose default export is its `WgslModule`.
  * @throws {WeslError}
  */
-export function compileWesl(text: string, file: string, options?: WeslOptions): { code: string; map: { version: 3; sources: string[]; sourcesContent: string[]; names: string[]; mappings: string } };
+export function compileWesl(
+  text: string,
+  file: string,
+  options?: WeslOptions,
+): {
+  code: string;
+  map: { version: 3; sources: string[]; sourcesContent: string[]; names: string[]; mappings: string };
+};
 
 /** For esbuild and tsup. */
 export function weslSource(options?: WeslOptions): Plugin;

@@ -18,14 +18,14 @@ function tokenize(text, fail) {
   const tokens = [];
   const comments = [];
   TOKEN.lastIndex = 0;
-  for (let match; (match = TOKEN.exec(text)); ) {
+  for (let match; (match = TOKEN.exec(text));) {
     const from = match.index;
     if (match[0] === '/*') {
       // They nest.
       let depth = 0;
       const edge = /\/\*|\*\//g;
       edge.lastIndex = from;
-      for (let found; (found = edge.exec(text)); ) {
+      for (let found; (found = edge.exec(text));) {
         depth += found[0] === '/*' ? 1 : -1;
         if (depth === 0) break;
       }
@@ -45,8 +45,9 @@ const CLOSING = { '(': ')', '[': ']', '{': '}', '<': '>' };
  *
  * @param {string} text
  * @param {string} file For messages.
- * @returns {{ imports: { path: string[], name: string, flag: string | undefined, line: number }[], edits: { from: number, to: number, text: string }[], comments: { from: number, to: number }[] }}
- *   `edits` turn the text into one with gates. `path` is the module of an imported name.
+ * @returns {{ imports: { path: string[], name: string, flag: string | undefined, line: number }[], edits: { from:
+ *   number, to: number, text: string }[], comments: { from: number, to: number }[] }} `edits` turn the text into one
+ *   with gates. `path` is the module of an imported name.
  * @throws {WeslError}
  */
 export function parseWesl(text, file = 'module.wesl') {
@@ -62,7 +63,8 @@ export function parseWesl(text, file = 'module.wesl') {
   const take = (expected) => {
     const token = tokens[next];
     if (!token) return fail(text.length, expected ? `"${expected}" is missing at the end` : 'the file ends too soon');
-    if (expected !== undefined && token.text !== expected) fail(token.from, `"${token.text}" stands where "${expected}" is expected`);
+    if (expected !== undefined && token.text !== expected)
+      fail(token.from, `"${token.text}" stands where "${expected}" is expected`);
     next++;
     return token;
   };
@@ -71,12 +73,16 @@ export function parseWesl(text, file = 'module.wesl') {
   /** Skips the bracket that is next, with all that it encloses. */
   const skipBracket = () => {
     const open = take();
-    for (const close = CLOSING[open.text]; peek() !== close; ) skipToken();
+    for (const close = CLOSING[open.text]; peek() !== close;) skipToken();
     take();
   };
   const skipToken = () => {
     if (peek() === undefined) fail(text.length, 'the file ends inside of a bracket');
-    if (peek() === '@' && /^(if|elif|else)$/.test(tokens[next + 1]?.text ?? '')) fail(here(), `@${tokens[next + 1].text} stands where no declaration, member, parameter, statement or import begins`);
+    if (peek() === '@' && /^(if|elif|else)$/.test(tokens[next + 1]?.text ?? ''))
+      fail(
+        here(),
+        `@${tokens[next + 1].text} stands where no declaration, member, parameter, statement or import begins`,
+      );
     if (peek() in CLOSING && peek() !== '<') skipBracket();
     else take();
   };
@@ -96,10 +102,18 @@ export function parseWesl(text, file = 'module.wesl') {
         negated = !negated;
       }
       const flag = take();
-      if (!/^[A-Za-z_]\w*$/.test(flag.text)) fail(flag.from, 'a condition is a flag, !flag, or several of them with && between; for || use a flag that stands for both');
+      if (!/^[A-Za-z_]\w*$/.test(flag.text))
+        fail(
+          flag.from,
+          'a condition is a flag, !flag, or several of them with && between; for || use a flag that stands for both',
+        );
       parts.push(`${negated ? '!' : ''}${flag.text}`);
     } while (peek() === '&&');
-    if (peek() !== ')') fail(from, 'a condition is a flag, !flag, or several of them with && between; for || use a flag that stands for both');
+    if (peek() !== ')')
+      fail(
+        from,
+        'a condition is a flag, !flag, or several of them with && between; for || use a flag that stands for both',
+      );
     take(')');
     return parts.join('&&');
   };
@@ -144,7 +158,8 @@ export function parseWesl(text, file = 'module.wesl') {
   };
 
   const importStatement = (from, gate) => {
-    if (gate && (gate.kind !== 'if' || gate.condition.includes('&'))) fail(from, 'an import is gated by @if(FLAG) or @if(!FLAG)');
+    if (gate && (gate.kind !== 'if' || gate.condition.includes('&')))
+      fail(from, 'an import is gated by @if(FLAG) or @if(!FLAG)');
     take('import');
     for (const { path, name, at } of importTree([])) {
       if (path.length === 0) fail(at, `"import ${name}" names no module`);
@@ -242,7 +257,8 @@ export function parseWesl(text, file = 'module.wesl') {
     let end = 0;
     let alone;
     const closeChain = () => {
-      if (open > 0) edits.push({ from: end, to: end, text: `${'//#endif'.repeat(open)}${/\w/.test(text[end] ?? '') ? ' ' : ''}` });
+      if (open > 0)
+        edits.push({ from: end, to: end, text: `${'//#endif'.repeat(open)}${/\w/.test(text[end] ?? '') ? ' ' : ''}` });
       open = 0;
       alone = undefined;
     };
@@ -274,15 +290,16 @@ export function parseWesl(text, file = 'module.wesl') {
   };
 
   sequence(declaration, undefined);
-  for (const { from, to } of comments) if (text.slice(from, to).includes('//#')) fail(from, 'a comment must not hold "//#", which marks gates');
+  for (const { from, to } of comments)
+    if (text.slice(from, to).includes('//#')) fail(from, 'a comment must not hold "//#", which marks gates');
   return { imports, edits, comments };
 }
 
 const OPERATOR = /[-+*/%=<>!&|^~]/;
 
 /**
- * A line of WGSL without the spaces that separate nothing: those beside punctuation. Between two operators they stay, for
- * `a - -b` and `array<f32> = x` mean something else without them. Lines with comments stay as they are.
+ * A line of WGSL without the spaces that separate nothing: those beside punctuation. Between two operators they stay,
+ * for `a - -b` and `array<f32> = x` mean something else without them. Lines with comments stay as they are.
  */
 export function closeUp(line) {
   if (line.includes('//')) return line;
@@ -307,14 +324,21 @@ const closeUpGated = (line) =>
 
 function apply(text, edits) {
   let result = text;
-  for (const edit of [...edits].sort((a, b) => b.from - a.from || b.to - a.to)) result = result.slice(0, edit.from) + edit.text + result.slice(edit.to);
+  for (const edit of [...edits].sort((a, b) => b.from - a.from || b.to - a.to))
+    result = result.slice(0, edit.from) + edit.text + result.slice(edit.to);
   return result;
 }
 
-/** The text with gates for the composer, line by line that of the file. @param {boolean} shrink Without comments and spaces that separate nothing. */
+/**
+ * The text with gates for the composer, line by line that of the file. @param {boolean} shrink Without comments and
+ * spaces that separate nothing.
+ */
 function gatedText(text, { edits, comments }, shrink) {
   if (!shrink) return apply(text, edits);
-  const bare = apply(text, [...edits, ...comments.map(({ from, to }) => ({ from, to, text: text.slice(from, to).replace(/[^\n]+/g, '') || ' ' }))]);
+  const bare = apply(text, [
+    ...edits,
+    ...comments.map(({ from, to }) => ({ from, to, text: text.slice(from, to).replace(/[^\n]+/g, '') || ' ' })),
+  ]);
   return bare.split('\n').map(closeUpGated).join('\n');
 }
 
@@ -322,7 +346,8 @@ function gatedText(text, { edits, comments }, shrink) {
 function packageOf(file) {
   for (let folder = dirname(file); folder !== dirname(folder); folder = dirname(folder)) {
     const manifest = join(folder, 'package.json');
-    if (existsSync(manifest)) return { folder, short: JSON.parse(readFileSync(manifest, 'utf8')).name.split('/').at(-1) };
+    if (existsSync(manifest))
+      return { folder, short: JSON.parse(readFileSync(manifest, 'utf8')).name.split('/').at(-1) };
   }
   throw new WeslError(`${file}: it lies in no package.`);
 }
@@ -343,7 +368,9 @@ function resolveModule({ path, name, line }, file, source) {
   if (existsSync(`${base}.wesl`)) return { file: `${base}.wesl`, wesl: true };
   const typescript = `${join(dirname(base), (rest.at(-1) ?? '').replaceAll('_', '-'))}.ts`;
   if (existsSync(typescript)) return { file: typescript, wesl: false };
-  throw new WeslError(`${file}:${line}: there is no module ${path.join('::')} to import ${name} from: neither ${base}.wesl nor ${typescript}.`);
+  throw new WeslError(
+    `${file}:${line}: there is no module ${path.join('::')} to import ${name} from: neither ${base}.wesl nor ${typescript}.`,
+  );
 }
 
 /**
@@ -353,7 +380,8 @@ function resolveModule({ path, name, line }, file, source) {
  * @param {string} text
  * @param {string} file Absolute path.
  * @param {{ shrink?: boolean }} options `shrink`: leaves out comments and spaces, for what is published.
- * @returns {{ code: string, map: { version: 3, sources: string[], sourcesContent: string[], names: string[], mappings: string } }}
+ * @returns {{ code: string, map: { version: 3, sources: string[], sourcesContent: string[], names: string[], mappings:
+ * string } }}
  * @throws {WeslError}
  */
 export function compileWesl(text, file, { shrink = false } = {}) {
@@ -367,7 +395,9 @@ export function compileWesl(text, file, { shrink = false } = {}) {
   for (const entry of parsed.imports) {
     if (isHost(entry.path)) continue;
     const { file: target, wesl } = resolveModule(entry, file, source);
-    const specifier = `./${relative(dirname(file), target).split(sep).join('/')}`.replace(/^\.\/\.\.\//, '../').replace(/\.ts$/, '');
+    const specifier = `./${relative(dirname(file), target).split(sep).join('/')}`
+      .replace(/^\.\/\.\.\//, '../')
+      .replace(/\.ts$/, '');
     const key = wesl ? specifier : `${specifier} ${entry.name}`;
     let name = names.get(key);
     if (name === undefined) {
@@ -375,15 +405,23 @@ export function compileWesl(text, file, { shrink = false } = {}) {
       imports += `import ${wesl ? name : `{ ${entry.name} as ${name} }`} from ${JSON.stringify(specifier)};`;
     }
     if (entry.flag !== undefined) used.add('gated');
-    const dependency = entry.flag === undefined ? name : `/* @__PURE__ */ gated(${JSON.stringify(entry.flag)}, ${name})`;
+    const dependency =
+      entry.flag === undefined ? name : `/* @__PURE__ */ gated(${JSON.stringify(entry.flag)}, ${name})`;
     dependencies.set(dependency, dependency);
   }
-  const title = `${short}/${file.split(/[\\/]/).at(-1).replace(/\.wesl$/, '').replaceAll('_', '-')}`;
+  const title = `${short}/${file
+    .split(/[\\/]/)
+    .at(-1)
+    .replace(/\.wesl$/, '')
+    .replaceAll('_', '-')}`;
   const template = gatedText(text, parsed, shrink).replace(/[\\`]|\$(?=\{)/g, '\\$&');
   // All on the first line, so that each line of the result is that of the file.
   const code = `import { ${[...used].sort().join(', ')} } from "@glanz/wgsl/module";${imports}export default /* @__PURE__ */ wgslModule(${JSON.stringify(title)}, \`${template}\`${dependencies.size > 0 ? `, [${[...dependencies.values()].join(', ')}]` : ''});\n`;
   const mappings = `AAAA${';AACA'.repeat(text.split('\n').length - 1)}`;
-  return { code, map: { version: 3, sources: [file.split(/[\\/]/).at(-1)], sourcesContent: [text], names: [], mappings } };
+  return {
+    code,
+    map: { version: 3, sources: [file.split(/[\\/]/).at(-1)], sourcesContent: [text], names: [], mappings },
+  };
 }
 
 /** For esbuild and tsup. @param {{ shrink?: boolean }} options */
@@ -392,7 +430,11 @@ export const weslSource = (options = {}) => ({
   setup(build) {
     build.onLoad({ filter: /\.wesl$/ }, ({ path }) => {
       const { code, map } = compileWesl(readFileSync(path, 'utf8'), path, options);
-      return { contents: `${code}//# sourceMappingURL=data:application/json;base64,${Buffer.from(JSON.stringify(map)).toString('base64')}`, loader: 'js', resolveDir: dirname(path) };
+      return {
+        contents: `${code}//# sourceMappingURL=data:application/json;base64,${Buffer.from(JSON.stringify(map)).toString('base64')}`,
+        loader: 'js',
+        resolveDir: dirname(path),
+      };
     });
   },
 });

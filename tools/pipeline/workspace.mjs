@@ -22,10 +22,12 @@ export function listPackages(group, base = root) {
 }
 
 /** The packages that are published. */
-export const publishedPackages = (base = root) => listPackages('packages', base).filter(({ manifest }) => !manifest.private);
+export const publishedPackages = (base = root) =>
+  listPackages('packages', base).filter(({ manifest }) => !manifest.private);
 
 /** Packages of the workspace that this one needs at run time. */
-export const internalDependencies = ({ manifest }) => Object.keys({ ...manifest.dependencies, ...manifest.peerDependencies }).filter((name) => name.startsWith('@glanz/'));
+export const internalDependencies = ({ manifest }) =>
+  Object.keys({ ...manifest.dependencies, ...manifest.peerDependencies }).filter((name) => name.startsWith('@glanz/'));
 
 /** Dependencies first. @param {Package[]} packages */
 export function topological(packages) {
@@ -34,7 +36,8 @@ export function topological(packages) {
   const result = [];
   const visit = (p, path) => {
     if (done.has(p)) return;
-    if (path.includes(p)) throw new Error(`packages depend on each other in a circle: ${[...path, p].map((q) => q.short).join(' → ')}`);
+    if (path.includes(p))
+      throw new Error(`packages depend on each other in a circle: ${[...path, p].map((q) => q.short).join(' → ')}`);
     for (const name of internalDependencies(p)) {
       const dependency = byName.get(name);
       if (dependency) visit(dependency, [...path, p]);

@@ -26,7 +26,9 @@ export interface ApiPage {
 function readEntries(packages: readonly string[]): Entry[] {
   return packages.flatMap((name) => {
     const folder = join(root, 'packages', name);
-    const { exports } = JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8')) as { exports: Record<string, string | Record<string, string>> };
+    const { exports } = JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8')) as {
+      exports: Record<string, string | Record<string, string>>;
+    };
     return Object.entries(exports).flatMap(([path, target]) => {
       const source = typeof target === 'object' ? target['@glanz/source'] : undefined;
       return source ? [{ name: `${name}${path.slice(1)}`, source: join(folder, source) }] : [];
@@ -35,13 +37,22 @@ function readEntries(packages: readonly string[]): Entry[] {
 }
 
 function newest(folder: string): number {
-  return Math.max(0, ...readdirSync(folder, { withFileTypes: true }).map((entry) => (entry.isDirectory() ? newest(join(folder, entry.name)) : statSync(join(folder, entry.name)).mtimeMs)));
+  return Math.max(
+    0,
+    ...readdirSync(folder, { withFileTypes: true }).map((entry) =>
+      entry.isDirectory() ? newest(join(folder, entry.name)) : statSync(join(folder, entry.name)).mtimeMs,
+    ),
+  );
 }
 
 /** Makes the reference if it is missing or stale, and lists its pages. */
 export async function apiReference(packages: readonly string[]): Promise<ApiPage[]> {
   const entries = readEntries(packages);
-  const state = JSON.stringify([entries, ...packages.map((name) => newest(join(root, 'packages', name, 'src'))), statSync(fileURLToPath(import.meta.url)).size]);
+  const state = JSON.stringify([
+    entries,
+    ...packages.map((name) => newest(join(root, 'packages', name, 'src'))),
+    statSync(fileURLToPath(import.meta.url)).size,
+  ]);
   if (existsSync(stamp)) {
     const made = JSON.parse(readFileSync(stamp, 'utf8')) as { state: string; pages: ApiPage[] };
     if (made.state === state) return made.pages;
@@ -83,11 +94,14 @@ async function generate(entries: readonly Entry[]): Promise<ApiPage[]> {
   const app = await Application.bootstrapWithPlugins(options);
   const project = await app.convert();
   if (!project) throw new Error('TypeDoc could not read the packages.');
-  const names = new Map(entries.map(({ name, source }) => [relative(join(root, 'packages'), source).replace(/(\/index)?\.ts$/, ''), name]));
+  const names = new Map(
+    entries.map(({ name, source }) => [relative(join(root, 'packages'), source).replace(/(\/index)?\.ts$/, ''), name]),
+  );
   for (const module of project.children?.slice() ?? []) {
     module.name = names.get(module.name) ?? module.name;
     // Entries that only narrow a package's main one have nothing of their own to tell.
-    if ((module.children ?? []).every((child) => child.kind === ReflectionKind.Reference)) project.removeReflection(module);
+    if ((module.children ?? []).every((child) => child.kind === ReflectionKind.Reference))
+      project.removeReflection(module);
   }
   for (const module of project.children ?? []) {
     const source = entries.find(({ name }) => name === module.name)?.source;
@@ -96,20 +110,26 @@ async function generate(entries: readonly Entry[]): Promise<ApiPage[]> {
   const kept = new Set((project.children ?? []).map(({ name }) => name));
   await app.generateOutputs(project);
   mendAnchors();
-  return entries.filter(({ name }) => kept.has(name)).map(({ name }) => ({ text: `@glanz/${name}`, link: `/api/${name}` }));
+  return entries
+    .filter(({ name }) => kept.has(name))
+    .map(({ name }) => ({ text: `@glanz/${name}`, link: `/api/${name}` }));
 }
 
 /** A page begins with what can be called, in the order in which its entry exports it; then errors, then types. */
 function sortByExports(module: DeclarationReflection, source: string): void {
   const text = source.replace(/\/\*[\s\S]*?\*\//g, '');
   const values = new Map<string, number>();
-  for (const [, list, name] of text.matchAll(/^export \{([^}]*)\}|^export (?:async )?(?:function|class|const) (\w+)/gm)) {
+  for (const [, list, name] of text.matchAll(
+    /^export \{([^}]*)\}|^export (?:async )?(?:function|class|const) (\w+)/gm,
+  )) {
     for (const item of name === undefined ? (list ?? '').split(',') : [name]) {
       if (!item.trim().startsWith('type ')) values.set(item.trim().split(/\s+/).at(-1) ?? '', values.size);
     }
   }
-  const place = ({ name }: { readonly name: string }) => (values.get(name) ?? 20_000) + (name.endsWith('Error') ? 10_000 : 0);
-  const first = ({ children }: { readonly children: readonly { readonly name: string }[] }) => Math.min(...children.map(place));
+  const place = ({ name }: { readonly name: string }) =>
+    (values.get(name) ?? 20_000) + (name.endsWith('Error') ? 10_000 : 0);
+  const first = ({ children }: { readonly children: readonly { readonly name: string }[] }) =>
+    Math.min(...children.map(place));
   module.groups?.sort((a, b) => first(a) - first(b));
   for (const group of module.groups ?? []) group.children.sort((a, b) => place(a) - place(b));
 }
@@ -121,12 +141,18 @@ function mendAnchors(): void {
       .filter((path) => path.endsWith('.md'))
       .map((path) => [join(out, path), readFileSync(join(out, path), 'utf8')]),
   );
-  const headings = (text: string) => text.match(/^#+ .*$/gm)?.map((line) => line.replace(/^#+ /, '').replaceAll('\\', '').toLowerCase()) ?? [];
+  const headings = (text: string) =>
+    text.match(/^#+ .*$/gm)?.map((line) => line.replace(/^#+ /, '').replaceAll('\\', '').toLowerCase()) ?? [];
   for (const [file, text] of pages) {
-    const mended = text.replace(/\]\(([^()#\s]*)#([\w-]+)-(\d+)\)/g, (link, path: string, name: string, number: string) => {
-      const target = pages.get(path ? join(dirname(file), path) : file);
-      return target !== undefined && headings(target).filter((heading) => heading === name).length <= Number(number) ? `](${path}#${name})` : link;
-    });
+    const mended = text.replace(
+      /\]\(([^()#\s]*)#([\w-]+)-(\d+)\)/g,
+      (link, path: string, name: string, number: string) => {
+        const target = pages.get(path ? join(dirname(file), path) : file);
+        return target !== undefined && headings(target).filter((heading) => heading === name).length <= Number(number)
+          ? `](${path}#${name})`
+          : link;
+      },
+    );
     if (mended !== text) writeFileSync(file, mended);
   }
 }

@@ -10,7 +10,23 @@ import { packageFacts, packageLine } from './package-facts';
 import { buildPlayground } from './playground';
 import { readmeLinks } from './readme-links';
 
-const packages = ['viewer', 'element', 'react', 'three', 'renderer', 'gltf', 'formats', 'cad', 'scene', 'openpbr', 'bvh', 'tonemap', 'image', 'wgsl', 'cli'];
+const packages = [
+  'viewer',
+  'element',
+  'react',
+  'three',
+  'renderer',
+  'gltf',
+  'formats',
+  'cad',
+  'scene',
+  'openpbr',
+  'bvh',
+  'tonemap',
+  'image',
+  'wgsl',
+  'cli',
+];
 const api = await apiReference(packages);
 /** Pages that benchmarks and tests fill: shown once there is something on them. */
 const results = [
@@ -28,8 +44,8 @@ const results = [
   .filter(({ link }) => existsSync(new URL(`..${link.endsWith('/') ? `${link}index` : link}.md`, import.meta.url)));
 
 /**
- * Words of a text or a query for the search: also those with a dot as one, so that "nextjs" finds "Next.js". It is sent to the
- * browser as text, and so uses nothing from outside.
+ * Words of a text or a query for the search: also those with a dot as one, so that "nextjs" finds "Next.js". It is sent
+ * to the browser as text, and so uses nothing from outside.
  */
 const searchWords = (text: string): string[] => {
   const dotted = text.match(/[\p{L}\p{N}]+(?:\.[\p{L}\p{N}]+)+/gu) ?? [];
@@ -52,7 +68,14 @@ export default defineConfig({
   ],
   markdown: {
     // As the API reference writes its links: underscores stay.
-    anchor: { slugify: (text) => text.trim().toLowerCase().replace(/[^\p{L}\p{N}\s_-]+/gu, '').replace(/\s+/g, '-') },
+    anchor: {
+      slugify: (text) =>
+        text
+          .trim()
+          .toLowerCase()
+          .replace(/[^\p{L}\p{N}\s_-]+/gu, '')
+          .replace(/\s+/g, '-'),
+    },
     config: (md) => void md.use(readmeLinks).use(packageLine).use(emptyHeaders),
     // The usual ones have comments and keywords too faint for the ground of code blocks.
     theme: { light: 'github-light-high-contrast', dark: 'github-dark-high-contrast' },
@@ -125,7 +148,17 @@ export default defineConfig({
         text: 'OpenPBR',
         items: [
           { text: 'All parameters', link: '/openpbr/parameters' },
-          ...['Base', 'Specular', 'Transmission', 'Subsurface', 'Coat', 'Fuzz', 'Thin film', 'Emission', 'Geometry'].map((text) => ({ text, link: `/openpbr/${text.toLowerCase().replace(' ', '-')}` })),
+          ...[
+            'Base',
+            'Specular',
+            'Transmission',
+            'Subsurface',
+            'Coat',
+            'Fuzz',
+            'Thin film',
+            'Emission',
+            'Geometry',
+          ].map((text) => ({ text, link: `/openpbr/${text.toLowerCase().replace(' ', '-')}` })),
           { text: 'Lobes and their sources', link: '/openpbr/lobes' },
           { text: 'Presets', link: '/openpbr/presets' },
           { text: 'From glTF', link: '/openpbr/gltf' },
@@ -133,7 +166,11 @@ export default defineConfig({
           { text: 'In a rasteriser', link: '/openpbr/rasteriser' },
         ],
       },
-      { text: 'Packages', link: '/packages/', items: packages.map((name) => ({ text: `@glanz/${name}`, link: `/packages/${name}` })) },
+      {
+        text: 'Packages',
+        link: '/packages/',
+        items: packages.map((name) => ({ text: `@glanz/${name}`, link: `/packages/${name}` })),
+      },
       { text: 'API reference', link: '/api/', collapsed: true, items: api },
       {
         text: 'How it works',

@@ -4,7 +4,9 @@ import type { MarkdownRenderer } from 'vitepress';
 
 /** Version and stability of a package, as its manifest has them. */
 export function packageFacts(name: string): { readonly version: string; readonly stability: string } {
-  const manifest = JSON.parse(readFileSync(new URL(`../../../packages/${name}/package.json`, import.meta.url), 'utf8')) as { version: string; glanz: { stability: string } };
+  const manifest = JSON.parse(
+    readFileSync(new URL(`../../../packages/${name}/package.json`, import.meta.url), 'utf8'),
+  ) as { version: string; glanz: { stability: string } };
   return { version: manifest.version, stability: manifest.glanz.stability };
 }
 

@@ -10,5 +10,9 @@ const playground = fileURLToPath(new URL('../../playground', import.meta.url));
 /** Builds the playground into a folder of the site, by the playground's own version of Vite. */
 export async function buildPlayground(outDir: string): Promise<void> {
   const vite = dirname(createRequire(join(playground, 'package.json')).resolve('vite/package.json'));
-  await promisify(execFile)(process.execPath, [join(vite, 'bin/vite.js'), 'build', playground, '--outDir', outDir, '--emptyOutDir', '--logLevel', 'error'], { cwd: playground, maxBuffer: 1 << 24 });
+  await promisify(execFile)(
+    process.execPath,
+    [join(vite, 'bin/vite.js'), 'build', playground, '--outDir', outDir, '--emptyOutDir', '--logLevel', 'error'],
+    { cwd: playground, maxBuffer: 1 << 24 },
+  );
 }

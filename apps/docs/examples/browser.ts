@@ -18,7 +18,12 @@ export async function show(canvas: HTMLCanvasElement, url: string) {
 
   for await (const _ of tracer.render({ samples: 256 })) {
     const encoder = device.createCommandEncoder();
-    pass.draw(encoder, tracer.beautyBuffer, [width, height], context.getCurrentTexture().createView());
+    pass.draw(
+      encoder,
+      tracer.beautyBuffer,
+      [width, height],
+      context.getCurrentTexture().createView(),
+    );
     device.queue.submit([encoder.finish()]);
   }
 }

@@ -7,9 +7,15 @@ import type { Scene } from '@glanz/scene';
 /** A path tracer that builds on other threads what this browser has not kept from an earlier visit. */
 export async function createTracer(scene: Scene): Promise<PathTracer> {
   const workers = await BvhWorkers.create();
-  const hierarchies = new BlasCache(await openIndexedDbStore(), workers, { onError: console.warn });
+  const hierarchies = new BlasCache(await openIndexedDbStore(), workers, {
+    onError: console.warn,
+  });
   try {
-    return await PathTracer.create(await requestDevice(), scene, { width: 1024, height: 1024, hierarchies });
+    return await PathTracer.create(await requestDevice(), scene, {
+      width: 1024,
+      height: 1024,
+      hierarchies,
+    });
   } finally {
     workers.destroy();
   }

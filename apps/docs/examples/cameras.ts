@@ -1,5 +1,10 @@
 import type { PathTracer } from '@glanz/renderer';
-import { frameCamera, type OrthographicCamera, type PanoramaCamera, type PerspectiveCamera } from '@glanz/scene';
+import {
+  frameCamera,
+  type OrthographicCamera,
+  type PanoramaCamera,
+  type PerspectiveCamera,
+} from '@glanz/scene';
 import { cameraExposure, toneMapPixels } from '@glanz/tonemap';
 
 // #region frame
@@ -15,10 +20,18 @@ export function fromTheLeft(tracer: PathTracer) {
 // #endregion frame
 
 // #region lens
-export function withLens(camera: PerspectiveCamera, focus: number, fStop: number): PerspectiveCamera {
+export function withLens(
+  camera: PerspectiveCamera,
+  focus: number,
+  fStop: number,
+): PerspectiveCamera {
   const sensorHeight = 0.024; // 24 mm, a full-frame camera
   const focalLength = sensorHeight / (2 * Math.tan(camera.yfov / 2));
-  return { ...camera, lens_radius: focalLength / (2 * fStop), focus_distance: focus };
+  return {
+    ...camera,
+    lens_radius: focalLength / (2 * fStop),
+    focus_distance: focus,
+  };
 }
 // #endregion lens
 
@@ -51,6 +64,11 @@ export const around: PanoramaCamera = {
 // #region exposure
 export async function photograph(tracer: PathTracer) {
   const exposure = cameraExposure({ fStop: 8, shutter: 1 / 125, iso: 200 });
-  return toneMapPixels(await tracer.read('beauty'), tracer.width, tracer.height, { toneMap: 'agx', exposure });
+  return toneMapPixels(
+    await tracer.read('beauty'),
+    tracer.width,
+    tracer.height,
+    { toneMap: 'agx', exposure },
+  );
 }
 // #endregion exposure

@@ -15,17 +15,27 @@ export interface Option {
 }
 
 /** How many assemblies a catalogue has. */
-export const assemblies = (options: readonly Option[]) => options.reduce((product, { choices }) => product * choices.length, 1);
+export const assemblies = (options: readonly Option[]) =>
+  options.reduce((product, { choices }) => product * choices.length, 1);
 // #endregion catalogue
 
 // #region choose
 /** Shows one choice of an option and hides the others; tells how long it took until the picture began anew. */
-export async function choose(tracer: PathTracer, option: Option, name: string): Promise<number> {
+export async function choose(
+  tracer: PathTracer,
+  option: Option,
+  name: string,
+): Promise<number> {
   const start = performance.now();
   const chosen = option.choices.find((choice) => choice.name === name);
   if (!chosen) throw new RangeError(`${option.name} has no choice ${name}`);
-  const edits = option.choices.flatMap(({ shows = [] }) => shows.map((part) => tracer.setVisibility(part, chosen.shows?.includes(part) ?? false)));
-  for (const [part, material] of Object.entries(chosen.wears ?? {})) edits.push(tracer.setInstanceMaterial(part, material));
+  const edits = option.choices.flatMap(({ shows = [] }) =>
+    shows.map((part) =>
+      tracer.setVisibility(part, chosen.shows?.includes(part) ?? false),
+    ),
+  );
+  for (const [part, material] of Object.entries(chosen.wears ?? {}))
+    edits.push(tracer.setInstanceMaterial(part, material));
   await Promise.all(edits);
   return performance.now() - start;
 }
@@ -33,18 +43,27 @@ export async function choose(tracer: PathTracer, option: Option, name: string): 
 
 // #region legend
 /** A part whose shape is made on demand, such as an engraved legend: only its own hierarchy is built. */
-export const engrave = (tracer: PathTracer, mesh: Mesh) => tracer.replaceMesh('legend', mesh);
+export const engrave = (tracer: PathTracer, mesh: Mesh) =>
+  tracer.replaceMesh('legend', mesh);
 // #endregion legend
 
 // #region address
 /** The assembly in the page's address, to be sent to someone. */
-export const toAddress = (choices: Readonly<Record<string, string>>) => `#${new URLSearchParams(choices)}`;
-export const fromAddress = (hash: string): Record<string, string> => Object.fromEntries(new URLSearchParams(hash.replace(/^#/, '')));
+export const toAddress = (choices: Readonly<Record<string, string>>) =>
+  `#${new URLSearchParams(choices)}`;
+export const fromAddress = (hash: string): Record<string, string> =>
+  Object.fromEntries(new URLSearchParams(hash.replace(/^#/, '')));
 // #endregion address
 
 // #region hidden
 /** All parts in one scene: what is hidden costs memory on the CPU only, until it is shown for the first time. */
 export function withHidden(scene: Scene, hidden: ReadonlySet<string>): Scene {
-  return { ...scene, instances: scene.instances.map((instance) => ({ ...instance, visible: !hidden.has(instance.name) })) };
+  return {
+    ...scene,
+    instances: scene.instances.map((instance) => ({
+      ...instance,
+      visible: !hidden.has(instance.name),
+    })),
+  };
 }
 // #endregion hidden

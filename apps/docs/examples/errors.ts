@@ -6,7 +6,8 @@ export async function open(url: string, say: (text: string) => void) {
     return await loadGltf(url);
   } catch (error) {
     if (!(error instanceof GlanzError)) throw error; // a fault of ours or yours: let it surface
-    if (error.code === 'gltf/truncated') say('The download was cut off. Try again?');
+    if (error.code === 'gltf/truncated')
+      say('The download was cut off. Try again?');
     else say(error.message);
     return undefined;
   }

@@ -1,4 +1,8 @@
-import { OPENPBR_PARAMETERS, validateParameters, type OpenPbrParameters } from '@glanz/openpbr/parameters';
+import {
+  OPENPBR_PARAMETERS,
+  validateParameters,
+  type OpenPbrParameters,
+} from '@glanz/openpbr/parameters';
 import type { PathTracer } from '@glanz/renderer';
 import type { Material } from '@glanz/scene';
 import { cssColor } from '@glanz/tonemap/css-color';
@@ -6,7 +10,11 @@ import { cssColor } from '@glanz/tonemap/css-color';
 // #region materials
 export const chrome: Material = {
   name: 'chrome',
-  parameters: { base_metalness: 1, base_color: [0.77, 0.78, 0.8], specular_roughness: 0.14 },
+  parameters: {
+    base_metalness: 1,
+    base_color: [0.77, 0.78, 0.8],
+    specular_roughness: 0.14,
+  },
 };
 
 export const rubber: Material = {
@@ -16,7 +24,12 @@ export const rubber: Material = {
 
 export const brushed: Material = {
   name: 'brushed aluminium',
-  parameters: { base_metalness: 1, base_color: [0.91, 0.92, 0.92], specular_roughness: 0.35, specular_roughness_anisotropy: 0.7 },
+  parameters: {
+    base_metalness: 1,
+    base_color: [0.91, 0.92, 0.92],
+    specular_roughness: 0.35,
+    specular_roughness_anisotropy: 0.7,
+  },
 };
 // #endregion materials
 
@@ -49,5 +62,7 @@ export function fromUser(input: Partial<OpenPbrParameters>) {
   return parameters;
 }
 
-export const sliders = Object.values(OPENPBR_PARAMETERS).filter(({ type }) => type === 'float');
+export const sliders = Object.values(OPENPBR_PARAMETERS).filter(
+  ({ type }) => type === 'float',
+);
 // #endregion validate

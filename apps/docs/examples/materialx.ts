@@ -4,16 +4,25 @@ import type { PathTracer } from '@glanz/renderer';
 
 // #region read
 export async function dress(tracer: PathTracer, url: string) {
-  const { materials, warnings } = readMaterialX(await (await fetch(url)).text());
+  const { materials, warnings } = readMaterialX(
+    await (await fetch(url)).text(),
+  );
   for (const { message } of warnings) console.warn(message);
-  for (const { name, parameters } of materials) await tracer.setMaterial(name, parameters);
+  for (const { name, parameters } of materials)
+    await tracer.setMaterial(name, parameters);
 }
 // #endregion read
 
 // #region write
 export const { document } = writeMaterialX([
   { name: 'housing', parameters: OPENPBR_PRESETS.gold },
-  { name: 'label', parameters: { specular_roughness: 0.8 }, textures: { base_color: { file: 'label.png', channels: 'rgb', colorSpace: 'srgb' } } },
+  {
+    name: 'label',
+    parameters: { specular_roughness: 0.8 },
+    textures: {
+      base_color: { file: 'label.png', channels: 'rgb', colorSpace: 'srgb' },
+    },
+  },
 ]);
 // #endregion write
 

@@ -1,28 +1,60 @@
-import { decodeFilmState, DeviceError, encodeFilmState, PathTracer, requestDevice, type FilmState } from '@glanz/renderer';
+import {
+  decodeFilmState,
+  DeviceError,
+  encodeFilmState,
+  PathTracer,
+  requestDevice,
+  type FilmState,
+} from '@glanz/renderer';
 import type { Scene } from '@glanz/scene';
 
 // #region progress
-export async function render(tracer: PathTracer, report: (text: string) => void) {
-  for await (const { samples, targetSamples, samplesPerSecond, remainingMs } of tracer.render({ samples: 512 })) {
-    report(`${samples}/${targetSamples}, ${samplesPerSecond.toFixed(1)} a second, ${Math.ceil(remainingMs / 1000)} s left`);
+export async function render(
+  tracer: PathTracer,
+  report: (text: string) => void,
+) {
+  for await (const {
+    samples,
+    targetSamples,
+    samplesPerSecond,
+    remainingMs,
+  } of tracer.render({ samples: 512 })) {
+    report(
+      `${samples}/${targetSamples}, ${samplesPerSecond.toFixed(1)} a second, ${Math.ceil(remainingMs / 1000)} s left`,
+    );
   }
 }
 // #endregion progress
 
 // #region noise
-export async function untilGood(tracer: PathTracer, report: (text: string) => void) {
-  for await (const { noise, active, remainingMs } of tracer.render({ noise: 0.01, samples: 4096 })) {
-    if (noise !== undefined) report(`noise ${(100 * noise).toFixed(1)} %, ${Math.round(100 * active)} % of the picture to go, ${Math.ceil(remainingMs / 1000)} s`);
+export async function untilGood(
+  tracer: PathTracer,
+  report: (text: string) => void,
+) {
+  for await (const { noise, active, remainingMs } of tracer.render({
+    noise: 0.01,
+    samples: 4096,
+  })) {
+    if (noise !== undefined)
+      report(
+        `noise ${(100 * noise).toFixed(1)} %, ${Math.round(100 * active)} % of the picture to go, ${Math.ceil(remainingMs / 1000)} s`,
+      );
   }
 }
 // #endregion noise
 
 // #region abort
-export function renderUntilClicked(tracer: PathTracer, stop: HTMLButtonElement) {
+export function renderUntilClicked(
+  tracer: PathTracer,
+  stop: HTMLButtonElement,
+) {
   const abort = new AbortController();
   stop.addEventListener('click', () => abort.abort(), { once: true });
   return (async () => {
-    for await (const _ of tracer.render({ samples: 4096, signal: abort.signal }));
+    for await (const _ of tracer.render({
+      samples: 4096,
+      signal: abort.signal,
+    }));
     return tracer.read('beauty'); // what there is: an abort is no error
   })();
 }
@@ -30,10 +62,15 @@ export function renderUntilClicked(tracer: PathTracer, stop: HTMLButtonElement) 
 
 // #region edits
 /** Renders for as long as the page lives; edits restart the film, and the loop goes on with it. */
-export async function keepRendering(tracer: PathTracer, signal: AbortSignal, draw: () => void) {
+export async function keepRendering(
+  tracer: PathTracer,
+  signal: AbortSignal,
+  draw: () => void,
+) {
   while (!signal.aborted) {
     for await (const _ of tracer.render({ samples: 256, signal })) draw();
-    if (tracer.samples >= 256) await new Promise((resolve) => setTimeout(resolve, 50));
+    if (tracer.samples >= 256)
+      await new Promise((resolve) => setTimeout(resolve, 50));
   }
 }
 // #endregion edits
@@ -64,11 +101,13 @@ export async function renderThroughLosses(
       for await (const { samples } of tracer.render({ samples: 256 })) {
         draw(tracer);
         // Twice as many samples as at the last copy: few copies, and at most half of the work is lost.
-        if (samples >= 2 * (saved?.samples ?? 8)) saved = await tracer.saveFilm();
+        if (samples >= 2 * (saved?.samples ?? 8))
+          saved = await tracer.saveFilm();
       }
       return await tracer.read('beauty');
     } catch (error) {
-      const lost = error instanceof DeviceError && error.code === 'renderer/device-lost';
+      const lost =
+        error instanceof DeviceError && error.code === 'renderer/device-lost';
       if (!lost || attempt === 2) throw error;
     } finally {
       device.destroy();
@@ -79,7 +118,10 @@ export async function renderThroughLosses(
 
 // #region edit-kinds
 export async function rearrange(tracer: PathTracer) {
-  await tracer.setInstanceTransform('lid', [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0.2, 0, 1]); // all instances of that name
+  await tracer.setInstanceTransform(
+    'lid',
+    [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0.2, 0, 1],
+  ); // all instances of that name
   await tracer.setVisibility('packaging', false);
   await tracer.setLight('key', { intensity: 40 });
   await tracer.adjustEnvironment({ rotation: Math.PI / 2 });

@@ -48,15 +48,31 @@ export interface BallLook {
 export async function createBall(device: GPUDevice, format: GPUTextureFormat) {
   const text = compose([ball], { flags: { OPENPBR_ANISOTROPY: false } });
   const module = await createShaderModule(device, text, 'ball');
-  const pipeline = await device.createRenderPipelineAsync({ layout: 'auto', vertex: { module }, fragment: { module, targets: [{ format }] } });
-  const uniforms = device.createBuffer({ size: 32, usage: GPUBufferUsage.UNIFORM | GPUBufferUsage.COPY_DST });
-  const bindGroup = device.createBindGroup({ layout: pipeline.getBindGroupLayout(0), entries: [{ binding: 0, resource: { buffer: uniforms } }] });
+  const pipeline = await device.createRenderPipelineAsync({
+    layout: 'auto',
+    vertex: { module },
+    fragment: { module, targets: [{ format }] },
+  });
+  const uniforms = device.createBuffer({
+    size: 32,
+    usage: GPUBufferUsage.UNIFORM | GPUBufferUsage.COPY_DST,
+  });
+  const bindGroup = device.createBindGroup({
+    layout: pipeline.getBindGroupLayout(0),
+    entries: [{ binding: 0, resource: { buffer: uniforms } }],
+  });
   return {
     text,
     draw(view: GPUTextureView, { light, roughness, color, ior }: BallLook) {
-      device.queue.writeBuffer(uniforms, 0, Float32Array.of(...light, roughness, ...color, ior));
+      device.queue.writeBuffer(
+        uniforms,
+        0,
+        Float32Array.of(...light, roughness, ...color, ior),
+      );
       const encoder = device.createCommandEncoder();
-      const pass = encoder.beginRenderPass({ colorAttachments: [{ view, loadOp: 'clear', storeOp: 'store' }] });
+      const pass = encoder.beginRenderPass({
+        colorAttachments: [{ view, loadOp: 'clear', storeOp: 'store' }],
+      });
       pass.setPipeline(pipeline);
       pass.setBindGroup(0, bindGroup);
       pass.draw(3);

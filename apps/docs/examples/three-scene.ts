@@ -7,7 +7,14 @@ export function build() {
   const scene = new THREE.Scene();
   scene.add(new THREE.HemisphereLight(0xffffff, 0x806040, 2));
 
-  const knot = new THREE.Mesh(new THREE.TorusKnotGeometry(1, 0.3, 200, 32), new THREE.MeshPhysicalMaterial({ color: 0xc03010, roughness: 0.2, clearcoat: 1 }));
+  const knot = new THREE.Mesh(
+    new THREE.TorusKnotGeometry(1, 0.3, 200, 32),
+    new THREE.MeshPhysicalMaterial({
+      color: 0xc03010,
+      roughness: 0.2,
+      clearcoat: 1,
+    }),
+  );
   scene.add(knot);
 
   const lamp = new THREE.RectAreaLight(0xffffff, 20, 2, 2);

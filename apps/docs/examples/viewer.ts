@@ -1,20 +1,35 @@
 import { createViewer, type Viewer } from '@glanz/viewer';
 
 // #region start
-export async function start(canvas: HTMLCanvasElement, url: string): Promise<Viewer> {
-  const viewer = createViewer(canvas, { samples: 256, environment: 'studio', background: 'transparent' });
+export async function start(
+  canvas: HTMLCanvasElement,
+  url: string,
+): Promise<Viewer> {
+  const viewer = createViewer(canvas, {
+    samples: 256,
+    environment: 'studio',
+    background: 'transparent',
+  });
   await viewer.load(url);
   return viewer;
 }
 // #endregion start
 
 // #region tell
-export function tell(viewer: Viewer, bar: HTMLProgressElement, line: HTMLElement): void {
+export function tell(
+  viewer: Viewer,
+  bar: HTMLProgressElement,
+  line: HTMLElement,
+): void {
   viewer.on('progress', ({ total }) => void (bar.value = total));
   viewer.on('sample', ({ samples, target, remainingMs }) => {
     line.textContent = `${samples} of ${target} samples, ${Math.round(remainingMs / 1000)} s to go`;
   });
-  viewer.on('converged', ({ milliseconds }) => void (line.textContent = `Done in ${(milliseconds / 1000).toFixed(1)} s.`));
+  viewer.on(
+    'converged',
+    ({ milliseconds }) =>
+      void (line.textContent = `Done in ${(milliseconds / 1000).toFixed(1)} s.`),
+  );
   viewer.on('error', ({ message, retry }) => {
     line.textContent = message;
     if (retry) line.onclick = retry;
@@ -25,8 +40,13 @@ export function tell(viewer: Viewer, bar: HTMLProgressElement, line: HTMLElement
 // #region edit
 export async function dress(viewer: Viewer): Promise<void> {
   await viewer.setVariant('night');
-  await viewer.setMaterial('left', { base_color: 'gold', specular_roughness: 0.2 });
-  await viewer.edit((tracer) => tracer.setVisibility('right', false), { key: 'right' });
+  await viewer.setMaterial('left', {
+    base_color: 'gold',
+    specular_roughness: 0.2,
+  });
+  await viewer.edit((tracer) => tracer.setVisibility('right', false), {
+    key: 'right',
+  });
 }
 // #endregion edit
 
@@ -39,7 +59,11 @@ export function look(viewer: Viewer): void {
 // #endregion look
 
 // #region pin
-export function pin(viewer: Viewer, element: HTMLElement, place: readonly [number, number, number]): () => void {
+export function pin(
+  viewer: Viewer,
+  element: HTMLElement,
+  place: readonly [number, number, number],
+): () => void {
   return viewer.on('frame', () => {
     const at = viewer.project(place);
     element.hidden = !at?.inside;
@@ -54,7 +78,8 @@ export function acceptDrops(viewer: Viewer): void {
   canvas.addEventListener('dragover', (event) => event.preventDefault());
   canvas.addEventListener('drop', (event) => {
     event.preventDefault();
-    if (event.dataTransfer) viewer.load(event.dataTransfer.files).catch(() => undefined); // the error event tells
+    if (event.dataTransfer)
+      viewer.load(event.dataTransfer.files).catch(() => undefined); // the error event tells
   });
 }
 // #endregion drop

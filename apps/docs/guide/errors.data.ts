@@ -13,6 +13,8 @@ export default defineLoader({
   watch: ['../../../packages/*/src/**/*.ts'],
   load: (files: string[]): ErrorClass[] =>
     files
-      .flatMap((file) => errorClasses(file.split(sep).at(file.split(sep).lastIndexOf('src') - 1)!, readFileSync(file, 'utf8')))
+      .flatMap((file) =>
+        errorClasses(file.split(sep).at(file.split(sep).lastIndexOf('src') - 1)!, readFileSync(file, 'utf8')),
+      )
       .sort((a, b) => ORDER.indexOf(a.package) - ORDER.indexOf(b.package) || a.name.localeCompare(b.name)),
 });

@@ -12,7 +12,10 @@ export { data };
 export default defineLoader({
   watch: ['../../../packages/openpbr/src/{parameters,wgsl}/*.ts'],
   async load(): Promise<Rows> {
-    const table = (await readExport('@glanz/openpbr/parameters', 'OPENPBR_PARAMETERS')) as Record<string, OpenPbrParameterInfo>;
+    const table = (await readExport('@glanz/openpbr/parameters', 'OPENPBR_PARAMETERS')) as Record<
+      string,
+      OpenPbrParameterInfo
+    >;
     const acting = (await readExport('./acting', 'actingParameters')) as () => string[];
     return parameterRows(table, acting());
   },

@@ -16,16 +16,28 @@ declare const data: readonly Card[];
 export { data };
 
 const number = (value: number) => String(Math.round(value * 1000) / 1000);
-const print = (value: unknown) => (Array.isArray(value) ? `[${value.map(number).join(', ')}]` : typeof value === 'number' ? number(value) : String(value));
+const print = (value: unknown) =>
+  Array.isArray(value)
+    ? `[${value.map(number).join(', ')}]`
+    : typeof value === 'number'
+      ? number(value)
+      : String(value);
 
 export default defineLoader({
   watch: ['../../../packages/openpbr/src/presets/*.ts', '../public/presets/*.webp'],
   async load(): Promise<readonly Card[]> {
-    const presets = (await readExport('@glanz/openpbr/presets', 'OPENPBR_PRESETS')) as Record<string, Partial<OpenPbrParameters>>;
+    const presets = (await readExport('@glanz/openpbr/presets', 'OPENPBR_PRESETS')) as Record<
+      string,
+      Partial<OpenPbrParameters>
+    >;
     return Object.entries(presets).map(([name, parameters]) => ({
       name,
-      text: Object.entries(parameters).map(([key, value]) => `${key}: ${print(value)}`).join('\n'),
-      picture: existsSync(fileURLToPath(new URL(`../public/presets/${name}.webp`, import.meta.url))) ? `/presets/${name}.webp` : undefined,
+      text: Object.entries(parameters)
+        .map(([key, value]) => `${key}: ${print(value)}`)
+        .join('\n'),
+      picture: existsSync(fileURLToPath(new URL(`../public/presets/${name}.webp`, import.meta.url)))
+        ? `/presets/${name}.webp`
+        : undefined,
     }));
   },
 });

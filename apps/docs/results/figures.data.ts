@@ -20,15 +20,40 @@ interface Results {
 interface Report {
   readonly machine: { readonly cpu: string; readonly node: string; readonly commit: string; readonly date: string };
   readonly gpu?: { readonly name: string };
-  readonly figures: readonly { readonly name: string; readonly unit: string; readonly runs: number; readonly min?: number; readonly median?: number; readonly max?: number; readonly mean?: number; readonly ci95?: number; readonly target?: { readonly value: number; readonly relation: '<=' | '>='; readonly source: string } }[];
+  readonly figures: readonly {
+    readonly name: string;
+    readonly unit: string;
+    readonly runs: number;
+    readonly min?: number;
+    readonly median?: number;
+    readonly max?: number;
+    readonly mean?: number;
+    readonly ci95?: number;
+    readonly target?: { readonly value: number; readonly relation: '<=' | '>='; readonly source: string };
+  }[];
 }
 
 declare const data: Readonly<Record<string, Results>>;
 export { data };
 
-const FILES = ['paper-gpu', 'rays', 'rays-many', 'first-image', 'memory', 'furnace', 'film-faults', 'openpbr-cost', 'faults-tracer', 'faults-tracer-h200', 'faults-viewer', 'faults-cli', 'soak'];
+const FILES = [
+  'paper-gpu',
+  'rays',
+  'rays-many',
+  'first-image',
+  'memory',
+  'furnace',
+  'film-faults',
+  'openpbr-cost',
+  'faults-tracer',
+  'faults-tracer-h200',
+  'faults-viewer',
+  'faults-cli',
+  'soak',
+];
 
-const number = (value: number, unit: string) => `${Math.abs(value) >= 1e5 ? Math.round(value).toLocaleString('en') : value === 0 ? '0' : Number(value.toPrecision(4)).toString()}${unit === '1' ? '' : ` ${unit}`}`;
+const number = (value: number, unit: string) =>
+  `${Math.abs(value) >= 1e5 ? Math.round(value).toLocaleString('en') : value === 0 ? '0' : Number(value.toPrecision(4)).toString()}${unit === '1' ? '' : ` ${unit}`}`;
 
 export default defineLoader({
   watch: FILES.map((name) => `./${name}.json`),
@@ -39,12 +64,21 @@ export default defineLoader({
       if (!existsSync(path)) continue;
       const { machine, gpu, figures } = JSON.parse(readFileSync(path, 'utf8')) as Report;
       found[name] = {
-        where: [gpu?.name, machine.cpu, `Node ${machine.node}`, `commit ${machine.commit}`, machine.date.slice(0, 10)].filter(Boolean).join(', '),
+        where: [gpu?.name, machine.cpu, `Node ${machine.node}`, `commit ${machine.commit}`, machine.date.slice(0, 10)]
+          .filter(Boolean)
+          .join(', '),
         rows: figures.map(({ name: label, unit, runs, min, median, max, mean, ci95, target }) => ({
           name: label,
           value: number((mean ?? median) as number, unit),
-          range: ci95 !== undefined ? `± ${number(ci95, '1')} (95 %), n = ${runs}` : runs > 1 ? `${number(min as number, '1')} – ${number(max as number, '1')}, n = ${runs}` : '',
-          target: target ? `${(target.relation === '<=' ? ((mean ?? median) as number) <= target.value : ((mean ?? median) as number) >= target.value) ? '✓' : '✗'} ${target.relation === '<=' ? '≤' : '≥'} ${number(target.value, '1')}, ${target.source}` : '',
+          range:
+            ci95 !== undefined
+              ? `± ${number(ci95, '1')} (95 %), n = ${runs}`
+              : runs > 1
+                ? `${number(min as number, '1')} – ${number(max as number, '1')}, n = ${runs}`
+                : '',
+          target: target
+            ? `${(target.relation === '<=' ? ((mean ?? median) as number) <= target.value : ((mean ?? median) as number) >= target.value) ? '✓' : '✗'} ${target.relation === '<=' ? '≤' : '≥'} ${number(target.value, '1')}, ${target.source}`
+            : '',
         })),
       };
     }

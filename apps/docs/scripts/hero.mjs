@@ -20,10 +20,16 @@ try {
     external: ['webgpu', '@sparticuz/chromium'],
   });
   const { renderHero } = await import(pathToFileURL(`${folder}/hero.mjs`).href);
-  const { width, height, data } = await renderHero({ samples: Number(process.argv[2] ?? 256), report: (line) => process.stderr.write(`${line}\n`) });
+  const { width, height, data } = await renderHero({
+    samples: Number(process.argv[2] ?? 256),
+    report: (line) => process.stderr.write(`${line}\n`),
+  });
   const { default: sharp } = await import('sharp');
   const out = at('../public/push-button.webp');
-  await sharp(data, { raw: { width, height, channels: 4 } }).resize(width / 2, height / 2).webp({ quality: 86, alphaQuality: 90 }).toFile(out);
+  await sharp(data, { raw: { width, height, channels: 4 } })
+    .resize(width / 2, height / 2)
+    .webp({ quality: 86, alphaQuality: 90 })
+    .toFile(out);
   process.stderr.write(`${out}: ${(statSync(out).size / 1024).toFixed(0)} KB\n`);
 } finally {
   rmSync(folder, { recursive: true, force: true });

@@ -14,11 +14,24 @@ mkdirSync(at('../public/how'), { recursive: true });
 const folder = mkdtempSync(at('../.vitepress/cache/how-'));
 try {
   // Bundled from the sources; what is native stays outside.
-  await build({ stdin: { contents: "export * from './how-pictures';\n", resolveDir: at('../src'), loader: 'ts' }, outfile: join(folder, 'how.mjs'), conditions: ['@glanz/source'], bundle: true, format: 'esm', platform: 'node', target: 'node20', plugins: [weslSource()], external: ['webgpu', '@sparticuz/chromium'] });
+  await build({
+    stdin: { contents: "export * from './how-pictures';\n", resolveDir: at('../src'), loader: 'ts' },
+    outfile: join(folder, 'how.mjs'),
+    conditions: ['@glanz/source'],
+    bundle: true,
+    format: 'esm',
+    platform: 'node',
+    target: 'node20',
+    plugins: [weslSource()],
+    external: ['webgpu', '@sparticuz/chromium'],
+  });
   const { howMain } = await import(pathToFileURL(join(folder, 'how.mjs')).href);
   await howMain([folder, ...process.argv.slice(2)]);
   // Noise is what they show: nothing may be smoothed away.
-  for (const file of readdirSync(folder).filter((name) => name.endsWith('.png'))) await sharp(join(folder, file)).webp({ lossless: true, effort: 6 }).toFile(at(`../public/how/${basename(file, '.png')}.webp`));
+  for (const file of readdirSync(folder).filter((name) => name.endsWith('.png')))
+    await sharp(join(folder, file))
+      .webp({ lossless: true, effort: 6 })
+      .toFile(at(`../public/how/${basename(file, '.png')}.webp`));
 } finally {
   rmSync(folder, { recursive: true, force: true });
 }

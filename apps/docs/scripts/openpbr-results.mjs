@@ -1,5 +1,6 @@
 // Makes results/openpbr.md and results/openpbr.json of what the tests measured:
-//   GLANZ_RESULTS=$PWD/out/openpbr GLANZ_PROOFS=full npx vitest run --project openpbr test/proofs.test.ts test/furnace.test.ts test/oracle.test.ts
+//   GLANZ_RESULTS=$PWD/out/openpbr GLANZ_PROOFS=full npx vitest run --project openpbr test/proofs.test.ts
+//   test/furnace.test.ts test/oracle.test.ts
 //   node apps/docs/scripts/openpbr-results.mjs out/openpbr
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -12,11 +13,19 @@ if (!folder) {
   process.exit(1);
 }
 // What a folder lacks stays as it was on the page.
-const before = existsSync(at('../results/openpbr.json')) ? JSON.parse(readFileSync(at('../results/openpbr.json'), 'utf8')) : {};
-const read = (name) => (existsSync(join(folder, `${name}.json`)) ? JSON.parse(readFileSync(join(folder, `${name}.json`), 'utf8')) : (before[name] ?? {}));
+const before = existsSync(at('../results/openpbr.json'))
+  ? JSON.parse(readFileSync(at('../results/openpbr.json'), 'utf8'))
+  : {};
+const read = (name) =>
+  existsSync(join(folder, `${name}.json`))
+    ? JSON.parse(readFileSync(join(folder, `${name}.json`), 'utf8'))
+    : (before[name] ?? {});
 const data = { oracle: read('oracle'), furnace: read('furnace'), proofs: read('proofs') };
 
-/** White furnaces of others, measured with their own code: three-gpu-pathtracer 0.0.26 in its renderer; openpbr-bsdf a29da96 by sums of its samples' weights. */
+/**
+ * White furnaces of others, measured with their own code: three-gpu-pathtracer 0.0.26 in its renderer; openpbr-bsdf
+ * a29da96 by sums of its samples' weights.
+ */
 const OTHERS = {
   metal: ['−3.5 %', '0.997 to 1.003'],
   diffuse: ['', '0.997 to 1.003'],
@@ -35,11 +44,21 @@ const OTHERS = {
 };
 const number = (value, digits = 4) => (value === undefined ? '' : value.toFixed(digits));
 const percent = (value) => `${(100 * value).toFixed(1)} %`;
-const table = (head, rows) => [`| ${head.join(' | ')} |`, `|${head.map(() => '---').join('|')}|`, ...rows.map((row) => `| ${row.join(' | ')} |`)].join('\n');
+const table = (head, rows) =>
+  [
+    `| ${head.join(' | ')} |`,
+    `|${head.map(() => '---').join('|')}|`,
+    ...rows.map((row) => `| ${row.join(' | ')} |`),
+  ].join('\n');
 
 const furnace = table(
   ['surface', 'least', 'most', 'three-gpu-pathtracer', 'openpbr-bsdf'],
-  Object.entries(data.furnace).map(([name, { least, most }]) => [name, number(least), number(most), ...(OTHERS[name] ?? ['', ''])]),
+  Object.entries(data.furnace).map(([name, { least, most }]) => [
+    name,
+    number(least),
+    number(most),
+    ...(OTHERS[name] ?? ['', '']),
+  ]),
 );
 const sizes = Object.values(data.furnace)[0];
 const chi = Object.entries(data.proofs).filter(([name]) => name.startsWith('chi-squared: '));
@@ -47,15 +66,23 @@ const densities = Object.entries(data.proofs).filter(([name]) => name.startsWith
 const percentOf = (value) => `${(100 * value).toFixed(2)} %`;
 const oracle = table(
   ['setting', 'class', 'pairs', 'median', '90th percentile', 'worst', 'limit'],
-  Object.entries(data.oracle).filter(([name]) => !name.startsWith('albedo: ')).map(([name, row]) => [
-    name,
-    row.class,
-    row.pairs,
-    row.median === undefined ? '' : percent(row.median),
-    row.p90 === undefined ? (row.part === undefined ? '' : `${percent(row.part)} of the pairs within`) : percent(row.p90),
-    percent(row.worst),
-    row.class === 'I' ? `${percent(row.limit[0])}, ${percent(row.limit[1])}` : `${percent(row.limit[0])} or ${row.limit[1]}`,
-  ]),
+  Object.entries(data.oracle)
+    .filter(([name]) => !name.startsWith('albedo: '))
+    .map(([name, row]) => [
+      name,
+      row.class,
+      row.pairs,
+      row.median === undefined ? '' : percent(row.median),
+      row.p90 === undefined
+        ? row.part === undefined
+          ? ''
+          : `${percent(row.part)} of the pairs within`
+        : percent(row.p90),
+      percent(row.worst),
+      row.class === 'I'
+        ? `${percent(row.limit[0])}, ${percent(row.limit[1])}`
+        : `${percent(row.limit[0])} or ${row.limit[1]}`,
+    ]),
 );
 const albedos = Object.entries(data.oracle).filter(([name]) => name.startsWith('albedo: '));
 const { finite, materials, reciprocity } = data.proofs;
@@ -84,7 +111,16 @@ Stretched highlights: what metal loses by single scattering is tabulated over ro
 
 Chi-squared of histograms over 320 equal parts of the sphere, significance 0.01 with Šidák's correction; a lobe fails if its least probability falls below the limit.
 
-${table(['lobe', 'settings', 'samples each', 'least probability', 'limit'], chi.map(([name, row]) => [name.slice(13), row.settings, row.samples.toLocaleString('en'), row.least.toExponential(1), row.limit.toExponential(1)]))}
+${table(
+  ['lobe', 'settings', 'samples each', 'least probability', 'limit'],
+  chi.map(([name, row]) => [
+    name.slice(13),
+    row.settings,
+    row.samples.toLocaleString('en'),
+    row.least.toExponential(1),
+    row.limit.toExponential(1),
+  ]),
+)}
 
 ${densities.length ? `The integral of the density, and the part of the samples that a facet sends to where there is nothing, make 1 within ${percentOf(Math.max(...densities.map(([, row]) => row.worst)))} for each of these settings.` : ''} The density integrates to no more than ${number(Math.max(materials?.density ?? 0, ...Object.values(data.furnace).map((row) => row.density ?? 0)))} anywhere above.
 
@@ -102,9 +138,22 @@ Values f(ω_o, ω_i) · cos θ_i of Adobe's openpbr-bsdf, brought to height-corr
 
 ${oracle}
 
-${albedos.length ? `The reflected and transmitted parts of uniform light are within the limits too, of every setting, but for these, which differ by choice:
+${
+  albedos.length
+    ? `The reflected and transmitted parts of uniform light are within the limits too, of every setting, but for these, which differ by choice:
 
-${table(['setting', 'angles', 'beyond the limit', 'largest difference', 'limit'], albedos.map(([name, row]) => [name.slice(8), row.angles, row.beyond, number(row.worst, 3), `${percent(row.limit[0])} or ${row.limit[1]}`]))}` : ''}
+${table(
+  ['setting', 'angles', 'beyond the limit', 'largest difference', 'limit'],
+  albedos.map(([name, row]) => [
+    name.slice(8),
+    row.angles,
+    row.beyond,
+    number(row.worst, 3),
+    `${percent(row.limit[0])} or ${row.limit[1]}`,
+  ]),
+)}`
+    : ''
+}
 
 Where we differ, and why:
 

@@ -12,11 +12,24 @@ import { build } from 'esbuild';
 import { weslSource } from '../../../tools/pipeline/wesl.mjs';
 
 const at = (path) => fileURLToPath(new URL(path, import.meta.url));
-const { values, positionals: names } = parseArgs({ allowPositionals: true, options: { samples: { type: 'string', default: '256' }, pack: { type: 'string' }, from: { type: 'string' } } });
+const { values, positionals: names } = parseArgs({
+  allowPositionals: true,
+  options: { samples: { type: 'string', default: '256' }, pack: { type: 'string' }, from: { type: 'string' } },
+});
 
 /** Bundled from the sources; what is native stays outside. */
 const pack = (contents, outfile) =>
-  build({ stdin: { contents, resolveDir: at('../src'), loader: 'ts' }, outfile, conditions: ['@glanz/source'], bundle: true, format: 'esm', platform: 'node', target: 'node20', plugins: [weslSource()], external: ['webgpu', '@sparticuz/chromium'] });
+  build({
+    stdin: { contents, resolveDir: at('../src'), loader: 'ts' },
+    outfile,
+    conditions: ['@glanz/source'],
+    bundle: true,
+    format: 'esm',
+    platform: 'node',
+    target: 'node20',
+    plugins: [weslSource()],
+    external: ['webgpu', '@sparticuz/chromium'],
+  });
 
 async function convert(folder) {
   const { default: sharp } = await import('sharp');
@@ -25,13 +38,21 @@ async function convert(folder) {
   for (const file of readdirSync(folder).filter((name) => name.endsWith('.png'))) {
     const out = at(`../public/presets/${basename(file, '.png')}.webp`);
     const { width } = await sharp(join(folder, file)).metadata();
-    await sharp(join(folder, file)).resize(Math.round(width / 2)).removeAlpha().webp({ quality: 82 }).toFile(out);
+    await sharp(join(folder, file))
+      .resize(Math.round(width / 2))
+      .removeAlpha()
+      .webp({ quality: 82 })
+      .toFile(out);
     total += statSync(out).size;
   }
   process.stderr.write(`public/presets: ${(total / 1024).toFixed(0)} KB\n`);
 }
 
-if (values.pack) await pack("import { presetsMain } from './preset-pictures';\nawait presetsMain(process.argv.slice(2));\n", values.pack);
+if (values.pack)
+  await pack(
+    "import { presetsMain } from './preset-pictures';\nawait presetsMain(process.argv.slice(2));\n",
+    values.pack,
+  );
 else if (values.from) await convert(values.from);
 else {
   mkdirSync(at('../.vitepress/cache'), { recursive: true });

@@ -10,7 +10,10 @@ export function actingParameters(): string[] {
   const textOf = (module: WgslModule): string => {
     if (seen.has(module)) return '';
     seen.add(module);
-    return module.code + module.deps.map((dependency) => textOf('module' in dependency ? dependency.module : dependency)).join('');
+    return (
+      module.code +
+      module.deps.map((dependency) => textOf('module' in dependency ? dependency.module : dependency)).join('')
+    );
   };
   const text = [openpbr, openpbrEmission, openpbrOpacity].map(textOf).join('');
   return OPENPBR_PARAMETER_NAMES.filter((name) => IN_HOSTS.includes(name) || new RegExp(`\\.${name}\\b`).test(text));

@@ -10,10 +10,18 @@ export interface ErrorClass {
 /** Finds the subclasses of `GlanzError` in a source file, and the codes that their comments promise. */
 export function errorClasses(packageName: string, source: string): ErrorClass[] {
   const found: ErrorClass[] = [];
-  for (const [, comment = '', name = ''] of source.matchAll(/\/\*\*((?:(?!\*\/)[\s\S])*)\*\/\s*export class (\w+) extends GlanzError/g)) {
-    const text = comment.replace(/\s*\n\s*\*\s?/g, ' ').replace(/\{@link (\w+)\}/g, '$1').trim();
+  for (const [, comment = '', name = ''] of source.matchAll(
+    /\/\*\*((?:(?!\*\/)[\s\S])*)\*\/\s*export class (\w+) extends GlanzError/g,
+  )) {
+    const text = comment
+      .replace(/\s*\n\s*\*\s?/g, ' ')
+      .replace(/\{@link (\w+)\}/g, '$1')
+      .trim();
     const [summary = '', list = ''] = text.split(/Codes?: /);
-    const codes = [...list.matchAll(/`([a-z]+\/[a-z-]+)`(?: \(([^)]*)\))?/g)].map(([, code = '', note = '']) => ({ code, note }));
+    const codes = [...list.matchAll(/`([a-z]+\/[a-z-]+)`(?: \(([^)]*)\))?/g)].map(([, code = '', note = '']) => ({
+      code,
+      note,
+    }));
     found.push({ name, package: packageName, summary: summary.trim().replaceAll('`', ''), codes });
   }
   return found;

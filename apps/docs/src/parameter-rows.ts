@@ -15,10 +15,17 @@ export interface ParameterRow {
   readonly doc: string;
 }
 
-const UNITS: Readonly<Record<OpenPbrParameterInfo['unit'], string>> = { '1': '', length: ' m', 'cd/m²': ' cd/m²', µm: ' µm' };
+const UNITS: Readonly<Record<OpenPbrParameterInfo['unit'], string>> = {
+  '1': '',
+  length: ' m',
+  'cd/m²': ' cd/m²',
+  µm: ' µm',
+};
 
-const number = (value: number) => (value === Infinity ? '∞' : value === -Infinity ? '−∞' : String(value).replace('-', '−'));
-const interval = (range: readonly [number, number] | undefined) => (range ? `${number(range[0])} … ${number(range[1])}` : '');
+const number = (value: number) =>
+  value === Infinity ? '∞' : value === -Infinity ? '−∞' : String(value).replace('-', '−');
+const interval = (range: readonly [number, number] | undefined) =>
+  range ? `${number(range[0])} … ${number(range[1])}` : '';
 
 function initial(value: OpenPbrParameterInfo['default']): string {
   if (value === null) return 'none';
@@ -27,11 +34,25 @@ function initial(value: OpenPbrParameterInfo['default']): string {
 }
 
 /** Turns the table of `@glanz/openpbr` into lines, group by group in the specification's order. */
-export function parameterRows(table: Readonly<Record<string, OpenPbrParameterInfo>>, acting: readonly string[]): Partial<Record<OpenPbrGroup, ParameterRow[]>> {
+export function parameterRows(
+  table: Readonly<Record<string, OpenPbrParameterInfo>>,
+  acting: readonly string[],
+): Partial<Record<OpenPbrGroup, ParameterRow[]>> {
   const groups: Partial<Record<OpenPbrGroup, ParameterRow[]>> = {};
   for (const { name, group, type, default: value, range, softRange, unit, texturable, doc } of Object.values(table)) {
     const soft = interval(softRange);
-    (groups[group] ??= []).push({ name, group, type, default: initial(value), range: interval(range), softRange: soft === interval(range) ? '' : soft, unit: range ? UNITS[unit] : '', texturable, acts: acting.includes(name), doc: doc.replaceAll('`', '') });
+    (groups[group] ??= []).push({
+      name,
+      group,
+      type,
+      default: initial(value),
+      range: interval(range),
+      softRange: soft === interval(range) ? '' : soft,
+      unit: range ? UNITS[unit] : '',
+      texturable,
+      acts: acting.includes(name),
+      doc: doc.replaceAll('`', ''),
+    });
   }
   return groups;
 }

@@ -10,7 +10,10 @@ import { weslSource } from '../../../tools/pipeline/wesl.mjs';
  */
 export async function readExport(specifier: string, name: string): Promise<unknown> {
   const { outputFiles } = await build({
-    stdin: { contents: `export { ${name} as value } from '${specifier}';`, resolveDir: fileURLToPath(new URL('.', import.meta.url)) },
+    stdin: {
+      contents: `export { ${name} as value } from '${specifier}';`,
+      resolveDir: fileURLToPath(new URL('.', import.meta.url)),
+    },
     conditions: ['@glanz/source'],
     bundle: true,
     format: 'esm',
@@ -18,6 +21,8 @@ export async function readExport(specifier: string, name: string): Promise<unkno
     plugins: [weslSource()],
     write: false,
   });
-  const { value } = (await import(`data:text/javascript;base64,${Buffer.from(outputFiles[0]!.contents).toString('base64')}`)) as { value: unknown };
+  const { value } = (await import(
+    `data:text/javascript;base64,${Buffer.from(outputFiles[0]!.contents).toString('base64')}`
+  )) as { value: unknown };
   return value;
 }

@@ -45,7 +45,9 @@ const done = (page: Page) => expect.poll(() => page.evaluate(() => window.viewer
 
 test('the viewer: it starts, tells, is edited, looked at, pinned to, dropped on and saved', async ({ page }) => {
   await started(page);
-  await page.evaluate(() => window.examples.tell(window.viewer, document.querySelector('progress')!, document.querySelector('#line')!));
+  await page.evaluate(() =>
+    window.examples.tell(window.viewer, document.querySelector('progress')!, document.querySelector('#line')!),
+  );
   await page.evaluate(() => window.examples.pin(window.viewer, document.querySelector('#pin')!, [-1.2, 0, 0]));
   await page.evaluate(() => window.examples.acceptDrops(window.viewer));
   await page.evaluate(() => void (window.viewer.samples = 7));
@@ -58,7 +60,10 @@ test('the viewer: it starts, tells, is edited, looked at, pinned to, dropped on 
   // The one on the right is gone, the one on the left yellow.
   const after = await photograph(page.locator('canvas'));
   expect(after.mean[1]).not.toBeCloseTo(before.mean[1], 0);
-  expect(await page.evaluate(() => window.viewer.scene!.instances.map(({ visible }) => visible))).toEqual([undefined, false]);
+  expect(await page.evaluate(() => window.viewer.scene!.instances.map(({ visible }) => visible))).toEqual([
+    undefined,
+    false,
+  ]);
   expect(await page.evaluate(async () => (await window.examples.save(window.viewer)).type)).toBe('image/png');
   const rendered = await page.evaluate(async () => {
     const bar = document.createElement('progress');
@@ -92,8 +97,13 @@ test('a scene of three.js', async ({ page }) => {
 
 test('the element of the guide', async ({ page }) => {
   await page.evaluate(() => void Object.assign(window.putElement(), { samples: 4, maxDepth: 3, pixelRatio: 0.25 }));
-  await expect.poll(() => page.evaluate(() => document.querySelector('glanz-viewer')!.viewer?.state), { timeout: 60_000 }).toBe('done');
+  await expect
+    .poll(() => page.evaluate(() => document.querySelector('glanz-viewer')!.viewer?.state), { timeout: 60_000 })
+    .toBe('done');
   await expect(page.getByRole('button', { name: 'The left one' })).toBeVisible();
   await expect(page.getByText('Loading …')).toBeHidden();
-  expect(await page.evaluate(() => document.querySelector('glanz-viewer')!.getCameraOrbit()!.theta)).toBeCloseTo(Math.PI / 9, 3);
+  expect(await page.evaluate(() => document.querySelector('glanz-viewer')!.getCameraOrbit()!.theta)).toBeCloseTo(
+    Math.PI / 9,
+    3,
+  );
 });

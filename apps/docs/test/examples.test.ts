@@ -40,12 +40,19 @@ function exampleScene(): Scene {
   ['floor', 'lid', 'packaging', 'screw 1'].forEach((name, i) => (scene.instances[i]!.name = name));
   ['table', 'housing', 'lens', 'glass'].forEach((name, i) => (scene.materials[i]!.name = name));
   scene.materials.push({ name: 'ring', parameters: {} });
-  scene.lights = [{ type: 'point', name: 'key', color: [1, 1, 1], intensity: 5, position: [0, 4, 2] }, { type: 'point', name: 'lamp', color: [1, 1, 1], intensity: 5, position: [2, 4, 2] }];
+  scene.lights = [
+    { type: 'point', name: 'key', color: [1, 1, 1], intensity: 5, position: [0, 4, 2] },
+    { type: 'point', name: 'lamp', color: [1, 1, 1], intensity: 5, position: [2, 4, 2] },
+  ];
   scene.variants = ['matt black'];
   return scene;
 }
 
-async function withTracer<T>(use: (tracer: PathTracer) => Promise<T> | T, scene = exampleScene(), size = SIZE): Promise<T> {
+async function withTracer<T>(
+  use: (tracer: PathTracer) => Promise<T> | T,
+  scene = exampleScene(),
+  size = SIZE,
+): Promise<T> {
   const tracer = await PathTracer.create(device, scene, { ...size, camera: 0 });
   try {
     return await use(tracer);
@@ -59,7 +66,8 @@ async function picture(tracer: PathTracer, samples = 4): Promise<Float32Array> {
   return tracer.read('beauty');
 }
 
-const mean = (rgba: ArrayLike<number>, channel: number) => Array.from(rgba).reduce((sum, x, i) => (i % 4 === channel ? sum + x : sum), 0) / (rgba.length / 4);
+const mean = (rgba: ArrayLike<number>, channel: number) =>
+  Array.from(rgba).reduce((sum, x, i) => (i % 4 === channel ? sum + x : sum), 0) / (rgba.length / 4);
 
 /** One of the spheres alone. */
 function exampleSphere(): Scene {
@@ -135,7 +143,17 @@ describe('layers', () => {
     withTracer(async (tracer) => {
       const beauty = await picture(tracer);
       const { channels } = decodeExr(await layers.toExr(tracer));
-      expect([...channels.keys()].sort()).toEqual(['A', 'B', 'G', 'R', 'depth.Z', 'normal.X', 'normal.Y', 'normal.Z', 'objectId.id']);
+      expect([...channels.keys()].sort()).toEqual([
+        'A',
+        'B',
+        'G',
+        'R',
+        'depth.Z',
+        'normal.X',
+        'normal.Y',
+        'normal.Z',
+        'objectId.id',
+      ]);
       const red = channels.get('R')!.data;
       // Half floats carry eleven bits.
       beauty.forEach((x, i) => i % 4 === 0 && expect(Math.abs(red[i / 4]! - x)).toBeLessThanOrEqual(x * 2 ** -11));
@@ -143,7 +161,9 @@ describe('layers', () => {
 
   test('a lamp dimmed afterwards', async () => {
     const log = vi.spyOn(console, 'log').mockImplementation(() => undefined);
-    const create = vi.spyOn(PathTracer, 'create').mockImplementationOnce((d, scene, options) => PathTracer.create(d, scene, { ...options, ...SIZE, camera: 0 }));
+    const create = vi
+      .spyOn(PathTracer, 'create')
+      .mockImplementationOnce((d, scene, options) => PathTracer.create(d, scene, { ...options, ...SIZE, camera: 0 }));
     const part = await layers.withLightGroups(device, exampleScene());
     expect(log.mock.calls.flat()).toContain('lamp');
     expect(mean(part, 0)).toBeGreaterThan(mean(part, 2));
@@ -178,7 +198,9 @@ describe('lighting', () => {
   });
 
   test('a lamp by its IES file', async () => {
-    const ies = new TextEncoder().encode('IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 3 1 1 2 0.1 0.1 0\n1 1 10\n0 45 90\n0\n900 400 0');
+    const ies = new TextEncoder().encode(
+      'IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 3 1 1 2 0.1 0.1 0\n1 1 10\n0 45 90\n0\n900 400 0',
+    );
     const scene = lighting.addDownlight({ ...exampleScene(), lights: [] }, ies);
     delete (scene as { environment?: unknown }).environment;
     await withTracer(async (tracer) => {
@@ -189,7 +211,9 @@ describe('lighting', () => {
   });
 
   test('onto a photograph', async () => {
-    const create = vi.spyOn(PathTracer, 'create').mockImplementationOnce((d, scene, options) => PathTracer.create(d, scene, { ...options, ...SIZE, camera: 0 }));
+    const create = vi
+      .spyOn(PathTracer, 'create')
+      .mockImplementationOnce((d, scene, options) => PathTracer.create(d, scene, { ...options, ...SIZE, camera: 0 }));
     const tracer = await lighting.ontoPhotograph(device, exampleScene());
     const alpha = Array.from(await picture(tracer)).filter((_, i) => i % 4 === 3);
     expect(Math.min(...alpha)).toBeLessThan(0.9);
@@ -211,7 +235,9 @@ describe('glTF', () => {
 
   test('a download that was cut off is told', async () => {
     const said: string[] = [];
-    expect(await open(dataUrl(triangleGlb().slice(0, 100), 'model/gltf-binary'), (text) => said.push(text))).toBeUndefined();
+    expect(
+      await open(dataUrl(triangleGlb().slice(0, 100), 'model/gltf-binary'), (text) => said.push(text)),
+    ).toBeUndefined();
     expect(said).toEqual(['The download was cut off. Try again?']);
   });
 });
@@ -239,7 +265,10 @@ describe('materials', () => {
   test('MaterialX in and out, presets', () =>
     withTracer(async (tracer) => {
       expect(readMaterialX(materialx.document).materials.map(({ name }) => name)).toContain('housing');
-      await materialx.dress(tracer, dataUrl(new TextEncoder().encode(materialx.document.replaceAll('label', 'table')), 'application/mtlx+xml'));
+      await materialx.dress(
+        tracer,
+        dataUrl(new TextEncoder().encode(materialx.document.replaceAll('label', 'table')), 'application/mtlx+xml'),
+      );
       expect(tracer.scene.materials[1]?.parameters.base_metalness).toBe(1);
       await materialx.pour(tracer);
       expect(mean(await picture(tracer, 1), 1)).toBeGreaterThan(0);
@@ -248,26 +277,30 @@ describe('materials', () => {
 
 describe('progress', () => {
   test('reported, stopped, adaptive', () =>
-    withTracer(async (tracer) => {
-      const lines: string[] = [];
-      await progressive.render(tracer, (text) => lines.push(text));
-      expect(lines.at(-1)).toMatch(/^512\/512, .* a second, 0 s left$/);
-      tracer.reset();
-      const noise: string[] = [];
-      await progressive.untilGood(tracer, (text) => noise.push(text));
-      expect(noise.length).toBeGreaterThan(0);
-      tracer.reset();
-      const button = new EventTarget();
-      const stopped = progressive.renderUntilClicked(tracer, button as HTMLButtonElement);
-      setTimeout(() => button.dispatchEvent(new Event('click')), 50);
-      expect((await stopped).length).toBe(4 * 8 * 8);
-      expect(tracer.samples).toBeLessThan(4096);
-      const abort = new AbortController();
-      tracer.reset();
-      await progressive.keepRendering(tracer, abort.signal, () => tracer.samples >= 8 && abort.abort());
-      expect(tracer.samples).toBeGreaterThanOrEqual(8);
-      // Thousands of samples of few pixels.
-    }, exampleScene(), { width: 8, height: 8 }));
+    withTracer(
+      async (tracer) => {
+        const lines: string[] = [];
+        await progressive.render(tracer, (text) => lines.push(text));
+        expect(lines.at(-1)).toMatch(/^512\/512, .* a second, 0 s left$/);
+        tracer.reset();
+        const noise: string[] = [];
+        await progressive.untilGood(tracer, (text) => noise.push(text));
+        expect(noise.length).toBeGreaterThan(0);
+        tracer.reset();
+        const button = new EventTarget();
+        const stopped = progressive.renderUntilClicked(tracer, button as HTMLButtonElement);
+        setTimeout(() => button.dispatchEvent(new Event('click')), 50);
+        expect((await stopped).length).toBe(4 * 8 * 8);
+        expect(tracer.samples).toBeLessThan(4096);
+        const abort = new AbortController();
+        tracer.reset();
+        await progressive.keepRendering(tracer, abort.signal, () => tracer.samples >= 8 && abort.abort());
+        expect(tracer.samples).toBeGreaterThanOrEqual(8);
+        // Thousands of samples of few pixels.
+      },
+      exampleScene(),
+      { width: 8, height: 8 },
+    ));
 
   test('edits of every kind', () =>
     withTracer(async (tracer) => {
@@ -289,7 +322,13 @@ test('a configurator: parts, colours, an address', () => {
   const scene = exampleScene();
   scene.meshes[0]!.name = 'legend';
   return withTracer(async (tracer) => {
-    const lens = { name: 'lens', choices: [{ name: 'lid', shows: ['lid'] }, { name: 'box', shows: ['packaging'], wears: { packaging: 'ring' } }] };
+    const lens = {
+      name: 'lens',
+      choices: [
+        { name: 'lid', shows: ['lid'] },
+        { name: 'box', shows: ['packaging'], wears: { packaging: 'ring' } },
+      ],
+    };
     expect(configurator.assemblies([lens, lens, lens])).toBe(8);
     expect(await configurator.choose(tracer, lens, 'box')).toBeGreaterThan(0);
     const of = (name: string) => tracer.scene.instances.find((instance) => instance.name === name)!;
@@ -297,9 +336,15 @@ test('a configurator: parts, colours, an address', () => {
     await expect(configurator.choose(tracer, lens, 'none')).rejects.toThrow('lens has no choice none');
     const choices = { lens: 'clear & bright', legend: 'ä' };
     expect(configurator.fromAddress(configurator.toAddress(choices))).toEqual(choices);
-    expect(configurator.withHidden(tracer.scene, new Set(['floor'])).instances.map(({ visible }) => visible)).toContain(false);
+    expect(configurator.withHidden(tracer.scene, new Set(['floor'])).instances.map(({ visible }) => visible)).toContain(
+      false,
+    );
     const before = await picture(tracer);
-    await configurator.engrave(tracer, { name: 'legend', positions: Float32Array.of(-1, 0, 0, 1, 0, 0, 0, 1, 0), indices: Uint32Array.of(0, 1, 2) });
+    await configurator.engrave(tracer, {
+      name: 'legend',
+      positions: Float32Array.of(-1, 0, 0, 1, 0, 0, 0, 1, 0),
+      indices: Uint32Array.of(0, 1, 2),
+    });
     expect(await picture(tracer)).not.toEqual(before);
   }, scene);
 });
@@ -312,7 +357,16 @@ test('the Node example as it is printed, at a smaller size', async () => {
     const source = await readFile(new URL('../examples/node.ts', import.meta.url), 'utf8');
     const contents = source.replace('[640, 480]', '[32, 24]').replace('samples: 64', 'samples: 4');
     expect(contents).not.toMatch(/640|64/);
-    await build({ stdin: { contents, resolveDir: fileURLToPath(new URL('../examples', import.meta.url)), loader: 'ts' }, outfile: join(folder, 'node.mjs'), conditions: ['@glanz/source'], bundle: true, format: 'esm', platform: 'node', external: ['webgpu', 'sharp', '@sparticuz/chromium'], plugins: [weslSource()] });
+    await build({
+      stdin: { contents, resolveDir: fileURLToPath(new URL('../examples', import.meta.url)), loader: 'ts' },
+      outfile: join(folder, 'node.mjs'),
+      conditions: ['@glanz/source'],
+      bundle: true,
+      format: 'esm',
+      platform: 'node',
+      external: ['webgpu', 'sharp', '@sparticuz/chromium'],
+      plugins: [weslSource()],
+    });
     await writeFile(join(folder, 'push-button.glb'), triangleGlb());
     const { stderr } = await promisify(execFile)(process.execPath, ['node.mjs'], { cwd: folder });
     expect(stderr).toContain('4, 0 s left');
@@ -324,12 +378,22 @@ test('the Node example as it is printed, at a smaller size', async () => {
 
 test('CAD to web', { timeout: 120_000 }, async () => {
   // An assembly of the CAx Implementor Forum, as the reader's package brings it along.
-  const folder = dirname(createRequire(new URL('../../../packages/cad/package.json', import.meta.url)).resolve('occt-import-js/package.json'));
+  const folder = dirname(
+    createRequire(new URL('../../../packages/cad/package.json', import.meta.url)).resolve(
+      'occt-import-js/package.json',
+    ),
+  );
   const step = await readFile(join(folder, 'test/testfiles/cax-if/as1-oc-214/as1-oc-214.stp'));
   const files = await stepToGlb(new Uint8Array(step), cadMaterials);
   const levels = await Promise.all(files.map((file) => loadGltf(new Uint8Array(file))));
-  const triangles = levels.map(({ instances, meshes }) => instances.reduce((sum, { mesh }) => sum + meshes[mesh]!.indices.length / 3, 0));
-  expect(levels.map(({ warnings, instances }) => [warnings.length, instances.length])).toEqual([[0, 18], [0, 18], [0, 18]]);
+  const triangles = levels.map(({ instances, meshes }) =>
+    instances.reduce((sum, { mesh }) => sum + meshes[mesh]!.indices.length / 3, 0),
+  );
+  expect(levels.map(({ warnings, instances }) => [warnings.length, instances.length])).toEqual([
+    [0, 18],
+    [0, 18],
+    [0, 18],
+  ]);
   expect(triangles[0]).toBeGreaterThan(2 * triangles[1]!);
   expect(triangles[1]).toBeGreaterThan(1.5 * triangles[2]!);
   // Brass and aluminium by the rules; the paths of the rules are those of the file.

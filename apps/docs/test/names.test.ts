@@ -9,19 +9,40 @@ const camel = (name: string) => name.replace(/-([a-z])/g, (_, letter: string) =>
 const page = read('apps/docs/guide/names.md');
 
 /** Cells of the rows of all tables with six columns of names. */
-const rows = page.split('\n').filter((line) => line.startsWith('| ') && line.split('|').length === 9 && !line.includes('| viewer |')).map((line) => line.split('|').slice(1, -1));
-const column = (index: number) => rows.flatMap((cells) => [...cells[index]!.matchAll(/`([^`]+)`/g)].map(([, name]) => name!));
-const [viewer, element, react, commandLine, query] = [1, 2, 3, 4, 5].map(column) as [string[], string[], string[], string[], string[]];
+const rows = page
+  .split('\n')
+  .filter((line) => line.startsWith('| ') && line.split('|').length === 9 && !line.includes('| viewer |'))
+  .map((line) => line.split('|').slice(1, -1));
+const column = (index: number) =>
+  rows.flatMap((cells) => [...cells[index]!.matchAll(/`([^`]+)`/g)].map(([, name]) => name!));
+const [viewer, element, react, commandLine, query] = [1, 2, 3, 4, 5].map(column) as [
+  string[],
+  string[],
+  string[],
+  string[],
+  string[],
+];
 
 /** Names of the members of an interface or of a class, and their comments' tags. */
 function members(path: string, of: string): Map<string, string[]> {
   const source = ts.createSourceFile(path, read(path), ts.ScriptTarget.Latest, true);
-  const found = source.statements.find((one) => (ts.isInterfaceDeclaration(one) || ts.isClassDeclaration(one)) && one.name?.text === of) as ts.InterfaceDeclaration | ts.ClassDeclaration;
-  return new Map([...found.members].flatMap((one) => (one.name ? [[one.name.getText(), ts.getJSDocTags(one).map(({ tagName }) => tagName.text)] as const] : [])));
+  const found = source.statements.find(
+    (one) => (ts.isInterfaceDeclaration(one) || ts.isClassDeclaration(one)) && one.name?.text === of,
+  ) as ts.InterfaceDeclaration | ts.ClassDeclaration;
+  return new Map(
+    [...found.members].flatMap((one) =>
+      one.name ? [[one.name.getText(), ts.getJSDocTags(one).map(({ tagName }) => tagName.text)] as const] : [],
+    ),
+  );
 }
 const VIEWER = 'packages/viewer/src/';
 const options = members(`${VIEWER}options.ts`, 'ViewerOptions');
-const inViewer = [options, members(`${VIEWER}viewer-settings.ts`, 'ViewerSettings'), members(`${VIEWER}viewer-camera.ts`, 'ViewerCamera'), members(`${VIEWER}viewer.ts`, 'Viewer')];
+const inViewer = [
+  options,
+  members(`${VIEWER}viewer-settings.ts`, 'ViewerSettings'),
+  members(`${VIEWER}viewer-camera.ts`, 'ViewerCamera'),
+  members(`${VIEWER}viewer.ts`, 'Viewer'),
+];
 const inElement = members('packages/element/src/api.ts', 'GlanzViewerElement');
 
 test('the page lists every setting of the viewer, every attribute, and every name of the playground', () => {
@@ -29,34 +50,65 @@ test('the page lists every setting of the viewer, every attribute, and every nam
   const address = read('apps/playground/src/state/address.ts');
   const queries = [...address.matchAll(/query(?:\.get\(|, )'([\w-]+)'/g)].map(([, name]) => name);
   expect(queries.length).toBeGreaterThan(10);
-  expect([...options.keys()].filter((name) => !viewer.includes(name)), 'options of the viewer').toEqual([]);
-  expect(present.filter((name) => !element.includes(name)), 'attributes').toEqual([]);
-  expect(present.map(camel).filter((name) => !react.includes(name)), 'props').toEqual([]);
+  expect(
+    [...options.keys()].filter((name) => !viewer.includes(name)),
+    'options of the viewer',
+  ).toEqual([]);
+  expect(
+    present.filter((name) => !element.includes(name)),
+    'attributes',
+  ).toEqual([]);
+  expect(
+    present.map(camel).filter((name) => !react.includes(name)),
+    'props',
+  ).toEqual([]);
   expect([...new Set(query)].sort()).toEqual([...new Set(queries)].sort());
 });
 
 test('every name on the page exists', () => {
   const help = read('packages/cli/src/help.ts');
   const bare = (name: string) => name.replace(/\(\)$/, '');
-  expect(viewer.map(bare).filter((name) => !inViewer.some((known) => known.has(name))), 'viewer').toEqual([]);
-  expect(element.map(bare).filter((name) => !(name in ATTRIBUTES) && !inElement.has(name)), 'element').toEqual([]);
-  expect(react.filter((name) => !Object.keys(ATTRIBUTES).map(camel).includes(name)), 'React').toEqual([]);
-  expect(commandLine.filter((name) => !(name.startsWith('--') ? new RegExp(`^\\s+(-\\w, )?${name} `, 'm') : new RegExp(name)).test(help)), 'command line').toEqual([]);
-  const tones = [...rows.find(([what]) => what!.trim() === 'tone map')![6]!.matchAll(/`(\w+)`/g)].map(([, name]) => name!);
+  expect(
+    viewer.map(bare).filter((name) => !inViewer.some((known) => known.has(name))),
+    'viewer',
+  ).toEqual([]);
+  expect(
+    element.map(bare).filter((name) => !(name in ATTRIBUTES) && !inElement.has(name)),
+    'element',
+  ).toEqual([]);
+  expect(
+    react.filter((name) => !Object.keys(ATTRIBUTES).map(camel).includes(name)),
+    'React',
+  ).toEqual([]);
+  expect(
+    commandLine.filter(
+      (name) => !(name.startsWith('--') ? new RegExp(`^\\s+(-\\w, )?${name} `, 'm') : new RegExp(name)).test(help),
+    ),
+    'command line',
+  ).toEqual([]);
+  const tones = [...rows.find(([what]) => what!.trim() === 'tone map')![6]!.matchAll(/`(\w+)`/g)].map(
+    ([, name]) => name!,
+  );
   expect([tones.length, tones.every(isToneMap)]).toEqual([5, true]);
 });
 
 test('former names are marked as deprecated where editors look, and are no longer in the tables', () => {
   expect(inElement.get('exposure')).toContain('deprecated');
   expect(members('packages/react/src/glanz-viewer.ts', 'GlanzViewerProps').get('exposure')).toContain('deprecated');
-  expect([...element, ...react, ...commandLine, ...query.filter((name) => name !== 'exposure')]).not.toEqual(expect.arrayContaining([expect.stringMatching(/^(exposure|--tonemap|tonemap)$/)]));
+  expect([...element, ...react, ...commandLine, ...query.filter((name) => name !== 'exposure')]).not.toEqual(
+    expect.arrayContaining([expect.stringMatching(/^(exposure|--tonemap|tonemap)$/)]),
+  );
 });
 
 test('the default time of a submission is the same in the renderer, in the viewer and on the page', () => {
   const said = /GPU time of one submission.*default (\d+)/.exec(page)?.[1];
   expect(/DEFAULT_SUBMIT_MS = (\d+)/.exec(read('packages/renderer/src/option-checks.ts'))?.[1]).toBe(said);
   expect(/maxSubmitMs \?\? (\d+)/.exec(read(`${VIEWER}viewer-settings.ts`))?.[1]).toBe(said);
-  for (const file of ['apps/docs/guide/performance.md', 'apps/docs/guide/progressive.md', 'packages/renderer/README.md']) {
+  for (const file of [
+    'apps/docs/guide/performance.md',
+    'apps/docs/guide/progressive.md',
+    'packages/renderer/README.md',
+  ]) {
     expect(/`maxSubmitMs`(?: of GPU time)?,? \(?(\d+)/.exec(read(file))?.[1], file).toBe(said);
   }
 });

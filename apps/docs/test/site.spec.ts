@@ -23,7 +23,8 @@ test.afterAll(() => close());
 function watchPage(page: Page): string[] {
   const complaints: string[] = [];
   page.on('console', (message) => {
-    if (message.type() === 'error' || message.type() === 'warning') complaints.push(`${page.url()}: ${message.type()}: ${message.text()}`);
+    if (message.type() === 'error' || message.type() === 'warning')
+      complaints.push(`${page.url()}: ${message.type()}: ${message.text()}`);
   });
   page.on('pageerror', (error) => complaints.push(`${page.url()}: ${error.message}`));
   page.on('requestfailed', (request) => {
@@ -35,7 +36,8 @@ function watchPage(page: Page): string[] {
     if (response.status() >= 400) complaints.push(`${response.url()}: ${response.status()}`);
   });
   page.on('request', (request) => {
-    if (!request.url().startsWith(origin) && !/^(data|blob):/.test(request.url())) complaints.push(`${page.url()} asks the network for ${request.url()}`);
+    if (!request.url().startsWith(origin) && !/^(data|blob):/.test(request.url()))
+      complaints.push(`${page.url()} asks the network for ${request.url()}`);
   });
   return complaints;
 }
@@ -73,16 +75,36 @@ test('all pages load without a complaint, and every internal link and anchor lea
   expect(complaints).toEqual([]);
 });
 
-const WIDTHS = [360, 768, 1280] as const, SCHEMES = ['light', 'dark'] as const;
+const WIDTHS = [360, 768, 1280] as const,
+  SCHEMES = ['light', 'dark'] as const;
 const LOOKS = WIDTHS.flatMap((width) => SCHEMES.map((scheme) => [width, scheme] as const));
-/** One page of each kind: home, guide, package, reference of an entry and of a package, parameters, results, table, live examples, list. */
-const KINDS = ['/', '/guide/getting-started', '/packages/viewer', '/api/', '/api/viewer', '/api/viewer/orbit', '/api/openpbr/presets', '/openpbr/coat', '/openpbr/parameters', '/openpbr/presets', '/results/', '/results/assets', '/guide/viewers', '/how/hierarchies', '/live'];
+/**
+ * One page of each kind: home, guide, package, reference of an entry and of a package, parameters, results, table, live
+ * examples, list.
+ */
+const KINDS = [
+  '/',
+  '/guide/getting-started',
+  '/packages/viewer',
+  '/api/',
+  '/api/viewer',
+  '/api/viewer/orbit',
+  '/api/openpbr/presets',
+  '/openpbr/coat',
+  '/openpbr/parameters',
+  '/openpbr/presets',
+  '/results/',
+  '/results/assets',
+  '/guide/viewers',
+  '/how/hierarchies',
+  '/live',
+];
 
 const isFull = process.env['GLANZ_FULL'] !== undefined;
 
 /**
- * In which widths and themes a page is looked at: one of each kind in all six, others that are written by hand in one, by
- * turns, and so each fifth page of the generated reference. `npm test -- --full` looks at all pages in all six.
+ * In which widths and themes a page is looked at: one of each kind in all six, others that are written by hand in one,
+ * by turns, and so each fifth page of the generated reference. `npm test -- --full` looks at all pages in all six.
  */
 function looksOf(path: string, index: number): readonly (readonly [number, 'light' | 'dark'])[] {
   if (isFull || KINDS.includes(path)) return LOOKS;
@@ -95,11 +117,20 @@ test('axe finds nothing on any page, light and dark, at three widths', async ({ 
   test.setTimeout(isFull ? 7_200_000 : 900_000);
   await page.addInitScript(() => Object.defineProperty(navigator, 'gpu', { value: undefined, configurable: true }));
   // Colours that fade from one theme to the other are looked at when they have.
-  await page.addInitScript(() => document.addEventListener('DOMContentLoaded', () => document.head.append(Object.assign(document.createElement('style'), { textContent: '* { transition: none !important }' }))));
+  await page.addInitScript(() =>
+    document.addEventListener('DOMContentLoaded', () =>
+      document.head.append(
+        Object.assign(document.createElement('style'), { textContent: '* { transition: none !important }' }),
+      ),
+    ),
+  );
   const faults = new Map<string, string[]>();
   const tell = (fault: string, where: string) => void faults.set(fault, [...(faults.get(fault) ?? []), where]);
   const pages = sitePages();
-  expect(KINDS.filter((path) => !pages.includes(path)), 'kinds without a page').toEqual([]);
+  expect(
+    KINDS.filter((path) => !pages.includes(path)),
+    'kinds without a page',
+  ).toEqual([]);
   for (const [index, path] of pages.entries()) {
     const looks = looksOf(path, index);
     if (looks.length === 0) continue;
@@ -111,17 +142,25 @@ test('axe finds nothing on any page, light and dark, at three widths', async ({ 
       await page.setViewportSize({ width, height: 800 });
       await expect(page.locator('html.dark')).toHaveCount(scheme === 'dark' ? 1 : 0);
       for (const fault of await checkAccessibility(page)) tell(fault, `${path} ${width} ${scheme}`);
-      if ((await page.evaluate(() => document.documentElement.scrollWidth)) > width) tell('wider than the window', `${path} ${width}`);
+      if ((await page.evaluate(() => document.documentElement.scrollWidth)) > width)
+        tell('wider than the window', `${path} ${width}`);
     }
   }
   expect(Object.fromEntries([...faults].map(([fault, where]) => [fault, where.slice(0, 4)]))).toEqual({});
 });
 
-test('the home page fetches at most 150 kB of script before the demo is asked for, other pages with what they fetch ahead not much more', async ({ page }) => {
+test('the home page fetches at most 150 kB of script before the demo is asked for, other pages with what they fetch ahead not much more', async ({
+  page,
+}) => {
   const heavy: string[] = [];
-  for (const [path, most] of [['/', 150_000], ['/openpbr/coat', 180_000], ['/guide/getting-started', 180_000]] as const) {
+  for (const [path, most] of [
+    ['/', 150_000],
+    ['/openpbr/coat', 180_000],
+    ['/guide/getting-started', 180_000],
+  ] as const) {
     const scripts = new Set<string>();
-    const hear = (request: { url(): string }) => void (new URL(request.url()).pathname.endsWith('.js') && scripts.add(new URL(request.url()).pathname));
+    const hear = (request: { url(): string }) =>
+      void (new URL(request.url()).pathname.endsWith('.js') && scripts.add(new URL(request.url()).pathname));
     page.on('request', hear);
     await page.goto(`${origin}${path}`, { waitUntil: 'networkidle' });
     page.off('request', hear);
@@ -170,14 +209,21 @@ test('search finds "next.js" and "nextjs", in the guide about React first', asyn
 });
 
 test('reference pages begin with what can be called, not with an error or a helper', async ({ page }) => {
-  for (const [path, name] of [['viewer', 'createViewer'], ['renderer', 'requestDevice'], ['element', 'defineGlanzViewer'], ['three', 'fromThree']] as const) {
+  for (const [path, name] of [
+    ['viewer', 'createViewer'],
+    ['renderer', 'requestDevice'],
+    ['element', 'defineGlanzViewer'],
+    ['three', 'fromThree'],
+  ] as const) {
     await page.goto(`${origin}/api/${path}`);
     await expect(page.locator('.vp-doc h3').first(), path).toContainText(name);
   }
 });
 
 test('pages show a version, those of packages their own and how stable it is', async ({ page }) => {
-  const { version } = JSON.parse(readFileSync(new URL('../../../packages/viewer/package.json', import.meta.url), 'utf8')) as { version: string };
+  const { version } = JSON.parse(
+    readFileSync(new URL('../../../packages/viewer/package.json', import.meta.url), 'utf8'),
+  ) as { version: string };
   await page.goto(`${origin}/guide/viewer`);
   await expect(page.locator('.VPNavBarTitle .site-version')).toHaveText(version);
   await page.goto(`${origin}/packages/viewer`);
@@ -225,7 +271,12 @@ test('the live page path-traces the push-button, and a new lens colour restarts 
   expect(Number(await live.getAttribute('data-samples'))).toBeGreaterThanOrEqual(1);
   const canvas = live.locator('canvas');
   // Few samples are worse than the poster, which so stays. An edit shows what the poster does not.
-  expect(await live.evaluate((figure) => (figure.querySelector('.live-poster') !== null) === (Number((figure as HTMLElement).dataset['samples']) < 64))).toBe(true);
+  expect(
+    await live.evaluate(
+      (figure) =>
+        (figure.querySelector('.live-poster') !== null) === Number((figure as HTMLElement).dataset['samples']) < 64,
+    ),
+  ).toBe(true);
   await page.getByRole('slider', { name: 'Exposure' }).fill('0.25');
   await expect(live.locator('.live-poster')).toHaveCount(0);
   const green = await photograph(canvas);
@@ -236,7 +287,9 @@ test('the live page path-traces the push-button, and a new lens colour restarts 
   expect(green.leading.green).toBeGreaterThan(0.01);
 
   await page.getByRole('radio', { name: 'red' }).check();
-  await expect.poll(async () => (await photograph(canvas)).leading.red, { timeout: 60_000 }).toBeGreaterThan(green.leading.red + 0.01);
+  await expect
+    .poll(async () => (await photograph(canvas)).leading.red, { timeout: 60_000 })
+    .toBeGreaterThan(green.leading.red + 0.01);
   expect(complaints).toEqual([]);
 });
 
@@ -244,8 +297,13 @@ test('a parameter page path-traces a sphere, and its controls change it', async 
   const complaints = watchPage(page);
   await page.setViewportSize({ width: 380, height: 900 });
   await page.goto(`${origin}/openpbr/coat`);
-  const table = (await readExport('@glanz/openpbr/parameters', 'OPENPBR_PARAMETERS')) as Record<string, { group: string }>;
-  expect(await page.locator('.parameters tbody tr').evaluateAll((rows) => rows.map((row) => row.id))).toEqual(Object.values(table).flatMap(({ group }, i) => (group === 'coat' ? [Object.keys(table)[i]] : [])));
+  const table = (await readExport('@glanz/openpbr/parameters', 'OPENPBR_PARAMETERS')) as Record<
+    string,
+    { group: string }
+  >;
+  expect(await page.locator('.parameters tbody tr').evaluateAll((rows) => rows.map((row) => row.id))).toEqual(
+    Object.values(table).flatMap(({ group }, i) => (group === 'coat' ? [Object.keys(table)[i]] : [])),
+  );
   const live = page.locator('.live').first();
   // Nothing is fetched or compiled before one asks for it.
   await expect(live).toHaveAttribute('data-stage', 'idle');
@@ -260,13 +318,17 @@ test('a parameter page path-traces a sphere, and its controls change it', async 
   // Through a green coat a red base is dark, and the edges are green.
   await page.locator('label', { hasText: 'coat_color' }).locator('input').fill('#20ff20');
   await page.locator('label', { hasText: 'coat_color' }).locator('input').dispatchEvent('change');
-  await expect.poll(async () => (await photograph(canvas)).leading.red, { timeout: 60_000 }).toBeLessThan(red.leading.red / 2);
+  await expect
+    .poll(async () => (await photograph(canvas)).leading.red, { timeout: 60_000 })
+    .toBeLessThan(red.leading.red / 2);
   await page.getByRole('button', { name: 'Reset' }).click();
-  await expect.poll(async () => (await photograph(canvas)).leading.red, { timeout: 60_000 }).toBeGreaterThan(0.8 * red.leading.red);
+  await expect
+    .poll(async () => (await photograph(canvas)).leading.red, { timeout: 60_000 })
+    .toBeGreaterThan(0.8 * red.leading.red);
   expect(complaints).toEqual([]);
 });
 
-test('the rasteriser\'s ball is drawn as the page opens', async ({ page }) => {
+test("the rasteriser's ball is drawn as the page opens", async ({ page }) => {
   const complaints = watchPage(page);
   await page.goto(`${origin}/openpbr/rasteriser`);
   const canvas = page.locator('.live-ball canvas');
@@ -277,7 +339,9 @@ test('the rasteriser\'s ball is drawn as the page opens', async ({ page }) => {
   expect(complaints).toEqual([]);
 });
 
-test('the page about hierarchies builds trees, maps their cost, shows their levels, and keeps them', async ({ page }) => {
+test('the page about hierarchies builds trees, maps their cost, shows their levels, and keeps them', async ({
+  page,
+}) => {
   const complaints = watchPage(page);
   await page.goto(`${origin}/how/hierarchies`);
   const live = page.locator('.live-hierarchy');

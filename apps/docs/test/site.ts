@@ -26,7 +26,10 @@ const TYPES: Readonly<Record<string, string>> = {
 /** Builds the site, as a release would. Throws with VitePress's output where it fails, dead links included. */
 export async function buildSite(): Promise<void> {
   const vitepress = dirname(createRequire(join(docs, 'package.json')).resolve('vitepress/package.json'));
-  await promisify(execFile)(process.execPath, [join(vitepress, 'bin/vitepress.js'), 'build', docs], { cwd: docs, maxBuffer: 1 << 24 });
+  await promisify(execFile)(process.execPath, [join(vitepress, 'bin/vitepress.js'), 'build', docs], {
+    cwd: docs,
+    maxBuffer: 1 << 24,
+  });
 }
 
 /** Every page of the built site, as a path of its address, less the playground, which has tests of its own. */
@@ -36,7 +39,11 @@ export function sitePages(folder = DIST): string[] {
       const path = join(folder, entry.name);
       if (entry.isDirectory()) return entry.name === 'playground' ? [] : sitePages(path);
       if (!entry.name.endsWith('.html') || entry.name === '404.html') return [];
-      return [`/${relative(DIST, path).replace(/\.html$/, '').replace(/(^|\/)index$/, '$1')}`];
+      return [
+        `/${relative(DIST, path)
+          .replace(/\.html$/, '')
+          .replace(/(^|\/)index$/, '$1')}`,
+      ];
     })
     .sort();
 }
@@ -52,7 +59,9 @@ export function fileFor(path: string): string | undefined {
 export async function serveSite(): Promise<{ readonly origin: string; readonly server: Server }> {
   const server = createServer((request, response) => {
     const file = fileFor(new URL(request.url ?? '/', 'http://localhost').pathname);
-    response.writeHead(file ? 200 : 404, { 'content-type': TYPES[extname(file ?? '.html')] ?? 'application/octet-stream' });
+    response.writeHead(file ? 200 : 404, {
+      'content-type': TYPES[extname(file ?? '.html')] ?? 'application/octet-stream',
+    });
     createReadStream(file ?? join(DIST, '404.html')).pipe(response);
   });
   await new Promise<void>((resolve) => server.listen(0, '127.0.0.1', resolve));

@@ -57,7 +57,9 @@ export class App {
     this.#store = new Store(state, ['orbit', 'layer']);
     this.#rig = new CameraRig(this.#store, () => this.#aspect());
     this.#behind = new Behind(this.#stage, byId<HTMLCanvasElement>('backdrop'));
-    this.#model.append(...Object.entries(SAMPLES).map(([name, { title }]) => element('option', { value: name }, title)));
+    this.#model.append(
+      ...Object.entries(SAMPLES).map(([name, { title }]) => element('option', { value: name }, title)),
+    );
     wireTheme();
     wireTabs(() => undefined);
   }
@@ -88,7 +90,11 @@ export class App {
         onRecovered: (samples) => {
           app.#messages.clearErrors();
           const now = samples > 0 ? `keeps its ${samples} samples` : 'starts again';
-          app.#messages.show({ kind: 'note', text: `The GPU was lost and is back; the picture ${now}.`, code: 'playground/recovered' });
+          app.#messages.show({
+            kind: 'note',
+            text: `The GPU was lost and is back; the picture ${now}.`,
+            code: 'playground/recovered',
+          });
         },
         onShown: (ms) => (app.#canvas.dataset['shownAfter'] = ms.toFixed(1)),
       },
@@ -96,10 +102,15 @@ export class App {
     app.#wire();
     app.#resize();
     const wanted = app.#link && isSample(app.#link.model) ? app.#link.model : undefined;
-    if (wanted && early.request.kind === 'sample' && wanted !== early.request.name) await app.load({ kind: 'sample', name: wanted });
+    if (wanted && early.request.kind === 'sample' && wanted !== early.request.name)
+      await app.load({ kind: 'sample', name: wanted });
     else await app.load(early.request, early.scene);
     if (link?.note) app.#messages.show({ kind: 'note', text: link.note, code: 'playground/link-file', stays: true });
-    keepAddress(app.#store, () => app.#opened?.name, () => app.#environments.fileName);
+    keepAddress(
+      app.#store,
+      () => app.#opened?.name,
+      () => app.#environments.fileName,
+    );
     // Somebody put another link into the address.
     window.addEventListener('hashchange', () => location.reload());
   }
@@ -144,10 +155,19 @@ export class App {
         this.#session.look();
       }
       // Light and finishing leave shapes where they are.
-      if (next.camera !== before.camera || next.orbit !== before.orbit || next.lens !== before.lens || next.hidden !== before.hidden) this.#outline?.clear();
+      if (
+        next.camera !== before.camera ||
+        next.orbit !== before.orbit ||
+        next.lens !== before.lens ||
+        next.hidden !== before.hidden
+      )
+        this.#outline?.clear();
       if (next.scale !== before.scale) this.#resize();
       // Whoever goes on editing edits what is seen.
-      if (next.variant !== before.variant && source !== 'load' && this.#opened) this.#selection.choose(chosenInVariant(this.#opened.scene, this.#selection.chosen, before.variant, next.variant));
+      if (next.variant !== before.variant && source !== 'load' && this.#opened)
+        this.#selection.choose(
+          chosenInVariant(this.#opened.scene, this.#selection.chosen, before.variant, next.variant),
+        );
       this.#drawBehind();
     });
     this.#model.addEventListener('change', () => {
@@ -158,7 +178,14 @@ export class App {
       onFiles: (files) => void this.#open(files),
       onPreset: (name, x, y) => void this.#dropPreset(name, x, y),
     });
-    wireCommands({ store: this.#store, session: this.#session, rig: this.#rig, selection: this.#selection, canvas: this.#canvas, say: (text) => this.#say(text) });
+    wireCommands({
+      store: this.#store,
+      session: this.#session,
+      rig: this.#rig,
+      selection: this.#selection,
+      canvas: this.#canvas,
+      say: (text) => this.#say(text),
+    });
   }
 
   /** Opens what was dropped or picked: a model, an environment, a material, or several of them. */
@@ -180,19 +207,32 @@ export class App {
       if (environment && !note) {
         this.#messages.clearErrors();
         // Another file under the same choice is no change of state.
-        if (this.#store.state.environment === 'file') this.#session.edit('environment', (tracer) => tracer.setEnvironment(this.#environments.choose(this.#store.state, this.#opened?.scene)));
+        if (this.#store.state.environment === 'file')
+          this.#session.edit('environment', (tracer) =>
+            tracer.setEnvironment(this.#environments.choose(this.#store.state, this.#opened?.scene)),
+          );
         else this.#store.set({ environment: 'file' }, { label: 'Environment' });
         for (const listener of this.#environmentListeners) listener();
       }
       if (model) await this.load({ kind: 'files', files: model.files, entry: model.entry });
       if (note) this.#messages.show({ kind: 'note', text: note, code: 'playground/environment', stays: true });
       if (material && !model && this.#opened) {
-        const [{ materialFromFiles }, { replaceMaterial }] = await Promise.all([import('./output/materialx'), import('./ui/material/edits')]);
+        const [{ materialFromFiles }, { replaceMaterial }] = await Promise.all([
+          import('./output/materialx'),
+          import('./ui/material/edits'),
+        ]);
         const { parameters, slots, name, notes } = await materialFromFiles(material, given);
         const { material: index } = this.#selection.chosen;
         const target = this.#opened.scene.materials[index];
         if (!target) return;
-        replaceMaterial(this.#store, target, index, parameters, `MaterialX "${name}"`, Object.fromEntries(Object.entries(slots).map(([key, slot]) => [`${index}/${key}`, slot])));
+        replaceMaterial(
+          this.#store,
+          target,
+          index,
+          parameters,
+          `MaterialX "${name}"`,
+          Object.fromEntries(Object.entries(slots).map(([key, slot]) => [`${index}/${key}`, slot])),
+        );
         this.#messages.clearErrors();
         this.#say([`"${name}" is now on "${target.name}".`, ...notes.slice(0, 1)].join(' '));
       }
@@ -206,23 +246,36 @@ export class App {
     this.#loading?.abort(new DOMException('another model was asked for', 'AbortError'));
     const loading = (this.#loading = new AbortController());
     const { signal } = loading;
-    const title = request.kind === 'sample' ? sampleTitle(request.name) : (request.entry.split('/').at(-1) ?? request.entry);
+    const title =
+      request.kind === 'sample' ? sampleTitle(request.name) : (request.entry.split('/').at(-1) ?? request.entry);
     try {
       this.#status.prepare(request.kind === 'sample' ? 'make' : 'read');
-      const opened: Opened = early ? { scene: await early, request, title, name: request.kind === 'sample' ? request.name : title } : await open(request, title, { signal, compressedFormats: await this.#session.compressedFormats(), onProgress: (stage, done) => this.#status.prepare(stage, done) });
+      const opened: Opened = early
+        ? { scene: await early, request, title, name: request.kind === 'sample' ? request.name : title }
+        : await open(request, title, {
+            signal,
+            compressedFormats: await this.#session.compressedFormats(),
+            onProgress: (stage, done) => this.#status.prepare(stage, done),
+          });
       signal.throwIfAborted();
       const { scene } = opened;
       const first = this.#opened === undefined;
       const begin = state ?? stateFor(scene, request, this.#store.state, { link: this.#link, first });
       // What is changed until the picture is there goes on top.
       const from = this.#store.state;
-      const now = (): State => (this.#store.state === from ? begin : { ...begin, ...changedSince(from, this.#store.state) });
+      const now = (): State =>
+        this.#store.state === from ? begin : { ...begin, ...changedSince(from, this.#store.state) };
       const host = this.#host();
       const rig = new CameraRig(this.#store, () => this.#aspect());
       await rig.setScene(scene, begin);
       await this.#environments.prepare(begin, scene);
       signal.throwIfAborted();
-      await present(scene, () => (this.#opened?.scene === scene ? this.#store.state : now()), { ...host, rig }, ({ stage, done }) => this.#status.prepare(stage, done));
+      await present(
+        scene,
+        () => (this.#opened?.scene === scene ? this.#store.state : now()),
+        { ...host, rig },
+        ({ stage, done }) => this.#status.prepare(stage, done),
+      );
       await breathe();
       await this.#adopt(opened, now(), rig);
     } catch (error) {
@@ -236,7 +289,10 @@ export class App {
     }
   }
 
-  /** Brings the page in line with the model that is shown now, a panel at a time: together they would take more than a frame. */
+  /**
+   * Brings the page in line with the model that is shown now, a panel at a time: together they would take more than a
+   * frame.
+   */
   async #adopt(opened: Opened, state: State, rig: CameraRig): Promise<void> {
     const { scene, request, title } = opened;
     const again = this.#opened?.request === request;
@@ -260,7 +316,11 @@ export class App {
     document.title = `${title} – Glanz playground`;
     if (scene.warnings.length > 0) {
       const more = scene.warnings.length > 1 ? ` (and ${scene.warnings.length - 1} more, under Statistics)` : '';
-      this.#messages.show({ kind: 'note', text: `${scene.warnings[0]?.message ?? ''}${more}`, code: scene.warnings[0]?.code ?? '' });
+      this.#messages.show({
+        kind: 'note',
+        text: `${scene.warnings[0]?.message ?? ''}${more}`,
+        code: scene.warnings[0]?.code ?? '',
+      });
     }
     for (const listener of this.#modelListeners) {
       await breathe();
@@ -294,7 +354,12 @@ export class App {
     const { makePanels } = await import('./ui/panels');
     const behindFor = (aspect: number) => {
       const { state } = this.#store;
-      return this.#behind.rendered(state, this.#environments.choose(state, this.#opened?.scene), this.#cameraFor(aspect), aspect);
+      return this.#behind.rendered(
+        state,
+        this.#environments.choose(state, this.#opened?.scene),
+        this.#cameraFor(aspect),
+        aspect,
+      );
     };
     makePanels(context, () => this.#behind.saved(this.#store.state), behindFor);
     document.body.dataset['panels'] = 'ready';
@@ -312,7 +377,10 @@ export class App {
     const opened = this.#opened;
     const request = opened?.request;
     if (!opened || request?.kind !== 'files') return false;
-    const [{ Poser }, { applyPose, movesMany, posedScene }] = await Promise.all([import('./input/poser'), import('./viewer/pose')]);
+    const [{ Poser }, { applyPose, movesMany, posedScene }] = await Promise.all([
+      import('./input/poser'),
+      import('./viewer/pose'),
+    ]);
     if (this.#poser?.request !== request) {
       this.#poser?.destroy();
       this.#poser = new Poser(request);
@@ -357,7 +425,10 @@ export class App {
       this.#store.set({ lens: { ...lens, focus: picked.depth, stop: lens.stop || 2.8 } }, { label: 'Focus' });
       return;
     }
-    this.#selection.choose({ material: wornMaterial(this.#opened!.scene, picked.instance, this.#store.state.variant), instance: picked.instance });
+    this.#selection.choose({
+      material: wornMaterial(this.#opened!.scene, picked.instance, this.#store.state.variant),
+      instance: picked.instance,
+    });
     this.#canvas.dataset['picked'] = part.name || `part ${picked.instance + 1}`;
   }
 
@@ -370,7 +441,9 @@ export class App {
     const { now } = this.#rig;
     const [width, height] = this.#session.film;
     // The film on the screen has the stage's shape, but for the rounding of its pixels.
-    return aspect === width / height ? now : fitCamera(now.type === 'perspective' ? { ...now, aspect: this.#aspect() } : now, aspect);
+    return aspect === width / height
+      ? now
+      : fitCamera(now.type === 'perspective' ? { ...now, aspect: this.#aspect() } : now, aspect);
   }
 
   #resize(): void {
@@ -393,7 +466,13 @@ export class App {
 
   #drawBehind(): void {
     const scene = this.#opened?.scene;
-    if (scene) this.#behind.draw(this.#store.state, () => this.#environments.choose(this.#store.state, scene), () => this.#rig.now, this.#aspect());
+    if (scene)
+      this.#behind.draw(
+        this.#store.state,
+        () => this.#environments.choose(this.#store.state, scene),
+        () => this.#rig.now,
+        this.#aspect(),
+      );
   }
 
   #told(status: SessionStatus): void {
@@ -411,9 +490,17 @@ export class App {
     const { message, code } = describeError(error);
     // A tracer that cannot keep the lights apart is not asked for again.
     if (code === 'renderer/light-groups' && this.#store.state.relight) this.#store.set({ relight: false });
-    this.#messages.show({ kind: 'error', text: message, code, ...(retry ? { action: { title: 'Try again', run: retry } } : {}) });
+    this.#messages.show({
+      kind: 'error',
+      text: message,
+      code,
+      ...(retry ? { action: { title: 'Try again', run: retry } } : {}),
+    });
   }
 }
 
 /** Fields in which a later state differs. */
-const changedSince = (before: State, now: State): Partial<State> => Object.fromEntries((Object.keys(now) as (keyof State)[]).filter((name) => now[name] !== before[name]).map((name) => [name, now[name]])) as Partial<State>;
+const changedSince = (before: State, now: State): Partial<State> =>
+  Object.fromEntries(
+    (Object.keys(now) as (keyof State)[]).filter((name) => now[name] !== before[name]).map((name) => [name, now[name]]),
+  ) as Partial<State>;

@@ -1,6 +1,16 @@
 import { readFileSync } from 'node:fs';
 import { expect, test, type Page } from '@playwright/test';
-import { checkAccessibility, dataOf, errorWith, pictureOf, pixelsOf, renderToFile, servePlayground, watch, type RenderSettings } from './page';
+import {
+  checkAccessibility,
+  dataOf,
+  errorWith,
+  pictureOf,
+  pixelsOf,
+  renderToFile,
+  servePlayground,
+  watch,
+  type RenderSettings,
+} from './page';
 
 let origin = '';
 let close: () => Promise<void> = async () => undefined;
@@ -34,32 +44,44 @@ async function choose(page: Page, id: string): Promise<void> {
 
 /** Saves the image by the dialog, at a quarter of the canvas's size. */
 async function saveImage(page: Page, settings: Partial<RenderSettings> = {}) {
-  const [width, height] = await pictureOf(page).evaluate((canvas) => [canvas.clientWidth, canvas.clientHeight].map((side) => Math.round(side / 4)));
+  const [width, height] = await pictureOf(page).evaluate((canvas) =>
+    [canvas.clientWidth, canvas.clientHeight].map((side) => Math.round(side / 4)),
+  );
   await page.getByRole('button', { name: 'Save image' }).click();
   return renderToFile(page, { width: width!, height: height!, ...settings });
 }
 
-/** Of the saved picture: the share of pixels that the button covers, and of those the shares that are clearly red, green. */
+/**
+ * Of the saved picture: the share of pixels that the button covers, and of those the shares that are clearly red,
+ * green.
+ */
 async function shares(page: Page): Promise<{ readonly covered: number; readonly red: number; readonly green: number }> {
   const download = await saveImage(page);
-  return page.evaluate(async (base64) => {
-    const bitmap = await createImageBitmap(new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], { type: 'image/png' }));
-    const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d')!;
-    context.drawImage(bitmap, 0, 0);
-    const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
-    let [covered, red, green] = [0, 0, 0];
-    for (let i = 0; i < data.length; i += 4) {
-      if (data[i + 3]! < 128) continue;
-      const [r, g] = [data[i]!, data[i + 1]!];
-      covered++;
-      if (r > 1.5 * g && r > 60) red++;
-      if (g > 1.3 * r && g > 60) green++;
-    }
-    return { covered: covered / (data.length / 4), red: red / covered, green: green / covered };
-  }, readFileSync(await download.path()).toString('base64'));
+  return page.evaluate(
+    async (base64) => {
+      const bitmap = await createImageBitmap(
+        new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], { type: 'image/png' }),
+      );
+      const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d')!;
+      context.drawImage(bitmap, 0, 0);
+      const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
+      let [covered, red, green] = [0, 0, 0];
+      for (let i = 0; i < data.length; i += 4) {
+        if (data[i + 3]! < 128) continue;
+        const [r, g] = [data[i]!, data[i + 1]!];
+        covered++;
+        if (r > 1.5 * g && r > 60) red++;
+        if (g > 1.3 * r && g > 60) green++;
+      }
+      return { covered: covered / (data.length / 4), red: red / covered, green: green / covered };
+    },
+    readFileSync(await download.path()).toString('base64'),
+  );
 }
 
-test('a button is put together: each click changes the picture, the sentence, the code and the address', async ({ page }) => {
+test('a button is put together: each click changes the picture, the sentence, the code and the address', async ({
+  page,
+}) => {
   await open(page);
   await expect(page.locator('#code')).toHaveValue('GB22-FG-P-RC-G-PA-C');
   await expect(page.locator('#sentence')).toContainText('Flush push-button in green with the power sign, lit in green');
@@ -94,14 +116,23 @@ test('a button is put together: each click changes the picture, the sentence, th
 
 test('a link, or a code typed in, is that button; a wrong code is marked and changes nothing', async ({ page }) => {
   await open(page, '#GB22-RB-H-QK-N-EY-O');
-  await expect(page.locator('#sentence')).toContainText('Raised push-button in blue with the stop sign, without illumination, black chrome square bezel, in an enclosure lid in safety yellow');
+  await expect(page.locator('#sentence')).toContainText(
+    'Raised push-button in blue with the stop sign, without illumination, black chrome square bezel, in an enclosure lid in safety yellow',
+  );
   await expect(page.locator('#mounting-E')).toBeChecked();
   await page.getByRole('button', { name: 'Front' }).click();
   await page.waitForTimeout(1200);
   await done(page);
   const corner = async () => {
     const box = (await pictureOf(page).boundingBox())!;
-    return (await pixelsOf(page, await page.screenshot({ clip: { x: box.x + box.width / 2 - 120, y: box.y + box.height / 2 - 120, width: 12, height: 12 } }))).mean;
+    return (
+      await pixelsOf(
+        page,
+        await page.screenshot({
+          clip: { x: box.x + box.width / 2 - 120, y: box.y + box.height / 2 - 120, width: 12, height: 12 },
+        }),
+      )
+    ).mean;
   };
   const yellow = await corner();
   expect(yellow[0]).toBeGreaterThan(2 * yellow[2]);
@@ -123,11 +154,24 @@ test('a link, or a code typed in, is that button; a wrong code is marked and cha
   expect(Math.abs(grey[0] - grey[2])).toBeLessThan(20);
 });
 
-test('the page keeps its picture when its size changes, saves it, and has no accessibility faults at three sizes', async ({ page }) => {
+test('the page keeps its picture when its size changes, saves it, and has no accessibility faults at three sizes', async ({
+  page,
+}) => {
   await open(page);
-  for (const [width, height] of [[1440, 900], [820, 1100], [360, 740]] as const) {
+  for (const [width, height] of [
+    [1440, 900],
+    [820, 1100],
+    [360, 740],
+  ] as const) {
     await page.setViewportSize({ width, height });
-    await expect.poll(async () => (await pictureOf(page).evaluate((canvas: HTMLCanvasElement) => Math.abs(canvas.width / canvas.height - canvas.clientWidth / canvas.clientHeight)))).toBeLessThan(0.05);
+    await expect
+      .poll(
+        async () =>
+          await pictureOf(page).evaluate((canvas: HTMLCanvasElement) =>
+            Math.abs(canvas.width / canvas.height - canvas.clientWidth / canvas.clientHeight),
+          ),
+      )
+      .toBeLessThan(0.05);
     await done(page);
     expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(width);
     for (const scheme of ['light', 'dark'] as const) {
@@ -150,7 +194,8 @@ test('the page keeps its picture when its size changes, saves it, and has no acc
   for (const scheme of ['light', 'dark'] as const) {
     await page.emulateMedia({ colorScheme: scheme });
     expect(await checkAccessibility(page), `the dialog, ${scheme}`).toEqual([]);
-    if (process.env['GLANZ_SCREENSHOTS']) await page.screenshot({ path: `${process.env['GLANZ_SCREENSHOTS']}/configurator-${scheme}.png` });
+    if (process.env['GLANZ_SCREENSHOTS'])
+      await page.screenshot({ path: `${process.env['GLANZ_SCREENSHOTS']}/configurator-${scheme}.png` });
   }
   await page.keyboard.press('Escape');
   const download = await saveImage(page);

@@ -2,7 +2,22 @@ import { readFileSync } from 'node:fs';
 import { deflateRawSync } from 'node:zlib';
 import { expect, test, type Page } from '@playwright/test';
 import { triangle } from '@glanz/browser/files';
-import { checkAccessibility, dataOf, drop, errorWith, finished, open as openAt, photograph, pictureOf, pixelsOf, restarting, save, servePlayground, tab, watch } from './page';
+import {
+  checkAccessibility,
+  dataOf,
+  drop,
+  errorWith,
+  finished,
+  open as openAt,
+  photograph,
+  pictureOf,
+  pixelsOf,
+  restarting,
+  save,
+  servePlayground,
+  tab,
+  watch,
+} from './page';
 
 let origin = '';
 let close: () => Promise<void> = async () => undefined;
@@ -15,23 +30,42 @@ let complaints: string[] = [];
 test.beforeEach(({ page }) => void (complaints = watch(page, origin)));
 test.afterEach(() => expect(complaints).toEqual([]));
 
-const open = (page: Page, query = 'model=cornell-box&scale=0.25&samples=4&depth=3', hash = '') => openAt(page, `${origin}/?${query}${hash}`);
+const open = (page: Page, query = 'model=cornell-box&scale=0.25&samples=4&depth=3', hash = '') =>
+  openAt(page, `${origin}/?${query}${hash}`);
 
 /** Two sails, the left one with a red look; a third node is a little one behind. */
 const sails = () =>
   triangle([0.05, 0.1, 0.9], (json) => {
     Object.assign(json, {
       scenes: [{ nodes: [0, 1] }],
-      nodes: [{ name: 'Left', mesh: 0, translation: [-1.1, 0, 0] }, { name: 'Right', mesh: 1, translation: [1.1, 0, 0] }],
+      nodes: [
+        { name: 'Left', mesh: 0, translation: [-1.1, 0, 0] },
+        { name: 'Right', mesh: 1, translation: [1.1, 0, 0] },
+      ],
       meshes: [
-        { primitives: [{ attributes: { POSITION: 0 }, material: 0, extensions: { KHR_materials_variants: { mappings: [{ material: 1, variants: [0] }] } } }] },
+        {
+          primitives: [
+            {
+              attributes: { POSITION: 0 },
+              material: 0,
+              extensions: { KHR_materials_variants: { mappings: [{ material: 1, variants: [0] }] } },
+            },
+          ],
+        },
         { primitives: [{ attributes: { POSITION: 0 }, material: 2 }] },
       ],
       extensionsUsed: ['KHR_materials_variants'],
       extensions: { KHR_materials_variants: { variants: [{ name: 'storm' }] } },
     });
-    const matt = (name: string, colour: readonly number[]) => ({ name, pbrMetallicRoughness: { baseColorFactor: [...colour, 1], metallicFactor: 0, roughnessFactor: 1 } });
-    json['materials'] = [matt('cloth', [0.05, 0.1, 0.9]), matt('storm cloth', [0.9, 0.05, 0.05]), matt('canvas', [0.05, 0.6, 0.1])];
+    const matt = (name: string, colour: readonly number[]) => ({
+      name,
+      pbrMetallicRoughness: { baseColorFactor: [...colour, 1], metallicFactor: 0, roughnessFactor: 1 },
+    });
+    json['materials'] = [
+      matt('cloth', [0.05, 0.1, 0.9]),
+      matt('storm cloth', [0.9, 0.05, 0.05]),
+      matt('canvas', [0.05, 0.6, 0.1]),
+    ];
   });
 
 /** Mean colours of the left and the right third of the picture's middle row. */
@@ -51,7 +85,9 @@ const MTLX = `<?xml version="1.0"?>
   </surfacematerial>
 </materialx>`;
 
-test('a model from file to file: converge, material, variant, .mtlx, a bad file, size, hide and show, undo, export', async ({ page }) => {
+test('a model from file to file: converge, material, variant, .mtlx, a bad file, size, hide and show, undo, export', async ({
+  page,
+}) => {
   await open(page);
   await drop(page, [{ name: 'sails.glb', bytes: sails() }]);
   await expect.poll(() => dataOf(page, 'scene')).toBe('sails.glb');
@@ -125,7 +161,10 @@ test('a model from file to file: converge, material, variant, .mtlx, a bad file,
   const png = readFileSync(await (await save(page, 'Save 16-bit PNG')).path());
   expect(png.readUInt8(24)).toBe(16);
   const glb = readFileSync(await (await save(page, 'Save glTF')).path());
-  const json = JSON.parse(glb.subarray(20, 20 + glb.readUInt32LE(12)).toString()) as { materials: { name: string; pbrMetallicRoughness: { baseColorFactor: number[]; roughnessFactor: number } }[]; extensions: unknown };
+  const json = JSON.parse(glb.subarray(20, 20 + glb.readUInt32LE(12)).toString()) as {
+    materials: { name: string; pbrMetallicRoughness: { baseColorFactor: number[]; roughnessFactor: number } }[];
+    extensions: unknown;
+  };
   const canvas = json.materials.find(({ name }) => name === 'canvas')!.pbrMetallicRoughness;
   [0.8, 0.02, 0.7].forEach((value, k) => expect(canvas.baseColorFactor[k]).toBeCloseTo(value, 4));
   expect(canvas.roughnessFactor).toBeCloseTo(0.9, 4);
@@ -161,7 +200,9 @@ test('the address holds the view: a reload brings back camera, material, light a
   await expect(page.locator('body')).toHaveAttribute('data-panels', 'ready');
   await finished(page);
   const after = await photograph(pictureOf(page));
-  after.cells.forEach((cell, i) => cell.forEach((value, k) => expect(Math.abs(value - before.cells[i]![k]!), `cell ${i}`).toBeLessThan(2)));
+  after.cells.forEach((cell, i) =>
+    cell.forEach((value, k) => expect(Math.abs(value - before.cells[i]![k]!), `cell ${i}`).toBeLessThan(2)),
+  );
   await tab(page, 'Scene');
   await expect(page.getByRole('button', { name: 'Show all (1 hidden)' })).toBeVisible();
 
@@ -172,16 +213,36 @@ test('the address holds the view: a reload brings back camera, material, light a
   await expect(page.locator('[role=alert]')).toHaveCount(0);
 
   // Nor is one with values that the page itself would never write.
-  const absurd = { samples: 2, depth: 1.5, scale: '0.25', exposure: 1e30, hidden: [1e9, -1], camera: 1e9, clip: 3, variant: 'none such', orbit: { target: [0, 1, 0], distance: 1e30, yaw: 1e30, pitch: 7 }, lens: { fov: 0, stop: -2 }, boxes: [{}], groups: { x: 1 }, materials: { 0: { base_color: 'red' }, 1: { base_metalness: 1e30 }, 99: {} } };
+  const absurd = {
+    samples: 2,
+    depth: 1.5,
+    scale: '0.25',
+    exposure: 1e30,
+    hidden: [1e9, -1],
+    camera: 1e9,
+    clip: 3,
+    variant: 'none such',
+    orbit: { target: [0, 1, 0], distance: 1e30, yaw: 1e30, pitch: 7 },
+    lens: { fov: 0, stop: -2 },
+    boxes: [{}],
+    groups: { x: 1 },
+    materials: { 0: { base_color: 'red' }, 1: { base_metalness: 1e30 }, 99: {} },
+  };
   await page.goto('about:blank');
-  await open(page, 'model=cornell-box&scale=0.25&samples=2&depth=2', `#v1.${deflateRawSync(JSON.stringify({ m: 'cornell-box', s: absurd })).toString('base64url')}`);
+  await open(
+    page,
+    'model=cornell-box&scale=0.25&samples=2&depth=2',
+    `#v1.${deflateRawSync(JSON.stringify({ m: 'cornell-box', s: absurd })).toString('base64url')}`,
+  );
   await finished(page);
   await expect(page.locator('[role=alert]')).toHaveCount(0);
   await tab(page, 'Render');
   await expect(page.locator('#depth')).toHaveValue('2');
 });
 
-test('light: studios, a soft box, backgrounds that are saved as they are seen, and lights dimmed without a sample', async ({ page }) => {
+test('light: studios, a soft box, backgrounds that are saved as they are seen, and lights dimmed without a sample', async ({
+  page,
+}) => {
   // One pixel of the film to one of the screen, so that the saved picture can be compared; not many of them.
   await page.setViewportSize({ width: 740, height: 420 });
   await open(page, 'model=cornell-box&scale=1&samples=2&depth=2&environment=studio');
@@ -190,10 +251,17 @@ test('light: studios, a soft box, backgrounds that are saved as they are seen, a
   // Beside the box there is the environment.
   const beside = async () => {
     const box = (await pictureOf(page).boundingBox())!;
-    return (await pixelsOf(page, await page.screenshot({ clip: { x: box.x + 4, y: box.y + 120, width: 12, height: 200 } }))).mean;
+    return (
+      await pixelsOf(page, await page.screenshot({ clip: { x: box.x + 4, y: box.y + 120, width: 12, height: 200 } }))
+    ).mean;
   };
   await restarting(page, () => page.locator('[data-studio=sunset]').click());
-  await expect.poll(async () => { const [r, , b] = await beside(); return r - b; }).toBeGreaterThan(25);
+  await expect
+    .poll(async () => {
+      const [r, , b] = await beside();
+      return r - b;
+    })
+    .toBeGreaterThan(25);
   await restarting(page, () => page.locator('[data-studio=low-key]').click());
   await expect.poll(async () => (await beside())[0]).toBeLessThan(90);
   await restarting(page, () => page.getByRole('button', { name: 'Add soft box' }).click());
@@ -205,7 +273,11 @@ test('light: studios, a soft box, backgrounds that are saved as they are seen, a
   await expect.poll(async () => (await beside()).map(Math.round)).toEqual([0x20, 0xc0, 0x40]);
   const saved = await pixelsOf(page, readFileSync(await (await save(page, 'Save PNG')).path()));
   const shown = await photograph(pictureOf(page));
-  saved.cells.forEach((cell, i) => cell.forEach((value, k) => expect(Math.abs(value - shown.cells[i]![k]!), `cell ${i}, channel ${k}`).toBeLessThan(1)));
+  saved.cells.forEach((cell, i) =>
+    cell.forEach((value, k) =>
+      expect(Math.abs(value - shown.cells[i]![k]!), `cell ${i}, channel ${k}`).toBeLessThan(1),
+    ),
+  );
 
   await tab(page, 'Light');
   await restarting(page, () => page.getByLabel('Relight', { exact: true }).check());
@@ -242,7 +314,9 @@ test('a picture on a parameter multiplies it, and goes again; a file that is no 
   await finished(page);
   const white = await halves(page);
   const row = page.locator('.field:has(#parameter-base_color)');
-  await row.locator('input[type=file]').setInputFiles({ name: 'orange.png', mimeType: 'image/png', buffer: await png(page, '#ff8000') });
+  await row
+    .locator('input[type=file]')
+    .setInputFiles({ name: 'orange.png', mimeType: 'image/png', buffer: await png(page, '#ff8000') });
   await expect(row.locator('.slot-name')).toHaveText('× orange.png');
   // There are no coordinates to look it up by: the page says so, and the picture is one colour everywhere anyway.
   await expect(page.getByText('has UV coordinates', { exact: false })).toBeVisible();
@@ -258,23 +332,33 @@ test('a picture on a parameter multiplies it, and goes again; a file that is no 
     const { left } = await halves(page);
     left.forEach((value, k) => expect(Math.abs(value - white.left[k]!)).toBeLessThan(3));
   }).toPass();
-  await row.locator('input[type=file]').setInputFiles({ name: 'words.png', mimeType: 'image/png', buffer: Buffer.from('no picture') });
+  await row
+    .locator('input[type=file]')
+    .setInputFiles({ name: 'words.png', mimeType: 'image/png', buffer: Buffer.from('no picture') });
   await expect(errorWith(page, 'playground/picture')).toBeVisible();
 });
 
 /** Share of pixels of the saved picture that are neither empty nor full. */
 const veiled = async (page: Page) =>
-  page.evaluate(async (base64) => {
-    const bitmap = await createImageBitmap(new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], { type: 'image/png' }), { premultiplyAlpha: 'none' });
-    const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d')!;
-    context.drawImage(bitmap, 0, 0);
-    const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
-    let count = 0;
-    for (let i = 3; i < data.length; i += 4) if (data[i]! > 12 && data[i]! < 243) count++;
-    return count / (data.length / 4);
-  }, readFileSync(await (await save(page, 'Save PNG')).path()).toString('base64'));
+  page.evaluate(
+    async (base64) => {
+      const bitmap = await createImageBitmap(
+        new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], { type: 'image/png' }),
+        { premultiplyAlpha: 'none' },
+      );
+      const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d')!;
+      context.drawImage(bitmap, 0, 0);
+      const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
+      let count = 0;
+      for (let i = 3; i < data.length; i += 4) if (data[i]! > 12 && data[i]! < 243) count++;
+      return count / (data.length / 4);
+    },
+    readFileSync(await (await save(page, 'Save PNG')).path()).toString('base64'),
+  );
 
-test('the floor catches the shadow only; the blurred background is smooth, and saved as it is seen', async ({ page }) => {
+test('the floor catches the shadow only; the blurred background is smooth, and saved as it is seen', async ({
+  page,
+}) => {
   await open(page, 'model=push-button-low&scale=1&samples=2&depth=2');
   await finished(page);
   await tab(page, 'Light');
@@ -288,7 +372,11 @@ test('the floor catches the shadow only; the blurred background is smooth, and s
   const shown = await photograph(pictureOf(page));
   const saved = await pixelsOf(page, readFileSync(await (await save(page, 'Save PNG')).path()));
   // The browser enlarges the backdrop in its own way.
-  saved.cells.forEach((cell, i) => cell.forEach((value, k) => expect(Math.abs(value - shown.cells[i]![k]!), `cell ${i}, channel ${k}`).toBeLessThan(2)));
+  saved.cells.forEach((cell, i) =>
+    cell.forEach((value, k) =>
+      expect(Math.abs(value - shown.cells[i]![k]!), `cell ${i}, channel ${k}`).toBeLessThan(2),
+    ),
+  );
 
   // The film is as it was: only what the page puts behind it goes.
   await page.getByLabel('Background', { exact: true }).selectOption('transparent');
@@ -303,7 +391,9 @@ test('the floor catches the shadow only; the blurred background is smooth, and s
   await finished(page);
 });
 
-test('no accessibility faults in any panel, menu or message, light and dark, at three sizes; nothing wider than the window', async ({ page }) => {
+test('no accessibility faults in any panel, menu or message, light and dark, at three sizes; nothing wider than the window', async ({
+  page,
+}) => {
   test.setTimeout(600_000);
   await open(page, 'model=cornell-box&scale=0.125&samples=1&depth=2');
   await drop(page, [{ name: 'sails.glb', bytes: sails() }]);
@@ -320,12 +410,19 @@ test('no accessibility faults in any panel, menu or message, light and dark, at 
   const faults: string[] = [];
   const look = async (what: string) => {
     for (const fault of await checkAccessibility(page)) faults.push(`${what}: ${fault}`);
-    const wider = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+    const wider = await page.evaluate(
+      () => document.documentElement.scrollWidth - document.documentElement.clientWidth,
+    );
     if (wider > 0) faults.push(`${what}: ${wider} pixels wider than the window`);
   };
   // With GLANZ_FULL: each size in each theme.
-  const themes = (chosen: 'light' | 'dark') => (process.env['GLANZ_FULL'] !== undefined ? (['light', 'dark'] as const) : [chosen]);
-  for (const [width, height, chosen] of [[1440, 900, 'dark'], [820, 1100, 'light'], [360, 740, 'dark']] as const) {
+  const themes = (chosen: 'light' | 'dark') =>
+    process.env['GLANZ_FULL'] !== undefined ? (['light', 'dark'] as const) : [chosen];
+  for (const [width, height, chosen] of [
+    [1440, 900, 'dark'],
+    [820, 1100, 'light'],
+    [360, 740, 'dark'],
+  ] as const) {
     for (const scheme of themes(chosen)) {
       const at = (what: string) => `${what} at ${width}, ${scheme}`;
       await page.emulateMedia({ colorScheme: scheme });
@@ -336,7 +433,11 @@ test('no accessibility faults in any panel, menu or message, light and dark, at 
         await look(at(name));
       }
       await tab(page, 'Light');
-      for (const [from, background] of [['constant', 'color'], ['none', 'blurred'], ['studio', 'environment']] as const) {
+      for (const [from, background] of [
+        ['constant', 'color'],
+        ['none', 'blurred'],
+        ['studio', 'environment'],
+      ] as const) {
         await page.getByLabel('Light from', { exact: true }).selectOption(from);
         await page.getByLabel('Background', { exact: true }).selectOption(background);
         if (from !== 'studio') await look(at(`light from ${from}`));

@@ -1,6 +1,18 @@
 import { expect, test, type Page } from '@playwright/test';
 import { triangle } from '@glanz/browser/files';
-import { dataOf, drop, finished, open as openAt, photograph, pictureOf, pixelsOf, restarting, servePlayground, tab, watch } from './page';
+import {
+  dataOf,
+  drop,
+  finished,
+  open as openAt,
+  photograph,
+  pictureOf,
+  pixelsOf,
+  restarting,
+  servePlayground,
+  tab,
+  watch,
+} from './page';
 
 let origin = '';
 let close: () => Promise<void> = async () => undefined;
@@ -13,12 +25,14 @@ let complaints: string[] = [];
 test.beforeEach(({ page }) => void (complaints = watch(page, origin)));
 test.afterEach(() => expect(complaints).toEqual([]));
 
-const open = (page: Page, query = 'model=cornell-box&scale=0.25&samples=2&depth=2') => openAt(page, `${origin}/?${query}`);
+const open = (page: Page, query = 'model=cornell-box&scale=0.25&samples=2&depth=2') =>
+  openAt(page, `${origin}/?${query}`);
 
 /** Mean of a small piece of the picture. */
 async function piece(page: Page, x: number, y: number): Promise<readonly [number, number, number]> {
   const box = (await pictureOf(page).boundingBox())!;
-  return (await pixelsOf(page, await page.screenshot({ clip: { x: box.x + x, y: box.y + y, width: 24, height: 24 } }))).mean;
+  return (await pixelsOf(page, await page.screenshot({ clip: { x: box.x + x, y: box.y + y, width: 24, height: 24 } })))
+    .mean;
 }
 
 /** A sail that moves two metres to the right within a second. */
@@ -28,18 +42,45 @@ function moving(): Buffer {
   const places = Float32Array.of(0, 0, 0, 2, 0, 0);
   return triangle([0.9, 0.05, 0.05], (json) => {
     Object.assign(json, {
-      nodes: [{ name: 'Sail', mesh: 0 }, { name: 'Wall', mesh: 1, translation: [0, 0, -4], scale: [6, 6, 1] }],
+      nodes: [
+        { name: 'Sail', mesh: 0 },
+        { name: 'Wall', mesh: 1, translation: [0, 0, -4], scale: [6, 6, 1] },
+      ],
       scenes: [{ nodes: [0, 1] }],
-      meshes: [{ primitives: [{ attributes: { POSITION: 0 }, material: 0 }] }, { primitives: [{ attributes: { POSITION: 0 }, material: 1 }] }],
-      materials: [{ name: 'cloth', pbrMetallicRoughness: { baseColorFactor: [0.9, 0.05, 0.05, 1], metallicFactor: 0, roughnessFactor: 1 } }, { name: 'wall', pbrMetallicRoughness: { metallicFactor: 0, roughnessFactor: 1 } }],
-      buffers: [{ byteLength: 36 + 8 + 24, uri: `data:application/octet-stream;base64,${Buffer.concat([positions, times, places].map((part) => Buffer.from(part.buffer))).toString('base64')}` }],
-      bufferViews: [{ buffer: 0, byteLength: 36 }, { buffer: 0, byteOffset: 36, byteLength: 8 }, { buffer: 0, byteOffset: 44, byteLength: 24 }],
+      meshes: [
+        { primitives: [{ attributes: { POSITION: 0 }, material: 0 }] },
+        { primitives: [{ attributes: { POSITION: 0 }, material: 1 }] },
+      ],
+      materials: [
+        {
+          name: 'cloth',
+          pbrMetallicRoughness: { baseColorFactor: [0.9, 0.05, 0.05, 1], metallicFactor: 0, roughnessFactor: 1 },
+        },
+        { name: 'wall', pbrMetallicRoughness: { metallicFactor: 0, roughnessFactor: 1 } },
+      ],
+      buffers: [
+        {
+          byteLength: 36 + 8 + 24,
+          uri: `data:application/octet-stream;base64,${Buffer.concat([positions, times, places].map((part) => Buffer.from(part.buffer))).toString('base64')}`,
+        },
+      ],
+      bufferViews: [
+        { buffer: 0, byteLength: 36 },
+        { buffer: 0, byteOffset: 36, byteLength: 8 },
+        { buffer: 0, byteOffset: 44, byteLength: 24 },
+      ],
       accessors: [
         { bufferView: 0, componentType: 5126, count: 3, type: 'VEC3', min: [-1, -1, 0], max: [1, 1, 0] },
         { bufferView: 1, componentType: 5126, count: 2, type: 'SCALAR', min: [0], max: [1] },
         { bufferView: 2, componentType: 5126, count: 2, type: 'VEC3' },
       ],
-      animations: [{ name: 'Tack', samplers: [{ input: 1, output: 2 }], channels: [{ sampler: 0, target: { node: 0, path: 'translation' } }] }],
+      animations: [
+        {
+          name: 'Tack',
+          samplers: [{ input: 1, output: 2 }],
+          channels: [{ sampler: 0, target: { node: 0, path: 'translation' } }],
+        },
+      ],
     });
   });
 }
@@ -68,14 +109,18 @@ test('an animation poses the model: its time moves a part, edits stay, and rest 
   }).toPass();
   const restarts = Number(await dataOf(page, 'restarts'));
 
-  // Played, the sail moves by itself, and the time with it; the picture of the moment at which it is stopped is finished.
+  // Played, the sail moves by itself, and the time with it; the picture of the moment at which it is stopped is
+  // finished.
   await time.fill('0');
   await time.press('Tab');
   await page.getByRole('button', { name: 'Play the animation' }).click();
   const seen = new Set<string>();
-  await expect.poll(async () => seen.add(await time.inputValue()).size, { message: 'the time goes on' }).toBeGreaterThan(3);
+  await expect
+    .poll(async () => seen.add(await time.inputValue()).size, { message: 'the time goes on' })
+    .toBeGreaterThan(3);
   expect(Number(await dataOf(page, 'restarts'))).toBeGreaterThan(restarts + 3);
-  // It goes round: a stop just after it began anew would show the sail at rest, which tells nothing, so it is played on until it stops later.
+  // It goes round: a stop just after it began anew would show the sail at rest, which tells nothing, so it is played on
+  // until it stops later.
   let moment = 0;
   await expect(async () => {
     await page.getByRole('button', { name: 'Stop the animation' }).click();
@@ -97,11 +142,15 @@ test('an animation poses the model: its time moves a part, edits stay, and rest 
   }).toPass();
 });
 
-test('while a hand turns the model a small preview keeps up on the same canvas; the picture in full takes over, and ends the same', async ({ page }) => {
+test('while a hand turns the model a small preview keeps up on the same canvas; the picture in full takes over, and ends the same', async ({
+  page,
+}) => {
   await open(page, 'model=cornell-box&scale=0.25&samples=8&depth=3');
   await finished(page);
   const before = await photograph(pictureOf(page));
-  const [width, canvas] = await pictureOf(page).evaluate((picture: HTMLCanvasElement) => [picture.dataset['film'], `${picture.width} ${picture.height}`] as const);
+  const [width, canvas] = await pictureOf(page).evaluate(
+    (picture: HTMLCanvasElement) => [picture.dataset['film'], `${picture.width} ${picture.height}`] as const,
+  );
   // Every film that is drawn and every state, as they come.
   await page.evaluate(() => {
     const picture = document.querySelector<HTMLCanvasElement>('#picture')!;
@@ -126,14 +175,20 @@ test('while a hand turns the model a small preview keeps up on the same canvas; 
   expect(seen.at(-1)).toBe(`done ${width} of ${canvas}`);
   // Back where it began, nothing of the preview is left in the picture.
   const after = await photograph(pictureOf(page));
-  after.cells.forEach((cell, i) => cell.forEach((value, k) => expect(Math.abs(value - before.cells[i]![k]!), `cell ${i}`).toBeLessThan(1)));
+  after.cells.forEach((cell, i) =>
+    cell.forEach((value, k) => expect(Math.abs(value - before.cells[i]![k]!), `cell ${i}`).toBeLessThan(1)),
+  );
 });
 
 test('keys: undo, views, projection, hiding; the list of keys; none of them while typing', async ({ page }) => {
   await open(page);
   await finished(page);
   const first = await photograph(pictureOf(page));
-  const difference = async () => (await photograph(pictureOf(page))).cells.reduce((sum, cell, i) => sum + Math.abs(cell[0] - first.cells[i]![0]), 0) / 9;
+  const difference = async () =>
+    (await photograph(pictureOf(page))).cells.reduce(
+      (sum, cell, i) => sum + Math.abs(cell[0] - first.cells[i]![0]),
+      0,
+    ) / 9;
   // The left wall, then away with it.
   await pictureOf(page).click({ position: { x: 70, y: 250 } });
   await expect(page.locator('#outline')).toHaveAttribute('data-part', /\d+/);
@@ -178,7 +233,9 @@ test('a preset that is dragged to the picture is put on the part under it', asyn
   await page.getByText('Presets').click();
   await page.getByLabel('Search presets').fill('blackboard');
   const before = await piece(page, 60, 230);
-  await restarting(page, () => page.locator('[data-preset=blackboard]').dragTo(pictureOf(page), { targetPosition: { x: 70, y: 250 } }));
+  await restarting(page, () =>
+    page.locator('[data-preset=blackboard]').dragTo(pictureOf(page), { targetPosition: { x: 70, y: 250 } }),
+  );
   await expect(page.locator('#material option:checked')).toHaveText('red');
   expect((await piece(page, 60, 230))[0]).toBeLessThan(0.6 * before[0]);
   await expect(page.locator('[data-group=base] .dot')).toBeVisible();

@@ -2,12 +2,24 @@ import { expect, test } from 'vitest';
 import { initialState } from '../src/state/state';
 import { directionOf, fieldOfView, focalLength, STANDARD_VIEWS, withLens } from '../src/viewer/lens';
 
-const camera = { type: 'perspective', name: 'c', transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 2, 1], yfov: 0.5, focus_distance: 2 } as const;
+const camera = {
+  type: 'perspective',
+  name: 'c',
+  transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 2, 1],
+  yfov: 0.5,
+  focus_distance: 2,
+} as const;
 const { lens } = initialState('studio');
 
 test('focal lengths are those printed on full-frame lenses', () => {
   // Vertical angles of view from the data sheets of lenses: 24 mm 53°, 50 mm 27°, 85 mm 16°, 200 mm 7°.
-  for (const [millimetres, degrees] of [[24, 53], [50, 27], [85, 16], [200, 7]] as const) expect(Math.abs(fieldOfView(millimetres) - degrees)).toBeLessThan(0.6);
+  for (const [millimetres, degrees] of [
+    [24, 53],
+    [50, 27],
+    [85, 16],
+    [200, 7],
+  ] as const)
+    expect(Math.abs(fieldOfView(millimetres) - degrees)).toBeLessThan(0.6);
   expect(focalLength(fieldOfView(35))).toBeCloseTo(35, 9);
 });
 
@@ -30,6 +42,16 @@ test('orthographic shows as much as perspective did at the distance in focus', (
 });
 
 test('standard views look from where they say', () => {
-  const wanted = { front: [0, 0, 1], right: [1, 0, 0], back: [0, 0, -1], left: [-1, 0, 0], top: [0, 1, 0], bottom: [0, -1, 0] } as const;
-  for (const [name, direction] of Object.entries(wanted)) directionOf(STANDARD_VIEWS[name as keyof typeof wanted]).forEach((value, k) => expect(Math.abs(value - direction[k]!), name).toBeLessThan(0.03));
+  const wanted = {
+    front: [0, 0, 1],
+    right: [1, 0, 0],
+    back: [0, 0, -1],
+    left: [-1, 0, 0],
+    top: [0, 1, 0],
+    bottom: [0, -1, 0],
+  } as const;
+  for (const [name, direction] of Object.entries(wanted))
+    directionOf(STANDARD_VIEWS[name as keyof typeof wanted]).forEach((value, k) =>
+      expect(Math.abs(value - direction[k]!), name).toBeLessThan(0.03),
+    );
 });

@@ -14,12 +14,19 @@ const ALONE = '.status, .messages, .tools, #outline { visibility: hidden } #pict
 export const photograph = (canvas: Locator): Promise<Pixels> => photographAll(canvas, ALONE);
 
 /** Drops files on the page as a hand would. */
-export async function drop(page: Page, files: readonly { readonly name: string; readonly bytes: Buffer }[]): Promise<void> {
-  const transfer = await page.evaluateHandle((list) => {
-    const made = new DataTransfer();
-    for (const { name, base64 } of list) made.items.add(new File([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], name));
-    return made;
-  }, files.map(({ name, bytes }) => ({ name, base64: bytes.toString('base64') })));
+export async function drop(
+  page: Page,
+  files: readonly { readonly name: string; readonly bytes: Buffer }[],
+): Promise<void> {
+  const transfer = await page.evaluateHandle(
+    (list) => {
+      const made = new DataTransfer();
+      for (const { name, base64 } of list)
+        made.items.add(new File([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], name));
+      return made;
+    },
+    files.map(({ name, bytes }) => ({ name, base64: bytes.toString('base64') })),
+  );
   await page.dispatchEvent('#stage', 'dragover', { dataTransfer: transfer });
   await page.dispatchEvent('#stage', 'drop', { dataTransfer: transfer });
 }
@@ -27,13 +34,17 @@ export async function drop(page: Page, files: readonly { readonly name: string; 
 export const pictureOf = (page: Page): Locator => page.locator('#picture');
 
 /** An attribute `data-…` of the picture's canvas, or nothing. */
-export const dataOf = async (page: Page, name: string): Promise<string> => (await pictureOf(page).getAttribute(`data-${name}`)) ?? '';
+export const dataOf = async (page: Page, name: string): Promise<string> =>
+  (await pictureOf(page).getAttribute(`data-${name}`)) ?? '';
 
 /** Opens the page and waits for a scene and its controls. */
 export async function open(page: Page, address: string): Promise<void> {
   await page.goto(address);
   // Where none comes, what the page says meanwhile tells why.
-  const shown = async () => ((await dataOf(page, 'scene')) === '' ? (await page.locator('.status, .messages').allInnerTexts()).join(' ').replace(/\s+/g, ' ') : 'a scene');
+  const shown = async () =>
+    (await dataOf(page, 'scene')) === ''
+      ? (await page.locator('.status, .messages').allInnerTexts()).join(' ').replace(/\s+/g, ' ')
+      : 'a scene';
   await expect.poll(shown, { message: 'a scene is shown' }).toBe('a scene');
   await expect(page.locator('body')).toHaveAttribute('data-panels', 'ready');
 }
@@ -49,14 +60,17 @@ export async function finished(page: Page): Promise<void> {
 export async function restarting(page: Page, action: () => Promise<unknown>): Promise<void> {
   const before = Number(await dataOf(page, 'restarts'));
   await action();
-  await expect.poll(async () => Number(await dataOf(page, 'restarts')), { message: 'the film starts anew' }).toBeGreaterThan(before);
+  await expect
+    .poll(async () => Number(await dataOf(page, 'restarts')), { message: 'the film starts anew' })
+    .toBeGreaterThan(before);
   await finished(page);
 }
 
 export const errorWith = (page: Page, code: string): Locator => page.locator(`[role=alert][data-code="${code}"]`);
 
 /** Shows one of the panels beside the picture. */
-export const tab = (page: Page, name: 'Scene' | 'Material' | 'Light' | 'Camera' | 'Render'): Promise<void> => page.getByRole('tab', { name }).click();
+export const tab = (page: Page, name: 'Scene' | 'Material' | 'Light' | 'Camera' | 'Render'): Promise<void> =>
+  page.getByRole('tab', { name }).click();
 
 /** What the dialog for images is told, by the ids of its controls. */
 export interface RenderSettings {
@@ -68,7 +82,10 @@ export interface RenderSettings {
 }
 
 /** Fills the open dialog. */
-export async function fillRenderDialog(page: Page, { width, height, samples, format, transparent }: RenderSettings): Promise<void> {
+export async function fillRenderDialog(
+  page: Page,
+  { width, height, samples, format, transparent }: RenderSettings,
+): Promise<void> {
   await page.getByLabel('Width, pixels').fill(String(width));
   await page.getByLabel('Height, pixels').fill(String(height));
   if (samples !== undefined) await page.getByRole('spinbutton', { name: 'Samples per pixel' }).fill(String(samples));
@@ -79,7 +96,10 @@ export async function fillRenderDialog(page: Page, { width, height, samples, for
 /** Renders with the open dialog, to a file, and closes it. */
 export async function renderToFile(page: Page, settings: RenderSettings): Promise<Download> {
   await fillRenderDialog(page, settings);
-  const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Save file' }).click()]);
+  const [download] = await Promise.all([
+    page.waitForEvent('download'),
+    page.getByRole('button', { name: 'Save file' }).click(),
+  ]);
   await page.getByRole('dialog').getByRole('button', { name: 'Close' }).click();
   return download;
 }
@@ -87,7 +107,10 @@ export async function renderToFile(page: Page, settings: RenderSettings): Promis
 /** Saves something by the export menu. */
 export async function save(page: Page, name: string): Promise<Download> {
   if (!(await page.locator('#export-menu').isVisible())) await page.locator('#export').click();
-  const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: new RegExp(`^${name}`) }).click()]);
+  const [download] = await Promise.all([
+    page.waitForEvent('download'),
+    page.getByRole('button', { name: new RegExp(`^${name}`) }).click(),
+  ]);
   await page.keyboard.press('Escape');
   return download;
 }

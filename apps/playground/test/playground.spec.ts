@@ -4,7 +4,24 @@ import { gzipSync } from 'node:zlib';
 import { expect, test, type Page } from '@playwright/test';
 import { hdr, triangle } from '@glanz/browser/files';
 import { decodeExr } from '@glanz/image';
-import { checkAccessibility, dataOf, drop, errorWith, fillRenderDialog, finished, open as openAt, photograph, pictureOf as canvasOf, pixelsOf, renderToFile, restarting, save, servePlayground, tab, watch } from './page';
+import {
+  checkAccessibility,
+  dataOf,
+  drop,
+  errorWith,
+  fillRenderDialog,
+  finished,
+  open as openAt,
+  photograph,
+  pictureOf as canvasOf,
+  pixelsOf,
+  renderToFile,
+  restarting,
+  save,
+  servePlayground,
+  tab,
+  watch,
+} from './page';
 
 let origin = '';
 let close: () => Promise<void> = async () => undefined;
@@ -19,9 +36,12 @@ let complaints: string[] = [];
 test.beforeEach(({ page }) => void (complaints = watch(page, origin)));
 test.afterEach(() => expect(complaints).toEqual([]));
 
-const open = (page: Page, query = 'model=cornell-box&scale=0.25&samples=4&depth=3') => openAt(page, `${origin}/?${query}`);
+const open = (page: Page, query = 'model=cornell-box&scale=0.25&samples=4&depth=3') =>
+  openAt(page, `${origin}/?${query}`);
 
-test('the Cornell box appears: light above, red left, green right; the saved picture is the one on the screen', async ({ page }) => {
+test('the Cornell box appears: light above, red left, green right; the saved picture is the one on the screen', async ({
+  page,
+}) => {
   // One pixel of the film to one of the screen, so that they can be compared.
   await open(page, 'model=cornell-box&scale=1&samples=3&depth=3');
   await expect.poll(async () => Number(await dataOf(page, 'samples'))).toBeGreaterThanOrEqual(1);
@@ -44,16 +64,22 @@ test('the Cornell box appears: light above, red left, green right; the saved pic
   const stage = (await canvasOf(page).boundingBox())!;
   expect([file.width, file.height]).toEqual([stage.width, stage.height]);
   // The tone map of the file runs on the CPU, that of the screen on the GPU.
-  file.cells.forEach((cell, i) => cell.forEach((mean, k) => expect(Math.abs(mean - shown.cells[i]![k]!), `cell ${i}, channel ${k}`).toBeLessThan(1)));
+  file.cells.forEach((cell, i) =>
+    cell.forEach((mean, k) => expect(Math.abs(mean - shown.cells[i]![k]!), `cell ${i}, channel ${k}`).toBeLessThan(1)),
+  );
 
   const exr = await save(page, 'Save EXR');
   const bytes = readFileSync(await exr.path());
   expect(bytes.readUInt32LE(0)).toBe(20000630);
   const header = bytes.subarray(0, 2000).toString('latin1');
-  for (const channel of ['R', 'A', 'albedo.G', 'normal.X', 'depth.Z', 'object.id', 'material.id']) expect(header).toContain(`${channel}\0`);
+  for (const channel of ['R', 'A', 'albedo.G', 'normal.X', 'depth.Z', 'object.id', 'material.id'])
+    expect(header).toContain(`${channel}\0`);
 });
 
-test('an image of any size is rendered, to a file or the clipboard; the screen keeps its samples', async ({ page, context }) => {
+test('an image of any size is rendered, to a file or the clipboard; the screen keeps its samples', async ({
+  page,
+  context,
+}) => {
   await context.grantPermissions(['clipboard-read', 'clipboard-write'], { origin });
   await open(page, 'model=cornell-box&scale=0.125&samples=4&depth=3');
   await finished(page);
@@ -68,7 +94,8 @@ test('an image of any size is rendered, to a file or the clipboard; the screen k
   for (const scheme of ['light', 'dark'] as const) {
     await page.emulateMedia({ colorScheme: scheme });
     expect(await checkAccessibility(page), scheme).toEqual([]);
-    if (process.env['GLANZ_SCREENSHOTS']) await page.screenshot({ path: `${process.env['GLANZ_SCREENSHOTS']}/render-${scheme}.png` });
+    if (process.env['GLANZ_SCREENSHOTS'])
+      await page.screenshot({ path: `${process.env['GLANZ_SCREENSHOTS']}/render-${scheme}.png` });
   }
   // The size does not depend on the film of the screen, which has an eighth of the stage's pixels.
   await expect(page.getByLabel('Width, pixels')).toHaveValue(String((await canvasOf(page).boundingBox())!.width));
@@ -83,7 +110,11 @@ test('an image of any size is rendered, to a file or the clipboard; the screen k
   expect(cells[5]![1]).toBeGreaterThan(1.1 * cells[5]![0]);
 
   await show();
-  const exr = readFileSync(await (await renderToFile(page, { width: 33, height: 21, samples: 2, format: 'EXR, linear, with all layers and lights' })).path());
+  const exr = readFileSync(
+    await (
+      await renderToFile(page, { width: 33, height: 21, samples: 2, format: 'EXR, linear, with all layers and lights' })
+    ).path(),
+  );
   const { width, height, channels } = decodeExr(exr);
   expect([width, height, channels.has('albedo.G'), channels.has('depth.Z')]).toEqual([33, 21, true, true]);
 
@@ -104,7 +135,9 @@ test('an image of any size is rendered, to a file or the clipboard; the screen k
     await fillRenderDialog(page, { width: 64, height: 64, samples: 60_000 });
     await page.getByRole('button', { name: 'Save file' }).click();
     await expect(dialog).toContainText('of 60000 samples');
-    await page.screenshot(process.env['GLANZ_SCREENSHOTS'] ? { path: `${process.env['GLANZ_SCREENSHOTS']}/render-running.png` } : {});
+    await page.screenshot(
+      process.env['GLANZ_SCREENSHOTS'] ? { path: `${process.env['GLANZ_SCREENSHOTS']}/render-running.png` } : {},
+    );
     await dialog.getByRole('button', { name: end }).click();
     if (end === 'Cancel') await expect(dialog.getByRole('status')).toHaveText('Cancelled.');
     else await expect(dialog).toHaveCount(0);
@@ -114,7 +147,8 @@ test('an image of any size is rendered, to a file or the clipboard; the screen k
   await fillRenderDialog(page, { width: 16_384, height: 16_384, samples: 1 });
   await page.getByRole('button', { name: 'Save file' }).click();
   await expect(dialog.getByRole('alert')).toContainText(/\w/);
-  if (process.env['GLANZ_SCREENSHOTS']) await page.screenshot({ path: `${process.env['GLANZ_SCREENSHOTS']}/render-error.png` });
+  if (process.env['GLANZ_SCREENSHOTS'])
+    await page.screenshot({ path: `${process.env['GLANZ_SCREENSHOTS']}/render-error.png` });
   await page.keyboard.press('Escape');
   await finished(page);
   expect([await dataOf(page, 'restarts'), await dataOf(page, 'samples')]).toEqual([restarts, '4']);
@@ -133,16 +167,24 @@ test('the first script is small, and controls come after the first model', async
   await open(page);
   const at = (name: RegExp) => asked.findIndex((url) => name.test(url));
   expect(at(/\/panels-[^/]+\.js$/)).toBeGreaterThan(at(/\/load-worker-[^/]+\.js$/));
-  // What the page's own thread has fetched: renderer, energy tables and the viewer's engine for the picture (some 160 kB), then panels.
-  // Workers are not in it.
+  // What the page's own thread has fetched: renderer, energy tables and the viewer's engine for the picture (some 160
+  // kB), then panels. Workers are not in it.
   const fetched = (urls: readonly string[]) => {
-    const scripts = new Set(urls.map((url) => new URL(url).pathname).filter((path) => path.endsWith('.js') && !path.includes('worker')));
+    const scripts = new Set(
+      urls.map((url) => new URL(url).pathname).filter((path) => path.endsWith('.js') && !path.includes('worker')),
+    );
     return [...scripts].reduce((sum, path) => sum + gzipSync(readFileSync(dist + path.slice(1))).length, 0);
   };
   expect(fetched(asked.slice(0, at(/\/panels-[^/]+\.js$/)))).toBeLessThan(175_000);
   expect(fetched(asked)).toBeLessThan(200_000);
   // Presets, encoders and decoders wait until somebody wants them.
-  expect(asked.filter((url) => /\/(presets|png|exr|materialx|draco|meshopt|render|render-dialog|render-image|save-image)(-[^/]*)?\.(js|wasm|css)$/.test(url))).toEqual([]);
+  expect(
+    asked.filter((url) =>
+      /\/(presets|png|exr|materialx|draco|meshopt|render|render-dialog|render-image|save-image)(-[^/]*)?\.(js|wasm|css)$/.test(
+        url,
+      ),
+    ),
+  ).toEqual([]);
 });
 
 test('hierarchies are built on workers, which stay for the next model', async ({ page }) => {
@@ -164,7 +206,9 @@ test('exposure and tone map change the picture without starting it anew', async 
   await expect.poll(async () => (await photograph(canvasOf(page))).mean[0]).toBeGreaterThan(before.mean[0] * 1.3);
   const neutral = await photograph(canvasOf(page));
   await page.getByLabel('Tone map').selectOption('reinhard');
-  await expect.poll(async () => Math.abs((await photograph(canvasOf(page))).mean[0] - neutral.mean[0])).toBeGreaterThan(3);
+  await expect
+    .poll(async () => Math.abs((await photograph(canvasOf(page))).mean[0] - neutral.mean[0]))
+    .toBeGreaterThan(3);
   expect(await dataOf(page, 'restarts')).toBe(restarts);
 });
 
@@ -193,18 +237,25 @@ test('a change that needs other shaders: a matt wall becomes a mirror', async ({
   // A piece of the right wall, near the back wall.
   const wall = async () => {
     const box = (await canvasOf(page).boundingBox())!;
-    return (await pixelsOf(page, await page.screenshot({ clip: { x: box.x + 430, y: box.y + 220, width: 20, height: 60 } }))).mean;
+    return (
+      await pixelsOf(page, await page.screenshot({ clip: { x: box.x + 430, y: box.y + 220, width: 20, height: 60 } }))
+    ).mean;
   };
   const matt = await wall();
   expect(matt[1]).toBeGreaterThan(1.3 * matt[0]);
   await page.locator('#material').selectOption({ label: 'green' });
   await page.locator('#parameter-base_color').fill('#ffffff');
-  for (const [name, value] of [['specular_weight', '1'], ['specular_roughness', '0'], ['base_metalness', '1']]) {
+  for (const [name, value] of [
+    ['specular_weight', '1'],
+    ['specular_roughness', '0'],
+    ['base_metalness', '1'],
+  ]) {
     const box = page.locator(`.field:has(#parameter-${name}) input[type=number]`);
     await box.fill(value!);
     await box.press('Tab');
   }
-  // It shows the back wall now, which is white in the warm light of the lamp: less blue than green, less green than red.
+  // It shows the back wall now, which is white in the warm light of the lamp: less blue than green, less green than
+  // red.
   await expect
     .poll(async () => {
       await finished(page);
@@ -221,7 +272,12 @@ test('drag, wheel and keys move the camera; reset brings the first view back', a
   const first = await photograph(canvas);
   const difference = async () => {
     const now = await photograph(canvas);
-    return now.cells.reduce((sum, cell, i) => sum + cell.reduce((all, value, k) => all + Math.abs(value - first.cells[i]![k]!), 0), 0) / 27;
+    return (
+      now.cells.reduce(
+        (sum, cell, i) => sum + cell.reduce((all, value, k) => all + Math.abs(value - first.cells[i]![k]!), 0),
+        0,
+      ) / 27
+    );
   };
   await restarting(page, async () => {
     await page.mouse.move(200, 250);
@@ -234,7 +290,11 @@ test('drag, wheel and keys move the camera; reset brings the first view back', a
   await expect.poll(difference).toBeLessThan(0.5);
 
   await page.mouse.move(280, 300);
-  for (const act of [() => canvas.press('ArrowLeft'), () => canvas.press('Shift+ArrowUp'), () => page.mouse.wheel(0, 300)]) {
+  for (const act of [
+    () => canvas.press('ArrowLeft'),
+    () => canvas.press('Shift+ArrowUp'),
+    () => page.mouse.wheel(0, 300),
+  ]) {
     await restarting(page, act);
     expect(await difference()).toBeGreaterThan(1.5);
     await restarting(page, () => canvas.press('Home'));
@@ -257,7 +317,9 @@ test('pause holds, and still shows a sample after a move', async ({ page }) => {
   await expect.poll(async () => Number(await dataOf(page, 'samples'))).toBeGreaterThan(1);
 });
 
-test('layers: the walls have the normals that they must have, and materials have colours of their own', async ({ page }) => {
+test('layers: the walls have the normals that they must have, and materials have colours of their own', async ({
+  page,
+}) => {
   await open(page);
   await finished(page);
   await tab(page, 'Render');
@@ -271,7 +333,9 @@ test('layers: the walls have the normals that they must have, and materials have
     // A point of the left wall and one of the back wall, as in the picking test.
     const at = async (x: number, y: number) => {
       const box = (await canvasOf(page).boundingBox())!;
-      return (await pixelsOf(page, await page.screenshot({ clip: { x: box.x + x, y: box.y + y, width: 4, height: 4 } }))).mean;
+      return (
+        await pixelsOf(page, await page.screenshot({ clip: { x: box.x + x, y: box.y + y, width: 4, height: 4 } }))
+      ).mean;
     };
     return { left: await at(70, 250), back: await at(300, 170) };
   };
@@ -290,7 +354,9 @@ test('layers: the walls have the normals that they must have, and materials have
   expect((await pixel()).left[0]).toBeGreaterThan((await pixel()).left[2] * 1.5);
 });
 
-test('dropped models: broken ones are told in a line and the former scene stays, a good one takes its place', async ({ page }) => {
+test('dropped models: broken ones are told in a line and the former scene stays, a good one takes its place', async ({
+  page,
+}) => {
   await open(page);
   await finished(page);
   const before = await photograph(canvasOf(page));
@@ -300,7 +366,17 @@ test('dropped models: broken ones are told in a line and the former scene stays,
     ['letter.glb', Buffer.from('Dear reader, this is no model.\n'), 'gltf/not-gltf'],
     ['notes.txt', Buffer.from('nothing'), 'playground/no-model'],
     ['empty.glb', triangle([1, 1, 1], (json) => (json['nodes'] = [{}])), 'gltf/no-triangles'],
-    ['bare.glb', triangle([1, 1, 1], (json) => Object.assign(json, { images: [{ uri: 'gone.png' }], textures: [{ source: 0 }], materials: [{ pbrMetallicRoughness: { baseColorTexture: { index: 0 } } }] })), 'gltf/missing-resource'],
+    [
+      'bare.glb',
+      triangle([1, 1, 1], (json) =>
+        Object.assign(json, {
+          images: [{ uri: 'gone.png' }],
+          textures: [{ source: 0 }],
+          materials: [{ pbrMetallicRoughness: { baseColorTexture: { index: 0 } } }],
+        }),
+      ),
+      'gltf/missing-resource',
+    ],
     ['dark.hdr', Buffer.from('#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n'), 'image/truncated'],
   ];
   for (const [name, bytes, code] of bad) {
@@ -317,7 +393,10 @@ test('dropped models: broken ones are told in a line and the former scene stays,
   await drop(page, [{ name: 'cut.glb', bytes: bad[0]![1] }]);
   await expect(errorWith(page, 'gltf/truncated')).toBeVisible();
   // An environment that is broken does not keep the model out that came with it.
-  await drop(page, [{ name: 'sail.glb', bytes: good }, { name: 'dark.hdr', bytes: bad.at(-1)![1] }]);
+  await drop(page, [
+    { name: 'sail.glb', bytes: good },
+    { name: 'dark.hdr', bytes: bad.at(-1)![1] },
+  ]);
   await expect.poll(() => dataOf(page, 'scene')).toBe('sail.glb');
   await expect(page.locator('[role=status][data-code="playground/environment"]')).toContainText('HDR');
   await finished(page);
@@ -331,7 +410,9 @@ test('dropped models: broken ones are told in a line and the former scene stays,
 const duck = fileURLToPath(new URL('../../../../shared/assets/Duck-Draco', import.meta.url));
 const hasDuck = existsSync(duck);
 
-test(`a folder with a compressed model and its texture${hasDuck ? '' : ' (skipped: the shared assets are not here)'}`, async ({ page }) => {
+test(`a folder with a compressed model and its texture${hasDuck ? '' : ' (skipped: the shared assets are not here)'}`, async ({
+  page,
+}) => {
   test.skip(!hasDuck);
   await open(page);
   await page.locator('#folder').setInputFiles(duck);
@@ -354,7 +435,10 @@ test('a dropped .hdr lights the scene and is seen behind it', async ({ page }) =
   const box = (await canvasOf(page).boundingBox())!;
   // The kernels for it may still be on their way, while those of before show their picture.
   await expect(async () => {
-    const { mean } = await pixelsOf(page, await page.screenshot({ clip: { x: box.x + 2, y: box.y + 100, width: 8, height: 200 } }));
+    const { mean } = await pixelsOf(
+      page,
+      await page.screenshot({ clip: { x: box.x + 2, y: box.y + 100, width: 8, height: 200 } }),
+    );
     expect(mean[0]).toBeGreaterThan(190);
     expect(mean[1]).toBeLessThan(mean[0] - 60);
   }).toPass({ timeout: 30_000 });
@@ -364,11 +448,15 @@ test('a dropped .hdr lights the scene and is seen behind it', async ({ page }) =
   await page.getByRole('button', { name: 'Share' }).click();
   await expect(page.locator('#share-note')).toContainText('red room.hdr');
   await page.locator('#copy-link').click();
-  await expect(page.locator('#messages [role=status]', { hasText: 'on the clipboard' })).toContainText('does not hold the environment "red room.hdr"');
+  await expect(page.locator('#messages [role=status]', { hasText: 'on the clipboard' })).toContainText(
+    'does not hold the environment "red room.hdr"',
+  );
   const link = await page.evaluate(() => navigator.clipboard.readText());
   await page.goto('about:blank');
   await openAt(page, `${origin}/?model=cornell-box${new URL(link).hash}`);
-  await expect(page.locator('[data-code="playground/link-file"]')).toContainText('made with the environment "red room.hdr"');
+  await expect(page.locator('[data-code="playground/link-file"]')).toContainText(
+    'made with the environment "red room.hdr"',
+  );
   await tab(page, 'Light');
   await expect(page.locator('#environment option:checked')).toHaveText('red room.hdr (not loaded)');
 });
@@ -427,7 +515,12 @@ test('every control has a name, and a phone shows the page without scrolling sid
   const nameless = await page.evaluate(() =>
     [...document.querySelectorAll<HTMLInputElement>('button, input, select, progress')]
       .filter((control) => !control.textContent?.trim() || control.tagName === 'SELECT')
-      .filter((control) => !control.getAttribute('aria-label') && !control.getAttribute('aria-labelledby') && !(control.labels && control.labels.length > 0))
+      .filter(
+        (control) =>
+          !control.getAttribute('aria-label') &&
+          !control.getAttribute('aria-labelledby') &&
+          !(control.labels && control.labels.length > 0),
+      )
       .map((control) => control.outerHTML),
   );
   expect(nameless).toEqual([]);
@@ -446,7 +539,9 @@ test('without WebGPU the page says so and what to do', async ({ page }) => {
   await expect(page.getByRole('button', { name: 'Export' })).toBeDisabled();
 });
 
-test('without a GPU the page says so before its scripts are there; when one comes after all, the page works', async ({ page }) => {
+test('without a GPU the page says so before its scripts are there; when one comes after all, the page works', async ({
+  page,
+}) => {
   const scripts: (() => void)[] = [];
   await page.route('**/assets/app-*.js', async (route) => {
     await new Promise<void>((resolve) => scripts.push(resolve));

@@ -7,10 +7,17 @@ import { applyPose, posedScene } from '../src/viewer/pose';
 function model(): Scene {
   const scene = createScene('model');
   const at = (x: number) => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, 0, 0, 1];
-  const mesh = (name: string) => ({ name, positions: Float32Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0), indices: Uint32Array.of(0, 1, 2) });
+  const mesh = (name: string) => ({
+    name,
+    positions: Float32Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0),
+    indices: Uint32Array.of(0, 1, 2),
+  });
   scene.meshes = [mesh('a'), mesh('b')];
   scene.materials = [{ name: 'paint', parameters: { base_color: [1, 0, 0], specular_roughness: 0.5 } }];
-  scene.instances = [{ name: 'a', mesh: 0, material: 0, transform: at(0) }, { name: 'b', mesh: 1, material: 0, transform: at(1) }];
+  scene.instances = [
+    { name: 'a', mesh: 0, material: 0, transform: at(0) },
+    { name: 'b', mesh: 1, material: 0, transform: at(1) },
+  ];
   scene.lights = [{ type: 'point', name: 'lamp', color: [1, 1, 1], intensity: 1, position: [0, 1, 0] }];
   scene.images = [{ name: 'picture', width: 1, height: 1, data: Uint8Array.of(1, 2, 3, 4) }];
   return scene;
@@ -19,8 +26,20 @@ function model(): Scene {
 /** Writes down what is asked of it. */
 function recorder(scene: Scene): { readonly tracer: PathTracer; readonly asked: unknown[][] } {
   const asked: unknown[][] = [];
-  const note = (name: string) => (...given: unknown[]) => Promise.resolve(void asked.push([name, ...given]));
-  return { tracer: { scene, replaceMesh: note('mesh'), setInstanceTransform: note('move'), setLight: note('light'), setMaterial: note('material') } as unknown as PathTracer, asked };
+  const note =
+    (name: string) =>
+    (...given: unknown[]) =>
+      Promise.resolve(void asked.push([name, ...given]));
+  return {
+    tracer: {
+      scene,
+      replaceMesh: note('mesh'),
+      setInstanceTransform: note('move'),
+      setLight: note('light'),
+      setMaterial: note('material'),
+    } as unknown as PathTracer,
+    asked,
+  };
 }
 
 test('a pose moves what it moves and leaves the rest, pictures and all', () => {
@@ -53,7 +72,11 @@ test('a tracer is asked for what differs only, and what the user has edited stay
   const posed = posedScene(scene, pose)!;
   const { tracer, asked } = recorder(scene);
   await applyPose(tracer, posed, { materials: { 0: { base_color: [0, 0, 1] } } });
-  expect(asked).toEqual([['move', 0, posed.instances[0]!.transform], ['light', 0, posed.lights[0]], ['material', 0, { base_color: [0, 0, 1], specular_roughness: 0.25 }]]);
+  expect(asked).toEqual([
+    ['move', 0, posed.instances[0]!.transform],
+    ['light', 0, posed.lights[0]],
+    ['material', 0, { base_color: [0, 0, 1], specular_roughness: 0.25 }],
+  ]);
   const still = recorder(posed);
   await applyPose(still.tracer, posed, { materials: {} });
   expect(still.asked).toEqual([]);

@@ -63,6 +63,10 @@ test('listeners hear of changes only, with what was before and why', () => {
   store.load({ a: 9, b: '', view: 0 });
   stop();
   store.set({ a: 4 });
-  expect(heard).toEqual([[3, 0, 'change'], [0, 3, 'undo'], [9, 0, 'load']]);
+  expect(heard).toEqual([
+    [3, 0, 'change'],
+    [0, 3, 'undo'],
+    [9, 0, 'load'],
+  ]);
   expect(store.undoLabel).toBeUndefined();
 });

@@ -12,7 +12,10 @@ export interface AsyncBuildOptions extends BlasOptions {
 
 /** Lets everything else that waits have its turn. */
 export function breathe(): Promise<void> {
-  const { scheduler, setImmediate: soon = setTimeout } = globalThis as { scheduler?: { yield?: () => Promise<void> }; setImmediate?: (task: () => void) => unknown };
+  const { scheduler, setImmediate: soon = setTimeout } = globalThis as {
+    scheduler?: { yield?: () => Promise<void> };
+    setImmediate?: (task: () => void) => unknown;
+  };
   return scheduler?.yield?.() ?? new Promise((resolve) => void soon(resolve));
 }
 

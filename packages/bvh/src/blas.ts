@@ -14,9 +14,9 @@ export interface TriangleMesh {
 /** What {@link buildBlas} may be told. */
 export interface BlasOptions {
   /**
-   * How to build. `balanced` (default): by surface area heuristic. `fast` of `@glanz/bvh/fast`: a third of the time, for
-   * meshes that change every frame. `best` and `bestSplit` of `@glanz/bvh/best`: several times as long, for pictures that
-   * take longer to render than a tree to build.
+   * How to build. `balanced` (default): by surface area heuristic. `fast` of `@glanz/bvh/fast`: a third of the time,
+   * for meshes that change every frame. `best` and `bestSplit` of `@glanz/bvh/best`: several times as long, for
+   * pictures that take longer to render than a tree to build.
    */
   readonly builder?: 'balanced' | TreeBuilder;
   /** Most triangles in a leaf, 1 to 16. Default 4. */
@@ -27,7 +27,10 @@ export interface BlasOptions {
 
 /** Bottom-level hierarchy: the triangles of one mesh. */
 export interface Blas {
-  /** Nodes as `bvhNodeStruct` of `@glanz/bvh/wgsl` lays them out, 16 words each; the integers are the same bits seen as Uint32Array. Node 0 is the root. */
+  /**
+   * Nodes as `bvhNodeStruct` of `@glanz/bvh/wgsl` lays them out, 16 words each; the integers are the same bits seen as
+   * Uint32Array. Node 0 is the root.
+   */
   readonly nodes: Float32Array<ArrayBuffer>;
   readonly nodeCount: number;
   /**
@@ -40,7 +43,8 @@ export interface Blas {
 }
 
 function whole(name: string, value: number, min: number, max: number): void {
-  if (!(Number.isInteger(value) && value >= min && value <= max)) throw new BvhError('bvh/options', `${name} is ${value}; it must be a whole number from ${min} to ${max}.`);
+  if (!(Number.isInteger(value) && value >= min && value <= max))
+    throw new BvhError('bvh/options', `${name} is ${value}; it must be a whole number from ${min} to ${max}.`);
 }
 
 /**
@@ -60,8 +64,8 @@ export function buildBlas(mesh: TriangleMesh, options: BlasOptions = {}): Blas {
 }
 
 /**
- * The same as {@link buildBlas} in steps of a few milliseconds, for schedules of your own; each yields the share that is
- * done, 0..1. `buildBlasAsync` of `@glanz/bvh/async` is one. The mesh must stay as it is until the last step.
+ * The same as {@link buildBlas} in steps of a few milliseconds, for schedules of your own; each yields the share that
+ * is done, 0..1. `buildBlasAsync` of `@glanz/bvh/async` is one. The mesh must stay as it is until the last step.
  *
  * @throws {BvhError} as `buildBlas`, at the first step or a later one.
  */
@@ -70,25 +74,35 @@ export function* blasSteps(mesh: TriangleMesh, options: BlasOptions = {}): Gener
   whole('maxLeafTriangles', maxLeafTriangles, 1, LEAF_MAX);
   whole('bins', bins, 2, 64);
   const build = builder === 'balanced' ? buildBalanced : (builder as TreeBuilder | undefined)?.build;
-  if (typeof build !== 'function') throw new BvhError('bvh/options', `builder is ${builder as string}; it must be 'balanced' or imported.`);
+  if (typeof build !== 'function')
+    throw new BvhError('bvh/options', `builder is ${builder as string}; it must be 'balanced' or imported.`);
   const { positions, indices } = mesh;
   const fail = (code: string, what: string, values: ArrayLike<number>, per: string) => {
     throw new BvhError(code, `${what} has ${values.length} entries; it must have ${per}.`);
   };
   if (positions.length % 3 !== 0) fail('bvh/positions', 'positions', positions, 'three a vertex');
   if (indices && indices.length % 3 !== 0) fail('bvh/indices', 'indices', indices, 'three a triangle');
-  if (!indices && positions.length % 9 !== 0) fail('bvh/indices', 'positions', positions, 'nine a triangle without indices');
+  if (!indices && positions.length % 9 !== 0)
+    fail('bvh/indices', 'positions', positions, 'nine a triangle without indices');
   const count = Math.floor((indices ? indices.length : positions.length / 3) / 3);
-  if (count > MAX_PRIMITIVES) throw new BvhError('bvh/too-many', `${count} triangles are too many; one hierarchy holds ${MAX_PRIMITIVES}: split the mesh.`);
+  if (count > MAX_PRIMITIVES)
+    throw new BvhError(
+      'bvh/too-many',
+      `${count} triangles are too many; one hierarchy holds ${MAX_PRIMITIVES}: split the mesh.`,
+    );
   const { bounds, ...tree } = yield* build(mesh, count, { maxLeaf: maxLeafTriangles, bins });
-  return { ...tree, bounds: { min: new Float32Array(bounds.subarray(0, 3)), max: new Float32Array(bounds.subarray(3)) } };
+  return {
+    ...tree,
+    bounds: { min: new Float32Array(bounds.subarray(0, 3)), max: new Float32Array(bounds.subarray(3)) },
+  };
 }
 
 /**
  * The triangles of a BLAS in leaf order, as the WGSL traversal wants them.
  *
  * @param blas In either layout.
- * @returns 12 words a triangle: v0 xyz and the index of the triangle in the mesh (as u32 bits), v1 xyz and 0, v2 xyz and 0.
+ * @returns 12 words a triangle: v0 xyz and the index of the triangle in the mesh (as u32 bits), v1 xyz and 0, v2 xyz
+ * and 0.
  */
 export function packTriangles(blas: Pick<Blas, 'triangleIndices'>, mesh: TriangleMesh): Float32Array<ArrayBuffer> {
   const { triangleIndices } = blas;

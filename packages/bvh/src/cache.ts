@@ -1,7 +1,10 @@
 import type { Blas, BlasOptions, TriangleMesh } from './blas';
 import { deserializeBlas, serializeBlas, SERIALIZED_VERSION } from './serialize';
 
-/** Where hierarchies are kept: a database of the browser (`@glanz/bvh/indexed-db`), a file (`@glanz/bvh/node`), your server. */
+/**
+ * Where hierarchies are kept: a database of the browser (`@glanz/bvh/indexed-db`), a file (`@glanz/bvh/node`), your
+ * server.
+ */
 export interface BlasStore {
   /** The bytes last set for a key; undefined if there are none. */
   get(key: string): Promise<ArrayBuffer | Uint8Array | undefined>;
@@ -31,20 +34,33 @@ export interface BlasCacheOptions {
 }
 
 /**
- * The key of a mesh's hierarchy: SHA-256 of the positions, the indices, the options and the version of the format, as hex
- * digits. Undefined where there is no Web Crypto (pages that are not secure).
+ * The key of a mesh's hierarchy: SHA-256 of the positions, the indices, the options and the version of the format, as
+ * hex digits. Undefined where there is no Web Crypto (pages that are not secure).
  */
 export async function blasKey(mesh: TriangleMesh, options: BlasOptions = {}): Promise<string | undefined> {
   const subtle = globalThis.crypto?.subtle;
   if (!subtle) return undefined;
-  const digest = async (bytes: Uint8Array) => new Uint8Array(await subtle.digest('SHA-256', bytes.buffer instanceof ArrayBuffer ? (bytes as Uint8Array<ArrayBuffer>) : new Uint8Array(bytes)));
-  const raw = (array: Float32Array | Uint32Array | Uint16Array) => new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
+  const digest = async (bytes: Uint8Array) =>
+    new Uint8Array(
+      await subtle.digest(
+        'SHA-256',
+        bytes.buffer instanceof ArrayBuffer ? (bytes as Uint8Array<ArrayBuffer>) : new Uint8Array(bytes),
+      ),
+    );
+  const raw = (array: Float32Array | Uint32Array | Uint16Array) =>
+    new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
   const { positions, indices } = mesh;
   // A builder from an entry of its own is an object with a name.
   const named = { ...options, builder: typeof options.builder === 'object' ? options.builder.name : options.builder };
-  const own = Object.entries(named).filter(([, value]) => value !== undefined && typeof value !== 'object' && typeof value !== 'function').sort(([a], [b]) => (a < b ? -1 : 1));
+  const own = Object.entries(named)
+    .filter(([, value]) => value !== undefined && typeof value !== 'object' && typeof value !== 'function')
+    .sort(([a], [b]) => (a < b ? -1 : 1));
   const text = JSON.stringify([SERIALIZED_VERSION, positions.length, indices?.length, indices?.BYTES_PER_ELEMENT, own]);
-  const parts = await Promise.all([digest(raw(positions)), digest(indices ? raw(indices) : new Uint8Array(0)), digest(new TextEncoder().encode(text))]);
+  const parts = await Promise.all([
+    digest(raw(positions)),
+    digest(indices ? raw(indices) : new Uint8Array(0)),
+    digest(new TextEncoder().encode(text)),
+  ]);
   const all = new Uint8Array(96);
   parts.forEach((part, i) => all.set(part, 32 * i));
   return Array.from(await digest(all), (byte) => byte.toString(16).padStart(2, '0')).join('');
@@ -108,14 +124,19 @@ export class BlasCache {
     return blas;
   }
 
-  /** Resolves when everything that was built so far has been written, or has failed to be. Await it before a process ends. */
+  /**
+   * Resolves when everything that was built so far has been written, or has failed to be. Await it before a process
+   * ends.
+   */
   async written(): Promise<void> {
     while (this.#writing.size > 0) await Promise.all(this.#writing);
   }
 
   #keep(key: string, blas: Blas): void {
     const bytes = serializeBlas(blas);
-    const writing: Promise<void> = this.#attempt(() => this.#store.set(key, bytes)).then(() => void this.#writing.delete(writing));
+    const writing: Promise<void> = this.#attempt(() => this.#store.set(key, bytes)).then(
+      () => void this.#writing.delete(writing),
+    );
     this.#writing.add(writing);
   }
 

@@ -1,6 +1,20 @@
 import { buildOverBoxes } from './build/over-boxes';
 import { BvhError } from './error';
-import { FAR, LEAF, LEFT, leafFirst, leafReference, LEFT_MAX, NODE_WORDS, PARENT, RESERVED, RIGHT, rootBounds, TLAS_MAX_DEPTH, type Aabb } from './layout';
+import {
+  FAR,
+  LEAF,
+  LEFT,
+  leafFirst,
+  leafReference,
+  LEFT_MAX,
+  NODE_WORDS,
+  PARENT,
+  RESERVED,
+  RIGHT,
+  rootBounds,
+  TLAS_MAX_DEPTH,
+  type Aabb,
+} from './layout';
 import { checkTransform, placeInstance } from './place-instance';
 import { REBUILD_ABOVE } from './refit-quality';
 import type { Tlas, TlasInstance } from './tlas';
@@ -21,14 +35,15 @@ const boxAt = (slot: number): number => slot - LEFT + (slot & LEFT_MAX);
 const surface = (x: number, y: number, z: number): number => x * y + y * z + z * x;
 
 /**
- * A TLAS that changes in place: moving, adding or removing one of `n` instances costs about log n, where `buildTlas` costs n.
- * Takes part in every query as the TLAS of `buildTlas` does, and finds the same hits. Deterministic: the same changes give
- * the same nodes.
+ * A TLAS that changes in place: moving, adding or removing one of `n` instances costs about log n, where `buildTlas`
+ * costs n. Takes part in every query as the TLAS of `buildTlas` does, and finds the same hits. Deterministic: the same
+ * changes give the same nodes.
  *
- * A removed leaf leaves its place to its sibling; an added one goes where it enlarges the boxes least, found by branch and
- * bound (Bittner, Hapala and Havran 2013, "Fast Insertion-Based Optimization of Bounding Volume Hierarchies"). An instance
- * that moves within its parent's box is refitted, any other is removed and added. The whole is rebuilt when the surface area
- * cost has risen by half, after as many changes as there are instances, and for an update of more than a quarter of them.
+ * A removed leaf leaves its place to its sibling; an added one goes where it enlarges the boxes least, found by branch
+ * and bound (Bittner, Hapala and Havran 2013, "Fast Insertion-Based Optimization of Bounding Volume Hierarchies"). An
+ * instance that moves within its parent's box is refitted, any other is removed and added. The whole is rebuilt when
+ * the surface area cost has risen by half, after as many changes as there are instances, and for an update of more than
+ * a quarter of them.
  *
  * @example
  * const tlas = new DynamicTlas(placed.map(({ blas, transform }) => ({ bounds: blas.bounds, transform })));
@@ -63,12 +78,17 @@ export class DynamicTlas implements Tlas {
   readonly #fitted = new Float32Array(6);
 
   /**
-   * @param instances What can be hit. `undefined`: not in the hierarchy for now, but may be put into it by {@link update}.
+   * @param instances What can be hit. `undefined`: not in the hierarchy for now, but may be put into it by
+   * {@link update}.
    * @throws {BvhError} `bvh/transform` for a transform without 16 numbers, `bvh/too-many` beyond 4 million instances.
    */
   constructor(instances: readonly (TlasInstance | undefined)[]) {
     const { length } = instances;
-    if (length > 2 ** TLAS_MAX_DEPTH) throw new BvhError('bvh/too-many', `${length} instances are too many; one hierarchy holds ${2 ** TLAS_MAX_DEPTH}.`);
+    if (length > 2 ** TLAS_MAX_DEPTH)
+      throw new BvhError(
+        'bvh/too-many',
+        `${length} instances are too many; one hierarchy holds ${2 ** TLAS_MAX_DEPTH}.`,
+      );
     const capacity = Math.max(length - 1, 1);
     this.instanceOrder = new Uint32Array(length).map((_, i) => i);
     this.toObject = new Float64Array(12 * length).fill(NaN);
@@ -109,12 +129,18 @@ export class DynamicTlas implements Tlas {
   /**
    * Moves, adds and removes instances.
    *
-   * @param changes The number of an instance and where it is now; `undefined` takes it out. The last word on an instance counts.
-   * @throws {BvhError} `bvh/instance` for a number that was not given to the constructor, `bvh/transform`. Nothing has changed then.
+   * @param changes The number of an instance and where it is now; `undefined` takes it out. The last word on an
+   * instance counts.
+   * @throws {BvhError} `bvh/instance` for a number that was not given to the constructor, `bvh/transform`. Nothing has
+   * changed then.
    */
   update(changes: readonly (readonly [instance: number, placing: TlasInstance | undefined])[]): void {
     for (const [instance, placing] of changes) {
-      if (this.#slots[instance] === undefined) throw new BvhError('bvh/instance', `There is no instance ${instance}; the hierarchy was made for ${this.#slots.length}.`);
+      if (this.#slots[instance] === undefined)
+        throw new BvhError(
+          'bvh/instance',
+          `There is no instance ${instance}; the hierarchy was made for ${this.#slots.length}.`,
+        );
       if (placing) checkTransform(placing, instance);
     }
     this.#changes += changes.length;
@@ -124,7 +150,11 @@ export class DynamicTlas implements Tlas {
       const [instance, placing] = changes[i] as (typeof changes)[number];
       if (!this.#change(instance, placing)) return this.#rebuild(changes.slice(i));
     }
-    if (this.#changes >= least || (this.#changes >= Math.max(REBUILD_LEAST, least / 16) && this.#cost() > REBUILD_ABOVE * this.#builtCost)) this.#rebuild([]);
+    if (
+      this.#changes >= least ||
+      (this.#changes >= Math.max(REBUILD_LEAST, least / 16) && this.#cost() > REBUILD_ABOVE * this.#builtCost)
+    )
+      this.#rebuild([]);
     else this.#finish();
   }
 
@@ -158,11 +188,14 @@ export class DynamicTlas implements Tlas {
 
   /** Whether the box at work lies within that of the node which holds a slot. */
   #staysInside(slot: number): boolean {
-    const box = this.#box, memory = this.#memory;
+    const box = this.#box,
+      memory = this.#memory;
     const node = slot >>> 4;
     if (node === 0) return true;
     const at = boxAt(this.#slotOf(node));
-    for (let k = 0; k < 3; k++) if ((box[k] as number) < (memory[at + k] as number) || (box[3 + k] as number) > (memory[at + 4 + k] as number)) return false;
+    for (let k = 0; k < 3; k++)
+      if ((box[k] as number) < (memory[at + k] as number) || (box[3 + k] as number) > (memory[at + 4 + k] as number))
+        return false;
     return true;
   }
 
@@ -179,12 +212,18 @@ export class DynamicTlas implements Tlas {
   }
 
   #surfaceAt(slot: number): number {
-    const memory = this.#memory, at = boxAt(slot);
-    return surface((memory[at + 4] as number) - (memory[at] as number), (memory[at + 5] as number) - (memory[at + 1] as number), (memory[at + 6] as number) - (memory[at + 2] as number));
+    const memory = this.#memory,
+      at = boxAt(slot);
+    return surface(
+      (memory[at + 4] as number) - (memory[at] as number),
+      (memory[at + 5] as number) - (memory[at + 1] as number),
+      (memory[at + 6] as number) - (memory[at + 2] as number),
+    );
   }
 
   #setBox(slot: number, box: Float32Array): void {
-    const memory = this.#memory, at = boxAt(slot);
+    const memory = this.#memory,
+      at = boxAt(slot);
     this.#surfaces -= this.#surfaceAt(slot);
     for (let k = 0; k < 3; k++) {
       memory[at + k] = box[k] as number;
@@ -197,7 +236,8 @@ export class DynamicTlas implements Tlas {
   /** Copies reference and box of one slot to another, and tells what is referred to where it is now. */
   #copySlot(from: number, to: number): void {
     const memory = this.#memory;
-    const a = boxAt(from), b = boxAt(to);
+    const a = boxAt(from),
+      b = boxAt(to);
     this.#surfaces -= this.#surfaceAt(to);
     for (let k = 0; k < 3; k++) {
       memory[b + k] = memory[a + k] as number;
@@ -239,7 +279,8 @@ export class DynamicTlas implements Tlas {
     this.#surfaces -= this.#surfaceAt(node * NODE_WORDS + LEFT) + this.#surfaceAt(node * NODE_WORDS + RIGHT);
     if (node === last) return watched;
     const slot = this.#slotOf(last);
-    const to = node * NODE_WORDS, from = last * NODE_WORDS;
+    const to = node * NODE_WORDS,
+      from = last * NODE_WORDS;
     this.#memory.copyWithin(to, from, from + NODE_WORDS);
     this.#heights[node] = this.#heights[last] as number;
     this.#refer(slot, node);
@@ -290,7 +331,8 @@ export class DynamicTlas implements Tlas {
     if (slot === NOWHERE) return false;
     this.#count++;
     const node = this.#newNode();
-    const left = node * NODE_WORDS + LEFT, right = node * NODE_WORDS + RIGHT;
+    const left = node * NODE_WORDS + LEFT,
+      right = node * NODE_WORDS + RIGHT;
     if (slot === ABOVE_ROOT) {
       // The new node takes the root's children.
       this.#copySlot(LEFT, left);
@@ -315,16 +357,25 @@ export class DynamicTlas implements Tlas {
 
   /** Half the surface of the box around that of a slot and the one at work. */
   #surfaceWith(slot: number): number {
-    const memory = this.#memory, box = this.#box, at = boxAt(slot);
-    const side = (k: number) => Math.max(memory[at + 4 + k] as number, box[3 + k] as number) - Math.min(memory[at + k] as number, box[k] as number);
+    const memory = this.#memory,
+      box = this.#box,
+      at = boxAt(slot);
+    const side = (k: number) =>
+      Math.max(memory[at + 4 + k] as number, box[3 + k] as number) -
+      Math.min(memory[at + k] as number, box[k] as number);
     return surface(side(0), side(1), side(2));
   }
 
   /** Where the box at work adds least to the surfaces: its sibling-to-be. */
   #bestSlot(): number {
     const words = this.#words;
-    const own = surface((this.#box[3] as number) - (this.#box[0] as number), (this.#box[4] as number) - (this.#box[1] as number), (this.#box[5] as number) - (this.#box[2] as number));
-    let best = NOWHERE, least = Infinity;
+    const own = surface(
+      (this.#box[3] as number) - (this.#box[0] as number),
+      (this.#box[4] as number) - (this.#box[1] as number),
+      (this.#box[5] as number) - (this.#box[2] as number),
+    );
+    let best = NOWHERE,
+      least = Infinity;
     if ((this.#heights[0] as number) < TLAS_MAX_DEPTH) {
       best = ABOVE_ROOT;
       least = this.#rootSurface();
@@ -332,7 +383,9 @@ export class DynamicTlas implements Tlas {
     // Slots yet to visit, three numbers each: what the boxes above them grow by, inner nodes above them, the slot.
     const stack = [0, 1, RIGHT, 0, 1, LEFT];
     while (stack.length > 0) {
-      const slot = stack.pop() as number, depth = stack.pop() as number, grown = stack.pop() as number;
+      const slot = stack.pop() as number,
+        depth = stack.pop() as number,
+        grown = stack.pop() as number;
       if (grown + own >= least) continue;
       const reference = words[slot] as number;
       const joined = this.#surfaceWith(slot);
@@ -343,8 +396,10 @@ export class DynamicTlas implements Tlas {
       if (reference >= LEAF) continue;
       const below = grown + joined - this.#surfaceAt(slot);
       if (below + own >= least) continue;
-      const left = reference * NODE_WORDS + LEFT, right = reference * NODE_WORDS + RIGHT;
-      const isLeftFirst = this.#surfaceWith(left) - this.#surfaceAt(left) <= this.#surfaceWith(right) - this.#surfaceAt(right);
+      const left = reference * NODE_WORDS + LEFT,
+        right = reference * NODE_WORDS + RIGHT;
+      const isLeftFirst =
+        this.#surfaceWith(left) - this.#surfaceAt(left) <= this.#surfaceWith(right) - this.#surfaceAt(right);
       stack.push(below, depth + 1, isLeftFirst ? right : left, below, depth + 1, isLeftFirst ? left : right);
     }
     return best;
@@ -352,14 +407,19 @@ export class DynamicTlas implements Tlas {
 
   /** Fits boxes and heights from a node up to the root, or to where nothing changes any more. */
   #refit(node: number): void {
-    const words = this.#words, memory = this.#memory, box = this.#fitted, heights = this.#heights;
+    const words = this.#words,
+      memory = this.#memory,
+      box = this.#fitted,
+      heights = this.#heights;
     for (;;) {
       const base = node * NODE_WORDS;
-      const height = 1 + Math.max(this.#heightOf(words[base + LEFT] as number), this.#heightOf(words[base + RIGHT] as number));
+      const height =
+        1 + Math.max(this.#heightOf(words[base + LEFT] as number), this.#heightOf(words[base + RIGHT] as number));
       const isSameHeight = heights[node] === height;
       heights[node] = height;
       if (node === 0) return;
-      const slot = this.#slotOf(node), at = boxAt(slot);
+      const slot = this.#slotOf(node),
+        at = boxAt(slot);
       let isSame = isSameHeight;
       for (let k = 0; k < 3; k++) {
         box[k] = Math.min(memory[base + k] as number, memory[base + 8 + k] as number);
@@ -385,7 +445,8 @@ export class DynamicTlas implements Tlas {
   }
 
   #rebuild(changes: readonly (readonly [instance: number, placing: TlasInstance | undefined])[]): void {
-    const slots = this.#slots, memory = this.#memory;
+    const slots = this.#slots,
+      memory = this.#memory;
     const boxes = new Float32Array(6 * slots.length);
     const present = new Uint8Array(slots.length);
     for (let i = 0; i < slots.length; i++) {
@@ -397,7 +458,8 @@ export class DynamicTlas implements Tlas {
         boxes[6 * i + 3 + k] = memory[boxAt(slot) + 4 + k] as number;
       }
     }
-    for (const [instance, placing] of changes) present[instance] = placing && placeInstance(placing, boxes, 6 * instance, this.toObject, 12 * instance) ? 1 : 0;
+    for (const [instance, placing] of changes)
+      present[instance] = placing && placeInstance(placing, boxes, 6 * instance, this.toObject, 12 * instance) ? 1 : 0;
     this.#build(boxes, present);
   }
 
@@ -429,7 +491,8 @@ export class DynamicTlas implements Tlas {
       }
       words[base + RESERVED] = 0;
       // Built trees have children behind their parents.
-      this.#heights[node] = 1 + Math.max(this.#heightOf(words[base + LEFT] as number), this.#heightOf(words[base + RIGHT] as number));
+      this.#heights[node] =
+        1 + Math.max(this.#heightOf(words[base + LEFT] as number), this.#heightOf(words[base + RIGHT] as number));
       this.#mark(node);
     }
     this.#changes = 0;
@@ -438,7 +501,8 @@ export class DynamicTlas implements Tlas {
   }
 
   #finish(): void {
-    if (this.#nodes.length !== this.#nodeCount * NODE_WORDS) this.#nodes = this.#memory.subarray(0, this.#nodeCount * NODE_WORDS);
+    if (this.#nodes.length !== this.#nodeCount * NODE_WORDS)
+      this.#nodes = this.#memory.subarray(0, this.#nodeCount * NODE_WORDS);
     const { min, max } = rootBounds(this.#memory);
     this.bounds.min.set(min);
     this.bounds.max.set(max);

@@ -25,7 +25,8 @@ interface Entry {
   readonly used: number;
 }
 
-const TREES = 'trees', ENTRIES = 'entries';
+const TREES = 'trees',
+  ENTRIES = 'entries';
 
 const done = <T>(request: IDBRequest<T>): Promise<T> =>
   new Promise((resolve, reject) => {
@@ -40,11 +41,16 @@ const finished = (transaction: IDBTransaction): Promise<void> =>
   });
 
 /**
- * Opens a store of hierarchies in the browser's database, for `BlasCache` of `@glanz/bvh/cache`. Works in pages and workers.
+ * Opens a store of hierarchies in the browser's database, for `BlasCache` of `@glanz/bvh/cache`. Works in pages and
+ * workers.
  *
  * @throws the database's error where there is none or it may not be used (some private windows).
  */
-export async function openIndexedDbStore({ name = 'glanz-bvh', maxBytes = 256 * 2 ** 20, indexedDB = globalThis.indexedDB }: IndexedDbStoreOptions = {}): Promise<IndexedDbStore> {
+export async function openIndexedDbStore({
+  name = 'glanz-bvh',
+  maxBytes = 256 * 2 ** 20,
+  indexedDB = globalThis.indexedDB,
+}: IndexedDbStoreOptions = {}): Promise<IndexedDbStore> {
   const opening = indexedDB.open(name, 1);
   opening.onupgradeneeded = () => {
     opening.result.createObjectStore(TREES);
@@ -57,15 +63,21 @@ export async function openIndexedDbStore({ name = 'glanz-bvh', maxBytes = 256 * 
     async get(key) {
       const transaction = database.transaction([TREES, ENTRIES], 'readwrite');
       const entries = transaction.objectStore(ENTRIES);
-      const [bytes, entry] = await Promise.all([done(transaction.objectStore(TREES).get(key) as IDBRequest<ArrayBuffer | undefined>), done(entries.get(key) as IDBRequest<Entry | undefined>)]);
+      const [bytes, entry] = await Promise.all([
+        done(transaction.objectStore(TREES).get(key) as IDBRequest<ArrayBuffer | undefined>),
+        done(entries.get(key) as IDBRequest<Entry | undefined>),
+      ]);
       if (entry) entries.put({ ...entry, used: Date.now() });
       return bytes;
     },
     async set(key, bytes) {
       const transaction = database.transaction([TREES, ENTRIES], 'readwrite');
-      const trees = transaction.objectStore(TREES), entries = transaction.objectStore(ENTRIES);
+      const trees = transaction.objectStore(TREES),
+        entries = transaction.objectStore(ENTRIES);
       const end = finished(transaction);
-      const others = ((await done(entries.getAll())) as Entry[]).filter((entry) => entry.key !== key).sort((a, b) => a.used - b.used);
+      const others = ((await done(entries.getAll())) as Entry[])
+        .filter((entry) => entry.key !== key)
+        .sort((a, b) => a.used - b.used);
       let total = bytes.byteLength + others.reduce((sum, entry) => sum + entry.bytes, 0);
       for (const entry of others) {
         if (total <= maxBytes) break;

@@ -29,7 +29,8 @@ export const MAX_PRIMITIVES = 2 ** LEAF_FIRST_BITS - LEAF_MAX;
 export const FAR = 3.4028234663852886e38;
 
 /** The reference to a leaf of `count` primitives from `first` on. */
-export const leafReference = (first: number, count: number): number => (LEAF | ((count - 1) << LEAF_FIRST_BITS) | first) >>> 0;
+export const leafReference = (first: number, count: number): number =>
+  (LEAF | ((count - 1) << LEAF_FIRST_BITS) | first) >>> 0;
 
 /** First primitive of the leaf behind a reference. */
 export const leafFirst = (reference: number): number => reference & (2 ** LEAF_FIRST_BITS - 1);
@@ -55,7 +56,8 @@ export interface Aabb {
 
 /** The box around both children of the root; min > max for an empty tree. */
 export function rootBounds(nodes: Float32Array): Aabb {
-  const min = new Float32Array(3).fill(Infinity), max = new Float32Array(3).fill(-Infinity);
+  const min = new Float32Array(3).fill(Infinity),
+    max = new Float32Array(3).fill(-Infinity);
   for (const low of [LEFT_MIN, RIGHT_MIN]) {
     if (nodes[low] === FAR) continue;
     for (let k = 0; k < 3; k++) {
@@ -75,7 +77,16 @@ export function encloseChildren(nodes: Float32Array, min: number, max: number, c
 }
 
 /** Writes six numbers. */
-export function putBox(boxes: Float32Array | Float64Array, at: number, x0: number, y0: number, z0: number, x1: number, y1: number, z1: number): void {
+export function putBox(
+  boxes: Float32Array | Float64Array,
+  at: number,
+  x0: number,
+  y0: number,
+  z0: number,
+  x1: number,
+  y1: number,
+  z1: number,
+): void {
   boxes[at] = x0;
   boxes[at + 1] = y0;
   boxes[at + 2] = z0;

@@ -5,11 +5,12 @@ const MAGIC = 0x4c564247; // "GBVL" in little-endian bytes
 
 /**
  * A {@link BlasStore} in one file beside a model, for `BlasCache` of `@glanz/bvh/cache`. The file is read at the first
- * question and written as a whole, first under another name, so that it is never half there. Two processes may use it: the
- * last one to write wins. A file that is damaged counts as empty, or as what can still be read.
+ * question and written as a whole, first under another name, so that it is never half there. Two processes may use it:
+ * the last one to write wins. A file that is damaged counts as empty, or as what can still be read.
  *
  * @param path E.g. `model.glb.bvh`.
- * @param options `maxBytes`: beyond so many bytes, hierarchies used longest ago are left out of the file. Default 256 MiB.
+ * @param options `maxBytes`: beyond so many bytes, hierarchies used longest ago are left out of the file. Default 256
+ * MiB.
  * @example
  * const hierarchies = new BlasCache(fileStore('model.glb.bvh'), await BvhWorkers.create());
  */
@@ -17,11 +18,12 @@ export function fileStore(path: string, { maxBytes = 256 * 2 ** 20 }: { readonly
   let reading: Promise<Map<string, Uint8Array>> | undefined;
   let writing: Promise<void> | undefined;
   let waiting: Promise<void> | undefined;
-  const entries = () => (reading ??= readFile(path).then(unpack, (error: NodeJS.ErrnoException) => {
-    if (error.code === 'ENOENT') return new Map<string, Uint8Array>();
-    reading = undefined;
-    throw error;
-  }));
+  const entries = () =>
+    (reading ??= readFile(path).then(unpack, (error: NodeJS.ErrnoException) => {
+      if (error.code === 'ENOENT') return new Map<string, Uint8Array>();
+      reading = undefined;
+      throw error;
+    }));
   const write = async () => {
     const temporary = `${path}.${process.pid}.tmp`;
     try {
@@ -52,11 +54,13 @@ export function fileStore(path: string, { maxBytes = 256 * 2 ** 20 }: { readonly
       kept.delete(key);
       kept.set(key, new Uint8Array(bytes));
       // Whatever comes while a write is under way goes into the next one together.
-      waiting ??= (writing ?? Promise.resolve()).catch(() => undefined).then(() => {
-        waiting = undefined;
-        writing = write();
-        return writing;
-      });
+      waiting ??= (writing ?? Promise.resolve())
+        .catch(() => undefined)
+        .then(() => {
+          waiting = undefined;
+          writing = write();
+          return writing;
+        });
       await waiting;
     },
   };

@@ -1,14 +1,29 @@
 import type { Blas, TriangleMesh } from './blas';
 import { BvhError } from './error';
-import { encloseChildren, FAR, LEAF, LEFT, LEFT_MAX, LEFT_MIN, leafCount, leafFirst, NODE_WORDS, RIGHT, RIGHT_MAX, RIGHT_MIN, rootBounds } from './layout';
+import {
+  encloseChildren,
+  FAR,
+  LEAF,
+  LEFT,
+  LEFT_MAX,
+  LEFT_MIN,
+  leafCount,
+  leafFirst,
+  NODE_WORDS,
+  RIGHT,
+  RIGHT_MAX,
+  RIGHT_MIN,
+  rootBounds,
+} from './layout';
 
 /**
  * Fits the boxes of a BLAS to moved vertices, in place; the tree keeps its shape, so it gets worse as the mesh departs
- * from what it was built for: `RefitQuality` of `@glanz/bvh/refit-quality` says when to rebuild. Triangles that were left
- * out of the build stay out.
+ * from what it was built for: `RefitQuality` of `@glanz/bvh/refit-quality` says when to rebuild. Triangles that were
+ * left out of the build stay out.
  *
  * @param mesh The mesh with its new positions; same triangles, same order.
- * @throws {BvhError} `bvh/positions` if a triangle that is in the tree is gone or no longer finite; the boxes are then undefined.
+ * @throws {BvhError} `bvh/positions` if a triangle that is in the tree is gone or no longer finite; the boxes are then
+ * undefined.
  */
 export function refitBlas(blas: Blas, mesh: TriangleMesh): void {
   const { nodes, triangleIndices, bounds } = blas;
@@ -30,15 +45,30 @@ export function refitBlas(blas: Blas, mesh: TriangleMesh): void {
 }
 
 /** Sets the box at `min` and `max` to that around the triangles of a leaf. */
-function encloseTriangles(nodes: Float32Array, min: number, max: number, triangleIndices: Uint32Array, leaf: number, { positions, indices }: TriangleMesh): void {
-  const first = leafFirst(leaf), end = first + leafCount(leaf);
-  let x0 = Infinity, y0 = Infinity, z0 = Infinity, x1 = -Infinity, y1 = -Infinity, z1 = -Infinity;
+function encloseTriangles(
+  nodes: Float32Array,
+  min: number,
+  max: number,
+  triangleIndices: Uint32Array,
+  leaf: number,
+  { positions, indices }: TriangleMesh,
+): void {
+  const first = leafFirst(leaf),
+    end = first + leafCount(leaf);
+  let x0 = Infinity,
+    y0 = Infinity,
+    z0 = Infinity,
+    x1 = -Infinity,
+    y1 = -Infinity,
+    z1 = -Infinity;
   for (let i = first; i < end; i++) {
     const triangle = triangleIndices[i] as number;
     let sum = 0;
     for (let corner = 3 * triangle; corner < 3 * triangle + 3; corner++) {
       const v = 3 * (indices ? (indices[corner] as number) : corner);
-      const x = positions[v] as number, y = positions[v + 1] as number, z = positions[v + 2] as number;
+      const x = positions[v] as number,
+        y = positions[v + 1] as number,
+        z = positions[v + 2] as number;
       if (x < x0) x0 = x;
       if (y < y0) y0 = y;
       if (z < z0) z0 = z;
@@ -48,7 +78,11 @@ function encloseTriangles(nodes: Float32Array, min: number, max: number, triangl
       sum += x + y + z;
     }
     // Only if each of the nine numbers is there and finite; so many floats do not overflow a double.
-    if (!Number.isFinite(sum)) throw new BvhError('bvh/positions', `Triangle ${triangle} is no more, or has moved to a place that is not finite: build the hierarchy anew.`);
+    if (!Number.isFinite(sum))
+      throw new BvhError(
+        'bvh/positions',
+        `Triangle ${triangle} is no more, or has moved to a place that is not finite: build the hierarchy anew.`,
+      );
   }
   nodes[min] = x0;
   nodes[min + 1] = y0;

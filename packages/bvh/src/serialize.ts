@@ -1,6 +1,18 @@
 import type { Blas, TriangleMesh } from './blas';
 import { BvhError } from './error';
-import { BLAS_MAX_DEPTH, FAR, LEAF, LEFT, LEFT_MIN, leafCount, leafFirst, NODE_WORDS, PARENT, RIGHT, RIGHT_MIN } from './layout';
+import {
+  BLAS_MAX_DEPTH,
+  FAR,
+  LEAF,
+  LEFT,
+  LEFT_MIN,
+  leafCount,
+  leafFirst,
+  NODE_WORDS,
+  PARENT,
+  RIGHT,
+  RIGHT_MIN,
+} from './layout';
 
 /** Version of the format that {@link serializeBlas} writes and {@link deserializeBlas} reads. */
 export const SERIALIZED_VERSION = 1;
@@ -14,12 +26,16 @@ const HEADER_WORDS = 4;
 const TREE_WORDS = 8;
 
 /**
- * Puts hierarchies into one buffer, to be kept or sent: about 35 bytes a triangle. {@link deserializeBlases} makes the same
- * trees of it. The meshes are not in it.
+ * Puts hierarchies into one buffer, to be kept or sent: about 35 bytes a triangle. {@link deserializeBlases} makes the
+ * same trees of it. The meshes are not in it.
  */
 export function serializeBlases(trees: readonly Blas[]): ArrayBuffer {
-  const length = trees.reduce((sum, { nodes, triangleIndices }) => sum + TREE_WORDS + nodes.length + triangleIndices.length, HEADER_WORDS);
-  const words = new Uint32Array(length), floats = new Float32Array(words.buffer);
+  const length = trees.reduce(
+    (sum, { nodes, triangleIndices }) => sum + TREE_WORDS + nodes.length + triangleIndices.length,
+    HEADER_WORDS,
+  );
+  const words = new Uint32Array(length),
+    floats = new Float32Array(words.buffer);
   words[0] = MAGIC;
   words[1] = SERIALIZED_VERSION;
   words[2] = trees.length;
@@ -46,37 +62,53 @@ export function serializeBlases(trees: readonly Blas[]): ArrayBuffer {
 export const serializeBlas = (blas: Blas): ArrayBuffer => serializeBlases([blas]);
 
 /**
- * Makes hierarchies of what {@link serializeBlases} has written. Everything is checked, so that no query or traversal of
- * what comes out leaves its arrays, whoever has written the buffer: lengths, the checksum, every reference and the depth;
- * and with `meshes` also that there are the triangles that the trees name.
+ * Makes hierarchies of what {@link serializeBlases} has written. Everything is checked, so that no query or traversal
+ * of what comes out leaves its arrays, whoever has written the buffer: lengths, the checksum, every reference and the
+ * depth; and with `meshes` also that there are the triangles that the trees name.
  *
  * @param data May come from a machine of another byte order. Its words need not be aligned.
- * @param meshes What each tree was built for. Without them, keep the trees together with their meshes by other means, such
- * as the key of `@glanz/bvh/cache`.
+ * @param meshes What each tree was built for. Without them, keep the trees together with their meshes by other means,
+ * such as the key of `@glanz/bvh/cache`.
  * @throws {BvhError} `bvh/not-serialized` if it is something else, `bvh/version` if written by another version of the
  * format, `bvh/truncated` for a wrong length, `bvh/checksum` if bytes have changed, `bvh/corrupt` for trees that lead
  * nowhere or too deep, `bvh/other-mesh` if the trees are not those of the meshes.
  */
 export function deserializeBlases(data: ArrayBuffer | ArrayBufferView, meshes?: readonly TriangleMesh[]): Blas[] {
   const words = wordsOf(data);
-  if (words[1] !== SERIALIZED_VERSION) throw new BvhError('bvh/version', `The hierarchy was written in version ${words[1]} of the format; this package reads ${SERIALIZED_VERSION}: build it anew.`);
+  if (words[1] !== SERIALIZED_VERSION)
+    throw new BvhError(
+      'bvh/version',
+      `The hierarchy was written in version ${words[1]} of the format; this package reads ${SERIALIZED_VERSION}: build it anew.`,
+    );
   const count = words[2] as number;
-  const truncated = () => new BvhError('bvh/truncated', `The hierarchy has ${words.length} words, which is not what its own header says: it was cut off, build it anew.`);
+  const truncated = () =>
+    new BvhError(
+      'bvh/truncated',
+      `The hierarchy has ${words.length} words, which is not what its own header says: it was cut off, build it anew.`,
+    );
   if (words.length < HEADER_WORDS + TREE_WORDS * count) throw truncated();
-  let length = HEADER_WORDS + TREE_WORDS * count, nodeWords = 0;
+  let length = HEADER_WORDS + TREE_WORDS * count,
+    nodeWords = 0;
   for (let tree = 0; tree < count; tree++) {
     const at = HEADER_WORDS + TREE_WORDS * tree;
     nodeWords += NODE_WORDS * (words[at] as number);
     length += NODE_WORDS * (words[at] as number) + (words[at + 1] as number);
   }
   if (words.length !== length) throw truncated();
-  if (words[3] !== checksum(words)) throw new BvhError('bvh/checksum', 'The bytes of the hierarchy have changed since it was written: build it anew.');
-  if (meshes && meshes.length !== count) throw new BvhError('bvh/other-mesh', `There are ${count} hierarchies for ${meshes.length} meshes: build them anew.`);
-  let node = HEADER_WORDS + TREE_WORDS * count, index = node + nodeWords;
+  if (words[3] !== checksum(words))
+    throw new BvhError('bvh/checksum', 'The bytes of the hierarchy have changed since it was written: build it anew.');
+  if (meshes && meshes.length !== count)
+    throw new BvhError(
+      'bvh/other-mesh',
+      `There are ${count} hierarchies for ${meshes.length} meshes: build them anew.`,
+    );
+  let node = HEADER_WORDS + TREE_WORDS * count,
+    index = node + nodeWords;
   const trees: Blas[] = [];
   for (let tree = 0; tree < count; tree++) {
     const at = HEADER_WORDS + TREE_WORDS * tree;
-    const nodeCount = words[at] as number, indexCount = words[at + 1] as number;
+    const nodeCount = words[at] as number,
+      indexCount = words[at + 1] as number;
     const box = new Float32Array(words.slice(at + 2, at + TREE_WORDS).buffer);
     const nodes = new Float32Array(words.slice(node, (node += NODE_WORDS * nodeCount)).buffer);
     const triangleIndices = words.slice(index, (index += indexCount));
@@ -91,27 +123,44 @@ export function deserializeBlases(data: ArrayBuffer | ArrayBufferView, meshes?: 
 /** Makes one hierarchy of what {@link serializeBlas} has written. See {@link deserializeBlases}. */
 export function deserializeBlas(data: ArrayBuffer | ArrayBufferView, mesh?: TriangleMesh): Blas {
   const [blas, other] = deserializeBlases(data, mesh && [mesh]);
-  if (!blas || other) throw new BvhError('bvh/other-mesh', 'The buffer does not hold exactly one hierarchy: read it by deserializeBlases().');
+  if (!blas || other)
+    throw new BvhError(
+      'bvh/other-mesh',
+      'The buffer does not hold exactly one hierarchy: read it by deserializeBlases().',
+    );
   return blas;
 }
 
 /** The words of a buffer in this machine's order; its own bytes if they lie well. */
 function wordsOf(data: ArrayBuffer | ArrayBufferView): Uint32Array<ArrayBuffer> {
-  const bytes = ArrayBuffer.isView(data) ? new Uint8Array(data.buffer, data.byteOffset, data.byteLength) : new Uint8Array(data);
-  const other = () => new BvhError('bvh/not-serialized', 'The buffer does not begin like a serialized hierarchy: build it anew.');
+  const bytes = ArrayBuffer.isView(data)
+    ? new Uint8Array(data.buffer, data.byteOffset, data.byteLength)
+    : new Uint8Array(data);
+  const other = () =>
+    new BvhError('bvh/not-serialized', 'The buffer does not begin like a serialized hierarchy: build it anew.');
   if (bytes.length < 4) throw other();
   const whole = bytes.length - (bytes.length % 4);
   const plain = bytes.buffer instanceof ArrayBuffer && bytes.byteOffset % 4 === 0;
-  let words = plain ? new Uint32Array(bytes.buffer as ArrayBuffer, bytes.byteOffset, whole / 4) : new Uint32Array(bytes.slice(0, whole).buffer);
+  let words = plain
+    ? new Uint32Array(bytes.buffer as ArrayBuffer, bytes.byteOffset, whole / 4)
+    : new Uint32Array(bytes.slice(0, whole).buffer);
   if (words[0] === swapped(MAGIC)) words = words.map(swapped);
   if (words[0] !== MAGIC) throw other();
-  if (whole !== bytes.length || words.length < HEADER_WORDS) throw new BvhError('bvh/truncated', `The hierarchy has ${bytes.length} bytes, which are no whole words: it was cut off, build it anew.`);
+  if (whole !== bytes.length || words.length < HEADER_WORDS)
+    throw new BvhError(
+      'bvh/truncated',
+      `The hierarchy has ${bytes.length} bytes, which are no whole words: it was cut off, build it anew.`,
+    );
   return words;
 }
 
-const swapped = (word: number): number => ((word << 24) | ((word & 0xff00) << 8) | ((word >>> 8) & 0xff00) | (word >>> 24)) >>> 0;
+const swapped = (word: number): number =>
+  ((word << 24) | ((word & 0xff00) << 8) | ((word >>> 8) & 0xff00) | (word >>> 24)) >>> 0;
 
-/** Mixes words as MurmurHash3 (Appleby 2008) does. Each step is a bijection, so a change within one word never goes unseen. */
+/**
+ * Mixes words as MurmurHash3 (Appleby 2008) does. Each step is a bijection, so a change within one word never goes
+ * unseen.
+ */
 function checksum(words: Uint32Array): number {
   let hash = 0;
   for (let i = HEADER_WORDS; i < words.length; i++) {
@@ -123,9 +172,13 @@ function checksum(words: Uint32Array): number {
   return hash >>> 0;
 }
 
-/** Every reference leads to a later node or to triangles that are there, every node is reached once, and none is too deep. */
+/**
+ * Every reference leads to a later node or to triangles that are there, every node is reached once, and none is too
+ * deep.
+ */
 function checkNodes(nodes: Float32Array, nodeCount: number, indexCount: number, tree: number): void {
-  const corrupt = (what: string) => new BvhError('bvh/corrupt', `Tree ${tree} of the serialized hierarchies ${what}: build it anew.`);
+  const corrupt = (what: string) =>
+    new BvhError('bvh/corrupt', `Tree ${tree} of the serialized hierarchies ${what}: build it anew.`);
   if (nodeCount === 0) throw corrupt('has no root');
   const words = new Uint32Array(nodes.buffer);
   const depths = new Uint8Array(nodeCount);
@@ -136,15 +189,26 @@ function checkNodes(nodes: Float32Array, nodeCount: number, indexCount: number, 
     const depth = depths[node] as number;
     if (depth === 0) throw corrupt(`never leads to its node ${node}`);
     if (depth > BLAS_MAX_DEPTH) throw corrupt('is too deep');
-    for (const [side, low] of [[LEFT, LEFT_MIN], [RIGHT, RIGHT_MIN]] as const) {
+    for (const [side, low] of [
+      [LEFT, LEFT_MIN],
+      [RIGHT, RIGHT_MIN],
+    ] as const) {
       const reference = words[at + side] as number;
       if (reference < LEAF) {
-        if (reference <= node || reference >= nodeCount || depths[reference] !== 0 || words[reference * NODE_WORDS + PARENT] !== node) throw corrupt(`leads from node ${node} to ${reference}`);
+        if (
+          reference <= node ||
+          reference >= nodeCount ||
+          depths[reference] !== 0 ||
+          words[reference * NODE_WORDS + PARENT] !== node
+        )
+          throw corrupt(`leads from node ${node} to ${reference}`);
         depths[reference] = depth + 1;
       } else {
         // An empty tree names a leaf that is not there, behind boxes that are never entered.
-        const missing = nodes[at + low] === FAR && node === 0 && nodeCount === 1 && (side === RIGHT || indexCount === 0);
-        if (!missing && leafFirst(reference) + leafCount(reference) > indexCount) throw corrupt(`has a leaf at node ${node} without triangles`);
+        const missing =
+          nodes[at + low] === FAR && node === 0 && nodeCount === 1 && (side === RIGHT || indexCount === 0);
+        if (!missing && leafFirst(reference) + leafCount(reference) > indexCount)
+          throw corrupt(`has a leaf at node ${node} without triangles`);
       }
     }
   }
@@ -153,6 +217,10 @@ function checkNodes(nodes: Float32Array, nodeCount: number, indexCount: number, 
 function checkTriangles(triangleIndices: Uint32Array, { positions, indices }: TriangleMesh, tree: number): void {
   const count = Math.floor((indices ? indices.length : positions.length / 3) / 3);
   for (let i = 0; i < triangleIndices.length; i++) {
-    if ((triangleIndices[i] as number) >= count) throw new BvhError('bvh/other-mesh', `Tree ${tree} has a triangle ${triangleIndices[i]}; its mesh has ${count}: build it anew.`);
+    if ((triangleIndices[i] as number) >= count)
+      throw new BvhError(
+        'bvh/other-mesh',
+        `Tree ${tree} has a triangle ${triangleIndices[i]}; its mesh has ${count}: build it anew.`,
+      );
   }
 }

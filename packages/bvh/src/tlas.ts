@@ -17,26 +17,29 @@ export interface Tlas {
   readonly nodes: Float32Array<ArrayBuffer>;
   readonly nodeCount: number;
   /**
-   * Leaf order → instance given. Instances that nothing can hit are left out: empty BLAS, a transform that is not finite
-   * or flattens space.
+   * Leaf order → instance given. Instances that nothing can hit are left out: empty BLAS, a transform that is not
+   * finite or flattens space.
    */
   readonly instanceOrder: Uint32Array<ArrayBuffer>;
-  /** 12 numbers an instance given: the rows of the 3×4 matrix from world to object space; NaN where it does not exist. */
+  /**
+   * 12 numbers an instance given: the rows of the 3×4 matrix from world to object space; NaN where it does not exist.
+   */
   readonly toObject: Float64Array<ArrayBuffer>;
   /** Box of everything, in the world. */
   readonly bounds: Aabb;
 }
 
 /**
- * Builds the hierarchy over instances: a millisecond for a thousand. Rebuild it when instances move; their BLAS stay. Where few
- * of many instances move, appear or vanish, `DynamicTlas` of `@glanz/bvh/dynamic-tlas` costs less.
- * No way from the root has more than {@link TLAS_MAX_DEPTH} inner nodes.
+ * Builds the hierarchy over instances: a millisecond for a thousand. Rebuild it when instances move; their BLAS stay.
+ * Where few of many instances move, appear or vanish, `DynamicTlas` of `@glanz/bvh/dynamic-tlas` costs less. No way
+ * from the root has more than {@link TLAS_MAX_DEPTH} inner nodes.
  *
  * @throws {BvhError} `bvh/transform` for a transform without 16 numbers, `bvh/too-many` beyond 4 million instances.
  */
 export function buildTlas(instances: readonly TlasInstance[]): Tlas {
   const { length } = instances;
-  if (length > 2 ** TLAS_MAX_DEPTH) throw new BvhError('bvh/too-many', `${length} instances are too many; one hierarchy holds ${2 ** TLAS_MAX_DEPTH}.`);
+  if (length > 2 ** TLAS_MAX_DEPTH)
+    throw new BvhError('bvh/too-many', `${length} instances are too many; one hierarchy holds ${2 ** TLAS_MAX_DEPTH}.`);
   const boxes = new Float32Array(length * 6);
   const toObject = new Float64Array(length * 12);
   const kept = new Uint32Array(length);

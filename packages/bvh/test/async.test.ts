@@ -35,11 +35,23 @@ describe('buildBlasAsync', () => {
 
   test('stops when aborted, and passes errors on', async () => {
     const mesh = strewn(60_000, 0.05, randomNumbers(6));
-    const control = new AbortController(), reason = new Error('enough');
-    await expect(buildBlasAsync(mesh, { sliceMs: 0, signal: control.signal, onProgress: () => control.abort(reason) })).rejects.toBe(reason);
+    const control = new AbortController(),
+      reason = new Error('enough');
+    await expect(
+      buildBlasAsync(mesh, { sliceMs: 0, signal: control.signal, onProgress: () => control.abort(reason) }),
+    ).rejects.toBe(reason);
     await expect(buildBlasAsync(mesh, { signal: control.signal })).rejects.toBe(reason);
     await expect(buildBlasAsync({ positions: new Float32Array(4) })).rejects.toBeInstanceOf(BvhError);
-    await expect(buildBlasAsync(mesh, { builder: 'quick' as 'balanced' })).rejects.toMatchObject({ code: 'bvh/options' });
-    await expect(buildBlasAsync(mesh, { sliceMs: 0, onProgress: () => { throw new TypeError('mine'); } })).rejects.toThrow('mine');
+    await expect(buildBlasAsync(mesh, { builder: 'quick' as 'balanced' })).rejects.toMatchObject({
+      code: 'bvh/options',
+    });
+    await expect(
+      buildBlasAsync(mesh, {
+        sliceMs: 0,
+        onProgress: () => {
+          throw new TypeError('mine');
+        },
+      }),
+    ).rejects.toThrow('mine');
   });
 });

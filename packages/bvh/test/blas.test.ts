@@ -20,7 +20,12 @@ describe('buildBlas', () => {
       const mesh = strewn(triangles, 0.1, randomNumbers(triangles));
       const tree = buildBlas(mesh);
       const nodes = tree.nodes.slice();
-      for (const [seed, more] of [[7, triangles], [8, 2 * triangles], [9, triangles]] as const) buildBlas(strewn(more, 0.1, randomNumbers(seed)));
+      for (const [seed, more] of [
+        [7, triangles],
+        [8, 2 * triangles],
+        [9, triangles],
+      ] as const)
+        buildBlas(strewn(more, 0.1, randomNumbers(seed)));
       expect(tree.nodes.every((value, i) => Object.is(value, nodes[i]))).toBe(true);
     }
   });
@@ -56,15 +61,27 @@ describe('buildBlas', () => {
     const count = mesh.indices.length / 3;
     const boxes = Array.from({ length: count }, (_, i) => {
       const corners = [0, 1, 2].map((c) => mesh.indices[3 * i + c]! * 3);
-      return [...[0, 1, 2].map((k) => Math.min(...corners.map((c) => mesh.positions[c + k]!))), ...[0, 1, 2].map((k) => Math.max(...corners.map((c) => mesh.positions[c + k]!)))];
+      return [
+        ...[0, 1, 2].map((k) => Math.min(...corners.map((c) => mesh.positions[c + k]!))),
+        ...[0, 1, 2].map((k) => Math.max(...corners.map((c) => mesh.positions[c + k]!))),
+      ];
     });
-    const union = (list: number[]) => list.reduce((b, i) => b.map((x, k) => (k < 3 ? Math.min(x, boxes[i]![k]!) : Math.max(x, boxes[i]![k]!))), [1, 1, 1, -1, -1, -1].map((s) => s * Infinity));
-    const area = ([a, b, c, x, y, z]: number[]) => (x! - a!) * (y! - b!) + (y! - b!) * (z! - c!) + (z! - c!) * (x! - a!);
+    const union = (list: number[]) =>
+      list.reduce(
+        (b, i) => b.map((x, k) => (k < 3 ? Math.min(x, boxes[i]![k]!) : Math.max(x, boxes[i]![k]!))),
+        [1, 1, 1, -1, -1, -1].map((s) => s * Infinity),
+      );
+    const area = ([a, b, c, x, y, z]: number[]) =>
+      (x! - a!) * (y! - b!) + (y! - b!) * (z! - c!) + (z! - c!) * (x! - a!);
     const whole = area(union(boxes.map((_, i) => i)));
     const cost = (list: number[]): number => {
       if (list.length <= 4) return (area(union(list)) / whole) * list.length;
-      const b = union(list), extents = [0, 1, 2].map((k) => b[3 + k]! - b[k]!), axis = extents.indexOf(Math.max(...extents));
-      const sorted = list.toSorted((i, j) => boxes[i]![axis]! + boxes[i]![3 + axis]! - boxes[j]![axis]! - boxes[j]![3 + axis]!);
+      const b = union(list),
+        extents = [0, 1, 2].map((k) => b[3 + k]! - b[k]!),
+        axis = extents.indexOf(Math.max(...extents));
+      const sorted = list.toSorted(
+        (i, j) => boxes[i]![axis]! + boxes[i]![3 + axis]! - boxes[j]![axis]! - boxes[j]![3 + axis]!,
+      );
       return area(b) / whole + cost(sorted.slice(0, sorted.length / 2)) + cost(sorted.slice(sorted.length / 2));
     };
     expect(statistics.sahCost).toBeLessThan(cost(boxes.map((_, i) => i)));
@@ -93,7 +110,9 @@ describe('buildBlas', () => {
     mesh.positions[9 * 7 + 4] = NaN;
     mesh.positions[9 * 20] = Infinity;
     const blas = buildBlas(mesh);
-    expect([...blas.triangleIndices].sort((a, b) => a - b)).toEqual(Array.from({ length: 50 }, (_, i) => i).filter((i) => i !== 7 && i !== 20));
+    expect([...blas.triangleIndices].sort((a, b) => a - b)).toEqual(
+      Array.from({ length: 50 }, (_, i) => i).filter((i) => i !== 7 && i !== 20),
+    );
     checkBlas(blas, mesh);
     expect([...blas.bounds.min, ...blas.bounds.max].every(Number.isFinite)).toBe(true);
   });
@@ -109,8 +128,12 @@ describe('buildBlas', () => {
   test('wrong arrays are refused', () => {
     expect(code(() => buildBlas({ positions: new Float32Array(4) }))).toBe('bvh/positions');
     expect(code(() => buildBlas({ positions: new Float32Array(12) }))).toBe('bvh/indices');
-    expect(code(() => buildBlas({ positions: new Float32Array(9), indices: new Uint32Array([0, 1]) }))).toBe('bvh/indices');
-    expect(code(() => buildBlas({ positions: new Float32Array(9), indices: new Uint32Array([0, 1, 3]) }))).toBe('bvh/indices');
+    expect(code(() => buildBlas({ positions: new Float32Array(9), indices: new Uint32Array([0, 1]) }))).toBe(
+      'bvh/indices',
+    );
+    expect(code(() => buildBlas({ positions: new Float32Array(9), indices: new Uint32Array([0, 1, 3]) }))).toBe(
+      'bvh/indices',
+    );
     expect(code(() => buildBlas({ positions: new Float32Array(9) }, { maxLeafTriangles: 17 }))).toBe('bvh/options');
     expect(code(() => buildBlas({ positions: new Float32Array(9) }, { bins: 1 }))).toBe('bvh/options');
   });
@@ -124,6 +147,9 @@ test('packTriangles gives vertices and ids in leaf order', () => {
   for (let i = 0; i < 40; i++) {
     const triangle = blas.triangleIndices[i]!;
     expect(ids[12 * i + 3]).toBe(triangle);
-    for (let c = 0; c < 3; c++) expect(packed.subarray(12 * i + 4 * c, 12 * i + 4 * c + 3)).toEqual(mesh.positions.subarray(9 * triangle + 3 * c, 9 * triangle + 3 * c + 3));
+    for (let c = 0; c < 3; c++)
+      expect(packed.subarray(12 * i + 4 * c, 12 * i + 4 * c + 3)).toEqual(
+        mesh.positions.subarray(9 * triangle + 3 * c, 9 * triangle + 3 * c + 3),
+      );
   }
 });

@@ -14,7 +14,9 @@ function memory(): BlasStore & { readonly kept: Map<string, ArrayBuffer> } {
   return { kept, get: async (key) => kept.get(key), set: async (key, bytes) => void kept.set(key, bytes) };
 }
 
-const builder = () => ({ buildBlas: vi.fn<(m: TriangleMesh, options: object) => Blas>((m, options) => buildBlas(m, options)) });
+const builder = () => ({
+  buildBlas: vi.fn<(m: TriangleMesh, options: object) => Blas>((m, options) => buildBlas(m, options)),
+});
 
 describe('blasKey', () => {
   test('is the same for the same content, whatever arrays hold it, and another for any other', async () => {
@@ -32,14 +34,25 @@ describe('blasKey', () => {
     const moved = mesh.positions.slice();
     moved[17]! += 1e-7;
     const turned = mesh.indices.slice().reverse();
-    const all = [base, await key({ positions: moved, indices: mesh.indices }), await key({ positions: mesh.positions, indices: turned }), await key({ positions: mesh.positions }), await key({ positions: mesh.positions, indices: Uint16Array.from(mesh.indices) }), await key(mesh, { bins: 8 }), await key(mesh, { maxLeafTriangles: 2 }), await key(mesh, { builder: 'fast' }), await key(mesh, { builder: { name: 'best', build: () => undefined } })];
+    const all = [
+      base,
+      await key({ positions: moved, indices: mesh.indices }),
+      await key({ positions: mesh.positions, indices: turned }),
+      await key({ positions: mesh.positions }),
+      await key({ positions: mesh.positions, indices: Uint16Array.from(mesh.indices) }),
+      await key(mesh, { bins: 8 }),
+      await key(mesh, { maxLeafTriangles: 2 }),
+      await key(mesh, { builder: 'fast' }),
+      await key(mesh, { builder: { name: 'best', build: () => undefined } }),
+    ];
     expect(new Set(all).size).toBe(all.length);
   });
 });
 
 describe('BlasCache', () => {
   test('builds once, and reads the same tree ever after', async () => {
-    const store = memory(), build = builder();
+    const store = memory(),
+      build = builder();
     const cache = new BlasCache(store, build, { minTriangles: 0 });
     const first = await cache.buildBlas(mesh);
     await cache.written();
@@ -83,7 +96,9 @@ describe('BlasCache', () => {
   });
 
   test('damaged bytes, those of another mesh, and a store that fails cost a build, no more', async () => {
-    const store = memory(), build = builder(), errors: unknown[] = [];
+    const store = memory(),
+      build = builder(),
+      errors: unknown[] = [];
     const cache = new BlasCache(store, build, { minTriangles: 0, onError: (error) => errors.push(error) });
     const expected = await cache.buildBlas(mesh);
     await cache.written();
@@ -100,10 +115,25 @@ describe('BlasCache', () => {
     }
     store.kept.set((await blasKey(small))!, bytes);
     expect(await cache.buildBlas(small)).toEqual(buildBlas(small));
-    expect(errors.map((error) => (error as BvhError).code)).toEqual(['bvh/checksum', 'bvh/truncated', 'bvh/not-serialized', 'bvh/other-mesh']);
-    const broken = { get: async () => { throw new Error('no get'); }, set: async () => { throw new Error('no set'); } };
+    expect(errors.map((error) => (error as BvhError).code)).toEqual([
+      'bvh/checksum',
+      'bvh/truncated',
+      'bvh/not-serialized',
+      'bvh/other-mesh',
+    ]);
+    const broken = {
+      get: async () => {
+        throw new Error('no get');
+      },
+      set: async () => {
+        throw new Error('no set');
+      },
+    };
     const told: string[] = [];
-    const over = new BlasCache(broken, build, { minTriangles: 0, onError: (error) => told.push((error as Error).message) });
+    const over = new BlasCache(broken, build, {
+      minTriangles: 0,
+      onError: (error) => told.push((error as Error).message),
+    });
     expect(await over.buildBlas(mesh)).toEqual(expected);
     await over.written();
     expect(told).toEqual(['no get', 'no set']);
@@ -111,7 +141,11 @@ describe('BlasCache', () => {
 
   test('does not wait for a store to write', async () => {
     let write = () => {};
-    const cache = new BlasCache({ get: async () => undefined, set: () => new Promise<void>((resolve) => (write = resolve)) }, builder(), { minTriangles: 0 });
+    const cache = new BlasCache(
+      { get: async () => undefined, set: () => new Promise<void>((resolve) => (write = resolve)) },
+      builder(),
+      { minTriangles: 0 },
+    );
     await cache.buildBlas(mesh);
     let written = false;
     const pending = cache.written().then(() => (written = true));
@@ -125,7 +159,9 @@ describe('BlasCache', () => {
     const reason = new Error('no longer wanted');
     const control = new AbortController();
     const build = builder();
-    const cache = new BlasCache({ get: async () => void control.abort(reason), set: async () => undefined }, build, { minTriangles: 0 });
+    const cache = new BlasCache({ get: async () => void control.abort(reason), set: async () => undefined }, build, {
+      minTriangles: 0,
+    });
     await expect(cache.buildBlas(mesh, { signal: control.signal })).rejects.toBe(reason);
     await expect(cache.buildBlas(mesh, { signal: control.signal })).rejects.toBe(reason);
     expect(build.buildBlas).not.toHaveBeenCalled();
@@ -175,7 +211,8 @@ describe('openIndexedDbStore', () => {
       await at(2, () => store.set('b', bytes(40, 2)));
       await at(3, () => store.get('a'));
       await at(4, () => store.set('c', bytes(40, 3)));
-      const kept = async () => (await Promise.all(['a', 'b', 'c', 'd'].map(async (key) => ((await store.get(key)) ? key : '')))).join('');
+      const kept = async () =>
+        (await Promise.all(['a', 'b', 'c', 'd'].map(async (key) => ((await store.get(key)) ? key : '')))).join('');
       expect(await kept()).toBe('ac');
       await at(5, () => store.set('d', bytes(101, 4)));
       expect(await kept()).toBe('');

@@ -1,6 +1,13 @@
 import { expect, test } from 'vitest';
 import { DynamicTlas } from '../src/dynamic-tlas';
-import { anyHitInstances, buildBlas, buildTlas, closestHitInstances, TLAS_MAX_DEPTH, type TlasInstance } from '../src/index';
+import {
+  anyHitInstances,
+  buildBlas,
+  buildTlas,
+  closestHitInstances,
+  TLAS_MAX_DEPTH,
+  type TlasInstance,
+} from '../src/index';
 import { FAR, LEAF, LEFT, leafCount, leafFirst, NODE_WORDS, PARENT, RIGHT } from '../src/layout';
 import { sahCost } from '../src/statistics';
 import { affine, baked, bruteForce, direction, randomNumbers, sphere, strewn } from './shapes';
@@ -12,7 +19,10 @@ const placed = (transform: ArrayLike<number>): TlasInstance => ({ bounds, transf
 
 type Placing = TlasInstance | undefined;
 
-/** Checks all that traversals and later updates rely on: each instance is in one leaf, boxes fit tightly, parents are named. */
+/**
+ * Checks all that traversals and later updates rely on: each instance is in one leaf, boxes fit tightly, parents are
+ * named.
+ */
 function check(tlas: DynamicTlas, placings: readonly Placing[]): void {
   const { nodes, nodeCount } = tlas;
   const words = new Uint32Array(nodes.buffer, nodes.byteOffset, nodes.length);
@@ -28,7 +38,8 @@ function check(tlas: DynamicTlas, placings: readonly Placing[]): void {
   let visited = 0;
   const walk = (node: number, parent: number, depth: number): number[] => {
     visited++;
-    if (depth > TLAS_MAX_DEPTH || words[node * NODE_WORDS + PARENT] !== parent) expect.fail(`node ${node}: depth ${depth}, below ${parent}`);
+    if (depth > TLAS_MAX_DEPTH || words[node * NODE_WORDS + PARENT] !== parent)
+      expect.fail(`node ${node}: depth ${depth}, below ${parent}`);
     const box = [Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity];
     for (const side of [LEFT, RIGHT]) {
       const low = node * NODE_WORDS + (side === LEFT ? 0 : 8);
@@ -38,7 +49,8 @@ function check(tlas: DynamicTlas, placings: readonly Placing[]): void {
       if (reference >= LEAF) {
         if (leafCount(reference) !== 1) expect.fail('a leaf of several');
         seen.push(leafFirst(reference));
-      } else if (walk(reference, node, depth + 1).some((x, k) => x !== own[k])) expect.fail(`the box of node ${reference} is not that of its children`);
+      } else if (walk(reference, node, depth + 1).some((x, k) => x !== own[k]))
+        expect.fail(`the box of node ${reference} is not that of its children`);
       for (let k = 0; k < 3; k++) {
         box[k] = Math.min(box[k]!, own[k]!);
         box[3 + k] = Math.max(box[3 + k]!, own[3 + k]!);
@@ -49,22 +61,30 @@ function check(tlas: DynamicTlas, placings: readonly Placing[]): void {
   walk(0, 0, 1);
   expect(visited).toBe(nodeCount);
   expect(seen.sort((a, b) => a - b)).toEqual(present);
-  for (const i of present) for (let k = 12 * i; k < 12 * i + 12; k++) if (tlas.toObject[k] !== expected.toObject[k]) expect.fail(`toObject of instance ${i}`);
+  for (const i of present)
+    for (let k = 12 * i; k < 12 * i + 12; k++)
+      if (tlas.toObject[k] !== expected.toObject[k]) expect.fail(`toObject of instance ${i}`);
 }
 
 for (const count of [0, 1, 2, 3, 7, 60]) {
   test(`a long sequence of changes to ${count} instances keeps the tree whole (seed ${70 + count})`, () => {
     const random = randomNumbers(70 + count);
-    const placings: Placing[] = Array.from({ length: count }, () => (random() < 0.7 ? placed(affine(random, 5)) : undefined));
+    const placings: Placing[] = Array.from({ length: count }, () =>
+      random() < 0.7 ? placed(affine(random, 5)) : undefined,
+    );
     const tlas = new DynamicTlas(placings);
     check(tlas, placings);
     for (let turn = 0; turn < 400 && count > 0; turn++) {
       const changes = Array.from({ length: random() < 0.1 ? Math.ceil(random() * count) : 1 }, () => {
-        const i = Math.floor(random() * count), kind = random();
+        const i = Math.floor(random() * count),
+          kind = random();
         const before = placings[i];
         if (kind < 0.3) placings[i] = undefined;
         else if (kind < 0.35) placings[i] = placed(at(0, 0, 0, 0));
-        else if (kind < 0.6 && before) placings[i] = placed(Array.from(before.transform, (x, k) => x + (k >= 12 && k < 15 ? 0.05 * (random() - 0.5) : 0)));
+        else if (kind < 0.6 && before)
+          placings[i] = placed(
+            Array.from(before.transform, (x, k) => x + (k >= 12 && k < 15 ? 0.05 * (random() - 0.5) : 0)),
+          );
         else placings[i] = placed(affine(random, 5));
         return [i, placings[i]] as const;
       });
@@ -110,12 +130,15 @@ test('rays agree with brute force after thousands of edits (seed 81)', () => {
 
 test('a change writes some nodes of many, and tells which (seed 82)', () => {
   const random = randomNumbers(82);
-  const placings: Placing[] = Array.from({ length: 20000 }, () => placed(at(200 * random(), 200 * random(), 200 * random())));
+  const placings: Placing[] = Array.from({ length: 20000 }, () =>
+    placed(at(200 * random(), 200 * random(), 200 * random())),
+  );
   const tlas = new DynamicTlas(placings);
   const copy = new Float32Array(20000 * NODE_WORDS);
   const upload = () => {
     const changed = tlas.takeChangedNodes();
-    for (const node of changed) copy.set(tlas.nodes.subarray(node * NODE_WORDS, (node + 1) * NODE_WORDS), node * NODE_WORDS);
+    for (const node of changed)
+      copy.set(tlas.nodes.subarray(node * NODE_WORDS, (node + 1) * NODE_WORDS), node * NODE_WORDS);
     return changed.length;
   };
   expect(upload()).toBe(19999);
@@ -129,7 +152,9 @@ test('a change writes some nodes of many, and tells which (seed 82)', () => {
   }
   expect(Math.max(...written)).toBeLessThan(100);
   expect(written.reduce((a, b) => a + b) / 300).toBeLessThan(40);
-  expect(new Uint32Array(copy.buffer, 0, tlas.nodes.length)).toEqual(new Uint32Array(tlas.nodes.buffer, 0, tlas.nodes.length));
+  expect(new Uint32Array(copy.buffer, 0, tlas.nodes.length)).toEqual(
+    new Uint32Array(tlas.nodes.buffer, 0, tlas.nodes.length),
+  );
   check(tlas, placings);
 });
 
@@ -164,13 +189,19 @@ test('the same changes give the same nodes; wrong ones change nothing', () => {
   const make = () => {
     const random = randomNumbers(85);
     const tlas = new DynamicTlas(Array.from({ length: 300 }, () => placed(affine(random, 6))));
-    for (let turn = 0; turn < 200; turn++) tlas.update([[Math.floor(random() * 300), random() < 0.5 ? undefined : placed(affine(random, 6))]]);
+    for (let turn = 0; turn < 200; turn++)
+      tlas.update([[Math.floor(random() * 300), random() < 0.5 ? undefined : placed(affine(random, 6))]]);
     return tlas;
   };
   const [a, b] = [make(), make()];
   expect(a.nodes).toEqual(b.nodes);
   const before = a.nodes.slice();
-  for (const [wrong, code] of [[[300, undefined], 'bvh/instance'], [[-1, undefined], 'bvh/instance'], [[0.5, undefined], 'bvh/instance'], [[1, placed([1])], 'bvh/transform']] as const) {
+  for (const [wrong, code] of [
+    [[300, undefined], 'bvh/instance'],
+    [[-1, undefined], 'bvh/instance'],
+    [[0.5, undefined], 'bvh/instance'],
+    [[1, placed([1])], 'bvh/transform'],
+  ] as const) {
     expect(() => a.update([[0, undefined], wrong])).toThrow(expect.objectContaining({ code }));
   }
   expect(a.nodes).toEqual(before);

@@ -1,11 +1,20 @@
 /**
  * As much of a browser's database as the store uses, in memory: requests answer later, in order; a transaction ends by
- * itself once no request is open, and refuses further ones. The real one is tried in a browser by the documentation's tests.
+ * itself once no request is open, and refuses further ones. The real one is tried in a browser by the documentation's
+ * tests.
  */
-export function fakeIndexedDb(failPut?: () => Error | undefined): IDBFactory & { readonly data: Map<string, Map<string, unknown>> } {
+export function fakeIndexedDb(
+  failPut?: () => Error | undefined,
+): IDBFactory & { readonly data: Map<string, Map<string, unknown>> } {
   const data = new Map<string, Map<string, unknown>>();
   const keyPaths = new Map<string, string | undefined>();
-  type Fake = { result?: unknown; error?: unknown; onsuccess?: () => void; onerror?: () => void; onupgradeneeded?: () => void };
+  type Fake = {
+    result?: unknown;
+    error?: unknown;
+    onsuccess?: () => void;
+    onerror?: () => void;
+    onupgradeneeded?: () => void;
+  };
 
   const database = {
     createObjectStore(name: string, options?: { keyPath: string }) {
@@ -14,8 +23,15 @@ export function fakeIndexedDb(failPut?: () => Error | undefined): IDBFactory & {
     },
     close: () => undefined,
     transaction(names: string[]) {
-      const transaction: { error?: unknown; oncomplete?: () => void; onabort?: () => void; onerror?: () => void; objectStore?: unknown } = {};
-      let open = 0, over = false;
+      const transaction: {
+        error?: unknown;
+        oncomplete?: () => void;
+        onabort?: () => void;
+        onerror?: () => void;
+        objectStore?: unknown;
+      } = {};
+      let open = 0,
+        over = false;
       const settle = () => {
         if (open > 0 || over) return;
         over = true;

@@ -21,7 +21,14 @@ export interface Layout {
 export function upload(placed: readonly Placed[], layout: Layout) {
   const parts = placed.map(({ mesh, transform }) => ({ mesh, transform, blas: buildBlas(mesh) }));
   const tlas = buildTlas(parts.map(({ blas, transform }) => ({ bounds: blas.bounds, transform })));
-  return { parts, tlas, ...packHierarchy(layout.tlas(tlas), parts.map(({ blas, mesh }) => ({ blas: layout.blas(blas), mesh }))) };
+  return {
+    parts,
+    tlas,
+    ...packHierarchy(
+      layout.tlas(tlas),
+      parts.map(({ blas, mesh }) => ({ blas: layout.blas(blas), mesh })),
+    ),
+  };
 }
 
 /** What a ray has met; `instance` is 0xffffffff for nothing. */
@@ -39,7 +46,13 @@ export interface GpuHit {
  *
  * @param accept The text of `bvh_accept`, if candidates are to be asked about.
  */
-export async function trace(device: GPUDevice, layout: Layout, placed: readonly Placed[], rays: Float32Array<ArrayBuffer>, accept?: string): Promise<GpuHit[]> {
+export async function trace(
+  device: GPUDevice,
+  layout: Layout,
+  placed: readonly Placed[],
+  rays: Float32Array<ArrayBuffer>,
+  accept?: string,
+): Promise<GpuHit[]> {
   const { nodes, triangles, instances, stackSize } = upload(placed, layout);
   const count = rays.length / 8;
   const host = wgslModule(
@@ -65,7 +78,19 @@ ${accept ?? ''}
     [layout.traversal('closest', stackSize), layout.traversal('any', stackSize), bvhBuffers()],
   );
   const { code } = compose([host], { flags: { BVH_FILTER: accept !== undefined } });
-  const bytes = await runCompute(device, code, { inputs: [nodes, triangles, instances, rays], outputBytes: count * 32, workgroups: Math.ceil(count / 64) });
-  const f = new Float32Array(bytes), u = new Uint32Array(bytes);
-  return Array.from({ length: count }, (_, i) => ({ t: f[8 * i]!, u: f[8 * i + 1]!, v: f[8 * i + 2]!, triangle: u[8 * i + 3]!, instance: u[8 * i + 4]!, any: u[8 * i + 5] === 1 }));
+  const bytes = await runCompute(device, code, {
+    inputs: [nodes, triangles, instances, rays],
+    outputBytes: count * 32,
+    workgroups: Math.ceil(count / 64),
+  });
+  const f = new Float32Array(bytes),
+    u = new Uint32Array(bytes);
+  return Array.from({ length: count }, (_, i) => ({
+    t: f[8 * i]!,
+    u: f[8 * i + 1]!,
+    v: f[8 * i + 2]!,
+    triangle: u[8 * i + 3]!,
+    instance: u[8 * i + 4]!,
+    any: u[8 * i + 5] === 1,
+  }));
 }

@@ -7,7 +7,8 @@ import { buildBlas } from '../src/index';
 import { fileStore } from '../src/node';
 import { randomNumbers, strewn } from './shapes';
 
-let folder = '', file = '';
+let folder = '',
+  file = '';
 beforeEach(async () => {
   folder = await mkdtemp(join(tmpdir(), 'glanz-bvh-'));
   file = join(folder, 'model.glb.bvh');
@@ -22,7 +23,11 @@ test('the trees of a model come back out of one file beside it', async () => {
   expect(await Promise.all(meshes.map((mesh) => cache.buildBlas(mesh)))).toEqual(trees);
   await cache.written();
   expect(await readdir(folder)).toEqual(['model.glb.bvh']);
-  const later = new BlasCache(fileStore(file), { buildBlas: () => Promise.reject(new Error('nothing is to be built')) }, { minTriangles: 0 });
+  const later = new BlasCache(
+    fileStore(file),
+    { buildBlas: () => Promise.reject(new Error('nothing is to be built')) },
+    { minTriangles: 0 },
+  );
   expect(await Promise.all(meshes.map((mesh) => later.buildBlas(mesh)))).toEqual(trees);
 });
 
@@ -31,7 +36,14 @@ test('a file cut off anywhere, or something else, costs builds and is mended', a
   for (const mesh of meshes) await cache.buildBlas(mesh);
   await cache.written();
   const whole = await readFile(file);
-  for (const bytes of [Buffer.alloc(0), whole.subarray(0, 7), whole.subarray(0, 100), whole.subarray(0, whole.length - 5), Buffer.from('something else altogether'), Buffer.concat([whole.subarray(0, 4), Buffer.from([255, 255, 255, 255]), whole.subarray(8)])]) {
+  for (const bytes of [
+    Buffer.alloc(0),
+    whole.subarray(0, 7),
+    whole.subarray(0, 100),
+    whole.subarray(0, whole.length - 5),
+    Buffer.from('something else altogether'),
+    Buffer.concat([whole.subarray(0, 4), Buffer.from([255, 255, 255, 255]), whole.subarray(8)]),
+  ]) {
     await writeFile(file, bytes);
     const again = new BlasCache(fileStore(file), { buildBlas }, { minTriangles: 0 });
     for (const mesh of meshes) expect(await again.buildBlas(mesh)).toEqual(buildBlas(mesh));
@@ -45,7 +57,11 @@ test('a file cut off anywhere, or something else, costs builds and is mended', a
 
 test('a folder that is not there fails to be written, and nothing more', async () => {
   const errors: NodeJS.ErrnoException[] = [];
-  const cache = new BlasCache(fileStore(join(folder, 'gone', 'x.bvh')), { buildBlas }, { minTriangles: 0, onError: (error) => errors.push(error as NodeJS.ErrnoException) });
+  const cache = new BlasCache(
+    fileStore(join(folder, 'gone', 'x.bvh')),
+    { buildBlas },
+    { minTriangles: 0, onError: (error) => errors.push(error as NodeJS.ErrnoException) },
+  );
   expect(await cache.buildBlas(meshes[0]!)).toEqual(buildBlas(meshes[0]!));
   await cache.written();
   expect(errors.map(({ code }) => code)).toEqual(['ENOENT']);
@@ -59,5 +75,7 @@ test('what was used longest ago is left out of a full file', async () => {
   await store.get('a');
   await store.set('c', bytes(3));
   const later = fileStore(file);
-  expect(await Promise.all(['a', 'b', 'c'].map(async (key) => new Uint8Array((await later.get(key)) ?? [])[0]))).toEqual([1, undefined, 3]);
+  expect(
+    await Promise.all(['a', 'b', 'c'].map(async (key) => new Uint8Array((await later.get(key)) ?? [])[0])),
+  ).toEqual([1, undefined, 3]);
 });

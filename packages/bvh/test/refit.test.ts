@@ -12,7 +12,8 @@ test('a refitted tree finds what brute force finds in the moved mesh (seed 21)',
   const moved = { positions, indices: mesh.indices };
   refitBlas(blas, moved);
   checkBlas(blas, moved);
-  for (let k = 0; k < 3; k++) expect(blas.bounds.min[k]).toBe(positions.filter((_, i) => i % 3 === k).reduce((a, b) => Math.min(a, b)));
+  for (let k = 0; k < 3; k++)
+    expect(blas.bounds.min[k]).toBe(positions.filter((_, i) => i % 3 === k).reduce((a, b) => Math.min(a, b)));
   for (let i = 0; i < 300; i++) {
     const ray = { origin: direction(random).map((x) => 3 * x), direction: direction(random) };
     const expected = bruteForce(moved, ray.origin, ray.direction);
@@ -41,5 +42,7 @@ test('another mesh and lost vertices are refused', () => {
     positions[50] = bad;
     expect(() => refitBlas(buildBlas(mesh), { positions })).toThrow(/^Triangle 5 /);
   }
-  expect(() => refitBlas(buildBlas(mesh), { positions: mesh.positions, indices: mesh.indices.subarray(0, 27) })).toThrow(/^Triangle 9 /);
+  expect(() =>
+    refitBlas(buildBlas(mesh), { positions: mesh.positions, indices: mesh.indices.subarray(0, 27) }),
+  ).toThrow(/^Triangle 9 /);
 });

@@ -25,7 +25,9 @@ test('what comes back is what was put in, alone and together', () => {
   expect(deserializeBlases(serializeBlases([]))).toEqual([]);
   const back = deserializeBlas(serializeBlas(trees[0]!));
   checkBlas(back, meshes[0]!);
-  expect(closestHit(back, meshes[0]!, { origin: [3, 0.1, 0.2], direction: [-1, 0, 0] })).toEqual(closestHit(trees[0]!, meshes[0]!, { origin: [3, 0.1, 0.2], direction: [-1, 0, 0] }));
+  expect(closestHit(back, meshes[0]!, { origin: [3, 0.1, 0.2], direction: [-1, 0, 0] })).toEqual(
+    closestHit(trees[0]!, meshes[0]!, { origin: [3, 0.1, 0.2], direction: [-1, 0, 0] }),
+  );
   // Arrays of its own: each can be handed to a worker.
   expect(back.nodes.buffer.byteLength).toBe(back.nodes.byteLength);
 });
@@ -46,7 +48,9 @@ test('something else, another version, missing and surplus bytes are refused', (
   expect(code(() => deserializeBlas(new ArrayBuffer(0)))).toBe('bvh/not-serialized');
   expect(code(() => deserializeBlas(new TextEncoder().encode('glTF and more')))).toBe('bvh/not-serialized');
   for (let length = 0; length < bytes.length; length = Math.max(length + 1, Math.floor(length * 1.1))) {
-    expect(code(() => deserializeBlas(bytes.slice(0, length)))).toBe(length < 4 ? 'bvh/not-serialized' : 'bvh/truncated');
+    expect(code(() => deserializeBlas(bytes.slice(0, length)))).toBe(
+      length < 4 ? 'bvh/not-serialized' : 'bvh/truncated',
+    );
   }
   expect(code(() => deserializeBlas(Uint8Array.of(...bytes, 0, 0, 0, 0)))).toBe('bvh/truncated');
   const later = bytes.slice();
@@ -78,16 +82,22 @@ describe('trees that lead astray are refused, though their checksum is right', (
     return code(() => deserializeBlas(serializeBlas(blas), mesh));
   };
   const inner = (words: Uint32Array) => {
-    for (let at = 0; ; at += NODE_WORDS) for (const side of [LEFT, RIGHT]) if (at > 0 && words[at + side]! < 2 ** 31) return at + side;
+    for (let at = 0; ; at += NODE_WORDS)
+      for (const side of [LEFT, RIGHT]) if (at > 0 && words[at + side]! < 2 ** 31) return at + side;
   };
   const leaf = (words: Uint32Array) => {
-    for (let at = 0; ; at += NODE_WORDS) for (const side of [LEFT, RIGHT]) if (words[at + side]! >= 2 ** 31) return at + side;
+    for (let at = 0; ; at += NODE_WORDS)
+      for (const side of [LEFT, RIGHT]) if (words[at + side]! >= 2 ** 31) return at + side;
   };
   test.each<[string, (words: Uint32Array, blas: Blas) => void, string | undefined]>([
     ['as it is', () => undefined, undefined],
     ['a node behind the last', (words, { nodeCount }) => (words[inner(words)] = nodeCount), 'bvh/corrupt'],
     ['the root as a child', (words) => (words[inner(words)] = 0), 'bvh/corrupt'],
-    ['a node as its own child', (words) => (words[inner(words)] = Math.floor(inner(words) / NODE_WORDS)), 'bvh/corrupt'],
+    [
+      'a node as its own child',
+      (words) => (words[inner(words)] = Math.floor(inner(words) / NODE_WORDS)),
+      'bvh/corrupt',
+    ],
     ['another parent', (words) => (words[NODE_WORDS + 11] = 7), 'bvh/corrupt'],
     ['a leaf beyond the triangles', (words) => (words[leaf(words)] = leafReference(60, 1)), 'bvh/corrupt'],
     ['a leaf across the end', (words) => (words[leaf(words)] = leafReference(59, 2)), 'bvh/corrupt'],
@@ -107,14 +117,25 @@ describe('trees that lead astray are refused, though their checksum is right', (
       words[i * NODE_WORDS + RIGHT] = i + 1 < nodeCount ? i + 1 : leafReference(0, 1);
       words[i * NODE_WORDS + 11] = Math.max(0, i - 1);
     }
-    const vine = { nodes, nodeCount, triangleIndices: new Uint32Array(1), bounds: { min: new Float32Array(3), max: new Float32Array(3) } };
+    const vine = {
+      nodes,
+      nodeCount,
+      triangleIndices: new Uint32Array(1),
+      bounds: { min: new Float32Array(3), max: new Float32Array(3) },
+    };
     expect(code(() => deserializeBlas(serializeBlas(vine)))).toBe('bvh/corrupt');
     words[(nodeCount - 2) * NODE_WORDS + RIGHT] = leafReference(0, 1);
-    expect(code(() => deserializeBlas(serializeBlas({ ...vine, nodes: nodes.slice(0, -NODE_WORDS), nodeCount: nodeCount - 1 })))).toBeUndefined();
+    expect(
+      code(() =>
+        deserializeBlas(serializeBlas({ ...vine, nodes: nodes.slice(0, -NODE_WORDS), nodeCount: nodeCount - 1 })),
+      ),
+    ).toBeUndefined();
   });
 
   test('no root, another number of trees', () => {
-    expect(code(() => deserializeBlas(serializeBlas({ ...buildBlas(mesh), nodes: new Float32Array(0), nodeCount: 0 })))).toBe('bvh/corrupt');
+    expect(
+      code(() => deserializeBlas(serializeBlas({ ...buildBlas(mesh), nodes: new Float32Array(0), nodeCount: 0 }))),
+    ).toBe('bvh/corrupt');
     const two = serializeBlases([buildBlas(mesh), buildBlas(mesh)]);
     expect(code(() => deserializeBlas(two))).toBe('bvh/other-mesh');
     expect(code(() => deserializeBlases(two, [mesh]))).toBe('bvh/other-mesh');

@@ -41,8 +41,8 @@ export interface CadOptions {
   /** What messages call the file. */
   readonly name?: string;
   /**
-   * Starts OpenCASCADE, the package `occt-import-js`. In Node: `openOcct` of `@glanz/cad/node`. In a page: its function with the
-   * address of its WebAssembly, `() => occtimportjs({ locateFile })`.
+   * Starts OpenCASCADE, the package `occt-import-js`. In Node: `openOcct` of `@glanz/cad/node`. In a page: its function
+   * with the address of its WebAssembly, `() => occtimportjs({ locateFile })`.
    */
   readonly openOcct: () => Promise<unknown>;
 }
@@ -56,8 +56,15 @@ interface OcctNode {
 interface OcctMesh {
   readonly name: string;
   readonly color?: readonly number[];
-  readonly brep_faces: readonly { readonly first: number; readonly last: number; readonly color: readonly number[] | null }[];
-  readonly attributes: { readonly position: { readonly array: readonly number[] }; readonly normal?: { readonly array: readonly number[] } };
+  readonly brep_faces: readonly {
+    readonly first: number;
+    readonly last: number;
+    readonly color: readonly number[] | null;
+  }[];
+  readonly attributes: {
+    readonly position: { readonly array: readonly number[] };
+    readonly normal?: { readonly array: readonly number[] };
+  };
   readonly index: { readonly array: readonly number[] };
 }
 
@@ -82,16 +89,38 @@ export async function readCad(bytes: Uint8Array, options: CadOptions): Promise<C
   const format = options.format ?? cadFormat(bytes);
   if (!format) throw new CadError('cad/format', `${name} is no STEP, IGES or BREP file.`, { location: { file: name } });
   const deflection = 'metres' in tolerance ? tolerance.metres : tolerance.relative;
-  if (!(deflection > 0 && deflection < Infinity && angularTolerance > 0 && angularTolerance < Math.PI)) throw new CadError('cad/option', `A tolerance of ${deflection} and an angle of ${angularTolerance} rad are not possible; both must be positive.`);
+  if (!(deflection > 0 && deflection < Infinity && angularTolerance > 0 && angularTolerance < Math.PI))
+    throw new CadError(
+      'cad/option',
+      `A tolerance of ${deflection} and an angle of ${angularTolerance} rad are not possible; both must be positive.`,
+    );
   const occt = (await openOcct()) as Occt;
-  const settings = { linearUnit: 'meter', linearDeflectionType: 'metres' in tolerance ? 'absolute_value' : 'bounding_box_ratio', linearDeflection: deflection, angularDeflection: angularTolerance };
+  const settings = {
+    linearUnit: 'meter',
+    linearDeflectionType: 'metres' in tolerance ? 'absolute_value' : 'bounding_box_ratio',
+    linearDeflection: deflection,
+    angularDeflection: angularTolerance,
+  };
   let result: { readonly success?: boolean; readonly root?: OcctNode; readonly meshes?: readonly OcctMesh[] };
   try {
-    result = (format === 'step' ? occt.ReadStepFile(bytes, settings) : format === 'iges' ? occt.ReadIgesFile(bytes, settings) : occt.ReadBrepFile(bytes, settings)) as typeof result;
+    result = (
+      format === 'step'
+        ? occt.ReadStepFile(bytes, settings)
+        : format === 'iges'
+          ? occt.ReadIgesFile(bytes, settings)
+          : occt.ReadBrepFile(bytes, settings)
+    ) as typeof result;
   } catch (cause) {
-    throw new CadError('cad/unreadable', `${name} cannot be read: OpenCASCADE ends with ${cause instanceof Error ? cause.message : String(cause)}.`, { cause, location: { file: name } });
+    throw new CadError(
+      'cad/unreadable',
+      `${name} cannot be read: OpenCASCADE ends with ${cause instanceof Error ? cause.message : String(cause)}.`,
+      { cause, location: { file: name } },
+    );
   }
-  if (!result.success || !result.root || !result.meshes) throw new CadError('cad/unreadable', `${name} cannot be read: OpenCASCADE takes it for broken.`, { location: { file: name } });
+  if (!result.success || !result.root || !result.meshes)
+    throw new CadError('cad/unreadable', `${name} cannot be read: OpenCASCADE takes it for broken.`, {
+      location: { file: name },
+    });
   const parts: CadPart[] = [];
   const visit = (node: OcctNode, path: readonly string[]): void => {
     for (const index of node.meshes) {
@@ -101,11 +130,18 @@ export async function readCad(bytes: Uint8Array, options: CadOptions): Promise<C
     for (const child of node.children) visit(child, child.name ? [...path, child.name] : path);
   };
   visit(result.root, result.root.name ? [result.root.name] : []);
-  if (parts.length === 0) throw new CadError('cad/no-shapes', `${name} has no surfaces: there is nothing to show.`, { location: { file: name } });
+  if (parts.length === 0)
+    throw new CadError('cad/no-shapes', `${name} has no surfaces: there is nothing to show.`, {
+      location: { file: name },
+    });
   return { name, parts };
 }
 
-function partOf({ name, color, brep_faces: faces, attributes, index }: OcctMesh, path: readonly string[], number: number): CadPart {
+function partOf(
+  { name, color, brep_faces: faces, attributes, index }: OcctMesh,
+  path: readonly string[],
+  number: number,
+): CadPart {
   const own = colorOf(color);
   const ranges: { from: number; to: number; color?: CadColor }[] = [];
   const triangles = Math.floor(index.array.length / 3);
@@ -123,8 +159,17 @@ function partOf({ name, color, brep_faces: faces, attributes, index }: OcctMesh,
   }
   add(at, triangles, own);
   const normal = attributes.normal?.array;
-  return { name: name || path.at(-1) || `part ${number + 1}`, path, positions: Float32Array.from(attributes.position.array), ...(normal ? { normals: Float32Array.from(normal) } : {}), indices: Uint32Array.from(index.array.slice(0, 3 * triangles)), ranges };
+  return {
+    name: name || path.at(-1) || `part ${number + 1}`,
+    path,
+    positions: Float32Array.from(attributes.position.array),
+    ...(normal ? { normals: Float32Array.from(normal) } : {}),
+    indices: Uint32Array.from(index.array.slice(0, 3 * triangles)),
+    ranges,
+  };
 }
 
 const colorOf = (values: readonly number[] | null | undefined): CadColor | undefined =>
-  values?.length === 3 && values.every((x) => Number.isFinite(x)) ? (values.map((x) => Math.min(Math.max(x, 0), 1)) as unknown as CadColor) : undefined;
+  values?.length === 3 && values.every((x) => Number.isFinite(x))
+    ? (values.map((x) => Math.min(Math.max(x, 0), 1)) as unknown as CadColor)
+    : undefined;

@@ -5,7 +5,9 @@ import type { CadColor, CadModel, CadPart } from './read';
 /** What {@link cadToScene} may be told. */
 export interface CadSceneOptions {
   readonly materials?: CadMaterialMap;
-  /** Leaves out everything that tells where the parts come from: names of parts, assemblies and the file. Default false. */
+  /**
+   * Leaves out everything that tells where the parts come from: names of parts, assemblies and the file. Default false.
+   */
   readonly strip?: boolean;
   /** Which axis of the file points up; default `z`. */
   readonly up?: 'y' | 'z';
@@ -37,7 +39,12 @@ export function cadToScene(model: CadModel, { materials: map, strip = false, up 
     for (const [index, ranges] of byMaterial) {
       const name = strip ? `part ${scene.instances.length + 1}` : [...part.path, part.name].join('/');
       const mesh = extract(part, ranges, name);
-      scene.instances.push({ name, mesh: scene.meshes.push(mesh) - 1, material: index, transform: up === 'z' ? Z_UP : Y_UP });
+      scene.instances.push({
+        name,
+        mesh: scene.meshes.push(mesh) - 1,
+        material: index,
+        transform: up === 'z' ? Z_UP : Y_UP,
+      });
     }
   }
   return scene;
@@ -46,7 +53,14 @@ export function cadToScene(model: CadModel, { materials: map, strip = false, up 
 /** Some triangles of a part, with the vertices that they use. */
 function extract(part: CadPart, ranges: readonly { readonly from: number; readonly to: number }[], name: string): Mesh {
   const corners = ranges.flatMap(({ from, to }) => Array.from(part.indices.subarray(3 * from, 3 * to)));
-  return { ...withUsedVertices({ name, positions: part.positions, indices: Uint32Array.from(corners), ...(part.normals ? { normals: part.normals } : {}) }) };
+  return {
+    ...withUsedVertices({
+      name,
+      positions: part.positions,
+      indices: Uint32Array.from(corners),
+      ...(part.normals ? { normals: part.normals } : {}),
+    }),
+  };
 }
 
 /** A mesh of positions and normals without the vertices that no triangle uses. */
@@ -62,5 +76,10 @@ export function withUsedVertices(mesh: Mesh): Mesh {
     for (const [from, to] of place) kept.set(values.subarray(3 * from, 3 * from + 3), 3 * to);
     return kept;
   };
-  return { name: mesh.name, positions: gather(mesh.positions), indices, ...(mesh.normals ? { normals: gather(mesh.normals) } : {}) };
+  return {
+    name: mesh.name,
+    positions: gather(mesh.positions),
+    indices,
+    ...(mesh.normals ? { normals: gather(mesh.normals) } : {}),
+  };
 }

@@ -15,10 +15,16 @@ const MAP = checkMaterialMap({
 
 describe('rules', () => {
   it('by path, by name whatever its case, by colour; the first that fits', () => {
-    expect(materialOf(MAP, 'nut', ['as1', 'rod-assembly'], undefined)).toEqual({ name: 'gold', parameters: OPENPBR_PRESETS.gold });
+    expect(materialOf(MAP, 'nut', ['as1', 'rod-assembly'], undefined)).toEqual({
+      name: 'gold',
+      parameters: OPENPBR_PRESETS.gold,
+    });
     const bolt = materialOf(MAP, 'bolt 3', ['as1'], [0, 0, 1]);
     expect(bolt).toEqual({ name: 'fasteners', parameters: { ...OPENPBR_PRESETS.brass, specular_roughness: 0.3 } });
-    expect(materialOf(MAP, 'plate', [], [0.0005, 1, 0])).toEqual({ name: 'CAD #02ff00', parameters: { base_metalness: 1, base_color: [0.0005, 1, 0] } });
+    expect(materialOf(MAP, 'plate', [], [0.0005, 1, 0])).toEqual({
+      name: 'CAD #02ff00',
+      parameters: { base_metalness: 1, base_color: [0.0005, 1, 0] },
+    });
     expect(materialOf(MAP, 'plate', [], [0, 0.5, 0]).parameters).toEqual({ base_color: [0.1, 0.1, 0.1] });
   });
 
@@ -28,7 +34,10 @@ describe('rules', () => {
   });
 
   it('without a map the colours of the file are kept', () => {
-    expect(materialOf(undefined, 'x', [], [1, 0, 0])).toEqual({ name: 'CAD #ff0000', parameters: { specular_roughness: 0.4, base_color: [1, 0, 0] } });
+    expect(materialOf(undefined, 'x', [], [1, 0, 0])).toEqual({
+      name: 'CAD #ff0000',
+      parameters: { specular_roughness: 0.4, base_color: [1, 0, 0] },
+    });
   });
 });
 
@@ -37,8 +46,14 @@ it('colours of the file are linear, those of a map sRGB', () => {
 });
 
 it.each([
-  [null, '/'], [{}, '/rules'], [{ rules: [{}] }, '/rules/0'], [{ rules: [{ part: 3 }] }, '/rules/0/part'], [{ rules: [{ part: 'a', color: 'red' }] }, '/rules/0/color'],
-  [{ rules: [{ part: 'a', preset: 'unobtainium' }] }, '/rules/0/preset'], [{ rules: [{ part: 'a', colour: '#000000' }] }, '/rules/0/colour'], [{ rules: [], fallback: { parameters: { base_colour: 1 } } }, '/fallback/parameters'],
+  [null, '/'],
+  [{}, '/rules'],
+  [{ rules: [{}] }, '/rules/0'],
+  [{ rules: [{ part: 3 }] }, '/rules/0/part'],
+  [{ rules: [{ part: 'a', color: 'red' }] }, '/rules/0/color'],
+  [{ rules: [{ part: 'a', preset: 'unobtainium' }] }, '/rules/0/preset'],
+  [{ rules: [{ part: 'a', colour: '#000000' }] }, '/rules/0/colour'],
+  [{ rules: [], fallback: { parameters: { base_colour: 1 } } }, '/fallback/parameters'],
 ])('a map that makes no sense: %j', (json, path) => {
   try {
     checkMaterialMap(json);

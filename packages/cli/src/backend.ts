@@ -3,7 +3,21 @@ import type { CompressedFormat, Scene } from '@glanz/scene';
 import type { PoseOptions } from './options';
 
 /** The part of a `PathTracer` that the command needs. */
-export type Tracer = Pick<PathTracer, 'render' | 'read' | 'reset' | 'setCamera' | 'setVariant' | 'readLightGroup' | 'lightGroups' | 'saveFilm' | 'restoreFilm' | 'samples' | 'statistics' | 'destroy'>;
+export type Tracer = Pick<
+  PathTracer,
+  | 'render'
+  | 'read'
+  | 'reset'
+  | 'setCamera'
+  | 'setVariant'
+  | 'readLightGroup'
+  | 'lightGroups'
+  | 'saveFilm'
+  | 'restoreFilm'
+  | 'samples'
+  | 'statistics'
+  | 'destroy'
+>;
 
 /** Films as bytes, for files. */
 export interface FilmCodec {
@@ -30,13 +44,20 @@ export interface ListedGpu {
   readonly software: boolean;
 }
 
-/** The machinery behind the command. The real one is loaded when it is needed, so that `--help` does not wait for it. */
+/**
+ * The machinery behind the command. The real one is loaded when it is needed, so that `--help` does not wait for it.
+ */
 export interface Backend {
   /**
    * @param pose Which scene of the file, and at which moment; formats without such have one.
    * @param formats Compressed formats that the device reads, asked where a picture could stay in one. Default: none.
    */
-  loadModel(file: string, signal: AbortSignal, pose?: PoseOptions, formats?: () => Promise<readonly CompressedFormat[]>): Promise<Scene>;
+  loadModel(
+    file: string,
+    signal: AbortSignal,
+    pose?: PoseOptions,
+    formats?: () => Promise<readonly CompressedFormat[]>,
+  ): Promise<Scene>;
   compressedFormats(device: GPUDevice): Promise<readonly CompressedFormat[]>;
   /**
    * A new device of a new adapter.
@@ -66,9 +87,16 @@ export function nodeBackend(): Backend {
       return (await import('@glanz/renderer')).compressedFormats(device);
     },
     async openGpu(name, onError = () => undefined) {
-      const [{ requestDevice }, { createGpu }] = await Promise.all([import('@glanz/renderer'), import('@glanz/renderer/node')]);
+      const [{ requestDevice }, { createGpu }] = await Promise.all([
+        import('@glanz/renderer'),
+        import('@glanz/renderer/node'),
+      ]);
       const software = name?.toLowerCase() === 'software';
-      const { gpu, adapterName, software: isSoftware } = await createGpu(software ? { software: 'only' } : name === undefined ? {} : { gpu: name });
+      const {
+        gpu,
+        adapterName,
+        software: isSoftware,
+      } = await createGpu(software ? { software: 'only' } : name === undefined ? {} : { gpu: name });
       const device = await requestDevice({ gpu, onError });
       return { device, adapterName, software: isSoftware };
     },

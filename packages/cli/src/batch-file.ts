@@ -5,12 +5,16 @@ import { MAX_SETTINGS_BYTES, readInput } from './input';
 import { liesBelow } from './output/confine';
 import { BATCH_KEYS, presentNames, renderOptions, type RenderCommandOptions, type RenderValues } from './options';
 
-const wrong = (file: string, message: string) => new CliError('cli/batch', `${file}: ${message}`, { location: { file } });
+const wrong = (file: string, message: string) =>
+  new CliError('cli/batch', `${file}: ${message}`, { location: { file } });
 
 /** Rows of a CSV file (RFC 4180): fields in quotes may hold commas, line breaks and doubled quotes. */
 export function parseCsv(text: string): string[][] {
   const rows: string[][] = [];
-  let row: string[] = [], field = '', quoted = false, wasQuoted = false;
+  let row: string[] = [],
+    field = '',
+    quoted = false,
+    wasQuoted = false;
   const endField = () => {
     row.push(wasQuoted ? field : field.trim());
     field = '';
@@ -41,7 +45,11 @@ export function parseCsv(text: string): string[][] {
 }
 
 /** A row as the command line would have said it. */
-function valuesOf(row: Readonly<Record<string, unknown>>, file: string, where: string): { values: RenderValues; model: string | undefined } {
+function valuesOf(
+  row: Readonly<Record<string, unknown>>,
+  file: string,
+  where: string,
+): { values: RenderValues; model: string | undefined } {
   const values: Record<string, unknown> = {};
   let model: string | undefined;
   for (const [key, value] of Object.entries(row)) {
@@ -52,17 +60,31 @@ function valuesOf(row: Readonly<Record<string, unknown>>, file: string, where: s
       continue;
     }
     const kind = Object.hasOwn(BATCH_KEYS, key) ? BATCH_KEYS[key as keyof typeof BATCH_KEYS] : undefined;
-    if (kind === undefined) throw wrong(file, `${where}: "${key}" is unknown. Known: model, ${Object.keys(BATCH_KEYS).join(', ')}.`);
+    if (kind === undefined)
+      throw wrong(file, `${where}: "${key}" is unknown. Known: model, ${Object.keys(BATCH_KEYS).join(', ')}.`);
     const text = (one: unknown) => {
       if (typeof one === 'string' || (typeof one === 'number' && Number.isFinite(one))) return String(one);
       // Cameras may stand there as they are.
-      if ((key === 'camera' || key === 'view') && typeof one === 'object' && one !== null && !Array.isArray(one)) return JSON.stringify(one);
-      throw wrong(file, `${where}: "${key}" must be a text or a number${kind === 'list' ? ', or a list of such' : ''}.`);
+      if ((key === 'camera' || key === 'view') && typeof one === 'object' && one !== null && !Array.isArray(one))
+        return JSON.stringify(one);
+      throw wrong(
+        file,
+        `${where}: "${key}" must be a text or a number${kind === 'list' ? ', or a list of such' : ''}.`,
+      );
     };
     if (kind === 'boolean') {
-      if (value !== true && value !== false && !/^(true|false|yes|no|1|0)$/i.test(String(value))) throw wrong(file, `${where}: "${key}" must be true or false.`);
+      if (value !== true && value !== false && !/^(true|false|yes|no|1|0)$/i.test(String(value)))
+        throw wrong(file, `${where}: "${key}" must be true or false.`);
       if (/^(true|yes|1)$/i.test(String(value))) values[key] = true;
-    } else if (kind === 'list') values[key] = Array.isArray(value) ? value.map(text) : typeof value === 'string' && !value.trimStart().startsWith('{') ? value.split(';').map((part) => part.trim()).filter((part) => part !== '') : [text(value)];
+    } else if (kind === 'list')
+      values[key] = Array.isArray(value)
+        ? value.map(text)
+        : typeof value === 'string' && !value.trimStart().startsWith('{')
+          ? value
+              .split(';')
+              .map((part) => part.trim())
+              .filter((part) => part !== '')
+          : [text(value)];
     else values[key] = text(value);
   }
   return { values: values as RenderValues, model };
@@ -84,18 +106,27 @@ export interface BatchRequest {
  * @param root Default: the folder of the batch file.
  * @throws {CliError} `cli/batch`
  */
-export async function checkBatchOutputs(paths: readonly string[], { where }: BatchRequest, file: string, cwd: string, root = dirname(file)): Promise<void> {
+export async function checkBatchOutputs(
+  paths: readonly string[],
+  { where }: BatchRequest,
+  file: string,
+  cwd: string,
+  root = dirname(file),
+): Promise<void> {
   for (const path of paths) {
     if (await liesBelow(path, root, cwd)) continue;
-    throw wrong(file, `${where}: "${path}" lies outside the folder "${root}", and a batch writes below it only. Change the path, or name another folder by --output-root.`);
+    throw wrong(
+      file,
+      `${where}: "${path}" lies outside the folder "${root}", and a batch writes below it only. Change the path, or name another folder by --output-root.`,
+    );
   }
 }
 
 /**
- * The pictures that a batch file asks for. JSON: a list of objects, or `{ "defaults": {…}, "pictures": […] }`; CSV: a line of
- * names, then a line for each picture. Names are those of the options of `glanz render`, and `model`; several variants, views
- * and outputs are a list, or stand with semicolons between them. What a picture does not say is taken from the defaults and
- * from the command line. Paths are relative to the file.
+ * The pictures that a batch file asks for. JSON: a list of objects, or `{ "defaults": {…}, "pictures": […] }`; CSV: a
+ * line of names, then a line for each picture. Names are those of the options of `glanz render`, and `model`; several
+ * variants, views and outputs are a list, or stand with semicolons between them. What a picture does not say is taken
+ * from the defaults and from the command line. Paths are relative to the file.
  *
  * @param warn Gets a warning for each picture that uses a former name of an option.
  * @throws {CliError} `cli/input`, `cli/batch`, `cli/usage`
@@ -106,12 +137,18 @@ export async function readBatch(
   given: RenderValues & { readonly model?: string | undefined },
   warn: (text: string) => void = () => undefined,
 ): Promise<BatchRequest[]> {
-  const text = new TextDecoder().decode(await readInput(file, cwd, 'the batch', { maxBytes: MAX_SETTINGS_BYTES })).replace(/^\uFEFF/, '');
+  const text = new TextDecoder()
+    .decode(await readInput(file, cwd, 'the batch', { maxBytes: MAX_SETTINGS_BYTES }))
+    .replace(/^\uFEFF/, '');
   let rows: readonly (readonly [where: string, row: Readonly<Record<string, unknown>>])[];
   if (/\.csv$/i.test(file)) {
     const [names = [], ...lines] = parseCsv(text);
     rows = lines.map((line, i) => {
-      if (line.length > names.length) throw wrong(file, `picture ${i + 1} has ${line.length} fields, but there are ${names.length} names in the first line.`);
+      if (line.length > names.length)
+        throw wrong(
+          file,
+          `picture ${i + 1} has ${line.length} fields, but there are ${names.length} names in the first line.`,
+        );
       return [`picture ${i + 1}`, Object.fromEntries(names.map((name, k) => [name, line[k]]))];
     });
   } else {
@@ -119,12 +156,17 @@ export async function readBatch(
     try {
       json = JSON.parse(text);
     } catch (cause) {
-      throw new CliError('cli/batch', `${file}: it is no JSON: ${(cause as Error).message.split('\n')[0]}.`, { cause, location: { file } });
+      throw new CliError('cli/batch', `${file}: it is no JSON: ${(cause as Error).message.split('\n')[0]}.`, {
+        cause,
+        location: { file },
+      });
     }
-    const isObject = (value: unknown): value is Record<string, unknown> => typeof value === 'object' && value !== null && !Array.isArray(value);
+    const isObject = (value: unknown): value is Record<string, unknown> =>
+      typeof value === 'object' && value !== null && !Array.isArray(value);
     const list = isObject(json) ? json['pictures'] : json;
     const defaults = isObject(json) ? (json['defaults'] ?? {}) : {};
-    if (!Array.isArray(list) || !list.every(isObject) || !isObject(defaults)) throw wrong(file, 'it must be a list of objects, or { "defaults": {…}, "pictures": […] }.');
+    if (!Array.isArray(list) || !list.every(isObject) || !isObject(defaults))
+      throw wrong(file, 'it must be a list of objects, or { "defaults": {…}, "pictures": […] }.');
     rows = (list as Record<string, unknown>[]).map((row, i) => [`picture ${i + 1}`, { ...defaults, ...row }]);
   }
   if (rows.length === 0) throw wrong(file, 'there is no picture in it.');
@@ -141,11 +183,16 @@ export async function readBatch(
       ...(isEnvironmentFile(values.env) ? { env: near(values.env) } : {}),
     };
     try {
-      const options = renderOptions({ ...given, ...placed }, row['model'] === undefined || row['model'] === '' ? model : near(model));
+      const options = renderOptions(
+        { ...given, ...placed },
+        row['model'] === undefined || row['model'] === '' ? model : near(model),
+      );
       // A name that the model gives has no folder; that of the command line is the user's own word.
       return { options, ownOutput: values.output !== undefined, where };
     } catch (error) {
-      throw error instanceof CliError ? new CliError(error.code, `${file}, ${where}: ${error.message}`, { cause: error, location: { file } }) : error;
+      throw error instanceof CliError
+        ? new CliError(error.code, `${file}, ${where}: ${error.message}`, { cause: error, location: { file } })
+        : error;
     }
   });
 }

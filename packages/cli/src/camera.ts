@@ -17,7 +17,8 @@ function vector(value: unknown, name: string): Vector {
 function optionalNumber(object: Record<string, unknown>, name: string, min: number, max: number): number | undefined {
   const value = object[name];
   if (value === undefined) return undefined;
-  if (typeof value !== 'number' || !(value >= min && value <= max)) throw wrong(`--camera: "${name}" must be a number from ${min} to ${max}.`);
+  if (typeof value !== 'number' || !(value >= min && value <= max))
+    throw wrong(`--camera: "${name}" must be a number from ${min} to ${max}.`);
   return value;
 }
 
@@ -36,7 +37,19 @@ export function lookAt(position: Vector, target: Vector, up: Vector): number[] {
   return [...right, 0, ...above, 0, ...back, 0, ...position, 1];
 }
 
-const FIELDS = ['name', 'projection', 'position', 'target', 'up', 'fov', 'height', 'lens_radius', 'lens_blades', 'lens_rotation', 'focus_distance'];
+const FIELDS = [
+  'name',
+  'projection',
+  'position',
+  'target',
+  'up',
+  'fov',
+  'height',
+  'lens_radius',
+  'lens_blades',
+  'lens_rotation',
+  'focus_distance',
+];
 const PROJECTIONS = ['perspective', 'orthographic', 'panorama'] as const;
 /** Fields that only one projection has a use for. */
 const PERSPECTIVE_ONLY = ['fov', 'lens_radius', 'lens_blades', 'lens_rotation', 'focus_distance'];
@@ -57,24 +70,34 @@ export function cameraFromJson(text: string, aspect = 1): Camera {
   try {
     value = JSON.parse(text);
   } catch (cause) {
-    throw new CliError('cli/camera', `--camera: not valid JSON: ${(cause as Error).message.split('\n')[0]}.`, { cause });
+    throw new CliError('cli/camera', `--camera: not valid JSON: ${(cause as Error).message.split('\n')[0]}.`, {
+      cause,
+    });
   }
-  if (typeof value !== 'object' || value === null || Array.isArray(value)) throw wrong('--camera: the JSON must be an object with "position" and "target".');
+  if (typeof value !== 'object' || value === null || Array.isArray(value))
+    throw wrong('--camera: the JSON must be an object with "position" and "target".');
   const object = value as Record<string, unknown>;
   const unknown = Object.keys(object).find((key) => !FIELDS.includes(key));
   if (unknown !== undefined) throw wrong(`--camera: unknown field "${unknown}". Known: ${FIELDS.join(', ')}.`);
   if (object.position === undefined) throw wrong('--camera: "position" is missing.');
   const type = PROJECTIONS.find((known) => known === (object.projection ?? 'perspective'));
   if (!type) throw wrong(`--camera: "projection" must be one of ${PROJECTIONS.join(', ')}.`);
-  const stray = [...(type === 'perspective' ? [] : PERSPECTIVE_ONLY), ...(type === 'orthographic' ? [] : ['height'])].find((key) => object[key] !== undefined);
+  const stray = [
+    ...(type === 'perspective' ? [] : PERSPECTIVE_ONLY),
+    ...(type === 'orthographic' ? [] : ['height']),
+  ].find((key) => object[key] !== undefined);
   if (stray !== undefined) throw wrong(`--camera: a camera of projection "${type}" has no "${stray}".`);
   const position = vector(object.position, 'position');
   const target = vector(object.target ?? [0, 0, 0], 'target');
-  const base = { name: typeof object.name === 'string' ? object.name : 'camera', transform: lookAt(position, target, vector(object.up ?? [0, 1, 0], 'up')) };
+  const base = {
+    name: typeof object.name === 'string' ? object.name : 'camera',
+    transform: lookAt(position, target, vector(object.up ?? [0, 1, 0], 'up')),
+  };
   if (type === 'panorama') return { type, ...base };
   if (type === 'orthographic') {
     const height = optionalNumber(object, 'height', 1e-9, 1e9);
-    if (height === undefined) throw wrong('--camera: an orthographic camera needs "height", the height of its view in metres.');
+    if (height === undefined)
+      throw wrong('--camera: an orthographic camera needs "height", the height of its view in metres.');
     return { type, ...base, xmag: (height * aspect) / 2, ymag: height / 2 };
   }
   const lens = optionalNumber(object, 'lens_radius', 0, 1e6);
@@ -97,13 +120,23 @@ export function cameraFromJson(text: string, aspect = 1): Camera {
  *
  * @throws {CliError} `cli/camera`, `cli/input`
  */
-export async function chooseCamera(scene: Scene, choice: string | undefined, aspect: number, cwd: string): Promise<Camera> {
+export async function chooseCamera(
+  scene: Scene,
+  choice: string | undefined,
+  aspect: number,
+  cwd: string,
+): Promise<Camera> {
   if (choice === undefined) return scene.cameras[0] ?? frameCamera(scene, { aspect });
   if (choice.trimStart().startsWith('{')) return cameraFromJson(choice, aspect);
-  const named = scene.cameras.find(({ name }) => name === choice) ?? (/^\d+$/.test(choice) ? scene.cameras[Number(choice)] : undefined);
+  const named =
+    scene.cameras.find(({ name }) => name === choice) ??
+    (/^\d+$/.test(choice) ? scene.cameras[Number(choice)] : undefined);
   if (named) return named;
   if (/\.json$/i.test(choice)) {
-    return cameraFromJson(new TextDecoder().decode(await readInput(choice, cwd, 'the camera', { maxBytes: MAX_SETTINGS_BYTES })), aspect);
+    return cameraFromJson(
+      new TextDecoder().decode(await readInput(choice, cwd, 'the camera', { maxBytes: MAX_SETTINGS_BYTES })),
+      aspect,
+    );
   }
   const names = scene.cameras.map(({ name }, i) => `${i} "${name}"`).join(', ');
   throw wrong(`The model has no camera "${choice}"; ${names ? `it has ${names}` : 'it has none'}.`);

@@ -12,7 +12,8 @@ export interface ChosenEnvironment {
 }
 
 /** Whether a value of `--env` names a file. */
-export const isEnvironmentFile = (choice: string | undefined): choice is string => choice !== undefined && choice !== 'studio' && choice !== 'none';
+export const isEnvironmentFile = (choice: string | undefined): choice is string =>
+  choice !== undefined && choice !== 'studio' && choice !== 'none';
 
 /**
  * The surroundings that `--env` asks for; without a word the model's own, or the studio.
@@ -21,18 +22,35 @@ export const isEnvironmentFile = (choice: string | undefined): choice is string 
  * @throws {CliError} `cli/input` if the file cannot be read
  * @throws {ImageError} if it is not a picture
  */
-export async function chooseEnvironment(scene: Scene, choice: string | undefined, settings: { readonly rotation: number; readonly intensity: number }, cwd: string, signal?: AbortSignal): Promise<ChosenEnvironment> {
+export async function chooseEnvironment(
+  scene: Scene,
+  choice: string | undefined,
+  settings: { readonly rotation: number; readonly intensity: number },
+  cwd: string,
+  signal?: AbortSignal,
+): Promise<ChosenEnvironment> {
   const { rotation, intensity } = settings;
   if (choice === 'none') return { environment: undefined, source: 'none', warnings: [] };
-  if (choice === undefined && scene.environment) return { environment: adjusted(scene.environment, rotation, intensity), source: 'scene', warnings: [] };
-  if (choice === undefined || choice === 'studio') return { environment: studioEnvironment({ rotation, intensity }), source: 'studio', warnings: [] };
+  if (choice === undefined && scene.environment)
+    return { environment: adjusted(scene.environment, rotation, intensity), source: 'scene', warnings: [] };
+  if (choice === undefined || choice === 'studio')
+    return { environment: studioEnvironment({ rotation, intensity }), source: 'studio', warnings: [] };
   const bytes = await readInput(choice, cwd, 'the environment', signal ? { signal } : {});
   const { width, height, data, warnings } = decodeEnvironment(bytes);
-  return { environment: { type: 'latlong', width, height, data, rotation, intensity }, source: choice, warnings: warnings.map(({ message }) => message) };
+  return {
+    environment: { type: 'latlong', width, height, data, rotation, intensity },
+    source: choice,
+    warnings: warnings.map(({ message }) => message),
+  };
 }
 
 function adjusted(environment: Environment, rotation: number, intensity: number): Environment {
-  if (environment.type === 'latlong') return { ...environment, rotation: (environment.rotation ?? 0) + rotation, intensity: (environment.intensity ?? 1) * intensity };
+  if (environment.type === 'latlong')
+    return {
+      ...environment,
+      rotation: (environment.rotation ?? 0) + rotation,
+      intensity: (environment.intensity ?? 1) * intensity,
+    };
   const [r, g, b] = environment.radiance;
   return { ...environment, radiance: [r * intensity, g * intensity, b * intensity] };
 }

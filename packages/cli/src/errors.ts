@@ -4,26 +4,55 @@ import { visible } from './visible';
 /**
  * Something the user can put right. Codes: `cli/usage` (unknown option, impossible value), `cli/input` (a file that
  * cannot be read), `cli/output` (a file that cannot be written), `cli/camera` (no such camera), `cli/batch` (a batch
- * file that makes no sense), `cli/checkpoint` (a file that cannot be resumed), `cli/gpu-lost` (a GPU that is gone for good), `cli/missing-package` (an optional package is needed), `cli/port` (a port that cannot be used).
+ * file that makes no sense), `cli/checkpoint` (a file that cannot be resumed), `cli/gpu-lost` (a GPU that is gone for
+ * good), `cli/missing-package` (an optional package is needed), `cli/port` (a port that cannot be used).
  */
 export class CliError extends GlanzError {}
 
 /** What the process ends with. Listed in the manual page. */
-export const EXIT = { ok: 0, failure: 1, usage: 2, input: 3, output: 4, gpu: 5, internal: 70, hangup: 129, interrupted: 130, terminated: 143 } as const;
+export const EXIT = {
+  ok: 0,
+  failure: 1,
+  usage: 2,
+  input: 3,
+  output: 4,
+  gpu: 5,
+  internal: 70,
+  hangup: 129,
+  interrupted: 130,
+  terminated: 143,
+} as const;
 
 /** What the process ends with after a signal. */
 export const EXIT_OF_INTERRUPT = { SIGINT: EXIT.interrupted, SIGTERM: EXIT.terminated, SIGHUP: EXIT.hangup } as const;
 
-const GPU_CODES = new Set(['renderer/no-webgpu', 'renderer/no-adapter', 'renderer/no-device', 'renderer/no-gpu', 'renderer/gpu-not-found', 'renderer/device-lost', 'cli/gpu-lost']);
+const GPU_CODES = new Set([
+  'renderer/no-webgpu',
+  'renderer/no-adapter',
+  'renderer/no-device',
+  'renderer/no-gpu',
+  'renderer/gpu-not-found',
+  'renderer/device-lost',
+  'cli/gpu-lost',
+]);
 
 /** The exit code that belongs to an error. */
 export function exitCodeOf(error: unknown): number {
   if (!(error instanceof GlanzError)) return EXIT.internal;
   const { code } = error;
-  if (code === 'cli/usage' || code === 'cli/camera' || code === 'cli/batch' || code === 'cli/port' || code === 'renderer/size' || code === 'renderer/camera') return EXIT.usage;
+  if (
+    code === 'cli/usage' ||
+    code === 'cli/camera' ||
+    code === 'cli/batch' ||
+    code === 'cli/port' ||
+    code === 'renderer/size' ||
+    code === 'renderer/camera'
+  )
+    return EXIT.usage;
   if (code === 'cli/output') return EXIT.output;
   if (GPU_CODES.has(code)) return EXIT.gpu;
-  if (/^(cli\/input|cli\/checkpoint|gltf\/|scene\/|image\/|formats\/|cad\/|renderer\/no-triangles)/.test(code)) return EXIT.input;
+  if (/^(cli\/input|cli\/checkpoint|gltf\/|scene\/|image\/|formats\/|cad\/|renderer\/no-triangles)/.test(code))
+    return EXIT.input;
   return EXIT.failure;
 }
 
@@ -37,7 +66,12 @@ export function errorLine(error: unknown): string {
 }
 
 /** The error as `--json` prints it. */
-export function describeError(error: unknown): { readonly code: string; readonly message: string; readonly location?: unknown } {
-  if (error instanceof GlanzError) return { code: error.code, message: error.message, ...(error.location ? { location: error.location } : {}) };
+export function describeError(error: unknown): {
+  readonly code: string;
+  readonly message: string;
+  readonly location?: unknown;
+} {
+  if (error instanceof GlanzError)
+    return { code: error.code, message: error.message, ...(error.location ? { location: error.location } : {}) };
   return { code: 'cli/internal', message: error instanceof Error ? error.message : String(error) };
 }

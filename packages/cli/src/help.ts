@@ -217,7 +217,8 @@ EXAMPLES
 
 /** The page, or what a command of its own takes. */
 export function helpOf(topic: string | undefined): string {
-  const section = topic !== undefined && Object.hasOwn(COMMANDS, topic) ? COMMANDS[topic as keyof typeof COMMANDS] : undefined;
+  const section =
+    topic !== undefined && Object.hasOwn(COMMANDS, topic) ? COMMANDS[topic as keyof typeof COMMANDS] : undefined;
   if (section === undefined) return HELP;
   return `${section}
       --json            Print one JSON object on stdout; or the error.

@@ -27,8 +27,8 @@ const broken = new WeakSet<NodeJS.WriteStream>();
 const watched = new WeakSet<NodeJS.WriteStream>();
 
 /**
- * Writes until the stream breaks: after a reader has closed its end of the pipe, or a terminal is gone, text is dropped.
- * Without a listener the stream's error would end the process, and with it the render.
+ * Writes until the stream breaks: after a reader has closed its end of the pipe, or a terminal is gone, text is
+ * dropped. Without a listener the stream's error would end the process, and with it the render.
  */
 function writerOf(stream: NodeJS.WriteStream): (text: string) => void {
   if (!watched.has(stream)) {

@@ -130,13 +130,21 @@ const OPTIONS = {
   version: { type: 'boolean', short: 'V' },
 } satisfies ParseArgsConfig['options'];
 
-/** Former names of options, with the present ones. They work until the next minor version; whoever uses one is warned. */
-export const FORMER_NAMES = { tonemap: 'tone-map' } as const satisfies Partial<Record<keyof typeof OPTIONS, keyof typeof OPTIONS>>;
+/**
+ * Former names of options, with the present ones. They work until the next minor version; whoever uses one is warned.
+ */
+export const FORMER_NAMES = { tonemap: 'tone-map' } as const satisfies Partial<
+  Record<keyof typeof OPTIONS, keyof typeof OPTIONS>
+>;
 
 /** The warning about a former name. */
-export const formerNameWarning = (name: keyof typeof FORMER_NAMES): string => `"${name}" is deprecated: the option is called "${FORMER_NAMES[name]}".`;
+export const formerNameWarning = (name: keyof typeof FORMER_NAMES): string =>
+  `"${name}" is deprecated: the option is called "${FORMER_NAMES[name]}".`;
 
-/** Values under the present names of their options; a value that has its present name too is kept. Warns once for each name. */
+/**
+ * Values under the present names of their options; a value that has its present name too is kept. Warns once for each
+ * name.
+ */
 export function presentNames<T extends RenderValues>(values: T, warn: (text: string) => void): T {
   const present = { ...values };
   for (const [former, name] of Object.entries(FORMER_NAMES) as [keyof typeof FORMER_NAMES, 'tone-map'][]) {
@@ -153,11 +161,26 @@ export function presentNames<T extends RenderValues>(values: T, warn: (text: str
 export type RenderValues = Omit<Partial<ReturnType<typeof parse>['values']>, (typeof NOT_OF_PICTURES)[number]>;
 
 /** Options of the command, not of a picture. */
-const NOT_OF_PICTURES = ['json', 'quiet', 'list-gpus', 'gpu', 'help', 'version', 'batch', 'resume', 'checkpoint', 'output-root'] as const;
+const NOT_OF_PICTURES = [
+  'json',
+  'quiet',
+  'list-gpus',
+  'gpu',
+  'help',
+  'version',
+  'batch',
+  'resume',
+  'checkpoint',
+  'output-root',
+] as const;
 
 /** Options that a picture of a batch may have. */
 export const BATCH_KEYS: Readonly<Record<string, 'text' | 'boolean' | 'list'>> = Object.fromEntries(
-  Object.entries(OPTIONS).flatMap(([name, option]) => ((NOT_OF_PICTURES as readonly string[]).includes(name) ? [] : [[name, option.type === 'boolean' ? 'boolean' : 'multiple' in option ? 'list' : 'text']])),
+  Object.entries(OPTIONS).flatMap(([name, option]) =>
+    (NOT_OF_PICTURES as readonly string[]).includes(name)
+      ? []
+      : [[name, option.type === 'boolean' ? 'boolean' : 'multiple' in option ? 'list' : 'text']],
+  ),
 );
 
 const MAX_SIDE = 65536;
@@ -170,7 +193,13 @@ function editDistance(a: string, b: string): number {
   for (let i = 1; i <= a.length; i++) {
     const next = [i];
     for (let j = 1; j <= b.length; j++) {
-      next.push(Math.min((row[j] as number) + 1, (next[j - 1] as number) + 1, (row[j - 1] as number) + (a[i - 1] === b[j - 1] ? 0 : 1)));
+      next.push(
+        Math.min(
+          (row[j] as number) + 1,
+          (next[j - 1] as number) + 1,
+          (row[j - 1] as number) + (a[i - 1] === b[j - 1] ? 0 : 1),
+        ),
+      );
     }
     row = next;
   }
@@ -202,19 +231,30 @@ function parse(argv: readonly string[]) {
     const { code, message } = cause as Error & { code?: string };
     const option = /'([^' ]*)/.exec(message)?.[1] ?? '';
     if (code === 'ERR_PARSE_ARGS_UNKNOWN_OPTION') {
-      const guess = closest(option.replace(/^-+/, ''), Object.keys(OPTIONS).filter((name) => !Object.hasOwn(FORMER_NAMES, name)));
+      const guess = closest(
+        option.replace(/^-+/, ''),
+        Object.keys(OPTIONS).filter((name) => !Object.hasOwn(FORMER_NAMES, name)),
+      );
       throw usage(`Unknown option "${option}".${guess ? ` Did you mean --${guess}?` : ''} See glanz --help.`);
     }
-    if (code === 'ERR_PARSE_ARGS_INVALID_OPTION_VALUE') throw usage(`${(message.split('\n')[0] as string).replace(/\.?$/, '.')} See glanz --help.`);
+    if (code === 'ERR_PARSE_ARGS_INVALID_OPTION_VALUE')
+      throw usage(`${(message.split('\n')[0] as string).replace(/\.?$/, '.')} See glanz --help.`);
     throw cause;
   }
 }
 
-function number(name: string, text: string | undefined, fallback: number, check: { readonly whole?: boolean; readonly min: number; readonly max: number }): number {
+function number(
+  name: string,
+  text: string | undefined,
+  fallback: number,
+  check: { readonly whole?: boolean; readonly min: number; readonly max: number },
+): number {
   if (text === undefined) return fallback;
   const value = text.trim() === '' ? NaN : Number(text);
   if (!(value >= check.min && value <= check.max) || (check.whole && !Number.isInteger(value))) {
-    throw usage(`--${name} must be a ${check.whole ? 'whole ' : ''}number from ${check.min} to ${check.max}, not "${text}".`);
+    throw usage(
+      `--${name} must be a ${check.whole ? 'whole ' : ''}number from ${check.min} to ${check.max}, not "${text}".`,
+    );
   }
   return value;
 }
@@ -223,7 +263,8 @@ function parseSize(text: string): [number, number] {
   const match = /^(\d{1,6})[xX×](\d{1,6})$/.exec(text.trim());
   if (!match) throw usage(`--size must be like 1024x768, not "${text}".`);
   const [width, height] = [Number(match[1]), Number(match[2])];
-  if (width < 1 || height < 1 || width > MAX_SIDE || height > MAX_SIDE) throw usage(`--size ${text}: both sides must be from 1 to ${MAX_SIDE} pixels.`);
+  if (width < 1 || height < 1 || width > MAX_SIDE || height > MAX_SIDE)
+    throw usage(`--size ${text}: both sides must be from 1 to ${MAX_SIDE} pixels.`);
   return [width, height];
 }
 
@@ -245,7 +286,11 @@ export function renderOptions(values: RenderValues, model: string): RenderComman
   const time = values.time === undefined ? undefined : number('time', values.time, 0, { min: -1e9, max: 1e9 });
   return {
     model,
-    pose: { ...(values.scene === undefined ? {} : { scene: indexOrName(values.scene) }), ...(values.animation === undefined ? {} : { animation: indexOrName(values.animation) }), ...(time === undefined ? {} : { time }) },
+    pose: {
+      ...(values.scene === undefined ? {} : { scene: indexOrName(values.scene) }),
+      ...(values.animation === undefined ? {} : { animation: indexOrName(values.animation) }),
+      ...(time === undefined ? {} : { time }),
+    },
     variants: values.variant ?? [],
     views: viewsOf(values),
     outputs: files.map((file) => formatOf(file, bits)),
@@ -255,7 +300,11 @@ export function renderOptions(values: RenderValues, model: string): RenderComman
     width,
     height,
     noise: values.noise === undefined ? undefined : number('noise', values.noise, 0, { min: 1e-5, max: 10 }),
-    samples: number('samples', values.samples, values.noise === undefined ? 256 : 65536, { whole: true, min: 1, max: 16777216 }),
+    samples: number('samples', values.samples, values.noise === undefined ? 256 : 65536, {
+      whole: true,
+      min: 1,
+      max: 16777216,
+    }),
     depth: number('depth', values.depth, 8, { whole: true, min: 1, max: 1024 }),
     seed: number('seed', values.seed, 0, { whole: true, min: 0, max: 4294967295 }),
     exposure: values.exposure === undefined ? 0 : parseExposure(values.exposure),
@@ -265,10 +314,16 @@ export function renderOptions(values: RenderValues, model: string): RenderComman
     quality: {
       ...(values.filter === undefined ? {} : { filter: parseFilter(values.filter) }),
       ...(values['max-bounces'] === undefined ? {} : { maxBounces: parseBounces(values['max-bounces']) }),
-      ...(values['clamp-indirect'] === undefined ? {} : { clampIndirect: number('clamp-indirect', values['clamp-indirect'], 0, { min: 1e-6, max: 1e30 }) }),
-      ...(values.regularization === undefined ? {} : { regularization: number('regularization', values.regularization, 0, { min: 0, max: 1 }) }),
+      ...(values['clamp-indirect'] === undefined
+        ? {}
+        : { clampIndirect: number('clamp-indirect', values['clamp-indirect'], 0, { min: 1e-6, max: 1e30 }) }),
+      ...(values.regularization === undefined
+        ? {}
+        : { regularization: number('regularization', values.regularization, 0, { min: 0, max: 1 }) }),
       ...(values['no-caustics'] ? { caustics: false } : {}),
-      ...(values['back-face-culling'] === undefined ? {} : { backFaceCulling: parseCulling(values['back-face-culling']) }),
+      ...(values['back-face-culling'] === undefined
+        ? {}
+        : { backFaceCulling: parseCulling(values['back-face-culling']) }),
       ...(values['light-groups'] === undefined ? {} : { lightGroups: parseLightGroups(values['light-groups']) }),
     },
   };
@@ -276,9 +331,19 @@ export function renderOptions(values: RenderValues, model: string): RenderComman
 
 /** The views that were asked for; one if nothing was said. */
 function viewsOf({ camera, view, turntable: steps, elevation }: RenderValues): View[] {
-  if (camera !== undefined && view !== undefined) throw usage('--camera is one view and --view any number: give one of the two; --view takes cameras too.');
-  if (elevation !== undefined && steps === undefined) throw usage('--elevation belongs to --turntable; a view has its own: --view 30,20.');
-  const views = [...(view ?? []).map(parseView), ...(steps === undefined ? [] : turntable(number('turntable', steps, 0, { whole: true, min: 1, max: 3600 }), number('elevation', elevation, 20, { min: -89, max: 89 })))];
+  if (camera !== undefined && view !== undefined)
+    throw usage('--camera is one view and --view any number: give one of the two; --view takes cameras too.');
+  if (elevation !== undefined && steps === undefined)
+    throw usage('--elevation belongs to --turntable; a view has its own: --view 30,20.');
+  const views = [
+    ...(view ?? []).map(parseView),
+    ...(steps === undefined
+      ? []
+      : turntable(
+          number('turntable', steps, 0, { whole: true, min: 1, max: 3600 }),
+          number('elevation', elevation, 20, { min: -89, max: 89 }),
+        )),
+  ];
   if (views.length === 0 || camera !== undefined) views.unshift({ kind: 'camera', name: 'camera', camera });
   return views;
 }
@@ -291,7 +356,8 @@ function viewsOf({ camera, view, turntable: steps, elevation }: RenderValues): V
 export function parseCommand(argv: readonly string[]): Command {
   const [first] = argv;
   const help = argv.includes('--help') || argv.includes('-h');
-  if (first === 'help' || help) return { kind: 'help', topic: first === 'help' ? argv[1] : first?.startsWith('-') ? undefined : first };
+  if (first === 'help' || help)
+    return { kind: 'help', topic: first === 'help' ? argv[1] : first?.startsWith('-') ? undefined : first };
   if (first === 'convert') return parseConvert(argv.slice(1));
   if (first === 'info') return parseInfo(argv.slice(1));
   if (first === 'bench') return parseBench(argv.slice(1));
@@ -311,11 +377,18 @@ export function parseCommand(argv: readonly string[]): Command {
   if (command !== 'render') {
     if (commands.includes(command)) throw usage(`"${command}" comes first: glanz ${command} …; see glanz --help.`);
     const guess = closest(command, commands);
-    throw usage(`Unknown command "${command}".${guess ? ` Did you mean glanz ${guess}?` : ' Use glanz render MODEL;'} See glanz --help.`.replace('; See', '; see'));
+    throw usage(
+      `Unknown command "${command}".${guess ? ` Did you mean glanz ${guess}?` : ' Use glanz render MODEL;'} See glanz --help.`.replace(
+        '; See',
+        '; see',
+      ),
+    );
   }
   if (rest.length > 0) throw usage(`One model at a time: what is "${rest[0]}"? Several go into a batch file: --batch.`);
-  if (model === undefined && values.batch === undefined) throw usage('No model given. Use glanz render MODEL, a .glb or .gltf file.');
-  if (values['output-root'] !== undefined && values.batch === undefined) throw usage('--output-root limits where a batch file may write, and belongs to --batch.');
+  if (model === undefined && values.batch === undefined)
+    throw usage('No model given. Use glanz render MODEL, a .glb or .gltf file.');
+  if (values['output-root'] !== undefined && values.batch === undefined)
+    throw usage('--output-root limits where a batch file may write, and belongs to --batch.');
   if (values.checkpoint !== undefined) checkPlaceholders(values.checkpoint, '--checkpoint');
   return {
     kind: 'render',

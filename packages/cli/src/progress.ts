@@ -7,7 +7,9 @@ export function duration(milliseconds: number): string {
   if (!Number.isFinite(milliseconds)) return '–';
   const seconds = Math.max(0, Math.ceil(milliseconds / 1000));
   const two = (n: number) => String(n).padStart(2, '0');
-  return seconds < 3600 ? `${Math.floor(seconds / 60)}:${two(seconds % 60)}` : `${Math.floor(seconds / 3600)}:${two(Math.floor(seconds / 60) % 60)}:${two(seconds % 60)}`;
+  return seconds < 3600
+    ? `${Math.floor(seconds / 60)}:${two(seconds % 60)}`
+    : `${Math.floor(seconds / 3600)}:${two(Math.floor(seconds / 60) % 60)}:${two(seconds % 60)}`;
 }
 
 /** Three significant digits, without an exponent. */
@@ -58,7 +60,9 @@ export class ProgressReporter {
     if (this.#quiet || this.shared) return;
     if (this.#io.interactive) {
       if (label === this.#stage && this.#io.now() - this.#lastDraw < REDRAW_MS) return;
-      this.#draw(`${this.prefix}${this.#style('cyan', label)}${done === undefined || done === 0 ? ' …' : ` ${Math.floor(done * 100)} %`}`);
+      this.#draw(
+        `${this.prefix}${this.#style('cyan', label)}${done === undefined || done === 0 ? ' …' : ` ${Math.floor(done * 100)} %`}`,
+      );
     } else if (label !== this.#stage) this.#io.stderr(`${this.prefix}${label}\n`);
     this.#stage = label;
   }
@@ -69,7 +73,10 @@ export class ProgressReporter {
     const { samples, targetSamples, samplesPerSecond, elapsedMs, remainingMs } = progress;
     const now = this.#io.now();
     const last = remainingMs === 0 || samples >= targetSamples;
-    const what = progress.noise === undefined ? `${samples}/${targetSamples} samples` : `${samples} samples · noise ${(100 * progress.noise).toFixed(2)} %`;
+    const what =
+      progress.noise === undefined
+        ? `${samples}/${targetSamples} samples`
+        : `${samples} samples · noise ${(100 * progress.noise).toFixed(2)} %`;
     const figures = `${what} · ${rate(samplesPerSecond)} samples/s · ${duration(remainingMs)} left`;
     if (!this.#io.interactive) {
       if (this.#stage !== 'render') this.#nextLog = 0;
@@ -84,9 +91,11 @@ export class ProgressReporter {
     const plain = ` ${this.prefix}${figures}`;
     const width = Math.min(30, this.#io.columns() - plain.length - 2);
     // Towards a noise target, time is what tells how far it is.
-    const share = progress.noise === undefined ? samples / targetSamples : elapsedMs / Math.max(elapsedMs + remainingMs, 1);
+    const share =
+      progress.noise === undefined ? samples / targetSamples : elapsedMs / Math.max(elapsedMs + remainingMs, 1);
     const filled = Math.round(Math.min(share, 1) * width);
-    const bar = width >= 8 ? this.#style('cyan', '━'.repeat(filled)) + this.#style('dim', '─'.repeat(width - filled)) : '';
+    const bar =
+      width >= 8 ? this.#style('cyan', '━'.repeat(filled)) + this.#style('dim', '─'.repeat(width - filled)) : '';
     this.#draw(bar + (bar ? plain : plain.trimStart().slice(0, Math.max(10, this.#io.columns() - 1))));
   }
 

@@ -2,7 +2,10 @@ import type { PathTracerOptions } from '@glanz/renderer';
 import { CliError } from './errors';
 
 /** What the command line passes on to the tracer as it is. Empty: the tracer's defaults. */
-export type QualityOptions = Pick<PathTracerOptions, 'filter' | 'lightGroups' | 'clampIndirect' | 'regularization' | 'caustics' | 'maxBounces' | 'backFaceCulling'>;
+export type QualityOptions = Pick<
+  PathTracerOptions,
+  'filter' | 'lightGroups' | 'clampIndirect' | 'regularization' | 'caustics' | 'maxBounces' | 'backFaceCulling'
+>;
 
 const FILTERS = ['box', 'gaussian', 'blackman-harris'] as const;
 
@@ -20,7 +23,8 @@ const CULLING = ['off', 'camera', 'all'] as const;
 /** `--back-face-culling MODE`. @throws {CliError} `cli/usage` */
 export function parseCulling(text: string): (typeof CULLING)[number] {
   const mode = CULLING.find((known) => known === text);
-  if (!mode) throw new CliError('cli/usage', `--back-face-culling must be one of ${CULLING.join(', ')}, not "${text}".`);
+  if (!mode)
+    throw new CliError('cli/usage', `--back-face-culling must be one of ${CULLING.join(', ')}, not "${text}".`);
   return mode;
 }
 
@@ -32,7 +36,11 @@ export function parseBounces(text: string): NonNullable<PathTracerOptions['maxBo
     text.split(',').map((part) => {
       const [, name, count] = /^\s*(\w+)\s*=\s*(\d+)\s*$/.exec(part) ?? [];
       const kind = KINDS.find((known) => known === name);
-      if (!kind) throw new CliError('cli/usage', `--max-bounces must be like diffuse=2,specular=4 with ${KINDS.join(', ')}, not "${text}".`);
+      if (!kind)
+        throw new CliError(
+          'cli/usage',
+          `--max-bounces must be like diffuse=2,specular=4 with ${KINDS.join(', ')}, not "${text}".`,
+        );
       return [kind, Number(count)];
     }),
   );
@@ -45,6 +53,10 @@ export function parseFilter(text: string): NonNullable<PathTracerOptions['filter
   if (!type) throw new CliError('cli/usage', `There is no pixel filter "${name}". Known: ${FILTERS.join(', ')}.`);
   if (radius === undefined) return type;
   const pixels = radius.trim() === '' ? NaN : Number(radius);
-  if (!(pixels > 0 && pixels <= 16)) throw new CliError('cli/usage', `--filter ${type}:RADIUS must be a number above 0 up to 16, in pixels, not "${radius}".`);
+  if (!(pixels > 0 && pixels <= 16))
+    throw new CliError(
+      'cli/usage',
+      `--filter ${type}:RADIUS must be a number above 0 up to 16, in pixels, not "${radius}".`,
+    );
   return { type, radius: pixels };
 }

@@ -21,7 +21,11 @@ import { jsonLine, visible } from './visible';
  * @param backend Loader and renderer; default: the real ones.
  * @returns The exit code. Never throws, never ends the process.
  */
-export async function runCli(argv: readonly string[], io: CliIo = nodeIo(), backend: Backend = nodeBackend()): Promise<number> {
+export async function runCli(
+  argv: readonly string[],
+  io: CliIo = nodeIo(),
+  backend: Backend = nodeBackend(),
+): Promise<number> {
   // Even a command line that cannot be read may have asked for JSON.
   let json = argv.includes('--json');
   try {
@@ -37,15 +41,24 @@ export async function runCli(argv: readonly string[], io: CliIo = nodeIo(), back
     json = command.json;
     if (command.kind === 'convert') return await convertCommand(command, io);
     if (command.kind === 'info') return await infoCommand(command, io, backend);
-    if (command.kind === 'bench') return await benchCommand(command, io, backend, new ProgressReporter(io, command.quiet));
+    if (command.kind === 'bench')
+      return await benchCommand(command, io, backend, new ProgressReporter(io, command.quiet));
     if (command.kind === 'serve') return await serveCommand(command, io);
     if (command.kind === 'list-gpus') return await listGpusCommand(command, io, backend);
     const { result, exitCode } = await renderCommand(command, io, backend, new ProgressReporter(io, command.quiet));
-    if (json) io.stdout(jsonLine(result ?? { ok: false, error: { code: 'cli/interrupted', message: 'Interrupted before the first sample.' } }));
+    if (json)
+      io.stdout(
+        jsonLine(
+          result ?? { ok: false, error: { code: 'cli/interrupted', message: 'Interrupted before the first sample.' } },
+        ),
+      );
     return exitCode;
   } catch (error) {
     io.stderr(`glanz: ${errorLine(error)}\n`);
-    if (io.debug && error instanceof Error) io.stderr(`${[error.stack ?? '', ...(error.cause instanceof Error ? [`caused by ${error.cause.stack}`] : [])].join('\n').split('\n').map(visible).join('\n')}\n`);
+    if (io.debug && error instanceof Error)
+      io.stderr(
+        `${[error.stack ?? '', ...(error.cause instanceof Error ? [`caused by ${error.cause.stack}`] : [])].join('\n').split('\n').map(visible).join('\n')}\n`,
+      );
     if (json) io.stdout(jsonLine({ ok: false, error: describeError(error) }));
     return exitCodeOf(error);
   }

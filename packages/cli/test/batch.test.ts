@@ -1,4 +1,13 @@
-import { appendFileSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, utimesSync, writeFileSync } from 'node:fs';
+import {
+  appendFileSync,
+  existsSync,
+  mkdirSync,
+  readdirSync,
+  readFileSync,
+  rmSync,
+  utimesSync,
+  writeFileSync,
+} from 'node:fs';
 import { join } from 'node:path';
 import { describe, expect, it } from 'vitest';
 import { parseCsv } from '../src/batch-file';
@@ -9,25 +18,66 @@ const SIZE = ['--size', '4x4', '--samples', '2'];
 const VARIANTS = ['red', 'green', 'deep blue'];
 const scene = { ...triangleScene(), variants: VARIANTS };
 const folder = () => temporaryFolder({ 'm.glb': 'not read by the fake', 'n.glb': 'nor this' });
-const pictures = (cwd: string) => readdirSync(cwd, { recursive: true, encoding: 'utf8' }).filter((name) => name.endsWith('.png')).sort();
+const pictures = (cwd: string) =>
+  readdirSync(cwd, { recursive: true, encoding: 'utf8' })
+    .filter((name) => name.endsWith('.png'))
+    .sort();
 
 describe('variants and views', () => {
   it('each variant from each view, by one tracer, under names of their own', async () => {
     const cwd = folder();
-    const { code, created, edits, destroyed, out } = await run(['render', 'm.glb', ...SIZE, '--variant', 'all', '--view', 'front', '--view', '30,20', '--json'], cwd, { scene });
+    const { code, created, edits, destroyed, out } = await run(
+      ['render', 'm.glb', ...SIZE, '--variant', 'all', '--view', 'front', '--view', '30,20', '--json'],
+      cwd,
+      { scene },
+    );
     expect(code).toBe(0);
-    expect(pictures(cwd)).toEqual(['m-deep_blue-30_20.png', 'm-deep_blue-front.png', 'm-green-30_20.png', 'm-green-front.png', 'm-red-30_20.png', 'm-red-front.png']);
+    expect(pictures(cwd)).toEqual([
+      'm-deep_blue-30_20.png',
+      'm-deep_blue-front.png',
+      'm-green-30_20.png',
+      'm-green-front.png',
+      'm-red-30_20.png',
+      'm-red-front.png',
+    ]);
     expect([created.length, destroyed]).toEqual([1, ['tracer', 'device']]);
     expect(edits.filter(([what]) => what === 'variant').map(([, to]) => to)).toEqual([0, 0, 1, 1, 2, 2]);
     const result = JSON.parse(out) as BatchResult;
     expect(result).toMatchObject({ ok: true, total: 6, skipped: 0, failed: 0, interrupted: null });
-    expect((result.pictures as RenderResult[]).map(({ variant, view, files: [file] }) => [variant, view, file!.path])[1]).toEqual(['red', '30_20', 'm-red-30_20.png']);
+    expect(
+      (result.pictures as RenderResult[]).map(({ variant, view, files: [file] }) => [variant, view, file!.path])[1],
+    ).toEqual(['red', '30_20', 'm-red-30_20.png']);
   });
 
   it('placeholders anywhere in the path, folders made', async () => {
     const cwd = folder();
-    expect((await run(['render', 'm.glb', ...SIZE, '--variant', 'green', '--variant', '0', '--turntable', '2', '-o', 'out/{model}/{variant}/{view}.png'], cwd, { scene })).code).toBe(0);
-    expect(pictures(cwd)).toEqual(['out/m/0/turntable-000.png', 'out/m/0/turntable-001.png', 'out/m/green/turntable-000.png', 'out/m/green/turntable-001.png']);
+    expect(
+      (
+        await run(
+          [
+            'render',
+            'm.glb',
+            ...SIZE,
+            '--variant',
+            'green',
+            '--variant',
+            '0',
+            '--turntable',
+            '2',
+            '-o',
+            'out/{model}/{variant}/{view}.png',
+          ],
+          cwd,
+          { scene },
+        )
+      ).code,
+    ).toBe(0);
+    expect(pictures(cwd)).toEqual([
+      'out/m/0/turntable-000.png',
+      'out/m/0/turntable-001.png',
+      'out/m/green/turntable-000.png',
+      'out/m/green/turntable-001.png',
+    ]);
   });
 
   it('one variant is one picture, as ever', async () => {
@@ -52,8 +102,13 @@ describe('variants and views', () => {
 
   it('the scene, animation and time reach the loader', async () => {
     const poses: unknown[] = [];
-    const loadModel = async (_file: string, _signal: AbortSignal, pose?: unknown) => (poses.push(pose), triangleScene());
-    await run(['render', 'm.glb', ...SIZE, '--scene', 'second', '--animation', '1', '--time', '0.5'], folder(), { loadModel });
+    const loadModel = async (_file: string, _signal: AbortSignal, pose?: unknown) => (
+      poses.push(pose),
+      triangleScene()
+    );
+    await run(['render', 'm.glb', ...SIZE, '--scene', 'second', '--animation', '1', '--time', '0.5'], folder(), {
+      loadModel,
+    });
     expect(poses).toEqual([{ scene: 'second', animation: 1, time: 0.5 }]);
   });
 });
@@ -62,26 +117,69 @@ describe('batch files', () => {
   it('JSON with defaults; the command line says the rest', async () => {
     const cwd = folder();
     mkdirSync(join(cwd, 'jobs'));
-    writeFileSync(join(cwd, 'jobs', 'b.json'), JSON.stringify({ defaults: { samples: 3, seed: 9 }, pictures: [{ model: '../m.glb', output: 'a.png', view: 'iso' }, { model: '../n.glb', output: ['b.png', 'b.exr'], samples: 5, camera: { position: [0, 0, 9], target: [0, 0, 0] }, transparent: true }] }));
-    const { code, created, out, err } = await run(['render', '--batch', 'jobs/b.json', '--size', '4x4', '--depth', '3', '--json'], cwd, { scene });
+    writeFileSync(
+      join(cwd, 'jobs', 'b.json'),
+      JSON.stringify({
+        defaults: { samples: 3, seed: 9 },
+        pictures: [
+          { model: '../m.glb', output: 'a.png', view: 'iso' },
+          {
+            model: '../n.glb',
+            output: ['b.png', 'b.exr'],
+            samples: 5,
+            camera: { position: [0, 0, 9], target: [0, 0, 0] },
+            transparent: true,
+          },
+        ],
+      }),
+    );
+    const { code, created, out, err } = await run(
+      ['render', '--batch', 'jobs/b.json', '--size', '4x4', '--depth', '3', '--json'],
+      cwd,
+      { scene },
+    );
     expect(code, err).toBe(0);
     expect(pictures(cwd)).toEqual(['jobs/a.png', 'jobs/b.png']);
     expect(existsSync(join(cwd, 'jobs/b.exr'))).toBe(true);
-    expect(created.map(({ options: { seed, maxDepth, background } }) => [seed, maxDepth, background])).toEqual([[9, 3, 'environment'], [9, 3, 'transparent']]);
-    expect((JSON.parse(out) as BatchResult).pictures.map((picture) => (picture as RenderResult).samples)).toEqual([3, 5]);
+    expect(created.map(({ options: { seed, maxDepth, background } }) => [seed, maxDepth, background])).toEqual([
+      [9, 3, 'environment'],
+      [9, 3, 'transparent'],
+    ]);
+    expect((JSON.parse(out) as BatchResult).pictures.map((picture) => (picture as RenderResult).samples)).toEqual([
+      3, 5,
+    ]);
   });
 
   it('CSV with quotes, lists and empty fields', async () => {
     const cwd = folder();
-    writeFileSync(join(cwd, 'b.csv'), 'model,variant,view,output,samples\r\nm.glb,red;green,"30,20;iso",x/{variant}-{view}.png,\r\nn.glb,,,"say ""n"".png",7\r\n');
-    const { code, out, err } = await run(['render', '--batch', 'b.csv', '--size', '4x4', '--samples', '2', '--json'], cwd, { scene });
+    writeFileSync(
+      join(cwd, 'b.csv'),
+      'model,variant,view,output,samples\r\nm.glb,red;green,"30,20;iso",x/{variant}-{view}.png,\r\nn.glb,,,"say ""n"".png",7\r\n',
+    );
+    const { code, out, err } = await run(
+      ['render', '--batch', 'b.csv', '--size', '4x4', '--samples', '2', '--json'],
+      cwd,
+      { scene },
+    );
     expect(code, err).toBe(0);
-    expect(pictures(cwd)).toEqual(['say "n".png', 'x/green-30_20.png', 'x/green-iso.png', 'x/red-30_20.png', 'x/red-iso.png']);
-    expect((JSON.parse(out) as BatchResult).pictures.map((picture) => (picture as RenderResult).samples)).toEqual([2, 2, 2, 2, 7]);
+    expect(pictures(cwd)).toEqual([
+      'say "n".png',
+      'x/green-30_20.png',
+      'x/green-iso.png',
+      'x/red-30_20.png',
+      'x/red-iso.png',
+    ]);
+    expect((JSON.parse(out) as BatchResult).pictures.map((picture) => (picture as RenderResult).samples)).toEqual([
+      2, 2, 2, 2, 7,
+    ]);
   });
 
   it('rows of CSV, by the letter of RFC 4180', () => {
-    expect(parseCsv('a,b\n1,"x,""y""\nz"\n\n 2 , 3')).toEqual([['a', 'b'], ['1', 'x,"y"\nz'], ['2', '3']]);
+    expect(parseCsv('a,b\n1,"x,""y""\nz"\n\n 2 , 3')).toEqual([
+      ['a', 'b'],
+      ['1', 'x,"y"\nz'],
+      ['2', '3'],
+    ]);
   });
 
   it.each([
@@ -105,11 +203,21 @@ describe('batch files', () => {
 
   it('what fails is told, the others are made, and the exit status is that of the failure', async () => {
     const cwd = folder();
-    writeFileSync(join(cwd, 'b.json'), JSON.stringify([{ model: 'm.glb', variant: 'mauve', output: 'a.png' }, { model: 'm.glb', output: 'b.png' }]));
+    writeFileSync(
+      join(cwd, 'b.json'),
+      JSON.stringify([
+        { model: 'm.glb', variant: 'mauve', output: 'a.png' },
+        { model: 'm.glb', output: 'b.png' },
+      ]),
+    );
     const { code, out, err } = await run(['render', '--batch', 'b.json', ...SIZE, '--json'], cwd, { scene });
     expect(code).toBe(2);
     expect(pictures(cwd)).toEqual(['b.png']);
-    expect(JSON.parse(out)).toMatchObject({ ok: false, failed: 1, pictures: [{ ok: false, files: ['a.png'], error: { code: 'cli/usage' } }, { ok: true }] });
+    expect(JSON.parse(out)).toMatchObject({
+      ok: false,
+      failed: 1,
+      pictures: [{ ok: false, files: ['a.png'], error: { code: 'cli/usage' } }, { ok: true }],
+    });
     expect(err).toContain('1 of 2 pictures in 0:00, 1 failed');
   });
 });
@@ -122,7 +230,11 @@ describe('resuming', () => {
     const cwd = folder();
     expect(made((await run(argv, cwd, { scene })).out)).toBe(6);
     const again = await run([...argv, '--resume'], cwd, { scene });
-    expect([made(again.out), again.created.length, JSON.parse(again.out)]).toEqual([0, 0, expect.objectContaining({ ok: true, skipped: 6 })]);
+    expect([made(again.out), again.created.length, JSON.parse(again.out)]).toEqual([
+      0,
+      0,
+      expect.objectContaining({ ok: true, skipped: 6 }),
+    ]);
     // Without the word, all are.
     expect(made((await run(argv, cwd, { scene })).out)).toBe(6);
     rmSync(join(cwd, 'm-red-iso.png'));
@@ -159,7 +271,26 @@ describe('several GPUs', () => {
       opened.push(name);
       return { device: fakeDevice(), adapterName: `Fake ${name}`, software: false };
     };
-    const { code, out, created } = await run(['render', 'm.glb', ...SIZE, '--variant', 'all', '--view', 'front', '--view', 'iso', '--gpu', 'a', '--gpu', 'b', '--json'], cwd, { scene, openGpu });
+    const { code, out, created } = await run(
+      [
+        'render',
+        'm.glb',
+        ...SIZE,
+        '--variant',
+        'all',
+        '--view',
+        'front',
+        '--view',
+        'iso',
+        '--gpu',
+        'a',
+        '--gpu',
+        'b',
+        '--json',
+      ],
+      cwd,
+      { scene, openGpu },
+    );
     expect([code, opened.sort(), created.length]).toEqual([0, ['a', 'b'], 2]);
     const adapters = (JSON.parse(out) as BatchResult).pictures.map((picture) => (picture as RenderResult).adapter.name);
     expect(adapters.length).toBe(6);

@@ -3,7 +3,8 @@ import { cameraFromJson, chooseCamera, lookAt } from '../src/camera';
 import { CliError } from '../src/index';
 import { temporaryFolder, triangleScene } from './fakes';
 
-const close = (a: readonly number[], b: readonly number[]) => a.forEach((v, i) => expect(v, `[${i}]`).toBeCloseTo(b[i] as number, 12));
+const close = (a: readonly number[], b: readonly number[]) =>
+  a.forEach((v, i) => expect(v, `[${i}]`).toBeCloseTo(b[i] as number, 12));
 
 describe('lookAt', () => {
   it('looks along −Z of its node', () => {
@@ -21,7 +22,13 @@ describe('lookAt', () => {
 describe('cameraFromJson', () => {
   it('takes degrees and metres', () => {
     const camera = cameraFromJson('{"position":[0,0,5],"target":[0,0,1],"fov":90,"lens_radius":0.01}');
-    expect(camera).toMatchObject({ type: 'perspective', name: 'camera', yfov: Math.PI / 2, lens_radius: 0.01, focus_distance: 4 });
+    expect(camera).toMatchObject({
+      type: 'perspective',
+      name: 'camera',
+      yfov: Math.PI / 2,
+      lens_radius: 0.01,
+      focus_distance: 4,
+    });
   });
   it.each([
     ['{"position":[0,0,5]', 'not valid JSON'],
@@ -42,9 +49,20 @@ describe('cameraFromJson', () => {
 });
 
 it('knows parallel projection, panoramas and apertures', () => {
-  expect(cameraFromJson('{"position":[0,0,5],"projection":"orthographic","height":3}', 2)).toMatchObject({ type: 'orthographic', xmag: 3, ymag: 1.5 });
-  expect(cameraFromJson('{"position":[0,0,5],"projection":"panorama","name":"p"}')).toEqual({ type: 'panorama', name: 'p', transform: lookAt([0, 0, 5], [0, 0, 0], [0, 1, 0]) });
-  expect(cameraFromJson('{"position":[0,0,5],"lens_radius":0.1,"lens_blades":6,"lens_rotation":180}')).toMatchObject({ lens_blades: 6, lens_rotation: Math.PI });
+  expect(cameraFromJson('{"position":[0,0,5],"projection":"orthographic","height":3}', 2)).toMatchObject({
+    type: 'orthographic',
+    xmag: 3,
+    ymag: 1.5,
+  });
+  expect(cameraFromJson('{"position":[0,0,5],"projection":"panorama","name":"p"}')).toEqual({
+    type: 'panorama',
+    name: 'p',
+    transform: lookAt([0, 0, 5], [0, 0, 0], [0, 1, 0]),
+  });
+  expect(cameraFromJson('{"position":[0,0,5],"lens_radius":0.1,"lens_blades":6,"lens_rotation":180}')).toMatchObject({
+    lens_blades: 6,
+    lens_rotation: Math.PI,
+  });
 });
 
 describe('chooseCamera', () => {

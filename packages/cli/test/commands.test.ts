@@ -25,25 +25,63 @@ describe('info', () => {
   it('for people', async () => {
     const { code, out, err } = await run(['info', 'm.glb'], folder(), { scene });
     expect([code, err]).toEqual([0, '']);
-    for (const line of ['m.glb', '  triangles     1', '  parts         1: part', '  size          2 × 1 × 0 m, from -1, 0, 0', '  pictures      1: wood 2×1', '  cameras       1: 0 "front" perspective', '  lights        none', '  variants      2: "red", "blue"', '  animations    1: "walk" 1.25 s', '  generator     A tool', '  warning       odd [gltf/x]']) expect(out.split('\n')).toContain(line);
+    for (const line of [
+      'm.glb',
+      '  triangles     1',
+      '  parts         1: part',
+      '  size          2 × 1 × 0 m, from -1, 0, 0',
+      '  pictures      1: wood 2×1',
+      '  cameras       1: 0 "front" perspective',
+      '  lights        none',
+      '  variants      2: "red", "blue"',
+      '  animations    1: "walk" 1.25 s',
+      '  generator     A tool',
+      '  warning       odd [gltf/x]',
+    ])
+      expect(out.split('\n')).toContain(line);
   });
 
   it('for programs', async () => {
     const { out } = await run(['info', 'm.glb', '--json'], folder(), { scene });
-    expect(JSON.parse(out)).toMatchObject({ ok: true, model: 'm.glb', triangles: 1, meshTriangles: 1, instances: 1, bounds: { size: [2, 1, 0] }, variants: ['red', 'blue'], memoryBytes: { geometry: 48, images: 8 }, environment: 'none', warnings: [{ code: 'gltf/x' }] });
+    expect(JSON.parse(out)).toMatchObject({
+      ok: true,
+      model: 'm.glb',
+      triangles: 1,
+      meshTriangles: 1,
+      instances: 1,
+      bounds: { size: [2, 1, 0] },
+      variants: ['red', 'blue'],
+      memoryBytes: { geometry: 48, images: 8 },
+      environment: 'none',
+      warnings: [{ code: 'gltf/x' }],
+    });
   });
 
   it('of what is not there', async () => {
-    expect(await run(['info', 'gone.glb'], folder())).toMatchObject({ code: 3, err: expect.stringContaining('[cli/input]') });
+    expect(await run(['info', 'gone.glb'], folder())).toMatchObject({
+      code: 3,
+      err: expect.stringContaining('[cli/input]'),
+    });
     expect(await run(['info'], folder())).toMatchObject({ code: 2 });
   });
 });
 
 describe('bench', () => {
   it('measures runs on an empty film each, and tells the middle', async () => {
-    const { code, out, created, destroyed } = await run(['bench', '--size', '8x4', '--samples', '3', '--runs', '3', '--json', '-q'], '.');
+    const { code, out, created, destroyed } = await run(
+      ['bench', '--size', '8x4', '--samples', '3', '--runs', '3', '--json', '-q'],
+      '.',
+    );
     expect(code).toBe(0);
-    expect(JSON.parse(out)).toMatchObject({ ok: true, model: 'built-in', width: 8, height: 4, samples: 3, adapter: { name: 'Fake 3000' }, msPerSample: [0, 0, 0] });
+    expect(JSON.parse(out)).toMatchObject({
+      ok: true,
+      model: 'built-in',
+      width: 8,
+      height: 4,
+      samples: 3,
+      adapter: { name: 'Fake 3000' },
+      msPerSample: [0, 0, 0],
+    });
     expect(created[0]?.scene.instances.length).toBe(50);
     expect(destroyed).toEqual(['tracer', 'device']);
   });
@@ -61,7 +99,13 @@ describe('bench', () => {
   });
 
   it('refuses what makes no sense', async () => {
-    for (const argv of [['--runs', '0'], ['--size', 'big'], ['a.glb', 'b.glb'], ['--sample', '3']]) expect((await run(['bench', ...argv], '.')).code).toBe(2);
+    for (const argv of [
+      ['--runs', '0'],
+      ['--size', 'big'],
+      ['a.glb', 'b.glb'],
+      ['--sample', '3'],
+    ])
+      expect((await run(['bench', ...argv], '.')).code).toBe(2);
   });
 });
 
@@ -80,25 +124,52 @@ describe('serve', () => {
       new Promise<readonly [number, string | undefined, string]>((resolve, reject) => {
         request({ port: (server.address() as AddressInfo).port, path, method }, (response) => {
           let body = '';
-          response.on('data', (chunk: Buffer) => (body += chunk.toString())).on('end', () => resolve([response.statusCode!, response.headers['content-type'], body]));
-        }).on('error', reject).end();
+          response
+            .on('data', (chunk: Buffer) => (body += chunk.toString()))
+            .on('end', () => resolve([response.statusCode!, response.headers['content-type'], body]));
+        })
+          .on('error', reject)
+          .end();
       });
     expect(await get('/')).toEqual([200, 'text/html; charset=utf-8', '<p>hello']);
     expect(await get('/a.wasm?x=1')).toEqual([200, 'application/wasm', 'x']);
-    for (const path of ['/../secret.txt', '/..%2fsecret.txt', '/%2e%2e/secret.txt', '/link.txt', '/none', '/%00', '//etc/passwd', '/..%5csecret.txt']) expect((await get(path))[0], path).toBe(404);
+    for (const path of [
+      '/../secret.txt',
+      '/..%2fsecret.txt',
+      '/%2e%2e/secret.txt',
+      '/link.txt',
+      '/none',
+      '/%00',
+      '//etc/passwd',
+      '/..%5csecret.txt',
+    ])
+      expect((await get(path))[0], path).toBe(404);
     expect((await get('/%zz'))[0]).toBe(400);
     expect((await get('/', 'POST'))[0]).toBe(405);
   });
 
   it('says what is missing, and where it listens', async () => {
     const io = fakeIo('.');
-    await expect(serveCommand({ kind: 'serve', json: false, quiet: false, port: 0, host: '127.0.0.1' }, io, temporaryFolder())).rejects.toMatchObject({ code: 'cli/missing-package' });
-    const served = serveCommand({ kind: 'serve', json: true, quiet: false, port: 0, host: '127.0.0.1' }, io, temporaryFolder({ 'index.html': 'x' }));
+    await expect(
+      serveCommand({ kind: 'serve', json: false, quiet: false, port: 0, host: '127.0.0.1' }, io, temporaryFolder()),
+    ).rejects.toMatchObject({ code: 'cli/missing-package' });
+    const served = serveCommand(
+      { kind: 'serve', json: true, quiet: false, port: 0, host: '127.0.0.1' },
+      io,
+      temporaryFolder({ 'index.html': 'x' }),
+    );
     while (io.out.length === 0) await new Promise((done) => setTimeout(done, 5));
     const { url } = JSON.parse(io.out.join('')) as { url: string };
     expect(await (await fetch(url)).text()).toBe('x');
-    const taken = serveCommand({ kind: 'serve', json: false, quiet: false, port: Number(new URL(url).port), host: '127.0.0.1' }, fakeIo('.'), temporaryFolder({ 'index.html': 'x' }));
-    await expect(taken).rejects.toMatchObject({ code: 'cli/port', message: expect.stringContaining('something else listens there') });
+    const taken = serveCommand(
+      { kind: 'serve', json: false, quiet: false, port: Number(new URL(url).port), host: '127.0.0.1' },
+      fakeIo('.'),
+      temporaryFolder({ 'index.html': 'x' }),
+    );
+    await expect(taken).rejects.toMatchObject({
+      code: 'cli/port',
+      message: expect.stringContaining('something else listens there'),
+    });
     io.interrupt();
     expect(await served).toBe(0);
   });
@@ -106,7 +177,12 @@ describe('serve', () => {
 
 describe('help', () => {
   it('of a command, by either way', async () => {
-    for (const argv of [['help', 'info'], ['info', '--help'], ['bench', '-h'], ['convert', '--help']]) {
+    for (const argv of [
+      ['help', 'info'],
+      ['info', '--help'],
+      ['bench', '-h'],
+      ['convert', '--help'],
+    ]) {
       const { code, out } = await run(argv, '.');
       expect([code, out.includes('EXIT STATUS\n  0 done')]).toEqual([0, true]);
       expect(out).toContain(`glanz ${argv[0] === 'help' ? argv[1] : argv[0]}`);
@@ -114,7 +190,11 @@ describe('help', () => {
     expect(helpOf('render')).toBe(HELP);
   });
 
-  it.each([['bnch', 'Did you mean glanz bench?'], ['rendr', 'Did you mean glanz render?'], ['paint', 'Use glanz render MODEL']])('%s is no command', (word, guess) => {
+  it.each([
+    ['bnch', 'Did you mean glanz bench?'],
+    ['rendr', 'Did you mean glanz render?'],
+    ['paint', 'Use glanz render MODEL'],
+  ])('%s is no command', (word, guess) => {
     expect(() => parseCommand([word, 'm.glb'])).toThrow(guess);
   });
 });

@@ -19,11 +19,18 @@ describe('a red square', () => {
 
   it('comes out red before the studio, with true features in its EXR', async () => {
     const folder = cwd();
-    const { code, err } = await glanz(['red.glb', '-o', 'red.png', '-o', 'red.exr', '--size', '32x24', '--samples', '16', '--depth', '3'], folder);
+    const { code, err } = await glanz(
+      ['red.glb', '-o', 'red.png', '-o', 'red.exr', '--size', '32x24', '--samples', '16', '--depth', '3'],
+      folder,
+    );
     expect([code, err.includes('internal')], err).toEqual([0, false]);
-    const { data, info } = await sharp(join(folder, 'red.png')).ensureAlpha().raw().toBuffer({ resolveWithObject: true });
+    const { data, info } = await sharp(join(folder, 'red.png'))
+      .ensureAlpha()
+      .raw()
+      .toBuffer({ resolveWithObject: true });
     expect([info.width, info.height]).toEqual([32, 24]);
-    const pixel = (x: number, y: number) => [...data.subarray((y * 32 + x) * 4, (y * 32 + x) * 4 + 4)] as [number, number, number, number];
+    const pixel = (x: number, y: number) =>
+      [...data.subarray((y * 32 + x) * 4, (y * 32 + x) * 4 + 4)] as [number, number, number, number];
     const [r, g, b, a] = pixel(16, 12);
     expect(r).toBeGreaterThan(100);
     expect(Math.max(g, b)).toBeLessThan(r * 0.7);
@@ -36,8 +43,14 @@ describe('a red square', () => {
     const at = (name: string, x: number, y: number) => exr.channels.get(name)?.data[y * 32 + x] as number;
     // The square is 4 m away, and 2·4·tan(0.3) = 2.47 m of height are in view: 2 m of them are 19 of 24 rows.
     expect(at('depth.Z', 16, 12)).toBeCloseTo(4, 1);
-    expect([at('normal.X', 16, 12), at('normal.Y', 16, 12), at('normal.Z', 16, 12)].map((v) => Math.abs(Math.round(v * 100)))).toEqual([0, 0, 100]);
-    expect([at('objectId.id', 16, 12), at('materialId.id', 16, 12), at('objectId.id', 0, 0)]).toEqual([0, 0, 0xffffffff]);
+    expect(
+      [at('normal.X', 16, 12), at('normal.Y', 16, 12), at('normal.Z', 16, 12)].map((v) =>
+        Math.abs(Math.round(v * 100)),
+      ),
+    ).toEqual([0, 0, 100]);
+    expect([at('objectId.id', 16, 12), at('materialId.id', 16, 12), at('objectId.id', 0, 0)]).toEqual([
+      0, 0, 0xffffffff,
+    ]);
     expect(at('A', 16, 12)).toBe(1);
     expect(at('albedo.R', 16, 12)).toBeGreaterThan(3 * at('albedo.G', 16, 12));
     let rows = 0;
@@ -48,16 +61,49 @@ describe('a red square', () => {
   it('to a noise target, through another filter and a parallel projection', async () => {
     const folder = cwd();
     const camera = '{"position":[0,0,4],"projection":"orthographic","height":4}';
-    const { code, out, err } = await glanz(['red.glb', '-o', 'red.exr', '--bits', '32', '--size', '16x16', '--samples', '256', '--noise', '0.5', '--filter', 'gaussian', '--light-groups', 'each', '--camera', camera, '--depth', '3', '--json'], folder);
+    const { code, out, err } = await glanz(
+      [
+        'red.glb',
+        '-o',
+        'red.exr',
+        '--bits',
+        '32',
+        '--size',
+        '16x16',
+        '--samples',
+        '256',
+        '--noise',
+        '0.5',
+        '--filter',
+        'gaussian',
+        '--light-groups',
+        'each',
+        '--camera',
+        camera,
+        '--depth',
+        '3',
+        '--json',
+      ],
+      folder,
+    );
     expect(code, err).toBe(0);
-    const { samples, noise, statistics } = JSON.parse(out) as { samples: number; noise: number; statistics: { memory: { perPath: number } } };
+    const { samples, noise, statistics } = JSON.parse(out) as {
+      samples: number;
+      noise: number;
+      statistics: { memory: { perPath: number } };
+    };
     expect(samples).toBeGreaterThanOrEqual(64);
     expect(noise).toBeLessThanOrEqual(0.5);
     expect(statistics.memory.perPath).toBeGreaterThan(0);
     const exr = decodeExr(new Uint8Array(readFileSync(join(folder, 'red.exr'))));
     const at = (name: string, x: number, y: number) => exr.channels.get(name)?.data[y * 16 + x] as number;
     // A square of 2 m in a view of 4 m: columns 4 to 11. The filter reaches 1.5 pixels beyond.
-    expect([at('objectId.id', 3, 8), at('objectId.id', 4, 8), at('objectId.id', 11, 8), at('objectId.id', 12, 8)]).toEqual([0xffffffff, 0, 0, 0xffffffff]);
+    expect([
+      at('objectId.id', 3, 8),
+      at('objectId.id', 4, 8),
+      at('objectId.id', 11, 8),
+      at('objectId.id', 12, 8),
+    ]).toEqual([0xffffffff, 0, 0, 0xffffffff]);
     expect(at('position.X', 8, 8)).toBeCloseTo(0.125, 2);
     expect(at('depth.Z', 8, 8)).toBeCloseTo(4, 5);
     // Lit by the studio alone: one group, which is the picture itself.
@@ -69,7 +115,12 @@ describe('a red square', () => {
   it('gives the same bytes for the same seed, others for another', async () => {
     const folder = cwd();
     const size = ['--size', '16x16', '--samples', '3', '--depth', '3'];
-    for (const [name, seed] of [['a', 1], ['b', 1], ['c', 2]] as const) expect((await glanz(['red.glb', '-o', `${name}.png`, '--seed', String(seed), ...size], folder)).code).toBe(0);
+    for (const [name, seed] of [
+      ['a', 1],
+      ['b', 1],
+      ['c', 2],
+    ] as const)
+      expect((await glanz(['red.glb', '-o', `${name}.png`, '--seed', String(seed), ...size], folder)).code).toBe(0);
     const [a, b, c] = ['a', 'b', 'c'].map((name) => readFileSync(join(folder, `${name}.png`)));
     expect(Buffer.compare(a as Buffer, b as Buffer)).toBe(0);
     expect(Buffer.compare(a as Buffer, c as Buffer)).not.toBe(0);
@@ -77,12 +128,20 @@ describe('a red square', () => {
 
   it('is framed without a camera, and stands alone when transparent', async () => {
     const folder = cwd();
-    const { code, out, err } = await glanz(['bare.glb', '-o', 'bare.png', '--size', '24x24', '--samples', '4', '--depth', '2', '--transparent', '--json'], folder);
+    const { code, out, err } = await glanz(
+      ['bare.glb', '-o', 'bare.png', '--size', '24x24', '--samples', '4', '--depth', '2', '--transparent', '--json'],
+      folder,
+    );
     expect(code, err).toBe(0);
     const { data } = await sharp(join(folder, 'bare.png')).raw().toBuffer({ resolveWithObject: true });
     const alpha = (x: number, y: number) => data[(y * 24 + x) * 4 + 3];
     expect([alpha(12, 12), alpha(0, 0), alpha(23, 0), alpha(0, 23)]).toEqual([255, 0, 0, 0]);
-    expect(JSON.parse(out)).toMatchObject({ ok: true, samples: 4, statistics: { triangles: 2, instances: 1, badSamples: 0 }, adapter: { software: true } });
+    expect(JSON.parse(out)).toMatchObject({
+      ok: true,
+      samples: 4,
+      statistics: { triangles: 2, instances: 1, badSamples: 0 },
+      adapter: { software: true },
+    });
   });
 
   it('Ctrl-C keeps what is there', async () => {
@@ -99,7 +158,11 @@ describe('a red square', () => {
         }
       },
     });
-    const { code, out } = await glanz(['red.glb', '-o', 'red.png', '--size', '64x64', '--samples', '100000', '--depth', '4', '--json'], folder, eager);
+    const { code, out } = await glanz(
+      ['red.glb', '-o', 'red.png', '--size', '64x64', '--samples', '100000', '--depth', '4', '--json'],
+      folder,
+      eager,
+    );
     expect(code).toBe(130);
     const result = JSON.parse(out) as { samples: number; interrupted: string };
     expect(result.interrupted).toBe('SIGINT');
@@ -122,16 +185,32 @@ describe('bad input ends in one line, a code and an exit status, and writes noth
     ['an unknown option', { 'm.glb': glb }, ['m.glb', '--fast'], 2, /^cli\/usage$/],
     ['a missing file', {}, ['m.glb'], 3, /^cli\/input$/],
     ['no such GPU', { 'm.glb': glb }, ['m.glb', '--gpu', 'abacus'], 5, /^renderer\/no-adapter$/],
-  ] as [string, Record<string, string | Uint8Array>, string[], number, RegExp][])('%s', async (_what, files, argv, status, code) => {
-    const cwd = temporaryFolder(files);
-    const io = fakeIo(cwd);
-    expect(await runCli(['render', '--json', '--quiet', ...argv, '--samples', '1', ...(argv.includes('--size') ? [] : ['--size', '8x8'])], io)).toBe(status);
-    const lines = io.err.join('').trim().split('\n');
-    expect(lines.length, lines.join('\n')).toBe(1);
-    const { ok, error } = JSON.parse(io.out.join('')) as { ok: boolean; error: { code: string; message: string } };
-    expect(ok).toBe(false);
-    expect(error.code).toMatch(code);
-    expect(lines[0]).toBe(`glanz: ${error.message} [${error.code}]`);
-    expect(readdirSync(cwd)).toEqual(Object.keys(files));
-  });
+  ] as [string, Record<string, string | Uint8Array>, string[], number, RegExp][])(
+    '%s',
+    async (_what, files, argv, status, code) => {
+      const cwd = temporaryFolder(files);
+      const io = fakeIo(cwd);
+      expect(
+        await runCli(
+          [
+            'render',
+            '--json',
+            '--quiet',
+            ...argv,
+            '--samples',
+            '1',
+            ...(argv.includes('--size') ? [] : ['--size', '8x8']),
+          ],
+          io,
+        ),
+      ).toBe(status);
+      const lines = io.err.join('').trim().split('\n');
+      expect(lines.length, lines.join('\n')).toBe(1);
+      const { ok, error } = JSON.parse(io.out.join('')) as { ok: boolean; error: { code: string; message: string } };
+      expect(ok).toBe(false);
+      expect(error.code).toMatch(code);
+      expect(lines[0]).toBe(`glanz: ${error.message} [${error.code}]`);
+      expect(readdirSync(cwd)).toEqual(Object.keys(files));
+    },
+  );
 });

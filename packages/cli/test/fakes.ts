@@ -18,18 +18,56 @@ export function temporaryFolder(files: Readonly<Record<string, string | Uint8Arr
 export function triangleScene(): Scene {
   return {
     ...createScene('triangle'),
-    meshes: [{ name: 'triangle', positions: new Float32Array([-1, 0, 0, 1, 0, 0, 0, 1, 0]), indices: new Uint32Array([0, 1, 2]) }],
+    meshes: [
+      {
+        name: 'triangle',
+        positions: new Float32Array([-1, 0, 0, 1, 0, 0, 0, 1, 0]),
+        indices: new Uint32Array([0, 1, 2]),
+      },
+    ],
     materials: [{ name: 'white', parameters: {} }],
     instances: [{ name: 'part', mesh: 0, material: 0, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] }],
-    cameras: [{ type: 'perspective', name: 'front', transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0.5, 4, 1], yfov: 0.8 }],
+    cameras: [
+      { type: 'perspective', name: 'front', transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0.5, 4, 1], yfov: 0.8 },
+    ],
   };
 }
 
-const STATISTICS: RenderStatistics = { triangles: 1, instances: 1, lights: 0, checkMs: 0.5, textMs: 0.5, bvhMs: 1, uploadMs: 2, lightMs: 1, compileMs: 3, gpuBytes: 4, memory: { shapes: 1, lights: 0, materials: 1, textures: 0, environment: 0, paths: 1, film: 1, other: 0, pathsInFlight: 1, perPath: 1, perTriangle: 1, perPixel: 1, perTexel: 0 }, badSamples: 0 };
+const STATISTICS: RenderStatistics = {
+  triangles: 1,
+  instances: 1,
+  lights: 0,
+  checkMs: 0.5,
+  textMs: 0.5,
+  bvhMs: 1,
+  uploadMs: 2,
+  lightMs: 1,
+  compileMs: 3,
+  gpuBytes: 4,
+  memory: {
+    shapes: 1,
+    lights: 0,
+    materials: 1,
+    textures: 0,
+    environment: 0,
+    paths: 1,
+    film: 1,
+    other: 0,
+    pathsInFlight: 1,
+    perPath: 1,
+    perTriangle: 1,
+    perPixel: 1,
+    perTexel: 0,
+  },
+  badSamples: 0,
+};
 
-const filmOf = (samples: number, width: number, height: number) => ({ samples, width, height, sums: {} }) as unknown as FilmState;
+const filmOf = (samples: number, width: number, height: number) =>
+  ({ samples, width, height, sums: {} }) as unknown as FilmState;
 
-/** A tracer that counts samples and whose every pixel holds (x/width, y/height, 0.25); what was asked of it is recorded. */
+/**
+ * A tracer that counts samples and whose every pixel holds (x/width, y/height, 0.25); what was asked of it is recorded.
+ */
 export interface FakeRun {
   backend: Backend;
   created: { scene: Scene; options: PathTracerOptions }[];
@@ -77,7 +115,11 @@ export interface FakeOptions {
   readonly onEdit?: (what: string, to: unknown, device: FakeDevice) => void;
   /** Gives the event loop, and files that are being written, time between samples. */
   readonly slowly?: boolean;
-  readonly lightGroups?: readonly { readonly name: string; readonly intensity: number; readonly color: readonly [number, number, number] }[];
+  readonly lightGroups?: readonly {
+    readonly name: string;
+    readonly intensity: number;
+    readonly color: readonly [number, number, number];
+  }[];
   readonly loadModel?: Backend['loadModel'];
   readonly openGpu?: Backend['openGpu'];
   readonly listGpus?: Backend['listGpus'];
@@ -92,7 +134,10 @@ export function fakeBackend(fake: FakeOptions = {}): FakeRun {
     options.signal?.throwIfAborted();
     const { width, height } = options;
     let samples = 0;
-    const interleaved = (f: (x: number, y: number, k: number) => number) => Float32Array.from({ length: width * height * 4 }, (_, i) => f((i >> 2) % width, Math.floor((i >> 2) / width), i & 3));
+    const interleaved = (f: (x: number, y: number, k: number) => number) =>
+      Float32Array.from({ length: width * height * 4 }, (_, i) =>
+        f((i >> 2) % width, Math.floor((i >> 2) / width), i & 3),
+      );
     const tracer = {
       get samples() {
         return samples;
@@ -104,12 +149,21 @@ export function fakeBackend(fake: FakeOptions = {}): FakeRun {
           fake.onSample?.(s, device as FakeDevice);
           if (signal?.aborted) return;
           samples = s;
-          yield { samples: s, targetSamples: target, elapsedMs: s * 100, remainingMs: (target - s) * 100, samplesPerSecond: 10 };
+          yield {
+            samples: s,
+            targetSamples: target,
+            elapsedMs: s * 100,
+            remainingMs: (target - s) * 100,
+            samplesPerSecond: 10,
+          };
         }
       },
       async read(layer: string) {
         fake.onRead?.(layer, device as FakeDevice);
-        if (layer === 'beauty') return interleaved((x, y, k) => [x / width, y / height, 0.25, options.background === 'transparent' ? 0.5 : 1][k] as number);
+        if (layer === 'beauty')
+          return interleaved(
+            (x, y, k) => [x / width, y / height, 0.25, options.background === 'transparent' ? 0.5 : 1][k] as number,
+          );
         if (layer === 'albedo') return interleaved((_x, _y, k) => [0.5, 0.25, 0.125, 1][k] as number);
         if (layer === 'normal') return interleaved((_x, _y, k) => [0, 0, 1, 0][k] as number);
         if (layer === 'position') return interleaved((x, y, k) => [x, y, -2, 1][k] as number);
@@ -125,7 +179,8 @@ export function fakeBackend(fake: FakeOptions = {}): FakeRun {
         return filmOf(samples, width, height);
       },
       async restoreFilm(state: FilmState) {
-        if (state.width !== width) throw new DeviceError('renderer/film-state', 'The saved film cannot be resumed here.');
+        if (state.width !== width)
+          throw new DeviceError('renderer/film-state', 'The saved film cannot be resumed here.');
         samples = state.samples;
         edits.push(['film', samples]);
       },
@@ -153,7 +208,13 @@ export function fakeBackend(fake: FakeOptions = {}): FakeRun {
     backend: {
       loadModel: fake.loadModel ?? (async () => fake.scene ?? triangleScene()),
       compressedFormats: async () => [],
-      openGpu: fake.openGpu ?? (async () => ({ device: fakeDevice(() => destroyed.push('device')), adapterName: 'Fake 3000', software: false })),
+      openGpu:
+        fake.openGpu ??
+        (async () => ({
+          device: fakeDevice(() => destroyed.push('device')),
+          adapterName: 'Fake 3000',
+          software: false,
+        })),
       listGpus: fake.listGpus ?? (async () => FAKE_GPUS),
       createTracer,
       filmCodec: async () => ({
@@ -176,7 +237,10 @@ export interface FakeIo extends CliIo {
   readonly waits: number[];
 }
 
-export function fakeIo(cwd: string, settings: { readonly interactive?: boolean; readonly columns?: number } = {}): FakeIo {
+export function fakeIo(
+  cwd: string,
+  settings: { readonly interactive?: boolean; readonly columns?: number } = {},
+): FakeIo {
   const handlers = new Set<(signal: Interrupt) => void>();
   const io: FakeIo = {
     out: [],

@@ -15,7 +15,8 @@ function watch(device) {
   const injected = new Promise((done) => (fire = done));
   Object.defineProperty(device, 'lost', { value: Promise.race([injected, device.lost]) });
   const createBuffer = device.createBuffer.bind(device);
-  device.createBuffer = (descriptor) => createBuffer(descriptor.label === noMemory ? { ...descriptor, size: 2 ** 50 } : descriptor);
+  device.createBuffer = (descriptor) =>
+    createBuffer(descriptor.label === noMemory ? { ...descriptor, size: 2 ** 50 } : descriptor);
   const submit = device.queue.submit.bind(device.queue);
   device.queue.submit = (buffers) => {
     if (++submits === loseAt) {

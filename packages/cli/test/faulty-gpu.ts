@@ -28,7 +28,10 @@ export interface Faults {
 }
 
 /** The real backend, whose devices can be lost at any submission. */
-export function faultyBackend({ onSubmit, onSave, onRead, onOpen, outOfMemory }: Faults): { readonly backend: Backend; readonly devices: FaultyDevice[] } {
+export function faultyBackend({ onSubmit, onSave, onRead, onOpen, outOfMemory }: Faults): {
+  readonly backend: Backend;
+  readonly devices: FaultyDevice[];
+} {
   const real = nodeBackend();
   const devices: FaultyDevice[] = [];
   const backend: Backend = {
@@ -53,7 +56,8 @@ export function faultyBackend({ onSubmit, onSave, onRead, onOpen, outOfMemory }:
       devices.push(faulty);
       const create = device.createBuffer.bind(device);
       // Nothing has so much: the device reports an error and gives a buffer that cannot be used.
-      device.createBuffer = (descriptor) => create(outOfMemory?.test(descriptor.label ?? '') ? { ...descriptor, size: 2 ** 50 } : descriptor);
+      device.createBuffer = (descriptor) =>
+        create(outOfMemory?.test(descriptor.label ?? '') ? { ...descriptor, size: 2 ** 50 } : descriptor);
       const { queue } = device;
       const submit = queue.submit.bind(queue);
       queue.submit = (buffers) => {

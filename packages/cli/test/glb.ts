@@ -23,12 +23,38 @@ export function makeGlb({ camera = false, texture, empty = false, variants = fal
     asset: { version: '2.0' },
     scene: 0,
     scenes: [{ nodes: camera ? [0, 1] : [0] }],
-    nodes: [{ name: 'square', ...(empty ? {} : { mesh: 0 }) }, ...(camera ? [{ name: 'front', camera: 0, translation: [0, 0, 4] }] : [])],
+    nodes: [
+      { name: 'square', ...(empty ? {} : { mesh: 0 }) },
+      ...(camera ? [{ name: 'front', camera: 0, translation: [0, 0, 4] }] : []),
+    ],
     ...(camera ? { cameras: [{ name: 'front', type: 'perspective', perspective: { yfov: 0.6, znear: 0.1 } }] } : {}),
     ...(empty
       ? {}
       : {
-          meshes: [{ name: 'square', primitives: [{ attributes: { POSITION: 0, TEXCOORD_0: 1 }, indices: 2, material: 0, ...(variants ? { extensions: { KHR_materials_variants: { mappings: [{ material: 1, variants: [1] }, { material: 2, variants: [2] }] } } } : {}) }] }],
+          meshes: [
+            {
+              name: 'square',
+              primitives: [
+                {
+                  attributes: { POSITION: 0, TEXCOORD_0: 1 },
+                  indices: 2,
+                  material: 0,
+                  ...(variants
+                    ? {
+                        extensions: {
+                          KHR_materials_variants: {
+                            mappings: [
+                              { material: 1, variants: [1] },
+                              { material: 2, variants: [2] },
+                            ],
+                          },
+                        },
+                      }
+                    : {}),
+                },
+              ],
+            },
+          ],
           accessors: [
             { bufferView: 0, componentType: 5126, count: 4, type: 'VEC3', min: [-1, -1, 0], max: [1, 1, 0] },
             { bufferView: 1, componentType: 5126, count: 4, type: 'VEC2' },
@@ -44,11 +70,35 @@ export function makeGlb({ camera = false, texture, empty = false, variants = fal
     materials: [
       {
         name: 'red',
-        pbrMetallicRoughness: { baseColorFactor: [0.8, 0.1, 0.05, 1], metallicFactor: 0, roughnessFactor: 1, ...(texture ? { baseColorTexture: { index: 0 } } : {}) },
+        pbrMetallicRoughness: {
+          baseColorFactor: [0.8, 0.1, 0.05, 1],
+          metallicFactor: 0,
+          roughnessFactor: 1,
+          ...(texture ? { baseColorTexture: { index: 0 } } : {}),
+        },
       },
-      ...(variants ? [{ name: 'green', pbrMetallicRoughness: { baseColorFactor: [0, 0.5, 0, 1], metallicFactor: 0 }, emissiveFactor: [0, 0.3, 0] }, { name: 'blue', pbrMetallicRoughness: { baseColorFactor: [0, 0, 0.7, 1], metallicFactor: 0, roughnessFactor: 0.2 } }] : []),
+      ...(variants
+        ? [
+            {
+              name: 'green',
+              pbrMetallicRoughness: { baseColorFactor: [0, 0.5, 0, 1], metallicFactor: 0 },
+              emissiveFactor: [0, 0.3, 0],
+            },
+            {
+              name: 'blue',
+              pbrMetallicRoughness: { baseColorFactor: [0, 0, 0.7, 1], metallicFactor: 0, roughnessFactor: 0.2 },
+            },
+          ]
+        : []),
     ],
-    ...(variants ? { extensionsUsed: ['KHR_materials_variants'], extensions: { KHR_materials_variants: { variants: [{ name: 'red' }, { name: 'green' }, { name: 'deep blue' }] } } } : {}),
+    ...(variants
+      ? {
+          extensionsUsed: ['KHR_materials_variants'],
+          extensions: {
+            KHR_materials_variants: { variants: [{ name: 'red' }, { name: 'green' }, { name: 'deep blue' }] },
+          },
+        }
+      : {}),
     ...(texture ? { textures: [{ source: 0 }], images: [{ uri: texture }] } : {}),
   };
   const text = new TextEncoder().encode(JSON.stringify(json));

@@ -1,5 +1,14 @@
 import { execFileSync } from 'node:child_process';
-import { closeSync, ftruncateSync, mkdirSync, openSync, readdirSync, readFileSync, symlinkSync, writeFileSync } from 'node:fs';
+import {
+  closeSync,
+  ftruncateSync,
+  mkdirSync,
+  openSync,
+  readdirSync,
+  readFileSync,
+  symlinkSync,
+  writeFileSync,
+} from 'node:fs';
 import { join } from 'node:path';
 import { GlanzError } from '@glanz/scene';
 import { describe, expect, it } from 'vitest';
@@ -32,7 +41,14 @@ describe('names from files are printed with control characters made visible', ()
   it('by info', async () => {
     const { code, out } = await run(['info', 'm.glb'], folder(), { scene });
     expect([code, OBEYED.exec(out)]).toEqual([0, null]);
-    for (const line of [`parts         1: ${SHOWN}`, `materials     1: ${SHOWN}`, `"${SHOWN}" perspective`, `variants      1: "${SHOWN}"`, `warning       odd ${SHOWN} [gltf/x]`]) expect(out).toContain(line);
+    for (const line of [
+      `parts         1: ${SHOWN}`,
+      `materials     1: ${SHOWN}`,
+      `"${SHOWN}" perspective`,
+      `variants      1: "${SHOWN}"`,
+      `warning       odd ${SHOWN} [gltf/x]`,
+    ])
+      expect(out).toContain(line);
   });
 
   it('by info --json, which says the same as ever', async () => {
@@ -58,14 +74,18 @@ describe('names from files are printed with control characters made visible', ()
     const loadModel = async () => {
       throw new GltfError('gltf/x', `"${EVIL}" is\nodd`);
     };
-    expect((await run(['render', 'm.glb', ...SIZE], folder(), { loadModel })).err).toContain(`glanz: "${SHOWN}" is odd [gltf/x]`);
+    expect((await run(['render', 'm.glb', ...SIZE], folder(), { loadModel })).err).toContain(
+      `glanz: "${SHOWN}" is odd [gltf/x]`,
+    );
     const cwd = folder();
     writeFileSync(join(cwd, 'b.json'), JSON.stringify([{ model: 'm.glb', [EVIL]: 1 }]));
     expect((await run(['render', '--batch', 'b.json'], cwd)).err).toContain(`"${SHOWN}" is unknown`);
   });
 
   it('by --list-gpus', async () => {
-    const { out } = await run(['--list-gpus'], '.', { listGpus: async () => [{ name: EVIL, backend: 'vulkan', driver: EVIL, software: false }] });
+    const { out } = await run(['--list-gpus'], '.', {
+      listGpus: async () => [{ name: EVIL, backend: 'vulkan', driver: EVIL, software: false }],
+    });
     expect(out).toBe(`${SHOWN} · vulkan · ${SHOWN}\n`);
   });
 });
@@ -79,10 +99,18 @@ describe('what is no regular file is refused before anything is loaded', () => {
     ['--env /dev/zero', ['m.glb', '--env', '/dev/zero'], `the environment "/dev/zero": ${device}`],
     ['--env of a fifo', ['m.glb', '--env', 'pipe.hdr'], `the environment "pipe.hdr": ${device}`],
     ['--env of a folder', ['m.glb', '--env', '.'], 'the environment ".": it is a folder'],
-    ['--env of an enormous file', ['m.glb', '--env', 'huge.hdr'], 'the environment "huge.hdr": it has 100.0 GB, and at most 2.1 GB are read'],
+    [
+      '--env of an enormous file',
+      ['m.glb', '--env', 'huge.hdr'],
+      'the environment "huge.hdr": it has 100.0 GB, and at most 2.1 GB are read',
+    ],
     ['a model that is a fifo', ['pipe.hdr'], `the model "pipe.hdr": ${device}`],
     ['a batch that is a fifo', ['--batch', 'pipe.hdr'], `the batch "pipe.hdr": ${device}`],
-    ['a batch that is enormous', ['--batch', 'huge.hdr'], 'the batch "huge.hdr": it has 100.0 GB, and at most 67.1 MB are read'],
+    [
+      'a batch that is enormous',
+      ['--batch', 'huge.hdr'],
+      'the batch "huge.hdr": it has 100.0 GB, and at most 67.1 MB are read',
+    ],
   ])('%s', async (_what, argv, message) => {
     const cwd = folder();
     fifo(cwd, 'pipe.hdr');
@@ -98,20 +126,40 @@ describe('what is no regular file is refused before anything is loaded', () => {
     const cwd = folder();
     fifo(cwd, 'pipe.json');
     writeFileSync(join(cwd, 'b.json'), JSON.stringify([{ model: 'm.glb', env: '/dev/zero' }]));
-    expect(await run(['render', 'm.glb', ...SIZE, '--camera', 'pipe.json'], cwd)).toMatchObject({ code: 3, err: expect.stringContaining(`the camera "pipe.json": ${device}`) });
-    expect(await run(['render', '--batch', 'b.json', ...SIZE], cwd)).toMatchObject({ code: 3, err: expect.stringContaining(`the environment "/dev/zero": ${device}`) });
+    expect(await run(['render', 'm.glb', ...SIZE, '--camera', 'pipe.json'], cwd)).toMatchObject({
+      code: 3,
+      err: expect.stringContaining(`the camera "pipe.json": ${device}`),
+    });
+    expect(await run(['render', '--batch', 'b.json', ...SIZE], cwd)).toMatchObject({
+      code: 3,
+      err: expect.stringContaining(`the environment "/dev/zero": ${device}`),
+    });
   });
 });
 
 describe('a batch file writes below its folder only', () => {
   const batch = (cwd: string, ...outputs: string[]) => {
     mkdirSync(join(cwd, 'jobs'), { recursive: true });
-    writeFileSync(join(cwd, 'jobs', 'b.json'), JSON.stringify(outputs.map((output, i) => ({ model: '../m.glb', output, seed: i }))));
+    writeFileSync(
+      join(cwd, 'jobs', 'b.json'),
+      JSON.stringify(outputs.map((output, i) => ({ model: '../m.glb', output, seed: i }))),
+    );
     return ['render', '--batch', 'jobs/b.json', ...SIZE];
   };
-  const images = (cwd: string) => readdirSync(cwd, { recursive: true, encoding: 'utf8' }).filter((name) => name.endsWith('.png')).sort();
+  const images = (cwd: string) =>
+    readdirSync(cwd, { recursive: true, encoding: 'utf8' })
+      .filter((name) => name.endsWith('.png'))
+      .sort();
 
-  it.each(['../x.png', '../../x.png', 'a/../../x.png', '/tmp/glanz-outside/x.png', '../jobs2/x.png', 'out/x.png', 'out/new/{view}.png'])('%s is refused, and nothing is made', async (output) => {
+  it.each([
+    '../x.png',
+    '../../x.png',
+    'a/../../x.png',
+    '/tmp/glanz-outside/x.png',
+    '../jobs2/x.png',
+    'out/x.png',
+    'out/new/{view}.png',
+  ])('%s is refused, and nothing is made', async (output) => {
     const cwd = folder();
     const argv = batch(cwd, 'fine.png', output);
     mkdirSync(join(cwd, 'elsewhere'));
@@ -128,7 +176,10 @@ describe('a batch file writes below its folder only', () => {
     expect(await run([...batch(cwd, '../out/x.png', 'y.png'), '--output-root', '.'], cwd)).toMatchObject({ code: 0 });
     expect(images(cwd)).toEqual(['jobs/y.png', 'out/x.png']);
     expect(await run([...batch(cwd, '../out/x.png'), '--output-root', 'jobs'], cwd)).toMatchObject({ code: 2 });
-    expect(await run(['render', 'm.glb', ...SIZE, '--output-root', '.'], cwd)).toMatchObject({ code: 2, err: expect.stringContaining('belongs to --batch') });
+    expect(await run(['render', 'm.glb', ...SIZE, '--output-root', '.'], cwd)).toMatchObject({
+      code: 2,
+      err: expect.stringContaining('belongs to --batch'),
+    });
   });
 
   it('deep below, by a path that goes up and down again, and by a link within', async () => {
@@ -148,20 +199,23 @@ describe('a batch file writes below its folder only', () => {
     expect(images(cwd)).toEqual(['here.png']);
   });
 
-  it.skipIf(process.platform === 'win32')('links in the place of a file, a journal or a partial file are not written through', async () => {
-    const cwd = folder();
-    const argv = batch(cwd, 'x.png');
-    writeFileSync(join(cwd, 'secret'), 'mine');
-    symlinkSync(join(cwd, 'secret'), join(cwd, 'jobs', 'x.png'));
-    expect((await run(argv, cwd)).code).toBe(0);
-    symlinkSync(join(cwd, 'secret'), join(cwd, 'jobs', `x.png.${process.pid}.partial`));
-    expect(await run(argv, cwd)).toMatchObject({ code: 4, err: expect.stringContaining('[cli/output]') });
-    expect(readFileSync(join(cwd, 'secret'), 'utf8')).toBe('mine');
-    const other = folder();
-    const again = batch(other, 'x.png');
-    writeFileSync(join(other, 'secret'), 'mine');
-    symlinkSync(join(other, 'secret'), join(other, 'jobs', '.glanz-journal.jsonl'));
-    expect((await run(again, other)).code).toBe(4);
-    expect(readFileSync(join(other, 'secret'), 'utf8')).toBe('mine');
-  });
+  it.skipIf(process.platform === 'win32')(
+    'links in the place of a file, a journal or a partial file are not written through',
+    async () => {
+      const cwd = folder();
+      const argv = batch(cwd, 'x.png');
+      writeFileSync(join(cwd, 'secret'), 'mine');
+      symlinkSync(join(cwd, 'secret'), join(cwd, 'jobs', 'x.png'));
+      expect((await run(argv, cwd)).code).toBe(0);
+      symlinkSync(join(cwd, 'secret'), join(cwd, 'jobs', `x.png.${process.pid}.partial`));
+      expect(await run(argv, cwd)).toMatchObject({ code: 4, err: expect.stringContaining('[cli/output]') });
+      expect(readFileSync(join(cwd, 'secret'), 'utf8')).toBe('mine');
+      const other = folder();
+      const again = batch(other, 'x.png');
+      writeFileSync(join(other, 'secret'), 'mine');
+      symlinkSync(join(other, 'secret'), join(other, 'jobs', '.glanz-journal.jsonl'));
+      expect((await run(again, other)).code).toBe(4);
+      expect(readFileSync(join(other, 'secret'), 'utf8')).toBe('mine');
+    },
+  );
 });

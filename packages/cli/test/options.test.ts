@@ -43,13 +43,73 @@ describe('glanz render', () => {
   });
 
   it('reads every option, before or after the model', () => {
-    const argv = ['--env', 'a.hdr', '--env-rotation', '180', '--env-intensity=2', 'm.gltf', '--size', '640X480', '--samples', '16', '--noise', '0.01', '--depth', '3', '--seed', '4294967295', '--camera', '1', '--exposure', '-1.5', '--tone-map', 'agx', '--transparent', '--catcher', 'floor', '--filter', 'gaussian:2', '--light-groups', 'each', '--max-bounces', 'diffuse=2,volume=9', '--clamp-indirect', '10', '--regularization', '0.25', '--no-caustics', '--back-face-culling', 'all', '--scene', '1', '--animation', 'walk', '--time', '-0.5', '--variant', 'street', '--variant', 'all', '--gpu', 'H200', '-o', 'x.PNG', '-o', 'y.exr', '--bits', '16'];
+    const argv = [
+      '--env',
+      'a.hdr',
+      '--env-rotation',
+      '180',
+      '--env-intensity=2',
+      'm.gltf',
+      '--size',
+      '640X480',
+      '--samples',
+      '16',
+      '--noise',
+      '0.01',
+      '--depth',
+      '3',
+      '--seed',
+      '4294967295',
+      '--camera',
+      '1',
+      '--exposure',
+      '-1.5',
+      '--tone-map',
+      'agx',
+      '--transparent',
+      '--catcher',
+      'floor',
+      '--filter',
+      'gaussian:2',
+      '--light-groups',
+      'each',
+      '--max-bounces',
+      'diffuse=2,volume=9',
+      '--clamp-indirect',
+      '10',
+      '--regularization',
+      '0.25',
+      '--no-caustics',
+      '--back-face-culling',
+      'all',
+      '--scene',
+      '1',
+      '--animation',
+      'walk',
+      '--time',
+      '-0.5',
+      '--variant',
+      'street',
+      '--variant',
+      'all',
+      '--gpu',
+      'H200',
+      '-o',
+      'x.PNG',
+      '-o',
+      'y.exr',
+      '--bits',
+      '16',
+    ];
     expect(options(...argv)).toEqual({
       model: 'm.gltf',
       pose: { scene: 1, animation: 'walk', time: -0.5 },
       variants: ['street', 'all'],
       views: [{ kind: 'camera', name: 'camera', camera: '1' }],
-      outputs: [{ path: 'x.PNG', format: 'png', bits: 16 }, { path: 'y.exr', format: 'exr', bits: 16 }],
+      outputs: [
+        { path: 'x.PNG', format: 'png', bits: 16 },
+        { path: 'y.exr', format: 'exr', bits: 16 },
+      ],
       env: 'a.hdr',
       envRotation: Math.PI,
       envIntensity: 2,
@@ -63,24 +123,42 @@ describe('glanz render', () => {
       toneMap: 'agx',
       transparent: true,
       catchers: ['floor'],
-      quality: { filter: { type: 'gaussian', radius: 2 }, lightGroups: 'each', maxBounces: { diffuse: 2, volume: 9 }, clampIndirect: 10, regularization: 0.25, caustics: false, backFaceCulling: 'all' },
+      quality: {
+        filter: { type: 'gaussian', radius: 2 },
+        lightGroups: 'each',
+        maxBounces: { diffuse: 2, volume: 9 },
+        clampIndirect: 10,
+        regularization: 0.25,
+        caustics: false,
+        backFaceCulling: 'all',
+      },
     });
   });
 
   it('--json and --quiet belong to the report', () => {
-    expect(parseCommand(['render', 'm.glb', '--json', '-q'])).toMatchObject({ kind: 'render', json: true, quiet: true });
+    expect(parseCommand(['render', 'm.glb', '--json', '-q'])).toMatchObject({
+      kind: 'render',
+      json: true,
+      quiet: true,
+    });
     expect(parseCommand(['--list-gpus', '--json'])).toEqual({ kind: 'list-gpus', json: true, quiet: false });
-    expect(parseCommand(['render', 'm.glb', '--gpu', 'a', '--gpu', 'b', '--resume'])).toMatchObject({ gpus: ['a', 'b'], resume: true });
+    expect(parseCommand(['render', 'm.glb', '--gpu', 'a', '--gpu', 'b', '--resume'])).toMatchObject({
+      gpus: ['a', 'b'],
+      resume: true,
+    });
     expect(parseCommand(['render', '--list-gpus'])).toMatchObject({ kind: 'list-gpus' });
   });
 });
 
 it('exposure as a camera has it: sunny 16 is EV 15', () => {
-  for (const text of ['f/16,1/125', '1/125 F/16 iso100', 'f/16,0.008s']) expect(options('m.glb', '--exposure', text).exposure).toBeCloseTo(-(Math.log2(16 * 16 * 125) + Math.log2(1.2)), 10);
+  for (const text of ['f/16,1/125', '1/125 F/16 iso100', 'f/16,0.008s'])
+    expect(options('m.glb', '--exposure', text).exposure).toBeCloseTo(-(Math.log2(16 * 16 * 125) + Math.log2(1.2)), 10);
 });
 
 it('help and version', () => {
-  expect([['--help'], ['-h'], ['render', 'x.glb', '--help'], ['help'], []].map((argv) => parseCommand(argv).kind)).toEqual(new Array(5).fill('help'));
+  expect(
+    [['--help'], ['-h'], ['render', 'x.glb', '--help'], ['help'], []].map((argv) => parseCommand(argv).kind),
+  ).toEqual(new Array(5).fill('help'));
   expect(parseCommand(['-V']).kind).toBe('version');
 });
 

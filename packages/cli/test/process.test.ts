@@ -22,8 +22,18 @@ interface Ended {
   readonly err: string;
 }
 
-function start(argv: readonly string[], cwd: string, onErr: (text: string, child: ChildProcess) => void = () => undefined, onOut: (text: string, child: ChildProcess) => unknown = () => undefined, env: NodeJS.ProcessEnv = {}): Promise<Ended> {
-  const child = spawn(process.execPath, [program, ...argv], { cwd, stdio: ['ignore', 'pipe', 'pipe'], env: { ...process.env, ...env } });
+function start(
+  argv: readonly string[],
+  cwd: string,
+  onErr: (text: string, child: ChildProcess) => void = () => undefined,
+  onOut: (text: string, child: ChildProcess) => unknown = () => undefined,
+  env: NodeJS.ProcessEnv = {},
+): Promise<Ended> {
+  const child = spawn(process.execPath, [program, ...argv], {
+    cwd,
+    stdio: ['ignore', 'pipe', 'pipe'],
+    env: { ...process.env, ...env },
+  });
   let [out, err] = ['', ''];
   child.stdout.on('data', (chunk: Buffer) => {
     out += chunk.toString();
@@ -46,12 +56,34 @@ it('--version, at once and by itself', async () => {
 });
 
 it('an error sets the exit status', async () => {
-  expect(await start(['render', 'gone.glb'], temporaryFolder())).toMatchObject({ code: 3, out: '', err: 'glanz: Cannot read the model "gone.glb": there is no such file. [cli/input]\n' });
+  expect(await start(['render', 'gone.glb'], temporaryFolder())).toMatchObject({
+    code: 3,
+    out: '',
+    err: 'glanz: Cannot read the model "gone.glb": there is no such file. [cli/input]\n',
+  });
 });
 
 it('a picture, exit status 0, and nothing on stdout', async () => {
   const cwd = temporaryFolder({ 'red.glb': makeGlb({ camera: true }) });
-  const { code, out, err } = await start(['render', 'red.glb', '--gpu', 'software', '--size', '16x16', '--samples', '2', '--depth', '2', '-o', 'x.png', '--bits', '16'], cwd);
+  const { code, out, err } = await start(
+    [
+      'render',
+      'red.glb',
+      '--gpu',
+      'software',
+      '--size',
+      '16x16',
+      '--samples',
+      '2',
+      '--depth',
+      '2',
+      '-o',
+      'x.png',
+      '--bits',
+      '16',
+    ],
+    cwd,
+  );
   expect([code, out], err).toEqual([0, '']);
   expect(err).toMatch(/render 2\/2 samples · [\d.]+ samples\/s · 0:00 left\n/);
   expect(err.trimEnd().split('\n').at(-1)).toMatch(/^x\.png: 16×16, 2 samples at [\d.]+\/s, 0:\d\d in all$/);
@@ -61,33 +93,47 @@ it('a picture, exit status 0, and nothing on stdout', async () => {
 it('SIGINT writes the picture; the process ends by itself with 130', async () => {
   const cwd = temporaryFolder({ 'red.glb': makeGlb({ camera: true }) });
   let sent = false;
-  const { code, signal, out, err } = await start(['render', 'red.glb', '--gpu', 'software', '--size', '48x48', '--samples', '1000000', '--depth', '3', '--json'], cwd, (text, child) => {
-    if (!sent && /render \d+\//.test(text)) {
-      sent = true;
-      child.kill('SIGINT');
-    }
-  });
+  const { code, signal, out, err } = await start(
+    ['render', 'red.glb', '--gpu', 'software', '--size', '48x48', '--samples', '1000000', '--depth', '3', '--json'],
+    cwd,
+    (text, child) => {
+      if (!sent && /render \d+\//.test(text)) {
+        sent = true;
+        child.kill('SIGINT');
+      }
+    },
+  );
   expect([code, signal], err).toEqual([130, null]);
   expect(JSON.parse(out)).toMatchObject({ ok: true, interrupted: 'SIGINT' });
   expect((await sharp(join(cwd, 'red.png')).metadata()).height).toBe(48);
 });
 
-it.skipIf(process.platform === 'win32')('SIGHUP writes the image like SIGINT and SIGTERM; the process ends by itself with 129', async () => {
-  const cwd = temporaryFolder({ 'red.glb': makeGlb({ camera: true }) });
-  let sent = false;
-  const { code, signal, out, err } = await start(['render', 'red.glb', '--gpu', 'software', '--size', '48x48', '--samples', '1000000', '--depth', '3', '--json'], cwd, (text, child) => {
-    if (!sent && /render \d+\//.test(text)) sent = child.kill('SIGHUP');
-  });
-  expect([code, signal], err).toEqual([129, null]);
-  expect(JSON.parse(out)).toMatchObject({ ok: true, interrupted: 'SIGHUP' });
-  expect((await sharp(join(cwd, 'red.png')).metadata()).height).toBe(48);
-});
+it.skipIf(process.platform === 'win32')(
+  'SIGHUP writes the image like SIGINT and SIGTERM; the process ends by itself with 129',
+  async () => {
+    const cwd = temporaryFolder({ 'red.glb': makeGlb({ camera: true }) });
+    let sent = false;
+    const { code, signal, out, err } = await start(
+      ['render', 'red.glb', '--gpu', 'software', '--size', '48x48', '--samples', '1000000', '--depth', '3', '--json'],
+      cwd,
+      (text, child) => {
+        if (!sent && /render \d+\//.test(text)) sent = child.kill('SIGHUP');
+      },
+    );
+    expect([code, signal], err).toEqual([129, null]);
+    expect(JSON.parse(out)).toMatchObject({ ok: true, interrupted: 'SIGHUP' });
+    expect((await sharp(join(cwd, 'red.png')).metadata()).height).toBe(48);
+  },
+);
 
 describe.skipIf(process.platform === 'win32')('a reader that closes its end of a pipe', () => {
   const quality = ['--gpu', 'software', '--size', '16x16', '--samples', '64', '--depth', '2'];
   // The shell's own redirections, and the exit status of the program rather than that of the pipe's last.
   const piped = (argv: readonly string[], redirections: string, cwd: string) =>
-    execFileSync('sh', ['-c', `("$@"; echo $? > status) ${redirections}`, 'sh', process.execPath, program, ...argv], { cwd, encoding: 'utf8' });
+    execFileSync('sh', ['-c', `("$@"; echo $? > status) ${redirections}`, 'sh', process.execPath, program, ...argv], {
+      cwd,
+      encoding: 'utf8',
+    });
   const status = (cwd: string) => readFileSync(join(cwd, 'status'), 'utf8').trim();
 
   it.each([
@@ -117,14 +163,33 @@ describe.skipIf(process.platform === 'win32')('a reader that closes its end of a
 
 describe('the GPU is lost', () => {
   const dawn = fileURLToPath(new URL('faulty-dawn.mjs', import.meta.url));
-  const argv = ['render', 'red.glb', '--gpu', 'software', '--size', '32x24', '--samples', '40', '--depth', '3', '-o', 'x.exr', '-o', 'x.png', '--json'];
+  const argv = [
+    'render',
+    'red.glb',
+    '--gpu',
+    'software',
+    '--size',
+    '32x24',
+    '--samples',
+    '40',
+    '--depth',
+    '3',
+    '-o',
+    'x.exr',
+    '-o',
+    'x.png',
+    '--json',
+  ];
   const folderWithModel = () => temporaryFolder({ 'red.glb': makeGlb({ camera: true }) });
   const files = (cwd: string) => ['x.exr', 'x.png'].map((name) => readFileSync(join(cwd, name)));
 
   it('and comes back: exit status 0, and the same files bit for bit', async () => {
     const [whole, cwd] = [folderWithModel(), folderWithModel()];
     expect((await start(argv, whole)).code).toBe(0);
-    const { code, out, err } = await start(argv, cwd, undefined, undefined, { GPU_WEBGPU: dawn, GLANZ_TEST_LOSE_AT: '9' });
+    const { code, out, err } = await start(argv, cwd, undefined, undefined, {
+      GPU_WEBGPU: dawn,
+      GLANZ_TEST_LOSE_AT: '9',
+    });
     expect(code, err).toBe(0);
     expect(JSON.parse(out)).toMatchObject({ ok: true, samples: 40, gpuLosses: 1 });
     expect(files(cwd).map((file, i) => Buffer.compare(file, files(whole)[i] as Buffer))).toEqual([0, 0]);
@@ -133,84 +198,159 @@ describe('the GPU is lost', () => {
   it('and SIGTERM ends the waiting for it', async () => {
     const cwd = folderWithModel();
     let sent = 0;
-    const { code, signal, err } = await start(argv, cwd, (text, child) => {
-      if (sent === 0 && /wait for the GPU/.test(text)) sent = child.kill('SIGTERM') ? 1 : 0;
-    }, undefined, { GPU_WEBGPU: dawn, GLANZ_TEST_LOSE_AT: '9', GLANZ_TEST_DEVICES: '1' });
+    const { code, signal, err } = await start(
+      argv,
+      cwd,
+      (text, child) => {
+        if (sent === 0 && /wait for the GPU/.test(text)) sent = child.kill('SIGTERM') ? 1 : 0;
+      },
+      undefined,
+      { GPU_WEBGPU: dawn, GLANZ_TEST_LOSE_AT: '9', GLANZ_TEST_DEVICES: '1' },
+    );
     expect([code, signal, readdirSync(cwd)], err).toEqual([143, null, ['red.glb']]);
   });
 
   it('and does not come back: 5, and advice', async () => {
     const cwd = folderWithModel();
-    const { code, out, err } = await start(argv, cwd, undefined, undefined, { GPU_WEBGPU: dawn, GLANZ_TEST_LOSE_AT: '9', GLANZ_TEST_DEVICES: '1' });
+    const { code, out, err } = await start(argv, cwd, undefined, undefined, {
+      GPU_WEBGPU: dawn,
+      GLANZ_TEST_LOSE_AT: '9',
+      GLANZ_TEST_DEVICES: '1',
+    });
     expect([code, readdirSync(cwd)], err).toEqual([5, ['red.glb']]);
-    expect(err.trim().split('\n').at(-1)).toMatch(/^glanz: The GPU "llvmpipe.*" was lost and gives no new device after 5 attempts \(.*injected refusal\)\. Often it ran out of memory, .* \[cli\/gpu-lost\]$/);
+    expect(err.trim().split('\n').at(-1)).toMatch(
+      /^glanz: The GPU "llvmpipe.*" was lost and gives no new device after 5 attempts \(.*injected refusal\)\. Often it ran out of memory, .* \[cli\/gpu-lost\]$/,
+    );
     expect(JSON.parse(out)).toMatchObject({ ok: false, error: { code: 'cli/gpu-lost' } });
   });
 });
 
 it('no memory for a layer of an EXR: exit status 1, no file, and nothing on stdout but the object', async () => {
   const cwd = temporaryFolder({ 'red.glb': makeGlb({ camera: true }) });
-  const env = { GPU_WEBGPU: fileURLToPath(new URL('faulty-dawn.mjs', import.meta.url)), GLANZ_TEST_NO_MEMORY: 'glanz film albedo' };
-  const { code, out, err } = await start(['render', 'red.glb', '--gpu', 'software', '--size', '16x16', '--samples', '2', '-o', 'x.exr', '--json'], cwd, undefined, undefined, env);
+  const env = {
+    GPU_WEBGPU: fileURLToPath(new URL('faulty-dawn.mjs', import.meta.url)),
+    GLANZ_TEST_NO_MEMORY: 'glanz film albedo',
+  };
+  const { code, out, err } = await start(
+    ['render', 'red.glb', '--gpu', 'software', '--size', '16x16', '--samples', '2', '-o', 'x.exr', '--json'],
+    cwd,
+    undefined,
+    undefined,
+    env,
+  );
   expect([code, readdirSync(cwd)], err).toEqual([1, ['red.glb']]);
-  expect(JSON.parse(out)).toMatchObject({ ok: false, error: { code: expect.stringMatching(/^renderer\/(gpu-error|out-of-memory)$/) } });
+  expect(JSON.parse(out)).toMatchObject({
+    ok: false,
+    error: { code: expect.stringMatching(/^renderer\/(gpu-error|out-of-memory)$/) },
+  });
 });
 
-it('a batch that is killed goes on where it was, and its pictures are those of runs of their own', { timeout: 600_000 }, async () => {
-  const cwd = temporaryFolder({ 'shoe.glb': makeGlb({ camera: true, variants: true }) });
-  const quality = ['--gpu', 'software', '--size', '24x16', '--samples', '4', '--depth', '3', '--seed', '5'];
-  writeFileSync(join(cwd, 'hero.json'), '{"position":[1,0.5,3],"target":[0,0,0],"lens_radius":0.05}');
-  const argv = ['render', 'shoe.glb', '--variant', 'all', '--view', 'front', '--view', 'iso', '--view', '30,20', '--view', 'hero.json', '-o', 'out/{variant}-{view}.png', '--bits', '16', '--json', ...quality];
-  // Killed without warning while the third picture is made.
-  let sent = false;
-  const killed = await start(argv, cwd, (text, child) => {
-    if (!sent && /\[4\/12\] render/.test(text)) sent = child.kill('SIGKILL');
-  });
-  expect(killed.signal, killed.err).toBe('SIGKILL');
-  const before = readdirSync(join(cwd, 'out')).filter((name) => name.endsWith('.png'));
-  expect(before.length).toBeGreaterThanOrEqual(3);
-  expect(before.length).toBeLessThan(12);
-  const stamps = new Map(before.map((name) => [name, statSync(join(cwd, 'out', name)).mtimeMs]));
-  const { code, out, err } = await start([...argv, '--resume'], cwd);
-  expect(code, err).toBe(0);
-  const result = JSON.parse(out) as { total: number; skipped: number; pictures: { files: { path: string }[] }[] };
-  expect([result.total, result.skipped + result.pictures.length]).toEqual([12, 12]);
-  // At most the one whose journal line was not yet written is made twice.
-  expect(result.skipped).toBeGreaterThanOrEqual(before.length - 1);
-  const files = readdirSync(join(cwd, 'out')).filter((name) => name.endsWith('.png')).sort();
-  expect(files).toEqual(['red', 'green', 'deep_blue'].flatMap((variant) => ['front', 'iso', '30_20', 'hero'].map((view) => `${variant}-${view}.png`)).sort());
-  expect(files.filter((name) => stamps.get(name) === statSync(join(cwd, 'out', name)).mtimeMs).length).toBeGreaterThanOrEqual(before.length - 1);
-  for (const [variant, view, name] of [['deep blue', 'hero.json', 'deep_blue-hero'], ['green', 'iso', 'green-iso'], ['red', 'front', 'red-front']] as const) {
-    const alone = await start(['render', 'shoe.glb', '--variant', variant, '--view', view, '-o', 'alone.png', '--bits', '16', ...quality], cwd);
-    expect(alone.code, alone.err).toBe(0);
-    expect(Buffer.compare(readFileSync(join(cwd, 'alone.png')), readFileSync(join(cwd, 'out', `${name}.png`))), name).toBe(0);
-  }
-});
+it(
+  'a batch that is killed goes on where it was, and its pictures are those of runs of their own',
+  { timeout: 600_000 },
+  async () => {
+    const cwd = temporaryFolder({ 'shoe.glb': makeGlb({ camera: true, variants: true }) });
+    const quality = ['--gpu', 'software', '--size', '24x16', '--samples', '4', '--depth', '3', '--seed', '5'];
+    writeFileSync(join(cwd, 'hero.json'), '{"position":[1,0.5,3],"target":[0,0,0],"lens_radius":0.05}');
+    const argv = [
+      'render',
+      'shoe.glb',
+      '--variant',
+      'all',
+      '--view',
+      'front',
+      '--view',
+      'iso',
+      '--view',
+      '30,20',
+      '--view',
+      'hero.json',
+      '-o',
+      'out/{variant}-{view}.png',
+      '--bits',
+      '16',
+      '--json',
+      ...quality,
+    ];
+    // Killed without warning while the third picture is made.
+    let sent = false;
+    const killed = await start(argv, cwd, (text, child) => {
+      if (!sent && /\[4\/12\] render/.test(text)) sent = child.kill('SIGKILL');
+    });
+    expect(killed.signal, killed.err).toBe('SIGKILL');
+    const before = readdirSync(join(cwd, 'out')).filter((name) => name.endsWith('.png'));
+    expect(before.length).toBeGreaterThanOrEqual(3);
+    expect(before.length).toBeLessThan(12);
+    const stamps = new Map(before.map((name) => [name, statSync(join(cwd, 'out', name)).mtimeMs]));
+    const { code, out, err } = await start([...argv, '--resume'], cwd);
+    expect(code, err).toBe(0);
+    const result = JSON.parse(out) as { total: number; skipped: number; pictures: { files: { path: string }[] }[] };
+    expect([result.total, result.skipped + result.pictures.length]).toEqual([12, 12]);
+    // At most the one whose journal line was not yet written is made twice.
+    expect(result.skipped).toBeGreaterThanOrEqual(before.length - 1);
+    const files = readdirSync(join(cwd, 'out'))
+      .filter((name) => name.endsWith('.png'))
+      .sort();
+    expect(files).toEqual(
+      ['red', 'green', 'deep_blue']
+        .flatMap((variant) => ['front', 'iso', '30_20', 'hero'].map((view) => `${variant}-${view}.png`))
+        .sort(),
+    );
+    expect(
+      files.filter((name) => stamps.get(name) === statSync(join(cwd, 'out', name)).mtimeMs).length,
+    ).toBeGreaterThanOrEqual(before.length - 1);
+    for (const [variant, view, name] of [
+      ['deep blue', 'hero.json', 'deep_blue-hero'],
+      ['green', 'iso', 'green-iso'],
+      ['red', 'front', 'red-front'],
+    ] as const) {
+      const alone = await start(
+        ['render', 'shoe.glb', '--variant', variant, '--view', view, '-o', 'alone.png', '--bits', '16', ...quality],
+        cwd,
+      );
+      expect(alone.code, alone.err).toBe(0);
+      expect(
+        Buffer.compare(readFileSync(join(cwd, 'alone.png')), readFileSync(join(cwd, 'out', `${name}.png`))),
+        name,
+      ).toBe(0);
+    }
+  },
+);
 
 it('serve answers with the files of its folder and ends with SIGINT', async () => {
   // The program lies in a folder of its own; the playground beside it.
   const site = join(folder, 'playground');
   mkdirSync(site, { recursive: true });
   writeFileSync(join(site, 'index.html'), '<title>here</title>');
-  let page = '', escaped = 0;
-  const { code, out, err } = await start(['serve', '--port', '0', '--json'], temporaryFolder(), undefined, async (text, child) => {
-    const { url } = JSON.parse(text) as { url: string };
-    page = await (await fetch(url)).text();
-    escaped = (await fetch(`${url}..%2fglanz.mjs`)).status;
-    child.kill('SIGINT');
-  });
+  let page = '',
+    escaped = 0;
+  const { code, out, err } = await start(
+    ['serve', '--port', '0', '--json'],
+    temporaryFolder(),
+    undefined,
+    async (text, child) => {
+      const { url } = JSON.parse(text) as { url: string };
+      page = await (await fetch(url)).text();
+      escaped = (await fetch(`${url}..%2fglanz.mjs`)).status;
+      child.kill('SIGINT');
+    },
+  );
   expect([code, page, escaped, err]).toEqual([0, '<title>here</title>', 404, '']);
   expect(out.trim().split('\n').length).toBe(1);
 });
 
 it('a second SIGINT ends it at once', async () => {
   const cwd = temporaryFolder({ 'red.glb': makeGlb({ camera: true }) });
-  const { signal, code } = await start(['render', 'red.glb', '--gpu', 'software', '--size', '2000x2000', '--samples', '1000000'], cwd, (text, child) => {
-    if (/load model/.test(text)) {
-      child.kill('SIGINT');
-      setTimeout(() => child.kill('SIGINT'), 5);
-    }
-  });
+  const { signal, code } = await start(
+    ['render', 'red.glb', '--gpu', 'software', '--size', '2000x2000', '--samples', '1000000'],
+    cwd,
+    (text, child) => {
+      if (/load model/.test(text)) {
+        child.kill('SIGINT');
+        setTimeout(() => child.kill('SIGINT'), 5);
+      }
+    },
+  );
   // Killed by the second, or, on a fast machine, already done with the first: either way soon and without a picture.
   expect(signal === 'SIGINT' || code === 130).toBe(true);
   expect(existsSync(join(cwd, 'red.png'))).toBe(false);

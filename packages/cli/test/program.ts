@@ -17,7 +17,9 @@ export async function bundleProgram(outfile: string): Promise<void> {
     conditions: ['@glanz/source'],
     external: ['webgpu', 'sharp', '@sparticuz/chromium', 'draco3dgltf', 'meshoptimizer', 'meshoptimizer/*'],
     // Some dependencies of dependencies are CommonJS and ask for Node's modules by require().
-    banner: { js: "import { createRequire as glanzRequire } from 'node:module'; const require = glanzRequire(import.meta.url);" },
+    banner: {
+      js: "import { createRequire as glanzRequire } from 'node:module'; const require = glanzRequire(import.meta.url);",
+    },
     plugins: [weslSource()],
     logLevel: 'error',
   });

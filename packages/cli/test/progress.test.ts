@@ -2,11 +2,33 @@ import { describe, expect, it } from 'vitest';
 import { duration, ProgressReporter, rate } from '../src/progress';
 import { fakeIo } from './fakes';
 
-const at = (samples: number, elapsedMs: number, targetSamples = 100) => ({ samples, targetSamples, elapsedMs, remainingMs: (targetSamples - samples) * 1000, samplesPerSecond: 1.2345 });
+const at = (samples: number, elapsedMs: number, targetSamples = 100) => ({
+  samples,
+  targetSamples,
+  elapsedMs,
+  remainingMs: (targetSamples - samples) * 1000,
+  samplesPerSecond: 1.2345,
+});
 
 it('durations and rates are short', () => {
-  expect([0, 900, 61_000, 3_599_000, 3_600_000, 36_061_000, Infinity].map(duration)).toEqual(['0:00', '0:01', '1:01', '59:59', '1:00:00', '10:01:01', '–']);
-  expect([0, NaN, 0.01234, 1.2345, 12.345, 123.45, 12345].map(rate)).toEqual(['0', '0', '0.0123', '1.23', '12.3', '123', '12345']);
+  expect([0, 900, 61_000, 3_599_000, 3_600_000, 36_061_000, Infinity].map(duration)).toEqual([
+    '0:00',
+    '0:01',
+    '1:01',
+    '59:59',
+    '1:00:00',
+    '10:01:01',
+    '–',
+  ]);
+  expect([0, NaN, 0.01234, 1.2345, 12.345, 123.45, 12345].map(rate)).toEqual([
+    '0',
+    '0',
+    '0.0123',
+    '1.23',
+    '12.3',
+    '123',
+    '12345',
+  ]);
 });
 
 describe('in a log', () => {
@@ -56,7 +78,14 @@ describe('on a terminal', () => {
 it('towards a noise target it tells the noise, and time makes the bar', () => {
   const io = fakeIo('.', { interactive: true, columns: 100 });
   const progress = new ProgressReporter(io, false);
-  progress.samples({ samples: 96, targetSamples: 65536, elapsedMs: 3000, remainingMs: 9000, samplesPerSecond: 32, noise: 0.0321 });
+  progress.samples({
+    samples: 96,
+    targetSamples: 65536,
+    elapsedMs: 3000,
+    remainingMs: 9000,
+    samplesPerSecond: 32,
+    noise: 0.0321,
+  });
   const text = io.err.join('');
   expect(text).toContain('96 samples · noise 3.21 % · 32.0 samples/s · 0:09 left');
   const [filled, rest] = [text.split('━').length - 1, text.split('─').length - 1];

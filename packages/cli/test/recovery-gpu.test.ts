@@ -14,7 +14,8 @@ class DeviceError extends GlanzError {}
 const QUALITY = ['--size', '48x32', '--samples', '24', '--depth', '3', '--seed', '7', '--bits', '16'];
 const OUTPUTS = ['-o', 'x.png', '-o', 'x.exr', '-o', 'x.hdr'];
 const files = ['x.png', 'x.exr', 'x.hdr'];
-const folder = () => temporaryFolder({ 'red.glb': makeGlb({ camera: true }), 'shoe.glb': makeGlb({ camera: true, variants: true }) });
+const folder = () =>
+  temporaryFolder({ 'red.glb': makeGlb({ camera: true }), 'shoe.glb': makeGlb({ camera: true, variants: true }) });
 
 /** A clock that runs a thousand times as fast, so that a checkpoint is due after every batch. */
 function hastyIo(cwd: string): FakeIo {
@@ -40,7 +41,8 @@ describe('the files are the same bit for bit', () => {
     expect(plain.result).toMatchObject({ gpuLosses: 0, resumedSamples: 0, samples: 24 });
     expect(plain.devices[0]!.submits).toBeGreaterThan(20);
     const expected = bytes(whole);
-    // How many submissions there are depends on the machine's speed; these come before the first sample, or are certain.
+    // How many submissions there are depends on the machine's speed; these come before the first sample, or are
+    // certain.
     const points = [1, 12, 'beauty', 'materialId'] as const;
     for (const point of points) {
       const cwd = folder();
@@ -56,7 +58,21 @@ describe('the files are the same bit for bit', () => {
   });
 
   it('when it goes on from a checkpoint towards a noise target, lost again while the next one is copied', async () => {
-    const argv = ['red.glb', '-o', 'x.exr', '--size', '40x24', '--samples', '1024', '--noise', '0.006', '--depth', '3', '--bits', '32'];
+    const argv = [
+      'red.glb',
+      '-o',
+      'x.exr',
+      '--size',
+      '40x24',
+      '--samples',
+      '1024',
+      '--noise',
+      '0.006',
+      '--depth',
+      '3',
+      '--bits',
+      '32',
+    ];
     const whole = folder();
     const plain = await glanz(argv, whole);
     expect(plain.code, plain.err).toBe(0);
@@ -88,12 +104,27 @@ describe('the files are the same bit for bit', () => {
       },
     });
     expect([code, devices.length], err).toEqual([0, 2]);
-    expect((JSON.parse(out) as BatchResult).pictures.map((picture) => (picture as RenderResult).gpuLosses)).toEqual([0, 0, 1, 0]);
+    expect((JSON.parse(out) as BatchResult).pictures.map((picture) => (picture as RenderResult).gpuLosses)).toEqual([
+      0, 0, 1, 0,
+    ]);
     expect(same(bytes(cwd, names), bytes(whole, names))).toEqual([0, 0, 0, 0]);
   });
 
   it('when one of two GPUs is gone for good: its image goes on on the other from its last checkpoint', async () => {
-    const argv = ['shoe.glb', '--variant', 'red', '--variant', 'green', '--view', 'front', '--view', 'iso', ...QUALITY, '--samples', '200'];
+    const argv = [
+      'shoe.glb',
+      '--variant',
+      'red',
+      '--variant',
+      'green',
+      '--view',
+      'front',
+      '--view',
+      'iso',
+      ...QUALITY,
+      '--samples',
+      '200',
+    ];
     const names = ['shoe-red-front.png', 'shoe-red-iso.png', 'shoe-green-front.png', 'shoe-green-iso.png'];
     const whole = folder();
     expect((await glanz(argv, whole)).code).toBe(0);
@@ -129,10 +160,19 @@ describe('the files are the same bit for bit', () => {
         if (index > 0) throw new DeviceError('renderer/no-adapter', 'WebGPU found no usable GPU.');
       },
     });
-    expect([first.code, readdirSync(cwd).includes('x.ckpt'), readdirSync(cwd).includes('x.png')], first.err).toEqual([5, true, false]);
-    expect(first.err).toMatch(/\d+ samples are in "x\.ckpt": the same command goes on from there\. \[cli\/gpu-lost\]\n$/);
+    expect([first.code, readdirSync(cwd).includes('x.ckpt'), readdirSync(cwd).includes('x.png')], first.err).toEqual([
+      5,
+      true,
+      false,
+    ]);
+    expect(first.err).toMatch(
+      /\d+ samples are in "x\.ckpt": the same command goes on from there\. \[cli\/gpu-lost\]\n$/,
+    );
     // The wrong scene is refused, whatever its settings.
-    const wrong = await glanz([...argv.map((word) => (word === 'red.glb' ? 'shoe.glb' : word)), '--checkpoint', 'x.ckpt'], cwd);
+    const wrong = await glanz(
+      [...argv.map((word) => (word === 'red.glb' ? 'shoe.glb' : word)), '--checkpoint', 'x.ckpt'],
+      cwd,
+    );
     expect([wrong.code, wrong.err]).toEqual([3, expect.stringContaining('belongs to another image')]);
     const second = await glanz([...argv, '--checkpoint', 'x.ckpt'], cwd);
     expect(second.code, second.err).toBe(0);
@@ -142,9 +182,16 @@ describe('the files are the same bit for bit', () => {
   });
 });
 
-it.each(['albedo', 'ids', 'position', 'total', 'read'])('no memory for the buffer "%s" of the film: a typed error, status 1, and no file', async (name) => {
-  const cwd = folder();
-  const { code, err, out } = await glanz(['red.glb', ...OUTPUTS, ...QUALITY], cwd, { outOfMemory: new RegExp(`^glanz (film )?${name}$`) });
-  expect([code, readdirSync(cwd).sort()], err).toEqual([1, ['red.glb', 'shoe.glb']]);
-  expect((JSON.parse(out) as unknown as { error: { code: string } }).error.code).toMatch(/^renderer\/(out-of-memory|gpu-error)$/);
-});
+it.each(['albedo', 'ids', 'position', 'total', 'read'])(
+  'no memory for the buffer "%s" of the film: a typed error, status 1, and no file',
+  async (name) => {
+    const cwd = folder();
+    const { code, err, out } = await glanz(['red.glb', ...OUTPUTS, ...QUALITY], cwd, {
+      outOfMemory: new RegExp(`^glanz (film )?${name}$`),
+    });
+    expect([code, readdirSync(cwd).sort()], err).toEqual([1, ['red.glb', 'shoe.glb']]);
+    expect((JSON.parse(out) as unknown as { error: { code: string } }).error.code).toMatch(
+      /^renderer\/(out-of-memory|gpu-error)$/,
+    );
+  },
+);

@@ -8,22 +8,37 @@ import { fakeDevice, fakeIo, run, temporaryFolder, triangleScene, type FakeDevic
 class DeviceError extends GlanzError {}
 const SIZE = ['--size', '4x4', '--samples', '100'];
 const folder = () => temporaryFolder({ 'm.glb': 'not read by the fake' });
-const images = (cwd: string) => readdirSync(cwd).filter((name) => name.endsWith('.png')).sort();
+const images = (cwd: string) =>
+  readdirSync(cwd)
+    .filter((name) => name.endsWith('.png'))
+    .sort();
 const last = (err: string) => err.trim().split('\n').at(-1) as string;
 
 /** GPUs by name: `onSample` hears of which. */
-function gpus({ refuses = () => false, onSample = () => undefined }: { refuses?: (name: string, before: number) => boolean; onSample?: (sample: number, name: string, nth: number, device: FakeDevice) => void }) {
+function gpus({
+  refuses = () => false,
+  onSample = () => undefined,
+}: {
+  refuses?: (name: string, before: number) => boolean;
+  onSample?: (sample: number, name: string, nth: number, device: FakeDevice) => void;
+}) {
   const opened: { name: string; device: FakeDevice }[] = [];
   const fake: FakeOptions = {
     async openGpu(name = 'only') {
-      if (refuses(name, opened.filter((one) => one.name === name).length)) throw new DeviceError('renderer/no-device', 'The GPU refused a device.');
+      if (refuses(name, opened.filter((one) => one.name === name).length))
+        throw new DeviceError('renderer/no-device', 'The GPU refused a device.');
       const device = fakeDevice();
       opened.push({ name, device });
       return { device, adapterName: `Fake ${name}`, software: false };
     },
     onSample(sample, device) {
       const of = opened.find((one) => one.device === device) as { name: string };
-      onSample(sample, of.name, opened.filter(({ name }) => name === of.name).findIndex((one) => one.device === device), device);
+      onSample(
+        sample,
+        of.name,
+        opened.filter(({ name }) => name === of.name).findIndex((one) => one.device === device),
+        device,
+      );
     },
   };
   return { fake, opened };
@@ -80,9 +95,16 @@ describe('a render whose GPU is lost', () => {
         if (sample === 50) throw new DeviceError('renderer/gpu-error', 'enough');
       },
     };
-    const { code, err } = await run(['render', 'm.glb', '--size', '65536x65536', '--samples', '100', '--checkpoint', 'm.ckpt'], cwd, fake, io);
+    const { code, err } = await run(
+      ['render', 'm.glb', '--size', '65536x65536', '--samples', '100', '--checkpoint', 'm.ckpt'],
+      cwd,
+      fake,
+      io,
+    );
     expect([code, saves]).toEqual([1, 0]);
-    expect(err).toContain('warning: a film of 275 GB is too large to be copied on this machine: there will be no checkpoints.');
+    expect(err).toContain(
+      'warning: a film of 275 GB is too large to be copied on this machine: there will be no checkpoints.',
+    );
   });
 
   it('a checkpoint that cannot be taken does not keep the image, and is reported once', async () => {
@@ -99,10 +121,21 @@ describe('a render whose GPU is lost', () => {
     expect(err.match(/no checkpoint could be taken: The GPU has not enough memory\./g)?.length).toBe(1);
     const other = folder();
     const without = ticking(other);
-    expect((await run(['render', 'm.glb', ...SIZE], other, { ...fake, onSample: without.tick }, without.io)).err).not.toContain('checkpoint');
+    expect(
+      (await run(['render', 'm.glb', ...SIZE], other, { ...fake, onSample: without.tick }, without.io)).err,
+    ).not.toContain('checkpoint');
     const stopped = fakeIo(cwd);
-    const interrupted = await run(['render', 'm.glb', ...SIZE, '--checkpoint', 'm.ckpt'], cwd, { ...fake, onSample: (sample) => sample === 9 && stopped.interrupt() }, stopped);
-    expect([interrupted.code, images(cwd), existsSync(join(cwd, 'm.ckpt'))], interrupted.err).toEqual([130, ['m.png'], false]);
+    const interrupted = await run(
+      ['render', 'm.glb', ...SIZE, '--checkpoint', 'm.ckpt'],
+      cwd,
+      { ...fake, onSample: (sample) => sample === 9 && stopped.interrupt() },
+      stopped,
+    );
+    expect([interrupted.code, images(cwd), existsSync(join(cwd, 'm.ckpt'))], interrupted.err).toEqual([
+      130,
+      ['m.png'],
+      false,
+    ]);
   });
 
   it('is lost while it is read: what has been rendered is not rendered again', async () => {
@@ -207,16 +240,46 @@ describe('errors that the device reports outside of a call', () => {
 
   it('a feature pass that never ran: 1, and no file', async () => {
     const cwd = folder();
-    const { code, err } = await run(EXR, cwd, failing((layer) => layer === 'albedo'));
-    expect([code, last(err), readdirSync(cwd)]).toEqual([1, 'glanz: The GPU has not enough memory: 3 GB. [renderer/out-of-memory]', ['m.glb']]);
+    const { code, err } = await run(
+      EXR,
+      cwd,
+      failing((layer) => layer === 'albedo'),
+    );
+    expect([code, last(err), readdirSync(cwd)]).toEqual([
+      1,
+      'glanz: The GPU has not enough memory: 3 GB. [renderer/out-of-memory]',
+      ['m.glb'],
+    ]);
   });
 
   it('of one picture of a batch: the others are made, by tracers that know nothing of it', async () => {
     const cwd = folder();
     let reads = 0;
-    const { code, out, created } = await run(['render', 'm.glb', '--size', '4x4', '--samples', '3', '--view', 'front', '--view', 'back', '--view', 'left', '--json'], cwd, failing(() => ++reads === 2));
+    const { code, out, created } = await run(
+      [
+        'render',
+        'm.glb',
+        '--size',
+        '4x4',
+        '--samples',
+        '3',
+        '--view',
+        'front',
+        '--view',
+        'back',
+        '--view',
+        'left',
+        '--json',
+      ],
+      cwd,
+      failing(() => ++reads === 2),
+    );
     expect([code, created.length, images(cwd)]).toEqual([1, 2, ['m-front.png', 'm-left.png']]);
-    expect(JSON.parse(out)).toMatchObject({ ok: false, failed: 1, pictures: [{ ok: true }, { ok: false, error: { code: 'renderer/out-of-memory' } }, { ok: true }] });
+    expect(JSON.parse(out)).toMatchObject({
+      ok: false,
+      failed: 1,
+      pictures: [{ ok: true }, { ok: false, error: { code: 'renderer/out-of-memory' } }, { ok: true }],
+    });
   });
 });
 
@@ -235,7 +298,9 @@ describe('a batch', () => {
     });
     const { code, out, err } = await run(EIGHT, cwd, { ...fake, scene });
     expect([code, opened.length, images(cwd).length], err).toEqual([0, 2, 8]);
-    expect((JSON.parse(out) as BatchResult).pictures.map((picture) => (picture as RenderResult).gpuLosses)).toEqual([0, 0, 1, 0, 0, 0, 0, 0]);
+    expect((JSON.parse(out) as BatchResult).pictures.map((picture) => (picture as RenderResult).gpuLosses)).toEqual([
+      0, 0, 1, 0, 0, 0, 0, 0,
+    ]);
   });
 
   const two = [...EIGHT, '--gpu', 'good', '--gpu', 'bad'];
@@ -256,10 +321,18 @@ describe('a batch', () => {
     const { code, out, err, edits } = await run(two, cwd, { ...fake, scene }, io);
     expect([code, images(cwd).length], err).toEqual([0, 8]);
     const result = JSON.parse(out) as BatchResult;
-    expect(result).toMatchObject({ ok: true, failed: 0, gpusLost: [{ gpu: 'Fake bad', error: { code: 'cli/gpu-lost' } }] });
-    expect(new Set(result.pictures.map((picture) => (picture as RenderResult).adapter.name))).toEqual(new Set(['Fake good']));
+    expect(result).toMatchObject({
+      ok: true,
+      failed: 0,
+      gpusLost: [{ gpu: 'Fake bad', error: { code: 'cli/gpu-lost' } }],
+    });
+    expect(new Set(result.pictures.map((picture) => (picture as RenderResult).adapter.name))).toEqual(
+      new Set(['Fake good']),
+    );
     // One of the pictures began on the one and was finished on the other.
-    const resumed = result.pictures.map((picture) => (picture as RenderResult).resumedSamples).filter((samples) => samples > 0);
+    const resumed = result.pictures
+      .map((picture) => (picture as RenderResult).resumedSamples)
+      .filter((samples) => samples > 0);
     expect(resumed.length).toBe(1);
     expect(edits.filter(([what, to]) => what === 'film' && to === resumed[0]).length).toBeGreaterThanOrEqual(1);
     expect(err).toContain('The other GPUs go on with its pictures.');
@@ -268,7 +341,13 @@ describe('a batch', () => {
   it('one that never was there leaves everything to the other', async () => {
     const { fake } = gpus({ refuses: (name) => name === 'bad' });
     const { code, out } = await run(two, folder(), { ...fake, scene });
-    expect([code, JSON.parse(out)]).toEqual([0, expect.objectContaining({ ok: true, gpusLost: [{ gpu: 'bad', error: { code: 'renderer/no-device', message: 'The GPU refused a device.' } }] })]);
+    expect([code, JSON.parse(out)]).toEqual([
+      0,
+      expect.objectContaining({
+        ok: true,
+        gpusLost: [{ gpu: 'bad', error: { code: 'renderer/no-device', message: 'The GPU refused a device.' } }],
+      }),
+    ]);
   });
 
   it('without any GPU left, what is not made fails, each with its reason: 5', async () => {
@@ -286,14 +365,19 @@ describe('a batch', () => {
     expect(result.failed).toBe(8 - images(cwd).length);
     expect(result.failed).toBeGreaterThanOrEqual(5);
     const reasons = result.pictures.flatMap((picture) => (picture.ok ? [] : [picture.error]));
-    for (const { code: why, message } of reasons) expect([why, message]).toEqual(['cli/gpu-lost', expect.stringContaining('gives no new device')]);
+    for (const { code: why, message } of reasons)
+      expect([why, message]).toEqual(['cli/gpu-lost', expect.stringContaining('gives no new device')]);
     expect(err).toContain(`${result.failed} failed`);
   });
 
   it('none of whose GPUs is there ends with the error of the first: 5', async () => {
     const { fake } = gpus({ refuses: () => true });
     const { code, err, out } = await run(two, folder(), { ...fake, scene });
-    expect([code, last(err), JSON.parse(out)]).toEqual([5, 'glanz: The GPU refused a device. [renderer/no-device]', { ok: false, error: expect.objectContaining({ code: 'renderer/no-device' }) }]);
+    expect([code, last(err), JSON.parse(out)]).toEqual([
+      5,
+      'glanz: The GPU refused a device. [renderer/no-device]',
+      { ok: false, error: expect.objectContaining({ code: 'renderer/no-device' }) },
+    ]);
   });
 
   it('one picture that no GPU survives does not keep the others', async () => {
@@ -305,7 +389,8 @@ describe('a batch', () => {
       const deadly: FakeOptions = {
         ...fake,
         scene,
-        onEdit: (what, to, device) => void (what === 'variant' && ((device as { variant?: unknown }).variant = variant = to)),
+        onEdit: (what, to, device) =>
+          void (what === 'variant' && ((device as { variant?: unknown }).variant = variant = to)),
         onSample(sample, device) {
           if (sample === 5 && (device as { variant?: unknown }).variant === 2) throw device.lose();
         },
@@ -379,7 +464,8 @@ describe('--checkpoint FILE', () => {
       },
     });
     const { code, err } = await run(argv, cwd, fake, io);
-    const [, samples] = /(\d+) samples are in "m\.ckpt": the same command goes on from there\. \[cli\/gpu-lost\]$/.exec(last(err)) ?? [];
+    const [, samples] =
+      /(\d+) samples are in "m\.ckpt": the same command goes on from there\. \[cli\/gpu-lost\]$/.exec(last(err)) ?? [];
     expect([code, Number(samples) > 40], err).toEqual([5, true]);
     expect((await run(argv, cwd)).edits).toEqual([['film', Number(samples)]]);
   });
@@ -387,8 +473,16 @@ describe('--checkpoint FILE', () => {
   it.each([
     ['another seed', ['--seed', '3'], 'its --seed is 0, here 3'],
     ['another size', ['--size', '5x4'], 'its --size is 4x4, here 5x4'],
-    ['another depth and filter', ['--depth', '3', '--filter', 'gaussian'], 'its --depth is 8, here 3; its --filter is not given, here gaussian'],
-    ['another view', ['--view', 'iso'], 'its --camera or --view is {"kind":"camera"}, here {"kind":"direction","azimuth":45,'],
+    [
+      'another depth and filter',
+      ['--depth', '3', '--filter', 'gaussian'],
+      'its --depth is 8, here 3; its --filter is not given, here gaussian',
+    ],
+    [
+      'another view',
+      ['--view', 'iso'],
+      'its --camera or --view is {"kind":"camera"}, here {"kind":"direction","azimuth":45,',
+    ],
     ['fewer samples', ['--samples', '30'], 'has 40 samples already, more than --samples 30'],
   ])('of %s is refused before anything is loaded, and stays as it is', async (_what, more, message) => {
     const cwd = folder();
@@ -408,7 +502,10 @@ describe('--checkpoint FILE', () => {
     writeFileSync(join(cwd, 'm.glb'), 'something else');
     expect(last((await run(argv, cwd)).err)).toContain('belongs to another image: it is of another model.');
     writeFileSync(join(cwd, 'm.glb'), 'not read by the fake');
-    expect(JSON.parse((await run([...argv, '--samples', '200'], cwd)).out)).toMatchObject({ samples: 200, resumedSamples: 40 });
+    expect(JSON.parse((await run([...argv, '--samples', '200'], cwd)).out)).toMatchObject({
+      samples: 200,
+      resumedSamples: 40,
+    });
   });
 
   it.each([
@@ -435,15 +532,36 @@ describe('--checkpoint FILE', () => {
     const many = [...argv, '--view', 'front', '--view', 'iso'];
     let samples = 0;
     const { code, err } = await run(many, cwd, { onSample: () => ++samples === 131 && io.interrupt() }, io);
-    expect([code, readdirSync(cwd).filter((name) => !name.startsWith('.')).sort()], err).toEqual([130, ['m-front.png', 'm-iso.ckpt', 'm.glb']]);
+    expect(
+      [
+        code,
+        readdirSync(cwd)
+          .filter((name) => !name.startsWith('.'))
+          .sort(),
+      ],
+      err,
+    ).toEqual([130, ['m-front.png', 'm-iso.ckpt', 'm.glb']]);
     const rest = await run([...many, '--resume'], cwd);
-    expect([rest.code, rest.edits.filter(([what]) => what === 'film'), images(cwd)]).toEqual([0, [['film', 30]], ['m-front.png', 'm-iso.png']]);
+    expect([rest.code, rest.edits.filter(([what]) => what === 'film'), images(cwd)]).toEqual([
+      0,
+      [['film', 30]],
+      ['m-front.png', 'm-iso.png'],
+    ]);
   });
 
   it('that cannot be written is found before anything is loaded', async () => {
     const cwd = folder();
-    expect(await run(['render', 'm.glb', ...SIZE, '--checkpoint', 'no/where.ckpt'], cwd)).toMatchObject({ code: 4, created: [] });
-    expect(await run(['render', 'm.glb', ...SIZE, '--checkpoint', '{colour}.ckpt'], cwd)).toMatchObject({ code: 2, err: expect.stringContaining('--checkpoint "{colour}.ckpt": {colour} is unknown') });
-    expect(await run(['render', 'm.glb', ...SIZE, '--checkpoint', 'm.png'], cwd)).toMatchObject({ code: 2, err: expect.stringContaining('Two pictures would be written to "m.png"') });
+    expect(await run(['render', 'm.glb', ...SIZE, '--checkpoint', 'no/where.ckpt'], cwd)).toMatchObject({
+      code: 4,
+      created: [],
+    });
+    expect(await run(['render', 'm.glb', ...SIZE, '--checkpoint', '{colour}.ckpt'], cwd)).toMatchObject({
+      code: 2,
+      err: expect.stringContaining('--checkpoint "{colour}.ckpt": {colour} is unknown'),
+    });
+    expect(await run(['render', 'm.glb', ...SIZE, '--checkpoint', 'm.png'], cwd)).toMatchObject({
+      code: 2,
+      err: expect.stringContaining('Two pictures would be written to "m.png"'),
+    });
   });
 });

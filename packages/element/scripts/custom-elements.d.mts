@@ -5,7 +5,11 @@ interface Named {
 
 interface CustomElement extends Named {
   readonly tagName: string;
-  readonly attributes: readonly (Named & { readonly fieldName: string; readonly type: { readonly text: string }; readonly default?: string })[];
+  readonly attributes: readonly (Named & {
+    readonly fieldName: string;
+    readonly type: { readonly text: string };
+    readonly default?: string;
+  })[];
   readonly members: readonly (Named & { readonly kind: string; readonly attribute?: string })[];
   readonly events: readonly (Named & { readonly type: { readonly text: string } })[];
   readonly slots: readonly Named[];

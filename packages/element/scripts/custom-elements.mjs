@@ -1,6 +1,6 @@
-// Makes custom-elements.json (schema 1.0.0), from which editors and documentation tools know <glanz-viewer>, out of the sources:
-// attributes and their comments of src/attributes.ts, events and methods of src/api.ts, slots, parts and CSS properties of the
-// comment in src/shadow.ts. The build writes it into dist/.
+// Makes custom-elements.json (schema 1.0.0), from which editors and documentation tools know <glanz-viewer>, out of the
+// sources: attributes and their comments of src/attributes.ts, events and methods of src/api.ts, slots, parts and CSS
+// properties of the comment in src/shadow.ts. The build writes it into dist/.
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import ts from 'typescript';
@@ -26,8 +26,15 @@ function find(source, name) {
 /** The comment of a node: its text on one line, and its tags. */
 function comment(node) {
   const [doc] = ts.getJSDocCommentsAndTags(node).filter(ts.isJSDoc);
-  const text = (part) => (ts.getTextOfJSDocComment(part) ?? '').replace(/\s+/g, ' ').replace(/\{@link (\w+)\}/g, '`$1`').trim();
-  return { description: text(doc?.comment), tags: (doc?.tags ?? []).map((tag) => ({ name: tag.tagName.text, text: text(tag.comment) })) };
+  const text = (part) =>
+    (ts.getTextOfJSDocComment(part) ?? '')
+      .replace(/\s+/g, ' ')
+      .replace(/\{@link (\w+)\}/g, '`$1`')
+      .trim();
+  return {
+    description: text(doc?.comment),
+    tags: (doc?.tags ?? []).map((tag) => ({ name: tag.tagName.text, text: text(tag.comment) })),
+  };
 }
 
 const tag = ({ tags }, name) => tags.find((one) => one.name === name)?.text;
@@ -38,41 +45,79 @@ function attributesOf(source) {
   return object.properties.map((property) => {
     const { text: name } = property.name;
     const doc = comment(property);
-    const values = tag(doc, 'values')?.split(',').map((value) => `'${value.trim()}'`).join(' | ');
+    const values = tag(doc, 'values')
+      ?.split(',')
+      .map((value) => `'${value.trim()}'`)
+      .join(' | ');
     const byDefault = tag(doc, 'defaultValue');
     const type = { text: values ?? TYPES[property.initializer.text] };
     const deprecated = tag(doc, 'deprecated');
-    return { name, fieldName: camel(name), type, description: doc.description, ...(byDefault === undefined ? {} : { default: byDefault }), ...(deprecated === undefined ? {} : { deprecated }) };
+    return {
+      name,
+      fieldName: camel(name),
+      type,
+      description: doc.description,
+      ...(byDefault === undefined ? {} : { default: byDefault }),
+      ...(deprecated === undefined ? {} : { deprecated }),
+    };
   });
 }
 
 const nameOf = (member) => member.name.text;
 
 function eventsOf(source) {
-  return find(source, 'GlanzViewerEventMap').members.map((member) => ({ name: nameOf(member), type: { text: member.type.getText() }, description: comment(member).description }));
+  return find(source, 'GlanzViewerEventMap').members.map((member) => ({
+    name: nameOf(member),
+    type: { text: member.type.getText() },
+    description: comment(member).description,
+  }));
 }
 
 function membersOf(source, attributes) {
-  const fields = attributes.map(({ name, fieldName, type, description, deprecated }) => (
-    { kind: 'field', name: fieldName, type, description, attribute: name, reflects: true, ...(deprecated === undefined ? {} : { deprecated }) }
-  ));
+  const fields = attributes.map(({ name, fieldName, type, description, deprecated }) => ({
+    kind: 'field',
+    name: fieldName,
+    type,
+    description,
+    attribute: name,
+    reflects: true,
+    ...(deprecated === undefined ? {} : { deprecated }),
+  }));
   const own = find(source, 'GlanzViewerElement').members.flatMap((member) => {
     const { description } = comment(member);
-    if (nameOf(member).endsWith('EventListener') || attributes.some(({ fieldName }) => fieldName === nameOf(member))) return [];
-    if (ts.isPropertySignature(member)) return [{ kind: 'field', name: nameOf(member), type: { text: member.type.getText() }, description, readonly: true }];
-    const parameters = member.parameters.map((one) => ({ name: one.name.getText(), type: { text: one.type.getText() }, ...(one.questionToken ? { optional: true } : {}) }));
-    return [{ kind: 'method', name: nameOf(member), parameters, return: { type: { text: member.type.getText() } }, description }];
+    if (nameOf(member).endsWith('EventListener') || attributes.some(({ fieldName }) => fieldName === nameOf(member)))
+      return [];
+    if (ts.isPropertySignature(member))
+      return [
+        { kind: 'field', name: nameOf(member), type: { text: member.type.getText() }, description, readonly: true },
+      ];
+    const parameters = member.parameters.map((one) => ({
+      name: one.name.getText(),
+      type: { text: one.type.getText() },
+      ...(one.questionToken ? { optional: true } : {}),
+    }));
+    return [
+      {
+        kind: 'method',
+        name: nameOf(member),
+        parameters,
+        return: { type: { text: member.type.getText() } },
+        description,
+      },
+    ];
   });
   return [...fields, ...own];
 }
 
 /** `@slot name - description` and the like. */
 function tagged(doc, name) {
-  return doc.tags.filter((one) => one.name === name).map(({ text }) => {
-    const [, of, description] = /^(\S+) - (.+)$/.exec(text) ?? [];
-    if (!of) throw new Error(`@${name} ${text}: expected "name - description".`);
-    return { name: of, description };
-  });
+  return doc.tags
+    .filter((one) => one.name === name)
+    .map(({ text }) => {
+      const [, of, description] = /^(\S+) - (.+)$/.exec(text) ?? [];
+      if (!of) throw new Error(`@${name} ${text}: expected "name - description".`);
+      return { name: of, description };
+    });
 }
 
 /** The manifest as data. @param folder The package's. */
@@ -105,7 +150,13 @@ export function customElements(folder = fileURLToPath(new URL('..', import.meta.
             cssProperties: tagged(shadow, 'cssprop'),
           },
         ],
-        exports: [{ kind: 'custom-element-definition', name: 'glanz-viewer', declaration: { name: 'GlanzViewerElement', module: path } }],
+        exports: [
+          {
+            kind: 'custom-element-definition',
+            name: 'glanz-viewer',
+            declaration: { name: 'GlanzViewerElement', module: path },
+          },
+        ],
       },
     ],
   };

@@ -1,6 +1,7 @@
-// Builds the whole element into one file, glanz-viewer.min.js: for pages without a bundler, from any origin. Its workers run the
-// same file, so that nothing else is fetched for a plain .glb, and each serves what its name says. What only some files need
-// (OBJ and STL, HDR and EXR, meshopt, Draco, KTX2), and what saves images, lies beside it and is fetched by import() when it is needed.
+// Builds the whole element into one file, glanz-viewer.min.js: for pages without a bundler, from any origin. Its
+// workers run the same file, so that nothing else is fetched for a plain .glb, and each serves what its name says. What
+// only some files need (OBJ and STL, HDR and EXR, meshopt, Draco, KTX2), and what saves images, lies beside it and is
+// fetched by import() when it is needed.
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join, resolve } from 'node:path';
 import { build } from 'esbuild';
@@ -41,12 +42,27 @@ const DECODERS = {
 
 /** What a module says of the other files of its package, and what it says where there is one file. */
 const REPLACED = [
-  ["new Worker(new URL('./worker.js', import.meta.url)", 'new Worker(import.meta.url', ['bvh/src/worker/line.ts', 'gltf/src/worker/load.ts']],
+  [
+    "new Worker(new URL('./worker.js', import.meta.url)",
+    'new Worker(import.meta.url',
+    ['bvh/src/worker/line.ts', 'gltf/src/worker/load.ts'],
+  ],
   ["new URL('./worker.js', url)", 'new URL(url)', ['bvh/src/worker/line.ts', 'gltf/src/worker/load.ts']],
   ['if (port) serveBuilds(port);', '', ['bvh/src/worker/worker.ts']],
 ];
 
-const SETTINGS = { bundle: true, minify: true, format: 'esm', platform: 'browser', target: 'es2022', conditions: ['@glanz/source'], define: { 'process.env.NODE_ENV': '"production"' }, external: ['node:*'], legalComments: 'none', write: false };
+const SETTINGS = {
+  bundle: true,
+  minify: true,
+  format: 'esm',
+  platform: 'browser',
+  target: 'es2022',
+  conditions: ['@glanz/source'],
+  define: { 'process.env.NODE_ENV': '"production"' },
+  external: ['node:*'],
+  legalComments: 'none',
+  write: false,
+};
 
 /** Reads sources as they are published, with `REPLACED`; `missing` loses each text that was there. */
 const sources = (missing) => ({
@@ -69,8 +85,14 @@ const sources = (missing) => ({
 const beside = (files) => ({
   name: 'beside',
   setup(context) {
-    context.onResolve({ filter: /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors)$)/ }, ({ path }) => (Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined));
-    context.onResolve({ filter: /^\.\/(draco|basis|ktx2)$/ }, ({ path, importer }) => (/[\\/]decoders[\\/]index\.ts$/.test(importer) ? { path: `./${DECODERS[path.slice(2)].file}`, external: true } : undefined));
+    context.onResolve({ filter: /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors)$)/ }, ({ path }) =>
+      Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined,
+    );
+    context.onResolve({ filter: /^\.\/(draco|basis|ktx2)$/ }, ({ path, importer }) =>
+      /[\\/]decoders[\\/]index\.ts$/.test(importer)
+        ? { path: `./${DECODERS[path.slice(2)].file}`, external: true }
+        : undefined,
+    );
   },
 });
 
@@ -85,14 +107,29 @@ export async function buildSingleFile(folder, to) {
   await mkdir(to, { recursive: true });
   const write = async (contents, name, files) => {
     const stdin = { contents, resolveDir, sourcefile: name, loader: 'js' };
-    const { outputFiles } = await build({ ...SETTINGS, stdin, plugins: [beside(files), packedWasm(folder), weslSource({ shrink: true }), sources(missing)] });
+    const { outputFiles } = await build({
+      ...SETTINGS,
+      stdin,
+      plugins: [beside(files), packedWasm(folder), weslSource({ shrink: true }), sources(missing)],
+    });
     await writeFile(join(to, name), outputFiles[0].contents);
     return name;
   };
   const names = [await write(ENTRY, MAIN, LATER)];
-  if (missing.size > 0) throw new Error(`The single file cannot be built, since these texts are not in the sources any more: ${[...missing].join('; ')}.`);
+  if (missing.size > 0)
+    throw new Error(
+      `The single file cannot be built, since these texts are not in the sources any more: ${[...missing].join('; ')}.`,
+    );
   // Their errors are of the same class.
-  for (const [module, name] of Object.entries(LATER)) names.push(await write(`export * from '${module.replace(/^\.\//, './src/')}';`, name, { '@glanz/wgsl/error': MAIN }));
-  for (const [module, { file, exports }] of Object.entries(DECODERS)) names.push(await write(`export { ${exports} } from '../element/src/decoders/${module}';`, file, { '@glanz/wgsl/error': MAIN }));
+  for (const [module, name] of Object.entries(LATER))
+    names.push(
+      await write(`export * from '${module.replace(/^\.\//, './src/')}';`, name, { '@glanz/wgsl/error': MAIN }),
+    );
+  for (const [module, { file, exports }] of Object.entries(DECODERS))
+    names.push(
+      await write(`export { ${exports} } from '../element/src/decoders/${module}';`, file, {
+        '@glanz/wgsl/error': MAIN,
+      }),
+    );
   return names;
 }

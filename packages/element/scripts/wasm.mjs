@@ -1,6 +1,6 @@
-// What the decoders' modules become in a build: WebAssembly is held by the module itself, compressed, so that any bundler, any
-// server and any origin serves it as it does a script; and the scripts that Emscripten wrote do not look for Node, which bundlers
-// would try to find modules for.
+// What the decoders' modules become in a build: WebAssembly is held by the module itself, compressed, so that any
+// bundler, any server and any origin serves it as it does a script; and the scripts that Emscripten wrote do not look
+// for Node, which bundlers would try to find modules for.
 import { readFile } from 'node:fs/promises';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
@@ -29,8 +29,13 @@ export function wasmBytes() {
 }`;
       return { contents, loader: 'js' };
     });
-    context.onLoad({ filter: GLUE }, async ({ path }) => ({ contents: `var process, __filename, __dirname;\n${withDefault(await readFile(path, 'utf8'), path)}`, loader: 'js' }));
-    context.onResolve({ filter: /^(fs|path)$/ }, ({ path, importer }) => (GLUE.test(importer) ? { path, namespace: 'no-node' } : undefined));
+    context.onLoad({ filter: GLUE }, async ({ path }) => ({
+      contents: `var process, __filename, __dirname;\n${withDefault(await readFile(path, 'utf8'), path)}`,
+      loader: 'js',
+    }));
+    context.onResolve({ filter: /^(fs|path)$/ }, ({ path, importer }) =>
+      GLUE.test(importer) ? { path, namespace: 'no-node' } : undefined,
+    );
     context.onLoad({ filter: /.*/, namespace: 'no-node' }, () => ({ contents: 'module.exports = {};' }));
   },
 });

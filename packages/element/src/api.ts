@@ -3,7 +3,10 @@ import type { BlobOptions, ModelSource, Orbit, Viewer, ViewerEvents } from '@gla
 import type { ReflectedProperties } from './attributes';
 import type { HotspotView } from './hotspots';
 
-/** What the element tells, as `CustomEvent`s that do not bubble; `detail` is that of the viewer's event of the same name. */
+/**
+ * What the element tells, as `CustomEvent`s that do not bubble; `detail` is that of the viewer's event of the same
+ * name.
+ */
 export interface GlanzViewerEventMap {
   /** The model that `src` names, or that `show()` was given, is loaded. */
   load: CustomEvent<ViewerEvents['load']>;
@@ -11,7 +14,10 @@ export interface GlanzViewerEventMap {
   progress: CustomEvent<ViewerEvents['progress'] & { readonly totalProgress: number }>;
   /** Something failed: `message` in one line, `code`, and `retry` where trying again can help. */
   error: CustomEvent<ViewerEvents['error']>;
-  /** An environment cannot be fetched or read, and the model is shown without it; or the GPU has not come yet. `message` in one line, and `code`. */
+  /**
+   * An environment cannot be fetched or read, and the model is shown without it; or the GPU has not come yet. `message`
+   * in one line, and `code`.
+   */
   warning: CustomEvent<Omit<ViewerEvents['warning'], 'error'> & { readonly error: unknown }>;
   /** The image has one more sample per pixel. */
   sample: CustomEvent<ViewerEvents['sample']>;
@@ -36,13 +42,16 @@ export interface ElementBlobOptions extends BlobOptions {
 }
 
 /**
- * The element `<glanz-viewer>`. Made by markup, or by `document.createElement('glanz-viewer')`, after `defineGlanzViewer()`.
- * Setting a property to what it cannot be (NaN, an infinity, another type, a number out of range) throws an `ElementError`
- * `element/property`; a text in markup that its attribute does not take is reported by the `error` event as
- * `element/attribute`, and the default is used.
+ * The element `<glanz-viewer>`. Made by markup, or by `document.createElement('glanz-viewer')`, after
+ * `defineGlanzViewer()`. Setting a property to what it cannot be (NaN, an infinity, another type, a number out of
+ * range) throws an `ElementError` `element/property`; a text in markup that its attribute does not take is reported by
+ * the `error` event as `element/attribute`, and the default is used.
  */
 export interface GlanzViewerElement extends HTMLElement, ReflectedProperties {
-  /** The viewer behind it, for all that has no attribute; `undefined` while the element is out of the page, or waits to be seen. */
+  /**
+   * The viewer behind it, for all that has no attribute; `undefined` while the element is out of the page, or waits to
+   * be seen.
+   */
   readonly viewer: Viewer | undefined;
   /**
    * Factor of the image's brightness, as in model-viewer.
@@ -78,8 +87,16 @@ export interface GlanzViewerElement extends HTMLElement, ReflectedProperties {
   updateHotspot(hotspot: { readonly name: string; readonly position?: string; readonly normal?: string }): void;
   /** What lies under a point of the window, CSS pixels. */
   pick(clientX: number, clientY: number): PickResult | undefined;
-  addEventListener<K extends keyof GlanzViewerEventMap>(type: K, listener: (event: GlanzViewerEventMap[K]) => void, options?: boolean | AddEventListenerOptions): void;
-  addEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | AddEventListenerOptions): void;
+  addEventListener<K extends keyof GlanzViewerEventMap>(
+    type: K,
+    listener: (event: GlanzViewerEventMap[K]) => void,
+    options?: boolean | AddEventListenerOptions,
+  ): void;
+  addEventListener(
+    type: string,
+    listener: EventListenerOrEventListenerObject,
+    options?: boolean | AddEventListenerOptions,
+  ): void;
 }
 
 /** Constructor of {@link GlanzViewerElement}. */

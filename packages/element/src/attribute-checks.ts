@@ -19,7 +19,11 @@ const NUMBERS: Readonly<Partial<Record<AttributeName, Range>>> = {
 };
 
 /** Names that model-viewer has for tone maps. */
-export const TONE_MAP_NAMES: Readonly<Record<string, (typeof TONE_MAPS)[number]>> = { commerce: 'neutral', auto: 'neutral', none: 'linear' };
+export const TONE_MAP_NAMES: Readonly<Record<string, (typeof TONE_MAPS)[number]>> = {
+  commerce: 'neutral',
+  auto: 'neutral',
+  none: 'linear',
+};
 
 /** The number that a text says, or `null`. */
 export function numberOf(text: string | null): number | null {
@@ -38,7 +42,12 @@ const isOrbit = (text: string) => {
 };
 const isLimit = (text: string) => {
   const [theta = 'auto', phi = 'auto', radius = 'auto', ...more] = partsOf(text);
-  return (isAngle(theta) || isEndless(theta)) && (isAngle(phi) || isEndless(phi)) && (isLength(radius) || isEndless(radius)) && more.length === 0;
+  return (
+    (isAngle(theta) || isEndless(theta)) &&
+    (isAngle(phi) || isEndless(phi)) &&
+    (isLength(radius) || isEndless(radius)) &&
+    more.length === 0
+  );
 };
 const isFieldOfView = (text: string) => {
   const value = angle(text.trim());
@@ -50,11 +59,17 @@ const TEXTS: Readonly<Partial<Record<AttributeName, readonly [takes: string, tes
   'camera-orbit': ['an angle, an angle and a distance, such as "45deg 75deg 2m", each or "auto"', isOrbit],
   'min-camera-orbit': ['an angle, an angle and a distance, each or "auto"', isLimit],
   'max-camera-orbit': ['an angle, an angle and a distance, each or "auto"', isLimit],
-  'camera-target': ['three lengths, such as "0m 1m 0m", each or "auto"', (text) => partsOf(text).length <= 3 && partsOf(text).every((part) => isLength(part) && !part.endsWith('%'))],
+  'camera-target': [
+    'three lengths, such as "0m 1m 0m", each or "auto"',
+    (text) => partsOf(text).length <= 3 && partsOf(text).every((part) => isLength(part) && !part.endsWith('%')),
+  ],
   'field-of-view': ['an angle between 0 and 180 degrees, or "auto"', isFieldOfView],
   'environment-rotation': ['an angle', (text) => angle(text.trim()) !== undefined],
   'rotation-per-second': ['an angle', (text) => angle(text.trim()) !== undefined],
-  'tone-mapping': [`one of ${[...TONE_MAPS, ...Object.keys(TONE_MAP_NAMES)].join(', ')}`, (text) => Object.hasOwn(TONE_MAP_NAMES, text) || (TONE_MAPS as readonly string[]).includes(text)],
+  'tone-mapping': [
+    `one of ${[...TONE_MAPS, ...Object.keys(TONE_MAP_NAMES)].join(', ')}`,
+    (text) => Object.hasOwn(TONE_MAP_NAMES, text) || (TONE_MAPS as readonly string[]).includes(text),
+  ],
   'back-face-culling': ['off, camera or all', (text) => ['off', 'camera', 'all'].includes(text)],
 };
 
@@ -62,7 +77,9 @@ const TEXTS: Readonly<Partial<Record<AttributeName, readonly [takes: string, tes
 export function numberIn(name: AttributeName, text: string | null): number | undefined {
   const value = numberOf(text);
   const [low, high] = NUMBERS[name] ?? [-Infinity, Infinity];
-  return value !== null && value >= low && value <= high && (name !== 'max-depth' || Number.isInteger(value)) ? value : undefined;
+  return value !== null && value >= low && value <= high && (name !== 'max-depth' || Number.isInteger(value))
+    ? value
+    : undefined;
 }
 
 /** Whether a number is one that an attribute takes. */

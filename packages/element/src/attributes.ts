@@ -2,8 +2,8 @@
 export type AttributeKind = 'text' | 'flag' | 'number';
 
 /**
- * The attributes of the element. Names that model-viewer has mean what they mean there. The property of each is its name in
- * camel case, and reflects. `custom-elements.json`, which editors read, is made of these comments.
+ * The attributes of the element. Names that model-viewer has mean what they mean there. The property of each is its
+ * name in camel case, and reflects. `custom-elements.json`, which editors read, is made of these comments.
  */
 export const ATTRIBUTES = {
   /** Address of the model: glTF, GLB, OBJ or STL. */
@@ -13,8 +13,8 @@ export const ATTRIBUTES = {
   /** Address of an image that is shown until the model is rendered. */
   poster: 'text',
   /**
-   * With `reveal="auto"`: samples per pixel that the image must have before the poster goes. It also goes when the image is finished and
-   * when the user moves the camera.
+   * With `reveal="auto"`: samples per pixel that the image must have before the poster goes. It also goes when the
+   * image is finished and when the user moves the camera.
    * @defaultValue 64
    */
   'poster-samples': 'number',
@@ -100,7 +100,9 @@ export const ATTRIBUTES = {
    * @defaultValue 0
    */
   'environment-rotation': 'text',
-  /** Address of a .hdr or .exr that lights the model and is visible behind it. Without it the background is transparent. */
+  /**
+   * Address of a .hdr or .exr that lights the model and is visible behind it. Without it the background is transparent.
+   */
   'skybox-image': 'text',
   /**
    * Exposure in EV (stops): 1 doubles the image's brightness, -1 halves it.
@@ -141,13 +143,13 @@ export const ATTRIBUTES = {
    */
   'back-face-culling': 'text',
   /**
-   * Address of an ES module that replaces the package's decoder of Draco. Its default export is the module of `draco3dgltf`, or a
-   * function that returns it or a promise of it.
+   * Address of an ES module that replaces the package's decoder of Draco. Its default export is the module of
+   * `draco3dgltf`, or a function that returns it or a promise of it.
    */
   'draco-decoder': 'text',
   /**
-   * Address of an ES module that replaces the package's transcoder of KTX2. Its default export is the module of the Basis
-   * Universal transcoder, or a function that returns it or a promise of it.
+   * Address of an ES module that replaces the package's transcoder of KTX2. Its default export is the module of the
+   * Basis Universal transcoder, or a function that returns it or a promise of it.
    */
   'ktx2-transcoder': 'text',
 } as const satisfies Readonly<Record<string, AttributeKind>>;
@@ -155,11 +157,19 @@ export const ATTRIBUTES = {
 /** Name of an attribute of the element. */
 export type AttributeName = keyof typeof ATTRIBUTES;
 
-type Camel<Name extends string> = Name extends `${infer Head}-${infer Tail}` ? `${Head}${Capitalize<Camel<Tail>>}` : Name;
-type Value<Kind extends AttributeKind> = Kind extends 'flag' ? boolean : Kind extends 'number' ? number | null : string | null;
+type Camel<Name extends string> = Name extends `${infer Head}-${infer Tail}`
+  ? `${Head}${Capitalize<Camel<Tail>>}`
+  : Name;
+type Value<Kind extends AttributeKind> = Kind extends 'flag'
+  ? boolean
+  : Kind extends 'number'
+    ? number | null
+    : string | null;
 
 /** The properties that reflect the attributes; `null` where an attribute is not there. */
-export type ReflectedProperties = { -readonly [Name in AttributeName as Camel<Name>]: Value<(typeof ATTRIBUTES)[Name]> };
+export type ReflectedProperties = {
+  -readonly [Name in AttributeName as Camel<Name>]: Value<(typeof ATTRIBUTES)[Name]>;
+};
 
 /** The name of an attribute's property. */
 export const camel = (name: string) => name.replace(/-([a-z])/g, (_, letter: string) => letter.toUpperCase());

@@ -13,9 +13,18 @@ import { fillShadow, type Shadow } from './shadow';
 import { angle } from './units';
 import { cameraOf, describeView, limitsOf, orbitOf, type ViewAttributes } from './view';
 
-const VIEW: ReadonlySet<string> = new Set(['camera-orbit', 'camera-target', 'field-of-view', 'min-camera-orbit', 'max-camera-orbit']);
+const VIEW: ReadonlySet<string> = new Set([
+  'camera-orbit',
+  'camera-target',
+  'field-of-view',
+  'min-camera-orbit',
+  'max-camera-orbit',
+]);
 const LIGHT: ReadonlySet<string> = new Set(['environment-image', 'skybox-image']);
-/** Samples per pixel from which on an image is better than its poster: it has an eighth of the noise of its first sample. */
+/**
+ * Samples per pixel from which on an image is better than its poster: it has an eighth of the noise of its first
+ * sample.
+ */
 const POSTER_SAMPLES = 64;
 /** Milliseconds after the last movement before the view is told to those who hear it. */
 const SPEAK_MS = 600;
@@ -25,9 +34,10 @@ let warned = false;
 
 /** Once per page: `exposure` is a factor, which the viewer, the command line and the playground do not use. */
 function warnOfExposure(): void {
-  // oxlint-disable-next-line no-console
-  if (!warned) console.warn('<glanz-viewer>: "exposure", a factor, is deprecated; use "exposure-ev", its base-2 logarithm.');
+  if (warned) return;
   warned = true;
+  // oxlint-disable-next-line no-console
+  console.warn('<glanz-viewer>: "exposure", a factor, is deprecated; use "exposure-ev", its base-2 logarithm.');
 }
 
 /** The class of the element, made when it is first asked for: a server has no `HTMLElement`. */
@@ -65,7 +75,11 @@ function makeClass(): GlanzViewerConstructor {
       for (const error of adoptProperties(this)) this.#fail(error);
       if (!this.#shadow) {
         this.#shadow = fillShadow(this);
-        this.#hotspots = new HotspotLayer(this, this.#shadow.hotspots, () => this.#viewer && this.#hotspots?.update(this.#viewer));
+        this.#hotspots = new HotspotLayer(
+          this,
+          this.#shadow.hotspots,
+          () => this.#viewer && this.#hotspots?.update(this.#viewer),
+        );
       }
       this.#hotspots?.connect();
       this.#describe();
@@ -74,7 +88,10 @@ function makeClass(): GlanzViewerConstructor {
       if (this.getAttribute('loading') === 'eager' || typeof IntersectionObserver === 'undefined') return this.#start();
       this.#watch?.disconnect();
       // A little before it comes into sight.
-      this.#watch = new IntersectionObserver((entries) => entries.some((entry) => entry.isIntersecting) && this.#start(), { rootMargin: '200px' });
+      this.#watch = new IntersectionObserver(
+        (entries) => entries.some((entry) => entry.isIntersecting) && this.#start(),
+        { rootMargin: '200px' },
+      );
       this.#watch.observe(this);
     }
 
@@ -107,7 +124,10 @@ function makeClass(): GlanzViewerConstructor {
         viewer.background = this.#background;
         viewer.setEnvironment(this.#environment).catch((error: unknown) => this.#fail(error, 'warning'));
       } else if (VIEW.has(name)) {
-        if (name === 'field-of-view' && viewer.scene) this.#attempt(() => void (viewer.fieldOfView = cameraOf(viewer.scene as Scene, this.#aspect, this.#view).yfov));
+        if (name === 'field-of-view' && viewer.scene)
+          this.#attempt(
+            () => void (viewer.fieldOfView = cameraOf(viewer.scene as Scene, this.#aspect, this.#view).yfov),
+          );
         this.#look(viewer, name === 'min-camera-orbit' || name === 'max-camera-orbit');
       } else this.#apply(viewer);
     }
@@ -121,19 +141,30 @@ function makeClass(): GlanzViewerConstructor {
     async toBlob({ mimeType, qualityArgument, ...options }: ElementBlobOptions = {}): Promise<Blob> {
       if (!this.#viewer) this.#start();
       const viewer = this.#viewer as Viewer;
-      if (!viewer.scene && !this.#source && !this.getAttribute('src')) throw new ElementError('element/no-model', 'There is no picture: set src, or call show(), first.');
-      if (!viewer.scene) await new Promise<void>((resolve, reject) => {
-        const listening = new AbortController();
-        const { signal } = listening;
-        const end = (settle: () => void) => () => {
-          listening.abort();
-          settle();
-        };
-        viewer.on('load', end(resolve), { signal });
-        viewer.on('error', ({ error }) => end(() => reject(error as Error))(), { signal });
-        viewer.on('state', ({ state }) => state === 'destroyed' && end(() => reject(new DOMException('the element was removed', 'AbortError')))(), { signal });
+      if (!viewer.scene && !this.#source && !this.getAttribute('src'))
+        throw new ElementError('element/no-model', 'There is no picture: set src, or call show(), first.');
+      if (!viewer.scene)
+        await new Promise<void>((resolve, reject) => {
+          const listening = new AbortController();
+          const { signal } = listening;
+          const end = (settle: () => void) => () => {
+            listening.abort();
+            settle();
+          };
+          viewer.on('load', end(resolve), { signal });
+          viewer.on('error', ({ error }) => end(() => reject(error as Error))(), { signal });
+          viewer.on(
+            'state',
+            ({ state }) =>
+              state === 'destroyed' && end(() => reject(new DOMException('the element was removed', 'AbortError')))(),
+            { signal },
+          );
+        });
+      return viewer.toBlob({
+        ...(mimeType === undefined ? {} : { type: mimeType }),
+        ...(qualityArgument === undefined ? {} : { quality: qualityArgument }),
+        ...options,
       });
-      return viewer.toBlob({ ...(mimeType === undefined ? {} : { type: mimeType }), ...(qualityArgument === undefined ? {} : { quality: qualityArgument }), ...options });
     }
 
     getCameraOrbit(): Orbit | undefined {
@@ -170,10 +201,22 @@ function makeClass(): GlanzViewerConstructor {
       const [element] = this.#hotspots?.elementsOf(slot) ?? [];
       const position = readVector(element?.getAttribute('data-position'));
       if (!element || !position || !this.#viewer) return undefined;
-      return viewHotspot(this.#viewer, { position, normal: readVector(element.getAttribute('data-normal')) }, element.hasAttribute('data-occlusion'));
+      return viewHotspot(
+        this.#viewer,
+        { position, normal: readVector(element.getAttribute('data-normal')) },
+        element.hasAttribute('data-occlusion'),
+      );
     }
 
-    updateHotspot({ name, position, normal }: { readonly name: string; readonly position?: string; readonly normal?: string }): void {
+    updateHotspot({
+      name,
+      position,
+      normal,
+    }: {
+      readonly name: string;
+      readonly position?: string;
+      readonly normal?: string;
+    }): void {
       for (const element of this.#hotspots?.elementsOf(name) ?? []) {
         if (position !== undefined) element.setAttribute('data-position', position);
         if (normal !== undefined) element.setAttribute('data-normal', normal);
@@ -191,7 +234,13 @@ function makeClass(): GlanzViewerConstructor {
 
     get #view(): ViewAttributes {
       const text = (name: AttributeName) => this.getAttribute(name);
-      return { orbit: text('camera-orbit'), target: text('camera-target'), fieldOfView: text('field-of-view'), least: text('min-camera-orbit'), most: text('max-camera-orbit') };
+      return {
+        orbit: text('camera-orbit'),
+        target: text('camera-target'),
+        fieldOfView: text('field-of-view'),
+        least: text('min-camera-orbit'),
+        most: text('max-camera-orbit'),
+      };
     }
 
     get #background(): 'environment' | 'transparent' {
@@ -229,7 +278,14 @@ function makeClass(): GlanzViewerConstructor {
       this.#watch?.disconnect();
       const shadow = this.#shadow;
       if (this.#viewer || !shadow) return;
-      const viewer = (this.#viewer = createViewer(shadow.canvas, { environment: this.#environment, background: this.#background, controls: false, decoders: packagedDecoders(this.#decoders), tracer: { backFaceCulling: this.#culling }, camera: (scene, aspect) => cameraOf(scene, aspect, this.#view) }));
+      const viewer = (this.#viewer = createViewer(shadow.canvas, {
+        environment: this.#environment,
+        background: this.#background,
+        controls: false,
+        decoders: packagedDecoders(this.#decoders),
+        tracer: { backFaceCulling: this.#culling },
+        camera: (scene, aspect) => cameraOf(scene, aspect, this.#view),
+      }));
       for (const name of Object.keys(ATTRIBUTES) as AttributeName[]) this.#checkAttribute(name);
       this.#apply(viewer);
       this.#listen(viewer, shadow);
@@ -256,21 +312,30 @@ function makeClass(): GlanzViewerConstructor {
       if (factor !== undefined) warnOfExposure();
       viewer.exposure = this.#number('exposure-ev') ?? Math.log2(Math.max(1e-6, factor ?? 1));
       const tone = this.getAttribute('tone-mapping') ?? 'neutral';
-      viewer.toneMap = Object.hasOwn(TONE_MAP_NAMES, tone) ? (TONE_MAP_NAMES[tone] as ToneMap) : TONE_MAPS.includes(tone as ToneMap) ? (tone as ToneMap) : 'neutral';
+      viewer.toneMap = Object.hasOwn(TONE_MAP_NAMES, tone)
+        ? (TONE_MAP_NAMES[tone] as ToneMap)
+        : TONE_MAPS.includes(tone as ToneMap)
+          ? (tone as ToneMap)
+          : 'neutral';
       viewer.environmentIntensity = this.#number('environment-intensity') ?? 1;
       viewer.environmentRotation = degrees('environment-rotation') ?? 0;
       viewer.damping = (this.#number('interpolation-decay') ?? 60) / 1000;
       viewer.autoRotateDelay = (this.#number('auto-rotate-delay') ?? 3000) / 1000;
       const speed = this.hasAttribute('auto-rotate') ? (degrees('rotation-per-second') ?? Math.PI / 32) : 0;
       if (speed !== viewer.autoRotate) viewer.autoRotate = speed;
-      const controls = this.hasAttribute('camera-controls') && { pan: !this.hasAttribute('disable-pan'), zoom: !this.hasAttribute('disable-zoom'), focus: !this.hasAttribute('disable-tap') };
+      const controls = this.hasAttribute('camera-controls') && {
+        pan: !this.hasAttribute('disable-pan'),
+        zoom: !this.hasAttribute('disable-zoom'),
+        focus: !this.hasAttribute('disable-tap'),
+      };
       // Not for nothing: a drag that is under way would end.
       if (JSON.stringify(controls) !== JSON.stringify(viewer.controls)) viewer.controls = controls;
       if (viewer.controls) viewer.canvas.style.touchAction = this.getAttribute('touch-action') ?? 'pan-y';
     }
 
     #listen(viewer: Viewer, { bar, poster, progress, message }: Shadow): void {
-      for (const type of ['sample', 'converged', 'device-lost', 'device-restored'] as const) viewer.on(type, (detail) => this.#tell(type, detail));
+      for (const type of ['sample', 'converged', 'device-lost', 'device-restored'] as const)
+        viewer.on(type, (detail) => this.#tell(type, detail));
       const alert = (text: string) => {
         progress.classList.add('gone');
         message.textContent = text;
@@ -312,7 +377,8 @@ function makeClass(): GlanzViewerConstructor {
       });
       viewer.on('frame', ({ preview }) => {
         this.#hotspots?.update(viewer);
-        if (!this.#hasPoster || (!preview && viewer.sampleCount >= (this.#number('poster-samples') ?? POSTER_SAMPLES))) this.#reveal();
+        if (!this.#hasPoster || (!preview && viewer.sampleCount >= (this.#number('poster-samples') ?? POSTER_SAMPLES)))
+          this.#reveal();
       });
     }
 
@@ -341,7 +407,8 @@ function makeClass(): GlanzViewerConstructor {
       }
       canvas.setAttribute('aria-roledescription', '3D model');
       canvas.setAttribute('aria-describedby', 'hint');
-      hint.textContent = 'Arrow keys turn it, plus and minus come nearer and go away, Shift and arrow keys move it, 0 returns.';
+      hint.textContent =
+        'Arrow keys turn it, plus and minus come nearer and go away, Shift and arrow keys move it, 0 returns.';
     }
 
     #poster(): void {
@@ -392,7 +459,13 @@ function makeClass(): GlanzViewerConstructor {
       const text = this.getAttribute(name);
       const takes = text === null ? undefined : attributeFault(name, text);
       if (takes === undefined) this.#faults.delete(name);
-      else if (this.#faults.get(name) !== text) this.#fail(new ElementError('element/attribute', `The attribute ${name} of <glanz-viewer> is "${(text as string).slice(0, 60)}"; it takes ${takes}. The default is used.`));
+      else if (this.#faults.get(name) !== text)
+        this.#fail(
+          new ElementError(
+            'element/attribute',
+            `The attribute ${name} of <glanz-viewer> is "${(text as string).slice(0, 60)}"; it takes ${takes}. The default is used.`,
+          ),
+        );
       if (takes !== undefined) this.#faults.set(name, text as string);
     }
 

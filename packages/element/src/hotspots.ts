@@ -16,19 +16,29 @@ export interface HotspotView {
   /** CSS pixels from the element's upper left corner. */
   readonly x: number;
   readonly y: number;
-  /** Whether it lies in the picture, its surface faces the camera, and, where that is asked for, nothing is in front of it. */
+  /**
+   * Whether it lies in the picture, its surface faces the camera, and, where that is asked for, nothing is in front of
+   * it.
+   */
   readonly visible: boolean;
 }
 
 /** Reads `data-position` or `data-normal`: three numbers, with or without a unit. */
 export function readVector(text: string | null | undefined): Point | undefined {
-  const parts = (text ?? '').trim().split(/[\s,]+/).map((part) => length(part));
+  const parts = (text ?? '')
+    .trim()
+    .split(/[\s,]+/)
+    .map((part) => length(part));
   const numbers = parts.map((part) => (part !== undefined && 'metres' in part ? part.metres : Number.NaN));
   return numbers.length === 3 && numbers.every(Number.isFinite) ? (numbers as unknown as Point) : undefined;
 }
 
 /** Where a hotspot is in the viewer's present picture. */
-export function viewHotspot(viewer: Viewer, { position, normal }: Hotspot, occlusion: boolean): HotspotView | undefined {
+export function viewHotspot(
+  viewer: Viewer,
+  { position, normal }: Hotspot,
+  occlusion: boolean,
+): HotspotView | undefined {
   const at = viewer.project(position);
   const eye = viewer.camera?.transform;
   if (!at || !eye) return undefined;
@@ -62,7 +72,12 @@ export class HotspotLayer {
   }
 
   connect(): void {
-    this.#observer.observe(this.#host, { childList: true, subtree: true, attributes: true, attributeFilter: ['slot', 'data-position', 'data-normal'] });
+    this.#observer.observe(this.#host, {
+      childList: true,
+      subtree: true,
+      attributes: true,
+      attributeFilter: ['slot', 'data-position', 'data-normal'],
+    });
     this.#collect();
   }
 
@@ -81,7 +96,11 @@ export class HotspotLayer {
       const [element] = this.elementsOf(slot);
       const position = readVector(element?.getAttribute('data-position'));
       if (!element || !position) continue;
-      const view = viewHotspot(viewer, { position, normal: readVector(element.getAttribute('data-normal')) }, element.hasAttribute('data-occlusion'));
+      const view = viewHotspot(
+        viewer,
+        { position, normal: readVector(element.getAttribute('data-normal')) },
+        element.hasAttribute('data-occlusion'),
+      );
       if (!view) continue;
       box.style.transform = `translate(${view.x.toFixed(2)}px, ${view.y.toFixed(2)}px) translate(-50%, -50%)`;
       box.classList.toggle('hide', !view.visible);
@@ -93,13 +112,16 @@ export class HotspotLayer {
       if (before !== now) {
         box.dataset['visible'] = now;
         // As model-viewer tells it.
-        if (before !== undefined) element.dispatchEvent(new CustomEvent('hotspot-visibility', { detail: { visible: view.visible } }));
+        if (before !== undefined)
+          element.dispatchEvent(new CustomEvent('hotspot-visibility', { detail: { visible: view.visible } }));
       }
     }
   }
 
   #collect(): void {
-    const slots = new Set([...this.#host.children].map((child) => child.slot).filter((slot) => slot.startsWith('hotspot-')));
+    const slots = new Set(
+      [...this.#host.children].map((child) => child.slot).filter((slot) => slot.startsWith('hotspot-')),
+    );
     for (const [slot, box] of this.#boxes) {
       if (slots.has(slot)) continue;
       box.remove();

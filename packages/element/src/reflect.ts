@@ -8,10 +8,14 @@ import { ElementError } from './errors';
  */
 function textOf(name: AttributeName, kind: AttributeKind, value: unknown): string {
   if (typeof value === 'string' || (kind === 'text' && value instanceof URL)) return String(value);
-  if (typeof value === 'number' && Number.isFinite(value) && (kind === 'text' || takesNumber(name, value))) return String(value);
+  if (typeof value === 'number' && Number.isFinite(value) && (kind === 'text' || takesNumber(name, value)))
+    return String(value);
   const takes = kind === 'text' ? 'a text' : takenNumbers(name);
   const given = typeof value === 'number' ? String(value) : `of the type "${typeof value}"`;
-  throw new ElementError('element/property', `The property ${camel(name)} of <glanz-viewer> is ${given}; it takes ${takes}, or null.`);
+  throw new ElementError(
+    'element/property',
+    `The property ${camel(name)} of <glanz-viewer> is ${given}; it takes ${takes}, or null.`,
+  );
 }
 
 /** Gives a class the properties that reflect the attributes. A value that one cannot be throws, and nothing changes. */

@@ -33,7 +33,11 @@ export interface Shadow {
   readonly hint: HTMLElement;
 }
 
-function make<K extends keyof HTMLElementTagNameMap>(tag: K, className: string, ...children: Node[]): HTMLElementTagNameMap[K] {
+function make<K extends keyof HTMLElementTagNameMap>(
+  tag: K,
+  className: string,
+  ...children: Node[]
+): HTMLElementTagNameMap[K] {
   const element = document.createElement(tag);
   element.className = className;
   element.append(...children);
@@ -48,7 +52,8 @@ function slot(name: string, ...fallback: Node[]): HTMLSlotElement {
 }
 
 /**
- * Fills an element's shadow. Sheets are constructed and styles set by script, which strict content security policies allow.
+ * Fills an element's shadow. Sheets are constructed and styles set by script, which strict content security policies
+ * allow.
  *
  * @slot poster - Shown until the model is rendered; in place of the `poster` attribute.
  * @slot progress-bar - In place of the bar that shows how far the load is.

@@ -37,20 +37,35 @@ export const DEFAULT_ORBIT = { theta: 0, phi: (75 * Math.PI) / 180, share: 1.05 
 export const DEFAULT_FIELD_OF_VIEW = (30 * Math.PI) / 180;
 
 /** Reads `theta phi radius`; parts that are missing, `auto` or unreadable are the basis's. */
-export function readOrbit(text: string | null, basis: OrbitBasis): { readonly theta: number; readonly phi: number; readonly radius: number } {
+export function readOrbit(
+  text: string | null,
+  basis: OrbitBasis,
+): { readonly theta: number; readonly phi: number; readonly radius: number } {
   const [a = 'auto', b = 'auto', c = 'auto'] = (text ?? '').trim().split(/\s+/).filter(Boolean);
   const far = length(c);
-  const radius = far === undefined ? basis.share * basis.radius : 'share' in far ? far.share * basis.radius : far.metres;
-  return { theta: angle(a) ?? basis.theta, phi: angle(b) ?? basis.phi, radius: radius > 0 ? radius : basis.share * basis.radius };
+  const radius =
+    far === undefined ? basis.share * basis.radius : 'share' in far ? far.share * basis.radius : far.metres;
+  return {
+    theta: angle(a) ?? basis.theta,
+    phi: angle(b) ?? basis.phi,
+    radius: radius > 0 ? radius : basis.share * basis.radius,
+  };
 }
 
 /** Least or most of an orbit: `undefined` where a part is `auto` or missing. */
-export function readLimit(text: string | null, basis: OrbitBasis): { readonly theta: number | undefined; readonly phi: number | undefined; readonly radius: number | undefined } {
+export function readLimit(
+  text: string | null,
+  basis: OrbitBasis,
+): { readonly theta: number | undefined; readonly phi: number | undefined; readonly radius: number | undefined } {
   const [a = 'auto', b = 'auto', c = 'auto'] = (text ?? '').trim().split(/\s+/).filter(Boolean);
   const far = length(c);
   // "Infinity" is how one says that there is no limit.
   const turn = /^[+-]?infinity(deg|rad)?$/i.test(a) ? undefined : angle(a);
-  return { theta: turn, phi: angle(b), radius: far === undefined ? undefined : 'share' in far ? far.share * basis.radius : far.metres };
+  return {
+    theta: turn,
+    phi: angle(b),
+    radius: far === undefined ? undefined : 'share' in far ? far.share * basis.radius : far.metres,
+  };
 }
 
 /** Reads a point, `1m 0.5m 0m`; parts that are missing or `auto` are the middle's. */

@@ -20,13 +20,15 @@ interface Frame {
 }
 
 /**
- * What `auto` and percentages mean for a scene: its middle, and for 100 % the distance from which the ball around it fits the
- * smaller of the picture's sides.
+ * What `auto` and percentages mean for a scene: its middle, and for 100 % the distance from which the ball around it
+ * fits the smaller of the picture's sides.
  */
 function frameOf(scene: Scene, aspect: number, attributes: ViewAttributes): Frame {
   const { min, max } = sceneBounds(scene);
   const finite = min[0] <= max[0];
-  const center = finite ? ([0, 1, 2].map((k) => ((min[k] as number) + (max[k] as number)) / 2) as unknown as Point) : ([0, 0, 0] as const);
+  const center = finite
+    ? ([0, 1, 2].map((k) => ((min[k] as number) + (max[k] as number)) / 2) as unknown as Point)
+    : ([0, 0, 0] as const);
   const radius = finite ? Math.max(1e-6, 0.5 * Math.hypot(max[0] - min[0], max[1] - min[1], max[2] - min[2])) : 1;
   const yfov = readFieldOfView(attributes.fieldOfView);
   // In a picture that is higher than wide the viewer widens the field of view itself.
@@ -44,8 +46,15 @@ export function orbitOf(scene: Scene, aspect: number, attributes: ViewAttributes
 export function limitsOf(scene: Scene, aspect: number, attributes: ViewAttributes): OrbitLimits {
   const { basis } = frameOf(scene, aspect, attributes);
   const [least, most] = [readLimit(attributes.least, basis), readLimit(attributes.most, basis)];
-  const range = (low: number | undefined, high: number | undefined) => (low === undefined && high === undefined ? undefined : ([low ?? -Infinity, Math.max(low ?? -Infinity, high ?? Infinity)] as const));
-  const [theta, phi, radius] = [range(least.theta, most.theta), range(least.phi, most.phi), range(least.radius, most.radius)];
+  const range = (low: number | undefined, high: number | undefined) =>
+    low === undefined && high === undefined
+      ? undefined
+      : ([low ?? -Infinity, Math.max(low ?? -Infinity, high ?? Infinity)] as const);
+  const [theta, phi, radius] = [
+    range(least.theta, most.theta),
+    range(least.phi, most.phi),
+    range(least.radius, most.radius),
+  ];
   return { ...(theta ? { theta } : {}), ...(phi ? { phi } : {}), ...(radius ? { radius } : {}) };
 }
 
@@ -65,7 +74,25 @@ export function cameraOf(scene: Scene, aspect: number, attributes: ViewAttribute
 /** Where a view is from, in words: "from the front right, above". */
 export function describeView({ theta, phi }: Pick<Orbit, 'theta' | 'phi'>): string {
   const turn = ((Math.round((theta / (2 * Math.PI)) * 8) % 8) + 8) % 8;
-  const side = ['the front', 'the front right', 'the right', 'the back right', 'the back', 'the back left', 'the left', 'the front left'][turn] as string;
-  const height = phi < Math.PI / 8 ? ', straight above' : phi < (3 * Math.PI) / 8 ? ', above' : phi > (7 * Math.PI) / 8 ? ', straight below' : phi > (5 * Math.PI) / 8 ? ', below' : '';
+  const side = [
+    'the front',
+    'the front right',
+    'the right',
+    'the back right',
+    'the back',
+    'the back left',
+    'the left',
+    'the front left',
+  ][turn] as string;
+  const height =
+    phi < Math.PI / 8
+      ? ', straight above'
+      : phi < (3 * Math.PI) / 8
+        ? ', above'
+        : phi > (7 * Math.PI) / 8
+          ? ', straight below'
+          : phi > (5 * Math.PI) / 8
+            ? ', below'
+            : '';
   return `from ${side}${height}`;
 }

@@ -8,12 +8,25 @@ const element = customElements().modules[0]!.declarations[0]!;
 
 test('the manifest lists every attribute with its property, its type and a sentence', () => {
   expect(element.attributes.map(({ name }) => name)).toEqual(Object.keys(ATTRIBUTES));
-  expect(element.attributes.find(({ name }) => name === 'camera-controls')).toMatchObject({ fieldName: 'cameraControls', type: { text: 'boolean' } });
-  expect(element.attributes.find(({ name }) => name === 'samples')).toMatchObject({ type: { text: 'number' }, default: '256' });
-  expect(element.attributes.find(({ name }) => name === 'exposure')).toHaveProperty('deprecated', expect.stringContaining('exposure-ev'));
+  expect(element.attributes.find(({ name }) => name === 'camera-controls')).toMatchObject({
+    fieldName: 'cameraControls',
+    type: { text: 'boolean' },
+  });
+  expect(element.attributes.find(({ name }) => name === 'samples')).toMatchObject({
+    type: { text: 'number' },
+    default: '256',
+  });
+  expect(element.attributes.find(({ name }) => name === 'exposure')).toHaveProperty(
+    'deprecated',
+    expect.stringContaining('exposure-ev'),
+  );
   expect(element.attributes.filter((attribute) => 'deprecated' in attribute)).toHaveLength(1);
   expect(element.attributes.find(({ name }) => name === 'loading')?.type.text).toBe("'auto' | 'lazy' | 'eager'");
-  for (const [name, kind] of Object.entries(ATTRIBUTES)) expect(element.members.filter(({ attribute }) => attribute === name), kind).toHaveLength(1);
+  for (const [name, kind] of Object.entries(ATTRIBUTES))
+    expect(
+      element.members.filter(({ attribute }) => attribute === name),
+      kind,
+    ).toHaveLength(1);
 });
 
 test('everything in the manifest has a description', () => {
@@ -29,12 +42,18 @@ test('slots, parts and CSS properties are those of the shadow tree', () => {
   const found = (pattern: RegExp) => [...new Set([...shadow.matchAll(pattern)].map(([, name]) => name))].sort();
   expect(element.cssProperties.map(({ name }) => name).sort()).toEqual(found(/var\((--[\w-]+)/g));
   expect(element.cssParts.map(({ name }) => name).sort()).toEqual(found(/part\.add\('([\w-]+)'\)/g));
-  expect(element.slots.map(({ name }) => name).filter((name) => !name.endsWith('*')).sort()).toEqual(found(/slot\('([\w-]+)'/g));
+  expect(
+    element.slots
+      .map(({ name }) => name)
+      .filter((name) => !name.endsWith('*'))
+      .sort(),
+  ).toEqual(found(/slot\('([\w-]+)'/g));
 });
 
 test('methods and events are those of the README', () => {
   const readme = read('README.md');
   for (const { name } of element.events) expect(readme).toContain(`\`${name}\``);
-  for (const { name, kind } of element.members) if (kind === 'method') expect(readme).toMatch(new RegExp(`\\b${name}\\(`));
+  for (const { name, kind } of element.members)
+    if (kind === 'method') expect(readme).toMatch(new RegExp(`\\b${name}\\(`));
   for (const { name } of element.attributes) expect(readme).toContain(`\`${name}\``);
 });

@@ -1,5 +1,15 @@
 import { fileURLToPath } from 'node:url';
-import { checkAccessibility, hdr, injectFaults, photograph, pixelsOf, quads, servePage, watch, type Served } from '@glanz/browser';
+import {
+  checkAccessibility,
+  hdr,
+  injectFaults,
+  photograph,
+  pixelsOf,
+  quads,
+  servePage,
+  watch,
+  type Served,
+} from '@glanz/browser';
 import { expect, test, type Page } from '@playwright/test';
 import type { GlanzViewerElement } from '@glanz/element';
 import { dracoModel, ktx2Model } from './packed';
@@ -13,10 +23,16 @@ interface TestWindow {
 declare const window: TestWindow & typeof globalThis;
 
 // The strictest policy that lets a page use WebGPU at all: nothing inline, no blobs, nothing from elsewhere.
-const POLICY = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; connect-src 'self'; worker-src 'self'";
+const POLICY =
+  "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; connect-src 'self'; worker-src 'self'";
 
 let served: Served;
-test.beforeAll(async () => void (served = await servePage(fileURLToPath(new URL('page', import.meta.url)), { 'Content-Security-Policy': POLICY })));
+test.beforeAll(
+  async () =>
+    void (served = await servePage(fileURLToPath(new URL('page', import.meta.url)), {
+      'Content-Security-Policy': POLICY,
+    })),
+);
 test.afterAll(() => served.close());
 test.use({ viewport: { width: 640, height: 480 } });
 
@@ -31,7 +47,9 @@ test.beforeEach(async ({ page }) => {
     const packed = name.includes('draco') ? await dracoModel() : name.includes('ktx2') ? ktx2Model() : undefined;
     return route.fulfill({ body: packed ?? (name.includes('other') ? other : model) });
   });
-  await page.route('**/*.hdr', (route) => route.fulfill({ body: route.request().url().includes('bad') ? Buffer.from('no image') : hdr([128, 0, 0, 129]) }));
+  await page.route('**/*.hdr', (route) =>
+    route.fulfill({ body: route.request().url().includes('bad') ? Buffer.from('no image') : hdr([128, 0, 0, 129]) }),
+  );
 });
 test.afterEach(() => expect(complaints).toEqual([]));
 
@@ -41,10 +59,21 @@ const model = quads([
 ]);
 const other = quads([{ name: 'one', colour: [0.9, 0.9, 0.02] }]);
 
-const FAST = { samples: '8', 'max-depth': '3', 'pixel-ratio': '0.5', 'camera-orbit': '0deg 90deg 5m', 'field-of-view': '35deg' };
+const FAST = {
+  samples: '8',
+  'max-depth': '3',
+  'pixel-ratio': '0.5',
+  'camera-orbit': '0deg 90deg 5m',
+  'field-of-view': '35deg',
+};
 const viewer = (page: Page) => page.locator('glanz-viewer');
-const heard = (page: Page, type: string) => page.evaluate((wanted) => window.heard.filter((event) => event.type === wanted).map(({ detail }) => detail), type);
-const put = (page: Page, attributes: Record<string, string>, children = '') => page.evaluate(([given, inner]) => void window.put(given as Record<string, string>, inner as string), [attributes, children] as const);
+const heard = (page: Page, type: string) =>
+  page.evaluate((wanted) => window.heard.filter((event) => event.type === wanted).map(({ detail }) => detail), type);
+const put = (page: Page, attributes: Record<string, string>, children = '') =>
+  page.evaluate(([given, inner]) => void window.put(given as Record<string, string>, inner as string), [
+    attributes,
+    children,
+  ] as const);
 const state = (page: Page) => page.evaluate(() => document.querySelector('glanz-viewer')!.viewer?.state);
 const done = (page: Page) => expect.poll(() => state(page), { message: 'the picture is done' }).toBe('done');
 const shot = async (page: Page) => {
@@ -70,7 +99,12 @@ test('a model by markup alone, over the page, under a strict content security po
   expect(await heard(page, 'converged')).toEqual([expect.objectContaining({ samples: 8 })]);
   expect((await heard(page, 'progress')).at(-1)).toMatchObject({ totalProgress: 1 });
   expect(await heard(page, 'poster-dismissed')).toHaveLength(1);
-  expect(await page.evaluate(() => [document.querySelector('glanz-viewer')!.loaded, document.querySelector('glanz-viewer')!.availableVariants])).toEqual([true, ['night']]);
+  expect(
+    await page.evaluate(() => [
+      document.querySelector('glanz-viewer')!.loaded,
+      document.querySelector('glanz-viewer')!.availableVariants,
+    ]),
+  ).toEqual([true, ['night']]);
 });
 
 test('attributes and properties reflect, and reach the picture', async ({ page }) => {
@@ -84,7 +118,12 @@ test('attributes and properties reflect, and reach the picture', async ({ page }
   expect(night.cells[5]![2]).toBeGreaterThan(day.cells[5]![2] + 20);
 
   await page.evaluate(() => document.querySelector('glanz-viewer')!.removeAttribute('variant-name'));
-  await expect.poll(async () => { await done(page); return Math.abs((await shot(page)).cells[5]![1] - day.cells[5]![1]); }).toBeLessThan(3);
+  await expect
+    .poll(async () => {
+      await done(page);
+      return Math.abs((await shot(page)).cells[5]![1] - day.cells[5]![1]);
+    })
+    .toBeLessThan(3);
 
   const exposure = () => page.evaluate(() => document.querySelector('glanz-viewer')!.viewer!.exposure);
   await viewer(page).evaluate((element) => element.setAttribute('exposure-ev', '-2'));
@@ -100,13 +139,23 @@ test('attributes and properties reflect, and reach the picture', async ({ page }
   expect(await exposure()).toBe(2);
   await page.evaluate(() => void (document.querySelector('glanz-viewer')!.exposure = null));
   expect(await exposure()).toBe(0);
-  expect(complaints.splice(0)).toEqual([expect.stringMatching(/^warning: .*"exposure", a factor, is deprecated; use "exposure-ev"/)]);
+  expect(complaints.splice(0)).toEqual([
+    expect.stringMatching(/^warning: .*"exposure", a factor, is deprecated; use "exposure-ev"/),
+  ]);
 
   await page.evaluate(() => void (document.querySelector('glanz-viewer')!.skyboxImage = 'red.hdr'));
-  await expect.poll(async () => { await done(page); const { mean } = await shot(page); return mean[0] / (mean[1] + 1); }).toBeGreaterThan(3);
+  await expect
+    .poll(async () => {
+      await done(page);
+      const { mean } = await shot(page);
+      return mean[0] / (mean[1] + 1);
+    })
+    .toBeGreaterThan(3);
 
   await page.evaluate(() => void (document.querySelector('glanz-viewer')!.cameraOrbit = '90deg 90deg 5m'));
-  await expect.poll(() => page.evaluate(() => document.querySelector('glanz-viewer')!.getCameraOrbit()!.theta)).toBeCloseTo(Math.PI / 2, 6);
+  await expect
+    .poll(() => page.evaluate(() => document.querySelector('glanz-viewer')!.getCameraOrbit()!.theta))
+    .toBeCloseTo(Math.PI / 2, 6);
   await expect.poll(async () => (await heard(page, 'camera-change')).length).toBeGreaterThan(0);
 
   await page.evaluate(() => void (document.querySelector('glanz-viewer')!.src = 'other.glb'));
@@ -122,7 +171,9 @@ test('hands and keys move it where camera-controls is, within limits, and the ne
   expect((await orbit()).theta).toBeCloseTo(-Math.PI / 24, 6);
   for (let i = 0; i < 9; i++) await page.keyboard.press('ArrowRight');
   expect((await orbit()).theta).toBeCloseTo(Math.PI / 6, 6);
-  await expect.poll(() => viewer(page).evaluate((element) => element.shadowRoot!.querySelector('[role=status]')!.textContent)).toBe('Two cards, seen from the front right.');
+  await expect
+    .poll(() => viewer(page).evaluate((element) => element.shadowRoot!.querySelector('[role=status]')!.textContent))
+    .toBe('Two cards, seen from the front right.');
   await page.mouse.move(160, 140);
   await page.mouse.down();
   await page.mouse.move(260, 140, { steps: 3 });
@@ -149,11 +200,20 @@ test('back-face-culling shows what is behind the backs of faces, and without it 
   await done(page);
   expect(card((await shot(page)).cells)).toEqual([0x20, 0x40, 0x80]);
   await page.evaluate(() => void (document.querySelector('glanz-viewer')!.cameraOrbit = '0deg 90deg 5m'));
-  await expect.poll(async () => { await done(page); return card((await shot(page)).cells)[0]!; }).toBeGreaterThan(0x60);
+  await expect
+    .poll(async () => {
+      await done(page);
+      return card((await shot(page)).cells)[0]!;
+    })
+    .toBeGreaterThan(0x60);
 });
 
 test('hotspots stay on the model, hide behind it, and can be moved', async ({ page }) => {
-  await open(page, {}, '<button slot="hotspot-a" data-position="-1.2 0 0" data-normal="0 0 1" data-visibility-attribute="visible">Left</button><button slot="hotspot-back" data-position="1.2 0 0" data-normal="0 0 -1" data-visibility-attribute="visible">Back</button>');
+  await open(
+    page,
+    {},
+    '<button slot="hotspot-a" data-position="-1.2 0 0" data-normal="0 0 1" data-visibility-attribute="visible">Left</button><button slot="hotspot-back" data-position="1.2 0 0" data-normal="0 0 -1" data-visibility-attribute="visible">Back</button>',
+  );
   const centre = async (name: string) => {
     const box = (await page.getByRole('button', { name }).boundingBox())!;
     return [box.x + box.width / 2, box.y + box.height / 2 - 40];
@@ -165,7 +225,9 @@ test('hotspots stay on the model, hide behind it, and can be moved', async ({ pa
   expect(y).toBeCloseTo(100, 0);
   await expect(page.getByRole('button', { name: 'Left' })).toHaveAttribute('data-visible', '');
   await expect(page.getByRole('button', { name: 'Back' })).not.toHaveAttribute('data-visible');
-  await page.evaluate(() => document.querySelector('glanz-viewer')!.updateHotspot({ name: 'hotspot-a', position: '0m 0.5m 0m' }));
+  await page.evaluate(() =>
+    document.querySelector('glanz-viewer')!.updateHotspot({ name: 'hotspot-a', position: '0m 0.5m 0m' }),
+  );
   await expect.poll(async () => Math.round((await centre('Left'))[0]!)).toBe(160);
   expect((await centre('Left'))[1]).toBeCloseTo(100 - 0.5 * scale, 0);
   // From behind, the other one is seen.
@@ -188,10 +250,13 @@ test('a poster waits for the picture, or for the page; loading waits for the eye
   await expect(page.getByText('Wait')).toBeHidden();
 
   // By itself it goes when the image is better.
-  const dismissedAfter = () => page.evaluate(() => {
-    const at = window.heard.findIndex(({ type }) => type === 'poster-dismissed');
-    return at < 0 ? undefined : Number(window.heard.slice(0, at).findLast(({ type }) => type === 'sample')?.detail['samples'] ?? 0);
-  });
+  const dismissedAfter = () =>
+    page.evaluate(() => {
+      const at = window.heard.findIndex(({ type }) => type === 'poster-dismissed');
+      return at < 0
+        ? undefined
+        : Number(window.heard.slice(0, at).findLast(({ type }) => type === 'sample')?.detail['samples'] ?? 0);
+    });
   const again = async (attributes: Record<string, string>) => {
     await page.evaluate(() => {
       document.querySelector('glanz-viewer')!.remove();
@@ -273,11 +338,14 @@ test('a lost device comes back by itself', async ({ page }) => {
   expect(Math.abs((await shot(page)).cells[3]![0] - before.cells[3]![0])).toBeLessThan(2);
 });
 
-test('toBlob, by our names and by model-viewer\'s', async ({ page }) => {
+test("toBlob, by our names and by model-viewer's", async ({ page }) => {
   await open(page);
   const files = await page.evaluate(async () => {
     const element = document.querySelector('glanz-viewer')!;
-    const [png, jpeg] = [await element.toBlob(), await element.toBlob({ mimeType: 'image/jpeg', qualityArgument: 0.8 })];
+    const [png, jpeg] = [
+      await element.toBlob(),
+      await element.toBlob({ mimeType: 'image/jpeg', qualityArgument: 0.8 }),
+    ];
     const { width, height } = await createImageBitmap(png);
     return [png.type, jpeg.type, width, height];
   });
@@ -298,17 +366,27 @@ test('without a GPU the reason is said at the first refusal, and is an error whe
   await page.addInitScript(() => void (GPU.prototype.requestAdapter = async () => null));
   await page.goto(served.origin);
   await put(page, { src: 'never.glb', alt: 'Two cards', ...FAST }, '<p slot="poster">Instead</p>');
-  await expect.poll(() => page.evaluate(() => window.heard.map(({ type, detail }) => `${type} ${String(detail['code'])}`))).toEqual(['warning renderer/no-adapter', 'error renderer/no-adapter']);
+  await expect
+    .poll(() => page.evaluate(() => window.heard.map(({ type, detail }) => `${type} ${String(detail['code'])}`)))
+    .toEqual(['warning renderer/no-adapter', 'error renderer/no-adapter']);
   await expect(page.getByText('Instead')).toBeVisible();
   await expect(page.getByRole('alert')).toContainText('graphics driver');
-  expect(await page.evaluate(() => document.querySelector('glanz-viewer')!.shadowRoot!.querySelector('.progress')!.classList.contains('gone'))).toBe(true);
+  expect(
+    await page.evaluate(() =>
+      document.querySelector('glanz-viewer')!.shadowRoot!.querySelector('.progress')!.classList.contains('gone'),
+    ),
+  ).toBe(true);
 });
 
 test('axe finds nothing wrong, still and with controls, hotspots and a message', async ({ page }) => {
   await open(page);
   expect(await checkAccessibility(page)).toEqual([]);
   await page.evaluate(() => document.querySelector('glanz-viewer')!.remove());
-  await put(page, { src: 'bad.glb', alt: 'Two cards', 'camera-controls': '', ...FAST }, '<button slot="hotspot-a" data-position="0 0 0">A</button><div slot="poster">Soon</div>');
+  await put(
+    page,
+    { src: 'bad.glb', alt: 'Two cards', 'camera-controls': '', ...FAST },
+    '<button slot="hotspot-a" data-position="0 0 0">A</button><div slot="poster">Soon</div>',
+  );
   await expect(page.getByRole('alert')).toBeVisible();
   expect(await checkAccessibility(page)).toEqual([]);
 });
@@ -319,12 +397,34 @@ test('what a property or an attribute cannot be is a typed error, and the pictur
   const result = await page.evaluate(() => {
     const element = document.querySelector('glanz-viewer')!;
     const own = element as unknown as Record<string, unknown>;
-    const attributes = () => JSON.stringify(element.getAttributeNames().sort().map((name) => [name, element.getAttribute(name)]));
+    const attributes = () =>
+      JSON.stringify(
+        element
+          .getAttributeNames()
+          .sort()
+          .map((name) => [name, element.getAttribute(name)]),
+      );
     const before = attributes();
     const bad: string[] = [];
     for (const [names, values] of [
-      [['exposure', 'exposureEv', 'samples', 'noise', 'maxDepth', 'pixelRatio', 'environmentIntensity', 'interpolationDecay', 'autoRotateDelay'], [NaN, Infinity, -65, 1e30, {}, true]],
-      [['cameraOrbit', 'cameraTarget', 'fieldOfView', 'src', 'toneMapping'], [NaN, Infinity, {}, true, () => 1]],
+      [
+        [
+          'exposure',
+          'exposureEv',
+          'samples',
+          'noise',
+          'maxDepth',
+          'pixelRatio',
+          'environmentIntensity',
+          'interpolationDecay',
+          'autoRotateDelay',
+        ],
+        [NaN, Infinity, -65, 1e30, {}, true],
+      ],
+      [
+        ['cameraOrbit', 'cameraTarget', 'fieldOfView', 'src', 'toneMapping'],
+        [NaN, Infinity, {}, true, () => 1],
+      ],
     ] as const) {
       for (const name of names) {
         for (const value of values) {
@@ -332,7 +432,8 @@ test('what a property or an attribute cannot be is a typed error, and the pictur
             own[name] = value;
             bad.push(`${name} = ${String(value)} was taken`);
           } catch (error) {
-            if ((error as { code?: string }).code !== 'element/property') bad.push(`${name} = ${String(value)}: ${String(error)}`);
+            if ((error as { code?: string }).code !== 'element/property')
+              bad.push(`${name} = ${String(value)}: ${String(error)}`);
           }
         }
       }
@@ -344,10 +445,18 @@ test('what a property or an attribute cannot be is a typed error, and the pictur
   // Edits by the viewer: what is refused is not stored, and CSS colours are taken.
   const edits = await page.evaluate(async () => {
     const { viewer } = document.querySelector('glanz-viewer')!;
-    const edit = (parameters: object) => viewer!.setMaterial('left', parameters).then(() => 'taken', ({ code }: { code: string }) => code);
+    const edit = (parameters: object) =>
+      viewer!.setMaterial('left', parameters).then(
+        () => 'taken',
+        ({ code }: { code: string }) => code,
+      );
     const parameters = () => viewer!.scene!.materials.find(({ name }) => name === 'left')!.parameters;
     const before = JSON.stringify(parameters());
-    const refused = [await edit({ base_colour: 'red' }), await edit({ base_metalness: 2 }), await edit({ base_color: 'reddish' })];
+    const refused = [
+      await edit({ base_colour: 'red' }),
+      await edit({ base_metalness: 2 }),
+      await edit({ base_color: 'reddish' }),
+    ];
     const same = JSON.stringify(parameters()) === before;
     const { base_color } = parameters();
     const taken = await edit({ base_color: 'red' });
@@ -355,25 +464,53 @@ test('what a property or an attribute cannot be is a typed error, and the pictur
     await edit({ base_color });
     return { refused, same, taken, red };
   });
-  expect(edits).toEqual({ refused: ['renderer/material', 'renderer/material', 'tonemap/color'], same: true, taken: 'taken', red: [1, 0, 0] });
+  expect(edits).toEqual({
+    refused: ['renderer/material', 'renderer/material', 'tonemap/color'],
+    same: true,
+    taken: 'taken',
+    red: [1, 0, 0],
+  });
   await done(page);
 
   // In markup nothing can throw.
-  const wrong: Record<string, string> = { 'exposure-ev': 'bright', samples: '1e30', 'max-depth': '2.5', 'pixel-ratio': '-1', 'camera-target': '1m up 2m', 'field-of-view': '200deg', 'max-camera-orbit': 'auto auto -3m', 'environment-rotation': 'NaN', 'tone-mapping': 'film', 'camera-orbit': '0deg 90deg 1e30m' };
+  const wrong: Record<string, string> = {
+    'exposure-ev': 'bright',
+    samples: '1e30',
+    'max-depth': '2.5',
+    'pixel-ratio': '-1',
+    'camera-target': '1m up 2m',
+    'field-of-view': '200deg',
+    'max-camera-orbit': 'auto auto -3m',
+    'environment-rotation': 'NaN',
+    'tone-mapping': 'film',
+    'camera-orbit': '0deg 90deg 1e30m',
+  };
   await page.evaluate((given) => {
     for (const [name, text] of Object.entries(given)) document.querySelector('glanz-viewer')!.setAttribute(name, text);
   }, wrong);
   // A limit that leaves no distance reads well, but no camera can keep to it.
-  expect((await heard(page, 'error')).map(({ code }) => code).sort()).toEqual([...Array<string>(9).fill('element/attribute'), 'viewer/camera'].sort());
+  expect((await heard(page, 'error')).map(({ code }) => code).sort()).toEqual(
+    [...Array<string>(9).fill('element/attribute'), 'viewer/camera'].sort(),
+  );
   const kept = await page.evaluate(() => {
     const { viewer } = document.querySelector('glanz-viewer')!;
-    return [viewer!.exposure, viewer!.samples, viewer!.maxDepth, viewer!.toneMap, viewer!.environmentRotation, Number.isFinite(viewer!.orbit!.radius)];
+    return [
+      viewer!.exposure,
+      viewer!.samples,
+      viewer!.maxDepth,
+      viewer!.toneMap,
+      viewer!.environmentRotation,
+      Number.isFinite(viewer!.orbit!.radius),
+    ];
   });
   expect(kept).toEqual([0, 256, 8, 'neutral', 0, true]);
-  await page.evaluate(({ given, fast }) => {
-    for (const name of Object.keys(given)) document.querySelector('glanz-viewer')!.removeAttribute(name);
-    for (const [name, text] of Object.entries(fast)) document.querySelector('glanz-viewer')!.setAttribute(name, text);
-  }, { given: wrong, fast: FAST });
+  await page.evaluate(
+    ({ given, fast }) => {
+      for (const name of Object.keys(given)) document.querySelector('glanz-viewer')!.removeAttribute(name);
+      for (const [name, text] of Object.entries(fast)) document.querySelector('glanz-viewer')!.setAttribute(name, text);
+    },
+    { given: wrong, fast: FAST },
+  );
   await page.evaluate(() => document.querySelector('glanz-viewer')!.jumpCameraToGoal());
   await done(page);
   expect((await shot(page)).cells).toEqual(before.cells);
@@ -382,17 +519,37 @@ test('what a property or an attribute cannot be is a typed error, and the pictur
   const told = await page.evaluate(async () => {
     document.querySelector('glanz-viewer')!.remove();
     const element = window.put({ samples: 'many', loading: 'eager' });
-    return element.toBlob().then(() => 'a picture', (error: { code?: string }) => error.code);
+    return element.toBlob().then(
+      () => 'a picture',
+      (error: { code?: string }) => error.code,
+    );
   });
   expect(told).toBe('element/no-model');
 });
 
-test('decoders can be replaced, and one that does not start is an error that says which attribute to look at', async ({ page }) => {
-  await page.route('**/my-*.js', (route) => route.fulfill({ contentType: 'text/javascript', body: `export default () => { throw new Error('asked ${new URL(route.request().url()).pathname}'); };` }));
+test('decoders can be replaced, and one that does not start is an error that says which attribute to look at', async ({
+  page,
+}) => {
+  await page.route('**/my-*.js', (route) =>
+    route.fulfill({
+      contentType: 'text/javascript',
+      body: `export default () => { throw new Error('asked ${new URL(route.request().url()).pathname}'); };`,
+    }),
+  );
   await page.goto(served.origin);
-  for (const [attribute, file] of [['draco-decoder', 'draco'], ['ktx2-transcoder', 'ktx2']] as const) {
+  for (const [attribute, file] of [
+    ['draco-decoder', 'draco'],
+    ['ktx2-transcoder', 'ktx2'],
+  ] as const) {
     await put(page, { src: `${file}.glb`, [attribute]: `my-${file}.js`, ...FAST });
-    await expect.poll(() => heard(page, 'error')).toEqual([expect.objectContaining({ code: 'element/decoder', message: expect.stringMatching(new RegExp(`${attribute}="my-${file}\\.js".*asked /my-${file}\\.js`)) })]);
+    await expect
+      .poll(() => heard(page, 'error'))
+      .toEqual([
+        expect.objectContaining({
+          code: 'element/decoder',
+          message: expect.stringMatching(new RegExp(`${attribute}="my-${file}\\.js".*asked /my-${file}\\.js`)),
+        }),
+      ]);
     // The page's policy forbids WebAssembly, so the package's own does not start either. Now the address is read again.
     await page.evaluate((name) => {
       window.heard.length = 0;
@@ -400,7 +557,11 @@ test('decoders can be replaced, and one that does not start is an error that say
       element.removeAttribute(name);
       element.src = `again-${element.src}`;
     }, attribute);
-    await expect.poll(() => heard(page, 'error')).toEqual([expect.objectContaining({ code: 'element/decoder', message: expect.stringContaining("'wasm-unsafe-eval'") })]);
+    await expect
+      .poll(() => heard(page, 'error'))
+      .toEqual([
+        expect.objectContaining({ code: 'element/decoder', message: expect.stringContaining("'wasm-unsafe-eval'") }),
+      ]);
     await page.evaluate(() => {
       window.heard.length = 0;
       document.querySelector('glanz-viewer')!.remove();
@@ -412,10 +573,14 @@ test('decoders can be replaced, and one that does not start is an error that say
 test('a broken environment is a warning, at the start and later, and the model is there', async ({ page }) => {
   await open(page, { 'environment-image': 'bad.hdr' });
   expect(await heard(page, 'load')).toHaveLength(1);
-  await expect.poll(() => heard(page, 'warning')).toEqual([{ code: 'viewer/environment', message: expect.stringMatching(/studio/) }]);
+  await expect
+    .poll(() => heard(page, 'warning'))
+    .toEqual([{ code: 'viewer/environment', message: expect.stringMatching(/studio/) }]);
   const before = await shot(page);
   await page.evaluate(() => void (document.querySelector('glanz-viewer')!.environmentImage = 'bad2.hdr'));
-  await expect.poll(() => heard(page, 'warning')).toEqual([expect.anything(), { code: 'image/format', message: expect.stringMatching(/HDR/) }]);
+  await expect
+    .poll(() => heard(page, 'warning'))
+    .toEqual([expect.anything(), { code: 'image/format', message: expect.stringMatching(/HDR/) }]);
   expect(Math.abs((await shot(page)).cells[3]![0] - before.cells[3]![0])).toBeLessThan(2);
   expect(await heard(page, 'error')).toEqual([]);
   await expect(page.locator('glanz-viewer').getByRole('alert')).toBeHidden();

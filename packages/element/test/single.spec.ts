@@ -24,7 +24,10 @@ const ktx2 = ktx2Model();
 const model = quads([{ name: 'red', colour: [0.9, 0.02, 0.02] }]);
 const OBJ = 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n';
 
-async function listen(answer: (path: string) => { readonly body: string | Uint8Array; readonly type: string } | undefined, headers: () => Record<string, string>): Promise<number> {
+async function listen(
+  answer: (path: string) => { readonly body: string | Uint8Array; readonly type: string } | undefined,
+  headers: () => Record<string, string>,
+): Promise<number> {
   const server = createServer((request, response) => {
     const found = answer(new URL(request.url ?? '/', 'http://localhost').pathname);
     response.writeHead(found ? 200 : 404, { 'content-type': found?.type ?? 'text/plain', ...headers() });
@@ -41,7 +44,9 @@ test.beforeAll(async () => {
   const files = await listen(
     (path) => {
       asked.push(path);
-      return /^\/[\w.-]+\.js$/.test(path) ? { body: readFileSync(join(folder, path)), type: 'text/javascript' } : undefined;
+      return /^\/[\w.-]+\.js$/.test(path)
+        ? { body: readFileSync(join(folder, path)), type: 'text/javascript' }
+        : undefined;
     },
     () => ({ 'access-control-allow-origin': '*' }),
   );
@@ -53,11 +58,22 @@ test.beforeAll(async () => {
       if (path.endsWith('.glb')) return { body: model, type: 'model/gltf-binary' };
       if (path.endsWith('.obj')) return { body: OBJ, type: 'text/plain' };
       if (path.endsWith('.hdr')) return { body: hdr([128, 0, 0, 129]), type: 'image/vnd.radiance' };
-      const html = (rest: string) => `<!doctype html>\n<html lang="en"><link rel="icon" href="data:,"><title>Page</title>\n<script type="module" src="${network}/glanz-viewer.min.js"></script>\n${rest}\n`;
-      const attributes = 'alt="A card" samples="6" max-depth="3" pixel-ratio="0.5" camera-orbit="0deg 90deg 3m" field-of-view="35deg"';
-      if (path === '/') return { body: html(`<glanz-viewer src="red.glb" ${attributes}></glanz-viewer>`), type: 'text/html' };
-      if (path === '/other') return { body: html(`<glanz-viewer src="card.obj" environment-image="red.hdr" ${attributes}></glanz-viewer>`), type: 'text/html' };
-      if (path === '/draco' || path === '/ktx2') return { body: html(`<glanz-viewer src="${path.slice(1)}.glb" ${attributes}></glanz-viewer>`), type: 'text/html' };
+      const html = (rest: string) =>
+        `<!doctype html>\n<html lang="en"><link rel="icon" href="data:,"><title>Page</title>\n<script type="module" src="${network}/glanz-viewer.min.js"></script>\n${rest}\n`;
+      const attributes =
+        'alt="A card" samples="6" max-depth="3" pixel-ratio="0.5" camera-orbit="0deg 90deg 3m" field-of-view="35deg"';
+      if (path === '/')
+        return { body: html(`<glanz-viewer src="red.glb" ${attributes}></glanz-viewer>`), type: 'text/html' };
+      if (path === '/other')
+        return {
+          body: html(`<glanz-viewer src="card.obj" environment-image="red.hdr" ${attributes}></glanz-viewer>`),
+          type: 'text/html',
+        };
+      if (path === '/draco' || path === '/ktx2')
+        return {
+          body: html(`<glanz-viewer src="${path.slice(1)}.glb" ${attributes}></glanz-viewer>`),
+          type: 'text/html',
+        };
       return undefined;
     },
     () => (policy === undefined ? {} : { 'content-security-policy': policy }),
@@ -74,7 +90,8 @@ test.beforeEach(() => {
 });
 test.use({ viewport: { width: 640, height: 480 } });
 
-const done = (page: Page) => expect.poll(() => page.evaluate(() => document.querySelector('glanz-viewer')?.viewer?.state)).toBe('done');
+const done = (page: Page) =>
+  expect.poll(() => page.evaluate(() => document.querySelector('glanz-viewer')?.viewer?.state)).toBe('done');
 const middle = async (page: Page) => (await photograph(page.locator('glanz-viewer'))).cells[4]!;
 
 /** Opens a page; what it complains about and the workers that it starts. */
@@ -100,7 +117,9 @@ test('two lines of HTML show a model with a file of another origin, whose worker
   expect([...new Set(asked)]).toEqual(['/glanz-viewer.min.js']);
 });
 
-test('where the policy forbids workers of a Blob, the model is read and its hierarchies built on the main thread', async ({ page }) => {
+test('where the policy forbids workers of a Blob, the model is read and its hierarchies built on the main thread', async ({
+  page,
+}) => {
   policy = `default-src 'none'; script-src ${network}; style-src 'self'; img-src 'self' data:; connect-src 'self'; worker-src 'self'`;
   const { errors, workers } = await open(page, '/');
   const [r, g] = await middle(page);
@@ -108,7 +127,11 @@ test('where the policy forbids workers of a Blob, the model is read and its hier
   expect(workers).toEqual([]);
   // The browser reports what the policy refused, and nothing else went wrong.
   expect(errors.filter((text) => !/worker-src|Content Security Policy/i.test(text))).toEqual([]);
-  expect(await page.evaluate(() => document.querySelector('glanz-viewer')?.shadowRoot?.querySelector<HTMLElement>('[role=alert]')?.hidden)).toBe(true);
+  expect(
+    await page.evaluate(
+      () => document.querySelector('glanz-viewer')?.shadowRoot?.querySelector<HTMLElement>('[role=alert]')?.hidden,
+    ),
+  ).toBe(true);
 });
 
 test('other formats, environments and what saves images come from files beside it', async ({ page }) => {
@@ -127,13 +150,18 @@ test('other formats, environments and what saves images come from files beside i
   expect([...new Set(asked)].sort()).toEqual([...files, '/glanz-viewer.save.min.js'].sort());
 });
 
-for (const [kind, files] of [['draco', ['draco']], ['ktx2', ['basis', 'ktx2']]] as const) {
+for (const [kind, files] of [
+  ['draco', ['draco']],
+  ['ktx2', ['basis', 'ktx2']],
+] as const) {
   test(`a model in ${kind} is shown by itself; its decoder comes from beside the file`, async ({ page }) => {
     const { errors } = await open(page, `/${kind}`);
     const [r, g] = await middle(page);
     expect(r).toBeGreaterThan(2 * g);
     expect(errors).toEqual([]);
-    expect([...new Set(asked)].sort()).toEqual([...files.map((name) => `/glanz-viewer.${name}.min.js`), '/glanz-viewer.min.js'].sort());
+    expect([...new Set(asked)].sort()).toEqual(
+      [...files.map((name) => `/glanz-viewer.${name}.min.js`), '/glanz-viewer.min.js'].sort(),
+    );
   });
 }
 

@@ -5,9 +5,18 @@ import { cameraOf, describeView, limitsOf, orbitOf } from '../src/view';
 /** A box from (−1, 0, −2) to (3, 4, 2). */
 function box(): Scene {
   const scene = createScene();
-  scene.meshes.push({ name: 'box', positions: Float32Array.of(-1, 0, -2, 3, 0, -2, 3, 4, 2, -1, 4, 2), indices: Uint32Array.of(0, 1, 2, 0, 2, 3) });
+  scene.meshes.push({
+    name: 'box',
+    positions: Float32Array.of(-1, 0, -2, 3, 0, -2, 3, 4, 2, -1, 4, 2),
+    indices: Uint32Array.of(0, 1, 2, 0, 2, 3),
+  });
   scene.materials.push(defaultMaterial());
-  scene.instances.push({ name: 'box', mesh: 0, material: 0, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] });
+  scene.instances.push({
+    name: 'box',
+    mesh: 0,
+    material: 0,
+    transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1],
+  });
   return scene;
 }
 
@@ -42,7 +51,11 @@ describe('views by attributes', () => {
 
   it('sets limits', () => {
     expect(limitsOf(box(), 1, nothing)).toEqual({});
-    expect(limitsOf(box(), 1, { ...nothing, least: '-45deg auto 2m', most: '45deg 90deg auto' })).toEqual({ theta: [-Math.PI / 4, Math.PI / 4], phi: [-Infinity, Math.PI / 2], radius: [2, Infinity] });
+    expect(limitsOf(box(), 1, { ...nothing, least: '-45deg auto 2m', most: '45deg 90deg auto' })).toEqual({
+      theta: [-Math.PI / 4, Math.PI / 4],
+      phi: [-Infinity, Math.PI / 2],
+      radius: [2, Infinity],
+    });
   });
 
   it.each([

@@ -2,7 +2,8 @@ import { GlanzError, type SceneWarning } from '@glanz/scene';
 
 /**
  * Thrown for files that cannot be read. Codes: `formats/malformed`, `formats/truncated`, `formats/no-triangles`,
- * `formats/missing-resource`, `formats/missing-decoder` (an optional package is needed), `formats/unsupported`, `formats/unknown`.
+ * `formats/missing-resource`, `formats/missing-decoder` (an optional package is needed), `formats/unsupported`,
+ * `formats/unknown`.
  */
 export class FormatError extends GlanzError {}
 
@@ -18,6 +19,9 @@ export class Tally {
   }
 
   warnings(file: string): SceneWarning[] {
-    return [...this.#counts].map(([key, { count, first, message }]) => ({ code: key.slice(0, -message.length), message: `${file}: ${message} (line ${first}${count > 1 ? ` and ${count - 1} more` : ''}).` }));
+    return [...this.#counts].map(([key, { count, first, message }]) => ({
+      code: key.slice(0, -message.length),
+      message: `${file}: ${message} (line ${first}${count > 1 ? ` and ${count - 1} more` : ''}).`,
+    }));
   }
 }

@@ -12,31 +12,44 @@ const RADIANS = Math.PI / 180;
 const MOST_ANGLES = 4096;
 
 /**
- * Reads a photometric file (ANSI/IES LM-63 of 1986 to 2019, type C) as the profile of a lamp, for a `ProfileLight` of a scene.
- * Candela with all factors of the file; symmetric lamps are completed to all directions.
+ * Reads a photometric file (ANSI/IES LM-63 of 1986 to 2019, type C) as the profile of a lamp, for a `ProfileLight` of a
+ * scene. Candela with all factors of the file; symmetric lamps are completed to all directions.
  *
  * @param source The file's text or bytes (Latin-1, as only its numbers count).
  * @throws {FormatError} `formats/malformed`, `formats/truncated`, `formats/unsupported` for photometry of type A and B.
  * @example
- * scene.lights.push({ type: 'profile', name: 'downlight', color: [1, 1, 1], intensity: 0.01, position: [0, 2.4, 0], direction: [0, -1, 0], profile: readIes(bytes) });
+ * scene.lights.push({ type: 'profile', name: 'downlight', color: [1, 1, 1], intensity: 0.01, position: [0, 2.4, 0],
+ * direction: [0, -1, 0], profile: readIes(bytes) });
  */
 export function readIes(source: string | Uint8Array, { name = 'IES' }: IesOptions = {}): LightProfile {
   const text = typeof source === 'string' ? source : new TextDecoder('latin1').decode(source);
   const location = { file: name };
   const tilt = /^[ \t]*TILT[ \t]*=[ \t]*(.*?)[ \t]*$/im.exec(text);
-  if (!tilt) throw new FormatError('formats/malformed', `${name} is no IES file: it has no line "TILT=".`, { location });
-  const words = text.slice(tilt.index + tilt[0].length).split(/[\s,]+/).filter((word) => word !== '');
+  if (!tilt)
+    throw new FormatError('formats/malformed', `${name} is no IES file: it has no line "TILT=".`, { location });
+  const words = text
+    .slice(tilt.index + tilt[0].length)
+    .split(/[\s,]+/)
+    .filter((word) => word !== '');
   let at = 0;
   const next = (what: string): number => {
     const word = words[at++];
     if (word === undefined) throw new FormatError('formats/truncated', `${name} ends before ${what}.`, { location });
     const value = Number(word);
-    if (!Number.isFinite(value)) throw new FormatError('formats/malformed', `${name}: ${what} is "${word.slice(0, 40)}", which is no number.`, { location });
+    if (!Number.isFinite(value))
+      throw new FormatError('formats/malformed', `${name}: ${what} is "${word.slice(0, 40)}", which is no number.`, {
+        location,
+      });
     return value;
   };
   const count = (what: string): number => {
     const value = next(what);
-    if (!(Number.isInteger(value) && value >= 1 && value <= MOST_ANGLES)) throw new FormatError('formats/malformed', `${name}: ${what} is ${value}; it must be a whole number of 1 to ${MOST_ANGLES}.`, { location });
+    if (!(Number.isInteger(value) && value >= 1 && value <= MOST_ANGLES))
+      throw new FormatError(
+        'formats/malformed',
+        `${name}: ${what} is ${value}; it must be a whole number of 1 to ${MOST_ANGLES}.`,
+        { location },
+      );
     return value;
   };
   if (/^INCLUDE$/i.test(tilt[1] as string)) {
@@ -47,9 +60,15 @@ export function readIes(source: string | Uint8Array, { name = 'IES' }: IesOption
   next('the number of lamps');
   next('the lumens of a lamp');
   const multiplier = next('the multiplier');
-  const verticals = count('the number of vertical angles'), horizontals = count('the number of horizontal angles');
+  const verticals = count('the number of vertical angles'),
+    horizontals = count('the number of horizontal angles');
   const type = next('the photometric type');
-  if (type !== 1) throw new FormatError('formats/unsupported', `${name} has photometry of type ${type === 2 ? 'B' : type === 3 ? 'A' : type}; only type C is read. Convert it with a photometric editor.`, { location });
+  if (type !== 1)
+    throw new FormatError(
+      'formats/unsupported',
+      `${name} has photometry of type ${type === 2 ? 'B' : type === 3 ? 'A' : type}; only type C is read. Convert it with a photometric editor.`,
+      { location },
+    );
   for (const what of ['the units', 'the width', 'the length', 'the height']) next(what);
   const factor = multiplier * next('the ballast factor');
   next('the ballast lamp factor');
@@ -58,16 +77,28 @@ export function readIes(source: string | Uint8Array, { name = 'IES' }: IesOption
   const vertical = angles(verticals, 'a vertical angle');
   const horizontal = angles(horizontals, 'a horizontal angle');
   const rows = horizontal.map(() => angles(verticals, 'an intensity'));
-  for (const [list, what, most] of [[vertical, 'vertical', 180], [horizontal, 'horizontal', 360]] as const) {
-    if (list.some((angle, i) => angle < 0 || angle > most || (i > 0 && angle <= (list[i - 1] as number)))) throw new FormatError('formats/malformed', `${name}: its ${what} angles do not rise from 0 to ${most} degrees at most.`, { location });
+  for (const [list, what, most] of [
+    [vertical, 'vertical', 180],
+    [horizontal, 'horizontal', 360],
+  ] as const) {
+    if (list.some((angle, i) => angle < 0 || angle > most || (i > 0 && angle <= (list[i - 1] as number))))
+      throw new FormatError(
+        'formats/malformed',
+        `${name}: its ${what} angles do not rise from 0 to ${most} degrees at most.`,
+        { location },
+      );
   }
   if (verticals < 2) throw new FormatError('formats/malformed', `${name} has one vertical angle only.`, { location });
-  if (!(factor >= 0) || rows.some((row) => row.some((value) => value * factor < 0))) throw new FormatError('formats/malformed', `${name} has negative intensities.`, { location });
+  if (!(factor >= 0) || rows.some((row) => row.some((value) => value * factor < 0)))
+    throw new FormatError('formats/malformed', `${name} has negative intensities.`, { location });
   const around = complete(horizontal, rows, name);
   return {
     vertical: Float32Array.from(vertical, (angle) => angle * RADIANS),
     horizontal: Float32Array.from(around, ([angle]) => angle * RADIANS),
-    intensities: Float32Array.from(around.flatMap(([, row]) => row), (value) => value * factor),
+    intensities: Float32Array.from(
+      around.flatMap(([, row]) => row),
+      (value) => value * factor,
+    ),
   };
 }
 
@@ -78,12 +109,18 @@ function complete(horizontal: readonly number[], rows: readonly (readonly number
   const given: Plane[] = horizontal.map((angle, i) => [angle, rows[i] as readonly number[]]);
   const [first, last] = [horizontal[0] as number, horizontal.at(-1) as number];
   if (given.length === 1) return [[0, rows[0] as readonly number[]]];
-  const mirrored = (planes: readonly Plane[], about: number): Plane[] => planes.map(([angle, row]): Plane => [((2 * about - angle) % 360 + 360) % 360, row]);
+  const mirrored = (planes: readonly Plane[], about: number): Plane[] =>
+    planes.map(([angle, row]): Plane => [(((2 * about - angle) % 360) + 360) % 360, row]);
   let planes = given;
   if (first === 0 && last === 90) planes = [...planes, ...mirrored(planes, 90)];
   if (first === 0 && (last === 90 || last === 180)) planes = [...planes, ...mirrored(planes, 180)];
   else if (first === 90 && last === 270) planes = [...planes, ...mirrored(planes, 90)];
-  else if (!(first === 0 && last > 180)) throw new FormatError('formats/malformed', `${name}: its horizontal angles go from ${first} to ${last} degrees; 0, 0–90, 0–180, 90–270 and 0–360 are known.`, { location: { file: name } });
+  else if (!(first === 0 && last > 180))
+    throw new FormatError(
+      'formats/malformed',
+      `${name}: its horizontal angles go from ${first} to ${last} degrees; 0, 0–90, 0–180, 90–270 and 0–360 are known.`,
+      { location: { file: name } },
+    );
   const whole = new Map<number, readonly number[]>();
   for (const [angle, row] of planes) if (!whole.has(angle % 360)) whole.set(angle % 360, row);
   const sorted = [...whole].sort(([a], [b]) => a - b);

@@ -54,6 +54,8 @@ export class MeshBuilder {
 
   /** Undefined without triangles. */
   build(name: string): Mesh | undefined {
-    return this.#indices.length === 0 ? undefined : { name, positions: this.#positions.toArray(), indices: Uint32Array.from(this.#indices) };
+    return this.#indices.length === 0
+      ? undefined
+      : { name, positions: this.#positions.toArray(), indices: Uint32Array.from(this.#indices) };
   }
 }

@@ -20,7 +20,18 @@ export interface MtlMaterial {
 type Words = readonly string[];
 
 /** How many words an option of a texture takes; `-s`, `-o` and `-t` take one to three. */
-const OPTION_WORDS: Readonly<Record<string, number>> = { '-blendu': 1, '-blendv': 1, '-cc': 1, '-clamp': 1, '-boost': 1, '-texres': 1, '-imfchan': 1, '-type': 1, '-bm': 1, '-mm': 2 };
+const OPTION_WORDS: Readonly<Record<string, number>> = {
+  '-blendu': 1,
+  '-blendv': 1,
+  '-cc': 1,
+  '-clamp': 1,
+  '-boost': 1,
+  '-texres': 1,
+  '-imfchan': 1,
+  '-type': 1,
+  '-bm': 1,
+  '-mm': 2,
+};
 
 const MAPS: Readonly<Record<string, readonly [TexturedParameter, TextureChannels, 'srgb' | 'linear']>> = {
   map_kd: ['base_color', 'rgb', 'srgb'],
@@ -31,9 +42,13 @@ const MAPS: Readonly<Record<string, readonly [TexturedParameter, TextureChannels
   norm: ['geometry_normal', 'rgb', 'linear'],
 };
 
-function readMap(words: Words, [parameter, channels, colorSpace]: readonly [TexturedParameter, TextureChannels, 'srgb' | 'linear']): MtlMap | undefined {
+function readMap(
+  words: Words,
+  [parameter, channels, colorSpace]: readonly [TexturedParameter, TextureChannels, 'srgb' | 'linear'],
+): MtlMap | undefined {
   let clamp = false;
-  const scale = [1, 1], offset = [0, 0];
+  const scale = [1, 1],
+    offset = [0, 0];
   let strength: number | undefined;
   let i = 0;
   while (i < words.length && (words[i] as string).startsWith('-')) {
@@ -53,13 +68,23 @@ function readMap(words: Words, [parameter, channels, colorSpace]: readonly [Text
   const [sx, sy, ox, oy] = [scale[0], scale[1], offset[0], offset[1]] as [number, number, number, number];
   // v runs up in OBJ and down here: v' = 1 − (sy (1 − v) + oy).
   const moved = sx !== 1 || sy !== 1 || ox !== 0 || oy !== 0;
-  return { parameter, channels, colorSpace, path, clamp, ...(moved ? { transform: [sx, 0, 0, sy, ox, 1 - sy - oy] as const } : {}), ...(strength !== undefined && Number.isFinite(strength) && parameter === 'geometry_normal' ? { scale: strength } : {}) };
+  return {
+    parameter,
+    channels,
+    colorSpace,
+    path,
+    clamp,
+    ...(moved ? { transform: [sx, 0, 0, sy, ox, 1 - sy - oy] as const } : {}),
+    ...(strength !== undefined && Number.isFinite(strength) && parameter === 'geometry_normal'
+      ? { scale: strength }
+      : {}),
+  };
 }
 
 /**
- * Reads an MTL file: the classic Phong statements and the physically based ones that Blender and others add (Pr, Pm, Ps,
- * Pc, Pcr, aniso, norm). Phong's exponent becomes the roughness of the GGX lobe with the same width (B. Walter et al.,
- * "Microfacet Models for Refraction through Rough Surfaces", 2007): α² = 2 / (Ns + 2).
+ * Reads an MTL file: the classic Phong statements and the physically based ones that Blender and others add (Pr, Pm,
+ * Ps, Pc, Pcr, aniso, norm). Phong's exponent becomes the roughness of the GGX lobe with the same width (B. Walter et
+ * al., "Microfacet Models for Refraction through Rough Surfaces", 2007): α² = 2 / (Ns + 2).
  */
 export function readMtl(text: string): Map<string, MtlMaterial> {
   const materials = new Map<string, MtlMaterial>();
@@ -80,7 +105,14 @@ export function readMtl(text: string): Map<string, MtlMaterial> {
 function lazily(name: string, statements: ReadonlyMap<string, Words>): MtlMaterial {
   let made: MtlMaterial | undefined;
   const get = () => (made ??= makeMaterial(name, statements));
-  return { get material() { return get().material; }, get maps() { return get().maps; } };
+  return {
+    get material() {
+      return get().material;
+    },
+    get maps() {
+      return get().maps;
+    },
+  };
 }
 
 function makeMaterial(name: string, statements: ReadonlyMap<string, Words>): MtlMaterial {
@@ -90,13 +122,18 @@ function makeMaterial(name: string, statements: ReadonlyMap<string, Words>): Mtl
     return values && values.length > 0 ? values : undefined;
   };
   const one = (key: string): number | undefined => numbers(key)?.[0];
-  const unit = (key: string): number | undefined => { const value = one(key); return value === undefined ? undefined : Math.min(value, 1); };
+  const unit = (key: string): number | undefined => {
+    const value = one(key);
+    return value === undefined ? undefined : Math.min(value, 1);
+  };
   const color = (key: string): [number, number, number] | undefined => {
     const values = numbers(key);
     return values && [values[0] as number, values[1] ?? (values[0] as number), values[2] ?? (values[0] as number)];
   };
   const parameters: Record<string, unknown> = {};
-  const set = (key: string, value: unknown) => { if (value !== undefined) parameters[key] = value; };
+  const set = (key: string, value: unknown) => {
+    if (value !== undefined) parameters[key] = value;
+  };
   const clamped = (c: [number, number, number] | undefined) => c?.map((x) => Math.min(x, 1));
   const maps = [...statements].flatMap(([key, words]) => {
     const map = MAPS[key] && readMap(words, MAPS[key]);
@@ -111,7 +148,10 @@ function makeMaterial(name: string, statements: ReadonlyMap<string, Words>): Mtl
   else if (specular) set('specular_weight', Math.min(1, 2 * Math.max(...specular)));
   const exponent = one('ns');
   const roughness = unit('pr');
-  set('specular_roughness', roughness ?? (has('specular_roughness') ? 1 : exponent === undefined ? undefined : (2 / (exponent + 2)) ** 0.25));
+  set(
+    'specular_roughness',
+    roughness ?? (has('specular_roughness') ? 1 : exponent === undefined ? undefined : (2 / (exponent + 2)) ** 0.25),
+  );
   set('base_metalness', unit('pm') ?? (has('base_metalness') ? 1 : undefined));
   const index = one('ni');
   if (index !== undefined && index > 1) set('specular_ior', index);

@@ -10,17 +10,30 @@ export type LoadModelOptions = Omit<ObjOptions, 'read' | 'name'>;
 /** Decodes pictures with the optional package `sharp`. */
 const decodeWithSharp: PictureDecoder = async (bytes) => {
   const { default: sharp } = await import('sharp').catch((cause: unknown) => {
-    throw new FormatError('formats/missing-decoder', 'Decoding pictures in Node needs the package "sharp": npm install sharp.', { cause });
+    throw new FormatError(
+      'formats/missing-decoder',
+      'Decoding pictures in Node needs the package "sharp": npm install sharp.',
+      { cause },
+    );
   });
-  const { data, info } = await sharp(bytes, { ignoreIcc: true, limitInputPixels: 16384 * 16384 }).toColourspace('srgb').ensureAlpha().raw({ depth: 'uchar' }).toBuffer({ resolveWithObject: true });
-  return { width: info.width, height: info.height, data: new Uint8Array(data.buffer as ArrayBuffer, data.byteOffset, data.byteLength) };
+  const { data, info } = await sharp(bytes, { ignoreIcc: true, limitInputPixels: 16384 * 16384 })
+    .toColourspace('srgb')
+    .ensureAlpha()
+    .raw({ depth: 'uchar' })
+    .toBuffer({ resolveWithObject: true });
+  return {
+    width: info.width,
+    height: info.height,
+    data: new Uint8Array(data.buffer as ArrayBuffer, data.byteOffset, data.byteLength),
+  };
 };
 
 /** Whether a file's name is one of those that {@link loadModelFile} reads: `.obj`, `.stl`. */
 export const isModelFile = (path: string): boolean => /\.(obj|stl)$/i.test(path);
 
 /**
- * Loads an `.obj` or `.stl` file in Node, with the materials and pictures beside it. Files outside its folder are not read.
+ * Loads an `.obj` or `.stl` file in Node, with the materials and pictures beside it. Files outside its folder are not
+ * read.
  *
  * @throws {FormatError} See its codes.
  * @example
@@ -31,7 +44,8 @@ export async function loadModelFile(path: string | URL, options: LoadModelOption
   const { basename, dirname, extname, join, sep } = await import('node:path');
   const { fileURLToPath } = await import('node:url');
   const file = typeof path === 'string' ? path : fileURLToPath(path);
-  if (!isModelFile(file)) throw new FormatError('formats/unknown', `${file} is neither .obj nor .stl.`, { location: { file } });
+  if (!isModelFile(file))
+    throw new FormatError('formats/unknown', `${file} is neither .obj nor .stl.`, { location: { file } });
   const { signal } = options;
   const name = basename(file);
   let bytes: Uint8Array<ArrayBuffer>;
@@ -39,9 +53,17 @@ export async function loadModelFile(path: string | URL, options: LoadModelOption
     bytes = new Uint8Array(await readFile(file, signal ? { signal } : {}));
   } catch (cause) {
     signal?.throwIfAborted();
-    throw new FormatError('formats/missing-resource', `${file} cannot be read: ${(cause as Error).message}.`, { cause, location: { file } });
+    throw new FormatError('formats/missing-resource', `${file} cannot be read: ${(cause as Error).message}.`, {
+      cause,
+      location: { file },
+    });
   }
-  if (extname(file).toLowerCase() === '.stl') return readStl(bytes, { name: basename(file, extname(file)), ...(options.up ? { up: options.up } : {}), ...(options.unit === undefined ? {} : { unit: options.unit }) });
+  if (extname(file).toLowerCase() === '.stl')
+    return readStl(bytes, {
+      name: basename(file, extname(file)),
+      ...(options.up ? { up: options.up } : {}),
+      ...(options.unit === undefined ? {} : { unit: options.unit }),
+    });
   const folder = await realpath(dirname(file));
   return readObj(bytes, {
     decodeImage: decodeWithSharp,

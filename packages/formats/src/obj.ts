@@ -11,7 +11,10 @@ import { triangulate } from './triangulate';
 export interface ObjOptions {
   /** What messages call the file. Default "OBJ". */
   readonly name?: string;
-  /** Reads the MTL files and the pictures beside the document. Default: nothing is there, and the material is the default one. */
+  /**
+   * Reads the MTL files and the pictures beside the document. Default: nothing is there, and the material is the
+   * default one.
+   */
   readonly read?: ResourceReader;
   /** Decodes pictures. Default: they are left out, with a warning. */
   readonly decodeImage?: PictureDecoder;
@@ -35,13 +38,17 @@ class Part {
   hasNormals = true;
   hasUvs = false;
 
-  constructor(readonly name: string, readonly material: string) {}
+  constructor(
+    readonly name: string,
+    readonly material: string,
+  ) {}
 }
 
 /**
- * Reads a Wavefront OBJ file with its MTL files as a scene: a mesh and an instance for each object or group and material.
- * Polygons are cut into triangles; texture coordinates are turned to have their origin in the upper left corner. Without
- * normals in the file, smoothing groups are smoothed and the rest is flat. Lines, points and free-form curves are left out.
+ * Reads a Wavefront OBJ file with its MTL files as a scene: a mesh and an instance for each object or group and
+ * material. Polygons are cut into triangles; texture coordinates are turned to have their origin in the upper left
+ * corner. Without normals in the file, smoothing groups are smoothed and the rest is flat. Lines, points and free-form
+ * curves are left out.
  *
  * @throws {FormatError} `formats/no-triangles`.
  * @example
@@ -58,11 +65,16 @@ export async function readObj(bytes: Uint8Array, options: ObjOptions = {}): Prom
     const path = pathWithin('', library);
     const text = path === undefined ? undefined : await options.read?.(path, signal);
     if (!text || path === undefined) {
-      scene.warnings.push({ code: 'formats/missing-resource', message: `${name} names the materials "${library}", which are not there.` });
+      scene.warnings.push({
+        code: 'formats/missing-resource',
+        message: `${name} names the materials "${library}", which are not there.`,
+      });
       continue;
     }
     const folder = path.slice(0, path.lastIndexOf('/') + 1);
-    for (const [key, { material, maps }] of readMtl(new TextDecoder().decode(text))) if (!materials.has(key)) materials.set(key, { material, maps: maps.map((map) => ({ ...map, path: folder + map.path })) });
+    for (const [key, { material, maps }] of readMtl(new TextDecoder().decode(text)))
+      if (!materials.has(key))
+        materials.set(key, { material, maps: maps.map((map) => ({ ...map, path: folder + map.path })) });
   }
   const indices = new Map<string, number>();
   for (const part of parts) {
@@ -71,38 +83,74 @@ export async function readObj(bytes: Uint8Array, options: ObjOptions = {}): Prom
     let material = indices.get(part.material);
     if (material === undefined) {
       const found = materials.get(part.material);
-      if (!found && part.material !== '') scene.warnings.push({ code: 'formats/missing-material', message: `${name} uses the material "${part.material}", which is not there; the default one is taken.` });
-      material = scene.materials.push(found ? { ...found.material } : { ...defaultMaterial(), ...(part.material === '' ? {} : { name: part.material }) }) - 1;
+      if (!found && part.material !== '')
+        scene.warnings.push({
+          code: 'formats/missing-material',
+          message: `${name} uses the material "${part.material}", which is not there; the default one is taken.`,
+        });
+      material =
+        scene.materials.push(
+          found
+            ? { ...found.material }
+            : { ...defaultMaterial(), ...(part.material === '' ? {} : { name: part.material }) },
+        ) - 1;
       indices.set(part.material, material);
     }
-    scene.instances.push({ name: mesh.name, mesh: scene.meshes.push(mesh) - 1, material, transform: orientation(up, unit) });
+    scene.instances.push({
+      name: mesh.name,
+      mesh: scene.meshes.push(mesh) - 1,
+      material,
+      transform: orientation(up, unit),
+    });
   }
-  if (scene.instances.length === 0) throw new FormatError('formats/no-triangles', `${name} has no triangles: there is nothing to show.`, { location: { file: name } });
+  if (scene.instances.length === 0)
+    throw new FormatError('formats/no-triangles', `${name} has no triangles: there is nothing to show.`, {
+      location: { file: name },
+    });
   await readPictures(scene, materials, options);
   scene.warnings.push(...tally.warnings(name));
   return scene;
 }
 
 function readFaces(bytes: Uint8Array, tally: Tally): { parts: readonly Part[]; libraries: readonly string[] } {
-  const positions = new FloatList(), colors = new FloatList(), normals = new FloatList(), uvs = new FloatList();
+  const positions = new FloatList(),
+    colors = new FloatList(),
+    normals = new FloatList(),
+    uvs = new FloatList();
   const parts = new Map<string, Part>();
   const libraries = new Set<string>();
-  let group = '', material = '', smoothing = 0, colored = false, number = 0;
+  let group = '',
+    material = '',
+    smoothing = 0,
+    colored = false,
+    number = 0;
   let part: Part | undefined;
-  for (const line of new TextDecoder().decode(bytes).replace(/\\\r?\n/g, ' ').split(/\r?\n/)) {
+  for (const line of new TextDecoder()
+    .decode(bytes)
+    .replace(/\\\r?\n/g, ' ')
+    .split(/\r?\n/)) {
     number++;
     const words = line.trim().split(/\s+/);
     const key = words[0] as string;
-    const values = (size: number, initial = 0) => Array.from({ length: size }, (_, k) => { const x = Math.fround(Number(words[k + 1] ?? initial)); return Number.isFinite(x) ? x : NaN; });
+    const values = (size: number, initial = 0) =>
+      Array.from({ length: size }, (_, k) => {
+        const x = Math.fround(Number(words[k + 1] ?? initial));
+        return Number.isFinite(x) ? x : NaN;
+      });
     if (key === 'v') {
       positions.push(...values(3, NaN));
       colored ||= words.length >= 7;
-      colors.push(...(words.length >= 7 ? words.slice(4, 7).map((word) => Math.min(Math.max(Number(word) || 0, 0), 1)) : [1, 1, 1]));
+      colors.push(
+        ...(words.length >= 7
+          ? words.slice(4, 7).map((word) => Math.min(Math.max(Number(word) || 0, 0), 1))
+          : [1, 1, 1]),
+      );
     } else if (key === 'vt') uvs.push(...values(2).map((x) => (Number.isFinite(x) ? x : 0)));
     else if (key === 'vn') normals.push(...values(3).map((x) => (Number.isFinite(x) ? x : 0)));
     else if (key === 'f') {
       part ??= partOf(parts, group, material);
-      if (!addFace(part, words, { positions, colors, normals, uvs, colored, smoothing })) tally.add('formats/face', 'a face names vertices that are not there or not finite, and is left out', number);
+      if (!addFace(part, words, { positions, colors, normals, uvs, colored, smoothing }))
+        tally.add('formats/face', 'a face names vertices that are not there or not finite, and is left out', number);
     } else if (key === 'o' || key === 'g') {
       group = words.slice(1).join(' ');
       part = undefined;
@@ -110,9 +158,11 @@ function readFaces(bytes: Uint8Array, tally: Tally): { parts: readonly Part[]; l
       material = words.slice(1).join(' ');
       part = undefined;
     } else if (key === 'mtllib') libraries.add(line.trim().slice(6).trim());
-    else if (key === 's') smoothing = words[1] === undefined || words[1] === 'off' ? 0 : Math.abs(Number.parseInt(words[1], 10)) || 0;
+    else if (key === 's')
+      smoothing = words[1] === undefined || words[1] === 'off' ? 0 : Math.abs(Number.parseInt(words[1], 10)) || 0;
     else if (key === 'l' || key === 'p') tally.add('formats/ignored', 'lines and points are left out', number);
-    else if (key !== '' && !key.startsWith('#')) tally.add('formats/ignored', `"${key.slice(0, 40)}" is not read`, number);
+    else if (key !== '' && !key.startsWith('#'))
+      tally.add('formats/ignored', `"${key.slice(0, 40)}" is not read`, number);
   }
   return { parts: [...parts.values()], libraries: [...libraries] };
 }
@@ -134,7 +184,11 @@ interface Lists {
 }
 
 /** Adds a polygon; false if it names what is not there. */
-function addFace(part: Part, words: readonly string[], { positions, colors, normals, uvs, colored, smoothing }: Lists): boolean {
+function addFace(
+  part: Part,
+  words: readonly string[],
+  { positions, colors, normals, uvs, colored, smoothing }: Lists,
+): boolean {
   const corners: (readonly [number, number, number])[] = [];
   const points: number[] = [];
   /** From 1 on, or backwards from the end. −1: not given. */
@@ -147,7 +201,9 @@ function addFace(part: Part, words: readonly string[], { positions, colors, norm
   for (const word of words.slice(1)) {
     if (word.startsWith('#')) break;
     const [v, vt, vn] = word.split('/');
-    const at = resolve(v, positions.length / 3), uv = resolve(vt, uvs.length / 2), normal = resolve(vn, normals.length / 3);
+    const at = resolve(v, positions.length / 3),
+      uv = resolve(vt, uvs.length / 2),
+      normal = resolve(vn, normals.length / 3);
     if (at === undefined || at < 0 || uv === undefined || normal === undefined) return false;
     for (let k = 0; k < 3; k++) points.push(positions.at(3 * at + k));
     corners.push([at, uv, normal]);
@@ -170,7 +226,8 @@ function addFace(part: Part, words: readonly string[], { positions, colors, norm
     part.normals.push(...n.map((x) => x / (length || 1)));
     return made;
   };
-  for (const corner of triangulate(points)) part.indices.push(vertex(corners[corner] as readonly [number, number, number]));
+  for (const corner of triangulate(points))
+    part.indices.push(vertex(corners[corner] as readonly [number, number, number]));
   for (let i = 2; i < corners.length; i++) part.groups.push(smoothing);
   return true;
 }
@@ -185,7 +242,11 @@ function build(part: Part): Mesh | undefined {
   return part.groups.some((group) => group > 0) ? smoothNormals(mesh, part.groups) : mesh;
 }
 
-async function readPictures(scene: Scene, materials: ReadonlyMap<string, MtlMaterial>, { name = 'OBJ', read, decodeImage, signal }: ObjOptions): Promise<void> {
+async function readPictures(
+  scene: Scene,
+  materials: ReadonlyMap<string, MtlMaterial>,
+  { name = 'OBJ', read, decodeImage, signal }: ObjOptions,
+): Promise<void> {
   const images = new Map<string, number | undefined>();
   for (const material of scene.materials) {
     for (const map of materials.get(material.name)?.maps ?? []) {
@@ -195,7 +256,11 @@ async function readPictures(scene: Scene, materials: ReadonlyMap<string, MtlMate
       if (!images.has(key)) {
         const bytes = path === undefined ? undefined : await read?.(path, signal);
         const decoded = bytes && (await decodeImage?.(bytes).catch(() => undefined));
-        if (!decoded) scene.warnings.push({ code: 'formats/image', message: `${name}: the picture "${map.path}" ${bytes ? 'cannot be decoded' : 'is not there'} and is left out.` });
+        if (!decoded)
+          scene.warnings.push({
+            code: 'formats/image',
+            message: `${name}: the picture "${map.path}" ${bytes ? 'cannot be decoded' : 'is not there'} and is left out.`,
+          });
         images.set(key, decoded && scene.images.push({ name: key, ...decoded }) - 1);
       }
       const image = images.get(key);
@@ -203,7 +268,12 @@ async function readPictures(scene: Scene, materials: ReadonlyMap<string, MtlMate
       const wrap = map.clamp ? ('clamp' as const) : ('repeat' as const);
       const texture = scene.textures.push({ image, color_space: map.colorSpace, wrap_u: wrap, wrap_v: wrap }) - 1;
       const textures: NonNullable<Material['textures']> = (material.textures ??= {});
-      textures[map.parameter] = { texture, channels: map.channels, ...(map.transform ? { transform: map.transform } : {}), ...(map.scale === undefined ? {} : { scale: map.scale }) };
+      textures[map.parameter] = {
+        texture,
+        channels: map.channels,
+        ...(map.transform ? { transform: map.transform } : {}),
+        ...(map.scale === undefined ? {} : { scale: map.scale }),
+      };
     }
   }
 }

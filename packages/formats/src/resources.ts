@@ -4,7 +4,10 @@ import type { Image } from '@glanz/scene';
  * Gives the bytes of a file that a document names, by its path relative to the document, with `/` between folders; or
  * undefined where there is none. It must read nothing outside the document's folder.
  */
-export type ResourceReader = (path: string, signal: AbortSignal | undefined) => Promise<Uint8Array<ArrayBuffer> | undefined>;
+export type ResourceReader = (
+  path: string,
+  signal: AbortSignal | undefined,
+) => Promise<Uint8Array<ArrayBuffer> | undefined>;
 
 /** Turns the bytes of a PNG, JPEG or WebP file into pixels: RGBA, 8 bits a channel, straight alpha, top row first. */
 export type PictureDecoder = (bytes: Uint8Array<ArrayBuffer>) => Promise<Pick<Image, 'width' | 'height' | 'data'>>;

@@ -3,7 +3,12 @@ import { describe, expect, test } from 'vitest';
 import { FormatError, readIes } from '../src/index';
 
 /** A file of LM-63-2002; `body` from the line of the angles on. */
-const file = (verticals: number, horizontals: number, body: string, { multiplier = 1, type = 1, ballast = 1, tilt = 'NONE' } = {}) =>
+const file = (
+  verticals: number,
+  horizontals: number,
+  body: string,
+  { multiplier = 1, type = 1, ballast = 1, tilt = 'NONE' } = {},
+) =>
   `IESNA:LM-63-2002\n[TEST] 1\n[MANUFAC] nobody\nTILT=${tilt}\n1 1000 ${multiplier} ${verticals} ${horizontals} ${type} 2 0.1 0.1 0\n${ballast} 1 10\n${body}`;
 
 const degrees = (values: Float32Array) => [...values].map((angle) => Math.round((angle * 180e3) / Math.PI) / 1e3);
@@ -29,17 +34,28 @@ describe('readIes', () => {
     const text = file(2, 3, `0 90\n${horizontal}\n${rows}`);
     const profile = readIes(text);
     expect(degrees(profile.horizontal)).toEqual(angles);
-    [...profile.intensities].filter((_, i) => i % 2 === 0).forEach((value, i) => expect(value).toBeCloseTo(firsts[i]!, 5));
+    [...profile.intensities]
+      .filter((_, i) => i % 2 === 0)
+      .forEach((value, i) => expect(value).toBeCloseTo(firsts[i]!, 5));
   });
 
   test('old files, tilted lamps and bytes', () => {
-    const old = 'A LUMINAIRE OF 1986\nTILT=INCLUDE\n1\n3\n0 45 90\n1 0.9 0.8\n1 1000 1 2 1 1 1 0 0 0\n1 1 50\n0 180\n0\n7 8\n';
+    const old =
+      'A LUMINAIRE OF 1986\nTILT=INCLUDE\n1\n3\n0 45 90\n1 0.9 0.8\n1 1000 1 2 1 1 1 0 0 0\n1 1 50\n0 180\n0\n7 8\n';
     expect([...readIes(new TextEncoder().encode(old)).intensities]).toEqual([7, 8]);
   });
 
   test('the scene takes what it gives', () => {
     const scene = createScene();
-    scene.lights.push({ type: 'profile', name: 'lamp', color: [1, 1, 1], intensity: 1, position: [0, 2, 0], direction: [0, -1, 0], profile: readIes(file(3, 3, '0 45 90\n0 45 90\n1 2 3 4 5 6 7 8 9')) });
+    scene.lights.push({
+      type: 'profile',
+      name: 'lamp',
+      color: [1, 1, 1],
+      intensity: 1,
+      position: [0, 2, 0],
+      direction: [0, -1, 0],
+      profile: readIes(file(3, 3, '0 45 90\n0 45 90\n1 2 3 4 5 6 7 8 9')),
+    });
     expect(() => validateScene(scene)).not.toThrow();
   });
 

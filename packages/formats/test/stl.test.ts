@@ -10,29 +10,50 @@ function binary(triangles: readonly Triangle[], head = 'made by nobody'): Uint8A
   bytes.set(new TextEncoder().encode(head));
   const view = new DataView(bytes.buffer);
   view.setUint32(80, triangles.length, true);
-  triangles.forEach((corners, t) => corners.flat().forEach((x, i) => view.setFloat32(84 + 50 * t + 12 + 4 * i, x, true)));
+  triangles.forEach((corners, t) =>
+    corners.flat().forEach((x, i) => view.setFloat32(84 + 50 * t + 12 + 4 * i, x, true)),
+  );
   return bytes;
 }
 
 const text = (triangles: readonly Triangle[], name = 'part one') =>
-  new TextEncoder().encode(`solid ${name}\n${triangles.map((corners) => `facet normal 0 0 1\n outer loop\n${corners.map((p) => `  vertex ${p.join(' ')}\n`).join('')} endloop\nendfacet\n`).join('')}endsolid ${name}\n`);
+  new TextEncoder().encode(
+    `solid ${name}\n${triangles.map((corners) => `facet normal 0 0 1\n outer loop\n${corners.map((p) => `  vertex ${p.join(' ')}\n`).join('')} endloop\nendfacet\n`).join('')}endsolid ${name}\n`,
+  );
 
 /** A tetrahedron: four vertices, whatever the file says. */
-const P = [[0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 3]] as const;
-const BODY: readonly Triangle[] = [[P[0], P[2], P[1]], [P[0], P[1], P[3]], [P[0], P[3], P[2]], [P[1], P[2], P[3]]];
+const P = [
+  [0, 0, 0],
+  [1, 0, 0],
+  [0, 2, 0],
+  [0, 0, 3],
+] as const;
+const BODY: readonly Triangle[] = [
+  [P[0], P[2], P[1]],
+  [P[0], P[1], P[3]],
+  [P[0], P[3], P[2]],
+  [P[1], P[2], P[3]],
+];
 
-it.each([['binary', binary(BODY)], ['binary that begins like a text', binary(BODY, 'solid thing')], ['text', text(BODY)]] as const)('%s: corners at the same place are one vertex, and three.js sees the same triangles', (_, bytes) => {
+it.each([
+  ['binary', binary(BODY)],
+  ['binary that begins like a text', binary(BODY, 'solid thing')],
+  ['text', text(BODY)],
+] as const)('%s: corners at the same place are one vertex, and three.js sees the same triangles', (_, bytes) => {
   const scene = readStl(bytes, { up: 'y' });
   const [mesh] = scene.meshes;
   expect(mesh!.positions.length).toBe(12);
   expect(mesh!.normals).toBeUndefined();
   expect(validateScene(scene)).toEqual([]);
   const theirs = new STLLoader().parse(bytes.buffer).getAttribute('position').array;
-  expect(Array.from(mesh!.indices).flatMap((v) => Array.from(mesh!.positions.subarray(3 * v, 3 * v + 3)))).toEqual(Array.from(theirs));
+  expect(Array.from(mesh!.indices).flatMap((v) => Array.from(mesh!.positions.subarray(3 * v, 3 * v + 3)))).toEqual(
+    Array.from(theirs),
+  );
 });
 
-it('+Z of the file points up unless told otherwise, and units are metres of the host\'s choice', () => {
-  const near = (bounds: ReturnType<typeof sceneBounds>) => [...bounds.min, ...bounds.max].map((x) => Math.round(x * 1e6) / 1e6 + 0);
+it("+Z of the file points up unless told otherwise, and units are metres of the host's choice", () => {
+  const near = (bounds: ReturnType<typeof sceneBounds>) =>
+    [...bounds.min, ...bounds.max].map((x) => Math.round(x * 1e6) / 1e6 + 0);
   expect(near(sceneBounds(readStl(binary(BODY))))).toEqual([0, 0, -2, 1, 3, 0]);
   expect(near(sceneBounds(readStl(binary(BODY), { up: 'y', unit: 0.001 })))).toEqual([0, 0, 0, 0.001, 0.002, 0.003]);
 });

@@ -2,7 +2,13 @@ import type { GltfAccessor, GltfJson } from './json';
 import type { Budget } from './limits';
 
 /** Numbers as glTF stores them. */
-export type Numbers = Int8Array<ArrayBuffer> | Uint8Array<ArrayBuffer> | Int16Array<ArrayBuffer> | Uint16Array<ArrayBuffer> | Uint32Array<ArrayBuffer> | Float32Array<ArrayBuffer>;
+export type Numbers =
+  | Int8Array<ArrayBuffer>
+  | Uint8Array<ArrayBuffer>
+  | Int16Array<ArrayBuffer>
+  | Uint16Array<ArrayBuffer>
+  | Uint32Array<ArrayBuffer>
+  | Float32Array<ArrayBuffer>;
 
 interface NumbersType {
   new (length: number): Numbers;
@@ -10,20 +16,41 @@ interface NumbersType {
   readonly BYTES_PER_ELEMENT: number;
 }
 
-const TYPES: Readonly<Record<number, NumbersType>> = { 5120: Int8Array, 5121: Uint8Array, 5122: Int16Array, 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array };
+const TYPES: Readonly<Record<number, NumbersType>> = {
+  5120: Int8Array,
+  5121: Uint8Array,
+  5122: Int16Array,
+  5123: Uint16Array,
+  5125: Uint32Array,
+  5126: Float32Array,
+};
 
 /** What the largest code of a normalised type stands for 1 with; signed ones have a least code that is cut to −1. */
 const NORMALISED: Readonly<Record<number, number>> = { 5120: 127, 5121: 255, 5122: 32767, 5123: 65535 };
 
 /** Numbers an element has. */
-export const ELEMENT_SIZE: Readonly<Record<string, number>> = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT2: 4, MAT3: 9, MAT4: 16 };
+export const ELEMENT_SIZE: Readonly<Record<string, number>> = {
+  SCALAR: 1,
+  VEC2: 2,
+  VEC3: 3,
+  VEC4: 4,
+  MAT2: 4,
+  MAT3: 9,
+  MAT4: 16,
+};
 const MATRIX_EDGE: Readonly<Record<string, number>> = { MAT2: 2, MAT3: 3, MAT4: 4 };
 
 /**
- * Turns numbers of `own` an element into floats of `size` an element: normalised codes decoded (glTF 2.0, 3.6.2.2), what is
- * missing filled up with 1. Always a copy.
+ * Turns numbers of `own` an element into floats of `size` an element: normalised codes decoded (glTF 2.0, 3.6.2.2),
+ * what is missing filled up with 1. Always a copy.
  */
-export function toFloats(numbers: Numbers, componentType: number, normalized: boolean, own: number, size: number): Float32Array<ArrayBuffer> {
+export function toFloats(
+  numbers: Numbers,
+  componentType: number,
+  normalized: boolean,
+  own: number,
+  size: number,
+): Float32Array<ArrayBuffer> {
   if (own === size && !normalized) return new Float32Array(numbers);
   const count = numbers.length / own;
   const floats = new Float32Array(count * size);
@@ -77,14 +104,30 @@ export class Accessors {
     const { bufferView, byteOffset = 0, componentType, count, type, sparse } = this.at(index);
     const Type = TYPES[componentType] as NumbersType;
     const size = ELEMENT_SIZE[type] as number;
-    let numbers = bufferView === undefined ? new Type(count * size) : this.#dense(bufferView, byteOffset, Type, count, type);
+    let numbers =
+      bufferView === undefined ? new Type(count * size) : this.#dense(bufferView, byteOffset, Type, count, type);
     if (sparse) {
       const copy = new Type(count * size);
       copy.set(numbers);
       numbers = copy;
-      const at = this.#dense(sparse.indices.bufferView, sparse.indices.byteOffset ?? 0, TYPES[sparse.indices.componentType] as NumbersType, sparse.count, 'SCALAR', false);
-      const values = this.#dense(sparse.values.bufferView, sparse.values.byteOffset ?? 0, Type, sparse.count, type, false);
-      for (let i = 0; i < sparse.count; i++) copy.set(values.subarray(size * i, size * i + size), size * (at[i] as number));
+      const at = this.#dense(
+        sparse.indices.bufferView,
+        sparse.indices.byteOffset ?? 0,
+        TYPES[sparse.indices.componentType] as NumbersType,
+        sparse.count,
+        'SCALAR',
+        false,
+      );
+      const values = this.#dense(
+        sparse.values.bufferView,
+        sparse.values.byteOffset ?? 0,
+        Type,
+        sparse.count,
+        type,
+        false,
+      );
+      for (let i = 0; i < sparse.count; i++)
+        copy.set(values.subarray(size * i, size * i + size), size * (at[i] as number));
     }
     return numbers;
   }
@@ -113,7 +156,8 @@ export class Accessors {
       return copy;
     }
     const target = new Uint8Array(copy.buffer);
-    const columns = edge ?? 1, used = (size / columns) * bytesPer;
+    const columns = edge ?? 1,
+      used = (size / columns) * bytesPer;
     for (let i = 0; i < count; i++) {
       for (let c = 0; c < columns; c++) {
         const from = byteOffset + stride * i + column * c;

@@ -1,5 +1,5 @@
-// KHR_animation_pointer: an animation may move any number of the document, named by a JSON pointer. A scene is one moment, so
-// the numbers of that moment are put into the document before anything is made of it.
+// KHR_animation_pointer: an animation may move any number of the document, named by a JSON pointer. A scene is one
+// moment, so the numbers of that moment are put into the document before anything is made of it.
 import { valueAt } from './animation';
 import type { Accessors } from './accessors';
 import type { Raw } from './check/context';
@@ -16,14 +16,30 @@ export interface PointedValue {
 const ROOTS = /^\/(nodes|materials|cameras|meshes|extensions\/KHR_lights_punctual\/lights)\//;
 
 /** The parts of a pointer to something that may move; undefined for others. */
-export const pointerPath = (pointer: unknown): readonly string[] | undefined => (typeof pointer === 'string' && ROOTS.test(pointer) ? pointer.slice(1).split('/').map((part) => part.replaceAll('~1', '/').replaceAll('~0', '~')) : undefined);
+export const pointerPath = (pointer: unknown): readonly string[] | undefined =>
+  typeof pointer === 'string' && ROOTS.test(pointer)
+    ? pointer
+        .slice(1)
+        .split('/')
+        .map((part) => part.replaceAll('~1', '/').replaceAll('~0', '~'))
+    : undefined;
 
 /** What an animation's pointers say at a time. Values that are not finite do not count. */
-export function pointedValues({ pointers, samplers }: GltfAnimation, time: number, accessors: Accessors): PointedValue[] {
+export function pointedValues(
+  { pointers, samplers }: GltfAnimation,
+  time: number,
+  accessors: Accessors,
+): PointedValue[] {
   return (pointers ?? []).flatMap(({ sampler, path }) => {
     const { input, output, interpolation } = samplers[sampler] as (typeof samplers)[number];
     const name = path[path.length - 1] as string;
-    const numbers = valueAt(accessors.floats(input), accessors.floats(output), interpolation, time, name === 'rotation' && accessors.at(output).type === 'VEC4');
+    const numbers = valueAt(
+      accessors.floats(input),
+      accessors.floats(output),
+      interpolation,
+      time,
+      name === 'rotation' && accessors.at(output).type === 'VEC4',
+    );
     if (!numbers.every(Number.isFinite)) return [];
     const scalar = accessors.at(output).type === 'SCALAR' && numbers.length === 1 && name !== 'weights';
     return [{ path, value: name === 'visible' ? numbers[0] !== 0 : scalar ? (numbers[0] as number) : numbers }];
@@ -31,11 +47,16 @@ export function pointedValues({ pointers, samplers }: GltfAnimation, time: numbe
 }
 
 /**
- * A document with other numbers in it; the given one stays as it is. What holds a number has to be there, the number need not
+ * A document with other numbers in it; the given one stays as it is. What holds a number has to be there, the number
+ * need not
  * be: it then has a default.
  * @param warn Told of pointers that lead nowhere.
  */
-export function withValues(json: Raw, values: readonly PointedValue[], warn: (path: string, what: string) => void): Raw {
+export function withValues(
+  json: Raw,
+  values: readonly PointedValue[],
+  warn: (path: string, what: string) => void,
+): Raw {
   // Each object on the way is copied once, however many values go through it.
   const copies = new Set<unknown>();
   const copyOf = <T extends object>(owner: T): T => {
@@ -50,7 +71,8 @@ export function withValues(json: Raw, values: readonly PointedValue[], warn: (pa
     let at = 0;
     for (; at < path.length - 1; at++) {
       const key = keyIn(owner, path[at] as string);
-      const inside: unknown = key === undefined || !Object.hasOwn(owner, key) ? undefined : (owner as Record<string, unknown>)[key];
+      const inside: unknown =
+        key === undefined || !Object.hasOwn(owner, key) ? undefined : (owner as Record<string, unknown>)[key];
       if (key === undefined || typeof inside !== 'object' || inside === null) break;
       owner = (owner as Record<string, unknown>)[key] = copyOf(inside) as Record<string, unknown>;
     }
@@ -69,4 +91,8 @@ function keyIn(owner: object, key: string): string | undefined {
 }
 
 /** Whether a value is of the kind that stands there now, or nothing does. */
-const isAlike = (old: unknown, value: PointedValue['value']): boolean => old === undefined || (typeof old === typeof value && Array.isArray(old) === Array.isArray(value) && (!Array.isArray(old) || old.length === (value as readonly number[]).length));
+const isAlike = (old: unknown, value: PointedValue['value']): boolean =>
+  old === undefined ||
+  (typeof old === typeof value &&
+    Array.isArray(old) === Array.isArray(value) &&
+    (!Array.isArray(old) || old.length === (value as readonly number[]).length));

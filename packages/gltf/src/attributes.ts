@@ -5,7 +5,8 @@ import type { PrimitiveData } from './primitive';
 
 /** Whether every number is finite. */
 function allFinite(values: Float32Array): boolean {
-  // Those that are not have all bits of the exponent set, and one more carries over into the sign. Sums would have to wait for each other.
+  // Those that are not have all bits of the exponent set, and one more carries over into the sign. Sums would have to
+  // wait for each other.
   const bits = new Int32Array(values.buffer, values.byteOffset, values.length);
   let carried = 0;
   for (let i = 0; i < bits.length; i++) carried |= ((bits[i] as number) & 0x7f800000) + 0x00800000;
@@ -46,8 +47,16 @@ function trianglesOf(primitive: PrimitiveData, vertices: number): Uint32Array<Ar
  * @param uvSets The numbers of the UV sets to read.
  * @returns `undefined` (with a warning) if it has no triangles.
  */
-export function readPrimitive(primitive: PrimitiveData, name: string, opaque: boolean, uvSets: UvSets, path: string, warnings: SceneWarning[]): Mesh | undefined {
-  const warn = (message: string) => void warnings.push({ code: 'gltf/primitive', message: `${name}: ${message}`, path });
+export function readPrimitive(
+  primitive: PrimitiveData,
+  name: string,
+  opaque: boolean,
+  uvSets: UvSets,
+  path: string,
+  warnings: SceneWarning[],
+): Mesh | undefined {
+  const warn = (message: string) =>
+    void warnings.push({ code: 'gltf/primitive', message: `${name}: ${message}`, path });
   const vertices = primitive.count('POSITION');
   if (vertices === undefined) {
     warn('it has no POSITION and is left out.');
@@ -60,7 +69,8 @@ export function readPrimitive(primitive: PrimitiveData, name: string, opaque: bo
   }
   const positions = primitive.floats('POSITION', 3);
   const largest = maximum(corners);
-  if (largest === primitive.restart) warn('its indices hold the value that restarts a primitive, which none may; it counts as any other.');
+  if (largest === primitive.restart)
+    warn('its indices hold the value that restarts a primitive, which none may; it counts as any other.');
   const indices = soundTriangles(corners, largest, positions, warn);
   if (indices.length === 0) {
     warn('it has no triangles.');
@@ -82,7 +92,8 @@ export function readPrimitive(primitive: PrimitiveData, name: string, opaque: bo
   const normals = attribute('NORMAL', 3);
   if (normals) {
     mesh.normals = unitNormals(normals, positions, indices, warn);
-    if (windByNormals(indices, positions, mesh.normals)) warn('its normals point to the back of each of its triangles, which are turned round.');
+    if (windByNormals(indices, positions, mesh.normals))
+      warn('its normals point to the back of each of its triangles, which are turned round.');
     const tangents = attribute('TANGENT', 4);
     if (tangents && makeUnit(tangents, 4)) mesh.tangents = withSigns(tangents, warn);
     else if (tangents) warn('TANGENT holds vectors of length 0 and is left out.');
@@ -119,23 +130,36 @@ function withSigns(tangents: Float32Array<ArrayBuffer>, warn: (message: string) 
 }
 
 /** The triangles whose corners exist and are finite. Positions that are not become 0, since nothing may be NaN. */
-function soundTriangles(corners: Uint32Array<ArrayBuffer>, largest: number, positions: Float32Array, warn: (message: string) => void): Uint32Array<ArrayBuffer> {
+function soundTriangles(
+  corners: Uint32Array<ArrayBuffer>,
+  largest: number,
+  positions: Float32Array,
+  warn: (message: string) => void,
+): Uint32Array<ArrayBuffer> {
   const vertices = positions.length / 3;
   const finite = allFinite(positions);
   if (finite && largest < vertices) return corners;
-  const good = (v: number) => v < vertices && (finite || (Number.isFinite(positions[3 * v]) && Number.isFinite(positions[3 * v + 1]) && Number.isFinite(positions[3 * v + 2])));
+  const good = (v: number) =>
+    v < vertices &&
+    (finite ||
+      (Number.isFinite(positions[3 * v]) &&
+        Number.isFinite(positions[3 * v + 1]) &&
+        Number.isFinite(positions[3 * v + 2])));
   let kept = 0;
   for (let i = 0; i < corners.length; i += 3) {
     if (!good(corners[i] as number) || !good(corners[i + 1] as number) || !good(corners[i + 2] as number)) continue;
     if (kept !== i) corners.copyWithin(kept, i, i + 3);
     kept += 3;
   }
-  if (kept < corners.length) warn(`${(corners.length - kept) / 3} triangles have corners that do not exist or are not finite and are left out.`);
+  if (kept < corners.length)
+    warn(`${(corners.length - kept) / 3} triangles have corners that do not exist or are not finite and are left out.`);
   if (!finite) for (let i = 0; i < positions.length; i++) if (!Number.isFinite(positions[i])) positions[i] = 0;
   return kept === corners.length ? corners : corners.slice(0, kept);
 }
 
-/** A mesh without the vertices that no triangle uses, if those are more than half: primitives may share one large set. */
+/**
+ * A mesh without the vertices that no triangle uses, if those are more than half: primitives may share one large set.
+ */
 export function withoutUnusedVertices(mesh: Mesh): Mesh {
   const vertices = mesh.positions.length / 3;
   if (2 * mesh.indices.length >= vertices) return mesh;
@@ -148,7 +172,8 @@ export function withoutUnusedVertices(mesh: Mesh): Mesh {
   });
   const gather = (values: Float32Array<ArrayBuffer>, stride: number) => {
     const kept = new Float32Array(place.size * stride);
-    for (const [from, to] of place) for (let k = 0; k < stride; k++) kept[stride * to + k] = values[stride * from + k] as number;
+    for (const [from, to] of place)
+      for (let k = 0; k < stride; k++) kept[stride * to + k] = values[stride * from + k] as number;
     return kept;
   };
   const result: Mesh = { ...mesh, positions: gather(mesh.positions, 3), indices };

@@ -28,17 +28,32 @@ export function openContainer(bytes: Uint8Array<ArrayBuffer>, name: string, warn
 
 function openGlb(bytes: Uint8Array<ArrayBuffer>, view: DataView, name: string, warnings: SceneWarning[]): Container {
   const truncated = (end: number, at: number) =>
-    new GltfError('gltf/truncated', `${name} ends at byte ${bytes.length}, but byte ${end} should be there: the file is cut off. Download or export it again.`, { location: { file: name, byteOffset: at } });
-  const malformed = (what: string, at: number) => new GltfError('gltf/malformed', `${name} ${what}; export the file again or repair it.`, { location: { file: name, byteOffset: at } });
+    new GltfError(
+      'gltf/truncated',
+      `${name} ends at byte ${bytes.length}, but byte ${end} should be there: the file is cut off. Download or export it again.`,
+      { location: { file: name, byteOffset: at } },
+    );
+  const malformed = (what: string, at: number) =>
+    new GltfError('gltf/malformed', `${name} ${what}; export the file again or repair it.`, {
+      location: { file: name, byteOffset: at },
+    });
   if (bytes.length < 20) throw truncated(20, bytes.length);
   const version = view.getUint32(4, true);
-  if (version !== 2) throw new GltfError('gltf/version', `${name} is a GLB of version ${version}; only version 2 is known.`, { location: { file: name, byteOffset: 4 } });
+  if (version !== 2)
+    throw new GltfError('gltf/version', `${name} is a GLB of version ${version}; only version 2 is known.`, {
+      location: { file: name, byteOffset: 4 },
+    });
   const total = view.getUint32(8, true);
   if (total > bytes.length) throw truncated(total, 8);
-  if (total < bytes.length) warnings.push({ code: 'gltf/container', message: `${name} goes on for ${bytes.length - total} bytes after its end, which are not read.` });
+  if (total < bytes.length)
+    warnings.push({
+      code: 'gltf/container',
+      message: `${name} goes on for ${bytes.length - total} bytes after its end, which are not read.`,
+    });
   let json: Raw | undefined;
   let binary: Uint8Array<ArrayBuffer> | undefined;
-  let at = 12, chunks = 0;
+  let at = 12,
+    chunks = 0;
   for (; at + 8 <= total; chunks++) {
     const length = view.getUint32(at, true);
     const type = view.getUint32(at + 4, true);
@@ -47,16 +62,26 @@ function openGlb(bytes: Uint8Array<ArrayBuffer>, view: DataView, name: string, w
     const chunk = bytes.subarray(at + 8, at + 8 + length);
     if (!json && type !== JSON_CHUNK) throw malformed('does not start with a JSON chunk', at);
     if (json && type === JSON_CHUNK) throw malformed('has two JSON chunks', at);
-    if (binary && type === BINARY_CHUNK) warnings.push({ code: 'gltf/container', message: `${name} has a second binary chunk, which is not read.` });
+    if (binary && type === BINARY_CHUNK)
+      warnings.push({ code: 'gltf/container', message: `${name} has a second binary chunk, which is not read.` });
     if (!json) json = parseJson(chunk, name, warnings);
     else if (type === BINARY_CHUNK && !binary) {
       binary = chunk;
-      if (chunks > 1) warnings.push({ code: 'gltf/container', message: `${name} has its binary chunk in place ${chunks + 1}, but it must be the second; it is read.` });
+      if (chunks > 1)
+        warnings.push({
+          code: 'gltf/container',
+          message: `${name} has its binary chunk in place ${chunks + 1}, but it must be the second; it is read.`,
+        });
     }
     at += 8 + length;
   }
-  if (at < total) warnings.push({ code: 'gltf/container', message: `${name} has ${total - at} bytes after its last chunk, which are not read.` });
-  if (!json) throw new GltfError('gltf/malformed', `${name} is a GLB without a JSON chunk.`, { location: { file: name } });
+  if (at < total)
+    warnings.push({
+      code: 'gltf/container',
+      message: `${name} has ${total - at} bytes after its last chunk, which are not read.`,
+    });
+  if (!json)
+    throw new GltfError('gltf/malformed', `${name} is a GLB without a JSON chunk.`, { location: { file: name } });
   return binary ? { json, binary } : { json };
 }
 
@@ -64,22 +89,47 @@ function parseJson(bytes: Uint8Array, name: string, warnings: SceneWarning[]): R
   let json: unknown;
   // TextDecoder skips it.
   if (bytes[0] === 0xef && bytes[1] === 0xbb && bytes[2] === 0xbf) {
-    warnings.push({ code: 'gltf/container', message: `${name}: its JSON starts with a byte order mark, which glTF does not allow; it is skipped.` });
+    warnings.push({
+      code: 'gltf/container',
+      message: `${name}: its JSON starts with a byte order mark, which glTF does not allow; it is skipped.`,
+    });
   }
   try {
     json = JSON.parse(new TextDecoder('utf-8', { fatal: true }).decode(bytes));
   } catch (cause) {
-    throw new GltfError('gltf/not-gltf', `${name} is not a glTF file: it is neither a GLB (which starts with "glTF") nor JSON.`, { cause, location: { file: name } });
+    throw new GltfError(
+      'gltf/not-gltf',
+      `${name} is not a glTF file: it is neither a GLB (which starts with "glTF") nor JSON.`,
+      { cause, location: { file: name } },
+    );
   }
-  if (typeof json !== 'object' || json === null || !('asset' in json) || typeof json.asset !== 'object' || json.asset === null) {
-    throw new GltfError('gltf/not-gltf', `${name} is JSON, but not a glTF document: it has no "asset".`, { location: { file: name } });
+  if (
+    typeof json !== 'object' ||
+    json === null ||
+    !('asset' in json) ||
+    typeof json.asset !== 'object' ||
+    json.asset === null
+  ) {
+    throw new GltfError('gltf/not-gltf', `${name} is JSON, but not a glTF document: it has no "asset".`, {
+      location: { file: name },
+    });
   }
   const { version, minVersion } = json.asset as { version?: unknown; minVersion?: unknown };
   const minor = (value: unknown) => (typeof value === 'string' ? Number(/^2\.(\d+)$/.exec(value)?.[1] ?? NaN) : NaN);
-  const own = minor(version), least = minVersion === undefined ? 0 : minor(minVersion);
+  const own = minor(version),
+    least = minVersion === undefined ? 0 : minor(minVersion);
   if (!(own >= 0) || !(least <= own)) {
-    throw new GltfError('gltf/version', `${name} is of glTF version ${quote(least <= own ? version : (minVersion ?? version))}; only 2.0 is known.`, { location: { file: name, path: '/asset/version' } });
+    throw new GltfError(
+      'gltf/version',
+      `${name} is of glTF version ${quote(least <= own ? version : (minVersion ?? version))}; only 2.0 is known.`,
+      { location: { file: name, path: '/asset/version' } },
+    );
   }
-  if (least > 0 || own > 0) warnings.push({ code: 'gltf/version', message: `${name} is of glTF version ${String(version)}; it is read as 2.0.`, path: '/asset/version' });
+  if (least > 0 || own > 0)
+    warnings.push({
+      code: 'gltf/version',
+      message: `${name} is of glTF version ${String(version)}; it is read as 2.0.`,
+      path: '/asset/version',
+    });
   return json as unknown as Raw;
 }

@@ -17,20 +17,31 @@ const STEPS = 16384;
 const TURN = 8;
 
 /**
- * Makes a picture of others. It has the size of the largest; smaller ones give their nearest texels. Lets others have the
- * thread every few milliseconds.
+ * Makes a picture of others. It has the size of the largest; smaller ones give their nearest texels. Lets others have
+ * the thread every few milliseconds.
  */
-export async function convertImage(sources: readonly DecodedImage[], { colorSpace, convert }: DerivedPicture, signal: AbortSignal | undefined): Promise<DecodedImage> {
+export async function convertImage(
+  sources: readonly DecodedImage[],
+  { colorSpace, convert }: DerivedPicture,
+  signal: AbortSignal | undefined,
+): Promise<DecodedImage> {
   const width = Math.max(...sources.map((source) => source.width));
   const height = Math.max(...sources.map((source) => source.height));
-  const decode = Float32Array.from({ length: 256 }, (_, code) => (colorSpace === 'srgb' ? srgbToLinear(code / 255) : code / 255));
-  const encode = Uint8Array.from({ length: STEPS + 1 }, (_, step) => Math.round(255 * (colorSpace === 'srgb' ? linearToSrgb(step / STEPS) : step / STEPS)));
+  const decode = Float32Array.from({ length: 256 }, (_, code) =>
+    colorSpace === 'srgb' ? srgbToLinear(code / 255) : code / 255,
+  );
+  const encode = Uint8Array.from({ length: STEPS + 1 }, (_, step) =>
+    Math.round(255 * (colorSpace === 'srgb' ? linearToSrgb(step / STEPS) : step / STEPS)),
+  );
   const data = new Uint8Array(4 * width * height);
   const texels = new Float32Array(4 * sources.length);
   const result = new Float32Array(4);
   // Pictures have areas of one colour: texels like the ones before are worth the same.
-  const codes = new Int32Array(sources.length).fill(-1), before = new Int32Array(sources.length).fill(-1);
-  const words = sources.map((source) => new DataView(source.data.buffer, source.data.byteOffset, source.data.byteLength));
+  const codes = new Int32Array(sources.length).fill(-1),
+    before = new Int32Array(sources.length).fill(-1);
+  const words = sources.map(
+    (source) => new DataView(source.data.buffer, source.data.byteOffset, source.data.byteLength),
+  );
   const rows = sources.map(() => 0);
   let until = performance.now() + TURN;
   let first = true;
@@ -40,7 +51,9 @@ export async function convertImage(sources: readonly DecodedImage[], { colorSpac
       signal?.throwIfAborted();
       until = performance.now() + TURN;
     }
-    for (let k = 0; k < sources.length; k++) rows[k] = Math.floor(((y + 0.5) * (sources[k] as DecodedImage).height) / height) * (sources[k] as DecodedImage).width;
+    for (let k = 0; k < sources.length; k++)
+      rows[k] =
+        Math.floor(((y + 0.5) * (sources[k] as DecodedImage).height) / height) * (sources[k] as DecodedImage).width;
     for (let x = 0; x < width; x++, to += 4) {
       let same = !first;
       for (let k = 0; k < sources.length; k++) {
@@ -62,7 +75,8 @@ export async function convertImage(sources: readonly DecodedImage[], { colorSpac
         texels[4 * k + 3] = (code >>> 24) / 255;
       }
       convert(texels, result);
-      for (let c = 0; c < 3; c++) data[to + c] = encode[Math.round(STEPS * Math.min(Math.max(result[c] as number, 0), 1))] as number;
+      for (let c = 0; c < 3; c++)
+        data[to + c] = encode[Math.round(STEPS * Math.min(Math.max(result[c] as number, 0), 1))] as number;
       data[to + 3] = Math.round(255 * Math.min(Math.max(result[3] as number, 0), 1));
     }
   }

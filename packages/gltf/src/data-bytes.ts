@@ -4,7 +4,8 @@ export function fromPercents(text: string): Uint8Array<ArrayBuffer> {
   const bytes = new Uint8Array(plain.length);
   let length = 0;
   for (let i = 0; i < plain.length; i++) {
-    const escaped = plain[i] === 0x25 ? /^[0-9a-f]{2}$/i.exec(String.fromCharCode(...plain.subarray(i + 1, i + 3))) : null;
+    const escaped =
+      plain[i] === 0x25 ? /^[0-9a-f]{2}$/i.exec(String.fromCharCode(...plain.subarray(i + 1, i + 3))) : null;
     bytes[length++] = escaped ? Number.parseInt(escaped[0], 16) : (plain[i] as number);
     if (escaped) i += 2;
   }

@@ -19,11 +19,16 @@ import type { DracoWorkers } from './worker/draco-workers';
 export interface GltfDecoders {
   /** The module of `draco3dgltf`: `await createDecoderModule()`. */
   readonly draco?: unknown;
-  /** Lets workers unpack Draco-compressed meshes side by side. `draco` is needed beside it: it does what they cannot. */
+  /**
+   * Lets workers unpack Draco-compressed meshes side by side. `draco` is needed beside it: it does what they cannot.
+   */
   readonly dracoWorkers?: DracoWorkers | undefined;
   /** `MeshoptDecoder` of `meshoptimizer/decoder`. */
   readonly meshopt?: unknown;
-  /** Decodes KTX2 pictures; see {@link ktx2Decoder}. Without it, pictures in other formats are taken where a document has both. */
+  /**
+   * Decodes KTX2 pictures; see {@link ktx2Decoder}. Without it, pictures in other formats are taken where a document
+   * has both.
+   */
   readonly ktx2?: Ktx2Decoder | undefined;
 }
 
@@ -59,24 +64,52 @@ export type OpenDocument = PrimitiveReader;
 /** Refuses what a document requires and nothing here reads; tells what it uses without. */
 function checkExtensions({ json }: CheckedDocument, file: string, warnings: SceneWarning[]): void {
   for (const name of json.extensionsRequired ?? []) {
-    if (!KNOWN.has(name) && !OPTIONAL.test(name)) throw new GltfError('gltf/unsupported-extension', `${file} requires the extension ${name}, which is not supported: export it without.`, { location: { file, path: '/extensionsRequired' } });
+    if (!KNOWN.has(name) && !OPTIONAL.test(name))
+      throw new GltfError(
+        'gltf/unsupported-extension',
+        `${file} requires the extension ${name}, which is not supported: export it without.`,
+        { location: { file, path: '/extensionsRequired' } },
+      );
   }
   for (const name of json.extensionsUsed ?? []) {
-    if (!KNOWN.has(name)) warnings.push({ code: 'gltf/ignored-extension', message: `${file} uses ${name}, which is not read.`, path: '/extensionsUsed' });
+    if (!KNOWN.has(name))
+      warnings.push({
+        code: 'gltf/ignored-extension',
+        message: `${file} uses ${name}, which is not read.`,
+        path: '/extensionsUsed',
+      });
   }
 }
 
 /** What is used of `MeshoptDecoder`. */
 interface MeshoptDecoder {
   readonly ready: Promise<void>;
-  decodeGltfBuffer(target: Uint8Array, count: number, size: number, source: Uint8Array, mode: string, filter?: string): void;
+  decodeGltfBuffer(
+    target: Uint8Array,
+    count: number,
+    size: number,
+    source: Uint8Array,
+    mode: string,
+    filter?: string,
+  ): void;
 }
 
 /** A decoder, fetched if the host has handed in a function. */
-const decoderOf = async (given: unknown): Promise<unknown> => (typeof given === 'function' ? ((await (given as () => unknown)()) as unknown) : given);
+const decoderOf = async (given: unknown): Promise<unknown> =>
+  typeof given === 'function' ? ((await (given as () => unknown)()) as unknown) : given;
 
 /** Reads everything that a document names except its pictures. */
-export async function readDocument(checked: CheckedDocument, binary: Uint8Array<ArrayBuffer> | undefined, source: Source, options: { readonly decoders?: GltfDecoders | undefined; readonly signal?: AbortSignal | undefined; readonly limits?: GltfLimits | undefined }, warnings: SceneWarning[]): Promise<OpenDocument> {
+export async function readDocument(
+  checked: CheckedDocument,
+  binary: Uint8Array<ArrayBuffer> | undefined,
+  source: Source,
+  options: {
+    readonly decoders?: GltfDecoders | undefined;
+    readonly signal?: AbortSignal | undefined;
+    readonly limits?: GltfLimits | undefined;
+  },
+  warnings: SceneWarning[],
+): Promise<OpenDocument> {
   const { json, neededBuffers, checkBytes } = checked;
   const { name: file } = source;
   checkExtensions(checked, file, warnings);
@@ -84,11 +117,21 @@ export async function readDocument(checked: CheckedDocument, binary: Uint8Array<
     const name = names.find((one) => json.extensionsUsed?.includes(one));
     if (name === undefined) return undefined;
     const decoder = await decoderOf(given);
-    if (!decoder) throw new GltfError('gltf/missing-decoder', `${file} is compressed by ${name}: install the package "${module}" and pass its decoder as ${option}.`, { location: { file, path: '/extensionsUsed' } });
+    if (!decoder)
+      throw new GltfError(
+        'gltf/missing-decoder',
+        `${file} is compressed by ${name}: install the package "${module}" and pass its decoder as ${option}.`,
+        { location: { file, path: '/extensionsUsed' } },
+      );
     return decoder;
   };
   const draco = await needed(['KHR_draco_mesh_compression'], options.decoders?.draco, 'draco3dgltf', 'decoders.draco');
-  const meshopt = (await needed(['EXT_meshopt_compression', 'KHR_meshopt_compression'], options.decoders?.meshopt, 'meshoptimizer', 'decoders.meshopt')) as MeshoptDecoder | undefined;
+  const meshopt = (await needed(
+    ['EXT_meshopt_compression', 'KHR_meshopt_compression'],
+    options.decoders?.meshopt,
+    'meshoptimizer',
+    'decoders.meshopt',
+  )) as MeshoptDecoder | undefined;
   await meshopt?.ready;
 
   const fileBytes = new Budget(file, 'fileBytes', options.limits);
@@ -99,10 +142,17 @@ export async function readDocument(checked: CheckedDocument, binary: Uint8Array<
       const bytes = embedded ? (index === 0 ? binary : undefined) : await readUri(buffer.uri, source, options.signal);
       // Chunks are padded to multiples of 4 bytes (glTF 2.0, 4.4.3.3).
       if (embedded && bytes && bytes.length > buffer.byteLength + 3) {
-        warnings.push({ code: 'gltf/container', message: `${file}: the binary chunk has ${bytes.length} bytes, but ${path} only ${buffer.byteLength}; the others are not read.`, path });
+        warnings.push({
+          code: 'gltf/container',
+          message: `${file}: the binary chunk has ${bytes.length} bytes, but ${path} only ${buffer.byteLength}; the others are not read.`,
+          path,
+        });
       }
       if (!bytes) {
-        if (neededBuffers.has(index)) throw new GltfError('gltf/malformed', `${file}: ${path} has no uri, and the file no binary chunk for it.`, { location: { file, path } });
+        if (neededBuffers.has(index))
+          throw new GltfError('gltf/malformed', `${file}: ${path} has no uri, and the file no binary chunk for it.`, {
+            location: { file, path },
+          });
         return undefined;
       }
       fileBytes.take(bytes.length, path);
@@ -110,15 +160,22 @@ export async function readDocument(checked: CheckedDocument, binary: Uint8Array<
       return bytes;
     }),
   );
-  const part = (view: { readonly buffer: number; readonly byteOffset?: number; readonly byteLength: number } | undefined, path: string) => {
+  const part = (
+    view: { readonly buffer: number; readonly byteOffset?: number; readonly byteLength: number } | undefined,
+    path: string,
+  ) => {
     const bytes = buffers[view?.buffer ?? -1];
     const offset = view?.byteOffset ?? 0;
     if (!view || !bytes || !(offset >= 0 && view.byteLength > 0 && offset + view.byteLength <= bytes.length)) {
-      throw new GltfError('gltf/malformed', `${file}: ${path} does not lie within its buffer.`, { location: { file, path } });
+      throw new GltfError('gltf/malformed', `${file}: ${path} does not lie within its buffer.`, {
+        location: { file, path },
+      });
     }
     return bytes.subarray(offset, offset + view.byteLength);
   };
-  const total = source.bytes.length + buffers.reduce((sum, bytes) => sum + (bytes && bytes.buffer !== source.bytes.buffer ? bytes.length : 0), 0);
+  const total =
+    source.bytes.length +
+    buffers.reduce((sum, bytes) => sum + (bytes && bytes.buffer !== source.bytes.buffer ? bytes.length : 0), 0);
   const budget = new Budget(file, 'geometryBytes', options.limits, total);
   const unpacked = new Map<number, Uint8Array<ArrayBuffer>>();
   const viewBytes = (index: number): Uint8Array<ArrayBuffer> => {
@@ -133,10 +190,21 @@ export async function readDocument(checked: CheckedDocument, binary: Uint8Array<
     budget.take(view.byteLength, at);
     bytes = new Uint8Array(view.byteLength);
     try {
-      meshopt.decodeGltfBuffer(bytes, packed.count, packed.byteStride, part(packed, at), packed.mode, packed.filter ?? 'NONE');
+      meshopt.decodeGltfBuffer(
+        bytes,
+        packed.count,
+        packed.byteStride,
+        part(packed, at),
+        packed.mode,
+        packed.filter ?? 'NONE',
+      );
     } catch (cause) {
       if (cause instanceof GltfError) throw cause;
-      throw new GltfError('gltf/malformed', `${file}: ${at} cannot be unpacked: ${cause instanceof Error ? cause.message : String(cause)}; export the file again.`, { cause, location: { file, path: at } });
+      throw new GltfError(
+        'gltf/malformed',
+        `${file}: ${at} cannot be unpacked: ${cause instanceof Error ? cause.message : String(cause)}; export the file again.`,
+        { cause, location: { file, path: at } },
+      );
     }
     unpacked.set(index, bytes);
     return bytes;
@@ -147,16 +215,37 @@ export async function readDocument(checked: CheckedDocument, binary: Uint8Array<
     return buffers[(packed ?? view)?.buffer ?? -1] !== undefined;
   };
   checkBytes((index) => (isThere(index) ? viewBytes(index) : undefined));
-  return { file, accessors: new Accessors(json, viewBytes, budget), viewBytes, isThere, draco, ahead: new Map(), budget, bytes: total };
+  return {
+    file,
+    accessors: new Accessors(json, viewBytes, budget),
+    viewBytes,
+    isThere,
+    draco,
+    ahead: new Map(),
+    budget,
+    bytes: total,
+  };
 }
 
 const short = (name: string, path: string, length: number, expected: number) =>
-  new GltfError('gltf/truncated', `${name}: ${path} has ${length} bytes, but says it has ${expected}: the file is cut off.`, { location: { file: name, path } });
+  new GltfError(
+    'gltf/truncated',
+    `${name}: ${path} has ${length} bytes, but says it has ${expected}: the file is cut off.`,
+    { location: { file: name, path } },
+  );
 
 /** The bytes behind a uri: data in the uri itself, or a file beside the document. */
-export async function readUri(uri: string, source: Source, signal: AbortSignal | undefined): Promise<Uint8Array<ArrayBuffer>> {
+export async function readUri(
+  uri: string,
+  source: Source,
+  signal: AbortSignal | undefined,
+): Promise<Uint8Array<ArrayBuffer>> {
   if (/^data:/i.test(uri)) {
-    const unreadable = (cause?: unknown) => new GltfError('gltf/malformed', `${source.name} holds a data: uri that cannot be decoded.`, { cause, location: { file: source.name } });
+    const unreadable = (cause?: unknown) =>
+      new GltfError('gltf/malformed', `${source.name} holds a data: uri that cannot be decoded.`, {
+        cause,
+        location: { file: source.name },
+      });
     const found = dataUri(uri);
     if (!found) throw unreadable();
     try {
@@ -167,6 +256,11 @@ export async function readUri(uri: string, source: Source, signal: AbortSignal |
   }
   signal?.throwIfAborted();
   const path = decoded(uri);
-  if (/^[a-z][a-z0-9+.-]*:|^\/|^\\/i.test(path)) throw new GltfError('gltf/missing-resource', `${source.name} names "${uri}": only files beside the document are read.`, { location: { file: source.name } });
+  if (/^[a-z][a-z0-9+.-]*:|^\/|^\\/i.test(path))
+    throw new GltfError(
+      'gltf/missing-resource',
+      `${source.name} names "${uri}": only files beside the document are read.`,
+      { location: { file: source.name } },
+    );
   return source.read(path, signal);
 }

@@ -8,7 +8,8 @@ const WORTH_SENDING = 20_000;
 
 /** The meshes that the nodes of a scene name; those of all nodes if no scene is shown. */
 function meshesShown({ scenes, nodes = [] }: GltfJson, shown: number | undefined): Set<number> {
-  const meshes = new Set<number>(), seen = new Set<number>();
+  const meshes = new Set<number>(),
+    seen = new Set<number>();
   const pending = [...(shown === undefined ? nodes.keys() : (scenes?.[shown]?.nodes ?? []))];
   for (let index = pending.pop(); index !== undefined; index = pending.pop()) {
     if (seen.has(index)) continue;
@@ -21,13 +22,23 @@ function meshesShown({ scenes, nodes = [] }: GltfJson, shown: number | undefined
 }
 
 /**
- * Lets workers unpack the compressed primitives of a scene, several at a time, before they are read. What does not work is
- * left to the reader.
+ * Lets workers unpack the compressed primitives of a scene, several at a time, before they are read. What does not work
+ * is left to the reader.
  *
  * @throws {GltfError} `gltf/too-large`
  */
-export async function unpackAhead(json: GltfJson, shown: number | undefined, reader: PrimitiveReader, workers: DracoWorkers): Promise<void> {
-  const found: { readonly primitive: GltfPrimitive; readonly path: string; readonly bytes: Uint8Array; readonly attributes: readonly DracoAttribute[] }[] = [];
+export async function unpackAhead(
+  json: GltfJson,
+  shown: number | undefined,
+  reader: PrimitiveReader,
+  workers: DracoWorkers,
+): Promise<void> {
+  const found: {
+    readonly primitive: GltfPrimitive;
+    readonly path: string;
+    readonly bytes: Uint8Array;
+    readonly attributes: readonly DracoAttribute[];
+  }[] = [];
   let packedBytes = 0;
   for (const mesh of meshesShown(json, shown)) {
     json.meshes?.[mesh]?.primitives.forEach((primitive, at) => {
@@ -35,7 +46,12 @@ export async function unpackAhead(json: GltfJson, shown: number | undefined, rea
       if (!packed) return;
       try {
         const bytes = reader.viewBytes(packed.bufferView);
-        found.push({ primitive, path: `/meshes/${mesh}/primitives/${at}/extensions/KHR_draco_mesh_compression`, bytes, attributes: dracoAttributes(primitive, reader) });
+        found.push({
+          primitive,
+          path: `/meshes/${mesh}/primitives/${at}/extensions/KHR_draco_mesh_compression`,
+          bytes,
+          attributes: dracoAttributes(primitive, reader),
+        });
         packedBytes += bytes.length;
       } catch {
         // Told where it is read.
@@ -49,7 +65,11 @@ export async function unpackAhead(json: GltfJson, shown: number | undefined, rea
     found.map(async ({ primitive, path, bytes, attributes }) => {
       const unpacked = await workers.unpack(bytes, attributes, reader.budget.left);
       if (!unpacked) return;
-      reader.budget.take(unpacked.indices.byteLength + [...unpacked.attributes.values()].reduce((sum, { numbers }) => sum + numbers.byteLength, 0), path);
+      reader.budget.take(
+        unpacked.indices.byteLength +
+          [...unpacked.attributes.values()].reduce((sum, { numbers }) => sum + numbers.byteLength, 0),
+        path,
+      );
       reader.ahead.set(primitive, unpacked);
     }),
   );

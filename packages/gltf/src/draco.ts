@@ -25,7 +25,13 @@ interface DracoDecoder {
   GetEncodedGeometryType(buffer: object): number;
   DecodeBufferToMesh(buffer: object, mesh: DracoMesh): object & { ok(): boolean; error_msg(): string };
   GetAttributeByUniqueId(mesh: DracoMesh, id: number): object & { ptr: number; num_components(): number };
-  GetAttributeDataArrayForAllPoints(mesh: DracoMesh, attribute: object, type: number, bytes: number, address: number): boolean;
+  GetAttributeDataArrayForAllPoints(
+    mesh: DracoMesh,
+    attribute: object,
+    type: number,
+    bytes: number,
+    address: number,
+  ): boolean;
   GetTrianglesUInt32Array(mesh: DracoMesh, bytes: number, address: number): boolean;
 }
 
@@ -49,7 +55,10 @@ export interface DracoPrimitive {
 export type DracoAttribute = readonly [semantic: string, id: number, accessor: GltfAccessor];
 
 /** The floats of an unpacked attribute, as `Accessors.floats` gives them. */
-export const dracoFloats = ({ numbers, accessor }: { readonly numbers: Numbers; readonly accessor: GltfAccessor }, size: number): Float32Array<ArrayBuffer> =>
+export const dracoFloats = (
+  { numbers, accessor }: { readonly numbers: Numbers; readonly accessor: GltfAccessor },
+  size: number,
+): Float32Array<ArrayBuffer> =>
   toFloats(numbers, accessor.componentType, accessor.normalized ?? false, ELEMENT_SIZE[accessor.type] as number, size);
 
 /**
@@ -60,12 +69,21 @@ export const dracoFloats = ({ numbers, accessor }: { readonly numbers: Numbers; 
  * @param checkSize Told the bytes that come out before they are allocated; may throw.
  * @throws {Error} if the data are broken.
  */
-export function unpackDraco(module: unknown, bytes: Uint8Array, attributes: readonly DracoAttribute[], checkSize: (bytes: number) => void): DracoPrimitive {
+export function unpackDraco(
+  module: unknown,
+  bytes: Uint8Array,
+  attributes: readonly DracoAttribute[],
+  checkSize: (bytes: number) => void,
+): DracoPrimitive {
   const draco = module as DracoModule;
   const buffer = new draco.DecoderBuffer();
   const decoder = new draco.Decoder();
   const mesh = new draco.Mesh();
-  const read = <T extends Numbers>(Type: { new (buffer: ArrayBuffer): T; readonly BYTES_PER_ELEMENT: number }, count: number, fill: (length: number, address: number) => boolean): T => {
+  const read = <T extends Numbers>(
+    Type: { new (buffer: ArrayBuffer): T; readonly BYTES_PER_ELEMENT: number },
+    count: number,
+    fill: (length: number, address: number) => boolean,
+  ): T => {
     const length = count * Type.BYTES_PER_ELEMENT;
     const address = draco._malloc(length);
     try {
@@ -80,17 +98,28 @@ export function unpackDraco(module: unknown, bytes: Uint8Array, attributes: read
     if (decoder.GetEncodedGeometryType(buffer) !== draco.TRIANGULAR_MESH) throw new Error('it is no mesh of triangles');
     const status = decoder.DecodeBufferToMesh(buffer, mesh);
     if (!status.ok() || mesh.ptr === 0) throw new Error(status.error_msg() || 'it is broken');
-    const vertices = mesh.num_points(), faces = mesh.num_faces();
+    const vertices = mesh.num_points(),
+      faces = mesh.num_faces();
     checkSize(12 * faces);
-    const indices = read<Uint32Array<ArrayBuffer>>(Uint32Array, 3 * faces, (length, address) => decoder.GetTrianglesUInt32Array(mesh, length, address));
+    const indices = read<Uint32Array<ArrayBuffer>>(Uint32Array, 3 * faces, (length, address) =>
+      decoder.GetTrianglesUInt32Array(mesh, length, address),
+    );
     const found = new Map<string, { numbers: Numbers; accessor: GltfAccessor }>();
     for (const [semantic, id, accessor] of attributes) {
       const attribute = decoder.GetAttributeByUniqueId(mesh, id);
       const size = ELEMENT_SIZE[accessor.type] as number;
-      if (attribute.ptr === 0 || attribute.num_components() !== size) throw new Error(`it has no attribute ${id} of ${accessor.type} for ${semantic}`);
+      if (attribute.ptr === 0 || attribute.num_components() !== size)
+        throw new Error(`it has no attribute ${id} of ${accessor.type} for ${semantic}`);
       const [type, Type] = TYPES[accessor.componentType as keyof typeof TYPES];
       checkSize(vertices * size * Type.BYTES_PER_ELEMENT);
-      found.set(semantic, { accessor, numbers: read<Numbers>(Type as { new (buffer: ArrayBuffer): Numbers; readonly BYTES_PER_ELEMENT: number }, vertices * size, (length, address) => decoder.GetAttributeDataArrayForAllPoints(mesh, attribute, draco[type], length, address)) });
+      found.set(semantic, {
+        accessor,
+        numbers: read<Numbers>(
+          Type as { new (buffer: ArrayBuffer): Numbers; readonly BYTES_PER_ELEMENT: number },
+          vertices * size,
+          (length, address) => decoder.GetAttributeDataArrayForAllPoints(mesh, attribute, draco[type], length, address),
+        ),
+      });
     }
     return { vertices, indices, attributes: found };
   } finally {

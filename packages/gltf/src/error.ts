@@ -8,11 +8,11 @@ export const oneLine = (text: string): string => {
 
 /**
  * Thrown by the loaders. Codes: `gltf/not-gltf` (neither a glTF document nor a GLB), `gltf/truncated`, `gltf/version`,
- * `gltf/malformed` (parts that contradict the specification), `gltf/missing-resource` (a file that the document names is
- * not there), `gltf/unsupported-extension` (one that the document requires), `gltf/missing-decoder` (an optional package
- * is needed), `gltf/too-large` (more than the limits allow), `gltf/no-such-part` (a scene or an animation that was asked for),
- * `gltf/no-triangles`, `gltf/picture` (from a decoder of pictures: a load
- * goes on without it), `gltf/worker` (the worker of `loadGltfInWorker` cannot be started).
+ * `gltf/malformed` (parts that contradict the specification), `gltf/missing-resource` (a file that the document names
+ * is not there), `gltf/unsupported-extension` (one that the document requires), `gltf/missing-decoder` (an optional
+ * package is needed), `gltf/too-large` (more than the limits allow), `gltf/no-such-part` (a scene or an animation that
+ * was asked for), `gltf/no-triangles`, `gltf/picture` (from a decoder of pictures: a load goes on without it),
+ * `gltf/worker` (the worker of `loadGltfInWorker` cannot be started).
  */
 export class GltfError extends GlanzError {
   constructor(code: string, message: string, options: GlanzErrorOptions = {}) {

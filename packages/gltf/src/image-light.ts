@@ -1,5 +1,5 @@
-// EXT_lights_image_based: a cube of six pictures around the scene. Its blurred levels and its spherical harmonics are for
-// renderers that cannot integrate; here the sharpest level becomes a lat-long picture, which is what scenes hold.
+// EXT_lights_image_based: a cube of six pictures around the scene. Its blurred levels and its spherical harmonics are
+// for renderers that cannot integrate; here the sharpest level becomes a lat-long picture, which is what scenes hold.
 import type { LatLongEnvironment } from '@glanz/scene';
 import type { DecodedImage } from './images';
 import type { GltfImageLight } from './json';
@@ -14,11 +14,17 @@ const TURN = 8;
 
 /** The six pictures of the sharpest level that is not too large. */
 export function facesOf({ specularImages, specularImageSize = 0 }: GltfImageLight): readonly number[] {
-  const level = Math.min(Math.max(0, Math.ceil(Math.log2(specularImageSize / LARGEST_FACE))), specularImages.length - 1);
+  const level = Math.min(
+    Math.max(0, Math.ceil(Math.log2(specularImageSize / LARGEST_FACE))),
+    specularImages.length - 1,
+  );
   return specularImages[level] as readonly number[];
 }
 
-/** Radiance of the texels of a face: RGBD where a PNG has an alpha channel, which divides the colour, else plain colours. */
+/**
+ * Radiance of the texels of a face: RGBD where a PNG has an alpha channel, which divides the colour, else plain
+ * colours.
+ */
 function decodeFace({ data }: DecodedImage): Float32Array {
   const curve = Float32Array.from({ length: 256 }, (_, code) => srgbToLinear(code / 255));
   const texels = new Float32Array((data.length / 4) * 3);
@@ -33,7 +39,11 @@ function decodeFace({ data }: DecodedImage): Float32Array {
  * Makes the surroundings of a light's six faces (+X, −X, +Y, −Y, +Z, −Z, each as seen from within, upright, in glTF's
  * right-handed space). Lets others have the thread every few milliseconds.
  */
-export async function environmentOf({ rotation = [0, 0, 0, 1], intensity = 1 }: GltfImageLight, faces: readonly DecodedImage[], signal: AbortSignal | undefined): Promise<LatLongEnvironment> {
+export async function environmentOf(
+  { rotation = [0, 0, 0, 1], intensity = 1 }: GltfImageLight,
+  faces: readonly DecodedImage[],
+  signal: AbortSignal | undefined,
+): Promise<LatLongEnvironment> {
   const size = Math.max(...faces.map(({ width }) => width));
   const [width, height] = [4 * size, 2 * size];
   const data = new Float32Array(3 * width * height);
@@ -51,7 +61,16 @@ export async function environmentOf({ rotation = [0, 0, 0, 1], intensity = 1 }: 
     for (let x = 0; x < width; x++, o += 3) {
       const azimuth = 2 * Math.PI * ((x + 0.5) / width - 0.5);
       // The light is turned by q, so the picture is looked up in the direction turned back.
-      turnBack(direction, Math.sin(polar) * Math.cos(azimuth), Math.cos(polar), Math.sin(polar) * Math.sin(azimuth), qx, qy, qz, qw);
+      turnBack(
+        direction,
+        Math.sin(polar) * Math.cos(azimuth),
+        Math.cos(polar),
+        Math.sin(polar) * Math.sin(azimuth),
+        qx,
+        qy,
+        qz,
+        qw,
+      );
       lookUp(data, o, direction, faces, pixels);
     }
   }
@@ -59,16 +78,35 @@ export async function environmentOf({ rotation = [0, 0, 0, 1], intensity = 1 }: 
 }
 
 /** The vector turned by the inverse of a unit quaternion. */
-function turnBack(out: Float64Array, x: number, y: number, z: number, qx: number, qy: number, qz: number, qw: number): void {
-  const tx = 2 * (y * qz - z * qy), ty = 2 * (z * qx - x * qz), tz = 2 * (x * qy - y * qx);
+function turnBack(
+  out: Float64Array,
+  x: number,
+  y: number,
+  z: number,
+  qx: number,
+  qy: number,
+  qz: number,
+  qw: number,
+): void {
+  const tx = 2 * (y * qz - z * qy),
+    ty = 2 * (z * qx - x * qz),
+    tz = 2 * (x * qy - y * qx);
   out[0] = x + qw * tx + (ty * qz - tz * qy);
   out[1] = y + qw * ty + (tz * qx - tx * qz);
   out[2] = z + qw * tz + (tx * qy - ty * qx);
 }
 
 /** Bilinear within the face that the direction meets. */
-function lookUp(out: Float32Array, at: number, d: Float64Array, faces: readonly DecodedImage[], pixels: readonly Float32Array[]): void {
-  const x = d[0] as number, y = d[1] as number, z = d[2] as number;
+function lookUp(
+  out: Float32Array,
+  at: number,
+  d: Float64Array,
+  faces: readonly DecodedImage[],
+  pixels: readonly Float32Array[],
+): void {
+  const x = d[0] as number,
+    y = d[1] as number,
+    z = d[2] as number;
   const [ax, ay, az] = [Math.abs(x), Math.abs(y), Math.abs(z)];
   // Right and down of each face, as one looks at it with +Y up (for ±Y: with the top of the picture towards −Z and +Z).
   let face: number, u: number, v: number;
@@ -77,11 +115,16 @@ function lookUp(out: Float32Array, at: number, d: Float64Array, faces: readonly 
   else [face, u, v] = z > 0 ? [4, -x / az, -y / az] : [5, x / az, -y / az];
   const { width, height } = faces[face] as DecodedImage;
   const texels = pixels[face] as Float32Array;
-  const fx = Math.min(Math.max(((u + 1) / 2) * width - 0.5, 0), width - 1), fy = Math.min(Math.max(((v + 1) / 2) * height - 0.5, 0), height - 1);
-  const x0 = Math.floor(fx), y0 = Math.floor(fy), x1 = Math.min(x0 + 1, width - 1), y1 = Math.min(y0 + 1, height - 1);
+  const fx = Math.min(Math.max(((u + 1) / 2) * width - 0.5, 0), width - 1),
+    fy = Math.min(Math.max(((v + 1) / 2) * height - 0.5, 0), height - 1);
+  const x0 = Math.floor(fx),
+    y0 = Math.floor(fy),
+    x1 = Math.min(x0 + 1, width - 1),
+    y1 = Math.min(y0 + 1, height - 1);
   for (let k = 0; k < 3; k++) {
     const texel = (i: number, j: number) => texels[3 * (j * width + i) + k] as number;
-    const top = texel(x0, y0) * (1 - fx + x0) + texel(x1, y0) * (fx - x0), bottom = texel(x0, y1) * (1 - fx + x0) + texel(x1, y1) * (fx - x0);
+    const top = texel(x0, y0) * (1 - fx + x0) + texel(x1, y0) * (fx - x0),
+      bottom = texel(x0, y1) * (1 - fx + x0) + texel(x1, y1) * (fx - x0);
     out[at + k] = top * (1 - fy + y0) + bottom * (fy - y0);
   }
 }

@@ -1,5 +1,13 @@
 import type { GltfPictureConversion } from '@glanz/openpbr/gltf';
-import { GlanzError, type CompressedFormat, type CompressedImage, type Image, type SceneWarning, type Texture, type WrapMode } from '@glanz/scene';
+import {
+  GlanzError,
+  type CompressedFormat,
+  type CompressedImage,
+  type Image,
+  type SceneWarning,
+  type Texture,
+  type WrapMode,
+} from '@glanz/scene';
 import { namedImage } from './browser-images';
 import { convertImage, type DerivedPicture } from './convert-image';
 import { readUri } from './document';
@@ -15,7 +23,10 @@ export interface DecodedImage {
   readonly width: number;
   readonly height: number;
   readonly data: Uint8Array<ArrayBuffer> | Uint8ClampedArray<ArrayBuffer>;
-  /** The same as a bitmap, straight alpha, no colour conversion, where the browser has one. See `Image.bitmap` of `@glanz/scene`. */
+  /**
+   * The same as a bitmap, straight alpha, no colour conversion, where the browser has one. See `Image.bitmap` of
+   * `@glanz/scene`.
+   */
   readonly bitmap?: ImageBitmap;
   /** The same in blocks, as GPUs read it. See `Image.compressed` of `@glanz/scene`. */
   readonly compressed?: CompressedImage;
@@ -25,10 +36,13 @@ export interface DecodedImage {
 export type ImageDecoder = (bytes: Uint8Array<ArrayBuffer>, mimeType: string) => Promise<DecodedImage>;
 
 /**
- * Turns the bytes of a KTX2 file into pixels, or into blocks in one of `formats` (what the GPU reads, the best first) with the
- * pixels to be had when they are asked for.
+ * Turns the bytes of a KTX2 file into pixels, or into blocks in one of `formats` (what the GPU reads, the best first)
+ * with the pixels to be had when they are asked for.
  */
-export type Ktx2Decoder = (bytes: Uint8Array<ArrayBuffer>, formats?: readonly CompressedFormat[]) => Promise<DecodedImage>;
+export type Ktx2Decoder = (
+  bytes: Uint8Array<ArrayBuffer>,
+  formats?: readonly CompressedFormat[],
+) => Promise<DecodedImage>;
 
 /** Formats that the GPU reads; or what tells them, asked at the first picture that could have one. */
 export type CompressedFormats = readonly CompressedFormat[] | (() => Promise<readonly CompressedFormat[]>);
@@ -44,7 +58,8 @@ const WRAP: Readonly<Record<number, WrapMode>> = { 33071: 'clamp', 33648: 'mirro
 const NEAREST = 9728;
 
 /** A picture of the scene: one of the document's, or one made of some (none where the document has none). */
-type Picture = { readonly image: number } | { readonly sources: readonly (number | undefined)[]; readonly derived: DerivedPicture };
+type Picture =
+  { readonly image: number } | { readonly sources: readonly (number | undefined)[]; readonly derived: DerivedPicture };
 
 const white = (): DecodedImage => ({ width: 1, height: 1, data: new Uint8Array([255, 255, 255, 255]) });
 
@@ -67,7 +82,13 @@ export class TextureTable {
   readonly #ktx2: Ktx2Decoder | undefined;
   readonly #formats: () => Promise<readonly CompressedFormat[]>;
 
-  constructor(json: GltfJson, source: Source, warnings: SceneWarning[], ktx2?: Ktx2Decoder, formats: CompressedFormats = []) {
+  constructor(
+    json: GltfJson,
+    source: Source,
+    warnings: SceneWarning[],
+    ktx2?: Ktx2Decoder,
+    formats: CompressedFormats = [],
+  ) {
     this.#json = json;
     this.#source = source;
     this.#warnings = warnings;
@@ -76,7 +97,9 @@ export class TextureTable {
     this.#formats = () => (told ??= typeof formats === 'function' ? formats() : Promise.resolve(formats));
   }
 
-  /** The scene's texture for one of the document's, read as `colorSpace`; undefined (with a warning) if there is none. */
+  /**
+   * The scene's texture for one of the document's, read as `colorSpace`; undefined (with a warning) if there is none.
+   */
   get(index: number, colorSpace: 'srgb' | 'linear', path: string): number | undefined {
     return this.#once(`${index} ${colorSpace}`, () => {
       const image = this.#imageOf(index, path);
@@ -84,14 +107,25 @@ export class TextureTable {
     });
   }
 
-  /** A texture whose picture is made of the document's; it is read as the first of them is. Undefined (with a warning) if there is none. */
-  derive({ key, sources, convert }: GltfPictureConversion, colorSpace: 'srgb' | 'linear', path: string): number | undefined {
+  /**
+   * A texture whose picture is made of the document's; it is read as the first of them is. Undefined (with a warning)
+   * if there is none.
+   */
+  derive(
+    { key, sources, convert }: GltfPictureConversion,
+    colorSpace: 'srgb' | 'linear',
+    path: string,
+  ): number | undefined {
     const [first] = sources;
     if (!first) return undefined;
     return this.#once(`${first.index} ${colorSpace} ${key} ${sources.map(({ index }) => index)}`, () => {
       const images = sources.map(({ index }) => this.#imageOf(index, path));
       if (images.every((image) => image === undefined)) return undefined;
-      return this.#add(first.index, colorSpace, this.#place(`${colorSpace} ${key} ${images}`, { sources: images, derived: { colorSpace, convert } }));
+      return this.#add(
+        first.index,
+        colorSpace,
+        this.#place(`${colorSpace} ${key} ${images}`, { sources: images, derived: { colorSpace, convert } }),
+      );
     });
   }
 
@@ -107,8 +141,16 @@ export class TextureTable {
     const texture = this.#json.textures?.[index];
     const image = sourceOf(texture, this.#ktx2 !== undefined);
     if (texture && image !== undefined && this.#json.images?.[image]) return image;
-    const why = texture ? (image === undefined ? 'has no picture in a format that is read' : `names image ${image}, which does not exist`) : 'does not exist';
-    this.#warnings.push({ code: 'gltf/texture', message: `${this.#source.name}: texture ${index} ${why}; it is left out.`, path });
+    const why = texture
+      ? image === undefined
+        ? 'has no picture in a format that is read'
+        : `names image ${image}, which does not exist`
+      : 'does not exist';
+    this.#warnings.push({
+      code: 'gltf/texture',
+      message: `${this.#source.name}: texture ${index} ${why}; it is left out.`,
+      path,
+    });
     return undefined;
   }
 
@@ -148,44 +190,81 @@ export class TextureTable {
    * Reads and decodes one of the document's pictures; undefined, with a warning, for one that cannot be decoded.
    * @throws {GltfError} as {@link readImages}.
    */
-  async readImage(index: number, decode: ImageDecoder, viewBytes: (index: number) => Uint8Array<ArrayBuffer>, budget: Budget, signal: AbortSignal | undefined): Promise<DecodedImage | undefined> {
+  async readImage(
+    index: number,
+    decode: ImageDecoder,
+    viewBytes: (index: number) => Uint8Array<ArrayBuffer>,
+    budget: Budget,
+    signal: AbortSignal | undefined,
+  ): Promise<DecodedImage | undefined> {
     signal?.throwIfAborted();
     const image = this.#json.images?.[index] as GltfImage;
-    const bytes = image.uri === undefined ? viewBytes(image.bufferView ?? -1) : await readUri(image.uri, this.#source, signal);
+    const bytes =
+      image.uri === undefined ? viewBytes(image.bufferView ?? -1) : await readUri(image.uri, this.#source, signal);
     try {
       const type = pictureType(bytes);
       const declared = wrongType(image, type);
-      if (declared !== undefined) this.#notes.set(index, { code: 'gltf/image', message: `${this.#source.name}: image ${index} ("${this.#nameOf(index)}") says that it is ${declared}, but its bytes are ${type}; the bytes count.`, path: `/images/${index}` });
-      if (type === 'image/ktx2' && !this.#ktx2) throw new GltfError('gltf/missing-decoder', `${this.#source.name} has pictures in KTX2: pass decoders.ktx2, for which the package "three" has the transcoder.`, { location: { file: this.#source.name, path: `/images/${index}` } });
+      if (declared !== undefined)
+        this.#notes.set(index, {
+          code: 'gltf/image',
+          message: `${this.#source.name}: image ${index} ("${this.#nameOf(index)}") says that it is ${declared}, but its bytes are ${type}; the bytes count.`,
+          path: `/images/${index}`,
+        });
+      if (type === 'image/ktx2' && !this.#ktx2)
+        throw new GltfError(
+          'gltf/missing-decoder',
+          `${this.#source.name} has pictures in KTX2: pass decoders.ktx2, for which the package "three" has the transcoder.`,
+          { location: { file: this.#source.name, path: `/images/${index}` } },
+        );
       // Before a decoder allocates anything.
       const said = pictureSize(bytes, type);
       if (said) budget.take(4 * said.width * said.height, `/images/${index}`);
-      const decoded = type === 'image/ktx2' ? await (this.#ktx2 as Ktx2Decoder)(bytes, await this.#formats()) : await decode(bytes, type);
+      const decoded =
+        type === 'image/ktx2'
+          ? await (this.#ktx2 as Ktx2Decoder)(bytes, await this.#formats())
+          : await decode(bytes, type);
       if (!said) budget.take(4 * decoded.width * decoded.height, `/images/${index}`);
       return decoded;
     } catch (error) {
       // A decoder that does not start is of another package.
       if (error instanceof GlanzError && error.code !== 'gltf/picture') throw error;
-      this.#notes.set(index, { code: 'gltf/image', message: `${this.#source.name}: image ${index} ("${this.#nameOf(index)}") cannot be decoded and is left out: ${error instanceof Error ? error.message.split('\n')[0] : String(error)}.`, path: `/images/${index}` });
+      this.#notes.set(index, {
+        code: 'gltf/image',
+        message: `${this.#source.name}: image ${index} ("${this.#nameOf(index)}") cannot be decoded and is left out: ${error instanceof Error ? error.message.split('\n')[0] : String(error)}.`,
+        path: `/images/${index}`,
+      });
       return undefined;
     }
   }
 
   /**
-   * Reads and decodes the pictures asked for, some at a time. One that cannot be decoded goes into {@link failed}, with a warning.
+   * Reads and decodes the pictures asked for, some at a time. One that cannot be decoded goes into {@link failed}, with
+   * a warning.
    * @param viewBytes Bytes of a buffer view.
    * @param budget Told the bytes of each picture.
    * @throws {GltfError} `gltf/missing-resource` for a file that is not there.
    */
-  async readImages(decode: ImageDecoder, viewBytes: (index: number) => Uint8Array<ArrayBuffer>, budget: Budget, signal: AbortSignal | undefined, onImage: () => void): Promise<Image[]> {
+  async readImages(
+    decode: ImageDecoder,
+    viewBytes: (index: number) => Uint8Array<ArrayBuffer>,
+    budget: Budget,
+    signal: AbortSignal | undefined,
+    onImage: () => void,
+  ): Promise<Image[]> {
     const read = (index: number) => this.readImage(index, decode, viewBytes, budget, signal);
     const wanted = this.shownImages;
-    // The first ones begin before this returns, so that decoders, which have threads of their own, are at work while geometry is read.
+    // The first ones begin before this returns, so that decoders, which have threads of their own, are at work while
+    // geometry is read.
     const decoding = new Map<number, Promise<DecodedImage | undefined>>();
     for (const [at, index] of wanted.entries()) {
       const before = decoding.get(wanted[at - AT_A_TIME] ?? -1);
       // Whoever waits for one hears of its error; the others go on.
-      const promise = before ? before.then(() => read(index), () => read(index)) : read(index);
+      const promise = before
+        ? before.then(
+            () => read(index),
+            () => read(index),
+          )
+        : read(index);
       promise.catch(() => undefined);
       decoding.set(index, promise);
     }
@@ -197,7 +276,8 @@ export class TextureTable {
         images.push(namedImage(this.#nameOf(picture.image), decoded ?? white()));
       } else {
         const sources: DecodedImage[] = [];
-        for (const index of picture.sources) sources.push((index === undefined ? undefined : await decoding.get(index)) ?? white());
+        for (const index of picture.sources)
+          sources.push((index === undefined ? undefined : await decoding.get(index)) ?? white());
         const name = picture.sources.flatMap((index) => (index === undefined ? [] : [this.#nameOf(index)])).join(' + ');
         images.push({ name, ...(await convertImage(sources, picture.derived, signal)) });
       }
@@ -208,7 +288,9 @@ export class TextureTable {
 
   /** The document's images that materials show. */
   get shownImages(): number[] {
-    const all = this.#pictures.flatMap((picture) => ('image' in picture ? [picture.image] : picture.sources.filter((index) => index !== undefined)));
+    const all = this.#pictures.flatMap((picture) =>
+      'image' in picture ? [picture.image] : picture.sources.filter((index) => index !== undefined),
+    );
     return [...new Set(all)];
   }
 

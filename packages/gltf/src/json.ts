@@ -1,6 +1,11 @@
 /** The parts of a glTF 2.0 document that are read, as they are once the document has been checked. */
 export interface GltfJson {
-  readonly asset: { readonly version: string; readonly minVersion?: string; readonly copyright?: string; readonly generator?: string };
+  readonly asset: {
+    readonly version: string;
+    readonly minVersion?: string;
+    readonly copyright?: string;
+    readonly generator?: string;
+  };
   readonly buffers?: readonly { readonly uri?: string; readonly byteLength: number; readonly extensions?: unknown }[];
   readonly bufferViews?: readonly GltfBufferView[];
   readonly accessors?: readonly GltfAccessor[];
@@ -10,8 +15,17 @@ export interface GltfJson {
   readonly cameras?: readonly GltfCamera[];
   readonly animations?: readonly GltfAnimation[];
   readonly scene?: number;
-  readonly scenes?: readonly { readonly name?: string; readonly nodes?: readonly number[]; readonly extensions?: { readonly EXT_lights_image_based?: { readonly light: number } } }[];
-  readonly extensions?: { readonly KHR_lights_punctual?: { readonly lights: readonly GltfLight[] }; readonly KHR_materials_variants?: { readonly variants: readonly { readonly name?: string }[] }; readonly EXT_lights_image_based?: { readonly lights: readonly (GltfImageLight | undefined)[] }; readonly KHR_xmp_json_ld?: { readonly packets: readonly unknown[] } };
+  readonly scenes?: readonly {
+    readonly name?: string;
+    readonly nodes?: readonly number[];
+    readonly extensions?: { readonly EXT_lights_image_based?: { readonly light: number } };
+  }[];
+  readonly extensions?: {
+    readonly KHR_lights_punctual?: { readonly lights: readonly GltfLight[] };
+    readonly KHR_materials_variants?: { readonly variants: readonly { readonly name?: string }[] };
+    readonly EXT_lights_image_based?: { readonly lights: readonly (GltfImageLight | undefined)[] };
+    readonly KHR_xmp_json_ld?: { readonly packets: readonly unknown[] };
+  };
   readonly images?: readonly GltfImage[];
   readonly textures?: readonly GltfTexture[];
   readonly samplers?: readonly GltfSampler[];
@@ -25,7 +39,10 @@ export interface GltfBufferView {
   readonly byteOffset?: number;
   readonly byteLength: number;
   readonly byteStride?: number;
-  readonly extensions?: { readonly EXT_meshopt_compression?: GltfMeshopt; readonly KHR_meshopt_compression?: GltfMeshopt };
+  readonly extensions?: {
+    readonly EXT_meshopt_compression?: GltfMeshopt;
+    readonly KHR_meshopt_compression?: GltfMeshopt;
+  };
 }
 
 /** What a compressed buffer view is unpacked from. */
@@ -60,8 +77,13 @@ export interface GltfPrimitive {
   readonly mode?: number;
   readonly targets?: readonly { readonly [semantic: string]: number }[];
   readonly extensions?: {
-    readonly KHR_draco_mesh_compression?: { readonly bufferView: number; readonly attributes: { readonly [semantic: string]: number } };
-    readonly KHR_materials_variants?: { readonly mappings: readonly { readonly material: number; readonly variants: readonly number[] }[] };
+    readonly KHR_draco_mesh_compression?: {
+      readonly bufferView: number;
+      readonly attributes: { readonly [semantic: string]: number };
+    };
+    readonly KHR_materials_variants?: {
+      readonly mappings: readonly { readonly material: number; readonly variants: readonly number[] }[];
+    };
   };
 }
 
@@ -86,7 +108,10 @@ export interface GltfNode {
     readonly KHR_lights_punctual?: { readonly light: number };
     readonly KHR_node_visibility?: { readonly visible?: boolean };
     /** `count` is put in when the document is checked: the entries of its attributes. */
-    readonly EXT_mesh_gpu_instancing?: { readonly attributes: { readonly [semantic: string]: number }; readonly count: number };
+    readonly EXT_mesh_gpu_instancing?: {
+      readonly attributes: { readonly [semantic: string]: number };
+      readonly count: number;
+    };
   };
 }
 
@@ -118,7 +143,10 @@ export interface GltfImageLight {
 
 export interface GltfAnimation {
   readonly name?: string;
-  readonly channels: readonly { readonly sampler: number; readonly target: { readonly node: number; readonly path: string } }[];
+  readonly channels: readonly {
+    readonly sampler: number;
+    readonly target: { readonly node: number; readonly path: string };
+  }[];
   readonly samplers: readonly { readonly input: number; readonly output: number; readonly interpolation: string }[];
   /** KHR_animation_pointer: what moves, as the parts of a JSON pointer. */
   readonly pointers?: readonly { readonly sampler: number; readonly path: readonly string[] }[];
@@ -150,7 +178,14 @@ export interface GltfTextureInfo {
   readonly texCoord?: number;
   /** Normal textures. */
   readonly scale?: number;
-  readonly extensions?: { readonly KHR_texture_transform?: { readonly offset?: readonly number[]; readonly rotation?: number; readonly scale?: readonly number[]; readonly texCoord?: number } };
+  readonly extensions?: {
+    readonly KHR_texture_transform?: {
+      readonly offset?: readonly number[];
+      readonly rotation?: number;
+      readonly scale?: readonly number[];
+      readonly texCoord?: number;
+    };
+  };
 }
 
 export interface GltfMaterial {

@@ -17,14 +17,27 @@ interface Ktx2File {
   isUASTC(): boolean;
   startTranscoding(): boolean;
   getImageTranscodedSizeInBytes(level: number, layer: number, face: number, format: number): number;
-  transcodeImage(target: Uint8Array, level: number, layer: number, face: number, format: number, alphaForOpaque: number, channel0: number, channel1: number): boolean;
+  transcodeImage(
+    target: Uint8Array,
+    level: number,
+    layer: number,
+    face: number,
+    format: number,
+    alphaForOpaque: number,
+    channel0: number,
+    channel1: number,
+  ): boolean;
   close(): void;
   delete(): void;
 }
 
 /** The transcoder's numbers: RGBA of 8 bits, and what GPUs read. */
 const RGBA32 = 13;
-const TARGETS: Readonly<Record<CompressedFormat, number>> = { 'bc7-rgba-unorm': 6, 'astc-4x4-unorm': 10, 'etc2-rgba8unorm': 1 };
+const TARGETS: Readonly<Record<CompressedFormat, number>> = {
+  'bc7-rgba-unorm': 6,
+  'astc-4x4-unorm': 10,
+  'etc2-rgba8unorm': 1,
+};
 const HEADER_BYTES = 80;
 
 const broken = (what: string) => new GltfError('gltf/picture', `The KTX2 picture cannot be decoded: ${what}.`);
@@ -69,19 +82,30 @@ function checkHeader(bytes: Uint8Array): { readonly width: number; readonly heig
   const [width, height] = [view.getUint32(20, true), view.getUint32(24, true)];
   if (width < 1 || height < 1 || width > 32768 || height > 32768) throw broken(`its size is ${width} × ${height}`);
   const [depth, layers, faces] = [28, 32, 36].map((at) => view.getUint32(at, true));
-  if (depth !== 0 || layers !== 0 || faces !== 1) throw broken('it is no plain picture, but one with depth, layers or faces');
-  if (4 * width * height > MOST_RATIO * bytes.length + 65536) throw broken(`it says that ${bytes.length} bytes hold ${width} × ${height} pixels`);
+  if (depth !== 0 || layers !== 0 || faces !== 1)
+    throw broken('it is no plain picture, but one with depth, layers or faces');
+  if (4 * width * height > MOST_RATIO * bytes.length + 65536)
+    throw broken(`it says that ${bytes.length} bytes hold ${width} × ${height} pixels`);
   return { width, height };
 }
 
 /** Opens a picture for as long as it is read. */
-function reading<T>({ KTX2File }: BasisModule, bytes: Uint8Array, width: number, height: number, read: (file: Ktx2File) => T): T {
+function reading<T>(
+  { KTX2File }: BasisModule,
+  bytes: Uint8Array,
+  width: number,
+  height: number,
+  read: (file: Ktx2File) => T,
+): T {
   const file = new KTX2File(bytes);
   try {
-    if (!file.isValid() || file.getWidth() !== width || file.getHeight() !== height || !file.startTranscoding()) throw broken('it is no KTX2 picture of the Basis kinds');
+    if (!file.isValid() || file.getWidth() !== width || file.getHeight() !== height || !file.startTranscoding())
+      throw broken('it is no KTX2 picture of the Basis kinds');
     return read(file);
   } catch (error) {
-    throw error instanceof GltfError ? error : broken(`the transcoder fails: ${error instanceof Error ? error.message : String(error)}`);
+    throw error instanceof GltfError
+      ? error
+      : broken(`the transcoder fails: ${error instanceof Error ? error.message : String(error)}`);
   } finally {
     file.close();
     file.delete();
@@ -107,7 +131,14 @@ function compress(file: Ktx2File, width: number, height: number, format: Compres
   const levels: Uint8Array<ArrayBuffer>[] = [];
   for (let level = 0; level < count; level++) {
     try {
-      levels.push(transcode(file, level, TARGETS[format], compressedBytes(Math.max(1, width >> level), Math.max(1, height >> level))));
+      levels.push(
+        transcode(
+          file,
+          level,
+          TARGETS[format],
+          compressedBytes(Math.max(1, width >> level), Math.max(1, height >> level)),
+        ),
+      );
     } catch (error) {
       // The smaller ones are for speed: a picture is as good as its first.
       if (level === 0) throw error;

@@ -9,7 +9,10 @@ export function readLight(light: GltfLight, nodeName: string, m: Matrix, scene: 
   const axis = [m[8], m[9], m[10]] as [number, number, number];
   const length = Math.hypot(...axis);
   if (!(intensity >= 0 && intensity < Infinity) || !color.every((c) => c >= 0 && c < Infinity) || !(length > 0)) {
-    scene.warnings.push({ code: 'gltf/light', message: `Light "${name}" has an intensity, colour or direction that makes no sense; it is left out.` });
+    scene.warnings.push({
+      code: 'gltf/light',
+      message: `Light "${name}" has an intensity, colour or direction that makes no sense; it is left out.`,
+    });
     return;
   }
   const position = [m[12], m[13], m[14]] as [number, number, number];

@@ -36,15 +36,21 @@ export interface GltfOptions {
   /** Decodes pictures. Default: the browser does; in Node, the package `sharp`. */
   readonly decodeImage?: ImageDecoder | undefined;
   /**
-   * Compressed formats that pictures in KTX2 may stay in, the best first: what `compressedFormats(device)` of `@glanz/renderer`
-   * tells. They take a quarter of the GPU's memory. Default: none, they are unpacked.
+   * Compressed formats that pictures in KTX2 may stay in, the best first: what `compressedFormats(device)` of
+   * `@glanz/renderer` tells. They take a quarter of the GPU's memory. Default: none, they are unpacked.
    */
   readonly compressedFormats?: CompressedFormats | undefined;
-  /** Whether a document without triangles is a scene too (lights, cameras) rather than `gltf/no-triangles`. Default false. */
+  /**
+   * Whether a document without triangles is a scene too (lights, cameras) rather than `gltf/no-triangles`. Default
+   * false.
+   */
   readonly allowEmpty?: boolean | undefined;
   /** Which of the document's scenes, by its index or name. Default: the one that it shows by itself. */
   readonly scene?: number | string | undefined;
-  /** Poses the nodes by an animation, by its index or name. Default: the pose at rest, or the first one where `time` is given. */
+  /**
+   * Poses the nodes by an animation, by its index or name. Default: the pose at rest, or the first one where `time` is
+   * given.
+   */
   readonly animation?: number | string | undefined;
   /** Seconds from the animation's beginning; before its first and after its last key it stands still. Default 0. */
   readonly time?: number | undefined;
@@ -54,7 +60,10 @@ export interface GltfOptions {
 
 /** What {@link loadGltf} may be told. */
 export interface LoadGltfOptions extends GltfOptions {
-  /** Where the files lie that a document given as bytes names, and what a relative address is relative to. Default: the page. */
+  /**
+   * Where the files lie that a document given as bytes names, and what a relative address is relative to. Default: the
+   * page.
+   */
   readonly baseUrl?: string | URL | undefined;
   /** Default: the global `fetch`. */
   readonly fetch?: typeof fetch | undefined;
@@ -62,20 +71,29 @@ export interface LoadGltfOptions extends GltfOptions {
 
 /**
  * Loads a glTF 2.0 document (.gltf or .glb) as a scene: meshes, instances, metallic-roughness materials as OpenPBR,
- * textures, cameras, punctual lights, at rest or in the pose that an animation has at a time. Strips, fans, sparse, quantised and normalised data
- * are resolved. What is broken but can be left out is left out; `scene.warnings` tells.
+ * textures, cameras, punctual lights, at rest or in the pose that an animation has at a time. Strips, fans, sparse,
+ * quantised and normalised data are resolved. What is broken but can be left out is left out; `scene.warnings` tells.
  *
  * @throws {GltfError} See its codes.
  * @example
  * const scene = await loadGltf('models/button.glb', { signal });
  */
 export async function loadGltf(input: GltfInput, options: LoadGltfOptions = {}): Promise<Scene> {
-  const source = await openSource(input, { fetch: options.fetch ?? globalThis.fetch, baseUrl: options.baseUrl, signal: options.signal, maxBytes: options.limits?.fileBytes ?? DEFAULT_LIMITS.fileBytes, onBytes: (done) => options.onProgress?.({ stage: 'read', done: 0.99 * done }) });
+  const source = await openSource(input, {
+    fetch: options.fetch ?? globalThis.fetch,
+    baseUrl: options.baseUrl,
+    signal: options.signal,
+    maxBytes: options.limits?.fileBytes ?? DEFAULT_LIMITS.fileBytes,
+    onBytes: (done) => options.onProgress?.({ stage: 'read', done: 0.99 * done }),
+  });
   return buildScene(source, { ...options, decodeImage: options.decodeImage ?? decodeImageInBrowser });
 }
 
 /** The common part of all loaders. */
-export async function buildScene(source: Source, options: GltfOptions & { readonly decodeImage: ImageDecoder }): Promise<Scene> {
+export async function buildScene(
+  source: Source,
+  options: GltfOptions & { readonly decodeImage: ImageDecoder },
+): Promise<Scene> {
   const { signal, onProgress } = options;
   signal?.throwIfAborted();
   const scene = createScene(source.name);
@@ -98,7 +116,9 @@ export async function buildScene(source: Source, options: GltfOptions & { readon
   let done = 0;
   // Decoders have threads of their own: they are at work while geometry is read here.
   const imageBytes = new Budget(source.name, 'imageBytes', options.limits, reader.bytes);
-  const images = table.readImages(options.decodeImage, reader.viewBytes, imageBytes, signal, () => onProgress?.({ stage: 'images', done: ++done / table.imageCount }));
+  const images = table.readImages(options.decodeImage, reader.viewBytes, imageBytes, signal, () =>
+    onProgress?.({ stage: 'images', done: ++done / table.imageCount }),
+  );
   images.catch(() => undefined);
   await picturesTaken();
   signal?.throwIfAborted();
@@ -108,7 +128,12 @@ export async function buildScene(source: Source, options: GltfOptions & { readon
     await (await import('./draco-ahead')).unpackAhead(json, shown, reader, dracoWorkers);
     signal?.throwIfAborted();
   }
-  const surroundings = readSurroundings(json, shown, (index) => table.readImage(index, options.decodeImage, reader.viewBytes, imageBytes, signal), signal);
+  const surroundings = readSurroundings(
+    json,
+    shown,
+    (index) => table.readImage(index, options.decodeImage, reader.viewBytes, imageBytes, signal),
+    signal,
+  );
   surroundings.catch(() => undefined);
   let fallback: number | undefined;
   readNodes({
@@ -116,21 +141,33 @@ export async function buildScene(source: Source, options: GltfOptions & { readon
     reader,
     scene,
     shown,
-    poses: animation ? posesAt(animation, options.time ?? 0, reader.accessors, (sampler, what) => {
-      const path = `/animations/${checked.json.animations?.indexOf(animation)}/samplers/${sampler}`;
-      scene.warnings.push({ code: 'gltf/animation', message: `${source.name}: ${path} ${what}.`, path });
-    }) : new Map<number, NodePose>(),
+    poses: animation
+      ? posesAt(animation, options.time ?? 0, reader.accessors, (sampler, what) => {
+          const path = `/animations/${checked.json.animations?.indexOf(animation)}/samplers/${sampler}`;
+          scene.warnings.push({ code: 'gltf/animation', message: `${source.name}: ${path} ${what}.`, path });
+        })
+      : new Map<number, NodePose>(),
     instances: new Budget(source.name, 'instances', options.limits),
     defaultMaterial: () => (fallback ??= addMaterial({ name: 'default' })),
     uvSetsOf: (material) => uvSets[material] as UvSets,
   });
-  checkUnreadImages(json, table.shownImages, reader, (path, what) => void scene.warnings.push({ code: 'gltf/image', message: `${source.name}: ${path} ${what}.`, path }));
+  checkUnreadImages(
+    json,
+    table.shownImages,
+    reader,
+    (path, what) => void scene.warnings.push({ code: 'gltf/image', message: `${source.name}: ${path} ${what}.`, path }),
+  );
   const metadata = metadataOf(json);
   if (metadata) scene.metadata = metadata;
   if (json.animations?.length) scene.animations = describeAnimations(json);
   const variants = json.extensions?.KHR_materials_variants?.variants;
   if (variants) scene.variants = variants.map(({ name = '' }) => name);
-  if (scene.instances.length === 0 && !options.allowEmpty) throw new GltfError('gltf/no-triangles', `${source.name} has no triangles in its scene: there is nothing to show.`, { location: { file: source.name } });
+  if (scene.instances.length === 0 && !options.allowEmpty)
+    throw new GltfError(
+      'gltf/no-triangles',
+      `${source.name} has no triangles in its scene: there is nothing to show.`,
+      { location: { file: source.name } },
+    );
   onProgress?.({ stage: 'decode', done: 1 });
   scene.images = await images;
   const environment = await surroundings;
@@ -139,7 +176,8 @@ export async function buildScene(source: Source, options: GltfOptions & { readon
   scene.textures = table.textures;
   for (const { textures } of scene.materials) {
     for (const [parameter, binding] of Object.entries(textures ?? {})) {
-      if (binding && table.failed.has(scene.textures[binding.texture]?.image ?? -1)) delete textures?.[parameter as keyof typeof textures];
+      if (binding && table.failed.has(scene.textures[binding.texture]?.image ?? -1))
+        delete textures?.[parameter as keyof typeof textures];
     }
   }
   scene.warnings = warnings.finished(source.name, oneLine);
@@ -147,7 +185,12 @@ export async function buildScene(source: Source, options: GltfOptions & { readon
 }
 
 /** The surroundings of the scene that is shown, by EXT_lights_image_based; none where one of its pictures is broken. */
-async function readSurroundings({ scenes, extensions }: GltfJson, shown: number | undefined, read: (image: number) => Promise<DecodedImage | undefined>, signal: AbortSignal | undefined): Promise<Scene['environment']> {
+async function readSurroundings(
+  { scenes, extensions }: GltfJson,
+  shown: number | undefined,
+  read: (image: number) => Promise<DecodedImage | undefined>,
+  signal: AbortSignal | undefined,
+): Promise<Scene['environment']> {
   const reference = shown === undefined ? undefined : scenes?.[shown]?.extensions?.EXT_lights_image_based;
   const light = reference && extensions?.EXT_lights_image_based?.lights[reference.light];
   if (!light) return undefined;
@@ -157,7 +200,14 @@ async function readSurroundings({ scenes, extensions }: GltfJson, shown: number 
 
 /** What a document says of itself: its asset and, by KHR_xmp_json_ld, the packet of its asset. */
 function metadataOf({ asset, extensions }: GltfJson): Scene['metadata'] {
-  const { version: _, minVersion: __, extensions: own, ...said } = asset as GltfJson['asset'] & { readonly extensions?: { readonly KHR_xmp_json_ld?: { readonly packet?: unknown } } };
+  const {
+    version: _,
+    minVersion: __,
+    extensions: own,
+    ...said
+  } = asset as GltfJson['asset'] & {
+    readonly extensions?: { readonly KHR_xmp_json_ld?: { readonly packet?: unknown } };
+  };
   const xmp = extensions?.KHR_xmp_json_ld?.packets[(own?.KHR_xmp_json_ld?.packet as number | undefined) ?? 0];
   if (!isShallow([said, xmp])) return undefined;
   const metadata = { ...said, ...(xmp === undefined ? {} : { xmp }) };
@@ -165,16 +215,32 @@ function metadataOf({ asset, extensions }: GltfJson): Scene['metadata'] {
 }
 
 /** The animation that poses the scene; undefined: it is at rest. */
-function animationOf({ file }: PrimitiveReader, json: GltfJson, { animation, time }: GltfOptions): GltfAnimation | undefined {
+function animationOf(
+  { file }: PrimitiveReader,
+  json: GltfJson,
+  { animation, time }: GltfOptions,
+): GltfAnimation | undefined {
   if (animation === undefined && (time === undefined || !json.animations?.length)) return undefined;
-  if (time !== undefined && !Number.isFinite(time)) throw new GltfError('gltf/no-such-part', `The time to pose ${file} at is ${time}; it must be a number of seconds.`);
+  if (time !== undefined && !Number.isFinite(time))
+    throw new GltfError('gltf/no-such-part', `The time to pose ${file} at is ${time}; it must be a number of seconds.`);
   return (json.animations ?? [])[indexOf(json.animations ?? [], animation ?? 0, 'animation', file)];
 }
 
 /** The document with what KHR_animation_pointer moves in its place, checked once more. */
-function atMoment(json: GltfJson, raw: Raw, animation: GltfAnimation | undefined, time: number, { file, accessors }: PrimitiveReader, warnings: SceneWarning[]): GltfJson {
+function atMoment(
+  json: GltfJson,
+  raw: Raw,
+  animation: GltfAnimation | undefined,
+  time: number,
+  { file, accessors }: PrimitiveReader,
+  warnings: SceneWarning[],
+): GltfJson {
   if (!animation?.pointers?.length) return json;
-  const moved = withValues(raw, pointedValues(animation, time, accessors), (path, what) => void warnings.push({ code: 'gltf/animation', message: `${file}: ${path} ${what}.`, path }));
+  const moved = withValues(
+    raw,
+    pointedValues(animation, time, accessors),
+    (path, what) => void warnings.push({ code: 'gltf/animation', message: `${file}: ${path} ${what}.`, path }),
+  );
   const again: SceneWarning[] = [];
   const checked = checkDocument(moved, file, again);
   const known = new Set(warnings.map(({ message }) => message));

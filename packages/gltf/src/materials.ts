@@ -22,15 +22,16 @@ export const MATERIAL_EXTENSIONS = [
 ] as const;
 
 /**
- * KHR_texture_transform as an affine map: scaled, then turned counter-clockwise as seen in the picture (v runs down), then
- * moved.
+ * KHR_texture_transform as an affine map: scaled, then turned counter-clockwise as seen in the picture (v runs down),
+ * then moved.
  */
 export function uvTransform(info: GltfTextureInfo): TextureBinding['transform'] {
   const extension = info.extensions?.KHR_texture_transform;
   if (!extension) return undefined;
   const [x = 0, y = 0] = extension.offset ?? [];
   const [sx = 1, sy = 1] = extension.scale ?? [];
-  const c = Math.cos(extension.rotation ?? 0), s = Math.sin(extension.rotation ?? 0);
+  const c = Math.cos(extension.rotation ?? 0),
+    s = Math.sin(extension.rotation ?? 0);
   return [c * sx, -s * sx, s * sy, c * sy, x, y];
 }
 
@@ -52,17 +53,40 @@ function uvSetsOf(uses: readonly GltfTextureUse[]): UvSets {
 }
 
 /** Makes a scene's material of one of the document's, as `@glanz/openpbr/gltf` maps it. */
-export function readMaterial(material: GltfMaterial, index: number, table: TextureTable, warnings: SceneWarning[]): ReadMaterial {
+export function readMaterial(
+  material: GltfMaterial,
+  index: number,
+  table: TextureTable,
+  warnings: SceneWarning[],
+): ReadMaterial {
   const factors = material as GltfMaterialFactors;
   const parameters: Record<string, unknown> = { ...fromGltf(factors) };
   const textures: NonNullable<Material['textures']> = {};
   const { uses, lost } = gltfTextures(factors);
   const uvSets = uvSetsOf(uses);
-  const leaveOut = (path: string, why: string) => warnings.push({ code: 'gltf/texture', message: `Material ${index} ("${material.name ?? ''}"): ${path} ${why}.`, path: `/materials/${index}/${path}` });
-  const bind = ({ parameter, texture: reference, path, channels, colorSpace, range, value, picture }: GltfTextureUse) => {
+  const leaveOut = (path: string, why: string) =>
+    warnings.push({
+      code: 'gltf/texture',
+      message: `Material ${index} ("${material.name ?? ''}"): ${path} ${why}.`,
+      path: `/materials/${index}/${path}`,
+    });
+  const bind = ({
+    parameter,
+    texture: reference,
+    path,
+    channels,
+    colorSpace,
+    range,
+    value,
+    picture,
+  }: GltfTextureUse) => {
     const info = reference as GltfTextureInfo;
     const set = uvSets.indexOf(setOf(info));
-    if (set < 0) return void leaveOut(path, `reads a texture by TEXCOORD_${setOf(info)}, but its others by TEXCOORD_${uvSets.join(' and ')}; two sets are read, so it is left out`);
+    if (set < 0)
+      return void leaveOut(
+        path,
+        `reads a texture by TEXCOORD_${setOf(info)}, but its others by TEXCOORD_${uvSets.join(' and ')}; two sets are read, so it is left out`,
+      );
     const where = `/materials/${index}/${path}`;
     const texture = picture ? table.derive(picture, colorSpace, where) : table.get(info.index, colorSpace, where);
     if (texture === undefined) return;
@@ -70,7 +94,8 @@ export function readMaterial(material: GltfMaterial, index: number, table: Textu
     if (set !== 0) binding.uv = set;
     const transform = uvTransform(info);
     if (transform) binding.transform = transform;
-    if ((parameter === 'geometry_normal' || parameter === 'geometry_coat_normal') && info.scale !== undefined) binding.scale = info.scale;
+    if ((parameter === 'geometry_normal' || parameter === 'geometry_coat_normal') && info.scale !== undefined)
+      binding.scale = info.scale;
     if (range) binding.range = range;
     textures[parameter as TexturedParameter] = binding;
     if (value !== undefined) parameters[parameter] = value;
@@ -84,7 +109,12 @@ export function readMaterial(material: GltfMaterial, index: number, table: Textu
   if (material.alphaMode === 'MASK') made.opacity_threshold = material.alphaCutoff ?? 0.5;
   if (material.extras !== undefined) {
     if (isShallow(material.extras)) made.extras = material.extras;
-    else warnings.push({ code: 'gltf/material', message: `Material ${index} ("${material.name ?? ''}"): its extras lie more than 100 deep in one another; they are left out.`, path: `/materials/${index}/extras` });
+    else
+      warnings.push({
+        code: 'gltf/material',
+        message: `Material ${index} ("${material.name ?? ''}"): its extras lie more than 100 deep in one another; they are left out.`,
+        path: `/materials/${index}/extras`,
+      });
   }
   return { made, uvSets };
 }

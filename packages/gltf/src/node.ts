@@ -24,19 +24,52 @@ async function optional<T>(load: () => Promise<T>, name: string, what: string): 
  */
 export const decodeImage: ImageDecoder = async (bytes): Promise<DecodedImage> => {
   const { default: sharp } = await optional(() => import('sharp'), 'sharp', 'Decoding pictures in Node');
-  // Colour profiles and orientation do not count in glTF (3.8.1); the limit on size keeps a small file from filling the memory.
-  const { data, info } = await sharp(bytes, { ignoreIcc: true, limitInputPixels: 16384 * 16384 }).toColourspace('srgb').ensureAlpha().raw({ depth: 'uchar' }).toBuffer({ resolveWithObject: true });
-  return { width: info.width, height: info.height, data: new Uint8Array(data.buffer as ArrayBuffer, data.byteOffset, data.byteLength) };
+  // Colour profiles and orientation do not count in glTF (3.8.1); the limit on size keeps a small file from filling the
+  // memory.
+  const { data, info } = await sharp(bytes, { ignoreIcc: true, limitInputPixels: 16384 * 16384 })
+    .toColourspace('srgb')
+    .ensureAlpha()
+    .raw({ depth: 'uchar' })
+    .toBuffer({ resolveWithObject: true });
+  return {
+    width: info.width,
+    height: info.height,
+    data: new Uint8Array(data.buffer as ArrayBuffer, data.byteOffset, data.byteLength),
+  };
 };
 
 /** The transcoder that `three` brings along. It is a script, neither a module nor CommonJS where it lies. */
 async function openBasis(): Promise<unknown> {
   const [{ createRequire }, { readFile }] = await Promise.all([import('node:module'), import('node:fs/promises')]);
-  const path = (name: string) => optional(async () => createRequire(import.meta.url).resolve(`three/examples/jsm/libs/basis/${name}`), 'three', 'A model with KTX2 pictures');
-  const [script, wasmBinary] = await Promise.all([path('basis_transcoder.js').then((file) => readFile(file, 'utf8')), path('basis_transcoder.wasm').then((file) => readFile(file))]);
+  const path = (name: string) =>
+    optional(
+      async () => createRequire(import.meta.url).resolve(`three/examples/jsm/libs/basis/${name}`),
+      'three',
+      'A model with KTX2 pictures',
+    );
+  const [script, wasmBinary] = await Promise.all([
+    path('basis_transcoder.js').then((file) => readFile(file, 'utf8')),
+    path('basis_transcoder.wasm').then((file) => readFile(file)),
+  ]);
   const { runInNewContext } = await import('node:vm');
   // In a context of its own it finds nothing of Node, and so no files.
-  const context = { WebAssembly, TextDecoder, performance, console: { log: () => undefined, warn: () => undefined, error: () => undefined }, Uint8Array, Int8Array, Uint16Array, Int16Array, Uint32Array, Int32Array, Float32Array, Float64Array, setTimeout, exports: {}, module: { exports: undefined as unknown } };
+  const context = {
+    WebAssembly,
+    TextDecoder,
+    performance,
+    console: { log: () => undefined, warn: () => undefined, error: () => undefined },
+    Uint8Array,
+    Int8Array,
+    Uint16Array,
+    Int16Array,
+    Uint32Array,
+    Int32Array,
+    Float32Array,
+    Float64Array,
+    setTimeout,
+    exports: {},
+    module: { exports: undefined as unknown },
+  };
   runInNewContext(script, context);
   const create = context.module.exports as (options: object) => Promise<unknown>;
   return create({ wasmBinary, print: () => undefined, printErr: () => undefined });
@@ -44,9 +77,14 @@ async function openBasis(): Promise<unknown> {
 
 /** The decoders of the packages that are installed; each is loaded for a document that needs it. */
 export const packagedDecoders = (): GltfDecoders => ({
-  draco: async () => (await optional(() => import('draco3dgltf'), 'draco3dgltf', 'A Draco-compressed model')).default.createDecoderModule(),
+  draco: async () =>
+    (
+      await optional(() => import('draco3dgltf'), 'draco3dgltf', 'A Draco-compressed model')
+    ).default.createDecoderModule(),
   ktx2: ktx2Decoder(openBasis),
-  meshopt: async () => (await optional(() => import('meshoptimizer/decoder'), 'meshoptimizer', 'A meshopt-compressed model')).MeshoptDecoder,
+  meshopt: async () =>
+    (await optional(() => import('meshoptimizer/decoder'), 'meshoptimizer', 'A meshopt-compressed model'))
+      .MeshoptDecoder,
 });
 
 /**
@@ -74,7 +112,11 @@ export async function loadGltfFile(path: string | URL, options: GltfOptions = {}
     bytes = await read(file);
   } catch (cause) {
     signal?.throwIfAborted();
-    throw new GltfError('gltf/missing-resource', `${file} cannot be read: ${(cause as NodeJS.ErrnoException).code === 'ENOENT' ? 'there is no such file' : (cause as Error).message}.`, { cause, location: { file } });
+    throw new GltfError(
+      'gltf/missing-resource',
+      `${file} cannot be read: ${(cause as NodeJS.ErrnoException).code === 'ENOENT' ? 'there is no such file' : (cause as Error).message}.`,
+      { cause, location: { file } },
+    );
   }
   const folder = await realpath(dirname(file));
   return buildScene(
@@ -84,7 +126,8 @@ export async function loadGltfFile(path: string | URL, options: GltfOptions = {}
       read: async (uri) => {
         const at = join(folder, uri);
         try {
-          if (!(await realpath(at)).startsWith(folder + sep)) throw new Error('it lies outside the folder of the document');
+          if (!(await realpath(at)).startsWith(folder + sep))
+            throw new Error('it lies outside the folder of the document');
           return await read(at);
         } catch (cause) {
           signal?.throwIfAborted();
@@ -92,6 +135,10 @@ export async function loadGltfFile(path: string | URL, options: GltfOptions = {}
         }
       },
     },
-    { ...options, decodeImage: options.decodeImage ?? decodeImage, decoders: { ...packagedDecoders(), ...options.decoders } },
+    {
+      ...options,
+      decodeImage: options.decodeImage ?? decodeImage,
+      decoders: { ...packagedDecoders(), ...options.decoders },
+    },
   );
 }

@@ -39,7 +39,12 @@ interface Placed {
 function localMatrix(node: GltfNode, pose: NodePose | undefined): Matrix {
   if (node.matrix && !pose) return [...node.matrix];
   const rotation = pose?.rotation ?? node.rotation ?? [0, 0, 0, 1];
-  return fromRotationTranslationScale(identity(), rotation, pose?.translation ?? node.translation ?? [0, 0, 0], pose?.scale ?? node.scale ?? [1, 1, 1]);
+  return fromRotationTranslationScale(
+    identity(),
+    rotation,
+    pose?.translation ?? node.translation ?? [0, 0, 0],
+    pose?.scale ?? node.scale ?? [1, 1, 1],
+  );
 }
 
 /** All nodes of a scene, parents before children, in the order of the document. */
@@ -59,7 +64,10 @@ function placedNodes({ json, shown, poses }: NodeContext): Map<number, Placed> {
   for (let entry = stack.pop(); entry; entry = stack.pop()) {
     if (placed.has(entry.node)) continue;
     const node = nodes[entry.node] as GltfNode;
-    const own = { world: multiply(identity(), entry.parent.world, localMatrix(node, poses.get(entry.node))), visible: entry.parent.visible && node.extensions?.KHR_node_visibility?.visible !== false };
+    const own = {
+      world: multiply(identity(), entry.parent.world, localMatrix(node, poses.get(entry.node))),
+      visible: entry.parent.visible && node.extensions?.KHR_node_visibility?.visible !== false,
+    };
     placed.set(entry.node, own);
     push(node.children ?? [], own);
   }
@@ -76,7 +84,11 @@ export function readNodes(context: NodeContext): void {
     const node = json.nodes?.[index] as GltfNode;
     const { name = '' } = node;
     if (!isFinite4x4(transform)) {
-      scene.warnings.push({ code: 'gltf/node', message: `Node "${name}" has a transform that is not finite; it is left out.`, path: `/nodes/${index}` });
+      scene.warnings.push({
+        code: 'gltf/node',
+        message: `Node "${name}" has a transform that is not finite; it is left out.`,
+        path: `/nodes/${index}`,
+      });
       continue;
     }
     const camera = node.camera === undefined ? undefined : json.cameras?.[node.camera];
@@ -85,7 +97,8 @@ export function readNodes(context: NodeContext): void {
     if (light && visible) readLight(light, name, transform, scene);
     const mesh = node.mesh === undefined ? undefined : json.meshes?.[node.mesh];
     if (!mesh) continue;
-    const own = node.skin !== undefined && mesh.primitives.every(isSkinnable) ? [] : instancesOf(context, node, transform, index);
+    const own =
+      node.skin !== undefined && mesh.primitives.every(isSkinnable) ? [] : instancesOf(context, node, transform, index);
     mesh.primitives.forEach((primitive, at) => {
       // A skin places what it moves; where its node is does not count.
       const places = node.skin !== undefined && isSkinnable(primitive) ? [identity()] : own;
@@ -93,7 +106,12 @@ export function readNodes(context: NodeContext): void {
       if (!read) return;
       context.instances.take(places.length, `/nodes/${index}`);
       for (const place of places) {
-        const instance: Instance = { name: name || mesh.name || `node ${scene.instances.length}`, mesh: read.mesh, material: read.material, transform: place };
+        const instance: Instance = {
+          name: name || mesh.name || `node ${scene.instances.length}`,
+          mesh: read.mesh,
+          material: read.material,
+          transform: place,
+        };
         if (!visible) instance.visible = false;
         if (read.variants) instance.variants = read.variants;
         scene.instances.push(instance);
@@ -108,14 +126,24 @@ function checkUnshown({ json, reader, scene }: NodeContext, shown: ReadonlySet<G
   json.meshes?.forEach(({ primitives }, mesh) => {
     primitives.forEach((primitive, at) => {
       const position = primitive.attributes['POSITION'];
-      if (shown.has(primitive) || primitive.indices === undefined || position === undefined || primitive.extensions?.KHR_draco_mesh_compression) return;
+      if (
+        shown.has(primitive) ||
+        primitive.indices === undefined ||
+        position === undefined ||
+        primitive.extensions?.KHR_draco_mesh_compression
+      )
+        return;
       const { bufferView } = reader.accessors.at(primitive.indices);
       if (bufferView === undefined || !reader.isThere(bufferView)) return;
       const path = `/meshes/${mesh}/primitives/${at}`;
       const { count } = reader.accessors.at(position);
       const largest = maximum(reader.accessors.indices(primitive.indices));
       if (largest >= count || openPrimitive(primitive, path, reader).restart === largest) {
-        scene.warnings.push({ code: 'gltf/primitive', message: `${reader.file}: ${path} names vertices that do not exist; it is not shown anyway.`, path });
+        scene.warnings.push({
+          code: 'gltf/primitive',
+          message: `${reader.file}: ${path} names vertices that do not exist; it is not shown anyway.`,
+          path,
+        });
       }
     });
   });
@@ -163,8 +191,12 @@ class MeshReader {
       return known === undefined ? undefined : { mesh: known, material, variants };
     }
     const weights = (own ?? mesh?.weights ?? []).map((w) => (Number.isFinite(w) ? w : 0));
-    const label = (mesh?.name || node.name || `mesh ${node.mesh}`) + ((mesh?.primitives.length ?? 1) > 1 ? ` ${at}` : '');
-    const made = this.#make(node, primitive, label, `/meshes/${node.mesh}/primitives/${at}`, material, weights, [material, ...Object.values(variants ?? {})]);
+    const label =
+      (mesh?.name || node.name || `mesh ${node.mesh}`) + ((mesh?.primitives.length ?? 1) > 1 ? ` ${at}` : '');
+    const made = this.#make(node, primitive, label, `/meshes/${node.mesh}/primitives/${at}`, material, weights, [
+      material,
+      ...Object.values(variants ?? {}),
+    ]);
     const index = made && scene.meshes.push(made) - 1;
     if (shared) this.#shared.set(key, index);
     return index === undefined ? undefined : { mesh: index, material, variants };
@@ -175,8 +207,19 @@ class MeshReader {
     if (key === undefined) {
       const { scene, uvSetsOf } = this.#context;
       const { attributes, indices, mode, targets, extensions } = primitive;
-      const looks = [material, ...Object.values(this.#variants.get(primitive) ?? {})].map((index) => [uvSetsOf(index), tangentSet(scene.materials[index]), scene.materials[index]?.parameters.geometry_opacity === undefined]);
-      key = JSON.stringify([attributes, indices, mode, extensions?.KHR_draco_mesh_compression, weights?.some((w) => w !== 0) ? [targets, weights] : [], looks]);
+      const looks = [material, ...Object.values(this.#variants.get(primitive) ?? {})].map((index) => [
+        uvSetsOf(index),
+        tangentSet(scene.materials[index]),
+        scene.materials[index]?.parameters.geometry_opacity === undefined,
+      ]);
+      key = JSON.stringify([
+        attributes,
+        indices,
+        mode,
+        extensions?.KHR_draco_mesh_compression,
+        weights?.some((w) => w !== 0) ? [targets, weights] : [],
+        looks,
+      ]);
       this.#keys.set(primitive, key);
     }
     return key;
@@ -188,13 +231,27 @@ class MeshReader {
     if (!matrices) {
       const { json, reader, scene } = this.#context;
       const skin = json.skins?.[index];
-      matrices = jointMatrices(`skin ${index}`, skin?.joints ?? [], skin?.inverseBindMatrices === undefined ? undefined : reader.accessors.floats(skin.inverseBindMatrices, 16), this.#world, scene.warnings);
+      matrices = jointMatrices(
+        `skin ${index}`,
+        skin?.joints ?? [],
+        skin?.inverseBindMatrices === undefined ? undefined : reader.accessors.floats(skin.inverseBindMatrices, 16),
+        this.#world,
+        scene.warnings,
+      );
       this.#joints.set(index, matrices);
     }
     return matrices;
   }
 
-  #make(node: GltfNode, primitive: GltfPrimitive, label: string, path: string, material: number, weights: readonly number[], materials: readonly number[]): Mesh | undefined {
+  #make(
+    node: GltfNode,
+    primitive: GltfPrimitive,
+    label: string,
+    path: string,
+    material: number,
+    weights: readonly number[],
+    materials: readonly number[],
+  ): Mesh | undefined {
     const { scene, reader, uvSetsOf } = this.#context;
     const opened = this.#opened.get(primitive) ?? openPrimitive(primitive, path, reader);
     // A mesh that is used once is not kept in its packed form.
@@ -202,7 +259,12 @@ class MeshReader {
     const opaque = scene.materials[material]?.parameters.geometry_opacity === undefined;
     const uvSets = uvSetsOf(material);
     for (const other of materials) {
-      if (`${uvSetsOf(other)}` !== `${uvSets}`) scene.warnings.push({ code: 'gltf/variant', message: `${label}: the material "${scene.materials[other]?.name}" of a variant reads other UV sets than its first one; its textures lie as that one's do.`, path });
+      if (`${uvSetsOf(other)}` !== `${uvSets}`)
+        scene.warnings.push({
+          code: 'gltf/variant',
+          message: `${label}: the material "${scene.materials[other]?.name}" of a variant reads other UV sets than its first one; its textures lie as that one's do.`,
+          path,
+        });
     }
     let made = readPrimitive(opened, label, opaque, uvSets, path, scene.warnings);
     if (!made) return undefined;
@@ -211,7 +273,10 @@ class MeshReader {
     const posed = node.skin !== undefined && isSkinnable(primitive);
     if (posed) made = skinned(made, opened, this.#jointsOf(node.skin as number), scene.warnings);
     // Blended normals are shorter than 1, and may even cancel out.
-    if ((posed || blended) && made.normals) unitNormals(made.normals, made.positions, made.indices, (message) => scene.warnings.push({ code: 'gltf/primitive', message: `${label}: ${message}`, path }));
+    if ((posed || blended) && made.normals)
+      unitNormals(made.normals, made.positions, made.indices, (message) =>
+        scene.warnings.push({ code: 'gltf/primitive', message: `${label}: ${message}`, path }),
+      );
     made = withoutUnusedVertices(made);
     const set = materials.map((index) => tangentSet(scene.materials[index])).find((wanted) => wanted !== undefined);
     return set === undefined ? made : withTangents(made, set);
@@ -222,24 +287,38 @@ class MeshReader {
 function variantsOf({ extensions }: GltfPrimitive): Record<number, number> | undefined {
   const mappings = extensions?.KHR_materials_variants?.mappings;
   if (!mappings) return undefined;
-  return Object.fromEntries(mappings.flatMap(({ material, variants }) => variants.map((variant) => [variant, material])));
+  return Object.fromEntries(
+    mappings.flatMap(({ material, variants }) => variants.map((variant) => [variant, material])),
+  );
 }
 
 /** The places of a node's mesh: one, or those of EXT_mesh_gpu_instancing. */
-function instancesOf({ reader, scene, instances }: NodeContext, node: GltfNode, transform: Matrix, index: number): Matrix[] {
+function instancesOf(
+  { reader, scene, instances }: NodeContext,
+  node: GltfNode,
+  transform: Matrix,
+  index: number,
+): Matrix[] {
   const instancing = node.extensions?.EXT_mesh_gpu_instancing;
   if (!instancing) return [transform];
   const { attributes, count } = instancing;
   const { warnings } = scene;
   const path = `/nodes/${index}/extensions/EXT_mesh_gpu_instancing`;
-  const warn = (number: number, what: string) => void warnings.push({ code: 'gltf/node', message: `${number} of ${count} instances at node "${node.name ?? ''}" have ${what}.`, path });
+  const warn = (number: number, what: string) =>
+    void warnings.push({
+      code: 'gltf/node',
+      message: `${number} of ${count} instances at node "${node.name ?? ''}" have ${what}.`,
+      path,
+    });
   instances.check(count, path);
   const read = (semantic: string, size: number, initial: readonly number[]) => {
     const accessor = attributes[semantic];
     const values = accessor === undefined ? undefined : reader.accessors.floats(accessor, size);
     return (i: number): ArrayLike<number> => values?.subarray(size * i, size * i + size) ?? initial;
   };
-  const translation = read('TRANSLATION', 3, [0, 0, 0]), rotation = read('ROTATION', 4, [0, 0, 0, 1]), scale = read('SCALE', 3, [1, 1, 1]);
+  const translation = read('TRANSLATION', 3, [0, 0, 0]),
+    rotation = read('ROTATION', 4, [0, 0, 0, 1]),
+    scale = read('SCALE', 3, [1, 1, 1]);
   const places: Matrix[] = [];
   let unturned = 0;
   for (let i = 0; i < count; i++) {
@@ -263,15 +342,28 @@ function instancesOf({ reader, scene, instances }: NodeContext, node: GltfNode, 
  * Which of a document's scenes is shown: the one asked for, else the default one, else the first.
  * @throws {GltfError} `gltf/no-such-part` for one that is not there.
  */
-export function sceneToShow({ scenes, scene }: GltfJson, wanted: number | string | undefined, file: string): number | undefined {
+export function sceneToShow(
+  { scenes, scene }: GltfJson,
+  wanted: number | string | undefined,
+  file: string,
+): number | undefined {
   if (wanted === undefined) return scene ?? (scenes?.length ? 0 : undefined);
   return indexOf(scenes ?? [], wanted, 'scene', file);
 }
 
 /** The index of a part by its index or name. @throws {GltfError} `gltf/no-such-part` */
-export function indexOf(list: readonly { readonly name?: string }[], wanted: number | string, kind: string, file: string): number {
+export function indexOf(
+  list: readonly { readonly name?: string }[],
+  wanted: number | string,
+  kind: string,
+  file: string,
+): number {
   const index = typeof wanted === 'number' ? wanted : list.findIndex(({ name }) => name === wanted);
   if (list[index]) return index;
   const names = list.slice(0, 8).map(({ name }, at) => (name === undefined ? `${at}` : `"${name}"`));
-  throw new GltfError('gltf/no-such-part', `${file} has no ${kind} ${typeof wanted === 'number' ? wanted : `"${wanted}"`}; it has ${names.length === 0 ? 'none' : names.join(', ')}.`, { location: { file } });
+  throw new GltfError(
+    'gltf/no-such-part',
+    `${file} has no ${kind} ${typeof wanted === 'number' ? wanted : `"${wanted}"`}; it has ${names.length === 0 ? 'none' : names.join(', ')}.`,
+    { location: { file } },
+  );
 }

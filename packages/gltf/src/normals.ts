@@ -6,7 +6,9 @@
 export function makeUnit(vectors: Float32Array, stride: number): boolean {
   let good = true;
   for (let at = 0; at < vectors.length; at += stride) {
-    const x = vectors[at] as number, y = vectors[at + 1] as number, z = vectors[at + 2] as number;
+    const x = vectors[at] as number,
+      y = vectors[at + 1] as number,
+      z = vectors[at + 2] as number;
     const square = x * x + y * y + z * z;
     // Nearly all are good already, and Math.hypot is ten times slower.
     if (Math.abs(square - 1) <= 2e-6) continue;
@@ -22,7 +24,12 @@ export function makeUnit(vectors: Float32Array, stride: number): boolean {
 }
 
 /** Normals of length 1; one that has no length is made from the triangles at its vertex, by their areas. */
-export function unitNormals(normals: Float32Array<ArrayBuffer>, positions: Float32Array, indices: Uint32Array, warn: (message: string) => void): Float32Array<ArrayBuffer> {
+export function unitNormals(
+  normals: Float32Array<ArrayBuffer>,
+  positions: Float32Array,
+  indices: Uint32Array,
+  warn: (message: string) => void,
+): Float32Array<ArrayBuffer> {
   if (makeUnit(normals, 3)) return normals;
   const sums = new Float64Array(normals.length);
   for (let i = 0; i < indices.length; i += 3) {
@@ -46,23 +53,31 @@ export function unitNormals(normals: Float32Array<ArrayBuffer>, positions: Float
 }
 
 /**
- * Turns all triangles round, in place, if the normals of each of them point to its back: exporters that write a mirrored mesh
- * forget one of the two. The normals are what its maker saw; light that falls on such a front would find it turned away.
- * The first triangle that agrees with its normals ends the search, mostly at once.
+ * Turns all triangles round, in place, if the normals of each of them point to its back: exporters that write a
+ * mirrored mesh forget one of the two. The normals are what its maker saw; light that falls on such a front would find
+ * it turned away. The first triangle that agrees with its normals ends the search, mostly at once.
  * @returns Whether it did.
  */
 export function windByNormals(indices: Uint32Array, positions: Float32Array, normals: Float32Array): boolean {
   let against = 0;
   for (let i = 0; i < indices.length; i += 3) {
-    const a = 3 * (indices[i] as number), b = 3 * (indices[i + 1] as number), c = 3 * (indices[i + 2] as number);
-    const p = (v: number, k: number) => positions[v + k] as number, n = (k: number) => (normals[a + k] as number) + (normals[b + k] as number) + (normals[c + k] as number);
-    const ux = p(b, 0) - p(a, 0), uy = p(b, 1) - p(a, 1), uz = p(b, 2) - p(a, 2);
-    const vx = p(c, 0) - p(a, 0), vy = p(c, 1) - p(a, 1), vz = p(c, 2) - p(a, 2);
+    const a = 3 * (indices[i] as number),
+      b = 3 * (indices[i + 1] as number),
+      c = 3 * (indices[i + 2] as number);
+    const p = (v: number, k: number) => positions[v + k] as number,
+      n = (k: number) => (normals[a + k] as number) + (normals[b + k] as number) + (normals[c + k] as number);
+    const ux = p(b, 0) - p(a, 0),
+      uy = p(b, 1) - p(a, 1),
+      uz = p(b, 2) - p(a, 2);
+    const vx = p(c, 0) - p(a, 0),
+      vy = p(c, 1) - p(a, 1),
+      vz = p(c, 2) - p(a, 2);
     const along = (uy * vz - uz * vy) * n(0) + (uz * vx - ux * vz) * n(1) + (ux * vy - uy * vx) * n(2);
     if (along > 0) return false;
     if (along < 0) against++;
   }
   if (against === 0) return false;
-  for (let i = 0; i < indices.length; i += 3) [indices[i + 1], indices[i + 2]] = [indices[i + 2] as number, indices[i + 1] as number];
+  for (let i = 0; i < indices.length; i += 3)
+    [indices[i + 1], indices[i + 2]] = [indices[i + 2] as number, indices[i + 1] as number];
   return true;
 }

@@ -3,19 +3,24 @@ const PNG_MEANING = new Set(['iCCP', 'gAMA', 'cHRM', 'sRGB', 'cICP', 'mDCV', 'cL
 
 /**
  * An opaque JPEG or PNG without what it says of the meaning of its colours (profiles) and of its orientation (Exif), in
- * pieces of the bytes: every decoder gives the codes that are in the file. Undefined for what is transparent or of another kind.
+ * pieces of the bytes: every decoder gives the codes that are in the file. Undefined for what is transparent or of
+ * another kind.
  */
 export function plainPicture(bytes: Uint8Array<ArrayBuffer>): Uint8Array<ArrayBuffer>[] | undefined {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   if (bytes.length < 34) return undefined;
-  return view.getUint32(0) === 0x89504e47 ? plainPng(bytes, view) : view.getUint16(0) === 0xffd8 ? plainJpeg(bytes, view) : undefined;
+  return view.getUint32(0) === 0x89504e47
+    ? plainPng(bytes, view)
+    : view.getUint16(0) === 0xffd8
+      ? plainJpeg(bytes, view)
+      : undefined;
 }
 
 function plainPng(bytes: Uint8Array<ArrayBuffer>, view: DataView): Uint8Array<ArrayBuffer>[] | undefined {
   // Grey, RGB or a palette, of 8 bits at most.
   if (![0, 2, 3].includes(bytes[25] as number) || (bytes[24] as number) > 8) return undefined;
   const parts: Uint8Array<ArrayBuffer>[] = [];
-  for (let at = 8, kept = 0; at + 12 <= bytes.length; ) {
+  for (let at = 8, kept = 0; at + 12 <= bytes.length;) {
     const type = String.fromCharCode(...bytes.subarray(at + 4, at + 8));
     if (type === 'IDAT') return [...parts, bytes.subarray(kept)];
     // Transparent, or moving.
@@ -32,14 +37,15 @@ function plainPng(bytes: Uint8Array<ArrayBuffer>, view: DataView): Uint8Array<Ar
 
 function plainJpeg(bytes: Uint8Array<ArrayBuffer>, view: DataView): Uint8Array<ArrayBuffer>[] | undefined {
   const parts: Uint8Array<ArrayBuffer>[] = [];
-  for (let at = 2, kept = 0; at + 10 <= bytes.length; ) {
+  for (let at = 2, kept = 0; at + 10 <= bytes.length;) {
     const marker = view.getUint16(at);
     if (marker < 0xffc0 || marker === 0xffff) return undefined;
     // Tables of scans: pixels from here on.
     if (marker === 0xffda) return [...parts, bytes.subarray(kept)];
     const end = at + 2 + view.getUint16(at + 2);
     // A frame of four components is CMYK.
-    if (marker <= 0xffcf && ![0xffc4, 0xffc8, 0xffcc].includes(marker) && bytes[at + 9] !== 1 && bytes[at + 9] !== 3) return undefined;
+    if (marker <= 0xffcf && ![0xffc4, 0xffc8, 0xffcc].includes(marker) && bytes[at + 9] !== 1 && bytes[at + 9] !== 3)
+      return undefined;
     // Exif and XMP; profiles and gain maps.
     if (marker === 0xffe1 || marker === 0xffe2) {
       parts.push(bytes.subarray(kept, at));
@@ -57,27 +63,41 @@ const DEFLATE_RATIO = 1032;
  * The size that a PNG, JPEG or WebP says it has; undefined if it does not say so where it should.
  * @throws {Error} for a PNG that says more than its bytes can hold.
  */
-export function pictureSize(bytes: Uint8Array, type: string): { readonly width: number; readonly height: number } | undefined {
+export function pictureSize(
+  bytes: Uint8Array,
+  type: string,
+): { readonly width: number; readonly height: number } | undefined {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   if (type === 'image/png' && bytes.length >= 29) {
     const size = { width: view.getUint32(16), height: view.getUint32(20) };
     const bits = (bytes[24] as number) * ([1, 0, 3, 1, 2, 0, 4][bytes[25] as number] ?? 4);
-    if ((size.width * size.height * bits) / 8 > DEFLATE_RATIO * bytes.length + 65536) throw new Error(`it says that ${bytes.length} bytes hold ${size.width} × ${size.height} pixels`);
+    if ((size.width * size.height * bits) / 8 > DEFLATE_RATIO * bytes.length + 65536)
+      throw new Error(`it says that ${bytes.length} bytes hold ${size.width} × ${size.height} pixels`);
     return size;
   }
   if (type === 'image/jpeg') {
     for (let at = 2; at + 9 <= bytes.length; at += 2 + view.getUint16(at + 2)) {
       const marker = view.getUint16(at);
       if (marker < 0xffc0 || marker === 0xffff || marker === 0xffda) return undefined;
-      if (marker <= 0xffcf && ![0xffc4, 0xffc8, 0xffcc].includes(marker)) return { height: view.getUint16(at + 5), width: view.getUint16(at + 7) };
+      if (marker <= 0xffcf && ![0xffc4, 0xffc8, 0xffcc].includes(marker))
+        return { height: view.getUint16(at + 5), width: view.getUint16(at + 7) };
     }
   }
   if (type === 'image/webp' && bytes.length >= 30) {
     const kind = view.getUint32(12);
     // "VP8X", "VP8L", "VP8 "
-    if (kind === 0x56503858) return { width: 1 + view.getUint16(24, true) + 65536 * (bytes[26] as number), height: 1 + view.getUint16(27, true) + 65536 * (bytes[29] as number) };
-    if (kind === 0x5650384c) return { width: 1 + (view.getUint32(21, true) & 0x3fff), height: 1 + ((view.getUint32(21, true) >>> 14) & 0x3fff) };
-    if (kind === 0x56503820) return { width: view.getUint16(26, true) & 0x3fff, height: view.getUint16(28, true) & 0x3fff };
+    if (kind === 0x56503858)
+      return {
+        width: 1 + view.getUint16(24, true) + 65536 * (bytes[26] as number),
+        height: 1 + view.getUint16(27, true) + 65536 * (bytes[29] as number),
+      };
+    if (kind === 0x5650384c)
+      return {
+        width: 1 + (view.getUint32(21, true) & 0x3fff),
+        height: 1 + ((view.getUint32(21, true) >>> 14) & 0x3fff),
+      };
+    if (kind === 0x56503820)
+      return { width: view.getUint16(26, true) & 0x3fff, height: view.getUint16(28, true) & 0x3fff };
   }
   return undefined;
 }

@@ -21,7 +21,9 @@ export function pictureType(bytes: Uint8Array): string {
   return found[0];
 }
 
-/** What the document says of an image's type where its bytes say otherwise; undefined if both agree or it says nothing. */
+/**
+ * What the document says of an image's type where its bytes say otherwise; undefined if both agree or it says nothing.
+ */
 export function wrongType({ mimeType, uri }: GltfImage, type: string): string | undefined {
   const said = mimeType ?? (typeof uri === 'string' ? dataUri(uri)?.type : undefined);
   // Types of no picture have been reported when the document was checked.

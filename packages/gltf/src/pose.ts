@@ -32,25 +32,42 @@ export function morphed(mesh: Mesh, primitive: PrimitiveData, weights: readonly 
 }
 
 /** Exporters invert matrices in single precision. */
-const isAffine = (m: Float32Array): boolean => [0, 0, 0, 1].every((x, k) => Math.abs((m[4 * k + 3] as number) - x) < 1e-3);
+const isAffine = (m: Float32Array): boolean =>
+  [0, 0, 0, 1].every((x, k) => Math.abs((m[4 * k + 3] as number) - x) < 1e-3);
 
 /**
- * Matrices of a skeleton's joints: from where a vertex is bound to where it is in the world. Those that are not finite are
- * undefined, with a warning.
+ * Matrices of a skeleton's joints: from where a vertex is bound to where it is in the world. Those that are not finite
+ * are undefined, with a warning.
  * @param bind Inverse bind matrices, one after the other; absent: all are the identity.
  * @param world World transforms of the nodes.
  */
-export function jointMatrices(name: string, joints: readonly number[], bind: Float32Array | undefined, world: ReadonlyMap<number, Matrix>, warnings: SceneWarning[]): readonly (Matrix | undefined)[] {
+export function jointMatrices(
+  name: string,
+  joints: readonly number[],
+  bind: Float32Array | undefined,
+  world: ReadonlyMap<number, Matrix>,
+  warnings: SceneWarning[],
+): readonly (Matrix | undefined)[] {
   return joints.map((joint, j) => {
     const own = bind?.subarray(16 * j, 16 * j + 16);
     const at = world.get(joint) ?? identity();
     if (own && !own.every(Number.isFinite)) {
-      warnings.push({ code: 'gltf/skin', message: `${name}: the bind matrix of joint ${j} is not finite; the joint does not count.` });
+      warnings.push({
+        code: 'gltf/skin',
+        message: `${name}: the bind matrix of joint ${j} is not finite; the joint does not count.`,
+      });
       return undefined;
     }
     if (own && !isAffine(own)) {
-      warnings.push({ code: 'gltf/skin', message: `${name}: the bind matrix of joint ${j} is not affine; its last row is taken as 0, 0, 0, 1.` });
-      return multiply(identity(), at, own.map((x, i) => (i % 4 < 3 ? x : i === 15 ? 1 : 0)));
+      warnings.push({
+        code: 'gltf/skin',
+        message: `${name}: the bind matrix of joint ${j} is not affine; its last row is taken as 0, 0, 0, 1.`,
+      });
+      return multiply(
+        identity(),
+        at,
+        own.map((x, i) => (i % 4 < 3 ? x : i === 15 ? 1 : 0)),
+      );
     }
     return own ? multiply(identity(), at, own) : at;
   });
@@ -62,11 +79,14 @@ interface Influences {
   readonly weights: Float32Array;
 }
 
-/** How far the weights of a vertex may be from a sum of 1 before this is reported: those of 8 bits, four sets of them. */
+/**
+ * How far the weights of a vertex may be from a sum of 1 before this is reported: those of 8 bits, four sets of them.
+ */
 const SUM_TOLERANCE = 0.05;
 
 /** Whether a primitive has what a skin moves it by. */
-export const isSkinnable = ({ attributes }: { readonly attributes: object }): boolean => 'JOINTS_0' in attributes && 'WEIGHTS_0' in attributes;
+export const isSkinnable = ({ attributes }: { readonly attributes: object }): boolean =>
+  'JOINTS_0' in attributes && 'WEIGHTS_0' in attributes;
 
 /** The sets of influences of a primitive. What does not count in them is reported. */
 function influencesOf(
@@ -85,11 +105,15 @@ function influencesOf(
     // One without the other has been reported when the document was checked.
     if (jointCount === undefined || weightCount === undefined) break;
     if (jointCount !== vertices || weightCount !== vertices) {
-      warn(`${semantics.join(' and ')} have ${jointCount} and ${weightCount} entries for ${vertices} vertices and do not count.`);
+      warn(
+        `${semantics.join(' and ')} have ${jointCount} and ${weightCount} entries for ${vertices} vertices and do not count.`,
+      );
       continue;
     }
     const influences = { joints: primitive.floats(semantics[0], 4), weights: primitive.floats(semantics[1], 4) };
-    let infinite = 0, negative = 0, beyond = 0;
+    let infinite = 0,
+      negative = 0,
+      beyond = 0;
     for (let i = 0; i < influences.weights.length; i++) {
       const weight = influences.weights[i] as number;
       if (!Number.isFinite(weight)) infinite++;
@@ -99,26 +123,39 @@ function influencesOf(
     }
     if (infinite > 0) warn(`${semantics[1]} holds numbers that are not finite; they do not count.`);
     if (negative > 0) warn(`${semantics[1]} holds ${negative} negative numbers; they do not count.`);
-    if (beyond > 0) warn(`${semantics[0]} names a joint that does not exist ${beyond} times (the skin has ${joints}); it does not count.`);
+    if (beyond > 0)
+      warn(
+        `${semantics[0]} names a joint that does not exist ${beyond} times (the skin has ${joints}); it does not count.`,
+      );
     sets.push(influences);
   }
   const off = sums.reduce((count, sum) => count + (Math.abs(sum - 1) > SUM_TOLERANCE ? 1 : 0), 0);
-  if (sets.length > 0 && off > 0) warn(`the weights of ${off} vertices do not add up to 1; they are scaled, and vertices without any stay where they are.`);
+  if (sets.length > 0 && off > 0)
+    warn(
+      `the weights of ${off} vertices do not add up to 1; they are scaled, and vertices without any stay where they are.`,
+    );
   return sets;
 }
 
 /**
- * A mesh in the pose of its skeleton, in the world (glTF 2.0, section 3.7.3.3: the node's own transform does not count).
- * Weights that are not finite or below 0, and joints that do not exist, do not count, with a warning.
+ * A mesh in the pose of its skeleton, in the world (glTF 2.0, section 3.7.3.3: the node's own transform does not
+ * count). Weights that are not finite or below 0, and joints that do not exist, do not count, with a warning.
  */
-export function skinned(mesh: Mesh, primitive: PrimitiveData, matrices: readonly (Matrix | undefined)[], warnings: SceneWarning[]): Mesh {
+export function skinned(
+  mesh: Mesh,
+  primitive: PrimitiveData,
+  matrices: readonly (Matrix | undefined)[],
+  warnings: SceneWarning[],
+): Mesh {
   const vertices = mesh.positions.length / 3;
   const sets = influencesOf(mesh.name, primitive, vertices, matrices.length, warnings);
   const positions = new Float32Array(mesh.positions.length);
   const normals = mesh.normals && new Float32Array(mesh.normals.length);
   const tangents = mesh.tangents?.slice();
-  const blended = new Float64Array(16), translation = blended.subarray(12);
-  const linear = new Float64Array(9), cofactors = new Float64Array(9);
+  const blended = new Float64Array(16),
+    translation = blended.subarray(12);
+  const linear = new Float64Array(9),
+    cofactors = new Float64Array(9);
   const vector: [number, number, number] = [0, 0, 0];
   /** A vector of `source` through a 3 × 3 matrix. */
   const turned = (source: Float32Array, at: number, matrix: Float64Array) => {

@@ -16,7 +16,10 @@ export interface PrimitiveData {
   floats(semantic: string, size: number): Float32Array<ArrayBuffer>;
   /** A copy; undefined if there are none. */
   indices(): Uint32Array<ArrayBuffer> | undefined;
-  /** The largest value of the type of its indices, which glTF keeps free; undefined if there are none, or they were compressed. */
+  /**
+   * The largest value of the type of its indices, which glTF keeps free; undefined if there are none, or they were
+   * compressed.
+   */
   readonly restart: number | undefined;
   /** Moves of the vertices by a morph target; undefined if it does not move this attribute. */
   target(index: number, semantic: string): Float32Array<ArrayBuffer> | undefined;
@@ -38,8 +41,13 @@ export interface PrimitiveReader {
 }
 
 /** The attributes of a compressed primitive that the document knows. */
-export const dracoAttributes = ({ attributes, extensions }: GltfPrimitive, { accessors }: PrimitiveReader): DracoAttribute[] =>
-  Object.entries(extensions?.KHR_draco_mesh_compression?.attributes ?? {}).flatMap(([semantic, id]) => (attributes[semantic] === undefined ? [] : [[semantic, id, accessors.at(attributes[semantic])] as const]));
+export const dracoAttributes = (
+  { attributes, extensions }: GltfPrimitive,
+  { accessors }: PrimitiveReader,
+): DracoAttribute[] =>
+  Object.entries(extensions?.KHR_draco_mesh_compression?.attributes ?? {}).flatMap(([semantic, id]) =>
+    attributes[semantic] === undefined ? [] : [[semantic, id, accessors.at(attributes[semantic])] as const],
+  );
 
 /** Opens a primitive; one that is compressed and has not been unpacked yet is unpacked here. */
 export function openPrimitive(json: GltfPrimitive, path: string, reader: PrimitiveReader): PrimitiveData {
@@ -57,7 +65,8 @@ export function openPrimitive(json: GltfPrimitive, path: string, reader: Primiti
       const attribute = unpacked?.attributes.get(semantic);
       return attribute ? dracoFloats(attribute, size) : accessors.floats(json.attributes[semantic] as number, size);
     },
-    indices: () => unpacked?.indices.slice() ?? (json.indices === undefined ? undefined : accessors.indices(json.indices)),
+    indices: () =>
+      unpacked?.indices.slice() ?? (json.indices === undefined ? undefined : accessors.indices(json.indices)),
     restart: json.indices === undefined || unpacked ? undefined : RESTART[accessors.at(json.indices).componentType],
     target: (index, semantic) => {
       const accessor = json.targets?.[index]?.[semantic];
@@ -68,10 +77,16 @@ export function openPrimitive(json: GltfPrimitive, path: string, reader: Primiti
   function unpack({ bufferView }: NonNullable<typeof packed>): DracoPrimitive {
     const at = `${path}/extensions/KHR_draco_mesh_compression`;
     try {
-      return unpackDraco(draco, viewBytes(bufferView), dracoAttributes(json, reader), (bytes) => budget.take(bytes, at));
+      return unpackDraco(draco, viewBytes(bufferView), dracoAttributes(json, reader), (bytes) =>
+        budget.take(bytes, at),
+      );
     } catch (cause) {
       if (cause instanceof GltfError) throw cause;
-      throw new GltfError('gltf/malformed', `${file}: ${at} cannot be unpacked: ${cause instanceof Error ? cause.message : String(cause)}; export the file again.`, { cause, location: { file, path: at } });
+      throw new GltfError(
+        'gltf/malformed',
+        `${file}: ${at} cannot be unpacked: ${cause instanceof Error ? cause.message : String(cause)}; export the file again.`,
+        { cause, location: { file, path: at } },
+      );
     }
   }
 }

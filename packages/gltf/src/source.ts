@@ -23,9 +23,14 @@ export type GltfInput = string | URL | ArrayBuffer | Uint8Array<ArrayBuffer> | G
 
 /** The error of a file that is not there. */
 export const missing = (uri: string, name: string, cause?: unknown): GltfError =>
-  new GltfError('gltf/missing-resource', `${name} names the file "${uri}", which is not there: put it beside the document.`, { cause, location: { file: name, path: uri } });
+  new GltfError(
+    'gltf/missing-resource',
+    `${name} names the file "${uri}", which is not there: put it beside the document.`,
+    { cause, location: { file: name, path: uri } },
+  );
 
-const bytesOf = async (file: Uint8Array<ArrayBuffer> | Blob): Promise<Uint8Array<ArrayBuffer>> => (file instanceof Uint8Array ? file : new Uint8Array(await file.arrayBuffer()));
+const bytesOf = async (file: Uint8Array<ArrayBuffer> | Blob): Promise<Uint8Array<ArrayBuffer>> =>
+  file instanceof Uint8Array ? file : new Uint8Array(await file.arrayBuffer());
 
 /** A path without "." and "..", or undefined if it leaves its root. */
 function normalized(path: string): string | undefined {
@@ -43,8 +48,16 @@ async function fromFiles({ files, entry }: GltfFiles): Promise<Source> {
   const documents = [...byPath.keys()].filter((path) => /\.(glb|gltf)$/i.test(path));
   const name = entry === undefined ? documents[0] : normalized(entry);
   const file = name === undefined ? undefined : byPath.get(name);
-  if (name === undefined || !file) throw new GltfError('gltf/not-gltf', entry === undefined ? 'There is no .gltf or .glb among the files.' : `There is no "${entry}" among the files.`);
-  if (entry === undefined && documents.length > 1) throw new GltfError('gltf/not-gltf', `There are several documents among the files: ${documents.join(', ')}. Choose one.`);
+  if (name === undefined || !file)
+    throw new GltfError(
+      'gltf/not-gltf',
+      entry === undefined ? 'There is no .gltf or .glb among the files.' : `There is no "${entry}" among the files.`,
+    );
+  if (entry === undefined && documents.length > 1)
+    throw new GltfError(
+      'gltf/not-gltf',
+      `There are several documents among the files: ${documents.join(', ')}. Choose one.`,
+    );
   const folder = name.includes('/') ? name.slice(0, name.lastIndexOf('/') + 1) : '';
   return {
     name,
@@ -59,7 +72,11 @@ async function fromFiles({ files, entry }: GltfFiles): Promise<Source> {
 }
 
 function addressOf(address: string | URL, base: string | URL | undefined): URL {
-  if (!URL.canParse(String(address), base)) throw new GltfError('gltf/missing-resource', `"${String(address).slice(0, 200)}" is no address${base === undefined ? ' that stands by itself: pass a baseUrl, or in Node use loadGltfFile()' : ''}.`);
+  if (!URL.canParse(String(address), base))
+    throw new GltfError(
+      'gltf/missing-resource',
+      `"${String(address).slice(0, 200)}" is no address${base === undefined ? ' that stands by itself: pass a baseUrl, or in Node use loadGltfFile()' : ''}.`,
+    );
   return new URL(address, base);
 }
 
@@ -73,7 +90,16 @@ export function decoded(text: string): string {
 }
 
 /** Opens any input. `fetch` and `baseUrl` serve addresses; bytes without a `baseUrl` cannot name other files. */
-export async function openSource(input: GltfInput, options: { readonly fetch: typeof globalThis.fetch; readonly baseUrl: string | URL | undefined; readonly signal: AbortSignal | undefined; readonly maxBytes: number; readonly onBytes: (done: number) => void }): Promise<Source> {
+export async function openSource(
+  input: GltfInput,
+  options: {
+    readonly fetch: typeof globalThis.fetch;
+    readonly baseUrl: string | URL | undefined;
+    readonly signal: AbortSignal | undefined;
+    readonly maxBytes: number;
+    readonly onBytes: (done: number) => void;
+  },
+): Promise<Source> {
   if (typeof input === 'object' && 'files' in input) return fromFiles(input);
   // Called bare: browsers refuse their fetch as another object's method.
   const { fetch, maxBytes, onBytes } = options;
@@ -83,19 +109,37 @@ export async function openSource(input: GltfInput, options: { readonly fetch: ty
       response = await fetch(url, signal ? { signal } : {});
     } catch (cause) {
       signal?.throwIfAborted();
-      throw new GltfError('gltf/missing-resource', `${name}: "${uri}" could not be fetched: ${cause instanceof Error ? cause.message : String(cause)}.`, { cause, location: { file: name } });
+      throw new GltfError(
+        'gltf/missing-resource',
+        `${name}: "${uri}" could not be fetched: ${cause instanceof Error ? cause.message : String(cause)}.`,
+        { cause, location: { file: name } },
+      );
     }
-    if (!response.ok) throw new GltfError('gltf/missing-resource', `${name}: "${uri}" could not be fetched: the server answers ${response.status} ${response.statusText}.`, { location: { file: name } });
+    if (!response.ok)
+      throw new GltfError(
+        'gltf/missing-resource',
+        `${name}: "${uri}" could not be fetched: the server answers ${response.status} ${response.statusText}.`,
+        { location: { file: name } },
+      );
     try {
       return await bodyOf(response, uri, name);
     } catch (cause) {
       signal?.throwIfAborted();
       if (cause instanceof GltfError) throw cause;
-      throw new GltfError('gltf/missing-resource', `${name}: "${uri}" broke off: ${cause instanceof Error ? cause.message : String(cause)}.`, { cause, location: { file: name } });
+      throw new GltfError(
+        'gltf/missing-resource',
+        `${name}: "${uri}" broke off: ${cause instanceof Error ? cause.message : String(cause)}.`,
+        { cause, location: { file: name } },
+      );
     }
   };
   const bodyOf = async (response: Response, uri: string, name: string): Promise<Uint8Array<ArrayBuffer>> => {
-    const tooLarge = () => new GltfError('gltf/too-large', `${name}: "${uri}" has more than the ${maxBytes} bytes that limits.fileBytes allows.`, { location: { file: name } });
+    const tooLarge = () =>
+      new GltfError(
+        'gltf/too-large',
+        `${name}: "${uri}" has more than the ${maxBytes} bytes that limits.fileBytes allows.`,
+        { location: { file: name } },
+      );
     const announced = Number(response.headers.get('content-length') ?? 0);
     if (announced > maxBytes) throw tooLarge();
     if (!response.body) return new Uint8Array(await response.arrayBuffer());
@@ -121,22 +165,39 @@ export async function openSource(input: GltfInput, options: { readonly fetch: ty
     }
     return bytes;
   };
-  const relative = (base: URL | undefined, name: string): ResourceReader => async (uri, signal) => {
-    // Halves of characters cannot be escaped; no file is called by them.
-    const path = uri.replace(/\p{Surrogate}/gu, '\ufffd').split('/').map(encodeURIComponent).join('/');
-    // Nothing lies beside an address such as "blob:" or "data:".
-    if (!base || !URL.canParse(path, base)) throw missing(uri, name);
-    const url = new URL(path, base);
-    // A document from a stranger must not make the host ask for anything else.
-    if (!url.href.startsWith(new URL('.', base).href)) throw new GltfError('gltf/missing-resource', `${name} names "${uri}": only files below the document's own folder are read.`, { location: { file: name } });
-    return get(url, uri, name, signal);
-  };
+  const relative =
+    (base: URL | undefined, name: string): ResourceReader =>
+    async (uri, signal) => {
+      // Halves of characters cannot be escaped; no file is called by them.
+      const path = uri
+        .replace(/\p{Surrogate}/gu, '\ufffd')
+        .split('/')
+        .map(encodeURIComponent)
+        .join('/');
+      // Nothing lies beside an address such as "blob:" or "data:".
+      if (!base || !URL.canParse(path, base)) throw missing(uri, name);
+      const url = new URL(path, base);
+      // A document from a stranger must not make the host ask for anything else.
+      if (!url.href.startsWith(new URL('.', base).href))
+        throw new GltfError(
+          'gltf/missing-resource',
+          `${name} names "${uri}": only files below the document's own folder are read.`,
+          { location: { file: name } },
+        );
+      return get(url, uri, name, signal);
+    };
   const page = typeof location === 'undefined' ? undefined : location.href;
   const base = options.baseUrl === undefined ? undefined : addressOf(options.baseUrl, page);
   if (typeof input === 'string' || input instanceof URL) {
     const url = addressOf(input, base ?? page);
-    const name = /^(data|blob):/.test(url.protocol) ? 'The glTF file' : decoded(url.pathname.slice(url.pathname.lastIndexOf('/') + 1)) || url.href;
+    const name = /^(data|blob):/.test(url.protocol)
+      ? 'The glTF file'
+      : decoded(url.pathname.slice(url.pathname.lastIndexOf('/') + 1)) || url.href;
     return { name, bytes: await get(url, url.href, name, options.signal), read: relative(url, name) };
   }
-  return { name: 'The glTF file', bytes: input instanceof Uint8Array ? input : new Uint8Array(input), read: relative(base, 'The glTF file') };
+  return {
+    name: 'The glTF file',
+    bytes: input instanceof Uint8Array ? input : new Uint8Array(input),
+    read: relative(base, 'The glTF file'),
+  };
 }

@@ -1,7 +1,8 @@
 // Tangents as MikkTSpace makes them (M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008; the glTF
-// specification, 3.7.2.1, asks for them where a file has none): one for each set of triangles that meet at a vertex, hang
-// together by edges and see the picture the same way round; directions weighted by the angles at the vertex. Vertices are
-// those with the same position, normal and uv, whatever their index. Mirrored halves and seams thus get vertices of their own.
+// specification, 3.7.2.1, asks for them where a file has none): one for each set of triangles that meet at a vertex,
+// hang together by edges and see the picture the same way round; directions weighted by the angles at the vertex.
+// Vertices are those with the same position, normal and uv, whatever their index. Mirrored halves and seams thus get
+// vertices of their own.
 import type { Material, Mesh } from '@glanz/scene';
 
 /** The UV set whose tangents a material is shaded with; undefined if it looks the same with any. */
@@ -79,13 +80,20 @@ class Groups {
 }
 
 /**
- * Calls `found` for every pair of triangles that run along an edge in opposite directions, with the corners at which the
- * edge begins in each. Every edge of a triangle is in one pair at most.
+ * Calls `found` for every pair of triangles that run along an edge in opposite directions, with the corners at which
+ * the edge begins in each. Every edge of a triangle is in one pair at most.
  */
-function pairEdges(corners: Int32Array, usable: (triangle: number) => boolean, found: (a: number, b: number) => void): void {
+function pairEdges(
+  corners: Int32Array,
+  usable: (triangle: number) => boolean,
+  found: (a: number, b: number) => void,
+): void {
   const mask = powerOfTwoAbove(2 * corners.length) - 1;
   // Waiting edges by their two ends: slots with a key of two vertices and the head of a list of corners.
-  const from = new Int32Array(mask + 1).fill(-1), to = new Int32Array(mask + 1), head = new Int32Array(mask + 1), next = new Int32Array(corners.length);
+  const from = new Int32Array(mask + 1).fill(-1),
+    to = new Int32Array(mask + 1),
+    head = new Int32Array(mask + 1),
+    next = new Int32Array(corners.length);
   const slotOf = (a: number, b: number) => {
     const hash = mix(mix(0, a), b);
     let slot = (hash ^ (hash >>> 13)) & mask;
@@ -95,7 +103,8 @@ function pairEdges(corners: Int32Array, usable: (triangle: number) => boolean, f
   for (let corner = 0; corner < corners.length; corner++) {
     const triangle = (corner / 3) | 0;
     if (!usable(triangle)) continue;
-    const a = corners[corner] as number, b = corners[3 * triangle + ((corner + 1) % 3)] as number;
+    const a = corners[corner] as number,
+      b = corners[3 * triangle + ((corner + 1) % 3)] as number;
     const waiting = slotOf(b, a);
     if (from[waiting] !== -1 && (head[waiting] as number) !== -1) {
       const other = head[waiting] as number;
@@ -112,7 +121,8 @@ function pairEdges(corners: Int32Array, usable: (triangle: number) => boolean, f
 }
 
 /** Whether two vertices lie at the same place. */
-const samePlace = (P: Float32Array, p: number, q: number) => P[3 * p] === P[3 * q] && P[3 * p + 1] === P[3 * q + 1] && P[3 * p + 2] === P[3 * q + 2];
+const samePlace = (P: Float32Array, p: number, q: number) =>
+  P[3 * p] === P[3 * q] && P[3 * p + 1] === P[3 * q + 1] && P[3 * p + 2] === P[3 * q + 2];
 
 const following = (corner: number) => (corner % 3 === 2 ? corner - 2 : corner + 1);
 
@@ -132,16 +142,27 @@ export function withTangents(mesh: Mesh, set = 0): Mesh {
 
   // For each triangle the direction of growing u, scaled to 1, and which way round it sees the picture.
   const along = new Float64Array(3 * triangles);
-  const NONE = 0, ANY = 3;
+  const NONE = 0,
+    ANY = 3;
   const turn = new Uint8Array(triangles);
   for (let t = 0; t < triangles; t++) {
-    const a = corners[3 * t] as number, b = corners[3 * t + 1] as number, c = corners[3 * t + 2] as number;
+    const a = corners[3 * t] as number,
+      b = corners[3 * t + 1] as number,
+      c = corners[3 * t + 2] as number;
     if (samePlace(P, a, b) || samePlace(P, b, c) || samePlace(P, c, a)) continue;
-    const u0 = UV[2 * a] as number, v0 = UV[2 * a + 1] as number;
-    const u1 = (UV[2 * b] as number) - u0, v1 = (UV[2 * b + 1] as number) - v0, u2 = (UV[2 * c] as number) - u0, v2 = (UV[2 * c + 1] as number) - v0;
+    const u0 = UV[2 * a] as number,
+      v0 = UV[2 * a + 1] as number;
+    const u1 = (UV[2 * b] as number) - u0,
+      v1 = (UV[2 * b + 1] as number) - v0,
+      u2 = (UV[2 * c] as number) - u0,
+      v2 = (UV[2 * c + 1] as number) - v0;
     const area = u1 * v2 - v1 * u2;
-    const direction = (k: number) => v2 * ((P[3 * b + k] as number) - (P[3 * a + k] as number)) - v1 * ((P[3 * c + k] as number) - (P[3 * a + k] as number));
-    const x = direction(0), y = direction(1), z = direction(2);
+    const direction = (k: number) =>
+      v2 * ((P[3 * b + k] as number) - (P[3 * a + k] as number)) -
+      v1 * ((P[3 * c + k] as number) - (P[3 * a + k] as number));
+    const x = direction(0),
+      y = direction(1),
+      z = direction(2);
     const length = Math.sqrt(x * x + y * y + z * z);
     turn[t] = Math.abs(area) > 1.2e-38 && length > 1.2e-38 ? (area > 0 ? 1 : 2) : ANY;
     if (turn[t] === ANY) continue;
@@ -151,7 +172,11 @@ export function withTangents(mesh: Mesh, set = 0): Mesh {
     along[3 * t + 2] = z * scale;
   }
   const pairs: number[] = [];
-  pairEdges(corners, (t) => turn[t] !== NONE, (a, b) => pairs.push(a, b));
+  pairEdges(
+    corners,
+    (t) => turn[t] !== NONE,
+    (a, b) => pairs.push(a, b),
+  );
   // A triangle that shows no area of the picture goes with a neighbour.
   const seen = Uint8Array.from(turn);
   for (let i = 0; i < pairs.length; i += 2) {
@@ -170,34 +195,53 @@ export function withTangents(mesh: Mesh, set = 0): Mesh {
 
   const sums = new Float64Array(3 * corners.length);
   const projected = (out: number[], x: number, y: number, z: number, n: number): void => {
-    const nx = N[n] as number, ny = N[n + 1] as number, nz = N[n + 2] as number;
+    const nx = N[n] as number,
+      ny = N[n + 1] as number,
+      nz = N[n + 2] as number;
     const d = nx * x + ny * y + nz * z;
-    const px = x - d * nx, py = y - d * ny, pz = z - d * nz;
+    const px = x - d * nx,
+      py = y - d * ny,
+      pz = z - d * nz;
     const length = Math.sqrt(px * px + py * py + pz * pz);
     const scale = length > 1.2e-38 ? 1 / length : 0;
     out[0] = px * scale;
     out[1] = py * scale;
     out[2] = pz * scale;
   };
-  const s: number[] = [0, 0, 0], e: number[] = [0, 0, 0], f: number[] = [0, 0, 0];
+  const s: number[] = [0, 0, 0],
+    e: number[] = [0, 0, 0],
+    f: number[] = [0, 0, 0];
   for (let corner = 0; corner < corners.length; corner++) {
     const t = (corner / 3) | 0;
     if (turn[t] === NONE || turn[t] === ANY) continue;
-    const at = 3 * (corners[corner] as number), after = 3 * (corners[following(corner)] as number), before = 3 * (corners[following(following(corner))] as number);
+    const at = 3 * (corners[corner] as number),
+      after = 3 * (corners[following(corner)] as number),
+      before = 3 * (corners[following(following(corner))] as number);
     const edge = (q: number, k: number) => (P[q + k] as number) - (P[at + k] as number);
     projected(s, along[3 * t] as number, along[3 * t + 1] as number, along[3 * t + 2] as number, at);
     projected(e, edge(before, 0), edge(before, 1), edge(before, 2), at);
     projected(f, edge(after, 0), edge(after, 1), edge(after, 2), at);
-    const cosine = (e[0] as number) * (f[0] as number) + (e[1] as number) * (f[1] as number) + (e[2] as number) * (f[2] as number);
+    const cosine =
+      (e[0] as number) * (f[0] as number) + (e[1] as number) * (f[1] as number) + (e[2] as number) * (f[2] as number);
     const angle = Math.acos(Math.min(Math.max(cosine, -1), 1));
     const group = 3 * groups.of(corner);
     for (let k = 0; k < 3; k++) sums[group + k] = (sums[group + k] as number) + angle * (s[k] as number);
   }
-  return assign(mesh, corners, (corner) => (turn[(corner / 3) | 0] === NONE ? -1 : groups.of(corner)), (group) => [sums.subarray(3 * group, 3 * group + 3), seen[(group / 3) | 0] === 1 ? -1 : 1]);
+  return assign(
+    mesh,
+    corners,
+    (corner) => (turn[(corner / 3) | 0] === NONE ? -1 : groups.of(corner)),
+    (group) => [sums.subarray(3 * group, 3 * group + 3), seen[(group / 3) | 0] === 1 ? -1 : 1],
+  );
 }
 
 /** Gives each vertex the tangent of its group, and the groups beyond the first a copy of the vertex. */
-function assign(mesh: Mesh, corners: Int32Array, groupOf: (corner: number) => number, tangentOf: (group: number) => readonly [ArrayLike<number>, number]): Mesh {
+function assign(
+  mesh: Mesh,
+  corners: Int32Array,
+  groupOf: (corner: number) => number,
+  tangentOf: (group: number) => readonly [ArrayLike<number>, number],
+): Mesh {
   const N = mesh.normals as Float32Array;
   const vertices = mesh.positions.length / 3;
   // The group of each vertex; the vertices that later copies are of; the copies by vertex and group.
@@ -232,9 +276,14 @@ function assign(mesh: Mesh, corners: Int32Array, groupOf: (corner: number) => nu
   };
   const tangents = new Float32Array(4 * total);
   // A corner without area looks to the other triangles at its vertex.
-  const weldedOf = new Map<number, number>(), atWelded = new Map<number, number>();
-  for (let corner = 0; corner < corners.length; corner++) if (group[indices[corner] as number] === -1) weldedOf.set(indices[corner] as number, corners[corner] as number);
-  if (weldedOf.size > 0) for (let corner = 0; corner < corners.length; corner++) if (groupOf(corner) !== -1 && !atWelded.has(corners[corner] as number)) atWelded.set(corners[corner] as number, groupOf(corner));
+  const weldedOf = new Map<number, number>(),
+    atWelded = new Map<number, number>();
+  for (let corner = 0; corner < corners.length; corner++)
+    if (group[indices[corner] as number] === -1) weldedOf.set(indices[corner] as number, corners[corner] as number);
+  if (weldedOf.size > 0)
+    for (let corner = 0; corner < corners.length; corner++)
+      if (groupOf(corner) !== -1 && !atWelded.has(corners[corner] as number))
+        atWelded.set(corners[corner] as number, groupOf(corner));
   for (let v = 0; v < total; v++) {
     const own = group[v] === -1 ? atWelded.get(weldedOf.get(v) ?? -1) : group[v];
     const [sum, sign] = own === undefined ? [[0, 0, 0], 1] : tangentOf(own);
@@ -244,7 +293,14 @@ function assign(mesh: Mesh, corners: Int32Array, groupOf: (corner: number) => nu
     else tangents.set(perpendicular(N[n] as number, N[n + 1] as number, N[n + 2] as number), 4 * v);
     tangents[4 * v + 3] = sign;
   }
-  const made: Mesh = { ...mesh, indices, tangents, positions: widened(mesh.positions, 3), normals: widened(mesh.normals as Float32Array<ArrayBuffer>, 3), uvs: (mesh.uvs ?? []).map((uv) => widened(uv, 2)) };
+  const made: Mesh = {
+    ...mesh,
+    indices,
+    tangents,
+    positions: widened(mesh.positions, 3),
+    normals: widened(mesh.normals as Float32Array<ArrayBuffer>, 3),
+    uvs: (mesh.uvs ?? []).map((uv) => widened(uv, 2)),
+  };
   if (mesh.colors) made.colors = widened(mesh.colors, 4);
   return made;
 }

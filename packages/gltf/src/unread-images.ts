@@ -3,20 +3,29 @@ import type { GltfImage, GltfJson, GltfTexture } from './json';
 import type { PrimitiveReader } from './primitive';
 
 /**
- * Checks the images that nothing shows by what is at hand: first bytes that lie in the document. Files beside it are not
- * opened; one that not even a texture names is reported, since it may not be there.
+ * Checks the images that nothing shows by what is at hand: first bytes that lie in the document. Files beside it are
+ * not opened; one that not even a texture names is reported, since it may not be there.
  * @param shown Images that materials show.
  */
-export function checkUnreadImages(json: GltfJson, shown: readonly number[], reader: PrimitiveReader, warn: (path: string, what: string) => void): void {
+export function checkUnreadImages(
+  json: GltfJson,
+  shown: readonly number[],
+  reader: PrimitiveReader,
+  warn: (path: string, what: string) => void,
+): void {
   const named = new Set([...shown, ...(json.textures ?? []).flatMap(sourcesOf)]);
-  const read = new Set([...shown, ...(json.extensions?.EXT_lights_image_based?.lights ?? []).flatMap((light) => light?.specularImages.flat() ?? [])]);
+  const read = new Set([
+    ...shown,
+    ...(json.extensions?.EXT_lights_image_based?.lights ?? []).flatMap((light) => light?.specularImages.flat() ?? []),
+  ]);
   (json.images ?? []).forEach((image, index) => {
     if (read.has(index)) return;
     const path = `/images/${index}`;
     const head = headBytes(image, reader);
     if (!head) {
       const beside = typeof image.uri === 'string' && !/^data:/i.test(image.uri);
-      if (beside && !named.has(index)) warn(path, `names the file "${image.uri.slice(0, 80)}", but no texture uses it; it is not read`);
+      if (beside && !named.has(index))
+        warn(path, `names the file "${image.uri.slice(0, 80)}", but no texture uses it; it is not read`);
       return;
     }
     try {

@@ -1,7 +1,19 @@
-/** The parts of a data: uri (RFC 2397): its type in lower case, whether its data are base64, the data as they stand; undefined if it is none. */
-export function dataUri(uri: string): { readonly type: string; readonly base64: boolean; readonly data: string } | undefined {
+/**
+ * The parts of a data: uri (RFC 2397): its type in lower case, whether its data are base64, the data as they stand;
+ * undefined if it is none.
+ */
+export function dataUri(
+  uri: string,
+): { readonly type: string; readonly base64: boolean; readonly data: string } | undefined {
   // A search, not one long expression: the data may have many megabytes.
   const comma = uri.slice(0, 1024).indexOf(',');
-  const found = comma < 0 ? null : /^data:([a-z0-9!#$&^_.+-]+\/[a-z0-9!#$&^_.+-]+)?((?:;[a-z0-9-]+=[^;,]*)*)(;base64)?$/i.exec(uri.slice(0, comma));
-  return found ? { type: (found[1] ?? '').toLowerCase(), base64: found[3] !== undefined, data: uri.slice(comma + 1) } : undefined;
+  const found =
+    comma < 0
+      ? null
+      : /^data:([a-z0-9!#$&^_.+-]+\/[a-z0-9!#$&^_.+-]+)?((?:;[a-z0-9-]+=[^;,]*)*)(;base64)?$/i.exec(
+          uri.slice(0, comma),
+        );
+  return found
+    ? { type: (found[1] ?? '').toLowerCase(), base64: found[3] !== undefined, data: uri.slice(comma + 1) }
+    : undefined;
 }

@@ -23,7 +23,8 @@ export class WarningList extends Array<SceneWarning> {
   /** A plain array, the last entry saying how many there were beyond. */
   finished(file: string, text: (message: string) => string): SceneWarning[] {
     const all = Array.from(this, (warning) => ({ ...warning, message: text(warning.message) }));
-    if (this.#dropped > 0) all.push({ code: 'gltf/more-warnings', message: text(`${file}: there are ${this.#dropped} more warnings.`) });
+    if (this.#dropped > 0)
+      all.push({ code: 'gltf/more-warnings', message: text(`${file}: there are ${this.#dropped} more warnings.`) });
     return all;
   }
 }

@@ -1,5 +1,5 @@
-// How much of a buffer view the last element of an accessor needs, by the figure in glTF 2.0, 3.6.2.4: columns of matrices
-// start at multiples of 4 bytes, and no byte after the last column is part of the element.
+// How much of a buffer view the last element of an accessor needs, by the figure in glTF 2.0, 3.6.2.4: columns of
+// matrices start at multiples of 4 bytes, and no byte after the last column is part of the element.
 import { expect, test } from 'vitest';
 import { loadGltf, type GltfError } from '../src/index';
 import { Accessors } from '../src/accessors';
@@ -21,7 +21,10 @@ const LAYOUTS = [
 /** The triangle with an accessor of matrices that a vertex attribute of the document's own reads. */
 const withMatrices = (accessor: object, bytes: readonly number[], view: object = {}) =>
   spoiled((json) => {
-    json['buffers'].push({ byteLength: bytes.length, uri: `data:application/octet-stream;base64,${Buffer.from(bytes).toString('base64')}` });
+    json['buffers'].push({
+      byteLength: bytes.length,
+      uri: `data:application/octet-stream;base64,${Buffer.from(bytes).toString('base64')}`,
+    });
     json['bufferViews'].push({ buffer: 1, byteLength: bytes.length, ...view });
     json['accessors'].push({ bufferView: 2, count: 2, ...accessor });
     json['meshes'][0].primitives[0].attributes._MATRICES = 2;
@@ -29,9 +32,14 @@ const withMatrices = (accessor: object, bytes: readonly number[], view: object =
 
 /** Numbers of an accessor over bytes, as the loader reads them. */
 function read(accessor: object, bytes: readonly number[], view: object = {}): number[] {
-  const json = { bufferViews: [{ buffer: 0, byteLength: bytes.length, ...view }], accessors: [{ bufferView: 0, ...accessor }] };
+  const json = {
+    bufferViews: [{ buffer: 0, byteLength: bytes.length, ...view }],
+    accessors: [{ bufferView: 0, ...accessor }],
+  };
   const data = Uint8Array.from(bytes);
-  return [...new Accessors(json as unknown as GltfJson, () => data, new Budget('test', 'geometryBytes', undefined)).floats(0)];
+  return [
+    ...new Accessors(json as unknown as GltfJson, () => data, new Budget('test', 'geometryBytes', undefined)).floats(0),
+  ];
 }
 
 test.each(LAYOUTS)('the last %s of %d ends with its last column', async (type, componentType, element, used, size) => {
@@ -45,7 +53,9 @@ test.each(LAYOUTS)('the last %s of %d ends with its last column', async (type, c
 test.each(LAYOUTS)('a byte less than that is refused: %s of %d', async (type, componentType, element, used) => {
   const bytes = [...element, ...element.slice(0, used - 1)];
   // Kept even, so that views of shorts are cut in a column as well.
-  const error = await loadGltf(withMatrices({ componentType, type }, bytes)).catch((thrown: unknown) => thrown as GltfError);
+  const error = await loadGltf(withMatrices({ componentType, type }, bytes)).catch(
+    (thrown: unknown) => thrown as GltfError,
+  );
   expect(error).toMatchObject({ code: 'gltf/malformed', location: { path: '/accessors/2' } });
 });
 
@@ -54,7 +64,9 @@ test('a stride counts between elements, not after the last one', async () => {
   const bytes = [...MAT2_BYTES, ...gap, ...MAT2_BYTES.slice(0, 6)];
   const scene = await loadGltf(withMatrices({ componentType: 5121, type: 'MAT2' }, bytes, { byteStride: 12 }));
   expect(scene.instances.length).toBe(1);
-  expect(read({ componentType: 5121, type: 'MAT2', count: 2 }, bytes, { byteStride: 12 })).toEqual([1, 2, 3, 4, 1, 2, 3, 4]);
+  expect(read({ componentType: 5121, type: 'MAT2', count: 2 }, bytes, { byteStride: 12 })).toEqual([
+    1, 2, 3, 4, 1, 2, 3, 4,
+  ]);
   const short = withMatrices({ componentType: 5121, type: 'MAT2' }, bytes, { byteStride: 16 });
   await expect(loadGltf(short)).rejects.toMatchObject({ code: 'gltf/malformed', location: { path: '/accessors/2' } });
 });
@@ -62,15 +74,27 @@ test('a stride counts between elements, not after the last one', async () => {
 test('sparse matrices need no padding after the last one either', async () => {
   const bytes = [1, 0, 0, 0, ...MAT3_BYTES.slice(0, 11)];
   const accessor = { componentType: 5121, type: 'MAT3', count: 2 };
-  const sparse = (view: number) => ({ count: 1, indices: { bufferView: view, componentType: 5121 }, values: { bufferView: view, byteOffset: 4 } });
+  const sparse = (view: number) => ({
+    count: 1,
+    indices: { bufferView: view, componentType: 5121 },
+    values: { bufferView: view, byteOffset: 4 },
+  });
   const { warnings } = await loadGltf(withMatrices({ ...accessor, bufferView: undefined, sparse: sparse(2) }, bytes));
   expect(warnings).toEqual([]);
-  expect(read({ ...accessor, bufferView: undefined, sparse: sparse(0) }, bytes)).toEqual([0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9]);
+  expect(read({ ...accessor, bufferView: undefined, sparse: sparse(0) }, bytes)).toEqual([
+    0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9,
+  ]);
 });
 
 test('a stride has no meaning for sparse data, and is reported', async () => {
   const bytes = [1, 0, 0, 0, ...MAT2_BYTES];
-  const sparse = { count: 1, indices: { bufferView: 2, componentType: 5121 }, values: { bufferView: 2, byteOffset: 4 } };
-  const { warnings } = await loadGltf(withMatrices({ componentType: 5121, type: 'MAT2', bufferView: undefined, sparse }, bytes, { byteStride: 12 }));
+  const sparse = {
+    count: 1,
+    indices: { bufferView: 2, componentType: 5121 },
+    values: { bufferView: 2, byteOffset: 4 },
+  };
+  const { warnings } = await loadGltf(
+    withMatrices({ componentType: 5121, type: 'MAT2', bufferView: undefined, sparse }, bytes, { byteStride: 12 }),
+  );
   expect(warnings.map(({ path }) => path)).toEqual(['/accessors/2/sparse/indices', '/accessors/2/sparse/values']);
 });

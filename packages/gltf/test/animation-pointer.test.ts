@@ -2,8 +2,14 @@ import { describe, expect, test } from 'vitest';
 import { loadGltf } from '../src/index';
 import { glb, triangle, type TriangleJson } from './build';
 
-/** The triangle with an animation of 2 seconds whose channels move what pointers name, from the first value to the second. */
-function pointed(channels: readonly { pointer: unknown; from: number[]; to: number[]; type?: string; interpolation?: string }[], more: (json: TriangleJson) => void = () => undefined): Uint8Array<ArrayBuffer> {
+/**
+ * The triangle with an animation of 2 seconds whose channels move what pointers name, from the first value to the
+ * second.
+ */
+function pointed(
+  channels: readonly { pointer: unknown; from: number[]; to: number[]; type?: string; interpolation?: string }[],
+  more: (json: TriangleJson) => void = () => undefined,
+): Uint8Array<ArrayBuffer> {
   const { json, binary } = triangle();
   const numbers = [0, 2, ...channels.flatMap(({ from, to }) => [...from, ...to])];
   const bytes = new Uint8Array(44 + 4 * numbers.length);
@@ -17,16 +23,28 @@ function pointed(channels: readonly { pointer: unknown; from: number[]; to: numb
   };
   const input = accessor(0, 2, 'SCALAR');
   let offset = 2;
-  json['animations'] = [{
-    samplers: channels.map(({ from, type, interpolation }) => {
-      const kind = type ?? ['SCALAR', 'SCALAR', 'VEC2', 'VEC3', 'VEC4'][from.length]!;
-      const output = accessor(offset, kind === 'SCALAR' ? 2 * from.length : 2, kind);
-      offset += 2 * from.length;
-      return { input, output, ...(interpolation ? { interpolation } : {}) };
-    }),
-    channels: channels.map(({ pointer }, sampler) => ({ sampler, target: { path: 'pointer', extensions: { KHR_animation_pointer: { pointer } } } })),
-  }];
-  json['materials'] = [{ name: 'm', pbrMetallicRoughness: { baseColorFactor: [1, 1, 1, 1] }, extensions: { KHR_materials_emissive_strength: {} }, emissiveFactor: [1, 1, 1] }];
+  json['animations'] = [
+    {
+      samplers: channels.map(({ from, type, interpolation }) => {
+        const kind = type ?? ['SCALAR', 'SCALAR', 'VEC2', 'VEC3', 'VEC4'][from.length]!;
+        const output = accessor(offset, kind === 'SCALAR' ? 2 * from.length : 2, kind);
+        offset += 2 * from.length;
+        return { input, output, ...(interpolation ? { interpolation } : {}) };
+      }),
+      channels: channels.map(({ pointer }, sampler) => ({
+        sampler,
+        target: { path: 'pointer', extensions: { KHR_animation_pointer: { pointer } } },
+      })),
+    },
+  ];
+  json['materials'] = [
+    {
+      name: 'm',
+      pbrMetallicRoughness: { baseColorFactor: [1, 1, 1, 1] },
+      extensions: { KHR_materials_emissive_strength: {} },
+      emissiveFactor: [1, 1, 1],
+    },
+  ];
   json['meshes'][0].primitives[0].material = 0;
   more(json);
   json['extensionsUsed'] ??= [...new Set([...JSON.stringify(json).matchAll(/"(KHR_\w+)":/g)].map(([, name]) => name))];
@@ -44,7 +62,12 @@ describe('KHR_animation_pointer', () => {
     const scene = await loadGltf(bytes, { time: 0.5 });
     expect(scene.warnings).toEqual([]);
     const still = await loadGltf(bytes);
-    expect(scene.materials[0]!.parameters).toMatchObject({ base_color: [0.25, 0.125, 0.0625], specular_roughness: 0.25, emission_luminance: 3 * Number(still.materials[0]!.parameters.emission_luminance), emission_color: [1, 0.25, 1] });
+    expect(scene.materials[0]!.parameters).toMatchObject({
+      base_color: [0.25, 0.125, 0.0625],
+      specular_roughness: 0.25,
+      emission_luminance: 3 * Number(still.materials[0]!.parameters.emission_luminance),
+      emission_color: [1, 0.25, 1],
+    });
     expect(still.materials[0]!.parameters).toMatchObject({ base_color: [1, 1, 1], specular_roughness: 1 });
   });
 
@@ -60,16 +83,22 @@ describe('KHR_animation_pointer', () => {
   });
 
   test('visibility, lights and cameras', async () => {
-    const bytes = pointed([
-      { pointer: '/nodes/0/extensions/KHR_node_visibility/visible', from: [1], to: [0], interpolation: 'STEP' },
-      { pointer: '/extensions/KHR_lights_punctual/lights/0/intensity', from: [10], to: [30] },
-      { pointer: '/cameras/0/perspective/yfov', from: [0.5], to: [1] },
-    ], (json) => {
-      json['extensions'] = { KHR_lights_punctual: { lights: [{ type: 'point', intensity: 10 }] } };
-      json['cameras'] = [{ type: 'perspective', perspective: { yfov: 0.5, znear: 0.1 } }];
-      json['nodes'] = [{ mesh: 0, extensions: { KHR_node_visibility: { visible: true } } }, { extensions: { KHR_lights_punctual: { light: 0 } }, camera: 0 }];
-      json['scenes'][0].nodes = [0, 1];
-    });
+    const bytes = pointed(
+      [
+        { pointer: '/nodes/0/extensions/KHR_node_visibility/visible', from: [1], to: [0], interpolation: 'STEP' },
+        { pointer: '/extensions/KHR_lights_punctual/lights/0/intensity', from: [10], to: [30] },
+        { pointer: '/cameras/0/perspective/yfov', from: [0.5], to: [1] },
+      ],
+      (json) => {
+        json['extensions'] = { KHR_lights_punctual: { lights: [{ type: 'point', intensity: 10 }] } };
+        json['cameras'] = [{ type: 'perspective', perspective: { yfov: 0.5, znear: 0.1 } }];
+        json['nodes'] = [
+          { mesh: 0, extensions: { KHR_node_visibility: { visible: true } } },
+          { extensions: { KHR_lights_punctual: { light: 0 } }, camera: 0 },
+        ];
+        json['scenes'][0].nodes = [0, 1];
+      },
+    );
     const [before, after] = [await loadGltf(bytes, { time: 1 }), await loadGltf(bytes, { time: 2 })];
     expect([before.instances[0]!.visible, after.instances[0]!.visible]).toEqual([undefined, false]);
     expect([before.lights[0]!.intensity, after.lights[0]!.intensity]).toEqual([20, 30]);
@@ -77,9 +106,14 @@ describe('KHR_animation_pointer', () => {
   });
 
   test('values out of range are brought back, with a warning', async () => {
-    const scene = await loadGltf(pointed([{ pointer: '/materials/0/pbrMetallicRoughness/metallicFactor', from: [0], to: [4] }]), { time: 2 });
+    const scene = await loadGltf(
+      pointed([{ pointer: '/materials/0/pbrMetallicRoughness/metallicFactor', from: [0], to: [4] }]),
+      { time: 2 },
+    );
     expect(scene.materials[0]!.parameters.base_metalness).toBe(1);
-    expect(scene.warnings).toEqual([expect.objectContaining({ code: 'gltf/material', path: '/materials/0/pbrMetallicRoughness/metallicFactor' })]);
+    expect(scene.warnings).toEqual([
+      expect.objectContaining({ code: 'gltf/material', path: '/materials/0/pbrMetallicRoughness/metallicFactor' }),
+    ]);
   });
 
   test.each([
@@ -95,8 +129,13 @@ describe('KHR_animation_pointer', () => {
     expect('polluted' in {}).toBe(false);
   });
 
-  test.each(['/accessors/0/count', '/buffers/0/byteLength', '', 7, '/materials'])('the pointer %j is left out before anything moves', async (pointer) => {
-    const scene = await loadGltf(pointed([{ pointer, from: [0], to: [1] }]), { time: 1 });
-    expect(scene.warnings).toEqual([expect.objectContaining({ code: 'gltf/animation', path: '/animations/0/channels/0' })]);
-  });
+  test.each(['/accessors/0/count', '/buffers/0/byteLength', '', 7, '/materials'])(
+    'the pointer %j is left out before anything moves',
+    async (pointer) => {
+      const scene = await loadGltf(pointed([{ pointer, from: [0], to: [1] }]), { time: 1 });
+      expect(scene.warnings).toEqual([
+        expect.objectContaining({ code: 'gltf/animation', path: '/animations/0/channels/0' }),
+      ]);
+    },
+  );
 });

@@ -15,11 +15,15 @@ interface Asset {
 }
 
 const { present, note } = presence('assets/index.json');
-const assets = sharedIndex<Asset>('assets/index.json').filter(({ kind, main }) => kind === 'gltf' && existsSync(sharedPath(`assets/${main}`)));
+const assets = sharedIndex<Asset>('assets/index.json').filter(
+  ({ kind, main }) => kind === 'gltf' && existsSync(sharedPath(`assets/${main}`)),
+);
 const load = (name: string) => loadGltfFile(sharedPath(`assets/${assets.find((asset) => asset.name === name)!.main}`));
 
-const count = (scene: Scene) => scene.instances.reduce((sum, { mesh }) => sum + scene.meshes[mesh]!.indices.length / 3, 0);
-const allFinite = (values: ArrayLike<number> | undefined) => !values || Array.prototype.every.call(values, Number.isFinite);
+const count = (scene: Scene) =>
+  scene.instances.reduce((sum, { mesh }) => sum + scene.meshes[mesh]!.indices.length / 3, 0);
+const allFinite = (values: ArrayLike<number> | undefined) =>
+  !values || Array.prototype.every.call(values, Number.isFinite);
 
 /** The index counts all scenes of this file; the loader shows the default one. */
 const OTHER_COUNT: Readonly<Record<string, number>> = { MultipleScenes: 2 };
@@ -32,11 +36,21 @@ describe.skipIf(!present)(`real models${note}`, () => {
     const scene = await loadGltfFile(sharedPath(`assets/${asset.main}`));
     expect(count(scene)).toBe(OTHER_COUNT[name] ?? asset.instTris);
     expect(scene.warnings.filter(({ code }) => !EXPECTED_WARNINGS.has(code))).toEqual([]);
-    for (const { code, message } of scene.warnings) if (code === 'gltf/primitive') expect(message).toMatch(name === 'blenderio-01_vertex_count_32bit' ? /normals point to the back of each of its triangles/ : /points and lines are left out/);
+    for (const { code, message } of scene.warnings)
+      if (code === 'gltf/primitive')
+        expect(message).toMatch(
+          name === 'blenderio-01_vertex_count_32bit'
+            ? /normals point to the back of each of its triangles/
+            : /points and lines are left out/,
+        );
     validateScene(scene);
-    for (const mesh of scene.meshes) expect([mesh.positions, mesh.normals, mesh.tangents, mesh.colors, ...(mesh.uvs ?? [])].every(allFinite)).toBe(true);
+    for (const mesh of scene.meshes)
+      expect([mesh.positions, mesh.normals, mesh.tangents, mesh.colors, ...(mesh.uvs ?? [])].every(allFinite)).toBe(
+        true,
+      );
     for (const { normals } of scene.meshes) {
-      for (let i = 0; normals && i < normals.length; i += 3) expect(Math.abs(Math.hypot(normals[i]!, normals[i + 1]!, normals[i + 2]!) - 1)).toBeLessThan(1e-5);
+      for (let i = 0; normals && i < normals.length; i += 3)
+        expect(Math.abs(Math.hypot(normals[i]!, normals[i + 1]!, normals[i + 2]!) - 1)).toBeLessThan(1e-5);
     }
   });
 
@@ -45,7 +59,8 @@ describe.skipIf(!present)(`real models${note}`, () => {
     for (const { main, ext } of assets) {
       if (!ext.some((name) => name.startsWith('KHR_materials_'))) continue;
       const { warnings } = await loadGltfFile(sharedPath(`assets/${main}`));
-      for (const { message } of warnings) for (const [name] of message.matchAll(/KHR_materials_\w+/g)) ignored.add(name);
+      for (const { message } of warnings)
+        for (const [name] of message.matchAll(/KHR_materials_\w+/g)) ignored.add(name);
     }
     // Variants are alternatives among materials, not a material.
     ignored.delete('KHR_materials_variants');
@@ -69,7 +84,11 @@ describe.skipIf(!present)(`real models${note}`, () => {
   test('Draco, quantised and embedded ducks are the plain duck', async () => {
     const plain = sceneBounds(await load('Duck'));
     const size = Math.max(...[0, 1, 2].map((k) => plain.max[k]! - plain.min[k]!));
-    for (const [name, tolerance] of [['Duck-Embedded', 1e-6], ['Duck-Draco', 2e-3], ['Duck-Quantized', 2e-3]] as const) {
+    for (const [name, tolerance] of [
+      ['Duck-Embedded', 1e-6],
+      ['Duck-Draco', 2e-3],
+      ['Duck-Quantized', 2e-3],
+    ] as const) {
       const { min, max } = sceneBounds(await load(name));
       for (const k of [0, 1, 2] as const) {
         expect(Math.abs(min[k] - plain.min[k])).toBeLessThanOrEqual(tolerance * size);

@@ -25,7 +25,10 @@ function textured(): string {
 
 beforeAll(async () => {
   const { outputFiles } = await build({
-    stdin: { contents: `import { loadGltf } from ${JSON.stringify(fileURLToPath(new URL('../src/index.ts', import.meta.url)))}; globalThis.loadGltf = loadGltf;`, resolveDir: fileURLToPath(new URL('.', import.meta.url)) },
+    stdin: {
+      contents: `import { loadGltf } from ${JSON.stringify(fileURLToPath(new URL('../src/index.ts', import.meta.url)))}; globalThis.loadGltf = loadGltf;`,
+      resolveDir: fileURLToPath(new URL('.', import.meta.url)),
+    },
     bundle: true,
     write: false,
     format: 'iife',
@@ -34,7 +37,15 @@ beforeAll(async () => {
   pages.set('/', '<!doctype html><script src="entry.js"></script>').set('/entry.js', outputFiles[0]!.contents);
   server = createServer((request, response) => {
     const body = pages.get(request.url!);
-    response.writeHead(body === undefined ? 404 : 200, { 'content-type': request.url!.endsWith('.js') ? 'text/javascript' : request.url === '/' ? 'text/html' : 'application/octet-stream' }).end(body);
+    response
+      .writeHead(body === undefined ? 404 : 200, {
+        'content-type': request.url!.endsWith('.js')
+          ? 'text/javascript'
+          : request.url === '/'
+            ? 'text/html'
+            : 'application/octet-stream',
+      })
+      .end(body);
   });
   await new Promise<void>((resolve) => server.listen(0, '127.0.0.1', resolve));
   browser = await chromium.launch(config.use!.launchOptions!);
@@ -52,28 +63,50 @@ const load = (path: string) =>
   page.evaluate(async (address) => {
     try {
       const scene = await (globalThis as unknown as { loadGltf: typeof loadGltf }).loadGltf(address);
-      return { instances: scene.instances.length, warnings: scene.warnings, images: scene.images.map(({ width, height, data }) => [width, height, ...data]) };
+      return {
+        instances: scene.instances.length,
+        warnings: scene.warnings,
+        images: scene.images.map(({ width, height, data }) => [width, height, ...data]),
+      };
     } catch (error) {
       return { code: (error as { code?: string }).code, message: (error as Error).message };
     }
   }, path);
 
-test('a document, its buffer and its picture, by relative addresses and the browser\'s own fetch', async () => {
+test("a document, its buffer and its picture, by relative addresses and the browser's own fetch", async () => {
   // Every alpha from nothing to all, with colours that a canvas would lose below it.
   const codes = Uint8Array.of(200, 40, 90, 0, 10, 20, 30, 1, 255, 128, 7, 128, 9, 99, 199, 255);
-  pages.set('/m/a.gltf', textured()).set('/m/triangle.bin', triangle().binary).set('/m/picture.png', await sharp(codes, { raw: { width: 2, height: 2, channels: 4 } }).png().toBuffer());
+  pages
+    .set('/m/a.gltf', textured())
+    .set('/m/triangle.bin', triangle().binary)
+    .set(
+      '/m/picture.png',
+      await sharp(codes, { raw: { width: 2, height: 2, channels: 4 } })
+        .png()
+        .toBuffer(),
+    );
   expect(await load('m/a.gltf')).toEqual({ instances: 1, warnings: [], images: [[2, 2, ...codes]] });
 });
 
 test('colour profiles do not count', async () => {
-  const picture = await sharp(Uint8Array.of(200, 40, 90), { raw: { width: 1, height: 1, channels: 3 } }).withIccProfile('p3').png().toBuffer();
+  const picture = await sharp(Uint8Array.of(200, 40, 90), { raw: { width: 1, height: 1, channels: 3 } })
+    .withIccProfile('p3')
+    .png()
+    .toBuffer();
   const codes = await sharp(picture, { ignoreIcc: true }).raw().toBuffer();
   pages.set('/m/picture.png', picture);
-  expect(await load('m/a.gltf')).toEqual({ instances: 1, warnings: [], images: [[1, 1, ...codes.subarray(0, 3), 255]] });
+  expect(await load('m/a.gltf')).toEqual({
+    instances: 1,
+    warnings: [],
+    images: [[1, 1, ...codes.subarray(0, 3), 255]],
+  });
 });
 
 test('errors are typed there too', async () => {
   pages.set('/m/short.glb', glb(triangle().json, new Uint8Array(8)));
   expect((await load('m/short.glb')).code).toBe('gltf/truncated');
-  expect(await load('m/none.glb')).toEqual({ code: 'gltf/missing-resource', message: expect.stringMatching(/none\.glb.*404/) });
+  expect(await load('m/none.glb')).toEqual({
+    code: 'gltf/missing-resource',
+    message: expect.stringMatching(/none\.glb.*404/),
+  });
 });

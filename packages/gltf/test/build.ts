@@ -21,7 +21,10 @@ export function glb(json: object | string, binary?: ArrayBufferView, version = 2
 }
 
 /** Writes a document of glTF-Transform, an implementation of the format that is not ours. */
-export async function write(document: Document, extensions: (typeof Extension)[] = []): Promise<Uint8Array<ArrayBuffer>> {
+export async function write(
+  document: Document,
+  extensions: (typeof Extension)[] = [],
+): Promise<Uint8Array<ArrayBuffer>> {
   const bytes = await new WebIO().registerExtensions(extensions).writeBinary(document);
   return new Uint8Array(bytes);
 }
@@ -32,8 +35,11 @@ export function start() {
   const buffer = document.createBuffer();
   const scene = document.createScene();
   document.getRoot().setDefaultScene(scene);
-  const accessor = (type: 'SCALAR' | 'VEC2' | 'VEC3' | 'VEC4' | 'MAT4', array: Parameters<ReturnType<Document['createAccessor']>['setArray']>[0], normalized = false) =>
-    document.createAccessor().setType(type).setArray(array).setNormalized(normalized).setBuffer(buffer);
+  const accessor = (
+    type: 'SCALAR' | 'VEC2' | 'VEC3' | 'VEC4' | 'MAT4',
+    array: Parameters<ReturnType<Document['createAccessor']>['setArray']>[0],
+    normalized = false,
+  ) => document.createAccessor().setType(type).setArray(array).setNormalized(normalized).setBuffer(buffer);
   return { document, scene, accessor };
 }
 
@@ -49,8 +55,14 @@ export function triangle(): { json: TriangleJson; binary: Uint8Array<ArrayBuffer
     nodes: [{ mesh: 0, name: 'node' }],
     meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1 }] }],
     buffers: [{ byteLength: 44 }],
-    bufferViews: [{ buffer: 0, byteLength: 36 }, { buffer: 0, byteOffset: 36, byteLength: 6 }],
-    accessors: [{ bufferView: 0, componentType: 5126, type: 'VEC3', count: 3 }, { bufferView: 1, componentType: 5123, type: 'SCALAR', count: 3 }],
+    bufferViews: [
+      { buffer: 0, byteLength: 36 },
+      { buffer: 0, byteOffset: 36, byteLength: 6 },
+    ],
+    accessors: [
+      { bufferView: 0, componentType: 5126, type: 'VEC3', count: 3 },
+      { bufferView: 1, componentType: 5123, type: 'SCALAR', count: 3 },
+    ],
   };
   return { json, binary };
 }

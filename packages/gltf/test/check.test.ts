@@ -3,7 +3,10 @@ import { GltfError, loadGltf } from '../src/index';
 import { glb, spoiled, triangle, type TriangleJson } from './build';
 
 const outcome = async (bytes: Uint8Array<ArrayBuffer>): Promise<GltfError> => {
-  const caught: unknown = await loadGltf(bytes).then(() => undefined, (e: unknown) => e);
+  const caught: unknown = await loadGltf(bytes).then(
+    () => undefined,
+    (e: unknown) => e,
+  );
   expect(caught).toBeInstanceOf(GltfError);
   return caught as GltfError;
 };
@@ -36,20 +39,85 @@ describe('what the structure hangs on is refused, and the error says where', () 
     ['a negative offset', (j) => (j['bufferViews'][1].byteOffset = -4), '/bufferViews/1/byteOffset'],
     ['a count as a fraction', (j) => (j['accessors'][0].count = 2.5), '/accessors/0/count'],
     ['a count of 2^32', (j) => (j['accessors'][0].count = 2 ** 32), '/accessors/0'],
-    ['terabytes of zeros', (j) => { delete j['accessors'][0].bufferView; j['accessors'][0].count = 2 ** 40; }, '/accessors/0'],
-    ['terabytes of zeros, sparse', (j) => { delete j['accessors'][0].bufferView; j['accessors'][0].count = 2 ** 32; j['accessors'][0].sparse = { count: 1, indices: { bufferView: 1, componentType: 5123 }, values: { bufferView: 0 } }; }, '/accessors/0'],
-    ['sparse indices that do not grow', (j) => (j['accessors'][0].sparse = { count: 2, indices: { bufferView: 0, componentType: 5121 }, values: { bufferView: 0 } }), '/accessors/0/sparse/indices'],
+    [
+      'terabytes of zeros',
+      (j) => {
+        delete j['accessors'][0].bufferView;
+        j['accessors'][0].count = 2 ** 40;
+      },
+      '/accessors/0',
+    ],
+    [
+      'terabytes of zeros, sparse',
+      (j) => {
+        delete j['accessors'][0].bufferView;
+        j['accessors'][0].count = 2 ** 32;
+        j['accessors'][0].sparse = {
+          count: 1,
+          indices: { bufferView: 1, componentType: 5123 },
+          values: { bufferView: 0 },
+        };
+      },
+      '/accessors/0',
+    ],
+    [
+      'sparse indices that do not grow',
+      (j) =>
+        (j['accessors'][0].sparse = {
+          count: 2,
+          indices: { bufferView: 0, componentType: 5121 },
+          values: { bufferView: 0 },
+        }),
+      '/accessors/0/sparse/indices',
+    ],
     ['an unknown component', (j) => (j['accessors'][0].componentType = 5130), '/accessors/0'],
-    ['floats at an odd byte', (j) => { j['accessors'][0].count = 2; j['accessors'][0].byteOffset = 2; }, '/accessors/0'],
+    [
+      'floats at an odd byte',
+      (j) => {
+        j['accessors'][0].count = 2;
+        j['accessors'][0].byteOffset = 2;
+      },
+      '/accessors/0',
+    ],
     ['indices of floats', (j) => (j['meshes'][0].primitives[0].indices = 0), '/meshes/0/primitives/0/indices'],
-    ['positions of one number', (j) => (j['meshes'][0].primitives[0].attributes.POSITION = 1), '/meshes/0/primitives/0/attributes/POSITION'],
-    ['an accessor that is not there', (j) => (j['meshes'][0].primitives[0].attributes.NORMAL = 9), '/meshes/0/primitives/0/attributes/NORMAL'],
-    ['a material that is not there', (j) => (j['meshes'][0].primitives[0].material = 0), '/meshes/0/primitives/0/material'],
+    [
+      'positions of one number',
+      (j) => (j['meshes'][0].primitives[0].attributes.POSITION = 1),
+      '/meshes/0/primitives/0/attributes/POSITION',
+    ],
+    [
+      'an accessor that is not there',
+      (j) => (j['meshes'][0].primitives[0].attributes.NORMAL = 9),
+      '/meshes/0/primitives/0/attributes/NORMAL',
+    ],
+    [
+      'a material that is not there',
+      (j) => (j['meshes'][0].primitives[0].material = 0),
+      '/meshes/0/primitives/0/material',
+    ],
     ['a mesh that is not there', (j) => (j['nodes'][0].mesh = 1), '/nodes/0/mesh'],
     ['a node below itself', (j) => (j['nodes'][0].children = [0]), '/nodes/0'],
-    ['a circle of nodes', (j) => { j['nodes'].push({ children: [2] }, { children: [1] }); }, '/nodes/2'],
-    ['a node with two parents', (j) => { j['nodes'].push({ children: [3] }, { children: [3] }, {}); }, '/nodes/2/children/0'],
-    ['a scene of a node that is no root', (j) => { j['nodes'].push({ children: [0] }); }, '/scenes/0/nodes/0'],
+    [
+      'a circle of nodes',
+      (j) => {
+        j['nodes'].push({ children: [2] }, { children: [1] });
+      },
+      '/nodes/2',
+    ],
+    [
+      'a node with two parents',
+      (j) => {
+        j['nodes'].push({ children: [3] }, { children: [3] }, {});
+      },
+      '/nodes/2/children/0',
+    ],
+    [
+      'a scene of a node that is no root',
+      (j) => {
+        j['nodes'].push({ children: [0] });
+      },
+      '/scenes/0/nodes/0',
+    ],
     ['a matrix of 15 numbers', (j) => (j['nodes'][0].matrix = new Array(15).fill(1)), '/nodes/0/matrix'],
     ['a skin without joints', (j) => (j['skins'] = [{ joints: [] }]), '/skins/0/joints'],
   ])('%s', async (_, spoil, path) => {
@@ -61,14 +129,24 @@ describe('what the structure hangs on is refused, and the error says where', () 
 });
 
 describe('extensions that the document requires', () => {
-  const requiring = (name: string) => spoiled((j) => { j['extensionsUsed'] = [name]; j['extensionsRequired'] = [name]; });
+  const requiring = (name: string) =>
+    spoiled((j) => {
+      j['extensionsUsed'] = [name];
+      j['extensionsRequired'] = [name];
+    });
 
   test('an unknown one is refused', async () => {
     const error = await outcome(requiring('VENDOR_everything_else'));
-    expect([error.code, error.message]).toEqual(['gltf/unsupported-extension', expect.stringContaining('VENDOR_everything_else')]);
+    expect([error.code, error.message]).toEqual([
+      'gltf/unsupported-extension',
+      expect.stringContaining('VENDOR_everything_else'),
+    ]);
   });
 
-  test.each([['KHR_draco_mesh_compression', 'draco3dgltf'], ['EXT_meshopt_compression', 'meshoptimizer']])('%s without its decoder names the package', async (name, module) => {
+  test.each([
+    ['KHR_draco_mesh_compression', 'draco3dgltf'],
+    ['EXT_meshopt_compression', 'meshoptimizer'],
+  ])('%s without its decoder names the package', async (name, module) => {
     const error = await outcome(requiring(name));
     expect([error.code, error.message]).toEqual(['gltf/missing-decoder', expect.stringContaining(`"${module}"`)]);
   });
@@ -80,21 +158,39 @@ describe('extensions that the document requires', () => {
 });
 
 test('names from the file cannot break a message into lines or drown it', async () => {
-  const error = await outcome(spoiled((j) => { j['buffers'][0].uri = `a\nb\u2028${'x'.repeat(5000)}`; }));
+  const error = await outcome(
+    spoiled((j) => {
+      j['buffers'][0].uri = `a\nb\u2028${'x'.repeat(5000)}`;
+    }),
+  );
   expect(error.message).toMatch(/"a b x/);
   expect(error.message.length).toBeLessThan(600);
-  const { warnings } = await loadGltf(spoiled((j) => { j['meshes'][0] = { name: 'two\nlines', primitives: [j['meshes'][0].primitives[0], { ...j['meshes'][0].primitives[0], mode: 1 }] }; }));
+  const { warnings } = await loadGltf(
+    spoiled((j) => {
+      j['meshes'][0] = {
+        name: 'two\nlines',
+        primitives: [j['meshes'][0].primitives[0], { ...j['meshes'][0].primitives[0], mode: 1 }],
+      };
+    }),
+  );
   expect(warnings.map(({ message }) => message)).toEqual(['two lines 1: points and lines are left out.']);
 });
 
 test('animations are not looked into: a broken one costs nothing', async () => {
-  const scene = await loadGltf(spoiled((j) => { j['animations'] = [{ channels: [{ sampler: 9, target: { path: '__proto__' } }], samplers: [] }]; }));
+  const scene = await loadGltf(
+    spoiled((j) => {
+      j['animations'] = [{ channels: [{ sampler: 9, target: { path: '__proto__' } }], samplers: [] }];
+    }),
+  );
   expect(scene.instances.length).toBe(1);
 });
 
 test('keys such as __proto__ reach no object', async () => {
   const { json, binary } = triangle();
-  const spoilt = JSON.stringify(json).replace('"asset":{', '"__proto__":{"polluted":1},"asset":{"__proto__":{"polluted":1},');
+  const spoilt = JSON.stringify(json).replace(
+    '"asset":{',
+    '"__proto__":{"polluted":1},"asset":{"__proto__":{"polluted":1},',
+  );
   await loadGltf(glb(spoilt, binary));
   expect(({} as { polluted?: unknown }).polluted).toBeUndefined();
 });

@@ -16,7 +16,12 @@ function withKtx2(picture: Uint8Array, { required = false, plain = false } = {})
   json['textures'] = [{ ...(plain ? { source: 1 } : {}), extensions: { KHR_texture_basisu: { source: 0 } } }];
   json['materials'] = [{ pbrMetallicRoughness: { baseColorTexture: { index: 0 } } }];
   json['meshes'][0].primitives[0].material = 0;
-  return new Map([['a.gltf', new TextEncoder().encode(JSON.stringify(json))], ['a.bin', binary], ['a.ktx2', new Uint8Array(picture)], ['a.png', Uint8Array.of(0x89, 0x50, 0x4e, 0x47)]]);
+  return new Map([
+    ['a.gltf', new TextEncoder().encode(JSON.stringify(json))],
+    ['a.bin', binary],
+    ['a.ktx2', new Uint8Array(picture)],
+    ['a.png', Uint8Array.of(0x89, 0x50, 0x4e, 0x47)],
+  ]);
 }
 
 const HEADER = Uint8Array.of(0xab, 0x4b, 0x54, 0x58, 0x20, 0x32, 0x30, 0xbb, 0x0d, 0x0a, 0x1a, 0x0a);
@@ -30,17 +35,26 @@ describe('without a decoder', () => {
   });
 
   test('a file that has only KTX2 says what to install', async () => {
-    await expect(loadGltf({ files: withKtx2(HEADER, { required: true }) }, { decodeImage })).rejects.toMatchObject({ code: 'gltf/missing-decoder', message: expect.stringMatching(/decoders\.ktx2.*"three"/) });
+    await expect(loadGltf({ files: withKtx2(HEADER, { required: true }) }, { decodeImage })).rejects.toMatchObject({
+      code: 'gltf/missing-decoder',
+      message: expect.stringMatching(/decoders\.ktx2.*"three"/),
+    });
   });
 });
 
 test('a decoder that does not start is an error, since the file is sound', async () => {
-  const ktx2 = async () => { throw new GlanzError('element/decoder', 'It does not start.'); };
-  await expect(loadGltf({ files: withKtx2(HEADER, { required: true }) }, { decodeImage, decoders: { ktx2 } })).rejects.toMatchObject({ code: 'element/decoder' });
+  const ktx2 = async () => {
+    throw new GlanzError('element/decoder', 'It does not start.');
+  };
+  await expect(
+    loadGltf({ files: withKtx2(HEADER, { required: true }) }, { decodeImage, decoders: { ktx2 } }),
+  ).rejects.toMatchObject({ code: 'element/decoder' });
 });
 
 test('a picture that lies about its size never gets to the transcoder', async () => {
-  const decode = ktx2Decoder(() => { throw new Error('asked'); });
+  const decode = ktx2Decoder(() => {
+    throw new Error('asked');
+  });
   const picture = (width: number, height: number) => {
     const bytes = new Uint8Array(200);
     bytes.set(HEADER);
@@ -48,19 +62,25 @@ test('a picture that lies about its size never gets to the transcoder', async ()
     new DataView(bytes.buffer).setUint32(24, height, true);
     return bytes;
   };
-  for (const bytes of [HEADER, picture(0, 4), picture(4, 0), picture(65536, 65536), picture(16384, 16384)]) await expect(decode(bytes)).rejects.toMatchObject({ code: 'gltf/picture' });
+  for (const bytes of [HEADER, picture(0, 4), picture(4, 0), picture(65536, 65536), picture(16384, 16384)])
+    await expect(decode(bytes)).rejects.toMatchObject({ code: 'gltf/picture' });
 });
 
 const { present, note } = presence('assets/index.json');
 
 test.skipIf(!present)(`a lamp whose four pictures are all KTX2${note}`, async () => {
-  const { images, textures, warnings, materials } = await loadGltfFile(sharedPath('assets/AnisotropyBarnLamp-KTX2-Basisu/AnisotropyBarnLamp.gltf'));
+  const { images, textures, warnings, materials } = await loadGltfFile(
+    sharedPath('assets/AnisotropyBarnLamp-KTX2-Basisu/AnisotropyBarnLamp.gltf'),
+  );
   expect(warnings).toEqual([]);
-  const normal = materials.map((material) => material.textures?.geometry_normal).find((binding) => binding !== undefined)!;
+  const normal = materials
+    .map((material) => material.textures?.geometry_normal)
+    .find((binding) => binding !== undefined)!;
   const { width, height, data } = images[textures[normal.texture]!.image]!;
   expect([width, height]).toEqual([2048, 2048]);
   // A map of normals holds vectors of length 1 that point outwards, whoever decodes it.
-  let length = 0, up = 0;
+  let length = 0,
+    up = 0;
   const step = 4 * 97;
   for (let i = 0; i < data.length; i += step) {
     const n = [0, 1, 2].map((k) => data[i + k]! / 127.5 - 1) as [number, number, number];
@@ -72,21 +92,41 @@ test.skipIf(!present)(`a lamp whose four pictures are all KTX2${note}`, async ()
   expect(up).toBeGreaterThan(0.99);
 });
 
-interface Case { readonly file: string; readonly cat: string; readonly expect: string; readonly alsoOk?: readonly string[] }
+interface Case {
+  readonly file: string;
+  readonly cat: string;
+  readonly expect: string;
+  readonly alsoOk?: readonly string[];
+}
 const bad = presence('bad/index.json');
-const cases = sharedIndex<Case>('bad/index.json').filter(({ file, cat }) => cat === 'ktx2' && file.endsWith('.ktx2') && existsSync(sharedPath(`bad/${file}`)));
+const cases = sharedIndex<Case>('bad/index.json').filter(
+  ({ file, cat }) => cat === 'ktx2' && file.endsWith('.ktx2') && existsSync(sharedPath(`bad/${file}`)),
+);
 
-test.skipIf(!bad.present)(`broken KTX2 files are typed errors of the decoder, and a load goes on without them${bad.note}`, { timeout: 120_000 }, async () => {
-  const { packagedDecoders } = await import('../src/node');
-  const { ktx2 } = packagedDecoders();
-  const missed: string[] = [];
-  for (const { file, expect: expected, alsoOk = [] } of cases) {
-    const bytes = new Uint8Array(readFileSync(sharedPath(`bad/${file}`)));
-    const outcome = await ktx2!(bytes).then(({ width, height, data }) => { expect(data.length).toBe(4 * width * height); return 'accept'; }, (error: unknown) => { if (!(error instanceof GltfError)) throw error; return 'reject'; });
-    if (outcome !== expected && !alsoOk.includes(outcome)) missed.push(`${file}: ${outcome} instead of ${expected}`);
-  }
-  expect(missed).toEqual([]);
-  expect(cases.length).toBeGreaterThan(100);
-  const scene = await loadGltf({ files: withKtx2(HEADER) }, { decodeImage, decoders: { ktx2 } });
-  expect(scene.warnings.map(({ code }) => code)).toEqual(['gltf/image']);
-});
+test.skipIf(!bad.present)(
+  `broken KTX2 files are typed errors of the decoder, and a load goes on without them${bad.note}`,
+  { timeout: 120_000 },
+  async () => {
+    const { packagedDecoders } = await import('../src/node');
+    const { ktx2 } = packagedDecoders();
+    const missed: string[] = [];
+    for (const { file, expect: expected, alsoOk = [] } of cases) {
+      const bytes = new Uint8Array(readFileSync(sharedPath(`bad/${file}`)));
+      const outcome = await ktx2!(bytes).then(
+        ({ width, height, data }) => {
+          expect(data.length).toBe(4 * width * height);
+          return 'accept';
+        },
+        (error: unknown) => {
+          if (!(error instanceof GltfError)) throw error;
+          return 'reject';
+        },
+      );
+      if (outcome !== expected && !alsoOk.includes(outcome)) missed.push(`${file}: ${outcome} instead of ${expected}`);
+    }
+    expect(missed).toEqual([]);
+    expect(cases.length).toBeGreaterThan(100);
+    const scene = await loadGltf({ files: withKtx2(HEADER) }, { decodeImage, decoders: { ktx2 } });
+    expect(scene.warnings.map(({ code }) => code)).toEqual(['gltf/image']);
+  },
+);

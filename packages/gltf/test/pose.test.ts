@@ -9,8 +9,15 @@ interface Skinned {
   readonly change?: (json: TriangleJson) => void;
 }
 
-/** A triangle at (0, 0, 0), (1, 0, 0), (0, 1, 0) that two joints move: the first by 10 along x, the second by 10 along y. */
-function skinned({ joints = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], weights = [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0], change = () => undefined }: Skinned): Uint8Array<ArrayBuffer> {
+/**
+ * A triangle at (0, 0, 0), (1, 0, 0), (0, 1, 0) that two joints move: the first by 10 along x, the second by 10 along
+ * y.
+ */
+function skinned({
+  joints = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0],
+  weights = [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0],
+  change = () => undefined,
+}: Skinned): Uint8Array<ArrayBuffer> {
   const binary = new Uint8Array(36 + 12 + 48);
   new Float32Array(binary.buffer, 0, 9).set([0, 0, 0, 1, 0, 0, 0, 1, 0]);
   binary.set(joints, 36);
@@ -23,7 +30,11 @@ function skinned({ joints = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], weights = [1, 
     skins: [{ joints: [1, 2] }],
     meshes: [{ name: 'body', primitives: [{ attributes: { POSITION: 0, JOINTS_0: 1, WEIGHTS_0: 2 } }] }],
     buffers: [{ byteLength: binary.length }],
-    bufferViews: [{ buffer: 0, byteLength: 36 }, { buffer: 0, byteOffset: 36, byteLength: 12 }, { buffer: 0, byteOffset: 48, byteLength: 48 }],
+    bufferViews: [
+      { buffer: 0, byteLength: 36 },
+      { buffer: 0, byteOffset: 36, byteLength: 12 },
+      { buffer: 0, byteOffset: 48, byteLength: 48 },
+    ],
     accessors: [
       { bufferView: 0, componentType: 5126, type: 'VEC3', count: 3 },
       { bufferView: 1, componentType: 5121, type: 'VEC4', count: 3 },
@@ -36,18 +47,30 @@ function skinned({ joints = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], weights = [1, 
 
 const load = async (parts: Skinned) => {
   const { warnings, meshes, instances } = await loadGltf(skinned(parts));
-  return { warnings: warnings.map(({ message }) => message), positions: [...meshes[0]!.positions], transform: instances[0]!.transform };
+  return {
+    warnings: warnings.map(({ message }) => message),
+    positions: [...meshes[0]!.positions],
+    transform: instances[0]!.transform,
+  };
 };
 
 test('joints and weights that make sense bring no warning', async () => {
-  const { warnings, positions } = await load({ joints: [0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0], weights: [0.5, 0.5, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0] });
+  const { warnings, positions } = await load({
+    joints: [0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0],
+    weights: [0.5, 0.5, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0],
+  });
   expect(warnings).toEqual([]);
   expect(positions).toEqual([5, 5, 0, 1, 10, 0, 10, 1, 0]);
 });
 
 test('joints that do not exist do not count, and are reported', async () => {
-  const { warnings, positions } = await load({ joints: [2, 0, 0, 0, 1, 255, 0, 0, 0, 0, 0, 0], weights: [1, 0, 0, 0, 0.5, 0.5, 0, 0, 1, 0, 0, 0] });
-  expect(warnings).toEqual(['body: JOINTS_0 names a joint that does not exist 2 times (the skin has 2); it does not count.']);
+  const { warnings, positions } = await load({
+    joints: [2, 0, 0, 0, 1, 255, 0, 0, 0, 0, 0, 0],
+    weights: [1, 0, 0, 0, 0.5, 0.5, 0, 0, 1, 0, 0, 0],
+  });
+  expect(warnings).toEqual([
+    'body: JOINTS_0 names a joint that does not exist 2 times (the skin has 2); it does not count.',
+  ]);
   expect(positions).toEqual([0, 0, 0, 1, 10, 0, 10, 1, 0]);
 });
 
@@ -73,8 +96,12 @@ test('as many joints as weights as vertices', async () => {
 });
 
 test('a mesh that a skin cannot move stands at its node', async () => {
-  const { warnings, positions, transform } = await load({ change: (json) => void (json['meshes'][0].primitives[0].attributes = { POSITION: 0 }) });
-  expect(warnings).toEqual([expect.stringMatching(/\/nodes\/0\/skin poses mesh 0, which has a primitive without JOINTS_0/)]);
+  const { warnings, positions, transform } = await load({
+    change: (json) => void (json['meshes'][0].primitives[0].attributes = { POSITION: 0 }),
+  });
+  expect(warnings).toEqual([
+    expect.stringMatching(/\/nodes\/0\/skin poses mesh 0, which has a primitive without JOINTS_0/),
+  ]);
   expect(positions).toEqual([0, 0, 0, 1, 0, 0, 0, 1, 0]);
   expect(Array.from(transform).slice(12, 15)).toEqual([0, 0, 50]);
 });
@@ -85,8 +112,13 @@ test('a later set of joints without its weights is reported', async () => {
 });
 
 test('a later set of another type is left out', async () => {
-  const { warnings } = await load({ change: (json) => Object.assign(json['meshes'][0].primitives[0].attributes, { JOINTS_1: 1, WEIGHTS_1: 0 }) });
-  expect(warnings).toEqual([expect.stringMatching(/WEIGHTS_1 is a "VEC3", but must be VEC4/), expect.stringMatching(/has JOINTS_1 without WEIGHTS_1/)]);
+  const { warnings } = await load({
+    change: (json) => Object.assign(json['meshes'][0].primitives[0].attributes, { JOINTS_1: 1, WEIGHTS_1: 0 }),
+  });
+  expect(warnings).toEqual([
+    expect.stringMatching(/WEIGHTS_1 is a "VEC3", but must be VEC4/),
+    expect.stringMatching(/has JOINTS_1 without WEIGHTS_1/),
+  ]);
 });
 
 test('a bind matrix with another last row than 0, 0, 0, 1 is repaired', async () => {
@@ -95,12 +127,18 @@ test('a bind matrix with another last row than 0, 0, 0, 1 is repaired', async ()
   const { warnings, positions } = await load({
     change: (json) => {
       const bytes = Buffer.from(new Float32Array([...matrix, ...matrix]).buffer);
-      json['buffers'].push({ byteLength: bytes.length, uri: `data:application/octet-stream;base64,${bytes.toString('base64')}` });
+      json['buffers'].push({
+        byteLength: bytes.length,
+        uri: `data:application/octet-stream;base64,${bytes.toString('base64')}`,
+      });
       json['bufferViews'].push({ buffer: 1, byteLength: bytes.length });
       json['accessors'].push({ bufferView: 3, componentType: 5126, type: 'MAT4', count: 2 });
       json['skins'][0].inverseBindMatrices = 3;
     },
   });
-  expect(warnings).toEqual([expect.stringMatching(/skin 0: the bind matrix of joint 0 is not affine/), expect.stringMatching(/joint 1 is not affine/)]);
+  expect(warnings).toEqual([
+    expect.stringMatching(/skin 0: the bind matrix of joint 0 is not affine/),
+    expect.stringMatching(/joint 1 is not affine/),
+  ]);
   expect(positions).toEqual([11, 0, 0, 12, 0, 0, 11, 1, 0]);
 });

@@ -7,12 +7,17 @@ import { presence, sharedIndex, sharedPath } from './shared';
 
 /** A wavy sheet of n × n quads whose picture is mirrored along the middle, as symmetrical models are. */
 function sheet(n: number): Mesh {
-  const positions: number[] = [], normals: number[] = [], uv: number[] = [], indices: number[] = [];
+  const positions: number[] = [],
+    normals: number[] = [],
+    uv: number[] = [],
+    indices: number[] = [];
   const height = (x: number, y: number) => 0.1 * Math.sin(5 * x) * Math.cos(4 * y);
   for (let j = 0; j <= n; j++) {
     for (let i = 0; i <= n; i++) {
-      const x = i / n, y = j / n;
-      const dx = 0.5 * Math.cos(5 * x) * Math.cos(4 * y), dy = -0.4 * Math.sin(5 * x) * Math.sin(4 * y);
+      const x = i / n,
+        y = j / n;
+      const dx = 0.5 * Math.cos(5 * x) * Math.cos(4 * y),
+        dy = -0.4 * Math.sin(5 * x) * Math.sin(4 * y);
       const length = Math.hypot(dx, dy, 1);
       positions.push(x, y, height(x, y));
       normals.push(-dx / length, -dy / length, 1 / length);
@@ -23,14 +28,22 @@ function sheet(n: number): Mesh {
       }
     }
   }
-  return { name: 'sheet', positions: new Float32Array(positions), normals: new Float32Array(normals), uvs: [new Float32Array(uv)], indices: new Uint32Array(indices) };
+  return {
+    name: 'sheet',
+    positions: new Float32Array(positions),
+    normals: new Float32Array(normals),
+    uvs: [new Float32Array(uv)],
+    indices: new Uint32Array(indices),
+  };
 }
 
 /** Tangents of a mesh, corner by corner, as meshoptimizer makes them: another implementation of MikkTSpace. */
 async function reference(mesh: Mesh): Promise<Float32Array> {
   const { MeshoptTangents } = await import('meshoptimizer/tangents');
   await MeshoptTangents.ready;
-  return MeshoptTangents.generateTangents(mesh.indices, mesh.positions, 3, mesh.normals!, 3, mesh.uvs![0]!, 2, ['Compatible']);
+  return MeshoptTangents.generateTangents(mesh.indices, mesh.positions, 3, mesh.normals!, 3, mesh.uvs![0]!, 2, [
+    'Compatible',
+  ]);
 }
 
 /** Largest angle between tangents at corners (degrees), and how many handednesses differ. */
@@ -38,7 +51,8 @@ async function difference(mesh: Mesh) {
   const made = withTangents(mesh);
   const expected = await reference(mesh);
   expect(made.indices.length).toBe(mesh.indices.length);
-  let worst = 0, turned = 0;
+  let worst = 0,
+    turned = 0;
   for (let c = 0; c < made.indices.length; c++) {
     const v = made.indices[c]!;
     let dot = 0;
@@ -62,8 +76,17 @@ describe('tangents are those of another implementation of MikkTSpace, corner by 
 
   test('vertices of their own for every triangle are welded', async () => {
     const mesh = sheet(6);
-    const spread = (values: Float32Array, stride: number) => Float32Array.from(Array.from(mesh.indices).flatMap((v) => Array.from(values.subarray(stride * v, stride * v + stride))));
-    const soup: Mesh = { name: 'soup', positions: spread(mesh.positions, 3), normals: spread(mesh.normals!, 3), uvs: [spread(mesh.uvs![0]!, 2)], indices: mesh.indices.map((_, i) => i) };
+    const spread = (values: Float32Array, stride: number) =>
+      Float32Array.from(
+        Array.from(mesh.indices).flatMap((v) => Array.from(values.subarray(stride * v, stride * v + stride))),
+      );
+    const soup: Mesh = {
+      name: 'soup',
+      positions: spread(mesh.positions, 3),
+      normals: spread(mesh.normals!, 3),
+      uvs: [spread(mesh.uvs![0]!, 2)],
+      indices: mesh.indices.map((_, i) => i),
+    };
     const { worst, turned } = await difference(soup);
     expect(worst).toBeLessThan(0.1);
     expect(turned).toBe(0);
@@ -76,7 +99,8 @@ test('triangles without area, in space or in the picture, get unit tangents at r
   mesh.uvs![0]!.fill(0.5, 0, 12);
   const { tangents, normals } = withTangents(mesh);
   for (let v = 0; v < tangents!.length / 4; v++) {
-    const t = tangents!.subarray(4 * v, 4 * v + 3), n = normals!.subarray(3 * v, 3 * v + 3);
+    const t = tangents!.subarray(4 * v, 4 * v + 3),
+      n = normals!.subarray(3 * v, 3 * v + 3);
     expect(Math.hypot(...t)).toBeCloseTo(1, 5);
     expect(t[0]! * n[0]! + t[1]! * n[1]! + t[2]! * n[2]!).toBeCloseTo(0, 5);
     expect(Math.abs(tangents![4 * v + 3]!)).toBe(1);
@@ -103,7 +127,8 @@ describe.skipIf(!present)(`real models${note}`, () => {
       if (!mesh.normals || !mesh.uvs) continue;
       const { tangents: _, ...bare } = mesh;
       // Where the sums nearly cancel out the order of adding decides: corners by the dozen in a hundred thousand.
-      const made = withTangents(bare), expected = await reference(bare);
+      const made = withTangents(bare),
+        expected = await reference(bare);
       let off = 0;
       for (let c = 0; c < bare.indices.length; c++) {
         const v = made.indices[c]!;

@@ -24,19 +24,40 @@ const shown = (json: TriangleJson) => {
 };
 
 test('a file that no texture uses is not read, and that is reported', async () => {
-  expect(await warningsOf((json) => (json['images'] = [{ uri: 'not-there.png' }]))).toEqual([['/images/0', expect.stringMatching(/names the file "not-there\.png", but no texture uses it; it is not read\.$/)]]);
+  expect(await warningsOf((json) => (json['images'] = [{ uri: 'not-there.png' }]))).toEqual([
+    ['/images/0', expect.stringMatching(/names the file "not-there\.png", but no texture uses it; it is not read\.$/)],
+  ]);
 });
 
 test('a file that a texture uses which no material shows is none of it', async () => {
-  expect(await warningsOf((json) => { json['images'] = [{ uri: 'not-there.png' }]; json['textures'] = [{ source: 0 }]; })).toEqual([]);
+  expect(
+    await warningsOf((json) => {
+      json['images'] = [{ uri: 'not-there.png' }];
+      json['textures'] = [{ source: 0 }];
+    }),
+  ).toEqual([]);
 });
 
 test.each([
-  ['that nothing shows', (): void => undefined, /says that it is image\/png, but its bytes are image\/jpeg; nothing shows it\.$/],
+  [
+    'that nothing shows',
+    (): void => undefined,
+    /says that it is image\/png, but its bytes are image\/jpeg; nothing shows it\.$/,
+  ],
   ['that a material shows', shown, /says that it is image\/png, but its bytes are image\/jpeg; the bytes count\.$/],
 ] as const)('a data: uri of the wrong type in an image %s', async (_, change, message) => {
-  expect(await warningsOf((json) => { json['images'] = [{ uri: uri('image/png', JPEG) }]; change(json); })).toEqual([['/images/0', expect.stringMatching(message)]]);
-  expect(await warningsOf((json) => { json['images'] = [{ uri: uri('image/jpeg', JPEG) }]; change(json); })).toEqual([]);
+  expect(
+    await warningsOf((json) => {
+      json['images'] = [{ uri: uri('image/png', JPEG) }];
+      change(json);
+    }),
+  ).toEqual([['/images/0', expect.stringMatching(message)]]);
+  expect(
+    await warningsOf((json) => {
+      json['images'] = [{ uri: uri('image/jpeg', JPEG) }];
+      change(json);
+    }),
+  ).toEqual([]);
 });
 
 test('a mimeType that the bytes of a buffer view contradict', async () => {
@@ -46,10 +67,14 @@ test('a mimeType that the bytes of a buffer view contradict', async () => {
     json['images'] = [{ bufferView: 2, mimeType }];
     shown(json);
   };
-  expect(await warningsOf(inView('image/jpeg'))).toEqual([['/images/0', expect.stringMatching(/says that it is image\/jpeg, but its bytes are image\/png/)]]);
+  expect(await warningsOf(inView('image/jpeg'))).toEqual([
+    ['/images/0', expect.stringMatching(/says that it is image\/jpeg, but its bytes are image\/png/)],
+  ]);
   expect(await warningsOf(inView('image/png'))).toEqual([]);
 });
 
 test('bytes of no picture that nothing shows', async () => {
-  expect(await warningsOf((json) => (json['images'] = [{ uri: uri('image/png', Buffer.from('GIF89a')) }]))).toEqual([['/images/0', expect.stringMatching(/cannot be decoded: it is no PNG, JPEG/)]]);
+  expect(await warningsOf((json) => (json['images'] = [{ uri: uri('image/png', Buffer.from('GIF89a')) }]))).toEqual([
+    ['/images/0', expect.stringMatching(/cannot be decoded: it is no PNG, JPEG/)],
+  ]);
 });

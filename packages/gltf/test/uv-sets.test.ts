@@ -32,7 +32,11 @@ describe('UV sets', () => {
     ['two of any number', 3, 2],
     ['one from below and one from above', 0, 4],
   ])('%s', async (_, base, glow) => {
-    const { json, bytes } = withSets({ pbrMetallicRoughness: { baseColorTexture: { index: 0, texCoord: base } }, emissiveTexture: { index: 0, texCoord: 9, extensions: { KHR_texture_transform: { texCoord: glow } } }, emissiveFactor: [1, 1, 1] });
+    const { json, bytes } = withSets({
+      pbrMetallicRoughness: { baseColorTexture: { index: 0, texCoord: base } },
+      emissiveTexture: { index: 0, texCoord: 9, extensions: { KHR_texture_transform: { texCoord: glow } } },
+      emissiveFactor: [1, 1, 1],
+    });
     const scene = await loadGltf(glb(json, bytes), { decodeImage: white });
     expect(scene.warnings).toEqual([]);
     const { textures } = scene.materials[0]!;
@@ -45,8 +49,12 @@ describe('UV sets', () => {
     const { json, bytes } = withSets({ pbrMetallicRoughness: { baseColorTexture: { index: 0, texCoord: 3 } } });
     json['materials'].push({ name: 'other', pbrMetallicRoughness: { baseColorTexture: { index: 0, texCoord: 2 } } });
     json['extensions'] = { KHR_materials_variants: { variants: [{ name: 'a' }] } };
-    json['meshes'][0].primitives[0].extensions = { KHR_materials_variants: { mappings: [{ material: 1, variants: [0] }] } };
+    json['meshes'][0].primitives[0].extensions = {
+      KHR_materials_variants: { mappings: [{ material: 1, variants: [0] }] },
+    };
     const scene = await loadGltf(glb(json, bytes), { decodeImage: white });
-    expect(scene.warnings).toEqual([expect.objectContaining({ code: 'gltf/variant', message: expect.stringMatching(/"other"/) })]);
+    expect(scene.warnings).toEqual([
+      expect.objectContaining({ code: 'gltf/variant', message: expect.stringMatching(/"other"/) }),
+    ]);
   });
 });

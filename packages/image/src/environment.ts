@@ -8,9 +8,9 @@ const MAX_FLOAT = 3.4028234663852886e38;
 
 /**
  * Decodes a picture of the surroundings, Radiance HDR or OpenEXR by its first bytes, into radiance that is safe to
- * light a scene with: NaN and negative values become 0 and infinities the largest float, with a warning. Colours are taken
- * as those of Rec.709; a file that says otherwise, or has a part of its colours in channels that are not read, brings a
- * warning.
+ * light a scene with: NaN and negative values become 0 and infinities the largest float, with a warning. Colours are
+ * taken as those of Rec.709; a file that says otherwise, or has a part of its colours in channels that are not read,
+ * brings a warning.
  *
  * @returns RGB, stride 3, linear, top row first: what a `LatLongEnvironment` of `@glanz/scene` wants.
  * @throws {ImageError} `image/format` if it is neither, `image/channels` if an EXR has no R, G and B (or Y), and what
@@ -20,12 +20,18 @@ export function decodeEnvironment(bytes: Uint8Array, options: DecodeOptions = {}
   const magic = bytes.length >= 4 ? new DataView(bytes.buffer, bytes.byteOffset).getInt32(0, true) : 0;
   if (magic !== EXR_MAGIC) {
     if (bytes[0] === 0x23 && bytes[1] === 0x3f) return decodeHdr(bytes, options);
-    throw new ImageError('image/format', 'The environment is neither a Radiance HDR nor an OpenEXR picture.', { location: { byteOffset: 0 } });
+    throw new ImageError('image/format', 'The environment is neither a Radiance HDR nor an OpenEXR picture.', {
+      location: { byteOffset: 0 },
+    });
   }
   const { width, height, channels, chromaticities, warnings } = decodeExr(bytes, options);
   const { planes, unread } = colourPlanes(channels);
   const meaning: ImageWarning[] = primariesWarning('EXR', chromaticities);
-  if (unread.length > 0) meaning.push({ code: 'image/grey', message: `EXR: there are no channels R, G and B together; Y is taken as grey and ${unread.join(', ')} not read. Convert the picture to R, G and B if it has colours.` });
+  if (unread.length > 0)
+    meaning.push({
+      code: 'image/grey',
+      message: `EXR: there are no channels R, G and B together; Y is taken as grey and ${unread.join(', ')} not read. Convert the picture to R, G and B if it has colours.`,
+    });
   const data = allocateFloats('EXR', width, height, 3);
   let mended = 0;
   for (let k = 0; k < 3; k++) {
@@ -37,7 +43,10 @@ export function decodeEnvironment(bytes: Uint8Array, options: DecodeOptions = {}
       data[i * 3 + k] = good;
     }
   }
-  const mending: ImageWarning[] = mended === 0 ? [] : [{ code: 'image/not-radiance', message: `EXR: ${mended} negative or non-finite numbers were replaced.` }];
+  const mending: ImageWarning[] =
+    mended === 0
+      ? []
+      : [{ code: 'image/not-radiance', message: `EXR: ${mended} negative or non-finite numbers were replaced.` }];
   return { width, height, data, warnings: [...warnings, ...meaning, ...mending] };
 }
 
@@ -45,11 +54,21 @@ export function decodeEnvironment(bytes: Uint8Array, options: DecodeOptions = {}
 const COLOURS = ['R', 'G', 'B', 'X', 'RY', 'BY'];
 
 /** The channels to take red, green and blue from, and those that hold colours and are not read. */
-function colourPlanes(channels: ReadonlyMap<string, ExrChannel>): { planes: readonly ExrChannel[]; unread: readonly string[] } {
+function colourPlanes(channels: ReadonlyMap<string, ExrChannel>): {
+  planes: readonly ExrChannel[];
+  unread: readonly string[];
+} {
   const planes = ['R', 'G', 'B'].flatMap((name) => channels.get(name) ?? []);
   if (planes.length === 3) return { planes, unread: [] };
   const grey = channels.get('Y');
-  if (!grey) throw new ImageError('image/channels', `EXR: there are no channels R, G and B, only ${[...channels.keys()].slice(0, 8).join(', ')}.`);
+  if (!grey)
+    throw new ImageError(
+      'image/channels',
+      `EXR: there are no channels R, G and B, only ${[...channels.keys()].slice(0, 8).join(', ')}.`,
+    );
   const colours = COLOURS.filter((name) => channels.has(name));
-  return { planes: [grey, grey, grey], unread: colours.includes('X') && channels.has('Z') ? [...colours, 'Z'] : colours };
+  return {
+    planes: [grey, grey, grey],
+    unread: colours.includes('X') && channels.has('Z') ? [...colours, 'Z'] : colours,
+  };
 }

@@ -29,11 +29,20 @@ export const MAX_PIXELS = 2 ** 26;
  * @param numbers A pixel.
  * @throws {ImageError} `image/size` if there is not as much.
  */
-export function allocateFloats(what: string, width: number, height: number, numbers: number): Float32Array<ArrayBuffer> {
+export function allocateFloats(
+  what: string,
+  width: number,
+  height: number,
+  numbers: number,
+): Float32Array<ArrayBuffer> {
   try {
     return new Float32Array(width * height * numbers);
   } catch (cause) {
-    throw new ImageError('image/size', `${what}: there is no memory for ${width}×${height} pixels; scale the picture down.`, { cause });
+    throw new ImageError(
+      'image/size',
+      `${what}: there is no memory for ${width}×${height} pixels; scale the picture down.`,
+      { cause },
+    );
   }
 }
 
@@ -43,6 +52,9 @@ export function checkSize(what: string, width: number, height: number, maxPixels
     throw new ImageError('image/size', `${what}: a picture of ${width}×${height} pixels is not possible.`);
   }
   if (width * height > maxPixels) {
-    throw new ImageError('image/size', `${what}: ${width}×${height} pixels are more than the limit of ${maxPixels}; raise maxPixels if that is meant.`);
+    throw new ImageError(
+      'image/size',
+      `${what}: ${width}×${height} pixels are more than the limit of ${maxPixels}; raise maxPixels if that is meant.`,
+    );
   }
 }

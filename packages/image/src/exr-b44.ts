@@ -2,14 +2,30 @@ import { bytesOf, interleavePlanes, type ExrBlock } from './exr-block';
 import { fromHalf, toHalf } from './half';
 
 /** Where the 16 halves of a square come from: each is one before it plus six bits of the packed bytes. */
-const ORDER: readonly (readonly [index: number, base: number])[] = [[4, 0], [8, 4], [12, 8], [1, 0], [5, 4], [9, 8], [13, 12], [2, 1], [6, 5], [10, 9], [14, 13], [3, 2], [7, 6], [11, 10], [15, 14]];
+const ORDER: readonly (readonly [index: number, base: number])[] = [
+  [4, 0],
+  [8, 4],
+  [12, 8],
+  [1, 0],
+  [5, 4],
+  [9, 8],
+  [13, 12],
+  [2, 1],
+  [6, 5],
+  [10, 9],
+  [14, 13],
+  [3, 2],
+  [7, 6],
+  [11, 10],
+  [15, 14],
+];
 
 /** Halves in an order that grows with their value, back to their bits. */
 const fromOrdered = (value: number) => (value & 0x8000 ? value & 0x7fff : ~value & 0xffff);
 
 /**
- * OpenEXR's B44 and B44A: squares of 4 × 4 halves in 14 bytes, or in 3 if all are the same. Other numbers are left as they
- * are. Lossy.
+ * OpenEXR's B44 and B44A: squares of 4 × 4 halves in 14 bytes, or in 3 if all are the same. Other numbers are left as
+ * they are. Lossy.
  */
 export function unpackB44(packed: Uint8Array, block: ExrBlock): Uint8Array | undefined {
   const { width, lines } = block;

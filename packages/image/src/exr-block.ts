@@ -20,7 +20,8 @@ export interface ExrBlock {
 export const bytesOf = ({ type }: { readonly type: ExrType }): number => (type === 'half' ? 2 : 4);
 
 /** Bytes of a block as it is uncompressed: line by line, in each channel by channel. */
-export const rawSize = ({ channels, width, lines }: ExrBlock): number => width * lines * channels.reduce((sum, channel) => sum + bytesOf(channel), 0);
+export const rawSize = ({ channels, width, lines }: ExrBlock): number =>
+  width * lines * channels.reduce((sum, channel) => sum + bytesOf(channel), 0);
 
 /**
  * Puts planes (each channel's pixels, line by line) into the order of an uncompressed block.
@@ -39,7 +40,10 @@ export function interleavePlanes({ channels, width, lines }: ExrBlock, planes: r
   return raw;
 }
 
-/** Undoes what ZIP, RLE and DWA's averages have in common: differences between bytes, and even bytes apart from odd ones. In place, into a new array. */
+/**
+ * Undoes what ZIP, RLE and DWA's averages have in common: differences between bytes, and even bytes apart from odd
+ * ones. In place, into a new array.
+ */
 export function reconstruct(split: Uint8Array): Uint8Array {
   const size = split.length;
   for (let i = 1; i < size; i++) split[i] = (split[i] as number) + (split[i - 1] as number) - 128;

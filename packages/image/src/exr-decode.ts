@@ -33,7 +33,9 @@ export interface ExrImage {
 
 interface Method {
   readonly lines: number;
-  /** Bytes that one packed byte can stand for at most: data that claims more is refused before anything is allocated. */
+  /**
+   * Bytes that one packed byte can stand for at most: data that claims more is refused before anything is allocated.
+   */
   readonly ratio: number;
   readonly unpack: (packed: Uint8Array, block: ExrBlock, size: number) => Uint8Array | undefined;
 }
@@ -55,11 +57,12 @@ const METHODS: Readonly<Record<ExrCompressionName, Method>> = {
 };
 
 /**
- * Decodes an OpenEXR file: lines or tiles (of several resolutions the finest), all of the format's own compressions (RLE,
- * ZIP, ZIPS, PIZ, PXR24, B44, B44A, DWAA, DWAB); of several pictures in a file, the first. Deep data and subsampled
- * channels are refused with `image/unsupported`.
+ * Decodes an OpenEXR file: lines or tiles (of several resolutions the finest), all of the format's own compressions
+ * (RLE, ZIP, ZIPS, PIZ, PXR24, B44, B44A, DWAA, DWAB); of several pictures in a file, the first. Deep data and
+ * subsampled channels are refused with `image/unsupported`.
  *
- * @throws {ImageError} `image/format`, `image/header`, `image/size`, `image/truncated`, `image/corrupt`, `image/unsupported`.
+ * @throws {ImageError} `image/format`, `image/header`, `image/size`, `image/truncated`, `image/corrupt`,
+ * `image/unsupported`.
  */
 export function decodeExr(bytes: Uint8Array, options: DecodeOptions = {}): ExrImage {
   const reader = new Reader(bytes);
@@ -72,7 +75,8 @@ export function decodeExr(bytes: Uint8Array, options: DecodeOptions = {}): ExrIm
   checkSize('EXR', width, height, Math.floor(((options.maxPixels ?? 2 ** 26) * 4) / Math.max(4, channels.length)));
   const { lines, ratio } = METHODS[compression];
   const tile = header.tile ?? { width, height: lines };
-  const columns = Math.ceil(width / tile.width), blocks = columns * Math.ceil(height / tile.height);
+  const columns = Math.ceil(width / tile.width),
+    blocks = columns * Math.ceil(height / tile.height);
   // Each block is announced in the table of offsets, and has a head of its own.
   reader.need(blocks * 16 + Math.floor((lineBytes * height) / ratio));
   const table = reader.at;
@@ -81,13 +85,43 @@ export function decodeExr(bytes: Uint8Array, options: DecodeOptions = {}): ExrIm
     several,
     tile,
     columns,
-    out: new Map(channels.map(({ name, type }) => [name, { type, data: type === 'uint' ? new Uint32Array(allocateFloats('EXR', width, height, 1).buffer) : allocateFloats('EXR', width, height, 1) }])),
+    out: new Map(
+      channels.map(({ name, type }) => [
+        name,
+        {
+          type,
+          data:
+            type === 'uint'
+              ? new Uint32Array(allocateFloats('EXR', width, height, 1).buffer)
+              : allocateFloats('EXR', width, height, 1),
+        },
+      ]),
+    ),
     seen: new Uint8Array(blocks),
   };
   const misplaced = header.tile || several ? readByTable(reader, table, picture) : readInOrder(reader, table, picture);
-  const warnings: ImageWarning[] = misplaced === 0 ? [] : [{ code: 'image/offsets', message: `EXR: ${misplaced} of ${blocks} line offsets are wrong; the file may be incomplete.` }];
-  if (header.cropped) warnings.push({ code: 'image/window', message: `EXR: the ${width}×${height} pixels of the data window are read, which are not those of the display window.` });
-  return { width, height, channels: picture.out, attributes: header.attributes, ...(header.chromaticities ? { chromaticities: header.chromaticities } : {}), warnings };
+  const warnings: ImageWarning[] =
+    misplaced === 0
+      ? []
+      : [
+          {
+            code: 'image/offsets',
+            message: `EXR: ${misplaced} of ${blocks} line offsets are wrong; the file may be incomplete.`,
+          },
+        ];
+  if (header.cropped)
+    warnings.push({
+      code: 'image/window',
+      message: `EXR: the ${width}×${height} pixels of the data window are read, which are not those of the display window.`,
+    });
+  return {
+    width,
+    height,
+    channels: picture.out,
+    attributes: header.attributes,
+    ...(header.chromaticities ? { chromaticities: header.chromaticities } : {}),
+    warnings,
+  };
 }
 
 interface Picture {
@@ -118,9 +152,15 @@ function readByTable(reader: Reader, table: number, picture: Picture): number {
   const { length } = reader.bytes;
   for (let i = 0; i < picture.seen.length; i++) {
     const at = reader.view.getBigUint64(table + i * 8, true);
-    if (at < BigInt(table) || at >= BigInt(length)) throw new ImageError('image/corrupt', `EXR: block ${i} should lie at byte ${at}, which is not in the file.`, { location: { byteOffset: table + i * 8 } });
+    if (at < BigInt(table) || at >= BigInt(length))
+      throw new ImageError('image/corrupt', `EXR: block ${i} should lie at byte ${at}, which is not in the file.`, {
+        location: { byteOffset: table + i * 8 },
+      });
     reader.at = Number(at);
-    if (picture.several && reader.int() !== 0) throw new ImageError('image/corrupt', `EXR: the block at byte ${at} belongs to another picture.`, { location: { byteOffset: Number(at) } });
+    if (picture.several && reader.int() !== 0)
+      throw new ImageError('image/corrupt', `EXR: the block at byte ${at} belongs to another picture.`, {
+        location: { byteOffset: Number(at) },
+      });
     readBlock(reader, picture);
   }
   return 0;
@@ -130,21 +170,35 @@ function readByTable(reader: Reader, table: number, picture: Picture): number {
 function readBlock(reader: Reader, { header, tile, columns, out, seen }: Picture): number {
   const { channels, width, height, y0, compression } = header;
   const byteOffset = reader.at;
-  const corrupt = (what: string) => new ImageError('image/corrupt', `EXR: the block at byte ${byteOffset} ${what}.`, { location: { byteOffset } });
+  const corrupt = (what: string) =>
+    new ImageError('image/corrupt', `EXR: the block at byte ${byteOffset} ${what}.`, { location: { byteOffset } });
   let index: number;
   if (header.tile) {
-    const [column, row, levelX, levelY] = [reader.int(), reader.int(), reader.int(), reader.int()] as [number, number, number, number];
-    if (levelX !== 0 || levelY !== 0 || column < 0 || column >= columns || row < 0) throw corrupt('is for another tile than the table says');
+    const [column, row, levelX, levelY] = [reader.int(), reader.int(), reader.int(), reader.int()] as [
+      number,
+      number,
+      number,
+      number,
+    ];
+    if (levelX !== 0 || levelY !== 0 || column < 0 || column >= columns || row < 0)
+      throw corrupt('is for another tile than the table says');
     index = row * columns + column;
   } else index = (reader.int() - y0) / tile.height;
   const packed = reader.take(reader.int());
-  if (!Number.isInteger(index) || index < 0 || index >= seen.length || seen[index]) throw corrupt('is for a line outside the picture, or repeats one');
+  if (!Number.isInteger(index) || index < 0 || index >= seen.length || seen[index])
+    throw corrupt('is for a line outside the picture, or repeats one');
   seen[index] = 1;
-  const x = (index % columns) * tile.width, y = Math.floor(index / columns) * tile.height;
-  const block: ExrBlock = { channels, width: Math.min(tile.width, width - x), lines: Math.min(tile.height, height - y) };
+  const x = (index % columns) * tile.width,
+    y = Math.floor(index / columns) * tile.height;
+  const block: ExrBlock = {
+    channels,
+    width: Math.min(tile.width, width - x),
+    lines: Math.min(tile.height, height - y),
+  };
   const size = rawSize(block);
   const { ratio, unpack } = METHODS[compression];
-  if (packed.length < Math.floor(size / ratio)) throw corrupt(`has ${packed.length} bytes, which cannot hold the ${size} that its lines have`);
+  if (packed.length < Math.floor(size / ratio))
+    throw corrupt(`has ${packed.length} bytes, which cannot hold the ${size} that its lines have`);
   // What does not get smaller is kept as it is, by all compressions.
   const raw = packed.length === size ? packed : packed.length < size ? unpack(packed, block, size) : undefined;
   if (!raw) throw corrupt(`does not hold ${block.lines} lines of ${size / block.lines} bytes`);
@@ -152,7 +206,14 @@ function readBlock(reader: Reader, { header, tile, columns, out, seen }: Picture
   return index;
 }
 
-function store(raw: Uint8Array, block: ExrBlock, channels: ReadonlyMap<string, ExrChannel>, width: number, x: number, y: number): void {
+function store(
+  raw: Uint8Array,
+  block: ExrBlock,
+  channels: ReadonlyMap<string, ExrChannel>,
+  width: number,
+  x: number,
+  y: number,
+): void {
   const view = new DataView(raw.buffer, raw.byteOffset, raw.byteLength);
   let at = 0;
   for (let line = y; line < y + block.lines; line++) {

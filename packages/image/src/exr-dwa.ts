@@ -22,9 +22,26 @@ const HEADER_BYTES = 88;
 const TYPES: readonly ExrType[] = ['uint', 'half', 'float'];
 
 /** Rules of files that carry none. */
-const legacyRules = (): readonly Rule[] => (['half', 'float'] as const).flatMap((type) =>
-  ([['r', 0], ['red', 0], ['g', 1], ['grn', 1], ['green', 1], ['b', 2], ['blu', 2], ['blue', 2], ['y', -1], ['by', -1], ['ry', -1]] as const).map(([suffix, color]): Rule => ({ suffix, scheme: 'cosines', type, color, anyCase: true })),
-).concat(TYPES.map((type): Rule => ({ suffix: 'a', scheme: 'runs', type, color: -1, anyCase: true })));
+const legacyRules = (): readonly Rule[] =>
+  (['half', 'float'] as const)
+    .flatMap((type) =>
+      (
+        [
+          ['r', 0],
+          ['red', 0],
+          ['g', 1],
+          ['grn', 1],
+          ['green', 1],
+          ['b', 2],
+          ['blu', 2],
+          ['blue', 2],
+          ['y', -1],
+          ['by', -1],
+          ['ry', -1],
+        ] as const
+      ).map(([suffix, color]): Rule => ({ suffix, scheme: 'cosines', type, color, anyCase: true })),
+    )
+    .concat(TYPES.map((type): Rule => ({ suffix: 'a', scheme: 'runs', type, color: -1, anyCase: true })));
 
 /** Where the coefficients of a square stand in the file: by diagonals. */
 const ZIGZAG: readonly number[] = /* @__PURE__ */ zigzag();
@@ -40,7 +57,10 @@ function zigzag(): number[] {
   return order;
 }
 
-/** The halves that the stored ones stand for, which are spaced as the eye sees: a power of 2.2 up to 1, exponential above. */
+/**
+ * The halves that the stored ones stand for, which are spaced as the eye sees: a power of 2.2 up to 1, exponential
+ * above.
+ */
 function toLinear(value: number): number {
   if (!Number.isFinite(value)) return 0;
   const size = Math.abs(value);
@@ -52,7 +72,19 @@ export function unpackDwa(packed: Uint8Array, block: ExrBlock): Uint8Array | und
   if (packed.length < HEADER_BYTES) return undefined;
   const view = new DataView(packed.buffer, packed.byteOffset, packed.byteLength);
   const header = Array.from({ length: 11 }, (_, i) => Number(view.getBigUint64(8 * i, true)));
-  const [version, unknownSize, unknownPacked, acPacked, dcPacked, runsPacked, runsUnpacked, runsSize, acCount, dcCount, acMethod] = header as [number, number, number, number, number, number, number, number, number, number, number];
+  const [
+    version,
+    unknownSize,
+    unknownPacked,
+    acPacked,
+    dcPacked,
+    runsPacked,
+    runsUnpacked,
+    runsSize,
+    acCount,
+    dcCount,
+    acMethod,
+  ] = header as [number, number, number, number, number, number, number, number, number, number, number];
   const { channels, width, lines } = block;
   const pixels = width * lines;
   let at = HEADER_BYTES;
@@ -73,14 +105,28 @@ export function unpackDwa(packed: Uint8Array, block: ExrBlock): Uint8Array | und
   };
   const blocks = Math.ceil(width / 8) * Math.ceil(lines / 8);
   const schemes = channels.map((channel) => ruleOf(channel, rules));
-  const sizeOf = (scheme: Scheme) => channels.reduce((sum, channel, c) => sum + (schemes[c]?.scheme === scheme ? pixels * bytesOf(channel) : 0), 0);
+  const sizeOf = (scheme: Scheme) =>
+    channels.reduce((sum, channel, c) => sum + (schemes[c]?.scheme === scheme ? pixels * bytesOf(channel) : 0), 0);
   const cosines = schemes.filter(({ scheme }) => scheme === 'cosines').length;
-  if (unknownSize !== sizeOf('unknown') || runsSize !== sizeOf('runs') || dcCount !== cosines * blocks || acCount > cosines * blocks * 64 || runsUnpacked > 2 * runsSize + 2 || unknownPacked + acPacked + dcPacked + runsPacked > packed.length - at) return undefined;
+  if (
+    unknownSize !== sizeOf('unknown') ||
+    runsSize !== sizeOf('runs') ||
+    dcCount !== cosines * blocks ||
+    acCount > cosines * blocks * 64 ||
+    runsUnpacked > 2 * runsSize + 2 ||
+    unknownPacked + acPacked + dcPacked + runsPacked > packed.length - at
+  )
+    return undefined;
 
   const none = new Uint8Array(0);
   const unknown = unknownSize > 0 ? inflateTo(take(unknownPacked), unknownSize) : none;
   const acBytes = take(acPacked);
-  const ac = acCount === 0 ? new Uint16Array(0) : acMethod === 0 ? unpackHuffman(acBytes, acCount) : words(inflateTo(acBytes, 2 * acCount));
+  const ac =
+    acCount === 0
+      ? new Uint16Array(0)
+      : acMethod === 0
+        ? unpackHuffman(acBytes, acCount)
+        : words(inflateTo(acBytes, 2 * acCount));
   const dc = dcCount === 0 ? new Uint16Array(0) : words(unzipBlock(take(dcPacked), 2 * dcCount));
   const runs = runsSize > 0 ? inflateTo(take(runsPacked), runsUnpacked) : none;
   const flat = runs && (runsSize > 0 ? unpackRuns(runs, runsSize) : none);
@@ -90,12 +136,19 @@ export function unpackDwa(packed: Uint8Array, block: ExrBlock): Uint8Array | und
   const squares = new Squares(ac, dc, width, lines);
   const done = new Set<number>();
   for (const set of colorSets(channels, schemes)) {
-    if (!squares.read(set.map((c) => ({ plane: planes[c] as Uint8Array, type: (channels[c] as ExrChannelInfo).type, linear: false })))) return undefined;
+    if (
+      !squares.read(
+        set.map((c) => ({ plane: planes[c] as Uint8Array, type: (channels[c] as ExrChannelInfo).type, linear: false })),
+      )
+    )
+      return undefined;
     for (const c of set) done.add(c);
   }
-  let unknownAt = 0, runsAt = 0;
+  let unknownAt = 0,
+    runsAt = 0;
   for (const [c, channel] of channels.entries()) {
-    const plane = planes[c] as Uint8Array, size = bytesOf(channel);
+    const plane = planes[c] as Uint8Array,
+      size = bytesOf(channel);
     switch (schemes[c]?.scheme) {
       case 'cosines':
         if (!done.has(c) && !squares.read([{ plane, type: channel.type, linear: channel.linear }])) return undefined;
@@ -120,14 +173,21 @@ const words = (bytes: Uint8Array | undefined): Uint16Array | undefined => {
 
 function readRules(bytes: Uint8Array): Rule[] | undefined {
   const rules: Rule[] = [];
-  for (let at = 0; at < bytes.length; ) {
+  for (let at = 0; at < bytes.length;) {
     const end = bytes.indexOf(0, at);
     if (end < 0 || end + 2 >= bytes.length) return undefined;
     const bits = bytes[end + 1] as number;
-    const scheme = SCHEMES[(bits >> 2) & 3], type = TYPES[bytes[end + 2] as number];
+    const scheme = SCHEMES[(bits >> 2) & 3],
+      type = TYPES[bytes[end + 2] as number];
     const color = (bits >> 4) - 1;
     if (!scheme || !type || color > 2) return undefined;
-    rules.push({ suffix: String.fromCharCode(...bytes.subarray(at, end)), scheme, type, color, anyCase: (bits & 1) === 1 });
+    rules.push({
+      suffix: String.fromCharCode(...bytes.subarray(at, end)),
+      scheme,
+      type,
+      color,
+      anyCase: (bits & 1) === 1,
+    });
     at = end + 3;
   }
   return rules;
@@ -135,7 +195,13 @@ function readRules(bytes: Uint8Array): Rule[] | undefined {
 
 function ruleOf({ name, type }: ExrChannelInfo, rules: readonly Rule[]): Rule {
   const suffix = name.slice(name.lastIndexOf('.') + 1);
-  return rules.find((rule) => rule.type === type && (rule.anyCase ? rule.suffix.toLowerCase() === suffix.toLowerCase() : rule.suffix === suffix)) ?? { suffix, scheme: 'unknown', type, color: -1, anyCase: false };
+  return (
+    rules.find(
+      (rule) =>
+        rule.type === type &&
+        (rule.anyCase ? rule.suffix.toLowerCase() === suffix.toLowerCase() : rule.suffix === suffix),
+    ) ?? { suffix, scheme: 'unknown', type, color: -1, anyCase: false }
+  );
 }
 
 /** Red, green and blue of each layer that has them all, by the layers' names. */
@@ -149,7 +215,10 @@ function colorSets(channels: readonly ExrChannelInfo[], rules: readonly Rule[]):
     set[color] = c;
     sets.set(layer, set);
   });
-  return [...sets].sort(([a], [b]) => (a < b ? -1 : 1)).map(([, set]) => set).filter((set) => set.every((c) => c >= 0));
+  return [...sets]
+    .sort(([a], [b]) => (a < b ? -1 : 1))
+    .map(([, set]) => set)
+    .filter((set) => set.every((c) => c >= 0));
 }
 
 /** A channel that is made of squares. */
@@ -160,7 +229,10 @@ interface Component {
 }
 
 /** cos((2x + 1) u π / 16) with the scale that makes the transform orthonormal, by 8 u + x. */
-const COSINES = /* @__PURE__ */ Float64Array.from({ length: 64 }, (_, i) => (i < 8 ? Math.SQRT1_2 : 1) * 0.5 * Math.cos(((2 * (i & 7) + 1) * (i >> 3) * Math.PI) / 16));
+const COSINES = /* @__PURE__ */ Float64Array.from(
+  { length: 64 },
+  (_, i) => (i < 8 ? Math.SQRT1_2 : 1) * 0.5 * Math.cos(((2 * (i & 7) + 1) * (i >> 3) * Math.PI) / 16),
+);
 
 /** The squares of 8 × 8 of a block, in the order of the file. */
 class Squares {
@@ -180,7 +252,8 @@ class Squares {
 
   /** Reads one channel, or three that are luminance and two differences. */
   read(components: readonly Component[]): boolean {
-    const columns = Math.ceil(this.#width / 8), rows = Math.ceil(this.#lines / 8);
+    const columns = Math.ceil(this.#width / 8),
+      rows = Math.ceil(this.#lines / 8);
     const values = components.map(() => new Float64Array(64));
     const views = components.map(({ plane }) => new DataView(plane.buffer, plane.byteOffset, plane.byteLength));
     for (let row = 0; row < rows; row++) {
@@ -190,7 +263,9 @@ class Squares {
           if (!this.#square(average, values[c] as Float64Array)) return false;
         }
         if (components.length === 3) fromLuminance(values as [Float64Array, Float64Array, Float64Array]);
-        components.forEach((component, c) => this.#store(component, views[c] as DataView, values[c] as Float64Array, row, column));
+        components.forEach((component, c) =>
+          this.#store(component, views[c] as DataView, values[c] as Float64Array, row, column),
+        );
       }
     }
     this.#dcAt += components.length * columns * rows;
@@ -202,7 +277,7 @@ class Squares {
     const coefficients = new Float64Array(64);
     coefficients[0] = fromHalf(average);
     let flat = true;
-    for (let k = 1; k < 64; ) {
+    for (let k = 1; k < 64;) {
       if (this.#acAt >= ac.length) return false;
       const word = ac[this.#acAt++] as number;
       // Words that would be NaN count zeros; a count of 0 is all that are left.
@@ -253,7 +328,9 @@ function cosineSum(coefficients: Float64Array, out: Float64Array): void {
 /** Luminance and the two differences of Rec. 709 to red, green and blue, in place. */
 function fromLuminance([a, b, c]: readonly [Float64Array, Float64Array, Float64Array]): void {
   for (let i = 0; i < 64; i++) {
-    const y = a[i] as number, cb = b[i] as number, cr = c[i] as number;
+    const y = a[i] as number,
+      cb = b[i] as number,
+      cr = c[i] as number;
     a[i] = y + 1.5747 * cr;
     b[i] = y - 0.1873 * cb - 0.4682 * cr;
     c[i] = y + 1.8556 * cb;

@@ -46,15 +46,24 @@ function flatten(layers: readonly ExrLayer[], pixels: number): Channel[] {
   for (const layer of layers) {
     for (const [key, data] of Object.entries(layer.channels)) {
       const name = layer.name === '' ? key : `${layer.name}.${key}`;
-      if (data.length !== pixels) throw new ImageError('image/size', `EXR: channel "${name}" has ${data.length} numbers instead of ${pixels}.`);
-      if (!/^[\x20-\x7e]{1,255}$/.test(name)) throw new ImageError('image/channels', `EXR: "${name}" is not a possible channel name (1–255 characters of ASCII).`);
+      if (data.length !== pixels)
+        throw new ImageError('image/size', `EXR: channel "${name}" has ${data.length} numbers instead of ${pixels}.`);
+      if (!/^[\x20-\x7e]{1,255}$/.test(name))
+        throw new ImageError(
+          'image/channels',
+          `EXR: "${name}" is not a possible channel name (1–255 characters of ASCII).`,
+        );
       channels.push({ name, type: layer.type ?? (data instanceof Uint32Array ? 'uint' : 'half'), data });
     }
   }
   // Readers rely on the order of bytes, not of locales.
   channels.sort((a, b) => (a.name < b.name ? -1 : a.name > b.name ? 1 : 0));
   const twin = channels.find((channel, i) => channel.name === channels[i + 1]?.name);
-  if (channels.length === 0 || twin) throw new ImageError('image/channels', twin ? `EXR: two channels are called "${twin.name}".` : 'EXR: there is no channel to write.');
+  if (channels.length === 0 || twin)
+    throw new ImageError(
+      'image/channels',
+      twin ? `EXR: two channels are called "${twin.name}".` : 'EXR: there is no channel to write.',
+    );
   return channels;
 }
 
@@ -75,8 +84,15 @@ function numbers(kinds: string, ...values: number[]): Uint8Array {
   return out;
 }
 
-function header(width: number, height: number, channels: readonly Channel[], compression: number, attributes: Readonly<Record<string, string>>): Uint8Array {
-  const attribute = (name: string, type: string, value: Uint8Array) => concat([text(`${name}\0${type}\0`), numbers('i', value.length), value]);
+function header(
+  width: number,
+  height: number,
+  channels: readonly Channel[],
+  compression: number,
+  attributes: Readonly<Record<string, string>>,
+): Uint8Array {
+  const attribute = (name: string, type: string, value: Uint8Array) =>
+    concat([text(`${name}\0${type}\0`), numbers('i', value.length), value]);
   const list = concat([
     ...channels.map(({ name, type }) => concat([text(`${name}\0`), numbers('iiii', EXR_TYPES.indexOf(type), 0, 1, 1)])),
     Uint8Array.of(0),
@@ -101,7 +117,13 @@ function header(width: number, height: number, channels: readonly Channel[], com
 }
 
 /** The lines from `first` on: per line, channel after channel. */
-function block(channels: readonly Channel[], width: number, first: number, count: number, bytesPerPixel: number): Uint8Array {
+function block(
+  channels: readonly Channel[],
+  width: number,
+  first: number,
+  count: number,
+  bytesPerPixel: number,
+): Uint8Array {
   const out = new Uint8Array(width * count * bytesPerPixel);
   const view = new DataView(out.buffer);
   let at = 0;
@@ -125,9 +147,16 @@ function block(channels: readonly Channel[], width: number, first: number, count
  * @throws {ImageError} `image/size` for a channel of the wrong length, `image/channels` for missing, doubled or
  * impossible names.
  * @example
- * encodeExr({ width, height, layers: [{ name: '', channels: { R, G, B, A } }, { name: 'depth', type: 'float', channels: { Z } }] });
+ * encodeExr({ width, height, layers: [{ name: '', channels: { R, G, B, A } }, { name: 'depth', type: 'float', channels:
+ * { Z } }] });
  */
-export function encodeExr({ width, height, layers, compression = 'zip', attributes = {} }: ExrSource): Uint8Array<ArrayBuffer> {
+export function encodeExr({
+  width,
+  height,
+  layers,
+  compression = 'zip',
+  attributes = {},
+}: ExrSource): Uint8Array<ArrayBuffer> {
   checkSize('EXR', width, height, Infinity);
   const channels = flatten(layers, width * height);
   const head = header(width, height, channels, EXR_COMPRESSION[compression], attributes);

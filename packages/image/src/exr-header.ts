@@ -15,7 +15,11 @@ export class Reader {
   }
   need(count: number): void {
     if (count < 0 || this.at + count > this.bytes.length) {
-      throw new ImageError('image/truncated', `EXR: the file ends at byte ${this.bytes.length}, but ${count} more bytes are needed at ${this.at}.`, { location: { byteOffset: this.at } });
+      throw new ImageError(
+        'image/truncated',
+        `EXR: the file ends at byte ${this.bytes.length}, but ${count} more bytes are needed at ${this.at}.`,
+        { location: { byteOffset: this.at } },
+      );
     }
   }
   int(): number {
@@ -31,7 +35,10 @@ export class Reader {
   name(): string {
     let end = this.at;
     while (end < this.bytes.length && this.bytes[end] !== 0) {
-      if (end - this.at >= NAME_LIMIT) throw new ImageError('image/header', `EXR: a name of more than ${NAME_LIMIT} bytes at ${this.at}.`, { location: { byteOffset: this.at } });
+      if (end - this.at >= NAME_LIMIT)
+        throw new ImageError('image/header', `EXR: a name of more than ${NAME_LIMIT} bytes at ${this.at}.`, {
+          location: { byteOffset: this.at },
+        });
       end++;
     }
     const text = String.fromCharCode(...this.take(end - this.at));
@@ -51,7 +58,9 @@ export interface ExrHeader {
   /** Absent: lines. */
   readonly tile?: { readonly width: number; readonly height: number };
   readonly attributes: ReadonlyMap<string, string>;
-  /** Whether the pixels that are there are other ones than those of the whole picture (data window and display window). */
+  /**
+   * Whether the pixels that are there are other ones than those of the whole picture (data window and display window).
+   */
   readonly cropped: boolean;
   /** x and y of red, green, blue and white. */
   readonly chromaticities?: readonly number[];
@@ -67,8 +76,13 @@ function readChannels(value: Uint8Array): ExrChannelInfo[] {
     const linear = (reader.take(4)[0] as number) !== 0;
     const [sx, sy] = [reader.int(), reader.int()];
     if (!type) throw new ImageError('image/header', `EXR: channel "${name}" has an unknown pixel type.`);
-    if (sx !== 1 || sy !== 1) throw new ImageError(sx > 0 && sy > 0 ? 'image/unsupported' : 'image/header', `EXR: channel "${name}" is subsampled ${sx}×${sy}; only 1×1 is read.`);
-    if (channels.some((c) => c.name === name)) throw new ImageError('image/header', `EXR: two channels are called "${name}".`);
+    if (sx !== 1 || sy !== 1)
+      throw new ImageError(
+        sx > 0 && sy > 0 ? 'image/unsupported' : 'image/header',
+        `EXR: channel "${name}" is subsampled ${sx}×${sy}; only 1×1 is read.`,
+      );
+    if (channels.some((c) => c.name === name))
+      throw new ImageError('image/header', `EXR: two channels are called "${name}".`);
     channels.push({ name, type, linear });
   }
   if (channels.length === 0) throw new ImageError('image/header', 'EXR: the file has no channels.');
@@ -77,10 +91,15 @@ function readChannels(value: Uint8Array): ExrChannelInfo[] {
 
 /** Checks the beginning of a file. Returns whether it holds several pictures, or one in tiles. */
 export function readVersion(reader: Reader): { readonly several: boolean; readonly tiled: boolean } {
-  if (reader.bytes.length < 8 || reader.int() !== EXR_MAGIC) throw new ImageError('image/format', 'EXR: the file does not start with the OpenEXR magic number.', { location: { byteOffset: 0 } });
+  if (reader.bytes.length < 8 || reader.int() !== EXR_MAGIC)
+    throw new ImageError('image/format', 'EXR: the file does not start with the OpenEXR magic number.', {
+      location: { byteOffset: 0 },
+    });
   const version = reader.int();
-  if ((version & 0xff) !== 2) throw new ImageError('image/unsupported', `EXR: version ${version & 0xff} of the format is not supported.`);
-  if (version & 0x800) throw new ImageError('image/unsupported', 'EXR: deep pictures are not supported; save as a flat image.');
+  if ((version & 0xff) !== 2)
+    throw new ImageError('image/unsupported', `EXR: version ${version & 0xff} of the format is not supported.`);
+  if (version & 0x800)
+    throw new ImageError('image/unsupported', 'EXR: deep pictures are not supported; save as a flat image.');
   return { several: (version & 0x1000) !== 0, tiled: (version & 0x200) !== 0 };
 }
 
@@ -97,7 +116,8 @@ export function readHeader(reader: Reader, tiled: boolean): ExrHeader | undefine
   if (header.size === 0) return undefined;
   const attribute = (name: string, length: number): DataView => {
     const value = header.get(name);
-    if (!value || value.length < length) throw new ImageError('image/header', `EXR: the attribute "${name}" is missing or too short.`);
+    if (!value || value.length < length)
+      throw new ImageError('image/header', `EXR: the attribute "${name}" is missing or too short.`);
     return new DataView(value.buffer, value.byteOffset, value.byteLength);
   };
   attribute('channels', 1);
@@ -111,13 +131,29 @@ export function readHeader(reader: Reader, tiled: boolean): ExrHeader | undefine
   const display = header.get('displayWindow');
   const cropped = display?.length === 16 && display.some((byte, i) => byte !== window.getUint8(i));
   const colours = header.get('chromaticities');
-  const chromaticities = colours?.length === 32 ? Array.from({ length: 8 }, (_, i) => new DataView(colours.buffer, colours.byteOffset).getFloat32(4 * i, true)) : undefined;
-  const common = { channels, compression, x0, y0, width, height: y1 - y0 + 1, attributes, cropped, ...(chromaticities ? { chromaticities } : {}), lineBytes: width * channels.reduce((sum, channel) => sum + bytesOf(channel), 0) };
+  const chromaticities =
+    colours?.length === 32
+      ? Array.from({ length: 8 }, (_, i) => new DataView(colours.buffer, colours.byteOffset).getFloat32(4 * i, true))
+      : undefined;
+  const common = {
+    channels,
+    compression,
+    x0,
+    y0,
+    width,
+    height: y1 - y0 + 1,
+    attributes,
+    cropped,
+    ...(chromaticities ? { chromaticities } : {}),
+    lineBytes: width * channels.reduce((sum, channel) => sum + bytesOf(channel), 0),
+  };
   const type = attributes.get('type');
-  if (type?.startsWith('deep')) throw new ImageError('image/unsupported', 'EXR: deep pictures are not supported; save as a flat image.');
+  if (type?.startsWith('deep'))
+    throw new ImageError('image/unsupported', 'EXR: deep pictures are not supported; save as a flat image.');
   if (!tiled && type !== 'tiledimage') return common;
   const tiles = attribute('tiles', 9);
   const tile = { width: tiles.getUint32(0, true), height: tiles.getUint32(4, true) };
-  if (tile.width < 1 || tile.height < 1 || (tiles.getUint8(8) & 15) > 2) throw new ImageError('image/header', `EXR: tiles of ${tile.width}×${tile.height} are not possible.`);
+  if (tile.width < 1 || tile.height < 1 || (tiles.getUint8(8) & 15) > 2)
+    throw new ImageError('image/header', `EXR: tiles of ${tile.width}×${tile.height} are not possible.`);
   return { ...common, tile };
 }

@@ -51,8 +51,10 @@ class BitReader {
 
   /** The next bits, the first one highest; at most 24. Beyond the end there are zeros. */
   peek(count: number): number {
-    const b = this.#bytes, i = this.at >> 3;
-    const word = (((b[i] ?? 0) << 24) | ((b[i + 1] ?? 0) << 16) | ((b[i + 2] ?? 0) << 8) | (b[i + 3] ?? 0)) << (this.at & 7);
+    const b = this.#bytes,
+      i = this.at >> 3;
+    const word =
+      (((b[i] ?? 0) << 24) | ((b[i + 1] ?? 0) << 16) | ((b[i + 2] ?? 0) << 8) | (b[i + 3] ?? 0)) << (this.at & 7);
     return word >>> (32 - count);
   }
 
@@ -98,7 +100,11 @@ class Codes {
     for (let l = 1; l <= TABLE_BITS; l++) {
       for (let i = 0; i < (this.#count[l] as number); i++) {
         const from = ((this.#first[l] as number) + i) << (TABLE_BITS - l);
-        this.#table.fill(((this.#symbols[(this.#start[l] as number) + i] as number) << 6) | l, from, from + (1 << (TABLE_BITS - l)));
+        this.#table.fill(
+          ((this.#symbols[(this.#start[l] as number) + i] as number) << 6) | l,
+          from,
+          from + (1 << (TABLE_BITS - l)),
+        );
       }
     }
   }
@@ -132,7 +138,8 @@ class Codes {
     for (let length = TABLE_BITS + 1; length <= LONGEST && reader.at < bits; length++) {
       code = 2 * code + reader.read(1);
       const place = code - (this.#first[length] as number);
-      if (place >= 0 && place < (this.#count[length] as number)) return this.#symbols[(this.#start[length] as number) + place] as number;
+      if (place >= 0 && place < (this.#count[length] as number))
+        return this.#symbols[(this.#start[length] as number) + place] as number;
     }
     return -1;
   }

@@ -8,7 +8,8 @@ const BITMAP_BYTES = 8192;
 export function unpackPiz(packed: Uint8Array, block: ExrBlock): Uint8Array | undefined {
   if (packed.length < 4) return undefined;
   const view = new DataView(packed.buffer, packed.byteOffset, packed.byteLength);
-  const low = view.getUint16(0, true), high = view.getUint16(2, true);
+  const low = view.getUint16(0, true),
+    high = view.getUint16(2, true);
   if (high >= BITMAP_BYTES) return undefined;
   const bitmap = new Uint8Array(BITMAP_BYTES);
   let at = 4;
@@ -18,14 +19,18 @@ export function unpackPiz(packed: Uint8Array, block: ExrBlock): Uint8Array | und
   }
   const words = new Uint16Array(65536);
   let known = 0;
-  for (let word = 0; word < 65536; word++) if (word === 0 || (bitmap[word >> 3] as number) & (1 << (word & 7))) words[known++] = word;
+  for (let word = 0; word < 65536; word++)
+    if (word === 0 || (bitmap[word >> 3] as number) & (1 << (word & 7))) words[known++] = word;
   if (at + 4 > packed.length) return undefined;
   const length = view.getInt32(at, true);
   at += 4;
   if (length < 0 || at + length > packed.length) return undefined;
   const { channels, width, lines } = block;
   const wordsOf = (channel: (typeof channels)[number]) => bytesOf(channel) / 2;
-  const data = unpackHuffman(packed.subarray(at, at + length), width * lines * channels.reduce((sum, channel) => sum + wordsOf(channel), 0));
+  const data = unpackHuffman(
+    packed.subarray(at, at + length),
+    width * lines * channels.reduce((sum, channel) => sum + wordsOf(channel), 0),
+  );
   if (!data) return undefined;
   const planes: Uint8Array[] = [];
   let from = 0;
@@ -56,7 +61,15 @@ function pairOf16(l: number, h: number): readonly [number, number] {
  * The two-dimensional wavelet, from the coarsest level down.
  * @param most The largest number: below 2^14 no sum overflows, which another variant makes use of.
  */
-function undoWavelet(data: Uint16Array, start: number, nx: number, ox: number, ny: number, oy: number, most: number): void {
+function undoWavelet(
+  data: Uint16Array,
+  start: number,
+  nx: number,
+  ox: number,
+  ny: number,
+  oy: number,
+  most: number,
+): void {
   const pair = most < 1 << 14 ? pairOf14 : pairOf16;
   const two = (i: number, j: number) => {
     const [a, b] = pair(data[i] as number, data[j] as number);
@@ -71,7 +84,10 @@ function undoWavelet(data: Uint16Array, start: number, nx: number, ox: number, n
     for (; y <= ny - p2; y += p2) {
       let x = 0;
       for (; x <= nx - p2; x += p2) {
-        const i00 = start + y * oy + x * ox, i01 = i00 + p * ox, i10 = i00 + p * oy, i11 = i10 + p * ox;
+        const i00 = start + y * oy + x * ox,
+          i01 = i00 + p * ox,
+          i10 = i00 + p * oy,
+          i11 = i10 + p * ox;
         two(i00, i10);
         two(i01, i11);
         two(i00, i01);

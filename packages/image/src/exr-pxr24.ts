@@ -12,10 +12,12 @@ export function unpackPxr24(packed: Uint8Array, block: ExrBlock): Uint8Array | u
   if (!planes) return undefined;
   const raw = new Uint8Array(rawSize(block));
   const view = new DataView(raw.buffer);
-  let from = 0, to = 0;
+  let from = 0,
+    to = 0;
   for (let y = 0; y < lines; y++) {
     for (const channel of channels) {
-      const bytes = kept(channel), size = bytesOf(channel);
+      const bytes = kept(channel),
+        size = bytesOf(channel);
       let value = 0;
       for (let x = 0; x < width; x++) {
         let difference = 0;

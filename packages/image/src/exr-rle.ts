@@ -4,7 +4,7 @@ import { reconstruct } from './exr-block';
 export function unpackRuns(packed: Uint8Array, size: number): Uint8Array | undefined {
   const out = new Uint8Array(size);
   let to = 0;
-  for (let at = 0; at < packed.length; ) {
+  for (let at = 0; at < packed.length;) {
     const count = ((packed[at++] as number) << 24) >> 24;
     if (count < 0) {
       if (at - count > packed.length || to - count > size) return undefined;

@@ -30,14 +30,17 @@ const MAX_FLOAT = 3.4028234663852886e38;
 
 function readHeader(bytes: Uint8Array): Header {
   if (bytes[0] !== 0x23 || bytes[1] !== 0x3f) {
-    throw new ImageError('image/format', 'HDR: the file does not start with "#?", so it is not a Radiance picture.', { location: { byteOffset: 0 } });
+    throw new ImageError('image/format', 'HDR: the file does not start with "#?", so it is not a Radiance picture.', {
+      location: { byteOffset: 0 },
+    });
   }
   let offset = 0;
   const line = (): string => {
     const limit = Math.min(bytes.length, HEADER_LIMIT);
     let end = offset;
     while (end < limit && bytes[end] !== 0x0a) end++;
-    if (end >= limit) throw new ImageError('image/header', 'HDR: the header does not end.', { location: { byteOffset: offset } });
+    if (end >= limit)
+      throw new ImageError('image/header', 'HDR: the header does not end.', { location: { byteOffset: offset } });
     const text = String.fromCharCode(...bytes.subarray(offset, Math.min(end, offset + 512))).replace(/\r$/, '');
     offset = end + 1;
     return text;
@@ -57,18 +60,27 @@ function readHeader(bytes: Uint8Array): Header {
       else warnings.push({ code: 'image/exposure', message: `HDR: ignored the impossible exposure "${value}".` });
     } else if (key === 'COLORCORR') {
       const factors = value?.split(/\s+/).map(Number) ?? [];
-      if (factors.length === 3 && factors.every(usable)) factors.forEach((factor, k) => ((exposure[k] as number) *= factor));
-      else warnings.push({ code: 'image/exposure', message: `HDR: ignored the impossible colour correction "${value}".` });
+      if (factors.length === 3 && factors.every(usable))
+        factors.forEach((factor, k) => ((exposure[k] as number) *= factor));
+      else
+        warnings.push({ code: 'image/exposure', message: `HDR: ignored the impossible colour correction "${value}".` });
     } else if (key === 'PRIMARIES') primaries = value?.split(/\s+/).map(Number);
   }
   warnings.push(...primariesWarning('HDR', primaries));
-  if (format === undefined) warnings.push({ code: 'image/no-format', message: 'HDR: the header names no format; taken as 32-bit_rle_rgbe.' });
+  if (format === undefined)
+    warnings.push({ code: 'image/no-format', message: 'HDR: the header names no format; taken as 32-bit_rle_rgbe.' });
   else if (format !== '32-bit_rle_rgbe') {
-    throw new ImageError('image/unsupported', `HDR: format "${format.slice(0, 40)}" is not supported, only 32-bit_rle_rgbe; convert the picture.`);
+    throw new ImageError(
+      'image/unsupported',
+      `HDR: format "${format.slice(0, 40)}" is not supported, only 32-bit_rle_rgbe; convert the picture.`,
+    );
   }
   const at = offset;
   const match = /^([-+])([XY])\s+(\d{1,9})\s+([-+])([XY])\s+(\d{1,9})$/.exec(line().trim());
-  if (!match || match[2] === match[5]) throw new ImageError('image/header', 'HDR: the resolution line is missing or not like "-Y 512 +X 1024".', { location: { byteOffset: at } });
+  if (!match || match[2] === match[5])
+    throw new ImageError('image/header', 'HDR: the resolution line is missing or not like "-Y 512 +X 1024".', {
+      location: { byteOffset: at },
+    });
   const [, sign1, axis1, size1, sign2, , size2] = match;
   const rowMajor = axis1 === 'Y';
   const [signY, signX] = rowMajor ? [sign1, sign2] : [sign2, sign1];
@@ -78,20 +90,23 @@ function readHeader(bytes: Uint8Array): Header {
 
 /** Reads one line of `length` pixels into `line` (RGBE interleaved) and returns the offset after it. */
 function readLine(bytes: Uint8Array, start: number, length: number, line: Uint8Array, index: number): number {
-  const fail = (code: string, what: string, byteOffset: number) => new ImageError(code, `HDR: ${what} in line ${index} at byte ${byteOffset}.`, { location: { byteOffset } });
+  const fail = (code: string, what: string, byteOffset: number) =>
+    new ImageError(code, `HDR: ${what} in line ${index} at byte ${byteOffset}.`, { location: { byteOffset } });
   const truncated = () => fail('image/truncated', 'the data ends', bytes.length);
   let at = start;
   if (at + 4 > bytes.length) throw truncated();
   const [b0, b1, b2, b3] = [bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]] as [number, number, number, number];
   if (length >= 8 && length < 32768 && b0 === 2 && b1 === 2 && b2 < 128) {
-    if (((b2 << 8) | b3) !== length) throw fail('image/corrupt', `a line of ${(b2 << 8) | b3} instead of ${length} pixels`, at);
+    if (((b2 << 8) | b3) !== length)
+      throw fail('image/corrupt', `a line of ${(b2 << 8) | b3} instead of ${length} pixels`, at);
     at += 4;
     for (let channel = 0; channel < 4; channel++) {
-      for (let x = 0; x < length; ) {
+      for (let x = 0; x < length;) {
         if (at + 2 > bytes.length) throw truncated();
         const code = bytes[at++] as number;
         const count = code > 128 ? code - 128 : code;
-        if (count === 0 || x + count > length) throw fail('image/corrupt', count === 0 ? 'an empty run' : 'a run beyond the end of the line', at - 1);
+        if (count === 0 || x + count > length)
+          throw fail('image/corrupt', count === 0 ? 'an empty run' : 'a run beyond the end of the line', at - 1);
         if (code > 128) {
           const value = bytes[at++] as number;
           for (const end = x + count; x < end; x++) line[x * 4 + channel] = value;
@@ -124,8 +139,8 @@ function readLine(bytes: Uint8Array, start: number, length: number, line: Uint8A
 }
 
 /**
- * Bytes that a line takes at least: one pixel, and markers of the older run-length scheme, the first of which repeats it
- * up to 255 times and each one more 256 times as often. The newer scheme takes more.
+ * Bytes that a line takes at least: one pixel, and markers of the older run-length scheme, the first of which repeats
+ * it up to 255 times and each one more 256 times as often. The newer scheme takes more.
  */
 function shortestLine(length: number): number {
   let bytes = 4;
@@ -149,9 +164,15 @@ export function decodeHdr(bytes: Uint8Array, options: DecodeOptions = {}): HdrIm
   const [lines, length] = rowMajor ? [height, width] : [width, height];
   const least = lines * shortestLine(length);
   if (bytes.length - offset < least) {
-    throw new ImageError('image/truncated', `HDR: ${width}×${height} pixels take at least ${least} bytes, but ${bytes.length - offset} are there.`, { location: { byteOffset: offset } });
+    throw new ImageError(
+      'image/truncated',
+      `HDR: ${width}×${height} pixels take at least ${least} bytes, but ${bytes.length - offset} are there.`,
+      { location: { byteOffset: offset } },
+    );
   }
-  const scales = exposure.map((factor) => Float64Array.from({ length: 256 }, (_, e) => (e === 0 ? 0 : 2 ** (e - 136) / factor)));
+  const scales = exposure.map((factor) =>
+    Float64Array.from({ length: 256 }, (_, e) => (e === 0 ? 0 : 2 ** (e - 136) / factor)),
+  );
   const data = allocateFloats('HDR', width, height, 3);
   const line = new Uint8Array(length * 4);
   let at = offset;
@@ -161,7 +182,11 @@ export function decodeHdr(bytes: Uint8Array, options: DecodeOptions = {}): HdrIm
       const [column, row] = rowMajor ? [j, i] : [i, j];
       const pixel = ((flipY ? height - 1 - row : row) * width + (flipX ? width - 1 - column : column)) * 3;
       const exponent = line[j * 4 + 3] as number;
-      for (let k = 0; k < 3; k++) data[pixel + k] = Math.min((line[j * 4 + k] as number) * ((scales[k] as Float64Array)[exponent] as number), MAX_FLOAT);
+      for (let k = 0; k < 3; k++)
+        data[pixel + k] = Math.min(
+          (line[j * 4 + k] as number) * ((scales[k] as Float64Array)[exponent] as number),
+          MAX_FLOAT,
+        );
     }
   }
   return { width, height, data, warnings };

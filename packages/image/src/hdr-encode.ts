@@ -38,7 +38,7 @@ function packChannel(line: Uint8Array, channel: number, length: number, out: num
       literal += count;
     }
   };
-  for (let x = 0; x < length; ) {
+  for (let x = 0; x < length;) {
     const value = line[x * 4 + channel] as number;
     let run = 1;
     while (run < 127 && x + run < length && line[(x + run) * 4 + channel] === value) run++;
@@ -61,7 +61,11 @@ function packChannel(line: Uint8Array, channel: number, length: number, out: num
 export function encodeHdr({ width, height, data }: HdrSource): Uint8Array<ArrayBuffer> {
   checkSize('HDR', width, height, Infinity);
   const stride = data.length / (width * height);
-  if (stride !== 3 && stride !== 4) throw new ImageError('image/size', `HDR: ${width}×${height} pixels need ${width * height} × 3 or 4 floats, but ${data.length} were given.`);
+  if (stride !== 3 && stride !== 4)
+    throw new ImageError(
+      'image/size',
+      `HDR: ${width}×${height} pixels need ${width * height} × 3 or 4 floats, but ${data.length} were given.`,
+    );
   const header = new TextEncoder().encode(`#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y ${height} +X ${width}\n`);
   const packed = width >= 8 && width < 32768;
   const parts: Uint8Array[] = [header];

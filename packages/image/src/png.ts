@@ -48,7 +48,10 @@ function predict(filter: number, a: number, b: number, c: number): number {
   return pa <= pb && pa <= pc ? a : pb <= pc ? b : c;
 }
 
-/** Filters every row with the filter of the smallest sum of absolute differences, the heuristic of the PNG specification. */
+/**
+ * Filters every row with the filter of the smallest sum of absolute differences, the heuristic of the PNG
+ * specification.
+ */
 function filterRows(raw: Uint8Array, height: number, rowBytes: number, pixelBytes: number): Uint8Array {
   const out = new Uint8Array((rowBytes + 1) * height);
   const trial = new Uint8Array(rowBytes);
@@ -84,7 +87,11 @@ function filterRows(raw: Uint8Array, height: number, rowBytes: number, pixelByte
 export function encodePng({ width, height, data, text = {}, level = 6 }: PngSource): Uint8Array<ArrayBuffer> {
   checkSize('PNG', width, height, Infinity);
   const count = width * height;
-  if (data.length !== count * 4) throw new ImageError('image/size', `PNG: ${width}×${height} RGBA pixels need ${count * 4} numbers, but ${data.length} were given.`);
+  if (data.length !== count * 4)
+    throw new ImageError(
+      'image/size',
+      `PNG: ${width}×${height} RGBA pixels need ${count * 4} numbers, but ${data.length} were given.`,
+    );
   const wide = data instanceof Uint16Array;
   const opaque = wide ? 65535 : 255;
   let channels = 3;

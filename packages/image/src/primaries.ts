@@ -8,11 +8,18 @@ const TOLERANCE = 0.025;
 
 /**
  * A warning if a file's colours are not those of Rec.709, which they are taken for.
- * @param chromaticities x and y of red, green, blue and white. What describes no colours (zeros, as some programs write) counts as none.
+ * @param chromaticities x and y of red, green, blue and white. What describes no colours (zeros, as some programs
+ * write) counts as none.
  */
 export function primariesWarning(what: string, chromaticities: readonly number[] | undefined): ImageWarning[] {
-  if (chromaticities?.length !== 8 || !chromaticities.every((x, i) => Number.isFinite(x) && (i % 2 === 0 || x !== 0))) return [];
+  if (chromaticities?.length !== 8 || !chromaticities.every((x, i) => Number.isFinite(x) && (i % 2 === 0 || x !== 0)))
+    return [];
   if (chromaticities.every((x, i) => Math.abs(x - (REC709[i] as number)) < TOLERANCE)) return [];
   const digits = chromaticities.map((x) => Number(x.toFixed(4))).join(' ');
-  return [{ code: 'image/primaries', message: `${what}: its colours have the primaries and white ${digits}, but are taken as those of Rec.709; convert the picture.` }];
+  return [
+    {
+      code: 'image/primaries',
+      message: `${what}: its colours have the primaries and white ${digits}, but are taken as those of Rec.709; convert the picture.`,
+    },
+  ];
 }

@@ -26,12 +26,34 @@ const layers = (n: number): ExrLayer[] => [
 ];
 
 describe.each(['zip', 'none'] as const)('compression %s', (compression) => {
-  it.each([[1, 1], [5, 16], [33, 37]])('%i×%i: all layers come back, halves as rounded and the rest exactly', (width, height) => {
+  it.each([
+    [1, 1],
+    [5, 16],
+    [33, 37],
+  ])('%i×%i: all layers come back, halves as rounded and the rest exactly', (width, height) => {
     const n = width * height;
     const source = layers(n);
-    const image = decodeExr(encodeExr({ width, height, layers: source, compression, attributes: { software: 'glanz', 'glanz:settingWithALongNameOfMoreThan31': 'é' } }));
+    const image = decodeExr(
+      encodeExr({
+        width,
+        height,
+        layers: source,
+        compression,
+        attributes: { software: 'glanz', 'glanz:settingWithALongNameOfMoreThan31': 'é' },
+      }),
+    );
     expect([image.width, image.height, image.warnings]).toEqual([width, height, []]);
-    expect([...image.channels.keys()]).toEqual(['A', 'B', 'G', 'R', 'albedo.B', 'albedo.G', 'albedo.R', 'depth.Z', 'objectId.id']);
+    expect([...image.channels.keys()]).toEqual([
+      'A',
+      'B',
+      'G',
+      'R',
+      'albedo.B',
+      'albedo.G',
+      'albedo.R',
+      'depth.Z',
+      'objectId.id',
+    ]);
     expect(image.attributes.get('glanz:settingWithALongNameOfMoreThan31')).toBe('é');
     for (const layer of source) {
       for (const [key, wanted] of Object.entries(layer.channels)) {
@@ -52,14 +74,18 @@ describe.each(['zip', 'none'] as const)('compression %s', (compression) => {
     const channels = { R: plane(n, 1, 8), G: plane(n, 2), B: plane(n, 3, 100), A: plane(n, 4) };
     const loader = new EXRLoader();
     loader.type = FloatType;
-    const theirs = loader.parse(encodeExr({ width, height, layers: [{ name: '', type, channels }], compression }).buffer);
+    const theirs = loader.parse(
+      encodeExr({ width, height, layers: [{ name: '', type, channels }], compression }).buffer,
+    );
     expect([theirs.width, theirs.height]).toEqual([width, height]);
     for (let y = 0; y < height; y++) {
       for (let x = 0; x < width; x++) {
         for (const [k, key] of (['R', 'G', 'B', 'A'] as const).entries()) {
           const value = channels[key][y * width + x] as number;
           // Its rows go from the bottom up.
-          expect(theirs.data![((height - 1 - y) * width + x) * 4 + k]).toBe(type === 'half' ? fromHalf(toHalf(value)) : value);
+          expect(theirs.data![((height - 1 - y) * width + x) * 4 + k]).toBe(
+            type === 'half' ? fromHalf(toHalf(value)) : value,
+          );
         }
       }
     }
@@ -82,11 +108,19 @@ describe('the bytes of the file', () => {
     expect([...bytes.subarray(0, 8)]).toEqual([0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0]);
     const channels = find('channels', 'chlist');
     expect(channels.size).toBe(2 + 16 + 1);
-    expect([...bytes.subarray(channels.at, channels.at + 19)]).toEqual([0x52, 0, 2, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0]);
+    expect([...bytes.subarray(channels.at, channels.at + 19)]).toEqual([
+      0x52, 0, 2, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0,
+    ]);
     expect(bytes[find('compression', 'compression').at]).toBe(3);
     for (const name of ['dataWindow', 'displayWindow']) {
       const { at, size } = find(name, 'box2i');
-      expect([size, ...[0, 4, 8, 12].map((k) => view.getInt32(at + k, true))]).toEqual([16, 0, 0, width - 1, height - 1]);
+      expect([size, ...[0, 4, 8, 12].map((k) => view.getInt32(at + k, true))]).toEqual([
+        16,
+        0,
+        0,
+        width - 1,
+        height - 1,
+      ]);
     }
     expect(bytes[find('lineOrder', 'lineOrder').at]).toBe(0);
     expect(view.getFloat32(find('pixelAspectRatio', 'float').at, true)).toBe(1);
@@ -119,7 +153,9 @@ describe('errors', () => {
   it('the encoder refuses wrong lengths and names', () => {
     expect(codeOf(() => encodeExr({ ...good, layers: [] }))).toBe('image/channels');
     expect(codeOf(() => encodeExr({ ...good, layers: [...good.layers, ...good.layers] }))).toBe('image/channels');
-    expect(codeOf(() => encodeExr({ ...good, layers: [{ name: 'ü', channels: { R: new Float32Array(4) } }] }))).toBe('image/channels');
+    expect(codeOf(() => encodeExr({ ...good, layers: [{ name: 'ü', channels: { R: new Float32Array(4) } }] }))).toBe(
+      'image/channels',
+    );
     expect(codeOf(() => encodeExr({ ...good, width: 3 }))).toBe('image/size');
     expect(codeOf(() => encodeExr({ ...good, height: 0 }))).toBe('image/size');
   });
@@ -128,10 +164,12 @@ describe('errors', () => {
     const [width, height] = [7, 18];
     for (const compression of ['zip', 'none'] as const) {
       const bytes = encodeExr({ width, height, compression, layers: layers(width * height) });
-      for (let n = 0; n < bytes.length; n += 3) expect(codeOf(() => decodeExr(bytes.subarray(0, n)))).toMatch(/^image\//);
+      for (let n = 0; n < bytes.length; n += 3)
+        expect(codeOf(() => decodeExr(bytes.subarray(0, n)))).toMatch(/^image\//);
       for (let n = 0; n < 1500; n++) {
         const bad = bytes.slice();
-        for (let k = 0; k < 1 + random() * 4; k++) bad[Math.floor(random() * (n % 2 ? 700 : bad.length))] = random() * 256;
+        for (let k = 0; k < 1 + random() * 4; k++)
+          bad[Math.floor(random() * (n % 2 ? 700 : bad.length))] = random() * 256;
         codeOf(() => decodeExr(bad, { maxPixels: 1e6 }));
       }
     }

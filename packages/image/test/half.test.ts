@@ -28,11 +28,19 @@ it('rounds to the nearest half and ties to even (seed 8)', () => {
 });
 
 it('ties go to the even neighbour, among subnormals too', () => {
-  expect([1 + 2 ** -11, 1 + 3 * 2 ** -11, 2 ** -25, 3 * 2 ** -25, 5 * 2 ** -25].map((v) => fromHalf(toHalf(v)))).toEqual([1, 1 + 2 * 2 ** -10, 0, 2 * 2 ** -24, 2 * 2 ** -24]);
+  expect(
+    [1 + 2 ** -11, 1 + 3 * 2 ** -11, 2 ** -25, 3 * 2 ** -25, 5 * 2 ** -25].map((v) => fromHalf(toHalf(v))),
+  ).toEqual([1, 1 + 2 * 2 ** -10, 0, 2 * 2 ** -24, 2 * 2 ** -24]);
 });
 
 it('keeps bright numbers finite and leaves infinities and NaN alone', () => {
-  expect([65504, 65519, 65520, 1e30, -1e30].map((v) => fromHalf(toHalf(v)))).toEqual([HALF_MAX, HALF_MAX, HALF_MAX, HALF_MAX, -HALF_MAX]);
+  expect([65504, 65519, 65520, 1e30, -1e30].map((v) => fromHalf(toHalf(v)))).toEqual([
+    HALF_MAX,
+    HALF_MAX,
+    HALF_MAX,
+    HALF_MAX,
+    -HALF_MAX,
+  ]);
   expect(fromHalf(toHalf(Infinity))).toBe(Infinity);
   expect(fromHalf(toHalf(NaN))).toBeNaN();
   expect(Object.is(fromHalf(toHalf(-0)), -0)).toBe(true);

@@ -19,13 +19,17 @@ const codeOf = (run: () => unknown): string => {
 
 describe('decodeHdr', () => {
   it('a component is mantissa · 2^(e − 136)', () => {
-    const { width, height, data } = decodeHdr(file(`${HEAD}-Y 1 +X 3\n`, 128, 64, 0, 129, 255, 1, 2, 136, 200, 100, 50, 0));
+    const { width, height, data } = decodeHdr(
+      file(`${HEAD}-Y 1 +X 3\n`, 128, 64, 0, 129, 255, 1, 2, 136, 200, 100, 50, 0),
+    );
     expect([width, height]).toEqual([3, 1]);
     expect([...data]).toEqual([1, 0.5, 0, 255, 1, 2, 0, 0, 0]);
   });
 
   it('reads the old run-length scheme, with counts over several markers', () => {
-    const { data } = decodeHdr(file(`${HEAD}-Y 1 +X 262\n`, 128, 128, 128, 129, 1, 1, 1, 4, 1, 1, 1, 1, 128, 0, 0, 130));
+    const { data } = decodeHdr(
+      file(`${HEAD}-Y 1 +X 262\n`, 128, 128, 128, 129, 1, 1, 1, 4, 1, 1, 1, 1, 128, 0, 0, 130),
+    );
     expect(data.length).toBe(262 * 3);
     expect([...data.subarray(260 * 3)]).toEqual([1, 1, 1, 2, 0, 0]);
     expect(data.subarray(0, 261 * 3).every((v) => v === 1)).toBe(true);
@@ -59,19 +63,32 @@ describe('decodeHdr', () => {
   });
 
   it('divides by the product of the exposures and warns of impossible ones', () => {
-    const { data, warnings } = decodeHdr(file('#?RGBE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2\nEXPOSURE= 4\nEXPOSURE=nan\n\n-Y 1 +X 1\n', 128, 0, 0, 129));
+    const { data, warnings } = decodeHdr(
+      file('#?RGBE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2\nEXPOSURE= 4\nEXPOSURE=nan\n\n-Y 1 +X 1\n', 128, 0, 0, 129),
+    );
     expect(data[0]).toBe(1 / 8);
     expect(warnings.map((w) => w.code)).toEqual(['image/exposure']);
   });
 
   it('divides by the product of the colour corrections', () => {
-    const { data, warnings } = decodeHdr(file('#?RGBE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2\nCOLORCORR= 1 2 4\nCOLORCORR=1 2\n\n-Y 1 +X 1\n', 128, 128, 128, 129));
+    const { data, warnings } = decodeHdr(
+      file(
+        '#?RGBE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2\nCOLORCORR= 1 2 4\nCOLORCORR=1 2\n\n-Y 1 +X 1\n',
+        128,
+        128,
+        128,
+        129,
+      ),
+    );
     expect([...data]).toEqual([1 / 2, 1 / 4, 1 / 8]);
     expect(warnings.map(({ message }) => message)).toEqual(['HDR: ignored the impossible colour correction "1 2".']);
   });
 
   it('warns of colours that are not those of Rec.709', () => {
-    const warnings = (primaries: string) => decodeHdr(file(`#?RGBE\nFORMAT=32-bit_rle_rgbe\nPRIMARIES=${primaries}\n\n-Y 1 +X 1\n`, 128, 128, 128, 129)).warnings.map(({ code }) => code);
+    const warnings = (primaries: string) =>
+      decodeHdr(
+        file(`#?RGBE\nFORMAT=32-bit_rle_rgbe\nPRIMARIES=${primaries}\n\n-Y 1 +X 1\n`, 128, 128, 128, 129),
+      ).warnings.map(({ code }) => code);
     // Radiance's own, and what Photoshop writes.
     expect(warnings('0.640 0.330 0.290 0.600 0.150 0.060 0.333 0.333')).toEqual([]);
     expect(warnings('0 0 0 0 0 0 0 0')).toEqual([]);
@@ -80,7 +97,12 @@ describe('decodeHdr', () => {
     expect(warnings('0.708 0.292 0.170 0.797 0.131 0.046 0.3127 0.3290')).toEqual(['image/primaries']);
   });
 
-  it.each([[256, 8], [257, 12], [65_536, 12], [65_537, 16]])('a line of %d pixels is not shorter than %d bytes', (length, bytes) => {
+  it.each([
+    [256, 8],
+    [257, 12],
+    [65_536, 12],
+    [65_537, 16],
+  ])('a line of %d pixels is not shorter than %d bytes', (length, bytes) => {
     // The shortest there is: a pixel, and runs whose counts add up to the rest.
     const line = [9, 9, 9, 129];
     for (let rest = length - 1, run = 1; rest > 0; run *= 256) {
@@ -88,8 +110,12 @@ describe('decodeHdr', () => {
       line.push(1, 1, 1, count);
       rest -= count * run;
     }
-    expect(codeOf(() => decodeHdr(file(`${HEAD}-Y 1 +X ${length}\n`, ...line.slice(0, bytes - 1))))).toBe('image/truncated');
-    expect(() => decodeHdr(file(`${HEAD}-Y 1000 +X ${length}\n`, ...new Array<number>(1000 * bytes - 1).fill(0)))).toThrow(`take at least ${1000 * bytes} bytes`);
+    expect(codeOf(() => decodeHdr(file(`${HEAD}-Y 1 +X ${length}\n`, ...line.slice(0, bytes - 1))))).toBe(
+      'image/truncated',
+    );
+    expect(() =>
+      decodeHdr(file(`${HEAD}-Y 1000 +X ${length}\n`, ...new Array<number>(1000 * bytes - 1).fill(0))),
+    ).toThrow(`take at least ${1000 * bytes} bytes`);
   });
 
   it('a picture for which there is no memory is an error of the decoder', () => {
@@ -103,15 +129,21 @@ describe('decodeHdr', () => {
     expect(codeOf(() => decodeHdr(Uint8Array.of(0x89, 0x50, 0x4e, 0x47)))).toBe('image/format');
     expect(codeOf(() => decodeHdr(file('#?RADIANCE\nFORMAT=32-bit_rle_rgbe')))).toBe('image/header');
     expect(codeOf(() => decodeHdr(file(`${HEAD}-Y 4 -Y 4\n`)))).toBe('image/header');
-    expect(codeOf(() => decodeHdr(file('#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n', 1, 1, 1, 1)))).toBe('image/unsupported');
+    expect(codeOf(() => decodeHdr(file('#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n', 1, 1, 1, 1)))).toBe(
+      'image/unsupported',
+    );
     expect(codeOf(() => decodeHdr(file(`${HEAD}-Y 0 +X 4\n`)))).toBe('image/size');
     expect(codeOf(() => decodeHdr(file(`${HEAD}-Y 99999 +X 99999\n`, 1, 2, 3, 4)))).toBe('image/size');
     expect(codeOf(() => decodeHdr(file(`${HEAD}-Y 2 +X 2\n`, 1, 2, 3, 4)))).toBe('image/truncated');
-    expect(codeOf(() => decodeHdr(file(`${HEAD}-Y 1 +X 8\n`, 2, 2, 0, 9, 136, 1, 136, 1, 136, 1, 136, 1)))).toBe('image/corrupt');
+    expect(codeOf(() => decodeHdr(file(`${HEAD}-Y 1 +X 8\n`, 2, 2, 0, 9, 136, 1, 136, 1, 136, 1, 136, 1)))).toBe(
+      'image/corrupt',
+    );
     expect(codeOf(() => decodeHdr(file(`${HEAD}-Y 1 +X 8\n`, 2, 2, 0, 8, 0, 0, 0, 0, 0, 0)))).toBe('image/corrupt');
     expect(codeOf(() => decodeHdr(file(`${HEAD}-Y 1 +X 8\n`, 2, 2, 0, 8, 137, 1, 136, 1)))).toBe('image/corrupt');
     expect(codeOf(() => decodeHdr(file(`${HEAD}-Y 1 +X 2\n`, 1, 1, 1, 1, 1, 1, 1, 1)))).toBe('image/corrupt');
-    expect(codeOf(() => decodeHdr(file(`${HEAD}-Y 4 +X 4\n`, ...new Array<number>(64).fill(7)), { maxPixels: 15 }))).toBe('image/size');
+    expect(
+      codeOf(() => decodeHdr(file(`${HEAD}-Y 4 +X 4\n`, ...new Array<number>(64).fill(7)), { maxPixels: 15 })),
+    ).toBe('image/size');
   });
 
   it('ends in pixels or an ImageError for every truncation and for 3000 random mutations (seed 4)', () => {
@@ -123,52 +155,74 @@ describe('decodeHdr', () => {
       const bad = good.slice();
       for (let k = 0; k < 1 + random() * 4; k++) bad[Math.floor(random() * bad.length)] = random() * 256;
       codeOf(() => {
-        for (const v of decodeHdr(bad, { maxPixels: 1e6 }).data) if (!(v >= 0 && v < Infinity)) throw new Error(`mutation ${n}: ${v}`);
+        for (const v of decodeHdr(bad, { maxPixels: 1e6 }).data)
+          if (!(v >= 0 && v < Infinity)) throw new Error(`mutation ${n}: ${v}`);
       });
     }
   });
 
-  it.skipIf(!hasShared)(`${hasShared ? '' : '[skipped: ../shared is absent] '}reads real environments as three.js does, bit for bit`, () => {
-    for (const name of ['studio_small_05_1k', 'leadenhall_market_1k', 'aristea_wreck_puresky_1k', 'royal_esplanade_256', 'simple-rle']) {
-      const bytes = shared(`assets/env/${name}.hdr`);
-      const ours = decodeHdr(bytes);
-      const loader = new HDRLoader();
-      loader.type = FloatType;
-      const theirs = loader.parse(bytes.slice().buffer);
-      expect([ours.width, ours.height, ours.warnings], name).toEqual([theirs.width, theirs.height, []]);
-      // Theirs is RGBA. It computes in units of 2^(e−128)/255, ours in 2^(e−136): a factor of 256/255.
-      let worst = 0;
-      for (let i = 0; i < ours.width * ours.height; i++) {
-        for (let k = 0; k < 3; k++) {
-          const a = ours.data[i * 3 + k] as number;
-          const b = (theirs.data![i * 4 + k] as number) * (255 / 256);
-          if (a !== b) worst = Math.max(worst, Math.abs(a - b) / Math.max(a, b));
+  it.skipIf(!hasShared)(
+    `${hasShared ? '' : '[skipped: ../shared is absent] '}reads real environments as three.js does, bit for bit`,
+    () => {
+      for (const name of [
+        'studio_small_05_1k',
+        'leadenhall_market_1k',
+        'aristea_wreck_puresky_1k',
+        'royal_esplanade_256',
+        'simple-rle',
+      ]) {
+        const bytes = shared(`assets/env/${name}.hdr`);
+        const ours = decodeHdr(bytes);
+        const loader = new HDRLoader();
+        loader.type = FloatType;
+        const theirs = loader.parse(bytes.slice().buffer);
+        expect([ours.width, ours.height, ours.warnings], name).toEqual([theirs.width, theirs.height, []]);
+        // Theirs is RGBA. It computes in units of 2^(e−128)/255, ours in 2^(e−136): a factor of 256/255.
+        let worst = 0;
+        for (let i = 0; i < ours.width * ours.height; i++) {
+          for (let k = 0; k < 3; k++) {
+            const a = ours.data[i * 3 + k] as number;
+            const b = (theirs.data![i * 4 + k] as number) * (255 / 256);
+            if (a !== b) worst = Math.max(worst, Math.abs(a - b) / Math.max(a, b));
+          }
         }
+        expect(worst, name).toBeLessThan(1e-6);
       }
-      expect(worst, name).toBeLessThan(1e-6);
-    }
-  });
+    },
+  );
 
-  it.skipIf(!hasShared)(`${hasShared ? '' : '[skipped: ../shared is absent] '}a studio is brighter above than below and has lamps`, () => {
-    const { width, height, data } = decodeHdr(shared('assets/env/studio_small_05_1k.hdr'));
-    expect([width, height]).toEqual([1024, 512]);
-    const mean = (from: number, to: number) => data.subarray(from * width * 3, to * width * 3).reduce((a, b) => a + b, 0) / ((to - from) * width * 3);
-    expect(mean(0, 256)).toBeGreaterThan(mean(256, 512));
-    expect(data.reduce((a, b) => Math.max(a, b), 0)).toBeGreaterThan(10);
-  });
+  it.skipIf(!hasShared)(
+    `${hasShared ? '' : '[skipped: ../shared is absent] '}a studio is brighter above than below and has lamps`,
+    () => {
+      const { width, height, data } = decodeHdr(shared('assets/env/studio_small_05_1k.hdr'));
+      expect([width, height]).toEqual([1024, 512]);
+      const mean = (from: number, to: number) =>
+        data.subarray(from * width * 3, to * width * 3).reduce((a, b) => a + b, 0) / ((to - from) * width * 3);
+      expect(mean(0, 256)).toBeGreaterThan(mean(256, 512));
+      expect(data.reduce((a, b) => Math.max(a, b), 0)).toBeGreaterThan(10);
+    },
+  );
 });
 
 describe('encodeHdr', () => {
-  it.each([[1, 7], [7, 3], [8, 2], [300, 5]])('%i×%i comes back within 1/256 of each pixel’s largest component (seed 9)', (width, height) => {
+  it.each([
+    [1, 7],
+    [7, 3],
+    [8, 2],
+    [300, 5],
+  ])('%i×%i comes back within 1/256 of each pixel’s largest component (seed 9)', (width, height) => {
     const random = randomNumbers(9);
-    const data = Float32Array.from({ length: width * height * 3 }, () => (random() < 0.2 ? 0 : random() * 2 ** (random() * 40 - 20)));
+    const data = Float32Array.from({ length: width * height * 3 }, () =>
+      random() < 0.2 ? 0 : random() * 2 ** (random() * 40 - 20),
+    );
     // Equal pixels in a row make runs.
     if (width > 100) data.fill(0.75, 30, 600);
     const back = decodeHdr(encodeHdr({ width, height, data }));
     expect([back.width, back.height, back.warnings]).toEqual([width, height, []]);
     for (let i = 0; i < data.length; i += 3) {
       const peak = Math.max(...data.subarray(i, i + 3));
-      for (let k = i; k < i + 3; k++) expect(Math.abs((back.data[k] as number) - (data[k] as number))).toBeLessThanOrEqual(peak / 256);
+      for (let k = i; k < i + 3; k++)
+        expect(Math.abs((back.data[k] as number) - (data[k] as number))).toBeLessThanOrEqual(peak / 256);
     }
   });
 
@@ -189,7 +243,10 @@ describe('encodeHdr', () => {
     loader.type = FloatType;
     const theirs = loader.parse(encodeHdr({ width, height: 2, data }).buffer);
     for (let i = 0; i < width * 2; i++) {
-      for (let k = 0; k < 3; k++) expect(Math.abs((theirs.data![i * 4 + k] as number) - (data[i * 3 + k] as number))).toBeLessThan(0.012 * (data[i * 3 + 2] as number) + 1e-9);
+      for (let k = 0; k < 3; k++)
+        expect(Math.abs((theirs.data![i * 4 + k] as number) - (data[i * 3 + k] as number))).toBeLessThan(
+          0.012 * (data[i * 3 + 2] as number) + 1e-9,
+        );
     }
   });
 

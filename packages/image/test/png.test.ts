@@ -18,7 +18,11 @@ function picture<T extends Uint8Array | Uint16Array>(data: T, width: number, top
 }
 
 describe('encodePng', () => {
-  it.each([[1, 1], [7, 5], [64, 33]])('8 bits, %i×%i: sharp reads the same pixels', async (width, height) => {
+  it.each([
+    [1, 1],
+    [7, 5],
+    [64, 33],
+  ])('8 bits, %i×%i: sharp reads the same pixels', async (width, height) => {
     const data = picture(new Uint8Array(width * height * 4), width, 255, false);
     const read = await sharp(encodePng({ width, height, data })).raw().toBuffer({ resolveWithObject: true });
     expect(read.info).toMatchObject({ width, height, channels: 4 });
@@ -48,7 +52,8 @@ describe('encodePng', () => {
     const png = encodePng({ width: 2, height: 1, data: new Uint8ClampedArray(8), text: { Software: 'glanz' } });
     const view = new DataView(png.buffer);
     const types: string[] = [];
-    for (let at = 8; at < png.length; at += 12 + view.getUint32(at)) types.push(String.fromCharCode(...png.subarray(at + 4, at + 8)));
+    for (let at = 8; at < png.length; at += 12 + view.getUint32(at))
+      types.push(String.fromCharCode(...png.subarray(at + 4, at + 8)));
     expect(types).toEqual(['IHDR', 'sRGB', 'gAMA', 'tEXt', 'IDAT', 'IEND']);
     expect([...png.subarray(0, 8)]).toEqual([137, 80, 78, 71, 13, 10, 26, 10]);
     // The checksum of an empty IEND chunk is the same in every PNG there is.

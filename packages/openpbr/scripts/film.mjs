@@ -1,12 +1,12 @@
 /**
  * Fits src/tables/film.ts and prints it: `node scripts/film.mjs`, a second. Deterministic.
  *
- * What a film's waves add up to, as red, green and blue, depends on the visible spectrum only through the Fourier transforms
- * of the three sensitivities over wavenumbers, taken at the optical path. A sum of Lorentzian bands has transforms of damped
- * waves; the bands' middles and their common width are found by coordinate search, their weights by linear least squares
- * with each row's sum held at 1. Tried, on films of up to 3 µm over glass, nothing and metals, largest error of the reflectance against
- * the integral over the spectrum: three wavelengths 0.6, five bands 0.06, six 0.04, eight 0.02. Bands of width 0 alias
- * where the film is thick.
+ * What a film's waves add up to, as red, green and blue, depends on the visible spectrum only through the Fourier
+ * transforms of the three sensitivities over wavenumbers, taken at the optical path. A sum of Lorentzian bands has
+ * transforms of damped waves; the bands' middles and their common width are found by coordinate search, their weights
+ * by linear least squares with each row's sum held at 1. Tried, on films of up to 3 µm over glass, nothing and metals,
+ * largest error of the reflectance against the integral over the spectrum: three wavelengths 0.6, five bands 0.06, six
+ * 0.04, eight 0.02. Bands of width 0 alias where the film is thick.
  */
 
 /** CIE 1931 observer, the multi-lobe fits of Wyman, Sloan and Shirley 2013; nanometres. */
@@ -46,7 +46,9 @@ function solve(matrix, right) {
   const rows = matrix.map((row, i) => [...row, right[i]]);
   const n = rows.length;
   for (let i = 0; i < n; i++) {
-    const pivot = rows.slice(i).reduce((best, row, k) => (Math.abs(row[i]) > Math.abs(rows[best][i]) ? i + k : best), i);
+    const pivot = rows
+      .slice(i)
+      .reduce((best, row, k) => (Math.abs(row[i]) > Math.abs(rows[best][i]) ? i + k : best), i);
     [rows[i], rows[pivot]] = [rows[pivot], rows[i]];
     for (let k = 0; k < n; k++) {
       if (k === i) continue;
@@ -59,10 +61,17 @@ function solve(matrix, right) {
 
 function fit(wavenumbers, width) {
   const n = wavenumbers.length;
-  const waves = wavenumbers.map((v) => PATHS.map((x) => [Math.exp(-width * x) * Math.cos(2 * Math.PI * x * v), Math.exp(-width * x) * Math.sin(2 * Math.PI * x * v)]));
+  const waves = wavenumbers.map((v) =>
+    PATHS.map((x) => [
+      Math.exp(-width * x) * Math.cos(2 * Math.PI * x * v),
+      Math.exp(-width * x) * Math.sin(2 * Math.PI * x * v),
+    ]),
+  );
   let error = 0;
   const weights = targets.map((target) => {
-    const matrix = Array.from({ length: n - 1 }, (_, i) => Array.from({ length: n - 1 }, (__, j) => (i === j ? 1e-4 : 0)));
+    const matrix = Array.from({ length: n - 1 }, (_, i) =>
+      Array.from({ length: n - 1 }, (__, j) => (i === j ? 1e-4 : 0)),
+    );
     const right = new Array(n - 1).fill(0);
     PATHS.forEach((_, i) => {
       for (const part of [0, 1]) {
@@ -77,7 +86,9 @@ function fit(wavenumbers, width) {
     const row = solve(matrix, right);
     row.push(1 - row.reduce((sum, w) => sum + w, 0));
     PATHS.forEach((_, i) => {
-      for (const part of [0, 1]) error += importance[i] * (waves.reduce((sum, wave, k) => sum + row[k] * wave[i][part], 0) - target[i][part]) ** 2;
+      for (const part of [0, 1])
+        error +=
+          importance[i] * (waves.reduce((sum, wave, k) => sum + row[k] * wave[i][part], 0) - target[i][part]) ** 2;
     });
     return row;
   });
@@ -85,12 +96,18 @@ function fit(wavenumbers, width) {
 }
 
 const COUNT = 8;
-/** The shader adds up phases in whole numbers, so that no digit is lost however thick the film: middles are of whole steps. */
+/**
+ * The shader adds up phases in whole numbers, so that no digit is lost however thick the film: middles are of whole
+ * steps.
+ */
 const STEPS = 256;
-let wavenumbers = Array.from({ length: COUNT }, (_, i) => Math.round((1.48 + (0.87 * i) / (COUNT - 1)) * STEPS) / STEPS);
+let wavenumbers = Array.from(
+  { length: COUNT },
+  (_, i) => Math.round((1.48 + (0.87 * i) / (COUNT - 1)) * STEPS) / STEPS,
+);
 let width = 0.3;
 let best = fit(wavenumbers, width);
-for (let step = 16; step > 1 / 32; ) {
+for (let step = 16; step > 1 / 32;) {
   let better = false;
   for (let k = step < 1 ? COUNT : 0; k <= COUNT; k++) {
     for (const move of [step / STEPS, -step / STEPS]) {
@@ -107,4 +124,6 @@ const row = (weights) => {
   const rounded = weights.slice(0, -1).map((w) => +w.toFixed(5));
   return [...rounded, +(1 - rounded.reduce((sum, w) => sum + w, 0)).toFixed(5)];
 };
-process.stdout.write(`${JSON.stringify({ wavenumbers, width: +width.toFixed(5), weights: best.weights.map(row), error: best.error })}\n`);
+process.stdout.write(
+  `${JSON.stringify({ wavenumbers, width: +width.toFixed(5), weights: best.weights.map(row), error: best.error })}\n`,
+);

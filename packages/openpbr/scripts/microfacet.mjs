@@ -1,13 +1,15 @@
 /**
- * Directional albedo of a GGX interface by deterministic quadrature, double precision: what scripts/tables.mjs tabulates.
- * Half vectors follow the distribution of visible normals (spherical caps, Dupuy and Benyoub 2023), with Gauss-Legendre
- * nodes along the cap's axis and the midpoint rule around it; masking and shadowing are height-correlated Smith for
- * reflection, separable for refraction (Heitz 2014: a facet that is seen well from above is high up, and hard to see from
- * below; the separable form lies nearer to that than the correlated one). Single scattering; radiance is not scaled by
- * the index of refraction.
+ * Directional albedo of a GGX interface by deterministic quadrature, double precision: what scripts/tables.mjs
+ * tabulates. Half vectors follow the distribution of visible normals (spherical caps, Dupuy and Benyoub 2023), with
+ * Gauss-Legendre nodes along the cap's axis and the midpoint rule around it; masking and shadowing are
+ * height-correlated Smith for reflection, separable for refraction (Heitz 2014: a facet that is seen well from above is
+ * high up, and hard to see from below; the separable form lies nearer to that than the correlated one). Single
+ * scattering; radiance is not scaled by the index of refraction.
  */
 
-/** Exact unpolarised reflectance of a dielectric interface; `eta` = n_t / n_i, `c` = cosine of the angle of incidence. */
+/**
+ * Exact unpolarised reflectance of a dielectric interface; `eta` = n_t / n_i, `c` = cosine of the angle of incidence.
+ */
 export function fresnelDielectric(eta, c) {
   const g2 = eta * eta - 1 + c * c;
   if (g2 <= 0) return 1;
@@ -42,9 +44,9 @@ export function gaussLegendre(count) {
 
 /**
  * A quadrature of `rings` × `spokes` half vectors.
- * @returns {(alpha: [number, number], eta: number, mu: number, phi?: number) => { reflect: number, transmit: number, mirror: number }}
- *   energy reflected and refracted by a dielectric of relative index `eta`, and reflected by a perfect conductor, seen from
- *   the direction with cosine `mu` and azimuth `phi`.
+ * @returns {(alpha: [number, number], eta: number, mu: number, phi?: number) => { reflect: number, transmit: number,
+ *   mirror: number }} energy reflected and refracted by a dielectric of relative index `eta`, and reflected by a
+ *   perfect conductor, seen from the direction with cosine `mu` and azimuth `phi`.
  */
 export function interfaceAlbedo(rings, spokes) {
   const { nodes, weights } = gaussLegendre(rings);
@@ -91,7 +93,8 @@ export function interfaceAlbedo(rings, spokes) {
         if (cosT2 <= 0) continue;
         const along = oh / eta - Math.sqrt(cosT2);
         const tz = along * hz - mu / eta;
-        if (tz < 0) transmit += ((1 - fresnel) * weight) / (1 + lambda(along * hx - ox / eta, along * hy - oy / eta, tz));
+        if (tz < 0)
+          transmit += ((1 - fresnel) * weight) / (1 + lambda(along * hx - ox / eta, along * hy - oy / eta, tz));
       }
     }
     return { reflect, transmit, mirror };

@@ -1,8 +1,9 @@
 /**
  * Fuzz from first principles, after Zeltner, Burley and Chiang 2022: a layer of fibres that stand on the surface, as a
- * volume of specular flakes with an SGGX distribution (Heitz et al. 2015) of the eigenvalues 1, 1 and α² squared, one mean
- * free path deep for light across the fibres, over black. Paths are followed through all their scatterings; what comes out
- * is described by its energy and by a linearly transformed cosine of two numbers, fitted by maximum likelihood.
+ * volume of specular flakes with an SGGX distribution (Heitz et al. 2015) of the eigenvalues 1, 1 and α² squared, one
+ * mean free path deep for light across the fibres, over black. Paths are followed through all their scatterings; what
+ * comes out is described by its energy and by a linearly transformed cosine of two numbers, fitted by maximum
+ * likelihood.
  */
 
 /** PCG, O'Neill 2014. */
@@ -80,9 +81,14 @@ function fit(directions, start) {
   let [a, b] = start;
   let best = cost(a, b);
   // Pattern search: robust, and these are two numbers.
-  for (let step = 0.1; step > 4e-4; ) {
+  for (let step = 0.1; step > 4e-4;) {
     let moved = false;
-    for (const [da, db] of [[step, 0], [-step, 0], [0, step / 2], [0, -step / 2]]) {
+    for (const [da, db] of [
+      [step, 0],
+      [-step, 0],
+      [0, step / 2],
+      [0, -step / 2],
+    ]) {
       const value = a + da > 0.01 ? cost(a + da, b + db) : Infinity;
       if (value < best) {
         [a, b, best, moved] = [a + da, b + db, value, true];
@@ -99,7 +105,9 @@ function fit(directions, start) {
  * @returns {{ albedo: number[], stretch: number[], shear: number[] }} energy, a and -b, cosines fastest.
  */
 export function sheen(columns, rows, paths) {
-  const albedo = [], stretch = [], shear = [];
+  const albedo = [],
+    stretch = [],
+    shear = [];
   for (let j = 0; j < rows; j++) {
     const roughness = Math.max(j / (rows - 1), 0.02);
     let numbers = [0.5, -0.05];

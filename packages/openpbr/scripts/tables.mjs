@@ -1,34 +1,46 @@
 /**
- * Computes the energy tables of @glanz/openpbr and writes src/tables/grid.ts and encoded.ts: `node scripts/tables.mjs`, about a
- * minute. Deterministic. With `--check` it writes nothing and fails if the file would change.
+ * Computes the energy tables of @glanz/openpbr and writes src/tables/grid.ts and encoded.ts: `node scripts/tables.mjs`,
+ * about a minute. Deterministic. With `--check` it writes nothing and fails if the file would change.
  *
  * Coordinates, shared with src/cpu/energy.ts and src/wgsl/energy.wgsl.ts. Tried and measured against the quadrature at
  * points off the grid (largest error over indices 1.15 to 1.8, roughness 0.01 to 1, cosines 0.001 to 1):
  * - roughness × √cosine, 32 × 32: 1.7 % for the conductor. The dip of masking sits at cosine ≈ α and moves across the
  *   grid. With t = √cosine·(1 + r)/(√cosine + r) it stays in place: 0.15 %.
- * - E of a dielectric itself, 16 × 16 × 16: 0.17 absolute. As the ratio to the Fresnel reflectance at the softened cosine
- *   μ + 0.8 r² (1 − μ), over √ε and √roughness: 0.0014, and exact for a smooth surface.
- * - Energy that single scattering keeps, 24 roughnesses by their root × 17 angles: misses by up to 0.021 seen from inside,
- *   0.017 from outside near index 1. Linear in the roughness, which needs fewer, 18 × 23 with the angles along the other
- *   axis; from inside at the mean of the coordinate above and that of the critical angle; from outside over ε^(1/3):
- *   0.008 and 0.0035 at worst; with the nodes centred (see `centred`) 0.0065 and 0.0035, there of rough surfaces near the normal.
- *   From outside with columns that crowd there, 1 - (1 - t)^0.6: 0.0008 at indices 1.2 and 2; with the power 0.75 0.0027.
- * - From inside, the critical angle has a column of its own, and columns crowd around it: 0.035 at worst, 0.01 mostly. What
- *   is tabulated there is the reflected part of single scattering, which has no dip of masking; bounces are added.
- * - Stretched mirrors, over roughness, anisotropy, cosine and azimuth. The round mirror of the same masking is within 0.067;
- *   the rest is smooth, and tabulated. At 2500 places with anisotropies to 0.99: 8 roughnesses × 4 anisotropies × 6 slopes
- *   along the view × 17 angles leave 0.009 at worst, 0.0008 in the mean square. Over one by the slope instead, which few nodes
- *   do for: 0.005 and 0.0006. With angles that crowd towards the normal too, where a view across the long slopes changes fast
- *   at hardly any masking, 12 × 6 × 4 × 17: 0.0026 and 0.00035 (0.003 and 0.0005 with the nodes not centred). Twice the nodes
- *   along any axis better it by no more than a tenth. Over the azimuth or its cosine's square instead of the slope 0.013 and
- *   0.025 with 5 × 5 × 5 × 17, 0.012 over the slope. With the roughness made to fit instead (no table): 0.07.
+ * - E of a dielectric itself, 16 × 16 × 16: 0.17 absolute. As the ratio to the Fresnel reflectance at the softened
+ *   cosine μ + 0.8 r² (1 − μ), over √ε and √roughness: 0.0014, and exact for a smooth surface.
+ * - Energy that single scattering keeps, 24 roughnesses by their root × 17 angles: misses by up to 0.021 seen from
+ *   inside, 0.017 from outside near index 1. Linear in the roughness, which needs fewer, 18 × 23 with the angles along
+ *   the other axis; from inside at the mean of the coordinate above and that of the critical angle; from outside over
+ *   ε^(1/3): 0.008 and 0.0035 at worst; with the nodes centred (see `centred`) 0.0065 and 0.0035, there of rough
+ *   surfaces near the normal. From outside with columns that crowd there, 1 - (1 - t)^0.6: 0.0008 at indices 1.2 and 2;
+ *   with the power 0.75 0.0027.
+ * - From inside, the critical angle has a column of its own, and columns crowd around it: 0.035 at worst, 0.01 mostly.
+ *   What is tabulated there is the reflected part of single scattering, which has no dip of masking; bounces are added.
+ * - Stretched mirrors, over roughness, anisotropy, cosine and azimuth. The round mirror of the same masking is within
+ *   0.067; the rest is smooth, and tabulated. At 2500 places with anisotropies to 0.99: 8 roughnesses × 4 anisotropies
+ *   × 6 slopes along the view × 17 angles leave 0.009 at worst, 0.0008 in the mean square. Over one by the slope
+ *   instead, which few nodes do for: 0.005 and 0.0006. With angles that crowd towards the normal too, where a view
+ *   across the long slopes changes fast at hardly any masking, 12 × 6 × 4 × 17: 0.0026 and 0.00035 (0.003 and 0.0005
+ *   with the nodes not centred). Twice the nodes along any axis better it by no more than a tenth. Over the azimuth or
+ *   its cosine's square instead of the slope 0.013 and 0.025 with 5 × 5 × 5 × 17, 0.012 over the slope. With the
+ *   roughness made to fit instead (no table): 0.07.
  */
 import { readFileSync, writeFileSync } from 'node:fs';
 import { fresnelDielectric, gaussLegendre, interfaceAlbedo } from './microfacet.mjs';
 import { sheen } from './sheen.mjs';
 
 const MIN_ROUGHNESS = 0.01;
-const LAYOUT = { angles: 17, roughnesses: 24, outer: 20, outerTotal: 18, inner: 12, innerTotal: 20, stretched: 12, conductor: 40, sheen: 24 };
+const LAYOUT = {
+  angles: 17,
+  roughnesses: 24,
+  outer: 20,
+  outerTotal: 18,
+  inner: 12,
+  innerTotal: 20,
+  stretched: 12,
+  conductor: 40,
+  sheen: 24,
+};
 const STEP = 2048;
 /** Anisotropies of stretched mirrors: 1/6, 2/6, … 1. */
 const STRETCHED_FLATS = 6;
@@ -51,9 +63,14 @@ const softened = (mu, r) => mu + 0.8 * r * r * (1 - mu);
 function innerCosineOf(t, eta) {
   const critical = Math.sqrt(Math.max(0, 1 - eta * eta));
   const below = (2 * t) ** 2;
-  return t <= 0.5 ? Math.max(1e-6, (critical * below) / (below + (1 - 2 * t) ** 2)) : critical + (1 - critical) * (2 * t - 1) ** 2;
+  return t <= 0.5
+    ? Math.max(1e-6, (critical * below) / (below + (1 - 2 * t) ** 2))
+    : critical + (1 - critical) * (2 * t - 1) ** 2;
 }
-const innerPosition = (mu, critical) => (mu <= critical ? (0.5 * Math.sqrt(mu)) / (Math.sqrt(mu) + Math.sqrt(critical - mu)) : 0.5 + 0.5 * Math.sqrt((mu - critical) / (1 - critical)));
+const innerPosition = (mu, critical) =>
+  mu <= critical
+    ? (0.5 * Math.sqrt(mu)) / (Math.sqrt(mu) + Math.sqrt(critical - mu))
+    : 0.5 + 0.5 * Math.sqrt((mu - critical) / (1 - critical));
 /** Cosine-weighted mean of the Fresnel transmittance, about; from inside it follows from reciprocity. */
 function meanThrough(epsilon) {
   const e = Math.abs(epsilon);
@@ -61,8 +78,8 @@ function meanThrough(epsilon) {
 }
 /**
  * What lies below a reflection gets the rest of the light over its mean, and what metal loses comes back over the mean
- * loss. Shares and means are tabulated a little high, by as much as interpolation can miss, so that no surface gives back
- * more than it gets.
+ * loss. Shares and means are tabulated a little high, by as much as interpolation can miss, so that no surface gives
+ * back more than it gets.
  */
 const MARGIN = { lost: (r) => 1.001 + 0.02 * (1 - r), share: 1.0015, outer: 1.0015 };
 
@@ -80,7 +97,10 @@ function kept(epsilon, r, mu) {
   const { reflect, transmit } = albedo([r * r, r * r], etaOf(epsilon), mu);
   return reflect + transmit;
 }
-/** Where the totals of a cosine lie: columns crowd towards the normal; from inside, half of them around the critical angle. */
+/**
+ * Where the totals of a cosine lie: columns crowd towards the normal; from inside, half of them around the critical
+ * angle.
+ */
 function totalPosition(epsilon, mu, r) {
   const t = Math.min((Math.sqrt(mu) * (1 + r)) / (Math.sqrt(mu) + r), 1);
   return epsilon > 0 ? 1 - (1 - t) ** 0.6 : 0.5 * (t + innerPosition(mu, Math.sqrt(1 - etaOf(epsilon) ** 2)));
@@ -96,9 +116,9 @@ function totalCosineOf(epsilon, t, r) {
 }
 
 /**
- * Linear interpolation of what is curved misses to one side, by an eighth of the second difference in the middle between two
- * nodes. Values a sixteenth off at the nodes miss by half as much, to either side: in three dimensions 0.6 of the error in
- * the mean square.
+ * Linear interpolation of what is curved misses to one side, by an eighth of the second difference in the middle
+ * between two nodes. Values a sixteenth off at the nodes miss by half as much, to either side: in three dimensions 0.6
+ * of the error in the mean square.
  *
  * @param {number[][][]} grid Rows in columns in slices; any number of nodes along each.
  * @param {number} [edge] A node along the rows where what is tabulated has an edge.
@@ -108,7 +128,18 @@ function centred(grid, edge = -1, last = false) {
   const second = (before, at, after) => (before === undefined || after === undefined ? 0 : before - 2 * at + after);
   return grid.map((slice, k) =>
     slice.map((row, j) =>
-      row.map((value, i) => value - (second(grid[k - 1]?.[j][i], value, grid[k + 1]?.[j][i]) + second(slice[j - 1]?.[i], value, slice[j + 1]?.[i]) + (i === edge ? 0 : last && i === row.length - 1 ? second(row[i - 2], row[i - 1], value) : second(row[i - 1], value, row[i + 1]))) / 16),
+      row.map(
+        (value, i) =>
+          value -
+          (second(grid[k - 1]?.[j][i], value, grid[k + 1]?.[j][i]) +
+            second(slice[j - 1]?.[i], value, slice[j + 1]?.[i]) +
+            (i === edge
+              ? 0
+              : last && i === row.length - 1
+                ? second(row[i - 2], row[i - 1], value)
+                : second(row[i - 1], value, row[i + 1]))) /
+            16,
+      ),
     ),
   );
 }
@@ -118,33 +149,52 @@ function dielectric() {
   const values = [];
   // Rows of angles, then their mean.
   const slices = (count, sign, position, measure, mean, edge) => {
-    const places = Array.from({ length: count }, (_, k) => Array.from({ length: roughnesses }, (__, j) => [sign * epsilonOf(k, count), roughness(j, roughnesses)]));
+    const places = Array.from({ length: count }, (_, k) =>
+      Array.from({ length: roughnesses }, (__, j) => [sign * epsilonOf(k, count), roughness(j, roughnesses)]),
+    );
     const rows = places.map((slice) =>
       slice.map(([epsilon, r]) => {
         const bounced = bounce(epsilon, r);
-        return Array.from({ length: angles }, (_, i) => measure(epsilon, r, position(i / (angles - 1), epsilon, r), bounced));
+        return Array.from({ length: angles }, (_, i) =>
+          measure(epsilon, r, position(i / (angles - 1), epsilon, r), bounced),
+        );
       }),
     );
-    centred(rows, edge).forEach((slice, k) => slice.forEach((row, j) => values.push(...row, mean(...places[k][j], row))));
+    centred(rows, edge).forEach((slice, k) =>
+      slice.forEach((row, j) => values.push(...row, mean(...places[k][j], row))),
+    );
   };
-  // What is lost: it is tiny where surfaces are smooth, and 1 less it would have few digits. Roughness along the rows, linear;
-  // angles down the columns, the mean in the last row.
+  // What is lost: it is tiny where surfaces are smooth, and 1 less it would have few digits. Roughness along the rows,
+  // linear; angles down the columns, the mean in the last row.
   const totals = (count, epsilonAt) => {
     const rough = Array.from({ length: angles + 1 }, (_, i) => MIN_ROUGHNESS + ((1 - MIN_ROUGHNESS) * i) / angles);
     const epsilons = Array.from({ length: count }, (_, k) => epsilonAt(k, count));
-    const columns = epsilons.map((epsilon) => rough.map((r) => Array.from({ length: roughnesses - 1 }, (_, j) => kept(epsilon, r, totalCosineOf(epsilon, j / (roughnesses - 2), r)))));
+    const columns = epsilons.map((epsilon) =>
+      rough.map((r) =>
+        Array.from({ length: roughnesses - 1 }, (_, j) =>
+          kept(epsilon, r, totalCosineOf(epsilon, j / (roughnesses - 2), r)),
+        ),
+      ),
+    );
     centred(columns, -1, epsilons[0] > 0).forEach((slice, k) => {
-      const whole = slice.map((column, i) => [...column, average((mu) => interpolate(column, totalPosition(epsilons[k], mu, rough[i])))]);
+      const whole = slice.map((column, i) => [
+        ...column,
+        average((mu) => interpolate(column, totalPosition(epsilons[k], mu, rough[i]))),
+      ]);
       for (let j = 0; j < roughnesses; j++) values.push(...whole.map((column) => 1 - column[j]));
     });
   };
   const sample = (position, measure) => Array.from({ length: angles }, (_, i) => measure(position(i / (angles - 1))));
   const total = (epsilon, r) => {
-    const row = sample((t) => cosineOf(t, r), (mu) => kept(epsilon, r, mu));
+    const row = sample(
+      (t) => cosineOf(t, r),
+      (mu) => kept(epsilon, r, mu),
+    );
     return [...row, average((mu) => interpolate(row, (Math.sqrt(mu) * (1 + r)) / (Math.sqrt(mu) + r)))];
   };
-  // What single scattering loses bounces on among the facets and has forgotten where it came from. Seen from the thinner
-  // medium, the mean reflectance's part of it is reflected; from inside, such that as much goes through to either side.
+  // What single scattering loses bounces on among the facets and has forgotten where it came from. Seen from the
+  // thinner medium, the mean reflectance's part of it is reflected; from inside, such that as much goes through to
+  // either side.
   const bounce = (epsilon, r) => {
     if (epsilon > 0) return 1 - meanThrough(epsilon);
     const [outside, inside] = [-epsilon, epsilon].map((e) => 1 - total(e, r).at(-1));
@@ -162,9 +212,14 @@ function dielectric() {
     outer,
     1,
     (t, _, r) => cosineOf(t, r),
-    (epsilon, r, mu, bounced) => (MARGIN.share * share(epsilon, r, mu, bounced)) / fresnelDielectric(etaOf(epsilon), softened(mu, r)),
+    (epsilon, r, mu, bounced) =>
+      (MARGIN.share * share(epsilon, r, mu, bounced)) / fresnelDielectric(etaOf(epsilon), softened(mu, r)),
     (epsilon, r, row) => {
-      const mean = average((mu) => interpolate(row, (Math.sqrt(mu) * (1 + r)) / (Math.sqrt(mu) + r)) * fresnelDielectric(etaOf(epsilon), softened(mu, r)));
+      const mean = average(
+        (mu) =>
+          interpolate(row, (Math.sqrt(mu) * (1 + r)) / (Math.sqrt(mu) + r)) *
+          fresnelDielectric(etaOf(epsilon), softened(mu, r)),
+      );
       return (MARGIN.outer * (1 - mean)) / meanThrough(epsilon);
     },
   );
@@ -180,7 +235,12 @@ function dielectric() {
   );
   totals(innerTotal, (k, count) => -epsilonOf(k, count));
   values.push(...stretched());
-  return { width: angles + 1, height: roughnesses, depth: outer + outerTotal + inner + innerTotal + LAYOUT.stretched, values };
+  return {
+    width: angles + 1,
+    height: roughnesses,
+    depth: outer + outerTotal + inner + innerTotal + LAYOUT.stretched,
+    values,
+  };
 }
 
 /** Slopes for a roughness and an anisotropy, as openpbr_alpha. */
@@ -195,15 +255,22 @@ function stretched() {
   const views = LAYOUT.roughnesses / flats;
   const columns = LAYOUT.angles;
   const mirror = interfaceAlbedo(80, 96);
-  const roughnesses = Array.from({ length: LAYOUT.stretched }, (_, j) => MIN_ROUGHNESS + ((1 - MIN_ROUGHNESS) * j) / (LAYOUT.stretched - 1));
+  const roughnesses = Array.from(
+    { length: LAYOUT.stretched },
+    (_, j) => MIN_ROUGHNESS + ((1 - MIN_ROUGHNESS) * j) / (LAYOUT.stretched - 1),
+  );
   const grid = roughnesses.map((r) => {
-    const cosines = Array.from({ length: columns }, (__, i) => Math.min(cosineOf(1 - (1 - i / (columns - 1)) ** (4 / 3), r), 1));
+    const cosines = Array.from({ length: columns }, (__, i) =>
+      Math.min(cosineOf(1 - (1 - i / (columns - 1)) ** (4 / 3), r), 1),
+    );
     const round = cosines.map((mu) => mirror([r * r, r * r], 1.5, mu).mirror);
     return Array.from({ length: flats }, (__, k) => {
       const alpha = slopes(r, (k + 1) / flats);
       return Array.from({ length: views }, (___, row) => {
         const slope = 1 / (1 / alpha[0] + (1 / alpha[1] - 1 / alpha[0]) * (row / (views - 1)));
-        const phi = Math.acos(Math.sqrt(Math.min(Math.max((slope ** 2 - alpha[1] ** 2) / (alpha[0] ** 2 - alpha[1] ** 2), 0), 1)));
+        const phi = Math.acos(
+          Math.sqrt(Math.min(Math.max((slope ** 2 - alpha[1] ** 2) / (alpha[0] ** 2 - alpha[1] ** 2), 0), 1)),
+        );
         return cosines.map((masked, i) => {
           // The view with that masking: its tangent times its slope is the round one's.
           const tangent = ((Math.sqrt(1 - masked * masked) / masked) * r * r) / slope;
@@ -219,8 +286,16 @@ function stretched() {
     blocks.map((rows, k) =>
       rows.map((values, row) =>
         values.map((value, i) => {
-          const places = second(value, at(j - 1, k, row, i), at(j + 1, k, row, i)) + second(value, at(j, k - 1, row, i), at(j, k + 1, row, i));
-          return value - (places + second(value, at(j, k, row - 1, i), at(j, k, row + 1, i)) + second(value, at(j, k, row, i - 1), at(j, k, row, i + 1))) / 16;
+          const places =
+            second(value, at(j - 1, k, row, i), at(j + 1, k, row, i)) +
+            second(value, at(j, k - 1, row, i), at(j, k + 1, row, i));
+          return (
+            value -
+            (places +
+              second(value, at(j, k, row - 1, i), at(j, k, row + 1, i)) +
+              second(value, at(j, k, row, i - 1), at(j, k, row, i + 1))) /
+              16
+          );
         }),
       ),
     ),
@@ -232,13 +307,16 @@ function stretched() {
     }),
   );
 
-  // By how much of the round mirror's the mean loss is less, of what is interpolated between whole steps: that is what has to
-  // come out. Where it is smooth the loss is tiny, and the ratio that of the next roughness.
+  // By how much of the round mirror's the mean loss is less, of what is interpolated between whole steps: that is what
+  // has to come out. Where it is smooth the loss is tiny, and the ratio that of the next roughness.
   function lessLost(j, k) {
     const r = roughnesses[j];
     const [ax, ay] = slopes(r, (k + 1) / flats);
     const steps = even[j][k].map((row) => row.map((value) => Math.round(value * STEP) / STEP));
-    const fine = Array.from({ length: 401 }, (__, i) => 1 - mirror([r * r, r * r], 1.5, Math.min(cosineOf(i / 400, r), 1)).mirror);
+    const fine = Array.from(
+      { length: 401 },
+      (__, i) => 1 - mirror([r * r, r * r], 1.5, Math.min(cosineOf(i / 400, r), 1)).mirror,
+    );
     const { nodes: places, weights: parts } = gaussLegendre(64);
     let [lost, round] = [0, 0];
     // Angles as the columns lie, azimuths closer to where the slopes are steepest across the view.
@@ -269,11 +347,17 @@ function conductor() {
   const values = [];
   for (let j = 0; j < size; j++) {
     const r = roughness(j, size);
-    const row = Array.from({ length: size }, (_, i) => 1 - albedo([r * r, r * r], 1.5, cosineOf(i / (size - 1), r)).mirror);
-    // The mean falls with the fourth power of the roughness, which interpolation would miss by 8 %: over its third power. Of
-    // whole steps, since those are what comes out.
+    const row = Array.from(
+      { length: size },
+      (_, i) => 1 - albedo([r * r, r * r], 1.5, cosineOf(i / (size - 1), r)).mirror,
+    );
+    // The mean falls with the fourth power of the roughness, which interpolation would miss by 8 %: over its third
+    // power. Of whole steps, since those are what comes out.
     const steps = row.map((value) => Math.round(value * FINE_STEP) / FINE_STEP);
-    values.push(...row, (MARGIN.lost(r) * average((mu) => interpolate(steps, (Math.sqrt(mu) * (1 + r)) / (Math.sqrt(mu) + r)))) / r ** 3);
+    values.push(
+      ...row,
+      (MARGIN.lost(r) * average((mu) => interpolate(steps, (Math.sqrt(mu) * (1 + r)) / (Math.sqrt(mu) + r)))) / r ** 3,
+    );
   }
   return { width: size + 1, height: size, depth: 1, values };
 }
@@ -287,7 +371,8 @@ function fuzz() {
 
 /**
  * Whole steps, each predicted from its left, upper and deeper neighbours (the three-dimensional Lorenzo predictor);
- * the differences are small and compress well as text: one printable character each, or "~" and three for a rare big one.
+ * the differences are small and compress well as text: one printable character each, or "~" and three for a rare big
+ * one.
  */
 function encode({ width, height, depth, values }, step) {
   const steps = values.map((value) => Math.round(value * step));
@@ -298,11 +383,21 @@ function encode({ width, height, depth, values }, step) {
   for (let z = 0; z < depth; z++) {
     for (let y = 0; y < height; y++) {
       for (let x = 0; x < width; x++) {
-        const predicted = at(x - 1, y, z) + at(x, y - 1, z) + at(x, y, z - 1) - at(x - 1, y - 1, z) - at(x - 1, y, z - 1) - at(x, y - 1, z - 1) + at(x - 1, y - 1, z - 1);
+        const predicted =
+          at(x - 1, y, z) +
+          at(x, y - 1, z) +
+          at(x, y, z - 1) -
+          at(x - 1, y - 1, z) -
+          at(x - 1, y, z - 1) -
+          at(x, y - 1, z - 1) +
+          at(x - 1, y - 1, z - 1);
         const difference = at(x, y, z) - predicted;
         // Zigzag keeps small magnitudes at small codes.
         const code = difference >= 0 ? 2 * difference : -2 * difference - 1;
-        text += code < 80 ? digit(code) : `~${digit(Math.floor(code / 6400))}${digit(Math.floor(code / 80) % 80)}${digit(code % 80)}`;
+        text +=
+          code < 80
+            ? digit(code)
+            : `~${digit(Math.floor(code / 6400))}${digit(Math.floor(code / 80) % 80)}${digit(code % 80)}`;
       }
     }
   }
@@ -315,7 +410,9 @@ const note = '// Made by scripts/tables.mjs; do not edit.\n';
 const sources = {
   'grid.ts': `${note}
 /** How many angles, roughnesses and slices of indices the tables hold. */
-export const TABLE_LAYOUT = { ${Object.entries(LAYOUT).map(([name, value]) => `${name}: ${value}`).join(', ')} } as const;
+export const TABLE_LAYOUT = { ${Object.entries(LAYOUT)
+    .map(([name, value]) => `${name}: ${value}`)
+    .join(', ')} } as const;
 `,
   'encoded.ts': `${note}
 // prettier-ignore

@@ -1,5 +1,16 @@
 import { describe, expect, it } from 'vitest';
-import { albedoBsdf, coatDarkening, coatedBase, coatRoughening, coatTransmittance, emittedRadiance, evalBsdf, evalPdfBsdf, prepareBsdf, sampleBsdf } from '../src/cpu/index';
+import {
+  albedoBsdf,
+  coatDarkening,
+  coatedBase,
+  coatRoughening,
+  coatTransmittance,
+  emittedRadiance,
+  evalBsdf,
+  evalPdfBsdf,
+  prepareBsdf,
+  sampleBsdf,
+} from '../src/cpu/index';
 import { resolveParameters, type OpenPbrParameters } from '../src/parameters/index';
 import { requiredFeatures } from '../src/wgsl/index';
 import { gpuShader } from './gpu';
@@ -12,37 +23,77 @@ const COSINES = [1, 0.85, 0.6, 0.35, 0.15, 0.05, 0.01];
 const SIZE = 40;
 const QUADRATURE = 5e-4;
 
-const near = (actual: number, expected: number, rel: number, what: string) => expect(Math.abs(actual - expected), `${what}: ${actual} for ${expected}`).toBeLessThanOrEqual(rel * Math.abs(expected));
+const near = (actual: number, expected: number, rel: number, what: string) =>
+  expect(Math.abs(actual - expected), `${what}: ${actual} for ${expected}`).toBeLessThanOrEqual(
+    rel * Math.abs(expected),
+  );
 
 describe('coat against independent numbers', () => {
   it('roughening of what lies below, and darkening', () => {
-    type Row = { coat_ior: number; base_roughness: number; coat_roughness: number; roughened_pr261: number; K_smooth_mu1: number; K_rough: number; Delta_E05_rough: number };
+    type Row = {
+      coat_ior: number;
+      base_roughness: number;
+      coat_roughness: number;
+      roughened_pr261: number;
+      K_smooth_mu1: number;
+      K_rough: number;
+      Delta_E05_rough: number;
+    };
     const rows = primitives()['coat'] as unknown as Row[];
     expect(rows.length).toBeGreaterThan(3);
     for (const row of rows) {
-      near(coatRoughening(row.base_roughness, row.coat_roughness, row.coat_ior), Math.max(row.roughened_pr261, row.base_roughness), 1e-5, 'roughness');
+      near(
+        coatRoughening(row.base_roughness, row.coat_roughness, row.coat_ior),
+        Math.max(row.roughened_pr261, row.base_roughness),
+        1e-5,
+        'roughness',
+      );
       // A black edge takes the specular part out of the base's albedo: 0.5 diffuse, as rough as it gets.
-      const diffuse = resolveParameters({ base_color: [0.5, 0, 1], specular_weight: 0, coat_weight: 1, coat_ior: row.coat_ior });
+      const diffuse = resolveParameters({
+        base_color: [0.5, 0, 1],
+        specular_weight: 0,
+        coat_weight: 1,
+        coat_ior: row.coat_ior,
+      });
       const [half, black, white] = coatDarkening(diffuse, 1);
       near(half, row.Delta_E05_rough, 1e-2, 'darkening');
       // The mean reflectance behind it is a fit, good to 6e-3.
       expect(Math.abs(1 - black - row.K_rough), 'internal reflectance').toBeLessThanOrEqual(6e-3 / row.coat_ior ** 2);
       expect(white).toBeCloseTo(1, 12);
-      const mirror = resolveParameters({ base_metalness: 1, base_color: [0, 0, 0], specular_roughness: 0, coat_weight: 1, coat_ior: row.coat_ior });
+      const mirror = resolveParameters({
+        base_metalness: 1,
+        base_color: [0, 0, 0],
+        specular_roughness: 0,
+        coat_weight: 1,
+        coat_ior: row.coat_ior,
+      });
       near(1 - coatDarkening(mirror, 1)[0], row.K_smooth_mu1, 1e-4, 'reflectance of the smooth coat');
     }
   });
 
   it('absorption', () => {
-    for (const row of primitives()['coat_absorption'] as unknown as { coat_color: Triple; coat_ior: number; mu_i: number; mu_o: number; T_pair: Triple }[]) {
+    for (const row of primitives()['coat_absorption'] as unknown as {
+      coat_color: Triple;
+      coat_ior: number;
+      mu_i: number;
+      mu_o: number;
+      T_pair: Triple;
+    }[]) {
       const p = resolveParameters({ coat_weight: 1, coat_color: row.coat_color, coat_ior: row.coat_ior });
-      coatTransmittance(p, row.mu_i, row.mu_o).forEach((value, i) => near(value, row.T_pair[i] as number, 1e-5, 'transmittance'));
+      coatTransmittance(p, row.mu_i, row.mu_o).forEach((value, i) =>
+        near(value, row.T_pair[i] as number, 1e-5, 'transmittance'),
+      );
     }
   });
 });
 
 describe('white furnace below a coat', () => {
-  const white = (name: string, fixed: Partial<OpenPbrParameters>, [low, high]: readonly [number, number], roughnesses = [0.05, 0.2, 0.45, 0.7, 1]): void => {
+  const white = (
+    name: string,
+    fixed: Partial<OpenPbrParameters>,
+    [low, high]: readonly [number, number],
+    roughnesses = [0.05, 0.2, 0.45, 0.7, 1],
+  ): void => {
     it(`${name}: albedo from ${low} to ${high}, coat roughness ${roughnesses[0]} to ${roughnesses.at(-1)}, cosine 0.01 to 1`, () => {
       for (const coat_roughness of roughnesses) {
         const p = resolveParameters({ base_color: WHITE, coat_weight: 1, coat_roughness, ...fixed });
@@ -66,8 +117,18 @@ describe('white furnace below a coat', () => {
 
   it('lets nothing but white through unchanged: darker with a tint, and with darkening', () => {
     for (const mu of [1, 0.4]) {
-      const albedo = (extra: Partial<OpenPbrParameters>) => furnace(resolveParameters({ base_color: [0.5, 0.5, 0.5], coat_weight: 1, coat_roughness: 0.2, ...extra }), direction(mu), {}, SIZE).albedo;
-      const [kept, darkened, tinted] = [albedo({ coat_darkening: 0 }), albedo({}), albedo({ coat_darkening: 0, coat_color: [1, 0.5, 0.2] })];
+      const albedo = (extra: Partial<OpenPbrParameters>) =>
+        furnace(
+          resolveParameters({ base_color: [0.5, 0.5, 0.5], coat_weight: 1, coat_roughness: 0.2, ...extra }),
+          direction(mu),
+          {},
+          SIZE,
+        ).albedo;
+      const [kept, darkened, tinted] = [
+        albedo({ coat_darkening: 0 }),
+        albedo({}),
+        albedo({ coat_darkening: 0, coat_color: [1, 0.5, 0.2] }),
+      ];
       expect(darkened[0]).toBeLessThan(kept[0] - 0.1);
       expect(tinted[0]).toBeCloseTo(kept[0], 3);
       expect(tinted[1]).toBeLessThan(kept[1] - 0.1);
@@ -88,10 +149,18 @@ describe('white furnace below a coat', () => {
     const next = uniform(32);
     let worst = 0;
     for (let i = 0; i < 80; i++) {
-      const p = { ...anyCoated(next, 0.05), specular_roughness_anisotropy: 0, coat_roughness_anisotropy: 0, base_metalness: 0, base_diffuse_roughness: 0 };
+      const p = {
+        ...anyCoated(next, 0.05),
+        specular_roughness_anisotropy: 0,
+        coat_roughness_anisotropy: 0,
+        base_metalness: 0,
+        base_diffuse_roughness: 0,
+      };
       const wo = upperDirection(next, 0.05);
       const { albedo } = furnace(p, wo, {}, SIZE);
-      albedoBsdf(prepareBsdf(p, wo), wo).forEach((value, k) => (worst = Math.max(worst, Math.abs(value - (albedo[k] as number)))));
+      albedoBsdf(prepareBsdf(p, wo), wo).forEach(
+        (value, k) => (worst = Math.max(worst, Math.abs(value - (albedo[k] as number)))),
+      );
     }
     expect(worst).toBeLessThan(0.06);
   });
@@ -102,8 +171,16 @@ describe('coat', () => {
     const next = uniform(33);
     for (let i = 0; i < 500; i++) {
       const p = anySurface(next, 0);
-      const coated: OpenPbrParameters = { ...p, coat_color: [next(), next(), next()], coat_roughness: next(), coat_ior: 1 + next(), coat_roughness_anisotropy: next(), coat_darkening: next() };
-      const wo = upperDirection(next), wi = upperDirection(next);
+      const coated: OpenPbrParameters = {
+        ...p,
+        coat_color: [next(), next(), next()],
+        coat_roughness: next(),
+        coat_ior: 1 + next(),
+        coat_roughness_anisotropy: next(),
+        coat_darkening: next(),
+      };
+      const wo = upperDirection(next),
+        wi = upperDirection(next);
       const u = [next(), next(), next()] as const;
       const both = (q: OpenPbrParameters) => {
         const b = prepareBsdf(q, wo);
@@ -117,9 +194,13 @@ describe('coat', () => {
     const next = uniform(34);
     for (let i = 0; i < 200; i++) {
       const p = anySurface(next, 0.1);
-      const wo = upperDirection(next, 0.02), wi = upperDirection(next, 0.02);
+      const wo = upperDirection(next, 0.02),
+        wi = upperDirection(next, 0.02);
       const bare = evalBsdf(prepareBsdf(p, wo), wo, wi);
-      evalBsdf(prepareBsdf({ ...p, coat_weight: 1, coat_ior: 1, coat_roughness: next() }, wo), wo, wi).forEach((value, k) => expect(Math.abs(value - (bare[k] as number))).toBeLessThanOrEqual(1e-9 * Math.max(bare[k] as number, 1)));
+      evalBsdf(prepareBsdf({ ...p, coat_weight: 1, coat_ior: 1, coat_roughness: next() }, wo), wo, wi).forEach(
+        (value, k) =>
+          expect(Math.abs(value - (bare[k] as number))).toBeLessThanOrEqual(1e-9 * Math.max(bare[k] as number, 1)),
+      );
     }
   });
 
@@ -127,7 +208,8 @@ describe('coat', () => {
     const next = uniform(35);
     for (let i = 0; i < 500; i++) {
       const p: OpenPbrParameters = { ...anyCoated(next, 0.1), base_weight: 0, specular_weight: 0 };
-      const wo = upperDirection(next, 0.02), wi = upperDirection(next, 0.02);
+      const wo = upperDirection(next, 0.02),
+        wi = upperDirection(next, 0.02);
       const there = evalBsdf(prepareBsdf(p, wo, { multipleScattering: false }), wo, wi);
       const back = evalBsdf(prepareBsdf(p, wi, { multipleScattering: false }), wi, wo);
       expect(Math.abs(there[0] / wi[2] - back[0] / wo[2])).toBeLessThanOrEqual(1e-6 * (there[0] / wi[2]));
@@ -147,7 +229,10 @@ describe('coat', () => {
   });
 
   it('keeps back emitted light once: at normal incidence the root of its colour, less its reflectance', () => {
-    const [r, g] = emittedRadiance(resolveParameters({ emission_luminance: 2, coat_weight: 1, coat_ior: 1.5, coat_color: [0.25, 1, 1] }), [0, 0, 1]);
+    const [r, g] = emittedRadiance(
+      resolveParameters({ emission_luminance: 2, coat_weight: 1, coat_ior: 1.5, coat_color: [0.25, 1, 1] }),
+      [0, 0, 1],
+    );
     expect(r).toBeCloseTo(2 * 0.96 * 0.5, 3);
     expect(g).toBeCloseTo(2 * 0.96, 3);
   });

@@ -13,7 +13,13 @@ const SIZE = 40;
 const QUADRATURE = 5e-4;
 
 describe('white furnace: nothing is lost, nothing is made', () => {
-  const white = (name: string, fixed: Partial<OpenPbrParameters>, [low, high]: readonly [number, number], azimuths = [0.4], roughnesses = ROUGHNESSES): void => {
+  const white = (
+    name: string,
+    fixed: Partial<OpenPbrParameters>,
+    [low, high]: readonly [number, number],
+    azimuths = [0.4],
+    roughnesses = ROUGHNESSES,
+  ): void => {
     it(`${name}: albedo from ${low} to ${high}, roughness ${roughnesses[0]} to ${roughnesses.at(-1)}, cosine 0.01 to 1`, () => {
       for (const specular_roughness of roughnesses) {
         const p = resolveParameters({ base_color: WHITE, specular_roughness, ...fixed });
@@ -39,28 +45,71 @@ describe('white furnace: nothing is lost, nothing is made', () => {
   white('dielectric with specular_weight 3', { specular_weight: 3 }, [0.99, 1], [0.4], [0.05, 0.2, 0.6, 1]);
   white('half metal', { base_metalness: 0.5 }, [0.99, 1], [0.4], [0.05, 0.2, 0.6, 1]);
   // Fits: the README tells.
-  white('dielectric over rough diffuse', { base_diffuse_roughness: 1 }, [0.996, 1.001], [0.4], [0.05, 0.2, 0.4, 0.6, 1]);
+  white(
+    'dielectric over rough diffuse',
+    { base_diffuse_roughness: 1 },
+    [0.996, 1.001],
+    [0.4],
+    [0.05, 0.2, 0.4, 0.6, 1],
+  );
   white('dielectric over half rough diffuse', { base_diffuse_roughness: 0.5 }, [0.996, 1.001], [0.4], [0.05, 0.4]);
-  white('dielectric of index 1.1 over rough diffuse', { base_diffuse_roughness: 1, specular_ior: 1.1 }, [0.996, 1.001], [0.4], [0.05, 0.2, 0.4, 1]);
-  white('dielectric of index 2.5 over rough diffuse', { base_diffuse_roughness: 1, specular_ior: 2.5 }, [0.996, 1.001], [0.4], [0.05, 0.2, 0.4, 1]);
-  white('stretched metal', { base_metalness: 1, specular_roughness_anisotropy: 0.5 }, [0.99, 1.003], [0, 0.8, 1.57], [0.1, 0.3, 0.6, 1]);
-  white('very stretched metal', { base_metalness: 1, specular_roughness_anisotropy: 0.9 }, [0.99, 1.003], [0, 0.8, 1.57], [0.1, 0.3, 0.6, 1]);
+  white(
+    'dielectric of index 1.1 over rough diffuse',
+    { base_diffuse_roughness: 1, specular_ior: 1.1 },
+    [0.996, 1.001],
+    [0.4],
+    [0.05, 0.2, 0.4, 1],
+  );
+  white(
+    'dielectric of index 2.5 over rough diffuse',
+    { base_diffuse_roughness: 1, specular_ior: 2.5 },
+    [0.996, 1.001],
+    [0.4],
+    [0.05, 0.2, 0.4, 1],
+  );
+  white(
+    'stretched metal',
+    { base_metalness: 1, specular_roughness_anisotropy: 0.5 },
+    [0.99, 1.003],
+    [0, 0.8, 1.57],
+    [0.1, 0.3, 0.6, 1],
+  );
+  white(
+    'very stretched metal',
+    { base_metalness: 1, specular_roughness_anisotropy: 0.9 },
+    [0.99, 1.003],
+    [0, 0.8, 1.57],
+    [0.1, 0.3, 0.6, 1],
+  );
 });
 
 describe('energy', () => {
   it('of single scattering is lost just as independent numbers say', () => {
-    for (const row of primitives()['ggx_directional_albedo'] as unknown as { r: number; mu: number; E_F1_correlated: number }[]) {
+    for (const row of primitives()['ggx_directional_albedo'] as unknown as {
+      r: number;
+      mu: number;
+      E_F1_correlated: number;
+    }[]) {
       const p = resolveParameters({ base_metalness: 1, base_color: WHITE, specular_roughness: row.r });
-      expect(Math.abs(furnace(p, direction(row.mu), { multipleScattering: false }, 64).albedo[0] - row.E_F1_correlated), `roughness ${row.r}, cosine ${row.mu}`).toBeLessThan(1e-3);
+      expect(
+        Math.abs(furnace(p, direction(row.mu), { multipleScattering: false }, 64).albedo[0] - row.E_F1_correlated),
+        `roughness ${row.r}, cosine ${row.mu}`,
+      ).toBeLessThan(1e-3);
     }
   });
 
   it('of clear glass is 1 within 0.0025 from outside, to the normal and to the horizon, 200 random views, indices and roughnesses (seed 68)', () => {
     const next = uniform(68);
     for (let i = 0; i < 200; i++) {
-      const p = resolveParameters({ transmission_weight: 1, specular_ior: 1.03 + 1.5 * next(), specular_roughness: next() < 0.3 ? 1 : 0.03 + 0.97 * next() });
+      const p = resolveParameters({
+        transmission_weight: 1,
+        specular_ior: 1.03 + 1.5 * next(),
+        specular_roughness: next() < 0.3 ? 1 : 0.03 + 0.97 * next(),
+      });
       const sum = whiteDielectric(p, direction(next() < 0.5 ? 1 - 0.2 * next() : 0.02 + 0.98 * next() ** 2));
-      expect(Math.abs(sum - 1), `${sum} for ${JSON.stringify([p.specular_ior, p.specular_roughness])}`).toBeLessThan(0.0025);
+      expect(Math.abs(sum - 1), `${sum} for ${JSON.stringify([p.specular_ior, p.specular_roughness])}`).toBeLessThan(
+        0.0025,
+      );
     }
   });
 
@@ -76,10 +125,19 @@ describe('energy', () => {
   it('is what openpbr_albedo says, within 0.005 without metal, 0.06 with untinted edges, 80 random surfaces without anisotropy (seed 12)', () => {
     const next = uniform(12);
     for (let i = 0; i < 80; i++) {
-      const p = { ...anySurface(next, 0.05), specular_roughness_anisotropy: 0, base_diffuse_roughness: 0, ...(i % 2 === 0 ? { base_metalness: 0 } : { specular_color: WHITE }) };
+      const p = {
+        ...anySurface(next, 0.05),
+        specular_roughness_anisotropy: 0,
+        base_diffuse_roughness: 0,
+        ...(i % 2 === 0 ? { base_metalness: 0 } : { specular_color: WHITE }),
+      };
       const wo = upperDirection(next, 0.05);
       const { albedo } = furnace(p, wo, {}, SIZE);
-      albedoBsdf(prepareBsdf(p, wo), wo).forEach((value, k) => expect(Math.abs(value - (albedo[k] as number)), JSON.stringify(p)).toBeLessThan(p.base_metalness > 0 ? 0.06 : 0.005));
+      albedoBsdf(prepareBsdf(p, wo), wo).forEach((value, k) =>
+        expect(Math.abs(value - (albedo[k] as number)), JSON.stringify(p)).toBeLessThan(
+          p.base_metalness > 0 ? 0.06 : 0.005,
+        ),
+      );
     }
   });
 });
@@ -90,7 +148,9 @@ describe('reciprocity', () => {
     const b = direction(0.02 + 0.98 * next(), 7 * next());
     const there = evalBsdf(prepareBsdf(p, a, { multipleScattering }), a, b).map((value) => value / b[2]);
     const back = evalBsdf(prepareBsdf(p, b, { multipleScattering }), b, a).map((value) => value / a[2]);
-    return Math.max(...there.map((value, k) => Math.abs(value - (back[k] as number)) / Math.max(value, back[k] as number, 1e-6)));
+    return Math.max(
+      ...there.map((value, k) => Math.abs(value - (back[k] as number)) / Math.max(value, back[k] as number, 1e-6)),
+    );
   };
   it('holds for single scattering over diffuse, every surface, 1000 random pairs (seed 13)', () => {
     const next = uniform(13);

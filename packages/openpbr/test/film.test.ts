@@ -1,7 +1,14 @@
 import { compose, wgslModule } from '@glanz/wgsl';
 import { expectNoGpuErrors, runCompute, testDevice } from '@glanz/gpu';
 import { afterEach, describe, expect, it } from 'vitest';
-import { filmReflectance, fresnelDielectric, metalIndex, prepareFilm, type ComplexIndex, type Film } from '../src/cpu/index';
+import {
+  filmReflectance,
+  fresnelDielectric,
+  metalIndex,
+  prepareFilm,
+  type ComplexIndex,
+  type Film,
+} from '../src/cpu/index';
 import { resolveParameters, type OpenPbrParameters } from '../src/parameters/index';
 import { requiredFeatures } from '../src/wgsl/index';
 import { openpbrFilm } from '../src/wgsl/film.wgsl';
@@ -13,7 +20,13 @@ import { sphereFurnace } from './sphere';
 afterEach(() => expectNoGpuErrors());
 
 const ORACLE_WAVELENGTHS = [620, 540, 450] as const;
-const filmOf = (index: number, micrometres: number, wavelengths?: readonly [number, number, number]): Film => prepareFilm(resolveParameters({ thin_film_weight: 1, thin_film_ior: index, thin_film_thickness: micrometres }), 1, false, wavelengths);
+const filmOf = (index: number, micrometres: number, wavelengths?: readonly [number, number, number]): Film =>
+  prepareFilm(
+    resolveParameters({ thin_film_weight: 1, thin_film_ior: index, thin_film_thickness: micrometres }),
+    1,
+    false,
+    wavelengths,
+  );
 
 interface Row {
   readonly mu: number;
@@ -30,13 +43,20 @@ describe('reflectance of a film', () => {
 
   it("is Airy's at three wavelengths", () => {
     for (const row of rows()) {
-      const color = filmReflectance(filmOf(row.n_film, row.thickness_nm / 1000, ORACLE_WAVELENGTHS), row.base, 1 - row.mu * row.mu);
-      color.forEach((value, i) => expect(Math.abs(value - (row.R_620_540_450[i] as number)), JSON.stringify(row)).toBeLessThan(1e-6));
+      const color = filmReflectance(
+        filmOf(row.n_film, row.thickness_nm / 1000, ORACLE_WAVELENGTHS),
+        row.base,
+        1 - row.mu * row.mu,
+      );
+      color.forEach((value, i) =>
+        expect(Math.abs(value - (row.R_620_540_450[i] as number)), JSON.stringify(row)).toBeLessThan(1e-6),
+      );
     }
   });
 
   it('is that of the visible spectrum within 0.02, and 0.005 in the mean square', () => {
-    let squares = 0, count = 0;
+    let squares = 0,
+      count = 0;
     for (const row of rows()) {
       const color = filmReflectance(filmOf(row.n_film, row.thickness_nm / 1000), row.base, 1 - row.mu * row.mu);
       color.forEach((value, i) => {
@@ -51,7 +71,12 @@ describe('reflectance of a film', () => {
   });
 
   it('has the complex index of a metal', () => {
-    for (const { F0, edge, n, k } of primitives()['gulbrandsen'] as { F0: number; edge: number; n: number; k: number }[]) {
+    for (const { F0, edge, n, k } of primitives()['gulbrandsen'] as {
+      F0: number;
+      edge: number;
+      n: number;
+      k: number;
+    }[]) {
       if (F0 > 0.999) continue;
       const [ours, absorption] = metalIndex(F0, edge);
       expect(Math.abs(ours - n)).toBeLessThan(1e-4 * n);
@@ -62,7 +87,8 @@ describe('reflectance of a film', () => {
   it('is Fresnel of the base where the film is as dense as it or as the air', () => {
     for (const mu of [1, 0.7, 0.3, 0.05]) {
       for (const index of [1.5, 1.0000001]) {
-        for (const value of filmReflectance(filmOf(index, 0.4), [1.5, 0], 1 - mu * mu)) expect(value).toBeCloseTo(fresnelDielectric(1.5, mu), 4);
+        for (const value of filmReflectance(filmOf(index, 0.4), [1.5, 0], 1 - mu * mu))
+          expect(value).toBeCloseTo(fresnelDielectric(1.5, mu), 4);
       }
     }
   });
@@ -102,7 +128,8 @@ describe('reflectance of a film', () => {
     for (let i = 0; i < 20_000; i++) {
       const film = filmOf(0.5 + 3 * next(), 4 * next() ** 2);
       const base: ComplexIndex = next() < 0.5 ? [0.5 + 3 * next(), 0] : metalIndex(next(), next());
-      for (const value of filmReflectance(film, base, 1 - next() ** 4)) expect(value >= 0 && value <= 1, `${value} of ${JSON.stringify({ film, base })}`).toBe(true);
+      for (const value of filmReflectance(film, base, 1 - next() ** 4))
+        expect(value >= 0 && value <= 1, `${value} of ${JSON.stringify({ film, base })}`).toBe(true);
     }
   });
 });
@@ -134,13 +161,29 @@ fn openpbr_table_conductor(coords: vec2f) -> f32 { return 0.0; }
       [openpbrFilm],
     );
     const flags = requiredFeatures([{ base_metalness: 0.5, thin_film_weight: 1 }]);
-    const inputs = [new Float32Array(list.flatMap(({ film, n, k, tangential }) => [film.index, film.path, n, k, tangential, 0, 0, 0]))];
-    const results = new Float32Array(await runCompute(await testDevice(), compose([host], { flags: { ...flags } }).code, { inputs, outputBytes: list.length * 32, workgroups: list.length / 64 }));
+    const inputs = [
+      new Float32Array(
+        list.flatMap(({ film, n, k, tangential }) => [film.index, film.path, n, k, tangential, 0, 0, 0]),
+      ),
+    ];
+    const results = new Float32Array(
+      await runCompute(await testDevice(), compose([host], { flags: { ...flags } }).code, {
+        inputs,
+        outputBytes: list.length * 32,
+        workgroups: list.length / 64,
+      }),
+    );
     list.forEach(({ film, n, k, tangential }, i) => {
       filmReflectance(film, [n, k], tangential).forEach((expected, channel) => {
-        for (const [at, value] of [[0, expected], [4, 1 - expected]] as const) {
+        for (const [at, value] of [
+          [0, expected],
+          [4, 1 - expected],
+        ] as const) {
           const difference = Math.abs((results[8 * i + at + channel] as number) - value) / Math.max(value, 0.003);
-          expect(difference, `${value} of ${JSON.stringify({ index: film.index, path: film.path, n, k, tangential })}`).toBeLessThan(1e-4);
+          expect(
+            difference,
+            `${value} of ${JSON.stringify({ index: film.index, path: film.path, n, k, tangential })}`,
+          ).toBeLessThan(1e-4);
         }
       });
     });
@@ -148,12 +191,23 @@ fn openpbr_table_conductor(coords: vec2f) -> f32 { return 0.0; }
 });
 
 describe('white furnace below a film', () => {
-  const white = (name: string, fixed: Partial<OpenPbrParameters>, [low, high]: readonly [number, number], inside = false): void => {
+  const white = (
+    name: string,
+    fixed: Partial<OpenPbrParameters>,
+    [low, high]: readonly [number, number],
+    inside = false,
+  ): void => {
     it(`${name}: ${low} to ${high}, of all thicknesses, roughness 0.1 to 1`, () => {
       for (const thin_film_thickness of [0.05, 0.3, 0.55, 1.2]) {
         for (const specular_roughness of [0.1, 0.4, 0.7, 1]) {
           for (const mu of [1, 0.7, 0.3, 0.1]) {
-            const p = resolveParameters({ base_color: [1, 1, 1], thin_film_weight: 1, thin_film_thickness, specular_roughness, ...fixed });
+            const p = resolveParameters({
+              base_color: [1, 1, 1],
+              thin_film_weight: 1,
+              thin_film_thickness,
+              specular_roughness,
+              ...fixed,
+            });
             const { reflected, transmitted, pdf } = sphereFurnace(p, direction(mu), { inside }, 32);
             reflected.forEach((value, i) => {
               const sum = value + (transmitted[i] as number);
@@ -171,7 +225,11 @@ describe('white furnace below a film', () => {
   white('metal', { base_metalness: 1, thin_film_ior: 1.5 }, [0.98, 1.001]);
   white('glass', { transmission_weight: 1, thin_film_ior: 1.8 }, [0.985, 1.01]);
   white('glass from inside', { transmission_weight: 1, thin_film_ior: 1.8 }, [0.98, 1.012], true);
-  white('bubble', { transmission_weight: 1, specular_ior: 1, thin_film_ior: 1.33, geometry_thin_walled: true }, [0.99, 1.005]);
+  white(
+    'bubble',
+    { transmission_weight: 1, specular_ior: 1, thin_film_ior: 1.33, geometry_thin_walled: true },
+    [0.99, 1.005],
+  );
 });
 
 describe('a film below other layers', () => {

@@ -28,9 +28,18 @@ interface Row {
   /** A quadrature that is better for this surface. */
   readonly exact?: (p: OpenPbrParameters, wo: OpenPbrVector, inside: boolean) => number;
 }
-const row = (name: string, parameters: Partial<OpenPbrParameters>, [low, high]: readonly [number, number], more: Partial<Row> = {}): Row => ({ name, parameters, low, high, ...more });
+const row = (
+  name: string,
+  parameters: Partial<OpenPbrParameters>,
+  [low, high]: readonly [number, number],
+  more: Partial<Row> = {},
+): Row => ({ name, parameters, low, high, ...more });
 const AROUND = { azimuths: [0, 0.8, 1.57] };
-const METALS = { ...AROUND, exact: (p: OpenPbrParameters, wo: OpenPbrVector) => whiteMetal(p.specular_roughness, p.specular_roughness_anisotropy, wo) };
+const METALS = {
+  ...AROUND,
+  exact: (p: OpenPbrParameters, wo: OpenPbrVector) =>
+    whiteMetal(p.specular_roughness, p.specular_roughness_anisotropy, wo),
+};
 const DIELECTRICS = { ...AROUND, exact: whiteDielectric };
 const ROWS: readonly Row[] = [
   row('metal', METAL, [0.997, 1.001]),
@@ -64,16 +73,48 @@ const ROWS: readonly Row[] = [
   row('film over diffuse', { thin_film_weight: 1, thin_film_ior: 1.8 }, [0.99, 1.006]),
   row('film over metal', { thin_film_weight: 1, ...METAL }, [0.98, 1.002]),
   row('film over glass', { thin_film_weight: 1, thin_film_ior: 1.8, ...GLASS }, [0.985, 1.01]),
-  row('soap bubble', { thin_film_weight: 1, thin_film_ior: 1.33, thin_film_thickness: 0.3, specular_ior: 1, ...GLASS, geometry_thin_walled: true }, [0.99, 1.005]),
+  row(
+    'soap bubble',
+    {
+      thin_film_weight: 1,
+      thin_film_ior: 1.33,
+      thin_film_thickness: 0.3,
+      specular_ior: 1,
+      ...GLASS,
+      geometry_thin_walled: true,
+    },
+    [0.99, 1.005],
+  ),
   row('stretched metal, anisotropy 0.5', { ...METAL, specular_roughness_anisotropy: 0.5 }, [0.997, 1.003], METALS),
   row('stretched metal, anisotropy 0.9', { ...METAL, specular_roughness_anisotropy: 0.9 }, [0.997, 1.003], METALS),
-  row('stretched dielectric over diffuse, anisotropy 0.5', { specular_roughness_anisotropy: 0.5 }, [0.997, 1.003], DIELECTRICS),
-  row('stretched dielectric over diffuse, anisotropy 0.9', { specular_roughness_anisotropy: 0.9 }, [0.997, 1.003], DIELECTRICS),
+  row(
+    'stretched dielectric over diffuse, anisotropy 0.5',
+    { specular_roughness_anisotropy: 0.5 },
+    [0.997, 1.003],
+    DIELECTRICS,
+  ),
+  row(
+    'stretched dielectric over diffuse, anisotropy 0.9',
+    { specular_roughness_anisotropy: 0.9 },
+    [0.997, 1.003],
+    DIELECTRICS,
+  ),
   row('stretched glass, anisotropy 0.5', { ...GLASS, specular_roughness_anisotropy: 0.5 }, [0.997, 1.003], DIELECTRICS),
   row('stretched glass, anisotropy 0.9', { ...GLASS, specular_roughness_anisotropy: 0.9 }, [0.997, 1.003], DIELECTRICS),
-  row('stretched glass from inside, anisotropy 0.5', { ...GLASS, specular_roughness_anisotropy: 0.5 }, [0.997, 1.003], { ...DIELECTRICS, inside: true }),
-  row('stretched glass from inside, anisotropy 0.9', { ...GLASS, specular_roughness_anisotropy: 0.9 }, [0.997, 1.003], { ...DIELECTRICS, inside: true }),
-  row('stretched coat over diffuse, anisotropy 0.9', { coat_weight: 1, coat_roughness: 0.5, coat_roughness_anisotropy: 0.9 }, [0.98, 1.01], AROUND),
+  row('stretched glass from inside, anisotropy 0.5', { ...GLASS, specular_roughness_anisotropy: 0.5 }, [0.997, 1.003], {
+    ...DIELECTRICS,
+    inside: true,
+  }),
+  row('stretched glass from inside, anisotropy 0.9', { ...GLASS, specular_roughness_anisotropy: 0.9 }, [0.997, 1.003], {
+    ...DIELECTRICS,
+    inside: true,
+  }),
+  row(
+    'stretched coat over diffuse, anisotropy 0.9',
+    { coat_weight: 1, coat_roughness: 0.5, coat_roughness_anisotropy: 0.9 },
+    [0.98, 1.01],
+    AROUND,
+  ),
 ];
 
 describe('white furnace, lobe by lobe', () => {
@@ -86,7 +127,9 @@ describe('white furnace, lobe by lobe', () => {
         for (const mu of COSINES) {
           for (const phi of azimuths) {
             const { reflected, transmitted, pdf } = sphereFurnace(p, direction(mu, phi), { inside }, SIZE);
-            const sums = exact ? [exact(p, direction(mu, phi), inside)] : ([0, 1, 2] as const).map((i) => reflected[i] + transmitted[i]);
+            const sums = exact
+              ? [exact(p, direction(mu, phi), inside)]
+              : ([0, 1, 2] as const).map((i) => reflected[i] + transmitted[i]);
             for (const sum of sums) {
               const at = `roughness ${specular_roughness}, cosine ${mu}, azimuth ${phi}`;
               // Seen along the normal from inside, the critical angle is an edge right through the nodes.

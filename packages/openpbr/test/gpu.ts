@@ -95,7 +95,9 @@ export async function onGpu(flags: OpenPbrFlags, cases: readonly GpuCase[]): Pro
   tables.set(conductor.data, dielectric.data.length);
   const materials = openPbrStruct.allocate(cases.length);
   cases.forEach((one, i) => packOpenPbr(materials, i, one.parameters));
-  const directions = new Float32Array(cases.flatMap(({ wo, wi, u, side }) => [...wo, Number(side?.inside ?? false), ...wi, side?.outerIor ?? 1, ...u, 0]));
+  const directions = new Float32Array(
+    cases.flatMap(({ wo, wi, u, side }) => [...wo, Number(side?.inside ?? false), ...wi, side?.outerIor ?? 1, ...u, 0]),
+  );
   const words = 24;
   const bytes = await runCompute(await testDevice(), gpuShader(flags).code, {
     inputs: [tables, materials, directions],

@@ -40,9 +40,18 @@ describe('what a dielectric seen from its denser side keeps by single scattering
   it('is finite at the ends', () => {
     for (const eta of [1e-3, 0.3, 0.9990004, 1 - 1e-6, 1 - 1e-12]) {
       for (const roughness of [0.01, 0.05, 0.5, 1]) {
-        for (const wo of [[0, 0, 1], [1, 0, 1e-5], [1, 0, 1e-30], [0, 1, 1e-3], [0.6, 0, 0.8]] as const) {
+        for (const wo of [
+          [0, 0, 1],
+          [1, 0, 1e-5],
+          [1, 0, 1e-30],
+          [0, 1, 1e-3],
+          [0.6, 0, 0.8],
+        ] as const) {
           const [reflected, through] = insideEnergy(eta, round(roughness), wo);
-          expect(reflected >= 0 && through >= 0 && reflected + through < 1.01, `${reflected} ${through} for index ${eta}, roughness ${roughness}, wo ${wo.join(' ')}`).toBe(true);
+          expect(
+            reflected >= 0 && through >= 0 && reflected + through < 1.01,
+            `${reflected} ${through} for index ${eta}, roughness ${roughness}, wo ${wo.join(' ')}`,
+          ).toBe(true);
         }
       }
     }
@@ -73,10 +82,18 @@ fn openpbr_table_dielectric(coords: vec3f) -> f32 { return 0.0; }
     );
     const flags = requiredFeatures([{ transmission_weight: 1 }]);
     const inputs = [new Float32Array(list.flatMap(({ eta, roughness, wo }) => [eta, roughness, 0, 0, ...wo, 0])), data];
-    const results = new Float32Array(await runCompute(await testDevice(), compose([host], { flags: { ...flags } }).code, { inputs, outputBytes: list.length * 8, workgroups: list.length / 64 }));
+    const results = new Float32Array(
+      await runCompute(await testDevice(), compose([host], { flags: { ...flags } }).code, {
+        inputs,
+        outputBytes: list.length * 8,
+        workgroups: list.length / 64,
+      }),
+    );
     list.forEach(({ eta, roughness, wo }, i) => {
       const at = `index ${eta}, roughness ${roughness}, wo ${wo.join(' ')}`;
-      insideEnergy(eta, round(roughness), wo).forEach((value, k) => expect(Math.abs((results[2 * i + k] as number) - value), at).toBeLessThan(2e-5));
+      insideEnergy(eta, round(roughness), wo).forEach((value, k) =>
+        expect(Math.abs((results[2 * i + k] as number) - value), at).toBeLessThan(2e-5),
+      );
     });
   });
 });
@@ -98,8 +115,12 @@ describe('white furnace near the horizon', () => {
       for (const specular_roughness of ROUGHNESSES) {
         const p = resolveParameters({ transmission_weight: 1, specular_ior, specular_roughness });
         const { reflected, transmitted } = sphereFurnace(p, direction(0.02), { inside: true }, 40);
-        expect(reflected[1] + transmitted[1], `index ${specular_ior}, roughness ${specular_roughness}`).toBeGreaterThan(0.997);
-        expect(reflected[1] + transmitted[1], `index ${specular_ior}, roughness ${specular_roughness}`).toBeLessThan(1.002);
+        expect(reflected[1] + transmitted[1], `index ${specular_ior}, roughness ${specular_roughness}`).toBeGreaterThan(
+          0.997,
+        );
+        expect(reflected[1] + transmitted[1], `index ${specular_ior}, roughness ${specular_roughness}`).toBeLessThan(
+          1.002,
+        );
       }
     }
   });

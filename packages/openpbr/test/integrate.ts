@@ -1,5 +1,15 @@
 import { gaussLegendre, interfaceAlbedo } from '../scripts/microfacet.mjs';
-import { coatedBase, evalBsdf, evalPdfBsdf, ggxAlpha, ggxBound, ggxSample, prepareBsdf, type BsdfOptions, type Slopes } from '../src/cpu/index';
+import {
+  coatedBase,
+  evalBsdf,
+  evalPdfBsdf,
+  ggxAlpha,
+  ggxBound,
+  ggxSample,
+  prepareBsdf,
+  type BsdfOptions,
+  type Slopes,
+} from '../src/cpu/index';
 import { resolveParameters, type OpenPbrParameters, type OpenPbrVector } from '../src/parameters/index';
 
 /** A direction by cosine and azimuth. */
@@ -20,7 +30,12 @@ function rule(count: number) {
  * measure (ggxSample over a product rule), for the base and for a coat; elsewhere over the hemisphere. Deterministic,
  * good for any roughness.
  */
-export function integrateHemisphere(p: OpenPbrParameters, wo: OpenPbrVector, g: (wi: OpenPbrVector) => readonly number[], size = 64): number[] {
+export function integrateHemisphere(
+  p: OpenPbrParameters,
+  wo: OpenPbrVector,
+  g: (wi: OpenPbrVector) => readonly number[],
+  size = 64,
+): number[] {
   const base = coatedBase(p);
   const slopes = [ggxAlpha(base.specular_roughness, base.specular_roughness_anisotropy)];
   if (p.coat_weight > 0) slopes.push(ggxAlpha(p.coat_roughness, p.coat_roughness_anisotropy));
@@ -31,7 +46,16 @@ export function integrateHemisphere(p: OpenPbrParameters, wo: OpenPbrVector, g: 
     const length = Math.hypot(...h);
     const [x, y, z] = [h[0] / length, h[1] / length, h[2] / length];
     const t = (x / alpha[0]) ** 2 + (y / alpha[1]) ** 2 + z * z;
-    return 1 / (2 * Math.PI * alpha[0] * alpha[1] * t * t * ((bounds.get(alpha) as number) * wo[2] + Math.hypot(alpha[0] * wo[0], alpha[1] * wo[1], wo[2])));
+    return (
+      1 /
+      (2 *
+        Math.PI *
+        alpha[0] *
+        alpha[1] *
+        t *
+        t *
+        ((bounds.get(alpha) as number) * wo[2] + Math.hypot(alpha[0] * wo[0], alpha[1] * wo[1], wo[2])))
+    );
   };
   const uniform = 1 / (2 * Math.PI);
   const total: number[] = [];
@@ -61,7 +85,12 @@ export function integrateHemisphere(p: OpenPbrParameters, wo: OpenPbrVector, g: 
 }
 
 /** Directional albedo and the integral of the density, by quadrature. */
-export function furnace(p: OpenPbrParameters, wo: OpenPbrVector, options?: BsdfOptions, size?: number): { albedo: [number, number, number]; pdf: number } {
+export function furnace(
+  p: OpenPbrParameters,
+  wo: OpenPbrVector,
+  options?: BsdfOptions,
+  size?: number,
+): { albedo: [number, number, number]; pdf: number } {
   const b = prepareBsdf(p, wo, options);
   const both = (wi: OpenPbrVector): readonly number[] => {
     const { f, pdf } = evalPdfBsdf(b, wo, wi);
@@ -97,12 +126,17 @@ export function furnaceBelowOne(p: OpenPbrParameters, wo: OpenPbrVector, size = 
 const mirrors = interfaceAlbedo(160, 160);
 
 /**
- * Directional albedo of white metal, good to 1e-4 however narrow and stretched its highlight: what single scattering reflects
- * by a quadrature of its own, which knows nothing of the tables, and the lobe of multiple scattering, which is smooth, by nodes
- * that follow the dip of masking.
+ * Directional albedo of white metal, good to 1e-4 however narrow and stretched its highlight: what single scattering
+ * reflects by a quadrature of its own, which knows nothing of the tables, and the lobe of multiple scattering, which is
+ * smooth, by nodes that follow the dip of masking.
  */
 export function whiteMetal(roughness: number, anisotropy: number, wo: OpenPbrVector): number {
-  const p = resolveParameters({ base_metalness: 1, base_color: [1, 1, 1], specular_roughness: roughness, specular_roughness_anisotropy: anisotropy });
+  const p = resolveParameters({
+    base_metalness: 1,
+    base_color: [1, 1, 1],
+    specular_roughness: roughness,
+    specular_roughness_anisotropy: anisotropy,
+  });
   const [all, single] = [prepareBsdf(p, wo), prepareBsdf(p, wo, { multipleScattering: false })];
   const [ax, ay] = ggxAlpha(roughness, anisotropy);
   const { nodes, weights } = rule(40);
@@ -113,7 +147,9 @@ export function whiteMetal(roughness: number, anisotropy: number, wo: OpenPbrVec
     const step = (2 * root * roughness * (1 + roughness)) / (1 + roughness - t) ** 2;
     for (let i = 0; i < around; i++) {
       const wi = direction(root * root, ((i + 0.5) / around) * 2 * Math.PI);
-      bounced += (((weights[k] as number) * step * 2 * Math.PI) / around) * (evalBsdf(all, wo, wi)[1] - evalBsdf(single, wo, wi)[1]);
+      bounced +=
+        (((weights[k] as number) * step * 2 * Math.PI) / around) *
+        (evalBsdf(all, wo, wi)[1] - evalBsdf(single, wo, wi)[1]);
     }
   });
   return mirrors([ax, ay], 1.5, wo[2], Math.atan2(wo[1], wo[0])).mirror + bounced;
@@ -122,12 +158,15 @@ export function whiteMetal(roughness: number, anisotropy: number, wo: OpenPbrVec
 const interfaces = interfaceAlbedo(300, 300);
 
 /**
- * Directional albedo of a white dielectric over Lambert, or of clear glass, good to 2e-4 however narrow and stretched its highlight
- * and from either side: what single scattering by its facets gives back by a quadrature of its own, which knows nothing of the
- * tables and sums; and all the rest, which is smooth, as {@link whiteMetal}.
+ * Directional albedo of a white dielectric over Lambert, or of clear glass, good to 2e-4 however narrow and stretched
+ * its highlight and from either side: what single scattering by its facets gives back by a quadrature of its own, which
+ * knows nothing of the tables and sums; and all the rest, which is smooth, as {@link whiteMetal}.
  */
 export function whiteDielectric(p: OpenPbrParameters, wo: OpenPbrVector, inside = false): number {
-  const [all, facets] = [prepareBsdf(p, wo, { inside }), prepareBsdf({ ...p, base_weight: 0 }, wo, { inside, multipleScattering: false })];
+  const [all, facets] = [
+    prepareBsdf(p, wo, { inside }),
+    prepareBsdf({ ...p, base_weight: 0 }, wo, { inside, multipleScattering: false }),
+  ];
   const alpha = ggxAlpha(p.specular_roughness, p.specular_roughness_anisotropy);
   const { nodes, weights } = rule(40);
   const around = 24;
@@ -138,10 +177,17 @@ export function whiteDielectric(p: OpenPbrParameters, wo: OpenPbrVector, inside 
       for (const mu of p.transmission_weight > 0 ? [t * t, -t * t] : [t * t]) {
         const s = Math.sqrt(1 - mu * mu);
         const wi: OpenPbrVector = [s * Math.cos(phi), s * Math.sin(phi), mu];
-        rest += ((4 * Math.PI * t * (weights[k] as number)) / around) * (evalBsdf(all, wo, wi)[1] - evalBsdf(facets, wo, wi)[1]);
+        rest +=
+          ((4 * Math.PI * t * (weights[k] as number)) / around) *
+          (evalBsdf(all, wo, wi)[1] - evalBsdf(facets, wo, wi)[1]);
       }
     }
   });
-  const { reflect, transmit } = interfaces([...alpha], inside ? 1 / p.specular_ior : p.specular_ior, wo[2], Math.atan2(wo[1], wo[0]));
+  const { reflect, transmit } = interfaces(
+    [...alpha],
+    inside ? 1 / p.specular_ior : p.specular_ior,
+    wo[2],
+    Math.atan2(wo[1], wo[0]),
+  );
   return reflect + p.transmission_weight * transmit + rest;
 }

@@ -1,8 +1,20 @@
 import { OperationCounter } from '@glanz/operations';
 import { afterAll, describe, expect, it, vi } from 'vitest';
 import { document as documented, dress } from '../../../apps/docs/examples/materialx';
-import { MaterialXError, readMaterialX, writeMaterialX, type MaterialXMaterial, type MaterialXTexture } from '../src/materialx/index';
-import { OPENPBR_PARAMETER_NAMES, OPENPBR_PARAMETERS, resolveParameters, type OpenPbrParameterName, type OpenPbrParameters } from '../src/parameters/index';
+import {
+  MaterialXError,
+  readMaterialX,
+  writeMaterialX,
+  type MaterialXMaterial,
+  type MaterialXTexture,
+} from '../src/materialx/index';
+import {
+  OPENPBR_PARAMETER_NAMES,
+  OPENPBR_PARAMETERS,
+  resolveParameters,
+  type OpenPbrParameterName,
+  type OpenPbrParameters,
+} from '../src/parameters/index';
 import { OPENPBR_PRESET_NAMES, OPENPBR_PRESETS } from '../src/presets/index';
 import { presets as shared } from './oracle/index';
 
@@ -37,22 +49,32 @@ const fails = (text: string | Uint8Array, options?: Parameters<typeof readMateri
 
 describe('values', () => {
   it('numbers, colours, booleans', () => {
-    const { name, parameters, warnings } = only(wrap(`
+    const { name, parameters, warnings } = only(
+      wrap(`
       <input name="base_color" type="color3" value="0.1, 0.2,0.3" />
       <input name="specular_ior" type="float" value="1.4e0" />
       <input name="geometry_thin_walled" type="boolean" value="true" />
-      <input name="specular_roughness" type="float" value="2" />`));
-    expect([name, parameters]).toEqual(['stuff', { base_color: [0.1, 0.2, 0.3], specular_ior: 1.4, geometry_thin_walled: true, specular_roughness: 1 }]);
+      <input name="specular_roughness" type="float" value="2" />`),
+    );
+    expect([name, parameters]).toEqual([
+      'stuff',
+      { base_color: [0.1, 0.2, 0.3], specular_ior: 1.4, geometry_thin_walled: true, specular_roughness: 1 },
+    ]);
     expect(warnings.map(({ code, line }) => [code, line])).toEqual([['openpbr/clamped', 4]]);
   });
 
   it('a surface that no material shows is a material of its own', () => {
-    expect(readMaterialX('<materialx><open_pbr_surface name="a"/><open_pbr_surface name="b"/></materialx>').materials).toEqual([{ name: 'a', parameters: {} }, { name: 'b', parameters: {} }]);
+    expect(
+      readMaterialX('<materialx><open_pbr_surface name="a"/><open_pbr_surface name="b"/></materialx>').materials,
+    ).toEqual([
+      { name: 'a', parameters: {} },
+      { name: 'b', parameters: {} },
+    ]);
   });
 
   it.each([
     // Numbers of MaterialX's own colour management library, single precision.
-    ['acescg', [0.5, 0.25, 0.125], [0.686670, 0.218755, 0.099877]],
+    ['acescg', [0.5, 0.25, 0.125], [0.68667, 0.218755, 0.099877]],
     ['lin_rec709', [0.5, 0.25, 0.125], [0.5, 0.25, 0.125]],
     ['srgb_texture', [0.5, 0.02, 1], [0.214041, 0.001548, 1]],
     ['g22_rec709', [0.5, 0.5, 0.5], [0.217638, 0.217638, 0.217638]],
@@ -61,7 +83,11 @@ describe('values', () => {
     ['lin_adobergb', [0.5, 0.25, 0.5], [0.599589, 0.25, 0.510732]],
   ])('a colour in %s, whether its input or the document says so', (space, given, expected) => {
     const input = (own: string) => `<input name="emission_color" type="color3" value="${given}" ${own} />`;
-    for (const text of [wrap(input(`colorspace="${space}"`)), wrap(input(''), '', `colorspace="${space}"`), wrap(input(''), '', '')]) {
+    for (const text of [
+      wrap(input(`colorspace="${space}"`)),
+      wrap(input(''), '', `colorspace="${space}"`),
+      wrap(input(''), '', ''),
+    ]) {
       const { parameters, warnings } = only(text, { colorSpace: space });
       parameters.emission_color!.forEach((c, k) => expect(c).toBeCloseTo(expected[k]!, 5));
       expect(warnings).toEqual([]);
@@ -69,27 +95,39 @@ describe('values', () => {
   });
 
   it('without a word, colours are in ACEScg', () => {
-    expect(only(wrap('<input name="emission_color" type="color3" value="1, 1, 0" />', '', '')).parameters.emission_color![0]).toBeCloseTo(1.083259, 5);
+    expect(
+      only(wrap('<input name="emission_color" type="color3" value="1, 1, 0" />', '', '')).parameters.emission_color![0],
+    ).toBeCloseTo(1.083259, 5);
   });
 
   it('an unknown colour space is told of', () => {
-    const { parameters, warnings } = only(wrap('<input name="base_color" type="color3" value="1, 0.5, 0" colorspace="my_space" />'));
-    expect([parameters.base_color, warnings.map(({ code }) => code)]).toEqual([[1, 0.5, 0], ['openpbr/materialx-color-space']]);
+    const { parameters, warnings } = only(
+      wrap('<input name="base_color" type="color3" value="1, 0.5, 0" colorspace="my_space" />'),
+    );
+    expect([parameters.base_color, warnings.map(({ code }) => code)]).toEqual([
+      [1, 0.5, 0],
+      ['openpbr/materialx-color-space'],
+    ]);
   });
 
   it('lengths in their units', () => {
-    const { parameters } = only(wrap(`
+    const { parameters } = only(
+      wrap(`
       <input name="transmission_depth" type="float" value="3" unittype="distance" unit="centimeter" />
       <input name="thin_film_thickness" type="float" value="550" unittype="distance" unit="nanometer" />
-      <input name="subsurface_radius" type="float" value="2" />`));
+      <input name="subsurface_radius" type="float" value="2" />`),
+    );
     expect(parameters.transmission_depth).toBeCloseTo(0.03, 12);
     expect(parameters.thin_film_thickness).toBeCloseTo(0.55, 12);
     expect(parameters.subsurface_radius).toBe(2);
   });
 
-  it('the specification\'s example materials, written as its documents are', () => {
+  it("the specification's example materials, written as its documents are", () => {
     for (const [name, overrides] of Object.entries(shared())) {
-      const inputs = Object.entries(overrides).map(([key, value]) => `<input name="${key}" type="${OPENPBR_PARAMETERS[key as OpenPbrParameterName].type}" value="${Array.isArray(value) ? value.join(', ') : value}" />`);
+      const inputs = Object.entries(overrides).map(
+        ([key, value]) =>
+          `<input name="${key}" type="${OPENPBR_PARAMETERS[key as OpenPbrParameterName].type}" value="${Array.isArray(value) ? value.join(', ') : value}" />`,
+      );
       const { parameters } = only(wrap(inputs.join('\n'), '', 'colorspace="acescg"'));
       expect(parameters, name).toEqual(OPENPBR_PRESETS[name as keyof typeof OPENPBR_PRESETS]);
     }
@@ -115,17 +153,30 @@ describe('textures', () => {
   </nodegraph>`;
 
   it('pictures, normal maps, single channels', () => {
-    const { textures, parameters, warnings } = only(wrap(`
+    const { textures, parameters, warnings } = only(
+      wrap(
+        `
       <input name="base_color" type="color3" nodegraph="NG" output="color_out" />
       <input name="specular_roughness" type="float" nodegraph="NG" output="rough_out" />
       <input name="geometry_normal" type="vector3" nodegraph="NG" output="normal_out" />
       <input name="coat_weight" type="float" nodegraph="NG" output="alpha_out" />
-      <input name="base_metalness" type="float" nodegraph="NG" output="metal_out" />`, GRAPH, 'colorspace="lin_rec709" fileprefix="root/"'));
+      <input name="base_metalness" type="float" nodegraph="NG" output="metal_out" />`,
+        GRAPH,
+        'colorspace="lin_rec709" fileprefix="root/"',
+      ),
+    );
     expect(warnings).toEqual([]);
     expect(textures).toEqual({
       // v' = 3 v with v running up is 1 - 3 (1 - v) = 3 v - 2 with v running down.
       base_color: { file: 'root/maps/base.png', channels: 'rgb', colorSpace: 'srgb', transform: [2, 0, 0, 3, 0, -2] },
-      specular_roughness: { file: 'root/rough.png', channels: 'r', colorSpace: 'linear', wrapU: 'clamp', wrapV: 'mirror', filter: 'nearest' },
+      specular_roughness: {
+        file: 'root/rough.png',
+        channels: 'r',
+        colorSpace: 'linear',
+        wrapU: 'clamp',
+        wrapV: 'mirror',
+        filter: 'nearest',
+      },
       geometry_normal: { file: 'root/normal.png', channels: 'rgb', colorSpace: 'linear', scale: 0.5 },
       coat_weight: { file: 'root/packed.png', channels: 'a', colorSpace: 'linear' },
       base_metalness: { file: 'root/orm.png', channels: 'b', colorSpace: 'linear' },
@@ -138,49 +189,128 @@ describe('textures', () => {
     const [from, to] = textures?.[name]?.range ?? [0, 1];
     return [parameters[name] as number | number[]].flat().map((value) => value * (from + (to - from) * texel));
   };
-  const arithmetic = (node: string, type = 'float') => only(wrap(`<input name="${type === 'float' ? 'specular_weight' : 'emission_color'}" type="${type}" nodename="last" />`, `<image name="t" type="${type}"><input name="file" type="filename" value="t.exr"/></image><constant name="k" type="float"><input name="value" type="float" value="0.25"/></constant>${node}`));
+  const arithmetic = (node: string, type = 'float') =>
+    only(
+      wrap(
+        `<input name="${type === 'float' ? 'specular_weight' : 'emission_color'}" type="${type}" nodename="last" />`,
+        `<image name="t" type="${type}"><input name="file" type="filename" value="t.exr"/></image><constant name="k" type="float"><input name="value" type="float" value="0.25"/></constant>${node}`,
+      ),
+    );
   it.each<[string, string, (t: number) => number]>([
-    ['a product', '<multiply name="last" type="float"><input name="in1" type="float" nodename="t"/><input name="in2" type="float" value="0.5"/></multiply>', (t) => t * 0.5],
-    ['a product with a constant node, in the other order', '<multiply name="last" type="float"><input name="in1" type="float" nodename="k"/><input name="in2" type="float" nodename="t"/></multiply>', (t) => 0.25 * t],
-    ['a quotient', '<divide name="last" type="float"><input name="in1" type="float" nodename="t"/><input name="in2" type="float" value="4"/></divide>', (t) => t / 4],
-    ['a sum', '<add name="last" type="float"><input name="in1" type="float" nodename="t"/><input name="in2" type="float" value="0.5"/></add>', (t) => t + 0.5],
-    ['what is left', '<subtract name="last" type="float"><input name="in1" type="float" value="0.75"/><input name="in2" type="float" nodename="t"/></subtract>', (t) => 0.75 - t],
-    ['an inversion', '<invert name="last" type="float"><input name="in" type="float" nodename="t"/></invert>', (t) => 1 - t],
-    ['a remapping', '<remap name="last" type="float"><input name="in" type="float" nodename="t"/><input name="inlow" type="float" value="0.2"/><input name="inhigh" type="float" value="0.7"/><input name="outlow" type="float" value="1"/><input name="outhigh" type="float" value="0.4"/></remap>', (t) => 1 + ((t - 0.2) / 0.5) * -0.6],
-    ['a mixture', '<mix name="last" type="float"><input name="fg" type="float" nodename="t"/><input name="bg" type="float" value="0.9"/><input name="mix" type="float" nodename="k"/></mix>', (t) => 0.25 * t + 0.75 * 0.9],
-    ['a chain', '<dot name="last" type="float"><input name="in" type="float" nodename="m"/></dot><multiply name="m" type="float"><input name="in1" type="float" nodename="i"/><input name="in2" type="float" value="0.3"/></multiply><invert name="i" type="float"><input name="in" type="float" nodename="t"/></invert>', (t) => 0.3 * (1 - t)],
+    [
+      'a product',
+      '<multiply name="last" type="float"><input name="in1" type="float" nodename="t"/><input name="in2" type="float" value="0.5"/></multiply>',
+      (t) => t * 0.5,
+    ],
+    [
+      'a product with a constant node, in the other order',
+      '<multiply name="last" type="float"><input name="in1" type="float" nodename="k"/><input name="in2" type="float" nodename="t"/></multiply>',
+      (t) => 0.25 * t,
+    ],
+    [
+      'a quotient',
+      '<divide name="last" type="float"><input name="in1" type="float" nodename="t"/><input name="in2" type="float" value="4"/></divide>',
+      (t) => t / 4,
+    ],
+    [
+      'a sum',
+      '<add name="last" type="float"><input name="in1" type="float" nodename="t"/><input name="in2" type="float" value="0.5"/></add>',
+      (t) => t + 0.5,
+    ],
+    [
+      'what is left',
+      '<subtract name="last" type="float"><input name="in1" type="float" value="0.75"/><input name="in2" type="float" nodename="t"/></subtract>',
+      (t) => 0.75 - t,
+    ],
+    [
+      'an inversion',
+      '<invert name="last" type="float"><input name="in" type="float" nodename="t"/></invert>',
+      (t) => 1 - t,
+    ],
+    [
+      'a remapping',
+      '<remap name="last" type="float"><input name="in" type="float" nodename="t"/><input name="inlow" type="float" value="0.2"/><input name="inhigh" type="float" value="0.7"/><input name="outlow" type="float" value="1"/><input name="outhigh" type="float" value="0.4"/></remap>',
+      (t) => 1 + ((t - 0.2) / 0.5) * -0.6,
+    ],
+    [
+      'a mixture',
+      '<mix name="last" type="float"><input name="fg" type="float" nodename="t"/><input name="bg" type="float" value="0.9"/><input name="mix" type="float" nodename="k"/></mix>',
+      (t) => 0.25 * t + 0.75 * 0.9,
+    ],
+    [
+      'a chain',
+      '<dot name="last" type="float"><input name="in" type="float" nodename="m"/></dot><multiply name="m" type="float"><input name="in1" type="float" nodename="i"/><input name="in2" type="float" value="0.3"/></multiply><invert name="i" type="float"><input name="in" type="float" nodename="t"/></invert>',
+      (t) => 0.3 * (1 - t),
+    ],
   ])('%s with constants', (_, node, expected) => {
     const material = arithmetic(node);
     expect(material.warnings).toEqual([]);
-    for (const texel of [0, 0.3, 1]) expect(worth(material, 'specular_weight', texel)[0]).toBeCloseTo(expected(texel), 9);
+    for (const texel of [0, 0.3, 1])
+      expect(worth(material, 'specular_weight', texel)[0]).toBeCloseTo(expected(texel), 9);
   });
 
   it('a product of a picture and a colour', () => {
-    const material = arithmetic('<multiply name="last" type="color3"><input name="in1" type="color3" nodename="t"/><input name="in2" type="color3" value="0.5, 0.25, 1"/></multiply>', 'color3');
+    const material = arithmetic(
+      '<multiply name="last" type="color3"><input name="in1" type="color3" nodename="t"/><input name="in2" type="color3" value="0.5, 0.25, 1"/></multiply>',
+      'color3',
+    );
     expect(worth(material, 'emission_color', 0.5)).toEqual([0.25, 0.125, 0.5]);
   });
 
   it.each([
-    ['two pictures', '<multiply name="last" type="float"><input name="in1" type="float" nodename="t"/><input name="in2" type="float" nodename="t"/></multiply>'],
+    [
+      'two pictures',
+      '<multiply name="last" type="float"><input name="in1" type="float" nodename="t"/><input name="in2" type="float" nodename="t"/></multiply>',
+    ],
     ['a procedure', '<noise2d name="last" type="float"/>'],
-    ['a power', '<power name="last" type="float"><input name="in1" type="float" nodename="t"/><input name="in2" type="float" value="2"/></power>'],
+    [
+      'a power',
+      '<power name="last" type="float"><input name="in1" type="float" nodename="t"/><input name="in2" type="float" value="2"/></power>',
+    ],
     ['a picture without a file', '<image name="last" type="float"/>'],
   ])('%s: the parameter keeps its default, with a warning that says where', (_, node) => {
     const { parameters, textures, warnings } = arithmetic(node);
-    expect([parameters, textures, warnings.map(({ code, line }) => [code, line])]).toEqual([{}, undefined, [['openpbr/materialx-unsupported', 5]]]);
+    expect([parameters, textures, warnings.map(({ code, line }) => [code, line])]).toEqual([
+      {},
+      undefined,
+      [['openpbr/materialx-unsupported', 5]],
+    ]);
   });
 
   it('through the interface of a node graph', () => {
-    const graph = '<nodegraph name="NG"><input name="picture" type="filename" value="x.jpg" colorspace="srgb_texture"/><input name="tint" type="color3" value="0.5,0.5,0.5"/><image name="i" type="color3"><input name="file" type="filename" interfacename="picture"/></image><multiply name="m" type="color3"><input name="in1" type="color3" nodename="i"/><input name="in2" type="color3" interfacename="tint"/></multiply><output name="out" type="color3" nodename="m"/></nodegraph>';
+    const graph =
+      '<nodegraph name="NG"><input name="picture" type="filename" value="x.jpg" colorspace="srgb_texture"/><input name="tint" type="color3" value="0.5,0.5,0.5"/><image name="i" type="color3"><input name="file" type="filename" interfacename="picture"/></image><multiply name="m" type="color3"><input name="in1" type="color3" nodename="i"/><input name="in2" type="color3" interfacename="tint"/></multiply><output name="out" type="color3" nodename="m"/></nodegraph>';
     const { parameters, textures } = only(wrap('<input name="base_color" type="color3" nodegraph="NG"/>', graph));
-    expect([parameters.base_color, textures!.base_color]).toEqual([[0.5, 0.5, 0.5], { file: 'x.jpg', channels: 'rgb', colorSpace: 'srgb' }]);
+    expect([parameters.base_color, textures!.base_color]).toEqual([
+      [0.5, 0.5, 0.5],
+      { file: 'x.jpg', channels: 'rgb', colorSpace: 'srgb' },
+    ]);
   });
 
-  const placed = (nodes: string) => only(wrap('<input name="base_color" type="color3" nodename="i"/>', `<texcoord name="uv" type="vector2"><input name="index" type="integer" value="1"/></texcoord>${nodes}<image name="i" type="color3"><input name="file" type="filename" value="a.png"/><input name="texcoord" type="vector2" nodename="p"/></image>`)).textures!.base_color!;
+  const placed = (nodes: string) =>
+    only(
+      wrap(
+        '<input name="base_color" type="color3" nodename="i"/>',
+        `<texcoord name="uv" type="vector2"><input name="index" type="integer" value="1"/></texcoord>${nodes}<image name="i" type="color3"><input name="file" type="filename" value="a.png"/><input name="texcoord" type="vector2" nodename="p"/></image>`,
+      ),
+    ).textures!.base_color!;
   /** MaterialX's definition of place2d, step by step, on coordinates whose v runs up. */
-  const place2d = (u: number, v: number, { pivot, scale, rotate, offset, order }: { pivot: number[]; scale: number[]; rotate: number; offset: number[]; order: number }) => {
+  const place2d = (
+    u: number,
+    v: number,
+    {
+      pivot,
+      scale,
+      rotate,
+      offset,
+      order,
+    }: { pivot: number[]; scale: number[]; rotate: number; offset: number[]; order: number },
+  ) => {
     type Point = readonly [number, number];
-    const turn = ([x, y]: Point): Point => [Math.cos(rotate) * x + Math.sin(rotate) * y, -Math.sin(rotate) * x + Math.cos(rotate) * y];
+    const turn = ([x, y]: Point): Point => [
+      Math.cos(rotate) * x + Math.sin(rotate) * y,
+      -Math.sin(rotate) * x + Math.cos(rotate) * y,
+    ];
     const shrink = ([x, y]: Point): Point => [x / scale[0]!, y / scale[1]!];
     const move = ([x, y]: Point): Point => [x - offset[0]!, y - offset[1]!];
     let at: Point = [u - pivot[0]!, v - pivot[1]!];
@@ -189,10 +319,17 @@ describe('textures', () => {
   };
   it.each([0, 1])('placement by place2d, order %s', (order) => {
     const placement = { pivot: [0.5, 0.25], scale: [2, 0.5], rotate: Math.PI / 6, offset: [0.1, -0.3], order };
-    const { uv, transform } = placed(`<place2d name="p" type="vector2"><input name="texcoord" type="vector2" nodename="uv"/><input name="pivot" type="vector2" value="0.5,0.25"/><input name="scale" type="vector2" value="2,0.5"/><input name="rotate" type="float" value="30"/><input name="offset" type="vector2" value="0.1,-0.3"/><input name="operationorder" type="integer" value="${order}"/></place2d>`);
+    const { uv, transform } = placed(
+      `<place2d name="p" type="vector2"><input name="texcoord" type="vector2" nodename="uv"/><input name="pivot" type="vector2" value="0.5,0.25"/><input name="scale" type="vector2" value="2,0.5"/><input name="rotate" type="float" value="30"/><input name="offset" type="vector2" value="0.1,-0.3"/><input name="operationorder" type="integer" value="${order}"/></place2d>`,
+    );
     expect(uv).toBe(1);
     const [a, b, c, d, x, y] = transform!;
-    for (const [u, v] of [[0, 0], [1, 0], [0, 1], [0.3, 0.8]] as const) {
+    for (const [u, v] of [
+      [0, 0],
+      [1, 0],
+      [0, 1],
+      [0.3, 0.8],
+    ] as const) {
       const [eu, ev] = place2d(u, 1 - v, placement);
       expect(a * u + c * v + x).toBeCloseTo(eu, 9);
       expect(b * u + d * v + y).toBeCloseTo(1 - ev, 9);
@@ -200,7 +337,12 @@ describe('textures', () => {
   });
 
   it('a tangent turned by an angle; MaterialX turns clockwise', () => {
-    const { parameters, warnings } = only(wrap('<input name="geometry_tangent" type="vector3" nodename="r"/>', '<tangent name="t" type="vector3"/><normal name="n" type="vector3"/><rotate3d name="r" type="vector3"><input name="in" type="vector3" nodename="t"/><input name="amount" type="float" value="-90"/><input name="axis" type="vector3" nodename="n"/></rotate3d>'));
+    const { parameters, warnings } = only(
+      wrap(
+        '<input name="geometry_tangent" type="vector3" nodename="r"/>',
+        '<tangent name="t" type="vector3"/><normal name="n" type="vector3"/><rotate3d name="r" type="vector3"><input name="in" type="vector3" nodename="t"/><input name="amount" type="float" value="-90"/><input name="axis" type="vector3" nodename="n"/></rotate3d>',
+      ),
+    );
     expect(warnings).toEqual([]);
     expect(parameters.geometry_tangent!.map((c) => Math.round(c * 1e9) / 1e9)).toEqual([0, 1, 0]);
   });
@@ -208,7 +350,8 @@ describe('textures', () => {
 
 describe('documents that are broken or hostile', () => {
   const laughs = `<?xml version="1.0"?>\n<!DOCTYPE lolz [<!ENTITY lol "lol">${Array.from({ length: 9 }, (_, i) => `<!ENTITY lol${i} "${'&lol;'.repeat(10)}">`).join('')}]>\n<materialx>&lol9;</materialx>`;
-  const circle = '<nodegraph name="G"><multiply name="a" type="float"><input name="in1" type="float" nodename="b"/></multiply><multiply name="b" type="float"><input name="in1" type="float" nodename="a"/></multiply><output name="o" type="float" nodename="a"/></nodegraph>';
+  const circle =
+    '<nodegraph name="G"><multiply name="a" type="float"><input name="in1" type="float" nodename="b"/></multiply><multiply name="b" type="float"><input name="in1" type="float" nodename="a"/></multiply><output name="o" type="float" nodename="a"/></nodegraph>';
   it.each([
     ['entities', laughs, 'syntax 2'],
     ['an external entity', '<!DOCTYPE x [<!ENTITY e SYSTEM "file:///etc/passwd">]><materialx/>', 'syntax 1'],
@@ -229,15 +372,34 @@ describe('documents that are broken or hostile', () => {
     ['an attribute without quotes', '<materialx>\n<a b=c /></materialx>', 'syntax 2'],
     ['an attribute twice', '<materialx a="1" a="2"/>', 'syntax 1'],
     ['a circle', wrap('<input name="base_weight" type="float" nodegraph="G"/>', circle), 'reference 3'],
-    ['an interface that is its own', wrap('<input name="base_weight" type="float" nodegraph="G"/>', '<nodegraph name="G"><input name="i" type="float" nodegraph="G"/><output name="o" type="float" interfacename="i"/></nodegraph>'), 'reference 3'],
+    [
+      'an interface that is its own',
+      wrap(
+        '<input name="base_weight" type="float" nodegraph="G"/>',
+        '<nodegraph name="G"><input name="i" type="float" nodegraph="G"/><output name="o" type="float" interfacename="i"/></nodegraph>',
+      ),
+      'reference 3',
+    ],
     ['a node that is not there', wrap('\n<input name="base_weight" type="float" nodename="nowhere"/>'), 'reference 6'],
-    ['a node graph without an output', wrap('<input name="base_weight" type="float" nodegraph="G"/>', '<nodegraph name="G"/>'), 'reference 3'],
-    ['a surface that is not there', '<materialx><surfacematerial name="m"><input name="surfaceshader" nodename="s"/></surfacematerial></materialx>', 'reference 1'],
+    [
+      'a node graph without an output',
+      wrap('<input name="base_weight" type="float" nodegraph="G"/>', '<nodegraph name="G"/>'),
+      'reference 3',
+    ],
+    [
+      'a surface that is not there',
+      '<materialx><surfacematerial name="m"><input name="surfaceshader" nodename="s"/></surfacematerial></materialx>',
+      'reference 1',
+    ],
     ['a word for a number', wrap('<input name="base_weight" type="float" value="much"/>'), 'value 5'],
     ['an infinity', wrap('<input name="base_weight" type="float" value="1e999"/>'), 'value 5'],
     ['too few numbers', wrap('<input name="base_color" type="color3" value="1, 2"/>'), 'value 5'],
     ['no surface', '<materialx version="1.39">\n</materialx>', 'no-surface 1'],
-    ['another surface', '<materialx><standard_surface name="s"/><surfacematerial name="m"><input name="surfaceshader" nodename="s"/></surfacematerial></materialx>', 'no-surface 1'],
+    [
+      'another surface',
+      '<materialx><standard_surface name="s"/><surfacematerial name="m"><input name="surfaceshader" nodename="s"/></surfacematerial></materialx>',
+      'no-surface 1',
+    ],
   ])('%s', (_, text, expected) => {
     expect(fails(text)).toBe(expected);
   });
@@ -247,7 +409,11 @@ describe('documents that are broken or hostile', () => {
 
   it('a graph in which every node is used twice costs what its nodes cost, not its paths', async () => {
     const graph = (levels: number, value: number) => {
-      const nodes = Array.from({ length: levels }, (_, i) => `<add name="n${i}" type="float"><input name="in1" type="float" nodename="n${i + 1}"/><input name="in2" type="float" nodename="n${i + 1}"/></add>`).join('');
+      const nodes = Array.from(
+        { length: levels },
+        (_, i) =>
+          `<add name="n${i}" type="float"><input name="in1" type="float" nodename="n${i + 1}"/><input name="in2" type="float" nodename="n${i + 1}"/></add>`,
+      ).join('');
       const leaf = `<constant name="n${levels}" type="float"><input name="value" type="float" value="${value}"/></constant>`;
       return wrap('<input name="specular_weight" type="float" nodename="n0"/>', nodes + leaf);
     };
@@ -258,11 +424,17 @@ describe('documents that are broken or hostile', () => {
   });
 
   it('a chain that is too long is refused, not a crash', () => {
-    const nodes = Array.from({ length: 20_000 }, (_, i) => `<dot name="n${i}" type="float"><input name="in" type="float" nodename="n${i + 1}"/></dot>`).join('');
+    const nodes = Array.from(
+      { length: 20_000 },
+      (_, i) => `<dot name="n${i}" type="float"><input name="in" type="float" nodename="n${i + 1}"/></dot>`,
+    ).join('');
     expect(fails(wrap('<input name="base_weight" type="float" nodename="n0"/>', nodes))).toBe('limit 3');
   });
 
-  it.each([['on one line', ''], ['on many lines', '\n']])('a document %s costs what its length costs', async (_, end) => {
+  it.each([
+    ['on one line', ''],
+    ['on many lines', '\n'],
+  ])('a document %s costs what its length costs', async (_, end) => {
     const input = `<input name="file" type="filename" value="some/picture/of/something.png" colorspace="srgb_texture" />${end}`;
     // Built-in searches count no operations, but the characters that they pass.
     let passed = 0;
@@ -288,18 +460,47 @@ describe('documents that are broken or hostile', () => {
   });
 
   it('names of prototypes are names', () => {
-    const { parameters, warnings } = only(wrap('<input name="__proto__" type="float" value="1"/><input name="constructor" type="float" value="1"/><input name="base_weight" type="float" nodename="toString"/>', '<constant name="toString" type="float"><input name="value" type="float" value="0.5"/></constant>'));
-    expect([parameters, warnings.length, ({} as Record<string, unknown>)['value']]).toEqual([{ base_weight: 0.5 }, 2, undefined]);
+    const { parameters, warnings } = only(
+      wrap(
+        '<input name="__proto__" type="float" value="1"/><input name="constructor" type="float" value="1"/><input name="base_weight" type="float" nodename="toString"/>',
+        '<constant name="toString" type="float"><input name="value" type="float" value="0.5"/></constant>',
+      ),
+    );
+    expect([parameters, warnings.length, ({} as Record<string, unknown>)['value']]).toEqual([
+      { base_weight: 0.5 },
+      2,
+      undefined,
+    ]);
   });
 
   it('10,000 documents with bytes changed at random are read or refused with a code', () => {
-    const sound = writeMaterialX([{ name: 'm', parameters: { base_color: [0.1, 0.2, 0.3], coat_weight: 0.5 }, textures: { base_color: { file: 'a.png', channels: 'rgb', colorSpace: 'srgb', transform: [1, 2, 3, 4, 5, 6], range: [0.5, 1] }, geometry_normal: { file: 'n.png', channels: 'rgb', colorSpace: 'linear' } } }]).document;
+    const sound = writeMaterialX([
+      {
+        name: 'm',
+        parameters: { base_color: [0.1, 0.2, 0.3], coat_weight: 0.5 },
+        textures: {
+          base_color: {
+            file: 'a.png',
+            channels: 'rgb',
+            colorSpace: 'srgb',
+            transform: [1, 2, 3, 4, 5, 6],
+            range: [0.5, 1],
+          },
+          geometry_normal: { file: 'n.png', channels: 'rgb', colorSpace: 'linear' },
+        },
+      },
+    ]).document;
     let state = 1;
-    const random = (n: number) => ((state = (Math.imul(state, 1664525) + 1013904223) >>> 0) / 2 ** 32) * n | 0;
+    const random = (n: number) => (((state = (Math.imul(state, 1664525) + 1013904223) >>> 0) / 2 ** 32) * n) | 0;
     let read = 0;
     for (let round = 0; round < 10_000; round++) {
       const letters = [...sound];
-      for (let k = random(4); k >= 0; k--) letters.splice(random(letters.length), random(3), ['<', '>', '"', '&', '/', 'a', '1', '-', ' ', ''][random(10)]!);
+      for (let k = random(4); k >= 0; k--)
+        letters.splice(
+          random(letters.length),
+          random(3),
+          ['<', '>', '"', '&', '/', 'a', '1', '-', ' ', ''][random(10)]!,
+        );
       if (fails(letters.join('')) === 'read') read++;
     }
     expect(read).toBeGreaterThan(100);
@@ -321,7 +522,8 @@ describe('writeMaterialX', () => {
   const close = (a: unknown, b: unknown): boolean => {
     if (typeof a === 'number' && typeof b === 'number') return Math.abs(a - b) <= 1e-9 * Math.max(1, Math.abs(a));
     if (Array.isArray(a) && Array.isArray(b)) return a.length === b.length && a.every((x, i) => close(x, b[i]));
-    if (a && b && typeof a === 'object' && typeof b === 'object') return close(Object.entries(a).toSorted(), Object.entries(b).toSorted());
+    if (a && b && typeof a === 'object' && typeof b === 'object')
+      return close(Object.entries(a).toSorted(), Object.entries(b).toSorted());
     return Object.is(a, b);
   };
   it('200 random materials with textures come back as they were', () => {
@@ -329,7 +531,8 @@ describe('writeMaterialX', () => {
     const random = () => (state = (Math.imul(state, 1664525) + 1013904223) >>> 0) / 2 ** 32;
     const pick = <T>(...values: readonly T[]) => values[Math.floor(random() * values.length)] as T;
     for (let round = 0; round < 200; round++) {
-      const parameters: Partial<Record<OpenPbrParameterName, unknown>> = {}, textures: Partial<Record<OpenPbrParameterName, MaterialXTexture>> = {};
+      const parameters: Partial<Record<OpenPbrParameterName, unknown>> = {},
+        textures: Partial<Record<OpenPbrParameterName, MaterialXTexture>> = {};
       for (const parameter of OPENPBR_PARAMETER_NAMES) {
         const { type, softRange, default: initial } = OPENPBR_PARAMETERS[parameter];
         if (random() < 0.6) continue;
@@ -340,7 +543,13 @@ describe('writeMaterialX', () => {
         else if (parameter.endsWith('tangent')) {
           const angle = 6 * random() - 3;
           parameters[parameter] = [Math.cos(angle), Math.sin(angle), 0];
-        } else textures[parameter] = { file: 'normal & "map".png', channels: 'rgb', colorSpace: 'linear', ...(random() < 0.5 ? { scale: random() } : {}) };
+        } else
+          textures[parameter] = {
+            file: 'normal & "map".png',
+            channels: 'rgb',
+            colorSpace: 'linear',
+            ...(random() < 0.5 ? { scale: random() } : {}),
+          };
         if (type === 'boolean' || type === 'vector3' || random() < 0.4) continue;
         parameters[parameter] ??= initial;
         textures[parameter] = {
@@ -348,14 +557,20 @@ describe('writeMaterialX', () => {
           channels: type === 'color3' ? pick('rgb', 'rgb', 'g', 'r') : pick('r', 'g', 'b', 'a'),
           colorSpace: pick('srgb', 'linear'),
           ...(random() < 0.3 ? { uv: 1 } : {}),
-          ...(random() < 0.3 ? { transform: [random(), random(), -random(), random(), random(), random()] as const } : {}),
+          ...(random() < 0.3
+            ? { transform: [random(), random(), -random(), random(), random(), random()] as const }
+            : {}),
           ...(random() < 0.3 ? { range: pick([0.25, 1] as const, [1, 0.5] as const) } : {}),
           ...(random() < 0.3 ? { wrapU: pick('clamp', 'mirror') } : {}),
           ...(random() < 0.3 ? { wrapV: pick('clamp', 'mirror') } : {}),
           ...(random() < 0.3 ? { filter: 'nearest' as const } : {}),
         };
       }
-      const given: MaterialXMaterial = { name: `m_${round}`, parameters: parameters as Partial<OpenPbrParameters>, ...(Object.keys(textures).length ? { textures } : {}) };
+      const given: MaterialXMaterial = {
+        name: `m_${round}`,
+        parameters: parameters as Partial<OpenPbrParameters>,
+        ...(Object.keys(textures).length ? { textures } : {}),
+      };
       const { document, warnings } = writeMaterialX([given]);
       const { warnings: read, ...back } = only(document);
       expect([warnings, read]).toEqual([[], []]);
@@ -364,26 +579,46 @@ describe('writeMaterialX', () => {
   });
 
   it('names of many materials stay apart, and fit MaterialX', () => {
-    const { document } = writeMaterialX([{ name: 'Ein Lack', parameters: {} }, { name: 'Ein_Lack', parameters: {} }, { name: '3"<>', parameters: {} }]);
+    const { document } = writeMaterialX([
+      { name: 'Ein Lack', parameters: {} },
+      { name: 'Ein_Lack', parameters: {} },
+      { name: '3"<>', parameters: {} },
+    ]);
     expect(readMaterialX(document).materials.map(({ name }) => name)).toEqual(['Ein_Lack', 'Ein_Lack_1', '_3___']);
     expect(document).not.toContain('<>');
   });
 
   it('says what it cannot hold', () => {
-    const { warnings } = writeMaterialX([{ name: 'm', parameters: { geometry_normal: [0, 1, 0] }, textures: { geometry_tangent: { file: 'a', channels: 'rgb', colorSpace: 'linear' } } }]);
-    expect(warnings.map(({ code }) => code)).toEqual(['openpbr/materialx-unsupported', 'openpbr/materialx-unsupported']);
+    const { warnings } = writeMaterialX([
+      {
+        name: 'm',
+        parameters: { geometry_normal: [0, 1, 0] },
+        textures: { geometry_tangent: { file: 'a', channels: 'rgb', colorSpace: 'linear' } },
+      },
+    ]);
+    expect(warnings.map(({ code }) => code)).toEqual([
+      'openpbr/materialx-unsupported',
+      'openpbr/materialx-unsupported',
+    ]);
   });
 });
 
-describe('the documentation\'s examples', () => {
+describe("the documentation's examples", () => {
   it('write what they say', () => {
     const { materials, warnings } = readMaterialX(documented);
-    expect([warnings, materials.map(({ name }) => name), materials[1]!.textures]).toEqual([[], ['housing', 'label'], { base_color: { file: 'label.png', channels: 'rgb', colorSpace: 'srgb' } }]);
+    expect([warnings, materials.map(({ name }) => name), materials[1]!.textures]).toEqual([
+      [],
+      ['housing', 'label'],
+      { base_color: { file: 'label.png', channels: 'rgb', colorSpace: 'srgb' } },
+    ]);
   });
 
   it('dress a scene', async () => {
     const set: unknown[][] = [];
-    await dress({ setMaterial: async (...given: unknown[]) => void set.push(given) } as never, `data:text/xml,${encodeURIComponent(documented)}`);
+    await dress(
+      { setMaterial: async (...given: unknown[]) => void set.push(given) } as never,
+      `data:text/xml,${encodeURIComponent(documented)}`,
+    );
     expect(set.map(([name]) => name)).toEqual(['housing', 'label']);
     expect(set[1]![1]).toEqual({ base_color: [0.8, 0.8, 0.8], specular_roughness: 0.8 });
   });

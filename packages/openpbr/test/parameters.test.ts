@@ -1,6 +1,13 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import { defaultParameters, OPENPBR_PARAMETER_NAMES, OPENPBR_PARAMETERS, OpenPbrError, resolveParameters, validateParameters } from '../src/parameters/index';
+import {
+  defaultParameters,
+  OPENPBR_PARAMETER_NAMES,
+  OPENPBR_PARAMETERS,
+  OpenPbrError,
+  resolveParameters,
+  validateParameters,
+} from '../src/parameters/index';
 import { presets } from './oracle/index';
 
 describe('parameter table', () => {
@@ -30,7 +37,8 @@ describe('parameter table', () => {
 
   it('says the same as the docstrings of the type', () => {
     const source = readFileSync(new URL('../src/parameters/types.ts', import.meta.url), 'utf8');
-    for (const info of Object.values(OPENPBR_PARAMETERS)) expect(source).toContain(`/** ${info.doc} */\n  readonly ${info.name}:`);
+    for (const info of Object.values(OPENPBR_PARAMETERS))
+      expect(source).toContain(`/** ${info.doc} */\n  readonly ${info.name}:`);
   });
 
   it('is frozen', () => {
@@ -41,16 +49,24 @@ describe('parameter table', () => {
   it('accepts every example material of the specification', () => {
     for (const [name, material] of Object.entries(presets())) {
       const { warnings } = validateParameters(material);
-      // In the specification's own examples edge tints reach 1.013 (before conversion from ACEScg) and radius scales 1.842.
+      // In the specification's own examples edge tints reach 1.013 (before conversion from ACEScg) and radius scales
+      // 1.842.
       const excused = ['specular_color', 'subsurface_radius_scale'];
-      expect(warnings.filter((w) => w.code !== 'openpbr/clamped' || !excused.includes(w.parameter)), name).toEqual([]);
+      expect(
+        warnings.filter((w) => w.code !== 'openpbr/clamped' || !excused.includes(w.parameter)),
+        name,
+      ).toEqual([]);
     }
   });
 });
 
 describe('validateParameters', () => {
   it('clamps and says so', () => {
-    const { parameters, warnings } = validateParameters({ specular_roughness: 1.7, base_color: [-1, 0.5, 3], emission_color: [5, 0, 0] });
+    const { parameters, warnings } = validateParameters({
+      specular_roughness: 1.7,
+      base_color: [-1, 0.5, 3],
+      emission_color: [5, 0, 0],
+    });
     expect(parameters).toEqual({ specular_roughness: 1, base_color: [0, 0.5, 1], emission_color: [5, 0, 0] });
     expect(warnings.map((w) => [w.code, w.parameter])).toEqual([
       ['openpbr/clamped', 'specular_roughness'],
@@ -71,21 +87,45 @@ describe('validateParameters', () => {
     expect(warnings[0]?.code).toBe('openpbr/unknown-parameter');
   });
 
-  it.each([{ base_color: 1 }, { base_weight: [1, 1, 1] }, { geometry_thin_walled: 1 }, { base_color: [1, 1] }, { base_color: ['a', 0, 0] }, { base_color: null }, { base_weight: '1' }])('refuses %j', (bad) => {
+  it.each([
+    { base_color: 1 },
+    { base_weight: [1, 1, 1] },
+    { geometry_thin_walled: 1 },
+    { base_color: [1, 1] },
+    { base_color: ['a', 0, 0] },
+    { base_color: null },
+    { base_weight: '1' },
+  ])('refuses %j', (bad) => {
     expect(() => validateParameters(bad as never)).toThrow(OpenPbrError);
   });
 
   it('gives vectors length 1, and none to those without a direction', () => {
-    const { parameters, warnings } = validateParameters({ geometry_normal: [0, 3, 4], geometry_tangent: [0, 0, 0], geometry_coat_normal: [Number.NaN, 0, 2], geometry_coat_tangent: [0.6, 0.8, 0] });
-    expect(parameters).toEqual({ geometry_normal: [0, 0.6, 0.8], geometry_tangent: null, geometry_coat_normal: [0, 0, 1], geometry_coat_tangent: [0.6, 0.8, 0] });
-    expect(warnings.map((w) => [w.code, w.parameter])).toEqual([['openpbr/no-direction', 'geometry_tangent'], ['openpbr/not-finite', 'geometry_coat_normal']]);
+    const { parameters, warnings } = validateParameters({
+      geometry_normal: [0, 3, 4],
+      geometry_tangent: [0, 0, 0],
+      geometry_coat_normal: [Number.NaN, 0, 2],
+      geometry_coat_tangent: [0.6, 0.8, 0],
+    });
+    expect(parameters).toEqual({
+      geometry_normal: [0, 0.6, 0.8],
+      geometry_tangent: null,
+      geometry_coat_normal: [0, 0, 1],
+      geometry_coat_tangent: [0.6, 0.8, 0],
+    });
+    expect(warnings.map((w) => [w.code, w.parameter])).toEqual([
+      ['openpbr/no-direction', 'geometry_tangent'],
+      ['openpbr/not-finite', 'geometry_coat_normal'],
+    ]);
   });
 
   it('takes every parameter at both ends of its range without a word, and no further', () => {
     for (const { name, type, range } of Object.values(OPENPBR_PARAMETERS)) {
       if (!range) continue;
       const of = (value: number) => ({ [name]: type === 'float' ? value : [value, value, value] }) as never;
-      for (const [end, beyond] of [[range[0], range[0] - 1], [range[1], range[1] + 1]] as const) {
+      for (const [end, beyond] of [
+        [range[0], range[0] - 1],
+        [range[1], range[1] + 1],
+      ] as const) {
         if (!Number.isFinite(end)) continue;
         expect(validateParameters(of(end))).toEqual({ parameters: of(end), warnings: [] });
         const { parameters, warnings } = validateParameters(of(beyond));
@@ -96,7 +136,9 @@ describe('validateParameters', () => {
   });
 
   it('takes typed arrays for colours and null for vectors', () => {
-    expect(validateParameters({ base_color: new Float64Array([0.1, 0.2, 0.3]), geometry_normal: null } as never).parameters).toEqual({ base_color: [0.1, 0.2, 0.3], geometry_normal: null });
+    expect(
+      validateParameters({ base_color: new Float64Array([0.1, 0.2, 0.3]), geometry_normal: null } as never).parameters,
+    ).toEqual({ base_color: [0.1, 0.2, 0.3], geometry_normal: null });
   });
 });
 

@@ -19,7 +19,8 @@ describe('the phase function', () => {
   it('integrates to 1, with g as its mean cosine', () => {
     const { nodes, weights } = gaussLegendre(400);
     for (const g of GS) {
-      let total = 0, mean = 0;
+      let total = 0,
+        mean = 0;
       nodes.forEach((node, i) => {
         const c = 2 * node - 1;
         const value = 4 * Math.PI * (weights[i] as number) * phaseEval(g, [0, 0, -1], [Math.sqrt(1 - c * c), 0, c]);
@@ -40,7 +41,10 @@ describe('the phase function', () => {
         expect(Math.hypot(...wi)).toBeCloseTo(1, 6);
         const c = -(wo[0] * wi[0] + wo[1] * wi[1] + wo[2] * wi[2]);
         // ∫ from c to 1 of 2π p(c) dc, in closed form; for g near 0 that of an even distribution.
-        const inCone = Math.abs(g) < 1e-3 ? (1 - c) / 2 : ((1 - g * g) / (2 * g)) * (1 / (1 - g) - 1 / Math.sqrt(1 + g * g - 2 * g * c));
+        const inCone =
+          Math.abs(g) < 1e-3
+            ? (1 - c) / 2
+            : ((1 - g * g) / (2 * g)) * (1 / (1 - g) - 1 / Math.sqrt(1 + g * g - 2 * g * c));
         expect(Math.abs(inCone - u)).toBeLessThan(1e-4);
       }
     }
@@ -49,8 +53,16 @@ describe('the phase function', () => {
 
 it('WGSL against its CPU twin: phase function, medium, dispersion, 512 random cases (seed 71)', async () => {
   const next = uniform(71);
-  const cases = Array.from({ length: 512 }, () => ({ p: anyClear(next, 0.2), wo: anyDirection(next), wi: anyDirection(next), u: single([next(), next(), 0]), wavelength: Math.fround(380 + 400 * next()) }));
-  const host = wgslModule('test/host', /* wgsl */ `
+  const cases = Array.from({ length: 512 }, () => ({
+    p: anyClear(next, 0.2),
+    wo: anyDirection(next),
+    wi: anyDirection(next),
+    u: single([next(), next(), 0]),
+    wavelength: Math.fround(380 + 400 * next()),
+  }));
+  const host = wgslModule(
+    'test/host',
+    /* wgsl */ `
 struct Case { wo: vec4f, wi: vec4f, u: vec4f }
 struct Result { wi: vec3f, value: f32, extinction: vec3f, ior: f32, scattering: vec3f, g: f32 }
 @group(0) @binding(0) var<storage, read> materials: array<OpenPbrParameters>;
@@ -62,14 +74,34 @@ struct Result { wi: vec3f, value: f32, extinction: vec3f, ior: f32, scattering: 
   results[id.x] = Result(
     openpbr_phase_sample(medium.anisotropy, one.wo.xyz, one.u.xy), openpbr_phase_eval(medium.anisotropy, one.wo.xyz, one.wi.xyz),
     medium.extinction, openpbr_dispersed_ior(materials[id.x], one.u.w), medium.scattering, medium.anisotropy);
-}`, [openpbrMedium, openpbrPhase]);
+}`,
+    [openpbrMedium, openpbrPhase],
+  );
   const materials = openPbrStruct.allocate(cases.length);
   cases.forEach(({ p }, i) => packOpenPbr(materials, i, p));
   const inputs = new Float32Array(cases.flatMap(({ wo, wi, u, wavelength }) => [...wo, 0, ...wi, 0, ...u, wavelength]));
-  const out = new Float32Array(await runCompute(await testDevice(), compose([host]).code, { inputs: [materials, inputs], outputBytes: cases.length * 48, workgroups: cases.length / 64 }));
+  const out = new Float32Array(
+    await runCompute(await testDevice(), compose([host]).code, {
+      inputs: [materials, inputs],
+      outputBytes: cases.length * 48,
+      workgroups: cases.length / 64,
+    }),
+  );
   cases.forEach(({ p, wo, wi, u, wavelength }, i) => {
     const medium = transmissionMedium(p);
-    const expected = [...phaseSample(medium.anisotropy, wo, [u[0], u[1]]), phaseEval(medium.anisotropy, wo, wi), ...medium.extinction, dispersedIor(p, wavelength), ...medium.scattering, medium.anisotropy];
-    expected.forEach((value, k) => expect(Math.abs((out[12 * i + k] as number) - value), `word ${k} of case ${i}: ${out[12 * i + k]} for ${value}`).toBeLessThanOrEqual(1e-4 * Math.max(Math.abs(value), k < 3 ? 1 : 1e-3)));
+    const expected = [
+      ...phaseSample(medium.anisotropy, wo, [u[0], u[1]]),
+      phaseEval(medium.anisotropy, wo, wi),
+      ...medium.extinction,
+      dispersedIor(p, wavelength),
+      ...medium.scattering,
+      medium.anisotropy,
+    ];
+    expected.forEach((value, k) =>
+      expect(
+        Math.abs((out[12 * i + k] as number) - value),
+        `word ${k} of case ${i}: ${out[12 * i + k]} for ${value}`,
+      ).toBeLessThanOrEqual(1e-4 * Math.max(Math.abs(value), k < 3 ? 1 : 1e-3)),
+    );
   });
 });

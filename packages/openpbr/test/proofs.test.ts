@@ -1,5 +1,13 @@
 import { describe, expect, it, vi } from 'vitest';
-import { albedoBsdf, emittedRadiance, evalPdfBsdf, pdfBsdf, prepareBsdf, sampleBsdf, type Bsdf } from '../src/cpu/index';
+import {
+  albedoBsdf,
+  emittedRadiance,
+  evalPdfBsdf,
+  pdfBsdf,
+  prepareBsdf,
+  sampleBsdf,
+  type Bsdf,
+} from '../src/cpu/index';
 import { resolveParameters, type OpenPbrParameters, type OpenPbrVector } from '../src/parameters/index';
 import { direction } from './integrate';
 import { resultsOf } from './results';
@@ -40,7 +48,10 @@ function anyExtreme(next: () => number): OpenPbrParameters {
   };
 }
 
-/** Any material of all lobes without what the README names as less exact: stretched highlights, rough diffuse, indices below 1. */
+/**
+ * Any material of all lobes without what the README names as less exact: stretched highlights, rough diffuse, indices
+ * below 1.
+ */
 function anyWhite(next: () => number): OpenPbrParameters {
   const p = anyClear(next, 0.05);
   const white = [1, 1, 1] as const;
@@ -70,7 +81,8 @@ describe('the whole model', () => {
     for (let i = 0; i < materials; i++) {
       const p = anyExtreme(next);
       for (let k = 0; k < 8; k++) {
-        const wo: OpenPbrVector = k === 0 ? [1, 0, 1e-30] : k === 1 ? [0, 0, 1] : unit(upperDirection(next, k === 2 ? 1e-6 : 0));
+        const wo: OpenPbrVector =
+          k === 0 ? [1, 0, 1e-30] : k === 1 ? [0, 0, 1] : unit(upperDirection(next, k === 2 ? 1e-6 : 0));
         const inside = !p.geometry_thin_walled && next() < 0.4;
         const b = prepareBsdf(p, wo, { inside, outerIor: next() < 0.3 ? 0.5 + 2 * next() : 1 });
         const at = () => JSON.stringify({ p, wo, inside });
@@ -80,7 +92,8 @@ describe('the whole model', () => {
           const wi: OpenPbrVector = next() < 0.5 ? up : [up[0], up[1], -up[2]];
           const { f, pdf } = evalPdfBsdf(b, wo, wi);
           const s = sampleBsdf(b, wo, [next(), next(), next()]);
-          if (bad([...f, pdf, s.pdf, ...s.weight])) throw new Error(`${[...f, pdf, s.pdf, ...s.weight].join(' ')} at wi ${wi.join(' ')}, ${at()}`);
+          if (bad([...f, pdf, s.pdf, ...s.weight]))
+            throw new Error(`${[...f, pdf, s.pdf, ...s.weight].join(' ')} at wi ${wi.join(' ')}, ${at()}`);
         }
       }
     }
@@ -113,8 +126,15 @@ describe('the whole model', () => {
     const pairs = size(20_000, 1000);
     let worst = 0;
     for (let i = 0; i < pairs; i++) {
-      const p: OpenPbrParameters = { ...anyExtreme(next), transmission_weight: 0, subsurface_weight: 0, coat_weight: 0, fuzz_weight: 0 };
-      const a = unit(upperDirection(next, 0.02)), b = unit(upperDirection(next, 0.02));
+      const p: OpenPbrParameters = {
+        ...anyExtreme(next),
+        transmission_weight: 0,
+        subsurface_weight: 0,
+        coat_weight: 0,
+        fuzz_weight: 0,
+      };
+      const a = unit(upperDirection(next, 0.02)),
+        b = unit(upperDirection(next, 0.02));
       const there = evalPdfBsdf(prepareBsdf(p, a, { multipleScattering: false }), a, b).f[0] / b[2];
       const back = evalPdfBsdf(prepareBsdf(p, b, { multipleScattering: false }), b, a).f[0] / a[2];
       expect(Math.abs(there - back), JSON.stringify(p)).toBeLessThanOrEqual(1e-7 * Math.max(there, back));
@@ -130,11 +150,17 @@ function tail(chiSquare: number, freedom: number): number {
   // Complementary error function, Abramowitz and Stegun 7.1.26.
   const x = Math.abs(z) / Math.SQRT2;
   const t = 1 / (1 + 0.3275911 * x);
-  const erfc = t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429)))) * Math.exp(-x * x);
+  const erfc =
+    t *
+    (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429)))) *
+    Math.exp(-x * x);
   return z > 0 ? erfc / 2 : 1 - erfc / 2;
 }
 
-/** The part of the samples that are not valid: numbers evenly spread (Roberts' R₃ sequence), which know it to 4e-4; 2¹⁵ of them only to 2e-3. */
+/**
+ * The part of the samples that are not valid: numbers evenly spread (Roberts' R₃ sequence), which know it to 4e-4; 2¹⁵
+ * of them only to 2e-3.
+ */
 function lostOf(b: Bsdf, wo: OpenPbrVector): number {
   const count = 1 << 17;
   let lost = 0;
@@ -148,13 +174,16 @@ function lostOf(b: Bsdf, wo: OpenPbrVector): number {
 const RINGS = 20;
 const SECTORS = 16;
 /**
- * Points in a bin, of a Fibonacci lattice: refracted light ends at an edge, and a grid of as many points (24 × 24 even) knows
- * so little of the bins on it that 100,000 samples show it; a lattice has as many heights as points.
+ * Points in a bin, of a Fibonacci lattice: refracted light ends at an edge, and a grid of as many points (24 × 24 even)
+ * knows so little of the bins on it that 100,000 samples show it; a lattice has as many heights as points.
  */
 const POINTS = 377;
 const STEP = 233;
 
-/** Probability of a chi-square as large as that of samples against the density, over bins of equal solid angle on the sphere. */
+/**
+ * Probability of a chi-square as large as that of samples against the density, over bins of equal solid angle on the
+ * sphere.
+ */
 function fitOf(b: Bsdf, wo: OpenPbrVector, samples: number, next: () => number): number {
   const expected = new Float64Array(RINGS * SECTORS);
   const cell = (4 * Math.PI) / (RINGS * SECTORS * POINTS);
@@ -162,7 +191,8 @@ function fitOf(b: Bsdf, wo: OpenPbrVector, samples: number, next: () => number):
     for (let i = 0; i < POINTS; i++) {
       const z = (Math.floor(bin / SECTORS) + (i + 0.5) / POINTS) / RINGS;
       const turn = ((bin % SECTORS) + ((i * STEP) % POINTS) / POINTS) / SECTORS;
-      expected[bin] = (expected[bin] as number) + samples * cell * pdfBsdf(b, wo, direction(-1 + 2 * z, 2 * Math.PI * turn));
+      expected[bin] =
+        (expected[bin] as number) + samples * cell * pdfBsdf(b, wo, direction(-1 + 2 * z, 2 * Math.PI * turn));
     }
   }
   const hits = new Float64Array(RINGS * SECTORS);
@@ -170,10 +200,15 @@ function fitOf(b: Bsdf, wo: OpenPbrVector, samples: number, next: () => number):
     const { wi, valid } = sampleBsdf(b, wo, [next(), next(), next()]);
     if (!valid) continue;
     const turn = Math.atan2(wi[1], wi[0]) / (2 * Math.PI);
-    const bin = Math.min(Math.floor(((wi[2] + 1) / 2) * RINGS), RINGS - 1) * SECTORS + (Math.floor((turn - Math.floor(turn)) * SECTORS) % SECTORS);
+    const bin =
+      Math.min(Math.floor(((wi[2] + 1) / 2) * RINGS), RINGS - 1) * SECTORS +
+      (Math.floor((turn - Math.floor(turn)) * SECTORS) % SECTORS);
     hits[bin] = (hits[bin] as number) + 1;
   }
-  let chiSquare = 0, freedom = -1, pooled = 0, pooledHits = 0;
+  let chiSquare = 0,
+    freedom = -1,
+    pooled = 0,
+    pooledHits = 0;
   expected.forEach((count, bin) => {
     const got = hits[bin] as number;
     if (count < 1e-9 * samples) expect(got, 'samples where the density is 0').toBe(0);
@@ -201,21 +236,43 @@ describe('chi-squared of the samples against the density', () => {
     glass: (next) => ({ transmission_weight: 1, specular_ior: 1.3 + next() }),
     'thin glass': (next) => ({ transmission_weight: 1, geometry_thin_walled: true, specular_ior: 1.5 + next() }),
     subsurface: (next) => ({ subsurface_weight: 0.5 + 0.5 * next(), specular_ior: 1.3 + next() }),
-    paper: (next) => ({ subsurface_weight: 1, geometry_thin_walled: true, subsurface_scatter_anisotropy: 2 * next() - 1 }),
+    paper: (next) => ({
+      subsurface_weight: 1,
+      geometry_thin_walled: true,
+      subsurface_scatter_anisotropy: 2 * next() - 1,
+    }),
     coat: (next) => ({ coat_weight: 1, coat_roughness: 0.4 + 0.6 * next(), base_metalness: next() }),
-    film: (next) => ({ thin_film_weight: next(), thin_film_thickness: next(), thin_film_ior: 1.2 + next(), transmission_weight: next() < 0.5 ? 0 : 1, specular_ior: 1.3 + next() }),
+    film: (next) => ({
+      thin_film_weight: next(),
+      thin_film_thickness: next(),
+      thin_film_ior: 1.2 + next(),
+      transmission_weight: next() < 0.5 ? 0 : 1,
+      specular_ior: 1.3 + next(),
+    }),
     fuzz: (next) => ({ fuzz_weight: 1, fuzz_roughness: 0.3 + 0.7 * next() }),
-    everything: (next) => ({ ...anyCoated(next, 0.45), transmission_weight: 0.5 * next(), subsurface_weight: 0.5 * next(), fuzz_weight: next(), fuzz_roughness: 0.3 + 0.7 * next(), coat_roughness: 0.4 + 0.6 * next(), specular_ior: 1.4 + next() }),
+    everything: (next) => ({
+      ...anyCoated(next, 0.45),
+      transmission_weight: 0.5 * next(),
+      subsurface_weight: 0.5 * next(),
+      fuzz_weight: next(),
+      fuzz_roughness: 0.3 + 0.7 * next(),
+      coat_roughness: 0.4 + 0.6 * next(),
+      specular_ior: 1.4 + next(),
+    }),
   };
   const settings = size(60, 3);
   Object.entries(LOBES).forEach(([name, lobe], index) => {
     it(`${name}: ${settings} settings, significance 0.01 with Šidák's correction (seed ${310 + index})`, () => {
       const next = uniform(310 + index);
       const limit = 1 - 0.99 ** (1 / settings);
-      let least = 1, worst = 0, counted = 0;
+      let least = 1,
+        worst = 0,
+        counted = 0;
       // ∫ pdf, and the part of the samples that are lost (facets that send light to where there is none), make 1.
       const whole = (p: OpenPbrParameters, wo: OpenPbrVector, inside: boolean): void => {
-        const missing = Math.abs(sphereFurnace(p, wo, { inside }, 40).pdf + lostOf(prepareBsdf(p, wo, { inside }), wo) - 1);
+        const missing = Math.abs(
+          sphereFurnace(p, wo, { inside }, 40).pdf + lostOf(prepareBsdf(p, wo, { inside }), wo) - 1,
+        );
         expect(missing, JSON.stringify({ p, wo, inside })).toBeLessThan(2e-3);
         worst = Math.max(worst, missing);
         counted++;

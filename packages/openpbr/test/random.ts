@@ -15,7 +15,11 @@ export function uniform(seed: number): () => number {
 export const single = (v: OpenPbrVector): OpenPbrVector => [Math.fround(v[0]), Math.fround(v[1]), Math.fround(v[2])];
 
 /** To double precision of length 1. */
-export const unit = (v: OpenPbrVector): OpenPbrVector => [v[0] / Math.hypot(...v), v[1] / Math.hypot(...v), v[2] / Math.hypot(...v)];
+export const unit = (v: OpenPbrVector): OpenPbrVector => [
+  v[0] / Math.hypot(...v),
+  v[1] / Math.hypot(...v),
+  v[2] / Math.hypot(...v),
+];
 
 /** A direction of the upper half, cosine-distributed but for a floor. */
 export function upperDirection(next: () => number, floor = 0): OpenPbrVector {
@@ -92,5 +96,14 @@ export function lowerDirection(next: () => number, floor = 0): OpenPbrVector {
 
 /** What single precision makes of a surface, so that both sides of a comparison have the same one. */
 export function rounded(p: OpenPbrParameters): OpenPbrParameters {
-  return Object.fromEntries(Object.entries(p).map(([name, value]) => [name, typeof value === 'number' ? Math.fround(value) : Array.isArray(value) ? single(value as unknown as OpenPbrVector) : value])) as unknown as OpenPbrParameters;
+  return Object.fromEntries(
+    Object.entries(p).map(([name, value]) => [
+      name,
+      typeof value === 'number'
+        ? Math.fround(value)
+        : Array.isArray(value)
+          ? single(value as unknown as OpenPbrVector)
+          : value,
+    ]),
+  ) as unknown as OpenPbrParameters;
 }

@@ -10,24 +10,36 @@ const SIZE = 33;
 async function drawn(look: Parameters<Awaited<ReturnType<typeof createBall>>['draw']>[1]): Promise<Float32Array> {
   const device = await testDevice();
   const ball = await createBall(device, 'rgba32float');
-  const target = device.createTexture({ size: [SIZE, SIZE], format: 'rgba32float', usage: GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.COPY_SRC });
+  const target = device.createTexture({
+    size: [SIZE, SIZE],
+    format: 'rgba32float',
+    usage: GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.COPY_SRC,
+  });
   const stride = Math.ceil((SIZE * 16) / 256) * 256;
-  const staging = device.createBuffer({ size: stride * SIZE, usage: GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST });
+  const staging = device.createBuffer({
+    size: stride * SIZE,
+    usage: GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST,
+  });
   ball.draw(target.createView(), look);
   const encoder = device.createCommandEncoder();
   encoder.copyTextureToBuffer({ texture: target }, { buffer: staging, bytesPerRow: stride }, [SIZE, SIZE]);
   device.queue.submit([encoder.finish()]);
   await staging.mapAsync(GPUMapMode.READ);
   const rows = new Float32Array(staging.getMappedRange().slice(0));
-  const pixels = Float32Array.from({ length: SIZE * SIZE * 4 }, (_, i) => rows[Math.floor(i / (SIZE * 4)) * (stride / 4) + (i % (SIZE * 4))] as number);
+  const pixels = Float32Array.from(
+    { length: SIZE * SIZE * 4 },
+    (_, i) => rows[Math.floor(i / (SIZE * 4)) * (stride / 4) + (i % (SIZE * 4))] as number,
+  );
   target.destroy();
   staging.destroy();
   return pixels;
 }
 
-describe('the documentation\'s rasteriser', () => {
+describe("the documentation's rasteriser", () => {
   it.each([0.2, 0.6])('draws, at roughness %s, what the functions on the CPU say', async (roughness) => {
-    const light = [0.48, 0.6, 0.64] as const, color = [0.6, 0.1, 0.03] as const, ior = 1.5;
+    const light = [0.48, 0.6, 0.64] as const,
+      color = [0.6, 0.1, 0.03] as const,
+      ior = 1.5;
     const pixels = await drawn({ light, roughness, color, ior });
     let lit = 0;
     for (let row = 0; row < SIZE; row++) {
@@ -45,8 +57,10 @@ describe('the documentation\'s rasteriser', () => {
         const length = Math.hypot(n[2], n[0]);
         const t = [n[2] / length, 0, -n[0] / length] as const;
         const b = [n[1] * t[2] - n[2] * t[1], n[2] * t[0] - n[0] * t[2], n[0] * t[1] - n[1] * t[0]] as const;
-        const local = (w: OpenPbrVector): OpenPbrVector => [t, b, n].map((axis) => axis[0] * w[0] + axis[1] * w[1] + axis[2] * w[2]) as unknown as OpenPbrVector;
-        const wo = local([0, 0, 1]), wi = local(light);
+        const local = (w: OpenPbrVector): OpenPbrVector =>
+          [t, b, n].map((axis) => axis[0] * w[0] + axis[1] * w[1] + axis[2] * w[2]) as unknown as OpenPbrVector;
+        const wo = local([0, 0, 1]),
+          wi = local(light);
         if (wi[2] < 1e-4) continue;
         lit++;
         const h = halfVector(wo, wi);
@@ -64,7 +78,12 @@ describe('the documentation\'s rasteriser', () => {
 
   it('imports two modules of OpenPBR and what they need, no more', async () => {
     const { text } = await createBall(await testDevice(), 'rgba8unorm');
-    expect(text.modules.toSorted()).toEqual(['app/ball', 'openpbr/circle', 'openpbr/fresnel-dielectric', 'openpbr/ggx']);
+    expect(text.modules.toSorted()).toEqual([
+      'app/ball',
+      'openpbr/circle',
+      'openpbr/fresnel-dielectric',
+      'openpbr/ggx',
+    ]);
     expect(text.code).not.toContain('OpenPbrParameters');
   });
 });

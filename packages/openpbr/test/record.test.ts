@@ -1,15 +1,22 @@
 import { describe, expect, it } from 'vitest';
-import { OPENPBR_PARAMETER_NAMES, OPENPBR_PARAMETERS, resolveParameters, type OpenPbrParameters } from '../src/parameters/index';
+import {
+  OPENPBR_PARAMETER_NAMES,
+  OPENPBR_PARAMETERS,
+  resolveParameters,
+  type OpenPbrParameters,
+} from '../src/parameters/index';
 import { openPbrStruct, packOpenPbr } from '../src/wgsl/index';
 
 describe('packOpenPbr', () => {
   // A number of its own for every component of every parameter.
   let next = 0;
   const own = () => ++next / 256;
-  const distinct = Object.fromEntries(OPENPBR_PARAMETER_NAMES.map((name) => {
-    const { type } = OPENPBR_PARAMETERS[name];
-    return [name, type === 'boolean' ? true : type === 'float' ? own() : [own(), own(), own()]];
-  })) as unknown as OpenPbrParameters;
+  const distinct = Object.fromEntries(
+    OPENPBR_PARAMETER_NAMES.map((name) => {
+      const { type } = OPENPBR_PARAMETERS[name];
+      return [name, type === 'boolean' ? true : type === 'float' ? own() : [own(), own(), own()]];
+    }),
+  ) as unknown as OpenPbrParameters;
 
   it('has a field of its own for every parameter', () => {
     expect(openPbrStruct.fields.map(({ name }) => name).toSorted()).toEqual([...OPENPBR_PARAMETER_NAMES].toSorted());
@@ -18,7 +25,8 @@ describe('packOpenPbr', () => {
   it('writes each into its place, and no other record', () => {
     const buffer = openPbrStruct.allocate(3);
     packOpenPbr(buffer, 1, distinct);
-    const floats = new Float32Array(buffer, openPbrStruct.size), integers = new Uint32Array(buffer, openPbrStruct.size);
+    const floats = new Float32Array(buffer, openPbrStruct.size),
+      integers = new Uint32Array(buffer, openPbrStruct.size);
     const taken = new Set<number>();
     for (const name of OPENPBR_PARAMETER_NAMES) {
       const at = openPbrStruct.offsetOf(name) / 4;
@@ -35,7 +43,18 @@ describe('packOpenPbr', () => {
   it('writes unperturbed vectors for null', () => {
     const buffer = openPbrStruct.allocate();
     packOpenPbr(buffer, 0, resolveParameters());
-    const vector = (name: 'geometry_normal' | 'geometry_tangent' | 'geometry_coat_normal' | 'geometry_coat_tangent') => Array.from(new Float32Array(buffer, openPbrStruct.offsetOf(name), 3));
-    expect([vector('geometry_normal'), vector('geometry_tangent'), vector('geometry_coat_normal'), vector('geometry_coat_tangent')]).toEqual([[0, 0, 1], [1, 0, 0], [0, 0, 1], [1, 0, 0]]);
+    const vector = (name: 'geometry_normal' | 'geometry_tangent' | 'geometry_coat_normal' | 'geometry_coat_tangent') =>
+      Array.from(new Float32Array(buffer, openPbrStruct.offsetOf(name), 3));
+    expect([
+      vector('geometry_normal'),
+      vector('geometry_tangent'),
+      vector('geometry_coat_normal'),
+      vector('geometry_coat_tangent'),
+    ]).toEqual([
+      [0, 0, 1],
+      [1, 0, 0],
+      [0, 0, 1],
+      [1, 0, 0],
+    ]);
   });
 });

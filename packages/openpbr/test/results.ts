@@ -5,8 +5,8 @@ import { afterAll } from 'vitest';
 const FOLDER = process.env['GLANZ_RESULTS'];
 
 /**
- * Keeps what a test file measured. With the environment variable GLANZ_RESULTS=FOLDER it is written to FOLDER/<name>.json
- * when the file is through; apps/docs/scripts/openpbr-results.mjs makes the results page of that.
+ * Keeps what a test file measured. With the environment variable GLANZ_RESULTS=FOLDER it is written to
+ * FOLDER/<name>.json when the file is through; apps/docs/scripts/openpbr-results.mjs makes the results page of that.
  */
 export function resultsOf(name: string): (key: string, value: unknown) => void {
   const results: Record<string, unknown> = {};

@@ -12,7 +12,16 @@ const SURFACES: readonly (readonly [string, Partial<OpenPbrParameters>])[] = [
   ['very rough metal', { base_metalness: 1, specular_roughness: 1 }],
   ['stretched metal', { base_metalness: 1, specular_roughness: 0.5, specular_roughness_anisotropy: 0.7 }],
   ['coat over diffuse', { specular_weight: 0, coat_weight: 1, coat_roughness: 0.4, coat_color: [0.9, 0.5, 0.2] }],
-  ['stretched half coat over metal', { base_metalness: 1, specular_roughness: 0.5, coat_weight: 0.5, coat_roughness: 0.6, coat_roughness_anisotropy: 0.6 }],
+  [
+    'stretched half coat over metal',
+    {
+      base_metalness: 1,
+      specular_roughness: 0.5,
+      coat_weight: 0.5,
+      coat_roughness: 0.6,
+      coat_roughness_anisotropy: 0.6,
+    },
+  ],
   ['coat over the default', { coat_weight: 1, coat_roughness: 0.35 }],
   ['half metal of a high index', { base_metalness: 0.5, specular_ior: 2.2, specular_roughness: 0.5 }],
 ];
@@ -25,7 +34,10 @@ function tail(chiSquare: number, freedom: number): number {
   // Complementary error function, Abramowitz and Stegun 7.1.26.
   const x = Math.abs(z) / Math.SQRT2;
   const t = 1 / (1 + 0.3275911 * x);
-  const erfc = t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429)))) * Math.exp(-x * x);
+  const erfc =
+    t *
+    (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429)))) *
+    Math.exp(-x * x);
   return z > 0 ? erfc / 2 : 1 - erfc / 2;
 }
 
@@ -33,7 +45,10 @@ const RINGS = 16;
 const SECTORS = 32;
 const SUB = 6;
 
-/** Expected hits per bin of equal solid angle: the density by the midpoint rule, finer towards the axis and the horizon is not needed. */
+/**
+ * Expected hits per bin of equal solid angle: the density by the midpoint rule, finer towards the axis and the horizon
+ * is not needed.
+ */
 function expectedHits(b: Bsdf, wo: OpenPbrVector): Float64Array {
   const bins = new Float64Array(RINGS * SECTORS);
   const cell = (2 * Math.PI) / (RINGS * SECTORS * SUB * SUB);
@@ -74,7 +89,9 @@ describe('sampling', () => {
         }
         const { albedo, pdf } = furnace(p, wo);
         // The density integrates to the part of the samples that is valid: 5 standard errors.
-        expect(Math.abs(valid / SAMPLES - pdf), `valid ${valid / SAMPLES}, integral ${pdf}`).toBeLessThan(5 * Math.sqrt(Math.max(pdf * (1 - pdf), 1e-4) / SAMPLES));
+        expect(Math.abs(valid / SAMPLES - pdf), `valid ${valid / SAMPLES}, integral ${pdf}`).toBeLessThan(
+          5 * Math.sqrt(Math.max(pdf * (1 - pdf), 1e-4) / SAMPLES),
+        );
         albedo.forEach((value, k) => {
           const mean = (sum[k] as number) / SAMPLES;
           const error = Math.sqrt(Math.max((squares[k] as number) / SAMPLES - mean * mean, 0) / SAMPLES);
@@ -100,7 +117,9 @@ describe('sampling', () => {
           freedom++;
         }
         expect(freedom).toBeGreaterThan(50);
-        expect(tail(chiSquare, freedom), `chi square ${chiSquare} with ${freedom} degrees of freedom`).toBeGreaterThan(1e-4 / (SURFACES.length * VIEWS.length));
+        expect(tail(chiSquare, freedom), `chi square ${chiSquare} with ${freedom} degrees of freedom`).toBeGreaterThan(
+          1e-4 / (SURFACES.length * VIEWS.length),
+        );
       });
     });
   });
@@ -117,7 +136,9 @@ describe('sampling', () => {
       compared++;
       const { f, pdf } = evalPdfBsdf(b, wo, s.wi);
       expect(Math.abs(s.pdf / pdf - 1)).toBeLessThan(1e-5);
-      s.weight.forEach((w, k) => expect(Math.abs(w * s.pdf - (f[k] as number))).toBeLessThanOrEqual(1e-5 * Math.max(f[k] as number, 1e-6)));
+      s.weight.forEach((w, k) =>
+        expect(Math.abs(w * s.pdf - (f[k] as number))).toBeLessThanOrEqual(1e-5 * Math.max(f[k] as number, 1e-6)),
+      );
     }
     expect(compared).toBeGreaterThan(4000);
   });

@@ -1,5 +1,17 @@
 import { gaussLegendre } from '../scripts/microfacet.mjs';
-import { evalPdfBsdf, ggxBound, ggxDistribution, ggxSample, prepareBsdf, refract, refractGgx, refractHalf, type Bsdf, type BsdfOptions, type Slopes } from '../src/cpu/index';
+import {
+  evalPdfBsdf,
+  ggxBound,
+  ggxDistribution,
+  ggxSample,
+  prepareBsdf,
+  refract,
+  refractGgx,
+  refractHalf,
+  type Bsdf,
+  type BsdfOptions,
+  type Slopes,
+} from '../src/cpu/index';
 import type { OpenPbrParameters, OpenPbrVector } from '../src/parameters/index';
 
 /** Reflected and transmitted parts of uniform light, and the integral of the density over the sphere. */
@@ -39,22 +51,34 @@ function reflection(alpha: Slopes, wo: OpenPbrVector, side: 1 | -1): Technique {
       const up = turn(wi);
       const h: [number, number, number] = [wo[0] + up[0], wo[1] + up[1], wo[2] + up[2]];
       const length = Math.hypot(...h);
-      return up[2] <= 0 ? 0 : ggxDistribution(alpha, [h[0] / length, h[1] / length, h[2] / length]) / (2 * (bound * wo[2] + Math.hypot(alpha[0] * wo[0], alpha[1] * wo[1], wo[2])));
+      return up[2] <= 0
+        ? 0
+        : ggxDistribution(alpha, [h[0] / length, h[1] / length, h[2] / length]) /
+            (2 * (bound * wo[2] + Math.hypot(alpha[0] * wo[0], alpha[1] * wo[1], wo[2])));
     },
   };
 }
 
 /**
- * Integrals over the whole sphere by deterministic quadrature of the balance heuristic: every lobe's own facets, and the
- * sphere evenly.
+ * Integrals over the whole sphere by deterministic quadrature of the balance heuristic: every lobe's own facets, and
+ * the sphere evenly.
  */
-export function sphereFurnace(p: OpenPbrParameters, wo: OpenPbrVector, options?: BsdfOptions, size = 40): SphereFurnace {
+export function sphereFurnace(
+  p: OpenPbrParameters,
+  wo: OpenPbrVector,
+  options?: BsdfOptions,
+  size = 40,
+): SphereFurnace {
   const b = prepareBsdf(p, wo, options);
   const { thin, thinAlpha, eta } = b.transmission;
   const techniques: Technique[] = [reflection(b.alpha, wo, 1)];
   if (p.coat_weight > 0) techniques.push(reflection(b.coat.alpha, wo, 1));
   if (thin) techniques.push(reflection(thinAlpha, wo, -1));
-  else techniques.push({ at: (u, v) => lower(refract(eta, wo, ggxSample(b.alpha, wo, [u, v]))), density: (wi) => (wi[2] < 0 ? refractGgx(eta, b.alpha, wo, wi, refractHalf(eta, wo, wi))[1] : 0) });
+  else
+    techniques.push({
+      at: (u, v) => lower(refract(eta, wo, ggxSample(b.alpha, wo, [u, v]))),
+      density: (wi) => (wi[2] < 0 ? refractGgx(eta, b.alpha, wo, wi, refractHalf(eta, wo, wi))[1] : 0),
+    });
   techniques.push({
     at: (u, v) => {
       // √ spreads nodes towards grazing.

@@ -20,7 +20,12 @@ function interfaces(count: number, seed: number) {
     const roughness = Math.fround(0.1 + 0.9 * next());
     const anisotropy = Math.fround(0.1 + 0.85 * next());
     const mu = 0.02 + 0.98 * next();
-    return { eta: Math.fround(next() < 0.3 ? index : 1 / index), roughness, anisotropy, wo: single(direction(mu, 7 * next())) };
+    return {
+      eta: Math.fround(next() < 0.3 ? index : 1 / index),
+      roughness,
+      anisotropy,
+      wo: single(direction(mu, 7 * next())),
+    };
   });
 }
 
@@ -39,10 +44,23 @@ describe('what interfaces with stretched highlights keep by single scattering', 
 
   it('is finite at the ends', () => {
     for (const eta of [1e-3, 0.3, 1 - 1e-12, 1, 1 + 1e-12, 3, 1e3]) {
-      for (const [roughness, anisotropy] of [[0, 1], [1, 1], [1, 1e-9], [0.5, 0.999]] as const) {
-        for (const wo of [[0, 0, 1], [1, 0, 1e-5], [0, 1, 1e-5], [0.6, 0, 0.8]] as const) {
+      for (const [roughness, anisotropy] of [
+        [0, 1],
+        [1, 1],
+        [1, 1e-9],
+        [0.5, 0.999],
+      ] as const) {
+        for (const wo of [
+          [0, 0, 1],
+          [1, 0, 1e-5],
+          [0, 1, 1e-5],
+          [0.6, 0, 0.8],
+        ] as const) {
           const [reflected, through] = stretchedEnergy(eta, ggxAlpha(roughness, anisotropy), wo);
-          expect(reflected >= 0 && through >= 0 && reflected + through < 1.01, `${reflected} ${through} for index ${eta}, roughness ${roughness}, wo ${wo.join(' ')}`).toBe(true);
+          expect(
+            reflected >= 0 && through >= 0 && reflected + through < 1.01,
+            `${reflected} ${through} for index ${eta}, roughness ${roughness}, wo ${wo.join(' ')}`,
+          ).toBe(true);
         }
       }
     }
@@ -64,11 +82,21 @@ fn openpbr_table_conductor(coords: vec2f) -> f32 { return 0.0; }
       [openpbrStretched],
     );
     const flags = requiredFeatures([{ transmission_weight: 1, specular_roughness_anisotropy: 0.5 }]);
-    const inputs = [new Float32Array(list.flatMap(({ eta, roughness, anisotropy, wo }) => [eta, roughness, anisotropy, 0, ...wo, 0]))];
-    const results = new Float32Array(await runCompute(await testDevice(), compose([host], { flags: { ...flags } }).code, { inputs, outputBytes: list.length * 8, workgroups: list.length / 64 }));
+    const inputs = [
+      new Float32Array(list.flatMap(({ eta, roughness, anisotropy, wo }) => [eta, roughness, anisotropy, 0, ...wo, 0])),
+    ];
+    const results = new Float32Array(
+      await runCompute(await testDevice(), compose([host], { flags: { ...flags } }).code, {
+        inputs,
+        outputBytes: list.length * 8,
+        workgroups: list.length / 64,
+      }),
+    );
     list.forEach(({ eta, roughness, anisotropy, wo }, i) => {
       const at = `index ${eta}, roughness ${roughness}, anisotropy ${anisotropy}, wo ${wo.join(' ')}`;
-      stretchedEnergy(eta, ggxAlpha(roughness, anisotropy), wo).forEach((value, k) => expect(Math.abs((results[2 * i + k] as number) - value), at).toBeLessThan(1e-5));
+      stretchedEnergy(eta, ggxAlpha(roughness, anisotropy), wo).forEach((value, k) =>
+        expect(Math.abs((results[2 * i + k] as number) - value), at).toBeLessThan(1e-5),
+      );
     });
   });
 });
@@ -83,7 +111,10 @@ describe('stretched metal', () => {
           // Half of them nearly across the long slopes, where it changes fast.
           const phi = next() < 0.5 ? (next() * Math.PI) / 2 : Math.PI / 2 - 0.4 * next() ** 2;
           const sum = whiteMetal(roughness, anisotropy, direction(mu, phi));
-          expect(Math.abs(sum - 1), `${sum} for roughness ${roughness}, anisotropy ${anisotropy}, cosine ${mu}, azimuth ${phi}`).toBeLessThan(0.003);
+          expect(
+            Math.abs(sum - 1),
+            `${sum} for roughness ${roughness}, anisotropy ${anisotropy}, cosine ${mu}, azimuth ${phi}`,
+          ).toBeLessThan(0.003);
         }
       }
     }
@@ -92,11 +123,21 @@ describe('stretched metal', () => {
   it('is reciprocal with all its scattering: 2000 random metals and pairs of directions (seed 64)', () => {
     const next = uniform(64);
     for (let i = 0; i < 2000; i++) {
-      const p = resolveParameters({ base_metalness: 1, base_color: [next(), next(), next()], specular_color: [next(), next(), next()], specular_roughness: next(), specular_roughness_anisotropy: next() });
+      const p = resolveParameters({
+        base_metalness: 1,
+        base_color: [next(), next(), next()],
+        specular_color: [next(), next(), next()],
+        specular_roughness: next(),
+        specular_roughness_anisotropy: next(),
+      });
       const [a, b] = [upperDirection(next, 0.001), upperDirection(next, 0.001)];
       const there = evalBsdf(prepareBsdf(p, a), a, b);
       const back = evalBsdf(prepareBsdf(p, b), b, a);
-      there.forEach((value, k) => expect(Math.abs(value / b[2] / ((back[k] as number) / a[2]) - 1), JSON.stringify({ p, a, b })).toBeLessThan(1e-6));
+      there.forEach((value, k) =>
+        expect(Math.abs(value / b[2] / ((back[k] as number) / a[2]) - 1), JSON.stringify({ p, a, b })).toBeLessThan(
+          1e-6,
+        ),
+      );
     }
   });
 });
@@ -105,7 +146,13 @@ describe('stretched dielectrics', () => {
   const surfaces = (seed: number, fixed: Partial<OpenPbrParameters>) => {
     const next = uniform(seed);
     return Array.from({ length: 60 }, () => {
-      const p = resolveParameters({ base_color: [1, 1, 1], specular_ior: 1.1 + 1.3 * next(), specular_roughness: 0.03 + 0.97 * next(), specular_roughness_anisotropy: 0.2 + 0.75 * next(), ...fixed });
+      const p = resolveParameters({
+        base_color: [1, 1, 1],
+        specular_ior: 1.1 + 1.3 * next(),
+        specular_roughness: 0.03 + 0.97 * next(),
+        specular_roughness_anisotropy: 0.2 + 0.75 * next(),
+        ...fixed,
+      });
       const mu = 0.02 + 0.98 * next() ** 1.5;
       // Half of them nearly across the long slopes, where it changes fast.
       return { p, wo: direction(mu, next() < 0.5 ? (next() * Math.PI) / 2 : Math.PI / 2 - 0.4 * next() ** 2) };
@@ -119,20 +166,29 @@ describe('stretched dielectrics', () => {
     it(`${name}: all light within 0.003, 60 random indices, roughnesses, anisotropies and views (seed ${seed})`, () => {
       for (const { p, wo } of surfaces(seed, fixed)) {
         const sum = whiteDielectric(p, wo, inside);
-        expect(Math.abs(sum - 1), `${sum} for index ${p.specular_ior}, roughness ${p.specular_roughness}, anisotropy ${p.specular_roughness_anisotropy}, wo ${wo.join(' ')}`).toBeLessThan(0.003);
+        expect(
+          Math.abs(sum - 1),
+          `${sum} for index ${p.specular_ior}, roughness ${p.specular_roughness}, anisotropy ${p.specular_roughness_anisotropy}, wo ${wo.join(' ')}`,
+        ).toBeLessThan(0.003);
       }
     });
   }
 
   it('give back as much by samples as by quadrature, within 4e-4', () => {
-    // Numbers as evenly spread as these (Roberts' R₃ sequence) know the mean of the weights five times better than random ones.
+    // Numbers as evenly spread as these (Roberts' R₃ sequence) know the mean of the weights five times better than
+    // random ones.
     const count = 1 << 17;
     for (const [fixed, inside, roughness, anisotropy, mu, phi] of [
       [{ transmission_weight: 1 }, false, 0.7, 0.9, 0.3, 1.57],
       [{ transmission_weight: 1 }, true, 0.2, 0.5, 0.2, 0.8],
       [{}, false, 0.5, 0.9, 1, 0],
     ] as const) {
-      const p = resolveParameters({ base_color: [1, 1, 1], specular_roughness: roughness, specular_roughness_anisotropy: anisotropy, ...fixed });
+      const p = resolveParameters({
+        base_color: [1, 1, 1],
+        specular_roughness: roughness,
+        specular_roughness_anisotropy: anisotropy,
+        ...fixed,
+      });
       const wo = direction(mu, phi);
       const b = prepareBsdf(p, wo, { inside });
       let sum = 0;
@@ -140,7 +196,10 @@ describe('stretched dielectrics', () => {
         const at = (step: number): number => (0.5 + step * i) % 1;
         sum += sampleBsdf(b, wo, [at(0.8191725134), at(0.6710436067), at(0.5497004779)]).weight[1];
       }
-      expect(Math.abs(sum / count - whiteDielectric(p, wo, inside)), JSON.stringify({ fixed, inside, roughness })).toBeLessThan(4e-4);
+      expect(
+        Math.abs(sum / count - whiteDielectric(p, wo, inside)),
+        JSON.stringify({ fixed, inside, roughness }),
+      ).toBeLessThan(4e-4);
     }
   });
 });

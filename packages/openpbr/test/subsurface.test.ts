@@ -1,7 +1,17 @@
 import { runCompute, testDevice } from '@glanz/gpu';
 import { compose, wgslModule } from '@glanz/wgsl';
 import { describe, expect, it } from 'vitest';
-import { dielectricEpsilon, evalBsdf, fresnelDielectric, fresnelMean, phaseSample, prepareBsdf, sampleBsdf, subsurfaceAlbedo, subsurfaceMedium } from '../src/cpu/index';
+import {
+  dielectricEpsilon,
+  evalBsdf,
+  fresnelDielectric,
+  fresnelMean,
+  phaseSample,
+  prepareBsdf,
+  sampleBsdf,
+  subsurfaceAlbedo,
+  subsurfaceMedium,
+} from '../src/cpu/index';
 import { resolveParameters, type OpenPbrVector } from '../src/parameters/index';
 import { openpbrSubsurface, openPbrStruct, packOpenPbr, requiredFeatures } from '../src/wgsl/index';
 import { gpuShader } from './gpu';
@@ -12,7 +22,13 @@ import { sphereFurnace } from './sphere';
 
 describe('subsurface', () => {
   it('single-scattering albedo against independent numbers', () => {
-    const rows = primitives()['subsurface_albedo'] as unknown as { C: number; g: number; vdh: number; vdh_saunderson_eta15: number; K_r_eta15: number }[];
+    const rows = primitives()['subsurface_albedo'] as unknown as {
+      C: number;
+      g: number;
+      vdh: number;
+      vdh_saunderson_eta15: number;
+      K_r_eta15: number;
+    }[];
     expect(rows.length).toBeGreaterThan(10);
     for (const row of rows) {
       expect(Math.abs(subsurfaceAlbedo(row.C, row.g, 0) - row.vdh)).toBeLessThan(1e-6);
@@ -20,7 +36,9 @@ describe('subsurface', () => {
     }
   });
 
-  /** A random walk in a half space below a smooth interface: the part of the light that got in which comes out again. */
+  /**
+   * A random walk in a half space below a smooth interface: the part of the light that got in which comes out again.
+   */
   function walk(color: number, eta: number, g: number, count: number, next: () => number): number {
     const albedo = subsurfaceAlbedo(color, g, fresnelMean(-dielectricEpsilon(eta, 1)));
     let out = 0;
@@ -63,15 +81,24 @@ describe('subsurface', () => {
     }
   });
 
-  it('has the mean free path as its medium\'s, and none behind a thin wall', () => {
-    const p = resolveParameters({ subsurface_weight: 1, subsurface_radius: 0.2, subsurface_radius_scale: [1, 0.5, 0.25] });
+  it("has the mean free path as its medium's, and none behind a thin wall", () => {
+    const p = resolveParameters({
+      subsurface_weight: 1,
+      subsurface_radius: 0.2,
+      subsurface_radius_scale: [1, 0.5, 0.25],
+    });
     subsurfaceMedium(p).extinction.forEach((value, i) => expect(value).toBeCloseTo([5, 10, 20][i] as number, 9));
     expect(subsurfaceMedium({ ...p, geometry_thin_walled: true }).extinction).toEqual([0, 0, 0]);
   });
 
   it('is chosen by its part of what is let through; both choices together carry what there is (seed 81)', () => {
     const next = uniform(81);
-    const p = resolveParameters({ transmission_weight: 0.5, transmission_color: [0.9, 0.5, 0.1], subsurface_weight: 0.6, specular_roughness: 0.3 });
+    const p = resolveParameters({
+      transmission_weight: 0.5,
+      transmission_color: [0.9, 0.5, 0.1],
+      subsurface_weight: 0.6,
+      specular_roughness: 0.3,
+    });
     const wo = direction(0.7);
     const b = prepareBsdf(p, wo);
     const count = 60_000;
@@ -94,7 +121,13 @@ describe('subsurface', () => {
 
   it('of a thin wall splits diffuse light by the anisotropy', () => {
     for (const g of [-1, -0.2, 0.3, 1]) {
-      const p = resolveParameters({ subsurface_weight: 1, subsurface_color: [0.8, 0.6, 0.4], subsurface_scatter_anisotropy: g, geometry_thin_walled: true, specular_weight: 0 });
+      const p = resolveParameters({
+        subsurface_weight: 1,
+        subsurface_color: [0.8, 0.6, 0.4],
+        subsurface_scatter_anisotropy: g,
+        geometry_thin_walled: true,
+        specular_weight: 0,
+      });
       const { reflected, transmitted } = sphereFurnace(p, direction(0.6));
       [0.8, 0.6, 0.4].forEach((color, k) => {
         expect(reflected[k]).toBeCloseTo((color * (1 - g)) / 2, 2);
@@ -104,16 +137,29 @@ describe('subsurface', () => {
   });
 
   it('is reciprocal through a thin wall', () => {
-    const p = resolveParameters({ subsurface_weight: 1, geometry_thin_walled: true, base_diffuse_roughness: 0.5, specular_roughness: 0.4 });
-    const a = direction(0.7), [x, y, z] = direction(0.3, 2);
+    const p = resolveParameters({
+      subsurface_weight: 1,
+      geometry_thin_walled: true,
+      base_diffuse_roughness: 0.5,
+      specular_roughness: 0.4,
+    });
+    const a = direction(0.7),
+      [x, y, z] = direction(0.3, 2);
     const there = evalBsdf(prepareBsdf(p, a, { multipleScattering: false }), a, [x, y, -z])[0] / z;
-    const back = evalBsdf(prepareBsdf(p, [x, y, z], { multipleScattering: false }), [x, y, z], [a[0], a[1], -a[2]])[0] / a[2];
+    const back =
+      evalBsdf(prepareBsdf(p, [x, y, z], { multipleScattering: false }), [x, y, z], [a[0], a[1], -a[2]])[0] / a[2];
     expect(there).toBeCloseTo(back, 10);
   });
 
   it('costs nothing where no material has any', () => {
-    const code = (p: Parameters<typeof requiredFeatures>[0][number]) => gpuShader(requiredFeatures([p])).code.replace(/\/\/.*/g, '');
-    expect(code({ transmission_weight: 1 }).replace(/^ *subsurface_\w+: \w+,?$/gm, '').replace('subsurface: bool,', '').replace('s.subsurface', '')).not.toContain('subsurface');
+    const code = (p: Parameters<typeof requiredFeatures>[0][number]) =>
+      gpuShader(requiredFeatures([p])).code.replace(/\/\/.*/g, '');
+    expect(
+      code({ transmission_weight: 1 })
+        .replace(/^ *subsurface_\w+: \w+,?$/gm, '')
+        .replace('subsurface: bool,', '')
+        .replace('s.subsurface', ''),
+    ).not.toContain('subsurface');
     expect(code({ subsurface_weight: 1 })).toContain('fn openpbr_subsurface_medium');
     expect(code({ subsurface_weight: 1 })).not.toContain('ThinSubsurface');
   });
@@ -122,7 +168,9 @@ describe('subsurface', () => {
 it('WGSL against its CPU twin: the subsurface medium, 256 random surfaces (seed 82)', async () => {
   const next = uniform(82);
   const surfaces = Array.from({ length: 256 }, () => anyClear(next, 0.2));
-  const host = wgslModule('test/host', /* wgsl */ `
+  const host = wgslModule(
+    'test/host',
+    /* wgsl */ `
 @group(0) @binding(0) var<storage, read> materials: array<OpenPbrParameters>;
 @group(0) @binding(1) var<storage, read_write> results: array<vec4f>;
 fn openpbr_table_dielectric(coords: vec3f) -> f32 { return 0.0; }
@@ -131,12 +179,24 @@ fn openpbr_table_conductor(coords: vec2f) -> f32 { return 0.0; }
   let medium = openpbr_subsurface_medium(materials[id.x]);
   results[2u * id.x] = vec4f(medium.extinction, medium.anisotropy);
   results[2u * id.x + 1u] = vec4f(medium.scattering, 0.0);
-}`, [openpbrSubsurface]);
+}`,
+    [openpbrSubsurface],
+  );
   const materials = openPbrStruct.allocate(surfaces.length);
   surfaces.forEach((p, i) => packOpenPbr(materials, i, p));
-  const out = new Float32Array(await runCompute(await testDevice(), compose([host], { flags: { ...requiredFeatures(surfaces) } }).code, { inputs: [materials], outputBytes: surfaces.length * 32, workgroups: surfaces.length / 64 }));
+  const out = new Float32Array(
+    await runCompute(await testDevice(), compose([host], { flags: { ...requiredFeatures(surfaces) } }).code, {
+      inputs: [materials],
+      outputBytes: surfaces.length * 32,
+      workgroups: surfaces.length / 64,
+    }),
+  );
   surfaces.forEach((p, i) => {
     const { extinction, scattering, anisotropy } = subsurfaceMedium(p);
-    [...extinction, anisotropy, ...scattering].forEach((value, k) => expect(Math.abs((out[8 * i + k] as number) - value), `word ${k} of ${i}`).toBeLessThanOrEqual(1e-4 * Math.max(Math.abs(value), 1e-3)));
+    [...extinction, anisotropy, ...scattering].forEach((value, k) =>
+      expect(Math.abs((out[8 * i + k] as number) - value), `word ${k} of ${i}`).toBeLessThanOrEqual(
+        1e-4 * Math.max(Math.abs(value), 1e-3),
+      ),
+    );
   });
 });

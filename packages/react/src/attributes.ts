@@ -8,7 +8,10 @@ const OF_REACT = new Set(['style', 'dangerouslySetInnerHTML', 'suppressContentEd
 const STATES = new Set(['contentEditable', 'draggable', 'spellCheck']);
 
 type Cased<Name> = Name extends `on${Capitalize<string>}` | `aria-${string}` | Lowercase<string> ? never : Name;
-type CasedHtml = Exclude<Cased<keyof HtmlProps>, 'className' | 'dangerouslySetInnerHTML' | 'suppressContentEditableWarning' | 'suppressHydrationWarning'>;
+type CasedHtml = Exclude<
+  Cased<keyof HtmlProps>,
+  'className' | 'dangerouslySetInnerHTML' | 'suppressContentEditableWarning' | 'suppressHydrationWarning'
+>;
 
 /** HTML attributes that React writes with capitals: in HTML they have no hyphens, unlike those of the element. */
 const CASED: Readonly<Record<CasedHtml, true>> = {
@@ -36,12 +39,21 @@ const CASED: Readonly<Record<CasedHtml, true>> = {
 type Single<Name> = Name extends `${string}-${string}` ? never : Name;
 
 /** Attributes of the element that are one word; the others have hyphens. */
-const WORDS: Readonly<Record<Single<AttributeName>, true>> = { src: true, alt: true, poster: true, loading: true, reveal: true, exposure: true, samples: true, noise: true };
+const WORDS: Readonly<Record<Single<AttributeName>, true>> = {
+  src: true,
+  alt: true,
+  poster: true,
+  loading: true,
+  reveal: true,
+  exposure: true,
+  samples: true,
+  noise: true,
+};
 
 /**
- * The name under which React writes a prop as an attribute. React 19 sets a property where the element has one of this name, and
- * so makes `title="undefined"` of a title that is taken away, and `hidden=""` no flag. No property begins with a capital, and
- * attributes of HTML are the same in any case.
+ * The name under which React writes a prop as an attribute. React 19 sets a property where the element has one of this
+ * name, and so makes `title="undefined"` of a title that is taken away, and `hidden=""` no flag. No property begins
+ * with a capital, and attributes of HTML are the same in any case.
  */
 function attributeName(prop: string): string {
   if (prop === 'className') return 'class';
@@ -51,8 +63,9 @@ function attributeName(prop: string): string {
 }
 
 /**
- * Props as React 18 and 19 both write them onto a custom element, on a server too: attributes by their names in HTML, flags by
- * their presence, nothing for `null` and `false`; handlers as they are, less those of the element's own `events`.
+ * Props as React 18 and 19 both write them onto a custom element, on a server too: attributes by their names in HTML,
+ * flags by their presence, nothing for `null` and `false`; handlers as they are, less those of the element's own
+ * `events`.
  */
 export function attributesOf(props: Readonly<Record<string, unknown>>, events: object): Record<string, unknown> {
   const attributes: Record<string, unknown> = {};

@@ -1,5 +1,13 @@
 import type { GlanzViewerElement, GlanzViewerEventMap, ReflectedProperties } from '@glanz/element';
-import { createElement, forwardRef, useEffect, useImperativeHandle, useRef, type ForwardRefExoticComponent, type RefAttributes } from 'react';
+import {
+  createElement,
+  forwardRef,
+  useEffect,
+  useImperativeHandle,
+  useRef,
+  type ForwardRefExoticComponent,
+  type RefAttributes,
+} from 'react';
 import { attributesOf } from './attributes';
 import type { GlanzViewerTag, HtmlProps } from './html';
 
@@ -7,8 +15,9 @@ type Source = Parameters<GlanzViewerElement['show']>[0];
 type Detail<K extends keyof GlanzViewerEventMap> = GlanzViewerEventMap[K]['detail'];
 
 /**
- * Props of {@link GlanzViewer}: the attributes of `<glanz-viewer>` in camel case, its events as functions of their detail, and
- * everything that React takes for an HTML element (`onClick`, `className`, `title`, `aria-…`, `data-…`, children for its slots).
+ * Props of {@link GlanzViewer}: the attributes of `<glanz-viewer>` in camel case, its events as functions of their
+ * detail, and everything that React takes for an HTML element (`onClick`, `className`, `title`, `aria-…`, `data-…`,
+ * children for its slots).
  */
 export interface GlanzViewerProps extends Partial<Omit<ReflectedProperties, 'src'>>, HtmlProps {
   /** An address, a file, files, or a scene. */
@@ -50,9 +59,13 @@ const EVENTS = {
  * element's code is fetched when the first one is there. Its ref is the element, and so leads to the `Viewer`.
  *
  * @example
- * <GlanzViewer src="chair.glb" alt="An oak chair" cameraControls className="chair" onConverged={({ samples }) => console.log(samples)} />
+ * <GlanzViewer src="chair.glb" alt="An oak chair" cameraControls className="chair" onConverged={({ samples }) =>
+ * console.log(samples)} />
  */
-export const GlanzViewer: ForwardRefExoticComponent<GlanzViewerProps & RefAttributes<GlanzViewerElement>> = forwardRef<GlanzViewerElement, GlanzViewerProps>(function GlanzViewer(props, ref) {
+export const GlanzViewer: ForwardRefExoticComponent<GlanzViewerProps & RefAttributes<GlanzViewerElement>> = forwardRef<
+  GlanzViewerElement,
+  GlanzViewerProps
+>(function GlanzViewer(props, ref) {
   const element = useRef<GlanzViewerElement>(null);
   const latest = useRef(props);
   useImperativeHandle(ref, () => element.current as GlanzViewerElement, []);
@@ -63,7 +76,12 @@ export const GlanzViewer: ForwardRefExoticComponent<GlanzViewerProps & RefAttrib
     const target = element.current as GlanzViewerElement;
     const listeners = new AbortController();
     for (const [handler, type] of Object.entries(EVENTS) as [keyof typeof EVENTS, string][]) {
-      target.addEventListener(type, (event) => (latest.current[handler] as ((detail: unknown) => void) | undefined)?.((event as CustomEvent).detail), { signal: listeners.signal });
+      target.addEventListener(
+        type,
+        (event) =>
+          (latest.current[handler] as ((detail: unknown) => void) | undefined)?.((event as CustomEvent).detail),
+        { signal: listeners.signal },
+      );
     }
     void import('@glanz/element').then(({ defineGlanzViewer }) => defineGlanzViewer());
     return () => listeners.abort();
@@ -76,7 +94,9 @@ export const GlanzViewer: ForwardRefExoticComponent<GlanzViewerProps & RefAttrib
     if (source === undefined) return undefined;
     let wanted = true;
     // Its errors come by the event.
-    void customElements.whenDefined('glanz-viewer').then(() => (wanted ? element.current?.show(source).catch(() => undefined) : undefined));
+    void customElements
+      .whenDefined('glanz-viewer')
+      .then(() => (wanted ? element.current?.show(source).catch(() => undefined) : undefined));
     return () => void (wanted = false);
   }, [source]);
 

@@ -5,13 +5,21 @@ import type { DetailedHTMLProps, HTMLAttributes } from 'react';
 type OwnEvents = 'onLoad' | 'onProgress' | 'onError';
 
 /** What React takes for any HTML element, less what `<glanz-viewer>` defines itself. */
-export type HtmlProps = Omit<HTMLAttributes<GlanzViewerElement>, keyof ReflectedProperties | OwnEvents | 'defaultChecked' | 'defaultValue'>;
+export type HtmlProps = Omit<
+  HTMLAttributes<GlanzViewerElement>,
+  keyof ReflectedProperties | OwnEvents | 'defaultChecked' | 'defaultValue'
+>;
 
-type Written<Kind extends 'text' | 'flag' | 'number'> = Kind extends 'flag' ? true | '' : Kind extends 'number' ? number | `${number}` : string;
+type Written<Kind extends 'text' | 'flag' | 'number'> = Kind extends 'flag'
+  ? true | ''
+  : Kind extends 'number'
+    ? number | `${number}`
+    : string;
 
 /**
- * Props of the tag `<glanz-viewer>` in JSX, for pages that define the element themselves: HTML attributes, and those of the element
- * as they are written in HTML. An attribute that is present turns a flag on, whatever its value, and React 18 writes `false` as
+ * Props of the tag `<glanz-viewer>` in JSX, for pages that define the element themselves: HTML attributes, and those of
+ * the element as they are written in HTML. An attribute that is present turns a flag on, whatever its value, and React
+ * 18 writes `false` as
  * text: to leave a flag off, leave the prop out or pass `undefined`.
  */
 export type GlanzViewerTag = DetailedHTMLProps<HtmlProps, GlanzViewerElement> & {

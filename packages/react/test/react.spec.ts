@@ -30,7 +30,14 @@ test.afterEach(() => expect(complaints).toEqual([]));
 
 const red = quads([{ name: 'red', colour: [0.9, 0.02, 0.02], variants: { night: [0.02, 0.02, 0.9] } }]);
 const green = quads([{ name: 'green', colour: [0.02, 0.8, 0.02] }]);
-const FAST: GlanzViewerProps = { alt: 'A card', samples: 6, maxDepth: 3, pixelRatio: 0.5, cameraOrbit: '0deg 90deg 3m', fieldOfView: '35deg' };
+const FAST: GlanzViewerProps = {
+  alt: 'A card',
+  samples: 6,
+  maxDepth: 3,
+  pixelRatio: 0.5,
+  cameraOrbit: '0deg 90deg 3m',
+  fieldOfView: '35deg',
+};
 const heard = (page: Page) => page.evaluate(() => window.heard);
 const middle = async (page: Page) => {
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
@@ -42,15 +49,27 @@ test('under Strict Mode it loads once, converges, follows its props, and lets go
   await expect.poll(() => heard(page)).toEqual(['load', 'converged 6']);
   const day = await middle(page);
   expect(day[0]).toBeGreaterThan(2 * day[1]);
-  expect(await page.evaluate(() => [window.seen.element?.cameraControls, window.seen.element?.viewer?.state])).toEqual([true, 'done']);
+  expect(await page.evaluate(() => [window.seen.element?.cameraControls, window.seen.element?.viewer?.state])).toEqual([
+    true,
+    'done',
+  ]);
 
   await page.evaluate((props) => window.give(props), { src: 'red.glb', variantName: 'night', ...FAST });
   await expect.poll(() => heard(page)).toEqual(['load', 'converged 6', 'converged 6']);
   const night = await middle(page);
   const edits = await page.evaluate(async () => {
     const viewer = window.seen.element!.viewer!;
-    const edit = (parameters: object) => viewer.setMaterial('red', parameters).then(() => 'taken', ({ code }: { code: string }) => code);
-    return [await edit({ base_colour: 'red' }), await edit({ base_metalness: 2 }), await edit({ base_color: 'reddish' }), await edit({ base_color: 'rgb(255 0 0)' })];
+    const edit = (parameters: object) =>
+      viewer.setMaterial('red', parameters).then(
+        () => 'taken',
+        ({ code }: { code: string }) => code,
+      );
+    return [
+      await edit({ base_colour: 'red' }),
+      await edit({ base_metalness: 2 }),
+      await edit({ base_color: 'reddish' }),
+      await edit({ base_color: 'rgb(255 0 0)' }),
+    ];
   });
   expect(edits).toEqual(['renderer/material', 'renderer/material', 'tonemap/color', 'taken']);
   expect(night[2]).toBeGreaterThan(2 * night[0]);
@@ -65,12 +84,19 @@ test('under Strict Mode it loads once, converges, follows its props, and lets go
 });
 
 test('a file as src', async ({ page }) => {
-  await page.evaluate(([base64, props]) => window.start({ src: window.file(base64 as string, 'green.glb'), ...(props as GlanzViewerProps) }), [green.toString('base64'), FAST] as const);
+  await page.evaluate(
+    ([base64, props]) =>
+      window.start({ src: window.file(base64 as string, 'green.glb'), ...(props as GlanzViewerProps) }),
+    [green.toString('base64'), FAST] as const,
+  );
   await expect.poll(() => heard(page)).toEqual(['load', 'converged 6']);
   const [r, g] = await middle(page);
   expect(g).toBeGreaterThan(1.5 * r);
   await page.route('**/bad.hdr', (route) => route.fulfill({ body: 'no image' }));
-  await page.evaluate((props) => window.give({ src: window.seen.element!.viewer!.scene!, environmentImage: 'bad.hdr', ...props }), FAST);
+  await page.evaluate(
+    (props) => window.give({ src: window.seen.element!.viewer!.scene!, environmentImage: 'bad.hdr', ...props }),
+    FAST,
+  );
   await expect.poll(async () => (await heard(page)).filter((what) => what.startsWith('warning'))).not.toEqual([]);
   await page.evaluate((props) => window.give({ src: new File(['no'], 'bad.glb'), ...props }), FAST);
   await expect.poll(async () => (await heard(page)).at(-1)).toMatch(/^error gltf\//);
@@ -79,21 +105,53 @@ test('a file as src', async ({ page }) => {
 test('what a server rendered is taken over without a complaint', async ({ page }) => {
   const props: GlanzViewerProps = { src: 'red.glb', cameraControls: true, ...FAST };
   const html = renderToString(createElement(GlanzViewer, props));
-  await page.evaluate(([given, text]) => window.start(given as GlanzViewerProps, text as string), [props, html] as const);
+  await page.evaluate(([given, text]) => window.start(given as GlanzViewerProps, text as string), [
+    props,
+    html,
+  ] as const);
   await expect.poll(() => heard(page)).toEqual(['load', 'converged 6']);
 });
 
 test('HTML attributes and handlers reach the element, and change with the props', async ({ page }) => {
-  await page.evaluate((props) => window.start({ src: 'red.glb', title: 'first', tabIndex: 0, onClick: ({ currentTarget }) => window.heard.push(`click ${currentTarget.localName}`), ...props }), FAST);
+  await page.evaluate(
+    (props) =>
+      window.start({
+        src: 'red.glb',
+        title: 'first',
+        tabIndex: 0,
+        onClick: ({ currentTarget }) => window.heard.push(`click ${currentTarget.localName}`),
+        ...props,
+      }),
+    FAST,
+  );
   await expect.poll(() => heard(page)).toEqual(['load', 'converged 6']);
   const viewer = page.locator('glanz-viewer');
   await viewer.click();
   expect(await heard(page)).toEqual(['load', 'converged 6', 'click glanz-viewer']);
   expect(await viewer.getAttribute('tabindex')).toBe('0');
-  await page.evaluate((props) => window.give({ src: 'red.glb', title: 'second', hidden: true, inert: true, draggable: false, spellCheck: false, ...props }), FAST);
+  await page.evaluate(
+    (props) =>
+      window.give({
+        src: 'red.glb',
+        title: 'second',
+        hidden: true,
+        inert: true,
+        draggable: false,
+        spellCheck: false,
+        ...props,
+      }),
+    FAST,
+  );
   await expect(viewer).toHaveAttribute('title', 'second');
   await expect(viewer).toHaveAttribute('hidden', '');
-  const state = () => viewer.evaluate(({ inert, draggable, spellcheck, title, tabIndex }: HTMLElement) => ({ inert, draggable, spellcheck, title, tabIndex }));
+  const state = () =>
+    viewer.evaluate(({ inert, draggable, spellcheck, title, tabIndex }: HTMLElement) => ({
+      inert,
+      draggable,
+      spellcheck,
+      title,
+      tabIndex,
+    }));
   expect(await state()).toEqual({ inert: true, draggable: false, spellcheck: false, title: 'second', tabIndex: -1 });
   await page.evaluate((props) => window.give({ src: 'red.glb', hidden: false, draggable: true, ...props }), FAST);
   await expect(viewer).not.toHaveAttribute('hidden');

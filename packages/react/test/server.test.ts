@@ -6,11 +6,41 @@ import { GlanzViewer } from '../src/index';
 describe('on a server', () => {
   it('renders the tag with its attributes and its poster, and nothing runs', () => {
     expect(typeof document).toBe('undefined');
-    const html = renderToString(createElement(GlanzViewer, { src: 'chair.glb', alt: 'An oak chair', cameraControls: true, autoRotate: false, fieldOfView: '30deg', exposureEv: 1.5, samples: null, dracoDecoder: '/draco.js', ktx2Transcoder: '/basis.js', className: 'hero', style: { height: 400 }, onLoad: () => undefined }, createElement('img', { slot: 'poster', src: 'chair.webp', alt: '' })));
+    const html = renderToString(
+      createElement(
+        GlanzViewer,
+        {
+          src: 'chair.glb',
+          alt: 'An oak chair',
+          cameraControls: true,
+          autoRotate: false,
+          fieldOfView: '30deg',
+          exposureEv: 1.5,
+          samples: null,
+          dracoDecoder: '/draco.js',
+          ktx2Transcoder: '/basis.js',
+          className: 'hero',
+          style: { height: 400 },
+          onLoad: () => undefined,
+        },
+        createElement('img', { slot: 'poster', src: 'chair.webp', alt: '' }),
+      ),
+    );
     // React tells the browser of the picture before.
     const from = html.indexOf('<glanz-viewer ');
     const tag = html.slice(from, html.indexOf('>', from) + 1);
-    for (const attribute of ['src="chair.glb"', 'alt="An oak chair"', 'camera-controls=""', 'field-of-view="30deg"', 'exposure-ev="1.5"', 'draco-decoder="/draco.js"', 'ktx2-transcoder="/basis.js"', 'class="hero"', 'style="height:400px"']) expect(tag).toContain(attribute);
+    for (const attribute of [
+      'src="chair.glb"',
+      'alt="An oak chair"',
+      'camera-controls=""',
+      'field-of-view="30deg"',
+      'exposure-ev="1.5"',
+      'draco-decoder="/draco.js"',
+      'ktx2-transcoder="/basis.js"',
+      'class="hero"',
+      'style="height:400px"',
+    ])
+      expect(tag).toContain(attribute);
     for (const absent of ['auto-rotate', 'samples', 'onLoad', 'on-load', 'suppress']) expect(tag).not.toContain(absent);
     expect(html).toContain('<img slot="poster" src="chair.webp" alt=""/>');
   });
@@ -20,12 +50,41 @@ describe('on a server', () => {
   });
 
   it('writes HTML attributes as HTML names them, and no handler', () => {
-    const props = { title: 'Chair', tabIndex: 0, role: 'figure', hidden: false, inert: true, lang: 'en', draggable: false, contentEditable: false, 'aria-busy': false, 'data-sku': 7, className: 'hero', id: 'chair', onClick: () => undefined, onLoad: () => undefined } as const;
+    const props = {
+      title: 'Chair',
+      tabIndex: 0,
+      role: 'figure',
+      hidden: false,
+      inert: true,
+      lang: 'en',
+      draggable: false,
+      contentEditable: false,
+      'aria-busy': false,
+      'data-sku': 7,
+      className: 'hero',
+      id: 'chair',
+      onClick: () => undefined,
+      onLoad: () => undefined,
+    } as const;
     const html = renderToString(createElement(GlanzViewer, props));
-    const attributes = html.slice(html.indexOf('<glanz-viewer') + 13, html.indexOf('>')).trim().split(/ (?=[\w-]+=)/).sort();
+    const attributes = html
+      .slice(html.indexOf('<glanz-viewer') + 13, html.indexOf('>'))
+      .trim()
+      .split(/ (?=[\w-]+=)/)
+      .sort();
     // Names of HTML's attributes are the same in any case.
-    expect(attributes.map((text) => text.replace(/^[\w-]+/, (name) => name.toLowerCase())).sort()).toEqual(
-      ['aria-busy="false"', 'class="hero"', 'contenteditable="false"', 'data-sku="7"', 'draggable="false"', 'id="chair"', 'inert=""', 'lang="en"', 'role="figure"', 'tabindex="0"', 'title="Chair"'],
-    );
+    expect(attributes.map((text) => text.replace(/^[\w-]+/, (name) => name.toLowerCase())).sort()).toEqual([
+      'aria-busy="false"',
+      'class="hero"',
+      'contenteditable="false"',
+      'data-sku="7"',
+      'draggable="false"',
+      'id="chair"',
+      'inert=""',
+      'lang="en"',
+      'role="figure"',
+      'tabindex="0"',
+      'title="Chair"',
+    ]);
   });
 });

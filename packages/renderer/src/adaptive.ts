@@ -20,8 +20,8 @@ export interface NoiseMap {
 }
 
 /**
- * Relative errors from sums over tiles: the root of a tile's mean variance over its mean square, the latter with a hundredth
- * of the picture's added, so that blackness does not ask for the impossible.
+ * Relative errors from sums over tiles: the root of a tile's mean variance over its mean square, the latter with a
+ * hundredth of the picture's added, so that blackness does not ask for the impossible.
  *
  * @param sums Per tile: variance, square of the mean, pixels; stride 4.
  */
@@ -45,8 +45,8 @@ export function noiseMap(sums: Float32Array): NoiseMap {
 }
 
 /**
- * The tiles that need more samples: those noisier than the target, and those beside one that is twice as noisy. The second
- * rule catches tiles that look calm because they have not seen the light yet that their neighbours have.
+ * The tiles that need more samples: those noisier than the target, and those beside one that is twice as noisy. The
+ * second rule catches tiles that look calm because they have not seen the light yet that their neighbours have.
  */
 export function noisyTiles(errors: Float64Array, columns: number, target: number): number[] {
   const rows = errors.length / columns;
@@ -70,7 +70,14 @@ export function noisyTiles(errors: Float64Array, columns: number, target: number
  *
  * @param most Samples that no pixel gets more of.
  */
-export function samplesLeft(tiles: readonly number[], errors: Float64Array, target: number, most: number, samplesOf: (tile: number) => number, pixelsOf: (tile: number) => number): number {
+export function samplesLeft(
+  tiles: readonly number[],
+  errors: Float64Array,
+  target: number,
+  most: number,
+  samplesOf: (tile: number) => number,
+  pixelsOf: (tile: number) => number,
+): number {
   let left = 0;
   for (const tile of tiles) {
     const samples = samplesOf(tile);
@@ -110,7 +117,8 @@ export class TileGrid {
   allPixels(): Uint32Array<ArrayBuffer> {
     const { width, height } = this;
     const out = new Uint32Array(width * height);
-    for (let y0 = 0, at = 0; y0 < height; y0 += TILE) for (let x0 = 0; x0 < width; x0 += TILE) at = this.#write(out, at, x0, y0);
+    for (let y0 = 0, at = 0; y0 < height; y0 += TILE)
+      for (let x0 = 0; x0 < width; x0 += TILE) at = this.#write(out, at, x0, y0);
     return out;
   }
 
@@ -118,13 +126,15 @@ export class TileGrid {
   pixels(tiles: readonly number[]): Uint32Array<ArrayBuffer> {
     const out = new Uint32Array(tiles.reduce((sum, tile) => sum + this.pixelsIn(tile), 0));
     let at = 0;
-    for (const tile of tiles) at = this.#write(out, at, (tile % this.columns) * TILE, Math.floor(tile / this.columns) * TILE);
+    for (const tile of tiles)
+      at = this.#write(out, at, (tile % this.columns) * TILE, Math.floor(tile / this.columns) * TILE);
     return out;
   }
 
   /** Writes the numbers of a tile's pixels from `at` on; where the next tile's belong. */
   #write(out: Uint32Array, at: number, x0: number, y0: number): number {
-    const x1 = Math.min(x0 + TILE, this.width), y1 = Math.min(y0 + TILE, this.height);
+    const x1 = Math.min(x0 + TILE, this.width),
+      y1 = Math.min(y0 + TILE, this.height);
     for (let y = y0; y < y1; y++) for (let x = x0; x < x1; x++) out[at++] = y * this.width + x;
     return at;
   }

@@ -31,9 +31,11 @@ interface Made {
 /**
  * Makes edits so that each holds as a whole or not at all. An edit goes through two stages:
  *
- * 1. It is applied to the scene and the GPU's copy. If that took memory, batches and further edits wait until the GPU has
+ * 1. It is applied to the scene and the GPU's copy. If that took memory, batches and further edits wait until the GPU
+ * has
  *    granted it (some milliseconds); else the edit is taken back, and the film goes on as if nothing had happened.
- * 2. If it needs other kernels, they compile while the old ones go on rendering. Should they fail, this edit and all that
+ * 2. If it needs other kernels, they compile while the old ones go on rendering. Should they fail, this edit and all
+ * that
  *    were made since are taken back.
  */
 export class EditSession {
@@ -75,7 +77,9 @@ export class EditSession {
 
   async #make(change: SceneChange): Promise<void> {
     const { device, gpuScene, integrator, memory, restart } = this.#host;
-    const { result: edit, verified } = inErrorScopes(device, 'this edit', () => gpuScene.record(change.apply, change.undo));
+    const { result: edit, verified } = inErrorScopes(device, 'this edit', () =>
+      gpuScene.record(change.apply, change.undo),
+    );
     const number = ++this.#edits;
     const takeBack = () => {
       edit.undo();
@@ -112,7 +116,11 @@ export class EditSession {
     const number = ++this.#resizes;
     while (film.film.width !== width || film.film.height !== height) {
       const { planes } = integrator.kernels.features;
-      const { result: next, verified } = inErrorScopes(device, `an image of ${width} × ${height} pixels`, () => new Film(memory, width, height, planes));
+      const { result: next, verified } = inErrorScopes(
+        device,
+        `an image of ${width} × ${height} pixels`,
+        () => new Film(memory, width, height, planes),
+      );
       await verified.catch((error: unknown) => {
         next.destroy();
         throw error;
@@ -175,7 +183,8 @@ export class EditSession {
       try {
         const paths = integrator.prepare(kernels);
         made.push(paths.discard);
-        const next = kernels.features.planes === planes ? undefined : new Film(memory, width, height, kernels.features.planes);
+        const next =
+          kernels.features.planes === planes ? undefined : new Film(memory, width, height, kernels.features.planes);
         if (next) made.push(() => next.destroy());
         return { paths, next };
       } catch (error) {
@@ -194,7 +203,10 @@ export class EditSession {
     return true;
   }
 
-  /** Lets batches and further edits wait until the GPU has looked at what was allocated. Takes it back if the GPU refuses it. */
+  /**
+   * Lets batches and further edits wait until the GPU has looked at what was allocated. Takes it back if the GPU
+   * refuses it.
+   */
   async #hold(verified: Promise<void>, takeBack: () => void): Promise<void> {
     const outcome = verified.catch((error: unknown) => {
       if (!this.#host.memory.destroyed) takeBack();

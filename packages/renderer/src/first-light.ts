@@ -1,7 +1,13 @@
 import type { Camera } from '@glanz/scene';
 import { forBands } from './film/feature-pass';
 import { packFrame } from './frame';
-import { GPU_BUFFER_COPY_DST, GPU_BUFFER_COPY_SRC, GPU_BUFFER_STORAGE, GPU_BUFFER_UNIFORM, GpuMemory } from './gpu/buffers';
+import {
+  GPU_BUFFER_COPY_DST,
+  GPU_BUFFER_COPY_SRC,
+  GPU_BUFFER_STORAGE,
+  GPU_BUFFER_UNIFORM,
+  GpuMemory,
+} from './gpu/buffers';
 import { inErrorScopes } from './gpu/error-scopes';
 import type { GpuScene } from './gpu/gpu-scene';
 import type { KernelCache } from './gpu/kernel-cache';
@@ -22,12 +28,16 @@ export interface FirstLightSource {
 }
 
 /**
- * Draws the scene with the first-light kernel, as soon as its shapes are there, and hands the picture over, unless `late`
- * says that there is something better by then.
+ * Draws the scene with the first-light kernel, as soon as its shapes are there, and hands the picture over, unless
+ * `late` says that there is something better by then.
  *
  * @returns Frees the picture; to be called when the tracer is there.
  */
-export function showFirstLight(source: FirstLightSource, show: (picture: FirstLight) => void, late: () => boolean): () => void {
+export function showFirstLight(
+  source: FirstLightSource,
+  show: (picture: FirstLight) => void,
+  late: () => boolean,
+): () => void {
   const { device, scene, geometry, camera, cache, features, options } = source;
   const { width, height } = options;
   // Its own accounts: it is gone before anybody asks for them.
@@ -41,11 +51,18 @@ export function showFirstLight(source: FirstLightSource, show: (picture: FirstLi
   };
   const encode = (kernel: Kernel): GPUBuffer => {
     const own: Record<string, GPUBuffer> = {
-      frame: memory.upload('first frame', packFrame(camera, { width, height }, scene, geometry, options), GPU_BUFFER_UNIFORM),
+      frame: memory.upload(
+        'first frame',
+        packFrame(camera, { width, height }, scene, geometry, options),
+        GPU_BUFFER_UNIFORM,
+      ),
       batch: memory.buffer('first batch', batchStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
       beauty: memory.buffer('first picture', 16 * width * height, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC),
     };
-    const entries = kernel.resources.map((name, binding) => ({ binding, resource: own[name] ? { buffer: own[name] } : (scene.resource(name) as GPUBindingResource) }));
+    const entries = kernel.resources.map((name, binding) => ({
+      binding,
+      resource: own[name] ? { buffer: own[name] } : (scene.resource(name) as GPUBindingResource),
+    }));
     const group = device.createBindGroup({ label: 'glanz first', layout: kernel.layout, entries });
     forBands(width * height, ({ pixelOffset, pixelCount }) => {
       const data = batchStruct.allocate();

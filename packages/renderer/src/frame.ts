@@ -9,7 +9,13 @@ import { resolveFilter } from './view';
 import type { Geometry } from './scene/geometry';
 
 /** The frame uniforms for the present camera, film and surroundings. */
-export function packFrame(camera: Camera, film: Pick<Film, 'width' | 'height'>, scene: GpuScene, geometry: Geometry, options: PathTracerOptions): ArrayBuffer {
+export function packFrame(
+  camera: Camera,
+  film: Pick<Film, 'width' | 'height'>,
+  scene: GpuScene,
+  geometry: Geometry,
+  options: PathTracerOptions,
+): ArrayBuffer {
   const data = frameStruct.allocate();
   const { environment } = scene;
   const transparent = options.background === 'transparent';
@@ -22,7 +28,8 @@ export function packFrame(camera: Camera, film: Pick<Film, 'width' | 'height'>, 
     light_count: scene.lightCount,
     first_area_light: scene.areaLights.first,
     area_light_count: scene.areaLights.count,
-    background: (transparent ? BACKGROUND_TRANSPARENT | BACKGROUND_HIDDEN : 0) | (environment.visible ? 0 : BACKGROUND_HIDDEN),
+    background:
+      (transparent ? BACKGROUND_TRANSPARENT | BACKGROUND_HIDDEN : 0) | (environment.visible ? 0 : BACKGROUND_HIDDEN),
     environment_radiance: environment.radiance,
     mean_luminance: environment.meanLuminance,
     environment_probability: scene.environmentProbability,

@@ -1,7 +1,14 @@
 import { DeviceError } from './errors';
 import type { Film } from './film/film';
 import type { GroupWeights } from './film/layers';
-import { GPU_BUFFER_COPY_DST, GPU_BUFFER_COPY_SRC, GPU_BUFFER_INDIRECT, GPU_BUFFER_STORAGE, GPU_BUFFER_UNIFORM, type GpuMemory } from './gpu/buffers';
+import {
+  GPU_BUFFER_COPY_DST,
+  GPU_BUFFER_COPY_SRC,
+  GPU_BUFFER_INDIRECT,
+  GPU_BUFFER_STORAGE,
+  GPU_BUFFER_UNIFORM,
+  type GpuMemory,
+} from './gpu/buffers';
 import { inErrorScopes } from './gpu/error-scopes';
 import type { GpuScene } from './gpu/gpu-scene';
 import type { KernelSet } from './gpu/kernel-cache';
@@ -25,7 +32,12 @@ type OwnBuffer = 'frame' | 'batch' | 'light_groups' | 'paths' | 'queues' | 'shad
 
 /** How many paths may be kept on the GPU at once. Large GPUs are known by the size of their buffers. */
 export function pathLimit(device: GPUDevice, wanted: number | undefined, features: KernelFeatures): number {
-  const most = BLOCK * Math.floor(device.limits.maxStorageBufferBindingSize / (BLOCK * Math.max(pathLayout(features).records.size, shadowRecords(features.flags).size)));
+  const most =
+    BLOCK *
+    Math.floor(
+      device.limits.maxStorageBufferBindingSize /
+        (BLOCK * Math.max(pathLayout(features).records.size, shadowRecords(features.flags).size)),
+    );
   const standard = device.limits.maxBufferSize >= 2 ** 31 - 4 ? 1 << 22 : 1 << 20;
   return Math.max(64, Math.min(wanted ?? standard, most, MAX_THREADS));
 }
@@ -47,9 +59,10 @@ export class Integrator {
   readonly #groups = new Map<KernelName, GPUBindGroup>();
   readonly #wanted: number | undefined;
   /**
-   * Whether the GPU itself says how many threads a kernel shall have: only as many as there are paths left. A CPU, for which
-   * each group of threads is work, gains by that. For a GPU those that end at once are nothing, and it is slow with WebGPU,
-   * which checks each number on the GPU before it believes it: a path of 256 edges takes 22 times as long on an H200.
+   * Whether the GPU itself says how many threads a kernel shall have: only as many as there are paths left. A CPU, for
+   * which each group of threads is work, gains by that. For a GPU those that end at once are nothing, and it is slow
+   * with WebGPU, which checks each number on the GPU before it believes it: a path of 256 edges takes 22 times as long
+   * on an H200.
    */
   readonly #counted: boolean;
   #capacity: number;
@@ -61,7 +74,15 @@ export class Integrator {
   #film: Film;
 
   /** @param features Those of the kernels that {@link begin} will bring. */
-  constructor(device: GPUDevice, memory: GpuMemory, scene: GpuScene, features: KernelFeatures, film: Film, wanted: number | undefined, limits: DepthLimits) {
+  constructor(
+    device: GPUDevice,
+    memory: GpuMemory,
+    scene: GpuScene,
+    features: KernelFeatures,
+    film: Film,
+    wanted: number | undefined,
+    limits: DepthLimits,
+  ) {
     this.#device = device;
     this.#memory = memory;
     this.#scene = scene;
@@ -79,20 +100,29 @@ export class Integrator {
       batch: memory.buffer('batch', batchStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
       light_groups: memory.buffer('light groups', 2 * MAX_LIGHT_GROUPS * 16, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
       paths: memory.buffer('paths', pathLayout(features).records.bytes(capacity), GPU_BUFFER_STORAGE),
-      queues: memory.buffer('queues', (QUEUE_WORDS + 2 * capacity) * 4, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC | GPU_BUFFER_COPY_DST),
-      shadows: memory.buffer('shadows', shadowRecords(features.flags).bytes(features.flags.NEXT_EVENT ? capacity : 1), GPU_BUFFER_STORAGE),
+      queues: memory.buffer(
+        'queues',
+        (QUEUE_WORDS + 2 * capacity) * 4,
+        GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC | GPU_BUFFER_COPY_DST,
+      ),
+      shadows: memory.buffer(
+        'shadows',
+        shadowRecords(features.flags).bytes(features.flags.NEXT_EVENT ? capacity : 1),
+        GPU_BUFFER_STORAGE,
+      ),
       dispatch: memory.buffer('dispatch', 32, GPU_BUFFER_STORAGE | GPU_BUFFER_INDIRECT),
     };
   }
 
   /**
-   * Does what the first batch wants of a kernel ahead of it, while others still compile: binds it, and with one of those that
-   * come early lets the browser make what it checks indirect dispatches with.
+   * Does what the first batch wants of a kernel ahead of it, while others still compile: binds it, and with one of
+   * those that come early lets the browser make what it checks indirect dispatches with.
    */
   rehearse(name: KernelName, kernel: Kernel): void {
     this.#group(name, kernel);
     // The sizes are all zeroes yet: nothing runs.
-    if (name === 'generate' && this.#counted) this.#pass('glanz rehearsal', (pass) => this.#run(pass, name, kernel, { indirect: 0 }));
+    if (name === 'generate' && this.#counted)
+      this.#pass('glanz rehearsal', (pass) => this.#run(pass, name, kernel, { indirect: 0 }));
   }
 
   /** The kernels are there, for the features that it was made with. */
@@ -143,7 +173,11 @@ export class Integrator {
     };
   }
 
-  #makePathBuffers(features: KernelFeatures, paths: number, needed: (name: 'paths' | 'shadows', bytes: number) => boolean): Partial<Record<OwnBuffer, GPUBuffer>> {
+  #makePathBuffers(
+    features: KernelFeatures,
+    paths: number,
+    needed: (name: 'paths' | 'shadows', bytes: number) => boolean,
+  ): Partial<Record<OwnBuffer, GPUBuffer>> {
     const bytes = {
       paths: pathLayout(features).records.bytes(paths),
       shadows: features.flags.NEXT_EVENT ? shadowRecords(features.flags).bytes(paths) : 0,
@@ -197,7 +231,11 @@ export class Integrator {
     const kernels = this.#kernels;
     const { result: made, verified } = inErrorScopes(this.#device, 'more paths at once', () => ({
       ...this.#makePathBuffers(kernels.features, paths, (name, bytes) => this.#buffers[name].size < bytes),
-      queues: this.#memory.buffer('queues', (QUEUE_WORDS + 2 * paths) * 4, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC | GPU_BUFFER_COPY_DST),
+      queues: this.#memory.buffer(
+        'queues',
+        (QUEUE_WORDS + 2 * paths) * 4,
+        GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC | GPU_BUFFER_COPY_DST,
+      ),
     }));
     const discard = () => Object.values(made).forEach((buffer) => this.#memory.release(buffer));
     await verified.catch((error: unknown) => {
@@ -220,7 +258,8 @@ export class Integrator {
     const { kernels, features } = this.#kernels;
     const paths = batch.pixelCount * batch.sampleCount * this.pathsPerSample;
     this.#pass('glanz batch', (pass) => {
-      const run = (name: KernelName, work: number | { readonly indirect: number }) => this.#run(pass, name, kernels[name] as Kernel, work);
+      const run = (name: KernelName, work: number | { readonly indirect: number }) =>
+        this.#run(pass, name, kernels[name] as Kernel, work);
       run('begin', 1);
       run('generate', Math.ceil(paths / 64));
       // Kernels end at once in threads beyond the paths that are left.
@@ -266,7 +305,12 @@ export class Integrator {
     this.#device.queue.submit([encoder.finish()]);
   }
 
-  #run(pass: GPUComputePassEncoder, name: KernelName, kernel: Kernel, work: number | { readonly indirect: number }): void {
+  #run(
+    pass: GPUComputePassEncoder,
+    name: KernelName,
+    kernel: Kernel,
+    work: number | { readonly indirect: number },
+  ): void {
     pass.setPipeline(kernel.pipeline);
     pass.setBindGroup(0, this.#group(name, kernel));
     if (typeof work === 'number') pass.dispatchWorkgroups(work);
@@ -275,7 +319,13 @@ export class Integrator {
 
   #writeBatch(batch: Batch): void {
     const data = batchStruct.allocate();
-    batchStruct.write(data, 0, { pixel_offset: batch.pixelOffset, pixel_count: batch.pixelCount, sample_offset: batch.sampleOffset, sample_count: batch.sampleCount, path_count: batch.pixelCount * batch.sampleCount * this.pathsPerSample });
+    batchStruct.write(data, 0, {
+      pixel_offset: batch.pixelOffset,
+      pixel_count: batch.pixelCount,
+      sample_offset: batch.sampleOffset,
+      sample_count: batch.sampleCount,
+      path_count: batch.pixelCount * batch.sampleCount * this.pathsPerSample,
+    });
     this.#memory.write(this.#buffers.batch, data);
   }
 
@@ -286,7 +336,8 @@ export class Integrator {
       const entries = names.map((resource, binding) => {
         const own = (this.#buffers as Record<string, GPUBuffer>)[resource] ?? this.#film.buffer(resource);
         const found = own ? { buffer: own } : this.#scene.resource(resource);
-        if (!found) throw new DeviceError('renderer/gpu-error', `Kernel "${name}" wants "${resource}", which nothing provides.`);
+        if (!found)
+          throw new DeviceError('renderer/gpu-error', `Kernel "${name}" wants "${resource}", which nothing provides.`);
         return { binding, resource: found };
       });
       group = this.#device.createBindGroup({ label: `glanz ${name}`, layout: kernel.layout, entries });

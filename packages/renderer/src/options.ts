@@ -9,14 +9,15 @@ export interface PathTracerOptions {
   readonly width: number;
   readonly height: number;
   /**
-   * Most edges of a path from the camera to a light: 1 shows emitters only, 2 adds direct light, … Default 8. Crossing a
-   * surface that is not fully there (opacity) does not count, nor does one without a change of the index of refraction, nor
-   * going straight through a smooth thin wall.
+   * Most edges of a path from the camera to a light: 1 shows emitters only, 2 adds direct light, … Default 8. Crossing
+   * a surface that is not fully there (opacity) does not count, nor does one without a change of the index of
+   * refraction, nor going straight through a smooth thin wall.
    */
   readonly maxDepth?: number;
   /**
    * Most scattering events of a path inside of media (subsurface, milky glass); default 256. What has been scattered as
-   * often as that goes straight on to the surface. At most 65,535. In media without an optical surface, such as fog, they count as edges too.
+   * often as that goes straight on to the surface. At most 65,535. In media without an optical surface, such as fog,
+   * they count as edges too.
    */
   readonly maxVolumeDepth?: number;
   /** Names the random numbers; the same seed gives the same picture on the same device. Default 0. */
@@ -27,82 +28,94 @@ export interface PathTracerOptions {
   readonly background?: 'environment' | 'transparent';
   /**
    * How samples around a pixel make it up. `box` (default): those inside it, alike. `gaussian`: a bell cut off at three
-   * standard deviations, 1.5 pixels by default. `blackman-harris`: a narrower bell, 1.5 pixels by default. Softer edges,
-   * no ringing; noise stays independent from pixel to pixel.
+   * standard deviations, 1.5 pixels by default. `blackman-harris`: a narrower bell, 1.5 pixels by default. Softer
+   * edges, no ringing; noise stays independent from pixel to pixel.
    */
   readonly filter?: PixelFilter;
   /**
    * Keeps the light of several groups apart, so that each can be dimmed and coloured without a new sample, see
-   * `PathTracer.setLightGroup`. `off`: one sum. `named` (default): the groups that the scene names (`light_group` of lights,
-   * emitting materials and the environment), and one called `rest` for all else. `each`: every light, emitting material and
-   * the environment by its own name. A group costs 32 bytes a pixel and 16 bytes a path in flight; 16 at most.
+   * `PathTracer.setLightGroup`. `off`: one sum. `named` (default): the groups that the scene names (`light_group` of
+   * lights, emitting materials and the environment), and one called `rest` for all else. `each`: every light, emitting
+   * material and the environment by its own name. A group costs 32 bytes a pixel and 16 bytes a path in flight; 16 at
+   * most.
    */
   readonly lightGroups?: LightGroupMode;
   /**
-   * Biased: no contribution of light that took two bounces or more may be brighter than this in any colour. Takes fireflies
-   * away and energy with them. Default off; above 0. Try regularization first.
+   * Biased: no contribution of light that took two bounces or more may be brighter than this in any colour. Takes
+   * fireflies away and energy with them. Default off; above 0. Try regularization first.
    */
   readonly clampIndirect?: number;
   /**
-   * Biased: makes sharp lobes wider for paths that have bounced wide before, by this share of the widest bounce: 0 (default)
-   * off, 0.25 takes most fireflies of caustics away and costs little light, 1 is as wide as what came before.
+   * Biased: makes sharp lobes wider for paths that have bounced wide before, by this share of the widest bounce: 0
+   * (default) off, 0.25 takes most fireflies of caustics away and costs little light, 1 is as wide as what came before.
    */
   readonly regularization?: number;
-  /** Biased: `false` leaves out light that reaches a matte surface by way of a sharp reflection or refraction. Default true. */
+  /**
+   * Biased: `false` leaves out light that reaches a matte surface by way of a sharp reflection or refraction. Default
+   * true.
+   */
   readonly caustics?: boolean;
   /** Most bounces of each kind, besides `maxDepth`. What is not given is not limited. */
   readonly maxBounces?: BounceLimits;
-  /** Compensate the energy that single-scattering microfacet models lose. Default true; false is for tests against such references. */
+  /**
+   * Compensate the energy that single-scattering microfacet models lose. Default true; false is for tests against such
+   * references.
+   */
   readonly multipleScattering?: boolean;
   /**
-   * Where the random numbers come from. `blue-noise` (default): Owen-scrambled Sobol points that neighbouring pixels share
-   * out among themselves, so that what noise is left is fine-grained; `sobol`: Owen-scrambled Sobol points, each pixel by
-   * itself, with as much noise; `independent`: PCG, which converges slower. All are unbiased.
+   * Where the random numbers come from. `blue-noise` (default): Owen-scrambled Sobol points that neighbouring pixels
+   * share out among themselves, so that what noise is left is fine-grained; `sobol`: Owen-scrambled Sobol points, each
+   * pixel by itself, with as much noise; `independent`: PCG, which converges slower. All are unbiased.
    */
   readonly sampler?: Sampler;
   /**
-   * How light samples choose among emissive triangles and lights. `tree` (default): by what each may give to the place, as a
-   * tree over them tells; `power`: by power alone, in constant time. Both are unbiased.
+   * How light samples choose among emissive triangles and lights. `tree` (default): by what each may give to the place,
+   * as a tree over them tells; `power`: by power alone, in constant time. Both are unbiased.
    */
   readonly lightSampling?: 'tree' | 'power';
   /**
-   * What light does where a surface of few triangles has smooth normals and turns away from it, at the shadow terminator.
-   * `smooth` (default): rays start on the smooth surface that the normals stand for, and light that reaches this is not
-   * held back by the triangles. `faceted`: the triangles' horizons count; edges of the light follow them, and a little light
-   * is lost. Triangles whose normals lean more than 53° away, as at hard edges, and those without normals do not change.
-   * What lies closer to such a surface than it bulges between its corners casts no shadow on it there.
+   * What light does where a surface of few triangles has smooth normals and turns away from it, at the shadow
+   * terminator. `smooth` (default): rays start on the smooth surface that the normals stand for, and light that reaches
+   * this is not held back by the triangles. `faceted`: the triangles' horizons count; edges of the light follow them,
+   * and a little light is lost. Triangles whose normals lean more than 53° away, as at hard edges, and those without
+   * normals do not change. What lies closer to such a surface than it bulges between its corners casts no shadow on it
+   * there.
    */
   readonly shadowTerminator?: 'smooth' | 'faceted';
   /**
-   * Leaves out the faces that show the camera their back, where their material is not `double_sided`, as rasterisers do: one looks into
-   * a room from outside whose walls face inwards. `off` (default): all surfaces are there from both sides. `camera`: only what the
-   * camera sees itself changes, straight or through smooth thin walls; light, shadows and reflections find all faces where they are, so
-   * the walls still keep the sun out of the room, and a mirror outside shows them. `all`: the model is cut open for light too, which
-   * falls into the room where the camera looks in; turning the view cuts it elsewhere, and mirrors show the cut. What glows is not
-   * cut: it shines on, and only the camera looks through its back. Materials that let light through are never culled: those with
-   * transmission, subsurface, or opacity without a threshold. Front is where the winding is counter-clockwise, in mirroring instances
-   * clockwise.
+   * Leaves out the faces that show the camera their back, where their material is not `double_sided`, as rasterisers
+   * do: one looks into a room from outside whose walls face inwards. `off` (default): all surfaces are there from both
+   * sides. `camera`: only what the camera sees itself changes, straight or through smooth thin walls; light, shadows
+   * and reflections find all faces where they are, so the walls still keep the sun out of the room, and a mirror
+   * outside shows them. `all`: the model is cut open for light too, which falls into the room where the camera looks
+   * in; turning the view cuts it elsewhere, and mirrors show the cut. What glows is not
+   * cut: it shines on, and only the camera looks through its back. Materials that let light through are never culled:
+   * those with transmission, subsurface, or opacity without a threshold. Front is where the winding is
+   * counter-clockwise, in mirroring instances clockwise.
    */
   readonly backFaceCulling?: BackFaceCulling;
-  /** Added to texture levels of detail. Default −1: a texel is half a pixel wide or finer; the pixel filter does the rest. */
+  /**
+   * Added to texture levels of detail. Default −1: a texel is half a pixel wide or finer; the pixel filter does the
+   * rest.
+   */
   readonly textureLodBias?: number;
   /**
-   * Most paths on the GPU at once, about 150 bytes each. Memory for more than one sample of the picture is taken only when
-   * the GPU has shown that it is fast enough for batches that large. Default 4,194,304; 1,048,576 where the device has no
-   * buffers of 2 GiB.
+   * Most paths on the GPU at once, about 150 bytes each. Memory for more than one sample of the picture is taken only
+   * when the GPU has shown that it is fast enough for batches that large. Default 4,194,304; 1,048,576 where the device
+   * has no buffers of 2 GiB.
    */
   readonly pathsInFlight?: number;
   /**
    * Builds the hierarchies of the meshes, e.g. `await BvhWorkers.create()` of `@glanz/bvh/workers`: on other threads,
-   * several at a time; or a `BlasCache` of `@glanz/bvh/cache` around it, which reads what was built before. It stays the
-   * caller's to destroy. Default: built on this thread, which is handed back between meshes.
+   * several at a time; or a `BlasCache` of `@glanz/bvh/cache` around it, which reads what was built before. It stays
+   * the caller's to destroy. Default: built on this thread, which is handed back between meshes.
    */
   readonly hierarchies?: HierarchyBuilder;
   readonly signal?: AbortSignal;
   readonly onProgress?: (progress: PrepareProgress) => void;
   /**
-   * Called once while the kernels compile, with a plain picture of the scene: base colours under a lamp at the camera, without
-   * textures. Its small kernel is there long before the others; where those are there first, it is not called.
+   * Called once while the kernels compile, with a plain picture of the scene: base colours under a lamp at the camera,
+   * without textures. Its small kernel is there long before the others; where those are there first, it is not called.
    */
   readonly onFirstLight?: (picture: FirstLight) => void;
 }
@@ -118,7 +131,8 @@ export interface FirstLight {
 /**
  * Most bounces of a kind in one path between surfaces; light falls on the last of them all the same, so 0 leaves direct
  * light. Up to 127 count. A bounce is diffuse where its density is below one half per steradian, as wide as
- * Lambert's or a roughness of 0.65, and specular otherwise; one through a surface counts as transmission whatever its width.
+ * Lambert's or a roughness of 0.65, and specular otherwise; one through a surface counts as transmission whatever its
+ * width.
  */
 export interface BounceLimits {
   readonly diffuse?: number;
@@ -146,7 +160,11 @@ export interface LightGroup {
 }
 
 /** A pixel filter by name, or with its radius in pixels (half its width), above 0 and at most 16. */
-export type PixelFilter = 'box' | 'gaussian' | 'blackman-harris' | { readonly type: 'box' | 'gaussian' | 'blackman-harris'; readonly radius?: number };
+export type PixelFilter =
+  | 'box'
+  | 'gaussian'
+  | 'blackman-harris'
+  | { readonly type: 'box' | 'gaussian' | 'blackman-harris'; readonly radius?: number };
 
 /** How far {@link PathTracer.create} has come. */
 export interface PrepareProgress {
@@ -160,15 +178,19 @@ export interface RenderOptions {
   /** Samples per pixel to reach in all, counting those already there. Default 64, with `noise` 65,536. */
   readonly samples?: number;
   /**
-   * Adaptive: samples only where there is noise, until it is everywhere at most this: the standard error of a tile of 8 × 8
-   * pixels relative to its brightness (root mean square; a hundredth of the picture's mean square is added for dark tiles).
-   * 0.05 is a good preview, 0.01 hardly to be seen. Above 0. Noise is looked at after 64, 96, 128, 192, … samples, so the
-   * result does not depend on the machine's speed. The choice of when to stop is made by looking at the same samples,
-   * which biases pixels towards where they look calm, by less than the noise that is left; leave it out for references.
+   * Adaptive: samples only where there is noise, until it is everywhere at most this: the standard error of a tile of 8
+   * × 8 pixels relative to its brightness (root mean square; a hundredth of the picture's mean square is added for dark
+   * tiles). 0.05 is a good preview, 0.01 hardly to be seen. Above 0. Noise is looked at after 64, 96, 128, 192, …
+   * samples, so the result does not depend on the machine's speed. The choice of when to stop is made by looking at the
+   * same samples, which biases pixels towards where they look calm, by less than the noise that is left; leave it out
+   * for references.
    */
   readonly noise?: number;
   readonly signal?: AbortSignal;
-  /** Milliseconds of GPU time that one submission should take at most. Default 16, one frame at 60 Hz: a page stays responsive, and no watchdog fires. */
+  /**
+   * Milliseconds of GPU time that one submission should take at most. Default 16, one frame at 60 Hz: a page stays
+   * responsive, and no watchdog fires.
+   */
   readonly maxSubmitMs?: number;
 }
 
@@ -180,15 +202,18 @@ export interface RenderProgress {
   /** Milliseconds since this `render()` began. */
   readonly elapsedMs: number;
   /**
-   * Milliseconds until `targetSamples`, or until the `noise` target, at the present rate; `Infinity` before the first sample, or
-   * before noise was first looked at. Assumes that noise goes down as the root of the number of samples.
+   * Milliseconds until `targetSamples`, or until the `noise` target, at the present rate; `Infinity` before the first
+   * sample, or before noise was first looked at. Assumes that noise goes down as the root of the number of samples.
    */
   readonly remainingMs: number;
   /** Samples per pixel of the whole picture. */
   readonly samplesPerSecond: number;
   /** Share of the picture that is being sampled, 0..1: below 1 only with a `noise` target. */
   readonly active: number;
-  /** Noise of the whole picture when it was last looked at, in the units of `RenderOptions.noise`; only with such a target. */
+  /**
+   * Noise of the whole picture when it was last looked at, in the units of `RenderOptions.noise`; only with such a
+   * target.
+   */
   readonly noise?: number;
 }
 
@@ -203,13 +228,19 @@ export interface RenderStatistics {
   readonly checkMs: number;
   /** Time to write the kernels' text and hand it to the driver. */
   readonly textMs: number;
-  /** Time from when the hierarchies were asked for until the last was there. Where other threads build them, the text is written meanwhile. */
+  /**
+   * Time from when the hierarchies were asked for until the last was there. Where other threads build them, the text is
+   * written meanwhile.
+   */
   readonly bvhMs: number;
   /** Time to write it all to the GPU. */
   readonly uploadMs: number;
   /** Of that, what comes after the shapes: lights, surroundings and energy tables. */
   readonly lightMs: number;
-  /** Time until all pipelines were there; they compile side by side, while hierarchies are built and the scene is uploaded. */
+  /**
+   * Time until all pipelines were there; they compile side by side, while hierarchies are built and the scene is
+   * uploaded.
+   */
   readonly compileMs: number;
   /** Bytes of GPU memory held. */
   readonly gpuBytes: number;

@@ -12,7 +12,15 @@ import { memoryReport } from './gpu/memory-report';
 import { readBuffer } from './gpu/read-buffer';
 import type { Integrator } from './integrator';
 import { checkDepth, checkOptions, checkSize } from './option-checks';
-import type { FilmLayer, LightGroup, PathTracerOptions, PickResult, RenderOptions, RenderProgress, RenderStatistics } from './options';
+import type {
+  FilmLayer,
+  LightGroup,
+  PathTracerOptions,
+  PickResult,
+  RenderOptions,
+  RenderProgress,
+  RenderStatistics,
+} from './options';
 import { pickPixel } from './pick';
 import { kernelFeatures, prepareTracer, type Prepared } from './prepare';
 import { cameraUniforms } from './scene/camera';
@@ -91,7 +99,8 @@ export class PathTracer extends TracerEdits {
    *
    * @param device From `requestDevice()`, or any device; it stays the caller's to destroy.
    * @param scene Not changed; edits go through the tracer's methods.
-   * @throws {RenderError} `renderer/size`, `renderer/camera`, `renderer/no-triangles`, `renderer/filter`, `renderer/light-groups`, `renderer/option`
+   * @throws {RenderError} `renderer/size`, `renderer/camera`, `renderer/no-triangles`, `renderer/filter`,
+   * `renderer/light-groups`, `renderer/option`
    * @throws {SceneError} if the scene's parts do not fit together
    * @throws {DeviceError} `renderer/limit`, `renderer/out-of-memory`, `renderer/gpu-error`, `renderer/device-lost`
    */
@@ -137,16 +146,23 @@ export class PathTracer extends TracerEdits {
       lights: this.#gpuScene.lightCount,
       ...this.#times,
       gpuBytes: this.#memory.bytes,
-      memory: memoryReport(this.#memory, { pathsInFlight: this.#integrator.capacity, triangles, pixels: this.#session.film.pixels, texels: this.#gpuScene.texels }),
+      memory: memoryReport(this.#memory, {
+        pathsInFlight: this.#integrator.capacity,
+        triangles,
+        pixels: this.#session.film.pixels,
+        texels: this.#gpuScene.texels,
+      }),
       badSamples: this.#session.badSamples,
     };
   }
 
   /**
-   * Adds samples to the film until it has as many as asked for. Ends quietly when aborted by `signal` or when the film is
-   * restarted by an edit; the film keeps what it has. Should the GPU refuse a batch, the next `render()` begins again.
+   * Adds samples to the film until it has as many as asked for. Ends quietly when aborted by `signal` or when the film
+   * is restarted by an edit; the film keeps what it has. Should the GPU refuse a batch, the next `render()` begins
+   * again.
    *
-   * @throws {RenderError} `renderer/busy` while another `render()` of this tracer runs, `renderer/destroyed`, `renderer/samples`
+   * @throws {RenderError} `renderer/busy` while another `render()` of this tracer runs, `renderer/destroyed`,
+   * `renderer/samples`
    * @throws {DeviceError} `renderer/device-lost`, `renderer/out-of-memory`, `renderer/gpu-error`
    */
   async *render(options: RenderOptions = {}): AsyncGenerator<RenderProgress, void, undefined> {
@@ -158,9 +174,10 @@ export class PathTracer extends TracerEdits {
    * Copies a layer of the film to the CPU, top row first.
    *
    * - `beauty`: Float32Array, RGBA, stride 4: linear radiance (mean over samples) and coverage.
-   * - `variance`: Float32Array, stride 4: variance of the beauty's mean, RGB, estimated from the means of chunks of 16 samples
-   *   (`Infinity` before there are 32 samples), and the pixel's number of samples. Exact on average for independent samples;
-   *   with Sobol points it errs on the high side. It is that of the light groups as they were set when the film was begun.
+   * - `variance`: Float32Array, stride 4: variance of the beauty's mean, RGB, estimated from the means of chunks of 16
+   *   samples (`Infinity` before there are 32 samples), and the pixel's number of samples. Exact on average for
+   *   independent samples; with Sobol points it errs on the high side. It is that of the light groups as they were set
+   *   when the film was begun.
    * - `albedo`: Float32Array, RGBA: directional albedo at the first surface, coverage.
    * - `normal`: Float32Array, xyz0: mean shading normal in the world, towards the camera.
    * - `position`: Float32Array, stride 4: mean position of the first surface in the world, and coverage.
@@ -178,8 +195,8 @@ export class PathTracer extends TracerEdits {
   }
 
   /**
-   * The light groups and how they are set, in the order of the film's planes. One, `rest`, unless the scene names groups or
-   * the option `lightGroups` makes some.
+   * The light groups and how they are set, in the order of the film's planes. One, `rest`, unless the scene names
+   * groups or the option `lightGroups` makes some.
    */
   get lightGroups(): readonly LightGroup[] {
     return this.#session.groups.list;
@@ -190,29 +207,38 @@ export class PathTracer extends TracerEdits {
    *
    * @param settings What is left out stays as it is. The intensity must be finite and at least 0, as must the colour.
    * @returns When the picture shows it.
-   * @throws {RenderError} `renderer/light-groups` for an unknown group, a value out of range, or with `lightGroups: 'off'`.
+   * @throws {RenderError} `renderer/light-groups` for an unknown group, a value out of range, or with
+   * `lightGroups: 'off'`.
    */
   async setLightGroup(name: string, settings: Partial<Pick<LightGroup, 'intensity' | 'color'>>): Promise<void> {
     this.#check();
-    if (this.#options.lightGroups === 'off') throw new RenderError('renderer/light-groups', "This tracer keeps no light groups: it was made with lightGroups 'off'.");
+    if (this.#options.lightGroups === 'off')
+      throw new RenderError(
+        'renderer/light-groups',
+        "This tracer keeps no light groups: it was made with lightGroups 'off'.",
+      );
     await this.#session.setGroup(name, settings);
   }
 
   /**
-   * The part of one light group in the picture: Float32Array, RGBA, stride 4, as the group is set; all groups add up to the
-   * beauty. Alpha is the picture's coverage.
+   * The part of one light group in the picture: Float32Array, RGBA, stride 4, as the group is set; all groups add up to
+   * the beauty. Alpha is the picture's coverage.
    *
    * @throws {RenderError} `renderer/light-groups` if there is no such group.
    */
   async readLightGroup(name: string): Promise<Float32Array<ArrayBuffer>> {
     this.#check();
-    if (this.#integrator.pathsPerSample > 1) throw new RenderError('renderer/light-groups', 'With catchers the picture is no sum of its light groups: they can be set, but not read one by one.');
+    if (this.#integrator.pathsPerSample > 1)
+      throw new RenderError(
+        'renderer/light-groups',
+        'With catchers the picture is no sum of its light groups: they can be set, but not read one by one.',
+      );
     return this.#session.readGroup(name);
   }
 
   /**
-   * Copies what the film has accumulated, and where its sampling stands, to the CPU: to go on from there on another device,
-   * in another process, or after the tab was closed. Exact at any time, also while `render()` runs.
+   * Copies what the film has accumulated, and where its sampling stands, to the CPU: to go on from there on another
+   * device, in another process, or after the tab was closed. Exact at any time, also while `render()` runs.
    *
    * @throws {DeviceError} `renderer/device-lost`, `renderer/out-of-memory`
    */
@@ -222,8 +248,8 @@ export class PathTracer extends TracerEdits {
   }
 
   /**
-   * Puts a saved film in place of the tracer's. The next `render()` goes on from there; what comes out is bit for bit what
-   * it would have been without the interruption on the same kind of device. A running `render()` ends.
+   * Puts a saved film in place of the tracer's. The next `render()` goes on from there; what comes out is bit for bit
+   * what it would have been without the interruption on the same kind of device. A running `render()` ends.
    *
    * @param state Of a tracer with the same scene, camera and options. It is not changed and can be used again.
    * @returns When the film holds it.
@@ -235,14 +261,17 @@ export class PathTracer extends TracerEdits {
   }
 
   /**
-   * Rays that have been traced so far: edges of paths and rays to lights, each once, however much it passes through on its way.
-   * Goes on over restarts of the film. Reads a few bytes from the GPU; exact where that happens every four thousand million rays.
+   * Rays that have been traced so far: edges of paths and rays to lights, each once, however much it passes through on
+   * its way. Goes on over restarts of the film. Reads a few bytes from the GPU; exact where that happens every four
+   * thousand million rays.
    *
    * @throws {DeviceError} `renderer/device-lost`
    */
   async readRayCount(): Promise<number> {
     this.#check();
-    const [now] = new Uint32Array(await readBuffer(this.#device, this.#integrator.queues, 32)).subarray(7) as unknown as [number];
+    const [now] = new Uint32Array(await readBuffer(this.#device, this.#integrator.queues, 32)).subarray(
+      7,
+    ) as unknown as [number];
     // The GPU counts modulo 2^32.
     this.#rays += (now - this.#rays) >>> 0;
     return this.#rays;
@@ -255,8 +284,8 @@ export class PathTracer extends TracerEdits {
   }
 
   /**
-   * Looks through another camera: one of the scene's by index or name, or any. Restarts the film. A camera of another kind
-   * (projection, with or without a lens) brings another small kernel; the old view stays until it is there.
+   * Looks through another camera: one of the scene's by index or name, or any. Restarts the film. A camera of another
+   * kind (projection, with or without a lens) brings another small kernel; the old view stays until it is there.
    *
    * @returns When the picture shows it.
    * @throws {RenderError} `renderer/camera` if there is no such camera, or it is degenerate.
@@ -299,8 +328,8 @@ export class PathTracer extends TracerEdits {
   }
 
   /**
-   * Changes the film's size and restarts it. The old film stays, with its samples, until the GPU has memory for the new one.
-   * Of several calls that overlap the last one counts.
+   * Changes the film's size and restarts it. The old film stays, with its samples, until the GPU has memory for the new
+   * one. Of several calls that overlap the last one counts.
    *
    * @returns When the film has its new size.
    * @throws {RenderError} `renderer/size`
@@ -315,7 +344,16 @@ export class PathTracer extends TracerEdits {
   /** What lies under a pixel (whole or fractional coordinates from the upper left corner), found on the CPU. */
   pick(x: number, y: number): PickResult | undefined {
     this.#check();
-    return pickPixel(this.scene, this.#editor.geometry, this.#camera, this.width, this.height, x, y, (this.#options.backFaceCulling ?? 'off') !== 'off' ? (material) => this.#gpuScene.culls(material) : undefined);
+    return pickPixel(
+      this.scene,
+      this.#editor.geometry,
+      this.#camera,
+      this.width,
+      this.height,
+      x,
+      y,
+      (this.#options.backFaceCulling ?? 'off') !== 'off' ? (material) => this.#gpuScene.culls(material) : undefined,
+    );
   }
 
   /** Frees all GPU memory. Idempotent; a running `render()` ends. */
@@ -337,7 +375,8 @@ export class PathTracer extends TracerEdits {
 
   #restart(): void {
     const { flags } = this.#integrator.kernels.features;
-    if (Object.entries(viewFlags(this.#camera, this.#options.filter)).every(([name, value]) => flags[name] === value)) this.#shownCamera = this.#camera;
+    if (Object.entries(viewFlags(this.#camera, this.#options.filter)).every(([name, value]) => flags[name] === value))
+      this.#shownCamera = this.#camera;
     this.#session.restart();
   }
 

@@ -12,16 +12,29 @@ import { determinant3, transformPoint } from './scene/matrix';
  *
  * @param culls Whether a material's back faces are looked through; without it, none are.
  */
-export function pickPixel(scene: Scene, geometry: Geometry, camera: Camera, width: number, height: number, x: number, y: number, culls?: (material: number) => boolean): PickResult | undefined {
+export function pickPixel(
+  scene: Scene,
+  geometry: Geometry,
+  camera: Camera,
+  width: number,
+  height: number,
+  x: number,
+  y: number,
+  culls?: (material: number) => boolean,
+): PickResult | undefined {
   const view = cameraUniforms(camera, width, height);
   const sx = ((2 * x) / width - 1) * view.half_extent[0];
   const sy = (1 - (2 * y) / height) * view.half_extent[1];
-  const along = (k: number, a: number, b: number, c: number) => a * (view.camera_right[k] as number) + b * (view.camera_up[k] as number) + c * (view.camera_forward[k] as number);
+  const along = (k: number, a: number, b: number, c: number) =>
+    a * (view.camera_right[k] as number) + b * (view.camera_up[k] as number) + c * (view.camera_forward[k] as number);
   const toward = [0, 1, 2].map((k) => {
-    if (camera.type === 'panorama') return along(k, Math.sin(sx) * Math.cos(sy), Math.sin(sy), Math.cos(sx) * Math.cos(sy));
+    if (camera.type === 'panorama')
+      return along(k, Math.sin(sx) * Math.cos(sy), Math.sin(sy), Math.cos(sx) * Math.cos(sy));
     return camera.type === 'orthographic' ? (view.camera_forward[k] as number) : along(k, sx, sy, 1);
   });
-  const origin = [0, 1, 2].map((k) => (view.camera_origin[k] as number) + (camera.type === 'orthographic' ? along(k, sx, sy, 0) : 0));
+  const origin = [0, 1, 2].map(
+    (k) => (view.camera_origin[k] as number) + (camera.type === 'orthographic' ? along(k, sx, sy, 0) : 0),
+  );
   const length = Math.hypot(...toward);
   const direction = toward.map((d) => d / length);
 
@@ -39,7 +52,10 @@ export function pickPixel(scene: Scene, geometry: Geometry, camera: Camera, widt
   }) as [number, number, number];
   const position: [number, number, number] = [0, 0, 0];
   transformPoint(instance.transform, ...local, position);
-  const depth = position.reduce((sum, p, k) => sum + (p - (view.camera_origin[k] as number)) * (view.camera_forward[k] as number), 0);
+  const depth = position.reduce(
+    (sum, p, k) => sum + (p - (view.camera_origin[k] as number)) * (view.camera_forward[k] as number),
+    0,
+  );
   return { instance: index, material: instance.material, position, distance: hit.t, depth };
 }
 
@@ -56,20 +72,39 @@ function partsOf(scene: Scene, { blas }: Geometry): readonly BlasMesh[] {
 }
 
 /** The nearest triangle whose front a ray comes to, or whose material has no back that is looked through. */
-function nearestSeen(scene: Scene, geometry: Geometry, parts: readonly BlasMesh[], ray: Ray, culls: (material: number) => boolean): InstanceHit | undefined {
+function nearestSeen(
+  scene: Scene,
+  geometry: Geometry,
+  parts: readonly BlasMesh[],
+  ray: Ray,
+  culls: (material: number) => boolean,
+): InstanceHit | undefined {
   let hit: InstanceHit | undefined;
   forEachHitInstances(geometry.placement.tlas, parts, ray, (t, u, v, triangle, nth) => {
     if (hit && t >= hit.t) return;
     const instance = scene.instances[nth] as Instance;
-    if (!culls(instance.material) || isFront(instance, scene.meshes[instance.mesh] as Mesh, triangle, ray.direction)) hit = { t, u, v, triangle, instance: nth };
+    if (!culls(instance.material) || isFront(instance, scene.meshes[instance.mesh] as Mesh, triangle, ray.direction))
+      hit = { t, u, v, triangle, instance: nth };
   });
   return hit;
 }
 
-/** Whether a ray comes to the front of a triangle, which its winding tells; in a mirroring instance, the other way round. */
-function isFront({ transform }: Instance, { positions, indices }: Mesh, triangle: number, direction: ArrayLike<number>): boolean {
+/**
+ * Whether a ray comes to the front of a triangle, which its winding tells; in a mirroring instance, the other way
+ * round.
+ */
+function isFront(
+  { transform }: Instance,
+  { positions, indices }: Mesh,
+  triangle: number,
+  direction: ArrayLike<number>,
+): boolean {
   const [a, b, c] = [0, 1, 2].map((corner) => {
-    const [x, y, z] = positions.subarray(3 * (indices[3 * triangle + corner] as number)) as unknown as [number, number, number];
+    const [x, y, z] = positions.subarray(3 * (indices[3 * triangle + corner] as number)) as unknown as [
+      number,
+      number,
+      number,
+    ];
     const placed: number[] = [];
     transformPoint(transform, x, y, z, placed);
     return placed;

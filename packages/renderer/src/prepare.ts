@@ -1,4 +1,13 @@
-import { breathe, inSlices, SceneError, untilAborted, validationSteps, type Camera, type Instance, type Scene } from '@glanz/scene';
+import {
+  breathe,
+  inSlices,
+  SceneError,
+  untilAborted,
+  validationSteps,
+  type Camera,
+  type Instance,
+  type Scene,
+} from '@glanz/scene';
 import { deviceLost, RenderError } from './errors';
 import { Film } from './film/film';
 import { showFirstLight } from './first-light';
@@ -57,14 +66,26 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
   checkInteriors(own);
   await breathe();
   signal?.throwIfAborted();
-  // A quarter of what the renderer weighs, and nobody needs it before there is a scene: a chunk of its own, loaded meanwhile.
+  // A quarter of what the renderer weighs, and nobody needs it before there is a scene: a chunk of its own, loaded
+  // meanwhile.
   const loading = import('@glanz/openpbr/tables');
   loading.catch(() => {});
-  const choices: SceneChoices = { multipleScattering: options.multipleScattering ?? true, sampler: options.sampler ?? 'blue-noise', lightGroups: options.lightGroups ?? 'named', lightSampling: options.lightSampling ?? 'tree', shadowTerminator: options.shadowTerminator ?? 'smooth', backFaceCulling: options.backFaceCulling ?? 'off' };
-  const camera = await inSlices(cameraSteps(own, options.camera, options.width / options.height), { signal }).catch((cause: unknown) => {
-    // What cannot be framed cannot be rendered, and that is what was asked for.
-    throw cause instanceof SceneError && cause.code === 'scene/empty' ? new RenderError('renderer/no-triangles', 'The scene has no visible triangles: nothing to render.', { cause }) : cause;
-  });
+  const choices: SceneChoices = {
+    multipleScattering: options.multipleScattering ?? true,
+    sampler: options.sampler ?? 'blue-noise',
+    lightGroups: options.lightGroups ?? 'named',
+    lightSampling: options.lightSampling ?? 'tree',
+    shadowTerminator: options.shadowTerminator ?? 'smooth',
+    backFaceCulling: options.backFaceCulling ?? 'off',
+  };
+  const camera = await inSlices(cameraSteps(own, options.camera, options.width / options.height), { signal }).catch(
+    (cause: unknown) => {
+      // What cannot be framed cannot be rendered, and that is what was asked for.
+      throw cause instanceof SceneError && cause.code === 'scene/empty'
+        ? new RenderError('renderer/no-triangles', 'The scene has no visible triangles: nothing to render.', { cause })
+        : cause;
+    },
+  );
   cameraUniforms(camera, options.width, options.height);
   const expected = kernelFeatures(expectedFeatures(device, own, choices), camera, options);
   const checked = performance.now();
@@ -74,14 +95,15 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
     onProgress?.({ stage: 'bvh', done: 0 });
     return prepareGeometry(own, { hierarchies, signal, onProgress: (done) => onProgress?.({ stage: 'bvh', done }) });
   };
-  // Other threads begin at once, and this one does meanwhile what needs no shapes. Alone, it has the drivers begin first.
+  // Other threads begin at once, and this one does meanwhile what needs no shapes. Alone, it has the drivers begin
+  // first.
   const building = hierarchies && build();
   building?.catch(() => {});
   if (building) await breathe();
   const cache = new KernelCache(device);
   const compiling = new CompileClock();
-  // The kernels' text hangs on what the scene has, not on its shapes: the driver compiles while this thread or others build
-  // hierarchies. A guess that is wrong, or fails, has cost nothing: the right ones are asked for below.
+  // The kernels' text hangs on what the scene has, not on its shapes: the driver compiles while this thread or others
+  // build hierarchies. A guess that is wrong, or fails, has cost nothing: the right ones are asked for below.
   if (onFirstLight) cache.kernel('first', expected).catch(() => {});
   compiling.watch(cache.get(expected)).catch(() => {});
   const textMs = compiling.elapsed;
@@ -89,12 +111,24 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
   // All that lights and lit surfaces need and that does not hang on shapes: done while others build those.
   const surroundings = async () => {
     const groups = lightGroupTable(own, choices.lightGroups);
-    const lights = await inSlices(lightSteps(own, (index) => isShown(own, own.instances[index] as Instance), groups, choices.lightSampling), { signal });
+    const lights = await inSlices(
+      lightSteps(own, (index) => isShown(own, own.instances[index] as Instance), groups, choices.lightSampling),
+      { signal },
+    );
     await breathe();
-    return [await inSlices(environmentSteps(own.environment), { signal }), energyTextures((await loading).OPENPBR_TABLES), lights] as const;
+    return [
+      await inSlices(environmentSteps(own.environment), { signal }),
+      energyTextures((await loading).OPENPBR_TABLES),
+      lights,
+    ] as const;
   };
   const memory = new GpuMemory(device);
-  const makeFilm = (planes: number) => withErrorScopes(device, `an image of ${options.width} × ${options.height} pixels`, () => new Film(memory, options.width, options.height, planes));
+  const makeFilm = (planes: number) =>
+    withErrorScopes(
+      device,
+      `an image of ${options.width} × ${options.height} pixels`,
+      () => new Film(memory, options.width, options.height, planes),
+    );
   let late = false;
   let forget: (() => void) | undefined;
   try {
@@ -104,10 +138,18 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
     const t1 = performance.now();
     await breathe();
     onProgress?.({ stage: 'upload', done: 0 });
-    const gpuScene = await withErrorScopes(device, 'the shapes and textures of this scene', () => new GpuScene(device, memory, own, geometry, choices));
+    const gpuScene = await withErrorScopes(
+      device,
+      'the shapes and textures of this scene',
+      () => new GpuScene(device, memory, own, geometry, choices),
+    );
     await gpuScene.fill(signal);
     if (onFirstLight) {
-      forget = showFirstLight({ device, scene: gpuScene, geometry, camera, cache, features: expected, options }, onFirstLight, () => late || signal?.aborted === true);
+      forget = showFirstLight(
+        { device, scene: gpuScene, geometry, camera, cache, features: expected, options },
+        onFirstLight,
+        () => late || signal?.aborted === true,
+      );
       await breathe();
     }
     const shaped = performance.now();
@@ -120,7 +162,15 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
     const fits = ahead?.planes === features.planes;
     if (!fits) ahead?.destroy();
     const film = fits ? ahead : await makeFilm(features.planes);
-    const integrator = await withErrorScopes(device, 'the paths', () => new Integrator(device, memory, gpuScene, features, film, options.pathsInFlight, { maxDepth: options.maxDepth ?? 8, maxVolumeDepth: options.maxVolumeDepth ?? 256 }));
+    const integrator = await withErrorScopes(
+      device,
+      'the paths',
+      () =>
+        new Integrator(device, memory, gpuScene, features, film, options.pathsInFlight, {
+          maxDepth: options.maxDepth ?? 8,
+          maxVolumeDepth: options.maxVolumeDepth ?? 256,
+        }),
+    );
     const rehearsals: Promise<void>[] = [];
     const hear = (done: number, name?: KernelName, kernel?: Kernel) => {
       if (signal?.aborted) return;
@@ -137,8 +187,26 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
     const lost = lossInfo(device);
     if (lost) throw deviceLost(lost);
     late = true;
-    const times = { checkMs: checked - begun, textMs, bvhMs: t1 - asked, uploadMs: t2 - t1, lightMs: t2 - shaped, compileMs: compiling.milliseconds };
-    return { device, memory, editor: new SceneEditor(own, geometry, gpuScene, hierarchies), gpuScene, cache, integrator, film, camera, options, times };
+    const times = {
+      checkMs: checked - begun,
+      textMs,
+      bvhMs: t1 - asked,
+      uploadMs: t2 - t1,
+      lightMs: t2 - shaped,
+      compileMs: compiling.milliseconds,
+    };
+    return {
+      device,
+      memory,
+      editor: new SceneEditor(own, geometry, gpuScene, hierarchies),
+      gpuScene,
+      cache,
+      integrator,
+      film,
+      camera,
+      options,
+      times,
+    };
   } catch (error) {
     memory.destroy();
     throw error;

@@ -21,19 +21,23 @@ export interface RenderLoop {
 /** Submissions on their way at once: one runs, one waits, so that the GPU never does. */
 const IN_FLIGHT = 2;
 /**
- * Batches that take so many times the budget go one by one: where the GPU cannot keep to it, the pause between two of them is
- * nothing to what whoever interrupts the work would have to wait for a second one.
+ * Batches that take so many times the budget go one by one: where the GPU cannot keep to it, the pause between two of
+ * them is nothing to what whoever interrupts the work would have to wait for a second one.
  */
 const LATE = 1.25;
 
-/** Submits batches until the target is reached, measures them, and gives the number of samples after each that is complete. */
+/**
+ * Submits batches until the target is reached, measures them, and gives the number of samples after each that is
+ * complete.
+ */
 export async function* renderLoop(loop: RenderLoop): AsyncGenerator<number, void, undefined> {
   const { scheduler, target, queue, submit, room, ready, current, check } = loop;
   let reported = scheduler.samples;
   let lastDone = performance.now();
   let last = 0;
   let before: { readonly paths: number; readonly milliseconds: number } | undefined;
-  const inFlight: { batch: Batch; submitted: number; after: number; done: Promise<number>; verified: Promise<void> }[] = [];
+  const inFlight: { batch: Batch; submitted: number; after: number; done: Promise<number>; verified: Promise<void> }[] =
+    [];
   for (;;) {
     while (inFlight.length < (last > LATE * scheduler.budget ? 1 : IN_FLIGHT) && current()) {
       const wait = ready();
@@ -45,7 +49,13 @@ export async function* renderLoop(loop: RenderLoop): AsyncGenerator<number, void
       if (!batch) break;
       const submitted = performance.now();
       const verified = submit(batch);
-      inFlight.push({ batch, submitted, after: scheduler.samples, verified, done: queue.onSubmittedWorkDone().then(() => performance.now() - Math.max(submitted, lastDone)) });
+      inFlight.push({
+        batch,
+        submitted,
+        after: scheduler.samples,
+        verified,
+        done: queue.onSubmittedWorkDone().then(() => performance.now() - Math.max(submitted, lastDone)),
+      });
     }
     const oldest = inFlight.shift();
     if (!oldest) return;
@@ -54,10 +64,11 @@ export async function* renderLoop(loop: RenderLoop): AsyncGenerator<number, void
     lastDone = performance.now();
     check();
     await oldest.verified;
-    // News of the batch before may have come late, which would make this one look short and the next one far too long: of
-    // batches that follow each other, the time of two counts.
+    // News of the batch before may have come late, which would make this one look short and the next one far too long:
+    // of batches that follow each other, the time of two counts.
     const paths = oldest.batch.pixelCount * oldest.batch.sampleCount;
-    const shared = waited && before ? ((before.milliseconds + milliseconds) * paths) / (before.paths + paths) : milliseconds;
+    const shared =
+      waited && before ? ((before.milliseconds + milliseconds) * paths) / (before.paths + paths) : milliseconds;
     before = { paths, milliseconds };
     scheduler.measured(oldest.batch, shared);
     last = shared;

@@ -84,7 +84,13 @@ export class Sampling {
   /** Where the sampling stands once everything that was submitted by now is done. */
   get state(): SamplingState {
     const { samples: sample, pixel } = this.#scheduler;
-    return { counts: this.#counts.slice(), tiles: this.#under && Uint32Array.from(this.#under), sample, pixel, until: this.#until };
+    return {
+      counts: this.#counts.slice(),
+      tiles: this.#under && Uint32Array.from(this.#under),
+      sample,
+      pixel,
+      until: this.#until,
+    };
   }
 
   /** Completed samples of the pixels that have most. */
@@ -105,7 +111,12 @@ export class Sampling {
   /** Works towards a goal. */
   async *render(goal: SamplingGoal): AsyncGenerator<RenderProgress, void, undefined> {
     // Until the noise is known, so is not how long it takes.
-    const pace: Pace = { start: performance.now(), traced: 0, left: goal.noise === undefined ? undefined : Infinity, noise: undefined };
+    const pace: Pace = {
+      start: performance.now(),
+      traced: 0,
+      left: goal.noise === undefined ? undefined : Infinity,
+      noise: undefined,
+    };
     // A sample that was cut off in the middle of the picture is completed first: lists change between samples only.
     if (this.#scheduler.partial) yield* this.#run(this.#scheduler.samples + 1, goal, pace);
     // Noise is looked at after the same numbers of samples, wherever an earlier render() was cut off.
@@ -120,15 +131,27 @@ export class Sampling {
         if (!goal.current()) return;
         tiles = noisyTiles(map.tiles, this.#grid.columns, goal.noise);
         pace.noise = map.whole;
-        pace.left = samplesLeft(tiles, map.tiles, goal.noise, goal.samples, (tile) => this.#counts[tile] as number, (tile) => this.#grid.pixelsIn(tile));
+        pace.left = samplesLeft(
+          tiles,
+          map.tiles,
+          goal.noise,
+          goal.samples,
+          (tile) => this.#counts[tile] as number,
+          (tile) => this.#grid.pixelsIn(tile),
+        );
       }
       tiles = tiles.filter((tile) => (this.#counts[tile] as number) < goal.samples);
       if (tiles.length === 0) {
         if (pace.noise !== undefined) yield this.#progress(goal, pace, 0);
         return;
       }
-      const [least, next = Infinity] = [...new Set(tiles.map((tile) => this.#counts[tile] as number))].sort((a, b) => a - b) as [number, number?];
-      this.#take(tiles.filter((tile) => this.#counts[tile] === least), least);
+      const [least, next = Infinity] = [...new Set(tiles.map((tile) => this.#counts[tile] as number))].sort(
+        (a, b) => a - b,
+      ) as [number, number?];
+      this.#take(
+        tiles.filter((tile) => this.#counts[tile] === least),
+        least,
+      );
       this.#until = goal.noise === undefined ? 0 : Math.min(next, nextCheck(least));
       yield* this.#run(Math.min(goal.samples, goal.noise === undefined ? next : this.#until), goal, pace);
     }
@@ -175,7 +198,9 @@ export class Sampling {
 
   #take(tiles: readonly number[], samples: number): void {
     const all = tiles.length === this.#grid.count;
-    const same = all ? this.#under === undefined : this.#under?.length === tiles.length && this.#under.every((tile, i) => tile === tiles[i]);
+    const same = all
+      ? this.#under === undefined
+      : this.#under?.length === tiles.length && this.#under.every((tile, i) => tile === tiles[i]);
     if (same) return;
     this.#under = all ? undefined : tiles;
     const list = all ? undefined : this.#grid.pixels(tiles);
@@ -187,6 +212,10 @@ export class Sampling {
   #missing(target: number): number {
     if (!this.#under) return Math.max(0, target - this.#scheduler.samples) * this.#scheduler.pixels;
     const under = new Set(this.#under);
-    return this.#counts.reduce((sum, count, tile) => sum + Math.max(0, target - (under.has(tile) ? this.#scheduler.samples : count)) * this.#grid.pixelsIn(tile), 0);
+    return this.#counts.reduce(
+      (sum, count, tile) =>
+        sum + Math.max(0, target - (under.has(tile) ? this.#scheduler.samples : count)) * this.#grid.pixelsIn(tile),
+      0,
+    );
   }
 }

@@ -1,10 +1,27 @@
 import type { Blas } from '@glanz/bvh';
-import { createScene, validateScene, type Environment, type Instance, type Light, type Material, type Mesh, type Scene } from '@glanz/scene';
+import {
+  createScene,
+  validateScene,
+  type Environment,
+  type Instance,
+  type Light,
+  type Material,
+  type Mesh,
+  type Scene,
+} from '@glanz/scene';
 import { RenderError } from './errors';
 import type { GpuScene } from './gpu/gpu-scene';
 import { checkParameters } from './scene/check-parameters';
 import { hasSameTexels } from './scene/environment';
-import { attributeWords, layOutGeometry, packGeometry, packMesh, prepareHierarchies, type Geometry, type MeshRegion } from './scene/geometry';
+import {
+  attributeWords,
+  layOutGeometry,
+  packGeometry,
+  packMesh,
+  prepareHierarchies,
+  type Geometry,
+  type MeshRegion,
+} from './scene/geometry';
 import type { HierarchyBuilder } from './scene/hierarchies';
 import { emittedRadiance, findMaterial } from './scene/materials';
 import { parametersOf } from './scene/parameters';
@@ -37,13 +54,17 @@ export interface SceneChange {
 const LISTED_NAMES = 50;
 
 const names = (list: readonly { readonly name: string }[]) => {
-  const listed = list.slice(0, LISTED_NAMES).map(({ name }) => name).join(', ') || 'none';
+  const listed =
+    list
+      .slice(0, LISTED_NAMES)
+      .map(({ name }) => name)
+      .join(', ') || 'none';
   return list.length > LISTED_NAMES ? `${listed} and ${list.length - LISTED_NAMES} more` : listed;
 };
 
 /**
- * Edits of a scene that is on the GPU. Each method checks what it is given and prepares what takes time (hierarchies), and
- * gives the change, which is then made at once: between two changes the scene is always whole.
+ * Edits of a scene that is on the GPU. Each method checks what it is given and prepares what takes time (hierarchies),
+ * and gives the change, which is then made at once: between two changes the scene is always whole.
  */
 export class SceneEditor {
   readonly scene: Scene;
@@ -82,13 +103,23 @@ export class SceneEditor {
       material.parameters = next;
       const { placement, blas } = this.#geometry;
       // What begins or ceases to glow belongs to what is seen beside catchers, or no longer.
-      if (placement.bare && glows() !== glowed) placement.update(this.scene, blas, this.scene.instances.flatMap((instance, i) => (instance.material === index ? [i] : [])), false);
+      if (placement.bare && glows() !== glowed)
+        placement.update(
+          this.scene,
+          blas,
+          this.scene.instances.flatMap((instance, i) => (instance.material === index ? [i] : [])),
+          false,
+        );
     };
     return {
       isStale: () => material.parameters !== before,
       apply: () => {
         set({ ...before, ...parameters });
-        const emission = Object.entries(parameters).some(([name, value]) => name.startsWith('emission_') && JSON.stringify(before[name as keyof typeof before]) !== JSON.stringify(value));
+        const emission = Object.entries(parameters).some(
+          ([name, value]) =>
+            name.startsWith('emission_') &&
+            JSON.stringify(before[name as keyof typeof before]) !== JSON.stringify(value),
+        );
         return this.#gpu.updateMaterial(index, emission);
       },
       undo: () => set(before),
@@ -99,7 +130,11 @@ export class SceneEditor {
     const { lights } = this.scene;
     const index = typeof nameOrIndex === 'number' ? nameOrIndex : lights.findIndex(({ name }) => name === nameOrIndex);
     const light = lights[index];
-    if (!light) throw new RenderError('renderer/light', `The scene has no light ${JSON.stringify(nameOrIndex)}; it has: ${names(lights)}.`);
+    if (!light)
+      throw new RenderError(
+        'renderer/light',
+        `The scene has no light ${JSON.stringify(nameOrIndex)}; it has: ${names(lights)}.`,
+      );
     const next = { ...light, ...change, type: light.type } as Light;
     validateScene({ ...createScene(), lights: [next] });
     return {
@@ -113,24 +148,49 @@ export class SceneEditor {
   }
 
   setEnvironment(environment: Environment | undefined): SceneChange {
-    // Texels that are on the GPU have been validated: of an image at another rotation only the numbers beside it are, with a black texel.
-    const checked = hasSameTexels(this.#gpu.environment, environment) ? { ...environment, width: 1, height: 1, data: new Float32Array(3) } : environment;
+    // Texels that are on the GPU have been validated: of an image at another rotation only the numbers beside it are,
+    // with a black texel.
+    const checked = hasSameTexels(this.#gpu.environment, environment)
+      ? { ...environment, width: 1, height: 1, data: new Float32Array(3) }
+      : environment;
     if (checked) validateScene({ ...createScene(), environment: checked });
     return this.#changeEnvironment(environment);
   }
 
-  adjustEnvironment(change: { readonly rotation?: number; readonly intensity?: number; readonly visible?: boolean }): SceneChange {
+  adjustEnvironment(change: {
+    readonly rotation?: number;
+    readonly intensity?: number;
+    readonly visible?: boolean;
+  }): SceneChange {
     const { environment } = this.scene;
-    if (!environment) throw new RenderError('renderer/environment', 'The scene has no environment to change; set one with setEnvironment().');
+    if (!environment)
+      throw new RenderError(
+        'renderer/environment',
+        'The scene has no environment to change; set one with setEnvironment().',
+      );
     for (const name of ['rotation', 'intensity'] as const) {
       const value = change[name];
-      if (value !== undefined && !Number.isFinite(value)) throw new RenderError('renderer/environment', `The environment's ${name} must be finite, not ${String(value)}.`);
+      if (value !== undefined && !Number.isFinite(value))
+        throw new RenderError(
+          'renderer/environment',
+          `The environment's ${name} must be finite, not ${String(value)}.`,
+        );
     }
-    if (change.intensity !== undefined && change.intensity < 0) throw new RenderError('renderer/environment', `The environment's intensity must be at least 0, not ${change.intensity}.`);
-    if (environment.type === 'constant' && change.intensity !== undefined) throw new RenderError('renderer/environment', 'A constant environment has no intensity; set another radiance with setEnvironment().');
+    if (change.intensity !== undefined && change.intensity < 0)
+      throw new RenderError(
+        'renderer/environment',
+        `The environment's intensity must be at least 0, not ${change.intensity}.`,
+      );
+    if (environment.type === 'constant' && change.intensity !== undefined)
+      throw new RenderError(
+        'renderer/environment',
+        'A constant environment has no intensity; set another radiance with setEnvironment().',
+      );
     const { visible = environment.visible ?? true } = change;
     // The pixels were validated when they were set.
-    return this.#changeEnvironment(environment.type === 'latlong' ? { ...environment, ...change, visible } : { ...environment, visible });
+    return this.#changeEnvironment(
+      environment.type === 'latlong' ? { ...environment, ...change, visible } : { ...environment, visible },
+    );
   }
 
   #changeEnvironment(environment: Environment | undefined): SceneChange {
@@ -150,8 +210,13 @@ export class SceneEditor {
   }
 
   setTransform(nameOrIndex: string | number, transform: ArrayLike<number>): SceneChange | Promise<SceneChange> {
-    if (transform.length !== 16 || !Array.from(transform).every(Number.isFinite)) throw new RenderError('renderer/transform', 'A transform must be 16 finite numbers, column-major.');
-    return this.#change(this.#instances(nameOrIndex), (instance) => ({ ...instance, transform: Array.from(transform) }), true);
+    if (transform.length !== 16 || !Array.from(transform).every(Number.isFinite))
+      throw new RenderError('renderer/transform', 'A transform must be 16 finite numbers, column-major.');
+    return this.#change(
+      this.#instances(nameOrIndex),
+      (instance) => ({ ...instance, transform: Array.from(transform) }),
+      true,
+    );
   }
 
   setMaterialOf(nameOrIndex: string | number, material: string | number): SceneChange | Promise<SceneChange> {
@@ -176,9 +241,16 @@ export class SceneEditor {
   setVariant(variant: string | number | undefined): SceneChange | Promise<SceneChange> {
     const all = this.scene.variants ?? [];
     const index = typeof variant === 'string' ? all.indexOf(variant) : variant;
-    if (index !== undefined && all[index] === undefined) throw new RenderError('renderer/variant', `The scene has no variant ${JSON.stringify(variant)}; it has: ${all.join(', ') || 'none'}.`);
-    const materialOf = (instance: Instance, i: number) => (index === undefined ? undefined : instance.variants?.[index]) ?? (this.#plain[i] as number);
-    const which = [...this.scene.instances.keys()].filter((i) => materialOf(this.scene.instances[i] as Instance, i) !== this.scene.instances[i]?.material);
+    if (index !== undefined && all[index] === undefined)
+      throw new RenderError(
+        'renderer/variant',
+        `The scene has no variant ${JSON.stringify(variant)}; it has: ${all.join(', ') || 'none'}.`,
+      );
+    const materialOf = (instance: Instance, i: number) =>
+      (index === undefined ? undefined : instance.variants?.[index]) ?? (this.#plain[i] as number);
+    const which = [...this.scene.instances.keys()].filter(
+      (i) => materialOf(this.scene.instances[i] as Instance, i) !== this.scene.instances[i]?.material,
+    );
     return this.#change(which, (instance, i) => ({ ...instance, material: materialOf(instance, i) }), false);
   }
 
@@ -186,14 +258,22 @@ export class SceneEditor {
     return this.#change(this.#instances(nameOrIndex), (instance) => ({ ...instance, catcher }), false);
   }
 
-  setVisibility(nameOrIndex: string | number | readonly (string | number)[], visible: boolean): SceneChange | Promise<SceneChange> {
+  setVisibility(
+    nameOrIndex: string | number | readonly (string | number)[],
+    visible: boolean,
+  ): SceneChange | Promise<SceneChange> {
     const which = [...new Set([nameOrIndex].flat().flatMap((one) => this.#instances(one)))];
     return this.#change(which, (instance) => ({ ...instance, visible }), true);
   }
 
   async replaceMesh(nameOrIndex: string | number, mesh: Mesh): Promise<SceneChange> {
-    const index = typeof nameOrIndex === 'number' ? nameOrIndex : this.scene.meshes.findIndex(({ name }) => name === nameOrIndex);
-    if (!this.scene.meshes[index]) throw new RenderError('renderer/mesh', `The scene has no mesh ${JSON.stringify(nameOrIndex)}; it has: ${names(this.scene.meshes)}.`);
+    const index =
+      typeof nameOrIndex === 'number' ? nameOrIndex : this.scene.meshes.findIndex(({ name }) => name === nameOrIndex);
+    if (!this.scene.meshes[index])
+      throw new RenderError(
+        'renderer/mesh',
+        `The scene has no mesh ${JSON.stringify(nameOrIndex)}; it has: ${names(this.scene.meshes)}.`,
+      );
     validateScene({ ...createScene(), meshes: [mesh] });
     const changed = () => ({ ...this.scene, meshes: this.scene.meshes.map((old, i) => (i === index ? mesh : old)) });
     await this.#build(changed());
@@ -203,7 +283,12 @@ export class SceneEditor {
     const next = changed();
     const blas = this.#blas(next);
     const { placement, triangleCount, hasVertexColors } = layOutGeometry(next, blas);
-    const fits = placement.nodeCapacity <= this.#geometry.tlasNodes && tree && tree.nodeCount <= region.nodes && tree.triangleIndices.length <= region.triangles && attributeWords(mesh) <= region.words;
+    const fits =
+      placement.nodeCapacity <= this.#geometry.tlasNodes &&
+      tree &&
+      tree.nodeCount <= region.nodes &&
+      tree.triangleIndices.length <= region.triangles &&
+      attributeWords(mesh) <= region.words;
     if (!fits) return this.#reshape(changed);
     const geometry: Geometry = { ...this.#geometry, placement, blas, hasVertexColors, triangleCount };
     const old = this.#trees.get(before);
@@ -250,7 +335,11 @@ export class SceneEditor {
 
   #material(nameOrIndex: string | number): number {
     const index = findMaterial(this.scene, nameOrIndex);
-    if (index < 0) throw new RenderError('renderer/material', `The scene has no material ${JSON.stringify(nameOrIndex)}; it has: ${names(this.scene.materials)}.`);
+    if (index < 0)
+      throw new RenderError(
+        'renderer/material',
+        `The scene has no material ${JSON.stringify(nameOrIndex)}; it has: ${names(this.scene.materials)}.`,
+      );
     return index;
   }
 
@@ -268,8 +357,15 @@ export class SceneEditor {
 
   /** Indices of the instances of a name, or the one of an index. */
   #instances(nameOrIndex: string | number): readonly number[] {
-    const found = typeof nameOrIndex === 'string' ? this.#byName.get(nameOrIndex) : this.scene.instances[nameOrIndex] && [nameOrIndex];
-    if (!found) throw new RenderError('renderer/instance', `The scene has no instance ${JSON.stringify(nameOrIndex)}; it has: ${names(this.scene.instances)}.`);
+    const found =
+      typeof nameOrIndex === 'string'
+        ? this.#byName.get(nameOrIndex)
+        : this.scene.instances[nameOrIndex] && [nameOrIndex];
+    if (!found)
+      throw new RenderError(
+        'renderer/instance',
+        `The scene has no instance ${JSON.stringify(nameOrIndex)}; it has: ${names(this.scene.instances)}.`,
+      );
     return found;
   }
 
@@ -277,15 +373,26 @@ export class SceneEditor {
    * Changes some instances, at a cost that depends on how many.
    * @param moves Whether the change is one of transforms or visibility.
    */
-  #change(which: readonly number[], changed: (instance: Instance, index: number) => Instance, moves: boolean): SceneChange | Promise<SceneChange> {
+  #change(
+    which: readonly number[],
+    changed: (instance: Instance, index: number) => Instance,
+    moves: boolean,
+  ): SceneChange | Promise<SceneChange> {
     const version = this.#version;
     const geometry = this.#geometry;
     const { placement, blas } = geometry;
     const { instances } = this.scene;
-    const changes = which.map((index) => ({ index, before: instances[index] as Instance, after: changed(instances[index] as Instance, index) }));
-    // Meshes that are shown for the first time bring hierarchies, and the first catcher an upper level that has no room yet.
+    const changes = which.map((index) => ({
+      index,
+      before: instances[index] as Instance,
+      after: changed(instances[index] as Instance, index),
+    }));
+    // Meshes that are shown for the first time bring hierarchies, and the first catcher an upper level that has no room
+    // yet.
     const isMissing = moves && changes.some(({ after }) => !blas[after.mesh] && isShown(this.scene, after));
-    const lacksRoom = geometry.tlasNodes < 2 * placement.bareRoot && changes.some(({ after }) => after.catcher && after.visible !== false);
+    const lacksRoom =
+      geometry.tlasNodes < 2 * placement.bareRoot &&
+      changes.some(({ after }) => after.catcher && after.visible !== false);
     if (isMissing || lacksRoom) {
       const reshaped = () => {
         const next = [...this.scene.instances];

@@ -15,14 +15,17 @@ export interface SchedulerOptions {
   readonly budgetMs: number;
 }
 
-/** What is left, with each batch, of the memory of a dearer one: half after about ten, which is a picture cut into bands. */
+/**
+ * What is left, with each batch, of the memory of a dearer one: half after about ten, which is a picture cut into
+ * bands.
+ */
 const MEMORY = 0.93;
 /** No submission is smaller than this many paths, or launch costs would dominate. */
 const SMALLEST = 4096;
 
 /**
- * Cuts the work into submissions by measured time: grows up to fourfold while there is room in the budget, falls back to a
- * quarter when one took too long. What is computed does not depend on the cuts.
+ * Cuts the work into submissions by measured time: grows up to fourfold while there is room in the budget, falls back
+ * to a quarter when one took too long. What is computed does not depend on the cuts.
  */
 export class Scheduler {
   /** Pixels of the picture, or of the part of it that is worked on. */
@@ -123,7 +126,8 @@ export class Scheduler {
       const possible = (0.9 * budget * paths) / Math.max(milliseconds, 1e-3);
       // A band of sky is cheap, and what comes after it may be what was dear before.
       const safe = this.#dearest > 0 ? Math.max(0, 1.4 * budget - this.#fixed) / this.#dearest : Infinity;
-      if (Math.min(possible, safe) > this.#paths) this.#paths = Math.min(this.#capacity, Math.floor(Math.min(possible, safe)), 4 * this.#paths);
+      if (Math.min(possible, safe) > this.#paths)
+        this.#paths = Math.min(this.#capacity, Math.floor(Math.min(possible, safe)), 4 * this.#paths);
     } else if (!this.#tried) {
       // One larger batch tells how much of the time was not for its paths.
       this.#paths = Math.min(this.#capacity, 2 * this.#paths);

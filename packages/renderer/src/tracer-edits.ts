@@ -2,7 +2,8 @@ import type { Environment, Light, Material, Mesh } from '@glanz/scene';
 import type { SceneChange, SceneEditor } from './scene-editor';
 
 /**
- * The edits that a `PathTracer` takes while it lives. Each changes the tracer's own scene, restarts the film and costs what it touches.
+ * The edits that a `PathTracer` takes while it lives. Each changes the tracer's own scene, restarts the film and costs
+ * what it touches.
  *
  * An edit is made as a whole or not at all. Where the GPU refuses it (`renderer/out-of-memory`, `renderer/gpu-error`, a
  * shader that does not compile), the promise rejects, and scene, film and samples are what they were before; where that
@@ -18,8 +19,8 @@ export abstract class TracerEdits {
    *
    * @returns When the picture shows the change in full.
    * @param parameters Names and values as `OPENPBR_PARAMETERS` of `@glanz/openpbr` has them.
-   * @throws {RenderError} `renderer/material` if there is no such material, for unknown names, numbers that are not finite, and values
-   * out of range. Nothing is changed then.
+   * @throws {RenderError} `renderer/material` if there is no such material, for unknown names, numbers that are not
+   * finite, and values out of range. Nothing is changed then.
    */
   setMaterial(nameOrIndex: string | number, parameters: Material['parameters']): Promise<void> {
     return this.edit((editor) => editor.setMaterial(nameOrIndex, parameters));
@@ -35,9 +36,9 @@ export abstract class TracerEdits {
   }
 
   /**
-   * Replaces the environment and restarts the film. The `data` array of the present environment with another rotation, intensity or
-   * visibility is neither validated nor read again, and costs what {@link adjustEnvironment} costs. So do not change its texels in
-   * place; pass another array.
+   * Replaces the environment and restarts the film. The `data` array of the present environment with another rotation,
+   * intensity or visibility is neither validated nor read again, and costs what {@link adjustEnvironment} costs. So do
+   * not change its texels in place; pass another array.
    *
    * @throws {SceneError} for values that an environment cannot have.
    */
@@ -46,12 +47,17 @@ export abstract class TracerEdits {
   }
 
   /**
-   * Rotates the environment, changes its intensity, or hides it from the camera, at the cost of a uniform. Restarts the film.
+   * Rotates the environment, changes its intensity, or hides it from the camera, at the cost of a uniform. Restarts the
+   * film.
    *
-   * @throws {RenderError} `renderer/environment` without an environment, for numbers that are not finite, a negative intensity, and the
-   * intensity of a constant.
+   * @throws {RenderError} `renderer/environment` without an environment, for numbers that are not finite, a negative
+   * intensity, and the intensity of a constant.
    */
-  adjustEnvironment(change: { readonly rotation?: number; readonly intensity?: number; readonly visible?: boolean }): Promise<void> {
+  adjustEnvironment(change: {
+    readonly rotation?: number;
+    readonly intensity?: number;
+    readonly visible?: boolean;
+  }): Promise<void> {
     return this.edit((editor) => editor.adjustEnvironment(change));
   }
 
@@ -59,7 +65,8 @@ export abstract class TracerEdits {
    * Moves the instances of a name, or the one of an index: object to world, 16 numbers, column-major. Costs what
    * moves, however many other instances there are; light tables too, if it emits. Restarts the film.
    *
-   * @throws {RenderError} `renderer/instance`, `renderer/transform`, `renderer/no-triangles` if nothing would be left to see.
+   * @throws {RenderError} `renderer/instance`, `renderer/transform`, `renderer/no-triangles` if nothing would be left
+   * to see.
    */
   setInstanceTransform(nameOrIndex: string | number, transform: ArrayLike<number>): Promise<void> {
     return this.edit((editor) => editor.setTransform(nameOrIndex, transform));
@@ -76,8 +83,8 @@ export abstract class TracerEdits {
   }
 
   /**
-   * Makes the instances of a name, or the one of an index, catchers of shadows and reflections, or plain surfaces again; see
-   * `Instance.catcher`. The first one brings kernels that know catchers. Restarts the film.
+   * Makes the instances of a name, or the one of an index, catchers of shadows and reflections, or plain surfaces
+   * again; see `Instance.catcher`. The first one brings kernels that know catchers. Restarts the film.
    *
    * @throws {RenderError} `renderer/instance`
    */

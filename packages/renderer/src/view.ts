@@ -9,10 +9,21 @@ const RADII = { box: 0.5, gaussian: 1.5, 'blackman-harris': 1.5 } as const;
  * A pixel filter with its radius.
  * @throws {RenderError} `renderer/filter` for an unknown filter or a radius out of range.
  */
-export function resolveFilter(filter: PixelFilter = 'box'): { readonly type: keyof typeof RADII; readonly radius: number } {
+export function resolveFilter(filter: PixelFilter = 'box'): {
+  readonly type: keyof typeof RADII;
+  readonly radius: number;
+} {
   const { type, radius } = { radius: undefined, ...(typeof filter === 'string' ? { type: filter } : filter) };
-  if (!Object.hasOwn(RADII, type)) throw new RenderError('renderer/filter', `There is no pixel filter ${JSON.stringify(type)}; known: ${Object.keys(RADII).join(', ')}.`);
-  if (radius !== undefined && !(radius > 0 && radius <= 16)) throw new RenderError('renderer/filter', `A pixel filter's radius must be above 0 and at most 16 pixels, not ${radius}.`);
+  if (!Object.hasOwn(RADII, type))
+    throw new RenderError(
+      'renderer/filter',
+      `There is no pixel filter ${JSON.stringify(type)}; known: ${Object.keys(RADII).join(', ')}.`,
+    );
+  if (radius !== undefined && !(radius > 0 && radius <= 16))
+    throw new RenderError(
+      'renderer/filter',
+      `A pixel filter's radius must be above 0 and at most 16 pixels, not ${radius}.`,
+    );
   return { type, radius: radius ?? RADII[type] };
 }
 

@@ -3,7 +3,10 @@ import type { PathTracerOptions } from './options';
 import { PathTracer } from './path-tracer';
 
 /** What {@link warmUp} may be told: the options that tracers will be made with, as far as they are known. */
-export type WarmUpOptions = Omit<Partial<PathTracerOptions>, 'width' | 'height' | 'camera' | 'pathsInFlight' | 'onProgress' | 'onFirstLight'>;
+export type WarmUpOptions = Omit<
+  Partial<PathTracerOptions>,
+  'width' | 'height' | 'camera' | 'pathsInFlight' | 'onProgress' | 'onFirstLight'
+>;
 
 /** Quads on a side: enough triangles for the engine to compile the loops that go over them. */
 const LIT = 72;
@@ -17,7 +20,10 @@ function waves(quads: number, z: number): Mesh {
   const indices = new Uint32Array(6 * quads * quads);
   for (let y = 0, vertex = 0; y < side; y++) {
     for (let x = 0; x < side; x++, vertex++) {
-      positions.set([(2 * x) / quads - 1, (2 * y) / quads - 1, z + 0.1 * Math.sin(0.7 * x) * Math.cos(0.9 * y)], 3 * vertex);
+      positions.set(
+        [(2 * x) / quads - 1, (2 * y) / quads - 1, z + 0.1 * Math.sin(0.7 * x) * Math.cos(0.9 * y)],
+        3 * vertex,
+      );
       normals[3 * vertex + 2] = 1;
     }
   }
@@ -50,16 +56,19 @@ function smallScene(): Scene {
 }
 
 /**
- * Does what the first scene on a page or in a process pays for and no later one does, while there is nothing to render yet:
- * a model is loading, say. Prepares a small scene of its own and adds a sample to it, so that the JavaScript engine has
- * compiled what goes over vertices and lights, and the device the kernels that most scenes share. What it makes it frees again.
+ * Does what the first scene on a page or in a process pays for and no later one does, while there is nothing to render
+ * yet: a model is loading, say. Prepares a small scene of its own and adds a sample to it, so that the JavaScript
+ * engine has compiled what goes over vertices and lights, and the device the kernels that most scenes share. What it
+ * makes it frees again.
  *
- * It takes as much of the thread as it saves, in slices of a few milliseconds; with `hierarchies` it warms up the way through
- * the workers. Not worth it on a GPU that the CPU imitates, where the kernels take the time of what they prepare.
+ * It takes as much of the thread as it saves, in slices of a few milliseconds; with `hierarchies` it warms up the way
+ * through the workers. Not worth it on a GPU that the CPU imitates, where the kernels take the time of what they
+ * prepare.
  *
  * @param device The one that tracers will be made on.
  * @param options `signal` ends it where it stands: give it up when the model is there.
- * @returns When it is done or has been given up. Never rejects: what is wrong with the device, `PathTracer.create` says.
+ * @returns When it is done or has been given up. Never rejects: what is wrong with the device, `PathTracer.create`
+ * says.
  * @example
  * const device = await requestDevice();
  * const warm = warmUp(device, { hierarchies });
@@ -68,14 +77,21 @@ function smallScene(): Scene {
  * const tracer = await PathTracer.create(device, scene, { width, height, hierarchies });
  */
 export async function warmUp(device: GPUDevice, options: WarmUpOptions = {}): Promise<void> {
-  // Engines compile what goes over typed arrays for as long as no buffer has been detached, and throw it all away when the first
-  // one is, as those are that go to workers or come from the GPU. Thus one is now.
+  // Engines compile what goes over typed arrays for as long as no buffer has been detached, and throw it all away when
+  // the first one is, as those are that go to workers or come from the GPU. Thus one is now.
   const gone = new ArrayBuffer(8);
   structuredClone(gone, { transfer: [gone] });
   try {
-    const tracer = await PathTracer.create(device, smallScene(), { ...options, width: 8, height: 8, pathsInFlight: 64, onFirstLight: () => {} });
+    const tracer = await PathTracer.create(device, smallScene(), {
+      ...options,
+      width: 8,
+      height: 8,
+      pathsInFlight: 64,
+      onFirstLight: () => {},
+    });
     try {
-      for await (const progress of tracer.render({ samples: 1, ...(options.signal ? { signal: options.signal } : {}) })) void progress;
+      for await (const progress of tracer.render({ samples: 1, ...(options.signal ? { signal: options.signal } : {}) }))
+        void progress;
     } finally {
       tracer.destroy();
     }

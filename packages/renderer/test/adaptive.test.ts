@@ -4,7 +4,7 @@ import { nextCheck, noiseMap, noisyTiles, samplesLeft, TileGrid } from '../src/a
 describe('nextCheck', () => {
   it('looks four times an octave at most, at whole chunks of 16 samples', () => {
     const checks: number[] = [];
-    for (let samples = 0; checks.length < 8; ) checks.push((samples = nextCheck(samples)));
+    for (let samples = 0; checks.length < 8;) checks.push((samples = nextCheck(samples)));
     expect(checks).toEqual([64, 96, 128, 192, 256, 384, 512, 768]);
     for (let samples = 0; samples < 5000; samples++) {
       const check = nextCheck(samples);
@@ -39,7 +39,15 @@ describe('noisyTiles', () => {
 
 describe('samplesLeft', () => {
   it('a tile twice as noisy as wanted needs four times the samples, rounded up to the next look', () => {
-    const left = (error: number, most = 1e6) => samplesLeft([0], Float64Array.of(error), 0.01, most, () => 64, () => 10);
+    const left = (error: number, most = 1e6) =>
+      samplesLeft(
+        [0],
+        Float64Array.of(error),
+        0.01,
+        most,
+        () => 64,
+        () => 10,
+      );
     expect(left(0.02)).toBe((256 - 64) * 10);
     expect(left(0.03)).toBe((768 - 64) * 10);
     expect(left(0.03, 500)).toBe((500 - 64) * 10);
@@ -49,7 +57,12 @@ describe('samplesLeft', () => {
 });
 
 describe('TileGrid', () => {
-  it.each([[1, 1], [8, 8], [9, 7], [33, 20]])('%i × %i: every pixel is in one tile', (width, height) => {
+  it.each([
+    [1, 1],
+    [8, 8],
+    [9, 7],
+    [33, 20],
+  ])('%i × %i: every pixel is in one tile', (width, height) => {
     const grid = new TileGrid(width, height);
     const tiles = Array.from({ length: grid.count }, (_, i) => i);
     const pixels = grid.pixels(tiles);
@@ -57,7 +70,8 @@ describe('TileGrid', () => {
     for (const tile of tiles) {
       const own = grid.pixels([tile]);
       expect(own.length).toBe(grid.pixelsIn(tile));
-      for (const pixel of own) expect(Math.floor((pixel % width) / 8) + grid.columns * Math.floor(Math.floor(pixel / width) / 8)).toBe(tile);
+      for (const pixel of own)
+        expect(Math.floor((pixel % width) / 8) + grid.columns * Math.floor(Math.floor(pixel / width) / 8)).toBe(tile);
     }
   });
 });

@@ -2,7 +2,13 @@ import { describe, expect, it } from 'vitest';
 import { Scheduler, type Batch } from '../src/scheduler';
 
 /** Runs a scheduler against a pretended GPU and checks that every pixel gets every sample once, in order. */
-function simulate(pixels: number, capacity: number, budgetMs: number, samples: number, cost: (paths: number, turn: number) => number): { batches: Batch[]; times: number[] } {
+function simulate(
+  pixels: number,
+  capacity: number,
+  budgetMs: number,
+  samples: number,
+  cost: (paths: number, turn: number) => number,
+): { batches: Batch[]; times: number[] } {
   const scheduler = new Scheduler({ pixels, capacity, budgetMs });
   const counts = new Uint32Array(pixels);
   const batches: Batch[] = [];
@@ -12,7 +18,8 @@ function simulate(pixels: number, capacity: number, budgetMs: number, samples: n
     if (!batch) break;
     expect(batch.pixelCount * batch.sampleCount).toBeLessThanOrEqual(capacity);
     for (let p = batch.pixelOffset; p < batch.pixelOffset + batch.pixelCount; p++) {
-      if (counts[p] !== batch.sampleOffset) throw new Error(`pixel ${p} has ${counts[p]} samples, the batch starts at ${batch.sampleOffset}`);
+      if (counts[p] !== batch.sampleOffset)
+        throw new Error(`pixel ${p} has ${counts[p]} samples, the batch starts at ${batch.sampleOffset}`);
       counts[p] = (counts[p] as number) + batch.sampleCount;
     }
     const time = cost(batch.pixelCount * batch.sampleCount, turn);

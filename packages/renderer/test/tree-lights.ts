@@ -23,7 +23,13 @@ export function randomUnit(next: () => number): [number, number, number] {
 /** Lights of all kinds in a cube of edge 2 around the origin: flat, cones, all around. */
 export function randomLights(count: number, seed: number): TreeLights {
   const next = random(seed);
-  const lights: TreeLights = { bounds: new Float64Array(6 * count), axes: new Float64Array(3 * count), spreads: new Float64Array(count), reaches: new Float64Array(count), energies: new Float64Array(count) };
+  const lights: TreeLights = {
+    bounds: new Float64Array(6 * count),
+    axes: new Float64Array(3 * count),
+    spreads: new Float64Array(count),
+    reaches: new Float64Array(count),
+    energies: new Float64Array(count),
+  };
   for (let i = 0; i < count; i++) {
     lights.axes.set(randomUnit(next), 3 * i);
     for (let k = 0; k < 3; k++) {

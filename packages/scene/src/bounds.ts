@@ -2,7 +2,14 @@ import { extentSteps, type FoundVertices } from './extents';
 import type { Scene } from './scene';
 import { finish, type Steps } from './slices';
 
-const AXES = [[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, 0, 0], [0, -1, 0], [0, 0, -1]] as const;
+const AXES = [
+  [1, 0, 0],
+  [0, 1, 0],
+  [0, 0, 1],
+  [-1, 0, 0],
+  [0, -1, 0],
+  [0, 0, -1],
+] as const;
 
 /** An axis-aligned box in the world, metres. Empty: min is +∞ and max −∞. */
 export interface SceneBounds {
@@ -11,16 +18,16 @@ export interface SceneBounds {
 }
 
 /**
- * The box around all visible triangles, exact to their vertices under their transforms. Vertices that no triangle uses do
- * not count, nor do lights and cameras.
+ * The box around all visible triangles, exact to their vertices under their transforms. Vertices that no triangle uses
+ * do not count, nor do lights and cameras.
  */
 export function sceneBounds(scene: Scene): SceneBounds {
   return finish(sceneBoundsSteps(scene));
 }
 
 /**
- * The same as {@link sceneBounds} in steps of a millisecond or so, for `inSlices`. The scene must stay as it is until the
- * last step.
+ * The same as {@link sceneBounds} in steps of a millisecond or so, for `inSlices`. The scene must stay as it is until
+ * the last step.
  */
 export function* sceneBoundsSteps(scene: Scene): Generator<void, SceneBounds> {
   return yield* boundsBy(scene, new Map());
@@ -28,6 +35,13 @@ export function* sceneBoundsSteps(scene: Scene): Generator<void, SceneBounds> {
 
 /** {@link sceneBoundsSteps}, with a memory for the vertices in use. */
 export function* boundsBy(scene: Scene, found: FoundVertices): Steps<SceneBounds> {
-  const [x1, y1, z1, x0, y0, z0] = (yield* extentSteps(scene, AXES, [0, 0, 0], found)) as unknown as [number, number, number, number, number, number];
+  const [x1, y1, z1, x0, y0, z0] = (yield* extentSteps(scene, AXES, [0, 0, 0], found)) as unknown as [
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+  ];
   return { min: [0 - x0, 0 - y0, 0 - z0], max: [x1, y1, z1] };
 }

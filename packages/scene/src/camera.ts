@@ -12,7 +12,9 @@ export interface PerspectiveCamera {
   lens_radius?: number;
   /** Sides of the aperture, a regular polygon with its corners on the lens's edge; below 3 (default 0) it is round. */
   lens_blades?: number;
-  /** Turns the aperture's polygon, radians, counter-clockwise as the camera sees it; at 0 a corner points to the right. */
+  /**
+   * Turns the aperture's polygon, radians, counter-clockwise as the camera sees it; at 0 a corner points to the right.
+   */
   lens_rotation?: number;
   /** Distance of the plane in focus along the axis, metres, above 0; default 1. Only matters with a lens. */
   focus_distance?: number;
@@ -31,8 +33,8 @@ export interface OrthographicCamera {
 
 /**
  * The whole sphere around a point as a latitude-longitude picture, which wants to be twice as wide as high: −Z in the
- * middle, +Y at the top, azimuth growing to the right. Turned so that its −Z lies along the world's +X, it gives pictures
- * that serve as a `LatLongEnvironment` without rotation.
+ * middle, +Y at the top, azimuth growing to the right. Turned so that its −Z lies along the world's +X, it gives
+ * pictures that serve as a `LatLongEnvironment` without rotation.
  */
 export interface PanoramaCamera {
   type: 'panorama';

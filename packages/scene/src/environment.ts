@@ -22,7 +22,10 @@ export interface LatLongEnvironment {
   data: Float32Array<ArrayBuffer>;
   /** Multiplies the radiance; default 1. */
   intensity?: number;
-  /** Turns the surroundings about +Y, radians, counter-clockwise seen from above: L(d) = picture(R_y(−rotation) d). Default 0. */
+  /**
+   * Turns the surroundings about +Y, radians, counter-clockwise seen from above: L(d) = picture(R_y(−rotation) d).
+   * Default 0.
+   */
   rotation?: number;
   visible?: boolean;
   /** Light group that its light is kept in. */

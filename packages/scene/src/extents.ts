@@ -14,12 +14,17 @@ const STEP_RUNS = STEP / RUN;
 const STEP_INSTANCES = STEP / 16;
 
 /**
- * How far the visible triangles' vertices reach in the world, in each of several directions: the largest dot product of a
- * direction and what leads from `center` to a vertex; −∞ without vertices. Exact, in doubles: vertices are left out only
- * where the box around them shows that they do not reach as far as another, so that of many instances only those at the
- * border of the scene are measured vertex by vertex.
+ * How far the visible triangles' vertices reach in the world, in each of several directions: the largest dot product of
+ * a direction and what leads from `center` to a vertex; −∞ without vertices. Exact, in doubles: vertices are left out
+ * only where the box around them shows that they do not reach as far as another, so that of many instances only those
+ * at the border of the scene are measured vertex by vertex.
  */
-export function* extentSteps({ instances, meshes }: Scene, directions: readonly Vector[], center: Vector, found: FoundVertices): Steps<Float64Array> {
+export function* extentSteps(
+  { instances, meshes }: Scene,
+  directions: readonly Vector[],
+  center: Vector,
+  found: FoundVertices,
+): Steps<Float64Array> {
   const extents = new Float64Array(directions.length).fill(-Infinity);
   const row = new Float64Array(4);
   const visible = function* () {
@@ -55,7 +60,14 @@ export function* extentSteps({ instances, meshes }: Scene, directions: readonly 
       setRow(row, directions[i] as Vector, transform, center);
       if (farthest(row, vertices.boxes, 6 * runs) <= (extents[i] as number)) continue;
       for (let from = 0; from < runs; from += STEP_RUNS) {
-        extents[i] = reachOfRuns(extents[i] as number, row, mesh.positions, vertices, from, Math.min(runs, from + STEP_RUNS));
+        extents[i] = reachOfRuns(
+          extents[i] as number,
+          row,
+          mesh.positions,
+          vertices,
+          from,
+          Math.min(runs, from + STEP_RUNS),
+        );
         if (from > 0) yield;
       }
     }
@@ -65,17 +77,35 @@ export function* extentSteps({ instances, meshes }: Scene, directions: readonly 
 
 /** The function of a vertex in object space that says how far it reaches: three factors and a constant. */
 function setRow(row: Float64Array, [x, y, z]: Vector, m: ArrayLike<number>, center: Vector): void {
-  for (let k = 0; k < 3; k++) row[k] = x * (m[4 * k] as number) + y * (m[4 * k + 1] as number) + z * (m[4 * k + 2] as number);
-  row[3] = x * ((m[12] as number) - center[0]) + y * ((m[13] as number) - center[1]) + z * ((m[14] as number) - center[2]);
+  for (let k = 0; k < 3; k++)
+    row[k] = x * (m[4 * k] as number) + y * (m[4 * k + 1] as number) + z * (m[4 * k + 2] as number);
+  row[3] =
+    x * ((m[12] as number) - center[0]) + y * ((m[13] as number) - center[1]) + z * ((m[14] as number) - center[2]);
 }
 
-/** As far as a vertex within a box may reach. Rounds as {@link reach} does, and thus never below a vertex in the box. */
+/**
+ * As far as a vertex within a box may reach. Rounds as {@link reach} does, and thus never below a vertex in the box.
+ */
 function farthest(row: Float64Array, boxes: Float32Array, at: number): number {
-  const a = row[0] as number, b = row[1] as number, c = row[2] as number;
-  return a * (boxes[at + (a > 0 ? 3 : 0)] as number) + b * (boxes[at + (b > 0 ? 4 : 1)] as number) + c * (boxes[at + (c > 0 ? 5 : 2)] as number) + (row[3] as number);
+  const a = row[0] as number,
+    b = row[1] as number,
+    c = row[2] as number;
+  return (
+    a * (boxes[at + (a > 0 ? 3 : 0)] as number) +
+    b * (boxes[at + (b > 0 ? 4 : 1)] as number) +
+    c * (boxes[at + (c > 0 ? 5 : 2)] as number) +
+    (row[3] as number)
+  );
 }
 
-function reachOfRuns(extent: number, row: Float64Array, positions: Float32Array, vertices: UsedVertices, from: number, to: number): number {
+function reachOfRuns(
+  extent: number,
+  row: Float64Array,
+  positions: Float32Array,
+  vertices: UsedVertices,
+  from: number,
+  to: number,
+): number {
   for (let run = from; run < to; run++) {
     if (farthest(row, vertices.boxes, 6 * run) <= extent) continue;
     extent = reach(extent, row, positions, vertices, run * RUN, Math.min(vertices.used.length, (run + 1) * RUN));
@@ -83,11 +113,22 @@ function reachOfRuns(extent: number, row: Float64Array, positions: Float32Array,
   return extent;
 }
 
-function reach(extent: number, row: Float64Array, positions: Float32Array, { used }: UsedVertices, from: number, to: number): number {
-  const a = row[0] as number, b = row[1] as number, c = row[2] as number, d = row[3] as number;
+function reach(
+  extent: number,
+  row: Float64Array,
+  positions: Float32Array,
+  { used }: UsedVertices,
+  from: number,
+  to: number,
+): number {
+  const a = row[0] as number,
+    b = row[1] as number,
+    c = row[2] as number,
+    d = row[3] as number;
   for (let i = from, v = 3 * from; i < to; i++, v += 3) {
     if (used[i] === 0) continue;
-    const value = a * (positions[v] as number) + b * (positions[v + 1] as number) + c * (positions[v + 2] as number) + d;
+    const value =
+      a * (positions[v] as number) + b * (positions[v + 1] as number) + c * (positions[v + 2] as number) + d;
     if (value > extent) extent = value;
   }
   return extent;

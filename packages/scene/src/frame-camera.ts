@@ -11,25 +11,32 @@ export interface FrameCameraOptions {
   readonly aspect: number;
   /** Vertical field of view, radians, in (0, π). Default 35°. */
   readonly yfov?: number;
-  /** From the scene towards the camera, any length; not straight up or down. Default front-right-above: (0.6, 0.45, 1). */
+  /**
+   * From the scene towards the camera, any length; not straight up or down. Default front-right-above: (0.6, 0.45, 1).
+   */
   readonly direction?: readonly [number, number, number];
   /** Part of the picture's half width and height left free around the scene, in [0, 1). Default 0.06. */
   readonly margin?: number;
 }
 
 type Vector = readonly [number, number, number];
-const cross = (a: Vector, b: Vector): Vector => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const cross = (a: Vector, b: Vector): Vector => [
+  a[1] * b[2] - a[2] * b[1],
+  a[2] * b[0] - a[0] * b[2],
+  a[0] * b[1] - a[1] * b[0],
+];
 
 function normalized(v: Vector, what: string): Vector {
   const length = Math.hypot(...v);
-  if (!(length > 1e-12) || !Number.isFinite(length)) throw new SceneError('scene/value', `${what} is [${v.join(', ')}], which gives no direction.`);
+  if (!(length > 1e-12) || !Number.isFinite(length))
+    throw new SceneError('scene/value', `${what} is [${v.join(', ')}], which gives no direction.`);
   return [v[0] / length, v[1] / length, v[2] / length];
 }
 
 /**
  * A camera that sees the whole scene: of all that look the given way, the nearest one with every visible vertex inside
- * the frame less its margin. The subject fills the picture's width or its height, and is near the middle the other way. The
- * plane in focus is half-way through the scene.
+ * the frame less its margin. The subject fills the picture's width or its height, and is near the middle the other way.
+ * The plane in focus is half-way through the scene.
  *
  * @throws {SceneError} `scene/empty` if the scene has no visible triangles, `scene/value` for options out of range.
  */
@@ -38,38 +45,73 @@ export function frameCamera(scene: Scene, options: FrameCameraOptions): Perspect
 }
 
 /**
- * The same as {@link frameCamera} in steps of a millisecond or so, for `inSlices`. The scene must stay as it is until the
- * last step.
+ * The same as {@link frameCamera} in steps of a millisecond or so, for `inSlices`. The scene must stay as it is until
+ * the last step.
  *
  * @throws {SceneError} as {@link frameCamera}, at the first step or a later one.
  */
-export function* frameCameraSteps(scene: Scene, { aspect, yfov = (35 * Math.PI) / 180, direction = [0.6, 0.45, 1], margin = 0.06 }: FrameCameraOptions): Generator<void, PerspectiveCamera> {
-  if (!(aspect > 0 && aspect < Infinity)) throw new SceneError('scene/value', `aspect is ${aspect}; it must be a positive number.`);
-  if (!(yfov > 0 && yfov < Math.PI)) throw new SceneError('scene/value', `yfov is ${yfov}; it must lie between 0 and π.`);
-  if (!(margin >= 0 && margin < 1)) throw new SceneError('scene/value', `margin is ${margin}; it must be at least 0 and less than 1.`);
+export function* frameCameraSteps(
+  scene: Scene,
+  { aspect, yfov = (35 * Math.PI) / 180, direction = [0.6, 0.45, 1], margin = 0.06 }: FrameCameraOptions,
+): Generator<void, PerspectiveCamera> {
+  if (!(aspect > 0 && aspect < Infinity))
+    throw new SceneError('scene/value', `aspect is ${aspect}; it must be a positive number.`);
+  if (!(yfov > 0 && yfov < Math.PI))
+    throw new SceneError('scene/value', `yfov is ${yfov}; it must lie between 0 and π.`);
+  if (!(margin >= 0 && margin < 1))
+    throw new SceneError('scene/value', `margin is ${margin}; it must be at least 0 and less than 1.`);
   const found: FoundVertices = new Map();
   const { min, max } = yield* boundsBy(scene, found);
-  if (!(min[0] <= max[0])) throw new SceneError('scene/empty', 'The scene has no visible triangles: there is nothing to frame.');
+  if (!(min[0] <= max[0]))
+    throw new SceneError('scene/empty', 'The scene has no visible triangles: there is nothing to frame.');
   const center: Vector = [(min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2];
   const back = normalized(direction, 'direction');
   const right = normalized(cross([0, 1, 0], back), 'direction, seen from above,');
   const up = cross(back, right);
   const ty = Math.tan(yfov / 2) * (1 - margin);
   const tx = ty * aspect;
-  // How far the planes at the right and left edge must lie outside, at the top and the bottom; and the nearest and farthest
-  // depth. Relative to the box's centre, so that a small part far from the origin keeps its digits.
-  const tilted = (side: Vector, by: number, t: number): Vector => [by * side[0] + t * back[0], by * side[1] + t * back[1], by * side[2] + t * back[2]];
-  const directions = [tilted(right, 1, tx), tilted(right, -1, tx), tilted(up, 1, ty), tilted(up, -1, ty), back, tilted(back, -1, 0)];
+  // How far the planes at the right and left edge must lie outside, at the top and the bottom; and the nearest and
+  // farthest depth. Relative to the box's centre, so that a small part far from the origin keeps its digits.
+  const tilted = (side: Vector, by: number, t: number): Vector => [
+    by * side[0] + t * back[0],
+    by * side[1] + t * back[1],
+    by * side[2] + t * back[2],
+  ];
+  const directions = [
+    tilted(right, 1, tx),
+    tilted(right, -1, tx),
+    tilted(up, 1, ty),
+    tilted(up, -1, ty),
+    back,
+    tilted(back, -1, 0),
+  ];
   const reached = yield* extentSteps(scene, directions, center, found);
-  const [toRight, toLeft, toTop, toBottom, near, away] = reached as unknown as [number, number, number, number, number, number];
+  const [toRight, toLeft, toTop, toBottom, near, away] = reached as unknown as [
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+  ];
   const far = -away;
-  // A camera at (x, y, d) in the frame sees a vertex (r, u, b) if |r − x| ≤ tx (d − b), and so for u: the edges' planes.
+  // A camera at (x, y, d) in the frame sees a vertex (r, u, b) if |r − x| ≤ tx (d − b), and so for u: the edges'
+  // planes.
   const x = (toRight - toLeft) / 2;
   const y = (toTop - toBottom) / 2;
   let d = Math.max((toRight + toLeft) / (2 * tx), (toTop + toBottom) / (2 * ty));
-  // A line seen along its length, a point, and a cone whose tip would touch the camera have no size to go by: they are seen from
-  // as far as they are deep, or from a metre away.
+  // A line seen along its length, a point, and a cone whose tip would touch the camera have no size to go by: they are
+  // seen from as far as they are deep, or from a metre away.
   if (!(d - near > 1e-6 * (near - far))) d = near + (near - far || 1);
-  const eye = [0, 1, 2].map((k) => (center[k] as number) + (right[k] as number) * x + (up[k] as number) * y + (back[k] as number) * d);
-  return { type: 'perspective', name: 'framed', transform: [...right, 0, ...up, 0, ...back, 0, ...eye, 1], yfov, aspect, focus_distance: d - (near + far) / 2 };
+  const eye = [0, 1, 2].map(
+    (k) => (center[k] as number) + (right[k] as number) * x + (up[k] as number) * y + (back[k] as number) * d,
+  );
+  return {
+    type: 'perspective',
+    name: 'framed',
+    transform: [...right, 0, ...up, 0, ...back, 0, ...eye, 1],
+    yfov,
+    aspect,
+    focus_distance: d - (near + far) / 2,
+  };
 }

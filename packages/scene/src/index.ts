@@ -2,8 +2,25 @@ export { GlanzError, type ErrorLocation, type GlanzErrorOptions } from '@glanz/w
 export { createScene, type Instance, type Scene, type SceneAnimation, type SceneWarning } from './scene';
 export type { Mesh } from './mesh';
 export type { Material, TextureBinding, TextureChannels, TexturedParameter } from './material';
-export { compressedBytes, type CompressedFormat, type CompressedImage, type Image, type Texture, type WrapMode } from './texture';
-export type { DirectionalLight, DiskLight, Light, LightProfile, PointLight, ProfileLight, RectangleLight, SphereLight, SpotLight } from './light';
+export {
+  compressedBytes,
+  type CompressedFormat,
+  type CompressedImage,
+  type Image,
+  type Texture,
+  type WrapMode,
+} from './texture';
+export type {
+  DirectionalLight,
+  DiskLight,
+  Light,
+  LightProfile,
+  PointLight,
+  ProfileLight,
+  RectangleLight,
+  SphereLight,
+  SpotLight,
+} from './light';
 export type { Camera, OrthographicCamera, PanoramaCamera, PerspectiveCamera } from './camera';
 export type { ConstantEnvironment, Environment, LatLongEnvironment } from './environment';
 export { sceneBounds, sceneBoundsSteps, type SceneBounds } from './bounds';

@@ -31,8 +31,8 @@ export interface SpotLight extends NamedLight {
 }
 
 /**
- * How much a lamp was measured to shine which way: the luminous intensities of a photometric file (IES LM-63, type C), taken
- * 1:1 as W/sr as glTF's candela are. Between the angles it is linear, beyond the last vertical one it is dark.
+ * How much a lamp was measured to shine which way: the luminous intensities of a photometric file (IES LM-63, type C),
+ * taken 1:1 as W/sr as glTF's candela are. Between the angles it is linear, beyond the last vertical one it is dark.
  */
 export interface LightProfile {
   /** Angles from the lamp's axis, radians, rising, 0 to π at most; two at least. */
@@ -53,8 +53,9 @@ export interface ProfileLight extends NamedLight {
   /** Unit vector of the lamp's axis, the way that its vertical angle 0 points: down for a ceiling lamp. */
   direction: readonly [number, number, number];
   /**
-   * Where its horizontal angle 0 lies; what of it runs along the direction does not count. They go round counter-clockwise as
-   * seen against the direction's way, that is, by tangent × direction. Default: level, that is, across +Y.
+   * Where its horizontal angle 0 lies; what of it runs along the direction does not count. They go round
+   * counter-clockwise as seen against the direction's way, that is, by tangent × direction. Default: level, that is,
+   * across +Y.
    */
   tangent?: readonly [number, number, number];
   profile: LightProfile;
@@ -69,7 +70,10 @@ export interface DirectionalLight extends NamedLight {
   direction: readonly [number, number, number];
 }
 
-/** What the lights with a size have in common. They block no light and reflect none: what lies behind them is seen through them. */
+/**
+ * What the lights with a size have in common. They block no light and reflect none: what lies behind them is seen
+ * through them.
+ */
 interface AreaLight extends NamedLight {
   /** Radiance, W/(sr·m²), the same in all directions it shines into. */
   intensity: number;
@@ -84,7 +88,9 @@ export interface RectangleLight extends AreaLight {
   type: 'rectangle';
   /** Unit vector out of the side that shines. */
   direction: readonly [number, number, number];
-  /** Which way its width lies; what of it runs along the direction does not count. Default: level, that is, across +Y. */
+  /**
+   * Which way its width lies; what of it runs along the direction does not count. Default: level, that is, across +Y.
+   */
   tangent?: readonly [number, number, number];
   /** Metres. */
   width: number;

@@ -13,9 +13,14 @@ export interface TextureBinding {
   channels: TextureChannels;
   /** Which of the mesh's UV sets; default 0. */
   uv?: number;
-  /** Affine map of uv before look-up, `[a, b, c, d, x, y]`: u' = a·u + c·v + x, v' = b·u + d·v + y. Default identity. */
+  /**
+   * Affine map of uv before look-up, `[a, b, c, d, x, y]`: u' = a·u + c·v + x, v' = b·u + d·v + y. Default identity.
+   */
   transform?: readonly [number, number, number, number, number, number];
-  /** For `geometry_normal` and `geometry_coat_normal`: scales the tangent-plane components before normalising; default 1. */
+  /**
+   * For `geometry_normal` and `geometry_coat_normal`: scales the tangent-plane components before normalising; default
+   * 1.
+   */
   scale?: number;
   /**
    * What the texel values 0 and 1 stand for, before they multiply the parameter; default `[0, 1]`. Not for normals and
@@ -27,9 +32,9 @@ export interface TextureBinding {
 /**
  * An OpenPBR surface. A parameter's value is `parameters[name] × texel` where a texture is bound (the texel decoded to
  * linear by the texture's colour space), and `parameters[name]` alone elsewhere. `geometry_normal` textures hold
- * tangent-space normals as 0..1, `geometry_tangent` textures a direction in the tangent plane (red along the tangent, green
- * along the bitangent) as 0..1, which the parameter's own direction then turns further. Missing parameters have the spec's
- * defaults.
+ * tangent-space normals as 0..1, `geometry_tangent` textures a direction in the tangent plane (red along the tangent,
+ * green along the bitangent) as 0..1, which the parameter's own direction then turns further. Missing parameters have
+ * the spec's defaults.
  */
 export interface Material {
   name: string;
@@ -38,17 +43,19 @@ export interface Material {
   textures?: Partial<Record<TexturedParameter, TextureBinding>>;
   /**
    * Whether the back side emits as the front does (glTF `doubleSided`). Default false: emission leaves from the front
-   * (counter-clockwise) side only. Reflection is two-sided all the same; whether the camera sees the back of a material that is
-   * not double-sided is the renderer's option `backFaceCulling`.
+   * (counter-clockwise) side only. Reflection is two-sided all the same; whether the camera sees the back of a material
+   * that is not double-sided is the renderer's option `backFaceCulling`.
    */
   double_sided?: boolean;
-  /** Opacity below this counts as 0 and from it on as 1 (glTF alphaMode MASK). Absent: `geometry_opacity` is a coverage. */
+  /**
+   * Opacity below this counts as 0 and from it on as 1 (glTF alphaMode MASK). Absent: `geometry_opacity` is a coverage.
+   */
   opacity_threshold?: number;
   /** Light group that what the material emits is kept in. */
   light_group?: string;
   /**
-   * Which of overlapping interiors is there: that of the highest number, a whole one of 0..255; default 0, and of equal ones
-   * the one that a ray entered last. A liquid's body may so reach into the glass around it (glass 1, liquid 0).
+   * Which of overlapping interiors is there: that of the highest number, a whole one of 0..255; default 0, and of equal
+   * ones the one that a ray entered last. A liquid's body may so reach into the glass around it (glass 1, liquid 0).
    */
   dielectric_priority?: number;
   /** The source file's own extra data, passed through untouched. */

@@ -23,16 +23,22 @@ export interface Instance {
   mesh: number;
   /** Index into {@link Scene.materials}. */
   material: number;
-  /** Object to world, 16 numbers, column-major (column vectors, translation in 12..14). Any affine matrix; may mirror or shear. */
+  /**
+   * Object to world, 16 numbers, column-major (column vectors, translation in 12..14). Any affine matrix; may mirror or
+   * shear.
+   */
   transform: ArrayLike<number>;
   /** Default true. An invisible instance casts no shadow either. */
   visible?: boolean;
   /**
-   * Default false. Stands for a surface of the surroundings, a table say, that is in the photograph behind: the camera sees
-   * nothing of it but the shadows and the light that the other instances throw on it.
+   * Default false. Stands for a surface of the surroundings, a table say, that is in the photograph behind: the camera
+   * sees nothing of it but the shadows and the light that the other instances throw on it.
    */
   catcher?: boolean;
-  /** Index of another material by the index of a variant in {@link Scene.variants}; the others wear `material`. See `withVariant`. */
+  /**
+   * Index of another material by the index of a variant in {@link Scene.variants}; the others wear `material`. See
+   * `withVariant`.
+   */
   variants?: Readonly<Record<number, number>>;
 }
 
@@ -70,5 +76,15 @@ export interface Scene {
 
 /** An empty scene to fill. */
 export function createScene(name?: string): Scene {
-  return { ...(name === undefined ? {} : { name }), meshes: [], materials: [], images: [], textures: [], instances: [], lights: [], cameras: [], warnings: [] };
+  return {
+    ...(name === undefined ? {} : { name }),
+    meshes: [],
+    materials: [],
+    images: [],
+    textures: [],
+    instances: [],
+    lights: [],
+    cameras: [],
+    warnings: [],
+  };
 }

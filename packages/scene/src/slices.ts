@@ -1,4 +1,6 @@
-/** Long work that stops once in a while: a generator that yields every millisecond or so and returns what it has made. */
+/**
+ * Long work that stops once in a while: a generator that yields every millisecond or so and returns what it has made.
+ */
 export type Steps<T> = Generator<void, T>;
 
 /** Items that are looked at between two stops: well under a millisecond where each costs a few operations. */
@@ -19,9 +21,15 @@ export interface SliceOptions {
   readonly sliceMs?: number;
 }
 
-/** Lets everything else that waits have its turn, without the milliseconds that a timer takes where there is a better way. */
+/**
+ * Lets everything else that waits have its turn, without the milliseconds that a timer takes where there is a better
+ * way.
+ */
 export function breathe(): Promise<void> {
-  const { scheduler, setImmediate } = globalThis as { scheduler?: { yield?: () => Promise<void> }; setImmediate?: (done: () => void) => void };
+  const { scheduler, setImmediate } = globalThis as {
+    scheduler?: { yield?: () => Promise<void> };
+    setImmediate?: (done: () => void) => void;
+  };
   return scheduler?.yield?.() ?? new Promise((resolve) => void (setImmediate ?? setTimeout)(resolve));
 }
 
@@ -29,7 +37,8 @@ export function breathe(): Promise<void> {
  * Does long work on the calling thread in slices, with everything else that waits in between, so that a page stays
  * responsive.
  *
- * @param steps What a function named `…Steps` returns: {@link sceneBoundsSteps}, {@link frameCameraSteps}, {@link validationSteps}.
+ * @param steps What a function named `…Steps` returns: {@link sceneBoundsSteps}, {@link frameCameraSteps},
+ * {@link validationSteps}.
  * @returns What the steps return.
  * @throws what the steps throw; the signal's reason when aborted.
  * @example

@@ -17,7 +17,10 @@ export interface SoftBox {
   readonly height: number;
   /** `rectangle` (default), or `disc`: an ellipse. */
   readonly shape?: 'rectangle' | 'disc';
-  /** Radiance in the middle, of all channels alike or RGB; it falls off by a quarter towards the edges, as a real one does. */
+  /**
+   * Radiance in the middle, of all channels alike or RGB; it falls off by a quarter towards the edges, as a real one
+   * does.
+   */
   readonly radiance: number | Rgb;
 }
 
@@ -78,7 +81,10 @@ function place(box: SoftBox): Placed {
 
 const dot = (a: Vector, b: Vector) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
-/** Share of a box's radiance in direction d; the edge is smoothed over `blur`, so that no texel edge shows in reflections. */
+/**
+ * Share of a box's radiance in direction d; the edge is smoothed over `blur`, so that no texel edge shows in
+ * reflections.
+ */
 function boxShare({ box, half, normal, right, up }: Placed, d: Vector, blur: number): number {
   const depth = dot(d, normal);
   if (depth <= 0.05) return 0;
@@ -92,8 +98,9 @@ function boxShare({ box, half, normal, right, up }: Placed, d: Vector, blur: num
 }
 
 /**
- * A photo studio as surroundings, made on the spot. By itself a neutral one: grey walls and five soft boxes, colourless; a
- * white diffuse surface facing up or forward comes out near 1, so exposure 0 suits most models. Front is +Z, as in glTF.
+ * A photo studio as surroundings, made on the spot. By itself a neutral one: grey walls and five soft boxes,
+ * colourless; a white diffuse surface facing up or forward comes out near 1, so exposure 0 suits most models. Front is
+ * +Z, as in glTF.
  *
  * @example
  * if (!scene.environment) scene.environment = studioEnvironment();
@@ -117,7 +124,9 @@ export function* studioSteps(options: StudioOptions = {}): Generator<void, LatLo
     const y = Math.cos(theta);
     const up = y >= 0;
     const share = up ? smooth(0, 0.9, y) : smooth(0, 1, -y);
-    const wall = backdrop.horizon.map((low, k) => low + ((up ? backdrop.zenith : backdrop.nadir)[k]! - low) * share) as [number, number, number];
+    const wall = backdrop.horizon.map(
+      (low, k) => low + ((up ? backdrop.zenith : backdrop.nadir)[k]! - low) * share,
+    ) as [number, number, number];
     for (let i = 0; i < width; i++) {
       // u = atan2(z, x)/2π + ½: see LatLongEnvironment.
       const phi = ((i + 0.5) / width - 0.5) * 2 * Math.PI;

@@ -5,7 +5,11 @@
  * @returns What the work gives.
  * @throws what the work throws, or the signal's reason as soon as it aborts. The work itself goes on.
  */
-export function untilAborted<T>(work: Promise<T>, signal: AbortSignal | undefined, late?: (result: T) => void): Promise<T> {
+export function untilAborted<T>(
+  work: Promise<T>,
+  signal: AbortSignal | undefined,
+  late?: (result: T) => void,
+): Promise<T> {
   if (!signal) return work;
   return new Promise((resolve, reject) => {
     const abort = () => reject(signal.reason as Error);

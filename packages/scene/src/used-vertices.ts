@@ -10,11 +10,17 @@ export interface UsedVertices {
   readonly used: Uint8Array;
   /** The first of them; −1 if there are none. */
   readonly first: number;
-  /** Boxes around those of each run of {@link RUN} vertices, six numbers each: min xyz, max xyz; the last one is around all. */
+  /**
+   * Boxes around those of each run of {@link RUN} vertices, six numbers each: min xyz, max xyz; the last one is around
+   * all.
+   */
   readonly boxes: Float32Array;
 }
 
-/** Finds the vertices that triangles use. They are shared by six triangles or so: looking at each once is several times as fast. */
+/**
+ * Finds the vertices that triangles use. They are shared by six triangles or so: looking at each once is several times
+ * as fast.
+ */
 export function* usedVertices({ positions, indices }: Mesh): Steps<UsedVertices> {
   const vertices = Math.floor(positions.length / 3);
   const used = new Uint8Array(vertices);

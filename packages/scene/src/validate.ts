@@ -13,7 +13,8 @@ const fail = (code: 'reference' | 'length' | 'not-finite' | 'value', message: st
 };
 
 function reference(index: number, list: readonly unknown[], what: string, kind: string): void {
-  if (!(Number.isInteger(index) && index >= 0 && index < list.length)) fail('reference', `${what} refers to ${kind} ${index}; the scene has ${list.length}.`);
+  if (!(Number.isInteger(index) && index >= 0 && index < list.length))
+    fail('reference', `${what} refers to ${kind} ${index}; the scene has ${list.length}.`);
 }
 
 function finite(values: ArrayLike<number>, what: string, from = 0, end = values.length): void {
@@ -27,7 +28,8 @@ function finite(values: ArrayLike<number>, what: string, from = 0, end = values.
     if (sum === 0) return;
   }
   for (let i = from; i < end; i++) {
-    if (!Number.isFinite(values[i])) fail('not-finite', `${what} holds ${values[i]} at ${i}; every number must be finite.`);
+    if (!Number.isFinite(values[i]))
+      fail('not-finite', `${what} holds ${values[i]} at ${i}; every number must be finite.`);
   }
 }
 
@@ -44,9 +46,15 @@ function length(values: ArrayLike<number>, expected: number, what: string): void
 
 /** Whether three vertices (offsets into the positions) lie on a line, to the last bit. */
 function isFlat(p: Float32Array, a: number, b: number, c: number): boolean {
-  const ax = p[a] as number, ay = p[a + 1] as number, az = p[a + 2] as number;
-  const ux = (p[b] as number) - ax, uy = (p[b + 1] as number) - ay, uz = (p[b + 2] as number) - az;
-  const vx = (p[c] as number) - ax, vy = (p[c + 1] as number) - ay, vz = (p[c + 2] as number) - az;
+  const ax = p[a] as number,
+    ay = p[a + 1] as number,
+    az = p[a + 2] as number;
+  const ux = (p[b] as number) - ax,
+    uy = (p[b + 1] as number) - ay,
+    uz = (p[b + 2] as number) - az;
+  const vx = (p[c] as number) - ax,
+    vy = (p[c + 1] as number) - ay,
+    vz = (p[c + 2] as number) - az;
   return uy * vz === uz * vy && uz * vx === ux * vz && ux * vy === uy * vx;
 }
 
@@ -55,8 +63,11 @@ function countFlat({ positions, indices }: Mesh, from: number, end: number, what
   const vertices = positions.length / 3;
   let flat = 0;
   for (let i = from; i < end; i += 3) {
-    const a = indices[i] as number, b = indices[i + 1] as number, c = indices[i + 2] as number;
-    if (a >= vertices || b >= vertices || c >= vertices) fail('reference', `${what}: triangle ${i / 3} refers to vertex ${Math.max(a, b, c)}; the mesh has ${vertices}.`);
+    const a = indices[i] as number,
+      b = indices[i + 1] as number,
+      c = indices[i + 2] as number;
+    if (a >= vertices || b >= vertices || c >= vertices)
+      fail('reference', `${what}: triangle ${i / 3} refers to vertex ${Math.max(a, b, c)}; the mesh has ${vertices}.`);
     if (a === b || b === c || a === c || isFlat(positions, 3 * a, 3 * b, 3 * c)) flat++;
   }
   return flat;
@@ -65,8 +76,10 @@ function countFlat({ positions, indices }: Mesh, from: number, end: number, what
 function* meshSteps(mesh: Mesh, index: number, warnings: SceneWarning[]): Generator<void> {
   const what = `Mesh ${index} ("${mesh.name}")`;
   const { positions, indices } = mesh;
-  if (positions.length % 3 !== 0) fail('length', `${what}: positions has ${positions.length} numbers; it must have three a vertex.`);
-  if (indices.length % 3 !== 0) fail('length', `${what}: indices has ${indices.length} entries; it must have three a triangle.`);
+  if (positions.length % 3 !== 0)
+    fail('length', `${what}: positions has ${positions.length} numbers; it must have three a vertex.`);
+  if (indices.length % 3 !== 0)
+    fail('length', `${what}: indices has ${indices.length} entries; it must have three a triangle.`);
   const vertices = positions.length / 3;
   yield* finiteSteps(positions, `${what}: positions`);
   let flat = 0;
@@ -74,7 +87,12 @@ function* meshSteps(mesh: Mesh, index: number, warnings: SceneWarning[]): Genera
     flat += countFlat(mesh, from, Math.min(indices.length, from + 3 * STEP), what);
     yield;
   }
-  if (flat > 0) warnings.push({ code: 'scene/degenerate', message: `${what} has ${flat} triangle${flat === 1 ? '' : 's'} without area; nothing hits ${flat === 1 ? 'it' : 'them'}.`, path: `/meshes/${index}` });
+  if (flat > 0)
+    warnings.push({
+      code: 'scene/degenerate',
+      message: `${what} has ${flat} triangle${flat === 1 ? '' : 's'} without area; nothing hits ${flat === 1 ? 'it' : 'them'}.`,
+      path: `/meshes/${index}`,
+    });
   const attributes: readonly (readonly [values: Float32Array | undefined, stride: number, name: string])[] = [
     [mesh.normals, 3, 'normals'],
     [mesh.tangents, 4, 'tangents'],
@@ -95,7 +113,11 @@ function checkMaterial(scene: Scene, material: Material, index: number): void {
     else if (Array.isArray(value)) finite(value as number[], `${what}: ${name}`);
   }
   const { dielectric_priority: priority = 0 } = material;
-  if (!Number.isInteger(priority) || priority < 0 || priority > 255) throw new SceneError('scene/value', `${what}: dielectric_priority is ${priority}; it must be a whole number from 0 to 255.`);
+  if (!Number.isInteger(priority) || priority < 0 || priority > 255)
+    throw new SceneError(
+      'scene/value',
+      `${what}: dielectric_priority is ${priority}; it must be a whole number from 0 to 255.`,
+    );
   for (const [name, binding] of Object.entries(material.textures ?? {})) {
     if (!binding) continue;
     reference(binding.texture, scene.textures, `${what}: ${name}`, 'texture');
@@ -115,9 +137,22 @@ function checkTransform(transform: ArrayLike<number>, what: string): void {
   finite(transform, `${what}: transform`);
 }
 
-/** Determinant of the linear part over the product of its columns' lengths: 0 if the space is flattened, ±1 if at most scaled. */
+/**
+ * Determinant of the linear part over the product of its columns' lengths: 0 if the space is flattened, ±1 if at most
+ * scaled.
+ */
 function spread(m: ArrayLike<number>): number {
-  const [a, b, c, d, e, f, g, h, i] = [0, 1, 2, 4, 5, 6, 8, 9, 10].map((k) => m[k] as number) as [number, number, number, number, number, number, number, number, number];
+  const [a, b, c, d, e, f, g, h, i] = [0, 1, 2, 4, 5, 6, 8, 9, 10].map((k) => m[k] as number) as [
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+  ];
   const lengths = Math.hypot(a, b, c) * Math.hypot(d, e, f) * Math.hypot(g, h, i);
   return lengths > 0 ? (a * (e * i - f * h) - d * (b * i - c * h) + g * (b * f - c * e)) / lengths : 0;
 }
@@ -125,32 +160,66 @@ function spread(m: ArrayLike<number>): number {
 function checkProfile({ vertical, horizontal, intensities }: LightProfile, what: string): void {
   const rising = (angles: Float32Array) => angles.every((angle, i) => i === 0 || angle > (angles[i - 1] as number));
   for (const values of [vertical, horizontal, intensities]) finite(values, `${what}: profile`);
-  if (vertical.length < 2 || !rising(vertical) || (vertical[0] as number) < 0 || (vertical.at(-1) as number) > Math.PI + 1e-5) fail('value', `${what}: the profile's vertical angles must be two at least and rise within 0..π.`);
-  if (horizontal.length < 1 || !rising(horizontal) || horizontal[0] !== 0 || (horizontal.at(-1) as number) >= 2 * Math.PI) fail('value', `${what}: the profile's horizontal angles must rise from 0 and stay below 2π.`);
-  length(intensities, vertical.length * horizontal.length, `${what}: profile of ${vertical.length} × ${horizontal.length} angles`);
+  if (
+    vertical.length < 2 ||
+    !rising(vertical) ||
+    (vertical[0] as number) < 0 ||
+    (vertical.at(-1) as number) > Math.PI + 1e-5
+  )
+    fail('value', `${what}: the profile's vertical angles must be two at least and rise within 0..π.`);
+  if (
+    horizontal.length < 1 ||
+    !rising(horizontal) ||
+    horizontal[0] !== 0 ||
+    (horizontal.at(-1) as number) >= 2 * Math.PI
+  )
+    fail('value', `${what}: the profile's horizontal angles must rise from 0 and stay below 2π.`);
+  length(
+    intensities,
+    vertical.length * horizontal.length,
+    `${what}: profile of ${vertical.length} × ${horizontal.length} angles`,
+  );
   if (intensities.some((value) => value < 0)) fail('value', `${what}: the profile has a negative intensity.`);
 }
 
 function checkLight(light: Light, index: number): void {
   const what = `Light ${index} ("${light.name}")`;
   finite([light.intensity, ...light.color], what);
-  if (light.intensity < 0 || light.color.some((c) => c < 0)) fail('value', `${what} has a negative intensity or colour.`);
+  if (light.intensity < 0 || light.color.some((c) => c < 0))
+    fail('value', `${what} has a negative intensity or colour.`);
   if (light.type !== 'directional') finite(light.position, `${what}: position`);
   if (light.type !== 'point' && light.type !== 'sphere') {
     finite(light.direction, `${what}: direction`);
     if (!(Math.hypot(...light.direction) > 0)) fail('value', `${what}: direction has no length.`);
   }
-  if (light.type === 'spot' && !(light.inner_cone_angle >= 0 && light.inner_cone_angle <= light.outer_cone_angle && light.outer_cone_angle <= Math.PI / 2 + 1e-6)) {
-    fail('value', `${what} has cone angles ${light.inner_cone_angle} and ${light.outer_cone_angle}; they must satisfy 0 ≤ inner ≤ outer ≤ π/2.`);
+  if (
+    light.type === 'spot' &&
+    !(
+      light.inner_cone_angle >= 0 &&
+      light.inner_cone_angle <= light.outer_cone_angle &&
+      light.outer_cone_angle <= Math.PI / 2 + 1e-6
+    )
+  ) {
+    fail(
+      'value',
+      `${what} has cone angles ${light.inner_cone_angle} and ${light.outer_cone_angle}; they must satisfy 0 ≤ inner ≤ outer ≤ π/2.`,
+    );
   }
-  const sizes = light.type === 'rectangle' ? [light.width, light.height] : light.type === 'disk' || light.type === 'sphere' ? [light.radius] : [];
+  const sizes =
+    light.type === 'rectangle'
+      ? [light.width, light.height]
+      : light.type === 'disk' || light.type === 'sphere'
+        ? [light.radius]
+        : [];
   finite(sizes, `${what}: size`);
-  if (sizes.some((size) => !(size > 0))) fail('value', `${what} has a size of ${sizes.join(' × ')}; it must be above 0.`);
+  if (sizes.some((size) => !(size > 0)))
+    fail('value', `${what} has a size of ${sizes.join(' × ')}; it must be above 0.`);
   if (light.type === 'profile') checkProfile(light.profile, what);
   if ((light.type === 'rectangle' || light.type === 'profile') && light.tangent) {
     finite(light.tangent, `${what}: tangent`);
     const [d, t] = [light.direction, light.tangent];
-    if (!(Math.hypot(d[1] * t[2] - d[2] * t[1], d[2] * t[0] - d[0] * t[2], d[0] * t[1] - d[1] * t[0]) > 0)) fail('value', `${what}: tangent lies along the direction.`);
+    if (!(Math.hypot(d[1] * t[2] - d[2] * t[1], d[2] * t[0] - d[0] * t[2], d[0] * t[1] - d[1] * t[0]) > 0))
+      fail('value', `${what}: tangent lies along the direction.`);
   }
 }
 
@@ -160,22 +229,33 @@ const MAX_DISTANCE = 1e12;
 function checkCamera(camera: Camera, index: number): void {
   const what = `Camera ${index} ("${camera.name}")`;
   checkTransform(camera.transform, what);
-  if (!(Math.abs(spread(camera.transform)) > 1e-6)) fail('value', `${what}: transform cannot be inverted: its axes have no length or lie in one plane.`);
-  const far = [12, 13, 14].map((k) => Math.abs(camera.transform[k] as number)).find((distance) => distance > MAX_DISTANCE);
-  if (far !== undefined) fail('value', `${what} is ${far} m away from the origin; it must be within ${MAX_DISTANCE} m.`);
+  if (!(Math.abs(spread(camera.transform)) > 1e-6))
+    fail('value', `${what}: transform cannot be inverted: its axes have no length or lie in one plane.`);
+  const far = [12, 13, 14]
+    .map((k) => Math.abs(camera.transform[k] as number))
+    .find((distance) => distance > MAX_DISTANCE);
+  if (far !== undefined)
+    fail('value', `${what} is ${far} m away from the origin; it must be within ${MAX_DISTANCE} m.`);
   switch (camera.type) {
     case 'perspective':
       return checkPerspective(camera, what);
     case 'orthographic': {
       const { xmag, ymag } = camera;
       const usable = [xmag, ymag].every((half) => half > 0 && half <= MAX_DISTANCE);
-      if (!usable) fail('value', `${what}: xmag and ymag are ${xmag} and ${ymag}; they must be above 0 and at most ${MAX_DISTANCE} m.`);
+      if (!usable)
+        fail(
+          'value',
+          `${what}: xmag and ymag are ${xmag} and ${ymag}; they must be above 0 and at most ${MAX_DISTANCE} m.`,
+        );
       return;
     }
     case 'panorama':
       return;
     default:
-      fail('value', `${what} has the unknown type "${String((camera as Camera).type)}"; it must be perspective, orthographic or panorama.`);
+      fail(
+        'value',
+        `${what} has the unknown type "${String((camera as Camera).type)}"; it must be perspective, orthographic or panorama.`,
+      );
   }
 }
 
@@ -185,7 +265,8 @@ function checkPerspective(camera: PerspectiveCamera, what: string): void {
   finite([aspect], `${what}: aspect`);
   if (!(aspect > 0)) fail('value', `${what}: aspect is ${aspect}; it must be above 0.`);
   finite([lens_radius, focus_distance, lens_blades, lens_rotation], `${what}: lens`);
-  if (!(lens_radius >= 0 && lens_radius <= MAX_DISTANCE)) fail('value', `${what}: lens_radius is ${lens_radius}; it must lie between 0 and ${MAX_DISTANCE} m.`);
+  if (!(lens_radius >= 0 && lens_radius <= MAX_DISTANCE))
+    fail('value', `${what}: lens_radius is ${lens_radius}; it must lie between 0 and ${MAX_DISTANCE} m.`);
   if (!(focus_distance > 0)) fail('value', `${what}: focus_distance is ${focus_distance}; it must be above 0.`);
   if (!(lens_blades >= 0)) fail('value', `${what}: lens_blades is ${lens_blades}; it must be at least 0.`);
 }
@@ -197,7 +278,8 @@ function* environmentSteps(environment: Environment): Generator<void> {
     return;
   }
   const { width, height, data, intensity = 1, rotation = 0 } = environment;
-  if (!(Number.isInteger(width) && Number.isInteger(height) && width > 0 && height > 0)) fail('value', `The environment has a size of ${width} × ${height}.`);
+  if (!(Number.isInteger(width) && Number.isInteger(height) && width > 0 && height > 0))
+    fail('value', `The environment has a size of ${width} × ${height}.`);
   length(data, 3 * width * height, `The environment of ${width} × ${height} pixels`);
   finite([intensity, rotation], 'The environment');
   for (let from = 0; from < data.length; from += STEP) {
@@ -208,14 +290,15 @@ function* environmentSteps(environment: Environment): Generator<void> {
 
 function radiances(data: Float32Array, from: number, end: number): void {
   for (let i = from; i < end; i++) {
-    if (!((data[i] as number) >= 0 && (data[i] as number) < Infinity)) fail('not-finite', `The environment holds ${data[i]} at ${i}; radiance must be finite and not negative.`);
+    if (!((data[i] as number) >= 0 && (data[i] as number) < Infinity))
+      fail('not-finite', `The environment holds ${data[i]} at ${i}; radiance must be finite and not negative.`);
   }
 }
 
 /**
- * Checks that the parts of a scene fit together: indices, lengths of arrays, finite numbers, ranges. A camera that cannot be
- * rendered with (see `Camera` for its ranges) is a fault as well.
- * One pass over the data: tens of milliseconds for a million triangles.
+ * Checks that the parts of a scene fit together: indices, lengths of arrays, finite numbers, ranges. A camera that
+ * cannot be rendered with (see `Camera` for its ranges) is a fault as well. One pass over the data: tens of
+ * milliseconds for a million triangles.
  *
  * @returns What is odd but harmless: `scene/degenerate` (triangles without area), `scene/flattened` (an instance whose
  *   transform cannot be inverted), `scene/missing-uv` (a texture on a mesh without its UV set).
@@ -226,15 +309,26 @@ export function validateScene(scene: Scene): SceneWarning[] {
 }
 
 function checkCompressed({ width, height }: Image, { format, levels }: CompressedImage, what: string): void {
-  if (!['bc7-rgba-unorm', 'astc-4x4-unorm', 'etc2-rgba8unorm'].includes(format)) fail('value', `${what} is compressed as "${String(format)}", which is not known.`);
+  if (!['bc7-rgba-unorm', 'astc-4x4-unorm', 'etc2-rgba8unorm'].includes(format))
+    fail('value', `${what} is compressed as "${String(format)}", which is not known.`);
   const most = 1 + Math.floor(Math.log2(Math.max(width, height)));
-  if (levels.length < 1 || levels.length > most) fail('length', `${what} of ${width} × ${height} pixels has ${levels.length} compressed levels, instead of 1 to ${most}.`);
-  levels.forEach((level, index) => length(level, compressedBytes(Math.max(1, width >> index), Math.max(1, height >> index)), `${what}, compressed level ${index}`));
+  if (levels.length < 1 || levels.length > most)
+    fail(
+      'length',
+      `${what} of ${width} × ${height} pixels has ${levels.length} compressed levels, instead of 1 to ${most}.`,
+    );
+  levels.forEach((level, index) =>
+    length(
+      level,
+      compressedBytes(Math.max(1, width >> index), Math.max(1, height >> index)),
+      `${what}, compressed level ${index}`,
+    ),
+  );
 }
 
 /**
- * The same as {@link validateScene} in steps of a millisecond or so, for threads that have other things to do in between.
- * The scene must stay as it is until the last step.
+ * The same as {@link validateScene} in steps of a millisecond or so, for threads that have other things to do in
+ * between. The scene must stay as it is until the last step.
  *
  * @throws {SceneError} as {@link validateScene}, at the first step or a later one.
  * @example
@@ -245,11 +339,16 @@ export function* validationSteps(scene: Scene): Generator<void, SceneWarning[]> 
   for (const [index, mesh] of scene.meshes.entries()) yield* meshSteps(mesh, index, warnings);
   scene.images.forEach((image, index) => {
     const what = `Image ${index} ("${image.name}")`;
-    if (!(Number.isInteger(image.width) && Number.isInteger(image.height) && image.width > 0 && image.height > 0)) fail('value', `${what} has a size of ${image.width} × ${image.height}.`);
+    if (!(Number.isInteger(image.width) && Number.isInteger(image.height) && image.width > 0 && image.height > 0))
+      fail('value', `${what} has a size of ${image.width} × ${image.height}.`);
     if (image.compressed) checkCompressed(image, image.compressed, what);
     if (image.bitmap) {
       // Its pixels are left where they are.
-      if (image.bitmap.width !== image.width || image.bitmap.height !== image.height) fail('length', `${what} of ${image.width} × ${image.height} pixels has a bitmap of ${image.bitmap.width} × ${image.bitmap.height}.`);
+      if (image.bitmap.width !== image.width || image.bitmap.height !== image.height)
+        fail(
+          'length',
+          `${what} of ${image.width} × ${image.height} pixels has a bitmap of ${image.bitmap.width} × ${image.bitmap.height}.`,
+        );
       return;
     }
     // Unpacking it would only be for looking.
@@ -274,12 +373,22 @@ export function* validationSteps(scene: Scene): Generator<void, SceneWarning[]> 
     }
     checkTransform(instance.transform, what);
     // glTF hides parts by a scale of 0, so this is no fault; the hierarchy leaves such a part out.
-    if (spread(instance.transform) === 0) warnings.push({ code: 'scene/flattened', message: `${what} is flattened by its transform; it does not appear.`, path: `/instances/${index}` });
+    if (spread(instance.transform) === 0)
+      warnings.push({
+        code: 'scene/flattened',
+        message: `${what} is flattened by its transform; it does not appear.`,
+        path: `/instances/${index}`,
+      });
     const { textures = {} } = scene.materials[instance.material] as Material;
     const sets = (scene.meshes[instance.mesh] as Mesh).uvs?.length ?? 0;
     for (const [name, binding] of Object.entries(textures)) {
       const set = binding?.uv ?? 0;
-      if (binding && set >= sets) warnings.push({ code: 'scene/missing-uv', message: `${what} has no UV set ${set}, which the texture of ${name} wants; it is read at (0, 0).`, path: `/instances/${index}` });
+      if (binding && set >= sets)
+        warnings.push({
+          code: 'scene/missing-uv',
+          message: `${what} has no UV set ${set}, which the texture of ${name} wants; it is read at (0, 0).`,
+          path: `/instances/${index}`,
+        });
     }
   });
   scene.lights.forEach(checkLight);

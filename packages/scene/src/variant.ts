@@ -5,8 +5,8 @@ import type { Scene } from './scene';
  * The scene in another look: the same meshes, materials and pictures, with the instances' materials exchanged.
  *
  * @param variant Name or index in `scene.variants`; undefined: the look that the file has by itself.
- * @returns A scene that shares everything but the instances. Their own `material` stays what it was before any variant if
- *   you begin from the scene that was loaded.
+ * @returns A scene that shares everything but the instances. Their own `material` stays what it was before any variant
+ *   if you begin from the scene that was loaded.
  * @throws {SceneError} `scene/reference` for a variant that the scene does not have.
  * @example
  * const street = withVariant(scene, 'street');
@@ -15,7 +15,11 @@ export function withVariant(scene: Scene, variant: number | string | undefined):
   if (variant === undefined) return scene;
   const names = scene.variants ?? [];
   const index = typeof variant === 'number' ? variant : names.indexOf(variant);
-  if (names[index] === undefined) throw new SceneError('scene/reference', `The scene has no variant ${typeof variant === 'number' ? variant : `"${variant}"`}; it has ${names.length === 0 ? 'none' : names.map((name) => `"${name}"`).join(', ')}.`);
+  if (names[index] === undefined)
+    throw new SceneError(
+      'scene/reference',
+      `The scene has no variant ${typeof variant === 'number' ? variant : `"${variant}"`}; it has ${names.length === 0 ? 'none' : names.map((name) => `"${name}"`).join(', ')}.`,
+    );
   return {
     ...scene,
     instances: scene.instances.map((instance) => {

@@ -18,17 +18,29 @@ test('a turned box is measured by its vertices, not by its turned box', () => {
   const scene = sample();
   const s = Math.SQRT1_2;
   scene.meshes[0]!.positions = new Float32Array([1, 0, 0, 0, 1, 0, -1, 0, 0]);
-  scene.instances = [{ name: 'turned', mesh: 0, material: 0, transform: [s, s, 0, 0, -s, s, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] }];
+  scene.instances = [
+    { name: 'turned', mesh: 0, material: 0, transform: [s, s, 0, 0, -s, s, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] },
+  ];
   const { min, max } = sceneBounds(scene);
   // (1,0) → (s,s), (0,1) → (−s,s), (−1,0) → (−s,−s); the box of the unturned box would reach 2s.
-  for (const [value, expected] of [[min[0], -s], [min[1], -s], [max[0], s], [max[1], s]] as const) expect(value).toBeCloseTo(expected, 12);
+  for (const [value, expected] of [
+    [min[0], -s],
+    [min[1], -s],
+    [max[0], s],
+    [max[1], s],
+  ] as const)
+    expect(value).toBeCloseTo(expected, 12);
 });
 
 test('an empty scene has an inverted box', () => {
-  expect(sceneBounds(createScene())).toEqual({ min: [Infinity, Infinity, Infinity], max: [-Infinity, -Infinity, -Infinity] });
+  expect(sceneBounds(createScene())).toEqual({
+    min: [Infinity, Infinity, Infinity],
+    max: [-Infinity, -Infinity, -Infinity],
+  });
 });
 
-const visiblePoints = (scene: Scene) => points({ ...scene, instances: scene.instances.filter(({ visible }) => visible !== false) });
+const visiblePoints = (scene: Scene) =>
+  points({ ...scene, instances: scene.instances.filter(({ visible }) => visible !== false) });
 
 /** 4,096 turned, uneven balls of 200 vertices, strewn over a cube. */
 function strewn(): Scene {
@@ -38,7 +50,30 @@ function strewn(): Scene {
   scene.materials.push({ name: 'any', parameters: {} });
   for (let i = 0; i < 4096; i++) {
     const [c, s] = [Math.cos(i), Math.sin(i)];
-    scene.instances.push({ name: `ball ${i}`, mesh: 0, material: 0, visible: i % 7 !== 0, transform: [c, s, 0, 0, -s, c, 0.1, 0, 0, 0.2, 1, 0, 5 * (i % 16), 5 * (Math.floor(i / 16) % 16), 5 * Math.floor(i / 256), 1] });
+    scene.instances.push({
+      name: `ball ${i}`,
+      mesh: 0,
+      material: 0,
+      visible: i % 7 !== 0,
+      transform: [
+        c,
+        s,
+        0,
+        0,
+        -s,
+        c,
+        0.1,
+        0,
+        0,
+        0.2,
+        1,
+        0,
+        5 * (i % 16),
+        5 * (Math.floor(i / 16) % 16),
+        5 * Math.floor(i / 256),
+        1,
+      ],
+    });
   }
   return scene;
 }
@@ -56,8 +91,14 @@ test('of many instances only those at the border are measured vertex by vertex, 
   });
   const { min, max } = sceneBounds(scene);
   for (const k of [0, 1, 2] as const) {
-    expect(min[k]).toBeCloseTo(all.reduce((least, p) => Math.min(least, p[k]!), Infinity), 12);
-    expect(max[k]).toBeCloseTo(all.reduce((most, p) => Math.max(most, p[k]!), -Infinity), 12);
+    expect(min[k]).toBeCloseTo(
+      all.reduce((least, p) => Math.min(least, p[k]!), Infinity),
+      12,
+    );
+    expect(max[k]).toBeCloseTo(
+      all.reduce((most, p) => Math.max(most, p[k]!), -Infinity),
+      12,
+    );
   }
   // All vertices of all instances: 2.5 million numbers.
   expect(reads).toBeGreaterThan(600);

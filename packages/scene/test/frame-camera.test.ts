@@ -1,15 +1,29 @@
 import { expect, test } from 'vitest';
-import { createScene, defaultMaterial, frameCamera, type SceneError, type FrameCameraOptions, type Scene } from '../src/index';
+import {
+  createScene,
+  defaultMaterial,
+  frameCamera,
+  type SceneError,
+  type FrameCameraOptions,
+  type Scene,
+} from '../src/index';
 import { points, sample } from './sample';
 
-for (const options of [{ aspect: 1 }, { aspect: 3 }, { aspect: 0.4, yfov: 1.2 }, { aspect: 1.5, direction: [-3, 0.1, -1] }, { aspect: 1, margin: 0.3 }] satisfies FrameCameraOptions[]) {
+for (const options of [
+  { aspect: 1 },
+  { aspect: 3 },
+  { aspect: 0.4, yfov: 1.2 },
+  { aspect: 1.5, direction: [-3, 0.1, -1] },
+  { aspect: 1, margin: 0.3 },
+] satisfies FrameCameraOptions[]) {
   test(`every vertex is in the picture, and fills it one way: ${JSON.stringify(options)}`, () => {
     const scene = sample();
     const { transform: m, yfov, focus_distance } = frameCamera(scene, options);
     const tangent = Math.tan(yfov / 2);
     const project = (p: number[]) => {
       const d = p.map((x, k) => x - m[12 + k]!);
-      const along = (column: number) => d[0]! * m[4 * column]! + d[1]! * m[4 * column + 1]! + d[2]! * m[4 * column + 2]!;
+      const along = (column: number) =>
+        d[0]! * m[4 * column]! + d[1]! * m[4 * column + 1]! + d[2]! * m[4 * column + 2]!;
       expect(along(2)).toBeLessThan(0);
       return [along(0) / -along(2) / (tangent * options.aspect), along(1) / -along(2) / tangent];
     };
@@ -28,8 +42,20 @@ for (const options of [{ aspect: 1 }, { aspect: 3 }, { aspect: 0.4, yfov: 1.2 },
     expect(focus_distance).toBeCloseTo((Math.min(...depths) + Math.max(...depths)) / 2, 9);
     // A rotation: right-handed, no scale.
     const dot = (a: number, b: number) => [0, 1, 2].reduce((sum, k) => sum + m[4 * a + k]! * m[4 * b + k]!, 0);
-    for (const [a, b, value] of [[0, 0, 1], [1, 1, 1], [2, 2, 1], [0, 1, 0], [0, 2, 0], [1, 2, 0]] as const) expect(dot(a, b)).toBeCloseTo(value, 12);
-    expect(m[0]! * (m[5]! * m[10]! - m[6]! * m[9]!) - m[1]! * (m[4]! * m[10]! - m[6]! * m[8]!) + m[2]! * (m[4]! * m[9]! - m[5]! * m[8]!)).toBeCloseTo(1, 12);
+    for (const [a, b, value] of [
+      [0, 0, 1],
+      [1, 1, 1],
+      [2, 2, 1],
+      [0, 1, 0],
+      [0, 2, 0],
+      [1, 2, 0],
+    ] as const)
+      expect(dot(a, b)).toBeCloseTo(value, 12);
+    expect(
+      m[0]! * (m[5]! * m[10]! - m[6]! * m[9]!) -
+        m[1]! * (m[4]! * m[10]! - m[6]! * m[8]!) +
+        m[2]! * (m[4]! * m[9]! - m[5]! * m[8]!),
+    ).toBeCloseTo(1, 12);
   });
 }
 
@@ -43,13 +69,22 @@ test('what cannot be framed is refused', () => {
     return undefined;
   };
   expect(code(createScene(), { aspect: 1 })).toBe('scene/empty');
-  for (const options of [{ aspect: 0 }, { aspect: 1, yfov: 4 }, { aspect: 1, direction: [0, 1, 0] as const }, { aspect: 1, margin: 1 }]) expect(code(sample(), options)).toBe('scene/value');
+  for (const options of [
+    { aspect: 0 },
+    { aspect: 1, yfov: 4 },
+    { aspect: 1, direction: [0, 1, 0] as const },
+    { aspect: 1, margin: 1 },
+  ])
+    expect(code(sample(), options)).toBe('scene/value');
 });
 
 test('a line seen from its end, and a point, are looked at from outside', () => {
   const scene = sample();
   scene.instances.length = 1;
-  for (const [positions, distance] of [[[0, 0, -1, 0, 0, 1, 0, 0, 0], 3], [[7, 7, 7, 7, 7, 7, 7, 7, 7], 8]] as const) {
+  for (const [positions, distance] of [
+    [[0, 0, -1, 0, 0, 1, 0, 0, 0], 3],
+    [[7, 7, 7, 7, 7, 7, 7, 7, 7], 8],
+  ] as const) {
     scene.meshes[0]!.positions = new Float32Array(positions);
     const { transform: m } = frameCamera(scene, { aspect: 1, direction: [0, 0, 1] });
     expect([m[12], m[13], m[14]]).toEqual([positions[0], positions[1], distance]);
@@ -67,7 +102,12 @@ test('a cone that points at the camera is seen from outside, however numbers rou
     const positions = [direction, across.map((c) => 0.05 * c), across.map((c) => -0.05 * c)].flat();
     scene.meshes.push({ name: 'cone', positions: Float32Array.from(positions), indices: Uint32Array.of(0, 1, 2) });
     scene.materials.push(defaultMaterial());
-    scene.instances.push({ name: 'cone', mesh: 0, material: 0, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] });
+    scene.instances.push({
+      name: 'cone',
+      mesh: 0,
+      material: 0,
+      transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1],
+    });
     const { transform } = frameCamera(scene, { aspect: 1, direction });
     const eye = [transform[12]!, transform[13]!, transform[14]!] as const;
     expect(Math.hypot(eye[0] - direction[0], eye[1] - direction[1], eye[2] - direction[2])).toBeCloseTo(1, 4);
@@ -81,5 +121,7 @@ test('a small part far from the origin is framed as one at the origin is', () =>
   const near = frameCamera(scene, { aspect: 1.5 });
   scene.instances[0]!.transform = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1000, -500, 2000, 1];
   const far = frameCamera(scene, { aspect: 1.5 });
-  [1000, -500, 2000].forEach((offset, k) => expect((far.transform[12 + k] as number) - offset).toBeCloseTo(near.transform[12 + k] as number, 9));
+  [1000, -500, 2000].forEach((offset, k) =>
+    expect((far.transform[12 + k] as number) - offset).toBeCloseTo(near.transform[12 + k] as number, 9),
+  );
 });

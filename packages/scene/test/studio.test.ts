@@ -4,7 +4,9 @@ import { studioEnvironment, STUDIOS } from '../src/studio';
 
 type Vector = readonly [number, number, number];
 
-/** Irradiance on a surface of normal n over π: what a white diffuse surface shows. Summed over texels by solid angle. */
+/**
+ * Irradiance on a surface of normal n over π: what a white diffuse surface shows. Summed over texels by solid angle.
+ */
 function whiteDiffuse({ width, height, data }: LatLongEnvironment, n: Vector): number {
   let sum = 0;
   for (let j = 0; j < height; j++) {
@@ -12,7 +14,8 @@ function whiteDiffuse({ width, height, data }: LatLongEnvironment, n: Vector): n
     const solidAngle = ((2 * Math.PI) / width) * (Math.PI / height) * Math.sin(theta);
     for (let i = 0; i < width; i++) {
       const phi = ((i + 0.5) / width - 0.5) * 2 * Math.PI;
-      const cosine = n[0] * Math.sin(theta) * Math.cos(phi) + n[1] * Math.cos(theta) + n[2] * Math.sin(theta) * Math.sin(phi);
+      const cosine =
+        n[0] * Math.sin(theta) * Math.cos(phi) + n[1] * Math.cos(theta) + n[2] * Math.sin(theta) * Math.sin(phi);
       sum += (data[(j * width + i) * 3] as number) * Math.max(cosine, 0) * solidAngle;
     }
   }
@@ -24,7 +27,8 @@ it('is colourless, finite and lit everywhere', () => {
   expect([type, width, height, data.length]).toEqual(['latlong', 512, 256, 512 * 256 * 3]);
   for (let i = 0; i < data.length; i += 3) {
     const v = data[i] as number;
-    if (!(v > 0.1 && v < 20 && data[i + 1] === v && data[i + 2] === v)) expect.fail(`texel ${i / 3}: ${data.subarray(i, i + 3)}`);
+    if (!(v > 0.1 && v < 20 && data[i + 1] === v && data[i + 2] === v))
+      expect.fail(`texel ${i / 3}: ${data.subarray(i, i + 3)}`);
   }
 });
 
@@ -73,15 +77,23 @@ const DEGREE = Math.PI / 180;
 const plain = { zenith: [0, 0, 0], horizon: [0, 0, 0], nadir: [0, 0, 0] } as const;
 
 it('a box of one colour lies where it is hung, spans its angles and is black elsewhere', () => {
-  const { width, height, data } = studioEnvironment({ width: 1024, setup: { backdrop: plain, boxes: [{ azimuth: 90 * DEGREE, elevation: 0, width: 40 * DEGREE, height: 20 * DEGREE, radiance: [1, 0.5, 0] }] } });
-  // Solid angle of a rectangle seen from the point over its middle: 4 asin(sin(a/2) sin(b/2)) for tangents' half angles a/2, b/2.
+  const { width, height, data } = studioEnvironment({
+    width: 1024,
+    setup: {
+      backdrop: plain,
+      boxes: [{ azimuth: 90 * DEGREE, elevation: 0, width: 40 * DEGREE, height: 20 * DEGREE, radiance: [1, 0.5, 0] }],
+    },
+  });
+  // Solid angle of a rectangle seen from the point over its middle: 4 asin(sin(a/2) sin(b/2)) for tangents' half angles
+  // a/2, b/2.
   const expected = 4 * Math.asin(Math.sin(20 * DEGREE) * Math.sin(10 * DEGREE));
   let [solid, x] = [0, 0];
   for (let j = 0; j < height; j++) {
     const texel = ((2 * Math.PI) / width) * (Math.PI / height) * Math.sin(((j + 0.5) / height) * Math.PI);
     for (let i = 0; i < width; i++) {
       const at = (j * width + i) * 3;
-      if (Math.abs((data[at + 1] as number) - 0.5 * (data[at] as number)) > 1e-6 || data[at + 2] !== 0) expect.fail(`texel ${i}, ${j}: ${data.subarray(at, at + 3)}`);
+      if (Math.abs((data[at + 1] as number) - 0.5 * (data[at] as number)) > 1e-6 || data[at + 2] !== 0)
+        expect.fail(`texel ${i}, ${j}: ${data.subarray(at, at + 3)}`);
       if ((data[at] as number) > 0.375) solid += texel;
       x += (data[at] as number) * texel * Math.cos(((i + 0.5) / width - 0.5) * 2 * Math.PI);
     }
@@ -93,16 +105,32 @@ it('a box of one colour lies where it is hung, spans its angles and is black els
 });
 
 it('a disc has the solid angle of a cone', () => {
-  const { width, height, data } = studioEnvironment({ width: 1024, setup: { backdrop: plain, boxes: [{ azimuth: 0, elevation: 0.5, width: 40 * DEGREE, height: 40 * DEGREE, shape: 'disc', radiance: 1 }] } });
+  const { width, height, data } = studioEnvironment({
+    width: 1024,
+    setup: {
+      backdrop: plain,
+      boxes: [{ azimuth: 0, elevation: 0.5, width: 40 * DEGREE, height: 40 * DEGREE, shape: 'disc', radiance: 1 }],
+    },
+  });
   let solid = 0;
-  for (let j = 0; j < height; j++) for (let i = 0; i < width; i++) if ((data[(j * width + i) * 3] as number) > 0.375) solid += ((2 * Math.PI) / width) * (Math.PI / height) * Math.sin(((j + 0.5) / height) * Math.PI);
+  for (let j = 0; j < height; j++)
+    for (let i = 0; i < width; i++)
+      if ((data[(j * width + i) * 3] as number) > 0.375)
+        solid += ((2 * Math.PI) / width) * (Math.PI / height) * Math.sin(((j + 0.5) / height) * Math.PI);
   expect(Math.abs(solid / (2 * Math.PI * (1 - Math.cos(20 * DEGREE))) - 1)).toBeLessThan(0.06);
 });
 
-it.each(Object.entries(STUDIOS))('%s is finite, not black, and lights a white surface from above or the front', (_, setup) => {
-  const studio = studioEnvironment({ setup });
-  for (const value of studio.data) if (!(value >= 0 && value < 1000)) expect.fail(`a texel is ${value}`);
-  const best = Math.max(whiteDiffuse(studio, [0, 1, 0]), whiteDiffuse(studio, [0, 0, 1]), whiteDiffuse(studio, [-1, 0, 0]));
-  expect(best).toBeGreaterThan(0.3);
-  expect(best).toBeLessThan(3);
-});
+it.each(Object.entries(STUDIOS))(
+  '%s is finite, not black, and lights a white surface from above or the front',
+  (_, setup) => {
+    const studio = studioEnvironment({ setup });
+    for (const value of studio.data) if (!(value >= 0 && value < 1000)) expect.fail(`a texel is ${value}`);
+    const best = Math.max(
+      whiteDiffuse(studio, [0, 1, 0]),
+      whiteDiffuse(studio, [0, 0, 1]),
+      whiteDiffuse(studio, [-1, 0, 0]),
+    );
+    expect(best).toBeGreaterThan(0.3);
+    expect(best).toBeLessThan(3);
+  },
+);

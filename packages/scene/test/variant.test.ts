@@ -3,11 +3,22 @@ import { createScene, SceneError, validateScene, withVariant } from '../src/inde
 
 const scene = () => {
   const made = createScene();
-  made.meshes.push({ name: 'm', positions: new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0]), indices: new Uint32Array([0, 1, 2]) });
-  made.materials.push({ name: 'red', parameters: {} }, { name: 'blue', parameters: {} }, { name: 'green', parameters: {} });
+  made.meshes.push({
+    name: 'm',
+    positions: new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0]),
+    indices: new Uint32Array([0, 1, 2]),
+  });
+  made.materials.push(
+    { name: 'red', parameters: {} },
+    { name: 'blue', parameters: {} },
+    { name: 'green', parameters: {} },
+  );
   made.variants = ['day', 'night'];
   const transform = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
-  made.instances.push({ name: 'a', mesh: 0, material: 0, transform, variants: { 1: 2 } }, { name: 'b', mesh: 0, material: 1, transform });
+  made.instances.push(
+    { name: 'a', mesh: 0, material: 0, transform, variants: { 1: 2 } },
+    { name: 'b', mesh: 0, material: 1, transform },
+  );
   return made;
 };
 const worn = (s: ReturnType<typeof scene>) => s.instances.map(({ material }) => material);

@@ -14,8 +14,8 @@ import type { Color, Matrix, ThreeCamera, ThreeMaterial, ThreeMesh, ThreeObject 
 export interface FromThreeOptions {
   readonly signal?: AbortSignal;
   /**
-   * Gives the pixels of a picture that only the host can read: of a texture that a loader in Node made, or of a compressed
-   * one. `undefined` leaves it to the browser.
+   * Gives the pixels of a picture that only the host can read: of a texture that a loader in Node made, or of a
+   * compressed one. `undefined` leaves it to the browser.
    */
   readonly readImage?: ReadImage;
 }
@@ -27,9 +27,10 @@ interface Placement {
 }
 
 /**
- * Converts a scene of three.js, as it is posed now: meshes (also instanced, batched, skinned, morphed), standard, physical and
- * basic materials with their textures, lights, the environment, and a camera. What is not carried is told in
- * `scene.warnings`. Nothing of three.js is imported: any version since 0.160 will do. The result shares no memory with it.
+ * Converts a scene of three.js, as it is posed now: meshes (also instanced, batched, skinned, morphed), standard,
+ * physical and basic materials with their textures, lights, the environment, and a camera. What is not carried is told
+ * in `scene.warnings`. Nothing of three.js is imported: any version since 0.160 will do. The result shares no memory
+ * with it.
  *
  * @param root A `THREE.Scene`, or any object; its world matrices are brought up to date.
  * @param camera Becomes the scene's first camera.
@@ -38,8 +39,13 @@ interface Placement {
  * @example
  * await viewer.load(await fromThree(scene, camera));
  */
-export async function fromThree(root: ThreeObject, camera?: ThreeCamera, options: FromThreeOptions = {}): Promise<Scene> {
-  if (!root?.isObject3D) throw new ThreeError('three/not-three', 'fromThree() takes a THREE.Scene or another THREE.Object3D.');
+export async function fromThree(
+  root: ThreeObject,
+  camera?: ThreeCamera,
+  options: FromThreeOptions = {},
+): Promise<Scene> {
+  if (!root?.isObject3D)
+    throw new ThreeError('three/not-three', 'fromThree() takes a THREE.Scene or another THREE.Object3D.');
   options.signal?.throwIfAborted();
   root.updateMatrixWorld();
   const scene = createScene(root.name || undefined);
@@ -54,9 +60,15 @@ export async function fromThree(root: ThreeObject, camera?: ThreeCamera, options
     if (!object.visible) return;
     const loose = object as unknown as Record<string, unknown>;
     if (loose['isMesh'] === true) readMesh(object as ThreeMesh);
-    else if ((loose['isLine'] === true || loose['isPoints'] === true || loose['isSprite'] === true) && !warned.has(String(loose['type']))) {
+    else if (
+      (loose['isLine'] === true || loose['isPoints'] === true || loose['isSprite'] === true) &&
+      !warned.has(String(loose['type']))
+    ) {
       warned.add(String(loose['type']));
-      scene.warnings.push({ code: 'three/object', message: `${String(loose['type'])} objects ("${object.name}") have no surface and are left out.` });
+      scene.warnings.push({
+        code: 'three/object',
+        message: `${String(loose['type'])} objects ("${object.name}") have no surface and are left out.`,
+      });
     } else readLight(object, scene, ambience);
     object.children.forEach(visit);
   };
@@ -64,7 +76,9 @@ export async function fromThree(root: ThreeObject, camera?: ThreeCamera, options
   const readMesh = (mesh: ThreeMesh): void => {
     const several = Array.isArray(mesh.material);
     const list = (several ? mesh.material : [mesh.material]) as readonly ThreeMaterial[];
-    const parts = mesh.isBatchedMesh ? batchesOf(mesh) : partsOf(mesh.geometry, several).map((part) => ({ part, placements: placementsOf(mesh) }));
+    const parts = mesh.isBatchedMesh
+      ? batchesOf(mesh)
+      : partsOf(mesh.geometry, several).map((part) => ({ part, placements: placementsOf(mesh) }));
     for (const { part, placements } of parts) {
       const material = list[part.material];
       if (!material || material['visible'] === false || placements.length === 0) continue;
@@ -72,7 +86,13 @@ export async function fromThree(root: ThreeObject, camera?: ThreeCamera, options
       const options = { flipV, colors: material['vertexColors'] === true, flat: material['flatShading'] === true };
       // Poses are a mesh's own; everything else is shared by those that show the same geometry.
       const posed = mesh.isSkinnedMesh || (mesh.morphTargetInfluences?.some((influence) => influence !== 0) ?? false);
-      const key = [mesh.geometry.uuid, part.start, part.count, Object.values(options), posed ? (mesh as unknown as { uuid: string }).uuid : ''].join(' ');
+      const key = [
+        mesh.geometry.uuid,
+        part.start,
+        part.count,
+        Object.values(options),
+        posed ? (mesh as unknown as { uuid: string }).uuid : '',
+      ].join(' ');
       if (!meshes.has(key)) {
         const made = meshOfPart(mesh.name || mesh.geometry.name || 'mesh', mesh, part, options);
         meshes.set(key, made && scene.meshes.push(made) - 1);
@@ -91,7 +111,11 @@ export async function fromThree(root: ThreeObject, camera?: ThreeCamera, options
   visit(root);
   await Promise.all(tasks);
   options.signal?.throwIfAborted();
-  if (scene.instances.length === 0) throw new ThreeError('three/no-triangles', 'The scene of three.js has no visible triangles: there is nothing to show.');
+  if (scene.instances.length === 0)
+    throw new ThreeError(
+      'three/no-triangles',
+      'The scene of three.js has no visible triangles: there is nothing to show.',
+    );
   const environment = await readEnvironment(root, ambience, scene, textures);
   if (environment) scene.environment = environment;
   if (camera) {
@@ -106,11 +130,18 @@ export async function fromThree(root: ThreeObject, camera?: ThreeCamera, options
 function placementsOf(mesh: ThreeMesh): Placement[] {
   const world = numbersFrom(mesh.matrixWorld);
   if (!mesh.isInstancedMesh) return [{ transform: world }];
-  const { count, instanceMatrix, instanceColor } = mesh as unknown as { readonly count: number; readonly instanceMatrix: { readonly array: ArrayLike<number> }; readonly instanceColor: { readonly array: ArrayLike<number> } | null };
+  const { count, instanceMatrix, instanceColor } = mesh as unknown as {
+    readonly count: number;
+    readonly instanceMatrix: { readonly array: ArrayLike<number> };
+    readonly instanceColor: { readonly array: ArrayLike<number> } | null;
+  };
   return Array.from({ length: count }, (_, i) => {
     const own = Array.from({ length: 16 }, (__, k) => instanceMatrix.array[16 * i + k] as number);
     const c = instanceColor?.array;
-    return { transform: multiply(new Float64Array(16), world, own), ...(c ? { tint: { r: c[3 * i] as number, g: c[3 * i + 1] as number, b: c[3 * i + 2] as number } } : {}) };
+    return {
+      transform: multiply(new Float64Array(16), world, own),
+      ...(c ? { tint: { r: c[3 * i] as number, g: c[3 * i + 1] as number, b: c[3 * i + 2] as number } } : {}),
+    };
   });
 }
 
@@ -158,11 +189,16 @@ function batchesOf(mesh: ThreeMesh): { readonly part: Part; readonly placements:
     const placements = byGeometry.get(geometry) ?? [];
     const tint = new Target();
     batched.getColorAt?.(id, tint);
-    placements.push({ transform: multiply(new Float64Array(16), world, batched.getMatrixAt(id, matrix).elements), ...(tint.r === 1 && tint.g === 1 && tint.b === 1 ? {} : { tint }) });
+    placements.push({
+      transform: multiply(new Float64Array(16), world, batched.getMatrixAt(id, matrix).elements),
+      ...(tint.r === 1 && tint.g === 1 && tint.b === 1 ? {} : { tint }),
+    });
     byGeometry.set(geometry, placements);
   }
   return [...byGeometry].flatMap(([geometry, placements]) => {
     const range = batched.getGeometryRangeAt(geometry);
-    return range ? [{ part: { start: range.start, count: range.count - (range.count % 3), material: 0 }, placements }] : [];
+    return range
+      ? [{ part: { start: range.start, count: range.count - (range.count % 3), material: 0 }, placements }]
+      : [];
   });
 }

@@ -23,9 +23,12 @@ export interface PartOptions {
 /** An attribute's numbers, tightly packed, normalised integers as fractions; not to be written to. */
 export function numbersOf(attribute: Attribute, size: number): Float32Array<ArrayBuffer> {
   const { count, array } = attribute;
-  if (array instanceof Float32Array && !attribute.isInterleavedBufferAttribute && attribute.itemSize === size) return array.subarray(0, count * size) as Float32Array<ArrayBuffer>;
+  if (array instanceof Float32Array && !attribute.isInterleavedBufferAttribute && attribute.itemSize === size)
+    return array.subarray(0, count * size) as Float32Array<ArrayBuffer>;
   const numbers = new Float32Array(count * size);
-  for (let i = 0; i < count; i++) for (let k = 0; k < size; k++) numbers[i * size + k] = k < attribute.itemSize ? attribute.getComponent(i, k) : k === 3 ? 1 : 0;
+  for (let i = 0; i < count; i++)
+    for (let k = 0; k < size; k++)
+      numbers[i * size + k] = k < attribute.itemSize ? attribute.getComponent(i, k) : k === 3 ? 1 : 0;
   return numbers;
 }
 
@@ -41,17 +44,28 @@ export function partsOf({ index, attributes, groups, drawRange }: Geometry, seve
   });
 }
 
-/** The mesh of a part, as it is posed now; `undefined` if it has no triangle. Vertices that no triangle of the part uses are left out. */
-export function meshOfPart(name: string, mesh: ThreeMesh, part: Part, { flipV, colors, flat }: PartOptions): Mesh | undefined {
+/**
+ * The mesh of a part, as it is posed now; `undefined` if it has no triangle. Vertices that no triangle of the part uses
+ * are left out.
+ */
+export function meshOfPart(
+  name: string,
+  mesh: ThreeMesh,
+  part: Part,
+  { flipV, colors, flat }: PartOptions,
+): Mesh | undefined {
   const { geometry } = mesh;
   const position = geometry.attributes['position'];
   if (!position || part.count < 3) return undefined;
   const corners = new Uint32Array(part.count);
-  for (let i = 0; i < part.count; i++) corners[i] = geometry.index ? geometry.index.getComponent(part.start + i, 0) : part.start + i;
+  for (let i = 0; i < part.count; i++)
+    corners[i] = geometry.index ? geometry.index.getComponent(part.start + i, 0) : part.start + i;
   if (corners.some((corner) => corner >= position.count)) return undefined;
   const posed = poseVertices(mesh);
   const normal = flat ? undefined : geometry.attributes['normal'];
-  const streams: { readonly key: string; readonly size: number; readonly data: Float32Array }[] = [{ key: 'positions', size: 3, data: posed?.positions ?? numbersOf(position, 3) }];
+  const streams: { readonly key: string; readonly size: number; readonly data: Float32Array }[] = [
+    { key: 'positions', size: 3, data: posed?.positions ?? numbersOf(position, 3) },
+  ];
   if (normal) streams.push({ key: 'normals', size: 3, data: posed?.normals ?? numbersOf(normal, 3) });
   const tangent = flat ? undefined : geometry.attributes['tangent'];
   // Those of a pose would have to turn with it; without them the shader makes its own from the coordinates.
@@ -73,11 +87,13 @@ export function meshOfPart(name: string, mesh: ThreeMesh, part: Part, { flipV, c
     if ((place[corner] as number) < 0) place[corner] = used.push(corner) - 1;
     indices[i] = place[corner] as number;
   }
-  const packed = new Map(streams.map(({ key, size, data }) => {
-    const out = new Float32Array(used.length * size);
-    used.forEach((from, to) => out.set(data.subarray(from * size, from * size + size), to * size));
-    return [key, out] as const;
-  }));
+  const packed = new Map(
+    streams.map(({ key, size, data }) => {
+      const out = new Float32Array(used.length * size);
+      used.forEach((from, to) => out.set(data.subarray(from * size, from * size + size), to * size));
+      return [key, out] as const;
+    }),
+  );
   const made: Mesh = { name, positions: packed.get('positions') as Float32Array<ArrayBuffer>, indices };
   const normals = packed.get('normals');
   if (normals) made.normals = unit(normals, 3);

@@ -9,7 +9,11 @@ export const numbersFrom = ({ elements }: Matrix): Mat4 => Float64Array.from(ele
 
 /** The vector at `at` through a 3 × 3 matrix, as three numbers. */
 function turned(vectors: Float32Array, at: number, matrix: ArrayLike<number>): [number, number, number] {
-  const vector: [number, number, number] = [vectors[at] as number, vectors[at + 1] as number, vectors[at + 2] as number];
+  const vector: [number, number, number] = [
+    vectors[at] as number,
+    vectors[at + 1] as number,
+    vectors[at + 2] as number,
+  ];
   return transformMat3(vector, vector, matrix);
 }
 
@@ -32,4 +36,8 @@ export function axisOf(m: ArrayLike<number>, c: number): [number, number, number
   return [v[0] / length, v[1] / length, v[2] / length];
 }
 
-export const positionOf = (m: ArrayLike<number>): [number, number, number] => [m[12] as number, m[13] as number, m[14] as number];
+export const positionOf = (m: ArrayLike<number>): [number, number, number] => [
+  m[12] as number,
+  m[13] as number,
+  m[14] as number,
+];

@@ -33,28 +33,42 @@ export function poseVertices(mesh: ThreeMesh): Posed | undefined {
 
 function read(attribute: Attribute): Float32Array<ArrayBuffer> {
   const numbers = new Float32Array(attribute.count * 3);
-  for (let i = 0; i < attribute.count; i++) for (let k = 0; k < 3; k++) numbers[3 * i + k] = attribute.getComponent(i, k);
+  for (let i = 0; i < attribute.count; i++)
+    for (let k = 0; k < 3; k++) numbers[3 * i + k] = attribute.getComponent(i, k);
   return numbers;
 }
 
 /** Targets hold differences, or (older ones) vertices of their own, towards which the base moves. */
-function morph(vertices: Float32Array, targets: readonly Attribute[], influences: readonly number[], relative: boolean): void {
+function morph(
+  vertices: Float32Array,
+  targets: readonly Attribute[],
+  influences: readonly number[],
+  relative: boolean,
+): void {
   const base = relative ? undefined : vertices.slice();
   targets.forEach((target, t) => {
     const influence = influences[t] ?? 0;
     if (influence === 0) return;
-    for (let i = 0; i < target.count; i++) for (let k = 0; k < 3; k++) {
-      const at = 3 * i + k;
-      vertices[at] = (vertices[at] as number) + influence * (target.getComponent(i, k) - (base ? (base[at] as number) : 0));
-    }
+    for (let i = 0; i < target.count; i++)
+      for (let k = 0; k < 3; k++) {
+        const at = 3 * i + k;
+        vertices[at] =
+          (vertices[at] as number) + influence * (target.getComponent(i, k) - (base ? (base[at] as number) : 0));
+      }
   });
 }
 
 function skin(mesh: ThreeMesh, positions: Float32Array, normals: Float32Array | undefined): void {
-  const { skeleton, bindMatrix, bindMatrixInverse } = mesh as unknown as { readonly skeleton: Skeleton; readonly bindMatrix: Matrix; readonly bindMatrixInverse: Matrix };
+  const { skeleton, bindMatrix, bindMatrixInverse } = mesh as unknown as {
+    readonly skeleton: Skeleton;
+    readonly bindMatrix: Matrix;
+    readonly bindMatrixInverse: Matrix;
+  };
   const { skinIndex, skinWeight } = mesh.geometry.attributes;
   if (!skeleton || !skinIndex || !skinWeight) return;
-  const bones = skeleton.bones.map(({ matrixWorld }, i) => multiply(new Float64Array(16), matrixWorld.elements, (skeleton.boneInverses[i] as Matrix).elements));
+  const bones = skeleton.bones.map(({ matrixWorld }, i) =>
+    multiply(new Float64Array(16), matrixWorld.elements, (skeleton.boneInverses[i] as Matrix).elements),
+  );
   const [bind, back] = [numbersFrom(bindMatrix), numbersFrom(bindMatrixInverse)];
   for (let i = 0; i < positions.length / 3; i++) {
     const sum: Mat4 = new Float64Array(16);

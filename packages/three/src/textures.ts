@@ -8,7 +8,10 @@ const NEAREST = 1003;
 const HALF_FLOAT = 1016;
 
 /** Gives the pixels of a texture's picture: for pictures that only the host can read. */
-export type ReadImage = (image: unknown, texture: object) => Promise<Pick<Image, 'width' | 'height' | 'data'> | undefined>;
+export type ReadImage = (
+  image: unknown,
+  texture: object,
+) => Promise<Pick<Image, 'width' | 'height' | 'data'> | undefined>;
 
 interface Raw {
   readonly data: ArrayLike<number>;
@@ -16,16 +19,33 @@ interface Raw {
   readonly height: number;
 }
 
-const isRaw = (image: unknown): image is Raw => typeof image === 'object' && image !== null && ArrayBuffer.isView((image as { data?: unknown }).data);
+const isRaw = (image: unknown): image is Raw =>
+  typeof image === 'object' && image !== null && ArrayBuffer.isView((image as { data?: unknown }).data);
 
 /** RGBA floats of raw data of 1 to 4 channels, integers as fractions. */
 export function floatsOf({ data, width, height }: Raw, type: number): Float32Array<ArrayBuffer> {
   const channels = Math.round(data.length / (width * height));
-  const whole = data instanceof Uint8Array || data instanceof Uint8ClampedArray ? 255 : data instanceof Uint16Array && type !== HALF_FLOAT ? 65535 : 1;
-  const valueOf = type === HALF_FLOAT && data instanceof Uint16Array ? (code: number) => fromHalf(code) : (value: number) => value / whole;
+  const whole =
+    data instanceof Uint8Array || data instanceof Uint8ClampedArray
+      ? 255
+      : data instanceof Uint16Array && type !== HALF_FLOAT
+        ? 65535
+        : 1;
+  const valueOf =
+    type === HALF_FLOAT && data instanceof Uint16Array
+      ? (code: number) => fromHalf(code)
+      : (value: number) => value / whole;
   const out = new Float32Array(width * height * 4);
   for (let i = 0; i < width * height; i++) {
-    for (let k = 0; k < 4; k++) out[4 * i + k] = k < channels ? valueOf(data[channels * i + k] as number) : k === 3 ? 1 : channels === 1 ? valueOf(data[i] as number) : 0;
+    for (let k = 0; k < 4; k++)
+      out[4 * i + k] =
+        k < channels
+          ? valueOf(data[channels * i + k] as number)
+          : k === 3
+            ? 1
+            : channels === 1
+              ? valueOf(data[i] as number)
+              : 0;
   }
   return out;
 }
@@ -42,7 +62,9 @@ export class Textures {
     this.#read = read;
   }
 
-  /** Index of a texture as it is read in a colour space; `undefined`, with a warning, where its picture cannot be had. */
+  /**
+   * Index of a texture as it is read in a colour space; `undefined`, with a warning, where its picture cannot be had.
+   */
   async get(texture: ThreeTexture, colorSpace: Texture['color_space']): Promise<number | undefined> {
     const key = `${texture.uuid} ${colorSpace}`;
     const known = this.#textures.get(key);
@@ -51,7 +73,14 @@ export class Textures {
     if (image === undefined) return undefined;
     const again = this.#textures.get(key);
     if (again !== undefined) return again;
-    const made: Texture = { image, color_space: colorSpace, wrap_u: WRAPS[texture.wrapS] ?? 'clamp', wrap_v: WRAPS[texture.wrapT] ?? 'clamp', ...(texture.name ? { name: texture.name } : {}), ...(texture.magFilter === NEAREST ? { filter: 'nearest' as const } : {}) };
+    const made: Texture = {
+      image,
+      color_space: colorSpace,
+      wrap_u: WRAPS[texture.wrapS] ?? 'clamp',
+      wrap_v: WRAPS[texture.wrapT] ?? 'clamp',
+      ...(texture.name ? { name: texture.name } : {}),
+      ...(texture.magFilter === NEAREST ? { filter: 'nearest' as const } : {}),
+    };
     const index = this.#scene.textures.push(made) - 1;
     this.#textures.set(key, index);
     return index;
@@ -59,7 +88,14 @@ export class Textures {
 
   /** A texture of a picture that is made here. */
   add(image: Image, like: ThreeTexture, colorSpace: Texture['color_space']): number {
-    return this.#scene.textures.push({ image: this.#scene.images.push(image) - 1, color_space: colorSpace, wrap_u: WRAPS[like.wrapS] ?? 'clamp', wrap_v: WRAPS[like.wrapT] ?? 'clamp' }) - 1;
+    return (
+      this.#scene.textures.push({
+        image: this.#scene.images.push(image) - 1,
+        color_space: colorSpace,
+        wrap_u: WRAPS[like.wrapS] ?? 'clamp',
+        wrap_v: WRAPS[like.wrapT] ?? 'clamp',
+      }) - 1
+    );
   }
 
   /** The picture of a texture. */
@@ -77,13 +113,25 @@ export class Textures {
     const source = texture.source?.data ?? texture.image;
     const known = this.#images.get(source);
     if (known) return known;
-    const made = this.#readImage(texture, source).then(
-      (image) => (image ? this.#scene.images.push({ ...(texture.name ? { name: texture.name } : { name: `picture ${this.#scene.images.length}` }), ...image } as Image) - 1 : undefined),
-      () => undefined,
-    ).then((index) => {
-      if (index === undefined) this.#scene.warnings.push({ code: 'three/picture', message: `The picture of texture "${texture.name || texture.uuid}" cannot be read (compressed, on the GPU only, not loaded yet, or from another origin): it is left out.` });
-      return index;
-    });
+    const made = this.#readImage(texture, source)
+      .then(
+        (image) =>
+          image
+            ? this.#scene.images.push({
+                ...(texture.name ? { name: texture.name } : { name: `picture ${this.#scene.images.length}` }),
+                ...image,
+              } as Image) - 1
+            : undefined,
+        () => undefined,
+      )
+      .then((index) => {
+        if (index === undefined)
+          this.#scene.warnings.push({
+            code: 'three/picture',
+            message: `The picture of texture "${texture.name || texture.uuid}" cannot be read (compressed, on the GPU only, not loaded yet, or from another origin): it is left out.`,
+          });
+        return index;
+      });
     this.#images.set(source, made);
     return made;
   }
@@ -93,23 +141,37 @@ export class Textures {
     if (given) return given;
     if (isRaw(source)) {
       const { width, height, data } = source;
-      if ((data instanceof Uint8Array || data instanceof Uint8ClampedArray) && data.length === width * height * 4) return { width, height, data: new Uint8Array(data) };
-      if (data instanceof Uint8Array || data instanceof Uint8ClampedArray) return { width, height, data: Uint8Array.from(floatsOf(source, texture.type), (value) => Math.round(255 * value)) };
+      if ((data instanceof Uint8Array || data instanceof Uint8ClampedArray) && data.length === width * height * 4)
+        return { width, height, data: new Uint8Array(data) };
+      if (data instanceof Uint8Array || data instanceof Uint8ClampedArray)
+        return {
+          width,
+          height,
+          data: Uint8Array.from(floatsOf(source, texture.type), (value) => Math.round(255 * value)),
+        };
       return { width, height, data: floatsOf(source, texture.type) };
     }
     if (typeof createImageBitmap === 'undefined' || !source) return undefined;
-    const bitmap = await createImageBitmap(source as ImageBitmapSource, { premultiplyAlpha: 'none', colorSpaceConversion: 'none' });
+    const bitmap = await createImageBitmap(source as ImageBitmapSource, {
+      premultiplyAlpha: 'none',
+      colorSpaceConversion: 'none',
+    });
     const { width, height } = bitmap;
     const context = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true });
     if (!context || width * height === 0) return undefined;
     context.drawImage(bitmap, 0, 0);
-    return { width, height, data: context.getImageData(0, 0, width, height).data as Uint8ClampedArray<ArrayBuffer>, bitmap };
+    return {
+      width,
+      height,
+      data: context.getImageData(0, 0, width, height).data as Uint8ClampedArray<ArrayBuffer>,
+      bitmap,
+    };
   }
 }
 
 /**
- * Maps the mesh's coordinates, which are turned over with `flipped`, to the place in a picture whose first row is at the top:
- * through the texture's own matrix, and turned over if three turns the picture over.
+ * Maps the mesh's coordinates, which are turned over with `flipped`, to the place in a picture whose first row is at
+ * the top: through the texture's own matrix, and turned over if three turns the picture over.
  */
 export function uvTransformOf(texture: ThreeTexture, flipped: boolean): TextureBinding['transform'] {
   if (texture.matrixAutoUpdate) texture.updateMatrix();
@@ -120,5 +182,7 @@ export function uvTransformOf(texture: ThreeTexture, flipped: boolean): TextureB
   const [b0, d0, y0] = flipped ? [n(1), -n(4), n(7) + n(4)] : [n(1), n(4), n(7)];
   const [b, d, y] = texture.flipY ? [-b0, -d0, 1 - y0] : [b0, d0, y0];
   const near = (value: number, wanted: number) => Math.abs(value - wanted) < 1e-9;
-  return near(a, 1) && near(b, 0) && near(c, 0) && near(d, 1) && near(x, 0) && near(y, 0) ? undefined : [a, b, c, d, x, y];
+  return near(a, 1) && near(b, 0) && near(c, 0) && near(d, 1) && near(x, 0) && near(y, 0)
+    ? undefined
+    : [a, b, c, d, x, y];
 }

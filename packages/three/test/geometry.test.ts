@@ -7,7 +7,9 @@ import { fromThree } from '../src/index';
 function corners(scene: Scene, instance: Instance): number[][] {
   const { positions, indices } = scene.meshes[instance.mesh] as Mesh;
   const m = new THREE.Matrix4().fromArray(Array.from(instance.transform));
-  return Array.from(indices, (i) => new THREE.Vector3(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]).applyMatrix4(m).toArray());
+  return Array.from(indices, (i) =>
+    new THREE.Vector3(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]).applyMatrix4(m).toArray(),
+  );
 }
 
 const close = (a: number[][], b: number[][]) => {
@@ -19,7 +21,12 @@ const close = (a: number[][], b: number[][]) => {
 function truth(mesh: THREE.Mesh): number[][] {
   const { index, attributes } = mesh.geometry;
   const count = index ? index.count : attributes['position']!.count;
-  return Array.from({ length: count }, (_, i) => mesh.getVertexPosition(index ? index.getX(i) : i, new THREE.Vector3()).applyMatrix4(mesh.matrixWorld).toArray());
+  return Array.from({ length: count }, (_, i) =>
+    mesh
+      .getVertexPosition(index ? index.getX(i) : i, new THREE.Vector3())
+      .applyMatrix4(mesh.matrixWorld)
+      .toArray(),
+  );
 }
 
 describe('meshes', () => {
@@ -46,7 +53,11 @@ describe('meshes', () => {
     const hidden = new THREE.Group();
     hidden.visible = false;
     hidden.add(new THREE.Mesh(geometry, new THREE.MeshStandardMaterial()));
-    root.add(new THREE.Mesh(geometry, new THREE.MeshStandardMaterial()), new THREE.Mesh(geometry, new THREE.MeshStandardMaterial()), hidden);
+    root.add(
+      new THREE.Mesh(geometry, new THREE.MeshStandardMaterial()),
+      new THREE.Mesh(geometry, new THREE.MeshStandardMaterial()),
+      hidden,
+    );
     const scene = await fromThree(root);
     expect([scene.meshes.length, scene.instances.length, scene.materials.length]).toEqual([1, 2, 2]);
     await expect(fromThree(new THREE.Scene())).rejects.toMatchObject({ code: 'three/no-triangles' });
@@ -54,11 +65,24 @@ describe('meshes', () => {
   });
 
   it('split by groups, each with its material and no more vertices than it needs', async () => {
-    const box = new THREE.Mesh(new THREE.BoxGeometry(), Array.from({ length: 6 }, (_, i) => new THREE.MeshStandardMaterial({ name: `side ${i}` })));
+    const box = new THREE.Mesh(
+      new THREE.BoxGeometry(),
+      Array.from({ length: 6 }, (_, i) => new THREE.MeshStandardMaterial({ name: `side ${i}` })),
+    );
     const scene = await fromThree(box);
-    expect(scene.instances.map(({ material }) => scene.materials[material]!.name)).toEqual(['side 0', 'side 1', 'side 2', 'side 3', 'side 4', 'side 5']);
+    expect(scene.instances.map(({ material }) => scene.materials[material]!.name)).toEqual([
+      'side 0',
+      'side 1',
+      'side 2',
+      'side 3',
+      'side 4',
+      'side 5',
+    ]);
     expect(scene.meshes.map(({ positions }) => positions.length / 3)).toEqual([4, 4, 4, 4, 4, 4]);
-    close(scene.instances.flatMap((instance) => corners(scene, instance)), truth(box));
+    close(
+      scene.instances.flatMap((instance) => corners(scene, instance)),
+      truth(box),
+    );
   });
 
   it('keep to the draw range, and read interleaved and normalised attributes', async () => {
@@ -84,7 +108,11 @@ describe('meshes', () => {
 
 describe('instances', () => {
   it('of an InstancedMesh stand, and are tinted, one by one', async () => {
-    const mesh = new THREE.InstancedMesh(new THREE.BoxGeometry(), new THREE.MeshStandardMaterial({ color: new THREE.Color(0.5, 0.5, 0.5) }), 3);
+    const mesh = new THREE.InstancedMesh(
+      new THREE.BoxGeometry(),
+      new THREE.MeshStandardMaterial({ color: new THREE.Color(0.5, 0.5, 0.5) }),
+      3,
+    );
     mesh.position.y = 5;
     for (let i = 0; i < 3; i++) {
       mesh.setMatrixAt(i, new THREE.Matrix4().makeRotationZ(i).setPosition(i, 0, 0));
@@ -103,17 +131,33 @@ describe('instances', () => {
   });
 
   it('of a BatchedMesh too, each with its geometry', async () => {
-    const mesh = new THREE.BatchedMesh(4, 200, 400, new THREE.MeshStandardMaterial({ color: new THREE.Color(0.5, 0.5, 0.5) }));
-    const [box, ball] = [mesh.addGeometry(new THREE.BoxGeometry()), mesh.addGeometry(new THREE.SphereGeometry(1, 6, 4))];
+    const mesh = new THREE.BatchedMesh(
+      4,
+      200,
+      400,
+      new THREE.MeshStandardMaterial({ color: new THREE.Color(0.5, 0.5, 0.5) }),
+    );
+    const [box, ball] = [
+      mesh.addGeometry(new THREE.BoxGeometry()),
+      mesh.addGeometry(new THREE.SphereGeometry(1, 6, 4)),
+    ];
     const ids = [mesh.addInstance(box), mesh.addInstance(ball), mesh.addInstance(box), mesh.addInstance(ball)];
     ids.forEach((id, i) => mesh.setMatrixAt(id, new THREE.Matrix4().makeTranslation(i, 0, 0)));
     mesh.setColorAt(ids[1]!, new THREE.Color(0.5, 0.25, 1));
     mesh.setVisibleAt(ids[3]!, false);
     mesh.deleteInstance(ids[2]!);
     const scene = await fromThree(mesh);
-    expect(scene.instances.map(({ mesh: index, transform }) => [scene.meshes[index]!.indices.length, transform[12]])).toEqual([[36, 0], [new THREE.SphereGeometry(1, 6, 4).index!.count, 1]]);
+    expect(
+      scene.instances.map(({ mesh: index, transform }) => [scene.meshes[index]!.indices.length, transform[12]]),
+    ).toEqual([
+      [36, 0],
+      [new THREE.SphereGeometry(1, 6, 4).index!.count, 1],
+    ]);
     // Colours multiply that of the material; an instance that was given none is white.
-    expect(scene.instances.map(({ material }) => scene.materials[material]!.parameters.base_color)).toEqual([[0.5, 0.5, 0.5], [0.25, 0.125, 0.5]]);
+    expect(scene.instances.map(({ material }) => scene.materials[material]!.parameters.base_color)).toEqual([
+      [0.5, 0.5, 0.5],
+      [0.25, 0.125, 0.5],
+    ]);
   });
 });
 
@@ -161,7 +205,11 @@ describe('poses', () => {
     const { positions, normals, indices: order } = scene.meshes[0]!;
     const at = (data: Float32Array, i: number) => new THREE.Vector3(data[3 * i], data[3 * i + 1], data[3 * i + 2]);
     for (let t = 0; t < order.length; t += 3) {
-      const [a, b, c] = [order[t]!, order[t + 1]!, order[t + 2]!].map((i) => at(positions, i)) as [THREE.Vector3, THREE.Vector3, THREE.Vector3];
+      const [a, b, c] = [order[t]!, order[t + 1]!, order[t + 2]!].map((i) => at(positions, i)) as [
+        THREE.Vector3,
+        THREE.Vector3,
+        THREE.Vector3,
+      ];
       const face = b.clone().sub(a).cross(c.clone().sub(a)).normalize();
       expect(at(normals!, order[t]!).dot(face)).toBeGreaterThan(0.7);
     }

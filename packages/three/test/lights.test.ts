@@ -3,7 +3,10 @@ import { validateScene, type LatLongEnvironment, type Scene } from '@glanz/scene
 import { describe, expect, it } from 'vitest';
 import { fromThree } from '../src/index';
 
-const lit = async (...objects: THREE.Object3D[]): Promise<Scene> => fromThree(new THREE.Scene().add(new THREE.Mesh(new THREE.BoxGeometry(), new THREE.MeshStandardMaterial()), ...objects));
+const lit = async (...objects: THREE.Object3D[]): Promise<Scene> =>
+  fromThree(
+    new THREE.Scene().add(new THREE.Mesh(new THREE.BoxGeometry(), new THREE.MeshStandardMaterial()), ...objects),
+  );
 
 /** Irradiance of surroundings on a surface, by summing up the texels. */
 function irradiance({ width, height, data }: LatLongEnvironment, normal: THREE.Vector3, channel: number): number {
@@ -13,7 +16,12 @@ function irradiance({ width, height, data }: LatLongEnvironment, normal: THREE.V
     for (let i = 0; i < width; i++) {
       const phi = ((i + 0.5) / width - 0.5) * 2 * Math.PI;
       const d = new THREE.Vector3(Math.sin(theta) * Math.cos(phi), Math.cos(theta), Math.sin(theta) * Math.sin(phi));
-      sum += data[3 * (j * width + i) + channel]! * Math.max(0, d.dot(normal)) * Math.sin(theta) * (Math.PI / height) * ((2 * Math.PI) / width);
+      sum +=
+        data[3 * (j * width + i) + channel]! *
+        Math.max(0, d.dot(normal)) *
+        Math.sin(theta) *
+        (Math.PI / height) *
+        ((2 * Math.PI) / width);
     }
   }
   return sum;
@@ -23,7 +31,9 @@ function irradiance({ width, height, data }: LatLongEnvironment, normal: THREE.V
 function wider(environment: LatLongEnvironment, width: number): LatLongEnvironment {
   const { height, data } = environment;
   const out = new Float32Array(width * height * 3);
-  for (let j = 0; j < height; j++) for (let i = 0; i < width; i++) out.set(data.subarray(3 * j * environment.width, 3 * j * environment.width + 3), 3 * (j * width + i));
+  for (let j = 0; j < height; j++)
+    for (let i = 0; i < width; i++)
+      out.set(data.subarray(3 * j * environment.width, 3 * j * environment.width + 3), 3 * (j * width + i));
   return { ...environment, width, data: out };
 }
 
@@ -50,16 +60,27 @@ describe('lights', () => {
     const { environment } = await lit(new THREE.AmbientLight(new THREE.Color(1, 0.5, 0), 2));
     // π L = irradiance.
     expect(environment).toMatchObject({ type: 'constant' });
-    (environment as { radiance: readonly number[] }).radiance.forEach((value, k) => expect(Math.PI * value).toBeCloseTo([2, 1, 0][k]!, 10));
+    (environment as { radiance: readonly number[] }).radiance.forEach((value, k) =>
+      expect(Math.PI * value).toBeCloseTo([2, 1, 0][k]!, 10),
+    );
   });
 
   it('hemispheres give, at any slope, the irradiance that three gives', async () => {
     const light = new THREE.HemisphereLight(new THREE.Color(0.9, 0.8, 1), new THREE.Color(0.1, 0.3, 0), 2);
     const { environment } = await lit(light);
     const fine = wider(environment as LatLongEnvironment, 256);
-    for (const normal of [new THREE.Vector3(0, 1, 0), new THREE.Vector3(0, -1, 0), new THREE.Vector3(1, 0, 0), new THREE.Vector3(0.6, 0.8, 0)]) {
+    for (const normal of [
+      new THREE.Vector3(0, 1, 0),
+      new THREE.Vector3(0, -1, 0),
+      new THREE.Vector3(1, 0, 0),
+      new THREE.Vector3(0.6, 0.8, 0),
+    ]) {
       const share = 0.5 * normal.y + 0.5;
-      for (const [k, sky, ground] of [[0, 0.9, 0.1], [1, 0.8, 0.3], [2, 1, 0]] as const) {
+      for (const [k, sky, ground] of [
+        [0, 0.9, 0.1],
+        [1, 0.8, 0.3],
+        [2, 1, 0],
+      ] as const) {
         // A picture of 64 rows and 256 columns sums to within a few thousandths.
         expect(Math.abs(irradiance(fine, normal, k) - 2 * (ground + (sky - ground) * share))).toBeLessThan(0.01);
       }
@@ -72,9 +93,18 @@ describe('lights', () => {
     const scene = await lit(light);
     const instance = scene.instances.at(-1)!;
     const { positions, indices } = scene.meshes[instance.mesh]!;
-    expect(scene.materials[instance.material]!.parameters).toMatchObject({ emission_luminance: 6, emission_color: [1, 0.5, 0.5], base_weight: 0, specular_weight: 0 });
-    const corner = (i: number) => new THREE.Vector3(positions[3 * indices[i]!], positions[3 * indices[i]! + 1], positions[3 * indices[i]! + 2]);
-    const area = (t: number) => corner(3 * t + 1).sub(corner(3 * t)).cross(corner(3 * t + 2).sub(corner(3 * t)));
+    expect(scene.materials[instance.material]!.parameters).toMatchObject({
+      emission_luminance: 6,
+      emission_color: [1, 0.5, 0.5],
+      base_weight: 0,
+      specular_weight: 0,
+    });
+    const corner = (i: number) =>
+      new THREE.Vector3(positions[3 * indices[i]!], positions[3 * indices[i]! + 1], positions[3 * indices[i]! + 2]);
+    const area = (t: number) =>
+      corner(3 * t + 1)
+        .sub(corner(3 * t))
+        .cross(corner(3 * t + 2).sub(corner(3 * t)));
     expect(area(0).length() / 2 + area(1).length() / 2).toBeCloseTo(6, 6);
     // three's rectangles look along their −Z.
     expect(area(0).normalize().toArray()).toEqual([0, 0, -1]);
@@ -83,9 +113,14 @@ describe('lights', () => {
   it('tells what is not carried', async () => {
     const light = new THREE.PointLight(0xffffff, 1, 10, 1);
     light.castShadow = true;
-    const { warnings } = await lit(light, new THREE.LightProbe(), new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial()));
+    const { warnings } = await lit(
+      light,
+      new THREE.LightProbe(),
+      new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial()),
+    );
     expect(warnings.map(({ code }) => code)).toEqual(['three/light', 'three/light', 'three/light', 'three/object']);
-    for (const [i, word] of ['decay', 'distance', 'is not carried', 'Points'].entries()) expect(warnings[i]!.message).toContain(word);
+    for (const [i, word] of ['decay', 'distance', 'is not carried', 'Points'].entries())
+      expect(warnings[i]!.message).toContain(word);
   });
 });
 
@@ -125,7 +160,8 @@ describe('environment', () => {
     // Red tells the face; green grows to the right of the picture, blue downwards.
     const face = (n: number) => {
       const data = new Float32Array(size * size * 4);
-      for (let j = 0; j < size; j++) for (let i = 0; i < size; i++) data.set([n + 1, (i + 0.5) / size, (j + 0.5) / size, 1], 4 * (j * size + i));
+      for (let j = 0; j < size; j++)
+        for (let i = 0; i < size; i++) data.set([n + 1, (i + 0.5) / size, (j + 0.5) / size, 1], 4 * (j * size + i));
       return new THREE.DataTexture(data, size, size, THREE.RGBAFormat, THREE.FloatType);
     };
     root.environment = new THREE.CubeTexture(Array.from({ length: 6 }, (_, n) => face(n)) as never);
@@ -134,17 +170,26 @@ describe('environment', () => {
     const { width, height, data } = environment as LatLongEnvironment;
     const look = (...d: [number, number, number]) => {
       const v = new THREE.Vector3(...d).normalize();
-      const [i, j] = [Math.floor((Math.atan2(v.z, v.x) / (2 * Math.PI) + 0.5) * width), Math.min(height - 1, Math.floor((Math.acos(v.y) / Math.PI) * height))];
+      const [i, j] = [
+        Math.floor((Math.atan2(v.z, v.x) / (2 * Math.PI) + 0.5) * width),
+        Math.min(height - 1, Math.floor((Math.acos(v.y) / Math.PI) * height)),
+      ];
       return Array.from(data.subarray(3 * (j * width + i), 3 * (j * width + i) + 3));
     };
     // "Environment maps used in three.js will have pos-x and neg-x swapped" (documentation of CubeTextureLoader).
     const sides = { 1: [-1, 0, 0], 2: [1, 0, 0], 3: [0, 1, 0], 4: [0, -1, 0], 5: [0, 0, 1], 6: [0, 0, -1] } as const;
-    for (const [red, [x, y, z]] of Object.entries(sides)) expect(look(x + 0.01, y, z + 0.01)[0]).toBeCloseTo(Number(red), 5);
+    for (const [red, [x, y, z]] of Object.entries(sides))
+      expect(look(x + 0.01, y, z + 0.01)[0]).toBeCloseTo(Number(red), 5);
     // Somebody in the middle who looks at a wall sees its picture the right way round.
     for (const [x, , z] of [sides[1], sides[2], sides[5], sides[6]]) {
       const ahead = new THREE.Vector3(x, 0, z);
       const right = ahead.clone().cross(new THREE.Vector3(0, 1, 0));
-      const [rightUp, leftDown] = [1, -1].map((side) => ahead.clone().addScaledVector(right, 0.8 * side).add(new THREE.Vector3(0, 0.6 * side, 0)));
+      const [rightUp, leftDown] = [1, -1].map((side) =>
+        ahead
+          .clone()
+          .addScaledVector(right, 0.8 * side)
+          .add(new THREE.Vector3(0, 0.6 * side, 0)),
+      );
       const [a, b] = [look(...rightUp!.toArray()), look(...leftDown!.toArray())];
       expect(a[0]).toBe(b[0]);
       expect(a[1]).toBeGreaterThan(0.8);
@@ -158,7 +203,11 @@ describe('environment', () => {
   });
 
   it('that cannot be read is told', async () => {
-    for (const [texture, word] of [[new THREE.CubeTexture(), 'six square faces'], [Object.assign(new THREE.Texture(), { mapping: THREE.CubeUVReflectionMapping }), 'PMREMGenerator'], [new THREE.Texture(), 'EquirectangularReflectionMapping']] as const) {
+    for (const [texture, word] of [
+      [new THREE.CubeTexture(), 'six square faces'],
+      [Object.assign(new THREE.Texture(), { mapping: THREE.CubeUVReflectionMapping }), 'PMREMGenerator'],
+      [new THREE.Texture(), 'EquirectangularReflectionMapping'],
+    ] as const) {
       const root = new THREE.Scene().add(new THREE.Mesh(new THREE.BoxGeometry(), new THREE.MeshStandardMaterial()));
       root.environment = texture;
       const scene = await fromThree(root);
@@ -175,18 +224,24 @@ describe('cameras', () => {
     camera.focus = 0;
     camera.updateMatrixWorld();
     const scene = await fromThree(new THREE.Mesh(new THREE.BoxGeometry(), new THREE.MeshStandardMaterial()), camera);
-    expect(scene.warnings.map(({ message }) => message)).toEqual([expect.stringMatching(/has the aspect NaN/), expect.stringMatching(/has the focus 0/)]);
+    expect(scene.warnings.map(({ message }) => message)).toEqual([
+      expect.stringMatching(/has the aspect NaN/),
+      expect.stringMatching(/has the focus 0/),
+    ]);
     expect(validateScene(scene)).toEqual([]);
   });
 
-  it('see what three\'s see', async () => {
+  it("see what three's see", async () => {
     const camera = new THREE.PerspectiveCamera(50, 1.5, 0.1, 100);
     camera.position.set(3, 2, 5);
     camera.lookAt(0, 1, 0);
     camera.zoom = 1.3;
     camera.updateProjectionMatrix();
     camera.updateMatrixWorld();
-    const { cameras } = await fromThree(new THREE.Mesh(new THREE.BoxGeometry(), new THREE.MeshStandardMaterial()), camera);
+    const { cameras } = await fromThree(
+      new THREE.Mesh(new THREE.BoxGeometry(), new THREE.MeshStandardMaterial()),
+      camera,
+    );
     const [made] = cameras;
     if (made?.type !== 'perspective') throw new Error('a perspective camera was wanted');
     const m = made.transform;
@@ -199,7 +254,8 @@ describe('cameras', () => {
       expect(along(1) / (-along(2) * t)).toBeCloseTo(wanted.y, 6);
     }
     const flat = new THREE.OrthographicCamera(-4, 4, 3, -1, 0.1, 10);
-    const ortho = (await fromThree(new THREE.Mesh(new THREE.BoxGeometry(), new THREE.MeshStandardMaterial()), flat)).cameras[0];
+    const ortho = (await fromThree(new THREE.Mesh(new THREE.BoxGeometry(), new THREE.MeshStandardMaterial()), flat))
+      .cameras[0];
     expect(ortho).toMatchObject({ type: 'orthographic', xmag: 4, ymag: 2 });
     // Its middle lies a metre above the axis.
     expect(ortho!.transform[13]).toBe(1);

@@ -14,7 +14,17 @@ const SIZE = 64;
 
 async function render(scene: Scene): Promise<Float32Array> {
   scene.environment = { type: 'constant', radiance: [1, 1, 1] };
-  const tracer = await PathTracer.create(await testDevice(), scene, { width: SIZE, height: SIZE, maxDepth: 4, camera: { type: 'perspective', name: 'c', transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0.01, 0.12, 1], yfov: 0.6 } });
+  const tracer = await PathTracer.create(await testDevice(), scene, {
+    width: SIZE,
+    height: SIZE,
+    maxDepth: 4,
+    camera: {
+      type: 'perspective',
+      name: 'c',
+      transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0.01, 0.12, 1],
+      yfov: 0.6,
+    },
+  });
   for await (const progress of tracer.render({ samples: 16 })) void progress;
   const pixels = await tracer.read('beauty');
   tracer.destroy();
@@ -28,14 +38,18 @@ describe('the push-button by way of three.js', () => {
     // The workspace declares a little of the loader for its own ends; here it gives what three's own types say.
     const [ours, theirs] = [await loadGltf(bytes), await fromThree(root as unknown as ThreeObject)];
     expect(theirs.warnings).toEqual([]);
-    const triangles = (scene: Scene) => scene.instances.reduce((sum, { mesh }) => sum + scene.meshes[mesh]!.indices.length / 3, 0);
+    const triangles = (scene: Scene) =>
+      scene.instances.reduce((sum, { mesh }) => sum + scene.meshes[mesh]!.indices.length / 3, 0);
     expect(triangles(theirs)).toBe(triangles(ours));
     const byName = new Map(ours.materials.map((material) => [material.name, material.parameters]));
     for (const { name, parameters } of theirs.materials) {
       for (const [key, value] of Object.entries(parameters)) {
         const wanted = byName.get(name)?.[key as keyof typeof parameters];
         // Factors that glTF leaves out are their defaults.
-        if (wanted !== undefined) expect([value].flat().map(Number), `${name} ${key}`).toEqual([wanted].flat().map((number) => expect.closeTo(Number(number), 5) as number));
+        if (wanted !== undefined)
+          expect([value].flat().map(Number), `${name} ${key}`).toEqual(
+            [wanted].flat().map((number) => expect.closeTo(Number(number), 5) as number),
+          );
       }
     }
     const [a, b] = [await render(ours), await render(theirs)];

@@ -38,7 +38,9 @@ function model(): Buffer {
   const normals = Float32Array.of(0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1);
   const uvs = Float32Array.of(0, 1, 1, 1, 1, 0, 0, 0);
   const indices = Uint32Array.of(0, 1, 2, 0, 2, 3);
-  const parts = [...[positions, normals, uvs, indices].map(({ buffer }) => Buffer.from(buffer)), ...pictures].map((part) => Buffer.concat([part, Buffer.alloc((4 - (part.length % 4)) % 4)]));
+  const parts = [...[positions, normals, uvs, indices].map(({ buffer }) => Buffer.from(buffer)), ...pictures].map(
+    (part) => Buffer.concat([part, Buffer.alloc((4 - (part.length % 4)) % 4)]),
+  );
   let byteOffset = 0;
   const bufferViews = parts.map((part) => {
     const view = { buffer: 0, byteOffset, byteLength: part.length };
@@ -47,22 +49,37 @@ function model(): Buffer {
   });
   // The same scale both ways: with two, three turns before it scales, and glTF after.
   const turned = { KHR_texture_transform: { offset: [0.2, 0.1], rotation: 0.5, scale: [1.7, 1.7] } };
-  const primitive = (material: number) => ({ primitives: [{ attributes: { POSITION: 0, NORMAL: 1, TEXCOORD_0: 2 }, indices: 3, material }] });
+  const primitive = (material: number) => ({
+    primitives: [{ attributes: { POSITION: 0, NORMAL: 1, TEXCOORD_0: 2 }, indices: 3, material }],
+  });
   return glb(
     {
       asset: { version: '2.0' },
       extensionsUsed: ['KHR_texture_transform', 'KHR_materials_clearcoat'],
       scene: 0,
       scenes: [{ nodes: [0, 1] }],
-      nodes: [{ mesh: 0, translation: [0, 0.9, 0], scale: [1.6, 0.8, 1] }, { mesh: 1, translation: [0, -0.9, 0.3], rotation: [0, 0.3826834, 0, 0.9238795], scale: [0.8, 0.8, 0.8] }],
+      nodes: [
+        { mesh: 0, translation: [0, 0.9, 0], scale: [1.6, 0.8, 1] },
+        { mesh: 1, translation: [0, -0.9, 0.3], rotation: [0, 0.3826834, 0, 0.9238795], scale: [0.8, 0.8, 0.8] },
+      ],
       meshes: [primitive(0), primitive(1)],
       materials: [
         {
-          pbrMetallicRoughness: { baseColorTexture: { index: 0, extensions: turned }, metallicRoughnessTexture: { index: 1 }, roughnessFactor: 0.9, metallicFactor: 0.8 },
+          pbrMetallicRoughness: {
+            baseColorTexture: { index: 0, extensions: turned },
+            metallicRoughnessTexture: { index: 1 },
+            roughnessFactor: 0.9,
+            metallicFactor: 0.8,
+          },
           normalTexture: { index: 2, scale: 0.7 },
           extensions: { KHR_materials_clearcoat: { clearcoatFactor: 0.6, clearcoatRoughnessFactor: 0.3 } },
         },
-        { pbrMetallicRoughness: { baseColorTexture: { index: 3 }, metallicFactor: 0 }, alphaMode: 'MASK', alphaCutoff: 0.5, doubleSided: true },
+        {
+          pbrMetallicRoughness: { baseColorTexture: { index: 3 }, metallicFactor: 0 },
+          alphaMode: 'MASK',
+          alphaCutoff: 0.5,
+          doubleSided: true,
+        },
       ],
       textures: [0, 1, 2, 3].map((source) => ({ source, sampler: 0 })),
       samplers: [{ wrapS: 10497, wrapT: 33648 }],
@@ -84,17 +101,36 @@ async function picture(page: Page, base64: string, way: 'ours' | 'three') {
   await page.evaluate(
     async ([data, by]) => {
       window.viewer?.destroy();
-      window.viewer = window.make({ samples: 24, maxDepth: 3, pixelRatio: 0.5, camera: { type: 'perspective', name: 'c', transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 6, 1], yfov: 0.65, aspect: 1 }, environment: 'studio', controls: false });
+      window.viewer = window.make({
+        samples: 24,
+        maxDepth: 3,
+        pixelRatio: 0.5,
+        camera: {
+          type: 'perspective',
+          name: 'c',
+          transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 6, 1],
+          yfov: 0.65,
+          aspect: 1,
+        },
+        environment: 'studio',
+        controls: false,
+      });
       await window.viewer.load(by === 'ours' ? window.file(data as string) : await window.byThree(data as string));
     },
     [base64, way] as const,
   );
   await expect.poll(() => page.evaluate(() => window.viewer!.state)).toBe('done');
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
-  return { shot: await photograph(page.locator('canvas')), png: await page.locator('canvas').screenshot(), warnings: await page.evaluate(() => window.viewer!.scene!.warnings) };
+  return {
+    shot: await photograph(page.locator('canvas')),
+    png: await page.locator('canvas').screenshot(),
+    warnings: await page.evaluate(() => window.viewer!.scene!.warnings),
+  };
 }
 
-test('a textured glTF by way of GLTFLoader and fromThree gives the picture that our own loader gives', async ({ page }, info) => {
+test('a textured glTF by way of GLTFLoader and fromThree gives the picture that our own loader gives', async ({
+  page,
+}, info) => {
   const complaints = watch(page, served.origin);
   await page.goto(served.origin);
   const base64 = model().toString('base64');
@@ -104,8 +140,13 @@ test('a textured glTF by way of GLTFLoader and fromThree gives the picture that 
   await info.attach('three', { body: theirs.png, contentType: 'image/png' });
   expect(theirs.warnings).toEqual([]);
   expect(ours.shot.deviation).toBeGreaterThan(20);
-  // The same seed and the same triangles: what differs is the frame of the normal map, made from coordinates here and by MikkTSpace there.
-  theirs.shot.cells.forEach((cell, i) => cell.forEach((mean, k) => expect(Math.abs(mean - ours.shot.cells[i]![k]!), `cell ${i}, channel ${k}`).toBeLessThan(2)));
+  // The same seed and the same triangles: what differs is the frame of the normal map, made from coordinates here and
+  // by MikkTSpace there.
+  theirs.shot.cells.forEach((cell, i) =>
+    cell.forEach((mean, k) =>
+      expect(Math.abs(mean - ours.shot.cells[i]![k]!), `cell ${i}, channel ${k}`).toBeLessThan(2),
+    ),
+  );
   expect(Math.abs(theirs.shot.deviation - ours.shot.deviation)).toBeLessThan(1.5);
   expect(complaints.filter((complaint) => !complaint.includes('GPU stall'))).toEqual([]);
 });

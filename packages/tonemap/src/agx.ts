@@ -6,8 +6,13 @@ import type { Rgb } from './names';
 // Troy Sobotka's AgX, base look, for linear Rec.709: "inset" the primaries towards grey, take log2, put each channel
 // through a sigmoid, "outset". The published LUT is made from a closed form, and that form is used here: the usual
 // polynomial fits of it miss black and are not monotone at the ends. Matrices by columns.
-const INSET: Matrix3 = [0.842479062, 0.042328242, 0.042375655, 0.0784336, 0.878468636, 0.0784336, 0.079223745, 0.079166127, 0.879142974];
-const OUTSET: Matrix3 = [1.196879005, -0.052896852, -0.052971636, -0.098020881, 1.15190313, -0.09804345, -0.099029744, -0.098961177, 1.151073673];
+const INSET: Matrix3 = [
+  0.842479062, 0.042328242, 0.042375655, 0.0784336, 0.878468636, 0.0784336, 0.079223745, 0.079166127, 0.879142974,
+];
+const OUTSET: Matrix3 = [
+  1.196879005, -0.052896852, -0.052971636, -0.098020881, 1.15190313, -0.09804345, -0.099029744, -0.098961177,
+  1.151073673,
+];
 /** Stops below and above middle grey (0.18) that the curve covers. */
 const BELOW = 10;
 const ABOVE = 6.5;
@@ -49,5 +54,8 @@ function sigmoid(value: number): number {
 
 /** CPU twin of {@link tonemapAgx}. */
 export function agxToneMap(rgb: Rgb): [number, number, number] {
-  return mapRgb(transform(OUTSET, mapRgb(transform(INSET, finite(rgb)), sigmoid)), (code) => saturate(code) ** DISPLAY_POWER);
+  return mapRgb(
+    transform(OUTSET, mapRgb(transform(INSET, finite(rgb)), sigmoid)),
+    (code) => saturate(code) ** DISPLAY_POWER,
+  );
 }

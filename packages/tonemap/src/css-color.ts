@@ -18,7 +18,9 @@ function distance(a: string, b: string): number {
 
 /** The named colour that differs from a word by the fewest letters, if they are few. */
 function nearest(word: string): string | undefined {
-  const [best] = [...NAMED_COLORS.keys()].map((name) => ({ name, letters: distance(word, name) })).sort((a, b) => a.letters - b.letters);
+  const [best] = [...NAMED_COLORS.keys()]
+    .map((name) => ({ name, letters: distance(word, name) }))
+    .sort((a, b) => a.letters - b.letters);
   return best && best.letters <= Math.max(1, Math.floor(word.length / 4)) ? best.name : undefined;
 }
 
@@ -45,9 +47,16 @@ function fromHsl(hue: number, saturation: number, lightness: number): readonly n
 /** sRGB codes 0..1 and alpha of `rgb()` or `hsl()`, with commas or spaces. */
 function fromFunction(text: string): readonly number[] | undefined {
   const [, kind, inner = ''] = /^(rgb|hsl)a?\(([^()]*)\)$/.exec(text) ?? [];
-  const separated = inner.includes(',') ? inner.split(',') : inner.replace('/', ' / ').trim().split(/\s+/).filter((part, i) => !(part === '/' && i === 3));
+  const separated = inner.includes(',')
+    ? inner.split(',')
+    : inner
+        .replace('/', ' / ')
+        .trim()
+        .split(/\s+/)
+        .filter((part, i) => !(part === '/' && i === 3));
   const parts = separated.map((part) => part.trim());
-  if (kind === undefined || parts.length < 3 || parts.length > 4 || !parts.every((part) => NUMBER.test(part))) return undefined;
+  if (kind === undefined || parts.length < 3 || parts.length > 4 || !parts.every((part) => NUMBER.test(part)))
+    return undefined;
   const value = (at: number) => Number.parseFloat(parts[at] as string);
   const unit = (at: number) => NUMBER.exec(parts[at] as string)?.[3];
   const alpha = parts.length === 4 ? value(3) / (unit(3) === '%' ? 100 : 1) : 1;
@@ -55,12 +64,15 @@ function fromFunction(text: string): readonly number[] | undefined {
   if (parts.some((_, at) => (shares.includes(at) || at === 3) && (unit(at) ?? '%') !== '%')) return undefined;
   if (kind === 'rgb') return [...shares.map((at) => clamp(value(at) / (unit(at) === '%' ? 100 : 255))), alpha];
   if (unit(0) === '%') return undefined;
-  return [...fromHsl(value(0) * (DEGREES[unit(0) ?? 'deg'] as number), clamp(value(1) / 100), clamp(value(2) / 100)), alpha];
+  return [
+    ...fromHsl(value(0) * (DEGREES[unit(0) ?? 'deg'] as number), clamp(value(1) / 100), clamp(value(2) / 100)),
+    alpha,
+  ];
 }
 
 /**
- * A colour of CSS as linear light: a name (`rebeccapurple`), `#rgb`, `#rrggbb`, `rgb()` or `hsl()`, in upper or lower case.
- * sRGB codes out of range are clamped, as CSS does.
+ * A colour of CSS as linear light: a name (`rebeccapurple`), `#rgb`, `#rrggbb`, `rgb()` or `hsl()`, in upper or lower
+ * case. sRGB codes out of range are clamped, as CSS does.
  *
  * @param text An opaque colour.
  * @param what Names the value in errors.
@@ -72,12 +84,20 @@ function fromFunction(text: string): readonly number[] | undefined {
 export function cssColor(text: string, what = 'The colour'): Rgb {
   const word = text.trim().toLowerCase();
   const named = NAMED_COLORS.get(word);
-  const [r, g, b, alpha = 1] = (named === undefined ? (word.startsWith('#') ? fromHex(word.slice(1)) : fromFunction(word)) : fromHex(named)) ?? [];
+  const [r, g, b, alpha = 1] =
+    (named === undefined ? (word.startsWith('#') ? fromHex(word.slice(1)) : fromFunction(word)) : fromHex(named)) ?? [];
   const shown = JSON.stringify(text.slice(0, 60));
   if (r === undefined || g === undefined || b === undefined) {
     const meant = /^[a-z]+$/.test(word) ? nearest(word) : undefined;
-    throw new ToneMapError('tonemap/color', `${what} is ${shown}${meant ? `; did you mean "${meant}"? It` : '; it'} must be a CSS colour: a name, #rgb, #rrggbb, rgb() or hsl().`);
+    throw new ToneMapError(
+      'tonemap/color',
+      `${what} is ${shown}${meant ? `; did you mean "${meant}"? It` : '; it'} must be a CSS colour: a name, #rgb, #rrggbb, rgb() or hsl().`,
+    );
   }
-  if (alpha !== 1) throw new ToneMapError('tonemap/color', `${what} is ${shown}, whose alpha is ${alpha}; it must be opaque. Opacity is a parameter of its own.`);
+  if (alpha !== 1)
+    throw new ToneMapError(
+      'tonemap/color',
+      `${what} is ${shown}, whose alpha is ${alpha}; it must be opaque. Opacity is a parameter of its own.`,
+    );
   return [srgbDecode(r), srgbDecode(g), srgbDecode(b)];
 }

@@ -19,15 +19,17 @@ export interface CameraExposureSettings {
  */
 export function exposureValue({ fStop, shutter, iso = 100 }: CameraExposureSettings): number {
   for (const [name, value] of Object.entries({ fStop, shutter, iso })) {
-    if (!(value > 0 && value < Infinity)) throw new ToneMapError('tonemap/exposure', `The exposure's ${name} is ${value}; it must be a positive number.`);
+    if (!(value > 0 && value < Infinity))
+      throw new ToneMapError('tonemap/exposure', `The exposure's ${name} is ${value}; it must be a positive number.`);
   }
   return Math.log2(((fStop * fStop) / shutter) * (100 / iso));
 }
 
 /**
- * The stops that `exposure` takes, for scenes whose radiance is luminance in cd/m² (glTF's photometric units, taken 1:1):
- * −(EV100 + log2 1.2). A luminance of 1.2 · 2^EV100, which saturates a sensor by ISO 12232's saturation speed with a lens
- * that passes 65 % of the light, becomes 1 (Lagarde and de Rousiers, "Moving Frostbite to Physically Based Rendering", 2014).
+ * The stops that `exposure` takes, for scenes whose radiance is luminance in cd/m² (glTF's photometric units, taken
+ * 1:1): −(EV100 + log2 1.2). A luminance of 1.2 · 2^EV100, which saturates a sensor by ISO 12232's saturation speed
+ * with a lens that passes 65 % of the light, becomes 1 (Lagarde and de Rousiers, "Moving Frostbite to Physically Based
+ * Rendering", 2014).
  *
  * Scenes in arbitrary units, most of them, look best at exposures near 0 instead.
  *

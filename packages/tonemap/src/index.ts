@@ -1,5 +1,11 @@
 export { TONE_MAPS, ToneMapError, isToneMap, type Rgb, type ToneMap } from './names';
-export { checkToneMapOptions, toneMap, toneMapPixels, type ToneMapOptions, type ToneMapPixelsOptions } from './tone-map';
+export {
+  checkToneMapOptions,
+  toneMap,
+  toneMapPixels,
+  type ToneMapOptions,
+  type ToneMapPixelsOptions,
+} from './tone-map';
 export { cameraExposure, exposureValue, type CameraExposureSettings } from './exposure';
 export { toneMapOperator, type ToneMapOperator } from './operators';
 export { ToneMapPass, type ToneMapPassOptions, type ToneMapPassSettings } from './pass';

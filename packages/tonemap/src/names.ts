@@ -10,8 +10,8 @@ export type ToneMap = (typeof TONE_MAPS)[number];
 export type Rgb = readonly [number, number, number];
 
 /**
- * Thrown on wrong arguments, and where the GPU refuses a shader. Codes: `tonemap/unknown`, `tonemap/size`, `tonemap/exposure`,
- * `tonemap/pipeline`, `tonemap/destroyed`, `tonemap/color`.
+ * Thrown on wrong arguments, and where the GPU refuses a shader. Codes: `tonemap/unknown`, `tonemap/size`,
+ * `tonemap/exposure`, `tonemap/pipeline`, `tonemap/destroyed`, `tonemap/color`.
  */
 export class ToneMapError extends GlanzError {}
 

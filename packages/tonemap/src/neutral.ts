@@ -2,7 +2,10 @@ import { wgslModule } from '@glanz/wgsl/module';
 import { finite, mapRgb, tonemapFinite } from './finite';
 import type { Rgb } from './names';
 
-/** Reflectance at normal incidence of IOR 1.5: what a white furnace adds to a base colour, and the curve's toe takes away. */
+/**
+ * Reflectance at normal incidence of IOR 1.5: what a white furnace adds to a base colour, and the curve's toe takes
+ * away.
+ */
 const F90 = 0.04;
 /** K_s of the specification: where the highlights start to be compressed. */
 const START = 0.8 - F90;

@@ -26,6 +26,10 @@ const OPERATORS: Readonly<Record<ToneMap, ToneMapOperator>> = {
  * @throws {ToneMapError} code `tonemap/unknown`.
  */
 export function toneMapOperator(name: ToneMap): ToneMapOperator {
-  if (!Object.hasOwn(OPERATORS, name)) throw new ToneMapError('tonemap/unknown', `There is no tone map "${String(name)}". Known: ${TONE_MAPS.join(', ')}.`);
+  if (!Object.hasOwn(OPERATORS, name))
+    throw new ToneMapError(
+      'tonemap/unknown',
+      `There is no tone map "${String(name)}". Known: ${TONE_MAPS.join(', ')}.`,
+    );
   return OPERATORS[name];
 }

@@ -88,12 +88,18 @@ export class ToneMapPass {
   #drawn: ToneMap;
   #destroyed = false;
   #pipeline: GPURenderPipeline | undefined;
-  #bound: { readonly source: GPUBuffer; readonly pipeline: GPURenderPipeline; readonly group: GPUBindGroup } | undefined;
+  #bound:
+    { readonly source: GPUBuffer; readonly pipeline: GPURenderPipeline; readonly group: GPUBindGroup } | undefined;
 
   private constructor(device: GPUDevice, options: ToneMapPassOptions) {
     this.#device = device;
     this.#format = options.format;
-    this.#settings = { exposure: options.exposure ?? 0, toneMap: options.toneMap ?? 'neutral', alpha: options.alpha ?? 'premultiplied', filter: options.filter ?? 'bilinear' };
+    this.#settings = {
+      exposure: options.exposure ?? 0,
+      toneMap: options.toneMap ?? 'neutral',
+      alpha: options.alpha ?? 'premultiplied',
+      filter: options.filter ?? 'bilinear',
+    };
     this.#drawn = this.#settings.toneMap;
     this.#uniforms = device.createBuffer({ label: 'tonemap', size: 32, usage: UNIFORM_COPY_DST });
   }
@@ -101,8 +107,8 @@ export class ToneMapPass {
   /**
    * Makes the pass and the pipeline of its first tone map.
    *
-   * @throws {ToneMapError} `tonemap/unknown` for an unknown tone map, `tonemap/exposure`, `tonemap/pipeline` where the GPU's
-   * driver does not compile the shader.
+   * @throws {ToneMapError} `tonemap/unknown` for an unknown tone map, `tonemap/exposure`, `tonemap/pipeline` where the
+   * GPU's driver does not compile the shader.
    */
   static async create(device: GPUDevice, options: ToneMapPassOptions): Promise<ToneMapPass> {
     checkToneMapOptions(options);
@@ -151,24 +157,50 @@ export class ToneMapPass {
    * @param source vec4f per pixel: linear RGBA multiplied by alpha, row-major, top row first; usage `STORAGE`.
    * @param size Width and height of the source, pixels.
    * @param targetSize Width and height of the target, pixels; default: those of the source.
-   * @throws {ToneMapError} `tonemap/size` for an empty size or a buffer too small, `tonemap/destroyed` after {@link destroy}.
+   * @throws {ToneMapError} `tonemap/size` for an empty size or a buffer too small, `tonemap/destroyed` after
+   * {@link destroy}.
    */
-  draw(encoder: GPUCommandEncoder, source: GPUBuffer, size: readonly [number, number], target: GPUTextureView, targetSize: readonly [number, number] = size): void {
+  draw(
+    encoder: GPUCommandEncoder,
+    source: GPUBuffer,
+    size: readonly [number, number],
+    target: GPUTextureView,
+    targetSize: readonly [number, number] = size,
+  ): void {
     const pipeline = this.#pipeline;
     if (!pipeline) throw new ToneMapError('tonemap/destroyed', 'This ToneMapPass was destroyed.');
     const [width, height] = size;
     if (!(width >= 1 && height >= 1 && targetSize[0] >= 1 && targetSize[1] >= 1) || source.size < width * height * 16) {
-      throw new ToneMapError('tonemap/size', `Cannot draw a ${width}×${height} picture from a buffer of ${source.size} bytes to ${targetSize[0]}×${targetSize[1]} pixels; a pixel takes 16 bytes.`);
+      throw new ToneMapError(
+        'tonemap/size',
+        `Cannot draw a ${width}×${height} picture from a buffer of ${source.size} bytes to ${targetSize[0]}×${targetSize[1]} pixels; a pixel takes 16 bytes.`,
+      );
     }
     const { exposure, alpha, filter } = this.#settings;
     const sameSize = width === targetSize[0] && height === targetSize[1];
-    const values = [width, height, targetSize[0], targetSize[1], 2 ** exposure, alpha === 'opaque' ? 1 : 0, filter === 'bilinear' && !sameSize ? 1 : 0, 0];
+    const values = [
+      width,
+      height,
+      targetSize[0],
+      targetSize[1],
+      2 ** exposure,
+      alpha === 'opaque' ? 1 : 0,
+      filter === 'bilinear' && !sameSize ? 1 : 0,
+      0,
+    ];
     this.#device.queue.writeBuffer(this.#uniforms, 0, new Float32Array(values));
     if (this.#bound?.source !== source || this.#bound.pipeline !== pipeline) {
       const entries = [this.#uniforms, source].map((buffer, binding) => ({ binding, resource: { buffer } }));
-      this.#bound = { source, pipeline, group: this.#device.createBindGroup({ label: 'tonemap', layout: pipeline.getBindGroupLayout(0), entries }) };
+      this.#bound = {
+        source,
+        pipeline,
+        group: this.#device.createBindGroup({ label: 'tonemap', layout: pipeline.getBindGroupLayout(0), entries }),
+      };
     }
-    const pass = encoder.beginRenderPass({ label: 'tonemap', colorAttachments: [{ view: target, loadOp: 'clear', storeOp: 'store', clearValue: [0, 0, 0, 0] }] });
+    const pass = encoder.beginRenderPass({
+      label: 'tonemap',
+      colorAttachments: [{ view: target, loadOp: 'clear', storeOp: 'store', clearValue: [0, 0, 0, 0] }],
+    });
     pass.setPipeline(pipeline);
     pass.setBindGroup(0, this.#bound.group);
     pass.draw(3);
@@ -205,7 +237,11 @@ export class ToneMapPass {
         fragment: { module, targets: [{ format: this.#format }] },
       });
     } catch (cause) {
-      throw new ToneMapError('tonemap/pipeline', `The GPU's driver did not compile the tone map "${toneMap}": ${(cause as Error).message}. Use another tone map, or update the driver.`, { cause });
+      throw new ToneMapError(
+        'tonemap/pipeline',
+        `The GPU's driver did not compile the tone map "${toneMap}": ${(cause as Error).message}. Use another tone map, or update the driver.`,
+        { cause },
+      );
     }
   }
 }

@@ -1,6 +1,8 @@
 import { wgslModule } from '@glanz/wgsl/module';
 
-/** WGSL `fn tonemap_srgb_encode(linear: vec3f) -> vec3f`: linear 0..1 (clamped) to the sRGB code 0..1 (IEC 61966-2-1). */
+/**
+ * WGSL `fn tonemap_srgb_encode(linear: vec3f) -> vec3f`: linear 0..1 (clamped) to the sRGB code 0..1 (IEC 61966-2-1).
+ */
 export const tonemapSrgb = wgslModule(
   'tonemap/srgb',
   /* wgsl */ `fn tonemap_srgb_encode(linear: vec3f) -> vec3f {

@@ -17,13 +17,17 @@ const MOST_STOPS = 64;
 /**
  * Checks a tone map and an exposure that come from outside. What is left out is not checked.
  *
- * @throws {ToneMapError} `tonemap/unknown` for an unknown tone map; `tonemap/exposure` for an exposure that is no number from
+ * @throws {ToneMapError} `tonemap/unknown` for an unknown tone map; `tonemap/exposure` for an exposure that is no
+ * number from
  * -64 to 64.
  */
 export function checkToneMapOptions({ toneMap: name, exposure }: ToneMapOptions): void {
   if (name !== undefined) toneMapOperator(name);
   if (exposure !== undefined && !(typeof exposure === 'number' && Math.abs(exposure) <= MOST_STOPS)) {
-    throw new ToneMapError('tonemap/exposure', `The exposure is ${String(exposure)}; it must be a number of stops from -${MOST_STOPS} to ${MOST_STOPS}.`);
+    throw new ToneMapError(
+      'tonemap/exposure',
+      `The exposure is ${String(exposure)}; it must be a number of stops from -${MOST_STOPS} to ${MOST_STOPS}.`,
+    );
   }
 }
 
@@ -64,7 +68,8 @@ export function toneMap(rgb: Rgb, options: ToneMapOptions = {}): [number, number
  *
  * @param rgba Linear RGBA, stride 4, row-major, with RGB already multiplied by alpha, as a path tracer's film holds it.
  * @returns sRGB codes, RGBA, stride 4; alpha linear and 0 where it was NaN.
- * @throws {ToneMapError} `tonemap/size` if the array does not hold width × height pixels; `tonemap/unknown`, `tonemap/exposure`.
+ * @throws {ToneMapError} `tonemap/size` if the array does not hold width × height pixels; `tonemap/unknown`,
+ * `tonemap/exposure`.
  */
 export function toneMapPixels<O extends keyof Outputs = 'uint8'>(
   rgba: Float32Array,
@@ -74,21 +79,33 @@ export function toneMapPixels<O extends keyof Outputs = 'uint8'>(
 ): Outputs[O] {
   const count = width * height;
   if (!Number.isInteger(width) || !Number.isInteger(height) || rgba.length !== count * 4) {
-    throw new ToneMapError('tonemap/size', `${width}×${height} RGBA pixels need ${count * 4} floats, but ${rgba.length} were given.`);
+    throw new ToneMapError(
+      'tonemap/size',
+      `${width}×${height} RGBA pixels need ${count * 4} floats, but ${rgba.length} were given.`,
+    );
   }
   checkToneMapOptions(options);
   const output = options.output ?? 'uint8';
   const { map } = toneMapOperator(options.toneMap ?? 'neutral');
   const exposure = 2 ** (options.exposure ?? 0);
   const straight = (options.alpha ?? 'straight') === 'straight';
-  const out = output === 'uint8' ? new Uint8ClampedArray(count * 4) : output === 'uint16' ? new Uint16Array(count * 4) : new Float32Array(count * 4);
+  const out =
+    output === 'uint8'
+      ? new Uint8ClampedArray(count * 4)
+      : output === 'uint16'
+        ? new Uint16Array(count * 4)
+        : new Float32Array(count * 4);
   const [top, round] = output === 'uint8' ? [255, 0.5] : output === 'uint16' ? [65535, 0.5] : [1, 0];
   const store = round === 0 ? (v: number) => v : (v: number) => Math.floor(v * top + round);
   for (let i = 0; i < out.length; i += 4) {
     const coverage = rgba[i + 3] as number;
     const alpha = straight ? (coverage > 0 ? Math.min(coverage, 1) : 0) : 1;
     const scale = alpha > 0 ? exposure / alpha : 0;
-    const [r, g, b] = map([(rgba[i] as number) * scale, (rgba[i + 1] as number) * scale, (rgba[i + 2] as number) * scale]);
+    const [r, g, b] = map([
+      (rgba[i] as number) * scale,
+      (rgba[i + 1] as number) * scale,
+      (rgba[i + 2] as number) * scale,
+    ]);
     out[i] = store(srgbEncode(r));
     out[i + 1] = store(srgbEncode(g));
     out[i + 2] = store(srgbEncode(b));

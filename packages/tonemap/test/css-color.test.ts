@@ -36,13 +36,32 @@ describe('cssColor', () => {
     return 'no error';
   };
 
-  it.each(['', '#ff80', '#12', '#ggg', 'rgb(1 2)', 'rgb(1 2 3 4)', 'rgb(1deg 2 3)', 'rgb(1, 2, 3', 'hsl(10% 20% 30%)', 'hsl(10 20% 30deg)', 'var(--x)', 'url(x)', 'constructor'])('refuses %j', (text) => {
-    expect(complaint(text)).toMatch(/^The colour is ".*(must be a CSS colour: a name, #rgb, #rrggbb, rgb\(\) or hsl\(\)|must be opaque)/);
+  it.each([
+    '',
+    '#ff80',
+    '#12',
+    '#ggg',
+    'rgb(1 2)',
+    'rgb(1 2 3 4)',
+    'rgb(1deg 2 3)',
+    'rgb(1, 2, 3',
+    'hsl(10% 20% 30%)',
+    'hsl(10 20% 30deg)',
+    'var(--x)',
+    'url(x)',
+    'constructor',
+  ])('refuses %j', (text) => {
+    expect(complaint(text)).toMatch(
+      /^The colour is ".*(must be a CSS colour: a name, #rgb, #rrggbb, rgb\(\) or hsl\(\)|must be opaque)/,
+    );
   });
 
   it('names what was meant, and the value; alpha has no place in it', () => {
-    expect(complaint('rebecapurple', 'base_color')).toContain('base_color is "rebecapurple"; did you mean "rebeccapurple"?');
+    expect(complaint('rebecapurple', 'base_color')).toContain(
+      'base_color is "rebecapurple"; did you mean "rebeccapurple"?',
+    );
     expect(complaint('zzzzzzzz')).not.toContain('did you mean');
-    for (const text of ['#ff800080', 'rgb(1 2 3 / 50%)', 'rgba(1, 2, 3, 0.5)']) expect(complaint(text)).toContain('must be opaque');
+    for (const text of ['#ff800080', 'rgb(1 2 3 / 50%)', 'rgba(1, 2, 3, 0.5)'])
+      expect(complaint(text)).toContain('must be opaque');
   });
 });

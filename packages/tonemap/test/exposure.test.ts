@@ -2,7 +2,8 @@ import { describe, expect, it } from 'vitest';
 import { cameraExposure, exposureValue, ToneMapError } from '../src/index';
 
 describe('exposureValue', () => {
-  // The scale of exposure values (ISO 2720): aperture √2^k and time 2^−m make EV k + m. "f/2.8 at 1/60" are rounded names.
+  // The scale of exposure values (ISO 2720): aperture √2^k and time 2^−m make EV k + m. "f/2.8 at 1/60" are rounded
+  // names.
   it.each([
     ['f/1', 0, '1 s', 0],
     ['f/2.8', 3, '1/60 s', 6],
@@ -13,13 +14,19 @@ describe('exposureValue', () => {
     expect(exposureValue({ fStop: Math.SQRT2 ** k, shutter: 2 ** -m })).toBeCloseTo(k + m, 10);
   });
   it('sensitivity counts in stops: ISO 400 needs two fewer', () => {
-    expect(exposureValue({ fStop: 4, shutter: 0.01, iso: 400 })).toBeCloseTo(exposureValue({ fStop: 4, shutter: 0.01 }) - 2, 12);
+    expect(exposureValue({ fStop: 4, shutter: 0.01, iso: 400 })).toBeCloseTo(
+      exposureValue({ fStop: 4, shutter: 0.01 }) - 2,
+      12,
+    );
   });
 });
 
 describe('cameraExposure', () => {
   it('makes the luminance that saturates the sensor 1: L = 78/(0.65 · S) · N²/t', () => {
-    for (const [fStop, shutter, iso] of [[8, 1 / 125, 100], [2.8, 1 / 30, 800]] as const) {
+    for (const [fStop, shutter, iso] of [
+      [8, 1 / 125, 100],
+      [2.8, 1 / 30, 800],
+    ] as const) {
       const saturating = (78 / (0.65 * iso)) * ((fStop * fStop) / shutter);
       expect(saturating * 2 ** cameraExposure({ fStop, shutter, iso })).toBeCloseTo(1, 10);
     }

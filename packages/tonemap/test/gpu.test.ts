@@ -1,7 +1,15 @@
 import { compose, wgslModule } from '@glanz/wgsl';
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import { TONE_MAPS, ToneMapPass, ToneMapError, srgbEncode, toneMapOperator, toneMapPixels, tonemapSrgb } from '../src/index';
+import {
+  TONE_MAPS,
+  ToneMapPass,
+  ToneMapError,
+  srgbEncode,
+  toneMapOperator,
+  toneMapPixels,
+  tonemapSrgb,
+} from '../src/index';
 
 let device: GPUDevice;
 beforeAll(async () => {
@@ -9,7 +17,10 @@ beforeAll(async () => {
 });
 afterAll(() => expectNoGpuErrors());
 
-/** Colours from deep shadow to far beyond white, every mixture of odd values, and random ones; seed in the name of the test. */
+/**
+ * Colours from deep shadow to far beyond white, every mixture of odd values, and random ones; seed in the name of the
+ * test.
+ */
 function testColours(seed: number): Float32Array<ArrayBuffer> {
   const odd = [0, -0, NaN, Infinity, -Infinity, -1, 1e-45, 1e-12, 0.04, 0.08, 0.76, 0.8, 1, 16, 3.4e38, 1e6];
   const list: number[] = [];
@@ -33,7 +44,10 @@ async function onGpu(input: Float32Array<ArrayBuffer>, name: string): Promise<Fl
 }`,
     [toneMapOperator(name as 'aces').wgsl, tonemapSrgb],
   );
-  const pipeline = await device.createComputePipelineAsync({ layout: 'auto', compute: { module: device.createShaderModule({ code: compose([kernel]).code }) } });
+  const pipeline = await device.createComputePipelineAsync({
+    layout: 'auto',
+    compute: { module: device.createShaderModule({ code: compose([kernel]).code }) },
+  });
   const source = device.createBuffer({ size: input.byteLength, usage: 0x80 | 0x8 });
   const result = device.createBuffer({ size: input.byteLength, usage: 0x80 | 0x4 });
   const staging = device.createBuffer({ size: input.byteLength, usage: 0x1 | 0x8 });
@@ -41,7 +55,16 @@ async function onGpu(input: Float32Array<ArrayBuffer>, name: string): Promise<Fl
   const encoder = device.createCommandEncoder();
   const pass = encoder.beginComputePass();
   pass.setPipeline(pipeline);
-  pass.setBindGroup(0, device.createBindGroup({ layout: pipeline.getBindGroupLayout(0), entries: [{ binding: 0, resource: { buffer: source } }, { binding: 1, resource: { buffer: result } }] }));
+  pass.setBindGroup(
+    0,
+    device.createBindGroup({
+      layout: pipeline.getBindGroupLayout(0),
+      entries: [
+        { binding: 0, resource: { buffer: source } },
+        { binding: 1, resource: { buffer: result } },
+      ],
+    }),
+  );
   pass.dispatchWorkgroups(Math.ceil(input.length / 4 / 64));
   pass.end();
   encoder.copyBufferToBuffer(result, 0, staging, 0, input.byteLength);
@@ -64,7 +87,8 @@ describe('the WGSL and the CPU twin agree to 1/512 of the encoded range (seed 20
       for (const k of [0, 1, 2] as const) {
         const difference = Math.abs((gpu[i + k] as number) - srgbEncode(cpu[k]));
         // NaN fails this comparison too.
-        if (!(difference <= 1 / 512)) expect.fail(`${name}(${input})[${k}]: GPU ${gpu[i + k]}, CPU ${srgbEncode(cpu[k])}`);
+        if (!(difference <= 1 / 512))
+          expect.fail(`${name}(${input})[${k}]: GPU ${gpu[i + k]}, CPU ${srgbEncode(cpu[k])}`);
         worst = Math.max(worst, difference);
       }
     }
@@ -85,7 +109,12 @@ describe('ToneMapPass', () => {
     device.queue.writeBuffer(buffer, 0, data);
     return buffer;
   };
-  async function drawn(pass: ToneMapPass, source: GPUBuffer, size: [number, number], format: GPUTextureFormat = 'rgba8unorm'): Promise<Uint8Array> {
+  async function drawn(
+    pass: ToneMapPass,
+    source: GPUBuffer,
+    size: [number, number],
+    format: GPUTextureFormat = 'rgba8unorm',
+  ): Promise<Uint8Array> {
     const texture = device.createTexture({ size: [SIZE, SIZE], format, usage: 0x10 | 0x1 });
     const staging = device.createBuffer({ size: SIZE * SIZE * 4, usage: 0x1 | 0x8 });
     const encoder = device.createCommandEncoder();
@@ -121,7 +150,9 @@ describe('ToneMapPass', () => {
     const grey = picture(SIZE, SIZE, () => [0.18, 0.18, 0.18, 1]);
     const source = upload(grey);
     const pass = await ToneMapPass.create(device, { format: 'rgba8unorm-srgb', toneMap: 'linear' });
-    expect([...(await drawn(pass, source, [SIZE, SIZE], 'rgba8unorm-srgb')).subarray(0, 4)]).toEqual([118, 118, 118, 255]);
+    expect([...(await drawn(pass, source, [SIZE, SIZE], 'rgba8unorm-srgb')).subarray(0, 4)]).toEqual([
+      118, 118, 118, 255,
+    ]);
     pass.destroy();
     source.destroy();
   });
@@ -130,7 +161,9 @@ describe('ToneMapPass', () => {
     // Two by two: red and green above, blue and white below.
     const source = upload(new Float32Array([1, 0, 0, 1, 0, 1, 0, 1, 0, 0, 1, 1, 1, 1, 1, 1]));
     const pass = await ToneMapPass.create(device, { format: 'rgba8unorm', toneMap: 'linear', filter: 'nearest' });
-    const at = (image: Uint8Array, x: number, y: number) => [...image.subarray((y * SIZE + x) * 4, (y * SIZE + x) * 4 + 3)];
+    const at = (image: Uint8Array, x: number, y: number) => [
+      ...image.subarray((y * SIZE + x) * 4, (y * SIZE + x) * 4 + 3),
+    ];
     const nearest = await drawn(pass, source, [2, 2]);
     expect(at(nearest, 0, 0)).toEqual([255, 0, 0]);
     expect(at(nearest, 31, 31)).toEqual([255, 0, 0]);
@@ -167,12 +200,20 @@ describe('ToneMapPass', () => {
     let broken = '';
     const driver = new Proxy(device, {
       get(target, name) {
-        if (name === 'createRenderPipelineAsync' && broken) return (given: GPURenderPipelineDescriptor) => (given.label?.includes(broken) ? Promise.reject(new Error('internal compiler error')) : target.createRenderPipelineAsync(given));
+        if (name === 'createRenderPipelineAsync' && broken)
+          return (given: GPURenderPipelineDescriptor) =>
+            given.label?.includes(broken)
+              ? Promise.reject(new Error('internal compiler error'))
+              : target.createRenderPipelineAsync(given);
         const value = Reflect.get(target, name, target) as unknown;
         return typeof value === 'function' ? (value as (...all: unknown[]) => unknown).bind(target) : value;
       },
     });
-    const refused = expect.objectContaining({ name: 'ToneMapError', code: 'tonemap/pipeline', cause: expect.objectContaining({ message: 'internal compiler error' }) as unknown });
+    const refused = expect.objectContaining({
+      name: 'ToneMapError',
+      code: 'tonemap/pipeline',
+      cause: expect.objectContaining({ message: 'internal compiler error' }) as unknown,
+    });
     const pass = await ToneMapPass.create(driver, { format: 'rgba8unorm' });
     broken = 'agx';
     await expect(pass.setOptions({ toneMap: 'agx', exposure: 1 })).rejects.toEqual(refused);
@@ -187,8 +228,12 @@ describe('ToneMapPass', () => {
     broken = 'aces';
     await expect(ToneMapPass.create(driver, { format: 'rgba8unorm', toneMap: 'aces' })).rejects.toEqual(refused);
     for (const exposure of [NaN, Infinity, 1e30, '1' as never]) {
-      await expect(pass.setOptions({ exposure, toneMap: 'linear' })).rejects.toMatchObject({ code: 'tonemap/exposure' });
-      await expect(ToneMapPass.create(driver, { format: 'rgba8unorm', exposure })).rejects.toMatchObject({ code: 'tonemap/exposure' });
+      await expect(pass.setOptions({ exposure, toneMap: 'linear' })).rejects.toMatchObject({
+        code: 'tonemap/exposure',
+      });
+      await expect(ToneMapPass.create(driver, { format: 'rgba8unorm', exposure })).rejects.toMatchObject({
+        code: 'tonemap/exposure',
+      });
     }
     expect(pass.settings).toMatchObject({ toneMap: 'agx', exposure: 1 });
     pass.destroy();
@@ -217,7 +262,9 @@ describe('ToneMapPass', () => {
     pass.destroy();
     pass.destroy();
     await expect(drawn(pass, source, [2, 2])).rejects.toThrow(/destroyed/);
-    await expect(ToneMapPass.create(device, { format: 'rgba8unorm', toneMap: 'none' as 'agx' })).rejects.toThrow(ToneMapError);
+    await expect(ToneMapPass.create(device, { format: 'rgba8unorm', toneMap: 'none' as 'agx' })).rejects.toThrow(
+      ToneMapError,
+    );
     source.destroy();
   });
 });

@@ -18,7 +18,9 @@ describe('sRGB', () => {
 
 describe('toneMap', () => {
   it('one stop of exposure is a doubling', () => {
-    expect(toneMap([0.2, 0.1, 0.05], { toneMap: 'aces', exposure: 1 })).toEqual(toneMap([0.4, 0.2, 0.1], { toneMap: 'aces' }));
+    expect(toneMap([0.2, 0.1, 0.05], { toneMap: 'aces', exposure: 1 })).toEqual(
+      toneMap([0.4, 0.2, 0.1], { toneMap: 'aces' }),
+    );
   });
   it('linear is the bare sRGB curve', () => {
     expect(toneMap([0.5, 0.18, 0], { toneMap: 'linear' })).toEqual([srgbEncode(0.5), srgbEncode(0.18), 0]);
@@ -37,14 +39,20 @@ describe('toneMapPixels', () => {
     expect(out[7]).toBe(255);
   });
   it('opaque ignores alpha', () => {
-    expect([...toneMapPixels(new Float32Array([1, 1, 1, 0]), 1, 1, { toneMap: 'linear', alpha: 'opaque' })]).toEqual([255, 255, 255, 255]);
+    expect([...toneMapPixels(new Float32Array([1, 1, 1, 0]), 1, 1, { toneMap: 'linear', alpha: 'opaque' })]).toEqual([
+      255, 255, 255, 255,
+    ]);
   });
   it('writes 8 bits, 16 bits and floats of the same picture', () => {
     const film = new Float32Array([0.5, 0.18, 0.02, 1]);
     const float = toneMapPixels(film, 1, 1, { toneMap: 'linear', output: 'float' });
     const u8 = toneMapPixels(film, 1, 1, { toneMap: 'linear' });
     const u16 = toneMapPixels(film, 1, 1, { toneMap: 'linear', output: 'uint16' });
-    expect([u8 instanceof Uint8ClampedArray, u16 instanceof Uint16Array, float instanceof Float32Array]).toEqual([true, true, true]);
+    expect([u8 instanceof Uint8ClampedArray, u16 instanceof Uint16Array, float instanceof Float32Array]).toEqual([
+      true,
+      true,
+      true,
+    ]);
     for (let i = 0; i < 4; i++) {
       expect(u8[i]).toBe(Math.round((float[i] as number) * 255));
       expect(u16[i]).toBe(Math.round((float[i] as number) * 65535));
@@ -52,7 +60,9 @@ describe('toneMapPixels', () => {
   });
   it('gives black, not garbage, for pixels that are not numbers', () => {
     const film = new Float32Array([NaN, NaN, NaN, NaN, NaN, 1, 1, 1, Infinity, 1, 1, 1]);
-    expect([...toneMapPixels(film, 3, 1, { toneMap: 'linear' })]).toEqual([0, 0, 0, 0, 0, 255, 255, 255, 255, 255, 255, 255]);
+    expect([...toneMapPixels(film, 3, 1, { toneMap: 'linear' })]).toEqual([
+      0, 0, 0, 0, 0, 255, 255, 255, 255, 255, 255, 255,
+    ]);
   });
   it('checks the size', () => {
     expect(() => toneMapPixels(new Float32Array(15), 2, 2)).toThrow(ToneMapError);

@@ -45,7 +45,12 @@ export class Connection {
   #connecting: Promise<void> | undefined;
   #destroyed = false;
 
-  constructor(canvas: HTMLCanvasElement, view: ToneMapOptions, events: ConnectionEvents, request: () => Promise<GPUDevice> = requestDevice) {
+  constructor(
+    canvas: HTMLCanvasElement,
+    view: ToneMapOptions,
+    events: ConnectionEvents,
+    request: () => Promise<GPUDevice> = requestDevice,
+  ) {
     this.#canvas = canvas;
     this.#view = view;
     this.#events = events;
@@ -72,8 +77,8 @@ export class Connection {
   }
 
   /**
-   * Makes sure that there is a device: the one in use, the one that a recovery brings, or else a new one, however often the
-   * GPU was lost before.
+   * Makes sure that there is a device: the one in use, the one that a recovery brings, or else a new one, however often
+   * the GPU was lost before.
    *
    * @throws {DeviceError} {ViewerError} where no device can be had.
    */
@@ -136,7 +141,10 @@ export class Connection {
     return (this.#connecting = connecting);
   }
 
-  /** The GPU's process may fall over before there is a device that could be lost; another one comes up then, as after a loss. */
+  /**
+   * The GPU's process may fall over before there is a device that could be lost; another one comes up then, as after a
+   * loss.
+   */
   async #first(): Promise<void> {
     try {
       await this.#connect();
@@ -170,7 +178,8 @@ export class Connection {
     this.#coming = undefined;
     device.addEventListener('uncapturederror', (event) => {
       event.preventDefault();
-      if (device === this.#device) this.#events.error(new ViewerError('viewer/gpu', `The GPU reports: ${event.error.message}`));
+      if (device === this.#device)
+        this.#events.error(new ViewerError('viewer/gpu', `The GPU reports: ${event.error.message}`));
     });
     void device.lost.then(({ reason, message }) => {
       if (device !== this.#device || this.#destroyed) return;

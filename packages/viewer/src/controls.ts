@@ -43,13 +43,17 @@ interface Point {
 }
 
 /**
- * Pointer, touch, wheel and keyboard on an element: drag to orbit; Shift, middle or right button to pan; wheel to zoom; two
- * fingers pan and pinch; double click or F to look at what lies there; arrows orbit, Shift and arrows pan, + and − zoom, 0
- * or Home returns; Enter picks the middle.
+ * Pointer, touch, wheel and keyboard on an element: drag to orbit; Shift, middle or right button to pan; wheel to zoom;
+ * two fingers pan and pinch; double click or F to look at what lies there; arrows orbit, Shift and arrows pan, + and −
+ * zoom, 0 or Home returns; Enter picks the middle.
  *
  * @returns What removes the listeners.
  */
-export function controlCamera(element: HTMLElement, commands: CameraCommands, options: ControlOptions = {}): () => void {
+export function controlCamera(
+  element: HTMLElement,
+  commands: CameraCommands,
+  options: ControlOptions = {},
+): () => void {
   const { orbit = true, pan: panning = true, zoom = true, focus = true } = options;
   const listeners = new AbortController();
   const { signal } = listeners;
@@ -90,12 +94,19 @@ export function controlCamera(element: HTMLElement, commands: CameraCommands, op
       const from = pointers.get(event.pointerId);
       if (!from || !start) return;
       const to = at(event);
-      if (!moved && Math.hypot(to.x - start.x, to.y - start.y) < (event.pointerType === 'touch' ? TAP_PIXELS : CLICK_PIXELS)) return;
+      if (
+        !moved &&
+        Math.hypot(to.x - start.x, to.y - start.y) < (event.pointerType === 'touch' ? TAP_PIXELS : CLICK_PIXELS)
+      )
+        return;
       moved = true;
       if (pointers.size === 1) drag(from, to, start.pan);
       else {
         const other = [...pointers].find(([id]) => id !== event.pointerId)?.[1] ?? from;
-        const [before, after] = [Math.hypot(from.x - other.x, from.y - other.y), Math.hypot(to.x - other.x, to.y - other.y)];
+        const [before, after] = [
+          Math.hypot(from.x - other.x, from.y - other.y),
+          Math.hypot(to.x - other.x, to.y - other.y),
+        ];
         // The middle of two fingers moves half as far as the one that moves.
         drag({ x: from.x / 2, y: from.y / 2 }, { x: to.x / 2, y: to.y / 2 }, true);
         if (zoom && before > 8 && after > 8) commands.zoom(after / before);
@@ -109,7 +120,10 @@ export function controlCamera(element: HTMLElement, commands: CameraCommands, op
     if (!pointers.delete(event.pointerId) || event.type !== 'pointerup' || moved || event.button !== 0) return;
     const { x, y } = at(event);
     if (event.pointerType === 'touch' && focus) {
-      const again = lastTap && event.timeStamp - lastTap.time < DOUBLE_TAP_MS && Math.hypot(x - lastTap.x, y - lastTap.y) < 4 * TAP_PIXELS;
+      const again =
+        lastTap &&
+        event.timeStamp - lastTap.time < DOUBLE_TAP_MS &&
+        Math.hypot(x - lastTap.x, y - lastTap.y) < 4 * TAP_PIXELS;
       lastTap = again ? undefined : { x, y, time: event.timeStamp };
       if (again) return commands.focus(x, y);
     }
@@ -133,7 +147,13 @@ export function controlCamera(element: HTMLElement, commands: CameraCommands, op
       'wheel',
       (event) => {
         event.preventDefault();
-        const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : event.deltaMode === WheelEvent.DOM_DELTA_PAGE ? 400 : 1);
+        const pixels =
+          event.deltaY *
+          (event.deltaMode === WheelEvent.DOM_DELTA_LINE
+            ? 16
+            : event.deltaMode === WheelEvent.DOM_DELTA_PAGE
+              ? 400
+              : 1);
         commands.zoom(Math.exp(-Math.max(-240, Math.min(240, pixels)) * (event.ctrlKey ? 0.01 : 0.0015)));
       },
       { signal, passive: false },

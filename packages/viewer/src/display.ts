@@ -31,7 +31,14 @@ export class Display {
   /** Counts previews: one whose memory came late is not kept. */
   #turn = 0;
 
-  private constructor(canvas: HTMLCanvasElement, device: GPUDevice, context: GPUCanvasContext, pass: ToneMapPass, blend: GPUComputePipeline, uniforms: GPUBuffer) {
+  private constructor(
+    canvas: HTMLCanvasElement,
+    device: GPUDevice,
+    context: GPUCanvasContext,
+    pass: ToneMapPass,
+    blend: GPUComputePipeline,
+    uniforms: GPUBuffer,
+  ) {
     this.#canvas = canvas;
     this.#device = device;
     this.#context = context;
@@ -47,7 +54,12 @@ export class Display {
    * @throws {ToneMapError} `tonemap/pipeline`; {ViewerError} `viewer/no-canvas`, `viewer/gpu`, `viewer/out-of-memory`;
    * `viewer/destroyed` where it is not wanted any more.
    */
-  static async create(canvas: HTMLCanvasElement, device: GPUDevice, view: ToneMapOptions, wanted: () => boolean): Promise<Display> {
+  static async create(
+    canvas: HTMLCanvasElement,
+    device: GPUDevice,
+    view: ToneMapOptions,
+    wanted: () => boolean,
+  ): Promise<Display> {
     const format = navigator.gpu.getPreferredCanvasFormat();
     const passing = withErrorScopes(device, 'drawing', () => ToneMapPass.create(device, { format, ...view }));
     passing.catch(() => undefined);
@@ -55,8 +67,14 @@ export class Display {
       const [pass, blend] = await Promise.all([passing, compileBlend(device)]);
       if (!wanted()) throw destroyed();
       const context = canvas.getContext('webgpu');
-      if (!context) throw new ViewerError('viewer/no-canvas', 'The canvas gives no WebGPU context: it may have one of another kind already; use a fresh canvas.');
-      const uniforms = await withErrorScopes(device, 'drawing', () => device.createBuffer({ label: 'glanz viewer blend', size: 32, usage: UNIFORM | COPY_DST }));
+      if (!context)
+        throw new ViewerError(
+          'viewer/no-canvas',
+          'The canvas gives no WebGPU context: it may have one of another kind already; use a fresh canvas.',
+        );
+      const uniforms = await withErrorScopes(device, 'drawing', () =>
+        device.createBuffer({ label: 'glanz viewer blend', size: 32, usage: UNIFORM | COPY_DST }),
+      );
       if (!wanted()) {
         uniforms.destroy();
         throw destroyed();
@@ -64,7 +82,10 @@ export class Display {
       context.configure({ device, format, alphaMode: 'premultiplied' });
       return new Display(canvas, device, context, pass, blend, uniforms);
     } catch (error) {
-      passing.then((pass) => pass.destroy(), () => undefined);
+      passing.then(
+        (pass) => pass.destroy(),
+        () => undefined,
+      );
       throw error;
     }
   }
@@ -99,7 +120,10 @@ export class Display {
     try {
       await withErrorScopes(device, 'the preview', () => {
         const copy = device.createBuffer({ label: 'glanz viewer preview', size: bytes, usage: STORAGE | COPY_DST });
-        made.push(copy, device.createBuffer({ label: 'glanz viewer mixed', size: fullSize[0] * fullSize[1] * 16, usage: STORAGE }));
+        made.push(
+          copy,
+          device.createBuffer({ label: 'glanz viewer mixed', size: fullSize[0] * fullSize[1] * 16, usage: STORAGE }),
+        );
         const encoder = device.createCommandEncoder({ label: 'glanz viewer keep' });
         encoder.copyBufferToBuffer(buffer, 0, copy, 0, bytes);
         device.queue.submit([encoder.finish()]);
@@ -153,7 +177,11 @@ export class Display {
     if (mixed.size !== width * height * 16) return film.buffer;
     this.#device.queue.writeBuffer(this.#uniforms, 0, new Float32Array([width, height, ...small.size, share, 0, 0, 0]));
     const buffers = [this.#uniforms, film.buffer, small.buffer, mixed];
-    const group = this.#device.createBindGroup({ label: 'glanz viewer blend', layout: this.#blend.getBindGroupLayout(0), entries: buffers.map((buffer, binding) => ({ binding, resource: { buffer } })) });
+    const group = this.#device.createBindGroup({
+      label: 'glanz viewer blend',
+      layout: this.#blend.getBindGroupLayout(0),
+      entries: buffers.map((buffer, binding) => ({ binding, resource: { buffer } })),
+    });
     const pass = encoder.beginComputePass({ label: 'glanz viewer blend' });
     pass.setPipeline(this.#blend);
     pass.setBindGroup(0, group);
@@ -167,8 +195,16 @@ async function compileBlend(device: GPUDevice): Promise<GPUComputePipeline> {
   const label = 'glanz viewer blend';
   const module = device.createShaderModule({ label, code: compose([viewerBlend]).code });
   try {
-    return await device.createComputePipelineAsync({ label, layout: 'auto', compute: { module, entryPoint: 'viewer_blend' } });
+    return await device.createComputePipelineAsync({
+      label,
+      layout: 'auto',
+      compute: { module, entryPoint: 'viewer_blend' },
+    });
   } catch (cause) {
-    throw new ViewerError('viewer/gpu', `The GPU's driver did not compile the shader that draws the picture: ${(cause as Error).message}. Update the driver, or use another browser.`, { cause });
+    throw new ViewerError(
+      'viewer/gpu',
+      `The GPU's driver did not compile the shader that draws the picture: ${(cause as Error).message}. Update the driver, or use another browser.`,
+      { cause },
+    );
   }
 }

@@ -24,7 +24,9 @@ export class Edits {
    * @throws what `apply` throws. Others with its key that wait with it take effect all the same.
    */
   add(key: unknown, apply: Apply, value: object = {}): Promise<void> {
-    return new Promise((resolve, reject) => this.#waiting.set(key, [...(this.#waiting.get(key) ?? []), { apply, value, resolve, reject }]));
+    return new Promise((resolve, reject) =>
+      this.#waiting.set(key, [...(this.#waiting.get(key) ?? []), { apply, value, resolve, reject }]),
+    );
   }
 
   /** Applies all in the order they first came. @returns Whether there were any. */

@@ -11,7 +11,8 @@ export class Emitter<Events extends object> {
   readonly #listeners = new Map<keyof Events, Set<(detail: never) => void>>();
 
   /**
-   * Listens. One listener that throws does not keep others from hearing: its error goes to the console's uncaught errors.
+   * Listens. One listener that throws does not keep others from hearing: its error goes to the console's uncaught
+   * errors.
    *
    * @returns What stops listening.
    */

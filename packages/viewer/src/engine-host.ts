@@ -37,7 +37,10 @@ export interface RestoredSamples {
   readonly lostSamples: number;
 }
 
-/** How an `Engine` works. Fields that are not read-only may change at any time; what needs an edit or a restart with it says so. */
+/**
+ * How an `Engine` works. Fields that are not read-only may change at any time; what needs an edit or a restart with it
+ * says so.
+ */
 export interface EngineSettings extends ToneMapOptions {
   /** Samples per pixel of the finished picture. With a change goes `restart()`. */
   samples: number;
@@ -57,7 +60,10 @@ export interface EngineSettings extends ToneMapOptions {
   readonly tracer: Partial<PathTracerOptions>;
   /** Default: `requestDevice()` of the renderer. */
   readonly requestDevice: (() => Promise<GPUDevice>) | undefined;
-  /** Whether copies of the film are kept, so that its samples outlive a lost device. Default true. May change at any time. */
+  /**
+   * Whether copies of the film are kept, so that its samples outlive a lost device. Default true. May change at any
+   * time.
+   */
   keepSamples?: boolean | undefined;
   /** Whether the first device warms up until there is a scene. Default: unless the CPU imitates it. */
   readonly warmUp?: boolean | undefined;
@@ -75,6 +81,8 @@ export interface Take {
 /** Makes another tracer of the scene as it is, see `Engine.copyFor`. */
 export interface TracerCopy {
   /** @throws as `PathTracer.create`. */
-  readonly create: (options: Pick<PathTracerOptions, 'width' | 'height' | 'background' | 'signal'>) => Promise<PathTracer>;
+  readonly create: (
+    options: Pick<PathTracerOptions, 'width' | 'height' | 'background' | 'signal'>,
+  ) => Promise<PathTracer>;
   readonly ready: Take['ready'] | undefined;
 }

@@ -42,8 +42,8 @@ export interface ShowOptions {
 const sameSize = (a: Size, b: Size) => a[0] === b[0] && a[1] === b[1];
 
 /**
- * Device, tracer and canvas: shows a small preview while something moves, refines the picture when it rests, sleeps when
- * there is nothing to do or nobody sees it, and comes back after the device was lost.
+ * Device, tracer and canvas: shows a small preview while something moves, refines the picture when it rests, sleeps
+ * when there is nothing to do or nobody sees it, and comes back after the device was lost.
  */
 export class Engine {
   readonly settings: EngineSettings;
@@ -95,29 +95,37 @@ export class Engine {
     this.#preview = new PreviewController(budgetMs);
     this.#visibility = new Visibility(canvas, () => this.#stir());
     const { exposure = 0, toneMap = 'neutral' } = settings;
-    this.#connection = new Connection(canvas, { exposure, toneMap }, {
-      missing: (error) => this.#host.missing?.(error),
-      lost: (reason) => {
-        if (this.current) this.#lostSamples = this.#tracer?.samples ?? 0;
-        this.#host.lost(reason);
+    this.#connection = new Connection(
+      canvas,
+      { exposure, toneMap },
+      {
+        missing: (error) => this.#host.missing?.(error),
+        lost: (reason) => {
+          if (this.current) this.#lostSamples = this.#tracer?.samples ?? 0;
+          this.#host.lost(reason);
+        },
+        recovering: () => {
+          this.#fresh = false;
+          this.#tell('recovering');
+          this.#stir();
+        },
+        back: () => this.#rebuild(),
+        restored: (milliseconds) => {
+          const samples = this.#keptSamples;
+          const lostSamples = Math.max(0, this.#lostSamples - samples);
+          this.#lostSamples = this.#keptSamples = 0;
+          this.#host.restored(milliseconds, { samples, lostSamples });
+        },
+        failed: (error) => this.#fail(error),
+        error: (error) => this.#host.error(error),
       },
-      recovering: () => {
-        this.#fresh = false;
-        this.#tell('recovering');
-        this.#stir();
-      },
-      back: () => this.#rebuild(),
-      restored: (milliseconds) => {
-        const samples = this.#keptSamples;
-        const lostSamples = Math.max(0, this.#lostSamples - samples);
-        this.#lostSamples = this.#keptSamples = 0;
-        this.#host.restored(milliseconds, { samples, lostSamples });
-      },
-      failed: (error) => this.#fail(error),
-      error: (error) => this.#host.error(error),
-    }, settings.requestDevice);
+      settings.requestDevice,
+    );
     // All warms up while the first model loads.
-    this.#connection.ready.then(() => this.device && this.#builder && this.#preparation.warmUp(this.device, this.#builder, settings.warmUp), () => undefined);
+    this.#connection.ready.then(
+      () => this.device && this.#builder && this.#preparation.warmUp(this.device, this.#builder, settings.warmUp),
+      () => undefined,
+    );
     void this.#run();
   }
 
@@ -153,7 +161,12 @@ export class Engine {
 
   /** Whether the film shows the whole picture as it is now. */
   get current(): boolean {
-    return this.#fresh && !this.#moving() && !!this.#tracer && sameSize([this.#tracer.width, this.#tracer.height], this.#full);
+    return (
+      this.#fresh &&
+      !this.#moving() &&
+      !!this.#tracer &&
+      sameSize([this.#tracer.width, this.#tracer.height], this.#full)
+    );
   }
 
   /** Pixels of the image in full, as far as the GPU has memory for them. */
@@ -176,7 +189,14 @@ export class Engine {
     const take = this.#source(this.#tracer);
     const { maxDepth, background, tracer } = this.settings;
     const builder = this.#builder;
-    const options = { ...(builder ? { hierarchies: builder } : {}), ...tracer, maxDepth, background, ...take.options, camera: this.#host.camera(aspect) };
+    const options = {
+      ...(builder ? { hierarchies: builder } : {}),
+      ...tracer,
+      maxDepth,
+      background,
+      ...take.options,
+      camera: this.#host.camera(aspect),
+    };
     return { ready: take.ready, create: (more) => PathTracer.create(device, take.scene, { ...options, ...more }) };
   }
 
@@ -196,7 +216,8 @@ export class Engine {
   }
 
   /**
-   * Makes sure that there is a device: one that could not be had before, or that was lost too often, is asked for again.
+   * Makes sure that there is a device: one that could not be had before, or that was lost too often, is asked for
+   * again.
    * @throws {DeviceError} {ViewerError} `viewer/device-lost`, `viewer/destroyed`.
    */
   connect(): Promise<void> {
@@ -206,8 +227,10 @@ export class Engine {
   /**
    * Shows another scene. Until it is ready the former one stays, and it stays for good where this fails.
    *
-   * @param source Asked whenever a tracer is made: now without one, and after a loss of the device with the one that was lost.
-   * @throws {DeviceError} {RenderError} {SceneError} of the renderer; {ViewerError} `viewer/destroyed`, `viewer/device-lost`.
+   * @param source Asked whenever a tracer is made: now without one, and after a loss of the device with the one that
+   * was lost.
+   * @throws {DeviceError} {RenderError} {SceneError} of the renderer; {ViewerError} `viewer/destroyed`,
+   * `viewer/device-lost`.
    * @throws an `AbortError` where another scene is asked for meanwhile, and the signal's reason.
    */
   async show(source: Source, options: ShowOptions = {}): Promise<PathTracer> {
@@ -226,7 +249,11 @@ export class Engine {
   }
 
   /** Changes the tracer between two frames; see `Viewer.edit`. */
-  edit(key: unknown, apply: (tracer: PathTracer, merged: object) => void | Promise<void>, value: object = {}): Promise<void> {
+  edit(
+    key: unknown,
+    apply: (tracer: PathTracer, merged: object) => void | Promise<void>,
+    value: object = {},
+  ): Promise<void> {
     const applied = this.#edits.add(key, (merged) => (this.#tracer ? apply(this.#tracer, merged) : undefined), value);
     this.#tryAgain();
     this.touch();
@@ -314,12 +341,26 @@ export class Engine {
     return this.#hierarchies;
   }
 
-  async #prepare(make: () => Take, source: Source, { signal, onProgress, onTaken }: ShowOptions = {}, recovers = false): Promise<PathTracer> {
+  async #prepare(
+    make: () => Take,
+    source: Source,
+    { signal, onProgress, onTaken }: ShowOptions = {},
+    recovers = false,
+  ): Promise<PathTracer> {
     if (!recovers) this.#films.forget();
     const options = (wanted: AbortSignal) => {
       const [width, height] = this.#full;
       const { maxDepth, background, tracer: more } = this.settings;
-      return { hierarchies: this.#builder, ...more, width, height, maxDepth, background, signal: wanted, onProgress: (progress: PrepareProgress) => void (wanted.aborted || onProgress?.(progress)) };
+      return {
+        hierarchies: this.#builder,
+        ...more,
+        width,
+        height,
+        maxDepth,
+        background,
+        signal: wanted,
+        onProgress: (progress: PrepareProgress) => void (wanted.aborted || onProgress?.(progress)),
+      };
     };
     let restored = false;
     const restoring = (): Take => {
@@ -331,24 +372,28 @@ export class Engine {
       };
       return { ...take, ready };
     };
-    const prepared = this.#preparation.run((wanted) => makeTracer(this.#connection, restoring, () => options(wanted)), ({ tracer, device }) => {
-      this.#tracer?.destroy();
-      this.#tracer = tracer;
-      this.#tracerDevice = device;
-      this.#source = source;
-      this.#failed = false;
-      if (restored) {
-        this.#keptSamples = tracer.samples;
-        this.#fresh = true;
-        this.#done = false;
-        this.redraw();
-        return;
-      }
-      if (!recovers) this.#lostSamples = 0;
-      this.#restarted();
-      onTaken?.();
-      this.touch();
-    }, signal);
+    const prepared = this.#preparation.run(
+      (wanted) => makeTracer(this.#connection, restoring, () => options(wanted)),
+      ({ tracer, device }) => {
+        this.#tracer?.destroy();
+        this.#tracer = tracer;
+        this.#tracerDevice = device;
+        this.#source = source;
+        this.#failed = false;
+        if (restored) {
+          this.#keptSamples = tracer.samples;
+          this.#fresh = true;
+          this.#done = false;
+          this.redraw();
+          return;
+        }
+        if (!recovers) this.#lostSamples = 0;
+        this.#restarted();
+        onTaken?.();
+        this.touch();
+      },
+      signal,
+    );
     this.#stir();
     return (await prepared).tracer;
   }
@@ -378,7 +423,8 @@ export class Engine {
     const { device, recovery } = this.#connection;
     if (this.#destroyed || !this.#tracer || recovery || this.#preparation.running) return;
     if (!device) this.#failed = true;
-    else if (this.#tracerDevice !== device) this.#rebuild().catch((error: unknown) => isAbort(error) || this.#fail(error));
+    else if (this.#tracerDevice !== device)
+      this.#rebuild().catch((error: unknown) => isAbort(error) || this.#fail(error));
     else this.#failed = failed;
     this.#stir();
   }
@@ -403,7 +449,9 @@ export class Engine {
   /** Whether a tracer is the one that is shown, on a device that is alive. */
   #current(tracer: PathTracer | undefined): boolean {
     const { device, recovery } = this.#connection;
-    return !this.#destroyed && tracer === this.#tracer && device !== undefined && device === this.#tracerDevice && !recovery;
+    return (
+      !this.#destroyed && tracer === this.#tracer && device !== undefined && device === this.#tracerDevice && !recovery
+    );
   }
 
   /** Adds samples until the viewer is destroyed; sleeps where there is nothing to do. */
@@ -414,7 +462,10 @@ export class Engine {
         // Before the state is told: who hears it may have work at once.
         const woken = new Promise<void>((resolve) => (this.#wake = resolve));
         this.#tell(idle ?? 'empty');
-        const retry = idle === 'done' && this.#smaller ? setTimeout(() => ((this.#growing = true), this.#stir()), this.#films.retryMs) : undefined;
+        const retry =
+          idle === 'done' && this.#smaller
+            ? setTimeout(() => ((this.#growing = true), this.#stir()), this.#films.retryMs)
+            : undefined;
         await woken;
         clearTimeout(retry);
         this.#lastStep = performance.now();
@@ -453,7 +504,8 @@ export class Engine {
 
   /** A picture that is as small as it must be to keep up with hands. */
   async #previewFrame(tracer: PathTracer): Promise<void> {
-    // In step with the screen where the GPU keeps up; the first frame, and those of a slow GPU, do not wait for it as well.
+    // In step with the screen where the GPU keeps up; the first frame, and those of a slow GPU, do not wait for it as
+    // well.
     await (performance.now() - this.#lastPreview < SCREEN_MS ? nextFrame() : soon());
     if (tracer !== this.#tracer || this.#destroyed || !this.#visibility.visible) return;
     this.#tell('moving');
@@ -466,10 +518,16 @@ export class Engine {
     const changed = stepped || this.#dirtyCamera || this.#edits.size > 0;
     if (stepped || this.#dirtyCamera) {
       // What stands still keeps its size: samples gather.
-      await this.#fit(tracer, size, plan.divisor > 1 ? Math.min(this.settings.previewDepth, this.settings.maxDepth) : this.settings.maxDepth);
+      await this.#fit(
+        tracer,
+        size,
+        plan.divisor > 1 ? Math.min(this.settings.previewDepth, this.settings.maxDepth) : this.settings.maxDepth,
+      );
       if (tracer !== this.#tracer || this.#destroyed) return;
       this.#dirtyCamera = false;
-      tracer.setCamera(this.#host.camera(this.#film[0] / this.#film[1])).catch((error: unknown) => this.#current(tracer) && this.#host.error(error));
+      tracer
+        .setCamera(this.#host.camera(this.#film[0] / this.#film[1]))
+        .catch((error: unknown) => this.#current(tracer) && this.#host.error(error));
       this.#settle = now + this.settings.settleMs;
     }
     this.#edits.apply(() => this.#edited());
@@ -480,7 +538,10 @@ export class Engine {
     if (before >= Math.min(PREVIEW_SAMPLES, most) && this.#fresh) return;
     const started = performance.now();
     let samples = before;
-    for await (const progress of tracer.render({ samples: Math.min(before + plan.samples, Math.max(most, before)), maxSubmitMs: PREVIEW_SUBMIT_MS })) {
+    for await (const progress of tracer.render({
+      samples: Math.min(before + plan.samples, Math.max(most, before)),
+      maxSubmitMs: PREVIEW_SUBMIT_MS,
+    })) {
       ({ samples } = progress);
       if (!this.#visibility.visible) break;
     }
@@ -497,12 +558,28 @@ export class Engine {
     const { samples, noise, maxSubmitMs, maxDepth } = this.settings;
     this.#tell('rendering');
     const full = this.#full;
-    if (this.#fresh && !sameSize([tracer.width, tracer.height], full)) void this.#connection.display?.keep({ buffer: tracer.beautyBuffer, size: [tracer.width, tracer.height] }, tracer.samples, full);
+    if (this.#fresh && !sameSize([tracer.width, tracer.height], full))
+      void this.#connection.display?.keep(
+        { buffer: tracer.beautyBuffer, size: [tracer.width, tracer.height] },
+        tracer.samples,
+        full,
+      );
     if (await this.#fit(tracer, full, maxDepth)) this.#fresh = false;
     // Another size may be wanted by now, or is all that there is memory for.
-    if (tracer !== this.#tracer || this.#destroyed || this.#moving() || !sameSize([tracer.width, tracer.height], this.#full)) return;
+    if (
+      tracer !== this.#tracer ||
+      this.#destroyed ||
+      this.#moving() ||
+      !sameSize([tracer.width, tracer.height], this.#full)
+    )
+      return;
     const { signal } = this.#interrupt;
-    for await (const progress of tracer.render({ samples: this.#goal, signal, maxSubmitMs, ...(noise === undefined || this.#paused ? {} : { noise }) })) {
+    for await (const progress of tracer.render({
+      samples: this.#goal,
+      signal,
+      maxSubmitMs,
+      ...(noise === undefined || this.#paused ? {} : { noise }),
+    })) {
       if (tracer !== this.#tracer) return;
       this.#fresh = true;
       this.#host.sample({ ...progress, targetSamples: samples });
@@ -521,7 +598,10 @@ export class Engine {
     this.#host.converged(tracer.samples, performance.now() - this.#changed);
   }
 
-  /** Gives the film a size; where the GPU has no memory for it, the film keeps what it has. @returns Whether it was restarted. */
+  /**
+   * Gives the film a size; where the GPU has no memory for it, the film keeps what it has. @returns Whether it was
+   * restarted.
+   */
   async #fit(tracer: PathTracer, size: Size, depth: number): Promise<boolean> {
     try {
       const restarted = await this.#films.fit(tracer, size, depth);

@@ -3,11 +3,13 @@ import type { Camera, GlanzError, Scene } from '@glanz/scene';
 import type { Orbit } from './orbit';
 
 /**
- * What a viewer is doing. `empty`: nothing to show. `loading`: a model is read or prepared. `moving`: the preview is shown.
- * `rendering`: samples are added. `done`: the picture has all it was asked for. `paused`, `hidden` (out of sight: nothing
- * runs), `recovering` (the GPU was lost and is asked for again), `failed` (see the `error` event), `destroyed`.
+ * What a viewer is doing. `empty`: nothing to show. `loading`: a model is read or prepared. `moving`: the preview is
+ * shown. `rendering`: samples are added. `done`: the picture has all it was asked for. `paused`, `hidden` (out of
+ * sight: nothing runs), `recovering` (the GPU was lost and is asked for again), `failed` (see the `error` event),
+ * `destroyed`.
  */
-export type ViewerState = 'empty' | 'loading' | 'moving' | 'rendering' | 'done' | 'paused' | 'hidden' | 'recovering' | 'failed' | 'destroyed';
+export type ViewerState =
+  'empty' | 'loading' | 'moving' | 'rendering' | 'done' | 'paused' | 'hidden' | 'recovering' | 'failed' | 'destroyed';
 
 /** Stages of a load, in their order. */
 export type LoadStage = 'read' | 'decode' | 'images' | 'bvh' | 'upload' | 'compile';
@@ -18,30 +20,44 @@ export interface ViewerEvents {
   load: { readonly scene: Scene; /** Since `load()` was called. */ readonly milliseconds: number };
   /** A load goes on. `done`: share of the stage; `total`: estimated share of the whole; both 0..1. */
   progress: { readonly stage: LoadStage; readonly done: number; readonly total: number };
-  /** Something failed. `code` is that of a `GlanzError`, or `unexpected`. `retry` is there where trying again makes sense. */
+  /**
+   * Something failed. `code` is that of a `GlanzError`, or `unexpected`. `retry` is there where trying again makes
+   * sense.
+   */
   error: { readonly error: unknown; readonly message: string; readonly code: string; readonly retry?: () => void };
   /**
-   * The viewer works around something: an environment cannot be fetched or read, and a studio lights the model (`viewer/environment`;
-   * `error.cause` is what went wrong); or there is no GPU (`renderer/no-adapter`, `renderer/no-device`), and the viewer asks for it
-   * again for about two seconds before `load()` fails.
+   * The viewer works around something: an environment cannot be fetched or read, and a studio lights the model
+   * (`viewer/environment`; `error.cause` is what went wrong); or there is no GPU (`renderer/no-adapter`,
+   * `renderer/no-device`), and the viewer asks for it again for about two seconds before `load()` fails.
    */
   warning: { readonly error: GlanzError; readonly message: string; readonly code: string };
   /** The picture has more samples. `remainingMs` is an estimate, `Infinity` where there is none. */
-  sample: { readonly samples: number; readonly target: number; readonly samplesPerSecond: number; readonly remainingMs: number };
+  sample: {
+    readonly samples: number;
+    readonly target: number;
+    readonly samplesPerSecond: number;
+    readonly remainingMs: number;
+  };
   /** The picture has all samples, or is as free of noise as asked for. */
-  converged: { readonly samples: number; /** Since the view or the scene last changed. */ readonly milliseconds: number };
+  converged: {
+    readonly samples: number;
+    /** Since the view or the scene last changed. */ readonly milliseconds: number;
+  };
   /** The view has moved. `source`: by a hand, by a call, or by `autoRotate`. */
   'camera-change': { readonly camera: Camera; readonly orbit: Orbit; readonly source: CameraChangeSource };
   /** The GPU went away; the viewer asks for it again by itself. */
   'device-lost': { readonly reason: string };
   /**
-   * There is a GPU again, and the scene is back as it was edited. `samples`: samples per pixel that were kept and are back;
-   * `lostSamples`: those that have to be taken again.
+   * There is a GPU again, and the scene is back as it was edited. `samples`: samples per pixel that were kept and are
+   * back; `lostSamples`: those that have to be taken again.
    */
   'device-restored': { readonly milliseconds: number; readonly samples: number; readonly lostSamples: number };
   /** The state has changed. */
   state: { readonly state: ViewerState };
-  /** A picture has gone to the canvas. `preview`: a small one of a view that moves; `milliseconds`: what it took to make. */
+  /**
+   * A picture has gone to the canvas. `preview`: a small one of a view that moves; `milliseconds`: what it took to
+   * make.
+   */
   frame: { readonly preview: boolean; readonly milliseconds: number; readonly width: number; readonly height: number };
   /** A click or tap without a drag, and what lies there. CSS pixels from the canvas's upper left corner. */
   pick: { readonly hit: PickResult | undefined; readonly x: number; readonly y: number };

@@ -5,15 +5,18 @@ type Size = readonly [number, number];
 /** Pixels of a film below which a smaller one is not tried. */
 const LEAST_PIXELS = 16;
 
-/** When a size that was refused is tried again, after the image is done: the first time, and at most. Doubled in between. */
+/**
+ * When a size that was refused is tried again, after the image is done: the first time, and at most. Doubled in
+ * between.
+ */
 const [RETRY_MS, MOST_RETRY_MS] = [4_000, 256_000];
 
 /** Whether one size is the other one scaled, and rounded. */
 const isScaled = (one: Size, other: Size) => Math.abs((other[0] * one[1]) / one[0] - other[1]) < 1;
 
 /**
- * Sizes and depths of tracers' films. Where the GPU has no memory for a size, films are smaller until that size fits, or another
- * one is wanted.
+ * Sizes and depths of tracers' films. Where the GPU has no memory for a size, films are smaller until that size fits,
+ * or another one is wanted.
  */
 export class FilmFit {
   /** Depths that tracers have been given. */
@@ -32,7 +35,9 @@ export class FilmFit {
   sizeFor([width, height]: Size): Size {
     if (this.#only) return this.#only;
     const scale = Math.sqrt(this.#mostPixels / (width * height));
-    return scale >= 1 ? [width, height] : [Math.max(1, Math.floor(width * scale)), Math.max(1, Math.floor(height * scale))];
+    return scale >= 1
+      ? [width, height]
+      : [Math.max(1, Math.floor(width * scale)), Math.max(1, Math.floor(height * scale))];
   }
 
   /** Tries whole sizes again: there is another scene, or another size of the image. */
@@ -45,7 +50,8 @@ export class FilmFit {
   /**
    * Tries the whole size of an image whose film had to be smaller: memory may be free by now.
    *
-   * @returns Whether the film has that size, and was restarted. Otherwise everything is as before, and the next try is later.
+   * @returns Whether the film has that size, and was restarted. Otherwise everything is as before, and the next try is
+   * later.
    */
   async grow(tracer: PathTracer, size: Size): Promise<boolean> {
     try {

@@ -8,8 +8,8 @@ const MOST_BYTES = 134_217_728;
 const [PIXEL_BYTES, GROUP_BYTES] = [32, 32];
 
 /**
- * Keeps a copy of a film's samples in CPU memory, so that they outlive the GPU: at doubling numbers of samples, some seconds
- * apart, and when the image is done.
+ * Keeps a copy of a film's samples in CPU memory, so that they outlive the GPU: at doubling numbers of samples, some
+ * seconds apart, and when the image is done.
  */
 export class FilmKeeper {
   readonly #now: () => number;

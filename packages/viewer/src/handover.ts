@@ -4,8 +4,8 @@ const GONE_AFTER = 32;
 const MOST_WORTH = 4;
 
 /**
- * Share of the preview in what is shown while the large picture gathers samples: as its samples weigh among all of them, fading
- * to nothing, so that neither the change of resolution nor its end can be seen as a jump.
+ * Share of the preview in what is shown while the large picture gathers samples: as its samples weigh among all of
+ * them, fading to nothing, so that neither the change of resolution nor its end can be seen as a jump.
  *
  * @param samples Of the large picture.
  * @param previewSamples Of the small one.

@@ -3,8 +3,8 @@ import { BvhWorkers } from '@glanz/bvh/workers';
 import type { HierarchyBuilder } from '@glanz/renderer';
 
 /**
- * Builds hierarchies on workers and remembers them by their vertices and triangles: a scene that gets a texture or a floor, or comes back
- * after the device was lost, is there at once.
+ * Builds hierarchies on workers and remembers them by their vertices and triangles: a scene that gets a texture or a
+ * floor, or comes back after the device was lost, is there at once.
  */
 export class RememberingHierarchies implements HierarchyBuilder {
   // They warm up while the first model loads.

@@ -9,8 +9,8 @@ import { isAbort, ViewerError } from './errors';
 export type ModelSource = string | URL | Blob | readonly File[] | FileList | ReadonlyMap<string, Blob> | Scene;
 
 /**
- * Surroundings. `scene`: the model's own, or else the studio; `studio`: the built-in one; `none`: black; an address or a
- * file of a Radiance HDR or OpenEXR picture; or data.
+ * Surroundings. `scene`: the model's own, or else the studio; `studio`: the built-in one; `none`: black; an address or
+ * a file of a Radiance HDR or OpenEXR picture; or data.
  */
 export type EnvironmentSource = 'scene' | 'studio' | 'none' | URL | Blob | Environment | (string & {});
 
@@ -19,11 +19,13 @@ export interface LoadModelOptions {
   readonly signal?: AbortSignal | undefined;
   readonly onProgress?: ((progress: GltfProgress) => void) | undefined;
   /**
-   * Decoders of compressed meshes and pictures. meshopt is there by itself. A file that needs one of these is read on the
-   * calling thread; `createWorker` keeps it off.
+   * Decoders of compressed meshes and pictures. meshopt is there by itself. A file that needs one of these is read on
+   * the calling thread; `createWorker` keeps it off.
    */
   readonly decoders?: GltfDecoders | undefined;
-  /** Starts the worker that reads glTF: a file of yours that calls `serveGltf` of `@glanz/gltf/worker` with decoders. */
+  /**
+   * Starts the worker that reads glTF: a file of yours that calls `serveGltf` of `@glanz/gltf/worker` with decoders.
+   */
   readonly createWorker?: (() => Worker) | undefined;
   /** What the GPU reads of compressed formats: pictures in KTX2 stay packed. Default: they are unpacked. */
   readonly compressedFormats?: (() => Promise<readonly CompressedFormat[]>) | undefined;
@@ -32,8 +34,13 @@ export interface LoadModelOptions {
 const MODEL = /\.(glb|gltf|obj|stl)$/i;
 const ENVIRONMENT = /\.(hdr|exr|pic)$/i;
 
-const isScene = (source: ModelSource): source is Scene => typeof source === 'object' && 'meshes' in source && 'instances' in source;
-const isFiles = (source: unknown): source is readonly File[] | FileList => typeof source === 'object' && source !== null && Symbol.iterator in source && [...(source as Iterable<unknown>)].every((file) => file instanceof Blob);
+const isScene = (source: ModelSource): source is Scene =>
+  typeof source === 'object' && 'meshes' in source && 'instances' in source;
+const isFiles = (source: unknown): source is readonly File[] | FileList =>
+  typeof source === 'object' &&
+  source !== null &&
+  Symbol.iterator in source &&
+  [...(source as Iterable<unknown>)].every((file) => file instanceof Blob);
 
 /** An address as the page understands it. @throws {ViewerError} with the code, for what is none. */
 function addressOf(source: string | URL, code: 'viewer/no-model' | 'viewer/environment'): URL {
@@ -56,7 +63,10 @@ function filesOf(source: Blob | readonly File[] | FileList | ReadonlyMap<string,
  * The model and the surroundings among files: of several documents the one nearest to the top, as asset folders keep
  * variants below.
  */
-export function sortFiles(files: ReadonlyMap<string, Blob>): { readonly model?: string; readonly environment?: string } {
+export function sortFiles(files: ReadonlyMap<string, Blob>): {
+  readonly model?: string;
+  readonly environment?: string;
+} {
   const depth = (path: string) => path.split('/').length;
   const paths = [...files.keys()].sort((a, b) => depth(a) - depth(b) || a.localeCompare(b));
   const model = paths.find((path) => MODEL.test(path));
@@ -78,39 +88,72 @@ export async function loadModel(source: ModelSource, options: LoadModelOptions =
   if (typeof source === 'string' || source instanceof URL) {
     if (!/\.(obj|stl)$/i.test(pathOf(source))) return readGltf(source, options);
     const base = addressOf(source, 'viewer/no-model');
-    return readOther(decodeURIComponent(base.pathname.slice(base.pathname.lastIndexOf('/') + 1)), (path) => fetchBytes(new URL(path, base), signal), signal);
+    return readOther(
+      decodeURIComponent(base.pathname.slice(base.pathname.lastIndexOf('/') + 1)),
+      (path) => fetchBytes(new URL(path, base), signal),
+      signal,
+    );
   }
   if (!(source instanceof Blob || source instanceof Map || isFiles(source))) {
     if (typeof source === 'object' && source !== null && isScene(source)) return source;
-    throw new ViewerError('viewer/no-model', `A model is an address, a file, files or a scene, not ${source === null ? 'null' : `of the type "${typeof source}"`}.`);
+    throw new ViewerError(
+      'viewer/no-model',
+      `A model is an address, a file, files or a scene, not ${source === null ? 'null' : `of the type "${typeof source}"`}.`,
+    );
   }
   const files = filesOf(source);
   const { model } = sortFiles(files);
   // A Blob without a name may be anything; glTF is what it is taken for.
   if (model === undefined) {
     const names = [...files.keys()].slice(0, 3).map((path) => `"${path}"`);
-    throw new ViewerError('viewer/no-model', `There is no .glb, .gltf, .obj or .stl among the files${names.length > 0 ? ` (${names.join(', ')}${files.size > 3 ? ', …' : ''})` : ''}.`);
+    throw new ViewerError(
+      'viewer/no-model',
+      `There is no .glb, .gltf, .obj or .stl among the files${names.length > 0 ? ` (${names.join(', ')}${files.size > 3 ? ', …' : ''})` : ''}.`,
+    );
   }
   if (!/\.(obj|stl)$/i.test(model)) return readGltf({ files, entry: model }, options);
   const folder = model.slice(0, model.lastIndexOf('/') + 1);
-  return readOther(model.slice(folder.length), async (path) => { const file = files.get(folder + path); return file && bytesOf(file); }, signal);
+  return readOther(
+    model.slice(folder.length),
+    async (path) => {
+      const file = files.get(folder + path);
+      return file && bytesOf(file);
+    },
+    signal,
+  );
 }
 
 /**
  * Reads surroundings; `scene` and `none` give `undefined`.
  *
- * @throws {ViewerError} `viewer/environment` for an address that cannot be fetched; {ImageError} for a picture that cannot be read.
+ * @throws {ViewerError} `viewer/environment` for an address that cannot be fetched; {ImageError} for a picture that
+ * cannot be read.
  */
-export async function loadEnvironment(source: EnvironmentSource, signal?: AbortSignal): Promise<Environment | undefined> {
+export async function loadEnvironment(
+  source: EnvironmentSource,
+  signal?: AbortSignal,
+): Promise<Environment | undefined> {
   if (source === 'scene' || source === 'none') return undefined;
   if (source === 'studio') return inSlices((await import('@glanz/scene/studio')).studioSteps(), { signal });
   if (typeof source === 'object' && source !== null && !(source instanceof Blob) && !(source instanceof URL)) {
     if (source.type === 'latlong' || source.type === 'constant') return source;
-    throw new ViewerError('viewer/environment', `An environment has the type latlong or constant, not ${JSON.stringify((source as { type?: unknown }).type)?.slice(0, 40)}.`);
+    throw new ViewerError(
+      'viewer/environment',
+      `An environment has the type latlong or constant, not ${JSON.stringify((source as { type?: unknown }).type)?.slice(0, 40)}.`,
+    );
   }
-  if (typeof source !== 'string' && typeof source !== 'object' || source === null) throw new ViewerError('viewer/environment', `An environment is a name, an address, a file or data, not ${String(source)}.`);
-  const bytes = source instanceof Blob ? await bytesOf(source) : await fetchBytes(addressOf(source, 'viewer/environment'), signal);
-  if (!bytes) throw new ViewerError('viewer/environment', `The environment "${String(source).slice(0, 200)}" could not be fetched: check the address, and that its server allows this page to read it.`);
+  if ((typeof source !== 'string' && typeof source !== 'object') || source === null)
+    throw new ViewerError(
+      'viewer/environment',
+      `An environment is a name, an address, a file or data, not ${String(source)}.`,
+    );
+  const bytes =
+    source instanceof Blob ? await bytesOf(source) : await fetchBytes(addressOf(source, 'viewer/environment'), signal);
+  if (!bytes)
+    throw new ViewerError(
+      'viewer/environment',
+      `The environment "${String(source).slice(0, 200)}" could not be fetched: check the address, and that its server allows this page to read it.`,
+    );
   const { decodeEnvironment } = await import('@glanz/image/environment');
   signal?.throwIfAborted();
   const { width, height, data } = decodeEnvironment(bytes);
@@ -137,11 +180,16 @@ async function readGltf(source: GltfSource, options: LoadModelOptions): Promise<
   const told = { signal, onProgress };
   try {
     const { loadGltfInWorker } = await import('@glanz/gltf/workers');
-    return await loadGltfInWorker(source, { ...told, createWorker, ...(createWorker && compressedFormats ? { compressedFormats: await compressedFormats() } : {}) });
+    return await loadGltfInWorker(source, {
+      ...told,
+      createWorker,
+      ...(createWorker && compressedFormats ? { compressedFormats: await compressedFormats() } : {}),
+    });
   } catch (error) {
-    // Without a worker, or where it lacks a decoder, the file is read here, in slices. What browsers throw for a worker of another
-    // origin or a policy differs, and none of it is a GlanzError.
-    const refused = error instanceof GlanzError && error.code !== 'gltf/worker' && error.code !== 'gltf/missing-decoder';
+    // Without a worker, or where it lacks a decoder, the file is read here, in slices. What browsers throw for a worker
+    // of another origin or a policy differs, and none of it is a GlanzError.
+    const refused =
+      error instanceof GlanzError && error.code !== 'gltf/worker' && error.code !== 'gltf/missing-decoder';
     if (isAbort(error) || refused) throw error;
   }
   signal?.throwIfAborted();
@@ -150,11 +198,24 @@ async function readGltf(source: GltfSource, options: LoadModelOptions): Promise<
   return loadGltf(source, { ...told, compressedFormats, decoders: { meshopt, ...decoders } });
 }
 
-async function readOther(name: string, read: (path: string) => Promise<Uint8Array<ArrayBuffer> | undefined>, signal: AbortSignal | undefined): Promise<Scene> {
+async function readOther(
+  name: string,
+  read: (path: string) => Promise<Uint8Array<ArrayBuffer> | undefined>,
+  signal: AbortSignal | undefined,
+): Promise<Scene> {
   const bytes = await read(name);
-  if (!bytes) throw new ViewerError('viewer/no-model', `The model "${name}" could not be fetched: check the address, and that its server allows this page to read it.`);
+  if (!bytes)
+    throw new ViewerError(
+      'viewer/no-model',
+      `The model "${name}" could not be fetched: check the address, and that its server allows this page to read it.`,
+    );
   const { readObj, readStl } = await import('@glanz/formats');
   if (/\.stl$/i.test(name)) return readStl(bytes, { name });
   const { decodeImageInBrowser } = await import('./gltf');
-  return readObj(bytes, { name, read, decodeImage: (picture) => decodeImageInBrowser(picture, 'application/octet-stream'), ...(signal ? { signal } : {}) });
+  return readObj(bytes, {
+    name,
+    read,
+    decodeImage: (picture) => decodeImageInBrowser(picture, 'application/octet-stream'),
+    ...(signal ? { signal } : {}),
+  });
 }

@@ -14,7 +14,11 @@ export class Losses {
    */
   async next(now = performance.now()): Promise<void> {
     this.#times = [...this.#times.filter((time) => now - time < WINDOW_MS), now];
-    if (this.#times.length > MOST) throw new ViewerError('viewer/device-lost', 'The GPU was lost again and again: close other programs that use it, or show a smaller model or picture.');
+    if (this.#times.length > MOST)
+      throw new ViewerError(
+        'viewer/device-lost',
+        'The GPU was lost again and again: close other programs that use it, or show a smaller model or picture.',
+      );
     await new Promise((resolve) => setTimeout(resolve, 200 * this.#times.length ** 2));
   }
 

@@ -11,12 +11,17 @@ export interface MadeTracer {
 }
 
 /**
- * Makes a tracer ready for its first sample; where the device is lost meanwhile, once more on the next one. The connection
- * gives up after some losses, and so does this.
+ * Makes a tracer ready for its first sample; where the device is lost meanwhile, once more on the next one. The
+ * connection gives up after some losses, and so does this.
  *
- * @param source Asked again for each attempt, as are the options: what they say may have changed while a device was waited for.
+ * @param source Asked again for each attempt, as are the options: what they say may have changed while a device was
+ * waited for.
  */
-export async function makeTracer(connection: Connection, source: () => Take, optionsNow: () => Omit<PathTracerOptions, 'hierarchies'> & { readonly hierarchies: HierarchyBuilder | undefined }): Promise<MadeTracer> {
+export async function makeTracer(
+  connection: Connection,
+  source: () => Take,
+  optionsNow: () => Omit<PathTracerOptions, 'hierarchies'> & { readonly hierarchies: HierarchyBuilder | undefined },
+): Promise<MadeTracer> {
   for (;;) {
     await connection.recovery;
     const { device } = connection;
@@ -26,7 +31,12 @@ export async function makeTracer(connection: Connection, source: () => Take, opt
     const lost = () => device !== connection.device || connection.recovery !== undefined;
     let tracer: PathTracer | undefined;
     try {
-      tracer = await PathTracer.create(device, scene, { ...others, ...(hierarchies ? { hierarchies } : {}), ...options, camera });
+      tracer = await PathTracer.create(device, scene, {
+        ...others,
+        ...(hierarchies ? { hierarchies } : {}),
+        ...options,
+        camera,
+      });
       await ready?.(tracer);
       if (!lost()) return { tracer, device };
       tracer.destroy();

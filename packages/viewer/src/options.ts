@@ -6,11 +6,17 @@ import type { ControlOptions } from './controls';
 import type { EnvironmentSource } from './load';
 import type { OrbitLimits } from './orbit';
 
-/** What `createViewer` may be told. All of it has a default; what is marked can be changed later by the viewer's property of the same name. */
+/**
+ * What `createViewer` may be told. All of it has a default; what is marked can be changed later by the viewer's
+ * property of the same name.
+ */
 export interface ViewerOptions {
   /** Samples per pixel of the finished picture. Default 256. Changeable. */
   readonly samples?: number;
-  /** Stop earlier, where this relative noise is reached; see `RenderOptions.noise` of the renderer. Default: none. Changeable. */
+  /**
+   * Stop earlier, where this relative noise is reached; see `RenderOptions.noise` of the renderer. Default: none.
+   * Changeable.
+   */
   readonly noise?: number;
   /** Most edges of a path. Default 8. Changeable. */
   readonly maxDepth?: number;
@@ -19,8 +25,8 @@ export interface ViewerOptions {
   /** Pixels of the picture at most; beyond, it is enlarged. Default 4,194,304. */
   readonly maxPixels?: number;
   /**
-   * Surroundings. Default `scene`: the model's own, or else a studio. Changed by `setEnvironment()`. Where it cannot be fetched or
-   * read, a studio lights the model, and the `warning` event says why.
+   * Surroundings. Default `scene`: the model's own, or else a studio. Changed by `setEnvironment()`. Where it cannot be
+   * fetched or read, a studio lights the model, and the `warning` event says why.
    */
   readonly environment?: EnvironmentSource;
   /** Multiplies the surroundings. Default 1. Changeable. */
@@ -36,9 +42,9 @@ export interface ViewerOptions {
   /** Look of a model that has several, by name. Default: its own. Changed by `setVariant()`. */
   readonly variant?: string;
   /**
-   * The first view of a model: `auto` (default): its own first camera, or a view that frames it; `frame`: the latter always;
-   * an index or a name of its cameras; a camera; or a function that gives one for the scene and the picture's width over
-   * height.
+   * The first view of a model: `auto` (default): its own first camera, or a view that frames it; `frame`: the latter
+   * always; an index or a name of its cameras; a camera; or a function that gives one for the scene and the picture's
+   * width over height.
    */
   readonly camera?: 'auto' | 'frame' | number | Camera | ((scene: Scene, aspect: number) => Camera) | (string & {});
   /** How far hands and calls may move the camera. Default: no limits. Changeable. */
@@ -59,21 +65,39 @@ export interface ViewerOptions {
   readonly decoders?: GltfDecoders;
   /** Starts the worker that reads glTF, see `LoadModelOptions.createWorker`. */
   readonly createWorker?: () => Worker;
-  /** Asks for the device, also again after it was lost. Default: `requestDevice()` of the renderer. The viewer destroys it. */
+  /**
+   * Asks for the device, also again after it was lost. Default: `requestDevice()` of the renderer. The viewer destroys
+   * it.
+   */
   readonly requestDevice?: () => Promise<GPUDevice>;
   /**
-   * Whether copies of the image's samples are kept in CPU memory, so that the image goes on where it was when the GPU was lost:
-   * at doubling numbers of samples, at least three seconds apart, and when it is done; never while something moves. A copy
-   * takes 64 bytes a pixel, and 32 more for each further light group; films of more than 128 MiB are not copied. Default true.
+   * Whether copies of the image's samples are kept in CPU memory, so that the image goes on where it was when the GPU
+   * was lost: at doubling numbers of samples, at least three seconds apart, and when it is done; never while something
+   * moves. A copy takes 64 bytes a pixel, and 32 more for each further light group; films of more than 128 MiB are not
+   * copied. Default true.
    */
   readonly keepSamples?: boolean;
   /**
-   * Whether the device and the JavaScript engine do ahead, while the first model loads, what its first picture would wait for:
-   * about a tenth of a second of the page's thread, in slices. Default: unless the CPU imitates the GPU.
+   * Whether the device and the JavaScript engine do ahead, while the first model loads, what its first picture would
+   * wait for: about a tenth of a second of the page's thread, in slices. Default: unless the CPU imitates the GPU.
    */
   readonly warmUp?: boolean;
   /** More for the path tracer: filter, light groups, biased shortcuts, back-face culling. */
-  readonly tracer?: Pick<PathTracerOptions, 'filter' | 'lightGroups' | 'clampIndirect' | 'regularization' | 'caustics' | 'maxBounces' | 'backFaceCulling' | 'sampler' | 'textureLodBias' | 'seed' | 'maxVolumeDepth' | 'pathsInFlight'>;
+  readonly tracer?: Pick<
+    PathTracerOptions,
+    | 'filter'
+    | 'lightGroups'
+    | 'clampIndirect'
+    | 'regularization'
+    | 'caustics'
+    | 'maxBounces'
+    | 'backFaceCulling'
+    | 'sampler'
+    | 'textureLodBias'
+    | 'seed'
+    | 'maxVolumeDepth'
+    | 'pathsInFlight'
+  >;
   /** Destroys the viewer when it aborts. */
   readonly signal?: AbortSignal;
 }

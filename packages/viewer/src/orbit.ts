@@ -1,6 +1,15 @@
 import type { Camera, SceneBounds } from '@glanz/scene';
 import { distance, dot, lerp, scaleAndAdd, subtract } from 'gl-matrix/esm/vec3.js';
-import { checkedAmount, checkedCamera, checkedFieldOfView, checkedLimits, checkedOrbit, checkedPoint, checkedSetting, checkedZoom } from './checks';
+import {
+  checkedAmount,
+  checkedCamera,
+  checkedFieldOfView,
+  checkedLimits,
+  checkedOrbit,
+  checkedPoint,
+  checkedSetting,
+  checkedZoom,
+} from './checks';
 
 /** Three numbers in the world, metres. */
 export type Vector = readonly [number, number, number];
@@ -54,8 +63,8 @@ const REST = 2e-4;
 const clamp = (value: number, low: number, high: number) => Math.min(Math.max(value, low), high);
 
 /**
- * A camera that turns about a point, +Y up, and follows what it is told smoothly. Starts as any camera (a roll is given up)
- * and gives cameras to render with. No DOM.
+ * A camera that turns about a point, +Y up, and follows what it is told smoothly. Starts as any camera (a roll is given
+ * up) and gives cameras to render with. No DOM.
  *
  * @example
  * const rig = new OrbitRig(camera, sceneBounds(scene));
@@ -75,7 +84,8 @@ export class OrbitRig {
 
   /**
    * @param bounds Of the scene: the point to turn about lies beside its centre, and steps suit its size.
-   * @throws {ViewerError} `viewer/camera` for a camera or limits that nothing can be seen with; `viewer/option` for the damping.
+   * @throws {ViewerError} `viewer/camera` for a camera or limits that nothing can be seen with; `viewer/option` for the
+   * damping.
    */
   constructor(camera: Camera, bounds: SceneBounds, options: OrbitRigOptions = {}) {
     const finite = bounds.min[0] <= bounds.max[0];
@@ -90,7 +100,10 @@ export class OrbitRig {
     this.#now = { ...this.#goal };
   }
 
-  /** Seconds, see {@link OrbitRigOptions.damping}. Setting it throws {ViewerError} `viewer/option` for what is no such time. */
+  /**
+   * Seconds, see {@link OrbitRigOptions.damping}. Setting it throws {ViewerError} `viewer/option` for what is no such
+   * time.
+   */
   get damping(): number {
     return this.#damping;
   }
@@ -99,7 +112,10 @@ export class OrbitRig {
     this.#damping = checkedSetting('damping', seconds);
   }
 
-  /** How far the camera may go; what is beyond comes back. Setting it throws {ViewerError} `viewer/camera` for what is no range. */
+  /**
+   * How far the camera may go; what is beyond comes back. Setting it throws {ViewerError} `viewer/camera` for what is
+   * no range.
+   */
   get limits(): OrbitLimits {
     return this.#limits;
   }
@@ -154,8 +170,14 @@ export class OrbitRig {
     checkedAmount(right, 'right');
     checkedAmount(up, 'up');
     const { x, y } = axesOf(this.#goal);
-    const height = this.#lens.type === 'orthographic' ? (2 * this.#lens.ymag) / this.#goal.zoom : 2 * this.#goal.distance * (this.#lens.type === 'perspective' ? Math.tan(this.#lens.yfov / 2) : 1);
-    this.#goal.target = checkedPoint(scaleAndAdd([0, 0, 0], scaleAndAdd([0, 0, 0], this.#goal.target, x, right * height), y, up * height), 'target');
+    const height =
+      this.#lens.type === 'orthographic'
+        ? (2 * this.#lens.ymag) / this.#goal.zoom
+        : 2 * this.#goal.distance * (this.#lens.type === 'perspective' ? Math.tan(this.#lens.yfov / 2) : 1);
+    this.#goal.target = checkedPoint(
+      scaleAndAdd([0, 0, 0], scaleAndAdd([0, 0, 0], this.#goal.target, x, right * height), y, up * height),
+      'target',
+    );
   }
 
   /**
@@ -170,11 +192,11 @@ export class OrbitRig {
   }
 
   /**
-   * Goes to an orbit; what is left out stays, but for the zoom, which goes with the radius. `phi` stops half a degree short of
-   * the poles.
+   * Goes to an orbit; what is left out stays, but for the zoom, which goes with the radius. `phi` stops half a degree
+   * short of the poles.
    *
-   * @throws {ViewerError} `viewer/camera` for NaN, infinities, other types, a radius or zoom that is not above 0, and numbers
-   * beyond all sense. Nothing has changed then.
+   * @throws {ViewerError} `viewer/camera` for NaN, infinities, other types, a radius or zoom that is not above 0, and
+   * numbers beyond all sense. Nothing has changed then.
    */
   setOrbit(orbit: Partial<Orbit>): void {
     const { theta, phi, radius, target, zoom } = checkedOrbit(orbit);
@@ -214,8 +236,8 @@ export class OrbitRig {
   }
 
   /**
-   * Vertical field of view of a perspective camera, radians in (0, π); `undefined` for others, where setting it changes nothing.
-   * Setting it throws {ViewerError} `viewer/camera` for what is no such angle.
+   * Vertical field of view of a perspective camera, radians in (0, π); `undefined` for others, where setting it changes
+   * nothing. Setting it throws {ViewerError} `viewer/camera` for what is no such angle.
    */
   get yfov(): number | undefined {
     return this.#lens.type === 'perspective' ? this.#lens.yfov : undefined;
@@ -243,7 +265,13 @@ export class OrbitRig {
     const passed = seconds > 0 ? Math.min(seconds, 0.1) : 0;
     const share = this.#damping > 0 ? 1 - Math.exp(-passed / this.#damping) : 1;
     const near = Math.max(goal.distance, 1e-9);
-    const left = Math.max(Math.abs(goal.yaw - now.yaw), Math.abs(goal.pitch - now.pitch), Math.abs(Math.log(goal.distance / now.distance)), Math.abs(Math.log(goal.zoom / now.zoom)), distance(goal.target, now.target) / near);
+    const left = Math.max(
+      Math.abs(goal.yaw - now.yaw),
+      Math.abs(goal.pitch - now.pitch),
+      Math.abs(Math.log(goal.distance / now.distance)),
+      Math.abs(Math.log(goal.zoom / now.zoom)),
+      distance(goal.target, now.target) / near,
+    );
     if (share >= 1 || left * (1 - share) < REST) {
       this.jump();
       return true;
@@ -261,15 +289,17 @@ export class OrbitRig {
   }
 
   /**
-   * The camera to render with, where it is now. While it stands where a camera was given, it is that camera, to the last bit:
-   * a roll, a focus beside the target and straight up and down are for looking, and go with the first movement.
+   * The camera to render with, where it is now. While it stands where a camera was given, it is that camera, to the
+   * last bit: a roll, a focus beside the target and straight up and down are for looking, and go with the first
+   * movement.
    */
   camera(): Camera {
     const pose = this.#now;
     if (samePose(pose, this.#stand)) return this.#lens;
     const { x, y, z } = axesOf(pose);
     const transform = [...x, 0, ...y, 0, ...z, 0, ...scaleAndAdd([0, 0, 0], pose.target, z, pose.distance), 1];
-    if (this.#lens.type === 'orthographic') return { ...this.#lens, transform, xmag: this.#lens.xmag / pose.zoom, ymag: this.#lens.ymag / pose.zoom };
+    if (this.#lens.type === 'orthographic')
+      return { ...this.#lens, transform, xmag: this.#lens.xmag / pose.zoom, ymag: this.#lens.ymag / pose.zoom };
     if (this.#lens.type === 'panorama') return { ...this.#lens, transform };
     return { ...this.#lens, transform, focus_distance: pose.distance };
   }
@@ -278,12 +308,23 @@ export class OrbitRig {
     const { theta, phi, radius } = this.#limits;
     const goal = this.#goal;
     if (theta) goal.yaw = clamp(goal.yaw, ...theta);
-    if (phi) goal.pitch = clamp(goal.pitch, Math.max(-STEEPEST, Math.PI / 2 - phi[1]), Math.min(STEEPEST, Math.PI / 2 - phi[0]));
+    if (phi)
+      goal.pitch = clamp(
+        goal.pitch,
+        Math.max(-STEEPEST, Math.PI / 2 - phi[1]),
+        Math.min(STEEPEST, Math.PI / 2 - phi[0]),
+      );
     if (radius) goal.distance = clamp(goal.distance, ...radius);
   }
 
   #orbitOf({ yaw, pitch, distance, target, zoom }: Pose): Orbit {
-    return { theta: yaw, phi: Math.PI / 2 - pitch, radius: distance, target, ...(this.#lens.type === 'orthographic' ? { zoom } : {}) };
+    return {
+      theta: yaw,
+      phi: Math.PI / 2 - pitch,
+      radius: distance,
+      target,
+      ...(this.#lens.type === 'orthographic' ? { zoom } : {}),
+    };
   }
 
   #poseOf(camera: Camera): Pose {
@@ -293,11 +334,22 @@ export class OrbitRig {
     const back: Vector = [(m[8] as number) / length, (m[9] as number) / length, (m[10] as number) / length];
     const ahead = dot(subtract([0, 0, 0], eye, this.#center), back);
     const away = ahead > 0.05 * this.#radius ? ahead : this.#radius;
-    return { yaw: Math.atan2(back[0], back[2]), pitch: clamp(Math.asin(clamp(back[1], -1, 1)), -STEEPEST, STEEPEST), distance: away, target: scaleAndAdd([0, 0, 0], eye, back, -away), zoom: 1 };
+    return {
+      yaw: Math.atan2(back[0], back[2]),
+      pitch: clamp(Math.asin(clamp(back[1], -1, 1)), -STEEPEST, STEEPEST),
+      distance: away,
+      target: scaleAndAdd([0, 0, 0], eye, back, -away),
+      zoom: 1,
+    };
   }
 }
 
-const samePose = (a: Pose, b: Pose) => a.yaw === b.yaw && a.pitch === b.pitch && a.distance === b.distance && a.zoom === b.zoom && a.target.every((value, k) => value === b.target[k]);
+const samePose = (a: Pose, b: Pose) =>
+  a.yaw === b.yaw &&
+  a.pitch === b.pitch &&
+  a.distance === b.distance &&
+  a.zoom === b.zoom &&
+  a.target.every((value, k) => value === b.target[k]);
 
 function axesOf({ yaw, pitch }: Pose): { readonly x: Vector; readonly y: Vector; readonly z: Vector } {
   const [cy, sy, cp, sp] = [Math.cos(yaw), Math.sin(yaw), Math.cos(pitch), Math.sin(pitch)];

@@ -8,7 +8,12 @@ const MAX_RATIO = 2;
  *
  * @param ratio Picture pixels per CSS pixel; default the screen's own, at most 2.
  */
-export function pictureSize(width: number, height: number, ratio?: number, maxPixels = MAX_PIXELS): readonly [number, number] {
+export function pictureSize(
+  width: number,
+  height: number,
+  ratio?: number,
+  maxPixels = MAX_PIXELS,
+): readonly [number, number] {
   const wanted = ratio ?? Math.min(MAX_RATIO, devicePixelRatio || 1);
   const factor = Math.min(wanted, Math.sqrt(maxPixels / Math.max(1, width * height)));
   return [Math.max(1, Math.round(width * factor)), Math.max(1, Math.round(height * factor))];

@@ -36,10 +36,14 @@ export class Preparation {
    * @param make Starts at once; its signal says that it is not wanted any more.
    * @param take Gets the tracer while this still counts as running, so that nobody sees the time in between.
    * @param signal Of the caller.
-   * @throws what `make` throws; an `AbortError` where another one is asked for meanwhile; the signal's reason; {ViewerError}
-   * `viewer/destroyed`.
+   * @throws what `make` throws; an `AbortError` where another one is asked for meanwhile; the signal's reason;
+   * {ViewerError} `viewer/destroyed`.
    */
-  async run<T extends { readonly tracer: PathTracer }>(make: (signal: AbortSignal) => Promise<T>, take: (made: T) => void, signal?: AbortSignal): Promise<T> {
+  async run<T extends { readonly tracer: PathTracer }>(
+    make: (signal: AbortSignal) => Promise<T>,
+    take: (made: T) => void,
+    signal?: AbortSignal,
+  ): Promise<T> {
     this.#warming.abort();
     this.#control?.abort(new DOMException('another scene was asked for', 'AbortError'));
     const control = (this.#control = new AbortController());

@@ -21,8 +21,8 @@ const CAUTION = 0.9;
 const PATIENCE = 6;
 
 /**
- * Chooses the preview's resolution by the time that frames take, so that a view that moves keeps its rate. Grows slowly,
- * shrinks at once. No GPU: a pure function of what it is told.
+ * Chooses the preview's resolution by the time that frames take, so that a view that moves keeps its rate. Grows
+ * slowly, shrinks at once. No GPU: a pure function of what it is told.
  */
 export class PreviewController {
   /** Milliseconds that a frame may take; two and a half times as many from a quarter of the width on down. */
@@ -42,11 +42,13 @@ export class PreviewController {
   /** The next frame of a picture of so many pixels. */
   plan(pixels: number): PreviewPlan {
     if (this.#perPixel === undefined) return { divisor: this.#divisor, samples: 1 };
-    const costOf = (divisor: number, samples = 1) => this.#fixed + ((this.#perPixel as number) * samples * pixels) / divisor ** 2;
+    const costOf = (divisor: number, samples = 1) =>
+      this.#fixed + ((this.#perPixel as number) * samples * pixels) / divisor ** 2;
     const budgetOf = (divisor: number) => (divisor >= COARSE ? PATIENT * this.budget : this.budget);
     if (costOf(this.#divisor) > budgetOf(this.#divisor)) {
       this.#calm = 0;
-      this.#divisor = DIVISORS.find((divisor) => costOf(divisor) <= budgetOf(divisor)) ?? (DIVISORS[DIVISORS.length - 1] as number);
+      this.#divisor =
+        DIVISORS.find((divisor) => costOf(divisor) <= budgetOf(divisor)) ?? (DIVISORS[DIVISORS.length - 1] as number);
     } else if (this.#divisor > 1) {
       const larger = DIVISORS.find((divisor) => costOf(divisor) <= CAUTION * budgetOf(divisor)) ?? this.#divisor;
       if (larger < this.#divisor && ++this.#calm >= PATIENCE) {
@@ -54,18 +56,27 @@ export class PreviewController {
         this.#divisor = larger;
       }
     }
-    const spare = Math.floor((CAUTION * this.budget - this.#fixed) / Math.max(1e-6, costOf(this.#divisor) - this.#fixed));
+    const spare = Math.floor(
+      (CAUTION * this.budget - this.#fixed) / Math.max(1e-6, costOf(this.#divisor) - this.#fixed),
+    );
     return { divisor: this.#divisor, samples: Math.max(1, Math.min(MOST_SAMPLES, spare)) };
   }
 
-  /** Learns from a frame: pixels × samples that it took, and the time. Several milliseconds of a clock's noise do no harm. */
+  /**
+   * Learns from a frame: pixels × samples that it took, and the time. Several milliseconds of a clock's noise do no
+   * harm.
+   */
   measured(pixels: number, samples: number, milliseconds: number): void {
     const work = pixels * samples;
     const last = this.#last;
     // Two frames of different sizes tell what a frame takes whatever its size.
     if (last && Math.max(work, last.pixels) > 1.5 * Math.min(work, last.pixels)) {
       const slope = (milliseconds - last.milliseconds) / (work - last.pixels);
-      if (slope > 0) this.#fixed = 0.5 * (this.#fixed + Math.max(0, Math.min(milliseconds - slope * work, 0.9 * Math.min(milliseconds, last.milliseconds))));
+      if (slope > 0)
+        this.#fixed =
+          0.5 *
+          (this.#fixed +
+            Math.max(0, Math.min(milliseconds - slope * work, 0.9 * Math.min(milliseconds, last.milliseconds))));
     }
     this.#fixed = Math.min(this.#fixed, 0.9 * milliseconds);
     const now = (milliseconds - this.#fixed) / work;

@@ -33,7 +33,10 @@ export function project(camera: Camera, aspect: number, point: Vector): Projecti
     const x = Math.atan2(right, ahead) / (2 * Math.PI) + 0.5;
     return { x, y: Math.acos(Math.max(-1, Math.min(1, up / (distance || 1)))) / Math.PI, distance, inside: true };
   }
-  const half = camera.type === 'orthographic' ? [camera.xmag, camera.ymag] : [Math.tan(camera.yfov / 2) * aspect * ahead, Math.tan(camera.yfov / 2) * ahead];
+  const half =
+    camera.type === 'orthographic'
+      ? [camera.xmag, camera.ymag]
+      : [Math.tan(camera.yfov / 2) * aspect * ahead, Math.tan(camera.yfov / 2) * ahead];
   const x = 0.5 + (0.5 * right) / (half[0] || 1e-12);
   const y = 0.5 - (0.5 * up) / (half[1] || 1e-12);
   return { x, y, distance, inside: ahead > 0 && x >= 0 && x <= 1 && y >= 0 && y <= 1 };

@@ -30,19 +30,26 @@ export interface RenderImageOptions {
 }
 
 /** Progress of a render that goes on until a number of samples or a noise target. */
-export const imageProgress = (samples: number, target: number, elapsedMs: number, remainingMs: number, noise: boolean): ImageProgress => {
+export const imageProgress = (
+  samples: number,
+  target: number,
+  elapsedMs: number,
+  remainingMs: number,
+  noise: boolean,
+): ImageProgress => {
   const share = noise ? elapsedMs / (elapsedMs + remainingMs || 1) : samples / target;
   return { samples, target, remainingMs, share: Number.isFinite(remainingMs) ? Math.min(1, share) : 0 };
 };
 
 /**
- * Renders the scene and the view that an engine shows, at any size, on a path tracer of its own. The screen's image keeps its
- * samples, and the scene may change meanwhile: the image shows it as it was at the call. Kernels and hierarchies are shared;
- * the scene's buffers and textures take GPU memory a second time until the tracer is destroyed.
+ * Renders the scene and the view that an engine shows, at any size, on a path tracer of its own. The screen's image
+ * keeps its samples, and the scene may change meanwhile: the image shows it as it was at the call. Kernels and
+ * hierarchies are shared; the scene's buffers and textures take GPU memory a second time until the tracer is destroyed.
  *
  * @returns The tracer with the finished film. The caller reads it and destroys it.
  * @throws {ViewerError} `viewer/no-scene` before a scene is shown; `viewer/device-lost` while the GPU is replaced.
- * @throws {DeviceError} `renderer/limit`, `renderer/out-of-memory` for a size that the GPU cannot hold; `renderer/device-lost`.
+ * @throws {DeviceError} `renderer/limit`, `renderer/out-of-memory` for a size that the GPU cannot hold;
+ * `renderer/device-lost`.
  * @throws {RenderError} `renderer/size`, `renderer/samples`
  * @throws the signal's reason, when aborted.
  */
@@ -50,13 +57,25 @@ export async function renderImage(engine: Engine, options: RenderImageOptions): 
   const { width, height, samples, noise, background, onProgress, signal } = options;
   signal?.throwIfAborted();
   const copy = engine.copyFor(width / height);
-  if (!copy && engine.state === 'recovering') throw new ViewerError('viewer/device-lost', 'The GPU was lost. Render the image again when another one is in use.');
+  if (!copy && engine.state === 'recovering')
+    throw new ViewerError('viewer/device-lost', 'The GPU was lost. Render the image again when another one is in use.');
   if (!copy) throw new ViewerError('viewer/no-scene', 'There is no scene to render: await load() first.');
-  const tracer = await copy.create({ width, height, ...(background ? { background } : {}), ...(signal ? { signal } : {}) });
+  const tracer = await copy.create({
+    width,
+    height,
+    ...(background ? { background } : {}),
+    ...(signal ? { signal } : {}),
+  });
   try {
     await copy.ready?.(tracer);
-    for await (const progress of tracer.render({ samples, ...(noise === undefined ? {} : { noise }), ...(signal ? { signal } : {}) })) {
-      onProgress?.(imageProgress(progress.samples, samples, progress.elapsedMs, progress.remainingMs, noise !== undefined));
+    for await (const progress of tracer.render({
+      samples,
+      ...(noise === undefined ? {} : { noise }),
+      ...(signal ? { signal } : {}),
+    })) {
+      onProgress?.(
+        imageProgress(progress.samples, samples, progress.elapsedMs, progress.remainingMs, noise !== undefined),
+      );
     }
     signal?.throwIfAborted();
     return tracer;

@@ -53,25 +53,46 @@ interface Wanted {
 function checked(viewer: Viewer, options: BlobOptions, checks: Checks): Wanted {
   const { width, height, samples, noise, background } = options;
   const { checkedChoice, checkedSetting } = checks;
-  for (const [name, value] of [['width', width], ['height', height]] as const) if (value !== undefined) checkedSetting(name, value);
+  for (const [name, value] of [
+    ['width', width],
+    ['height', height],
+  ] as const)
+    if (value !== undefined) checkedSetting(name, value);
   if (options.quality !== undefined) checkedSetting('quality', options.quality);
   const aspect = Math.max(1, viewer.canvas.clientWidth) / Math.max(1, viewer.canvas.clientHeight);
-  const size = width === undefined && height === undefined ? undefined : ([width ?? Math.max(1, Math.round((height as number) * aspect)), height ?? Math.max(1, Math.round((width as number) / aspect))] as const);
+  const size =
+    width === undefined && height === undefined
+      ? undefined
+      : ([
+          width ?? Math.max(1, Math.round((height as number) * aspect)),
+          height ?? Math.max(1, Math.round((width as number) / aspect)),
+        ] as const);
   const usual = samples === undefined && noise === undefined;
   return {
     size,
-    samples: samples === undefined ? (usual ? viewer.samples : MOST_SAMPLES) : Math.floor(checkedSetting('samples', samples)),
+    samples:
+      samples === undefined ? (usual ? viewer.samples : MOST_SAMPLES) : Math.floor(checkedSetting('samples', samples)),
     noise: usual ? viewer.noise : noise === undefined ? undefined : checkedSetting('noise', noise) || undefined,
-    background: background === undefined ? viewer.background : checkedChoice('background', background, ['environment', 'transparent']),
+    background:
+      background === undefined
+        ? viewer.background
+        : checkedChoice('background', background, ['environment', 'transparent']),
     usual,
   };
 }
 
 /**
  * Waits until the image on the screen is the wanted one.
- * @returns Its tracer, or `undefined` where it never will be, or nobody knows when: then it has to be rendered separately.
+ * @returns Its tracer, or `undefined` where it never will be, or nobody knows when: then it has to be rendered
+ * separately.
  */
-async function screenImage(viewer: Viewer, engine: Engine, wanted: Wanted, { onProgress }: BlobOptions, signal: AbortSignal): Promise<PathTracer | undefined> {
+async function screenImage(
+  viewer: Viewer,
+  engine: Engine,
+  wanted: Wanted,
+  { onProgress }: BlobOptions,
+  signal: AbortSignal,
+): Promise<PathTracer | undefined> {
   const { size, samples, noise, background, usual } = wanted;
   if (background !== viewer.background || (!usual && noise !== undefined)) return undefined;
   const whole = () => {
@@ -92,15 +113,37 @@ async function screenImage(viewer: Viewer, engine: Engine, wanted: Wanted, { onP
         const tracer = whole();
         if (tracer || idle()) resolve(tracer);
       };
-      viewer.on('sample', (progress) => {
-        onProgress?.(imageProgress(progress.samples, samples, performance.now() - started, progress.remainingMs, usual && noise !== undefined));
-        look();
-      }, options);
+      viewer.on(
+        'sample',
+        (progress) => {
+          onProgress?.(
+            imageProgress(
+              progress.samples,
+              samples,
+              performance.now() - started,
+              progress.remainingMs,
+              usual && noise !== undefined,
+            ),
+          );
+          look();
+        },
+        options,
+      );
       viewer.on('converged', () => queueMicrotask(look), options);
-      viewer.on('state', ({ state }) => {
-        if (state === 'failed') reject(new ViewerError('viewer/no-scene', 'The viewer failed before the image was rendered; see its error event.'));
-        else queueMicrotask(look);
-      }, options);
+      viewer.on(
+        'state',
+        ({ state }) => {
+          if (state === 'failed')
+            reject(
+              new ViewerError(
+                'viewer/no-scene',
+                'The viewer failed before the image was rendered; see its error event.',
+              ),
+            );
+          else queueMicrotask(look);
+        },
+        options,
+      );
       signal.addEventListener('abort', () => reject(signal.reason as Error), options);
     });
   } finally {
@@ -109,7 +152,12 @@ async function screenImage(viewer: Viewer, engine: Engine, wanted: Wanted, { onP
 }
 
 /** The codes of an image, tone-mapped in slices. */
-async function codesOf(film: Float32Array, view: ToneMapOptions, alpha: 'opaque' | 'straight', signal: AbortSignal): Promise<Uint8ClampedArray<ArrayBuffer>> {
+async function codesOf(
+  film: Float32Array,
+  view: ToneMapOptions,
+  alpha: 'opaque' | 'straight',
+  signal: AbortSignal,
+): Promise<Uint8ClampedArray<ArrayBuffer>> {
   const codes = new Uint8ClampedArray(film.length);
   function* steps(): Generator<void, void> {
     for (let at = 0; at < film.length; at += 4 * STEP) {
@@ -125,14 +173,20 @@ async function codesOf(film: Float32Array, view: ToneMapOptions, alpha: 'opaque'
 /** Linear RGBA as OpenEXR. */
 async function exrBlob(film: Float32Array, { width, height, samples }: PathTracer, type: string): Promise<Blob> {
   const { encodeExr } = await import('@glanz/image/exr');
-  const plane = (channel: number) => Float32Array.from({ length: film.length / 4 }, (_, i) => film[4 * i + channel] as number);
+  const plane = (channel: number) =>
+    Float32Array.from({ length: film.length / 4 }, (_, i) => film[4 * i + channel] as number);
   const attributes = { software: 'Glanz', samples: String(samples) };
   const layers = [{ name: '', channels: { R: plane(0), G: plane(1), B: plane(2), A: plane(3) } }];
   return new Blob([encodeExr({ width, height, attributes, layers })], { type });
 }
 
 /** Writes the film of a tracer as a file. @throws {ViewerError} `viewer/blob` */
-async function fileOf(tracer: PathTracer, view: ToneMapOptions, { type = 'image/png', quality }: BlobOptions, signal: AbortSignal): Promise<Blob> {
+async function fileOf(
+  tracer: PathTracer,
+  view: ToneMapOptions,
+  { type = 'image/png', quality }: BlobOptions,
+  signal: AbortSignal,
+): Promise<Blob> {
   const { width, height } = tracer;
   const film = await tracer.read('beauty');
   signal.throwIfAborted();
@@ -140,12 +194,23 @@ async function fileOf(tracer: PathTracer, view: ToneMapOptions, { type = 'image/
   const codes = await codesOf(film, view, type === 'image/jpeg' ? 'opaque' : 'straight', signal);
   const canvas = new OffscreenCanvas(width, height);
   const context = canvas.getContext('2d');
-  if (!context) throw new ViewerError('viewer/blob', `The browser has no canvas of ${width} × ${height} pixels to write the image with.`);
+  if (!context)
+    throw new ViewerError(
+      'viewer/blob',
+      `The browser has no canvas of ${width} × ${height} pixels to write the image with.`,
+    );
   context.putImageData(new ImageData(codes, width, height), 0, 0);
-  const blob = await canvas.convertToBlob({ type, ...(quality === undefined ? {} : { quality }) }).catch((cause: unknown) => {
-    throw new ViewerError('viewer/blob', `The browser cannot write an image of ${width} × ${height} pixels as "${type}".`, { cause });
-  });
-  if (blob.type !== type) throw new ViewerError('viewer/blob', `This browser cannot write "${type}": choose image/png.`);
+  const blob = await canvas
+    .convertToBlob({ type, ...(quality === undefined ? {} : { quality }) })
+    .catch((cause: unknown) => {
+      throw new ViewerError(
+        'viewer/blob',
+        `The browser cannot write an image of ${width} × ${height} pixels as "${type}".`,
+        { cause },
+      );
+    });
+  if (blob.type !== type)
+    throw new ViewerError('viewer/blob', `This browser cannot write "${type}": choose image/png.`);
   return blob;
 }
 
@@ -164,7 +229,15 @@ export async function imageBlob(viewer: Viewer, engine: Engine, options: BlobOpt
     if (shown) return await fileOf(shown, view, options, signal);
     const { samples, noise, background } = wanted;
     const [width, height] = wanted.size ?? engine.imageSize;
-    const tracer = await renderImage(engine, { width, height, samples, noise, background, onProgress: options.onProgress, signal });
+    const tracer = await renderImage(engine, {
+      width,
+      height,
+      samples,
+      noise,
+      background,
+      onProgress: options.onProgress,
+      signal,
+    });
     try {
       return await fileOf(tracer, view, options, signal);
     } finally {

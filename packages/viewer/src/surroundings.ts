@@ -57,7 +57,10 @@ export class Surroundings {
     this.#set({ source, loaded }, scene !== undefined);
   }
 
-  /** Lights a tracer's scene. @throws {SceneError} {DeviceError} of the tracer; the last environment that worked is set again then. */
+  /**
+   * Lights a tracer's scene. @throws {SceneError} {DeviceError} of the tracer; the last environment that worked is set
+   * again then.
+   */
   async apply(tracer: PathTracer): Promise<void> {
     const tried = this.#now;
     try {
@@ -85,7 +88,11 @@ export class Surroundings {
     });
     return async (scene) => {
       const loaded = await forScene(source, given, scene);
-      return { lit: lit({ ...this.#now, loaded }), warning, adopt: () => source === this.#now.source && this.#set({ loaded }, false) };
+      return {
+        lit: lit({ ...this.#now, loaded }),
+        warning,
+        adopt: () => source === this.#now.source && this.#set({ loaded }, false),
+      };
     };
   }
 
@@ -98,12 +105,17 @@ export class Surroundings {
 /** An environment as it lights the scene. */
 function lit({ loaded, intensity: k, rotation }: Setting): Environment | undefined {
   if (!loaded) return undefined;
-  if (loaded.type === 'constant') return { ...loaded, radiance: loaded.radiance.map((value) => value * k) as unknown as Vector };
+  if (loaded.type === 'constant')
+    return { ...loaded, radiance: loaded.radiance.map((value) => value * k) as unknown as Vector };
   return { ...loaded, intensity: (loaded.intensity ?? 1) * k, rotation: (loaded.rotation ?? 0) + rotation };
 }
 
 /** `scene` without surroundings of its own is the studio. */
-const forScene = async (source: EnvironmentSource, given: Environment | undefined, scene: Scene | undefined): Promise<Environment | undefined> =>
+const forScene = async (
+  source: EnvironmentSource,
+  given: Environment | undefined,
+  scene: Scene | undefined,
+): Promise<Environment | undefined> =>
   given ?? (source === 'scene' ? (scene?.environment ?? (await loadEnvironment('studio'))) : undefined);
 
 /** The scene in other surroundings. */

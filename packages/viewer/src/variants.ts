@@ -14,7 +14,9 @@ export function plainScene(scene: Scene, loaded: Scene, variant: string | undefi
     ...scene,
     instances: scene.instances.map((instance, i) => {
       const own = loaded.instances[i];
-      return own && instance.material === (own.variants?.[index] ?? own.material) ? { ...instance, material: own.material } : instance;
+      return own && instance.material === (own.variants?.[index] ?? own.material)
+        ? { ...instance, material: own.material }
+        : instance;
     }),
   };
 }

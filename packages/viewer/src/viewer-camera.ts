@@ -1,6 +1,13 @@
 import type { PickResult } from '@glanz/renderer';
 import { frameCamera, frameCameraSteps, type Camera, type Scene, type SceneBounds } from '@glanz/scene';
-import { checkedCamera, checkedDirection, checkedAmount, checkedFieldOfView, checkedLimits, checkedSetting } from './checks';
+import {
+  checkedCamera,
+  checkedDirection,
+  checkedAmount,
+  checkedFieldOfView,
+  checkedLimits,
+  checkedSetting,
+} from './checks';
 import { controlCamera, type ControlOptions } from './controls';
 import type { EngineHost } from './engine';
 import { ViewerError } from './errors';
@@ -73,12 +80,14 @@ export abstract class ViewerCamera extends ViewerSettings {
 
   /**
    * Goes to where a camera stands, smoothly unless `immediate`. The user turns about what lies ahead of it.
-   * @throws {ViewerError} `viewer/no-scene`; `viewer/camera` for a camera that the scene does not have, or that nothing can be
-   * seen with. The view stays as it was then.
+   * @throws {ViewerError} `viewer/no-scene`; `viewer/camera` for a camera that the scene does not have, or that nothing
+   * can be seen with. The view stays as it was then.
    */
   setCamera(camera: Camera | number | string, options: { readonly immediate?: boolean } = {}): void {
     const scene = this.theScene();
-    this.#rig?.setCamera(typeof camera === 'number' || typeof camera === 'string' ? this.#chooseCamera(scene, camera) : camera);
+    this.#rig?.setCamera(
+      typeof camera === 'number' || typeof camera === 'string' ? this.#chooseCamera(scene, camera) : camera,
+    );
     this.#moved(options.immediate);
   }
 
@@ -89,8 +98,8 @@ export abstract class ViewerCamera extends ViewerSettings {
 
   /**
    * Goes to an orbit, smoothly unless `immediate`; what is left out stays as it is.
-   * @throws {ViewerError} `viewer/no-scene`; `viewer/camera` for NaN, infinities, other types, and a radius that is not above 0.
-   * The view stays as it was then.
+   * @throws {ViewerError} `viewer/no-scene`; `viewer/camera` for NaN, infinities, other types, and a radius that is not
+   * above 0. The view stays as it was then.
    */
   setOrbit(orbit: Partial<Orbit>, options: { readonly immediate?: boolean } = {}): void {
     this.theScene();
@@ -136,13 +145,23 @@ export abstract class ViewerCamera extends ViewerSettings {
 
   /**
    * Frames the whole model, from where the camera looks or from a direction (from the model towards the camera).
-   * @throws {ViewerError} `viewer/no-scene`; `viewer/camera` for a direction without length or of other than finite numbers.
+   * @throws {ViewerError} `viewer/no-scene`; `viewer/camera` for a direction without length or of other than finite
+   * numbers.
    */
   frame(options: { readonly direction?: Vector; readonly immediate?: boolean } = {}): void {
     const scene = this.theScene();
     const m = (this.#rig as OrbitRig).camera().transform;
-    const direction = options.direction === undefined ? ([m[8], m[9], m[10]] as unknown as Vector) : checkedDirection(options.direction, 'direction');
-    this.#rig?.setCamera(frameCamera(scene, { aspect: this.aspect, direction, ...(this.fieldOfView === undefined ? {} : { yfov: this.fieldOfView }) }));
+    const direction =
+      options.direction === undefined
+        ? ([m[8], m[9], m[10]] as unknown as Vector)
+        : checkedDirection(options.direction, 'direction');
+    this.#rig?.setCamera(
+      frameCamera(scene, {
+        aspect: this.aspect,
+        direction,
+        ...(this.fieldOfView === undefined ? {} : { yfov: this.fieldOfView }),
+      }),
+    );
     this.#moved(options.immediate);
   }
 
@@ -171,7 +190,10 @@ export abstract class ViewerCamera extends ViewerSettings {
     checkedAmount(x, 'x');
     checkedAmount(y, 'y');
     const tracer = this.engine.tracer;
-    return tracer?.pick((x / Math.max(1, this.canvas.clientWidth)) * tracer.width, (y / Math.max(1, this.canvas.clientHeight)) * tracer.height);
+    return tracer?.pick(
+      (x / Math.max(1, this.canvas.clientWidth)) * tracer.width,
+      (y / Math.max(1, this.canvas.clientHeight)) * tracer.height,
+    );
   }
 
   /** Where a point of the world is on the canvas, as the camera is now. `undefined` before there is a scene. */
@@ -221,7 +243,8 @@ export abstract class ViewerCamera extends ViewerSettings {
 
   #told(): void {
     const { camera, orbit } = this;
-    if (camera && orbit) this.emit('camera-change', { camera, orbit: (this.#rig as OrbitRig).orbitNow, source: this.#cameraSource });
+    if (camera && orbit)
+      this.emit('camera-change', { camera, orbit: (this.#rig as OrbitRig).orbitNow, source: this.#cameraSource });
   }
 
   #moved(immediate: boolean | undefined, source: CameraChangeSource = 'api'): void {
@@ -256,7 +279,11 @@ export abstract class ViewerCamera extends ViewerSettings {
         pan: (right, up) => by((rig) => rig.pan(right, up)),
         zoom: (factor) => by((rig) => rig.zoom(factor)),
         home: () => by((rig) => this.#home && rig.setCamera(this.#home)),
-        focus: (x, y) => by((rig) => { const hit = this.pick(x, y); if (hit) rig.focus(hit.position); }),
+        focus: (x, y) =>
+          by((rig) => {
+            const hit = this.pick(x, y);
+            if (hit) rig.focus(hit.position);
+          }),
         pick: (x, y) => void (this.heard('pick') && this.#rig && this.emit('pick', { hit: this.pick(x, y), x, y })),
       },
       options,
@@ -283,9 +310,15 @@ export abstract class ViewerCamera extends ViewerSettings {
     if (typeof camera === 'function') return checkedCamera(camera(scene, aspect));
     if (camera === 'keep' && this.#rig) return this.#rig.camera();
     if (camera === 'frame') return yield* frameCameraSteps(scene, { aspect });
-    if (camera === 'auto' || camera === 'keep' || camera === undefined) return scene.cameras[0] ?? (yield* frameCameraSteps(scene, { aspect }));
-    const found = typeof camera === 'number' ? scene.cameras[camera] : scene.cameras.find(({ name }) => name === camera);
-    if (!found) throw new ViewerError('viewer/camera', `The scene has no camera ${JSON.stringify(camera)}; it has: ${scene.cameras.map(({ name }) => name).join(', ') || 'none'}.`);
+    if (camera === 'auto' || camera === 'keep' || camera === undefined)
+      return scene.cameras[0] ?? (yield* frameCameraSteps(scene, { aspect }));
+    const found =
+      typeof camera === 'number' ? scene.cameras[camera] : scene.cameras.find(({ name }) => name === camera);
+    if (!found)
+      throw new ViewerError(
+        'viewer/camera',
+        `The scene has no camera ${JSON.stringify(camera)}; it has: ${scene.cameras.map(({ name }) => name).join(', ') || 'none'}.`,
+      );
     return found;
   }
 }

@@ -15,15 +15,17 @@ const BACKGROUNDS = ['environment', 'transparent'] as const;
 
 /** @throws {ViewerError} `viewer/no-canvas`, `viewer/option`; {ToneMapError} `tonemap/unknown`. */
 function checkOptions(canvas: HTMLCanvasElement, options: ViewerOptions): void {
-  if (typeof (canvas as HTMLCanvasElement | null)?.getContext !== 'function') throw new ViewerError('viewer/no-canvas', 'A viewer draws on a canvas element: pass one as the first argument.');
+  if (typeof (canvas as HTMLCanvasElement | null)?.getContext !== 'function')
+    throw new ViewerError('viewer/no-canvas', 'A viewer draws on a canvas element: pass one as the first argument.');
   checkSettings(options);
   if (options.background !== undefined) checkedChoice('background', options.background, BACKGROUNDS);
   if (options.toneMap !== undefined) checkToneMapOptions({ toneMap: options.toneMap });
 }
 
 /**
- * What of a {@link Viewer} can be set at any time: light, finishing, quality. Setting a property to what it cannot be (NaN, an
- * infinity, another type, a number outside of its range) throws a {@link ViewerError} `viewer/option` and changes nothing.
+ * What of a {@link Viewer} can be set at any time: light, finishing, quality. Setting a property to what it cannot be
+ * (NaN, an infinity, another type, a number outside of its range) throws a {@link ViewerError} `viewer/option` and
+ * changes nothing.
  */
 export abstract class ViewerSettings extends Emitter<ViewerEvents> {
   /** The canvas that it draws on. */
@@ -47,7 +49,11 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
     checkOptions(canvas, options);
     this.canvas = canvas;
     this.options = options;
-    this.surroundings = new Surroundings(options.environment, options.environmentIntensity, options.environmentRotation);
+    this.surroundings = new Surroundings(
+      options.environment,
+      options.environmentIntensity,
+      options.environmentRotation,
+    );
     this.#pixelRatio = options.pixelRatio;
     const { preview = {} } = options;
     this.engine = new Engine(
@@ -71,11 +77,17 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
       {
         ...this.hands(),
         state: (state) => this.emit('state', { state }),
-        sample: ({ samples, targetSamples, samplesPerSecond, remainingMs }) => this.emit('sample', { samples, target: targetSamples, samplesPerSecond, remainingMs }),
+        sample: ({ samples, targetSamples, samplesPerSecond, remainingMs }) =>
+          this.emit('sample', { samples, target: targetSamples, samplesPerSecond, remainingMs }),
         converged: (samples, milliseconds) => this.emit('converged', { samples, milliseconds }),
         drawn: (preview, milliseconds, [width, height]) => this.emit('frame', { preview, milliseconds, width, height }),
         error: (error, retry) => this.fail(error, retry),
-        missing: (error) => this.warn(error instanceof GlanzError ? error : new ViewerError('viewer/gpu', `There is no GPU: ${String(error)}`, { cause: error })),
+        missing: (error) =>
+          this.warn(
+            error instanceof GlanzError
+              ? error
+              : new ViewerError('viewer/gpu', `There is no GPU: ${String(error)}`, { cause: error }),
+          ),
         lost: (reason) => this.emit('device-lost', { reason }),
         restored: (milliseconds, samples) => this.emit('device-restored', { milliseconds, ...samples }),
       },
@@ -98,7 +110,10 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
     return this.engine.tracer?.scene;
   }
 
-  /** The path tracer of the present scene, for what the viewer has no word for. Another one after each load and each loss of the device. */
+  /**
+   * The path tracer of the present scene, for what the viewer has no word for. Another one after each load and each
+   * loss of the device.
+   */
   get tracer(): PathTracer | undefined {
     return this.engine.tracer;
   }
@@ -116,8 +131,8 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
   /**
    * Another environment. It also serves the models that are loaded later. A later call aborts an earlier one.
    * @returns When the picture shows it.
-   * @throws {ViewerError} `viewer/environment`; {ImageError} for a picture that cannot be read; {SceneError} for data that is no
-   * environment; {DeviceError} where the GPU has no memory for it. The former one stays.
+   * @throws {ViewerError} `viewer/environment`; {ImageError} for a picture that cannot be read; {SceneError} for data
+   * that is no environment; {DeviceError} where the GPU has no memory for it. The former one stays.
    * @throws the signal's reason, or an `AbortError`, when aborted.
    */
   async setEnvironment(source: EnvironmentSource, options: { readonly signal?: AbortSignal } = {}): Promise<void> {
@@ -268,8 +283,16 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
   /** @internal Tells what failed. */
   protected fail(error: unknown, retry?: () => void): void {
     if (this.state === 'destroyed') return;
-    const { message, code } = (typeof error === 'object' && error !== null ? error : { message: String(error) }) as { message?: string; code?: unknown };
-    this.emit('error', { error, message: (message ?? 'Something failed.').split('\n')[0] as string, code: typeof code === 'string' ? code : 'unexpected', ...(retry ? { retry } : {}) });
+    const { message, code } = (typeof error === 'object' && error !== null ? error : { message: String(error) }) as {
+      message?: string;
+      code?: unknown;
+    };
+    this.emit('error', {
+      error,
+      message: (message ?? 'Something failed.').split('\n')[0] as string,
+      code: typeof code === 'string' ? code : 'unexpected',
+      ...(retry ? { retry } : {}),
+    });
   }
 
   /** @internal Tells what is replaced or waited for. */

@@ -32,7 +32,10 @@ export class Visibility {
 /** The next turn of the event loop. */
 export const soon = (): Promise<void> => new Promise((resolve) => setTimeout(resolve, 0));
 
-/** The next frame of the screen, or a while later where none comes: a page may be hidden between the question and the answer. */
+/**
+ * The next frame of the screen, or a while later where none comes: a page may be hidden between the question and the
+ * answer.
+ */
 export function nextFrame(): Promise<void> {
   return new Promise((resolve) => {
     const late = setTimeout(() => {

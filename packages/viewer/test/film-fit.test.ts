@@ -12,7 +12,8 @@ function tracerOf(size: Size, memory: { pixels: number; lost?: boolean }): PathT
     setDepth: () => undefined,
     resize: (width: number, height: number) => {
       if (memory.lost) return Promise.reject(Object.assign(new Error('lost'), { code: 'renderer/device-lost' }));
-      if (width * height > memory.pixels) return Promise.reject(Object.assign(new Error('full'), { code: 'renderer/out-of-memory' }));
+      if (width * height > memory.pixels)
+        return Promise.reject(Object.assign(new Error('full'), { code: 'renderer/out-of-memory' }));
       Object.assign(tracer, { width, height });
       return Promise.resolve();
     },

@@ -6,11 +6,17 @@ import { FilmKeeper } from '../src/film-keeper';
 function fakeTracer(width = 100, height = 100) {
   const waiting: { go: () => void; fail: (error: Error) => void }[] = [];
   const tracer = {
-    samples: 0, width, height, lightGroups: [{ name: 'rest' }], saves: 0,
+    samples: 0,
+    width,
+    height,
+    lightGroups: [{ name: 'rest' }],
+    saves: 0,
     saveFilm(this: { samples: number; saves: number }): Promise<FilmState> {
       this.saves++;
       const { samples } = this;
-      return new Promise((resolve, reject) => waiting.push({ go: () => resolve({ samples } as FilmState), fail: reject }));
+      return new Promise((resolve, reject) =>
+        waiting.push({ go: () => resolve({ samples } as FilmState), fail: reject }),
+      );
     },
   };
   const settle = async (error?: Error) => {

@@ -1,7 +1,12 @@
 import { describe, expect, it } from 'vitest';
 import { fitCamera } from '../src/fit-camera';
 
-const camera = { type: 'perspective', name: 'front', transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1], yfov: 0.6 } as const;
+const camera = {
+  type: 'perspective',
+  name: 'front',
+  transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1],
+  yfov: 0.6,
+} as const;
 
 describe('fitCamera', () => {
   it('keeps the width of the view in a picture narrower than the author’s, and its height in a wider one', () => {

@@ -14,20 +14,38 @@ test.afterEach(() => expect(complaints).toEqual([]));
 
 const base64 = model.toString('base64');
 
-test('an edit or an environment that is refused, or has no memory, leaves the scene as it was, and others work', async ({ page }) => {
+test('an edit or an environment that is refused, or has no memory, leaves the scene as it was, and others work', async ({
+  page,
+}) => {
   await injectFaults(page);
   await open(page, served.origin);
   const before = await shot(page);
   const ends = await page.evaluate(async () => {
     const { viewer, gpuFaults: faults } = window;
-    const end = (work: Promise<unknown>) => work.then(() => 'done', (error: { code?: string }) => error.code ?? String(error));
+    const end = (work: Promise<unknown>) =>
+      work.then(
+        () => 'done',
+        (error: { code?: string }) => error.code ?? String(error),
+      );
     const ends: string[] = [];
     // Of two edits of one material in one frame, one is refused.
-    ends.push(...(await Promise.all([viewer.setMaterial('left', { base_color: [0.9, 0.9, 0.02] }), viewer.setMaterial('left', { base_metalness: NaN })].map(end))));
+    ends.push(
+      ...(await Promise.all(
+        [
+          viewer.setMaterial('left', { base_color: [0.9, 0.9, 0.02] }),
+          viewer.setMaterial('left', { base_metalness: NaN }),
+        ].map(end),
+      )),
+    );
     ends.push(await end(viewer.setMaterial('left', { no_such: 1 } as never)));
     ends.push(await end(viewer.setMaterial('left', { base_color: [0.9, 0.02, 0.02] })));
     // A picture as an environment needs textures and tables of its own.
-    const picture = { type: 'latlong' as const, width: 512, height: 256, data: new Float32Array(512 * 256 * 3).fill(1) };
+    const picture = {
+      type: 'latlong' as const,
+      width: 512,
+      height: 256,
+      data: new Float32Array(512 * 256 * 3).fill(1),
+    };
     faults.memory = faults.bytes() + 10_000;
     ends.push(await end(viewer.setEnvironment(picture)));
     // It is not tried again with the next change.
@@ -46,7 +64,14 @@ test('an edit or an environment that is refused, or has no memory, leaves the sc
   await done(page);
   expect((await shot(page)).cells).toEqual(before.cells);
   // With memory it works.
-  await page.evaluate(() => window.viewer.setEnvironment({ type: 'latlong', width: 64, height: 32, data: new Float32Array(64 * 32 * 3).fill(0.2) }));
+  await page.evaluate(() =>
+    window.viewer.setEnvironment({
+      type: 'latlong',
+      width: 64,
+      height: 32,
+      data: new Float32Array(64 * 32 * 3).fill(0.2),
+    }),
+  );
   await done(page);
   expect((await shot(page)).mean[0]).toBeLessThan(0.8 * before.mean[0]);
   expect(await page.evaluate(() => window.gpuFaults.errors)).toEqual([]);
@@ -57,47 +82,58 @@ test('destroy() at any moment, twice, frees everything, and ends what is waited 
   await injectFaults(page);
   await page.goto(served.origin);
   // A load, an edit, another size and another load, given up before the nth call of the GPU.
-  const run = (at: number) => page.evaluate(async ([bytes, stop]) => {
-    const { gpuFaults: faults } = window;
-    document.querySelector('canvas')!.replaceWith(document.createElement('canvas'));
-    const canvas = document.querySelector('canvas')!;
-    let calls = 0;
-    const viewer = window.make({ samples: 2, maxDepth: 2, pixelRatio: 0.25, environment: { type: 'constant', radiance: [1, 1, 1] } });
-    faults.onCall = () => {
-      if (++calls !== stop) return;
-      queueMicrotask(() => {
+  const run = (at: number) =>
+    page.evaluate(
+      async ([bytes, stop]) => {
+        const { gpuFaults: faults } = window;
+        document.querySelector('canvas')!.replaceWith(document.createElement('canvas'));
+        const canvas = document.querySelector('canvas')!;
+        let calls = 0;
+        const viewer = window.make({
+          samples: 2,
+          maxDepth: 2,
+          pixelRatio: 0.25,
+          environment: { type: 'constant', radiance: [1, 1, 1] },
+        });
+        faults.onCall = () => {
+          if (++calls !== stop) return;
+          queueMicrotask(() => {
+            viewer.destroy();
+            viewer.destroy();
+          });
+        };
+        const ends: string[] = [];
+        const end = async (work: () => Promise<unknown>) => {
+          try {
+            await work();
+          } catch (error) {
+            const { code, name } = error as { code?: string; name: string };
+            // An abort has a number for a code.
+            ends.push(typeof code === 'string' ? code : name);
+          }
+        };
+        const settled = () =>
+          new Promise<void>((resolve) => {
+            const look = () =>
+              viewer.state === 'done' || viewer.state === 'destroyed' ? resolve() : setTimeout(look, 20);
+            look();
+          });
+        await end(() => viewer.load(window.file(bytes, 'model.glb')));
+        await settled();
+        await end(async () => viewer.setMaterial('left', { coat_weight: 0.5 }));
+        await settled();
+        canvas.style.width = '200px';
+        await new Promise((resolve) => setTimeout(resolve, 60));
+        await settled();
+        await end(() => viewer.load(window.file(bytes, 'model.glb')));
+        await settled();
         viewer.destroy();
-        viewer.destroy();
-      });
-    };
-    const ends: string[] = [];
-    const end = async (work: () => Promise<unknown>) => {
-      try {
-        await work();
-      } catch (error) {
-        const { code, name } = error as { code?: string; name: string };
-        // An abort has a number for a code.
-        ends.push(typeof code === 'string' ? code : name);
-      }
-    };
-    const settled = () => new Promise<void>((resolve) => {
-      const look = () => (viewer.state === 'done' || viewer.state === 'destroyed' ? resolve() : setTimeout(look, 20));
-      look();
-    });
-    await end(() => viewer.load(window.file(bytes, 'model.glb')));
-    await settled();
-    await end(async () => viewer.setMaterial('left', { coat_weight: 0.5 }));
-    await settled();
-    canvas.style.width = '200px';
-    await new Promise((resolve) => setTimeout(resolve, 60));
-    await settled();
-    await end(() => viewer.load(window.file(bytes, 'model.glb')));
-    await settled();
-    viewer.destroy();
-    faults.onCall = undefined;
-    await new Promise((resolve) => setTimeout(resolve, 60));
-    return { calls, ends, state: viewer.state, live: faults.live() };
-  }, [base64, at] as const);
+        faults.onCall = undefined;
+        await new Promise((resolve) => setTimeout(resolve, 60));
+        return { calls, ends, state: viewer.state, live: faults.live() };
+      },
+      [base64, at] as const,
+    );
 
   const whole = await run(-1);
   expect(whole).toMatchObject({ ends: [], state: 'destroyed', live: {} });
@@ -107,14 +143,18 @@ test('destroy() at any moment, twice, frees everything, and ends what is waited 
     const at = 1 + Math.floor((whole.calls * i) / steps);
     const { ends, state, live } = await run(at);
     const expected = ends.every((code) => ['AbortError', 'viewer/destroyed', 'viewer/no-scene'].includes(code));
-    if (!expected || state !== 'destroyed' || Object.keys(live).length > 0) bad.push(`before call ${at}: ${ends.join(', ')}; ${state}; left ${JSON.stringify(live)}`);
+    if (!expected || state !== 'destroyed' || Object.keys(live).length > 0)
+      bad.push(`before call ${at}: ${ends.join(', ')}; ${state}; left ${JSON.stringify(live)}`);
   }
   expect(bad).toEqual([]);
   expect(await page.evaluate(() => window.gpuFaults.errors)).toEqual([]);
   // Before there is a device, too.
   const early = await page.evaluate(async (bytes) => {
     const viewer = window.make();
-    const load = viewer.load(window.file(bytes, 'model.glb')).then(() => 'loaded', (error: Error) => error.name);
+    const load = viewer.load(window.file(bytes, 'model.glb')).then(
+      () => 'loaded',
+      (error: Error) => error.name,
+    );
     viewer.destroy();
     const end = await load;
     await new Promise((resolve) => setTimeout(resolve, 300));
@@ -126,12 +166,17 @@ test('destroy() at any moment, twice, frees everything, and ends what is waited 
 test('the canvas lets go of a device before it is destroyed', async ({ page }) => {
   await page.addInitScript(() => {
     window.order = [];
-    for (const [prototype, name] of [[GPUCanvasContext.prototype, 'unconfigure'], [GPUDevice.prototype, 'destroy']] as [object, string][]) {
+    for (const [prototype, name] of [
+      [GPUCanvasContext.prototype, 'unconfigure'],
+      [GPUDevice.prototype, 'destroy'],
+    ] as [object, string][]) {
       const original = (prototype as Record<string, () => void>)[name]!;
-      Object.defineProperty(prototype, name, { value(this: object) {
-        window.order.push(name);
-        original.call(this);
-      } });
+      Object.defineProperty(prototype, name, {
+        value(this: object) {
+          window.order.push(name);
+          original.call(this);
+        },
+      });
     }
   });
   await open(page, served.origin);
@@ -139,10 +184,21 @@ test('the canvas lets go of a device before it is destroyed', async ({ page }) =
   expect(await page.evaluate(() => window.order)).toEqual(['unconfigure', 'destroy']);
 });
 
-test('sizes of nothing, one pixel, and a great many, one after the other: the last one counts, and the GPU has nothing to complain of', async ({ page }) => {
+test('sizes of nothing, one pixel, and a great many, one after the other: the last one counts, and the GPU has nothing to complain of', async ({
+  page,
+}) => {
   await injectFaults(page);
   await open(page, served.origin);
-  const sizes: [number, number][] = [[0, 0], [1, 1], [0, 100], [300, 0], [20_000, 20], [3, 4000], [0, 0], [320, 200]];
+  const sizes: [number, number][] = [
+    [0, 0],
+    [1, 1],
+    [0, 100],
+    [300, 0],
+    [20_000, 20],
+    [3, 4000],
+    [0, 0],
+    [320, 200],
+  ];
   await page.evaluate(async (given) => {
     const canvas = document.querySelector('canvas')!;
     for (const [width, height] of given) {
@@ -150,7 +206,9 @@ test('sizes of nothing, one pixel, and a great many, one after the other: the la
       await new Promise((resolve) => setTimeout(resolve, 120));
     }
   }, sizes);
-  await expect.poll(() => page.evaluate(() => [window.viewer.tracer!.width, window.viewer.tracer!.height])).toEqual([160, 100]);
+  await expect
+    .poll(() => page.evaluate(() => [window.viewer.tracer!.width, window.viewer.tracer!.height]))
+    .toEqual([160, 100]);
   await done(page);
   const after = await shot(page);
   await page.evaluate(() => window.viewer.destroy());
@@ -160,7 +218,9 @@ test('sizes of nothing, one pixel, and a great many, one after the other: the la
   expect((await shot(page)).cells).toEqual(after.cells);
 });
 
-test('in a tab that is hidden again and again nothing is submitted, and the image comes out the same', async ({ page }) => {
+test('in a tab that is hidden again and again nothing is submitted, and the image comes out the same', async ({
+  page,
+}) => {
   await injectFaults(page);
   await open(page, served.origin, { samples: 40 });
   const film = () => page.evaluate(async () => Array.from(await window.viewer.tracer!.read('beauty')).join());
@@ -178,7 +238,7 @@ test('in a tab that is hidden again and again nothing is submitted, and the imag
         calm = seen === faults.count['submit'] ? calm + 1 : 0;
       }
       const before = faults.count['submit'] ?? 0;
-      await new Promise((resolve) => setTimeout(resolve, 20 + (i * 7) % 40));
+      await new Promise((resolve) => setTimeout(resolve, 20 + ((i * 7) % 40)));
       late += (faults.count['submit'] ?? 0) - before;
       faults.hide(false);
       await new Promise((resolve) => setTimeout(resolve, (i * 13) % 50));
@@ -191,11 +251,15 @@ test('in a tab that is hidden again and again nothing is submitted, and the imag
   expect(await film()).toBe(before);
 });
 
-test('a GPU that complains outside of any call is reported by the error event, and the viewer goes on', async ({ page }) => {
+test('a GPU that complains outside of any call is reported by the error event, and the viewer goes on', async ({
+  page,
+}) => {
   await injectFaults(page);
   await open(page, served.origin);
   await page.evaluate(() => window.gpuFaults.complain('something is wrong'));
-  expect((await heard(page, 'error')).map(({ code, message }) => [code, message])).toEqual([['viewer/gpu', 'The GPU reports: something is wrong']]);
+  expect((await heard(page, 'error')).map(({ code, message }) => [code, message])).toEqual([
+    ['viewer/gpu', 'The GPU reports: something is wrong'],
+  ]);
   await page.evaluate(() => window.viewer.setMaterial('left', { base_color: [0.9, 0.9, 0.02] }));
   await done(page);
 });

@@ -25,24 +25,34 @@ const model = quads([
 ]);
 
 /** Load, finish, edit, another size, finish, let go; with a loss somewhere on the way. */
-async function run(page: Page, loseAt?: Record<string, number>, lossReason: 'unknown' | 'destroyed' = 'unknown'): Promise<End> {
+async function run(
+  page: Page,
+  loseAt?: Record<string, number>,
+  lossReason: 'unknown' | 'destroyed' = 'unknown',
+): Promise<End> {
   await injectFaults(page, loseAt ? { loseAt, lossReason } : {});
   await page.goto(served.origin);
   return page.evaluate(async (base64) => {
     const { gpuFaults: gpu } = window;
     const told: string[] = [];
     let losses = 0;
-    const viewer = window.make({ samples: 2, maxDepth: 3, pixelRatio: 0.25, environment: { type: 'constant', radiance: [1, 1, 1] } });
+    const viewer = window.make({
+      samples: 2,
+      maxDepth: 3,
+      pixelRatio: 0.25,
+      environment: { type: 'constant', radiance: [1, 1, 1] },
+    });
     viewer.on('error', ({ code }) => void told.push(code));
     viewer.on('device-lost', () => void losses++);
-    const done = () => new Promise<void>((resolve, reject) => {
-      const look = () => {
-        if (viewer.state === 'done') resolve();
-        else if (viewer.state === 'failed') reject(new Error('failed'));
-        else setTimeout(look, 30);
-      };
-      look();
-    });
+    const done = () =>
+      new Promise<void>((resolve, reject) => {
+        const look = () => {
+          if (viewer.state === 'done') resolve();
+          else if (viewer.state === 'failed') reject(new Error('failed'));
+          else setTimeout(look, 30);
+        };
+        look();
+      });
     let film = '';
     try {
       await viewer.load(window.file(base64, 'model.glb'));
@@ -75,9 +85,22 @@ async function run(page: Page, loseAt?: Record<string, number>, lossReason: 'unk
   }, model.toString('base64'));
 }
 
-const POINTS = ['submit', 'createBuffer', 'createTexture', 'createBindGroup', 'createShaderModule', 'createComputePipelineAsync', 'createRenderPipelineAsync', 'createCommandEncoder', 'getCurrentTexture', 'mapAsync'] as const;
+const POINTS = [
+  'submit',
+  'createBuffer',
+  'createTexture',
+  'createBindGroup',
+  'createShaderModule',
+  'createComputePipelineAsync',
+  'createRenderPipelineAsync',
+  'createCommandEncoder',
+  'getCurrentTexture',
+  'mapAsync',
+] as const;
 
-test('wherever the GPU is lost on the way, the picture comes out the same, bit for bit, and nothing is left behind', async ({ browser }) => {
+test('wherever the GPU is lost on the way, the picture comes out the same, bit for bit, and nothing is left behind', async ({
+  browser,
+}) => {
   test.setTimeout(900_000);
   const attempt = async (loseAt?: Record<string, number>, reason?: 'unknown' | 'destroyed') => {
     const page = await browser.newPage({ viewport: { width: 640, height: 480 } });

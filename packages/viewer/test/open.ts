@@ -20,7 +20,13 @@ export const model = quads([
   { name: 'right', colour: [0.02, 0.8, 0.02], at: [1.2, 0, 0], variants: { night: [0.02, 0.02, 0.9] } },
 ]);
 export const sky = { type: 'constant', radiance: [1, 1, 1] } as const;
-export const front: ViewerOptions['camera'] = { type: 'perspective', name: 'front', transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1], yfov: 0.6, aspect: 1.6 };
+export const front: ViewerOptions['camera'] = {
+  type: 'perspective',
+  name: 'front',
+  transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1],
+  yfov: 0.6,
+  aspect: 1.6,
+};
 
 /** A viewer of the model in its first view, done unless that takes too many samples. */
 export async function open(page: Page, origin: string, options: ViewerOptions = {}, bytes = model): Promise<void> {
@@ -29,20 +35,41 @@ export async function open(page: Page, origin: string, options: ViewerOptions = 
     async ([base64, given]) => {
       const viewer = (window.viewer = window.make(given as ViewerOptions));
       window.heard = [];
-      for (const type of ['load', 'progress', 'error', 'warning', 'sample', 'converged', 'camera-change', 'device-lost', 'device-restored', 'state', 'frame', 'pick'] as const) viewer.on(type, (detail) => void window.heard.push({ ...structuredCloneable(detail), type }));
+      for (const type of [
+        'load',
+        'progress',
+        'error',
+        'warning',
+        'sample',
+        'converged',
+        'camera-change',
+        'device-lost',
+        'device-restored',
+        'state',
+        'frame',
+        'pick',
+      ] as const)
+        viewer.on(type, (detail) => void window.heard.push({ ...structuredCloneable(detail), type }));
       await viewer.load(window.file(base64 as string, 'model.glb'));
       function structuredCloneable(detail: object) {
-        return Object.fromEntries(Object.entries(detail).filter(([, value]) => typeof value !== 'function' && typeof value !== 'object'));
+        return Object.fromEntries(
+          Object.entries(detail).filter(([, value]) => typeof value !== 'function' && typeof value !== 'object'),
+        );
       }
     },
-    [bytes.toString('base64'), { samples: 12, maxDepth: 3, pixelRatio: 0.5, camera: front, environment: sky, ...options }] as const,
+    [
+      bytes.toString('base64'),
+      { samples: 12, maxDepth: 3, pixelRatio: 0.5, camera: front, environment: sky, ...options },
+    ] as const,
   );
   if (options.samples === undefined || options.samples < 100) await done(page);
 }
 
-export const done = (page: Page) => expect.poll(() => page.evaluate(() => window.viewer.state), { message: 'the picture is done' }).toBe('done');
+export const done = (page: Page) =>
+  expect.poll(() => page.evaluate(() => window.viewer.state), { message: 'the picture is done' }).toBe('done');
 export const canvas = (page: Page) => page.locator('canvas');
-export const heard = (page: Page, type: string) => page.evaluate((wanted) => window.heard.filter((event) => event.type === wanted), type);
+export const heard = (page: Page, type: string) =>
+  page.evaluate((wanted) => window.heard.filter((event) => event.type === wanted), type);
 export const shot = async (page: Page) => {
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
   // The ring around a canvas that has the keyboard is no part of the picture.

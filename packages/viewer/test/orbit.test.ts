@@ -2,7 +2,12 @@ import { describe, expect, it } from 'vitest';
 import { OrbitRig } from '../src/orbit';
 
 const bounds = { min: [-1, -1, -1], max: [1, 1, 1] } as const;
-const front = { type: 'perspective', name: 'front', transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1], yfov: 0.6 } as const;
+const front = {
+  type: 'perspective',
+  name: 'front',
+  transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1],
+  yfov: 0.6,
+} as const;
 const eye = (rig: OrbitRig) => Array.from(rig.camera().transform).slice(12, 15);
 
 describe('OrbitRig', () => {
@@ -15,12 +20,17 @@ describe('OrbitRig', () => {
       rig.jump();
       const m = rig.camera().transform;
       const dot = (a: number, b: number) => m[a]! * m[b]! + m[a + 1]! * m[b + 1]! + m[a + 2]! * m[b + 2]!;
-      [dot(0, 0), dot(4, 4), dot(8, 8), dot(0, 4), dot(0, 8), dot(4, 8)].forEach((value, k) => expect(value).toBeCloseTo(k < 3 ? 1 : 0, 9));
+      [dot(0, 0), dot(4, 4), dot(8, 8), dot(0, 4), dot(0, 8), dot(4, 8)].forEach((value, k) =>
+        expect(value).toBeCloseTo(k < 3 ? 1 : 0, 9),
+      );
     }
   });
 
   it('gives back the orbit that it was told, with the magnification of a parallel projection', () => {
-    for (const camera of [front, { type: 'orthographic', name: 'side', transform: front.transform, xmag: 4, ymag: 2 } as const]) {
+    for (const camera of [
+      front,
+      { type: 'orthographic', name: 'side', transform: front.transform, xmag: 4, ymag: 2 } as const,
+    ]) {
       const rig = new OrbitRig(camera, bounds, { damping: 0 });
       rig.orbit(0.4, 0.2);
       rig.zoom(3);
@@ -38,14 +48,21 @@ describe('OrbitRig', () => {
 
   it('begins where the camera stands, and turns about the point beside the centre of the scene', () => {
     const rig = new OrbitRig(front, bounds);
-    Array.from(rig.camera().transform).forEach((value, i) => expect(value).toBeCloseTo(front.transform[i] as number, 12));
+    Array.from(rig.camera().transform).forEach((value, i) =>
+      expect(value).toBeCloseTo(front.transform[i] as number, 12),
+    );
     expect(rig.goal).toEqual({ theta: 0, phi: Math.PI / 2, radius: 5, target: [0, 0, 0] });
   });
 
   it('is the camera that it was given, to the last bit, until it moves and again when it is back', () => {
     // Rolled by a third of a turn, not looking at the middle, with a lens that is focused beside it.
     const [c, k] = [Math.cos(1.1), Math.sin(1.1)];
-    const rolled = { ...front, transform: [c, k, 0, 0, -k, c, 0, 0, 0, 0, 1, 0, 0.1, 0.2, 5.3, 1], lens_radius: 0.1, focus_distance: 1.7 };
+    const rolled = {
+      ...front,
+      transform: [c, k, 0, 0, -k, c, 0, 0, 0, 0, 1, 0, 0.1, 0.2, 5.3, 1],
+      lens_radius: 0.1,
+      focus_distance: 1.7,
+    };
     const rig = new OrbitRig(rolled, bounds, { damping: 0 });
     expect(rig.camera()).toEqual(rolled);
     rig.orbit(0.3, 0);
@@ -71,7 +88,11 @@ describe('OrbitRig', () => {
     const [theta, phi, radius] = [0.7, 1.1, 3];
     rig.setOrbit({ theta, phi, radius, target: [1, 2, 3] });
     rig.step(0.016);
-    const wanted = [1 + radius * Math.sin(phi) * Math.sin(theta), 2 + radius * Math.cos(phi), 3 + radius * Math.sin(phi) * Math.cos(theta)];
+    const wanted = [
+      1 + radius * Math.sin(phi) * Math.sin(theta),
+      2 + radius * Math.cos(phi),
+      3 + radius * Math.sin(phi) * Math.cos(theta),
+    ];
     eye(rig).forEach((value, k) => expect(value).toBeCloseTo(wanted[k] as number, 10));
     // It looks at the target: its third axis points away from it.
     const m = rig.camera().transform;
@@ -122,11 +143,25 @@ describe('OrbitRig', () => {
     rig.orbit(0, 10);
     rig.step(0.016);
     const before = rig.goal;
-    for (const wrong of [{ theta: Number.NaN }, { radius: Infinity }, { theta: 1, radius: 0 }, { target: [0, Number.NaN, 0] as const }, { phi: '1' as never }]) {
+    for (const wrong of [
+      { theta: Number.NaN },
+      { radius: Infinity },
+      { theta: 1, radius: 0 },
+      { target: [0, Number.NaN, 0] as const },
+      { phi: '1' as never },
+    ]) {
       expect(() => rig.setOrbit(wrong)).toThrow(expect.objectContaining({ code: 'viewer/camera' }));
     }
     for (const wrong of [Number.NaN, Infinity, -1e30]) {
-      for (const change of [() => rig.orbit(wrong, 0), () => rig.orbit(0, wrong), () => rig.pan(wrong, 0), () => rig.zoom(wrong), () => rig.focus([0, wrong, 0]), () => void (rig.yfov = wrong), () => rig.setCamera({ ...front, yfov: wrong })]) {
+      for (const change of [
+        () => rig.orbit(wrong, 0),
+        () => rig.orbit(0, wrong),
+        () => rig.pan(wrong, 0),
+        () => rig.zoom(wrong),
+        () => rig.focus([0, wrong, 0]),
+        () => void (rig.yfov = wrong),
+        () => rig.setCamera({ ...front, yfov: wrong }),
+      ]) {
         expect(change).toThrow(expect.objectContaining({ code: 'viewer/camera' }));
       }
       expect(() => void (rig.damping = wrong)).toThrow(expect.objectContaining({ code: 'viewer/option' }));
@@ -140,7 +175,10 @@ describe('OrbitRig', () => {
   });
 
   it('keeps to its limits, whoever moves it', () => {
-    const rig = new OrbitRig(front, bounds, { damping: 0, limits: { theta: [-0.5, 0.5], phi: [1, 2], radius: [4, 6] } });
+    const rig = new OrbitRig(front, bounds, {
+      damping: 0,
+      limits: { theta: [-0.5, 0.5], phi: [1, 2], radius: [4, 6] },
+    });
     rig.orbit(3, 1);
     expect(rig.goal.theta).toBe(0.5);
     expect(rig.goal.phi).toBeCloseTo(1, 12);
@@ -154,7 +192,11 @@ describe('OrbitRig', () => {
   });
 
   it('zooms parallel projections by their size', () => {
-    const rig = new OrbitRig({ type: 'orthographic', name: 'o', transform: front.transform, xmag: 2, ymag: 1 }, bounds, { damping: 0 });
+    const rig = new OrbitRig(
+      { type: 'orthographic', name: 'o', transform: front.transform, xmag: 2, ymag: 1 },
+      bounds,
+      { damping: 0 },
+    );
     rig.zoom(2);
     rig.step(0.016);
     expect(rig.camera()).toMatchObject({ xmag: 1, ymag: 0.5 });

@@ -32,7 +32,8 @@ describe('PreviewController', () => {
     expect(worst).toBeLessThanOrEqual(Math.max(allowed, smallest) * 1.01);
     // And wastes none of it: the next larger step would not fit.
     const larger = DIVISORS[DIVISORS.indexOf(plan.divisor as 1) - 1];
-    if (larger) expect(fixed + (pixels / larger ** 2) * (nanoseconds / 1e6)).toBeGreaterThan(0.75 * (larger >= 4 ? 30 : 12));
+    if (larger)
+      expect(fixed + (pixels / larger ** 2) * (nanoseconds / 1e6)).toBeGreaterThan(0.75 * (larger >= 4 ? 30 : 12));
   });
 
   it('shows the whole picture where the GPU is fast, with several samples', () => {

@@ -2,7 +2,12 @@ import { describe, expect, it } from 'vitest';
 import { fitCamera } from '../src/fit-camera';
 import { project } from '../src/project';
 
-const camera = { type: 'perspective', name: 'c', transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 8, 1], yfov: Math.PI / 2 } as const;
+const camera = {
+  type: 'perspective',
+  name: 'c',
+  transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 8, 1],
+  yfov: Math.PI / 2,
+} as const;
 
 describe('project', () => {
   it('puts what lies ahead in the middle, and the edges of the field of view on the edges', () => {
@@ -29,6 +34,8 @@ describe('fitCamera', () => {
     // The right edge for the author's shape.
     expect(project(fitted, 0.5, [11, 2, 3]).x).toBeCloseTo(1, 10);
     expect(fitCamera(wide, 3)).toBe(wide);
-    expect(fitCamera({ type: 'orthographic', name: 'o', transform: camera.transform, xmag: 4, ymag: 2 }, 1)).toMatchObject({ xmag: 4, ymag: 4 });
+    expect(
+      fitCamera({ type: 'orthographic', name: 'o', transform: camera.transform, xmag: 4, ymag: 2 }, 1),
+    ).toMatchObject({ xmag: 4, ymag: 4 });
   });
 });

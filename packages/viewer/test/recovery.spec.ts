@@ -30,7 +30,12 @@ test('after it gave up, load() and an explicit retry ask for a device again', as
   const errors = await heard(page, 'error');
   expect(errors.map(({ code }) => code)).toEqual(['viewer/device-lost']);
   const devices = await page.evaluate(() => window.gpuFaults.devices);
-  expect(await page.evaluate(async (bytes) => (await window.viewer.load(window.file(bytes, 'model.glb'))).instances.length, base64)).toBe(2);
+  expect(
+    await page.evaluate(
+      async (bytes) => (await window.viewer.load(window.file(bytes, 'model.glb'))).instances.length,
+      base64,
+    ),
+  ).toBe(2);
   expect(await page.evaluate(() => window.gpuFaults.devices)).toBe(devices + 1);
   await done(page);
   expect((await shot(page)).cells).toEqual(before.cells);
@@ -39,7 +44,10 @@ test('after it gave up, load() and an explicit retry ask for a device again', as
   await giveUp(4);
   const code = await page.evaluate(async () => {
     const scene = { ...window.viewer.scene!, materials: [] };
-    return window.viewer.load(scene).then(() => 'loaded', (error: { code: string }) => error.code);
+    return window.viewer.load(scene).then(
+      () => 'loaded',
+      (error: { code: string }) => error.code,
+    );
   });
   expect(code).toMatch(/^scene\//);
   await done(page);
@@ -62,18 +70,31 @@ test('after it gave up, load() and an explicit retry ask for a device again', as
   expect((await shot(page)).cells).toEqual(before.cells);
 });
 
-test('an abort, a newer load and destroy() end a load at once, although the driver goes on compiling', async ({ page }) => {
+test('an abort, a newer load and destroy() end a load at once, although the driver goes on compiling', async ({
+  page,
+}) => {
   await injectFaults(page);
   await open(page, served.origin);
   const before = await shot(page);
   // Another depth of features: kernels that are not there yet.
   const result = await page.evaluate(async (bytes) => {
     const { viewer, gpuFaults: faults } = window;
-    const scene = () => ({ ...viewer.scene!, materials: viewer.scene!.materials.map((material) => ({ ...material, parameters: { ...material.parameters, coat_weight: 0.5, fuzz_weight: 0.5 } })) });
-    const end = (load: Promise<unknown>) => load.then(() => 'loaded', (error: Error) => error.name);
+    const scene = () => ({
+      ...viewer.scene!,
+      materials: viewer.scene!.materials.map((material) => ({
+        ...material,
+        parameters: { ...material.parameters, coat_weight: 0.5, fuzz_weight: 0.5 },
+      })),
+    });
+    const end = (load: Promise<unknown>) =>
+      load.then(
+        () => 'loaded',
+        (error: Error) => error.name,
+      );
     const compiling = async () => {
       const from = faults.count['createComputePipelineAsync'] ?? 0;
-      while ((faults.count['createComputePipelineAsync'] ?? 0) === from) await new Promise((resolve) => setTimeout(resolve, 5));
+      while ((faults.count['createComputePipelineAsync'] ?? 0) === from)
+        await new Promise((resolve) => setTimeout(resolve, 5));
     };
     faults.holdPipelines = 'glanz';
     const ends: string[] = [];
@@ -99,8 +120,17 @@ test('an abort, a newer load and destroy() end a load at once, although the driv
   const left = await page.evaluate(async () => {
     const { viewer, gpuFaults: faults } = window;
     faults.holdPipelines = 'glanz';
-    const scene = { ...viewer.scene!, materials: viewer.scene!.materials.map((material) => ({ ...material, parameters: { ...material.parameters, subsurface_weight: 0.5 } })) };
-    const load = viewer.load(scene).then(() => 'loaded', (error: Error) => error.name);
+    const scene = {
+      ...viewer.scene!,
+      materials: viewer.scene!.materials.map((material) => ({
+        ...material,
+        parameters: { ...material.parameters, subsurface_weight: 0.5 },
+      })),
+    };
+    const load = viewer.load(scene).then(
+      () => 'loaded',
+      (error: Error) => error.name,
+    );
     await new Promise((resolve) => setTimeout(resolve, 300));
     viewer.destroy();
     const end = await load;
@@ -113,7 +143,7 @@ test('an abort, a newer load and destroy() end a load at once, although the driv
 
 /** Waits until nothing more is copied from the GPU. */
 const copied = async (page: Page) => {
-  for (let [before, now] = [-1, 0]; before !== now; ) {
+  for (let [before, now] = [-1, 0]; before !== now;) {
     before = now;
     await page.waitForTimeout(400);
     now = await page.evaluate(() => window.gpuFaults.count['mapAsync'] ?? 0);
@@ -130,7 +160,9 @@ const lose = async (page: Page) => {
   return (await heard(page, 'device-restored')).at(-1)!;
 };
 
-test('samples outlive a lost GPU: a finished image is the same to the last bit and is not rendered again', async ({ page }) => {
+test('samples outlive a lost GPU: a finished image is the same to the last bit and is not rendered again', async ({
+  page,
+}) => {
   await injectFaults(page);
   await open(page, served.origin);
   await page.evaluate(() => window.viewer.setMaterial('left', { base_color: [0.9, 0.9, 0.02] }));
@@ -156,7 +188,9 @@ test('samples outlive a lost GPU: a finished image is the same to the last bit a
   expect(await film(page)).toBe(resumed);
 });
 
-test('an image that is being rendered goes on where it was copied; without a copy the event says what was lost', async ({ page }) => {
+test('an image that is being rendered goes on where it was copied; without a copy the event says what was lost', async ({
+  page,
+}) => {
   await injectFaults(page);
   await open(page, served.origin, { samples: 1_000_000 });
   const samples = async () => ((await heard(page, 'sample')).at(-1)?.['samples'] as number | undefined) ?? 0;
@@ -188,7 +222,9 @@ test('an image that is being rendered goes on where it was copied; without a cop
   expect(await heard(page, 'error')).toEqual([]);
 });
 
-test('without memory for a larger film the image stays as large as it can, with one error, and the viewer goes on', async ({ page }) => {
+test('without memory for a larger film the image stays as large as it can, with one error, and the viewer goes on', async ({
+  page,
+}) => {
   await injectFaults(page);
   await open(page, served.origin);
   // Films of up to a third of the new size's.
@@ -200,7 +236,11 @@ test('without memory for a larger film the image stays as large as it can, with 
   await done(page);
   const errors = await heard(page, 'error');
   expect(errors.map(({ code }) => code)).toEqual(['renderer/out-of-memory']);
-  const size = await page.evaluate(() => [window.viewer.tracer!.width, window.viewer.tracer!.height, window.viewer.sampleCount]);
+  const size = await page.evaluate(() => [
+    window.viewer.tracer!.width,
+    window.viewer.tracer!.height,
+    window.viewer.sampleCount,
+  ]);
   expect(size[0]).toBeLessThan(320);
   expect(size[2]).toBe(12);
   expect(size[0]! / size[1]!).toBeCloseTo(1.6, 1);
@@ -225,14 +265,18 @@ test('a film that had to be smaller takes the whole size, and its shape, once th
     window.gpuFaults.memory = window.gpuFaults.bytes() + 600_000;
     Object.assign(document.querySelector('canvas')!.style, { width: '440px', height: '440px' });
   });
-  await expect.poll(async () => (await heard(page, 'error')).map(({ code }) => code)).toEqual(['renderer/out-of-memory']);
+  await expect
+    .poll(async () => (await heard(page, 'error')).map(({ code }) => code))
+    .toEqual(['renderer/out-of-memory']);
   await done(page);
   const [width, height] = await page.evaluate(() => [window.viewer.tracer!.width, window.viewer.tracer!.height]);
   expect(width).toBeLessThan(220);
   expect(height).toBe(width);
   // Nobody touches the page.
   await page.evaluate(() => void (window.gpuFaults.memory = undefined));
-  await expect.poll(() => page.evaluate(() => [window.viewer.tracer!.width, window.viewer.tracer!.height])).toEqual([220, 220]);
+  await expect
+    .poll(() => page.evaluate(() => [window.viewer.tracer!.width, window.viewer.tracer!.height]))
+    .toEqual([220, 220]);
   await done(page);
   expect(await page.evaluate(() => window.viewer.sampleCount)).toBe(12);
   const { cells } = await shot(page);

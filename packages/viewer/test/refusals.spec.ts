@@ -21,7 +21,22 @@ test('setters refuse what they cannot be, with a typed error, and nothing change
   const result = await page.evaluate(() => {
     const viewer = window.viewer as unknown as Record<string, unknown> & typeof window.viewer;
     const wrong = [NaN, Infinity, -Infinity, 1e30, -1e30, '2', null, {}, [1], true];
-    const setters = ['exposure', 'environmentIntensity', 'environmentRotation', 'samples', 'maxDepth', 'pixelRatio', 'noise', 'damping', 'autoRotate', 'autoRotateDelay', 'fieldOfView', 'toneMap', 'background', 'orbitLimits'];
+    const setters = [
+      'exposure',
+      'environmentIntensity',
+      'environmentRotation',
+      'samples',
+      'maxDepth',
+      'pixelRatio',
+      'noise',
+      'damping',
+      'autoRotate',
+      'autoRotateDelay',
+      'fieldOfView',
+      'toneMap',
+      'background',
+      'orbitLimits',
+    ];
     const taken: string[] = [];
     const untyped: string[] = [];
     const attempt = (what: string, run: () => unknown) => {
@@ -30,26 +45,32 @@ test('setters refuse what they cannot be, with a typed error, and nothing change
         taken.push(what);
       } catch (error) {
         const { code, message } = error as { code?: unknown; message: string };
-        if (typeof code !== 'string' || !/^(viewer|tonemap)\//.test(code) || message.includes('\n')) untyped.push(`${what}: ${String(error)}`);
+        if (typeof code !== 'string' || !/^(viewer|tonemap)\//.test(code) || message.includes('\n'))
+          untyped.push(`${what}: ${String(error)}`);
       }
     };
     const stateOf = () => JSON.stringify([...setters.map((name) => [name, viewer[name]]), viewer.orbit, viewer.camera]);
     const state = stateOf();
-    for (const name of setters) for (const value of wrong) {
-      // No limits are limits.
-      if (name === 'orbitLimits' && typeof value === 'object' && value !== null && !Array.isArray(value)) continue;
-      if (name === 'orbitLimits' && Array.isArray(value)) continue;
-      attempt(`${name} = ${String(value)}`, () => void (viewer[name] = value));
-    }
+    for (const name of setters)
+      for (const value of wrong) {
+        // No limits are limits.
+        if (name === 'orbitLimits' && typeof value === 'object' && value !== null && !Array.isArray(value)) continue;
+        if (name === 'orbitLimits' && Array.isArray(value)) continue;
+        attempt(`${name} = ${String(value)}`, () => void (viewer[name] = value));
+      }
     const { camera } = viewer;
     for (const value of wrong as never[]) {
-      for (const field of ['theta', 'phi', 'radius', 'zoom', 'target']) attempt(`setOrbit ${field} ${String(value)}`, () => viewer.setOrbit({ [field]: value }));
+      for (const field of ['theta', 'phi', 'radius', 'zoom', 'target'])
+        attempt(`setOrbit ${field} ${String(value)}`, () => viewer.setOrbit({ [field]: value }));
       attempt(`setOrbit target[1] ${String(value)}`, () => viewer.setOrbit({ target: [0, value, 0] }));
-      attempt(`camera at ${String(value)}`, () => viewer.setCamera({ ...camera!, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, value, 5, 1] }));
+      attempt(`camera at ${String(value)}`, () =>
+        viewer.setCamera({ ...camera!, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, value, 5, 1] }),
+      );
       attempt(`camera of ${String(value)}`, () => viewer.setCamera({ ...(camera as PerspectiveCamera), yfov: value }));
       attempt(`camera ${String(value)}`, () => viewer.setCamera(value));
       attempt(`direction ${String(value)}`, () => viewer.frame({ direction: [0, value, value] }));
-      for (const limit of ['theta', 'phi', 'radius']) attempt(`limit ${String(value)}`, () => void (viewer.orbitLimits = { [limit]: value }));
+      for (const limit of ['theta', 'phi', 'radius'])
+        attempt(`limit ${String(value)}`, () => void (viewer.orbitLimits = { [limit]: value }));
     }
     attempt('radius 0', () => viewer.setOrbit({ radius: 0 }));
     attempt('yfov π', () => void (viewer.fieldOfView = Math.PI));
@@ -59,7 +80,18 @@ test('setters refuse what they cannot be, with a typed error, and nothing change
     attempt('limit NaN', () => void (viewer.orbitLimits = { phi: [NaN, 1] }));
     for (const value of [NaN, Infinity, '2'] as never[]) attempt(`pick ${String(value)}`, () => viewer.focus(value, 3));
     for (const value of [NaN, 1e30, '2', null] as never[]) {
-      for (const name of ['exposure', 'samples', 'maxDepth', 'pixelRatio', 'maxPixels', 'environmentIntensity', 'toneMap', 'background', 'damping', 'maxSubmitMs']) {
+      for (const name of [
+        'exposure',
+        'samples',
+        'maxDepth',
+        'pixelRatio',
+        'maxPixels',
+        'environmentIntensity',
+        'toneMap',
+        'background',
+        'damping',
+        'maxSubmitMs',
+      ]) {
         attempt(`option ${name} ${String(value)}`, () => window.make({ [name]: value }).destroy());
       }
       attempt(`option preview ${String(value)}`, () => window.make({ preview: { budgetMs: value } }).destroy());
@@ -77,25 +109,41 @@ test('sources of models and environments that are none reject with a typed error
   const before = await shot(page);
   const codes = await page.evaluate(async () => {
     const { viewer } = window;
-    const end = (work: Promise<unknown>) => work.then(() => 'done', (error: { code?: string }) => error.code ?? String(error));
+    const end = (work: Promise<unknown>) =>
+      work.then(
+        () => 'done',
+        (error: { code?: string }) => error.code ?? String(error),
+      );
     const ends: string[] = [];
-    for (const source of [42, null, undefined, {}, [1], 'http://[.obj'] as never[]) ends.push(await end(viewer.load(source)));
-    for (const source of [42, null, undefined, {}, [1], { type: 'cube' }, 'http://['] as never[]) ends.push(await end(viewer.setEnvironment(source)));
+    for (const source of [42, null, undefined, {}, [1], 'http://[.obj'] as never[])
+      ends.push(await end(viewer.load(source)));
+    for (const source of [42, null, undefined, {}, [1], { type: 'cube' }, 'http://['] as never[])
+      ends.push(await end(viewer.setEnvironment(source)));
     ends.push(await end(viewer.toBlob({ samples: NaN })));
     return ends;
   });
-  expect(codes).toEqual([...Array<string>(6).fill('viewer/no-model'), ...Array<string>(7).fill('viewer/environment'), 'viewer/option']);
+  expect(codes).toEqual([
+    ...Array<string>(6).fill('viewer/no-model'),
+    ...Array<string>(7).fill('viewer/environment'),
+    'viewer/option',
+  ]);
   await done(page);
   expect((await shot(page)).cells).toEqual(before.cells);
 });
 
-test('an environment, a variant or a tone map that is refused is not kept: later edits and a lost GPU work', async ({ page }) => {
+test('an environment, a variant or a tone map that is refused is not kept: later edits and a lost GPU work', async ({
+  page,
+}) => {
   await injectFaults(page);
   await open(page, served.origin);
   const before = await shot(page);
   const ends = await page.evaluate(async () => {
     const { viewer, gpuFaults: faults } = window;
-    const end = (work: Promise<unknown>) => work.then(() => 'done', (error: { code?: string }) => error.code ?? String(error));
+    const end = (work: Promise<unknown>) =>
+      work.then(
+        () => 'done',
+        (error: { code?: string }) => error.code ?? String(error),
+      );
     const ends: string[] = [];
     ends.push(await end(viewer.setEnvironment({ type: 'constant', radiance: [NaN, 1, 1] })));
     viewer.environmentRotation = 0.5;
@@ -121,25 +169,41 @@ test('an environment, a variant or a tone map that is refused is not kept: later
 test('a display whose shaders never compile is a typed error of load(), and works once they do', async ({ page }) => {
   await injectFaults(page);
   await page.goto(served.origin);
-  for (const [label, code] of [['tonemap', 'tonemap/pipeline'], ['viewer blend', 'viewer/gpu']] as const) {
-    const end = await page.evaluate(async ([pipeline, bytes]) => {
-      window.gpuFaults.failPipelines = pipeline;
-      const viewer = (window.viewer = window.make({ samples: 2, pixelRatio: 0.25, environment: { type: 'constant', radiance: [1, 1, 1] } }));
-      const told: string[] = [];
-      viewer.on('error', (event) => void told.push(event.code));
-      const load = () => viewer.load(window.file(bytes, 'model.glb')).then(() => 'loaded', (error: { code?: string }) => error.code ?? String(error));
-      const first = await load();
-      window.gpuFaults.failPipelines = undefined;
-      const second = await load();
-      viewer.destroy();
-      await new Promise((resolve) => setTimeout(resolve, 50));
-      return { first, told, second, live: window.gpuFaults.live() };
-    }, [label, base64] as const);
+  for (const [label, code] of [
+    ['tonemap', 'tonemap/pipeline'],
+    ['viewer blend', 'viewer/gpu'],
+  ] as const) {
+    const end = await page.evaluate(
+      async ([pipeline, bytes]) => {
+        window.gpuFaults.failPipelines = pipeline;
+        const viewer = (window.viewer = window.make({
+          samples: 2,
+          pixelRatio: 0.25,
+          environment: { type: 'constant', radiance: [1, 1, 1] },
+        }));
+        const told: string[] = [];
+        viewer.on('error', (event) => void told.push(event.code));
+        const load = () =>
+          viewer.load(window.file(bytes, 'model.glb')).then(
+            () => 'loaded',
+            (error: { code?: string }) => error.code ?? String(error),
+          );
+        const first = await load();
+        window.gpuFaults.failPipelines = undefined;
+        const second = await load();
+        viewer.destroy();
+        await new Promise((resolve) => setTimeout(resolve, 50));
+        return { first, told, second, live: window.gpuFaults.live() };
+      },
+      [label, base64] as const,
+    );
     expect(end).toEqual({ first: code, told: [code], second: 'loaded', live: {} });
   }
 });
 
-test('of two environments that are asked for, the later one is shown, and the earlier one ends at once', async ({ page }) => {
+test('of two environments that are asked for, the later one is shown, and the earlier one ends at once', async ({
+  page,
+}) => {
   await open(page, served.origin);
   // The first one takes for ever.
   await page.route('**/slow.hdr', () => undefined);
@@ -162,21 +226,38 @@ test('of two environments that are asked for, the later one is shown, and the ea
 
 test('an environment that is missing or broken is a warning, and the studio lights the model', async ({ page }) => {
   await page.route('**/missing.hdr', (route) => route.fulfill({ status: 404, body: 'nothing' }));
-  await page.route('**/broken.exr', (route) => route.fulfill({ body: Buffer.from([0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0, 9, 9, 9]) }));
+  await page.route('**/broken.exr', (route) =>
+    route.fulfill({ body: Buffer.from([0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0, 9, 9, 9]) }),
+  );
   await open(page, served.origin, { environment: 'studio', samples: 2 });
   const studio = await shot(page);
-  for (const [environment, why] of [['missing.hdr', /could not be fetched/], ['broken.exr', /EXR/]] as const) {
+  for (const [environment, why] of [
+    ['missing.hdr', /could not be fetched/],
+    ['broken.exr', /EXR/],
+  ] as const) {
     await open(page, served.origin, { environment, samples: 2 });
     expect(await heard(page, 'load')).toHaveLength(1);
     expect(await heard(page, 'error')).toEqual([]);
-    expect(await heard(page, 'warning')).toEqual([{ type: 'warning', code: 'viewer/environment', message: expect.stringMatching(why) }]);
+    expect(await heard(page, 'warning')).toEqual([
+      { type: 'warning', code: 'viewer/environment', message: expect.stringMatching(why) },
+    ]);
     const { cells } = await shot(page);
-    cells.forEach((cell, i) => cell.forEach((value, k) => expect(Math.abs(value - studio.cells[i]![k]!)).toBeLessThan(2)));
+    cells.forEach((cell, i) =>
+      cell.forEach((value, k) => expect(Math.abs(value - studio.cells[i]![k]!)).toBeLessThan(2)),
+    );
   }
   // A call that waits for its environment gets the error.
-  expect(await page.evaluate(() => window.viewer.setEnvironment('missing.hdr').catch((error: { code: string }) => error.code))).toBe('viewer/environment');
+  expect(
+    await page.evaluate(() =>
+      window.viewer.setEnvironment('missing.hdr').catch((error: { code: string }) => error.code),
+    ),
+  ).toBe('viewer/environment');
   // And a broken model is an error, whatever lights it.
-  expect(await page.evaluate(() => window.viewer.load(new File(['no'], 'bad.glb')).catch((error: { code: string }) => error.code))).toMatch(/^gltf\//);
+  expect(
+    await page.evaluate(() =>
+      window.viewer.load(new File(['no'], 'bad.glb')).catch((error: { code: string }) => error.code),
+    ),
+  ).toMatch(/^gltf\//);
   expect(await heard(page, 'error')).toHaveLength(1);
   expect(await heard(page, 'warning')).toHaveLength(1);
   complaints = complaints.filter((text) => !text.includes('404'));

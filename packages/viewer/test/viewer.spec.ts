@@ -33,10 +33,14 @@ test('a model appears as it is, events tell of it, and the view is the one asked
   const totals = (await heard(page, 'progress')).map((event) => event['total'] as number);
   expect(Math.max(...totals)).toBe(1);
   expect(await heard(page, 'error')).toEqual([]);
-  expect((await heard(page, 'state')).map((event) => event['state']).filter((state, i, all) => state !== all[i - 1])).toEqual(['loading', 'moving', 'rendering', 'done']);
+  expect(
+    (await heard(page, 'state')).map((event) => event['state']).filter((state, i, all) => state !== all[i - 1]),
+  ).toEqual(['loading', 'moving', 'rendering', 'done']);
 });
 
-test('warms up until there is a model, where that is asked for or the GPU is none that the CPU imitates', async ({ page }) => {
+test('warms up until there is a model, where that is asked for or the GPU is none that the CPU imitates', async ({
+  page,
+}) => {
   await page.addInitScript(() => {
     window.kernels = [];
     // Bound again below.
@@ -50,12 +54,18 @@ test('warms up until there is a model, where that is asked for or the GPU is non
   const pictures: Awaited<ReturnType<typeof shot>>[] = [];
   for (const warmUp of [undefined, true]) {
     await page.goto(served.origin);
-    await page.evaluate(
-      (options) => void (window.viewer = window.make(options)),
-      { samples: 12, maxDepth: 3, pixelRatio: 0.5, camera: front, environment: sky, ...(warmUp ? { warmUp } : {}) } as ViewerOptions,
-    );
+    await page.evaluate((options) => void (window.viewer = window.make(options)), {
+      samples: 12,
+      maxDepth: 3,
+      pixelRatio: 0.5,
+      camera: front,
+      environment: sky,
+      ...(warmUp ? { warmUp } : {}),
+    } as ViewerOptions);
     // The viewer's own comes with the device, and right before the rest where there is more.
-    await expect.poll(() => page.evaluate(() => window.kernels)).toContain(warmUp ? 'glanz shade' : 'glanz viewer blend');
+    await expect
+      .poll(() => page.evaluate(() => window.kernels))
+      .toContain(warmUp ? 'glanz shade' : 'glanz viewer blend');
     if (!warmUp) await page.waitForTimeout(500);
     expect((await page.evaluate(() => window.kernels)).includes('glanz shade')).toBe(warmUp === true);
     // It is given up in the middle.
@@ -83,7 +93,11 @@ test('a drag turns the model: a small preview while it moves, then the picture i
   // Half a turn for the height of the canvas, to the left around the model.
   const turned = await page.evaluate(() => window.viewer.orbit!.theta);
   expect(turned).toBeCloseTo((-80 / 200) * Math.PI, 5);
-  const moved = after.cells.reduce((sum, cell, i) => sum + cell.reduce((all, value, k) => all + Math.abs(value - before.cells[i]![k]!), 0), 0) / 27;
+  const moved =
+    after.cells.reduce(
+      (sum, cell, i) => sum + cell.reduce((all, value, k) => all + Math.abs(value - before.cells[i]![k]!), 0),
+      0,
+    ) / 27;
   expect(moved).toBeGreaterThan(5);
   expect((await heard(page, 'frame')).filter((event) => event['preview'])).not.toEqual([]);
   expect((await heard(page, 'frame')).at(-1)).toMatchObject({ preview: false, width: 160, height: 100 });
@@ -124,7 +138,10 @@ test('two fingers pinch', async ({ page }) => {
   const before = await radius();
   await page.evaluate(() => {
     const target = document.querySelector('canvas')!;
-    const send = (type: string, pointerId: number, clientX: number) => target.dispatchEvent(new PointerEvent(type, { pointerId, clientX, clientY: 100, pointerType: 'touch', button: 0, bubbles: true }));
+    const send = (type: string, pointerId: number, clientX: number) =>
+      target.dispatchEvent(
+        new PointerEvent(type, { pointerId, clientX, clientY: 100, pointerType: 'touch', button: 0, bubbles: true }),
+      );
     send('pointerdown', 1, 120);
     send('pointerdown', 2, 200);
     send('pointermove', 2, 280);
@@ -138,35 +155,56 @@ test('two fingers pinch', async ({ page }) => {
 /** CSS colours of a material; leaves it yellow. */
 async function paintByName(page: Page): Promise<void> {
   const table = readFileSync(new URL('../../tonemap/src/css-color-names.ts', import.meta.url), 'utf8');
-  const named = [...table.matchAll(/\b([a-z]+) ([0-9a-f]{6})\b/g)].map(([, name, code]) => [name!, `#${code!}`] as const);
+  const named = [...table.matchAll(/\b([a-z]+) ([0-9a-f]{6})\b/g)].map(
+    ([, name, code]) => [name!, `#${code!}`] as const,
+  );
   expect(named).toHaveLength(148);
-  const { browser, ...found } = await page.evaluate(async (names) => {
-    const { viewer } = window;
-    const color = () => viewer.scene!.materials.find(({ name }) => name === 'right')!.parameters.base_color;
-    const refused = (edit: object) => viewer.setMaterial('right', edit).then(() => 'taken', ({ code, message }: { code: string; message: string }) => `${code}: ${message}`);
-    const context = new OffscreenCanvas(1, 1).getContext('2d')!;
-    const browser = names.map((name) => ((context.fillStyle = name), context.fillStyle));
-    // A number that comes after a text stays after it, although the text's parser has to be fetched first.
-    const first = viewer.setMaterial('right', { base_color: 'rebeccapurple' });
-    await new Promise((resolve) => requestAnimationFrame(resolve));
-    await Promise.all([first, viewer.setMaterial('right', { base_color: [0.9, 0.9, 0.02] })]);
-    const ordered = color();
-    await viewer.setMaterial('right', { base_color: '#ff8000', coat_color: 'rgb(0 255 0)' });
-    const orange = color();
-    const wrong = await Promise.all([{ base_color: 'rebecapurple' }, { base_color: '#ff800080' }, { base_colour: 'red' }, { base_metalness: 'red' }].map(refused));
-    // Two edits of one frame, one of which is refused.
-    const pair = await Promise.all([refused({ base_color: 'white', base_metalness: 2 }), refused({ specular_roughness: 0.4 })]);
-    const kept = color();
-    await viewer.setMaterial('right', { base_color: [0.9, 0.9, 0.02], coat_color: 'white' });
-    return { browser, ordered, orange, wrong, pair, kept };
-  }, named.map(([name]) => name));
+  const { browser, ...found } = await page.evaluate(
+    async (names) => {
+      const { viewer } = window;
+      const color = () => viewer.scene!.materials.find(({ name }) => name === 'right')!.parameters.base_color;
+      const refused = (edit: object) =>
+        viewer.setMaterial('right', edit).then(
+          () => 'taken',
+          ({ code, message }: { code: string; message: string }) => `${code}: ${message}`,
+        );
+      const context = new OffscreenCanvas(1, 1).getContext('2d')!;
+      const browser = names.map((name) => ((context.fillStyle = name), context.fillStyle));
+      // A number that comes after a text stays after it, although the text's parser has to be fetched first.
+      const first = viewer.setMaterial('right', { base_color: 'rebeccapurple' });
+      await new Promise((resolve) => requestAnimationFrame(resolve));
+      await Promise.all([first, viewer.setMaterial('right', { base_color: [0.9, 0.9, 0.02] })]);
+      const ordered = color();
+      await viewer.setMaterial('right', { base_color: '#ff8000', coat_color: 'rgb(0 255 0)' });
+      const orange = color();
+      const wrong = await Promise.all(
+        [
+          { base_color: 'rebecapurple' },
+          { base_color: '#ff800080' },
+          { base_colour: 'red' },
+          { base_metalness: 'red' },
+        ].map(refused),
+      );
+      // Two edits of one frame, one of which is refused.
+      const pair = await Promise.all([
+        refused({ base_color: 'white', base_metalness: 2 }),
+        refused({ specular_roughness: 0.4 }),
+      ]);
+      const kept = color();
+      await viewer.setMaterial('right', { base_color: [0.9, 0.9, 0.02], coat_color: 'white' });
+      return { browser, ordered, orange, wrong, pair, kept };
+    },
+    named.map(([name]) => name),
+  );
   expect(browser).toEqual(named.map(([, code]) => code));
   expect(found.ordered).toEqual([0.9, 0.9, 0.02]);
   const orange = [1, ((128 / 255 + 0.055) / 1.055) ** 2.4, 0];
   orange.forEach((value, k) => expect(found.orange![k]).toBeCloseTo(value, 6));
   expect(found.kept).toEqual(found.orange);
   expect(found.wrong).toEqual([
-    expect.stringMatching(/^tonemap\/color: Material "right" was not changed: base_color is "rebecapurple"; did you mean "rebeccapurple"\?/),
+    expect.stringMatching(
+      /^tonemap\/color: Material "right" was not changed: base_color is "rebecapurple"; did you mean "rebeccapurple"\?/,
+    ),
     expect.stringMatching(/^tonemap\/color: .*must be opaque/),
     expect.stringMatching(/^renderer\/material: .*did you mean "base_color"\?/),
     expect.stringMatching(/^renderer\/material: .*base_metalness/),
@@ -197,18 +235,27 @@ test('variant, material, exposure, surroundings and background reach the picture
   await page.evaluate(() => void (window.viewer.exposure = 0));
 
   // A file of red light; and then none of it behind the model, but the page.
-  await page.evaluate((base64) => window.viewer.setEnvironment(window.file(base64, 'red.hdr')), hdr([128, 0, 0, 129]).toString('base64'));
+  await page.evaluate(
+    (base64) => window.viewer.setEnvironment(window.file(base64, 'red.hdr')),
+    hdr([128, 0, 0, 129]).toString('base64'),
+  );
   await done(page);
   const red = await shot(page);
   expect(red.mean[0]).toBeGreaterThan(4 * red.mean[1]);
 
-  // Turning it and changing its intensity goes without a pass over its texels; the fingerprint of a saved film reads some.
-  const reads = () => page.evaluate(() => [Number(document.body.dataset['reads']), (window.viewer.tracer!.scene.environment as { intensity?: number }).intensity ?? 1]);
+  // Turning it and changing its intensity goes without a pass over its texels; the fingerprint of a saved film reads
+  // some.
+  const reads = () =>
+    page.evaluate(() => [
+      Number(document.body.dataset['reads']),
+      (window.viewer.tracer!.scene.environment as { intensity?: number }).intensity ?? 1,
+    ]);
   await page.evaluate(() => {
     const texels = new Float32Array(64 * 32 * 3).map((_, i) => (i % 3 === 0 ? 1 : 0));
     const data = new Proxy(texels, {
       get(target, key) {
-        if (typeof key === 'string' && /^\d+$/.test(key)) document.body.dataset['reads'] = String(Number(document.body.dataset['reads'] ?? 0) + 1);
+        if (typeof key === 'string' && /^\d+$/.test(key))
+          document.body.dataset['reads'] = String(Number(document.body.dataset['reads'] ?? 0) + 1);
         const value: unknown = Reflect.get(target, key, target);
         return typeof value === 'function' ? value.bind(target) : value;
       },
@@ -230,8 +277,12 @@ test('variant, material, exposure, surroundings and background reach the picture
 
 test('resizing keeps the picture sharp and the view whole', async ({ page }) => {
   await open(page);
-  await page.evaluate(() => void Object.assign(document.querySelector('canvas')!.style, { width: '200px', height: '300px' }));
-  await expect.poll(() => page.evaluate(() => [window.viewer.tracer!.width, window.viewer.tracer!.height])).toEqual([100, 150]);
+  await page.evaluate(
+    () => void Object.assign(document.querySelector('canvas')!.style, { width: '200px', height: '300px' }),
+  );
+  await expect
+    .poll(() => page.evaluate(() => [window.viewer.tracer!.width, window.viewer.tracer!.height]))
+    .toEqual([100, 150]);
   await done(page);
   const { cells } = await shot(page);
   expect(cells[3]![0]).toBeGreaterThan(1.2 * cells[3]![1]);
@@ -259,7 +310,12 @@ test('out of sight nothing is computed; back in sight it goes on', async ({ page
 test('a bad file is told in one line with its code, and the former model stays', async ({ page }) => {
   await open(page);
   const before = await shot(page);
-  const failed = await page.evaluate(() => window.viewer.load(new File([new Uint8Array([1, 2, 3])], 'bad.glb')).then(() => 'loaded', (error: { code: string; message: string }) => `${error.code}: ${error.message}`));
+  const failed = await page.evaluate(() =>
+    window.viewer.load(new File([new Uint8Array([1, 2, 3])], 'bad.glb')).then(
+      () => 'loaded',
+      (error: { code: string; message: string }) => `${error.code}: ${error.message}`,
+    ),
+  );
   expect(failed).toMatch(/^gltf\/(not-gltf|truncated): [^\n]+$/);
   expect(await heard(page, 'error')).toEqual([expect.objectContaining({ code: failed.split(':')[0] })]);
   await done(page);
@@ -277,7 +333,12 @@ test('a bad file is told in one line with its code, and the former model stays',
 test('a lost device comes back with the scene as it was edited, and its variant', async ({ page }) => {
   await injectFaults(page);
   await open(page);
-  await page.evaluate(() => Promise.all([window.viewer.setVariant('night'), window.viewer.setMaterial('left', { base_color: [0.9, 0.9, 0.02] })]));
+  await page.evaluate(() =>
+    Promise.all([
+      window.viewer.setVariant('night'),
+      window.viewer.setMaterial('left', { base_color: [0.9, 0.9, 0.02] }),
+    ]),
+  );
   await done(page);
   const before = await shot(page);
   const device = await page.evaluateHandle(() => window.viewer.device);
@@ -287,7 +348,9 @@ test('a lost device comes back with the scene as it was edited, and its variant'
   expect(await page.evaluate((former) => window.viewer.device !== former, device)).toBe(true);
   await done(page);
   const after = await shot(page);
-  after.cells.forEach((cell, i) => cell.forEach((mean, k) => expect(Math.abs(mean - before.cells[i]![k]!), `cell ${i}, channel ${k}`).toBeLessThan(2)));
+  after.cells.forEach((cell, i) =>
+    cell.forEach((mean, k) => expect(Math.abs(mean - before.cells[i]![k]!), `cell ${i}, channel ${k}`).toBeLessThan(2)),
+  );
   // The variant can still be taken off.
   await page.evaluate(() => window.viewer.setVariant(undefined));
   await done(page);
@@ -295,7 +358,9 @@ test('a lost device comes back with the scene as it was edited, and its variant'
   expect(green[1]).toBeGreaterThan(1.5 * green[2]);
 });
 
-test('a GPU that falls over while the page starts is asked for again; one that is not there is told of', async ({ page }) => {
+test('a GPU that falls over while the page starts is asked for again; one that is not there is told of', async ({
+  page,
+}) => {
   // As when the GPU's process ends: for a while no adapter, then one whose device does not come.
   await page.addInitScript(() => {
     const { requestAdapter } = GPU.prototype;
@@ -305,24 +370,39 @@ test('a GPU that falls over while the page starts is asked for again; one that i
       return ++asked.adapters === 1 || asked.never ? null : requestAdapter.apply(this, given);
     };
     GPUAdapter.prototype.requestDevice = async function (...given) {
-      if (++asked.devices === 1) throw new DOMException('A valid external Instance reference no longer exists.', 'OperationError');
+      if (++asked.devices === 1)
+        throw new DOMException('A valid external Instance reference no longer exists.', 'OperationError');
       return requestDevice.apply(this, given);
     };
   });
   await open(page);
   expect((await shot(page)).cells[3]![0]).toBeGreaterThan(50);
   expect(await heard(page, 'error')).toEqual([]);
-  expect(await page.evaluate(() => [(window as unknown as { adapters: number }).adapters, (window as unknown as { devices: number }).devices])).toEqual([3, 2]);
+  expect(
+    await page.evaluate(() => [
+      (window as unknown as { adapters: number }).adapters,
+      (window as unknown as { devices: number }).devices,
+    ]),
+  ).toEqual([3, 2]);
 
   await page.goto(`${served.origin}/?never`);
-  const code = await page.evaluate((base64) => window.make().load(window.file(base64, 'model.glb')).catch((error: { code: string }) => error.code), model.toString('base64'));
+  const code = await page.evaluate(
+    (base64) =>
+      window
+        .make()
+        .load(window.file(base64, 'model.glb'))
+        .catch((error: { code: string }) => error.code),
+    model.toString('base64'),
+  );
   expect(code).toBe('renderer/no-adapter');
 });
 
 /** Images that are not the one on the screen, which keeps its samples meanwhile. */
 async function saveAtOtherSizes(page: Page): Promise<void> {
   await page.evaluate(() => void (window.viewer.pixelRatio = 0.2));
-  await expect.poll(() => page.evaluate(() => [window.viewer.tracer!.width, window.viewer.state])).toEqual([64, 'done']);
+  await expect
+    .poll(() => page.evaluate(() => [window.viewer.tracer!.width, window.viewer.state]))
+    .toEqual([64, 'done']);
   const made = await page.evaluate(async () => {
     const { viewer } = window;
     const look = async (blob: Blob) => {
@@ -333,29 +413,55 @@ async function saveAtOtherSizes(page: Page): Promise<void> {
     };
     const bytes = async (blob: Blob) => Array.from(new Uint8Array(await blob.arrayBuffer())).join();
     const progress: { samples: number; target: number; share: number }[] = [];
-    const onProgress = ({ samples, target, share }: { samples: number; target: number; share: number }) => void progress.push({ samples, target, share });
-    const large = await look(await viewer.toBlob({ width: 90, height: 60, samples: 6, background: 'environment', type: 'image/webp', onProgress }));
+    const onProgress = ({ samples, target, share }: { samples: number; target: number; share: number }) =>
+      void progress.push({ samples, target, share });
+    const large = await look(
+      await viewer.toBlob({
+        width: 90,
+        height: 60,
+        samples: 6,
+        background: 'environment',
+        type: 'image/webp',
+        onProgress,
+      }),
+    );
     const tall = await look(await viewer.toBlob({ height: 50 }));
     const noise = await look(await viewer.toBlob({ width: 32, noise: 10 }));
     const stop = new AbortController();
-    const aborted = await viewer.toBlob({ width: 64, samples: 10_000, signal: stop.signal, onProgress: () => stop.abort(new Error('enough')) }).catch(String);
-    const refused = await Promise.all([{ width: 0.5 }, { height: Number.NaN }, { width: 70_000 }, { quality: 2 }, { noise: -1 }].map((options) => viewer.toBlob(options).catch(({ code }: { code: string }) => code)));
+    const aborted = await viewer
+      .toBlob({ width: 64, samples: 10_000, signal: stop.signal, onProgress: () => stop.abort(new Error('enough')) })
+      .catch(String);
+    const refused = await Promise.all(
+      [{ width: 0.5 }, { height: Number.NaN }, { width: 70_000 }, { quality: 2 }, { noise: -1 }].map((options) =>
+        viewer.toBlob(options).catch(({ code }: { code: string }) => code),
+      ),
+    );
     const after = [viewer.sampleCount, viewer.state];
     // More samples than the screen gets: rendered separately, and the same as on a screen that gets as many.
     const apart = await bytes(await viewer.toBlob({ samples: 8 }));
     viewer.samples = 8;
     const screen = await bytes(await viewer.toBlob());
     viewer.samples = 4;
-    return { large, tall, noise, aborted, refused, after, progress, same: apart === screen, paused: await (async () => {
-      viewer.paused = true;
-      viewer.samples = 9;
-      const { size } = await look(await viewer.toBlob());
-      viewer.paused = false;
-      viewer.autoRotate = 1;
-      await look(await viewer.toBlob({ samples: 5 }));
-      viewer.autoRotate = 0;
-      return size;
-    })() };
+    return {
+      large,
+      tall,
+      noise,
+      aborted,
+      refused,
+      after,
+      progress,
+      same: apart === screen,
+      paused: await (async () => {
+        viewer.paused = true;
+        viewer.samples = 9;
+        const { size } = await look(await viewer.toBlob());
+        viewer.paused = false;
+        viewer.autoRotate = 1;
+        await look(await viewer.toBlob({ samples: 5 }));
+        viewer.autoRotate = 0;
+        return size;
+      })(),
+    };
   });
   expect(made).toMatchObject({
     large: { size: [90, 60], corner: 255, type: 'image/webp' },
@@ -381,7 +487,8 @@ test('toBlob gives the picture as a file; destroy ends everything, twice if need
     const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d')!;
     context.drawImage(bitmap, 0, 0);
     const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
-    const at = (x: number, y: number) => Array.from(data.slice(4 * (y * bitmap.width + x), 4 * (y * bitmap.width + x) + 4));
+    const at = (x: number, y: number) =>
+      Array.from(data.slice(4 * (y * bitmap.width + x), 4 * (y * bitmap.width + x) + 4));
     return { type: blob.type, width: bitmap.width, height: bitmap.height, corner: at(2, 2), left: at(100, 100) };
   });
   expect(file).toMatchObject({ type: 'image/png', width: 320, height: 200 });

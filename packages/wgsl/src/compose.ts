@@ -1,7 +1,9 @@
 import { GlanzError } from './error';
 import type { GatedDependency, WgslModule } from './module';
 
-/** Thrown by {@link compose}. Codes: `wgsl/cycle`, `wgsl/unknown-flag`, `wgsl/unbalanced-gate`, `wgsl/duplicate-name`. */
+/**
+ * Thrown by {@link compose}. Codes: `wgsl/cycle`, `wgsl/unknown-flag`, `wgsl/unbalanced-gate`, `wgsl/duplicate-name`.
+ */
 export class WgslComposeError extends GlanzError {}
 
 /** What {@link compose} may be told. */
@@ -46,19 +48,30 @@ const DIRECTIVE = /^\s*(?:enable\s|requires\s|diagnostic\s*\().*;\s*$/;
 function flagValue(flags: Readonly<Record<string, boolean>>, name: string, module: string, line?: number): boolean {
   if (!Object.hasOwn(flags, name)) {
     const where = line === undefined ? `"${module}"` : `"${module}" line ${line}`;
-    throw new WgslComposeError('wgsl/unknown-flag', `WGSL module ${where} asks for the flag "${name}", which was not given. Known flags: ${Object.keys(flags).sort().join(', ') || 'none'}.`, {
-      location: line === undefined ? { module } : { module, line },
-    });
+    throw new WgslComposeError(
+      'wgsl/unknown-flag',
+      `WGSL module ${where} asks for the flag "${name}", which was not given. Known flags: ${Object.keys(flags).sort().join(', ') || 'none'}.`,
+      {
+        location: line === undefined ? { module } : { module, line },
+      },
+    );
   }
   return flags[name] === true;
 }
 
 /** Calls `emit` with each line of the module's text that its gates let through, or with what they let through of it. */
-function forEachKeptLine(module: WgslModule, flags: Readonly<Record<string, boolean>>, emit: (text: string, line: number) => void): void {
+function forEachKeptLine(
+  module: WgslModule,
+  flags: Readonly<Record<string, boolean>>,
+  emit: (text: string, line: number) => void,
+): void {
   const gates: Gate[] = [];
   let live = true;
   let line = 0;
-  const unbalanced = (what: string) => new WgslComposeError('wgsl/unbalanced-gate', `WGSL module "${module.name}" line ${line}: ${what}.`, { location: { module: module.name, line } });
+  const unbalanced = (what: string) =>
+    new WgslComposeError('wgsl/unbalanced-gate', `WGSL module "${module.name}" line ${line}: ${what}.`, {
+      location: { module: module.name, line },
+    });
   for (const text of module.code.split('\n')) {
     line++;
     // Text, keyword, flags, text, keyword, flags, text, …
@@ -69,10 +82,13 @@ function forEachKeptLine(module: WgslModule, flags: Readonly<Record<string, bool
       const gate = gates[gates.length - 1];
       if (kind === 'if') {
         if (!parts[i + 1]) throw unbalanced('//#if without a flag');
-        const met = (parts[i + 1] as string).split('&&').every((part) => flagValue(flags, part.replace('!', '').trim(), module.name, line) !== part.includes('!'));
+        const met = (parts[i + 1] as string)
+          .split('&&')
+          .every((part) => flagValue(flags, part.replace('!', '').trim(), module.name, line) !== part.includes('!'));
         gates.push({ line, outer: live, met });
         live &&= met;
-      } else if (kind !== 'else' && kind !== 'endif') throw unbalanced(`"${text.trim()}" is not a gate (//#if FLAG, //#else, //#endif)`);
+      } else if (kind !== 'else' && kind !== 'endif')
+        throw unbalanced(`"${text.trim()}" is not a gate (//#if FLAG, //#else, //#endif)`);
       else if (!gate) throw unbalanced(`//#${kind} without //#if`);
       else if (kind === 'endif') live = (gates.pop() as Gate).outer;
       else {
@@ -101,11 +117,15 @@ function order(roots: readonly WgslModule[], flags: Readonly<Record<string, bool
     if (done.has(module)) return;
     if (path.includes(module)) {
       const cycle = [...path.slice(path.indexOf(module)), module].map((m) => m.name).join(' → ');
-      throw new WgslComposeError('wgsl/cycle', `WGSL modules depend on each other in a circle: ${cycle}.`, { location: { module: module.name } });
+      throw new WgslComposeError('wgsl/cycle', `WGSL modules depend on each other in a circle: ${cycle}.`, {
+        location: { module: module.name },
+      });
     }
     const namesake = names.get(module.name);
     if (namesake && namesake !== module) {
-      throw new WgslComposeError('wgsl/duplicate-name', `Two different WGSL modules are called "${module.name}".`, { location: { module: module.name } });
+      throw new WgslComposeError('wgsl/duplicate-name', `Two different WGSL modules are called "${module.name}".`, {
+        location: { module: module.name },
+      });
     }
     names.set(module.name, module);
     path.push(module);

@@ -1,4 +1,7 @@
-/** Where in the user's input an error arose. Every field is optional; the error's message already spells out those present. */
+/**
+ * Where in the user's input an error arose. Every field is optional; the error's message already spells out those
+ * present.
+ */
 export interface ErrorLocation {
   /** File name or URL, as the user gave it. */
   readonly file?: string;
@@ -24,7 +27,9 @@ export interface GlanzErrorOptions {
 declare const GLANZ_ERRORS_PAGE: string;
 declare const process: { readonly env: { readonly NODE_ENV?: string } };
 
-/** Where a code is explained, in development builds of packages that were built with the address of the documentation. */
+/**
+ * Where a code is explained, in development builds of packages that were built with the address of the documentation.
+ */
 function explanation(code: string): string {
   try {
     if (process.env.NODE_ENV === 'development') return ` See ${GLANZ_ERRORS_PAGE}#${code.replace('/', '-')}`;
@@ -36,8 +41,8 @@ function explanation(code: string): string {
 
 /**
  * The base of every error that Glanz throws on purpose. `code` is stable and meant for programs; `message` is one line
- * for people: what was wrong, where, and what to do. In development builds (`process.env.NODE_ENV` is `development`, which
- * bundlers replace) the message ends with the address of the code's paragraph in the documentation.
+ * for people: what was wrong, where, and what to do. In development builds (`process.env.NODE_ENV` is `development`,
+ * which bundlers replace) the message ends with the address of the code's paragraph in the documentation.
  *
  * @example
  * try { … } catch (error) { if (error instanceof GlanzError && error.code === 'gltf/truncated') … }

@@ -12,7 +12,10 @@
 export interface WgslModule {
   /** Unique name; appears in error messages, e.g. `openpbr/coat`. */
   readonly name: string;
-  /** WGSL text: functions, structs, constants. Library modules hold no storage pointers, and no bindings but those whose numbers the host gives. */
+  /**
+   * WGSL text: functions, structs, constants. Library modules hold no storage pointers, and no bindings but those whose
+   * numbers the host gives.
+   */
   readonly code: string;
   /** Modules whose declarations this one uses. A gated dependency counts only when its flag is set. */
   readonly deps: readonly (WgslModule | GatedDependency)[];
@@ -35,7 +38,11 @@ export interface GatedDependency {
  * @param code WGSL text; a tagged `/* wgsl *\/` template gets highlighted by editors.
  * @param deps Modules it uses.
  */
-export function wgslModule(name: string, code: string, deps: readonly (WgslModule | GatedDependency)[] = []): WgslModule {
+export function wgslModule(
+  name: string,
+  code: string,
+  deps: readonly (WgslModule | GatedDependency)[] = [],
+): WgslModule {
   return Object.freeze({ name, code, deps: Object.freeze([...deps]) });
 }
 

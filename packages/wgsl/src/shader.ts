@@ -1,7 +1,10 @@
 import type { ComposedWgsl } from './compose';
 import { GlanzError } from './error';
 
-/** A shader that the WebGPU implementation refused. `location` names the WGSL module and the line inside it. Code: `wgsl/compile`. */
+/**
+ * A shader that the WebGPU implementation refused. `location` names the WGSL module and the line inside it. Code:
+ * `wgsl/compile`.
+ */
 export class ShaderError extends GlanzError {}
 
 const oneLine = (text: string) => text.trim().replace(/\s*\n\s*/g, ' ');
@@ -26,8 +29,9 @@ export interface PendingShaderModule {
 }
 
 /**
- * As {@link createShaderModule}, for those who do not want to wait for the compiler's word before they ask for pipelines: the
- * driver has its work a round trip earlier. Await `checked` before the pipelines: where both fail, it says why.
+ * As {@link createShaderModule}, for those who do not want to wait for the compiler's word before they ask for
+ * pipelines: the driver has its work a round trip earlier. Await `checked` before the pipelines: where both fail, it
+ * says why.
  *
  * @param label Appears in the browser's own messages.
  * @example
@@ -40,10 +44,18 @@ export interface PendingShaderModule {
 export function beginShaderModule(device: GPUDevice, shader: ComposedWgsl, label: string): PendingShaderModule {
   device.pushErrorScope('validation');
   const module = device.createShaderModule({ label, code: shader.code });
-  return { module, checked: check(module, Promise.all([device.popErrorScope(), module.getCompilationInfo()]), shader, label) };
+  return {
+    module,
+    checked: check(module, Promise.all([device.popErrorScope(), module.getCompilationInfo()]), shader, label),
+  };
 }
 
-async function check(module: GPUShaderModule, word: Promise<[GPUError | null, GPUCompilationInfo]>, shader: ComposedWgsl, label: string): Promise<GPUShaderModule> {
+async function check(
+  module: GPUShaderModule,
+  word: Promise<[GPUError | null, GPUCompilationInfo]>,
+  shader: ComposedWgsl,
+  label: string,
+): Promise<GPUShaderModule> {
   const [validation, info] = await word;
   const errors = info.messages.filter((message) => message.type === 'error');
   const first = errors[0];
@@ -54,8 +66,13 @@ async function check(module: GPUShaderModule, word: Promise<[GPUError | null, GP
     const where = place ? `${place.module}:${place.line}: ` : first.lineNum > 0 ? `line ${first.lineNum}: ` : '';
     const more = errors.length > 1 ? ` (and ${errors.length - 1} more)` : '';
     const location = place ? { module: place.module, line: place.line } : { line: first.lineNum };
-    throw new ShaderError('wgsl/compile', `Shader "${label}" does not compile: ${where}${oneLine(first.message)}${more}${text ? ` — "${text}"` : ''}`, first.lineNum > 0 ? { location } : {});
+    throw new ShaderError(
+      'wgsl/compile',
+      `Shader "${label}" does not compile: ${where}${oneLine(first.message)}${more}${text ? ` — "${text}"` : ''}`,
+      first.lineNum > 0 ? { location } : {},
+    );
   }
-  if (validation) throw new ShaderError('wgsl/compile', `Shader "${label}" was refused: ${oneLine(validation.message)}`);
+  if (validation)
+    throw new ShaderError('wgsl/compile', `Shader "${label}" was refused: ${oneLine(validation.message)}`);
   return module;
 }

@@ -1,11 +1,26 @@
 import { GlanzError } from './error';
 import { wgslModule, type WgslModule } from './module';
 
-/** Thrown by {@link struct} and by writers. Codes: `wgsl/unknown-field`, `wgsl/field-length`, `wgsl/field-type`, `wgsl/empty-struct`, `wgsl/out-of-range`. */
+/**
+ * Thrown by {@link struct} and by writers. Codes: `wgsl/unknown-field`, `wgsl/field-length`, `wgsl/field-type`,
+ * `wgsl/empty-struct`, `wgsl/out-of-range`.
+ */
 export class StructError extends GlanzError {}
 
 /** The types a host-shareable struct may hold: scalars, vectors, a matrix, other structs, and arrays of them. */
-export type WgslFieldType = StructLayout | 'f32' | 'u32' | 'i32' | 'vec2f' | 'vec3f' | 'vec4f' | 'vec2u' | 'vec3u' | 'vec4u' | 'mat4x4f' | readonly [element: WgslFieldType, count: number];
+export type WgslFieldType =
+  | StructLayout
+  | 'f32'
+  | 'u32'
+  | 'i32'
+  | 'vec2f'
+  | 'vec3f'
+  | 'vec4f'
+  | 'vec2u'
+  | 'vec3u'
+  | 'vec4u'
+  | 'mat4x4f'
+  | readonly [element: WgslFieldType, count: number];
 
 /** What a 32-bit word holds. */
 type Word = 'f' | 'u' | 'i';
@@ -39,13 +54,28 @@ const roundUp = (value: number, to: number) => Math.ceil(value / to) * to;
 function layoutOf(type: WgslFieldType, field: string): TypeLayout {
   if (typeof type === 'string') {
     const basic = Object.hasOwn(BASIC, type) ? BASIC[type] : undefined;
-    if (!basic) throw new StructError('wgsl/field-type', `Field "${field}" has the type "${String(type)}"; known: ${Object.keys(BASIC).join(', ')}, structs, and [type, count].`);
+    if (!basic)
+      throw new StructError(
+        'wgsl/field-type',
+        `Field "${field}" has the type "${String(type)}"; known: ${Object.keys(BASIC).join(', ')}, structs, and [type, count].`,
+      );
     const [align, size, word] = basic;
-    return { align, size, text: type, numbers: { word, offsets: Array.from({ length: size / 4 }, (_, i) => i * 4) }, structs: [] };
+    return {
+      align,
+      size,
+      text: type,
+      numbers: { word, offsets: Array.from({ length: size / 4 }, (_, i) => i * 4) },
+      structs: [],
+    };
   }
-  if ('module' in type) return { align: type.align, size: type.size, text: type.name, numbers: undefined, structs: [type.module] };
+  if ('module' in type)
+    return { align: type.align, size: type.size, text: type.name, numbers: undefined, structs: [type.module] };
   const [elementType, count] = type;
-  if (!Number.isInteger(count) || count < 1) throw new StructError('wgsl/field-type', `Field "${field}" is an array of ${count} elements; it needs a whole number from 1 up.`);
+  if (!Number.isInteger(count) || count < 1)
+    throw new StructError(
+      'wgsl/field-type',
+      `Field "${field}" is an array of ${count} elements; it needs a whole number from 1 up.`,
+    );
   const element = layoutOf(elementType, field);
   const stride = roundUp(element.size, element.align);
   const { numbers } = element;
@@ -53,7 +83,10 @@ function layoutOf(type: WgslFieldType, field: string): TypeLayout {
     align: element.align,
     size: stride * count,
     text: `array<${element.text}, ${count}>`,
-    numbers: numbers && { word: numbers.word, offsets: Array.from({ length: count }, (_, i) => numbers.offsets.map((offset) => i * stride + offset)).flat() },
+    numbers: numbers && {
+      word: numbers.word,
+      offsets: Array.from({ length: count }, (_, i) => numbers.offsets.map((offset) => i * stride + offset)).flat(),
+    },
     structs: element.structs,
   };
 }
@@ -112,7 +145,10 @@ export interface StructLayout<Name extends string = string> {
  * const bytes = Frame.allocate();
  * Frame.write(bytes, 0, { size: [640, 480], exposure: 1 });
  */
-export function struct<const Fields extends Readonly<Record<string, WgslFieldType>>>(name: string, fields: Fields): StructLayout<keyof Fields & string> {
+export function struct<const Fields extends Readonly<Record<string, WgslFieldType>>>(
+  name: string,
+  fields: Fields,
+): StructLayout<keyof Fields & string> {
   const table = new Map<string, StructField & { readonly layout: TypeLayout }>();
   let end = 0;
   let align = 4;
@@ -128,7 +164,11 @@ export function struct<const Fields extends Readonly<Record<string, WgslFieldTyp
   const all = [...table.values()];
   const find = (field: string) => {
     const found = table.get(field);
-    if (!found) throw new StructError('wgsl/unknown-field', `Struct "${name}" has no field "${field}". Fields: ${[...table.keys()].join(', ')}.`);
+    if (!found)
+      throw new StructError(
+        'wgsl/unknown-field',
+        `Struct "${name}" has no field "${field}". Fields: ${[...table.keys()].join(', ')}.`,
+      );
     return found;
   };
   return {
@@ -136,26 +176,45 @@ export function struct<const Fields extends Readonly<Record<string, WgslFieldTyp
     align,
     size,
     fields: all.map(({ layout: _layout, ...field }) => field),
-    module: wgslModule(`struct/${name}`, `struct ${name} {\n${all.map((field) => `  ${field.name}: ${field.type},`).join('\n')}\n}`, [...new Set(all.flatMap(({ layout }) => layout.structs))]),
+    module: wgslModule(
+      `struct/${name}`,
+      `struct ${name} {\n${all.map((field) => `  ${field.name}: ${field.type},`).join('\n')}\n}`,
+      [...new Set(all.flatMap(({ layout }) => layout.structs))],
+    ),
     offsetOf: (field) => find(field).offset,
     allocate: (count = 1) => new ArrayBuffer(size * count),
     write(buffer, index, values) {
       if (!Number.isInteger(index) || index < 0 || (index + 1) * size > buffer.byteLength) {
-        throw new StructError('wgsl/out-of-range', `Struct "${name}" at index ${index} is outside of a buffer of ${Math.floor(buffer.byteLength / size)}.`);
+        throw new StructError(
+          'wgsl/out-of-range',
+          `Struct "${name}" at index ${index} is outside of a buffer of ${Math.floor(buffer.byteLength / size)}.`,
+        );
       }
       const view = new DataView(buffer, index * size, size);
       for (const [field, value] of Object.entries(values) as [string, StructValue | undefined][]) {
         if (value === undefined) continue;
         const { layout, offset, size: bytes } = find(field);
         if (value instanceof ArrayBuffer) {
-          if (value.byteLength !== bytes) throw new StructError('wgsl/field-length', `Field "${name}.${field}" takes ${bytes} bytes, got ${value.byteLength}.`);
+          if (value.byteLength !== bytes)
+            throw new StructError(
+              'wgsl/field-length',
+              `Field "${name}.${field}" takes ${bytes} bytes, got ${value.byteLength}.`,
+            );
           new Uint8Array(buffer, index * size + offset, bytes).set(new Uint8Array(value));
           continue;
         }
         const { numbers } = layout;
-        if (!numbers) throw new StructError('wgsl/field-type', `Field "${name}.${field}" is a ${layout.text}: give its ${bytes} bytes as an ArrayBuffer.`);
+        if (!numbers)
+          throw new StructError(
+            'wgsl/field-type',
+            `Field "${name}.${field}" is a ${layout.text}: give its ${bytes} bytes as an ArrayBuffer.`,
+          );
         const given = typeof value === 'number' ? 1 : value.length;
-        if (given !== numbers.offsets.length) throw new StructError('wgsl/field-length', `Field "${name}.${field}" takes ${numbers.offsets.length} numbers, got ${given}.`);
+        if (given !== numbers.offsets.length)
+          throw new StructError(
+            'wgsl/field-length',
+            `Field "${name}.${field}" takes ${numbers.offsets.length} numbers, got ${given}.`,
+          );
         for (const [i, at] of numbers.offsets.entries()) {
           const number = typeof value === 'number' ? value : (value[i] as number);
           if (numbers.word === 'f') view.setFloat32(offset + at, number, true);

@@ -28,14 +28,23 @@ describe('order of modules', () => {
   it.each([1, 2, 3, 4, 5])('holds for random graphs (seed %i)', (seed) => {
     const random = randomSource(seed);
     const modules: WgslModule[] = [];
-    for (let i = 0; i < 40; i++) modules.push(wgslModule(`m${i}`, `// ${i}`, modules.filter(() => random.next() < 0.15)));
+    for (let i = 0; i < 40; i++)
+      modules.push(
+        wgslModule(
+          `m${i}`,
+          `// ${i}`,
+          modules.filter(() => random.next() < 0.15),
+        ),
+      );
     const roots = modules.filter(() => random.next() < 0.3);
     const order = compose(roots).modules;
     // What must be there: everything that can be reached, by a plain flood.
     const reachable = new Set<WgslModule>(roots);
     for (const module of reachable) for (const dep of module.deps) reachable.add(dep as WgslModule);
     expect([...order].sort()).toEqual([...reachable].map((module) => module.name).sort());
-    for (const module of reachable) for (const dep of module.deps) expect(order.indexOf((dep as WgslModule).name)).toBeLessThan(order.indexOf(module.name));
+    for (const module of reachable)
+      for (const dep of module.deps)
+        expect(order.indexOf((dep as WgslModule).name)).toBeLessThan(order.indexOf(module.name));
     expect(compose(roots).code).toBe(compose(roots).code);
   });
 
@@ -91,8 +100,14 @@ describe('gates', () => {
   });
 
   it('stand inside of lines: what they let through of a line stays in it', () => {
-    const module = wgslModule('m', 'a(//#if X b,//#else c,//#endif d);\n//#if X e;//#endif//#if !X f;//#endif\n  //#if X//#if Y g;//#else h;//#endif//#endif');
-    const kept = (flags: Record<string, boolean>) => compose([module], { flags }).code.split('\n').map((line) => line.replace(/\s/g, ''));
+    const module = wgslModule(
+      'm',
+      'a(//#if X b,//#else c,//#endif d);\n//#if X e;//#endif//#if !X f;//#endif\n  //#if X//#if Y g;//#else h;//#endif//#endif',
+    );
+    const kept = (flags: Record<string, boolean>) =>
+      compose([module], { flags })
+        .code.split('\n')
+        .map((line) => line.replace(/\s/g, ''));
     expect(kept({ X: true, Y: false })).toEqual(['a(b,d);', 'e;', 'h;', '']);
     expect(kept({ X: false, Y: false })).toEqual(['a(c,d);', 'f;', '']);
     expect(compose([module], { flags: { X: true, Y: true } }).locate(3)).toEqual({ module: 'm', line: 3 });
@@ -124,7 +139,9 @@ describe('gates', () => {
   });
 
   it('say where an unknown flag is asked for, also inside text that is left out', () => {
-    const error = failure(() => compose([wgslModule('m', 'a\n//#if X\n//#if NEW\n//#endif\n//#endif')], { flags: { X: false } }));
+    const error = failure(() =>
+      compose([wgslModule('m', 'a\n//#if X\n//#if NEW\n//#endif\n//#endif')], { flags: { X: false } }),
+    );
     expect(error).toMatchObject({ code: 'wgsl/unknown-flag', location: { module: 'm', line: 3 } });
   });
 
@@ -150,25 +167,43 @@ describe('gates', () => {
     });
   }
   const print = (block: Block): string[] =>
-    block.flatMap((item) => (typeof item === 'string' ? [item] : [`//#if ${item.negated ? '!' : ''}${item.flag}`, ...print(item.kept), ...(item.otherwise ? ['//#else', ...print(item.otherwise)] : []), '//#endif']));
+    block.flatMap((item) =>
+      typeof item === 'string'
+        ? [item]
+        : [
+            `//#if ${item.negated ? '!' : ''}${item.flag}`,
+            ...print(item.kept),
+            ...(item.otherwise ? ['//#else', ...print(item.otherwise)] : []),
+            '//#endif',
+          ],
+    );
   const alive = (block: Block, flags: Record<string, boolean>): string[] =>
-    block.flatMap((item) => (typeof item === 'string' ? [item] : flags[item.flag] !== item.negated ? alive(item.kept, flags) : alive(item.otherwise ?? [], flags)));
+    block.flatMap((item) =>
+      typeof item === 'string'
+        ? [item]
+        : flags[item.flag] !== item.negated
+          ? alive(item.kept, flags)
+          : alive(item.otherwise ?? [], flags),
+    );
 
-  it.each(Array.from({ length: 20 }, (_, i) => i + 1))('nest as the tree they were printed from, and lines find home (seed %i)', (seed) => {
-    const random = randomSource(seed);
-    const blocks = [0, 1, 2].map((i) => randomBlock(random, 4, `m${i}`));
-    const texts = blocks.map(print);
-    const modules = texts.map((text, i) => wgslModule(`m${i}`, text.join('\n')));
-    for (let bits = 0; bits < 16; bits++) {
-      const flags = Object.fromEntries(FLAGS.map((flag, i) => [flag, (bits & (1 << i)) !== 0]));
-      const composed = compose(modules, { flags });
-      expect(linesOf(composed.code)).toEqual(blocks.flatMap((block) => alive(block, flags)));
-      linesOf(composed.code).forEach((line, i) => {
-        const place = composed.locate(i + 1);
-        expect(texts[Number(place?.module.slice(1))]?.[(place?.line ?? 0) - 1]).toBe(line);
-      });
-    }
-  });
+  it.each(Array.from({ length: 20 }, (_, i) => i + 1))(
+    'nest as the tree they were printed from, and lines find home (seed %i)',
+    (seed) => {
+      const random = randomSource(seed);
+      const blocks = [0, 1, 2].map((i) => randomBlock(random, 4, `m${i}`));
+      const texts = blocks.map(print);
+      const modules = texts.map((text, i) => wgslModule(`m${i}`, text.join('\n')));
+      for (let bits = 0; bits < 16; bits++) {
+        const flags = Object.fromEntries(FLAGS.map((flag, i) => [flag, (bits & (1 << i)) !== 0]));
+        const composed = compose(modules, { flags });
+        expect(linesOf(composed.code)).toEqual(blocks.flatMap((block) => alive(block, flags)));
+        linesOf(composed.code).forEach((line, i) => {
+          const place = composed.locate(i + 1);
+          expect(texts[Number(place?.module.slice(1))]?.[(place?.line ?? 0) - 1]).toBe(line);
+        });
+      }
+    },
+  );
 });
 
 describe('the line map', () => {
@@ -185,7 +220,12 @@ describe('directives', () => {
     const a = wgslModule('a', 'enable f16;\nconst A = 1;');
     const b = wgslModule('b', 'diagnostic(off, derivative_uniformity);\n  enable f16;\nconst B = A;', [a]);
     const { code, locate } = compose([b]);
-    expect(linesOf(code)).toEqual(['enable f16;', 'diagnostic(off, derivative_uniformity);', 'const A = 1;', 'const B = A;']);
+    expect(linesOf(code)).toEqual([
+      'enable f16;',
+      'diagnostic(off, derivative_uniformity);',
+      'const A = 1;',
+      'const B = A;',
+    ]);
     expect([1, 2, 3, 4].map(locate)).toEqual([
       { module: 'a', line: 1 },
       { module: 'b', line: 1 },
@@ -195,8 +235,13 @@ describe('directives', () => {
   });
 
   it('obey gates, and attributes are none', () => {
-    const module = wgslModule('m', '//#if HALF\nenable f16;\n//#endif\n@diagnostic(off, derivative_uniformity) fn f() {}');
-    expect(linesOf(compose([module], { flags: { HALF: false } }).code)).toEqual(['@diagnostic(off, derivative_uniformity) fn f() {}']);
+    const module = wgslModule(
+      'm',
+      '//#if HALF\nenable f16;\n//#endif\n@diagnostic(off, derivative_uniformity) fn f() {}',
+    );
+    expect(linesOf(compose([module], { flags: { HALF: false } }).code)).toEqual([
+      '@diagnostic(off, derivative_uniformity) fn f() {}',
+    ]);
   });
 });
 

@@ -14,7 +14,15 @@ async function bundled(mode: string | undefined, page: string | undefined): Prom
     ...(mode === undefined ? {} : { 'process.env.NODE_ENV': JSON.stringify(mode) }),
   };
   const source = fileURLToPath(new URL('../src/error.ts', import.meta.url));
-  const { outputFiles } = await build({ entryPoints: [source], bundle: true, format: 'esm', platform: 'neutral', minifySyntax: true, define, write: false });
+  const { outputFiles } = await build({
+    entryPoints: [source],
+    bundle: true,
+    format: 'esm',
+    platform: 'neutral',
+    minifySyntax: true,
+    define,
+    write: false,
+  });
   return import(`data:text/javascript,${encodeURIComponent(outputFiles[0]!.text)}`) as Promise<ErrorModule>;
 }
 
@@ -22,7 +30,13 @@ describe('GlanzError', () => {
   it('has its code, its message and the name of its class', () => {
     class MeshError extends GlanzError {}
     const error = new MeshError('mesh/empty', 'The mesh has no triangles.', { cause: 7, location: { file: 'a.glb' } });
-    expect(error).toMatchObject({ name: 'MeshError', code: 'mesh/empty', message: 'The mesh has no triangles.', cause: 7, location: { file: 'a.glb' } });
+    expect(error).toMatchObject({
+      name: 'MeshError',
+      code: 'mesh/empty',
+      message: 'The mesh has no triangles.',
+      cause: 7,
+      location: { file: 'a.glb' },
+    });
   });
 
   it('ends with the address of its paragraph in development builds', async () => {
@@ -31,7 +45,11 @@ describe('GlanzError', () => {
   });
 
   it('has the message alone in production, without a bundler, and while the project has no address', async () => {
-    for (const [mode, page] of [['production', PAGE], [undefined, PAGE], ['development', undefined]] as const) {
+    for (const [mode, page] of [
+      ['production', PAGE],
+      [undefined, PAGE],
+      ['development', undefined],
+    ] as const) {
       const module = await bundled(mode, page);
       expect(new module.GlanzError('mesh/no-uvs', 'No.').message, `${mode}, ${page}`).toBe('No.');
     }

@@ -1,6 +1,15 @@
 import { expectNoGpuErrors, runCompute, testDevice } from '@glanz/gpu';
 import { afterEach, describe, expect, it } from 'vitest';
-import { beginShaderModule, compose, createShaderModule, ShaderError, struct, wgslModule, type StructLayout, type WgslFieldType } from '../src';
+import {
+  beginShaderModule,
+  compose,
+  createShaderModule,
+  ShaderError,
+  struct,
+  wgslModule,
+  type StructLayout,
+  type WgslFieldType,
+} from '../src';
 import { randomSource, type RandomSource } from './random';
 
 afterEach(() => expectNoGpuErrors());
@@ -16,17 +25,25 @@ const READERS: Record<string, (value: string) => string[]> = {
   vec2u: (v) => ['x', 'y'].map((c) => `${v}.${c}`),
   vec3u: (v) => ['x', 'y', 'z'].map((c) => `${v}.${c}`),
   vec4u: (v) => ['x', 'y', 'z', 'w'].map((c) => `${v}.${c}`),
-  mat4x4f: (v) => [0, 1, 2, 3].flatMap((column) => ['x', 'y', 'z', 'w'].map((c) => `bitcast<u32>(${v}[${column}].${c})`)),
+  mat4x4f: (v) =>
+    [0, 1, 2, 3].flatMap((column) => ['x', 'y', 'z', 'w'].map((c) => `bitcast<u32>(${v}[${column}].${c})`)),
 };
 const BASIC = Object.keys(READERS) as (keyof typeof READERS & string)[];
 
 function randomType(random: RandomSource, depth: number): WgslFieldType {
-  return depth > 0 && random.next() < 0.3 ? [randomType(random, depth - 1), 1 + random.below(3)] : (random.pick(BASIC) as WgslFieldType);
+  return depth > 0 && random.next() < 0.3
+    ? [randomType(random, depth - 1), 1 + random.below(3)]
+    : (random.pick(BASIC) as WgslFieldType);
 }
 
 const readersOf = (type: WgslFieldType, value: string): string[] =>
-  typeof type === 'string' ? (READERS[type]?.(value) ?? []) : Array.from({ length: (type as readonly [WgslFieldType, number])[1] }, (_, i) => readersOf((type as readonly [WgslFieldType, number])[0], `${value}[${i}]`)).flat();
-const scalarOf = (type: WgslFieldType): string => (typeof type === 'string' ? type : scalarOf((type as readonly [WgslFieldType, number])[0]));
+  typeof type === 'string'
+    ? (READERS[type]?.(value) ?? [])
+    : Array.from({ length: (type as readonly [WgslFieldType, number])[1] }, (_, i) =>
+        readersOf((type as readonly [WgslFieldType, number])[0], `${value}[${i}]`),
+      ).flat();
+const scalarOf = (type: WgslFieldType): string =>
+  typeof type === 'string' ? type : scalarOf((type as readonly [WgslFieldType, number])[0]);
 
 describe('struct layouts on a GPU', () => {
   it.each([1, 2, 3, 4])('the shader reads what was written, in random structs of an array (seed %i)', async (seed) => {
@@ -39,10 +56,20 @@ describe('struct layouts on a GPU', () => {
     for (const [name, type] of Object.entries(fields)) {
       const reads = readersOf(type, `records[2].${name}`);
       const integer = /u/.test(scalarOf(type).replace('vec', '')) || scalarOf(type).endsWith('u');
-      const numbers = reads.map(() => (integer ? random.below(2 ** 32) : scalarOf(type) === 'i32' ? random.below(2 ** 31) - 2 ** 30 : Math.fround(random.next() * 1000 - 500)));
+      const numbers = reads.map(() =>
+        integer
+          ? random.below(2 ** 32)
+          : scalarOf(type) === 'i32'
+            ? random.below(2 ** 31) - 2 ** 30
+            : Math.fround(random.next() * 1000 - 500),
+      );
       layout.write(values, 2, { [name]: numbers.length === 1 ? (numbers[0] as number) : numbers });
       readers.push(...reads);
-      words.push(...numbers.map((n) => (integer || scalarOf(type) === 'i32' ? n >>> 0 : (new Uint32Array(new Float32Array([n]).buffer)[0] as number))));
+      words.push(
+        ...numbers.map((n) =>
+          integer || scalarOf(type) === 'i32' ? n >>> 0 : (new Uint32Array(new Float32Array([n]).buffer)[0] as number),
+        ),
+      );
     }
     const { code } = compose([
       wgslModule(
@@ -53,7 +80,9 @@ describe('struct layouts on a GPU', () => {
         [layout.module],
       ),
     ]);
-    const result = new Uint32Array(await runCompute(await testDevice(), code, { inputs: [values], outputBytes: 4 * words.length }));
+    const result = new Uint32Array(
+      await runCompute(await testDevice(), code, { inputs: [values], outputBytes: 4 * words.length }),
+    );
     expect([...result]).toEqual(words);
   });
 
@@ -76,18 +105,27 @@ describe('struct layouts on a GPU', () => {
         [Outer.module],
       ),
     ]);
-    expect([...new Uint32Array(await runCompute(await testDevice(), code, { inputs: [buffer], outputBytes: 24 }))]).toEqual([1, 1, 21, 12, 22, 99]);
+    expect([
+      ...new Uint32Array(await runCompute(await testDevice(), code, { inputs: [buffer], outputBytes: 24 })),
+    ]).toEqual([1, 1, 21, 12, 22, 99]);
   });
 });
 
 describe('createShaderModule', () => {
   const library = wgslModule('lib/square', '// a comment\nfn square(x: f32) -> f32 {\n  return x * x;\n}');
-  const entry = (body: string) => wgslModule('test/entry', `@group(0) @binding(0) var<storage, read_write> out: array<f32>;\n@compute @workgroup_size(1) fn main() {\n${body}\n}`, [library]);
+  const entry = (body: string) =>
+    wgslModule(
+      'test/entry',
+      `@group(0) @binding(0) var<storage, read_write> out: array<f32>;\n@compute @workgroup_size(1) fn main() {\n${body}\n}`,
+      [library],
+    );
 
   it('gives a module that runs', async () => {
     const device = await testDevice();
     const module = await createShaderModule(device, compose([entry('out[0] = square(3.0);')]), 'good');
-    expect(await device.createComputePipelineAsync({ layout: 'auto', compute: { module, entryPoint: 'main' } })).toBeTruthy();
+    expect(
+      await device.createComputePipelineAsync({ layout: 'auto', compute: { module, entryPoint: 'main' } }),
+    ).toBeTruthy();
   });
 
   it('puts directives where the compiler wants them', async () => {
@@ -96,8 +134,14 @@ describe('createShaderModule', () => {
   });
 
   it('throws one line with the module, its line and its text, and reports nothing twice', async () => {
-    const broken = wgslModule('lib/broken', '//#if WRONG\nfn half(x: f32) -> f32 {\n  return x / 2u;\n}\n//#endif', [library]);
-    const error: unknown = await createShaderModule(await testDevice(), compose([broken, entry('out[0] = 1.0;')], { flags: { WRONG: true } }), 'bad').catch((e: unknown) => e);
+    const broken = wgslModule('lib/broken', '//#if WRONG\nfn half(x: f32) -> f32 {\n  return x / 2u;\n}\n//#endif', [
+      library,
+    ]);
+    const error: unknown = await createShaderModule(
+      await testDevice(),
+      compose([broken, entry('out[0] = 1.0;')], { flags: { WRONG: true } }),
+      'bad',
+    ).catch((e: unknown) => e);
     expect(error).toBeInstanceOf(ShaderError);
     const { code, message, location } = error as ShaderError;
     expect(code).toBe('wgsl/compile');
@@ -111,13 +155,22 @@ describe('createShaderModule', () => {
   it('pipelines may be asked for before the compiler has had its word, which is the error of both', async () => {
     const device = await testDevice();
     const good = beginShaderModule(device, compose([entry('out[0] = square(3.0);')]), 'good');
-    const pipeline = device.createComputePipelineAsync({ layout: 'auto', compute: { module: good.module, entryPoint: 'main' } });
+    const pipeline = device.createComputePipelineAsync({
+      layout: 'auto',
+      compute: { module: good.module, entryPoint: 'main' },
+    });
     expect(await good.checked).toBe(good.module);
     expect(await pipeline).toBeTruthy();
     const bad = beginShaderModule(device, compose([entry('out[0] = missing();')]), 'bad');
-    const none = device.createComputePipelineAsync({ layout: 'auto', compute: { module: bad.module, entryPoint: 'main' } });
+    const none = device.createComputePipelineAsync({
+      layout: 'auto',
+      compute: { module: bad.module, entryPoint: 'main' },
+    });
     const [word, nothing] = await Promise.allSettled([bad.checked, none]);
-    expect(word).toMatchObject({ status: 'rejected', reason: { code: 'wgsl/compile', location: { module: 'test/entry', line: 3 } } });
+    expect(word).toMatchObject({
+      status: 'rejected',
+      reason: { code: 'wgsl/compile', location: { module: 'test/entry', line: 3 } },
+    });
     expect(nothing.status).toBe('rejected');
   });
 });

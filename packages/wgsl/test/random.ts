@@ -1,4 +1,6 @@
-/** A small generator of random numbers for option-matrix tests, so that a printed seed repeats a failure (mulberry32). */
+/**
+ * A small generator of random numbers for option-matrix tests, so that a printed seed repeats a failure (mulberry32).
+ */
 export function randomSource(seed: number) {
   let state = seed >>> 0;
   const next = () => {

@@ -18,7 +18,12 @@ describe('layout', () => {
 
   it("agrees with the specification's example", () => {
     expect([A.align, A.size]).toEqual([8, 24]);
-    expect(A.fields.map(({ offset, size }) => [offset, size])).toEqual([[0, 4], [4, 4], [8, 8], [16, 4]]);
+    expect(A.fields.map(({ offset, size }) => [offset, size])).toEqual([
+      [0, 4],
+      [4, 4],
+      [8, 8],
+      [16, 4],
+    ]);
     expect([B.align, B.size]).toEqual([16, 160]);
     expect(B.fields.map(({ name, offset, size }) => [name, offset, size])).toEqual([
       ['a', 0, 8],

@@ -59,11 +59,22 @@ export function timed(name: string, unit: string, values: readonly number[], tar
   if (sorted.length === 0) throw new RangeError(`${name}: no values`);
   const middle = (sorted.length - 1) / 2;
   const median = (sorted[Math.floor(middle)]! + sorted[Math.ceil(middle)]!) / 2;
-  return { name, unit, runs: sorted.length, min: sorted[0]!, median, max: sorted[sorted.length - 1]!, ...(target ? { target } : {}) };
+  return {
+    name,
+    unit,
+    runs: sorted.length,
+    min: sorted[0]!,
+    median,
+    max: sorted[sorted.length - 1]!,
+    ...(target ? { target } : {}),
+  };
 }
 
 /** Two-sided 97.5 % quantiles of Student's t for 1 to 30 degrees of freedom. */
-const T975 = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.16, 2.145, 2.131, 2.12, 2.11, 2.101, 2.093, 2.086, 2.08, 2.074, 2.069, 2.064, 2.06, 2.056, 2.052, 2.048, 2.045, 2.042];
+const T975 = [
+  12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.16, 2.145, 2.131, 2.12, 2.11,
+  2.101, 2.093, 2.086, 2.08, 2.074, 2.069, 2.064, 2.06, 2.056, 2.052, 2.048, 2.045, 2.042,
+];
 
 /** Summarises independent estimates by their mean and its 95 % interval (Student's t). */
 export function estimated(name: string, unit: string, values: readonly number[], target?: Figure['target']): Figure {
@@ -71,7 +82,14 @@ export function estimated(name: string, unit: string, values: readonly number[],
   if (n < 2) throw new RangeError(`${name}: an interval needs at least two values`);
   const mean = values.reduce((sum, value) => sum + value, 0) / n;
   const variance = values.reduce((sum, value) => sum + (value - mean) ** 2, 0) / (n - 1);
-  return { name, unit, runs: n, mean, ci95: (T975[n - 2] ?? 1.96) * Math.sqrt(variance / n), ...(target ? { target } : {}) };
+  return {
+    name,
+    unit,
+    runs: n,
+    mean,
+    ci95: (T975[n - 2] ?? 1.96) * Math.sqrt(variance / n),
+    ...(target ? { target } : {}),
+  };
 }
 
 /** Times `work` `runs` times after `warmUp` runs that do not count, in milliseconds of wall time. */

@@ -20,19 +20,32 @@ export function benchmarkNames() {
  * outside: it is a native module, and GPU_WEBGPU may name another copy at run time.
  */
 export function bundleBenchmark(name, outfile) {
-  return bundle(`import { benchmark } from './benchmarks/${name}';\nimport { benchmarkMain } from './runner';\nawait benchmarkMain(${JSON.stringify(name)}, benchmark, process.argv.slice(2));\n`, outfile, name === 'hashes' ? [observedWgsl] : []);
+  return bundle(
+    `import { benchmark } from './benchmarks/${name}';\nimport { benchmarkMain } from './runner';\nawait benchmarkMain(${JSON.stringify(name)}, benchmark, process.argv.slice(2));\n`,
+    outfile,
+    name === 'hashes' ? [observedWgsl] : [],
+  );
 }
 
 /** Draco looks for its WebAssembly beside its own file, so it stays where the loader finds it. */
 const draco = {
   name: 'draco',
-  setup: (context) => context.onResolve({ filter: /^draco3dgltf$/ }, ({ path }) => ({ path: pathToFileURL(createRequire(join(folder, '../../../packages/gltf/package.json')).resolve(path)).href, external: true })),
+  setup: (context) =>
+    context.onResolve({ filter: /^draco3dgltf$/ }, ({ path }) => ({
+      path: pathToFileURL(createRequire(join(folder, '../../../packages/gltf/package.json')).resolve(path)).href,
+      external: true,
+    })),
 };
 
 /** `hashes` looks at the programs that the renderer composes, see hashes/observed-wgsl.ts. */
 const observedWgsl = {
   name: 'observed-wgsl',
-  setup: (context) => context.onResolve({ filter: /^@glanz\/wgsl$/ }, ({ importer }) => (/[\\/]packages[\\/]renderer[\\/]src[\\/]/.test(importer) ? { path: join(folder, 'hashes/observed-wgsl.ts') } : undefined)),
+  setup: (context) =>
+    context.onResolve({ filter: /^@glanz\/wgsl$/ }, ({ importer }) =>
+      /[\\/]packages[\\/]renderer[\\/]src[\\/]/.test(importer)
+        ? { path: join(folder, 'hashes/observed-wgsl.ts') }
+        : undefined,
+    ),
 };
 
 /** Bundles TypeScript text that stands in this folder. */
@@ -47,7 +60,9 @@ export async function bundle(contents, outfile, plugins = []) {
     conditions: ['@glanz/source'],
     external: ['webgpu', 'sharp', 'esbuild', 'vite', 'playwright', '@sparticuz/chromium'],
     // CommonJS dependencies expect a require to be there.
-    banner: { js: "import { createRequire as __createRequire } from 'node:module'; const require = __createRequire(import.meta.url);" },
+    banner: {
+      js: "import { createRequire as __createRequire } from 'node:module'; const require = __createRequire(import.meta.url);",
+    },
     plugins: [weslSource(), draco, ...plugins],
     logLevel: 'error',
   });

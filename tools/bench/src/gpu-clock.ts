@@ -18,8 +18,14 @@ export class GpuClock {
   private constructor(device: GPUDevice) {
     this.#device = device;
     this.#query = device.createQuerySet({ type: 'timestamp', count: 2 * CAPACITY });
-    this.#resolved = device.createBuffer({ size: 16 * CAPACITY, usage: GPUBufferUsage.QUERY_RESOLVE | GPUBufferUsage.COPY_SRC });
-    this.#staging = device.createBuffer({ size: 16 * CAPACITY, usage: GPUBufferUsage.COPY_DST | GPUBufferUsage.MAP_READ });
+    this.#resolved = device.createBuffer({
+      size: 16 * CAPACITY,
+      usage: GPUBufferUsage.QUERY_RESOLVE | GPUBufferUsage.COPY_SRC,
+    });
+    this.#staging = device.createBuffer({
+      size: 16 * CAPACITY,
+      usage: GPUBufferUsage.COPY_DST | GPUBufferUsage.MAP_READ,
+    });
   }
 
   /** `undefined` on devices without timestamp queries. */
@@ -40,7 +46,9 @@ export class GpuClock {
    * the first to the end of the last; `submissions`: how many there were.
    * @throws {RangeError} when there are more submissions than the clock can hold.
    */
-  async measure(work: () => Promise<void>): Promise<{ readonly busy: number; readonly span: number; readonly submissions: number }> {
+  async measure(
+    work: () => Promise<void>,
+  ): Promise<{ readonly busy: number; readonly span: number; readonly submissions: number }> {
     const queue = this.#device.queue;
     // On the prototype: the binding may hand out a new queue object at each look.
     const prototype = Object.getPrototypeOf(queue) as Submitter;
@@ -56,7 +64,8 @@ export class GpuClock {
     } finally {
       prototype.submit = original;
     }
-    if (submissions === 0 || submissions > CAPACITY) throw new RangeError(`GpuClock: ${submissions} submissions, between 1 and ${CAPACITY} can be timed`);
+    if (submissions === 0 || submissions > CAPACITY)
+      throw new RangeError(`GpuClock: ${submissions} submissions, between 1 and ${CAPACITY} can be timed`);
     const encoder = this.#device.createCommandEncoder();
     encoder.resolveQuerySet(this.#query, 0, 2 * submissions, this.#resolved, 0);
     encoder.copyBufferToBuffer(this.#resolved, 0, this.#staging, 0, 16 * submissions);

@@ -1,1 +1,9 @@
-export { estimated, timed, wallTimes, type Benchmark, type BenchmarkContext, type BenchmarkResult, type Figure } from './benchmark';
+export {
+  estimated,
+  timed,
+  wallTimes,
+  type Benchmark,
+  type BenchmarkContext,
+  type BenchmarkResult,
+  type Figure,
+} from './benchmark';

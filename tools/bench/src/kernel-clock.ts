@@ -13,9 +13,10 @@ export interface KernelTime {
 }
 
 /**
- * Times every dispatch of a piece of code by the GPU's own clock, from outside of that code: each gets a compute pass of its
- * own with a pair of timestamps, and the counts of indirect ones are kept. That costs gaps between dispatches, so the sum
- * is not what the code takes without the clock; shares are what it is for. Needs the feature `timestamp-query`.
+ * Times every dispatch of a piece of code by the GPU's own clock, from outside of that code: each gets a compute pass
+ * of its own with a pair of timestamps, and the counts of indirect ones are kept. That costs gaps between dispatches,
+ * so the sum is not what the code takes without the clock; shares are what it is for. Needs the feature
+ * `timestamp-query`.
  */
 export class KernelClock {
   readonly #device: GPUDevice;
@@ -29,16 +30,30 @@ export class KernelClock {
   private constructor(device: GPUDevice) {
     this.#device = device;
     this.#query = device.createQuerySet({ type: 'timestamp', count: 2 * CAPACITY });
-    this.#times = device.createBuffer({ size: 16 * CAPACITY, usage: GPUBufferUsage.QUERY_RESOLVE | GPUBufferUsage.COPY_SRC });
-    this.#counts = device.createBuffer({ size: 4 * CAPACITY, usage: GPUBufferUsage.COPY_DST | GPUBufferUsage.COPY_SRC });
+    this.#times = device.createBuffer({
+      size: 16 * CAPACITY,
+      usage: GPUBufferUsage.QUERY_RESOLVE | GPUBufferUsage.COPY_SRC,
+    });
+    this.#counts = device.createBuffer({
+      size: 4 * CAPACITY,
+      usage: GPUBufferUsage.COPY_DST | GPUBufferUsage.COPY_SRC,
+    });
     const createBuffer = device.createBuffer.bind(device);
     const createCommandEncoder = device.createCommandEncoder.bind(device);
-    device.createBuffer = (descriptor) => createBuffer(descriptor.usage & GPUBufferUsage.INDIRECT ? { ...descriptor, usage: descriptor.usage | GPUBufferUsage.COPY_SRC } : descriptor);
+    device.createBuffer = (descriptor) =>
+      createBuffer(
+        descriptor.usage & GPUBufferUsage.INDIRECT
+          ? { ...descriptor, usage: descriptor.usage | GPUBufferUsage.COPY_SRC }
+          : descriptor,
+      );
     device.createCommandEncoder = (descriptor) => this.#watch(createCommandEncoder(descriptor));
     this.#restore = () => Object.assign(device, { createBuffer, createCommandEncoder });
   }
 
-  /** From now on until {@link destroy}, the device's encoders are watched. `undefined` on devices without timestamp queries. Tracers must be made after it. */
+  /**
+   * From now on until {@link destroy}, the device's encoders are watched. `undefined` on devices without timestamp
+   * queries. Tracers must be made after it.
+   */
   static create(device: GPUDevice): KernelClock | undefined {
     return device.features.has('timestamp-query') ? new KernelClock(device) : undefined;
   }
@@ -46,7 +61,8 @@ export class KernelClock {
   #watch(encoder: GPUCommandEncoder): GPUCommandEncoder {
     return new Proxy(encoder, {
       get: (target, key) => {
-        if (key === 'beginComputePass' && this.#names) return (descriptor?: GPUComputePassDescriptor) => this.#pass(target, descriptor);
+        if (key === 'beginComputePass' && this.#names)
+          return (descriptor?: GPUComputePassDescriptor) => this.#pass(target, descriptor);
         const value = Reflect.get(target, key) as unknown;
         return typeof value === 'function' ? (value as (...args: unknown[]) => unknown).bind(target) : value;
       },
@@ -56,13 +72,23 @@ export class KernelClock {
   #pass(encoder: GPUCommandEncoder, descriptor: GPUComputePassDescriptor | undefined): GPUComputePassEncoder {
     let pipeline: GPUComputePipeline | undefined;
     const groups: GPUBindGroup[] = [];
-    const run = (indirect: readonly [GPUBuffer, number] | undefined, dispatch: (pass: GPUComputePassEncoder) => void) => {
+    const run = (
+      indirect: readonly [GPUBuffer, number] | undefined,
+      dispatch: (pass: GPUComputePassEncoder) => void,
+    ) => {
       const names = this.#names as (string | undefined)[];
       const index = names.push(pipeline?.label) - 1;
       this.#indirect[index] = indirect !== undefined;
       if (index >= CAPACITY) return;
       if (indirect) encoder.copyBufferToBuffer(indirect[0], indirect[1], this.#counts, 4 * index, 4);
-      const pass = encoder.beginComputePass({ ...descriptor, timestampWrites: { querySet: this.#query, beginningOfPassWriteIndex: 2 * index, endOfPassWriteIndex: 2 * index + 1 } });
+      const pass = encoder.beginComputePass({
+        ...descriptor,
+        timestampWrites: {
+          querySet: this.#query,
+          beginningOfPassWriteIndex: 2 * index,
+          endOfPassWriteIndex: 2 * index + 1,
+        },
+      });
       pass.setPipeline(pipeline as GPUComputePipeline);
       groups.forEach((group, i) => pass.setBindGroup(i, group));
       dispatch(pass);
@@ -71,8 +97,10 @@ export class KernelClock {
     return {
       setPipeline: (next: GPUComputePipeline) => (pipeline = next),
       setBindGroup: (index: number, group: GPUBindGroup) => (groups[index] = group),
-      dispatchWorkgroups: (x: number, y?: number, z?: number) => run(undefined, (pass) => pass.dispatchWorkgroups(x, y, z)),
-      dispatchWorkgroupsIndirect: (buffer: GPUBuffer, offset: number) => run([buffer, offset], (pass) => pass.dispatchWorkgroupsIndirect(buffer, offset)),
+      dispatchWorkgroups: (x: number, y?: number, z?: number) =>
+        run(undefined, (pass) => pass.dispatchWorkgroups(x, y, z)),
+      dispatchWorkgroupsIndirect: (buffer: GPUBuffer, offset: number) =>
+        run([buffer, offset], (pass) => pass.dispatchWorkgroupsIndirect(buffer, offset)),
       end: () => undefined,
     } as unknown as GPUComputePassEncoder;
   }
@@ -90,8 +118,12 @@ export class KernelClock {
     } finally {
       this.#names = undefined;
     }
-    if (names.length === 0 || names.length > CAPACITY) throw new RangeError(`KernelClock: ${names.length} dispatches, between 1 and ${CAPACITY} can be timed`);
-    const staging = this.#device.createBuffer({ size: 20 * CAPACITY, usage: GPUBufferUsage.COPY_DST | GPUBufferUsage.MAP_READ });
+    if (names.length === 0 || names.length > CAPACITY)
+      throw new RangeError(`KernelClock: ${names.length} dispatches, between 1 and ${CAPACITY} can be timed`);
+    const staging = this.#device.createBuffer({
+      size: 20 * CAPACITY,
+      usage: GPUBufferUsage.COPY_DST | GPUBufferUsage.MAP_READ,
+    });
     const encoder = this.#device.createCommandEncoder();
     encoder.resolveQuerySet(this.#query, 0, 2 * names.length, this.#times, 0);
     encoder.copyBufferToBuffer(this.#times, 0, staging, 0, 16 * CAPACITY);

@@ -1,6 +1,7 @@
 // npm run bench:pack — one bundled file per benchmark under .gpu-bench/, for machines that have nothing but a GPU.
 // `--browser` packs Chromium and its pages as well (browser/pack.mjs).
-// Each file carries its code and makes its models where it runs; scenes and references of equal-time and groundtruth lie beside it. With `tools/gpu/pack.sh` beside it:
+// Each file carries its code and makes its models where it runs; scenes and references of equal-time and groundtruth
+// lie beside it. With `tools/gpu/pack.sh` beside it:
 //   . .gpu/setup.sh && $GPU_NODE .gpu-bench/paper-gpu.mjs --json out.json
 import { execFileSync } from 'node:child_process';
 import { mkdirSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
@@ -21,7 +22,9 @@ for (const name of benchmarkNames()) {
   process.stdout.write(`.gpu-bench/${name}.mjs ${(size / 1024).toFixed(0)} KiB\n`);
 }
 // The fuzzer of glTF wants many cores rather than a GPU; those machines have both.
-execFileSync(process.execPath, [join(root, 'packages/gltf/test/fuzz/pack.mjs'), join(out, 'fuzz-gltf.mjs')], { stdio: ['ignore', 'ignore', 'inherit'] });
+execFileSync(process.execPath, [join(root, 'packages/gltf/test/fuzz/pack.mjs'), join(out, 'fuzz-gltf.mjs')], {
+  stdio: ['ignore', 'ignore', 'inherit'],
+});
 total += statSync(join(out, 'fuzz-gltf.mjs')).size;
 process.stdout.write(`.gpu-bench/fuzz-gltf.mjs ${(statSync(join(out, 'fuzz-gltf.mjs')).size / 1024).toFixed(0)} KiB\n`);
 // What equal-time and groundtruth read: scenes, references and decoded textures.
@@ -30,9 +33,14 @@ await bundle("export { packData } from './equal-time/pack-data';", packer);
 const { packData } = await import(pathToFileURL(packer).href);
 const data = join(out, 'equal-time-data');
 const missing = await packData(data);
-const dataBytes = readdirSync(data, { recursive: true }).reduce((sum, file) => sum + statSync(join(data, file)).size, 0);
+const dataBytes = readdirSync(data, { recursive: true }).reduce(
+  (sum, file) => sum + statSync(join(data, file)).size,
+  0,
+);
 total += dataBytes;
-process.stdout.write(`.gpu-bench/equal-time-data ${(dataBytes / 1024).toFixed(0)} KiB${missing.length === 0 ? '' : `, without ${missing.join(', ')}, which are not here`}\n`);
+process.stdout.write(
+  `.gpu-bench/equal-time-data ${(dataBytes / 1024).toFixed(0)} KiB${missing.length === 0 ? '' : `, without ${missing.join(', ')}, which are not here`}\n`,
+);
 if (process.argv.includes('--browser')) await (await import('./browser/pack.mjs')).packBrowser();
 let commit = 'unknown';
 try {

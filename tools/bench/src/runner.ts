@@ -21,44 +21,82 @@ const number = (value: number) => (Math.abs(value) >= 1000 || value === 0 ? valu
 /** One line of a figure for people. */
 export function figureLine(figure: Figure): string {
   const parts: string[] = [];
-  if (figure.median !== undefined) parts.push(`${number(figure.median)} ${figure.unit} (${number(figure.min ?? figure.median)} – ${number(figure.max ?? figure.median)}, n=${figure.runs})`);
-  if (figure.mean !== undefined) parts.push(`${number(figure.mean)} ± ${number(figure.ci95 ?? 0)} ${figure.unit} (n=${figure.runs})`);
+  if (figure.median !== undefined)
+    parts.push(
+      `${number(figure.median)} ${figure.unit} (${number(figure.min ?? figure.median)} – ${number(figure.max ?? figure.median)}, n=${figure.runs})`,
+    );
+  if (figure.mean !== undefined)
+    parts.push(`${number(figure.mean)} ± ${number(figure.ci95 ?? 0)} ${figure.unit} (n=${figure.runs})`);
   if (figure.target) {
     const value = figure.median ?? figure.mean ?? NaN;
     const met = figure.target.relation === '<=' ? value <= figure.target.value : value >= figure.target.value;
-    parts.push(`${met ? 'meets' : 'MISSES'} ${figure.target.relation} ${number(figure.target.value)} (${figure.target.source})`);
+    parts.push(
+      `${met ? 'meets' : 'MISSES'} ${figure.target.relation} ${number(figure.target.value)} (${figure.target.source})`,
+    );
   }
   return `${figure.name}: ${parts.join('; ')}`;
 }
 
 /** Runs a benchmark with the command line's options, prints its figures, and writes the report. */
-export async function runBenchmark(name: string, benchmark: Benchmark, argv: readonly string[]): Promise<BenchmarkReport> {
+export async function runBenchmark(
+  name: string,
+  benchmark: Benchmark,
+  argv: readonly string[],
+): Promise<BenchmarkReport> {
   const own = benchmark.options ?? {};
   let values: { json?: string; quick?: boolean; gpu?: string; seed?: string };
   try {
-    ({ values } = parseArgs({ args: [...argv], options: { ...own, json: { type: 'string' }, quick: { type: 'boolean' }, gpu: { type: 'string' }, seed: { type: 'string' } }, strict: true }));
+    ({ values } = parseArgs({
+      args: [...argv],
+      options: {
+        ...own,
+        json: { type: 'string' },
+        quick: { type: 'boolean' },
+        gpu: { type: 'string' },
+        seed: { type: 'string' },
+      },
+      strict: true,
+    }));
   } catch (cause) {
     const more = Object.entries(own).map(([option, { help }]) => `--${option}: ${help}`);
-    throw new BenchError('bench/option', `${(cause as Error).message.split('\n', 1)[0]} Usage: bench ${name} [--json FILE] [--quick] [--gpu NAME] [--seed N]${more.length === 0 ? '' : `; ${more.join('; ')}`}.`, { cause });
+    throw new BenchError(
+      'bench/option',
+      `${(cause as Error).message.split('\n', 1)[0]} Usage: bench ${name} [--json FILE] [--quick] [--gpu NAME] [--seed N]${more.length === 0 ? '' : `; ${more.join('; ')}`}.`,
+      { cause },
+    );
   }
   const seed = values.seed === undefined ? undefined : Number(values.seed);
-  if (seed !== undefined && !Number.isSafeInteger(seed)) throw new BenchError('bench/option', `--seed ${values.seed}: it must be a whole number.`);
+  if (seed !== undefined && !Number.isSafeInteger(seed))
+    throw new BenchError('bench/option', `--seed ${values.seed}: it must be a whole number.`);
   const start = performance.now();
   const result = await benchmark.run({
     log: (line) => process.stderr.write(`${line}\n`),
     quick: values.quick ?? false,
     ...(values.gpu === undefined ? {} : { gpu: values.gpu }),
     ...(seed === undefined ? {} : { seed }),
-    values: Object.fromEntries(Object.keys(own).map((option) => [option, (values as Record<string, string | undefined>)[option]])),
+    values: Object.fromEntries(
+      Object.keys(own).map((option) => [option, (values as Record<string, string | undefined>)[option]]),
+    ),
   });
-  const report: BenchmarkReport = { benchmark: name, machine: machine(), seconds: (performance.now() - start) / 1000, quick: values.quick ?? false, ...result };
+  const report: BenchmarkReport = {
+    benchmark: name,
+    machine: machine(),
+    seconds: (performance.now() - start) / 1000,
+    quick: values.quick ?? false,
+    ...result,
+  };
   if (values.json !== undefined) {
     const file = resolve(values.json);
     mkdirSync(dirname(file), { recursive: true });
     writeFileSync(file, `${JSON.stringify(report, null, 2)}\n`);
   }
-  const lines = [`${name}${report.quick ? ' (quick: no measurement)' : ''} — ${report.machine.cpu}, ${report.machine.cores} cores${result.gpu ? `, GPU ${result.gpu.name}${result.gpu.software ? ' (software)' : ''}` : ''}`];
-  lines.push(...result.figures.map((figure) => `  ${figureLine(figure)}`), ...(result.notes ?? []).map((note) => `  note: ${note}`));
+  const lines = [
+    `${name}${report.quick ? ' (quick: no measurement)' : ''} — ${report.machine.cpu}, ${report.machine.cores} cores${result.gpu ? `, GPU ${result.gpu.name}${result.gpu.software ? ' (software)' : ''}` : ''}`,
+  ];
+  lines.push(
+    ...result.figures.map((figure) => `  ${figureLine(figure)}`),
+    ...(result.notes ?? []).map((note) => `  note: ${note}`),
+  );
   process.stdout.write(`${lines.join('\n')}\n`);
   return report;
 }
@@ -68,7 +106,11 @@ export async function benchmarkMain(name: string, benchmark: Benchmark, argv: re
   try {
     await runBenchmark(name, benchmark, argv);
   } catch (error) {
-    process.stderr.write(error instanceof GlanzError ? `bench: ${error.code}: ${error.message}\n` : `bench: ${(error as Error).stack ?? String(error)}\n`);
+    process.stderr.write(
+      error instanceof GlanzError
+        ? `bench: ${error.code}: ${error.message}\n`
+        : `bench: ${(error as Error).stack ?? String(error)}\n`,
+    );
     process.exitCode = 1;
   }
 }

@@ -46,7 +46,10 @@ describe('figures', () => {
 });
 
 describe('runBenchmark', () => {
-  const benchmark: Benchmark = { description: 'test', run: ({ quick, gpu }) => Promise.resolve({ settings: { quick, gpu }, figures: [timed('a', 'ms', [1, 2, 3])] }) };
+  const benchmark: Benchmark = {
+    description: 'test',
+    run: ({ quick, gpu }) => Promise.resolve({ settings: { quick, gpu }, figures: [timed('a', 'ms', [1, 2, 3])] }),
+  };
 
   it('writes machine, settings and figures as JSON', async () => {
     const folder = mkdtempSync(join(tmpdir(), 'glanz-bench-'));
@@ -54,8 +57,17 @@ describe('runBenchmark', () => {
     try {
       await runBenchmark('test', benchmark, ['--json', join(folder, 'deep/out.json'), '--quick', '--gpu', 'x']);
       const report = JSON.parse(readFileSync(join(folder, 'deep/out.json'), 'utf8')) as Record<string, unknown>;
-      expect(report).toMatchObject({ benchmark: 'test', quick: true, settings: { quick: true, gpu: 'x' }, figures: [{ name: 'a', unit: 'ms', runs: 3, min: 1, median: 2, max: 3 }] });
-      expect(report['machine']).toMatchObject({ cpu: expect.any(String) as string, cores: expect.any(Number) as number, node: process.version });
+      expect(report).toMatchObject({
+        benchmark: 'test',
+        quick: true,
+        settings: { quick: true, gpu: 'x' },
+        figures: [{ name: 'a', unit: 'ms', runs: 3, min: 1, median: 2, max: 3 }],
+      });
+      expect(report['machine']).toMatchObject({
+        cpu: expect.any(String) as string,
+        cores: expect.any(Number) as number,
+        node: process.version,
+      });
     } finally {
       print.mockRestore();
       rmSync(folder, { recursive: true });
@@ -63,6 +75,9 @@ describe('runBenchmark', () => {
   });
 
   it('refuses unknown options in one line', async () => {
-    await expect(runBenchmark('test', benchmark, ['--nope'])).rejects.toMatchObject({ code: 'bench/option', message: expect.not.stringContaining('\n') as string });
+    await expect(runBenchmark('test', benchmark, ['--nope'])).rejects.toMatchObject({
+      code: 'bench/option',
+      message: expect.not.stringContaining('\n') as string,
+    });
   });
 });

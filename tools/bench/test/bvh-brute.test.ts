@@ -17,7 +17,15 @@ describe('rays through random scenes against brute force: the small part of `npm
   for (const seed of [2001, 2002]) {
     it(`no ray is lost, on the CPU and the GPU (seed ${seed})`, async () => {
       const lines: string[] = [];
-      const totals = await tryScenes({ seed, scenes: 60, raysPerScene: 300, gpuEvery: 3, gpus, builders: BUILDERS, log: (line) => lines.push(line) });
+      const totals = await tryScenes({
+        seed,
+        scenes: 60,
+        raysPerScene: 300,
+        gpuEvery: 3,
+        gpus,
+        builders: BUILDERS,
+        log: (line) => lines.push(line),
+      });
       expect(lines).toEqual([]);
       expect(totals).toMatchObject({ rays: 18_000, wrong: 0, gpuWrong: 0 });
       expect(totals.hits).toBeGreaterThan(9_000);
@@ -30,15 +38,30 @@ describe('rays through random scenes against brute force: the small part of `npm
   }
 
   it.each<[string, (blas: Blas) => void]>([
-    ['boxes a little too small', ({ nodes }) => nodes.forEach((x, i) => i % 16 === 4 && x < 1e38 && (nodes[i] = x - 1e-2 * Math.abs(x)))],
-    ['a triangle left out', ({ triangleIndices }) => triangleIndices.length > 1 && triangleIndices.fill(triangleIndices[1]!, 0, 1)],
+    [
+      'boxes a little too small',
+      ({ nodes }) => nodes.forEach((x, i) => i % 16 === 4 && x < 1e38 && (nodes[i] = x - 1e-2 * Math.abs(x))),
+    ],
+    [
+      'a triangle left out',
+      ({ triangleIndices }) => triangleIndices.length > 1 && triangleIndices.fill(triangleIndices[1]!, 0, 1),
+    ],
   ])('notices %s', async (_, spoil) => {
     const build: typeof buildBlas = (mesh, options) => {
       const blas = buildBlas(mesh, options);
       spoil(blas);
       return blas;
     };
-    const totals = await tryScenes({ seed: 7, scenes: 20, raysPerScene: 300, gpuEvery: 1, gpus, builders: BUILDERS, build, log: () => undefined });
+    const totals = await tryScenes({
+      seed: 7,
+      scenes: 20,
+      raysPerScene: 300,
+      gpuEvery: 1,
+      gpus,
+      builders: BUILDERS,
+      build,
+      log: () => undefined,
+    });
     expect(totals.wrong).toBeGreaterThan(5);
     expect(totals.gpuWrong).toBeGreaterThan(0);
   });

@@ -20,7 +20,11 @@ function steadyDevice() {
       }
     }
   }
-  const buffer = () => ({ mapAsync: () => Promise.resolve(), getMappedRange: (_: number, bytes: number) => BigUint64Array.from(stamps.slice(0, bytes / 8)).buffer, unmap: () => undefined });
+  const buffer = () => ({
+    mapAsync: () => Promise.resolve(),
+    getMappedRange: (_: number, bytes: number) => BigUint64Array.from(stamps.slice(0, bytes / 8)).buffer,
+    unmap: () => undefined,
+  });
   const encoder = () => {
     let stamp: number | undefined;
     return {
@@ -33,14 +37,25 @@ function steadyDevice() {
       finish: () => (stamp === undefined ? {} : { stamp }),
     };
   };
-  return { features: new Set(['timestamp-query']), queue: new Queue(), createQuerySet: () => ({}), createBuffer: buffer, createCommandEncoder: encoder };
+  return {
+    features: new Set(['timestamp-query']),
+    queue: new Queue(),
+    createQuerySet: () => ({}),
+    createBuffer: buffer,
+    createCommandEncoder: encoder,
+  };
 }
 
 describe('GpuClock', () => {
   it('sums what submissions take, without the gaps between them', async () => {
     const device = steadyDevice();
     const clock = GpuClock.create(device as unknown as GPUDevice)!;
-    const work = (...takes: number[][]) => () => Promise.resolve(takes.forEach((together) => device.queue.submit(together.map((nanoseconds) => ({ takes: nanoseconds })))));
+    const work =
+      (...takes: number[][]) =>
+      () =>
+        Promise.resolve(
+          takes.forEach((together) => device.queue.submit(together.map((nanoseconds) => ({ takes: nanoseconds })))),
+        );
     expect(await clock.measure(work([2e6]))).toEqual({ busy: 2, span: 2, submissions: 1 });
     expect(await clock.measure(work([1e6, 2e6], [5e5]))).toEqual({ busy: 3.5, span: 3.501, submissions: 2 });
     // Work outside of a measurement is not counted.
@@ -62,7 +77,10 @@ describe('GpuClock', () => {
     });
     const pipeline = await device.createComputePipelineAsync({ layout: 'auto', compute: { module } });
     const buffer = device.createBuffer({ size: 4 * 6400, usage: GPUBufferUsage.STORAGE });
-    const group = device.createBindGroup({ layout: pipeline.getBindGroupLayout(0), entries: [{ binding: 0, resource: { buffer } }] });
+    const group = device.createBindGroup({
+      layout: pipeline.getBindGroupLayout(0),
+      entries: [{ binding: 0, resource: { buffer } }],
+    });
     const work = (times: number) => async () => {
       for (let i = 0; i < times; i++) {
         const encoder = device.createCommandEncoder();

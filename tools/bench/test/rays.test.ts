@@ -16,7 +16,12 @@ for (const layout of LAYOUTS) {
     const primary = primaryRays(bounds, 16);
     const loaded = rays.load(primary);
     const results = await rays.results(loaded, 'closest');
-    const expected = (set: Float32Array, i: number) => closestHit(blas, mesh, { origin: set.subarray(8 * i, 8 * i + 3), direction: set.subarray(8 * i + 4, 8 * i + 7), tMax: set[8 * i + 7]! });
+    const expected = (set: Float32Array, i: number) =>
+      closestHit(blas, mesh, {
+        origin: set.subarray(8 * i, 8 * i + 3),
+        direction: set.subarray(8 * i + 4, 8 * i + 7),
+        tMax: set[8 * i + 7]!,
+      });
     let other = 0;
     for (let i = 0; i < 256; i++) if (expected(primary, i)?.triangle !== results[2 * i + 1]) other++;
     expect(other).toBeLessThanOrEqual(1);
@@ -26,7 +31,8 @@ for (const layout of LAYOUTS) {
     expect(diffuse.length).toBe(primary.length);
     const shadow = shadowRays(bounds, primary, results, mesh);
     const blocked = await rays.results(rays.load(shadow), 'any');
-    let lit = 0, differ = 0;
+    let lit = 0,
+      differ = 0;
     for (let i = 0; i < 256; i++) {
       const is = blocked[2 * i + 1] === 0;
       if (!is) lit++;

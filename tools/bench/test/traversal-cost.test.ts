@@ -10,9 +10,19 @@ const { mesh, bounds } = inRoom(assembly('assembly', 30, 12));
 
 test('the trees that rays are counted in give the hits of the package, of both libraries and for all builders', () => {
   const blas = buildBlas(mesh);
-  const trees = [plainBlas(blas, mesh), plainBlas(buildBlas(mesh, { builder: bestSplit }), mesh), plainThree(buildThree(mesh, 'SAH', 4)), plainThree(buildThree(mesh, 'CENTER'))];
+  const trees = [
+    plainBlas(blas, mesh),
+    plainBlas(buildBlas(mesh, { builder: bestSplit }), mesh),
+    plainThree(buildThree(mesh, 'SAH', 4)),
+    plainThree(buildThree(mesh, 'CENTER')),
+  ];
   const primary = primaryRays(bounds, 32);
-  const expected = Array.from({ length: 1024 }, (_, i) => closestHit(blas, mesh, { origin: primary.subarray(8 * i, 8 * i + 3), direction: primary.subarray(8 * i + 4, 8 * i + 7) }));
+  const expected = Array.from({ length: 1024 }, (_, i) =>
+    closestHit(blas, mesh, {
+      origin: primary.subarray(8 * i, 8 * i + 3),
+      direction: primary.subarray(8 * i + 4, 8 * i + 7),
+    }),
+  );
   for (const tree of trees) {
     const { nodes, triangles, hits } = traversalCost(tree, mesh, primary, false);
     // A ray through the edge of two triangles may be missed by this test, which is not watertight.
@@ -26,8 +36,14 @@ test('the trees that rays are counted in give the hits of the package, of both l
 });
 
 test('a tree of one node: every triangle counts', () => {
-  const tree = { boxes: [...bounds.min, ...bounds.max].map((x) => 10 * x), children: [-1, -1], leaves: [0, mesh.indices.length / 3], vertices: mesh.indices };
-  const primary = primaryRays(bounds, 8), results = new Uint32Array(128);
+  const tree = {
+    boxes: [...bounds.min, ...bounds.max].map((x) => 10 * x),
+    children: [-1, -1],
+    leaves: [0, mesh.indices.length / 3],
+    vertices: mesh.indices,
+  };
+  const primary = primaryRays(bounds, 8),
+    results = new Uint32Array(128);
   const { nodes, triangles, hits } = traversalCost(tree, mesh, primary, false);
   expect([nodes, triangles]).toEqual([0, mesh.indices.length / 3]);
   const t = new Float32Array(results.buffer);

@@ -38,7 +38,9 @@ export interface GpuFaults {
   hide(hidden: boolean): void;
   /** Bytes of the buffers and textures that are alive. */
   bytes(): number;
-  /** GPU objects that were made and not destroyed on devices that are alive, by their kind; empty where nothing leaks. */
+  /**
+   * GPU objects that were made and not destroyed on devices that are alive, by their kind; empty where nothing leaks.
+   */
   live(): Record<string, number>;
 }
 
@@ -51,9 +53,9 @@ declare global {
 }
 
 /**
- * Wraps WebGPU in a page, so that a test can inject faults through `window.gpuFaults` and count what stays alive. A device
- * that is lost by `destroy()` alone has the reason `destroyed`; drivers give `unknown`, which only a wrapper can imitate.
- * Call it before the page is opened.
+ * Wraps WebGPU in a page, so that a test can inject faults through `window.gpuFaults` and count what stays alive. A
+ * device that is lost by `destroy()` alone has the reason `destroyed`; drivers give `unknown`, which only a wrapper can
+ * imitate. Call it before the page is opened.
  *
  * @param first What to set before the page's own scripts run.
  */
@@ -99,14 +101,19 @@ function wrapWebGpu(first: object): void {
     lose: (reason: 'unknown' | 'destroyed' = 'unknown') => [...state.values()].at(-1)?.lose(reason),
     complain: (message: string) => {
       const device = [...state.keys()].at(-1);
-      device?.dispatchEvent(new GPUUncapturedErrorEvent('uncapturederror', { cancelable: true, error: new GPUValidationError(message) }));
+      device?.dispatchEvent(
+        new GPUUncapturedErrorEvent('uncapturederror', { cancelable: true, error: new GPUValidationError(message) }),
+      );
     },
     hide: (hidden: boolean) => {
       Object.defineProperty(document, 'hidden', { configurable: true, value: hidden });
       Object.defineProperty(document, 'visibilityState', { configurable: true, value: hidden ? 'hidden' : 'visible' });
       document.dispatchEvent(new Event('visibilitychange'));
     },
-    bytes: () => [...state.values()].flatMap(({ alive, objects }) => (alive ? [...objects.values()] : [])).reduce((sum, { bytes }) => sum + bytes, 0),
+    bytes: () =>
+      [...state.values()]
+        .flatMap(({ alive, objects }) => (alive ? [...objects.values()] : []))
+        .reduce((sum, { bytes }) => sum + bytes, 0),
     live: () => {
       const live: Record<string, number> = {};
       for (const { alive, objects } of state.values()) {
@@ -121,13 +128,21 @@ function wrapWebGpu(first: object): void {
   Object.assign(faults, first);
   if (!('GPU' in window)) return;
 
-  const wrap = (prototype: object, name: string, around: (self: never, call: Any, given: readonly unknown[]) => unknown) => {
+  const wrap = (
+    prototype: object,
+    name: string,
+    around: (self: never, call: Any, given: readonly unknown[]) => unknown,
+  ) => {
     const original = (prototype as Record<string, Any>)[name];
     if (!original) return;
     Object.defineProperty(prototype, name, {
       configurable: true,
       value(this: object, ...given: never[]) {
-        return around(this as never, (...changed) => original.apply(this, (changed.length > 0 ? changed : given) as never), given);
+        return around(
+          this as never,
+          (...changed) => original.apply(this, (changed.length > 0 ? changed : given) as never),
+          given,
+        );
       },
     });
   };
@@ -167,7 +182,9 @@ function wrapWebGpu(first: object): void {
     ownerOf.set(device.queue, device);
     Object.defineProperty(device, 'lost', { value: Promise.race([injected, real]) });
     void real.then(() => (own.alive = false));
-    device.addEventListener('uncapturederror', ({ error }) => faults.errors.push(error.message.split('\n')[0] as string));
+    device.addEventListener('uncapturederror', ({ error }) =>
+      faults.errors.push(error.message.split('\n')[0] as string),
+    );
     faults.devices++;
     return device;
   });
@@ -192,7 +209,14 @@ function wrapWebGpu(first: object): void {
     if (scope) scope.error ??= error;
     else device.dispatchEvent(new GPUUncapturedErrorEvent('uncapturederror', { cancelable: true, error }));
   };
-  const allocate = <T extends GPUBuffer | GPUTexture>(device: GPUDevice, kind: string, label: string, bytes: number, make: () => T, makeSmall: () => T): T => {
+  const allocate = <T extends GPUBuffer | GPUTexture>(
+    device: GPUDevice,
+    kind: string,
+    label: string,
+    bytes: number,
+    make: () => T,
+    makeSmall: () => T,
+  ): T => {
     const own = state.get(device);
     const n = (count['allocations'] = (count['allocations'] ?? 0) + 1);
     const used = [...(own?.objects.values() ?? [])].reduce((sum, object) => sum + object.bytes, 0);
@@ -211,13 +235,30 @@ function wrapWebGpu(first: object): void {
   wrap(GPUDevice.prototype, 'createBuffer', (self: GPUDevice, call, [given]) => {
     visit(self, 'createBuffer');
     const descriptor = given as GPUBufferDescriptor;
-    return allocate(self, 'buffer', descriptor.label ?? '', descriptor.size, () => call() as GPUBuffer, () => call({ ...descriptor, size: 16, mappedAtCreation: false } as never) as GPUBuffer);
+    return allocate(
+      self,
+      'buffer',
+      descriptor.label ?? '',
+      descriptor.size,
+      () => call() as GPUBuffer,
+      () => call({ ...descriptor, size: 16, mappedAtCreation: false } as never) as GPUBuffer,
+    );
   });
   wrap(GPUDevice.prototype, 'createTexture', (self: GPUDevice, call, [given]) => {
     visit(self, 'createTexture');
     const descriptor = given as GPUTextureDescriptor;
-    const [width, height = 1, layers = 1] = Symbol.iterator in descriptor.size ? [...descriptor.size] : [descriptor.size.width, descriptor.size.height, descriptor.size.depthOrArrayLayers];
-    return allocate(self, 'texture', descriptor.label ?? '', (width as number) * height * layers * 4, () => call() as GPUTexture, () => call({ ...descriptor, size: [4, 4, layers], mipLevelCount: 1 } as never) as GPUTexture);
+    const [width, height = 1, layers = 1] =
+      Symbol.iterator in descriptor.size
+        ? [...descriptor.size]
+        : [descriptor.size.width, descriptor.size.height, descriptor.size.depthOrArrayLayers];
+    return allocate(
+      self,
+      'texture',
+      descriptor.label ?? '',
+      (width as number) * height * layers * 4,
+      () => call() as GPUTexture,
+      () => call({ ...descriptor, size: [4, 4, layers], mipLevelCount: 1 } as never) as GPUTexture,
+    );
   });
   for (const constructor of [GPUBuffer, GPUTexture]) {
     wrap(constructor.prototype, 'destroy', (self: object, call) => {

@@ -3,8 +3,20 @@ import { dirname } from 'node:path';
 import type { LaunchOptions } from '@playwright/test';
 
 // All five, or a canvas stays blank on the software GPU.
-const GPU_FLAGS = ['--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader', '--enable-features=Vulkan', '--use-vulkan=swiftshader', '--use-angle=swiftshader'];
-const QUIET_FLAGS = ['--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'];
+const GPU_FLAGS = [
+  '--enable-unsafe-webgpu',
+  '--use-webgpu-adapter=swiftshader',
+  '--enable-features=Vulkan',
+  '--use-vulkan=swiftshader',
+  '--use-angle=swiftshader',
+];
+const QUIET_FLAGS = [
+  '--disable-quic',
+  '--no-first-run',
+  '--disable-background-networking',
+  '--disable-component-update',
+  '--disable-sync',
+];
 
 /** How Chromium is started on the software GPU. */
 export const SOFTWARE_GPU = ['--no-sandbox', ...GPU_FLAGS, ...QUIET_FLAGS];
@@ -12,7 +24,8 @@ export const SOFTWARE_GPU = ['--no-sandbox', ...GPU_FLAGS, ...QUIET_FLAGS];
 /**
  * How to start the Chromium of the npm package on the software GPU; elsewhere than on x86-64 Linux, Playwright's own.
  *
- * @param folder Where the package is inflated to, once: a bare machine has neither Chromium nor the libraries that it needs.
+ * @param folder Where the package is inflated to, once: a bare machine has neither Chromium nor the libraries that it
+ * needs.
  */
 export async function launchOptions(folder: string): Promise<LaunchOptions> {
   if (process.platform !== 'linux' || process.arch !== 'x64') return { args: SOFTWARE_GPU };
@@ -35,21 +48,25 @@ export function inflated(folder: string): LaunchOptions {
 }
 
 /**
- * Two processes may come at once (the unit tests start a browser too): each inflates into a folder of its own, which takes its
- * place whole; a browser that is being written cannot be started.
+ * Two processes may come at once (the unit tests start a browser too): each inflates into a folder of its own, which
+ * takes its place whole; a browser that is being written cannot be started.
  */
 async function inflate(folder: string): Promise<void> {
   mkdirSync(dirname(folder), { recursive: true });
   const work = mkdtempSync(`${folder}-`);
   const { TMPDIR, AWS_LAMBDA_JS_RUNTIME, LD_LIBRARY_PATH, FONTCONFIG_PATH, HOME } = process.env;
-  // The package inflates into the system's temporary folder, and adds its libraries where it takes the machine for a bare one.
+  // The package inflates into the system's temporary folder, and adds its libraries where it takes the machine for a
+  // bare one.
   process.env['TMPDIR'] = work;
   process.env['AWS_LAMBDA_JS_RUNTIME'] = 'nodejs20.x';
   try {
     const { default: chromium } = await import('@sparticuz/chromium');
     await chromium.executablePath();
     // The package's own list of font folders names none of these; without any font a page has no text.
-    writeFileSync(`${work}/fonts.conf`, `<?xml version="1.0"?><fontconfig><dir>${folder}/fonts</dir><cachedir>${folder}/fonts-cache</cachedir></fontconfig>\n`);
+    writeFileSync(
+      `${work}/fonts.conf`,
+      `<?xml version="1.0"?><fontconfig><dir>${folder}/fonts</dir><cachedir>${folder}/fonts-cache</cachedir></fontconfig>\n`,
+    );
     renameSync(work, folder);
   } catch (error) {
     // Another process was first, and its folder is as good.

@@ -24,7 +24,16 @@ export async function servePage(root: string, headers: Record<string, string> = 
   const { weslModules } = await import('../../pipeline/wesl.mjs');
   const outDir = mkdtempSync(join(cache, 'page-'));
   const resolve = { conditions: ['@glanz/source', 'module', 'browser', 'import', 'default'] };
-  await build({ root, base: './', configFile: false, logLevel: 'error', resolve, plugins: [weslModules(), basisModule()], worker: { format: 'es', plugins: () => [weslModules(), basisModule()] }, build: { outDir, emptyOutDir: true, target: 'es2022', chunkSizeWarningLimit: 2000 } });
+  await build({
+    root,
+    base: './',
+    configFile: false,
+    logLevel: 'error',
+    resolve,
+    plugins: [weslModules(), basisModule()],
+    worker: { format: 'es', plugins: () => [weslModules(), basisModule()] },
+    build: { outDir, emptyOutDir: true, target: 'es2022', chunkSizeWarningLimit: 2000 },
+  });
   const served = await serveBuilt({ root, configFile: false, build: { outDir } }, headers);
   const close = async () => {
     await served.close();
@@ -42,7 +51,11 @@ export async function serveApp(root: string): Promise<Served> {
 
 async function serveBuilt(config: InlineConfig, headers: Record<string, string> = {}): Promise<Served> {
   const { preview } = await import('vite');
-  const server = await preview({ ...config, logLevel: 'error', preview: { host: '127.0.0.1', port: 4273, strictPort: false, open: false, headers } });
+  const server = await preview({
+    ...config,
+    logLevel: 'error',
+    preview: { host: '127.0.0.1', port: 4273, strictPort: false, open: false, headers },
+  });
   const origin = server.resolvedUrls?.local[0]?.replace(/\/$/, '');
   if (!origin) throw new Error('The preview server has no address.');
   return { origin, close: () => server.close() };
@@ -52,11 +65,13 @@ async function serveBuilt(config: InlineConfig, headers: Record<string, string> 
 export function watch(page: Page, origin: string): string[] {
   const complaints: string[] = [];
   page.on('console', (message) => {
-    if (message.type() === 'error' || message.type() === 'warning') complaints.push(`${message.type()}: ${message.text()}`);
+    if (message.type() === 'error' || message.type() === 'warning')
+      complaints.push(`${message.type()}: ${message.text()}`);
   });
   page.on('pageerror', (error) => complaints.push(`uncaught: ${error.message}`));
   page.on('request', (request) => {
-    if (!request.url().startsWith(origin) && !/^(data|blob):/.test(request.url())) complaints.push(`asks the network for ${request.url()}`);
+    if (!request.url().startsWith(origin) && !/^(data|blob):/.test(request.url()))
+      complaints.push(`asks the network for ${request.url()}`);
   });
   return complaints;
 }

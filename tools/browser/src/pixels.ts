@@ -59,4 +59,5 @@ export function pixelsOf(page: Page, png: Buffer): Promise<Pixels> {
 }
 
 /** An element as the browser's window shows it. */
-export const photograph = async (element: Locator, style = ''): Promise<Pixels> => pixelsOf(element.page(), await element.screenshot({ style }));
+export const photograph = async (element: Locator, style = ''): Promise<Pixels> =>
+  pixelsOf(element.page(), await element.screenshot({ style }));

@@ -10,15 +10,26 @@ export async function contactSheet(argv: readonly string[]): Promise<number> {
   const { values, positionals } = parseArgs({
     args: [...argv],
     allowPositionals: true,
-    options: { size: { type: 'string', default: '96' }, samples: { type: 'string', default: '16' }, only: { type: 'string', multiple: true }, gpu: { type: 'string' }, out: { type: 'string', default: 'out/contact-sheet' }, pages: { type: 'string' }, fresh: { type: 'boolean', default: false } },
+    options: {
+      size: { type: 'string', default: '96' },
+      samples: { type: 'string', default: '16' },
+      only: { type: 'string', multiple: true },
+      gpu: { type: 'string' },
+      out: { type: 'string', default: 'out/contact-sheet' },
+      pages: { type: 'string' },
+      fresh: { type: 'boolean', default: false },
+    },
   });
   const folder = resolve(positionals[0] ?? '../shared/assets');
-  const size = Number(values.size), samples = Number(values.samples);
+  const size = Number(values.size),
+    samples = Number(values.samples);
   if (!(size >= 8 && size <= 2048 && samples >= 1)) {
     process.stderr.write('contact-sheet: --size must be from 8 to 2048, --samples at least 1.\n');
     return 2;
   }
-  const models = findModels(folder).filter(({ name }) => !values.only || values.only.some((part) => name.includes(part)));
+  const models = findModels(folder).filter(
+    ({ name }) => !values.only || values.only.some((part) => name.includes(part)),
+  );
   if (models.length === 0) {
     process.stderr.write(`contact-sheet: there are no models in ${folder}.\n`);
     return 2;
@@ -38,15 +49,20 @@ export async function contactSheet(argv: readonly string[]): Promise<number> {
       rows.push(row);
     }
     const row = rows.at(-1) as Row;
-    process.stderr.write(`${index + 1}/${models.length} ${row.name}: ${row.error ?? `${row.warnings.length} warnings`} (${Math.round(row.loadMs)} + ${Math.round(row.prepareMs)} + ${Math.round(row.renderMs)} ms)\n`);
+    process.stderr.write(
+      `${index + 1}/${models.length} ${row.name}: ${row.error ?? `${row.warnings.length} warnings`} (${Math.round(row.loadMs)} + ${Math.round(row.prepareMs)} + ${Math.round(row.renderMs)} ms)\n`,
+    );
   }
   renderer?.close();
   writeFileSync(join(out, 'sheet.json'), `${JSON.stringify(rows, null, 1)}\n`);
   writeFileSync(join(out, 'index.html'), html(rows, size, samples));
   writeFileSync(join(out, 'sheet.png'), await montage(rows, join(out, 'pictures'), size));
-  if (values.pages !== undefined) writeFileSync(join(resolve(values.pages), 'assets.md'), assetsMarkdown(rows, size, samples));
+  if (values.pages !== undefined)
+    writeFileSync(join(resolve(values.pages), 'assets.md'), assetsMarkdown(rows, size, samples));
   const failed = rows.filter(({ error }) => error !== undefined);
-  process.stderr.write(`${join(out, 'index.html')}: ${rows.length} models, ${failed.length} failed, ${rows.filter(({ warnings }) => warnings.length > 0).length} with warnings.\n`);
+  process.stderr.write(
+    `${join(out, 'index.html')}: ${rows.length} models, ${failed.length} failed, ${rows.filter(({ warnings }) => warnings.length > 0).length} with warnings.\n`,
+  );
   return failed.length > 0 ? 1 : 0;
 }
 

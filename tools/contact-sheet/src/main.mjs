@@ -17,7 +17,9 @@ await build({
   target: 'node20',
   conditions: ['@glanz/source'],
   external: ['webgpu', 'sharp', 'draco3dgltf', 'meshoptimizer', 'three', '@sparticuz/chromium'],
-  banner: { js: "import { createRequire as __createRequire } from 'node:module'; const require = __createRequire(import.meta.url);" },
+  banner: {
+    js: "import { createRequire as __createRequire } from 'node:module'; const require = __createRequire(import.meta.url);",
+  },
   plugins: [weslSource()],
   logLevel: 'error',
 });

@@ -17,11 +17,20 @@ const MODEL = /\.(glb|gltf|obj|stl)$/i;
 export function findModels(folder: string): Model[] {
   const index = join(folder, 'index.json');
   if (existsSync(index)) {
-    const entries = JSON.parse(readFileSync(index, 'utf8')) as readonly { name: string; main: string; exercises?: string }[];
-    return entries.filter(({ main }) => MODEL.test(main) && existsSync(join(folder, main))).map(({ name, main, exercises = '' }) => ({ name, id: idOf(name), file: join(folder, main), note: exercises }));
+    const entries = JSON.parse(readFileSync(index, 'utf8')) as readonly {
+      name: string;
+      main: string;
+      exercises?: string;
+    }[];
+    return entries
+      .filter(({ main }) => MODEL.test(main) && existsSync(join(folder, main)))
+      .map(({ name, main, exercises = '' }) => ({ name, id: idOf(name), file: join(folder, main), note: exercises }));
   }
   if (!existsSync(folder)) return [];
-  return readdirSync(folder, { recursive: true, encoding: 'utf8' }).filter((path) => MODEL.test(path)).sort().map((path) => ({ name: path, id: idOf(path), file: join(folder, path), note: relative(folder, path) }));
+  return readdirSync(folder, { recursive: true, encoding: 'utf8' })
+    .filter((path) => MODEL.test(path))
+    .sort()
+    .map((path) => ({ name: path, id: idOf(path), file: join(folder, path), note: relative(folder, path) }));
 }
 
 const idOf = (name: string) => name.replace(/[^A-Za-z0-9._-]+/g, '_');

@@ -8,7 +8,9 @@ const escape = (text: string) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeA
 
 /** The page: pictures first, then what was told of each model. */
 export function html(rows: readonly Row[], size: number, samples: number): string {
-  const told = rows.filter(({ error, warnings, badSamples }) => error !== undefined || warnings.length > 0 || badSamples > 0);
+  const told = rows.filter(
+    ({ error, warnings, badSamples }) => error !== undefined || warnings.length > 0 || badSamples > 0,
+  );
   const cell = ({ id, name, note, error, warnings, triangles }: Row) =>
     `<figure class="${error === undefined ? (warnings.length > 0 ? 'warned' : '') : 'failed'}"><a href="#${escape(id)}">${error === undefined ? `<img src="pictures/${escape(id)}.png" width="${size}" height="${size}" alt="">` : '<div></div>'}</a><figcaption title="${escape(note)}${NOTES[name] ? ` — ${escape(NOTES[name])}` : ''}">${escape(name)}<br><small>${triangles.toLocaleString('en')} triangles</small></figcaption></figure>`;
   const entry = ({ id, name, error, warnings, badSamples }: Row) =>
@@ -57,7 +59,10 @@ export function assetsMarkdown(rows: readonly Row[], size: number, samples: numb
     '',
     '| model | |',
     '| --- | --- |',
-    ...told.map(({ name, warnings, badSamples }) => `| ${cell(name)} | ${summary(warnings)}${badSamples > 0 ? `; ${badSamples} samples that were no numbers` : ''} |`),
+    ...told.map(
+      ({ name, warnings, badSamples }) =>
+        `| ${cell(name)} | ${summary(warnings)}${badSamples > 0 ? `; ${badSamples} samples that were no numbers` : ''} |`,
+    ),
     '',
     '## All',
     '',
@@ -65,20 +70,43 @@ export function assetsMarkdown(rows: readonly Row[], size: number, samples: numb
     '',
     '| model | exercises | triangles | result |',
     '| --- | --- | --: | --- |',
-    ...rows.map(({ name, note, triangles, error, warnings }) => `| ${cell(name)} | ${cell(note)} | ${triangles.toLocaleString('en')} | ${error === undefined ? (warnings.length > 0 ? 'with warnings' : 'as it should be') : cell(error)} |`),
+    ...rows.map(
+      ({ name, note, triangles, error, warnings }) =>
+        `| ${cell(name)} | ${cell(note)} | ${triangles.toLocaleString('en')} | ${error === undefined ? (warnings.length > 0 ? 'with warnings' : 'as it should be') : cell(error)} |`,
+    ),
     '',
   ].join('\n');
 }
 
 /** All pictures in one, with their names below. */
 export async function montage(rows: readonly Row[], folder: string, size: number): Promise<Uint8Array> {
-  const columns = Math.min(12, rows.length), label = 16, width = Math.max(size, 96) + 4, height = size + label;
+  const columns = Math.min(12, rows.length),
+    label = 16,
+    width = Math.max(size, 96) + 4,
+    height = size + label;
   const pieces: { input: string | Buffer; left: number; top: number }[] = [];
   for (const [i, { id, name, error }] of rows.entries()) {
-    const left = (i % columns) * width, top = Math.floor(i / columns) * height;
+    const left = (i % columns) * width,
+      top = Math.floor(i / columns) * height;
     const file = join(folder, `${id}.png`);
     if (error === undefined && existsSync(file)) pieces.push({ input: file, left, top });
-    pieces.push({ input: Buffer.from(`<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${label}"><text x="1" y="11" font-family="sans-serif" font-size="10" fill="${error === undefined ? '#ddd' : '#f66'}">${escape(name.slice(0, 19))}</text></svg>`), left, top: top + size });
+    pieces.push({
+      input: Buffer.from(
+        `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${label}"><text x="1" y="11" font-family="sans-serif" font-size="10" fill="${error === undefined ? '#ddd' : '#f66'}">${escape(name.slice(0, 19))}</text></svg>`,
+      ),
+      left,
+      top: top + size,
+    });
   }
-  return sharp({ create: { width: columns * width, height: Math.ceil(rows.length / columns) * height, channels: 3, background: '#1b1c1e' } }).composite(pieces).png().toBuffer();
+  return sharp({
+    create: {
+      width: columns * width,
+      height: Math.ceil(rows.length / columns) * height,
+      channels: 3,
+      background: '#1b1c1e',
+    },
+  })
+    .composite(pieces)
+    .png()
+    .toBuffer();
 }

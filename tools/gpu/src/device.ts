@@ -2,7 +2,10 @@ import { createGpu } from '@glanz/renderer/node';
 
 /** What {@link testDevice} may be told. */
 export interface TestDeviceOptions {
-  /** Stay within WebGPU's default limits (8 storage buffers a stage, 128 MiB a binding). Default: all that the adapter has. */
+  /**
+   * Stay within WebGPU's default limits (8 storage buffers a stage, 128 MiB a binding). Default: all that the adapter
+   * has.
+   */
   readonly defaultLimits?: boolean;
   /** Features to have; ones that the adapter lacks are left out. Default: timestamp queries and subgroups. */
   readonly features?: readonly GPUFeatureName[];

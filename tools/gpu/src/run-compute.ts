@@ -13,7 +13,10 @@ export interface ComputeOptions {
   readonly entryPoint?: string;
 }
 
-const bytesOf = (input: ComputeInput) => (input instanceof ArrayBuffer ? new Uint8Array(input) : new Uint8Array(input.buffer, input.byteOffset, input.byteLength));
+const bytesOf = (input: ComputeInput) =>
+  input instanceof ArrayBuffer
+    ? new Uint8Array(input)
+    : new Uint8Array(input.buffer, input.byteOffset, input.byteLength);
 
 /** WebGPU writes whole words. */
 function wholeWords(bytes: Uint8Array<ArrayBuffer>): Uint8Array<ArrayBuffer> {
@@ -31,10 +34,19 @@ async function run(device: GPUDevice, code: string, options: ComputeOptions, kee
   };
   const module = device.createShaderModule({ label: 'runCompute', code });
   const messages = (await module.getCompilationInfo()).messages.filter((message) => message.type === 'error');
-  if (messages.length > 0) throw new Error(messages.map((m) => `WGSL line ${m.lineNum}: ${m.message} — "${code.split('\n')[m.lineNum - 1]?.trim() ?? ''}"`).join('\n'));
+  if (messages.length > 0)
+    throw new Error(
+      messages
+        .map((m) => `WGSL line ${m.lineNum}: ${m.message} — "${code.split('\n')[m.lineNum - 1]?.trim() ?? ''}"`)
+        .join('\n'),
+    );
   const inputs = (options.inputs ?? []).map((input, index) => {
     const bytes = wholeWords(bytesOf(input));
-    const made = buffer(`input ${index}`, Math.max(16, bytes.byteLength), GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST);
+    const made = buffer(
+      `input ${index}`,
+      Math.max(16, bytes.byteLength),
+      GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST,
+    );
     device.queue.writeBuffer(made, 0, bytes);
     return made;
   });
@@ -50,7 +62,10 @@ async function run(device: GPUDevice, code: string, options: ComputeOptions, kee
     layout: device.createPipelineLayout({ bindGroupLayouts: [layout] }),
     compute: { module, entryPoint: options.entryPoint ?? 'main' },
   });
-  const group = device.createBindGroup({ layout, entries: [...inputs, output].map((resource, binding) => ({ binding, resource: { buffer: resource } })) });
+  const group = device.createBindGroup({
+    layout,
+    entries: [...inputs, output].map((resource, binding) => ({ binding, resource: { buffer: resource } })),
+  });
   const encoder = device.createCommandEncoder();
   const pass = encoder.beginComputePass();
   pass.setPipeline(pipeline);

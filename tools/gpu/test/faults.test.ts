@@ -36,7 +36,12 @@ describe('an instrumented device', () => {
     recorder.phase = 'two';
     device.createTexture({ label: 'image', size: [4, 2], format: 'rgba16float', usage: 4 });
     buffer(device);
-    expect(recorder.points.map(({ name }) => name)).toEqual(['createBuffer "a" #1 in one', 'createBuffer "a" #2 in one', 'createTexture "image" #1 in two', 'createBuffer "a" #1 in two']);
+    expect(recorder.points.map(({ name }) => name)).toEqual([
+      'createBuffer "a" #1 in one',
+      'createBuffer "a" #2 in one',
+      'createTexture "image" #1 in two',
+      'createBuffer "a" #1 in two',
+    ]);
     expect([recorder.live.size, recorder.liveBytes]).toEqual([4, 3 * 64 + 64]);
     a.destroy();
     b.destroy();
@@ -68,7 +73,10 @@ describe('an instrumented device', () => {
     await new Promise((resolve) => setTimeout(resolve, 0));
     expect(recorder.uncaptured).toEqual(['injected: createBuffer failed (validation)']);
     const heard: string[] = [];
-    device.addEventListener('uncapturederror', (event) => void heard.push((event as GPUUncapturedErrorEvent).error.message));
+    device.addEventListener(
+      'uncapturederror',
+      (event) => void heard.push((event as GPUUncapturedErrorEvent).error.message),
+    );
     plan('createBuffer "a" #1 in test', 'validation');
     buffer(device);
     await new Promise((resolve) => setTimeout(resolve, 0));
@@ -107,8 +115,18 @@ describe('an instrumented device', () => {
   });
 
   it('knows which faults a call can meet', () => {
-    expect(faultsOf({ call: 'createBuffer' })).toEqual(['lost-unknown', 'lost-destroyed', 'out-of-memory', 'validation']);
+    expect(faultsOf({ call: 'createBuffer' })).toEqual([
+      'lost-unknown',
+      'lost-destroyed',
+      'out-of-memory',
+      'validation',
+    ]);
     expect(faultsOf({ call: 'mapAsync' })).toEqual(['lost-unknown', 'lost-destroyed', 'map', 'late']);
-    expect(faultsOf({ call: 'createComputePipelineAsync' })).toEqual(['lost-unknown', 'lost-destroyed', 'compile', 'late']);
+    expect(faultsOf({ call: 'createComputePipelineAsync' })).toEqual([
+      'lost-unknown',
+      'lost-destroyed',
+      'compile',
+      'late',
+    ]);
   });
 });

@@ -16,7 +16,9 @@ describe('testDevice', () => {
     const device = await testDevice();
     const a = Float32Array.from({ length: 1000 }, (_, i) => i - 500);
     const b = Float32Array.from({ length: 1000 }, (_, i) => 3 * i);
-    const result = new Float32Array(await runCompute(device, SQUARE, { inputs: [a, b], outputBytes: 4000, workgroups: Math.ceil(1000 / 64) }));
+    const result = new Float32Array(
+      await runCompute(device, SQUARE, { inputs: [a, b], outputBytes: 4000, workgroups: Math.ceil(1000 / 64) }),
+    );
     expect(Array.from(result)).toEqual(Array.from(a, (x, i) => x * x + b[i]!));
   });
 
@@ -29,11 +31,24 @@ describe('testDevice', () => {
       }
       @fragment fn fs() -> @location(0) vec4f { return vec4f(1.0, 0.5, 0.25, 1.0); }`;
     const module = device.createShaderModule({ code });
-    const pipeline = await device.createRenderPipelineAsync({ layout: 'auto', vertex: { module }, fragment: { module, targets: [{ format: 'rgba8unorm' }] } });
-    const texture = device.createTexture({ size: [size, size], format: 'rgba8unorm', usage: GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.COPY_SRC });
-    const staging = device.createBuffer({ size: size * size * 4, usage: GPUBufferUsage.COPY_DST | GPUBufferUsage.MAP_READ });
+    const pipeline = await device.createRenderPipelineAsync({
+      layout: 'auto',
+      vertex: { module },
+      fragment: { module, targets: [{ format: 'rgba8unorm' }] },
+    });
+    const texture = device.createTexture({
+      size: [size, size],
+      format: 'rgba8unorm',
+      usage: GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.COPY_SRC,
+    });
+    const staging = device.createBuffer({
+      size: size * size * 4,
+      usage: GPUBufferUsage.COPY_DST | GPUBufferUsage.MAP_READ,
+    });
     const encoder = device.createCommandEncoder();
-    const pass = encoder.beginRenderPass({ colorAttachments: [{ view: texture.createView(), loadOp: 'clear', storeOp: 'store', clearValue: [0, 0, 0, 0] }] });
+    const pass = encoder.beginRenderPass({
+      colorAttachments: [{ view: texture.createView(), loadOp: 'clear', storeOp: 'store', clearValue: [0, 0, 0, 0] }],
+    });
     pass.setPipeline(pipeline);
     pass.draw(3);
     pass.end();
@@ -72,11 +87,15 @@ describe('testDevice', () => {
 describe('runCompute', () => {
   it('says where a shader does not compile', async () => {
     const device = await testDevice();
-    await expect(runCompute(device, '@compute @workgroup_size(1) fn main() {\n  let x: u32 = 1.5;\n}', { outputBytes: 4 })).rejects.toThrow(/WGSL line 2.*let x: u32/s);
+    await expect(
+      runCompute(device, '@compute @workgroup_size(1) fn main() {\n  let x: u32 = 1.5;\n}', { outputBytes: 4 }),
+    ).rejects.toThrow(/WGSL line 2.*let x: u32/s);
   });
 
   it('fails on bindings that do not match', async () => {
     const device = await testDevice();
-    await expect(runCompute(device, SQUARE, { inputs: [new Float32Array(4)], outputBytes: 16 })).rejects.toThrow(/binding/i);
+    await expect(runCompute(device, SQUARE, { inputs: [new Float32Array(4)], outputBytes: 16 })).rejects.toThrow(
+      /binding/i,
+    );
   });
 });

@@ -25,7 +25,9 @@ export async function writeModels(folder: string, names: readonly string[]): Pro
     mkdirSync(folder, { recursive: true });
     writeFileSync(file, bytes);
     const triangles = scene.meshes.reduce((sum, mesh) => sum + mesh.indices.length / 3, 0);
-    process.stdout.write(`${file}: ${triangles} triangles, ${scene.instances.length} parts, ${(bytes.byteLength / 2 ** 20).toFixed(1)} MiB\n`);
+    process.stdout.write(
+      `${file}: ${triangles} triangles, ${scene.instances.length} parts, ${(bytes.byteLength / 2 ** 20).toFixed(1)} MiB\n`,
+    );
   }
   return 0;
 }

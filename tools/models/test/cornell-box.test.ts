@@ -27,10 +27,15 @@ describe('Cornell box', () => {
     for (const name of ['Floor, ceiling and back wall', 'Left wall', 'Right wall', 'Light']) {
       const { positions: p, indices } = mesh(name);
       for (let i = 0; i < indices.length; i += 3) {
-        const [a, b, c] = [0, 1, 2].map((k) => Array.from(p.subarray(3 * indices[i + k]!, 3 * indices[i + k]! + 3))) as [number[], number[], number[]];
+        const [a, b, c] = [0, 1, 2].map((k) =>
+          Array.from(p.subarray(3 * indices[i + k]!, 3 * indices[i + k]! + 3)),
+        ) as [number[], number[], number[]];
         const [u, v] = [b.map((x, k) => x - a[k]!), c.map((x, k) => x - a[k]!)];
         const n = [u[1]! * v[2]! - u[2]! * v[1]!, u[2]! * v[0]! - u[0]! * v[2]!, u[0]! * v[1]! - u[1]! * v[0]!];
-        expect(n.reduce((sum, x, k) => sum + x * (centre[k]! - a[k]!), 0), name).toBeGreaterThan(0);
+        expect(
+          n.reduce((sum, x, k) => sum + x * (centre[k]! - a[k]!), 0),
+          name,
+        ).toBeGreaterThan(0);
       }
     }
   });

@@ -19,7 +19,11 @@ describe.each(Object.entries(WANTED) as [PushButtonLevel, number][])('push-butto
       expect(mesh.positions.every(Number.isFinite), mesh.name).toBe(true);
       expect(mesh.normals!.length).toBe(mesh.positions.length);
       let worst = 0;
-      for (let i = 0; i < mesh.normals!.length; i += 3) worst = Math.max(worst, Math.abs(Math.hypot(mesh.normals![i]!, mesh.normals![i + 1]!, mesh.normals![i + 2]!) - 1));
+      for (let i = 0; i < mesh.normals!.length; i += 3)
+        worst = Math.max(
+          worst,
+          Math.abs(Math.hypot(mesh.normals![i]!, mesh.normals![i + 1]!, mesh.normals![i + 2]!) - 1),
+        );
       expect(worst, mesh.name).toBeLessThan(1e-6);
       expect(mesh.indices.reduce((most, index) => Math.max(most, index), 0)).toBeLessThan(mesh.positions.length / 3);
     }
@@ -38,13 +42,27 @@ describe.each(Object.entries(WANTED) as [PushButtonLevel, number][])('push-butto
   it('names every part, once', () => {
     const names = scene.instances.map((instance) => instance.name);
     expect(new Set(names).size).toBe(names.length);
-    for (const part of ['Bezel ring', 'Lens', 'Light ring', 'Housing barrel', 'Collar nut', 'Mounting plate', 'Plate screw 1', 'Contact block NO body', 'Contact block NO terminal top plate']) expect(names).toContain(part);
+    for (const part of [
+      'Bezel ring',
+      'Lens',
+      'Light ring',
+      'Housing barrel',
+      'Collar nut',
+      'Mounting plate',
+      'Plate screw 1',
+      'Contact block NO body',
+      'Contact block NO terminal top plate',
+    ])
+      expect(names).toContain(part);
   });
 
   it('has the size of the real thing, and a camera that sees all of it', () => {
     const { transform, yfov } = scene.cameras[0] as PerspectiveCamera & { transform: number[] };
     const limit = Math.tan(yfov / 2);
-    const [low, high] = [[1, 1, 1], [-1, -1, -1]];
+    const [low, high] = [
+      [1, 1, 1],
+      [-1, -1, -1],
+    ];
     let furthest = 0;
     for (const { mesh, transform: m } of scene.instances) {
       const { positions } = scene.meshes[mesh]!;
@@ -56,7 +74,9 @@ describe.each(Object.entries(WANTED) as [PushButtonLevel, number][])('push-butto
           high[k] = Math.max(high[k]!, world[k]!);
         }
         const d = world.map((value, k) => value - transform[12 + k]!);
-        const [right, up, back] = [0, 4, 8].map((column) => d[0]! * transform[column]! + d[1]! * transform[column + 1]! + d[2]! * transform[column + 2]!) as [number, number, number];
+        const [right, up, back] = [0, 4, 8].map(
+          (column) => d[0]! * transform[column]! + d[1]! * transform[column + 1]! + d[2]! * transform[column + 2]!,
+        ) as [number, number, number];
         furthest = Math.max(furthest, Math.abs(right / back), Math.abs(up / back));
       }
     }

@@ -24,7 +24,11 @@ export function inspect(mesh: Mesh): Inspection {
   });
   const edges = new Map<number, number>();
   let [flat, volume, worstNormal] = [0, 0, 1];
-  const p = (v: number): [number, number, number] => [mesh.positions[3 * v]!, mesh.positions[3 * v + 1]!, mesh.positions[3 * v + 2]!];
+  const p = (v: number): [number, number, number] => [
+    mesh.positions[3 * v]!,
+    mesh.positions[3 * v + 1]!,
+    mesh.positions[3 * v + 2]!,
+  ];
   for (let i = 0; i < mesh.indices.length; i += 3) {
     const corners = [mesh.indices[i]!, mesh.indices[i + 1]!, mesh.indices[i + 2]!] as const;
     for (let k = 0; k < 3; k++) {
@@ -43,7 +47,12 @@ export function inspect(mesh: Mesh): Inspection {
       flat++;
       continue;
     }
-    if (mesh.normals) for (const w of corners) worstNormal = Math.min(worstNormal, (n[0]! * mesh.normals[3 * w]! + n[1]! * mesh.normals[3 * w + 1]! + n[2]! * mesh.normals[3 * w + 2]!) / length);
+    if (mesh.normals)
+      for (const w of corners)
+        worstNormal = Math.min(
+          worstNormal,
+          (n[0]! * mesh.normals[3 * w]! + n[1]! * mesh.normals[3 * w + 1]! + n[2]! * mesh.normals[3 * w + 2]!) / length,
+        );
   }
   let openEdges = 0;
   for (const sum of edges.values()) if (sum !== 0) openEdges++;

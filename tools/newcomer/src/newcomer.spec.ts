@@ -19,32 +19,64 @@ let project: Project;
 test.afterEach(() => project?.stop());
 
 const VITE = { typescript: '~6.0.3', vite: '^8.3.8' };
-const TSCONFIG = JSON.stringify({ compilerOptions: { target: 'ES2022', lib: ['ES2022', 'DOM', 'DOM.Iterable'], module: 'ESNext', moduleResolution: 'bundler', types: ['vite/client'], strict: true, skipLibCheck: true, noEmit: true, jsx: 'react-jsx', allowImportingTsExtensions: true, noUncheckedSideEffectImports: true }, include: ['src'] });
-const page = (body: string) => `<!doctype html>\n<html lang="en"><head><meta charset="utf-8" /><link rel="icon" href="data:," /><title>newcomer</title></head><body style="margin: 0">${body}</body></html>\n`;
+const TSCONFIG = JSON.stringify({
+  compilerOptions: {
+    target: 'ES2022',
+    lib: ['ES2022', 'DOM', 'DOM.Iterable'],
+    module: 'ESNext',
+    moduleResolution: 'bundler',
+    types: ['vite/client'],
+    strict: true,
+    skipLibCheck: true,
+    noEmit: true,
+    jsx: 'react-jsx',
+    allowImportingTsExtensions: true,
+    noUncheckedSideEffectImports: true,
+  },
+  include: ['src'],
+});
+const page = (body: string) =>
+  `<!doctype html>\n<html lang="en"><head><meta charset="utf-8" /><link rel="icon" href="data:," /><title>newcomer</title></head><body style="margin: 0">${body}</body></html>\n`;
 
 const model = async () => new Uint8Array(await sceneToGlb(createPushButton({ level: 'low' })));
 
 /** The same model as an exporter compresses it: what shows it has found the decoder's chunk. */
 const compressed = async () => {
-  const io = new WebIO().registerExtensions(KHRONOS_EXTENSIONS).registerDependencies({ 'draco3d.encoder': await draco.createEncoderModule(), 'draco3d.decoder': await draco.createDecoderModule() });
+  const io = new WebIO().registerExtensions(KHRONOS_EXTENSIONS).registerDependencies({
+    'draco3d.encoder': await draco.createEncoderModule(),
+    'draco3d.decoder': await draco.createDecoderModule(),
+  });
   const document = await io.readBinary(await model());
   document.createExtension(KHRDracoMeshCompression).setRequired(true);
   return io.writeBinary(document);
 };
 
 /** Opens a page and waits until the element shows a path-traced model. @returns What the page complained about. */
-async function sees(browser: Page, address: string, selector: string): Promise<{ readonly seconds: number; readonly complaints: readonly string[] }> {
+async function sees(
+  browser: Page,
+  address: string,
+  selector: string,
+): Promise<{ readonly seconds: number; readonly complaints: readonly string[] }> {
   const complaints: string[] = [];
   browser.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
   browser.on('pageerror', (error) => complaints.push(`uncaught: ${error.message}`));
   const from = performance.now();
   await browser.goto(address);
-  await expect.poll(async () => ((await browser.locator(selector).count()) > 0 ? (await photograph(browser.locator(selector))).colours : 0), { timeout: 120_000, intervals: [100] }).toBeGreaterThan(300);
+  await expect
+    .poll(
+      async () =>
+        (await browser.locator(selector).count()) > 0 ? (await photograph(browser.locator(selector))).colours : 0,
+      { timeout: 120_000, intervals: [100] },
+    )
+    .toBeGreaterThan(300);
   return { seconds: (performance.now() - from) / 1000, complaints };
 }
 
 function report(name: string, lines: number, seconds: Record<string, number>): void {
-  const parts = [...Object.entries(project.timings).map(([what, ms]) => [what, ms / 1000] as const), ...Object.entries(seconds)].map(([what, value]) => `${what} ${value.toFixed(1)} s`);
+  const parts = [
+    ...Object.entries(project.timings).map(([what, ms]) => [what, ms / 1000] as const),
+    ...Object.entries(seconds),
+  ].map(([what, value]) => `${what} ${value.toFixed(1)} s`);
   console.log(`${name}: ${lines} lines; ${parts.join(', ')}`);
 }
 
@@ -62,14 +94,27 @@ test('plain TypeScript', async ({ page: browser }) => {
   await project.timed('vite build', () => project.vite('build'));
   const built = await sees(await browser.context().newPage(), await project.serve('preview'), 'canvas');
   const code = fileFrom('@glanz/viewer', 'src/main.ts');
-  report('plain TypeScript', linesOf(code), { 'first pixels in development': dev.seconds, 'first pixels of the build': built.seconds });
+  report('plain TypeScript', linesOf(code), {
+    'first pixels in development': dev.seconds,
+    'first pixels of the build': built.seconds,
+  });
   expect(linesOf(code)).toBeLessThanOrEqual(15);
   expect(built.complaints).toEqual([]);
   expect(dev.complaints).toEqual([]);
 });
 
-/** Files and commands of a page, pasted into the template and built: what is seen. The second file is the one whose lines are counted. */
-async function asPasted(browser: Page, name: string, page: string, files: readonly string[], has: string, section?: string): Promise<void> {
+/**
+ * Files and commands of a page, pasted into the template and built: what is seen. The second file is the one whose
+ * lines are counted.
+ */
+async function asPasted(
+  browser: Page,
+  name: string,
+  page: string,
+  files: readonly string[],
+  has: string,
+  section?: string,
+): Promise<void> {
   project = new Project(name);
   project.manifest({}, VITE);
   project.write('tsconfig.json', TSCONFIG);
@@ -85,7 +130,14 @@ async function asPasted(browser: Page, name: string, page: string, files: readon
 
 test('Getting started, its files and commands', async ({ page: browser }) => {
   wanted('start');
-  await asPasted(browser, 'start', 'getting-started', ['index.html', 'src/main.ts'], '@glanz/viewer', 'A model on a canvas');
+  await asPasted(
+    browser,
+    'start',
+    'getting-started',
+    ['index.html', 'src/main.ts'],
+    '@glanz/viewer',
+    'A model on a canvas',
+  );
 });
 
 test('Getting started, by hand', async ({ page: browser }) => {
@@ -103,7 +155,9 @@ test('Getting started, in Node', async ({ page: browser }) => {
   wanted('node');
   project = new Project('node');
   const section = 'In Node';
-  const foreign = installedBy('getting-started', '@glanz/renderer', section).filter((name) => !name.startsWith('@glanz/'));
+  const foreign = installedBy('getting-started', '@glanz/renderer', section).filter(
+    (name) => !name.startsWith('@glanz/'),
+  );
   expect(foreign.sort()).toEqual(['sharp', 'webgpu']);
   // With the versions that the packages are tested with, as npm would choose them.
   project.manifest(Object.fromEntries(foreign.map((name) => [name, '*'])), {});
@@ -161,11 +215,17 @@ test('React', async ({ page: browser }) => {
   // The guide and the README say the same, so one of them is run.
   expect(code).toBe(fileFrom('@glanz/react', 'src/App.tsx'));
   expect(commandsFrom('react', 'create vite')).toEqual(commandsFrom('@glanz/react', 'create vite'));
-  project.manifest({ react: '^19.3.1', 'react-dom': '^19.3.1' }, { ...VITE, '@types/react': '^19.3.0', '@types/react-dom': '^19' });
+  project.manifest(
+    { react: '^19.3.1', 'react-dom': '^19.3.1' },
+    { ...VITE, '@types/react': '^19.3.0', '@types/react-dom': '^19' },
+  );
   project.write('tsconfig.json', TSCONFIG);
   // As the template has them.
   project.write('index.html', page('<div id="root"></div><script type="module" src="/src/main.tsx"></script>'));
-  project.write('src/main.tsx', "import { StrictMode } from 'react'\nimport { createRoot } from 'react-dom/client'\nimport App from './App.tsx'\n\ncreateRoot(document.getElementById('root')!).render(<StrictMode><App /></StrictMode>)\n");
+  project.write(
+    'src/main.tsx',
+    "import { StrictMode } from 'react'\nimport { createRoot } from 'react-dom/client'\nimport App from './App.tsx'\n\ncreateRoot(document.getElementById('root')!).render(<StrictMode><App /></StrictMode>)\n",
+  );
   project.paste('react', ['src/App.tsx']);
   await project.install();
   await project.type('react', 'create vite');
@@ -175,7 +235,10 @@ test('React', async ({ page: browser }) => {
   project.write('public/push-button.glb', await compressed());
   await project.timed('vite build', () => project.vite('build'));
   const built = await sees(await browser.context().newPage(), await project.serve('preview'), 'glanz-viewer');
-  report('React', linesOf(code), { 'first pixels in development': dev.seconds, 'first pixels of the build': built.seconds });
+  report('React', linesOf(code), {
+    'first pixels in development': dev.seconds,
+    'first pixels of the build': built.seconds,
+  });
   expect(linesOf(code)).toBeLessThanOrEqual(15);
   expect(built.complaints).toEqual([]);
   expect(dev.complaints).toEqual([]);
@@ -185,21 +248,40 @@ test('a page that a server rendered', async ({ page: browser }) => {
   wanted('server');
   project = new Project('server');
   const code = fileFrom('react', 'src/App.tsx');
-  project.manifest({ react: '^19.3.1', 'react-dom': '^19.3.1' }, { ...VITE, '@types/react': '^19.3.0', '@types/react-dom': '^19' });
+  project.manifest(
+    { react: '^19.3.1', 'react-dom': '^19.3.1' },
+    { ...VITE, '@types/react': '^19.3.0', '@types/react-dom': '^19' },
+  );
   project.write('tsconfig.json', TSCONFIG);
   project.paste('react', ['src/App.tsx']);
-  project.write('src/client.tsx', "import { hydrateRoot } from 'react-dom/client'\nimport App from './App.tsx'\n\nhydrateRoot(document.getElementById('root')!, <App />)\n");
+  project.write(
+    'src/client.tsx',
+    "import { hydrateRoot } from 'react-dom/client'\nimport App from './App.tsx'\n\nhydrateRoot(document.getElementById('root')!, <App />)\n",
+  );
   await project.install();
   await project.type('react', 'create vite');
   // In bare Node, nothing bundled: as a server that leaves packages alone imports them.
-  project.write('render.mjs', "import { createElement } from 'react'\nimport { renderToString } from 'react-dom/server'\nimport { GlanzViewer } from '@glanz/react'\nimport '@glanz/element/define'\nimport '@glanz/viewer'\nimport '@glanz/three'\nif (typeof GlanzViewer !== 'object') throw new Error('no component')\nprocess.stdout.write(renderToString(createElement(GlanzViewer, { src: '/push-button.glb', alt: 'A push-button' })))\n");
-  expect(await project.run(process.execPath, ['render.mjs'])).toBe('<glanz-viewer alt="A push-button" src="/push-button.glb"></glanz-viewer>');
+  project.write(
+    'render.mjs',
+    "import { createElement } from 'react'\nimport { renderToString } from 'react-dom/server'\nimport { GlanzViewer } from '@glanz/react'\nimport '@glanz/element/define'\nimport '@glanz/viewer'\nimport '@glanz/three'\nif (typeof GlanzViewer !== 'object') throw new Error('no component')\nprocess.stdout.write(renderToString(createElement(GlanzViewer, { src: '/push-button.glb', alt: 'A push-button' })))\n",
+  );
+  expect(await project.run(process.execPath, ['render.mjs'])).toBe(
+    '<glanz-viewer alt="A push-button" src="/push-button.glb"></glanz-viewer>',
+  );
   // And bundled: the same component, rendered by the server's build, taken over by the client's.
-  project.write('src/server.tsx', "import { renderToString } from 'react-dom/server'\nimport App from './App.tsx'\n\nprocess.stdout.write(renderToString(<App />))\n");
+  project.write(
+    'src/server.tsx',
+    "import { renderToString } from 'react-dom/server'\nimport App from './App.tsx'\n\nprocess.stdout.write(renderToString(<App />))\n",
+  );
   await project.timed('vite build --ssr', () => project.vite('build', '--ssr', 'src/server.tsx', '--outDir', 'server'));
   const html = await project.run(process.execPath, ['server/server.js']);
   expect(html).toMatch(/<glanz-viewer [^>]*src="\/push-button.glb"/);
-  project.write('index.html', page(`<div id="root">${html.slice(html.indexOf('<glanz-viewer'))}</div><script type="module" src="/src/client.tsx"></script>`));
+  project.write(
+    'index.html',
+    page(
+      `<div id="root">${html.slice(html.indexOf('<glanz-viewer'))}</div><script type="module" src="/src/client.tsx"></script>`,
+    ),
+  );
   await project.timed('vite build', () => project.vite('build'));
   const built = await sees(browser, await project.serve('preview'), 'glanz-viewer');
   report('a page that a server rendered', linesOf(code), { 'first pixels of the build': built.seconds });
@@ -209,11 +291,17 @@ test('a page that a server rendered', async ({ page: browser }) => {
 test('Next.js', async ({ page: browser }) => {
   wanted('next');
   project = new Project('next');
-  project.manifest({ next: '^16.4.6', react: '^19.3.1', 'react-dom': '^19.3.1' }, { typescript: '~6.0.3', '@types/react': '^19.3.0', '@types/react-dom': '^19', '@types/node': '^20' });
+  project.manifest(
+    { next: '^16.4.6', react: '^19.3.1', 'react-dom': '^19.3.1' },
+    { typescript: '~6.0.3', '@types/react': '^19.3.0', '@types/react-dom': '^19', '@types/node': '^20' },
+  );
   // This project lies inside the repository, whose lockfile Next.js would take for its root.
   project.write('next.config.mjs', 'export default { turbopack: { root: import.meta.dirname } };\n');
   // As the template has it.
-  project.write('app/layout.tsx', "import type { ReactNode } from 'react';\n\nexport default function Layout({ children }: { children: ReactNode }) {\n  return <html lang=\"en\"><head><link rel=\"icon\" href=\"data:,\" /></head><body>{children}</body></html>;\n}\n");
+  project.write(
+    'app/layout.tsx',
+    'import type { ReactNode } from \'react\';\n\nexport default function Layout({ children }: { children: ReactNode }) {\n  return <html lang="en"><head><link rel="icon" href="data:," /></head><body>{children}</body></html>;\n}\n',
+  );
   project.paste('react', ['app/page.tsx', 'app/product.tsx', 'app/product/page.tsx']);
   await project.install();
   await project.type('react', 'create-next-app');
@@ -224,7 +312,10 @@ test('Next.js', async ({ page: browser }) => {
   expect(html).toMatch(/<glanz-viewer [^>]*src="\/push-button.glb"/);
   const server = await sees(browser, origin, 'glanz-viewer');
   const client = await sees(await browser.context().newPage(), `${origin}/product`, 'glanz-viewer');
-  report('Next.js', linesOf(fileFrom('react', 'app/page.tsx')), { 'first pixels in a server component': server.seconds, 'first pixels in a client component': client.seconds });
+  report('Next.js', linesOf(fileFrom('react', 'app/page.tsx')), {
+    'first pixels in a server component': server.seconds,
+    'first pixels in a client component': client.seconds,
+  });
   expect(server.complaints).toEqual([]);
   expect(client.complaints).toEqual([]);
 });

@@ -8,9 +8,14 @@ import { fileURLToPath } from 'node:url';
 const NEXT = join('node_modules', 'next', 'dist', 'bin', 'next');
 const root = fileURLToPath(new URL('../../../', import.meta.url));
 
-/** A page: a guide of the documentation by its name, or the README of a package by `@glanz/…`; of one section, by its heading. */
+/**
+ * A page: a guide of the documentation by its name, or the README of a package by `@glanz/…`; of one section, by its
+ * heading.
+ */
 function textOf(page: string, section?: string): string {
-  const path = page.startsWith('@glanz/') ? `packages/${page.slice('@glanz/'.length)}/README.md` : `apps/docs/guide/${page}.md`;
+  const path = page.startsWith('@glanz/')
+    ? `packages/${page.slice('@glanz/'.length)}/README.md`
+    : `apps/docs/guide/${page}.md`;
   const text = readFileSync(join(root, path), 'utf8');
   if (section === undefined) return text;
   const from = text.indexOf(`\n## ${section}\n`);
@@ -27,8 +32,8 @@ export function quickStart(packageName: string, language: string): string {
 }
 
 /**
- * A block that names its file, as ```tsx [app/page.tsx] does, or `<<< ../examples/node.ts [render.mjs]`, which shows a file of
- * the repository: what people paste into that file.
+ * A block that names its file, as ```tsx [app/page.tsx] does, or `<<< ../examples/node.ts [render.mjs]`, which shows a
+ * file of the repository: what people paste into that file.
  */
 export function fileFrom(page: string, path: string, section?: string): string {
   const text = textOf(page, section);
@@ -45,13 +50,18 @@ const BY_ITSELF = /^(npm (install|create|run) |npx create-next-app@|cd )/;
 
 /** Lines of the block of shell commands of a page that contains `has`. */
 function shellBlock(page: string, has: string, section?: string): string[] {
-  const block = [...textOf(page, section).matchAll(/```sh\n([\s\S]*?)\n```/g)].map(([, lines = '']) => lines).find((lines) => lines.includes(has));
+  const block = [...textOf(page, section).matchAll(/```sh\n([\s\S]*?)\n```/g)]
+    .map(([, lines = '']) => lines)
+    .find((lines) => lines.includes(has));
   if (block === undefined) throw new Error(`${page} has no commands with ${has}.`);
   return block.split('\n');
 }
 
-/** Shell commands of a page, those of the block that contains `has`, without those that make the project and install. */
-export const commandsFrom = (page: string, has: string, section?: string): string[] => shellBlock(page, has, section).filter((line) => !BY_ITSELF.test(line));
+/**
+ * Shell commands of a page, those of the block that contains `has`, without those that make the project and install.
+ */
+export const commandsFrom = (page: string, has: string, section?: string): string[] =>
+  shellBlock(page, has, section).filter((line) => !BY_ITSELF.test(line));
 
 /** Packages that the block installs. */
 export const installedBy = (page: string, has: string, section?: string): string[] =>
@@ -82,12 +92,30 @@ export class Project {
   manifest(dependencies: Record<string, string>, devDependencies: Record<string, string>): void {
     const tarballs = JSON.parse(process.env['GLANZ_NEWCOMER'] ?? '{}') as Record<string, string>;
     const local = Object.fromEntries(Object.entries(tarballs).map(([name, file]) => [name, `file:${file}`]));
-    this.write('package.json', JSON.stringify({ name: 'newcomer', private: true, version: '0.0.0', type: 'module', dependencies: { ...dependencies, ...local }, devDependencies, overrides: local }, undefined, 2));
+    this.write(
+      'package.json',
+      JSON.stringify(
+        {
+          name: 'newcomer',
+          private: true,
+          version: '0.0.0',
+          type: 'module',
+          dependencies: { ...dependencies, ...local },
+          devDependencies,
+          overrides: local,
+        },
+        undefined,
+        2,
+      ),
+    );
   }
 
   readonly #imports = new Set<string>();
 
-  /** Does what a page says: its files, then, in an installed project, its commands, which install all that the files import. */
+  /**
+   * Does what a page says: its files, then, in an installed project, its commands, which install all that the files
+   * import.
+   */
   paste(page: string, files: readonly string[], section?: string): void {
     for (const file of files) {
       const content = fileFrom(page, file, section);
@@ -118,12 +146,20 @@ export class Project {
   /** Runs a program in the project; its output where it fails. */
   run(command: string, args: readonly string[], env: Record<string, string> = {}): Promise<string> {
     return new Promise((resolve, reject) => {
-      execFile(command, args, { cwd: this.folder, env: { ...process.env, NODE_OPTIONS: '', ...env }, maxBuffer: 1 << 26 }, (error, stdout, stderr) => (error ? reject(new Error(`${command} ${args.join(' ')}\n${stdout}\n${stderr}`)) : resolve(stdout)));
+      execFile(
+        command,
+        args,
+        { cwd: this.folder, env: { ...process.env, NODE_OPTIONS: '', ...env }, maxBuffer: 1 << 26 },
+        (error, stdout, stderr) =>
+          error ? reject(new Error(`${command} ${args.join(' ')}\n${stdout}\n${stderr}`)) : resolve(stdout),
+      );
     });
   }
 
   install(): Promise<string> {
-    return this.timed('npm install', () => this.run('npm', ['install', '--prefer-offline', '--no-audit', '--no-fund', '--loglevel', 'error']));
+    return this.timed('npm install', () =>
+      this.run('npm', ['install', '--prefer-offline', '--no-audit', '--no-fund', '--loglevel', 'error']),
+    );
   }
 
   vite(...args: string[]): Promise<string> {
@@ -139,14 +175,20 @@ export class Project {
     return this.#start([NEXT, 'start', '--hostname', '127.0.0.1', '--port', '0'], { NEXT_TELEMETRY_DISABLED: '1' });
   }
 
-  /** Serves files of an installed package to pages of any origin, as a content delivery network does. @returns Its address. */
+  /**
+   * Serves files of an installed package to pages of any origin, as a content delivery network does. @returns Its
+   * address.
+   */
   async network(packageName: string): Promise<string> {
     const types: Record<string, string> = { '.js': 'text/javascript', '.glb': 'model/gltf-binary' };
     const server = createServer((request, response) => {
       const path = new URL(request.url ?? '/', 'http://localhost').pathname;
       const file = join(this.folder, 'node_modules', packageName, path);
       const found = !path.includes('..') && existsSync(file);
-      response.writeHead(found ? 200 : 404, { 'access-control-allow-origin': '*', 'content-type': types[extname(file)] ?? 'text/plain' });
+      response.writeHead(found ? 200 : 404, {
+        'access-control-allow-origin': '*',
+        'content-type': types[extname(file)] ?? 'text/plain',
+      });
       response.end(found ? readFileSync(file) : '');
     });
     this.#network = server;
@@ -161,7 +203,11 @@ export class Project {
 
   /** Starts a server, a program of Node's that prints its address. */
   #start(args: readonly string[], env: Record<string, string> = {}): Promise<string> {
-    const child = (this.#server = spawn(process.execPath, args, { cwd: this.folder, stdio: ['ignore', 'pipe', 'pipe'], env: { ...process.env, ...env } }));
+    const child = (this.#server = spawn(process.execPath, args, {
+      cwd: this.folder,
+      stdio: ['ignore', 'pipe', 'pipe'],
+      env: { ...process.env, ...env },
+    }));
     return new Promise((resolve, reject) => {
       let printed = '';
       const hear = (data: Buffer) => {

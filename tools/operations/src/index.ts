@@ -8,11 +8,11 @@ export interface Measured<T> {
 }
 
 /**
- * Counts the blocks of JavaScript that run in some files, by V8's precise coverage. The count depends on the code and its
- * input alone, not on the machine. Built-in functions count nothing, however long they take.
+ * Counts the blocks of JavaScript that run in some files, by V8's precise coverage. The count depends on the code and
+ * its input alone, not on the machine. Built-in functions count nothing, however long they take.
  *
- * Functions that ran before the counter was made may be counted by their calls alone: make it before the code runs. There is one
- * counter per thread at a time.
+ * Functions that ran before the counter was made may be counted by their calls alone: make it before the code runs.
+ * There is one counter per thread at a time.
  */
 export class OperationCounter {
   readonly #session = new Session();

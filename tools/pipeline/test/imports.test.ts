@@ -17,7 +17,11 @@ const ARCHITECTURE = `| package | holds | may import |
 const manifest = (name: string, dependencies: string[] = []) =>
   JSON.stringify({
     name: `@glanz/${name}`,
-    exports: { '.': { '@glanz/source': './src/index.ts' }, './error': { '@glanz/source': './src/error.ts' }, './node': { '@glanz/source': './src/node.ts' } },
+    exports: {
+      '.': { '@glanz/source': './src/index.ts' },
+      './error': { '@glanz/source': './src/error.ts' },
+      './node': { '@glanz/source': './src/node.ts' },
+    },
     dependencies: Object.fromEntries(dependencies.map((dependency) => [dependency, 'workspace:^'])),
   });
 
@@ -57,8 +61,16 @@ async function judge(changes: Record<string, string>) {
 
 describe('the import check', () => {
   it('lets sources import what the build puts into the package, which must be installed for it', async () => {
-    const source = { 'packages/image/src/index.ts': `import { E } from '@glanz/wgsl/error';\nimport { zlibSync } from 'fflate';\nimport decode from 'draco';\nexport { E, zlibSync, decode };` };
-    const bundled = (more: object) => ({ ...source, 'packages/image/package.json': JSON.stringify({ ...JSON.parse(manifest('image', ['@glanz/wgsl', 'fflate'])), ...more }) });
+    const source = {
+      'packages/image/src/index.ts': `import { E } from '@glanz/wgsl/error';\nimport { zlibSync } from 'fflate';\nimport decode from 'draco';\nexport { E, zlibSync, decode };`,
+    };
+    const bundled = (more: object) => ({
+      ...source,
+      'packages/image/package.json': JSON.stringify({
+        ...JSON.parse(manifest('image', ['@glanz/wgsl', 'fflate'])),
+        ...more,
+      }),
+    });
     expect(await judge(source)).toContain('"draco" is not declared');
     expect(await judge(bundled({ glanz: { bundled: ['draco'] }, devDependencies: { draco: '1' } }))).toBe('');
     expect(await judge(bundled({ glanz: { bundled: ['draco'] } }))).toContain('not among devDependencies');
@@ -69,21 +81,79 @@ describe('the import check', () => {
   });
 
   it.each<[string, Record<string, string>, RegExp]>([
-    ['an arrow against the table', { 'packages/openpbr/src/bad.ts': `import '@glanz/scene';`, 'packages/openpbr/package.json': manifest('openpbr', ['@glanz/wgsl', '@glanz/scene']) }, /openpbr\/src\/bad.ts:1: openpbr → scene is no arrow/],
-    ['an arrow in package.json alone', { 'packages/openpbr/package.json': manifest('openpbr', ['@glanz/wgsl', '@glanz/image']) }, /@glanz\/image is no arrow/],
-    ['values where only types may come', { 'packages/scene/src/bad.ts': `\nimport { P } from '@glanz/openpbr';` }, /bad.ts:2: scene → openpbr is for types only/],
-    ['more than the errors', { 'packages/image/src/bad.ts': `import '@glanz/wgsl';` }, /image may import @glanz\/wgsl\/error and nothing else/],
-    ['a door that is not there', { 'packages/openpbr/src/bad.ts': `import '@glanz/wgsl/src/compose';` }, /not exported by @glanz\/wgsl/],
-    ['a reach into another package', { 'packages/openpbr/src/bad.ts': `import '../../wgsl/src/compose';` }, /reaches outside of its package/],
-    ['a reach from a test', { 'packages/openpbr/test/bad.test.ts': `import '../../wgsl/src/compose';` }, /reaches outside of its package/],
+    [
+      'an arrow against the table',
+      {
+        'packages/openpbr/src/bad.ts': `import '@glanz/scene';`,
+        'packages/openpbr/package.json': manifest('openpbr', ['@glanz/wgsl', '@glanz/scene']),
+      },
+      /openpbr\/src\/bad.ts:1: openpbr → scene is no arrow/,
+    ],
+    [
+      'an arrow in package.json alone',
+      { 'packages/openpbr/package.json': manifest('openpbr', ['@glanz/wgsl', '@glanz/image']) },
+      /@glanz\/image is no arrow/,
+    ],
+    [
+      'values where only types may come',
+      { 'packages/scene/src/bad.ts': `\nimport { P } from '@glanz/openpbr';` },
+      /bad.ts:2: scene → openpbr is for types only/,
+    ],
+    [
+      'more than the errors',
+      { 'packages/image/src/bad.ts': `import '@glanz/wgsl';` },
+      /image may import @glanz\/wgsl\/error and nothing else/,
+    ],
+    [
+      'a door that is not there',
+      { 'packages/openpbr/src/bad.ts': `import '@glanz/wgsl/src/compose';` },
+      /not exported by @glanz\/wgsl/,
+    ],
+    [
+      'a reach into another package',
+      { 'packages/openpbr/src/bad.ts': `import '../../wgsl/src/compose';` },
+      /reaches outside of its package/,
+    ],
+    [
+      'a reach from a test',
+      { 'packages/openpbr/test/bad.test.ts': `import '../../wgsl/src/compose';` },
+      /reaches outside of its package/,
+    ],
     ['an undeclared package', { 'packages/openpbr/src/bad.ts': `import 'fflate';` }, /"fflate" is not declared/],
-    ['a declared package that nobody uses', { 'packages/openpbr/package.json': manifest('openpbr', ['@glanz/wgsl', 'fflate']) }, /the dependency fflate is never imported/],
-    ['Node in a browser file', { 'packages/image/src/bad.ts': `export const f = () => import('fs');` }, /Node's modules belong/],
-    ['a browser entry that leads to Node', { 'packages/scene/src/error.ts': `export * from './node';` }, /@glanz\/scene\/error reaches src\/node.ts/],
-    ['a circle of files', { 'packages/wgsl/src/error.ts': `import { c } from './compose';\nexport class E { c = c }`, 'packages/wgsl/src/compose.ts': `import { E } from './error';\nexport const c = E;` }, /circle: src\/compose.ts → src\/error.ts → src\/compose.ts/],
-    ['a circle of packages', { 'ARCHITECTURE.md': ARCHITECTURE.replace('| nothing |', '| `scene` |') }, /arrows form a circle/],
+    [
+      'a declared package that nobody uses',
+      { 'packages/openpbr/package.json': manifest('openpbr', ['@glanz/wgsl', 'fflate']) },
+      /the dependency fflate is never imported/,
+    ],
+    [
+      'Node in a browser file',
+      { 'packages/image/src/bad.ts': `export const f = () => import('fs');` },
+      /Node's modules belong/,
+    ],
+    [
+      'a browser entry that leads to Node',
+      { 'packages/scene/src/error.ts': `export * from './node';` },
+      /@glanz\/scene\/error reaches src\/node.ts/,
+    ],
+    [
+      'a circle of files',
+      {
+        'packages/wgsl/src/error.ts': `import { c } from './compose';\nexport class E { c = c }`,
+        'packages/wgsl/src/compose.ts': `import { E } from './error';\nexport const c = E;`,
+      },
+      /circle: src\/compose.ts → src\/error.ts → src\/compose.ts/,
+    ],
+    [
+      'a circle of packages',
+      { 'ARCHITECTURE.md': ARCHITECTURE.replace('| nothing |', '| `scene` |') },
+      /arrows form a circle/,
+    ],
     ['a package without a row', { 'packages/new/package.json': manifest('new') }, /packages\/new has no row/],
-    ['a row without a package', { 'ARCHITECTURE.md': `${ARCHITECTURE}| \`gone\` | x | nothing |\n` }, /packages\/gone, which does not exist/],
+    [
+      'a row without a package',
+      { 'ARCHITECTURE.md': `${ARCHITECTURE}| \`gone\` | x | nothing |\n` },
+      /packages\/gone, which does not exist/,
+    ],
   ])('tells of %s', async (_what, changes, message) => {
     expect(await judge(changes)).toMatch(message);
   });
@@ -117,10 +187,17 @@ const text = "import 'not this'";`;
   it('reads the arrows of the real table', async () => {
     const { readFileSync } = await import('node:fs');
     const arrows = readArrows(readFileSync(new URL('../../../ARCHITECTURE.md', import.meta.url), 'utf8'));
-    expect(Object.fromEntries([...arrows].map(([name, row]) => [name, [...row.keys()].sort()]))).toMatchObject({ wgsl: [], bvh: ['wgsl'], gltf: ['openpbr', 'scene'], renderer: ['bvh', 'openpbr', 'scene', 'tonemap', 'wgsl'] });
+    expect(Object.fromEntries([...arrows].map(([name, row]) => [name, [...row.keys()].sort()]))).toMatchObject({
+      wgsl: [],
+      bvh: ['wgsl'],
+      gltf: ['openpbr', 'scene'],
+      renderer: ['bvh', 'openpbr', 'scene', 'tonemap', 'wgsl'],
+    });
     expect(arrows.get('scene')?.get('openpbr')).toEqual({ typesOnly: true, errorOnly: false });
     // "Every package above", and none below.
-    expect([...(arrows.get('cli')?.keys() ?? [])].sort()).toEqual([...arrows.keys()].slice(0, [...arrows.keys()].indexOf('cli')).sort());
+    expect([...(arrows.get('cli')?.keys() ?? [])].sort()).toEqual(
+      [...arrows.keys()].slice(0, [...arrows.keys()].indexOf('cli')).sort(),
+    );
   });
 
   it('finds circles, and only circles', () => {

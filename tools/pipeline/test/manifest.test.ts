@@ -11,10 +11,16 @@ import { absoluteLinks, completeManifest, errorsPage, webAddress } from '../mani
 const run = promisify(execFile);
 const hook = fileURLToPath(new URL('../../pack-hook.mjs', import.meta.url));
 const WEB = 'https://git.example/someone/glanz';
-const README = '# @glanz/bvh\n\nSee [the scene](../scene), [`rays`](src/rays.ts), [rules](../../CONTRIBUTING.md#rules), [MDN](https://developer.mozilla.org), [below](#below).\n\n![image](../../media/a.webp)\n\n```md\n[kept](../scene)\n```\n';
+const README =
+  '# @glanz/bvh\n\nSee [the scene](../scene), [`rays`](src/rays.ts), [rules](../../CONTRIBUTING.md#rules), [MDN](https://developer.mozilla.org), [below](#below).\n\n![image](../../media/a.webp)\n\n```md\n[kept](../scene)\n```\n';
 
 describe('fields that all manifests share', () => {
-  const root = { author: 'Glanz contributors', license: 'MIT', keywords: ['webgpu'], repository: { type: 'git', url: `git+${WEB}.git` } };
+  const root = {
+    author: 'Glanz contributors',
+    license: 'MIT',
+    keywords: ['webgpu'],
+    repository: { type: 'git', url: `git+${WEB}.git` },
+  };
 
   it('come from the root, with the folder of the package', () => {
     expect(completeManifest({ name: '@glanz/bvh', keywords: ['bvh'] }, root, 'packages/bvh')).toMatchObject({
@@ -31,7 +37,11 @@ describe('fields that all manifests share', () => {
   it('name no address while the root has none, and completing twice changes nothing', () => {
     const unset = { ...root, repository: { type: 'git', url: '' } };
     expect(webAddress(unset)).toBeUndefined();
-    const once = completeManifest({ name: '@glanz/bvh', keywords: ['bvh'], homepage: 'https://old.example' }, unset, 'packages/bvh');
+    const once = completeManifest(
+      { name: '@glanz/bvh', keywords: ['bvh'], homepage: 'https://old.example' },
+      unset,
+      'packages/bvh',
+    );
     expect(Object.keys(once)).not.toEqual(expect.arrayContaining(['homepage']));
     expect(once).not.toHaveProperty('repository');
     expect(completeManifest(once, unset, 'packages/bvh')).toEqual(once);
@@ -59,18 +69,42 @@ describe('npm pack', () => {
   const dir = join(base, 'packages', 'bvh');
   afterAll(() => rmSync(base, { recursive: true, force: true }));
   const put = (path: string, text: string) => writeFileSync(join(base, path), text);
-  const rootManifest = (url: string) => put('package.json', JSON.stringify({ name: 'root', author: 'Glanz contributors', license: 'MIT', keywords: ['webgpu'], repository: { type: 'git', url } }));
+  const rootManifest = (url: string) =>
+    put(
+      'package.json',
+      JSON.stringify({
+        name: 'root',
+        author: 'Glanz contributors',
+        license: 'MIT',
+        keywords: ['webgpu'],
+        repository: { type: 'git', url },
+      }),
+    );
   mkdirSync(join(dir, 'dist'), { recursive: true });
   put('LICENSE', 'MIT License\n');
   put('packages/bvh/README.md', README);
   put('packages/bvh/dist/index.js', 'export {};\n');
-  const scripts = Object.fromEntries(Object.entries({ prepack: 'prepack', postpack: 'postpack', prepublishOnly: 'prepublish' }).map(([name, step]) => [name, `node ${JSON.stringify(hook)} ${step}`]));
-  const manifest = { name: '@glanz/bvh', version: '0.0.0', keywords: ['bvh', 'rays'], glanz: { stability: 'beta' }, files: ['dist', 'CHANGELOG.md'] };
+  const scripts = Object.fromEntries(
+    Object.entries({ prepack: 'prepack', postpack: 'postpack', prepublishOnly: 'prepublish' }).map(([name, step]) => [
+      name,
+      `node ${JSON.stringify(hook)} ${step}`,
+    ]),
+  );
+  const manifest = {
+    name: '@glanz/bvh',
+    version: '0.0.0',
+    keywords: ['bvh', 'rays'],
+    glanz: { stability: 'beta' },
+    files: ['dist', 'CHANGELOG.md'],
+  };
   put('packages/bvh/package.json', JSON.stringify(manifest));
 
   /** Packs the package, with the hooks of this checkout, and unpacks what came of it. */
   async function packed(): Promise<(file: string) => string> {
-    put('packages/bvh/package.json', JSON.stringify({ ...(JSON.parse(readFileSync(join(dir, 'package.json'), 'utf8')) as object), scripts }));
+    put(
+      'packages/bvh/package.json',
+      JSON.stringify({ ...(JSON.parse(readFileSync(join(dir, 'package.json'), 'utf8')) as object), scripts }),
+    );
     await run('npm', ['pack', '--pack-destination', base, '--loglevel', 'error'], { cwd: dir });
     await run('tar', ['-xzf', join(base, 'glanz-bvh-0.0.0.tgz'), '-C', base]);
     return (file) => readFileSync(join(base, 'package', file), 'utf8');
@@ -92,7 +126,9 @@ describe('npm pack', () => {
   it('leaves the README alone while there is no address, and publishing is refused', async () => {
     rootManifest('');
     expect((await packed())('README.md')).toBe(README);
-    const refused = await run(process.execPath, [hook, 'prepublish'], { cwd: dir }).catch((error: { code: number; stderr: string }) => error);
+    const refused = await run(process.execPath, [hook, 'prepublish'], { cwd: dir }).catch(
+      (error: { code: number; stderr: string }) => error,
+    );
     expect(refused).toMatchObject({ code: 1, stderr: expect.stringContaining('repository.url') });
     rootManifest(WEB);
     await expect(run(process.execPath, [hook, 'prepublish'], { cwd: dir })).resolves.toBeDefined();

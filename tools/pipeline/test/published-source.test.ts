@@ -51,7 +51,9 @@ describe('constants', () => {
     const code = `const two = 1 + 1, text = \`\${two}\${[two].length}\`;\nexport default [two, text, ((n: number) => -n)(3), { two }.two];`;
     const load = async (source: string) => {
       const { outputFiles } = await build({ stdin: { contents: source, loader: 'ts' }, write: false, format: 'esm' });
-      return ((await import(`data:text/javascript,${encodeURIComponent(outputFiles[0]!.text)}`)) as { default: unknown }).default;
+      return (
+        (await import(`data:text/javascript,${encodeURIComponent(outputFiles[0]!.text)}`)) as { default: unknown }
+      ).default;
     };
     expect(await load(preparePublished(code))).toEqual([2, '21', -3, 2]);
     expect(await load(code)).toEqual([2, '21', -3, 2]);
@@ -65,13 +67,17 @@ describe('constants', () => {
 
 describe('WGSL templates', () => {
   it('lose comments and indentation, and keep gates and line breaks', () => {
-    const code = 'export const m = f(/* wgsl */ `\n  // why\n  fn a() { // what\n    //#if COAT\n    b(); //!\n    //#endif\n\n  }`);';
+    const code =
+      'export const m = f(/* wgsl */ `\n  // why\n  fn a() { // what\n    //#if COAT\n    b(); //!\n    //#endif\n\n  }`);';
     expect(preparePublished(code)).toContain('`\n\nfn a(){\n//#if COAT\nb();\n//#endif\n\n}`');
   });
 
   it('lose the spaces that separate nothing', () => {
-    const code = 'export const m = f(/* wgsl */ `  let a : array<vec2f, 4> = b(c, -d) - -e * &f[g] / h; if (i < -j && k > = l) { return m; }`);';
-    expect(preparePublished(code)).toContain('`let a:array<vec2f,4> =b(c,-d)- -e* &f[g]/h;if(i< -j&&k> =l){return m;}`');
+    const code =
+      'export const m = f(/* wgsl */ `  let a : array<vec2f, 4> = b(c, -d) - -e * &f[g] / h; if (i < -j && k > = l) { return m; }`);';
+    expect(preparePublished(code)).toContain(
+      '`let a:array<vec2f,4> =b(c,-d)- -e* &f[g]/h;if(i< -j&&k> =l){return m;}`',
+    );
   });
 
   it('lose zeros of numbers that mean nothing, and none that a substitution goes on', () => {
@@ -83,9 +89,20 @@ describe('WGSL templates', () => {
     // The longest operators first, as section 3.3 of the WGSL specification reads them.
     const token = /\/\/#.*|<<=|>>=|&&|->|--|==|>=|>>|<<|<=|!=|\+\+|\|\||[-+*/%&|^]=|[\w.]+|[^\s\w]/g;
     // 1. is 1.0 and .5 is 0.5; with a point it is another type than without.
-    const byValue = (part: string) => (/^\.?\d[\d.]*$/.test(part) ? `${Number(part)}${part.includes('.') ? ' float' : ''}` : part);
-    const templates = (text: string) => [...text.matchAll(/\/\* wgsl \*\/ `((?:[^`\\]|\\.)*)`/g)].map(([, wgsl]) => wgsl!.replace(/(?<!\/)\/\/(?!#).*$/gm, '').match(token)?.map(byValue));
-    const files = ['wgsl', 'bvh', 'openpbr', 'tonemap', 'renderer', 'viewer'].flatMap((name) => readdirSync(`${root}/packages/${name}/src`, { recursive: true, encoding: 'utf8' }).map((path) => `packages/${name}/src/${path}`));
+    const byValue = (part: string) =>
+      /^\.?\d[\d.]*$/.test(part) ? `${Number(part)}${part.includes('.') ? ' float' : ''}` : part;
+    const templates = (text: string) =>
+      [...text.matchAll(/\/\* wgsl \*\/ `((?:[^`\\]|\\.)*)`/g)].map(([, wgsl]) =>
+        wgsl!
+          .replace(/(?<!\/)\/\/(?!#).*$/gm, '')
+          .match(token)
+          ?.map(byValue),
+      );
+    const files = ['wgsl', 'bvh', 'openpbr', 'tonemap', 'renderer', 'viewer'].flatMap((name) =>
+      readdirSync(`${root}/packages/${name}/src`, { recursive: true, encoding: 'utf8' }).map(
+        (path) => `packages/${name}/src/${path}`,
+      ),
+    );
     const shaders = files.filter((path) => path.endsWith('.wgsl.ts'));
     expect(shaders.length).toBeGreaterThan(40);
     for (const path of shaders) {
@@ -95,7 +112,8 @@ describe('WGSL templates', () => {
   });
 
   it('keep a comment that runs on into a substitution, and what follows a substitution', () => {
-    const code = 'export const m = f(/* wgsl */ `\n  // about ${name} in units\n  const x = ${value};  // said\n  let y = 1;`);';
+    const code =
+      'export const m = f(/* wgsl */ `\n  // about ${name} in units\n  const x = ${value};  // said\n  let y = 1;`);';
     expect(preparePublished(code)).toContain('`\n// about ${name} in units\nconst x= ${value};  // said\nlet y=1;`');
   });
 
@@ -116,6 +134,11 @@ describe('pages built from the sources', () => {
 
   it('ship packages as they are published, and leave the rest alone', () => {
     expect(transform(code, '/x/packages/bvh/src/a/b.ts')!.code).toBe(preparePublished(code));
-    for (const id of ['/x/apps/playground/src/a.ts', '/x/node_modules/packages/b/src/a.js', '/x/packages/bvh/src/a.ts?worker']) expect(transform(code, id)).toBeUndefined();
+    for (const id of [
+      '/x/apps/playground/src/a.ts',
+      '/x/node_modules/packages/b/src/a.js',
+      '/x/packages/bvh/src/a.ts?worker',
+    ])
+      expect(transform(code, id)).toBeUndefined();
   });
 });

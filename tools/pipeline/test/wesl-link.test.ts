@@ -40,20 +40,34 @@ async function collect(file: string, sources: Sources = {}): Promise<Sources> {
 
 /** Names of the flags in these texts. */
 const flagsOf = (sources: Sources) =>
-  [...new Set(Object.values(sources).flatMap((text) => [...text.matchAll(/@(?:if|elif)\(([^)]*)\)/g)].flatMap(([, condition]) => condition!.match(/\w+/g)!)))].sort();
+  [
+    ...new Set(
+      Object.values(sources).flatMap((text) =>
+        [...text.matchAll(/@(?:if|elif)\(([^)]*)\)/g)].flatMap(([, condition]) => condition!.match(/\w+/g)!),
+      ),
+    ),
+  ].sort();
 
 /** All sets of flags where they are few, else none, all, each alone and without each. */
 function flagSets(names: readonly string[]): Flags[] {
-  const set = (isOn: (index: number) => boolean): Flags => Object.fromEntries(names.map((name, index) => [name, isOn(index)]));
-  if (names.length <= 6) return Array.from({ length: 2 ** names.length }, (_, bits) => set((index) => ((bits >> index) & 1) === 1));
-  return [set(() => false), set(() => true), ...names.flatMap((_, at) => [set((index) => index === at), set((index) => index !== at)])];
+  const set = (isOn: (index: number) => boolean): Flags =>
+    Object.fromEntries(names.map((name, index) => [name, isOn(index)]));
+  if (names.length <= 6)
+    return Array.from({ length: 2 ** names.length }, (_, bits) => set((index) => ((bits >> index) & 1) === 1));
+  return [
+    set(() => false),
+    set(() => true),
+    ...names.flatMap((_, at) => [set((index) => index === at), set((index) => index !== at)]),
+  ];
 }
 
 /** Declarations by name. */
 function byName(code: string): Map<string, string> {
   return new Map(
     wgslDeclarations(code).map((declaration) => {
-      const name = /^(?:@ \w+ (?:\( [^)]*\) )?)*(?:fn|struct|const|override|alias|var(?: < [^>]* >)?) (\w+)/.exec(declaration)?.[1];
+      const name = /^(?:@ \w+ (?:\( [^)]*\) )?)*(?:fn|struct|const|override|alias|var(?: < [^>]* >)?) (\w+)/.exec(
+        declaration,
+      )?.[1];
       if (name === undefined) throw new Error(`This declaration has no name: ${declaration.slice(0, 80)}`);
       // The official linker writes no comma after the last of a list.
       return [name, declaration.replace(/ ,(?= [)\]}])/g, '')];
@@ -62,7 +76,11 @@ function byName(code: string): Map<string, string> {
 }
 
 const files = readdirSync(join(root, 'packages'))
-  .flatMap((name) => readdirSync(join(root, 'packages', name, 'src'), { recursive: true, encoding: 'utf8' }).map((path) => join(root, 'packages', name, 'src', path)))
+  .flatMap((name) =>
+    readdirSync(join(root, 'packages', name, 'src'), { recursive: true, encoding: 'utf8' }).map((path) =>
+      join(root, 'packages', name, 'src', path),
+    ),
+  )
   .filter((file) => file.endsWith('.wesl') && !isHost([basename(file, '.wesl')]))
   .sort();
 
@@ -74,7 +92,11 @@ describe.each(files.map((file) => ({ name: relative(root, file), file })))('$nam
   it('is the same by both linkers, under every set of flags', async () => {
     const sources = await collect(file);
     const module = ((await import(/* @vite-ignore */ file)) as { default: WgslModule }).default;
-    const supplied = new Set(Object.entries(sources).flatMap(([path, text]) => (isHost([basename(path, '.wesl')]) ? [...byName(text.replace(/^import .*;$/gm, '')).keys()] : [])));
+    const supplied = new Set(
+      Object.entries(sources).flatMap(([path, text]) =>
+        isHost([basename(path, '.wesl')]) ? [...byName(text.replace(/^import .*;$/gm, '')).keys()] : [],
+      ),
+    );
     let linked = 0;
     for (const flags of flagSets(flagsOf(sources))) {
       const ours = byName(compose([module], { flags }).code);
@@ -92,13 +114,17 @@ describe.each(files.map((file) => ({ name: relative(root, file), file })))('$nam
       // Without what the host supplies.
       for (const name of supplied) official.delete(name);
       const own = byName(compose([{ ...module, deps: [] }], { flags }).code);
-      for (const [name, declaration] of own) expect(official.get(name), `${name} under ${JSON.stringify(flags)}`).toBe(declaration);
+      for (const [name, declaration] of own)
+        expect(official.get(name), `${name} under ${JSON.stringify(flags)}`).toBe(declaration);
       const reached = reachable(own.keys(), ours);
       for (const [name, declaration] of official) {
         if (ours.has(name)) expect(declaration, `${name} under ${JSON.stringify(flags)}`).toBe(ours.get(name));
       }
       // What the file's own declarations need is in both.
-      expect([...reached].filter((name) => !official.has(name)), JSON.stringify(flags)).toEqual([]);
+      expect(
+        [...reached].filter((name) => !official.has(name)),
+        JSON.stringify(flags),
+      ).toEqual([]);
     }
     expect(linked).toBeGreaterThan(0);
   });

@@ -16,7 +16,10 @@ function compiled(text: string, shrink = false) {
 /** Lines that a text keeps under flags, without indentation and empty lines. */
 function kept(text: string, flags: Record<string, boolean>): string[] {
   const { code } = compose([wgslModule('m', compiled(text).text)], { flags });
-  return code.split('\n').map((line) => line.trim().replace(/\s+/g, ' ')).filter((line) => line !== '');
+  return code
+    .split('\n')
+    .map((line) => line.trim().replace(/\s+/g, ' '))
+    .filter((line) => line !== '');
 }
 
 let folder: string;
@@ -38,8 +41,16 @@ describe('conditions', () => {
   });
 
   it('on members and parameters, with commas inside of types', () => {
-    const text = 'struct S {\n@if(A) a: array<vec2<f32>, 4>,\n@align(16) b: f32,\n@if(A) c: u32\n}\nfn f(@if(A) x: array<f32, 2>, y: f32) { }';
-    expect(kept(text, { A: true })).toEqual(['struct S {', 'a: array<vec2<f32>, 4>,', '@align(16) b: f32,', 'c: u32', '}', 'fn f( x: array<f32, 2>, y: f32) { }']);
+    const text =
+      'struct S {\n@if(A) a: array<vec2<f32>, 4>,\n@align(16) b: f32,\n@if(A) c: u32\n}\nfn f(@if(A) x: array<f32, 2>, y: f32) { }';
+    expect(kept(text, { A: true })).toEqual([
+      'struct S {',
+      'a: array<vec2<f32>, 4>,',
+      '@align(16) b: f32,',
+      'c: u32',
+      '}',
+      'fn f( x: array<f32, 2>, y: f32) { }',
+    ]);
     expect(kept(text, { A: false })).toEqual(['struct S {', '@align(16) b: f32,', '}', 'fn f( y: f32) { }']);
   });
 
@@ -50,13 +61,31 @@ describe('conditions', () => {
       @if(A) { e(); @if(!B) g(); }
       @if(B) return h();
     }`;
-    expect(kept(text, { A: true, B: false })).toEqual(['fn f() {', 'if (x) { a(); } else if (y) { b(); } else { c(); }', '{ e(); g(); }', '}']);
-    expect(kept(text, { A: false, B: true })).toEqual(['fn f() {', 'for (var i = 0; i < 3; i++) { d(); }', 'return h();', '}']);
+    expect(kept(text, { A: true, B: false })).toEqual([
+      'fn f() {',
+      'if (x) { a(); } else if (y) { b(); } else { c(); }',
+      '{ e(); g(); }',
+      '}',
+    ]);
+    expect(kept(text, { A: false, B: true })).toEqual([
+      'fn f() {',
+      'for (var i = 0; i < 3; i++) { d(); }',
+      'return h();',
+      '}',
+    ]);
   });
 
   it('on clauses of a switch, and beside other attributes', () => {
-    const text = 'fn f() { switch (x) {\n@if(A) case 1u: { a(); }\ndefault: { @if(A) loop { break; } }\n} }\n@if(A) @compute @workgroup_size(8, 8)\nfn main() { }';
-    expect(kept(text, { A: true })).toEqual(['fn f() { switch (x) {', 'case 1u: { a(); }', 'default: { loop { break; } }', '} }', '@compute @workgroup_size(8, 8)', 'fn main() { }']);
+    const text =
+      'fn f() { switch (x) {\n@if(A) case 1u: { a(); }\ndefault: { @if(A) loop { break; } }\n} }\n@if(A) @compute @workgroup_size(8, 8)\nfn main() { }';
+    expect(kept(text, { A: true })).toEqual([
+      'fn f() { switch (x) {',
+      'case 1u: { a(); }',
+      'default: { loop { break; } }',
+      '} }',
+      '@compute @workgroup_size(8, 8)',
+      'fn main() { }',
+    ]);
     expect(kept(text, { A: false })).toEqual(['fn f() { switch (x) {', 'default: { }', '} }']);
   });
 
@@ -64,11 +93,14 @@ describe('conditions', () => {
     const text = 'fn f() {\n  @if(A) a();\n  @if(A) b();\n  @else c();\n  @if(A) d();\n  e();\n  @if(A) g();\n}';
     expect(kept(text, { A: true })).toEqual(['fn f() {', 'a();', 'b();', 'd();', 'e();', 'g();', '}']);
     expect(kept(text, { A: false })).toEqual(['fn f() {', 'c();', 'e();', '}']);
-    expect(compiled('@if(A) const a = 1;\n@if(A) const b = 2;\n@if(B) const c = 3;', true).text).toBe('//#if A const a=1;\nconst b=2;//#endif\n//#if B const c=3;//#endif');
+    expect(compiled('@if(A) const a = 1;\n@if(A) const b = 2;\n@if(B) const c = 3;', true).text).toBe(
+      '//#if A const a=1;\nconst b=2;//#endif\n//#if B const c=3;//#endif',
+    );
   });
 
   it('leave each line at its number', () => {
-    const text = '// one\nimport package::shapes::circle::{\n  circle,\n};\n@if(A)\nfn f() {\n  @if(B) x(); @else y();\n}\n';
+    const text =
+      '// one\nimport package::shapes::circle::{\n  circle,\n};\n@if(A)\nfn f() {\n  @if(B) x(); @else y();\n}\n';
     const module = wgslModule('m', compiled(text).text);
     const { code, locate } = compose([module], { flags: { A: true, B: false } });
     const line = code.split('\n').findIndex((content) => content.includes('y();')) + 1;
@@ -84,7 +116,10 @@ describe('conditions', () => {
     ['fn f() {\n  x();\n', /:3: .*missing at the end/],
     ['/* never\n', /:1: a block comment never ends/],
     ['// see //#if A\n', /:1: .*"\/\/#"/],
-    ['@if(A) import package::shapes::circle::a;\n@else import package::shapes::circle::b;', /:2: an import is gated by @if/],
+    [
+      '@if(A) import package::shapes::circle::a;\n@else import package::shapes::circle::b;',
+      /:2: an import is gated by @if/,
+    ],
     ['import package::shapes::circle::a as b;', /:1: imports cannot be renamed/],
     ['\nimport package::shapes::square::a;', /:2: there is no module package::shapes::square to import a from/],
     ['import elsewhere::a;', /:1: "elsewhere" is no root/],
@@ -103,12 +138,16 @@ describe('imports', () => {
     expect(head).toBe(
       'import { gated, wgslModule } from "@glanz/wgsl/module";import module0 from "./circle.wesl";import module1 from "./long_name.wesl";import { Light as module2 } from "../light-record";export default /* @__PURE__ */ wgslModule("scenery/ball-light", ',
     );
-    expect(tail).toBe(', [module0, /* @__PURE__ */ gated("!FLAT", module1), module2, /* @__PURE__ */ gated("FLAT", module2)]);\n');
+    expect(tail).toBe(
+      ', [module0, /* @__PURE__ */ gated("!FLAT", module1), module2, /* @__PURE__ */ gated("FLAT", module2)]);\n',
+    );
     expect(text).toBe('\n\n\n\nfn f() {}');
   });
 
   it('are listed with their lines', () => {
-    expect(parseWesl('\nimport package::a::b;').imports).toEqual([{ path: ['package', 'a'], name: 'b', flag: undefined, line: 2 }]);
+    expect(parseWesl('\nimport package::a::b;').imports).toEqual([
+      { path: ['package', 'a'], name: 'b', flag: undefined, line: 2 },
+    ]);
   });
 });
 
@@ -119,28 +158,41 @@ describe('the text', () => {
   });
 
   it('is published without comments and spaces, line by line', () => {
-    const text = 'const a = 1; // why\n/* and\n so */ const b = a - -a;\nfn f() {\n  @if(A && B) x = a; @else x = - b;\n}';
-    expect(compiled(text, true).text).toBe('const a=1;\n\nconst b=a- -a;\nfn f(){\n//#if A&&B x=a;//#else x= -b;//#endif\n}');
+    const text =
+      'const a = 1; // why\n/* and\n so */ const b = a - -a;\nfn f() {\n  @if(A && B) x = a; @else x = - b;\n}';
+    expect(compiled(text, true).text).toBe(
+      'const a=1;\n\nconst b=a- -a;\nfn f(){\n//#if A&&B x=a;//#else x= -b;//#endif\n}',
+    );
   });
 
   it('means the same published, in every combination of flags', () => {
-    const text = 'fn f(@if(A)x: f32,y: f32) -> array<f32, 2> {\n  @if(A && !B) { return g(x) - -y; } @elif(B) return h(y); @else for (;;) { break; }\n}';
+    const text =
+      'fn f(@if(A)x: f32,y: f32) -> array<f32, 2> {\n  @if(A && !B) { return g(x) - -y; } @elif(B) return h(y); @else for (;;) { break; }\n}';
     for (const flags of [0, 1, 2, 3].map((bits) => ({ A: (bits & 1) > 0, B: (bits & 2) > 0 }))) {
-      const [plain, shrunk] = [false, true].map((shrink) => compose([wgslModule('m', compiled(text, shrink).text)], { flags }).code.replace(/\s+/g, ''));
+      const [plain, shrunk] = [false, true].map((shrink) =>
+        compose([wgslModule('m', compiled(text, shrink).text)], { flags }).code.replace(/\s+/g, ''),
+      );
       expect(shrunk).toBe(plain);
     }
   });
 
   it('has a source map that leads each line to the same line of the file', () => {
     const text = 'const a = 1;\n\nconst b = 2;';
-    expect(compiled(text).map).toEqual({ version: 3, sources: ['ball_light.wesl'], sourcesContent: [text], names: [], mappings: 'AAAA;AACA;AACA' });
+    expect(compiled(text).map).toEqual({
+      version: 3,
+      sources: ['ball_light.wesl'],
+      sourcesContent: [text],
+      names: [],
+      mappings: 'AAAA;AACA;AACA',
+    });
   });
 });
 
 it('vanishes from a bundle that does not use it', async () => {
   const { weslSource } = await import('../wesl.mjs');
   writeFileSync(join(folder, 'src/shapes/circle.wesl'), '@if(A) import package::shapes::long_name::b;\nfn a() {}');
-  const contents = "import circle from './src/shapes/circle.wesl'; import name from './src/shapes/long_name.wesl'; export const unused = circle; console.log(name);";
+  const contents =
+    "import circle from './src/shapes/circle.wesl'; import name from './src/shapes/long_name.wesl'; export const unused = circle; console.log(name);";
   const { outputFiles } = await build({
     stdin: { contents: "import { x } from './entry'; console.log(x);", resolveDir: folder },
     bundle: true,
@@ -150,10 +202,16 @@ it('vanishes from a bundle that does not use it', async () => {
     external: ['@glanz/wgsl/module'],
     plugins: [
       weslSource({ shrink: true }),
-      { name: 'entry', setup: (context) => {
-        context.onResolve({ filter: /^\.\/entry$/ }, () => ({ path: 'entry', namespace: 'entry' }));
-        context.onLoad({ filter: /.*/, namespace: 'entry' }, () => ({ contents: `${contents.replace(' console.log(name);', '')} export const x = 1;`, resolveDir: folder }));
-      } },
+      {
+        name: 'entry',
+        setup: (context) => {
+          context.onResolve({ filter: /^\.\/entry$/ }, () => ({ path: 'entry', namespace: 'entry' }));
+          context.onLoad({ filter: /.*/, namespace: 'entry' }, () => ({
+            contents: `${contents.replace(' console.log(name);', '')} export const x = 1;`,
+            resolveDir: folder,
+          }));
+        },
+      },
     ],
   });
   expect(outputFiles[0]!.text).not.toMatch(/fn a|scenery/);

@@ -8,7 +8,10 @@ export interface GroundTruthCase {
 
 const one = (scene: string, samples: number, variant = 'full'): GroundTruthCase => ({ scene, variant, samples });
 
-/** What is compared, and with how many samples in tests, which is a question of their time: `bench -- groundtruth` takes as many as the references are worth. */
+/**
+ * What is compared, and with how many samples in tests, which is a question of their time: `bench -- groundtruth` takes
+ * as many as the references are worth.
+ */
 export const GROUND_TRUTH_CASES: readonly GroundTruthCase[] = [
   one('cornell_diffuse', 32),
   one('cornell_diffuse', 64, 'direct'),

@@ -12,7 +12,14 @@ type Vector = readonly [number, number, number];
 export interface SceneDescription {
   readonly name: string;
   readonly title: string;
-  readonly camera: { readonly position: Vector; readonly target: Vector; readonly up: Vector; readonly yfov_deg: number; readonly lens_radius: number; readonly focus_distance: number };
+  readonly camera: {
+    readonly position: Vector;
+    readonly target: Vector;
+    readonly up: Vector;
+    readonly yfov_deg: number;
+    readonly lens_radius: number;
+    readonly focus_distance: number;
+  };
   readonly film: { readonly width: number; readonly height: number };
   readonly environment:
     | { readonly type: 'none' }
@@ -41,14 +48,19 @@ export interface ReferencePicture {
   /** Standard error of each value of `mean`. */
   readonly standardError: Float32Array;
   /** Samples per pixel behind it, and figures of the renderer that made it. */
-  readonly stats: { readonly spp: number; readonly relmse_eps: number; readonly relmse_1spp: number; readonly relmse_of_reference: number };
+  readonly stats: {
+    readonly spp: number;
+    readonly relmse_eps: number;
+    readonly relmse_1spp: number;
+    readonly relmse_of_reference: number;
+  };
 }
 
 const OWN = 'tools/reference/scenes';
 
 /**
- * The folder of the catalogue: the one that `GLANZ_GROUNDTRUTH` names, or `tools/reference/scenes`; `undefined` where neither is
- * found, such as in a bundle outside of the repository.
+ * The folder of the catalogue: the one that `GLANZ_GROUNDTRUTH` names, or `tools/reference/scenes`; `undefined` where
+ * neither is found, such as in a bundle outside of the repository.
  */
 export function catalogueFolder(): string | undefined {
   const named = process.env['GLANZ_GROUNDTRUTH'];
@@ -80,7 +92,11 @@ function floats(file: string): Float32Array {
 
 function lookAt(camera: SceneDescription['camera']): PerspectiveCamera {
   const subtract = (a: Vector, b: Vector): Vector => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-  const cross = (a: Vector, b: Vector): Vector => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+  const cross = (a: Vector, b: Vector): Vector => [
+    a[1] * b[2] - a[2] * b[1],
+    a[2] * b[0] - a[0] * b[2],
+    a[0] * b[1] - a[1] * b[0],
+  ];
   const unit = (a: Vector): Vector => {
     const length = Math.hypot(...a);
     return [a[0] / length, a[1] / length, a[2] / length];
@@ -101,7 +117,10 @@ function lookAt(camera: SceneDescription['camera']): PerspectiveCamera {
 
 /** What the catalogue says about a material beyond glTF. */
 interface GroundTruthExtras {
-  readonly gt?: { readonly f82_tint?: Vector; readonly medium?: { readonly sigma_t: Vector; readonly albedo: Vector; readonly g: number } };
+  readonly gt?: {
+    readonly f82_tint?: Vector;
+    readonly medium?: { readonly sigma_t: Vector; readonly albedo: Vector; readonly g: number };
+  };
 }
 
 /** glTF has no way to say F82 tint or a scattering medium: the catalogue puts them into the extras. */
@@ -136,9 +155,14 @@ export class GroundTruth {
   constructor(name: string, loading: GltfOptions = {}) {
     this.#loading = loading;
     const scenes = catalogueFolder();
-    if (!scenes) throw new ReferenceError('reference/absent', 'The ground-truth catalogue is not here: set GLANZ_GROUNDTRUTH to its folder "scenes".');
+    if (!scenes)
+      throw new ReferenceError(
+        'reference/absent',
+        'The ground-truth catalogue is not here: set GLANZ_GROUNDTRUTH to its folder "scenes".',
+      );
     this.folder = join(scenes, name);
-    if (!existsSync(join(this.folder, 'scene.json'))) throw new ReferenceError('reference/unknown-scene', `The ground-truth catalogue has no scene "${name}".`);
+    if (!existsSync(join(this.folder, 'scene.json')))
+      throw new ReferenceError('reference/unknown-scene', `The ground-truth catalogue has no scene "${name}".`);
     this.description = json(join(this.folder, 'scene.json'));
     this.tolerance = json<Record<string, Tolerance>>(join(scenes, 'tolerances.json'))[name] as Tolerance;
   }
@@ -146,13 +170,17 @@ export class GroundTruth {
   /** Most path edges of a variant. */
   maxDepth(variant = 'full'): number {
     const found = this.description.variants.find(({ id }) => id === variant);
-    if (!found) throw new ReferenceError('reference/unknown-variant', `Ground-truth scene "${this.description.name}" has no variant "${variant}"; it has: ${this.description.variants.map(({ id }) => id).join(', ')}.`);
+    if (!found)
+      throw new ReferenceError(
+        'reference/unknown-variant',
+        `Ground-truth scene "${this.description.name}" has no variant "${variant}"; it has: ${this.description.variants.map(({ id }) => id).join(', ')}.`,
+      );
     return found.max_path_edges;
   }
 
   /**
-   * The reference picture of a variant: an EXR with the channels R, G, B and `standard_error.R`, …, or, in catalogues with full
-   * precision, float32 files for both.
+   * The reference picture of a variant: an EXR with the channels R, G, B and `standard_error.R`, …, or, in catalogues
+   * with full precision, float32 files for both.
    *
    * @throws {ReferenceError} `reference/unknown-variant`, `reference/channels`
    */
@@ -182,6 +210,13 @@ export class GroundTruth {
     if (source.type === 'none') return undefined;
     if (source.type === 'constant') return { type: 'constant', radiance: source.radiance };
     const { width, height, data } = decodeHdr(readFileSync(join(this.folder, source.file)));
-    return { type: 'latlong', width, height, data, intensity: source.scale, rotation: (source.rotation_y_deg * Math.PI) / 180 };
+    return {
+      type: 'latlong',
+      width,
+      height,
+      data,
+      intensity: source.scale,
+      rotation: (source.rotation_y_deg * Math.PI) / 180,
+    };
   }
 }

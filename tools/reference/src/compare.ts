@@ -27,8 +27,8 @@ const LUMINANCE = [0.2126, 0.7152, 0.0722] as const;
 const BLOCK = 16;
 
 /**
- * Mean over pixels of the squared error, each relative to the reference pixel's squared brightness plus `epsilon`, which
- * keeps dark pixels from ruling the sum.
+ * Mean over pixels of the squared error, each relative to the reference pixel's squared brightness plus `epsilon`,
+ * which keeps dark pixels from ruling the sum.
  */
 export function relMse(candidate: ArrayLike<number>, reference: ArrayLike<number>, epsilon: number): number {
   const pixels = reference.length / 3;
@@ -50,7 +50,8 @@ export function relMse(candidate: ArrayLike<number>, reference: ArrayLike<number
  * the tolerance of the scene:
  *
  * - T1: the mean of each channel, within the tolerance or four standard errors.
- * - T2: the luminance of 16 × 16 blocks, within four standard errors plus the tolerance; at most 1.6 % of blocks outside.
+ * - T2: the luminance of 16 × 16 blocks, within four standard errors plus the tolerance; at most 1.6 % of blocks
+ *   outside.
  * - T3: the noise itself (relMSE), against `k` times that of the reference's renderer at as many samples.
  * - T4: pixels beyond six standard errors, at most the tolerated share.
  *
@@ -58,14 +59,29 @@ export function relMse(candidate: ArrayLike<number>, reference: ArrayLike<number
  * @param samples Samples per pixel behind `candidate`.
  * @throws {ReferenceError} `reference/size` when the pictures differ in size.
  */
-export function comparePictures(candidate: Float32Array, samples: number, reference: ReferencePicture, size: { readonly width: number; readonly height: number }, tolerance: Tolerance): Comparison {
+export function comparePictures(
+  candidate: Float32Array,
+  samples: number,
+  reference: ReferencePicture,
+  size: { readonly width: number; readonly height: number },
+  tolerance: Tolerance,
+): Comparison {
   const { mean, standardError, stats } = reference;
-  if (candidate.length !== mean.length) throw new ReferenceError('reference/size', `The picture has ${candidate.length / 3} pixels, its reference ${mean.length / 3}.`);
+  if (candidate.length !== mean.length)
+    throw new ReferenceError(
+      'reference/size',
+      `The picture has ${candidate.length / 3} pixels, its reference ${mean.length / 3}.`,
+    );
   const pixels = mean.length / 3;
   const checks: Check[] = [];
-  const check = (name: string, value: number, limit: number) => checks.push({ name, value, limit, passed: value <= limit });
+  const check = (name: string, value: number, limit: number) =>
+    checks.push({ name, value, limit, passed: value <= limit });
 
-  check('finite values', candidate.reduce((count, value) => count + (Number.isFinite(value) ? 0 : 1), 0), 0);
+  check(
+    'finite values',
+    candidate.reduce((count, value) => count + (Number.isFinite(value) ? 0 : 1), 0),
+    0,
+  );
 
   // The candidate's own noise is unknown: the reference's, scaled by samples, stands in.
   const scale = 1 + stats.spp / samples;
@@ -78,7 +94,11 @@ export function comparePictures(candidate: Float32Array, samples: number, refere
       sumReference += mean[i]!;
       sumVariance += variance[i]!;
     }
-    check(`T1 mean ${channel}`, Math.abs(sumCandidate - sumReference) / pixels, Math.max((tolerance.mean * sumReference) / pixels, (4 * Math.sqrt(sumVariance)) / pixels));
+    check(
+      `T1 mean ${channel}`,
+      Math.abs(sumCandidate - sumReference) / pixels,
+      Math.max((tolerance.mean * sumReference) / pixels, (4 * Math.sqrt(sumVariance)) / pixels),
+    );
   }
 
   const blocks: { difference: number; error: number; brightness: number }[] = [];
@@ -101,20 +121,35 @@ export function comparePictures(candidate: Float32Array, samples: number, refere
     }
   }
   const average = blocks.reduce((sum, block) => sum + block.brightness, 0) / blocks.length;
-  const outside = blocks.filter(({ difference, error, brightness }) => Math.abs(difference) > 4 * error + tolerance.block * Math.max(brightness, 0.05 * average));
+  const outside = blocks.filter(
+    ({ difference, error, brightness }) =>
+      Math.abs(difference) > 4 * error + tolerance.block * Math.max(brightness, 0.05 * average),
+  );
   check('T2 blocks outside', outside.length / blocks.length, blocks.length >= 64 ? 0.016 : 0);
 
   const error = relMse(candidate, mean, stats.relmse_eps);
-  check('T3 relMSE', error, (tolerance.k * stats.relmse_1spp) / samples + 2 * stats.relmse_of_reference + tolerance.floor);
+  check(
+    'T3 relMSE',
+    error,
+    (tolerance.k * stats.relmse_1spp) / samples + 2 * stats.relmse_of_reference + tolerance.floor,
+  );
 
   let outliers = 0;
   for (let i = 0; i < pixels; i++) {
-    const out = [3 * i, 3 * i + 1, 3 * i + 2].some((j) => Math.abs(candidate[j]! - mean[j]!) > 6 * Math.sqrt(variance[j]!) + 0.01 * mean[j]! + 1e-4);
+    const out = [3 * i, 3 * i + 1, 3 * i + 2].some(
+      (j) => Math.abs(candidate[j]! - mean[j]!) > 6 * Math.sqrt(variance[j]!) + 0.01 * mean[j]! + 1e-4,
+    );
     if (out) outliers++;
   }
   check('T4 outlier pixels', outliers / pixels, tolerance.outlier);
 
-  return { passed: checks.every(({ passed }) => passed), checks, relMse: error, relMsePerSample: error * samples, efficiency: stats.relmse_1spp / (error * samples) };
+  return {
+    passed: checks.every(({ passed }) => passed),
+    checks,
+    relMse: error,
+    relMsePerSample: error * samples,
+    efficiency: stats.relmse_1spp / (error * samples),
+  };
 }
 
 /** The failed checks in one line, for messages; empty when all passed. */

@@ -1,7 +1,7 @@
 import { GlanzError } from '@glanz/scene';
 
 /**
- * References are missing or do not fit. Codes: `reference/absent`, `reference/unknown-scene`, `reference/unknown-variant`, `reference/channels`,
- * `reference/size`.
+ * References are missing or do not fit. Codes: `reference/absent`, `reference/unknown-scene`,
+ * `reference/unknown-variant`, `reference/channels`, `reference/size`.
  */
 export class ReferenceError extends GlanzError {}

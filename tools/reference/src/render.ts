@@ -4,7 +4,11 @@ import { comparePictures, type Comparison } from './compare';
 import type { GroundTruth } from './catalogue';
 
 /** Renders a scene and gives its picture: RGB, stride 3, linear, top row first. */
-export async function renderPicture(device: GPUDevice, scene: Scene, options: PathTracerOptions & { readonly samples: number }): Promise<Float32Array> {
+export async function renderPicture(
+  device: GPUDevice,
+  scene: Scene,
+  options: PathTracerOptions & { readonly samples: number },
+): Promise<Float32Array> {
   const { samples, ...rest } = options;
   const tracer = await PathTracer.create(device, scene, rest);
   try {
@@ -29,8 +33,24 @@ export interface GroundTruthOptions {
 }
 
 /** Renders a scene of the catalogue the way its reference was (single scattering) and compares. */
-export async function renderGroundTruth(device: GPUDevice, truth: GroundTruth, { samples, variant = 'full', seed = 0, sampler = 'blue-noise' }: GroundTruthOptions): Promise<{ picture: Float32Array; comparison: Comparison }> {
+export async function renderGroundTruth(
+  device: GPUDevice,
+  truth: GroundTruth,
+  { samples, variant = 'full', seed = 0, sampler = 'blue-noise' }: GroundTruthOptions,
+): Promise<{ picture: Float32Array; comparison: Comparison }> {
   const { width, height } = truth.description.film;
-  const picture = await renderPicture(device, await truth.scene(), { width, height, samples, seed, sampler, maxDepth: truth.maxDepth(variant), camera: 0, multipleScattering: false });
-  return { picture, comparison: comparePictures(picture, samples, truth.picture(variant), { width, height }, truth.tolerance) };
+  const picture = await renderPicture(device, await truth.scene(), {
+    width,
+    height,
+    samples,
+    seed,
+    sampler,
+    maxDepth: truth.maxDepth(variant),
+    camera: 0,
+    multipleScattering: false,
+  });
+  return {
+    picture,
+    comparison: comparePictures(picture, samples, truth.picture(variant), { width, height }, truth.tolerance),
+  };
 }

@@ -36,11 +36,13 @@ const reference: ReferencePicture = {
   standardError: Float32Array.from(truth, (value) => (value * SIGMA) / Math.sqrt(SPP)),
   stats: { spp: SPP, relmse_eps: epsilon, relmse_1spp: SIGMA ** 2, relmse_of_reference: SIGMA ** 2 / SPP },
 };
-const verdict = (candidate: Float32Array, samples = 64) => comparePictures(candidate, samples, reference, size, tolerance);
+const verdict = (candidate: Float32Array, samples = 64) =>
+  comparePictures(candidate, samples, reference, size, tolerance);
 
 describe('comparePictures', () => {
   it('lets unbiased estimates pass, at several sample counts and seeds', () => {
-    for (const samples of [16, 64, 1024]) for (const seed of [2, 3, 4]) expect(failures(verdict(estimate(samples, seed), samples))).toBe('');
+    for (const samples of [16, 64, 1024])
+      for (const seed of [2, 3, 4]) expect(failures(verdict(estimate(samples, seed), samples))).toBe('');
   });
 
   it('measures the error per sample and the efficiency', () => {
@@ -53,12 +55,21 @@ describe('comparePictures', () => {
 
   it.each([
     ['1 % too bright', (p: Float32Array) => p.map((v) => v * 1.01), /T1/],
-    ['mirrored', (p: Float32Array) => p.map((_, i) => p[(Math.floor(i / 3 / 128) * 128 + 127 - (Math.floor(i / 3) % 128)) * 3 + (i % 3)]!), /T2/],
+    [
+      'mirrored',
+      (p: Float32Array) =>
+        p.map((_, i) => p[(Math.floor(i / 3 / 128) * 128 + 127 - (Math.floor(i / 3) % 128)) * 3 + (i % 3)]!),
+      /T2/,
+    ],
     ['red and blue swapped', (p: Float32Array) => p.map((_, i) => p[i - (i % 3) + 2 - (i % 3)]!), /T1/],
     ['twice as noisy as it should be', (p: Float32Array) => p.map((v, i) => truth[i]! + 2 * (v - truth[i]!)), /T3/],
     ['with fireflies', (p: Float32Array) => p.map((v, i) => (i % 300 === 0 ? v * 8 : v)), /T4/],
     ['with one NaN', (p: Float32Array) => p.map((v, i) => (i === 1000 ? NaN : v)), /finite/],
-    ['with one dark block', (p: Float32Array) => p.map((v, i) => (Math.floor(i / 3) % 128 < 32 && i / 3 / 128 < 16 ? v * 0.9 : v)), /T2/],
+    [
+      'with one dark block',
+      (p: Float32Array) => p.map((v, i) => (Math.floor(i / 3) % 128 < 32 && i / 3 / 128 < 16 ? v * 0.9 : v)),
+      /T2/,
+    ],
   ])('catches a picture that is %s', (_, spoil, expected) => {
     expect(failures(verdict(spoil(estimate(64, 6))))).toMatch(expected);
   });
@@ -71,30 +82,39 @@ describe('comparePictures', () => {
   const script = join(full, 'compare.mjs');
   afterEach(() => vi.unstubAllEnvs());
 
-  it.runIf(existsSync(script))('agrees with the script that came with the catalogue in full precision (skipped where that is absent)', async () => {
-    vi.stubEnv('GLANZ_GROUNDTRUTH', join(full, 'scenes'));
-    const other = (await import(/* @vite-ignore */ pathToFileURL(script).href)) as {
-      compare(folder: string, candidate: Float32Array, spp: number): { ok: boolean; relMSE: number; efficiency: number; checks: { value: number; limit: number; ok: boolean }[] };
-      loadRef(folder: string): { img: Float32Array };
-    };
-    const { GroundTruth } = await import('../src/catalogue');
-    for (const name of ['cornell_diffuse', 'furnace_metal', 'env_sun']) {
-      const truth = new GroundTruth(name);
-      const picture = truth.picture();
-      const normal = randoms(7);
-      for (const bias of [1, 1.02]) {
-        const candidate = picture.mean.map((value, i) => bias * (value + picture.standardError[i]! * Math.sqrt(picture.stats.spp / 64) * normal()));
-        const theirs = other.compare(truth.folder, candidate, 64);
-        const ours = comparePictures(candidate, 64, picture, truth.description.film, truth.tolerance);
-        expect(ours.checks.map(({ passed }) => passed)).toEqual(theirs.checks.map(({ ok }) => ok));
-        for (const [i, { value, limit }] of ours.checks.entries()) {
-          expect(value).toBeCloseTo(theirs.checks[i]!.value, 9);
-          expect(limit).toBeCloseTo(theirs.checks[i]!.limit, 9);
+  it.runIf(existsSync(script))(
+    'agrees with the script that came with the catalogue in full precision (skipped where that is absent)',
+    async () => {
+      vi.stubEnv('GLANZ_GROUNDTRUTH', join(full, 'scenes'));
+      const other = (await import(/* @vite-ignore */ pathToFileURL(script).href)) as {
+        compare(
+          folder: string,
+          candidate: Float32Array,
+          spp: number,
+        ): { ok: boolean; relMSE: number; efficiency: number; checks: { value: number; limit: number; ok: boolean }[] };
+        loadRef(folder: string): { img: Float32Array };
+      };
+      const { GroundTruth } = await import('../src/catalogue');
+      for (const name of ['cornell_diffuse', 'furnace_metal', 'env_sun']) {
+        const truth = new GroundTruth(name);
+        const picture = truth.picture();
+        const normal = randoms(7);
+        for (const bias of [1, 1.02]) {
+          const candidate = picture.mean.map(
+            (value, i) => bias * (value + picture.standardError[i]! * Math.sqrt(picture.stats.spp / 64) * normal()),
+          );
+          const theirs = other.compare(truth.folder, candidate, 64);
+          const ours = comparePictures(candidate, 64, picture, truth.description.film, truth.tolerance);
+          expect(ours.checks.map(({ passed }) => passed)).toEqual(theirs.checks.map(({ ok }) => ok));
+          for (const [i, { value, limit }] of ours.checks.entries()) {
+            expect(value).toBeCloseTo(theirs.checks[i]!.value, 9);
+            expect(limit).toBeCloseTo(theirs.checks[i]!.limit, 9);
+          }
+          expect(ours.efficiency).toBeCloseTo(theirs.efficiency, 6);
         }
-        expect(ours.efficiency).toBeCloseTo(theirs.efficiency, 6);
       }
-    }
-  });
+    },
+  );
 });
 
 describe('the catalogue', () => {
@@ -108,25 +128,34 @@ describe('the catalogue', () => {
       const { mean, standardError } = truth.picture(variant);
       const { width, height } = truth.description.film;
       expect([mean.length, standardError.length], scene).toEqual([3 * width * height, 3 * width * height]);
-      expect(mean.every((value) => value >= 0 && value < 65_504) && standardError.every((value) => value >= 0 && value < 65_504), scene).toBe(true);
+      expect(
+        mean.every((value) => value >= 0 && value < 65_504) &&
+          standardError.every((value) => value >= 0 && value < 65_504),
+        scene,
+      ).toBe(true);
     }
   });
 
-  it.runIf(existsSync(full))('is that in full precision, rounded to half floats (skipped where that is absent)', async () => {
-    const { GroundTruth } = await import('../src/catalogue');
-    for (const { scene, variant } of GROUND_TRUTH_CASES) {
-      const half = new GroundTruth(scene).picture(variant);
-      vi.stubEnv('GLANZ_GROUNDTRUTH', full);
-      const float = new GroundTruth(scene).picture(variant);
-      vi.unstubAllEnvs();
-      // Half the distance between neighbours, below 2^-14 that of subnormal numbers.
-      for (const of of ['mean', 'standardError'] as const) {
-        const far = half[of].findIndex((value, i) => Math.abs(value - float[of][i]!) > Math.max(2 ** -11 * float[of][i]!, 2 ** -25));
-        expect(far, `${scene} ${variant} ${of}`).toBe(-1);
+  it.runIf(existsSync(full))(
+    'is that in full precision, rounded to half floats (skipped where that is absent)',
+    async () => {
+      const { GroundTruth } = await import('../src/catalogue');
+      for (const { scene, variant } of GROUND_TRUTH_CASES) {
+        const half = new GroundTruth(scene).picture(variant);
+        vi.stubEnv('GLANZ_GROUNDTRUTH', full);
+        const float = new GroundTruth(scene).picture(variant);
+        vi.unstubAllEnvs();
+        // Half the distance between neighbours, below 2^-14 that of subnormal numbers.
+        for (const of of ['mean', 'standardError'] as const) {
+          const far = half[of].findIndex(
+            (value, i) => Math.abs(value - float[of][i]!) > Math.max(2 ** -11 * float[of][i]!, 2 ** -25),
+          );
+          expect(far, `${scene} ${variant} ${of}`).toBe(-1);
+        }
+        expect(half.stats).toEqual(float.stats);
       }
-      expect(half.stats).toEqual(float.stats);
-    }
-  });
+    },
+  );
 });
 
 describe('relMse', () => {

@@ -6,18 +6,28 @@ import { failures } from '../src/compare';
 afterEach(expectNoGpuErrors);
 
 describe('ground truth', () => {
-  it.each(GROUND_TRUTH_CASES)('$scene ($variant) agrees with its reference at $samples samples', async ({ scene, variant, samples }) => {
-    const { GroundTruth, renderGroundTruth } = await import('../src/index');
-    const { comparison } = await renderGroundTruth(await testDevice(), new GroundTruth(scene), { samples, variant });
-    expect(failures(comparison)).toBe('');
-    // SwiftShader on a slow machine takes most of a minute for the slowest of them.
-  }, 300_000);
+  it.each(GROUND_TRUTH_CASES)(
+    '$scene ($variant) agrees with its reference at $samples samples',
+    async ({ scene, variant, samples }) => {
+      const { GroundTruth, renderGroundTruth } = await import('../src/index');
+      const { comparison } = await renderGroundTruth(await testDevice(), new GroundTruth(scene), { samples, variant });
+      expect(failures(comparison)).toBe('');
+      // SwiftShader on a slow machine takes most of a minute for the slowest of them.
+    },
+    300_000,
+  );
 
   it('tells a renderer that loses bounces (the full variant against a render of direct light)', async () => {
     const { GroundTruth, comparePictures, renderPicture } = await import('../src/index');
     const truth = new GroundTruth('cornell_diffuse');
     const { width, height } = truth.description.film;
-    const picture = await renderPicture(await testDevice(), await truth.scene(), { width, height, samples: 8, maxDepth: 2, multipleScattering: false });
+    const picture = await renderPicture(await testDevice(), await truth.scene(), {
+      width,
+      height,
+      samples: 8,
+      maxDepth: 2,
+      multipleScattering: false,
+    });
     expect(failures(comparePictures(picture, 8, truth.picture(), { width, height }, truth.tolerance))).toMatch(/T1/);
   });
 });

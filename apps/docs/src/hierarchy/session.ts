@@ -48,16 +48,25 @@ const SLICE_MS = 12;
 /** Keeps nothing: for windows in which the browser gives no database. */
 const NO_STORE: BlasStore = { get: () => Promise.resolve(undefined), set: () => Promise.resolve() };
 
-const HEAT = [[10, 9, 30], [66, 18, 104], [168, 42, 86], [232, 104, 40], [250, 190, 70], [255, 250, 225]] as const;
+const HEAT = [
+  [10, 9, 30],
+  [66, 18, 104],
+  [168, 42, 86],
+  [232, 104, 40],
+  [250, 190, 70],
+  [255, 250, 225],
+] as const;
 
 /** A colour of the heat map, 0 to 1. */
 export function heat(share: number): [number, number, number] {
-  const x = Math.min(1, Math.max(0, share)) * (HEAT.length - 1), i = Math.min(HEAT.length - 2, Math.floor(x));
+  const x = Math.min(1, Math.max(0, share)) * (HEAT.length - 1),
+    i = Math.min(HEAT.length - 2, Math.floor(x));
   return [0, 1, 2].map((k) => HEAT[i]![k]! + (x - i) * (HEAT[i + 1]![k]! - HEAT[i]![k]!)) as [number, number, number];
 }
 
 const turned = (x: number, y: number, z: number, yaw: number, pitch: number): [number, number, number] => {
-  const a = x * Math.cos(yaw) + z * Math.sin(yaw), b = z * Math.cos(yaw) - x * Math.sin(yaw);
+  const a = x * Math.cos(yaw) + z * Math.sin(yaw),
+    b = z * Math.cos(yaw) - x * Math.sin(yaw);
   return [a, y * Math.cos(pitch) - b * Math.sin(pitch), b * Math.cos(pitch) + y * Math.sin(pitch)];
 };
 
@@ -73,7 +82,11 @@ export class HierarchySession {
   private constructor(context: CanvasRenderingContext2D, store: BlasStore) {
     this.#context = context;
     // A mesh as small as these is built faster than it is read; here it is to be seen.
-    this.#cache = new BlasCache(store, { buildBlas: (mesh, options) => buildBlasAsync(mesh, options) }, { minTriangles: 0 });
+    this.#cache = new BlasCache(
+      store,
+      { buildBlas: (mesh, options) => buildBlasAsync(mesh, options) },
+      { minTriangles: 0 },
+    );
   }
 
   static async create(canvas: HTMLCanvasElement): Promise<HierarchySession> {
@@ -86,35 +99,59 @@ export class HierarchySession {
   async build(model: HierarchyModel, builder: HierarchyBuilderName, signal: AbortSignal): Promise<HierarchyFacts> {
     if (model !== this.#model) this.#mesh = makeModel(model);
     this.#model = model;
-    const hits = this.#cache.hits, start = performance.now();
+    const hits = this.#cache.hits,
+      start = performance.now();
     const blas = await this.#cache.buildBlas(this.#mesh, { builder: HIERARCHY_BUILDERS[builder], signal });
     const milliseconds = performance.now() - start;
     this.#blas = blas;
     this.#words = new Uint32Array(blas.nodes.buffer, blas.nodes.byteOffset, blas.nodes.length);
     await this.#cache.written();
     const { positions, indices } = this.#mesh;
-    return { ...bvhStatistics(blas), triangles: (indices ? indices.length : positions.length / 3) / 3, endPointOverlap: endPointOverlap(blas, this.#mesh), source: this.#cache.hits > hits ? 'store' : 'built', milliseconds };
+    return {
+      ...bvhStatistics(blas),
+      triangles: (indices ? indices.length : positions.length / 3) / 3,
+      endPointOverlap: endPointOverlap(blas, this.#mesh),
+      source: this.#cache.hits > hits ? 'store' : 'built',
+      milliseconds,
+    };
   }
 
   /** Draws the tree that was got last: coarse at first, then every pixel. */
   async draw({ show, level, turn }: HierarchyView, signal: AbortSignal): Promise<PictureFacts> {
     const blas = this.#blas;
     if (!blas) return { meanCost: 0, boxes: 0 };
-    const context = this.#context, { width, height } = context.canvas;
+    const context = this.#context,
+      { width, height } = context.canvas;
     const { min, max } = blas.bounds;
-    const center = [0, 1, 2].map((k) => (min[k]! + max[k]!) / 2), radius = Math.hypot(...[0, 1, 2].map((k) => max[k]! - min[k]!)) / 2;
-    const yaw = (turn * Math.PI) / 180, pitch = 0.45, distance = 2.4 * radius, lens = 2.4;
+    const center = [0, 1, 2].map((k) => (min[k]! + max[k]!) / 2),
+      radius = Math.hypot(...[0, 1, 2].map((k) => max[k]! - min[k]!)) / 2;
+    const yaw = (turn * Math.PI) / 180,
+      pitch = 0.45,
+      distance = 2.4 * radius,
+      lens = 2.4;
     const eye = turned(0, 0, distance, 0, -pitch);
-    const world = ([x, y, z]: readonly [number, number, number]): [number, number, number] => [x * Math.cos(yaw) - z * Math.sin(yaw), y, x * Math.sin(yaw) + z * Math.cos(yaw)];
+    const world = ([x, y, z]: readonly [number, number, number]): [number, number, number] => [
+      x * Math.cos(yaw) - z * Math.sin(yaw),
+      y,
+      x * Math.sin(yaw) + z * Math.cos(yaw),
+    ];
     const origin = world(eye).map((x, k) => x + center[k]!);
     const image = context.createImageData(width, height);
     const traced = { cost: 0, facing: 0 };
-    let sum = 0, counted = 0, last = performance.now();
+    let sum = 0,
+      counted = 0,
+      last = performance.now();
     for (const step of [8, 2, 1]) {
       sum = counted = 0;
       for (let y = 0; y < height; y += step) {
         for (let x = 0; x < width; x += step) {
-          const [dx, dy, dz] = turned((x + step / 2 - width / 2) / (height / 2), (height / 2 - y - step / 2) / (height / 2), -lens, 0, -pitch);
+          const [dx, dy, dz] = turned(
+            (x + step / 2 - width / 2) / (height / 2),
+            (height / 2 - y - step / 2) / (height / 2),
+            -lens,
+            0,
+            -pitch,
+          );
           const length = Math.hypot(dx, dy, dz);
           const direction = world([dx / length, dy / length, dz / length]);
           trace(blas, this.#words, this.#mesh, origin, direction, traced);

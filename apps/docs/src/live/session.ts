@@ -32,7 +32,13 @@ export class LiveSession {
   readonly #options: LiveOptions;
   #wake: () => void = () => undefined;
 
-  private constructor(device: GPUDevice, tracer: PathTracer, pass: ToneMapPass, context: GPUCanvasContext, options: LiveOptions) {
+  private constructor(
+    device: GPUDevice,
+    tracer: PathTracer,
+    pass: ToneMapPass,
+    context: GPUCanvasContext,
+    options: LiveOptions,
+  ) {
     this.#device = device;
     this.#tracer = tracer;
     this.#pass = pass;
@@ -48,7 +54,12 @@ export class LiveSession {
       const { width, height } = filmSize(canvas);
       canvas.width = width;
       canvas.height = height;
-      const tracer = await PathTracer.create(device, createLiveScene(options.scene), { width, height, maxDepth: 5, signal: options.signal });
+      const tracer = await PathTracer.create(device, createLiveScene(options.scene), {
+        width,
+        height,
+        maxDepth: 5,
+        signal: options.signal,
+      });
       const format = navigator.gpu.getPreferredCanvasFormat();
       const pass = await ToneMapPass.create(device, { format, toneMap: options.toneMap, exposure: options.exposure });
       const context = canvas.getContext('webgpu');
@@ -68,7 +79,12 @@ export class LiveSession {
     while (!signal.aborted) {
       for await (const progress of this.#tracer.render({ samples, signal })) {
         this.draw();
-        onStatus({ stage: 'render', samples: progress.samples, target: samples, samplesPerSecond: progress.samplesPerSecond });
+        onStatus({
+          stage: 'render',
+          samples: progress.samples,
+          target: samples,
+          samplesPerSecond: progress.samplesPerSecond,
+        });
       }
       if (signal.aborted || this.#tracer.samples < samples) continue;
       onStatus({ stage: 'done', samples, target: samples, samplesPerSecond: 0 });
@@ -80,7 +96,12 @@ export class LiveSession {
   draw(): void {
     const { width, height } = this.#tracer;
     const encoder = this.#device.createCommandEncoder();
-    this.#pass.draw(encoder, this.#tracer.beautyBuffer, [width, height], this.#context.getCurrentTexture().createView());
+    this.#pass.draw(
+      encoder,
+      this.#tracer.beautyBuffer,
+      [width, height],
+      this.#context.getCurrentTexture().createView(),
+    );
     this.#device.queue.submit([encoder.finish()]);
   }
 

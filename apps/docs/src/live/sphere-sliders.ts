@@ -11,7 +11,14 @@ export interface SphereSlider {
   readonly doc: string;
 }
 
-const NAMES = ['base_metalness', 'base_diffuse_roughness', 'specular_weight', 'specular_roughness', 'specular_roughness_anisotropy', 'specular_ior'] as const satisfies readonly OpenPbrParameterName[];
+const NAMES = [
+  'base_metalness',
+  'base_diffuse_roughness',
+  'specular_weight',
+  'specular_roughness',
+  'specular_roughness_anisotropy',
+  'specular_ior',
+] as const satisfies readonly OpenPbrParameterName[];
 
 /** Ranges, defaults and words come from the table of `@glanz/openpbr`. */
 export const SPHERE_SLIDERS: readonly SphereSlider[] = NAMES.map((name) => {

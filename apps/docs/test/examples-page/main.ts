@@ -7,7 +7,9 @@ Object.assign(window, {
   examples: { ...viewer, three },
   putElement: () => {
     defineGlanzViewer();
-    (document.querySelector('#element') as HTMLElement).append(document.createRange().createContextualFragment(element));
+    (document.querySelector('#element') as HTMLElement).append(
+      document.createRange().createContextualFragment(element),
+    );
     return document.querySelector('glanz-viewer');
   },
 });

@@ -5,7 +5,17 @@ import { byId, element } from '../ui/elements';
 import { Messages } from '../ui/messages';
 import type { RenderFormat } from '../ui/render-dialog';
 import { assemble, assemblyOf, type Assembly } from './assembly';
-import { CATALOGUE, choicesOf, chosen, combinations, FEATURES, sentence, usual, type Configuration, type FeatureName } from './catalogue';
+import {
+  CATALOGUE,
+  choicesOf,
+  chosen,
+  combinations,
+  FEATURES,
+  sentence,
+  usual,
+  type Configuration,
+  type FeatureName,
+} from './catalogue';
 import { OptionsForm } from './options-form';
 import { orderCode, parseOrderCode } from './order-code';
 
@@ -42,7 +52,9 @@ export class Configurator {
   private constructor() {
     const query = new URLSearchParams(location.search);
     this.#configuration = parseOrderCode(location.hash) ?? usual();
-    this.#form = new OptionsForm(byId<HTMLFormElement>('options'), (feature, code) => this.choose({ ...this.#configuration, [feature]: code }, feature));
+    this.#form = new OptionsForm(byId<HTMLFormElement>('options'), (feature, code) =>
+      this.choose({ ...this.#configuration, [feature]: code }, feature),
+    );
     const scale = query.get('scale');
     this.#viewer = createViewer(this.#canvas, {
       samples: Math.round(number(query.get('samples'), 1, 65536, SAMPLES)),
@@ -62,7 +74,9 @@ export class Configurator {
     const scene = await kit;
     // All parts are in this picture, so that it stays the same whatever is chosen.
     const aspect = Math.max(1, page.#stage.clientWidth) / Math.max(1, page.#stage.clientHeight);
-    await page.#viewer.load(scene, { camera: frameCamera(scene, { aspect, direction: PRODUCT, yfov: (25 * Math.PI) / 180, margin: 0.04 }) });
+    await page.#viewer.load(scene, {
+      camera: frameCamera(scene, { aspect, direction: PRODUCT, yfov: (25 * Math.PI) / 180, margin: 0.04 }),
+    });
     await page.#apply();
     // Until there is something to see, the page says what it is doing.
     await page.#frame();
@@ -75,16 +89,24 @@ export class Configurator {
     this.#configuration = configuration;
     this.#tell();
     history.replaceState(null, '', `#${orderCode(configuration)}`);
-    const title = feature ? `${CATALOGUE[feature].title}: ${chosen(configuration, feature).title}` : sentence(configuration).split(',')[0];
+    const title = feature
+      ? `${CATALOGUE[feature].title}: ${chosen(configuration, feature).title}`
+      : sentence(configuration).split(',')[0];
     void this.#apply().then(
       async (edits) => {
         if (edits === 0) return;
         await this.#frame();
         const ms = performance.now() - asked;
         this.#canvas.dataset['price'] = ms.toFixed(1);
-        byId('price').replaceChildren(element('b', {}, `${ms < 10 ? ms.toFixed(1) : Math.round(ms)} ms`), `${title} `, element('span', { id: 'progress' }));
+        byId('price').replaceChildren(
+          element('b', {}, `${ms < 10 ? ms.toFixed(1) : Math.round(ms)} ms`),
+          `${title} `,
+          element('span', { id: 'progress' }),
+        );
       },
-      (error: unknown) => !isAbort(error) && this.#messages.show({ kind: 'error', text: error instanceof Error ? error.message : String(error) }),
+      (error: unknown) =>
+        !isAbort(error) &&
+        this.#messages.show({ kind: 'error', text: error instanceof Error ? error.message : String(error) }),
     );
   }
 
@@ -134,7 +156,12 @@ export class Configurator {
       if (progress) progress.textContent = samples < target ? `· ${samples} of ${target} samples` : '· finished';
     });
     this.#viewer.on('error', ({ message, code, retry }) => {
-      this.#messages.show({ kind: 'error', text: message, code, ...(retry ? { action: { title: 'Try again', run: retry } } : {}) });
+      this.#messages.show({
+        kind: 'error',
+        text: message,
+        code,
+        ...(retry ? { action: { title: 'Try again', run: retry } } : {}),
+      });
     });
     this.#viewer.on('device-restored', () => this.#messages.clearErrors());
     this.#code.addEventListener('change', () => {
@@ -154,11 +181,18 @@ export class Configurator {
       });
     }
     byId('surprise').addEventListener('click', () => {
-      const any = (feature: FeatureName) => choicesOf(feature)[Math.floor(Math.random() * choicesOf(feature).length)]?.code ?? '';
+      const any = (feature: FeatureName) =>
+        choicesOf(feature)[Math.floor(Math.random() * choicesOf(feature).length)]?.code ?? '';
       this.choose(Object.fromEntries(FEATURES.map((feature) => [feature, any(feature)])) as Configuration);
     });
     byId('copy').addEventListener('click', () => void this.#copy());
-    byId('save').addEventListener('click', () => void this.#save().catch((error: unknown) => this.#messages.show({ kind: 'error', text: describeError(error).message, code: describeError(error).code })));
+    byId('save').addEventListener(
+      'click',
+      () =>
+        void this.#save().catch((error: unknown) =>
+          this.#messages.show({ kind: 'error', text: describeError(error).message, code: describeError(error).code }),
+        ),
+    );
   }
 
   async #copy(): Promise<void> {
@@ -175,7 +209,9 @@ export class Configurator {
     const { showRenderDialog } = await import('../ui/render-dialog');
     const viewer = this.#viewer;
     const ratio = window.devicePixelRatio || 1;
-    const [width, height] = [this.#canvas.clientWidth, this.#canvas.clientHeight].map((side) => Math.max(1, Math.round(side * ratio)));
+    const [width, height] = [this.#canvas.clientWidth, this.#canvas.clientHeight].map((side) =>
+      Math.max(1, Math.round(side * ratio)),
+    );
     showRenderDialog({
       name: orderCode(this.#configuration).toLowerCase(),
       screen: [width as number, height as number],
@@ -185,7 +221,12 @@ export class Configurator {
       formats: FORMATS,
       render: ({ format, noise, transparent, ...request }) => {
         const { type } = FORMATS.find(({ id }) => id === format) as RenderFormat;
-        return viewer.toBlob({ ...request, type, background: transparent ? 'transparent' : 'environment', ...(noise === undefined ? {} : { noise }) });
+        return viewer.toBlob({
+          ...request,
+          type,
+          background: transparent ? 'transparent' : 'environment',
+          ...(noise === undefined ? {} : { noise }),
+        });
       },
     });
   }

@@ -25,7 +25,12 @@ export const CATALOGUE = {
       { code: 'F', title: 'Flush', phrase: 'Flush push-button', icon: 'M3 17h18M5 17v-4h14v4M8 13v-2.5h8V13' },
       { code: 'R', title: 'Raised', phrase: 'Raised push-button', icon: 'M3 17h18M5 17v-3h14v3M8 14V7h8v7' },
       { code: 'D', title: 'Domed', phrase: 'Domed push-button', icon: 'M3 17h18M5 17v-3h14v3M8 14v-2a4 4 0 0 1 8 0v2' },
-      { code: 'M', title: 'Mushroom', phrase: 'Mushroom push-button', icon: 'M3 18h18M9.5 18v-5M14.5 18v-5M4 13c0-5 3.5-7 8-7s8 2 8 7z' },
+      {
+        code: 'M',
+        title: 'Mushroom',
+        phrase: 'Mushroom push-button',
+        icon: 'M3 18h18M9.5 18v-5M14.5 18v-5M4 13c0-5 3.5-7 8-7s8 2 8 7z',
+      },
     ],
   },
   colour: {
@@ -57,9 +62,24 @@ export const CATALOGUE = {
   bezel: {
     title: 'Bezel',
     choices: [
-      { code: 'R', title: 'Round', phrase: 'round bezel', icon: 'M12 4a8 8 0 1 0 0 16 8 8 0 1 0 0-16M12 7.5a4.5 4.5 0 1 0 0 9 4.5 4.5 0 1 0 0-9' },
-      { code: 'S', title: 'Slim', phrase: 'slim bezel', icon: 'M12 5a7 7 0 1 0 0 14 7 7 0 1 0 0-14M12 6.8a5.2 5.2 0 1 0 0 10.4 5.2 5.2 0 1 0 0-10.4' },
-      { code: 'Q', title: 'Square', phrase: 'square bezel', icon: 'M6 4h12a2 2 0 0 1 2 2v12a2 2 0 0 1-2 2H6a2 2 0 0 1-2-2V6a2 2 0 0 1 2-2M12 7.5a4.5 4.5 0 1 0 0 9 4.5 4.5 0 1 0 0-9' },
+      {
+        code: 'R',
+        title: 'Round',
+        phrase: 'round bezel',
+        icon: 'M12 4a8 8 0 1 0 0 16 8 8 0 1 0 0-16M12 7.5a4.5 4.5 0 1 0 0 9 4.5 4.5 0 1 0 0-9',
+      },
+      {
+        code: 'S',
+        title: 'Slim',
+        phrase: 'slim bezel',
+        icon: 'M12 5a7 7 0 1 0 0 14 7 7 0 1 0 0-14M12 6.8a5.2 5.2 0 1 0 0 10.4 5.2 5.2 0 1 0 0-10.4',
+      },
+      {
+        code: 'Q',
+        title: 'Square',
+        phrase: 'square bezel',
+        icon: 'M6 4h12a2 2 0 0 1 2 2v12a2 2 0 0 1-2 2H6a2 2 0 0 1-2-2V6a2 2 0 0 1 2-2M12 7.5a4.5 4.5 0 1 0 0 9 4.5 4.5 0 1 0 0-9',
+      },
     ],
   },
   finish: {
@@ -67,7 +87,12 @@ export const CATALOGUE = {
     choices: [
       { code: 'C', title: 'Chrome', phrase: 'chrome', swatch: 'linear-gradient(135deg,#f6f7f8,#9ba1a6 50%,#e6e8ea)' },
       { code: 'S', title: 'Satin steel', phrase: 'satin steel', swatch: 'linear-gradient(135deg,#c9cac9,#9a9b9a)' },
-      { code: 'K', title: 'Black chrome', phrase: 'black chrome', swatch: 'linear-gradient(135deg,#5a5c60,#17181a 60%,#3a3c40)' },
+      {
+        code: 'K',
+        title: 'Black chrome',
+        phrase: 'black chrome',
+        swatch: 'linear-gradient(135deg,#5a5c60,#17181a 60%,#3a3c40)',
+      },
       { code: 'M', title: 'Brass', phrase: 'brass', swatch: 'linear-gradient(135deg,#f4dc9a,#b98a2d 60%,#e8c877)' },
       { code: 'W', title: 'White', phrase: 'white', swatch: '#ecebe7' },
     ],
@@ -86,8 +111,18 @@ export const CATALOGUE = {
   mounting: {
     title: 'Mounting',
     choices: [
-      { code: 'P', title: 'Plate 50 × 50', phrase: 'on a 50 × 50 mm plate', icon: 'M5 5h14v14H5zM12 8.5a3.5 3.5 0 1 0 0 7 3.5 3.5 0 1 0 0-7' },
-      { code: 'D', title: 'Disc 58', phrase: 'on a 58 mm disc', icon: 'M12 4a8 8 0 1 0 0 16 8 8 0 1 0 0-16M12 9a3 3 0 1 0 0 6 3 3 0 1 0 0-6' },
+      {
+        code: 'P',
+        title: 'Plate 50 × 50',
+        phrase: 'on a 50 × 50 mm plate',
+        icon: 'M5 5h14v14H5zM12 8.5a3.5 3.5 0 1 0 0 7 3.5 3.5 0 1 0 0-7',
+      },
+      {
+        code: 'D',
+        title: 'Disc 58',
+        phrase: 'on a 58 mm disc',
+        icon: 'M12 4a8 8 0 1 0 0 16 8 8 0 1 0 0-16M12 9a3 3 0 1 0 0 6 3 3 0 1 0 0-6',
+      },
       { code: 'E', title: 'Enclosure lid', phrase: 'in an enclosure lid', icon: 'M4 8l3-4h10l3 4v11H4zM4 8h16' },
       { code: 'N', title: 'Without', phrase: 'without a panel', icon: 'M6 18L18 6' },
     ],
@@ -96,8 +131,18 @@ export const CATALOGUE = {
     title: 'Panel finish',
     choices: [
       { code: 'A', title: 'Aluminium', phrase: 'of aluminium', swatch: 'linear-gradient(135deg,#d9dadb,#a7aaad)' },
-      { code: 'K', title: 'Black anodised', phrase: 'anodised in black', swatch: 'linear-gradient(135deg,#3a3b3e,#1b1c1e)' },
-      { code: 'S', title: 'Stainless steel', phrase: 'of stainless steel', swatch: 'linear-gradient(135deg,#efeeec,#8e8d89 55%,#c9c8c4)' },
+      {
+        code: 'K',
+        title: 'Black anodised',
+        phrase: 'anodised in black',
+        swatch: 'linear-gradient(135deg,#3a3b3e,#1b1c1e)',
+      },
+      {
+        code: 'S',
+        title: 'Stainless steel',
+        phrase: 'of stainless steel',
+        swatch: 'linear-gradient(135deg,#efeeec,#8e8d89 55%,#c9c8c4)',
+      },
       { code: 'G', title: 'Light grey', phrase: 'in light grey', swatch: '#cbd0cc' },
       { code: 'Y', title: 'Safety yellow', phrase: 'in safety yellow', swatch: '#f2c200' },
     ],
@@ -105,7 +150,12 @@ export const CATALOGUE = {
   contacts: {
     title: 'Contacts',
     choices: [
-      { code: 'C', title: '1 NO + 1 NC', phrase: 'one normally open and one normally closed contact', icon: 'M4 8h6l5-3M15 8h5M4 16h6l5 0M15 13.5V16h5' },
+      {
+        code: 'C',
+        title: '1 NO + 1 NC',
+        phrase: 'one normally open and one normally closed contact',
+        icon: 'M4 8h6l5-3M15 8h5M4 16h6l5 0M15 13.5V16h5',
+      },
       { code: 'O', title: '1 NO', phrase: 'one normally open contact', icon: 'M4 14h6l6-5M16 14h4' },
       { code: 'X', title: '1 NC', phrase: 'one normally closed contact', icon: 'M4 12h6l7 1.5M16 9v3h4' },
     ],
@@ -122,17 +172,23 @@ export type Configuration = Readonly<Record<FeatureName, string>>;
 export const choicesOf = (feature: FeatureName): readonly Choice[] => CATALOGUE[feature].choices;
 
 /** What is chosen of a feature. */
-export const chosen = (configuration: Configuration, feature: FeatureName): Choice => choicesOf(feature).find(({ code }) => code === configuration[feature]) ?? (choicesOf(feature)[0] as Choice);
+export const chosen = (configuration: Configuration, feature: FeatureName): Choice =>
+  choicesOf(feature).find(({ code }) => code === configuration[feature]) ?? (choicesOf(feature)[0] as Choice);
 
 /** The usual button. */
-export const usual = (): Configuration => Object.fromEntries(FEATURES.map((feature) => [feature, choicesOf(feature)[0]?.code ?? ''])) as Configuration;
+export const usual = (): Configuration =>
+  Object.fromEntries(FEATURES.map((feature) => [feature, choicesOf(feature)[0]?.code ?? ''])) as Configuration;
 
 /** Whether a feature has anything to say about a button: a panel that is not there has no finish. */
-export const applies = (configuration: Configuration, feature: FeatureName): boolean => feature !== 'panel' || configuration.mounting !== 'N';
+export const applies = (configuration: Configuration, feature: FeatureName): boolean =>
+  feature !== 'panel' || configuration.mounting !== 'N';
 
 /** How many different buttons there are. */
 export function combinations(): number {
-  const others = FEATURES.filter((feature) => feature !== 'mounting' && feature !== 'panel').reduce((product, feature) => product * choicesOf(feature).length, 1);
+  const others = FEATURES.filter((feature) => feature !== 'mounting' && feature !== 'panel').reduce(
+    (product, feature) => product * choicesOf(feature).length,
+    1,
+  );
   return others * ((choicesOf('mounting').length - 1) * choicesOf('panel').length + 1);
 }
 

@@ -1,5 +1,14 @@
 import { element } from '../ui/elements';
-import { applies, CATALOGUE, choicesOf, chosen, FEATURES, type Choice, type Configuration, type FeatureName } from './catalogue';
+import {
+  applies,
+  CATALOGUE,
+  choicesOf,
+  chosen,
+  FEATURES,
+  type Choice,
+  type Configuration,
+  type FeatureName,
+} from './catalogue';
 
 function drawing(path: string): SVGSVGElement {
   const space = 'http://www.w3.org/2000/svg';
@@ -16,10 +25,16 @@ function drawing(path: string): SVGSVGElement {
 function option(feature: FeatureName, { code, title, swatch, icon }: Choice): HTMLElement {
   const input = element('input', { type: 'radio', name: feature, value: code, id: `${feature}-${code}` });
   const round = feature === 'legend' || (feature === 'light' && icon !== undefined);
-  if (!swatch && !round) return element('label', { class: 'choice tile', title }, input, ...(icon ? [drawing(icon)] : []), title);
+  if (!swatch && !round)
+    return element('label', { class: 'choice tile', title }, input, ...(icon ? [drawing(icon)] : []), title);
   input.setAttribute('aria-label', title);
   const kind = swatch ? 'choice swatched' : 'choice round';
-  return element('label', { class: kind, title }, input, swatch ? element('span', { class: 'swatch', style: `background:${swatch}` }) : drawing(icon ?? ''));
+  return element(
+    'label',
+    { class: kind, title },
+    input,
+    swatch ? element('span', { class: 'swatch', style: `background:${swatch}` }) : drawing(icon ?? ''),
+  );
 }
 
 /** All features as groups of radio buttons, so that arrows and Tab work as everywhere. */
@@ -29,7 +44,12 @@ export class OptionsForm {
   constructor(form: HTMLFormElement, onChoose: (feature: FeatureName, code: string) => void) {
     for (const feature of FEATURES) {
       const told = element('span', { 'aria-hidden': 'true' });
-      const set = element('fieldset', { 'data-feature': feature }, element('legend', {}, CATALOGUE[feature].title, told), element('div', { class: 'choices' }, ...choicesOf(feature).map((choice) => option(feature, choice))));
+      const set = element(
+        'fieldset',
+        { 'data-feature': feature },
+        element('legend', {}, CATALOGUE[feature].title, told),
+        element('div', { class: 'choices' }, ...choicesOf(feature).map((choice) => option(feature, choice))),
+      );
       this.#groups.set(feature, { set, told });
       form.append(set);
     }

@@ -1,5 +1,12 @@
 import { inSlices, type Environment, type LatLongEnvironment, type Scene } from '@glanz/scene';
-import { STUDIOS, studioEnvironment, studioSteps, type SoftBox, type StudioName, type StudioSetup } from '@glanz/scene/studio';
+import {
+  STUDIOS,
+  studioEnvironment,
+  studioSteps,
+  type SoftBox,
+  type StudioName,
+  type StudioSetup,
+} from '@glanz/scene/studio';
 import type { State } from '../state/state';
 
 function setupOf({ studio, boxes }: State): StudioSetup {
@@ -12,7 +19,13 @@ export class Environments {
   #file: LatLongEnvironment | undefined;
   #fileName = '';
   /** The last one made: turning and dimming it makes no other. */
-  #made: { readonly studio: StudioName; readonly boxes: readonly SoftBox[] | null; readonly environment: LatLongEnvironment } | undefined;
+  #made:
+    | {
+        readonly studio: StudioName;
+        readonly boxes: readonly SoftBox[] | null;
+        readonly environment: LatLongEnvironment;
+      }
+    | undefined;
 
   /** Name of the file that lights the scene: loaded, or named by a link that does not hold it; or empty. */
   get fileName(): string {
@@ -41,22 +54,37 @@ export class Environments {
     this.#fileName = file.name;
   }
 
-  /** The environment that the state asks for. `model` without one of the model's own is the studio, as is `file` without a file. */
+  /**
+   * The environment that the state asks for. `model` without one of the model's own is the studio, as is `file` without
+   * a file.
+   */
   choose(state: State, scene: Pick<Scene, 'environment'> | undefined): Environment | undefined {
     const { environment: choice, intensity, constant } = state;
     if (choice === 'none') return undefined;
-    if (choice === 'constant') return { type: 'constant', radiance: [constant[0] * intensity, constant[1] * intensity, constant[2] * intensity] };
+    if (choice === 'constant')
+      return {
+        type: 'constant',
+        radiance: [constant[0] * intensity, constant[1] * intensity, constant[2] * intensity],
+      };
     const rotation = (state.rotation * Math.PI) / 180;
     const own = choice === 'model' ? scene?.environment : choice === 'file' ? this.#file : undefined;
     const source = own ?? this.#studio(state);
-    if (source.type === 'constant') return { ...source, radiance: [source.radiance[0] * intensity, source.radiance[1] * intensity, source.radiance[2] * intensity] };
+    if (source.type === 'constant')
+      return {
+        ...source,
+        radiance: [source.radiance[0] * intensity, source.radiance[1] * intensity, source.radiance[2] * intensity],
+      };
     return { ...source, intensity: (source.intensity ?? 1) * intensity, rotation: (source.rotation ?? 0) + rotation };
   }
 
   /** Makes what {@link choose} will ask for, in slices. */
   async prepare(state: State, scene: Pick<Scene, 'environment'> | undefined): Promise<void> {
     const { environment: choice, studio, boxes } = state;
-    const own = choice === 'none' || choice === 'constant' || (choice === 'model' && scene?.environment) || (choice === 'file' && this.#file);
+    const own =
+      choice === 'none' ||
+      choice === 'constant' ||
+      (choice === 'model' && scene?.environment) ||
+      (choice === 'file' && this.#file);
     if (own || this.#isMade(state)) return;
     this.#made = { studio, boxes, environment: await inSlices(studioSteps({ setup: setupOf(state) })) };
   }
@@ -67,7 +95,8 @@ export class Environments {
 
   #studio(state: State): LatLongEnvironment {
     const { studio, boxes } = state;
-    if (!this.#made || !this.#isMade(state)) this.#made = { studio, boxes, environment: studioEnvironment({ setup: setupOf(state) }) };
+    if (!this.#made || !this.#isMade(state))
+      this.#made = { studio, boxes, environment: studioEnvironment({ setup: setupOf(state) }) };
     return this.#made.environment;
   }
 }

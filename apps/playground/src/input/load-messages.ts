@@ -5,10 +5,22 @@ import type { SampleName } from './samples';
 /** A model of the playground. */
 export type ModelRequest =
   | { readonly kind: 'sample'; readonly name: SampleName }
-  | { readonly kind: 'files'; readonly files: ReadonlyMap<string, Blob>; readonly entry: string; readonly animation?: number; readonly time?: number; /** Pictures are not decoded: a pose has no need of them. */ readonly shapesOnly?: boolean };
+  | {
+      readonly kind: 'files';
+      readonly files: ReadonlyMap<string, Blob>;
+      readonly entry: string;
+      readonly animation?: number;
+      readonly time?: number;
+      /** Pictures are not decoded: a pose has no need of them. */ readonly shapesOnly?: boolean;
+    };
 
-/** What the loading worker is asked: a model, with the formats that its pictures may stay packed in, or all parts that a push-button can be put together from. */
-export type LoadRequest = (ModelRequest & { readonly compressedFormats?: readonly CompressedFormat[] }) | { readonly kind: 'kit'; readonly level: 'low' | 'medium' };
+/**
+ * What the loading worker is asked: a model, with the formats that its pictures may stay packed in, or all parts that a
+ * push-button can be put together from.
+ */
+export type LoadRequest =
+  | (ModelRequest & { readonly compressedFormats?: readonly CompressedFormat[] })
+  | { readonly kind: 'kit'; readonly level: 'low' | 'medium' };
 
 /** What it answers: any number of `progress`, then one of the others. */
 export type LoadReply =

@@ -22,7 +22,13 @@ export class LoadWorker {
       if (data.kind === 'scene') asked?.resolve(receivedScene(data.scene));
       else asked?.reject(new PlaygroundError(data.code ?? 'playground/load', data.message));
     };
-    this.#worker.onerror = (event) => this.#asked?.reject(new PlaygroundError('playground/worker', `The model loader failed: ${event.message || 'its script could not be started'}; reload the page.`));
+    this.#worker.onerror = (event) =>
+      this.#asked?.reject(
+        new PlaygroundError(
+          'playground/worker',
+          `The model loader failed: ${event.message || 'its script could not be started'}; reload the page.`,
+        ),
+      );
   }
 
   /**
@@ -47,13 +53,28 @@ export class LoadWorker {
  *
  * @throws {PlaygroundError} with the code and the message of the loader's error.
  */
-export async function loadScene(request: LoadRequest, options: { readonly signal: AbortSignal; readonly onProgress?: (stage: string, done: number) => void; readonly compressedFormats?: readonly CompressedFormat[] }): Promise<Scene> {
+export async function loadScene(
+  request: LoadRequest,
+  options: {
+    readonly signal: AbortSignal;
+    readonly onProgress?: (stage: string, done: number) => void;
+    readonly compressedFormats?: readonly CompressedFormat[];
+  },
+): Promise<Scene> {
   const { signal, onProgress, compressedFormats } = options;
   signal.throwIfAborted();
   const worker = new LoadWorker();
   const listening = new AbortController();
   try {
-    return await Promise.race([worker.ask(request.kind === 'files' && compressedFormats ? { ...request, compressedFormats } : request, onProgress), new Promise<never>((_, reject) => signal.addEventListener('abort', () => reject(signal.reason as Error), { signal: listening.signal }))]);
+    return await Promise.race([
+      worker.ask(
+        request.kind === 'files' && compressedFormats ? { ...request, compressedFormats } : request,
+        onProgress,
+      ),
+      new Promise<never>((_, reject) =>
+        signal.addEventListener('abort', () => reject(signal.reason as Error), { signal: listening.signal }),
+      ),
+    ]);
   } finally {
     listening.abort();
     worker.destroy();

@@ -13,17 +13,37 @@ const noPicture = () => Promise.resolve({ width: 1, height: 1, data: new Uint8Cl
 async function load(request: LoadRequest): Promise<Scene> {
   if (request.kind === 'files') {
     const { files, entry } = request;
-    const bytesOf = async (path: string) => { const file = files.get(path); return file && new Uint8Array(await file.arrayBuffer()); };
+    const bytesOf = async (path: string) => {
+      const file = files.get(path);
+      return file && new Uint8Array(await file.arrayBuffer());
+    };
     const name = entry.slice(entry.lastIndexOf('/') + 1);
     if (/\.stl$/i.test(entry)) return readStl((await bytesOf(entry)) ?? new Uint8Array(), { name });
     const folder = entry.slice(0, entry.length - name.length);
-    if (/\.obj$/i.test(entry)) return readObj((await bytesOf(entry)) ?? new Uint8Array(), { name, read: (path) => bytesOf(folder + path), decodeImage: (bytes) => decodeImageInBrowser(bytes, 'application/octet-stream') });
+    if (/\.obj$/i.test(entry))
+      return readObj((await bytesOf(entry)) ?? new Uint8Array(), {
+        name,
+        read: (path) => bytesOf(folder + path),
+        decodeImage: (bytes) => decodeImageInBrowser(bytes, 'application/octet-stream'),
+      });
     const onProgress = ({ stage, done }: { stage: string; done: number }) => reply({ kind: 'progress', stage, done });
-    return loadGltf({ files, entry }, { decoders, onProgress, animation: request.animation, time: request.time, compressedFormats: request.compressedFormats, ...(request.shapesOnly ? { decodeImage: noPicture } : {}) });
+    return loadGltf(
+      { files, entry },
+      {
+        decoders,
+        onProgress,
+        animation: request.animation,
+        time: request.time,
+        compressedFormats: request.compressedFormats,
+        ...(request.shapesOnly ? { decodeImage: noPicture } : {}),
+      },
+    );
   }
   if (request.kind === 'kit') return createPushButtonKit({ level: request.level });
   if (request.name === 'cornell-box') return createCornellBox();
-  return createPushButton({ level: request.name === 'push-button-high' ? 'high' : request.name === 'push-button-low' ? 'low' : 'medium' });
+  return createPushButton({
+    level: request.name === 'push-button-high' ? 'high' : request.name === 'push-button-low' ? 'low' : 'medium',
+  });
 }
 
 const reply = (message: LoadReply, transfer: Transferable[] = []) => self.postMessage(message, { transfer });

@@ -20,7 +20,8 @@ export const isSample = (name: string): name is SampleName => Object.hasOwn(SAMP
 export const sampleTitle = (name: SampleName): string => SAMPLES[name].title.split(' · ')[0] as string;
 
 /** What a request is called in links. */
-export const nameOf = (request: ModelRequest): string => (request.kind === 'sample' ? request.name : (request.entry.split('/').at(-1) ?? request.entry));
+export const nameOf = (request: ModelRequest): string =>
+  request.kind === 'sample' ? request.name : (request.entry.split('/').at(-1) ?? request.entry);
 
 /**
  * The state in which a model is first seen.
@@ -29,8 +30,20 @@ export const nameOf = (request: ModelRequest): string => (request.kind === 'samp
  * @param link What a link says of this model, which goes over all else.
  * @param first Whether nothing was shown before: the address decides then, later the model.
  */
-export function stateFor(scene: Scene, request: ModelRequest, before: State, { link, first }: { readonly link?: LinkContent | undefined; readonly first: boolean }): State {
-  const wanted = request.kind === 'sample' ? SAMPLES[request.name].environment : scene.environment ? 'model' : before.environment === 'none' || before.environment === 'model' ? 'studio' : before.environment;
+export function stateFor(
+  scene: Scene,
+  request: ModelRequest,
+  before: State,
+  { link, first }: { readonly link?: LinkContent | undefined; readonly first: boolean },
+): State {
+  const wanted =
+    request.kind === 'sample'
+      ? SAMPLES[request.name].environment
+      : scene.environment
+        ? 'model'
+        : before.environment === 'none' || before.environment === 'model'
+          ? 'studio'
+          : before.environment;
   // A picture that the user brought lights whatever comes.
   const environment = first || before.environment === 'file' ? before.environment : wanted;
   const state: State = { ...forAnotherModel(before), environment, camera: scene.cameras.length > 0 ? 0 : -1 };
@@ -48,7 +61,11 @@ export function stateFor(scene: Scene, request: ModelRequest, before: State, { l
 }
 
 function checkedMaterials(scene: Scene, materials: State['materials']): State['materials'] {
-  return Object.fromEntries(Object.entries(materials).filter(([index, values]) => scene.materials[Number(index)] && typeof values === 'object' && values !== null));
+  return Object.fromEntries(
+    Object.entries(materials).filter(
+      ([index, values]) => scene.materials[Number(index)] && typeof values === 'object' && values !== null,
+    ),
+  );
 }
 
 /** A link that was opened. */
@@ -60,7 +77,10 @@ export interface OpenedLink extends LinkContent {
 /** The link in the page's address, with values of materials that its table allows. */
 export async function linkOfPage(): Promise<OpenedLink | undefined> {
   if (location.hash.length <= 1) return undefined;
-  const [{ decodeLink }, { textForReceiver }] = await Promise.all([import('../state/link'), import('../state/link-texts')]);
+  const [{ decodeLink }, { textForReceiver }] = await Promise.all([
+    import('../state/link'),
+    import('../state/link-texts'),
+  ]);
   const content = await decodeLink(location.hash);
   const link = content && { ...content, note: textForReceiver(content, !isSample(content.model)) };
   if (!link?.state.materials) return link;
@@ -77,6 +97,10 @@ export async function linkOfPage(): Promise<OpenedLink | undefined> {
 }
 
 /** Loads what a request asks for. */
-export async function open(request: ModelRequest, title: string, options: Parameters<typeof loadScene>[1]): Promise<Opened> {
+export async function open(
+  request: ModelRequest,
+  title: string,
+  options: Parameters<typeof loadScene>[1],
+): Promise<Opened> {
   return { scene: await loadScene(request, options), request, title, name: nameOf(request) };
 }

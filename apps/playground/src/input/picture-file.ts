@@ -13,15 +13,25 @@ export const PICTURE = /\.(png|jpe?g|webp|avif|gif|bmp)$/i;
 export async function readPicture(file: File): Promise<Image> {
   const { decodeImageInBrowser } = await import('@glanz/gltf');
   try {
-    const { width, height, data } = await decodeImageInBrowser(new Uint8Array(await file.arrayBuffer()), file.type || 'application/octet-stream');
+    const { width, height, data } = await decodeImageInBrowser(
+      new Uint8Array(await file.arrayBuffer()),
+      file.type || 'application/octet-stream',
+    );
     return { name: file.name, width, height, data: data as Image['data'] };
   } catch {
-    throw new PlaygroundError('playground/picture', `"${file.name}" is no picture that this browser can read: use PNG, JPEG, WebP or AVIF.`);
+    throw new PlaygroundError(
+      'playground/picture',
+      `"${file.name}" is no picture that this browser can read: use PNG, JPEG, WebP or AVIF.`,
+    );
   }
 }
 
 /** The picture as it drives a parameter: colours as sRGB, numbers by their red channel. */
 export function slotOf(image: Image, parameter: TexturedParameter): NonNullable<Slot> {
   const { type } = OPENPBR_PARAMETERS[parameter];
-  return { image, color_space: type === 'color3' ? 'srgb' : 'linear', binding: { channels: type === 'float' ? 'r' : 'rgb' } };
+  return {
+    image,
+    color_space: type === 'color3' ? 'srgb' : 'linear',
+    binding: { channels: type === 'float' ? 'r' : 'rgb' },
+  };
 }

@@ -1,6 +1,9 @@
 import { describeError, PlaygroundError } from '../errors';
 
-/** What a user gave, sorted: a model with everything that lies beside it, an environment, a material, or several of them. */
+/**
+ * What a user gave, sorted: a model with everything that lies beside it, an environment, a material, or several of
+ * them.
+ */
 export interface GivenFiles {
   readonly model?: { readonly files: ReadonlyMap<string, File>; readonly entry: string };
   readonly environment?: File;
@@ -27,12 +30,20 @@ export function sortFiles(files: ReadonlyMap<string, File>): GivenFiles {
   const look = paths.find((path) => MATERIAL.test(path));
   if (entry === undefined && environmentPath === undefined && look === undefined) {
     const names = paths.slice(0, 3).map((path) => `"${path}"`);
-    throw new PlaygroundError('playground/no-model', `There is no .glb, .gltf, .obj, .stl, .hdr, .exr or .mtlx among the files${names.length > 0 ? ` (${names.join(', ')}${paths.length > 3 ? ', …' : ''})` : ''}.`);
+    throw new PlaygroundError(
+      'playground/no-model',
+      `There is no .glb, .gltf, .obj, .stl, .hdr, .exr or .mtlx among the files${names.length > 0 ? ` (${names.join(', ')}${paths.length > 3 ? ', …' : ''})` : ''}.`,
+    );
   }
   const environment = environmentPath === undefined ? undefined : files.get(environmentPath);
   const material = look === undefined ? undefined : files.get(look);
-  return { ...(entry === undefined ? {} : { model: { files, entry } }), ...(environment ? { environment } : {}), ...(material ? { material } : {}) };
+  return {
+    ...(entry === undefined ? {} : { model: { files, entry } }),
+    ...(environment ? { environment } : {}),
+    ...(material ? { material } : {}),
+  };
 }
 
 /** What the page says of an environment that cannot be read, and came together with a model. */
-export const environmentNote = (error: unknown): string => `${describeError(error).message} The model is lit as the page was before.`;
+export const environmentNote = (error: unknown): string =>
+  `${describeError(error).message} The model is lit as the page was before.`;

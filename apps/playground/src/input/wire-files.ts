@@ -12,7 +12,10 @@ export interface FileEvents {
 
 /** Buttons that open files, and what is dropped on the page. */
 export function wireFiles({ onFiles, onPreset }: FileEvents): void {
-  for (const [button, input] of [['open', 'files'], ['open-folder', 'folder']] as const) {
+  for (const [button, input] of [
+    ['open', 'files'],
+    ['open-folder', 'folder'],
+  ] as const) {
     const picker = byId<HTMLInputElement>(input);
     byId(button).addEventListener('click', () => picker.click());
     picker.addEventListener('change', () => {

@@ -6,7 +6,8 @@ import { composeScene } from '../viewer/compose';
 
 type Json = Record<string, unknown>;
 
-const isObject = (value: unknown): value is Json => typeof value === 'object' && value !== null && !Array.isArray(value);
+const isObject = (value: unknown): value is Json =>
+  typeof value === 'object' && value !== null && !Array.isArray(value);
 
 /** What a file says of a material and OpenPBR does not: it stays. */
 const KEPT = ['name', 'extras', 'doubleSided', 'alphaMode', 'alphaCutoff'];
@@ -26,7 +27,8 @@ function withTextures(former: Json, written: Json): Json {
 }
 
 /**
- * A glTF document with other values in some materials. Geometry, textures, animations and everything else stay as they are.
+ * A glTF document with other values in some materials. Geometry, textures, animations and everything else stay as they
+ * are.
  *
  * @param json The document.
  * @param edited By index of the material.
@@ -40,9 +42,11 @@ export function patchMaterials(json: Json, edited: ReadonlyMap<number, Material>
     const { json: written, extensions } = toGltfMaterial(material);
     const patched = withTextures(former, written);
     for (const key of KEPT) if (former[key] !== undefined) patched[key] = former[key];
-    if (former['alphaMode'] === undefined && written['alphaMode'] !== undefined) patched['alphaMode'] = written['alphaMode'];
+    if (former['alphaMode'] === undefined && written['alphaMode'] !== undefined)
+      patched['alphaMode'] = written['alphaMode'];
     materials[index] = patched;
-    for (const name of [...extensions, ...Object.keys((patched['extensions'] as Json | undefined) ?? {})]) used.add(name);
+    for (const name of [...extensions, ...Object.keys((patched['extensions'] as Json | undefined) ?? {})])
+      used.add(name);
   }
   return { ...json, materials, ...(used.size > 0 ? { extensionsUsed: [...used] } : {}) };
 }
@@ -74,19 +78,26 @@ export function replaceJson(glb: Uint8Array<ArrayBuffer>, change: (json: Json) =
 /** The materials that differ from the file's, as they are now. */
 function editedMaterials(scene: Scene, state: State): Map<number, Material> {
   const composed = composeScene(scene, { ...state, slots: {}, floor: false }, undefined);
-  return new Map(Object.keys(state.materials).map((index) => [Number(index), composed.materials[Number(index)] as Material]));
+  return new Map(
+    Object.keys(state.materials).map((index) => [Number(index), composed.materials[Number(index)] as Material]),
+  );
 }
 
 /**
- * The model as glTF with the materials as edited: the user's own file with other values, or, where it was none (built-in,
- * OBJ, STL), a GLB of what is visible. Pictures put on parameters here are not written.
+ * The model as glTF with the materials as edited: the user's own file with other values, or, where it was none
+ * (built-in, OBJ, STL), a GLB of what is visible. Pictures put on parameters here are not written.
  */
-export async function modelAsGltf({ scene, request }: Opened, state: State): Promise<{ readonly bytes: Uint8Array<ArrayBuffer>; readonly extension: 'glb' | 'gltf' }> {
-  const file = request.kind === 'files' && /\.(glb|gltf)$/i.test(request.entry) ? request.files.get(request.entry) : undefined;
+export async function modelAsGltf(
+  { scene, request }: Opened,
+  state: State,
+): Promise<{ readonly bytes: Uint8Array<ArrayBuffer>; readonly extension: 'glb' | 'gltf' }> {
+  const file =
+    request.kind === 'files' && /\.(glb|gltf)$/i.test(request.entry) ? request.files.get(request.entry) : undefined;
   if (!file) return { bytes: writeGlb(composeScene(scene, { ...state, floor: false }, undefined)), extension: 'glb' };
   const bytes = new Uint8Array(await file.arrayBuffer());
   const patch = (json: Json) => patchMaterials(json, editedMaterials(scene, state));
-  if (new DataView(bytes.buffer).getUint32(0, true) === MAGIC) return { bytes: replaceJson(bytes, patch), extension: 'glb' };
+  if (new DataView(bytes.buffer).getUint32(0, true) === MAGIC)
+    return { bytes: replaceJson(bytes, patch), extension: 'glb' };
   const json = JSON.parse(new TextDecoder().decode(bytes)) as Json;
   return { bytes: new TextEncoder().encode(JSON.stringify(patch(json), null, 2)), extension: 'gltf' };
 }

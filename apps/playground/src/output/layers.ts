@@ -2,11 +2,25 @@ import type { FilmLayer } from '@glanz/renderer';
 import { srgbDecode } from '@glanz/tonemap';
 
 /** The pictures that can be shown, the beauty first. */
-export const LAYERS = ['beauty', 'albedo', 'normal', 'depth', 'objectId', 'materialId'] as const satisfies readonly FilmLayer[];
+export const LAYERS = [
+  'beauty',
+  'albedo',
+  'normal',
+  'depth',
+  'objectId',
+  'materialId',
+] as const satisfies readonly FilmLayer[];
 export type Layer = (typeof LAYERS)[number];
 
 /** What people call them. */
-export const LAYER_TITLES: Readonly<Record<Layer, string>> = { beauty: 'Picture', albedo: 'Albedo', normal: 'Normals', depth: 'Depth', objectId: 'Parts', materialId: 'Materials' };
+export const LAYER_TITLES: Readonly<Record<Layer, string>> = {
+  beauty: 'Picture',
+  albedo: 'Albedo',
+  normal: 'Normals',
+  depth: 'Depth',
+  objectId: 'Parts',
+  materialId: 'Materials',
+};
 
 const NO_SURFACE = 0xffffffff;
 
@@ -14,7 +28,8 @@ const NO_SURFACE = 0xffffffff;
 function colourOf(id: number): readonly [number, number, number] {
   const hue = (id * 0.618033988749895) % 1;
   const light = 0.75 + 0.25 * ((id * 0.7548776662466927) % 1);
-  const channel = (offset: number) => light * (0.25 + 0.75 * Math.min(Math.max(Math.abs(((hue + offset) % 1) * 6 - 3) - 1, 0), 1));
+  const channel = (offset: number) =>
+    light * (0.25 + 0.75 * Math.min(Math.max(Math.abs(((hue + offset) % 1) * 6 - 3) - 1, 0), 1));
   return [channel(0), channel(2 / 3), channel(1 / 3)];
 }
 
@@ -24,7 +39,10 @@ function colourOf(id: number): readonly [number, number, number] {
  *
  * @param data What `PathTracer.read(layer)` gave.
  */
-export function layerPicture(layer: Exclude<Layer, 'beauty'>, data: Float32Array | Uint32Array): Float32Array<ArrayBuffer> {
+export function layerPicture(
+  layer: Exclude<Layer, 'beauty'>,
+  data: Float32Array | Uint32Array,
+): Float32Array<ArrayBuffer> {
   if (layer === 'albedo') return Float32Array.from(data as Float32Array, (value, i) => (i % 4 === 3 ? 1 : value));
   const pixels = layer === 'normal' ? data.length / 4 : data.length;
   const picture = new Float32Array(pixels * 4);
@@ -41,7 +59,8 @@ export function layerPicture(layer: Exclude<Layer, 'beauty'>, data: Float32Array
     let rgb: readonly [number, number, number] = [0, 0, 0];
     if (layer === 'normal') {
       const [x, y, z] = [data[4 * i] as number, data[4 * i + 1] as number, data[4 * i + 2] as number];
-      if (x !== 0 || y !== 0 || z !== 0) rgb = [srgbDecode(0.5 + 0.5 * x), srgbDecode(0.5 + 0.5 * y), srgbDecode(0.5 + 0.5 * z)];
+      if (x !== 0 || y !== 0 || z !== 0)
+        rgb = [srgbDecode(0.5 + 0.5 * x), srgbDecode(0.5 + 0.5 * y), srgbDecode(0.5 + 0.5 * z)];
     } else if (layer === 'depth') {
       const metres = data[i] as number;
       const grey = metres > 0 ? srgbDecode(1 - 0.85 * (far > near ? (metres - near) / (far - near) : 0)) : 0;

@@ -13,18 +13,42 @@ export function materialAsMaterialX(scene: Scene, state: State, index: number): 
     Object.entries(material.textures ?? {}).flatMap(([name, binding]) => {
       const texture = composed.textures[binding.texture];
       const file = texture && (composed.images[texture.image]?.name || `texture-${binding.texture}.png`);
-      return texture && file ? [[name, { file, channels: binding.channels, colorSpace: texture.color_space, ...(binding.range ? { range: binding.range } : {}), ...(binding.scale === undefined ? {} : { scale: binding.scale }) }]] : [];
+      return texture && file
+        ? [
+            [
+              name,
+              {
+                file,
+                channels: binding.channels,
+                colorSpace: texture.color_space,
+                ...(binding.range ? { range: binding.range } : {}),
+                ...(binding.scale === undefined ? {} : { scale: binding.scale }),
+              },
+            ],
+          ]
+        : [];
     }),
   ) as MaterialXMaterial['textures'];
-  return writeMaterialX([{ name: material.name || 'material', parameters: material.parameters, ...(textures ? { textures } : {}) }]).document;
+  return writeMaterialX([
+    { name: material.name || 'material', parameters: material.parameters, ...(textures ? { textures } : {}) },
+  ]).document;
 }
 
 /** A .mtlx document's first material with those of its pictures that lie beside it. */
-export async function materialFromFiles(file: File, beside: ReadonlyMap<string, File>): Promise<{ readonly name: string; readonly parameters: MaterialXMaterial['parameters']; readonly slots: Readonly<Record<string, Slot>>; readonly notes: readonly string[] }> {
+export async function materialFromFiles(
+  file: File,
+  beside: ReadonlyMap<string, File>,
+): Promise<{
+  readonly name: string;
+  readonly parameters: MaterialXMaterial['parameters'];
+  readonly slots: Readonly<Record<string, Slot>>;
+  readonly notes: readonly string[];
+}> {
   const { materials, warnings } = readMaterialX(await file.text());
   const [{ name, parameters, textures = {} }] = materials as [MaterialXMaterial];
   const notes = warnings.map(({ message }) => message);
-  if (materials.length > 1) notes.unshift(`"${file.name}" has ${materials.length} materials: the first, "${name}", was taken.`);
+  if (materials.length > 1)
+    notes.unshift(`"${file.name}" has ${materials.length} materials: the first, "${name}", was taken.`);
   const slots: Record<string, Slot> = {};
   for (const [parameter, texture] of Object.entries(textures)) {
     const picture = [...beside].find(([path]) => path.split('/').at(-1) === texture.file.split('/').at(-1))?.[1];
@@ -35,7 +59,13 @@ export async function materialFromFiles(file: File, beside: ReadonlyMap<string, 
     slots[parameter] = {
       image: await readPicture(picture),
       color_space: texture.colorSpace,
-      binding: { channels: texture.channels, ...(texture.uv === undefined ? {} : { uv: texture.uv }), ...(texture.transform ? { transform: texture.transform } : {}), ...(texture.scale === undefined ? {} : { scale: texture.scale }), ...(texture.range ? { range: texture.range } : {}) },
+      binding: {
+        channels: texture.channels,
+        ...(texture.uv === undefined ? {} : { uv: texture.uv }),
+        ...(texture.transform ? { transform: texture.transform } : {}),
+        ...(texture.scale === undefined ? {} : { scale: texture.scale }),
+        ...(texture.range ? { range: texture.range } : {}),
+      },
     } satisfies Slot;
   }
   return { name, parameters, slots, notes };

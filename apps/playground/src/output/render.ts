@@ -20,10 +20,17 @@ function screenSize({ stageSize }: Context): readonly [number, number] {
 /** What is behind an image of this shape. */
 export type BehindFor = (aspect: number) => Behind | undefined | Promise<Behind | undefined>;
 
-async function write(tracer: PathTracer, { format }: RenderRequest, context: Context, behind: Behind | undefined): Promise<Blob> {
+async function write(
+  tracer: PathTracer,
+  { format }: RenderRequest,
+  context: Context,
+  behind: Behind | undefined,
+): Promise<Blob> {
   const { exposure, toneMap } = context.store.state;
   if (format === 'exr') return new Blob([await pictureAsExr(tracer)], { type: 'image/x-exr' });
-  return new Blob([await pictureAsPng(tracer, { exposure, toneMap }, format === 'png-16' ? 16 : 8, behind)], { type: 'image/png' });
+  return new Blob([await pictureAsPng(tracer, { exposure, toneMap }, format === 'png-16' ? 16 : 8, behind)], {
+    type: 'image/png',
+  });
 }
 
 /** Opens the dialog that renders the image at any size. The screen's image waits meanwhile, and keeps its samples. */
@@ -46,7 +53,10 @@ export function openRenderDialog(context: Context, behindFor: BehindFor, format?
       const { paused } = session;
       session.setPaused(true);
       try {
-        const tracer = await renderImage(session.engine, { ...request, background: transparent || composed ? 'transparent' : 'environment' });
+        const tracer = await renderImage(session.engine, {
+          ...request,
+          background: transparent || composed ? 'transparent' : 'environment',
+        });
         try {
           return await write(tracer, request, context, behind);
         } finally {

@@ -12,7 +12,10 @@ function over(codes: Uint8ClampedArray | Uint16Array, width: number, height: num
       const alpha = (codes[i + 3] as number) / top;
       if (alpha >= 1) continue;
       for (let k = 0; k < 3; k++) {
-        const code = 'color' in behind ? (behind.color[k] as number) : sample(behind.picture, (x + 0.5) / width, (y + 0.5) / height, k);
+        const code =
+          'color' in behind
+            ? (behind.color[k] as number)
+            : sample(behind.picture, (x + 0.5) / width, (y + 0.5) / height, k);
         codes[i + k] = Math.round((codes[i + k] as number) * alpha + (code / 255) * top * (1 - alpha));
       }
       codes[i + 3] = top;
@@ -22,37 +25,62 @@ function over(codes: Uint8ClampedArray | Uint16Array, width: number, height: num
 
 /** Bilinear. */
 function sample({ width, height, data }: ImageData, u: number, v: number, channel: number): number {
-  const [x, y] = [Math.max(0, Math.min(width - 1.001, u * width - 0.5)), Math.max(0, Math.min(height - 1.001, v * height - 0.5))];
+  const [x, y] = [
+    Math.max(0, Math.min(width - 1.001, u * width - 0.5)),
+    Math.max(0, Math.min(height - 1.001, v * height - 0.5)),
+  ];
   const [i, j] = [Math.floor(x), Math.floor(y)];
-  const at = (dx: number, dy: number) => data[(Math.min(j + dy, height - 1) * width + Math.min(i + dx, width - 1)) * 4 + channel] as number;
+  const at = (dx: number, dy: number) =>
+    data[(Math.min(j + dy, height - 1) * width + Math.min(i + dx, width - 1)) * 4 + channel] as number;
   const [fx, fy] = [x - i, y - j];
   return (at(0, 0) * (1 - fx) + at(1, 0) * fx) * (1 - fy) + (at(0, 1) * (1 - fx) + at(1, 1) * fx) * fy;
 }
 
 /** The picture as PNG with 8 or 16 bits a channel, through the tone map. */
-export async function pictureAsPng(tracer: PathTracer, view: Required<ToneMapOptions>, bits: 8 | 16, behind?: Behind): Promise<Uint8Array<ArrayBuffer>> {
+export async function pictureAsPng(
+  tracer: PathTracer,
+  view: Required<ToneMapOptions>,
+  bits: 8 | 16,
+  behind?: Behind,
+): Promise<Uint8Array<ArrayBuffer>> {
   const { encodePng } = await import('@glanz/image/png');
   const { width, height, samples } = tracer;
   const beauty = await tracer.read('beauty');
-  const codes = bits === 8 ? toneMapPixels(beauty, width, height, { ...view, output: 'uint8' }) : toneMapPixels(beauty, width, height, { ...view, output: 'uint16' });
+  const codes =
+    bits === 8
+      ? toneMapPixels(beauty, width, height, { ...view, output: 'uint8' })
+      : toneMapPixels(beauty, width, height, { ...view, output: 'uint16' });
   if (behind) over(codes, width, height, behind);
-  return encodePng({ width, height, data: codes, text: { Software: 'Glanz', Comment: `${samples} samples per pixel` } });
+  return encodePng({
+    width,
+    height,
+    data: codes,
+    text: { Software: 'Glanz', Comment: `${samples} samples per pixel` },
+  });
 }
 
-const plane = (data: Float32Array, channel: number) => Float32Array.from({ length: data.length / 4 }, (_, i) => data[4 * i + channel] as number);
+const plane = (data: Float32Array, channel: number) =>
+  Float32Array.from({ length: data.length / 4 }, (_, i) => data[4 * i + channel] as number);
 
-/** Everything the film knows as OpenEXR: linear radiance and the layers, and the light of each group where they are kept apart. */
+/**
+ * Everything the film knows as OpenEXR: linear radiance and the layers, and the light of each group where they are kept
+ * apart.
+ */
 export async function pictureAsExr(tracer: PathTracer): Promise<Uint8Array<ArrayBuffer>> {
   const { encodeExr } = await import('@glanz/image/exr');
   const { width, height, samples } = tracer;
   const beauty = await tracer.read('beauty');
   const albedo = await tracer.read('albedo');
   const normal = await tracer.read('normal');
-  const groups = tracer.lightGroups.length > 1 && !tracer.scene.instances.some(({ catcher }) => catcher) ? tracer.lightGroups : [];
+  const groups =
+    tracer.lightGroups.length > 1 && !tracer.scene.instances.some(({ catcher }) => catcher) ? tracer.lightGroups : [];
   const lights = [];
   for (const { name } of groups) {
     const light = await tracer.readLightGroup(name);
-    lights.push({ name: `light_${name.replaceAll('.', '_')}`, channels: { R: plane(light, 0), G: plane(light, 1), B: plane(light, 2) } });
+    lights.push({
+      name: `light_${name.replaceAll('.', '_')}`,
+      channels: { R: plane(light, 0), G: plane(light, 1), B: plane(light, 2) },
+    });
   }
   return encodeExr({
     width,
@@ -82,4 +110,9 @@ export function download(bytes: Uint8Array<ArrayBuffer> | string | Blob, name: s
 }
 
 /** A file name out of a title. */
-export const fileName = (title: string): string => title.replace(/\.(glb|gltf|obj|stl)$/i, '').replace(/[^\p{L}\p{N}]+/gu, '-').replace(/^-|-$/g, '').toLowerCase() || 'picture';
+export const fileName = (title: string): string =>
+  title
+    .replace(/\.(glb|gltf|obj|stl)$/i, '')
+    .replace(/[^\p{L}\p{N}]+/gu, '-')
+    .replace(/^-|-$/g, '')
+    .toLowerCase() || 'picture';

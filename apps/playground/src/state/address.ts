@@ -10,7 +10,8 @@ const number = (text: string | null, low: number, high: number, initial: number,
   return whole ? Math.round(clamped) : clamped;
 };
 
-const one = <T extends string>(text: string | null, choices: readonly T[], initial: T): T => choices.find((choice) => choice === text) ?? initial;
+const one = <T extends string>(text: string | null, choices: readonly T[], initial: T): T =>
+  choices.find((choice) => choice === text) ?? initial;
 
 /** A value of the query, under its present name or the former one. */
 const renamed = (query: URLSearchParams, name: string, former: string): string | null => {

@@ -1,44 +1,77 @@
 import { STUDIOS, type SoftBox, type StudioName } from '@glanz/scene/studio';
 import { TONE_MAPS } from '@glanz/tonemap';
-import { BACKGROUNDS, ENVIRONMENT_CHOICES, initialState, SCALES, type GroupSettings, type Lens, type OrbitView, type Rgb, type State } from './state';
+import {
+  BACKGROUNDS,
+  ENVIRONMENT_CHOICES,
+  initialState,
+  SCALES,
+  type GroupSettings,
+  type Lens,
+  type OrbitView,
+  type Rgb,
+  type State,
+} from './state';
 
-/** Reads a field of a link; undefined where the value is of another kind than the field. A number is brought into its range. */
+/**
+ * Reads a field of a link; undefined where the value is of another kind than the field. A number is brought into its
+ * range.
+ */
 type Read<T> = (value: unknown) => T | undefined;
 
 /** Entries of a list or a record at most. */
 const MOST_ENTRIES = 100_000;
 const MOST_BOXES = 64;
 
-const isRecord = (value: unknown): value is Readonly<Record<string, unknown>> => typeof value === 'object' && value !== null && !Array.isArray(value);
+const isRecord = (value: unknown): value is Readonly<Record<string, unknown>> =>
+  typeof value === 'object' && value !== null && !Array.isArray(value);
 
-const number = (low: number, high: number): Read<number> => (value) => (typeof value === 'number' && Number.isFinite(value) ? Math.min(Math.max(value, low), high) : undefined);
-const whole = (low: number, high: number): Read<number> => (value) => {
-  const clamped = number(low, high)(value);
-  return clamped === undefined ? undefined : Math.round(clamped);
-};
-const one = <T extends string>(choices: readonly T[]): Read<T> => (value) => choices.find((choice) => choice === value);
+const number =
+  (low: number, high: number): Read<number> =>
+  (value) =>
+    typeof value === 'number' && Number.isFinite(value) ? Math.min(Math.max(value, low), high) : undefined;
+const whole =
+  (low: number, high: number): Read<number> =>
+  (value) => {
+    const clamped = number(low, high)(value);
+    return clamped === undefined ? undefined : Math.round(clamped);
+  };
+const one =
+  <T extends string>(choices: readonly T[]): Read<T> =>
+  (value) =>
+    choices.find((choice) => choice === value);
 const flag: Read<boolean> = (value) => (typeof value === 'boolean' ? value : undefined);
 const text: Read<string> = (value) => (typeof value === 'string' ? value : undefined);
-const orNull = <T>(read: Read<T>): Read<T | null> => (value) => (value === null ? null : read(value));
+const orNull =
+  <T>(read: Read<T>): Read<T | null> =>
+  (value) =>
+    value === null ? null : read(value);
 
-const rgb = (high: number): Read<Rgb> => (value) => {
-  if (!Array.isArray(value) || value.length !== 3) return undefined;
-  const [r, g, b] = value.map(number(0, high));
-  return r === undefined || g === undefined || b === undefined ? undefined : [r, g, b];
-};
+const rgb =
+  (high: number): Read<Rgb> =>
+  (value) => {
+    if (!Array.isArray(value) || value.length !== 3) return undefined;
+    const [r, g, b] = value.map(number(0, high));
+    return r === undefined || g === undefined || b === undefined ? undefined : [r, g, b];
+  };
 
-const list = <T>(read: Read<T>, most = MOST_ENTRIES): Read<readonly T[]> => (value) => {
-  if (!Array.isArray(value) || value.length > most) return undefined;
-  const entries = value.map(read);
-  return entries.some((entry) => entry === undefined) ? undefined : (entries as T[]);
-};
+const list =
+  <T>(read: Read<T>, most = MOST_ENTRIES): Read<readonly T[]> =>
+  (value) => {
+    if (!Array.isArray(value) || value.length > most) return undefined;
+    const entries = value.map(read);
+    return entries.some((entry) => entry === undefined) ? undefined : (entries as T[]);
+  };
 
 /** Entries that are of another kind are left out. */
-const record = <T>(read: Read<T>): Read<Readonly<Record<string, T>>> => (value) => {
-  if (!isRecord(value)) return undefined;
-  const entries = Object.entries(value).slice(0, MOST_ENTRIES).map(([key, entry]) => [key, read(entry)] as const);
-  return Object.fromEntries(entries.filter((entry): entry is readonly [string, T & {}] => entry[1] !== undefined));
-};
+const record =
+  <T>(read: Read<T>): Read<Readonly<Record<string, T>>> =>
+  (value) => {
+    if (!isRecord(value)) return undefined;
+    const entries = Object.entries(value)
+      .slice(0, MOST_ENTRIES)
+      .map(([key, entry]) => [key, read(entry)] as const);
+    return Object.fromEntries(entries.filter((entry): entry is readonly [string, T & {}] => entry[1] !== undefined));
+  };
 
 const point: Read<Rgb> = (value) => {
   if (!Array.isArray(value) || value.length !== 3) return undefined;
@@ -53,7 +86,9 @@ const orbit: Read<OrbitView> = (value) => {
   const yaw = number(-1000, 1000)(value['yaw']);
   const pitch = number(-Math.PI / 2, Math.PI / 2)(value['pitch']);
   const zoom = number(1e-3, 1e3)(value['zoom'] ?? 1);
-  return target && distance !== undefined && yaw !== undefined && pitch !== undefined && zoom !== undefined ? { target, distance, yaw, pitch, zoom } : undefined;
+  return target && distance !== undefined && yaw !== undefined && pitch !== undefined && zoom !== undefined
+    ? { target, distance, yaw, pitch, zoom }
+    : undefined;
 };
 
 const lens: Read<Lens> = (value) => {
@@ -72,16 +107,33 @@ const softBox: Read<SoftBox> = (value) => {
   if (!isRecord(value)) return undefined;
   const angle = number(-1000, 1000);
   const extent = number(0.01, Math.PI - 0.01);
-  const [azimuth, elevation, width, height] = [angle(value['azimuth']), angle(value['elevation']), extent(value['width']), extent(value['height'])];
+  const [azimuth, elevation, width, height] = [
+    angle(value['azimuth']),
+    angle(value['elevation']),
+    extent(value['width']),
+    extent(value['height']),
+  ];
   const radiance = number(0, 1e4)(value['radiance']) ?? rgb(1e4)(value['radiance']);
-  if (azimuth === undefined || elevation === undefined || width === undefined || height === undefined || radiance === undefined) return undefined;
+  if (
+    azimuth === undefined ||
+    elevation === undefined ||
+    width === undefined ||
+    height === undefined ||
+    radiance === undefined
+  )
+    return undefined;
   const shape = one(['rectangle', 'disc'] as const)(value['shape']);
   return { azimuth, elevation, width, height, radiance, ...(shape ? { shape } : {}) };
 };
 
-const group: Read<GroupSettings> = (value) => (isRecord(value) ? { intensity: number(0, 1000)(value['intensity']) ?? 1, color: rgb(1000)(value['color']) ?? [1, 1, 1] } : undefined);
+const group: Read<GroupSettings> = (value) =>
+  isRecord(value)
+    ? { intensity: number(0, 1000)(value['intensity']) ?? 1, color: rgb(1000)(value['color']) ?? [1, 1, 1] }
+    : undefined;
 
-/** Ranges are those of the page's own controls. Values of materials are checked by their own table, see `linkOfPage`. */
+/**
+ * Ranges are those of the page's own controls. Values of materials are checked by their own table, see `linkOfPage`.
+ */
 const FIELDS: { readonly [Name in keyof State]?: Read<State[Name]> } = {
   samples: whole(1, 65536),
   noise: number(0, 1),

@@ -1,18 +1,30 @@
 import type { LinkContent } from './link';
 
-const list = (parts: readonly string[]) => (parts.length > 1 ? `${parts.slice(0, -1).join(', ')} and ${parts.at(-1)}` : (parts[0] ?? ''));
+const list = (parts: readonly string[]) =>
+  parts.length > 1 ? `${parts.slice(0, -1).join(', ')} and ${parts.at(-1)}` : (parts[0] ?? '');
 const counted = (images: number) => (images === 1 ? 'a change of an image' : `${images} changes of images`);
 
-/** The files that a link leaves out, as a list in words; empty where it holds everything. @param dropped Whether the model is a file. */
+/**
+ * The files that a link leaves out, as a list in words; empty where it holds everything. @param dropped Whether the
+ * model is a file.
+ */
 function leftOut({ model, state, files }: LinkContent, dropped: boolean): string {
-  const environment = state.environment === 'file' ? `the environment${files?.environment ? ` "${files.environment}"` : ''}` : undefined;
-  return list([...(dropped ? [`the model "${model}"`] : []), ...(environment ? [environment] : []), ...(files?.images ? [`${counted(files.images)} on materials`] : [])]);
+  const environment =
+    state.environment === 'file' ? `the environment${files?.environment ? ` "${files.environment}"` : ''}` : undefined;
+  return list([
+    ...(dropped ? [`the model "${model}"`] : []),
+    ...(environment ? [environment] : []),
+    ...(files?.images ? [`${counted(files.images)} on materials`] : []),
+  ]);
 }
 
 /** What a link does not hold, for the person who makes it; empty where it holds everything. */
 export function textForSender(content: LinkContent, dropped: boolean): string {
   const files = leftOut(content, dropped);
-  return files && `The link does not hold ${files}: files do not fit into an address. Send them along; whoever opens the link is asked for them.`;
+  return (
+    files &&
+    `The link does not hold ${files}: files do not fit into an address. Send them along; whoever opens the link is asked for them.`
+  );
 }
 
 /** What a link was made with and does not hold, for the person who opens it; empty where it holds everything. */
@@ -20,6 +32,9 @@ export function textForReceiver(content: LinkContent, dropped: boolean): string 
   const files = leftOut(content, dropped);
   if (!files) return '';
   const lit = content.state.environment === 'file' ? ' Until then a studio lights the model.' : '';
-  const drop = dropped || content.state.environment === 'file' ? ` Drop ${dropped && content.state.environment === 'file' ? 'these files' : 'that file'} to see it as it was shared.${lit}` : '';
+  const drop =
+    dropped || content.state.environment === 'file'
+      ? ` Drop ${dropped && content.state.environment === 'file' ? 'these files' : 'that file'} to see it as it was shared.${lit}`
+      : '';
   return `This link was made with ${files}, which it does not hold.${drop}`;
 }

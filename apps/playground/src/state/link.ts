@@ -27,20 +27,29 @@ const LEFT_OUT: readonly (keyof State)[] = ['slots', 'layer'];
 
 const equal = (a: unknown, b: unknown) => JSON.stringify(a) === JSON.stringify(b);
 /** Six digits are more than a slider gives. */
-const rounded = (_: string, value: unknown) => (typeof value === 'number' && Number.isFinite(value) ? Number(value.toPrecision(6)) : value);
+const rounded = (_: string, value: unknown) =>
+  typeof value === 'number' && Number.isFinite(value) ? Number(value.toPrecision(6)) : value;
 
 /** The fields in which a state differs from what a picture begins with. */
 export function difference(state: State): Partial<State> {
   const initial = initialState(state.environment);
   // The environment itself is what samples differ in.
-  const names = (Object.keys(initial) as (keyof State)[]).filter((name) => !LEFT_OUT.includes(name) && (name === 'environment' || !equal(state[name], initial[name])));
+  const names = (Object.keys(initial) as (keyof State)[]).filter(
+    (name) => !LEFT_OUT.includes(name) && (name === 'environment' || !equal(state[name], initial[name])),
+  );
   return Object.fromEntries(names.map((name) => [name, state[name]])) as Partial<State>;
 }
 
-/** What a link to a state of a model holds. @param environment Name of the file that lights the scene where the state says so. */
+/**
+ * What a link to a state of a model holds. @param environment Name of the file that lights the scene where the state
+ * says so.
+ */
 export function linkContent(model: string, state: State, environment: string): LinkContent {
   const images = Object.keys(state.slots).length;
-  const files: LinkFiles = { ...(state.environment === 'file' && environment ? { environment } : {}), ...(images > 0 ? { images } : {}) };
+  const files: LinkFiles = {
+    ...(state.environment === 'file' && environment ? { environment } : {}),
+    ...(images > 0 ? { images } : {}),
+  };
   return { model, state: difference(state), ...(Object.keys(files).length > 0 ? { files } : {}) };
 }
 
@@ -80,7 +89,10 @@ async function unpack(bytes: Uint8Array<ArrayBuffer>): Promise<string> {
 const LONGEST_NAME = 200;
 
 function readFiles(given: unknown): LinkFiles | undefined {
-  const { environment, images } = (typeof given === 'object' && given !== null ? given : {}) as { environment?: unknown; images?: unknown };
+  const { environment, images } = (typeof given === 'object' && given !== null ? given : {}) as {
+    environment?: unknown;
+    images?: unknown;
+  };
   const files: LinkFiles = {
     ...(typeof environment === 'string' ? { environment: environment.slice(0, LONGEST_NAME) } : {}),
     ...(Number.isInteger(images) && (images as number) > 0 ? { images: Math.min(images as number, 1000) } : {}),
@@ -93,7 +105,9 @@ export async function decodeLink(text: string): Promise<LinkContent | undefined>
   const body = text.replace(/^#/, '');
   if (!body.startsWith(VERSION)) return undefined;
   try {
-    const bytes = Uint8Array.from(atob(body.slice(VERSION.length).replaceAll('-', '+').replaceAll('_', '/')), (c) => c.charCodeAt(0));
+    const bytes = Uint8Array.from(atob(body.slice(VERSION.length).replaceAll('-', '+').replaceAll('_', '/')), (c) =>
+      c.charCodeAt(0),
+    );
     const json = JSON.parse(await unpack(bytes)) as { m?: unknown; s?: unknown; f?: unknown };
     if (typeof json.m !== 'string' || typeof json.s !== 'object' || json.s === null) return undefined;
     const files = readFiles(json.f);

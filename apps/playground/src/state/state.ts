@@ -20,7 +20,11 @@ export type Rgb = readonly [number, number, number];
 export type Values = Partial<OpenPbrParameters>;
 
 /** A picture that the user put on a parameter of a material; null takes away the one that the model brought. */
-export type Slot = { readonly image: Image; readonly color_space: 'srgb' | 'linear'; readonly binding: Omit<TextureBinding, 'texture'> } | null;
+export type Slot = {
+  readonly image: Image;
+  readonly color_space: 'srgb' | 'linear';
+  readonly binding: Omit<TextureBinding, 'texture'>;
+} | null;
 
 /** Where an orbiting camera is. */
 export interface OrbitView {
@@ -52,7 +56,10 @@ export interface GroupSettings {
   readonly color: Rgb;
 }
 
-/** Everything that makes the picture, apart from the model. Plain data, never changed in place: a step of undo is a former one. */
+/**
+ * Everything that makes the picture, apart from the model. Plain data, never changed in place: a step of undo is a
+ * former one.
+ */
 export interface State {
   /** Samples per pixel to reach, 1..65536. */
   readonly samples: number;
@@ -141,4 +148,15 @@ export function initialState(environment: EnvironmentChoice): State {
 }
 
 /** Of another model only what was not said of the former one. */
-export const forAnotherModel = (state: State): State => ({ ...state, orbit: null, lens: { ...state.lens, focus: null }, materials: {}, slots: {}, hidden: [], variant: null, clip: null, time: 0, groups: {} });
+export const forAnotherModel = (state: State): State => ({
+  ...state,
+  orbit: null,
+  lens: { ...state.lens, focus: null },
+  materials: {},
+  slots: {},
+  hidden: [],
+  variant: null,
+  clip: null,
+  time: 0,
+  groups: {},
+});

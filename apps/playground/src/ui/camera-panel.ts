@@ -5,7 +5,13 @@ import { changer, watch, type Context } from './context';
 import { element } from './elements';
 import { section, selectField, sliderField } from './fields';
 
-const TONE_MAP_TITLES: Readonly<Record<ToneMap, string>> = { neutral: 'Neutral', aces: 'ACES', agx: 'AgX', reinhard: 'Reinhard', linear: 'Linear (clipped)' };
+const TONE_MAP_TITLES: Readonly<Record<ToneMap, string>> = {
+  neutral: 'Neutral',
+  aces: 'ACES',
+  agx: 'AgX',
+  reinhard: 'Reinhard',
+  linear: 'Linear (clipped)',
+};
 const STOPS = ['0', '1.4', '2', '2.8', '4', '5.6', '8', '11', '16', '22'] as const;
 const BLADES = ['0', '5', '6', '7', '8', '9'] as const;
 
@@ -13,15 +19,29 @@ const BLADES = ['0', '5', '6', '7', '8', '9'] as const;
 export function cameraPanel(context: Context): HTMLElement[] {
   const { store, rig, opened, onModel } = context;
   const change = changer(store);
-  const lensed = (values: Partial<Lens>, label: string) => store.set({ lens: { ...store.state.lens, ...values } }, { label });
+  const lensed = (values: Partial<Lens>, label: string) =>
+    store.set({ lens: { ...store.state.lens, ...values } }, { label });
   const initial = store.state;
   const fovNow = () => {
     const camera = rig.camera({ ...store.state, lens: { ...store.state.lens, projection: 'perspective' } });
     return camera.type === 'perspective' ? (camera.yfov * 180) / Math.PI : 35;
   };
 
-  const camera = selectField({ id: 'camera', label: 'Camera', value: '-1' as string, choices: [['-1', 'Whole model']], onInput: (value) => rig.choose(Number(value)) });
-  const fill = () => camera.setChoices([['-1', 'Whole model'], ...opened().scene.cameras.map(({ name }, i) => [String(i), name || `Camera ${i + 1}`] as const)], String(store.state.camera));
+  const camera = selectField({
+    id: 'camera',
+    label: 'Camera',
+    value: '-1' as string,
+    choices: [['-1', 'Whole model']],
+    onInput: (value) => rig.choose(Number(value)),
+  });
+  const fill = () =>
+    camera.setChoices(
+      [
+        ['-1', 'Whole model'],
+        ...opened().scene.cameras.map(({ name }, i) => [String(i), name || `Camera ${i + 1}`] as const),
+      ],
+      String(store.state.camera),
+    );
   const views = element('div', { class: 'chips', id: 'views', role: 'group', 'aria-label': 'Standard views' });
   for (const [name, { title }] of Object.entries(STANDARD_VIEWS)) {
     const button = element('button', { type: 'button', 'data-view': name }, title);
@@ -29,12 +49,62 @@ export function cameraPanel(context: Context): HTMLElement[] {
     views.append(button);
   }
 
-  const projection = selectField<Lens['projection']>({ id: 'projection', label: 'Projection', value: initial.lens.projection, choices: [['perspective', 'Perspective'], ['orthographic', 'Orthographic']], onInput: (value) => lensed({ projection: value }, 'Projection') });
-  const focal = sliderField({ id: 'focal', label: 'Focal length', unit: 'mm', value: focalLength(fovNow()), range: [12, 200], hardRange: [4, 2000], curve: 2, hint: 'Of a full-frame camera', onInput: (value) => lensed({ fov: fieldOfView(value) }, 'Focal length') });
-  const fov = sliderField({ id: 'fov', label: 'Field of view', unit: '°', value: fovNow(), range: [6, 90], hardRange: [0.5, 170], hint: 'Vertical', onInput: (value) => lensed({ fov: value }, 'Field of view') });
-  const stop = selectField({ id: 'stop', label: 'Aperture', value: String(initial.lens.stop), choices: STOPS.map((n) => [n as string, n === '0' ? 'Pinhole, all in focus' : `f/${n}`] as const), onInput: (value) => lensed({ stop: Number(value) }, 'Aperture') });
-  const blades = selectField({ id: 'blades', label: 'Blades', value: String(initial.lens.blades), choices: BLADES.map((n) => [n as string, n === '0' ? 'Round' : `${n} blades`] as const), onInput: (value) => lensed({ blades: Number(value) }, 'Blades') });
-  const focus = sliderField({ id: 'focus-distance', label: 'Focus', unit: 'm', value: 1, range: [0.01, 10], hardRange: [0.001, 100000], curve: 3, hint: 'Distance of the plane in focus; D and a click on the picture measure it', onInput: (value) => lensed({ focus: value }, 'Focus') });
+  const projection = selectField<Lens['projection']>({
+    id: 'projection',
+    label: 'Projection',
+    value: initial.lens.projection,
+    choices: [
+      ['perspective', 'Perspective'],
+      ['orthographic', 'Orthographic'],
+    ],
+    onInput: (value) => lensed({ projection: value }, 'Projection'),
+  });
+  const focal = sliderField({
+    id: 'focal',
+    label: 'Focal length',
+    unit: 'mm',
+    value: focalLength(fovNow()),
+    range: [12, 200],
+    hardRange: [4, 2000],
+    curve: 2,
+    hint: 'Of a full-frame camera',
+    onInput: (value) => lensed({ fov: fieldOfView(value) }, 'Focal length'),
+  });
+  const fov = sliderField({
+    id: 'fov',
+    label: 'Field of view',
+    unit: '°',
+    value: fovNow(),
+    range: [6, 90],
+    hardRange: [0.5, 170],
+    hint: 'Vertical',
+    onInput: (value) => lensed({ fov: value }, 'Field of view'),
+  });
+  const stop = selectField({
+    id: 'stop',
+    label: 'Aperture',
+    value: String(initial.lens.stop),
+    choices: STOPS.map((n) => [n as string, n === '0' ? 'Pinhole, all in focus' : `f/${n}`] as const),
+    onInput: (value) => lensed({ stop: Number(value) }, 'Aperture'),
+  });
+  const blades = selectField({
+    id: 'blades',
+    label: 'Blades',
+    value: String(initial.lens.blades),
+    choices: BLADES.map((n) => [n as string, n === '0' ? 'Round' : `${n} blades`] as const),
+    onInput: (value) => lensed({ blades: Number(value) }, 'Blades'),
+  });
+  const focus = sliderField({
+    id: 'focus-distance',
+    label: 'Focus',
+    unit: 'm',
+    value: 1,
+    range: [0.01, 10],
+    hardRange: [0.001, 100000],
+    curve: 3,
+    hint: 'Distance of the plane in focus; D and a click on the picture measure it',
+    onInput: (value) => lensed({ focus: value }, 'Focus'),
+  });
   const auto = element('button', { type: 'button', id: 'focus-auto' }, 'Focus on the target');
   auto.addEventListener('click', () => lensed({ focus: null }, 'Focus'));
   const refresh = () => {
@@ -57,8 +127,23 @@ export function cameraPanel(context: Context): HTMLElement[] {
   });
   fill();
 
-  const exposure = sliderField({ id: 'exposure', label: 'Exposure', value: initial.exposure, initial: 0, range: [-8, 8], step: 0.1, unit: 'EV', onInput: change('exposure', 'Exposure') });
-  const toneMap = selectField({ id: 'tone-map', label: 'Tone map', value: initial.toneMap, choices: TONE_MAPS.map((name) => [name, TONE_MAP_TITLES[name]] as const), onInput: change('toneMap', 'Tone map') });
+  const exposure = sliderField({
+    id: 'exposure',
+    label: 'Exposure',
+    value: initial.exposure,
+    initial: 0,
+    range: [-8, 8],
+    step: 0.1,
+    unit: 'EV',
+    onInput: change('exposure', 'Exposure'),
+  });
+  const toneMap = selectField({
+    id: 'tone-map',
+    label: 'Tone map',
+    value: initial.toneMap,
+    choices: TONE_MAPS.map((name) => [name, TONE_MAP_TITLES[name]] as const),
+    onInput: change('toneMap', 'Tone map'),
+  });
   watch(store, ['exposure', 'toneMap'], (state) => {
     exposure.set(state.exposure);
     toneMap.set(state.toneMap);

@@ -35,7 +35,8 @@ export function wireCommands({ store, session, rig, selection, canvas, say }: Co
   const dialog = byId<HTMLDialogElement>('keys-dialog');
   const hide = () => {
     const { instance } = selection.chosen;
-    if (instance !== undefined && !store.state.hidden.includes(instance)) store.set({ hidden: [...store.state.hidden, instance] }, { label: 'Hide part' });
+    if (instance !== undefined && !store.state.hidden.includes(instance))
+      store.set({ hidden: [...store.state.hidden, instance] }, { label: 'Hide part' });
   };
   const shortcuts: Shortcut[] = [
     { keys: ['mod+z'], title: 'Undo', run: undo },
@@ -50,7 +51,20 @@ export function wireCommands({ store, session, rig, selection, canvas, say }: Co
     { keys: ['3'], title: 'View from the right', run: () => rig.look('right') },
     { keys: ['7'], title: 'View from the top', run: () => rig.look('top') },
     { keys: ['9'], title: 'View from the corner', run: () => rig.look('corner') },
-    { keys: ['5'], title: 'Perspective or orthographic', run: () => store.set({ lens: { ...store.state.lens, projection: store.state.lens.projection === 'perspective' ? 'orthographic' : 'perspective' } }, { label: 'Projection' }) },
+    {
+      keys: ['5'],
+      title: 'Perspective or orthographic',
+      run: () =>
+        store.set(
+          {
+            lens: {
+              ...store.state.lens,
+              projection: store.state.lens.projection === 'perspective' ? 'orthographic' : 'perspective',
+            },
+          },
+          { label: 'Projection' },
+        ),
+    },
     { keys: ['l'], title: 'Turn the environment to the left', run: () => turn(10) },
     { keys: [';'], title: 'Turn the environment to the right', run: () => turn(-10) },
     { keys: ['e'], title: 'Export', run: () => byId('export-menu').showPopover() },
@@ -59,9 +73,20 @@ export function wireCommands({ store, session, rig, selection, canvas, say }: Co
   wireShortcuts(shortcuts);
   fillKeysDialog(dialog, shortcuts);
   byId('help').addEventListener('click', () => dialog.showModal());
-  for (const [id, run] of [['undo', undo], ['redo', redo], ['pause', pause], ['home', () => rig.choose(store.state.camera)], ['fit', () => rig.frame(selection.chosen.instance)], ['focus', focus]] as const) byId(id).addEventListener('click', run);
+  for (const [id, run] of [
+    ['undo', undo],
+    ['redo', redo],
+    ['pause', pause],
+    ['home', () => rig.choose(store.state.camera)],
+    ['fit', () => rig.frame(selection.chosen.instance)],
+    ['focus', focus],
+  ] as const)
+    byId(id).addEventListener('click', run);
   const mark = () => {
-    for (const [id, name, label] of [['undo', 'Undo', store.undoLabel], ['redo', 'Redo', store.redoLabel]] as const) {
+    for (const [id, name, label] of [
+      ['undo', 'Undo', store.undoLabel],
+      ['redo', 'Redo', store.redoLabel],
+    ] as const) {
       const button = byId<HTMLButtonElement>(id);
       button.disabled = label === undefined;
       button.title = label === undefined ? name : `${name}: ${label}`;

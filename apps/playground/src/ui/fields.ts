@@ -39,8 +39,22 @@ export interface SliderOptions extends Common<number> {
 const same = (a: unknown, b: unknown) => JSON.stringify(a) === JSON.stringify(b);
 
 /** A row of name and controls, with the button that leads back. */
-function fieldRow<T>({ id, label, hint, initial, onInput }: Common<T>, show: (value: T) => void, ...controls: HTMLElement[]): { readonly element: HTMLElement; readonly told: (value: T) => void; readonly setInitial: (value: T | undefined) => void } {
-  const reset = element('button', { type: 'button', class: 'reset', 'aria-label': `Reset ${label}`, title: 'Reset', tabindex: -1 });
+function fieldRow<T>(
+  { id, label, hint, initial, onInput }: Common<T>,
+  show: (value: T) => void,
+  ...controls: HTMLElement[]
+): {
+  readonly element: HTMLElement;
+  readonly told: (value: T) => void;
+  readonly setInitial: (value: T | undefined) => void;
+} {
+  const reset = element('button', {
+    type: 'button',
+    class: 'reset',
+    'aria-label': `Reset ${label}`,
+    title: 'Reset',
+    tabindex: -1,
+  });
   reset.append(icon('reset'));
   const row = element('div', { class: 'field', title: hint }, element('label', { for: id }, label), ...controls, reset);
   let start = initial;
@@ -74,12 +88,34 @@ const tidy = (value: number) => String(Number(value.toPrecision(4)));
 
 /** A slider and a box for the number. */
 export function sliderField(options: SliderOptions): Field<number> {
-  const { id, label, value, range: [low, high], hardRange = [low, high], step, unit, curve = 1, whole = false, onInput } = options;
+  const {
+    id,
+    label,
+    value,
+    range: [low, high],
+    hardRange = [low, high],
+    step,
+    unit,
+    curve = 1,
+    whole = false,
+    onInput,
+  } = options;
   const span = high - low;
   const toPlace = (v: number) => Math.max(0, Math.min(1, (v - low) / span)) ** (1 / curve);
   const plain = curve === 1;
-  const slider = element('input', { type: 'range', id, min: plain ? low : 0, max: plain ? high : 1, step: step ?? (!plain ? 0.002 : whole ? 1 : span / 200) });
-  const box = element('input', { type: 'number', step: whole ? 1 : 'any', 'aria-label': unit ? `${label}, ${unit}` : label, inputmode: 'decimal' });
+  const slider = element('input', {
+    type: 'range',
+    id,
+    min: plain ? low : 0,
+    max: plain ? high : 1,
+    step: step ?? (!plain ? 0.002 : whole ? 1 : span / 200),
+  });
+  const box = element('input', {
+    type: 'number',
+    step: whole ? 1 : 'any',
+    'aria-label': unit ? `${label}, ${unit}` : label,
+    inputmode: 'decimal',
+  });
   if (Number.isFinite(hardRange[0])) box.min = String(hardRange[0]);
   if (Number.isFinite(hardRange[1])) box.max = String(hardRange[1]);
   const show = (v: number, except?: HTMLInputElement) => {
@@ -100,7 +136,8 @@ export function sliderField(options: SliderOptions): Field<number> {
   });
   box.addEventListener('change', () => {
     const typed = box.valueAsNumber;
-    if (!Number.isFinite(typed)) return show(Number(tidy(plain ? Number(slider.value) : low + span * Number(slider.value) ** curve)));
+    if (!Number.isFinite(typed))
+      return show(Number(tidy(plain ? Number(slider.value) : low + span * Number(slider.value) ** curve)));
     const clamped = Math.min(Math.max(whole ? Math.round(typed) : typed, hardRange[0]), hardRange[1]);
     show(clamped);
     onInput(clamped);
@@ -113,10 +150,18 @@ export function sliderField(options: SliderOptions): Field<number> {
 type Rgb = readonly [number, number, number];
 
 /** Linear Rec.709 as `#rrggbb`. */
-export const toHex = (rgb: Rgb): string => `#${rgb.map((v) => Math.round(255 * srgbEncode(Math.max(0, Math.min(1, v)))).toString(16).padStart(2, '0')).join('')}`;
+export const toHex = (rgb: Rgb): string =>
+  `#${rgb
+    .map((v) =>
+      Math.round(255 * srgbEncode(Math.max(0, Math.min(1, v))))
+        .toString(16)
+        .padStart(2, '0'),
+    )
+    .join('')}`;
 
 /** `#rrggbb` as linear Rec.709. */
-export const fromHex = (hex: string): Rgb => [1, 3, 5].map((at) => srgbDecode(Number.parseInt(hex.slice(at, at + 2), 16) / 255)) as unknown as Rgb;
+export const fromHex = (hex: string): Rgb =>
+  [1, 3, 5].map((at) => srgbDecode(Number.parseInt(hex.slice(at, at + 2), 16) / 255)) as unknown as Rgb;
 
 /** A colour, linear outside and sRGB on the screen. */
 export function colourField(options: Common<Rgb>): Field<Rgb> {
@@ -157,10 +202,13 @@ export function checkField(options: Common<boolean>): Field<boolean> {
 }
 
 /** One of several. */
-export function selectField<T extends string>(options: Common<T> & { readonly choices: readonly (readonly [T, string])[] }): Field<T> & { setChoices(choices: readonly (readonly [T, string])[], value: T): void } {
+export function selectField<T extends string>(
+  options: Common<T> & { readonly choices: readonly (readonly [T, string])[] },
+): Field<T> & { setChoices(choices: readonly (readonly [T, string])[], value: T): void } {
   const { id, label, hint, choices, value, onInput } = options;
   const input = element('select', { id });
-  const fill = (list: readonly (readonly [T, string])[]) => input.replaceChildren(...list.map(([key, title]) => element('option', { value: key }, title)));
+  const fill = (list: readonly (readonly [T, string])[]) =>
+    input.replaceChildren(...list.map(([key, title]) => element('option', { value: key }, title)));
   fill(choices);
   input.value = value;
   input.addEventListener('change', () => onInput(input.value as T));
@@ -176,4 +224,5 @@ export function selectField<T extends string>(options: Common<T> & { readonly ch
 }
 
 /** A heading over some fields. */
-export const section = (title: string, ...children: (Node | string)[]): HTMLElement => element('section', { class: 'section' }, element('h2', {}, title), ...children);
+export const section = (title: string, ...children: (Node | string)[]): HTMLElement =>
+  element('section', { class: 'section' }, element('h2', {}, title), ...children);

@@ -9,19 +9,47 @@ const UNSET: GroupSettings = { intensity: 1, color: [1, 1, 1] };
 export function lightGroups({ store, session, onStatus }: Context): HTMLElement {
   const list = element('div', { id: 'light-groups' });
   const note = element('p', { class: 'note' });
-  const box = checkField({ id: 'relight', label: 'Relight', value: store.state.relight, hint: 'Keeps the light of each source apart, so that it can be dimmed and coloured without a new sample. Costs 32 bytes a pixel and source.', onInput: (relight) => store.set({ relight }, { label: 'Relight' }) });
+  const box = checkField({
+    id: 'relight',
+    label: 'Relight',
+    value: store.state.relight,
+    hint: 'Keeps the light of each source apart, so that it can be dimmed and coloured without a new sample. Costs 32 bytes a pixel and source.',
+    onInput: (relight) => store.set({ relight }, { label: 'Relight' }),
+  });
   let shown = '';
-  const set = (name: string, change: Partial<GroupSettings>) => store.set({ groups: { ...store.state.groups, [name]: { ...UNSET, ...store.state.groups[name], ...change } } }, { label: `Light ${name}`, merge: `light ${name} ${Object.keys(change).join('')}` });
+  const set = (name: string, change: Partial<GroupSettings>) =>
+    store.set(
+      { groups: { ...store.state.groups, [name]: { ...UNSET, ...store.state.groups[name], ...change } } },
+      { label: `Light ${name}`, merge: `light ${name} ${Object.keys(change).join('')}` },
+    );
   const fill = () => {
     const names = store.state.relight ? (session.tracer?.lightGroups ?? []).map(({ name }) => name) : [];
-    note.textContent = store.state.relight ? (names.length > 0 ? 'No new samples: the picture is weighed anew.' : '') : 'Dim and colour each light after the picture is done.';
+    note.textContent = store.state.relight
+      ? names.length > 0
+        ? 'No new samples: the picture is weighed anew.'
+        : ''
+      : 'Dim and colour each light after the picture is done.';
     if (names.join('\n') === shown) return;
     shown = names.join('\n');
     list.replaceChildren(
       ...names.map((name, i) => {
         const now = store.state.groups[name] ?? UNSET;
-        const intensity = sliderField({ id: `light-${i}`, label: name, value: now.intensity, initial: 1, range: [0, 4], hardRange: [0, 1000], onInput: (value) => set(name, { intensity: value }) });
-        const color = colourField({ id: `light-color-${i}`, label: 'Filter', value: now.color, initial: [1, 1, 1], onInput: (value) => set(name, { color: value }) });
+        const intensity = sliderField({
+          id: `light-${i}`,
+          label: name,
+          value: now.intensity,
+          initial: 1,
+          range: [0, 4],
+          hardRange: [0, 1000],
+          onInput: (value) => set(name, { intensity: value }),
+        });
+        const color = colourField({
+          id: `light-color-${i}`,
+          label: 'Filter',
+          value: now.color,
+          initial: [1, 1, 1],
+          onInput: (value) => set(name, { color: value }),
+        });
         watch(store, ['groups'], ({ groups }) => {
           intensity.set((groups[name] ?? UNSET).intensity);
           color.set((groups[name] ?? UNSET).color);

@@ -7,20 +7,42 @@ import { checkField, colourField, section, selectField, sliderField } from './fi
 import { lightGroups } from './light-groups';
 import { latLongSteps, SkyEditor } from './sky-editor';
 
-const BACKGROUND_TITLES: Readonly<Record<Background, string>> = { environment: 'Environment', blurred: 'Environment, blurred', color: 'One colour', transparent: 'Transparent' };
-const STUDIO_TITLES: Readonly<Record<StudioName, string>> = { neutral: 'Neutral', 'high-key': 'High key', 'low-key': 'Low key', window: 'Window', duotone: 'Duotone', overcast: 'Overcast', 'clear-sky': 'Clear sky', sunset: 'Sunset' };
+const BACKGROUND_TITLES: Readonly<Record<Background, string>> = {
+  environment: 'Environment',
+  blurred: 'Environment, blurred',
+  color: 'One colour',
+  transparent: 'Transparent',
+};
+const STUDIO_TITLES: Readonly<Record<StudioName, string>> = {
+  neutral: 'Neutral',
+  'high-key': 'High key',
+  'low-key': 'Low key',
+  window: 'Window',
+  duotone: 'Duotone',
+  overcast: 'Overcast',
+  'clear-sky': 'Clear sky',
+  sunset: 'Sunset',
+};
 
 /** Studios as small pictures of themselves. */
 function studioButtons({ store }: Context): HTMLElement {
   const buttons = (Object.keys(STUDIOS) as StudioName[]).map((name) => {
     const canvas = element('canvas', { width: 64, height: 32, 'aria-hidden': 'true' });
     void inSlices(latLongSteps(canvas, studioEnvironment({ setup: STUDIOS[name], width: 64 })));
-    const button = element('button', { type: 'button', class: 'studio', 'data-studio': name }, canvas, STUDIO_TITLES[name]);
-    button.addEventListener('click', () => store.set({ environment: 'studio', studio: name, boxes: null }, { label: STUDIO_TITLES[name] }));
+    const button = element(
+      'button',
+      { type: 'button', class: 'studio', 'data-studio': name },
+      canvas,
+      STUDIO_TITLES[name],
+    );
+    button.addEventListener('click', () =>
+      store.set({ environment: 'studio', studio: name, boxes: null }, { label: STUDIO_TITLES[name] }),
+    );
     return button;
   });
   watch(store, ['studio', 'environment'], ({ studio, environment }) => {
-    for (const button of buttons) button.setAttribute('aria-pressed', String(environment === 'studio' && button.dataset['studio'] === studio));
+    for (const button of buttons)
+      button.setAttribute('aria-pressed', String(environment === 'studio' && button.dataset['studio'] === studio));
   });
   return element('div', { class: 'studios' }, ...buttons);
 }
@@ -47,7 +69,14 @@ export function lightPanel(context: Context): HTMLElement[] {
     const choices: (readonly [EnvironmentChoice, string])[] = [
       ['studio', 'Studio or sky'],
       ['constant', 'One colour'],
-      ['file', environments.hasFile ? environments.fileName : environments.fileName ? `${environments.fileName} (not loaded)` : 'Picture file (.hdr, .exr)…'],
+      [
+        'file',
+        environments.hasFile
+          ? environments.fileName
+          : environments.fileName
+            ? `${environments.fileName} (not loaded)`
+            : 'Picture file (.hdr, .exr)…',
+      ],
       ['none', 'Model’s lights only'],
     ];
     if (opened().scene.environment || environment === 'model') choices.unshift(['model', 'The model’s own']);
@@ -55,19 +84,68 @@ export function lightPanel(context: Context): HTMLElement[] {
     constant.element.hidden = environment !== 'constant';
     studios.hidden = sky.element.hidden = environment !== 'studio';
   };
-  const constant = colourField({ id: 'constant', label: 'Colour', value: initial.constant, initial: [0.5, 0.5, 0.5], onInput: change('constant', 'Environment colour') });
+  const constant = colourField({
+    id: 'constant',
+    label: 'Colour',
+    value: initial.constant,
+    initial: [0.5, 0.5, 0.5],
+    onInput: change('constant', 'Environment colour'),
+  });
   const studios = studioButtons(context);
   const sky = new SkyEditor(context);
-  const intensity = sliderField({ id: 'intensity', label: 'Intensity', value: initial.intensity, initial: 1, range: [0, 4], hardRange: [0, 1000], onInput: change('intensity', 'Environment intensity') });
-  const rotation = sliderField({ id: 'rotation', label: 'Rotation', value: initial.rotation, initial: 0, range: [-180, 180], step: 1, unit: '°', hint: 'Also: L and ; turn it', onInput: change('rotation', 'Environment rotation') });
+  const intensity = sliderField({
+    id: 'intensity',
+    label: 'Intensity',
+    value: initial.intensity,
+    initial: 1,
+    range: [0, 4],
+    hardRange: [0, 1000],
+    onInput: change('intensity', 'Environment intensity'),
+  });
+  const rotation = sliderField({
+    id: 'rotation',
+    label: 'Rotation',
+    value: initial.rotation,
+    initial: 0,
+    range: [-180, 180],
+    step: 1,
+    unit: '°',
+    hint: 'Also: L and ; turn it',
+    onInput: change('rotation', 'Environment rotation'),
+  });
   watch(store, ['intensity'], (state) => intensity.set(state.intensity));
   watch(store, ['rotation'], (state) => rotation.set(state.rotation));
   watch(store, ['constant'], (state) => constant.set(state.constant));
 
-  const background = selectField<Background>({ id: 'background', label: 'Background', value: initial.background, choices: BACKGROUNDS.map((name) => [name, BACKGROUND_TITLES[name]] as const), onInput: change('background', 'Background') });
-  const color = colourField({ id: 'background-color', label: 'Colour', value: initial.backgroundColor, onInput: change('backgroundColor', 'Background colour') });
-  const blur = sliderField({ id: 'background-blur', label: 'Blur', value: initial.backgroundBlur, initial: 12, range: [2, 45], unit: '°', onInput: change('backgroundBlur', 'Background blur') });
-  const floor = checkField({ id: 'floor', label: 'Floor shadow', value: initial.floor, hint: 'An invisible floor under the model that shows shadows and reflected light only', onInput: change('floor', 'Floor shadow') });
+  const background = selectField<Background>({
+    id: 'background',
+    label: 'Background',
+    value: initial.background,
+    choices: BACKGROUNDS.map((name) => [name, BACKGROUND_TITLES[name]] as const),
+    onInput: change('background', 'Background'),
+  });
+  const color = colourField({
+    id: 'background-color',
+    label: 'Colour',
+    value: initial.backgroundColor,
+    onInput: change('backgroundColor', 'Background colour'),
+  });
+  const blur = sliderField({
+    id: 'background-blur',
+    label: 'Blur',
+    value: initial.backgroundBlur,
+    initial: 12,
+    range: [2, 45],
+    unit: '°',
+    onInput: change('backgroundBlur', 'Background blur'),
+  });
+  const floor = checkField({
+    id: 'floor',
+    label: 'Floor shadow',
+    value: initial.floor,
+    hint: 'An invisible floor under the model that shows shadows and reflected light only',
+    onInput: change('floor', 'Floor shadow'),
+  });
   watch(store, ['background', 'backgroundColor', 'backgroundBlur', 'floor'], (state) => {
     background.set(state.background);
     color.set(state.backgroundColor);

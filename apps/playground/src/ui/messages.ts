@@ -25,7 +25,11 @@ export class Messages {
 
   show({ kind, text, code, stays, action }: Message): void {
     const close = element('button', { type: 'button', class: 'close', 'aria-label': 'Close this message' }, '×');
-    const message = element('div', { class: `message ${kind}`, role: kind === 'error' ? 'alert' : 'status', 'data-code': code }, element('p', {}, text));
+    const message = element(
+      'div',
+      { class: `message ${kind}`, role: kind === 'error' ? 'alert' : 'status', 'data-code': code },
+      element('p', {}, text),
+    );
     close.addEventListener('click', () => message.remove());
     if (action) {
       const button = element('button', { type: 'button' }, action.title);

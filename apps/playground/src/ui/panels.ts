@@ -14,7 +14,11 @@ function presets(context: Context): HTMLElement {
   const place = element('div', { class: 'fields' });
   const details = element('details', { class: 'group', id: 'presets-group' }, element('summary', {}, 'Presets'), place);
   details.addEventListener('toggle', () => {
-    if (details.open && place.childElementCount === 0) void import('./material/presets').then(({ presetGrid }) => place.replaceChildren(presetGrid(context)), context.fail);
+    if (details.open && place.childElementCount === 0)
+      void import('./material/presets').then(
+        ({ presetGrid }) => place.replaceChildren(presetGrid(context)),
+        context.fail,
+      );
   });
   return details;
 }

@@ -66,8 +66,24 @@ export function waitText(ms: number): string {
 }
 
 /** A number box that keeps to its range. */
-function numberBox(id: string, label: string, value: number, [low, high]: readonly [number, number], step: number | 'any'): HTMLInputElement {
-  const box = element('input', { type: 'number', id, min: low, max: high, step, value, required: true, 'aria-label': label, inputmode: 'decimal' });
+function numberBox(
+  id: string,
+  label: string,
+  value: number,
+  [low, high]: readonly [number, number],
+  step: number | 'any',
+): HTMLInputElement {
+  const box = element('input', {
+    type: 'number',
+    id,
+    min: low,
+    max: high,
+    step,
+    value,
+    required: true,
+    'aria-label': label,
+    inputmode: 'decimal',
+  });
   box.addEventListener('change', () => {
     const typed = box.valueAsNumber;
     const kept = Number.isFinite(typed) ? Math.min(Math.max(step === 1 ? Math.round(typed) : typed, low), high) : value;
@@ -76,33 +92,70 @@ function numberBox(id: string, label: string, value: number, [low, high]: readon
   return box;
 }
 
-const row = (label: string, id: string, ...controls: HTMLElement[]) => element('div', { class: 'render-row' }, element('label', { for: id }, label), ...controls);
+const row = (label: string, id: string, ...controls: HTMLElement[]) =>
+  element('div', { class: 'render-row' }, element('label', { for: id }, label), ...controls);
 
-const select = (id: string, choices: readonly (readonly [value: string, title: string])[], value: string): HTMLSelectElement => {
+const select = (
+  id: string,
+  choices: readonly (readonly [value: string, title: string])[],
+  value: string,
+): HTMLSelectElement => {
   const made = element('select', { id }, ...choices.map(([key, title]) => element('option', { value: key }, title)));
   made.value = value;
   return made;
 };
 
-/** Shows a dialog that renders the image at any size, to a file or the clipboard. It is removed from the page when it closes. */
+/**
+ * Shows a dialog that renders the image at any size, to a file or the clipboard. It is removed from the page when it
+ * closes.
+ */
 export function showRenderDialog(host: RenderHost): void {
   const [screenWidth, screenHeight] = host.screen;
-  const size = select('render-size', [['screen', `Screen, ${sizeText(screenWidth, screenHeight)}`], ...SIZES.map(([title, width, height], k) => [String(k), `${title}, ${sizeText(width, height)}`] as const), ['own', 'Custom']], 'screen');
+  const size = select(
+    'render-size',
+    [
+      ['screen', `Screen, ${sizeText(screenWidth, screenHeight)}`],
+      ...SIZES.map(([title, width, height], k) => [String(k), `${title}, ${sizeText(width, height)}`] as const),
+      ['own', 'Custom'],
+    ],
+    'screen',
+  );
   const width = numberBox('render-width', 'Width, pixels', screenWidth, [1, MOST_SIDE], 1);
   const height = numberBox('render-height', 'Height, pixels', screenHeight, [1, MOST_SIDE], 1);
-  const goal = select('render-goal', [['samples', 'Samples per pixel'], ['noise', 'Noise target']], host.noise > 0 ? 'noise' : 'samples');
+  const goal = select(
+    'render-goal',
+    [
+      ['samples', 'Samples per pixel'],
+      ['noise', 'Noise target'],
+    ],
+    host.noise > 0 ? 'noise' : 'samples',
+  );
   const samples = numberBox('render-samples', 'Samples per pixel', host.samples, [1, MOST_SAMPLES], 1);
   const noise = numberBox('render-noise', 'Noise, relative', host.noise || USUAL_NOISE, [LEAST_NOISE, 1], 'any');
-  const format = select('render-format', host.formats.map(({ id, title }) => [id, title]), host.format ?? host.formats[0]?.id ?? '');
+  const format = select(
+    'render-format',
+    host.formats.map(({ id, title }) => [id, title]),
+    host.format ?? host.formats[0]?.id ?? '',
+  );
   const transparent = element('input', { type: 'checkbox', id: 'render-transparent' });
   transparent.checked = host.transparent;
   const inputs = element(
     'fieldset',
     {},
     row('Size', 'render-size', size),
-    element('div', { class: 'render-row' }, element('span', {}), element('div', { class: 'render-pair' }, width, '×', height, 'pixels')),
+    element(
+      'div',
+      { class: 'render-row' },
+      element('span', {}),
+      element('div', { class: 'render-pair' }, width, '×', height, 'pixels'),
+    ),
     row('Stop at', 'render-goal', goal),
-    element('div', { class: 'render-row' }, element('span', {}), element('div', { class: 'render-pair' }, samples, noise)),
+    element(
+      'div',
+      { class: 'render-row' },
+      element('span', {}),
+      element('div', { class: 'render-pair' }, samples, noise),
+    ),
     row('Format', 'render-format', format),
     row('Transparent background', 'render-transparent', transparent),
   );
@@ -115,14 +168,28 @@ export function showRenderDialog(host: RenderHost): void {
   const save = element('button', { type: 'submit', id: 'render-save', class: 'primary' }, 'Save file');
   const cancel = element('button', { type: 'button', id: 'render-cancel', hidden: true }, 'Cancel');
   const close = element('button', { type: 'button', class: 'quiet square', 'aria-label': 'Close' }, '×');
-  const form = element('form', { method: 'dialog', novalidate: true }, inputs, progress, said, wrong, element('div', { class: 'render-actions' }, cancel, copy, save));
-  const dialog = element('dialog', { id: 'render-dialog', class: 'dialog render-dialog', 'aria-labelledby': 'render-title' }, element('header', {}, element('h2', { id: 'render-title' }, 'Render image'), close), form);
+  const form = element(
+    'form',
+    { method: 'dialog', novalidate: true },
+    inputs,
+    progress,
+    said,
+    wrong,
+    element('div', { class: 'render-actions' }, cancel, copy, save),
+  );
+  const dialog = element(
+    'dialog',
+    { id: 'render-dialog', class: 'dialog render-dialog', 'aria-labelledby': 'render-title' },
+    element('header', {}, element('h2', { id: 'render-title' }, 'Render image'), close),
+    form,
+  );
   let running: AbortController | undefined;
 
   const chosen = () => host.formats.find(({ id }) => id === format.value) as RenderFormat;
   const follow = () => {
     const preset = SIZES[Number(size.value)];
-    const [w, h] = size.value === 'screen' ? host.screen : preset ? [preset[1], preset[2]] : [width.value, height.value];
+    const [w, h] =
+      size.value === 'screen' ? host.screen : preset ? [preset[1], preset[2]] : [width.value, height.value];
     [width.value, height.value] = [String(w), String(h)];
     [samples.hidden, noise.hidden] = [goal.value === 'noise', goal.value !== 'noise'];
     transparent.disabled = !chosen().alpha;
@@ -188,14 +255,18 @@ export function showRenderDialog(host: RenderHost): void {
       return `${name}, ${made()}, is in your downloads.`;
     });
   });
-  copy.addEventListener('click', () => void run(async (blob) => {
-    // Written at once, while the browser still counts the click: the item waits for the image.
-    const written = navigator.clipboard.write([new ClipboardItem({ 'image/png': blob })]);
-    written.catch(() => undefined);
-    await blob;
-    await written;
-    return `The image, ${made()}, is on the clipboard.`;
-  }));
+  copy.addEventListener(
+    'click',
+    () =>
+      void run(async (blob) => {
+        // Written at once, while the browser still counts the click: the item waits for the image.
+        const written = navigator.clipboard.write([new ClipboardItem({ 'image/png': blob })]);
+        written.catch(() => undefined);
+        await blob;
+        await written;
+        return `The image, ${made()}, is on the clipboard.`;
+      }),
+  );
   cancel.addEventListener('click', () => running?.abort());
   close.addEventListener('click', () => dialog.close());
   dialog.addEventListener('close', () => {

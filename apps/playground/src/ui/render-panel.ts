@@ -5,7 +5,13 @@ import { section, selectField, sliderField } from './fields';
 import { Playback } from './playback';
 import { StatisticsPanel } from './statistics';
 
-const SCALE_TITLES: Readonly<Record<Scale, string>> = { '0.125': 'Eighth', '0.25': 'Quarter', '0.5': 'Half', '1': 'Full', device: 'Screen pixels' };
+const SCALE_TITLES: Readonly<Record<Scale, string>> = {
+  '0.125': 'Eighth',
+  '0.25': 'Quarter',
+  '0.5': 'Half',
+  '1': 'Full',
+  device: 'Screen pixels',
+};
 const SCALE_ORDER: readonly Scale[] = ['0.125', '0.25', '0.5', '1', 'device'];
 const NOISES = ['0', '0.1', '0.05', '0.02', '0.01', '0.005'] as const;
 
@@ -14,11 +20,51 @@ export function renderPanel(context: Context): HTMLElement[] {
   const { store, opened, onModel, onStatus, session, pose } = context;
   const change = changer(store);
   const initial = store.state;
-  const layer = selectField({ id: 'layer', label: 'Show', value: initial.layer, choices: LAYERS.map((name) => [name, LAYER_TITLES[name]] as const), onInput: (value) => store.set({ layer: value }) });
-  const samples = sliderField({ id: 'samples', label: 'Samples', value: initial.samples, initial: 256, range: [1, 4096], hardRange: [1, 65536], curve: 3, whole: true, hint: 'Samples per pixel to reach. The noise halves with four times as many.', onInput: (value) => change('samples', 'Samples')(Math.round(value)) });
-  const noise = selectField({ id: 'noise', label: 'Noise target', value: String(initial.noise), choices: NOISES.map((n) => [n as string, n === '0' ? 'None: all samples' : `${Number(n) * 100} %`] as const), hint: 'Adaptive: samples only where there is noise, until it is everywhere at most this', onInput: (value) => change('noise', 'Noise target')(Number(value)) });
-  const depth = sliderField({ id: 'depth', label: 'Depth', value: initial.depth, initial: 6, range: [1, 16], hardRange: [1, 64], whole: true, hint: 'Most edges of a path from the camera to a light: 2 is direct light only.', onInput: change('depth', 'Depth') });
-  const scale = selectField({ id: 'scale', label: 'Resolution', value: initial.scale, choices: SCALE_ORDER.map((key) => [key, SCALE_TITLES[key]] as const), onInput: change('scale', 'Resolution') });
+  const layer = selectField({
+    id: 'layer',
+    label: 'Show',
+    value: initial.layer,
+    choices: LAYERS.map((name) => [name, LAYER_TITLES[name]] as const),
+    onInput: (value) => store.set({ layer: value }),
+  });
+  const samples = sliderField({
+    id: 'samples',
+    label: 'Samples',
+    value: initial.samples,
+    initial: 256,
+    range: [1, 4096],
+    hardRange: [1, 65536],
+    curve: 3,
+    whole: true,
+    hint: 'Samples per pixel to reach. The noise halves with four times as many.',
+    onInput: (value) => change('samples', 'Samples')(Math.round(value)),
+  });
+  const noise = selectField({
+    id: 'noise',
+    label: 'Noise target',
+    value: String(initial.noise),
+    choices: NOISES.map((n) => [n as string, n === '0' ? 'None: all samples' : `${Number(n) * 100} %`] as const),
+    hint: 'Adaptive: samples only where there is noise, until it is everywhere at most this',
+    onInput: (value) => change('noise', 'Noise target')(Number(value)),
+  });
+  const depth = sliderField({
+    id: 'depth',
+    label: 'Depth',
+    value: initial.depth,
+    initial: 6,
+    range: [1, 16],
+    hardRange: [1, 64],
+    whole: true,
+    hint: 'Most edges of a path from the camera to a light: 2 is direct light only.',
+    onInput: change('depth', 'Depth'),
+  });
+  const scale = selectField({
+    id: 'scale',
+    label: 'Resolution',
+    value: initial.scale,
+    choices: SCALE_ORDER.map((key) => [key, SCALE_TITLES[key]] as const),
+    onInput: change('scale', 'Resolution'),
+  });
   watch(store, ['layer', 'samples', 'noise', 'depth', 'scale'], (state) => {
     layer.set(state.layer);
     samples.set(state.samples);
@@ -27,19 +73,37 @@ export function renderPanel(context: Context): HTMLElement[] {
     scale.set(state.scale);
   });
 
-  const variant = selectField({ id: 'variant', label: 'Variant', value: '' as string, choices: [], onInput: (value) => store.set({ variant: value === '' ? null : value }, { label: 'Variant' }) });
-  const clip = selectField({ id: 'clip', label: 'Animation', value: '' as string, choices: [], onInput: (value) => { store.set({ clip: value === '' ? null : Number(value), time: 0 }, { label: 'Animation' }); void pose(); } });
+  const variant = selectField({
+    id: 'variant',
+    label: 'Variant',
+    value: '' as string,
+    choices: [],
+    onInput: (value) => store.set({ variant: value === '' ? null : value }, { label: 'Variant' }),
+  });
+  const clip = selectField({
+    id: 'clip',
+    label: 'Animation',
+    value: '' as string,
+    choices: [],
+    onInput: (value) => {
+      store.set({ clip: value === '' ? null : Number(value), time: 0 }, { label: 'Animation' });
+      void pose();
+    },
+  });
   const playback = new Playback(context);
   const looks = section('Model', variant.element, clip.element, playback.element);
   const fill = () => {
     const { variants = [], animations = [] } = opened().scene;
     variant.setChoices([['', 'As made'], ...variants.map((name) => [name, name] as const)], store.state.variant ?? '');
-    clip.setChoices([['', 'At rest'], ...animations.map(({ name }, i) => [String(i), name || `Animation ${i + 1}`] as const)], store.state.clip === null ? '' : String(store.state.clip));
+    clip.setChoices(
+      [['', 'At rest'], ...animations.map(({ name }, i) => [String(i), name || `Animation ${i + 1}`] as const)],
+      store.state.clip === null ? '' : String(store.state.clip),
+    );
     variant.element.hidden = variants.length === 0;
     clip.element.hidden = animations.length === 0;
     looks.hidden = variants.length === 0 && animations.length === 0;
     const playing = store.state.clip === null ? undefined : animations[store.state.clip];
-playback.show(playing?.duration);
+    playback.show(playing?.duration);
   };
   onModel(fill);
   watch(store, ['variant', 'clip'], fill);
@@ -47,7 +111,15 @@ playback.show(playing?.duration);
   const statistics = new StatisticsPanel();
   const showStatistics = () => {
     const { tracer } = session;
-    if (tracer) statistics.show(opened().scene, tracer.statistics, session.film, session.adapterName, session.sampleMs, session.raysPerSecond);
+    if (tracer)
+      statistics.show(
+        opened().scene,
+        tracer.statistics,
+        session.film,
+        session.adapterName,
+        session.sampleMs,
+        session.raysPerSecond,
+      );
   };
   let told = 0;
   onStatus(({ state }) => {
@@ -57,5 +129,9 @@ playback.show(playing?.duration);
   });
   onModel(showStatistics);
   showStatistics();
-  return [section('Sampling', samples.element, noise.element, depth.element, scale.element, layer.element), looks, section('Statistics', statistics.element)];
+  return [
+    section('Sampling', samples.element, noise.element, depth.element, scale.element, layer.element),
+    looks,
+    section('Statistics', statistics.element),
+  ];
 }

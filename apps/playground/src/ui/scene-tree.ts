@@ -12,8 +12,18 @@ const MOST_ROWS = 400;
 export class SceneTree {
   readonly elements: readonly HTMLElement[];
   readonly #context: Context;
-  readonly #search = element('input', { type: 'search', id: 'part-search', placeholder: 'Search', 'aria-label': 'Search parts' });
-  readonly #order = element('select', { id: 'part-order', 'aria-label': 'Order of parts' }, element('option', { value: 'file' }, 'As in file'), element('option', { value: 'material' }, 'By material'));
+  readonly #search = element('input', {
+    type: 'search',
+    id: 'part-search',
+    placeholder: 'Search',
+    'aria-label': 'Search parts',
+  });
+  readonly #order = element(
+    'select',
+    { id: 'part-order', 'aria-label': 'Order of parts' },
+    element('option', { value: 'file' }, 'As in file'),
+    element('option', { value: 'material' }, 'By material'),
+  );
   readonly #list = element('ul', { class: 'tree', id: 'parts', 'aria-label': 'Parts' });
   readonly #showAll = element('button', { type: 'button', id: 'show-all', class: 'quiet', hidden: true }, 'Show all');
   #rows = new Map<number, HTMLElement>();
@@ -21,7 +31,11 @@ export class SceneTree {
   constructor(context: Context) {
     this.#context = context;
     const { store, selection, onModel } = context;
-    this.elements = [element('div', { class: 'tree-bar' }, this.#search, this.#order), element('div', { class: 'tree-bar' }, this.#showAll), this.#list];
+    this.elements = [
+      element('div', { class: 'tree-bar' }, this.#search, this.#order),
+      element('div', { class: 'tree-bar' }, this.#showAll),
+      this.#list,
+    ];
     this.#search.addEventListener('input', () => this.#fill());
     this.#order.addEventListener('change', () => this.#fill());
     this.#showAll.addEventListener('click', () => store.set({ hidden: [] }, { label: 'Show all' }));
@@ -39,20 +53,31 @@ export class SceneTree {
     const { scene } = this.#context.opened();
     const wanted = this.#search.value.trim().toLowerCase();
     const name = (index: number) => scene.instances[index]?.name || `Part ${index + 1}`;
-    const indices = scene.instances.map((_, index) => index).filter((index) => name(index).toLowerCase().includes(wanted));
+    const indices = scene.instances
+      .map((_, index) => index)
+      .filter((index) => name(index).toLowerCase().includes(wanted));
     const byMaterial = this.#order.value === 'material';
-    if (byMaterial) indices.sort((a, b) => (scene.instances[a]?.material ?? 0) - (scene.instances[b]?.material ?? 0) || a - b);
+    if (byMaterial)
+      indices.sort((a, b) => (scene.instances[a]?.material ?? 0) - (scene.instances[b]?.material ?? 0) || a - b);
     this.#rows = new Map();
     const rows: HTMLElement[] = [];
     let heading = -1;
     for (const index of indices.slice(0, MOST_ROWS)) {
       const material = scene.instances[index]?.material ?? 0;
-      if (byMaterial && material !== heading) rows.push(element('li', { class: 'heading' }, scene.materials[(heading = material)]?.name || `Material ${material + 1}`));
+      if (byMaterial && material !== heading)
+        rows.push(
+          element(
+            'li',
+            { class: 'heading' },
+            scene.materials[(heading = material)]?.name || `Material ${material + 1}`,
+          ),
+        );
       const row = this.#row(index, name(index), material);
       this.#rows.set(index, row);
       rows.push(row);
     }
-    if (indices.length > MOST_ROWS) rows.push(element('li', { class: 'heading' }, `${indices.length - MOST_ROWS} more: search for them`));
+    if (indices.length > MOST_ROWS)
+      rows.push(element('li', { class: 'heading' }, `${indices.length - MOST_ROWS} more: search for them`));
     if (indices.length === 0) rows.push(element('li', { class: 'heading' }, 'No part has this name.'));
     this.#list.replaceChildren(...rows);
     this.#mark();
@@ -67,16 +92,29 @@ export class SceneTree {
       const material = scene.instances[index]?.material ?? 0;
       const surface = scene.materials[material];
       const swatch = row.querySelector<HTMLElement>('.swatch');
-      if (swatch && surface) swatch.style.background = toHex(currentValue(store.state, surface, material, 'base_color'));
+      if (swatch && surface)
+        swatch.style.background = toHex(currentValue(store.state, surface, material, 'base_color'));
     }
   }
 
   #row(index: number, name: string, material: number): HTMLElement {
     const { selection, opened, store } = this.#context;
     const { scene } = opened();
-    const part = element('button', { type: 'button', class: 'part', title: scene.materials[material]?.name }, element('i', { class: 'swatch' }), element('span', {}, name));
-    part.addEventListener('click', () => selection.choose({ material: wornMaterial(opened().scene, index, store.state.variant), instance: index }));
-    const eye = element('button', { type: 'button', class: 'eye', 'aria-label': `Show ${name}`, title: 'Hide or show; Alt: show only this one' });
+    const part = element(
+      'button',
+      { type: 'button', class: 'part', title: scene.materials[material]?.name },
+      element('i', { class: 'swatch' }),
+      element('span', {}, name),
+    );
+    part.addEventListener('click', () =>
+      selection.choose({ material: wornMaterial(opened().scene, index, store.state.variant), instance: index }),
+    );
+    const eye = element('button', {
+      type: 'button',
+      class: 'eye',
+      'aria-label': `Show ${name}`,
+      title: 'Hide or show; Alt: show only this one',
+    });
     eye.addEventListener('click', (event) => this.#toggle(index, event.altKey));
     return element('li', { 'data-part': index }, part, eye);
   }
@@ -86,7 +124,13 @@ export class SceneTree {
     const { hidden } = store.state;
     const all = opened().scene.instances.map((_, i) => i);
     const off = hidden.includes(index);
-    const next = alone ? (hidden.length === all.length - 1 && !off ? [] : all.filter((i) => i !== index)) : off ? hidden.filter((i) => i !== index) : [...hidden, index];
+    const next = alone
+      ? hidden.length === all.length - 1 && !off
+        ? []
+        : all.filter((i) => i !== index)
+      : off
+        ? hidden.filter((i) => i !== index)
+        : [...hidden, index];
     if (next.length >= all.length) return say('The last visible part stays: there would be nothing to see.');
     store.set({ hidden: next }, { label: alone ? 'Show only one part' : off ? 'Show part' : 'Hide part' });
   }
@@ -105,7 +149,9 @@ export class SceneTree {
       eye.setAttribute('aria-pressed', String(!off));
       eye.replaceChildren(icon(off ? 'eyeOff' : 'eye'));
       // Not scrollIntoView, which would scroll the page as well.
-      if (chosen && scroll) this.#list.scrollTop += row.getBoundingClientRect().top - this.#list.getBoundingClientRect().top - this.#list.clientHeight / 2;
+      if (chosen && scroll)
+        this.#list.scrollTop +=
+          row.getBoundingClientRect().top - this.#list.getBoundingClientRect().top - this.#list.clientHeight / 2;
     }
     this.#showAll.hidden = hidden.size === 0;
     this.#showAll.textContent = `Show all (${hidden.size} hidden)`;

@@ -8,15 +8,24 @@ export interface Shortcut {
   readonly run: () => void;
 }
 
-const typing = (target: EventTarget | null) => target instanceof HTMLElement && (target.isContentEditable || /^(TEXTAREA|SELECT)$/.test(target.tagName) || (target instanceof HTMLInputElement && !/^(range|checkbox|color|button)$/.test(target.type)));
+const typing = (target: EventTarget | null) =>
+  target instanceof HTMLElement &&
+  (target.isContentEditable ||
+    /^(TEXTAREA|SELECT)$/.test(target.tagName) ||
+    (target instanceof HTMLInputElement && !/^(range|checkbox|color|button)$/.test(target.type)));
 
-/** As {@link Shortcut.keys} say it. Shift counts with letters and named keys; in signs such as "?" it is part of the sign. */
-const named = ({ key, ctrlKey, metaKey, shiftKey }: KeyboardEvent) => `${ctrlKey || metaKey ? 'mod+' : ''}${shiftKey && (key.length > 1 || /^[a-z]$/i.test(key)) ? 'shift+' : ''}${key.toLowerCase()}`;
+/**
+ * As {@link Shortcut.keys} say it. Shift counts with letters and named keys; in signs such as "?" it is part of the
+ * sign.
+ */
+const named = ({ key, ctrlKey, metaKey, shiftKey }: KeyboardEvent) =>
+  `${ctrlKey || metaKey ? 'mod+' : ''}${shiftKey && (key.length > 1 || /^[a-z]$/i.test(key)) ? 'shift+' : ''}${key.toLowerCase()}`;
 
 /** Runs commands by their keys wherever nobody types. */
 export function wireShortcuts(shortcuts: readonly Shortcut[]): void {
   window.addEventListener('keydown', (event) => {
-    if (event.defaultPrevented || event.altKey || typing(event.target) || document.querySelector('dialog[open]')) return;
+    if (event.defaultPrevented || event.altKey || typing(event.target) || document.querySelector('dialog[open]'))
+      return;
     const key = named(event);
     const shortcut = shortcuts.find(({ keys }) => keys.includes(key));
     // A button takes Space and Enter for itself.
@@ -35,7 +44,19 @@ const MOUSE: readonly (readonly [string, string])[] = [
   ['Drop files', 'Model, environment, .mtlx; a picture on a parameter'],
 ];
 
-const shown = (key: string) => key.split('+').map((part) => (part === 'mod' ? 'Ctrl' : part === ' ' ? 'Space' : part.length === 1 ? part.toUpperCase() : part.charAt(0).toUpperCase() + part.slice(1))).join(' ');
+const shown = (key: string) =>
+  key
+    .split('+')
+    .map((part) =>
+      part === 'mod'
+        ? 'Ctrl'
+        : part === ' '
+          ? 'Space'
+          : part.length === 1
+            ? part.toUpperCase()
+            : part.charAt(0).toUpperCase() + part.slice(1),
+    )
+    .join(' ');
 
 /** Fills the dialog that tells all keys. */
 export function fillKeysDialog(dialog: HTMLDialogElement, shortcuts: readonly Shortcut[]): void {
@@ -44,9 +65,19 @@ export function fillKeysDialog(dialog: HTMLDialogElement, shortcuts: readonly Sh
   dialog.addEventListener('click', (event) => {
     if (event.target === dialog) dialog.close();
   });
-  const rows = [...MOUSE.map(([keys, title]) => [keys, title] as const), ...shortcuts.map(({ keys, title }) => [keys[0] ?? '', title] as const)];
+  const rows = [
+    ...MOUSE.map(([keys, title]) => [keys, title] as const),
+    ...shortcuts.map(({ keys, title }) => [keys[0] ?? '', title] as const),
+  ];
   dialog.replaceChildren(
     element('header', {}, element('h2', { id: 'keys-title' }, 'Keys and mouse'), close),
-    element('dl', { class: 'keys' }, ...rows.flatMap(([key, title], i) => [element('dt', {}, i < MOUSE.length ? key : element('kbd', {}, shown(key))), element('dd', {}, title)])),
+    element(
+      'dl',
+      { class: 'keys' },
+      ...rows.flatMap(([key, title], i) => [
+        element('dt', {}, i < MOUSE.length ? key : element('kbd', {}, shown(key))),
+        element('dd', {}, title),
+      ]),
+    ),
   );
 }

@@ -12,11 +12,16 @@ const TONES = { toneMap: 'neutral', exposure: -0.5 } as const;
 const ROWS = 8;
 
 /**
- * Draws a small lat-long picture so that the front (+Z) is in the middle, a few rows a step; it is seen with the last one.
+ * Draws a small lat-long picture so that the front (+Z) is in the middle, a few rows a step; it is seen with the last
+ * one.
  *
  * @param wanted Whether to go on: another one may have taken its place.
  */
-export function* latLongSteps(canvas: HTMLCanvasElement, { width, height, data }: LatLongEnvironment, wanted = () => true): Generator<void, void> {
+export function* latLongSteps(
+  canvas: HTMLCanvasElement,
+  { width, height, data }: LatLongEnvironment,
+  wanted = () => true,
+): Generator<void, void> {
   const context = canvas.getContext('2d');
   if (!context) return;
   const picture = context.createImageData(canvas.width, canvas.height);
@@ -37,7 +42,8 @@ export function* latLongSteps(canvas: HTMLCanvasElement, { width, height, data }
   context.putImageData(picture, 0, 0);
 }
 
-const radianceOf = ({ radiance }: SoftBox) => (typeof radiance === 'number' ? ([radiance, radiance, radiance] as const) : radiance);
+const radianceOf = ({ radiance }: SoftBox) =>
+  typeof radiance === 'number' ? ([radiance, radiance, radiance] as const) : radiance;
 const strengthOf = (box: SoftBox) => Math.max(...radianceOf(box), 1e-6);
 
 /** The soft boxes of a studio on a map of all directions: drag them, change them, add and remove some. */
@@ -55,7 +61,10 @@ export class SkyEditor {
     const add = element('button', { type: 'button', id: 'add-box' }, 'Add soft box');
     const remove = element('button', { type: 'button', id: 'remove-box' }, 'Remove');
     add.addEventListener('click', () => {
-      const boxes = [...this.#boxes(), { azimuth: 20 * DEGREE, elevation: 35 * DEGREE, width: 40 * DEGREE, height: 40 * DEGREE, radiance: 4 }];
+      const boxes = [
+        ...this.#boxes(),
+        { azimuth: 20 * DEGREE, elevation: 35 * DEGREE, width: 40 * DEGREE, height: 40 * DEGREE, radiance: 4 },
+      ];
       this.#chosen = boxes.length - 1;
       this.#set(boxes, 'Add soft box');
     });
@@ -65,7 +74,13 @@ export class SkyEditor {
       this.#set(boxes, 'Remove soft box');
     });
     this.#map.append(this.#canvas);
-    this.element = element('div', { id: 'sky-editor' }, this.#map, element('div', { class: 'row' }, add, remove), this.#fields);
+    this.element = element(
+      'div',
+      { id: 'sky-editor' },
+      this.#map,
+      element('div', { class: 'row' }, add, remove),
+      this.#fields,
+    );
     watch(context.store, ['studio', 'boxes', 'environment'], (state) => {
       if (state.environment === 'studio') this.#show();
       remove.disabled = this.#chosen < 0;
@@ -82,7 +97,10 @@ export class SkyEditor {
   }
 
   #change(change: Partial<SoftBox>): void {
-    this.#set(this.#boxes().map((box, i) => (i === this.#chosen ? { ...box, ...change } : box)), 'Soft box');
+    this.#set(
+      this.#boxes().map((box, i) => (i === this.#chosen ? { ...box, ...change } : box)),
+      'Soft box',
+    );
   }
 
   #show(): void {
@@ -109,7 +127,11 @@ export class SkyEditor {
   }
 
   #handle(index: number): HTMLButtonElement {
-    const handle = element('button', { type: 'button', 'aria-label': `Soft box ${index + 1}; arrows move it` }, String(index + 1));
+    const handle = element(
+      'button',
+      { type: 'button', 'aria-label': `Soft box ${index + 1}; arrows move it` },
+      String(index + 1),
+    );
     this.#map.append(handle);
     const choose = () => {
       this.#chosen = index;
@@ -135,7 +157,10 @@ export class SkyEditor {
       if (!step || !box) return;
       event.preventDefault();
       this.#chosen = index;
-      this.#change({ azimuth: box.azimuth + (step[0] as number) * 5 * DEGREE, elevation: Math.max(-89 * DEGREE, Math.min(89 * DEGREE, box.elevation + (step[1] as number) * 5 * DEGREE)) });
+      this.#change({
+        azimuth: box.azimuth + (step[0] as number) * 5 * DEGREE,
+        elevation: Math.max(-89 * DEGREE, Math.min(89 * DEGREE, box.elevation + (step[1] as number) * 5 * DEGREE)),
+      });
     });
     return handle;
   }
@@ -147,10 +172,51 @@ export class SkyEditor {
     const tint = radianceOf(box).map((v) => v / strength) as unknown as readonly [number, number, number];
     const now = () => this.#boxes()[this.#chosen] as SoftBox;
     this.#fields.replaceChildren(
-      sliderField({ id: 'box-strength', label: 'Radiance', value: strength, range: [0.05, 40], hardRange: [0.001, 10000], curve: 3, onInput: (v) => this.#change({ radiance: radianceOf(now()).map((c) => (c / strengthOf(now())) * v) as unknown as readonly [number, number, number] }) }).element,
-      colourField({ id: 'box-color', label: 'Colour', value: tint, onInput: (rgb) => this.#change({ radiance: rgb.map((c) => (c / Math.max(...rgb, 1e-6)) * strengthOf(now())) as unknown as readonly [number, number, number] }) }).element,
-      sliderField({ id: 'box-width', label: 'Width', unit: '°', value: box.width / DEGREE, range: [2, 150], onInput: (v) => this.#change({ width: v * DEGREE }) }).element,
-      sliderField({ id: 'box-height', label: 'Height', unit: '°', value: box.height / DEGREE, range: [2, 150], onInput: (v) => this.#change({ height: v * DEGREE }) }).element,
+      sliderField({
+        id: 'box-strength',
+        label: 'Radiance',
+        value: strength,
+        range: [0.05, 40],
+        hardRange: [0.001, 10000],
+        curve: 3,
+        onInput: (v) =>
+          this.#change({
+            radiance: radianceOf(now()).map((c) => (c / strengthOf(now())) * v) as unknown as readonly [
+              number,
+              number,
+              number,
+            ],
+          }),
+      }).element,
+      colourField({
+        id: 'box-color',
+        label: 'Colour',
+        value: tint,
+        onInput: (rgb) =>
+          this.#change({
+            radiance: rgb.map((c) => (c / Math.max(...rgb, 1e-6)) * strengthOf(now())) as unknown as readonly [
+              number,
+              number,
+              number,
+            ],
+          }),
+      }).element,
+      sliderField({
+        id: 'box-width',
+        label: 'Width',
+        unit: '°',
+        value: box.width / DEGREE,
+        range: [2, 150],
+        onInput: (v) => this.#change({ width: v * DEGREE }),
+      }).element,
+      sliderField({
+        id: 'box-height',
+        label: 'Height',
+        unit: '°',
+        value: box.height / DEGREE,
+        range: [2, 150],
+        onInput: (v) => this.#change({ height: v * DEGREE }),
+      }).element,
     );
   }
 }

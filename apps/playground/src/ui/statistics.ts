@@ -3,11 +3,17 @@ import type { Scene } from '@glanz/scene';
 import { element } from './elements';
 
 const whole = new Intl.NumberFormat('en');
-const ms = (value: number) => (value < 10 ? `${value.toFixed(1)} ms` : value < 10_000 ? `${Math.round(value)} ms` : `${(value / 1000).toFixed(1)} s`);
+const ms = (value: number) =>
+  value < 10 ? `${value.toFixed(1)} ms` : value < 10_000 ? `${Math.round(value)} ms` : `${(value / 1000).toFixed(1)} s`;
 const mebibytes = (bytes: number) => `${(bytes / 1048576).toFixed(bytes < 10485760 ? 1 : 0)} MiB`;
 
 /** A number of something per second: `12 M/s`. */
-const spokenMany = (rate: number) => (rate >= 1e9 ? `${(rate / 1e9).toPrecision(3)} G/s` : rate >= 1e6 ? `${(rate / 1e6).toPrecision(3)} M/s` : `${(rate / 1e3).toPrecision(3)} k/s`);
+const spokenMany = (rate: number) =>
+  rate >= 1e9
+    ? `${(rate / 1e9).toPrecision(3)} G/s`
+    : rate >= 1e6
+      ? `${(rate / 1e6).toPrecision(3)} M/s`
+      : `${(rate / 1e3).toPrecision(3)} k/s`;
 
 const PURPOSES = [
   ['shapes', 'Shapes', '#7c9cc0'],
@@ -29,7 +35,14 @@ export class StatisticsPanel {
     this.element.append(this.#list, this.#bar, this.#legend, this.#warnings);
   }
 
-  show(scene: Scene, statistics: RenderStatistics, film: readonly [number, number], adapter: string, sampleMs: number | undefined, raysPerSecond: number | undefined): void {
+  show(
+    scene: Scene,
+    statistics: RenderStatistics,
+    film: readonly [number, number],
+    adapter: string,
+    sampleMs: number | undefined,
+    raysPerSecond: number | undefined,
+  ): void {
     const rows: [key: string, title: string, value: string][] = [
       ['sample', 'A sample takes', sampleMs === undefined ? '…' : ms(sampleMs)],
       ['paths', 'Camera paths', sampleMs === undefined ? '…' : spokenMany((film[0] * film[1] * 1000) / sampleMs)],
@@ -46,11 +59,26 @@ export class StatisticsPanel {
       ['adapter', 'GPU', adapter],
       ['memory', 'GPU memory', mebibytes(statistics.gpuBytes)],
     ];
-    this.#list.replaceChildren(...rows.flatMap(([key, name, value]) => [element('dt', {}, name), element('dd', { 'data-statistic': key }, value)]));
+    this.#list.replaceChildren(
+      ...rows.flatMap(([key, name, value]) => [
+        element('dt', {}, name),
+        element('dd', { 'data-statistic': key }, value),
+      ]),
+    );
     const { memory } = statistics;
     const parts = PURPOSES.filter(([name]) => memory[name] > 0);
-    this.#bar.replaceChildren(...parts.map(([name, , colour]) => element('span', { style: `width:${(100 * memory[name]) / Math.max(1, statistics.gpuBytes)}%;background:${colour}` })));
-    this.#legend.replaceChildren(...parts.map(([name, title, colour]) => element('span', {}, element('i', { style: `background:${colour}` }), `${title} ${mebibytes(memory[name])}`)));
+    this.#bar.replaceChildren(
+      ...parts.map(([name, , colour]) =>
+        element('span', {
+          style: `width:${(100 * memory[name]) / Math.max(1, statistics.gpuBytes)}%;background:${colour}`,
+        }),
+      ),
+    );
+    this.#legend.replaceChildren(
+      ...parts.map(([name, title, colour]) =>
+        element('span', {}, element('i', { style: `background:${colour}` }), `${title} ${mebibytes(memory[name])}`),
+      ),
+    );
     this.#warnings.replaceChildren(...scene.warnings.map(({ message }) => element('li', {}, message)));
   }
 }

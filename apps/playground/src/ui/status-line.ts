@@ -43,9 +43,23 @@ export class StatusLine {
     this.#done.value = target > 0 ? Math.min(1, samples / target) : 0;
     this.#done.hidden = state !== 'rendering' && state !== 'paused';
     const count = `${samples} of ${target} samples`;
-    const calm = noise === undefined ? '' : ` · noise ${(100 * noise).toPrecision(2)} %${active < 1 ? `, ${Math.round(100 * active)} % of the picture left` : ''}`;
+    const calm =
+      noise === undefined
+        ? ''
+        : ` · noise ${(100 * noise).toPrecision(2)} %${active < 1 ? `, ${Math.round(100 * active)} % of the picture left` : ''}`;
     const left = samplesPerSecond > 0 ? ` · ${spokenRate(samplesPerSecond)} · ${spokenTime(remainingMs)} left` : '';
-    const texts = { empty: '', loading: '', moving: 'Preview', hidden: '', destroyed: '', rendering: count + left + calm, paused: `${count} · paused`, done: `${samples} samples · done${calm}`, recovering: 'Waiting for the GPU', failed: 'Stopped' };
+    const texts = {
+      empty: '',
+      loading: '',
+      moving: 'Preview',
+      hidden: '',
+      destroyed: '',
+      rendering: count + left + calm,
+      paused: `${count} · paused`,
+      done: `${samples} samples · done${calm}`,
+      recovering: 'Waiting for the GPU',
+      failed: 'Stopped',
+    };
     this.#text.textContent = texts[state];
   }
 }

@@ -18,7 +18,10 @@ export function blurEnvironment({ width, height, data }: LatLongEnvironment, deg
     area[j] = Math.sin(theta);
     for (let i = 0; i < columns; i++) {
       const phi = ((i + 0.5) / columns - 0.5) * 2 * Math.PI;
-      directions.set([Math.sin(theta) * Math.cos(phi), Math.cos(theta), Math.sin(theta) * Math.sin(phi)], (j * columns + i) * 3);
+      directions.set(
+        [Math.sin(theta) * Math.cos(phi), Math.cos(theta), Math.sin(theta) * Math.sin(phi)],
+        (j * columns + i) * 3,
+      );
     }
   }
   const reach = Math.cos(Math.min(Math.PI, 3 * sigma));
@@ -49,11 +52,32 @@ export function blurEnvironment({ width, height, data }: LatLongEnvironment, deg
 
 /** Means over the areas of larger texels, along one axis after the other. */
 function shrink(data: Float32Array, width: number, height: number, columns: number, rows: number): Float32Array {
-  return resample(resample(data, width, columns, height, (x, y) => 3 * (y * width + x), (x, y) => 3 * (y * columns + x)), height, rows, columns, (y, x) => 3 * (y * columns + x), (y, x) => 3 * (y * columns + x));
+  return resample(
+    resample(
+      data,
+      width,
+      columns,
+      height,
+      (x, y) => 3 * (y * width + x),
+      (x, y) => 3 * (y * columns + x),
+    ),
+    height,
+    rows,
+    columns,
+    (y, x) => 3 * (y * columns + x),
+    (y, x) => 3 * (y * columns + x),
+  );
 }
 
 /** Means along one axis from `count` texels to `wanted`, for each of the `others` along the other axis. */
-function resample(data: Float32Array, count: number, wanted: number, others: number, from: (i: number, other: number) => number, to: (i: number, other: number) => number): Float32Array {
+function resample(
+  data: Float32Array,
+  count: number,
+  wanted: number,
+  others: number,
+  from: (i: number, other: number) => number,
+  to: (i: number, other: number) => number,
+): Float32Array {
   const out = new Float32Array(wanted * others * 3);
   const size = count / wanted;
   for (let i = 0; i < wanted; i++) {
@@ -70,19 +94,31 @@ function resample(data: Float32Array, count: number, wanted: number, others: num
 }
 
 /** Radiance of a lat-long picture in a direction of its own frame, bilinear. */
-function look({ width, height, data }: LatLongEnvironment, x: number, y: number, z: number, out: Float32Array, at: number): void {
+function look(
+  { width, height, data }: LatLongEnvironment,
+  x: number,
+  y: number,
+  z: number,
+  out: Float32Array,
+  at: number,
+): void {
   const u = (Math.atan2(z, x) / (2 * Math.PI) + 0.5) * width - 0.5;
   const v = Math.min(Math.max((Math.acos(Math.min(1, Math.max(-1, y))) / Math.PI) * height - 0.5, 0), height - 1);
   const [i, j] = [Math.floor(u), Math.floor(v)];
   const [fx, fy] = [u - i, v - j];
-  const texel = (column: number, row: number, k: number) => data[3 * (Math.min(row, height - 1) * width + (((column % width) + width) % width)) + k]!;
-  for (let k = 0; k < 3; k++) out[at + k] = (texel(i, j, k) * (1 - fx) + texel(i + 1, j, k) * fx) * (1 - fy) + (texel(i, j + 1, k) * (1 - fx) + texel(i + 1, j + 1, k) * fx) * fy;
+  const texel = (column: number, row: number, k: number) =>
+    data[3 * (Math.min(row, height - 1) * width + (((column % width) + width) % width)) + k]!;
+  for (let k = 0; k < 3; k++)
+    out[at + k] =
+      (texel(i, j, k) * (1 - fx) + texel(i + 1, j, k) * fx) * (1 - fy) +
+      (texel(i, j + 1, k) * (1 - fx) + texel(i + 1, j + 1, k) * fx) * fy;
 }
 
 /** Draws a blurred environment behind a picture whose own background is empty. */
 export class Backdrop {
   readonly #canvas: HTMLCanvasElement;
-  #blurred: { readonly data: Float32Array; readonly degrees: number; readonly environment: LatLongEnvironment } | undefined;
+  #blurred:
+    { readonly data: Float32Array; readonly degrees: number; readonly environment: LatLongEnvironment } | undefined;
 
   constructor(canvas: HTMLCanvasElement) {
     this.#canvas = canvas;
@@ -99,23 +135,47 @@ export class Backdrop {
   }
 
   /** @param aspect Width over height of the film. */
-  draw(environment: Environment | undefined, degrees: number, camera: Camera, aspect: number, view: ToneMapOptions): void {
-    const [width, height] = aspect > 1 ? [LONGER_SIDE, Math.max(1, Math.round(LONGER_SIDE / aspect))] : [Math.max(1, Math.round(LONGER_SIDE * aspect)), LONGER_SIDE];
+  draw(
+    environment: Environment | undefined,
+    degrees: number,
+    camera: Camera,
+    aspect: number,
+    view: ToneMapOptions,
+  ): void {
+    const [width, height] =
+      aspect > 1
+        ? [LONGER_SIDE, Math.max(1, Math.round(LONGER_SIDE / aspect))]
+        : [Math.max(1, Math.round(LONGER_SIDE * aspect)), LONGER_SIDE];
     const pixels = new Float32Array(width * height * 4).fill(1);
-    if (environment?.type === 'latlong') this.#project(this.#blur(environment, degrees), environment, camera, width, height, pixels);
+    if (environment?.type === 'latlong')
+      this.#project(this.#blur(environment, degrees), environment, camera, width, height, pixels);
     else for (let i = 0; i < pixels.length; i += 4) pixels.set(environment?.radiance ?? [0, 0, 0], i);
     this.#canvas.width = width;
     this.#canvas.height = height;
     this.#canvas.hidden = false;
-    this.#canvas.getContext('2d')?.putImageData(new ImageData(toneMapPixels(pixels, width, height, { ...view, alpha: 'opaque' }), width, height), 0, 0);
+    this.#canvas
+      .getContext('2d')
+      ?.putImageData(
+        new ImageData(toneMapPixels(pixels, width, height, { ...view, alpha: 'opaque' }), width, height),
+        0,
+        0,
+      );
   }
 
   #blur(environment: LatLongEnvironment, degrees: number): LatLongEnvironment {
-    if (this.#blurred?.data !== environment.data || this.#blurred.degrees !== degrees) this.#blurred = { data: environment.data, degrees, environment: blurEnvironment(environment, degrees) };
+    if (this.#blurred?.data !== environment.data || this.#blurred.degrees !== degrees)
+      this.#blurred = { data: environment.data, degrees, environment: blurEnvironment(environment, degrees) };
     return this.#blurred.environment;
   }
 
-  #project(blurred: LatLongEnvironment, { intensity = 1, rotation = 0 }: LatLongEnvironment, camera: Camera, width: number, height: number, pixels: Float32Array): void {
+  #project(
+    blurred: LatLongEnvironment,
+    { intensity = 1, rotation = 0 }: LatLongEnvironment,
+    camera: Camera,
+    width: number,
+    height: number,
+    pixels: Float32Array,
+  ): void {
     const m = camera.transform;
     const axis = (k: number) => {
       const [x, y, z] = [m[4 * k] as number, m[4 * k + 1] as number, m[4 * k + 2] as number];

@@ -4,7 +4,12 @@ import type { Behind as SavedBehind } from '../output/save';
 import type { State } from '../state/state';
 import type { Backdrop } from './backdrop';
 
-const codes = (rgb: readonly [number, number, number]) => rgb.map((v) => Math.round(255 * srgbEncode(Math.max(0, Math.min(1, v))))) as unknown as readonly [number, number, number];
+const codes = (rgb: readonly [number, number, number]) =>
+  rgb.map((v) => Math.round(255 * srgbEncode(Math.max(0, Math.min(1, v))))) as unknown as readonly [
+    number,
+    number,
+    number,
+  ];
 
 /** What the page puts behind a picture whose own background is empty: one colour, a blurred environment, or nothing. */
 export class Behind {
@@ -30,14 +35,24 @@ export class Behind {
     this.#asked = requestAnimationFrame(() => void this.#draw(state, environment(), camera(), aspect));
   }
 
-  async #draw({ backgroundBlur, exposure, toneMap }: State, environment: Environment | undefined, camera: Camera, aspect: number): Promise<void> {
+  async #draw(
+    { backgroundBlur, exposure, toneMap }: State,
+    environment: Environment | undefined,
+    camera: Camera,
+    aspect: number,
+  ): Promise<void> {
     const { Backdrop } = await import('./backdrop');
     this.#backdrop ??= new Backdrop(this.#canvas);
     this.#backdrop.draw(environment, backgroundBlur, camera, aspect, { exposure, toneMap });
   }
 
   /** What an image of another shape than the screen's has behind it. */
-  async rendered(state: State, environment: Environment | undefined, camera: Camera, aspect: number): Promise<SavedBehind | undefined> {
+  async rendered(
+    state: State,
+    environment: Environment | undefined,
+    camera: Camera,
+    aspect: number,
+  ): Promise<SavedBehind | undefined> {
     if (state.background !== 'blurred') return this.saved(state);
     const { Backdrop } = await import('./backdrop');
     const backdrop = new Backdrop(document.createElement('canvas'));

@@ -1,4 +1,13 @@
-import { frameCamera, frameCameraSteps, inSlices, sceneBounds, sceneBoundsSteps, type Camera, type Scene, type SceneBounds } from '@glanz/scene';
+import {
+  frameCamera,
+  frameCameraSteps,
+  inSlices,
+  sceneBounds,
+  sceneBoundsSteps,
+  type Camera,
+  type Scene,
+  type SceneBounds,
+} from '@glanz/scene';
 import { fitCamera } from '@glanz/viewer/fit-camera';
 import { OrbitRig, type Orbit } from '@glanz/viewer/orbit';
 import type { OrbitView, State } from '../state/state';
@@ -15,8 +24,20 @@ const framing = (aspect: number, yfov: number | undefined) => ({ aspect, ...(yfo
 /** What the camera that a state begins with hangs on, besides the scene. */
 const keyOf = ({ camera, lens: { fov } }: State, aspect: number) => [camera, fov, aspect].join();
 
-const viewOf = ({ theta, phi, radius, target, zoom = 1 }: Orbit): OrbitView => ({ target, distance: radius, yaw: theta, pitch: Math.PI / 2 - phi, zoom });
-const orbitOf = ({ target, distance, yaw, pitch, zoom }: OrbitView): Orbit => ({ target, radius: distance, theta: yaw, phi: Math.PI / 2 - pitch, zoom });
+const viewOf = ({ theta, phi, radius, target, zoom = 1 }: Orbit): OrbitView => ({
+  target,
+  distance: radius,
+  yaw: theta,
+  pitch: Math.PI / 2 - phi,
+  zoom,
+});
+const orbitOf = ({ target, distance, yaw, pitch, zoom }: OrbitView): Orbit => ({
+  target,
+  radius: distance,
+  theta: yaw,
+  phi: Math.PI / 2 - pitch,
+  zoom,
+});
 
 /** The camera that the state asks for, what hands and buttons do to it, and the one that follows it smoothly. */
 export class CameraRig {
@@ -24,10 +45,15 @@ export class CameraRig {
   readonly #aspect: () => number;
   #scene: Scene | undefined;
   #bounds: SceneBounds | undefined;
-  /** Goes where the state says. Made from the camera that the state begins with, which it is told again where that changes. */
+  /**
+   * Goes where the state says. Made from the camera that the state begins with, which it is told again where that
+   * changes.
+   */
   #follower: OrbitRig | undefined;
   #followed: Camera | undefined;
-  /** The camera that a state begins with, while what it hangs on stays: to frame a model one goes through its vertices. */
+  /**
+   * The camera that a state begins with, while what it hangs on stays: to frame a model one goes through its vertices.
+   */
   #known: { readonly key: string; readonly scene: Scene; readonly camera: Camera } | undefined;
 
   /** @param aspect Width over height of the film. */
@@ -45,7 +71,9 @@ export class CameraRig {
   async setScene(scene: Scene, state: State): Promise<void> {
     const bounds = await inSlices(sceneBoundsSteps(scene));
     const aspect = this.#aspect();
-    const framed = scene.cameras[state.camera] ? undefined : await inSlices(frameCameraSteps(scene, framing(aspect, yfovOf(state))));
+    const framed = scene.cameras[state.camera]
+      ? undefined
+      : await inSlices(frameCameraSteps(scene, framing(aspect, yfovOf(state))));
     this.#scene = scene;
     this.#bounds = bounds;
     this.#follower = undefined;
@@ -83,7 +111,11 @@ export class CameraRig {
     const { state } = this.#store;
     if (!this.#scene) throw new Error('There is no scene to look at.');
     const follower = this.#following(state, this.#scene);
-    return withLens(state.orbit || follower.moving ? follower.camera() : this.#start(state, this.#scene), state.lens, this.#aspect());
+    return withLens(
+      state.orbit || follower.moving ? follower.camera() : this.#start(state, this.#scene),
+      state.lens,
+      this.#aspect(),
+    );
   }
 
   /** The state has changed. @param immediate Whether the camera is there at once: there is another model. */
@@ -99,7 +131,11 @@ export class CameraRig {
   /** The camera that a state asks for. */
   camera(state: State = this.#store.state, scene: Scene | undefined = this.#scene): Camera {
     if (!scene) throw new Error('There is no scene to look at.');
-    return withLens(state.orbit ? this.#orbit(state, scene).camera() : this.#start(state, scene), state.lens, this.#aspect());
+    return withLens(
+      state.orbit ? this.#orbit(state, scene).camera() : this.#start(state, scene),
+      state.lens,
+      this.#aspect(),
+    );
   }
 
   /** Turns, shifts or zooms by hand. */
@@ -126,7 +162,11 @@ export class CameraRig {
     if (!scene) return;
     const m = this.camera().transform;
     const part = instance === undefined ? undefined : scene.instances[instance];
-    this.#frame(part ? { ...scene, instances: [{ ...part, visible: true }] } : scene, [m[8] as number, m[9] as number, m[10] as number]);
+    this.#frame(part ? { ...scene, instances: [{ ...part, visible: true }] } : scene, [
+      m[8] as number,
+      m[9] as number,
+      m[10] as number,
+    ]);
   }
 
   #frame(what: Scene | undefined, direction: readonly [number, number, number]): void {
@@ -144,7 +184,11 @@ export class CameraRig {
       const yfov = yfovOf(state);
       const own = scene.cameras[state.camera];
       const fitted = own ? fitCamera(own, aspect) : frameCamera(scene, framing(aspect, yfov));
-      this.#known = { key, scene, camera: yfov === undefined || fitted.type !== 'perspective' ? fitted : { ...fitted, yfov } };
+      this.#known = {
+        key,
+        scene,
+        camera: yfov === undefined || fitted.type !== 'perspective' ? fitted : { ...fitted, yfov },
+      };
     }
     return this.#known.camera;
   }

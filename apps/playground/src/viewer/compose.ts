@@ -1,4 +1,13 @@
-import { sceneBounds, type Environment, type Image, type Material, type Mesh, type Scene, type Texture, type TexturedParameter } from '@glanz/scene';
+import {
+  sceneBounds,
+  type Environment,
+  type Image,
+  type Material,
+  type Mesh,
+  type Scene,
+  type Texture,
+  type TexturedParameter,
+} from '@glanz/scene';
 import type { State } from '../state/state';
 
 /** Half the floor's width in radii of the model: so far that its edge is out of the light's reach. */
@@ -16,7 +25,20 @@ function floorMesh(scene: Scene): Mesh {
   const y = min[1] - radius * 1e-4;
   return {
     name: FLOOR,
-    positions: Float32Array.of(x - half, y, z + half, x + half, y, z + half, x + half, y, z - half, x - half, y, z - half),
+    positions: Float32Array.of(
+      x - half,
+      y,
+      z + half,
+      x + half,
+      y,
+      z + half,
+      x + half,
+      y,
+      z - half,
+      x - half,
+      y,
+      z - half,
+    ),
     indices: Uint32Array.of(0, 1, 2, 0, 2, 3),
   };
 }
@@ -43,7 +65,10 @@ export function composeScene(scene: Scene, state: State, environment: Environmen
     if (!slot) materials[Number(index)] = { ...material, textures: others };
     else {
       textures.push({ name: slot.image.name, image: images.push(slot.image) - 1, color_space: slot.color_space });
-      materials[Number(index)] = { ...material, textures: { ...others, [name]: { ...slot.binding, texture: textures.length - 1 } } };
+      materials[Number(index)] = {
+        ...material,
+        textures: { ...others, [name]: { ...slot.binding, texture: textures.length - 1 } },
+      };
     }
   }
   const composed: Scene = {
@@ -52,17 +77,26 @@ export function composeScene(scene: Scene, state: State, environment: Environmen
     textures,
     materials,
     meshes: [...scene.meshes],
-    instances: scene.instances.map((instance, index) => (hidden.has(index) ? { ...instance, visible: false } : instance)),
+    instances: scene.instances.map((instance, index) =>
+      hidden.has(index) ? { ...instance, visible: false } : instance,
+    ),
   };
   delete composed.environment;
   if (environment) composed.environment = environment;
   if (state.floor) {
     composed.materials.push({ name: FLOOR, parameters: { base_color: [0.5, 0.5, 0.5], specular_weight: 0 } });
     composed.meshes.push(floorMesh(scene));
-    composed.instances.push({ name: FLOOR, mesh: composed.meshes.length - 1, material: composed.materials.length - 1, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1], catcher: true });
+    composed.instances.push({
+      name: FLOOR,
+      mesh: composed.meshes.length - 1,
+      material: composed.materials.length - 1,
+      transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1],
+      catcher: true,
+    });
   }
   return composed;
 }
 
 /** Changes in these call for a tracer of their own: the rest are edits. */
-export const needsTracer = (next: State, before: State): boolean => next.slots !== before.slots || next.floor !== before.floor || next.relight !== before.relight;
+export const needsTracer = (next: State, before: State): boolean =>
+  next.slots !== before.slots || next.floor !== before.floor || next.relight !== before.relight;

@@ -20,7 +20,8 @@ export interface EffectsHost {
 const MANY = 48;
 
 /** Whether the film keeps its background empty: the page then puts something behind it. */
-export const filmBackground = ({ background }: Pick<State, 'background'>): 'environment' | 'transparent' => (background === 'environment' ? 'environment' : 'transparent');
+export const filmBackground = ({ background }: Pick<State, 'background'>): 'environment' | 'transparent' =>
+  background === 'environment' ? 'environment' : 'transparent';
 
 /** What a tracer is made from for a state. */
 export function shownFor(scene: Scene, state: State, host: Pick<EffectsHost, 'rig' | 'environment'>): Shown {
@@ -33,7 +34,8 @@ export function shownFor(scene: Scene, state: State, host: Pick<EffectsHost, 'ri
     ready: async (tracer) => {
       if (state.variant !== null && scene.variants?.includes(state.variant)) await tracer.setVariant(state.variant);
       const known = new Set(tracer.lightGroups.map(({ name }) => name));
-      for (const [name, settings] of Object.entries(state.groups)) if (known.has(name)) await tracer.setLightGroup(name, settings);
+      for (const [name, settings] of Object.entries(state.groups))
+        if (known.has(name)) await tracer.setLightGroup(name, settings);
     },
   };
 }
@@ -44,19 +46,32 @@ export function materialChange(loaded: Values, next: Values = {}, before: Values
   const change: Partial<Record<OpenPbrParameterName, unknown>> = {};
   for (const name of names) {
     const value = next[name] ?? loaded[name] ?? OPENPBR_PARAMETERS[name].default;
-    if (JSON.stringify(value) !== JSON.stringify(before[name] ?? loaded[name] ?? OPENPBR_PARAMETERS[name].default)) change[name] = value;
+    if (JSON.stringify(value) !== JSON.stringify(before[name] ?? loaded[name] ?? OPENPBR_PARAMETERS[name].default))
+      change[name] = value;
   }
   return change as Values;
 }
 
 /** Shows a scene in the state that it has when its tracer is made, and what was changed until it was there. */
-export async function present(scene: Scene, state: () => State, host: EffectsHost, onProgress?: Parameters<Session['show']>[1]): Promise<void> {
+export async function present(
+  scene: Scene,
+  state: () => State,
+  host: EffectsHost,
+  onProgress?: Parameters<Session['show']>[1],
+): Promise<void> {
   let used = state();
   await host.session.show(() => shownFor(scene, (used = state()), host), onProgress);
   if (host.state() !== used && host.scene() === scene) applyChange(host.state(), used, host);
 }
 
-const ENVIRONMENT_FIELDS = ['environment', 'studio', 'boxes', 'constant', 'intensity', 'rotation'] as const satisfies readonly (keyof State)[];
+const ENVIRONMENT_FIELDS = [
+  'environment',
+  'studio',
+  'boxes',
+  'constant',
+  'intensity',
+  'rotation',
+] as const satisfies readonly (keyof State)[];
 
 /** Brings what a change of state calls for to the session, and no more. */
 export function applyChange(next: State, before: State, host: EffectsHost): void {
@@ -75,12 +90,22 @@ export function applyChange(next: State, before: State, host: EffectsHost): void
     present(scene, host.state, host).catch(onError);
     return;
   }
-  for (const index of flipped) session.edit(`visible ${index}`, (tracer) => tracer.setVisibility(index, !hidden.has(index)));
+  for (const index of flipped)
+    session.edit(`visible ${index}`, (tracer) => tracer.setVisibility(index, !hidden.has(index)));
   if (changed('materials')) {
     for (const index of new Set([...Object.keys(next.materials), ...Object.keys(before.materials)])) {
       if (next.materials[index] === before.materials[index]) continue;
-      const change = materialChange(scene.materials[Number(index)]?.parameters ?? {}, next.materials[index], before.materials[index]);
-      if (Object.keys(change).length > 0) session.edit(`material ${index}`, (tracer, merged) => tracer.setMaterial(Number(index), merged as Values), change);
+      const change = materialChange(
+        scene.materials[Number(index)]?.parameters ?? {},
+        next.materials[index],
+        before.materials[index],
+      );
+      if (Object.keys(change).length > 0)
+        session.edit(
+          `material ${index}`,
+          (tracer, merged) => tracer.setMaterial(Number(index), merged as Values),
+          change,
+        );
     }
   }
   if (changed('variant')) session.edit('variant', (tracer) => tracer.setVariant(next.variant ?? undefined));
@@ -93,7 +118,12 @@ export function applyChange(next: State, before: State, host: EffectsHost): void
   if (changed('groups') && next.relight) {
     for (const name of new Set([...Object.keys(before.groups), ...Object.keys(next.groups)])) {
       const wanted = next.groups[name] ?? { intensity: 1, color: [1, 1, 1] as const };
-      if (wanted !== before.groups[name]) session.relight((tracer) => (tracer.lightGroups.some((group) => group.name === name) ? tracer.setLightGroup(name, wanted) : Promise.resolve()));
+      if (wanted !== before.groups[name])
+        session.relight((tracer) =>
+          tracer.lightGroups.some((group) => group.name === name)
+            ? tracer.setLightGroup(name, wanted)
+            : Promise.resolve(),
+        );
     }
   }
   if (changed('camera', 'orbit', 'lens')) {

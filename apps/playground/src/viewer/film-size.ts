@@ -4,7 +4,12 @@ import type { Scale } from '../state/state';
 const MAX_PIXELS = 8_294_400;
 
 /** Size of the film for a stage of so many CSS pixels. */
-export function filmSize(width: number, height: number, scale: Scale, devicePixelRatio: number): readonly [number, number] {
+export function filmSize(
+  width: number,
+  height: number,
+  scale: Scale,
+  devicePixelRatio: number,
+): readonly [number, number] {
   const wanted = scale === 'device' ? devicePixelRatio : Number(scale);
   const factor = Math.min(wanted, Math.sqrt(MAX_PIXELS / Math.max(1, width * height)));
   return [Math.max(1, Math.round(width * factor)), Math.max(1, Math.round(height * factor))];

@@ -64,7 +64,13 @@ export class LayerView {
       if (tracer !== this.#source.tracer() || picture.length !== width * height * 4 || layer !== this.#wanted) return;
       this.#canvas.width = width;
       this.#canvas.height = height;
-      this.#canvas.getContext('2d')?.putImageData(new ImageData(toneMapPixels(picture, width, height, { toneMap: 'linear', alpha: 'opaque' }), width, height), 0, 0);
+      this.#canvas
+        .getContext('2d')
+        ?.putImageData(
+          new ImageData(toneMapPixels(picture, width, height, { toneMap: 'linear', alpha: 'opaque' }), width, height),
+          0,
+          0,
+        );
       this.#canvas.hidden = false;
       this.#source.shown(layer);
     } catch (error) {

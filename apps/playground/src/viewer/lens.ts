@@ -10,7 +10,8 @@ const DEGREE = Math.PI / 180;
 export const focalLength = (fov: number): number => (1000 * SENSOR_HEIGHT) / (2 * Math.tan((fov * DEGREE) / 2));
 
 /** Vertical field of view in degrees of a full-frame camera with this focal length, millimetres. */
-export const fieldOfView = (millimetres: number): number => (2 * Math.atan((1000 * SENSOR_HEIGHT) / (2 * millimetres))) / DEGREE;
+export const fieldOfView = (millimetres: number): number =>
+  (2 * Math.atan((1000 * SENSOR_HEIGHT) / (2 * millimetres))) / DEGREE;
 
 /** Metres along the axis at which an orbiting camera is sharp by itself. */
 const subjectDistance = (camera: Camera): number => (camera.type === 'perspective' ? (camera.focus_distance ?? 1) : 1);
@@ -32,7 +33,12 @@ export function withLens(camera: Camera, lens: Lens, aspect: number): Camera {
   const { lens_radius: _radius, lens_blades: _blades, ...rest } = camera;
   // The diameter of the pupil is the focal length over the f-number.
   const radius = lens.stop > 0 ? focalLength(yfov / DEGREE) / 1000 / lens.stop / 2 : 0;
-  return { ...rest, yfov, focus_distance: lens.focus ?? distance, ...(radius > 0 ? { lens_radius: radius, ...(lens.blades >= 3 ? { lens_blades: lens.blades } : {}) } : {}) };
+  return {
+    ...rest,
+    yfov,
+    focus_distance: lens.focus ?? distance,
+    ...(radius > 0 ? { lens_radius: radius, ...(lens.blades >= 3 ? { lens_blades: lens.blades } : {}) } : {}),
+  };
 }
 
 /** Views along the axes and one from the front right above: yaw and pitch, radians. */
@@ -48,7 +54,13 @@ export const STANDARD_VIEWS = {
 export type StandardView = keyof typeof STANDARD_VIEWS;
 
 /** The direction from the target to the camera. */
-export function directionOf({ yaw, pitch }: { readonly yaw: number; readonly pitch: number }): readonly [number, number, number] {
+export function directionOf({
+  yaw,
+  pitch,
+}: {
+  readonly yaw: number;
+  readonly pitch: number;
+}): readonly [number, number, number] {
   // Straight up and down there is no "up" in the picture.
   const steep = Math.max(-1.55, Math.min(1.55, pitch));
   return [Math.sin(yaw) * Math.cos(steep), Math.sin(steep), Math.cos(yaw) * Math.cos(steep)];

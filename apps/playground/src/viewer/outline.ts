@@ -53,7 +53,8 @@ export class Outline {
     const context = this.#canvas.getContext('2d');
     if (!context) return;
     const picture = context.createImageData(width, height);
-    const inside = (x: number, y: number) => x >= 0 && y >= 0 && x < width && y < height && ids[y * width + x] === instance && ids[y * width + x] !== NO_PART;
+    const inside = (x: number, y: number) =>
+      x >= 0 && y >= 0 && x < width && y < height && ids[y * width + x] === instance && ids[y * width + x] !== NO_PART;
     for (let y = 0; y < height; y++) {
       for (let x = 0; x < width; x++) {
         if (inside(x, y) || !(inside(x - 1, y) || inside(x + 1, y) || inside(x, y - 1) || inside(x, y + 1))) continue;

@@ -5,41 +5,64 @@ import type { State, Values } from '../state/state';
 /** So many parts at once are moved by a new tracer rather than by an edit each. */
 const MANY = 200;
 
-const same = (a: ArrayLike<number>, b: ArrayLike<number>) => a === b || (a.length === b.length && Array.prototype.every.call(a, (value, i) => value === b[i]));
+const same = (a: ArrayLike<number>, b: ArrayLike<number>) =>
+  a === b || (a.length === b.length && Array.prototype.every.call(a, (value, i) => value === b[i]));
 const alike = (a: unknown, b: unknown) => JSON.stringify(a) === JSON.stringify(b);
 
 /**
- * A scene in another pose of the same model, which brings no pictures: places, shapes, lights, cameras and the values of
- * materials are the pose's, everything else stays.
+ * A scene in another pose of the same model, which brings no pictures: places, shapes, lights, cameras and the values
+ * of materials are the pose's, everything else stays.
  *
  * @returns Undefined where the two are not made of the same parts: parts appear and vanish.
  */
 export function posedScene(scene: Scene, pose: Scene): Scene | undefined {
-  const counts = ({ instances, meshes, materials, lights, cameras }: Scene) => [instances, meshes, materials, lights, cameras].map((list) => list.length);
+  const counts = ({ instances, meshes, materials, lights, cameras }: Scene) =>
+    [instances, meshes, materials, lights, cameras].map((list) => list.length);
   if (!alike(counts(scene), counts(pose))) return undefined;
-  if (!scene.instances.every(({ mesh, material }, i) => mesh === pose.instances[i]?.mesh && material === pose.instances[i]?.material)) return undefined;
+  if (
+    !scene.instances.every(
+      ({ mesh, material }, i) => mesh === pose.instances[i]?.mesh && material === pose.instances[i]?.material,
+    )
+  )
+    return undefined;
   return {
     ...scene,
-    instances: scene.instances.map((instance, i) => ({ ...instance, transform: pose.instances[i]?.transform ?? instance.transform })),
+    instances: scene.instances.map((instance, i) => ({
+      ...instance,
+      transform: pose.instances[i]?.transform ?? instance.transform,
+    })),
     // One that has not changed stays the one that a hierarchy is there for.
-    meshes: scene.meshes.map((mesh, i) => (same(mesh.positions, pose.meshes[i]?.positions ?? []) ? mesh : (pose.meshes[i] ?? mesh))),
-    materials: scene.materials.map((material, i) => ({ ...material, parameters: pose.materials[i]?.parameters ?? material.parameters })),
+    meshes: scene.meshes.map((mesh, i) =>
+      same(mesh.positions, pose.meshes[i]?.positions ?? []) ? mesh : (pose.meshes[i] ?? mesh),
+    ),
+    materials: scene.materials.map((material, i) => ({
+      ...material,
+      parameters: pose.materials[i]?.parameters ?? material.parameters,
+    })),
     lights: pose.lights,
     cameras: pose.cameras,
   };
 }
 
 /** Whether the pose is better brought by a new tracer. */
-export const movesMany = (before: Scene, after: Scene): boolean => after.instances.filter(({ transform }, i) => !same(transform, before.instances[i]?.transform ?? [])).length > MANY;
+export const movesMany = (before: Scene, after: Scene): boolean =>
+  after.instances.filter(({ transform }, i) => !same(transform, before.instances[i]?.transform ?? [])).length > MANY;
 
 /** Brings a tracer from whatever pose it is in to that of a scene; values that the user has edited stay the user's. */
-export async function applyPose(tracer: PathTracer, scene: Scene, { materials }: Pick<State, 'materials'>): Promise<void> {
+export async function applyPose(
+  tracer: PathTracer,
+  scene: Scene,
+  { materials }: Pick<State, 'materials'>,
+): Promise<void> {
   const shown = tracer.scene;
-  for (const [i, mesh] of scene.meshes.entries()) if (!same(mesh.positions, shown.meshes[i]?.positions ?? [])) await tracer.replaceMesh(i, mesh);
-  for (const [i, { transform }] of scene.instances.entries()) if (!same(transform, shown.instances[i]?.transform ?? [])) await tracer.setInstanceTransform(i, transform);
+  for (const [i, mesh] of scene.meshes.entries())
+    if (!same(mesh.positions, shown.meshes[i]?.positions ?? [])) await tracer.replaceMesh(i, mesh);
+  for (const [i, { transform }] of scene.instances.entries())
+    if (!same(transform, shown.instances[i]?.transform ?? [])) await tracer.setInstanceTransform(i, transform);
   for (const [i, light] of scene.lights.entries()) if (!alike(light, shown.lights[i])) await tracer.setLight(i, light);
   for (const [i, material] of scene.materials.entries()) {
     const wanted: Values = { ...material.parameters, ...materials[i] };
-    if (!alike({ ...shown.materials[i]?.parameters, ...wanted }, shown.materials[i]?.parameters)) await tracer.setMaterial(i, wanted);
+    if (!alike({ ...shown.materials[i]?.parameters, ...wanted }, shown.materials[i]?.parameters))
+      await tracer.setMaterial(i, wanted);
   }
 }

@@ -26,7 +26,8 @@ export class RayMeter {
     try {
       const rays = await tracer.readRayCount();
       const time = performance.now();
-      if (begin?.tracer === tracer && begin === this.#begin) this.#perSecond = (1000 * (rays - begin.rays)) / (time - begin.time);
+      if (begin?.tracer === tracer && begin === this.#begin)
+        this.#perSecond = (1000 * (rays - begin.rays)) / (time - begin.time);
       this.#begin = { tracer, rays, time };
     } catch {
       // The tracer or its device is gone; another one will count.

@@ -14,7 +14,9 @@ export interface SessionStatus {
   readonly samplesPerSecond: number;
   /** Milliseconds that the picture still takes. */
   readonly remainingMs: number;
-  /** Noise when it was last looked at, and the share of the picture that still gets samples; only with a noise target. */
+  /**
+   * Noise when it was last looked at, and the share of the picture that still gets samples; only with a noise target.
+   */
   readonly noise?: number | undefined;
   readonly active: number;
 }
@@ -63,16 +65,38 @@ export class Session {
   #preparing = 0;
   #film: readonly [number, number] = [0, 0];
   #sampleMs: number | undefined;
-  #progress: Omit<SessionStatus, 'state' | 'samples' | 'target'> = { samplesPerSecond: 0, remainingMs: Infinity, active: 1 };
+  #progress: Omit<SessionStatus, 'state' | 'samples' | 'target'> = {
+    samplesPerSecond: 0,
+    remainingMs: Infinity,
+    active: 1,
+  };
   #askedAt: number | undefined;
 
-  private constructor(canvas: HTMLCanvasElement, layer: HTMLCanvasElement, view: SessionView, hands: Pick<EngineHost, 'step' | 'moving' | 'camera'>, events: SessionEvents) {
+  private constructor(
+    canvas: HTMLCanvasElement,
+    layer: HTMLCanvasElement,
+    view: SessionView,
+    hands: Pick<EngineHost, 'step' | 'moving' | 'camera'>,
+    events: SessionEvents,
+  ) {
     this.#canvas = canvas;
     this.#events = events;
     const { samples, noise, exposure, toneMap } = view;
     this.#engine = new Engine(
       canvas,
-      { samples, noise: noise || undefined, exposure, toneMap, maxDepth: 8, background: 'environment', maxSubmitMs: 16, settleMs: SETTLE_MS, previewDepth: PREVIEW_DEPTH, tracer: {}, requestDevice: undefined },
+      {
+        samples,
+        noise: noise || undefined,
+        exposure,
+        toneMap,
+        maxDepth: 8,
+        background: 'environment',
+        maxSubmitMs: 16,
+        settleMs: SETTLE_MS,
+        previewDepth: PREVIEW_DEPTH,
+        tracer: {},
+        requestDevice: undefined,
+      },
       PREVIEW_MS,
       {
         ...hands,
@@ -95,7 +119,16 @@ export class Session {
         restored: (_milliseconds, { samples }) => this.#events.onRecovered(samples),
       },
     );
-    this.#layers = new LayerView({ tracer: () => this.#engine.tracer, fresh: () => this.#engine.fresh, report: (error) => this.#report(error), shown: (name) => (canvas.dataset['layer'] = name) }, layer, view.layer);
+    this.#layers = new LayerView(
+      {
+        tracer: () => this.#engine.tracer,
+        fresh: () => this.#engine.fresh,
+        report: (error) => this.#report(error),
+        shown: (name) => (canvas.dataset['layer'] = name),
+      },
+      layer,
+      view.layer,
+    );
   }
 
   /**
@@ -103,7 +136,13 @@ export class Session {
    * @param layer Lies over the picture's canvas and shows layers of the film.
    * @throws {DeviceError} without WebGPU.
    */
-  static async create(canvas: HTMLCanvasElement, layer: HTMLCanvasElement, view: SessionView, hands: Pick<EngineHost, 'step' | 'moving' | 'camera'>, events: SessionEvents): Promise<Session> {
+  static async create(
+    canvas: HTMLCanvasElement,
+    layer: HTMLCanvasElement,
+    view: SessionView,
+    hands: Pick<EngineHost, 'step' | 'moving' | 'camera'>,
+    events: SessionEvents,
+  ): Promise<Session> {
     const session = new Session(canvas, layer, view, hands, events);
     await session.#engine.ready;
     return session;
@@ -120,7 +159,12 @@ export class Session {
 
   /** What the GPU calls itself. */
   get adapterName(): string {
-    const { description, device, architecture, vendor } = this.#engine.device?.adapterInfo ?? { description: '', device: '', architecture: '', vendor: '' };
+    const { description, device, architecture, vendor } = this.#engine.device?.adapterInfo ?? {
+      description: '',
+      device: '',
+      architecture: '',
+      vendor: '',
+    };
     return description || device || [vendor, architecture].filter(Boolean).join(' ') || 'unnamed';
   }
 
@@ -156,7 +200,8 @@ export class Session {
   /**
    * Shows another scene. Until it is ready the former one stays, and it stays for good where this fails.
    *
-   * @param source Asked whenever a tracer is made, also after a loss of the device, so it gives the scene as edited by then.
+   * @param source Asked whenever a tracer is made, also after a loss of the device, so it gives the scene as edited by
+   * then.
    */
   async show(source: () => Shown, onProgress: (progress: PrepareProgress) => void = () => undefined): Promise<void> {
     const take = () => {
@@ -219,7 +264,11 @@ export class Session {
    * @param key Of several edits with one key that wait, the last one counts; the fields of their values add up.
    * @returns When it has taken effect, or has failed and was told.
    */
-  async edit(key: string, apply: (tracer: PathTracer, merged: object) => void | Promise<void>, value: object = {}): Promise<void> {
+  async edit(
+    key: string,
+    apply: (tracer: PathTracer, merged: object) => void | Promise<void>,
+    value: object = {},
+  ): Promise<void> {
     // Whoever prepares a scene brings what was changed meanwhile.
     if (this.#preparing > 0) return;
     this.#askedAt ??= performance.now();
@@ -254,6 +303,11 @@ export class Session {
   #tell(): void {
     const { state, current, tracer, settings } = this.#engine;
     if (state !== 'rendering') this.#progress = { ...this.#progress, samplesPerSecond: 0, remainingMs: 0 };
-    this.#events.onStatus({ state, samples: current ? (tracer?.samples ?? 0) : 0, target: settings.samples, ...this.#progress });
+    this.#events.onStatus({
+      state,
+      samples: current ? (tracer?.samples ?? 0) : 0,
+      target: settings.samples,
+      ...this.#progress,
+    });
   }
 }

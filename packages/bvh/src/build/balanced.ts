@@ -1,29 +1,49 @@
 import type { TriangleMesh } from '../blas';
 import type { BuildSettings } from './builder';
 import { Scratch } from './scratch';
-import { buildNodes, emptyTree, gather, keepNodes, makePrimitives, part, sortPrimitives, type Steps, type TriangleTree } from './steps';
+import {
+  buildNodes,
+  emptyTree,
+  gather,
+  keepNodes,
+  makePrimitives,
+  part,
+  sortPrimitives,
+  type Steps,
+  type TriangleTree,
+} from './steps';
 
 /** Triangles of the mesh that is built first of all: enough for splits. */
 const MODEL = 600;
 
 /**
- * V8 drops machine code when the last object of a kind that it was made for goes, and every build that finds itself after a
- * garbage collection would be a first one again. So the objects of one small build stay.
+ * V8 drops machine code when the last object of a kind that it was made for goes, and every build that finds itself
+ * after a garbage collection would be a first one again. So the objects of one small build stay.
  */
 let models: object[] | undefined;
 
 /**
- * Builds by surface area heuristic in steps that are each far cheaper than binning all triangles on every level: pairs of
- * neighbouring triangles become one primitive; Morton codes sort the primitives into small cells; the upper levels are
- * built over the cells from the top down and mended by rotations; the lower ones within each cell from the bottom up. No
- * recursion, no allocation per node, deterministic.
+ * Builds by surface area heuristic in steps that are each far cheaper than binning all triangles on every level: pairs
+ * of neighbouring triangles become one primitive; Morton codes sort the primitives into small cells; the upper levels
+ * are built over the cells from the top down and mended by rotations; the lower ones within each cell from the bottom
+ * up. No recursion, no allocation per node, deterministic.
  */
-export function* buildBalanced(mesh: TriangleMesh, count: number, settings: BuildSettings, kept?: object[]): Steps<TriangleTree> {
+export function* buildBalanced(
+  mesh: TriangleMesh,
+  count: number,
+  settings: BuildSettings,
+  kept?: object[],
+): Steps<TriangleTree> {
   const { maxLeaf, bins } = settings;
   if (!models) {
     models = [];
     const positions = new Float32Array(9 * MODEL).map((_, i) => Math.sin(i * (i % 30)));
-    const steps = buildBalanced({ positions, indices: new Uint32Array(3 * MODEL).map((_, i) => i) }, MODEL, settings, models);
+    const steps = buildBalanced(
+      { positions, indices: new Uint32Array(3 * MODEL).map((_, i) => i) },
+      MODEL,
+      settings,
+      models,
+    );
     while (!steps.next().done) yield 0;
   }
   const scratch = Scratch.take();

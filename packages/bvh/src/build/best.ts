@@ -6,12 +6,26 @@ import { finishDraft } from './finish';
 import { cutTriangles, type References } from './references';
 import { Reinsertion } from './reinsert';
 import { Scratch } from './scratch';
-import { buildNodes, emptyTree, gather, makePrimitives, part, sortPrimitives, type Steps, type TriangleTree } from './steps';
+import {
+  buildNodes,
+  emptyTree,
+  gather,
+  makePrimitives,
+  part,
+  sortPrimitives,
+  type Steps,
+  type TriangleTree,
+} from './steps';
 
 /** The shares of subtrees that the passes of reinsertion look at. */
 const PASSES = [0.1, 1, 0.1] as const;
 
-function* buildBest(mesh: TriangleMesh, count: number, { maxLeaf, bins }: BuildSettings, cut: boolean): Steps<TriangleTree> {
+function* buildBest(
+  mesh: TriangleMesh,
+  count: number,
+  { maxLeaf, bins }: BuildSettings,
+  cut: boolean,
+): Steps<TriangleTree> {
   const scratch = Scratch.take();
   const primitives = yield* part(makePrimitives(mesh, count, maxLeaf > 1, scratch), 0, 0.02);
   if (primitives.count === 0) return emptyTree(primitives);
@@ -31,26 +45,42 @@ function* draft(references: References, bins: number, scratch: Scratch): Steps<D
   const { boxes, bounds, count } = references;
   if (count === 1) return singleDraft(boxes);
   const order = yield* part(sortPrimitives(references, scratch), 0, 0.2);
-  const sorted = yield* part(gather({ boxes, bounds, count, triangles: Uint32Array.from({ length: count }, (_, i) => i) }, order, false, scratch), 0.2, 0.3);
+  const sorted = yield* part(
+    gather(
+      { boxes, bounds, count, triangles: Uint32Array.from({ length: count }, (_, i) => i) },
+      order,
+      false,
+      scratch,
+    ),
+    0.2,
+    0.3,
+  );
   const leaves = new Uint32Array(count);
   const writer = yield* part(buildNodes(sorted, leaves, bins, 0, scratch), 0.3, 0.8);
   return yield* part(draftOf(writer, leaves), 0.8, 1);
 }
 
 /**
- * For pictures that take longer to render than a tree to build: a tree by surface area heuristic whose subtrees are moved
- * to where they cost least. Give it to `buildBlas` as `builder`. Several times the build time of `balanced`; rays look at
- * a fifth less in models made of parts, at a twentieth less in smooth ones.
+ * For pictures that take longer to render than a tree to build: a tree by surface area heuristic whose subtrees are
+ * moved to where they cost least. Give it to `buildBlas` as `builder`. Several times the build time of `balanced`; rays
+ * look at a fifth less in models made of parts, at a twentieth less in smooth ones.
  *
  * @example
  * const blas = buildBlas(mesh, { builder: best });
  */
-export const best: TreeBuilder = { name: 'best', build: (mesh, count, settings) => buildBest(mesh, count, settings, false) };
+export const best: TreeBuilder = {
+  name: 'best',
+  build: (mesh, count, settings) => buildBest(mesh, count, settings, false),
+};
 
 /**
- * As {@link best}, with triangles cut into pieces whose boxes would be mostly empty: rays look at half as much in a mesh of
- * long, thin triangles in all directions, and at little less than with `best` in others. A triangle may then be in several
- * leaves, so `triangleIndices` may be longer than the mesh: closest hits, any hits and distances are what they are, but
- * queries for all hits or overlaps can tell of such a triangle more than once, and `refitBlas` makes its boxes whole again.
+ * As {@link best}, with triangles cut into pieces whose boxes would be mostly empty: rays look at half as much in a
+ * mesh of long, thin triangles in all directions, and at little less than with `best` in others. A triangle may then be
+ * in several leaves, so `triangleIndices` may be longer than the mesh: closest hits, any hits and distances are what
+ * they are, but queries for all hits or overlaps can tell of such a triangle more than once, and `refitBlas` makes its
+ * boxes whole again.
  */
-export const bestSplit: TreeBuilder = { name: 'best-split', build: (mesh, count, settings) => buildBest(mesh, count, settings, true) };
+export const bestSplit: TreeBuilder = {
+  name: 'best-split',
+  build: (mesh, count, settings) => buildBest(mesh, count, settings, true),
+};

@@ -14,8 +14,8 @@ export interface TreeBuilder {
   /** By this name a worker knows it. */
   readonly name: 'fast' | 'best' | 'best-split';
   /**
-   * Builds a tree over the `count` triangles of a mesh that has been checked, in steps of a few milliseconds; each yields
-   * the share that is done, 0..1, never less than before. Not for calling: hand the builder to `buildBlas`.
+   * Builds a tree over the `count` triangles of a mesh that has been checked, in steps of a few milliseconds; each
+   * yields the share that is done, 0..1, never less than before. Not for calling: hand the builder to `buildBlas`.
    */
   readonly build: (mesh: TriangleMesh, count: number, settings: BuildSettings) => Steps<TriangleTree>;
 }

@@ -24,7 +24,14 @@ export interface Clusters {
  * @param limit The border of cells to stop at.
  * @returns Number of cells; their starts are written, and one entry more for the end.
  */
-export function cutCells(codes: Uint32Array, size: number, starts: Uint32Array, ends: number[], first: number, limit: number): number {
+export function cutCells(
+  codes: Uint32Array,
+  size: number,
+  starts: Uint32Array,
+  ends: number[],
+  first: number,
+  limit: number,
+): number {
   let cells = 0;
   // Ranges are cut from the left, so the starts come out in order.
   while (first < limit) {
@@ -42,11 +49,13 @@ export function cutCells(codes: Uint32Array, size: number, starts: Uint32Array, 
 
 /** Where a range of codes is cut: at the first with the highest bit that differs, or in the middle if all are equal. */
 export function cutCell(codes: Uint32Array, first: number, end: number): number {
-  const low = codes[first] as number, high = codes[end - 1] as number;
+  const low = codes[first] as number,
+    high = codes[end - 1] as number;
   if (low === high) return (first + end) >>> 1;
   const bit = 31 - Math.clz32(low ^ high);
   const pivot = (high >>> bit) << bit;
-  let a = first, b = end - 1;
+  let a = first,
+    b = end - 1;
   while (a < b) {
     const middle = (a + b) >>> 1;
     if ((codes[middle] as number) < pivot) a = middle + 1;
@@ -59,5 +68,12 @@ export function cutCell(codes: Uint32Array, first: number, end: number): number 
 export function cutClusters(primitives: Sorted, size: number, scratch: Memory): Clusters {
   const starts = scratch.uint32(primitives.count + 1);
   const count = cutCells(primitives.codes, size, starts, [primitives.count], 0, primitives.count);
-  return { primitives, starts, count, boxes: scratch.float32(6 * count), weights: scratch.uint32(count), references: scratch.uint32(count) };
+  return {
+    primitives,
+    starts,
+    count,
+    boxes: scratch.float32(6 * count),
+    weights: scratch.uint32(count),
+    references: scratch.uint32(count),
+  };
 }

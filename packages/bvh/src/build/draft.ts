@@ -3,8 +3,8 @@ import type { NodeWriter } from './node-writer';
 import { STEP, type Steps } from './steps';
 
 /**
- * A tree that can be changed: every item and every node has a place of its own with its box. Items are 0 to n − 1, nodes
- * n to 2n − 2; n is the root and stays it.
+ * A tree that can be changed: every item and every node has a place of its own with its box. Items are 0 to n − 1,
+ * nodes n to 2n − 2; n is the root and stays it.
  */
 export interface DraftTree {
   readonly itemCount: number;
@@ -21,12 +21,20 @@ export interface DraftTree {
 /** Half the surface of a box. */
 export function boxArea(boxes: Float32Array, place: number): number {
   const b = 6 * place;
-  const x = (boxes[b + 3] as number) - (boxes[b] as number), y = (boxes[b + 4] as number) - (boxes[b + 1] as number), z = (boxes[b + 5] as number) - (boxes[b + 2] as number);
+  const x = (boxes[b + 3] as number) - (boxes[b] as number),
+    y = (boxes[b + 4] as number) - (boxes[b + 1] as number),
+    z = (boxes[b + 5] as number) - (boxes[b + 2] as number);
   return x * y + y * z + z * x;
 }
 
 /** A draft of one item. */
-export const singleDraft = (boxes: Float32Array): DraftTree => ({ itemCount: 1, boxes, areas: new Float32Array(1), parents: Int32Array.of(-1), children: new Int32Array(2) });
+export const singleDraft = (boxes: Float32Array): DraftTree => ({
+  itemCount: 1,
+  boxes,
+  areas: new Float32Array(1),
+  parents: Int32Array.of(-1),
+  children: new Int32Array(2),
+});
 
 /**
  * Makes a draft of a tree over at least two items, one a leaf.
@@ -34,9 +42,12 @@ export const singleDraft = (boxes: Float32Array): DraftTree => ({ itemCount: 1, 
  * @param order Leaf order → item.
  */
 export function* draftOf({ nodes, words, count }: NodeWriter, order: Uint32Array): Steps<DraftTree> {
-  const n = count + 1, places = 2 * n - 1;
-  const boxes = new Float32Array(6 * places), areas = new Float32Array(places);
-  const parents = new Int32Array(places), children = new Int32Array(2 * places);
+  const n = count + 1,
+    places = 2 * n - 1;
+  const boxes = new Float32Array(6 * places),
+    areas = new Float32Array(places);
+  const parents = new Int32Array(places),
+    children = new Int32Array(2 * places);
   parents[n] = -1;
   for (let k = 0; k < 3; k++) {
     boxes[6 * n + k] = Math.min(nodes[LEFT_MIN + k] as number, nodes[RIGHT_MIN + k] as number);

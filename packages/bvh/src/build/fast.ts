@@ -6,7 +6,17 @@ import { encloseNodes } from './levels';
 import { NodeWriter } from './node-writer';
 import { PAIR, type Primitives } from './primitives';
 import { Scratch } from './scratch';
-import { emptyTree, keepNodes, makePrimitives, part, sortPrimitives, STEP, type Order, type Steps, type TriangleTree } from './steps';
+import {
+  emptyTree,
+  keepNodes,
+  makePrimitives,
+  part,
+  sortPrimitives,
+  STEP,
+  type Order,
+  type Steps,
+  type TriangleTree,
+} from './steps';
 
 /** Numbers of a pending range: first, end, word for the reference to it, depth. */
 const TASK = 4;
@@ -30,9 +40,9 @@ function* buildFast(mesh: TriangleMesh, count: number, { maxLeaf }: BuildSetting
 }
 
 /**
- * For meshes that change every frame: every node is cut where the highest bit of the Morton codes changes (Lauterbach et
- * al. 2009, "Fast BVH Construction on GPUs"). Give it to `buildBlas` as `builder`. About a third of the time of `balanced`;
- * rays look at a tenth to two thirds more.
+ * For meshes that change every frame: every node is cut where the highest bit of the Morton codes changes (Lauterbach
+ * et al. 2009, "Fast BVH Construction on GPUs"). Give it to `buildBlas` as `builder`. About a third of the time of
+ * `balanced`; rays look at a tenth to two thirds more.
  *
  * @example
  * const blas = buildBlas(mesh, { builder: fast });
@@ -51,7 +61,13 @@ class Cells {
   #top = 0;
   #emitted = 0;
 
-  constructor(writer: NodeWriter, primitives: Primitives, sorted: Order, maxLeaf: number, triangleIndices: Uint32Array<ArrayBuffer>) {
+  constructor(
+    writer: NodeWriter,
+    primitives: Primitives,
+    sorted: Order,
+    maxLeaf: number,
+    triangleIndices: Uint32Array<ArrayBuffer>,
+  ) {
     this.#writer = writer;
     this.#primitives = primitives;
     this.#sorted = sorted;
@@ -61,7 +77,8 @@ class Cells {
   }
 
   #push(first: number, end: number, slot: number, depth: number): void {
-    const tasks = this.#tasks, t = this.#top++ * TASK;
+    const tasks = this.#tasks,
+      t = this.#top++ * TASK;
     tasks[t] = first;
     tasks[t + 1] = end;
     tasks[t + 2] = slot;
@@ -70,12 +87,17 @@ class Cells {
 
   /** Does some of the work, and says whether there is more. */
   step(entries: number): boolean {
-    const tasks = this.#tasks, writer = this.#writer, maxLeaf = this.#maxLeaf;
+    const tasks = this.#tasks,
+      writer = this.#writer,
+      maxLeaf = this.#maxLeaf;
     const { codes, order } = this.#sorted;
     const { triangles } = this.#primitives;
     for (let left = entries; this.#top > 0 && left > 0; left--) {
       const t = --this.#top * TASK;
-      const first = tasks[t] as number, end = tasks[t + 1] as number, slot = tasks[t + 2] as number, depth = tasks[t + 3] as number;
+      const first = tasks[t] as number,
+        end = tasks[t + 1] as number,
+        slot = tasks[t + 2] as number,
+        depth = tasks[t + 3] as number;
       const size = end - first;
       let weight = size;
       if (size <= maxLeaf) for (let i = first; i < end; i++) weight += (triangles[order[i] as number] as number) >>> 31;
@@ -99,12 +121,21 @@ class Cells {
     const { boxes, triangles } = this.#primitives;
     const start = this.#emitted;
     let emitted = start;
-    let x0 = Infinity, y0 = Infinity, z0 = Infinity, x1 = -Infinity, y1 = -Infinity, z1 = -Infinity;
+    let x0 = Infinity,
+      y0 = Infinity,
+      z0 = Infinity,
+      x1 = -Infinity,
+      y1 = -Infinity,
+      z1 = -Infinity;
     for (let i = first; i < end; i++) {
       const primitive = order[i] as number;
       const b = 6 * primitive;
-      const a0 = boxes[b] as number, a1 = boxes[b + 1] as number, a2 = boxes[b + 2] as number;
-      const a3 = boxes[b + 3] as number, a4 = boxes[b + 4] as number, a5 = boxes[b + 5] as number;
+      const a0 = boxes[b] as number,
+        a1 = boxes[b + 1] as number,
+        a2 = boxes[b + 2] as number;
+      const a3 = boxes[b + 3] as number,
+        a4 = boxes[b + 4] as number,
+        a5 = boxes[b + 5] as number;
       if (a0 < x0) x0 = a0;
       if (a1 < y0) y0 = a1;
       if (a2 < z0) z0 = a2;

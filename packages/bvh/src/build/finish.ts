@@ -16,7 +16,8 @@ function* topDown(tree: DraftTree): Steps<Uint32Array> {
   if (itemCount > 1) order[end++] = rootOf(tree);
   for (let i = 0; i < end; i++) {
     const at = 2 * (order[i] as number);
-    const left = children[at] as number, right = children[at + 1] as number;
+    const left = children[at] as number,
+      right = children[at + 1] as number;
     if (left >= itemCount) order[end++] = left;
     if (right >= itemCount) order[end++] = right;
     if (i % STEP === 0) yield 0;
@@ -26,7 +27,9 @@ function* topDown(tree: DraftTree): Steps<Uint32Array> {
 
 /** Joins the items under a node anew, neighbours first: the least height there is. */
 function flatten({ itemCount, boxes, areas, parents, children }: DraftTree, root: number): void {
-  const items: number[] = [], nodes: number[] = [], pending = [root];
+  const items: number[] = [],
+    nodes: number[] = [],
+    pending = [root];
   while (pending.length > 0) {
     const place = pending.pop() as number;
     if (place < itemCount) items.push(place);
@@ -36,10 +39,11 @@ function flatten({ itemCount, boxes, areas, parents, children }: DraftTree, root
     }
   }
   // The last to be used is the root.
-  for (let list = items; list.length > 1; ) {
+  for (let list = items; list.length > 1;) {
     const next: number[] = [];
     for (let i = 0; i < list.length; i += 2) {
-      const left = list[i] as number, right = list[i + 1];
+      const left = list[i] as number,
+        right = list[i + 1];
       if (right === undefined) {
         next.push(left);
         continue;
@@ -64,10 +68,13 @@ export function* boundDepth(tree: DraftTree, maxDepth: number): Steps<void> {
   const { itemCount, children, parents } = tree;
   const order = yield* topDown(tree);
   const places = 2 * itemCount - 1;
-  const depths = new Uint32Array(places), heights = new Uint32Array(places), items = new Uint32Array(places).fill(1, 0, itemCount);
+  const depths = new Uint32Array(places),
+    heights = new Uint32Array(places),
+    items = new Uint32Array(places).fill(1, 0, itemCount);
   for (let i = order.length - 1; i >= 0; i--) {
     const node = order[i] as number;
-    const left = children[2 * node] as number, right = children[2 * node + 1] as number;
+    const left = children[2 * node] as number,
+      right = children[2 * node + 1] as number;
     heights[node] = 1 + Math.max(heights[left] as number, heights[right] as number);
     items[node] = (items[left] as number) + (items[right] as number);
     if (i % STEP === 0) yield 0;
@@ -81,7 +88,10 @@ export function* boundDepth(tree: DraftTree, maxDepth: number): Steps<void> {
     depths[node] = depth;
     if (parent >= 0 && settled[parent] === 1) settled[node] = 1;
     else if (depth + (heights[node] as number) <= maxDepth) settled[node] = 1;
-    else if (depth + 1 + Math.max(least(children[2 * node] as number), least(children[2 * node + 1] as number)) > maxDepth) {
+    else if (
+      depth + 1 + Math.max(least(children[2 * node] as number), least(children[2 * node + 1] as number)) >
+      maxDepth
+    ) {
       flatten(tree, node);
       settled[node] = 1;
     }
@@ -90,15 +100,22 @@ export function* boundDepth(tree: DraftTree, maxDepth: number): Steps<void> {
 }
 
 /**
- * Turns a draft into nodes, depth first, with leaves where they cost less than going on. Pieces of one triangle in one leaf
- * become one.
+ * Turns a draft into nodes, depth first, with leaves where they cost less than going on. Pieces of one triangle in one
+ * leaf become one.
  */
-export function* finishDraft(tree: DraftTree, { triangles }: References, maxLeaf: number, maxDepth: number): Steps<Omit<TriangleTree, 'bounds'>> {
+export function* finishDraft(
+  tree: DraftTree,
+  { triangles }: References,
+  maxLeaf: number,
+  maxDepth: number,
+): Steps<Omit<TriangleTree, 'bounds'>> {
   const { itemCount, boxes, areas, children } = tree;
   const places = 2 * itemCount - 1;
   yield* boundDepth(tree, maxDepth);
   const order = yield* topDown(tree);
-  const weights = new Uint32Array(places), costs = new Float64Array(places), leaf = new Uint8Array(places).fill(1);
+  const weights = new Uint32Array(places),
+    costs = new Float64Array(places),
+    leaf = new Uint8Array(places).fill(1);
   for (let i = 0; i < itemCount; i++) {
     weights[i] = (triangles[i] as number) >= PAIR ? 2 : 1;
     costs[i] = (areas[i] as number) * (weights[i] as number);
@@ -107,7 +124,8 @@ export function* finishDraft(tree: DraftTree, { triangles }: References, maxLeaf
   let nodeCount = 0;
   for (let i = order.length - 1; i >= 0; i--) {
     const node = order[i] as number;
-    const left = children[2 * node] as number, right = children[2 * node + 1] as number;
+    const left = children[2 * node] as number,
+      right = children[2 * node + 1] as number;
     const weight = (weights[left] as number) + (weights[right] as number);
     const area = areas[node] as number;
     const cost = area + (costs[left] as number) + (costs[right] as number);
@@ -130,7 +148,7 @@ export function* finishDraft(tree: DraftTree, { triangles }: References, maxLeaf
   const emit = (place: number): number => {
     const start = emitted;
     below[0] = place;
-    for (let top = 1; top > 0; ) {
+    for (let top = 1; top > 0;) {
       const at = below[--top] as number;
       if (at >= itemCount) {
         below[top++] = children[2 * at + 1] as number;
@@ -152,7 +170,8 @@ export function* finishDraft(tree: DraftTree, { triangles }: References, maxLeaf
   pending[0] = root;
   for (let top = 1, visited = 0; top > 0; visited++) {
     const p = 2 * --top;
-    const place = pending[p] as number, slot = pending[p + 1] as number;
+    const place = pending[p] as number,
+      slot = pending[p + 1] as number;
     let reference: number;
     if (leaf[place] === 1) reference = emit(place);
     else {
@@ -167,5 +186,9 @@ export function* finishDraft(tree: DraftTree, { triangles }: References, maxLeaf
     if (visited % STEP === 0) yield 0.5 + (0.5 * writer.count) / nodeCount;
   }
   const { nodes, nodeCount: kept } = yield* part(keepNodes(writer), 1, 1);
-  return { nodes, nodeCount: kept, triangleIndices: emitted === triangleIndices.length ? triangleIndices : triangleIndices.slice(0, emitted) };
+  return {
+    nodes,
+    nodeCount: kept,
+    triangleIndices: emitted === triangleIndices.length ? triangleIndices : triangleIndices.slice(0, emitted),
+  };
 }

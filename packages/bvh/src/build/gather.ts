@@ -45,15 +45,20 @@ export class Gatherer implements Sorted {
     const { boxes, names, codes } = this;
     let { count } = this;
     // Looked up once: engines do so each time with constants of modules.
-    const pair = PAIR, none = NONE;
+    const pair = PAIR,
+      none = NONE;
     const pairs = this.#pairs;
     // Whether the last that was written is a single triangle.
     let waiting = false;
     for (let i = from; i < end; i++) {
       const primitive = order[i] as number;
       const b = 6 * primitive;
-      const x0 = unsorted[b] as number, y0 = unsorted[b + 1] as number, z0 = unsorted[b + 2] as number;
-      const x1 = unsorted[b + 3] as number, y1 = unsorted[b + 4] as number, z1 = unsorted[b + 5] as number;
+      const x0 = unsorted[b] as number,
+        y0 = unsorted[b + 1] as number,
+        z0 = unsorted[b + 2] as number;
+      const x1 = unsorted[b + 3] as number,
+        y1 = unsorted[b + 4] as number,
+        z1 = unsorted[b + 5] as number;
       const name = triangles[primitive] as number;
       const two = name >= pair;
       if (waiting && !two && pairUp(boxes, 6 * count - 6, x0, y0, z0, x1, y1, z1)) {

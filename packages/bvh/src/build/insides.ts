@@ -36,11 +36,15 @@ export class Insides {
   /** Does the clusters from one to another, and sets their boxes, weights and references. */
   build(from: number, to: number): void {
     const { boxes, weights, references, starts, primitives } = this.#clusters;
-    const { names } = primitives, sorted = primitives.boxes;
-    const group = this.#group, writer = this.#writer, none = NONE;
+    const { names } = primitives,
+      sorted = primitives.boxes;
+    const group = this.#group,
+      writer = this.#writer,
+      none = NONE;
     const leaf = (id: number) => this.#leaf(id);
     for (let cluster = from; cluster < to; cluster++) {
-      const first = (this.#first = starts[cluster] as number), size = (this.#size = (starts[cluster + 1] as number) - first);
+      const first = (this.#first = starts[cluster] as number),
+        size = (this.#size = (starts[cluster + 1] as number) - first);
       for (let i = 0; i < size; i++) {
         group.load(i, sorted, 6 * (first + i));
         group.weights[i] = names[2 * (first + i) + 1] === none ? 1 : 2;
@@ -61,11 +65,14 @@ export class Insides {
   #leaf(id: number): number {
     const { names } = this.#clusters.primitives;
     const { children } = this.#group;
-    const triangles = this.#triangleIndices, below = this.#below, size = this.#size;
-    const start = this.end, none = NONE;
+    const triangles = this.#triangleIndices,
+      below = this.#below,
+      size = this.#size;
+    const start = this.end,
+      none = NONE;
     let last = start;
     below[0] = id;
-    for (let top = 1; top > 0; ) {
+    for (let top = 1; top > 0;) {
       const at = below[--top] as number;
       if (at >= size) {
         below[top++] = children[2 * at + 1] as number;

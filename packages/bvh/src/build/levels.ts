@@ -18,8 +18,8 @@ export interface Items {
 
 /**
  * Builds a tree over items, one item a leaf, without recursion: large ranges are split by surface area heuristic, small
- * ones joined bottom up. Where the depth left would not suffice, or no plane separates the centres, ranges are halved by
- * count, so the depth is bounded for any input. The boxes of inner children are not set: {@link encloseNodes}.
+ * ones joined bottom up. Where the depth left would not suffice, or no plane separates the centres, ranges are halved
+ * by count, so the depth is bounded for any input. The boxes of inner children are not set: {@link encloseNodes}.
  */
 export class Levels {
   readonly #writer: NodeWriter;
@@ -40,7 +40,14 @@ export class Levels {
    * @param order The items' numbers, rising.
    * @param words Four numbers for each item, to work in.
    */
-  constructor(writer: NodeWriter, items: Items, maxDepth: number, bins: number, order = new Uint32Array(items.count).map((_, i) => i), words = new Int32Array(4 * items.count)) {
+  constructor(
+    writer: NodeWriter,
+    items: Items,
+    maxDepth: number,
+    bins: number,
+    order = new Uint32Array(items.count).map((_, i) => i),
+    words = new Int32Array(4 * items.count),
+  ) {
     this.#writer = writer;
     this.#items = items;
     this.#order = order;
@@ -58,10 +65,16 @@ export class Levels {
    * @returns Whether there is more to do.
    */
   step(items: number): boolean {
-    const tasks = this.tasks, splitter = this.#splitter, order = this.#order, centers = this.#centers;
+    const tasks = this.tasks,
+      splitter = this.#splitter,
+      order = this.#order,
+      centers = this.#centers;
     const { sides } = splitter;
-    for (let left = items; tasks.length > 0 && left > 0; ) {
-      const depth = tasks.pop() as number, slot = tasks.pop() as number, end = tasks.pop() as number, first = tasks.pop() as number;
+    for (let left = items; tasks.length > 0 && left > 0;) {
+      const depth = tasks.pop() as number,
+        slot = tasks.pop() as number,
+        end = tasks.pop() as number,
+        first = tasks.pop() as number;
       for (let k = 5; k >= 0; k--) centers[k] = tasks.pop() as number;
       const size = end - first;
       left -= size;
@@ -72,11 +85,28 @@ export class Levels {
       const [x, y, z, x1, y1, z1] = centers as unknown as [number, number, number, number, number, number];
       if (Math.max(x1 - x, y1 - y, z1 - z) < COARSE) this.#quantise(first, end);
       // With the levels that halving would need from here on.
-      splitter.split(this.#words, order, first, depth + 33 - Math.clz32(size - 1) < this.#maxDepth ? end : first, centers);
+      splitter.split(
+        this.#words,
+        order,
+        first,
+        depth + 33 - Math.clz32(size - 1) < this.#maxDepth ? end : first,
+        centers,
+      );
       let { cut } = splitter;
       if (cut < 0) cut = (first + end) >>> 1;
       const base = this.#writer.under(slot) * NODE_WORDS;
-      tasks.push(...sides.subarray(6), cut, end, base + RIGHT, depth + 1, ...sides.subarray(0, 6), first, cut, base + LEFT, depth + 1);
+      tasks.push(
+        ...sides.subarray(6),
+        cut,
+        end,
+        base + RIGHT,
+        depth + 1,
+        ...sides.subarray(0, 6),
+        first,
+        cut,
+        base + LEFT,
+        depth + 1,
+      );
     }
     return tasks.length > 0;
   }
@@ -85,11 +115,14 @@ export class Levels {
   #quantise(first: number, end: number): void {
     const STEPS = 32767;
     const { boxes, weights } = this.#items;
-    const order = this.#order, words = this.#words, centers = this.#centers;
+    const order = this.#order,
+      words = this.#words,
+      centers = this.#centers;
     const low = new Float64Array(3);
     let extent = 0;
     for (let k = 0; k < 3; k++) {
-      let a = Infinity, b = -Infinity;
+      let a = Infinity,
+        b = -Infinity;
       for (let i = first; i < end; i++) {
         const box = 6 * (order[i] as number) + k;
         a = Math.min(a, boxes[box] as number);
@@ -105,7 +138,8 @@ export class Levels {
       const item = order[i] as number;
       for (let k = 0; k < 3; k++) {
         const box = 6 * item + k;
-        const a = (((boxes[box] as number) - (low[k] as number)) * scale) | 0, b = (((boxes[box + 3] as number) - (low[k] as number)) * scale) | 0;
+        const a = (((boxes[box] as number) - (low[k] as number)) * scale) | 0,
+          b = (((boxes[box + 3] as number) - (low[k] as number)) * scale) | 0;
         words[4 * item + k] = b | ((STEPS - a) << 16);
         centers[k] = Math.min(centers[k] as number, a + b);
         centers[3 + k] = Math.max(centers[3 + k] as number, a + b);
@@ -116,7 +150,9 @@ export class Levels {
 
   /** The tree of a small range. */
   #join(first: number, size: number, slot: number, depth: number): void {
-    const group = this.#group, writer = this.#writer, order = this.#order;
+    const group = this.#group,
+      writer = this.#writer,
+      order = this.#order;
     const { boxes } = this.#items;
     if (size === 1) {
       const item = order[first] as number;
@@ -133,7 +169,8 @@ export class Levels {
 export function encloseNodes({ nodes, words }: NodeWriter, from: number, end: number): void {
   // Halves of nodes: a child's box, and its reference three words behind the box's start or one before it.
   for (let half = 2 * end - 1; half >= 2 * from; half--) {
-    const box = 8 * half, reference = words[box + 3 - 4 * (half & 1)] as number;
+    const box = 8 * half,
+      reference = words[box + 3 - 4 * (half & 1)] as number;
     if (reference < LEAF) encloseChildren(nodes, box, box + 4, 16 * reference);
   }
 }

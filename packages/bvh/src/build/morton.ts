@@ -10,8 +10,8 @@ const DIGIT = 10;
 const DIGITS = 1 << DIGIT;
 
 /**
- * Sorts primitives by the Morton codes of their boxes' centres, in cubic cells, by radix. Equal codes keep their order, so
- * the result is one for all machines.
+ * Sorts primitives by the Morton codes of their boxes' centres, in cubic cells, by radix. Equal codes keep their order,
+ * so the result is one for all machines.
  */
 export class MortonSort {
   /** Primitives, by their Morton codes. */
@@ -40,14 +40,18 @@ export class MortonSort {
   /** Finds the codes of the primitives from one to another. */
   encode(from: number, to: number): void {
     const { boxes, bounds } = this.#primitives;
-    const DIGITS = 1024, DIGIT = 10;
+    const DIGITS = 1024,
+      DIGIT = 10;
     const { order, codes } = this;
-    const spread = this.#spread, starts = this.#starts;
+    const spread = this.#spread,
+      starts = this.#starts;
     const [x, y, z, x1, y1, z1] = bounds as unknown as [number, number, number, number, number, number];
     const extent = Math.max(x1 - x, y1 - y, z1 - z);
     // Just below the number of cells, so that the largest centre falls into the last.
     const scale = extent > 0 ? (0.4999999 * CELLS) / extent : 0;
-    const ox = 2 * x, oy = 2 * y, oz = 2 * z;
+    const ox = 2 * x,
+      oy = 2 * y,
+      oz = 2 * z;
     for (let i = from, b = 6 * from; i < to; i++, b += 6) {
       const qx = (((boxes[b] as number) + (boxes[b + 3] as number) - ox) * scale) | 0;
       const qy = (((boxes[b + 1] as number) + (boxes[b + 4] as number) - oy) * scale) | 0;
@@ -55,7 +59,8 @@ export class MortonSort {
       const code = ((spread[qx] as number) << 2) | ((spread[qy] as number) << 1) | (spread[qz] as number);
       codes[i] = code;
       order[i] = i;
-      const second = DIGITS + ((code >>> DIGIT) & 1023), third = 2 * DIGITS + (code >>> (2 * DIGIT));
+      const second = DIGITS + ((code >>> DIGIT) & 1023),
+        third = 2 * DIGITS + (code >>> (2 * DIGIT));
       starts[code & 1023] = (starts[code & 1023] as number) + 1;
       starts[second] = (starts[second] as number) + 1;
       starts[third] = (starts[third] as number) + 1;
@@ -75,10 +80,14 @@ export class MortonSort {
 
   /** Puts the entries from one to another into their places by one of the three digits, lowest first. */
   scatter(pass: number, from: number, to: number): void {
-    const DIGITS = 1024, DIGIT = 10;
+    const DIGITS = 1024,
+      DIGIT = 10;
     const { order, codes } = this;
-    const order2 = this.#order2, codes2 = this.#codes2, starts = this.#starts;
-    const base = pass * DIGITS, shift = pass * DIGIT;
+    const order2 = this.#order2,
+      codes2 = this.#codes2,
+      starts = this.#starts;
+    const base = pass * DIGITS,
+      shift = pass * DIGIT;
     for (let i = from; i < to; i++) {
       const code = codes[i] as number;
       const slot = base + ((code >>> shift) & (DIGITS - 1));

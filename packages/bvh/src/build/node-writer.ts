@@ -40,8 +40,8 @@ export class NodeWriter {
   }
 
   /**
-   * A tree of one leaf, or of none if there is no box. Both references name the leaf, as they must name something: the box
-   * of a missing child is one that no ray reaches.
+   * A tree of one leaf, or of none if there is no box. Both references name the leaf, as they must name something: the
+   * box of a missing child is one that no ray reaches.
    */
   single(reference: number, box?: Float32Array): void {
     const missing = new Float32Array(6).fill(FAR);

@@ -4,8 +4,8 @@ import { putBox } from '../layout';
 import type { Memory } from './scratch';
 
 /**
- * Two triangles become a pair if the surface of their common box is at most this part of their own boxes' together. At 1
- * a pair costs what its halves do; a little less gives better trees at the same speed.
+ * Two triangles become a pair if the surface of their common box is at most this part of their own boxes' together. At
+ * 1 a pair costs what its halves do; a little less gives better trees at the same speed.
  */
 const PAIR_LIMIT = 0.75;
 
@@ -13,13 +13,39 @@ const PAIR_LIMIT = 0.75;
 export const PAIR = 0x80000000;
 
 /** Makes the box at `at` that of a pair, with the box given, if these two are to be one. */
-export function pairUp(boxes: Float32Array, at: number, x0: number, y0: number, z0: number, x1: number, y1: number, z1: number): boolean {
-  const w0 = boxes[at] as number, w1 = boxes[at + 1] as number, w2 = boxes[at + 2] as number, w3 = boxes[at + 3] as number, w4 = boxes[at + 4] as number, w5 = boxes[at + 5] as number;
-  const dx = x1 - x0, dy = y1 - y0, dz = z1 - z0, wx = w3 - w0, wy = w4 - w1, wz = w5 - w2;
-  const u0 = x0 < w0 ? x0 : w0, u1 = y0 < w1 ? y0 : w1, u2 = z0 < w2 ? z0 : w2;
-  const u3 = x1 > w3 ? x1 : w3, u4 = y1 > w4 ? y1 : w4, u5 = z1 > w5 ? z1 : w5;
-  const ux = u3 - u0, uy = u4 - u1, uz = u5 - u2;
-  if (ux * uy + uy * uz + uz * ux > PAIR_LIMIT * (dx * dy + dy * dz + dz * dx + wx * wy + wy * wz + wz * wx)) return false;
+export function pairUp(
+  boxes: Float32Array,
+  at: number,
+  x0: number,
+  y0: number,
+  z0: number,
+  x1: number,
+  y1: number,
+  z1: number,
+): boolean {
+  const w0 = boxes[at] as number,
+    w1 = boxes[at + 1] as number,
+    w2 = boxes[at + 2] as number,
+    w3 = boxes[at + 3] as number,
+    w4 = boxes[at + 4] as number,
+    w5 = boxes[at + 5] as number;
+  const dx = x1 - x0,
+    dy = y1 - y0,
+    dz = z1 - z0,
+    wx = w3 - w0,
+    wy = w4 - w1,
+    wz = w5 - w2;
+  const u0 = x0 < w0 ? x0 : w0,
+    u1 = y0 < w1 ? y0 : w1,
+    u2 = z0 < w2 ? z0 : w2;
+  const u3 = x1 > w3 ? x1 : w3,
+    u4 = y1 > w4 ? y1 : w4,
+    u5 = z1 > w5 ? z1 : w5;
+  const ux = u3 - u0,
+    uy = u4 - u1,
+    uz = u5 - u2;
+  if (ux * uy + uy * uz + uz * ux > PAIR_LIMIT * (dx * dy + dy * dz + dz * dx + wx * wy + wy * wz + wz * wx))
+    return false;
   putBox(boxes, at, u0, u1, u2, u3, u4, u5);
   return true;
 }
@@ -66,7 +92,8 @@ export class PrimitiveMaker implements Primitives {
    * @throws {BvhError} `bvh/indices` for an index beyond the vertices.
    */
   add(from: number, end: number): void {
-    const positions = this.#positions, indices = this.#indices;
+    const positions = this.#positions,
+      indices = this.#indices;
     const { boxes, triangles, bounds } = this;
     const pairs = this.#pairs;
     const limit = Math.floor(positions.length / 3);
@@ -75,19 +102,31 @@ export class PrimitiveMaker implements Primitives {
     let waiting = -2;
     let [bx0, by0, bz0, bx1, by1, bz1] = bounds as unknown as [number, number, number, number, number, number];
     for (let i = from; i < end; i++) {
-      let a = 3 * i, b = a + 1, c = a + 2;
+      let a = 3 * i,
+        b = a + 1,
+        c = a + 2;
       if (indices) {
         a = indices[a] as number;
         b = indices[b] as number;
         c = indices[c] as number;
-        if (a >= limit || b >= limit || c >= limit) throw new BvhError('bvh/indices', `Triangle ${i} uses vertex ${Math.max(a, b, c)} of ${limit}; it must be below.`);
+        if (a >= limit || b >= limit || c >= limit)
+          throw new BvhError(
+            'bvh/indices',
+            `Triangle ${i} uses vertex ${Math.max(a, b, c)} of ${limit}; it must be below.`,
+          );
       }
       a *= 3;
       b *= 3;
       c *= 3;
-      const ax = positions[a] as number, ay = positions[a + 1] as number, az = positions[a + 2] as number;
-      const bx = positions[b] as number, by = positions[b + 1] as number, bz = positions[b + 2] as number;
-      const cx = positions[c] as number, cy = positions[c + 1] as number, cz = positions[c + 2] as number;
+      const ax = positions[a] as number,
+        ay = positions[a + 1] as number,
+        az = positions[a + 2] as number;
+      const bx = positions[b] as number,
+        by = positions[b + 1] as number,
+        bz = positions[b + 2] as number;
+      const cx = positions[c] as number,
+        cy = positions[c + 1] as number,
+        cz = positions[c + 2] as number;
       // A difference from itself is 0 for finite numbers only.
       const sum = ax + ay + az + bx + by + bz + cx + cy + cz;
       if (sum - sum !== 0) continue;

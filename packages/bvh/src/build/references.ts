@@ -6,7 +6,9 @@ import { part, STEP, type Steps } from './steps';
 const GRID = 1 << 16;
 /** Most pieces of one triangle. */
 const PIECES_MAX = 64;
-/** Most pieces more, as a share of the primitives, and how many times the mean priority a triangle must have to be cut. */
+/**
+ * Most pieces more, as a share of the primitives, and how many times the mean priority a triangle must have to be cut.
+ */
 const SHARE = 0.3;
 const OUTSTANDING = 2;
 /** From so many boxes in a ray's way on, more triangles are cut. */
@@ -27,17 +29,24 @@ function corners({ positions, indices }: TriangleMesh, triangle: number, out: Fl
 
 /** Half the surface that a triangle's box has beyond what the boxes of infinitely many pieces would have together. */
 function excess(v: Float64Array): number {
-  const e = (i: number) => (v[3 + i] as number) - (v[i] as number), f = (i: number) => (v[6 + i] as number) - (v[i] as number);
-  const extent = (i: number) => Math.max(v[i] as number, v[3 + i] as number, v[6 + i] as number) - Math.min(v[i] as number, v[3 + i] as number, v[6 + i] as number);
-  const x = extent(0), y = extent(1), z = extent(2);
-  const ideal = 0.5 * (Math.abs(e(1) * f(2) - e(2) * f(1)) + Math.abs(e(2) * f(0) - e(0) * f(2)) + Math.abs(e(0) * f(1) - e(1) * f(0)));
+  const e = (i: number) => (v[3 + i] as number) - (v[i] as number),
+    f = (i: number) => (v[6 + i] as number) - (v[i] as number);
+  const extent = (i: number) =>
+    Math.max(v[i] as number, v[3 + i] as number, v[6 + i] as number) -
+    Math.min(v[i] as number, v[3 + i] as number, v[6 + i] as number);
+  const x = extent(0),
+    y = extent(1),
+    z = extent(2);
+  const ideal =
+    0.5 *
+    (Math.abs(e(1) * f(2) - e(2) * f(1)) + Math.abs(e(2) * f(0) - e(0) * f(2)) + Math.abs(e(0) * f(1) - e(1) * f(0)));
   return x * y + y * z + z * x - ideal;
 }
 
 /**
- * Cuts triangles whose boxes are mostly empty into pieces before a build (Karras and Aila 2013, "Fast Parallel Construction
- * of High-Quality Bounding Volume Hierarchies", section 5): along planes of one grid, so that the pieces of neighbours
- * fit each other. Only triangles that stand out are cut: a smooth mesh of small triangles stays whole.
+ * Cuts triangles whose boxes are mostly empty into pieces before a build (Karras and Aila 2013, "Fast Parallel
+ * Construction of High-Quality Bounding Volume Hierarchies", section 5): along planes of one grid, so that the pieces
+ * of neighbours fit each other. Only triangles that stand out are cut: a smooth mesh of small triangles stays whole.
  */
 class Cutter {
   readonly #mesh: TriangleMesh;
@@ -58,7 +67,11 @@ class Cutter {
     this.#primitives = primitives;
     this.#priorities = new Float64Array(primitives.count);
     const { bounds } = primitives;
-    const [x, y, z] = [0, 1, 2].map((k) => (bounds[3 + k] as number) - (bounds[k] as number)) as [number, number, number];
+    const [x, y, z] = [0, 1, 2].map((k) => (bounds[3 + k] as number) - (bounds[k] as number)) as [
+      number,
+      number,
+      number,
+    ];
     this.#whole = x * y + y * z + z * x;
     const extent = Math.max(x, y, z);
     for (let k = 0; k < 3; k++) {
@@ -88,7 +101,9 @@ class Cutter {
         spare += excess(v);
       }
       const b = 6 * i;
-      const dx = (boxes[b + 3] as number) - (boxes[b] as number), dy = (boxes[b + 4] as number) - (boxes[b + 1] as number), dz = (boxes[b + 5] as number) - (boxes[b + 2] as number);
+      const dx = (boxes[b + 3] as number) - (boxes[b] as number),
+        dy = (boxes[b + 4] as number) - (boxes[b + 1] as number),
+        dz = (boxes[b + 5] as number) - (boxes[b + 2] as number);
       this.#area += dx * dy + dy * dz + dz * dx;
       this.#priorities[i] = spare > 0 ? Math.cbrt(spare * 2 ** -this.#level(boxes, 6 * i)) : 0;
     }
@@ -97,7 +112,8 @@ class Cutter {
   /** The coarsest plane of the grid that goes through a box: 0 halves the scene; 16 if none does. */
   #level(boxes: ArrayLike<number>, at: number): number {
     let bits = 0;
-    for (let k = 0; k < 3; k++) bits |= this.#cell(boxes[at + k] as number, k) ^ this.#cell(boxes[at + 3 + k] as number, k);
+    for (let k = 0; k < 3; k++)
+      bits |= this.#cell(boxes[at + k] as number, k) ^ this.#cell(boxes[at + 3 + k] as number, k);
     return Math.min(16, Math.clz32(bits) - 16);
   }
 
@@ -120,7 +136,8 @@ class Cutter {
     const outstanding = OUTSTANDING / crowd;
     const budget = Math.floor(SHARE * crowd * count);
     // The largest factor that keeps to the budget and to what stands out, by bisection.
-    let low = 0, high = sum > 0 ? count / (outstanding * sum) : 0;
+    let low = 0,
+      high = sum > 0 ? count / (outstanding * sum) : 0;
     if ((yield* this.#total(high)) > budget) {
       for (let step = 0; step < 12; step++) {
         const middle = 0.5 * (low + high);
@@ -178,15 +195,18 @@ class Cutter {
 
   /** Cuts a triangle `cuts` times. Gives the number of references made so far. */
   #pieceTogether(triangle: number, cuts: number, boxes: Float32Array, triangles: Uint32Array, made: number): number {
-    const v = this.#corners, stack = this.#pieceBoxes, left = this.#pieceCuts;
+    const v = this.#corners,
+      stack = this.#pieceBoxes,
+      left = this.#pieceCuts;
     corners(this.#mesh, triangle, v);
     for (let k = 0; k < 3; k++) {
       stack[k] = Math.min(v[k] as number, v[3 + k] as number, v[6 + k] as number);
       stack[3 + k] = Math.max(v[k] as number, v[3 + k] as number, v[6 + k] as number);
     }
     left[0] = cuts;
-    for (let top = 1; top > 0; ) {
-      const at = 6 * (top - 1), n = left[top - 1] as number;
+    for (let top = 1; top > 0;) {
+      const at = 6 * (top - 1),
+        n = left[top - 1] as number;
       if (n === 0 || !this.#halve(at)) {
         top--;
         for (let k = 0; k < 6; k++) boxes[6 * made + k] = stack[at + k] as number;
@@ -194,8 +214,14 @@ class Cutter {
         continue;
       }
       // The remaining cuts go by the longest sides.
-      const side = (b: number) => Math.max((stack[b + 3] as number) - (stack[b] as number), (stack[b + 4] as number) - (stack[b + 1] as number), (stack[b + 5] as number) - (stack[b + 2] as number));
-      const a = side(at), b = side(at + 6);
+      const side = (b: number) =>
+        Math.max(
+          (stack[b + 3] as number) - (stack[b] as number),
+          (stack[b + 4] as number) - (stack[b + 1] as number),
+          (stack[b + 5] as number) - (stack[b + 2] as number),
+        );
+      const a = side(at),
+        b = side(at + 6);
       const own = Math.round(((n - 1) * a) / (a + b));
       left[top - 1] = own;
       left[top++] = n - 1 - own;
@@ -205,9 +231,12 @@ class Cutter {
 
   /** Cuts the piece at `at` into two, the second put behind it; false if there is nothing to cut. */
   #halve(at: number): boolean {
-    const box = this.#pieceBoxes, v = this.#corners;
+    const box = this.#pieceBoxes,
+      v = this.#corners;
     // The coarsest plane of the grid within the piece.
-    let axis = -1, bit = -1, longest = 0;
+    let axis = -1,
+      bit = -1,
+      longest = 0;
     for (let k = 0; k < 3; k++) {
       const extent = (box[at + 3 + k] as number) - (box[at + k] as number);
       const changed = 31 - Math.clz32(this.#cell(box[at + k] as number, k) ^ this.#cell(box[at + 3 + k] as number, k));
@@ -218,7 +247,8 @@ class Cutter {
       }
     }
     if (bit < 0) return false;
-    const low = box[at + axis] as number, high = box[at + 3 + axis] as number;
+    const low = box[at + axis] as number,
+      high = box[at + 3 + axis] as number;
     const cell = (this.#cell(high, axis) >>> bit) << bit;
     const plane = Math.fround((this.#low[axis] as number) + cell / (this.#scale[axis] as number));
     if (!(plane > low && plane < high)) return false;
@@ -229,11 +259,16 @@ class Cutter {
     for (let k = 0; k < 3; k++) {
       if (k === axis) continue;
       // The extent of the triangle on either side of the plane.
-      let a0 = Infinity, a1 = -Infinity, b0 = Infinity, b1 = -Infinity;
+      let a0 = Infinity,
+        a1 = -Infinity,
+        b0 = Infinity,
+        b1 = -Infinity;
       for (let c = 0; c < 3; c++) {
         const d = (c + 1) % 3;
-        const p = v[3 * c + axis] as number, q = v[3 * d + axis] as number;
-        const x = v[3 * c + k] as number, y = v[3 * d + k] as number;
+        const p = v[3 * c + axis] as number,
+          q = v[3 * d + axis] as number;
+        const x = v[3 * c + k] as number,
+          y = v[3 * d + k] as number;
         if (p <= plane) {
           a0 = Math.min(a0, x);
           a1 = Math.max(a1, x);

@@ -5,17 +5,33 @@ import { STEP, type Steps } from './steps';
 const STACK = 512;
 
 /** Half the surface of the box around two places' boxes. */
-function joined(boxes: Float32Array, p: number, x0: number, y0: number, z0: number, x1: number, y1: number, z1: number): number {
+function joined(
+  boxes: Float32Array,
+  p: number,
+  x0: number,
+  y0: number,
+  z0: number,
+  x1: number,
+  y1: number,
+  z1: number,
+): number {
   const b = 6 * p;
-  const a0 = boxes[b] as number, a1 = boxes[b + 1] as number, a2 = boxes[b + 2] as number, a3 = boxes[b + 3] as number, a4 = boxes[b + 4] as number, a5 = boxes[b + 5] as number;
-  const x = (a3 > x1 ? a3 : x1) - (a0 < x0 ? a0 : x0), y = (a4 > y1 ? a4 : y1) - (a1 < y0 ? a1 : y0), z = (a5 > z1 ? a5 : z1) - (a2 < z0 ? a2 : z0);
+  const a0 = boxes[b] as number,
+    a1 = boxes[b + 1] as number,
+    a2 = boxes[b + 2] as number,
+    a3 = boxes[b + 3] as number,
+    a4 = boxes[b + 4] as number,
+    a5 = boxes[b + 5] as number;
+  const x = (a3 > x1 ? a3 : x1) - (a0 < x0 ? a0 : x0),
+    y = (a4 > y1 ? a4 : y1) - (a1 < y0 ? a1 : y0),
+    z = (a5 > z1 ? a5 : z1) - (a2 < z0 ? a2 : z0);
   return x * y + y * z + z * x;
 }
 
 /**
- * Improves a tree by taking subtrees out and putting them back where the sum of all surfaces gets least, the largest ones
- * first (Bittner et al. 2013; the search is that of Meister and Bittner 2018, "Parallel Reinsertion for Bounding Volume
- * Hierarchy Optimization", one subtree after the other).
+ * Improves a tree by taking subtrees out and putting them back where the sum of all surfaces gets least, the largest
+ * ones first (Bittner et al. 2013; the search is that of Meister and Bittner 2018, "Parallel Reinsertion for Bounding
+ * Volume Hierarchy Optimization", one subtree after the other).
  */
 export class Reinsertion {
   readonly #tree: DraftTree;
@@ -50,8 +66,8 @@ export class Reinsertion {
       if (i % STEP === 0) yield 0;
     }
     const end = Math.ceil(share * places);
-    for (let at = 0; at < end; ) {
-      for (let left = STEP >> 1; left > 0 && at < end; ) left -= this.#improve(queue[at++] as number);
+    for (let at = 0; at < end;) {
+      for (let left = STEP >> 1; left > 0 && at < end;) left -= this.#improve(queue[at++] as number);
       yield at / end;
     }
   }
@@ -59,23 +75,39 @@ export class Reinsertion {
   /** Looks for a better place for a subtree and moves it there. Gives the places looked at. */
   #improve(node: number): number {
     const { boxes, areas, parents, children, itemCount } = this.#tree;
-    const stack = this.#stack, bounds = this.#bounds;
-    const root = itemCount, parent = parents[node] as number;
+    const stack = this.#stack,
+      bounds = this.#bounds;
+    const root = itemCount,
+      parent = parents[node] as number;
     if (parent < 0 || parent === root) return 1;
     const n = 6 * node;
-    const x0 = boxes[n] as number, y0 = boxes[n + 1] as number, z0 = boxes[n + 2] as number, x1 = boxes[n + 3] as number, y1 = boxes[n + 4] as number, z1 = boxes[n + 5] as number;
+    const x0 = boxes[n] as number,
+      y0 = boxes[n + 1] as number,
+      z0 = boxes[n + 2] as number,
+      x1 = boxes[n + 3] as number,
+      y1 = boxes[n + 4] as number,
+      z1 = boxes[n + 5] as number;
     const own = areas[node] as number;
-    let best = 1e-6 * own, target = -1, visits = 0;
+    let best = 1e-6 * own,
+      target = -1,
+      visits = 0;
     // What taking the subtree out saves: its parent, and what the boxes further up shrink by.
     let saved = areas[parent] as number;
-    let sibling = this.#sibling(node), pivot = parent;
-    let p0 = Infinity, p1 = Infinity, p2 = Infinity, p3 = -Infinity, p4 = -Infinity, p5 = -Infinity;
+    let sibling = this.#sibling(node),
+      pivot = parent;
+    let p0 = Infinity,
+      p1 = Infinity,
+      p2 = Infinity,
+      p3 = -Infinity,
+      p4 = -Infinity,
+      p5 = -Infinity;
     for (;;) {
       let top = 0;
       stack[top] = sibling;
       bounds[top++] = saved;
       while (top > 0) {
-        const place = stack[--top] as number, bound = bounds[top] as number;
+        const place = stack[--top] as number,
+          bound = bounds[top] as number;
         if (bound - own <= best) continue;
         visits++;
         const gain = bound - joined(boxes, place, x0, y0, z0, x1, y1, z1);
@@ -93,7 +125,12 @@ export class Reinsertion {
       }
       if (pivot === root) break;
       const s = 6 * sibling;
-      const s0 = boxes[s] as number, s1 = boxes[s + 1] as number, s2 = boxes[s + 2] as number, s3 = boxes[s + 3] as number, s4 = boxes[s + 4] as number, s5 = boxes[s + 5] as number;
+      const s0 = boxes[s] as number,
+        s1 = boxes[s + 1] as number,
+        s2 = boxes[s + 2] as number,
+        s3 = boxes[s + 3] as number,
+        s4 = boxes[s + 4] as number,
+        s5 = boxes[s + 5] as number;
       if (s0 < p0) p0 = s0;
       if (s1 < p1) p1 = s1;
       if (s2 < p2) p2 = s2;
@@ -101,7 +138,9 @@ export class Reinsertion {
       if (s4 > p4) p4 = s4;
       if (s5 > p5) p5 = s5;
       if (pivot !== parent) {
-        const x = p3 - p0, y = p4 - p1, z = p5 - p2;
+        const x = p3 - p0,
+          y = p4 - p1,
+          z = p5 - p2;
         saved += (areas[pivot] as number) - (x * y + y * z + z * x);
       }
       sibling = this.#sibling(pivot);
@@ -129,7 +168,8 @@ export class Reinsertion {
   /** Takes a subtree out, with its parent, and puts both between a place and what is above that. */
   #move(node: number, target: number): void {
     const { children, parents } = this.#tree;
-    const parent = parents[node] as number, above = parents[parent] as number;
+    const parent = parents[node] as number,
+      above = parents[parent] as number;
     this.#replace(above, parent, this.#sibling(node));
     this.#replace(parents[target] as number, target, parent);
     children[2 * parent] = target;
@@ -144,17 +184,23 @@ export class Reinsertion {
   /** Fits the boxes from a node up, as far as they change. */
   #encloseUp(from: number): void {
     const { parents } = this.#tree;
-    for (let node = from; node >= 0 && this.#fit(node); ) node = parents[node] as number;
+    for (let node = from; node >= 0 && this.#fit(node);) node = parents[node] as number;
   }
 
   /** Fits a node's box to its children's, and says whether it has changed. */
   #fit(node: number): boolean {
     const { boxes, areas, children } = this.#tree;
-    const a = 6 * (children[2 * node] as number), b = 6 * (children[2 * node + 1] as number), to = 6 * node;
+    const a = 6 * (children[2 * node] as number),
+      b = 6 * (children[2 * node + 1] as number),
+      to = 6 * node;
     let changed = false;
     for (let k = 0; k < 3; k++) {
-      const p = boxes[a + k] as number, q = boxes[b + k] as number, s = boxes[a + 3 + k] as number, t = boxes[b + 3 + k] as number;
-      const low = p < q ? p : q, high = s > t ? s : t;
+      const p = boxes[a + k] as number,
+        q = boxes[b + k] as number,
+        s = boxes[a + 3 + k] as number,
+        t = boxes[b + 3 + k] as number;
+      const low = p < q ? p : q,
+        high = s > t ? s : t;
       if (boxes[to + k] !== low || boxes[to + 3 + k] !== high) changed = true;
       boxes[to + k] = low;
       boxes[to + 3 + k] = high;

@@ -1,7 +1,10 @@
 /** Items that one step looks at: a millisecond or two. */
 export const STEP = 1 << 14;
 
-/** Parts of a build: generators that do a few milliseconds of work at a time and yield the share of the part that is done. */
+/**
+ * Parts of a build: generators that do a few milliseconds of work at a time and yield the share of the part that is
+ * done.
+ */
 export type Steps<T> = Generator<number, T>;
 
 /** Runs a part as the share `from` to `to` of a whole. */

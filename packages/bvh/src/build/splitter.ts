@@ -1,6 +1,6 @@
-
 /**
- * Coordinates are looked at in 32767 steps along the longest side: fifteen bits and one to spare, two in a word. Words of an
+ * Coordinates are looked at in 32767 steps along the longest side: fifteen bits and one to spare, two in a word. Words
+ * of an
  * item: for x, y and z each the upper coordinate and the lower one turned round in the high half,
  * and its weight.
  */
@@ -19,7 +19,9 @@ const extent = (word: number): number => (word & 32767) + (word >>> 16) - 32767;
 
 /** Half the surface of a box of three words. */
 function surface(a: number, b: number, c: number): number {
-  const x = extent(a), y = extent(b), z = extent(c);
+  const x = extent(a),
+    y = extent(b),
+    z = extent(c);
   return x * (y + z) + y * z;
 }
 
@@ -32,9 +34,9 @@ function addTo(bins: Int32Array, at: number, a: number, b: number, c: number, we
 }
 
 /**
- * Finds splits of ranges of boxes by surface area heuristic, with all scratch memory it needs: boxes are three words, which
- * are joined without a branch. After `split()`, `cut` is where the range was cut (the order is permuted), or −1 if it was
- * not, as no plane separates the centres.
+ * Finds splits of ranges of boxes by surface area heuristic, with all scratch memory it needs: boxes are three words,
+ * which are joined without a branch. After `split()`, `cut` is where the range was cut (the order is permuted), or −1
+ * if it was not, as no plane separates the centres.
  */
 export class Splitter {
   cut = -1;
@@ -55,17 +57,22 @@ export class Splitter {
   /**
    * Tries the planes between bins along all three axes (Wald 2007).
    *
-   * @param centers Bounds of the centres of `order[first, end)`, doubled: min xyz, max xyz. `end` = `first`: none is found.
+   * @param centers Bounds of the centres of `order[first, end)`, doubled: min xyz, max xyz. `end` = `first`: none is
+   * found.
    */
   split(items: Int32Array, order: Uint32Array, first: number, end: number, centers: Int32Array): void {
     const { sides } = this;
-    const scales = this.#scales, bins = this.#bins;
+    const scales = this.#scales,
+      bins = this.#bins;
     this.cut = -1;
-    for (let axis = 0; axis < 3; axis++) scales[axis] = (bins * 2 ** 24) / ((centers[3 + axis] as number) - (centers[axis] as number) + 1);
+    for (let axis = 0; axis < 3; axis++)
+      scales[axis] = (bins * 2 ** 24) / ((centers[3 + axis] as number) - (centers[axis] as number) + 1);
     sides.set(centers);
     sides.set(centers, 6);
     this.#fill(items, order, first, end, centers);
-    let best = Infinity, bestAxis = -1, bestBin = 0;
+    let best = Infinity,
+      bestAxis = -1,
+      bestBin = 0;
     for (let axis = 0; axis < 3; axis++) {
       const plane = this.#sweep(axis, best);
       if (plane < 0) continue;
@@ -76,12 +83,23 @@ export class Splitter {
     if (bestAxis >= 0) this.#partition(items, order, first, end, bestAxis, bestBin, centers[bestAxis] as number);
   }
 
-  #partition(items: Int32Array, order: Uint32Array, first: number, end: number, axis: number, plane: number, low: number): void {
-    const STEPS = 32767, ITEM_WORDS = 4;
+  #partition(
+    items: Int32Array,
+    order: Uint32Array,
+    first: number,
+    end: number,
+    axis: number,
+    plane: number,
+    low: number,
+  ): void {
+    const STEPS = 32767,
+      ITEM_WORDS = 4;
     const scale = this.#scales[axis] as number;
     const { sides } = this;
-    let i = first, j = end;
-    let leftMax = 0, rightMin = 2 * STEPS;
+    let i = first,
+      j = end;
+    let leftMax = 0,
+      rightMin = 2 * STEPS;
     while (i < j) {
       const item = order[i] as number;
       const word = items[item * ITEM_WORDS + axis] as number;
@@ -101,15 +119,24 @@ export class Splitter {
   }
 
   #fill(items: Int32Array, order: Uint32Array, first: number, end: number, centers: Int32Array): void {
-    const STEPS = 32767, ITEM_WORDS = 4;
-    const binned = this.#binned, scales = this.#scales;
+    const STEPS = 32767,
+      ITEM_WORDS = 4;
+    const binned = this.#binned,
+      scales = this.#scales;
     const axisWords = this.#bins * ITEM_WORDS;
     binned.fill(0);
-    const lowX = (centers[0] as number) - STEPS, lowY = (centers[1] as number) - STEPS, lowZ = (centers[2] as number) - STEPS;
-    const scaleX = scales[0] as number, scaleY = scales[1] as number, scaleZ = scales[2] as number;
+    const lowX = (centers[0] as number) - STEPS,
+      lowY = (centers[1] as number) - STEPS,
+      lowZ = (centers[2] as number) - STEPS;
+    const scaleX = scales[0] as number,
+      scaleY = scales[1] as number,
+      scaleZ = scales[2] as number;
     for (let i = first; i < end; i++) {
       const w = (order[i] as number) * ITEM_WORDS;
-      const a = items[w] as number, b = items[w + 1] as number, c = items[w + 2] as number, weight = items[w + 3] as number;
+      const a = items[w] as number,
+        b = items[w + 1] as number,
+        c = items[w + 2] as number,
+        weight = items[w + 3] as number;
       const x = (Math.imul((a & STEPS) - (a >>> 16) - lowX, scaleX) >>> 24) * ITEM_WORDS;
       const y = (Math.imul((b & STEPS) - (b >>> 16) - lowY, scaleY) >>> 24) * ITEM_WORDS + axisWords;
       const z = (Math.imul((c & STEPS) - (c >>> 16) - lowZ, scaleZ) >>> 24) * ITEM_WORDS + 2 * axisWords;
@@ -124,11 +151,16 @@ export class Splitter {
 
   /** The first bin behind the best plane that costs less than `best`; −1 if there is none. */
   #sweep(axis: number, best: number): number {
-    const binned = this.#binned, leftCosts = this.#leftCosts, bins = this.#bins;
+    const binned = this.#binned,
+      leftCosts = this.#leftCosts,
+      bins = this.#bins;
     let plane = -1;
     // Up and down again: costs of all left sides first.
     for (let direction = 1; direction >= -1; direction -= 2) {
-      let a = 0, b = 0, c = 0, weight = 0;
+      let a = 0,
+        b = 0,
+        c = 0,
+        weight = 0;
       for (let n = 1, bin = direction > 0 ? 0 : bins - 1; n < bins; n++, bin += direction) {
         const at = 4 * (axis * bins + bin);
         a = larger(a, binned[at] as number);

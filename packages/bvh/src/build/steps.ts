@@ -23,7 +23,12 @@ export interface TriangleTree extends Tree {
 }
 
 /** A mesh's triangles as primitives. */
-export function* makePrimitives(mesh: TriangleMesh, count: number, pairs: boolean, scratch: Scratch): Steps<PrimitiveMaker> {
+export function* makePrimitives(
+  mesh: TriangleMesh,
+  count: number,
+  pairs: boolean,
+  scratch: Scratch,
+): Steps<PrimitiveMaker> {
   const primitives = new PrimitiveMaker(mesh, count, pairs, scratch);
   yield* each(count, STEP, (from, to) => primitives.add(from, to));
   return primitives;
@@ -40,39 +45,62 @@ export interface Order {
 export function* sortPrimitives(primitives: Primitives, scratch: Scratch): Steps<Order> {
   const { count } = primitives;
   const sort = new MortonSort(primitives, scratch);
-  yield* part(each(count, STEP, (from, to) => sort.encode(from, to)), 0, 0.25);
+  yield* part(
+    each(count, STEP, (from, to) => sort.encode(from, to)),
+    0,
+    0.25,
+  );
   scratch.kept?.push(sort);
   sort.begin();
   for (let pass = 0; pass < 3; pass++) {
-    yield* part(each(count, STEP, (from, to) => sort.scatter(pass, from, to)), 0.25 * (pass + 1), 0.25 * (pass + 2));
+    yield* part(
+      each(count, STEP, (from, to) => sort.scatter(pass, from, to)),
+      0.25 * (pass + 1),
+      0.25 * (pass + 2),
+    );
     sort.swap();
   }
   return sort;
 }
 
 /** Copies primitives into their order. */
-export function* gather(primitives: Primitives, { order, codes }: Order, pairs: boolean, scratch: Scratch): Steps<Sorted> {
+export function* gather(
+  primitives: Primitives,
+  { order, codes }: Order,
+  pairs: boolean,
+  scratch: Scratch,
+): Steps<Sorted> {
   const gatherer = new Gatherer(primitives, order, codes, pairs, scratch);
   yield* each(primitives.count, STEP, (from, to) => gatherer.add(from, to));
   return gatherer;
 }
 
 /**
- * Builds a tree over sorted primitives: clusters of neighbours joined bottom up, the levels above them split from the top
- * down and mended by rotations. The upper nodes come first.
+ * Builds a tree over sorted primitives: clusters of neighbours joined bottom up, the levels above them split from the
+ * top down and mended by rotations. The upper nodes come first.
  *
  * @param leaves Filled with what the primitives are named by, in leaf order.
  * @param maxLeaf 0: one primitive a leaf.
  * @returns Its nodes in scratch memory.
  */
-export function* buildNodes(primitives: Sorted, leaves: Uint32Array, bins: number, maxLeaf: number, scratch: Scratch): Steps<NodeWriter> {
+export function* buildNodes(
+  primitives: Sorted,
+  leaves: Uint32Array,
+  bins: number,
+  maxLeaf: number,
+  scratch: Scratch,
+): Steps<NodeWriter> {
   const clusters = cutClusters(primitives, GROUP_MAX, scratch);
   const { count } = clusters;
   yield 0;
   const writer = new NodeWriter(primitives.count, scratch.buffer(4 * NODE_WORDS * primitives.count));
   writer.count = count - 1;
   const insides = new Insides(clusters, writer, leaves, maxLeaf);
-  yield* part(each(count, STEP >> 5, (from, to) => insides.build(from, to)), 0, 0.6);
+  yield* part(
+    each(count, STEP >> 5, (from, to) => insides.build(from, to)),
+    0,
+    0.6,
+  );
   if (count === 1) {
     if (writer.count === 0) writer.single(clusters.references[0] as number, clusters.boxes.subarray(0, 6));
     return writer;
@@ -93,14 +121,23 @@ export function* buildNodes(primitives: Sorted, leaves: Uint32Array, bins: numbe
   }
 }
 
-/** Puts the nodes over the clusters before the others, depth first, joins them to the trees in the clusters, and gives their depth. */
-export function* crown({ nodes: from, words: fromWords }: NodeWriter, { references }: Clusters, { nodes, words }: NodeWriter): Steps<number> {
+/**
+ * Puts the nodes over the clusters before the others, depth first, joins them to the trees in the clusters, and gives
+ * their depth.
+ */
+export function* crown(
+  { nodes: from, words: fromWords }: NodeWriter,
+  { references }: Clusters,
+  { nodes, words }: NodeWriter,
+): Steps<number> {
   // Nodes of the upper tree that wait, left ones above right ones; the words where they belong, nodes above.
   const stack: number[] = [];
-  let count = 0, most = 0;
+  let count = 0,
+    most = 0;
   for (let node = 0, slot = 0, depth = 1; ; depth++) {
     most = Math.max(most, depth);
-    const a = node * NODE_WORDS, b = count * NODE_WORDS;
+    const a = node * NODE_WORDS,
+      b = count * NODE_WORDS;
     // The root's is in a word that the copy takes.
     words[slot] = count;
     for (let k = 0; k < NODE_WORDS; k++) nodes[b + k] = from[a + k] as number;

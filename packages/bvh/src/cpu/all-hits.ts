@@ -15,7 +15,8 @@ class HitFilter {
   #instances: readonly BlasMesh[] = [];
   #visit: HitVisitor = () => undefined;
   readonly visitor: HitVisitor = (t, u, v, triangle, instance) =>
-    this.#once.first(this.#blas ?? (this.#instances[instance] as BlasMesh).blas, triangle, instance) && this.#visit(t, u, v, triangle, instance) === true;
+    this.#once.first(this.#blas ?? (this.#instances[instance] as BlasMesh).blas, triangle, instance) &&
+    this.#visit(t, u, v, triangle, instance) === true;
 
   /** For one BLAS, or for the instances. */
   over(blas: Blas | undefined, instances: readonly BlasMesh[], visit: HitVisitor): HitVisitor {
@@ -41,7 +42,12 @@ const NONE: readonly BlasMesh[] = [];
  *
  * @param visit Gets t, u, v and the triangle, as in `Hit`; true ends the query. May itself ask further questions.
  */
-export function forEachHit(blas: Blas, mesh: TriangleMesh, { origin, direction, tMin = 0, tMax = Infinity }: Ray, visit: HitVisitor): void {
+export function forEachHit(
+  blas: Blas,
+  mesh: TriangleMesh,
+  { origin, direction, tMin = 0, tMax = Infinity }: Ray,
+  visit: HitVisitor,
+): void {
   const walk = borrow();
   walk.start(origin, 0, direction, 0, tMin, tMax);
   const filter = idle.pop() ?? new HitFilter();
@@ -51,7 +57,12 @@ export function forEachHit(blas: Blas, mesh: TriangleMesh, { origin, direction, 
 }
 
 /** Tells of every triangle of all instances that a ray meets. See {@link forEachHit}. */
-export function forEachHitInstances(tlas: Tlas, instances: readonly BlasMesh[], { origin, direction, tMin = 0, tMax = Infinity }: Ray, visit: HitVisitor): void {
+export function forEachHitInstances(
+  tlas: Tlas,
+  instances: readonly BlasMesh[],
+  { origin, direction, tMin = 0, tMax = Infinity }: Ray,
+  visit: HitVisitor,
+): void {
   const walk = borrow();
   walk.start(origin, 0, direction, 0, tMin, tMax);
   const filter = idle.pop() ?? new HitFilter();
@@ -70,13 +81,23 @@ export function allHits(blas: Blas, mesh: TriangleMesh, ray: Ray): Hit[] {
 /** All triangles of all instances that a ray meets, the nearest first. */
 export function allHitsInstances(tlas: Tlas, instances: readonly BlasMesh[], ray: Ray): InstanceHit[] {
   const hits: InstanceHit[] = [];
-  forEachHitInstances(tlas, instances, ray, (t, u, v, triangle, instance) => void hits.push({ t, u, v, triangle, instance }));
+  forEachHitInstances(
+    tlas,
+    instances,
+    ray,
+    (t, u, v, triangle, instance) => void hits.push({ t, u, v, triangle, instance }),
+  );
   return hits.sort((a, b) => a.t - b.t || a.instance - b.instance || a.triangle - b.triangle);
 }
 
-/** Where {@link allHitsBatch} leaves its hits. The arrays of hits have any length; hits beyond it are counted, not kept. */
+/**
+ * Where {@link allHitsBatch} leaves its hits. The arrays of hits have any length; hits beyond it are counted, not kept.
+ */
 export interface AllHitsBatch {
-  /** One entry more than there are rays: the hits of ray i are those from `starts[i]` up to `starts[i + 1]`, in no order. */
+  /**
+   * One entry more than there are rays: the hits of ray i are those from `starts[i]` up to `starts[i + 1]`, in no
+   * order.
+   */
   readonly starts: Uint32Array;
   readonly triangle: Uint32Array;
   readonly t?: Float32Array | Float64Array;
@@ -91,10 +112,16 @@ export interface AllHitsBatch {
  * @returns How many hits there are: where that is more than `out.triangle` holds, call again with longer arrays.
  * @throws {BvhError} `bvh/batch` for arrays of a wrong length.
  */
-export function allHitsBatch(blas: Blas, mesh: TriangleMesh, rays: Float32Array | Float64Array, out: AllHitsBatch): number {
+export function allHitsBatch(
+  blas: Blas,
+  mesh: TriangleMesh,
+  rays: Float32Array | Float64Array,
+  out: AllHitsBatch,
+): number {
   const { starts, triangle: triangles, t: ts, u: us, v: vs } = out;
   const count = rayCount(rays, {});
-  if (starts.length <= count) throw new BvhError('bvh/batch', `out.starts has ${starts.length} entries; ${count} rays need ${count + 1}.`);
+  if (starts.length <= count)
+    throw new BvhError('bvh/batch', `out.starts has ${starts.length} entries; ${count} rays need ${count + 1}.`);
   let found = 0;
   const visit: HitVisitor = (t, u, v, triangle) => {
     triangles[found] = triangle;

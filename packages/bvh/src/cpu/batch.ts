@@ -6,7 +6,9 @@ import { borrow, giveBack, type BlasMesh, type RayWalk } from './walk';
 /** Words of a ray in a batch. */
 export const RAY_WORDS = 8;
 
-/** Where a batch of rays leaves its hits. Arrays may be longer than needed; what lies beyond the rays stays as it is. */
+/**
+ * Where a batch of rays leaves its hits. Arrays may be longer than needed; what lies beyond the rays stays as it is.
+ */
 export interface HitBatch {
   /** Distance in units of the ray's direction; Infinity for a miss. */
   readonly t: Float32Array | Float64Array;
@@ -22,9 +24,14 @@ export interface HitBatch {
 /** How many rays there are. Throws where an array of the output is too short. */
 export function rayCount(rays: ArrayLike<number>, out: object): number {
   const count = rays.length / RAY_WORDS;
-  if (!Number.isInteger(count)) throw new BvhError('bvh/batch', `rays has ${rays.length} numbers; it must have ${RAY_WORDS} a ray: origin xyz, tMin, direction xyz, tMax.`);
+  if (!Number.isInteger(count))
+    throw new BvhError(
+      'bvh/batch',
+      `rays has ${rays.length} numbers; it must have ${RAY_WORDS} a ray: origin xyz, tMin, direction xyz, tMax.`,
+    );
   for (const [name, array] of Object.entries(out) as [string, ArrayLike<number> | undefined][]) {
-    if (array && array.length < count) throw new BvhError('bvh/batch', `out.${name} has ${array.length} entries; ${count} rays need as many.`);
+    if (array && array.length < count)
+      throw new BvhError('bvh/batch', `out.${name} has ${array.length} entries; ${count} rays need as many.`);
   }
   return count;
 }
@@ -36,7 +43,12 @@ export function startRay(walk: RayWalk, rays: ArrayLike<number>, ray: number): v
 }
 
 /** Goes along each ray in turn and tells of it; allocates nothing per ray. */
-function each(rays: ArrayLike<number>, out: object, go: (walk: RayWalk) => void, done: (ray: number, walk: RayWalk) => void): void {
+function each(
+  rays: ArrayLike<number>,
+  out: object,
+  go: (walk: RayWalk) => void,
+  done: (ray: number, walk: RayWalk) => void,
+): void {
   const count = rayCount(rays, out);
   const walk = borrow();
   for (let ray = 0; ray < count; ray++) {
@@ -67,12 +79,22 @@ function closest(rays: ArrayLike<number>, out: HitBatch, go: (walk: RayWalk) => 
  * const out = { t: new Float32Array(count), triangle: new Int32Array(count) };
  * closestHitBatch(blas, mesh, rays, out);
  */
-export function closestHitBatch(blas: Blas, mesh: TriangleMesh, rays: Float32Array | Float64Array, out: HitBatch): void {
+export function closestHitBatch(
+  blas: Blas,
+  mesh: TriangleMesh,
+  rays: Float32Array | Float64Array,
+  out: HitBatch,
+): void {
   closest(rays, out, (walk) => walk.through(blas, mesh, false));
 }
 
 /** The nearest triangle of all instances for each of many rays. See {@link closestHitBatch}. */
-export function closestHitBatchInstances(tlas: Tlas, instances: readonly BlasMesh[], rays: Float32Array | Float64Array, out: HitBatch): void {
+export function closestHitBatchInstances(
+  tlas: Tlas,
+  instances: readonly BlasMesh[],
+  rays: Float32Array | Float64Array,
+  out: HitBatch,
+): void {
   closest(rays, out, (walk) => walk.throughInstances(tlas, instances, false));
 }
 
@@ -81,10 +103,25 @@ export function closestHitBatchInstances(tlas: Tlas, instances: readonly BlasMes
  * @throws {BvhError} `bvh/batch` for arrays of a wrong length.
  */
 export function anyHitBatch(blas: Blas, mesh: TriangleMesh, rays: Float32Array | Float64Array, hit: Uint8Array): void {
-  each(rays, { hit }, (walk) => walk.through(blas, mesh, true), (ray, { triangle }) => void (hit[ray] = triangle < 0 ? 0 : 1));
+  each(
+    rays,
+    { hit },
+    (walk) => walk.through(blas, mesh, true),
+    (ray, { triangle }) => void (hit[ray] = triangle < 0 ? 0 : 1),
+  );
 }
 
 /** Whether each of many rays meets a triangle of any instance. See {@link anyHitBatch}. */
-export function anyHitBatchInstances(tlas: Tlas, instances: readonly BlasMesh[], rays: Float32Array | Float64Array, hit: Uint8Array): void {
-  each(rays, { hit }, (walk) => walk.throughInstances(tlas, instances, true), (ray, { triangle }) => void (hit[ray] = triangle < 0 ? 0 : 1));
+export function anyHitBatchInstances(
+  tlas: Tlas,
+  instances: readonly BlasMesh[],
+  rays: Float32Array | Float64Array,
+  hit: Uint8Array,
+): void {
+  each(
+    rays,
+    { hit },
+    (walk) => walk.throughInstances(tlas, instances, true),
+    (ray, { triangle }) => void (hit[ray] = triangle < 0 ? 0 : 1),
+  );
 }

@@ -1,6 +1,17 @@
 import type { Blas, TriangleMesh } from '../blas';
 import { BvhError } from '../error';
-import { BVH_STACK_SIZE, FAR, LEAF, LEFT, LEFT_MIN, leafCount, leafFirst, NODE_WORDS, RIGHT, RIGHT_MIN } from '../layout';
+import {
+  BVH_STACK_SIZE,
+  FAR,
+  LEAF,
+  LEFT,
+  LEFT_MIN,
+  leafCount,
+  leafFirst,
+  NODE_WORDS,
+  RIGHT,
+  RIGHT_MIN,
+} from '../layout';
 import type { Tlas } from '../tlas';
 import { NEAREST_NUMBERS, nearestOnTriangle } from './point-triangle';
 import { largestStretch, toWorld } from './to-world';
@@ -35,7 +46,10 @@ export interface DistanceOptions {
 /** The identity, as rows of 3×4. */
 const HERE = /* @__PURE__ */ Float64Array.of(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0);
 
-/** The search for the nearest point, nearest boxes first. Made once, it serves any number of points and allocates nothing. */
+/**
+ * The search for the nearest point, nearest boxes first. Made once, it serves any number of points and allocates
+ * nothing.
+ */
 class DistanceWalk {
   /** Squared; of the nearest point so far, at first the bound. */
   squared = 0;
@@ -48,7 +62,10 @@ class DistanceWalk {
   readonly nearest = new Float64Array(NEAREST_NUMBERS);
   readonly #candidate = new Float64Array(NEAREST_NUMBERS);
   readonly #world = new Float64Array(12);
-  /** Nodes and leaves yet to visit, and a squared distance that all in them have at least. A BLAS puts its own over those of the TLAS. */
+  /**
+   * Nodes and leaves yet to visit, and a squared distance that all in them have at least. A BLAS puts its own over
+   * those of the TLAS.
+   */
   readonly #references = new Uint32Array(BVH_STACK_SIZE);
   readonly #bounds = new Float64Array(BVH_STACK_SIZE);
   #top = 0;
@@ -77,8 +94,13 @@ class DistanceWalk {
       const instance = instanceOrder[leafFirst(leaf)] as number;
       const { blas, mesh } = instances[instance] as BlasMesh;
       const r = 12 * instance;
-      const local = (k: number) => (m[r + k] as number) * x + (m[r + k + 1] as number) * y + (m[r + k + 2] as number) * z + (m[r + k + 3] as number);
-      // A distance in object space is at most stretched by this on its way from the world, so it is this much more there.
+      const local = (k: number) =>
+        (m[r + k] as number) * x +
+        (m[r + k + 1] as number) * y +
+        (m[r + k + 2] as number) * z +
+        (m[r + k + 3] as number);
+      // A distance in object space is at most stretched by this on its way from the world, so it is this much more
+      // there.
       const stretch = largestStretch(m, r);
       toWorld(m, r, this.#world);
       this.#search(blas, mesh, local(0), local(4), local(8), 1 / (stretch * stretch), this.#world, instance);
@@ -91,34 +113,67 @@ class DistanceWalk {
   }
 
   /** @param scale From squared distances in object space to ones that are not larger than those in the world. */
-  #search({ nodes, triangleIndices }: Blas, { positions: p, indices }: TriangleMesh, x: number, y: number, z: number, scale: number, m: Float64Array, instance: number): void {
+  #search(
+    { nodes, triangleIndices }: Blas,
+    { positions: p, indices }: TriangleMesh,
+    x: number,
+    y: number,
+    z: number,
+    scale: number,
+    m: Float64Array,
+    instance: number,
+  ): void {
     if (triangleIndices.length === 0) return;
     const words = wordsOf(nodes);
     const base = this.#top;
     const candidate = this.#candidate;
-    const m0 = m[0] as number, m1 = m[1] as number, m2 = m[2] as number, m3 = (m[3] as number) - this.x;
-    const m4 = m[4] as number, m5 = m[5] as number, m6 = m[6] as number, m7 = (m[7] as number) - this.y;
-    const m8 = m[8] as number, m9 = m[9] as number, m10 = m[10] as number, m11 = (m[11] as number) - this.z;
+    const m0 = m[0] as number,
+      m1 = m[1] as number,
+      m2 = m[2] as number,
+      m3 = (m[3] as number) - this.x;
+    const m4 = m[4] as number,
+      m5 = m[5] as number,
+      m6 = m[6] as number,
+      m7 = (m[7] as number) - this.y;
+    const m8 = m[8] as number,
+      m9 = m[9] as number,
+      m10 = m[10] as number,
+      m11 = (m[11] as number) - this.z;
     this.#push(0, 0);
     for (;;) {
       const leaf = this.#nextLeaf(nodes, words, x, y, z, scale, base);
       if (leaf < 0) return;
-      const first = leafFirst(leaf), end = first + leafCount(leaf);
+      const first = leafFirst(leaf),
+        end = first + leafCount(leaf);
       for (let i = first; i < end; i++) {
         const triangle = triangleIndices[i] as number;
-        let a = 3 * triangle, b = a + 1, c = a + 2;
+        let a = 3 * triangle,
+          b = a + 1,
+          c = a + 2;
         if (indices) {
           a = indices[a] as number;
           b = indices[b] as number;
           c = indices[c] as number;
         }
-        const ax = p[3 * a] as number, ay = p[3 * a + 1] as number, az = p[3 * a + 2] as number;
-        const bx = p[3 * b] as number, by = p[3 * b + 1] as number, bz = p[3 * b + 2] as number;
-        const cx = p[3 * c] as number, cy = p[3 * c + 1] as number, cz = p[3 * c + 2] as number;
+        const ax = p[3 * a] as number,
+          ay = p[3 * a + 1] as number,
+          az = p[3 * a + 2] as number;
+        const bx = p[3 * b] as number,
+          by = p[3 * b + 1] as number,
+          bz = p[3 * b + 2] as number;
+        const cx = p[3 * c] as number,
+          cy = p[3 * c + 1] as number,
+          cz = p[3 * c + 2] as number;
         const squared = nearestOnTriangle(
-          m0 * ax + m1 * ay + m2 * az + m3, m4 * ax + m5 * ay + m6 * az + m7, m8 * ax + m9 * ay + m10 * az + m11,
-          m0 * bx + m1 * by + m2 * bz + m3, m4 * bx + m5 * by + m6 * bz + m7, m8 * bx + m9 * by + m10 * bz + m11,
-          m0 * cx + m1 * cy + m2 * cz + m3, m4 * cx + m5 * cy + m6 * cz + m7, m8 * cx + m9 * cy + m10 * cz + m11,
+          m0 * ax + m1 * ay + m2 * az + m3,
+          m4 * ax + m5 * ay + m6 * az + m7,
+          m8 * ax + m9 * ay + m10 * az + m11,
+          m0 * bx + m1 * by + m2 * bz + m3,
+          m4 * bx + m5 * by + m6 * bz + m7,
+          m8 * bx + m9 * by + m10 * bz + m11,
+          m0 * cx + m1 * cy + m2 * cz + m3,
+          m4 * cx + m5 * cy + m6 * cz + m7,
+          m8 * cx + m9 * cy + m10 * cz + m11,
           candidate,
         );
         if (!(squared < this.squared)) continue;
@@ -130,9 +185,21 @@ class DistanceWalk {
     }
   }
 
-  /** The next leaf nearer than what was found, in the hierarchy whose root was put at `base` of the stack, without its mark; −1 at the end. */
-  #nextLeaf(nodes: Float32Array, words: Uint32Array, x: number, y: number, z: number, scale: number, base: number): number {
-    const references = this.#references, bounds = this.#bounds;
+  /**
+   * The next leaf nearer than what was found, in the hierarchy whose root was put at `base` of the stack, without its
+   * mark; −1 at the end.
+   */
+  #nextLeaf(
+    nodes: Float32Array,
+    words: Uint32Array,
+    x: number,
+    y: number,
+    z: number,
+    scale: number,
+    base: number,
+  ): number {
+    const references = this.#references,
+      bounds = this.#bounds;
     const limit = this.squared;
     let top = this.#top;
     while (top > base) {
@@ -175,11 +242,19 @@ const walker = (): DistanceWalk => (shared ??= new DistanceWalk());
 
 function result({ x, y, z, nearest: n, triangle, instance, squared }: DistanceWalk): InstanceNearPoint | undefined {
   if (triangle < 0) return undefined;
-  return { distance: Math.sqrt(squared), point: [x + (n[0] as number), y + (n[1] as number), z + (n[2] as number)], triangle, u: n[3] as number, v: n[4] as number, instance };
+  return {
+    distance: Math.sqrt(squared),
+    point: [x + (n[0] as number), y + (n[1] as number), z + (n[2] as number)],
+    triangle,
+    u: n[3] as number,
+    v: n[4] as number,
+    instance,
+  };
 }
 
 /**
- * The point of a mesh that is nearest to a point; `undefined` if none is nearer than `maxDistance`. In double precision.
+ * The point of a mesh that is nearest to a point; `undefined` if none is nearer than `maxDistance`. In double
+ * precision.
  *
  * @param mesh What the BLAS was built, or last refitted, for.
  * @param point xyz.
@@ -187,7 +262,12 @@ function result({ x, y, z, nearest: n, triangle, instance, squared }: DistanceWa
  * const near = closestPoint(blas, mesh, [0, 1, 2]);
  * if (near) console.log(near.distance, near.point, near.triangle);
  */
-export function closestPoint(blas: Blas, mesh: TriangleMesh, point: ArrayLike<number>, { maxDistance = Infinity }: DistanceOptions = {}): NearPoint | undefined {
+export function closestPoint(
+  blas: Blas,
+  mesh: TriangleMesh,
+  point: ArrayLike<number>,
+  { maxDistance = Infinity }: DistanceOptions = {},
+): NearPoint | undefined {
   const walk = walker();
   walk.start(point, 0, maxDistance);
   walk.near(blas, mesh);
@@ -201,7 +281,12 @@ export function closestPoint(blas: Blas, mesh: TriangleMesh, point: ArrayLike<nu
  * The nearest point of all instances; distances are the world's, whatever the transforms.
  * @param instances BLAS and mesh of each instance, in the order given to `buildTlas`.
  */
-export function closestPointInstances(tlas: Tlas, instances: readonly BlasMesh[], point: ArrayLike<number>, { maxDistance = Infinity }: DistanceOptions = {}): InstanceNearPoint | undefined {
+export function closestPointInstances(
+  tlas: Tlas,
+  instances: readonly BlasMesh[],
+  point: ArrayLike<number>,
+  { maxDistance = Infinity }: DistanceOptions = {},
+): InstanceNearPoint | undefined {
   const walk = walker();
   walk.start(point, 0, maxDistance);
   walk.nearInstances(tlas, instances);
@@ -223,14 +308,22 @@ export interface DistanceBatch {
   readonly v?: Float32Array | Float64Array;
 }
 
-function batch(points: ArrayLike<number>, out: DistanceBatch, maxDistance: number, go: (walk: DistanceWalk) => void): void {
+function batch(
+  points: ArrayLike<number>,
+  out: DistanceBatch,
+  maxDistance: number,
+  go: (walk: DistanceWalk) => void,
+): void {
   const count = points.length / 3;
-  if (!Number.isInteger(count)) throw new BvhError('bvh/batch', `points has ${points.length} numbers; it must have three a point.`);
+  if (!Number.isInteger(count))
+    throw new BvhError('bvh/batch', `points has ${points.length} numbers; it must have three a point.`);
   for (const [name, array] of Object.entries(out) as [string, ArrayLike<number> | undefined][]) {
     const needed = name === 'point' ? 3 * count : count;
-    if (array && array.length < needed) throw new BvhError('bvh/batch', `out.${name} has ${array.length} entries; ${count} points need ${needed}.`);
+    if (array && array.length < needed)
+      throw new BvhError('bvh/batch', `out.${name} has ${array.length} entries; ${count} points need ${needed}.`);
   }
-  const walk = walker(), { nearest } = walk;
+  const walk = walker(),
+    { nearest } = walk;
   for (let i = 0; i < count; i++) {
     walk.start(points, 3 * i, maxDistance);
     go(walk);
@@ -248,16 +341,29 @@ function batch(points: ArrayLike<number>, out: DistanceBatch, maxDistance: numbe
 }
 
 /**
- * What of a mesh is nearest to each of many points, written into arrays of the caller's: nothing is allocated per point.
+ * What of a mesh is nearest to each of many points, written into arrays of the caller's: nothing is allocated per
+ * point.
  *
  * @param points xyz, stride 3.
  * @throws {BvhError} `bvh/batch` for arrays of a wrong length.
  */
-export function closestPointBatch(blas: Blas, mesh: TriangleMesh, points: Float32Array | Float64Array, out: DistanceBatch, { maxDistance = Infinity }: DistanceOptions = {}): void {
+export function closestPointBatch(
+  blas: Blas,
+  mesh: TriangleMesh,
+  points: Float32Array | Float64Array,
+  out: DistanceBatch,
+  { maxDistance = Infinity }: DistanceOptions = {},
+): void {
   batch(points, out, maxDistance, (walk) => walk.near(blas, mesh));
 }
 
 /** What of all instances is nearest to each of many points. See {@link closestPointBatch}. */
-export function closestPointBatchInstances(tlas: Tlas, instances: readonly BlasMesh[], points: Float32Array | Float64Array, out: DistanceBatch, { maxDistance = Infinity }: DistanceOptions = {}): void {
+export function closestPointBatchInstances(
+  tlas: Tlas,
+  instances: readonly BlasMesh[],
+  points: Float32Array | Float64Array,
+  out: DistanceBatch,
+  { maxDistance = Infinity }: DistanceOptions = {},
+): void {
   batch(points, out, maxDistance, (walk) => walk.nearInstances(tlas, instances));
 }

@@ -2,7 +2,10 @@ import type { Blas } from '../blas';
 
 const limits = /* @__PURE__ */ new WeakMap<Uint32Array, number>();
 
-/** One more than the largest triangle of a BLAS in which some triangle is in several leaves (it was cut into pieces); 0 for others. Looked up once. */
+/**
+ * One more than the largest triangle of a BLAS in which some triangle is in several leaves (it was cut into pieces); 0
+ * for others. Looked up once.
+ */
 function repeatsBelow({ triangleIndices }: Blas): number {
   let limit = limits.get(triangleIndices);
   if (limit === undefined) {

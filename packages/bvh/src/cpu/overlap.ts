@@ -1,6 +1,17 @@
 import type { Blas, TriangleMesh } from '../blas';
 import { BvhError } from '../error';
-import { BVH_STACK_SIZE, FAR, LEAF, LEFT, LEFT_MIN, leafCount, leafFirst, NODE_WORDS, RIGHT, RIGHT_MIN } from '../layout';
+import {
+  BVH_STACK_SIZE,
+  FAR,
+  LEAF,
+  LEFT,
+  LEFT_MIN,
+  leafCount,
+  leafFirst,
+  NODE_WORDS,
+  RIGHT,
+  RIGHT_MIN,
+} from '../layout';
 import type { Tlas } from '../tlas';
 import { Once } from './once';
 import { INSIDE, OUTSIDE, type NumberedRegion, type Region } from './regions';
@@ -8,12 +19,25 @@ import { toWorld } from './to-world';
 import type { BlasMesh } from './walk';
 import { wordsOf } from './words';
 
-export { ACROSS, BoxRegion, ConvexRegion, frustumPlanes, INSIDE, OUTSIDE, SphereRegion, type NumberedRegion, type Region } from './regions';
+export {
+  ACROSS,
+  BoxRegion,
+  ConvexRegion,
+  frustumPlanes,
+  INSIDE,
+  OUTSIDE,
+  SphereRegion,
+  type NumberedRegion,
+  type Region,
+} from './regions';
 
 /** Told of a triangle that overlaps; true ends the query. `instance` is 0 where there are none. */
 export type OverlapVisitor = (triangle: number, instance: number) => boolean | void;
 
-/** A region of the world as the triangles of an instance see it. Boxes are asked about by the box around them in the world. */
+/**
+ * A region of the world as the triangles of an instance see it. Boxes are asked about by the box around them in the
+ * world.
+ */
 class PlacedRegion implements Region {
   region!: Region;
   readonly toWorld = new Float64Array(12);
@@ -22,32 +46,63 @@ class PlacedRegion implements Region {
     const m = this.toWorld;
     // Summed up like the corners of triangles, so that rounding leaves none outside.
     const low = (r: number) => {
-      const a = m[r] as number, b = m[r + 1] as number, c = m[r + 2] as number;
+      const a = m[r] as number,
+        b = m[r + 1] as number,
+        c = m[r + 2] as number;
       return Math.min(a * x0, a * x1) + Math.min(b * y0, b * y1) + Math.min(c * z0, c * z1) + (m[r + 3] as number);
     };
     const high = (r: number) => {
-      const a = m[r] as number, b = m[r + 1] as number, c = m[r + 2] as number;
+      const a = m[r] as number,
+        b = m[r + 1] as number,
+        c = m[r + 2] as number;
       return Math.max(a * x0, a * x1) + Math.max(b * y0, b * y1) + Math.max(c * z0, c * z1) + (m[r + 3] as number);
     };
     return this.region.box(low(0), low(4), low(8), high(0), high(4), high(8));
   }
 
-  triangle(ax: number, ay: number, az: number, bx: number, by: number, bz: number, cx: number, cy: number, cz: number): boolean {
+  triangle(
+    ax: number,
+    ay: number,
+    az: number,
+    bx: number,
+    by: number,
+    bz: number,
+    cx: number,
+    cy: number,
+    cz: number,
+  ): boolean {
     const m = this.toWorld;
-    const m0 = m[0] as number, m1 = m[1] as number, m2 = m[2] as number, m3 = m[3] as number;
-    const m4 = m[4] as number, m5 = m[5] as number, m6 = m[6] as number, m7 = m[7] as number;
-    const m8 = m[8] as number, m9 = m[9] as number, m10 = m[10] as number, m11 = m[11] as number;
+    const m0 = m[0] as number,
+      m1 = m[1] as number,
+      m2 = m[2] as number,
+      m3 = m[3] as number;
+    const m4 = m[4] as number,
+      m5 = m[5] as number,
+      m6 = m[6] as number,
+      m7 = m[7] as number;
+    const m8 = m[8] as number,
+      m9 = m[9] as number,
+      m10 = m[10] as number,
+      m11 = m[11] as number;
     return this.region.triangle(
-      m0 * ax + m1 * ay + m2 * az + m3, m4 * ax + m5 * ay + m6 * az + m7, m8 * ax + m9 * ay + m10 * az + m11,
-      m0 * bx + m1 * by + m2 * bz + m3, m4 * bx + m5 * by + m6 * bz + m7, m8 * bx + m9 * by + m10 * bz + m11,
-      m0 * cx + m1 * cy + m2 * cz + m3, m4 * cx + m5 * cy + m6 * cz + m7, m8 * cx + m9 * cy + m10 * cz + m11,
+      m0 * ax + m1 * ay + m2 * az + m3,
+      m4 * ax + m5 * ay + m6 * az + m7,
+      m8 * ax + m9 * ay + m10 * az + m11,
+      m0 * bx + m1 * by + m2 * bz + m3,
+      m4 * bx + m5 * by + m6 * bz + m7,
+      m8 * bx + m9 * by + m10 * bz + m11,
+      m0 * cx + m1 * cy + m2 * cz + m3,
+      m4 * cx + m5 * cy + m6 * cz + m7,
+      m8 * cx + m9 * cy + m10 * cz + m11,
     );
   }
 }
 
 /** The way through one level or two for a region. Made once, it serves any number of regions and allocates nothing. */
 class OverlapWalk {
-  /** Nodes and leaves yet to visit, and whether they lie inside the region. A BLAS puts its own over those of the TLAS. */
+  /**
+   * Nodes and leaves yet to visit, and whether they lie inside the region. A BLAS puts its own over those of the TLAS.
+   */
   readonly #references = new Uint32Array(BVH_STACK_SIZE);
   readonly #inside = new Uint8Array(BVH_STACK_SIZE);
   #top = 0;
@@ -62,7 +117,14 @@ class OverlapWalk {
     return this.#search(blas, mesh, region, 0, false, visit);
   }
 
-  #search(blas: Blas, { positions: p, indices }: TriangleMesh, region: Region, instance: number, inside: boolean, visit: OverlapVisitor): boolean {
+  #search(
+    blas: Blas,
+    { positions: p, indices }: TriangleMesh,
+    region: Region,
+    instance: number,
+    inside: boolean,
+    visit: OverlapVisitor,
+  ): boolean {
     const { nodes, triangleIndices } = blas;
     if (triangleIndices.length === 0) return false;
     const words = wordsOf(nodes);
@@ -72,11 +134,14 @@ class OverlapWalk {
       const leaf = this.#nextLeaf(nodes, words, region, base);
       if (leaf < 0) return false;
       const all = this.#leafInside;
-      const first = leafFirst(leaf), end = first + leafCount(leaf);
+      const first = leafFirst(leaf),
+        end = first + leafCount(leaf);
       for (let i = first; i < end; i++) {
         const triangle = triangleIndices[i] as number;
         if (!all) {
-          let a = 3 * triangle, b = a + 1, c = a + 2;
+          let a = 3 * triangle,
+            b = a + 1,
+            c = a + 2;
           if (indices) {
             a = indices[a] as number;
             b = indices[b] as number;
@@ -85,7 +150,20 @@ class OverlapWalk {
           a *= 3;
           b *= 3;
           c *= 3;
-          if (!region.triangle(p[a] as number, p[a + 1] as number, p[a + 2] as number, p[b] as number, p[b + 1] as number, p[b + 2] as number, p[c] as number, p[c + 1] as number, p[c + 2] as number)) continue;
+          if (
+            !region.triangle(
+              p[a] as number,
+              p[a + 1] as number,
+              p[a + 2] as number,
+              p[b] as number,
+              p[b + 1] as number,
+              p[b + 2] as number,
+              p[c] as number,
+              p[c + 1] as number,
+              p[c + 2] as number,
+            )
+          )
+            continue;
         }
         if (!this.#once.first(blas, triangle, instance) || visit(triangle, instance) !== true) continue;
         this.#top = base;
@@ -94,7 +172,12 @@ class OverlapWalk {
     }
   }
 
-  throughInstances({ nodes, instanceOrder, toObject }: Tlas, instances: readonly BlasMesh[], region: Region, visit: OverlapVisitor): boolean {
+  throughInstances(
+    { nodes, instanceOrder, toObject }: Tlas,
+    instances: readonly BlasMesh[],
+    region: Region,
+    visit: OverlapVisitor,
+  ): boolean {
     if (instanceOrder.length === 0) return false;
     const words = wordsOf(nodes);
     const placed = this.#placed;
@@ -140,7 +223,14 @@ class OverlapWalk {
 
 /** Asks about the box whose corners lie at `low` and four words on. */
 const where = (nodes: Float32Array, low: number, region: Region): number =>
-  region.box(nodes[low] as number, nodes[low + 1] as number, nodes[low + 2] as number, nodes[low + 4] as number, nodes[low + 5] as number, nodes[low + 6] as number);
+  region.box(
+    nodes[low] as number,
+    nodes[low + 1] as number,
+    nodes[low + 2] as number,
+    nodes[low + 4] as number,
+    nodes[low + 5] as number,
+    nodes[low + 6] as number,
+  );
 
 const idle: OverlapWalk[] = [];
 
@@ -153,7 +243,8 @@ function borrowed(go: (walk: OverlapWalk) => boolean): boolean {
 }
 
 /**
- * Tells of every triangle that has a point in common with a region, in no particular order and without allocating anything.
+ * Tells of every triangle that has a point in common with a region, in no particular order and without allocating
+ * anything.
  *
  * @param mesh What the BLAS was built, or last refitted, for.
  * @param region A {@link BoxRegion}, {@link SphereRegion} or {@link ConvexRegion}, or one of your own.
@@ -165,8 +256,16 @@ export function forEachOverlap(blas: Blas, mesh: TriangleMesh, region: Region, v
   borrowed((walk) => walk.through(blas, mesh, region, visit));
 }
 
-/** Tells of every triangle of all instances that has a point in common with a region of the world. See {@link forEachOverlap}. */
-export function forEachOverlapInstances(tlas: Tlas, instances: readonly BlasMesh[], region: Region, visit: OverlapVisitor): void {
+/**
+ * Tells of every triangle of all instances that has a point in common with a region of the world. See
+ * {@link forEachOverlap}.
+ */
+export function forEachOverlapInstances(
+  tlas: Tlas,
+  instances: readonly BlasMesh[],
+  region: Region,
+  visit: OverlapVisitor,
+): void {
   borrowed((walk) => walk.throughInstances(tlas, instances, region, visit));
 }
 
@@ -177,14 +276,21 @@ export function overlaps(blas: Blas, mesh: TriangleMesh, region: Region): boolea
   return borrowed((walk) => walk.through(blas, mesh, region, first));
 }
 
-/** Whether any triangle of all instances has a point in common with a region of the world. See {@link forEachOverlap}. */
+/**
+ * Whether any triangle of all instances has a point in common with a region of the world. See {@link forEachOverlap}.
+ */
 export function overlapsInstances(tlas: Tlas, instances: readonly BlasMesh[], region: Region): boolean {
   return borrowed((walk) => walk.throughInstances(tlas, instances, region, first));
 }
 
-/** Where a batch of regions leaves its triangles. `triangle` has any length; what lies beyond it is counted, not kept. */
+/**
+ * Where a batch of regions leaves its triangles. `triangle` has any length; what lies beyond it is counted, not kept.
+ */
 export interface OverlapBatch {
-  /** One entry more than there are regions: the triangles of region i are those from `starts[i]` up to `starts[i + 1]`, in no order. */
+  /**
+   * One entry more than there are regions: the triangles of region i are those from `starts[i]` up to `starts[i + 1]`,
+   * in no order.
+   */
   readonly starts: Uint32Array;
   readonly triangle: Uint32Array;
 }
@@ -198,11 +304,19 @@ export interface OverlapBatch {
  * @returns How many triangles there are: where that is more than `out.triangle` holds, call again with longer arrays.
  * @throws {BvhError} `bvh/batch` for arrays of a wrong length.
  */
-export function overlapBatch(blas: Blas, mesh: TriangleMesh, region: NumberedRegion, values: Float32Array | Float64Array, out: OverlapBatch): number {
+export function overlapBatch(
+  blas: Blas,
+  mesh: TriangleMesh,
+  region: NumberedRegion,
+  values: Float32Array | Float64Array,
+  out: OverlapBatch,
+): number {
   const { starts, triangle: triangles } = out;
   const count = values.length / region.numbers;
-  if (!Number.isInteger(count)) throw new BvhError('bvh/batch', `values has ${values.length} numbers; it must have ${region.numbers} a region.`);
-  if (starts.length <= count) throw new BvhError('bvh/batch', `out.starts has ${starts.length} entries; ${count} regions need ${count + 1}.`);
+  if (!Number.isInteger(count))
+    throw new BvhError('bvh/batch', `values has ${values.length} numbers; it must have ${region.numbers} a region.`);
+  if (starts.length <= count)
+    throw new BvhError('bvh/batch', `out.starts has ${starts.length} entries; ${count} regions need ${count + 1}.`);
   let found = 0;
   const visit = (triangle: number) => void (triangles[found++] = triangle);
   borrowed((walk) => {

@@ -11,14 +11,34 @@ const THIN = 1e-9;
  * The point of a triangle that is nearest to the origin, and its squared distance. Thin and degenerate triangles are
  * taken as the edges they are, too: whatever is found lies on the triangle.
  */
-export function nearestOnTriangle(ax: number, ay: number, az: number, bx: number, by: number, bz: number, cx: number, cy: number, cz: number, out: NearestPoint): number {
-  const ex = bx - ax, ey = by - ay, ez = bz - az, fx = cx - ax, fy = cy - ay, fz = cz - az;
-  const ee = ex * ex + ey * ey + ez * ez, ff = fx * fx + fy * fy + fz * fz, ef = ex * fx + ey * fy + ez * fz;
-  const ea = -(ex * ax + ey * ay + ez * az), fa = -(fx * ax + fy * ay + fz * az);
+export function nearestOnTriangle(
+  ax: number,
+  ay: number,
+  az: number,
+  bx: number,
+  by: number,
+  bz: number,
+  cx: number,
+  cy: number,
+  cz: number,
+  out: NearestPoint,
+): number {
+  const ex = bx - ax,
+    ey = by - ay,
+    ez = bz - az,
+    fx = cx - ax,
+    fy = cy - ay,
+    fz = cz - az;
+  const ee = ex * ex + ey * ey + ez * ez,
+    ff = fx * fx + fy * fy + fz * fz,
+    ef = ex * fx + ey * fy + ez * fz;
+  const ea = -(ex * ax + ey * ay + ez * az),
+    fa = -(fx * ax + fy * ay + fz * az);
   const squaredArea = ee * ff - ef * ef;
   let best = Infinity;
   if (squaredArea > 0) {
-    const u = (ff * ea - ef * fa) / squaredArea, v = (ee * fa - ef * ea) / squaredArea;
+    const u = (ff * ea - ef * fa) / squaredArea,
+      v = (ee * fa - ef * ea) / squaredArea;
     if (u >= 0 && v >= 0 && u + v <= 1) {
       best = put(out, ax + u * ex + v * fx, ay + u * ey + v * fy, az + u * ez + v * fz, u, v);
       if (squaredArea > THIN * ee * ff) return best;
@@ -26,14 +46,18 @@ export function nearestOnTriangle(ax: number, ay: number, az: number, bx: number
   }
   // Onto the three edges: a + s e, a + s f, b + s (f − e).
   let s = share(ea, ee);
-  let x = ax + s * ex, y = ay + s * ey, z = az + s * ez;
+  let x = ax + s * ex,
+    y = ay + s * ey,
+    z = az + s * ez;
   if (x * x + y * y + z * z < best) best = put(out, x, y, z, s, 0);
   s = share(fa, ff);
   x = ax + s * fx;
   y = ay + s * fy;
   z = az + s * fz;
   if (x * x + y * y + z * z < best) best = put(out, x, y, z, 0, s);
-  const gx = cx - bx, gy = cy - by, gz = cz - bz;
+  const gx = cx - bx,
+    gy = cy - by,
+    gz = cz - bz;
   s = share(-(gx * bx + gy * by + gz * bz), gx * gx + gy * gy + gz * gz);
   x = bx + s * gx;
   y = by + s * gy;

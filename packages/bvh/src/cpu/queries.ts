@@ -45,7 +45,8 @@ const end = (walk: RayWalk): RayWalk => {
 };
 
 /**
- * The nearest triangle that a ray meets, from either side; `undefined` if there is none. In double precision, watertight.
+ * The nearest triangle that a ray meets, from either side; `undefined` if there is none. In double precision,
+ * watertight.
  * @param mesh What the BLAS was built, or last refitted, for.
  */
 export function closestHit(blas: Blas, mesh: TriangleMesh, ray: Ray): Hit | undefined {

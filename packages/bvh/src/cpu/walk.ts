@@ -1,5 +1,16 @@
 import type { Blas, TriangleMesh } from '../blas';
-import { BVH_STACK_SIZE, FAR, LEAF, LEFT, LEFT_MIN, leafCount, leafFirst, NODE_WORDS, RIGHT, RIGHT_MIN } from '../layout';
+import {
+  BVH_STACK_SIZE,
+  FAR,
+  LEAF,
+  LEFT,
+  LEFT_MIN,
+  leafCount,
+  leafFirst,
+  NODE_WORDS,
+  RIGHT,
+  RIGHT_MIN,
+} from '../layout';
 import type { Tlas } from '../tlas';
 import { intersectTriangle, prepareRay, RAY_NUMBERS } from './triangle';
 import { wordsOf } from './words';
@@ -10,7 +21,9 @@ export interface BlasMesh {
   readonly mesh: TriangleMesh;
 }
 
-/** Told of a hit by its numbers, so that nothing is allocated; true ends the walk. `instance` is 0 where there are none. */
+/**
+ * Told of a hit by its numbers, so that nothing is allocated; true ends the walk. `instance` is 0 where there are none.
+ */
 export type HitVisitor = (t: number, u: number, v: number, triangle: number, instance: number) => boolean | void;
 
 /** Moves the far side of a box out by more than rounding can move it in. */
@@ -18,9 +31,12 @@ const OUTWARD = 2 ** -50;
 
 /** Where a ray enters the box whose corners lie at `low` and four words on; Infinity if it does not. */
 function enter(nodes: Float32Array, low: number, ray: Float64Array, tMin: number, tMax: number): number {
-  const x0 = ((nodes[low] as number) - (ray[15] as number)) * (ray[3] as number), x1 = ((nodes[low + 4] as number) - (ray[18] as number)) * (ray[3] as number);
-  const y0 = ((nodes[low + 1] as number) - (ray[16] as number)) * (ray[4] as number), y1 = ((nodes[low + 5] as number) - (ray[19] as number)) * (ray[4] as number);
-  const z0 = ((nodes[low + 2] as number) - (ray[17] as number)) * (ray[5] as number), z1 = ((nodes[low + 6] as number) - (ray[20] as number)) * (ray[5] as number);
+  const x0 = ((nodes[low] as number) - (ray[15] as number)) * (ray[3] as number),
+    x1 = ((nodes[low + 4] as number) - (ray[18] as number)) * (ray[3] as number);
+  const y0 = ((nodes[low + 1] as number) - (ray[16] as number)) * (ray[4] as number),
+    y1 = ((nodes[low + 5] as number) - (ray[19] as number)) * (ray[4] as number);
+  const z0 = ((nodes[low + 2] as number) - (ray[17] as number)) * (ray[5] as number),
+    z1 = ((nodes[low + 6] as number) - (ray[20] as number)) * (ray[5] as number);
   const near = Math.max(Math.min(x0, x1), Math.min(y0, y1), Math.min(z0, z1), tMin);
   const far = Math.min(Math.max(x0, x1), Math.max(y0, y1), Math.max(z0, z1), tMax);
   return near <= far + Math.abs(far) * OUTWARD ? near : Infinity;
@@ -74,7 +90,8 @@ export class RayWalk {
   throughInstances(tlas: Tlas, instances: readonly BlasMesh[], any: boolean, visit?: HitVisitor): void {
     if (tlas.instanceOrder.length === 0) return;
     const { nodes, instanceOrder, toObject: m } = tlas;
-    const origin = this.#origin, direction = this.#direction;
+    const origin = this.#origin,
+      direction = this.#direction;
     prepareRay(this.#world, origin, direction, tlas.bounds);
     const words = wordsOf(nodes);
     this.#push(0, -Infinity);
@@ -83,10 +100,14 @@ export class RayWalk {
       if (leaf < 0) return;
       const instance = instanceOrder[leafFirst(leaf)] as number;
       const { blas, mesh } = instances[instance] as BlasMesh;
-      const from = this.#localOrigin, to = this.#localDirection;
+      const from = this.#localOrigin,
+        to = this.#localDirection;
       for (let k = 0, r = 12 * instance; k < 3; k++, r += 4) {
-        const a = m[r] as number, b = m[r + 1] as number, c = m[r + 2] as number;
-        from[k] = a * (origin[0] as number) + b * (origin[1] as number) + c * (origin[2] as number) + (m[r + 3] as number);
+        const a = m[r] as number,
+          b = m[r + 1] as number,
+          c = m[r + 2] as number;
+        from[k] =
+          a * (origin[0] as number) + b * (origin[1] as number) + c * (origin[2] as number) + (m[r + 3] as number);
         to[k] = a * (direction[0] as number) + b * (direction[1] as number) + c * (direction[2] as number);
       }
       prepareRay(this.#local, from, to, blas.bounds);
@@ -100,19 +121,30 @@ export class RayWalk {
   }
 
   /** Looks at the triangles along the ray. True: that is all. */
-  #search(blas: Blas, { positions, indices }: TriangleMesh, ray: Float64Array, instance: number, any: boolean, visit: HitVisitor | undefined): boolean {
+  #search(
+    blas: Blas,
+    { positions, indices }: TriangleMesh,
+    ray: Float64Array,
+    instance: number,
+    any: boolean,
+    visit: HitVisitor | undefined,
+  ): boolean {
     const { nodes, triangleIndices } = blas;
-    const hit = this.#hit, tMin = this.#tMin;
+    const hit = this.#hit,
+      tMin = this.#tMin;
     const base = this.#top;
     const words = wordsOf(nodes);
     this.#push(0, -Infinity);
     for (;;) {
       const leaf = this.#nextLeaf(nodes, words, ray, base);
       if (leaf < 0) return false;
-      const first = leafFirst(leaf), end = first + leafCount(leaf);
+      const first = leafFirst(leaf),
+        end = first + leafCount(leaf);
       for (let i = first; i < end; i++) {
         const triangle = triangleIndices[i] as number;
-        let a = 3 * triangle, b = a + 1, c = a + 2;
+        let a = 3 * triangle,
+          b = a + 1,
+          c = a + 2;
         if (indices) {
           a = indices[a] as number;
           b = indices[b] as number;
@@ -135,17 +167,23 @@ export class RayWalk {
     }
   }
 
-  /** The next leaf that the ray meets in the hierarchy whose root was put at `base` of the stack, without its mark; −1 at the end. */
+  /**
+   * The next leaf that the ray meets in the hierarchy whose root was put at `base` of the stack, without its mark; −1
+   * at the end.
+   */
   #nextLeaf(nodes: Float32Array, words: Uint32Array, ray: Float64Array, base: number): number {
-    const references = this.#references, entries = this.#entries;
-    const tMin = this.#tMin, tMax = this.t;
+    const references = this.#references,
+      entries = this.#entries;
+    const tMin = this.#tMin,
+      tMax = this.t;
     let top = this.#top;
     while (top > base) {
       let reference = references[--top] as number;
       if ((entries[top] as number) > tMax + Math.abs(tMax) * OUTWARD) continue;
       while (reference < LEAF) {
         const at = reference * NODE_WORDS;
-        const left = enter(nodes, at + LEFT_MIN, ray, tMin, tMax), right = enter(nodes, at + RIGHT_MIN, ray, tMin, tMax);
+        const left = enter(nodes, at + LEFT_MIN, ray, tMin, tMax),
+          right = enter(nodes, at + RIGHT_MIN, ray, tMin, tMax);
         const inLeft = left < Infinity;
         // A tree of one leaf has no right child; its place must not lead there a second time.
         const inRight = right < Infinity && nodes[at + RIGHT_MIN] !== FAR;

@@ -82,11 +82,12 @@ fn bvh_enter_children(ray: BvhRay, octant: u32, node: BvhNode, t_min: f32, t_max
 /**
  * Closest-hit and any-hit differ in a few lines, which must be text.
  *
- * "group" holds the child nodes of one node that are still to visit: the first of all its child nodes, and a word with those
- * entered (upper byte, the highest bit is next) and those there are (lower byte). The stack takes what is left of a group
- * while one of its nodes is looked at, so one entry a level is enough. The inner loop goes down until a node has primitives to
- * test, so that neighbouring threads test theirs together. It serves both levels: "waiting" are the instances of the node of
- * the TLAS that was looked at last. Bounded, as every node and instance is visited at most once.
+ * "group" holds the child nodes of one node that are still to visit: the first of all its child nodes, and a word with
+ * those entered (upper byte, the highest bit is next) and those there are (lower byte). The stack takes what is left of
+ * a group while one of its nodes is looked at, so one entry a level is enough. The inner loop goes down until a node
+ * has primitives to test, so that neighbouring threads test theirs together. It serves both levels: "waiting" are the
+ * instances of the node of the TLAS that was looked at last. Bounded, as every node and instance is visited at most
+ * once.
  */
 const traversal = (name: 'closest' | 'any', stackSize = WIDE_STACK_SIZE): WgslModule => {
   const any = name === 'any';
@@ -183,19 +184,24 @@ fn bvh_${name}_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> $
 
 /**
  * `fn bvh_closest_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> BvhHit` over the wide layout of
- * `widenBlas` and `widenTlas`: everything else is as in the module of the same name of `@glanz/bvh/wgsl`, the functions that
- * the host supplies too, so a host chooses a layout by its import.
+ * `widenBlas` and `widenTlas`: everything else is as in the module of the same name of `@glanz/bvh/wgsl`, the functions
+ * that the host supplies too, so a host chooses a layout by its import.
  */
 export const bvhClosestHit: WgslModule = traversal('closest');
 
-/** `fn bvh_any_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> bool` over the wide layout. See {@link bvhClosestHit}. */
+/**
+ * `fn bvh_any_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> bool` over the wide layout. See
+ * {@link bvhClosestHit}.
+ */
 export const bvhAnyHit: WgslModule = traversal('any');
 
 /**
- * {@link bvhClosestHit} or {@link bvhAnyHit} with a stack for trees that are less deep than they might be: see the function
- * of the same name of `@glanz/bvh/wgsl`.
+ * {@link bvhClosestHit} or {@link bvhAnyHit} with a stack for trees that are less deep than they might be: see the
+ * function of the same name of `@glanz/bvh/wgsl`.
  *
- * @param stackSize Entries. As `packHierarchy` tells it, or more. With less, rays lose hits where they enter more than it holds.
+ * @param stackSize Entries. As `packHierarchy` tells it, or more. With less, rays lose hits where they enter more than
+ * it holds.
  * @throws {BvhError} `bvh/options` for what is no whole number from 3 to `BVH_STACK_SIZE`.
  */
-export const bvhTraversal = (query: 'closest' | 'any', stackSize: number): WgslModule => traversal(query, checkedStackSize(stackSize, WIDE_STACK_SIZE));
+export const bvhTraversal = (query: 'closest' | 'any', stackSize: number): WgslModule =>
+  traversal(query, checkedStackSize(stackSize, WIDE_STACK_SIZE));

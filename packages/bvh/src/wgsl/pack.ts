@@ -33,37 +33,61 @@ const NO_INSTANCE = 64;
  *
  * @param tlas And all BLAS in the same layout.
  * @param parts What each instance is made of, in the order given to `buildTlas`.
- * @throws {BvhError} `bvh/parts` where an instance has none, `bvh/layout` where a BLAS is of another layout than the TLAS.
+ * @throws {BvhError} `bvh/parts` where an instance has none, `bvh/layout` where a BLAS is of another layout than the
+ * TLAS.
  * @example
  * const { nodes, triangles, instances } = packHierarchy(tlas, placed.map(({ blas, mesh }) => ({ blas, mesh })));
  */
-export function packHierarchy(tlas: Pick<Tlas | WideTlas, 'nodes' | 'nodeCount' | 'instanceOrder' | 'toObject'>, parts: readonly HierarchyPart[]): PackedHierarchy {
+export function packHierarchy(
+  tlas: Pick<Tlas | WideTlas, 'nodes' | 'nodeCount' | 'instanceOrder' | 'toObject'>,
+  parts: readonly HierarchyPart[],
+): PackedHierarchy {
   const { instanceOrder, toObject } = tlas;
   const stride = tlas.nodes.byteLength / tlas.nodeCount;
   const starts = new Map<HierarchyPart['blas'], readonly [node: number, triangle: number]>();
   const meshes: Float32Array[] = [];
-  let nodeCount = tlas.nodeCount, triangleCount = 0;
+  let nodeCount = tlas.nodeCount,
+    triangleCount = 0;
   const instances = bvhInstanceStruct.allocate(instanceOrder.length);
   for (const [slot, given] of instanceOrder.entries()) {
     const part = parts[given];
-    if (!part) throw new BvhError('bvh/parts', `The TLAS has an instance ${given}, but there are ${parts.length} parts.`);
+    if (!part)
+      throw new BvhError('bvh/parts', `The TLAS has an instance ${given}, but there are ${parts.length} parts.`);
     const { blas, mesh } = part;
     let start = starts.get(blas);
     if (!start) {
-      if (blas.nodes.byteLength !== stride * blas.nodeCount) throw new BvhError('bvh/layout', `The BLAS of instance ${given} has nodes of ${blas.nodes.byteLength / blas.nodeCount} bytes, the TLAS of ${stride}: widen both or none.`);
+      if (blas.nodes.byteLength !== stride * blas.nodeCount)
+        throw new BvhError(
+          'bvh/layout',
+          `The BLAS of instance ${given} has nodes of ${blas.nodes.byteLength / blas.nodeCount} bytes, the TLAS of ${stride}: widen both or none.`,
+        );
       starts.set(blas, (start = [nodeCount, triangleCount]));
       meshes.push(packTriangles(blas, mesh));
       nodeCount += blas.nodeCount;
       triangleCount += blas.triangleIndices.length;
     }
     const row = (r: number) => toObject.subarray(12 * given + 4 * r, 12 * given + 4 * r + 4);
-    bvhInstanceStruct.write(instances, slot, { to_object_0: row(0), to_object_1: row(1), to_object_2: row(2), blas_node: start[0], triangle_offset: start[1], id: given, flags: 0 });
+    bvhInstanceStruct.write(instances, slot, {
+      to_object_0: row(0),
+      to_object_1: row(1),
+      to_object_2: row(2),
+      blas_node: start[0],
+      triangle_offset: start[1],
+      id: given,
+      flags: 0,
+    });
   }
   const nodes = new Uint8Array(stride * nodeCount);
-  const put = (from: Float32Array | Uint32Array, at: number) => nodes.set(new Uint8Array(from.buffer, from.byteOffset, from.byteLength), stride * at);
+  const put = (from: Float32Array | Uint32Array, at: number) =>
+    nodes.set(new Uint8Array(from.buffer, from.byteOffset, from.byteLength), stride * at);
   put(tlas.nodes, 0);
   for (const [blas, [first]] of starts) put(blas.nodes, first);
   const triangles = new Float32Array(TRIANGLE_WORDS * Math.max(1, triangleCount));
   meshes.reduce((at, packed) => (triangles.set(packed, at), at + packed.length), 0);
-  return { nodes: nodes.buffer, triangles, instances: instanceOrder.length > 0 ? instances : new ArrayBuffer(NO_INSTANCE), stackSize: stackSizeOf(tlas, starts.keys()) };
+  return {
+    nodes: nodes.buffer,
+    triangles,
+    instances: instanceOrder.length > 0 ? instances : new ArrayBuffer(NO_INSTANCE),
+    stackSize: stackSizeOf(tlas, starts.keys()),
+  };
 }

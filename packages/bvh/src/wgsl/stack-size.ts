@@ -31,13 +31,15 @@ export function depthOf({ nodes, nodeCount }: AnyNodes): number {
 export function stackSizeOf(tlas: AnyNodes, trees: Iterable<AnyNodes>): number {
   let deepest = 0;
   for (const tree of trees) deepest = Math.max(deepest, depthOf(tree));
-  // With two children, one waits at each node, and both levels have a mark at their end. With eight, a node's siblings do.
+  // With two children, one waits at each node, and both levels have a mark at their end. With eight, a node's siblings
+  // do.
   const marks = tlas.nodes.length === WIDE_WORDS * tlas.nodeCount ? 0 : 2;
   return Math.max(3, depthOf(tlas) + deepest + marks);
 }
 
 /** @throws {BvhError} `bvh/options` */
 export function checkedStackSize(stackSize: number, most: number): number {
-  if (!(Number.isInteger(stackSize) && stackSize >= 3 && stackSize <= most)) throw new BvhError('bvh/options', `stackSize is ${stackSize}; it must be a whole number from 3 to ${most}.`);
+  if (!(Number.isInteger(stackSize) && stackSize >= 3 && stackSize <= most))
+    throw new BvhError('bvh/options', `stackSize is ${stackSize}; it must be a whole number from 3 to ${most}.`);
   return stackSize;
 }

@@ -31,14 +31,14 @@ const BVH_END = 0xffffffffu;
 /**
  * Closest-hit and any-hit differ in a few lines, which must be text: a run-time switch would cost registers in both.
  *
- * One loop serves both levels. "reference" is what to look at next; the inner loop goes down until it holds a leaf or an
- * end mark, of which there is one at the bottom of the stack and one where an instance was entered. Bounded, as every
- * reference is visited at most once.
+ * One loop serves both levels. "reference" is what to look at next; the inner loop goes down until it holds a leaf or
+ * an end mark, of which there is one at the bottom of the stack and one where an instance was entered. Bounded, as
+ * every reference is visited at most once.
  */
 const traversal = (name: 'closest' | 'any', stackSize = BVH_STACK_SIZE): WgslModule => {
   const any = name === 'any';
-  // Where the stack may be too small for the trees after all: hits are lost, but rays come to an end. A place is left for the
-  // mark of an instance.
+  // Where the stack may be too small for the trees after all: hits are lost, but rays come to an end. A place is left
+  // for the mark of an instance.
   const guard = stackSize < BVH_STACK_SIZE ? `if (top < ${stackSize - 1}u) ` : '';
   return wgslModule(
     `bvh/${name}-hit`,
@@ -121,8 +121,8 @@ fn bvh_${name}_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> $
  * `fn bvh_closest_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> BvhHit`: the nearest triangle with
  * t_min < t < t_max; `instance` is `BVH_MISS` if there is none.
  *
- * The direction need not have unit length; t counts in it, in the world as in object space. It must not be zero. The host
- * supplies, in a module of its own:
+ * The direction need not have unit length; t counts in it, in the world as in object space. It must not be zero. The
+ * host supplies, in a module of its own:
  * ```wgsl
  * fn bvh_node(index: u32) -> BvhNode          // TLAS from 0 on, each BLAS from its instances' blas_node on
  * fn bvh_instance(index: u32) -> BvhInstance  // in the TLAS's leaf order; there must be one
@@ -133,15 +133,20 @@ fn bvh_${name}_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> $
  */
 export const bvhClosestHit: WgslModule = traversal('closest');
 
-/** `fn bvh_any_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> bool`: whether there is a triangle with t_min < t < t_max. See {@link bvhClosestHit}. */
+/**
+ * `fn bvh_any_hit(origin: vec3f, direction: vec3f, t_min: f32, t_max: f32) -> bool`: whether there is a triangle with
+ * t_min < t < t_max. See {@link bvhClosestHit}.
+ */
 export const bvhAnyHit: WgslModule = traversal('any');
 
 /**
- * {@link bvhClosestHit} or {@link bvhAnyHit} with a stack for trees that are less deep than they might be: WGSL clears all of
- * it for each ray. Make it once for each pipeline, and do not put it beside the constant of the same query: `compose` refuses
- * two modules of one name.
+ * {@link bvhClosestHit} or {@link bvhAnyHit} with a stack for trees that are less deep than they might be: WGSL clears
+ * all of it for each ray. Make it once for each pipeline, and do not put it beside the constant of the same query:
+ * `compose` refuses two modules of one name.
  *
- * @param stackSize Entries. As `packHierarchy` tells it, or more. With less, rays lose hits where they enter more than it holds.
+ * @param stackSize Entries. As `packHierarchy` tells it, or more. With less, rays lose hits where they enter more than
+ * it holds.
  * @throws {BvhError} `bvh/options` for what is no whole number from 3 to {@link BVH_STACK_SIZE}.
  */
-export const bvhTraversal = (query: 'closest' | 'any', stackSize: number): WgslModule => traversal(query, checkedStackSize(stackSize, BVH_STACK_SIZE));
+export const bvhTraversal = (query: 'closest' | 'any', stackSize: number): WgslModule =>
+  traversal(query, checkedStackSize(stackSize, BVH_STACK_SIZE));

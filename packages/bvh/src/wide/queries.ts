@@ -5,17 +5,29 @@ import { WIDE_NODE, WIDE_STACK_SIZE, WIDE_WORDS, WIDTH } from './layout';
 import type { WideBlas } from './widen';
 
 /** Goes through the tree as the WGSL twin does. */
-function search({ nodes, triangleIndices, bounds }: WideBlas, { positions, indices }: TriangleMesh, { origin, direction, tMin = 0, tMax = Infinity }: Ray, any: boolean): Hit | undefined {
+function search(
+  { nodes, triangleIndices, bounds }: WideBlas,
+  { positions, indices }: TriangleMesh,
+  { origin, direction, tMin = 0, tMax = Infinity }: Ray,
+  any: boolean,
+): Hit | undefined {
   if (triangleIndices.length === 0) return undefined;
-  const ray = new Float64Array(RAY_NUMBERS), hit = new Float64Array(3);
+  const ray = new Float64Array(RAY_NUMBERS),
+    hit = new Float64Array(3);
   prepareRay(ray, origin, direction, bounds);
   const floats = new Float32Array(nodes.buffer, nodes.byteOffset, nodes.length);
   let found: Hit | undefined;
   let end = tMax;
   // Nodes first and which of them: the highest bit is the next.
-  const firsts = new Uint32Array(WIDE_STACK_SIZE), masks = new Uint32Array(WIDE_STACK_SIZE), inner = new Uint8Array(WIDE_STACK_SIZE);
-  const octant = ((ray[3] as number) >= 0 ? 4 : 0) | ((ray[4] as number) >= 0 ? 2 : 0) | ((ray[5] as number) >= 0 ? 1 : 0);
-  let top = 0, first = 0, mask = 1 << octant, kinds = 0;
+  const firsts = new Uint32Array(WIDE_STACK_SIZE),
+    masks = new Uint32Array(WIDE_STACK_SIZE),
+    inner = new Uint8Array(WIDE_STACK_SIZE);
+  const octant =
+    ((ray[3] as number) >= 0 ? 4 : 0) | ((ray[4] as number) >= 0 ? 2 : 0) | ((ray[5] as number) >= 0 ? 1 : 0);
+  let top = 0,
+    first = 0,
+    mask = 1 << octant,
+    kinds = 0;
   for (;;) {
     if (mask === 0) {
       if (top === 0) return found;
@@ -40,9 +52,11 @@ function search({ nodes, triangleIndices, bounds }: WideBlas, { positions, indic
     for (let slot = 0; slot < WIDTH; slot++) {
       const kind = byte(24 + slot);
       if (kind === 0) continue;
-      let near = tMin, far = nearest;
+      let near = tMin,
+        far = nearest;
       for (let k = 0; k < 3; k++) {
-        const step = 2 ** (byte(12 + k) - 127), low = floats[at + k] as number;
+        const step = 2 ** (byte(12 + k) - 127),
+          low = floats[at + k] as number;
         const a = (low + byte(32 + 8 * k + slot) * step - (ray[15 + k] as number)) * (ray[3 + k] as number);
         const b = (low + byte(56 + 8 * k + slot) * step - (ray[18 + k] as number)) * (ray[3 + k] as number);
         near = Math.max(near, Math.min(a, b));
@@ -74,7 +88,10 @@ function bitCount(bits: number): number {
   return count;
 }
 
-/** The nearest triangle that a ray meets, from the wide layout: what `closestHit` finds. In double precision, watertight. */
+/**
+ * The nearest triangle that a ray meets, from the wide layout: what `closestHit` finds. In double precision,
+ * watertight.
+ */
 export function closestHitWide(blas: WideBlas, mesh: TriangleMesh, ray: Ray): Hit | undefined {
   return search(blas, mesh, ray, false);
 }

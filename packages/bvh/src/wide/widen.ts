@@ -26,30 +26,49 @@ export interface WideTlas extends WideNodes {
 }
 
 /**
- * The wide layout of a BLAS: about 0.4 times the memory of its nodes, for devices whose caches are small. Build it anew after
- * a refit. Coordinates must stay below 1e18.
+ * The wide layout of a BLAS: about 0.4 times the memory of its nodes, for devices whose caches are small. Build it anew
+ * after a refit. Coordinates must stay below 1e18.
  */
 export function widenBlas(blas: Blas): WideBlas {
   const { nodes, nodeCount, order } = widen(blas, blas.triangleIndices.length, WIDE_BLAS_DEPTH);
-  return { nodes, nodeCount, triangleIndices: order.map((place) => blas.triangleIndices[place] as number), bounds: blas.bounds };
+  return {
+    nodes,
+    nodeCount,
+    triangleIndices: order.map((place) => blas.triangleIndices[place] as number),
+    bounds: blas.bounds,
+  };
 }
 
 /** The wide layout of a TLAS. */
 export function widenTlas(tlas: Tlas): WideTlas {
   const { nodes, nodeCount, order } = widen(tlas, tlas.instanceOrder.length, WIDE_TLAS_DEPTH);
-  return { nodes, nodeCount, instanceOrder: order.map((place) => tlas.instanceOrder[place] as number), toObject: tlas.toObject, bounds: tlas.bounds };
+  return {
+    nodes,
+    nodeCount,
+    instanceOrder: order.map((place) => tlas.instanceOrder[place] as number),
+    toObject: tlas.toObject,
+    bounds: tlas.bounds,
+  };
 }
 
 /** How many inner nodes the longest way down from each node has; a leaf too large for one child counts as one. */
 function heightsOf(words: Uint32Array, nodeCount: number): Uint8Array {
   const heights = new Uint8Array(nodeCount);
-  const height = (reference: number) => ((reference & LEAF) === 0 ? (heights[reference] as number) : leafCount(reference) > WIDE_LEAF_MAX ? 1 : 0);
-  for (const node of parentsFirst(words, nodeCount).reverse()) heights[node] = 1 + Math.max(height(words[node * NODE_WORDS + LEFT] as number), height(words[node * NODE_WORDS + RIGHT] as number));
+  const height = (reference: number) =>
+    (reference & LEAF) === 0 ? (heights[reference] as number) : leafCount(reference) > WIDE_LEAF_MAX ? 1 : 0;
+  for (const node of parentsFirst(words, nodeCount).reverse())
+    heights[node] =
+      1 +
+      Math.max(height(words[node * NODE_WORDS + LEFT] as number), height(words[node * NODE_WORDS + RIGHT] as number));
   return heights;
 }
 
 /** @returns `order`: new leaf order → old leaf order. */
-function widen({ nodes: from, nodeCount: fromCount }: { readonly nodes: Float32Array; readonly nodeCount: number }, primitives: number, maxDepth: number): { nodes: Uint32Array<ArrayBuffer>; nodeCount: number; order: Uint32Array<ArrayBuffer> } {
+function widen(
+  { nodes: from, nodeCount: fromCount }: { readonly nodes: Float32Array; readonly nodeCount: number },
+  primitives: number,
+  maxDepth: number,
+): { nodes: Uint32Array<ArrayBuffer>; nodeCount: number; order: Uint32Array<ArrayBuffer> } {
   const words = new Uint32Array(from.buffer, from.byteOffset, from.length);
   const heights = heightsOf(words, fromCount);
   const maker = new NodeMaker();
@@ -57,7 +76,9 @@ function widen({ nodes: from, nodeCount: fromCount }: { readonly nodes: Float32A
   let emitted = 0;
   // What each wide node stands for: a reference, and the word where its box starts in the old nodes.
   const capacity = Math.max(1, fromCount + Math.ceil(primitives / (WIDE_LEAF_MAX + 1)));
-  const references = new Uint32Array(capacity), places = new Uint32Array(capacity), depths = new Uint8Array(capacity);
+  const references = new Uint32Array(capacity),
+    places = new Uint32Array(capacity),
+    depths = new Uint8Array(capacity);
   let nodes = new Uint32Array(WIDE_WORDS * Math.max(1, Math.ceil(fromCount / 3)));
   let nodeCount = 1;
   for (let node = 0; node < nodeCount; node++) {
@@ -65,8 +86,14 @@ function widen({ nodes: from, nodeCount: fromCount }: { readonly nodes: Float32A
     maker.clear();
     if ((reference & LEAF) !== 0) {
       // A leaf that is too large: its parts share its box.
-      const first = leafFirst(reference), end = first + leafCount(reference);
-      for (let part = first; part < end; part += WIDE_LEAF_MAX) maker.add((LEAF | ((Math.min(WIDE_LEAF_MAX, end - part) - 1) << 27) | part) >>> 0, places[node] as number, from);
+      const first = leafFirst(reference),
+        end = first + leafCount(reference);
+      for (let part = first; part < end; part += WIDE_LEAF_MAX)
+        maker.add(
+          (LEAF | ((Math.min(WIDE_LEAF_MAX, end - part) - 1) << 27) | part) >>> 0,
+          places[node] as number,
+          from,
+        );
     } else {
       maker.open(reference, words, from);
       // Levels that may be left below the children.
@@ -129,7 +156,11 @@ class NodeMaker {
       this.#boxes[6 * i + k] = from[place + k] as number;
       this.#boxes[6 * i + 3 + k] = from[place + 4 + k] as number;
     }
-    const [x, y, z] = [0, 1, 2].map((k) => (from[place + 4 + k] as number) - (from[place + k] as number)) as [number, number, number];
+    const [x, y, z] = [0, 1, 2].map((k) => (from[place + 4 + k] as number) - (from[place + k] as number)) as [
+      number,
+      number,
+      number,
+    ];
     this.#areas[i] = x * y + y * z + z * x;
   }
 
@@ -149,7 +180,8 @@ class NodeMaker {
 
   /** The child to open: one with more than `rest` levels, else the largest; −1 if there are only leaves. */
   largest(heights: Uint8Array, rest: number): number {
-    let found = -1, most = -1;
+    let found = -1,
+      most = -1;
     for (let i = 0; i < this.count; i++) {
       const reference = this.references[i] as number;
       if ((reference & LEAF) !== 0) continue;
@@ -164,12 +196,13 @@ class NodeMaker {
   }
 
   /**
-   * Gives each child a place such that a ray that goes along a diagonal of the box meets them in the order of their places
-   * (Ylitie, Karras and Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs").
+   * Gives each child a place such that a ray that goes along a diagonal of the box meets them in the order of their
+   * places (Ylitie, Karras and Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs").
    */
   arrange(): void {
     const { count, slots } = this;
-    const boxes = this.#boxes, box = this.#box;
+    const boxes = this.#boxes,
+      box = this.#box;
     box.fill(Infinity, 0, 3);
     box.fill(-Infinity, 3);
     for (let i = 0; i < count; i++) {
@@ -181,7 +214,9 @@ class NodeMaker {
     slots.fill(-1);
     let placed = 0;
     for (let round = 0; round < count; round++) {
-      let best = -Infinity, bestChild = 0, bestSlot = 0;
+      let best = -Infinity,
+        bestChild = 0,
+        bestSlot = 0;
       for (let i = 0; i < count; i++) {
         if ((placed >> i) & 1) continue;
         const x = (boxes[6 * i] as number) + (boxes[6 * i + 3] as number) - (box[0] as number) - (box[3] as number);
@@ -205,12 +240,14 @@ class NodeMaker {
   /** Writes the node. */
   write(nodes: Uint32Array, node: number, firstNode: number, firstPrimitive: number): void {
     const at = node * WIDE_WORDS;
-    const boxes = this.#boxes, box = this.#box;
+    const boxes = this.#boxes,
+      box = this.#box;
     nodes.fill(0, at, at + WIDE_WORDS);
     nodes[at + 4] = firstNode;
     nodes[at + 5] = firstPrimitive;
     if (this.count === 0) return;
-    const put = (byte: number, value: number) => (nodes[at + (byte >> 2)] = (nodes[at + (byte >> 2)] as number) | (value << (8 * (byte & 3))));
+    const put = (byte: number, value: number) =>
+      (nodes[at + (byte >> 2)] = (nodes[at + (byte >> 2)] as number) | (value << (8 * (byte & 3))));
     let primitives = 0;
     for (let slot = 0; slot < WIDTH; slot++) {
       const child = this.slots[slot] as number;
@@ -237,8 +274,10 @@ class NodeMaker {
       for (let slot = 0; slot < WIDTH; slot++) {
         const child = this.slots[slot] as number;
         if (child < 0) continue;
-        const from = boxes[6 * child + k] as number, to = boxes[6 * child + 3 + k] as number;
-        let a = Math.floor((from - low) / step), b = Math.ceil((to - low) / step);
+        const from = boxes[6 * child + k] as number,
+          to = boxes[6 * child + 3 + k] as number;
+        let a = Math.floor((from - low) / step),
+          b = Math.ceil((to - low) / step);
         // What rounding may have taken off.
         if (low + a * step > from) a--;
         if (low + b * step < to) b++;

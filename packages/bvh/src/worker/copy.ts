@@ -18,10 +18,12 @@ const SLICE_MS = 4;
 const LITTLE = 1 << 18;
 
 /** Room for a copy in memory of its own. */
-export const roomFor = <T extends Numbers>(array: T): T => new (array.constructor as new (length: number) => T)(array.length);
+export const roomFor = <T extends Numbers>(array: T): T =>
+  new (array.constructor as new (length: number) => T)(array.length);
 
 /**
- * Copies arrays: at once if they are small, otherwise with the thread handed back in between, for 20 MB take ten milliseconds.
+ * Copies arrays: at once if they are small, otherwise with the thread handed back in between, for 20 MB take ten
+ * milliseconds.
  *
  * @param told Hears after each piece how many entries are there, of all arrays one after the other.
  * @returns A promise where it takes longer than this call.

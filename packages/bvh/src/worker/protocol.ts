@@ -15,7 +15,14 @@ export function sendableOptions({ builder, ...others }: BlasOptions): SentOption
 export type BuildRequest =
   | { readonly kind: 'build'; readonly id: number; readonly mesh: TriangleMesh; readonly options: SentOptions }
   /** One of two that build together; the mesh is in memory that both see. */
-  | { readonly kind: 'together'; readonly id: number; readonly mesh: TriangleMesh; readonly options: SentOptions; readonly index: number; readonly memory: TeamMemory }
+  | {
+      readonly kind: 'together';
+      readonly id: number;
+      readonly mesh: TriangleMesh;
+      readonly options: SentOptions;
+      readonly index: number;
+      readonly memory: TeamMemory;
+    }
   | { readonly kind: 'warm-up' };
 
 /** From a worker. `ready` comes once, first of all. */
@@ -42,7 +49,9 @@ export function sendableError(error: unknown): SentError {
 }
 
 export function receivedError({ code, message }: SentError): BvhError {
-  return code === undefined ? new BvhError('bvh/worker', `A build failed in its worker: ${message}`) : new BvhError(code, message);
+  return code === undefined
+    ? new BvhError('bvh/worker', `A build failed in its worker: ${message}`)
+    : new BvhError(code, message);
 }
 
 /** The buffers behind some arrays, each once, without shared ones. */

@@ -1,7 +1,10 @@
 import type { Job } from './here';
 import type { WorkerLine } from './line';
 
-/** Where there is no more to build than so many triangles, one worker does it all: others would compile their code anew for it. */
+/**
+ * Where there is no more to build than so many triangles, one worker does it all: others would compile their code anew
+ * for it.
+ */
 const SHARE = 48_000;
 
 /** A place in the pool for one worker after another. */

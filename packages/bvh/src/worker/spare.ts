@@ -1,4 +1,6 @@
-/** So long after it was left memory is held for the next build; garbage collectors take it between any two otherwise. */
+/**
+ * So long after it was left memory is held for the next build; garbage collectors take it between any two otherwise.
+ */
 export const HOLD_MS = 1000;
 
 /** What one build leaves to the next: held for a second, afterwards for as long as nobody wants the memory. */

@@ -6,8 +6,9 @@ import type { Copy } from './copy';
 const REPORT = 16;
 
 /**
- * Words that are for all to see: who has come to the meeting point, how many meetings there were, whether one has given up,
- * what is published, how much of the mesh is copied; then the counters, an even number of words on, as doubles follow them.
+ * Words that are for all to see: who has come to the meeting point, how many meetings there were, whether one has given
+ * up, what is published, how much of the mesh is copied; then the counters, an even number of words on, as doubles
+ * follow them.
  */
 const [COME, MEETINGS, LEFT_ALONE, PUBLISHED, COPIED, COUNTERS] = [0, 1, 2, 3, 4, 6];
 /** Counters that {@link Team.take} may be asked for. */
@@ -35,19 +36,28 @@ const arrayBytes = (triangles: number) => 140 * triangles + (1 << 16);
 const nodeBytes = (triangles: number) => 64 * triangles;
 
 /** Shared memory of at least so many bytes: that one, if it is not much too large. */
-const room = (bytes: number, spare?: SharedArrayBuffer) => (spare && spare.byteLength >= bytes && spare.byteLength <= SLACK * bytes ? spare : new SharedArrayBuffer(bytes));
+const room = (bytes: number, spare?: SharedArrayBuffer) =>
+  spare && spare.byteLength >= bytes && spare.byteLength <= SLACK * bytes ? spare : new SharedArrayBuffer(bytes);
 
 /**
  * What two workers share for a mesh of so many triangles, and the mesh as both see it; the arrays that
  * are not shared are still to be copied, which they may be while both are at it: see {@link tellCopied}.
  *
- * @param spare What an earlier build has left, if both have left it: fresh memory costs a fifth of a build. It is not cleared.
+ * @param spare What an earlier build has left, if both have left it: fresh memory costs a fifth of a build. It is not
+ * cleared.
  * @throws {RangeError} where there is not so much memory.
  * @throws {TypeError} for arrays that were given away.
  */
-export function teamMemory(mesh: TriangleMesh, triangles: number, spare?: TeamMemory): { readonly memory: TeamMemory; readonly mesh: TriangleMesh; readonly copies: readonly Copy[] } {
+export function teamMemory(
+  mesh: TriangleMesh,
+  triangles: number,
+  spare?: TeamMemory,
+): { readonly memory: TeamMemory; readonly mesh: TriangleMesh; readonly copies: readonly Copy[] } {
   const { positions, indices } = mesh;
-  const copied = [positions, indices].reduce((bytes, array) => bytes + (array?.buffer instanceof ArrayBuffer ? array.byteLength : 0), 0);
+  const copied = [positions, indices].reduce(
+    (bytes, array) => bytes + (array?.buffer instanceof ArrayBuffer ? array.byteLength : 0),
+    0,
+  );
   const memory: TeamMemory = {
     control: new SharedArrayBuffer(BYTES + 4 * 8 * REPORT),
     arrays: room(arrayBytes(triangles), spare?.arrays),
@@ -59,7 +69,11 @@ export function teamMemory(mesh: TriangleMesh, triangles: number, spare?: TeamMe
   const copies: Copy[] = [];
   const shared = <T extends Float32Array | Uint32Array | Uint16Array>(array: T): T => {
     if (!(array.buffer instanceof ArrayBuffer) || !memory.mesh) return array;
-    const to = new (array.constructor as new (buffer: SharedArrayBuffer, offset: number, length: number) => T)(memory.mesh, offset, array.length);
+    const to = new (array.constructor as new (buffer: SharedArrayBuffer, offset: number, length: number) => T)(
+      memory.mesh,
+      offset,
+      array.length,
+    );
     // Throws where it was given away, for it looks like an empty one then.
     copies.push({ from: array.subarray() as T, to });
     offset += array.byteLength;
@@ -118,7 +132,11 @@ export class Team {
 
   uint32(length: number): Uint32Array<ArrayBuffer> {
     // Everywhere but here arrays lie over memory of their own.
-    return new Uint32Array(this.memory.arrays, this.#block(4 * length), length) as Uint32Array as Uint32Array<ArrayBuffer>;
+    return new Uint32Array(
+      this.memory.arrays,
+      this.#block(4 * length),
+      length,
+    ) as Uint32Array as Uint32Array<ArrayBuffer>;
   }
 
   int32(length: number): Int32Array<ArrayBuffer> {
@@ -126,7 +144,11 @@ export class Team {
   }
 
   float32(length: number): Float32Array<ArrayBuffer> {
-    return new Float32Array(this.memory.arrays, this.#block(4 * length), length) as Float32Array as Float32Array<ArrayBuffer>;
+    return new Float32Array(
+      this.memory.arrays,
+      this.#block(4 * length),
+      length,
+    ) as Float32Array as Float32Array<ArrayBuffer>;
   }
 
   /** Waits for the other one, and gives what both have to say, the first one's words first. */
@@ -142,7 +164,10 @@ export class Team {
       Atomics.notify(control, MEETINGS);
     } else this.#wait(MEETINGS, meeting + 1);
     this.#throwIfLeft();
-    return [0, 1].map((index) => this.#reports.slice((first + index) * REPORT, (first + index + 1) * REPORT)) as [Float64Array, Float64Array];
+    return [0, 1].map((index) => this.#reports.slice((first + index) * REPORT, (first + index + 1) * REPORT)) as [
+      Float64Array,
+      Float64Array,
+    ];
   }
 
   /** Tells the other one, who may ask for it at any time, that something is ready. */
@@ -173,10 +198,18 @@ export class Team {
     release(this.memory);
   }
 
-  /** Waits until a word is at least that, or nobody will change it: the other one may have given up before this one came. */
+  /**
+   * Waits until a word is at least that, or nobody will change it: the other one may have given up before this one
+   * came.
+   */
   #wait(word: number, least: number): void {
     const control = this.#control;
-    for (let now = Atomics.load(control, word); now < least && Atomics.load(control, LEFT_ALONE) === 0; now = Atomics.load(control, word)) Atomics.wait(control, word, now);
+    for (
+      let now = Atomics.load(control, word);
+      now < least && Atomics.load(control, LEFT_ALONE) === 0;
+      now = Atomics.load(control, word)
+    )
+      Atomics.wait(control, word, now);
   }
 
   #throwIfLeft(): void {

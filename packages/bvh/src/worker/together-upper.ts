@@ -18,9 +18,18 @@ const SHARES = 24;
  * @param meanwhile What the first does before it helps.
  * @returns What that gave; undefined to the second.
  */
-export function shareLevels<T>(upper: NodeWriter, clusters: Clusters, maxDepth: number, bins: number, team: Team, meanwhile: () => T): T | undefined {
+export function shareLevels<T>(
+  upper: NodeWriter,
+  clusters: Clusters,
+  maxDepth: number,
+  bins: number,
+  team: Team,
+  meanwhile: () => T,
+): T | undefined {
   const { count } = clusters;
-  const order = team.uint32(count), words = team.int32(4 * count), shares = team.int32((TASK + 1) * SHARES + 1);
+  const order = team.uint32(count),
+    words = team.int32(4 * count),
+    shares = team.int32((TASK + 1) * SHARES + 1);
   const levelsOver = (items: Items) => new Levels(upper, items, maxDepth, bins, order, words);
   let levels: Levels;
   let result: T | undefined;
@@ -38,7 +47,10 @@ export function shareLevels<T>(upper: NodeWriter, clusters: Clusters, maxDepth: 
     team.published();
   }
   for (let share = team.take(3); share < (shares[0] as number); share = team.take(3)) {
-    const [node, ...task] = shares.subarray((TASK + 1) * share + 1, (TASK + 1) * (share + 1) + 1) as unknown as number[];
+    const [node, ...task] = shares.subarray(
+      (TASK + 1) * share + 1,
+      (TASK + 1) * (share + 1) + 1,
+    ) as unknown as number[];
     levels.tasks.push(...task);
     upper.count = node as number;
     while (levels.step(Infinity));
@@ -62,20 +74,27 @@ function cutShares(levels: Levels, upper: NodeWriter, shares: Int32Array): numbe
   const pending: { task: number[]; node: number }[] = [{ task: tasks.splice(0), node: 0 }];
   const tops: number[] = [];
   while (pending.length < SHARES) {
-    const largest = pending.reduce((best, { task }, i) => (size(task) > size((pending[best] as (typeof pending)[0]).task) ? i : best), 0);
+    const largest = pending.reduce(
+      (best, { task }, i) => (size(task) > size((pending[best] as (typeof pending)[0]).task) ? i : best),
+      0,
+    );
     const { task, node } = pending[largest] as (typeof pending)[0];
     if (size(task) <= GROUP_MAX) break;
     tasks.push(...task);
     upper.count = node;
     tops.push(node);
     levels.step(1);
-    const right = tasks.splice(0, TASK), left = tasks.splice(0);
+    const right = tasks.splice(0, TASK),
+      left = tasks.splice(0);
     // Depth first: all the nodes of the left side come before the right one's.
     pending.splice(largest, 1, { task: left, node: node + 1 }, { task: right, node: node + size(left) });
   }
   pending.sort((a, b) => size(b.task) - size(a.task));
   shares[0] = pending.length;
-  shares.set(pending.flatMap(({ task, node }) => [node, ...task]), 1);
+  shares.set(
+    pending.flatMap(({ task, node }) => [node, ...task]),
+    1,
+  );
   return tops.sort((a, b) => b - a);
 }
 
@@ -92,12 +111,13 @@ function backwards(words: Uint32Array, order: Uint32Array): void {
 }
 
 /**
- * The rotations of `rotate`, with the same outcome: any order with children before their parents leads to it, at first that
- * in which nodes were written, the last one first. The second does the last half of the nodes, which hang on nothing that
- * comes before; the first does the other half, but for those that hang on the last one: these wait.
+ * The rotations of `rotate`, with the same outcome: any order with children before their parents leads to it, at first
+ * that in which nodes were written, the last one first. The second does the last half of the nodes, which hang on
+ * nothing that comes before; the first does the other half, but for those that hang on the last one: these wait.
  */
 export function shareRotations({ nodes, words, count }: NodeWriter, team: Team): void {
-  const order = new Uint32Array(count).map((_, i) => count - 1 - i), middle = count >>> 1;
+  const order = new Uint32Array(count).map((_, i) => count - 1 - i),
+    middle = count >>> 1;
   /** Whether a node is one of the first half and hangs on none of the last one. */
   const free = new Uint8Array(count);
   for (let pass = 0; pass < PASSES; pass++) {
@@ -109,7 +129,9 @@ export function shareRotations({ nodes, words, count }: NodeWriter, team: Team):
     else {
       free.fill(0);
       for (let i = middle; i < count; i++) {
-        const node = order[i] as number, left = words[node * NODE_WORDS + LEFT] as number, right = words[node * NODE_WORDS + RIGHT] as number;
+        const node = order[i] as number,
+          left = words[node * NODE_WORDS + LEFT] as number,
+          right = words[node * NODE_WORDS + RIGHT] as number;
         if ((left < LEAF && free[left] === 0) || (right < LEAF && free[right] === 0)) waiting.push(node);
         else {
           free[node] = 1;

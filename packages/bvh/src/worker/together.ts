@@ -24,7 +24,12 @@ function finish<T>(steps: Steps<T>): T {
  * @returns The tree, to the first; undefined to the second.
  * @throws {BvhError} as `buildBlas`; `bvh/worker` where the other one has given up.
  */
-export function buildTogether(mesh: TriangleMesh, count: number, settings: BuildSettings, team: Team): TriangleTree | undefined {
+export function buildTogether(
+  mesh: TriangleMesh,
+  count: number,
+  settings: BuildSettings,
+  team: Team,
+): TriangleTree | undefined {
   const { maxLeaf, bins } = settings;
   const pairs = maxLeaf > 1;
   const parts = sharePrimitives(mesh, count, pairs, team);
@@ -37,7 +42,10 @@ export function buildTogether(mesh: TriangleMesh, count: number, settings: Build
   const depth = BLAS_MAX_DEPTH - CLUSTER_DEPTH;
   const upper = writerOver(team.memory.upper, clusters.count);
   // What is handed out lies in memory of its own, and fresh memory costs more than the copying.
-  const own = shareLevels(upper, clusters, depth, bins, team, () => ({ writer: placeInsides(inner), triangleIndices: inner.leaves.slice() }));
+  const own = shareLevels(upper, clusters, depth, bins, team, () => ({
+    writer: placeInsides(inner),
+    triangleIndices: inner.leaves.slice(),
+  }));
   shareRotations(upper, team);
   if (!own) return undefined;
   const { writer, triangleIndices } = own;

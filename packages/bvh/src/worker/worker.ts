@@ -12,7 +12,10 @@ import { buildTogether } from './together';
 
 export type { WorkerPort } from './port';
 
-/** Builds to warm up with, and quads along an edge of the mesh: the optimising compilers have had all they need after about a tenth of a second. */
+/**
+ * Builds to warm up with, and quads along an edge of the mesh: the optimising compilers have had all they need after
+ * about a tenth of a second.
+ */
 const WARM_BUILDS = 24;
 const WARM_EDGE = 40;
 /** As many as these builds have together: what has been asked for meanwhile may make them needless. */
@@ -41,7 +44,12 @@ function receivedOptions({ builder, ...others }: SentOptions): BlasOptions {
 }
 
 /** In place of a tree that the other worker has. */
-const nothing = (): TriangleTree => ({ nodes: new Float32Array(0), nodeCount: 0, triangleIndices: new Uint32Array(0), bounds: new Float64Array(6) });
+const nothing = (): TriangleTree => ({
+  nodes: new Float32Array(0),
+  nodeCount: 0,
+  triangleIndices: new Uint32Array(0),
+  bounds: new Float64Array(6),
+});
 
 /**
  * Answers build requests of a `BvhWorkers` pool. This module does so by itself where it is loaded as a worker and
@@ -50,8 +58,8 @@ const nothing = (): TriangleTree => ({ nodes: new Float32Array(0), nodeCount: 0,
  * @param port What the worker hears and says.
  */
 export function serveBuilds(port: WorkerPort): void {
-  // Engines take it that no buffer is ever detached when they compile what goes over typed arrays, and throw all of that away
-  // when one is, as the first answer's would be. Thus one is now, while nothing is compiled yet.
+  // Engines take it that no buffer is ever detached when they compile what goes over typed arrays, and throw all of
+  // that away when one is, as the first answer's would be. Thus one is now, while nothing is compiled yet.
   const gone = new ArrayBuffer(8);
   structuredClone(gone, { transfer: [gone] });
   const say = (reply: BuildReply, transfer?: readonly ArrayBuffer[]) => port.post(reply, transfer);

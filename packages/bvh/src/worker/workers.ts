@@ -18,7 +18,10 @@ const WARM_AT_ONCE = 2;
 /** Small builds are sent ahead until a worker has so many triangles to do: it should not wait for the next message. */
 const AHEAD = 16_384;
 
-/** A mesh of so many triangles is built by two workers together where nothing else waits for them and they can share memory. */
+/**
+ * A mesh of so many triangles is built by two workers together where nothing else waits for them and they can share
+ * memory.
+ */
 const TOGETHER = 200_000;
 
 /** On machines of so many threads a second one for the same mesh takes nothing from anybody. */
@@ -61,21 +64,35 @@ export class BvhWorkers {
   #giving = false;
   #destroyed = false;
 
-  private constructor(count: number, { createWorker = startWorker, warmUp = false, together = hardwareThreads() >= SPARE_THREADS }: BvhWorkersOptions) {
+  private constructor(
+    count: number,
+    { createWorker = startWorker, warmUp = false, together = hardwareThreads() >= SPARE_THREADS }: BvhWorkersOptions,
+  ) {
     this.#together = together;
     this.#createWorker = createWorker;
     this.#warmUp = warmUp;
-    this.#seats = new Set(Array.from({ length: count }, () => ({ line: undefined, ready: false, timer: undefined, jobs: new Map<number, Job>(), load: 0, warmth: 'cold' })));
+    this.#seats = new Set(
+      Array.from({ length: count }, () => ({
+        line: undefined,
+        ready: false,
+        timer: undefined,
+        jobs: new Map<number, Job>(),
+        load: 0,
+        warmth: 'cold',
+      })),
+    );
   }
 
   /**
-   * Starts the workers. Resolves as soon as one is ready, or with {@link fallback} set if none can be had; that is no error.
+   * Starts the workers. Resolves as soon as one is ready, or with {@link fallback} set if none can be had; that is no
+   * error.
    *
    * @throws {BvhError} `bvh/options` for a count that is not a whole number from 1 on.
    */
   static async create(options: BvhWorkersOptions = {}): Promise<BvhWorkers> {
     const count = options.count ?? Math.max(1, Math.min(8, hardwareThreads()));
-    if (!(Number.isInteger(count) && count >= 1)) throw new BvhError('bvh/options', `count is ${count}; it must be a whole number from 1 on.`);
+    if (!(Number.isInteger(count) && count >= 1))
+      throw new BvhError('bvh/options', `count is ${count}; it must be a whole number from 1 on.`);
     const workers = new BvhWorkers(count, options);
     await Promise.any([...workers.#seats].map((seat) => workers.#start(seat))).catch(() => undefined);
     return workers;
@@ -92,11 +109,12 @@ export class BvhWorkers {
   }
 
   /**
-   * Builds the hierarchy of a mesh: the same as `buildBlas(mesh, options)`, bit for bit. Builds are taken up in the order
-   * of the calls. The mesh is read when its build is taken up, so it must stay as it is until the promise settles.
+   * Builds the hierarchy of a mesh: the same as `buildBlas(mesh, options)`, bit for bit. Builds are taken up in the
+   * order of the calls. The mesh is read when its build is taken up, so it must stay as it is until the promise
+   * settles.
    *
-   * @throws {BvhError} as `buildBlas` does; `bvh/worker` if the worker ends under the build, for want of memory perhaps;
-   * `bvh/destroyed` after or during {@link destroy}.
+   * @throws {BvhError} as `buildBlas` does; `bvh/worker` if the worker ends under the build, for want of memory
+   * perhaps; `bvh/destroyed` after or during {@link destroy}.
    * @throws the signal's reason when aborted.
    */
   buildBlas(mesh: TriangleMesh, options: WorkerBuildOptions = {}): Promise<Blas> {
@@ -229,7 +247,13 @@ export class BvhWorkers {
       other.line?.terminate();
       this.#restart(other);
     }
-    for (const job of lost) job.settle({ error: new BvhError('bvh/worker', `A worker ended during a build (${why}); the mesh may need more memory than there is.`) });
+    for (const job of lost)
+      job.settle({
+        error: new BvhError(
+          'bvh/worker',
+          `A worker ended during a build (${why}); the mesh may need more memory than there is.`,
+        ),
+      });
   }
 
   #answered(seat: Seat, reply: Exclude<BuildReply, { kind: 'ready' | 'warmed' }>): void {
@@ -295,11 +319,13 @@ export class BvhWorkers {
     const seats = seatsWorth(this.#seats, this.#burst);
     for (;;) {
       let free: Seat | undefined;
-      for (const seat of seats) if ((seat.jobs.size === 0 || seat.load < AHEAD) && seat.load < (free?.load ?? Infinity)) free = seat;
+      for (const seat of seats)
+        if ((seat.jobs.size === 0 || seat.load < AHEAD) && seat.load < (free?.load ?? Infinity)) free = seat;
       const job = free && this.#queue.shift();
       if (!free || !job) return;
       const idle = seats.filter(({ jobs }) => jobs.size === 0);
-      if (this.#together && idle.length >= 2 && this.#queue.length === 0 && canShare(job)) this.#sendTogether(idle.slice(0, 2), job);
+      if (this.#together && idle.length >= 2 && this.#queue.length === 0 && canShare(job))
+        this.#sendTogether(idle.slice(0, 2), job);
       else this.#send(free, job);
     }
   }
@@ -309,7 +335,8 @@ export class BvhWorkers {
     const { positions, indices } = job.mesh;
     const copies: Copy[] = [];
     const sent = <T extends Float32Array | Uint32Array | Uint16Array>(from: T): T => {
-      if (!(from.buffer instanceof ArrayBuffer) || (transfer && from.byteLength === from.buffer.byteLength)) return from;
+      if (!(from.buffer instanceof ArrayBuffer) || (transfer && from.byteLength === from.buffer.byteLength))
+        return from;
       const to = roomFor(from);
       copies.push({ from, to });
       return to;
@@ -329,10 +356,19 @@ export class BvhWorkers {
     this.#occupy(seat, job);
     attempt(() => {
       const mesh = { positions: sent(positions), indices: indices && sent(indices) };
-      const go = () => waiting() && this.#post(seat, { kind: 'build', id, mesh, options: sendableOptions(options) }, buffersOf(mesh.positions, mesh.indices));
+      const go = () =>
+        waiting() &&
+        this.#post(
+          seat,
+          { kind: 'build', id, mesh, options: sendableOptions(options) },
+          buffersOf(mesh.positions, mesh.indices),
+        );
       const copied = copyAll(copies);
       if (!copied) return go();
-      const fail = (error: unknown) => attempt(() => { throw error; });
+      const fail = (error: unknown) =>
+        attempt(() => {
+          throw error;
+        });
       void copied.then(() => attempt(go), fail).then(() => this.#next());
     });
   }
@@ -346,7 +382,9 @@ export class BvhWorkers {
       team = teamMemory(job.mesh, job.triangles, this.#spare.take());
       const { memory, mesh } = team;
       this.#teams.set(id, { memory, half: false });
-      seats.forEach((seat, index) => this.#post(seat, { kind: 'together', id, mesh, options: sendableOptions(options), index, memory }, []));
+      seats.forEach((seat, index) =>
+        this.#post(seat, { kind: 'together', id, mesh, options: sendableOptions(options), index, memory }, []),
+      );
     } catch {
       // No memory of that kind or not enough: one worker will do. Where the mesh is at fault, it will tell.
       this.#teams.delete(id);
@@ -383,6 +421,11 @@ export class BvhWorkers {
 }
 
 /** Whether two workers may build it: memory can be shared, it is large, and it is not to be handed over. */
-const canShare = ({ triangles, transfer, options: { builder } }: Job) => typeof SharedArrayBuffer === 'function' && triangles >= TOGETHER && !transfer && (builder === undefined || builder === 'balanced');
+const canShare = ({ triangles, transfer, options: { builder } }: Job) =>
+  typeof SharedArrayBuffer === 'function' &&
+  triangles >= TOGETHER &&
+  !transfer &&
+  (builder === undefined || builder === 'balanced');
 
-const destroyed = () => new BvhError('bvh/destroyed', 'The workers were destroyed: create them anew for further builds.');
+const destroyed = () =>
+  new BvhError('bvh/destroyed', 'The workers were destroyed: create them anew for further builds.');

@@ -43,7 +43,8 @@ const fill = (group: Agglomerator, count: number, random: () => number, size = 0
 
 for (const seed of [1, 2, 3]) {
   test(`makes trees of any number of boxes, within the height allowed (seed ${seed})`, () => {
-    const random = randomNumbers(seed), group = new Agglomerator(0);
+    const random = randomNumbers(seed),
+      group = new Agglomerator(0);
     for (let count = 1; count <= GROUP_MAX; count++) {
       fill(group, count, random);
       const least = Math.ceil(Math.log2(count));
@@ -56,18 +57,24 @@ for (const seed of [1, 2, 3]) {
 }
 
 test('is as good as merging the two nearest boxes over and over, in double precision (seed 4)', () => {
-  const random = randomNumbers(4), group = new Agglomerator(0);
-  let ours = 0, greedy = 0;
+  const random = randomNumbers(4),
+    group = new Agglomerator(0);
+  let ours = 0,
+    greedy = 0;
   for (let round = 0; round < 100; round++) {
     fill(group, 16, random);
     let list = Array.from({ length: 16 }, (_, i) => [...group.boxes.subarray(6 * i, 6 * i + 6)]);
     const union = (a: number[], b: number[]) => a.map((x, k) => (k < 3 ? Math.min(x, b[k]!) : Math.max(x, b[k]!)));
-    const area = ([a, b, c, x, y, z]: number[]) => (x! - a!) * (y! - b!) + (y! - b!) * (z! - c!) + (z! - c!) * (x! - a!);
+    const area = ([a, b, c, x, y, z]: number[]) =>
+      (x! - a!) * (y! - b!) + (y! - b!) * (z! - c!) + (z! - c!) * (x! - a!);
     while (list.length > 1) {
-      let best = Infinity, pair = [0, 1];
-      list.forEach((a, i) => list.forEach((b, j) => {
-        if (i < j && area(union(a, b)) < best) [best, pair] = [area(union(a, b)), [i, j]];
-      }));
+      let best = Infinity,
+        pair = [0, 1];
+      list.forEach((a, i) =>
+        list.forEach((b, j) => {
+          if (i < j && area(union(a, b)) < best) [best, pair] = [area(union(a, b)), [i, j]];
+        }),
+      );
       greedy += best;
       list = [...list.filter((_, i) => !pair.includes(i)), union(list[pair[0]!]!, list[pair[1]!]!)];
     }

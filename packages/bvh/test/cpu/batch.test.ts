@@ -8,7 +8,15 @@ function someRays(count: number, random: () => number): Float64Array {
   const rays = new Float64Array(8 * count);
   for (let i = 0; i < count; i++) {
     const origin = direction(random).map((x) => 3 * x);
-    rays.set([...origin, i % 3 === 0 ? random() : 0, ...origin.map((x) => (random() - 0.5 - x) * 0.7), i % 4 === 0 ? 1 + random() : 1e30], 8 * i);
+    rays.set(
+      [
+        ...origin,
+        i % 3 === 0 ? random() : 0,
+        ...origin.map((x) => (random() - 0.5 - x) * 0.7),
+        i % 4 === 0 ? 1 + random() : 1e30,
+      ],
+      8 * i,
+    );
   }
   return rays;
 }
@@ -19,13 +27,24 @@ for (const seed of [201, 202]) {
     const mesh = strewn(300, 0.5, random);
     const blas = buildBlas(mesh);
     const rays = someRays(500, random);
-    const out = { t: new Float64Array(501).fill(7), u: new Float64Array(500), v: new Float64Array(500), triangle: new Int32Array(500) };
+    const out = {
+      t: new Float64Array(501).fill(7),
+      u: new Float64Array(500),
+      v: new Float64Array(500),
+      triangle: new Int32Array(500),
+    };
     const any = new Uint8Array(500).fill(9);
     closestHitBatch(blas, mesh, rays, out);
     anyHitBatch(blas, mesh, rays, any);
     let hits = 0;
     for (let i = 0; i < 500; i++) {
-      const [nearest] = bruteForceAll(mesh, rays.subarray(8 * i, 8 * i + 3), rays.subarray(8 * i + 4, 8 * i + 7), rays[8 * i + 3], rays[8 * i + 7]).sort((a, b) => a.t - b.t);
+      const [nearest] = bruteForceAll(
+        mesh,
+        rays.subarray(8 * i, 8 * i + 3),
+        rays.subarray(8 * i + 4, 8 * i + 7),
+        rays[8 * i + 3],
+        rays[8 * i + 7],
+      ).sort((a, b) => a.t - b.t);
       expect(out.triangle[i]).toBe(nearest?.triangle ?? -1);
       expect(any[i]).toBe(nearest ? 1 : 0);
       if (!nearest) {
@@ -55,8 +74,18 @@ test('many rays through instances: the same as one at a time (seed 203)', () => 
   anyHitBatchInstances(tlas, placed, rays, any);
   const seen = new Set<number>();
   for (let i = 0; i < 400; i++) {
-    const hit = closestHitInstances(tlas, placed, { origin: rays.subarray(8 * i, 8 * i + 3), direction: rays.subarray(8 * i + 4, 8 * i + 7), tMin: rays[8 * i + 3]!, tMax: rays[8 * i + 7]! });
-    expect([out.triangle[i], out.instance[i], out.t[i], any[i]]).toEqual([hit?.triangle ?? -1, hit?.instance ?? -1, hit?.t ?? Infinity, hit ? 1 : 0]);
+    const hit = closestHitInstances(tlas, placed, {
+      origin: rays.subarray(8 * i, 8 * i + 3),
+      direction: rays.subarray(8 * i + 4, 8 * i + 7),
+      tMin: rays[8 * i + 3]!,
+      tMax: rays[8 * i + 7]!,
+    });
+    expect([out.triangle[i], out.instance[i], out.t[i], any[i]]).toEqual([
+      hit?.triangle ?? -1,
+      hit?.instance ?? -1,
+      hit?.t ?? Infinity,
+      hit ? 1 : 0,
+    ]);
     seen.add(out.instance[i]!);
   }
   expect(seen.size).toBeGreaterThan(10);
@@ -65,7 +94,8 @@ test('many rays through instances: the same as one at a time (seed 203)', () => 
 test('nothing is kept of the ray before, nor of a query that asks further ones', () => {
   const mesh = sphere(8);
   const blas = buildBlas(mesh);
-  const hit = { origin: [0, 0, 3], direction: [0.01, 0.02, -1] }, miss = { origin: [0, 0, 3], direction: [0, 0, 1] };
+  const hit = { origin: [0, 0, 3], direction: [0.01, 0.02, -1] },
+    miss = { origin: [0, 0, 3], direction: [0, 0, 1] };
   const first = closestHit(blas, mesh, hit);
   expect(anyHit(blas, mesh, miss)).toBe(false);
   expect(closestHit(blas, mesh, hit)).toEqual(first);

@@ -1,14 +1,24 @@
 import { expect, test } from 'vitest';
-import { closestPoint, closestPointBatch, closestPointBatchInstances, closestPointInstances } from '../../src/cpu/distance';
+import {
+  closestPoint,
+  closestPointBatch,
+  closestPointBatchInstances,
+  closestPointInstances,
+} from '../../src/cpu/distance';
 import { buildBlas, buildTlas, BvhError, type TriangleMesh } from '../../src/index';
 import { affine, baked, randomNumbers, sphere, strewn } from '../shapes';
 import { cornersOf, distanceTo } from './brute-shapes';
 
 /** Checks that a found point is on its triangle, at the distance said. */
-function checkFound(mesh: TriangleMesh, p: readonly number[], found: { distance: number; point: readonly number[]; triangle: number; u: number; v: number }): void {
+function checkFound(
+  mesh: TriangleMesh,
+  p: readonly number[],
+  found: { distance: number; point: readonly number[]; triangle: number; u: number; v: number },
+): void {
   const [a, b, c] = cornersOf(mesh)[found.triangle]!;
   expect(Math.min(found.u, found.v, 1 - found.u - found.v)).toBeGreaterThanOrEqual(-1e-12);
-  for (let k = 0; k < 3; k++) expect((1 - found.u - found.v) * a[k]! + found.u * b[k]! + found.v * c[k]!).toBeCloseTo(found.point[k]!, 10);
+  for (let k = 0; k < 3; k++)
+    expect((1 - found.u - found.v) * a[k]! + found.u * b[k]! + found.v * c[k]!).toBeCloseTo(found.point[k]!, 10);
   expect(Math.hypot(...found.point.map((x, k) => x - p[k]!))).toBeCloseTo(found.distance, 10);
 }
 
@@ -18,9 +28,16 @@ for (const seed of [221, 222, 223]) {
     const mesh = strewn(300, [0.05, 0.4, 2][seed % 3]!, random);
     const blas = buildBlas(mesh);
     const corners = cornersOf(mesh);
-    const count = 200, maxDistance = 0.3;
+    const count = 200,
+      maxDistance = 0.3;
     const points = Float64Array.from({ length: 3 * count }, () => 4 * random() - 2);
-    const out = { distance: new Float64Array(count), triangle: new Int32Array(count), point: new Float64Array(3 * count), u: new Float64Array(count), v: new Float64Array(count) };
+    const out = {
+      distance: new Float64Array(count),
+      triangle: new Int32Array(count),
+      point: new Float64Array(3 * count),
+      u: new Float64Array(count),
+      v: new Float64Array(count),
+    };
     closestPointBatch(blas, mesh, points, out, { maxDistance });
     let within = 0;
     for (let i = 0; i < count; i++) {
@@ -31,7 +48,9 @@ for (const seed of [221, 222, 223]) {
       checkFound(mesh, p, found);
       if (expected < maxDistance) {
         within++;
-        expect([out.distance[i], out.triangle[i], out.u[i], out.v[i], ...out.point.subarray(3 * i, 3 * i + 3)]).toEqual([found.distance, found.triangle, found.u, found.v, ...found.point]);
+        expect([out.distance[i], out.triangle[i], out.u[i], out.v[i], ...out.point.subarray(3 * i, 3 * i + 3)]).toEqual(
+          [found.distance, found.triangle, found.u, found.v, ...found.point],
+        );
       } else {
         expect([out.distance[i], out.triangle[i]]).toEqual([Infinity, -1]);
         expect(closestPoint(blas, mesh, p, { maxDistance })).toBeUndefined();
@@ -105,5 +124,7 @@ test('on the mesh, in an empty tree, with wrong arrays', () => {
   const distance = new Float32Array(2);
   expect(() => closestPointBatch(blas, mesh, new Float32Array(7), { distance })).toThrow(BvhError);
   expect(() => closestPointBatch(blas, mesh, new Float32Array(9), { distance })).toThrow(/distance has 2/);
-  expect(() => closestPointBatch(blas, mesh, new Float32Array(6), { distance, point: new Float32Array(5) })).toThrow(/point has 5 entries; 2 points need 6/);
+  expect(() => closestPointBatch(blas, mesh, new Float32Array(6), { distance, point: new Float32Array(5) })).toThrow(
+    /point has 5 entries; 2 points need 6/,
+  );
 });

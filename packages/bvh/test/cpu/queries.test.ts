@@ -58,7 +58,11 @@ test('instances: transforms with shear and mirrors agree with brute force on tra
 
 test('no ray from inside a closed mesh gets out, through vertices and edges neither (seed 46)', () => {
   const random = randomNumbers(46);
-  for (const [radius, center] of [[1, [0, 0, 0]], [0.001, [5, 3, 1]], [10000, [20000, 0, 0]]] as const) {
+  for (const [radius, center] of [
+    [1, [0, 0, 0]],
+    [0.001, [5, 3, 1]],
+    [10000, [20000, 0, 0]],
+  ] as const) {
     const mesh = sphere(32, radius, center);
     const blas = buildBlas(mesh);
     const { positions: p, indices } = mesh;
@@ -77,20 +81,31 @@ test('no ray from inside a closed mesh gets out, through vertices and edges neit
 test('axis-aligned rays along the faces of boxes are safe', () => {
   const mesh = sphere(16);
   const blas = buildBlas(mesh);
-  for (const direction of [[1, 0, 0], [0, -1, 0], [0, 0, 1], [-1, -0, 0]]) expect(closestHit(blas, mesh, { origin: [0, 0, 0], direction })?.t).toBeCloseTo(1, 1);
+  for (const direction of [
+    [1, 0, 0],
+    [0, -1, 0],
+    [0, 0, 1],
+    [-1, -0, 0],
+  ])
+    expect(closestHit(blas, mesh, { origin: [0, 0, 0], direction })?.t).toBeCloseTo(1, 1);
 });
 
 test('no ray gets between boxes that touch along an edge, aimed at it to the last bit from close to a large mesh (seed 47)', () => {
-  // Rows of quads of 1 km and more whose boxes touch in planes; rounding moves the vertices by far more than the distance
-  // of the ray's origin from the edge is known to.
+  // Rows of quads of 1 km and more whose boxes touch in planes; rounding moves the vertices by far more than the
+  // distance of the ray's origin from the edge is known to.
   const random = randomNumbers(47);
-  const side = 12, size = 1000;
-  const positions: number[] = [], indices: number[] = [];
-  for (let i = 0; i <= side; i++) for (let j = 0; j <= side; j++) positions.push((i - side / 2) * size, (j - side / 2) * size, 0);
-  for (let i = 0; i < side; i++) for (let j = 0; j < side; j++) {
-    const a = i * (side + 1) + j, b = a + side + 1;
-    indices.push(a, b, b + 1, a, b + 1, a + 1);
-  }
+  const side = 12,
+    size = 1000;
+  const positions: number[] = [],
+    indices: number[] = [];
+  for (let i = 0; i <= side; i++)
+    for (let j = 0; j <= side; j++) positions.push((i - side / 2) * size, (j - side / 2) * size, 0);
+  for (let i = 0; i < side; i++)
+    for (let j = 0; j < side; j++) {
+      const a = i * (side + 1) + j,
+        b = a + side + 1;
+      indices.push(a, b, b + 1, a, b + 1, a + 1);
+    }
   const mesh = { positions: new Float32Array(positions), indices: new Uint32Array(indices) };
   const blas = buildBlas(mesh, { maxLeafTriangles: 1 });
   for (let i = 0; i < 20000; i++) {
@@ -99,7 +114,12 @@ test('no ray gets between boxes that touch along an edge, aimed at it to the las
     const edge = [(1 + Math.floor(random() * (side - 1)) - side / 2) * size, size * side * (random() - 0.5)];
     if (i & 1) edge.reverse();
     const origin = [edge[0]! + height * (random() - 0.5), edge[1]! + height * (random() - 0.5), height];
-    expect(anyHit(blas, mesh, { origin, direction: [edge[0]! + slip() - origin[0]!, edge[1]! + slip() - origin[1]!, -height] })).toBe(true);
+    expect(
+      anyHit(blas, mesh, {
+        origin,
+        direction: [edge[0]! + slip() - origin[0]!, edge[1]! + slip() - origin[1]!, -height],
+      }),
+    ).toBe(true);
   }
 });
 
@@ -108,8 +128,16 @@ test('directions of any length and tMin below zero', () => {
   const blas = buildBlas(mesh);
   for (const length of [1e-280, 1e-30, 1, 1e30, 1e280]) {
     expect(closestHit(blas, mesh, { origin: [0, 0, 2], direction: [0, 0, -length] })!.t * length).toBeCloseTo(2, 12);
-    expect(closestHit(blas, mesh, { origin: [0, 0, -2], direction: [0.01 * length, 0, -length], tMin: -Infinity })!.t * length).toBeCloseTo(-2, 12);
+    expect(
+      closestHit(blas, mesh, { origin: [0, 0, -2], direction: [0.01 * length, 0, -length], tMin: -Infinity })!.t *
+        length,
+    ).toBeCloseTo(-2, 12);
   }
   expect(closestHit(blas, mesh, { origin: [-1, 0, -2], direction: [0, 0, -1], tMin: -5 })!.t).toBe(-2);
-  for (const bad of [{ origin: [0, 0, 2], direction: [0, 0, 0] }, { origin: [NaN, 0, 2], direction: [0, 0, -1] }, { origin: [0, 0, 2], direction: [0, NaN, -1] }]) expect(closestHit(blas, mesh, bad)).toBeUndefined();
+  for (const bad of [
+    { origin: [0, 0, 2], direction: [0, 0, 0] },
+    { origin: [NaN, 0, 2], direction: [0, 0, -1] },
+    { origin: [0, 0, 2], direction: [0, NaN, -1] },
+  ])
+    expect(closestHit(blas, mesh, bad)).toBeUndefined();
 });

@@ -18,21 +18,42 @@ let server: Server, browser: Browser, origin: string, expected: string;
 
 beforeAll(async () => {
   const bundle = async (source: { readonly contents: string } | string) =>
-    (await build({ ...(typeof source === 'string' ? { entryPoints: [source] } : { stdin: { ...source, resolveDir: here('.') } }), bundle: true, write: false, format: 'esm', conditions: ['@glanz/source'] })).outputFiles[0]!.contents;
+    (
+      await build({
+        ...(typeof source === 'string' ? { entryPoints: [source] } : { stdin: { ...source, resolveDir: here('.') } }),
+        bundle: true,
+        write: false,
+        format: 'esm',
+        conditions: ['@glanz/source'],
+      })
+    ).outputFiles[0]!.contents;
   const files = new Map<string, string | Uint8Array>([
-    ['/entry.js', await bundle({ contents: `import { BvhWorkers } from ${JSON.stringify(here('../../src/worker/workers.ts'))}; import { sphere } from ${JSON.stringify(here('../shapes.ts'))}; Object.assign(globalThis, { BvhWorkers, sphere });` })],
+    [
+      '/entry.js',
+      await bundle({
+        contents: `import { BvhWorkers } from ${JSON.stringify(here('../../src/worker/workers.ts'))}; import { sphere } from ${JSON.stringify(here('../shapes.ts'))}; Object.assign(globalThis, { BvhWorkers, sphere });`,
+      }),
+    ],
     ['/worker.js', await bundle(here('../../src/worker/worker.ts'))],
   ]);
   const page = '<!doctype html><script type="module" src="/entry.js"></script>';
   server = createServer((request, response) => {
     const path = new URL(request.url!, 'http://x').pathname;
     const body = path === '/isolated' || path === '/plain' ? page : files.get(path);
-    response.writeHead(body === undefined ? 404 : 200, {
-      'content-type': path.endsWith('.js') ? 'text/javascript' : 'text/html',
-      'content-security-policy': "default-src 'none'; script-src 'self'; worker-src 'self'",
-      // What an isolated page loads has to allow it, its workers too.
-      ...(path === '/plain' ? {} : { 'cross-origin-opener-policy': 'same-origin', 'cross-origin-embedder-policy': 'require-corp', 'cross-origin-resource-policy': 'same-origin' }),
-    }).end(body);
+    response
+      .writeHead(body === undefined ? 404 : 200, {
+        'content-type': path.endsWith('.js') ? 'text/javascript' : 'text/html',
+        'content-security-policy': "default-src 'none'; script-src 'self'; worker-src 'self'",
+        // What an isolated page loads has to allow it, its workers too.
+        ...(path === '/plain'
+          ? {}
+          : {
+              'cross-origin-opener-policy': 'same-origin',
+              'cross-origin-embedder-policy': 'require-corp',
+              'cross-origin-resource-policy': 'same-origin',
+            }),
+      })
+      .end(body);
   });
   await new Promise<void>((resolve) => server.listen(0, '127.0.0.1', resolve));
   origin = `http://127.0.0.1:${(server.address() as AddressInfo).port}`;
@@ -50,12 +71,18 @@ afterAll(async () => {
 async function builtIn(path: string, { threads, together }: { readonly threads: number; readonly together?: boolean }) {
   const page = await browser.newPage();
   try {
-    await page.addInitScript((count) => Object.defineProperty(navigator, 'hardwareConcurrency', { get: () => count }), threads);
+    await page.addInitScript(
+      (count) => Object.defineProperty(navigator, 'hardwareConcurrency', { get: () => count }),
+      threads,
+    );
     await page.goto(`${origin}${path}`);
     await page.waitForFunction(() => 'BvhWorkers' in globalThis);
     return await page.evaluate(
       async ({ rings, given }) => {
-        const { BvhWorkers: Pool, sphere: make } = globalThis as unknown as { BvhWorkers: typeof BvhWorkers; sphere: typeof sphere };
+        const { BvhWorkers: Pool, sphere: make } = globalThis as unknown as {
+          BvhWorkers: typeof BvhWorkers;
+          sphere: typeof sphere;
+        };
         const sent: Record<string, number> = {};
         let ready = 0;
         const createWorker = () => {
@@ -65,10 +92,17 @@ async function builtIn(path: string, { threads, together }: { readonly threads: 
             post(message, transfer as Transferable[]);
             sent[message.kind] = (sent[message.kind] ?? 0) + 1;
           };
-          worker.addEventListener('message', ({ data }) => void (ready += Number((data as { kind: string }).kind === 'ready')));
+          worker.addEventListener(
+            'message',
+            ({ data }) => void (ready += Number((data as { kind: string }).kind === 'ready')),
+          );
           return worker;
         };
-        const workers = await Pool.create({ count: 2, createWorker, ...(given === undefined ? {} : { together: given }) });
+        const workers = await Pool.create({
+          count: 2,
+          createWorker,
+          ...(given === undefined ? {} : { together: given }),
+        });
         // Both have to be there.
         while (ready < 2 && workers.fallback === undefined) await new Promise((resolve) => setTimeout(resolve, 5));
         const mesh = make(rings);
@@ -77,8 +111,15 @@ async function builtIn(path: string, { threads, together }: { readonly threads: 
           const { nodes, triangleIndices } = await workers.buildBlas(mesh);
           const all = new Uint8Array(nodes.byteLength + triangleIndices.byteLength);
           all.set(new Uint8Array(nodes.buffer, nodes.byteOffset, nodes.byteLength));
-          all.set(new Uint8Array(triangleIndices.buffer, triangleIndices.byteOffset, triangleIndices.byteLength), nodes.byteLength);
-          digests.push([...new Uint8Array(await crypto.subtle.digest('SHA-256', all))].map((byte) => byte.toString(16).padStart(2, '0')).join(''));
+          all.set(
+            new Uint8Array(triangleIndices.buffer, triangleIndices.byteOffset, triangleIndices.byteLength),
+            nodes.byteLength,
+          );
+          digests.push(
+            [...new Uint8Array(await crypto.subtle.digest('SHA-256', all))]
+              .map((byte) => byte.toString(16).padStart(2, '0'))
+              .join(''),
+          );
           // The second worker of a build reports a moment after the first.
           await new Promise((resolve) => setTimeout(resolve, 100));
         }
@@ -105,7 +146,10 @@ test('an isolated page: two workers build one mesh together, the same tree', asy
 
 test('a page that is not isolated: one worker builds it, whatever was asked for, the same tree', async () => {
   for (const together of [undefined, true]) {
-    const { isolated, fallback, digests, sent } = await builtIn('/plain', { threads: 4, ...(together === undefined ? {} : { together }) });
+    const { isolated, fallback, digests, sent } = await builtIn('/plain', {
+      threads: 4,
+      ...(together === undefined ? {} : { together }),
+    });
     expect(isolated).toBe(false);
     expect(fallback).toBeUndefined();
     expect(digests).toEqual([expected, expected]);

@@ -9,6 +9,15 @@ import { build } from 'esbuild';
 export async function bundledWorker(): Promise<{ file: string; start: () => Worker; remove: () => void }> {
   const folder = mkdtempSync(join(tmpdir(), 'glanz-bvh-'));
   const file = join(folder, 'worker.mjs');
-  await build({ entryPoints: [fileURLToPath(new URL('../../src/worker/worker.ts', import.meta.url))], outfile: file, bundle: true, format: 'esm', platform: 'neutral', target: 'es2022', conditions: ['@glanz/source'], logLevel: 'error' });
+  await build({
+    entryPoints: [fileURLToPath(new URL('../../src/worker/worker.ts', import.meta.url))],
+    outfile: file,
+    bundle: true,
+    format: 'esm',
+    platform: 'neutral',
+    target: 'es2022',
+    conditions: ['@glanz/source'],
+    logLevel: 'error',
+  });
   return { file, start: () => new Worker(file), remove: () => rmSync(folder, { recursive: true, force: true }) };
 }

@@ -13,7 +13,8 @@ function slowClock(): void {
 }
 
 test('little is copied at once, and arrays that were given away are refused, though they are empty', () => {
-  const from = counting(1000), indices = Uint16Array.of(1, 2, 3);
+  const from = counting(1000),
+    indices = Uint16Array.of(1, 2, 3);
   const copies = [from, indices].map((array) => ({ from: array, to: roomFor(array) }));
   expect(copyAll(copies)).toBe(undefined);
   expect(copies.map(({ to }) => to)).toEqual([from, indices]);
@@ -24,7 +25,8 @@ test('little is copied at once, and arrays that were given away are refused, tho
 
 test('much is copied piece by piece, with the thread handed back, and what goes away in between is told', async () => {
   slowClock();
-  const from = counting(1_000_003), empty = new Uint32Array(0);
+  const from = counting(1_000_003),
+    empty = new Uint32Array(0);
   const copies = [from, empty, from].map((array) => ({ from: array, to: roomFor(array) }));
   let between = 0;
   const ticking = setInterval(() => between++, 0);
@@ -40,7 +42,8 @@ test('much is copied piece by piece, with the thread handed back, and what goes 
   expect(between).toBeGreaterThan(3);
   expect(told).toEqual([...told].sort((a, b) => a - b));
   expect(told.at(-1)).toBe(2_000_006);
-  for (const { from: given, to } of copies) expect(Buffer.compare(Buffer.from(to.buffer), Buffer.from(given.slice().buffer))).toBe(0);
+  for (const { from: given, to } of copies)
+    expect(Buffer.compare(Buffer.from(to.buffer), Buffer.from(given.slice().buffer))).toBe(0);
 
   const going = counting(1_000_003);
   const copied = copyAll([{ from: going, to: roomFor(going) }]);

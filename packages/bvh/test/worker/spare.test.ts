@@ -19,7 +19,8 @@ it('gives what was left last, once', () => {
 });
 
 it('holds it for a second: no timer is left behind, and it is lent while somebody else holds it', () => {
-  const spare = new Spare<object>(), what = {};
+  const spare = new Spare<object>(),
+    what = {};
   spare.leave(what);
   vi.advanceTimersByTime(HOLD_MS - 1);
   expect(vi.getTimerCount()).toBe(1);

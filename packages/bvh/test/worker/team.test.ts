@@ -16,7 +16,9 @@ describe('Team', () => {
 
   it('gives both the same memory, block by block', () => {
     const [a, b] = both();
-    const first = a.uint32(3), second = a.int32(2), third = a.float32(5);
+    const first = a.uint32(3),
+      second = a.int32(2),
+      third = a.float32(5);
     expect([first.byteOffset % 64, second.byteOffset % 64, third.byteOffset % 64]).toEqual([0, 0, 0]);
     first.set([7, 8, 9]);
     second.set([-1, -2]);
@@ -37,7 +39,11 @@ describe('Team', () => {
   });
 
   it('throws where the other one has given up before, instead of waiting for ever', () => {
-    for (const wait of [(team: Team) => team.meet(), (team: Team) => team.published(), (team: Team) => team.copied(1)]) {
+    for (const wait of [
+      (team: Team) => team.meet(),
+      (team: Team) => team.published(),
+      (team: Team) => team.copied(1),
+    ]) {
       const [a, b] = both();
       a.giveUp();
       expect(() => wait(b)).toThrow(expect.objectContaining({ code: 'bvh/worker' }) as Error);

@@ -21,14 +21,25 @@ function expectSame(actual: Blas, expected: Blas): void {
 }
 
 const random = randomNumbers(11);
-const meshes: TriangleMesh[] = [sphere(96), strewn(9000, 0.1, random), { positions: strewn(500, 0.3, random).positions }, { positions: sphere(24).positions, indices: Uint16Array.from(sphere(24).indices) }, { positions: new Float32Array(0), indices: new Uint32Array(0) }, ...Array.from({ length: 40 }, () => strewn(1 + Math.floor(200 * random()), 0.5, random))];
+const meshes: TriangleMesh[] = [
+  sphere(96),
+  strewn(9000, 0.1, random),
+  { positions: strewn(500, 0.3, random).positions },
+  { positions: sphere(24).positions, indices: Uint16Array.from(sphere(24).indices) },
+  { positions: new Float32Array(0), indices: new Uint32Array(0) },
+  ...Array.from({ length: 40 }, () => strewn(1 + Math.floor(200 * random()), 0.5, random)),
+];
 /** About a second of work: there is time to do something meanwhile. */
 const big = () => strewn(700_000, 0.02, randomNumbers(5));
 
 /** How many messages of a kind the workers have been sent, from now on. */
 function counting(workers: readonly Worker[], kind: string): () => number {
   const spies = workers.map((worker) => vi.spyOn(worker, 'postMessage'));
-  return () => spies.reduce((sum, { mock }) => sum + mock.calls.filter(([message]) => (message as { kind: string }).kind === kind).length, 0);
+  return () =>
+    spies.reduce(
+      (sum, { mock }) => sum + mock.calls.filter(([message]) => (message as { kind: string }).kind === kind).length,
+      0,
+    );
 }
 
 describe('BvhWorkers', () => {
@@ -72,7 +83,8 @@ describe('BvhWorkers', () => {
     ];
     for (const [mesh, options] of several) {
       // The second one may still be on its way back from the last build.
-      for (const before = pieces(); pieces() === before; ) expectSame(await workers.buildBlas(mesh, options), buildBlas(mesh, options));
+      for (const before = pieces(); pieces() === before;)
+        expectSame(await workers.buildBlas(mesh, options), buildBlas(mesh, options));
     }
     // A fault that only one of them meets; then both are there again.
     const { positions, indices } = large;
@@ -81,7 +93,8 @@ describe('BvhWorkers', () => {
       broken[at] = 1e9;
       await expect(workers.buildBlas({ positions, indices: broken })).rejects.toMatchObject({ code: 'bvh/indices' });
     }
-    for (const before = pieces(); pieces() === before; ) expectSame(await workers.buildBlas({ positions, indices }), buildBlas({ positions, indices }));
+    for (const before = pieces(); pieces() === before;)
+      expectSame(await workers.buildBlas({ positions, indices }), buildBlas({ positions, indices }));
     // Given away while both wait for the rest of it; then they do not wait any more.
     for (const turns of [0, 1, 5]) {
       const given = { positions: positions.slice(), indices: indices.slice() };
@@ -95,8 +108,11 @@ describe('BvhWorkers', () => {
       clock.mockRestore();
     }
     // Short indices.
-    const few = { positions: positions.slice(0, 3 * 60_000), indices: Uint16Array.from({ length: 3 * 230_000 }, (_, i) => (i * 7919) % 60_000) };
-    for (const before = pieces(); pieces() === before; ) expectSame(await workers.buildBlas(few), buildBlas(few));
+    const few = {
+      positions: positions.slice(0, 3 * 60_000),
+      indices: Uint16Array.from({ length: 3 * 230_000 }, (_, i) => (i * 7919) % 60_000),
+    };
+    for (const before = pieces(); pieces() === before;) expectSame(await workers.buildBlas(few), buildBlas(few));
     const control = new AbortController();
     const aborted = workers.buildBlas({ positions, indices }, { signal: control.signal });
     control.abort(new Error('enough'));
@@ -112,9 +128,18 @@ describe('BvhWorkers', () => {
     const all = await Promise.all(meshes.map((mesh) => workers.buildBlas(mesh)));
     all.forEach((blas, i) => expectSame(blas, buildBlas(meshes[i] as TriangleMesh)));
     const options = { maxLeafTriangles: 2, bins: 8 };
-    expectSame(await workers.buildBlas(meshes[0] as TriangleMesh, options), buildBlas(meshes[0] as TriangleMesh, options));
-    for (const builder of [fast, best, bestSplit]) expectSame(await workers.buildBlas(meshes[1] as TriangleMesh, { builder }), buildBlas(meshes[1] as TriangleMesh, { builder }));
-    expect(buildBlas(meshes[0] as TriangleMesh, options).nodeCount).not.toBe(buildBlas(meshes[0] as TriangleMesh).nodeCount);
+    expectSame(
+      await workers.buildBlas(meshes[0] as TriangleMesh, options),
+      buildBlas(meshes[0] as TriangleMesh, options),
+    );
+    for (const builder of [fast, best, bestSplit])
+      expectSame(
+        await workers.buildBlas(meshes[1] as TriangleMesh, { builder }),
+        buildBlas(meshes[1] as TriangleMesh, { builder }),
+      );
+    expect(buildBlas(meshes[0] as TriangleMesh, options).nodeCount).not.toBe(
+      buildBlas(meshes[0] as TriangleMesh).nodeCount,
+    );
   });
 
   it('leaves the calling thread free and runs two builds at a time', async () => {
@@ -124,7 +149,9 @@ describe('BvhWorkers', () => {
     let turns = 0;
     const turning = setInterval(() => turns++, 1);
     const events: { readonly done: number; readonly turn: number }[] = [];
-    await Promise.all([0, 1].map(() => workers.buildBlas(mesh, { onProgress: (done) => void events.push({ done, turn: turns }) })));
+    await Promise.all(
+      [0, 1].map(() => workers.buildBlas(mesh, { onProgress: (done) => void events.push({ done, turn: turns }) })),
+    );
     clearInterval(turning);
     expect(events.map(({ done }) => done)).toEqual([0, 0, 1, 1]);
     expect(events[2]!.turn - events[1]!.turn).toBeGreaterThan(10);
@@ -143,7 +170,10 @@ describe('BvhWorkers', () => {
     const part = sphere(48);
     const room = new Float32Array(part.positions.length + 7);
     room.set(part.positions, 7);
-    expectSame(await workers.buildBlas({ positions: room.subarray(7), indices: part.indices }, { transfer: true }), expected);
+    expectSame(
+      await workers.buildBlas({ positions: room.subarray(7), indices: part.indices }, { transfer: true }),
+      expected,
+    );
     expect([room.length, part.indices.length]).toEqual([part.positions.length + 7, 0]);
 
     const shared = new Float32Array(new SharedArrayBuffer(kept.positions.byteLength));
@@ -155,7 +185,11 @@ describe('BvhWorkers', () => {
     const workers = await create();
     const told: number[][] = [[], [], []];
     await Promise.all(told.map((list) => workers.buildBlas(sphere(32), { onProgress: (done) => list.push(done) })));
-    expect(told).toEqual([[0, 1], [0, 1], [0, 1]]);
+    expect(told).toEqual([
+      [0, 1],
+      [0, 1],
+      [0, 1],
+    ]);
   });
 
   it('hands typed errors across, with code and message, and goes on', async () => {
@@ -177,14 +211,21 @@ describe('BvhWorkers', () => {
       expect(theirs).toMatchObject({ code: (own as BvhError).code, message: (own as BvhError).message });
     }
     await expect(workers.buildBlas(sphere(8), { bins: (() => 8) as unknown as number })).rejects.toThrow(/clone/);
-    await expect(workers.buildBlas(sphere(8), { onProgress: () => { throw new TypeError('mine'); } })).rejects.toThrow('mine');
+    await expect(
+      workers.buildBlas(sphere(8), {
+        onProgress: () => {
+          throw new TypeError('mine');
+        },
+      }),
+    ).rejects.toThrow('mine');
     expectSame(await workers.buildBlas(sphere(16)), buildBlas(sphere(16)));
     expect(started).toHaveLength(2);
   });
 
   it('aborts builds that run, wait or are yet to come; a long one ends its worker, which is replaced', async () => {
     const workers = await create({ count: 1 });
-    const running = new AbortController(), waiting = new AbortController();
+    const running = new AbortController(),
+      waiting = new AbortController();
     let begun = () => undefined as void;
     const hasBegun = new Promise<void>((resolve) => (begun = resolve));
     const first = workers.buildBlas(big(), { signal: running.signal, onProgress: () => begun() });
@@ -220,8 +261,10 @@ describe('BvhWorkers', () => {
       let now = performance.now();
       const clock = vi.spyOn(performance, 'now').mockImplementation(() => (now += 5));
       const workers = await create({ together });
-      const large = sphere(480), controller = new AbortController();
-      const pieces = counting(started, 'build'), halves = counting(started, 'together');
+      const large = sphere(480),
+        controller = new AbortController();
+      const pieces = counting(started, 'build'),
+        halves = counting(started, 'together');
       const aborted = workers.buildBlas(large, { signal: controller.signal });
       const gone = workers.buildBlas(sphere(480));
       controller.abort();
@@ -268,7 +311,8 @@ describe('BvhWorkers', () => {
     const builds = Promise.allSettled([big(), big(), sphere(8)].map((mesh) => workers.buildBlas(mesh)));
     const gone = Promise.all(started.map((thread) => once(thread, 'exit')));
     workers.destroy();
-    for (const build of await builds) expect(build).toMatchObject({ status: 'rejected', reason: { code: 'bvh/destroyed' } });
+    for (const build of await builds)
+      expect(build).toMatchObject({ status: 'rejected', reason: { code: 'bvh/destroyed' } });
     await gone;
     await expect(workers.buildBlas(sphere(8))).rejects.toMatchObject({ code: 'bvh/destroyed' });
   });
@@ -312,26 +356,35 @@ describe('BvhWorkers', () => {
       return counts.filter((count, i) => count() > (before[i] as number)).length;
     };
     expect(await busy(Array.from({ length: 20 }, () => sphere(24)))).toBe(1);
-    await vi.waitFor(async () => expect(await busy(Array.from({ length: 6 }, () => sphere(150)))).toBe(3), { timeout: 30_000, interval: 20 });
+    await vi.waitFor(async () => expect(await busy(Array.from({ length: 6 }, () => sphere(150)))).toBe(3), {
+      timeout: 30_000,
+      interval: 20,
+    });
     expect(await busy(Array.from({ length: 20 }, () => sphere(24)))).toBe(1);
   });
 
   it('builds here where no worker can be made, whatever the cause, and hands the thread back in between', async () => {
     const causes: (() => Worker)[] = [
-      () => { throw new Error('refused by policy'); },
+      () => {
+        throw new Error('refused by policy');
+      },
       () => new Worker('/no/such/worker.mjs'),
       () => new Worker('throw new Error("broken script")', { eval: true }),
       () => new Worker('', { eval: true }),
     ];
     for (const [i, createWorker] of causes.entries()) {
       const workers = await create({ createWorker });
-      expect(workers.fallback).toMatch([/refused by policy/, /Cannot find module/, /broken script/, /it has ended/][i] as RegExp);
+      expect(workers.fallback).toMatch(
+        [/refused by policy/, /Cannot find module/, /broken script/, /it has ended/][i] as RegExp,
+      );
       expect(workers.count).toBe(0);
       const told: number[] = [];
       expectSame(await workers.buildBlas(sphere(24), { onProgress: (done) => told.push(done) }), buildBlas(sphere(24)));
       expect([told[0], told.at(-1)]).toEqual([0, 1]);
       expect(told).toEqual([...told].sort((a, b) => a - b));
-      await expect(workers.buildBlas({ positions: new Float32Array(4) })).rejects.toMatchObject({ code: 'bvh/positions' });
+      await expect(workers.buildBlas({ positions: new Float32Array(4) })).rejects.toMatchObject({
+        code: 'bvh/positions',
+      });
     }
     const workers = await create({ createWorker: causes[0] as () => Worker });
     const controller = new AbortController();
@@ -357,6 +410,7 @@ describe('BvhWorkers', () => {
   });
 
   it('refuses a senseless count', async () => {
-    for (const count of [0, -1, 1.5, NaN]) await expect(BvhWorkers.create({ count })).rejects.toMatchObject({ code: 'bvh/options' });
+    for (const count of [0, -1, 1.5, NaN])
+      await expect(BvhWorkers.create({ count })).rejects.toMatchObject({ code: 'bvh/options' });
   });
 });

@@ -26,14 +26,24 @@ const usage = (message: string) => new CliError('cli/usage', message);
  *
  * @throws {CliError} `cli/usage`, with what to do about it.
  */
-export function parseConvert(argv: readonly string[]): { readonly kind: 'convert'; readonly options: ConvertCommandOptions } & ReportOptions {
+export function parseConvert(
+  argv: readonly string[],
+): { readonly kind: 'convert'; readonly options: ConvertCommandOptions } & ReportOptions {
   let parsed;
   try {
     parsed = parseArgs({
       args: [...argv],
       allowPositionals: true,
       strict: true,
-      options: { output: { type: 'string', short: 'o' }, lod: { type: 'string' }, materials: { type: 'string' }, strip: { type: 'boolean' }, tolerance: { type: 'string' }, json: { type: 'boolean' }, quiet: { type: 'boolean', short: 'q' } },
+      options: {
+        output: { type: 'string', short: 'o' },
+        lod: { type: 'string' },
+        materials: { type: 'string' },
+        strip: { type: 'boolean' },
+        tolerance: { type: 'string' },
+        json: { type: 'boolean' },
+        quiet: { type: 'boolean', short: 'q' },
+      },
     });
   } catch (cause) {
     throw usage(`${((cause as Error).message.split('\n')[0] as string).replace(/\.?$/, '.')} See glanz --help.`);
@@ -43,12 +53,19 @@ export function parseConvert(argv: readonly string[]): { readonly kind: 'convert
   if (input === undefined) throw usage('No model given. Use glanz convert PART.step -o PART.glb.');
   if (rest.length > 0) throw usage(`One model at a time: what is "${rest[0]}"?`);
   const levels = Number(values.lod ?? 1);
-  if (!(Number.isInteger(levels) && levels >= 1 && levels <= 8)) throw usage(`--lod must be a whole number from 1 to 8, not "${values.lod}".`);
+  if (!(Number.isInteger(levels) && levels >= 1 && levels <= 8))
+    throw usage(`--lod must be a whole number from 1 to 8, not "${values.lod}".`);
   const tolerance = values.tolerance === undefined ? undefined : Number(values.tolerance) / 1000;
-  if (tolerance !== undefined && !(tolerance > 0 && tolerance < 1000)) throw usage(`--tolerance must be a number of millimetres, not "${values.tolerance}".`);
+  if (tolerance !== undefined && !(tolerance > 0 && tolerance < 1000))
+    throw usage(`--tolerance must be a number of millimetres, not "${values.tolerance}".`);
   const output = values.output ?? `${(input.split(/[\\/]/).pop() as string).replace(/\.[^.]*$/, '') || 'part'}.glb`;
   if (!/\.glb$/i.test(output)) throw usage(`--output must end in .glb, not "${output}".`);
-  return { kind: 'convert', json: values.json ?? false, quiet: values.quiet ?? false, options: { input, output, levels, materials: values.materials, strip: values.strip ?? false, tolerance } };
+  return {
+    kind: 'convert',
+    json: values.json ?? false,
+    quiet: values.quiet ?? false,
+    options: { input, output, levels, materials: values.materials, strip: values.strip ?? false, tolerance },
+  };
 }
 
 /** Converts a file; by default the optional package `@glanz/cad` does. */
@@ -56,22 +73,39 @@ export type Converter = (input: string, output: string, options: ConvertCadOptio
 
 const convertByPackage: Converter = async (input, output, options) => {
   const { convertCadFile } = await import('@glanz/cad/node').catch((cause: unknown) => {
-    throw new CliError('cli/missing-package', 'Converting CAD files needs the package "@glanz/cad": npm install @glanz/cad.', { cause });
+    throw new CliError(
+      'cli/missing-package',
+      'Converting CAD files needs the package "@glanz/cad": npm install @glanz/cad.',
+      { cause },
+    );
   });
   return convertCadFile(input, output, options);
 };
 
 /** `glanz convert`: CAD in, GLB out. Gives the exit code. */
-export async function convertCommand({ options, json, quiet }: ReturnType<typeof parseConvert>, io: CliIo, convert: Converter = convertByPackage): Promise<number> {
+export async function convertCommand(
+  { options, json, quiet }: ReturnType<typeof parseConvert>,
+  io: CliIo,
+  convert: Converter = convertByPackage,
+): Promise<number> {
   const { input, output, levels, materials, strip, tolerance } = options;
   await checkInput(input, io.cwd, 'the model');
   if (materials !== undefined) await checkInput(materials, io.cwd, 'the material map');
   await checkWritable(output, io.cwd);
   const start = io.now();
-  const made = await convert(resolve(io.cwd, input), resolve(io.cwd, output), { levels, strip, ...(materials === undefined ? {} : { materials: resolve(io.cwd, materials) }), ...(tolerance === undefined ? {} : { tolerance: { metres: tolerance } }) });
+  const made = await convert(resolve(io.cwd, input), resolve(io.cwd, output), {
+    levels,
+    strip,
+    ...(materials === undefined ? {} : { materials: resolve(io.cwd, materials) }),
+    ...(tolerance === undefined ? {} : { tolerance: { metres: tolerance } }),
+  });
   // Paths as the user gives them.
   const files = made.map((file) => ({ ...file, path: isAbsolute(output) ? file.path : relative(io.cwd, file.path) }));
   if (json) io.stdout(jsonLine({ ok: true, model: input, files, totalMs: io.now() - start }));
-  else if (!quiet) for (const { path, bytes, triangles, parts, materials: looks } of files) io.stderr(`${visible(path)}: ${triangles} triangles, ${parts} parts, ${looks} materials, ${(bytes / 1000).toFixed(1)} kB\n`);
+  else if (!quiet)
+    for (const { path, bytes, triangles, parts, materials: looks } of files)
+      io.stderr(
+        `${visible(path)}: ${triangles} triangles, ${parts} parts, ${looks} materials, ${(bytes / 1000).toFixed(1)} kB\n`,
+      );
   return EXIT.ok;
 }

@@ -8,7 +8,14 @@ import { jsonLine, visible } from '../visible';
 export async function listGpusCommand(report: ReportOptions, io: CliIo, backend: Backend): Promise<number> {
   const gpus = await backend.listGpus();
   if (report.json) io.stdout(jsonLine({ ok: gpus.length > 0, gpus }));
-  else if (gpus.length === 0) io.stderr('glanz: There is no GPU, nor a software one: install a Vulkan driver, Mesa 25 or newer, or the npm package @sparticuz/chromium (Linux x64). [renderer/no-adapter]\n');
-  else for (const { name, backend: api, driver, software } of gpus) io.stdout(`${visible(`${name} · ${api}${driver ? ` · ${driver}` : ''}${software ? ' · on the processor' : ''}`)}\n`);
+  else if (gpus.length === 0)
+    io.stderr(
+      'glanz: There is no GPU, nor a software one: install a Vulkan driver, Mesa 25 or newer, or the npm package @sparticuz/chromium (Linux x64). [renderer/no-adapter]\n',
+    );
+  else
+    for (const { name, backend: api, driver, software } of gpus)
+      io.stdout(
+        `${visible(`${name} · ${api}${driver ? ` · ${driver}` : ''}${software ? ' · on the processor' : ''}`)}\n`,
+      );
   return gpus.length > 0 ? EXIT.ok : EXIT.gpu;
 }

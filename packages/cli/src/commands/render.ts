@@ -92,12 +92,21 @@ export interface RenderOutcome {
 }
 
 /** `glanz render`: loads, prepares, renders, writes; one picture or many. */
-export async function renderCommand(command: RenderCommand, io: CliIo, backend: Backend, progress: ProgressReporter): Promise<RenderOutcome> {
+export async function renderCommand(
+  command: RenderCommand,
+  io: CliIo,
+  backend: Backend,
+  progress: ProgressReporter,
+): Promise<RenderOutcome> {
   const abort = new AbortController();
   const run: Run = { io, backend, progress, signal: abort.signal, interrupted: null };
   const stopListening = io.onInterrupt((signal) => {
     run.interrupted = signal;
-    progress.line(signal === 'SIGINT' ? `stopping${run.many ? '' : ': writing what there is'} (Ctrl-C again to end at once)` : `stopping${run.many ? '' : ': writing what there is'}`);
+    progress.line(
+      signal === 'SIGINT'
+        ? `stopping${run.many ? '' : ': writing what there is'} (Ctrl-C again to end at once)`
+        : `stopping${run.many ? '' : ': writing what there is'}`,
+    );
     abort.abort();
   });
   try {
@@ -108,16 +117,32 @@ export async function renderCommand(command: RenderCommand, io: CliIo, backend: 
       warned.add(text);
     };
     for (const text of command.warnings) warn(text);
-    const requests = command.batch === undefined ? [{ options: command.options as RenderCommandOptions, ownOutput: false, where: '' }] : await readBatch(command.batch, io.cwd, command.values, warn);
-    for (const { options: { model, env } } of requests) {
+    const requests =
+      command.batch === undefined
+        ? [{ options: command.options as RenderCommandOptions, ownOutput: false, where: '' }]
+        : await readBatch(command.batch, io.cwd, command.values, warn);
+    for (const {
+      options: { model, env },
+    } of requests) {
       await checkInput(model, io.cwd, 'the model');
       if (isEnvironmentFile(env)) await checkInput(env, io.cwd, 'the environment');
     }
     const shots: Shot[] = [];
     for (const request of requests) {
       const { options } = request;
-      const asked = shotsOf(options, options.variants.includes('all') ? await variantsOf(options, loader, run) : [], command.checkpoint);
-      if (command.batch !== undefined && request.ownOutput) await checkBatchOutputs(asked.flatMap(({ outputs }) => outputs.map(({ path }) => path)), request, command.batch, io.cwd, command.outputRoot);
+      const asked = shotsOf(
+        options,
+        options.variants.includes('all') ? await variantsOf(options, loader, run) : [],
+        command.checkpoint,
+      );
+      if (command.batch !== undefined && request.ownOutput)
+        await checkBatchOutputs(
+          asked.flatMap(({ outputs }) => outputs.map(({ path }) => path)),
+          request,
+          command.batch,
+          io.cwd,
+          command.outputRoot,
+        );
       shots.push(...asked);
     }
     checkDistinct(shots);
@@ -128,7 +153,9 @@ export async function renderCommand(command: RenderCommand, io: CliIo, backend: 
         await checkWritable(path, io.cwd);
       }
     }
-    return run.many ? await renderMany(shots, command, loader, run) : await renderOne(shots[0] as Shot, command, loader, run);
+    return run.many
+      ? await renderMany(shots, command, loader, run)
+      : await renderOne(shots[0] as Shot, command, loader, run);
   } catch (error) {
     // An abort that a stage answered by throwing is the user's wish, not a fault.
     if (run.interrupted !== null && abort.signal.aborted && (error as Error | undefined)?.name === 'AbortError') {
@@ -153,21 +180,61 @@ interface Run {
 
 const exitOf = ({ interrupted }: Run) => (interrupted === null ? EXIT.ok : EXIT_OF_INTERRUPT[interrupted]);
 
-async function variantsOf(options: RenderCommandOptions, loader: SceneLoader, { progress, signal }: Run): Promise<readonly string[]> {
+async function variantsOf(
+  options: RenderCommandOptions,
+  loader: SceneLoader,
+  { progress, signal }: Run,
+): Promise<readonly string[]> {
   progress.stage('load model');
   const { variants = [] } = (await loader.load(options, signal)).scene;
   if (variants.length === 0) throw new CliError('cli/usage', `--variant all: "${options.model}" has no variants.`);
   return variants;
 }
 
-const named = ({ variant, view }: Shot) => ({ ...(variant === undefined ? {} : { variant }), ...(view.kind === 'camera' && view.camera === undefined ? {} : { view: view.name }) });
+const named = ({ variant, view }: Shot) => ({
+  ...(variant === undefined ? {} : { variant }),
+  ...(view.kind === 'camera' && view.camera === undefined ? {} : { view: view.name }),
+});
 
 const resultOf = (shot: Shot, made: RenderedShot, interrupted: Interrupt | null): RenderResult => {
   const { options } = shot;
-  const { files, samples, resumedSamples, gpuLosses, noise, samplesPerSecond, camera, environment, adapter, timings, statistics, warnings } = made;
+  const {
+    files,
+    samples,
+    resumedSamples,
+    gpuLosses,
+    noise,
+    samplesPerSecond,
+    camera,
+    environment,
+    adapter,
+    timings,
+    statistics,
+    warnings,
+  } = made;
   return {
-    ok: true, version: version(), model: options.model, files, width: options.width, height: options.height, samples, targetSamples: options.samples, resumedSamples, gpuLosses, ...(noise === undefined ? {} : { noise }), samplesPerSecond, interrupted,
-    depth: options.depth, seed: options.seed, ...named(shot), camera, environment, adapter, timings, statistics, warnings,
+    ok: true,
+    version: version(),
+    model: options.model,
+    files,
+    width: options.width,
+    height: options.height,
+    samples,
+    targetSamples: options.samples,
+    resumedSamples,
+    gpuLosses,
+    ...(noise === undefined ? {} : { noise }),
+    samplesPerSecond,
+    interrupted,
+    depth: options.depth,
+    seed: options.seed,
+    ...named(shot),
+    camera,
+    environment,
+    adapter,
+    timings,
+    statistics,
+    warnings,
   };
 };
 
@@ -184,7 +251,12 @@ async function renderOne(shot: Shot, { gpus }: RenderCommand, loader: SceneLoade
 }
 
 /** Each GPU takes the next picture when it is done with one. What fails is reported, and the others go on. */
-async function renderMany(shots: readonly Shot[], { gpus, resume }: RenderCommand, loader: SceneLoader, run: Run): Promise<RenderOutcome> {
+async function renderMany(
+  shots: readonly Shot[],
+  { gpus, resume }: RenderCommand,
+  loader: SceneLoader,
+  run: Run,
+): Promise<RenderOutcome> {
   const { io, progress } = run;
   const start = io.now();
   const journal = new Journal(io.cwd);
@@ -196,14 +268,34 @@ async function renderMany(shots: readonly Shot[], { gpus, resume }: RenderComman
   const names: readonly (string | undefined)[] = gpus.length === 0 ? [undefined] : gpus;
   progress.shared = names.length > 1;
   // Loaders keep the last model, which lanes would take from one another.
-  await batch.run(names.map((name) => new Lane({ ...run, loader: names.length > 1 ? new SceneLoader(run.backend, io.cwd) : loader, keepPartial: false }, name)));
+  await batch.run(
+    names.map(
+      (name) =>
+        new Lane(
+          { ...run, loader: names.length > 1 ? new SceneLoader(run.backend, io.cwd) : loader, keepPartial: false },
+          name,
+        ),
+    ),
+  );
   progress.prefix = '';
   const { pictures, exitCode, gpusLost } = batch;
   const failed = pictures.filter(({ ok }) => !ok).length;
   const missing = waiting.length - pictures.length;
-  progress.line(`${shots.length - failed - missing} of ${shots.length} pictures in ${duration(io.now() - start)}${failed > 0 ? `, ${failed} failed` : ''}${missing > 0 ? '; --resume goes on' : ''}`);
+  progress.line(
+    `${shots.length - failed - missing} of ${shots.length} pictures in ${duration(io.now() - start)}${failed > 0 ? `, ${failed} failed` : ''}${missing > 0 ? '; --resume goes on' : ''}`,
+  );
   return {
-    result: { ok: failed === 0 && missing === 0, version: version(), pictures, total: shots.length, skipped, failed, gpusLost, interrupted: run.interrupted, totalMs: io.now() - start },
+    result: {
+      ok: failed === 0 && missing === 0,
+      version: version(),
+      pictures,
+      total: shots.length,
+      skipped,
+      failed,
+      gpusLost,
+      interrupted: run.interrupted,
+      totalMs: io.now() - start,
+    },
     exitCode: exitOf(run) || exitCode,
   };
 }
@@ -253,7 +345,8 @@ class Batch {
     // Not one picture was begun: the GPUs that were asked for are not there.
     if (this.pictures.length === 0 && lanes.every(({ everOpened }) => !everOpened)) throw this.#causes[0];
     const reasons = this.gpusLost.map(({ error }) => error.message).join(' ');
-    for (const { shot } of rest) this.#fail(shot, new CliError('cli/gpu-lost', `No GPU is left to render it. ${reasons}`), false);
+    for (const { shot } of rest)
+      this.#fail(shot, new CliError('cli/gpu-lost', `No GPU is left to render it. ${reasons}`), false);
   }
 
   async #work(lane: Lane): Promise<void> {
@@ -300,7 +393,9 @@ class Batch {
     this.#lanes--;
     this.gpusLost.push({ gpu: lane.label, error: describeError(error) });
     this.#causes.push(error);
-    this.#run.progress.warning(`${errorLine(error)}${this.#lanes > 0 ? ' The other GPUs go on with its pictures.' : ''}`);
+    this.#run.progress.warning(
+      `${errorLine(error)}${this.#lanes > 0 ? ' The other GPUs go on with its pictures.' : ''}`,
+    );
     if (this.#lanes > 0 || !lane.everOpened) this.#queue.giveBack(job);
     else {
       this.#fail(job.shot, error, false);
@@ -311,6 +406,12 @@ class Batch {
   #fail(shot: Shot, error: unknown, tell = true): void {
     this.exitCode ||= exitCodeOf(error);
     if (tell) this.#run.progress.warning(`${shotLabel(shot)}: ${errorLine(error)}`);
-    this.pictures.push({ ok: false, model: shot.options.model, files: shot.outputs.map(({ path }) => path), ...named(shot), error: describeError(error) });
+    this.pictures.push({
+      ok: false,
+      model: shot.options.model,
+      files: shot.outputs.map(({ path }) => path),
+      ...named(shot),
+      error: describeError(error),
+    });
   }
 }

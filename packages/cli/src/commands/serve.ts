@@ -26,18 +26,48 @@ const usage = (message: string) => new CliError('cli/usage', message);
 export function parseServe(argv: readonly string[]): ServeCommand {
   let parsed;
   try {
-    parsed = parseArgs({ args: [...argv], allowPositionals: true, strict: true, options: { port: { type: 'string' }, host: { type: 'string' }, json: { type: 'boolean' }, quiet: { type: 'boolean', short: 'q' } } });
+    parsed = parseArgs({
+      args: [...argv],
+      allowPositionals: true,
+      strict: true,
+      options: {
+        port: { type: 'string' },
+        host: { type: 'string' },
+        json: { type: 'boolean' },
+        quiet: { type: 'boolean', short: 'q' },
+      },
+    });
   } catch (cause) {
     throw usage(`${((cause as Error).message.split('\n')[0] as string).replace(/\.?$/, '.')} See glanz help serve.`);
   }
   const { values, positionals } = parsed;
-  if (positionals.length > 0) throw usage(`glanz serve takes no files: what is "${positionals[0]}"? Models are dropped onto the page.`);
+  if (positionals.length > 0)
+    throw usage(`glanz serve takes no files: what is "${positionals[0]}"? Models are dropped onto the page.`);
   const port = values.port === undefined ? 4173 : Number(values.port);
-  if (!(Number.isInteger(port) && port >= 0 && port <= 65535)) throw usage(`--port must be a whole number from 0 (any that is free) to 65535, not "${values.port}".`);
-  return { kind: 'serve', json: values.json ?? false, quiet: values.quiet ?? false, port, host: values.host ?? '127.0.0.1' };
+  if (!(Number.isInteger(port) && port >= 0 && port <= 65535))
+    throw usage(`--port must be a whole number from 0 (any that is free) to 65535, not "${values.port}".`);
+  return {
+    kind: 'serve',
+    json: values.json ?? false,
+    quiet: values.quiet ?? false,
+    port,
+    host: values.host ?? '127.0.0.1',
+  };
 }
 
-const TYPES: Readonly<Record<string, string>> = { '.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '.css': 'text/css', '.json': 'application/json', '.wasm': 'application/wasm', '.svg': 'image/svg+xml', '.png': 'image/png', '.jpg': 'image/jpeg', '.webp': 'image/webp', '.ico': 'image/x-icon', '.woff2': 'font/woff2' };
+const TYPES: Readonly<Record<string, string>> = {
+  '.html': 'text/html; charset=utf-8',
+  '.js': 'text/javascript',
+  '.css': 'text/css',
+  '.json': 'application/json',
+  '.wasm': 'application/wasm',
+  '.svg': 'image/svg+xml',
+  '.png': 'image/png',
+  '.jpg': 'image/jpeg',
+  '.webp': 'image/webp',
+  '.ico': 'image/x-icon',
+  '.woff2': 'font/woff2',
+};
 
 /** The playground as the package brings it along. */
 const builtIn = () => fileURLToPath(new URL('./playground/', import.meta.url));
@@ -46,7 +76,8 @@ const builtIn = () => fileURLToPath(new URL('./playground/', import.meta.url));
 export function fileServer(folder: string): Server {
   return createServer((request, response) => {
     const answer = async () => {
-      const text = (code: number, body: string) => void response.writeHead(code, { 'content-type': 'text/plain; charset=utf-8' }).end(body);
+      const text = (code: number, body: string) =>
+        void response.writeHead(code, { 'content-type': 'text/plain; charset=utf-8' }).end(body);
       if (request.method !== 'GET' && request.method !== 'HEAD') return text(405, 'Only GET and HEAD.');
       let path: string;
       try {
@@ -56,11 +87,21 @@ export function fileServer(folder: string): Server {
       }
       const root = await realpath(folder);
       const file = await realpath(join(root, path.endsWith('/') ? `${path}index.html` : path)).catch(() => undefined);
-      const found = file !== undefined && file.startsWith(root.endsWith(sep) ? root : root + sep) && !path.includes('\0') ? await stat(file) : undefined;
+      const found =
+        file !== undefined && file.startsWith(root.endsWith(sep) ? root : root + sep) && !path.includes('\0')
+          ? await stat(file)
+          : undefined;
       if (!found?.isFile()) return text(404, 'There is no such file.');
-      response.writeHead(200, { 'content-type': TYPES[extname(file as string).toLowerCase()] ?? 'application/octet-stream', 'content-length': found.size, 'cache-control': 'no-cache', 'x-content-type-options': 'nosniff' });
+      response.writeHead(200, {
+        'content-type': TYPES[extname(file as string).toLowerCase()] ?? 'application/octet-stream',
+        'content-length': found.size,
+        'cache-control': 'no-cache',
+        'x-content-type-options': 'nosniff',
+      });
       if (request.method === 'HEAD') return void response.end();
-      createReadStream(file as string).on('error', () => response.destroy()).pipe(response);
+      createReadStream(file as string)
+        .on('error', () => response.destroy())
+        .pipe(response);
     };
     answer().catch(() => response.destroy());
   });
@@ -70,11 +111,27 @@ export function fileServer(folder: string): Server {
  * `glanz serve`: the playground, from the package itself, until Ctrl-C. Gives the exit code.
  * @param folder What is served; default: the playground.
  */
-export async function serveCommand({ port, host, json, quiet }: ServeCommand, io: CliIo, folder: string = builtIn()): Promise<number> {
-  if (!(await stat(join(folder, 'index.html')).catch(() => undefined))) throw new CliError('cli/missing-package', 'This copy of @glanz/cli lacks the playground: build it (npm run build) or install the package anew.');
+export async function serveCommand(
+  { port, host, json, quiet }: ServeCommand,
+  io: CliIo,
+  folder: string = builtIn(),
+): Promise<number> {
+  if (!(await stat(join(folder, 'index.html')).catch(() => undefined)))
+    throw new CliError(
+      'cli/missing-package',
+      'This copy of @glanz/cli lacks the playground: build it (npm run build) or install the package anew.',
+    );
   const server = fileServer(folder);
   await new Promise<void>((done, fail) => {
-    server.once('error', (cause: NodeJS.ErrnoException) => fail(new CliError('cli/port', `Port ${port} of ${host} cannot be used: ${cause.code === 'EADDRINUSE' ? 'something else listens there' : cause.message}; try --port 0.`, { cause })));
+    server.once('error', (cause: NodeJS.ErrnoException) =>
+      fail(
+        new CliError(
+          'cli/port',
+          `Port ${port} of ${host} cannot be used: ${cause.code === 'EADDRINUSE' ? 'something else listens there' : cause.message}; try --port 0.`,
+          { cause },
+        ),
+      ),
+    );
     server.listen(port, host, done);
   });
   const { port: actual } = server.address() as AddressInfo;

@@ -10,8 +10,8 @@ async function followed(path: string): Promise<string> {
 }
 
 /**
- * Whether a file would be written below a folder. Symbolic links in the folders on the way are followed; the file itself
- * is replaced, so that a link in its place leads nowhere.
+ * Whether a file would be written below a folder. Symbolic links in the folders on the way are followed; the file
+ * itself is replaced, so that a link in its place leads nowhere.
  *
  * @param path Relative to `cwd`, or absolute.
  * @param root Likewise; need not exist.

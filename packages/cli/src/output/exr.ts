@@ -11,7 +11,8 @@ function plane(data: Float32Array, stride: number, offset: number): Float32Array
 /** Linear radiance as R, G, B, A and the feature layers under their names, packed as OpenEXR with ZIP. */
 export function exrFile({ width, height, beauty, layers, samples, software }: Picture, bits: 16 | 32): Uint8Array {
   const type = bits === 32 ? 'float' : 'half';
-  const rgba = (data: Float32Array, names: string) => Object.fromEntries([...names].map((name, k) => [name, plane(data, 4, k)]));
+  const rgba = (data: Float32Array, names: string) =>
+    Object.fromEntries([...names].map((name, k) => [name, plane(data, 4, k)]));
   const list: ExrLayer[] = [{ name: '', type, channels: rgba(beauty, 'RGBA') }];
   if (layers) {
     list.push(
@@ -21,7 +22,11 @@ export function exrFile({ width, height, beauty, layers, samples, software }: Pi
       { name: 'position', type: 'float', channels: rgba(layers.position, 'XYZ') },
       { name: 'variance', type: 'float', channels: rgba(layers.variance, 'RGB') },
       { name: 'depth', type: 'float', channels: { Z: layers.depth } },
-      ...layers.lights.map(({ name, data }): ExrLayer => ({ name: `light.${name.replaceAll(/[^\w-]+/g, '_')}`, type, channels: rgba(data, 'RGB') })),
+      ...layers.lights.map(({ name, data }): ExrLayer => ({
+        name: `light.${name.replaceAll(/[^\w-]+/g, '_')}`,
+        type,
+        channels: rgba(data, 'RGB'),
+      })),
       { name: 'objectId', channels: { id: layers.objectId } },
       { name: 'materialId', channels: { id: layers.materialId } },
     );

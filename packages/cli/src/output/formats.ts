@@ -24,7 +24,10 @@ export function formatOf(path: string, bits?: number): OutputTarget {
   }
   const depths: readonly number[] = DEPTHS[ending];
   if (bits !== undefined && ending !== 'hdr' && !depths.includes(bits)) {
-    throw new CliError('cli/usage', `--bits ${bits} is not possible for "${path}": .${ending} has ${depths.join(' or ')}.`);
+    throw new CliError(
+      'cli/usage',
+      `--bits ${bits} is not possible for "${path}": .${ending} has ${depths.join(' or ')}.`,
+    );
   }
   return { path, format: ending, bits: (ending === 'hdr' ? 8 : (bits ?? depths[0])) as OutputTarget['bits'] };
 }

@@ -11,8 +11,17 @@ export interface DisplayOptions {
 }
 
 /** The picture tone-mapped, sRGB-encoded and packed as PNG. */
-export function pngFile(picture: Picture, bits: 8 | 16, { toneMap, exposure, transparent }: DisplayOptions): Uint8Array {
+export function pngFile(
+  picture: Picture,
+  bits: 8 | 16,
+  { toneMap, exposure, transparent }: DisplayOptions,
+): Uint8Array {
   const { width, height, beauty } = picture;
-  const data = toneMapPixels(beauty, width, height, { toneMap, exposure, alpha: transparent ? 'straight' : 'opaque', output: bits === 16 ? 'uint16' : 'uint8' });
+  const data = toneMapPixels(beauty, width, height, {
+    toneMap,
+    exposure,
+    alpha: transparent ? 'straight' : 'opaque',
+    output: bits === 16 ? 'uint16' : 'uint8',
+  });
   return encodePng({ width, height, data, text: { Software: picture.software } });
 }

@@ -19,10 +19,19 @@ const REPLACE = constants.O_WRONLY | constants.O_CREAT | constants.O_TRUNC | (co
 
 const reason = (cause: unknown) => {
   const { code, message } = cause as NodeJS.ErrnoException;
-  const known: Record<string, string> = { ENOENT: 'its folder does not exist', EACCES: 'permission denied', EPERM: 'permission denied', EROFS: 'the file system is read-only', ENOSPC: 'the disk is full', ENOTDIR: 'its folder is not a folder', EISDIR: 'it is a folder' };
+  const known: Record<string, string> = {
+    ENOENT: 'its folder does not exist',
+    EACCES: 'permission denied',
+    EPERM: 'permission denied',
+    EROFS: 'the file system is read-only',
+    ENOSPC: 'the disk is full',
+    ENOTDIR: 'its folder is not a folder',
+    EISDIR: 'it is a folder',
+  };
   return (code && known[code]) || message;
 };
-const unwritable = (path: string, cause: unknown) => new CliError('cli/output', `Cannot write "${path}": ${reason(cause)}.`, { cause, location: { file: path } });
+const unwritable = (path: string, cause: unknown) =>
+  new CliError('cli/output', `Cannot write "${path}": ${reason(cause)}.`, { cause, location: { file: path } });
 
 /**
  * Makes sure, before hours of rendering, that a file can be written.
@@ -63,7 +72,12 @@ export function encodePicture(picture: Picture, target: OutputTarget, display: D
  * @param sync Whether the bytes are on the disk before the file appears, so that it survives a power failure.
  * @throws {CliError} `cli/output`
  */
-export async function writeWhole(path: string, cwd: string, parts: readonly Uint8Array[], { sync = false } = {}): Promise<void> {
+export async function writeWhole(
+  path: string,
+  cwd: string,
+  parts: readonly Uint8Array[],
+  { sync = false } = {},
+): Promise<void> {
   const file = resolve(cwd, path);
   const partial = `${file}.${process.pid}.partial`;
   try {
@@ -87,7 +101,12 @@ export async function writeWhole(path: string, cwd: string, parts: readonly Uint
  *
  * @throws {CliError} `cli/output`
  */
-export async function writePicture(picture: Picture, target: OutputTarget, display: DisplayOptions, cwd: string): Promise<WrittenFile> {
+export async function writePicture(
+  picture: Picture,
+  target: OutputTarget,
+  display: DisplayOptions,
+  cwd: string,
+): Promise<WrittenFile> {
   const bytes = encodePicture(picture, target, display);
   await writeWhole(target.path, cwd, [bytes]);
   return { path: target.path, format: target.format, bits: target.bits, bytes: bytes.length };

@@ -32,18 +32,34 @@ const hashOf = async (file: string): Promise<string> => {
 
 /** What decides the samples of an image, under the names of the options; files by their content. */
 async function settingsOf({ options, variant, view }: Shot, cwd: string): Promise<Record<string, string>> {
-  const { model, pose, env, envRotation, envIntensity, width, height, depth, seed, transparent, catchers, quality } = options;
+  const { model, pose, env, envRotation, envIntensity, width, height, depth, seed, transparent, catchers, quality } =
+    options;
   const file = (path: string) => hashOf(resolve(cwd, path));
   const text = (value: unknown) => (typeof value === 'string' ? value : JSON.stringify(value ?? null));
   const { name: _name, ...camera } = view;
   const all: Record<string, unknown> = {
     'version of glanz': version(),
     'content of the model': await file(model),
-    '--env': isEnvironmentFile(env) ? await file(env) : env, '--env-rotation': envRotation, '--env-intensity': envIntensity,
-    '--size': `${width}x${height}`, '--depth': depth, '--seed': seed, '--transparent': transparent, '--catcher': catchers,
-    '--scene': pose.scene, '--animation': pose.animation, '--time': pose.time, '--variant': variant, '--camera or --view': camera,
-    '--filter': quality.filter, '--light-groups': quality.lightGroups, '--clamp-indirect': quality.clampIndirect, '--regularization': quality.regularization,
-    '--no-caustics': quality.caustics, '--max-bounces': quality.maxBounces, '--back-face-culling': quality.backFaceCulling,
+    '--env': isEnvironmentFile(env) ? await file(env) : env,
+    '--env-rotation': envRotation,
+    '--env-intensity': envIntensity,
+    '--size': `${width}x${height}`,
+    '--depth': depth,
+    '--seed': seed,
+    '--transparent': transparent,
+    '--catcher': catchers,
+    '--scene': pose.scene,
+    '--animation': pose.animation,
+    '--time': pose.time,
+    '--variant': variant,
+    '--camera or --view': camera,
+    '--filter': quality.filter,
+    '--light-groups': quality.lightGroups,
+    '--clamp-indirect': quality.clampIndirect,
+    '--regularization': quality.regularization,
+    '--no-caustics': quality.caustics,
+    '--max-bounces': quality.maxBounces,
+    '--back-face-culling': quality.backFaceCulling,
   };
   return Object.fromEntries(Object.entries(all).map(([key, value]) => [key, text(value)]));
 }
@@ -75,13 +91,18 @@ export class CheckpointFile {
    * file stays as it is.
    */
   async read(codec: () => Promise<FilmCodec>): Promise<FilmState | undefined> {
-    const broken = (why: string, cause?: unknown) => this.#error(`"${this.path}" cannot be resumed: ${why}. Delete it to begin from the first sample, or name another file by --checkpoint.`, cause);
+    const broken = (why: string, cause?: unknown) =>
+      this.#error(
+        `"${this.path}" cannot be resumed: ${why}. Delete it to begin from the first sample, or name another file by --checkpoint.`,
+        cause,
+      );
     const found = await stat(this.#file).catch((cause: NodeJS.ErrnoException) => {
       if (cause.code === 'ENOENT') return undefined;
       throw broken(cause.message, cause);
     });
     if (!found) return undefined;
-    const foreign = () => this.#error(`"${this.path}" is not a checkpoint of glanz; it stays as it is. Name another file by --checkpoint.`);
+    const foreign = () =>
+      this.#error(`"${this.path}" is not a checkpoint of glanz; it stays as it is. Name another file by --checkpoint.`);
     if (!found.isFile()) throw foreign();
     const handle = await open(this.#file, 'r');
     try {
@@ -93,12 +114,19 @@ export class CheckpointFile {
       const header = parseHeader(new TextDecoder().decode(head.subarray(FIRST_LINE.length, end)));
       if (end === 0 || !header) throw broken('its header is damaged');
       const differing = differences(header.settings, await this.#ownSettings());
-      if (differing.length > 0) throw this.#error(`The checkpoint "${this.path}" belongs to another image: ${differing.join('; ')}. Repeat the command that wrote it, or name another file by --checkpoint.`);
+      if (differing.length > 0)
+        throw this.#error(
+          `The checkpoint "${this.path}" belongs to another image: ${differing.join('; ')}. Repeat the command that wrote it, or name another file by --checkpoint.`,
+        );
       const { samples } = this.#shot.options;
-      if (header.samples > samples) throw this.#error(`The checkpoint "${this.path}" has ${header.samples} samples already, more than --samples ${samples}. Ask for at least as many, or name another file by --checkpoint.`);
-      if (found.size !== end + header.bytes) throw broken(`it has ${found.size} bytes instead of ${end + header.bytes}`);
+      if (header.samples > samples)
+        throw this.#error(
+          `The checkpoint "${this.path}" has ${header.samples} samples already, more than --samples ${samples}. Ask for at least as many, or name another file by --checkpoint.`,
+        );
+      if (found.size !== end + header.bytes)
+        throw broken(`it has ${found.size} bytes instead of ${end + header.bytes}`);
       const bytes = new Uint8Array(header.bytes);
-      for (let at = 0; at < bytes.length; ) {
+      for (let at = 0; at < bytes.length;) {
         const { bytesRead } = await handle.read(bytes, at, Math.min(2 ** 30, bytes.length - at), end + at);
         if (bytesRead === 0) throw broken('it ends early');
         at += bytesRead;
@@ -118,8 +146,18 @@ export class CheckpointFile {
   /** Replaces the file; it is whole at any time. @throws {CliError} `cli/output` */
   async write(state: FilmState, codec: () => Promise<FilmCodec>): Promise<void> {
     const film = (await codec()).encode(state);
-    const header: Header = { settings: await this.#ownSettings(), samples: state.samples, bytes: film.length, sha256: createHash('sha256').update(film).digest('hex') };
-    await writeWhole(this.path, this.#cwd, [new TextEncoder().encode(`${FIRST_LINE}${JSON.stringify(header)}\n`), film], { sync: true });
+    const header: Header = {
+      settings: await this.#ownSettings(),
+      samples: state.samples,
+      bytes: film.length,
+      sha256: createHash('sha256').update(film).digest('hex'),
+    };
+    await writeWhole(
+      this.path,
+      this.#cwd,
+      [new TextEncoder().encode(`${FIRST_LINE}${JSON.stringify(header)}\n`), film],
+      { sync: true },
+    );
   }
 
   /** The image is finished. */
@@ -135,7 +173,14 @@ export class CheckpointFile {
 function parseHeader(text: string): Header | undefined {
   try {
     const { settings, samples, bytes, sha256 } = JSON.parse(text) as Header;
-    const sound = typeof settings === 'object' && settings !== null && Number.isSafeInteger(samples) && samples >= 0 && Number.isSafeInteger(bytes) && bytes >= 0 && typeof sha256 === 'string';
+    const sound =
+      typeof settings === 'object' &&
+      settings !== null &&
+      Number.isSafeInteger(samples) &&
+      samples >= 0 &&
+      Number.isSafeInteger(bytes) &&
+      bytes >= 0 &&
+      typeof sha256 === 'string';
     return sound ? { settings, samples, bytes, sha256 } : undefined;
   } catch {
     return undefined;
@@ -147,5 +192,11 @@ const short = (text: string) => (text === 'null' ? 'not given' : text.length > 6
 function differences(theirs: Readonly<Record<string, string>>, ours: Readonly<Record<string, string>>): string[] {
   return Object.keys(ours)
     .filter((key) => theirs[key] !== ours[key])
-    .map((key) => (key === 'content of the model' ? 'it is of another model' : key === '--env' ? 'its --env is another one' : `its ${key} is ${short(String(theirs[key] ?? 'null'))}, here ${short(ours[key] as string)}`));
+    .map((key) =>
+      key === 'content of the model'
+        ? 'it is of another model'
+        : key === '--env'
+          ? 'its --env is another one'
+          : `its ${key} is ${short(String(theirs[key] ?? 'null'))}, here ${short(ours[key] as string)}`,
+    );
 }

@@ -6,8 +6,8 @@ import type { ProgressReporter } from '../progress';
 import type { CheckpointFile } from './checkpoint-file';
 
 /**
- * Bytes a second at which a film is copied from the GPU, on a slow machine. With {@link SHARE} this gives the interval in
- * which copying takes less than 1 % of the time: 5 s for 1024 × 768 pixels.
+ * Bytes a second at which a film is copied from the GPU, on a slow machine. With {@link SHARE} this gives the interval
+ * in which copying takes less than 1 % of the time: 5 s for 1024 × 768 pixels.
  */
 const COPY_RATE = 1e9;
 const SHARE = 100;
@@ -62,7 +62,10 @@ export class Checkpoints {
     const bytes = BYTES_PER_PIXEL * context.pixels;
     this.#interval = Math.max(SHORTEST_MS, this.#copyMs(bytes) * SHARE);
     this.#fits = bytes <= totalmem() * MEMORY_SHARE;
-    if (!this.#fits && context.file) this.#warn(`a film of ${(bytes / 1e9).toFixed(0)} GB is too large to be copied on this machine: there will be no checkpoints.`);
+    if (!this.#fits && context.file)
+      this.#warn(
+        `a film of ${(bytes / 1e9).toFixed(0)} GB is too large to be copied on this machine: there will be no checkpoints.`,
+      );
     const now = context.io.now();
     this.#next = now + this.#interval;
     this.#nextWrite = now + FILE_MS;
@@ -139,7 +142,8 @@ export class Checkpoints {
       .catch((error: unknown) => this.#warn(`${(error as Error).message} Rendering goes on without.`))
       .finally(() => {
         // Packing and hashing take the thread about as long as copying does; the disk works beside it.
-        this.#nextWrite = io.now() + Math.max(FILE_MS, 2 * SHARE * this.#copyMs(bytesOf(state)), (io.now() - start) * WAIT_SHARE);
+        this.#nextWrite =
+          io.now() + Math.max(FILE_MS, 2 * SHARE * this.#copyMs(bytesOf(state)), (io.now() - start) * WAIT_SHARE);
         this.#writing = undefined;
       });
   }

@@ -88,7 +88,8 @@ export class LaneGpu {
     this.#adapterName = opened.adapterName;
     const { vendor = '', device = '', description = '' } = opened.device.adapterInfo ?? {};
     const adapter = `${vendor} ${device} ${description}`.trim();
-    if (this.#adapter !== undefined && adapter !== this.#adapter) this.#context.progress.warning(`another GPU takes over: ${adapter}.`);
+    if (this.#adapter !== undefined && adapter !== this.#adapter)
+      this.#context.progress.warning(`another GPU takes over: ${adapter}.`);
     this.#adapter = adapter;
     void opened.device.lost.then((info) => {
       if (this.#opened === opened) this.#lost = info;
@@ -123,7 +124,8 @@ export class LaneGpu {
     if (!opened) return undefined;
     const typed = error instanceof GlanzError;
     if (this.#lost || (typed && !error.code.startsWith('renderer/'))) return this.#lost;
-    if (typed && error.code === 'renderer/device-lost') return { reason: 'unknown', message: error.message } as GPUDeviceLostInfo;
+    if (typed && error.code === 'renderer/device-lost')
+      return { reason: 'unknown', message: error.message } as GPUDeviceLostInfo;
     const late = new AbortController();
     await Promise.race([opened.device.lost, this.#context.io.wait(LATE_NEWS, late.signal)]);
     late.abort();
@@ -162,7 +164,9 @@ export class LaneGpu {
 
   #gone(label: string, why: string, givesDevices: boolean, cause: unknown): GpuGoneError {
     const times = this.#losses === 1 ? 'once' : `${this.#losses} times`;
-    const what = givesDevices ? `was lost ${times}, the last time without progress in between` : `was lost and gives no new device after ${BACK_OFF.length} attempts`;
+    const what = givesDevices
+      ? `was lost ${times}, the last time without progress in between`
+      : `was lost and gives no new device after ${BACK_OFF.length} attempts`;
     return new GpuGoneError(`The GPU "${label}" ${what} (${why}). ${GPU_ADVICE}`, givesDevices, cause);
   }
 

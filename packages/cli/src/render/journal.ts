@@ -12,7 +12,8 @@ export const JOURNAL = '.glanz-journal.jsonl';
 // Not through a link that somebody has put in its place.
 const APPEND = constants.O_WRONLY | constants.O_CREAT | constants.O_APPEND | (constants.O_NOFOLLOW ?? 0);
 
-const fileOf = (shot: Shot, cwd: string) => join(dirname(resolve(cwd, (shot.outputs[0] as Shot['outputs'][number]).path)), JOURNAL);
+const fileOf = (shot: Shot, cwd: string) =>
+  join(dirname(resolve(cwd, (shot.outputs[0] as Shot['outputs'][number]).path)), JOURNAL);
 
 /** What a file is, for telling whether it has changed. */
 async function stamp(path: string | undefined, cwd: string): Promise<string> {
@@ -25,7 +26,16 @@ async function stamp(path: string | undefined, cwd: string): Promise<string> {
 export async function keyOf({ options, variant, view, outputs }: Shot, cwd: string): Promise<string> {
   const { variants: _, views: __, outputs: ___, ...rest } = options;
   const camera = view.kind === 'camera' && view.camera?.endsWith('.json') ? await stamp(view.camera, cwd) : '';
-  const text = JSON.stringify([version(), rest, variant, view, outputs, await stamp(options.model, cwd), await stamp(options.env, cwd), camera]);
+  const text = JSON.stringify([
+    version(),
+    rest,
+    variant,
+    view,
+    outputs,
+    await stamp(options.model, cwd),
+    await stamp(options.env, cwd),
+    camera,
+  ]);
   return createHash('sha256').update(text).digest('hex').slice(0, 32);
 }
 
@@ -45,16 +55,28 @@ export class Journal {
     if (!entries) this.#read.set(file, (entries = readJournal(file)));
     const files = (await entries).get(await keyOf(shot, this.#cwd));
     if (!files) return false;
-    const sizes = await Promise.all(files.map(({ path }) => stat(resolve(this.#cwd, path)).then(({ size }) => size, () => -1)));
+    const sizes = await Promise.all(
+      files.map(({ path }) =>
+        stat(resolve(this.#cwd, path)).then(
+          ({ size }) => size,
+          () => -1,
+        ),
+      ),
+    );
     return files.every(({ bytes }, i) => sizes[i] === bytes);
   }
 
   /** Notes that a picture is done; its files are there already. */
   async done(shot: Shot, files: readonly WrittenFile[]): Promise<void> {
     const file = fileOf(shot, this.#cwd);
-    await appendFile(file, `${JSON.stringify({ key: await keyOf(shot, this.#cwd), files })}\n`, { flag: APPEND }).catch((cause: unknown) => {
-      throw new CliError('cli/output', `Cannot write "${file}": ${(cause as Error).message}.`, { cause, location: { file } });
-    });
+    await appendFile(file, `${JSON.stringify({ key: await keyOf(shot, this.#cwd), files })}\n`, { flag: APPEND }).catch(
+      (cause: unknown) => {
+        throw new CliError('cli/output', `Cannot write "${file}": ${(cause as Error).message}.`, {
+          cause,
+          location: { file },
+        });
+      },
+    );
   }
 }
 

@@ -83,9 +83,9 @@ interface Making {
 }
 
 /**
- * One GPU, making one picture after another. Pictures of the same scene share a tracer: another variant or view is an edit,
- * and the film restarts, so that its pixels are those of a tracer of its own. When the GPU is lost, the picture goes on on a
- * new device from its last checkpoint, with the same pixels as without the loss.
+ * One GPU, making one picture after another. Pictures of the same scene share a tracer: another variant or view is an
+ * edit, and the film restarts, so that its pixels are those of a tracer of its own. When the GPU is lost, the picture
+ * goes on on a new device from its last checkpoint, with the same pixels as without the loss.
  */
 export class Lane {
   readonly #context: LaneContext;
@@ -142,7 +142,9 @@ export class Lane {
         } catch (cause) {
           throw await this.#withCheckpoint(cause, making);
         }
-        this.#context.progress.warning(`${shotLabel(shot)}: the GPU was lost; going on from ${film && film.samples > 0 ? `sample ${film.samples}` : 'the first sample'} on a new device.`);
+        this.#context.progress.warning(
+          `${shotLabel(shot)}: the GPU was lost; going on from ${film && film.samples > 0 ? `sample ${film.samples}` : 'the first sample'} on a new device.`,
+        );
       }
     }
   }
@@ -151,7 +153,16 @@ export class Lane {
   async #begin({ shot, film }: Job): Promise<Making> {
     const { io, progress, backend } = this.#context;
     const start = io.now();
-    const timings: RenderTimings = { loadMs: 0, environmentMs: 0, deviceMs: 0, prepareMs: 0, renderMs: 0, readMs: 0, writeMs: 0, totalMs: 0 };
+    const timings: RenderTimings = {
+      loadMs: 0,
+      environmentMs: 0,
+      deviceMs: 0,
+      prepareMs: 0,
+      renderMs: 0,
+      readMs: 0,
+      writeMs: 0,
+      totalMs: 0,
+    };
     const timed: Timed = async (key, run) => {
       const from = io.now();
       try {
@@ -165,8 +176,23 @@ export class Lane {
     const read = film ? undefined : await file?.read(codec);
     if (read) progress.line(`${shot.checkpoint}: going on from sample ${read.samples}`);
     const resumed = film ?? read;
-    const checkpoints = new Checkpoints({ io, progress, codec, file, pixels: shot.options.width * shot.options.height }, resumed, read);
-    return { shot, start, timings, timed, checkpoints, file, resumed: resumed?.samples ?? 0, read, lossesBefore: this.#gpu.losses, noise: undefined };
+    const checkpoints = new Checkpoints(
+      { io, progress, codec, file, pixels: shot.options.width * shot.options.height },
+      resumed,
+      read,
+    );
+    return {
+      shot,
+      start,
+      timings,
+      timed,
+      checkpoints,
+      file,
+      resumed: resumed?.samples ?? 0,
+      read,
+      lossesBefore: this.#gpu.losses,
+      noise: undefined,
+    };
   }
 
   /** Renders on the device there is, from the last checkpoint to the end. */
@@ -188,32 +214,60 @@ export class Lane {
     const { samples } = tracer;
     if (signal.aborted && file && samples > 0) {
       await checkpoints.save(tracer);
-      if ((await checkpoints.flush()) > 0) progress.line(`${file.path}: ${samples} samples; the same command goes on from there`);
+      if ((await checkpoints.flush()) > 0)
+        progress.line(`${file.path}: ${samples} samples; the same command goes on from there`);
     }
     if (samples === 0 || (signal.aborted && !keepPartial)) return undefined;
     progress.stage('write');
     const picture = await timed('readMs', () => readPicture(tracer, options, samples));
     await this.#flushed();
     const files: WrittenFile[] = [];
-    for (const target of shot.outputs) files.push(await timed('writeMs', () => writePicture(picture, target, options, io.cwd)));
+    for (const target of shot.outputs)
+      files.push(await timed('writeMs', () => writePicture(picture, target, options, io.cwd)));
     await checkpoints.settled();
     if (!signal.aborted) await file?.remove();
     timings.totalMs = io.now() - making.start;
     const { statistics } = tracer;
-    const samplesPerSecond = timings.renderMs > 0 ? Math.max(0, samples - making.resumed) / (timings.renderMs / 1000) : 0;
+    const samplesPerSecond =
+      timings.renderMs > 0 ? Math.max(0, samples - making.resumed) / (timings.renderMs / 1000) : 0;
     const gpuLosses = this.#gpu.losses - making.lossesBefore;
     const names = files.map(({ path }) => path).join(', ');
-    progress.line(`${names}: ${options.width}×${options.height}, ${samples}${signal.aborted && options.noise === undefined ? ` of ${options.samples}` : ''} ${options.samples === 1 ? 'sample' : 'samples'} at ${rate(samplesPerSecond)}/s, ${duration(timings.totalMs)} in all`);
-    if (statistics.badSamples > 0) progress.warning(`${shotLabel(shot)}: ${statistics.badSamples} samples were not numbers and were left out; please report the model.`);
+    progress.line(
+      `${names}: ${options.width}×${options.height}, ${samples}${signal.aborted && options.noise === undefined ? ` of ${options.samples}` : ''} ${options.samples === 1 ? 'sample' : 'samples'} at ${rate(samplesPerSecond)}/s, ${duration(timings.totalMs)} in all`,
+    );
+    if (statistics.badSamples > 0)
+      progress.warning(
+        `${shotLabel(shot)}: ${statistics.badSamples} samples were not numbers and were left out; please report the model.`,
+      );
     const { noise, resumed } = making;
-    return { files, samples, resumedSamples: resumed, gpuLosses, ...(noise === undefined ? {} : { noise }), samplesPerSecond, camera: camera.name || camera.type, environment, adapter: { name: adapterName, software }, timings, statistics, warnings };
+    return {
+      files,
+      samples,
+      resumedSamples: resumed,
+      gpuLosses,
+      ...(noise === undefined ? {} : { noise }),
+      samplesPerSecond,
+      camera: camera.name || camera.type,
+      environment,
+      adapter: { name: adapterName, software },
+      timings,
+      statistics,
+      warnings,
+    };
   }
 
   async #load(options: RenderCommandOptions, timings: RenderTimings, timed: Timed): Promise<PreparedScene> {
     const { backend, progress, loader, signal } = this.#context;
     progress.stage('load model');
     const { deviceMs, environmentMs } = timings;
-    const prepared = await timed('loadMs', () => loader.load(options, signal, async () => backend.compressedFormats(await this.#device(timed)), (run) => timed('environmentMs', run)));
+    const prepared = await timed('loadMs', () =>
+      loader.load(
+        options,
+        signal,
+        async () => backend.compressedFormats(await this.#device(timed)),
+        (run) => timed('environmentMs', run),
+      ),
+    );
     // A model whose pictures can stay packed asks the GPU what it reads: until it runs, nothing is loaded.
     timings.loadMs -= timings.deviceMs - deviceMs + (timings.environmentMs - environmentMs);
     return prepared;
@@ -224,7 +278,8 @@ export class Lane {
     if (this.#toldOf === scene) return;
     this.#toldOf = scene;
     for (const warning of warnings.slice(0, MAX_WARNINGS)) progress.warning(warning);
-    if (warnings.length > MAX_WARNINGS) progress.warning(`and ${warnings.length - MAX_WARNINGS} more; --json lists them all.`);
+    if (warnings.length > MAX_WARNINGS)
+      progress.warning(`and ${warnings.length - MAX_WARNINGS} more; --json lists them all.`);
   }
 
   async #restore(tracer: Tracer, { checkpoints, file, read, shot }: Making): Promise<void> {
@@ -234,9 +289,16 @@ export class Lane {
       await tracer.restoreFilm(film);
     } catch (error) {
       if (!(error instanceof GlanzError) || error.code !== 'renderer/film-state') throw error;
-      if (file && film === read) throw new CliError('cli/checkpoint', `The checkpoint "${file.path}" belongs to another image: ${error.message} Repeat the command that wrote it, or name another file by --checkpoint.`, { cause: error, location: { file: file.path } });
+      if (file && film === read)
+        throw new CliError(
+          'cli/checkpoint',
+          `The checkpoint "${file.path}" belongs to another image: ${error.message} Repeat the command that wrote it, or name another file by --checkpoint.`,
+          { cause: error, location: { file: file.path } },
+        );
       // Another GPU may read other formats of textures, which makes it another scene.
-      this.#context.progress.warning(`${shotLabel(shot)}: begins from the first sample, since this GPU cannot go on with the samples of another.`);
+      this.#context.progress.warning(
+        `${shotLabel(shot)}: begins from the first sample, since this GPU cannot go on with the samples of another.`,
+      );
       checkpoints.forget();
       tracer.reset();
     }
@@ -244,13 +306,21 @@ export class Lane {
 
   async #sample(tracer: Tracer, making: Making): Promise<void> {
     const { progress, signal } = this.#context;
-    const { shot: { options }, checkpoints } = making;
+    const {
+      shot: { options },
+      checkpoints,
+    } = making;
     checkpoints.restart();
     // A sample of a large image may take longer than the interval.
     const timer = setInterval(() => checkpoints.tick(tracer), TICK_MS);
     try {
       // Nobody is looking at a canvas here: larger submissions than in a page, still far from any watchdog.
-      for await (const state of tracer.render({ samples: options.samples, ...(options.noise === undefined ? {} : { noise: options.noise }), signal, maxSubmitMs: 200 })) {
+      for await (const state of tracer.render({
+        samples: options.samples,
+        ...(options.noise === undefined ? {} : { noise: options.noise }),
+        signal,
+        maxSubmitMs: 200,
+      })) {
         making.noise = state.noise ?? making.noise;
         progress.samples(state);
         this.#gpu.check();
@@ -278,7 +348,12 @@ export class Lane {
       if (samples > 0) this.#context.progress.line(kept);
       return error;
     }
-    const rest = samples > 0 ? kept : file ? 'There was no checkpoint yet.' : 'With --checkpoint FILE, a later run goes on from the last samples.';
+    const rest =
+      samples > 0
+        ? kept
+        : file
+          ? 'There was no checkpoint yet.'
+          : 'With --checkpoint FILE, a later run goes on from the last samples.';
     return new GpuGoneError(`${error.message} ${rest}`, error.givesDevices, error.cause);
   }
 
@@ -293,7 +368,12 @@ export class Lane {
   }
 
   /** A tracer of the scene with an empty film, at the camera, in the variant. */
-  async #prepared(options: RenderCommandOptions, scene: Scene, camera: Camera, variant: number | undefined): Promise<Tracer> {
+  async #prepared(
+    options: RenderCommandOptions,
+    scene: Scene,
+    camera: Camera,
+    variant: number | undefined,
+  ): Promise<Tracer> {
     const { backend, progress, signal } = this.#context;
     const { device } = this.#gpu.opened as OpenedGpu;
     const { width, height, depth, seed, quality, transparent } = options;

@@ -22,8 +22,8 @@ export class JobQueue {
   }
 
   /**
-   * The next image; `undefined` when all are made. While others work it waits: one of their GPUs may be lost, and its image
-   * comes back.
+   * The next image; `undefined` when all are made. While others work it waits: one of their GPUs may be lost, and its
+   * image comes back.
    */
   async take(): Promise<Job | undefined> {
     while (!this.#closed) {

@@ -15,7 +15,8 @@ export interface PreparedScene {
 type Timed = <T>(run: () => Promise<T>) => Promise<T>;
 
 /** What decides a prepared scene, as text. */
-export const sceneKey = ({ model, pose, env, envRotation, envIntensity, catchers }: RenderCommandOptions): string => JSON.stringify([model, pose, env, envRotation, envIntensity, catchers]);
+export const sceneKey = ({ model, pose, env, envRotation, envIntensity, catchers }: RenderCommandOptions): string =>
+  JSON.stringify([model, pose, env, envRotation, envIntensity, catchers]);
 
 /** Loads models; the last one is kept, since the next picture is mostly of the same. */
 export class SceneLoader {
@@ -33,7 +34,12 @@ export class SceneLoader {
    * @param formats Compressed formats of the device that asks first; another one unpacks what it cannot read.
    * @param timeEnvironment Runs what makes the surroundings, and measures it.
    */
-  load(options: RenderCommandOptions, signal: AbortSignal, formats?: () => Promise<readonly CompressedFormat[]>, timeEnvironment: Timed = (run) => run()): Promise<PreparedScene> {
+  load(
+    options: RenderCommandOptions,
+    signal: AbortSignal,
+    formats?: () => Promise<readonly CompressedFormat[]>,
+    timeEnvironment: Timed = (run) => run(),
+  ): Promise<PreparedScene> {
     const key = sceneKey(options);
     if (this.#last && key === this.#key) return this.#last;
     this.#key = key;
@@ -42,9 +48,22 @@ export class SceneLoader {
     return this.#last;
   }
 
-  async #prepare(options: RenderCommandOptions, signal: AbortSignal, formats: (() => Promise<readonly CompressedFormat[]>) | undefined, timeEnvironment: Timed): Promise<PreparedScene> {
+  async #prepare(
+    options: RenderCommandOptions,
+    signal: AbortSignal,
+    formats: (() => Promise<readonly CompressedFormat[]>) | undefined,
+    timeEnvironment: Timed,
+  ): Promise<PreparedScene> {
     const model = await this.#backend.loadModel(resolve(this.#cwd, options.model), signal, options.pose, formats);
-    const { environment, source, warnings } = await timeEnvironment(() => chooseEnvironment(model, options.env, { rotation: options.envRotation, intensity: options.envIntensity }, this.#cwd, signal));
+    const { environment, source, warnings } = await timeEnvironment(() =>
+      chooseEnvironment(
+        model,
+        options.env,
+        { rotation: options.envRotation, intensity: options.envIntensity },
+        this.#cwd,
+        signal,
+      ),
+    );
     const { environment: _replaced, ...rest } = model;
     const instances = markCatchers(model.instances, options.catchers);
     return {
@@ -55,19 +74,29 @@ export class SceneLoader {
   }
 }
 
-/** The number of a variant by its name or number. @throws {CliError} `cli/usage` for one that the model does not have. */
+/**
+ * The number of a variant by its name or number. @throws {CliError} `cli/usage` for one that the model does not have.
+ */
 export function variantIndex(scene: Scene, variant: string | undefined): number | undefined {
   if (variant === undefined) return undefined;
   const names = scene.variants ?? [];
   const index = names.includes(variant) ? names.indexOf(variant) : /^\d+$/.test(variant) ? Number(variant) : -1;
-  if (names[index] === undefined) throw new CliError('cli/usage', `--variant: the model has no variant "${variant}"; it has ${names.length === 0 ? 'none' : names.map((name) => `"${name}"`).join(', ')}.`);
+  if (names[index] === undefined)
+    throw new CliError(
+      'cli/usage',
+      `--variant: the model has no variant "${variant}"; it has ${names.length === 0 ? 'none' : names.map((name) => `"${name}"`).join(', ')}.`,
+    );
   return index;
 }
 
 /** @throws {CliError} `cli/usage` for a name that no part has. */
 function markCatchers(instances: Scene['instances'], names: readonly string[]): Scene['instances'] {
   for (const name of names) {
-    if (!instances.some((instance) => instance.name === name)) throw new CliError('cli/usage', `--catcher: the model has no part "${name}"; it has ${[...new Set(instances.map((instance) => `"${instance.name}"`))].join(', ')}.`);
+    if (!instances.some((instance) => instance.name === name))
+      throw new CliError(
+        'cli/usage',
+        `--catcher: the model has no part "${name}"; it has ${[...new Set(instances.map((instance) => `"${instance.name}"`))].join(', ')}.`,
+      );
   }
   return instances.map((instance) => (names.includes(instance.name) ? { ...instance, catcher: true } : instance));
 }

@@ -23,13 +23,23 @@ export const hasPlaceholders = (path: string): boolean => path.search(PLACEHOLDE
 
 /** @throws {CliError} `cli/usage` for a place that nothing is known for. */
 export function checkPlaceholders(path: string, option = '--output'): void {
-  for (const [whole, name] of path.matchAll(PLACEHOLDER)) if (!NAMES.includes(name as string)) throw new CliError('cli/usage', `${option} "${path}": ${whole} is unknown. Known: ${NAMES.map((known) => `{${known}}`).join(', ')}.`);
+  for (const [whole, name] of path.matchAll(PLACEHOLDER))
+    if (!NAMES.includes(name as string))
+      throw new CliError(
+        'cli/usage',
+        `${option} "${path}": ${whole} is unknown. Known: ${NAMES.map((known) => `{${known}}`).join(', ')}.`,
+      );
 }
 
 function filled(path: string, names: Readonly<Record<string, string>>, several: readonly string[]): string {
   // What tells pictures apart has to be in their names.
-  const missing = several.filter((name) => !path.includes(`{${name}}`)).map((name) => `-{${name}}`).join('');
-  return path.replace(/(\.[^.\\/]+)?$/, `${missing}$1`).replace(PLACEHOLDER, (whole, name: string) => names[name] ?? whole);
+  const missing = several
+    .filter((name) => !path.includes(`{${name}}`))
+    .map((name) => `-{${name}}`)
+    .join('');
+  return path
+    .replace(/(\.[^.\\/]+)?$/, `${missing}$1`)
+    .replace(PLACEHOLDER, (whole, name: string) => names[name] ?? whole);
 }
 
 /**
@@ -44,7 +54,13 @@ export function shotsOf(options: RenderCommandOptions, all: readonly string[] = 
   return (variants.length === 0 ? [undefined] : variants).flatMap((variant) =>
     options.views.map((view) => {
       const names = { model, variant: variant === undefined ? 'default' : fileNamePart(variant), view: view.name };
-      return { options, variant, view, outputs: options.outputs.map((target) => ({ ...target, path: filled(target.path, names, several) })), checkpoint: checkpoint === undefined ? undefined : filled(checkpoint, names, several) };
+      return {
+        options,
+        variant,
+        view,
+        outputs: options.outputs.map((target) => ({ ...target, path: filled(target.path, names, several) })),
+        checkpoint: checkpoint === undefined ? undefined : filled(checkpoint, names, several),
+      };
     }),
   );
 }
@@ -54,11 +70,18 @@ export function checkDistinct(shots: readonly Shot[]): void {
   const seen = new Set<string>();
   for (const { outputs, checkpoint } of shots) {
     for (const path of [...outputs.map((target) => target.path), ...(checkpoint === undefined ? [] : [checkpoint])]) {
-      if (seen.has(path)) throw new CliError('cli/usage', `Two pictures would be written to "${path}": put {model}, {variant} or {view} into the name, or give each its own.`);
+      if (seen.has(path))
+        throw new CliError(
+          'cli/usage',
+          `Two pictures would be written to "${path}": put {model}, {variant} or {view} into the name, or give each its own.`,
+        );
       seen.add(path);
     }
   }
 }
 
 /** For progress: what tells this picture from the others. */
-export const shotLabel = ({ variant, view, outputs }: Shot): string => [outputs[0]?.path, variant, view.kind === 'camera' && view.camera === undefined ? undefined : view.name].filter((part) => part !== undefined).join(' · ');
+export const shotLabel = ({ variant, view, outputs }: Shot): string =>
+  [outputs[0]?.path, variant, view.kind === 'camera' && view.camera === undefined ? undefined : view.name]
+    .filter((part) => part !== undefined)
+    .join(' · ');

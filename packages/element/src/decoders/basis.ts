@@ -5,7 +5,8 @@ import { startWasm } from './start-wasm';
 let started: Promise<unknown> | undefined;
 
 /** The module of the Basis Universal transcoder, started once for all elements of a page. */
-export default (): Promise<unknown> => (started ??= startWasm(create, wasmBytes).catch((error: unknown) => {
-  started = undefined;
-  throw error;
-}));
+export default (): Promise<unknown> =>
+  (started ??= startWasm(create, wasmBytes).catch((error: unknown) => {
+    started = undefined;
+    throw error;
+  }));

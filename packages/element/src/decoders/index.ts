@@ -2,9 +2,9 @@ import type { GltfDecoders, Ktx2Decoder } from '@glanz/gltf';
 import { ElementError } from '../errors';
 
 /**
- * Addresses of ES modules that replace decoders of this package, absolute or relative to the page; they are read when a file
- * needs the decoder. The default export of such a module is what `GltfDecoders.draco` or `ktx2Decoder()` of `@glanz/gltf` take:
- * the module that Emscripten made, or a function that returns it or a promise of it.
+ * Addresses of ES modules that replace decoders of this package, absolute or relative to the page; they are read when a
+ * file needs the decoder. The default export of such a module is what `GltfDecoders.draco` or `ktx2Decoder()` of
+ * `@glanz/gltf` take: the module that Emscripten made, or a function that returns it or a promise of it.
  */
 export interface DecoderAddresses {
   /** Of Draco: the module of `draco3dgltf`. */
@@ -18,8 +18,8 @@ const ATTRIBUTE = { draco: 'draco-decoder', ktx2: 'ktx2-transcoder' } as const;
 type Module = { readonly default: unknown };
 
 /**
- * Decoders of Draco and KTX2, for the option `decoders` of `createViewer` and `loadGltf`. Each is a file of this package that is
- * fetched when the first model needs it.
+ * Decoders of Draco and KTX2, for the option `decoders` of `createViewer` and `loadGltf`. Each is a file of this
+ * package that is fetched when the first model needs it.
  *
  * @returns Decoders that throw an `ElementError` `element/decoder` where a file cannot be fetched or started.
  * @example
@@ -30,10 +30,19 @@ export function packagedDecoders(addresses: DecoderAddresses = {}): GltfDecoders
     const address = addresses[name];
     try {
       // Bundlers cannot know this address.
-      const given = address ? await import(/* webpackIgnore: true */ /* turbopackIgnore: true */ /* @vite-ignore */ new URL(address, document.baseURI).href) as Module : await own();
+      const given = address
+        ? ((await import(
+            /* webpackIgnore: true */ /* turbopackIgnore: true */ /* @vite-ignore */ new URL(address, document.baseURI)
+              .href
+          )) as Module)
+        : await own();
       return await (typeof given.default === 'function' ? (given.default as () => unknown)() : given.default);
     } catch (cause) {
-      throw new ElementError('element/decoder', `The decoder of this model does not start (${ATTRIBUTE[name]}${address ? `="${String(address)}"` : ''}): ${(cause as Error).message}`, { cause });
+      throw new ElementError(
+        'element/decoder',
+        `The decoder of this model does not start (${ATTRIBUTE[name]}${address ? `="${String(address)}"` : ''}): ${(cause as Error).message}`,
+        { cause },
+      );
     }
   };
   let ktx2: { readonly address: unknown; readonly decoder: Promise<Ktx2Decoder> } | undefined;
@@ -42,7 +51,9 @@ export function packagedDecoders(addresses: DecoderAddresses = {}): GltfDecoders
     ktx2: async (...picture) => {
       const address = addresses.ktx2;
       if (!ktx2 || ktx2.address !== address) {
-        const decoder = Promise.all([start('ktx2', () => import('./basis')), import('./ktx2')]).then(([module, { ktx2Decoder }]) => ktx2Decoder(module as object));
+        const decoder = Promise.all([start('ktx2', () => import('./basis')), import('./ktx2')]).then(
+          ([module, { ktx2Decoder }]) => ktx2Decoder(module as object),
+        );
         ktx2 = { address, decoder };
         // Another load tries again.
         decoder.catch(() => (ktx2 = undefined));

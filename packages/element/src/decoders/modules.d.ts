@@ -1,12 +1,16 @@
 declare module 'draco3dgltf/draco_decoder_gltf_nodejs.js' {
   /** Starts the decoder; `instantiateWasm` makes the instance and hands it to `done`. */
-  const create: (options: { readonly instantiateWasm: (imports: WebAssembly.Imports, done: (instance: WebAssembly.Instance) => void) => object }) => Promise<unknown>;
+  const create: (options: {
+    readonly instantiateWasm: (imports: WebAssembly.Imports, done: (instance: WebAssembly.Instance) => void) => object;
+  }) => Promise<unknown>;
   export default create;
 }
 
 declare module 'three/examples/jsm/libs/basis/basis_transcoder.js' {
   /** Starts the transcoder; as above. */
-  const create: (options: { readonly instantiateWasm: (imports: WebAssembly.Imports, done: (instance: WebAssembly.Instance) => void) => object }) => Promise<unknown>;
+  const create: (options: {
+    readonly instantiateWasm: (imports: WebAssembly.Imports, done: (instance: WebAssembly.Instance) => void) => object;
+  }) => Promise<unknown>;
   export default create;
 }
 

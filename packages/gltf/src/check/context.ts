@@ -5,7 +5,8 @@ import { GltfError } from '../error';
 export type Raw = { readonly [key: string]: unknown };
 
 /** Whether a value is a JSON object. */
-export const isObject = (value: unknown): value is Raw => typeof value === 'object' && value !== null && !Array.isArray(value);
+export const isObject = (value: unknown): value is Raw =>
+  typeof value === 'object' && value !== null && !Array.isArray(value);
 
 /** JSON text of a value as far as it is short and shallow; deep ones would overflow the stack of JSON.stringify. */
 function brief(value: unknown, depth: number): string {
@@ -13,8 +14,15 @@ function brief(value: unknown, depth: number): string {
   if (typeof value === 'number') return String(value);
   if (typeof value !== 'object' || value === null) return JSON.stringify(value) ?? String(value);
   if (depth === 4) return '…';
-  if (Array.isArray(value)) return `[${value.slice(0, 20).map((entry) => brief(entry, depth + 1)).join(',')}]`;
-  return `{${Object.keys(value).slice(0, 10).map((key) => `${JSON.stringify(key.slice(0, 60))}:${brief((value as Raw)[key], depth + 1)}`).join(',')}}`;
+  if (Array.isArray(value))
+    return `[${value
+      .slice(0, 20)
+      .map((entry) => brief(entry, depth + 1))
+      .join(',')}]`;
+  return `{${Object.keys(value)
+    .slice(0, 10)
+    .map((key) => `${JSON.stringify(key.slice(0, 60))}:${brief((value as Raw)[key], depth + 1)}`)
+    .join(',')}}`;
 }
 
 /** A value as it may be quoted in a message of one line. */
@@ -23,11 +31,16 @@ export const quote = (value: unknown): string => {
   return text.length > 40 ? `${text.slice(0, 40)}…` : text;
 };
 
-/** Whether objects and arrays lie in one another at most `most` times. What passes through to the host must not overflow its stack. */
+/**
+ * Whether objects and arrays lie in one another at most `most` times. What passes through to the host must not overflow
+ * its stack.
+ */
 export function isShallow(value: unknown, most = 100): boolean {
   let level: unknown[] = [value];
   for (let depth = 0; level.length > 0; depth++) {
-    const inside = level.flatMap((entry): unknown[] => (typeof entry === 'object' && entry !== null ? Object.values(entry) : []));
+    const inside = level.flatMap((entry): unknown[] =>
+      typeof entry === 'object' && entry !== null ? Object.values(entry) : [],
+    );
     if (inside.length > 0 && depth === most) return false;
     level = inside;
   }
@@ -39,7 +52,9 @@ export const own = (object: Raw, key: string): unknown => (Object.hasOwn(object,
 
 /** What every check has at hand: the document, and the two ways to object. */
 export class CheckContext {
-  /** Lists that have been looked through: doing so for each part that refers to one would take the square of the time. */
+  /**
+   * Lists that have been looked through: doing so for each part that refers to one would take the square of the time.
+   */
   readonly #lists = new Map<string, readonly Raw[]>();
 
   constructor(
@@ -50,7 +65,9 @@ export class CheckContext {
 
   /** @throws {GltfError} always, `gltf/malformed` unless told otherwise. */
   fail(path: string, what: string, code = 'gltf/malformed'): never {
-    throw new GltfError(code, `${this.file}: ${path} ${what}; export the file again or repair it.`, { location: { file: this.file, path } });
+    throw new GltfError(code, `${this.file}: ${path} ${what}; export the file again or repair it.`, {
+      location: { file: this.file, path },
+    });
   }
 
   warn(code: string, path: string, what: string): void {
@@ -91,7 +108,8 @@ export class CheckContext {
   /** An object, or undefined if it is not there. */
   object(owner: Raw, key: string, path: string): Raw | undefined {
     const value = own(owner, key);
-    if (value !== undefined && !isObject(value)) this.fail(`${path}/${key}`, `is ${quote(value)}, but must be an object`);
+    if (value !== undefined && !isObject(value))
+      this.fail(`${path}/${key}`, `is ${quote(value)}, but must be an object`);
     return value as Raw | undefined;
   }
 
@@ -105,7 +123,10 @@ export class CheckContext {
   integer(owner: Raw, key: string, path: string, low: number, high: number, initial?: number): number {
     const value = own(owner, key) ?? (Object.hasOwn(owner, key) ? null : initial);
     if (typeof value !== 'number' || !Number.isSafeInteger(value) || value < low || value > high) {
-      this.fail(`${path}/${key}`, `is ${quote(value)}, but must be a whole number ${high >= Number.MAX_SAFE_INTEGER ? `of at least ${low}` : `from ${low} to ${high}`}`);
+      this.fail(
+        `${path}/${key}`,
+        `is ${quote(value)}, but must be a whole number ${high >= Number.MAX_SAFE_INTEGER ? `of at least ${low}` : `from ${low} to ${high}`}`,
+      );
     }
     return value;
   }
@@ -118,7 +139,8 @@ export class CheckContext {
   }
 
   reference(value: unknown, path: string, list: readonly unknown[], kind: string): asserts value is number {
-    if (typeof value !== 'number' || !Number.isInteger(value) || value < 0 || value >= list.length) this.fail(path, `is ${quote(value)}, which names no ${kind} (the file has ${list.length})`);
+    if (typeof value !== 'number' || !Number.isInteger(value) || value < 0 || value >= list.length)
+      this.fail(path, `is ${quote(value)}, which names no ${kind} (the file has ${list.length})`);
   }
 
   /** An array of indices without repetitions; empty if it is not there. */

@@ -21,8 +21,8 @@ const SHAPES: ReadonlyMap<unknown, readonly [number, number]> = new Map([
 ]);
 
 /**
- * Most bytes that accessors may ask for without any in the file to show for it (no buffer view: zeros, perhaps with sparse
- * ones among them). Some hundred bytes of JSON could ask for terabytes.
+ * Most bytes that accessors may ask for without any in the file to show for it (no buffer view: zeros, perhaps with
+ * sparse ones among them). Some hundred bytes of JSON could ask for terabytes.
  */
 export const ZERO_FILL_LIMIT = 1 << 28;
 
@@ -63,18 +63,24 @@ export function checkBuffers(context: CheckContext): readonly Raw[] {
     const path = `/buffers/${index}`;
     context.integer(buffer, 'byteLength', path, 1, MAX);
     const uri = own(buffer, 'uri');
-    if (uri !== undefined && typeof uri !== 'string') context.fail(`${path}/uri`, `is ${quote(uri)}, but must be a text`);
+    if (uri !== undefined && typeof uri !== 'string')
+      context.fail(`${path}/uri`, `is ${quote(uri)}, but must be a text`);
     const data = typeof uri === 'string' ? dataUri(uri) : undefined;
     if (data && !(data.base64 && BUFFER_TYPES.includes(data.type))) {
       const what = `${data.base64 ? 'base64' : 'text'} of the type "${data.type}"`;
-      context.warn('gltf/data', `${path}/uri`, `is a data: uri of ${what}, but must be base64 of ${BUFFER_TYPES.join(' or ')}; it is read all the same`);
+      context.warn(
+        'gltf/data',
+        `${path}/uri`,
+        `is a data: uri of ${what}, but must be base64 of ${BUFFER_TYPES.join(' or ')}; it is read all the same`,
+      );
     }
   });
   const within = (view: Raw, path: string): number => {
     const buffer = buffers[context.integer(view, 'buffer', path, 0, buffers.length - 1)] as Raw;
     const offset = context.integer(view, 'byteOffset', path, 0, MAX, 0);
     const length = context.integer(view, 'byteLength', path, 1, MAX);
-    if (offset + length > (buffer['byteLength'] as number)) context.fail(path, `reaches to byte ${offset + length}, but its buffer has ${buffer['byteLength']}`);
+    if (offset + length > (buffer['byteLength'] as number))
+      context.fail(path, `reaches to byte ${offset + length}, but its buffer has ${buffer['byteLength']}`);
     return length;
   };
   const views = context.list('bufferViews');
@@ -83,9 +89,15 @@ export function checkBuffers(context: CheckContext): readonly Raw[] {
     const length = within(view, path);
     const stride = context.integer(view, 'byteStride', path, 4, 252, 4);
     const target = own(view, 'target');
-    if (target !== undefined && target !== 34962 && target !== 34963) context.warn('gltf/data', `${path}/target`, `is ${quote(target)}, which is no kind of data`);
+    if (target !== undefined && target !== 34962 && target !== 34963)
+      context.warn('gltf/data', `${path}/target`, `is ${quote(target)}, which is no kind of data`);
     if (stride % 4 !== 0) context.fail(`${path}/byteStride`, 'must be a multiple of 4');
-    if (own(view, 'byteStride') !== undefined && (stride > length || target === 34963)) context.warn('gltf/data', `${path}/byteStride`, `is ${stride} in a view of ${stride > length ? `${length} bytes` : 'indices, which have none'}`);
+    if (own(view, 'byteStride') !== undefined && (stride > length || target === 34963))
+      context.warn(
+        'gltf/data',
+        `${path}/byteStride`,
+        `is ${stride} in a view of ${stride > length ? `${length} bytes` : 'indices, which have none'}`,
+      );
     for (const name of ['EXT_meshopt_compression', 'KHR_meshopt_compression']) {
       const packed = context.extension(view, name, path);
       if (!packed) continue;
@@ -93,15 +105,24 @@ export function checkBuffers(context: CheckContext): readonly Raw[] {
       within(packed, at);
       const step = context.integer(packed, 'byteStride', at, 1, 256);
       const count = context.integer(packed, 'count', at, 1, MAX);
-      if (step * count > length) context.fail(at, `unpacks to ${step * count} bytes, but its buffer view has ${length}`);
-      if (length > MESHOPT_RATIO * ((packed['byteLength'] as number) + 16)) context.fail(at, `says that ${packed['byteLength']} bytes unpack to ${length}, which is more than the format can do`);
+      if (step * count > length)
+        context.fail(at, `unpacks to ${step * count} bytes, but its buffer view has ${length}`);
+      if (length > MESHOPT_RATIO * ((packed['byteLength'] as number) + 16))
+        context.fail(
+          at,
+          `says that ${packed['byteLength']} bytes unpack to ${length}, which is more than the format can do`,
+        );
     }
   });
   return views;
 }
 
 /** Checks accessors: known types, and every byte they read within their views. */
-export function checkAccessors(context: CheckContext, views: readonly Raw[], needed: ReadonlySet<number>): readonly (AccessorFacts | undefined)[] {
+export function checkAccessors(
+  context: CheckContext,
+  views: readonly Raw[],
+  needed: ReadonlySet<number>,
+): readonly (AccessorFacts | undefined)[] {
   let zeroFilled = 0;
   return context.list('accessors').map((accessor, index) => {
     const path = `/accessors/${index}`;
@@ -123,18 +144,34 @@ export function checkAccessors(context: CheckContext, views: readonly Raw[], nee
     else {
       const bytes = count * layout.step;
       zeroFilled += bytes;
-      if (zeroFilled > ZERO_FILL_LIMIT) context.fail(path, `asks for ${bytes} bytes of zeros that are not in the file; at most ${ZERO_FILL_LIMIT} are made in all`);
+      if (zeroFilled > ZERO_FILL_LIMIT)
+        context.fail(
+          path,
+          `asks for ${bytes} bytes of zeros that are not in the file; at most ${ZERO_FILL_LIMIT} are made in all`,
+        );
     }
     const sparse = context.object(accessor, 'sparse', path);
     if (sparse) checkSparse(context, `${path}/sparse`, sparse, views, count, layout);
     for (const key of ['min', 'max']) {
       const bounds = own(accessor, key);
       const [rows, columns] = SHAPES.get(type) as readonly [number, number];
-      if (bounds !== undefined && !(Array.isArray(bounds) && bounds.length === rows * columns && bounds.every((x) => typeof x === 'number'))) context.warn('gltf/accessor', `${path}/${key}`, `is ${quote(bounds)}, but must be ${rows * columns} numbers; it is not used`);
+      if (
+        bounds !== undefined &&
+        !(Array.isArray(bounds) && bounds.length === rows * columns && bounds.every((x) => typeof x === 'number'))
+      )
+        context.warn(
+          'gltf/accessor',
+          `${path}/${key}`,
+          `is ${quote(bounds)}, but must be ${rows * columns} numbers; it is not used`,
+        );
     }
     const normalized = own(accessor, 'normalized') ?? false;
     if (typeof normalized !== 'boolean' || (normalized && (componentType === 5125 || componentType === 5126))) {
-      context.warn('gltf/accessor', `${path}/normalized`, `is ${quote(normalized)} for components of ${componentType}; they are taken as they are`);
+      context.warn(
+        'gltf/accessor',
+        `${path}/normalized`,
+        `is ${quote(normalized)} for components of ${componentType}; they are taken as they are`,
+      );
     }
     return { componentType, type: type as string, normalized: normalized === true, count };
   });
@@ -152,43 +189,78 @@ function checkRange(
   const stride = strided ? ((own(view, 'byteStride') as number | undefined) ?? step) : step;
   if (stride < step) context.fail(path, `has elements of ${step} bytes in a buffer view with a stride of ${stride}`);
   const start = ((own(view, 'byteOffset') as number | undefined) ?? 0) + offset;
-  if (offset % alignment !== 0 || start % alignment !== 0) context.fail(path, `starts at byte ${start}, which is no multiple of its components' ${alignment} bytes`);
+  if (offset % alignment !== 0 || start % alignment !== 0)
+    context.fail(path, `starts at byte ${start}, which is no multiple of its components' ${alignment} bytes`);
   const end = offset + stride * (count - 1) + used;
-  if (end > (view['byteLength'] as number)) context.fail(path, `reads to byte ${end} of a buffer view of ${view['byteLength']}`);
+  if (end > (view['byteLength'] as number))
+    context.fail(path, `reads to byte ${end} of a buffer view of ${view['byteLength']}`);
 }
 
-function checkSparse(context: CheckContext, path: string, sparse: Raw, views: readonly Raw[], length: number, layout: ElementLayout): void {
+function checkSparse(
+  context: CheckContext,
+  path: string,
+  sparse: Raw,
+  views: readonly Raw[],
+  length: number,
+  layout: ElementLayout,
+): void {
   const count = context.integer(sparse, 'count', path, 1, length);
   const indices = context.object(sparse, 'indices', path) ?? context.fail(path, 'has no indices');
   const values = context.object(sparse, 'values', path) ?? context.fail(path, 'has no values');
-  const indexBytes = { 5121: 1, 5123: 2, 5125: 4 }[own(indices, 'componentType') as number] ?? context.fail(`${path}/indices/componentType`, `is ${quote(own(indices, 'componentType'))}, but must be 5121, 5123 or 5125`);
+  const indexBytes =
+    { 5121: 1, 5123: 2, 5125: 4 }[own(indices, 'componentType') as number] ??
+    context.fail(
+      `${path}/indices/componentType`,
+      `is ${quote(own(indices, 'componentType'))}, but must be 5121, 5123 or 5125`,
+    );
   const index: ElementLayout = { step: indexBytes, used: indexBytes, alignment: indexBytes };
-  for (const [name, part, elements] of [['indices', indices, index], ['values', values, layout]] as const) {
+  for (const [name, part, elements] of [
+    ['indices', indices, index],
+    ['values', values, layout],
+  ] as const) {
     const at = `${path}/${name}`;
     const view = views[context.integer(part, 'bufferView', at, 0, views.length - 1)] as Raw;
     checkRange(context, at, view, context.integer(part, 'byteOffset', at, 0, MAX, 0), count, elements, false);
     if (own(view, 'byteStride') !== undefined) {
-      context.warn('gltf/data', at, 'lie in a buffer view with a byteStride, which sparse data must not have; they are read without gaps');
+      context.warn(
+        'gltf/data',
+        at,
+        'lie in a buffer view with a byteStride, which sparse data must not have; they are read without gaps',
+      );
     }
   }
 }
 
 /**
  * Checks what only the bytes show: that sparse indices grow and name elements that exist.
- * @param viewBytes Bytes of a buffer view, checked to lie within its buffer; undefined if the buffer is not there, as nothing reads it.
+ * @param viewBytes Bytes of a buffer view, checked to lie within its buffer; undefined if the buffer is not there, as
+ * nothing reads it.
  */
-export function checkSparseIndices(context: CheckContext, facts: readonly (AccessorFacts | undefined)[], viewBytes: (index: number) => Uint8Array | undefined): void {
+export function checkSparseIndices(
+  context: CheckContext,
+  facts: readonly (AccessorFacts | undefined)[],
+  viewBytes: (index: number) => Uint8Array | undefined,
+): void {
   context.list('accessors').forEach((accessor, index) => {
     const sparse = own(accessor, 'sparse') as Raw | undefined;
     if (!sparse || !facts[index]) return;
     const path = `/accessors/${index}/sparse/indices`;
-    const { bufferView, byteOffset = 0, componentType } = sparse['indices'] as { bufferView: number; byteOffset?: number; componentType: number };
+    const {
+      bufferView,
+      byteOffset = 0,
+      componentType,
+    } = sparse['indices'] as { bufferView: number; byteOffset?: number; componentType: number };
     const bytes = viewBytes(bufferView);
     if (!bytes) return;
     const data = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     let last = -1;
     for (let i = 0; i < (sparse['count'] as number); i++) {
-      const at = componentType === 5121 ? data.getUint8(byteOffset + i) : componentType === 5123 ? data.getUint16(byteOffset + 2 * i, true) : data.getUint32(byteOffset + 4 * i, true);
+      const at =
+        componentType === 5121
+          ? data.getUint8(byteOffset + i)
+          : componentType === 5123
+            ? data.getUint16(byteOffset + 2 * i, true)
+            : data.getUint32(byteOffset + 4 * i, true);
       if (at <= last) context.fail(path, `must grow, but ${last} is followed by ${at}`);
       if (at >= (accessor['count'] as number)) context.fail(path, `names element ${at} of ${accessor['count']}`);
       last = at;

@@ -1,7 +1,20 @@
 import { isObject, own, quote, type CheckContext, type Raw } from './context';
 
 /** Lists whose entries may have extensions. Materials are scanned deeper. */
-const LISTS = ['accessors', 'animations', 'buffers', 'bufferViews', 'cameras', 'images', 'meshes', 'nodes', 'samplers', 'scenes', 'skins', 'textures'];
+const LISTS = [
+  'accessors',
+  'animations',
+  'buffers',
+  'bufferViews',
+  'cameras',
+  'images',
+  'meshes',
+  'nodes',
+  'samplers',
+  'scenes',
+  'skins',
+  'textures',
+];
 
 /** How deep the textures of an extension of a material lie, with the extensions of their own. */
 const MATERIAL_DEPTH = 5;
@@ -14,7 +27,8 @@ export function extensionsUsed(context: CheckContext): readonly string[] | undef
   const lists = ['extensionsUsed', 'extensionsRequired'].map((key) => {
     const names = own(context.json, key);
     if (names === undefined) return [];
-    if (!(Array.isArray(names) && names.every((name) => typeof name === 'string'))) context.fail(`/${key}`, `is ${quote(names)}, but must be an array of names`);
+    if (!(Array.isArray(names) && names.every((name) => typeof name === 'string')))
+      context.fail(`/${key}`, `is ${quote(names)}, but must be an array of names`);
     context.notEmpty(names, `/${key}`);
     if (new Set(names).size < names.length) context.warn('gltf/extension', `/${key}`, 'names an extension twice');
     return names as string[];
@@ -51,7 +65,8 @@ function namesIn(context: CheckContext): ReadonlySet<string> {
   for (const mesh of context.list('meshes')) addAll(own(mesh, 'primitives'));
   for (const animation of context.list('animations')) {
     const channels = own(animation, 'channels');
-    if (Array.isArray(channels)) for (const channel of channels) add(isObject(channel) ? own(channel as Raw, 'target') : undefined);
+    if (Array.isArray(channels))
+      for (const channel of channels) add(isObject(channel) ? own(channel as Raw, 'target') : undefined);
   }
   for (const material of context.list('materials')) addDeep(material, 0);
   return found;

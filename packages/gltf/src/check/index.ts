@@ -1,7 +1,9 @@
-// Files come from strangers: an index out of range would be a TypeError, a count of 2^32 an allocation that ends the process,
-// a circle of nodes an endless loop. So the JSON is checked in full before any of it is used. The line follows the
-// specification: what the structure hangs on (containers, types, indices, ranges, the node tree) is refused; a part that can
-// do without (an attribute, a factor, a light, a camera, an animation) is repaired or left out, with a warning.
+// Files come from strangers: an index out of range would be a TypeError, a count of 2^32 an allocation that ends the
+// process, a circle of nodes an endless loop. So the JSON is checked in full before any of it is used. The line follows
+// the
+// specification: what the structure hangs on (containers, types, indices, ranges, the node tree) is refused; a part
+// that can do without (an attribute, a factor, a light, a camera, an animation) is repaired or left out, with a
+// warning.
 import type { SceneWarning } from '@glanz/scene';
 import type { GltfJson } from '../json';
 import { repairAnimations } from './animations';
@@ -41,7 +43,9 @@ export function checkDocument(json: Raw, file: string, warnings: SceneWarning[])
   const materials = context.list('materials').length;
   const meshes = checkMeshes(context, facts, views).map((mesh, index) => ({
     ...named(context, mesh, `/meshes/${index}`),
-    primitives: (mesh['primitives'] as readonly Raw[]).map((primitive, at) => withSoundVariants(context, primitive, `/meshes/${index}/primitives/${at}`, variants?.length ?? 0, materials)),
+    primitives: (mesh['primitives'] as readonly Raw[]).map((primitive, at) =>
+      withSoundVariants(context, primitive, `/meshes/${index}/primitives/${at}`, variants?.length ?? 0, materials),
+    ),
   }));
   const nodes = checkNodes(context, facts, meshes);
   checkSkins(context, facts);
@@ -56,16 +60,39 @@ export function checkDocument(json: Raw, file: string, warnings: SceneWarning[])
     accessors,
     animations: repairAnimations(context, facts),
     meshes,
-    nodes: nodes.map((node, index) => named(context, withoutLostLight(context, node, index, lights?.length ?? 0), `/nodes/${index}`)),
-    scenes: own(json, 'scenes') === undefined ? undefined : context.list('scenes').map((scene, index) => withSoundSurroundings(context, named(context, scene, `/scenes/${index}`), `/scenes/${index}`, imageLights?.length ?? 0)),
+    nodes: nodes.map((node, index) =>
+      named(context, withoutLostLight(context, node, index, lights?.length ?? 0), `/nodes/${index}`),
+    ),
+    scenes:
+      own(json, 'scenes') === undefined
+        ? undefined
+        : context
+            .list('scenes')
+            .map((scene, index) =>
+              withSoundSurroundings(
+                context,
+                named(context, scene, `/scenes/${index}`),
+                `/scenes/${index}`,
+                imageLights?.length ?? 0,
+              ),
+            ),
     materials: repairMaterials(context),
     cameras: repairCameras(context),
-    extensions: { ...(lights ? { KHR_lights_punctual: { lights } } : {}), ...(variants ? { KHR_materials_variants: { variants } } : {}), ...(imageLights ? { EXT_lights_image_based: { lights: imageLights } } : {}), ...xmpOf(context) },
+    extensions: {
+      ...(lights ? { KHR_lights_punctual: { lights } } : {}),
+      ...(variants ? { KHR_materials_variants: { variants } } : {}),
+      ...(imageLights ? { EXT_lights_image_based: { lights: imageLights } } : {}),
+      ...xmpOf(context),
+    },
   };
   if (own(json, 'scenes') === undefined) delete (checked as { scene?: unknown }).scene;
   return {
     json: checked as unknown as GltfJson,
-    neededBuffers: buffersOf(accessors.filter((_, index) => needed.has(index)), meshes, views),
+    neededBuffers: buffersOf(
+      accessors.filter((_, index) => needed.has(index)),
+      meshes,
+      views,
+    ),
     checkBytes: (viewBytes) => checkSparseIndices(context, facts, viewBytes),
   };
 }
@@ -88,11 +115,24 @@ function named(context: CheckContext, object: Raw, path: string): Raw {
 
 /** Names of parts that nothing else looks at. */
 function checkNames(context: CheckContext): void {
-  for (const key of ['accessors', 'bufferViews', 'buffers', 'materials', 'animations', 'cameras', 'skins', 'images', 'textures', 'samplers']) context.list(key).forEach((part, index) => named(context, part, `/${key}/${index}`));
+  for (const key of [
+    'accessors',
+    'bufferViews',
+    'buffers',
+    'materials',
+    'animations',
+    'cameras',
+    'skins',
+    'images',
+    'textures',
+    'samplers',
+  ])
+    context.list(key).forEach((part, index) => named(context, part, `/${key}/${index}`));
   const asset = own(context.json, 'asset') as Raw;
   for (const key of ['generator', 'copyright']) {
     const value = own(asset, key);
-    if (value !== undefined && typeof value !== 'string') context.warn('gltf/name', `/asset/${key}`, `is ${quote(value)}, but must be a text`);
+    if (value !== undefined && typeof value !== 'string')
+      context.warn('gltf/name', `/asset/${key}`, `is ${quote(value)}, but must be a text`);
   }
 }
 
@@ -102,7 +142,11 @@ function withoutLostLight(context: CheckContext, node: Raw, index: number, light
   if (reference === undefined) return node;
   const light = isObject(reference) ? own(reference, 'light') : undefined;
   if (typeof light === 'number' && Number.isInteger(light) && light >= 0 && light < lights) return node;
-  context.warn('gltf/light', `/nodes/${index}/extensions/KHR_lights_punctual`, `is ${quote(reference)}, which names no light; it is left out`);
+  context.warn(
+    'gltf/light',
+    `/nodes/${index}/extensions/KHR_lights_punctual`,
+    `is ${quote(reference)}, which names no light; it is left out`,
+  );
   const { KHR_lights_punctual: _, ...rest } = extensions as Raw;
   return { ...node, extensions: rest };
 }
@@ -113,7 +157,12 @@ function withSoundSurroundings(context: CheckContext, scene: Raw, path: string, 
   const reference = isObject(extensions) ? own(extensions, 'EXT_lights_image_based') : undefined;
   const light = isObject(reference) ? own(reference, 'light') : undefined;
   const good = typeof light === 'number' && Number.isInteger(light) && light >= 0 && light < lights;
-  if (reference !== undefined && !good) context.warn('gltf/environment', `${path}/extensions/EXT_lights_image_based`, `is ${quote(reference)}, which names no light; it is left out`);
+  if (reference !== undefined && !good)
+    context.warn(
+      'gltf/environment',
+      `${path}/extensions/EXT_lights_image_based`,
+      `is ${quote(reference)}, which names no light; it is left out`,
+    );
   return { ...scene, extensions: good ? { EXT_lights_image_based: { light } } : {} };
 }
 
@@ -136,7 +185,9 @@ function buffersOf(accessors: readonly Raw[], meshes: readonly Raw[], views: rea
     if (!used.has(index)) return;
     // The buffer of a compressed view is only a place to unpack to, and need not be there.
     const extensions = own(view, 'extensions');
-    const packed = isObject(extensions) ? ((own(extensions, 'EXT_meshopt_compression') ?? own(extensions, 'KHR_meshopt_compression')) as Raw | undefined) : undefined;
+    const packed = isObject(extensions)
+      ? ((own(extensions, 'EXT_meshopt_compression') ?? own(extensions, 'KHR_meshopt_compression')) as Raw | undefined)
+      : undefined;
     buffers.add((packed ?? view)['buffer'] as number);
   });
   return buffers;

@@ -1,22 +1,37 @@
 import { own, quote, type CheckContext, type Raw } from './context';
 import type { AccessorFacts } from './data';
 
-const TRANSFORMS = [['matrix', 16], ['translation', 3], ['rotation', 4], ['scale', 3]] as const;
+const TRANSFORMS = [
+  ['matrix', 16],
+  ['translation', 3],
+  ['rotation', 4],
+  ['scale', 3],
+] as const;
 
 /**
- * Checks the node tree: references, no node below itself or in two places, transforms of numbers. Returns repaired nodes.
+ * Checks the node tree: references, no node below itself or in two places, transforms of numbers. Returns repaired
+ * nodes.
  * @param meshes Checked.
  */
-export function checkNodes(context: CheckContext, facts: readonly (AccessorFacts | undefined)[], meshes: readonly Raw[]): readonly Raw[] {
+export function checkNodes(
+  context: CheckContext,
+  facts: readonly (AccessorFacts | undefined)[],
+  meshes: readonly Raw[],
+): readonly Raw[] {
   const nodes = context.list('nodes');
-  const skins = context.list('skins'), cameras = context.list('cameras');
+  const skins = context.list('skins'),
+    cameras = context.list('cameras');
   const parents = new Int32Array(nodes.length).fill(-1);
   const checked = nodes.map((node, index) => {
     const path = `/nodes/${index}`;
     context.index(node, 'mesh', path, meshes, 'mesh');
     context.index(node, 'skin', path, skins, 'skin');
     context.indices(node, 'children', path, nodes, 'node').forEach((child, at) => {
-      if (parents[child] !== -1) context.fail(`${path}/children/${at}`, `is node ${child}, which already is a child of node ${parents[child]}; a node has one parent`);
+      if (parents[child] !== -1)
+        context.fail(
+          `${path}/children/${at}`,
+          `is node ${child}, which already is a child of node ${parents[child]}; a node has one parent`,
+        );
       parents[child] = index;
     });
     checkMeshParts(context, node, path, meshes);
@@ -36,15 +51,31 @@ export function checkNodes(context: CheckContext, facts: readonly (AccessorFacts
 function checkMeshParts(context: CheckContext, node: Raw, path: string, meshes: readonly Raw[]): void {
   const mesh = own(node, 'mesh');
   const primitives = typeof mesh === 'number' ? ((meshes[mesh] as Raw)['primitives'] as readonly Raw[]) : [];
-  for (const [key, code] of [['skin', 'gltf/skin'], ['weights', 'gltf/node']] as const) {
-    if (own(node, key) !== undefined && mesh === undefined) context.warn(code, `${path}/${key}`, 'is on a node without a mesh and does nothing');
+  for (const [key, code] of [
+    ['skin', 'gltf/skin'],
+    ['weights', 'gltf/node'],
+  ] as const) {
+    if (own(node, key) !== undefined && mesh === undefined)
+      context.warn(code, `${path}/${key}`, 'is on a node without a mesh and does nothing');
   }
-  if (own(node, 'skin') !== undefined && primitives.some(({ attributes }) => own(attributes as Raw, 'JOINTS_0') === undefined)) {
-    context.warn('gltf/skin', `${path}/skin`, `poses mesh ${mesh as number}, which has a primitive without JOINTS_0; that one keeps its shape at its node`);
+  if (
+    own(node, 'skin') !== undefined &&
+    primitives.some(({ attributes }) => own(attributes as Raw, 'JOINTS_0') === undefined)
+  ) {
+    context.warn(
+      'gltf/skin',
+      `${path}/skin`,
+      `poses mesh ${mesh as number}, which has a primitive without JOINTS_0; that one keeps its shape at its node`,
+    );
   }
-  const weights = own(node, 'weights'), targets = targetsOf(primitives);
+  const weights = own(node, 'weights'),
+    targets = targetsOf(primitives);
   if (mesh !== undefined && Array.isArray(weights) && weights.length !== targets) {
-    context.warn('gltf/node', `${path}/weights`, `are ${weights.length}, but mesh ${mesh as number} has ${targets} morph targets`);
+    context.warn(
+      'gltf/node',
+      `${path}/weights`,
+      `are ${weights.length}, but mesh ${mesh as number} has ${targets} morph targets`,
+    );
   }
 }
 
@@ -62,19 +93,25 @@ function refuseCircles(context: CheckContext, parents: Int32Array): void {
     for (let node = start; node !== -1 && walks[node] !== start; node = parents[node] as number) {
       if (walks[node] !== -1) break;
       walks[node] = start;
-      if (parents[node] !== -1 && walks[parents[node] as number] === start) context.fail(`/nodes/${node}`, 'lies below itself');
+      if (parents[node] !== -1 && walks[parents[node] as number] === start)
+        context.fail(`/nodes/${node}`, 'lies below itself');
     }
   }
 }
 
 function checkScenes(context: CheckContext, nodes: readonly Raw[], parents: Int32Array): void {
   const scenes = context.list('scenes');
-  if (own(context.json, 'scenes') === undefined && own(context.json, 'scene') !== undefined) context.warn('gltf/scene', '/scene', 'names a scene, but the file has none; all nodes are shown');
+  if (own(context.json, 'scenes') === undefined && own(context.json, 'scene') !== undefined)
+    context.warn('gltf/scene', '/scene', 'names a scene, but the file has none; all nodes are shown');
   else context.index(context.json, 'scene', '', scenes, 'scene');
   if (own(context.json, 'scenes') !== undefined && scenes.length === 0) context.fail('/scenes', 'is empty');
   scenes.forEach((scene, index) => {
     context.indices(scene, 'nodes', `/scenes/${index}`, nodes, 'node').forEach((root, at) => {
-      if (parents[root] !== -1) context.fail(`/scenes/${index}/nodes/${at}`, `is node ${root}, which is a child of node ${parents[root]}; scenes list roots`);
+      if (parents[root] !== -1)
+        context.fail(
+          `/scenes/${index}/nodes/${at}`,
+          `is node ${root}, which is a child of node ${parents[root]}; scenes list roots`,
+        );
     });
   });
 }
@@ -84,14 +121,26 @@ function repairTransform(context: CheckContext, node: Raw, path: string): Raw {
   for (const [key, length] of TRANSFORMS) {
     const value = own(node, key);
     if (value === undefined) continue;
-    if (!Array.isArray(value) || value.length !== length || !value.every((x) => typeof x === 'number')) context.fail(`${path}/${key}`, `is ${quote(value)}, but must be ${length} numbers`);
+    if (!Array.isArray(value) || value.length !== length || !value.every((x) => typeof x === 'number'))
+      context.fail(`${path}/${key}`, `is ${quote(value)}, but must be ${length} numbers`);
   }
-  if (own(node, 'matrix') !== undefined && TRANSFORMS.some(([key]) => key !== 'matrix' && own(node, key) !== undefined)) {
-    context.warn('gltf/node', `${path}/matrix`, 'is beside a translation, rotation or scale, but a node has one or the other; the matrix is taken');
+  if (
+    own(node, 'matrix') !== undefined &&
+    TRANSFORMS.some(([key]) => key !== 'matrix' && own(node, key) !== undefined)
+  ) {
+    context.warn(
+      'gltf/node',
+      `${path}/matrix`,
+      'is beside a translation, rotation or scale, but a node has one or the other; the matrix is taken',
+    );
   }
   const weights = own(node, 'weights');
   if (weights !== undefined && !(Array.isArray(weights) && weights.every((w) => typeof w === 'number'))) {
-    context.warn('gltf/node', `${path}/weights`, `is ${quote(weights)}, but must be an array of numbers; it is left out`);
+    context.warn(
+      'gltf/node',
+      `${path}/weights`,
+      `is ${quote(weights)}, but must be an array of numbers; it is left out`,
+    );
     const { weights: _, ...rest } = repaired;
     repaired = rest;
   }
@@ -100,7 +149,11 @@ function repairTransform(context: CheckContext, node: Raw, path: string): Raw {
     const size = Math.hypot(...rotation);
     if (!(Math.abs(size - 1) < 1e-2)) {
       const usable = size > 1e-12 && size < Infinity;
-      context.warn('gltf/node', `${path}/rotation`, `has the length ${size} instead of 1; it is ${usable ? 'scaled' : 'left out'}`);
+      context.warn(
+        'gltf/node',
+        `${path}/rotation`,
+        `has the length ${size} instead of 1; it is ${usable ? 'scaled' : 'left out'}`,
+      );
       repaired = { ...repaired, rotation: usable ? rotation.map((x) => x / size) : [0, 0, 0, 1] };
     }
   }
@@ -113,10 +166,19 @@ function repairTransform(context: CheckContext, node: Raw, path: string): Raw {
 }
 
 /** What places instances, with the type of its values. */
-const PLACES: ReadonlyMap<string, string> = new Map([['TRANSLATION', 'VEC3'], ['ROTATION', 'VEC4'], ['SCALE', 'VEC3']]);
+const PLACES: ReadonlyMap<string, string> = new Map([
+  ['TRANSLATION', 'VEC3'],
+  ['ROTATION', 'VEC4'],
+  ['SCALE', 'VEC3'],
+]);
 
 /** A node with sound attributes of EXT_mesh_gpu_instancing: each of its type, all with as many entries. */
-function repairInstancing(context: CheckContext, node: Raw, path: string, facts: readonly (AccessorFacts | undefined)[]): Raw {
+function repairInstancing(
+  context: CheckContext,
+  node: Raw,
+  path: string,
+  facts: readonly (AccessorFacts | undefined)[],
+): Raw {
   const name = 'EXT_mesh_gpu_instancing';
   const instancing = context.extension(node, name, path);
   if (!instancing) return node;
@@ -128,14 +190,16 @@ function repairInstancing(context: CheckContext, node: Raw, path: string, facts:
     const place = `${at}/attributes/${semantic}`;
     context.reference(accessor, place, facts, 'accessor');
     const { type, count: entries } = facts[accessor] as AccessorFacts;
-    if (count !== undefined && entries !== count) context.fail(place, `has ${entries} entries where others have ${count}`);
+    if (count !== undefined && entries !== count)
+      context.fail(place, `has ${entries} entries where others have ${count}`);
     count = entries;
     const expected = PLACES.get(semantic) ?? type;
     if (type === expected) kept[semantic] = accessor;
     else context.warn('gltf/node', place, `is a ${quote(type)}, but must be ${expected}; it is left out`);
   }
   const { [name]: _, ...others } = own(node, 'extensions') as Raw;
-  if (count !== undefined) return { ...node, extensions: { ...others, [name]: { ...instancing, attributes: kept, count } } };
+  if (count !== undefined)
+    return { ...node, extensions: { ...others, [name]: { ...instancing, attributes: kept, count } } };
   context.warn('gltf/node', `${at}/attributes`, 'is empty; the node is shown once');
   return { ...node, extensions: others };
 }
@@ -148,11 +212,21 @@ export function checkSkins(context: CheckContext, facts: readonly (AccessorFacts
     const joints = context.indices(skin, 'joints', path, nodes, 'node');
     if (joints.length === 0) context.fail(`${path}/joints`, 'is empty');
     const skeleton = own(skin, 'skeleton');
-    if (skeleton !== undefined && !(typeof skeleton === 'number' && nodes[skeleton])) context.warn('gltf/skin', `${path}/skeleton`, `is ${quote(skeleton)}, which names no node; it is not used`);
+    if (skeleton !== undefined && !(typeof skeleton === 'number' && nodes[skeleton]))
+      context.warn('gltf/skin', `${path}/skeleton`, `is ${quote(skeleton)}, which names no node; it is not used`);
     const matrices = context.index(skin, 'inverseBindMatrices', path, facts, 'accessor');
     if (matrices === undefined) return;
     const { type, count, componentType } = facts[matrices] as AccessorFacts;
-    if (componentType !== 5126) context.warn('gltf/skin', `${path}/inverseBindMatrices`, `has components of ${componentType}, but must have floats; they are taken as they are`);
-    if (type !== 'MAT4' || count < joints.length) context.fail(`${path}/inverseBindMatrices`, `has ${count} entries of ${type}, but must have a MAT4 for each of ${joints.length} joints`);
+    if (componentType !== 5126)
+      context.warn(
+        'gltf/skin',
+        `${path}/inverseBindMatrices`,
+        `has components of ${componentType}, but must have floats; they are taken as they are`,
+      );
+    if (type !== 'MAT4' || count < joints.length)
+      context.fail(
+        `${path}/inverseBindMatrices`,
+        `has ${count} entries of ${type}, but must have a MAT4 for each of ${joints.length} joints`,
+      );
   });
 }

@@ -39,14 +39,16 @@ const PATIENCE_MS = 30_000;
 
 /**
  * Unpacks Draco-compressed meshes side by side in workers: the option `decoders.dracoWorkers` of `loadGltf`. A
- * worker is started when there is something for it to do, and stays. What goes wrong here (a worker that does not start, a
- * broken mesh) is no error: `decoders.draco` then does it, and tells what is wrong.
+ * worker is started when there is something for it to do, and stays. What goes wrong here (a worker that does not
+ * start, a broken mesh) is no error: `decoders.draco` then does it, and tells what is wrong.
  *
- * A worker file that calls `serveGltf` has workers of this kind by itself; this class is for loads on the calling thread.
+ * A worker file that calls `serveGltf` has workers of this kind by itself; this class is for loads on the calling
+ * thread.
  *
  * @example
- * const dracoWorkers = new DracoWorkers({ createWorker: () => new Worker(new URL('./my-gltf-worker.ts', import.meta.url), { type: 'module' }) });
- * const scene = await loadGltf('board.glb', { decoders: { draco, dracoWorkers } });
+ * const dracoWorkers = new DracoWorkers({ createWorker: () => new Worker(new URL('./my-gltf-worker.ts',
+ * import.meta.url), { type: 'module' }) }); const scene = await loadGltf('board.glb', { decoders: { draco, dracoWorkers
+ * } });
  */
 export class DracoWorkers {
   readonly #createWorker: () => Worker;
@@ -55,7 +57,10 @@ export class DracoWorkers {
   #next = 0;
   #destroyed = false;
 
-  constructor({ createWorker, count = Math.min(4, globalThis.navigator?.hardwareConcurrency ?? 1) }: DracoWorkersOptions) {
+  constructor({
+    createWorker,
+    count = Math.min(4, globalThis.navigator?.hardwareConcurrency ?? 1),
+  }: DracoWorkersOptions) {
     this.#createWorker = createWorker;
     this.#count = count;
   }
@@ -81,7 +86,9 @@ export class DracoWorkers {
         resolve(primitive);
       });
       const own = bytes.slice();
-      helper.worker.postMessage({ kind: 'draco', id, bytes: own, attributes, most } satisfies DracoRequest, [own.buffer]);
+      helper.worker.postMessage({ kind: 'draco', id, bytes: own, attributes, most } satisfies DracoRequest, [
+        own.buffer,
+      ]);
     });
   }
 
@@ -94,7 +101,10 @@ export class DracoWorkers {
   /** The worker that has least to do; a new one if all are busy and there may be more. */
   #leastBusy(bytes: number): Helper | undefined {
     const sound = this.#helpers.filter(({ failed }) => !failed);
-    const least = sound.reduce<Helper | undefined>((best, helper) => (best && best.load <= helper.load ? best : helper), undefined);
+    const least = sound.reduce<Helper | undefined>(
+      (best, helper) => (best && best.load <= helper.load ? best : helper),
+      undefined,
+    );
     // One that failed is not started again and again.
     if ((least && (least.load === 0 || bytes === 0)) || this.#helpers.length >= this.#count) return least;
     let worker: Worker;

@@ -8,10 +8,16 @@ export { DracoWorkers, type DracoWorkersOptions } from './draco-workers';
 export { received as receivedScene, type SentScene } from './protocol';
 
 /** What a load in a worker may be told. */
-export interface WorkerLoad extends Pick<LoadGltfOptions, 'signal' | 'onProgress' | 'allowEmpty' | 'scene' | 'animation' | 'time' | 'limits' | 'baseUrl'> {
+export interface WorkerLoad extends Pick<
+  LoadGltfOptions,
+  'signal' | 'onProgress' | 'allowEmpty' | 'scene' | 'animation' | 'time' | 'limits' | 'baseUrl'
+> {
   /** As for `loadGltf`, known beforehand; for workers whose file has a decoder of KTX2. */
   readonly compressedFormats?: readonly CompressedFormat[] | undefined;
-  /** Hands given bytes over instead of copying them: they are empty afterwards, and nothing waits for a copy. Default false. */
+  /**
+   * Hands given bytes over instead of copying them: they are empty afterwards, and nothing waits for a copy. Default
+   * false.
+   */
   readonly transfer?: boolean | undefined;
 }
 
@@ -42,7 +48,8 @@ interface Running {
 
 function start(createWorker: () => Worker): Running {
   const worker = createWorker();
-  let begun = () => undefined as void, broken = (_: string) => undefined as void;
+  let begun = () => undefined as void,
+    broken = (_: string) => undefined as void;
   const ready = new Promise<void>((resolve, reject) => {
     begun = resolve;
     broken = (why) => reject(new Error(why));
@@ -59,7 +66,10 @@ function start(createWorker: () => Worker): Running {
   worker.addEventListener('messageerror', () => fail('its answer could not be read'));
   worker.addEventListener('error', (event) => {
     event.preventDefault();
-    fail(event.message || 'its script could not be loaded (a wrong address, or a content security policy without worker-src)');
+    fail(
+      event.message ||
+        'its script could not be loaded (a wrong address, or a content security policy without worker-src)',
+    );
   });
   worker.addEventListener('message', ({ data }: MessageEvent<LoadReply>) => {
     if (data.kind !== 'ready') return running.heard?.(data);
@@ -70,13 +80,13 @@ function start(createWorker: () => Worker): Running {
 }
 
 /**
- * Loads glTF documents in workers: reading, checking, unpacking and decoding pictures all happen there, and the arrays of
- * a scene are handed over without a copy. The calling thread is never busy for longer than a message takes. The worker is a
- * file of this origin, so no content security policy has to be widened beyond `worker-src 'self'`. A package that comes from
- * another origin needs `worker-src blob:`.
+ * Loads glTF documents in workers: reading, checking, unpacking and decoding pictures all happen there, and the arrays
+ * of a scene are handed over without a copy. The calling thread is never busy for longer than a message takes. The
+ * worker is a file of this origin, so no content security policy has to be widened beyond `worker-src 'self'`. A
+ * package that comes from another origin needs `worker-src blob:`.
  *
- * One worker stands ready from the beginning and stays so between loads, with its decoders; loads at the same time have one
- * each.
+ * One worker stands ready from the beginning and stays so between loads, with its decoders; loads at the same time have
+ * one each.
  *
  * @example
  * const models = new GltfWorker();              // starts up while the page does
@@ -97,17 +107,37 @@ export class GltfWorker {
   /**
    * Loads a document, as `loadGltf` does.
    *
-   * Bytes that are given stay yours: they are copied into the worker unless `transfer` is set. Addresses and Blobs cost nothing.
+   * Bytes that are given stay yours: they are copied into the worker unless `transfer` is set. Addresses and Blobs cost
+   * nothing.
    *
    * @throws {GltfError} As `loadGltf`, and `gltf/worker` where a worker cannot be started.
    */
   load(input: GltfInput, options: WorkerLoad = {}): Promise<Scene> {
-    const { signal, onProgress, transfer, baseUrl, allowEmpty, scene, animation, time, limits, compressedFormats } = options;
+    const { signal, onProgress, transfer, baseUrl, allowEmpty, scene, animation, time, limits, compressedFormats } =
+      options;
     return new Promise((resolve, reject) => {
       signal?.throwIfAborted();
       if (this.#destroyed) throw new GltfError('gltf/worker', 'This GltfWorker has been destroyed: make another.');
-      const sent: SentOptions = { allowEmpty, scene, animation, time, limits, compressedFormats, ...(baseUrl === undefined ? {} : { baseUrl: new URL(baseUrl, location.href).href }) };
-      const request: LoadRequest = { input: input instanceof URL ? input.href : typeof input === 'string' ? (baseUrl === undefined && URL.canParse(input, location.href) ? new URL(input, location.href).href : input) : input, options: sent };
+      const sent: SentOptions = {
+        allowEmpty,
+        scene,
+        animation,
+        time,
+        limits,
+        compressedFormats,
+        ...(baseUrl === undefined ? {} : { baseUrl: new URL(baseUrl, location.href).href }),
+      };
+      const request: LoadRequest = {
+        input:
+          input instanceof URL
+            ? input.href
+            : typeof input === 'string'
+              ? baseUrl === undefined && URL.canParse(input, location.href)
+                ? new URL(input, location.href).href
+                : input
+              : input,
+        options: sent,
+      };
       const running = this.#idle ?? start(this.#createWorker);
       this.#idle = undefined;
       this.#busy.add(running);
@@ -119,7 +149,8 @@ export class GltfWorker {
         else running.worker.terminate();
         answer();
       };
-      const fail = (why: string) => settle(() => reject(new GltfError('gltf/worker', `The worker that loads glTF failed: ${why}.`)), false);
+      const fail = (why: string) =>
+        settle(() => reject(new GltfError('gltf/worker', `The worker that loads glTF failed: ${why}.`)), false);
       // What it does cannot be called off; the next load has another.
       const abort = () => settle(() => reject(signal?.reason as Error), false);
       signal?.addEventListener('abort', abort);
@@ -127,13 +158,31 @@ export class GltfWorker {
       running.heard = (reply) => {
         if (reply.kind === 'progress') onProgress?.(reply.progress);
         else if (reply.kind === 'scene') settle(() => resolve(received(reply.scene)), true);
-        else if (reply.kind === 'error') settle(() => reject(reply.code === undefined ? new GltfError('gltf/worker', `A load failed in its worker: ${reply.message}`) : new GltfError(reply.code, reply.message, reply.path === undefined ? {} : { location: { path: reply.path } })), true);
+        else if (reply.kind === 'error')
+          settle(
+            () =>
+              reject(
+                reply.code === undefined
+                  ? new GltfError('gltf/worker', `A load failed in its worker: ${reply.message}`)
+                  : new GltfError(
+                      reply.code,
+                      reply.message,
+                      reply.path === undefined ? {} : { location: { path: reply.path } },
+                    ),
+              ),
+            true,
+          );
       };
       running.ready.then(
         () => {
           if (!running.heard) return;
           try {
-            running.worker.postMessage(request, transfer ? [input instanceof Uint8Array ? input.buffer : input].filter((part) => part instanceof ArrayBuffer) : []);
+            running.worker.postMessage(
+              request,
+              transfer
+                ? [input instanceof Uint8Array ? input.buffer : input].filter((part) => part instanceof ArrayBuffer)
+                : [],
+            );
           } catch (error) {
             fail(error instanceof Error ? error.message : String(error));
           }
@@ -172,8 +221,8 @@ export async function loadGltfInWorker(input: GltfInput, options: WorkerGltfOpti
 let elsewhere: string | undefined;
 
 /**
- * Starts the package's own worker file. Browsers refuse one of another origin, a content delivery network say; there a worker of
- * a Blob imports the file, unless the page's content security policy forbids that.
+ * Starts the package's own worker file. Browsers refuse one of another origin, a content delivery network say; there a
+ * worker of a Blob imports the file, unless the page's content security policy forbids that.
  */
 function startWorker(): Worker {
   try {
@@ -182,7 +231,9 @@ function startWorker(): Worker {
   } catch (error) {
     if ((error as Error).name !== 'SecurityError') throw error;
     const { url } = import.meta;
-    elsewhere ??= URL.createObjectURL(new Blob([`import ${JSON.stringify(new URL('./worker.js', url).href)};`], { type: 'text/javascript' }));
+    elsewhere ??= URL.createObjectURL(
+      new Blob([`import ${JSON.stringify(new URL('./worker.js', url).href)};`], { type: 'text/javascript' }),
+    );
     return new Worker(elsewhere, { type: 'module', name: 'glanz-gltf' });
   }
 }

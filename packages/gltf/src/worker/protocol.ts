@@ -4,7 +4,10 @@ import type { GltfOptions, GltfProgress } from '../load';
 import type { GltfInput } from '../source';
 
 /** What of the options crosses the boundary. */
-export type SentOptions = Pick<GltfOptions, 'allowEmpty' | 'scene' | 'animation' | 'time' | 'limits'> & { readonly baseUrl?: string; readonly compressedFormats?: readonly CompressedFormat[] | undefined };
+export type SentOptions = Pick<GltfOptions, 'allowEmpty' | 'scene' | 'animation' | 'time' | 'limits'> & {
+  readonly baseUrl?: string;
+  readonly compressedFormats?: readonly CompressedFormat[] | undefined;
+};
 
 /** To a worker: one load. */
 export interface LoadRequest {
@@ -13,13 +16,25 @@ export interface LoadRequest {
 }
 
 /** A scene whose pictures are bitmaps alone where there are some: asking for their pixels would read them back. */
-export type SentScene = Omit<Scene, 'images'> & { readonly images: readonly (Image | (Pick<Image, 'name' | 'width' | 'height'> & { readonly bitmap: ImageBitmap }))[] };
+export type SentScene = Omit<Scene, 'images'> & {
+  readonly images: readonly (Image | (Pick<Image, 'name' | 'width' | 'height'> & { readonly bitmap: ImageBitmap }))[];
+};
 
 /** A scene as a worker posts it, with {@link buffersOf} (exported as `transferablesOf`) handed over. */
-export const sendable = (scene: Scene): SentScene => ({ ...scene, images: scene.images.map((image) => (image.bitmap ? { name: image.name, width: image.width, height: image.height, bitmap: image.bitmap } : image)) });
+export const sendable = (scene: Scene): SentScene => ({
+  ...scene,
+  images: scene.images.map((image) =>
+    image.bitmap ? { name: image.name, width: image.width, height: image.height, bitmap: image.bitmap } : image,
+  ),
+});
 
 /** The scene out of a message. */
-export const received = (scene: SentScene): Scene => ({ ...scene, images: scene.images.map((image) => (image.bitmap ? namedImage(image.name, imageOfBitmap(image.bitmap)) : (image as Image))) });
+export const received = (scene: SentScene): Scene => ({
+  ...scene,
+  images: scene.images.map((image) =>
+    image.bitmap ? namedImage(image.name, imageOfBitmap(image.bitmap)) : (image as Image),
+  ),
+});
 
 /** From a worker: `ready` first of all, then any number of `progress`, then one of the others. */
 export type LoadReply =
@@ -35,7 +50,8 @@ export function buffersOf({ meshes, images, environment }: SentScene): Transfera
   const add = (array: ArrayBufferView | undefined) => {
     if (array?.buffer instanceof ArrayBuffer) buffers.add(array.buffer);
   };
-  for (const { positions, indices, normals, tangents, colors, uvs = [] } of meshes) for (const array of [positions, indices, normals, tangents, colors, ...uvs]) add(array);
+  for (const { positions, indices, normals, tangents, colors, uvs = [] } of meshes)
+    for (const array of [positions, indices, normals, tangents, colors, ...uvs]) add(array);
   for (const image of images) {
     if (image.bitmap) buffers.add(image.bitmap);
     else add((image as Image).data);

@@ -6,4 +6,9 @@ export { serveGltf, type WorkerLoadOptions } from './serve';
 
 const { WorkerGlobalScope } = globalThis as unknown as { WorkerGlobalScope?: new () => object };
 // A page of one's own may load this module to call serveGltf() with decoders: then its worker is named otherwise.
-if (WorkerGlobalScope && globalThis instanceof WorkerGlobalScope && (globalThis as { name?: string }).name === 'glanz-gltf') serveGltf();
+if (
+  WorkerGlobalScope &&
+  globalThis instanceof WorkerGlobalScope &&
+  (globalThis as { name?: string }).name === 'glanz-gltf'
+)
+  serveGltf();

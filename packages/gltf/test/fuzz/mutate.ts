@@ -19,12 +19,83 @@ export function takeApart(bytes: Uint8Array<ArrayBuffer>): Parts {
 
 /** What stands in files that mean harm, or that nobody has thought of. */
 const VALUES: readonly unknown[] = [
-  null, true, false, 0, -1, 1, 2, 3, 0.5, -0.5, 255, 256, 65535, 65536, 2 ** 31 - 1, 2 ** 31, 2 ** 32 - 1, 2 ** 32, 2 ** 53, 1e308, -1e308, 1e-320, 5120, 5121, 5123, 5125, 5126, 34962, 34963,
-  '', 'x', '2.0', '__proto__', 'constructor', 'toString', 'SCALAR', 'VEC3', 'MAT4', 'CUBICSPLINE', 'data:,', 'data:;base64,AAAA', '../../etc/passwd', 'file:///etc/passwd', 'http://127.0.0.1:9/x', '%00', 'a\nb\u2028c', '\ud800',
-  [], [0], [[]], [null], [0, 0, 0], [1e308, 1e308, 1e308], Array.from({ length: 16 }, () => 1e30), {}, { index: 0 }, { __proto__: null, extensions: {} }, { KHR_draco_mesh_compression: { bufferView: 0, attributes: { POSITION: 0 } } },
+  null,
+  true,
+  false,
+  0,
+  -1,
+  1,
+  2,
+  3,
+  0.5,
+  -0.5,
+  255,
+  256,
+  65535,
+  65536,
+  2 ** 31 - 1,
+  2 ** 31,
+  2 ** 32 - 1,
+  2 ** 32,
+  2 ** 53,
+  1e308,
+  -1e308,
+  1e-320,
+  5120,
+  5121,
+  5123,
+  5125,
+  5126,
+  34962,
+  34963,
+  '',
+  'x',
+  '2.0',
+  '__proto__',
+  'constructor',
+  'toString',
+  'SCALAR',
+  'VEC3',
+  'MAT4',
+  'CUBICSPLINE',
+  'data:,',
+  'data:;base64,AAAA',
+  '../../etc/passwd',
+  'file:///etc/passwd',
+  'http://127.0.0.1:9/x',
+  '%00',
+  'a\nb\u2028c',
+  '\ud800',
+  [],
+  [0],
+  [[]],
+  [null],
+  [0, 0, 0],
+  [1e308, 1e308, 1e308],
+  Array.from({ length: 16 }, () => 1e30),
+  {},
+  { index: 0 },
+  { __proto__: null, extensions: {} },
+  { KHR_draco_mesh_compression: { bufferView: 0, attributes: { POSITION: 0 } } },
 ];
 
-const EXTENSIONS = ['KHR_draco_mesh_compression', 'EXT_meshopt_compression', 'KHR_meshopt_compression', 'KHR_mesh_quantization', 'EXT_mesh_gpu_instancing', 'KHR_lights_punctual', 'KHR_materials_variants', 'KHR_node_visibility', 'KHR_texture_transform', 'KHR_texture_basisu', 'EXT_texture_webp', 'KHR_xmp_json_ld', 'KHR_materials_clearcoat', 'KHR_materials_volume', 'NONE_such'];
+const EXTENSIONS = [
+  'KHR_draco_mesh_compression',
+  'EXT_meshopt_compression',
+  'KHR_meshopt_compression',
+  'KHR_mesh_quantization',
+  'EXT_mesh_gpu_instancing',
+  'KHR_lights_punctual',
+  'KHR_materials_variants',
+  'KHR_node_visibility',
+  'KHR_texture_transform',
+  'KHR_texture_basisu',
+  'EXT_texture_webp',
+  'KHR_xmp_json_ld',
+  'KHR_materials_clearcoat',
+  'KHR_materials_volume',
+  'NONE_such',
+];
 
 type Holder = Record<string, unknown>;
 
@@ -59,7 +130,18 @@ function spoilJson(json: unknown, random: Random): void {
       break;
     case 3:
       // Numbers next to the true one: off by one, scaled, turned round.
-      if (typeof value === 'number') holder[key] = random.pick([value + 1, value - 1, -value, value * 2, value * 1e6, value / 3, 1 / value, value + 4, value - 4]);
+      if (typeof value === 'number')
+        holder[key] = random.pick([
+          value + 1,
+          value - 1,
+          -value,
+          value * 2,
+          value * 1e6,
+          value / 3,
+          1 / value,
+          value + 4,
+          value - 4,
+        ]);
       else holder[key] = structuredClone(random.pick(VALUES));
       break;
     case 4:
@@ -71,11 +153,30 @@ function spoilJson(json: unknown, random: Random): void {
       else if (Array.isArray(value) && value.length > 0) value.push(structuredClone(random.pick(value as unknown[])));
       break;
     case 6:
-      (typeof value === 'object' && value !== null && !Array.isArray(value) ? (value as Holder) : (json as Holder))['extensions'] = { [random.pick(EXTENSIONS)]: structuredClone(random.below(2) ? random.pick(VALUES) : other[otherKey]) };
+      (typeof value === 'object' && value !== null && !Array.isArray(value) ? (value as Holder) : (json as Holder))[
+        'extensions'
+      ] = { [random.pick(EXTENSIONS)]: structuredClone(random.below(2) ? random.pick(VALUES) : other[otherKey]) };
       break;
     case 7:
       if (Array.isArray(value)) value.length = random.below(value.length + 1);
-      else if (!Array.isArray(holder)) holder[random.pick(['uri', 'mode', 'sparse', 'children', 'extras', 'name', 'byteStride', 'normalized', 'targets', 'matrix', 'weights', '__proto__', 'constructor'])] = structuredClone(random.pick(VALUES));
+      else if (!Array.isArray(holder))
+        holder[
+          random.pick([
+            'uri',
+            'mode',
+            'sparse',
+            'children',
+            'extras',
+            'name',
+            'byteStride',
+            'normalized',
+            'targets',
+            'matrix',
+            'weights',
+            '__proto__',
+            'constructor',
+          ])
+        ] = structuredClone(random.pick(VALUES));
       break;
     default: {
       const names = random.pick(['extensionsUsed', 'extensionsRequired']);
@@ -98,13 +199,18 @@ function spoilBytes(bytes: Uint8Array<ArrayBuffer>, random: Random): Uint8Array<
     }
     case 2:
       if (bytes.length < 4) return bytes;
-      new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength).setUint32(Math.min(at, bytes.length - 4), random.pick([0, 0xffffffff, 0x7fc00000, 0x7f800000, 0x80000000, random.word()]), true);
+      new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength).setUint32(
+        Math.min(at, bytes.length - 4),
+        random.pick([0, 0xffffffff, 0x7fc00000, 0x7f800000, 0x80000000, random.word()]),
+        true,
+      );
       return bytes;
     case 3:
       bytes.copyWithin(at, random.below(bytes.length), random.below(bytes.length));
       return bytes;
     default:
-      for (let i = random.below(4); i >= 0; i--) bytes[random.below(bytes.length)] = random.below(3) ? random.below(256) : random.pick([0, 255, 127, 128]);
+      for (let i = random.below(4); i >= 0; i--)
+        bytes[random.below(bytes.length)] = random.below(3) ? random.below(256) : random.pick([0, 255, 127, 128]);
       return bytes;
   }
 }

@@ -24,7 +24,10 @@ export interface FuzzReport {
 }
 
 /** Loads spoiled documents on several threads. @param start Starts a worker that runs `worker.ts`. */
-export async function fuzzOn(start: (task: FuzzTask) => Worker, { parts, seed, count, first = 0, threads = 2, onProgress }: FuzzPlan): Promise<FuzzReport> {
+export async function fuzzOn(
+  start: (task: FuzzTask) => Worker,
+  { parts, seed, count, first = 0, threads = 2, onProgress }: FuzzPlan,
+): Promise<FuzzReport> {
   const findings: FuzzFinding[] = [];
   const ends: Record<string, number> = {};
   let done = 0;
@@ -45,7 +48,10 @@ export async function fuzzOn(start: (task: FuzzTask) => Worker, { parts, seed, c
         findings.push({ mutant: at, what });
         over = true;
         clearTimeout(timer);
-        void worker.terminate().then(() => (findings.length < ENOUGH && at + threads < first + count ? run(at + threads) : undefined)).then(() => resolve());
+        void worker
+          .terminate()
+          .then(() => (findings.length < ENOUGH && at + threads < first + count ? run(at + threads) : undefined))
+          .then(() => resolve());
       };
       const watch = () => {
         clearTimeout(timer);

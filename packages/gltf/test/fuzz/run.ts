@@ -14,9 +14,21 @@ export async function fuzz(plan: Omit<FuzzPlan, 'parts'>): Promise<FuzzReport> {
   const folder = mkdtempSync(join(here, '../../node_modules/.fuzz-'));
   const file = join(folder, 'worker.mjs');
   try {
-    const { outputFiles } = await build({ entryPoints: [join(here, 'worker.ts')], bundle: true, write: false, format: 'esm', platform: 'node', target: 'node20', conditions: ['@glanz/source'], external: ['draco3dgltf', 'meshoptimizer', 'sharp', '@gltf-transform/*'] });
+    const { outputFiles } = await build({
+      entryPoints: [join(here, 'worker.ts')],
+      bundle: true,
+      write: false,
+      format: 'esm',
+      platform: 'node',
+      target: 'node20',
+      conditions: ['@glanz/source'],
+      external: ['draco3dgltf', 'meshoptimizer', 'sharp', '@gltf-transform/*'],
+    });
     writeFileSync(file, outputFiles[0]!.contents);
-    return await fuzzOn((workerData) => new Worker(pathToFileURL(file), { workerData, resourceLimits: { maxOldGenerationSizeMb: 1024 } }), { ...plan, parts });
+    return await fuzzOn(
+      (workerData) => new Worker(pathToFileURL(file), { workerData, resourceLimits: { maxOldGenerationSizeMb: 1024 } }),
+      { ...plan, parts },
+    );
   } finally {
     rmSync(folder, { recursive: true, force: true });
   }

@@ -23,10 +23,17 @@ export interface FuzzFinding {
   readonly what: string;
 }
 
-/** What a worker says: which mutant comes next, a bad end, or that all are done, with how often each end was: `scene`, or an error's code. */
-export type FuzzMessage = { readonly at: number } | { readonly finding: FuzzFinding } | { readonly done: Readonly<Record<string, number>> };
+/**
+ * What a worker says: which mutant comes next, a bad end, or that all are done, with how often each end was: `scene`,
+ * or an error's code.
+ */
+export type FuzzMessage =
+  { readonly at: number } | { readonly finding: FuzzFinding } | { readonly done: Readonly<Record<string, number>> };
 
-/** Mutants whose operations are counted at once, and how many operations they may take: a document can ask for 2^28 bytes of zeros. */
+/**
+ * Mutants whose operations are counted at once, and how many operations they may take: a document can ask for 2^28
+ * bytes of zeros.
+ */
 const TOGETHER = 64;
 const MAX_OPERATIONS = 2 ** 30;
 
@@ -37,7 +44,10 @@ if (port) {
   const { parts, seed, first, end, step } = workerData as FuzzTask;
   const draco: unknown = await draco3d.createDecoderModule();
   // Pictures are other people's decoders: here it counts that the loader takes what they give or throw.
-  const decodeImage = (bytes: Uint8Array) => (bytes.length % 2 ? Promise.reject(new Error('broken')) : Promise.resolve({ width: 1, height: 1, data: new Uint8Array(4) }));
+  const decodeImage = (bytes: Uint8Array) =>
+    bytes.length % 2
+      ? Promise.reject(new Error('broken'))
+      : Promise.resolve({ width: 1, height: 1, data: new Uint8Array(4) });
   const say = (message: FuzzMessage) => port.postMessage(message);
   const ends: Record<string, number> = {};
   const count = (end: string) => void (ends[end] = (ends[end] ?? 0) + 1);
@@ -49,7 +59,14 @@ if (port) {
     const read: string[] = [];
     try {
       const files = new Map<string, Uint8Array<ArrayBuffer>>([['folder/document.gltf', bytes]]);
-      const spied = { get: (path: string) => { read.push(path); return files.get(path); }, [Symbol.iterator]: () => files[Symbol.iterator](), keys: () => files.keys() } as unknown as Map<string, Uint8Array<ArrayBuffer>>;
+      const spied = {
+        get: (path: string) => {
+          read.push(path);
+          return files.get(path);
+        },
+        [Symbol.iterator]: () => files[Symbol.iterator](),
+        keys: () => files.keys(),
+      } as unknown as Map<string, Uint8Array<ArrayBuffer>>;
       const scene = await loadGltf(random.below(2) ? bytes : { files: spied, entry: 'folder/document.gltf' }, {
         allowEmpty: true,
         decodeImage,
@@ -74,7 +91,8 @@ if (port) {
     const { operations } = await counter.measure(async () => {
       for (let i = 0; i < TOGETHER && mutant + i * step < end; i++) await load(mutant + i * step);
     });
-    if (operations > MAX_OPERATIONS) say({ finding: { mutant, what: `and the next ${TOGETHER - 1} of its thread take ${operations} operations` } });
+    if (operations > MAX_OPERATIONS)
+      say({ finding: { mutant, what: `and the next ${TOGETHER - 1} of its thread take ${operations} operations` } });
   }
   counter.end();
   say({ done: ends });

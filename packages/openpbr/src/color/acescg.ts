@@ -1,6 +1,6 @@
 /**
- * Linear ACEScg (primaries AP1, white D60) to linear Rec.709/sRGB (D65), adapted by Bradford's method. Colours outside of
- * the smaller gamut get negative components.
+ * Linear ACEScg (primaries AP1, white D60) to linear Rec.709/sRGB (D65), adapted by Bradford's method. Colours outside
+ * of the smaller gamut get negative components.
  */
 const TO_REC709 = [
   [1.7050509926579, -0.6217921206574, -0.0832588720005],
@@ -17,9 +17,16 @@ const FROM_REC709 = [
 
 type Triple = readonly [number, number, number];
 
-const times = (m: readonly [Triple, Triple, Triple], [r, g, b]: Triple): [number, number, number] => [m[0][0] * r + m[0][1] * g + m[0][2] * b, m[1][0] * r + m[1][1] * g + m[1][2] * b, m[2][0] * r + m[2][1] * g + m[2][2] * b];
+const times = (m: readonly [Triple, Triple, Triple], [r, g, b]: Triple): [number, number, number] => [
+  m[0][0] * r + m[0][1] * g + m[0][2] * b,
+  m[1][0] * r + m[1][1] * g + m[1][2] * b,
+  m[2][0] * r + m[2][1] * g + m[2][2] * b,
+];
 
-/** A colour of the specification's examples, which are in ACEScg, as the linear Rec.709 colour that this package takes. May lie outside of 0..1. */
+/**
+ * A colour of the specification's examples, which are in ACEScg, as the linear Rec.709 colour that this package takes.
+ * May lie outside of 0..1.
+ */
 export function acescgToLinear(color: Triple): [number, number, number] {
   return times(TO_REC709, color);
 }

@@ -6,8 +6,16 @@ const power = (exponent: number) => (c: number) => Math.max(c, 0) ** exponent;
 const srgb = (c: number) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
 const rec709 = (c: number) => Math.max(c, 0) ** 2.4;
 
-const displayP3 = ([r, g, b]: Triple): Triple => [1.2249401763 * r - 0.2249401763 * g, -0.0420569547 * r + 1.0420569547 * g, -0.0196375546 * r - 0.0786360456 * g + 1.0982736001 * b];
-const adobeRgb = ([r, g, b]: Triple): Triple => [1.398355744 * r - 0.398355744 * g, g, -0.0429289893 * g + 1.0429289893 * b];
+const displayP3 = ([r, g, b]: Triple): Triple => [
+  1.2249401763 * r - 0.2249401763 * g,
+  -0.0420569547 * r + 1.0420569547 * g,
+  -0.0196375546 * r - 0.0786360456 * g + 1.0982736001 * b,
+];
+const adobeRgb = ([r, g, b]: Triple): Triple => [
+  1.398355744 * r - 0.398355744 * g,
+  g,
+  -0.0429289893 * g + 1.0429289893 * b,
+];
 
 interface Space {
   readonly curve?: (code: number) => number;
@@ -50,7 +58,10 @@ export function toLinear(color: Triple, space: string): Triple | undefined {
   return primaries ? primaries(linear) : linear;
 }
 
-/** How the texels of a picture in a colour space are encoded; undefined where it is neither sRGB nor linear with Rec.709 primaries. */
+/**
+ * How the texels of a picture in a colour space are encoded; undefined where it is neither sRGB nor linear with Rec.709
+ * primaries.
+ */
 export function textureEncoding(space: string): 'srgb' | 'linear' | undefined {
   return Object.hasOwn(SPACES, space) ? (SPACES[space] as Space).texture : undefined;
 }

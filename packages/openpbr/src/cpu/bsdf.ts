@@ -8,14 +8,24 @@ import { filmFacet, filmReflectance, filmShare, metalIndex, prepareFilm, type Co
 import { fuzzAlbedo, fuzzDensity, fuzzSample, prepareFuzz, type Fuzz } from './fuzz';
 import { ggx, ggxAlpha, ggxBound, ggxSample, halfVector, type Slopes } from './ggx';
 import { prepareThinSubsurface, type ThinSubsurface } from './subsurface';
-import { prepareTransmission, refract, refractGgx, refractHalf, type BsdfSide, type Transmission } from './transmission';
+import {
+  prepareTransmission,
+  refract,
+  refractGgx,
+  refractHalf,
+  type BsdfSide,
+  type Transmission,
+} from './transmission';
 import { clamp, dot } from './vector';
 
 /** What {@link prepareBsdf} may be told. */
 export interface BsdfOptions extends BsdfSide {
   /** As the flag OPENPBR_MULTISCATTER; default true. */
   readonly multipleScattering?: boolean;
-  /** Evaluate a thin film at three wavelengths in nm, one for each channel, instead of over the visible spectrum; for comparisons. */
+  /**
+   * Evaluate a thin film at three wavelengths in nm, one for each channel, instead of over the visible spectrum; for
+   * comparisons.
+   */
   readonly filmWavelengths?: readonly [number, number, number] | undefined;
 }
 
@@ -46,7 +56,14 @@ export interface Bsdf {
     /** Its complex index per channel, below a film. */
     readonly index: readonly [ComplexIndex, ComplexIndex, ComplexIndex];
   };
-  readonly dielectric: { readonly eta: number; readonly epsilon: number; readonly summed: boolean; readonly roughness: number; readonly scale: OpenPbrColor; readonly bounced: OpenPbrColor };
+  readonly dielectric: {
+    readonly eta: number;
+    readonly epsilon: number;
+    readonly summed: boolean;
+    readonly roughness: number;
+    readonly scale: OpenPbrColor;
+    readonly bounced: OpenPbrColor;
+  };
   readonly film: Film;
   /** Factor on what lies below the interface, by the film. */
   readonly filmPass: OpenPbrColor;
@@ -86,14 +103,33 @@ const sum = (color: OpenPbrColor): number => color[0] + color[1] + color[2];
 
 /** The parameters with indices relative to what is outside, and no coat in front from inside. */
 function seenFrom(p: OpenPbrParameters, { inside = false, outerIor = 1 }: BsdfSide): OpenPbrParameters {
-  return { ...p, specular_ior: p.specular_ior / outerIor, coat_ior: p.coat_ior / outerIor, coat_weight: inside ? 0 : p.coat_weight, fuzz_weight: inside ? 0 : p.fuzz_weight };
+  return {
+    ...p,
+    specular_ior: p.specular_ior / outerIor,
+    coat_ior: p.coat_ior / outerIor,
+    coat_weight: inside ? 0 : p.coat_weight,
+    fuzz_weight: inside ? 0 : p.fuzz_weight,
+  };
 }
 
-/** Share of light that an interface reflects, and what multiple scattering adds to either side; twin of `openpbr_dielectric_seen`. */
-function prepareInterface(p: OpenPbrParameters, alpha: Slopes, wo: OpenPbrVector, mu: number, multipleScattering: boolean) {
+/**
+ * Share of light that an interface reflects, and what multiple scattering adds to either side; twin of
+ * `openpbr_dielectric_seen`.
+ */
+function prepareInterface(
+  p: OpenPbrParameters,
+  alpha: Slopes,
+  wo: OpenPbrVector,
+  mu: number,
+  multipleScattering: boolean,
+) {
   const epsilon = dielectricEpsilon(p.specular_ior, p.specular_weight);
   const summed = isSummed(p, epsilon);
-  return { epsilon, summed, ...interfaceEnergy(epsilon, p.specular_roughness, alpha, wo, mu, summed, multipleScattering) };
+  return {
+    epsilon,
+    summed,
+    ...interfaceEnergy(epsilon, p.specular_roughness, alpha, wo, mu, summed, multipleScattering),
+  };
 }
 
 /**
@@ -102,7 +138,11 @@ function prepareInterface(p: OpenPbrParameters, alpha: Slopes, wo: OpenPbrVector
  * @param given Resolved parameters.
  * @param wo Unit direction to the viewer in the local frame, +z normal on the viewer's side.
  */
-export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multipleScattering = true, inside = false, outerIor = 1, filmWavelengths }: BsdfOptions = {}): Bsdf {
+export function prepareBsdf(
+  given: OpenPbrParameters,
+  wo: OpenPbrVector,
+  { multipleScattering = true, inside = false, outerIor = 1, filmWavelengths }: BsdfOptions = {},
+): Bsdf {
   const whole = seenFrom(given, { inside, outerIor });
   const p = coatedBase(whole);
   const mu = clamp(wo[2], 1e-5, 1);
@@ -118,27 +158,63 @@ export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multi
   const typical = filmedMetal(film, index, weight, seen, fresnelMetal(f0, p.specular_color, seen, weight));
   const mean = filmedMetal(film, index, weight, 0.7, fresnelMetalMean(f0, p.specular_color, weight));
   const limit = clamp(weight, 1e-6, 1);
-  const bounced = rgb((i) => (p.base_metalness * lost * (1 - meanLost) * mean[i] * mean[i]) / Math.max(limit - mean[i] * meanLost, 1e-7));
+  const bounced = rgb(
+    (i) => (p.base_metalness * lost * (1 - meanLost) * mean[i] * mean[i]) / Math.max(limit - mean[i] * meanLost, 1e-7),
+  );
   const tint: OpenPbrColor = inside ? [1, 1, 1] : p.specular_color;
   const insulator = 1 - p.base_metalness;
   const face = prepareInterface(p, alpha, wo, mu, multipleScattering);
   const outer = { ...p, specular_color: tint, specular_ior: inside ? 1 / whole.specular_ior : whole.specular_ior };
   // From inside nothing opaque lies beyond it.
-  const bare = prepareInterface(inside ? { ...outer, transmission_weight: 1 } : outer, alpha, wo, mu, multipleScattering);
+  const bare = prepareInterface(
+    inside ? { ...outer, transmission_weight: 1 } : outer,
+    alpha,
+    wo,
+    mu,
+    multipleScattering,
+  );
   const filmed = filmShare(film, (1 + face.epsilon) / (1 - face.epsilon), face.share, alpha, wo);
   const clear = inside ? filmShare(film, (1 + bare.epsilon) / (1 - bare.epsilon), bare.share, alpha, wo) : filmed;
-  const transmission = prepareTransmission(outer, face, bare, clear, alpha, wo, mu, insulator, inside ? given.coat_weight : 0, inside, multipleScattering);
+  const transmission = prepareTransmission(
+    outer,
+    face,
+    bare,
+    clear,
+    alpha,
+    wo,
+    mu,
+    insulator,
+    inside ? given.coat_weight : 0,
+    inside,
+    multipleScattering,
+  );
   const subsurface = prepareThinSubsurface(p, insulator * (1 - face.share));
   const scale = rgb((i) => insulator * (1 - transmission.share) * tint[i]);
-  const specular = rgb((i) => p.base_metalness * typical[i] * (1 - lost) + scale[i] * Math.max(face.share - face.bounced + filmed.more[i], 0) + transmission.mirrorAlbedo[i]);
+  const specular = rgb(
+    (i) =>
+      p.base_metalness * typical[i] * (1 - lost) +
+      scale[i] * Math.max(face.share - face.bounced + filmed.more[i], 0) +
+      transmission.mirrorAlbedo[i],
+  );
   const rebounced = rgb((i) => scale[i] * face.bounced + transmission.mirrorBounced[i]);
-  const diffuse = insulator * p.base_weight * (1 - p.transmission_weight) * (1 - p.subsurface_weight) * (1 - face.share);
-  const spread = rgb((i) => bounced[i] + rebounced[i] + (diffuse * p.base_color[i] + subsurface.back * subsurface.color[i]) * filmed.pass[i]);
+  const diffuse =
+    insulator * p.base_weight * (1 - p.transmission_weight) * (1 - p.subsurface_weight) * (1 - face.share);
+  const spread = rgb(
+    (i) =>
+      bounced[i] + rebounced[i] + (diffuse * p.base_color[i] + subsurface.back * subsurface.color[i]) * filmed.pass[i],
+  );
   const beneath = rgb((i) => transmission.bounced[i] + subsurface.through * subsurface.color[i] * filmed.pass[i]);
   const down = sum(beneath);
   const facets = sum(specular) + sum(transmission.albedo);
   const all = facets + sum(spread) + down;
-  const reflected = stretchedShareMean(face.epsilon, alpha, roughness, face.summed && isOverOpaque(p) ? summedShareMean(face.epsilon, roughness) : energyShareMean(face.epsilon, roughness));
+  const reflected = stretchedShareMean(
+    face.epsilon,
+    alpha,
+    roughness,
+    face.summed && isOverOpaque(p)
+      ? summedShareMean(face.epsilon, roughness)
+      : energyShareMean(face.epsilon, roughness),
+  );
   const grazing = diffuseGrazing(p.base_diffuse_roughness, roughness, reflected, face.epsilon);
   const even = diffuseEven(p.base_diffuse_roughness, reflected, face.epsilon);
   const coupling = (even * diffuseGain(grazing, mu)) / Math.max(1 - reflected, 1e-4);
@@ -147,7 +223,9 @@ export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multi
   const highlight = coatPass(coat, mu);
   const everywhere = coatPass(coat, 2 / 3);
   const beyond = coatThrough(coat, transmission.exit, mu);
-  const below = rgb((i) => specular[i] * highlight[i] + spread[i] * everywhere[i] + (transmission.albedo[i] + beneath[i]) * beyond[i]);
+  const below = rgb(
+    (i) => specular[i] * highlight[i] + spread[i] * everywhere[i] + (transmission.albedo[i] + beneath[i]) * beyond[i],
+  );
   const total = sum(below) + 3 * coat.albedo;
   const fuzz = prepareFuzz(whole, wo, mu);
   const fibres = sum(fuzz.color);
@@ -162,8 +240,24 @@ export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multi
     diffuseRoughness: p.base_diffuse_roughness,
     diffuseGrazing: grazing,
     albedo: rgb((i) => Math.min((below[i] + coat.albedo) * fuzz.below + fuzz.color[i], 1)),
-    metal: { f0, tint: p.specular_color, specularWeight: weight, metalness: p.base_metalness, roughness, bounced, meanLost, index },
-    dielectric: { eta: (1 + face.epsilon) / (1 - face.epsilon), epsilon: face.epsilon, summed: face.summed, roughness, scale, bounced: rebounced },
+    metal: {
+      f0,
+      tint: p.specular_color,
+      specularWeight: weight,
+      metalness: p.base_metalness,
+      roughness,
+      bounced,
+      meanLost,
+      index,
+    },
+    dielectric: {
+      eta: (1 + face.epsilon) / (1 - face.epsilon),
+      epsilon: face.epsilon,
+      summed: face.summed,
+      roughness,
+      scale,
+      bounced: rebounced,
+    },
     film,
     filmPass: filmed.pass,
     transmission,
@@ -177,14 +271,32 @@ export function prepareBsdf(given: OpenPbrParameters, wo: OpenPbrVector, { multi
 }
 
 /** Reflectance of metal with its film. */
-function filmedMetal(film: Film, index: Bsdf['metal']['index'], specularWeight: number, c: number, clear: OpenPbrColor): OpenPbrColor {
+function filmedMetal(
+  film: Film,
+  index: Bsdf['metal']['index'],
+  specularWeight: number,
+  c: number,
+  clear: OpenPbrColor,
+): OpenPbrColor {
   if (film.weight <= 0) return clear;
-  return rgb((i) => mix(clear[i], Math.min(specularWeight * filmReflectance(film, index[i], (1 - c * c) * film.grazing)[i], 1), film.weight));
+  return rgb((i) =>
+    mix(
+      clear[i],
+      Math.min(specularWeight * filmReflectance(film, index[i], (1 - c * c) * film.grazing)[i], 1),
+      film.weight,
+    ),
+  );
 }
 
 /** What a facet seen at cosine c reflects, all microfacet lobes of the base, and what it lets through. */
 function facet(b: Bsdf, c: number): { reflected: OpenPbrColor; through: OpenPbrColor } {
-  const metal = filmedMetal(b.film, b.metal.index, b.metal.specularWeight, c, fresnelMetal(b.metal.f0, b.metal.tint, c, b.metal.specularWeight));
+  const metal = filmedMetal(
+    b.film,
+    b.metal.index,
+    b.metal.specularWeight,
+    c,
+    fresnelMetal(b.metal.f0, b.metal.tint, c, b.metal.specularWeight),
+  );
   const fresnel = fresnelDielectric(b.dielectric.eta, c);
   const { thin, mirrorEta, fresnelEta, mirror, color } = b.transmission;
   const clear = fresnelDielectric(mirrorEta, c);
@@ -192,7 +304,12 @@ function facet(b: Bsdf, c: number): { reflected: OpenPbrColor; through: OpenPbrC
   const film = weight > 0 ? filmFacet(b.film, c) : ([0, 0, 0] as const);
   const below = 1 - fresnelDielectric(fresnelEta, c);
   return {
-    reflected: rgb((i) => b.metal.metalness * metal[i] + b.dielectric.scale[i] * mix(fresnel, film[i], weight) + mirror[i] * (thin ? 1 : mix(clear, film[i], weight))),
+    reflected: rgb(
+      (i) =>
+        b.metal.metalness * metal[i] +
+        b.dielectric.scale[i] * mix(fresnel, film[i], weight) +
+        mirror[i] * (thin ? 1 : mix(clear, film[i], weight)),
+    ),
     through: rgb((i) => color[i] * (thin ? 1 : below * (1 - (weight * (film[i] - clear)) / Math.max(1 - clear, 1e-6)))),
   };
 }
@@ -204,25 +321,43 @@ function reflectionChance(b: Bsdf, { reflected, through }: ReturnType<typeof fac
 }
 
 /** Cosine, and what the interface lets through on the way of the light to the diffuse lobe. */
-const diffusePass = (b: Bsdf, wi: OpenPbrVector): number => wi[2] * diffuseGain(b.diffuseGrazing, wi[2]) * (1 - lightShare(b.dielectric, b.alpha, wi));
+const diffusePass = (b: Bsdf, wi: OpenPbrVector): number =>
+  wi[2] * diffuseGain(b.diffuseGrazing, wi[2]) * (1 - lightShare(b.dielectric, b.alpha, wi));
 
 /** The facet that lets light through from `wi` to `wo`. */
-const throughHalf = ({ transmission: { thin, eta } }: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): OpenPbrVector => (thin ? halfVector(wo, [wi[0], wi[1], -wi[2]]) : refractHalf(eta, wo, wi));
+const throughHalf = ({ transmission: { thin, eta } }: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): OpenPbrVector =>
+  thin ? halfVector(wo, [wi[0], wi[1], -wi[2]]) : refractHalf(eta, wo, wi);
 
 /** `scatter` for directions on the other side. */
-function scatterThrough(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector): { f: OpenPbrColor; pdf: number } {
+function scatterThrough(
+  b: Bsdf,
+  wo: OpenPbrVector,
+  wi: OpenPbrVector,
+  h: OpenPbrVector,
+): { f: OpenPbrColor; pdf: number } {
   if (wo[2] <= 0) return { f: [0, 0, 0], pdf: 0 };
   const { transmission } = b;
   const c = clamp(dot(wo, h), 0, 1);
-  const [value, density] = transmission.thin ? ggx(transmission.thinAlpha, wo, [wi[0], wi[1], -wi[2]], h) : refractGgx(transmission.eta, b.alpha, wo, wi, h);
+  const [value, density] = transmission.thin
+    ? ggx(transmission.thinAlpha, wo, [wi[0], wi[1], -wi[2]], h)
+    : refractGgx(transmission.eta, b.alpha, wo, wi, h);
   const sides = facet(b, c);
   const coat = coatThrough(b.coat, transmission.exit, -wi[2]);
   const cosine = -wi[2] / Math.PI;
-  const pdf = b.specularProbability * (1 - reflectionChance(b, sides)) * density + (1 - b.specularProbability) * b.below * cosine;
+  const pdf =
+    b.specularProbability * (1 - reflectionChance(b, sides)) * density + (1 - b.specularProbability) * b.below * cosine;
   const mirrored: OpenPbrVector = [wi[0], wi[1], -wi[2]];
   const paper = eon(b.subsurface.color, b.diffuseRoughness, wo, mirrored);
   const passes = b.subsurface.through * diffusePass(b, mirrored);
-  return { f: rgb((i) => (sides.through[i] * value + transmission.bounced[i] * cosine + paper[i] * passes * b.filmPass[i]) * coat[i] * b.fuzz.below), pdf: (1 - b.fuzzProbability) * (1 - b.coatProbability) * pdf };
+  return {
+    f: rgb(
+      (i) =>
+        (sides.through[i] * value + transmission.bounced[i] * cosine + paper[i] * passes * b.filmPass[i]) *
+        coat[i] *
+        b.fuzz.below,
+    ),
+    pdf: (1 - b.fuzzProbability) * (1 - b.coatProbability) * pdf,
+  };
 }
 
 function scatter(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector): { f: OpenPbrColor; pdf: number } {
@@ -238,13 +373,28 @@ function scatter(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector
   const { frame } = b.coat;
   const coatWi = inCoat(frame, wi);
   const pass = coatPass(b.coat, Math.max(coatWi[2], 1e-5));
-  const [top, topDensity] = coatWi[2] > 0 ? ggx(b.coat.alpha, inCoat(frame, wo), coatWi, inCoat(frame, h), b.coat.bound) : [0, 0];
+  const [top, topDensity] =
+    coatWi[2] > 0 ? ggx(b.coat.alpha, inCoat(frame, wo), coatWi, inCoat(frame, h), b.coat.bound) : [0, 0];
   const mirrored = b.coat.scale * fresnelDielectric(b.coat.eta, c) * top;
   const fibres = fuzzDensity(b.fuzz, wi);
-  const basePdf = b.specularProbability * reflectionChance(b, sides) * density + ((1 - b.specularProbability) * (1 - b.below) * wi[2]) / Math.PI;
+  const basePdf =
+    b.specularProbability * reflectionChance(b, sides) * density +
+    ((1 - b.specularProbability) * (1 - b.below) * wi[2]) / Math.PI;
   return {
-    f: rgb((i) => (value * sides.reflected[i] + (b.dielectric.bounced[i] * wi[2]) / Math.PI + bounced * b.metal.bounced[i] + through * b.filmPass[i] * (b.diffuseScale * diffuse[i] + b.subsurface.back * paper[i])) * pass[i] * b.fuzz.below + mirrored * b.fuzz.below + b.fuzz.color[i] * fibres),
-    pdf: (basePdf * (1 - b.coatProbability) + topDensity * b.coatProbability) * (1 - b.fuzzProbability) + fibres * b.fuzzProbability,
+    f: rgb(
+      (i) =>
+        (value * sides.reflected[i] +
+          (b.dielectric.bounced[i] * wi[2]) / Math.PI +
+          bounced * b.metal.bounced[i] +
+          through * b.filmPass[i] * (b.diffuseScale * diffuse[i] + b.subsurface.back * paper[i])) *
+          pass[i] *
+          b.fuzz.below +
+        mirrored * b.fuzz.below +
+        b.fuzz.color[i] * fibres,
+    ),
+    pdf:
+      (basePdf * (1 - b.coatProbability) + topDensity * b.coatProbability) * (1 - b.fuzzProbability) +
+      fibres * b.fuzzProbability,
   };
 }
 
@@ -277,7 +427,9 @@ export function sampleBsdf(b: Bsdf, wo: OpenPbrVector, numbers: readonly [number
     const side = chosen / limit;
     const { thin, thinAlpha, eta } = b.transmission;
     const { frame } = b.coat;
-    h = top ? outOfCoat(frame, ggxSample(b.coat.alpha, inCoat(frame, wo), u, b.coat.bound)) : ggxSample(thin && side >= b.thinChance ? thinAlpha : b.alpha, wo, u, b.bound);
+    h = top
+      ? outOfCoat(frame, ggxSample(b.coat.alpha, inCoat(frame, wo), u, b.coat.bound))
+      : ggxSample(thin && side >= b.thinChance ? thinAlpha : b.alpha, wo, u, b.bound);
     const c = dot(wo, h);
     wi = [2 * c * h[0] - wo[0], 2 * c * h[1] - wo[1], 2 * c * h[2] - wo[2]];
     const chance = reflectionChance(b, facet(b, clamp(c, 0, 1)));
@@ -285,7 +437,8 @@ export function sampleBsdf(b: Bsdf, wo: OpenPbrVector, numbers: readonly [number
     medium = (side - chance) / (1 - chance);
     if (transmitted) wi = thin ? [wi[0], wi[1], -wi[2]] : (refract(eta, wo, h) ?? [0, 0, 0]);
     // A facet may reflect downwards or refract upwards, and downwards of the coat is not that of the base: lost.
-    if (transmitted !== wi[2] < 0 || (top && inCoat(frame, wi)[2] <= 0)) return { wi, pdf: 0, weight: [0, 0, 0], valid: false, transmitted, subsurface: false };
+    if (transmitted !== wi[2] < 0 || (top && inCoat(frame, wi)[2] <= 0))
+      return { wi, pdf: 0, weight: [0, 0, 0], valid: false, transmitted, subsurface: false };
   } else {
     wi = cosineSample(u);
     const down = b.below * (1 - b.coatProbability - limit);
@@ -299,7 +452,8 @@ export function sampleBsdf(b: Bsdf, wo: OpenPbrVector, numbers: readonly [number
   const { subsurface: part, subsurfaceChance: enters } = b.transmission;
   const subsurface = transmitted && medium < enters;
   // The weight is for the medium that was chosen.
-  const chosenPart = (i: 0 | 1 | 2): number => (!transmitted || enters === 0 ? 1 : subsurface ? part[i] / enters : (1 - part[i]) / (1 - enters));
+  const chosenPart = (i: 0 | 1 | 2): number =>
+    !transmitted || enters === 0 ? 1 : subsurface ? part[i] / enters : (1 - part[i]) / (1 - enters);
   return { wi, pdf, weight: rgb((i) => (f[i] / pdf) * chosenPart(i)), valid: true, transmitted, subsurface };
 }
 
@@ -310,5 +464,8 @@ export const albedoBsdf = (b: Bsdf, wo: OpenPbrVector): OpenPbrColor => (wo[2] >
 export function emittedRadiance(p: OpenPbrParameters, wo: OpenPbrVector): OpenPbrColor {
   if (wo[2] <= 0) return [0, 0, 0];
   const pass = coatEmission(p, wo);
-  return rgb((i) => p.emission_color[i] * p.emission_luminance * pass[i] * (1 - p.fuzz_weight * fuzzAlbedo(p.fuzz_roughness, wo[2])));
+  return rgb(
+    (i) =>
+      p.emission_color[i] * p.emission_luminance * pass[i] * (1 - p.fuzz_weight * fuzzAlbedo(p.fuzz_roughness, wo[2])),
+  );
 }

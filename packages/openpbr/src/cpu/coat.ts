@@ -36,10 +36,17 @@ const unit = (v: OpenPbrVector): OpenPbrVector => {
   const length = Math.hypot(...v);
   return [v[0] / length, v[1] / length, v[2] / length];
 };
-const plus = (a: OpenPbrVector, b: OpenPbrVector, t: number): OpenPbrVector => [a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]];
+const plus = (a: OpenPbrVector, b: OpenPbrVector, t: number): OpenPbrVector => [
+  a[0] + t * b[0],
+  a[1] + t * b[1],
+  a[2] + t * b[2],
+];
 
 /** The coat's own frame seen from one direction, if it has one; twin of `openpbr_coat_frame`. */
-export function coatFrame({ geometry_coat_normal: normal, geometry_coat_tangent: tangent }: OpenPbrParameters, wo: OpenPbrVector): CoatFrame | undefined {
+export function coatFrame(
+  { geometry_coat_normal: normal, geometry_coat_tangent: tangent }: OpenPbrParameters,
+  wo: OpenPbrVector,
+): CoatFrame | undefined {
   if (normal === null && tangent === null) return undefined;
   const given = normal ?? [0, 0, 1];
   const n = unit(plus(given, wo, Math.max(1e-3 - dot(given, wo), 0)));
@@ -51,10 +58,12 @@ export function coatFrame({ geometry_coat_normal: normal, geometry_coat_tangent:
 }
 
 /** A direction of the base's frame in that of the coat. */
-export const inCoat = (frame: CoatFrame | undefined, w: OpenPbrVector): OpenPbrVector => (frame ? [dot(frame[0], w), dot(frame[1], w), dot(frame[2], w)] : w);
+export const inCoat = (frame: CoatFrame | undefined, w: OpenPbrVector): OpenPbrVector =>
+  frame ? [dot(frame[0], w), dot(frame[1], w), dot(frame[2], w)] : w;
 
 /** A direction of the coat's frame in that of the base. */
-export const outOfCoat = (frame: CoatFrame | undefined, w: OpenPbrVector): OpenPbrVector => (frame ? rgb((i) => frame[0][i] * w[0] + frame[1][i] * w[1] + frame[2][i] * w[2]) : w);
+export const outOfCoat = (frame: CoatFrame | undefined, w: OpenPbrVector): OpenPbrVector =>
+  frame ? rgb((i) => frame[0][i] * w[0] + frame[1][i] * w[1] + frame[2][i] * w[2]) : w;
 
 /**
  * Roughness of the base as seen through a full coat, never less than its own; twin of `openpbr_coat_roughening`.
@@ -73,16 +82,27 @@ export function coatRoughening(roughness: number, coatRoughness: number, coatIor
 export function coatedBase(p: OpenPbrParameters): OpenPbrParameters {
   return {
     ...p,
-    specular_roughness: mix(p.specular_roughness, coatRoughening(p.specular_roughness, p.coat_roughness, p.coat_ior), p.coat_weight),
-    specular_ior: mix(p.specular_ior, Math.max(p.specular_ior, p.coat_ior) / Math.min(p.specular_ior, p.coat_ior), p.coat_weight),
+    specular_roughness: mix(
+      p.specular_roughness,
+      coatRoughening(p.specular_roughness, p.coat_roughness, p.coat_ior),
+      p.coat_weight,
+    ),
+    specular_ior: mix(
+      p.specular_ior,
+      Math.max(p.specular_ior, p.coat_ior) / Math.min(p.specular_ior, p.coat_ior),
+      p.coat_weight,
+    ),
   };
 }
 
 const path = (eta: number, mu: number): number => 1 / Math.sqrt(Math.max(1 - (1 - mu * mu) / (eta * eta), 1e-4));
-const absorptionOf = (p: OpenPbrParameters): OpenPbrColor => rgb((i) => 0.5 * Math.log2(Math.max(p.coat_color[i], 1e-7)));
+const absorptionOf = (p: OpenPbrParameters): OpenPbrColor =>
+  rgb((i) => 0.5 * Math.log2(Math.max(p.coat_color[i], 1e-7)));
 const passage = (absorption: number, eta: number, mu: number): number => 2 ** (absorption * path(eta, mu));
 
-/** What is left of white light after going down from one cosine and up to the other; 1 − coverage of it is not coated. */
+/**
+ * What is left of white light after going down from one cosine and up to the other; 1 − coverage of it is not coated.
+ */
 export const coatTransmittance = (p: OpenPbrParameters, muI: number, muO: number): OpenPbrColor => {
   const absorption = absorptionOf(p);
   return rgb((i) => passage(absorption[i], p.coat_ior, muI) * passage(absorption[i], p.coat_ior, muO));
@@ -96,10 +116,21 @@ export function coatDarkening(p: OpenPbrParameters, mu: number): OpenPbrColor {
   const epsilon = dielectricEpsilon(p.coat_ior, 1);
   const roughness = mix(mix(1, base.specular_roughness, f0), base.specular_roughness, p.base_metalness);
   const facet = mu + 0.8 * p.coat_roughness * p.coat_roughness * (1 - mu);
-  const kept = Math.min(mix(fresnelDielectric((1 + epsilon) / (1 - epsilon), facet), fresnelMean(-epsilon), roughness), 0.9999);
+  const kept = Math.min(
+    mix(fresnelDielectric((1 + epsilon) / (1 - epsilon), facet), fresnelMean(-epsilon), roughness),
+    0.9999,
+  );
   return rgb((i) => {
     const color = p.base_weight * p.base_color[i];
-    const albedo = mix(mix(mix(mix(color, p.subsurface_color[i], p.subsurface_weight), 1, p.transmission_weight), p.specular_color[i], f0), Math.min(color * p.specular_weight, 1), p.base_metalness);
+    const albedo = mix(
+      mix(
+        mix(mix(color, p.subsurface_color[i], p.subsurface_weight), 1, p.transmission_weight),
+        p.specular_color[i],
+        f0,
+      ),
+      Math.min(color * p.specular_weight, 1),
+      p.base_metalness,
+    );
     return mix(1, (1 - kept) / (1 - kept * albedo), p.coat_weight * p.coat_darkening);
   });
 }
@@ -125,23 +156,31 @@ export function prepareCoat(p: OpenPbrParameters, baseWo: OpenPbrVector, multipl
     bare: rgb((i) => darkening[i] * (1 - p.coat_weight)),
     through: rgb((i) => darkening[i] * p.coat_weight * (1 - share) * passage(absorption[i], eta, mu)),
     absorption,
-    entry: rgb((i) => darkening[i] * (1 - p.coat_weight + p.coat_weight * (1 - share) * passage(absorption[i], eta, mu))),
+    entry: rgb(
+      (i) => darkening[i] * (1 - p.coat_weight + p.coat_weight * (1 - share) * passage(absorption[i], eta, mu)),
+    ),
     frame,
   };
 }
 
 /** Factor on the base for light from the cosine `mu`; twin of `openpbr_coat_pass`. */
-export const coatPass = (coat: Coat, mu: number): OpenPbrColor => rgb((i) => coat.bare[i] + coat.through[i] * passage(coat.absorption[i], coat.eta, mu));
+export const coatPass = (coat: Coat, mu: number): OpenPbrColor =>
+  rgb((i) => coat.bare[i] + coat.through[i] * passage(coat.absorption[i], coat.eta, mu));
 
 /** Factor on light through the base, with the cosine `mu` on the far side; twin of `openpbr_coat_through`. */
-export const coatThrough = (coat: Coat, exit: number, mu: number): OpenPbrColor => rgb((i) => coat.entry[i] * mix(1, passage(coat.absorption[i], coat.eta, mu), exit));
+export const coatThrough = (coat: Coat, exit: number, mu: number): OpenPbrColor =>
+  rgb((i) => coat.entry[i] * mix(1, passage(coat.absorption[i], coat.eta, mu), exit));
 
 /** Factor on light that the base emits towards `wo`; twin of `openpbr_coat_emission`. */
 export function coatEmission(p: OpenPbrParameters, baseWo: OpenPbrVector): OpenPbrColor {
   const wo = inCoat(coatFrame(p, baseWo), baseWo);
   const mu = clamp(wo[2], 1e-5, 1);
   const epsilon = dielectricEpsilon(p.coat_ior, 1);
-  const share = energyShare(epsilon, viewRoughness(ggxAlpha(p.coat_roughness, p.coat_roughness_anisotropy), p.coat_roughness, wo), mu);
+  const share = energyShare(
+    epsilon,
+    viewRoughness(ggxAlpha(p.coat_roughness, p.coat_roughness_anisotropy), p.coat_roughness, wo),
+    mu,
+  );
   const absorption = absorptionOf(p);
   return rgb((i) => mix(1, (1 - share) * passage(absorption[i], (1 + epsilon) / (1 - epsilon), mu), p.coat_weight));
 }

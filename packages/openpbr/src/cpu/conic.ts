@@ -45,7 +45,11 @@ export function seenFacets(alpha: Slopes, wo: OpenPbrVector): SeenFacets {
     return [place(a >= 0 ? Math.max(x, y) : Math.min(x, y)), a >= 0 ? cosine : place(Math.max(x, y))];
   };
   /** The square of tan χ at the conic's bounds, about its middle. */
-  const reach = ([lean, upright]: Conic, sinPsi: number, cosPsi: number): number => ((sinPsi * flat + cosPsi * wo[2]) * (sinPsi * lean + cosPsi * upright) - least * sinPsi * sinPsi - cosPsi * cosPsi) / square;
+  const reach = ([lean, upright]: Conic, sinPsi: number, cosPsi: number): number =>
+    ((sinPsi * flat + cosPsi * wo[2]) * (sinPsi * lean + cosPsi * upright) -
+      least * sinPsi * sinPsi -
+      cosPsi * cosPsi) /
+    square;
 
   const sum = (count: number, one: Conic, other: Conic, add: (weight: number, h: OpenPbrVector) => void): void => {
     const [rangeOne, rangeOther] = [range(one), range(other)];
@@ -65,8 +69,14 @@ export function seenFacets(alpha: Slopes, wo: OpenPbrVector): SeenFacets {
       const right = bound(middle + width);
       const sinChi = left + (right - left) * v * v * (3 - 2 * v);
       const cosChi = Math.sqrt(Math.max(1 - sinChi * sinChi, 0));
-      const weight = (((last - first) / (1 + cosine)) * (right - left) * ((72 / Math.PI) * u * (1 - u) * v * (1 - v) * cosChi)) / count;
-      const facet: OpenPbrVector = [cosChi * sinPsi * p[0] + sinChi * q[0], cosChi * sinPsi * p[1] + sinChi * q[1], cosChi * cosPsi];
+      const weight =
+        (((last - first) / (1 + cosine)) * (right - left) * ((72 / Math.PI) * u * (1 - u) * v * (1 - v) * cosChi)) /
+        count;
+      const facet: OpenPbrVector = [
+        cosChi * sinPsi * p[0] + sinChi * q[0],
+        cosChi * sinPsi * p[1] + sinChi * q[1],
+        cosChi * cosPsi,
+      ];
       const size = Math.hypot(...facet);
       add(weight, [facet[0] / size, facet[1] / size, facet[2] / size]);
     }

@@ -16,13 +16,19 @@ function singleAlbedo(c: number, roughness: number): number {
  * @param albedo Reflected part of uniform light when roughness is 0, per channel.
  * @param roughness σ in [0, 1]; 0 is Lambert.
  */
-export function eon(albedo: OpenPbrColor, roughness: number, wo: OpenPbrVector, wi: OpenPbrVector): [number, number, number] {
+export function eon(
+  albedo: OpenPbrColor,
+  roughness: number,
+  wo: OpenPbrVector,
+  wi: OpenPbrVector,
+): [number, number, number] {
   const a = 1 / (1 + C1 * roughness);
   const s = wo[0] * wi[0] + wo[1] * wi[1];
   const single = a * (1 + roughness * (s > 0 ? s / Math.max(wo[2], wi[2], 1e-7) : s));
   const mean = a * (1 + C2 * roughness);
   const lost = ((1 - singleAlbedo(wo[2], roughness)) * (1 - singleAlbedo(wi[2], roughness))) / Math.max(1 - mean, 1e-7);
-  const channel = (rho: number): number => (rho * single + (rho * rho * mean * lost) / (1 - rho * (1 - mean))) / Math.PI;
+  const channel = (rho: number): number =>
+    (rho * single + (rho * rho * mean * lost) / (1 - rho * (1 - mean))) / Math.PI;
   return [channel(albedo[0]), channel(albedo[1]), channel(albedo[2])];
 }
 
@@ -34,18 +40,35 @@ export function eon(albedo: OpenPbrColor, roughness: number, wo: OpenPbrVector, 
  * @param reflected Mean share that the interface reflects, in [0, 1].
  * @param epsilon (η - 1)/(η + 1) of the interface; negative seen from its denser side.
  */
-export function diffuseGrazing(roughness: number, specularRoughness: number, reflected: number, epsilon: number): number {
+export function diffuseGrazing(
+  roughness: number,
+  specularRoughness: number,
+  reflected: number,
+  epsilon: number,
+): number {
   const square = specularRoughness * specularRoughness;
   if (epsilon < 0) return ((0.055 * roughness * reflected) / (reflected + 0.01)) * Math.max(1 / (1 + 10 * square), 0.3);
-  return roughness * (1.19 - 0.13 * roughness) * reflected * ((0.1023 * (1 - 2.19 * reflected)) / ((reflected + 0.0416) * (1 + 23 * square * specularRoughness)) + (0.248 * square) / (1 + 9.8 * reflected));
+  return (
+    roughness *
+    (1.19 - 0.13 * roughness) *
+    reflected *
+    ((0.1023 * (1 - 2.19 * reflected)) / ((reflected + 0.0416) * (1 + 23 * square * specularRoughness)) +
+      (0.248 * square) / (1 + 9.8 * reflected))
+  );
 }
 
-/** Factor on all of it, for what the fit leaves; takes what {@link diffuseGrazing} does. Twin of `openpbr_diffuse_even`. */
+/**
+ * Factor on all of it, for what the fit leaves; takes what {@link diffuseGrazing} does. Twin of `openpbr_diffuse_even`.
+ */
 export const diffuseEven = (roughness: number, reflected: number, epsilon: number): number =>
   1 + roughness * reflected * (epsilon < 0 ? -0.0025 / (reflected + 0.01) - 0.03 : 0.0009 / (reflected + 0.005));
 
-/** Factor on it for either direction, of {@link diffuseGrazing} and the direction's cosine; twin of `openpbr_diffuse_gain`. */
-export const diffuseGain = (grazing: number, mu: number): number => 1 + grazing * ((1 - mu) ** 3 / (1 + 0.4 * mu) - 0.08);
+/**
+ * Factor on it for either direction, of {@link diffuseGrazing} and the direction's cosine; twin of
+ * `openpbr_diffuse_gain`.
+ */
+export const diffuseGain = (grazing: number, mu: number): number =>
+  1 + grazing * ((1 - mu) ** 3 / (1 + 0.4 * mu) - 0.08);
 
 /** A direction with density cos θ / π; twin of `openpbr_cosine_sample`. */
 export function cosineSample(u: readonly [number, number, ...number[]]): OpenPbrVector {

@@ -1,5 +1,15 @@
 import type { OpenPbrVector } from '../parameters/index';
-import { STRETCHED_FLATS, STRETCHED_VIEWS, TABLE_ANGLES, TABLE_BLOCKS, TABLE_CONDUCTOR, TABLE_DEPTH, TABLE_HEIGHT_2D, TABLE_MIN_ROUGHNESS, TABLE_ROUGHNESSES } from '../tables/layout';
+import {
+  STRETCHED_FLATS,
+  STRETCHED_VIEWS,
+  TABLE_ANGLES,
+  TABLE_BLOCKS,
+  TABLE_CONDUCTOR,
+  TABLE_DEPTH,
+  TABLE_HEIGHT_2D,
+  TABLE_MIN_ROUGHNESS,
+  TABLE_ROUGHNESSES,
+} from '../tables/layout';
 import { OPENPBR_TABLES, type OpenPbrTable } from '../tables/tables';
 import { fresnelDielectric } from './fresnel';
 import { mirrorCosine, type Slopes } from './ggx';
@@ -17,17 +27,24 @@ export function tableLookup(table: OpenPbrTable, coords: readonly [number, numbe
   const [y0, y1, fy] = axis(coords[1], height);
   const [z0, z1, fz] = axis(coords[2] ?? 0.5, depth);
   const at = (x: number, y: number, z: number) => data[(z * height + y) * width + x] as number;
-  const plane = (z: number) => (at(x0, y0, z) * (1 - fx) + at(x1, y0, z) * fx) * (1 - fy) + (at(x0, y1, z) * (1 - fx) + at(x1, y1, z) * fx) * fy;
+  const plane = (z: number) =>
+    (at(x0, y0, z) * (1 - fx) + at(x1, y0, z) * fx) * (1 - fy) + (at(x0, y1, z) * (1 - fx) + at(x1, y1, z) * fx) * fy;
   return plane(z0) * (1 - fz) + plane(z1) * fz;
 }
 
 const MIN_ROOT = Math.sqrt(TABLE_MIN_ROUGHNESS);
 const texel = (u: number, first: number, count: number, size: number): number => (u * (count - 1) + 0.5 + first) / size;
-const roughnessAxis = (r: number, count: number, size = count): number => texel(clamp((Math.sqrt(r) - MIN_ROOT) / (1 - MIN_ROOT), 0, 1), 0, count, size);
-const slice = (block: keyof typeof TABLE_BLOCKS, epsilon: number): number => texel(Math.sqrt(Math.abs(epsilon)), TABLE_BLOCKS[block][0], TABLE_BLOCKS[block][1], TABLE_DEPTH);
-const totalSlice = (epsilon: number): number => (epsilon >= 0 ? texel(Math.cbrt(epsilon), TABLE_BLOCKS.outerTotal[0], TABLE_BLOCKS.outerTotal[1], TABLE_DEPTH) : slice('innerTotal', epsilon));
+const roughnessAxis = (r: number, count: number, size = count): number =>
+  texel(clamp((Math.sqrt(r) - MIN_ROOT) / (1 - MIN_ROOT), 0, 1), 0, count, size);
+const slice = (block: keyof typeof TABLE_BLOCKS, epsilon: number): number =>
+  texel(Math.sqrt(Math.abs(epsilon)), TABLE_BLOCKS[block][0], TABLE_BLOCKS[block][1], TABLE_DEPTH);
+const totalSlice = (epsilon: number): number =>
+  epsilon >= 0
+    ? texel(Math.cbrt(epsilon), TABLE_BLOCKS.outerTotal[0], TABLE_BLOCKS.outerTotal[1], TABLE_DEPTH)
+    : slice('innerTotal', epsilon);
 /** In the blocks of totals. */
-const totalRoughness = (r: number): number => texel(clamp((r - TABLE_MIN_ROUGHNESS) / (1 - TABLE_MIN_ROUGHNESS), 0, 1), 0, TABLE_ANGLES + 1, TABLE_ANGLES + 1);
+const totalRoughness = (r: number): number =>
+  texel(clamp((r - TABLE_MIN_ROUGHNESS) / (1 - TABLE_MIN_ROUGHNESS), 0, 1), 0, TABLE_ANGLES + 1, TABLE_ANGLES + 1);
 const angleAxis = (t: number): number => texel(t, 0, TABLE_ANGLES, TABLE_ANGLES + 1);
 
 function spread(r: number, mu: number): number {
@@ -38,7 +55,9 @@ function spread(r: number, mu: number): number {
 /** Where a cosine inside of the denser medium lies: the critical angle in the middle, and columns crowd around it. */
 function innerPosition(eta: number, mu: number): number {
   const critical = Math.sqrt(1 - eta * eta);
-  return mu > critical ? 0.5 + 0.5 * Math.sqrt((mu - critical) / (1 - critical)) : (0.5 * Math.sqrt(mu)) / (Math.sqrt(mu) + Math.sqrt(critical - mu));
+  return mu > critical
+    ? 0.5 + 0.5 * Math.sqrt((mu - critical) / (1 - critical))
+    : (0.5 * Math.sqrt(mu)) / (Math.sqrt(mu) + Math.sqrt(critical - mu));
 }
 
 /** Cosine-weighted mean of the reflectance of a smooth interface, about; twin of `openpbr_fresnel_mean`. */
@@ -51,18 +70,27 @@ export function fresnelMean(epsilon: number): number {
 /** Energy that a perfect mirror of the given roughness loses by single scattering; twin of `openpbr_energy_lost`. */
 export function energyLost(roughness: number, mu: number): number {
   const r = Math.max(roughness, TABLE_MIN_ROUGHNESS);
-  return tableLookup(OPENPBR_TABLES.conductor, [texel(spread(r, mu), 0, TABLE_CONDUCTOR, TABLE_CONDUCTOR + 1), roughnessAxis(r, TABLE_CONDUCTOR, TABLE_HEIGHT_2D)]);
+  return tableLookup(OPENPBR_TABLES.conductor, [
+    texel(spread(r, mu), 0, TABLE_CONDUCTOR, TABLE_CONDUCTOR + 1),
+    roughnessAxis(r, TABLE_CONDUCTOR, TABLE_HEIGHT_2D),
+  ]);
 }
 
 /** The cosine-weighted mean of {@link energyLost} over all directions; twin of `openpbr_energy_lost_mean`. */
 export function energyLostMean(roughness: number): number {
   const r = Math.max(roughness, TABLE_MIN_ROUGHNESS);
-  return r ** 3 * tableLookup(OPENPBR_TABLES.conductor, [(TABLE_CONDUCTOR + 0.5) / (TABLE_CONDUCTOR + 1), roughnessAxis(r, TABLE_CONDUCTOR, TABLE_HEIGHT_2D)]);
+  return (
+    r ** 3 *
+    tableLookup(OPENPBR_TABLES.conductor, [
+      (TABLE_CONDUCTOR + 0.5) / (TABLE_CONDUCTOR + 1),
+      roughnessAxis(r, TABLE_CONDUCTOR, TABLE_HEIGHT_2D),
+    ])
+  );
 }
 
 /**
- * What a stretched mirror keeps more than a round one of the same masking, and in the last column how much less of the round
- * one's mean it loses; twin of `openpbr_energy_stretched`.
+ * What a stretched mirror keeps more than a round one of the same masking, and in the last column how much less of the
+ * round one's mean it loses; twin of `openpbr_energy_stretched`.
  *
  * @param x The table's column.
  * @param along Where the slope along the view lies, as a coordinate.
@@ -70,17 +98,35 @@ export function energyLostMean(roughness: number): number {
 function stretchedMore(alpha: Slopes, roughness: number, x: number, along: number): number {
   const flat = (1 - alpha[1] / alpha[0]) * STRETCHED_FLATS;
   const block = Math.min(Math.floor(flat), STRETCHED_FLATS - 1);
-  const z = texel(clamp((roughness - TABLE_MIN_ROUGHNESS) / (1 - TABLE_MIN_ROUGHNESS), 0, 1), TABLE_BLOCKS.stretched[0], TABLE_BLOCKS.stretched[1], TABLE_DEPTH);
-  const at = (k: number) => (k < 0 ? 0 : tableLookup(OPENPBR_TABLES.dielectric, [x, texel(along, k * STRETCHED_VIEWS, STRETCHED_VIEWS, TABLE_ROUGHNESSES), z]));
+  const z = texel(
+    clamp((roughness - TABLE_MIN_ROUGHNESS) / (1 - TABLE_MIN_ROUGHNESS), 0, 1),
+    TABLE_BLOCKS.stretched[0],
+    TABLE_BLOCKS.stretched[1],
+    TABLE_DEPTH,
+  );
+  const at = (k: number) =>
+    k < 0
+      ? 0
+      : tableLookup(OPENPBR_TABLES.dielectric, [
+          x,
+          texel(along, k * STRETCHED_VIEWS, STRETCHED_VIEWS, TABLE_ROUGHNESSES),
+          z,
+        ]);
   return at(block - 1) * (1 - flat + block) + at(block) * (flat - block);
 }
 
-/** Energy that a perfect mirror loses by single scattering towards `w`, of cosine `mu`; twin of `openpbr_mirror_lost`. */
+/**
+ * Energy that a perfect mirror loses by single scattering towards `w`, of cosine `mu`; twin of `openpbr_mirror_lost`.
+ */
 export function mirrorLost(alpha: Slopes, roughness: number, w: OpenPbrVector, mu: number): number {
   const cosine = mirrorCosine(alpha, w, mu);
   const lost = energyLost(roughness, cosine);
   if (alpha[0] <= alpha[1]) return lost;
-  const slope = clamp(Math.hypot(alpha[0] * w[0], alpha[1] * w[1]) / Math.max(Math.hypot(w[0], w[1]), 1e-20), alpha[1], alpha[0]);
+  const slope = clamp(
+    Math.hypot(alpha[0] * w[0], alpha[1] * w[1]) / Math.max(Math.hypot(w[0], w[1]), 1e-20),
+    alpha[1],
+    alpha[0],
+  );
   const along = (alpha[1] * (alpha[0] - slope)) / (slope * (alpha[0] - alpha[1]));
   // Angles crowd towards the normal.
   const t = 1 - Math.max(1 - spread(Math.max(roughness, TABLE_MIN_ROUGHNESS), cosine), 0) ** 0.75;
@@ -90,10 +136,15 @@ export function mirrorLost(alpha: Slopes, roughness: number, w: OpenPbrVector, m
 /** The cosine-weighted mean of {@link mirrorLost} over all directions; twin of `openpbr_mirror_lost_mean`. */
 export function mirrorLostMean(alpha: Slopes, roughness: number): number {
   const lost = energyLostMean(roughness);
-  return alpha[0] > alpha[1] ? lost * (1 - stretchedMore(alpha, roughness, (TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1), 0)) : lost;
+  return alpha[0] > alpha[1]
+    ? lost * (1 - stretchedMore(alpha, roughness, (TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1), 0))
+    : lost;
 }
 
-/** Share of the energy that an interface reflects by all scattering, the rest being refracted; twin of `openpbr_energy_share`. */
+/**
+ * Share of the energy that an interface reflects by all scattering, the rest being refracted; twin of
+ * `openpbr_energy_share`.
+ */
 export function energyShare(epsilon: number, roughness: number, mu: number): number {
   if (epsilon === 0) return 0;
   const r = Math.max(roughness, TABLE_MIN_ROUGHNESS);
@@ -101,52 +152,86 @@ export function energyShare(epsilon: number, roughness: number, mu: number): num
   const y = roughnessAxis(r, TABLE_ROUGHNESSES);
   if (epsilon > 0) {
     const fresnel = fresnelDielectric(eta, mu + 0.8 * r * r * (1 - mu));
-    return Math.min(fresnel * tableLookup(OPENPBR_TABLES.dielectric, [angleAxis(spread(r, mu)), y, slice('outer', epsilon)]), 1);
+    return Math.min(
+      fresnel * tableLookup(OPENPBR_TABLES.dielectric, [angleAxis(spread(r, mu)), y, slice('outer', epsilon)]),
+      1,
+    );
   }
-  const split = Math.min(tableLookup(OPENPBR_TABLES.dielectric, [angleAxis(innerPosition(eta, mu)), y, slice('inner', epsilon)]), 1);
+  const split = Math.min(
+    tableLookup(OPENPBR_TABLES.dielectric, [angleAxis(innerPosition(eta, mu)), y, slice('inner', epsilon)]),
+    1,
+  );
   const lost = energyTotalLost(epsilon, roughness, mu);
   return split * (1 - lost) + lost * energyBounce(epsilon, roughness);
 }
 
 /**
- * The cosine-weighted mean of {@link energyShare} over all directions, seen from the thinner medium; 0 from inside, where the
- * model sums it over facets instead. Twin of `openpbr_energy_share_mean`.
+ * The cosine-weighted mean of {@link energyShare} over all directions, seen from the thinner medium; 0 from inside,
+ * where the model sums it over facets instead. Twin of `openpbr_energy_share_mean`.
  */
 export function energyShareMean(epsilon: number, roughness: number): number {
   if (epsilon <= 0) return 0;
   const y = roughnessAxis(Math.max(roughness, TABLE_MIN_ROUGHNESS), TABLE_ROUGHNESSES);
-  return 1 - Math.min((1 - fresnelMean(epsilon)) * tableLookup(OPENPBR_TABLES.dielectric, [(TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1), y, slice('outer', epsilon)]), 1);
+  return (
+    1 -
+    Math.min(
+      (1 - fresnelMean(epsilon)) *
+        tableLookup(OPENPBR_TABLES.dielectric, [(TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1), y, slice('outer', epsilon)]),
+      1,
+    )
+  );
 }
 
 /**
- * {@link energyShareMean} of a stretched highlight, whose share at `viewRoughness` is a little more in the mean; from inside
- * it is what is given. Twin of `openpbr_energy_stretched_mean`.
+ * {@link energyShareMean} of a stretched highlight, whose share at `viewRoughness` is a little more in the mean; from
+ * inside it is what is given. Twin of `openpbr_energy_stretched_mean`.
  *
  * @param reflected The mean share with a round highlight.
  */
 export function stretchedShareMean(epsilon: number, [x, y]: Slopes, roughness: number, reflected: number): number {
   if (epsilon <= 0) return reflected;
   const stretched = (x * x - y * y) / (x * x + y * y);
-  return reflected + ((1 - reflected) * 0.03 * roughness ** 2 * (1.03 - roughness) * stretched ** 3 * epsilon) / (epsilon + 0.06);
+  return (
+    reflected +
+    ((1 - reflected) * 0.03 * roughness ** 2 * (1.03 - roughness) * stretched ** 3 * epsilon) / (epsilon + 0.06)
+  );
 }
 
 /** Cosine-weighted mean of what single scattering loses. */
-const energyTotalLostMean = (epsilon: number, roughness: number): number => tableLookup(OPENPBR_TABLES.dielectric, [totalRoughness(roughness), (TABLE_ROUGHNESSES - 0.5) / TABLE_ROUGHNESSES, totalSlice(epsilon)]);
+const energyTotalLostMean = (epsilon: number, roughness: number): number =>
+  tableLookup(OPENPBR_TABLES.dielectric, [
+    totalRoughness(roughness),
+    (TABLE_ROUGHNESSES - 0.5) / TABLE_ROUGHNESSES,
+    totalSlice(epsilon),
+  ]);
 
 /**
- * The part of what single scattering loses that is reflected after more bounces; twin of `openpbr_energy_bounce`. Seen from
- * the thinner medium, the mean reflectance; from inside, where total reflection dominates, such that as much goes through
- * to either side.
+ * The part of what single scattering loses that is reflected after more bounces; twin of `openpbr_energy_bounce`. Seen
+ * from the thinner medium, the mean reflectance; from inside, where total reflection dominates, such that as much goes
+ * through to either side.
  */
 export function energyBounce(epsilon: number, roughness: number): number {
   const reflected = fresnelMean(Math.abs(epsilon));
   if (epsilon >= 0) return reflected;
-  return clamp(1 - ((1 - reflected) * energyTotalLostMean(-epsilon, roughness)) / Math.max(energyTotalLostMean(epsilon, roughness), 1e-4), 0, 1);
+  return clamp(
+    1 -
+      ((1 - reflected) * energyTotalLostMean(-epsilon, roughness)) /
+        Math.max(energyTotalLostMean(epsilon, roughness), 1e-4),
+    0,
+    1,
+  );
 }
 
 /** Energy that single scattering by an interface neither reflects nor refracts; twin of `openpbr_energy_total_lost`. */
 export function energyTotalLost(epsilon: number, roughness: number, mu: number): number {
   const r = Math.max(roughness, TABLE_MIN_ROUGHNESS);
-  const t = epsilon >= 0 ? 1 - Math.max(1 - spread(r, mu), 0) ** 0.6 : 0.5 * (spread(r, mu) + innerPosition((1 + epsilon) / (1 - epsilon), mu));
-  return tableLookup(OPENPBR_TABLES.dielectric, [totalRoughness(r), texel(t, 0, TABLE_ROUGHNESSES - 1, TABLE_ROUGHNESSES), totalSlice(epsilon)]);
+  const t =
+    epsilon >= 0
+      ? 1 - Math.max(1 - spread(r, mu), 0) ** 0.6
+      : 0.5 * (spread(r, mu) + innerPosition((1 + epsilon) / (1 - epsilon), mu));
+  return tableLookup(OPENPBR_TABLES.dielectric, [
+    totalRoughness(r),
+    texel(t, 0, TABLE_ROUGHNESSES - 1, TABLE_ROUGHNESSES),
+    totalSlice(epsilon),
+  ]);
 }

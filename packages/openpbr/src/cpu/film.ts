@@ -7,7 +7,10 @@ import { FILM_BANDS, type FilmBands } from '../tables/film';
 const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), channel(1), channel(2)];
 const mix = (a: number, b: number, t: number): number => a * (1 - t) + b * t;
 
-/** A thin film and what it lies between; twin of the WGSL struct `OpenPbrFilm`. Indices are relative to what is outside of the object. */
+/**
+ * A thin film and what it lies between; twin of the WGSL struct `OpenPbrFilm`. Indices are relative to what is outside
+ * of the object.
+ */
 export interface Film {
   /** Coverage. */
   readonly weight: number;
@@ -18,8 +21,9 @@ export interface Film {
   /** Optical path through the film and back, in µm, over the cosine and the index. */
   readonly path: number;
   /**
-   * Square of the tangential part of the wave's vector for light along the surface: outside, and on the viewer's side. The
-   * film never reflects all light only because the coat on it is denser: light that it would do so to does not get into the coat.
+   * Square of the tangential part of the wave's vector for light along the surface: outside, and on the viewer's side.
+   * The film never reflects all light only because the coat on it is denser: light that it would do so to does not get
+   * into the coat.
    */
   readonly grazing: number;
   readonly viewer: number;
@@ -36,18 +40,45 @@ export type ComplexIndex = readonly [n: number, k: number];
  * @param outerIor Index of refraction of that.
  * @param wavelengths Three wavelengths in nm, one for each channel, instead of the visible spectrum.
  */
-export function prepareFilm(p: OpenPbrParameters, outerIor: number, inside: boolean, wavelengths?: readonly [number, number, number]): Film {
+export function prepareFilm(
+  p: OpenPbrParameters,
+  outerIor: number,
+  inside: boolean,
+  wavelengths?: readonly [number, number, number],
+): Film {
   const outer = mix(1, p.coat_ior, p.coat_weight);
   const epsilon = dielectricEpsilon(p.specular_ior / outer, p.specular_weight);
   const base = (outer * (1 + epsilon)) / (1 - epsilon);
-  const bands = wavelengths ? { wavenumbers: wavelengths.map((nm) => 1000 / nm), width: 0, weights: [[1, 0, 0], [0, 1, 0], [0, 0, 1]] } : FILM_BANDS;
+  const bands = wavelengths
+    ? {
+        wavenumbers: wavelengths.map((nm) => 1000 / nm),
+        width: 0,
+        weights: [
+          [1, 0, 0],
+          [0, 1, 0],
+          [0, 0, 1],
+        ],
+      }
+    : FILM_BANDS;
   const index = p.thin_film_ior / outerIor;
   const grazing = Math.min(outer, index) ** 2;
   // Too thin to be seen: it fades, and metal below it goes back to the tint that it has without.
-  return { weight: p.thin_film_weight * Math.min(p.thin_film_thickness / 0.01, 1), index, outer, base, path: 2 * p.thin_film_thickness * outerIor, grazing, viewer: inside ? base * base : grazing, bands };
+  return {
+    weight: p.thin_film_weight * Math.min(p.thin_film_thickness / 0.01, 1),
+    index,
+    outer,
+    base,
+    path: 2 * p.thin_film_thickness * outerIor,
+    grazing,
+    viewer: inside ? base * base : grazing,
+    bands,
+  };
 }
 
-/** The complex index of a metal by its reflectance at normal incidence and its edge tint (Gulbrandsen 2014); twin of `openpbr_film_metal`. */
+/**
+ * The complex index of a metal by its reflectance at normal incidence and its edge tint (Gulbrandsen 2014); twin of
+ * `openpbr_film_metal`.
+ */
 export function metalIndex(reflectance: number, edge: number): ComplexIndex {
   const r = clamp(reflectance, 0, 0.999);
   const root = Math.sqrt(r);
@@ -62,12 +93,18 @@ const ratio = (a: Complex, b: Complex): Complex => {
 };
 
 /**
- * Reflectance of a film on a base (Airy's sum, unpolarised) brought to red, green and blue; twin of `openpbr_film_light`.
- * The visible spectrum is a sum of Lorentzian bands: of such a band Airy's sum is known in closed form, with all its orders.
+ * Reflectance of a film on a base (Airy's sum, unpolarised) brought to red, green and blue; twin of
+ * `openpbr_film_light`. The visible spectrum is a sum of Lorentzian bands: of such a band Airy's sum is known in closed
+ * form, with all its orders.
  *
- * @param tangential Square of the tangential part of the wave's vector, which all layers share; sin² of the angle in air.
+ * @param tangential Square of the tangential part of the wave's vector, which all layers share; sin² of the angle in
+ * air.
  */
-export function filmReflectance({ index, outer, path, bands }: Film, [n, k]: ComplexIndex, tangential: number): OpenPbrColor {
+export function filmReflectance(
+  { index, outer, path, bands }: Film,
+  [n, k]: ComplexIndex,
+  tangential: number,
+): OpenPbrColor {
   const square1 = outer * outer;
   const square2 = index * index;
   if (Math.min(square1, square2) <= tangential) return [1, 1, 1];
@@ -75,7 +112,10 @@ export function filmReflectance({ index, outer, path, bands }: Film, [n, k]: Com
   const q2 = Math.sqrt(square2 - tangential);
   const square3: Complex = [n * n - k * k, 2 * n * k];
   const size = Math.hypot(square3[0] - tangential, square3[1]);
-  const q3: Complex = [Math.sqrt(Math.max((size + square3[0] - tangential) / 2, 0)), Math.sqrt(Math.max((size - square3[0] + tangential) / 2, 0))];
+  const q3: Complex = [
+    Math.sqrt(Math.max((size + square3[0] - tangential) / 2, 0)),
+    Math.sqrt(Math.max((size - square3[0] + tangential) / 2, 0)),
+  ];
   const parallel: readonly [Complex, Complex] = [
     [square3[0] * q2 - square2 * q3[0], square3[1] * q2 - square2 * q3[1]],
     [square3[0] * q2 + square2 * q3[0], square3[1] * q2 + square2 * q3[1]],
@@ -94,18 +134,29 @@ export function filmReflectance({ index, outer, path, bands }: Film, [n, k]: Com
       const b = far[0] * far[0] + far[1] * far[1];
       const rest = Math.max(1 - a * b, 1e-7);
       const x = near * (far[0] * Math.cos(phase) - far[1] * Math.sin(phase));
-      sum += ((a + b) * (1 - kept * kept * a * b) - 2 * a * b * (1 - kept * kept) + 2 * kept * rest * x) / (rest * (1 + kept * kept * a * b + 2 * kept * x));
+      sum +=
+        ((a + b) * (1 - kept * kept * a * b) - 2 * a * b * (1 - kept * kept) + 2 * kept * rest * x) /
+        (rest * (1 + kept * kept * a * b + 2 * kept * x));
     }
     return sum / 2;
   });
-  return rgb((i) => clamp((bands.weights[i] as readonly number[]).reduce((sum, weight, band) => sum + weight * (waves[band] as number), 0), 0, 1));
+  return rgb((i) =>
+    clamp(
+      (bands.weights[i] as readonly number[]).reduce((sum, weight, band) => sum + weight * (waves[band] as number), 0),
+      0,
+      1,
+    ),
+  );
 }
 
-
 /** Reflectance of the film on the dielectric for a facet seen at the cosine `c`; twin of `openpbr_film_dielectric`. */
-export const filmFacet = (film: Film, c: number): OpenPbrColor => filmReflectance(film, [film.base, 0], (1 - c * c) * film.viewer);
+export const filmFacet = (film: Film, c: number): OpenPbrColor =>
+  filmReflectance(film, [film.base, 0], (1 - c * c) * film.viewer);
 
-/** Where along the cap of visible normals, and how much: Gauss and Legendre's; around it, four places whose cosines are Chebyshev's. */
+/**
+ * Where along the cap of visible normals, and how much: Gauss and Legendre's; around it, four places whose cosines are
+ * Chebyshev's.
+ */
 const HEIGHTS = [0.06943184, 0.33000948, 0.66999052, 0.93056816];
 const PARTS = [0.04348186, 0.08151814, 0.08151814, 0.04348186];
 

@@ -11,7 +11,9 @@ export interface Fuzz {
   readonly color: OpenPbrColor;
   /** Factor on everything below. */
   readonly below: number;
-  /** The linearly transformed cosine (x, y, z) → (stretch·x − shear·z, stretch·y, z), x towards the viewer's azimuth. */
+  /**
+   * The linearly transformed cosine (x, y, z) → (stretch·x − shear·z, stretch·y, z), x towards the viewer's azimuth.
+   */
   readonly stretch: number;
   readonly shear: number;
   readonly azimuth: readonly [number, number];
@@ -19,7 +21,10 @@ export interface Fuzz {
 
 function lookup(block: keyof typeof TABLE_BLOCKS_2D, roughness: number, mu: number): number {
   const row = TABLE_BLOCKS_2D[block][0] + 0.5 + (SHEEN_ROWS - 1) * clamp(roughness, 0, 1);
-  return tableLookup(OPENPBR_TABLES.conductor, [(0.5 + (SHEEN_COLUMNS - 1) * clamp(mu, 0, 1)) / SHEEN_COLUMNS, row / TABLE_HEIGHT_2D]);
+  return tableLookup(OPENPBR_TABLES.conductor, [
+    (0.5 + (SHEEN_COLUMNS - 1) * clamp(mu, 0, 1)) / SHEEN_COLUMNS,
+    row / TABLE_HEIGHT_2D,
+  ]);
 }
 
 /** Part of white light that full fuzz reflects towards a cosine; twin of `openpbr_fuzz_albedo`. */
@@ -46,7 +51,10 @@ export function fuzzDensity({ stretch, shear, azimuth }: Fuzz, wi: OpenPbrVector
 }
 
 /** A direction with that density; twin of `openpbr_fuzz_sample`. */
-export function fuzzSample({ stretch, shear, azimuth }: Fuzz, u: readonly [number, number, ...number[]]): OpenPbrVector {
+export function fuzzSample(
+  { stretch, shear, azimuth }: Fuzz,
+  u: readonly [number, number, ...number[]],
+): OpenPbrVector {
   const c = cosineSample(u);
   const [x, y] = [(c[0] + shear * c[2]) / stretch, c[1] / stretch];
   return normalize([azimuth[0] * x - azimuth[1] * y, azimuth[1] * x + azimuth[0] * y, c[2]]);

@@ -27,8 +27,17 @@ export function ggxMaskingShadowing(alpha: Slopes, wo: OpenPbrVector, wi: OpenPb
   return (2 * wo[2] * wi[2]) / (wo[2] * stretch(alpha, wi) + wi[2] * stretch(alpha, wo));
 }
 
-/** D·G2/(4 cos θ_o) and the density of reflected directions under {@link ggxSample} with the same bound; twin of `openpbr_ggx`. */
-export function ggx(alpha: Slopes, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector, bound = 1): [value: number, pdf: number] {
+/**
+ * D·G2/(4 cos θ_o) and the density of reflected directions under {@link ggxSample} with the same bound; twin of
+ * `openpbr_ggx`.
+ */
+export function ggx(
+  alpha: Slopes,
+  wo: OpenPbrVector,
+  wi: OpenPbrVector,
+  h: OpenPbrVector,
+  bound = 1,
+): [value: number, pdf: number] {
   const d = ggxDistribution(alpha, h) / 2;
   const so = stretch(alpha, wo);
   const si = stretch(alpha, wi);
@@ -36,13 +45,19 @@ export function ggx(alpha: Slopes, wo: OpenPbrVector, wi: OpenPbrVector, h: Open
 }
 
 /** Round roughness that reflects as large a share of the light towards `w`; twin of `openpbr_view_roughness`. */
-export const viewRoughness = (alpha: Slopes, roughness: number, w: OpenPbrVector): number => Math.sqrt(Math.min(Math.hypot(alpha[0] * w[0], alpha[1] * w[1], roughness * roughness * w[2]), 1));
+export const viewRoughness = (alpha: Slopes, roughness: number, w: OpenPbrVector): number =>
+  Math.sqrt(Math.min(Math.hypot(alpha[0] * w[0], alpha[1] * w[1], roughness * roughness * w[2]), 1));
 
-/** The cosine at which a round highlight has the same masking: `mu` of `w` if the highlight is round; twin of `openpbr_mirror_cosine`. */
-export const mirrorCosine = (alpha: Slopes, w: OpenPbrVector, mu: number): number => mu / Math.hypot(mu, (Math.hypot(alpha[0] * w[0], alpha[1] * w[1]) * Math.SQRT2) / Math.hypot(alpha[0], alpha[1]));
+/**
+ * The cosine at which a round highlight has the same masking: `mu` of `w` if the highlight is round; twin of
+ * `openpbr_mirror_cosine`.
+ */
+export const mirrorCosine = (alpha: Slopes, w: OpenPbrVector, mu: number): number =>
+  mu / Math.hypot(mu, (Math.hypot(alpha[0] * w[0], alpha[1] * w[1]) * Math.SQRT2) / Math.hypot(alpha[0], alpha[1]));
 
 /** The half vector, finite where two grazing directions cancel; twin of `openpbr_half`. */
-export const halfVector = (wo: OpenPbrVector, wi: OpenPbrVector): OpenPbrVector => normalize([wo[0] + wi[0], wo[1] + wi[1], Math.max(wo[2] + wi[2], 1e-7)]);
+export const halfVector = (wo: OpenPbrVector, wi: OpenPbrVector): OpenPbrVector =>
+  normalize([wo[0] + wi[0], wo[1] + wi[1], Math.max(wo[2] + wi[2], 1e-7)]);
 
 /**
  * How much of the spherical cap of visible normals reflects upwards, at most (Eto and Tokuyoshi 2023): a factor on the
@@ -60,10 +75,19 @@ export function ggxBound(alpha: Slopes, wo: OpenPbrVector): number {
  * @param u In [0, 1)².
  * @param bound From {@link ggxBound}, to leave out normals that cannot reflect upwards; 1 for all.
  */
-export function ggxSample(alpha: Slopes, wo: OpenPbrVector, u: readonly [number, number, ...number[]], bound = 1): OpenPbrVector {
+export function ggxSample(
+  alpha: Slopes,
+  wo: OpenPbrVector,
+  u: readonly [number, number, ...number[]],
+  bound = 1,
+): OpenPbrVector {
   const v = normalize([alpha[0] * wo[0], alpha[1] * wo[1], wo[2]]);
   const phi = 2 * Math.PI * u[0];
   const z = (1 - u[1]) * (1 + bound * v[2]) - bound * v[2];
   const r = Math.sqrt(clamp(1 - z * z, 0, 1));
-  return normalize([alpha[0] * (r * Math.cos(phi) + v[0]), alpha[1] * (r * Math.sin(phi) + v[1]), Math.max(z + v[2], 1e-7)]);
+  return normalize([
+    alpha[0] * (r * Math.cos(phi) + v[0]),
+    alpha[1] * (r * Math.sin(phi) + v[1]),
+    Math.max(z + v[2], 1e-7),
+  ]);
 }

@@ -1,4 +1,15 @@
-export { albedoBsdf, emittedRadiance, evalBsdf, evalPdfBsdf, pdfBsdf, prepareBsdf, sampleBsdf, type Bsdf, type BsdfOptions, type BsdfSample } from './bsdf';
+export {
+  albedoBsdf,
+  emittedRadiance,
+  evalBsdf,
+  evalPdfBsdf,
+  pdfBsdf,
+  prepareBsdf,
+  sampleBsdf,
+  type Bsdf,
+  type BsdfOptions,
+  type BsdfSample,
+} from './bsdf';
 export { coatDarkening, coatedBase, coatRoughening, coatTransmittance, type Coat, type CoatFrame } from './coat';
 export { stretchedEnergy } from './stretched';
 export { refract, refractGgx, refractHalf, type BsdfSide, type Transmission } from './transmission';
@@ -7,6 +18,30 @@ export { filmReflectance, metalIndex, prepareFilm, type ComplexIndex, type Film 
 export { fuzzAlbedo, fuzzDensity, fuzzSample, prepareFuzz, type Fuzz } from './fuzz';
 export { dispersedIor, phaseEval, phaseSample, transmissionMedium, type Medium } from './medium';
 export { dielectricEpsilon, fresnelDielectric, fresnelMetal, fresnelMetalMean } from './fresnel';
-export { ggx, ggxAlpha, ggxBound, ggxDistribution, ggxMasking, ggxMaskingShadowing, ggxSample, halfVector, mirrorCosine, viewRoughness, type Slopes } from './ggx';
+export {
+  ggx,
+  ggxAlpha,
+  ggxBound,
+  ggxDistribution,
+  ggxMasking,
+  ggxMaskingShadowing,
+  ggxSample,
+  halfVector,
+  mirrorCosine,
+  viewRoughness,
+  type Slopes,
+} from './ggx';
 export { cosineSample, eon } from './diffuse';
-export { energyBounce, energyLost, energyLostMean, mirrorLost, mirrorLostMean, energyShare, energyShareMean, stretchedShareMean, energyTotalLost, fresnelMean, tableLookup } from './energy';
+export {
+  energyBounce,
+  energyLost,
+  energyLostMean,
+  mirrorLost,
+  mirrorLostMean,
+  energyShare,
+  energyShareMean,
+  stretchedShareMean,
+  energyTotalLost,
+  fresnelMean,
+  tableLookup,
+} from './energy';

@@ -14,12 +14,15 @@ export function facetSeen(eta: number, alpha: Slopes, wo: OpenPbrVector, h: Open
   const along = c / eta - Math.sqrt(Math.max(1 - (1 - c * c) / (eta * eta), 1e-6));
   const mirrored: OpenPbrVector = [2 * c * h[0] - wo[0], 2 * c * h[1] - wo[1], 2 * c * h[2] - wo[2]];
   const refracted: OpenPbrVector = [along * h[0] - wo[0] / eta, along * h[1] - wo[1] / eta, along * h[2] - wo[2] / eta];
-  return [mirrored[2] > 0 ? ggxMaskingShadowing(alpha, wo, mirrored) / ggxMasking(alpha, wo) : 0, refracted[2] < 0 ? ggxMasking(alpha, [refracted[0], refracted[1], -refracted[2]]) : 0];
+  return [
+    mirrored[2] > 0 ? ggxMaskingShadowing(alpha, wo, mirrored) / ggxMasking(alpha, wo) : 0,
+    refracted[2] < 0 ? ggxMasking(alpha, [refracted[0], refracted[1], -refracted[2]]) : 0,
+  ];
 }
 
 /**
- * The parts of the light that a dielectric seen from its denser side reflects and lets through by single scattering; twin of
- * `openpbr_inside`, which says how it is summed and how good it is.
+ * The parts of the light that a dielectric seen from its denser side reflects and lets through by single scattering;
+ * twin of `openpbr_inside`, which says how it is summed and how good it is.
  *
  * @param eta Index of the far side over that of the viewer's, below 1.
  * @param given Unit direction to the viewer in the local frame; below cosine 1e-5 taken as of that.
@@ -35,7 +38,8 @@ export function insideEnergy(eta: number, alpha: Slopes, given: OpenPbrVector): 
 
   // What mirrors would reflect: tabulated where the highlight is round.
   let reflected = 0;
-  if (alpha[0] > alpha[1]) sum(64, upwards, upwards, (weight, h) => (reflected += weight * facetSeen(bend, alpha, wo, h)[0]));
+  if (alpha[0] > alpha[1])
+    sum(64, upwards, upwards, (weight, h) => (reflected += weight * facetSeen(bend, alpha, wo, h)[0]));
   else reflected = 1 - energyLost(Math.sqrt(alpha[0]), wo[2]);
   let through = 0;
   sum(48, passing, passing, (weight, h) => (through += weight * transmittance(h) * facetSeen(bend, alpha, wo, h)[1]));

@@ -13,10 +13,13 @@ export interface Medium {
 
 const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), channel(1), channel(2)];
 
-/** The interior of a transparent object (OpenPBR 1.1); twin of `openpbr_medium`. Zero for thin walls and for depth 0. */
+/**
+ * The interior of a transparent object (OpenPBR 1.1); twin of `openpbr_medium`. Zero for thin walls and for depth 0.
+ */
 export function transmissionMedium(p: OpenPbrParameters): Medium {
   const anisotropy = clamp(p.transmission_scatter_anisotropy, -0.999, 0.999);
-  if (p.transmission_depth <= 0 || p.geometry_thin_walled) return { extinction: [0, 0, 0], scattering: [0, 0, 0], anisotropy };
+  if (p.transmission_depth <= 0 || p.geometry_thin_walled)
+    return { extinction: [0, 0, 0], scattering: [0, 0, 0], anisotropy };
   const depth = Math.max(p.transmission_depth, 1e-9);
   const scattering = rgb((i) => p.transmission_scatter[i] / depth);
   const absorption = rgb((i) => -Math.log(clamp(p.transmission_color[i], 1e-6, 1)) / depth - scattering[i]);
@@ -29,12 +32,17 @@ export function transmissionMedium(p: OpenPbrParameters): Medium {
  * `openpbr_dispersed_ior`. Evaluate the surface with it in the place of `specular_ior`.
  */
 export function dispersedIor(p: OpenPbrParameters, wavelength: number): number {
-  const slope = ((p.specular_ior - 1) * p.transmission_dispersion_scale) / Math.max(p.transmission_dispersion_abbe_number, 1e-3);
+  const slope =
+    ((p.specular_ior - 1) * p.transmission_dispersion_scale) / Math.max(p.transmission_dispersion_abbe_number, 1e-3);
   return Math.max(p.specular_ior + (slope * (wavelength ** -2 - 587.6 ** -2)) / (486.1 ** -2 - 656.3 ** -2), 1e-3);
 }
 
-/** Henyey and Greenstein's phase function; twin of `openpbr_phase_eval`. Directions point away from the place of scattering. */
-export const phaseEval = (g: number, wo: OpenPbrVector, wi: OpenPbrVector): number => (1 - g * g) / (4 * Math.PI * (1 + g * g + 2 * g * dot(wo, wi)) ** 1.5);
+/**
+ * Henyey and Greenstein's phase function; twin of `openpbr_phase_eval`. Directions point away from the place of
+ * scattering.
+ */
+export const phaseEval = (g: number, wo: OpenPbrVector, wi: OpenPbrVector): number =>
+  (1 - g * g) / (4 * Math.PI * (1 + g * g + 2 * g * dot(wo, wi)) ** 1.5);
 
 /** A direction with the density of {@link phaseEval}; twin of `openpbr_phase_sample`. */
 export function phaseSample(g: number, wo: OpenPbrVector, u: readonly [number, number]): OpenPbrVector {

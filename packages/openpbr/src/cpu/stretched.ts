@@ -7,20 +7,29 @@ import { facetSeen, insideEnergy, type Kept } from './inside';
 import { clamp, dot } from './vector';
 
 /**
- * The parts of the light that a dielectric with a stretched highlight reflects and lets through by single scattering, seen
- * from `wo`; twin of `openpbr_stretched`, which says how good it is.
+ * The parts of the light that a dielectric with a stretched highlight reflects and lets through by single scattering,
+ * seen from `wo`; twin of `openpbr_stretched`, which says how good it is.
  *
  * @param eta Index of the far side over that of the viewer's.
  */
-export const stretchedEnergy = (eta: number, alpha: Slopes, wo: OpenPbrVector): Kept => (eta < 1 ? insideEnergy(eta, alpha, wo) : fromOutside(eta, alpha, wo));
+export const stretchedEnergy = (eta: number, alpha: Slopes, wo: OpenPbrVector): Kept =>
+  eta < 1 ? insideEnergy(eta, alpha, wo) : fromOutside(eta, alpha, wo);
 
-/** What is reflected over the facets that mirror upwards, since that has an edge; what passes, which has none, over the whole cap. */
+/**
+ * What is reflected over the facets that mirror upwards, since that has an edge; what passes, which has none, over the
+ * whole cap.
+ */
 function fromOutside(eta: number, alpha: Slopes, given: OpenPbrVector): Kept {
   const wo: OpenPbrVector = [given[0], given[1], Math.max(given[2], 1e-5)];
   const { upwards, sum } = seenFacets(alpha, wo);
   const reflectance = (h: OpenPbrVector): number => fresnelDielectric(eta, clamp(dot(wo, h), 0, 1));
   let reflected = 0;
-  sum(STRETCHED_MIRRORS, upwards, upwards, (weight, h) => (reflected += weight * reflectance(h) * Math.max(facetSeen(eta, alpha, wo, h)[0], 0)));
+  sum(
+    STRETCHED_MIRRORS,
+    upwards,
+    upwards,
+    (weight, h) => (reflected += weight * reflectance(h) * Math.max(facetSeen(eta, alpha, wo, h)[0], 0)),
+  );
   const turn = Math.atan2(alpha[1] * wo[1], alpha[0] * wo[0]) / (2 * Math.PI);
   let through = 0;
   STRETCHED_HEIGHTS.forEach(([height, weight], k) => {

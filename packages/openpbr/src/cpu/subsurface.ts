@@ -12,7 +12,11 @@ export function subsurfaceMedium(p: OpenPbrParameters): Medium {
   if (p.geometry_thin_walled) return { extinction: [0, 0, 0], scattering: [0, 0, 0], anisotropy: g };
   const extinction = rgb((i) => 1 / Math.max(p.subsurface_radius * p.subsurface_radius_scale[i], 1e-6));
   const kept = fresnelMean(-dielectricEpsilon(p.specular_ior, p.specular_weight));
-  return { extinction, scattering: rgb((i) => extinction[i] * subsurfaceAlbedo(p.subsurface_color[i], g, kept)), anisotropy: g };
+  return {
+    extinction,
+    scattering: rgb((i) => extinction[i] * subsurfaceAlbedo(p.subsurface_color[i], g, kept)),
+    anisotropy: g,
+  };
 }
 
 /**

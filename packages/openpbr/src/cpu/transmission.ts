@@ -15,7 +15,10 @@ export interface BsdfSide {
 
 /** Light through the base, seen from one direction; twin of the WGSL struct `OpenPbrTransmission`. */
 export interface Transmission {
-  /** Index of the far side over that of the viewer's, for directions: not so near 1 that half vectors are lost; and as it is. */
+  /**
+   * Index of the far side over that of the viewer's, for directions: not so near 1 that half vectors are lost; and as
+   * it is.
+   */
   readonly eta: number;
   readonly fresnelEta: number;
   /** Index for the reflection by the clear part, which a coat changes. */
@@ -53,13 +56,26 @@ interface Interface {
 /**
  * Prepares what is let through; twin of `openpbr_transmission_prepare`.
  *
- * @param outer The surface without what a coat does to its index, but with the roughness below it, relative to the viewer's side.
+ * @param outer The surface without what a coat does to its index, but with the roughness below it, relative to the
+ * viewer's side.
  * @param face The interface of the opaque part.
  * @param bare The interface of `outer`.
  * @param film What a film changes of the side that is seen.
  * @param weight Share of the surface that is dielectric.
  */
-export function prepareTransmission(outer: OpenPbrParameters, face: Interface, bare: Interface, film: FilmShare, alpha: Slopes, wo: OpenPbrVector, mu: number, weight: number, exit: number, inside: boolean, multipleScattering: boolean): Transmission {
+export function prepareTransmission(
+  outer: OpenPbrParameters,
+  face: Interface,
+  bare: Interface,
+  film: FilmShare,
+  alpha: Slopes,
+  wo: OpenPbrVector,
+  mu: number,
+  weight: number,
+  exit: number,
+  inside: boolean,
+  multipleScattering: boolean,
+): Transmission {
   const epsilon = dielectricEpsilon(outer.specular_ior, outer.specular_weight);
   const bend = Math.abs(epsilon) < 5e-4 ? 5e-4 : epsilon;
   const eta = (1 + bend) / (1 - bend);
@@ -126,7 +142,9 @@ export function prepareTransmission(outer: OpenPbrParameters, face: Interface, b
   };
 }
 
-/** The direction refracted by the facet `h`, or `undefined` where everything is reflected; twin of `openpbr_refract`. */
+/**
+ * The direction refracted by the facet `h`, or `undefined` where everything is reflected; twin of `openpbr_refract`.
+ */
 export function refract(eta: number, wo: OpenPbrVector, h: OpenPbrVector): OpenPbrVector | undefined {
   const c = dot(wo, h);
   const k = 1 - (1 - c * c) / (eta * eta);
@@ -145,7 +163,13 @@ export function refractHalf(eta: number, wo: OpenPbrVector, wi: OpenPbrVector): 
  * f · |cos θ_i| without the Fresnel factor, and density of `wi` when facets are sampled by `ggxSample`; twin of
  * `openpbr_refract_ggx`. Walter et al. 2007, separable masking, no factor of η² on radiance.
  */
-export function refractGgx(eta: number, alpha: Slopes, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector): [value: number, pdf: number] {
+export function refractGgx(
+  eta: number,
+  alpha: Slopes,
+  wo: OpenPbrVector,
+  wi: OpenPbrVector,
+  h: OpenPbrVector,
+): [value: number, pdf: number] {
   const c = dot(wo, h);
   const down = -dot(wi, h);
   if (Math.min(c, down) <= 0) return [0, 0];

@@ -1,6 +1,6 @@
 /**
- * The formulas between glTF and OpenPBR that are more than a product. They are applied to factors, and texel by texel where
- * textures drive them.
+ * The formulas between glTF and OpenPBR that are more than a product. They are applied to factors, and texel by texel
+ * where textures drive them.
  */
 
 const lerp = (a: number, b: number, t: number): number => a + (b - a) * t;
@@ -21,10 +21,16 @@ export function fuzzRoughness(r: number): number {
  * glTF's anisotropic slopes α_t = lerp(r², 1, s²) and α_b = r² as OpenPBR's pair of roughness and anisotropy, which has
  * α_t² + α_b² = 2 roughness⁴ and α_b = (1 - anisotropy) α_t. Exact.
  */
-export function anisotropicRoughness(roughness: number, strength: number): { readonly roughness: number; readonly anisotropy: number } {
+export function anisotropicRoughness(
+  roughness: number,
+  strength: number,
+): { readonly roughness: number; readonly anisotropy: number } {
   const across = roughness * roughness;
   const along = lerp(across, 1, strength * strength);
-  return { roughness: Math.sqrt(Math.sqrt((along * along + across * across) / 2)), anisotropy: along > 0 ? 1 - across / along : 0 };
+  return {
+    roughness: Math.sqrt(Math.sqrt((along * along + across * across) / 2)),
+    anisotropy: along > 0 ? 1 - across / along : 0,
+  };
 }
 
 /** The largest reflectance at normal incidence that an index stands for: 1 would be infinite. */

@@ -8,9 +8,14 @@ type MutableParameters = { -readonly [Name in keyof OpenPbrParameters]?: OpenPbr
 /** One step of the mapping: a core block or one extension. Later steps see what earlier ones set. */
 type GltfMappingStep = (material: GltfMaterialFactors, parameters: MutableParameters) => void;
 
-const color = (values: readonly number[] | undefined, initial: number): OpenPbrColor => [values?.[0] ?? initial, values?.[1] ?? initial, values?.[2] ?? initial];
+const color = (values: readonly number[] | undefined, initial: number): OpenPbrColor => [
+  values?.[0] ?? initial,
+  values?.[1] ?? initial,
+  values?.[2] ?? initial,
+];
 const lerp = (a: number, b: number, t: number): number => a + (b - a) * t;
-const tint = (values: OpenPbrColor, brightest: number): OpenPbrColor => (brightest > 0 ? [values[0] / brightest, values[1] / brightest, values[2] / brightest] : [1, 1, 1]);
+const tint = (values: OpenPbrColor, brightest: number): OpenPbrColor =>
+  brightest > 0 ? [values[0] / brightest, values[1] / brightest, values[2] / brightest] : [1, 1, 1];
 
 /** Metallic-roughness. Exact: glTF's metal is Schlick's formula, which is OpenPBR's with a white specular_color. */
 const core: GltfMappingStep = ({ pbrMetallicRoughness: pbr = {}, alphaMode = 'OPAQUE' }, parameters) => {
@@ -45,12 +50,14 @@ const emission: GltfMappingStep = ({ emissiveFactor, extensions }, parameters) =
 /** glTF's ior 0 asks for a reflectance of 1 at every angle: an index so high that it comes near. */
 const ior: GltfMappingStep = ({ extensions }, parameters) => {
   const value = extensions?.KHR_materials_ior?.ior;
-  if (value !== undefined && !extensions?.KHR_materials_pbrSpecularGlossiness) parameters.specular_ior = value === 0 ? 1000 : value;
+  if (value !== undefined && !extensions?.KHR_materials_pbrSpecularGlossiness)
+    parameters.specular_ior = value === 0 ? 1000 : value;
 };
 
 /**
- * A surface of volume or of none. Without thickness it is a sheet; with it, absorption goes by Beer's law as in glTF. OpenPBR
- * tints either the surface or the interior: where glTF's volume absorbs, the base colour does not tint what goes through.
+ * A surface of volume or of none. Without thickness it is a sheet; with it, absorption goes by Beer's law as in glTF.
+ * OpenPBR tints either the surface or the interior: where glTF's volume absorbs, the base colour does not tint what
+ * goes through.
  */
 const transmission: GltfMappingStep = ({ extensions }, parameters) => {
   const weight = extensions?.KHR_materials_transmission?.transmissionFactor ?? 0;
@@ -94,7 +101,12 @@ const diffuseTransmission: GltfMappingStep = ({ extensions }, parameters) => {
     return;
   }
   const distance = volume?.attenuationDistance ?? Infinity;
-  const paths = color(volume?.attenuationColor, 1).map((c) => Math.min(Number.isFinite(distance) ? -distance / Math.log(Math.min(Math.max(c, 1e-6), 1 - 1e-6)) : Infinity, 1e3 * thickness));
+  const paths = color(volume?.attenuationColor, 1).map((c) =>
+    Math.min(
+      Number.isFinite(distance) ? -distance / Math.log(Math.min(Math.max(c, 1e-6), 1 - 1e-6)) : Infinity,
+      1e3 * thickness,
+    ),
+  );
   const longest = Math.max(...paths);
   const free = paths.every((path) => path >= 1e3 * thickness);
   parameters.subsurface_radius = free ? thickness : longest;
@@ -103,9 +115,10 @@ const diffuseTransmission: GltfMappingStep = ({ extensions }, parameters) => {
 
 /**
  * Reflectance at normal incidence min(F0·color, 1)·factor becomes specular_weight × F0 times the tint specular_color.
- * Exact at normal incidence; at grazing angles glTF reflects white × factor, here the tint stays. The extension does not
- * touch metal, but both OpenPBR parameters do, so they fade out with the metalness; fractional metalness is inexact. Where
- * light goes through, the factor is part of the tint, since specular_weight would also change how it is refracted.
+ * Exact at normal incidence; at grazing angles glTF reflects white × factor, here the tint stays. The extension does
+ * not touch metal, but both OpenPBR parameters do, so they fade out with the metalness; fractional metalness is
+ * inexact. Where light goes through, the factor is part of the tint, since specular_weight would also change how it is
+ * refracted.
  */
 const specular: GltfMappingStep = ({ extensions }, parameters) => {
   const extension = extensions?.KHR_materials_specular;
@@ -118,7 +131,9 @@ const specular: GltfMappingStep = ({ extensions }, parameters) => {
   const limit = f0 > 0 ? Math.min(brightest, 1 / f0) : brightest;
   const refracts = (parameters.transmission_weight ?? 0) > 0;
   parameters.specular_weight = lerp(refracts ? limit : factor * limit, 1, metalness);
-  parameters.specular_color = tint(given, brightest).map((c) => lerp(refracts ? factor * c : c, 1, metalness)) as unknown as OpenPbrColor;
+  parameters.specular_color = tint(given, brightest).map((c) =>
+    lerp(refracts ? factor * c : c, 1, metalness),
+  ) as unknown as OpenPbrColor;
 };
 
 /** Exact: both models have GGX with two slopes. */
@@ -130,7 +145,8 @@ const anisotropy: GltfMappingStep = ({ extensions }, parameters) => {
   parameters.specular_roughness = roughness;
   parameters.specular_roughness_anisotropy = stretch;
   const rotation = extension.anisotropyRotation ?? 0;
-  if (rotation !== 0 || extension.anisotropyTexture) parameters.geometry_tangent = [Math.cos(rotation), Math.sin(rotation), 0];
+  if (rotation !== 0 || extension.anisotropyTexture)
+    parameters.geometry_tangent = [Math.cos(rotation), Math.sin(rotation), 0];
 };
 
 /** glTF's film colours what is reflected only and lies in air; OpenPBR's colours what goes through too. */
@@ -155,10 +171,10 @@ const sheen: GltfMappingStep = ({ extensions }, parameters) => {
 };
 
 /**
- * glTF's coat has index 1.5, no colour and no reflections inside, and the base keeps the reflectance that it has in air.
- * Below OpenPBR's coat that takes a higher index; where a texture thins the coat the index would be too high, so there the
- * base loses part of its reflectance, as it really does, and where light goes through the index says how it is refracted.
- * Comes late: it changes the index that the others start from.
+ * glTF's coat has index 1.5, no colour and no reflections inside, and the base keeps the reflectance that it has in
+ * air. Below OpenPBR's coat that takes a higher index; where a texture thins the coat the index would be too high, so
+ * there the base loses part of its reflectance, as it really does, and where light goes through the index says how it
+ * is refracted. Comes late: it changes the index that the others start from.
  */
 const clearcoat: GltfMappingStep = ({ extensions }, parameters) => {
   const extension = extensions?.KHR_materials_clearcoat;
@@ -169,7 +185,8 @@ const clearcoat: GltfMappingStep = ({ extensions }, parameters) => {
   parameters.coat_ior = 1.5;
   parameters.coat_darkening = 0;
   const index = (parameters.specular_ior ?? 1.5) / lerp(1, 1 / 1.5, weight);
-  if (extension.clearcoatTexture === undefined && index >= 1.5 && !((parameters.transmission_weight ?? 0) > 0)) parameters.specular_ior = index;
+  if (extension.clearcoatTexture === undefined && index >= 1.5 && !((parameters.transmission_weight ?? 0) > 0))
+    parameters.specular_ior = index;
 };
 
 /** No surface at all: the base colour is what is seen. As OpenPBR, that is light, and it shines on its surroundings. */
@@ -184,7 +201,21 @@ const unlit: GltfMappingStep = ({ extensions, pbrMetallicRoughness }, parameters
   parameters.emission_luminance = 1;
 };
 
-const STEPS: readonly GltfMappingStep[] = [core, specularGlossiness, emission, ior, transmission, dispersion, diffuseTransmission, specular, anisotropy, iridescence, sheen, clearcoat, unlit];
+const STEPS: readonly GltfMappingStep[] = [
+  core,
+  specularGlossiness,
+  emission,
+  ior,
+  transmission,
+  dispersion,
+  diffuseTransmission,
+  specular,
+  anisotropy,
+  iridescence,
+  sheen,
+  clearcoat,
+  unlit,
+];
 
 /**
  * Maps a glTF 2.0 material to OpenPBR. Pure: the answer holds the parameters that differ from, or are determined apart

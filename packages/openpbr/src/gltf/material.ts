@@ -1,7 +1,10 @@
 /** Numbers as a glTF document holds them. */
 type Numbers = readonly number[];
 
-/** A reference to a texture as a glTF document holds it. The mapping reads the transform and the index only to compare them. */
+/**
+ * A reference to a texture as a glTF document holds it. The mapping reads the transform and the index only to compare
+ * them.
+ */
 export interface GltfTextureReference {
   /** Index into the document's textures. */
   readonly index: number;
@@ -11,8 +14,8 @@ export interface GltfTextureReference {
 }
 
 /**
- * A glTF 2.0 material in the shape of the document's JSON: a parsed material can be passed as it is. Missing factors have
- * glTF's defaults; colours are linear, RGB.
+ * A glTF 2.0 material in the shape of the document's JSON: a parsed material can be passed as it is. Missing factors
+ * have glTF's defaults; colours are linear, RGB.
  */
 export interface GltfMaterialFactors {
   readonly pbrMetallicRoughness?: {
@@ -36,7 +39,11 @@ export interface GltfMaterialFactors {
 
 /** The material extensions that {@link fromGltf} and {@link gltfTextures} know; others are ignored. */
 export interface GltfMaterialExtensions {
-  readonly KHR_materials_anisotropy?: { readonly anisotropyStrength?: number; readonly anisotropyRotation?: number; readonly anisotropyTexture?: GltfTextureReference };
+  readonly KHR_materials_anisotropy?: {
+    readonly anisotropyStrength?: number;
+    readonly anisotropyRotation?: number;
+    readonly anisotropyTexture?: GltfTextureReference;
+  };
   readonly KHR_materials_clearcoat?: {
     readonly clearcoatFactor?: number;
     readonly clearcoatTexture?: GltfTextureReference;
@@ -83,7 +90,10 @@ export interface GltfMaterialExtensions {
     readonly specularColorFactor?: Numbers;
     readonly specularColorTexture?: GltfTextureReference;
   };
-  readonly KHR_materials_transmission?: { readonly transmissionFactor?: number; readonly transmissionTexture?: GltfTextureReference };
+  readonly KHR_materials_transmission?: {
+    readonly transmissionFactor?: number;
+    readonly transmissionTexture?: GltfTextureReference;
+  };
   readonly KHR_materials_unlit?: object;
   readonly KHR_materials_volume?: {
     readonly thicknessFactor?: number;

@@ -3,15 +3,20 @@ import { anisotropicRoughness, fuzzRoughness } from './conversions';
 import { fromGltf } from './from-gltf';
 import type { GltfMaterialFactors, GltfTextureReference } from './material';
 
-/** A picture that has to be made of the document's before a texture can drive a parameter: the formula is more than a product. */
+/**
+ * A picture that has to be made of the document's before a texture can drive a parameter: the formula is more than a
+ * product.
+ */
 export interface GltfPictureConversion {
   /** Equal for equal formulas: one picture serves all uses of the same textures with the same key. */
   readonly key: string;
-  /** The textures that it reads, the use's own first; all at the same place of the surface, in the use's colour space. */
+  /**
+   * The textures that it reads, the use's own first; all at the same place of the surface, in the use's colour space.
+   */
   readonly sources: readonly GltfTextureReference[];
   /**
-   * One texel. `texels` holds linear RGBA, 0 to 1, for each source in order, white where a picture is missing; the result
-   * is linear RGBA, 0 to 1, to be encoded in the use's colour space. Alpha is never encoded.
+   * One texel. `texels` holds linear RGBA, 0 to 1, for each source in order, white where a picture is missing; the
+   * result is linear RGBA, 0 to 1, to be encoded in the use's colour space. Alpha is never encoded.
    */
   readonly convert: (texels: ArrayLike<number>, result: { [channel: number]: number }) => void;
 }
@@ -42,13 +47,16 @@ const EXTENSION = 'extensions/KHR_materials_';
 
 /** Where a texture lies on the surface: two that share it can be read as one. */
 function placement({ texCoord, extensions }: GltfTextureReference): string {
-  const transform = (extensions as { readonly KHR_texture_transform?: { readonly texCoord?: number } } | undefined)?.KHR_texture_transform;
+  const transform = (extensions as { readonly KHR_texture_transform?: { readonly texCoord?: number } } | undefined)
+    ?.KHR_texture_transform;
   return JSON.stringify([transform?.texCoord ?? texCoord ?? 0, transform ?? null]);
 }
 
 /** Splits a colour into its brightest channel, as alpha, and the rest. */
 function splitColor(factor: readonly number[], texels: ArrayLike<number>, result: { [channel: number]: number }): void {
-  const r = (factor[0] as number) * (texels[0] as number), g = (factor[1] as number) * (texels[1] as number), b = (factor[2] as number) * (texels[2] as number);
+  const r = (factor[0] as number) * (texels[0] as number),
+    g = (factor[1] as number) * (texels[1] as number),
+    b = (factor[2] as number) * (texels[2] as number);
   const brightest = Math.max(r, g, b);
   const scale = brightest > 0 ? 1 / brightest : 0;
   result[0] = brightest > 0 ? r * scale : 1;
@@ -58,8 +66,9 @@ function splitColor(factor: readonly number[], texels: ArrayLike<number>, result
 }
 
 /**
- * Which textures of a glTF material drive which OpenPBR parameters, in which channels and colour space. Pure; the document's
- * pictures are not needed. Occlusion and thickness textures mean nothing to a path tracer and are not in the answer.
+ * Which textures of a glTF material drive which OpenPBR parameters, in which channels and colour space. Pure; the
+ * document's pictures are not needed. Occlusion and thickness textures mean nothing to a path tracer and are not in the
+ * answer.
  *
  * @example
  * for (const { parameter, texture, channels } of gltfTextures(material).uses) bind(parameter, texture.index, channels);
@@ -69,7 +78,14 @@ export function gltfTextures(material: GltfMaterialFactors): GltfTextureMapping 
   const lost: { path: string; reason: string }[] = [];
   const parameters = fromGltf(material);
   const { pbrMetallicRoughness: pbr = {}, extensions = {}, alphaMode = 'OPAQUE' } = material;
-  const use = (parameter: OpenPbrParameterName, texture: GltfTextureReference | undefined, channels: GltfTextureUse['channels'], colorSpace: GltfTextureUse['colorSpace'], path: string, more: Pick<GltfTextureUse, 'range' | 'value' | 'picture'> = {}) => {
+  const use = (
+    parameter: OpenPbrParameterName,
+    texture: GltfTextureReference | undefined,
+    channels: GltfTextureUse['channels'],
+    colorSpace: GltfTextureUse['colorSpace'],
+    path: string,
+    more: Pick<GltfTextureUse, 'range' | 'value' | 'picture'> = {},
+  ) => {
     if (texture) uses.push({ parameter, texture, path, channels, colorSpace, ...more });
   };
   const baseTexture = 'pbrMetallicRoughness/baseColorTexture';
@@ -90,7 +106,8 @@ export function gltfTextures(material: GltfMaterialFactors): GltfTextureMapping 
   const basePath = glossy ? `${EXTENSION}pbrSpecularGlossiness/diffuseTexture` : baseTexture;
   use('base_color', base, 'rgb', 'srgb', basePath);
   if (masked) use('geometry_opacity', base, 'a', 'srgb', basePath);
-  if (parameters.transmission_weight !== undefined && parameters.transmission_depth === undefined) use('transmission_color', base, 'rgb', 'srgb', basePath);
+  if (parameters.transmission_weight !== undefined && parameters.transmission_depth === undefined)
+    use('transmission_color', base, 'rgb', 'srgb', basePath);
   use('base_metalness', rough, 'b', 'linear', 'pbrMetallicRoughness/metallicRoughnessTexture');
 
   const anisotropy = extensions.KHR_materials_anisotropy;
@@ -101,16 +118,25 @@ export function gltfTextures(material: GltfMaterialFactors): GltfTextureMapping 
     const factor = [0, 1, 2].map((k) => glossy.specularFactor?.[k] ?? 1);
     const brightest = Math.max(...factor);
     if (texture) {
-      use('specular_roughness', texture, 'a', 'linear', path, { value: 1, range: [1, 1 - (glossy.glossinessFactor ?? 1)] });
+      use('specular_roughness', texture, 'a', 'linear', path, {
+        value: 1,
+        range: [1, 1 - (glossy.glossinessFactor ?? 1)],
+      });
       if (brightest > 0) {
         const sources = [texture];
-        use('specular_color', texture, 'rgb', 'srgb', path, { value: [1, 1, 1], picture: { key: `tint ${factor}`, sources, convert: (texels, result) => splitColor(factor, texels, result) } });
+        use('specular_color', texture, 'rgb', 'srgb', path, {
+          value: [1, 1, 1],
+          picture: { key: `tint ${factor}`, sources, convert: (texels, result) => splitColor(factor, texels, result) },
+        });
         // In a colour channel, whose codes are fine where reflectances are.
         const weight: GltfPictureConversion = {
           key: `brightest ${factor}`,
           sources,
           convert: (texels, result) => {
-            result[0] = result[1] = result[2] = Math.max(...factor.map((f, k) => f * (texels[k] as number))) / brightest;
+            result[0] =
+              result[1] =
+              result[2] =
+                Math.max(...factor.map((f, k) => f * (texels[k] as number))) / brightest;
             result[3] = 1;
           },
         };
@@ -121,40 +147,92 @@ export function gltfTextures(material: GltfMaterialFactors): GltfTextureMapping 
     const roughness = pbr.roughnessFactor ?? 1;
     const stretch = anisotropy?.anisotropyTexture;
     const together = !rough || !stretch || placement(rough) === placement(stretch);
-    if (!together) lost.push({ path: `${EXTENSION}anisotropy/anisotropyTexture`, reason: 'lies elsewhere on the surface than the roughness texture; only its direction is read' });
+    if (!together)
+      lost.push({
+        path: `${EXTENSION}anisotropy/anisotropyTexture`,
+        reason: 'lies elsewhere on the surface than the roughness texture; only its direction is read',
+      });
     const sources = [...(rough ? [rough] : []), ...(stretch && together ? [stretch] : [])];
     const last = 4 * (sources.length - 1);
     const picture: GltfPictureConversion = {
       key: `anisotropy ${roughness} ${strength} ${rough ? 1 : 0}${stretch && together ? 1 : 0}`,
       sources,
       convert: (texels, result) => {
-        const pair = anisotropicRoughness(rough ? roughness * (texels[1] as number) : roughness, stretch && together ? strength * (texels[last + 2] as number) : strength);
+        const pair = anisotropicRoughness(
+          rough ? roughness * (texels[1] as number) : roughness,
+          stretch && together ? strength * (texels[last + 2] as number) : strength,
+        );
         result[0] = result[1] = pair.roughness;
         result[2] = pair.anisotropy;
         result[3] = 1;
       },
     };
-    const [texture, path] = rough ? [rough, 'pbrMetallicRoughness/metallicRoughnessTexture'] : [stretch, `${EXTENSION}anisotropy/anisotropyTexture`];
+    const [texture, path] = rough
+      ? [rough, 'pbrMetallicRoughness/metallicRoughnessTexture']
+      : [stretch, `${EXTENSION}anisotropy/anisotropyTexture`];
     use('specular_roughness', texture, 'g', 'linear', path, { value: 1, picture });
     use('specular_roughness_anisotropy', texture, 'b', 'linear', path, { value: 1, picture });
     use('geometry_tangent', stretch, 'rgb', 'linear', `${EXTENSION}anisotropy/anisotropyTexture`);
   } else use('specular_roughness', rough, 'g', 'linear', 'pbrMetallicRoughness/metallicRoughnessTexture');
 
   if (!glossy) {
-    use('specular_weight', extensions.KHR_materials_specular?.specularTexture, 'a', 'linear', `${EXTENSION}specular/specularTexture`);
-    use('specular_color', extensions.KHR_materials_specular?.specularColorTexture, 'rgb', 'srgb', `${EXTENSION}specular/specularColorTexture`);
+    use(
+      'specular_weight',
+      extensions.KHR_materials_specular?.specularTexture,
+      'a',
+      'linear',
+      `${EXTENSION}specular/specularTexture`,
+    );
+    use(
+      'specular_color',
+      extensions.KHR_materials_specular?.specularColorTexture,
+      'rgb',
+      'srgb',
+      `${EXTENSION}specular/specularColorTexture`,
+    );
   }
-  if (parameters.transmission_weight !== undefined) use('transmission_weight', extensions.KHR_materials_transmission?.transmissionTexture, 'r', 'linear', `${EXTENSION}transmission/transmissionTexture`);
+  if (parameters.transmission_weight !== undefined)
+    use(
+      'transmission_weight',
+      extensions.KHR_materials_transmission?.transmissionTexture,
+      'r',
+      'linear',
+      `${EXTENSION}transmission/transmissionTexture`,
+    );
   if (parameters.subsurface_weight !== undefined) {
     const path = `${EXTENSION}diffuse_transmission/diffuseTransmission`;
-    use('subsurface_weight', extensions.KHR_materials_diffuse_transmission?.diffuseTransmissionTexture, 'a', 'linear', `${path}Texture`);
-    use('subsurface_color', extensions.KHR_materials_diffuse_transmission?.diffuseTransmissionColorTexture, 'rgb', 'srgb', `${path}ColorTexture`);
+    use(
+      'subsurface_weight',
+      extensions.KHR_materials_diffuse_transmission?.diffuseTransmissionTexture,
+      'a',
+      'linear',
+      `${path}Texture`,
+    );
+    use(
+      'subsurface_color',
+      extensions.KHR_materials_diffuse_transmission?.diffuseTransmissionColorTexture,
+      'rgb',
+      'srgb',
+      `${path}ColorTexture`,
+    );
   }
   if (parameters.coat_weight !== undefined) {
     const path = `${EXTENSION}clearcoat/clearcoat`;
     use('coat_weight', extensions.KHR_materials_clearcoat?.clearcoatTexture, 'r', 'linear', `${path}Texture`);
-    use('coat_roughness', extensions.KHR_materials_clearcoat?.clearcoatRoughnessTexture, 'g', 'linear', `${path}RoughnessTexture`);
-    use('geometry_coat_normal', extensions.KHR_materials_clearcoat?.clearcoatNormalTexture, 'rgb', 'linear', `${path}NormalTexture`);
+    use(
+      'coat_roughness',
+      extensions.KHR_materials_clearcoat?.clearcoatRoughnessTexture,
+      'g',
+      'linear',
+      `${path}RoughnessTexture`,
+    );
+    use(
+      'geometry_coat_normal',
+      extensions.KHR_materials_clearcoat?.clearcoatNormalTexture,
+      'rgb',
+      'linear',
+      `${path}NormalTexture`,
+    );
   }
 
   const sheen = extensions.KHR_materials_sheen;
@@ -163,7 +241,11 @@ export function gltfTextures(material: GltfMaterialFactors): GltfTextureMapping 
     const { sheenColorTexture: colorTexture, sheenRoughnessTexture: roughnessTexture } = sheen;
     if (colorTexture) {
       const factor = [0, 1, 2].map((k) => sheen.sheenColorFactor?.[k] ?? 0);
-      const picture: GltfPictureConversion = { key: `tint ${factor}`, sources: [colorTexture], convert: (texels, result) => splitColor(factor, texels, result) };
+      const picture: GltfPictureConversion = {
+        key: `tint ${factor}`,
+        sources: [colorTexture],
+        convert: (texels, result) => splitColor(factor, texels, result),
+      };
       use('fuzz_color', colorTexture, 'rgb', 'srgb', `${path}ColorTexture`, { value: [1, 1, 1], picture });
       use('fuzz_weight', colorTexture, 'a', 'srgb', `${path}ColorTexture`, { value: 1, picture });
     }
@@ -185,9 +267,14 @@ export function gltfTextures(material: GltfMaterialFactors): GltfTextureMapping 
   if (film && parameters.thin_film_weight !== undefined) {
     const path = `${EXTENSION}iridescence/iridescence`;
     use('thin_film_weight', film.iridescenceTexture, 'r', 'linear', `${path}Texture`);
-    const thin = film.iridescenceThicknessMinimum ?? 100, thick = film.iridescenceThicknessMaximum ?? 400;
+    const thin = film.iridescenceThicknessMinimum ?? 100,
+      thick = film.iridescenceThicknessMaximum ?? 400;
     const most = Math.max(thin, thick);
-    if (most > 0) use('thin_film_thickness', film.iridescenceThicknessTexture, 'g', 'linear', `${path}ThicknessTexture`, { value: most / 1000, range: [thin / most, thick / most] });
+    if (most > 0)
+      use('thin_film_thickness', film.iridescenceThicknessTexture, 'g', 'linear', `${path}ThicknessTexture`, {
+        value: most / 1000,
+        range: [thin / most, thick / most],
+      });
   }
   return { uses, lost };
 }

@@ -8,8 +8,14 @@ import { GlanzError } from '@glanz/wgsl/error';
 export class MaterialXError extends GlanzError {}
 
 /** A {@link MaterialXError} at a line. */
-export function failure(what: 'limit' | 'no-surface' | 'reference' | 'syntax' | 'value', message: string, line: number): MaterialXError {
-  return new MaterialXError(`openpbr/materialx-${what}`, `MaterialX document, line ${line}: ${message}`, { location: { line } });
+export function failure(
+  what: 'limit' | 'no-surface' | 'reference' | 'syntax' | 'value',
+  message: string,
+  line: number,
+): MaterialXError {
+  return new MaterialXError(`openpbr/materialx-${what}`, `MaterialX document, line ${line}: ${message}`, {
+    location: { line },
+  });
 }
 
 /** A piece of the document in a message: short, and on one line. */

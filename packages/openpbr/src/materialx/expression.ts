@@ -35,8 +35,13 @@ export type Expression =
 /** Thrown where a node is worth more than an {@link Expression} can hold; caught before anyone sees it. */
 export class Unsupported extends Error {}
 
-const spread = (values: readonly number[], width: number): readonly number[] => (values.length === 1 ? Array.from({ length: width }, () => values[0] as number) : values);
-const zip = (a: readonly number[], b: readonly number[], combine: (x: number, y: number) => number): readonly number[] => {
+const spread = (values: readonly number[], width: number): readonly number[] =>
+  values.length === 1 ? Array.from({ length: width }, () => values[0] as number) : values;
+const zip = (
+  a: readonly number[],
+  b: readonly number[],
+  combine: (x: number, y: number) => number,
+): readonly number[] => {
   const width = Math.max(a.length, b.length);
   const [left, right] = [spread(a, width), spread(b, width)];
   if (left.length !== right.length) throw new Unsupported('mixes numbers of different sizes');
@@ -60,21 +65,37 @@ const PLUS = (x: number, y: number) => x + y;
 const pair = (values: readonly number[]) => spread(values, 2) as readonly [number, number];
 
 export function multiply(left: Expression, right: Expression): Expression {
-  if (left.kind === 'constant' && right.kind === 'constant') return { kind: 'constant', values: zip(left.values, right.values, TIMES) };
+  if (left.kind === 'constant' && right.kind === 'constant')
+    return { kind: 'constant', values: zip(left.values, right.values, TIMES) };
   if (left.kind === 'constant') return multiply(right, left);
   if (right.kind === 'constant') {
-    if (left.kind === 'texture') return { ...left, width: widthOf(left.width, right.values), scale: zip(left.scale, right.values, TIMES), offset: zip(left.offset, right.values, TIMES) };
-    if (left.kind === 'coordinates') return { ...left, transform: after(left.transform, [pair(right.values)[0], 0, 0, pair(right.values)[1], 0, 0]) };
+    if (left.kind === 'texture')
+      return {
+        ...left,
+        width: widthOf(left.width, right.values),
+        scale: zip(left.scale, right.values, TIMES),
+        offset: zip(left.offset, right.values, TIMES),
+      };
+    if (left.kind === 'coordinates')
+      return { ...left, transform: after(left.transform, [pair(right.values)[0], 0, 0, pair(right.values)[1], 0, 0]) };
   }
   throw new Unsupported('multiplies two textures');
 }
 
 export function add(left: Expression, right: Expression): Expression {
-  if (left.kind === 'constant' && right.kind === 'constant') return { kind: 'constant', values: zip(left.values, right.values, PLUS) };
+  if (left.kind === 'constant' && right.kind === 'constant')
+    return { kind: 'constant', values: zip(left.values, right.values, PLUS) };
   if (left.kind === 'constant') return add(right, left);
   if (right.kind === 'constant') {
-    if (left.kind === 'texture') return { ...left, width: widthOf(left.width, right.values), scale: zip(left.scale, right.values, (x) => x), offset: zip(left.offset, right.values, PLUS) };
-    if (left.kind === 'coordinates') return { ...left, transform: after(left.transform, [1, 0, 0, 1, ...pair(right.values)]) };
+    if (left.kind === 'texture')
+      return {
+        ...left,
+        width: widthOf(left.width, right.values),
+        scale: zip(left.scale, right.values, (x) => x),
+        offset: zip(left.offset, right.values, PLUS),
+      };
+    if (left.kind === 'coordinates')
+      return { ...left, transform: after(left.transform, [1, 0, 0, 1, ...pair(right.values)]) };
   }
   throw new Unsupported('adds two textures');
 }
@@ -96,17 +117,34 @@ export function component(value: Expression, index: number): Expression {
   if (value.kind === 'constant' && value.values[index] !== undefined) return constant(value.values[index]);
   if (value.kind === 'texture' && index < value.width) {
     const channels = value.channels.length === 1 ? value.channels : (['r', 'g', 'b', 'a'] as const)[index];
-    if (channels) return { ...value, width: 1, channels, scale: [spread(value.scale, value.width)[index] as number], offset: [spread(value.offset, value.width)[index] as number] };
+    if (channels)
+      return {
+        ...value,
+        width: 1,
+        channels,
+        scale: [spread(value.scale, value.width)[index] as number],
+        offset: [spread(value.offset, value.width)[index] as number],
+      };
   }
   throw new Unsupported('takes a component that is not there');
 }
 
 /** The value with another number of components: one is repeated, of more the first are kept. */
 export function convert(value: Expression, width: number): Expression {
-  if (value.kind === 'constant') return { kind: 'constant', values: value.values.length === 1 ? spread(value.values, width) : value.values.slice(0, width) };
+  if (value.kind === 'constant')
+    return {
+      kind: 'constant',
+      values: value.values.length === 1 ? spread(value.values, width) : value.values.slice(0, width),
+    };
   if (value.kind !== 'texture' || value.width === width) return value;
   if (width === 1) return component(value, 0);
   if (value.width === 1) return { ...value, width };
   if (value.width < width) throw new Unsupported('has too few components');
-  return { ...value, width, channels: value.channels === 'rgba' ? 'rgb' : value.channels, scale: spread(value.scale, value.width).slice(0, width), offset: spread(value.offset, value.width).slice(0, width) };
+  return {
+    ...value,
+    width,
+    channels: value.channels === 'rgba' ? 'rgb' : value.channels,
+    scale: spread(value.scale, value.width).slice(0, width),
+    offset: spread(value.offset, value.width).slice(0, width),
+  };
 }

@@ -1,13 +1,40 @@
 import { textureEncoding, toLinear } from '../color/spaces';
 import { failure, quote } from './error';
-import { add, after, component, constant, convert, multiply, negate, reciprocal, Unsupported, type Affine, type Expression, type TextureLookup } from './expression';
+import {
+  add,
+  after,
+  component,
+  constant,
+  convert,
+  multiply,
+  negate,
+  reciprocal,
+  Unsupported,
+  type Affine,
+  type Expression,
+  type TextureLookup,
+} from './expression';
 import type { XmlElement } from './xml';
 
 /** Components of MaterialX's types of numbers. */
-const WIDTHS: ReadonlyMap<string, number> = new Map([['float', 1], ['integer', 1], ['boolean', 1], ['color3', 3], ['color4', 4], ['vector2', 2], ['vector3', 3], ['vector4', 4], ['matrix33', 9]]);
+const WIDTHS: ReadonlyMap<string, number> = new Map([
+  ['float', 1],
+  ['integer', 1],
+  ['boolean', 1],
+  ['color3', 3],
+  ['color4', 4],
+  ['vector2', 2],
+  ['vector3', 3],
+  ['vector4', 4],
+  ['matrix33', 9],
+]);
 const widthOf = (type: string | undefined) => WIDTHS.get(type ?? '') ?? 0;
 
-const WRAP: ReadonlyMap<string, TextureLookup['wrapU']> = new Map([['periodic', 'repeat'], ['mirror', 'mirror'], ['clamp', 'clamp']]);
+const WRAP: ReadonlyMap<string, TextureLookup['wrapU']> = new Map([
+  ['periodic', 'repeat'],
+  ['mirror', 'mirror'],
+  ['clamp', 'clamp'],
+]);
 const IDENTITY: Affine = [1, 0, 0, 1, 0, 0];
 /** How far a graph may be deep. */
 const DEPTH = 64;
@@ -65,11 +92,14 @@ export class Graph {
     if (outer !== undefined) {
       const declared = this.inputOf(scope, outer);
       if (!declared) throw failure('reference', `the node graph has no input ${quote(outer)}.`, input.line);
-      if (!scope.parent) throw failure('reference', `${quote(outer)} is an interface outside of a node graph.`, input.line);
+      if (!scope.parent)
+        throw failure('reference', `${quote(outer)} is an interface outside of a node graph.`, input.line);
       const value = this.#entered(declared, () => this.input(declared, scope.parent as XmlElement));
       return value;
     }
-    const graph = get('nodegraph'), node = get('nodename'), output = get('output');
+    const graph = get('nodegraph'),
+      node = get('nodename'),
+      output = get('output');
     if (graph !== undefined) return this.#node(reach(graph, scope), output, scope);
     if (node !== undefined) return this.#node(reach(node, scope), output, scope);
     if (output !== undefined) return this.#node(reach(output, scope), undefined, scope);
@@ -97,8 +127,14 @@ export class Graph {
   }
 
   #entered<T>(element: XmlElement, work: () => T): T {
-    if (this.#visiting.has(element)) throw failure('reference', `${quote(element.attributes.get('name') ?? element.name)} is connected to itself.`, element.line);
-    if (this.#visiting.size >= DEPTH) throw failure('limit', `nodes are connected more than ${DEPTH} deep.`, element.line);
+    if (this.#visiting.has(element))
+      throw failure(
+        'reference',
+        `${quote(element.attributes.get('name') ?? element.name)} is connected to itself.`,
+        element.line,
+      );
+    if (this.#visiting.size >= DEPTH)
+      throw failure('limit', `nodes are connected more than ${DEPTH} deep.`, element.line);
     this.#visiting.add(element);
     try {
       return work();
@@ -119,23 +155,38 @@ export class Graph {
   #constant(input: XmlElement, text: string): Expression {
     const type = input.attributes.get('type') ?? 'float';
     if (type === 'boolean') {
-      if (text !== 'true' && text !== 'false') throw failure('value', `${quote(text)} is neither true nor false.`, input.line);
+      if (text !== 'true' && text !== 'false')
+        throw failure('value', `${quote(text)} is neither true nor false.`, input.line);
       return constant(text === 'true' ? 1 : 0);
     }
     const width = widthOf(type);
     if (width === 0) throw new Unsupported(`has the type ${quote(type)}`);
     const values = text.split(',').map((number) => (number.trim() === '' ? Number.NaN : Number(number)));
-    if (values.length !== width || !values.every(Number.isFinite)) throw failure('value', `${quote(text)} is not a ${type}: ${width} finite number${width > 1 ? 's' : ''}.`, input.line);
+    if (values.length !== width || !values.every(Number.isFinite))
+      throw failure(
+        'value',
+        `${quote(text)} is not a ${type}: ${width} finite number${width > 1 ? 's' : ''}.`,
+        input.line,
+      );
     if (!type.startsWith('color')) return { kind: 'constant', values };
     const space = this.#inherited(input, 'colorspace') ?? this.#defaultSpace;
     const [r, g, b, ...rest] = values as [number, number, number];
     const linear = toLinear([r, g, b], space);
-    if (!linear) this.#tell('color-space', `the colour space ${quote(space)} is not known; the colour is taken as linear Rec.709.`, input.line);
+    if (!linear)
+      this.#tell(
+        'color-space',
+        `the colour space ${quote(space)} is not known; the colour is taken as linear Rec.709.`,
+        input.line,
+      );
     return { kind: 'constant', values: [...(linear ?? [r, g, b]), ...rest] };
   }
 
   /** The text of an input that is no number. */
-  #text(node: XmlElement, name: string, scope: XmlElement): { readonly text: string; readonly input: XmlElement } | undefined {
+  #text(
+    node: XmlElement,
+    name: string,
+    scope: XmlElement,
+  ): { readonly text: string; readonly input: XmlElement } | undefined {
     let input = this.inputOf(node, name);
     const outer = input?.attributes.get('interfacename');
     if (outer !== undefined) input = this.inputOf(scope, outer);
@@ -166,7 +217,8 @@ export class Graph {
     const file = this.#text(node, 'file', scope);
     if (!file || file.text === '') throw new Unsupported('names no file');
     let prefix = '';
-    for (let at: XmlElement | undefined = file.input; at; at = at.parent) prefix = (at.attributes.get('fileprefix') ?? '') + prefix;
+    for (let at: XmlElement | undefined = file.input; at; at = at.parent)
+      prefix = (at.attributes.get('fileprefix') ?? '') + prefix;
     const tiled = node.name === 'tiledimage';
     const { uv, transform: placed } = this.#coordinates(node, scope);
     let transform = placed;
@@ -180,7 +232,12 @@ export class Graph {
     }
     const wrap = (axis: 'u' | 'v') => {
       const mode = tiled ? 'periodic' : (this.#text(node, `${axis}addressmode`, scope)?.text ?? 'periodic');
-      if (!WRAP.has(mode)) this.#tell('unsupported', `beyond its border a picture is to be ${quote(mode)}; its border is repeated instead.`, node.line);
+      if (!WRAP.has(mode))
+        this.#tell(
+          'unsupported',
+          `beyond its border a picture is to be ${quote(mode)}; its border is repeated instead.`,
+          node.line,
+        );
       return WRAP.get(mode) ?? 'clamp';
     };
     const type = node.attributes.get('type') ?? 'color3';
@@ -195,14 +252,25 @@ export class Graph {
       wrapV: wrap('v'),
       filter: this.#text(node, 'filtertype', scope)?.text === 'closest' ? 'nearest' : 'linear',
     };
-    return { kind: 'texture', texture, width, channels: width === 1 ? 'r' : width === 4 ? 'rgba' : 'rgb', scale: [1], offset: [0] };
+    return {
+      kind: 'texture',
+      texture,
+      width,
+      channels: width === 1 ? 'r' : width === 4 ? 'rgba' : 'rgb',
+      scale: [1],
+      offset: [0],
+    };
   }
 
   #encoding(input: XmlElement, file: string): 'srgb' | 'linear' {
     const space = this.#inherited(input, 'colorspace');
     const encoding = space === undefined ? customary(file) : textureEncoding(space);
     if (encoding) return encoding;
-    this.#tell('color-space', `the picture ${quote(file)} is in the colour space ${quote(space ?? '')}, which textures cannot have; it is taken as ${customary(file) === 'srgb' ? 'sRGB' : 'linear Rec.709'}.`, input.line);
+    this.#tell(
+      'color-space',
+      `the picture ${quote(file)} is in the colour space ${quote(space ?? '')}, which textures cannot have; it is taken as ${customary(file) === 'srgb' ? 'sRGB' : 'linear Rec.709'}.`,
+      input.line,
+    );
     return customary(file);
   }
 
@@ -213,8 +281,14 @@ export class Graph {
     switch (node.name) {
       case 'nodegraph': {
         const outputs = node.children.filter((child) => child.name === 'output');
-        const chosen = output === undefined ? outputs[0] : outputs.find((child) => child.attributes.get('name') === output);
-        if (!chosen) throw failure('reference', `the node graph ${quote(node.attributes.get('name') ?? '')} has no output ${quote(output ?? '')}.`, node.line);
+        const chosen =
+          output === undefined ? outputs[0] : outputs.find((child) => child.attributes.get('name') === output);
+        if (!chosen)
+          throw failure(
+            'reference',
+            `the node graph ${quote(node.attributes.get('name') ?? '')} has no output ${quote(output ?? '')}.`,
+            node.line,
+          );
         return this.#node(chosen, undefined, node);
       }
       case 'output': {
@@ -239,13 +313,21 @@ export class Graph {
         return add(argument('amount', constant(1)), negate(argument('in')));
       case 'mix': {
         const share = argument('mix', constant(0));
-        return add(multiply(argument('fg', constant(0)), share), multiply(argument('bg', constant(0)), add(constant(1), negate(share))));
+        return add(
+          multiply(argument('fg', constant(0)), share),
+          multiply(argument('bg', constant(0)), add(constant(1), negate(share))),
+        );
       }
       case 'remap':
       case 'range': {
-        if (node.name === 'range' && numbers('gamma', [1]).some((gamma) => gamma !== 1)) throw new Unsupported('applies a gamma');
-        const low = argument('inlow', constant(0)), outLow = argument('outlow', constant(0));
-        const slope = multiply(add(argument('outhigh', constant(1)), negate(outLow)), reciprocal(add(argument('inhigh', constant(1)), negate(low))));
+        if (node.name === 'range' && numbers('gamma', [1]).some((gamma) => gamma !== 1))
+          throw new Unsupported('applies a gamma');
+        const low = argument('inlow', constant(0)),
+          outLow = argument('outlow', constant(0));
+        const slope = multiply(
+          add(argument('outhigh', constant(1)), negate(outLow)),
+          reciprocal(add(argument('inhigh', constant(1)), negate(low))),
+        );
         return add(multiply(add(argument('in'), negate(low)), slope), outLow);
       }
       case 'dot':
@@ -272,11 +354,24 @@ export class Graph {
       case 'combine2':
       case 'combine3':
       case 'combine4':
-        return { kind: 'constant', values: Array.from({ length: Number(node.name.slice(-1)) }, (_, i) => numbers(`in${i + 1}`, [0])[0] as number) };
+        return {
+          kind: 'constant',
+          values: Array.from(
+            { length: Number(node.name.slice(-1)) },
+            (_, i) => numbers(`in${i + 1}`, [0])[0] as number,
+          ),
+        };
       case 'normalmap': {
         const value = argument('in');
         const [scale] = numbers('scale', [1]) as [number];
-        if (value.kind !== 'texture' || value.channels === 'r' || value.width < 3 || value.scale.some((s) => s !== 1) || value.offset.some((o) => o !== 0)) throw new Unsupported('is no picture of normals');
+        if (
+          value.kind !== 'texture' ||
+          value.channels === 'r' ||
+          value.width < 3 ||
+          value.scale.some((s) => s !== 1) ||
+          value.offset.some((o) => o !== 0)
+        )
+          throw new Unsupported('is no picture of normals');
         // Whatever the document says of the picture's colours: normals are numbers.
         return { kind: 'normal map', texture: { ...value.texture, colorSpace: 'linear' }, scale };
       }
@@ -286,7 +381,8 @@ export class Graph {
       }
       case 'geompropvalue': {
         const name = this.#text(node, 'geomprop', scope)?.text ?? '';
-        if (width !== 2 || !/^(uv|st|uvmap|uvset|map|texcoord_?)[01]?$/i.test(name)) throw new Unsupported(`reads the geometry's ${quote(name)}`);
+        if (width !== 2 || !/^(uv|st|uvmap|uvset|map|texcoord_?)[01]?$/i.test(name))
+          throw new Unsupported(`reads the geometry's ${quote(name)}`);
         return { kind: 'coordinates', uv: name.endsWith('1') ? 1 : 0, transform: IDENTITY };
       }
       case 'place2d':
@@ -299,8 +395,12 @@ export class Graph {
       case 'transformmatrix': {
         const value = argument('in');
         const m = numbers('mat', [1, 0, 0, 0, 1, 0, 0, 0, 1]);
-        if (value.kind !== 'coordinates' || m.length !== 9) throw new Unsupported('transforms what are no texture coordinates');
-        return { ...value, transform: after(value.transform, [m[0], m[1], m[3], m[4], m[6], m[7]] as unknown as Affine) };
+        if (value.kind !== 'coordinates' || m.length !== 9)
+          throw new Unsupported('transforms what are no texture coordinates');
+        return {
+          ...value,
+          transform: after(value.transform, [m[0], m[1], m[3], m[4], m[6], m[7]] as unknown as Affine),
+        };
       }
       case 'normal':
         return { kind: 'direction', vector: [0, 0, 1] };
@@ -309,8 +409,10 @@ export class Graph {
       case 'bitangent':
         return { kind: 'direction', vector: [0, 1, 0] };
       case 'rotate3d': {
-        const value = argument('in'), axis = argument('axis', constant(0, 1, 0));
-        if (value.kind !== 'direction' || axis.kind !== 'direction' || axis.vector[2] !== 1) throw new Unsupported('turns a direction about something else than the normal');
+        const value = argument('in'),
+          axis = argument('axis', constant(0, 1, 0));
+        if (value.kind !== 'direction' || axis.kind !== 'direction' || axis.vector[2] !== 1)
+          throw new Unsupported('turns a direction about something else than the normal');
         // MaterialX turns clockwise as seen from the tip of the axis.
         const [a, b, c, d] = turn(numbers('amount', [0])[0] as number);
         const [x, y, z] = value.vector;
@@ -327,15 +429,22 @@ export class Graph {
     const [sx, sy] = this.#numbers(node, 'scale', scope, [1, 1]) as [number, number];
     const [ox, oy] = this.#numbers(node, 'offset', scope, [0, 0]) as [number, number];
     if (sx === 0 || sy === 0) throw failure('value', 'a picture is placed with the scale 0.', node.line);
-    const scaled: Affine = [1 / sx, 0, 0, 1 / sy, 0, 0], turned = turn(this.#numbers(node, 'rotate', scope, [0])[0] as number), moved: Affine = [1, 0, 0, 1, -ox, -oy];
-    const order = this.#numbers(node, 'operationorder', scope, [0])[0] === 1 ? [moved, turned, scaled] : [scaled, turned, moved];
-    const transform = [[1, 0, 0, 1, -px, -py] as Affine, ...order, [1, 0, 0, 1, px, py] as Affine].reduce(after, value.transform);
+    const scaled: Affine = [1 / sx, 0, 0, 1 / sy, 0, 0],
+      turned = turn(this.#numbers(node, 'rotate', scope, [0])[0] as number),
+      moved: Affine = [1, 0, 0, 1, -ox, -oy];
+    const order =
+      this.#numbers(node, 'operationorder', scope, [0])[0] === 1 ? [moved, turned, scaled] : [scaled, turned, moved];
+    const transform = [[1, 0, 0, 1, -px, -py] as Affine, ...order, [1, 0, 0, 1, px, py] as Affine].reduce(
+      after,
+      value.transform,
+    );
     return { ...value, transform };
   }
 }
 
 /** Turned clockwise, by degrees, as MaterialX does. */
 function turn(degrees: number): Affine {
-  const c = Math.cos((degrees * Math.PI) / 180), s = Math.sin((degrees * Math.PI) / 180);
+  const c = Math.cos((degrees * Math.PI) / 180),
+    s = Math.sin((degrees * Math.PI) / 180);
   return [c, -s, s, c, 0, 0];
 }

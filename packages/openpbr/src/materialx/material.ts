@@ -10,8 +10,8 @@ export interface MaterialXTexture {
   /** UV set; default 0. */
   readonly uv?: number;
   /**
-   * Affine map of uv before look-up, `[a, b, c, d, x, y]`: u' = a·u + c·v + x, v' = b·u + d·v + y. As everywhere in these
-   * packages v runs down the picture; in the document it runs up. Default identity.
+   * Affine map of uv before look-up, `[a, b, c, d, x, y]`: u' = a·u + c·v + x, v' = b·u + d·v + y. As everywhere in
+   * these packages v runs down the picture; in the document it runs up. Default identity.
    */
   readonly transform?: readonly [number, number, number, number, number, number];
   /** What the texel values 0 and 1 stand for; default 0 and 1. */
@@ -36,7 +36,10 @@ export interface MaterialXMaterial {
 
 /** Something that {@link readMaterialX} or {@link writeMaterialX} left out or took otherwise than it was meant. */
 export interface MaterialXWarning {
-  /** Beside the codes of `OpenPbrWarning`: `openpbr/materialx-unsupported`: a node, an input or a texture without a place; `openpbr/materialx-color-space`: an unknown or unfit one. */
+  /**
+   * Beside the codes of `OpenPbrWarning`: `openpbr/materialx-unsupported`: a node, an input or a texture without a
+   * place; `openpbr/materialx-color-space`: an unknown or unfit one.
+   */
   readonly code: string;
   /** One line: what, where, and what is used instead. */
   readonly message: string;

@@ -1,5 +1,11 @@
 import { scatteringRadius } from '../color/radius';
-import { OPENPBR_PARAMETERS, validateParameters, type OpenPbrColor, type OpenPbrParameterName, type OpenPbrParameters } from '../parameters/index';
+import {
+  OPENPBR_PARAMETERS,
+  validateParameters,
+  type OpenPbrColor,
+  type OpenPbrParameterName,
+  type OpenPbrParameters,
+} from '../parameters/index';
 import { failure, MaterialXError, quote } from './error';
 import { convert, Unsupported, type Affine, type Expression, type TextureLookup } from './expression';
 import { Graph, type Tell } from './graph';
@@ -21,7 +27,18 @@ export interface MaterialXDocument {
 }
 
 /** Metres. */
-const UNITS: ReadonlyMap<string, number> = new Map([['nanometer', 1e-9], ['micrometer', 1e-6], ['millimeter', 1e-3], ['centimeter', 1e-2], ['meter', 1], ['kilometer', 1e3], ['inch', 0.0254], ['foot', 0.3048], ['yard', 0.9144], ['mile', 1609.344]]);
+const UNITS: ReadonlyMap<string, number> = new Map([
+  ['nanometer', 1e-9],
+  ['micrometer', 1e-6],
+  ['millimeter', 1e-3],
+  ['centimeter', 1e-2],
+  ['meter', 1],
+  ['kilometer', 1e3],
+  ['inch', 0.0254],
+  ['foot', 0.3048],
+  ['yard', 0.9144],
+  ['mile', 1609.344],
+]);
 
 type Parameters = Partial<Record<OpenPbrParameterName, unknown>>;
 type Textures = Partial<Record<OpenPbrParameterName, MaterialXTexture>>;
@@ -30,13 +47,17 @@ type Textures = Partial<Record<OpenPbrParameterName, MaterialXTexture>>;
 export const flipped = ([a, b, c, d, x, y]: Affine): Affine => [a, -b || 0, -c || 0, d, x + c, 1 - d - y];
 
 function textureOf(lookup: TextureLookup, channels: MaterialXTexture['channels']): MaterialXTexture {
-  const transform = flipped(lookup.transform).map((number) => (Math.abs(number) < 1e-12 ? 0 : number)) as unknown as Affine;
+  const transform = flipped(lookup.transform).map((number) =>
+    Math.abs(number) < 1e-12 ? 0 : number,
+  ) as unknown as Affine;
   return {
     file: lookup.file,
     channels,
     colorSpace: lookup.colorSpace,
     ...(lookup.uv === 0 ? {} : { uv: lookup.uv }),
-    ...([1, 0, 0, 1, 0, 0].every((number, i) => Math.abs(number - (transform[i] as number)) < 1e-12) ? {} : { transform }),
+    ...([1, 0, 0, 1, 0, 0].every((number, i) => Math.abs(number - (transform[i] as number)) < 1e-12)
+      ? {}
+      : { transform }),
     ...(lookup.wrapU === 'repeat' ? {} : { wrapU: lookup.wrapU }),
     ...(lookup.wrapV === 'repeat' ? {} : { wrapV: lookup.wrapV }),
     ...(lookup.filter === 'linear' ? {} : { filter: lookup.filter }),
@@ -44,14 +65,25 @@ function textureOf(lookup: TextureLookup, channels: MaterialXTexture['channels']
 }
 
 /** offset + scale·texel, the same for all components but for a factor, as value × (from + (to - from)·texel). */
-function product(scale: readonly number[], offset: readonly number[]): { readonly value: readonly number[]; readonly range: readonly [number, number] } {
+function product(
+  scale: readonly number[],
+  offset: readonly number[],
+): { readonly value: readonly number[]; readonly range: readonly [number, number] } {
   const value = scale.map((s, i) => {
-    const low = offset[i] as number, high = low + s;
+    const low = offset[i] as number,
+      high = low + s;
     return Math.abs(high) >= Math.abs(low) ? high : low;
   });
-  const ends = value.map((v, i) => (v === 0 ? undefined : ([(offset[i] as number) / v, ((offset[i] as number) + (scale[i] as number)) / v] as const)));
+  const ends = value.map((v, i) =>
+    v === 0 ? undefined : ([(offset[i] as number) / v, ((offset[i] as number) + (scale[i] as number)) / v] as const),
+  );
   const first = ends.find((end) => end !== undefined) ?? [0, 1];
-  if (!ends.every((end) => end === undefined || (Math.abs(end[0] - first[0]) < 1e-9 && Math.abs(end[1] - first[1]) < 1e-9))) throw new Unsupported('shifts the channels of a picture apart');
+  if (
+    !ends.every(
+      (end) => end === undefined || (Math.abs(end[0] - first[0]) < 1e-9 && Math.abs(end[1] - first[1]) < 1e-9),
+    )
+  )
+    throw new Unsupported('shifts the channels of a picture apart');
   return { value, range: first };
 }
 
@@ -59,7 +91,8 @@ function product(scale: readonly number[], offset: readonly number[]): { readonl
 function take(name: OpenPbrParameterName, given: Expression, parameters: Parameters, textures: Textures): void {
   const { type } = OPENPBR_PARAMETERS[name];
   if (type === 'vector3') {
-    if (given.kind === 'normal map' && name.endsWith('normal')) textures[name] = { ...textureOf(given.texture, 'rgb'), ...(given.scale === 1 ? {} : { scale: given.scale }) };
+    if (given.kind === 'normal map' && name.endsWith('normal'))
+      textures[name] = { ...textureOf(given.texture, 'rgb'), ...(given.scale === 1 ? {} : { scale: given.scale }) };
     else if (given.kind === 'direction') {
       const plain = name.endsWith('normal') ? [0, 0, 1] : [1, 0, 0];
       if (given.vector.some((c, i) => Math.abs(c - (plain[i] as number)) > 1e-9)) parameters[name] = given.vector;
@@ -69,10 +102,15 @@ function take(name: OpenPbrParameterName, given: Expression, parameters: Paramet
   const width = type === 'color3' ? 3 : 1;
   const value = convert(given, width);
   if (value.kind === 'constant') {
-    if (value.values.length !== width || (given.kind === 'constant' && given.values.length > 1 && given.values.length < width)) throw new Unsupported('has the wrong number of components');
+    if (
+      value.values.length !== width ||
+      (given.kind === 'constant' && given.values.length > 1 && given.values.length < width)
+    )
+      throw new Unsupported('has the wrong number of components');
     parameters[name] = type === 'boolean' ? value.values[0] !== 0 : width === 1 ? value.values[0] : value.values;
   } else if (value.kind === 'texture' && type !== 'boolean') {
-    const spread = (values: readonly number[]) => (values.length === width ? values : Array.from({ length: width }, () => values[0] as number));
+    const spread = (values: readonly number[]) =>
+      values.length === width ? values : Array.from({ length: width }, () => values[0] as number);
     const { value: factor, range } = product(spread(value.scale), spread(value.offset));
     const texture = textureOf(value.texture, value.channels === 'rgba' ? 'rgb' : value.channels);
     parameters[name] = width === 1 ? factor[0] : factor;
@@ -86,11 +124,19 @@ function inUnit(name: OpenPbrParameterName, input: XmlElement, parameters: Param
   const { unit: own } = OPENPBR_PARAMETERS[name];
   if (unit === undefined || (own !== 'length' && own !== 'µm')) return;
   const metres = UNITS.get(unit);
-  if (metres === undefined) tell('unsupported', `the unit ${quote(unit)} of ${name} is not known; the number is taken as it is.`, input.line);
+  if (metres === undefined)
+    tell('unsupported', `the unit ${quote(unit)} of ${name} is not known; the number is taken as it is.`, input.line);
   else if (typeof parameters[name] === 'number') parameters[name] *= own === 'µm' ? metres * 1e6 : metres;
 }
 
-function readSurface(surface: XmlElement, scope: XmlElement, name: string, graph: Graph, warnings: MaterialXWarning[], tell: Tell): MaterialXMaterial {
+function readSurface(
+  surface: XmlElement,
+  scope: XmlElement,
+  name: string,
+  graph: Graph,
+  warnings: MaterialXWarning[],
+  tell: Tell,
+): MaterialXMaterial {
   const raw: Parameters = {};
   const textures: Textures = {};
   for (const input of surface.children) {
@@ -108,33 +154,45 @@ function readSurface(surface: XmlElement, scope: XmlElement, name: string, graph
     } catch (error) {
       if (!(error instanceof Unsupported)) throw error;
       delete raw[parameter];
-      tell('unsupported', `what drives ${parameter} ${error.message}, which is not read; the parameter keeps its default.`, input.line);
+      tell(
+        'unsupported',
+        `what drives ${parameter} ${error.message}, which is not read; the parameter keeps its default.`,
+        input.line,
+      );
     }
   }
   if (raw.subsurface_radius_scale && !textures.subsurface_radius_scale) {
-    const { radius, scale } = scatteringRadius((raw.subsurface_radius as number | undefined) ?? 1, raw.subsurface_radius_scale as OpenPbrColor);
+    const { radius, scale } = scatteringRadius(
+      (raw.subsurface_radius as number | undefined) ?? 1,
+      raw.subsurface_radius_scale as OpenPbrColor,
+    );
     raw.subsurface_radius_scale = scale;
     if (radius !== 1) raw.subsurface_radius = radius;
   }
   const { parameters, warnings: repaired } = validateParameters(raw as Partial<OpenPbrParameters>);
-  for (const { code, message } of repaired) warnings.push({ code, message: `Material ${quote(name)}: ${message}`, line: surface.line });
+  for (const { code, message } of repaired)
+    warnings.push({ code, message: `Material ${quote(name)}: ${message}`, line: surface.line });
   return { name, parameters, ...(Object.keys(textures).length > 0 ? { textures } : {}) };
 }
 
 /**
- * Reads the OpenPBR materials of a MaterialX document (.mtlx): values, and textures as people export them, that is pictures
- * (`image`, `tiledimage`) with placement, colour space, and arithmetic with constants between them and the surface; normal
- * maps; tangents turned by an angle. What is beyond that leaves its parameter at the default, with a warning. Nothing is
+ * Reads the OpenPBR materials of a MaterialX document (.mtlx): values, and textures as people export them, that is
+ * pictures (`image`, `tiledimage`) with placement, colour space, and arithmetic with constants between them and the
+ * surface; normal maps; tangents turned by an angle. What is beyond that leaves its parameter at the default, with a
+ * warning. Nothing is
  * fetched: files are named in the answer.
  *
  * @param source The text of the document, or its bytes in UTF-8.
- * @throws {MaterialXError} if the text is not well formed or too large, if names in it lead nowhere or in a circle, if a value
- * is none, or if there is no `open_pbr_surface`.
+ * @throws {MaterialXError} if the text is not well formed or too large, if names in it lead nowhere or in a circle, if
+ * a value is none, or if there is no `open_pbr_surface`.
  * @example
  * const { materials } = readMaterialX(await (await fetch('gold.mtlx')).text());
  * tracer.setMaterial('housing', materials[0].parameters);
  */
-export function readMaterialX(source: string | Uint8Array, { limits = {}, colorSpace = 'acescg' }: ReadMaterialXOptions = {}): MaterialXDocument {
+export function readMaterialX(
+  source: string | Uint8Array,
+  { limits = {}, colorSpace = 'acescg' }: ReadMaterialXOptions = {},
+): MaterialXDocument {
   let text: string;
   if (typeof source === 'string') text = source;
   else {
@@ -145,36 +203,50 @@ export function readMaterialX(source: string | Uint8Array, { limits = {}, colorS
     }
   }
   const root = parseXml(text, limits);
-  if (root.name !== 'materialx') throw failure('syntax', `its element is ${quote(`<${root.name}>`)}, not <materialx>.`, root.line);
+  if (root.name !== 'materialx')
+    throw failure('syntax', `its element is ${quote(`<${root.name}>`)}, not <materialx>.`, root.line);
   const warnings: MaterialXWarning[] = [];
   const told = new Set<string>();
   const tell: Tell = (what, message, line) => {
     // A node may be asked more than once.
     const key = `${line} ${message}`;
-    if (!told.has(key)) warnings.push({ code: `openpbr/materialx-${what}`, message: `MaterialX document, line ${line}: ${message}`, line });
+    if (!told.has(key))
+      warnings.push({
+        code: `openpbr/materialx-${what}`,
+        message: `MaterialX document, line ${line}: ${message}`,
+        line,
+      });
     told.add(key);
   };
   const graph = new Graph(colorSpace, tell);
-  for (const child of root.children) if (/^(xi:)?include$/.test(child.name)) tell('unsupported', 'other documents are not included.', child.line);
+  for (const child of root.children)
+    if (/^(xi:)?include$/.test(child.name)) tell('unsupported', 'other documents are not included.', child.line);
 
   const materials: MaterialXMaterial[] = [];
   const shown = new Set<XmlElement>();
   const nameOf = (element: XmlElement) => element.attributes.get('name') ?? `material ${materials.length}`;
   for (const material of root.children) {
     if (material.name !== 'surfacematerial') continue;
-    for (const other of ['backsurfaceshader', 'displacementshader']) if (graph.inputOf(material, other)) tell('unsupported', `the ${other} of ${quote(nameOf(material))} is left out.`, material.line);
+    for (const other of ['backsurfaceshader', 'displacementshader'])
+      if (graph.inputOf(material, other))
+        tell('unsupported', `the ${other} of ${quote(nameOf(material))} is left out.`, material.line);
     const shader = graph.inputOf(material, 'surfaceshader')?.attributes.get('nodename');
     const surface = shader === undefined ? undefined : graph.find(root, shader);
     if (shader !== undefined && !surface) throw failure('reference', `${quote(shader)} is not there.`, material.line);
     if (surface?.name !== 'open_pbr_surface') {
-      tell('unsupported', `the material ${quote(nameOf(material))} has ${surface ? `a <${surface.name}>` : 'no surface'}; only open_pbr_surface is read.`, material.line);
+      tell(
+        'unsupported',
+        `the material ${quote(nameOf(material))} has ${surface ? `a <${surface.name}>` : 'no surface'}; only open_pbr_surface is read.`,
+        material.line,
+      );
       continue;
     }
     shown.add(surface);
     materials.push(readSurface(surface, root, nameOf(material), graph, warnings, tell));
   }
   for (const surface of root.children) {
-    if (surface.name === 'open_pbr_surface' && !shown.has(surface)) materials.push(readSurface(surface, root, nameOf(surface), graph, warnings, tell));
+    if (surface.name === 'open_pbr_surface' && !shown.has(surface))
+      materials.push(readSurface(surface, root, nameOf(surface), graph, warnings, tell));
   }
   if (materials.length === 0) throw failure('no-surface', 'there is no <open_pbr_surface> in it.', root.line);
   return { materials, warnings };

@@ -24,7 +24,13 @@ export interface XmlElement {
 const NAME = /[\p{L}_][\p{L}\p{N}_.:-]*/uy;
 const ATTRIBUTE = /\s+([\p{L}_][\p{L}\p{N}_.:-]*)\s*=\s*(?:"([^"<]*)"|'([^'<]*)')/uy;
 const TAG_END = /\s*(\/?)>/y;
-const PREDEFINED: ReadonlyMap<string, string> = new Map([['lt', '<'], ['gt', '>'], ['amp', '&'], ['quot', '"'], ['apos', "'"]]);
+const PREDEFINED: ReadonlyMap<string, string> = new Map([
+  ['lt', '<'],
+  ['gt', '>'],
+  ['amp', '&'],
+  ['quot', '"'],
+  ['apos', "'"],
+]);
 
 /** The text that an attribute stands for: predefined and numeric references only. */
 function unescaped(text: string, line: number): string {
@@ -34,7 +40,12 @@ function unescaped(text: string, line: number): string {
     if (known !== undefined && reference.endsWith(';')) return known;
     const [, hexadecimal, decimal] = /^#(?:x([0-9a-f]{1,6})|(\d{1,7}));$/i.exec(reference) ?? [];
     const code = hexadecimal ? parseInt(hexadecimal, 16) : Number(decimal);
-    if (!(code > 0 && code <= 0x10ffff)) throw failure('syntax', `${quote(`&${reference}`)} is no reference that is known; documents cannot define their own.`, line);
+    if (!(code > 0 && code <= 0x10ffff))
+      throw failure(
+        'syntax',
+        `${quote(`&${reference}`)} is no reference that is known; documents cannot define their own.`,
+        line,
+      );
     return String.fromCodePoint(code);
   });
 }
@@ -49,7 +60,8 @@ export function parseXml(text: string, limits: MaterialXLimits = {}): XmlElement
   const { length, depth, elements } = { ...DEFAULT_LIMITS, ...limits };
   if (text.length > length) throw failure('limit', `it has ${text.length} characters, where ${length} are allowed.`, 1);
   let at = text.startsWith('\ufeff') ? 1 : 0;
-  let line = 1, lineEnd = text.indexOf('\n');
+  let line = 1,
+    lineEnd = text.indexOf('\n');
   const lineAt = (position: number) => {
     while (lineEnd >= 0 && lineEnd < position) {
       line++;
@@ -75,7 +87,8 @@ export function parseXml(text: string, limits: MaterialXLimits = {}): XmlElement
   let count = 0;
   for (;;) {
     const start = text.indexOf('<', at);
-    if (open.length === 0 && text.slice(at, start < 0 ? undefined : start).trim() !== '') throw failure('syntax', 'there is text outside of the document\'s element.', lineAt(at));
+    if (open.length === 0 && text.slice(at, start < 0 ? undefined : start).trim() !== '')
+      throw failure('syntax', "there is text outside of the document's element.", lineAt(at));
     if (start < 0) break;
     at = start + 1;
     if (text.startsWith('!--', at)) skip('-->', 'comment');
@@ -86,7 +99,12 @@ export function parseXml(text: string, limits: MaterialXLimits = {}): XmlElement
       at++;
       const name = match(NAME)?.[0];
       const closed = open.pop();
-      if (!closed || closed.name !== name || match(TAG_END)?.[1] !== '') throw failure('syntax', `the end ${quote(`</${name ?? ''}>`)} does not belong to ${closed ? quote(`<${closed.name}>`) : 'an element'}.`, lineAt(at));
+      if (!closed || closed.name !== name || match(TAG_END)?.[1] !== '')
+        throw failure(
+          'syntax',
+          `the end ${quote(`</${name ?? ''}>`)} does not belong to ${closed ? quote(`<${closed.name}>`) : 'an element'}.`,
+          lineAt(at),
+        );
     } else {
       const here = lineAt(at);
       const name = match(NAME)?.[0];
@@ -101,7 +119,7 @@ export function parseXml(text: string, limits: MaterialXLimits = {}): XmlElement
       if (!end) throw failure('syntax', `the attributes of <${name}> are not well formed.`, here);
       if (++count > elements) throw failure('limit', `there are more than ${elements} elements.`, here);
       const parent = open.at(-1);
-      if (!parent && root) throw failure('syntax', 'there is a second element beside the document\'s.', here);
+      if (!parent && root) throw failure('syntax', "there is a second element beside the document's.", here);
       const element: Open = { name, attributes, children: [], parent, line: here };
       if (parent) parent.children.push(element);
       else root = element;

@@ -1,3 +1,19 @@
-export type { OpenPbrColor, OpenPbrGroup, OpenPbrParameterInfo, OpenPbrParameterName, OpenPbrParameters, OpenPbrParameterType, OpenPbrUnit, OpenPbrVector } from './types';
+export type {
+  OpenPbrColor,
+  OpenPbrGroup,
+  OpenPbrParameterInfo,
+  OpenPbrParameterName,
+  OpenPbrParameters,
+  OpenPbrParameterType,
+  OpenPbrUnit,
+  OpenPbrVector,
+} from './types';
 export { OPENPBR_PARAMETER_NAMES, OPENPBR_PARAMETERS } from './table';
-export { defaultParameters, OpenPbrError, resolveParameters, validateParameters, type OpenPbrWarning, type ValidatedParameters } from './validate';
+export {
+  defaultParameters,
+  OpenPbrError,
+  resolveParameters,
+  validateParameters,
+  type OpenPbrWarning,
+  type ValidatedParameters,
+} from './validate';

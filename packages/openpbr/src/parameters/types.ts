@@ -18,7 +18,10 @@ export interface OpenPbrParameters {
   readonly base_diffuse_roughness: number;
   /** Mix from dielectric (0) to metal (1). */
   readonly base_metalness: number;
-  /** Scales the reflectance at normal incidence of the dielectric, by changing its index of refraction; scales the whole metal lobe. */
+  /**
+   * Scales the reflectance at normal incidence of the dielectric, by changing its index of refraction; scales the whole
+   * metal lobe.
+   */
   readonly specular_weight: number;
   /** Tint of the dielectric reflection seen from outside; tint near grazing angles (82°) of metal. */
   readonly specular_color: OpenPbrColor;
@@ -30,7 +33,10 @@ export interface OpenPbrParameters {
   readonly specular_ior: number;
   /** Mix from opaque (0) to transparent (1) dielectric. */
   readonly transmission_weight: number;
-  /** Colour of light that went straight through `transmission_depth` of the interior; with depth 0 a tint at every crossing of the surface. */
+  /**
+   * Colour of light that went straight through `transmission_depth` of the interior; with depth 0 a tint at every
+   * crossing of the surface.
+   */
   readonly transmission_color: OpenPbrColor;
   /** Depth at which white light has turned into `transmission_color`; 0 switches the interior medium off. */
   readonly transmission_depth: number;
@@ -50,7 +56,10 @@ export interface OpenPbrParameters {
   readonly subsurface_radius: number;
   /** Factor per channel on `subsurface_radius`. */
   readonly subsurface_radius_scale: OpenPbrColor;
-  /** Henyey–Greenstein g of subsurface scattering; on a thin wall the split between reflected (-1) and transmitted (1) light. */
+  /**
+   * Henyey–Greenstein g of subsurface scattering; on a thin wall the split between reflected (-1) and transmitted (1)
+   * light.
+   */
   readonly subsurface_scatter_anisotropy: number;
   /** Coverage of the coat. */
   readonly coat_weight: number;
@@ -98,9 +107,13 @@ export interface OpenPbrParameters {
 export type OpenPbrParameterName = keyof OpenPbrParameters;
 
 /** The parameter groups of the specification. */
-export type OpenPbrGroup = 'base' | 'specular' | 'transmission' | 'subsurface' | 'coat' | 'fuzz' | 'emission' | 'thin_film' | 'geometry';
+export type OpenPbrGroup =
+  'base' | 'specular' | 'transmission' | 'subsurface' | 'coat' | 'fuzz' | 'emission' | 'thin_film' | 'geometry';
 
-/** `float` is a number, `color3` an {@link OpenPbrColor}, `vector3` an {@link OpenPbrVector} or `null`, `boolean` a boolean. */
+/**
+ * `float` is a number, `color3` an {@link OpenPbrColor}, `vector3` an {@link OpenPbrVector} or `null`, `boolean` a
+ * boolean.
+ */
 export type OpenPbrParameterType = 'float' | 'color3' | 'vector3' | 'boolean';
 
 /** `1` has no unit; `length` is a scene length (metres); `cd/m²` luminance; `µm` micrometres. */
@@ -111,9 +124,15 @@ export interface OpenPbrParameterInfo<Name extends OpenPbrParameterName = OpenPb
   readonly name: Name;
   readonly type: OpenPbrParameterType;
   readonly default: OpenPbrParameters[Name];
-  /** Values outside of it mean nothing and are clamped, per component; an infinite end is open. Absent for booleans and vectors. */
+  /**
+   * Values outside of it mean nothing and are clamped, per component; an infinite end is open. Absent for booleans and
+   * vectors.
+   */
   readonly range?: readonly [min: number, max: number];
-  /** What a slider should offer. Equal to `range` unless the specification names another; absent for booleans and vectors. */
+  /**
+   * What a slider should offer. Equal to `range` unless the specification names another; absent for booleans and
+   * vectors.
+   */
   readonly softRange?: readonly [min: number, max: number];
   readonly unit: OpenPbrUnit;
   readonly group: OpenPbrGroup;

@@ -26,22 +26,29 @@ export interface ValidatedParameters {
 }
 
 const isTriple = (value: unknown): value is ArrayLike<number> =>
-  (Array.isArray(value) || ArrayBuffer.isView(value)) && (value as unknown as ArrayLike<unknown>).length === 3 && Array.from(value as unknown as ArrayLike<unknown>).every((c) => typeof c === 'number');
+  (Array.isArray(value) || ArrayBuffer.isView(value)) &&
+  (value as unknown as ArrayLike<unknown>).length === 3 &&
+  Array.from(value as unknown as ArrayLike<unknown>).every((c) => typeof c === 'number');
 
 /** A vector of length 1, or none where it has no direction. Already unit to single precision, it stays as it is. */
 function unit(name: string, vector: readonly number[], warnings: OpenPbrWarning[]): readonly number[] | null {
   const length = Math.hypot(...vector);
   if (length > 1e-12) return Math.abs(length - 1) < 1e-7 ? vector : vector.map((component) => component / length);
-  warnings.push({ code: 'openpbr/no-direction', parameter: name, message: `OpenPBR parameter "${name}" has no length; the unperturbed vector is used.` });
+  warnings.push({
+    code: 'openpbr/no-direction',
+    parameter: name,
+    message: `OpenPBR parameter "${name}" has no length; the unperturbed vector is used.`,
+  });
   return null;
 }
 
 /**
- * Clamps parameters to the specification's hard ranges, and says what it changed. A number that is not finite becomes the
- * default, a vector gets length 1. Values of the wrong kind are errors: guessing would hide a bug.
+ * Clamps parameters to the specification's hard ranges, and says what it changed. A number that is not finite becomes
+ * the default, a vector gets length 1. Values of the wrong kind are errors: guessing would hide a bug.
  *
  * @param given Any parameters; missing ones stay missing.
- * @throws {OpenPbrError} `openpbr/parameter-type` if a value is not a number, a triple of numbers, or a boolean as its type asks.
+ * @throws {OpenPbrError} `openpbr/parameter-type` if a value is not a number, a triple of numbers, or a boolean as its
+ * type asks.
  * @example
  * const { parameters, warnings } = validateParameters({ specular_roughness: 1.7 });   // 1, and one warning
  */
@@ -52,18 +59,35 @@ export function validateParameters(given: Partial<OpenPbrParameters>): Validated
     if (value === undefined) continue;
     const info = Object.hasOwn(OPENPBR_PARAMETERS, name) ? OPENPBR_PARAMETERS[name] : undefined;
     if (!info) {
-      warnings.push({ code: 'openpbr/unknown-parameter', parameter: name, message: `OpenPBR has no parameter "${name}"; it is ignored.` });
+      warnings.push({
+        code: 'openpbr/unknown-parameter',
+        parameter: name,
+        message: `OpenPBR has no parameter "${name}"; it is ignored.`,
+      });
       continue;
     }
-    const wrong = (wanted: string) => new OpenPbrError('openpbr/parameter-type', `OpenPBR parameter "${name}" takes ${wanted}, got ${JSON.stringify(value) ?? String(value)}.`);
+    const wrong = (wanted: string) =>
+      new OpenPbrError(
+        'openpbr/parameter-type',
+        `OpenPBR parameter "${name}" takes ${wanted}, got ${JSON.stringify(value) ?? String(value)}.`,
+      );
     const repair = (number: number, initial: number): number => {
       if (!Number.isFinite(number)) {
-        warnings.push({ code: 'openpbr/not-finite', parameter: name, message: `OpenPBR parameter "${name}" is ${number}; its default ${initial} is used.` });
+        warnings.push({
+          code: 'openpbr/not-finite',
+          parameter: name,
+          message: `OpenPBR parameter "${name}" is ${number}; its default ${initial} is used.`,
+        });
         return initial;
       }
       const [min, max] = info.range ?? [-Infinity, Infinity];
       const clamped = Math.min(Math.max(number, min), max);
-      if (clamped !== number) warnings.push({ code: 'openpbr/clamped', parameter: name, message: `OpenPBR parameter "${name}" is ${number}, outside ${min}..${max}; ${clamped} is used.` });
+      if (clamped !== number)
+        warnings.push({
+          code: 'openpbr/clamped',
+          parameter: name,
+          message: `OpenPBR parameter "${name}" is ${number}, outside ${min}..${max}; ${clamped} is used.`,
+        });
       return clamped;
     };
     if (info.type === 'float') {
@@ -75,7 +99,12 @@ export function validateParameters(given: Partial<OpenPbrParameters>): Validated
     } else if (value === null && info.type === 'vector3') {
       result[name] = null;
     } else {
-      if (!isTriple(value)) throw wrong(typeof value === 'string' ? 'three numbers; cssColor() of @glanz/tonemap/css-color makes them of CSS colours' : 'three numbers');
+      if (!isTriple(value))
+        throw wrong(
+          typeof value === 'string'
+            ? 'three numbers; cssColor() of @glanz/tonemap/css-color makes them of CSS colours'
+            : 'three numbers',
+        );
       const initial = info.default as readonly number[] | null;
       const numbers = Array.from(value, (component, i) => repair(component, initial?.[i] ?? 0));
       result[name] = info.type === 'vector3' ? unit(name, numbers, warnings) : numbers;
@@ -86,7 +115,9 @@ export function validateParameters(given: Partial<OpenPbrParameters>): Validated
 
 /** The specification's default of every parameter. */
 export function defaultParameters(): OpenPbrParameters {
-  return Object.fromEntries(OPENPBR_PARAMETER_NAMES.map((name) => [name, OPENPBR_PARAMETERS[name].default])) as unknown as OpenPbrParameters;
+  return Object.fromEntries(
+    OPENPBR_PARAMETER_NAMES.map((name) => [name, OPENPBR_PARAMETERS[name].default]),
+  ) as unknown as OpenPbrParameters;
 }
 
 /**

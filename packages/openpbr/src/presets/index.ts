@@ -1,1 +1,7 @@
-export { OPENPBR_PRESET_NAMES, OPENPBR_PRESETS, openPbrPreset, type OpenPbrPresetName, type OpenPbrPresetOptions } from './presets';
+export {
+  OPENPBR_PRESET_NAMES,
+  OPENPBR_PRESETS,
+  openPbrPreset,
+  type OpenPbrPresetName,
+  type OpenPbrPresetOptions,
+} from './presets';

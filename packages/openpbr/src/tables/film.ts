@@ -9,9 +9,9 @@ export interface FilmBands {
 }
 
 /**
- * Least squares fit, over optical paths of 0 to 8 µm, of the Fourier transforms of linear sRGB's red, green and blue (CIE
- * 1931 observer, equal-energy white): scripts/film.mjs. Against integrals over the spectrum, reflectances of films up to
- * 3 µm thick are within 0.02, 0.003 in the mean; three wavelengths alone miss by up to 0.6.
+ * Least squares fit, over optical paths of 0 to 8 µm, of the Fourier transforms of linear sRGB's red, green and blue
+ * (CIE 1931 observer, equal-energy white): scripts/film.mjs. Against integrals over the spectrum, reflectances of films
+ * up to 3 µm thick are within 0.02, 0.003 in the mean; three wavelengths alone miss by up to 0.6.
  */
 export const FILM_BANDS: FilmBands = {
   wavenumbers: [1.4296875, 1.63671875, 1.72265625, 1.8359375, 1.9375, 2.15625, 2.2734375, 2.5390625],

@@ -6,7 +6,10 @@ export interface OpenPbrTable {
   readonly height: number;
   /** 1 for a two-dimensional table. */
   readonly depth: number;
-  /** `width × height × depth` numbers in [-0.1, 2], x fastest. Decoded at the first access; half floats hold them well enough. */
+  /**
+   * `width × height × depth` numbers in [-0.1, 2], x fastest. Decoded at the first access; half floats hold them well
+   * enough.
+   */
   readonly data: Float32Array<ArrayBuffer>;
 }
 
@@ -71,9 +74,9 @@ function table(first: EncodedTable, second?: EncodedTable): OpenPbrTable {
 
 /**
  * The energy tables that {@link openpbr} reads through the host's accessors: directional albedos of GGX interfaces (of
- * conductors, what single scattering loses; of fuzz, its energy and shape), computed from first principles by scripts/tables.mjs. Bind them as textures
- * with linear filtering and clamping (any filterable float format; `r16float` does), or as buffers with the host's own
- * interpolation between texel centres.
+ * conductors, what single scattering loses; of fuzz, its energy and shape), computed from first principles by
+ * scripts/tables.mjs. Bind them as textures with linear filtering and clamping (any filterable float format; `r16float`
+ * does), or as buffers with the host's own interpolation between texel centres.
  *
  * `dielectric` is three-dimensional, for `openpbr_table_dielectric(coords)`; `conductor` two-dimensional, for
  * `openpbr_table_conductor(coords)`. `coords` are in [0, 1] like a texture's: texel i of n is centred at (i + ½)/n.

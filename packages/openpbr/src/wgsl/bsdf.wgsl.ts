@@ -6,22 +6,21 @@ import { openpbrSample } from './sample.wgsl';
 import { openpbrScatter } from './scatter.wgsl';
 import { openpbrSubsurface } from './subsurface.wgsl';
 
-
 /**
  * The whole surface. Directions are unit vectors in the local frame (+z shading normal, +x tangent), away from the
- * surface; the host turns the frame so that the viewer is above. With `wo` below the surface everything is zero, and with
- * `wi` below so it is unless the surface lets light through.
+ * surface; the host turns the frame so that the viewer is above. With `wo` below the surface everything is zero, and
+ * with `wi` below so it is unless the surface lets light through.
  *
  * ```wgsl
  * fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf      // once per hit; the rest takes the same wo
- * fn openpbr_prepare_side(p: OpenPbrParameters, wo: vec3f, side: OpenPbrSide) -> OpenPbrBsdf // with OPENPBR_TRANSMISSION: from either side
- * fn openpbr_eval(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec3f          // f · |cos θ_i|
- * fn openpbr_pdf(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> f32             // density of openpbr_sample, per solid angle
- * fn openpbr_eval_pdf(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec4f      // both for the price of one: (f · |cos θ_i|, pdf)
- * fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample // u uniform in [0, 1)³
- * fn openpbr_albedo(b: OpenPbrBsdf, wo: vec3f) -> vec3f                   // reflected and transmitted part of uniform light, approximate for tinted metal
- * fn openpbr_emission(p: OpenPbrParameters, wo: vec3f) -> vec3f           // radiance
- * fn openpbr_opacity(p: OpenPbrParameters) -> f32
+ * fn openpbr_prepare_side(p: OpenPbrParameters, wo: vec3f, side: OpenPbrSide) -> OpenPbrBsdf // with
+ * OPENPBR_TRANSMISSION: from either side fn openpbr_eval(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec3f // f · |cos
+ * θ_i| fn openpbr_pdf(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> f32 // density of openpbr_sample, per solid angle fn
+ * openpbr_eval_pdf(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec4f // both for the price of one: (f · |cos θ_i|, pdf) fn
+ * openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample // u uniform in [0, 1)³ fn openpbr_albedo(b:
+ * OpenPbrBsdf, wo: vec3f) -> vec3f // reflected and transmitted part of uniform light, approximate for tinted metal fn
+ * openpbr_emission(p: OpenPbrParameters, wo: vec3f) -> vec3f // radiance fn openpbr_opacity(p: OpenPbrParameters) ->
+ * f32
  * ```
  *
  * Metal and dielectric share one microfacet lobe: they differ by the Fresnel factor only. Diffuse reflection and what
@@ -30,10 +29,10 @@ import { openpbrSubsurface } from './subsurface.wgsl';
  * Premože and Shirley 2000; Kelemen and Szirmay-Kalos 2001). A thin film takes the place of the
  * Fresnel factor, and tints what goes through. A coat and fuzz add a lobe each and scale the rest.
  *
- * Transmission: `OpenPbrSide` says where the viewer is, `inside` the object or not, and the index of refraction of what is
- * outside of it; a thin wall has no inside. A facet, once sampled, reflects or refracts by chance, as its Fresnel factor
- * says. From inside there is no coat to be seen, only its colour on what leaves, and reflections have no tint. The opaque
- * part of a half transparent surface looks the same from inside as from outside.
+ * Transmission: `OpenPbrSide` says where the viewer is, `inside` the object or not, and the index of refraction of what
+ * is outside of it; a thin wall has no inside. A facet, once sampled, reflects or refracts by chance, as its Fresnel
+ * factor says. From inside there is no coat to be seen, only its colour on what leaves, and reflections have no tint.
+ * The opaque part of a half transparent surface looks the same from inside as from outside.
  */
 export const openpbr = wgslModule(
   'openpbr',

@@ -6,15 +6,16 @@ import openpbrGgx from './ggx.wesl';
 import { openPbrStruct } from './record';
 
 /**
- * The coat: a clear or tinted dielectric layer over everything else, in the frame of the base or, with OPENPBR_COAT_FRAME,
- * in one of its own, given by geometry_coat_normal and geometry_coat_tangent in the frame of the base. Its reflection is that of
- * an interface (`openpbrDielectric`); what lies below is the base with other parameters (`openpbr_coat_base`), times
- * `openpbr_coat_pass`. Formulas of the specification, with these choices where it leaves one:
+ * The coat: a clear or tinted dielectric layer over everything else, in the frame of the base or, with
+ * OPENPBR_COAT_FRAME, in one of its own, given by geometry_coat_normal and geometry_coat_tangent in the frame of the
+ * base. Its reflection is that of an interface (`openpbrDielectric`); what lies below is the base with other parameters
+ * (`openpbr_coat_base`), times `openpbr_coat_pass`. Formulas of the specification, with these choices where it leaves
+ * one:
  *
  * - The base becomes rougher as proposed for the specification's next version: refraction widens the base's highlight,
  *   a rough coat blurs it. It is never made smoother.
- * - Darkening by reflections inside the coat takes the roughness of the base as seen through the coat, and of a rough coat
- *   the facets that are typically seen; the coat's colour does not count at every bounce, only once.
+ * - Darkening by reflections inside the coat takes the roughness of the base as seen through the coat, and of a rough
+ *   coat the facets that are typically seen; the coat's colour does not count at every bounce, only once.
  * - What the coat lets through is 1 less its albedo towards the viewer: no energy is made, but the whole is not
  *   reciprocal.
  */

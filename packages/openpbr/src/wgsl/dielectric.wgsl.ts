@@ -12,8 +12,9 @@ import { INNER_SUM_NODES, INSIDE_NEAR } from '../tables/layout';
  * `openpbr_dielectric_epsilon` is (η - 1)/(η + 1) of the changed index: its square is the reflectance at normal
  * incidence, so specular_weight simply scales that square. The reflection's tint leaves the energy balance alone.
  *
- * What single scattering loses has bounced among the facets and forgotten where it came from: it leaves in all directions,
- * a part of it upwards (openpbr_energy_bounce), the rest downwards. The lobes of single scattering are the textbook's.
+ * What single scattering loses has bounced among the facets and forgotten where it came from: it leaves in all
+ * directions, a part of it upwards (openpbr_energy_bounce), the rest downwards. The lobes of single scattering are the
+ * textbook's.
  */
 export const openpbrDielectric = wgslModule(
   'openpbr/dielectric',
@@ -139,5 +140,12 @@ fn openpbr_dielectric_seen(given: OpenPbrDielectric, alpha: vec2f, wo: vec3f) ->
   //#endif
   return d;
 }`,
-  [openPbrStruct.module, openpbrGgx, openpbrFresnelDielectric, openpbrEnergy, gated('OPENPBR_ANISOTROPY', openpbrStretched), gated('OPENPBR_INNER_SUMS', openpbrInside)],
+  [
+    openPbrStruct.module,
+    openpbrGgx,
+    openpbrFresnelDielectric,
+    openpbrEnergy,
+    gated('OPENPBR_ANISOTROPY', openpbrStretched),
+    gated('OPENPBR_INNER_SUMS', openpbrInside),
+  ],
 );

@@ -3,7 +3,10 @@ import { openpbrCoat } from './coat.wgsl';
 import { openpbrFuzz } from './fuzz.wgsl';
 import { openPbrStruct } from './record';
 
-/** `openpbr_emission(p, wo)`: radiance that leaves towards `wo`: the same in all directions of the upper side, but for what a coat and fuzz keep back. */
+/**
+ * `openpbr_emission(p, wo)`: radiance that leaves towards `wo`: the same in all directions of the upper side, but for
+ * what a coat and fuzz keep back.
+ */
 export const openpbrEmission = wgslModule(
   'openpbr/emission',
   /* wgsl */ `fn openpbr_emission(p: OpenPbrParameters, wo: vec3f) -> vec3f {

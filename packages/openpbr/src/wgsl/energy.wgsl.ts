@@ -1,11 +1,27 @@
 import { wgslModule } from '@glanz/wgsl';
-import { STRETCHED_FLATS, STRETCHED_VIEWS, TABLE_ANGLES, TABLE_BLOCKS, TABLE_CONDUCTOR, TABLE_DEPTH, TABLE_HEIGHT_2D, TABLE_MIN_ROUGHNESS, TABLE_ROUGHNESSES } from '../tables/layout';
+import {
+  STRETCHED_FLATS,
+  STRETCHED_VIEWS,
+  TABLE_ANGLES,
+  TABLE_BLOCKS,
+  TABLE_CONDUCTOR,
+  TABLE_DEPTH,
+  TABLE_HEIGHT_2D,
+  TABLE_MIN_ROUGHNESS,
+  TABLE_ROUGHNESSES,
+} from '../tables/layout';
 import openpbrFresnelDielectric from './fresnel_dielectric.wesl';
 import openpbrGgx from './ggx.wesl';
 
 const float = (value: number): string => (Number.isInteger(value) ? `${value}.0` : String(value));
-/** `(u·(count - 1) + ½ + first) / size`: the texture coordinate of u ∈ [0, 1] between two texels' centres, as an offset and a factor. */
-const axis = (first: number, count: number, size: number): [offset: string, factor: string] => [float((first + 0.5) / size), float((count - 1) / size)];
+/**
+ * `(u·(count - 1) + ½ + first) / size`: the texture coordinate of u ∈ [0, 1] between two texels' centres, as an offset
+ * and a factor.
+ */
+const axis = (first: number, count: number, size: number): [offset: string, factor: string] => [
+  float((first + 0.5) / size),
+  float((count - 1) / size),
+];
 
 const angle = axis(0, TABLE_ANGLES, TABLE_ANGLES + 1);
 const rough = axis(0, TABLE_ROUGHNESSES, TABLE_ROUGHNESSES);

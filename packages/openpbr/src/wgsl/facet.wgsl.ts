@@ -2,8 +2,10 @@ import { gated, wgslModule } from '@glanz/wgsl';
 import openpbrFresnelDielectric from './fresnel_dielectric.wesl';
 import { openpbrSurface } from './surface.wgsl';
 
-
-/** What one facet of the base does: metal, dielectric and clear part at once, and whether it reflects when it is sampled. */
+/**
+ * What one facet of the base does: metal, dielectric and clear part at once, and whether it reflects when it is
+ * sampled.
+ */
 export const openpbrFacet = wgslModule(
   'openpbr/facet',
   /* wgsl */ `// A facet that sends light between two directions.

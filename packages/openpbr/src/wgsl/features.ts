@@ -2,7 +2,10 @@ import type { OpenPbrParameterName, OpenPbrParameters } from '../parameters/inde
 import { resolveParameters } from '../parameters/index';
 import { INSIDE_NEAR } from '../tables/layout';
 
-/** The composer's flags that the modules of this package ask for. A lobe whose flag is false is not in the text, whatever the parameters say. */
+/**
+ * The composer's flags that the modules of this package ask for. A lobe whose flag is false is not in the text,
+ * whatever the parameters say.
+ */
 export interface OpenPbrFlags {
   /** Any microfacet lobe: OPENPBR_METAL, OPENPBR_DIELECTRIC or OPENPBR_COAT. */
   readonly OPENPBR_SPECULAR: boolean;
@@ -16,11 +19,16 @@ export interface OpenPbrFlags {
   /** Interfaces seen from their denser side: OPENPBR_TRANSMISSION, or an index of refraction below 1. */
   readonly OPENPBR_INNER: boolean;
   /**
-   * From their denser side interfaces are summed over facets where the tables are too coarse: over something opaque that is or
-   * may be of a lower index than what it lies in, and for what is clear near the index of that; comes with OPENPBR_INNER.
+   * From their denser side interfaces are summed over facets where the tables are too coarse: over something opaque
+   * that is or may be of a lower index than what it lies in, and for what is clear near the index of that; comes with
+   * OPENPBR_INNER.
    */
   readonly OPENPBR_INNER_SUMS: boolean;
-  /** There may be several interfaces on one surface that are summed over facets (OPENPBR_ANISOTROPY, OPENPBR_INNER_SUMS): one loop goes through them; comes with OPENPBR_DIELECTRIC, and with OPENPBR_TRANSMISSION or OPENPBR_COAT. */
+  /**
+   * There may be several interfaces on one surface that are summed over facets (OPENPBR_ANISOTROPY,
+   * OPENPBR_INNER_SUMS): one loop goes through them; comes with OPENPBR_DIELECTRIC, and with OPENPBR_TRANSMISSION or
+   * OPENPBR_COAT.
+   */
   readonly OPENPBR_INTERFACE_LOOP: boolean;
   /** Light through the surface: refraction, thin walls; comes with OPENPBR_DIELECTRIC. */
   readonly OPENPBR_TRANSMISSION: boolean;
@@ -38,7 +46,10 @@ export interface OpenPbrFlags {
   /** A layer of fibres over everything else. */
   readonly OPENPBR_FUZZ: boolean;
   readonly OPENPBR_DIFFUSE: boolean;
-  /** Directions are sampled by the cosine too: OPENPBR_DIFFUSE, or OPENPBR_METAL or OPENPBR_DIELECTRIC with OPENPBR_MULTISCATTER. */
+  /**
+   * Directions are sampled by the cosine too: OPENPBR_DIFFUSE, or OPENPBR_METAL or OPENPBR_DIELECTRIC with
+   * OPENPBR_MULTISCATTER.
+   */
   readonly OPENPBR_COSINE: boolean;
   /** EON instead of Lambert. */
   readonly OPENPBR_DIFFUSE_ROUGHNESS: boolean;
@@ -63,7 +74,10 @@ export interface FeatureOptions {
  * @example
  * const shader = compose([openpbr, host, kernel], { flags: { ...requiredFeatures([{ base_metalness: 1 }]) } });
  */
-export function requiredFeatures(materials: readonly Partial<OpenPbrParameters>[], { textured = [], multipleScattering = true }: FeatureOptions = {}): OpenPbrFlags {
+export function requiredFeatures(
+  materials: readonly Partial<OpenPbrParameters>[],
+  { textured = [], multipleScattering = true }: FeatureOptions = {},
+): OpenPbrFlags {
   const all = materials.map((material) => resolveParameters(material));
   const isTextured = (name: OpenPbrParameterName) => textured.includes(name);
   const metal = all.some((p) => p.base_metalness > 0 && p.specular_weight > 0);
@@ -77,23 +91,47 @@ export function requiredFeatures(materials: readonly Partial<OpenPbrParameters>[
   const transmission = clear.length > 0;
   const thin = clear.some((p) => p.geometry_thin_walled);
   const film = (p: OpenPbrParameters) => p.thin_film_weight > 0 && p.thin_film_thickness > 0;
-  const dielectric = transmission || insulators.some((p) => film(p) || (p.specular_weight > 0 && (p.specular_ior !== 1 || isTextured('specular_ior') || p.coat_weight > 0)));
+  const dielectric =
+    transmission ||
+    insulators.some(
+      (p) =>
+        film(p) || (p.specular_weight > 0 && (p.specular_ior !== 1 || isTextured('specular_ior') || p.coat_weight > 0)),
+    );
   const coat = all.some((p) => p.coat_weight > 0);
   const opaque = solid.filter((p) => p.subsurface_weight < 1 || isTextured('subsurface_weight'));
   const diffuse = thinBelow || opaque.some((p) => p.base_weight > 0 && p.base_color.some((c) => c > 0));
   const specular = metal || dielectric || coat;
   const lambert = diffuse || !specular;
-  const inner = transmission || (dielectric && insulators.some((p) => p.specular_ior < 1)) || all.some((p) => p.coat_weight > 0 && p.coat_ior < 1) || isTextured('specular_ior') || isTextured('coat_ior');
+  const inner =
+    transmission ||
+    (dielectric && insulators.some((p) => p.specular_ior < 1)) ||
+    all.some((p) => p.coat_weight > 0 && p.coat_ior < 1) ||
+    isTextured('specular_ior') ||
+    isTextured('coat_ior');
   // What is outside may be any of the clear materials, with its index.
   const media = [1, ...clear.filter((p) => !p.geometry_thin_walled).map((p) => p.specular_ior)];
-  const step = (p: OpenPbrParameters, outer: number) => (Math.abs(p.specular_ior - outer) / (p.specular_ior + outer)) * Math.sqrt(p.specular_weight);
-  const isNear = (p: OpenPbrParameters, outer: number) => p.specular_ior !== outer && (step(p, outer) < INSIDE_NEAR + 1e-4 || isTextured('specular_weight'));
-  const sums = isTextured('specular_ior') || isTextured('coat_ior') || media.some((outer) => solid.some((p) => dielectric && p.specular_ior < outer) || all.some((p) => p.coat_weight > 0 && p.coat_ior < outer) || clear.some((p) => isNear(p, outer)));
-  const stretched = specular && all.some((p) => p.specular_roughness_anisotropy > 0 || (p.coat_weight > 0 && p.coat_roughness_anisotropy > 0));
+  const step = (p: OpenPbrParameters, outer: number) =>
+    (Math.abs(p.specular_ior - outer) / (p.specular_ior + outer)) * Math.sqrt(p.specular_weight);
+  const isNear = (p: OpenPbrParameters, outer: number) =>
+    p.specular_ior !== outer && (step(p, outer) < INSIDE_NEAR + 1e-4 || isTextured('specular_weight'));
+  const sums =
+    isTextured('specular_ior') ||
+    isTextured('coat_ior') ||
+    media.some(
+      (outer) =>
+        solid.some((p) => dielectric && p.specular_ior < outer) ||
+        all.some((p) => p.coat_weight > 0 && p.coat_ior < outer) ||
+        clear.some((p) => isNear(p, outer)),
+    );
+  const stretched =
+    specular &&
+    all.some((p) => p.specular_roughness_anisotropy > 0 || (p.coat_weight > 0 && p.coat_roughness_anisotropy > 0));
   return {
     OPENPBR_SPECULAR: specular,
     OPENPBR_METAL: metal,
-    OPENPBR_COAT_FRAME: all.some((p) => p.coat_weight > 0 && (p.geometry_coat_normal !== null || p.geometry_coat_tangent !== null)) || (coat && (isTextured('geometry_coat_normal') || isTextured('geometry_coat_tangent'))),
+    OPENPBR_COAT_FRAME:
+      all.some((p) => p.coat_weight > 0 && (p.geometry_coat_normal !== null || p.geometry_coat_tangent !== null)) ||
+      (coat && (isTextured('geometry_coat_normal') || isTextured('geometry_coat_tangent'))),
     OPENPBR_DIELECTRIC: dielectric,
     OPENPBR_INTERFACE: dielectric || coat,
     OPENPBR_INNER: inner,

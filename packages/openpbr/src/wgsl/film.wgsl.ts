@@ -6,22 +6,28 @@ import openpbrGgx from './ggx.wesl';
 import { openPbrStruct } from './record';
 
 /**
- * A thin film on the base, below the coat. Waves reflected by its two faces interfere; Airy's sum, with all its orders and
- * unpolarised, takes the place of the Fresnel factor, by the coverage. Below it lies the dielectric, or metal of a complex
- * index by its reflectance and edge tint (Gulbrandsen 2014).
+ * A thin film on the base, below the coat. Waves reflected by its two faces interfere; Airy's sum, with all its orders
+ * and unpolarised, takes the place of the Fresnel factor, by the coverage. Below it lies the dielectric, or metal of a
+ * complex index by its reflectance and edge tint (Gulbrandsen 2014).
  *
- * For a band of Lorentzian shape over wavenumbers the spectrum's integral is Airy's sum with a reflection that fades with the
- * path, in closed form: eight such bands stand for the visible spectrum, and give red, green and blue (`FILM_BANDS`), with
- * no aliasing however thick the film. From inside, light beyond the critical angle is reflected whatever the film.
+ * For a band of Lorentzian shape over wavenumbers the spectrum's integral is Airy's sum with a reflection that fades
+ * with the path, in closed form: eight such bands stand for the visible spectrum, and give red, green and blue
+ * (`FILM_BANDS`), with no aliasing however thick the film. From inside, light beyond the critical angle is reflected
+ * whatever the film.
  */
 export const openpbrFilm = /* @__PURE__ */ filmModule(FILM_BANDS);
 
 function filmModule({ wavenumbers, width, weights }: FilmBands): WgslModule {
-  const bands = (first: number): string => wavenumbers.slice(first, first + 4).map((wavenumber) => `${256 * wavenumber}u`).join(', ');
-  const columns = (first: number): string => [0, 1, 2, 3].map((i) => `vec3f(${weights.map((row) => row[first + i]).join(', ')})`).join(', ');
+  const bands = (first: number): string =>
+    wavenumbers
+      .slice(first, first + 4)
+      .map((wavenumber) => `${256 * wavenumber}u`)
+      .join(', ');
+  const columns = (first: number): string =>
+    [0, 1, 2, 3].map((i) => `vec3f(${weights.map((row) => row[first + i]).join(', ')})`).join(', ');
   return wgslModule(
-  'openpbr/film',
-  /* wgsl */ `struct OpenPbrFilm {
+    'openpbr/film',
+    /* wgsl */ `struct OpenPbrFilm {
   // Coverage.
   weight: f32,
   // Indices of the film and of what lies on it, over that of what is outside of the object.
@@ -290,6 +296,6 @@ fn openpbr_film_share(sum: OpenPbrFilmSum, share: f32) -> OpenPbrFilmShare {
   return OpenPbrFilmShare(sum.more, direct, max(1.0 - taken, vec3f(0.0)), (sum.hidden + taken * (rest - through)) / through);
 }
 //#endif`,
-  [openPbrStruct.module, openpbrGgx, openpbrFresnelDielectric, gated('OPENPBR_DIELECTRIC', openpbrDielectric)],
-);
+    [openPbrStruct.module, openpbrGgx, openpbrFresnelDielectric, gated('OPENPBR_DIELECTRIC', openpbrDielectric)],
+  );
 }

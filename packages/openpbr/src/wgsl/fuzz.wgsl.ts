@@ -7,9 +7,10 @@ const float = (value: number): string => (Number.isInteger(value) ? `${value}.0`
 const row = (block: keyof typeof TABLE_BLOCKS_2D) => float((TABLE_BLOCKS_2D[block][0] + 0.5) / TABLE_HEIGHT_2D);
 
 /**
- * Fuzz: a layer of fibres over everything else (Zeltner, Burley and Chiang 2022). Its reflection is a linearly transformed
- * cosine towards the viewer, of two numbers and an energy from the two-dimensional table (scripts/sheen.mjs); what lies
- * below gets what it does not reflect, in grey. It depends on the viewer, and is not reciprocal.
+ * Fuzz: a layer of fibres over everything else (Zeltner, Burley and Chiang 2022). Its reflection is a linearly
+ * transformed cosine towards the viewer, of two numbers and an energy from the two-dimensional table
+ * (scripts/sheen.mjs); what lies below gets what it does not reflect, in grey. It depends on the viewer, and is not
+ * reciprocal.
  */
 export const openpbrFuzz = wgslModule(
   'openpbr/fuzz',

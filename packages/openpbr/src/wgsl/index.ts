@@ -10,4 +10,12 @@ export { openpbrFuzz } from './fuzz.wgsl';
 export { openpbrCoat } from './coat.wgsl';
 export { openpbrEnergy } from './energy.wgsl';
 export { openpbrEmission, openpbrOpacity } from './emission.wgsl';
-export { openpbrCosine, openpbrEon, openpbrFresnelDielectric, openpbrFresnelMetal, openpbrGgx, openpbrMedium, openpbrPhase } from './modules';
+export {
+  openpbrCosine,
+  openpbrEon,
+  openpbrFresnelDielectric,
+  openpbrFresnelMetal,
+  openpbrGgx,
+  openpbrMedium,
+  openpbrPhase,
+} from './modules';

@@ -5,22 +5,24 @@ import openpbrGgx from './ggx.wesl';
 import openpbrSeen from './seen.wesl';
 
 /**
- * `openpbr_inside(eta, alpha, wo)`: the parts of the light that a dielectric reflects and lets through by single scattering,
- * seen from its denser side, `eta` below 1. The reflectance has an edge at the critical angle, right through the facets,
- * which sums over all facets miss and tables blur.
+ * `openpbr_inside(eta, alpha, wo)`: the parts of the light that a dielectric reflects and lets through by single
+ * scattering, seen from its denser side, `eta` below 1. The reflectance has an edge at the critical angle, right
+ * through the facets, which sums over all facets miss and tables blur.
  *
- * So what is summed is only the light that facets let through: downwards, 48 of them, and what of it they would have mirrored
- * upwards, another 48, which a perfect mirror's reflection is more by. That is tabulated, or where the highlight is stretched
- * a sum of 64. The slopes of facets that let light through lie within a conic, and so do those that mirror upwards: with the
- * angle ψ to the normal in the plane of the view, and χ out of it, its bounds are roots of quadratics, the middles of
- * both conics' χ are the same, and within both nothing jumps. Steps of the golden ratio, closer at the bounds.
+ * So what is summed is only the light that facets let through: downwards, 48 of them, and what of it they would have
+ * mirrored upwards, another 48, which a perfect mirror's reflection is more by. That is tabulated, or where the
+ * highlight is stretched a sum of 64. The slopes of facets that let light through lie within a conic, and so do those
+ * that mirror upwards: with the angle ψ to the normal in the plane of the view, and χ out of it, its bounds are roots
+ * of quadratics, the middles of both conics' χ are the same, and within both nothing jumps. Steps of the golden ratio,
+ * closer at the bounds.
  *
  * Tried, largest error (and in the mean square): stretched, 300 interfaces of indices 1.1 to 2.5, roughness 0.05 to 1,
- * anisotropy 0.2 to 0.9: 64 facets of the cap 0.027 (0.007), with means over their surroundings 0.019 (0.005), 1024 facets
- * 0.003; facets within the conic of those that pass, 8 × 8 by Gauss and Legendre 0.016, 96 as here 0.0024 (0.0004). Within
- * both conics 0.0020 (0.0003), 400 interfaces of indices from 1.001 on. Round, 2500 interfaces of indices 1.001 to 3.3: not
- * within both conics 48 facets 0.019 (0.0029), 96 0.0074 (0.0017); as here, 24 0.0042, 32 0.0029, 48 0.0012 (0.0003), 64
- * 0.0010 (0.0002). Tables at coordinates that follow the critical angle and the roughness 0.019 to index 1.02, 0.03 beyond.
+ * anisotropy 0.2 to 0.9: 64 facets of the cap 0.027 (0.007), with means over their surroundings 0.019 (0.005), 1024
+ * facets 0.003; facets within the conic of those that pass, 8 × 8 by Gauss and Legendre 0.016, 96 as here 0.0024
+ * (0.0004). Within both conics 0.0020 (0.0003), 400 interfaces of indices from 1.001 on. Round, 2500 interfaces of
+ * indices 1.001 to 3.3: not within both conics 48 facets 0.019 (0.0029), 96 0.0074 (0.0017); as here, 24 0.0042, 32
+ * 0.0029, 48 0.0012 (0.0003), 64 0.0010 (0.0002). Tables at coordinates that follow the critical angle and the
+ * roughness 0.019 to index 1.02, 0.03 beyond.
  */
 export const openpbrInside = wgslModule(
   'openpbr/inside',

@@ -3,9 +3,9 @@ import { openpbrCoat } from './coat.wgsl';
 import { openpbrDielectric } from './dielectric.wgsl';
 
 /**
- * `openpbr_interfaces_seen(interfaces, wanted, …)`: the interfaces of a surface as they are seen; one that is not wanted may be
- * left as `openpbr_dielectric` made it. Where they are summed over facets they are gone through by one loop, since compilers
- * copy a function to every place that calls it; it goes by bits, so that nobody unrolls it.
+ * `openpbr_interfaces_seen(interfaces, wanted, …)`: the interfaces of a surface as they are seen; one that is not
+ * wanted may be left as `openpbr_dielectric` made it. Where they are summed over facets they are gone through by one
+ * loop, since compilers copy a function to every place that calls it; it goes by bits, so that nobody unrolls it.
  */
 export const openpbrInterfaces = wgslModule(
   'openpbr/interfaces',

@@ -72,5 +72,11 @@ fn openpbr_metal_bounced(metal: OpenPbrMetal, alpha: vec2f, wi: vec3f) -> vec3f 
   return metal.bounced * (openpbr_mirror_lost(alpha, metal.roughness, wi, wi.z) / metal.mean_lost * wi.z * 0.31830989);
 }
 //#endif`,
-  [openPbrStruct.module, openpbrGgx, openpbrFresnelMetal, gated('OPENPBR_MULTISCATTER', openpbrEnergy), gated('OPENPBR_THIN_FILM', openpbrFilm)],
+  [
+    openPbrStruct.module,
+    openpbrGgx,
+    openpbrFresnelMetal,
+    gated('OPENPBR_MULTISCATTER', openpbrEnergy),
+    gated('OPENPBR_THIN_FILM', openpbrFilm),
+  ],
 );

@@ -14,36 +14,36 @@ import phase from './phase.wesl';
  * `openpbr_ggx` gives, for a half vector, (D G₂ / (4 cos θ_o), density of reflected directions when half vectors are
  * sampled by `openpbr_ggx_sample`). Their ratio is exact however narrow the lobe.
  *
- * The energy tables know round highlights only. For a stretched one `openpbr_view_roughness` is the round roughness that
- * reflects the same share of the light (the slope across the view counts the more, the lower the view), about, and
+ * The energy tables know round highlights only. For a stretched one `openpbr_view_roughness` is the round roughness
+ * that reflects the same share of the light (the slope across the view counts the more, the lower the view), about, and
  * `openpbr_mirror_cosine` the view that has the same masking. They are exact for round highlights.
  */
 export const openpbrGgx: WgslModule = ggx;
 
 /**
- * `openpbr_fresnel_dielectric(eta, c)`: exact unpolarised reflectance of an interface of relative index `eta` = n_t / n_i
- * at cosine `c` of the angle of incidence; 1 beyond the critical angle.
+ * `openpbr_fresnel_dielectric(eta, c)`: exact unpolarised reflectance of an interface of relative index `eta` = n_t /
+ * n_i at cosine `c` of the angle of incidence; 1 beyond the critical angle.
  */
 export const openpbrFresnelDielectric: WgslModule = fresnelDielectric;
 
 /**
- * Reflectance of metal: Schlick's formula with the F82 tint (Kutz, Hašan and Edmondson 2021). `openpbr_f82_edge` is what
- * the tint takes away; `openpbr_f82` evaluates, both factors already scaled by specular_weight.
+ * Reflectance of metal: Schlick's formula with the F82 tint (Kutz, Hašan and Edmondson 2021). `openpbr_f82_edge` is
+ * what the tint takes away; `openpbr_f82` evaluates, both factors already scaled by specular_weight.
  */
 export const openpbrFresnelMetal: WgslModule = fresnelMetal;
 
 /**
- * What fills the inside of a transparent object, in the units of its parameters (1 / length), and its index of refraction
- * by wavelength:
+ * What fills the inside of a transparent object, in the units of its parameters (1 / length), and its index of
+ * refraction by wavelength:
  *
  * ```wgsl
  * fn openpbr_medium(p: OpenPbrParameters) -> OpenPbrMedium                  // all zero for thin walls and for depth 0
  * fn openpbr_dispersed_ior(p: OpenPbrParameters, wavelength_nm: f32) -> f32 // put it into p.specular_ior
  * ```
  *
- * Extinction is that which turns white into `transmission_color` at `transmission_depth`; where the scattering asked for is
- * more than that, all channels get as much more extinction as the one that lacks the most (OpenPBR 1.1). Dispersion is
- * Cauchy's n = A + B / λ² through the index at 587.6 nm, with the Abbe number over the dispersion scale.
+ * Extinction is that which turns white into `transmission_color` at `transmission_depth`; where the scattering asked
+ * for is more than that, all channels get as much more extinction as the one that lacks the most (OpenPBR 1.1).
+ * Dispersion is Cauchy's n = A + B / λ² through the index at 587.6 nm, with the Abbe number over the dispersion scale.
  */
 export const openpbrMedium: WgslModule = medium;
 

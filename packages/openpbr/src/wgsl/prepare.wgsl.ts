@@ -5,8 +5,10 @@ import { openpbrInterfaces } from './interfaces.wgsl';
 import { openPbrStruct } from './record';
 import { openpbrSurface } from './surface.wgsl';
 
-
-/** `openpbr_prepare` and, with OPENPBR_TRANSMISSION, `openpbr_prepare_side`: weights of the lobes, albedos, and the probabilities of sampling each. */
+/**
+ * `openpbr_prepare` and, with OPENPBR_TRANSMISSION, `openpbr_prepare_side`: weights of the lobes, albedos, and the
+ * probabilities of sampling each.
+ */
 export const openpbrPrepare = wgslModule(
   'openpbr/prepare',
   /* wgsl */ `//#if OPENPBR_TRANSMISSION
@@ -257,5 +259,11 @@ fn openpbr_below_film(b: OpenPbrBsdf, color: vec3f) -> vec3f {
   return color;
   //#endif
 }`,
-  [openPbrStruct.module, openpbrSurface, gated('OPENPBR_INTERFACE', openpbrInterfaces), gated('OPENPBR_SPECULAR', openpbrGgx), gated('OPENPBR_DIFFUSE_ROUGHNESS', openpbrEon)],
+  [
+    openPbrStruct.module,
+    openpbrSurface,
+    gated('OPENPBR_INTERFACE', openpbrInterfaces),
+    gated('OPENPBR_SPECULAR', openpbrGgx),
+    gated('OPENPBR_DIFFUSE_ROUGHNESS', openpbrEon),
+  ],
 );

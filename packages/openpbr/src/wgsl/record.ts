@@ -1,10 +1,16 @@
 import { struct } from '@glanz/wgsl';
-import { OPENPBR_PARAMETER_NAMES, type OpenPbrColor, type OpenPbrParameterName, type OpenPbrParameters as Parameters, type OpenPbrVector } from '../parameters/index';
+import {
+  OPENPBR_PARAMETER_NAMES,
+  type OpenPbrColor,
+  type OpenPbrParameterName,
+  type OpenPbrParameters as Parameters,
+  type OpenPbrVector,
+} from '../parameters/index';
 
 /**
- * The WGSL struct `OpenPbrParameters`: every parameter, under the specification's names. Put it into a storage or uniform
- * buffer, multiply textured fields by their texels, and hand it to `openpbr_prepare`. A colour or vector and a number share
- * 16 bytes; a field that a shader's lobes do not read costs it nothing but the memory.
+ * The WGSL struct `OpenPbrParameters`: every parameter, under the specification's names. Put it into a storage or
+ * uniform buffer, multiply textured fields by their texels, and hand it to `openpbr_prepare`. A colour or vector and a
+ * number share 16 bytes; a field that a shader's lobes do not read costs it nothing but the memory.
  */
 export const openPbrStruct = /* @__PURE__ */ struct('OpenPbrParameters', {
   base_color: 'vec3f',

@@ -2,8 +2,9 @@ import { gated, wgslModule } from '@glanz/wgsl';
 import openpbrCosine from './cosine.wesl';
 import { openpbrScatter } from './scatter.wgsl';
 
-
-/** `openpbr_sample`: a lobe by its probability, a direction of it, and the weight by the density of all lobes together. */
+/**
+ * `openpbr_sample`: a lobe by its probability, a direction of it, and the weight by the density of all lobes together.
+ */
 export const openpbrSample = wgslModule(
   'openpbr/sample',
   /* wgsl */ `//#if OPENPBR_FUZZ

@@ -4,8 +4,10 @@ import openpbrCosine from './cosine.wesl';
 import { openpbrFacet } from './facet.wgsl';
 import { openpbrPrepare } from './prepare.wgsl';
 
-
-/** (f · |cos θ_i|, pdf) of a pair of directions and its facet, all lobes together: on the same side, and through the surface. */
+/**
+ * (f · |cos θ_i|, pdf) of a pair of directions and its facet, all lobes together: on the same side, and through the
+ * surface.
+ */
 export const openpbrScatter = wgslModule(
   'openpbr/scatter',
   /* wgsl */ `//#if OPENPBR_TRANSMISSION

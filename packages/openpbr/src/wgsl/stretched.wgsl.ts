@@ -6,20 +6,23 @@ import openpbrSeen from './seen.wesl';
 import { STRETCHED_AROUND, STRETCHED_HEIGHTS, STRETCHED_MIRRORS } from '../tables/layout';
 
 const count = STRETCHED_MIRRORS + STRETCHED_AROUND * STRETCHED_HEIGHTS.length;
-const heights = STRETCHED_HEIGHTS.map(([height, weight]) => `vec2f(${height}, ${weight / STRETCHED_AROUND})`).join(', ');
+const heights = STRETCHED_HEIGHTS.map(([height, weight]) => `vec2f(${height}, ${weight / STRETCHED_AROUND})`).join(
+  ', ',
+);
 
 /**
  * `openpbr_stretched(eta, alpha, wo)`: the parts of the light that a dielectric with a stretched highlight reflects and
  * lets through by single scattering, seen from `wo`. The energy tables know round highlights only; this is a sum over
- * facets as they are seen. From inside see `openpbr_inside`. From outside what is reflected has an edge, where facets mirror
- * downwards: 32 facets within the conic of those that mirror upwards, as there. What passes goes down everywhere and vanishes
- * at the cap's rim: 4 heights of the whole cap, ten around each, turned by what is left of the golden ratio.
+ * facets as they are seen. From inside see `openpbr_inside`. From outside what is reflected has an edge, where facets
+ * mirror
+ * downwards: 32 facets within the conic of those that mirror upwards, as there. What passes goes down everywhere and
+ * vanishes at the cap's rim: 4 heights of the whole cap, ten around each, turned by what is left of the golden ratio.
  *
- * Tried from outside, largest error of what is kept (and in the mean square), and of what is reflected, over 590 interfaces of
- * indices 1.1 to 2.5, roughness 0.05 to 1, anisotropy 0.2 to 0.99, many of them low and across the long slopes: 64 facets of the
- * cap at steps of the golden ratio, closer at its ends, 0.0061 (0.0011) and 0.0065. As here 0.0016 (0.0005) and 0.0015; with 24
- * within the conic 0.003, with 48 0.0007 of what is reflected; what passes over 64 in golden steps no better than as here, over 4
- * by 8 0.0043.
+ * Tried from outside, largest error of what is kept (and in the mean square), and of what is reflected, over 590
+ * interfaces of indices 1.1 to 2.5, roughness 0.05 to 1, anisotropy 0.2 to 0.99, many of them low and across the long
+ * slopes: 64 facets of the cap at steps of the golden ratio, closer at its ends, 0.0061 (0.0011) and 0.0065. As here
+ * 0.0016 (0.0005) and 0.0015; with 24 within the conic 0.003, with 48 0.0007 of what is reflected; what passes over 64
+ * in golden steps no better than as here, over 4 by 8 0.0043.
  */
 export const openpbrStretched = wgslModule(
   'openpbr/stretched',

@@ -7,8 +7,10 @@ import { openpbrMetal } from './metal.wgsl';
 import { openpbrSubsurface } from './subsurface.wgsl';
 import { openpbrTransmission } from './transmission.wgsl';
 
-
-/** The structs of the whole surface: `OpenPbrBsdf`, prepared for one direction, `OpenPbrSample`, and `OpenPbrSide`, where the viewer is. */
+/**
+ * The structs of the whole surface: `OpenPbrBsdf`, prepared for one direction, `OpenPbrSample`, and `OpenPbrSide`,
+ * where the viewer is.
+ */
 export const openpbrSurface = wgslModule(
   'openpbr/surface',
   /* wgsl */ `struct OpenPbrBsdf {

@@ -8,12 +8,13 @@ import { openPbrStruct } from './record';
 /**
  * Light through the dielectric base. Directions on the far side have z < 0.
  *
- * - A solid: refraction by GGX facets (Walter et al. 2007), the same facets and the same Fresnel factor as the reflection;
- *   masking is separable. f has no factor of η²: reflection and
- *   transmission of a clear interface add up to 1 from either side, and f(o, i) = η² f(i, o).
- * - A thin wall: two parallel faces, with all reflections between them: smooth, it reflects 2R / (1 + R) and lets the rest
- *   through undeflected. Rough, that share is taken at the viewer's angle for the lobe as a whole, which is the GGX
- *   reflection, and for the light let through its mirror image, narrowed, since two refractions mostly undo each other.
+ * - A solid: refraction by GGX facets (Walter et al. 2007), the same facets and the same Fresnel factor as the
+ *   reflection; masking is separable. f has no factor of η²: reflection and transmission of a clear interface add up to
+ *   1 from either side, and f(o, i) = η² f(i, o).
+ * - A thin wall: two parallel faces, with all reflections between them: smooth, it reflects 2R / (1 + R) and lets the
+ *   rest through undeflected. Rough, that share is taken at the viewer's angle for the lobe as a whole, which is the
+ *   GGX reflection, and for the light let through its mirror image, narrowed, since two refractions mostly undo each
+ *   other.
  *
  * `transmission_color` tints once a crossing where `transmission_depth` is 0, and along the path through a thin wall.
  */
@@ -155,5 +156,11 @@ fn openpbr_refract_ggx(eta: f32, alpha: vec2f, wo: vec3f, wi: vec3f, h: vec3f) -
   let pdf = visible * down / max(across * across, 1e-20);
   return pdf * vec2f(-2.0 * wi.z / (openpbr_ggx_stretch(alpha, wi) - wi.z), 1.0);
 }`,
-  [openPbrStruct.module, openpbrGgx, openpbrDielectric, gated('OPENPBR_MULTISCATTER', openpbrEnergy), gated('OPENPBR_THIN_FILM', openpbrFilm)],
+  [
+    openPbrStruct.module,
+    openpbrGgx,
+    openpbrDielectric,
+    gated('OPENPBR_MULTISCATTER', openpbrEnergy),
+    gated('OPENPBR_THIN_FILM', openpbrFilm),
+  ],
 );

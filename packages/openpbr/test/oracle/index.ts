@@ -3,10 +3,12 @@ import { gunzipSync } from 'node:zlib';
 import type { OpenPbrParameters } from '../../src/parameters/index';
 
 const bytes = (file: string) => readFileSync(new URL(`./${file}`, import.meta.url));
-const read = (file: string): unknown => JSON.parse((file.endsWith('.gz') ? gunzipSync(bytes(file)) : bytes(file)).toString());
+const read = (file: string): unknown =>
+  JSON.parse((file.endsWith('.gz') ? gunzipSync(bytes(file)) : bytes(file)).toString());
 
 /** The specification's example materials. */
-export const presets = (): Record<string, Partial<OpenPbrParameters>> => (read('presets.json') as { presets: Record<string, Partial<OpenPbrParameters>> }).presets;
+export const presets = (): Record<string, Partial<OpenPbrParameters>> =>
+  (read('presets.json') as { presets: Record<string, Partial<OpenPbrParameters>> }).presets;
 
 export type Triple = [number, number, number];
 
@@ -40,4 +42,5 @@ export interface Oracle {
 }
 
 export const oracle = (): Oracle => read('reference.json.gz') as Oracle;
-export const primitives = (): Record<string, Record<string, unknown>[]> => read('primitives.json') as Record<string, Record<string, unknown>[]>;
+export const primitives = (): Record<string, Record<string, unknown>[]> =>
+  read('primitives.json') as Record<string, Record<string, unknown>[]>;

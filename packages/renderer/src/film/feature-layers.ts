@@ -10,7 +10,10 @@ export interface FeatureSource {
   copy(name: string): Promise<ArrayBuffer>;
 }
 
-/** The layers of the picture as it is that come from camera rays alone: rendered when they are first read, and again where more samples are known. */
+/**
+ * The layers of the picture as it is that come from camera rays alone: rendered when they are first read, and again
+ * where more samples are known.
+ */
 export class FeatureLayers {
   readonly #source: FeatureSource;
   readonly #passes = new Map<KernelName, { readonly samples: number; readonly done: Promise<void> }>();
@@ -30,7 +33,8 @@ export class FeatureLayers {
     const wanted = Math.min(FEATURE_SAMPLES, Math.max(1, samples));
     // Layers read at the same time share one pass.
     let pass = this.#passes.get(kernel);
-    if (!pass || pass.samples < wanted) this.#passes.set(kernel, (pass = { samples: wanted, done: this.#render(kernel, wanted, pass?.done) }));
+    if (!pass || pass.samples < wanted)
+      this.#passes.set(kernel, (pass = { samples: wanted, done: this.#render(kernel, wanted, pass?.done) }));
     try {
       await pass.done;
     } catch (error) {

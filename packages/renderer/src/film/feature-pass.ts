@@ -9,17 +9,27 @@ export const FEATURE_SAMPLES = 64;
 
 /** The pixels of a film in batches that one dispatch covers. */
 export function forBands(pixels: number, run: (batch: Batch) => void, sampleOffset = 0): void {
-  for (let pixelOffset = 0; pixelOffset < pixels; pixelOffset += MAX_THREADS) run({ pixelOffset, pixelCount: Math.min(MAX_THREADS, pixels - pixelOffset), sampleOffset, sampleCount: 1 });
+  for (let pixelOffset = 0; pixelOffset < pixels; pixelOffset += MAX_THREADS)
+    run({ pixelOffset, pixelCount: Math.min(MAX_THREADS, pixels - pixelOffset), sampleOffset, sampleCount: 1 });
 }
 
 /**
- * Renders what a kernel knows of the first surfaces from scratch, with `samples` samples a pixel. Buffers of the film that the kernel
- * binds for the first time are made here; they are freed where the GPU refuses them, so that a later attempt makes them again.
+ * Renders what a kernel knows of the first surfaces from scratch, with `samples` samples a pixel. Buffers of the film
+ * that the kernel binds for the first time are made here; they are freed where the GPU refuses them, so that a later
+ * attempt makes them again.
  *
  * @param prepare Writes the frame uniforms, if they have changed.
  * @throws {DeviceError} `renderer/out-of-memory`, `renderer/gpu-error`
  */
-export async function renderFeatures(device: GPUDevice, integrator: Integrator, name: KernelName, kernel: Kernel, film: Film, samples: number, prepare: () => void): Promise<void> {
+export async function renderFeatures(
+  device: GPUDevice,
+  integrator: Integrator,
+  name: KernelName,
+  kernel: Kernel,
+  film: Film,
+  samples: number,
+  prepare: () => void,
+): Promise<void> {
   const refused = (error: unknown) => {
     film.release(...kernel.resources.filter((resource) => resource.startsWith('feature_')));
     integrator.rebind();

@@ -129,7 +129,11 @@ export class FilmSession {
   /** See `PathTracer.render`. */
   async *render(options: RenderOptions): AsyncGenerator<RenderProgress, void, undefined> {
     const samples = checkedSamples(options);
-    if (this.#rendering) throw new RenderError('renderer/busy', 'This tracer is already rendering: finish or abort the other render() first.');
+    if (this.#rendering)
+      throw new RenderError(
+        'renderer/busy',
+        'This tracer is already rendering: finish or abort the other render() first.',
+      );
     this.#rendering = true;
     try {
       if (this.#broken) this.restart();
@@ -151,13 +155,17 @@ export class FilmSession {
     const { device, integrator } = this.#host;
     await this.#cleared;
     if (layer === 'beauty') {
-      const [pixels, counters] = await Promise.all([readFloats(device, this.#film.beauty, this.#film.pixels * 16), readBuffer(device, integrator.queues, COUNTERS)]);
+      const [pixels, counters] = await Promise.all([
+        readFloats(device, this.#film.beauty, this.#film.pixels * 16),
+        readBuffer(device, integrator.queues, COUNTERS),
+      ]);
       this.#count(counters);
       return pixels;
     }
     if (layer === 'variance') {
       // With catchers: the image in which they are what they are, without the one that lacks the objects.
-      const weights = integrator.pathsPerSample > 1 ? [...this.#firstWeights, ...this.#firstWeights] : this.#firstWeights;
+      const weights =
+        integrator.pathsPerSample > 1 ? [...this.#firstWeights, ...this.#firstWeights] : this.#firstWeights;
       const [total, moment] = await Promise.all(this.#copy('film_total', 'film_moment'));
       return varianceLayer(total as Float32Array, moment as Float32Array, weights);
     }
@@ -201,9 +209,15 @@ export class FilmSession {
     const { width, height, planes } = this.#film;
     const weights = { first: this.#firstWeights, last: this.groups.weights };
     const head = { width, height, planes, weights, sampling, fingerprint: fingerprint() };
-    const [counters, ...sums] = await Promise.all([readBuffer(device, integrator.queues, COUNTERS), ...this.#copy(...FILM_SUMS)]);
+    const [counters, ...sums] = await Promise.all([
+      readBuffer(device, integrator.queues, COUNTERS),
+      ...this.#copy(...FILM_SUMS),
+    ]);
     this.#count(counters);
-    const samples = Math.max(sampling.sample, sampling.tiles ? sampling.counts.reduce((most, count) => Math.max(most, count), 0) : 0);
+    const samples = Math.max(
+      sampling.sample,
+      sampling.tiles ? sampling.counts.reduce((most, count) => Math.max(most, count), 0) : 0,
+    );
     const named = Object.fromEntries(FILM_SUMS.map((name, i) => [name, sums[i]])) as unknown as FilmState['sums'];
     return { ...head, samples, badSamples: this.#badSamples, sums: named };
   }
@@ -261,7 +275,8 @@ export class FilmSession {
         sound.catch(() => {});
         return sound;
       },
-      room: (wanted: number) => Math.floor(integrator.room(wanted * integrator.pathsPerSample) / integrator.pathsPerSample),
+      room: (wanted: number) =>
+        Math.floor(integrator.room(wanted * integrator.pathsPerSample) / integrator.pathsPerSample),
       ready,
       check,
       setPixels: (list: Uint32Array<ArrayBuffer> | undefined) => film.setPixels(list),

@@ -7,8 +7,8 @@ export const FILM_SUMS = ['film_block', 'film_total', 'film_moment', 'beauty'] a
 
 /**
  * Everything that a film has accumulated, and where its sampling stands: what `PathTracer.saveFilm()` gives and
- * `PathTracer.restoreFilm()` takes. Plain data: it can be posted to a worker, kept while a device is replaced, or written
- * to a file with {@link encodeFilmState}.
+ * `PathTracer.restoreFilm()` takes. Plain data: it can be posted to a worker, kept while a device is replaced, or
+ * written to a file with {@link encodeFilmState}.
  */
 export interface FilmState {
   /** Pixels. */
@@ -37,9 +37,18 @@ const VERSION = 1;
 const HEADER_BYTES = 12;
 
 const broken = (what: string) =>
-  new RenderError('renderer/film-state', `These bytes are no film that can be resumed: ${what}. Render the film again from the start.`);
+  new RenderError(
+    'renderer/film-state',
+    `These bytes are no film that can be resumed: ${what}. Render the film again from the start.`,
+  );
 
-type Head = Omit<FilmState, 'sampling' | 'sums'> & { readonly sample: number; readonly pixel: number; readonly until: number; readonly counts: number; readonly tiles: number };
+type Head = Omit<FilmState, 'sampling' | 'sums'> & {
+  readonly sample: number;
+  readonly pixel: number;
+  readonly until: number;
+  readonly counts: number;
+  readonly tiles: number;
+};
 
 /** Numbers of floats of the sums, in the order of {@link FILM_SUMS}. */
 const sumLengths = ({ width, height, planes }: Pick<FilmState, 'width' | 'height' | 'planes'>): number[] => {
@@ -48,8 +57,8 @@ const sumLengths = ({ width, height, planes }: Pick<FilmState, 'width' | 'height
 };
 
 /**
- * A film as bytes, for a file: a header, a line of JSON and the sums as they are (about `32 × planes + 32` bytes a pixel).
- * Little-endian; of this version of Glanz.
+ * A film as bytes, for a file: a header, a line of JSON and the sums as they are (about `32 × planes + 32` bytes a
+ * pixel). Little-endian; of this version of Glanz.
  */
 export function encodeFilmState(state: FilmState): Uint8Array<ArrayBuffer> {
   const { sampling, sums, ...rest } = state;
@@ -79,13 +88,15 @@ export function encodeFilmState(state: FilmState): Uint8Array<ArrayBuffer> {
 export function decodeFilmState(bytes: Uint8Array): FilmState {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   if (bytes.length < HEADER_BYTES || view.getUint32(0, true) !== MAGIC) throw broken('they do not begin as one');
-  if (view.getUint32(4, true) !== VERSION) throw broken(`they are of version ${view.getUint32(4, true)}, and this is version ${VERSION}`);
+  if (view.getUint32(4, true) !== VERSION)
+    throw broken(`they are of version ${view.getUint32(4, true)}, and this is version ${VERSION}`);
   const textBytes = view.getUint32(8, true);
   const head = readHead(bytes.subarray(HEADER_BYTES, HEADER_BYTES + textBytes));
   const lengths = sumLengths(head);
   const words = head.counts + Math.max(0, head.tiles) + lengths.reduce((a, b) => a + b, 0);
   let at = HEADER_BYTES + textBytes;
-  if (bytes.length !== at + 4 * words) throw broken(`they are ${bytes.length} bytes, and such a film takes ${at + 4 * words}`);
+  if (bytes.length !== at + 4 * words)
+    throw broken(`they are ${bytes.length} bytes, and such a film takes ${at + 4 * words}`);
   const next = (length: number) => {
     const part = bytes.slice(at, at + 4 * length).buffer as ArrayBuffer;
     at += 4 * length;
@@ -93,24 +104,47 @@ export function decodeFilmState(bytes: Uint8Array): FilmState {
   };
   const counts = new Uint32Array(next(head.counts));
   const tiles = head.tiles < 0 ? undefined : new Uint32Array(next(head.tiles));
-  const sums = Object.fromEntries(FILM_SUMS.map((name, i) => [name, new Float32Array(next(lengths[i] as number))])) as unknown as FilmState['sums'];
+  const sums = Object.fromEntries(
+    FILM_SUMS.map((name, i) => [name, new Float32Array(next(lengths[i] as number))]),
+  ) as unknown as FilmState['sums'];
   const { width, height, samples, badSamples, planes, fingerprint, weights, sample, pixel, until } = head;
-  return { width, height, samples, badSamples, planes, fingerprint, weights, sampling: { counts, tiles, sample, pixel, until }, sums };
+  return {
+    width,
+    height,
+    samples,
+    badSamples,
+    planes,
+    fingerprint,
+    weights,
+    sampling: { counts, tiles, sample, pixel, until },
+    sums,
+  };
 }
 
 const isWhole = (value: unknown, least: number) => Number.isSafeInteger(value) && (value as number) >= least;
-const isWeights = (value: unknown) => Array.isArray(value) && value.every((weight) => Array.isArray(weight) && weight.length === 3 && weight.every(Number.isFinite));
+const isWeights = (value: unknown) =>
+  Array.isArray(value) &&
+  value.every((weight) => Array.isArray(weight) && weight.length === 3 && weight.every(Number.isFinite));
 
 function readHead(text: Uint8Array): Head {
   let head: Head;
   try {
     head = JSON.parse(new TextDecoder('utf-8', { fatal: true }).decode(text)) as Head;
   } catch (cause) {
-    throw new RenderError('renderer/film-state', 'The header of this film cannot be read. Render the film again from the start.', { cause });
+    throw new RenderError(
+      'renderer/film-state',
+      'The header of this film cannot be read. Render the film again from the start.',
+      { cause },
+    );
   }
-  const { width, height, planes, samples, badSamples, sample, pixel, until, counts, tiles, fingerprint, weights } = head ?? {};
-  const whole = [width, height, planes].every((value) => isWhole(value, 1)) && [samples, badSamples, sample, pixel, until, counts].every((value) => isWhole(value, 0)) && isWhole(tiles, -1);
-  if (!whole || typeof fingerprint !== 'string' || !isWeights(weights?.first) || !isWeights(weights?.last)) throw broken('their header lacks something');
+  const { width, height, planes, samples, badSamples, sample, pixel, until, counts, tiles, fingerprint, weights } =
+    head ?? {};
+  const whole =
+    [width, height, planes].every((value) => isWhole(value, 1)) &&
+    [samples, badSamples, sample, pixel, until, counts].every((value) => isWhole(value, 0)) &&
+    isWhole(tiles, -1);
+  if (!whole || typeof fingerprint !== 'string' || !isWeights(weights?.first) || !isWeights(weights?.last))
+    throw broken('their header lacks something');
   return head;
 }
 
@@ -119,13 +153,22 @@ function readHead(text: Uint8Array): Head {
  * @param tiles Tiles of the tracer's film.
  * @throws {RenderError} `renderer/film-state`
  */
-export function checkFilmState(state: FilmState, film: Pick<FilmState, 'width' | 'height' | 'planes' | 'fingerprint'>, tiles: number): void {
-  const refuse = (why: string) => new RenderError('renderer/film-state', `The saved film cannot be resumed here: ${why}.`);
-  if (state.width !== film.width || state.height !== film.height) throw refuse(`it has ${state.width} × ${state.height} pixels, and this film has ${film.width} × ${film.height}`);
-  if (state.planes !== film.planes) throw refuse(`it keeps ${state.planes} light sums apart, and this film ${film.planes}`);
+export function checkFilmState(
+  state: FilmState,
+  film: Pick<FilmState, 'width' | 'height' | 'planes' | 'fingerprint'>,
+  tiles: number,
+): void {
+  const refuse = (why: string) =>
+    new RenderError('renderer/film-state', `The saved film cannot be resumed here: ${why}.`);
+  if (state.width !== film.width || state.height !== film.height)
+    throw refuse(`it has ${state.width} × ${state.height} pixels, and this film has ${film.width} × ${film.height}`);
+  if (state.planes !== film.planes)
+    throw refuse(`it keeps ${state.planes} light sums apart, and this film ${film.planes}`);
   if (state.fingerprint !== film.fingerprint) throw refuse('it is of another scene, camera, or other options');
   const { counts, tiles: under, pixel } = state.sampling;
   const lengths = sumLengths(film);
-  const fits = counts.length === tiles && (under?.every((tile) => tile < tiles) ?? true) && pixel < film.width * film.height;
-  if (!fits || FILM_SUMS.some((name, i) => state.sums[name].length !== lengths[i])) throw refuse('its parts do not fit together');
+  const fits =
+    counts.length === tiles && (under?.every((tile) => tile < tiles) ?? true) && pixel < film.width * film.height;
+  if (!fits || FILM_SUMS.some((name, i) => state.sums[name].length !== lengths[i]))
+    throw refuse('its parts do not fit together');
 }

@@ -6,9 +6,9 @@ import { TILE } from '../kernels/noise.wgsl';
 const ON_DEMAND: ReadonlySet<string> = new Set(['feature_albedo', 'feature_normal', 'feature_ids', 'feature_position']);
 
 /**
- * The buffers of one picture. Per pixel: a vec4f for each plane (light group) in `film_block` (samples of a chunk not yet
- * complete) and in `film_total` (complete chunks), planes one after another; `film_moment` for the variance; `beauty`; the
- * pixel's number in `film_pixels`. The first-hit features come when they are asked for.
+ * The buffers of one picture. Per pixel: a vec4f for each plane (light group) in `film_block` (samples of a chunk not
+ * yet complete) and in `film_total` (complete chunks), planes one after another; `film_moment` for the variance;
+ * `beauty`; the pixel's number in `film_pixels`. The first-hit features come when they are asked for.
  */
 export class Film {
   readonly width: number;
@@ -33,13 +33,16 @@ export class Film {
   }
 
   /**
-   * From now on, place i of a batch is pixel `list[i]`; without a list all of them tile by tile, as in the beginning: rays
-   * of one workgroup then go through a square of the picture, not through a line of it, and meet the same nodes.
+   * From now on, place i of a batch is pixel `list[i]`; without a list all of them tile by tile, as in the beginning:
+   * rays of one workgroup then go through a square of the picture, not through a line of it, and meet the same nodes.
    */
   setPixels(list: Uint32Array<ArrayBuffer> | undefined): void {
     if (!list && this.#whole) return;
     this.#whole = !list;
-    this.#memory.write(this.#buffers.get('film_pixels') as GPUBuffer, list ?? new TileGrid(this.width, this.height).allPixels());
+    this.#memory.write(
+      this.#buffers.get('film_pixels') as GPUBuffer,
+      list ?? new TileGrid(this.width, this.height).allPixels(),
+    );
   }
 
   get pixels(): number {
@@ -54,7 +57,8 @@ export class Film {
   /** The buffer that a kernel binds under this name, if it is the film's. */
   buffer(name: string): GPUBuffer | undefined {
     // A tile each 64 pixels, and those at the edges.
-    if (name === 'film_noise' && !this.#buffers.has(name)) this.#make(name, (16 * Math.ceil(this.width / TILE) * Math.ceil(this.height / TILE)) / this.pixels);
+    if (name === 'film_noise' && !this.#buffers.has(name))
+      this.#make(name, (16 * Math.ceil(this.width / TILE) * Math.ceil(this.height / TILE)) / this.pixels);
     return this.#buffers.get(name) ?? (ON_DEMAND.has(name) ? this.#make(name, 16) : undefined);
   }
 
@@ -68,7 +72,8 @@ export class Film {
 
   /** Zeroes the sums. */
   clear(encoder: GPUCommandEncoder): void {
-    for (const name of ['film_block', 'film_total', 'film_moment', 'beauty']) encoder.clearBuffer(this.#buffers.get(name) as GPUBuffer);
+    for (const name of ['film_block', 'film_total', 'film_moment', 'beauty'])
+      encoder.clearBuffer(this.#buffers.get(name) as GPUBuffer);
   }
 
   destroy(): void {
@@ -78,7 +83,11 @@ export class Film {
 
   #make(name: string, bytesPerPixel: number): GPUBuffer {
     const label = name.startsWith('film') ? name.replace('_', ' ') : `film ${name.replace('feature_', '')}`;
-    const buffer = this.#memory.buffer(label, this.pixels * bytesPerPixel, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC | GPU_BUFFER_COPY_DST);
+    const buffer = this.#memory.buffer(
+      label,
+      this.pixels * bytesPerPixel,
+      GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC | GPU_BUFFER_COPY_DST,
+    );
     this.#buffers.set(name, buffer);
     return buffer;
   }

@@ -41,7 +41,9 @@ class Hash {
   }
 }
 
-/** Options that decide the value of a sample, with their defaults; the others decide when and where samples are taken. */
+/**
+ * Options that decide the value of a sample, with their defaults; the others decide when and where samples are taken.
+ */
 const DEFAULTS: { readonly [Name in keyof PathTracerOptions]?: PathTracerOptions[Name] | null } = {
   seed: 0,
   maxDepth: 8,
@@ -57,13 +59,15 @@ const DEFAULTS: { readonly [Name in keyof PathTracerOptions]?: PathTracerOptions
 
 function samplingOptions(options: PathTracerOptions): unknown[] {
   const choices = Object.entries(CHOICES).map(([name, [first]]) => [name, first] as const);
-  return [...Object.entries(DEFAULTS), ...choices].map(([name, initial]) => options[name as keyof PathTracerOptions] ?? initial);
+  return [...Object.entries(DEFAULTS), ...choices].map(
+    ([name, initial]) => options[name as keyof PathTracerOptions] ?? initial,
+  );
 }
 
 /**
- * A hash over what the samples of a film depend on: the options, the camera and the scene (of vertices, texels and pixels
- * only {@link PROBES} of an array are read). Two films with different values must not be continued in each other's place.
- * 64 bits against mistakes, not against malice.
+ * A hash over what the samples of a film depend on: the options, the camera and the scene (of vertices, texels and
+ * pixels only {@link PROBES} of an array are read). Two films with different values must not be continued in each
+ * other's place. 64 bits against mistakes, not against malice.
  */
 export function filmFingerprint(scene: Scene, camera: Camera, options: PathTracerOptions): string {
   const hash = new Hash();

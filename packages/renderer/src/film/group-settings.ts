@@ -24,7 +24,11 @@ export class GroupSettings {
   /** The plane of a group. @throws {RenderError} `renderer/light-groups` if there is none of this name. */
   plane(name: string): number {
     const plane = this.#names().indexOf(name);
-    if (plane < 0) throw new RenderError('renderer/light-groups', `There is no light group "${name}"; there are: ${this.#names().join(', ')}.`);
+    if (plane < 0)
+      throw new RenderError(
+        'renderer/light-groups',
+        `There is no light group "${name}"; there are: ${this.#names().join(', ')}.`,
+      );
     return plane;
   }
 
@@ -36,7 +40,10 @@ export class GroupSettings {
     const before = this.#set.get(name);
     const next = { ...(this.list[this.plane(name)] as LightGroup), ...settings, name };
     if (![next.intensity, ...next.color].every((value) => value >= 0 && value < Infinity)) {
-      throw new RenderError('renderer/light-groups', `Light group "${name}": intensity and colour must be finite and not negative.`);
+      throw new RenderError(
+        'renderer/light-groups',
+        `Light group "${name}": intensity and colour must be finite and not negative.`,
+      );
     }
     this.#set.set(name, next);
     return () => {

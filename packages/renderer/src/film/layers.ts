@@ -5,8 +5,13 @@ import type { FilmLayer } from '../options';
 /** A layer that comes from camera rays alone. */
 export type FeatureLayer = Exclude<FilmLayer, 'beauty' | 'variance'>;
 
-/** The kernel that makes a layer, and the film buffers that it is made of, in the order in which {@link unpackLayer} takes them. */
-export const LAYER_SOURCES: Readonly<Record<FeatureLayer, { readonly kernel: KernelName; readonly buffers: readonly string[] }>> = {
+/**
+ * The kernel that makes a layer, and the film buffers that it is made of, in the order in which {@link unpackLayer}
+ * takes them.
+ */
+export const LAYER_SOURCES: Readonly<
+  Record<FeatureLayer, { readonly kernel: KernelName; readonly buffers: readonly string[] }>
+> = {
   albedo: { kernel: 'features', buffers: ['feature_albedo'] },
   normal: { kernel: 'features', buffers: ['feature_normal'] },
   position: { kernel: 'position', buffers: ['feature_position'] },
@@ -16,18 +21,28 @@ export const LAYER_SOURCES: Readonly<Record<FeatureLayer, { readonly kernel: Ker
 };
 
 /** One layer out of the features' sums over `count` samples. */
-export function unpackLayer(layer: FeatureLayer, sources: readonly ArrayBuffer[], count: number): Float32Array<ArrayBuffer> | Uint32Array<ArrayBuffer> {
+export function unpackLayer(
+  layer: FeatureLayer,
+  sources: readonly ArrayBuffer[],
+  count: number,
+): Float32Array<ArrayBuffer> | Uint32Array<ArrayBuffer> {
   const first = sources[0] as ArrayBuffer;
   if (layer === 'objectId' || layer === 'materialId') {
     const ids = new Uint32Array(first);
-    return Uint32Array.from({ length: ids.length / 4 }, (_, i) => ids[4 * i + (layer === 'objectId' ? 0 : 1)] as number);
+    return Uint32Array.from(
+      { length: ids.length / 4 },
+      (_, i) => ids[4 * i + (layer === 'objectId' ? 0 : 1)] as number,
+    );
   }
   const sums = new Float32Array(first);
   if (layer === 'albedo') return sums.map((value) => value / count);
   if (layer === 'normal') return sums.map((value, i) => (i % 4 === 3 ? 0 : value / count));
-  if (layer === 'position') return sums.map((value, i) => (i % 4 === 3 ? value / count : value / Math.max(sums[i | 3] as number, 1)));
+  if (layer === 'position')
+    return sums.map((value, i) => (i % 4 === 3 ? value / count : value / Math.max(sums[i | 3] as number, 1)));
   const coverage = new Float32Array(sources[1] as ArrayBuffer);
-  return Float32Array.from({ length: sums.length / 4 }, (_, i) => ((coverage[4 * i + 3] as number) > 0 ? (sums[4 * i + 3] as number) / (coverage[4 * i + 3] as number) : 0));
+  return Float32Array.from({ length: sums.length / 4 }, (_, i) =>
+    (coverage[4 * i + 3] as number) > 0 ? (sums[4 * i + 3] as number) / (coverage[4 * i + 3] as number) : 0,
+  );
 }
 
 /** A weight for each light group. */
@@ -40,16 +55,25 @@ export type GroupWeights = readonly (readonly [number, number, number])[];
  * @param total Sums over complete chunks, plane by plane.
  * @param moment Sums of squared chunk means, and the number of samples.
  */
-export function varianceLayer(total: Float32Array, moment: Float32Array, weights: GroupWeights): Float32Array<ArrayBuffer> {
+export function varianceLayer(
+  total: Float32Array,
+  moment: Float32Array,
+  weights: GroupWeights,
+): Float32Array<ArrayBuffer> {
   const out = new Float32Array(moment.length);
   for (let at = 0; at < moment.length; at += 4) {
     const samples = moment[at + 3] as number;
     const chunks = Math.floor(samples / FILM_CHUNK);
     for (let c = 0; c < 3; c++) {
       let sum = 0;
-      weights.forEach((weight, plane) => (sum += (weight[c] as number) * (total[plane * moment.length + at + c] as number)));
+      weights.forEach(
+        (weight, plane) => (sum += (weight[c] as number) * (total[plane * moment.length + at + c] as number)),
+      );
       const mean = sum / (chunks * FILM_CHUNK);
-      out[at + c] = chunks < 2 ? Infinity : Math.max(0, (moment[at + c] as number) - chunks * mean * mean) / (chunks * (chunks - 1));
+      out[at + c] =
+        chunks < 2
+          ? Infinity
+          : Math.max(0, (moment[at + c] as number) - chunks * mean * mean) / (chunks * (chunks - 1));
     }
     out[at + 3] = samples;
   }
@@ -57,11 +81,21 @@ export function varianceLayer(total: Float32Array, moment: Float32Array, weights
 }
 
 /** The part of one light group in the picture, RGBA: its light as the group is set, and the coverage of the picture. */
-export function groupLayer(total: Float32Array, block: Float32Array, moment: Float32Array, plane: number, weight: readonly [number, number, number]): Float32Array<ArrayBuffer> {
+export function groupLayer(
+  total: Float32Array,
+  block: Float32Array,
+  moment: Float32Array,
+  plane: number,
+  weight: readonly [number, number, number],
+): Float32Array<ArrayBuffer> {
   const out = new Float32Array(moment.length);
   for (let at = 0; at < out.length; at += 4) {
     const count = Math.max(moment[at + 3] as number, 1);
-    for (let c = 0; c < 3; c++) out[at + c] = ((weight[c] as number) * ((total[plane * out.length + at + c] as number) + (block[plane * out.length + at + c] as number))) / count;
+    for (let c = 0; c < 3; c++)
+      out[at + c] =
+        ((weight[c] as number) *
+          ((total[plane * out.length + at + c] as number) + (block[plane * out.length + at + c] as number))) /
+        count;
     out[at + 3] = ((total[at + 3] as number) + (block[at + 3] as number)) / count;
   }
   return out;

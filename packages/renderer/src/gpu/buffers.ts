@@ -43,16 +43,25 @@ export class GpuMemory {
     const bytes = Math.max(16, Math.ceil(size / 16) * 16);
     const { maxBufferSize, maxStorageBufferBindingSize } = this.#device.limits;
     const storage = (usage & GPU_BUFFER_STORAGE) !== 0;
-    const [name, limit] = storage && maxStorageBufferBindingSize < maxBufferSize ? ['maxStorageBufferBindingSize', maxStorageBufferBindingSize] : ['maxBufferSize', maxBufferSize];
+    const [name, limit] =
+      storage && maxStorageBufferBindingSize < maxBufferSize
+        ? ['maxStorageBufferBindingSize', maxStorageBufferBindingSize]
+        : ['maxBufferSize', maxBufferSize];
     if (bytes > limit) {
-      throw new DeviceError('renderer/limit', `The buffer "${label}" takes ${mebibytes(bytes)}, but this device's ${name} is ${mebibytes(limit)}: make the ${label.startsWith('film') ? 'picture' : 'scene'} smaller, or request a device with a higher limit.`);
+      throw new DeviceError(
+        'renderer/limit',
+        `The buffer "${label}" takes ${mebibytes(bytes)}, but this device's ${name} is ${mebibytes(limit)}: make the ${label.startsWith('film') ? 'picture' : 'scene'} smaller, or request a device with a higher limit.`,
+      );
     }
     const buffer = this.#device.createBuffer({ label: `glanz ${label}`, size: bytes, usage });
     this.#keep(buffer, label, bytes);
     return buffer;
   }
 
-  /** A buffer filled with `data`. All at once: what is large enough to fill the queue to the GPU's process is written by who can wait in between. */
+  /**
+   * A buffer filled with `data`. All at once: what is large enough to fill the queue to the GPU's process is written by
+   * who can wait in between.
+   */
   upload(label: string, data: ArrayBufferView<ArrayBuffer> | ArrayBuffer, usage: GPUBufferUsageFlags): GPUBuffer {
     const buffer = this.buffer(label, data.byteLength, usage | GPU_BUFFER_COPY_DST);
     this.write(buffer, data);

@@ -2,27 +2,46 @@ import { DeviceError } from '../errors';
 
 /** Options for {@link requestDevice}. */
 export interface DeviceOptions {
-  /** Where to look for adapters; default `navigator.gpu`. In Node pass what `createGpu()` of `@glanz/renderer/node` gives. */
+  /**
+   * Where to look for adapters; default `navigator.gpu`. In Node pass what `createGpu()` of `@glanz/renderer/node`
+   * gives.
+   */
   readonly gpu?: GPU;
   /** Default `high-performance`. */
   readonly powerPreference?: GPUPowerPreference;
   /** Stay within WebGPU's default limits even where the adapter offers more. Default false. */
   readonly defaultLimits?: boolean;
   /**
-   * Called with errors that the device reports outside of any error scope. Glanz runs its own calls inside scopes and throws what the
-   * GPU refuses, so these come from other code that uses the device. Default: the browser writes them to its console.
+   * Called with errors that the device reports outside of any error scope. Glanz runs its own calls inside scopes and
+   * throws what the GPU refuses, so these come from other code that uses the device. Default: the browser writes them
+   * to its console.
    */
   readonly onError?: (error: DeviceError) => void;
 }
 
 /** Limits that large scenes profit from; each is raised to what the adapter offers. */
-const RAISED_LIMITS = ['maxStorageBufferBindingSize', 'maxBufferSize', 'maxTextureDimension2D', 'maxTextureArrayLayers', 'maxStorageBuffersPerShaderStage', 'maxSampledTexturesPerShaderStage'] as const;
+const RAISED_LIMITS = [
+  'maxStorageBufferBindingSize',
+  'maxBufferSize',
+  'maxTextureDimension2D',
+  'maxTextureArrayLayers',
+  'maxStorageBuffersPerShaderStage',
+  'maxSampledTexturesPerShaderStage',
+] as const;
 
 /** Features that are used when present and never required. */
-const WELCOME_FEATURES = ['timestamp-query', 'subgroups', 'float32-filterable', 'texture-compression-bc', 'texture-compression-astc', 'texture-compression-etc2'] as const;
+const WELCOME_FEATURES = [
+  'timestamp-query',
+  'subgroups',
+  'float32-filterable',
+  'texture-compression-bc',
+  'texture-compression-astc',
+  'texture-compression-etc2',
+] as const;
 
 /**
- * Asks for a WebGPU device with everything Glanz can use: limits as high as the adapter offers, timestamp queries, compressed textures.
+ * Asks for a WebGPU device with everything Glanz can use: limits as high as the adapter offers, timestamp queries,
+ * compressed textures.
  *
  * @throws {DeviceError} `renderer/no-webgpu` without WebGPU, `renderer/no-adapter` without a usable GPU,
  * `renderer/no-device` when the adapter refuses a device.
@@ -30,11 +49,17 @@ const WELCOME_FEATURES = ['timestamp-query', 'subgroups', 'float32-filterable', 
 export async function requestDevice(options: DeviceOptions = {}): Promise<GPUDevice> {
   const gpu = options.gpu ?? (globalThis as { navigator?: { gpu?: GPU } }).navigator?.gpu;
   if (!gpu) {
-    throw new DeviceError('renderer/no-webgpu', 'WebGPU is not available here: use a current Chrome, Edge, Firefox or Safari over https, or in Node pass { gpu: (await createGpu()).gpu } from @glanz/renderer/node.');
+    throw new DeviceError(
+      'renderer/no-webgpu',
+      'WebGPU is not available here: use a current Chrome, Edge, Firefox or Safari over https, or in Node pass { gpu: (await createGpu()).gpu } from @glanz/renderer/node.',
+    );
   }
   const adapter = await gpu.requestAdapter({ powerPreference: options.powerPreference ?? 'high-performance' });
   if (!adapter) {
-    throw new DeviceError('renderer/no-adapter', 'WebGPU found no usable GPU: update the graphics driver, allow hardware acceleration, or reload the page if the GPU was lost.');
+    throw new DeviceError(
+      'renderer/no-adapter',
+      'WebGPU found no usable GPU: update the graphics driver, allow hardware acceleration, or reload the page if the GPU was lost.',
+    );
   }
   const requiredLimits: Record<string, number> = {};
   if (!options.defaultLimits) for (const name of RAISED_LIMITS) requiredLimits[name] = adapter.limits[name];
@@ -57,5 +82,8 @@ export async function requestDevice(options: DeviceOptions = {}): Promise<GPUDev
 /** WebGPU's classes of errors are not global everywhere: they are told apart by their names. */
 function uncaptured(error: GPUError): DeviceError {
   const memory = error.constructor.name === 'GPUOutOfMemoryError';
-  return new DeviceError(memory ? 'renderer/out-of-memory' : 'renderer/gpu-error', `The GPU reported an error outside of any error scope: ${error.message}`);
+  return new DeviceError(
+    memory ? 'renderer/out-of-memory' : 'renderer/gpu-error',
+    `The GPU reported an error outside of any error scope: ${error.message}`,
+  );
 }

@@ -14,6 +14,9 @@ export type EnergyTextures = Readonly<Record<'energy_dielectric' | 'energy_condu
 
 /** Decodes the energy tables, which takes some milliseconds and no scene. */
 export function energyTextures({ dielectric, conductor }: typeof OPENPBR_TABLES): EnergyTextures {
-  const texture = ({ width, height, depth, data }: typeof dielectric, dimension: EnergyTexture['dimension']): EnergyTexture => ({ dimension, size: [width, height, depth], data: toHalves(data) });
+  const texture = (
+    { width, height, depth, data }: typeof dielectric,
+    dimension: EnergyTexture['dimension'],
+  ): EnergyTexture => ({ dimension, size: [width, height, depth], data: toHalves(data) });
   return { energy_dielectric: texture(dielectric, '3d'), energy_conductor: texture(conductor, '2d') };
 }

@@ -36,16 +36,27 @@ export function inErrorScopes<T>(device: GPUDevice, what: string, run: () => T):
   return { result, verified };
 }
 
-async function checkScopes(what: string, scopes: readonly Promise<GPUError | null>[], device: GPUDevice): Promise<void> {
+async function checkScopes(
+  what: string,
+  scopes: readonly Promise<GPUError | null>[],
+  device: GPUDevice,
+): Promise<void> {
   const [validation, memory, internal] = await Promise.all(scopes).catch(async (cause: unknown) => {
-    throw await lossOr(device, new DeviceError('renderer/gpu-error', `The GPU failed at ${what}: ${(cause as Error).message}`, { cause }));
+    throw await lossOr(
+      device,
+      new DeviceError('renderer/gpu-error', `The GPU failed at ${what}: ${(cause as Error).message}`, { cause }),
+    );
   });
   // What has no memory is invalid, and using it a validation error: the first cause counts.
   if (memory) {
-    throw new DeviceError('renderer/out-of-memory', `The GPU has not enough memory for ${what}: ${memory.message || 'no details'}. Free some, or make the image, textures or meshes smaller.`);
+    throw new DeviceError(
+      'renderer/out-of-memory',
+      `The GPU has not enough memory for ${what}: ${memory.message || 'no details'}. Free some, or make the image, textures or meshes smaller.`,
+    );
   }
   const refused = validation ?? internal;
-  if (refused) throw new DeviceError('renderer/gpu-error', `The GPU refused ${what}: ${refused.message || 'no details'}`);
+  if (refused)
+    throw new DeviceError('renderer/gpu-error', `The GPU refused ${what}: ${refused.message || 'no details'}`);
 }
 
 /**

@@ -5,12 +5,34 @@ import type { ResourceName } from '../kernels/resources';
 import { prepareEnvironment, roughEnvironment, turnEnvironment, type EnvironmentData } from '../scene/environment';
 import { isOneSided } from '../scene/culling';
 import { sceneFeatures, texturePlan, type SceneChoices } from '../scene/features';
-import { joinSlices, packInstances, shapeSlices, type Geometry, type MeshRegion, type PackedGeometry, type PackedMesh } from '../scene/geometry';
+import {
+  joinSlices,
+  packInstances,
+  shapeSlices,
+  type Geometry,
+  type MeshRegion,
+  type PackedGeometry,
+  type PackedMesh,
+} from '../scene/geometry';
 import { breather } from '../scene/hierarchies';
 import { lightGroupTable, type LightGroupTable } from '../scene/light-groups';
-import { buildLightTable, noLights, placingSteps, type GatheredLights, type LightGeometry, type LightTable } from '../scene/lights';
+import {
+  buildLightTable,
+  noLights,
+  placingSteps,
+  type GatheredLights,
+  type LightGeometry,
+  type LightTable,
+} from '../scene/lights';
 import { MaterialUse } from '../scene/material-use';
-import { emittedRadiance, isOpaque, packBindings, packMaterial, texturedParameters, type TexturedParameterInfo } from '../scene/materials';
+import {
+  emittedRadiance,
+  isOpaque,
+  packBindings,
+  packMaterial,
+  texturedParameters,
+  type TexturedParameterInfo,
+} from '../scene/materials';
 import { parametersOf } from '../scene/parameters';
 import type { NodeRange } from '../scene/placement';
 import type { TexturePlan } from '../scene/textures';
@@ -39,9 +61,9 @@ export interface InstanceChange {
 }
 
 /**
- * A scene on the GPU. A cache: everything here can be made again from the `Scene`. It comes in three steps, since a first
- * picture needs no lights: the constructor makes what is the size of the scene, `fill()` writes the shapes into it, and
- * `light()` adds lights, surroundings and energy tables.
+ * A scene on the GPU. A cache: everything here can be made again from the `Scene`. It comes in three steps, since a
+ * first picture needs no lights: the constructor makes what is the size of the scene, `fill()` writes the shapes into
+ * it, and `light()` adds lights, surroundings and energy tables.
  */
 export class GpuScene {
   readonly #device: GPUDevice;
@@ -126,10 +148,24 @@ export class GpuScene {
    * @throws What `edit` throws, with the edit taken back.
    */
   record<T>(edit: () => T, restoreScene: () => void): ResourceLog & { readonly result: T } {
-    const [geometry, lights, lightsRadius, groups, environment, firstBinding] = [this.#geometry, this.#lights, this.#lightsRadius, this.#groups, this.#environment, this.#firstBinding];
+    const [geometry, lights, lightsRadius, groups, environment, firstBinding] = [
+      this.#geometry,
+      this.#lights,
+      this.#lightsRadius,
+      this.#groups,
+      this.#environment,
+      this.#firstBinding,
+    ];
     return this.#resources.record(edit, () => {
       restoreScene();
-      [this.#geometry, this.#lights, this.#lightsRadius, this.#groups, this.#environment, this.#firstBinding] = [geometry, lights, lightsRadius, groups, environment, firstBinding];
+      [this.#geometry, this.#lights, this.#lightsRadius, this.#groups, this.#environment, this.#firstBinding] = [
+        geometry,
+        lights,
+        lightsRadius,
+        groups,
+        environment,
+        firstBinding,
+      ];
       this.#use = undefined;
       this.#features = undefined;
       this.rewrite();
@@ -170,7 +206,10 @@ export class GpuScene {
 
   /** Whether the camera looks through a material's back faces. */
   culls(material: number): boolean {
-    return this.#choices.backFaceCulling !== 'off' && isOneSided(this.#scene.materials[material] as Scene['materials'][number], this.#opaque(material));
+    return (
+      this.#choices.backFaceCulling !== 'off' &&
+      isOneSided(this.#scene.materials[material] as Scene['materials'][number], this.#opaque(material))
+    );
   }
 
   /** Binding of one of the resources this scene owns. */
@@ -198,7 +237,10 @@ export class GpuScene {
     return emission && this.updateLights();
   }
 
-  /** Takes the scene's environment. Returns true if bindings were replaced: not for another rotation or intensity of the same image. */
+  /**
+   * Takes the scene's environment. Returns true if bindings were replaced: not for another rotation or intensity of the
+   * same image.
+   */
   updateEnvironment(environment: Environment | undefined): boolean {
     const before = this.#environment;
     this.#features = undefined;
@@ -224,20 +266,27 @@ export class GpuScene {
   }
 
   /**
-   * Some instances have moved, appeared, disappeared or got another material; the geometry's placement has followed. Writes
-   * what depends on them. Returns true if bindings were replaced.
+   * Some instances have moved, appeared, disappeared or got another material; the geometry's placement has followed.
+   * Writes what depends on them. Returns true if bindings were replaced.
    */
   updateInstances(geometry: Geometry, changes: readonly InstanceChange[]): boolean {
     const { placement } = geometry;
     this.#geometry = geometry;
     this.#writeNodes(placement.takeChangedNodes());
-    const isUseSame = this.#use ? changes.map(({ before, after }) => this.#use?.replace(before, after)).every((same) => same) : false;
+    const isUseSame = this.#use
+      ? changes.map(({ before, after }) => this.#use?.replace(before, after)).every((same) => same)
+      : false;
     if (!isUseSame || (placement.bare !== undefined) !== this.#features?.flags['CATCHER']) this.#features = undefined;
-    const assigned = new Set(changes.flatMap(({ before, after }) => (before.material === after.material ? [] : [before.material, after.material])));
+    const assigned = new Set(
+      changes.flatMap(({ before, after }) =>
+        before.material === after.material ? [] : [before.material, after.material],
+      ),
+    );
     for (const index of assigned) this.#writeMaterial(index);
     const emits = changes.some(({ before, after }) => this.#emits(before) || this.#emits(after));
     if (emits) this.#updateGroups();
-    const weighs = placement.radius !== this.#lightsRadius && this.#scene.lights.some(({ type }) => type === 'directional');
+    const weighs =
+      placement.radius !== this.#lightsRadius && this.#scene.lights.some(({ type }) => type === 'directional');
     const indices = changes.map(({ index }) => index);
     if (emits || weighs) return this.updateLights(indices);
     this.#writeRecords(indices);
@@ -294,7 +343,13 @@ export class GpuScene {
   /** Makes the buffers of shapes, still empty but for what belongs to materials. */
   #makeShapes({ nodeCount, triangleCount, attributeWords }: Geometry): void {
     const { records, first, count } = this.#bindings;
-    const bindingWords = records.byteLength / 4 / Math.max(1, count.reduce((a, b) => a + b, 0));
+    const bindingWords =
+      records.byteLength /
+      4 /
+      Math.max(
+        1,
+        count.reduce((a, b) => a + b, 0),
+      );
     this.#firstBinding = first.map((index) => attributeWords + index * bindingWords);
     this.#resources.make('nodes', 64 * nodeCount);
     this.#resources.make('triangles', 48 * triangleCount);
@@ -309,7 +364,9 @@ export class GpuScene {
     const written: Promise<void>[] = [];
     this.#geometry.placement.takeChangedNodes();
     for (const { buffer, offset, data } of joinSlices(shapeSlices(this.#scene, this.#geometry))) {
-      const { verified } = inErrorScopes(this.#device, 'the shapes of this scene', () => this.#resources.write(buffer, data, offset));
+      const { verified } = inErrorScopes(this.#device, 'the shapes of this scene', () =>
+        this.#resources.write(buffer, data, offset),
+      );
       written.push(verified);
       await this.#keepUp(data.byteLength, breathe);
       signal?.throwIfAborted();
@@ -318,8 +375,8 @@ export class GpuScene {
   }
 
   /**
-   * Waits for the GPU's process now and then: where it is another one than the page's, what is written waits in a queue between
-   * them, and the page's thread would stand still once that is full.
+   * Waits for the GPU's process now and then: where it is another one than the page's, what is written waits in a queue
+   * between them, and the page's thread would stand still once that is full.
    */
   async #keepUp(bytes: number, breathe: () => Promise<void>): Promise<void> {
     this.#waiting += bytes;
@@ -330,7 +387,8 @@ export class GpuScene {
 
   /**
    * Adds what lights the scene, with the thread handed back every few milliseconds.
-   * @param gathered The lights, as `lightSteps()` has found them, whose memory is used; else they are found here, in one go.
+   * @param gathered The lights, as `lightSteps()` has found them, whose memory is used; else they are found here, in
+   * one go.
    */
   async light(environment: EnvironmentData, energy: EnergyTextures, gathered?: GatheredLights): Promise<void> {
     const breathe = breather(FILL_MS);
@@ -348,7 +406,11 @@ export class GpuScene {
       if (slice.done) break;
       await this.#keepUp(slice.value, breathe);
     }
-    const placed = gathered && (await inSlices(placingSteps(this.#scene, gathered, this.#places, this.#geometry.placement.radius), { sliceMs: FILL_MS }));
+    const placed =
+      gathered &&
+      (await inSlices(placingSteps(this.#scene, gathered, this.#places, this.#geometry.placement.radius), {
+        sliceMs: FILL_MS,
+      }));
     this.#lightsRadius = this.#geometry.placement.radius;
     this.#lights = placed ?? this.#buildLights();
     this.#features = undefined;
@@ -359,7 +421,9 @@ export class GpuScene {
     });
     for (let at = 0; at < records.byteLength; at += FILL_BYTES) {
       const bytes = Math.min(FILL_BYTES, records.byteLength - at);
-      const { verified } = inErrorScopes(this.#device, 'the lights of this scene', () => this.#resources.write('lights', new Uint8Array(records, at, bytes), at));
+      const { verified } = inErrorScopes(this.#device, 'the lights of this scene', () =>
+        this.#resources.write('lights', new Uint8Array(records, at, bytes), at),
+      );
       written.push(verified);
       await this.#keepUp(bytes, breathe);
     }
@@ -370,7 +434,8 @@ export class GpuScene {
   #updateGroups(): boolean {
     const before = this.#groups.names;
     this.#groups = lightGroupTable(this.#scene, this.#choices.lightGroups);
-    if (before.length === this.#groups.names.length && before.every((name, i) => name === this.#groups.names[i])) return false;
+    if (before.length === this.#groups.names.length && before.every((name, i) => name === this.#groups.names[i]))
+      return false;
     this.#resources.write('materials', this.#packMaterials());
     return true;
   }
@@ -406,11 +471,15 @@ export class GpuScene {
   /** Writes the records of some instances. */
   #writeRecords(indices: readonly number[]): void {
     const sorted = Uint32Array.from(indices).sort();
-    for (let i = 0; i < sorted.length; ) {
+    for (let i = 0; i < sorted.length;) {
       const first = sorted[i++] as number;
       let end = first + 1;
       while (i < sorted.length && (sorted[i] as number) <= end + JOINED_RECORDS) end = (sorted[i++] as number) + 1;
-      this.#resources.write('instances', packInstances(this.#scene, this.#geometry, this.#lights.firstLight, first, end), first * instanceStruct.size);
+      this.#resources.write(
+        'instances',
+        packInstances(this.#scene, this.#geometry, this.#lights.firstLight, first, end),
+        first * instanceStruct.size,
+      );
     }
   }
 
@@ -425,12 +494,24 @@ export class GpuScene {
   }
 
   #opaque(material: number): boolean {
-    return isOpaque(this.#scene.materials[material] as Scene['materials'][number], this.#materialUse.hasVertexAlpha(material));
+    return isOpaque(
+      this.#scene.materials[material] as Scene['materials'][number],
+      this.#materialUse.hasVertexAlpha(material),
+    );
   }
 
   #packMaterial(buffer: ArrayBuffer, at: number, index: number): void {
     const material = this.#scene.materials[index] as Scene['materials'][number];
-    packMaterial(buffer, at, material, this.#firstBinding[index] as number, this.#bindings.count[index] as number, this.#opaque(index), this.culls(index), this.#groups.material(material));
+    packMaterial(
+      buffer,
+      at,
+      material,
+      this.#firstBinding[index] as number,
+      this.#bindings.count[index] as number,
+      this.#opaque(index),
+      this.culls(index),
+      this.#groups.material(material),
+    );
   }
 
   #packMaterials(): ArrayBuffer {
@@ -457,7 +538,13 @@ export class GpuScene {
   }
 
   #buildLights(): LightTable {
-    return buildLightTable(this.#scene, this.#places, this.#geometry.placement.radius, this.#groups, this.#choices.lightSampling);
+    return buildLightTable(
+      this.#scene,
+      this.#places,
+      this.#geometry.placement.radius,
+      this.#groups,
+      this.#choices.lightSampling,
+    );
   }
 
   #uploadEnergy(energy: EnergyTextures): void {

@@ -20,9 +20,14 @@ interface Compilation {
   readonly heard: Set<Hear>;
 }
 
-const cachesOf = new WeakMap<GPUDevice, { readonly sets: Map<string, Compilation>; readonly kernels: Map<string, Promise<Kernel>> }>();
+const cachesOf = new WeakMap<
+  GPUDevice,
+  { readonly sets: Map<string, Compilation>; readonly kernels: Map<string, Promise<Kernel>> }
+>();
 
-/** Compiled kernels, shared by all tracers on one device and keyed by their text: what differs elsewhere costs nothing. */
+/**
+ * Compiled kernels, shared by all tracers on one device and keyed by their text: what differs elsewhere costs nothing.
+ */
 export class KernelCache {
   readonly #device: GPUDevice;
   readonly #sets: Map<string, Compilation>;
@@ -61,7 +66,9 @@ export class KernelCache {
   }
 
   #compile(features: KernelFeatures): Compilation {
-    const names = KERNELS.filter((name) => !ON_DEMAND.has(name) && (name !== 'connect' || features.flags.NEXT_EVENT === true));
+    const names = KERNELS.filter(
+      (name) => !ON_DEMAND.has(name) && (name !== 'connect' || features.flags.NEXT_EVENT === true),
+    );
     const heard = new Set<Hear>();
     const ready = new Map<KernelName, Kernel>();
     const compile = async (name: KernelName) => {
@@ -69,7 +76,10 @@ export class KernelCache {
       ready.set(name, kernel);
       for (const hear of heard) hear(ready.size / names.length, name, kernel);
     };
-    const set = Promise.all(names.map(compile)).then(() => ({ features, kernels: Object.fromEntries(ready) as KernelSet['kernels'] }));
+    const set = Promise.all(names.map(compile)).then(() => ({
+      features,
+      kernels: Object.fromEntries(ready) as KernelSet['kernels'],
+    }));
     return { set, count: names.length, ready, heard };
   }
 

@@ -2,7 +2,9 @@ import type { MemoryReport } from '../options';
 import type { GpuMemory } from './buffers';
 
 /** Labels of the buffers and textures that belong together. */
-const PARTS: Readonly<Record<'shapes' | 'lights' | 'materials' | 'textures' | 'environment' | 'paths' | 'film', RegExp>> = {
+const PARTS: Readonly<
+  Record<'shapes' | 'lights' | 'materials' | 'textures' | 'environment' | 'paths' | 'film', RegExp>
+> = {
   shapes: /^(nodes|triangles|attributes|instances)$/,
   lights: /^lights$/,
   materials: /^materials$/,
@@ -13,8 +15,18 @@ const PARTS: Readonly<Record<'shapes' | 'lights' | 'materials' | 'textures' | 'e
 };
 
 /** Adds up what is held, see `RenderStatistics.memory`. */
-export function memoryReport(memory: GpuMemory, counts: { readonly pathsInFlight: number; readonly triangles: number; readonly pixels: number; readonly texels: number }): MemoryReport {
-  const parts = Object.fromEntries(Object.entries(PARTS).map(([name, pattern]) => [name, memory.bytesOf((label) => pattern.test(label))])) as Record<keyof typeof PARTS, number>;
+export function memoryReport(
+  memory: GpuMemory,
+  counts: {
+    readonly pathsInFlight: number;
+    readonly triangles: number;
+    readonly pixels: number;
+    readonly texels: number;
+  },
+): MemoryReport {
+  const parts = Object.fromEntries(
+    Object.entries(PARTS).map(([name, pattern]) => [name, memory.bytesOf((label) => pattern.test(label))]),
+  ) as Record<keyof typeof PARTS, number>;
   const other = memory.bytes - Object.values(parts).reduce((sum, bytes) => sum + bytes, 0);
   const each = (bytes: number, count: number) => (count > 0 ? bytes / count : 0);
   return {

@@ -1,5 +1,11 @@
 import type { ResourceName } from '../kernels/resources';
-import { GPU_BUFFER_COPY_DST, GPU_BUFFER_STORAGE, GPU_TEXTURE_BINDING, GPU_TEXTURE_COPY_DST, type GpuMemory } from './buffers';
+import {
+  GPU_BUFFER_COPY_DST,
+  GPU_BUFFER_STORAGE,
+  GPU_TEXTURE_BINDING,
+  GPU_TEXTURE_COPY_DST,
+  type GpuMemory,
+} from './buffers';
 
 /** What an edit has allocated and replaced. */
 export interface ResourceLog {
@@ -11,7 +17,10 @@ export interface ResourceLog {
   readonly undo: () => void;
 }
 
-/** The named buffers and textures of a scene. What an edit replaces can be kept until it is known whether the edit holds. */
+/**
+ * The named buffers and textures of a scene. What an edit replaces can be kept until it is known whether the edit
+ * holds.
+ */
 export class SceneResources {
   readonly #memory: GpuMemory;
   readonly #buffers = new Map<ResourceName, GPUBuffer>();
@@ -37,7 +46,9 @@ export class SceneResources {
     return buffer;
   }
 
-  /** Makes a storage buffer of this name and fills it. All at once: large ones are filled by who can wait in between. */
+  /**
+   * Makes a storage buffer of this name and fills it. All at once: large ones are filled by who can wait in between.
+   */
   upload(name: ResourceName, data: ArrayBufferView<ArrayBuffer> | ArrayBuffer): void {
     this.#memory.write(this.make(name, data.byteLength), data);
   }
@@ -48,8 +59,15 @@ export class SceneResources {
   }
 
   /** Makes a texture of this name, still empty, in place of the one there is. */
-  makeTexture(name: ResourceName, descriptor: Omit<GPUTextureDescriptor, 'label' | 'usage'>, bytes: number): GPUTexture {
-    const texture = this.#memory.texture({ ...descriptor, label: `glanz ${name}`, usage: GPU_TEXTURE_BINDING | GPU_TEXTURE_COPY_DST }, bytes);
+  makeTexture(
+    name: ResourceName,
+    descriptor: Omit<GPUTextureDescriptor, 'label' | 'usage'>,
+    bytes: number,
+  ): GPUTexture {
+    const texture = this.#memory.texture(
+      { ...descriptor, label: `glanz ${name}`, usage: GPU_TEXTURE_BINDING | GPU_TEXTURE_COPY_DST },
+      bytes,
+    );
     this.#replace(this.#textures, name, texture);
     return texture;
   }
@@ -70,7 +88,12 @@ export class SceneResources {
     this.#log = log;
     try {
       const result = edit();
-      return { result, allocated: log.made.length > 0, settle: () => log.replaced.forEach((resource) => this.#memory.release(resource)), undo };
+      return {
+        result,
+        allocated: log.made.length > 0,
+        settle: () => log.replaced.forEach((resource) => this.#memory.release(resource)),
+        undo,
+      };
     } catch (error) {
       undo();
       throw error;

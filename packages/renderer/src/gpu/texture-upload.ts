@@ -34,7 +34,11 @@ export function toHalf(value: number): number {
     const rounded = (full + (1 << (shift - 1)) - 1 + ((full >>> shift) & 1)) >>> shift;
     return sign | rounded;
   }
-  return sign + (((exponent << 10) | (mantissa >>> 13)) + ((mantissa & 0x1fff) > 0x1000 || ((mantissa & 0x1fff) === 0x1000 && (mantissa & 0x2000) !== 0) ? 1 : 0));
+  return (
+    sign +
+    (((exponent << 10) | (mantissa >>> 13)) +
+      ((mantissa & 0x1fff) > 0x1000 || ((mantissa & 0x1fff) === 0x1000 && (mantissa & 0x2000) !== 0) ? 1 : 0))
+  );
 }
 
 /** The half bits of many numbers, as {@link toHalf} gives them one by one. */
@@ -45,18 +49,32 @@ export function toHalves(values: Float32Array): Uint16Array<ArrayBuffer> {
     const word = bits[i] as number;
     const size = word & 0x7fffffff;
     // From the smallest normal half to where rounding would leave the range, halves are floats with bits cut off.
-    halves[i] = size >= 0x38800000 && size < 0x477fe000 ? ((word >>> 16) & 0x8000) | ((size - 0x38000000 + 0xfff + ((size >>> 13) & 1)) >>> 13) : toHalf(values[i] as number);
+    halves[i] =
+      size >= 0x38800000 && size < 0x477fe000
+        ? ((word >>> 16) & 0x8000) | ((size - 0x38000000 + 0xfff + ((size >>> 13) & 1)) >>> 13)
+        : toHalf(values[i] as number);
   }
   return halves;
 }
 
-function layerBytes(image: Image, array: TextureArray): Uint8Array<ArrayBuffer> | Uint8ClampedArray<ArrayBuffer> | Uint16Array<ArrayBuffer> {
-  const data = image.width === array.width && image.height === array.height ? image.data : resizePixels(image.data, image.width, image.height, array.width, array.height);
+function layerBytes(
+  image: Image,
+  array: TextureArray,
+): Uint8Array<ArrayBuffer> | Uint8ClampedArray<ArrayBuffer> | Uint16Array<ArrayBuffer> {
+  const data =
+    image.width === array.width && image.height === array.height
+      ? image.data
+      : resizePixels(image.data, image.width, image.height, array.width, array.height);
   return data instanceof Float32Array ? toHalves(data) : data;
 }
 
 /** Creates, fills and mips the texture arrays of a plan. */
-export function uploadTextures(device: GPUDevice, memory: GpuMemory, scene: Scene, plan: TexturePlan): { textures: GPUTexture[]; samplers: GPUSampler[] } {
+export function uploadTextures(
+  device: GPUDevice,
+  memory: GpuMemory,
+  scene: Scene,
+  plan: TexturePlan,
+): { textures: GPUTexture[]; samplers: GPUSampler[] } {
   const samplers = plan.samplers.map((descriptor) => device.createSampler(descriptor));
   const textures = plan.arrays.map((array, index) => {
     const mipLevelCount = array.levels ?? 1 + Math.floor(Math.log2(Math.max(array.width, array.height)));
@@ -77,11 +95,20 @@ export function uploadTextures(device: GPUDevice, memory: GpuMemory, scene: Scen
       const { bitmap } = picture;
       // A bitmap that was closed has no size.
       if (bitmap && bitmap.width === array.width && bitmap.height === array.height && array.format !== 'rgba16float') {
-        device.queue.copyExternalImageToTexture({ source: bitmap }, { texture, origin: [0, 0, layer], premultipliedAlpha: false, colorSpace: 'srgb' }, [array.width, array.height]);
+        device.queue.copyExternalImageToTexture(
+          { source: bitmap },
+          { texture, origin: [0, 0, layer], premultipliedAlpha: false, colorSpace: 'srgb' },
+          [array.width, array.height],
+        );
         return;
       }
       const data = layerBytes(picture, array);
-      device.queue.writeTexture({ texture, origin: [0, 0, layer] }, data, { bytesPerRow: array.width * texel, rowsPerImage: array.height }, [array.width, array.height, 1]);
+      device.queue.writeTexture(
+        { texture, origin: [0, 0, layer] },
+        data,
+        { bytesPerRow: array.width * texel, rowsPerImage: array.height },
+        [array.width, array.height, 1],
+      );
     });
     return texture;
   });
@@ -90,29 +117,59 @@ export function uploadTextures(device: GPUDevice, memory: GpuMemory, scene: Scen
 }
 
 /** Levels smaller than a block are written as the block they are kept in. */
-function writeBlocks(device: GPUDevice, texture: GPUTexture, { width, height, compressed }: Image, layer: number): void {
+function writeBlocks(
+  device: GPUDevice,
+  texture: GPUTexture,
+  { width, height, compressed }: Image,
+  layer: number,
+): void {
   compressed?.levels.forEach((level, mipLevel) => {
-    const [blocksX, blocksY] = [Math.ceil(Math.max(1, width >> mipLevel) / 4), Math.ceil(Math.max(1, height >> mipLevel) / 4)];
-    device.queue.writeTexture({ texture, mipLevel, origin: [0, 0, layer] }, level, { bytesPerRow: compressedBytes(4 * blocksX, 4), rowsPerImage: blocksY }, [4 * blocksX, 4 * blocksY, 1]);
+    const [blocksX, blocksY] = [
+      Math.ceil(Math.max(1, width >> mipLevel) / 4),
+      Math.ceil(Math.max(1, height >> mipLevel) / 4),
+    ];
+    device.queue.writeTexture(
+      { texture, mipLevel, origin: [0, 0, layer] },
+      level,
+      { bytesPerRow: compressedBytes(4 * blocksX, 4), rowsPerImage: blocksY },
+      [4 * blocksX, 4 * blocksY, 1],
+    );
   });
 }
 
 function generateMips(device: GPUDevice, plan: TexturePlan, textures: readonly GPUTexture[]): void {
-  const made = textures.map((texture, index) => ({ texture, array: plan.arrays[index] as TextureArray })).filter(({ texture, array }) => texture.mipLevelCount > 1 && array.levels === undefined);
+  const made = textures
+    .map((texture, index) => ({ texture, array: plan.arrays[index] as TextureArray }))
+    .filter(({ texture, array }) => texture.mipLevelCount > 1 && array.levels === undefined);
   if (made.length === 0) return;
   const module = device.createShaderModule({ label: 'glanz mips', code: MIP_SHADER });
   const sampler = device.createSampler({ minFilter: 'linear', magFilter: 'linear' });
   const pipelines = new Map<string, GPURenderPipeline>();
   const encoder = device.createCommandEncoder({ label: 'glanz mips' });
-  for (const { texture, array: { format, layers } } of made) {
+  for (const {
+    texture,
+    array: { format, layers },
+  } of made) {
     let pipeline = pipelines.get(format);
     if (!pipeline) {
-      pipeline = device.createRenderPipeline({ label: `glanz mips ${format}`, layout: 'auto', vertex: { module, entryPoint: 'corner' }, fragment: { module, entryPoint: 'average', targets: [{ format }] } });
+      pipeline = device.createRenderPipeline({
+        label: `glanz mips ${format}`,
+        layout: 'auto',
+        vertex: { module, entryPoint: 'corner' },
+        fragment: { module, entryPoint: 'average', targets: [{ format }] },
+      });
       pipelines.set(format, pipeline);
     }
     for (let layer = 0; layer < layers.length; layer++) {
       for (let level = 1; level < texture.mipLevelCount; level++) {
-        const view = (baseMipLevel: number) => texture.createView({ dimension: '2d', baseMipLevel, mipLevelCount: 1, baseArrayLayer: layer, arrayLayerCount: 1 });
+        const view = (baseMipLevel: number) =>
+          texture.createView({
+            dimension: '2d',
+            baseMipLevel,
+            mipLevelCount: 1,
+            baseArrayLayer: layer,
+            arrayLayerCount: 1,
+          });
         const group = device.createBindGroup({
           layout: pipeline.getBindGroupLayout(0),
           entries: [
@@ -120,7 +177,9 @@ function generateMips(device: GPUDevice, plan: TexturePlan, textures: readonly G
             { binding: 1, resource: sampler },
           ],
         });
-        const pass = encoder.beginRenderPass({ colorAttachments: [{ view: view(level), loadOp: 'clear', storeOp: 'store' }] });
+        const pass = encoder.beginRenderPass({
+          colorAttachments: [{ view: view(level), loadOp: 'clear', storeOp: 'store' }],
+        });
         pass.setPipeline(pipeline);
         pass.setBindGroup(0, group);
         pass.draw(3);

@@ -3,8 +3,8 @@ import { MATERIAL_CULLED, MATERIAL_EMISSIVE, materialStruct } from './layout';
 import { mediaFront } from './media.wgsl';
 
 /**
- * Back faces that are left out, see `PathTracerOptions.backFaceCulling`. With CULLING_ALL it is the camera's place that decides,
- * so that all rays find the same faces: light samples and paths then agree about what is in their way.
+ * Back faces that are left out, see `PathTracerOptions.backFaceCulling`. With CULLING_ALL it is the camera's place that
+ * decides, so that all rays find the same faces: light samples and paths then agree about what is in their way.
  */
 const culling = /* @__PURE__ */ wgslModule(
   'renderer/culling',
@@ -36,14 +36,15 @@ fn culling_accept(hit: BvhHit) -> bool {
 );
 
 /**
- * `fn bvh_accept(hit: BvhHit) -> bool`: whether a candidate counts, with CULLING by the side that it shows, with OPACITY by
- * chance.
+ * `fn bvh_accept(hit: BvhHit) -> bool`: whether a candidate counts, with CULLING by the side that it shows, with
+ * OPACITY by chance.
  *
  * @param opacity With `opacity_accept`.
  */
-export const accept = (opacity: WgslModule): WgslModule => wgslModule(
-  'renderer/accept',
-  /* wgsl */ `
+export const accept = (opacity: WgslModule): WgslModule =>
+  wgslModule(
+    'renderer/accept',
+    /* wgsl */ `
 fn bvh_accept(hit: BvhHit) -> bool {
   //#if CULLING
   if (!culling_accept(hit)) { return false; }
@@ -55,5 +56,5 @@ fn bvh_accept(hit: BvhHit) -> bool {
   //#endif
 }
 `,
-  [gated('CULLING', culling), gated('OPACITY', opacity)],
-);
+    [gated('CULLING', culling), gated('OPACITY', opacity)],
+  );

@@ -6,10 +6,10 @@ import { shortcuts } from './shortcuts.wgsl';
 import tangent from './tangent.wesl';
 
 /**
- * Rectangles, disks and spheres of light. They are no surfaces: they block nothing and reflect nothing, so a ray gathers all
- * those on its way to the next surface, and none has to be in a hierarchy. A sphere is sampled over the cone it fills
- * (Shirley, Wang and Zimmerman 1996), a rectangle over the solid angle it fills (Ureña, Fajardo and King 2013, "An
- * Area-Preserving Parametrization for Spherical Rectangles"), a disk over its area.
+ * Rectangles, disks and spheres of light. They are no surfaces: they block nothing and reflect nothing, so a ray
+ * gathers all those on its way to the next surface, and none has to be in a hierarchy. A sphere is sampled over the
+ * cone it fills (Shirley, Wang and Zimmerman 1996), a rectangle over the solid angle it fills (Ureña, Fajardo and King
+ * 2013, "An Area-Preserving Parametrization for Spherical Rectangles"), a disk over its area.
  */
 export const areaLights = /* @__PURE__ */ wgslModule(
   'renderer/area-lights',
@@ -111,7 +111,10 @@ fn area_light_see(index: u32, origin: vec3f) -> AreaLightView {
   [frameStruct.module, lightStruct.module],
 );
 
-/** `fn area_light_sample(index: u32, u: vec2f, origin: vec3f) -> AreaLightSample`: towards a light, stopping short of it. */
+/**
+ * `fn area_light_sample(index: u32, u: vec2f, origin: vec3f) -> AreaLightSample`: towards a light, stopping short of
+ * it.
+ */
 export const areaLightSampling = /* @__PURE__ */ wgslModule(
   'renderer/area-light-sampling',
   /* wgsl */ `
@@ -184,12 +187,13 @@ fn area_light_sample(index: u32, u: vec2f, origin: vec3f) -> AreaLightSample {
 );
 
 /**
- * `fn area_light_gather(index, origin, direction, reach, throughput, extinction, walking)`: what the lights on a path's way
- * add to it. `throughput` is that at the origin; on a random walk it is divided by the chance to come as far.
+ * `fn area_light_gather(index, origin, direction, reach, throughput, extinction, walking)`: what the lights on a path's
+ * way add to it. `throughput` is that at the origin; on a random walk it is divided by the chance to come as far.
  */
-export const areaLightGathering = (path: WgslModule): WgslModule => wgslModule(
-  'renderer/area-light-gathering',
-  /* wgsl */ `
+export const areaLightGathering = (path: WgslModule): WgslModule =>
+  wgslModule(
+    'renderer/area-light-gathering',
+    /* wgsl */ `
 fn area_light_gather(index: u32, origin: vec3f, direction: vec3f, reach: f32, throughput: vec3f, extinction: vec3f, walking: bool) {
   //#if PATH_DEPTH
   let depth = path_counters(index) & 0xffffu;
@@ -224,5 +228,5 @@ fn area_light_gather(index: u32, origin: vec3f, direction: vec3f, reach: f32, th
   }
 }
 `,
-  [path, areaLights, lightChoice, pathCone, gated('CLAMP_INDIRECT', shortcuts)],
-);
+    [path, areaLights, lightChoice, pathCone, gated('CLAMP_INDIRECT', shortcuts)],
+  );

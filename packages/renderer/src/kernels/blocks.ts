@@ -4,7 +4,9 @@ import { wgslModule, type StructField, type WgslModule } from '@glanz/wgsl';
 export const BLOCK = 64;
 
 /** Fields of records that lie in blocks: the types of the words they are made of. */
-export type BlockFields = Readonly<Record<string, 'f32' | 'u32' | 'vec3f' | 'vec4f' | 'vec2u' | 'vec4u' | readonly ['vec4f', number]>>;
+export type BlockFields = Readonly<
+  Record<string, 'f32' | 'u32' | 'vec3f' | 'vec4f' | 'vec2u' | 'vec4u' | readonly ['vec4f', number]>
+>;
 
 /** Records in a storage buffer, laid out for workgroups. */
 export interface BlockLayout {
@@ -13,9 +15,10 @@ export interface BlockLayout {
   /** Bytes of a record. */
   readonly size: number;
   /**
-   * The struct, and for every field `fn <prefix>_<field>(index: u32) -> T` and `fn <prefix>_set_<field>(index: u32, value: T)`;
-   * for a field of several vec4f, both have the number of the vec4f after the index. With a record struct also
-   * `fn <prefix>_load(index: u32) -> Record` and `fn <prefix>_store(index: u32, record: Record)`.
+   * The struct, and for every field `fn <prefix>_<field>(index: u32) -> T` and
+   * `fn <prefix>_set_<field>(index: u32, value: T)`; for a field of several vec4f, both have the number of the vec4f
+   * after the index. With a record struct also `fn <prefix>_load(index: u32) -> Record` and
+   * `fn <prefix>_store(index: u32, record: Record)`.
    */
   readonly module: WgslModule;
   /** Bytes that a buffer for so many records needs. */
@@ -35,7 +38,13 @@ const WORDS = { f32: 1, u32: 1, vec3f: 3, vec4f: 4, vec2u: 2, vec4u: 4 } as cons
  * @param buffer The variable of type `array<‹name›Block>`.
  * @param record A struct of the same fields, for whole records.
  */
-export function blockLayout(name: string, prefix: string, buffer: string, fields: BlockFields, record?: { readonly fields: readonly StructField[]; readonly module: WgslModule }): BlockLayout {
+export function blockLayout(
+  name: string,
+  prefix: string,
+  buffer: string,
+  fields: BlockFields,
+  record?: { readonly fields: readonly StructField[]; readonly module: WgslModule },
+): BlockLayout {
   const members: string[] = [];
   const accessors: string[] = [];
   const place = (member: string, lane = 'index & 63u') => `${buffer}[index >> 6u].${member}[${lane}]`;
@@ -44,7 +53,10 @@ export function blockLayout(name: string, prefix: string, buffer: string, fields
     if (typeof type !== 'string') {
       const lane = `${BLOCK}u * part + (index & 63u)`;
       members.push(`${field}: array<vec4f, ${BLOCK * type[1]}>`);
-      accessors.push(`fn ${prefix}_${field}(index: u32, part: u32) -> vec4f { return ${place(field, lane)}; }`, `fn ${prefix}_set_${field}(index: u32, part: u32, value: vec4f) { ${place(field, lane)} = value; }`);
+      accessors.push(
+        `fn ${prefix}_${field}(index: u32, part: u32) -> vec4f { return ${place(field, lane)}; }`,
+        `fn ${prefix}_set_${field}(index: u32, part: u32, value: vec4f) { ${place(field, lane)} = value; }`,
+      );
       size += 16 * type[1];
       continue;
     }
@@ -58,7 +70,10 @@ export function blockLayout(name: string, prefix: string, buffer: string, fields
       );
     } else {
       members.push(`${field}: array<${type}, ${BLOCK}>`);
-      accessors.push(`fn ${prefix}_${field}(index: u32) -> ${type} { return ${place(field)}; }`, `fn ${prefix}_set_${field}(index: u32, value: ${type}) { ${place(field)} = value; }`);
+      accessors.push(
+        `fn ${prefix}_${field}(index: u32) -> ${type} { return ${place(field)}; }`,
+        `fn ${prefix}_set_${field}(index: u32, value: ${type}) { ${place(field)} = value; }`,
+      );
     }
   }
   if (record) {
@@ -68,6 +83,10 @@ export function blockLayout(name: string, prefix: string, buffer: string, fields
     );
   }
   const block = `${name}Block`;
-  const module = wgslModule(`renderer/${prefix}-block`, `struct ${block} {\n  ${members.join(',\n  ')},\n}\n${accessors.join('\n')}\n`, record ? [record.module] : []);
+  const module = wgslModule(
+    `renderer/${prefix}-block`,
+    `struct ${block} {\n  ${members.join(',\n  ')},\n}\n${accessors.join('\n')}\n`,
+    record ? [record.module] : [],
+  );
   return { block, size, module, bytes: (count) => Math.ceil(count / BLOCK) * BLOCK * size };
 }

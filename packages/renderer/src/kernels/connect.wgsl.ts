@@ -12,9 +12,10 @@ export const CONNECT_CROSSINGS = 32;
  * @param traversal With `bvh_any_hit`, or for scenes with NULL_SURFACES `bvh_closest_hit`.
  * @param straight With `straight_transmittance`, for scenes with STRAIGHT.
  */
-export const connect = (path: WgslModule, traversal: WgslModule, straight: WgslModule): WgslModule => wgslModule(
-  'renderer/connect',
-  /* wgsl */ `
+export const connect = (path: WgslModule, traversal: WgslModule, straight: WgslModule): WgslModule =>
+  wgslModule(
+    'renderer/connect',
+    /* wgsl */ `
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3u) {
   if (id.x >= queues.shadow_active) { return; }
@@ -57,5 +58,12 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   //#endif
 }
 `,
-  [path, gated('OPACITY', pathSample), traversal, gated('NULL_SURFACES', media), gated('NULL_SURFACES', mediaFront), gated('STRAIGHT', straight)],
-);
+    [
+      path,
+      gated('OPACITY', pathSample),
+      traversal,
+      gated('NULL_SURFACES', media),
+      gated('NULL_SURFACES', mediaFront),
+      gated('STRAIGHT', straight),
+    ],
+  );

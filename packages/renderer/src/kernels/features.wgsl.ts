@@ -4,10 +4,15 @@ import filter from './filter.wesl';
 import random from './random.wesl';
 
 /**
- * First-hit features of one sample per pixel: albedo with coverage, shading normal with depth, and (for sample 0, through
- * the pixel's centre) the ids. Run on demand, with the same camera rays as the picture.
+ * First-hit features of one sample per pixel: albedo with coverage, shading normal with depth, and (for sample 0,
+ * through the pixel's centre) the ids. Run on demand, with the same camera rays as the picture.
  */
-export function featuresModule(surface: WgslModule, openpbr: WgslModule, energy: WgslModule, traversal: WgslModule): WgslModule {
+export function featuresModule(
+  surface: WgslModule,
+  openpbr: WgslModule,
+  energy: WgslModule,
+  traversal: WgslModule,
+): WgslModule {
   return wgslModule(
     'renderer/features',
     /* wgsl */ `

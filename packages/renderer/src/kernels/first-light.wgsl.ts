@@ -3,8 +3,9 @@ import { BACKGROUND_HIDDEN, BACKGROUND_TRANSPARENT } from './layout';
 import camera from './camera.wesl';
 
 /**
- * What can be shown before the kernels of the renderer are there: base colours of flat facets under a lamp at the camera, as
- * bright as the surroundings are on average. Small on purpose: no textures, no surface model, one ray a pixel.
+ * What can be shown before the kernels of the renderer are there: base colours of flat facets under a lamp at the
+ * camera, as bright as the surroundings are on average. Small on purpose: no textures, no surface model, one ray a
+ * pixel.
  */
 export function firstLightModule(traversal: WgslModule): WgslModule {
   return wgslModule(

@@ -5,9 +5,10 @@ import { pathCone, pathSample } from './path.wgsl';
 import random from './random.wesl';
 
 /** Starts the paths of a batch: path i is sample ⌊i / pixels⌋ of pixel i mod pixels. */
-export const generate = (path: WgslModule): WgslModule => wgslModule(
-  'renderer/generate',
-  /* wgsl */ `
+export const generate = (path: WgslModule): WgslModule =>
+  wgslModule(
+    'renderer/generate',
+    /* wgsl */ `
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3u) {
   let index = id.x;
@@ -41,5 +42,5 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   queues.items[index] = index;
 }
 `,
-  [path, pathSample, pathCone, camera, filter, random],
-);
+    [path, pathSample, pathCone, camera, filter, random],
+  );

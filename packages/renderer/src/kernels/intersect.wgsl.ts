@@ -40,6 +40,12 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   path_set_hit(index, vec4u(bitcast<u32>(hit.u), bitcast<u32>(hit.v), hit.triangle, hit.instance));
 }
 `,
-    [path, gated('OPACITY', pathSample), traversal, gated('AREA_LIGHTS', areas), gated('MEDIA', volumeModule(traversal, areas))],
+    [
+      path,
+      gated('OPACITY', pathSample),
+      traversal,
+      gated('AREA_LIGHTS', areas),
+      gated('MEDIA', volumeModule(traversal, areas)),
+    ],
   );
 }

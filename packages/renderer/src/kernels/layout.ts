@@ -76,16 +76,19 @@ const SHADOW = {
 const MEDIA_SHADOW = { ...SHADOW, media: 'vec2u' } as const;
 
 /** Light samples waiting for their visibility: `shadow_load` and `shadow_store` of a `Shadow`. */
-const shadowBlocks = (fields: typeof SHADOW | typeof MEDIA_SHADOW) => blockLayout('Shadow', 'shadow', 'shadows', fields, struct('Shadow', fields));
+const shadowBlocks = (fields: typeof SHADOW | typeof MEDIA_SHADOW) =>
+  blockLayout('Shadow', 'shadow', 'shadows', fields, struct('Shadow', fields));
 const shadows = shadowBlocks(SHADOW);
 const mediaShadows = shadowBlocks(MEDIA_SHADOW);
 
 /** Which records of light samples a scene's kernels use. */
-export const shadowRecords = (flags: Readonly<Record<string, boolean>>) => (flags.NULL_SURFACES ? mediaShadows : shadows);
+export const shadowRecords = (flags: Readonly<Record<string, boolean>>) =>
+  flags.NULL_SURFACES ? mediaShadows : shadows;
 
 /**
- * An emissive triangle or one of the scene's lights, and its row of the alias table; or a node of the light tree: `a` middle,
- * `probability` radius, `b` axis, `c` cosines of spread and reach and the energy, `other` the first child or the light.
+ * An emissive triangle or one of the scene's lights, and its row of the alias table; or a node of the light tree: `a`
+ * middle, `probability` radius, `b` axis, `c` cosines of spread and reach and the energy, `other` the first child or
+ * the light.
  */
 export const lightStruct = struct('Light', {
   a: 'vec3f',
@@ -178,7 +181,9 @@ export const bindingStruct = struct('TextureBindingRecord', {
 export const INSTANCE_CATCHER = 1;
 
 export const NONE = 0xffffffff;
-/** In place of a hit's instance: the ray was scattered at the path's new origin, or is in the middle of a random walk. */
+/**
+ * In place of a hit's instance: the ray was scattered at the path's new origin, or is in the middle of a random walk.
+ */
 export const HIT_SCATTERED = 0xfffffffe;
 export const HIT_WALKING = 0xfffffffd;
 export const LIGHT_TRIANGLE = 0;
@@ -194,7 +199,9 @@ export const PROFILE_VERTICAL = 181;
 export const PROFILE_HORIZONTAL = 72;
 /** Added to a triangle light's kind: it shines from both sides. */
 export const LIGHT_TWO_SIDED = 16;
-/** Added to a triangle light's kind: the instance mirrors, so the front is where the world-space winding is clockwise. */
+/**
+ * Added to a triangle light's kind: the instance mirrors, so the front is where the world-space winding is clockwise.
+ */
 export const LIGHT_MIRRORED = 32;
 /** Added to the kind of a light with a size: the camera does not see it. */
 export const LIGHT_HIDDEN = 64;

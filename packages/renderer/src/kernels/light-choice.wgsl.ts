@@ -2,7 +2,9 @@ import { gated, wgslModule } from '@glanz/wgsl';
 import { frameStruct, lightStruct } from './layout';
 import { lightTree } from './light-tree.wgsl';
 
-/** `fn light_choice(light: u32, position: vec3f, normal: vec3f) -> f32`: how likely a light sample goes to this light. */
+/**
+ * `fn light_choice(light: u32, position: vec3f, normal: vec3f) -> f32`: how likely a light sample goes to this light.
+ */
 export const lightChoice = /* @__PURE__ */ wgslModule(
   'renderer/light-choice',
   /* wgsl */ `

@@ -2,8 +2,8 @@ import { wgslModule } from '@glanz/wgsl';
 import { lightStruct, PROFILE_VERTICAL } from './layout';
 
 /**
- * `fn light_profile(index: u32, outward: vec3f) -> f32`: what a measured lamp sends that way, W/sr. Its intensities lie behind
- * the lights, four to a record (see `profileRecords`), a degree apart from the axis on, linear in between.
+ * `fn light_profile(index: u32, outward: vec3f) -> f32`: what a measured lamp sends that way, W/sr. Its intensities lie
+ * behind the lights, four to a record (see `profileRecords`), a degree apart from the axis on, linear in between.
  */
 export const lightProfile = /* @__PURE__ */ wgslModule(
   'renderer/light-profile',

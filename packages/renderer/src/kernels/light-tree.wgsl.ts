@@ -3,11 +3,12 @@ import { frameStruct, LIGHT_NODE_DISTANT, LIGHT_NODE_LEAF, lightStruct } from '.
 import random from './random.wesl';
 
 /**
- * The choice of a light by the tree that `lightTreeSteps` makes; pbrt 4's bound of how much a node may light a place. The
- * choice may depend on the surface's normal, which paths therefore remember, in 16 bits: whoever asks for a probability later
- * must ask with the same normal that the light was chosen with.
+ * The choice of a light by the tree that `lightTreeSteps` makes; pbrt 4's bound of how much a node may light a place.
+ * The choice may depend on the surface's normal, which paths therefore remember, in 16 bits: whoever asks for a
+ * probability later must ask with the same normal that the light was chosen with.
  *
- * - `fn light_tree_pick(draw: f32, position: vec3f, normal: vec3f) -> LightPick`; the normal is 0 where light may come from all sides.
+ * - `fn light_tree_pick(draw: f32, position: vec3f, normal: vec3f) -> LightPick`; the normal is 0 where light may come
+ *   from all sides.
  * - `fn light_tree_probability(light: u32, position: vec3f, normal: vec3f) -> f32`
  */
 export const lightTree = /* @__PURE__ */ wgslModule(

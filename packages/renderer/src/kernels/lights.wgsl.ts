@@ -1,7 +1,17 @@
 import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
 import { areaLightSampling } from './area-lights.wgsl';
 import environment from './environment.wesl';
-import { GROUP_SHIFT, LIGHT_DIRECTIONAL, LIGHT_MIRRORED, LIGHT_POINT, LIGHT_PROFILE, LIGHT_RECTANGLE, LIGHT_SPOT, LIGHT_TWO_SIDED, lightStruct } from './layout';
+import {
+  GROUP_SHIFT,
+  LIGHT_DIRECTIONAL,
+  LIGHT_MIRRORED,
+  LIGHT_POINT,
+  LIGHT_PROFILE,
+  LIGHT_RECTANGLE,
+  LIGHT_SPOT,
+  LIGHT_TWO_SIDED,
+  lightStruct,
+} from './layout';
 import { lightChoice } from './light-choice.wgsl';
 import { lightProfile } from './light-profile.wgsl';
 import random from './random.wesl';
@@ -25,8 +35,8 @@ struct LightSample {
 );
 
 /**
- * Next-event estimation over all lights: the environment with a fixed probability, otherwise one of the emissive triangles
- * and the scene's lights, chosen by the light tree (LIGHT_TREE) or by power alone.
+ * Next-event estimation over all lights: the environment with a fixed probability, otherwise one of the emissive
+ * triangles and the scene's lights, chosen by the light tree (LIGHT_TREE) or by power alone.
  */
 export function lightsModule(surface: WgslModule): WgslModule {
   return wgslModule(
@@ -166,6 +176,15 @@ fn light_sample(draws: vec2f, position: vec3f, normal: vec3f) -> LightSample {
   //#endif
 }
 `,
-    [surface, lightStruct.module, lightSampleStruct, environment, random, gated('LIGHTS', lightChoice), gated('LIGHT_PROFILES', lightProfile), gated('AREA_LIGHTS', areaLightSampling)],
+    [
+      surface,
+      lightStruct.module,
+      lightSampleStruct,
+      environment,
+      random,
+      gated('LIGHTS', lightChoice),
+      gated('LIGHT_PROFILES', lightProfile),
+      gated('AREA_LIGHTS', areaLightSampling),
+    ],
   );
 }

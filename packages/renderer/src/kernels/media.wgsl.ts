@@ -1,14 +1,20 @@
 import { openpbrMedium, openpbrSubsurface } from '@glanz/openpbr/wgsl';
 import { gated, wgslModule } from '@glanz/wgsl';
 import energyHost from './energy.wesl';
-import { instanceStruct, MATERIAL_INDEX_MATCHED, MATERIAL_INTERIOR, MATERIAL_PRIORITY_SHIFT, materialStruct } from './layout';
+import {
+  instanceStruct,
+  MATERIAL_INDEX_MATCHED,
+  MATERIAL_INTERIOR,
+  MATERIAL_PRIORITY_SHIFT,
+  materialStruct,
+} from './layout';
 
 /**
  * Which interiors a ray is in: a stack of up to four materials, the last entered first, in two words; an entry is the
- * material's index + 1, with bit 15 for its subsurface instead of its transmission medium. Where interiors overlap, the one
- * of the highest `dielectric_priority` is there, of equal ones the last entered; surfaces inside of a higher one are not
- * there at all (Schmidt and Budge 2002, "Simple Nested Dielectrics in Ray Traced Images"). A fifth interior pushes the first
- * out.
+ * material's index + 1, with bit 15 for its subsurface instead of its transmission medium. Where interiors overlap, the
+ * one of the highest `dielectric_priority` is there, of equal ones the last entered; surfaces inside of a higher one
+ * are not there at all (Schmidt and Budge 2002, "Simple Nested Dielectrics in Ray Traced Images"). A fifth interior
+ * pushes the first out.
  */
 export const media = /* @__PURE__ */ wgslModule(
   'renderer/media',
@@ -97,7 +103,12 @@ fn media_transmittance(stack: vec2u, distance: f32) -> vec3f {
   return exp(-media_of(top).extinction * distance);
 }
 `,
-  [openpbrMedium, gated('OPENPBR_SUBSURFACE', openpbrSubsurface), gated('OPENPBR_SUBSURFACE', energyHost), materialStruct.module],
+  [
+    openpbrMedium,
+    gated('OPENPBR_SUBSURFACE', openpbrSubsurface),
+    gated('OPENPBR_SUBSURFACE', energyHost),
+    materialStruct.module,
+  ],
 );
 
 /** `fn media_normal(hit: BvhHit) -> vec3f`: geometric normal of the front side, of any length. */

@@ -4,8 +4,8 @@ import { wgslModule, type WgslModule } from '@glanz/wgsl';
 export const TILE = 8;
 
 /**
- * Sums over each tile: the variance of its pixels' means and the squares of the means, both averaged over the colours, and
- * the number of pixels. A workgroup a tile; added up in a fixed order.
+ * Sums over each tile: the variance of its pixels' means and the squares of the means, both averaged over the colours,
+ * and the number of pixels. A workgroup a tile; added up in a fixed order.
  */
 export function noiseModule(film: WgslModule): WgslModule {
   return wgslModule(

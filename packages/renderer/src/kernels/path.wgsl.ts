@@ -5,7 +5,10 @@ import { blockLayout, type BlockLayout } from './blocks';
 export interface PathShape {
   /** Sums of light that are kept apart: one for each light group, four times as many with catchers. */
   readonly planes: number;
-  /** With `PATH_STATE` paths remember what kinds of bounces they have made, with `CATCHER` what they are traced for, with `MEDIA` the interiors they are in. */
+  /**
+   * With `PATH_STATE` paths remember what kinds of bounces they have made, with `CATCHER` what they are traced for,
+   * with `MEDIA` the interiors they are in.
+   */
   readonly flags: Readonly<Record<string, boolean>>;
 }
 
@@ -14,13 +17,15 @@ export interface PathLayout {
   /** How paths lie in memory. */
   readonly records: BlockLayout;
   /**
-   * - `fn path_<field>(index: u32)` and `fn path_set_<field>(index: u32, value)` for each field, see {@link blockLayout}.
+   * - `fn path_<field>(index: u32)` and `fn path_set_<field>(index: u32, value)` for each field, see
+   *   {@link blockLayout}.
    * - `fn path_deposit(index: u32, group: u32, value: vec3f)`: light of a group arrives.
    * - `fn path_clear(index: u32)`: no light so far.
    * - `fn path_plane(index: u32, plane: u32) -> vec4f`: what arrived; the first plane's w is the path's coverage.
    *
-   * With catchers every sample has two paths: one as usual, and one that after a catcher sees nothing but catchers and what
-   * glows. Planes come four by four: objects, catchers with the objects, catchers without them, what lies behind catchers.
+   * With catchers every sample has two paths: one as usual, and one that after a catcher sees nothing but catchers and
+   * what glows. Planes come four by four: objects, catchers with the objects, catchers without them, what lies behind
+   * catchers.
    */
   readonly module: WgslModule;
 }
@@ -55,8 +60,8 @@ fn path_sample(index: u32) -> u32 {
 );
 
 /**
- * A footprint's width and a normal in one word: the upper half of the width's bits, and two bytes of an octahedral normal
- * (Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", JCGT 2014).
+ * A footprint's width and a normal in one word: the upper half of the width's bits, and two bytes of an octahedral
+ * normal (Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", JCGT 2014).
  *
  * - `fn cone_pack(width: f32, normal: vec3f) -> u32`; a normal of 0 is kept as such.
  * - `fn cone_width(cone: u32) -> f32`
@@ -112,8 +117,17 @@ export function pathLayout({ planes, flags }: PathShape): PathLayout {
   let layout = layouts.get(key);
   if (!layout) {
     const several = planes > 1;
-    const fields = { ...COMMON, ...(several ? { planes: ['vec4f', planes] as const } : { radiance: 'vec3f' as const }), /** Index in the film. */ pixel: 'u32' } as const;
-    const records = blockLayout('Path', 'path', 'paths', { ...fields, ...(flags.PATH_STATE ? STATE : {}), ...(flags.CATCHER ? { role: 'u32' } : {}), ...(flags.MEDIA ? INTERIOR : {}) });
+    const fields = {
+      ...COMMON,
+      ...(several ? { planes: ['vec4f', planes] as const } : { radiance: 'vec3f' as const }),
+      /** Index in the film. */ pixel: 'u32',
+    } as const;
+    const records = blockLayout('Path', 'path', 'paths', {
+      ...fields,
+      ...(flags.PATH_STATE ? STATE : {}),
+      ...(flags.CATCHER ? { role: 'u32' } : {}),
+      ...(flags.MEDIA ? INTERIOR : {}),
+    });
     const groups = flags.CATCHER ? planes / 4 : planes;
     const module = wgslModule(
       'renderer/path',

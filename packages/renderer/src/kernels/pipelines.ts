@@ -35,21 +35,38 @@ export interface KernelFeatures {
 }
 
 /** Kernels with these flags do what those without do, only slower: a lobe of weight 0, a filter that accepts. */
-const HARMLESS = /^(OPENPBR_|OPACITY$|CULLING$|CULLING_ALL$|VERTEX_COLORS$|EMISSION_TEXTURES$|LIGHTS$|LIGHT_TREE$|LIGHT_PROFILES$|AREA_LIGHTS$|NEXT_EVENT$|DISPERSION$|TERMINATOR_LIFT$)/;
+const HARMLESS =
+  /^(OPENPBR_|OPACITY$|CULLING$|CULLING_ALL$|VERTEX_COLORS$|EMISSION_TEXTURES$|LIGHTS$|LIGHT_TREE$|LIGHT_PROFILES$|AREA_LIGHTS$|NEXT_EVENT$|DISPERSION$|TERMINATOR_LIFT$)/;
 
 /**
- * Whether kernels for `present` features are right for `wanted` ones too: what a scene no longer has may stay in their text,
- * so that a coat that comes and goes compiles once.
+ * Whether kernels for `present` features are right for `wanted` ones too: what a scene no longer has may stay in their
+ * text, so that a coat that comes and goes compiles once.
  */
 export function serves(present: KernelFeatures, wanted: KernelFeatures): boolean {
   const { flags: has, ...given } = present;
   const { flags: needs, ...asked } = wanted;
   if (JSON.stringify(given) !== JSON.stringify(asked)) return false;
-  return Object.entries(needs).every(([name, value]) => has[name] === value || (has[name] === true && HARMLESS.test(name) && name !== 'OPENPBR_MULTISCATTER'));
+  return Object.entries(needs).every(
+    ([name, value]) =>
+      has[name] === value || (has[name] === true && HARMLESS.test(name) && name !== 'OPENPBR_MULTISCATTER'),
+  );
 }
 
 /** In the order in which they are compiled: `shade` takes longest, and has the others' time too. */
-export const KERNELS = ['shade', 'generate', 'begin', 'intersect', 'advance', 'connect', 'resolve', 'features', 'position', 'relight', 'noise', 'first'] as const;
+export const KERNELS = [
+  'shade',
+  'generate',
+  'begin',
+  'intersect',
+  'advance',
+  'connect',
+  'resolve',
+  'features',
+  'position',
+  'relight',
+  'noise',
+  'first',
+] as const;
 export type KernelName = (typeof KERNELS)[number];
 
 /** A compiled kernel and the names of what it binds, in order. */
@@ -72,15 +89,29 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
   const { flags } = features;
   const material = materialModule(features.samplings, features.textured);
   const surface = surfaceModule(material);
-  const traversal = (kind: 'closest' | 'any', chosen = flags) => traversalModule(kind, chosen.OPACITY || chosen.CULLING ? accept(opacityModule(material, OPACITY_ID)) : undefined);
-  const filter: ResourceName[] = flags.OPACITY ? ['frame', 'batch', 'attributes', 'materials'] : flags.CATCHER ? ['frame', 'batch'] : [];
-  const culling: ResourceName[] = [...(flags.CULLING ? (['materials'] as const) : []), ...(flags.CULLING_ALL ? (['frame'] as const) : [])];
+  const traversal = (kind: 'closest' | 'any', chosen = flags) =>
+    traversalModule(kind, chosen.OPACITY || chosen.CULLING ? accept(opacityModule(material, OPACITY_ID)) : undefined);
+  const filter: ResourceName[] = flags.OPACITY
+    ? ['frame', 'batch', 'attributes', 'materials']
+    : flags.CATCHER
+      ? ['frame', 'batch']
+      : [];
+  const culling: ResourceName[] = [
+    ...(flags.CULLING ? (['materials'] as const) : []),
+    ...(flags.CULLING_ALL ? (['frame'] as const) : []),
+  ];
   const energy: ResourceName[] = ['energy_dielectric', 'energy_conductor', 'energy_sampler'];
   // What subsurface scatters depends on how its surface reflects.
   const walking: ResourceName[] = flags.OPENPBR_SUBSURFACE ? energy : [];
   const path = pathLayout(features).module;
   const film = filmModule(features.planes, flags.CATCHER === true);
-  const filmBuffers: ResourceName[] = ['film_block', 'film_total', 'film_moment', 'beauty', ...(flags.LIGHT_GROUPS ? (['light_groups'] as const) : [])];
+  const filmBuffers: ResourceName[] = [
+    'film_block',
+    'film_total',
+    'film_moment',
+    'beauty',
+    ...(flags.LIGHT_GROUPS ? (['light_groups'] as const) : []),
+  ];
   const scene: ResourceName[] = ['triangles', 'instances', 'attributes', 'materials'];
   switch (name) {
     case 'generate':
@@ -90,34 +121,99 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
     case 'advance':
       return { root: advance, resources: ['queues', 'dispatch'], textures: false };
     case 'intersect': {
-      const resources = [...new Set([...filter, ...(flags.SCATTERING ? (['frame', 'batch'] as const) : []), ...(flags.AREA_LIGHTS ? (['frame', 'lights'] as const) : []), ...culling, ...(flags.MEDIA ? (['materials'] as const) : []), ...walking])];
-      return { root: intersect(path, traversal('closest')), resources: [...resources, 'paths', 'queues', 'nodes', 'triangles', 'instances'], textures: flags.OPACITY === true };
+      const resources = [
+        ...new Set([
+          ...filter,
+          ...(flags.SCATTERING ? (['frame', 'batch'] as const) : []),
+          ...(flags.AREA_LIGHTS ? (['frame', 'lights'] as const) : []),
+          ...culling,
+          ...(flags.MEDIA ? (['materials'] as const) : []),
+          ...walking,
+        ]),
+      ];
+      return {
+        root: intersect(path, traversal('closest')),
+        resources: [...resources, 'paths', 'queues', 'nodes', 'triangles', 'instances'],
+        textures: flags.OPACITY === true,
+      };
     }
     case 'connect': {
       // Light meets all faces that are there for others than the camera alone.
       const shadowFlags = { ...flags, CULLING: flags.CULLING_ALL === true };
       const walls: ResourceName[] = flags.STRAIGHT ? ['frame', 'attributes', ...energy] : [];
-      const resources = [...new Set([...filter, ...(flags.CULLING_ALL ? culling : []), ...(flags.NULL_SURFACES ? (['materials'] as const) : []), ...(flags.NULL_SURFACES ? walking : []), ...walls])];
-      return { root: connect(path, traversal(flags.NULL_SURFACES ? 'closest' : 'any', shadowFlags), straight(surface, openpbr)), resources: [...resources, 'paths', 'queues', 'shadows', 'nodes', 'triangles', 'instances'], textures: flags.OPACITY === true || flags.STRAIGHT === true, flags: shadowFlags };
+      const resources = [
+        ...new Set([
+          ...filter,
+          ...(flags.CULLING_ALL ? culling : []),
+          ...(flags.NULL_SURFACES ? (['materials'] as const) : []),
+          ...(flags.NULL_SURFACES ? walking : []),
+          ...walls,
+        ]),
+      ];
+      return {
+        root: connect(
+          path,
+          traversal(flags.NULL_SURFACES ? 'closest' : 'any', shadowFlags),
+          straight(surface, openpbr),
+        ),
+        resources: [...resources, 'paths', 'queues', 'shadows', 'nodes', 'triangles', 'instances'],
+        textures: flags.OPACITY === true || flags.STRAIGHT === true,
+        flags: shadowFlags,
+      };
     }
     case 'shade':
       return {
         root: shadeModule(path, surface, lightsModule(surface), openpbr, energyHost),
-        resources: ['frame', 'batch', 'paths', 'queues', 'shadows', ...scene, 'lights', 'environment', 'environment_table', ...energy],
+        resources: [
+          'frame',
+          'batch',
+          'paths',
+          'queues',
+          'shadows',
+          ...scene,
+          'lights',
+          'environment',
+          'environment_table',
+          ...energy,
+        ],
         textures: true,
       };
     case 'resolve':
-      return { root: resolveModule(path, film), resources: ['batch', 'paths', 'queues', 'film_pixels', ...filmBuffers], textures: false };
+      return {
+        root: resolveModule(path, film),
+        resources: ['batch', 'paths', 'queues', 'film_pixels', ...filmBuffers],
+        textures: false,
+      };
     case 'relight':
       return { root: relightModule(film), resources: ['batch', ...filmBuffers], textures: false };
     case 'noise':
       return { root: noiseModule(film), resources: ['frame', ...filmBuffers, 'film_noise'], textures: false };
     case 'position':
-      return { root: positionModule(traversal('closest')), resources: [...new Set<ResourceName>(['frame', 'batch', ...filter, ...culling, 'nodes', 'triangles', 'instances', 'feature_position'])], textures: flags.OPACITY === true };
+      return {
+        root: positionModule(traversal('closest')),
+        resources: [
+          ...new Set<ResourceName>([
+            'frame',
+            'batch',
+            ...filter,
+            ...culling,
+            'nodes',
+            'triangles',
+            'instances',
+            'feature_position',
+          ]),
+        ],
+        textures: flags.OPACITY === true,
+      };
     case 'first': {
       const firstFlags = { ...flags, OPACITY: false, CATCHER: false };
       // Neither opacity nor catchers: they would bring half of the renderer.
-      return { root: firstLightModule(traversal('closest', firstFlags)), resources: ['frame', 'batch', 'nodes', 'triangles', 'instances', 'materials', 'beauty'], textures: false, flags: firstFlags };
+      return {
+        root: firstLightModule(traversal('closest', firstFlags)),
+        resources: ['frame', 'batch', 'nodes', 'triangles', 'instances', 'materials', 'beauty'],
+        textures: false,
+        flags: firstFlags,
+      };
     }
     case 'features':
       return {
@@ -131,7 +227,10 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
 /** A kernel before it is compiled. Kernels of equal `key` are the same, whatever scenes they were composed for. */
 export interface KernelSource {
   readonly key: string;
-  /** @throws {ShaderError} with module and line if the text does not compile, {DeviceError} `renderer/gpu-error` if the pipeline is refused. */
+  /**
+   * @throws {ShaderError} with module and line if the text does not compile, {DeviceError} `renderer/gpu-error` if the
+   * pipeline is refused.
+   */
   readonly compile: (device: GPUDevice) => Promise<Kernel>;
 }
 
@@ -169,7 +268,12 @@ export function kernelSource(name: KernelName, features: KernelFeatures): Kernel
       try {
         return { pipeline: await compiled, layout, resources: text.resources, sceneBindings };
       } catch (cause) {
-        throw await lossOr(device, new DeviceError('renderer/gpu-error', `The GPU refused the kernel "${name}": ${(cause as Error).message}`, { cause }));
+        throw await lossOr(
+          device,
+          new DeviceError('renderer/gpu-error', `The GPU refused the kernel "${name}": ${(cause as Error).message}`, {
+            cause,
+          }),
+        );
       }
     },
   };

@@ -3,7 +3,9 @@ import camera from './camera.wesl';
 import filter from './filter.wesl';
 import random from './random.wesl';
 
-/** Sums of world positions of the first surface, with the number of hits. Run on demand, with the picture's camera rays. */
+/**
+ * Sums of world positions of the first surface, with the number of hits. Run on demand, with the picture's camera rays.
+ */
 export function positionModule(traversal: WgslModule): WgslModule {
   return wgslModule(
     'renderer/position',

@@ -1,9 +1,10 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 
 /**
- * Adds a batch's samples to the film. Samples of a pixel are added one by one in the order of their numbers, into chunks
- * and then into the total: the sum is the same bit for bit however the samples were batched, and keeps its precision over
- * many samples. A NaN, infinite or negative sample counts as black, is counted, and never reaches the film.
+ * Adds a batch's samples to the film. Samples of a pixel are added one by one in the order of their numbers, into
+ * chunks and then into the total: the sum is the same bit for bit however the samples were batched, and keeps its
+ * precision over many samples. A NaN, infinite or negative sample counts as black, is counted, and never reaches the
+ * film.
  *
  * The squares of the chunks' means are summed too (film_moment.xyz, and the number of samples in w): chunks of 16 Sobol
  * points vary much less than 16 single samples do, and it is their variance that the picture has.

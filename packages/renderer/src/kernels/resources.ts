@@ -15,7 +15,8 @@ type Flags = Readonly<Record<string, boolean>>;
 interface Resource {
   /** WGSL type after `var<…> name:`. */
   readonly type: string;
-  readonly space: 'uniform' | 'read' | 'read_write' | 'texture_2d' | 'texture_2d_array' | 'texture_3d' | 'unfilterable' | 'sampler';
+  readonly space:
+    'uniform' | 'read' | 'read_write' | 'texture_2d' | 'texture_2d_array' | 'texture_3d' | 'unfilterable' | 'sampler';
   readonly deps?: readonly WgslModule[];
   /** The struct of its elements, where that depends on the scene. */
   readonly layout?: (flags: Flags) => { readonly module: WgslModule };
@@ -77,14 +78,28 @@ export type ResourceName = keyof typeof RESOURCES;
 export type SceneBinding = readonly [name: string, kind: 'texture_2d_array' | 'sampler'];
 
 /** The declarations of a kernel's bindings, all in group 0, numbered in order. */
-export function bindingModule(kernel: string, names: readonly ResourceName[], extra: readonly SceneBinding[], flags: Flags): WgslModule {
+export function bindingModule(
+  kernel: string,
+  names: readonly ResourceName[],
+  extra: readonly SceneBinding[],
+  flags: Flags,
+): WgslModule {
   const lines = names.map((name, index) => {
     const { type, space } = RESOURCES[name] as Resource;
-    const qualifier = space === 'uniform' ? '<uniform>' : space === 'read' ? '<storage, read>' : space === 'read_write' ? '<storage, read_write>' : '';
+    const qualifier =
+      space === 'uniform'
+        ? '<uniform>'
+        : space === 'read'
+          ? '<storage, read>'
+          : space === 'read_write'
+            ? '<storage, read_write>'
+            : '';
     return `@group(0) @binding(${index}) var${qualifier} ${name}: ${type};`;
   });
   extra.forEach(([name, kind], index) => {
-    lines.push(`@group(0) @binding(${names.length + index}) var ${name}: ${kind === 'sampler' ? 'sampler' : 'texture_2d_array<f32>'};`);
+    lines.push(
+      `@group(0) @binding(${names.length + index}) var ${name}: ${kind === 'sampler' ? 'sampler' : 'texture_2d_array<f32>'};`,
+    );
   });
   const structs = names.flatMap((name) => {
     const { deps = [], layout } = RESOURCES[name] as Resource;
@@ -94,9 +109,20 @@ export function bindingModule(kernel: string, names: readonly ResourceName[], ex
 }
 
 /** The bind group layout that matches {@link bindingModule}. */
-export function bindGroupLayout(device: GPUDevice, kernel: string, names: readonly ResourceName[], extra: readonly SceneBinding[]): GPUBindGroupLayout {
-  const entries: GPUBindGroupLayoutEntry[] = names.map((name, binding) => ({ binding, visibility: GPU_STAGE_COMPUTE, ...layoutEntry((RESOURCES[name] as Resource).space) }));
-  extra.forEach(([, kind], index) => entries.push({ binding: names.length + index, visibility: GPU_STAGE_COMPUTE, ...layoutEntry(kind) }));
+export function bindGroupLayout(
+  device: GPUDevice,
+  kernel: string,
+  names: readonly ResourceName[],
+  extra: readonly SceneBinding[],
+): GPUBindGroupLayout {
+  const entries: GPUBindGroupLayoutEntry[] = names.map((name, binding) => ({
+    binding,
+    visibility: GPU_STAGE_COMPUTE,
+    ...layoutEntry((RESOURCES[name] as Resource).space),
+  }));
+  extra.forEach(([, kind], index) =>
+    entries.push({ binding: names.length + index, visibility: GPU_STAGE_COMPUTE, ...layoutEntry(kind) }),
+  );
   return device.createBindGroupLayout({ label: `glanz ${kernel}`, entries });
 }
 

@@ -5,10 +5,15 @@ import random from './random.wesl';
 import { shortcuts } from './shortcuts.wgsl';
 
 /**
- * `fn shade_scattering(index: u32, iteration: u32, depth: u32) -> ShadeResult`: a vertex in an interior without an optical
- * surface.
+ * `fn shade_scattering(index: u32, iteration: u32, depth: u32) -> ShadeResult`: a vertex in an interior without an
+ * optical surface.
  */
-export function shadeScattering(common: WgslModule, path: WgslModule, lights: WgslModule, openpbr: WgslModule): WgslModule {
+export function shadeScattering(
+  common: WgslModule,
+  path: WgslModule,
+  lights: WgslModule,
+  openpbr: WgslModule,
+): WgslModule {
   return wgslModule(
     'renderer/shade-scattering',
     /* wgsl */ `

@@ -1,6 +1,15 @@
 import { bvhOffset } from '@glanz/bvh/wgsl';
 import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
-import { BACKGROUND_HIDDEN, GROUP_SHIFT, HIT_SCATTERED, HIT_WALKING, INSTANCE_CATCHER, MATERIAL_DISPERSIVE, MATERIAL_INTERIOR, MATERIAL_STRAIGHT } from './layout';
+import {
+  BACKGROUND_HIDDEN,
+  GROUP_SHIFT,
+  HIT_SCATTERED,
+  HIT_WALKING,
+  INSTANCE_CATCHER,
+  MATERIAL_DISPERSIVE,
+  MATERIAL_INTERIOR,
+  MATERIAL_STRAIGHT,
+} from './layout';
 import dispersion from './dispersion.wesl';
 import { media } from './media.wgsl';
 import random from './random.wesl';
@@ -14,7 +23,13 @@ import { pathCone, pathSample } from './path.wgsl';
  * One vertex of every active path: what the surface emits, a light sample to be tested by the connect kernel, and the
  * next direction. Light samples and BSDF samples are combined by the balance heuristic (Veach 1997, section 9.2).
  */
-export function shadeModule(path: WgslModule, surface: WgslModule, lights: WgslModule, openpbr: WgslModule, energy: WgslModule): WgslModule {
+export function shadeModule(
+  path: WgslModule,
+  surface: WgslModule,
+  lights: WgslModule,
+  openpbr: WgslModule,
+  energy: WgslModule,
+): WgslModule {
   const common = shadeCommon(path);
   return wgslModule(
     'renderer/shade',
@@ -339,6 +354,22 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation_inde
   if (result.asks) { shadow_store(shade_shadow_base + shadow_slot, result.shadow); }
 }
 `,
-    [common, path, pathSample, pathCone, surface, lights, openpbr, energy, random, shortcuts, bvhOffset, gated('MEDIA', media), gated('SCATTERING', shadeScattering(common, path, lights, openpbr)), gated('OPENPBR_TRANSMISSION', shadingNormal), gated('DISPERSION', dispersion)],
+    [
+      common,
+      path,
+      pathSample,
+      pathCone,
+      surface,
+      lights,
+      openpbr,
+      energy,
+      random,
+      shortcuts,
+      bvhOffset,
+      gated('MEDIA', media),
+      gated('SCATTERING', shadeScattering(common, path, lights, openpbr)),
+      gated('OPENPBR_TRANSMISSION', shadingNormal),
+      gated('DISPERSION', dispersion),
+    ],
   );
 }

@@ -4,8 +4,8 @@ import { wgslModule } from '@glanz/wgsl';
  * Deliberate shortcuts, all of them off by default and then not in any text: limits per kind of bounce (BOUNCE_LIMITS),
  * no caustics (NO_CAUSTICS), wider lobes after wide bounces (REGULARIZE), a clamp on indirect light (CLAMP_INDIRECT).
  *
- * Kinds of bounces go by the density of the direction, which lobes alone do not tell: below 0.5 per steradian a bounce is
- * as wide as Lambert's (or as a microfacet lobe of roughness 0.65 and more) and counts as diffuse, else as specular.
+ * Kinds of bounces go by the density of the direction, which lobes alone do not tell: below 0.5 per steradian a bounce
+ * is as wide as Lambert's (or as a microfacet lobe of roughness 0.65 and more) and counts as diffuse, else as specular.
  */
 export const shortcuts = wgslModule(
   'renderer/shortcuts',

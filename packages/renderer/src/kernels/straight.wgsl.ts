@@ -3,13 +3,15 @@ import energyHost from './energy.wesl';
 import shadingNormal from './shading_normal.wesl';
 
 /**
- * `fn straight_transmittance(s: Surface, direction: vec3f) -> vec3f`: what a smooth thin wall lets through. Light goes on
- * behind it as if it were not there, so light samples pass it, and a path that passes it has had no say in its direction: it
- * keeps the density of the last vertex that did, and the two ways of finding a light behind glass are weighed as without it.
+ * `fn straight_transmittance(s: Surface, direction: vec3f) -> vec3f`: what a smooth thin wall lets through. Light goes
+ * on behind it as if it were not there, so light samples pass it, and a path that passes it has had no say in its
+ * direction: it keeps the density of the last vertex that did, and the two ways of finding a light behind glass are
+ * weighed as without it.
  */
-export const straight = (surface: WgslModule, openpbr: WgslModule): WgslModule => wgslModule(
-  'renderer/straight',
-  /* wgsl */ `
+export const straight = (surface: WgslModule, openpbr: WgslModule): WgslModule =>
+  wgslModule(
+    'renderer/straight',
+    /* wgsl */ `
 fn straight_transmittance(given: Surface, direction: vec3f) -> vec3f {
   var s = given;
   let wo = -direction;
@@ -30,5 +32,5 @@ fn straight_transmittance(given: Surface, direction: vec3f) -> vec3f {
   return passed;
 }
 `,
-  [surface, openpbr, energyHost, gated('OPENPBR_TRANSMISSION', shadingNormal)],
-);
+    [surface, openpbr, energyHost, gated('OPENPBR_TRANSMISSION', shadingNormal)],
+  );

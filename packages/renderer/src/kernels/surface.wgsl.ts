@@ -55,17 +55,36 @@ fn attribute_color(mesh: u32, corners: vec3u, weights: vec3f) -> vec4f {
  * @param samplings Pairs of texture array and sampler indices, in the order of the records' `sampling` numbers.
  * @param textured Parameters that are textured, with their number in the records and what they are.
  */
-export function materialModule(samplings: readonly (readonly [texture: number, sampler: number])[], textured: readonly TexturedParameterInfo[]): WgslModule {
-  const cases = samplings.map(([texture, sampler], index) => `    case ${index}u: { return textureSampleLevel(scene_texture_${texture}, scene_sampler_${sampler}, uv, layer, lod); }`).join('\n');
-  const FACTOR = { f32: 'value', vec3f: 'factor.rgb', any: 'select(vec3f(value), factor.rgb, (channels & 255u) == 4u)' } as const;
+export function materialModule(
+  samplings: readonly (readonly [texture: number, sampler: number])[],
+  textured: readonly TexturedParameterInfo[],
+): WgslModule {
+  const cases = samplings
+    .map(
+      ([texture, sampler], index) =>
+        `    case ${index}u: { return textureSampleLevel(scene_texture_${texture}, scene_sampler_${sampler}, uv, layer, lod); }`,
+    )
+    .join('\n');
+  const FACTOR = {
+    f32: 'value',
+    vec3f: 'factor.rgb',
+    any: 'select(vec3f(value), factor.rgb, (channels & 255u) == 4u)',
+  } as const;
   const DIRECTION: Readonly<Record<string, string>> = {
     geometry_normal: `result.normal = (2.0 * texel.xyz - 1.0) * vec3f(vec2f(bitcast<f32>(attributes[at + ${word('scale')}u])), 1.0);`,
     geometry_coat_normal: `result.coat_normal = (2.0 * texel.xyz - 1.0) * vec3f(vec2f(bitcast<f32>(attributes[at + ${word('scale')}u])), 1.0);`,
-    geometry_tangent: 'result.tangent = mat2x2f(result.tangent, vec2f(-result.tangent.y, result.tangent.x)) * (2.0 * texel.xy - 1.0);',
+    geometry_tangent:
+      'result.tangent = mat2x2f(result.tangent, vec2f(-result.tangent.y, result.tangent.x)) * (2.0 * texel.xy - 1.0);',
   };
-  const cased = ({ name, id, type }: TexturedParameterInfo) => `      case ${id}u: { ${type === 'direction' ? DIRECTION[name] : `result.parameters.${name} *= ${FACTOR[type]};`} }`;
-  const gates: Readonly<Record<string, string>> = { geometry_tangent: 'TANGENT_MAP', geometry_coat_normal: 'OPENPBR_COAT_FRAME' };
-  const apply = textured.map((info) => (gates[info.name] ? `      //#if ${gates[info.name]}\n${cased(info)}\n      //#endif` : cased(info))).join('\n');
+  const cased = ({ name, id, type }: TexturedParameterInfo) =>
+    `      case ${id}u: { ${type === 'direction' ? DIRECTION[name] : `result.parameters.${name} *= ${FACTOR[type]};`} }`;
+  const gates: Readonly<Record<string, string>> = {
+    geometry_tangent: 'TANGENT_MAP',
+    geometry_coat_normal: 'OPENPBR_COAT_FRAME',
+  };
+  const apply = textured
+    .map((info) => (gates[info.name] ? `      //#if ${gates[info.name]}\n${cased(info)}\n      //#endif` : cased(info)))
+    .join('\n');
   return wgslModule(
     'renderer/material',
     /* wgsl */ `
@@ -398,6 +417,13 @@ fn surface_load(hit: vec4u, origin: vec3f, direction: vec3f, cone_width: f32) ->
   return s;
 }
 `,
-    [material, instanceStruct.module, tangent, bvhOffset, gated('TEXTURES', attributes), gated('OPENPBR_COAT_FRAME', shadingNormal)],
+    [
+      material,
+      instanceStruct.module,
+      tangent,
+      bvhOffset,
+      gated('TEXTURES', attributes),
+      gated('OPENPBR_COAT_FRAME', shadingNormal),
+    ],
   );
 }

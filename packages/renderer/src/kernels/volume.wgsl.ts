@@ -9,10 +9,10 @@ import random from './random.wesl';
 export const WALK_STEPS = 16;
 
 /**
- * A ray's way through the medium it is in, up to the next surface, and its random walk there. Distances are drawn for one of
- * the three channels, weighed as if for all of them (spectral multiple importance sampling, Wilkie et al. 2014, "Hero
- * Wavelength Spectral Sampling"). Light samples are taken only in interiors without an optical surface: no straight way
- * leads out of the others.
+ * A ray's way through the medium it is in, up to the next surface, and its random walk there. Distances are drawn for
+ * one of the three channels, weighed as if for all of them (spectral multiple importance sampling, Wilkie et al. 2014,
+ * "Hero Wavelength Spectral Sampling"). Light samples are taken only in interiors without an optical surface: no
+ * straight way leads out of the others.
  */
 export function volumeModule(traversal: WgslModule, areas: WgslModule): WgslModule {
   return wgslModule(
@@ -105,6 +105,13 @@ fn volume_walk(index: u32, entry: u32, medium: OpenPbrMedium) {
 }
 //#endif
 `,
-    [media, traversal, gated('AREA_LIGHTS', areas), gated('SCATTERING', pathSample), gated('SCATTERING', random), gated('SCATTERING', openpbrPhase)],
+    [
+      media,
+      traversal,
+      gated('AREA_LIGHTS', areas),
+      gated('SCATTERING', pathSample),
+      gated('SCATTERING', random),
+      gated('SCATTERING', openpbrPhase),
+    ],
   );
 }

@@ -12,7 +12,10 @@ export interface GpuDescription {
   readonly software: boolean;
 }
 
-/** Mesa's major version where the adapter is one of Mesa's software rasterisers, e.g. 25; `undefined` for any other adapter. */
+/**
+ * Mesa's major version where the adapter is one of Mesa's software rasterisers, e.g. 25; `undefined` for any other
+ * adapter.
+ */
 export function lavapipeVersion(info: GPUAdapterInfo): number | undefined {
   if (!/llvmpipe|lavapipe/i.test(`${info.device} ${info.description}`)) return undefined;
   const version = /mesa (\d+)\./i.exec(info.description)?.[1];

@@ -3,7 +3,16 @@ import { isSoftware } from '../software';
 import { lavapipeVersion, type GpuDescription } from './adapter-info';
 import { createPinned, firstLine, listAdapters, loadDawn, type Dawn } from './dawn';
 import { packagedSwiftShader } from './swiftshader';
-import { canSwitchDrivers, chromiumSwiftShaders, driverEnvironment, installedLavapipe, restoreDriverEnvironment, switchToDriver, type DriverEnvironment, type VulkanDriver } from './vulkan-driver';
+import {
+  canSwitchDrivers,
+  chromiumSwiftShaders,
+  driverEnvironment,
+  installedLavapipe,
+  restoreDriverEnvironment,
+  switchToDriver,
+  type DriverEnvironment,
+  type VulkanDriver,
+} from './vulkan-driver';
 
 /** What {@link createGpu} may be told. */
 export interface GpuOptions {
@@ -52,7 +61,10 @@ function* sources(options: GpuOptions, user: DriverEnvironment): Generator<Sourc
 }
 
 /** WebGPU has no field for a card's plain name: `device` is the nearest on hardware, the driver's text on software. */
-const adapterName = (info: GPUAdapterInfo) => (isSoftware(info) ? info.description || info.device : info.device || info.description) || info.vendor || 'unnamed GPU';
+const adapterName = (info: GPUAdapterInfo) =>
+  (isSoftware(info) ? info.description || info.device : info.device || info.description) ||
+  info.vendor ||
+  'unnamed GPU';
 
 /** Why an adapter will not do; `undefined` if it will. */
 function objection(info: GPUAdapterInfo, options: GpuOptions): string | undefined {
@@ -73,7 +85,9 @@ async function tryDrivers(dawn: Dawn, options: GpuOptions): Promise<NodeGpu | st
   if (wanted !== undefined || options.software === 'only') {
     const listed = await listAdapters(dawn);
     if (listed.length === 0) return 'no adapter';
-    names = listed.filter((adapter) => wanted === undefined || adapter.name.toLowerCase().includes(wanted)).map((adapter) => adapter.name);
+    names = listed
+      .filter((adapter) => wanted === undefined || adapter.name.toLowerCase().includes(wanted))
+      .map((adapter) => adapter.name);
     if (names.length === 0) return `only ${listed.map((adapter) => `"${adapter.name}"`).join(', ')}`;
   }
   let reason = 'no adapter';
@@ -83,7 +97,8 @@ async function tryDrivers(dawn: Dawn, options: GpuOptions): Promise<NodeGpu | st
       const adapter = await gpu.requestAdapter({ powerPreference: 'high-performance' });
       if (!adapter) continue;
       const fault = objection(adapter.info, options);
-      if (fault === undefined) return { gpu, adapterName: name ?? adapterName(adapter.info), software: isSoftware(adapter.info) };
+      if (fault === undefined)
+        return { gpu, adapterName: name ?? adapterName(adapter.info), software: isSoftware(adapter.info) };
       reason = fault;
     } catch (error) {
       reason = firstLine(error);
@@ -119,7 +134,12 @@ async function search(options: GpuOptions, user: DriverEnvironment): Promise<Nod
     tried.push(`${what}: ${result}`);
   }
   restoreDriverEnvironment(user);
-  const wish = options.gpu === undefined ? (options.software === 'only' ? 'software GPU' : 'usable GPU') : `GPU called "${options.gpu}"`;
+  const wish =
+    options.gpu === undefined
+      ? options.software === 'only'
+        ? 'software GPU'
+        : 'usable GPU'
+      : `GPU called "${options.gpu}"`;
   const advice =
     options.gpu !== undefined
       ? 'give a part of a listed name'
@@ -132,8 +152,8 @@ async function search(options: GpuOptions, user: DriverEnvironment): Promise<Nod
 /**
  * WebGPU for Node, through Dawn (the package `webgpu`). Looks for adapters in this order: the driver named by
  * `VK_DRIVER_FILES` or `VK_ICD_FILENAMES` or else the installed ones; Mesa's lavapipe ≥ 25; the SwiftShader of an
- * installed Chromium; the SwiftShader of the optional npm package `@sparticuz/chromium` (Linux x64), which needs nothing
- * else on the machine. The last three set `VK_DRIVER_FILES` of this process and work on the main thread only.
+ * installed Chromium; the SwiftShader of the optional npm package `@sparticuz/chromium` (Linux x64), which needs
+ * nothing else on the machine. The last three set `VK_DRIVER_FILES` of this process and work on the main thread only.
  * Also defines WebGPU's constants (`GPUBufferUsage`, …) globally, as browsers do.
  *
  * The same options give the same object again; it lives as long as the process, as Dawn needs it to.
@@ -165,14 +185,21 @@ async function describe(dawn: Dawn): Promise<GpuDescription[]> {
     const adapter = await createPinned(dawn, [`adapter=${name}`])
       .requestAdapter()
       .catch(() => null);
-    if (adapter) result.push({ name, backend, vendor: adapter.info.vendor, driver: adapter.info.description, software: isSoftware(adapter.info) });
+    if (adapter)
+      result.push({
+        name,
+        backend,
+        vendor: adapter.info.vendor,
+        driver: adapter.info.description,
+        software: isSoftware(adapter.info),
+      });
   }
   return result;
 }
 
 /**
- * Lists the adapters that {@link createGpu} can choose from: those of the installed drivers, and the software GPU that it
- * would fall back to.
+ * Lists the adapters that {@link createGpu} can choose from: those of the installed drivers, and the software GPU that
+ * it would fall back to.
  *
  * @throws {DeviceError} `renderer/no-webgpu` when Dawn is missing. No adapter at all gives an empty list.
  */

@@ -24,7 +24,9 @@ export async function loadDawn(): Promise<Dawn> {
     const specifier = isAbsolute(override) ? pathToFileURL(override).href : override;
     return withGlobals((await import(/* @vite-ignore */ specifier)) as Dawn);
   } catch (cause) {
-    const what = override ? `GPU_WEBGPU points to "${override}", which does not load` : 'the package "webgpu" (Dawn for Node) is not installed or does not load: run `npm install webgpu`';
+    const what = override
+      ? `GPU_WEBGPU points to "${override}", which does not load`
+      : 'the package "webgpu" (Dawn for Node) is not installed or does not load: run `npm install webgpu`';
     throw new DeviceError('renderer/no-webgpu', `WebGPU in Node: ${what} (${firstLine(cause)}).`, { cause });
   }
 }
@@ -39,7 +41,9 @@ function withGlobals(dawn: Dawn): Dawn {
 
 /** First line of an error's message, for messages that quote it. */
 export function firstLine(error: unknown): string {
-  return String((error as Error)?.message ?? error).split('\n', 1)[0]!.trim();
+  return String((error as Error)?.message ?? error)
+    .split('\n', 1)[0]!
+    .trim();
 }
 
 const PINNED = Symbol.for('glanz.dawn');

@@ -40,8 +40,14 @@ function isOwn(folder: string): boolean {
 
 /** Places for the inflated files, best first. */
 function cacheFolders(version: string): string[] {
-  const caches = [process.env['XDG_CACHE_HOME'], join(homedir(), '.cache'), join(tmpdir(), `glanz-${process.getuid?.() ?? 'cache'}`)];
-  return caches.filter((folder): folder is string => !!folder && folder.startsWith('/')).map((folder) => join(folder, 'glanz', `swiftshader-${version}`));
+  const caches = [
+    process.env['XDG_CACHE_HOME'],
+    join(homedir(), '.cache'),
+    join(tmpdir(), `glanz-${process.getuid?.() ?? 'cache'}`),
+  ];
+  return caches
+    .filter((folder): folder is string => !!folder && folder.startsWith('/'))
+    .map((folder) => join(folder, 'glanz', `swiftshader-${version}`));
 }
 
 /** Writes the archive's files under `target`; a second process doing the same at the same time does no harm. */
@@ -52,7 +58,8 @@ function inflate(archive: string, target: string): void {
   try {
     for (const entry of readTar(brotliDecompressSync(readFileSync(archive)))) {
       const name = basename(entry.name);
-      if (name === ICD || name === DRIVER || name === LOADER) writeFileSync(join(work, name), entry.data, { mode: 0o700 });
+      if (name === ICD || name === DRIVER || name === LOADER)
+        writeFileSync(join(work, name), entry.data, { mode: 0o700 });
     }
     if (!complete(work)) throw new Error(`${archive} lacks ${ICD}, ${DRIVER} or ${LOADER}`);
     // An incomplete folder (a cleaner's work) is in the way of the rename; a complete one is another process's.
@@ -77,7 +84,8 @@ export function packagedSwiftShader(): VulkanDriver | string {
   if (process.platform !== 'linux' || process.arch !== 'x64') return `${PACKAGE} serves Linux x64 only`;
   const folder = packageFolder();
   if (!folder) return `${PACKAGE} is not installed`;
-  const version = (JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8')) as { version?: string }).version ?? 'unknown';
+  const version =
+    (JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8')) as { version?: string }).version ?? 'unknown';
   let reason = '';
   for (const cache of cacheFolders(version)) {
     try {

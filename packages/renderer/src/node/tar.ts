@@ -20,14 +20,16 @@ export function readTar(bytes: Uint8Array): TarEntry[] {
     return new TextDecoder().decode(end < 0 ? field : field.subarray(0, end));
   };
   const entries: TarEntry[] = [];
-  for (let at = 0; at + BLOCK <= bytes.length; ) {
+  for (let at = 0; at + BLOCK <= bytes.length;) {
     const name = text(at, 100);
     if (name === '') break;
     const size = Number.parseInt(text(at + 124, 12).trim(), 8);
     const type = bytes[at + 156];
     const start = at + BLOCK;
-    if (!Number.isFinite(size) || start + size > bytes.length) throw new RangeError(`tar: entry "${name}" is cut short`);
-    if (type === 0 || type === 0x30) entries.push({ name: name.replace(/^\.\//, ''), data: bytes.subarray(start, start + size) });
+    if (!Number.isFinite(size) || start + size > bytes.length)
+      throw new RangeError(`tar: entry "${name}" is cut short`);
+    if (type === 0 || type === 0x30)
+      entries.push({ name: name.replace(/^\.\//, ''), data: bytes.subarray(start, start + size) });
     at = start + Math.ceil(size / BLOCK) * BLOCK;
   }
   return entries;

@@ -32,7 +32,9 @@ export function restoreDriverEnvironment(environment: DriverEnvironment): void {
   }
 }
 
-/** Whether drivers can be switched here: the environment of a worker thread is a copy that the Vulkan loader never sees. */
+/**
+ * Whether drivers can be switched here: the environment of a worker thread is a copy that the Vulkan loader never sees.
+ */
 export function canSwitchDrivers(): boolean {
   return isMainThread && process.platform === 'linux';
 }
@@ -44,7 +46,11 @@ export function switchToDriver(driver: VulkanDriver): void {
   for (const name of VARIABLES) process.env[name] = driver.icd;
   if (!driver.loader || !existsSync(driver.loader)) return;
   try {
-    process.dlopen({ exports: {} }, driver.loader, constants.dlopen.RTLD_NOW | constants.dlopen.RTLD_GLOBAL | RTLD_NODELETE);
+    process.dlopen(
+      { exports: {} },
+      driver.loader,
+      constants.dlopen.RTLD_NOW | constants.dlopen.RTLD_GLOBAL | RTLD_NODELETE,
+    );
   } catch {
     // It always throws, a Vulkan loader being no Node add-on, but stays mapped, where Dawn finds it by its name.
   }

@@ -9,7 +9,13 @@ function nearest(name: string, names: readonly string[]): string | undefined {
     for (let i = 1; i <= name.length; i++) {
       const next = [i];
       for (let j = 1; j <= other.length; j++) {
-        next.push(Math.min((row[j] as number) + 1, (next[j - 1] as number) + 1, (row[j - 1] as number) + (name[i - 1] === other[j - 1] ? 0 : 1)));
+        next.push(
+          Math.min(
+            (row[j] as number) + 1,
+            (next[j - 1] as number) + 1,
+            (row[j - 1] as number) + (name[i - 1] === other[j - 1] ? 0 : 1),
+          ),
+        );
       }
       row = next;
     }
@@ -20,13 +26,15 @@ function nearest(name: string, names: readonly string[]): string | undefined {
 }
 
 /**
- * Checks parameters that a material is about to get. Unlike a file's, which are repaired with a warning, an edit's are refused.
+ * Checks parameters that a material is about to get. Unlike a file's, which are repaired with a warning, an edit's are
+ * refused.
  *
  * @param material Its name, for the error.
  * @throws {RenderError} `renderer/material` for names that OpenPBR does not have, and values that it does not allow.
  */
 export function checkParameters(material: string, parameters: Material['parameters']): void {
-  const refuse = (why: string, cause?: unknown) => new RenderError('renderer/material', `Material "${material}" was not changed: ${why}`, { cause });
+  const refuse = (why: string, cause?: unknown) =>
+    new RenderError('renderer/material', `Material "${material}" was not changed: ${why}`, { cause });
   let warnings: ReturnType<typeof validateParameters>['warnings'];
   try {
     ({ warnings } = validateParameters(parameters));
@@ -42,5 +50,7 @@ export function checkParameters(material: string, parameters: Material['paramete
   }
   const [min = '-∞', max = '∞'] = OPENPBR_PARAMETERS[parameter as keyof typeof OPENPBR_PARAMETERS].range ?? [];
   const value = String(parameters[parameter as keyof typeof parameters]);
-  throw refuse(`${parameter} is ${value}; it must be ${code === 'openpbr/no-direction' ? 'a vector with a length' : `finite and from ${min} to ${max}`}.`);
+  throw refuse(
+    `${parameter} is ${value}; it must be ${code === 'openpbr/no-direction' ? 'a vector with a length' : `finite and from ${min} to ${max}`}.`,
+  );
 }

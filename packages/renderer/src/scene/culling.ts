@@ -9,5 +9,10 @@ import { parametersOf } from './parameters';
  */
 export function isOneSided(material: Material, opaque: boolean): boolean {
   const { transmission_weight, subsurface_weight } = parametersOf(material);
-  return material.double_sided !== true && transmission_weight === 0 && subsurface_weight === 0 && (opaque || material.opacity_threshold !== undefined);
+  return (
+    material.double_sided !== true &&
+    transmission_weight === 0 &&
+    subsurface_weight === 0 &&
+    (opaque || material.opacity_threshold !== undefined)
+  );
 }

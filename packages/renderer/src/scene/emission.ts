@@ -17,10 +17,14 @@ export class EmissionEstimate {
     this.#decode = Float32Array.from({ length: 256 }, (_, code) => curve(code / 255));
   }
 
-  /** Mean over a triangle given by its uvs, from a grid of texels as fine as the triangle is large on the picture, up to 16 × 16. */
+  /**
+   * Mean over a triangle given by its uvs, from a grid of texels as fine as the triangle is large on the picture, up to
+   * 16 × 16.
+   */
   mean(uv: readonly [number, number, number, number, number, number]): number {
     const [a, b, c, d] = this.#binding.transform ?? [1, 0, 0, 1, 0, 0];
-    const area = Math.abs((uv[2] - uv[0]) * (uv[5] - uv[1]) - (uv[3] - uv[1]) * (uv[4] - uv[0])) * Math.abs(a * d - b * c);
+    const area =
+      Math.abs((uv[2] - uv[0]) * (uv[5] - uv[1]) - (uv[3] - uv[1]) * (uv[4] - uv[0])) * Math.abs(a * d - b * c);
     const n = Math.min(16, Math.max(2, Math.ceil(Math.sqrt(area * this.#image.width * this.#image.height) / 4)));
     let sum = 0;
     let count = 0;
@@ -28,7 +32,10 @@ export class EmissionEstimate {
       for (let j = 0; j < n - i; j++) {
         const s = (i + 1 / 3) / n;
         const t = (j + 1 / 3) / n;
-        sum += this.#luminance(uv[0] + s * (uv[2] - uv[0]) + t * (uv[4] - uv[0]), uv[1] + s * (uv[3] - uv[1]) + t * (uv[5] - uv[1]));
+        sum += this.#luminance(
+          uv[0] + s * (uv[2] - uv[0]) + t * (uv[4] - uv[0]),
+          uv[1] + s * (uv[3] - uv[1]) + t * (uv[5] - uv[1]),
+        );
         count++;
       }
     }
@@ -41,7 +48,8 @@ export class EmissionEstimate {
     const px = Math.floor(wrap(a * u + c * v + x, this.#texture.wrap_u) * width);
     const py = Math.floor(wrap(b * u + d * v + y, this.#texture.wrap_v) * height);
     const at = 4 * (Math.min(py, height - 1) * width + Math.min(px, width - 1));
-    const value = (k: number) => (data instanceof Float32Array ? (data[at + k] as number) : (this.#decode[data[at + k] as number] as number));
+    const value = (k: number) =>
+      data instanceof Float32Array ? (data[at + k] as number) : (this.#decode[data[at + k] as number] as number);
     return 0.2126 * value(0) + 0.7152 * value(1) + 0.0722 * value(2);
   }
 }

@@ -9,7 +9,10 @@ export interface EnvironmentData {
   /** Cosine and sine of the rotation about +Y. */
   readonly rotation: readonly [number, number];
   readonly visible: boolean;
-  /** Importance cells, RGBA: distribution within the row, distribution of the rows, density over the unit square, 0; absent when sampling by the BSDF alone is as good. */
+  /**
+   * Importance cells, RGBA: distribution within the row, distribution of the rows, density over the unit square, 0;
+   * absent when sampling by the BSDF alone is as good.
+   */
   readonly table?: { readonly width: number; readonly height: number; readonly data: Float32Array<ArrayBuffer> };
   /** Mean luminance over the sphere. */
   readonly meanLuminance: number;
@@ -47,7 +50,12 @@ export function* environmentSteps(environment: Environment | undefined): Generat
   if (!environment) return { radiance: [0, 0, 0], rotation: [1, 0], visible: true, meanLuminance: 0 };
   const visible = environment.visible ?? true;
   if (environment.type === 'constant') {
-    return { radiance: environment.radiance, rotation: [1, 0], visible, meanLuminance: luminance(...environment.radiance) };
+    return {
+      radiance: environment.radiance,
+      rotation: [1, 0],
+      visible,
+      meanLuminance: luminance(...environment.radiance),
+    };
   }
   const { width, height, data } = environment;
   const pixels = new Float32Array(width * height * 4);
@@ -60,7 +68,11 @@ export function* environmentSteps(environment: Environment | undefined): Generat
 }
 
 /** An image at the rotation and intensity of an environment. */
-function placed(environment: LatLongEnvironment, pixels: EnvironmentData['pixels'] & object, image: PreparedImage): EnvironmentData {
+function placed(
+  environment: LatLongEnvironment,
+  pixels: EnvironmentData['pixels'] & object,
+  image: PreparedImage,
+): EnvironmentData {
   const { intensity = 1, rotation = 0, visible = true } = environment;
   return {
     pixels,
@@ -91,7 +103,12 @@ export function roughEnvironment(environment: Environment | undefined): Environm
       solid += sine;
     }
   }
-  return { radiance: [intensity, intensity, intensity], rotation: [1, 0], visible, meanLuminance: (intensity * sum) / solid };
+  return {
+    radiance: [intensity, intensity, intensity],
+    rotation: [1, 0],
+    visible,
+    meanLuminance: (intensity * sum) / solid,
+  };
 }
 
 function copyPixels(pixels: Float32Array, data: Float32Array, from: number, to: number): void {
@@ -115,28 +132,41 @@ function* eachRow(width: number, height: number, work: (y: number) => void): Gen
 }
 
 /**
- * Whether an environment has the texels of one that was prepared before. The array decides, not the numbers in it: they must not
- * change in place.
+ * Whether an environment has the texels of one that was prepared before. The array decides, not the numbers in it: they
+ * must not change in place.
  */
-export function hasSameTexels(before: EnvironmentData, environment: Environment | undefined): environment is LatLongEnvironment {
+export function hasSameTexels(
+  before: EnvironmentData,
+  environment: Environment | undefined,
+): environment is LatLongEnvironment {
   const { pixels, image } = before;
   if (environment?.type !== 'latlong' || !image || environment.data !== image.source) return false;
   return environment.width === pixels?.width && environment.height === pixels.height;
 }
 
 /** The same image at another rotation or intensity, without reading its texels; `undefined` if it is another image. */
-export function turnEnvironment(before: EnvironmentData, environment: Environment | undefined): EnvironmentData | undefined {
+export function turnEnvironment(
+  before: EnvironmentData,
+  environment: Environment | undefined,
+): EnvironmentData | undefined {
   if (!before.pixels || !before.image || !hasSameTexels(before, environment)) return undefined;
   return placed(environment, before.pixels, before.image);
 }
 
-/** Luminance of the picture, texel by texel; of a large one averaged over the cells of a coarser grid, as it is read: bilinearly. */
-function* cellLuminance(source: LatLongEnvironment, pixels: Float32Array): Generator<void, { width: number; height: number; values: Float64Array }> {
+/**
+ * Luminance of the picture, texel by texel; of a large one averaged over the cells of a coarser grid, as it is read:
+ * bilinearly.
+ */
+function* cellLuminance(
+  source: LatLongEnvironment,
+  pixels: Float32Array,
+): Generator<void, { width: number; height: number; values: Float64Array }> {
   const { width: w, height: h } = source;
   if (w <= MAX_CELLS[0] && h <= MAX_CELLS[1]) {
     const values = new Float64Array(w * h);
     yield* eachRow(w, h, (y) => {
-      for (let i = y * w; i < (y + 1) * w; i++) values[i] = luminance(pixels[4 * i] as number, pixels[4 * i + 1] as number, pixels[4 * i + 2] as number);
+      for (let i = y * w; i < (y + 1) * w; i++)
+        values[i] = luminance(pixels[4 * i] as number, pixels[4 * i + 1] as number, pixels[4 * i + 2] as number);
     });
     return { width: w, height: h, values };
   }
@@ -179,11 +209,17 @@ function* cellLuminance(source: LatLongEnvironment, pixels: Float32Array): Gener
  * The distribution over cells. Densities are lowered by the mean radiance (MIS compensation, Karlík et al. 2019): what
  * BSDF sampling finds well anyway is left to it.
  */
-function* importance(source: LatLongEnvironment, pixels: Float32Array): Generator<void, { table?: EnvironmentData['table'] & object; mean: number }> {
+function* importance(
+  source: LatLongEnvironment,
+  pixels: Float32Array,
+): Generator<void, { table?: EnvironmentData['table'] & object; mean: number }> {
   const { width, height, values } = yield* cellLuminance(source, pixels);
   let sum = 0;
   let solid = 0;
-  const sines = Array.from({ length: height }, (_, y) => Math.cos((y * Math.PI) / height) - Math.cos(((y + 1) * Math.PI) / height));
+  const sines = Array.from(
+    { length: height },
+    (_, y) => Math.cos((y * Math.PI) / height) - Math.cos(((y + 1) * Math.PI) / height),
+  );
   yield* eachRow(width, height, (y) => {
     for (let x = 0; x < width; x++) sum += (values[y * width + x] as number) * (sines[y] as number);
     solid += (sines[y] as number) * width;
@@ -192,7 +228,8 @@ function* importance(source: LatLongEnvironment, pixels: Float32Array): Generato
   const weights = new Float64Array(width * height);
   let total = 0;
   yield* eachRow(width, height, (y) => {
-    for (let x = 0; x < width; x++) total += weights[y * width + x] = Math.max((values[y * width + x] as number) - mean, 0) * (sines[y] as number);
+    for (let x = 0; x < width; x++)
+      total += weights[y * width + x] = Math.max((values[y * width + x] as number) - mean, 0) * (sines[y] as number);
   });
   if (!(total > 0 && total < Infinity)) return { mean };
   const data = new Float32Array(width * height * 4);

@@ -8,7 +8,16 @@ import { lightGroupTable } from './light-groups';
 import { hasSize } from './light-records';
 import type { LightSampling } from './lights';
 import { MaterialUse } from './material-use';
-import { emittedRadiance, hasCoatFrames, hasRanges, isOpaque, texturedParameters, turnsTangent, usedTextures, type TexturedParameterInfo } from './materials';
+import {
+  emittedRadiance,
+  hasCoatFrames,
+  hasRanges,
+  isOpaque,
+  texturedParameters,
+  turnsTangent,
+  usedTextures,
+  type TexturedParameterInfo,
+} from './materials';
 import { parametersOf } from './parameters';
 import { compressedFormats, planTextures, type TexturePlan } from './textures';
 
@@ -47,9 +56,15 @@ export function sceneFeatures(scene: Scene, choices: SceneChoices, facts: SceneF
   const { textured, plan, lights, environmentSampled } = facts;
   const parameters = scene.materials.map((material) => parametersOf(material));
   const names = textured.map(({ name }) => name);
-  const visible = scene.materials.flatMap((material, index) => (facts.isVisible(index) ? [{ material, opaque: facts.isOpaque(index) }] : []));
-  const culled = choices.backFaceCulling !== 'off' && visible.some(({ material, opaque }) => isOneSided(material, opaque));
-  const openpbrFlags = requiredFeatures(parameters, { textured: names, multipleScattering: choices.multipleScattering });
+  const visible = scene.materials.flatMap((material, index) =>
+    facts.isVisible(index) ? [{ material, opaque: facts.isOpaque(index) }] : [],
+  );
+  const culled =
+    choices.backFaceCulling !== 'off' && visible.some(({ material, opaque }) => isOneSided(material, opaque));
+  const openpbrFlags = requiredFeatures(parameters, {
+    textured: names,
+    multipleScattering: choices.multipleScattering,
+  });
   return {
     flags: {
       ...openpbrFlags,
@@ -58,12 +73,19 @@ export function sceneFeatures(scene: Scene, choices: SceneChoices, facts: SceneF
       TEXTURE_RANGES: hasRanges(scene.materials),
       TANGENT_MAP: openpbrFlags.OPENPBR_ANISOTROPY && turnsTangent(scene.materials),
       // Where the mesh has no tangents, they follow the texture coordinates.
-      UV_FRAME: openpbrFlags.OPENPBR_ANISOTROPY || names.includes('geometry_normal') || names.includes('geometry_coat_normal'),
+      UV_FRAME:
+        openpbrFlags.OPENPBR_ANISOTROPY || names.includes('geometry_normal') || names.includes('geometry_coat_normal'),
       OPENPBR_COAT_FRAME: hasCoatFrames(scene.materials),
       // A coat dims what is emitted below it; vertex colours paint what only emits.
       EMISSION_TEXTURES:
-        names.some((name) => name === 'emission_color' || name === 'emission_luminance' || (openpbrFlags.OPENPBR_COAT && name.startsWith('coat_'))) ||
-        (facts.vertexColors && parameters.some((p) => p.emission_luminance > 0 && p.base_weight === 0 && p.specular_weight === 0)),
+        names.some(
+          (name) =>
+            name === 'emission_color' ||
+            name === 'emission_luminance' ||
+            (openpbrFlags.OPENPBR_COAT && name.startsWith('coat_')),
+        ) ||
+        (facts.vertexColors &&
+          parameters.some((p) => p.emission_luminance > 0 && p.base_weight === 0 && p.specular_weight === 0)),
       VERTEX_COLORS: facts.vertexColors,
       OPACITY: visible.some(({ opaque }) => !opaque),
       CULLING: culled,
@@ -78,7 +100,8 @@ export function sceneFeatures(scene: Scene, choices: SceneChoices, facts: SceneF
       LIGHT_GROUPS: choices.lightGroups !== 'off',
       NEXT_EVENT: lights || environmentSampled,
       ...interiorFlags(scene.materials),
-      TERMINATOR_LIFT: choices.shadowTerminator === 'smooth' && scene.meshes.some(({ normals }) => normals !== undefined),
+      TERMINATOR_LIFT:
+        choices.shadowTerminator === 'smooth' && scene.meshes.some(({ normals }) => normals !== undefined),
       SOBOL: choices.sampler !== 'independent',
       SCREEN_NOISE: choices.sampler === 'blue-noise',
     },
@@ -95,15 +118,24 @@ const OWN_TEXTURES = 4;
 
 /** How the scene's textures lie in those that kernels can bind. */
 export function texturePlan(device: GPUDevice, scene: Scene): TexturePlan {
-  return planTextures(scene, usedTextures(scene.materials), device.limits.maxSampledTexturesPerShaderStage - OWN_TEXTURES, device.limits, compressedFormats(device));
+  return planTextures(
+    scene,
+    usedTextures(scene.materials),
+    device.limits.maxSampledTexturesPerShaderStage - OWN_TEXTURES,
+    device.limits,
+    compressedFormats(device),
+  );
 }
 
 /**
- * What {@link sceneFeatures} will most likely say, before anything has been built: kernels compile while the hierarchies are
- * made. Where it is wrong (a lamp without power, a picture of even surroundings), nothing is lost but that work.
+ * What {@link sceneFeatures} will most likely say, before anything has been built: kernels compile while the
+ * hierarchies are made. Where it is wrong (a lamp without power, a picture of even surroundings), nothing is lost but
+ * that work.
  */
 export function expectedFeatures(device: GPUDevice, scene: Scene, choices: SceneChoices): KernelFeatures {
-  const shown = scene.instances.filter(({ visible, mesh }) => visible !== false && (scene.meshes[mesh] as Mesh).indices.length >= 3);
+  const shown = scene.instances.filter(
+    ({ visible, mesh }) => visible !== false && (scene.meshes[mesh] as Mesh).indices.length >= 3,
+  );
   const glows = scene.materials.map((material) => emittedRadiance(parametersOf(material)).some((value) => value > 0));
   const lights = scene.lights.length > 0 || shown.some(({ material }) => glows[material]);
   const { environment } = scene;

@@ -46,7 +46,9 @@ export interface PackedGeometry {
 
 /** Meshes that visible instances use, in order. */
 function usedMeshes(scene: Scene): number[] {
-  return [...new Set(scene.instances.filter((instance) => isShown(scene, instance)).map(({ mesh }) => mesh))].sort((a, b) => a - b);
+  return [...new Set(scene.instances.filter((instance) => isShown(scene, instance)).map(({ mesh }) => mesh))].sort(
+    (a, b) => a - b,
+  );
 }
 
 /** The meshes in use that have no hierarchy yet. */
@@ -59,15 +61,29 @@ export function missingMeshes(scene: Scene, blas: readonly (Blas | undefined)[])
  *
  * @param blas Hierarchies that are there already, by mesh.
  */
-export async function prepareHierarchies(scene: Scene, options: HierarchyOptions = {}, blas: readonly (Blas | undefined)[] = []): Promise<(Blas | undefined)[]> {
+export async function prepareHierarchies(
+  scene: Scene,
+  options: HierarchyOptions = {},
+  blas: readonly (Blas | undefined)[] = [],
+): Promise<(Blas | undefined)[]> {
   const all = scene.meshes.map((_, i) => blas[i]);
   const missing = missingMeshes(scene, all);
-  const built = await buildHierarchies(missing.map((index) => scene.meshes[index] as Mesh), options);
+  const built = await buildHierarchies(
+    missing.map((index) => scene.meshes[index] as Mesh),
+    options,
+  );
   missing.forEach((index, i) => (all[index] = built[i]));
   return all;
 }
 
-const attributesOf = (mesh: Mesh) => [mesh.indices, mesh.normals, mesh.tangents, mesh.colors, mesh.uvs?.[0], mesh.uvs?.[1]];
+const attributesOf = (mesh: Mesh) => [
+  mesh.indices,
+  mesh.normals,
+  mesh.tangents,
+  mesh.colors,
+  mesh.uvs?.[0],
+  mesh.uvs?.[1],
+];
 
 /** Words that a mesh's attributes take. */
 export function attributeWords(mesh: Mesh): number {
@@ -88,13 +104,29 @@ export function layOutGeometry(scene: Scene, blas: readonly (Blas | undefined)[]
   let words = (scene.meshes.length * meshStruct.size) / 4;
   scene.meshes.forEach((mesh, i) => {
     const tree = blas[i];
-    const region = { firstNode: nodeCount, nodes: tree?.nodeCount ?? 0, firstTriangle: triangleCount, triangles: tree?.triangleIndices.length ?? 0, firstWord: words, words: tree ? attributeWords(mesh) : 0 };
+    const region = {
+      firstNode: nodeCount,
+      nodes: tree?.nodeCount ?? 0,
+      firstTriangle: triangleCount,
+      triangles: tree?.triangleIndices.length ?? 0,
+      firstWord: words,
+      words: tree ? attributeWords(mesh) : 0,
+    };
     regions.push(region);
     nodeCount += region.nodes;
     triangleCount += region.triangles;
     words += region.words;
   });
-  return { placement, blas, tlasNodes, regions, nodeCount, triangleCount, attributeWords: words, hasVertexColors: scene.meshes.some((mesh, i) => blas[i] !== undefined && mesh.colors !== undefined) };
+  return {
+    placement,
+    blas,
+    tlasNodes,
+    regions,
+    nodeCount,
+    triangleCount,
+    attributeWords: words,
+    hasVertexColors: scene.meshes.some((mesh, i) => blas[i] !== undefined && mesh.colors !== undefined),
+  };
 }
 
 /**
@@ -118,18 +150,33 @@ export interface ShapeSlice {
   readonly data: ArrayBufferView<ArrayBuffer>;
 }
 
-function* slicesOf(buffer: ShapeSlice['buffer'], offset: number, array: Float32Array | Uint32Array): Generator<ShapeSlice> {
-  for (let at = 0; at < array.byteLength; at += SLICE_BYTES) yield { buffer, offset: offset + at, data: new Uint8Array(array.buffer as ArrayBuffer, array.byteOffset + at, Math.min(SLICE_BYTES, array.byteLength - at)) };
+function* slicesOf(
+  buffer: ShapeSlice['buffer'],
+  offset: number,
+  array: Float32Array | Uint32Array,
+): Generator<ShapeSlice> {
+  for (let at = 0; at < array.byteLength; at += SLICE_BYTES)
+    yield {
+      buffer,
+      offset: offset + at,
+      data: new Uint8Array(
+        array.buffer as ArrayBuffer,
+        array.byteOffset + at,
+        Math.min(SLICE_BYTES, array.byteLength - at),
+      ),
+    };
 }
 
 /**
- * Shapes for the GPU, slice by slice: what {@link packGeometry} gives as a whole, without ever holding it. Slices are to be
- * written or copied before the next is asked for.
+ * Shapes for the GPU, slice by slice: what {@link packGeometry} gives as a whole, without ever holding it. Slices are
+ * to be written or copied before the next is asked for.
  */
 export function* shapeSlices(scene: Scene, geometry: Geometry): Generator<ShapeSlice> {
   for (const { first, nodes } of geometry.placement.allNodes()) yield* slicesOf('nodes', 4 * first * NODE_WORDS, nodes);
   const records = new Uint32Array(scene.meshes.length * RECORD_WORDS);
-  scene.meshes.forEach((mesh, index) => writeRecord(records, index * RECORD_WORDS, mesh, geometry.blas[index], geometry.regions[index] as MeshRegion));
+  scene.meshes.forEach((mesh, index) =>
+    writeRecord(records, index * RECORD_WORDS, mesh, geometry.blas[index], geometry.regions[index] as MeshRegion),
+  );
   yield* slicesOf('attributes', 0, records);
   for (const [index, mesh] of scene.meshes.entries()) {
     const region = geometry.regions[index] as MeshRegion;
@@ -138,7 +185,10 @@ export function* shapeSlices(scene: Scene, geometry: Geometry): Generator<ShapeS
     yield* slicesOf('nodes', 4 * region.firstNode * NODE_WORDS, tree.nodes.subarray(0, tree.nodeCount * NODE_WORDS));
     const { positions, indices } = mesh;
     for (let first = 0; first < tree.triangleIndices.length; first += SLICE_TRIANGLES) {
-      const data = packTriangles({ triangleIndices: tree.triangleIndices.subarray(first, first + SLICE_TRIANGLES) }, { positions, indices });
+      const data = packTriangles(
+        { triangleIndices: tree.triangleIndices.subarray(first, first + SLICE_TRIANGLES) },
+        { positions, indices },
+      );
       yield { buffer: 'triangles', offset: 4 * (region.firstTriangle + first) * TRIANGLE_WORDS, data };
     }
     let word = region.firstWord;
@@ -154,11 +204,14 @@ export function* shapeSlices(scene: Scene, geometry: Geometry): Generator<ShapeS
 const JOINED_BYTES = 1 << 18;
 
 /**
- * The same with fewer slices: those that follow each other in their buffer are joined while they are small, since each write
- * costs more than the bytes of a small mesh.
+ * The same with fewer slices: those that follow each other in their buffer are joined while they are small, since each
+ * write costs more than the bytes of a small mesh.
  */
 export function* joinSlices(slices: Iterable<ShapeSlice>): Generator<ShapeSlice> {
-  const open = new Map<ShapeSlice['buffer'], { offset: number; bytes: number; readonly memory: Uint8Array<ArrayBuffer> }>();
+  const open = new Map<
+    ShapeSlice['buffer'],
+    { offset: number; bytes: number; readonly memory: Uint8Array<ArrayBuffer> }
+  >();
   for (const slice of slices) {
     const { buffer, offset, data } = slice;
     if (2 * data.byteLength > JOINED_BYTES) {
@@ -175,7 +228,8 @@ export function* joinSlices(slices: Iterable<ShapeSlice>): Generator<ShapeSlice>
     joined.memory.set(new Uint8Array(data.buffer, data.byteOffset, data.byteLength), joined.bytes);
     joined.bytes += data.byteLength;
   }
-  for (const [buffer, { offset, bytes, memory }] of open) if (bytes > 0) yield { buffer, offset, data: memory.subarray(0, bytes) };
+  for (const [buffer, { offset, bytes, memory }] of open)
+    if (bytes > 0) yield { buffer, offset, data: memory.subarray(0, bytes) };
 }
 
 /** Writes shapes for the GPU, with the thread handed back now and then. */
@@ -205,10 +259,18 @@ export interface PackedMesh {
 
 const RECORD_WORDS = meshStruct.size / 4;
 /** Where a row of the mesh table says where each attribute begins, in words. */
-const ATTRIBUTE_PLACES = (['indices', 'normals', 'tangents', 'colors', 'uv0', 'uv1'] as const).map((name) => meshStruct.offsetOf(name) / 4);
+const ATTRIBUTE_PLACES = (['indices', 'normals', 'tangents', 'colors', 'uv0', 'uv1'] as const).map(
+  (name) => meshStruct.offsetOf(name) / 4,
+);
 
 /** Writes a mesh's row of the mesh table. */
-function writeRecord(records: Uint32Array, at: number, mesh: Mesh, tree: Blas | undefined, { firstWord }: MeshRegion): void {
+function writeRecord(
+  records: Uint32Array,
+  at: number,
+  mesh: Mesh,
+  tree: Blas | undefined,
+  { firstWord }: MeshRegion,
+): void {
   let word = firstWord;
   attributesOf(mesh).forEach((array, i) => {
     const present = tree !== undefined && array !== undefined && array.length > 0;
@@ -226,7 +288,10 @@ export function packMesh(mesh: Mesh, tree: Blas | undefined, region: MeshRegion)
   let at = 0;
   for (const array of attributesOf(mesh)) {
     if (!array) continue;
-    attributes.set(array instanceof Uint32Array ? array : new Uint32Array(array.buffer, array.byteOffset, array.length), at);
+    attributes.set(
+      array instanceof Uint32Array ? array : new Uint32Array(array.buffer, array.byteOffset, array.length),
+      at,
+    );
     at += array.length;
   }
   return {
@@ -238,15 +303,23 @@ export function packMesh(mesh: Mesh, tree: Blas | undefined, region: MeshRegion)
 }
 
 /** Writes the records of the scene's instances from `from` up to `to`. */
-export function packInstances(scene: Scene, geometry: Geometry, firstLight: Uint32Array, from = 0, to = scene.instances.length): ArrayBuffer {
+export function packInstances(
+  scene: Scene,
+  geometry: Geometry,
+  firstLight: Uint32Array,
+  from = 0,
+  to = scene.instances.length,
+): ArrayBuffer {
   const buffer = instanceStruct.allocate(to - from);
   const [floats, words] = [new Float32Array(buffer), new Uint32Array(buffer)];
-  for (let index = from; index < to; index++) writeInstance(floats, words, (index - from) * INSTANCE_WORDS, scene, geometry, index, firstLight);
+  for (let index = from; index < to; index++)
+    writeInstance(floats, words, (index - from) * INSTANCE_WORDS, scene, geometry, index, firstLight);
   return buffer;
 }
 
 const INSTANCE_WORDS = instanceStruct.size / 4;
-const traversalWord = (name: Parameters<typeof bvhInstanceStruct.offsetOf>[0]) => (instanceStruct.offsetOf('traversal') + bvhInstanceStruct.offsetOf(name)) / 4;
+const traversalWord = (name: Parameters<typeof bvhInstanceStruct.offsetOf>[0]) =>
+  (instanceStruct.offsetOf('traversal') + bvhInstanceStruct.offsetOf(name)) / 4;
 /** Where the members of a record are, in words. */
 const AT = {
   toObject: traversalWord('to_object_0'),
@@ -262,7 +335,15 @@ const AT = {
 };
 
 /** Writes word by word, for there may be hundreds of thousands. */
-function writeInstance(floats: Float32Array, words: Uint32Array, at: number, scene: Scene, { regions, placement }: Geometry, index: number, firstLight: Uint32Array): void {
+function writeInstance(
+  floats: Float32Array,
+  words: Uint32Array,
+  at: number,
+  scene: Scene,
+  { regions, placement }: Geometry,
+  index: number,
+  firstLight: Uint32Array,
+): void {
   const { transform, mesh, material, catcher } = scene.instances[index] as Instance;
   const { firstNode, firstTriangle } = regions[mesh] as MeshRegion;
   const { toObject } = placement.tlas;

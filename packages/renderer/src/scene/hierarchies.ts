@@ -1,16 +1,23 @@
 import { buildBlas, type Blas } from '@glanz/bvh';
 import { breathe, type Mesh } from '@glanz/scene';
 
-/** Builds the hierarchies of meshes in the renderer's place. A pool of workers is one: `BvhWorkers` of `@glanz/bvh/workers`. */
+/**
+ * Builds the hierarchies of meshes in the renderer's place. A pool of workers is one: `BvhWorkers` of
+ * `@glanz/bvh/workers`.
+ */
 export interface HierarchyBuilder {
   /**
    * Asked for every mesh in use at once, the largest first.
    *
    * @param mesh Stays as it is until the promise settles; not to be changed or handed over.
-   * @param options `signal` aborts when the scene is no longer wanted or another build has failed; `onProgress` takes the share of this mesh that is done, 0..1.
+   * @param options `signal` aborts when the scene is no longer wanted or another build has failed; `onProgress` takes
+   * the share of this mesh that is done, 0..1.
    * @returns What `buildBlas` of `@glanz/bvh` gives.
    */
-  buildBlas(mesh: { readonly positions: Float32Array; readonly indices: Uint32Array }, options: { readonly signal: AbortSignal; readonly onProgress: (done: number) => void }): Promise<Blas>;
+  buildBlas(
+    mesh: { readonly positions: Float32Array; readonly indices: Uint32Array },
+    options: { readonly signal: AbortSignal; readonly onProgress: (done: number) => void },
+  ): Promise<Blas>;
 }
 
 export interface HierarchyOptions {
@@ -41,7 +48,10 @@ export function breather(sliceMs: number = SLICE_MS): () => Promise<void> {
  * The hierarchies of the meshes, in their order. Without a builder they are built here, with the thread handed back in
  * between.
  */
-export async function buildHierarchies(meshes: readonly Mesh[], { hierarchies, signal, onProgress }: HierarchyOptions): Promise<Blas[]> {
+export async function buildHierarchies(
+  meshes: readonly Mesh[],
+  { hierarchies, signal, onProgress }: HierarchyOptions,
+): Promise<Blas[]> {
   const total = meshes.reduce((sum, mesh) => sum + mesh.indices.length, 0);
   if (!hierarchies) {
     const built: Blas[] = [];
@@ -63,7 +73,9 @@ export async function buildHierarchies(meshes: readonly Mesh[], { hierarchies, s
   signal?.addEventListener('abort', abort);
   const built: Blas[] = [];
   // Long builds first: several workers end at about the same time.
-  const order = [...meshes.keys()].sort((a, b) => (meshes[b] as Mesh).indices.length - (meshes[a] as Mesh).indices.length || a - b);
+  const order = [...meshes.keys()].sort(
+    (a, b) => (meshes[b] as Mesh).indices.length - (meshes[a] as Mesh).indices.length || a - b,
+  );
   const build = async (i: number) => {
     const { positions, indices } = meshes[i] as Mesh;
     const progress = (done: number) => {

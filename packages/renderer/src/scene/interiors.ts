@@ -38,15 +38,30 @@ export function isStraight(material: Material): boolean {
   const p = parametersOf(material);
   const { textures } = material;
   // Textures only lower a roughness.
-  return p.geometry_thin_walled && p.transmission_weight > 0 && p.subsurface_weight === 0 && p.specular_roughness <= SMOOTH && (p.base_metalness < 1 || textures?.base_metalness !== undefined);
+  return (
+    p.geometry_thin_walled &&
+    p.transmission_weight > 0 &&
+    p.subsurface_weight === 0 &&
+    p.specular_roughness <= SMOOTH &&
+    (p.base_metalness < 1 || textures?.base_metalness !== undefined)
+  );
 }
 
 /** What about the interiors of a scene's materials decides the kernels' text. */
-export function interiorFlags(materials: readonly Material[]): Record<'MEDIA' | 'SCATTERING' | 'NULL_SURFACES' | 'PATH_DEPTH' | 'DISPERSION' | 'STRAIGHT', boolean> {
+export function interiorFlags(
+  materials: readonly Material[],
+): Record<'MEDIA' | 'SCATTERING' | 'NULL_SURFACES' | 'PATH_DEPTH' | 'DISPERSION' | 'STRAIGHT', boolean> {
   const interiors = materials.filter(hasInterior);
   const scattering = interiors.some(scatters);
   const priorities = new Set(interiors.map((material) => material.dielectric_priority ?? 0));
   const straight = materials.some(isStraight);
   const nothing = interiors.some(isIndexMatched) || priorities.size > 1 || straight;
-  return { MEDIA: interiors.length > 0 || straight, STRAIGHT: straight, SCATTERING: scattering, NULL_SURFACES: nothing, PATH_DEPTH: scattering || nothing, DISPERSION: interiors.some(isDispersive) };
+  return {
+    MEDIA: interiors.length > 0 || straight,
+    STRAIGHT: straight,
+    SCATTERING: scattering,
+    NULL_SURFACES: nothing,
+    PATH_DEPTH: scattering || nothing,
+    DISPERSION: interiors.some(isDispersive),
+  };
 }

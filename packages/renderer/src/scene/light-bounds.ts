@@ -25,8 +25,8 @@ const COS = 12;
 const CLEARLY = 1e-9;
 
 /**
- * Bounds of lights and of sets of lights, in one array: the lights' own first, then places for sums. No objects, since every
- * level of the tree goes over all lights twice, in a scene's first moments, when nothing is compiled yet.
+ * Bounds of lights and of sets of lights, in one array: the lights' own first, then places for sums. No objects, since
+ * every level of the tree goes over all lights twice, in a scene's first moments, when nothing is compiled yet.
  */
 export class BoundsStore {
   readonly values: Float64Array;
@@ -65,10 +65,15 @@ export class BoundsStore {
     if ((v[b + 5] as number) > (v[a + 5] as number)) v[a + 5] = v[b + 5] as number;
     v[a + ENERGY] = (v[a + ENERGY] as number) + (v[b + ENERGY] as number);
     if ((v[b + REACH] as number) > (v[a + REACH] as number)) v[a + REACH] = v[b + REACH] as number;
-    const spreadA = v[a + SPREAD] as number, spreadB = v[b + SPREAD] as number;
+    const spreadA = v[a + SPREAD] as number,
+      spreadB = v[b + SPREAD] as number;
     if (spreadA >= Math.PI) return;
-    const ax = v[a + AXIS] as number, ay = v[a + AXIS + 1] as number, az = v[a + AXIS + 2] as number;
-    const bx = v[b + AXIS] as number, by = v[b + AXIS + 1] as number, bz = v[b + AXIS + 2] as number;
+    const ax = v[a + AXIS] as number,
+      ay = v[a + AXIS + 1] as number,
+      az = v[a + AXIS + 2] as number;
+    const bx = v[b + AXIS] as number,
+      by = v[b + AXIS + 1] as number,
+      bz = v[b + AXIS + 2] as number;
     const cos = Math.min(1, Math.max(-1, ax * bx + ay * by + az * bz));
     // Most lights are flat, and within the cone of those before them.
     if (spreadB === 0 && cos > (v[a + COS] as number) + CLEARLY) return;
@@ -81,7 +86,9 @@ export class BoundsStore {
     }
     const spread = (spreadA + between + spreadB) / 2;
     // From a's axis towards b's: the part of b's across a's, where there is one.
-    const x = bx - cos * ax, y = by - cos * ay, z = bz - cos * az;
+    const x = bx - cos * ax,
+      y = by - cos * ay,
+      z = bz - cos * az;
     const length = Math.sqrt(x * x + y * y + z * z);
     if (spread >= Math.PI || length < 1e-9) {
       v[a + SPREAD] = Math.PI;
@@ -107,9 +114,11 @@ export class BoundsStore {
     const z = (v[a + 5] as number) - (v[a + 2] as number);
     const spread = v[a + SPREAD] as number;
     const all = Math.min(spread + (v[a + REACH] as number), Math.PI);
-    const sin = Math.sin(spread), cos = v[a + COS] as number;
+    const sin = Math.sin(spread),
+      cos = v[a + COS] as number;
     // Directions that the cone shines into, weighed by the cosine beyond its spread.
-    const solidAngle = 2 * Math.PI * (1 - cos) + (Math.PI / 2) * (2 * all * sin - Math.cos(spread - 2 * all) - 2 * spread * sin + cos);
+    const solidAngle =
+      2 * Math.PI * (1 - cos) + (Math.PI / 2) * (2 * all * sin - Math.cos(spread - 2 * all) - 2 * spread * sin + cos);
     return (v[a + ENERGY] as number) * solidAngle * (x * y + y * z + z * x);
   }
 }

@@ -26,7 +26,8 @@ const shines = (material: Material) => emittedRadiance(parametersOf(material)).s
  * @throws {RenderError} `renderer/light-groups` if there are more than the kernels can keep apart.
  */
 export function lightGroupTable(scene: Scene, mode: LightGroupMode): LightGroupTable {
-  const nameOf = (own: string | undefined, each: string) => (mode === 'off' ? REST : (own ?? (mode === 'each' ? each : REST)));
+  const nameOf = (own: string | undefined, each: string) =>
+    mode === 'off' ? REST : (own ?? (mode === 'each' ? each : REST));
   const environmentName = nameOf(scene.environment?.light_group, 'environment');
   const lightName = (light: Light) => nameOf(light.light_group, light.name);
   const materialName = (material: Material) => nameOf(material.light_group, material.name);
@@ -39,11 +40,25 @@ export function lightGroupTable(scene: Scene, mode: LightGroupMode): LightGroupT
     const material = scene.materials[index] as Material;
     if (shines(material)) emitters.push(material);
   }
-  const names = [...new Set([...(scene.environment ? [environmentName] : []), ...scene.lights.map(lightName), ...emitters.map(materialName)])];
+  const names = [
+    ...new Set([
+      ...(scene.environment ? [environmentName] : []),
+      ...scene.lights.map(lightName),
+      ...emitters.map(materialName),
+    ]),
+  ];
   if (names.length === 0) names.push(REST);
   if (names.length > MAX_LIGHT_GROUPS) {
-    throw new RenderError('renderer/light-groups', `The scene has ${names.length} light groups; at most ${MAX_LIGHT_GROUPS} can be kept apart. Give lights that belong together one light_group.`);
+    throw new RenderError(
+      'renderer/light-groups',
+      `The scene has ${names.length} light groups; at most ${MAX_LIGHT_GROUPS} can be kept apart. Give lights that belong together one light_group.`,
+    );
   }
   const index = (name: string) => Math.max(names.indexOf(name), 0);
-  return { names, environment: index(environmentName), light: (light) => index(lightName(light)), material: (material) => index(materialName(material)) };
+  return {
+    names,
+    environment: index(environmentName),
+    light: (light) => index(lightName(light)),
+    material: (material) => index(materialName(material)),
+  };
 }

@@ -30,7 +30,9 @@ export function profileGrid({ vertical, horizontal, intensities }: LightProfile)
   const [first, last] = [vertical[0] as number, vertical.at(-1) as number];
   // Once around: the first angle again at the end.
   const full = Float32Array.from([...horizontal, 2 * Math.PI]);
-  let largest = 0, power = 0, reach = 0;
+  let largest = 0,
+    power = 0,
+    reach = 0;
   for (let j = 0; j < around; j++) {
     const [below, share] = around > 1 ? between(full, (2 * Math.PI * j) / around) : [0, 0];
     const above = (below + 1) % horizontal.length;
@@ -39,7 +41,9 @@ export function profileGrid({ vertical, horizontal, intensities }: LightProfile)
       // Files give degrees: their last angle is one of the grid's, but for rounding.
       if (angle < first - 1e-5 || angle > last + 1e-5) continue;
       const [row, along] = between(vertical, Math.min(Math.max(angle, first), last));
-      const at = (column: number) => (intensities[column * count + row] as number) * (1 - along) + (intensities[column * count + row + 1] as number) * along;
+      const at = (column: number) =>
+        (intensities[column * count + row] as number) * (1 - along) +
+        (intensities[column * count + row + 1] as number) * along;
       const value = at(below) * (1 - share) + at(above) * share;
       out[j * PROFILE_VERTICAL + i] = value;
       if (value > 0) reach = Math.max(reach, Math.min(Math.PI, angle + Math.PI / (PROFILE_VERTICAL - 1)));

@@ -2,13 +2,14 @@ import type { Steps } from '@glanz/scene';
 import { AXIS, BoundsStore, ENERGY, REACH, SPREAD, STRIDE, type TreeLights } from './light-bounds';
 
 /**
- * A binary tree over lights, to pick those that matter at a place: Conty Estévez and Kulla, "Importance Sampling of Many
- * Lights with Adaptive Tree Splitting" (2018), as pbrt 4 has it, without the splitting. Each node bounds where its lights
- * are and where they shine; a walk from the root goes down one child or the other as much as each may light the place. The
- * chance of any light is then known without a walk through the others, as multiple importance sampling wants it.
+ * A binary tree over lights, to pick those that matter at a place: Conty Estévez and Kulla, "Importance Sampling of
+ * Many Lights with Adaptive Tree Splitting" (2018), as pbrt 4 has it, without the splitting. Each node bounds where its
+ * lights are and where they shine; a walk from the root goes down one child or the other as much as each may light the
+ * place. The chance of any light is then known without a walk through the others, as multiple importance sampling wants
+ * it.
  *
- * Built top down by the surface area orientation heuristic over 12 bins along the longest axis. Lights that are infinitely far
- * away hang in a branch of their own below the root; they have a direction and no place.
+ * Built top down by the surface area orientation heuristic over 12 bins along the longest axis. Lights that are
+ * infinitely far away hang in a branch of their own below the root; they have a direction and no place.
  */
 
 /** Numbers of a node in `LightTree.values`, from its first on. */
@@ -53,8 +54,8 @@ const STEP_LIGHTS = 4096;
 const MOST_LEVELS = 32;
 
 /**
- * What a tree is built with. A class, since its methods are the same for every tree: machine code that the engine has made for
- * one scene's serves the next.
+ * What a tree is built with. A class, since its methods are the same for every tree: machine code that the engine has
+ * made for one scene's serves the next.
  */
 class LightTreeBuilder {
   readonly tree: LightTree;
@@ -88,7 +89,13 @@ class LightTreeBuilder {
     this.#order.set(near);
     this.#order.set(distant, near.length);
     const nodes = 2 * this.#order.length - 1;
-    this.tree = { count: nodes, values: new Float64Array(LIGHT_TREE_NODE.stride * nodes), kinds: new Uint8Array(nodes), links: new Uint32Array(nodes), trails: new Uint32Array(count) };
+    this.tree = {
+      count: nodes,
+      values: new Float64Array(LIGHT_TREE_NODE.stride * nodes),
+      kinds: new Uint8Array(nodes),
+      links: new Uint32Array(nodes),
+      trails: new Uint32Array(count),
+    };
     this.#centers = new Float64Array(3 * count);
     this.#store = new BoundsStore(count, 2 + BINS);
     [this.#node, this.#sum, this.#firstBin] = [count, count + 1, count + 2];
@@ -98,7 +105,9 @@ class LightTreeBuilder {
   /** Takes in what is known of the lights from one index to another. */
   take(lights: TreeLights, from: number, to: number): void {
     this.#store.take(lights, from, to);
-    for (let i = from; i < to; i++) for (let k = 0; k < 3; k++) this.#centers[3 * i + k] = (lights.bounds[6 * i + k] as number) + (lights.bounds[6 * i + 3 + k] as number);
+    for (let i = from; i < to; i++)
+      for (let k = 0; k < 3; k++)
+        this.#centers[3 * i + k] = (lights.bounds[6 * i + k] as number) + (lights.bounds[6 * i + 3 + k] as number);
   }
 
   /** Makes all nodes. */
@@ -106,9 +115,13 @@ class LightTreeBuilder {
     const waiting = this.#waiting;
     let work = 0;
     // The last first: left comes before right.
-    for (let top = this.#wait(0, 0, 0, this.#order.length, 0, 0); top > 0; ) {
+    for (let top = this.#wait(0, 0, 0, this.#order.length, 0, 0); top > 0;) {
       top -= 5;
-      const node = waiting[top] as number, from = waiting[top + 1] as number, to = waiting[top + 2] as number, level = waiting[top + 3] as number, trail = waiting[top + 4] as number;
+      const node = waiting[top] as number,
+        from = waiting[top + 1] as number,
+        to = waiting[top + 2] as number,
+        level = waiting[top + 3] as number,
+        trail = waiting[top + 4] as number;
       const large = to - from > STEP_LIGHTS;
       if (large) yield* this.#gather(from, to);
       else this.#gatherAll(from, to);
@@ -163,7 +176,8 @@ class LightTreeBuilder {
   *#gather(from: number, to: number): Steps<void> {
     this.#begin(from);
     for (let at = from + 1; at < to; at += STEP_LIGHTS, yield) this.#add(at, Math.min(to, at + STEP_LIGHTS));
-    if (this.#choose(from, to)) for (let at = from; at < to; at += STEP_LIGHTS, yield) this.#fill(at, Math.min(to, at + STEP_LIGHTS), true);
+    if (this.#choose(from, to))
+      for (let at = from; at < to; at += STEP_LIGHTS, yield) this.#fill(at, Math.min(to, at + STEP_LIGHTS), true);
   }
 
   #begin(from: number): void {
@@ -175,7 +189,10 @@ class LightTreeBuilder {
 
   /** Adds the lights of order[from, to) to the node's sum, and to how far their centres reach. */
   #add(from: number, to: number): void {
-    const order = this.#order, centers = this.#centers, reach = this.#reach, store = this.#store;
+    const order = this.#order,
+      centers = this.#centers,
+      reach = this.#reach,
+      store = this.#store;
     for (let i = from; i < to; i++) {
       const light = order[i] as number;
       store.unite(this.#node, light);
@@ -191,7 +208,12 @@ class LightTreeBuilder {
   #choose(from: number, to: number): boolean {
     const reach = this.#reach;
     this.#axis = 0;
-    for (let k = 1; k < 3; k++) if ((reach[3 + k] as number) - (reach[k] as number) > (reach[3 + this.#axis] as number) - (reach[this.#axis] as number)) this.#axis = k;
+    for (let k = 1; k < 3; k++)
+      if (
+        (reach[3 + k] as number) - (reach[k] as number) >
+        (reach[3 + this.#axis] as number) - (reach[this.#axis] as number)
+      )
+        this.#axis = k;
     this.#start = reach[this.#axis] as number;
     this.#extent = (reach[3 + this.#axis] as number) - this.#start;
     return this.#extent > 0 && to <= this.#firstDistant && to - from > 1;
@@ -199,8 +221,14 @@ class LightTreeBuilder {
 
   /** Sorts the lights of order[from, to) into bins, and sums them up there if that tells anything. */
   #fill(from: number, to: number, sum: boolean): void {
-    const order = this.#order, centers = this.#centers, bins = this.#bins, filled = this.#filled, store = this.#store;
-    const axis = this.#axis, start = this.#start, extent = this.#extent;
+    const order = this.#order,
+      centers = this.#centers,
+      bins = this.#bins,
+      filled = this.#filled,
+      store = this.#store;
+    const axis = this.#axis,
+      start = this.#start,
+      extent = this.#extent;
     for (let i = from; i < to; i++) {
       const light = order[i] as number;
       const bin = Math.min(BINS - 1, Math.floor((BINS * ((centers[3 * light + axis] as number) - start)) / extent));
@@ -214,12 +242,21 @@ class LightTreeBuilder {
 
   /** Makes a node of the sum at #node. */
   #write(node: number): void {
-    const v = this.#store.values, n = STRIDE * this.#node, { values } = this.tree, at = LIGHT_TREE_NODE.stride * node;
+    const v = this.#store.values,
+      n = STRIDE * this.#node,
+      { values } = this.tree,
+      at = LIGHT_TREE_NODE.stride * node;
     for (let k = 0; k < 3; k++) {
       values[at + LIGHT_TREE_NODE.center + k] = ((v[n + k] as number) + (v[n + 3 + k] as number)) / 2;
       values[at + LIGHT_TREE_NODE.axis + k] = v[n + AXIS + k] as number;
     }
-    values[at + LIGHT_TREE_NODE.radius] = 0.5 * Math.hypot((v[n + 3] as number) - (v[n] as number), (v[n + 4] as number) - (v[n + 1] as number), (v[n + 5] as number) - (v[n + 2] as number));
+    values[at + LIGHT_TREE_NODE.radius] =
+      0.5 *
+      Math.hypot(
+        (v[n + 3] as number) - (v[n] as number),
+        (v[n + 4] as number) - (v[n + 1] as number),
+        (v[n + 5] as number) - (v[n + 2] as number),
+      );
     values[at + LIGHT_TREE_NODE.cosSpread] = Math.cos(v[n + SPREAD] as number);
     values[at + LIGHT_TREE_NODE.cosReach] = Math.cos(v[n + REACH] as number);
     values[at + LIGHT_TREE_NODE.energy] = v[n + ENERGY] as number;
@@ -237,8 +274,11 @@ class LightTreeBuilder {
       const end = this.#partition(from, to, to - from > 2 ? this.#bestCut() : BINS - 1);
       if (end > from && end < to) return end;
     }
-    const centers = this.#centers, axis = this.#axis;
-    this.#order.subarray(from, to).sort((a, b) => (centers[3 * a + axis] as number) - (centers[3 * b + axis] as number) || a - b);
+    const centers = this.#centers,
+      axis = this.#axis;
+    this.#order
+      .subarray(from, to)
+      .sort((a, b) => (centers[3 * a + axis] as number) - (centers[3 * b + axis] as number) || a - b);
     return middle;
   }
 
@@ -276,7 +316,8 @@ class LightTreeBuilder {
 
   /** Brings the lights of the bins before a cut to the front; where the others begin. */
   #partition(from: number, to: number, cut: number): number {
-    const order = this.#order, bins = this.#bins;
+    const order = this.#order,
+      bins = this.#bins;
     let end = from;
     for (let i = from; i < to; i++) {
       if ((bins[i] as number) >= cut) continue;
@@ -294,9 +335,14 @@ class LightTreeBuilder {
  * @param near Indices of the lights that are in it and have a place, each with an energy above 0.
  * @param distant Those infinitely far away; of all there is one at least.
  */
-export function* lightTreeSteps(lights: TreeLights, near: ArrayLike<number>, distant: ArrayLike<number> = []): Steps<LightTree> {
+export function* lightTreeSteps(
+  lights: TreeLights,
+  near: ArrayLike<number>,
+  distant: ArrayLike<number> = [],
+): Steps<LightTree> {
   const builder = new LightTreeBuilder(lights, near, distant);
   const count = lights.energies.length;
-  for (let from = 0; from < count; from += STEP_LIGHTS, yield) builder.take(lights, from, Math.min(count, from + STEP_LIGHTS));
+  for (let from = 0; from < count; from += STEP_LIGHTS, yield)
+    builder.take(lights, from, Math.min(count, from + STEP_LIGHTS));
   return yield* builder.steps();
 }

@@ -44,7 +44,15 @@ interface Emitter {
  * @param weights Their powers; 0 for those that do not shine.
  * @param base The first one's record.
  */
-export function* triangleSteps(records: ArrayBuffer, weights: Float64Array, bounds: TreeLights, scene: Scene, index: number, base: number, groups: LightGroupTable): Steps<void> {
+export function* triangleSteps(
+  records: ArrayBuffer,
+  weights: Float64Array,
+  bounds: TreeLights,
+  scene: Scene,
+  index: number,
+  base: number,
+  groups: LightGroupTable,
+): Steps<void> {
   const instance = scene.instances[index] as Instance;
   const mesh = scene.meshes[instance.mesh] as Mesh;
   const material = scene.materials[instance.material] as Material;
@@ -60,7 +68,11 @@ export function* triangleSteps(records: ArrayBuffer, weights: Float64Array, boun
     // Whatever kind of list it is, the loop's machine code sees one.
     transform: Float64Array.from(instance.transform),
     material: instance.material,
-    kind: LIGHT_TRIANGLE | (material.double_sided ? LIGHT_TWO_SIDED : 0) | (mirrored < 0 ? LIGHT_MIRRORED : 0) | (groups.material(material) << GROUP_SHIFT),
+    kind:
+      LIGHT_TRIANGLE |
+      (material.double_sided ? LIGHT_TWO_SIDED : 0) |
+      (mirrored < 0 ? LIGHT_MIRRORED : 0) |
+      (groups.material(material) << GROUP_SHIFT),
     radiance: luminance(emittedRadiance(parametersOf(material))),
     sides: material.double_sided ? 2 : 1,
     mirrored,
@@ -75,7 +87,26 @@ export function* triangleSteps(records: ArrayBuffer, weights: Float64Array, boun
 }
 
 /** No functions and no lists within the loop: thousands of triangles, while nothing is compiled yet. */
-function writeTriangles({ floats, integers, weights, bounds, base, mesh, transform, material, kind, radiance, sides, mirrored, estimate, uvs }: Emitter, first: number, end: number): void {
+function writeTriangles(
+  {
+    floats,
+    integers,
+    weights,
+    bounds,
+    base,
+    mesh,
+    transform,
+    material,
+    kind,
+    radiance,
+    sides,
+    mirrored,
+    estimate,
+    uvs,
+  }: Emitter,
+  first: number,
+  end: number,
+): void {
   const words = lightStruct.size / 4;
   const at = { a: wordOf('a'), b: wordOf('b'), c: wordOf('c'), kind: wordOf('kind'), ids: wordOf('ids') };
   const p = new Float64Array(9);
@@ -84,7 +115,14 @@ function writeTriangles({ floats, integers, weights, bounds, base, mesh, transfo
     const row = (base + triangle) * words;
     for (let k = 0; k < 3; k++) {
       const vertex = 3 * (indices[3 * triangle + k] as number);
-      transformPoint(transform, positions[vertex] as number, positions[vertex + 1] as number, positions[vertex + 2] as number, p, 3 * k);
+      transformPoint(
+        transform,
+        positions[vertex] as number,
+        positions[vertex + 1] as number,
+        positions[vertex + 2] as number,
+        p,
+        3 * k,
+      );
     }
     for (let k = 0; k < 3; k++) {
       floats[row + at.a + k] = p[k] as number;
@@ -93,9 +131,15 @@ function writeTriangles({ floats, integers, weights, bounds, base, mesh, transfo
     }
     integers[row + at.kind] = kind;
     integers[row + at.ids + 2] = material;
-    const ax = (p[3] as number) - (p[0] as number), ay = (p[4] as number) - (p[1] as number), az = (p[5] as number) - (p[2] as number);
-    const bx = (p[6] as number) - (p[0] as number), by = (p[7] as number) - (p[1] as number), bz = (p[8] as number) - (p[2] as number);
-    const nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
+    const ax = (p[3] as number) - (p[0] as number),
+      ay = (p[4] as number) - (p[1] as number),
+      az = (p[5] as number) - (p[2] as number);
+    const bx = (p[6] as number) - (p[0] as number),
+      by = (p[7] as number) - (p[1] as number),
+      bz = (p[8] as number) - (p[2] as number);
+    const nx = ay * bz - az * by,
+      ny = az * bx - ax * bz,
+      nz = ax * by - ay * bx;
     const length = Math.hypot(nx, ny, nz);
     const area = 0.5 * length;
     const texel = estimate && uvs ? estimate.mean(cornersOf(uvs, indices, triangle)) : 1;
@@ -124,7 +168,13 @@ function writeTriangles({ floats, integers, weights, bounds, base, mesh, transfo
  * @param slot The instance's record.
  * @param leaves Input triangle → absolute leaf-order triangle.
  */
-export function nameTriangles(records: ArrayBuffer, base: number, count: number, slot: number, leaves: Uint32Array): void {
+export function nameTriangles(
+  records: ArrayBuffer,
+  base: number,
+  count: number,
+  slot: number,
+  leaves: Uint32Array,
+): void {
   const integers = new Uint32Array(records);
   const words = lightStruct.size / 4;
   for (let triangle = 0, at = base * words + wordOf('ids'); triangle < count; triangle++, at += words) {

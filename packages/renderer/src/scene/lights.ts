@@ -1,4 +1,13 @@
-import { finish, type Instance, type Light, type LightProfile, type Material, type Mesh, type Scene, type Steps } from '@glanz/scene';
+import {
+  finish,
+  type Instance,
+  type Light,
+  type LightProfile,
+  type Material,
+  type Mesh,
+  type Scene,
+  type Steps,
+} from '@glanz/scene';
 import { GROUP_SHIFT, LIGHT_NODE_DISTANT, LIGHT_NODE_LEAF, lightStruct, NONE } from '../kernels/layout';
 import { buildAliasTable, type AliasTable } from './alias-table';
 import type { TreeLights } from './light-bounds';
@@ -15,7 +24,10 @@ export type LightSampling = 'tree' | 'power';
 
 /** All lights but the environment, ready for the GPU. */
 export interface LightTable {
-  /** Light records, behind them the nodes of the tree, then the profiles of lamps; at least one, so that the buffer is never empty. */
+  /**
+   * Light records, behind them the nodes of the tree, then the profiles of lamps; at least one, so that the buffer is
+   * never empty.
+   */
   readonly records: ArrayBuffer;
   readonly count: number;
   /** Whether some of them shine by a profile. */
@@ -40,7 +52,16 @@ export interface LightGeometry {
 }
 
 /** The table of a scene without lights, or before they are known. */
-export const noLights = ({ instances }: Scene): LightTable => ({ records: lightStruct.allocate(), count: 0, profiles: false, tree: false, firstArea: 0, areaCount: 0, firstLight: new Uint32Array(instances.length).fill(NONE), power: 0 });
+export const noLights = ({ instances }: Scene): LightTable => ({
+  records: lightStruct.allocate(),
+  count: 0,
+  profiles: false,
+  tree: false,
+  firstArea: 0,
+  areaCount: 0,
+  firstLight: new Uint32Array(instances.length).fill(NONE),
+  power: 0,
+});
 
 /** A glowing instance: its triangles' records begin at `base`. */
 interface Emitter {
@@ -72,7 +93,12 @@ export interface GatheredLights {
  * @param groups Which light group each belongs to.
  * @param sampling Whether a tree is built over them.
  */
-export function* lightSteps(scene: Scene, shows: (instance: number) => boolean, groups: LightGroupTable, sampling: LightSampling): Steps<GatheredLights> {
+export function* lightSteps(
+  scene: Scene,
+  shows: (instance: number) => boolean,
+  groups: LightGroupTable,
+  sampling: LightSampling,
+): Steps<GatheredLights> {
   const firstLight = new Uint32Array(scene.instances.length).fill(NONE);
   const emitters: Emitter[] = [];
   let count = 0;
@@ -89,18 +115,47 @@ export function* lightSteps(scene: Scene, shows: (instance: number) => boolean, 
   const others = scene.lights.filter((light) => !hasSize(light));
   count += scene.lights.length;
   const weights = new Float64Array(count);
-  const bounds: TreeLights = { bounds: new Float64Array(6 * count), axes: new Float64Array(3 * count), spreads: new Float64Array(count), reaches: new Float64Array(count), energies: new Float64Array(count) };
+  const bounds: TreeLights = {
+    bounds: new Float64Array(6 * count),
+    axes: new Float64Array(3 * count),
+    spreads: new Float64Array(count),
+    reaches: new Float64Array(count),
+    energies: new Float64Array(count),
+  };
   const profiles = layProfiles(others);
   const lights = lightStruct.allocate(Math.max(count, 1));
-  for (const { instance, base } of emitters) yield* triangleSteps(lights, weights, bounds, scene, instance, base, groups);
-  [...areas, ...others].forEach((light, i) => (weights[firstArea + i] = writeLight(lights, bounds, firstArea + i, light, 1, groups.light(light) << GROUP_SHIFT, light.type === 'profile' ? profiles.get(light.profile) : undefined)));
+  for (const { instance, base } of emitters)
+    yield* triangleSteps(lights, weights, bounds, scene, instance, base, groups);
+  [...areas, ...others].forEach(
+    (light, i) =>
+      (weights[firstArea + i] = writeLight(
+        lights,
+        bounds,
+        firstArea + i,
+        light,
+        1,
+        groups.light(light) << GROUP_SHIFT,
+        light.type === 'profile' ? profiles.get(light.profile) : undefined,
+      )),
+  );
   const firstOther = firstArea + areas.length;
   const placesOf = (type: Light['type']) => others.flatMap((light, i) => (light.type === type ? [firstOther + i] : []));
   const directional = placesOf('directional');
   yield;
   const tree = sampling === 'tree' ? yield* treeOf(bounds, weights, new Set(directional)) : undefined;
   const records = withProfiles(tree ? yield* withNodes(lights, count, tree) : lights, profiles, placesOf('profile'));
-  return { records, count, profiles: profiles.size > 0, tree, firstArea, areaCount: areas.length, firstLight, emitters, weights, directional };
+  return {
+    records,
+    count,
+    profiles: profiles.size > 0,
+    tree,
+    firstArea,
+    areaCount: areas.length,
+    firstLight,
+    emitters,
+    weights,
+    directional,
+  };
 }
 
 /**
@@ -109,7 +164,12 @@ export function* lightSteps(scene: Scene, shows: (instance: number) => boolean, 
  * @param sceneRadius Radius of the scene's bounding sphere, metres, to weigh directional lights.
  * @returns Undefined where something glows that has no place after all: to be gathered without it.
  */
-export function* placingSteps(scene: Scene, lights: GatheredLights, geometry: LightGeometry, sceneRadius: number): Steps<LightTable | undefined> {
+export function* placingSteps(
+  scene: Scene,
+  lights: GatheredLights,
+  geometry: LightGeometry,
+  sceneRadius: number,
+): Steps<LightTable | undefined> {
   const { records, count, profiles, tree, firstArea, areaCount, firstLight, emitters, weights, directional } = lights;
   if (emitters.some(({ instance }) => geometry.instanceSlots[instance] === NONE)) return undefined;
   for (const i of directional) (weights[i] as number) *= sceneRadius * sceneRadius;
@@ -117,16 +177,37 @@ export function* placingSteps(scene: Scene, lights: GatheredLights, geometry: Li
   if (!table) return noLights(scene);
   yield;
   for (const { instance, base, triangles } of emitters) {
-    nameTriangles(records, base, triangles, geometry.instanceSlots[instance] as number, geometry.leafTriangles((scene.instances[instance] as Instance).mesh));
+    nameTriangles(
+      records,
+      base,
+      triangles,
+      geometry.instanceSlots[instance] as number,
+      geometry.leafTriangles((scene.instances[instance] as Instance).mesh),
+    );
     yield;
   }
   writeChances(records, table, tree);
   yield;
-  return { records, count, profiles, tree: tree !== undefined, firstArea, areaCount, firstLight, power: sumOf(weights) };
+  return {
+    records,
+    count,
+    profiles,
+    tree: tree !== undefined,
+    firstArea,
+    areaCount,
+    firstLight,
+    power: sumOf(weights),
+  };
 }
 
 /** The table in one go. */
-export function buildLightTable(scene: Scene, geometry: LightGeometry, sceneRadius: number, groups: LightGroupTable, sampling: LightSampling): LightTable {
+export function buildLightTable(
+  scene: Scene,
+  geometry: LightGeometry,
+  sceneRadius: number,
+  groups: LightGroupTable,
+  sampling: LightSampling,
+): LightTable {
   const lights = finish(lightSteps(scene, (instance) => geometry.instanceSlots[instance] !== NONE, groups, sampling));
   return finish(placingSteps(scene, lights, geometry, sceneRadius)) as LightTable;
 }
@@ -138,15 +219,24 @@ function sumOf(values: Float64Array): number {
 }
 
 /** The tree over the lights that shine, if any does. */
-function* treeOf(bounds: TreeLights, weights: Float64Array, directional: ReadonlySet<number>): Steps<LightTree | undefined> {
+function* treeOf(
+  bounds: TreeLights,
+  weights: Float64Array,
+  directional: ReadonlySet<number>,
+): Steps<LightTree | undefined> {
   const near: number[] = [];
   const distant: number[] = [];
-  for (let i = 0; i < weights.length; i++) if ((weights[i] as number) > 0) (directional.has(i) ? distant : near).push(i);
+  for (let i = 0; i < weights.length; i++)
+    if ((weights[i] as number) > 0) (directional.has(i) ? distant : near).push(i);
   return near.length + distant.length > 0 ? yield* lightTreeSteps(bounds, near, distant) : undefined;
 }
 
 /** Writes how likely each light is without a tree, and the way to it in one. */
-function writeChances(lights: ArrayBuffer, { probability, alias, keep }: AliasTable, tree: LightTree | undefined): void {
+function writeChances(
+  lights: ArrayBuffer,
+  { probability, alias, keep }: AliasTable,
+  tree: LightTree | undefined,
+): void {
   const floats = new Float32Array(lights);
   const integers = new Uint32Array(lights);
   const others = tree?.trails ?? alias;
@@ -178,11 +268,14 @@ function layProfiles(lights: readonly Light[]): Profiles {
 function withProfiles(before: ArrayBuffer, profiles: Profiles, users: readonly number[]): ArrayBuffer {
   if (users.length === 0) return before;
   const count = before.byteLength / lightStruct.size;
-  const records = lightStruct.allocate([...profiles.values()].reduce((sum, { grid }) => sum + profileRecords(grid), count));
+  const records = lightStruct.allocate(
+    [...profiles.values()].reduce((sum, { grid }) => sum + profileRecords(grid), count),
+  );
   new Uint8Array(records).set(new Uint8Array(before));
   for (const { grid, first } of profiles.values()) writeProfile(records, count + first, grid);
   const integers = new Uint32Array(records);
-  for (const light of users) (integers[(light * lightStruct.size + lightStruct.offsetOf('ids')) / 4] as number) += count;
+  for (const light of users)
+    (integers[(light * lightStruct.size + lightStruct.offsetOf('ids')) / 4] as number) += count;
   return records;
 }
 
@@ -201,13 +294,30 @@ function* withNodes(lights: ArrayBuffer, count: number, tree: LightTree): Steps<
 }
 
 /** Writes nodes behind `count` lights. Word by word: thousands of them, while nothing is compiled yet. */
-function writeNodes(records: ArrayBuffer, count: number, { values, kinds, links }: LightTree, first: number, end: number): void {
+function writeNodes(
+  records: ArrayBuffer,
+  count: number,
+  { values, kinds, links }: LightTree,
+  first: number,
+  end: number,
+): void {
   const floats = new Float32Array(records);
   const integers = new Uint32Array(records);
   const words = lightStruct.size / 4;
-  const at = { a: wordOf('a'), kind: wordOf('kind'), b: wordOf('b'), probability: wordOf('probability'), c: wordOf('c'), other: wordOf('other') };
+  const at = {
+    a: wordOf('a'),
+    kind: wordOf('kind'),
+    b: wordOf('b'),
+    probability: wordOf('probability'),
+    c: wordOf('c'),
+    other: wordOf('other'),
+  };
   const { center, radius, axis, cosSpread, cosReach, energy, stride } = LIGHT_TREE_NODE;
-  for (let i = first, row = (count + first) * words, from = first * stride; i < end; i++, row += words, from += stride) {
+  for (
+    let i = first, row = (count + first) * words, from = first * stride;
+    i < end;
+    i++, row += words, from += stride
+  ) {
     const kind = kinds[i] as number;
     for (let k = 0; k < 3; k++) {
       floats[row + at.a + k] = values[from + center + k] as number;
@@ -217,7 +327,8 @@ function writeNodes(records: ArrayBuffer, count: number, { values, kinds, links 
     floats[row + at.c] = values[from + cosSpread] as number;
     floats[row + at.c + 1] = values[from + cosReach] as number;
     floats[row + at.c + 2] = values[from + energy] as number;
-    integers[row + at.kind] = (kind & LIGHT_TREE_LEAF ? LIGHT_NODE_LEAF : 0) | (kind & LIGHT_TREE_DISTANT ? LIGHT_NODE_DISTANT : 0);
+    integers[row + at.kind] =
+      (kind & LIGHT_TREE_LEAF ? LIGHT_NODE_LEAF : 0) | (kind & LIGHT_TREE_DISTANT ? LIGHT_NODE_DISTANT : 0);
     integers[row + at.other] = (links[i] as number) + (kind & LIGHT_TREE_LEAF ? 0 : count);
   }
 }

@@ -15,8 +15,8 @@ function hasAlpha({ colors }: Mesh): boolean {
 }
 
 /**
- * How a scene's instances use its materials, counted in one pass over the instances. What decides the kernels' text and the
- * material records is then known per material, without another pass.
+ * How a scene's instances use its materials, counted in one pass over the instances. What decides the kernels' text and
+ * the material records is then known per material, without another pass.
  */
 export class MaterialUse {
   readonly #visible: Uint32Array;
@@ -35,7 +35,10 @@ export class MaterialUse {
    * @returns Whether all answers are the same as before.
    */
   replace(before: Instance, after: Instance): boolean {
-    const answers = () => [before.material, after.material].map((material) => `${this.isVisible(material)} ${this.hasVertexAlpha(material)}`).join();
+    const answers = () =>
+      [before.material, after.material]
+        .map((material) => `${this.isVisible(material)} ${this.hasVertexAlpha(material)}`)
+        .join();
     const known = answers();
     this.#count(before, -1);
     this.#count(after, 1);

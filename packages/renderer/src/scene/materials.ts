@@ -1,6 +1,20 @@
 import { openPbrStruct, packOpenPbr, type OpenPbrParameters } from '@glanz/openpbr';
 import type { Material, Scene, TextureBinding } from '@glanz/scene';
-import { bindingStruct, GROUP_SHIFT, MATERIAL_CULLED, MATERIAL_DISPERSIVE, MATERIAL_EMISSIVE, MATERIAL_INDEX_MATCHED, MATERIAL_INTERIOR, MATERIAL_MASK, MATERIAL_OPAQUE, MATERIAL_PRIORITY_SHIFT, MATERIAL_STRAIGHT, MATERIAL_TWO_SIDED_EMISSION, materialStruct } from '../kernels/layout';
+import {
+  bindingStruct,
+  GROUP_SHIFT,
+  MATERIAL_CULLED,
+  MATERIAL_DISPERSIVE,
+  MATERIAL_EMISSIVE,
+  MATERIAL_INDEX_MATCHED,
+  MATERIAL_INTERIOR,
+  MATERIAL_MASK,
+  MATERIAL_OPAQUE,
+  MATERIAL_PRIORITY_SHIFT,
+  MATERIAL_STRAIGHT,
+  MATERIAL_TWO_SIDED_EMISSION,
+  materialStruct,
+} from '../kernels/layout';
 import { hasInterior, isDispersive, isIndexMatched, isStraight } from './interiors';
 import { parametersOf } from './parameters';
 import type { TexturePlan } from './textures';
@@ -42,7 +56,13 @@ export function texturedParameters(materials: readonly Material[]): TexturedPara
   const found = new Map<number, TexturedParameterInfo>();
   for (const material of materials) {
     for (const [name, id, { channels }] of bindingsOf(material)) {
-      const type = DIRECTIONS.includes(name) ? 'direction' : openPbrStruct.fields[id]?.type === 'f32' ? 'f32' : channels === 'rgb' && found.get(id)?.type !== 'any' ? 'vec3f' : 'any';
+      const type = DIRECTIONS.includes(name)
+        ? 'direction'
+        : openPbrStruct.fields[id]?.type === 'f32'
+          ? 'f32'
+          : channels === 'rgb' && found.get(id)?.type !== 'any'
+            ? 'vec3f'
+            : 'any';
       found.set(id, { name, id, type });
     }
   }
@@ -51,23 +71,38 @@ export function texturedParameters(materials: readonly Material[]): TexturedPara
 
 /** Whether some texture's codes stand for another range than 0 to 1. */
 export function hasRanges(materials: readonly Material[]): boolean {
-  return materials.some((material) => bindingsOf(material).some(([name, , { range }]) => range !== undefined && !DIRECTIONS.includes(name)));
+  return materials.some((material) =>
+    bindingsOf(material).some(([name, , { range }]) => range !== undefined && !DIRECTIONS.includes(name)),
+  );
 }
 
 /** Whether some material turns the tangent that its highlight is stretched along. */
 export function turnsTangent(materials: readonly Material[]): boolean {
-  return materials.some(({ parameters, textures }) => textures?.geometry_tangent !== undefined || (parameters.geometry_tangent ?? null) !== null);
+  return materials.some(
+    ({ parameters, textures }) =>
+      textures?.geometry_tangent !== undefined || (parameters.geometry_tangent ?? null) !== null,
+  );
 }
 
 /** Whether some coat lies otherwise than its base, by a map of its own or because the base has one. */
 export function hasCoatFrames(materials: readonly Material[]): boolean {
-  return materials.some(({ parameters, textures }) => (parameters.coat_weight ?? 0) > 0 && (textures?.geometry_normal !== undefined || textures?.geometry_coat_normal !== undefined || (parameters.geometry_coat_normal ?? null) !== null || (parameters.geometry_coat_tangent ?? null) !== null));
+  return materials.some(
+    ({ parameters, textures }) =>
+      (parameters.coat_weight ?? 0) > 0 &&
+      (textures?.geometry_normal !== undefined ||
+        textures?.geometry_coat_normal !== undefined ||
+        (parameters.geometry_coat_normal ?? null) !== null ||
+        (parameters.geometry_coat_tangent ?? null) !== null),
+  );
 }
 
 const CHANNEL = { r: 0, g: 1, b: 2, a: 3, rgb: 4 } as const;
 
 /** Texture binding records of all materials, and where each material's begin. */
-export function packBindings(materials: readonly Material[], plan: TexturePlan): { records: ArrayBuffer; first: number[]; count: number[] } {
+export function packBindings(
+  materials: readonly Material[],
+  plan: TexturePlan,
+): { records: ArrayBuffer; first: number[]; count: number[] } {
   const all = materials.map(bindingsOf);
   const records = bindingStruct.allocate(all.reduce((sum, list) => sum + list.length, 0));
   const first: number[] = [];
@@ -109,7 +144,16 @@ export function isOpaque(material: Material, hasVertexAlpha: boolean): boolean {
 }
 
 /** Writes one material's record. `firstBinding` is a word offset into the attribute heap. */
-export function packMaterial(buffer: ArrayBuffer, index: number, material: Material, firstBinding: number, bindingCount: number, opaque: boolean, culled: boolean, group: number): void {
+export function packMaterial(
+  buffer: ArrayBuffer,
+  index: number,
+  material: Material,
+  firstBinding: number,
+  bindingCount: number,
+  opaque: boolean,
+  culled: boolean,
+  group: number,
+): void {
   const parameters = parametersOf(material);
   const packed = openPbrStruct.allocate();
   packOpenPbr(packed, 0, parameters);

@@ -7,6 +7,14 @@ export function determinant3(m: ArrayLike<number>): number {
 }
 
 /** A point through a column-major affine matrix. */
-export function transformPoint(m: ArrayLike<number>, x: number, y: number, z: number, out: Float64Array | number[], at = 0): void {
-  for (let r = 0; r < 3; r++) out[at + r] = (m[r] as number) * x + (m[4 + r] as number) * y + (m[8 + r] as number) * z + (m[12 + r] as number);
+export function transformPoint(
+  m: ArrayLike<number>,
+  x: number,
+  y: number,
+  z: number,
+  out: Float64Array | number[],
+  at = 0,
+): void {
+  for (let r = 0; r < 3; r++)
+    out[at + r] = (m[r] as number) * x + (m[4 + r] as number) * y + (m[8 + r] as number) * z + (m[12 + r] as number);
 }

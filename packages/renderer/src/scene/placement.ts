@@ -15,7 +15,8 @@ const LEAF = 0x80000000;
 const JOINED_NODES = 16;
 
 /** Whether an instance can be seen, as far as the scene itself says. */
-export const isShown = (scene: Scene, instance: Instance) => instance.visible !== false && (scene.meshes[instance.mesh] as Mesh).indices.length >= 3;
+export const isShown = (scene: Scene, instance: Instance) =>
+  instance.visible !== false && (scene.meshes[instance.mesh] as Mesh).indices.length >= 3;
 
 /** Nodes for the GPU. */
 export interface NodeRange {
@@ -25,8 +26,8 @@ export interface NodeRange {
 }
 
 /**
- * Where the instances of a scene are: the upper levels of the hierarchy. Changes in place, at a cost that depends on how many
- * instances change. The GPU record of an instance has the instance's index in the scene.
+ * Where the instances of a scene are: the upper levels of the hierarchy. Changes in place, at a cost that depends on
+ * how many instances change. The GPU record of an instance has the instance's index in the scene.
  */
 export class Placement {
   readonly tlas: DynamicTlas;
@@ -50,8 +51,8 @@ export class Placement {
   }
 
   /**
-   * A second hierarchy of the catchers and of what glows, which belongs to the environment as they do: what a catcher would
-   * look like without the rest. Only where a catcher can be hit.
+   * A second hierarchy of the catchers and of what glows, which belongs to the environment as they do: what a catcher
+   * would look like without the rest. Only where a catcher can be hit.
    */
   get bare(): DynamicTlas | undefined {
     return this.#bare;
@@ -81,7 +82,8 @@ export class Placement {
    * Follows changes of some of the scene's instances.
    *
    * @param moved Whether transforms or visibility changed; otherwise only materials and catchers did.
-   * @throws {RenderError} `renderer/no-triangles` if nothing can be seen any more. The change has been followed all the same.
+   * @throws {RenderError} `renderer/no-triangles` if nothing can be seen any more. The change has been followed all the
+   * same.
    */
   update(scene: Scene, blas: readonly (Blas | undefined)[], changed: readonly number[], moved: boolean): void {
     const changes = () => changed.map((i) => [i, placing(scene, blas, scene.instances[i] as Instance)] as const);
@@ -98,7 +100,9 @@ export class Placement {
   takeChangedNodes(): NodeRange[] {
     const ranges = rangesOf(this.tlas, this.tlas.takeChangedNodes(), 0);
     if (!this.#bare) return ranges;
-    const changed = this.#isBareNew ? Uint32Array.from({ length: this.#bare.nodeCount }, (_, i) => i) : this.#bare.takeChangedNodes();
+    const changed = this.#isBareNew
+      ? Uint32Array.from({ length: this.#bare.nodeCount }, (_, i) => i)
+      : this.#bare.takeChangedNodes();
     if (this.#isBareNew) this.#bare.takeChangedNodes();
     this.#isBareNew = false;
     return [...ranges, ...rangesOf(this.#bare, changed, this.bareRoot)];
@@ -106,7 +110,12 @@ export class Placement {
 
   /** All nodes of both hierarchies. */
   allNodes(): NodeRange[] {
-    const all = (tlas: DynamicTlas, first: number) => rangesOf(tlas, Uint32Array.from({ length: tlas.nodeCount }, (_, i) => i), first);
+    const all = (tlas: DynamicTlas, first: number) =>
+      rangesOf(
+        tlas,
+        Uint32Array.from({ length: tlas.nodeCount }, (_, i) => i),
+        first,
+      );
     return [...all(this.tlas, 0), ...(this.#bare ? all(this.#bare, this.bareRoot) : [])];
   }
 
@@ -119,26 +128,41 @@ export class Placement {
   }
 
   #isBare(scene: Scene, index: number, isGlowing: (material: number) => boolean): boolean {
-    return this.tlas.has(index) && (this.#isCatcher[index] === 1 || isGlowing((scene.instances[index] as Instance).material));
+    return (
+      this.tlas.has(index) && (this.#isCatcher[index] === 1 || isGlowing((scene.instances[index] as Instance).material))
+    );
   }
 
   /** Makes the second hierarchy, where there are catchers. */
   #placeBare(scene: Scene, blas: readonly (Blas | undefined)[]): void {
     const isGlowing = glowing(scene);
-    this.#bare = this.#catchers > 0 ? new DynamicTlas(scene.instances.map((instance, i) => (this.#isBare(scene, i, isGlowing) ? placing(scene, blas, instance) : undefined))) : undefined;
+    this.#bare =
+      this.#catchers > 0
+        ? new DynamicTlas(
+            scene.instances.map((instance, i) =>
+              this.#isBare(scene, i, isGlowing) ? placing(scene, blas, instance) : undefined,
+            ),
+          )
+        : undefined;
     this.#isBareNew = true;
   }
 
   #check(scene: Scene): void {
     if (this.tlas.count > 0) return;
-    if (scene.instances.some((instance) => isShown(scene, instance))) throw new RenderError('renderer/no-triangles', 'Every instance has a transform that flattens it: nothing to render.');
+    if (scene.instances.some((instance) => isShown(scene, instance)))
+      throw new RenderError(
+        'renderer/no-triangles',
+        'Every instance has a transform that flattens it: nothing to render.',
+      );
     throw new RenderError('renderer/no-triangles', 'The scene has no visible triangles: nothing to render.');
   }
 }
 
 function placing(scene: Scene, blas: readonly (Blas | undefined)[], instance: Instance): TlasInstance | undefined {
   const tree = blas[instance.mesh];
-  return tree && tree.triangleIndices.length > 0 && isShown(scene, instance) ? { bounds: tree.bounds, transform: instance.transform } : undefined;
+  return tree && tree.triangleIndices.length > 0 && isShown(scene, instance)
+    ? { bounds: tree.bounds, transform: instance.transform }
+    : undefined;
 }
 
 /** Says of a material whether it emits, and finds out once. */
@@ -146,7 +170,8 @@ function glowing(scene: Scene): (material: number) => boolean {
   const known = new Map<number, boolean>();
   return (index) => {
     let found = known.get(index);
-    if (found === undefined) known.set(index, (found = emittedRadiance(parametersOf(scene.materials[index] as Material)).some((c) => c > 0)));
+    if (found === undefined)
+      known.set(index, (found = emittedRadiance(parametersOf(scene.materials[index] as Material)).some((c) => c > 0)));
     return found;
   };
 }
@@ -154,7 +179,7 @@ function glowing(scene: Scene): (material: number) => boolean {
 /** Nodes of a hierarchy that lies in the node buffer from `root` on, as few ranges. */
 function rangesOf({ nodes }: DynamicTlas, changed: Uint32Array, root: number): NodeRange[] {
   const ranges: NodeRange[] = [];
-  for (let i = 0; i < changed.length; ) {
+  for (let i = 0; i < changed.length;) {
     const first = changed[i++] as number;
     let end = first + 1;
     while (i < changed.length && (changed[i] as number) <= end + JOINED_NODES) end = (changed[i++] as number) + 1;
@@ -169,7 +194,8 @@ function moved(nodes: Float32Array<ArrayBuffer>, root: number): Float32Array<Arr
   const copy = nodes.slice();
   const words = new Uint32Array(copy.buffer);
   for (let node = 0; node < words.length; node += NODE_WORDS) {
-    for (const child of [node + LEFT_CHILD, node + RIGHT_CHILD]) if ((words[child] as number) < LEAF) (words[child] as number) += root;
+    for (const child of [node + LEFT_CHILD, node + RIGHT_CHILD])
+      if ((words[child] as number) < LEAF) (words[child] as number) += root;
   }
   return copy;
 }

@@ -3,19 +3,27 @@ import { DeviceError } from '../errors';
 import { isSoftware } from '../software';
 
 /** Formats of texture arrays; pictures that come in blocks keep them. */
-export type TextureFormat = 'rgba8unorm' | 'rgba8unorm-srgb' | 'rgba16float' | CompressedFormat | `${CompressedFormat}-srgb`;
+export type TextureFormat =
+  'rgba8unorm' | 'rgba8unorm-srgb' | 'rgba16float' | CompressedFormat | `${CompressedFormat}-srgb`;
 
-const FEATURES: Readonly<Record<CompressedFormat, GPUFeatureName>> = { 'astc-4x4-unorm': 'texture-compression-astc', 'bc7-rgba-unorm': 'texture-compression-bc', 'etc2-rgba8unorm': 'texture-compression-etc2' };
+const FEATURES: Readonly<Record<CompressedFormat, GPUFeatureName>> = {
+  'astc-4x4-unorm': 'texture-compression-astc',
+  'bc7-rgba-unorm': 'texture-compression-bc',
+  'etc2-rgba8unorm': 'texture-compression-etc2',
+};
 
 /**
- * The compressed formats that a device reads, the best first: what loaders want to know to leave pictures packed. None where
- * the CPU does the work of a GPU: such drivers unpack pictures by themselves, so nothing is saved, and SwiftShader was seen to
- * read zeros from them on some processors.
+ * The compressed formats that a device reads, the best first: what loaders want to know to leave pictures packed. None
+ * where the CPU does the work of a GPU: such drivers unpack pictures by themselves, so nothing is saved, and
+ * SwiftShader was seen to read zeros from them on some processors.
  *
  * @example
  * const scene = await loadGltf('lamp.gltf', { decoders, compressedFormats: compressedFormats(device) });
  */
-export function compressedFormats(device: { readonly features: Pick<ReadonlySet<string>, 'has'>; readonly adapterInfo?: GPUAdapterInfo }): CompressedFormat[] {
+export function compressedFormats(device: {
+  readonly features: Pick<ReadonlySet<string>, 'has'>;
+  readonly adapterInfo?: GPUAdapterInfo;
+}): CompressedFormat[] {
   if (device.adapterInfo && isSoftware(device.adapterInfo)) return [];
   return (Object.keys(FEATURES) as CompressedFormat[]).filter((format) => device.features.has(FEATURES[format]));
 }
@@ -39,7 +47,10 @@ export interface TexturePlan {
   /** Distinct pairs of array and sampler; a shader case each. */
   readonly samplings: readonly (readonly [array: number, sampler: number])[];
   /** For each scene texture that is used: its sampling case, its layer and the size of its picture there. */
-  readonly placements: ReadonlyMap<number, { readonly sampling: number; readonly layer: number; readonly width: number; readonly height: number }>;
+  readonly placements: ReadonlyMap<
+    number,
+    { readonly sampling: number; readonly layer: number; readonly width: number; readonly height: number }
+  >;
 }
 
 const addressMode = { repeat: 'repeat', mirror: 'mirror-repeat', clamp: 'clamp-to-edge' } as const;
@@ -53,24 +64,37 @@ function formatOf(image: Image, texture: Texture, compressed: readonly Compresse
 
 /** The blocks of a picture that stays in blocks on this device. */
 function compressedOf({ compressed, width, height }: Image, formats: readonly CompressedFormat[]): Image['compressed'] {
-  return compressed && formats.includes(compressed.format) && width % 4 === 0 && height % 4 === 0 ? compressed : undefined;
+  return compressed && formats.includes(compressed.format) && width % 4 === 0 && height % 4 === 0
+    ? compressed
+    : undefined;
 }
 
 /**
  * Sorts pictures into arrays of one size and format. Where the scene has more sizes than the device has texture slots,
- * the arrays with the fewest texels move into the nearest larger size of the same format; only those pictures are resampled.
+ * the arrays with the fewest texels move into the nearest larger size of the same format; only those pictures are
+ * resampled.
  *
  * @param used Indices of scene textures that materials refer to.
  * @param slots Texture arrays the shading kernel may bind.
- * @param compressed Compressed formats that the device reads. Pictures in blocks cannot be resampled: where there are more
- * sizes than slots, or one is too large, all of them are unpacked.
+ * @param compressed Compressed formats that the device reads. Pictures in blocks cannot be resampled: where there are
+ * more sizes than slots, or one is too large, all of them are unpacked.
  * @throws {DeviceError} `renderer/limit` when even that does not fit.
  */
-export function planTextures(scene: Scene, used: Iterable<number>, slots: number, limits: TextureLimits, compressed: readonly CompressedFormat[] = []): TexturePlan {
+export function planTextures(
+  scene: Scene,
+  used: Iterable<number>,
+  slots: number,
+  limits: TextureLimits,
+  compressed: readonly CompressedFormat[] = [],
+): TexturePlan {
   const textures = [...new Set(used)].sort((a, b) => a - b);
   const drafts = draftArrays(scene, textures, limits, compressed);
   const kept = drafts.filter((draft) => draft.levels !== undefined);
-  if (kept.length > 0 && (drafts.length > slots || kept.some(({ width, height }) => Math.max(width, height) > limits.maxTextureDimension2D))) return planTextures(scene, textures, slots, limits);
+  if (
+    kept.length > 0 &&
+    (drafts.length > slots || kept.some(({ width, height }) => Math.max(width, height) > limits.maxTextureDimension2D))
+  )
+    return planTextures(scene, textures, slots, limits);
   mergeArrays(drafts, slots, limits);
   return placeTextures(scene, textures, drafts, compressed);
 }
@@ -85,17 +109,32 @@ interface Draft extends TextureArray {
   height: number;
 }
 
-function draftArrays(scene: Scene, textures: readonly number[], limits: TextureLimits, compressed: readonly CompressedFormat[]): Draft[] {
+function draftArrays(
+  scene: Scene,
+  textures: readonly number[],
+  limits: TextureLimits,
+  compressed: readonly CompressedFormat[],
+): Draft[] {
   const drafts: Draft[] = [];
   for (const index of textures) {
     const texture = scene.textures[index] as Texture;
     const image = scene.images[texture.image] as Image;
     const format = formatOf(image, texture, compressed);
     const levels = compressedOf(image, compressed)?.levels.length;
-    const shrink = levels !== undefined ? 1 : Math.max(1, image.width / limits.maxTextureDimension2D, image.height / limits.maxTextureDimension2D);
+    const shrink =
+      levels !== undefined
+        ? 1
+        : Math.max(1, image.width / limits.maxTextureDimension2D, image.height / limits.maxTextureDimension2D);
     const width = Math.max(1, Math.floor(image.width / shrink));
     const height = Math.max(1, Math.floor(image.height / shrink));
-    let draft = drafts.find((d) => d.width === width && d.height === height && d.format === format && d.levels === levels && (d.layers.includes(texture.image) || d.layers.length < limits.maxTextureArrayLayers));
+    let draft = drafts.find(
+      (d) =>
+        d.width === width &&
+        d.height === height &&
+        d.format === format &&
+        d.levels === levels &&
+        (d.layers.includes(texture.image) || d.layers.length < limits.maxTextureArrayLayers),
+    );
     if (!draft) drafts.push((draft = { width, height, format, levels, layers: [] }));
     if (!draft.layers.includes(texture.image)) draft.layers.push(texture.image);
   }
@@ -104,10 +143,17 @@ function draftArrays(scene: Scene, textures: readonly number[], limits: TextureL
 
 function mergeArrays(drafts: Draft[], slots: number, limits: TextureLimits): void {
   while (drafts.length > slots) {
-    const order = [...drafts].sort((a, b) => a.width * a.height * a.layers.length - b.width * b.height * b.layers.length);
+    const order = [...drafts].sort(
+      (a, b) => a.width * a.height * a.layers.length - b.width * b.height * b.layers.length,
+    );
     const merged = order.some((small) => {
       const larger = drafts
-        .filter((d) => d !== small && d.format === small.format && d.layers.length + small.layers.length <= limits.maxTextureArrayLayers)
+        .filter(
+          (d) =>
+            d !== small &&
+            d.format === small.format &&
+            d.layers.length + small.layers.length <= limits.maxTextureArrayLayers,
+        )
         .sort((a, b) => distance(small, a) - distance(small, b))[0];
       if (!larger) return false;
       larger.width = Math.max(larger.width, small.width);
@@ -116,11 +162,20 @@ function mergeArrays(drafts: Draft[], slots: number, limits: TextureLimits): voi
       drafts.splice(drafts.indexOf(small), 1);
       return true;
     });
-    if (!merged) throw new DeviceError('renderer/limit', `The scene's textures need ${drafts.length} texture arrays, but this device binds only ${slots} (maxSampledTexturesPerShaderStage).`);
+    if (!merged)
+      throw new DeviceError(
+        'renderer/limit',
+        `The scene's textures need ${drafts.length} texture arrays, but this device binds only ${slots} (maxSampledTexturesPerShaderStage).`,
+      );
   }
 }
 
-function placeTextures(scene: Scene, textures: readonly number[], drafts: readonly Draft[], compressed: readonly CompressedFormat[]): TexturePlan {
+function placeTextures(
+  scene: Scene,
+  textures: readonly number[],
+  drafts: readonly Draft[],
+  compressed: readonly CompressedFormat[],
+): TexturePlan {
   const samplers: GPUSamplerDescriptor[] = [];
   const samplings: [number, number][] = [];
   const placements = new Map<number, { sampling: number; layer: number; width: number; height: number }>();
@@ -137,19 +192,34 @@ function placeTextures(scene: Scene, textures: readonly number[], drafts: readon
       minFilter: filter,
       mipmapFilter: filter,
     };
-    let sampler = samplers.findIndex((s) => s.addressModeU === descriptor.addressModeU && s.addressModeV === descriptor.addressModeV && s.magFilter === descriptor.magFilter);
+    let sampler = samplers.findIndex(
+      (s) =>
+        s.addressModeU === descriptor.addressModeU &&
+        s.addressModeV === descriptor.addressModeV &&
+        s.magFilter === descriptor.magFilter,
+    );
     if (sampler < 0) sampler = samplers.push(descriptor) - 1;
     let sampling = samplings.findIndex(([a, s]) => a === array && s === sampler);
     if (sampling < 0) sampling = samplings.push([array, sampler]) - 1;
-    placements.set(index, { sampling, layer: draft.layers.indexOf(texture.image), width: draft.width, height: draft.height });
+    placements.set(index, {
+      sampling,
+      layer: draft.layers.indexOf(texture.image),
+      width: draft.width,
+      height: draft.height,
+    });
   }
   return { arrays: drafts, samplers, samplings, placements };
 }
 
-const distance = (a: { width: number; height: number }, b: { width: number; height: number }) => Math.abs(Math.log(a.width / b.width)) + Math.abs(Math.log(a.height / b.height)) + (b.width * b.height < a.width * a.height ? 100 : 0);
+const distance = (a: { width: number; height: number }, b: { width: number; height: number }) =>
+  Math.abs(Math.log(a.width / b.width)) +
+  Math.abs(Math.log(a.height / b.height)) +
+  (b.width * b.height < a.width * a.height ? 100 : 0);
 
 /** Bilinear resampling of RGBA pixels to another size, in the codes' own space. */
-export function resizePixels<T extends Uint8Array<ArrayBuffer> | Uint8ClampedArray<ArrayBuffer> | Float32Array<ArrayBuffer>>(data: T, width: number, height: number, toWidth: number, toHeight: number): T {
+export function resizePixels<
+  T extends Uint8Array<ArrayBuffer> | Uint8ClampedArray<ArrayBuffer> | Float32Array<ArrayBuffer>,
+>(data: T, width: number, height: number, toWidth: number, toHeight: number): T {
   const out = new (data.constructor as new (n: number) => T)(toWidth * toHeight * 4);
   const round = data instanceof Float32Array ? 0 : 0.5;
   for (let y = 0; y < toHeight; y++) {
@@ -161,8 +231,12 @@ export function resizePixels<T extends Uint8Array<ArrayBuffer> | Uint8ClampedArr
       const x0 = Math.floor(sx);
       const x1 = Math.min(x0 + 1, width - 1);
       for (let c = 0; c < 4; c++) {
-        const top = (data[4 * (y0 * width + x0) + c] as number) * (1 - sx + x0) + (data[4 * (y0 * width + x1) + c] as number) * (sx - x0);
-        const bottom = (data[4 * (y1 * width + x0) + c] as number) * (1 - sx + x0) + (data[4 * (y1 * width + x1) + c] as number) * (sx - x0);
+        const top =
+          (data[4 * (y0 * width + x0) + c] as number) * (1 - sx + x0) +
+          (data[4 * (y0 * width + x1) + c] as number) * (sx - x0);
+        const bottom =
+          (data[4 * (y1 * width + x0) + c] as number) * (1 - sx + x0) +
+          (data[4 * (y1 * width + x1) + c] as number) * (sx - x0);
         out[4 * (y * toWidth + x) + c] = top * (1 - sy + y0) + bottom * (sy - y0) + round;
       }
     }

@@ -12,7 +12,12 @@ const state = (tiles?: Uint32Array<ArrayBuffer>): FilmState => {
     fingerprint: 'äbc',
     weights: { first: [[1, 1, 1]], last: [[0.5, 0, 2]] },
     sampling: { counts: Uint32Array.of(17, 16), tiles, sample: 16, pixel: 5, until: 96 },
-    sums: { film_block: sums(4 * 18 * 3), film_total: sums(4 * 18 * 3), film_moment: sums(4 * 18), beauty: sums(4 * 18) },
+    sums: {
+      film_block: sums(4 * 18 * 3),
+      film_total: sums(4 * 18 * 3),
+      film_moment: sums(4 * 18),
+      beauty: sums(4 * 18),
+    },
   };
 };
 
@@ -31,7 +36,8 @@ describe('a film as bytes', () => {
   it('is refused when it is cut off anywhere, or longer', () => {
     const bytes = encodeFilmState(state());
     const typed = expect.objectContaining({ code: 'renderer/film-state' }) as Error;
-    for (let length = 0; length < bytes.length; length += 7) expect(() => decodeFilmState(bytes.subarray(0, length))).toThrow(typed);
+    for (let length = 0; length < bytes.length; length += 7)
+      expect(() => decodeFilmState(bytes.subarray(0, length))).toThrow(typed);
     expect(() => decodeFilmState(Uint8Array.from([...bytes, 0, 0, 0, 0]))).toThrow(typed);
   });
 
@@ -44,7 +50,9 @@ describe('a film as bytes', () => {
         try {
           decodeFilmState(spoiled);
         } catch (error) {
-          expect((error as { code?: string }).code, `byte ${at} as ${value}: ${String(error)}`).toBe('renderer/film-state');
+          expect((error as { code?: string }).code, `byte ${at} as ${value}: ${String(error)}`).toBe(
+            'renderer/film-state',
+          );
         }
       }
     }

@@ -15,15 +15,34 @@ const SIZE = 32;
 function scene() {
   const made = createScene();
   addQuad(made, 3, 0, lambert(0.7));
-  addQuad(made, 1, 0.05, { name: 'glow', parameters: { base_weight: 0, specular_weight: 0, emission_luminance: 0.4 } }, { transform: [1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0, -1.2, 0, 0, 1] });
+  addQuad(
+    made,
+    1,
+    0.05,
+    { name: 'glow', parameters: { base_weight: 0, specular_weight: 0, emission_luminance: 0.4 } },
+    { transform: [1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0, -1.2, 0, 0, 1] },
+  );
   addQuad(made, 0.15, 0.5, lambert(0.2), { transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.6, 0.2, 0, 1] });
-  addQuad(made, 0.5, 1.5, { name: 'light', parameters: { base_weight: 0, specular_weight: 0, emission_luminance: 4 } }, { flip: true, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1.1, 0.3, 0, 1] });
+  addQuad(
+    made,
+    0.5,
+    1.5,
+    { name: 'light', parameters: { base_weight: 0, specular_weight: 0, emission_luminance: 4 } },
+    { flip: true, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1.1, 0.3, 0, 1] },
+  );
   made.environment = { type: 'constant', radiance: [0.1, 0.2, 0.3] };
   return made;
 }
 
 async function start(options: Partial<PathTracerOptions> = {}): Promise<PathTracer> {
-  return PathTracer.create(device, scene(), { width: SIZE, height: SIZE, camera, maxDepth: 3, pathsInFlight: 1 << 14, ...options });
+  return PathTracer.create(device, scene(), {
+    width: SIZE,
+    height: SIZE,
+    camera,
+    maxDepth: 3,
+    pathsInFlight: 1 << 14,
+    ...options,
+  });
 }
 
 async function run(tracer: PathTracer, options: RenderOptions): Promise<RenderProgress[]> {
@@ -32,7 +51,8 @@ async function run(tracer: PathTracer, options: RenderOptions): Promise<RenderPr
   return seen;
 }
 
-const same = (a: Float32Array, b: Float32Array) => a.length === b.length && a.every((value, i) => Object.is(value, b[i]));
+const same = (a: Float32Array, b: Float32Array) =>
+  a.length === b.length && a.every((value, i) => Object.is(value, b[i]));
 const NOISE = 0.02;
 
 let better: Promise<Float32Array> | undefined;
@@ -67,7 +87,8 @@ describe('adaptive sampling', () => {
 
     // The error against another, much better picture is what the estimate says, tile by tile.
     const [ours, truth] = [await tracer.read('beauty'), await reference()];
-    const meanSquare = truth.reduce((sum, value, i) => (i % 4 === 3 ? sum : sum + (value * value) / 3), 0) / (SIZE * SIZE);
+    const meanSquare =
+      truth.reduce((sum, value, i) => (i % 4 === 3 ? sum : sum + (value * value) / 3), 0) / (SIZE * SIZE);
     let whole = 0;
     for (let tile = 0; tile < 16; tile++) {
       let error = 0;
@@ -94,7 +115,8 @@ describe('adaptive sampling', () => {
     await run(one, { noise: NOISE });
     const two = await start({ pathsInFlight: 300 });
     const control = new AbortController();
-    for await (const { samples } of two.render({ noise: NOISE, signal: control.signal, maxSubmitMs: 5 })) if (samples > 70) control.abort();
+    for await (const { samples } of two.render({ noise: NOISE, signal: control.signal, maxSubmitMs: 5 }))
+      if (samples > 70) control.abort();
     await run(two, { noise: NOISE, maxSubmitMs: 20 });
     expect(two.samples).toBe(one.samples);
     expect(same(await two.read('beauty'), await one.read('beauty'))).toBe(true);
@@ -136,7 +158,8 @@ describe('adaptive sampling', () => {
       tracer.destroy();
     }
     // Of the whole picture's mean, and per pixel: squared error of the mean over runs, against one run's.
-    const sum = (values: ArrayLike<number>) => Array.from(values).reduce((all, value, i) => (i % 4 === 3 ? all : all + value), 0);
+    const sum = (values: ArrayLike<number>) =>
+      Array.from(values).reduce((all, value, i) => (i % 4 === 3 ? all : all + value), 0);
     expect(Math.abs(sum(mean) / sum(truth) - 1)).toBeLessThan(0.002);
     const left = mean.reduce((all, value, i) => all + (value - (truth[i] as number)) ** 2, 0);
     // Without bias the mean over 12 runs has a twelfth of one run's squared error.

@@ -14,8 +14,20 @@ afterEach(() => expectNoGpuErrors());
 const SIZE = 8;
 const GREY = 0.5;
 
-async function withTracer<T>(scene: Scene, options: Partial<PathTracerOptions>, use: (tracer: PathTracer) => Promise<T>, samples = 16): Promise<T> {
-  const tracer = await PathTracer.create(device, scene, { width: SIZE, height: SIZE, camera, backFaceCulling: 'camera', pathsInFlight: 1 << 12, ...options });
+async function withTracer<T>(
+  scene: Scene,
+  options: Partial<PathTracerOptions>,
+  use: (tracer: PathTracer) => Promise<T>,
+  samples = 16,
+): Promise<T> {
+  const tracer = await PathTracer.create(device, scene, {
+    width: SIZE,
+    height: SIZE,
+    camera,
+    backFaceCulling: 'camera',
+    pathsInFlight: 1 << 12,
+    ...options,
+  });
   try {
     for await (const _ of tracer.render({ samples, maxSubmitMs: 2000 }));
     return await use(tracer);
@@ -24,10 +36,12 @@ async function withTracer<T>(scene: Scene, options: Partial<PathTracerOptions>, 
   }
 }
 
-const beauty = (scene: Scene, options: Partial<PathTracerOptions> = {}, samples?: number) => withTracer(scene, options, (tracer) => tracer.read('beauty'), samples);
+const beauty = (scene: Scene, options: Partial<PathTracerOptions> = {}, samples?: number) =>
+  withTracer(scene, options, (tracer) => tracer.read('beauty'), samples);
 
 /** Mean of the red of all pixels. */
-const red = (pixels: Float32Array) => pixels.reduce((sum, value, i) => (i % 4 === 0 ? sum + value : sum), 0) / (SIZE * SIZE);
+const red = (pixels: Float32Array) =>
+  pixels.reduce((sum, value, i) => (i % 4 === 0 ? sum + value : sum), 0) / (SIZE * SIZE);
 
 /** A wall of a material, wider than the view, in even white light. */
 function wallOf(material: Material, options: Parameters<typeof addQuad>[4] = {}): Scene {
@@ -37,7 +51,10 @@ function wallOf(material: Material, options: Parameters<typeof addQuad>[4] = {})
   return scene;
 }
 
-const glow = (radiance: number): Material => ({ name: 'glow', parameters: { base_weight: 0, specular_weight: 0, emission_luminance: radiance } });
+const glow = (radiance: number): Material => ({
+  name: 'glow',
+  parameters: { base_weight: 0, specular_weight: 0, emission_luminance: radiance },
+});
 const MIRROR_X = [-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
 /** A closed room of walls that face inwards; the camera stands outside. */
@@ -52,8 +69,12 @@ function room(wall: Material): Scene {
 describe('what the camera sees', () => {
   it('is the inside of a closed room whose walls face inwards, as if the wall before it were open', async () => {
     // In a closed room of even walls that emit E and reflect r, each point shines as E / (1 - r).
-    const emits = 0.25, reflects = 0.5;
-    const wall: Material = { name: 'wall', parameters: { base_color: [reflects, reflects, reflects], specular_weight: 0, emission_luminance: emits } };
+    const emits = 0.25,
+      reflects = 0.5;
+    const wall: Material = {
+      name: 'wall',
+      parameters: { base_color: [reflects, reflects, reflects], specular_weight: 0, emission_luminance: emits },
+    };
     const inside = await beauty(room(wall), { maxDepth: 24 }, 64);
     // The wall's back emits nothing, and by default that is what is seen.
     const outside = await beauty(room(wall), { maxDepth: 24, backFaceCulling: 'off' }, 4);
@@ -79,7 +100,13 @@ describe('what the camera sees', () => {
 
   it.each([
     ['double-sided', { ...lambert(0), double_sided: true }],
-    ['glass', { name: 'glass', parameters: { transmission_weight: 1, transmission_color: [0.5, 0.5, 0.5], geometry_thin_walled: true } }],
+    [
+      'glass',
+      {
+        name: 'glass',
+        parameters: { transmission_weight: 1, transmission_color: [0.5, 0.5, 0.5], geometry_thin_walled: true },
+      },
+    ],
     ['wax', { name: 'wax', parameters: { subsurface_weight: 1, geometry_thin_walled: true } }],
     ['half there', { name: 'veil', parameters: { base_color: [0, 0, 0], specular_weight: 0, geometry_opacity: 0.5 } }],
   ] as readonly (readonly [string, Material])[])('does not change for a material that is %s', async (_, material) => {
@@ -89,7 +116,10 @@ describe('what the camera sees', () => {
 
   it('is the inside of a glass ball as before, whatever else is culled', async () => {
     const scene = createScene();
-    addBox(scene, [-0.5, -0.5, -0.5], [0.5, 0.5, 0.5], { name: 'glass', parameters: { transmission_weight: 1, transmission_depth: 0.5, transmission_color: [0.2, 0.6, 0.9] } });
+    addBox(scene, [-0.5, -0.5, -0.5], [0.5, 0.5, 0.5], {
+      name: 'glass',
+      parameters: { transmission_weight: 1, transmission_depth: 0.5, transmission_color: [0.2, 0.6, 0.9] },
+    });
     addBox(scene, [-2, -2, -4], [2, 2, -3], lambert(0.6));
     scene.environment = { type: 'constant', radiance: [1, 1, 1] };
     // A box that faces outwards shows no back to a camera outside.
@@ -97,14 +127,21 @@ describe('what the camera sees', () => {
   });
 
   it('is a cut-out where it is there on its front, and nothing of it on its back', async () => {
-    const leaf = (flip: boolean) => wallOf({ ...lambert(0), parameters: { ...lambert(0).parameters, geometry_opacity: 0.7 }, opacity_threshold: 0.5 }, { flip });
+    const leaf = (flip: boolean) =>
+      wallOf(
+        { ...lambert(0), parameters: { ...lambert(0).parameters, geometry_opacity: 0.7 }, opacity_threshold: 0.5 },
+        { flip },
+      );
     expect(red(await beauty(leaf(false)))).toBeCloseTo(0, 6);
     expect(red(await beauty(leaf(true)))).toBeCloseTo(1, 6);
   });
 
   it('goes on behind a window of smooth thin glass', async () => {
     const scene = createScene();
-    const clear: Material = { name: 'window', parameters: { transmission_weight: 1, specular_weight: 0, specular_roughness: 0, geometry_thin_walled: true } };
+    const clear: Material = {
+      name: 'window',
+      parameters: { transmission_weight: 1, specular_weight: 0, specular_roughness: 0, geometry_thin_walled: true },
+    };
     addQuad(scene, 50, 1, clear);
     addQuad(scene, 50, 0, lambert(0), { flip: true });
     addQuad(scene, 50, -1, glow(2));
@@ -119,7 +156,11 @@ describe('what the camera sees', () => {
     addQuad(scene, 0.2, 0, lambert(0.5));
     scene.environment = { type: 'constant', radiance: [1, 1, 1] };
     await withTracer(scene, {}, async (tracer) => {
-      const [albedo, position, objectId] = [await tracer.read('albedo'), await tracer.read('position'), await tracer.read('objectId')];
+      const [albedo, position, objectId] = [
+        await tracer.read('albedo'),
+        await tracer.read('position'),
+        await tracer.read('objectId'),
+      ];
       expect(objectId[0]).toBe(1);
       expect(objectId[(SIZE / 2) * (SIZE + 1)]).toBe(2);
       expect(albedo[0]).toBeCloseTo(0.9, 2);
@@ -128,15 +169,27 @@ describe('what the camera sees', () => {
       expect(tracer.pick(0.5, 0.5)!.position[2]).toBeCloseTo(-1, 9);
       expect(tracer.pick(SIZE / 2, SIZE / 2)).toMatchObject({ instance: 2 });
     });
-    await withTracer(scene, { backFaceCulling: 'off' }, async (tracer) => expect(tracer.pick(0.5, 0.5)).toMatchObject({ instance: 0 }));
+    await withTracer(scene, { backFaceCulling: 'off' }, async (tracer) =>
+      expect(tracer.pick(0.5, 0.5)).toMatchObject({ instance: 0 }),
+    );
   });
 
   it('is what the first picture shows too, while kernels compile', async () => {
     const scene = wallOf(lambert(0), { flip: true });
     // Out of sight, and much to compile.
-    addQuad(scene, 1, 10, { name: 'rich', parameters: { coat_weight: 0.5, fuzz_weight: 0.5, thin_film_weight: 0.5, transmission_weight: 0.5 } });
+    addQuad(scene, 1, 10, {
+      name: 'rich',
+      parameters: { coat_weight: 0.5, fuzz_weight: 0.5, thin_film_weight: 0.5, transmission_weight: 0.5 },
+    });
     let shown: Promise<Float32Array> | undefined;
-    const tracer = await PathTracer.create(device, scene, { width: 4, height: 4, camera, backFaceCulling: 'camera', onFirstLight: ({ buffer }) => void (shown = readBuffer(device, buffer, 256).then((bytes) => new Float32Array(bytes))) });
+    const tracer = await PathTracer.create(device, scene, {
+      width: 4,
+      height: 4,
+      camera,
+      backFaceCulling: 'camera',
+      onFirstLight: ({ buffer }) =>
+        void (shown = readBuffer(device, buffer, 256).then((bytes) => new Float32Array(bytes))),
+    });
     tracer.destroy();
     expect([...(await shown!)]).toEqual(Array(64).fill(1));
   });
@@ -145,7 +198,11 @@ describe('what the camera sees', () => {
     const scene = wallOf(lambert(0), { flip: true });
     await withTracer(scene, {}, async (tracer) => {
       expect(red(await tracer.read('beauty'))).toBeCloseTo(1, 5);
-      await tracer.setMaterial(0, { transmission_weight: 1, geometry_thin_walled: true, transmission_color: [0, 0, 0] });
+      await tracer.setMaterial(0, {
+        transmission_weight: 1,
+        geometry_thin_walled: true,
+        transmission_color: [0, 0, 0],
+      });
       for await (const _ of tracer.render({ samples: 16 }));
       expect(red(await tracer.read('beauty'))).toBeLessThan(0.2);
     });
@@ -153,7 +210,13 @@ describe('what the camera sees', () => {
 });
 
 // Looks at a floor of y = 0 from above, over whatever lies above it.
-const above: Camera = { type: 'orthographic', name: 'above', xmag: 0.5, ymag: 0.5, transform: [1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 5, 0, 1] };
+const above: Camera = {
+  type: 'orthographic',
+  name: 'above',
+  xmag: 0.5,
+  ymag: 0.5,
+  transform: [1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 5, 0, 1],
+};
 const LYING = [1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1];
 const lying = (height: number) => [...LYING.slice(0, 13), height, 0, 1];
 
@@ -161,7 +224,13 @@ describe('with "camera" light finds the back faces', () => {
   it('a ceiling that the camera looks through keeps the sun off the floor', async () => {
     const scene = createScene();
     addQuad(scene, 50, 0, lambert(GREY), { transform: LYING });
-    scene.lights.push({ type: 'directional', name: 'sun', color: [1, 1, 1], intensity: Math.PI, direction: [0, -1, 0] });
+    scene.lights.push({
+      type: 'directional',
+      name: 'sun',
+      color: [1, 1, 1],
+      intensity: Math.PI,
+      direction: [0, -1, 0],
+    });
     const open = red(await beauty(scene, { camera: above, maxDepth: 2 }));
     expect(open).toBeCloseTo(GREY, 4);
     // Faces down: its back is to the camera and to the sun.
@@ -170,9 +239,13 @@ describe('with "camera" light finds the back faces', () => {
   });
 
   it('and gives back what the floor sends up: between two parallel planes it bounces on', async () => {
-    const emits = 0.2, reflects = 0.6;
+    const emits = 0.2,
+      reflects = 0.6;
     const scene = createScene();
-    const wall: Material = { name: 'wall', parameters: { base_color: [reflects, reflects, reflects], specular_weight: 0, emission_luminance: emits } };
+    const wall: Material = {
+      name: 'wall',
+      parameters: { base_color: [reflects, reflects, reflects], specular_weight: 0, emission_luminance: emits },
+    };
     // Each sees nothing but the other, so both shine as E / (1 - r).
     addQuad(scene, 500, 0, wall, { transform: LYING });
     addQuad(scene, 500, 0, { ...wall }, { flip: true, transform: lying(1) });
@@ -183,7 +256,10 @@ describe('with "camera" light finds the back faces', () => {
   it('a mirror shows them', async () => {
     const scene = createScene();
     scene.environment = { type: 'constant', radiance: [1, 1, 1] };
-    const mirror: Material = { name: 'mirror', parameters: { base_metalness: 1, base_color: [1, 1, 1], specular_color: [1, 1, 1], specular_roughness: 0 } };
+    const mirror: Material = {
+      name: 'mirror',
+      parameters: { base_metalness: 1, base_color: [1, 1, 1], specular_color: [1, 1, 1], specular_roughness: 0 },
+    };
     addQuad(scene, 50, 0, mirror);
     expect(red(await beauty(scene))).toBeCloseTo(1, 2);
     // Behind the camera, with its back to the mirror.
@@ -205,7 +281,13 @@ describe('with "all" the model is cut open', () => {
 
   it('the sun falls on the floor through the ceiling that is cut away', async () => {
     const scene = storey(lambert(1));
-    scene.lights.push({ type: 'directional', name: 'sun', color: [1, 1, 1], intensity: Math.PI, direction: [0, -1, 0] });
+    scene.lights.push({
+      type: 'directional',
+      name: 'sun',
+      color: [1, 1, 1],
+      intensity: Math.PI,
+      direction: [0, -1, 0],
+    });
     expect(red(await beauty(scene, open))).toBeCloseTo(GREY, 4);
     // In perspective it is the camera's place that decides: from below the ceiling is seen, so it is there.
     expect(red(await beauty(scene, { ...open, camera: { ...camera, transform: lying(5) } }))).toBeCloseTo(GREY, 4);
@@ -216,7 +298,8 @@ describe('with "all" the model is cut open', () => {
     const scene = storey(lambert(1));
     scene.environment = even;
     const sampled = await beauty(scene, open, 64);
-    // Each sample is GREY times a weight of mean 1 that is below 2: a deviation below GREY over the root of 4096 samples.
+    // Each sample is GREY times a weight of mean 1 that is below 2: a deviation below GREY over the root of 4096
+    // samples.
     expect(Math.abs(red(sampled) - GREY)).toBeLessThan((4 * GREY) / 64);
     scene.environment = { type: 'constant', radiance: [1, 1, 1] };
     expect(red(await beauty(scene, open))).toBeCloseTo(GREY, 4);
@@ -229,10 +312,17 @@ describe('with "all" the model is cut open', () => {
   });
 
   it('glass and cut-outs are as they were', async () => {
-    const scene = storey({ name: 'glass', parameters: { transmission_weight: 1, specular_roughness: 0, geometry_thin_walled: true } });
+    const scene = storey({
+      name: 'glass',
+      parameters: { transmission_weight: 1, specular_roughness: 0, geometry_thin_walled: true },
+    });
     scene.environment = { type: 'constant', radiance: [1, 1, 1] };
     expect(await beauty(scene, open)).toEqual(await beauty(scene, { ...open, backFaceCulling: 'off' }));
-    const leaves = storey({ ...lambert(0), opacity_threshold: 0.5, parameters: { ...lambert(0).parameters, geometry_opacity: 0.7 } });
+    const leaves = storey({
+      ...lambert(0),
+      opacity_threshold: 0.5,
+      parameters: { ...lambert(0).parameters, geometry_opacity: 0.7 },
+    });
     leaves.environment = scene.environment;
     expect(red(await beauty(leaves, open))).toBeCloseTo(GREY, 4);
   });

@@ -10,23 +10,44 @@ beforeAll(async () => {
 });
 afterEach(() => expectNoGpuErrors());
 
-async function render(scene: ReturnType<typeof createScene>, camera: Camera, options: Partial<PathTracerOptions> & { samples?: number } = {}): Promise<{ pixels: Float32Array; tracer: PathTracer }> {
-  const tracer = await PathTracer.create(device, scene, { width: 32, height: 32, pathsInFlight: 1 << 14, camera, ...options });
+async function render(
+  scene: ReturnType<typeof createScene>,
+  camera: Camera,
+  options: Partial<PathTracerOptions> & { samples?: number } = {},
+): Promise<{ pixels: Float32Array; tracer: PathTracer }> {
+  const tracer = await PathTracer.create(device, scene, {
+    width: 32,
+    height: 32,
+    pathsInFlight: 1 << 14,
+    camera,
+    ...options,
+  });
   for await (const _ of tracer.render({ maxSubmitMs: 1000, samples: options.samples ?? 16 }));
   return { pixels: await tracer.read('beauty'), tracer };
 }
 
-const glow = (luminance: number) => ({ name: 'glow', parameters: { base_weight: 0, specular_weight: 0, emission_luminance: luminance } });
+const glow = (luminance: number) => ({
+  name: 'glow',
+  parameters: { base_weight: 0, specular_weight: 0, emission_luminance: luminance },
+});
 
 describe('cameras', () => {
   it('parallel projection: a square of half size h covers h/ymag of the picture, however far it is', async () => {
     for (const distance of [0, -7]) {
       const scene = createScene();
       addQuad(scene, 0.5, distance, glow(1));
-      const camera: OrthographicCamera = { type: 'orthographic', name: 'o', transform: pinhole.transform, xmag: 1, ymag: 1 };
+      const camera: OrthographicCamera = {
+        type: 'orthographic',
+        name: 'o',
+        transform: pinhole.transform,
+        xmag: 1,
+        ymag: 1,
+      };
       const { pixels, tracer } = await render(scene, camera, { background: 'transparent' });
       // Pixels 8..23 of 32 are inside, all others outside.
-      for (let y = 0; y < 32; y++) for (let x = 0; x < 32; x++) expect(pixels[4 * (32 * y + x) + 3]).toBe(x >= 8 && x < 24 && y >= 8 && y < 24 ? 1 : 0);
+      for (let y = 0; y < 32; y++)
+        for (let x = 0; x < 32; x++)
+          expect(pixels[4 * (32 * y + x) + 3]).toBe(x >= 8 && x < 24 && y >= 8 && y < 24 ? 1 : 0);
       expect(tracer.pick(16, 16)).toMatchObject({ distance: 3 - distance, depth: 3 - distance });
       expect(tracer.pick(7, 16)).toBeUndefined();
       tracer.destroy();
@@ -40,14 +61,29 @@ describe('cameras', () => {
     addSphere(scene, 1e-3, [0, 500, 0], lambert(0), 8);
     scene.environment = environment;
     // Looks along +X: right is +Z, up +Y, back −X.
-    const { pixels, tracer } = await render(scene, { type: 'panorama', name: 'p', transform: [0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1] }, { width: 32, height: 16, samples: 1024, maxDepth: 1 });
+    const { pixels, tracer } = await render(
+      scene,
+      { type: 'panorama', name: 'p', transform: [0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1] },
+      { width: 32, height: 16, samples: 1024, maxDepth: 1 },
+    );
     // A pixel is the mean over its square of the bilinear picture: weights 1 : 6 : 1 over the neighbours, each way.
-    const texel = (x: number, y: number, c: number) => data[3 * (Math.min(Math.max(y, 0), 15) * 32 + ((x + 32) % 32)) + c] as number;
+    const texel = (x: number, y: number, c: number) =>
+      data[3 * (Math.min(Math.max(y, 0), 15) * 32 + ((x + 32) % 32)) + c] as number;
     for (let y = 0; y < 16; y++) {
       for (let x = 0; x < 32; x++) {
         for (let c = 0; c < 3; c++) {
           let expected = 0;
-          for (const [dy, wy] of [[-1, 1], [0, 6], [1, 1]] as const) for (const [dx, wx] of [[-1, 1], [0, 6], [1, 1]] as const) expected += (texel(x + dx, y + dy, c) * wx * wy) / 64;
+          for (const [dy, wy] of [
+            [-1, 1],
+            [0, 6],
+            [1, 1],
+          ] as const)
+            for (const [dx, wx] of [
+              [-1, 1],
+              [0, 6],
+              [1, 1],
+            ] as const)
+              expected += (texel(x + dx, y + dy, c) * wx * wy) / 64;
           expect(Math.abs((pixels[4 * (32 * y + x) + c] as number) - expected)).toBeLessThan(0.01);
         }
       }
@@ -58,7 +94,11 @@ describe('cameras', () => {
   it('a panorama picks what lies behind', async () => {
     const scene = createScene();
     addQuad(scene, 1, 5, lambert(0.5), { flip: true });
-    const { tracer } = await render(scene, { type: 'panorama', name: 'p', transform: pinhole.transform }, { width: 64, height: 32, samples: 1 });
+    const { tracer } = await render(
+      scene,
+      { type: 'panorama', name: 'p', transform: pinhole.transform },
+      { width: 64, height: 32, samples: 1 },
+    );
     // The camera looks along −z from z = 3; the quad at z = 5 lies behind, at the picture's left and right edge.
     expect(tracer.pick(0.01, 16)?.distance).toBeCloseTo(2, 3);
     expect(tracer.pick(63.99, 16)?.depth).toBeCloseTo(-2, 3);
@@ -73,7 +113,12 @@ describe('cameras', () => {
     const scene = createScene();
     addQuad(scene, 0.05, 0, glow(1));
     const size = 48;
-    const { pixels, tracer } = await render(scene, camera, { width: size, height: size, samples: 512, background: 'transparent' });
+    const { pixels, tracer } = await render(scene, camera, {
+      width: size,
+      height: size,
+      samples: 512,
+      background: 'transparent',
+    });
     tracer.destroy();
     // Lens coordinates of each pixel's centre, right and up.
     const shrink = 1 / 1 - 1 / 3;
@@ -98,7 +143,12 @@ describe('cameras', () => {
       const kept = inside.filter(keep);
       return kept.reduce((sum, { value }) => sum + value, 0) / kept.length;
     };
-    for (const keep of [({ x }: { x: number }) => x > 0, ({ y }: { y: number }) => y > 0, ({ x, y }: { x: number; y: number }) => Math.hypot(x, y) < 0.63]) expect(Math.abs(part(keep) / mean - 1)).toBeLessThan(0.05);
+    for (const keep of [
+      ({ x }: { x: number }) => x > 0,
+      ({ y }: { y: number }) => y > 0,
+      ({ x, y }: { x: number; y: number }) => Math.hypot(x, y) < 0.63,
+    ])
+      expect(Math.abs(part(keep) / mean - 1)).toBeLessThan(0.05);
   });
 
   it('blades make the disk a polygon that rotates', async () => {
@@ -131,7 +181,8 @@ describe('cameras', () => {
     addQuad(scene, 0.5, -3, glow(1));
     const blurred: PerspectiveCamera = { ...pinhole, lens_radius: 0.3, focus_distance: 1 };
     const { tracer, pixels } = await render(scene, blurred, { samples: 64, background: 'transparent' });
-    const partial = (image: Float32Array) => image.filter((value, i) => i % 4 === 3 && value > 0.02 && value < 0.98).length;
+    const partial = (image: Float32Array) =>
+      image.filter((value, i) => i % 4 === 3 && value > 0.02 && value < 0.98).length;
     const hit = tracer.pick(18, 14);
     expect(hit?.depth).toBeCloseTo(6, 5);
     expect(hit?.distance).toBeGreaterThan(6);

@@ -15,12 +15,28 @@ const options: PathTracerOptions = { width: SIZE, height: SIZE, camera, maxDepth
 const SKY = [0.4, 0.6, 0.9] as const;
 
 /** A ball on a floor under a glowing panel and a sky; floor and ball may be left out, the floor may be a catcher. */
-function scene({ ball = true, catcher = false, floor = lambert(0.6, 0.5, 0.4) }: { ball?: boolean; catcher?: boolean; floor?: Material } = {}): Scene {
+function scene({
+  ball = true,
+  catcher = false,
+  floor = lambert(0.6, 0.5, 0.4),
+}: { ball?: boolean; catcher?: boolean; floor?: Material } = {}): Scene {
   const made = createScene();
   // Larger than the picture to the left, so that the right shows what is beyond it.
   addQuad(made, 2, 0, floor, { transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1.4, 0, 0, 1] });
-  addQuad(made, 0.4, 1.5, { name: 'glow', parameters: { base_weight: 0, specular_weight: 0, emission_luminance: 3 } }, { flip: true, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1.2, 0.8, 0, 1] });
-  addSphere(made, 0.3, [-0.1, -0.1, 0.4], { name: 'ball', parameters: { base_color: [0.9, 0.1, 0.1], specular_roughness: 0.3 } }, 16);
+  addQuad(
+    made,
+    0.4,
+    1.5,
+    { name: 'glow', parameters: { base_weight: 0, specular_weight: 0, emission_luminance: 3 } },
+    { flip: true, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1.2, 0.8, 0, 1] },
+  );
+  addSphere(
+    made,
+    0.3,
+    [-0.1, -0.1, 0.4],
+    { name: 'ball', parameters: { base_color: [0.9, 0.1, 0.1], specular_roughness: 0.3 } },
+    16,
+  );
   Object.assign(made.instances[0] as object, { catcher });
   Object.assign(made.instances[2] as object, { visible: ball });
   made.environment = { type: 'constant', radiance: SKY };
@@ -32,13 +48,17 @@ async function render(made: Scene, extra: Partial<PathTracerOptions> & { samples
   for await (const _ of tracer.render({ samples: extra.samples ?? 128, maxSubmitMs: 1000 }));
   return tracer;
 }
-async function picture(made: Scene, extra: Partial<PathTracerOptions> & { samples?: number } = {}): Promise<Float32Array> {
+async function picture(
+  made: Scene,
+  extra: Partial<PathTracerOptions> & { samples?: number } = {},
+): Promise<Float32Array> {
   const tracer = await render(made, extra);
   const pixels = await tracer.read('beauty');
   tracer.destroy();
   return pixels;
 }
-const largest = (a: Float32Array, b: Float32Array) => a.reduce((most, value, i) => Math.max(most, Math.abs(value - (b[i] as number))), 0);
+const largest = (a: Float32Array, b: Float32Array) =>
+  a.reduce((most, value, i) => Math.max(most, Math.abs(value - (b[i] as number))), 0);
 const luminance = (r: number, g: number, b: number) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
 
 /** For each pixel whether all of it is floor, ball, or nothing: found by alpha and ids of ordinary pictures. */
@@ -60,7 +80,14 @@ async function classes(): Promise<('floor' | 'ball' | 'sky' | 'edge')[]> {
 describe('catchers', () => {
   it.each([
     ['a matte floor', lambert(0.6, 0.5, 0.4), 0.002],
-    ['a glossy floor', { name: 'gloss', parameters: { base_metalness: 1, base_color: [0.9, 0.9, 0.9], specular_roughness: 0.35 } } satisfies Material, 0.01],
+    [
+      'a glossy floor',
+      {
+        name: 'gloss',
+        parameters: { base_metalness: 1, base_color: [0.9, 0.9, 0.9], specular_roughness: 0.35 },
+      } satisfies Material,
+      0.01,
+    ],
   ])('%s: what two renders, with and without the object, say', async (_, floor, least) => {
     const found = await picture(scene({ catcher: true, floor }), { background: 'transparent' });
     const over = await picture(scene({ catcher: true, floor }));
@@ -82,12 +109,17 @@ describe('catchers', () => {
         expect(alpha).toBeCloseTo(1, 5);
         for (let c = 0; c < 3; c++) expect(f[c]).toBeCloseTo(w[c] as number, 5);
       } else if (kind === 'floor') {
-        const shadow = 1 - luminance(...(w.map((v, c) => Math.min(v, b[c] as number)) as [number, number, number])) / luminance(...b);
+        const shadow =
+          1 -
+          luminance(...(w.map((v, c) => Math.min(v, b[c] as number)) as [number, number, number])) / luminance(...b);
         expect(alpha).toBeCloseTo(shadow, 4);
         for (let c = 0; c < 3; c++) {
           const more = Math.max((w[c] as number) - (b[c] as number), 0);
           expect(f[c]).toBeCloseTo(more, 4);
-          expect(o[c]).toBeCloseTo(more + ((SKY[c] as number) * Math.min(w[c] as number, b[c] as number)) / (b[c] as number), 4);
+          expect(o[c]).toBeCloseTo(
+            more + ((SKY[c] as number) * Math.min(w[c] as number, b[c] as number)) / (b[c] as number),
+            4,
+          );
           added += more;
         }
         shadowed += shadow;
@@ -124,7 +156,9 @@ describe('catchers', () => {
     const plain = await tracer.read('beauty');
     await tracer.setCatcher(0, true);
     for await (const _ of tracer.render({ samples: 32, maxSubmitMs: 1000 }));
-    expect(largest(await tracer.read('beauty'), await picture(scene({ catcher: true }), { samples: 32 }))).toBeLessThan(1e-5);
+    expect(largest(await tracer.read('beauty'), await picture(scene({ catcher: true }), { samples: 32 }))).toBeLessThan(
+      1e-5,
+    );
     await tracer.setInstanceTransform('sphere', [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -0.4, 0.2, 0, 1]);
     for await (const _ of tracer.render({ samples: 32, maxSubmitMs: 1000 }));
     const moved = scene({ catcher: true });

@@ -19,15 +19,26 @@ const COAT = { base_weight: 0, specular_weight: 0, coat_weight: 1, coat_roughnes
 async function furnace(maps: readonly ('geometry_normal' | 'geometry_coat_normal')[]) {
   const scene = createScene();
   const binding: TextureBinding = { texture: 0, channels: 'rgb' };
-  addSphere(scene, 0.8, [0, 0, 0], { name: 'coat', parameters: COAT, textures: Object.fromEntries(maps.map((name) => [name, binding])) }, 12);
+  addSphere(
+    scene,
+    0.8,
+    [0, 0, 0],
+    { name: 'coat', parameters: COAT, textures: Object.fromEntries(maps.map((name) => [name, binding])) },
+    12,
+  );
   const mesh = scene.meshes[0] as Mesh;
-  mesh.uvs = [Float32Array.from({ length: (mesh.positions.length / 3) * 2 }, (_, i) => {
-    const [x, y, z] = mesh.positions.subarray(3 * (i >> 1));
-    return i % 2 === 0 ? (2 * Math.atan2(z!, x!)) / Math.PI : y!;
-  })];
+  mesh.uvs = [
+    Float32Array.from({ length: (mesh.positions.length / 3) * 2 }, (_, i) => {
+      const [x, y, z] = mesh.positions.subarray(3 * (i >> 1));
+      return i % 2 === 0 ? (2 * Math.atan2(z!, x!)) / Math.PI : y!;
+    }),
+  ];
   const [n, bumps] = [32, new Float32Array(32 * 32 * 4)];
   for (let i = 0; i < n * n; i++) {
-    const [a, b] = [0.35 * Math.sin(((i % n) * 4 * Math.PI) / n), 0.35 * Math.sin((Math.floor(i / n) * 4 * Math.PI) / n)];
+    const [a, b] = [
+      0.35 * Math.sin(((i % n) * 4 * Math.PI) / n),
+      0.35 * Math.sin((Math.floor(i / n) * 4 * Math.PI) / n),
+    ];
     bumps.set([0.5 + a / 2, 0.5 + b / 2, 0.5 + Math.sqrt(1 - a * a - b * b) / 2, 1], 4 * i);
   }
   scene.images.push({ name: 'bumps', width: n, height: n, data: bumps });
@@ -37,7 +48,9 @@ async function furnace(maps: readonly ('geometry_normal' | 'geometry_coat_normal
   for await (const _ of tracer.render({ samples: 8 }));
   const [beauty, albedo] = [await tracer.read('beauty'), await tracer.read('albedo')];
   tracer.destroy();
-  const covered = [...Array(SIZE * SIZE).keys()].filter((i) => beauty[4 * i + 3]! > 0.999 && albedo[4 * i + 3]! > 0.999);
+  const covered = [...Array(SIZE * SIZE).keys()].filter(
+    (i) => beauty[4 * i + 3]! > 0.999 && albedo[4 * i + 3]! > 0.999,
+  );
   const radius = (i: number) => Math.hypot((i % SIZE) + 0.5 - SIZE / 2, Math.floor(i / SIZE) + 0.5 - SIZE / 2) / SIZE;
   const mean = (pixels: readonly number[]) => pixels.reduce((sum, i) => sum + beauty[4 * i + 1]!, 0) / pixels.length;
   return {
@@ -48,22 +61,32 @@ async function furnace(maps: readonly ('geometry_normal' | 'geometry_coat_normal
 }
 
 describe('a coat whose normal is not that of its base, in a white furnace', () => {
-  it.each([[['geometry_coat_normal']], [['geometry_normal']]] as const)('%s by a map: no pixel is darker than Fresnel allows, and the rim is bright', async (maps) => {
-    const { darkest, center, rim } = await furnace(maps);
-    // An interface reflects least along its normal.
-    expect(darkest).toBeGreaterThan(0.99 * ((IOR - 1) / (IOR + 1)) ** 2);
-    expect(rim).toBeGreaterThan(3 * center);
-  });
+  it.each([[['geometry_coat_normal']], [['geometry_normal']]] as const)(
+    '%s by a map: no pixel is darker than Fresnel allows, and the rim is bright',
+    async (maps) => {
+      const { darkest, center, rim } = await furnace(maps);
+      // An interface reflects least along its normal.
+      expect(darkest).toBeGreaterThan(0.99 * ((IOR - 1) / (IOR + 1)) ** 2);
+      expect(rim).toBeGreaterThan(3 * center);
+    },
+  );
 });
 
 it('the albedo layer sees a tilted coat from the side where the camera is', async () => {
   const seen = async (x: number, tilt: number) => {
     const scene = createScene();
-    const material: Material = { name: 'coat', parameters: { ...COAT, geometry_coat_normal: [tilt, 0, Math.sqrt(1 - tilt * tilt)] } };
+    const material: Material = {
+      name: 'coat',
+      parameters: { ...COAT, geometry_coat_normal: [tilt, 0, Math.sqrt(1 - tilt * tilt)] },
+    };
     addQuad(scene, 1, 0, material);
     // 60 degrees off the quad's normal, looking at its middle.
     const [s, c] = [Math.sin((x * Math.PI) / 3), Math.cos(Math.PI / 3)];
-    const view: PerspectiveCamera = { ...camera, yfov: 0.1, transform: [c, 0, -s, 0, 0, 1, 0, 0, s, 0, c, 0, 3 * s, 0, 3 * c, 1] };
+    const view: PerspectiveCamera = {
+      ...camera,
+      yfov: 0.1,
+      transform: [c, 0, -s, 0, 0, 1, 0, 0, s, 0, c, 0, 3 * s, 0, 3 * c, 1],
+    };
     const tracer = await PathTracer.create(device, scene, { width: 8, height: 8, camera: view, maxDepth: 1 });
     for await (const _ of tracer.render({ samples: 1 }));
     const albedo = await tracer.read('albedo');

@@ -10,8 +10,9 @@ beforeAll(async () => {
 afterAll(() => expectNoGpuErrors());
 
 /**
- * White walls around the camera, in blinding surroundings: every path that slips out is seen. A prism of regular polygons, so
- * its walls meet at one angle; far from the origin, where the rounding of positions is a noticeable part of the room.
+ * White walls around the camera, in blinding surroundings: every path that slips out is seen. A prism of regular
+ * polygons, so its walls meet at one angle; far from the origin, where the rounding of positions is a noticeable part
+ * of the room.
  */
 async function brightest(corners: number, far: number, samples: number): Promise<number> {
   const scene = createScene();
@@ -27,10 +28,20 @@ async function brightest(corners: number, far: number, samples: number): Promise
   }
   scene.meshes.push({ name: 'room', positions: Float32Array.from(positions), indices: Uint32Array.from(indices) });
   scene.materials.push(lambert(1));
-  scene.instances.push({ name: 'room', mesh: 0, material: 0, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] });
+  scene.instances.push({
+    name: 'room',
+    mesh: 0,
+    material: 0,
+    transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1],
+  });
   scene.environment = { type: 'constant', radiance: [1e6, 1e6, 1e6] };
   const eye = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, far, far, far, 1] as const;
-  const tracer = await PathTracer.create(device, scene, { width: 32, height: 32, camera: { type: 'panorama', name: 'eye', transform: [...eye] }, maxDepth: 64 });
+  const tracer = await PathTracer.create(device, scene, {
+    width: 32,
+    height: 32,
+    camera: { type: 'panorama', name: 'eye', transform: [...eye] },
+    maxDepth: 64,
+  });
   for await (const progress of tracer.render({ samples })) void progress;
   const beauty = await tracer.read('beauty');
   tracer.destroy();

@@ -17,15 +17,27 @@ afterAll(() => expectNoGpuErrors());
 const SIZE = 16;
 const SPECTRUM = Array.from({ length: 401 }, (_, i) => 380 + i);
 
-/** CIE 1931 in Wyman, Sloan and Shirley's fit ("Simple Analytic Approximations to the CIE XYZ Color Matching Functions", JCGT 2013), to linear sRGB, positive parts, each with the integral 1. */
+/**
+ * CIE 1931 in Wyman, Sloan and Shirley's fit ("Simple Analytic Approximations to the CIE XYZ Color Matching Functions",
+ * JCGT 2013), to linear sRGB, positive parts, each with the integral 1.
+ */
 function matchingCurves(): number[][] {
   const lobe = (x: number, m: number, s1: number, s2: number) => Math.exp(-0.5 * ((x - m) * (x < m ? s1 : s2)) ** 2);
-  const xyz = SPECTRUM.map((l) => [
-    0.362 * lobe(l, 442, 0.0624, 0.0374) + 1.056 * lobe(l, 599.8, 0.0264, 0.0323) - 0.065 * lobe(l, 501.1, 0.049, 0.0382),
-    0.821 * lobe(l, 568.8, 0.0213, 0.0247) + 0.286 * lobe(l, 530.9, 0.0613, 0.0322),
-    1.217 * lobe(l, 437, 0.0845, 0.0278) + 0.681 * lobe(l, 459, 0.0385, 0.0725),
-  ] as const);
-  const matrix = [[3.2404542, -1.5371385, -0.4985314], [-0.969266, 1.8760108, 0.041556], [0.0556434, -0.2040259, 1.0572252]] as const;
+  const xyz = SPECTRUM.map(
+    (l) =>
+      [
+        0.362 * lobe(l, 442, 0.0624, 0.0374) +
+          1.056 * lobe(l, 599.8, 0.0264, 0.0323) -
+          0.065 * lobe(l, 501.1, 0.049, 0.0382),
+        0.821 * lobe(l, 568.8, 0.0213, 0.0247) + 0.286 * lobe(l, 530.9, 0.0613, 0.0322),
+        1.217 * lobe(l, 437, 0.0845, 0.0278) + 0.681 * lobe(l, 459, 0.0385, 0.0725),
+      ] as const,
+  );
+  const matrix = [
+    [3.2404542, -1.5371385, -0.4985314],
+    [-0.969266, 1.8760108, 0.041556],
+    [0.0556434, -0.2040259, 1.0572252],
+  ] as const;
   return matrix.map((row) => {
     const curve = xyz.map((v) => Math.max(0, row[0] * v[0] + row[1] * v[1] + row[2] * v[2]));
     const sum = curve.reduce((a, b) => a + b);
@@ -41,7 +53,11 @@ function receptors(): number[][] {
     return curve.map((value) => value / sum);
   };
   const violet = logistic(439, 7);
-  return [logistic(607.3, 16.6).map((value, i) => 0.958 * value + 0.042 * violet[i]!), logistic(539.5, 18.3), logistic(451.8, 13.8)];
+  return [
+    logistic(607.3, 16.6).map((value, i) => 0.958 * value + 0.042 * violet[i]!),
+    logistic(539.5, 18.3),
+    logistic(451.8, 13.8),
+  ];
 }
 
 const PAIRS = 16384;
@@ -59,13 +75,26 @@ var<private> frame: TestFrame;
 }`,
     [dispersion],
   );
-  const numbers = new Float32Array(await runCompute(device, compose([host], { flags: { SOBOL: true, SCREEN_NOISE: false } }).code, { outputBytes: PAIRS * 16, workgroups: PAIRS / 64 }));
-  return Array.from({ length: PAIRS }, (_, i) => ({ carried: [numbers[4 * i]!, numbers[4 * i + 1]!, numbers[4 * i + 2]!], wavelength: numbers[4 * i + 3]! }));
+  const numbers = new Float32Array(
+    await runCompute(device, compose([host], { flags: { SOBOL: true, SCREEN_NOISE: false } }).code, {
+      outputBytes: PAIRS * 16,
+      workgroups: PAIRS / 64,
+    }),
+  );
+  return Array.from({ length: PAIRS }, (_, i) => ({
+    carried: [numbers[4 * i]!, numbers[4 * i + 1]!, numbers[4 * i + 2]!],
+    wavelength: numbers[4 * i + 3]!,
+  }));
 }
 
 describe('wavelengths', () => {
   it('are drawn as the receptors answer, and the path carries on average what it did, never more in sum', async () => {
-    for (const throughput of [[1, 1, 1], [0.2, 0.9, 0.4], [0, 0, 2], [0.5, 0, 0.1]] as const) {
+    for (const throughput of [
+      [1, 1, 1],
+      [0.2, 0.9, 0.4],
+      [0, 0, 2],
+      [0.5, 0, 0.1],
+    ] as const) {
       const total = throughput[0] + throughput[1] + throughput[2];
       const drawn = await draw(throughput);
       for (const { wavelength, carried } of drawn) {
@@ -74,7 +103,8 @@ describe('wavelengths', () => {
         expect(carried[0] + carried[1] + carried[2]).toBeCloseTo(total, 4);
       }
       // Sobol points integrate these smooth functions to far better than 1/√N.
-      for (const k of [0, 1, 2] as const) expect(drawn.reduce((sum, { carried }) => sum + carried[k], 0) / PAIRS).toBeCloseTo(throughput[k], 2);
+      for (const k of [0, 1, 2] as const)
+        expect(drawn.reduce((sum, { carried }) => sum + carried[k], 0) / PAIRS).toBeCloseTo(throughput[k], 2);
     }
   });
 
@@ -104,7 +134,10 @@ async function picture(scene: Scene, samples: number, options: Partial<PathTrace
   }
 }
 
-const glass = (parameters: Material['parameters']): Material => ({ name: 'glass', parameters: { transmission_weight: 1, specular_roughness: 0, specular_ior: 1.5, ...parameters } });
+const glass = (parameters: Material['parameters']): Material => ({
+  name: 'glass',
+  parameters: { transmission_weight: 1, specular_roughness: 0, specular_ior: 1.5, ...parameters },
+});
 
 /** Cauchy's law through n at 587.6 nm, from the definition of the Abbe number. */
 function cauchy(n: number, abbe: number, wavelength: number): number {
@@ -116,7 +149,13 @@ function cauchy(n: number, abbe: number, wavelength: number): number {
 function ramp(): Environment {
   const [width, height] = [512, 8];
   const data = new Float32Array(width * height * 3);
-  for (let y = 0; y < height; y++) for (let x = 0; x < width; x++) data.fill(Math.max(0, 10 * (((x + 0.5) / width) - 0.24)) * Number(x < width / 2), 3 * (y * width + x), 3 * (y * width + x) + 3);
+  for (let y = 0; y < height; y++)
+    for (let x = 0; x < width; x++)
+      data.fill(
+        Math.max(0, 10 * ((x + 0.5) / width - 0.24)) * Number(x < width / 2),
+        3 * (y * width + x),
+        3 * (y * width + x) + 3,
+      );
   return { type: 'latlong', width, height, data };
 }
 
@@ -131,12 +170,30 @@ describe('dispersion', () => {
       positions: new Float32Array([-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, 1, -1, -2 * t, 1, 1, -2 * t]),
       indices: new Uint32Array([0, 1, 2, 0, 2, 3, 0, 3, 5, 0, 5, 4, 1, 4, 5, 1, 5, 2, 0, 4, 1, 3, 2, 5]),
     });
-    scene.materials.push(glass({ specular_ior: n, transmission_dispersion_scale: 1, transmission_dispersion_abbe_number: abbe }));
-    scene.instances.push({ name: 'wedge', mesh: 0, material: 0, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] });
-    const seen = meanOf(await picture(scene, 1024, { maxDepth: 3, camera: { ...camera, yfov: 1e-4 }, multipleScattering: false }), SIZE, 0, 0, SIZE, SIZE);
+    scene.materials.push(
+      glass({ specular_ior: n, transmission_dispersion_scale: 1, transmission_dispersion_abbe_number: abbe }),
+    );
+    scene.instances.push({
+      name: 'wedge',
+      mesh: 0,
+      material: 0,
+      transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1],
+    });
+    const seen = meanOf(
+      await picture(scene, 1024, { maxDepth: 3, camera: { ...camera, yfov: 1e-4 }, multipleScattering: false }),
+      SIZE,
+      0,
+      0,
+      SIZE,
+      SIZE,
+    );
     const fresnel = (eta: number, cosine: number) => {
       const g = Math.sqrt(eta * eta - 1 + cosine * cosine);
-      return 0.5 * ((g - cosine) / (g + cosine)) ** 2 * (1 + ((cosine * (g + cosine) - 1) / (cosine * (g - cosine) + 1)) ** 2);
+      return (
+        0.5 *
+        ((g - cosine) / (g + cosine)) ** 2 *
+        (1 + ((cosine * (g + cosine) - 1) / (cosine * (g - cosine) + 1)) ** 2)
+      );
     };
     // The ray leaves in the plane y = 0, towards the thick side: to the right of −z.
     const arriving = SPECTRUM.map((wavelength) => {
@@ -164,7 +221,18 @@ describe('dispersion', () => {
     const region = [4, 4, 12, 12] as const;
     const options = { maxDepth: 6 };
     const dispersed: Vector[] = [];
-    for (let seed = 0; seed < 6; seed++) dispersed.push(meanOf(await picture(scene({ specular_ior: n, transmission_dispersion_scale: 1, transmission_dispersion_abbe_number: abbe }), 256, { ...options, seed }), SIZE, ...region));
+    for (let seed = 0; seed < 6; seed++)
+      dispersed.push(
+        meanOf(
+          await picture(
+            scene({ specular_ior: n, transmission_dispersion_scale: 1, transmission_dispersion_abbe_number: abbe }),
+            256,
+            { ...options, seed },
+          ),
+          SIZE,
+          ...region,
+        ),
+      );
     const curves = receptors();
     const sum = [0, 0, 0];
     const squares = [0, 0, 0];
@@ -173,15 +241,23 @@ describe('dispersion', () => {
       const weights = curves.map((curve) => curve.slice(i - 10, i + 10).reduce((a, b) => a + b));
       if (Math.max(...weights) < 1e-3) continue;
       const pair: Vector[] = [];
-      for (const seed of [1, 2]) pair.push(meanOf(await picture(scene({ specular_ior: cauchy(n, abbe, 380 + i) }), 64, { ...options, seed: 100 * seed + i }), SIZE, ...region));
+      for (const seed of [1, 2])
+        pair.push(
+          meanOf(
+            await picture(scene({ specular_ior: cauchy(n, abbe, 380 + i) }), 64, { ...options, seed: 100 * seed + i }),
+            SIZE,
+            ...region,
+          ),
+        );
       for (const k of [0, 1, 2] as const) {
         sum[k]! += (weights[k]! * (pair[0]![k] + pair[1]![k])) / 2;
-        squares[k]! += (weights[k]! * (pair[0]![k] - pair[1]![k]) / 2) ** 2;
+        squares[k]! += ((weights[k]! * (pair[0]![k] - pair[1]![k])) / 2) ** 2;
       }
     }
     for (const k of [0, 1, 2] as const) {
       const mean = dispersed.reduce((a, v) => a + v[k], 0) / dispersed.length;
-      const variance = dispersed.reduce((a, v) => a + (v[k] - mean) ** 2, 0) / (dispersed.length - 1) / dispersed.length;
+      const variance =
+        dispersed.reduce((a, v) => a + (v[k] - mean) ** 2, 0) / (dispersed.length - 1) / dispersed.length;
       // Four standard errors of both, and 0.2 % for the steps of 20 nm.
       expect(Math.abs(mean - sum[k]!)).toBeLessThan(4 * Math.sqrt(variance + squares[k]!) + 0.002 * sum[k]!);
     }
@@ -192,7 +268,13 @@ describe('dispersion', () => {
 
   it('leaves white light white', async () => {
     const scene: Scene = { ...createScene(), environment: { type: 'constant', radiance: [1, 1, 1] } };
-    addSphere(scene, 0.8, [0, 0, 0], glass({ transmission_dispersion_scale: 1, transmission_dispersion_abbe_number: 10, specular_roughness: 0.2 }), 64);
+    addSphere(
+      scene,
+      0.8,
+      [0, 0, 0],
+      glass({ transmission_dispersion_scale: 1, transmission_dispersion_abbe_number: 10, specular_roughness: 0.2 }),
+      64,
+    );
     const seen = meanOf(await picture(scene, 512, { maxDepth: 48 }), SIZE, 4, 4, 12, 12);
     for (const value of seen) expect(Math.abs(value - 1)).toBeLessThan(0.01);
   });

@@ -17,8 +17,20 @@ const moved = (x: number, y: number, z: number) => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0
 function stage(): Scene {
   const scene = createScene();
   addQuad(scene, 0.9, 0, lambert(0.6, 0.5, 0.4));
-  addSphere(scene, 0.3, [0, 0, 0.3], { name: 'ball', parameters: { base_color: [0.8, 0.2, 0.1], specular_roughness: 0.3 } }, 12);
-  addQuad(scene, 0.4, 1.5, { name: 'glow', parameters: { base_weight: 0, specular_weight: 0, emission_luminance: 3 } }, { flip: true, transform: moved(1, 0.8, 0) });
+  addSphere(
+    scene,
+    0.3,
+    [0, 0, 0.3],
+    { name: 'ball', parameters: { base_color: [0.8, 0.2, 0.1], specular_roughness: 0.3 } },
+    12,
+  );
+  addQuad(
+    scene,
+    0.4,
+    1.5,
+    { name: 'glow', parameters: { base_weight: 0, specular_weight: 0, emission_luminance: 3 } },
+    { flip: true, transform: moved(1, 0.8, 0) },
+  );
   (scene.instances[0] as { name: string }).name = 'floor';
   (scene.instances[2] as { name: string }).name = 'panel';
   scene.materials.push({ name: 'blue', parameters: { base_color: [0.1, 0.2, 0.8], specular_weight: 0 } });
@@ -28,7 +40,13 @@ function stage(): Scene {
 }
 
 const picture = Float32Array.from({ length: 16 * 8 * 3 }, (_, i) => (Math.floor(i / 3) % 16 === 3 ? 4 : 0.2));
-const sky = (rotation: number): LatLongEnvironment => ({ type: 'latlong', width: 16, height: 8, data: picture, rotation });
+const sky = (rotation: number): LatLongEnvironment => ({
+  type: 'latlong',
+  width: 16,
+  height: 8,
+  data: picture,
+  rotation,
+});
 
 async function beauty(tracer: PathTracer, samples = 20): Promise<Float32Array> {
   for await (const _ of tracer.render({ samples, maxSubmitMs: 1000 }));
@@ -40,7 +58,8 @@ async function fresh(scene: Scene): Promise<Float32Array> {
   tracer.destroy();
   return pixels;
 }
-const largest = (a: Float32Array, b: Float32Array) => a.reduce((most, value, i) => Math.max(most, Math.abs(value - (b[i] as number))), 0);
+const largest = (a: Float32Array, b: Float32Array) =>
+  a.reduce((most, value, i) => Math.max(most, Math.abs(value - (b[i] as number))), 0);
 
 /** Counts what is compiled while something runs. */
 async function compiled(run: () => Promise<unknown>): Promise<string[]> {
@@ -58,22 +77,83 @@ async function compiled(run: () => Promise<unknown>): Promise<string[]> {
   return made;
 }
 
-const square = (half: number): Mesh => ({ name: 'part', positions: new Float32Array([-half, -half, 0.4, half, -half, 0.4, half, half, 0.4, -half, half, 0.4]), indices: new Uint32Array([0, 1, 2, 0, 2, 3]) });
+const square = (half: number): Mesh => ({
+  name: 'part',
+  positions: new Float32Array([-half, -half, 0.4, half, -half, 0.4, half, half, 0.4, -half, half, 0.4]),
+  indices: new Uint32Array([0, 1, 2, 0, 2, 3]),
+});
 
 /** A name, the edit, and the scene that should come out of it. */
-const EDITS: readonly (readonly [name: string, edit: (tracer: PathTracer) => Promise<void>, scene: (scene: Scene) => void])[] = [
-  ['a light', (t) => t.setLight('lamp', { intensity: 9, position: [1, 0, 1] } as object), (s) => Object.assign(s.lights[0] as object, { intensity: 9, position: [1, 0, 1] })],
-  ['a lamp switched off', (t) => t.setLight(0, { intensity: 0 }), (s) => Object.assign(s.lights[0] as object, { intensity: 0 })],
-  ['the rotation of the environment', (t) => t.adjustEnvironment({ rotation: 1.2, intensity: 0.5 }), (s) => Object.assign(s.environment as object, { rotation: 1.2, intensity: 0.5 })],
-  ['an environment hidden', (t) => t.adjustEnvironment({ visible: false }), (s) => Object.assign(s.environment as object, { visible: false })],
-  ['a transform', (t) => t.setInstanceTransform('sphere', moved(0.4, -0.3, 0.1)), (s) => Object.assign(s.instances[1] as object, { transform: moved(0.4, -0.3, 0.1) })],
-  ['the transform of something that glows', (t) => t.setInstanceTransform('panel', moved(-1, -0.8, 0)), (s) => Object.assign(s.instances[2] as object, { transform: moved(-1, -0.8, 0) })],
-  ['visibility', (t) => t.setVisibility('sphere', false), (s) => Object.assign(s.instances[1] as object, { visible: false })],
-  ['visibility of several', (t) => t.setVisibility(['sphere', 2], false), (s) => s.instances.slice(1, 3).forEach((instance) => Object.assign(instance, { visible: false }))],
-  ['the material of an instance', (t) => t.setInstanceMaterial(1, 'blue'), (s) => Object.assign(s.instances[1] as object, { material: 3 })],
+const EDITS: readonly (readonly [
+  name: string,
+  edit: (tracer: PathTracer) => Promise<void>,
+  scene: (scene: Scene) => void,
+])[] = [
+  [
+    'a light',
+    (t) => t.setLight('lamp', { intensity: 9, position: [1, 0, 1] } as object),
+    (s) => Object.assign(s.lights[0] as object, { intensity: 9, position: [1, 0, 1] }),
+  ],
+  [
+    'a lamp switched off',
+    (t) => t.setLight(0, { intensity: 0 }),
+    (s) => Object.assign(s.lights[0] as object, { intensity: 0 }),
+  ],
+  [
+    'the rotation of the environment',
+    (t) => t.adjustEnvironment({ rotation: 1.2, intensity: 0.5 }),
+    (s) => Object.assign(s.environment as object, { rotation: 1.2, intensity: 0.5 }),
+  ],
+  [
+    'an environment hidden',
+    (t) => t.adjustEnvironment({ visible: false }),
+    (s) => Object.assign(s.environment as object, { visible: false }),
+  ],
+  [
+    'a transform',
+    (t) => t.setInstanceTransform('sphere', moved(0.4, -0.3, 0.1)),
+    (s) => Object.assign(s.instances[1] as object, { transform: moved(0.4, -0.3, 0.1) }),
+  ],
+  [
+    'the transform of something that glows',
+    (t) => t.setInstanceTransform('panel', moved(-1, -0.8, 0)),
+    (s) => Object.assign(s.instances[2] as object, { transform: moved(-1, -0.8, 0) }),
+  ],
+  [
+    'visibility',
+    (t) => t.setVisibility('sphere', false),
+    (s) => Object.assign(s.instances[1] as object, { visible: false }),
+  ],
+  [
+    'visibility of several',
+    (t) => t.setVisibility(['sphere', 2], false),
+    (s) => s.instances.slice(1, 3).forEach((instance) => Object.assign(instance, { visible: false })),
+  ],
+  [
+    'the material of an instance',
+    (t) => t.setInstanceMaterial(1, 'blue'),
+    (s) => Object.assign(s.instances[1] as object, { material: 3 }),
+  ],
   ['a mesh for a smaller one', (t) => t.replaceMesh('sphere', square(0.5)), (s) => (s.meshes[1] = square(0.5))],
-  ['a material’s value', (t) => t.setMaterial('ball', { specular_roughness: 0.7 }), (s) => ((s.materials[1] as Scene['materials'][number]).parameters = { base_color: [0.8, 0.2, 0.1], specular_roughness: 0.7 })],
-  ['an emission', (t) => t.setMaterial('glow', { emission_luminance: 7 }), (s) => ((s.materials[2] as Scene['materials'][number]).parameters = { base_weight: 0, specular_weight: 0, emission_luminance: 7 })],
+  [
+    'a material’s value',
+    (t) => t.setMaterial('ball', { specular_roughness: 0.7 }),
+    (s) =>
+      ((s.materials[1] as Scene['materials'][number]).parameters = {
+        base_color: [0.8, 0.2, 0.1],
+        specular_roughness: 0.7,
+      }),
+  ],
+  [
+    'an emission',
+    (t) => t.setMaterial('glow', { emission_luminance: 7 }),
+    (s) =>
+      ((s.materials[2] as Scene['materials'][number]).parameters = {
+        base_weight: 0,
+        specular_weight: 0,
+        emission_luminance: 7,
+      }),
+  ],
 ];
 
 /** An environment that counts the texel components that are read from its array. */
@@ -90,21 +170,24 @@ function counted(rotation = 0) {
 }
 
 describe('edits of a live tracer', () => {
-  it.each(EDITS)('%s: the picture of a tracer made for the edited scene, and nothing compiled', async (_, edit, change) => {
-    const tracer = await PathTracer.create(device, stage(), options);
-    const before = await beauty(tracer);
-    const made = await compiled(() => edit(tracer));
-    expect(made).toEqual([]);
-    expect(tracer.samples).toBe(0);
-    const after = await beauty(tracer);
-    const scene = stage();
-    change(scene);
-    const expected = await fresh(scene);
-    expect(largest(after, before)).toBeGreaterThan(1e-3);
-    // The order of nodes in the hierarchy may differ, not what they hold; sums are in the same order.
-    expect(largest(after, expected)).toBeLessThan(1e-5);
-    tracer.destroy();
-  });
+  it.each(EDITS)(
+    '%s: the picture of a tracer made for the edited scene, and nothing compiled',
+    async (_, edit, change) => {
+      const tracer = await PathTracer.create(device, stage(), options);
+      const before = await beauty(tracer);
+      const made = await compiled(() => edit(tracer));
+      expect(made).toEqual([]);
+      expect(tracer.samples).toBe(0);
+      const after = await beauty(tracer);
+      const scene = stage();
+      change(scene);
+      const expected = await fresh(scene);
+      expect(largest(after, before)).toBeGreaterThan(1e-3);
+      // The order of nodes in the hierarchy may differ, not what they hold; sums are in the same order.
+      expect(largest(after, expected)).toBeLessThan(1e-5);
+      tracer.destroy();
+    },
+  );
 
   it('the same environment at another rotation or intensity, even 0, is set without reading a texel', async () => {
     const { count, environment } = counted();
@@ -125,7 +208,11 @@ describe('edits of a live tracer', () => {
     const expected = { ...stage(), environment: { ...sky(1.2), intensity: 0.5 } };
     expect(largest(await beauty(tracer), await fresh(expected))).toBeLessThan(1e-5);
     // Numbers beside the texels are validated as ever, and so is a size that the texels do not have.
-    const refused = (change: object) => tracer.setEnvironment({ ...environment, ...change }).then(() => 'none', (error: { code?: string }) => error.code);
+    const refused = (change: object) =>
+      tracer.setEnvironment({ ...environment, ...change }).then(
+        () => 'none',
+        (error: { code?: string }) => error.code,
+      );
     expect(await refused({ rotation: Number.NaN })).toBe('scene/not-finite');
     expect(await refused({ width: 32 })).toBe('scene/length');
     // The array, not the object around it, is what is known.
@@ -144,7 +231,11 @@ describe('edits of a live tracer', () => {
     const larger = createScene();
     addSphere(larger, 0.5, [0.2, 0, 0.5], lambert(1), 40);
     // Two edits at once: both hold.
-    await Promise.all([tracer.replaceMesh('sphere', larger.meshes[0] as Mesh), tracer.setLight('lamp', { intensity: 5 }), tracer.setInstanceTransform('panel', moved(-1, 0, 0))]);
+    await Promise.all([
+      tracer.replaceMesh('sphere', larger.meshes[0] as Mesh),
+      tracer.setLight('lamp', { intensity: 5 }),
+      tracer.setInstanceTransform('panel', moved(-1, 0, 0)),
+    ]);
     const expected = stage();
     expected.meshes[1] = larger.meshes[0] as Mesh;
     Object.assign(expected.lights[0] as object, { intensity: 5 });
@@ -210,7 +301,12 @@ describe('edits of a live tracer', () => {
     expect(made).toContain('glanz shade');
     expect(made.every((label) => label === 'glanz shade')).toBe(true);
     const coated = stage();
-    (coated.materials[1] as Scene['materials'][number]).parameters = { base_color: [0.8, 0.2, 0.1], specular_roughness: 0.3, coat_weight: 1, coat_roughness: 0.1 };
+    (coated.materials[1] as Scene['materials'][number]).parameters = {
+      base_color: [0.8, 0.2, 0.1],
+      specular_roughness: 0.3,
+      coat_weight: 1,
+      coat_roughness: 0.1,
+    };
     const other = await PathTracer.create(device, coated, { ...options, seed: 3 });
     expect(largest(await beauty(tracer), await beauty(other))).toBeLessThan(1e-5);
     other.destroy();
@@ -233,7 +329,13 @@ describe('edits of a live tracer', () => {
   it('what cannot be done is refused, and leaves everything as it was', async () => {
     const tracer = await PathTracer.create(device, stage(), options);
     const before = await beauty(tracer);
-    const code = (run: () => unknown) => Promise.resolve().then(run).then(() => 'none', (error: { code?: string }) => error.code);
+    const code = (run: () => unknown) =>
+      Promise.resolve()
+        .then(run)
+        .then(
+          () => 'none',
+          (error: { code?: string }) => error.code,
+        );
     expect(await code(() => tracer.setInstanceTransform('nobody', moved(0, 0, 0)))).toBe('renderer/instance');
     expect(await code(() => tracer.setInstanceTransform('panel', [1, 2, 3]))).toBe('renderer/transform');
     expect(await code(() => tracer.setInstanceTransform('panel', moved(Number.NaN, 0, 0)))).toBe('renderer/transform');
@@ -242,7 +344,9 @@ describe('edits of a live tracer', () => {
     expect(await code(() => tracer.setLight('lamp', { intensity: -1 }))).toBe('scene/value');
     expect(await code(() => tracer.setVariant('day'))).toBe('renderer/variant');
     expect(await code(() => tracer.replaceMesh('nothing', square(1)))).toBe('renderer/mesh');
-    expect(await code(() => tracer.replaceMesh('sphere', { ...square(1), indices: new Uint32Array([0, 1, 9]) }))).toBe('scene/reference');
+    expect(await code(() => tracer.replaceMesh('sphere', { ...square(1), indices: new Uint32Array([0, 1, 9]) }))).toBe(
+      'scene/reference',
+    );
     expect(await code(() => tracer.adjustEnvironment({ rotation: Number.NaN }))).toBe('renderer/environment');
     expect(await code(() => tracer.setDepth(0))).toBe('renderer/option');
     for (const name of ['floor', 'panel']) await tracer.setVisibility(name, false);

@@ -17,7 +17,14 @@ beforeAll(async () => {
 });
 afterAll(() => expectNoGpuErrors());
 
-const CHOICES: SceneChoices = { multipleScattering: true, sampler: 'blue-noise', lightGroups: 'named', lightSampling: 'tree', shadowTerminator: 'smooth', backFaceCulling: 'all' };
+const CHOICES: SceneChoices = {
+  multipleScattering: true,
+  sampler: 'blue-noise',
+  lightGroups: 'named',
+  lightSampling: 'tree',
+  shadowTerminator: 'smooth',
+  backFaceCulling: 'all',
+};
 
 const plain = (): Scene => {
   const scene = createScene();
@@ -25,40 +32,76 @@ const plain = (): Scene => {
   return scene;
 };
 
-const latlong = (intensity: number): Environment => ({ type: 'latlong', width: 2, height: 1, data: Float32Array.of(1, 1, 1, 5, 5, 5), intensity });
+const latlong = (intensity: number): Environment => ({
+  type: 'latlong',
+  width: 2,
+  height: 1,
+  data: Float32Array.of(1, 1, 1, 5, 5, 5),
+  intensity,
+});
 
 const SCENES: readonly (readonly [string, (scene: Scene) => void])[] = [
   ['nothing but a matt surface', () => {}],
   ['surroundings', (scene) => (scene.environment = latlong(1))],
   ['a dark picture of surroundings', (scene) => (scene.environment = latlong(0))],
-  ['a lamp of each kind', (scene) => scene.lights.push({ type: 'point', name: 'point', color: [1, 1, 1], intensity: 1, position: [0, 0, 2] }, { type: 'sphere', name: 'sphere', color: [1, 1, 1], intensity: 1, position: [0, 0, 2], radius: 0.1 })],
-  ['a glowing surface in a light group', (scene) => void addQuad(scene, 0.5, 1, { name: 'glow', light_group: 'glow', parameters: { emission_luminance: 3 } })],
-  ['a glowing surface that is hidden', (scene) => {
-    addQuad(scene, 0.5, 1, { name: 'glow', parameters: { emission_luminance: 3 } });
-    scene.instances.at(-1)!.visible = false;
-  }],
+  [
+    'a lamp of each kind',
+    (scene) =>
+      scene.lights.push(
+        { type: 'point', name: 'point', color: [1, 1, 1], intensity: 1, position: [0, 0, 2] },
+        { type: 'sphere', name: 'sphere', color: [1, 1, 1], intensity: 1, position: [0, 0, 2], radius: 0.1 },
+      ),
+  ],
+  [
+    'a glowing surface in a light group',
+    (scene) =>
+      void addQuad(scene, 0.5, 1, { name: 'glow', light_group: 'glow', parameters: { emission_luminance: 3 } }),
+  ],
+  [
+    'a glowing surface that is hidden',
+    (scene) => {
+      addQuad(scene, 0.5, 1, { name: 'glow', parameters: { emission_luminance: 3 } });
+      scene.instances.at(-1)!.visible = false;
+    },
+  ],
   ['a catcher', (scene) => (scene.instances[0]!.catcher = true)],
-  ['painted vertices, some of them clear', (scene) => (scene.meshes[0]!.colors = Float32Array.from({ length: 16 }, (_, i) => (i === 3 ? 0.5 : 1)))],
-  ['a textured, half transparent, anisotropic surface', (scene) => {
-    scene.images.push({ name: 'image', width: 2, height: 2, data: new Uint8Array(16).fill(200) });
-    scene.textures.push({ image: 0, color_space: 'srgb' });
-    scene.materials[0] = { name: 'cloth', parameters: { geometry_opacity: 0.5, specular_roughness_anisotropy: 0.4 }, textures: { base_color: { texture: 0, channels: 'rgb' } } };
-  }],
-  ['a smooth ball of glass', (scene) => addSphere(scene, 0.5, [0, 0, 0], { name: 'glass', parameters: { transmission_weight: 1 } }, 8)],
+  [
+    'painted vertices, some of them clear',
+    (scene) => (scene.meshes[0]!.colors = Float32Array.from({ length: 16 }, (_, i) => (i === 3 ? 0.5 : 1))),
+  ],
+  [
+    'a textured, half transparent, anisotropic surface',
+    (scene) => {
+      scene.images.push({ name: 'image', width: 2, height: 2, data: new Uint8Array(16).fill(200) });
+      scene.textures.push({ image: 0, color_space: 'srgb' });
+      scene.materials[0] = {
+        name: 'cloth',
+        parameters: { geometry_opacity: 0.5, specular_roughness_anisotropy: 0.4 },
+        textures: { base_color: { texture: 0, channels: 'rgb' } },
+      };
+    },
+  ],
+  [
+    'a smooth ball of glass',
+    (scene) => addSphere(scene, 0.5, [0, 0, 0], { name: 'glass', parameters: { transmission_weight: 1 } }, 8),
+  ],
 ];
 
-it.each(SCENES)('kernels that begin to compile before hierarchies are built are those of the scene: %s', async (_, change) => {
-  const scene = plain();
-  change(scene);
-  const memory = new GpuMemory(device);
-  try {
-    const gpuScene = new GpuScene(device, memory, scene, await prepareGeometry(scene), CHOICES);
-    await gpuScene.light(prepareEnvironment(scene.environment), energyTextures(OPENPBR_TABLES));
-    expect(expectedFeatures(device, scene, CHOICES)).toEqual(gpuScene.features());
-  } finally {
-    memory.destroy();
-  }
-});
+it.each(SCENES)(
+  'kernels that begin to compile before hierarchies are built are those of the scene: %s',
+  async (_, change) => {
+    const scene = plain();
+    change(scene);
+    const memory = new GpuMemory(device);
+    try {
+      const gpuScene = new GpuScene(device, memory, scene, await prepareGeometry(scene), CHOICES);
+      await gpuScene.light(prepareEnvironment(scene.environment), energyTextures(OPENPBR_TABLES));
+      expect(expectedFeatures(device, scene, CHOICES)).toEqual(gpuScene.features());
+    } finally {
+      memory.destroy();
+    }
+  },
+);
 
 it('each kernel compiles once, and a scene that was taken for another still gets its own', async () => {
   const compiled: string[] = [];

@@ -16,21 +16,43 @@ const options: PathTracerOptions = { width: 160, height: 120, camera, pathsInFli
 function stage(): Scene {
   const scene = createScene();
   addQuad(scene, 0.9, 0, lambert(0.6, 0.5, 0.4));
-  addSphere(scene, 0.3, [0, 0, 0.3], { name: 'ball', parameters: { base_color: [0.8, 0.2, 0.1], specular_roughness: 0.3 } }, 12);
-  scene.lights.push({ type: 'point', name: 'key', color: [1, 1, 1], intensity: 2, position: [-1, 0.5, 1.5], light_group: 'key' });
+  addSphere(
+    scene,
+    0.3,
+    [0, 0, 0.3],
+    { name: 'ball', parameters: { base_color: [0.8, 0.2, 0.1], specular_roughness: 0.3 } },
+    12,
+  );
+  scene.lights.push({
+    type: 'point',
+    name: 'key',
+    color: [1, 1, 1],
+    intensity: 2,
+    position: [-1, 0.5, 1.5],
+    light_group: 'key',
+  });
   scene.environment = { type: 'constant', radiance: [0.2, 0.3, 0.4] };
   return scene;
 }
 
-const make = (changed: Partial<PathTracerOptions> = {}) => PathTracer.create(device, stage(), { ...options, ...changed });
+const make = (changed: Partial<PathTracerOptions> = {}) =>
+  PathTracer.create(device, stage(), { ...options, ...changed });
 
 /** Renders until `until` says so after a batch, or to the end. */
-async function render(tracer: PathTracer, goal: { samples: number; noise?: number }, until?: (samples: number) => boolean): Promise<void> {
+async function render(
+  tracer: PathTracer,
+  goal: { samples: number; noise?: number },
+  until?: (samples: number) => boolean,
+): Promise<void> {
   for await (const { samples } of tracer.render({ ...goal, maxSubmitMs: 5 })) if (until?.(samples)) return;
 }
 
 async function layers(tracer: PathTracer): Promise<Record<string, Float32Array>> {
-  return { beauty: await tracer.read('beauty'), variance: await tracer.read('variance'), key: await tracer.readLightGroup('key') };
+  return {
+    beauty: await tracer.read('beauty'),
+    variance: await tracer.read('variance'),
+    key: await tracer.readLightGroup('key'),
+  };
 }
 
 describe('a saved film', () => {
@@ -121,7 +143,10 @@ describe('a saved film', () => {
     ];
     for (const [message, other] of cases) {
       const second = await other();
-      await expect(second.restoreFilm(state)).rejects.toMatchObject({ code: 'renderer/film-state', message: expect.stringContaining(message) as string });
+      await expect(second.restoreFilm(state)).rejects.toMatchObject({
+        code: 'renderer/film-state',
+        message: expect.stringContaining(message) as string,
+      });
       second.destroy();
     }
     const before = await tracer.read('beauty');

@@ -11,10 +11,20 @@ beforeAll(async () => {
 afterEach(() => expectNoGpuErrors());
 
 /** One pixel of the picture is one unit of the world. */
-const camera: OrthographicCamera = { type: 'orthographic', name: 'o', transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 3, 1], xmag: 8, ymag: 8 };
+const camera: OrthographicCamera = {
+  type: 'orthographic',
+  name: 'o',
+  transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 3, 1],
+  xmag: 8,
+  ymag: 8,
+};
 
 const gauss = (x: number, sigma: number) => Math.exp(-0.5 * (x / sigma) ** 2);
-const harris = (t: number) => 0.35875 - 0.48829 * Math.cos(2 * Math.PI * t) + 0.14128 * Math.cos(4 * Math.PI * t) - 0.01168 * Math.cos(6 * Math.PI * t);
+const harris = (t: number) =>
+  0.35875 -
+  0.48829 * Math.cos(2 * Math.PI * t) +
+  0.14128 * Math.cos(4 * Math.PI * t) -
+  0.01168 * Math.cos(6 * Math.PI * t);
 
 /** Share of a filter (in one dimension, support ±radius) that lies right of x. */
 function rightOf(weight: (x: number) => number, radius: number, x: number): number {
@@ -30,42 +40,66 @@ function rightOf(weight: (x: number) => number, radius: number, x: number): numb
   return right / all;
 }
 
-const CASES: readonly (readonly [name: string, filter: PixelFilter, radius: number, weight: (x: number) => number])[] = [
-  ['box', 'box', 0.5, () => 1],
-  ['a wider box', { type: 'box', radius: 1.25 }, 1.25, () => 1],
-  ['Gaussian', 'gaussian', 1.5, (x) => gauss(x, 0.5)],
-  ['a wider Gaussian', { type: 'gaussian', radius: 3 }, 3, (x) => gauss(x, 1)],
-  ['Blackman-Harris', 'blackman-harris', 1.5, (x) => harris((x + 1.5) / 3)],
-];
+const CASES: readonly (readonly [name: string, filter: PixelFilter, radius: number, weight: (x: number) => number])[] =
+  [
+    ['box', 'box', 0.5, () => 1],
+    ['a wider box', { type: 'box', radius: 1.25 }, 1.25, () => 1],
+    ['Gaussian', 'gaussian', 1.5, (x) => gauss(x, 0.5)],
+    ['a wider Gaussian', { type: 'gaussian', radius: 3 }, 3, (x) => gauss(x, 1)],
+    ['Blackman-Harris', 'blackman-harris', 1.5, (x) => harris((x + 1.5) / 3)],
+  ];
 
 describe('pixel filters', () => {
-  it.each(CASES)('%s: the corner of a bright quadrant is the analytic convolution', async (_, filter, radius, weight) => {
-    const scene = createScene();
-    // Bright where x > 0.3 and y > −0.2.
-    addQuad(scene, 50, 0, { name: 'glow', parameters: { base_weight: 0, specular_weight: 0, emission_luminance: 1 } }, { transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 50.3, 49.8, 0, 1] });
-    const tracer = await PathTracer.create(device, scene, { width: 16, height: 16, camera, filter, background: 'transparent', maxDepth: 1, pathsInFlight: 1 << 16 });
-    for await (const _progress of tracer.render({ samples: 4096, maxSubmitMs: 2000 }));
-    const pixels = await tracer.read('beauty');
-    let worst = 0;
-    for (let y = 0; y < 16; y++) {
-      for (let x = 0; x < 16; x++) {
-        const across = rightOf(weight, radius, 0.3 - (x + 0.5 - 8));
-        const up = rightOf(weight, radius, -0.2 - (8 - y - 0.5));
-        worst = Math.max(worst, Math.abs((pixels[4 * (16 * y + x)] as number) - across * up));
-        // Coverage is filtered alike.
-        expect(pixels[4 * (16 * y + x) + 3]).toBe(pixels[4 * (16 * y + x)]);
+  it.each(CASES)(
+    '%s: the corner of a bright quadrant is the analytic convolution',
+    async (_, filter, radius, weight) => {
+      const scene = createScene();
+      // Bright where x > 0.3 and y > −0.2.
+      addQuad(
+        scene,
+        50,
+        0,
+        { name: 'glow', parameters: { base_weight: 0, specular_weight: 0, emission_luminance: 1 } },
+        { transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 50.3, 49.8, 0, 1] },
+      );
+      const tracer = await PathTracer.create(device, scene, {
+        width: 16,
+        height: 16,
+        camera,
+        filter,
+        background: 'transparent',
+        maxDepth: 1,
+        pathsInFlight: 1 << 16,
+      });
+      for await (const _progress of tracer.render({ samples: 4096, maxSubmitMs: 2000 }));
+      const pixels = await tracer.read('beauty');
+      let worst = 0;
+      for (let y = 0; y < 16; y++) {
+        for (let x = 0; x < 16; x++) {
+          const across = rightOf(weight, radius, 0.3 - (x + 0.5 - 8));
+          const up = rightOf(weight, radius, -0.2 - (8 - y - 0.5));
+          worst = Math.max(worst, Math.abs((pixels[4 * (16 * y + x)] as number) - across * up));
+          // Coverage is filtered alike.
+          expect(pixels[4 * (16 * y + x) + 3]).toBe(pixels[4 * (16 * y + x)]);
+        }
       }
-    }
-    // 4096 Sobol points: an axis-aligned corner is counted to about 1/1000; independent ones would have 4σ = 0.03.
-    expect(worst).toBeLessThan(0.002);
-    tracer.destroy();
-  });
+      // 4096 Sobol points: an axis-aligned corner is counted to about 1/1000; independent ones would have 4σ = 0.03.
+      expect(worst).toBeLessThan(0.002);
+      tracer.destroy();
+    },
+  );
 
   it('refuses a filter or radius that is none', async () => {
     const scene = createScene();
     addQuad(scene, 1, 0, { name: 'm', parameters: {} });
-    for (const filter of ['mitchell' as 'box', { type: 'gaussian', radius: 0 } as const, { type: 'box', radius: Number.NaN } as const]) {
-      await expect(PathTracer.create(device, scene, { width: 4, height: 4, filter })).rejects.toMatchObject({ code: 'renderer/filter' });
+    for (const filter of [
+      'mitchell' as 'box',
+      { type: 'gaussian', radius: 0 } as const,
+      { type: 'box', radius: Number.NaN } as const,
+    ]) {
+      await expect(PathTracer.create(device, scene, { width: 4, height: 4, filter })).rejects.toMatchObject({
+        code: 'renderer/filter',
+      });
     }
   });
 });

@@ -12,7 +12,16 @@ afterAll(() => expectNoGpuErrors());
 
 it('shows base colours and the background while the kernels compile, and is gone with them', async () => {
   const scene = createScene();
-  addQuad(scene, 0.6, 0, { ...lambert(0.5, 0.25, 0.125), parameters: { base_color: [0.5, 0.25, 0.125], specular_weight: 0.7, coat_weight: 0.4, transmission_weight: 0.01, geometry_opacity: 0.9 } });
+  addQuad(scene, 0.6, 0, {
+    ...lambert(0.5, 0.25, 0.125),
+    parameters: {
+      base_color: [0.5, 0.25, 0.125],
+      specular_weight: 0.7,
+      coat_weight: 0.4,
+      transmission_weight: 0.01,
+      geometry_opacity: 0.9,
+    },
+  });
   addSphere(scene, 0.1, [0, 0, -5], lambert(1), 8);
   scene.environment = { type: 'constant', radiance: [2, 2, 2] };
   const shown: Promise<Float32Array>[] = [];

@@ -26,7 +26,12 @@ async function picture(scene: Scene, samples: number, options: Partial<PathTrace
 const surrounded = (radiance: Vector): Scene => ({ ...createScene(), environment: { type: 'constant', radiance } });
 
 /** Matter of these coefficients (per metre), without an optical surface. */
-const matter = (absorption: Vector, scattering: Vector = [0, 0, 0], anisotropy = 0, dielectric_priority = 0): Material => ({
+const matter = (
+  absorption: Vector,
+  scattering: Vector = [0, 0, 0],
+  anisotropy = 0,
+  dielectric_priority = 0,
+): Material => ({
   name: 'matter',
   dielectric_priority,
   parameters: {
@@ -95,7 +100,13 @@ describe('interiors', () => {
   it('a solid ball of glass, smooth or rough, shows even light as it is', async () => {
     for (const specular_roughness of [0, 0.3]) {
       const scene = surrounded([1, 1, 1]);
-      addSphere(scene, 0.8, [0, 0, 0], { name: 'glass', parameters: { transmission_weight: 1, specular_ior: 1.5, specular_roughness } }, 96);
+      addSphere(
+        scene,
+        0.8,
+        [0, 0, 0],
+        { name: 'glass', parameters: { transmission_weight: 1, specular_ior: 1.5, specular_roughness } },
+        96,
+      );
       const seen = meanOf(await picture(scene, 256, { maxDepth: 32 }), SIZE, 4, 4, 12, 12);
       for (const value of seen) expect(Math.abs(value - 1)).toBeLessThan(0.01);
     }
@@ -103,8 +114,14 @@ describe('interiors', () => {
 
   it('a thin wall of glass with normals smoothed over its edges does not go black', async () => {
     const scene = surrounded([1, 1, 1]);
-    const [low, high] = [[-0.7, -0.7, -0.02], [0.7, 0.7, 0.02]] as const;
-    addBox(scene, low, high, { name: 'glass', parameters: { transmission_weight: 1, specular_ior: 1.5, specular_roughness: 0 } });
+    const [low, high] = [
+      [-0.7, -0.7, -0.02],
+      [0.7, 0.7, 0.02],
+    ] as const;
+    addBox(scene, low, high, {
+      name: 'glass',
+      parameters: { transmission_weight: 1, specular_ior: 1.5, specular_roughness: 0 },
+    });
     const [mesh] = scene.meshes;
     // Each corner's normal lies between its three faces', so that of the wide faces is as far off as 55°.
     mesh!.normals = mesh!.positions.map((value) => Math.sign(value) / Math.sqrt(3));
@@ -118,7 +135,10 @@ describe('interiors', () => {
   it('milky glass that absorbs nothing gives back what goes in', async () => {
     const scene = surrounded([1, 1, 1]);
     const { parameters } = matter([0, 0, 0], [4, 6, 9]);
-    addSphere(scene, 0.8, [0, 0, 0], { name: 'milk', parameters: { ...parameters, specular_ior: 1.33, specular_roughness: 0.2 } });
+    addSphere(scene, 0.8, [0, 0, 0], {
+      name: 'milk',
+      parameters: { ...parameters, specular_ior: 1.33, specular_roughness: 0.2 },
+    });
     const seen = meanOf(await picture(scene, 64, { maxDepth: 64 }), SIZE, 4, 4, 12, 12);
     for (const value of seen) expect(Math.abs(value - 1)).toBeLessThan(0.02);
   });
@@ -126,20 +146,55 @@ describe('interiors', () => {
   it('subsurface that absorbs nothing gives back what goes in, and a coloured one its colour of a thick body', async () => {
     const body = (subsurface_color: Vector, parameters: Material['parameters'] = {}): Scene => {
       const scene = surrounded([1, 1, 1]);
-      addSphere(scene, 0.8, [0, 0, 0], { name: 'wax', parameters: { subsurface_weight: 1, subsurface_color, subsurface_radius: 0.05, subsurface_radius_scale: [1, 0.6, 0.3], specular_roughness: 0.3, ...parameters } });
+      addSphere(scene, 0.8, [0, 0, 0], {
+        name: 'wax',
+        parameters: {
+          subsurface_weight: 1,
+          subsurface_color,
+          subsurface_radius: 0.05,
+          subsurface_radius_scale: [1, 0.6, 0.3],
+          specular_roughness: 0.3,
+          ...parameters,
+        },
+      });
       return scene;
     };
-    const white = meanOf(await picture(body([1, 1, 1]), 64, { maxDepth: 64, maxVolumeDepth: 1024 }), SIZE, 5, 5, 11, 11);
+    const white = meanOf(
+      await picture(body([1, 1, 1]), 64, { maxDepth: 64, maxVolumeDepth: 1024 }),
+      SIZE,
+      5,
+      5,
+      11,
+      11,
+    );
     for (const value of white) expect(Math.abs(value - 1)).toBeLessThan(0.02);
-    // Far smaller than the body, the walk sees a half space: what comes back is the colour, and what the surface mirrors.
-    const [r, g, b] = meanOf(await picture(body([0.8, 0.5, 0.2], { subsurface_radius: 0.01 }), 64, { maxDepth: 64 }), SIZE, 6, 6, 10, 10);
+    // Far smaller than the body, the walk sees a half space: what comes back is the colour, and what the surface
+    // mirrors.
+    const [r, g, b] = meanOf(
+      await picture(body([0.8, 0.5, 0.2], { subsurface_radius: 0.01 }), 64, { maxDepth: 64 }),
+      SIZE,
+      6,
+      6,
+      10,
+      10,
+    );
     const mirrored = 0.04;
-    for (const [seen, color] of [[r, 0.8], [g, 0.5], [b, 0.2]] as const) expect(Math.abs(seen - (mirrored + (1 - mirrored) * color))).toBeLessThan(0.05);
+    for (const [seen, color] of [
+      [r, 0.8],
+      [g, 0.5],
+      [b, 0.2],
+    ] as const)
+      expect(Math.abs(seen - (mirrored + (1 - mirrored) * color))).toBeLessThan(0.05);
   });
 
   it('of more scattering events, or of more materials, than a path can count are refused', async () => {
-    for (const maxVolumeDepth of [-1, 1.5, NaN, 65_536]) await expect(picture(surrounded([1, 1, 1]), 1, { maxVolumeDepth })).rejects.toMatchObject({ code: 'renderer/option' });
-    await expect(picture(surrounded([1, 1, 1]), 1, { maxDepth: 65_536 })).rejects.toMatchObject({ code: 'renderer/option' });
+    for (const maxVolumeDepth of [-1, 1.5, NaN, 65_536])
+      await expect(picture(surrounded([1, 1, 1]), 1, { maxVolumeDepth })).rejects.toMatchObject({
+        code: 'renderer/option',
+      });
+    await expect(picture(surrounded([1, 1, 1]), 1, { maxDepth: 65_536 })).rejects.toMatchObject({
+      code: 'renderer/option',
+    });
     const scene = surrounded([1, 1, 1]);
     for (let i = 0; i < 0x7fff; i++) scene.materials.push(lambert(0.5));
     addBox(scene, [-1, -1, -1], [1, 1, 1], matter([1, 1, 1]));
@@ -150,10 +205,20 @@ describe('interiors', () => {
     const scene = createScene();
     const { parameters } = matter([1, 1, 1]);
     addQuad(scene, 0.5, -0.5, lambert(0.8));
-    addBox(scene, [-1, -1, -1], [1, 1, 0.5], { name: 'glass', parameters: { ...parameters, specular_ior: 1.5, specular_roughness: 0 } });
+    addBox(scene, [-1, -1, -1], [1, 1, 0.5], {
+      name: 'glass',
+      parameters: { ...parameters, specular_ior: 1.5, specular_roughness: 0 },
+    });
     // A lamp of 1 cd, 0.3 m aside and 0.5 m in front, all inside; seen through 1 m of glass and its surface.
     scene.lights = [{ type: 'point', name: 'lamp', color: [1, 1, 1], intensity: 1, position: [0.3, 0, 0] }];
-    const lit = meanOf(await picture(scene, 32, { maxDepth: 3, camera: { ...camera, yfov: 0.02 } }), SIZE, 0, 0, SIZE, SIZE);
+    const lit = meanOf(
+      await picture(scene, 32, { maxDepth: 3, camera: { ...camera, yfov: 0.02 } }),
+      SIZE,
+      0,
+      0,
+      SIZE,
+      SIZE,
+    );
     const reach = Math.hypot(0.3, 0.5);
     const expected = (0.8 / Math.PI) * (0.5 / reach ** 3) * Math.exp(-reach) * Math.exp(-1) * 0.96;
     expect(lit[0] / expected).toBeGreaterThan(0.99);

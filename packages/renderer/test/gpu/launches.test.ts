@@ -14,12 +14,33 @@ it('the picture is the same bit for bit whether the GPU counts the paths that ar
   const scene = createScene();
   addQuad(scene, 5, -1, lambert(0.7));
   addQuad(scene, 1, 3, { name: 'lamp', parameters: { emission_luminance: 5 } }, { flip: true });
-  addSphere(scene, 0.5, [0, 0, 0], { name: 'milk', parameters: { transmission_weight: 1, specular_roughness: 0.2, transmission_depth: 0.3, transmission_scatter: [0.8, 0.7, 0.6] } }, 16);
+  addSphere(
+    scene,
+    0.5,
+    [0, 0, 0],
+    {
+      name: 'milk',
+      parameters: {
+        transmission_weight: 1,
+        specular_roughness: 0.2,
+        transmission_depth: 0.3,
+        transmission_scatter: [0.8, 0.7, 0.6],
+      },
+    },
+    16,
+  );
   scene.environment = { type: 'constant', radiance: [0.2, 0.3, 0.4] };
   const pass = device.createCommandEncoder().beginComputePass();
   const indirect = vi.spyOn(Object.getPrototypeOf(pass) as GPUComputePassEncoder, 'dispatchWorkgroupsIndirect');
   const picture = async () => {
-    const tracer = await PathTracer.create(device, scene, { width: 16, height: 12, camera, maxDepth: 6, maxVolumeDepth: 48, pathsInFlight: 400 });
+    const tracer = await PathTracer.create(device, scene, {
+      width: 16,
+      height: 12,
+      camera,
+      maxDepth: 6,
+      maxVolumeDepth: 48,
+      pathsInFlight: 400,
+    });
     for await (const _ of tracer.render({ samples: 4 }));
     const pixels = await tracer.read('beauty');
     const rays = await tracer.readRayCount();
@@ -30,7 +51,9 @@ it('the picture is the same bit for bit whether the GPU counts the paths that ar
   const counted = await picture();
   expect(indirect).toHaveBeenCalled();
   indirect.mockClear();
-  Object.defineProperty(device, 'adapterInfo', { value: { vendor: 'a', architecture: 'real', device: 'one', description: '' } });
+  Object.defineProperty(device, 'adapterInfo', {
+    value: { vendor: 'a', architecture: 'real', device: 'one', description: '' },
+  });
   const launched = await picture();
   expect(indirect).not.toHaveBeenCalled();
   expect(launched.rays).toBe(counted.rays);

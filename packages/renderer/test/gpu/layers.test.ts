@@ -14,7 +14,13 @@ function noisy() {
   const scene = createScene();
   addQuad(scene, 3, 0, lambert(0.7));
   addQuad(scene, 0.4, 0.6, lambert(0.2), { transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.5, 0.2, 0, 1] });
-  addQuad(scene, 0.5, 1.5, { name: 'light', parameters: { base_weight: 0, specular_weight: 0, emission_luminance: 5 } }, { flip: true, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1.1, 0.3, 0, 1] });
+  addQuad(
+    scene,
+    0.5,
+    1.5,
+    { name: 'light', parameters: { base_weight: 0, specular_weight: 0, emission_luminance: 5 } },
+    { flip: true, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1.1, 0.3, 0, 1] },
+  );
   scene.environment = { type: 'constant', radiance: [0.1, 0.2, 0.3] };
   return scene;
 }
@@ -31,7 +37,15 @@ describe('variance', () => {
     const squares = new Float64Array(size * size * 3);
     let estimated = 0;
     for (let seed = 0; seed < runs; seed++) {
-      const tracer = await PathTracer.create(device, noisy(), { width: size, height: size, camera, sampler, seed, maxDepth: 3, pathsInFlight: 1 << 14 });
+      const tracer = await PathTracer.create(device, noisy(), {
+        width: size,
+        height: size,
+        camera,
+        sampler,
+        seed,
+        maxDepth: 3,
+        pathsInFlight: 1 << 14,
+      });
       for await (const _ of tracer.render({ samples: 64, maxSubmitMs: 1000 }));
       const [beauty, variance] = [await tracer.read('beauty'), await tracer.read('variance')];
       for (let i = 0; i < size * size; i++) {
@@ -72,14 +86,28 @@ describe('position', () => {
     // A plane through the origin that rises towards +x: z = x/2.
     addQuad(scene, 0.9, 0, lambert(0.5), { transform: [1, 0, 0.5, 0, 0, 1, 0, 0, -0.5, 0, 1, 0, 0, 0, 0, 1] });
     const size = 20;
-    const tracer = await PathTracer.create(device, scene, { width: size, height: size, camera, background: 'transparent' });
+    const tracer = await PathTracer.create(device, scene, {
+      width: size,
+      height: size,
+      camera,
+      background: 'transparent',
+    });
     for await (const _ of tracer.render({ samples: 64, maxSubmitMs: 1000 }));
-    const [position, depth, ids] = await Promise.all([tracer.read('position'), tracer.read('depth'), tracer.read('objectId')]);
+    const [position, depth, ids] = await Promise.all([
+      tracer.read('position'),
+      tracer.read('depth'),
+      tracer.read('objectId'),
+    ]);
     let seen = 0;
     for (let y = 0; y < size; y++) {
       for (let x = 0; x < size; x++) {
         const i = y * size + x;
-        const [px, py, pz, coverage] = position.subarray(4 * i, 4 * i + 4) as unknown as [number, number, number, number];
+        const [px, py, pz, coverage] = position.subarray(4 * i, 4 * i + 4) as unknown as [
+          number,
+          number,
+          number,
+          number,
+        ];
         if (coverage === 0) {
           expect([px, py, pz, ids[i]]).toEqual([0, 0, 0, 0xffffffff]);
           continue;

@@ -25,12 +25,23 @@ describe('the choice by the light tree', () => {
     const lights = randomLights(COUNT, 77);
     const tree = finish(lightTreeSteps(lights, [...Array(COUNT - 4).keys()], [36, 37, 38]));
     const records = lightStruct.allocate(COUNT + tree.count);
-    for (let i = 0; i < COUNT; i++) lightStruct.write(records, i, { other: tree.trails[i]!, probability: i < 39 ? 1 : 0 });
+    for (let i = 0; i < COUNT; i++)
+      lightStruct.write(records, i, { other: tree.trails[i]!, probability: i < 39 ? 1 : 0 });
     treeNodes(tree).forEach(({ center, radius, axis, cosSpread, cosReach, energy, light, child, distant }, i) =>
-      lightStruct.write(records, COUNT + i, { a: center, kind: (light === undefined ? 0 : LIGHT_NODE_LEAF) | (distant ? LIGHT_NODE_DISTANT : 0), b: axis, probability: radius, c: [cosSpread, cosReach, energy], other: light ?? COUNT + child! }),
+      lightStruct.write(records, COUNT + i, {
+        a: center,
+        kind: (light === undefined ? 0 : LIGHT_NODE_LEAF) | (distant ? LIGHT_NODE_DISTANT : 0),
+        b: axis,
+        probability: radius,
+        c: [cosSpread, cosReach, energy],
+        other: light ?? COUNT + child!,
+      }),
     );
     const next = random(4);
-    const places = Array.from({ length: PLACES }, (_, i) => ({ p: [0, 1, 2].map(() => 3 * next() - 1.5), n: i % 4 === 0 ? ([0, 0, 0] as const) : randomUnit(next) }));
+    const places = Array.from({ length: PLACES }, (_, i) => ({
+      p: [0, 1, 2].map(() => 3 * next() - 1.5),
+      n: i % 4 === 0 ? ([0, 0, 0] as const) : randomUnit(next),
+    }));
     const host = wgslModule(
       'test/host',
       `struct TestFrame { light_count: u32 }
@@ -57,17 +68,24 @@ var<private> frame = TestFrame(${COUNT}u);
     );
     const { code } = compose([host], { flags: { SOBOL: false, SCREEN_NOISE: false } });
     const input = Float32Array.from(places.flatMap(({ p, n }) => [...p, 0, ...n, 0]));
-    const numbers = new Float32Array(await runCompute(device, code, { inputs: [records, input], outputBytes: PLACES * (3 * COUNT + 2) * 4, workgroups: PLACES }));
+    const numbers = new Float32Array(
+      await runCompute(device, code, {
+        inputs: [records, input],
+        outputBytes: PLACES * (3 * COUNT + 2) * 4,
+        workgroups: PLACES,
+      }),
+    );
     let culled = 0;
     places.forEach(({ p, n }, place) => {
       const row = numbers.subarray(place * (3 * COUNT + 2), (place + 1) * (3 * COUNT + 2));
       const probabilities = row.subarray(0, COUNT);
       const total = probabilities.reduce((a, b) => a + b, 0);
       // Where a walk may end in the dark it does so as often as the sum lacks.
-      expect(Math.abs(total + row[2 * COUNT]! / DRAWS - 1)).toBeLessThan(2 / DRAWS * COUNT);
+      expect(Math.abs(total + row[2 * COUNT]! / DRAWS - 1)).toBeLessThan((2 / DRAWS) * COUNT);
       expect(row[2 * COUNT + 1]).toBeLessThan(1e-3);
       // Evenly spread draws: each light's share to within the ends of its interval.
-      for (let i = 0; i < COUNT; i++) expect(Math.abs(row[COUNT + i]! / DRAWS - probabilities[i]!)).toBeLessThanOrEqual(3 / DRAWS);
+      for (let i = 0; i < COUNT; i++)
+        expect(Math.abs(row[COUNT + i]! / DRAWS - probabilities[i]!)).toBeLessThanOrEqual(3 / DRAWS);
       // What is left of them is spread as evenly, from 0 to 1.
       for (let i = 0; i < COUNT; i++) {
         const drawn = row[COUNT + i]!;
@@ -79,7 +97,10 @@ var<private> frame = TestFrame(${COUNT}u);
         culled++;
         // Points of its box: none sees the side that shines.
         for (let k = 0; k < 64; k++) {
-          const q = [0, 1, 2].map((c) => lights.bounds[6 * i + c]! + next() * (lights.bounds[6 * i + 3 + c]! - lights.bounds[6 * i + c]!) - p[c]!);
+          const q = [0, 1, 2].map(
+            (c) =>
+              lights.bounds[6 * i + c]! + next() * (lights.bounds[6 * i + 3 + c]! - lights.bounds[6 * i + c]!) - p[c]!,
+          );
           const cosine = -[0, 1, 2].reduce((sum, c) => sum + lights.axes[3 * i + c]! * q[c]!, 0) / Math.hypot(...q);
           expect(Math.acos(cosine)).toBeGreaterThan(lights.spreads[i]! + lights.reaches[i]! - 1e-3);
         }
@@ -119,11 +140,35 @@ function manyLights(count: number): Scene {
     const v = [z[1] * u[2]! - z[2] * u[1]!, z[2] * u[0]! - z[0] * u[2]!, z[0] * u[1]! - z[1] * u[0]!];
     const sign = i % 5 === 0 ? -1 : 1;
     const place = [3 * next() - 1.5, 3 * next() - 1.5, 0.2 + next()];
-    addQuad(scene, 1, 0, { name: `pane ${i}`, parameters: { base_weight: 0, specular_weight: 0, emission_luminance: 2 + 30 * next() ** 2, emission_color: [next(), next(), next()] }, double_sided: i % 3 === 0 }, { transform: [...u, 0, ...v, 0, ...z.map((c) => sign * c), 0, ...place, 1] });
+    addQuad(
+      scene,
+      1,
+      0,
+      {
+        name: `pane ${i}`,
+        parameters: {
+          base_weight: 0,
+          specular_weight: 0,
+          emission_luminance: 2 + 30 * next() ** 2,
+          emission_color: [next(), next(), next()],
+        },
+        double_sided: i % 3 === 0,
+      },
+      { transform: [...u, 0, ...v, 0, ...z.map((c) => sign * c), 0, ...place, 1] },
+    );
   }
   scene.lights.push(
     { type: 'point', name: 'point', color: [1, 1, 1], intensity: 0.1, position: [0.5, 0.5, 0.2] },
-    { type: 'spot', name: 'spot', color: [1, 1, 1], intensity: 0.5, position: [-0.5, 0.5, 0.5], direction: [0, 0, -1], inner_cone_angle: 0.2, outer_cone_angle: 0.5 },
+    {
+      type: 'spot',
+      name: 'spot',
+      color: [1, 1, 1],
+      intensity: 0.5,
+      position: [-0.5, 0.5, 0.5],
+      direction: [0, 0, -1],
+      inner_cone_angle: 0.2,
+      outer_cone_angle: 0.5,
+    },
     { type: 'directional', name: 'sun', color: [1, 0.9, 0.8], intensity: 0.3, direction: [0.3, 0.2, -0.9] },
     { type: 'directional', name: 'from below', color: [1, 0.9, 0.8], intensity: 0.3, direction: [0.3, 0.2, 0.9] },
   );
@@ -140,7 +185,10 @@ function blocks(runs: readonly Float32Array[]): { mean: number; error: number }[
     for (let x = 0; x < SIZE; x += 4) {
       const values = runs.map((pixels) => meanOf(pixels, SIZE, x, y, x + 4, y + 4).reduce((a, b) => a + b) / 3);
       const mean = values.reduce((a, b) => a + b) / values.length;
-      out.push({ mean, error: Math.sqrt(values.reduce((sum, v) => sum + (v - mean) ** 2, 0) / (values.length - 1) / values.length) });
+      out.push({
+        mean,
+        error: Math.sqrt(values.reduce((sum, v) => sum + (v - mean) ** 2, 0) / (values.length - 1) / values.length),
+      });
     }
   }
   return out;
@@ -151,13 +199,23 @@ describe('many lights', () => {
     const scene = manyLights(400);
     const runs = async (lightSampling: 'tree' | 'power', samples: number) => {
       const pictures: Float32Array[] = [];
-      for (let seed = 0; seed < 6; seed++) pictures.push(await picture(scene, samples, { lightSampling, seed: seed + 50, maxDepth: 3, sampler: 'independent', camera: below }));
+      for (let seed = 0; seed < 6; seed++)
+        pictures.push(
+          await picture(scene, samples, {
+            lightSampling,
+            seed: seed + 50,
+            maxDepth: 3,
+            sampler: 'independent',
+            camera: below,
+          }),
+        );
       return blocks(pictures);
     };
     const [tree, power] = [await runs('tree', 256), await runs('power', 256)];
     let chi = 0;
     tree.forEach(({ mean, error }, i) => (chi += (mean - power[i]!.mean) ** 2 / (error ** 2 + power[i]!.error ** 2)));
-    // 16 blocks; errors estimated from six runs each make the sum heavier-tailed than χ²(16), of which 39 is the 99.9 % point.
+    // 16 blocks; errors estimated from six runs each make the sum heavier-tailed than χ²(16), of which 39 is the 99.9 %
+    // point.
     expect(chi).toBeLessThan(60);
     const noise = (list: typeof tree) => list.reduce((sum, { error }) => sum + error ** 2, 0);
     expect(noise(power) / noise(tree)).toBeGreaterThan(2);

@@ -19,5 +19,8 @@ it('a device that is lost while a scene is prepared is told, though it says yes 
   });
   const scene = createScene();
   addQuad(scene, 0.5, 0, lambert(0.5));
-  await expect(PathTracer.create(gone, scene, { width: 4, height: 4, camera })).rejects.toMatchObject({ code: 'renderer/device-lost', message: expect.stringContaining('fell over') as string });
+  await expect(PathTracer.create(gone, scene, { width: 4, height: 4, camera })).rejects.toMatchObject({
+    code: 'renderer/device-lost',
+    message: expect.stringContaining('fell over') as string,
+  });
 });

@@ -17,7 +17,14 @@ beforeAll(async () => {
 });
 afterEach(() => expectNoGpuErrors());
 
-const CHOICES: SceneChoices = { multipleScattering: true, sampler: 'blue-noise', lightGroups: 'named', lightSampling: 'tree', shadowTerminator: 'smooth', backFaceCulling: 'all' };
+const CHOICES: SceneChoices = {
+  multipleScattering: true,
+  sampler: 'blue-noise',
+  lightGroups: 'named',
+  lightSampling: 'tree',
+  shadowTerminator: 'smooth',
+  backFaceCulling: 'all',
+};
 
 /** Boxes of one mesh in a cube, in as many materials as asked for. */
 function boxes(count: number, materials: number): Scene {
@@ -29,7 +36,24 @@ function boxes(count: number, materials: number): Scene {
     name: `box ${i}`,
     mesh: 0,
     material: i % materials,
-    transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, i % side, Math.floor(i / side) % side, -Math.floor(i / side ** 2), 1],
+    transform: [
+      1,
+      0,
+      0,
+      0,
+      0,
+      1,
+      0,
+      0,
+      0,
+      0,
+      1,
+      0,
+      i % side,
+      Math.floor(i / side) % side,
+      -Math.floor(i / side ** 2),
+      1,
+    ],
   }));
   return scene;
 }
@@ -102,8 +126,8 @@ it('an edit of one instance reads and writes what it touches, not the others', a
   await tracer.setVisibility('box 7', true);
   const counter = countReads(tracer.scene);
   const edits: Readonly<Record<string, () => Promise<void>>> = {
-    'hidden': () => tracer.setVisibility(1234, false),
-    'shown': () => tracer.setVisibility(1234, true),
+    hidden: () => tracer.setVisibility(1234, false),
+    shown: () => tracer.setVisibility(1234, true),
     'hidden by name': () => tracer.setVisibility('box 321', false),
     'two shown by name': () => tracer.setVisibility(['box 321', 'box 322'], true),
     'moved a little': () => tracer.setInstanceTransform(1500, at(0.1, 0.2, -0.3)),
@@ -132,7 +156,11 @@ it('after hundreds of edits the picture and what a click finds are those of a ne
   const [round, floor, glow] = [6, 7, 8];
   for (let i = 0; i < 150; i++) if (i % 3 === 0) scene.instances[i]!.mesh = 1;
   scene.instances.forEach((instance, i) => {
-    if (i < 150) Object.assign(instance, { transform: at(2 * random() - 1, 2 * random() - 1, -2 * random(), 0.3), visible: i % 5 !== 0 });
+    if (i < 150)
+      Object.assign(instance, {
+        transform: at(2 * random() - 1, 2 * random() - 1, -2 * random(), 0.3),
+        visible: i % 5 !== 0,
+      });
     if (i % 40 === 1) instance.material = glow;
   });
   scene.lights.push({ type: 'directional', name: 'sun', color: [1, 1, 1], intensity: 1, direction: [0.3, -0.2, -1] });
@@ -146,7 +174,8 @@ it('after hundreds of edits the picture and what a click finds are those of a ne
   let before = await picture(tracer);
   for (let stage = 0; stage < 3; stage++) {
     for (let turn = 0; turn < 60; turn++) {
-      const i = Math.floor(150 * random()), kind = random();
+      const i = Math.floor(150 * random()),
+        kind = random();
       if (kind < 0.4) await tracer.setInstanceTransform(i, at(2 * random() - 1, 2 * random() - 1, -2 * random(), 0.3));
       else if (kind < 0.7) await tracer.setVisibility(i, tracer.scene.instances[i]!.visible === false);
       else await tracer.setInstanceMaterial(i, kind < 0.75 ? glow : kind < 0.8 ? round : Math.floor(6 * random()));
@@ -158,7 +187,8 @@ it('after hundreds of edits the picture and what a click finds are those of a ne
     const after = await picture(tracer);
     const fresh = await PathTracer.create(device, tracer.scene, options);
     const expected = await picture(fresh);
-    const largest = (a: Float32Array, b: Float32Array) => a.reduce((most, value, i) => Math.max(most, Math.abs(value - b[i]!)), 0);
+    const largest = (a: Float32Array, b: Float32Array) =>
+      a.reduce((most, value, i) => Math.max(most, Math.abs(value - b[i]!)), 0);
     expect(largest(after, before)).toBeGreaterThan(1e-2);
     expect(largest(after, expected)).toBeLessThan(1e-5);
     for (let k = 0; k < 40; k++) {
@@ -179,7 +209,9 @@ it('a refused edit of many leaves the hierarchy as it was', async () => {
   const found = () => points.map(([x, y]) => tracer.pick(x, y));
   const before = found();
   expect(before.filter((hit) => hit).length).toBeGreaterThan(3);
-  await expect(tracer.setVisibility([...tracer.scene.instances.keys()], false)).rejects.toMatchObject({ code: 'renderer/no-triangles' });
+  await expect(tracer.setVisibility([...tracer.scene.instances.keys()], false)).rejects.toMatchObject({
+    code: 'renderer/no-triangles',
+  });
   expect(found()).toEqual(before);
   expect(tracer.scene.instances.every(({ visible }) => visible !== false)).toBe(true);
   await tracer.setVisibility(0, false);

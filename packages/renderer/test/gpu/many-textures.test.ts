@@ -10,7 +10,9 @@ beforeAll(async () => {
 afterAll(() => expectNoGpuErrors());
 
 it('60 textures of mixed sizes, kinds and wrap modes, within the default limits', async () => {
-  expect([device.limits.maxStorageBuffersPerShaderStage, device.limits.maxSampledTexturesPerShaderStage]).toEqual([8, 16]);
+  expect([device.limits.maxStorageBuffersPerShaderStage, device.limits.maxSampledTexturesPerShaderStage]).toEqual([
+    8, 16,
+  ]);
   const scene = createScene();
   const colors: (readonly number[])[] = [];
   const wraps = ['repeat', 'mirror', 'clamp'] as const;
@@ -22,14 +24,39 @@ it('60 textures of mixed sizes, kinds and wrap modes, within the default limits'
     const texel = [...codes.map((c) => (float ? c / 256 : c)), float ? 1 : 255];
     const data = Array.from({ length: width * height }, () => texel).flat();
     scene.images.push({ name: `${i}`, width, height, data: float ? new Float32Array(data) : new Uint8Array(data) });
-    scene.textures.push({ image: i, color_space: linear ? 'linear' : 'srgb', wrap_u: wraps[i % 3]!, wrap_v: wraps[(i >> 2) % 3]! });
-    colors.push(codes.map((c) => (float ? c / 256 : linear ? c / 255 : c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4)));
+    scene.textures.push({
+      image: i,
+      color_space: linear ? 'linear' : 'srgb',
+      wrap_u: wraps[i % 3]!,
+      wrap_v: wraps[(i >> 2) % 3]!,
+    });
+    colors.push(
+      codes.map((c) =>
+        float ? c / 256 : linear ? c / 255 : c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4,
+      ),
+    );
     const [x, y] = [(i % 8) * 0.25 - 0.875, 0.875 - Math.floor(i / 8) * 0.25];
-    addQuad(scene, 0.12, 0, { name: `tile ${i}`, parameters: { base_color: [1, 1, 1], specular_weight: 0 }, textures: { base_color: { texture: i, channels: 'rgb' } } }, { transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, 0, 1] });
+    addQuad(
+      scene,
+      0.12,
+      0,
+      {
+        name: `tile ${i}`,
+        parameters: { base_color: [1, 1, 1], specular_weight: 0 },
+        textures: { base_color: { texture: i, channels: 'rgb' } },
+      },
+      { transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, 0, 1] },
+    );
   }
   scene.environment = { type: 'constant', radiance: [1, 1, 1] };
   const size = 64;
-  const tracer = await PathTracer.create(device, scene, { width: size, height: size, camera, maxDepth: 2, pathsInFlight: 1 << 12 });
+  const tracer = await PathTracer.create(device, scene, {
+    width: size,
+    height: size,
+    camera,
+    maxDepth: 2,
+    pathsInFlight: 1 << 12,
+  });
   for await (const progress of tracer.render({ samples: 4 })) void progress;
   const pixels = await tracer.read('beauty');
   expect(tracer.statistics.badSamples).toBe(0);

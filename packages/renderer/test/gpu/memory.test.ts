@@ -19,8 +19,10 @@ describe('memory', () => {
     const { memory, gpuBytes } = tracer.statistics;
     const { shapes, lights, materials, textures, environment, paths, film, other } = memory;
     expect(shapes + lights + materials + textures + environment + paths + film + other).toBe(gpuBytes);
-    for (const part of [shapes, lights, materials, textures, environment, paths, film, other]) expect(part).toBeGreaterThan(0);
-    // A path, its light sample, two queue places; a third of the texels again for mip levels; sums, moment, mean and number.
+    for (const part of [shapes, lights, materials, textures, environment, paths, film, other])
+      expect(part).toBeGreaterThan(0);
+    // A path, its light sample, two queue places; a third of the texels again for mip levels; sums, moment, mean and
+    // number.
     expect(memory.pathsInFlight).toBe(1024);
     expect(memory.perPath).toBeGreaterThan(100);
     expect(memory.perPath).toBeLessThan(200);
@@ -41,10 +43,21 @@ describe('memory', () => {
     addSphere(scene, 0.09, [0, 0, 0], lambert(0.7), 320);
     const ball = scene.instances[0] as Instance;
     scene.instances.length = 0;
-    for (let y = 0; y < 10; y++) for (let x = 0; x < 10; x++) scene.instances.push({ ...ball, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -0.9 + 0.2 * x, 0.9 - 0.2 * y, 0, 1] });
+    for (let y = 0; y < 10; y++)
+      for (let x = 0; x < 10; x++)
+        scene.instances.push({
+          ...ball,
+          transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -0.9 + 0.2 * x, 0.9 - 0.2 * y, 0, 1],
+        });
     scene.environment = { type: 'constant', radiance: [1, 1, 1] };
     const size = 40;
-    const tracer = await PathTracer.create(device, scene, { width: size, height: size, camera: { type: 'orthographic', name: 'o', transform: camera.transform, xmag: 1, ymag: 1 }, maxDepth: 3, pathsInFlight: 1 << 12 });
+    const tracer = await PathTracer.create(device, scene, {
+      width: size,
+      height: size,
+      camera: { type: 'orthographic', name: 'o', transform: camera.transform, xmag: 1, ymag: 1 },
+      maxDepth: 3,
+      pathsInFlight: 1 << 12,
+    });
     const { triangles, instances, memory, gpuBytes } = tracer.statistics;
     expect(triangles * instances).toBeGreaterThan(10_000_000);
     expect(memory.perTriangle).toBeLessThan(200);
@@ -68,6 +81,8 @@ describe('memory', () => {
     const device = await testDevice({ defaultLimits: true });
     const scene = createScene();
     addQuad(scene, 1, 0, lambert(0.5));
-    await expect(PathTracer.create(device, scene, { width: 4096, height: 4096, camera })).rejects.toThrow(/^The buffer "film block" takes 256\.0 MiB, but this device's maxStorageBufferBindingSize is 128\.0 MiB: make the picture smaller/);
+    await expect(PathTracer.create(device, scene, { width: 4096, height: 4096, camera })).rejects.toThrow(
+      /^The buffer "film block" takes 256\.0 MiB, but this device's maxStorageBufferBindingSize is 128\.0 MiB: make the picture smaller/,
+    );
   });
 });

@@ -9,14 +9,24 @@ beforeAll(async () => {
   device = await testDevice();
 });
 
-async function render(scene: Scene, options: Partial<PathTracerOptions> & RenderOptions = {}): Promise<{ pixels: Float32Array; tracer: PathTracer }> {
-  const tracer = await PathTracer.create(device, scene, { width: 16, height: 16, camera, pathsInFlight: 1 << 14, ...options });
+async function render(
+  scene: Scene,
+  options: Partial<PathTracerOptions> & RenderOptions = {},
+): Promise<{ pixels: Float32Array; tracer: PathTracer }> {
+  const tracer = await PathTracer.create(device, scene, {
+    width: 16,
+    height: 16,
+    camera,
+    pathsInFlight: 1 << 14,
+    ...options,
+  });
   for await (const _ of tracer.render({ maxSubmitMs: 1000, samples: 16, ...options }));
   return { pixels: await tracer.read('beauty'), tracer };
 }
 
 // Bit for bit, without a listing of thousands of numbers where it fails.
-const same = (a: Float32Array, b: Float32Array) => a.length === b.length && a.every((value, i) => Object.is(value, b[i]));
+const same = (a: Float32Array, b: Float32Array) =>
+  a.length === b.length && a.every((value, i) => Object.is(value, b[i]));
 
 describe('light transport against analytic values', () => {
   it('a Lambert plane under constant light reflects albedo × radiance, without noise', async () => {
@@ -66,7 +76,13 @@ describe('light transport against analytic values', () => {
     const scene = createScene();
     addQuad(scene, 10, 0, lambert(0.5));
     const angle = 1;
-    scene.lights.push({ type: 'directional', name: 'd', color: [1, 0.5, 0.25], intensity: 3, direction: [Math.sin(angle), 0, -Math.cos(angle)] });
+    scene.lights.push({
+      type: 'directional',
+      name: 'd',
+      color: [1, 0.5, 0.25],
+      intensity: 3,
+      direction: [Math.sin(angle), 0, -Math.cos(angle)],
+    });
     const { pixels, tracer } = await render(scene, { samples: 2 });
     const [r, g, b] = meanOf(pixels, 16, 0, 0, 16, 16);
     const expected = (0.5 / Math.PI) * 3 * Math.cos(angle);
@@ -83,10 +99,37 @@ describe('light transport against analytic values', () => {
     const scene = createScene();
     addQuad(scene, 50, 0, lambert(0.8));
     // Faces −z, towards the plane.
-    addQuad(scene, size / 2, 1, { name: 'light', parameters: { base_weight: 0, specular_weight: 0, emission_luminance: 5 } }, { flip: true });
+    addQuad(
+      scene,
+      size / 2,
+      1,
+      { name: 'light', parameters: { base_weight: 0, specular_weight: 0, emission_luminance: 5 } },
+      { flip: true },
+    );
     // From (1.5, 0, 0.5), under the light, down to the origin.
     const tilt = Math.atan2(0.5, 1.5);
-    const side = { ...camera, transform: [0, 1, 0, 0, -Math.sin(tilt), 0, Math.cos(tilt), 0, Math.cos(tilt), 0, Math.sin(tilt), 0, 1.5, 0, 0.5, 1], yfov: 0.01 };
+    const side = {
+      ...camera,
+      transform: [
+        0,
+        1,
+        0,
+        0,
+        -Math.sin(tilt),
+        0,
+        Math.cos(tilt),
+        0,
+        Math.cos(tilt),
+        0,
+        Math.sin(tilt),
+        0,
+        1.5,
+        0,
+        0.5,
+        1,
+      ],
+      yfov: 0.01,
+    };
     const { pixels, tracer } = await render(scene, { camera: side, samples: 2048, maxDepth: 2, width: 8, height: 8 });
     const [value] = meanOf(pixels, 8, 3, 3, 5, 5);
     // From a point below the middle of a rectangle a × b at distance 1, per quarter (Howell, configuration B-3).
@@ -99,7 +142,11 @@ describe('light transport against analytic values', () => {
 
   it('a closed furnace is 1 everywhere: emission and albedo of one half each', async () => {
     const scene = createScene();
-    addSphere(scene, 5, [0, 0, 0], { name: 'furnace', parameters: { base_color: [0.5, 0.5, 0.5], specular_weight: 0, emission_luminance: 0.5 }, double_sided: true });
+    addSphere(scene, 5, [0, 0, 0], {
+      name: 'furnace',
+      parameters: { base_color: [0.5, 0.5, 0.5], specular_weight: 0, emission_luminance: 0.5 },
+      double_sided: true,
+    });
     const { pixels, tracer } = await render(scene, { samples: 256, maxDepth: 24 });
     const [r, g, b] = meanOf(pixels, 16, 0, 0, 16, 16);
     for (const value of [r, g, b]) expect(Math.abs(value - 1)).toBeLessThan(0.01);
@@ -108,7 +155,10 @@ describe('light transport against analytic values', () => {
 
   it('opacity α shows α of the surface and 1 − α of what lies behind', async () => {
     const scene = createScene();
-    addQuad(scene, 10, 0, { name: 'veil', parameters: { base_color: [0, 0, 0], specular_weight: 0, geometry_opacity: 0.4 } });
+    addQuad(scene, 10, 0, {
+      name: 'veil',
+      parameters: { base_color: [0, 0, 0], specular_weight: 0, geometry_opacity: 0.4 },
+    });
     scene.environment = { type: 'constant', radiance: [1, 1, 1] };
     const { pixels, tracer } = await render(scene, { samples: 256 });
     const [value] = meanOf(pixels, 16, 0, 0, 16, 16);
@@ -147,7 +197,12 @@ describe('surroundings and textures', () => {
       const scene = createScene();
       addQuad(scene, 0.001, 100, lambert(0));
       scene.environment = { ...skyWith(texel, 16), rotation };
-      const { pixels, tracer } = await render(scene, { samples: 16, width: 32, height: 32, camera: { ...camera, yfov: 1 } });
+      const { pixels, tracer } = await render(scene, {
+        samples: 16,
+        width: 32,
+        height: 32,
+        camera: { ...camera, yfov: 1 },
+      });
       let best = 0;
       for (let i = 0; i < 1024; i++) if ((pixels[4 * i] as number) > (pixels[4 * best] as number)) best = i;
       // The texel's centre lies half a texel beyond the view axis, to the right (+x) or towards it, and below.
@@ -170,14 +225,20 @@ describe('surroundings and textures', () => {
     const n = 400;
     for (let i = 0; i < n; i++) {
       for (let j = 0; j < n; j++) {
-        const fu = (i + 0.5) / n * 2 - 1;
-        const fv = (j + 0.5) / n * 2 - 1;
+        const fu = ((i + 0.5) / n) * 2 - 1;
+        const fv = ((j + 0.5) / n) * 2 - 1;
         const u = (48.5 + fu) / 64;
         const v = (16.5 + fv) / 32;
         const theta = v * Math.PI;
         const phi = (u - 0.5) * 2 * Math.PI;
         const cosine = Math.sin(theta) * Math.sin(phi);
-        irradiance += (1 - Math.abs(fu)) * (1 - Math.abs(fv)) * Math.max(cosine, 0) * Math.sin(theta) * ((2 / n) * (2 * Math.PI / 64)) * ((2 / n) * (Math.PI / 32));
+        irradiance +=
+          (1 - Math.abs(fu)) *
+          (1 - Math.abs(fv)) *
+          Math.max(cosine, 0) *
+          Math.sin(theta) *
+          ((2 / n) * ((2 * Math.PI) / 64)) *
+          ((2 / n) * (Math.PI / 32));
       }
     }
     expect(Math.abs(value[0] - (9 * irradiance) / Math.PI) / value[0]).toBeLessThan(0.01);
@@ -199,7 +260,8 @@ describe('surroundings and textures', () => {
     (scene.materials[index] as Scene['materials'][number]).textures = { base_color: { texture: 0, channels: 'rgb' } };
     scene.environment = { type: 'constant', radiance: [1, 1, 1] };
     const { pixels, tracer } = await render(scene, { samples: 4 });
-    const at = (x: number, y: number) => [...pixels.subarray(4 * (y * 16 + x), 4 * (y * 16 + x) + 3)].map((v) => Number(v.toFixed(3)));
+    const at = (x: number, y: number) =>
+      [...pixels.subarray(4 * (y * 16 + x), 4 * (y * 16 + x) + 3)].map((v) => Number(v.toFixed(3)));
     expect(at(3, 3)).toEqual([1, 0, 0]);
     expect(at(12, 3)).toEqual([0, 1, 0]);
     expect(at(3, 12)).toEqual([0, 0, 1]);
@@ -214,7 +276,9 @@ describe('surroundings and textures', () => {
       const index = addQuad(scene, 1, 0, lambert(1));
       scene.images.push({ name: 'n', width: 1, height: 1, data: new Uint8Array([...texel, 255]) });
       scene.textures.push({ image: 0, color_space: 'linear' });
-      (scene.materials[index] as Scene['materials'][number]).textures = { geometry_normal: { texture: 0, channels: 'rgb' } };
+      (scene.materials[index] as Scene['materials'][number]).textures = {
+        geometry_normal: { texture: 0, channels: 'rgb' },
+      };
       scene.lights.push({ type: 'directional', name: 'd', color: [1, 1, 1], intensity: Math.PI, direction });
       const { pixels, tracer } = await render(scene, { samples: 1 });
       tracer.destroy();
@@ -233,8 +297,20 @@ describe('the session', () => {
   const cornell = () => {
     const scene = createScene();
     addQuad(scene, 2, 0, { name: 'red', parameters: { base_color: [0.8, 0.2, 0.2], specular_roughness: 0.2 } });
-    addSphere(scene, 0.4, [0, 0, 0.5], { name: 'gold', parameters: { base_metalness: 1, base_color: [1, 0.8, 0.3] } }, 24);
-    addQuad(scene, 0.5, 2, { name: 'light', parameters: { emission_luminance: 4 } }, { flip: true, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1.2, 1.2, 0, 1] });
+    addSphere(
+      scene,
+      0.4,
+      [0, 0, 0.5],
+      { name: 'gold', parameters: { base_metalness: 1, base_color: [1, 0.8, 0.3] } },
+      24,
+    );
+    addQuad(
+      scene,
+      0.5,
+      2,
+      { name: 'light', parameters: { emission_luminance: 4 } },
+      { flip: true, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1.2, 1.2, 0, 1] },
+    );
     scene.environment = { type: 'constant', radiance: [0.2, 0.3, 0.4] };
     return scene;
   };
@@ -245,7 +321,8 @@ describe('the session', () => {
     expect(same(small, reference)).toBe(true);
     const { tracer } = await render(cornell(), { samples: 3, seed: 5, pathsInFlight: 300 });
     const controller = new AbortController();
-    for await (const { samples } of tracer.render({ samples: 70, signal: controller.signal })) if (samples > 20) controller.abort();
+    for await (const { samples } of tracer.render({ samples: 70, signal: controller.signal }))
+      if (samples > 20) controller.abort();
     expect(tracer.samples).toBeLessThan(70);
     for await (const _ of tracer.render({ samples: 70 }));
     expect(same(await tracer.read('beauty'), reference)).toBe(true);
@@ -259,7 +336,14 @@ describe('the session', () => {
     scene.environment = { type: 'constant', radiance: [1, 1, 1] };
     const { tracer } = await render(scene, { samples: 16, background: 'transparent' });
     const centre = 8 * 16 + 8;
-    const [depth, normal, albedo, objects, materials, beauty] = await Promise.all([tracer.read('depth'), tracer.read('normal'), tracer.read('albedo'), tracer.read('objectId'), tracer.read('materialId'), tracer.read('beauty')]);
+    const [depth, normal, albedo, objects, materials, beauty] = await Promise.all([
+      tracer.read('depth'),
+      tracer.read('normal'),
+      tracer.read('albedo'),
+      tracer.read('objectId'),
+      tracer.read('materialId'),
+      tracer.read('beauty'),
+    ]);
     expect(depth[centre]).toBeCloseTo(3, 1);
     expect([...normal.subarray(4 * centre, 4 * centre + 3)]).toEqual([0, 0, 1]);
     for (const [k, v] of [0.25, 0.5, 0.75].entries()) expect(albedo[4 * centre + k]).toBeCloseTo(v, 3);
@@ -314,8 +398,12 @@ describe('the session', () => {
       return undefined;
     };
     expect(await code(() => PathTracer.create(device, scene, { width: 0, height: 0 }))).toBe('renderer/size');
-    expect(await code(() => PathTracer.create(device, createScene(), { width: 4, height: 4 }))).toBe('renderer/no-triangles');
-    expect(await code(() => PathTracer.create(device, scene, { width: 4, height: 4, camera: 'nowhere' }))).toBe('renderer/camera');
+    expect(await code(() => PathTracer.create(device, createScene(), { width: 4, height: 4 }))).toBe(
+      'renderer/no-triangles',
+    );
+    expect(await code(() => PathTracer.create(device, scene, { width: 4, height: 4, camera: 'nowhere' }))).toBe(
+      'renderer/camera',
+    );
     const { tracer } = await render(scene, { samples: 1 });
     expect(await code(() => tracer.setMaterial('nothing', {}))).toBe('renderer/material');
     expect(await code(() => tracer.render({ samples: 0 }).next())).toBe('renderer/samples');
@@ -331,6 +419,8 @@ describe('the session', () => {
   it('stops preparing when aborted', async () => {
     const controller = new AbortController();
     controller.abort();
-    await expect(PathTracer.create(device, cornell(), { width: 4, height: 4, signal: controller.signal })).rejects.toThrow(/abort/i);
+    await expect(
+      PathTracer.create(device, cornell(), { width: 4, height: 4, signal: controller.signal }),
+    ).rejects.toThrow(/abort/i);
   });
 });

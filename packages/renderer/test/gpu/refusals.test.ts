@@ -5,7 +5,14 @@ import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { PathTracer, requestDevice, type PathTracerOptions } from '../../src/index';
 import { addQuad, addSphere, camera, createScene, lambert } from '../scenes';
 
-const options: PathTracerOptions = { width: 16, height: 12, camera, pathsInFlight: 1 << 12, maxDepth: 3, lightGroups: 'off' };
+const options: PathTracerOptions = {
+  width: 16,
+  height: 12,
+  camera,
+  pathsInFlight: 1 << 12,
+  maxDepth: 3,
+  lightGroups: 'off',
+};
 const recorder = new FaultRecorder();
 let device: GPUDevice;
 beforeAll(async () => {
@@ -14,12 +21,23 @@ beforeAll(async () => {
 });
 afterAll(() => device.destroy());
 
-const sky = (width: number): LatLongEnvironment => ({ type: 'latlong', width, height: width / 2, data: Float32Array.from({ length: (3 * width * width) / 2 }, (_, i) => (i % 97 === 3 ? 4 : 0.2)) });
+const sky = (width: number): LatLongEnvironment => ({
+  type: 'latlong',
+  width,
+  height: width / 2,
+  data: Float32Array.from({ length: (3 * width * width) / 2 }, (_, i) => (i % 97 === 3 ? 4 : 0.2)),
+});
 
 function stage(): Scene {
   const scene = createScene();
   addQuad(scene, 0.9, 0, lambert(0.6, 0.5, 0.4));
-  addSphere(scene, 0.3, [0, 0, 0.3], { name: 'ball', parameters: { base_color: [0.8, 0.2, 0.1], specular_roughness: 0.3 } }, 8);
+  addSphere(
+    scene,
+    0.3,
+    [0, 0, 0.3],
+    { name: 'ball', parameters: { base_color: [0.8, 0.2, 0.1], specular_roughness: 0.3 } },
+    8,
+  );
   (scene.instances[0] as { name: string }).name = 'floor';
   scene.environment = sky(8);
   return scene;
@@ -43,9 +61,24 @@ const EDITS: readonly (readonly [string, (tracer: PathTracer) => Promise<void>, 
   ['a larger mesh', (t) => t.replaceMesh('sphere', larger()), /^createBuffer/, 'out-of-memory'],
   ['the first that emits', (t) => t.setMaterial('ball', { emission_luminance: 3 }), /^createBuffer/, 'out-of-memory'],
   ['the first catcher', (t) => t.setCatcher('floor', true), /^createBuffer/, 'out-of-memory'],
-  ['a lobe whose kernel does not compile', (t) => t.setMaterial('ball', { coat_weight: 1, coat_roughness: 0.123 }), /^createComputePipelineAsync/, 'compile'],
-  ['a lens whose kernel does not compile', (t) => t.setCamera({ ...camera, lens_radius: 0.05 }), /^createComputePipelineAsync/, 'compile'],
-  ['a transform', (t) => t.setInstanceTransform('sphere', [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.4, 0, 0, 1]), /^writeBuffer "glanz (nodes|instances|lights|materials)"/, 'validation'],
+  [
+    'a lobe whose kernel does not compile',
+    (t) => t.setMaterial('ball', { coat_weight: 1, coat_roughness: 0.123 }),
+    /^createComputePipelineAsync/,
+    'compile',
+  ],
+  [
+    'a lens whose kernel does not compile',
+    (t) => t.setCamera({ ...camera, lens_radius: 0.05 }),
+    /^createComputePipelineAsync/,
+    'compile',
+  ],
+  [
+    'a transform',
+    (t) => t.setInstanceTransform('sphere', [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.4, 0, 0, 1]),
+    /^writeBuffer "glanz (nodes|instances|lights|materials)"/,
+    'validation',
+  ],
   ['a size', (t) => t.resize(20, 10), /^createBuffer/, 'out-of-memory'],
 ];
 
@@ -71,13 +104,18 @@ describe('an edit that the GPU refuses', () => {
       const tracer = await PathTracer.create(device, stage(), options);
       await image(tracer, 3);
       recorder.clear({ point, fault });
-      const error = await edit(tracer).then(() => undefined, (thrown: Error & { code?: string }) => thrown);
+      const error = await edit(tracer).then(
+        () => undefined,
+        (thrown: Error & { code?: string }) => thrown,
+      );
       if (!recorder.struck) {
         tracer.destroy();
         continue;
       }
       struck++;
-      expect(error?.code, `${name}: ${point}: ${error?.stack}`).toMatch(/^renderer\/(out-of-memory|gpu-error)$|^wgsl\//);
+      expect(error?.code, `${name}: ${point}: ${error?.stack}`).toMatch(
+        /^renderer\/(out-of-memory|gpu-error)$|^wgsl\//,
+      );
       expect([tracer.width, tracer.height]).toEqual([16, 12]);
       // Where the GPU refuses memory, the film goes on: its samples are kept.
       if (fault === 'out-of-memory' && !/paths|shadows|film/.test(point)) expect(tracer.samples, point).toBe(3);
@@ -106,7 +144,10 @@ it('layers that are made on demand reject, and come when they are read again', a
     await image(tracer);
     for (const point of points) {
       recorder.clear({ point, fault: 'out-of-memory' });
-      const outcome = await tracer.read(layer).then(() => undefined, (error: unknown) => error);
+      const outcome = await tracer.read(layer).then(
+        () => undefined,
+        (error: unknown) => error,
+      );
       if (recorder.struck) expect(outcome, point).toMatchObject({ code: 'renderer/out-of-memory' });
       expect(await tracer.read(layer), `${layer}: ${point}`).toEqual(expected);
     }

@@ -32,5 +32,7 @@ it('a destroyed tracer and its scene can be collected while the device lives', a
     await new Promise((resolve) => setTimeout(resolve, 10));
     collectGarbage();
   }
-  expect(references.filter((reference) => reference.deref()).map((reference) => reference.deref()?.constructor.name)).toEqual([]);
+  expect(
+    references.filter((reference) => reference.deref()).map((reference) => reference.deref()?.constructor.name),
+  ).toEqual([]);
 });

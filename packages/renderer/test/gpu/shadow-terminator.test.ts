@@ -25,15 +25,24 @@ async function picture(scene: Scene, options: Partial<PathTracerOptions> = {}, s
 function ball(segments: number): Scene {
   const scene = createScene();
   addSphere(scene, 0.8, [0, 0, 0], lambert(1), segments);
-  const sun: Light = { type: 'directional', name: 'sun', color: [1, 1, 1], intensity: 3, direction: [-0.96, -0.2, -0.2] };
+  const sun: Light = {
+    type: 'directional',
+    name: 'sun',
+    color: [1, 1, 1],
+    intensity: 3,
+    direction: [-0.96, -0.2, -0.2],
+  };
   scene.lights.push(sun);
   return scene;
 }
 
 /** Pixels well inside of the ball's outline, whatever its polygon. */
-const inside = [...Array(SIZE * SIZE).keys()].filter((i) => Math.hypot((i % SIZE) + 0.5 - SIZE / 2, Math.floor(i / SIZE) + 0.5 - SIZE / 2) < 0.33 * SIZE);
+const inside = [...Array(SIZE * SIZE).keys()].filter(
+  (i) => Math.hypot((i % SIZE) + 0.5 - SIZE / 2, Math.floor(i / SIZE) + 0.5 - SIZE / 2) < 0.33 * SIZE,
+);
 
-const rms = (a: Float32Array, b: Float32Array) => Math.sqrt(inside.reduce((sum, i) => sum + (a[i]! - b[i]!) ** 2, 0) / inside.length);
+const rms = (a: Float32Array, b: Float32Array) =>
+  Math.sqrt(inside.reduce((sum, i) => sum + (a[i]! - b[i]!) ** 2, 0) / inside.length);
 const mean = (a: Float32Array) => inside.reduce((sum, i) => sum + a[i]!, 0) / inside.length;
 
 describe('a ball of few triangles with smooth normals', () => {
@@ -55,12 +64,18 @@ describe('a ball of few triangles with smooth normals', () => {
     let exact = 0;
     for (const i of inside) {
       for (let k = 0; k < GRID * GRID; k++) {
-        const d = [(2 * ((i % SIZE) + ((k % GRID) + 0.5) / GRID)) / SIZE - 1, 1 - (2 * (Math.floor(i / SIZE) + (Math.floor(k / GRID) + 0.5) / GRID)) / SIZE, -3] as const;
+        const d = [
+          (2 * ((i % SIZE) + ((k % GRID) + 0.5) / GRID)) / SIZE - 1,
+          1 - (2 * (Math.floor(i / SIZE) + (Math.floor(k / GRID) + 0.5) / GRID)) / SIZE,
+          -3,
+        ] as const;
         const a = d[0] ** 2 + d[1] ** 2 + 9;
         // |(0, 0, 3) + t d| = 0.8.
         const t = (9 - Math.sqrt(81 - a * (9 - 0.64))) / a;
         const n = [t * d[0], t * d[1], 3 - 3 * t].map((c) => c / 0.8);
-        exact += Math.max(0, -(n[0]! * direction[0] + n[1]! * direction[1] + n[2]! * direction[2]) / length) / (GRID * GRID * inside.length);
+        exact +=
+          Math.max(0, -(n[0]! * direction[0] + n[1]! * direction[1] + n[2]! * direction[2]) / length) /
+          (GRID * GRID * inside.length);
       }
     }
     exact *= 3 / Math.PI;
@@ -89,7 +104,13 @@ describe('a ball of few triangles with smooth normals', () => {
     const lit = (emission: boolean) => {
       const scene = createScene();
       addSphere(scene, 0.8, [0, 0, 0], lambert(0.8), 16);
-      const lamp = { name: 'lamp', double_sided: true, parameters: emission ? { base_weight: 0, specular_weight: 0, emission_color: [1, 1, 1] as const, emission_luminance: 4 } : { base_weight: 0, specular_weight: 0 } };
+      const lamp = {
+        name: 'lamp',
+        double_sided: true,
+        parameters: emission
+          ? { base_weight: 0, specular_weight: 0, emission_color: [1, 1, 1] as const, emission_luminance: 4 }
+          : { base_weight: 0, specular_weight: 0 },
+      };
       addQuad(scene, 3, 0, lamp, { transform: [0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 4, 0, 0, 1] });
       return scene;
     };
@@ -109,17 +130,36 @@ describe('what has no smooth surface to stand for', () => {
   it('does not change: a box with averaged normals, and a hollow', async () => {
     const box = createScene();
     const corners = Array.from({ length: 8 }, (_, i) => [0, 1, 2].map((k) => ((i >> k) & 1 ? 0.5 : -0.5)));
-    const faces = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]] as const;
-    box.meshes.push({ name: 'box', positions: Float32Array.from(corners.flat()), normals: Float32Array.from(corners.flat(), (x) => x * (2 / Math.sqrt(3))), indices: Uint32Array.from(faces.flatMap(([a, b, c, d]) => [a, b, c, a, c, d])) });
+    const faces = [
+      [0, 4, 6, 2],
+      [1, 3, 7, 5],
+      [0, 1, 5, 4],
+      [2, 6, 7, 3],
+      [0, 2, 3, 1],
+      [4, 5, 7, 6],
+    ] as const;
+    box.meshes.push({
+      name: 'box',
+      positions: Float32Array.from(corners.flat()),
+      normals: Float32Array.from(corners.flat(), (x) => x * (2 / Math.sqrt(3))),
+      indices: Uint32Array.from(faces.flatMap(([a, b, c, d]) => [a, b, c, a, c, d])),
+    });
     box.materials.push(lambert(0.8));
-    box.instances.push({ name: 'box', mesh: 0, material: 0, transform: [0.8, 0, 0.6, 0, 0, 1, 0, 0, -0.6, 0, 0.8, 0, 0, 0, 0, 1] });
+    box.instances.push({
+      name: 'box',
+      mesh: 0,
+      material: 0,
+      transform: [0.8, 0, 0.6, 0, 0, 1, 0, 0, -0.6, 0, 0.8, 0, 0, 0, 0, 1],
+    });
     box.lights.push(...ball(8).lights);
     const hollow = ball(16);
     // Inside out: the camera sees the far half from within.
     hollow.instances[0]!.transform = [4.5, 0, 0, 0, 0, 4.5, 0, 0, 0, 0, 4.5, 0, 0, 0, 0, 1];
     hollow.lights.splice(0, 1, { type: 'point', name: 'lamp', color: [1, 1, 1], intensity: 5, position: [0, 0, 0] });
     for (const scene of [box, hollow]) {
-      expect(await picture(scene, { shadowTerminator: 'smooth' }, 16)).toEqual(await picture(scene, { shadowTerminator: 'faceted' }, 16));
+      expect(await picture(scene, { shadowTerminator: 'smooth' }, 16)).toEqual(
+        await picture(scene, { shadowTerminator: 'faceted' }, 16),
+      );
     }
   });
 });

@@ -11,15 +11,26 @@ beforeAll(async () => {
 });
 afterEach(() => expectNoGpuErrors());
 
-async function picture(scene: Scene, options: Partial<PathTracerOptions> & { samples?: number } = {}): Promise<{ pixels: Float32Array; variance: number }> {
-  const tracer = await PathTracer.create(device, scene, { width: 12, height: 12, camera, pathsInFlight: 1 << 14, maxDepth: 4, ...options });
+async function picture(
+  scene: Scene,
+  options: Partial<PathTracerOptions> & { samples?: number } = {},
+): Promise<{ pixels: Float32Array; variance: number }> {
+  const tracer = await PathTracer.create(device, scene, {
+    width: 12,
+    height: 12,
+    camera,
+    pathsInFlight: 1 << 14,
+    maxDepth: 4,
+    ...options,
+  });
   for await (const _ of tracer.render({ maxSubmitMs: 1000, samples: options.samples ?? 64 }));
   const [pixels, variance] = [await tracer.read('beauty'), await tracer.read('variance')];
   tracer.destroy();
   return { pixels, variance: variance.reduce((sum, v, i) => (i % 4 === 3 ? sum : sum + v), 0) };
 }
 
-const largest = (a: Float32Array, b: Float32Array) => a.reduce((most, value, i) => Math.max(most, Math.abs(value - (b[i] as number))), 0);
+const largest = (a: Float32Array, b: Float32Array) =>
+  a.reduce((most, value, i) => Math.max(most, Math.abs(value - (b[i] as number))), 0);
 const mean = (pixels: Float32Array) => meanOf(pixels, 12, 0, 0, 12, 12)[1];
 
 /** A floor in the picture, a wall beside it, and a small light above. */
@@ -28,10 +39,19 @@ function corner(wall: Scene['materials'][number]): Scene {
   addQuad(scene, 3, 0, lambert(0.7));
   // Turned to face −x, at x = 1.2, just out of view: columns are the images of x, y, z.
   addQuad(scene, 3, 0, wall, { transform: [0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1.2, 0, 0, 1] });
-  addQuad(scene, 0.3, 2.5, { name: 'light', parameters: { base_weight: 0, specular_weight: 0, emission_luminance: 20 } }, { flip: true, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -0.8, 0, 0, 1] });
+  addQuad(
+    scene,
+    0.3,
+    2.5,
+    { name: 'light', parameters: { base_weight: 0, specular_weight: 0, emission_luminance: 20 } },
+    { flip: true, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -0.8, 0, 0, 1] },
+  );
   return scene;
 }
-const mirror = { name: 'mirror', parameters: { base_metalness: 1, base_color: [0.95, 0.95, 0.95], specular_roughness: 0.15 } } as const;
+const mirror = {
+  name: 'mirror',
+  parameters: { base_metalness: 1, base_color: [0.95, 0.95, 0.95], specular_roughness: 0.15 },
+} as const;
 const black = { name: 'black', parameters: { base_weight: 0, specular_weight: 0 } };
 
 describe('options that trade truth for time', () => {
@@ -69,16 +89,26 @@ describe('options that trade truth for time', () => {
     const direct = (await picture(scene, { maxDepth: 2 })).pixels;
     expect(largest((await picture(scene, { maxBounces: { diffuse: 0 } })).pixels, direct)).toBe(0);
     // One diffuse bounce, then direct light: paths of three edges.
-    expect(largest((await picture(scene, { maxBounces: { diffuse: 1 } })).pixels, (await picture(scene, { maxDepth: 3 })).pixels)).toBe(0);
+    expect(
+      largest(
+        (await picture(scene, { maxBounces: { diffuse: 1 } })).pixels,
+        (await picture(scene, { maxDepth: 3 })).pixels,
+      ),
+    ).toBe(0);
     // A mirror shows a lit ceiling, unless specular bounces are forbidden.
     const polished = createScene();
-    addQuad(polished, 5, 0, { name: 'm', parameters: { base_metalness: 1, base_color: [1, 1, 1], specular_roughness: 0.02 } });
+    addQuad(polished, 5, 0, {
+      name: 'm',
+      parameters: { base_metalness: 1, base_color: [1, 1, 1], specular_roughness: 0.02 },
+    });
     addQuad(polished, 9, 5, lambert(0.8), { flip: true });
     polished.lights.push({ type: 'point', name: 'p', color: [1, 1, 1], intensity: 200, position: [6, 0, 4] });
     const shown = mean((await picture(polished)).pixels);
     expect(shown).toBeGreaterThan(0.1);
     expect(mean((await picture(polished, { maxBounces: { specular: 0 } })).pixels) / shown).toBeLessThan(0.05);
-    expect(Math.abs(mean((await picture(polished, { maxBounces: { specular: 1 } })).pixels) / shown - 1)).toBeLessThan(0.2);
+    expect(Math.abs(mean((await picture(polished, { maxBounces: { specular: 1 } })).pixels) / shown - 1)).toBeLessThan(
+      0.2,
+    );
   });
 
   it('regularisation calms caustics and keeps nearly all of their light', async () => {
@@ -91,7 +121,15 @@ describe('options that trade truth for time', () => {
     expect(largest((await picture(corner(mirror), { maxDepth: 2, regularization: 0.5 })).pixels, direct)).toBe(0);
   });
 
-  it.each([{ clampIndirect: 0 }, { clampIndirect: Number.NaN }, { regularization: 2 }, { maxBounces: { diffuse: -1 } }, { maxBounces: { volume: 1.5 } }])('refuses %j', async (options) => {
-    await expect(PathTracer.create(device, corner(black), { width: 4, height: 4, ...options })).rejects.toMatchObject({ code: 'renderer/option' });
+  it.each([
+    { clampIndirect: 0 },
+    { clampIndirect: Number.NaN },
+    { regularization: 2 },
+    { maxBounces: { diffuse: -1 } },
+    { maxBounces: { volume: 1.5 } },
+  ])('refuses %j', async (options) => {
+    await expect(PathTracer.create(device, corner(black), { width: 4, height: 4, ...options })).rejects.toMatchObject({
+      code: 'renderer/option',
+    });
   });
 });

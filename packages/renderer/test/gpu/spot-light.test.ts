@@ -15,8 +15,20 @@ const ALBEDO = 0.6;
 /** Points across and down a pixel. */
 const GRID = 16;
 
-const spot = (inner: number, outer: number, position: SpotLight['position'], direction: SpotLight['direction']): SpotLight => ({
-  type: 'spot', name: 'spot', color: [1, 1, 1], intensity: 3, position, direction, inner_cone_angle: inner, outer_cone_angle: outer,
+const spot = (
+  inner: number,
+  outer: number,
+  position: SpotLight['position'],
+  direction: SpotLight['direction'],
+): SpotLight => ({
+  type: 'spot',
+  name: 'spot',
+  color: [1, 1, 1],
+  intensity: 3,
+  position,
+  direction,
+  inner_cone_angle: inner,
+  outer_cone_angle: outer,
 });
 
 /**
@@ -35,8 +47,11 @@ function integrate(lights: readonly SpotLight[]): Float64Array {
       const cosine = (away[0] * d[0] + away[1] * d[1] + away[2] * d[2]) / (distance * Math.hypot(...d));
       const outer = Math.cos(outer_cone_angle);
       // The extension's own words, by which the sharpest edge is 0.001 wide.
-      const cone = Math.min(1, Math.max(0, (cosine - outer) / Math.max(0.001, Math.cos(inner_cone_angle) - outer))) ** 2;
-      picture[pixel] = (picture[pixel] as number) + (((ALBEDO / Math.PI) * intensity * cone * (p[2] / distance)) / distance ** 2) / GRID ** 2;
+      const cone =
+        Math.min(1, Math.max(0, (cosine - outer) / Math.max(0.001, Math.cos(inner_cone_angle) - outer))) ** 2;
+      picture[pixel] =
+        (picture[pixel] as number) +
+        ((ALBEDO / Math.PI) * intensity * cone * (p[2] / distance)) / distance ** 2 / GRID ** 2;
     }
   }
   return picture;
@@ -51,13 +66,27 @@ describe('spot lights on a floor, beside an integration of the same without a re
     ['nothing but penumbra, aslant', [spot(0, 0.7, [-0.9, 0.4, 0.8], [1, -0.3, -1])], 'tree'],
     ['without penumbra', [spot(0.45, 0.45, [0.2, 0.1, 1.2], [0, 0.1, -1])], 'tree'],
     ['wide as can be', [spot(1.2, Math.PI / 2, [0.1, 0, 0.5], [0.2, 0, -1])], 'tree'],
-    ['several, by the tree', [above, spot(0.05, 0.3, [0.7, 0.7, 1.5], [-0.1, -0.1, -1]), spot(0, 0.9, [-1.2, 0, 0.4], [1, 0, -0.6])], 'tree'],
-    ['several, by power', [above, spot(0.05, 0.3, [0.7, 0.7, 1.5], [-0.1, -0.1, -1]), spot(0, 0.9, [-1.2, 0, 0.4], [1, 0, -0.6])], 'power'],
+    [
+      'several, by the tree',
+      [above, spot(0.05, 0.3, [0.7, 0.7, 1.5], [-0.1, -0.1, -1]), spot(0, 0.9, [-1.2, 0, 0.4], [1, 0, -0.6])],
+      'tree',
+    ],
+    [
+      'several, by power',
+      [above, spot(0.05, 0.3, [0.7, 0.7, 1.5], [-0.1, -0.1, -1]), spot(0, 0.9, [-1.2, 0, 0.4], [1, 0, -0.6])],
+      'power',
+    ],
   ] as const)('%s', async (_, lights, lightSampling) => {
     const scene = createScene();
     addQuad(scene, 2, 0, lambert(ALBEDO));
     scene.lights.push(...lights);
-    const tracer = await PathTracer.create(device, scene, { width: SIZE, height: SIZE, camera, maxDepth: 2, lightSampling });
+    const tracer = await PathTracer.create(device, scene, {
+      width: SIZE,
+      height: SIZE,
+      camera,
+      maxDepth: 2,
+      lightSampling,
+    });
     for await (const progress of tracer.render({ samples: 256 })) void progress;
     const [beauty, variance] = [await tracer.read('beauty'), await tracer.read('variance')];
     tracer.destroy();
@@ -65,7 +94,8 @@ describe('spot lights on a floor, beside an integration of the same without a re
     const rendered = expected.map((_value, i) => beauty[4 * i + 1] as number);
     const largest = Math.max(...expected);
     // Both know an edge within a pixel by some hundred points only: that is 1 % of what it parts.
-    for (let i = 0; i < expected.length; i++) expect(Math.abs(rendered[i]! - expected[i]!)).toBeLessThan(6 * Math.sqrt(variance[4 * i + 1]!) + 0.01 * largest);
+    for (let i = 0; i < expected.length; i++)
+      expect(Math.abs(rendered[i]! - expected[i]!)).toBeLessThan(6 * Math.sqrt(variance[4 * i + 1]!) + 0.01 * largest);
     expect(Math.abs(mean(rendered) / mean(expected) - 1)).toBeLessThan(lights.length > 1 ? 0.005 : 0.001);
   });
 });

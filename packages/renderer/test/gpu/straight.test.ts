@@ -24,12 +24,22 @@ async function picture(scene: Scene, samples: number, options: Partial<PathTrace
 
 const mean = (pixels: Float32Array) => meanOf(pixels, SIZE, 0, 0, SIZE, SIZE);
 
-const pane = (parameters: Material['parameters'] = {}): Material => ({ name: 'pane', parameters: { transmission_weight: 1, specular_roughness: 0, specular_ior: 1.5, geometry_thin_walled: true, ...parameters } });
+const pane = (parameters: Material['parameters'] = {}): Material => ({
+  name: 'pane',
+  parameters: {
+    transmission_weight: 1,
+    specular_roughness: 0,
+    specular_ior: 1.5,
+    geometry_thin_walled: true,
+    ...parameters,
+  },
+});
 
 /** What two parallel faces reflect, all reflections between them counted. */
 function reflected(cosine: number, n = 1.5): number {
   const g = Math.sqrt(n * n - 1 + cosine * cosine);
-  const r = 0.5 * ((g - cosine) / (g + cosine)) ** 2 * (1 + ((cosine * (g + cosine) - 1) / (cosine * (g - cosine) + 1)) ** 2);
+  const r =
+    0.5 * ((g - cosine) / (g + cosine)) ** 2 * (1 + ((cosine * (g + cosine) - 1) / (cosine * (g - cosine) + 1)) ** 2);
   return (2 * r) / (1 + r);
 }
 
@@ -43,7 +53,11 @@ const emitter: Material = { name: 'lamp', parameters: { base_weight: 0, specular
 
 describe('smooth thin walls', () => {
   it('let the light of lamps without size through, less what they reflect', async () => {
-    for (const [direction, panes] of [[[0, 0, -1], 1], [[0.8, 0, -0.6], 1], [[0.6, 0, -0.8], 3]] as const) {
+    for (const [direction, panes] of [
+      [[0, 0, -1], 1],
+      [[0.8, 0, -0.6], 1],
+      [[0.6, 0, -0.8], 3],
+    ] as const) {
       const scene = createScene();
       addQuad(scene, 50, 0, lambert(0.5));
       for (let i = 0; i < panes; i++) addQuad(scene, 50, 1 + i, pane());
@@ -51,7 +65,10 @@ describe('smooth thin walls', () => {
       const cosine = -direction[2];
       // maxDepth 2: a pane is no edge.
       const seen = mean(await picture(scene, 4, { camera: low, maxDepth: 2 }));
-      for (const value of seen) expect(Math.abs(value / ((0.5 / Math.PI) * 2 * cosine * (1 - reflected(cosine)) ** panes) - 1)).toBeLessThan(0.002);
+      for (const value of seen)
+        expect(Math.abs(value / ((0.5 / Math.PI) * 2 * cosine * (1 - reflected(cosine)) ** panes) - 1)).toBeLessThan(
+          0.002,
+        );
     }
   });
 
@@ -62,10 +79,15 @@ describe('smooth thin walls', () => {
     scene.lights.push({ type: 'directional', name: 'sun', color: [1, 1, 1], intensity: 2, direction: [0.8, 0, -0.6] });
     const seen = mean(await picture(scene, 4, { camera: low, maxDepth: 2 }));
     const slant = 1 / Math.sqrt(1 - 0.64 / 2.25);
-    [0.9, 0.5, 0.2].forEach((c, k) => expect(seen[k]! / ((0.5 / Math.PI) * 2 * 0.6 * (1 - reflected(0.6)) * c ** slant)).toBeCloseTo(1, 3));
+    [0.9, 0.5, 0.2].forEach((c, k) =>
+      expect(seen[k]! / ((0.5 / Math.PI) * 2 * 0.6 * (1 - reflected(0.6)) * c ** slant)).toBeCloseTo(1, 3),
+    );
   });
 
-  it.each([['far, where light samples count', 4, 0.5], ['close, where BSDF samples count', 1.2, 6]] as const)('a glowing square behind one lights a floor once, %s', async (_, height, size) => {
+  it.each([
+    ['far, where light samples count', 4, 0.5],
+    ['close, where BSDF samples count', 1.2, 6],
+  ] as const)('a glowing square behind one lights a floor once, %s', async (_, height, size) => {
     const scene = createScene();
     addQuad(scene, 50, 0, lambert(0.5));
     addQuad(scene, 50, 1, pane());
@@ -96,7 +118,8 @@ describe('smooth thin walls', () => {
     const even = createScene();
     even.environment = { type: 'constant', radiance: [1, 1, 1] };
     addSphere(even, 0.8, [0, 0, 0], pane(), 64);
-    for (const value of meanOf(await picture(even, 256, { maxDepth: 16 }), SIZE, 3, 3, 13, 13)) expect(Math.abs(value - 1)).toBeLessThan(0.005);
+    for (const value of meanOf(await picture(even, 256, { maxDepth: 16 }), SIZE, 3, 3, 13, 13))
+      expect(Math.abs(value - 1)).toBeLessThan(0.005);
   });
 
   it('a matte ball under a dome of glass in bright surroundings: as if every pane were rough by a hair, with less noise', async () => {
@@ -112,12 +135,18 @@ describe('smooth thin walls', () => {
     };
     const runs = async (roughness: number, samples: number) => {
       const values: number[] = [];
-      for (let seed = 0; seed < 6; seed++) values.push(meanOf(await picture(scene(roughness), samples, { seed, maxDepth: 12 }), SIZE, 5, 5, 11, 11)[0]);
+      for (let seed = 0; seed < 6; seed++)
+        values.push(meanOf(await picture(scene(roughness), samples, { seed, maxDepth: 12 }), SIZE, 5, 5, 11, 11)[0]);
       const average = values.reduce((a, b) => a + b) / values.length;
-      return { average, variance: values.reduce((sum, v) => sum + (v - average) ** 2, 0) / (values.length - 1) / values.length };
+      return {
+        average,
+        variance: values.reduce((sum, v) => sum + (v - average) ** 2, 0) / (values.length - 1) / values.length,
+      };
     };
     const [clear, blurred] = [await runs(0, 32), await runs(0.02, 256)];
-    expect(Math.abs(clear.average - blurred.average)).toBeLessThan(4.5 * Math.sqrt(clear.variance + blurred.variance) + 0.002 * clear.average);
+    expect(Math.abs(clear.average - blurred.average)).toBeLessThan(
+      4.5 * Math.sqrt(clear.variance + blurred.variance) + 0.002 * clear.average,
+    );
     expect(8 * blurred.variance).toBeGreaterThan(4 * clear.variance);
   }, 120_000);
 });

@@ -12,13 +12,17 @@ const FINITE = Array.from({ length: 0x7c00 }, (_, bits) => bits);
 
 it('every finite half keeps its bits', () => {
   for (const sign of [0, 0x8000]) {
-    expect([...toHalves(Float32Array.from(FINITE, (bits) => valueOf(sign | bits)))]).toEqual(FINITE.map((bits) => sign | bits));
+    expect([...toHalves(Float32Array.from(FINITE, (bits) => valueOf(sign | bits)))]).toEqual(
+      FINITE.map((bits) => sign | bits),
+    );
   }
 });
 
 it('what lies between two halves goes to the nearer one, and from the middle to the even one', () => {
   const below = FINITE.slice(0, -1);
-  const between = (share: number) => [...toHalves(Float32Array.from(below, (bits) => valueOf(bits) + share * (valueOf(bits + 1) - valueOf(bits))))];
+  const between = (share: number) => [
+    ...toHalves(Float32Array.from(below, (bits) => valueOf(bits) + share * (valueOf(bits + 1) - valueOf(bits)))),
+  ];
   expect(between(0.25)).toEqual(below);
   expect(between(0.75)).toEqual(below.map((bits) => bits + 1));
   expect(between(0.5)).toEqual(below.map((bits) => bits + (bits & 1)));
@@ -26,6 +30,8 @@ it('what lies between two halves goes to the nearer one, and from the middle to 
 
 it('what is no finite half saturates, and nothing is nothing', () => {
   const odd = [Number.NaN, Infinity, -Infinity, 65504, 65519, 65520, 1e30, -1e30, 1e-9, 0];
-  expect([...toHalves(Float32Array.from(odd))].map(valueOf)).toEqual([0, 65504, -65504, 65504, 65504, 65504, 65504, -65504, 0, 0]);
+  expect([...toHalves(Float32Array.from(odd))].map(valueOf)).toEqual([
+    0, 65504, -65504, 65504, 65504, 65504, 65504, -65504, 0, 0,
+  ]);
   expect([...toHalves(Float32Array.from(odd))]).toEqual(odd.map(toHalf));
 });

@@ -12,8 +12,19 @@ afterEach(() => expectNoGpuErrors());
 
 const SIZE = 12;
 
-async function picture(scene: Scene, background: NonNullable<PathTracerOptions['background']>, samples = 32): Promise<Float32Array> {
-  const tracer = await PathTracer.create(device, scene, { width: SIZE, height: SIZE, camera, background, maxDepth: 10, pathsInFlight: 1 << 13 });
+async function picture(
+  scene: Scene,
+  background: NonNullable<PathTracerOptions['background']>,
+  samples = 32,
+): Promise<Float32Array> {
+  const tracer = await PathTracer.create(device, scene, {
+    width: SIZE,
+    height: SIZE,
+    camera,
+    background,
+    maxDepth: 10,
+    pathsInFlight: 1 << 13,
+  });
   for await (const _ of tracer.render({ samples, maxSubmitMs: 2000 }));
   const pixels = await tracer.read('beauty');
   tracer.destroy();
@@ -22,7 +33,13 @@ async function picture(scene: Scene, background: NonNullable<PathTracerOptions['
 
 const glass = (roughness: number, thin = false, color: readonly [number, number, number] = [1, 1, 1]): Material => ({
   name: 'glass',
-  parameters: { transmission_weight: 1, transmission_color: color, specular_ior: 1.5, specular_roughness: roughness, geometry_thin_walled: thin },
+  parameters: {
+    transmission_weight: 1,
+    transmission_color: color,
+    specular_ior: 1.5,
+    specular_roughness: roughness,
+    geometry_thin_walled: thin,
+  },
 });
 const SKY = [0.3, 0.6, 0.9] as const;
 
@@ -34,7 +51,9 @@ describe('a transparent background', () => {
   ])('seen through %s: put over the surroundings it is the picture with them', async (_, material) => {
     const scene = createScene();
     addSphere(scene, 0.6, [0, 0, 0], material, 24);
-    addQuad(scene, 0.3, -0.8, lambert(0.7, 0.2, 0.1), { transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.5, 0.4, 0, 1] });
+    addQuad(scene, 0.3, -0.8, lambert(0.7, 0.2, 0.1), {
+      transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.5, 0.4, 0, 1],
+    });
     scene.environment = { type: 'constant', radiance: SKY };
     const opaque = await picture(scene, 'environment');
     const clear = await picture(scene, 'transparent');
@@ -43,7 +62,10 @@ describe('a transparent background', () => {
       const alpha = clear[4 * i + 3] as number;
       if (alpha > 0.05 && alpha < 0.95) partial++;
       // Colourless glass and even surroundings: path for path the same light, so only rounding differs.
-      for (let c = 0; c < 3; c++) expect(Math.abs((clear[4 * i + c] as number) + (1 - alpha) * (SKY[c] as number) - (opaque[4 * i + c] as number))).toBeLessThan(1e-4);
+      for (let c = 0; c < 3; c++)
+        expect(
+          Math.abs((clear[4 * i + c] as number) + (1 - alpha) * (SKY[c] as number) - (opaque[4 * i + c] as number)),
+        ).toBeLessThan(1e-4);
     }
     // The middle of the ball, not its silhouette alone.
     expect(partial).toBeGreaterThan(20);
@@ -54,7 +76,9 @@ describe('a transparent background', () => {
     const scene = createScene();
     addQuad(scene, 5, 0, glass(0.5, true));
     // Bright behind the wall (−z), black before it: u = atan2(z, x)/2π + ½ is below ½ for z < 0.
-    const data = Float32Array.from({ length: 32 * 16 * 3 }, (_, i) => (Math.floor(i / 3) % 32 < 15 && Math.floor(i / 3) % 32 > 0 ? 2 : 0));
+    const data = Float32Array.from({ length: 32 * 16 * 3 }, (_, i) =>
+      Math.floor(i / 3) % 32 < 15 && Math.floor(i / 3) % 32 > 0 ? 2 : 0,
+    );
     scene.environment = { type: 'latlong', width: 32, height: 16, data } satisfies Environment;
     const opaque = await picture(scene, 'environment', 64);
     const clear = await picture(scene, 'transparent', 64);
@@ -76,7 +100,8 @@ describe('a transparent background', () => {
     // Through a clear wall passes 1 − α; through a coloured one that, times about its colour's luminance.
     const clear = await picture(white, 'transparent', 256);
     const tinted = await picture(scene, 'transparent', 256);
-    const mean = (pixels: Float32Array) => pixels.reduce((sum, value, i) => (i % 4 === 3 ? sum + value : sum), 0) / (SIZE * SIZE);
+    const mean = (pixels: Float32Array) =>
+      pixels.reduce((sum, value, i) => (i % 4 === 3 ? sum + value : sum), 0) / (SIZE * SIZE);
     const luminance = 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2];
     expect((1 - mean(tinted)) / (1 - mean(clear)) / luminance).toBeGreaterThan(0.9);
     expect((1 - mean(tinted)) / (1 - mean(clear)) / luminance).toBeLessThan(1.1);

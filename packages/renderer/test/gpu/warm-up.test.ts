@@ -52,7 +52,13 @@ it('compiles what scenes share, and keeps no memory', async () => {
   addSphere(scene, 0.1, [0, 0, -5], { name: 'brushed', parameters: { specular_roughness: 0.4 } }, 8);
   scene.environment = { type: 'constant', radiance: [2, 2, 2] };
   compiled.length = 0;
-  const tracer = await PathTracer.create(watched, scene, { width: 4, height: 4, camera, maxDepth: 5, onFirstLight: () => {} });
+  const tracer = await PathTracer.create(watched, scene, {
+    width: 4,
+    height: 4,
+    camera,
+    maxDepth: 5,
+    onFirstLight: () => {},
+  });
   tracer.destroy();
   expect(compiled).toEqual(['glanz shade']);
 });

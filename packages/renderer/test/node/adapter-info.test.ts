@@ -1,7 +1,15 @@
 import { describe, expect, it } from 'vitest';
 import { lavapipeVersion, parseAdapterList } from '../../src/node/adapter-info';
 
-const info = (fields: Partial<GPUAdapterInfo>) => ({ vendor: '', architecture: '', device: '', description: '', isFallbackAdapter: false, ...fields }) as GPUAdapterInfo;
+const info = (fields: Partial<GPUAdapterInfo>) =>
+  ({
+    vendor: '',
+    architecture: '',
+    device: '',
+    description: '',
+    isFallbackAdapter: false,
+    ...fields,
+  }) as GPUAdapterInfo;
 
 describe('adapter information', () => {
   it('reads the adapters out of the message for an unknown name, each once', () => {

@@ -13,7 +13,10 @@ import { weslSource } from '../../../../tools/pipeline/wesl.mjs';
 
 const root = join(import.meta.dirname, '../../../..');
 const require = createRequire(import.meta.url);
-const packaged = process.platform === 'linux' && process.arch === 'x64' && existsSync(join(require.resolve('@sparticuz/chromium'), '../../../bin/swiftshader.tar.br'));
+const packaged =
+  process.platform === 'linux' &&
+  process.arch === 'x64' &&
+  existsSync(join(require.resolve('@sparticuz/chromium'), '../../../bin/swiftshader.tar.br'));
 
 // The choice of drivers is a matter of a whole process, so each case runs in one of its own.
 let folder: string;
@@ -30,7 +33,17 @@ try {
 } catch (error) {
   console.log(JSON.stringify({ code: error.code, message: error.message }));
 }`;
-  await build({ plugins: [weslSource()], stdin: { contents, resolveDir: root }, bundle: true, platform: 'node', format: 'esm', external: ['webgpu'], conditions: ['@glanz/source'], outfile: join(folder, 'probe.mjs'), logLevel: 'silent' });
+  await build({
+    plugins: [weslSource()],
+    stdin: { contents, resolveDir: root },
+    bundle: true,
+    platform: 'node',
+    format: 'esm',
+    external: ['webgpu'],
+    conditions: ['@glanz/source'],
+    outfile: join(folder, 'probe.mjs'),
+    logLevel: 'silent',
+  });
 });
 afterAll(() => rmSync(folder, { recursive: true, force: true }));
 
@@ -44,7 +57,10 @@ interface Outcome {
 
 async function probe(options: object, environment: Record<string, string> = {}): Promise<Outcome> {
   const env = { ...process.env, VK_DRIVER_FILES: undefined, VK_ICD_FILENAMES: undefined, ...environment };
-  const { stdout } = await promisify(execFile)(process.execPath, [join(folder, 'probe.mjs'), JSON.stringify(options)], { env, cwd: root });
+  const { stdout } = await promisify(execFile)(process.execPath, [join(folder, 'probe.mjs'), JSON.stringify(options)], {
+    env,
+    cwd: root,
+  });
   return JSON.parse(stdout) as Outcome;
 }
 
@@ -53,20 +69,32 @@ describe('createGpu', () => {
     expect(await probe({ software: 'only' })).toMatchObject({ software: true, values: [41, 42] });
   });
 
-  it.runIf(packaged)('inflates and uses the SwiftShader of the npm package, also when two processes start at once', async () => {
-    const cache = mkdtempSync(join(tmpdir(), 'glanz-cache-'));
-    try {
-      for (const outcome of await Promise.all([1, 2].map(() => probe({ gpu: 'swiftshader' }, { XDG_CACHE_HOME: cache })))) {
-        expect(outcome).toMatchObject({ adapterName: expect.stringMatching(/swiftshader/i) as string, software: true, values: [41, 42] });
+  it.runIf(packaged)(
+    'inflates and uses the SwiftShader of the npm package, also when two processes start at once',
+    async () => {
+      const cache = mkdtempSync(join(tmpdir(), 'glanz-cache-'));
+      try {
+        for (const outcome of await Promise.all(
+          [1, 2].map(() => probe({ gpu: 'swiftshader' }, { XDG_CACHE_HOME: cache })),
+        )) {
+          expect(outcome).toMatchObject({
+            adapterName: expect.stringMatching(/swiftshader/i) as string,
+            software: true,
+            values: [41, 42],
+          });
+        }
+        expect(readdirSync(join(cache, 'glanz'))).toHaveLength(1);
+      } finally {
+        rmSync(cache, { recursive: true });
       }
-      expect(readdirSync(join(cache, 'glanz'))).toHaveLength(1);
-    } finally {
-      rmSync(cache, { recursive: true });
-    }
-  });
+    },
+  );
 
   it('falls back to other drivers when the named one does not work', async () => {
-    expect(await probe({}, { VK_DRIVER_FILES: '/nowhere/icd.json' })).toMatchObject({ software: true, values: [41, 42] });
+    expect(await probe({}, { VK_DRIVER_FILES: '/nowhere/icd.json' })).toMatchObject({
+      software: true,
+      values: [41, 42],
+    });
   });
 
   it('says in one line all that it tried, when nothing has the wanted name', async () => {
@@ -77,11 +105,16 @@ describe('createGpu', () => {
   });
 
   it('does not settle for a software GPU when told so', async () => {
-    expect(await probe({ software: 'never' }, { VK_DRIVER_FILES: '/nowhere/icd.json' })).toMatchObject({ code: 'renderer/no-adapter' });
+    expect(await probe({ software: 'never' }, { VK_DRIVER_FILES: '/nowhere/icd.json' })).toMatchObject({
+      code: 'renderer/no-adapter',
+    });
   });
 
   it('names what to install when Dawn does not load', async () => {
-    expect(await probe({}, { GPU_WEBGPU: '/nowhere/webgpu.js' })).toMatchObject({ code: 'renderer/no-webgpu', message: expect.stringContaining('/nowhere/webgpu.js') as string });
+    expect(await probe({}, { GPU_WEBGPU: '/nowhere/webgpu.js' })).toMatchObject({
+      code: 'renderer/no-webgpu',
+      message: expect.stringContaining('/nowhere/webgpu.js') as string,
+    });
   });
 
   it('gives the same object for the same options, also to calls at the same time', async () => {
@@ -93,9 +126,24 @@ describe('createGpu', () => {
 
   it('does nothing on import, in a worker thread too', async () => {
     const url = pathToFileURL(join(folder, 'import-only.mjs')).href;
-    await build({ plugins: [weslSource()], entryPoints: [join(root, 'packages/renderer/src/node.ts')], bundle: true, platform: 'node', format: 'esm', external: ['webgpu'], conditions: ['@glanz/source'], outfile: join(folder, 'import-only.mjs'), logLevel: 'silent' });
-    const worker = new Worker(`import(${JSON.stringify(url)}).then((m) => require('node:worker_threads').parentPort.postMessage([Object.keys(m).length, 'GPUBufferUsage' in globalThis, process.env.VK_DRIVER_FILES]))`, { eval: true, stdout: true, stderr: true });
-    const [exports, defined] = await new Promise<unknown[]>((resolve, reject) => worker.once('message', resolve).once('error', reject));
+    await build({
+      plugins: [weslSource()],
+      entryPoints: [join(root, 'packages/renderer/src/node.ts')],
+      bundle: true,
+      platform: 'node',
+      format: 'esm',
+      external: ['webgpu'],
+      conditions: ['@glanz/source'],
+      outfile: join(folder, 'import-only.mjs'),
+      logLevel: 'silent',
+    });
+    const worker = new Worker(
+      `import(${JSON.stringify(url)}).then((m) => require('node:worker_threads').parentPort.postMessage([Object.keys(m).length, 'GPUBufferUsage' in globalThis, process.env.VK_DRIVER_FILES]))`,
+      { eval: true, stdout: true, stderr: true },
+    );
+    const [exports, defined] = await new Promise<unknown[]>((resolve, reject) =>
+      worker.once('message', resolve).once('error', reject),
+    );
     expect(exports).toBeGreaterThan(1);
     expect(defined).toBe(false);
   });

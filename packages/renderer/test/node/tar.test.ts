@@ -18,9 +18,16 @@ function archive(files: Record<string, Uint8Array>): Uint8Array {
 
 describe('readTar', () => {
   it('reads what tar wrote, whatever the sizes', () => {
-    const files = { empty: new Uint8Array(0), short: Uint8Array.of(1, 2, 3), block: new Uint8Array(512).fill(7), long: Uint8Array.from({ length: 5000 }, (_, i) => i) };
+    const files = {
+      empty: new Uint8Array(0),
+      short: Uint8Array.of(1, 2, 3),
+      block: new Uint8Array(512).fill(7),
+      long: Uint8Array.from({ length: 5000 }, (_, i) => i),
+    };
     const entries = readTar(archive(files));
-    expect(Object.fromEntries(entries.map((entry) => [entry.name, Array.from(entry.data)]))).toEqual(Object.fromEntries(Object.entries(files).map(([name, data]) => [name, Array.from(data)])));
+    expect(Object.fromEntries(entries.map((entry) => [entry.name, Array.from(entry.data)]))).toEqual(
+      Object.fromEntries(Object.entries(files).map(([name, data]) => [name, Array.from(data)])),
+    );
   });
 
   it('refuses an archive that is cut short', () => {

@@ -22,10 +22,20 @@ describe('cameraUniforms', () => {
     expect(Math.hypot(...u.camera_forward)).toBeCloseTo(1, 12);
   });
 
-  const bad = (changes: object) => () => cameraUniforms({ type: 'perspective', name: 'c', transform: identity, yfov: 1, ...changes } as Camera, 10, 10);
+  const bad = (changes: object) => () =>
+    cameraUniforms({ type: 'perspective', name: 'c', transform: identity, yfov: 1, ...changes } as Camera, 10, 10);
 
-  it.each([0, 5, 13].flatMap((at) => [NaN, Infinity, -Infinity].map((value) => [at, value] as const)).concat([[12, 1e30], [14, -1e13]]))('refuses a transform with %2$s at %1$s', (at, value) => {
-    expect(bad({ transform: identity.map((x, i) => (i === at ? value : x)) })).toThrow(expect.objectContaining({ code: 'renderer/camera' }) as Error);
+  it.each(
+    [0, 5, 13]
+      .flatMap((at) => [NaN, Infinity, -Infinity].map((value) => [at, value] as const))
+      .concat([
+        [12, 1e30],
+        [14, -1e13],
+      ]),
+  )('refuses a transform with %2$s at %1$s', (at, value) => {
+    expect(bad({ transform: identity.map((x, i) => (i === at ? value : x)) })).toThrow(
+      expect.objectContaining({ code: 'renderer/camera' }) as Error,
+    );
   });
 
   it.each<object>([
@@ -45,6 +55,8 @@ describe('cameraUniforms', () => {
   });
 
   it.each([0, -1, Math.PI, Number.NaN])('refuses a field of view of %s', (yfov) => {
-    expect(() => cameraUniforms({ type: 'perspective', name: 'c', transform: identity, yfov }, 10, 10)).toThrow(RenderError);
+    expect(() => cameraUniforms({ type: 'perspective', name: 'c', transform: identity, yfov }, 10, 10)).toThrow(
+      RenderError,
+    );
   });
 });

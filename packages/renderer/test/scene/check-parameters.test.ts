@@ -13,7 +13,15 @@ const refused = (parameters: object): string => {
 
 describe('checkParameters', () => {
   it('accepts what OpenPBR allows, its limits included', () => {
-    for (const parameters of [{}, { base_color: [0, 1, 0.5] }, { specular_roughness: 0 }, { specular_roughness: 1 }, { emission_luminance: 1e6 }, { geometry_thin_walled: true }, { geometry_normal: null }]) {
+    for (const parameters of [
+      {},
+      { base_color: [0, 1, 0.5] },
+      { specular_roughness: 0 },
+      { specular_roughness: 1 },
+      { emission_luminance: 1e6 },
+      { geometry_thin_walled: true },
+      { geometry_normal: null },
+    ]) {
       expect(refused(parameters)).toBe('accepted');
     }
   });
@@ -24,7 +32,12 @@ describe('checkParameters', () => {
     expect(refused({ qwertyuiop: 1 })).not.toContain('did you mean');
   });
 
-  it.each<object>([{ specular_roughness: 1.7 }, { base_weight: -0.1 }, { base_color: [0.5, 0.5, 1.01] }, { specular_ior: 0 }])('refuses %j, which is out of range', (parameters) => {
+  it.each<object>([
+    { specular_roughness: 1.7 },
+    { base_weight: -0.1 },
+    { base_color: [0.5, 0.5, 1.01] },
+    { specular_ior: 0 },
+  ])('refuses %j, which is out of range', (parameters) => {
     expect(refused(parameters)).toMatch(/it must be finite and from/);
   });
 
@@ -33,7 +46,13 @@ describe('checkParameters', () => {
     expect(refused({ emission_color: [1, value, 1] })).toContain('emission_color');
   });
 
-  it.each<object>([{ coat_weight: '1' }, { base_color: 0.5 }, { base_color: [1, 2] }, { geometry_thin_walled: 1 }, { geometry_normal: [0, 0, 0] }])('refuses %j, which is of another kind', (parameters) => {
+  it.each<object>([
+    { coat_weight: '1' },
+    { base_color: 0.5 },
+    { base_color: [1, 2] },
+    { geometry_thin_walled: 1 },
+    { geometry_normal: [0, 0, 0] },
+  ])('refuses %j, which is of another kind', (parameters) => {
     expect(refused(parameters)).not.toBe('accepted');
   });
 });

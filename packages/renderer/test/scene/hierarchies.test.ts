@@ -15,18 +15,34 @@ const SIZES = [3, 400, 20, 90];
 const scene = {
   meshes: SIZES.map(strip),
   // The third mesh is used twice, the last one not at all.
-  instances: [0, 1, 2, 2].map((mesh, i) => ({ mesh, material: 0, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5 * i, 0, 0, 1] })),
+  instances: [0, 1, 2, 2].map((mesh, i) => ({
+    mesh,
+    material: 0,
+    transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5 * i, 0, 0, 1],
+  })),
   materials: [{}],
 } as unknown as Scene;
 
 /** Builds late, in the reverse order of the requests. */
 function lateBuilder() {
-  const asked: { triangles: number; signal: AbortSignal; onProgress: (done: number) => void; answer: () => void; fail: (error: Error) => void }[] = [];
+  const asked: {
+    triangles: number;
+    signal: AbortSignal;
+    onProgress: (done: number) => void;
+    answer: () => void;
+    fail: (error: Error) => void;
+  }[] = [];
   const hierarchies: HierarchyBuilder = {
     buildBlas: (mesh, { signal, onProgress }) =>
       new Promise((resolve, reject) => {
         signal.addEventListener('abort', () => reject(signal.reason as Error));
-        asked.push({ triangles: mesh.indices.length / 3, signal, onProgress, answer: () => resolve(buildBlas(mesh)), fail: reject });
+        asked.push({
+          triangles: mesh.indices.length / 3,
+          signal,
+          onProgress,
+          answer: () => resolve(buildBlas(mesh)),
+          fail: reject,
+        });
       }),
   };
   return { asked, hierarchies };

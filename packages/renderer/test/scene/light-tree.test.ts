@@ -4,7 +4,8 @@ import type { TreeLights } from '../../src/scene/light-bounds';
 import { lightTreeSteps } from '../../src/scene/light-tree';
 import { randomLights, treeNodes } from '../tree-lights';
 
-const angle = (a: ArrayLike<number>, b: ArrayLike<number>) => Math.acos(Math.min(1, Math.max(-1, a[0]! * b[0]! + a[1]! * b[1]! + a[2]! * b[2]!)));
+const angle = (a: ArrayLike<number>, b: ArrayLike<number>) =>
+  Math.acos(Math.min(1, Math.max(-1, a[0]! * b[0]! + a[1]! * b[1]! + a[2]! * b[2]!)));
 
 /** The lights under each node, found by walking. */
 function under(tree: { readonly nodes: ReturnType<typeof treeNodes> }, node: number): number[] {
@@ -19,14 +20,18 @@ function check(lights: TreeLights, near: number[], distant: number[] = []): void
   expect(tree.nodes).toHaveLength(2 * (near.length + distant.length) - 1);
   for (const i of [...near, ...distant]) {
     let node = 0;
-    for (let trail = tree.trails[i]!; tree.nodes[node]!.light === undefined; trail >>>= 1) node = tree.nodes[node]!.child! + (trail & 1);
+    for (let trail = tree.trails[i]!; tree.nodes[node]!.light === undefined; trail >>>= 1)
+      node = tree.nodes[node]!.child! + (trail & 1);
     expect(tree.nodes[node]!.light).toBe(i);
     expect(tree.nodes[node]!.distant).toBe(distant.includes(i));
   }
   tree.nodes.forEach((node, index) => {
     const inside = under(tree, index);
     if (!inside.every((i) => near.includes(i) === !node.distant)) return;
-    expect(node.energy).toBeCloseTo(inside.reduce((sum, i) => sum + lights.energies[i]!, 0), 9);
+    expect(node.energy).toBeCloseTo(
+      inside.reduce((sum, i) => sum + lights.energies[i]!, 0),
+      9,
+    );
     for (const i of inside) {
       // Each corner of its box lies in the sphere, and each of its normals in the cone.
       for (let corner = 0; corner < 8 && !node.distant; corner++) {
@@ -47,7 +52,11 @@ describe('lightTreeSteps', () => {
 
   it('hangs distant lights beside the others, and leaves out what it was not given', () => {
     const lights = randomLights(40, 9);
-    check(lights, [...Array(30).keys()].filter((i) => i % 3 > 0), [33, 35, 39]);
+    check(
+      lights,
+      [...Array(30).keys()].filter((i) => i % 3 > 0),
+      [33, 35, 39],
+    );
     check(lights, [], [33, 35, 39]);
     check(lights, [7], [33]);
   });

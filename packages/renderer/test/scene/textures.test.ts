@@ -16,7 +16,17 @@ function sceneWith(sizes: readonly (readonly [number, number, 'srgb' | 'linear']
 
 describe('planTextures', () => {
   it('puts pictures of one size and colour space into one array', () => {
-    const plan = planTextures(sceneWith([[8, 8, 'srgb'], [8, 8, 'srgb'], [8, 8, 'linear'], [4, 8, 'srgb']]), [0, 1, 2, 3], 12, limits);
+    const plan = planTextures(
+      sceneWith([
+        [8, 8, 'srgb'],
+        [8, 8, 'srgb'],
+        [8, 8, 'linear'],
+        [4, 8, 'srgb'],
+      ]),
+      [0, 1, 2, 3],
+      12,
+      limits,
+    );
     expect(plan.arrays.map((a) => [a.width, a.height, a.format, a.layers])).toEqual([
       [8, 8, 'rgba8unorm-srgb', [0, 1]],
       [8, 8, 'rgba8unorm', [2]],
@@ -42,19 +52,41 @@ describe('planTextures', () => {
   });
 
   it('leaves pictures in blocks where the device reads them, all or none', () => {
-    const scene = sceneWith([[8, 8, 'srgb'], [8, 8, 'linear'], [8, 4, 'srgb'], [6, 8, 'linear'], [16, 4, 'srgb']]);
+    const scene = sceneWith([
+      [8, 8, 'srgb'],
+      [8, 8, 'linear'],
+      [8, 4, 'srgb'],
+      [6, 8, 'linear'],
+      [16, 4, 'srgb'],
+    ]);
     for (const index of [0, 1, 3]) {
       const { width, height } = scene.images[index]!;
-      scene.images[index]!.compressed = { format: 'bc7-rgba-unorm', levels: [new Uint8Array(compressedBytes(width, height))] };
+      scene.images[index]!.compressed = {
+        format: 'bc7-rgba-unorm',
+        levels: [new Uint8Array(compressedBytes(width, height))],
+      };
     }
-    const formats = (...told: Parameters<typeof planTextures>) => planTextures(...told).arrays.map(({ format, levels }) => [format, levels]);
+    const formats = (...told: Parameters<typeof planTextures>) =>
+      planTextures(...told).arrays.map(({ format, levels }) => [format, levels]);
     // 6 texels are no whole blocks.
-    const packed = [['bc7-rgba-unorm-srgb', 1], ['bc7-rgba-unorm', 1], ['rgba8unorm-srgb', undefined], ['rgba8unorm', undefined], ['rgba8unorm-srgb', undefined]];
-    const unpacked = ['rgba8unorm-srgb', 'rgba8unorm', 'rgba8unorm-srgb', 'rgba8unorm', 'rgba8unorm-srgb'].map((format) => [format, undefined]);
+    const packed = [
+      ['bc7-rgba-unorm-srgb', 1],
+      ['bc7-rgba-unorm', 1],
+      ['rgba8unorm-srgb', undefined],
+      ['rgba8unorm', undefined],
+      ['rgba8unorm-srgb', undefined],
+    ];
+    const unpacked = ['rgba8unorm-srgb', 'rgba8unorm', 'rgba8unorm-srgb', 'rgba8unorm', 'rgba8unorm-srgb'].map(
+      (format) => [format, undefined],
+    );
     expect(formats(scene, [0, 1, 2, 3, 4], 12, limits, ['astc-4x4-unorm', 'bc7-rgba-unorm'])).toEqual(packed);
     expect(formats(scene, [0, 1, 2, 3, 4], 12, limits, ['astc-4x4-unorm'])).toEqual(unpacked);
-    expect(formats(scene, [0, 1, 2, 3, 4], 3, limits, ['bc7-rgba-unorm']).every(([, levels]) => levels === undefined)).toBe(true);
-    expect(formats(scene, [0], 12, { ...limits, maxTextureDimension2D: 4 }, ['bc7-rgba-unorm'])).toEqual([['rgba8unorm-srgb', undefined]]);
+    expect(
+      formats(scene, [0, 1, 2, 3, 4], 3, limits, ['bc7-rgba-unorm']).every(([, levels]) => levels === undefined),
+    ).toBe(true);
+    expect(formats(scene, [0], 12, { ...limits, maxTextureDimension2D: 4 }, ['bc7-rgba-unorm'])).toEqual([
+      ['rgba8unorm-srgb', undefined],
+    ]);
   });
 
   it('keeps pictures within the device limits', () => {
@@ -84,7 +116,8 @@ describe('toHalf', () => {
     for (const x of [0.1, 1 / 3, 1e-5, 3e-7, 1234.5, 2049, 65519]) {
       const h = toHalf(x);
       const error = Math.abs(fromHalf(h) - x);
-      for (const other of [h - 1, h + 1]) if (other < 0x7c00) expect(error).toBeLessThanOrEqual(Math.abs(fromHalf(other) - x));
+      for (const other of [h - 1, h + 1])
+        if (other < 0x7c00) expect(error).toBeLessThanOrEqual(Math.abs(fromHalf(other) - x));
     }
     expect(fromHalf(toHalf(1e9))).toBe(65504);
     expect(toHalf(-2)).toBe(0xc000);

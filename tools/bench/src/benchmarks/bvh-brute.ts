@@ -11,9 +11,17 @@ import { BenchError } from '../error';
 import { machine } from '../machine';
 
 /** Ways to build that are tried in turn. */
-export const BUILDERS: readonly BlasOptions[] = [{}, { builder: fast }, { builder: best }, { builder: bestSplit }, { bins: 4 }];
+export const BUILDERS: readonly BlasOptions[] = [
+  {},
+  { builder: fast },
+  { builder: best },
+  { builder: bestSplit },
+  { bins: 4 },
+];
 
-/** No measurement but a trial: rays through random scenes against brute force. Ends with an error if any ray is lost. */
+/**
+ * No measurement but a trial: rays through random scenes against brute force. Ends with an error if any ray is lost.
+ */
 export const benchmark: Benchmark = {
   description: 'rays through random scenes against brute force, on the CPU and the GPU (--seed N)',
   options: { pages: { type: 'string', help: 'folder to write the page of the docs and its data into' } },
@@ -21,13 +29,32 @@ export const benchmark: Benchmark = {
     const { gpu: api, adapterName, software } = await createGpu(gpu === undefined ? { software: 'only' } : { gpu });
     const device = await requestDevice({ gpu: api });
     const gpus = await Promise.all((['binary', 'wide'] as const).map((layout) => GpuTracer.create(device, layout)));
-    const scenes = quick ? 50 : 1200, raysPerScene = quick ? 1000 : 8500, gpuEvery = quick ? 2 : 10;
+    const scenes = quick ? 50 : 1200,
+      raysPerScene = quick ? 1000 : 8500,
+      gpuEvery = quick ? 2 : 10;
     log(`seed ${seed}: ${scenes} scenes of ${raysPerScene} rays each`);
     const totals = await tryScenes({ seed, scenes, raysPerScene, gpuEvery, gpus, builders: BUILDERS, log });
     device.destroy();
-    if (totals.wrong + totals.gpuWrong > 0) throw new BenchError('bench/wrong-hits', `${totals.wrong} rays on the CPU and ${totals.gpuWrong} on the GPU are wrong with seed ${seed}: see the lines above.`);
-    const details: BruteDetails = { seed, scenes, rays: totals.rays, wrong: totals.wrong, gpuRays: totals.gpuRays, gpuWrong: totals.gpuWrong };
-    if (values['pages'] !== undefined) for (const file of writeBvhPage('bvh-brute', { benchmark: 'bvh-brute', machine: machine(), quick, details }, values['pages'])) log(`wrote ${file}`);
+    if (totals.wrong + totals.gpuWrong > 0)
+      throw new BenchError(
+        'bench/wrong-hits',
+        `${totals.wrong} rays on the CPU and ${totals.gpuWrong} on the GPU are wrong with seed ${seed}: see the lines above.`,
+      );
+    const details: BruteDetails = {
+      seed,
+      scenes,
+      rays: totals.rays,
+      wrong: totals.wrong,
+      gpuRays: totals.gpuRays,
+      gpuWrong: totals.gpuWrong,
+    };
+    if (values['pages'] !== undefined)
+      for (const file of writeBvhPage(
+        'bvh-brute',
+        { benchmark: 'bvh-brute', machine: machine(), quick, details },
+        values['pages'],
+      ))
+        log(`wrote ${file}`);
     const none = { value: 0, relation: '<=' as const, source: 'no ray is lost' };
     return {
       settings: { seed, scenes, raysPerScene, gpuEvery },

@@ -12,7 +12,8 @@ import { coldTimes, servesBenchmark, slicedTimes, workerTimes } from '../bvh/thr
 import { buildThree, threeCost } from '../bvh/three-mesh-bvh';
 import { plainBlas, plainThree, traversalCost, type PlainTree } from '../bvh/traversal-cost';
 
-const geometricMean = (values: readonly number[]) => Math.exp(values.reduce((sum, value) => sum + Math.log(value), 0) / values.length);
+const geometricMean = (values: readonly number[]) =>
+  Math.exp(values.reduce((sum, value) => sum + Math.log(value), 0) / values.length);
 const least = (values: readonly number[]) => Math.min(...values);
 
 /** Meshes of parts, as CAD programs write them. */
@@ -54,22 +55,35 @@ export const benchmark: Benchmark = {
   description: 'building hierarchies, and what rays look at in them, beside three-mesh-bvh',
   options: {
     pages: { type: 'string', help: 'folder to write the page of the docs and its data into' },
-    brief: { type: 'string', help: '"yes": only balanced beside three-mesh-bvh, on all meshes, and the threads; nothing of rays. For a machine that is lent for minutes' },
+    brief: {
+      type: 'string',
+      help: '"yes": only balanced beside three-mesh-bvh, on all meshes, and the threads; nothing of rays. For a machine that is lent for minutes',
+    },
     threads: { type: 'string', help: '"yes": only the threads, with the largest mesh' },
     'two-cores': { type: 'string', help: '"yes": put it on that page as the run on a machine of two cores' },
   },
   async run({ log, quick, values }) {
-    const figures: Figure[] = [], notes: string[] = [];
+    const figures: Figure[] = [],
+      notes: string[] = [];
     if (servesBenchmark()) return { settings: {}, figures };
     const meshes = await benchMeshes(quick, (line) => notes.push(line));
     const runs = quick ? 2 : 5;
     const brief = values['brief'] === 'yes';
     const rows: MeshRow[] = [];
-    const ratios = { sah: [] as number[], center: [] as number[], cost: [] as number[], fast: [] as number[], best: [] as number[] };
-    const figure = (name: string, unit: string, values: readonly number[], target?: Figure['target']) => figures.push(timed(name, unit, values, quick ? undefined : target));
+    const ratios = {
+      sah: [] as number[],
+      center: [] as number[],
+      cost: [] as number[],
+      fast: [] as number[],
+      best: [] as number[],
+    };
+    const figure = (name: string, unit: string, values: readonly number[], target?: Figure['target']) =>
+      figures.push(timed(name, unit, values, quick ? undefined : target));
     const onlyThreads = values['threads'] === 'yes';
     for (const mesh of onlyThreads ? [] : meshes) {
-      const trees = treesOf(mesh).filter(({ name }) => !brief || name === 'balanced' || /^three-mesh-bvh (SAH|CENTER)$/.test(name));
+      const trees = treesOf(mesh).filter(
+        ({ name }) => !brief || name === 'balanced' || /^three-mesh-bvh (SAH|CENTER)$/.test(name),
+      );
       const times = new Map(trees.map(({ name }) => [name, [] as number[]]));
       // Taken in turns, so that a disturbance of the machine meets all alike; `best` is slow and comes less often.
       for (let i = -1; i < runs; i++) {
@@ -86,12 +100,24 @@ export const benchmark: Benchmark = {
         figure(`${mesh.name}: ${name}`, 'ms', times.get(name)!);
         figure(`${mesh.name}: ${name}, SAH cost`, '1', [costs.get(name)!]);
       }
-      for (const name of ['three-mesh-bvh SAH', 'three-mesh-bvh CENTER']) figure(`${mesh.name}: ${name} over balanced`, '1', times.get(name)!.map((t, i) => t / times.get('balanced')![i]!));
+      for (const name of ['three-mesh-bvh SAH', 'three-mesh-bvh CENTER'])
+        figure(
+          `${mesh.name}: ${name} over balanced`,
+          '1',
+          times.get(name)!.map((t, i) => t / times.get('balanced')![i]!),
+        );
       ratios.sah.push(time('three-mesh-bvh SAH') / time('balanced'));
       ratios.center.push(time('three-mesh-bvh CENTER') / time('balanced'));
       ratios.cost.push(costs.get('balanced')! / costs.get('three-mesh-bvh SAH')!);
-      log(`${mesh.name}: ${time('balanced').toFixed(1)} ms, SAH ${ratios.sah.at(-1)!.toFixed(2)}×, CENTER ${ratios.center.at(-1)!.toFixed(2)}×, cost ${ratios.cost.at(-1)!.toFixed(3)} of SAH's`);
-      const row = { name: mesh.name, triangles: mesh.indices.length / 3, times: Object.fromEntries([...times].map(([name, list]) => [name, spreadOf(list)])), costs: Object.fromEntries(costs) };
+      log(
+        `${mesh.name}: ${time('balanced').toFixed(1)} ms, SAH ${ratios.sah.at(-1)!.toFixed(2)}×, CENTER ${ratios.center.at(-1)!.toFixed(2)}×, cost ${ratios.cost.at(-1)!.toFixed(3)} of SAH's`,
+      );
+      const row = {
+        name: mesh.name,
+        triangles: mesh.indices.length / 3,
+        times: Object.fromEntries([...times].map(([name, list]) => [name, spreadOf(list)])),
+        costs: Object.fromEntries(costs),
+      };
       if (brief) {
         rows.push({ ...row, diffuse: {} });
         continue;
@@ -109,12 +135,17 @@ export const benchmark: Benchmark = {
           const primary = primaryRays(bounds, size);
           const { triangleIndices } = buildBlas(mesh);
           const { hits } = traversalCost(tree, mesh, primary, false);
-          const results = new Uint32Array(hits.length), t = new Float32Array(results.buffer);
+          const results = new Uint32Array(hits.length),
+            t = new Float32Array(results.buffer);
           for (let i = 0; i < hits.length; i += 2) {
             t[i] = hits[i]!;
             results[i + 1] = hits[i + 1]! < 0 ? 0xffffffff : triangleIndices[hits[i + 1]!]!;
           }
-          sets = [['primary', primary, false], ['shadow', shadowRays(bounds, primary, results, mesh), true], ['diffuse', diffuseRays(bounds, primary, results, mesh, 3), false]];
+          sets = [
+            ['primary', primary, false],
+            ['shadow', shadowRays(bounds, primary, results, mesh), true],
+            ['diffuse', diffuseRays(bounds, primary, results, mesh, 3), false],
+          ];
         }
         for (const [kind, rays, any] of sets) {
           const { nodes, triangles } = traversalCost(tree, mesh, rays, any);
@@ -127,16 +158,51 @@ export const benchmark: Benchmark = {
       const gain = diffuse.get('best')! / diffuse.get('balanced')!;
       const cad = CAD_LIKE.test(mesh.name);
       if (cad) ratios.best.push(gain);
-      figure(`${mesh.name}: best over balanced, nodes and triangles per diffuse ray`, '1', [gain], cad ? { value: 0.85, relation: '<=', source: 'a sixth less in models of parts' } : undefined);
-      log(`${mesh.name}: fast ${time('fast').toFixed(1)} ms, best ${time('best').toFixed(0)} ms; per diffuse ray ${[...diffuse].map(([name, x]) => `${name} ${x.toFixed(1)}`).join(', ')}`);
+      figure(
+        `${mesh.name}: best over balanced, nodes and triangles per diffuse ray`,
+        '1',
+        [gain],
+        cad ? { value: 0.85, relation: '<=', source: 'a sixth less in models of parts' } : undefined,
+      );
+      log(
+        `${mesh.name}: fast ${time('fast').toFixed(1)} ms, best ${time('best').toFixed(0)} ms; per diffuse ray ${[...diffuse].map(([name, x]) => `${name} ${x.toFixed(1)}`).join(', ')}`,
+      );
     }
     if (!onlyThreads) {
-      figure('all: three-mesh-bvh SAH over balanced, geometric mean of minima', '1', [geometricMean(ratios.sah)], { value: 4, relation: '>=', source: 'four times as fast' });
-      figure('all: three-mesh-bvh SAH over balanced, least', '1', [least(ratios.sah)], { value: 3, relation: '>=', source: 'three times as fast on any mesh' });
-      figure('all: three-mesh-bvh CENTER over balanced, geometric mean of minima', '1', [geometricMean(ratios.center)], { value: 1, relation: '>=', source: 'no slower than CENTER' });
-      figure("all: SAH cost over three-mesh-bvh SAH's, geometric mean", '1', [geometricMean(ratios.cost)], { value: 1, relation: '<=', source: 'trees as good' });
-      if (!brief) figure('all: balanced over fast, geometric mean of minima', '1', [geometricMean(ratios.fast)], { value: 2, relation: '>=', source: 'twice as fast' });
-      if (!brief) figure('CAD-like: best over balanced, nodes and triangles per diffuse ray, geometric mean', '1', [geometricMean(ratios.best)], { value: 0.85, relation: '<=', source: 'a sixth less' });
+      figure('all: three-mesh-bvh SAH over balanced, geometric mean of minima', '1', [geometricMean(ratios.sah)], {
+        value: 4,
+        relation: '>=',
+        source: 'four times as fast',
+      });
+      figure('all: three-mesh-bvh SAH over balanced, least', '1', [least(ratios.sah)], {
+        value: 3,
+        relation: '>=',
+        source: 'three times as fast on any mesh',
+      });
+      figure(
+        'all: three-mesh-bvh CENTER over balanced, geometric mean of minima',
+        '1',
+        [geometricMean(ratios.center)],
+        { value: 1, relation: '>=', source: 'no slower than CENTER' },
+      );
+      figure("all: SAH cost over three-mesh-bvh SAH's, geometric mean", '1', [geometricMean(ratios.cost)], {
+        value: 1,
+        relation: '<=',
+        source: 'trees as good',
+      });
+      if (!brief)
+        figure('all: balanced over fast, geometric mean of minima', '1', [geometricMean(ratios.fast)], {
+          value: 2,
+          relation: '>=',
+          source: 'twice as fast',
+        });
+      if (!brief)
+        figure(
+          'CAD-like: best over balanced, nodes and triangles per diffuse ray, geometric mean',
+          '1',
+          [geometricMean(ratios.best)],
+          { value: 0.85, relation: '<=', source: 'a sixth less' },
+        );
     }
 
     const large = meshes.reduce((a, b) => (b.indices.length > a.indices.length ? b : a));
@@ -144,28 +210,77 @@ export const benchmark: Benchmark = {
     const [cold, ...warm] = await coldTimes(large);
     figure(`${large.name}: first build in a fresh thread`, 'ms', [cold!]);
     figure(`${large.name}: further builds in that thread`, 'ms', warm);
-    figure(`${large.name}: first build over the median of further ones`, '1', [cold! / [...warm].sort((a, b) => a - b)[warm.length >> 1]!], { value: 2, relation: '<=', source: 'cold within twice of warm' });
+    figure(
+      `${large.name}: first build over the median of further ones`,
+      '1',
+      [cold! / [...warm].sort((a, b) => a - b)[warm.length >> 1]!],
+      { value: 2, relation: '<=', source: 'cold within twice of warm' },
+    );
     const four = [large, large, large, large];
     const [one, two] = await workerTimes(four, runs);
     figure(`four times ${large.name}: one worker`, 'ms', one);
     figure(`four times ${large.name}: two workers`, 'ms', two);
-    figure(`four times ${large.name}: one worker over two, minima`, '1', [least(one) / least(two)], { value: 1.6, relation: '>=', source: 'two workers' });
+    figure(`four times ${large.name}: one worker over two, minima`, '1', [least(one) / least(two)], {
+      value: 1.6,
+      relation: '>=',
+      source: 'two workers',
+    });
     const parts = partsOf(quick ? 'low' : 'high');
     const [oneOfParts, twoOfParts] = await workerTimes(parts.meshes, 3 * runs);
     figure(`${parts.name}: one worker`, 'ms', oneOfParts);
     figure(`${parts.name}: two workers`, 'ms', twoOfParts);
-    figure(`${parts.name}: one worker over two, minima`, '1', [least(oneOfParts) / least(twoOfParts)], { value: 1.6, relation: '>=', source: 'two workers' });
+    figure(`${parts.name}: one worker over two, minima`, '1', [least(oneOfParts) / least(twoOfParts)], {
+      value: 1.6,
+      relation: '>=',
+      source: 'two workers',
+    });
     const [alone, together] = await workerTimes([large], 3 * runs);
     figure(`${large.name}: on one worker`, 'ms', alone);
     figure(`${large.name}: on two workers together`, 'ms', together);
-    figure(`${large.name}: one worker over two together, minima`, '1', [least(alone) / least(together)], { value: 1.6, relation: '>=', source: 'two workers' });
+    figure(`${large.name}: one worker over two together, minima`, '1', [least(alone) / least(together)], {
+      value: 1.6,
+      relation: '>=',
+      source: 'two workers',
+    });
     const sliced = await slicedTimes(large, runs);
     figure(`${large.name}: in slices on the main thread`, 'ms', sliced.all);
     figure(`${large.name}: longest slice`, 'ms', sliced.longest, { value: 16, relation: '<=', source: 'one frame' });
     const tiny = brief || onlyThreads ? [] : overTinybvh(rows).flatMap(({ byCenter, bySah }) => [byCenter, bySah]);
-    if (tiny.length > 0) figure("all: balanced over tinybvh's AVX2 build, linked by three-mesh-bvh, geometric mean", '1', [geometricMean(tiny)], { value: 2, relation: '<=', source: 'twice as long as C++' });
-    const details: BvhDetails = { runs, rows, threads: { mesh: large.name, cold: cold!, warm: spreadOf(warm), one: spreadOf(one), two: spreadOf(two), parts: { name: parts.name, one: spreadOf(oneOfParts), two: spreadOf(twoOfParts) }, alone: spreadOf(alone), together: spreadOf(together), sliced: spreadOf(sliced.all), longest: spreadOf(sliced.longest) } };
-    if (values['pages'] !== undefined) for (const file of writeBvhPage(onlyThreads ? 'bvh-threads' : brief ? 'bvh-brief' : values['two-cores'] === undefined ? 'bvh' : 'bvh-two-cores', { benchmark: 'bvh', machine: machine(), quick, figures, details }, values['pages'])) log(`wrote ${file}`);
-    return { details, settings: { runs, meshes: meshes.map(({ name }) => name), leaves: 'at most 4 triangles' }, figures, notes };
+    if (tiny.length > 0)
+      figure(
+        "all: balanced over tinybvh's AVX2 build, linked by three-mesh-bvh, geometric mean",
+        '1',
+        [geometricMean(tiny)],
+        { value: 2, relation: '<=', source: 'twice as long as C++' },
+      );
+    const details: BvhDetails = {
+      runs,
+      rows,
+      threads: {
+        mesh: large.name,
+        cold: cold!,
+        warm: spreadOf(warm),
+        one: spreadOf(one),
+        two: spreadOf(two),
+        parts: { name: parts.name, one: spreadOf(oneOfParts), two: spreadOf(twoOfParts) },
+        alone: spreadOf(alone),
+        together: spreadOf(together),
+        sliced: spreadOf(sliced.all),
+        longest: spreadOf(sliced.longest),
+      },
+    };
+    if (values['pages'] !== undefined)
+      for (const file of writeBvhPage(
+        onlyThreads ? 'bvh-threads' : brief ? 'bvh-brief' : values['two-cores'] === undefined ? 'bvh' : 'bvh-two-cores',
+        { benchmark: 'bvh', machine: machine(), quick, figures, details },
+        values['pages'],
+      ))
+        log(`wrote ${file}`);
+    return {
+      details,
+      settings: { runs, meshes: meshes.map(({ name }) => name), leaves: 'at most 4 triangles' },
+      figures,
+      notes,
+    };
   },
 };

@@ -20,18 +20,31 @@ async function show(tracer: PathTracer, groups: readonly (readonly string[])[], 
 
 /** What a customer of a configurator does, one click each. */
 const CHANGES: Readonly<Record<string, Change>> = {
-  'colour of the lens': (tracer, turn) => tracer.setMaterial(materials.lens, { base_color: turn % 2 === 0 ? [0.46, 0.012, 0.012] : [0.012, 0.33, 0.08] }),
-  'finish of the panel': (tracer, turn) => tracer.setMaterial(materials.panel, { base_metalness: turn % 2, base_color: turn % 2 === 0 ? [0.86, 0.51, 0.004] : [0.56, 0.57, 0.59] }),
-  'colour of the light': (tracer, turn) => tracer.setMaterial(materials.halo, { emission_color: turn % 2 === 0 ? [1, 0.06, 0.04] : [0.12, 1, 0.32] }),
-  'light on and off': (tracer, turn) => tracer.setMaterial(materials.halo, { emission_luminance: turn % 2 === 0 ? 0 : 3.2 }),
-  'another lens': (tracer, turn) => show(tracer, Object.keys(lenses).map((name) => [`Lens ${name}`]), turn),
+  'colour of the lens': (tracer, turn) =>
+    tracer.setMaterial(materials.lens, { base_color: turn % 2 === 0 ? [0.46, 0.012, 0.012] : [0.012, 0.33, 0.08] }),
+  'finish of the panel': (tracer, turn) =>
+    tracer.setMaterial(materials.panel, {
+      base_metalness: turn % 2,
+      base_color: turn % 2 === 0 ? [0.86, 0.51, 0.004] : [0.56, 0.57, 0.59],
+    }),
+  'colour of the light': (tracer, turn) =>
+    tracer.setMaterial(materials.halo, { emission_color: turn % 2 === 0 ? [1, 0.06, 0.04] : [0.12, 1, 0.32] }),
+  'light on and off': (tracer, turn) =>
+    tracer.setMaterial(materials.halo, { emission_luminance: turn % 2 === 0 ? 0 : 3.2 }),
+  'another lens': (tracer, turn) =>
+    show(
+      tracer,
+      Object.keys(lenses).map((name) => [`Lens ${name}`]),
+      turn,
+    ),
   'another mounting': (tracer, turn) => show(tracer, Object.values(mountings), turn),
   'a contact block': (tracer, turn) => show(tracer, [[], blocks['Contact block NC']], turn),
 };
 
 /** From a click to the first sample of the whole picture with the change in it: the price of a change. */
 export const benchmark: Benchmark = {
-  description: 'the push-button configurator: milliseconds from a change to the first picture that shows it, by kind of change',
+  description:
+    'the push-button configurator: milliseconds from a change to the first picture that shows it, by kind of change',
   async run({ log, quick, gpu: wanted }) {
     const { gpu, adapterName, software } = await createGpu(wanted ? { gpu: wanted } : {});
     const [width, height] = quick ? [160, 100] : [1280, 800];
@@ -63,8 +76,13 @@ export const benchmark: Benchmark = {
           edits.push(edited - from);
           pictures.push(performance.now() - from);
         }
-        figures.push(timed(`${name}: to the first sample`, 'ms', pictures), timed(`${name}: the edit alone`, 'ms', edits));
-        log(`${name}: ${figures.at(-2)?.median?.toFixed(1)} ms, of which the edit ${figures.at(-1)?.median?.toFixed(2)} ms`);
+        figures.push(
+          timed(`${name}: to the first sample`, 'ms', pictures),
+          timed(`${name}: the edit alone`, 'ms', edits),
+        );
+        log(
+          `${name}: ${figures.at(-2)?.median?.toFixed(1)} ms, of which the edit ${figures.at(-1)?.median?.toFixed(2)} ms`,
+        );
       }
       tracer.destroy();
     } finally {

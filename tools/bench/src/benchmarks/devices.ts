@@ -21,7 +21,10 @@ async function useDevice(gpu: GPU): Promise<void> {
   const module = device.createShaderModule({ code: SHADER });
   const pipeline = await device.createComputePipelineAsync({ layout: 'auto', compute: { module, entryPoint: 'main' } });
   const buffer = device.createBuffer({ size: 2 ** 20, usage: GPUBufferUsage.STORAGE });
-  const bindGroup = device.createBindGroup({ layout: pipeline.getBindGroupLayout(0), entries: [{ binding: 0, resource: { buffer } }] });
+  const bindGroup = device.createBindGroup({
+    layout: pipeline.getBindGroupLayout(0),
+    entries: [{ binding: 0, resource: { buffer } }],
+  });
   const encoder = device.createCommandEncoder();
   const pass = encoder.beginComputePass();
   pass.setPipeline(pipeline);
@@ -55,13 +58,18 @@ export const benchmark: Benchmark = {
   description: 'opens, uses and destroys devices: the memory that each leaves in the process, the control of soak',
   options: {
     count: { type: 'string', help: 'devices; default 600' },
-    use: { type: 'string', help: `what uses them, of ${Object.keys(USES).join(', ')}; default webgpu, which is without our code` },
+    use: {
+      type: 'string',
+      help: `what uses them, of ${Object.keys(USES).join(', ')}; default webgpu, which is without our code`,
+    },
   },
   async run({ log, quick, gpu: name, values }) {
     const count = values['count'] === undefined ? (quick ? 60 : 600) : Number(values['count']);
-    if (!Number.isInteger(count) || count < 12) throw new BenchError('bench/option', `--count ${values['count']}: it must be a whole number of at least 12.`);
+    if (!Number.isInteger(count) || count < 12)
+      throw new BenchError('bench/option', `--count ${values['count']}: it must be a whole number of at least 12.`);
     const use = USES[values['use'] ?? 'webgpu'];
-    if (!use) throw new BenchError('bench/option', `--use ${values['use']}: it must be of ${Object.keys(USES).join(', ')}.`);
+    if (!use)
+      throw new BenchError('bench/option', `--use ${values['use']}: it must be of ${Object.keys(USES).join(', ')}.`);
     const { gpu, adapterName, software } = await createGpu(name === undefined ? { software: 'only' } : { gpu: name });
     setFlagsFromString('--expose-gc');
     const collect = runInNewContext('gc') as () => void;
@@ -75,7 +83,9 @@ export const benchmark: Benchmark = {
       collect();
       const { heapUsed: heapBytes, rss: rssBytes } = process.memoryUsage();
       points.push({ devices, heapBytes, rssBytes });
-      log(`${devices} devices: heap ${(heapBytes / 2 ** 20).toFixed(1)} MiB, RSS ${(rssBytes / 2 ** 20).toFixed(0)} MiB`);
+      log(
+        `${devices} devices: heap ${(heapBytes / 2 ** 20).toFixed(1)} MiB, RSS ${(rssBytes / 2 ** 20).toFixed(0)} MiB`,
+      );
     }
     // The first third fills caches.
     const later = points.slice(4);
@@ -83,6 +93,11 @@ export const benchmark: Benchmark = {
       const { slope: mean, ci95 } = slope(later.map((point) => [point.devices, value(point) / 1024]));
       return { name: `${what} of each destroyed device`, unit: 'KiB', runs: later.length, mean, ci95 };
     };
-    return { settings: { count, use: values['use'] ?? 'webgpu' }, figures: [figure('heap', ({ heapBytes }) => heapBytes), figure('RSS', ({ rssBytes }) => rssBytes)], gpu: { name: adapterName, software }, details: { points } };
+    return {
+      settings: { count, use: values['use'] ?? 'webgpu' },
+      figures: [figure('heap', ({ heapBytes }) => heapBytes), figure('RSS', ({ rssBytes }) => rssBytes)],
+      gpu: { name: adapterName, software },
+      details: { points },
+    };
   },
 };

@@ -10,14 +10,24 @@ import { measure, type Measurement, type MeasurementPlan } from '../equal-time/m
 import { makeReference, type CrossCheck, type ReferencePlan } from '../equal-time/reference';
 import { equalTimeMarkdown, writePages, type EqualTimeReport } from '../equal-time/report';
 import { CATALOGUE_SIZE, SCENES } from '../equal-time/scenes';
-import { joinDetails, overall, ratios, type EqualTimeDetails, type Quantity, type SceneInfo } from '../equal-time/summary';
+import {
+  joinDetails,
+  overall,
+  ratios,
+  type EqualTimeDetails,
+  type Quantity,
+  type SceneInfo,
+} from '../equal-time/summary';
 import { machine } from '../machine';
 
 /** Set in the processes that this benchmark starts: what they are to do. */
 const CHILD = 'GLANZ_BENCH_EQUAL_TIME';
 
 /** What a child is told: a plan, and the file for what became of it. */
-type Job = { readonly out: string } & ({ readonly kind: 'measure'; readonly plan: MeasurementPlan } | { readonly kind: 'reference'; readonly plan: ReferencePlan });
+type Job = { readonly out: string } & (
+  | { readonly kind: 'measure'; readonly plan: MeasurementPlan }
+  | { readonly kind: 'reference'; readonly plan: ReferencePlan }
+);
 
 const OPTIONS = {
   scenes: { type: 'string', help: 'names, separated by commas' },
@@ -31,10 +41,16 @@ const OPTIONS = {
   pages: { type: 'string', help: 'folder to write the table and the plots into' },
 } as const;
 
-function numberOption(values: BenchmarkContext['values'], name: keyof typeof OPTIONS, standard: number, whole = true): number {
+function numberOption(
+  values: BenchmarkContext['values'],
+  name: keyof typeof OPTIONS,
+  standard: number,
+  whole = true,
+): number {
   const text = values[name];
   const value = text === undefined ? standard : Number(text);
-  if (!(value > 0) || (whole && !Number.isInteger(value))) throw new BenchError('bench/option', `--${name} must be a ${whole ? 'whole ' : ''}number above 0, not "${text}".`);
+  if (!(value > 0) || (whole && !Number.isInteger(value)))
+    throw new BenchError('bench/option', `--${name} must be a ${whole ? 'whole ' : ''}number above 0, not "${text}".`);
   return value;
 }
 
@@ -42,21 +58,28 @@ function listOption<T extends string>(text: string | undefined, all: readonly T[
   if (text === undefined) return all;
   const wanted = text.split(',');
   const unknown = wanted.find((name) => !(all as readonly string[]).includes(name));
-  if (unknown !== undefined) throw new BenchError('bench/option', `There is no ${what} "${unknown}"; there are: ${all.join(', ')}.`);
+  if (unknown !== undefined)
+    throw new BenchError('bench/option', `There is no ${what} "${unknown}"; there are: ${all.join(', ')}.`);
   return all.filter((name) => wanted.includes(name));
 }
 
 /** Runs a job in a process of its own, since renderers must not share one. */
 async function inChild<T>(job: Job): Promise<T | string> {
-  const child = spawn(process.execPath, [fileURLToPath(import.meta.url)], { env: { ...process.env, [CHILD]: JSON.stringify(job) }, stdio: ['ignore', 'ignore', 'pipe'] });
+  const child = spawn(process.execPath, [fileURLToPath(import.meta.url)], {
+    env: { ...process.env, [CHILD]: JSON.stringify(job) },
+    stdio: ['ignore', 'ignore', 'pipe'],
+  });
   let messages = '';
   child.stderr.setEncoding('utf8').on('data', (text: string) => {
     messages = (messages + text).slice(-2000);
     // What the driver and three warn of is kept for failures; our own lines go on.
-    for (const line of text.split('\n')) if (line.startsWith('equal-time: ')) process.stderr.write(`${line.slice(12)}\n`);
+    for (const line of text.split('\n'))
+      if (line.startsWith('equal-time: ')) process.stderr.write(`${line.slice(12)}\n`);
   });
   const code = await new Promise<number | null>((resolve) => child.on('close', resolve));
-  return code === 0 ? (JSON.parse(readFileSync(job.out, 'utf8')) as T) : `failed (${code}): ${messages.trim().split('\n').slice(-3).join(' | ')}`;
+  return code === 0
+    ? (JSON.parse(readFileSync(job.out, 'utf8')) as T)
+    : `failed (${code}): ${messages.trim().split('\n').slice(-3).join(' | ')}`;
 }
 
 async function runJob(job: Job): Promise<never> {
@@ -67,16 +90,34 @@ async function runJob(job: Job): Promise<never> {
   process.exit(0);
 }
 
-const catalogueOnly = (quantity: Quantity) => (scene: SceneInfo) => (scene.truth === 'catalogue' ? quantity : undefined);
+const catalogueOnly = (quantity: Quantity) => (scene: SceneInfo) =>
+  scene.truth === 'catalogue' ? quantity : undefined;
 
 function figuresOf(details: EqualTimeDetails, judge: boolean): Figure[] {
   const figures: Figure[] = [];
   const peers = (Object.keys(CONTESTANTS) as ContestantName[]).filter((name) => name !== 'glanz');
   for (const peer of peers) {
-    const whole = (name: string, quantity: (scene: SceneInfo) => Quantity | undefined, clock: 'gpuMs' | 'wallMs', goal: boolean) => {
+    const whole = (
+      name: string,
+      quantity: (scene: SceneInfo) => Quantity | undefined,
+      clock: 'gpuMs' | 'wallMs',
+      goal: boolean,
+    ) => {
       const result = overall(details, peer, quantity, clock);
-      const target = goal && judge ? { target: { value: 10, relation: '>=' as const, source: 'ten times lower error at equal time' } } : {};
-      if (result) figures.push({ name: `${peer}: ${name}`, unit: '× lower', runs: result.count, min: result.least, median: result.mean, max: result.most, ...target });
+      const target =
+        goal && judge
+          ? { target: { value: 10, relation: '>=' as const, source: 'ten times lower error at equal time' } }
+          : {};
+      if (result)
+        figures.push({
+          name: `${peer}: ${name}`,
+          unit: '× lower',
+          runs: result.count,
+          min: result.least,
+          median: result.mean,
+          max: result.most,
+          ...target,
+        });
     };
     const unbiased = peer === 'three-gpu-pathtracer';
     whole('relMSE at equal GPU time, geometric mean', catalogueOnly('relMSE'), 'gpuMs', unbiased);
@@ -84,24 +125,44 @@ function figuresOf(details: EqualTimeDetails, judge: boolean): Figure[] {
     whole('noise at equal GPU time, geometric mean', () => 'noise', 'gpuMs', unbiased);
     whole('FLIP at equal GPU time, geometric mean', catalogueOnly('FLIP'), 'gpuMs', false);
     for (const scene of details.scenes) {
-      const found = ratios(details, scene.name, peer, scene.truth === 'catalogue' ? 'relMSE' : 'noise')?.filter(Number.isFinite);
-      if (found && found.length > 0) figures.push(timed(`${peer}: ${scene.name}, ${scene.truth === 'catalogue' ? 'relMSE' : 'noise'} over the budgets`, '× lower', found));
+      const found = ratios(details, scene.name, peer, scene.truth === 'catalogue' ? 'relMSE' : 'noise')?.filter(
+        Number.isFinite,
+      );
+      if (found && found.length > 0)
+        figures.push(
+          timed(
+            `${peer}: ${scene.name}, ${scene.truth === 'catalogue' ? 'relMSE' : 'noise'} over the budgets`,
+            '× lower',
+            found,
+          ),
+        );
     }
   }
   return figures;
 }
 
-async function measureAll({ log, quick, gpu, values }: BenchmarkContext): Promise<BenchmarkResult & { readonly details: EqualTimeDetails }> {
+async function measureAll({
+  log,
+  quick,
+  gpu,
+  values,
+}: BenchmarkContext): Promise<BenchmarkResult & { readonly details: EqualTimeDetails }> {
   const started = performance.now();
-  const scenes = listOption(values['scenes'], SCENES.map(({ name }) => name), 'scene').map((name) => SCENES.find((scene) => scene.name === name)!);
+  const scenes = listOption(
+    values['scenes'],
+    SCENES.map(({ name }) => name),
+    'scene',
+  ).map((name) => SCENES.find((scene) => scene.name === name)!);
   const contestants = listOption(values['contestants'], Object.keys(CONTESTANTS) as ContestantName[], 'contestant');
   const size = numberOption(values, 'size', quick ? CATALOGUE_SIZE : 512);
-  if (size % CATALOGUE_SIZE !== 0) throw new BenchError('bench/option', `--size must be a multiple of ${CATALOGUE_SIZE}, the size of the references.`);
+  if (size % CATALOGUE_SIZE !== 0)
+    throw new BenchError('bench/option', `--size must be a multiple of ${CATALOGUE_SIZE}, the size of the references.`);
   const runs = numberOption(values, 'runs', 2);
   const samples = numberOption(values, 'reference-samples', quick ? 64 : 16384);
   const deadline = numberOption(values, 'deadline', 1e9, false);
   const budgetsMs = (values['budgets'] ?? '0.1,0.3,1,3').split(',').map((text) => Number(text) * 1000);
-  if (budgetsMs.some((budget, i) => !(budget > (budgetsMs[i - 1] ?? 0)))) throw new BenchError('bench/option', '--budgets must be ascending seconds, e.g. 0.1,0.3,1,3.');
+  if (budgetsMs.some((budget, i) => !(budget > (budgetsMs[i - 1] ?? 0))))
+    throw new BenchError('bench/option', '--budgets must be ascending seconds, e.g. 0.1,0.3,1,3.');
   const folder = mkdtempSync(join(tmpdir(), 'glanz-equal-time-'));
   const measurements: Measurement[] = [];
   const crossChecks: CrossCheck[] = [];
@@ -112,7 +173,13 @@ async function measureAll({ log, quick, gpu, values }: BenchmarkContext): Promis
       const common = { scene: name, size, ...(gpu === undefined ? {} : { gpu }) };
       const referenceFile = join(folder, `${name}.reference`);
       if (truth === 'own') {
-        const check = late() ? 'left out: the deadline had passed' : await inChild<CrossCheck>({ kind: 'reference', out: join(folder, 'job.json'), plan: { ...common, samples, file: referenceFile } });
+        const check = late()
+          ? 'left out: the deadline had passed'
+          : await inChild<CrossCheck>({
+              kind: 'reference',
+              out: join(folder, 'job.json'),
+              plan: { ...common, samples, file: referenceFile },
+            });
         if (typeof check === 'string') {
           notes.push(`${name}: ${check}`);
           log(`${name}: ${check}`);
@@ -122,8 +189,16 @@ async function measureAll({ log, quick, gpu, values }: BenchmarkContext): Promis
       }
       for (const contestant of contestants) {
         // The second table wants no noise of its own: one run of the peer's defaults will do.
-        const plan: MeasurementPlan = { ...common, contestant, budgetsMs, runs: contestant.endsWith('(defaults)') ? 1 : runs, ...(truth === 'own' ? { referenceFile } : {}) };
-        const result = late() ? 'left out: the deadline had passed' : await inChild<Measurement>({ kind: 'measure', out: join(folder, 'job.json'), plan });
+        const plan: MeasurementPlan = {
+          ...common,
+          contestant,
+          budgetsMs,
+          runs: contestant.endsWith('(defaults)') ? 1 : runs,
+          ...(truth === 'own' ? { referenceFile } : {}),
+        };
+        const result = late()
+          ? 'left out: the deadline had passed'
+          : await inChild<Measurement>({ kind: 'measure', out: join(folder, 'job.json'), plan });
         if (typeof result === 'string') {
           notes.push(`${name}, ${contestant}: ${result}`);
           log(`${name}, ${contestant}: ${result}`);
@@ -138,9 +213,24 @@ async function measureAll({ log, quick, gpu, values }: BenchmarkContext): Promis
   }
   const adapter = measurements[0]?.adapter;
   if (!adapter) throw new BenchError('bench/not-available', `Nothing could be measured: ${notes.join('; ')}`);
-  const details: EqualTimeDetails = { budgetsMs, size, runs, scenes: scenes.map(({ name, title, truth }) => ({ name, title, truth })), measurements, crossChecks };
+  const details: EqualTimeDetails = {
+    budgetsMs,
+    size,
+    runs,
+    scenes: scenes.map(({ name, title, truth }) => ({ name, title, truth })),
+    measurements,
+    crossChecks,
+  };
   return {
-    settings: { size, runs, budgetsMs, scenes: scenes.map(({ name }) => name), contestants, referenceSamples: samples, peer: 'three-gpu-pathtracer 0.0.26 (WebGPU, wavefront) on three 0.185.0' },
+    settings: {
+      size,
+      runs,
+      budgetsMs,
+      scenes: scenes.map(({ name }) => name),
+      contestants,
+      referenceSamples: samples,
+      peer: 'three-gpu-pathtracer 0.0.26 (WebGPU, wavefront) on three 0.185.0',
+    },
     gpu: adapter,
     figures: figuresOf(details, !quick && !adapter.software),
     notes,
@@ -155,7 +245,22 @@ function joined(files: readonly string[]): EqualTimeReport & BenchmarkResult {
   const details = joinDetails(reports.map((report) => report.details));
   const quick = reports.some((report) => report.quick);
   const commits = [...new Set(reports.flatMap((report) => report.machine.commit?.split(', ') ?? []))];
-  return { ...first, machine: { ...first.machine, commit: commits.join(', ') }, quick, details, settings: { ...first.settings, scenes: details.scenes.map(({ name }) => name) }, figures: figuresOf(details, !quick && first.gpu?.software === false), notes: reports.flatMap(({ notes = [] }) => notes).filter((note) => !details.measurements.some(({ scene, contestant }) => note.startsWith(`${scene}:`) || note.startsWith(`${scene}, ${contestant}:`))) };
+  return {
+    ...first,
+    machine: { ...first.machine, commit: commits.join(', ') },
+    quick,
+    details,
+    settings: { ...first.settings, scenes: details.scenes.map(({ name }) => name) },
+    figures: figuresOf(details, !quick && first.gpu?.software === false),
+    notes: reports
+      .flatMap(({ notes = [] }) => notes)
+      .filter(
+        (note) =>
+          !details.measurements.some(
+            ({ scene, contestant }) => note.startsWith(`${scene}:`) || note.startsWith(`${scene}, ${contestant}:`),
+          ),
+      ),
+  };
 }
 
 /** Error at equal time, ours beside the strongest open competitor's, each in a process of its own on the same files. */
@@ -169,7 +274,8 @@ export const benchmark: Benchmark = {
     const from = values['from'];
     const earlier = from === undefined ? undefined : joined(from.split(','));
     const result = earlier ?? { ...(await measureAll(context)), machine: machine(), quick: context.quick };
-    if (values['pages'] !== undefined) for (const file of writePages(result as EqualTimeReport, values['pages'])) context.log(`wrote ${file}`);
+    if (values['pages'] !== undefined)
+      for (const file of writePages(result as EqualTimeReport, values['pages'])) context.log(`wrote ${file}`);
     else context.log(equalTimeMarkdown(result as EqualTimeReport));
     return result;
   },

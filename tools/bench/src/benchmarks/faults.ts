@@ -20,7 +20,9 @@ const CHILD = 'GLANZ_FAULTS_CHILD';
 const SUBJECTS: readonly Subject[] = ['tracer', 'viewer', 'cli'];
 
 /** Points tried and survived, by subject and fault. */
-export function summary(outcomes: readonly Outcome[]): { readonly subject: Subject; readonly fault: string; readonly tried: number; readonly survived: number }[] {
+export function summary(
+  outcomes: readonly Outcome[],
+): { readonly subject: Subject; readonly fault: string; readonly tried: number; readonly survived: number }[] {
   const rows = new Map<string, { subject: Subject; fault: string; tried: number; survived: number }>();
   for (const outcome of outcomes) {
     const key = `${outcome.subject} ${outcome.fault}`;
@@ -35,13 +37,16 @@ export function summary(outcomes: readonly Outcome[]): { readonly subject: Subje
 const list = <T extends string>(text: string | undefined, all: readonly T[], option: string): readonly T[] => {
   if (text === undefined) return all;
   const names = text.split(',');
-  for (const name of names) if (!all.includes(name as T)) throw new BenchError('bench/option', `--${option} ${name}: it must be of ${all.join(', ')}.`);
+  for (const name of names)
+    if (!all.includes(name as T))
+      throw new BenchError('bench/option', `--${option} ${name}: it must be of ${all.join(', ')}.`);
   return names as T[];
 };
 
 /** Faults injected into every distinct call to the GPU, see `faults/`. */
 export const benchmark: Benchmark = {
-  description: 'faults injected into every distinct GPU call of the tracer, the viewer and the command line: how many are survived',
+  description:
+    'faults injected into every distinct GPU call of the tracer, the viewer and the command line: how many are survived',
   options: {
     subject: { type: 'string', help: `of ${SUBJECTS.join(', ')}; default all` },
     fault: { type: 'string', help: `of ${FAULTS.join(', ')}; default all` },
@@ -53,9 +58,13 @@ export const benchmark: Benchmark = {
     const subjects = list(values['subject'], SUBJECTS, 'subject');
     const faults = list(values['fault'], FAULTS, 'fault') as readonly Fault[];
     const every = values['every'] === undefined ? (quick ? 40 : 1) : Number(values['every']);
-    if (!Number.isInteger(every) || every < 1) throw new BenchError('bench/option', `--every ${values['every']}: it must be a whole number of at least 1.`);
+    if (!Number.isInteger(every) || every < 1)
+      throw new BenchError('bench/option', `--every ${values['every']}: it must be a whole number of at least 1.`);
     const onOutcome = (outcome: Outcome, done: number, of: number) => {
-      if (!survived(outcome) || done % 50 === 0) log(`${done}/${of} ${survived(outcome) ? 'survived' : 'FAILED'} ${outcome.ending}: ${outcome.fault} at ${outcome.point}${outcome.detail === undefined ? '' : `: ${outcome.detail}`}`);
+      if (!survived(outcome) || done % 50 === 0)
+        log(
+          `${done}/${of} ${survived(outcome) ? 'survived' : 'FAILED'} ${outcome.ending}: ${outcome.fault} at ${outcome.point}${outcome.detail === undefined ? '' : `: ${outcome.detail}`}`,
+        );
     };
     const { gpu, adapterName, software } = await createGpu(name === undefined ? { software: 'only' } : { gpu: name });
     const isChild = process.env[CHILD] !== undefined;
@@ -64,14 +73,30 @@ export const benchmark: Benchmark = {
     try {
       const only = values['only'] ?? '';
       const campaign = { faults, every, only, onOutcome };
-      if (subjects.includes('tracer') && isChild) await tracerCampaign({ ...campaign, journal: new Journal(file), open: () => requestDevice({ gpu }) });
+      if (subjects.includes('tracer') && isChild)
+        await tracerCampaign({ ...campaign, journal: new Journal(file), open: () => requestDevice({ gpu }) });
       else if (subjects.includes('tracer')) {
-        const options = { subject: 'tracer', fault: values['fault'], only: values['only'], every: String(every), gpu: name, journal: file };
-        const args = Object.entries(options).flatMap(([option, value]) => (value === undefined ? [] : [`--${option}`, value]));
-        await untilDone([process.execPath, fileURLToPath(import.meta.url), ...args], file, { ...process.env, [CHILD]: '1' });
+        const options = {
+          subject: 'tracer',
+          fault: values['fault'],
+          only: values['only'],
+          every: String(every),
+          gpu: name,
+          journal: file,
+        };
+        const args = Object.entries(options).flatMap(([option, value]) =>
+          value === undefined ? [] : [`--${option}`, value],
+        );
+        await untilDone([process.execPath, fileURLToPath(import.meta.url), ...args], file, {
+          ...process.env,
+          [CHILD]: '1',
+        });
       }
       const journal = new Journal(file);
-      if (subjects.includes('viewer')) await viewerCampaign(values['fault'] === undefined ? { every, only, journal, onOutcome } : { ...campaign, journal });
+      if (subjects.includes('viewer'))
+        await viewerCampaign(
+          values['fault'] === undefined ? { every, only, journal, onOutcome } : { ...campaign, journal },
+        );
       if (subjects.includes('cli')) await cliCampaign({ ...campaign, journal });
       if (isChild) return { settings: {}, figures: [] };
       return report(journal, { subjects, faults, every, only }, { name: adapterName, software });
@@ -81,10 +106,25 @@ export const benchmark: Benchmark = {
   },
 };
 
-function report({ outcomes, missed }: Journal, settings: BenchmarkResult['settings'], gpu: { readonly name: string; readonly software: boolean }): BenchmarkResult {
+function report(
+  { outcomes, missed }: Journal,
+  settings: BenchmarkResult['settings'],
+  gpu: { readonly name: string; readonly software: boolean },
+): BenchmarkResult {
   const rows = summary(outcomes);
-  const figures = rows.map(({ subject, fault, tried, survived: good }): Figure => ({ name: `${subject}, ${fault}: survived`, unit: '1', runs: 1, median: good, target: { value: tried, relation: '>=', source: 'all points tried' } }));
-  const notes = outcomes.filter((outcome) => !survived(outcome)).map(({ subject, fault, point, ending, detail }) => `${subject}: ${fault} at ${point}: ${ending}${detail === undefined ? '' : ` (${detail})`}`);
+  const figures = rows.map(({ subject, fault, tried, survived: good }): Figure => ({
+    name: `${subject}, ${fault}: survived`,
+    unit: '1',
+    runs: 1,
+    median: good,
+    target: { value: tried, relation: '>=', source: 'all points tried' },
+  }));
+  const notes = outcomes
+    .filter((outcome) => !survived(outcome))
+    .map(
+      ({ subject, fault, point, ending, detail }) =>
+        `${subject}: ${fault} at ${point}: ${ending}${detail === undefined ? '' : ` (${detail})`}`,
+    );
   if (notes.length > 0) process.exitCode = 1;
   const notReached = missed.map(({ subject, point, fault }) => `${subject}: ${point} (${fault})`);
   return { settings, figures, gpu, notes, details: { summary: rows, outcomes, notReached } };

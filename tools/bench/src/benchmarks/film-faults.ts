@@ -17,11 +17,15 @@ interface Asset {
 
 function wholeNumber(name: string, text: string | undefined, otherwise: number): number {
   const value = text === undefined ? otherwise : Number(text);
-  if (!Number.isInteger(value) || value < 1) throw new BenchError('bench/option', `--${name} ${text}: it must be a whole number of at least 1.`);
+  if (!Number.isInteger(value) || value < 1)
+    throw new BenchError('bench/option', `--${name} ${text}: it must be a whole number of at least 1.`);
   return value;
 }
 
-/** Counts samples that are NaN, infinite or negative, as the kernel that adds them to the film counts them, over all sample assets. */
+/**
+ * Counts samples that are NaN, infinite or negative, as the kernel that adds them to the film counts them, over all
+ * sample assets.
+ */
 export const benchmark: Benchmark = {
   description: 'NaN, infinite and negative samples over all sample assets: none',
   options: {
@@ -32,13 +36,19 @@ export const benchmark: Benchmark = {
   },
   async run({ log, quick, gpu, values }) {
     const index = assetFile('index.json');
-    if (index === undefined) throw new BenchError('bench/missing-data', 'film-faults needs the sample assets: set GLANZ_ASSETS to their folder.');
+    if (index === undefined)
+      throw new BenchError(
+        'bench/missing-data',
+        'film-faults needs the sample assets: set GLANZ_ASSETS to their folder.',
+      );
     const { gpu: api, adapterName, software } = await createGpu(gpu === undefined ? {} : { gpu });
     const size = wholeNumber('size', values['size'], software ? 48 : 512);
     const samples = wholeNumber('samples', values['samples'], quick ? 4 : 64);
     const deadline = 1000 * wholeNumber('deadline', values['deadline'], 600);
     const wanted = values['models']?.split(',');
-    const assets = (JSON.parse(readFileSync(index, 'utf8')) as readonly Asset[]).filter(({ name, main }) => /\.(glb|gltf|obj|stl)$/i.test(main) && (wanted?.includes(name) ?? true));
+    const assets = (JSON.parse(readFileSync(index, 'utf8')) as readonly Asset[]).filter(
+      ({ name, main }) => /\.(glb|gltf|obj|stl)$/i.test(main) && (wanted?.includes(name) ?? true),
+    );
     const environment = studioEnvironment();
     const notes: string[] = [];
     const faulty: { name: string; bad: number; strange: number }[] = [];
@@ -58,7 +68,11 @@ export const benchmark: Benchmark = {
           void device.lost.then(() => (device = undefined));
         }
         const signal = AbortSignal.timeout(deadline);
-        tracer = await PathTracer.create(device, { ...scene, environment: scene.environment ?? environment }, { width: size, height: size, camera: frameCamera(scene, { aspect: 1 }), maxDepth: 12, signal });
+        tracer = await PathTracer.create(
+          device,
+          { ...scene, environment: scene.environment ?? environment },
+          { width: size, height: size, camera: frameCamera(scene, { aspect: 1 }), maxDepth: 12, signal },
+        );
         for await (const progress of tracer.render({ samples, signal, maxSubmitMs: 200 })) void progress;
         // What is in the film is looked at as well: the kernel's word is not taken for it.
         const beauty = await tracer.read('beauty');
@@ -70,7 +84,9 @@ export const benchmark: Benchmark = {
         if (tracer.samples >= samples) complete++;
         else notes.push(`${name}: ${tracer.samples} samples in ${deadline / 1000} s.`);
         if (found + here > 0) faulty.push({ name, bad: found, strange: here });
-        log(`${name}: ${found} bad samples, ${here} bad numbers in the film, ${tracer.samples} samples, ${((performance.now() - start) / 1000).toFixed(1)} s`);
+        log(
+          `${name}: ${found} bad samples, ${here} bad numbers in the film, ${tracer.samples} samples, ${((performance.now() - start) / 1000).toFixed(1)} s`,
+        );
       } catch (error) {
         notes.push(`${name} left out: ${(error as Error).message.split('\n', 1)[0]}`);
         log(`${name}: left out: ${(error as Error).message.split('\n', 1)[0]}`);
@@ -79,8 +95,16 @@ export const benchmark: Benchmark = {
       }
     }
     device?.destroy();
-    for (const row of faulty) notes.push(`${row.name}: ${row.bad} bad samples, ${row.strange} bad numbers in the film.`);
-    const one = (name: string, unit: string, mean: number, target?: Figure['target']): Figure => ({ name, unit, runs: 1, mean, ci95: 0, ...(target ? { target } : {}) });
+    for (const row of faulty)
+      notes.push(`${row.name}: ${row.bad} bad samples, ${row.strange} bad numbers in the film.`);
+    const one = (name: string, unit: string, mean: number, target?: Figure['target']): Figure => ({
+      name,
+      unit,
+      runs: 1,
+      mean,
+      ci95: 0,
+      ...(target ? { target } : {}),
+    });
     const none = { value: 0, relation: '<=', source: 'none at all' } as const;
     return {
       settings: { size, samples, maxDepth: 12 },

@@ -70,19 +70,36 @@ async function firstImage(gpu: string, size: number, threads: number, warm: bool
   tracer.destroy();
   workers?.destroy();
   graphics.destroy();
-  return { adapterName, software, loaded, device, warmed, scene, ...(firstLight === undefined ? {} : { firstLight }), built, uploaded, prepared, sampled, read, times: { checkMs, textMs, bvhMs, lightMs, compileMs } };
+  return {
+    adapterName,
+    software,
+    loaded,
+    device,
+    warmed,
+    scene,
+    ...(firstLight === undefined ? {} : { firstLight }),
+    built,
+    uploaded,
+    prepared,
+    sampled,
+    read,
+    times: { checkMs, textMs, bvhMs, lightMs, compileMs },
+  };
 }
 
 async function measure({ log, quick, gpu, values }: BenchmarkContext) {
   const size = quick ? 64 : 512;
   // As many as the viewer has.
   const threads = Number(values['workers'] ?? Math.min(8, availableParallelism()));
-  if (!Number.isInteger(threads) || threads < 0) throw new BenchError('bench/option', `--workers ${values['workers']}: it must be a whole number, 0 for none.`);
+  if (!Number.isInteger(threads) || threads < 0)
+    throw new BenchError('bench/option', `--workers ${values['workers']}: it must be a whole number, 0 for none.`);
   const run = async (warm: boolean) => {
     const env = { ...process.env, [CHILD]: JSON.stringify([gpu ?? '', size, threads, warm]) };
     const { stdout } = await promisify(execFile)(process.execPath, [fileURLToPath(import.meta.url)], { env });
     const stages = JSON.parse(stdout.slice(stdout.indexOf('{'))) as Stages;
-    log(`first sample ${(stages.sampled - stages.scene).toFixed(0)} ms after the scene was in memory${warm ? ', warmed up' : ''}`);
+    log(
+      `first sample ${(stages.sampled - stages.scene).toFixed(0)} ms after the scene was in memory${warm ? ', warmed up' : ''}`,
+    );
     return stages;
   };
   const cold = await run(false);
@@ -104,7 +121,10 @@ async function measure({ log, quick, gpu, values }: BenchmarkContext) {
     ['scene prepared', ({ scene, prepared }) => prepared - scene],
     ['of that, checks', ({ times }) => times.checkMs],
     ['of that, the text of kernels', ({ times }) => times.textMs],
-    ['of that, hierarchies, or what was left to wait for them', ({ scene, built, times }) => built - scene - times.checkMs - times.textMs],
+    [
+      'of that, hierarchies, or what was left to wait for them',
+      ({ scene, built, times }) => built - scene - times.checkMs - times.textMs,
+    ],
     ['of that, shapes written to the GPU', ({ built, uploaded, times }) => uploaded - built - times.lightMs],
     ['of that, lights, surroundings and tables', ({ times }) => times.lightMs],
     ['of that, waiting for pipelines', ({ uploaded, prepared }) => prepared - uploaded],
@@ -113,24 +133,41 @@ async function measure({ log, quick, gpu, values }: BenchmarkContext) {
     ['first sample', ({ prepared, sampled }) => sampled - prepared],
     ['first sample copied to the CPU', ({ sampled, read }) => read - sampled],
   ];
-  const goal = (asked: boolean, value: number): Figure['target'] => (asked && !cold.software && !quick ? { value, relation: '<=', source: 'asked for' } : undefined);
+  const goal = (asked: boolean, value: number): Figure['target'] =>
+    asked && !cold.software && !quick ? { value, relation: '<=', source: 'asked for' } : undefined;
   const figures: Figure[] = rows.flatMap(([name, value]) => [
     timed(name, 'ms', plain.map(value), goal(name === 'scene in memory to first sample', 150)),
     timed(`${name}, warmed up`, 'ms', ready.map(value), goal(name === 'scene in memory to first sample', 150)),
     timed(`${name}, first process`, 'ms', [value(cold)], goal(name === 'pipelines', 1000)),
   ]);
   return {
-    settings: { model: 'push-button medium', workers: threads, width: size, height: size, maxDepth: 5, environment: 'constant, radiance 1' },
+    settings: {
+      model: 'push-button medium',
+      workers: threads,
+      width: size,
+      height: size,
+      maxDepth: 5,
+      environment: 'constant, radiance 1',
+    },
     gpu: { name: cold.adapterName, software: cold.software },
     figures,
-    notes: ['warmed up: `warmUp()` before the model is made, as while one is loading', 'the first process may find the cache of the driver cold; the others find it warm', 'pipelines compile while hierarchies are built and the scene is uploaded: their time counts from when they are asked for'],
+    notes: [
+      'warmed up: `warmUp()` before the model is made, as while one is loading',
+      'the first process may find the cache of the driver cold; the others find it warm',
+      'pipelines compile while hierarchies are built and the scene is uploaded: their time counts from when they are asked for',
+    ],
   };
 }
 
 /** From the start of a process to its first image, each time in a new process. */
 export const benchmark: Benchmark = {
   description: 'from the start of a process to the first sample of the push-button with 107 k triangles',
-  options: { workers: { type: 'string', help: 'threads that build hierarchies, 0 for the main thread alone; default: one a core, at most 8' } },
+  options: {
+    workers: {
+      type: 'string',
+      help: 'threads that build hierarchies, 0 for the main thread alone; default: one a core, at most 8',
+    },
+  },
   async run(context) {
     // A worker of the process below.
     if (servesBenchmark()) return { settings: {}, figures: [] };

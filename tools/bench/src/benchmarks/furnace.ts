@@ -24,8 +24,19 @@ export const benchmark: Benchmark = {
         log(`${material} ${roughness}: ${figure.mean!.toFixed(5)} ± ${figure.ci95!.toFixed(5)}`);
       }
     }
-    figures.push({ name: 'largest distance from 1', unit: '1', runs: 1, mean: worst, ci95: 0, target: { value: 0.01, relation: '<=', source: 'white furnace within 1 %' } });
+    figures.push({
+      name: 'largest distance from 1',
+      unit: '1',
+      runs: 1,
+      mean: worst,
+      ci95: 0,
+      target: { value: 0.01, relation: '<=', source: 'white furnace within 1 %' },
+    });
     device.destroy();
-    return { settings: { ...settings, multipleScattering: true, radiance: 1 }, gpu: { name: adapterName, software }, figures };
+    return {
+      settings: { ...settings, multipleScattering: true, radiance: 1 },
+      gpu: { name: adapterName, software },
+      figures,
+    };
   },
 };

@@ -1,13 +1,28 @@
 import { GltfError } from '@glanz/gltf';
 import { createGpu } from '@glanz/renderer/node';
 import { requestDevice } from '@glanz/renderer';
-import { GROUND_TRUTH_CASES, GroundTruth, catalogueFolder, comparePictures, convergenceSlope, failures, measureConvergence, renderGroundTruth } from '@glanz/reference';
+import {
+  GROUND_TRUTH_CASES,
+  GroundTruth,
+  catalogueFolder,
+  comparePictures,
+  convergenceSlope,
+  failures,
+  measureConvergence,
+  renderGroundTruth,
+} from '@glanz/reference';
 import { estimated, type Benchmark, type Figure } from '../benchmark';
 import { decodePixels, packedFolder, usePackedCatalogue } from '../equal-time/load';
 import { BenchError } from '../error';
 
 /** Targets for relMSE × samples, of a renderer with Sobol sampling and MIS compensation. */
-const TARGETS: Readonly<Record<string, number>> = { env_soft: 0.15, env_sun: 0.9, cornell_diffuse: 0.19, dof: 0.22, veach_mis: 0.2 };
+const TARGETS: Readonly<Record<string, number>> = {
+  env_soft: 0.15,
+  env_sun: 0.9,
+  cornell_diffuse: 0.19,
+  dof: 0.22,
+  veach_mis: 0.2,
+};
 
 /** Error against the ground-truth references: agreement, and error per sample. */
 export const benchmark: Benchmark = {
@@ -15,11 +30,18 @@ export const benchmark: Benchmark = {
   options: {
     scenes: { type: 'string', help: 'only these, by name, separated by commas' },
     samples: { type: 'string', help: 'samples per pixel of each run' },
-    slopes: { type: 'string', help: 'most samples per pixel for the slopes of convergence, 16 at least; without it they are not measured' },
+    slopes: {
+      type: 'string',
+      help: 'most samples per pixel for the slopes of convergence, 16 at least; without it they are not measured',
+    },
   },
   async run({ log, quick, gpu, values }) {
     usePackedCatalogue();
-    if (!catalogueFolder()) throw new BenchError('bench/missing-data', 'groundtruth needs the ground-truth catalogue: set GLANZ_GROUNDTRUTH to its folder "scenes".');
+    if (!catalogueFolder())
+      throw new BenchError(
+        'bench/missing-data',
+        'groundtruth needs the ground-truth catalogue: set GLANZ_GROUNDTRUTH to its folder "scenes".',
+      );
     const { gpu: api, adapterName, software } = await createGpu(gpu === undefined ? {} : { gpu });
     const device = await requestDevice({ gpu: api });
     // Independent seeds give the interval; their mean is the picture that is checked.
@@ -27,9 +49,14 @@ export const benchmark: Benchmark = {
     const samples = wholeNumber('samples', values['samples']) ?? (quick ? 4 : software ? 32 : 256);
     const wanted = values['scenes']?.split(',');
     const unknown = wanted?.find((name) => !GROUND_TRUTH_CASES.some(({ scene }) => scene === name));
-    if (unknown !== undefined) throw new BenchError('bench/option', `--scenes: there is no scene "${unknown}"; there are: ${[...new Set(GROUND_TRUTH_CASES.map(({ scene }) => scene))].join(', ')}.`);
+    if (unknown !== undefined)
+      throw new BenchError(
+        'bench/option',
+        `--scenes: there is no scene "${unknown}"; there are: ${[...new Set(GROUND_TRUTH_CASES.map(({ scene }) => scene))].join(', ')}.`,
+      );
     const most = wholeNumber('slopes', values['slopes']);
-    if (most !== undefined && most < 16) throw new BenchError('bench/option', `--slopes ${most}: it must be at least 16.`);
+    if (most !== undefined && most < 16)
+      throw new BenchError('bench/option', `--slopes ${most}: it must be at least 16.`);
     const cases = GROUND_TRUTH_CASES.filter(({ scene }) => wanted?.includes(scene) ?? true);
     const figures: Figure[] = [];
     const notes: string[] = [];
@@ -58,30 +85,69 @@ export const benchmark: Benchmark = {
       if (whole.passed) agreeing++;
       else notes.push(`${name} disagrees: ${failures(whole)}`);
       const target = variant === 'full' ? TARGETS[scene] : undefined;
-      figures.push(estimated(`${name}: relMSE × samples`, '1', perSample, target === undefined ? undefined : { value: target, relation: '<=', source: 'sample efficiency aimed at' }));
+      figures.push(
+        estimated(
+          `${name}: relMSE × samples`,
+          '1',
+          perSample,
+          target === undefined ? undefined : { value: target, relation: '<=', source: 'sample efficiency aimed at' },
+        ),
+      );
       const mean = perSample.reduce((a, b) => a + b, 0) / runs;
-      figures.push({ name: `${name}: samples of the reference renderer per sample`, unit: '1', runs, mean: truth.picture(variant).stats.relmse_1spp / mean, ci95: 0 });
+      figures.push({
+        name: `${name}: samples of the reference renderer per sample`,
+        unit: '1',
+        runs,
+        mean: truth.picture(variant).stats.relmse_1spp / mean,
+        ci95: 0,
+      });
       if (most !== undefined && variant === 'full') {
         // Below the error that the catalogue allows the reference itself, a slope would be the reference's.
-        const last = Math.max(16, Math.min(most, Math.floor(truth.picture(variant).stats.relmse_1spp / truth.tolerance.floor)));
+        const last = Math.max(
+          16,
+          Math.min(most, Math.floor(truth.picture(variant).stats.relmse_1spp / truth.tolerance.floor)),
+        );
         // Four steps, from a sixteenth of the samples or so.
         const counts = [last / 16, last / 8, last / 4, last / 2, last].map(Math.round);
-        if (last < most) notes.push(`${name}: slope up to ${last} samples, where its error is as low as the reference's may be`);
+        if (last < most)
+          notes.push(`${name}: slope up to ${last} samples, where its error is as low as the reference's may be`);
         const slope = convergenceSlope(await measureConvergence(device, truth, counts, runs));
-        figures.push({ name: `${name}: slope of convergence away from −1`, unit: '1', runs, mean: Math.abs(slope + 1), ci95: 0, target: { value: 0.05, relation: '<=', source: 'unbiased' } });
+        figures.push({
+          name: `${name}: slope of convergence away from −1`,
+          unit: '1',
+          runs,
+          mean: Math.abs(slope + 1),
+          ci95: 0,
+          target: { value: 0.05, relation: '<=', source: 'unbiased' },
+        });
         log(`${name}: slope ${slope.toFixed(3)}`);
       }
-      log(`${name}: ${whole.passed ? 'agrees' : 'DISAGREES'}, relMSE × samples ${mean.toPrecision(3)}, ${((performance.now() - start) / 1000).toFixed(1)} s`);
+      log(
+        `${name}: ${whole.passed ? 'agrees' : 'DISAGREES'}, relMSE × samples ${mean.toPrecision(3)}, ${((performance.now() - start) / 1000).toFixed(1)} s`,
+      );
     }
-    figures.push({ name: 'pictures that agree with their reference', unit: `of ${cases.length}`, runs: 1, mean: agreeing, ci95: 0, target: { value: cases.length, relation: '>=', source: 'all of them' } });
+    figures.push({
+      name: 'pictures that agree with their reference',
+      unit: `of ${cases.length}`,
+      runs: 1,
+      mean: agreeing,
+      ci95: 0,
+      target: { value: cases.length, relation: '>=', source: 'all of them' },
+    });
     device.destroy();
-    return { settings: { samples, runs, multipleScattering: false }, gpu: { name: adapterName, software }, figures, notes };
+    return {
+      settings: { samples, runs, multipleScattering: false },
+      gpu: { name: adapterName, software },
+      figures,
+      notes,
+    };
   },
 };
 
 function wholeNumber(name: string, text: string | undefined): number | undefined {
   if (text === undefined) return undefined;
   const value = Number(text);
-  if (!Number.isInteger(value) || value < 1) throw new BenchError('bench/option', `--${name} ${text}: it must be a whole number of at least 1.`);
+  if (!Number.isInteger(value) || value < 1)
+    throw new BenchError('bench/option', `--${name} ${text}: it must be a whole number of at least 1.`);
   return value;
 }

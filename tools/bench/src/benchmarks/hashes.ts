@@ -17,16 +17,49 @@ const ASSET_SAMPLES = 2;
 
 /** Sample assets that are rendered by default: textures of several kinds, alpha, vertex colours, mirrored instances. */
 const FILM_ASSETS: ReadonlySet<string> = new Set(
-  ['AlphaBlendModeTest', 'AttenuationTest', 'BoxTextured', 'Duck', 'MultiUVTest', 'NegativeScaleTest', 'TextureSettingsTest', 'VertexColorTest'].map((name) => `asset ${name}`),
+  [
+    'AlphaBlendModeTest',
+    'AttenuationTest',
+    'BoxTextured',
+    'Duck',
+    'MultiUVTest',
+    'NegativeScaleTest',
+    'TextureSettingsTest',
+    'VertexColorTest',
+  ].map((name) => `asset ${name}`),
 );
 
-const LAYER_CHANNELS = { beauty: 4, variance: 1, albedo: 3, normal: 3, position: 3, depth: 1, objectId: 1, materialId: 1 } as const;
+const LAYER_CHANNELS = {
+  beauty: 4,
+  variance: 1,
+  albedo: 3,
+  normal: 3,
+  position: 3,
+  depth: 1,
+  objectId: 1,
+  materialId: 1,
+} as const;
 
 /** Renders one case and gives the hashes of its layers. */
-async function filmHashes(device: GPUDevice, { name, scene, options, layers = [], noise, relight }: HashCase, samples: number): Promise<HashEntry[]> {
-  const tracer = await PathTracer.create(device, await scene(), { seed: 1, maxDepth: 6, maxVolumeDepth: 32, ...options, width: SIZE, height: SIZE });
+async function filmHashes(
+  device: GPUDevice,
+  { name, scene, options, layers = [], noise, relight }: HashCase,
+  samples: number,
+): Promise<HashEntry[]> {
+  const tracer = await PathTracer.create(device, await scene(), {
+    seed: 1,
+    maxDepth: 6,
+    maxVolumeDepth: 32,
+    ...options,
+    width: SIZE,
+    height: SIZE,
+  });
   try {
-    for await (const progress of tracer.render({ ...(noise === undefined ? { samples } : { noise, samples: 128 }), maxSubmitMs: 500 })) void progress;
+    for await (const progress of tracer.render({
+      ...(noise === undefined ? { samples } : { noise, samples: 128 }),
+      maxSubmitMs: 500,
+    }))
+      void progress;
     const films: HashEntry[] = [];
     const add = (part: string, data: Float32Array<ArrayBuffer> | Uint32Array<ArrayBuffer>, channels: number) =>
       films.push({ scene: name, part, hash: digest(data), means: channelMeans(data, channels) });
@@ -43,9 +76,11 @@ async function filmHashes(device: GPUDevice, { name, scene, options, layers = []
 
 /** Composes the programs of one case and compiles none: pipelines are refused. */
 async function composeOnly(device: GPUDevice, { scene, options }: HashCase): Promise<void> {
-  const tracer = await PathTracer.create(device, await scene(), { ...options, width: SIZE, height: SIZE }).catch((error: unknown) => {
-    if (!String((error as Error).message).includes(REFUSED)) throw error;
-  });
+  const tracer = await PathTracer.create(device, await scene(), { ...options, width: SIZE, height: SIZE }).catch(
+    (error: unknown) => {
+      if (!String((error as Error).message).includes(REFUSED)) throw error;
+    },
+  );
   tracer?.destroy();
 }
 
@@ -57,7 +92,11 @@ function readReport(file: string): Hashes {
     if (!Array.isArray(details.films) || !Array.isArray(details.programs)) throw new Error('it holds no hashes');
     return details;
   } catch (cause) {
-    throw new BenchError('bench/missing-data', `--against ${file} cannot be read: ${(cause as Error).message}. It must be a file that "hashes --json FILE" wrote.`, { cause });
+    throw new BenchError(
+      'bench/missing-data',
+      `--against ${file} cannot be read: ${(cause as Error).message}. It must be a file that "hashes --json FILE" wrote.`,
+      { cause },
+    );
   }
 }
 
@@ -70,25 +109,40 @@ function table(kind: string, found: readonly Difference[]): string[] {
 
 /** Hashes of films and programs, to show that a change of the renderer leaves both as they were. */
 export const benchmark: Benchmark = {
-  description: 'nothing: it stores a hash of the film and of each program of a fixed set of scenes, and compares them with an earlier run (--against FILE)',
+  description:
+    'nothing: it stores a hash of the film and of each program of a fixed set of scenes, and compares them with an earlier run (--against FILE)',
   options: {
     against: { type: 'string', help: 'file of an earlier run; exit status 1 if a hash differs' },
     only: { type: 'string', help: 'part of the names of scenes, e.g. "material" or "asset Duck"' },
-    assets: { type: 'string', help: 'some (default): programs of all sample assets and films of eight; all: films of all; no: none' },
+    assets: {
+      type: 'string',
+      help: 'some (default): programs of all sample assets and films of eight; all: films of all; no: none',
+    },
     films: { type: 'string', help: 'no: compares programs alone, compiles and renders nothing' },
   },
   async run({ log, quick, gpu: gpuName, values }) {
     const before = values['against'] === undefined ? undefined : readReport(values['against']);
     const which = values['assets'] ?? (quick ? 'no' : 'some');
-    if (!['all', 'some', 'no'].includes(which)) throw new BenchError('bench/option', `--assets ${which}: it must be all, some or no.`);
+    if (!['all', 'some', 'no'].includes(which))
+      throw new BenchError('bench/option', `--assets ${which}: it must be all, some or no.`);
     const assets = which === 'no' ? [] : assetCases();
-    const notes = assets === undefined ? ['The sample assets are not present: their scenes were skipped.'] : which === 'no' ? ['The sample assets were left out.'] : [];
-    if (which === 'some' && assets) notes.push(`Of the sample assets, films of ${FILM_ASSETS.size} were rendered and programs of all composed; --assets all renders all.`);
+    const notes =
+      assets === undefined
+        ? ['The sample assets are not present: their scenes were skipped.']
+        : which === 'no'
+          ? ['The sample assets were left out.']
+          : [];
+    if (which === 'some' && assets)
+      notes.push(
+        `Of the sample assets, films of ${FILM_ASSETS.size} were rendered and programs of all composed; --assets all renders all.`,
+      );
     const wanted = values['only'] ?? '';
     const cases = [...HASH_CASES, ...(assets ?? [])].filter(({ name }) => name.includes(wanted));
     if (cases.length === 0) throw new BenchError('bench/option', `--only ${wanted}: no scene has this in its name.`);
     const render = values['films'] !== 'no';
-    const { gpu, adapterName, software } = await createGpu(gpuName === undefined ? { software: 'only' } : { gpu: gpuName });
+    const { gpu, adapterName, software } = await createGpu(
+      gpuName === undefined ? { software: 'only' } : { gpu: gpuName },
+    );
     const films: HashEntry[] = [];
     const programs = new Map<string, HashEntry>();
     const flagSets = new Map<string, Readonly<Record<string, boolean>>>();
@@ -106,12 +160,14 @@ export const benchmark: Benchmark = {
           flagSets.set(JSON.stringify(flags), flags);
         });
         try {
-          if (compiled) films.push(...(await filmHashes(device, one, one.name.startsWith('asset ') ? ASSET_SAMPLES : SAMPLES)));
+          if (compiled)
+            films.push(...(await filmHashes(device, one, one.name.startsWith('asset ') ? ASSET_SAMPLES : SAMPLES)));
           else await composeOnly(device, one);
         } catch (error) {
           const reason = (error as Error).message.split('\n', 1)[0]!;
           // Every scene of the project can be rendered; an asset may need a decoder that is not installed.
-          if (!one.name.startsWith('asset ')) throw new BenchError('bench/failed', `${one.name}: ${reason}`, { cause: error });
+          if (!one.name.startsWith('asset '))
+            throw new BenchError('bench/failed', `${one.name}: ${reason}`, { cause: error });
           skipped.push(`${one.name}: ${reason}`);
         } finally {
           device.destroy();
@@ -130,7 +186,13 @@ export const benchmark: Benchmark = {
       { name: 'programs', unit: '1', runs: 1, median: details.programs.length },
     ];
     if (wanted === '') {
-      figures.push({ name: 'flags that no scene uses', unit: '1', runs: 1, median: neverOn.length, target: { value: 0, relation: '<=', source: 'each flag is on somewhere' } });
+      figures.push({
+        name: 'flags that no scene uses',
+        unit: '1',
+        runs: 1,
+        median: neverOn.length,
+        target: { value: 0, relation: '<=', source: 'each flag is on somewhere' },
+      });
       if (neverOn.length > 0) {
         notes.push(`No scene uses ${neverOn.join(', ')}: add one to src/hashes/scenes.ts.`);
         process.exitCode = 1;
@@ -139,12 +201,35 @@ export const benchmark: Benchmark = {
     }
     if (before) {
       const partial = wanted !== '' || (assets ?? []).length === 0;
-      const changed = [...table('film', render ? differences(before.films, films, partial || which !== 'all') : []), ...table('program', differences(before.programs, details.programs, partial || !render))];
-      figures.push({ name: 'hashes that differ', unit: '1', runs: 1, median: changed.length, target: { value: 0, relation: '<=', source: String(values['against']) } });
+      const changed = [
+        ...table('film', render ? differences(before.films, films, partial || which !== 'all') : []),
+        ...table('program', differences(before.programs, details.programs, partial || !render)),
+      ];
+      figures.push({
+        name: 'hashes that differ',
+        unit: '1',
+        runs: 1,
+        median: changed.length,
+        target: { value: 0, relation: '<=', source: String(values['against']) },
+      });
       notes.push(...changed);
       if (changed.length > 0) process.exitCode = 1;
     }
-    return { settings: { assets: which, size: SIZE, samples: SAMPLES, assetSamples: ASSET_SAMPLES, seed: 1, only: wanted, films: render }, gpu: { name: adapterName, software }, figures, notes, details };
+    return {
+      settings: {
+        assets: which,
+        size: SIZE,
+        samples: SAMPLES,
+        assetSamples: ASSET_SAMPLES,
+        seed: 1,
+        only: wanted,
+        films: render,
+      },
+      gpu: { name: adapterName, software },
+      figures,
+      notes,
+      details,
+    };
   },
 };
 

@@ -1,5 +1,12 @@
 import { toHalf } from '@glanz/image';
-import { openpbr, openPbrStruct, packOpenPbr, requiredFeatures, resolveParameters, type OpenPbrParameters } from '@glanz/openpbr';
+import {
+  openpbr,
+  openPbrStruct,
+  packOpenPbr,
+  requiredFeatures,
+  resolveParameters,
+  type OpenPbrParameters,
+} from '@glanz/openpbr';
 import { OPENPBR_TABLES } from '@glanz/openpbr/tables';
 import { requestDevice } from '@glanz/renderer';
 import { createGpu } from '@glanz/renderer/node';
@@ -21,14 +28,48 @@ const SETS: readonly (readonly [name: string, materials: readonly Partial<OpenPb
   ['base and fuzz', [{ ...BASE, ...FUZZ }]],
   ['base and transmission', [{ ...BASE, ...GLASS }]],
   ['base and thin film', [{ ...BASE, ...FILM }]],
-  ['everything but film', [{ ...BASE, ...METAL, ...COAT, ...FUZZ, ...GLASS, subsurface_weight: 0.3, base_diffuse_roughness: 0.3, specular_roughness_anisotropy: 0.3, emission_luminance: 1 }]],
-  ['everything', [{ ...BASE, ...METAL, ...COAT, ...FUZZ, ...GLASS, ...FILM, subsurface_weight: 0.3, base_diffuse_roughness: 0.3, specular_roughness_anisotropy: 0.3, emission_luminance: 1 }]],
+  [
+    'everything but film',
+    [
+      {
+        ...BASE,
+        ...METAL,
+        ...COAT,
+        ...FUZZ,
+        ...GLASS,
+        subsurface_weight: 0.3,
+        base_diffuse_roughness: 0.3,
+        specular_roughness_anisotropy: 0.3,
+        emission_luminance: 1,
+      },
+    ],
+  ],
+  [
+    'everything',
+    [
+      {
+        ...BASE,
+        ...METAL,
+        ...COAT,
+        ...FUZZ,
+        ...GLASS,
+        ...FILM,
+        subsurface_weight: 0.3,
+        base_diffuse_roughness: 0.3,
+        specular_roughness_anisotropy: 0.3,
+        emission_luminance: 1,
+      },
+    ],
+  ],
 ];
 
 const GROUP = 64;
 const LOOPS = 16;
 
-/** A path's work at a surface: prepare, a sample, and the value and density for a light. "salt" keeps drivers' caches out. */
+/**
+ * A path's work at a surface: prepare, a sample, and the value and density for a light. "salt" keeps drivers' caches
+ * out.
+ */
 const kernel = (salt: number) =>
   wgslModule(
     'bench/openpbr',
@@ -68,7 +109,10 @@ fn upper(state: ptr<function, u32>) -> vec3f {
     [openpbr],
   );
 
-/** Shaded samples a second, one a thread and loop, by the lobes that the materials have, and what the kernel takes to compile. */
+/**
+ * Shaded samples a second, one a thread and loop, by the lobes that the materials have, and what the kernel takes to
+ * compile.
+ */
 export const benchmark: Benchmark = {
   description: 'OpenPBR: shaded samples a second and cold compile time, by lobes',
   async run({ log, quick, gpu, seed = Math.floor(performance.timeOrigin + performance.now()) % 1_000_000 }) {
@@ -93,22 +137,41 @@ export const benchmark: Benchmark = {
           { binding: 4, visibility, sampler: {} },
         ],
       });
-      const pipeline = await device.createComputePipelineAsync({ layout: device.createPipelineLayout({ bindGroupLayouts: [layout] }), compute: { module, entryPoint: 'main' } });
+      const pipeline = await device.createComputePipelineAsync({
+        layout: device.createPipelineLayout({ bindGroupLayouts: [layout] }),
+        compute: { module, entryPoint: 'main' },
+      });
       const created = performance.now() - create;
       const records = openPbrStruct.allocate(materials.length);
       materials.forEach((material, i) => packOpenPbr(records, i, resolveParameters(material)));
-      const buffer = device.createBuffer({ size: records.byteLength, usage: GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST });
+      const buffer = device.createBuffer({
+        size: records.byteLength,
+        usage: GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST,
+      });
       device.queue.writeBuffer(buffer, 0, records);
       const results = device.createBuffer({ size: threads * 16, usage: GPUBufferUsage.STORAGE });
       const textures = (['dielectric', 'conductor'] as const).map((table) => {
         const { width, height, depth, data } = OPENPBR_TABLES[table];
-        const texture = device.createTexture({ size: [width, height, depth], dimension: table === 'dielectric' ? '3d' : '2d', format: 'r16float', usage: GPUTextureUsage.TEXTURE_BINDING | GPUTextureUsage.COPY_DST });
-        device.queue.writeTexture({ texture }, Uint16Array.from(data, toHalf), { bytesPerRow: width * 2, rowsPerImage: height }, [width, height, depth]);
+        const texture = device.createTexture({
+          size: [width, height, depth],
+          dimension: table === 'dielectric' ? '3d' : '2d',
+          format: 'r16float',
+          usage: GPUTextureUsage.TEXTURE_BINDING | GPUTextureUsage.COPY_DST,
+        });
+        device.queue.writeTexture(
+          { texture },
+          Uint16Array.from(data, toHalf),
+          { bytesPerRow: width * 2, rowsPerImage: height },
+          [width, height, depth],
+        );
         return texture.createView();
       });
       const sampler = device.createSampler({ magFilter: 'linear', minFilter: 'linear' });
       const resources: GPUBindingResource[] = [{ buffer }, { buffer: results }, ...textures, sampler];
-      const bind = device.createBindGroup({ layout, entries: resources.map((resource, binding) => ({ binding, resource })) });
+      const bind = device.createBindGroup({
+        layout,
+        entries: resources.map((resource, binding) => ({ binding, resource })),
+      });
       const dispatch = async (times: number, groups = threads / GROUP) => {
         const encoder = device.createCommandEncoder();
         const pass = encoder.beginComputePass();
@@ -130,10 +193,23 @@ export const benchmark: Benchmark = {
       for (let i = 0; i < runs; i++) rates.push((threads * LOOPS * times) / (await dispatch(times)) / 1e3);
       figures.push(timed(`${name}: shaded samples`, 'M/s', rates));
       const limit = name === 'everything' ? (software ? 10_000 : 1500) : undefined;
-      figures.push(timed(`${name}: compile, cold`, 'ms', [compile], limit === undefined ? undefined : { value: limit, relation: '<=', source: 'aim' }));
-      log(`${name}: ${(figures.at(-2)?.median ?? 0).toFixed(2)} M/s, compiled in ${compile.toFixed(0)} ms, ${code.length} characters`);
+      figures.push(
+        timed(
+          `${name}: compile, cold`,
+          'ms',
+          [compile],
+          limit === undefined ? undefined : { value: limit, relation: '<=', source: 'aim' },
+        ),
+      );
+      log(
+        `${name}: ${(figures.at(-2)?.median ?? 0).toFixed(2)} M/s, compiled in ${compile.toFixed(0)} ms, ${code.length} characters`,
+      );
       device.destroy();
     }
-    return { settings: { threads, loops: LOOPS, group: GROUP, sets: Object.fromEntries(SETS) }, gpu: { name: adapterName, software }, figures };
+    return {
+      settings: { threads, loops: LOOPS, group: GROUP, sets: Object.fromEntries(SETS) },
+      gpu: { name: adapterName, software },
+      figures,
+    };
   },
 };

@@ -19,7 +19,8 @@ export const benchmark: Benchmark = {
     for (const [level, name] of PUSH_BUTTONS) {
       if (quick && level === 'high') continue;
       const mesh = merged(name, createPushButton({ level }));
-      const ours: number[] = [], center: number[] = [];
+      const ours: number[] = [],
+        center: number[] = [];
       for (let i = -2; i < runs; i++) {
         const [a] = await wallTimes(1, 0, () => packTriangles(buildBlas(mesh), mesh));
         const [b] = await wallTimes(1, 0, () => buildThree(mesh, 'CENTER'));
@@ -31,11 +32,21 @@ export const benchmark: Benchmark = {
         timed(`${name}: triangles`, '1', [mesh.indices.length / 3]),
         estimated(`${name}: balanced, to buffers for the GPU`, 'ms', ours),
         estimated(`${name}: three-mesh-bvh CENTER`, 'ms', center),
-        estimated(`${name}: CENTER over balanced`, '1', center.map((t, i) => t / ours[i]!)),
+        estimated(
+          `${name}: CENTER over balanced`,
+          '1',
+          center.map((t, i) => t / ours[i]!),
+        ),
       );
       log(`${name}: ${Math.min(...ours).toFixed(1)} ms, CENTER ${Math.min(...center).toFixed(1)} ms`);
     }
-    if (values['pages'] !== undefined) for (const file of writeBvhPage('paper-cpu', { benchmark: 'paper-cpu', machine: machine(), quick, figures }, values['pages'])) log(`wrote ${file}`);
+    if (values['pages'] !== undefined)
+      for (const file of writeBvhPage(
+        'paper-cpu',
+        { benchmark: 'paper-cpu', machine: machine(), quick, figures },
+        values['pages'],
+      ))
+        log(`wrote ${file}`);
     return { settings: { runs, model: 'push-button, all parts in one mesh' }, figures };
   },
 };

@@ -4,9 +4,14 @@ import { firstFilm, servePlayground } from '../browser/playground';
 import { timed, type Benchmark, type Figure } from '../benchmark';
 
 /** Sizes of the picture, pixels. */
-const SIZES = [[640, 360], [1280, 720], [1920, 1080]] as const;
+const SIZES = [
+  [640, 360],
+  [1280, 720],
+  [1920, 1080],
+] as const;
 
-const quantile = (values: readonly number[], q: number) => [...values].sort((a, b) => a - b)[Math.min(values.length - 1, Math.floor(q * values.length))]!;
+const quantile = (values: readonly number[], q: number) =>
+  [...values].sort((a, b) => a - b)[Math.min(values.length - 1, Math.floor(q * values.length))]!;
 
 /** The playground in Chromium under a hand that turns the push-button. */
 export const benchmark: Benchmark = {
@@ -27,7 +32,10 @@ export const benchmark: Benchmark = {
         await firstFilm(page);
         // The panels take what they take; the picture gets the rest.
         const box = (await canvas.boundingBox())!;
-        await page.setViewportSize({ width: Math.round(width + 700 + width - box.width), height: Math.round(height + 300 + height - box.height) });
+        await page.setViewportSize({
+          width: Math.round(width + 700 + width - box.width),
+          height: Math.round(height + 300 + height - box.height),
+        });
         await page.waitForTimeout(1500);
         const place = (await canvas.boundingBox())!;
         const size = `${await canvas.evaluate((element: HTMLCanvasElement) => `${element.width} × ${element.height}`)}`;
@@ -40,15 +48,34 @@ export const benchmark: Benchmark = {
         await turn(page, at, 2000);
         const { intervals, costs, scales }: Turned = await turn(page, at, quick ? 2000 : 5000);
         figures.push(
-          timed(`${size}: frame to frame while turning`, 'ms', intervals, gpu === 'hardware' ? { value: 1000 / 60 + 1, relation: '<=', source: '60 frames a second' } : undefined),
-          { name: `${size}: frame to frame, 95 of 100`, unit: 'ms', runs: intervals.length, median: quantile(intervals, 0.95) },
+          timed(
+            `${size}: frame to frame while turning`,
+            'ms',
+            intervals,
+            gpu === 'hardware' ? { value: 1000 / 60 + 1, relation: '<=', source: '60 frames a second' } : undefined,
+          ),
+          {
+            name: `${size}: frame to frame, 95 of 100`,
+            unit: 'ms',
+            runs: intervals.length,
+            median: quantile(intervals, 0.95),
+          },
           timed(`${size}: from a frame's start until the GPU has drawn it`, 'ms', costs),
           timed(`${size}: width of the film over that of the canvas`, '1', scales),
         );
         const waits: number[] = [];
         for (let i = 0; i < (quick ? 4 : 10); i++) waits.push(await latency(page, at, 700 + 37 * i));
-        figures.push(timed(`${size}: from a hand's movement to its picture`, 'ms', waits, gpu === 'software' ? { value: 100, relation: '<=', source: 'interaction on a software GPU' } : undefined));
-        log(`${size} on ${adapter}: ${quantile(intervals, 0.5).toFixed(1)} ms a frame at ${quantile(scales, 0.5).toFixed(2)} of the width, latency ${quantile(waits, 0.5).toFixed(0)} ms`);
+        figures.push(
+          timed(
+            `${size}: from a hand's movement to its picture`,
+            'ms',
+            waits,
+            gpu === 'software' ? { value: 100, relation: '<=', source: 'interaction on a software GPU' } : undefined,
+          ),
+        );
+        log(
+          `${size} on ${adapter}: ${quantile(intervals, 0.5).toFixed(1)} ms a frame at ${quantile(scales, 0.5).toFixed(2)} of the width, latency ${quantile(waits, 0.5).toFixed(0)} ms`,
+        );
         await page.close();
       }
     } finally {
@@ -56,7 +83,12 @@ export const benchmark: Benchmark = {
       await server.close();
     }
     return {
-      settings: { model: 'push-button', browser: `Chromium ${browser.version()}, headless`, hand: 'a drag, 60 movements a second', clock: "the page's: from a pointer event's time to the end of the GPU's work for the frame that follows it" },
+      settings: {
+        model: 'push-button',
+        browser: `Chromium ${browser.version()}, headless`,
+        hand: 'a drag, 60 movements a second',
+        clock: "the page's: from a pointer event's time to the end of the GPU's work for the frame that follows it",
+      },
       gpu: { name: adapter, software: gpu === 'software' },
       figures,
       notes: ['what the compositor and a screen add is not in the figures'],

@@ -6,7 +6,11 @@ import { createViewer, type Viewer } from '@glanz/viewer';
 import { timed, type Benchmark, type Figure } from '../benchmark';
 
 /** Sizes of the picture, pixels. */
-const SIZES = [[640, 360], [1280, 720], [1920, 1080]] as const;
+const SIZES = [
+  [640, 360],
+  [1280, 720],
+  [1920, 1080],
+] as const;
 /** Milliseconds between two frames of a screen. */
 const SCREEN_MS = 1000 / 60;
 
@@ -17,8 +21,8 @@ interface Screen {
 }
 
 /**
- * The little of a browser that a viewer needs: a canvas whose pictures go to a texture, and a screen that has a frame every
- * sixtieth of a second, as one has: a frame that is late waits for the next.
+ * The little of a browser that a viewer needs: a canvas whose pictures go to a texture, and a screen that has a frame
+ * every sixtieth of a second, as one has: a frame that is late waits for the next.
  */
 function makeScreen(gpu: GPU, width: number, height: number): Screen {
   let device: GPUDevice | undefined;
@@ -26,7 +30,8 @@ function makeScreen(gpu: GPU, width: number, height: number): Screen {
   const context = {
     configure: (settings: GPUCanvasConfiguration) => void (device = settings.device),
     unconfigure: () => texture?.destroy(),
-    getCurrentTexture: () => (texture ??= (device as GPUDevice).createTexture({ size: [width, height], format: 'bgra8unorm', usage: 0x10 })),
+    getCurrentTexture: () =>
+      (texture ??= (device as GPUDevice).createTexture({ size: [width, height], format: 'bgra8unorm', usage: 0x10 })),
   };
   const canvas = { clientWidth: width, clientHeight: height, width, height, style: {}, getContext: () => context };
   const start = performance.now();
@@ -44,17 +49,24 @@ function makeScreen(gpu: GPU, width: number, height: number): Screen {
       const id = ++frames;
       const now = performance.now();
       const next = start + Math.ceil((now - start) / SCREEN_MS + 1e-6) * SCREEN_MS;
-      timers.set(id, setTimeout(() => {
-        // Timers of Node come a little early; a screen does not.
-        while (performance.now() < next);
-        frame(next);
-      }, Math.max(0, Math.floor(next - now))));
+      timers.set(
+        id,
+        setTimeout(
+          () => {
+            // Timers of Node come a little early; a screen does not.
+            while (performance.now() < next);
+            frame(next);
+          },
+          Math.max(0, Math.floor(next - now)),
+        ),
+      );
       return id;
     },
     cancelAnimationFrame: (id: number) => clearTimeout(timers.get(id)),
   };
   const former = Object.keys(globals).map((name) => [name, Object.getOwnPropertyDescriptor(globalThis, name)] as const);
-  for (const [name, value] of Object.entries(globals)) Object.defineProperty(globalThis, name, { value, configurable: true, writable: true });
+  for (const [name, value] of Object.entries(globals))
+    Object.defineProperty(globalThis, name, { value, configurable: true, writable: true });
   const close = () => {
     for (const [name, descriptor] of former) {
       if (descriptor) Object.defineProperty(globalThis, name, descriptor);
@@ -94,8 +106,10 @@ async function orbit(viewer: Viewer, milliseconds: number, width: number): Promi
   return result;
 }
 
-const done = (viewer: Viewer) => new Promise<void>((resolve) => void viewer.on('converged', () => resolve(), { once: true }));
-const nextFrame = (viewer: Viewer) => new Promise<void>((resolve) => void viewer.on('frame', () => resolve(), { once: true }));
+const done = (viewer: Viewer) =>
+  new Promise<void>((resolve) => void viewer.on('converged', () => resolve(), { once: true }));
+const nextFrame = (viewer: Viewer) =>
+  new Promise<void>((resolve) => void viewer.on('frame', () => resolve(), { once: true }));
 
 /** How long it takes from a hand's movement to its picture, out of rest and out of the midst of refining. */
 async function latency(viewer: Viewer, device: GPUDevice, rest: number): Promise<number> {
@@ -108,11 +122,13 @@ async function latency(viewer: Viewer, device: GPUDevice, rest: number): Promise
 }
 
 const spread = (values: readonly number[]) => [...values].sort((a, b) => a - b);
-const quantile = (values: readonly number[], q: number) => spread(values)[Math.min(values.length - 1, Math.floor(q * values.length))] as number;
+const quantile = (values: readonly number[], q: number) =>
+  spread(values)[Math.min(values.length - 1, Math.floor(q * values.length))] as number;
 
 /** The viewer's preview under a hand that orbits: frame times, resolution, and how soon a movement is seen. */
 export const benchmark: Benchmark = {
-  description: 'the preview of the viewer while orbiting: frames, resolution, and latency, on a screen of 60 frames a second',
+  description:
+    'the preview of the viewer while orbiting: frames, resolution, and latency, on a screen of 60 frames a second',
   async run({ log, quick, gpu: wanted }) {
     const { gpu, adapterName, software } = await createGpu(wanted ? { gpu: wanted } : {});
     const figures: Figure[] = [];
@@ -120,7 +136,12 @@ export const benchmark: Benchmark = {
       const { canvas, close } = makeScreen(gpu, width, height);
       let viewer: Viewer | undefined;
       try {
-        viewer = createViewer(canvas, { pixelRatio: 1, samples: 100_000, controls: false, requestDevice: () => requestDevice({ gpu }) });
+        viewer = createViewer(canvas, {
+          pixelRatio: 1,
+          samples: 100_000,
+          controls: false,
+          requestDevice: () => requestDevice({ gpu }),
+        });
         viewer.on('error', ({ message }) => log(message));
         await viewer.load(createPushButton({ level: 'medium' }));
         const device = viewer.device as GPUDevice;
@@ -128,13 +149,34 @@ export const benchmark: Benchmark = {
         // The first second teaches the controller what the GPU can do.
         await orbit(viewer, quick ? 1500 : 2000, width);
         const { intervals, costs, scales } = await orbit(viewer, quick ? 3000 : 5000, width);
-        figures.push(timed(`${size}: frame to frame while orbiting`, 'ms', intervals, software ? undefined : { value: 1000 / 60 + 1, relation: '<=', source: '60 frames a second' }));
-        figures.push({ name: `${size}: frame to frame, 95 of 100`, unit: 'ms', runs: intervals.length, median: quantile(intervals, 0.95) });
+        figures.push(
+          timed(
+            `${size}: frame to frame while orbiting`,
+            'ms',
+            intervals,
+            software ? undefined : { value: 1000 / 60 + 1, relation: '<=', source: '60 frames a second' },
+          ),
+        );
+        figures.push({
+          name: `${size}: frame to frame, 95 of 100`,
+          unit: 'ms',
+          runs: intervals.length,
+          median: quantile(intervals, 0.95),
+        });
         figures.push(timed(`${size}: samples of a frame`, 'ms', costs));
         figures.push(timed(`${size}: width of the preview over that of the picture`, '1', scales));
         const starts: number[] = [];
         for (let i = 0; i < (quick ? 8 : 10); i++) starts.push(await latency(viewer, device, 700 + 37 * i));
-        figures.push(timed(`${size}: from a movement to its picture, in the midst of refining`, 'ms', starts, software && width === 640 ? { value: 100, relation: '<=', source: 'interaction on a software GPU' } : undefined));
+        figures.push(
+          timed(
+            `${size}: from a movement to its picture, in the midst of refining`,
+            'ms',
+            starts,
+            software && width === 640
+              ? { value: 100, relation: '<=', source: 'interaction on a software GPU' }
+              : undefined,
+          ),
+        );
         viewer.samples = 1;
         viewer.setOrbit({ theta: 0 }, { immediate: true });
         const resting: number[] = [];
@@ -143,7 +185,9 @@ export const benchmark: Benchmark = {
           resting.push(await latency(viewer, device, 100));
         }
         figures.push(timed(`${size}: from a movement to its picture, at rest`, 'ms', resting));
-        log(`${size}: ${quantile(intervals, 0.5).toFixed(1)} ms a frame at ${quantile(scales, 0.5).toFixed(2)} of the width, latency ${quantile(starts, 0.5).toFixed(0)} ms`);
+        log(
+          `${size}: ${quantile(intervals, 0.5).toFixed(1)} ms a frame at ${quantile(scales, 0.5).toFixed(2)} of the width, latency ${quantile(starts, 0.5).toFixed(0)} ms`,
+        );
       } finally {
         viewer?.destroy();
         // Its loop takes a turn to end, and asks the window until then.
@@ -152,7 +196,14 @@ export const benchmark: Benchmark = {
       }
     }
     return {
-      settings: { model: 'push-button medium', environment: 'studio', maxDepth: 8, previewDepth: 4, budgetMs: 12, screen: '60 Hz, made of timers' },
+      settings: {
+        model: 'push-button medium',
+        environment: 'studio',
+        maxDepth: 8,
+        previewDepth: 4,
+        budgetMs: 12,
+        screen: '60 Hz, made of timers',
+      },
       gpu: { name: adapterName, software },
       figures,
       notes: ['frames are drawn to a texture in place of a canvas: what a compositor adds is not in the figures'],

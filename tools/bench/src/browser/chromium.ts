@@ -15,7 +15,15 @@ interface Playwright {
 }
 
 /** The machine's own GPU, without a screen; `GLANZ_CHROMIUM_FLAGS` names others. */
-const GPU_FLAGS = ['--no-sandbox', '--enable-unsafe-webgpu', '--enable-features=Vulkan,WebGPU', '--use-vulkan=native', '--use-angle=vulkan', '--disable-vulkan-surface', '--ignore-gpu-blocklist'];
+const GPU_FLAGS = [
+  '--no-sandbox',
+  '--enable-unsafe-webgpu',
+  '--enable-features=Vulkan,WebGPU',
+  '--use-vulkan=native',
+  '--use-angle=vulkan',
+  '--disable-vulkan-surface',
+  '--ignore-gpu-blocklist',
+];
 
 /** What a browser of the benchmarks runs on. */
 export interface Chromium {
@@ -32,16 +40,29 @@ export interface Chromium {
  */
 export async function launchChromium(gpu: Chromium['gpu'] = 'software'): Promise<Chromium> {
   const packed = packedBrowser();
-  const options = packed === undefined ? await launchOptions(resolve('.cache/browser')) : packedOptions(resolve(packed));
+  const options =
+    packed === undefined ? await launchOptions(resolve('.cache/browser')) : packedOptions(resolve(packed));
   // A bare machine has Playwright's core beside the browser, and nothing else of it.
-  const { chromium } = packed === undefined ? await import('playwright') : ((await import(pathToFileURL(createRequire(join(resolve(packed), 'x.js')).resolve('playwright-core')).href)) as { default: Playwright }).default;
-    const { VK_DRIVER_FILES, GLANZ_CHROMIUM_FLAGS } = process.env;
-  const hardware = { ...options, args: GLANZ_CHROMIUM_FLAGS?.split(' ') ?? GPU_FLAGS, env: { ...options.env, ...(VK_DRIVER_FILES === undefined ? {} : { VK_DRIVER_FILES }) } };
+  const { chromium } =
+    packed === undefined
+      ? await import('playwright')
+      : (
+          (await import(
+            pathToFileURL(createRequire(join(resolve(packed), 'x.js')).resolve('playwright-core')).href
+          )) as { default: Playwright }
+        ).default;
+  const { VK_DRIVER_FILES, GLANZ_CHROMIUM_FLAGS } = process.env;
+  const hardware = {
+    ...options,
+    args: GLANZ_CHROMIUM_FLAGS?.split(' ') ?? GPU_FLAGS,
+    env: { ...options.env, ...(VK_DRIVER_FILES === undefined ? {} : { VK_DRIVER_FILES }) },
+  };
   return { browser: await chromium.launch(gpu === 'hardware' ? hardware : { ...options, args: SOFTWARE_GPU }), gpu };
 }
 
 function packedOptions(folder: string): LaunchOptions {
   const options = inflated(folder);
-  if (!existsSync(options.executablePath!)) throw new BenchError('bench/browser', `GLANZ_BROWSER names ${folder}, where no chromium is.`);
+  if (!existsSync(options.executablePath!))
+    throw new BenchError('bench/browser', `GLANZ_BROWSER names ${folder}, where no chromium is.`);
   return options;
 }

@@ -24,7 +24,9 @@ interface Seen {
   moved: number;
 }
 
-/** Has the page note each frame that it draws to a canvas, and when the GPU was done with it. Call before it is opened. */
+/**
+ * Has the page note each frame that it draws to a canvas, and when the GPU was done with it. Call before it is opened.
+ */
 export async function watchFrames(page: Page): Promise<void> {
   await page.addInitScript(() => {
     const seen: Seen = { frames: [], moved: 0 };
@@ -48,7 +50,8 @@ export async function watchFrames(page: Page): Promise<void> {
   });
 }
 
-const clear = (page: Page) => page.evaluate(() => (globalThis as unknown as { seen: Seen }).seen.frames.splice(0).length);
+const clear = (page: Page) =>
+  page.evaluate(() => (globalThis as unknown as { seen: Seen }).seen.frames.splice(0).length);
 const frames = (page: Page) => page.evaluate(() => (globalThis as unknown as { seen: Seen }).seen);
 
 /** Turns the model by a drag that goes on for a while, one movement for each frame of a screen. */
@@ -69,7 +72,11 @@ export async function turn(page: Page, at: readonly [x: number, y: number], mill
   const { frames: drawn } = await frames(page);
   await page.mouse.up();
   const settled = drawn.filter(({ done }) => done !== undefined);
-  return { intervals: settled.slice(1).map(({ at: now }, i) => now - settled[i]!.at), costs: settled.map(({ at: now, done }) => done! - now), scales: settled.map(({ scale }) => scale) };
+  return {
+    intervals: settled.slice(1).map(({ at: now }, i) => now - settled[i]!.at),
+    costs: settled.map(({ at: now, done }) => done! - now),
+    scales: settled.map(({ scale }) => scale),
+  };
 }
 
 /** Milliseconds from a movement of the hand, out of rest, until the GPU has drawn the first picture that follows it. */
@@ -80,11 +87,15 @@ export async function latency(page: Page, at: readonly [x: number, y: number], r
   await wait(rest);
   await page.mouse.move(x + 12, y);
   try {
-    const found = await page.waitForFunction(() => {
-      const { frames, moved } = (globalThis as unknown as { seen: Seen }).seen;
-      const frame = frames.find(({ at: when, done }) => when >= moved && done !== undefined);
-      return frame ? frame.done! - moved : undefined;
-    }, undefined, { polling: 20, timeout: 30_000 });
+    const found = await page.waitForFunction(
+      () => {
+        const { frames, moved } = (globalThis as unknown as { seen: Seen }).seen;
+        const frame = frames.find(({ at: when, done }) => when >= moved && done !== undefined);
+        return frame ? frame.done! - moved : undefined;
+      },
+      undefined,
+      { polling: 20, timeout: 30_000 },
+    );
     return Number(await found.jsonValue());
   } finally {
     await page.mouse.up();

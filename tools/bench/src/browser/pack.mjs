@@ -1,5 +1,5 @@
-// npm run bench:pack -- --browser — what the benchmarks in Chromium need on a machine that has nothing but a GPU, in two
-// folders that can be carried one after the other: .gpu-browser/1 and .gpu-browser/2.
+// npm run bench:pack -- --browser — what the benchmarks in Chromium need on a machine that has nothing but a GPU, in
+// two folders that can be carried one after the other: .gpu-browser/1 and .gpu-browser/2.
 //   mkdir -p /tmp/browser && cp .gpu-browser/1/* /tmp/browser        first
 //   . .gpu/setup.sh && . .gpu-browser/2/setup.sh && $GPU_NODE .gpu-bench/preview-chromium.mjs --hardware yes
 import { execFileSync } from 'node:child_process';
@@ -30,22 +30,40 @@ export async function packBrowser() {
   const pages = join(out, 'pages');
   for (const folder of ['1', '2', 'pages']) mkdirSync(join(out, folder), { recursive: true });
   const packer = join(root, 'tools/bench/.cache/pack-pages.mjs');
-  await bundle("export { buildPlayground } from './browser/playground';\nexport { buildLoaders } from './loading/chromium';", packer);
+  await bundle(
+    "export { buildPlayground } from './browser/playground';\nexport { buildLoaders } from './loading/chromium';",
+    packer,
+  );
   const { buildPlayground, buildLoaders } = await import(pathToFileURL(packer).href);
   await buildPlayground(join(pages, 'playground'));
   await buildLoaders(join(pages, 'loaders'), false);
   await buildLoaders(join(pages, 'loaders-legible'), true);
   const playwright = createRequire(realpathSync(join(root, 'node_modules/playwright/package.json')));
   const core = dirname(playwright.resolve('playwright-core/package.json'));
-  cpSync(core, join(pages, 'node_modules/playwright-core'), { recursive: true, filter: (path) => !/\/(lib\/vite|types)$/.test(path) });
+  cpSync(core, join(pages, 'node_modules/playwright-core'), {
+    recursive: true,
+    filter: (path) => !/\/(lib\/vite|types)$/.test(path),
+  });
   execFileSync('tar', ['cJf', join(out, '2/pages.tar.xz'), '-C', pages, '.']);
   rmSync(pages, { recursive: true });
   if (!existsSync(kept)) {
     const inflated = join(root, '.cache/browser');
-    if (!existsSync(inflated)) throw new Error('bench:pack --browser: run a test in the browser first; that inflates Chromium');
-    execFileSync('tar', ['cf', kept, '-I', 'xz -6 -T0', '-C', inflated, '--exclude=fonts.conf', '--exclude=fonts-cache', '.']);
+    if (!existsSync(inflated))
+      throw new Error('bench:pack --browser: run a test in the browser first; that inflates Chromium');
+    execFileSync('tar', [
+      'cf',
+      kept,
+      '-I',
+      'xz -6 -T0',
+      '-C',
+      inflated,
+      '--exclude=fonts.conf',
+      '--exclude=fonts-cache',
+      '.',
+    ]);
   }
-  const bytes = readFileSync(kept), half = bytes.length >> 1;
+  const bytes = readFileSync(kept),
+    half = bytes.length >> 1;
   writeFileSync(join(out, '1/chromium.1'), bytes.subarray(0, half));
   writeFileSync(join(out, '2/chromium.2'), bytes.subarray(half));
   writeFileSync(join(out, '2/setup.sh'), SETUP);

@@ -7,7 +7,11 @@ import { serveFolders } from './serve';
 /** Builds the playground from the sources of the workspace into a folder. */
 export async function buildPlayground(outDir: string, legible = false): Promise<void> {
   const { build } = await import('vite');
-  await build({ root: resolve('apps/playground'), logLevel: 'error', build: { outDir, emptyOutDir: true, ...(legible ? { minify: false } : {}) } });
+  await build({
+    root: resolve('apps/playground'),
+    logLevel: 'error',
+    build: { outDir, emptyOutDir: true, ...(legible ? { minify: false } : {}) },
+  });
 }
 
 /**
@@ -15,7 +19,9 @@ export async function buildPlayground(outDir: string, legible = false): Promise<
  *
  * @param legible Whether functions keep their names, for profiles; not for a packed one.
  */
-export async function servePlayground(legible = false): Promise<{ readonly origin: string; readonly close: () => Promise<void> }> {
+export async function servePlayground(
+  legible = false,
+): Promise<{ readonly origin: string; readonly close: () => Promise<void> }> {
   const packed = packedBrowser();
   if (packed !== undefined) return serveFolders({ '/': join(packed, 'playground') });
   const outDir = resolve('.cache/bench-playground');
@@ -29,7 +35,14 @@ export async function servePlayground(legible = false): Promise<{ readonly origi
  * @throws {BenchError} `bench/browser` with what the page says where it cannot.
  */
 export async function firstFilm(page: Page): Promise<void> {
-  await page.waitForSelector('#picture[data-film], #picture[data-state="unavailable"]', { state: 'attached', timeout: 300_000 });
+  await page.waitForSelector('#picture[data-film], #picture[data-state="unavailable"]', {
+    state: 'attached',
+    timeout: 300_000,
+  });
   const { state } = await page.locator('#picture').evaluate((picture: HTMLElement) => ({ ...picture.dataset }));
-  if (state === 'unavailable') throw new BenchError('bench/browser', `The playground has no GPU here: ${(await page.locator('#notice').textContent()) ?? ''}`);
+  if (state === 'unavailable')
+    throw new BenchError(
+      'bench/browser',
+      `The playground has no GPU here: ${(await page.locator('#notice').textContent()) ?? ''}`,
+    );
 }

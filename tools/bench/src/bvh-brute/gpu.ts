@@ -7,9 +7,10 @@ import { compose, wgslModule } from '@glanz/wgsl';
 /** The layouts that there is WGSL for. */
 export type Layout = 'binary' | 'wide';
 
-const host = (layout: Layout) => wgslModule(
-  'bench/bvh-brute',
-  /* wgsl */ `
+const host = (layout: Layout) =>
+  wgslModule(
+    'bench/bvh-brute',
+    /* wgsl */ `
 @group(0) @binding(3) var<storage, read> rays: array<vec4f>;
 @group(0) @binding(4) var<storage, read_write> result: array<vec4u>;
 @compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3u) {
@@ -26,8 +27,8 @@ const host = (layout: Layout) => wgslModule(
   result[2u * id.x] = vec4u(bitcast<u32>(hit.t), bitcast<u32>(hit.u), bitcast<u32>(hit.v), triangle);
   result[2u * id.x + 1u] = vec4u(instance, select(0u, 1u, bvh_any_hit(o.xyz, d.xyz, o.w, d.w)), 0u, 0u);
 }`,
-  [bvhBuffers(), ...(layout === 'binary' ? [bvhClosestHit, bvhAnyHit] : [wideClosestHit, wideAnyHit])],
-);
+    [bvhBuffers(), ...(layout === 'binary' ? [bvhClosestHit, bvhAnyHit] : [wideClosestHit, wideAnyHit])],
+  );
 
 /** What the GPU has found. */
 export interface GpuHits {
@@ -59,8 +60,19 @@ export class GpuTracer {
   }
 
   static async create(device: GPUDevice, layout: Layout): Promise<GpuTracer> {
-    const module = device.createShaderModule({ label: 'bvh-brute', code: compose([host(layout)], { flags: { BVH_FILTER: false } }).code });
-    return new GpuTracer(device, await device.createComputePipelineAsync({ label: 'bvh-brute', layout: 'auto', compute: { module, entryPoint: 'main' } }), layout);
+    const module = device.createShaderModule({
+      label: 'bvh-brute',
+      code: compose([host(layout)], { flags: { BVH_FILTER: false } }).code,
+    });
+    return new GpuTracer(
+      device,
+      await device.createComputePipelineAsync({
+        label: 'bvh-brute',
+        layout: 'auto',
+        compute: { module, entryPoint: 'main' },
+      }),
+      layout,
+    );
   }
 
   /** @param rays 8 numbers each: origin, tMin, direction, tMax. There must be an instance in the TLAS. */
@@ -71,28 +83,51 @@ export class GpuTracer {
     const hierarchy = packHierarchy(wide ? widenTlas(binary) : binary, wide ? widened(parts) : parts);
     const buffers: GPUBuffer[] = [];
     const upload = (data: ArrayBuffer | Float32Array<ArrayBuffer>) => {
-      const buffer = device.createBuffer({ size: data.byteLength, usage: GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST });
+      const buffer = device.createBuffer({
+        size: data.byteLength,
+        usage: GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST,
+      });
       device.queue.writeBuffer(buffer, 0, data);
       buffers.push(buffer);
       return buffer;
     };
     const output = device.createBuffer({ size: 32 * count, usage: GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_SRC });
     const staging = device.createBuffer({ size: 32 * count, usage: GPUBufferUsage.COPY_DST | GPUBufferUsage.MAP_READ });
-    const bound = [upload(hierarchy.nodes), upload(hierarchy.triangles), upload(hierarchy.instances), upload(rays), output];
+    const bound = [
+      upload(hierarchy.nodes),
+      upload(hierarchy.triangles),
+      upload(hierarchy.instances),
+      upload(rays),
+      output,
+    ];
     buffers.push(output, staging);
     const encoder = device.createCommandEncoder();
     const pass = encoder.beginComputePass();
     pass.setPipeline(this.#pipeline);
-    pass.setBindGroup(0, device.createBindGroup({ layout: this.#pipeline.getBindGroupLayout(0), entries: bound.map((buffer, binding) => ({ binding, resource: { buffer } })) }));
+    pass.setBindGroup(
+      0,
+      device.createBindGroup({
+        layout: this.#pipeline.getBindGroupLayout(0),
+        entries: bound.map((buffer, binding) => ({ binding, resource: { buffer } })),
+      }),
+    );
     pass.dispatchWorkgroups(Math.ceil(count / 64));
     pass.end();
     encoder.copyBufferToBuffer(output, 0, staging, 0, 32 * count);
     device.queue.submit([encoder.finish()]);
     await staging.mapAsync(GPUMapMode.READ);
-    const words = new Uint32Array(staging.getMappedRange().slice(0)), floats = new Float32Array(words.buffer);
+    const words = new Uint32Array(staging.getMappedRange().slice(0)),
+      floats = new Float32Array(words.buffer);
     for (const buffer of buffers) buffer.destroy();
     const pick = (k: number) => Uint32Array.from({ length: count }, (_, i) => words[8 * i + k]!);
     const pickFloat = (k: number) => Float32Array.from({ length: count }, (_, i) => floats[8 * i + k]!);
-    return { t: pickFloat(0), u: pickFloat(1), v: pickFloat(2), triangle: pick(3), instance: pick(4), any: Uint8Array.from({ length: count }, (_, i) => words[8 * i + 5]!) };
+    return {
+      t: pickFloat(0),
+      u: pickFloat(1),
+      v: pickFloat(2),
+      triangle: pick(3),
+      instance: pick(4),
+      any: Uint8Array.from({ length: count }, (_, i) => words[8 * i + 5]!),
+    };
   }
 }

@@ -10,6 +10,8 @@ export function randomNumbers(seed: number): () => number {
 
 /** A direction of unit length, evenly spread. */
 export function randomDirection(random: () => number): [number, number, number] {
-  const z = 2 * random() - 1, phi = 2 * Math.PI * random(), r = Math.sqrt(1 - z * z);
+  const z = 2 * random() - 1,
+    phi = 2 * Math.PI * random(),
+    r = Math.sqrt(1 - z * z);
   return [r * Math.cos(phi), r * Math.sin(phi), z];
 }

@@ -22,7 +22,9 @@ const counted = (count: number) => Uint32Array.from({ length: count }, (_, i) =>
 
 /** Triangles of one size, or of all, around the origin; no two share a vertex. */
 function strewn(random: Random): RandomMesh {
-  const count = 1 + Math.floor(600 * random() ** 2), size = 10 ** (0.5 - 2.5 * random()), mixed = random() < 0.3;
+  const count = 1 + Math.floor(600 * random() ** 2),
+    size = 10 ** (0.5 - 2.5 * random()),
+    mixed = random() < 0.3;
   const positions = new Float32Array(9 * count);
   for (let i = 0; i < count; i++) {
     const own = mixed ? 10 ** (0.3 - 3 * random()) : size;
@@ -39,8 +41,11 @@ function slivers(random: Random): RandomMesh {
   const count = 1 + Math.floor(300 * random());
   const positions = new Float32Array(9 * count);
   for (let i = 0; i < count; i++) {
-    const center = [0, 1, 2].map(() => 2 * random() - 1), along = randomDirection(random), across = randomDirection(random);
-    const length = 3 * random(), width = length * 10 ** (-1 - 3 * random());
+    const center = [0, 1, 2].map(() => 2 * random() - 1),
+      along = randomDirection(random),
+      across = randomDirection(random);
+    const length = 3 * random(),
+      width = length * 10 ** (-1 - 3 * random());
     for (let k = 0; k < 3; k++) {
       positions[9 * i + k] = center[k]! - length * along[k]!;
       positions[9 * i + 3 + k] = center[k]! + length * along[k]!;
@@ -52,19 +57,25 @@ function slivers(random: Random): RandomMesh {
 
 /** A welded ball, bumpy or smooth. */
 function ball(random: Random): RandomMesh {
-  const segments = 4 + 2 * Math.floor(16 * random()), rings = segments / 2, bumps = 0.3 * random();
-  const positions: number[] = [], indices: number[] = [];
+  const segments = 4 + 2 * Math.floor(16 * random()),
+    rings = segments / 2,
+    bumps = 0.3 * random();
+  const positions: number[] = [],
+    indices: number[] = [];
   const put = (theta: number, phi: number) => {
     const r = 1 + bumps * (random() - 0.5);
     positions.push(r * Math.sin(theta) * Math.cos(phi), r * Math.cos(theta), r * Math.sin(theta) * Math.sin(phi));
   };
   put(0, 0);
-  for (let i = 1; i < rings; i++) for (let j = 0; j < segments; j++) put((i * Math.PI) / rings, (j * 2 * Math.PI) / segments);
+  for (let i = 1; i < rings; i++)
+    for (let j = 0; j < segments; j++) put((i * Math.PI) / rings, (j * 2 * Math.PI) / segments);
   put(Math.PI, 0);
-  const at = (i: number, j: number) => 1 + (i - 1) * segments + (j % segments), last = 1 + (rings - 1) * segments;
+  const at = (i: number, j: number) => 1 + (i - 1) * segments + (j % segments),
+    last = 1 + (rings - 1) * segments;
   for (let j = 0; j < segments; j++) {
     indices.push(0, at(1, j + 1), at(1, j));
-    for (let i = 1; i < rings - 1; i++) indices.push(at(i, j), at(i, j + 1), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j));
+    for (let i = 1; i < rings - 1; i++)
+      indices.push(at(i, j), at(i, j + 1), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j));
     indices.push(last, at(rings - 1, j), at(rings - 1, j + 1));
   }
   return { kind: 'ball', positions: new Float32Array(positions), indices: new Uint32Array(indices), closed: true };
@@ -73,7 +84,8 @@ function ball(random: Random): RandomMesh {
 /** A box whose faces are grids: boxes of the tree touch in planes, along which rays go. */
 function gridBox(random: Random): RandomMesh {
   const n = 1 + Math.floor(8 * random());
-  const positions: number[] = [], indices: number[] = [];
+  const positions: number[] = [],
+    indices: number[] = [];
   for (let axis = 0; axis < 3; axis++) {
     for (const side of [-1, 1]) {
       const base = positions.length / 3;
@@ -88,36 +100,48 @@ function gridBox(random: Random): RandomMesh {
       }
       for (let i = 0; i < n; i++) {
         for (let j = 0; j < n; j++) {
-          const a = base + i * (n + 1) + j, b = a + n + 1;
+          const a = base + i * (n + 1) + j,
+            b = a + n + 1;
           indices.push(a, b, b + 1, a, b + 1, a + 1);
         }
       }
     }
   }
-  return { kind: 'box of grids', positions: new Float32Array(positions), indices: new Uint32Array(indices), closed: true };
+  return {
+    kind: 'box of grids',
+    positions: new Float32Array(positions),
+    indices: new Uint32Array(indices),
+    closed: true,
+  };
 }
 
 /** Layers of triangles in one plane, many of them the same. */
 function stack(random: Random): RandomMesh {
-  const count = 2 + Math.floor(400 * random()), kinds = 1 + Math.floor(5 * random()), gap = random() < 0.5 ? 0 : 1e-3;
+  const count = 2 + Math.floor(400 * random()),
+    kinds = 1 + Math.floor(5 * random()),
+    gap = random() < 0.5 ? 0 : 1e-3;
   const shapes = Array.from({ length: kinds }, () => Array.from({ length: 6 }, () => 2 * random() - 1));
   const positions = new Float32Array(9 * count);
   for (let i = 0; i < count; i++) {
     const shape = shapes[Math.floor(kinds * random())]!;
-    for (let corner = 0; corner < 3; corner++) positions.set([shape[2 * corner]!, gap * Math.floor(i / 7), shape[2 * corner + 1]!], 9 * i + 3 * corner);
+    for (let corner = 0; corner < 3; corner++)
+      positions.set([shape[2 * corner]!, gap * Math.floor(i / 7), shape[2 * corner + 1]!], 9 * i + 3 * corner);
   }
   return { kind: 'stack', positions, indices: counted(3 * count), closed: false };
 }
 
 /** Sizes and places that double from one triangle to the next: what makes trees deep. */
 function doubling(random: Random): RandomMesh {
-  const count = 10 + Math.floor(60 * random()), factor = 1.1 + random();
+  const count = 10 + Math.floor(60 * random()),
+    factor = 1.1 + random();
   const positions = new Float32Array(9 * count);
   const axis = Math.floor(3 * random());
   for (let i = 0; i < count; i++) {
     const x = factor ** (i - count);
     for (let corner = 0; corner < 3; corner++) {
-      for (let k = 0; k < 3; k++) positions[9 * i + 3 * corner + k] = k === axis ? x * (1 + 0.01 * random()) : 0.5 * x * (random() - 0.5) * (random() < 0.5 ? 1 : 10);
+      for (let k = 0; k < 3; k++)
+        positions[9 * i + 3 * corner + k] =
+          k === axis ? x * (1 + 0.01 * random()) : 0.5 * x * (random() - 0.5) * (random() < 0.5 ? 1 : 10);
     }
   }
   return { kind: 'doubling', positions, indices: counted(3 * count), closed: false };
@@ -141,12 +165,16 @@ function spoilt(random: Random): RandomMesh {
 
 /** A surface of heights over a grid. */
 function terrain(random: Random): RandomMesh {
-  const n = 2 + Math.floor(20 * random()), height = 10 ** (-2 * random());
-  const positions: number[] = [], indices: number[] = [];
-  for (let i = 0; i <= n; i++) for (let j = 0; j <= n; j++) positions.push((2 * i) / n - 1, height * (random() - 0.5), (2 * j) / n - 1);
+  const n = 2 + Math.floor(20 * random()),
+    height = 10 ** (-2 * random());
+  const positions: number[] = [],
+    indices: number[] = [];
+  for (let i = 0; i <= n; i++)
+    for (let j = 0; j <= n; j++) positions.push((2 * i) / n - 1, height * (random() - 0.5), (2 * j) / n - 1);
   for (let i = 0; i < n; i++) {
     for (let j = 0; j < n; j++) {
-      const a = i * (n + 1) + j, b = a + n + 1;
+      const a = i * (n + 1) + j,
+        b = a + n + 1;
       indices.push(a, a + 1, b, a + 1, b + 1, b);
     }
   }
@@ -157,7 +185,8 @@ const KINDS = [strewn, strewn, slivers, ball, ball, gridBox, stack, doubling, sp
 
 /** The same mesh at another size and place: from 1 mm to 10 km, near and far from the origin. */
 function placed(mesh: RandomMesh, random: Random): RandomMesh {
-  const size = random() < 0.5 ? 1 : 10 ** (-3 + 7 * random()), far = random() < 0.3 ? size * 10 ** (2 * random()) : 0;
+  const size = random() < 0.5 ? 1 : 10 ** (-3 + 7 * random()),
+    far = random() < 0.3 ? size * 10 ** (2 * random()) : 0;
   const move = [0, 1, 2].map(() => far * (random() - 0.5));
   return { ...mesh, positions: mesh.positions.map((x, i) => x * size + move[i % 3]!) };
 }
@@ -169,21 +198,29 @@ export function randomMesh(random: Random): RandomMesh {
 
 /** Up to 20 instances of up to three meshes of size 1, turned, stretched, sheared and mirrored. */
 export function randomInstances(random: Random): RandomInstance[] {
-  const meshes = Array.from({ length: 1 + Math.floor(3 * random()) }, () => KINDS[Math.floor(KINDS.length * random())]!(random));
+  const meshes = Array.from({ length: 1 + Math.floor(3 * random()) }, () =>
+    KINDS[Math.floor(KINDS.length * random())]!(random),
+  );
   return Array.from({ length: 1 + Math.floor(20 * random()) }, () => {
     const m = new Float32Array(16);
     m[15] = 1;
     let determinant = 0;
     while (Math.abs(determinant) < 0.02) {
       for (let c = 0; c < 3; c++) for (let r = 0; r < 3; r++) m[4 * c + r] = 1.4 * (random() - 0.5);
-      determinant = m[0]! * (m[5]! * m[10]! - m[6]! * m[9]!) - m[4]! * (m[1]! * m[10]! - m[2]! * m[9]!) + m[8]! * (m[1]! * m[6]! - m[2]! * m[5]!);
+      determinant =
+        m[0]! * (m[5]! * m[10]! - m[6]! * m[9]!) -
+        m[4]! * (m[1]! * m[10]! - m[2]! * m[9]!) +
+        m[8]! * (m[1]! * m[6]! - m[2]! * m[5]!);
     }
     for (let r = 0; r < 3; r++) m[12 + r] = 4 * (random() - 0.5);
     return { mesh: meshes[Math.floor(meshes.length * random())]!, transform: m };
   });
 }
 
-/** Corners of triangles in the world, 9 numbers each, in double precision; those that are not finite are left out, as the builders do. */
+/**
+ * Corners of triangles in the world, 9 numbers each, in double precision; those that are not finite are left out, as
+ * the builders do.
+ */
 export interface Corners {
   readonly corners: Float64Array;
   /** Instance and triangle of the mesh, two numbers each. */
@@ -192,7 +229,8 @@ export interface Corners {
 
 /** Every triangle of instances, in the world. */
 export function cornersOf(instances: readonly RandomInstance[]): Corners {
-  const corners: number[] = [], names: number[] = [];
+  const corners: number[] = [],
+    names: number[] = [];
   instances.forEach(({ mesh: { positions: p, indices }, transform: m }, instance) => {
     for (let t = 0; t < indices.length / 3; t++) {
       const own: number[] = [];
@@ -200,7 +238,8 @@ export function cornersOf(instances: readonly RandomInstance[]): Corners {
       for (let c = 0; c < 3; c++) {
         const v = 3 * indices[3 * t + c]!;
         finite &&= Number.isFinite(p[v]! + p[v + 1]! + p[v + 2]!);
-        for (let r = 0; r < 3; r++) own.push(m[r]! * p[v]! + m[4 + r]! * p[v + 1]! + m[8 + r]! * p[v + 2]! + m[12 + r]!);
+        for (let r = 0; r < 3; r++)
+          own.push(m[r]! * p[v]! + m[4 + r]! * p[v + 1]! + m[8 + r]! * p[v + 2]! + m[12 + r]!);
       }
       if (!finite) continue;
       corners.push(...own);
@@ -218,25 +257,33 @@ export interface RandomRays {
 }
 
 /**
- * Rays of all kinds: from around and from within, at anything and at points of the surface, at vertices and edges; along
- * axes; with directions of any length and with short intervals.
+ * Rays of all kinds: from around and from within, at anything and at points of the surface, at vertices and edges;
+ * along axes; with directions of any length and with short intervals.
  */
 export function randomRays(count: number, { corners }: Corners, closed: boolean, random: Random): RandomRays {
-  const rays = new Float32Array(8 * count), enclosed = new Uint8Array(count);
-  const min = [Infinity, Infinity, Infinity], max = [-Infinity, -Infinity, -Infinity];
+  const rays = new Float32Array(8 * count),
+    enclosed = new Uint8Array(count);
+  const min = [Infinity, Infinity, Infinity],
+    max = [-Infinity, -Infinity, -Infinity];
   corners.forEach((x, i) => {
     min[i % 3] = Math.min(min[i % 3]!, x);
     max[i % 3] = Math.max(max[i % 3]!, x);
   });
   if (corners.length === 0) for (let k = 0; k < 3; k++) [min[k], max[k]] = [-1, 1];
-  const center = min.map((x, k) => (x + max[k]!) / 2), half = min.map((x, k) => (max[k]! - x) / 2), radius = Math.hypot(...half);
+  const center = min.map((x, k) => (x + max[k]!) / 2),
+    half = min.map((x, k) => (max[k]! - x) / 2),
+    radius = Math.hypot(...half);
   const aim = (sharp: boolean): number[] => {
     if (corners.length === 0) return center;
     const t = 9 * Math.floor((corners.length / 9) * random());
-    let u = random(), v = random();
+    let u = random(),
+      v = random();
     if (u + v > 1) [u, v] = [1 - u, 1 - v];
     if (sharp) [u, v] = random() < 0.3 ? [0, 0] : random() < 0.5 ? [0, v] : [u, 1 - u];
-    return [0, 1, 2].map((k) => corners[t + k]! + u * (corners[t + 3 + k]! - corners[t + k]!) + v * (corners[t + 6 + k]! - corners[t + k]!));
+    return [0, 1, 2].map(
+      (k) =>
+        corners[t + k]! + u * (corners[t + 3 + k]! - corners[t + k]!) + v * (corners[t + 6 + k]! - corners[t + k]!),
+    );
   };
   for (let i = 0; i < count; i++) {
     const within = random() < 0.4;

@@ -52,11 +52,18 @@ export class GpuRays {
   readonly #layout: GPUBindGroupLayout;
   readonly #query: GPUQuerySet | undefined;
 
-  private constructor(device: GPUDevice, layout: GPUBindGroupLayout, pipelines: Readonly<Record<'closest' | 'any', GPUComputePipeline>>, scene: readonly (ArrayBuffer | ArrayBufferView<ArrayBuffer>)[]) {
+  private constructor(
+    device: GPUDevice,
+    layout: GPUBindGroupLayout,
+    pipelines: Readonly<Record<'closest' | 'any', GPUComputePipeline>>,
+    scene: readonly (ArrayBuffer | ArrayBufferView<ArrayBuffer>)[],
+  ) {
     this.#device = device;
     this.#layout = layout;
     this.#pipelines = pipelines;
-    this.#scene = scene.map((data) => this.#buffer(data.byteLength, GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST, data));
+    this.#scene = scene.map((data) =>
+      this.#buffer(data.byteLength, GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST, data),
+    );
     this.nodeBytes = (scene[0] as ArrayBuffer | ArrayBufferView).byteLength;
     if (device.features.has('timestamp-query')) this.#query = device.createQuerySet({ type: 'timestamp', count: 2 });
   }
@@ -64,12 +71,25 @@ export class GpuRays {
   /** Prepares a mesh with its hierarchy. */
   static async create(device: GPUDevice, layout: Layout, blas: Blas, mesh: BenchMesh): Promise<GpuRays> {
     const tlas = buildTlas([{ bounds: blas.bounds, transform: IDENTITY }]);
-    const upper = layout === 'wide' ? widenTlas(tlas) : tlas, lower = layout === 'wide' ? widenBlas(blas) : blas;
+    const upper = layout === 'wide' ? widenTlas(tlas) : tlas,
+      lower = layout === 'wide' ? widenBlas(blas) : blas;
     const { nodes, triangles, instances, stackSize } = binary.packHierarchy(upper, [{ blas: lower, mesh }]);
-    const bindGroupLayout = device.createBindGroupLayout({ entries: [0, 1, 2, 3, 4].map((binding) => ({ binding, visibility: GPUShaderStage.COMPUTE, buffer: { type: binding < 4 ? 'read-only-storage' : 'storage' } })) });
+    const bindGroupLayout = device.createBindGroupLayout({
+      entries: [0, 1, 2, 3, 4].map((binding) => ({
+        binding,
+        visibility: GPUShaderStage.COMPUTE,
+        buffer: { type: binding < 4 ? 'read-only-storage' : 'storage' },
+      })),
+    });
     const pipeline = (query: 'closest' | 'any') => {
-      const module = device.createShaderModule({ label: `bench ${layout} ${query}`, code: kernel(layout, query, stackSize) });
-      return device.createComputePipelineAsync({ layout: device.createPipelineLayout({ bindGroupLayouts: [bindGroupLayout] }), compute: { module, entryPoint: 'main' } });
+      const module = device.createShaderModule({
+        label: `bench ${layout} ${query}`,
+        code: kernel(layout, query, stackSize),
+      });
+      return device.createComputePipelineAsync({
+        layout: device.createPipelineLayout({ bindGroupLayouts: [bindGroupLayout] }),
+        compute: { module, entryPoint: 'main' },
+      });
     };
     const [closest, any] = await Promise.all([pipeline('closest'), pipeline('any')]);
     return new GpuRays(device, bindGroupLayout, { closest, any }, [nodes, triangles, instances]);
@@ -87,11 +107,19 @@ export class GpuRays {
     const count = rays.length / RAY_WORDS;
     const input = this.#buffer(rays.byteLength, GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST, rays);
     const output = this.#buffer(4 * RESULT_WORDS * count, GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_SRC);
-    const group = this.#device.createBindGroup({ layout: this.#layout, entries: [...this.#scene, input, output].map((buffer, binding) => ({ binding, resource: { buffer } })) });
+    const group = this.#device.createBindGroup({
+      layout: this.#layout,
+      entries: [...this.#scene, input, output].map((buffer, binding) => ({ binding, resource: { buffer } })),
+    });
     return { count, output, group };
   }
 
-  #submit({ count, group }: LoadedRays, query: 'closest' | 'any', times: number, timestampWrites?: GPUComputePassTimestampWrites): void {
+  #submit(
+    { count, group }: LoadedRays,
+    query: 'closest' | 'any',
+    times: number,
+    timestampWrites?: GPUComputePassTimestampWrites,
+  ): void {
     const encoder = this.#device.createCommandEncoder();
     const pass = encoder.beginComputePass(timestampWrites ? { timestampWrites } : {});
     pass.setPipeline(this.#pipelines[query]);
@@ -128,7 +156,10 @@ export class GpuRays {
       return performance.now() - start;
     }
     this.#submit(rays, query, times, { querySet, beginningOfPassWriteIndex: 0, endOfPassWriteIndex: 1 });
-    const resolved = this.#device.createBuffer({ size: 16, usage: GPUBufferUsage.QUERY_RESOLVE | GPUBufferUsage.COPY_SRC });
+    const resolved = this.#device.createBuffer({
+      size: 16,
+      usage: GPUBufferUsage.QUERY_RESOLVE | GPUBufferUsage.COPY_SRC,
+    });
     const encoder = this.#device.createCommandEncoder();
     encoder.resolveQuerySet(querySet, 0, 2, resolved, 0);
     this.#device.queue.submit([encoder.finish()]);

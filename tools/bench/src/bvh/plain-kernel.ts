@@ -2,8 +2,8 @@ import { bvhTypes } from '@glanz/bvh/wgsl';
 import { wgslModule } from '@glanz/wgsl';
 
 /**
- * What others do, to compare with on the same rays and the same tree: a loop over one level, that of the one instance, boxes
- * without a margin for rounding, and the triangle test of Möller and Trumbore 1997, which is not watertight.
+ * What others do, to compare with on the same rays and the same tree: a loop over one level, that of the one instance,
+ * boxes without a margin for rounding, and the triangle test of Möller and Trumbore 1997, which is not watertight.
  */
 export const plainQuery = (query: 'closest' | 'any') => {
   const any = query === 'any';

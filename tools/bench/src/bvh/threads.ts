@@ -45,16 +45,24 @@ export function coldTimes(mesh: BenchMesh): Promise<number[]> {
 
 /** So many workers of this benchmark. `warmUp` lets them run what they will run before they are asked to. */
 export async function benchWorkers(count: number, warmUp = false): Promise<BvhWorkers> {
-  const workers = await BvhWorkers.create({ count, together: true, warmUp, createWorker: () => again({ role: 'serve' }) });
+  const workers = await BvhWorkers.create({
+    count,
+    together: true,
+    warmUp,
+    createWorker: () => again({ role: 'serve' }),
+  });
   if (workers.fallback) throw new Error(workers.fallback);
   return workers;
 }
 
 /**
- * Milliseconds for building `meshes` on one worker and on two, after a round of each that does not count; taken in turns, so
- * that a disturbance of the machine meets both alike.
+ * Milliseconds for building `meshes` on one worker and on two, after a round of each that does not count; taken in
+ * turns, so that a disturbance of the machine meets both alike.
  */
-export async function workerTimes(meshes: readonly BenchMesh[], runs: number): Promise<readonly [one: number[], two: number[]]> {
+export async function workerTimes(
+  meshes: readonly BenchMesh[],
+  runs: number,
+): Promise<readonly [one: number[], two: number[]]> {
   const pools = [await benchWorkers(1), await benchWorkers(2)] as const;
   const times: readonly [number[], number[]] = [[], []];
   for (let i = -1; i < runs; i++) {
@@ -69,10 +77,16 @@ export async function workerTimes(meshes: readonly BenchMesh[], runs: number): P
 }
 
 /** Builds in slices on this thread: milliseconds in all, and the longest time that the thread was not free. */
-export async function slicedTimes(mesh: BenchMesh, runs: number): Promise<{ readonly all: number[]; readonly longest: number[] }> {
-  const all: number[] = [], longest: number[] = [];
+export async function slicedTimes(
+  mesh: BenchMesh,
+  runs: number,
+): Promise<{ readonly all: number[]; readonly longest: number[] }> {
+  const all: number[] = [],
+    longest: number[] = [];
   for (let i = -1; i < runs; i++) {
-    let last = performance.now(), most = 0, done = false;
+    let last = performance.now(),
+      most = 0,
+      done = false;
     const tick = () => {
       const now = performance.now();
       most = Math.max(most, now - last);

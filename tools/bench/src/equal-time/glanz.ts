@@ -7,7 +7,8 @@ export async function createGlanz(device: GPUDevice, task: Task): Promise<Contes
   const scene = await loadGltfBytes(task.glb);
   if (task.environment) scene.environment = task.environment;
   const { width, height, maxDepth, camera, multipleScattering } = task;
-  const create = (seed: number) => PathTracer.create(device, scene, { width, height, maxDepth, camera, multipleScattering, seed });
+  const create = (seed: number) =>
+    PathTracer.create(device, scene, { width, height, maxDepth, camera, multipleScattering, seed });
   let tracer = await create(0);
   return {
     unit: 'samples',

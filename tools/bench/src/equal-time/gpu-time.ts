@@ -49,7 +49,9 @@ export class GpuTime {
   }
 
   /** Runs and times some work of at most {@link SUBMISSIONS} submissions. */
-  async measure(work: () => Promise<void>): Promise<{ readonly gpuMs: number; readonly wallMs: number; readonly submissions: number }> {
+  async measure(
+    work: () => Promise<void>,
+  ): Promise<{ readonly gpuMs: number; readonly wallMs: number; readonly submissions: number }> {
     await this.#device.queue.onSubmittedWorkDone();
     const start = performance.now();
     if (!this.#clock) {
@@ -67,12 +69,16 @@ export class GpuTime {
 
   /** What a unit costs in the long run; the contestant must be warm. */
   async unitCost(contestant: Contestant): Promise<UnitCost> {
-    for (let units = 1; ; ) {
+    for (let units = 1; ;) {
       const { gpuMs, submissions } = await this.measure(() => contestant.advance(units));
       const perUnit = submissions / units;
       const most = Math.max(units, Math.floor(SUBMISSIONS / Math.max(perUnit, 1e-9)));
-      if (gpuMs >= CALIBRATION_MS || units >= Math.min(most, 100_000)) return { gpuMs: gpuMs / units, submissions: perUnit };
-      units = Math.min(most, Math.max(2 * units, Math.min(8 * units, Math.ceil((1.2 * CALIBRATION_MS * units) / Math.max(gpuMs, 0.01)))));
+      if (gpuMs >= CALIBRATION_MS || units >= Math.min(most, 100_000))
+        return { gpuMs: gpuMs / units, submissions: perUnit };
+      units = Math.min(
+        most,
+        Math.max(2 * units, Math.min(8 * units, Math.ceil((1.2 * CALIBRATION_MS * units) / Math.max(gpuMs, 0.01)))),
+      );
     }
   }
 

@@ -10,7 +10,9 @@ import { BenchError } from '../error';
 /** Name of the folder beside a packed bundle that holds what it reads. */
 export const DATA_FOLDER = 'equal-time-data';
 
-/** Longest edge of textures, texels: larger ones are halved in size for all contestants, so that a bundle stays small. */
+/**
+ * Longest edge of textures, texels: larger ones are halved in size for all contestants, so that a bundle stays small.
+ */
 const LARGEST = 1024;
 
 /** Decoded pixels: RGBA, stride 4, 8 bits. */
@@ -32,12 +34,19 @@ export function usePackedCatalogue(): void {
   if (folder) process.env['GLANZ_GROUNDTRUTH'] ??= join(folder, 'groundtruth');
 }
 
-/** A file of the sample assets: from the packed data, from the folder that GLANZ_ASSETS names, or from `shared/assets` beside the checkout. */
+/**
+ * A file of the sample assets: from the packed data, from the folder that GLANZ_ASSETS names, or from `shared/assets`
+ * beside the checkout.
+ */
 export function assetFile(path: string): string | undefined {
   const packed = packedFolder();
   const places = [packed && join(packed, 'assets'), process.env['GLANZ_ASSETS']];
-  for (let folder = dirname(fileURLToPath(import.meta.url)); folder !== dirname(folder); folder = dirname(folder)) places.push(join(folder, 'shared/assets'));
-  return places.filter((place) => place).map((place) => join(place as string, path)).find((file) => existsSync(file));
+  for (let folder = dirname(fileURLToPath(import.meta.url)); folder !== dirname(folder); folder = dirname(folder))
+    places.push(join(folder, 'shared/assets'));
+  return places
+    .filter((place) => place)
+    .map((place) => join(place as string, path))
+    .find((file) => existsSync(file));
 }
 
 /** Name under which the packed data keeps an encoded picture's pixels. */
@@ -63,7 +72,12 @@ export async function decodePixels(bytes: Uint8Array): Promise<Pixels> {
     return unpackPixels(file);
   }
   const { default: sharp } = await import('sharp');
-  const { data, info } = await sharp(bytes, { ignoreIcc: true }).resize({ width: LARGEST, height: LARGEST, fit: 'inside', withoutEnlargement: true }).toColourspace('srgb').ensureAlpha().raw({ depth: 'uchar' }).toBuffer({ resolveWithObject: true });
+  const { data, info } = await sharp(bytes, { ignoreIcc: true })
+    .resize({ width: LARGEST, height: LARGEST, fit: 'inside', withoutEnlargement: true })
+    .toColourspace('srgb')
+    .ensureAlpha()
+    .raw({ depth: 'uchar' })
+    .toBuffer({ resolveWithObject: true });
   return { width: info.width, height: info.height, data: new Uint8Array(data) };
 }
 
@@ -71,7 +85,10 @@ export async function decodePixels(bytes: Uint8Array): Promise<Pixels> {
 export function glbImages(glb: Uint8Array): Uint8Array[] {
   const view = new DataView(glb.buffer, glb.byteOffset, glb.byteLength);
   const length = view.getUint32(12, true);
-  const json = JSON.parse(new TextDecoder().decode(glb.subarray(20, 20 + length))) as { images?: { bufferView: number }[]; bufferViews?: { byteOffset?: number; byteLength: number }[] };
+  const json = JSON.parse(new TextDecoder().decode(glb.subarray(20, 20 + length))) as {
+    images?: { bufferView: number }[];
+    bufferViews?: { byteOffset?: number; byteLength: number }[];
+  };
   const binary = glb.subarray(28 + length);
   return (json.images ?? []).map(({ bufferView }) => {
     const { byteOffset = 0, byteLength } = json.bufferViews![bufferView]!;
@@ -80,4 +97,5 @@ export function glbImages(glb: Uint8Array): Uint8Array[] {
 }
 
 /** A .glb file as a scene. */
-export const loadGltfBytes = (glb: Uint8Array<ArrayBuffer>): Promise<Scene> => loadGltf(glb, { decodeImage: (bytes) => decodePixels(bytes) });
+export const loadGltfBytes = (glb: Uint8Array<ArrayBuffer>): Promise<Scene> =>
+  loadGltf(glb, { decodeImage: (bytes) => decodePixels(bytes) });

@@ -57,7 +57,11 @@ const WARM_UP = { samples: 8, rounds: 24 } as const;
 /** Renders as planned, and measures. One plan to a process: contestants must not share one. */
 export async function measure(plan: MeasurementPlan, log: (line: string) => void): Promise<Measurement> {
   const scene = SCENES.find(({ name }) => name === plan.scene);
-  if (!scene) throw new BenchError('bench/option', `There is no scene "${plan.scene}"; scenes: ${SCENES.map(({ name }) => name).join(', ')}.`);
+  if (!scene)
+    throw new BenchError(
+      'bench/option',
+      `There is no scene "${plan.scene}"; scenes: ${SCENES.map(({ name }) => name).join(', ')}.`,
+    );
   const { task, reference: known } = await scene.load(plan.size);
   const reference = known ?? readReference(plan.referenceFile);
   const { gpu, adapterName, software } = await createGpu(plan.gpu === undefined ? {} : { gpu: plan.gpu });
@@ -65,7 +69,11 @@ export async function measure(plan: MeasurementPlan, log: (line: string) => void
   const faults: string[] = [];
   device.addEventListener('uncapturederror', ({ error }) => void faults.push(error.message.split('\n', 1)[0]!));
   const checkFaults = () => {
-    if (faults.length > 0) throw new BenchError('bench/gpu-error', `${plan.contestant} on ${plan.scene}: ${faults.length} GPU errors, the first: ${faults[0]}`);
+    if (faults.length > 0)
+      throw new BenchError(
+        'bench/gpu-error',
+        `${plan.contestant} on ${plan.scene}: ${faults.length} GPU errors, the first: ${faults[0]}`,
+      );
   };
   const notes: string[] = [];
   const started = performance.now();
@@ -83,7 +91,8 @@ export async function measure(plan: MeasurementPlan, log: (line: string) => void
     await contestant.restart(run + 1);
     const runPoints: Point[] = [];
     const runPictures: Float32Array[] = [];
-    let gpuMs = 0, wallMs = 0;
+    let gpuMs = 0,
+      wallMs = 0;
     for (const budgetMs of plan.budgetsMs) {
       // What is measured as it runs may miss the budget by what the estimate was off; the next one makes up for it.
       const units = Math.max(Math.floor((budgetMs - gpuMs) / cost.gpuMs), runPoints.length === 0 ? 1 : 0);
@@ -104,20 +113,35 @@ export async function measure(plan: MeasurementPlan, log: (line: string) => void
       const point: Point = { budgetMs, gpuMs, wallMs, samples, ...pictureError(picture, reference) };
       runPoints.push(point);
       runPictures.push(picture);
-      log(`${plan.scene}, ${plan.contestant}, run ${run + 1}: ${gpuMs.toFixed(0)} ms GPU, ${wallMs.toFixed(0)} ms wall, ${samples.toFixed(1)} samples, relMSE ${point.relMse.toExponential(2)}, FLIP ${point.flip.toFixed(4)}, brightness ${point.brightness.toFixed(4)}`);
+      log(
+        `${plan.scene}, ${plan.contestant}, run ${run + 1}: ${gpuMs.toFixed(0)} ms GPU, ${wallMs.toFixed(0)} ms wall, ${samples.toFixed(1)} samples, relMSE ${point.relMse.toExponential(2)}, FLIP ${point.flip.toFixed(4)}, brightness ${point.brightness.toFixed(4)}`,
+      );
     }
     points.push(runPoints);
     pictures.push(runPictures);
   }
-  const noise = plan.runs < 2 ? [] : plan.budgetsMs.map((_, b) => {
-    let sum = 0, pairs = 0;
-    for (let i = 0; i < plan.runs; i++) {
-      for (let j = i + 1; j < plan.runs; j++, pairs++) sum += noiseOf(pictures[i]![b]!, pictures[j]![b]!, reference);
-    }
-    return sum / pairs;
-  });
+  const noise =
+    plan.runs < 2
+      ? []
+      : plan.budgetsMs.map((_, b) => {
+          let sum = 0,
+            pairs = 0;
+          for (let i = 0; i < plan.runs; i++) {
+            for (let j = i + 1; j < plan.runs; j++, pairs++)
+              sum += noiseOf(pictures[i]![b]!, pictures[j]![b]!, reference);
+          }
+          return sum / pairs;
+        });
   time.destroy();
   contestant.destroy();
   device.destroy();
-  return { scene: plan.scene, contestant: plan.contestant, adapter: { name: adapterName, software }, setUpMs, points, noise, notes };
+  return {
+    scene: plan.scene,
+    contestant: plan.contestant,
+    adapter: { name: adapterName, software },
+    setUpMs,
+    points,
+    noise,
+    notes,
+  };
 }

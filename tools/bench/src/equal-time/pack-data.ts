@@ -13,8 +13,8 @@ function copy(from: string, to: string): void {
 }
 
 /**
- * Copies what the benchmark reads into a folder, with all pictures decoded, so that a bundle beside it needs nothing else.
- * Gives what was not there to copy.
+ * Copies what the benchmark reads into a folder, with all pictures decoded, so that a bundle beside it needs nothing
+ * else. Gives what was not there to copy.
  */
 export async function packData(folder: string): Promise<string[]> {
   const missing: string[] = [];
@@ -25,7 +25,8 @@ export async function packData(folder: string): Promise<string[]> {
       missing.push(name);
       continue;
     }
-    for (const file of readdirSync(join(catalogue, name)).filter((entry) => WANTED.test(entry))) copy(join(catalogue, name, file), join(folder, 'groundtruth', name, file));
+    for (const file of readdirSync(join(catalogue, name)).filter((entry) => WANTED.test(entry)))
+      copy(join(catalogue, name, file), join(folder, 'groundtruth', name, file));
     models.push(join(catalogue, name, 'scene.glb'));
   }
   if (catalogue) copy(join(catalogue, 'tolerances.json'), join(folder, 'groundtruth', 'tolerances.json'));
@@ -39,7 +40,8 @@ export async function packData(folder: string): Promise<string[]> {
   }
   mkdirSync(join(folder, 'images'), { recursive: true });
   for (const model of models) {
-    for (const image of glbImages(new Uint8Array(readFileSync(model)))) writeFileSync(join(folder, 'images', pixelsName(image)), packPixels(await decodePixels(image)));
+    for (const image of glbImages(new Uint8Array(readFileSync(model))))
+      writeFileSync(join(folder, 'images', pixelsName(image)), packPixels(await decodePixels(image)));
   }
   return missing;
 }

@@ -12,7 +12,10 @@ export interface Reference {
 
 /** How far a picture is from its reference. */
 export interface PictureError {
-  /** As the ground truth defines it, less what the reference's own noise adds on average; about 0 or below where only that is left. */
+  /**
+   * As the ground truth defines it, less what the reference's own noise adds on average; about 0 or below where only
+   * that is left.
+   */
   readonly relMse: number;
   /** {@link relMse} with the reference's noise in it. */
   readonly relMseWithReference: number;
@@ -25,7 +28,8 @@ export interface PictureError {
 /** Means of `factor` × `factor` pixels. */
 export function shrink(picture: Float32Array, width: number, height: number, factor: number): Float32Array {
   const [w, h] = [width / factor, height / factor];
-  if (!Number.isInteger(w) || !Number.isInteger(h)) throw new RangeError(`shrink: ${width} × ${height} pixels cannot be joined ${factor} × ${factor}`);
+  if (!Number.isInteger(w) || !Number.isInteger(h))
+    throw new RangeError(`shrink: ${width} × ${height} pixels cannot be joined ${factor} × ${factor}`);
   const out = new Float32Array(3 * w * h);
   for (let y = 0; y < height; y++) {
     for (let x = 0; x < width; x++) {
@@ -36,13 +40,17 @@ export function shrink(picture: Float32Array, width: number, height: number, fac
   return out;
 }
 
-/** Mean over pixels of `numerator` (mean of the channels) over the reference pixel's squared brightness plus 1 % of the picture's. */
+/**
+ * Mean over pixels of `numerator` (mean of the channels) over the reference pixel's squared brightness plus 1 % of the
+ * picture's.
+ */
 function relative(numerator: (index: number) => number, reference: Float32Array): number {
   const pixels = reference.length / 3;
   const epsilon = (0.01 * reference.reduce((sum, value) => sum + value * value, 0)) / reference.length;
   let sum = 0;
   for (let i = 0; i < pixels; i++) {
-    let error = 0, power = 0;
+    let error = 0,
+      power = 0;
     for (let c = 3 * i; c < 3 * i + 3; c++) {
       error += numerator(c) / 3;
       power += reference[c]! ** 2 / 3;
@@ -52,7 +60,10 @@ function relative(numerator: (index: number) => number, reference: Float32Array)
   return sum / pixels;
 }
 
-/** Half the mean squared difference of two independent pictures of the same expectation, as relMSE: their noise, whatever their bias. */
+/**
+ * Half the mean squared difference of two independent pictures of the same expectation, as relMSE: their noise,
+ * whatever their bias.
+ */
 export function noiseOf(a: Float32Array, b: Float32Array, reference: Reference): number {
   return relative((i) => (a[i]! - b[i]!) ** 2 / 2, reference.mean);
 }

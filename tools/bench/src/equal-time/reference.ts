@@ -45,7 +45,8 @@ async function render(device: GPUDevice, scene: Scene, options: PathTracerOption
   const tracer = await PathTracer.create(device, scene, options);
   try {
     for await (const progress of tracer.render({ samples })) void progress;
-    const rgb = (rgba: Float32Array) => Float32Array.from({ length: (rgba.length / 4) * 3 }, (_, i) => rgba[4 * Math.floor(i / 3) + (i % 3)]!);
+    const rgb = (rgba: Float32Array) =>
+      Float32Array.from({ length: (rgba.length / 4) * 3 }, (_, i) => rgba[4 * Math.floor(i / 3) + (i % 3)]!);
     return { picture: rgb(await tracer.read('beauty')), variance: rgb(await tracer.read('variance')) };
   } finally {
     tracer.destroy();
@@ -53,21 +54,35 @@ async function render(device: GPUDevice, scene: Scene, options: PathTracerOption
 }
 
 /** Compares a check with a reference block by block. */
-export function crossCheck(check: Rendered, reference: Reference): Pick<CrossCheck, 'ratio' | 'ratio95' | 'outside' | 'blocks'> {
+export function crossCheck(
+  check: Rendered,
+  reference: Reference,
+): Pick<CrossCheck, 'ratio' | 'ratio95' | 'outside' | 'blocks'> {
   const { width, height, mean, standardError } = reference;
-  const difference = new Float64Array(BLOCKS * BLOCKS), variance = new Float64Array(BLOCKS * BLOCKS);
+  const difference = new Float64Array(BLOCKS * BLOCKS),
+    variance = new Float64Array(BLOCKS * BLOCKS);
   let total = 0;
   for (let i = 0; i < mean.length; i++) {
     const pixel = Math.floor(i / 3);
-    const block = Math.floor((Math.floor(pixel / width) * BLOCKS) / height) * BLOCKS + Math.floor(((pixel % width) * BLOCKS) / width);
+    const block =
+      Math.floor((Math.floor(pixel / width) * BLOCKS) / height) * BLOCKS +
+      Math.floor(((pixel % width) * BLOCKS) / width);
     difference[block]! += check.picture[i]! - mean[i]!;
     // Channels share their paths: at worst they err together, which counts threefold.
     variance[block]! += 3 * (check.variance[i]! + standardError[i]! ** 2);
     total += mean[i]!;
   }
   const sum = (values: Float64Array) => values.reduce((all, value) => all + value, 0);
-  const outside = difference.reduce((count, value, i) => count + (Math.abs(value) > 3 * Math.sqrt(variance[i]!) + 1e-6 * total ? 1 : 0), 0);
-  return { ratio: 1 + sum(difference) / total, ratio95: (1.96 * Math.sqrt(sum(variance))) / total, outside, blocks: difference.length };
+  const outside = difference.reduce(
+    (count, value, i) => count + (Math.abs(value) > 3 * Math.sqrt(variance[i]!) + 1e-6 * total ? 1 : 0),
+    0,
+  );
+  return {
+    ratio: 1 + sum(difference) / total,
+    ratio95: (1.96 * Math.sqrt(sum(variance))) / total,
+    outside,
+    blocks: difference.length,
+  };
 }
 
 /** Renders the reference of a scene into a file, and checks it. */
@@ -83,21 +98,38 @@ export async function makeReference(plan: ReferencePlan, log: (line: string) => 
   const options = { width, height, maxDepth, camera, multipleScattering };
   const half = Math.ceil(plan.samples / 2);
   const started = performance.now();
-  const [a, b] = [await render(device, scene, { ...options, seed: 5001 }, half), await render(device, scene, { ...options, seed: 5002 }, half)];
+  const [a, b] = [
+    await render(device, scene, { ...options, seed: 5001 }, half),
+    await render(device, scene, { ...options, seed: 5002 }, half),
+  ];
   const mean = a.picture.map((value, i) => (value + b.picture[i]!) / 2);
   // Exactly what makes (x − mean)² − standardError² the product of the errors against both halves, which has no bias.
   const standardError = a.picture.map((value, i) => Math.abs(value - b.picture[i]!) / 2);
   const checkSamples = Math.ceil(plan.samples / CHECK_SHARE);
   const check = await render(device, scene, { ...options, seed: 5003, sampler: 'independent' }, checkSamples);
-  const result: CrossCheck = { scene: plan.scene, samples: 2 * half, checkSamples, ...crossCheck(check, { width, height, mean, standardError }) };
+  const result: CrossCheck = {
+    scene: plan.scene,
+    samples: 2 * half,
+    checkSamples,
+    ...crossCheck(check, { width, height, mean, standardError }),
+  };
   writeReference(plan.file, { width, height, mean, standardError });
   device.destroy();
-  log(`${plan.scene}: reference of ${2 * half} samples in ${((performance.now() - started) / 1000).toFixed(1)} s; with independent random numbers ${result.ratio.toFixed(5)} ± ${result.ratio95.toFixed(5)} of it, ${result.outside} of ${result.blocks} blocks outside`);
+  log(
+    `${plan.scene}: reference of ${2 * half} samples in ${((performance.now() - started) / 1000).toFixed(1)} s; with independent random numbers ${result.ratio.toFixed(5)} ± ${result.ratio95.toFixed(5)} of it, ${result.outside} of ${result.blocks} blocks outside`,
+  );
   return result;
 }
 
 function writeReference(file: string, { width, height, mean, standardError }: Reference): void {
-  writeFileSync(file, Buffer.concat([Uint32Array.of(width, height), mean, standardError].map(({ buffer, byteOffset, byteLength }) => new Uint8Array(buffer, byteOffset, byteLength))));
+  writeFileSync(
+    file,
+    Buffer.concat(
+      [Uint32Array.of(width, height), mean, standardError].map(
+        ({ buffer, byteOffset, byteLength }) => new Uint8Array(buffer, byteOffset, byteLength),
+      ),
+    ),
+  );
 }
 
 /** Reads what {@link makeReference} wrote. */
@@ -107,5 +139,10 @@ export function readReference(file: string | undefined): Reference {
   const buffer = bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength) as ArrayBuffer;
   const [width, height] = new Uint32Array(buffer, 0, 2) as unknown as [number, number];
   const count = 3 * width * height;
-  return { width, height, mean: new Float32Array(buffer, 8, count), standardError: new Float32Array(buffer, 8 + 4 * count, count) };
+  return {
+    width,
+    height,
+    mean: new Float32Array(buffer, 8, count),
+    standardError: new Float32Array(buffer, 8 + 4 * count, count),
+  };
 }

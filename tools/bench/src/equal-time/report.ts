@@ -4,7 +4,17 @@ import type { Machine } from '../machine';
 import type { ContestantName } from './contestants';
 import { plot, type Series } from './plot';
 import type { Point } from './measure';
-import { fairQuantity, measurementOf, overall, ratios, timeAt, valueAt, type EqualTimeDetails, type Quantity, type SceneInfo } from './summary';
+import {
+  fairQuantity,
+  measurementOf,
+  overall,
+  ratios,
+  timeAt,
+  valueAt,
+  type EqualTimeDetails,
+  type Quantity,
+  type SceneInfo,
+} from './summary';
 
 /** What the pages need of a report. */
 export interface EqualTimeReport {
@@ -23,7 +33,15 @@ const STYLES: Readonly<Record<ContestantName, { readonly colour: string; readonl
 } as Record<ContestantName, { colour: string; dashed?: boolean }>;
 
 const seconds = (ms: number) => `${ms / 1000} s`;
-const small = (value: number) => (value === 0 || !Number.isFinite(value) ? '–' : value >= 0.01 && value < 1000 ? String(Number(value.toPrecision(2))) : value.toExponential(1).replace('e', '·10^').replace(/\^\+?(-?\d+)/, '<sup>$1</sup>'));
+const small = (value: number) =>
+  value === 0 || !Number.isFinite(value)
+    ? '–'
+    : value >= 0.01 && value < 1000
+      ? String(Number(value.toPrecision(2)))
+      : value
+          .toExponential(1)
+          .replace('e', '·10^')
+          .replace(/\^\+?(-?\d+)/, '<sup>$1</sup>');
 const times = (ratio: number) => `${ratio >= 99.5 ? ratio.toFixed(0) : ratio.toPrecision(2)}×`;
 const row = (cells: readonly string[]) => `| ${cells.join(' | ')} |`;
 
@@ -32,13 +50,29 @@ function table(head: readonly string[], body: readonly (readonly string[])[]): s
 }
 
 /** A cell: ours, theirs, how many times lower. */
-function comparison(details: EqualTimeDetails, { name }: SceneInfo, peer: ContestantName, quantity: Quantity): string[] | undefined {
-  const [ours, theirs, factors] = [measurementOf(details, name, 'glanz'), measurementOf(details, name, peer), ratios(details, name, peer, quantity)];
+function comparison(
+  details: EqualTimeDetails,
+  { name }: SceneInfo,
+  peer: ContestantName,
+  quantity: Quantity,
+): string[] | undefined {
+  const [ours, theirs, factors] = [
+    measurementOf(details, name, 'glanz'),
+    measurementOf(details, name, peer),
+    ratios(details, name, peer, quantity),
+  ];
   if (!ours || !theirs || !factors) return undefined;
-  return factors.map((factor, b) => `${small(valueAt(ours, quantity, b))} : ${small(valueAt(theirs, quantity, b))} (**${times(factor)}**)`);
+  return factors.map(
+    (factor, b) =>
+      `${small(valueAt(ours, quantity, b))} : ${small(valueAt(theirs, quantity, b))} (**${times(factor)}**)`,
+  );
 }
 
-function comparisonTable(details: EqualTimeDetails, peer: ContestantName, quantity: (scene: SceneInfo) => Quantity | undefined): string[] {
+function comparisonTable(
+  details: EqualTimeDetails,
+  peer: ContestantName,
+  quantity: (scene: SceneInfo) => Quantity | undefined,
+): string[] {
   const body = details.scenes.flatMap((scene) => {
     const what = quantity(scene);
     const cells = what && comparison(details, scene, peer, what);
@@ -50,9 +84,19 @@ function comparisonTable(details: EqualTimeDetails, peer: ContestantName, quanti
 const catalogue = (quantity: Quantity) => (scene: SceneInfo) => (scene.truth === 'catalogue' ? quantity : undefined);
 const always = (quantity: Quantity) => () => quantity;
 
-function overallLine(details: EqualTimeDetails, peer: ContestantName, text: string, quantity: (scene: SceneInfo) => Quantity | undefined, clock: 'gpuMs' | 'wallMs' = 'gpuMs'): string[] {
+function overallLine(
+  details: EqualTimeDetails,
+  peer: ContestantName,
+  text: string,
+  quantity: (scene: SceneInfo) => Quantity | undefined,
+  clock: 'gpuMs' | 'wallMs' = 'gpuMs',
+): string[] {
   const result = overall(details, peer, quantity, clock);
-  return result ? [`- ${text}: **${times(result.mean)}** (${times(result.least)} to ${times(result.most)}, ${result.count} comparisons)`] : [];
+  return result
+    ? [
+        `- ${text}: **${times(result.mean)}** (${times(result.least)} to ${times(result.most)}, ${result.count} comparisons)`,
+      ]
+    : [];
 }
 
 /** The report as markdown, without a heading of its own. */
@@ -65,8 +109,19 @@ export function equalTimeMarkdown({ machine, gpu, quick, details }: EqualTimeRep
       if (!m) return [];
       const last = budgetsMs.length - 1;
       const [gpuMs, wallMs] = [timeAt(m, last, 'gpuMs'), timeAt(m, last, 'wallMs')];
-      const mean = (of: (point: Point) => number) => m.points.reduce((sum, run) => sum + of(run[last]!), 0) / m.points.length;
-      return [[`\`${name}\``, contestant, mean((p) => p.samples).toFixed(1), (gpuMs / mean((p) => p.samples)).toPrecision(3), (wallMs / gpuMs).toFixed(2), mean((p) => p.brightness).toFixed(4), m.setUpMs.toFixed(0)]];
+      const mean = (of: (point: Point) => number) =>
+        m.points.reduce((sum, run) => sum + of(run[last]!), 0) / m.points.length;
+      return [
+        [
+          `\`${name}\``,
+          contestant,
+          mean((p) => p.samples).toFixed(1),
+          (gpuMs / mean((p) => p.samples)).toPrecision(3),
+          (wallMs / gpuMs).toFixed(2),
+          mean((p) => p.brightness).toFixed(4),
+          m.setUpMs.toFixed(0),
+        ],
+      ];
     }),
   );
   return [
@@ -74,11 +129,21 @@ export function equalTimeMarkdown({ machine, gpu, quick, details }: EqualTimeRep
     '',
     'How many times lower the error of Glanz is at equal GPU time, geometric mean over scenes and times:',
     '',
-    ...overallLine(details, PEER, 'relMSE against the catalogue’s references, their biased options off', catalogue('relMSE')),
+    ...overallLine(
+      details,
+      PEER,
+      'relMSE against the catalogue’s references, their biased options off',
+      catalogue('relMSE'),
+    ),
     ...overallLine(details, PEER, 'the same at equal wall time', catalogue('relMSE'), 'wallMs'),
     ...overallLine(details, PEER, 'noise alone, all scenes', always('noise')),
     ...overallLine(details, PEER, 'FLIP against the catalogue’s references', catalogue('FLIP')),
-    ...overallLine(details, PEER_DEFAULTS, 'relMSE against the catalogue’s references, the peer as its users get it', catalogue('relMSE')),
+    ...overallLine(
+      details,
+      PEER_DEFAULTS,
+      'relMSE against the catalogue’s references, the peer as its users get it',
+      catalogue('relMSE'),
+    ),
     ...overallLine(details, PEER_DEFAULTS, 'FLIP, the peer as its users get it', catalogue('FLIP')),
     '',
     '## Error by GPU time, biased options off',
@@ -105,8 +170,26 @@ export function equalTimeMarkdown({ machine, gpu, quick, details }: EqualTimeRep
     '',
     `## After ${seconds(budgetsMs[budgetsMs.length - 1] ?? 0)}`,
     '',
-    ...table(['scene', 'renderer', 'samples a pixel', 'GPU ms a sample', 'wall : GPU', 'brightness : reference', 'set-up ms'], facts),
-    ...(details.crossChecks.length === 0 ? [] : ['', '## References of the product scenes', '', ...table(['scene', 'samples', 'check with independent random numbers : reference', 'blocks outside 3 σ'], details.crossChecks.map((c) => [`\`${c.scene}\``, String(c.samples), `${c.ratio.toFixed(5)} ± ${c.ratio95?.toFixed(5) ?? '?'}`, `${c.outside} of ${c.blocks}`]))]),
+    ...table(
+      ['scene', 'renderer', 'samples a pixel', 'GPU ms a sample', 'wall : GPU', 'brightness : reference', 'set-up ms'],
+      facts,
+    ),
+    ...(details.crossChecks.length === 0
+      ? []
+      : [
+          '',
+          '## References of the product scenes',
+          '',
+          ...table(
+            ['scene', 'samples', 'check with independent random numbers : reference', 'blocks outside 3 σ'],
+            details.crossChecks.map((c) => [
+              `\`${c.scene}\``,
+              String(c.samples),
+              `${c.ratio.toFixed(5)} ± ${c.ratio95?.toFixed(5) ?? '?'}`,
+              `${c.outside} of ${c.blocks}`,
+            ]),
+          ),
+        ]),
     '',
   ].join('\n');
 }
@@ -117,7 +200,15 @@ function panels(details: EqualTimeDetails, quantity: (scene: SceneInfo) => Quant
     if (!what) return [];
     const series = (Object.keys(STYLES) as ContestantName[]).flatMap((name): Series[] => {
       const m = measurementOf(details, scene.name, name);
-      return m ? [{ name, ...STYLES[name], points: details.budgetsMs.map((_, b) => [timeAt(m, b, 'gpuMs') / 1000, valueAt(m, what, b)] as const) }] : [];
+      return m
+        ? [
+            {
+              name,
+              ...STYLES[name],
+              points: details.budgetsMs.map((_, b) => [timeAt(m, b, 'gpuMs') / 1000, valueAt(m, what, b)] as const),
+            },
+          ]
+        : [];
     });
     return series.length === 0 ? [] : [{ title: `${scene.name}${what === 'noise' ? ' (noise alone)' : ''}`, series }];
   });
@@ -153,9 +244,14 @@ export function writePages(report: EqualTimeReport, folder: string): string[] {
     files.push([file, plot(drawn, { title: `${what} at equal GPU time`, x: 'seconds of GPU time', y, note: on })]);
     pictures.push(`![${what} over GPU time, by scene](./${file})`, '');
   };
-  draw('equal-time-relmse.svg', 'Error', 'relMSE', (scene) => (fairQuantity(scene) === 'noise' && details.runs < 2 ? undefined : fairQuantity(scene)));
+  draw('equal-time-relmse.svg', 'Error', 'relMSE', (scene) =>
+    fairQuantity(scene) === 'noise' && details.runs < 2 ? undefined : fairQuantity(scene),
+  );
   draw('equal-time-flip.svg', 'FLIP', 'mean FLIP', catalogue('FLIP'));
-  files.push(['equal-time.md', `${PAGE_HEAD}${pictures.join('\n')}\n${equalTimeMarkdown(report)}${PAGE_FOOT}`], ['equal-time.json', `${JSON.stringify(report, null, 1)}\n`]);
+  files.push(
+    ['equal-time.md', `${PAGE_HEAD}${pictures.join('\n')}\n${equalTimeMarkdown(report)}${PAGE_FOOT}`],
+    ['equal-time.json', `${JSON.stringify(report, null, 1)}\n`],
+  );
   for (const [name, contents] of files) writeFileSync(join(folder, name), contents);
   return files.map(([name]) => join(folder, name));
 }

@@ -33,7 +33,11 @@ function groundTruth(name: string, title: string): EqualTimeScene {
     truth: 'catalogue',
     async load(size) {
       usePackedCatalogue();
-      if (!catalogueFolder()) throw new BenchError('bench/missing-data', `${name} needs the ground-truth catalogue: set GLANZ_GROUNDTRUTH to its folder "scenes".`);
+      if (!catalogueFolder())
+        throw new BenchError(
+          'bench/missing-data',
+          `${name} needs the ground-truth catalogue: set GLANZ_GROUNDTRUTH to its folder "scenes".`,
+        );
       const truth = new GroundTruth(name);
       const scene = await truth.scene({ decodeImage: (bytes) => decodePixels(bytes) });
       const { mean, standardError } = truth.picture();
@@ -64,12 +68,25 @@ const pushButton: EqualTimeScene = {
   truth: 'own',
   async load(size) {
     const scene = createPushButton({ level: 'medium' });
-    return { task: { glb: await sceneToGlb(scene), camera: scene.cameras[0] as PerspectiveCamera, environment: studioEnvironment(), width: size, height: size, maxDepth: PRODUCT_DEPTH, multipleScattering: true } };
+    return {
+      task: {
+        glb: await sceneToGlb(scene),
+        camera: scene.cameras[0] as PerspectiveCamera,
+        environment: studioEnvironment(),
+        width: size,
+        height: size,
+        maxDepth: PRODUCT_DEPTH,
+        multipleScattering: true,
+      },
+    };
   },
 };
 
 /** Model and surroundings of the second product scene, below the folder of sample assets. */
-export const HELMET_FILES = { model: 'DamagedHelmet/DamagedHelmet.glb', environment: 'env/royal_esplanade_256.hdr' } as const;
+export const HELMET_FILES = {
+  model: 'DamagedHelmet/DamagedHelmet.glb',
+  environment: 'env/royal_esplanade_256.hdr',
+} as const;
 
 const helmet: EqualTimeScene = {
   name: 'damaged_helmet',
@@ -77,17 +94,31 @@ const helmet: EqualTimeScene = {
   truth: 'own',
   async load(size) {
     const [model, light] = [assetFile(HELMET_FILES.model), assetFile(HELMET_FILES.environment)];
-    if (!model || !light) throw new BenchError('bench/missing-data', `damaged_helmet needs ${HELMET_FILES.model} and ${HELMET_FILES.environment}: set GLANZ_ASSETS to the folder that holds them.`);
+    if (!model || !light)
+      throw new BenchError(
+        'bench/missing-data',
+        `damaged_helmet needs ${HELMET_FILES.model} and ${HELMET_FILES.environment}: set GLANZ_ASSETS to the folder that holds them.`,
+      );
     const glb = bytesOf(model);
     const { width, height, data } = decodeHdr(bytesOf(light));
     const environment: Environment = { type: 'latlong', width, height, data };
-    return { task: { glb, camera: frameCamera(await loadGltfBytes(glb), { aspect: 1 }), environment, width: size, height: size, maxDepth: PRODUCT_DEPTH, multipleScattering: true } };
+    return {
+      task: {
+        glb,
+        camera: frameCamera(await loadGltfBytes(glb), { aspect: 1 }),
+        environment,
+        width: size,
+        height: size,
+        maxDepth: PRODUCT_DEPTH,
+        multipleScattering: true,
+      },
+    };
   },
 };
 
 /**
- * What both renderers can show. Of the ground truth are left out: `metals_f82` and media (glTF cannot say them), furnaces
- * (one light from everywhere: no noise to speak of), and what Glanz does not render yet.
+ * What both renderers can show. Of the ground truth are left out: `metals_f82` and media (glTF cannot say them),
+ * furnaces (one light from everywhere: no noise to speak of), and what Glanz does not render yet.
  */
 export const SCENES: readonly EqualTimeScene[] = [
   ...[

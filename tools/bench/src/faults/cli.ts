@@ -34,7 +34,22 @@ interface Run {
 }
 
 const JOBS: Readonly<Record<'single' | 'batch', readonly string[]>> = {
-  single: ['render', 'model.glb', '--gpu', 'software', '--size', '24x16', '--samples', '6', '--depth', '3', '-o', 'x.exr', '-o', 'x.png'],
+  single: [
+    'render',
+    'model.glb',
+    '--gpu',
+    'software',
+    '--size',
+    '24x16',
+    '--samples',
+    '6',
+    '--depth',
+    '3',
+    '-o',
+    'x.exr',
+    '-o',
+    'x.png',
+  ],
   batch: ['render', '--batch', 'jobs.json', '--gpu', 'software', '--size', '24x16', '--samples', '4', '--depth', '3'],
 };
 
@@ -44,19 +59,40 @@ async function bundlePrograms(): Promise<{ readonly program: string; readonly da
   const { weslSource } = await import('../../../pipeline/wesl.mjs');
   const root = repository();
   const external = ['webgpu', 'sharp', '@sparticuz/chromium', 'draco3dgltf', 'meshoptimizer', 'meshoptimizer/*'];
-  const common = { bundle: true, platform: 'node' as const, format: 'esm' as const, target: 'node20', conditions: ['@glanz/source'], external, plugins: [weslSource()], logLevel: 'error' as const };
-  const banner = { js: "import { createRequire as glanzRequire } from 'node:module'; const require = glanzRequire(import.meta.url);" };
-  const [program, dawn] = [join(root, 'packages/cli/.cache/faults-glanz.mjs'), join(root, 'tools/bench/.cache/faults-dawn.mjs')];
+  const common = {
+    bundle: true,
+    platform: 'node' as const,
+    format: 'esm' as const,
+    target: 'node20',
+    conditions: ['@glanz/source'],
+    external,
+    plugins: [weslSource()],
+    logLevel: 'error' as const,
+  };
+  const banner = {
+    js: "import { createRequire as glanzRequire } from 'node:module'; const require = glanzRequire(import.meta.url);",
+  };
+  const [program, dawn] = [
+    join(root, 'packages/cli/.cache/faults-glanz.mjs'),
+    join(root, 'tools/bench/.cache/faults-dawn.mjs'),
+  ];
   await build({ ...common, banner, entryPoints: [join(root, 'packages/cli/src/glanz.ts')], outfile: program });
   await build({ ...common, entryPoints: [join(root, 'tools/bench/src/faults/dawn.ts')], outfile: dawn });
   return { program, dawn };
 }
 
 /**
- * Injects faults into every distinct call to the GPU that `glanz render` makes, for one image and for a batch; each trial is
- * a process. Right files and exit status 0, or a typed error and no wrong file.
+ * Injects faults into every distinct call to the GPU that `glanz render` makes, for one image and for a batch; each
+ * trial is a process. Right files and exit status 0, or a typed error and no wrong file.
  */
-export async function cliCampaign({ faults, only = '', every = 1, boundMs = 120_000, journal, onOutcome }: CliCampaign): Promise<void> {
+export async function cliCampaign({
+  faults,
+  only = '',
+  every = 1,
+  boundMs = 120_000,
+  journal,
+  onOutcome,
+}: CliCampaign): Promise<void> {
   const { program, dawn } = await bundlePrograms();
   const folder = mkdtempSync(join(tmpdir(), 'glanz-faults-'));
   const model = quads([
@@ -65,13 +101,33 @@ export async function cliCampaign({ faults, only = '', every = 1, boundMs = 120_
   ]);
   const second = quads([{ name: 'one', colour: [0.1, 0.2, 0.9] }]);
   let number = 0;
-  const start = async (job: keyof typeof JOBS, plan?: { readonly point: string; readonly fault: Fault }): Promise<Run> => {
+  const start = async (
+    job: keyof typeof JOBS,
+    plan?: { readonly point: string; readonly fault: Fault },
+  ): Promise<Run> => {
     const cwd = join(folder, `${job}-${number++}`);
     mkdirSync(cwd);
-    const inputs: Record<string, string | Uint8Array> = { 'model.glb': model, 'second.glb': second, 'jobs.json': JSON.stringify([{ model: 'model.glb', output: 'a.png' }, { model: 'second.glb', output: 'b.png' }, { model: 'model.glb', output: 'c.exr' }]) };
+    const inputs: Record<string, string | Uint8Array> = {
+      'model.glb': model,
+      'second.glb': second,
+      'jobs.json': JSON.stringify([
+        { model: 'model.glb', output: 'a.png' },
+        { model: 'second.glb', output: 'b.png' },
+        { model: 'model.glb', output: 'c.exr' },
+      ]),
+    };
     for (const [name, data] of Object.entries(inputs)) writeFileSync(join(cwd, name), data);
     const record = join(folder, `${job}-${number}.json`);
-    const child = spawn(process.execPath, [program, ...JOBS[job]], { cwd, stdio: ['ignore', 'ignore', 'pipe'], env: { ...process.env, GPU_WEBGPU: dawn, GLANZ_FAULT_RECORD: record, ...(plan ? { GLANZ_FAULT_PLAN: JSON.stringify(plan) } : {}) } });
+    const child = spawn(process.execPath, [program, ...JOBS[job]], {
+      cwd,
+      stdio: ['ignore', 'ignore', 'pipe'],
+      env: {
+        ...process.env,
+        GPU_WEBGPU: dawn,
+        GLANZ_FAULT_RECORD: record,
+        ...(plan ? { GLANZ_FAULT_PLAN: JSON.stringify(plan) } : {}),
+      },
+    });
     let err = '';
     child.stderr.on('data', (text: Buffer) => (err += text.toString()));
     let hung = false;
@@ -82,7 +138,15 @@ export async function cliCampaign({ faults, only = '', every = 1, boundMs = 120_
     const code = await new Promise<number | null>((resolve) => child.on('close', resolve));
     clearTimeout(timer);
     const made = readdirSync(cwd).filter((name) => /\.(png|exr)$/.test(name));
-    const files = Object.fromEntries(made.map((name) => [name, createHash('sha256').update(readFileSync(join(cwd, name))).digest('base64url').slice(0, 16)]));
+    const files = Object.fromEntries(
+      made.map((name) => [
+        name,
+        createHash('sha256')
+          .update(readFileSync(join(cwd, name)))
+          .digest('base64url')
+          .slice(0, 16),
+      ]),
+    );
     let recorded: Recorded | undefined;
     try {
       recorded = JSON.parse(readFileSync(record, 'utf8')) as Recorded;
@@ -97,10 +161,13 @@ export async function cliCampaign({ faults, only = '', every = 1, boundMs = 120_
     const wanted: Partial<Record<keyof typeof JOBS, Run>> = {};
     for (const job of ['single', 'batch'] as const) {
       const run = (wanted[job] = await start(job));
-      if (run.code !== 0 || !run.recorded) throw new Error(`glanz ${JOBS[job].join(' ')} fails without a fault: ${run.err}`);
+      if (run.code !== 0 || !run.recorded)
+        throw new Error(`glanz ${JOBS[job].join(' ')} fails without a fault: ${run.err}`);
       for (const point of run.recorded.points) {
         if (point.number > 3) continue;
-        for (const fault of faultsOf(point)) if ((!faults || faults.includes(fault)) && `${point.name} of ${job}`.includes(only)) trials.push({ job, point, fault });
+        for (const fault of faultsOf(point))
+          if ((!faults || faults.includes(fault)) && `${point.name} of ${job}`.includes(only))
+            trials.push({ job, point, fault });
       }
     }
     const chosen = trials.filter((_, i) => i % every === 0);
@@ -124,16 +191,28 @@ export async function cliCampaign({ faults, only = '', every = 1, boundMs = 120_
 }
 
 function judge(run: Run, expected: Run): { readonly ending: Ending; readonly detail?: string } {
-  const last = run.err.trim().split('\n').findLast((line) => !line.startsWith('Warning: max'))?.slice(0, 200) ?? '';
+  const last =
+    run.err
+      .trim()
+      .split('\n')
+      .findLast((line) => !line.startsWith('Warning: max'))
+      ?.slice(0, 200) ?? '';
   if (run.hung) return { ending: 'hang', detail: last };
   if (run.code === null) return { ending: 'crash', detail: last };
-  const wrong = Object.entries(run.files).filter(([name, digest]) => expected.files[name] !== digest).map(([name]) => name);
-  if (wrong.length > 0) return { ending: 'silent', detail: `${wrong.join(', ')} with other pixels, exit status ${run.code}` };
+  const wrong = Object.entries(run.files)
+    .filter(([name, digest]) => expected.files[name] !== digest)
+    .map(([name]) => name);
+  if (wrong.length > 0)
+    return { ending: 'silent', detail: `${wrong.join(', ')} with other pixels, exit status ${run.code}` };
   if (/UnhandledPromiseRejection|unhandledRejection/.test(run.err)) return { ending: 'unhandled', detail: last };
   if (run.code === 0) {
     const missing = Object.keys(expected.files).filter((name) => run.files[name] === undefined);
-    return missing.length === 0 ? { ending: 'image' } : { ending: 'silent', detail: `exit status 0 without ${missing.join(', ')}` };
+    return missing.length === 0
+      ? { ending: 'image' }
+      : { ending: 'silent', detail: `exit status 0 without ${missing.join(', ')}` };
   }
   const code = /\[([a-z]+\/[\w-]+)\]/.exec(run.err)?.[1];
-  return code === undefined || run.code === 70 ? { ending: 'untyped', detail: `exit status ${run.code}: ${last}` } : { ending: 'error', detail: code };
+  return code === undefined || run.code === 70
+    ? { ending: 'untyped', detail: `exit status ${run.code}: ${last}` }
+    : { ending: 'error', detail: code };
 }

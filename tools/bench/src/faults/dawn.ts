@@ -12,7 +12,18 @@ const recorder = new FaultRecorder();
 recorder.clear(plan === undefined ? undefined : (JSON.parse(plan) as { point: string; fault: Fault }));
 recorder.phase = 'device 1';
 let devices = 0;
-if (file !== undefined) process.on('exit', () => writeFileSync(file, JSON.stringify({ struck: recorder.struck, points: recorder.points, live: [...recorder.live.values()].map(({ label }) => label), devices })));
+if (file !== undefined)
+  process.on('exit', () =>
+    writeFileSync(
+      file,
+      JSON.stringify({
+        struck: recorder.struck,
+        points: recorder.points,
+        live: [...recorder.live.values()].map(({ label }) => label),
+        devices,
+      }),
+    ),
+  );
 
 /** As Dawn's; only the first device is instrumented, so that a fault can be recovered from. */
 export function create(options: string[]): GPU {

@@ -9,7 +9,8 @@ type Line = { readonly begun: TrialName } | { readonly ended: Outcome } | { read
 const keyOf = ({ subject, point, fault }: TrialName) => `${subject} ${fault} ${point}`;
 
 /**
- * The trials of a campaign and how they ended. With a file each trial is noted there as it begins and ends, one JSON value a
+ * The trials of a campaign and how they ended. With a file each trial is noted there as it begins and ends, one JSON
+ * value a
  * line: a run that was interrupted goes on where it stopped, and a trial that ended its process is known by name.
  */
 export class Journal {

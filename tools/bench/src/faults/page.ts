@@ -19,7 +19,8 @@ if ('GPUAdapter' in globalThis) {
   const { getCurrentTexture } = GPUCanvasContext.prototype;
   GPUCanvasContext.prototype.getCurrentTexture = function () {
     const fault = recorder.count('getCurrentTexture', '');
-    if (latest && (fault === 'lost-unknown' || fault === 'lost-destroyed')) loseDevice(latest, fault === 'lost-unknown' ? 'unknown' : 'destroyed');
+    if (latest && (fault === 'lost-unknown' || fault === 'lost-destroyed'))
+      loseDevice(latest, fault === 'lost-unknown' ? 'unknown' : 'destroyed');
     return getCurrentTexture.call(this);
   };
 }

@@ -53,7 +53,10 @@ function uniform(seed: number): () => number {
 setFlagsFromString('--expose-gc');
 const collect = runInNewContext('gc') as () => void;
 
-/** Loads, edits, orbits, resizes, reads, loses the device and destroys, in a random order of the seed; measures between loads. */
+/**
+ * Loads, edits, orbits, resizes, reads, loses the device and destroys, in a random order of the seed; measures between
+ * loads.
+ */
 export async function soak({ open, seconds, seed, lossRate, onPoint }: SoakOptions): Promise<SoakResult> {
   const next = uniform(seed);
   const recorder = new FaultRecorder();
@@ -82,7 +85,12 @@ export async function soak({ open, seconds, seed, lossRate, onPoint }: SoakOptio
         }
         await step.act(tracer);
         edits++;
-        await tracer.setCamera({ type: 'perspective', name: 'orbit', transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, next() - 0.5, next() - 0.5, 3, 1], yfov: 0.7 });
+        await tracer.setCamera({
+          type: 'perspective',
+          name: 'orbit',
+          transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, next() - 0.5, next() - 0.5, 3, 1],
+          yfov: 0.7,
+        });
         if (next() < 0.3) await tracer.resize(SIZE + Math.floor(20 * next()), SIZE + Math.floor(20 * next()));
         await render(tracer, 1 + Math.floor(3 * next()));
         await tracer.read('beauty');
@@ -92,7 +100,12 @@ export async function soak({ open, seconds, seed, lossRate, onPoint }: SoakOptio
     } catch (error) {
       const { code } = error as { code?: string };
       // Edits meet scenes that other edits have made: some have nothing left to show, or no sum of light groups.
-      if (!(lost && code === 'renderer/device-lost') && code !== 'renderer/no-triangles' && code !== 'renderer/light-groups') errors.push(`${code ?? (error as Error).name}: ${(error as Error).message.slice(0, 160)}`);
+      if (
+        !(lost && code === 'renderer/device-lost') &&
+        code !== 'renderer/no-triangles' &&
+        code !== 'renderer/light-groups'
+      )
+        errors.push(`${code ?? (error as Error).name}: ${(error as Error).message.slice(0, 160)}`);
     }
     tracer?.destroy();
     tracer = undefined;
@@ -103,7 +116,15 @@ export async function soak({ open, seconds, seed, lossRate, onPoint }: SoakOptio
     collect();
     collect();
     const { heapUsed, external, rss } = process.memoryUsage();
-    const point: SoakPoint = { seconds: elapsed(), heapBytes: heapUsed, externalBytes: external, rssBytes: rss, gpuObjects: recorder.live.size, gpuBytes: recorder.liveBytes, losses };
+    const point: SoakPoint = {
+      seconds: elapsed(),
+      heapBytes: heapUsed,
+      externalBytes: external,
+      rssBytes: rss,
+      gpuObjects: recorder.live.size,
+      gpuBytes: recorder.liveBytes,
+      losses,
+    };
     points.push(point);
     onPoint?.(point);
   }
@@ -112,7 +133,10 @@ export async function soak({ open, seconds, seed, lossRate, onPoint }: SoakOptio
 }
 
 /** A straight line through points by least squares: its slope, and the half-width of the slope's 95 % interval. */
-export function slope(points: readonly (readonly [x: number, y: number])[]): { readonly slope: number; readonly ci95: number } {
+export function slope(points: readonly (readonly [x: number, y: number])[]): {
+  readonly slope: number;
+  readonly ci95: number;
+} {
   const n = points.length;
   const mean = (pick: 0 | 1) => points.reduce((sum, point) => sum + point[pick], 0) / n;
   const [mx, my] = [mean(0), mean(1)];
@@ -139,10 +163,16 @@ export function soakPlot(points: readonly SoakPoint[], settledSeconds: number): 
     const x = (seconds: number) => left + ((width - left - 10) * seconds) / last;
     const y = (value: number) => top + height - (height * value) / (1.1 * most);
     const line = points.map((point) => `${x(point.seconds).toFixed(1)},${y(point[key] / scale).toFixed(1)}`).join(' ');
-    const label = (value: number) => `<text x="${left - 6}" y="${y(value) + 4}" text-anchor="end">${value < 10 ? value.toFixed(1).replace('.0', '') : value.toFixed(0)}</text>`;
+    const label = (value: number) =>
+      `<text x="${left - 6}" y="${y(value) + 4}" text-anchor="end">${value < 10 ? value.toFixed(1).replace('.0', '') : value.toFixed(0)}</text>`;
     return `<text x="${left}" y="${top - 6}">${name}${unit === '' ? '' : `, ${unit}`}</text><rect x="${left}" y="${top}" width="${width - left - 10}" height="${height}" fill="none" stroke="#999"/><line x1="${x(settledSeconds)}" x2="${x(settledSeconds)}" y1="${top}" y2="${top + height}" stroke="#999" stroke-dasharray="3"/>${label(0)}${label(most)}<polyline points="${line}" fill="none" stroke="${colour}" stroke-width="1.5"/>`;
   });
   const total = 20 + SERIES.length * (height + gap) + 10;
-  const ticks = [0, 0.25, 0.5, 0.75, 1].map((t) => `<text x="${left + (width - left - 10) * t}" y="${total - 14}" text-anchor="middle">${((t * last) / 60).toFixed(1)} min</text>`).join('');
+  const ticks = [0, 0.25, 0.5, 0.75, 1]
+    .map(
+      (t) =>
+        `<text x="${left + (width - left - 10) * t}" y="${total - 14}" text-anchor="middle">${((t * last) / 60).toFixed(1)} min</text>`,
+    )
+    .join('');
   return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${total}" width="${width}" height="${total}" font-family="sans-serif" font-size="12" role="img"><title>Memory over time in the soak test</title><rect width="100%" height="100%" fill="#fff"/>${panels.join('')}${ticks}</svg>\n`;
 }

@@ -7,8 +7,19 @@ const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 /** A grid of n × n quads in the xy plane. */
 function grid(name: string, n: number, half: number, z: number): Mesh {
   const side = n + 1;
-  const positions = Float32Array.from({ length: 3 * side * side }, (_, i) => [((Math.floor(i / 3) % side) / n) * 2 * half - half, (Math.floor(Math.floor(i / 3) / side) / n) * 2 * half - half, z][i % 3]!);
-  const uvs = Float32Array.from({ length: 2 * side * side }, (_, i) => [(Math.floor(i / 2) % side) / n, Math.floor(Math.floor(i / 2) / side) / n][i % 2]!);
+  const positions = Float32Array.from(
+    { length: 3 * side * side },
+    (_, i) =>
+      [
+        ((Math.floor(i / 3) % side) / n) * 2 * half - half,
+        (Math.floor(Math.floor(i / 3) / side) / n) * 2 * half - half,
+        z,
+      ][i % 3]!,
+  );
+  const uvs = Float32Array.from(
+    { length: 2 * side * side },
+    (_, i) => [(Math.floor(i / 2) % side) / n, Math.floor(Math.floor(i / 2) / side) / n][i % 2]!,
+  );
   const faces = Array.from({ length: n * n }, (_, i) => {
     const a = Math.floor(i / n) * side + (i % n);
     return [a, a + 1, a + side + 1, a, a + side + 1, a + side];
@@ -19,10 +30,21 @@ function grid(name: string, n: number, half: number, z: number): Mesh {
 /** A small scene with something of everything that edits touch: textures, lights in groups, variants, hidden parts. */
 export function faultScene(): Scene {
   const scene = createScene();
-  scene.images.push({ name: 'checks', width: 4, height: 4, data: Uint8ClampedArray.from({ length: 64 }, (_, i) => (i % 4 === 3 ? 255 : ((i >> 2) % 4 ^ (i >> 4)) & 1 ? 220 : 60)) });
+  scene.images.push({
+    name: 'checks',
+    width: 4,
+    height: 4,
+    data: Uint8ClampedArray.from({ length: 64 }, (_, i) =>
+      i % 4 === 3 ? 255 : (((i >> 2) % 4) ^ (i >> 4)) & 1 ? 220 : 60,
+    ),
+  });
   scene.textures.push({ image: 0, color_space: 'srgb' });
   scene.materials.push(
-    { name: 'floor', parameters: { base_color: [0.6, 0.6, 0.6] }, textures: { base_color: { texture: 0, channels: 'rgb' } } },
+    {
+      name: 'floor',
+      parameters: { base_color: [0.6, 0.6, 0.6] },
+      textures: { base_color: { texture: 0, channels: 'rgb' } },
+    },
     { name: 'paint', parameters: { base_color: [0.8, 0.1, 0.1], specular_roughness: 0.3 } },
     { name: 'steel', parameters: { base_metalness: 1, base_color: [0.7, 0.7, 0.7], specular_roughness: 0.2 } },
   );
@@ -33,9 +55,21 @@ export function faultScene(): Scene {
     { name: 'part', mesh: 1, material: 1, transform: IDENTITY, variants: { 0: 2 } },
     { name: 'extra', mesh: 2, material: 2, transform: IDENTITY, visible: false },
   );
-  scene.lights.push({ type: 'directional', name: 'key', light_group: 'key', color: [1, 0.9, 0.8], intensity: 2, direction: [0.5, -0.3, -0.8] });
+  scene.lights.push({
+    type: 'directional',
+    name: 'key',
+    light_group: 'key',
+    color: [1, 0.9, 0.8],
+    intensity: 2,
+    direction: [0.5, -0.3, -0.8],
+  });
   scene.environment = { type: 'constant', radiance: [0.4, 0.5, 0.6] };
-  scene.cameras.push({ type: 'perspective', name: 'front', transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 3, 1], yfov: 0.7 });
+  scene.cameras.push({
+    type: 'perspective',
+    name: 'front',
+    transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 3, 1],
+    yfov: 0.7,
+  });
   return scene;
 }
 
@@ -51,8 +85,20 @@ export interface Step {
   readonly act: (tracer: PathTracer) => unknown;
 }
 
-const latlong = { type: 'latlong', width: 8, height: 4, data: Float32Array.from({ length: 96 }, (_, i) => 0.2 + ((i * 7) % 11) / 10) } as const;
-const camera = (x: number, extra: object = {}) => ({ type: 'perspective', name: 'moved', transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, 0, 3, 1], yfov: 0.7, ...extra }) as Parameters<PathTracer['setCamera']>[0];
+const latlong = {
+  type: 'latlong',
+  width: 8,
+  height: 4,
+  data: Float32Array.from({ length: 96 }, (_, i) => 0.2 + ((i * 7) % 11) / 10),
+} as const;
+const camera = (x: number, extra: object = {}) =>
+  ({
+    type: 'perspective',
+    name: 'moved',
+    transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, 0, 3, 1],
+    yfov: 0.7,
+    ...extra,
+  }) as Parameters<PathTracer['setCamera']>[0];
 const LAYERS: readonly FilmLayer[] = ['variance', 'albedo', 'normal', 'position', 'depth', 'objectId', 'materialId'];
 
 export const STEPS: readonly Step[] = [
@@ -68,8 +114,15 @@ export const STEPS: readonly Step[] = [
   { name: 'setMaterial that begins to emit', act: (t) => t.setMaterial('paint', { emission_luminance: 2 }) },
   { name: 'setLight', act: (t) => t.setLight('key', { intensity: 1 }) },
   { name: 'setEnvironment', act: (t) => t.setEnvironment(latlong as Parameters<PathTracer['setEnvironment']>[0]) },
-  { name: 'adjustEnvironment', before: (t) => t.setEnvironment(latlong as Parameters<PathTracer['setEnvironment']>[0]), act: (t) => t.adjustEnvironment({ rotation: 1 }) },
-  { name: 'setInstanceTransform', act: (t) => t.setInstanceTransform('part', [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.2, 0.1, 0.1, 1]) },
+  {
+    name: 'adjustEnvironment',
+    before: (t) => t.setEnvironment(latlong as Parameters<PathTracer['setEnvironment']>[0]),
+    act: (t) => t.adjustEnvironment({ rotation: 1 }),
+  },
+  {
+    name: 'setInstanceTransform',
+    act: (t) => t.setInstanceTransform('part', [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.2, 0.1, 0.1, 1]),
+  },
   { name: 'setVisibility off', act: (t) => t.setVisibility('part', false) },
   { name: 'setVisibility of a new mesh', act: (t) => t.setVisibility('extra', true) },
   { name: 'setCatcher', act: (t) => t.setCatcher('floor', true) },
@@ -98,7 +151,8 @@ const films = new WeakMap<PathTracer, FilmState>();
 
 /** Adds samples until there are so many. */
 export async function render(tracer: PathTracer, samples: number, noise?: number): Promise<void> {
-  for await (const progress of tracer.render({ samples, maxSubmitMs: 1000, ...(noise === undefined ? {} : { noise }) })) void progress;
+  for await (const progress of tracer.render({ samples, maxSubmitMs: 1000, ...(noise === undefined ? {} : { noise }) }))
+    void progress;
 }
 
 /** A name for data that differs where a bit differs. */
@@ -117,4 +171,11 @@ export async function look(tracer: PathTracer): Promise<string | undefined> {
 }
 
 /** A tracer of {@link faultScene}. */
-export const createTracer = (device: GPUDevice): Promise<PathTracer> => PathTracer.create(device, faultScene(), { width: SIZE, height: SIZE, maxDepth: 4, pathsInFlight: 1024, background: 'environment' });
+export const createTracer = (device: GPUDevice): Promise<PathTracer> =>
+  PathTracer.create(device, faultScene(), {
+    width: SIZE,
+    height: SIZE,
+    maxDepth: 4,
+    pathsInFlight: 1024,
+    background: 'environment',
+  });

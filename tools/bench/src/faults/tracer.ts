@@ -43,10 +43,19 @@ interface Prepared {
 }
 
 /**
- * Injects faults into every distinct call to the GPU that a `PathTracer` makes: while it is created, rendered, read, edited,
- * saved and restored, and destroyed. Each trial has a tracer of its own.
+ * Injects faults into every distinct call to the GPU that a `PathTracer` makes: while it is created, rendered, read,
+ * edited, saved and restored, and destroyed. Each trial has a tracer of its own.
  */
-export async function tracerCampaign({ open, faults, only = '', steps, every = 1, boundMs = 60_000, journal, onOutcome }: TracerCampaign): Promise<void> {
+export async function tracerCampaign({
+  open,
+  faults,
+  only = '',
+  steps,
+  every = 1,
+  boundMs = 60_000,
+  journal,
+  onOutcome,
+}: TracerCampaign): Promise<void> {
   const recorder = new FaultRecorder();
   // Kept for good: Dawn for Node has crashed on devices that were collected, or destroyed while they compiled.
   const opened: GPUDevice[] = [];
@@ -86,7 +95,8 @@ export async function tracerCampaign({ open, faults, only = '', steps, every = 1
         if (point.phase.startsWith('render after') && seen.has(key) && of.step.name !== 'create') continue;
         if (point.phase.startsWith('render after')) seen.add(key);
         if (point.number > 4) continue;
-        for (const fault of faultsOf(point)) if ((!faults || faults.includes(fault)) && point.name.includes(only)) trials.push({ of, point, fault });
+        for (const fault of faultsOf(point))
+          if ((!faults || faults.includes(fault)) && point.name.includes(only)) trials.push({ of, point, fault });
       }
     }
     const chosen = trials.filter((_, i) => i % every === 0);
@@ -95,12 +105,18 @@ export async function tracerCampaign({ open, faults, only = '', steps, every = 1
       if (journal.has(name)) continue;
       journal.begin(name);
       rejections.length = 0;
-      const alone = isLoss(fault) || fault === 'compile' || /Pipeline|ShaderModule|Layout|popErrorScope/.test(point.call);
+      const alone =
+        isLoss(fault) || fault === 'compile' || /Pipeline|ShaderModule|Layout|popErrorScope/.test(point.call);
       const used = alone ? await device() : warm;
       const run = await trial({ of, point, fault, used, healthy: () => Promise.resolve(warm), recorder, boundMs });
       // Rejections are reported in a later turn.
       await sleep(5);
-      const ending: Ending = run.ending === 'image' || run.ending === 'error' ? (rejections.length > 0 ? 'unhandled' : run.ending) : run.ending;
+      const ending: Ending =
+        run.ending === 'image' || run.ending === 'error'
+          ? rejections.length > 0
+            ? 'unhandled'
+            : run.ending
+          : run.ending;
       const detail = ending === 'unhandled' ? describe(rejections[0]) : run.detail;
       if (alone) used.destroy();
       else if (ending === 'hang' || ending === 'unusable') warm = await device();
@@ -134,8 +150,15 @@ async function prepare(step: Step, recorder: FaultRecorder, device: GPUDevice): 
   const after = await look(tracer);
   recorder.phase = 'destroy';
   tracer.destroy();
-  const own = step.name === 'create' ? () => true : (point: FaultPoint) => point.phase === step.name || point.phase.startsWith('render after');
-  return { step, expected: { before, value, after }, points: recorder.points.filter(own).filter(({ phase }) => phase !== 'before') };
+  const own =
+    step.name === 'create'
+      ? () => true
+      : (point: FaultPoint) => point.phase === step.name || point.phase.startsWith('render after');
+  return {
+    step,
+    expected: { before, value, after },
+    points: recorder.points.filter(own).filter(({ phase }) => phase !== 'before'),
+  };
 }
 
 /** Steps whose call works on samples that are there. */
@@ -158,21 +181,38 @@ interface Verdict {
   readonly reached?: boolean;
 }
 
-async function trial({ of: { step, expected }, point, fault, used, healthy, recorder, boundMs }: TrialInput): Promise<Verdict> {
+async function trial({
+  of: { step, expected },
+  point,
+  fault,
+  used,
+  healthy,
+  recorder,
+  boundMs,
+}: TrialInput): Promise<Verdict> {
   const alive = new Set(recorder.live.keys());
   recorder.clear({ point: point.name, fault });
   let tracer: PathTracer | undefined;
   let refusal: string | undefined;
-  const done = (ending: Ending, detail?: string): Verdict => ({ ending, ...(detail === undefined ? {} : { detail }), reached: recorder.struck !== undefined });
+  const done = (ending: Ending, detail?: string): Verdict => ({
+    ending,
+    ...(detail === undefined ? {} : { detail }),
+    reached: recorder.struck !== undefined,
+  });
   // A call that may meet the fault: its value, or a verdict, or `again` if it was refused as promised.
-  const call = async <T>(what: string, run: () => T | Promise<T>): Promise<{ readonly value: T } | { readonly again: true } | { readonly verdict: Verdict }> => {
+  const call = async <T>(
+    what: string,
+    run: () => T | Promise<T>,
+  ): Promise<{ readonly value: T } | { readonly again: true } | { readonly verdict: Verdict }> => {
     const result = await attempt(run, boundMs);
     if (result.kind === 'value') return { value: result.value };
     if (result.kind === 'hang') return { verdict: done('hang', `${what} did not end within ${boundMs / 1000} s`) };
     const code = codeOf(result.error);
     if (code === undefined) return { verdict: done('untyped', `${what}: ${describe(result.error)}`) };
-    if (!recorder.struck) return { verdict: done('unusable', `${what} failed before the fault: ${describe(result.error)}`) };
-    if (isLoss(fault) !== (code === 'renderer/device-lost')) return { verdict: done('untyped', `${what}: a wrong code: ${describe(result.error)}`) };
+    if (!recorder.struck)
+      return { verdict: done('unusable', `${what} failed before the fault: ${describe(result.error)}`) };
+    if (isLoss(fault) !== (code === 'renderer/device-lost'))
+      return { verdict: done('untyped', `${what}: a wrong code: ${describe(result.error)}`) };
     refusal ??= code;
     return { again: true };
   };
@@ -190,7 +230,9 @@ async function trial({ of: { step, expected }, point, fault, used, healthy, reco
     if (result.kind === 'hang') return done('hang', 'a new tracer after the fault');
     if (result.kind === 'error') return done('unusable', `a new tracer after the fault: ${describe(result.error)}`);
     const [value, after] = result.value;
-    return value === expected.value && after === expected.after ? done('error', refusal) : done('silent', 'a new tracer after the fault shows another image');
+    return value === expected.value && after === expected.after
+      ? done('error', refusal)
+      : done('silent', 'a new tracer after the fault shows another image');
   };
   const verdict = await (async (): Promise<Verdict> => {
     recorder.phase = step.name === 'create' ? 'create' : 'before';
@@ -210,14 +252,24 @@ async function trial({ of: { step, expected }, point, fault, used, healthy, reco
       recorder.phase = 'again';
       if (expected.before !== undefined) {
         const stands = await attempt(() => look(tracer as PathTracer), boundMs);
-        if (stands.kind !== 'value') return done(stands.kind === 'hang' ? 'hang' : 'unusable', `render after a refused ${step.name}: ${stands.kind === 'error' ? describe(stands.error) : 'hang'}`);
-        if (stands.value !== expected.before) return done('not-rolled-back', `${refusal}; the image is neither as before`);
+        if (stands.kind !== 'value')
+          return done(
+            stands.kind === 'hang' ? 'hang' : 'unusable',
+            `render after a refused ${step.name}: ${stands.kind === 'error' ? describe(stands.error) : 'hang'}`,
+          );
+        if (stands.value !== expected.before)
+          return done('not-rolled-back', `${refusal}; the image is neither as before`);
         tracer.reset();
       }
       const again = await attempt(async () => digest(await step.act(tracer as PathTracer)), boundMs);
-      if (again.kind !== 'value') return done(again.kind === 'hang' ? 'hang' : 'unusable', `${step.name} again: ${again.kind === 'error' ? describe(again.error) : 'hang'}`);
+      if (again.kind !== 'value')
+        return done(
+          again.kind === 'hang' ? 'hang' : 'unusable',
+          `${step.name} again: ${again.kind === 'error' ? describe(again.error) : 'hang'}`,
+        );
       if (again.value !== expected.value) return done('silent', `${step.name} again gives other data`);
-    } else if (recorder.struck && acted.value !== expected.value) return done('silent', `${step.name} resolved with other data`);
+    } else if (recorder.struck && acted.value !== expected.value)
+      return done('silent', `${step.name} resolved with other data`);
     recorder.phase = `render after ${step.name}`;
     const shown = await call('render', () => look(tracer as PathTracer));
     if ('verdict' in shown) return shown.verdict;
@@ -225,7 +277,11 @@ async function trial({ of: { step, expected }, point, fault, used, healthy, reco
       if (isLoss(fault)) return afresh();
       recorder.phase = 'again';
       const again = await attempt(() => look(tracer as PathTracer), boundMs);
-      if (again.kind !== 'value') return done(again.kind === 'hang' ? 'hang' : 'unusable', `render again: ${again.kind === 'error' ? describe(again.error) : 'hang'}`);
+      if (again.kind !== 'value')
+        return done(
+          again.kind === 'hang' ? 'hang' : 'unusable',
+          `render again: ${again.kind === 'error' ? describe(again.error) : 'hang'}`,
+        );
       if (again.value !== expected.after) return done('silent', 'render again shows another image');
       return done('error', refusal);
     }
@@ -240,4 +296,3 @@ async function trial({ of: { step, expected }, point, fault, used, healthy, reco
   for (const object of recorder.live.keys()) if (!alive.has(object)) recorder.live.delete(object);
   return left.length > 0 ? done('leak', left.join(', ')) : verdict;
 }
-

@@ -48,15 +48,27 @@ interface PageWindow {
   glanzFaults: PageFaults;
 }
 
-/** Runs in the page: load, edit, resize, read, destroy, with a fault on the way; and all of it again where that failed. */
-async function run({ base64, plan, boundMs }: { readonly base64: string; readonly plan: Plan; readonly boundMs: number }): Promise<End> {
+/**
+ * Runs in the page: load, edit, resize, read, destroy, with a fault on the way; and all of it again where that failed.
+ */
+async function run({
+  base64,
+  plan,
+  boundMs,
+}: {
+  readonly base64: string;
+  readonly plan: Plan;
+  readonly boundMs: number;
+}): Promise<End> {
   const page = globalThis as unknown as PageWindow;
   const { recorder } = page.glanzFaults;
   recorder.clear(plan.point === undefined ? undefined : { point: plan.point, fault: plan.fault! });
   const errors: string[] = [];
   const told = (error: unknown) => {
     const code = (error as { code?: unknown }).code;
-    errors.push(typeof code === 'string' && code.includes('/') ? code : `untyped: ${String((error as Error)?.message ?? error)}`);
+    errors.push(
+      typeof code === 'string' && code.includes('/') ? code : `untyped: ${String((error as Error)?.message ?? error)}`,
+    );
   };
   const wait = (milliseconds: number) => new Promise<void>((done) => setTimeout(done, milliseconds));
   let viewer: Viewer | undefined;
@@ -78,7 +90,12 @@ async function run({ base64, plan, boundMs }: { readonly base64: string; readonl
   const flow = async (): Promise<string> => {
     canvas.style.width = '320px';
     enter('load');
-    viewer = page.make({ samples: 2, maxDepth: 3, pixelRatio: 0.25, environment: { type: 'constant', radiance: [1, 1, 1] } });
+    viewer = page.make({
+      samples: 2,
+      maxDepth: 3,
+      pixelRatio: 0.25,
+      environment: { type: 'constant', radiance: [1, 1, 1] },
+    });
     viewer.on('error', told);
     await viewer.load(page.file(base64, 'model.glb'));
     await done(80);
@@ -101,11 +118,17 @@ async function run({ base64, plan, boundMs }: { readonly base64: string; readonl
     return `${viewer.tracer!.width} × ${viewer.tracer!.height} ${[...digest.subarray(0, 12)].map((byte) => byte.toString(16).padStart(2, '0')).join('')}`;
   };
   let hung = false;
-  const bounded = () => Promise.race([flow(), wait(boundMs).then(() => {
-    hung = true;
-    errors.push(`viewer/hang in ${recorder.phase}: ${viewer?.state}, ${viewer?.tracer?.samples} samples, ${viewer?.tracer?.width} × ${viewer?.tracer?.height}`);
-    throw Object.assign(new Error('no end'), { code: 'viewer/hang' });
-  })]);
+  const bounded = () =>
+    Promise.race([
+      flow(),
+      wait(boundMs).then(() => {
+        hung = true;
+        errors.push(
+          `viewer/hang in ${recorder.phase}: ${viewer?.state}, ${viewer?.tracer?.samples} samples, ${viewer?.tracer?.width} × ${viewer?.tracer?.height}`,
+        );
+        throw Object.assign(new Error('no end'), { code: 'viewer/hang' });
+      }),
+    ]);
   let film = '';
   try {
     film = await bounded();
@@ -118,17 +141,45 @@ async function run({ base64, plan, boundMs }: { readonly base64: string; readonl
   enter('destroy');
   viewer?.destroy();
   await wait(100);
-  return { film, errors, hung, points: [...recorder.points], struck: recorder.struck !== undefined, live: [...recorder.live.values()].map(({ kind, label }) => `${kind} ${label}`) };
+  return {
+    film,
+    errors,
+    hung,
+    points: [...recorder.points],
+    struck: recorder.struck !== undefined,
+    live: [...recorder.live.values()].map(({ kind, label }) => `${kind} ${label}`),
+  };
 }
 
 /**
- * Injects faults into every distinct call to the GPU that a viewer in Chromium makes while it loads a model, edits it, is
- * resized, read and destroyed, and hides its tab in each of these phases. Each trial is a page of its own.
+ * Injects faults into every distinct call to the GPU that a viewer in Chromium makes while it loads a model, edits it,
+ * is resized, read and destroyed, and hides its tab in each of these phases. Each trial is a page of its own.
  */
-export async function viewerCampaign({ faults, only = '', every = 1, boundMs = 90_000, journal, onOutcome }: ViewerCampaign): Promise<void> {
+export async function viewerCampaign({
+  faults,
+  only = '',
+  every = 1,
+  boundMs = 90_000,
+  journal,
+  onOutcome,
+}: ViewerCampaign): Promise<void> {
   const root = repository();
-  const [{ build }, { weslSource }, { chromium }, { servePage, watch }] = await Promise.all([import('esbuild'), import('../../../pipeline/wesl.mjs'), import('playwright'), import('@glanz/browser')]);
-  const bundled = await build({ entryPoints: [join(root, 'tools/bench/src/faults/page.ts')], bundle: true, write: false, format: 'iife', target: 'es2022', conditions: ['@glanz/source'], plugins: [weslSource()], logLevel: 'error' });
+  const [{ build }, { weslSource }, { chromium }, { servePage, watch }] = await Promise.all([
+    import('esbuild'),
+    import('../../../pipeline/wesl.mjs'),
+    import('playwright'),
+    import('@glanz/browser'),
+  ]);
+  const bundled = await build({
+    entryPoints: [join(root, 'tools/bench/src/faults/page.ts')],
+    bundle: true,
+    write: false,
+    format: 'iife',
+    target: 'es2022',
+    conditions: ['@glanz/source'],
+    plugins: [weslSource()],
+    logLevel: 'error',
+  });
   const script = bundled.outputFiles[0]!.text;
   mkdirSync(join(root, '.cache'), { recursive: true });
   const served = await servePage(join(root, 'packages/viewer/test/page'));
@@ -151,13 +202,17 @@ export async function viewerCampaign({ faults, only = '', every = 1, boundMs = 9
   };
   try {
     const reference = await start({});
-    if (reference.errors.length > 0 || reference.film === '') throw new Error(`The viewer fails without a fault: ${reference.errors.join(', ')}`);
+    if (reference.errors.length > 0 || reference.film === '')
+      throw new Error(`The viewer fails without a fault: ${reference.errors.join(', ')}`);
     const trials: { readonly name: string; readonly fault: Outcome['fault']; readonly plan: Plan }[] = [];
     for (const point of reference.points) {
       if (point.number > 2) continue;
-      for (const fault of faultsOf(point)) if (!faults || faults.includes(fault)) trials.push({ name: point.name, fault, plan: { point: point.name, fault } });
+      for (const fault of faultsOf(point))
+        if (!faults || faults.includes(fault))
+          trials.push({ name: point.name, fault, plan: { point: point.name, fault } });
     }
-    if (!faults) for (const hide of PHASES) trials.push({ name: `tab in ${hide}`, fault: 'tab-hidden', plan: { hide } });
+    if (!faults)
+      for (const hide of PHASES) trials.push({ name: `tab in ${hide}`, fault: 'tab-hidden', plan: { hide } });
     const chosen = trials.filter(({ name }) => name.includes(only)).filter((_, i) => i % every === 0);
     for (const [i, { name, fault, plan }] of chosen.entries()) {
       const trial = { subject: 'viewer', point: name, fault } as const;
@@ -178,7 +233,11 @@ export async function viewerCampaign({ faults, only = '', every = 1, boundMs = 9
   }
 }
 
-function judge({ film, errors, hung, live }: End, expected: string, complaints: readonly string[]): { readonly ending: Ending; readonly detail?: string } {
+function judge(
+  { film, errors, hung, live }: End,
+  expected: string,
+  complaints: readonly string[],
+): { readonly ending: Ending; readonly detail?: string } {
   const detail = errors.length === 0 ? {} : { detail: [...new Set(errors)].join(', ') };
   if (hung) return { ending: 'hang', ...detail };
   if (complaints.length > 0) return { ending: 'unhandled', detail: complaints[0]! };

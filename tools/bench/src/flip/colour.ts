@@ -27,7 +27,11 @@ export const srgbToLinear = (s: number) => (s <= 0.04045 ? s / 12.92 : ((s + 0.0
 
 /** XYZ over that of white. */
 export function linearToXyz(r: number, g: number, b: number): [number, number, number] {
-  return [row(TO_XYZ[0]!, r, g, b) / WHITE[0], row(TO_XYZ[1]!, r, g, b) / WHITE[1], row(TO_XYZ[2]!, r, g, b) / WHITE[2]];
+  return [
+    row(TO_XYZ[0]!, r, g, b) / WHITE[0],
+    row(TO_XYZ[1]!, r, g, b) / WHITE[1],
+    row(TO_XYZ[2]!, r, g, b) / WHITE[2],
+  ];
 }
 
 /** The inverse of {@link linearToXyz}. */

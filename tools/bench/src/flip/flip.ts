@@ -38,7 +38,8 @@ function perceived(planes: Planes, width: number, height: number, pixelsPerDegre
   const filters = sensitivityFilters(pixelsPerDegree);
   const filtered = planes.map((plane, channel) => {
     const sum = new Float64Array(plane.length);
-    for (const { weight, taps } of filters[channel]!) filterPlane(plane, width, height, taps, taps).forEach((value, i) => (sum[i]! += weight * value));
+    for (const { weight, taps } of filters[channel]!)
+      filterPlane(plane, width, height, taps, taps).forEach((value, i) => (sum[i]! += weight * value));
     return sum;
   });
   const out = planes.map((plane) => new Float64Array(plane.length)) as unknown as Planes;
@@ -54,12 +55,18 @@ function perceived(planes: Planes, width: number, height: number, pixelsPerDegre
 const hyab = (dL: number, da: number, db: number) => Math.abs(dL) + Math.hypot(da, db);
 
 function largestColourDifference(): number {
-  const green = linearToHuntLab(0, 1, 0), blue = linearToHuntLab(0, 0, 1);
+  const green = linearToHuntLab(0, 1, 0),
+    blue = linearToHuntLab(0, 0, 1);
   return hyab(green[0] - blue[0], green[1] - blue[1], green[2] - blue[2]) ** QC;
 }
 
 /** Strength of edges and points at each pixel. */
-function features(achromatic: Float64Array, width: number, height: number, pixelsPerDegree: number): { readonly edge: Float64Array; readonly point: Float64Array } {
+function features(
+  achromatic: Float64Array,
+  width: number,
+  height: number,
+  pixelsPerDegree: number,
+): { readonly edge: Float64Array; readonly point: Float64Array } {
   const { blur, edge, point } = featureFilters(pixelsPerDegree);
   const plane = achromatic.map((y) => (y + 16) / 116);
   const strength = (taps: typeof edge) => {
@@ -72,27 +79,45 @@ function features(achromatic: Float64Array, width: number, height: number, pixel
 
 /**
  * The difference that a person notices who flips between two pictures at the same place: ꟻLIP for displayed (LDR)
- * pictures, after Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström and Fairchild, "ꟻLIP: A Difference Evaluator for
- * Alternating Images", 2020. Symmetric in the two.
+ * pictures, after Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström and Fairchild, "ꟻLIP: A Difference Evaluator
+ * for Alternating Images", 2020. Symmetric in the two.
  *
  * @param reference RGB, stride 3, as displayed: sRGB codes 0..1, top row first.
  * @param test As `reference`.
  */
-export function flip(reference: ArrayLike<number>, test: ArrayLike<number>, width: number, height: number, options: FlipOptions = {}): FlipResult {
+export function flip(
+  reference: ArrayLike<number>,
+  test: ArrayLike<number>,
+  width: number,
+  height: number,
+  options: FlipOptions = {},
+): FlipResult {
   const { pixelsPerDegree = DEFAULT_PIXELS_PER_DEGREE } = options;
   const pixels = width * height;
-  if (reference.length !== 3 * pixels || test.length !== 3 * pixels) throw new RangeError(`flip: both pictures must have 3 × ${width} × ${height} values`);
+  if (reference.length !== 3 * pixels || test.length !== 3 * pixels)
+    throw new RangeError(`flip: both pictures must have 3 × ${width} × ${height} values`);
   const [a, b] = [opponentPlanes(reference, pixels), opponentPlanes(test, pixels)];
   const [seenA, seenB] = [perceived(a, width, height, pixelsPerDegree), perceived(b, width, height, pixelsPerDegree)];
-  const [featuresA, featuresB] = [features(a[0], width, height, pixelsPerDegree), features(b[0], width, height, pixelsPerDegree)];
+  const [featuresA, featuresB] = [
+    features(a[0], width, height, pixelsPerDegree),
+    features(b[0], width, height, pixelsPerDegree),
+  ];
   const largest = largestColourDifference();
   const knee = PC * largest;
   const map = new Float32Array(pixels);
   let sum = 0;
   for (let i = 0; i < pixels; i++) {
-    const difference = hyab(seenA[0][i]! - seenB[0][i]!, seenA[1][i]! - seenB[1][i]!, seenA[2][i]! - seenB[2][i]!) ** QC;
-    const colour = difference < knee ? (difference * PT) / knee : PT + ((difference - knee) / (largest - knee)) * (1 - PT);
-    const feature = (Math.max(Math.abs(featuresA.edge[i]! - featuresB.edge[i]!), Math.abs(featuresA.point[i]! - featuresB.point[i]!)) / Math.SQRT2) ** QF;
+    const difference =
+      hyab(seenA[0][i]! - seenB[0][i]!, seenA[1][i]! - seenB[1][i]!, seenA[2][i]! - seenB[2][i]!) ** QC;
+    const colour =
+      difference < knee ? (difference * PT) / knee : PT + ((difference - knee) / (largest - knee)) * (1 - PT);
+    const feature =
+      (Math.max(
+        Math.abs(featuresA.edge[i]! - featuresB.edge[i]!),
+        Math.abs(featuresA.point[i]! - featuresB.point[i]!),
+      ) /
+        Math.SQRT2) **
+      QF;
     const value = Math.min(Math.max(colour, 0), 1) ** (1 - Math.min(feature, 1));
     map[i] = value;
     sum += value;

@@ -10,7 +10,9 @@ function sampled(radius: number, f: (offset: number) => number): Taps {
 
 const sum = (values: Float64Array) => values.reduce((total, value) => total + value, 0);
 
-/** A term of a contrast sensitivity function in space: `weight` × a Gaussian, in taps that are applied along both axes. */
+/**
+ * A term of a contrast sensitivity function in space: `weight` × a Gaussian, in taps that are applied along both axes.
+ */
 export interface SensitivityTerm {
   readonly weight: number;
   readonly taps: Taps;
@@ -20,10 +22,15 @@ export interface SensitivityTerm {
 const SENSITIVITY = [
   [[1, 0.0047]],
   [[1, 0.0053]],
-  [[34.1, 0.04], [13.5, 0.025]],
+  [
+    [34.1, 0.04],
+    [13.5, 0.025],
+  ],
 ] as const;
 
-/** The contrast sensitivity of the eye to the channels achromatic, red–green, blue–yellow. The terms of each sum to 1. */
+/**
+ * The contrast sensitivity of the eye to the channels achromatic, red–green, blue–yellow. The terms of each sum to 1.
+ */
 export function sensitivityFilters(pixelsPerDegree: number): SensitivityTerm[][] {
   const radius = Math.ceil(3 * Math.sqrt(0.04 / (2 * Math.PI ** 2)) * pixelsPerDegree);
   return SENSITIVITY.map((terms) => {
@@ -32,11 +39,17 @@ export function sensitivityFilters(pixelsPerDegree: number): SensitivityTerm[][]
       return { weight: a * Math.sqrt(Math.PI / b), taps, total: sum(taps.weights) };
     });
     const whole = parts.reduce((total, part) => total + part.weight * part.total ** 2, 0);
-    return parts.map(({ weight, taps, total }) => ({ weight: (weight * total ** 2) / whole, taps: { radius, weights: taps.weights.map((w) => w / total) } }));
+    return parts.map(({ weight, taps, total }) => ({
+      weight: (weight * total ** 2) / whole,
+      taps: { radius, weights: taps.weights.map((w) => w / total) },
+    }));
   });
 }
 
-/** Along one axis: a Gaussian, its slope and its curvature, the latter two with positive and negative taps that sum to ±1. */
+/**
+ * Along one axis: a Gaussian, its slope and its curvature, the latter two with positive and negative taps that sum to
+ * ±1.
+ */
 export interface FeatureFilters {
   readonly blur: Taps;
   readonly edge: Taps;
@@ -58,17 +71,24 @@ export function featureFilters(pixelsPerDegree: number): FeatureFilters {
   return {
     blur: { radius, weights: blur.weights.map((w) => w / total) },
     edge: balanced(sampled(radius, (x) => -x * gauss(x))),
-    point: balanced(sampled(radius, (x) => (x * x / (sigma * sigma) - 1) * gauss(x))),
+    point: balanced(sampled(radius, (x) => ((x * x) / (sigma * sigma) - 1) * gauss(x))),
   };
 }
 
 /** Filters a plane along x with one set of taps and along y with another; what lies outside repeats the edge. */
-export function filterPlane(plane: Float64Array, width: number, height: number, alongX: Taps, alongY: Taps): Float64Array {
+export function filterPlane(
+  plane: Float64Array,
+  width: number,
+  height: number,
+  alongX: Taps,
+  alongY: Taps,
+): Float64Array {
   const rows = new Float64Array(plane.length);
   for (let y = 0; y < height; y++) {
     for (let x = 0; x < width; x++) {
       let value = 0;
-      for (let k = -alongX.radius; k <= alongX.radius; k++) value += alongX.weights[k + alongX.radius]! * plane[y * width + Math.min(Math.max(x + k, 0), width - 1)]!;
+      for (let k = -alongX.radius; k <= alongX.radius; k++)
+        value += alongX.weights[k + alongX.radius]! * plane[y * width + Math.min(Math.max(x + k, 0), width - 1)]!;
       rows[y * width + x] = value;
     }
   }

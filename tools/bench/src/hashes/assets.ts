@@ -20,7 +20,11 @@ export function assetCases(): HashCase[] | undefined {
       scene: async () => {
         const file = join(dirname(index), main);
         const scene = isModelFile(file) ? await loadModelFile(file) : await loadGltfFile(file);
-        return { ...scene, environment: scene.environment ?? environment, cameras: [frameCamera(scene, { aspect: 1 })] };
+        return {
+          ...scene,
+          environment: scene.environment ?? environment,
+          cameras: [frameCamera(scene, { aspect: 1 })],
+        };
       },
     }));
 }

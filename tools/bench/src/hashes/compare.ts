@@ -50,15 +50,26 @@ export function differences(before: readonly HashEntry[], after: readonly HashEn
     const other = old.get(name);
     if (other?.hash === entry.hash) continue;
     const change = other && largestChange(other, entry);
-    found.push({ scene: entry.scene, part: entry.part, before: other?.hash ?? 'none', after: entry.hash, ...(change === undefined ? {} : { change }) });
+    found.push({
+      scene: entry.scene,
+      part: entry.part,
+      before: other?.hash ?? 'none',
+      after: entry.hash,
+      ...(change === undefined ? {} : { change }),
+    });
   }
   if (partial) return found;
-  const gone = [...old].filter(([name]) => !now.has(name)).map(([, { scene, part, hash }]) => ({ scene, part, before: hash, after: 'none' }));
+  const gone = [...old]
+    .filter(([name]) => !now.has(name))
+    .map(([, { scene, part, hash }]) => ({ scene, part, before: hash, after: 'none' }));
   return [...found, ...gone];
 }
 
 /** Flags that no program has on, and those that no program has off. */
-export function unusedFlags(flagSets: readonly Readonly<Record<string, boolean>>[]): { readonly neverOn: string[]; readonly neverOff: string[] } {
+export function unusedFlags(flagSets: readonly Readonly<Record<string, boolean>>[]): {
+  readonly neverOn: string[];
+  readonly neverOff: string[];
+} {
   const names = [...new Set(flagSets.flatMap((flags) => Object.keys(flags)))].sort();
   return {
     neverOn: names.filter((name) => !flagSets.some((flags) => flags[name] === true)),

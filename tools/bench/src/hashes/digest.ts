@@ -8,10 +8,12 @@ export function digest(data: string | Float32Array<ArrayBuffer> | Uint32Array<Ar
   return hash.digest('hex').slice(0, 16);
 }
 
-const TOKEN = /\/\/[^\n]*|\/\*[\s\S]*?\*\/|[A-Za-z_][\w]*|(?:\d|\.\d)(?:[eEpP][-+]|[\w.])*|<<=|>>=|->|\+\+|--|&&|\|\||[-+*/%&|^=!<>]=|<<|>>|\S/g;
+const TOKEN =
+  /\/\/[^\n]*|\/\*[\s\S]*?\*\/|[A-Za-z_][\w]*|(?:\d|\.\d)(?:[eEpP][-+]|[\w.])*|<<=|>>=|->|\+\+|--|&&|\|\||[-+*/%&|^=!<>]=|<<|>>|\S/g;
 
 /** The tokens of a WGSL program, without comments. Spaces and line breaks between tokens do not change it. */
-export const wgslTokens = (code: string): string[] => (code.match(TOKEN) ?? []).filter((token) => !/^\/[/*]/.test(token));
+export const wgslTokens = (code: string): string[] =>
+  (code.match(TOKEN) ?? []).filter((token) => !/^\/[/*]/.test(token));
 
 /** The declarations of a program, each as its tokens with one space between. */
 export function wgslDeclarations(code: string): string[] {

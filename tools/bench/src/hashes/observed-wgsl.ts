@@ -1,5 +1,5 @@
-// Takes the place of @glanz/wgsl for the renderer in the bundle of `hashes`: the programs and flags that it composes are
-// nowhere else to be seen, since a kernel that is compiled already is not compiled again.
+// Takes the place of @glanz/wgsl for the renderer in the bundle of `hashes`: the programs and flags that it composes
+// are nowhere else to be seen, since a kernel that is compiled already is not compiled again.
 import { compose as composeUnseen, type ComposedWgsl, type ComposeOptions, type WgslModule } from '@glanz/wgsl';
 
 export * from '@glanz/wgsl';
@@ -23,6 +23,10 @@ export function observePrograms(report: ((program: ObservedProgram) => void) | u
 /** As in @glanz/wgsl. */
 export function compose(roots: readonly WgslModule[], options: ComposeOptions = {}): ComposedWgsl {
   const composed = composeUnseen(roots, options);
-  observer.glanzProgramObserver?.({ kernel: composed.modules.at(-1) ?? '', code: composed.code, flags: options.flags ?? {} });
+  observer.glanzProgramObserver?.({
+    kernel: composed.modules.at(-1) ?? '',
+    code: composed.code,
+    flags: options.flags ?? {},
+  });
   return composed;
 }

@@ -1,7 +1,24 @@
 import type { Image, Material, Mesh, Scene } from '@glanz/scene';
 
 /** Column-major 4 × 4 matrix that moves by a vector. */
-export const translation = (x: number, y: number, z: number): number[] => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, z, 1];
+export const translation = (x: number, y: number, z: number): number[] => [
+  1,
+  0,
+  0,
+  0,
+  0,
+  1,
+  0,
+  0,
+  0,
+  0,
+  1,
+  0,
+  x,
+  y,
+  z,
+  1,
+];
 
 /** A sphere of latitude-longitude quads, radius 1, with normals, texture coordinates and tangents along +u. */
 export function sphere(segments = 24): Mesh {
@@ -49,11 +66,22 @@ export function square(): Mesh {
 export function place(scene: Scene, mesh: Mesh, material: Material, transform: readonly number[]): number {
   scene.meshes.push(mesh);
   scene.materials.push(material);
-  return scene.instances.push({ name: material.name, mesh: scene.meshes.length - 1, material: scene.materials.length - 1, transform }) - 1;
+  return (
+    scene.instances.push({
+      name: material.name,
+      mesh: scene.meshes.length - 1,
+      material: scene.materials.length - 1,
+      transform,
+    }) - 1
+  );
 }
 
 /** An 8-bit image whose texels are a function of their place. */
-export function image(name: string, size: number, texel: (x: number, y: number) => readonly [number, number, number, number]): Image {
+export function image(
+  name: string,
+  size: number,
+  texel: (x: number, y: number) => readonly [number, number, number, number],
+): Image {
   const data = new Uint8Array(4 * size * size);
   for (let y = 0; y < size; y++) for (let x = 0; x < size; x++) data.set(texel(x, y), 4 * (y * size + x));
   return { name, width: size, height: size, data };

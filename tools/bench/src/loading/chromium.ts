@@ -44,22 +44,40 @@ globalThis.loaders.three = async (input) => {
 async function bundle(contents: string, folder: string, legible: boolean): Promise<Uint8Array> {
   const { build } = await import('esbuild');
   const { weslSource } = await import('../../../pipeline/wesl.mjs');
-  const { outputFiles } = await build({ stdin: { contents, resolveDir: folder }, bundle: true, write: false, format: 'esm', minify: !legible, target: 'es2022', conditions: ['@glanz/source'], external: ['fs', 'path', 'crypto', 'node:*'], define: { 'process.versions': '{}' }, plugins: [weslSource()], logLevel: 'error' });
+  const { outputFiles } = await build({
+    stdin: { contents, resolveDir: folder },
+    bundle: true,
+    write: false,
+    format: 'esm',
+    minify: !legible,
+    target: 'es2022',
+    conditions: ['@glanz/source'],
+    external: ['fs', 'path', 'crypto', 'node:*'],
+    define: { 'process.versions': '{}' },
+    plugins: [weslSource()],
+    logLevel: 'error',
+  });
   return outputFiles[0]!.contents;
 }
 
 /** Writes the page with all loaders into a folder. */
 export async function buildLoaders(out: string, legible: boolean): Promise<void> {
-  const folder = resolve('tools/bench'), gltf = resolve('packages/gltf');
-  const require = createRequire(join(gltf, 'package.json')), requireThree = createRequire(join(folder, 'package.json'));
+  const folder = resolve('tools/bench'),
+    gltf = resolve('packages/gltf');
+  const require = createRequire(join(gltf, 'package.json')),
+    requireThree = createRequire(join(folder, 'package.json'));
   mkdirSync(join(out, 'three-draco'), { recursive: true });
-  writeFileSync(join(out, 'index.html'), '<!doctype html><script>globalThis.loaders = {};</script><script type="module" src="/ours.js"></script><script type="module" src="/three.js"></script>');
+  writeFileSync(
+    join(out, 'index.html'),
+    '<!doctype html><script>globalThis.loaders = {};</script><script type="module" src="/ours.js"></script><script type="module" src="/three.js"></script>',
+  );
   writeFileSync(join(out, 'ours.js'), await bundle(OURS, gltf, legible));
   writeFileSync(join(out, 'own-worker.js'), await bundle(WORKER, gltf, legible));
   writeFileSync(join(out, 'three.js'), await bundle(THREE, folder, legible));
   copyFileSync(join(dirname(require.resolve('draco3dgltf')), 'draco_decoder_gltf.wasm'), join(out, 'draco.wasm'));
   const threeDraco = join(dirname(requireThree.resolve('three')), '../examples/jsm/libs/draco/gltf');
-  for (const name of ['draco_decoder.js', 'draco_wasm_wrapper.js', 'draco_decoder.wasm']) if (existsSync(join(threeDraco, name))) copyFileSync(join(threeDraco, name), join(out, 'three-draco', name));
+  for (const name of ['draco_decoder.js', 'draco_wasm_wrapper.js', 'draco_decoder.wasm'])
+    if (existsSync(join(threeDraco, name))) copyFileSync(join(threeDraco, name), join(out, 'three-draco', name));
 }
 
 async function serve(legible: boolean) {
@@ -80,14 +98,23 @@ export async function openPage(legible = false) {
   const server = await serve(legible);
   const page = await browser.newPage();
   await page.goto(`${server.origin}/`);
-  await page.waitForFunction(() => 'three' in (globalThis as unknown as { loaders: object }).loaders && 'worker' in (globalThis as unknown as { loaders: object }).loaders);
+  await page.waitForFunction(
+    () =>
+      'three' in (globalThis as unknown as { loaders: object }).loaders &&
+      'worker' in (globalThis as unknown as { loaders: object }).loaders,
+  );
   const load = (loader: Contestant, file: string, from: From): Promise<Load> =>
-    page.evaluate(async ([name, address, where]) => {
-      const input = where === 'address' ? address! : await (await fetch(address!)).arrayBuffer();
-      const begun = performance.now();
-      const triangles = await (globalThis as unknown as { loaders: Record<string, (input: string | ArrayBuffer) => Promise<number>> }).loaders[name!]!(input);
-      return { ms: performance.now() - begun, triangles };
-    }, [loader, `/assets/${file.split('/').map(encodeURIComponent).join('/')}`, from]);
+    page.evaluate(
+      async ([name, address, where]) => {
+        const input = where === 'address' ? address! : await (await fetch(address!)).arrayBuffer();
+        const begun = performance.now();
+        const triangles = await (
+          globalThis as unknown as { loaders: Record<string, (input: string | ArrayBuffer) => Promise<number>> }
+        ).loaders[name!]!(input);
+        return { ms: performance.now() - begun, triangles };
+      },
+      [loader, `/assets/${file.split('/').map(encodeURIComponent).join('/')}`, from],
+    );
   return {
     version: browser.version(),
     page,
@@ -96,9 +123,20 @@ export async function openPage(legible = false) {
     async longestTask(loader: Contestant, file: string): Promise<number> {
       await browser.startTracing(page, { categories: ['__metadata', 'toplevel', 'devtools.timeline'] });
       await load(loader, file, 'address');
-      const { traceEvents } = JSON.parse((await browser.stopTracing()).toString()) as { traceEvents: { name: string; ph: string; pid: number; tid: number; tdur?: number; args?: { name?: string } }[] };
-      const main = new Set(traceEvents.filter(({ name, args }) => name === 'thread_name' && args?.name === 'CrRendererMain').map(({ pid, tid }) => `${pid}/${tid}`));
-      return Math.max(0, ...traceEvents.filter(({ ph, pid, tid, tdur }) => ph === 'X' && tdur !== undefined && main.has(`${pid}/${tid}`)).map(({ tdur }) => tdur! / 1000));
+      const { traceEvents } = JSON.parse((await browser.stopTracing()).toString()) as {
+        traceEvents: { name: string; ph: string; pid: number; tid: number; tdur?: number; args?: { name?: string } }[];
+      };
+      const main = new Set(
+        traceEvents
+          .filter(({ name, args }) => name === 'thread_name' && args?.name === 'CrRendererMain')
+          .map(({ pid, tid }) => `${pid}/${tid}`),
+      );
+      return Math.max(
+        0,
+        ...traceEvents
+          .filter(({ ph, pid, tid, tdur }) => ph === 'X' && tdur !== undefined && main.has(`${pid}/${tid}`))
+          .map(({ tdur }) => tdur! / 1000),
+      );
     },
     async close() {
       await browser.close();

@@ -17,8 +17,12 @@ export interface LoadModel {
 
 /** @throws {BenchError} `bench/assets` */
 export function loadModels(): LoadModel[] {
-  if (!existsSync(join(ASSETS, 'index.json'))) throw new BenchError('bench/assets', 'There are no test models in ../shared/assets beside the repository.');
-  const index = JSON.parse(readFileSync(join(ASSETS, 'index.json'), 'utf8')) as readonly { name: string; main: string }[];
+  if (!existsSync(join(ASSETS, 'index.json')))
+    throw new BenchError('bench/assets', 'There are no test models in ../shared/assets beside the repository.');
+  const index = JSON.parse(readFileSync(join(ASSETS, 'index.json'), 'utf8')) as readonly {
+    name: string;
+    main: string;
+  }[];
   return MODELS.flatMap((name) => {
     const main = index.find((entry) => entry.name === name)?.main;
     return main === undefined ? [] : [{ name, file: main }];

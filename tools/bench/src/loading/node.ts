@@ -18,7 +18,13 @@ interface Draco {
     DecodeBufferToMesh(buffer: object, mesh: object): { ok(): boolean };
     GetTrianglesUInt32Array(mesh: object, bytes: number, address: number): boolean;
     GetAttributeByUniqueId(mesh: object, id: number): { num_components(): number };
-    GetAttributeDataArrayForAllPoints(mesh: object, attribute: object, type: unknown, bytes: number, address: number): boolean;
+    GetAttributeDataArrayForAllPoints(
+      mesh: object,
+      attribute: object,
+      type: unknown,
+      bytes: number,
+      address: number,
+    ): boolean;
   };
   destroy(object: object): void;
   _malloc(bytes: number): number;
@@ -28,25 +34,53 @@ interface Draco {
 /** three.js's DRACOLoader wants web workers; this does in place what its worker does. */
 const dracoLoader = (open: () => Promise<Draco>) => ({
   preload: () => undefined,
-  async decodeDracoFile(data: ArrayBuffer, done: (geometry: BufferGeometry) => void, ids: Readonly<Record<string, number>>, types: Readonly<Record<string, string>>) {
+  async decodeDracoFile(
+    data: ArrayBuffer,
+    done: (geometry: BufferGeometry) => void,
+    ids: Readonly<Record<string, number>>,
+    types: Readonly<Record<string, string>>,
+  ) {
     const draco = await open();
-    const decoder = new draco.Decoder(), mesh = new draco.Mesh(), buffer = new draco.DecoderBuffer();
+    const decoder = new draco.Decoder(),
+      mesh = new draco.Mesh(),
+      buffer = new draco.DecoderBuffer();
     buffer.Init(new Uint8Array(data), data.byteLength);
     if (!decoder.DecodeBufferToMesh(buffer, mesh).ok()) throw new Error('Draco');
-    const read = <T>(Type: { new (data: ArrayBuffer): T; readonly BYTES_PER_ELEMENT: number }, count: number, fill: (bytes: number, address: number) => void): T => {
-      const bytes = count * Type.BYTES_PER_ELEMENT, address = draco._malloc(bytes);
+    const read = <T>(
+      Type: { new (data: ArrayBuffer): T; readonly BYTES_PER_ELEMENT: number },
+      count: number,
+      fill: (bytes: number, address: number) => void,
+    ): T => {
+      const bytes = count * Type.BYTES_PER_ELEMENT,
+        address = draco._malloc(bytes);
       fill(bytes, address);
       const array = new Type(draco.HEAPU8.slice(address, address + bytes).buffer as ArrayBuffer);
       draco._free(address);
       return array;
     };
     const geometry = new BufferGeometry();
-    geometry.setIndex(new BufferAttribute(read(Uint32Array, 3 * mesh.num_faces(), (bytes, address) => decoder.GetTrianglesUInt32Array(mesh, bytes, address)), 1));
+    geometry.setIndex(
+      new BufferAttribute(
+        read(Uint32Array, 3 * mesh.num_faces(), (bytes, address) =>
+          decoder.GetTrianglesUInt32Array(mesh, bytes, address),
+        ),
+        1,
+      ),
+    );
     for (const [name, id] of Object.entries(ids)) {
-      const attribute = decoder.GetAttributeByUniqueId(mesh, id), size = attribute.num_components();
+      const attribute = decoder.GetAttributeByUniqueId(mesh, id),
+        size = attribute.num_components();
       const Type = (globalThis as unknown as Record<string, typeof Float32Array>)[types[name]!]!;
       const kind = draco[`DT_${types[name]!.replace('Array', '').toUpperCase()}`];
-      geometry.setAttribute(name, new BufferAttribute(read(Type, mesh.num_points() * size, (bytes, address) => decoder.GetAttributeDataArrayForAllPoints(mesh, attribute, kind, bytes, address)), size));
+      geometry.setAttribute(
+        name,
+        new BufferAttribute(
+          read(Type, mesh.num_points() * size, (bytes, address) =>
+            decoder.GetAttributeDataArrayForAllPoints(mesh, attribute, kind, bytes, address),
+          ),
+          size,
+        ),
+      );
     }
     for (const object of [mesh, decoder, buffer]) draco.destroy(object);
     done(geometry);
@@ -58,13 +92,19 @@ export function openNode(): { load(loader: Exclude<Contestant, 'worker'>, file: 
   const decoders = packagedDecoders();
   let draco: Promise<unknown> | undefined;
   // Kept between loads on both sides.
-  const openDraco = () => (draco ??= (createRequire(resolve('packages/gltf/package.json'))('draco3dgltf') as { createDecoderModule(): Promise<unknown> }).createDecoderModule());
+  const openDraco = () =>
+    (draco ??= (
+      createRequire(resolve('packages/gltf/package.json'))('draco3dgltf') as { createDecoderModule(): Promise<unknown> }
+    ).createDecoderModule());
   const meshopt = (decoders.meshopt as () => Promise<unknown>)();
   // What three.js expects of a browser.
   Object.assign(globalThis, {
     self: globalThis,
     ProgressEvent: class extends Event {},
-    createImageBitmap: async (blob: Blob) => ({ ...(await decodeImage(new Uint8Array(await blob.arrayBuffer()), blob.type)), close: () => undefined }),
+    createImageBitmap: async (blob: Blob) => ({
+      ...(await decodeImage(new Uint8Array(await blob.arrayBuffer()), blob.type)),
+      close: () => undefined,
+    }),
   });
   return {
     async load(loader, file) {
@@ -75,9 +115,13 @@ export function openNode(): { load(loader: Exclude<Contestant, 'worker'>, file: 
         const scene = await loadGltf(bytes, { decodeImage, decoders: { draco: openDraco, meshopt: () => meshopt } });
         for (const { mesh } of scene.instances) triangles += scene.meshes[mesh]!.indices.length / 3;
       } else {
-        const { scene } = await new GLTFLoader().setDRACOLoader(dracoLoader(openDraco as () => Promise<Draco>)).setMeshoptDecoder(MeshoptDecoder).parseAsync(bytes.buffer, '');
+        const { scene } = await new GLTFLoader()
+          .setDRACOLoader(dracoLoader(openDraco as () => Promise<Draco>))
+          .setMeshoptDecoder(MeshoptDecoder)
+          .parseAsync(bytes.buffer, '');
         scene.traverse(({ isMesh, isInstancedMesh, count = 1, geometry }) => {
-          if (isMesh) triangles += ((geometry.index ?? geometry.attributes.position).count / 3) * (isInstancedMesh ? count : 1);
+          if (isMesh)
+            triangles += ((geometry.index ?? geometry.attributes.position).count / 3) * (isInstancedMesh ? count : 1);
         });
       }
       return { ms: performance.now() - begun, triangles };

@@ -36,7 +36,10 @@ export function sourcesByLine(bundle: string): string[] {
 }
 
 /** The kind of work of a function, by its name and where it stands; undefined: its caller's. */
-export function workOf({ functionName, url, lineNumber }: ProfileNode['callFrame'], sources: ReadonlyMap<string, readonly string[]>): Work | undefined {
+export function workOf(
+  { functionName, url, lineNumber }: ProfileNode['callFrame'],
+  sources: ReadonlyMap<string, readonly string[]>,
+): Work | undefined {
   if (functionName === '(idle)') return 'waiting';
   if (functionName === '(garbage collector)') return 'collector';
   if (functionName === '(program)') return 'browser';
@@ -53,21 +56,33 @@ export function workOf({ functionName, url, lineNumber }: ProfileNode['callFrame
 }
 
 /** Sums up what a profile says, by the nearest caller that tells. */
-export function sharesOf({ nodes, samples, timeDeltas }: Profile, sources: ReadonlyMap<string, readonly string[]>): Shares {
+export function sharesOf(
+  { nodes, samples, timeDeltas }: Profile,
+  sources: ReadonlyMap<string, readonly string[]>,
+): Shares {
   const byId = new Map(nodes.map((node) => [node.id, node]));
   const parents = new Map(nodes.flatMap(({ id, children = [] }) => children.map((child) => [child, id] as const)));
   const kinds = new Map<number, Work>();
   const kind = (id: number): Work => {
     let found = kinds.get(id);
     if (found === undefined) {
-      const own = workOf(byId.get(id)!.callFrame, sources), parent = parents.get(id);
+      const own = workOf(byId.get(id)!.callFrame, sources),
+        parent = parents.get(id);
       const above = parent === undefined ? 'browser' : kind(parent);
       found = own === undefined || (own === 'decoder' && above === 'tangents') ? above : own;
       kinds.set(id, found);
     }
     return found;
   };
-  const sums: Record<Work, number> = { waiting: 0, decoder: 0, tangents: 0, checks: 0, own: 0, browser: 0, collector: 0 };
+  const sums: Record<Work, number> = {
+    waiting: 0,
+    decoder: 0,
+    tangents: 0,
+    checks: 0,
+    own: 0,
+    browser: 0,
+    collector: 0,
+  };
   let all = 0;
   samples.forEach((sample, i) => {
     const time = Math.max(0, timeDeltas[i] ?? 0);
@@ -79,20 +94,36 @@ export function sharesOf({ nodes, samples, timeDeltas }: Profile, sources: Reado
 }
 
 /** Where the page's own thread spends the time of loads from memory, one after the other for so many milliseconds. */
-export async function profileLoads(page: Page, loader: Exclude<Contestant, 'worker'>, address: string, ms: number): Promise<Shares> {
+export async function profileLoads(
+  page: Page,
+  loader: Exclude<Contestant, 'worker'>,
+  address: string,
+  ms: number,
+): Promise<Shares> {
   const session = await page.context().newCDPSession(page);
   const sources = new Map<string, string[]>();
-  for (const name of ['/ours.js', '/three.js']) sources.set(name, sourcesByLine(await page.evaluate(async (path) => (await fetch(path)).text(), name)));
+  for (const name of ['/ours.js', '/three.js'])
+    sources.set(name, sourcesByLine(await page.evaluate(async (path) => (await fetch(path)).text(), name)));
   await session.send('Profiler.enable');
   await session.send('Profiler.setSamplingInterval', { interval: 100 });
   // What the profiler sees begins and ends with the loads: the bytes are fetched before.
-  await page.evaluate(async (path) => Object.assign(globalThis, { bytesToLoad: await (await fetch(path)).arrayBuffer() }), address);
-  const again = (least: number) => page.evaluate(async ({ name, time }) => {
-    const { loaders, bytesToLoad } = globalThis as unknown as { loaders: Record<string, (input: ArrayBuffer) => Promise<number>>; bytesToLoad: ArrayBuffer };
-    const begun = performance.now();
-    do await loaders[name]!(bytesToLoad.slice(0));
-    while (performance.now() - begun < time);
-  }, { name: loader, time: least });
+  await page.evaluate(
+    async (path) => Object.assign(globalThis, { bytesToLoad: await (await fetch(path)).arrayBuffer() }),
+    address,
+  );
+  const again = (least: number) =>
+    page.evaluate(
+      async ({ name, time }) => {
+        const { loaders, bytesToLoad } = globalThis as unknown as {
+          loaders: Record<string, (input: ArrayBuffer) => Promise<number>>;
+          bytesToLoad: ArrayBuffer;
+        };
+        const begun = performance.now();
+        do await loaders[name]!(bytesToLoad.slice(0));
+        while (performance.now() - begun < time);
+      },
+      { name: loader, time: least },
+    );
   await again(0);
   await session.send('Profiler.start');
   await again(ms);

@@ -26,7 +26,18 @@ interface TraceEvent {
   readonly dur?: number;
   readonly tdur?: number;
   readonly id?: string;
-  readonly args?: { readonly name?: string; readonly data?: { readonly message?: string; readonly functionName?: string; readonly url?: string; readonly lineNumber?: number; readonly cpuProfile?: { readonly nodes?: readonly ProfileNode[]; readonly samples?: readonly number[] }; readonly timeDeltas?: readonly number[]; readonly startTime?: number } };
+  readonly args?: {
+    readonly name?: string;
+    readonly data?: {
+      readonly message?: string;
+      readonly functionName?: string;
+      readonly url?: string;
+      readonly lineNumber?: number;
+      readonly cpuProfile?: { readonly nodes?: readonly ProfileNode[]; readonly samples?: readonly number[] };
+      readonly timeDeltas?: readonly number[];
+      readonly startTime?: number;
+    };
+  };
 }
 
 interface ProfileNode {
@@ -56,7 +67,9 @@ export async function openPlayground(profile: boolean, gpu: Chromium['gpu'] = 's
         await page.evaluate(() => {
           const seen = { gap: 0, long: [] as number[], done: false };
           Object.assign(globalThis, { seen });
-          new PerformanceObserver((list) => seen.long.push(...list.getEntries().map(({ duration }) => duration))).observe({ type: 'longtask' });
+          new PerformanceObserver((list) =>
+            seen.long.push(...list.getEntries().map(({ duration }) => duration)),
+          ).observe({ type: 'longtask' });
           const { port1, port2 } = new MessageChannel();
           let last = performance.now();
           port1.onmessage = () => {
@@ -68,7 +81,14 @@ export async function openPlayground(profile: boolean, gpu: Chromium['gpu'] = 's
           };
           port2.postMessage(0);
         });
-        await browser.startTracing(page, { categories: ['__metadata', 'toplevel', 'devtools.timeline', ...(profile ? ['disabled-by-default-v8.cpu_profiler'] : [])] });
+        await browser.startTracing(page, {
+          categories: [
+            '__metadata',
+            'toplevel',
+            'devtools.timeline',
+            ...(profile ? ['disabled-by-default-v8.cpu_profiler'] : []),
+          ],
+        });
         // Nor does its start count: it takes a task of more than ten milliseconds.
         await page.evaluate(() => {
           const { seen } = globalThis as unknown as { seen: { gap: number; long: number[] } };
@@ -77,7 +97,10 @@ export async function openPlayground(profile: boolean, gpu: Chromium['gpu'] = 's
         });
         const begun = performance.now();
         await page.setInputFiles('#files', file);
-        await page.waitForSelector(`#picture[data-scene="${name}"][data-state="done"]`, { state: 'attached', timeout: 300_000 });
+        await page.waitForSelector(`#picture[data-scene="${name}"][data-state="done"]`, {
+          state: 'attached',
+          timeout: 300_000,
+        });
         const ms = performance.now() - begun;
         // Before the trace is fetched, for which the browser stops the page's thread.
         const seen = await page.evaluate(() => {
@@ -86,10 +109,16 @@ export async function openPlayground(profile: boolean, gpu: Chromium['gpu'] = 's
           return { gap: seen.gap, long: [...seen.long] };
         });
         const { traceEvents } = JSON.parse((await browser.stopTracing()).toString()) as { traceEvents: TraceEvent[] };
-        const main = new Set(traceEvents.filter((event) => event.name === 'thread_name' && event.args?.name === 'CrRendererMain').map(({ pid, tid }) => `${pid}/${tid}`));
+        const main = new Set(
+          traceEvents
+            .filter((event) => event.name === 'thread_name' && event.args?.name === 'CrRendererMain')
+            .map(({ pid, tid }) => `${pid}/${tid}`),
+        );
         const begin = traceEvents.find(({ name, args }) => name === 'TimeStamp' && args?.data?.message === 'begin');
         if (!begin) throw new Error('the trace does not tell where the load begins');
-        const events = traceEvents.filter(({ ph, pid, tid, dur, ts }) => ph === 'X' && dur !== undefined && ts >= begin.ts && main.has(`${pid}/${tid}`));
+        const events = traceEvents.filter(
+          ({ ph, pid, tid, dur, ts }) => ph === 'X' && dur !== undefined && ts >= begin.ts && main.has(`${pid}/${tid}`),
+        );
         const tasks = wholeTasks(events);
         return {
           ms,
@@ -115,7 +144,10 @@ type Task = Pick<TraceEvent, 'pid' | 'tid' | 'ts'> & { dur: number; tdur: number
 /** Microseconds between a task and what its promises have called, which the browser tells apart. */
 const TOGETHER = 200;
 
-/** The tasks of a thread with what their promises have called: to the page they are one. What lies in a task belongs to it; the page's own start lasts as long as the page. */
+/**
+ * The tasks of a thread with what their promises have called: to the page they are one. What lies in a task belongs to
+ * it; the page's own start lasts as long as the page.
+ */
 function wholeTasks(events: readonly TraceEvent[]): Task[] {
   const tasks: Task[] = [];
   for (const { name, pid, tid, ts, dur = 0, tdur = 0 } of [...events].sort((a, b) => a.ts - b.ts)) {
@@ -134,35 +166,64 @@ function wholeTasks(events: readonly TraceEvent[]): Task[] {
 /** The function that an event calls, where it says so. */
 function placeOf({ args }: TraceEvent): string {
   const { functionName, url, lineNumber } = args?.data ?? {};
-  return url === undefined ? '' : ` (${functionName || 'anonymous'}, ${url.slice(url.lastIndexOf('/') + 1)}:${lineNumber ?? 0})`;
+  return url === undefined
+    ? ''
+    : ` (${functionName || 'anonymous'}, ${url.slice(url.lastIndexOf('/') + 1)}:${lineNumber ?? 0})`;
 }
 
 /** Which functions the samples in tasks over 8 ms fell into, by their chains of callers. */
 function longFunctions(events: readonly TraceEvent[], parts: readonly TraceEvent[], tasks: readonly Task[]): string[] {
-  const long = tasks.filter(({ tdur }) => tdur > 8000).sort((a, b) => b.tdur - a.tdur).slice(0, 12);
+  const long = tasks
+    .filter(({ tdur }) => tdur > 8000)
+    .sort((a, b) => b.tdur - a.tdur)
+    .slice(0, 12);
   const lines: string[] = [];
   for (const task of long) {
-    const inside = parts.filter(({ ts, dur = 0, name, pid, tid }) => pid === task.pid && tid === task.tid && ts >= task.ts && ts + dur <= task.ts + task.dur + 1 && dur > 2000 && !name.includes('RunTask')).sort((a, b) => b.dur! - a.dur!);
+    const inside = parts
+      .filter(
+        ({ ts, dur = 0, name, pid, tid }) =>
+          pid === task.pid &&
+          tid === task.tid &&
+          ts >= task.ts &&
+          ts + dur <= task.ts + task.dur + 1 &&
+          dur > 2000 &&
+          !name.includes('RunTask'),
+      )
+      .sort((a, b) => b.dur! - a.dur!);
     const counts = new Map<string, number>();
     for (const start of events.filter(({ name, pid }) => name === 'Profile' && pid === task.pid)) {
-      const chunks = events.filter(({ name, id, pid }) => name === 'ProfileChunk' && id === start.id && pid === start.pid).sort((a, b) => a.ts - b.ts);
+      const chunks = events
+        .filter(({ name, id, pid }) => name === 'ProfileChunk' && id === start.id && pid === start.pid)
+        .sort((a, b) => a.ts - b.ts);
       const nodes = new Map<number, ProfileNode>();
       let at = start.args?.data?.startTime ?? start.ts;
       for (const { args } of chunks) {
         for (const node of args?.data?.cpuProfile?.nodes ?? []) nodes.set(node.id, node);
-        const samples = args?.data?.cpuProfile?.samples ?? [], deltas = args?.data?.timeDeltas ?? [];
+        const samples = args?.data?.cpuProfile?.samples ?? [],
+          deltas = args?.data?.timeDeltas ?? [];
         samples.forEach((sample, i) => {
           at += deltas[i] ?? 0;
           if (at < task.ts || at > task.ts + task.dur) return;
           const chain: string[] = [];
-          for (let node = nodes.get(sample); node && chain.length < 6; node = node.parent === undefined ? undefined : nodes.get(node.parent)) chain.push(node.callFrame.functionName || '(anonymous)');
+          for (
+            let node = nodes.get(sample);
+            node && chain.length < 6;
+            node = node.parent === undefined ? undefined : nodes.get(node.parent)
+          )
+            chain.push(node.callFrame.functionName || '(anonymous)');
           const key = chain.join(' < ');
           counts.set(key, (counts.get(key) ?? 0) + (deltas[i] ?? 0));
         });
       }
     }
-    lines.push(`task of ${(task.tdur / 1000).toFixed(1)} ms (${(task.dur / 1000).toFixed(1)} by the clock): ${inside.slice(0, 6).map((event) => `${event.name}${placeOf(event)} ${(event.dur! / 1000).toFixed(1)}`).join(', ')}`);
-    for (const [key, us] of [...counts].sort((a, b) => b[1] - a[1]).slice(0, 6)) lines.push(`    ${(us / 1000).toFixed(1)} ms ${key}`);
+    lines.push(
+      `task of ${(task.tdur / 1000).toFixed(1)} ms (${(task.dur / 1000).toFixed(1)} by the clock): ${inside
+        .slice(0, 6)
+        .map((event) => `${event.name}${placeOf(event)} ${(event.dur! / 1000).toFixed(1)}`)
+        .join(', ')}`,
+    );
+    for (const [key, us] of [...counts].sort((a, b) => b[1] - a[1]).slice(0, 6))
+      lines.push(`    ${(us / 1000).toFixed(1)} ms ${key}`);
   }
   return lines;
 }

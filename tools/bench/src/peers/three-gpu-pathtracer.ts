@@ -1,7 +1,20 @@
 import { GLTFLoader, type GltfPlugin } from 'three/examples/jsm/loaders/GLTFLoader.js';
 import { PhysicalCamera } from 'three-gpu-pathtracer/src/objects/PhysicalCamera.js';
 import { WebGPUPathTracer } from 'three-gpu-pathtracer/webgpu';
-import { Color, DataTexture, EquirectangularReflectionMapping, FloatType, LinearFilter, LinearSRGBColorSpace, NearestFilter, RepeatWrapping, RGBAFormat, Scene, WebGPURenderer, type Texture } from 'three/webgpu';
+import {
+  Color,
+  DataTexture,
+  EquirectangularReflectionMapping,
+  FloatType,
+  LinearFilter,
+  LinearSRGBColorSpace,
+  NearestFilter,
+  RepeatWrapping,
+  RGBAFormat,
+  Scene,
+  WebGPURenderer,
+  type Texture,
+} from 'three/webgpu';
 import type { Environment } from '@glanz/scene';
 import type { Contestant, Task } from '../equal-time/contestant';
 import { decodePixels, glbImages } from '../equal-time/load';
@@ -21,19 +34,36 @@ function shimBrowser(): void {
   scope['self'] ??= globalThis;
   scope['requestAnimationFrame'] ??= () => 0;
   scope['cancelAnimationFrame'] ??= () => undefined;
-  const navigator = (scope['navigator'] ??= {}) as { gpu?: { getPreferredCanvasFormat?: () => string }; userAgent?: string };
+  const navigator = (scope['navigator'] ??= {}) as {
+    gpu?: { getPreferredCanvasFormat?: () => string };
+    userAgent?: string;
+  };
   if (navigator.gpu?.getPreferredCanvasFormat) return;
-  Object.defineProperty(navigator, 'gpu', { value: { getPreferredCanvasFormat: () => 'bgra8unorm' }, configurable: true });
+  Object.defineProperty(navigator, 'gpu', {
+    value: { getPreferredCanvasFormat: () => 'bgra8unorm' },
+    configurable: true,
+  });
   navigator.userAgent ??= 'node';
 }
 
 /** A canvas that nobody sees: one texture to present into. */
 function createCanvas(device: GPUDevice, width: number, height: number) {
-  const texture = device.createTexture({ size: [width, height], format: 'bgra8unorm', usage: GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.COPY_SRC });
+  const texture = device.createTexture({
+    size: [width, height],
+    format: 'bgra8unorm',
+    usage: GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.COPY_SRC,
+  });
   const nothing = () => undefined;
   return {
     texture,
-    canvas: { width, height, style: {}, addEventListener: nothing, removeEventListener: nothing, setAttribute: nothing },
+    canvas: {
+      width,
+      height,
+      style: {},
+      addEventListener: nothing,
+      removeEventListener: nothing,
+      setAttribute: nothing,
+    },
     context: { configure: nothing, unconfigure: nothing, getCurrentTexture: () => texture },
   };
 }
@@ -45,7 +75,9 @@ function environmentTexture(environment: Environment): { texture: DataTexture; i
     for (let x = 0; x < width; x++) {
       // Its rows go upwards.
       const from = 3 * ((height - 1 - y) * width + x);
-      for (let c = 0; c < 3; c++) data[4 * (y * width + x) + c] = environment.type === 'latlong' ? environment.data[from + c]! : environment.radiance[c]!;
+      for (let c = 0; c < 3; c++)
+        data[4 * (y * width + x) + c] =
+          environment.type === 'latlong' ? environment.data[from + c]! : environment.radiance[c]!;
     }
   }
   const texture = new DataTexture(data, width, height, RGBAFormat, FloatType);
@@ -55,11 +87,15 @@ function environmentTexture(environment: Environment): { texture: DataTexture; i
   texture.wrapS = RepeatWrapping;
   texture.generateMipmaps = false;
   texture.needsUpdate = true;
-  return environment.type === 'latlong' ? { texture, intensity: environment.intensity ?? 1, rotation: environment.rotation ?? 0 } : { texture, intensity: 1, rotation: 0 };
+  return environment.type === 'latlong'
+    ? { texture, intensity: environment.intensity ?? 1, rotation: environment.rotation ?? 0 }
+    : { texture, intensity: 1, rotation: 0 };
 }
 
 /** Gives the loader decoded textures, which it would ask the browser for. */
-function decodedTextures(glb: Uint8Array): (parser: Parameters<Parameters<GLTFLoader['register']>[0]>[0]) => GltfPlugin {
+function decodedTextures(
+  glb: Uint8Array,
+): (parser: Parameters<Parameters<GLTFLoader['register']>[0]>[0]) => GltfPlugin {
   const images = glbImages(glb);
   return (parser) => ({
     name: 'decoded-textures',
@@ -85,7 +121,11 @@ const wrap = (mode: number | undefined) => (mode === 33071 ? 1001 : mode === 336
  * three-gpu-pathtracer 0.0.26 with its WebGPU wavefront tracer, in Node. It is driven through its own `renderSample()`,
  * with all pixels' paths in flight at once (its best batching), and without its low-resolution preview.
  */
-export async function createThreeGpuPathtracer(device: GPUDevice, task: Task, { defaults }: PeerOptions): Promise<Contestant> {
+export async function createThreeGpuPathtracer(
+  device: GPUDevice,
+  task: Task,
+  { defaults }: PeerOptions,
+): Promise<Contestant> {
   shimBrowser();
   const { width, height, camera, environment } = task;
   const { canvas, context, texture: target } = createCanvas(device, width, height);
@@ -93,7 +133,9 @@ export async function createThreeGpuPathtracer(device: GPUDevice, task: Task, { 
   renderer.setSize(width, height, false);
   await renderer.init();
 
-  const { scene: model } = await new GLTFLoader().register(decodedTextures(task.glb)).parseAsync(task.glb.slice().buffer, '');
+  const { scene: model } = await new GLTFLoader()
+    .register(decodedTextures(task.glb))
+    .parseAsync(task.glb.slice().buffer, '');
   const scene = new Scene();
   scene.add(model);
   if (environment) {
@@ -151,14 +193,19 @@ export async function createThreeGpuPathtracer(device: GPUDevice, task: Task, { 
     async read() {
       const { texture } = renderer.backend.get(tracer.target);
       const row = Math.ceil((width * 16) / 256) * 256;
-      const buffer = device.createBuffer({ size: row * height, usage: GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST });
+      const buffer = device.createBuffer({
+        size: row * height,
+        usage: GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST,
+      });
       const encoder = device.createCommandEncoder();
       encoder.copyTextureToBuffer({ texture }, { buffer, bytesPerRow: row }, [width, height]);
       device.queue.submit([encoder.finish()]);
       await buffer.mapAsync(GPUMapMode.READ);
       const data = new Float32Array(buffer.getMappedRange());
       const picture = new Float32Array(3 * width * height);
-      for (let y = 0; y < height; y++) for (let x = 0; x < width; x++) for (let c = 0; c < 3; c++) picture[3 * (y * width + x) + c] = data[(y * row) / 4 + 4 * x + c]!;
+      for (let y = 0; y < height; y++)
+        for (let x = 0; x < width; x++)
+          for (let c = 0; c < 3; c++) picture[3 * (y * width + x) + c] = data[(y * row) / 4 + 4 * x + c]!;
       buffer.destroy();
       return picture;
     },

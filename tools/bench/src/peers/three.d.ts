@@ -9,9 +9,22 @@ declare module 'three/webgpu' {
     readonly position: Vector3;
     readonly quaternion: object;
     readonly scale: Vector3;
-    readonly matrix: { fromArray(values: readonly number[]): void; decompose(position: Vector3, quaternion: object, scale: Vector3): void };
+    readonly matrix: {
+      fromArray(values: readonly number[]): void;
+      decompose(position: Vector3, quaternion: object, scale: Vector3): void;
+    };
     add(child: Object3D): this;
-    traverse(visit: (object: { readonly isMesh?: boolean; readonly isInstancedMesh?: boolean; readonly count?: number; readonly geometry: { readonly index?: { readonly count: number }; readonly attributes: { readonly position: { readonly count: number } } } }) => void): void;
+    traverse(
+      visit: (object: {
+        readonly isMesh?: boolean;
+        readonly isInstancedMesh?: boolean;
+        readonly count?: number;
+        readonly geometry: {
+          readonly index?: { readonly count: number };
+          readonly attributes: { readonly position: { readonly count: number } };
+        };
+      }) => void,
+    ): void;
   }
   export class Texture {
     mapping: number;
@@ -54,7 +67,10 @@ declare module 'three/webgpu' {
 declare module 'three/examples/jsm/loaders/GLTFLoader.js' {
   import type { Scene, Texture } from 'three/webgpu';
   interface GltfParser {
-    readonly json: { readonly textures?: readonly { readonly source: number; readonly sampler?: number }[]; readonly samplers?: readonly { readonly magFilter?: number; readonly wrapS?: number; readonly wrapT?: number }[] };
+    readonly json: {
+      readonly textures?: readonly { readonly source: number; readonly sampler?: number }[];
+      readonly samplers?: readonly { readonly magFilter?: number; readonly wrapS?: number; readonly wrapT?: number }[];
+    };
     readonly associations: Map<Texture, object>;
   }
   export interface GltfPlugin {

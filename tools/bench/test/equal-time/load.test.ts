@@ -16,8 +16,17 @@ function glb(json: object, binary: Uint8Array): Uint8Array {
 }
 
 it('finds the pictures inside a .glb file', () => {
-  const file = glb({ images: [{ bufferView: 1 }, { bufferView: 0 }], bufferViews: [{ byteLength: 4 }, { byteOffset: 8, byteLength: 3 }] }, Uint8Array.of(1, 2, 3, 4, 0, 0, 0, 0, 7, 8, 9, 0));
-  expect(glbImages(file).map((bytes) => [...bytes])).toEqual([[7, 8, 9], [1, 2, 3, 4]]);
+  const file = glb(
+    {
+      images: [{ bufferView: 1 }, { bufferView: 0 }],
+      bufferViews: [{ byteLength: 4 }, { byteOffset: 8, byteLength: 3 }],
+    },
+    Uint8Array.of(1, 2, 3, 4, 0, 0, 0, 0, 7, 8, 9, 0),
+  );
+  expect(glbImages(file).map((bytes) => [...bytes])).toEqual([
+    [7, 8, 9],
+    [1, 2, 3, 4],
+  ]);
   expect(glbImages(glb({}, new Uint8Array(0)))).toEqual([]);
 });
 

@@ -15,7 +15,12 @@ const withNoise = (sigma: number, seed: number) => {
   const normal = random(seed);
   return truth.map((value) => value + sigma * normal());
 };
-const reference = (sigma: number, seed: number): Reference => ({ width: SIZE, height: SIZE, mean: withNoise(sigma, seed), standardError: new Float32Array(truth.length).fill(sigma) });
+const reference = (sigma: number, seed: number): Reference => ({
+  width: SIZE,
+  height: SIZE,
+  mean: withNoise(sigma, seed),
+  standardError: new Float32Array(truth.length).fill(sigma),
+});
 
 describe('pictureError', () => {
   it('is relMSE as the ground truth defines it, where the reference is exact', () => {

@@ -7,12 +7,21 @@ const COUNT = 3 * SIZE * SIZE;
 function picture(sigma: number, bias: number, seed: number): Float32Array {
   let state = seed;
   const uniform = () => (state = (Math.imul(state, 1664525) + 1013904223) >>> 0) / 2 ** 32;
-  return Float32Array.from({ length: COUNT }, () => 0.5 * (1 + bias) + sigma * (Array.from({ length: 12 }, uniform).reduce((a, b) => a + b, 0) - 6));
+  return Float32Array.from(
+    { length: COUNT },
+    () => 0.5 * (1 + bias) + sigma * (Array.from({ length: 12 }, uniform).reduce((a, b) => a + b, 0) - 6),
+  );
 }
 
 const sigma = 0.02;
-const reference = { width: SIZE, height: SIZE, mean: picture(sigma, 0, 1), standardError: new Float32Array(COUNT).fill(sigma) };
-const check = (bias: number) => crossCheck({ picture: picture(sigma, bias, 2), variance: new Float32Array(COUNT).fill(sigma ** 2) }, reference);
+const reference = {
+  width: SIZE,
+  height: SIZE,
+  mean: picture(sigma, 0, 1),
+  standardError: new Float32Array(COUNT).fill(sigma),
+};
+const check = (bias: number) =>
+  crossCheck({ picture: picture(sigma, bias, 2), variance: new Float32Array(COUNT).fill(sigma ** 2) }, reference);
 
 it('finds nothing where only noise differs', () => {
   const { ratio, ratio95, outside, blocks } = check(0);

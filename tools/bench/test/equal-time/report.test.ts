@@ -6,7 +6,15 @@ import { equalTimeMarkdown, writePages, type EqualTimeReport } from '../../src/e
 import { DETAILS } from './details';
 
 const REPORT: EqualTimeReport = {
-  machine: { cpu: 'a processor', cores: 2, memoryGiB: 4, os: 'linux', node: 'v20', date: '2026-01-02T03:04:05Z', commit: 'abc' },
+  machine: {
+    cpu: 'a processor',
+    cores: 2,
+    memoryGiB: 4,
+    os: 'linux',
+    node: 'v20',
+    date: '2026-01-02T03:04:05Z',
+    commit: 'abc',
+  },
   gpu: { name: 'test', software: true },
   quick: false,
   details: DETAILS,
@@ -40,12 +48,16 @@ describe('the pages', () => {
   it('are the page, its plots and its data, and the page shows each plot', () => {
     const folder = mkdtempSync(join(tmpdir(), 'glanz-pages-'));
     try {
-      const files = writePages(REPORT, folder).map((file) => basename(file)).sort();
+      const files = writePages(REPORT, folder)
+        .map((file) => basename(file))
+        .sort();
       expect(files).toEqual(['equal-time-flip.svg', 'equal-time-relmse.svg', 'equal-time.json', 'equal-time.md']);
       const page = readFileSync(join(folder, 'equal-time.md'), 'utf8');
       for (const file of files.filter((name) => name.endsWith('.svg'))) expect(page).toContain(`(./${file})`);
       expect(page.match(/^# /gm)).toHaveLength(1);
-      expect((JSON.parse(readFileSync(join(folder, 'equal-time.json'), 'utf8')) as EqualTimeReport).details).toEqual(DETAILS);
+      expect((JSON.parse(readFileSync(join(folder, 'equal-time.json'), 'utf8')) as EqualTimeReport).details).toEqual(
+        DETAILS,
+      );
       // One panel to a scene.
       expect(readFileSync(join(folder, 'equal-time-relmse.svg'), 'utf8')).toMatch(/box[\s\S]*product \(noise alone\)/);
     } finally {

@@ -1,5 +1,13 @@
 import { describe, expect, it } from 'vitest';
-import { fairQuantity, geometricMean, joinDetails, overall, ratios, valueAfter, valueAt } from '../../src/equal-time/summary';
+import {
+  fairQuantity,
+  geometricMean,
+  joinDetails,
+  overall,
+  ratios,
+  valueAfter,
+  valueAt,
+} from '../../src/equal-time/summary';
 import { DETAILS, measurement } from './details';
 
 const PEER = 'three-gpu-pathtracer';
@@ -26,7 +34,9 @@ describe('comparisons', () => {
     expect(whole.count).toBe(4);
     expect(whole.mean).toBeCloseTo(40, 6);
     expect([whole.least, whole.most].map(Math.round)).toEqual([16, 100]);
-    expect(overall(DETAILS, 'three-gpu-pathtracer (defaults)', ({ truth }) => (truth === 'own' ? 'relMSE' : undefined))).toBeUndefined();
+    expect(
+      overall(DETAILS, 'three-gpu-pathtracer (defaults)', ({ truth }) => (truth === 'own' ? 'relMSE' : undefined)),
+    ).toBeUndefined();
   });
 });
 
@@ -38,7 +48,10 @@ describe('values', () => {
 
   it("never go below what the reference's noise lets one tell", () => {
     const m = measurement('box', 'glanz', 1e-4);
-    const sunk = { ...m, points: m.points.map((run) => run.map((point) => ({ ...point, relMse: -1e-6, relMseWithReference: 1e-4 }))) };
+    const sunk = {
+      ...m,
+      points: m.points.map((run) => run.map((point) => ({ ...point, relMse: -1e-6, relMseWithReference: 1e-4 }))),
+    };
     expect(valueAt(sunk, 'relMSE', 0)).toBeCloseTo(0.05 * 1.01e-4, 10);
   });
 });

@@ -47,12 +47,22 @@ describe('a campaign in a process of its own', () => {
   it('that dies in a trial counts it as a crash, and goes on with the next', async () => {
     const file = join(folder, 'b.jsonl');
     await untilDone([process.execPath, '-e', program(file)], file, process.env);
-    expect(new Journal(file).outcomes.map(({ point, ending }) => `${point} ${ending}`)).toEqual(['a image', 'b crash', 'c image', 'd crash', 'e image']);
+    expect(new Journal(file).outcomes.map(({ point, ending }) => `${point} ${ending}`)).toEqual([
+      'a image',
+      'b crash',
+      'c image',
+      'd crash',
+      'e image',
+    ]);
   });
 
   it('that fails, or dies before its first trial, is an error and no endless loop', async () => {
     const file = join(folder, 'c.jsonl');
-    await expect(untilDone([process.execPath, '-e', 'process.exit(3)'], file, process.env)).rejects.toMatchObject({ code: 'bench/failed' });
-    await expect(untilDone([process.execPath, '-e', 'process.kill(process.pid, "SIGSEGV")'], file, process.env)).rejects.toMatchObject({ code: 'bench/failed' });
+    await expect(untilDone([process.execPath, '-e', 'process.exit(3)'], file, process.env)).rejects.toMatchObject({
+      code: 'bench/failed',
+    });
+    await expect(
+      untilDone([process.execPath, '-e', 'process.kill(process.pid, "SIGSEGV")'], file, process.env),
+    ).rejects.toMatchObject({ code: 'bench/failed' });
   });
 });

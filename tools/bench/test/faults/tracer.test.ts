@@ -12,7 +12,14 @@ import { createTracer, look } from '../../src/faults/tracer-steps';
 const open = async () => requestDevice({ gpu: (await createGpu({ software: 'only' })).gpu });
 
 it('a fixed part of the campaign: no memory, refused calls and refused mappings, at each 8th call, end in the right image or a typed error', async () => {
-  const steps = ['create', 'read albedo', 'setMaterial that begins to emit', 'setVisibility of a new mesh', 'resize', 'saveFilm'];
+  const steps = [
+    'create',
+    'read albedo',
+    'setMaterial that begins to emit',
+    'setVisibility of a new mesh',
+    'resize',
+    'saveFilm',
+  ];
   const journal = new Journal();
   await tracerCampaign({ open, steps, faults: ['out-of-memory', 'validation', 'map'], every: 8, journal });
   const { outcomes } = journal;
@@ -29,11 +36,22 @@ it('ten tracers, some of them refused memory and the last lost with its device: 
   // A function of its own, so that no variable of this one keeps a tracer.
   const round = async (i: number): Promise<void> => {
     recorder.phase = 'round';
-    recorder.clear(i % 3 === 1 ? { point: `createBuffer "glanz ${['nodes', 'paths', 'film total'][(i - 1) / 3]}" #1 in round`, fault: 'out-of-memory' } : undefined);
+    recorder.clear(
+      i % 3 === 1
+        ? {
+            point: `createBuffer "glanz ${['nodes', 'paths', 'film total'][(i - 1) / 3]}" #1 in round`,
+            fault: 'out-of-memory',
+          }
+        : undefined,
+    );
     let tracer: PathTracer | undefined;
     try {
       tracer = await createTracer(device);
-      references.push(new WeakRef(tracer), new WeakRef(tracer.scene), ...tracer.scene.meshes.map(({ positions }) => new WeakRef(positions.buffer)));
+      references.push(
+        new WeakRef(tracer),
+        new WeakRef(tracer.scene),
+        ...tracer.scene.meshes.map(({ positions }) => new WeakRef(positions.buffer)),
+      );
       await look(tracer);
       if (i === 9) loseDevice(device, 'unknown');
       await tracer.setVisibility('extra', true);

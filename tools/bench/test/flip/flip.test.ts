@@ -10,7 +10,12 @@ function picture(f: (x: number, y: number) => readonly [number, number, number])
   for (let y = 0; y < H; y++) for (let x = 0; x < W; x++) out.set(f(x, y), 3 * (y * W + x));
   return out;
 }
-const waves = (x: number, y: number) => [0.5 + 0.4 * Math.sin(x * 0.21 + 0.1 * y), 0.5 + 0.3 * Math.cos(y * 0.33), 0.5 + 0.45 * Math.sin((x + y) * 0.12)] as const;
+const waves = (x: number, y: number) =>
+  [
+    0.5 + 0.4 * Math.sin(x * 0.21 + 0.1 * y),
+    0.5 + 0.3 * Math.cos(y * 0.33),
+    0.5 + 0.45 * Math.sin((x + y) * 0.12),
+  ] as const;
 const REFERENCE = picture(waves);
 
 function noisy(): Float32Array {
@@ -29,7 +34,12 @@ describe('agreement with the published implementation (flip-evaluator 1.7), mean
     ['noise', noisy(), 0.17377, 0.314712],
     ['a shift by two pixels', picture((x, y) => waves((x - 2 + W) % W, y)), 0.322058, 0.324163],
     ['four fifths of the brightness', REFERENCE.map((v) => v * 0.8), 0.567276, 0.547439],
-    ['a red box', picture((x, y) => (x >= 30 && x < 60 && y >= 20 && y < 40 ? [0.9, 0.1, 0.1] : waves(x, y))), 0.115066, 0.099171],
+    [
+      'a red box',
+      picture((x, y) => (x >= 30 && x < 60 && y >= 20 && y < 40 ? [0.9, 0.1, 0.1] : waves(x, y))),
+      0.115066,
+      0.099171,
+    ],
     ['white dots', picture((x, y) => (x % 16 === 10 && y % 16 === 10 ? [1, 1, 1] : waves(x, y))), 0.027876, 0.017547],
   ];
   it.each(cases)('%s', (_, test, near, far) => {
@@ -74,7 +84,12 @@ describe('what the definition says', () => {
 
 describe('parts', () => {
   it('colours come back from the opponent space', () => {
-    for (const rgb of [[0, 0, 0], [1, 1, 1], [0.2, 0.7, 0.1]] as readonly Rgb[]) ycxczToLinear(...linearToYcxcz(...rgb)).forEach((value, c) => expect(value).toBeCloseTo(rgb[c]!, 12));
+    for (const rgb of [
+      [0, 0, 0],
+      [1, 1, 1],
+      [0.2, 0.7, 0.1],
+    ] as readonly Rgb[])
+      ycxczToLinear(...linearToYcxcz(...rgb)).forEach((value, c) => expect(value).toBeCloseTo(rgb[c]!, 12));
     expect(srgbToLinear(0.5)).toBeCloseTo(0.21404114, 8);
   });
   it('white is achromatic with Y 100', () => {
@@ -84,7 +99,10 @@ describe('parts', () => {
   });
   it('sensitivity filters keep a uniform plane; detectors give 0 on it, and 1 on the sharpest edge at its foot', () => {
     const plane = new Float64Array(W * H).fill(3);
-    for (const terms of sensitivityFilters(67)) expect(terms.reduce((sum, { weight, taps }) => sum + weight * filterPlane(plane, W, H, taps, taps)[W * 30 + 40]!, 0)).toBeCloseTo(3, 10);
+    for (const terms of sensitivityFilters(67))
+      expect(
+        terms.reduce((sum, { weight, taps }) => sum + weight * filterPlane(plane, W, H, taps, taps)[W * 30 + 40]!, 0),
+      ).toBeCloseTo(3, 10);
     const { blur, edge, point } = featureFilters(67);
     expect(filterPlane(plane, W, H, edge, blur)[W * 30 + 40]).toBeCloseTo(0, 10);
     expect(filterPlane(plane, W, H, point, blur)[W * 30 + 40]).toBeCloseTo(0, 10);

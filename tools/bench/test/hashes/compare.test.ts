@@ -3,7 +3,12 @@ import { differences, unusedFlags, type HashEntry } from '../../src/hashes/compa
 import { channelMeans, digest, programDigest, wgslDeclarations, wgslTokens } from '../../src/hashes/digest';
 import { HASH_CASES } from '../../src/hashes/scenes';
 
-const entry = (scene: string, hash: string, means?: readonly number[]): HashEntry => ({ scene, part: 'beauty', hash, ...(means ? { means } : {}) });
+const entry = (scene: string, hash: string, means?: readonly number[]): HashEntry => ({
+  scene,
+  part: 'beauty',
+  hash,
+  ...(means ? { means } : {}),
+});
 
 describe('differences', () => {
   it('names what changed, what is new and what is gone', () => {
@@ -27,7 +32,12 @@ describe('differences', () => {
 });
 
 it('names flags that are never on and never off', () => {
-  expect(unusedFlags([{ A: true, B: false, C: true }, { A: false, B: false, C: true }])).toEqual({ neverOn: ['B'], neverOff: ['C'] });
+  expect(
+    unusedFlags([
+      { A: true, B: false, C: true },
+      { A: false, B: false, C: true },
+    ]),
+  ).toEqual({ neverOn: ['B'], neverOff: ['C'] });
 });
 
 describe('digests', () => {
@@ -39,13 +49,29 @@ describe('digests', () => {
 
   it('of programs do not see the order of declarations, but that of statements', () => {
     const [a, b] = ['fn a() { x(); y(); }', 'struct B { m: f32 } const c = 1;'];
-    expect(wgslDeclarations(`${a} ${b}`)).toEqual(['fn a ( ) { x ( ) ; y ( ) ; }', 'struct B { m : f32 }', 'const c = 1 ;']);
+    expect(wgslDeclarations(`${a} ${b}`)).toEqual([
+      'fn a ( ) { x ( ) ; y ( ) ; }',
+      'struct B { m : f32 }',
+      'const c = 1 ;',
+    ]);
     expect(programDigest(`${a} ${b}`)).toBe(programDigest(`${b} ${a}`));
     expect(programDigest(a)).not.toBe(programDigest('fn a() { y(); x(); }'));
   });
 
   it('split WGSL into its tokens', () => {
-    expect(wgslTokens('let x:vec2<f32>=1.5e-3f<<2u; // end')).toEqual(['let', 'x', ':', 'vec2', '<', 'f32', '>=', '1.5e-3f', '<<', '2u', ';']);
+    expect(wgslTokens('let x:vec2<f32>=1.5e-3f<<2u; // end')).toEqual([
+      'let',
+      'x',
+      ':',
+      'vec2',
+      '<',
+      'f32',
+      '>=',
+      '1.5e-3f',
+      '<<',
+      '2u',
+      ';',
+    ]);
   });
 
   it('of films see every bit: 0 and -0 differ', () => {

@@ -2,14 +2,25 @@
 export type Fault = 'lost-unknown' | 'lost-destroyed' | 'out-of-memory' | 'validation' | 'compile' | 'map' | 'late';
 
 /** Every {@link Fault}. */
-export const FAULTS: readonly Fault[] = ['lost-unknown', 'lost-destroyed', 'out-of-memory', 'validation', 'compile', 'map', 'late'];
+export const FAULTS: readonly Fault[] = [
+  'lost-unknown',
+  'lost-destroyed',
+  'out-of-memory',
+  'validation',
+  'compile',
+  'map',
+  'late',
+];
 
 /** How much later a late GPU answers, in milliseconds. */
 export const LATE_MS = 2000;
 
 /** One call to the GPU that can be made to fail. */
 export interface FaultPoint {
-  /** Call, label of what it makes or works on, number among the same calls of its phase, and phase: `createBuffer "glanz nodes" #1 in create`. */
+  /**
+   * Call, label of what it makes or works on, number among the same calls of its phase, and phase:
+   * `createBuffer "glanz nodes" #1 in create`.
+   */
   readonly name: string;
   readonly call: string;
   readonly label: string;
@@ -27,7 +38,8 @@ export interface LiveObject {
 
 const CREATES_MEMORY = /^create(Buffer|Texture|QuerySet)$/;
 const CREATES_PIPELINE = /^create(Compute|Render)Pipeline(Async)?$/;
-const CAN_BE_INVALID = /^(create(Buffer|Texture|BindGroup|BindGroupLayout|PipelineLayout|Sampler|QuerySet)|submit|writeBuffer|writeTexture|copyExternalImageToTexture)$/;
+const CAN_BE_INVALID =
+  /^(create(Buffer|Texture|BindGroup|BindGroupLayout|PipelineLayout|Sampler|QuerySet)|submit|writeBuffer|writeTexture|copyExternalImageToTexture)$/;
 const ANSWERS = /(Async|onSubmittedWorkDone|popErrorScope)$/;
 
 /** The faults that a call can meet, in the order of {@link FAULTS}. */
@@ -43,8 +55,8 @@ export function faultsOf({ call }: Pick<FaultPoint, 'call'>): Fault[] {
 }
 
 /**
- * Counts the calls to instrumented devices by phase, and says when the planned one has come. One recorder serves any number
- * of devices.
+ * Counts the calls to instrumented devices by phase, and says when the planned one has come. One recorder serves any
+ * number of devices.
  */
 export class FaultRecorder {
   readonly #counts = new Map<string, number>();

@@ -24,7 +24,14 @@ export function openRing(inner: number, outer: number, gap: number, tessellation
     };
     const [outside, inside] = [arc(outer - inset, 1), arc(inner + inset, -1)];
     const [first, second] = [end(Math.PI / 2 + gap, -1), end(Math.PI / 2 - gap, 1)];
-    return [{ ...outside[0]!, ...first }, ...outside, { ...outside[steps]!, ...second }, { ...inside[0]!, ...second }, ...inside, { ...inside[steps]!, ...first }];
+    return [
+      { ...outside[0]!, ...first },
+      ...outside,
+      { ...outside[steps]!, ...second },
+      { ...inside[0]!, ...second },
+      ...inside,
+      { ...inside[steps]!, ...first },
+    ];
   };
 }
 
@@ -34,7 +41,15 @@ export const FRONT: readonly Part[] = [
     name: 'Seal',
     material: 'rubber black',
     shape: (b, t) => {
-      const profile = closedOutline([{ x: 11.2, y: 0 }, { x: 15.1, y: 0 }, { x: 15.1, y: 1.1, r: 0.5 }, { x: 11.2, y: 1.1 }], t);
+      const profile = closedOutline(
+        [
+          { x: 11.2, y: 0 },
+          { x: 15.1, y: 0 },
+          { x: 15.1, y: 1.1, r: 0.5 },
+          { x: 11.2, y: 1.1 },
+        ],
+        t,
+      );
       revolve(b, profile, circleSegments(15, t), true);
     },
   },
@@ -64,7 +79,15 @@ export const FRONT: readonly Part[] = [
     name: 'Light ring',
     material: 'halo light',
     shape: (b, t) => {
-      const profile = closedOutline([{ x: 10.35, y: 1 }, { x: 11.45, y: 1 }, { x: 11.45, y: 6.1, r: 0.45 }, { x: 10.35, y: 6.1, r: 0.45 }], t);
+      const profile = closedOutline(
+        [
+          { x: 10.35, y: 1 },
+          { x: 11.45, y: 1 },
+          { x: 11.45, y: 6.1, r: 0.45 },
+          { x: 10.35, y: 6.1, r: 0.45 },
+        ],
+        t,
+      );
       revolve(b, profile, circleSegments(11.4, t), true);
     },
   },
@@ -90,13 +113,20 @@ export const FRONT: readonly Part[] = [
     name: 'Legend arc',
     material: 'legend white',
     placement: { at: [0, 0, 8.3] },
-    shape: (b, t) => extrude(b, openRing(3.1, 4.1, 0.5, t), [], { bottom: 0, top: 0.25, topRadius: 0.12, tessellation: t }),
+    shape: (b, t) =>
+      extrude(b, openRing(3.1, 4.1, 0.5, t), [], { bottom: 0, top: 0.25, topRadius: 0.12, tessellation: t }),
   },
   {
     name: 'Legend bar',
     material: 'legend white',
     placement: { at: [0, 0, 8.3] },
-    shape: (b, t) => extrude(b, closedOutline(rectangle(0, 3.2, 1, 3.6, 0.2), t), [], { bottom: 0, top: 0.25, topRadius: 0.12, tessellation: t }),
+    shape: (b, t) =>
+      extrude(b, closedOutline(rectangle(0, 3.2, 1, 3.6, 0.2), t), [], {
+        bottom: 0,
+        top: 0.25,
+        topRadius: 0.12,
+        tessellation: t,
+      }),
   },
   {
     name: 'Mounting plate',
@@ -104,8 +134,15 @@ export const FRONT: readonly Part[] = [
     placement: { at: [0, 0, -2.5] },
     shape: (b, t) => {
       const holes = [circleOutline(0, 0, 11.25, circleSegments(11.25, t), true)];
-      for (const x of [-20, 20]) for (const y of [-20, 20]) holes.push(circleOutline(x, y, 1.7, circleSegments(1.7, t), true));
-      extrude(b, closedOutline(rectangle(0, 0, 50, 50, 5), t), holes, { bottom: 0, top: 2.5, bottomRadius: 0.4, topRadius: 0.4, tessellation: t });
+      for (const x of [-20, 20])
+        for (const y of [-20, 20]) holes.push(circleOutline(x, y, 1.7, circleSegments(1.7, t), true));
+      extrude(b, closedOutline(rectangle(0, 0, 50, 50, 5), t), holes, {
+        bottom: 0,
+        top: 2.5,
+        bottomRadius: 0.4,
+        topRadius: 0.4,
+        tessellation: t,
+      });
     },
   },
 ];

@@ -2,9 +2,21 @@ import type { Material } from '@glanz/scene';
 
 type Colour = readonly [number, number, number];
 
-const metal = (name: string, base_color: Colour, specular_roughness: number): Material => ({ name, parameters: { base_metalness: 1, base_color, specular_roughness } });
-const plastic = (name: string, base_color: Colour, specular_roughness: number): Material => ({ name, parameters: { base_color, specular_roughness } });
-const glowing = (name: string, base_color: Colour, emission_color: Colour, emission_luminance: number, specular_roughness: number): Material => ({
+const metal = (name: string, base_color: Colour, specular_roughness: number): Material => ({
+  name,
+  parameters: { base_metalness: 1, base_color, specular_roughness },
+});
+const plastic = (name: string, base_color: Colour, specular_roughness: number): Material => ({
+  name,
+  parameters: { base_color, specular_roughness },
+});
+const glowing = (
+  name: string,
+  base_color: Colour,
+  emission_color: Colour,
+  emission_luminance: number,
+  specular_roughness: number,
+): Material => ({
   name,
   parameters: { base_color, specular_roughness, emission_color, emission_luminance },
 });

@@ -2,14 +2,20 @@ import type { MeshBuilder } from '../shapes/mesh-builder';
 import type { Tessellation } from '../shapes/tessellation';
 import type { MaterialName } from './materials';
 
-/** Where a part sits: its own +z becomes `z`, its own +x becomes `x`, then it moves to `at`. Axes are unit and square to each other. */
+/**
+ * Where a part sits: its own +z becomes `z`, its own +x becomes `x`, then it moves to `at`. Axes are unit and square to
+ * each other.
+ */
 export interface Placement {
   readonly at?: readonly [number, number, number];
   readonly x?: readonly [number, number, number];
   readonly z?: readonly [number, number, number];
 }
 
-/** A named part of the assembly. Millimetres; the axis of the button is +z, towards the user, and the panel's front is z = 0. */
+/**
+ * A named part of the assembly. Millimetres; the axis of the button is +z, towards the user, and the panel's front is z
+ * = 0.
+ */
 export interface Part {
   readonly name: string;
   readonly material: MaterialName;

@@ -14,7 +14,10 @@ export interface ExtrudeOptions {
   readonly tessellation: Tessellation;
 }
 
-/** A level of the wall: how far it stands back, at which height, and the share of the outline's normal and of z in the normal. */
+/**
+ * A level of the wall: how far it stands back, at which height, and the share of the outline's normal and of z in the
+ * normal.
+ */
 interface Level {
   readonly inset: number;
   readonly z: number;
@@ -28,21 +31,28 @@ function levels({ bottom, top, bottomRadius = 0, topRadius = 0, tessellation }: 
     const steps = arcSegments(radius, Math.PI / 2, tessellation);
     for (let i = 0; i <= steps; i++) {
       const angle = from + ((Math.PI / 2) * i) / steps;
-      result.push({ inset: radius * (1 - Math.cos(angle)), z: z + radius * Math.sin(angle), across: Math.cos(angle), along: Math.sin(angle) });
+      result.push({
+        inset: radius * (1 - Math.cos(angle)),
+        z: z + radius * Math.sin(angle),
+        across: Math.cos(angle),
+        along: Math.sin(angle),
+      });
     }
   };
   if (!isNegligible(bottomRadius, tessellation)) arc(bottomRadius, -Math.PI / 2, bottom + bottomRadius);
   else result.push({ inset: 0, z: bottom, across: 1, along: 0 });
   if (!isNegligible(topRadius, tessellation)) arc(topRadius, 0, top - topRadius);
   else result.push({ inset: 0, z: top, across: 1, along: 0 });
-  return result.filter((level, i) => i === 0 || Math.hypot(level.z - result[i - 1]!.z, level.inset - result[i - 1]!.inset) > 1e-9);
+  return result.filter(
+    (level, i) => i === 0 || Math.hypot(level.z - result[i - 1]!.z, level.inset - result[i - 1]!.inset) > 1e-9,
+  );
 }
 
 const place = (p: OutlinePoint, inset: number): [number, number] => [p.x - p.mx * inset, p.y - p.my * inset];
 
 /**
- * An outline that knows its own insets: same points in the same order for every inset. Needed where a curve meets a sharp
- * corner, for there the points next to the corner would overtake it.
+ * An outline that knows its own insets: same points in the same order for every inset. Needed where a curve meets a
+ * sharp corner, for there the points next to the corner would overtake it.
  */
 export type InsetOutline = (inset: number) => Outline;
 
@@ -53,7 +63,12 @@ const insetOf = (loop: Outline | InsetOutline, inset: number): readonly (readonl
  * Pulls an outline, with holes, along z into a closed solid with rounded edges. Radii of corners must be larger than
  * those of the edges they run along, or zero.
  */
-export function extrude(builder: MeshBuilder, outer: Outline | InsetOutline, holes: readonly Outline[], options: ExtrudeOptions): void {
+export function extrude(
+  builder: MeshBuilder,
+  outer: Outline | InsetOutline,
+  holes: readonly Outline[],
+  options: ExtrudeOptions,
+): void {
   const wall = levels(options);
   const sources = [outer, ...holes];
   for (const source of sources) {
@@ -61,7 +76,8 @@ export function extrude(builder: MeshBuilder, outer: Outline | InsetOutline, hol
     const n = loop.length;
     const first = builder.vertexCount;
     for (const { inset, z, across, along } of wall) {
-      for (const [i, [x, y]] of insetOf(source, inset).entries()) builder.vertex(x, y, z, loop[i]!.nx * across, loop[i]!.ny * across, along);
+      for (const [i, [x, y]] of insetOf(source, inset).entries())
+        builder.vertex(x, y, z, loop[i]!.nx * across, loop[i]!.ny * across, along);
     }
     for (let l = 0; l + 1 < wall.length; l++) {
       for (let i = 0; i < n; i++) {

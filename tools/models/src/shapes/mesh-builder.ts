@@ -52,7 +52,10 @@ export class MeshBuilder {
   }
 
   /** Moves all vertices from index `first` on. */
-  transformFrom(first: number, matrix: (x: number, y: number, z: number, w: 0 | 1) => readonly [number, number, number]): void {
+  transformFrom(
+    first: number,
+    matrix: (x: number, y: number, z: number, w: 0 | 1) => readonly [number, number, number],
+  ): void {
     const [p, n] = [this.#positions.view, this.#normals.view];
     for (let i = first * 3; i < p.length; i += 3) {
       p.set(matrix(p[i]!, p[i + 1]!, p[i + 2]!, 1), i);

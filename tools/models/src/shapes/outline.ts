@@ -22,7 +22,14 @@ export interface OutlinePoint {
 /** A chain of points; consecutive points of equal place but unequal normals are a sharp edge. */
 export type Outline = readonly OutlinePoint[];
 
-const point = (x: number, y: number, nx: number, ny: number, mx = nx, my = ny): OutlinePoint => ({ x, y, nx, ny, mx, my });
+const point = (x: number, y: number, nx: number, ny: number, mx = nx, my = ny): OutlinePoint => ({
+  x,
+  y,
+  nx,
+  ny,
+  mx,
+  my,
+});
 
 interface Direction {
   readonly x: number;
@@ -74,7 +81,10 @@ function corner(c: Corner, before: Direction, after: Direction, tessellation: Te
 
 /** How much of the two edges at a corner its rounding takes up. */
 function tangentLength(before: Direction, after: Direction, r = 0): number {
-  return r * Math.tan(Math.abs(Math.atan2(before.x * after.y - before.y * after.x, before.x * after.x + before.y * after.y)) / 2);
+  return (
+    r *
+    Math.tan(Math.abs(Math.atan2(before.x * after.y - before.y * after.x, before.x * after.x + before.y * after.y)) / 2)
+  );
 }
 
 /** Refuses roundings that overlap: the outline would run backwards between them. */
@@ -87,7 +97,8 @@ function checkRadii(corners: readonly Corner[], closed: boolean): void {
   for (let i = 0; i < (closed ? n : n - 1); i++) {
     const [c, next] = [corners[i]!, corners[(i + 1) % n]!];
     const { length } = direction(c, next);
-    if (taken[i]! + taken[(i + 1) % n]! > length + 1e-9) throw new RangeError(`outline: the radii at (${c.x}, ${c.y}) and (${next.x}, ${next.y}) do not fit between them`);
+    if (taken[i]! + taken[(i + 1) % n]! > length + 1e-9)
+      throw new RangeError(`outline: the radii at (${c.x}, ${c.y}) and (${next.x}, ${next.y}) do not fit between them`);
   }
 }
 
@@ -127,7 +138,10 @@ export function closedOutline(corners: readonly Corner[], tessellation: Tessella
   return tidy(out, true);
 }
 
-/** Rounds off an open chain of corners, e.g. a profile to revolve that begins and ends on the axis. @throws {RangeError} as {@link closedOutline} */
+/**
+ * Rounds off an open chain of corners, e.g. a profile to revolve that begins and ends on the axis. @throws {RangeError}
+ * as {@link closedOutline}
+ */
 export function openOutline(corners: readonly Corner[], tessellation: Tessellation): Outline {
   checkRadii(corners, false);
   const out: OutlinePoint[] = [];

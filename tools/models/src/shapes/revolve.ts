@@ -17,7 +17,8 @@ export function revolve(builder: MeshBuilder, profile: Outline, segments: number
   }
   for (const p of profile) {
     const radius = Math.abs(p.x) < 1e-9 ? 0 : p.x;
-    for (let j = 0; j < segments; j++) builder.vertex(radius * cos[j]!, radius * sin[j]!, p.y, p.nx * cos[j]!, p.nx * sin[j]!, p.ny);
+    for (let j = 0; j < segments; j++)
+      builder.vertex(radius * cos[j]!, radius * sin[j]!, p.y, p.nx * cos[j]!, p.nx * sin[j]!, p.ny);
   }
   const n = profile.length;
   for (let i = 0; i < (closed ? n : n - 1); i++) {
@@ -26,7 +27,12 @@ export function revolve(builder: MeshBuilder, profile: Outline, segments: number
     if (p.x === q.x && p.y === q.y) continue;
     for (let j = 0; j < segments; j++) {
       const k = (j + 1) % segments;
-      const [a, b, c, d] = [first + i * segments + j, first + i * segments + k, first + next * segments + k, first + next * segments + j];
+      const [a, b, c, d] = [
+        first + i * segments + j,
+        first + i * segments + k,
+        first + next * segments + k,
+        first + next * segments + j,
+      ];
       // Going along the profile the outside is on the right: a → b → c is counter-clockwise seen from there.
       if (Math.abs(p.x) < 1e-9) builder.triangle(a, c, d);
       else if (Math.abs(q.x) < 1e-9) builder.triangle(a, b, c);

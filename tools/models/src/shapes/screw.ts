@@ -22,7 +22,10 @@ export interface ScrewOptions {
 /** One half of a slotted head, what is left of a disc beyond a line, at any inset. */
 function halfMoon(radius: number, line: number, angle: number, tessellation: Tessellation): InsetOutline {
   const steps = Math.max(3, arcSegments(radius, 2 * Math.acos(line / radius), tessellation));
-  const turn = (x: number, y: number): [number, number] => [x * Math.cos(angle) - y * Math.sin(angle), x * Math.sin(angle) + y * Math.cos(angle)];
+  const turn = (x: number, y: number): [number, number] => [
+    x * Math.cos(angle) - y * Math.sin(angle),
+    x * Math.sin(angle) + y * Math.cos(angle),
+  ];
   const [cx, cy] = turn(-1, 0);
   return (inset) => {
     const r = radius - inset;
@@ -41,8 +44,24 @@ function halfMoon(radius: number, line: number, angle: number, tessellation: Tes
  * shells that overlap: the shank, the lower part of the head, and two half moons that leave the slot between them.
  */
 export function slottedScrew(builder: MeshBuilder, options: ScrewOptions): void {
-  const { headRadius: radius, headHeight: height, slotWidth, slotDepth, shankRadius, shankLength, pitch, tessellation } = options;
-  threadedRod(builder, { radius: shankRadius, depth: shankRadius * 0.18, pitch, bottom: -shankLength, top: 0.05, tessellation });
+  const {
+    headRadius: radius,
+    headHeight: height,
+    slotWidth,
+    slotDepth,
+    shankRadius,
+    shankLength,
+    pitch,
+    tessellation,
+  } = options;
+  threadedRod(builder, {
+    radius: shankRadius,
+    depth: shankRadius * 0.18,
+    pitch,
+    bottom: -shankLength,
+    top: 0.05,
+    tessellation,
+  });
   const floor = height - slotDepth;
   const edge = Math.min(0.15, floor / 3);
   revolve(

@@ -24,11 +24,14 @@ function threadProfile(turn: number): number {
 }
 
 /**
- * A rod with a thread and flat ends: a cylinder whose radius varies along a helix, so that it is closed by construction.
- * The thread runs out at both ends. Too coarse a tessellation to show the thread leaves it away, as exporters of
- * simplified CAD models do.
+ * A rod with a thread and flat ends: a cylinder whose radius varies along a helix, so that it is closed by
+ * construction. The thread runs out at both ends. Too coarse a tessellation to show the thread leaves it away, as
+ * exporters of simplified CAD models do.
  */
-export function threadedRod(builder: MeshBuilder, { radius, depth, pitch, bottom, top, tessellation }: ThreadOptions): void {
+export function threadedRod(
+  builder: MeshBuilder,
+  { radius, depth, pitch, bottom, top, tessellation }: ThreadOptions,
+): void {
   const segments = circleSegments(radius, tessellation);
   // Rows of a turn: the flanks bend within about a third of the pitch.
   const rows = Math.round(circleSegments(pitch / 3, tessellation) / 2);
@@ -57,7 +60,12 @@ export function threadedRod(builder: MeshBuilder, { radius, depth, pitch, bottom
   for (let i = 0; i < steps; i++) {
     for (let j = 0; j < segments; j++) {
       const k = (j + 1) % segments;
-      builder.quad(first + i * segments + j, first + i * segments + k, first + (i + 1) * segments + k, first + (i + 1) * segments + j);
+      builder.quad(
+        first + i * segments + j,
+        first + i * segments + k,
+        first + (i + 1) * segments + k,
+        first + (i + 1) * segments + j,
+      );
     }
   }
   for (const [z, up] of [

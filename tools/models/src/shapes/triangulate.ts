@@ -39,7 +39,9 @@ function cross(a: Node, b: Node, c: Node, d: Node): boolean {
 
 /** Whether a straight line from `a` leaves into the polygon's inside. */
 function opensInto(a: Node, b: Node): boolean {
-  return area(a.previous, a, a.next) >= 0 ? area(a, b, a.previous) > 0 && area(a, a.next, b) > 0 : !(area(a, b, a.next) >= 0 && area(a, a.previous, b) >= 0);
+  return area(a.previous, a, a.next) >= 0
+    ? area(a, b, a.previous) > 0 && area(a, a.next, b) > 0
+    : !(area(a, b, a.next) >= 0 && area(a, a.previous, b) >= 0);
 }
 
 /** Whether o and h see each other through the inside. */
@@ -77,7 +79,8 @@ function bridge(outer: Node, hole: Node, rings: readonly Node[]): Node {
  *
  * @param outer Counter-clockwise.
  * @param holes Clockwise, inside `outer`, apart from each other.
- * @returns Vertex indices, three a triangle, counter-clockwise; vertices are numbered through `outer` and then the holes.
+ * @returns Vertex indices, three a triangle, counter-clockwise; vertices are numbered through `outer` and then the
+ * holes.
  * @throws {RangeError} when the loops cross themselves or each other.
  */
 export function triangulate(outer: Loop, holes: readonly Loop[] = []): number[] {
@@ -100,7 +103,17 @@ export function triangulate(outer: Loop, holes: readonly Loop[] = []): number[] 
   const isEar = (node: Node, minimum: number) => {
     const [a, c] = [node.previous, node.next];
     if (!(area(a, node, c) > minimum)) return false;
-    for (const p of reflex) if (p !== a && p !== node && p !== c && !samePlace(p, a) && !samePlace(p, node) && !samePlace(p, c) && within(a, node, c, p)) return false;
+    for (const p of reflex)
+      if (
+        p !== a &&
+        p !== node &&
+        p !== c &&
+        !samePlace(p, a) &&
+        !samePlace(p, node) &&
+        !samePlace(p, c) &&
+        within(a, node, c, p)
+      )
+        return false;
     return true;
   };
   let node = start;

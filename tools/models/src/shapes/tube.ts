@@ -21,14 +21,17 @@ const unit = (a: Vector): Vector => {
  */
 export function tube(builder: MeshBuilder, curve: Curve, radius: number, steps: number, segments: number): void {
   const centres = Array.from({ length: steps + 1 }, (_, i) => curve(i / steps));
-  const tangents = centres.map((_, i) => unit(subtract([0, 0, 0], centres[Math.min(i + 1, steps)]!, centres[Math.max(i - 1, 0)]!)));
+  const tangents = centres.map((_, i) =>
+    unit(subtract([0, 0, 0], centres[Math.min(i + 1, steps)]!, centres[Math.max(i - 1, 0)]!)),
+  );
   const t0 = tangents[0]!;
   let side = unit(cross([0, 0, 0], t0, Math.abs(t0[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0]));
   const sides: Vector[] = [side];
   for (let i = 0; i < steps; i++) {
     const v1 = subtract([0, 0, 0], centres[i + 1]!, centres[i]!);
     const c1 = dot(v1, v1);
-    const reflect = (v: Vector, axis: Vector, c: number): Vector => scaleAndAdd([0, 0, 0], v, axis, (-2 / c) * dot(axis, v));
+    const reflect = (v: Vector, axis: Vector, c: number): Vector =>
+      scaleAndAdd([0, 0, 0], v, axis, (-2 / c) * dot(axis, v));
     const sideL = reflect(side, v1, c1);
     const tangentL = reflect(tangents[i]!, v1, c1);
     const v2 = subtract([0, 0, 0], tangents[i + 1]!, tangentL);
@@ -54,7 +57,12 @@ export function tube(builder: MeshBuilder, curve: Curve, radius: number, steps: 
   for (let i = 0; i < steps; i++) {
     for (let j = 0; j < segments; j++) {
       const k = (j + 1) % segments;
-      builder.quad(first + i * segments + j, first + i * segments + k, first + (i + 1) * segments + k, first + (i + 1) * segments + j);
+      builder.quad(
+        first + i * segments + j,
+        first + i * segments + k,
+        first + (i + 1) * segments + k,
+        first + (i + 1) * segments + j,
+      );
     }
   }
   for (const [i, sign] of [
@@ -82,7 +90,12 @@ export function spline(points: readonly Vector[]): Curve {
     const [b, c] = [points[i]!, points[i + 1]!];
     const a = points[i - 1] ?? [2 * b[0] - c[0], 2 * b[1] - c[1], 2 * b[2] - c[2]];
     const d = points[i + 2] ?? [2 * c[0] - b[0], 2 * c[1] - b[1], 2 * c[2] - b[2]];
-    const at = (k: 0 | 1 | 2) => 0.5 * (2 * b[k] + (c[k] - a[k]) * f + (2 * a[k] - 5 * b[k] + 4 * c[k] - d[k]) * f * f + (3 * b[k] - a[k] - 3 * c[k] + d[k]) * f ** 3);
+    const at = (k: 0 | 1 | 2) =>
+      0.5 *
+      (2 * b[k] +
+        (c[k] - a[k]) * f +
+        (2 * a[k] - 5 * b[k] + 4 * c[k] - d[k]) * f * f +
+        (3 * b[k] - a[k] - 3 * c[k] + d[k]) * f ** 3);
     return [at(0), at(1), at(2)];
   };
 }

@@ -1,4 +1,11 @@
-import { openpbr, openpbrEmission, openpbrOpacity, OPENPBR_PARAMETERS, openPbrStruct, type OpenPbrParameterName } from '@glanz/openpbr';
+import {
+  openpbr,
+  openpbrEmission,
+  openpbrOpacity,
+  OPENPBR_PARAMETERS,
+  openPbrStruct,
+  type OpenPbrParameterName,
+} from '@glanz/openpbr';
 import type { WgslModule } from '@glanz/wgsl';
 
 /** All WGSL text of modules and what they need, the parameter record itself left out. */
@@ -7,14 +14,22 @@ function textOf(roots: readonly WgslModule[]): string {
   const visit = (module: WgslModule): string => {
     if (seen.has(module)) return '';
     seen.add(module);
-    return module.code + module.deps.map((dependency) => visit('module' in dependency ? dependency.module : dependency)).join('');
+    return (
+      module.code +
+      module.deps.map((dependency) => visit('module' in dependency ? dependency.module : dependency)).join('')
+    );
   };
   return roots.map(visit).join('');
 }
 
-/** Names of the parameters that change the picture: those that the shaders read. Others are kept for files and said to be. */
+/**
+ * Names of the parameters that change the picture: those that the shaders read. Others are kept for files and said to
+ * be.
+ */
 export function actingParameters(): ReadonlySet<OpenPbrParameterName> {
   const text = textOf([openpbr, openpbrEmission, openpbrOpacity]);
   const names = Object.keys(OPENPBR_PARAMETERS) as OpenPbrParameterName[];
-  return new Set(names.filter((name) => OPENPBR_PARAMETERS[name].type === 'vector3' || new RegExp(`\\.${name}\\b`).test(text)));
+  return new Set(
+    names.filter((name) => OPENPBR_PARAMETERS[name].type === 'vector3' || new RegExp(`\\.${name}\\b`).test(text)),
+  );
 }

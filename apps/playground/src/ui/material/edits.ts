@@ -6,14 +6,22 @@ import type { Store } from '../../state/store';
 const same = (a: unknown, b: unknown) => JSON.stringify(a) === JSON.stringify(b);
 
 /** A parameter as the model has it. */
-export const loadedValue = <N extends OpenPbrParameterName>(material: Material, name: N) => material.parameters[name] ?? OPENPBR_PARAMETERS[name].default;
+export const loadedValue = <N extends OpenPbrParameterName>(material: Material, name: N) =>
+  material.parameters[name] ?? OPENPBR_PARAMETERS[name].default;
 
 /** A parameter as it is now. */
-export const currentValue = <N extends OpenPbrParameterName>(state: State, material: Material, index: number, name: N) => state.materials[index]?.[name] ?? loadedValue(material, name);
+export const currentValue = <N extends OpenPbrParameterName>(
+  state: State,
+  material: Material,
+  index: number,
+  name: N,
+) => state.materials[index]?.[name] ?? loadedValue(material, name);
 
 /** An edit without what is as loaded anyway. */
 function tidied(material: Material, edit: Values): Values {
-  return Object.fromEntries(Object.entries(edit).filter(([name, value]) => !same(value, loadedValue(material, name as OpenPbrParameterName)))) as Values;
+  return Object.fromEntries(
+    Object.entries(edit).filter(([name, value]) => !same(value, loadedValue(material, name as OpenPbrParameterName))),
+  ) as Values;
 }
 
 function withEdit(state: State, index: number, edit: Values): State['materials'] {
@@ -22,21 +30,44 @@ function withEdit(state: State, index: number, edit: Values): State['materials']
 }
 
 /** Changes parameters of a material as one step of undo. */
-export function editMaterial(store: Store<State>, material: Material, index: number, values: Values, label: string): void {
+export function editMaterial(
+  store: Store<State>,
+  material: Material,
+  index: number,
+  values: Values,
+  label: string,
+): void {
   const { state } = store;
-  store.set({ materials: withEdit(state, index, tidied(material, { ...state.materials[index], ...values })) }, { label, merge: `material ${index} ${Object.keys(values).join(' ')}` });
+  store.set(
+    { materials: withEdit(state, index, tidied(material, { ...state.materials[index], ...values })) },
+    { label, merge: `material ${index} ${Object.keys(values).join(' ')}` },
+  );
 }
 
 /** Puts a picture on a parameter, or takes it away. */
-export function editSlot(store: Store<State>, material: Material, index: number, parameter: TexturedParameter, slot: Slot): void {
+export function editSlot(
+  store: Store<State>,
+  material: Material,
+  index: number,
+  parameter: TexturedParameter,
+  slot: Slot,
+): void {
   const { [slotKey(index, parameter)]: _, ...others } = store.state.slots;
   // What the model did not have need not be taken away.
   const nothing = slot === null && !material.textures?.[parameter];
-  store.set({ slots: nothing ? others : { ...others, [slotKey(index, parameter)]: slot } }, { label: slot ? 'Texture' : 'Remove texture' });
+  store.set(
+    { slots: nothing ? others : { ...others, [slotKey(index, parameter)]: slot } },
+    { label: slot ? 'Texture' : 'Remove texture' },
+  );
 }
 
 /** The picture that drives a parameter: put there by hand, or brought by the model. */
-export function slotState(state: State, material: Material, index: number, parameter: OpenPbrParameterName): { readonly name: string; readonly own: boolean } | undefined {
+export function slotState(
+  state: State,
+  material: Material,
+  index: number,
+  parameter: OpenPbrParameterName,
+): { readonly name: string; readonly own: boolean } | undefined {
   const key = slotKey(index, parameter as TexturedParameter);
   if (Object.hasOwn(state.slots, key)) {
     const slot = state.slots[key];
@@ -46,19 +77,41 @@ export function slotState(state: State, material: Material, index: number, param
 }
 
 /** Makes a material another one altogether: what it does not say is at the default, and pictures of the old one go. */
-export function replaceMaterial(store: Store<State>, material: Material, index: number, values: Values, label: string, slots: Readonly<Record<string, Slot>> = {}): void {
+export function replaceMaterial(
+  store: Store<State>,
+  material: Material,
+  index: number,
+  values: Values,
+  label: string,
+  slots: Readonly<Record<string, Slot>> = {},
+): void {
   const { state } = store;
-  const defaults = Object.fromEntries(Object.keys(material.parameters).map((name) => [name, OPENPBR_PARAMETERS[name as OpenPbrParameterName].default])) as Values;
+  const defaults = Object.fromEntries(
+    Object.keys(material.parameters).map((name) => [name, OPENPBR_PARAMETERS[name as OpenPbrParameterName].default]),
+  ) as Values;
   const gone = Object.keys(material.textures ?? {}).filter((name) => !name.startsWith('geometry_'));
   const kept = Object.entries(state.slots).filter(([key]) => !key.startsWith(`${index}/`));
   const next = [...kept, ...gone.map((name) => [`${index}/${name}`, null] as const), ...Object.entries(slots)];
-  const changed = next.length !== Object.keys(state.slots).length || next.some(([key, slot]) => state.slots[key] !== slot);
-  store.set({ materials: withEdit(state, index, tidied(material, { ...defaults, ...values })), ...(changed ? { slots: Object.fromEntries(next) } : {}) }, { label, merge: `material ${index} ${label}` });
+  const changed =
+    next.length !== Object.keys(state.slots).length || next.some(([key, slot]) => state.slots[key] !== slot);
+  store.set(
+    {
+      materials: withEdit(state, index, tidied(material, { ...defaults, ...values })),
+      ...(changed ? { slots: Object.fromEntries(next) } : {}),
+    },
+    { label, merge: `material ${index} ${label}` },
+  );
 }
 
 /** Back to what the model says. */
 export function resetMaterial(store: Store<State>, index: number): void {
   const { state } = store;
   const slots = Object.entries(state.slots).filter(([key]) => !key.startsWith(`${index}/`));
-  store.set({ materials: withEdit(state, index, {}), ...(slots.length === Object.keys(state.slots).length ? {} : { slots: Object.fromEntries(slots) }) }, { label: 'Reset material' });
+  store.set(
+    {
+      materials: withEdit(state, index, {}),
+      ...(slots.length === Object.keys(state.slots).length ? {} : { slots: Object.fromEntries(slots) }),
+    },
+    { label: 'Reset material' },
+  );
 }

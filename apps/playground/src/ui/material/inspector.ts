@@ -9,10 +9,14 @@ import { currentValue, editMaterial, loadedValue, resetMaterial } from './edits'
 import { textureSlot } from './texture-slot';
 
 const GROUP_TITLES: Readonly<Record<string, string>> = { thin_film: 'Thin film' };
-const capital = (name: string) => (name === 'ior' ? 'IOR' : undefined) ?? GROUP_TITLES[name] ?? name.charAt(0).toUpperCase() + name.slice(1).replaceAll('_', ' ');
+const capital = (name: string) =>
+  (name === 'ior' ? 'IOR' : undefined) ??
+  GROUP_TITLES[name] ??
+  name.charAt(0).toUpperCase() + name.slice(1).replaceAll('_', ' ');
 
 /** A parameter's name without its group: `specular_roughness` under Specular is "Roughness". */
-const shortTitle = ({ name, group }: OpenPbrParameterInfo) => capital(name.startsWith(`${group}_`) ? name.slice(group.length + 1) : name);
+const shortTitle = ({ name, group }: OpenPbrParameterInfo) =>
+  capital(name.startsWith(`${group}_`) ? name.slice(group.length + 1) : name);
 
 /** Groups that are open without being asked. */
 const FIRST_GROUPS = new Set(['base', 'specular']);
@@ -44,7 +48,20 @@ export class MaterialInspector {
     const { selection, store, onModel } = context;
     this.#select.addEventListener('change', () => selection.choose({ material: Number(this.#select.value) }));
     this.#reset.addEventListener('click', () => resetMaterial(store, this.#index));
-    this.element = element('div', {}, element('div', { class: 'field material-choice' }, element('label', { for: 'material' }, 'Material'), this.#select), this.#part, ...extras, this.#fields, element('div', { class: 'section' }, this.#reset));
+    this.element = element(
+      'div',
+      {},
+      element(
+        'div',
+        { class: 'field material-choice' },
+        element('label', { for: 'material' }, 'Material'),
+        this.#select,
+      ),
+      this.#part,
+      ...extras,
+      this.#fields,
+      element('div', { class: 'section' }, this.#reset),
+    );
     selection.subscribe(({ material, instance }) => this.#show(material, instance));
     onModel(() => this.#fill());
     store.subscribe((next, before) => {
@@ -55,7 +72,9 @@ export class MaterialInspector {
 
   #fill(): void {
     const { scene } = this.#context.opened();
-    this.#select.replaceChildren(...scene.materials.map(({ name }, index) => element('option', { value: index }, name || `Material ${index + 1}`)));
+    this.#select.replaceChildren(
+      ...scene.materials.map(({ name }, index) => element('option', { value: index }, name || `Material ${index + 1}`)),
+    );
     this.#show(0, undefined);
     this.#part.textContent = 'Click a part of the picture to choose its material.';
   }
@@ -68,7 +87,8 @@ export class MaterialInspector {
     this.#dots.clear();
     if (!material) return this.#fields.replaceChildren();
     this.#select.value = String(index);
-    this.#part.textContent = instance === undefined ? '' : `Picked: ${scene.instances[instance]?.name || `part ${instance + 1}`}`;
+    this.#part.textContent =
+      instance === undefined ? '' : `Picked: ${scene.instances[instance]?.name || `part ${instance + 1}`}`;
     const groups = new Map<string, HTMLElement[]>();
     for (const info of Object.values(OPENPBR_PARAMETERS) as OpenPbrParameterInfo[]) {
       groups.set(info.group, [...(groups.get(info.group) ?? []), this.#row(info, material)]);
@@ -80,7 +100,12 @@ export class MaterialInspector {
   #group(group: string, rows: HTMLElement[]): HTMLElement {
     const dot = element('span', { class: 'dot', title: 'Differs from the model', hidden: true });
     this.#dots.set(group, dot);
-    const details = element('details', { class: 'group', 'data-group': group, open: this.#open.has(group) }, element('summary', {}, capital(group), dot), element('div', { class: 'fields' }, ...rows));
+    const details = element(
+      'details',
+      { class: 'group', 'data-group': group, open: this.#open.has(group) },
+      element('summary', {}, capital(group), dot),
+      element('div', { class: 'fields' }, ...rows),
+    );
     details.addEventListener('toggle', () => (details.open ? this.#open.add(group) : this.#open.delete(group)));
     return details;
   }
@@ -89,8 +114,17 @@ export class MaterialInspector {
     const { name, group, doc, type } = info;
     const title = shortTitle(info);
     const field = this.#field(info, title, material);
-    const row = field?.element ?? element('div', { class: 'field', title: `${name}: ${doc}` }, element('span', { class: 'label' }, title), element('span', { class: 'note wide' }, type === 'vector3' ? 'by texture' : ''));
-    const refreshSlot = info.texturable ? textureSlot(this.#context, this.#index, name, `${capital(group)} ${title}`, row) : () => undefined;
+    const row =
+      field?.element ??
+      element(
+        'div',
+        { class: 'field', title: `${name}: ${doc}` },
+        element('span', { class: 'label' }, title),
+        element('span', { class: 'note wide' }, type === 'vector3' ? 'by texture' : ''),
+      );
+    const refreshSlot = info.texturable
+      ? textureSlot(this.#context, this.#index, name, `${capital(group)} ${title}`, row)
+      : () => undefined;
     if (!this.#acting.has(name)) {
       row.classList.add('idle');
       row.title = `${name}: ${doc} Kept in files; this renderer does not show it yet.`;
@@ -108,12 +142,26 @@ export class MaterialInspector {
     const common = { id: `parameter-${name}`, label: title, hint: `${name}: ${doc}`, onInput };
     const value = currentValue(store.state, material, index, name) as unknown;
     const initial = loadedValue(material, name) as unknown;
-    if (type === 'boolean') return checkField({ ...common, value: value as boolean, initial: initial as boolean }) as unknown as Field<never>;
-    if (type === 'color3') return colourField({ ...common, value: value as readonly [number, number, number], initial: initial as readonly [number, number, number] }) as unknown as Field<never>;
+    if (type === 'boolean')
+      return checkField({ ...common, value: value as boolean, initial: initial as boolean }) as unknown as Field<never>;
+    if (type === 'color3')
+      return colourField({
+        ...common,
+        value: value as readonly [number, number, number],
+        initial: initial as readonly [number, number, number],
+      }) as unknown as Field<never>;
     const range = info.softRange ?? [0, 1];
     // A range of three orders of magnitude: most of it for the lower end.
     const curve = range[1] - range[0] >= 100 ? 3 : 1;
-    return sliderField({ ...common, value: value as number, initial: initial as number, range, hardRange: info.range, curve, unit: info.unit === '1' ? undefined : info.unit === 'length' ? 'm' : info.unit }) as unknown as Field<never>;
+    return sliderField({
+      ...common,
+      value: value as number,
+      initial: initial as number,
+      range,
+      hardRange: info.range,
+      curve,
+      unit: info.unit === '1' ? undefined : info.unit === 'length' ? 'm' : info.unit,
+    }) as unknown as Field<never>;
   }
 
   /** Values as the state says now, for undo and links change them too. */
@@ -125,7 +173,8 @@ export class MaterialInspector {
     const changed = new Set<string>();
     for (const { name, group, field, refreshSlot } of this.#rows) {
       // The control under the user's hand is as it should be.
-      if (field && !field.element.contains(document.activeElement)) field.set(currentValue(store.state, material, this.#index, name) as never);
+      if (field && !field.element.contains(document.activeElement))
+        field.set(currentValue(store.state, material, this.#index, name) as never);
       else if (field && !Object.hasOwn(edit, name)) field.set(loadedValue(material, name) as never);
       refreshSlot();
       if (Object.hasOwn(edit, name) || Object.hasOwn(store.state.slots, `${this.#index}/${name}`)) changed.add(group);

@@ -7,20 +7,40 @@ import { icon } from '../icons';
 import { editSlot, slotState } from './edits';
 
 /** The button on a parameter's row that puts a picture on it; pictures may be dropped on the row as well. */
-export function textureSlot(context: Context, index: number, name: OpenPbrParameterName, title: string, row: HTMLElement): () => void {
+export function textureSlot(
+  context: Context,
+  index: number,
+  name: OpenPbrParameterName,
+  title: string,
+  row: HTMLElement,
+): () => void {
   const { store, opened, fail, say } = context;
   const material = opened().scene.materials[index];
   if (!material) return () => undefined;
   const parameter = name as TexturedParameter;
-  const picker = element('input', { type: 'file', accept: 'image/*', hidden: true, 'aria-label': `Texture of ${title}` });
-  const button = element('button', { type: 'button', class: 'slot', 'aria-label': `Texture for ${title}`, title: 'Put a picture on this parameter' }, icon('image'));
+  const picker = element('input', {
+    type: 'file',
+    accept: 'image/*',
+    hidden: true,
+    'aria-label': `Texture of ${title}`,
+  });
+  const button = element(
+    'button',
+    { type: 'button', class: 'slot', 'aria-label': `Texture for ${title}`, title: 'Put a picture on this parameter' },
+    icon('image'),
+  );
   const told = element('span', { class: 'slot-name' });
   const take = async (file: File) => {
     try {
       const image = await readPicture(file);
       editSlot(store, material, index, parameter, slotOf(image, parameter));
       const { scene } = opened();
-      if (!scene.instances.some((instance) => instance.material === index && (scene.meshes[instance.mesh]?.uvs?.length ?? 0) > 0)) say(`No part of "${material.name}" has UV coordinates: the picture shows only its corner’s colour.`);
+      if (
+        !scene.instances.some(
+          (instance) => instance.material === index && (scene.meshes[instance.mesh]?.uvs?.length ?? 0) > 0,
+        )
+      )
+        say(`No part of "${material.name}" has UV coordinates: the picture shows only its corner’s colour.`);
     } catch (error) {
       fail(error);
     }
