@@ -16,9 +16,9 @@ beforeAll(async () => {
   const { outputFiles } = await build({
     stdin: {
       contents: `export { decodeImageInBrowser } from ${here('../src/index.ts')};
-        import { uploadTextures } from ${here('../../renderer/src/gpu/texture-upload.ts')};
-        import { planTextures } from ${here('../../renderer/src/scene/textures.ts')};
-        import { GpuMemory } from ${here('../../renderer/src/gpu/buffers.ts')};
+        import { uploadTextures } from ${here('../../renderer/src/materials/texture-upload.ts')};
+        import { planTextures } from ${here('../../renderer/src/materials/textures.ts')};
+        import { GpuMemory } from ${here('../../renderer/src/storage/buffers.ts')};
         export { uploadTextures, planTextures, GpuMemory };`,
       resolveDir: fileURLToPath(new URL('.', import.meta.url)),
     },

@@ -1,8 +1,8 @@
 export { DeviceError, RenderError } from './errors';
-export { requestDevice, type DeviceOptions } from './gpu/device';
+export { requestDevice, type DeviceOptions } from './device/device';
 export { decodeFilmState, encodeFilmState, type FilmState } from './film/film-state';
-export { isSoftware } from './software';
-export { compressedFormats } from './scene/textures';
+export { isSoftware } from './device/software';
+export { compressedFormats } from './materials/textures';
 export { PathTracer } from './path-tracer';
 export type {
   BackFaceCulling,

@@ -1,7 +1,7 @@
 import type { Scene } from '@glanz/scene';
 import { DeviceError, RenderError } from './errors';
 import type { PathTracerOptions, RenderOptions } from './options';
-import { hasInterior } from './scene/interiors';
+import { hasInterior } from './materials/interiors';
 
 /** Default of `RenderOptions.maxSubmitMs`: a frame at 60 Hz. */
 export const DEFAULT_SUBMIT_MS = 16;

@@ -1,5 +1,5 @@
 import type { Camera } from '@glanz/scene';
-import type { HierarchyBuilder } from './scene/hierarchies';
+import type { HierarchyBuilder } from './geometry/hierarchies';
 
 export type { HierarchyBuilder };
 

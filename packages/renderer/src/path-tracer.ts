@@ -1,16 +1,16 @@
 import type { Camera, Scene } from '@glanz/scene';
-import { EditSession } from './edit-session';
+import { EditSession } from './session/edit-session';
 import { deviceLost, RenderError, type DeviceError } from './errors';
-import { FilmSession } from './film/film-session';
+import { FilmSession } from './session/film-session';
 import type { FilmState } from './film/film-state';
 import { filmFingerprint } from './film/fingerprint';
-import { packFrame } from './frame';
-import type { GpuMemory } from './gpu/buffers';
-import { onDeviceLost } from './gpu/device-loss';
-import type { GpuScene } from './gpu/gpu-scene';
-import { memoryReport } from './gpu/memory-report';
-import { readBuffer } from './gpu/read-buffer';
-import type { Integrator } from './integrator';
+import { packFrame } from './session/frame';
+import type { GpuMemory } from './storage/buffers';
+import { onDeviceLost } from './device/device-loss';
+import type { GpuScene } from './scene/gpu-scene';
+import { memoryReport } from './session/memory-report';
+import { readBuffer } from './storage/read-buffer';
+import type { Integrator } from './integrator/integrator';
 import { checkDepth, checkOptions, checkSize } from './option-checks';
 import type {
   FilmLayer,
@@ -21,13 +21,13 @@ import type {
   RenderProgress,
   RenderStatistics,
 } from './options';
-import { pickPixel } from './pick';
+import { pickPixel } from './camera/pick';
 import { kernelFeatures, prepareTracer, type Prepared } from './prepare';
-import { cameraUniforms } from './scene/camera';
-import { chooseCamera } from './scene/choose-camera';
-import type { SceneChange, SceneEditor } from './scene-editor';
+import { cameraUniforms } from './camera/camera';
+import { chooseCamera } from './camera/choose-camera';
+import type { SceneChange, SceneEditor } from './scene/scene-editor';
 import { TracerEdits } from './tracer-edits';
-import { viewFlags } from './view';
+import { viewFlags } from './camera/view';
 
 /**
  * A progressive path tracer for one scene. No DOM: it runs in browsers and in Node alike.

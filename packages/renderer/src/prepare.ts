@@ -10,28 +10,28 @@ import {
 } from '@glanz/scene';
 import { deviceLost, RenderError } from './errors';
 import { Film } from './film/film';
-import { showFirstLight } from './first-light';
-import { GpuMemory } from './gpu/buffers';
-import { lossInfo } from './gpu/device-loss';
-import { energyTextures } from './gpu/energy-textures';
-import { withErrorScopes } from './gpu/error-scopes';
-import { GpuScene } from './gpu/gpu-scene';
-import { KernelCache } from './gpu/kernel-cache';
-import { Integrator } from './integrator';
-import type { Kernel, KernelFeatures, KernelName } from './kernels/pipelines';
+import { showFirstLight } from './session/first-light';
+import { GpuMemory } from './storage/buffers';
+import { lossInfo } from './device/device-loss';
+import { energyTextures } from './materials/energy-textures';
+import { withErrorScopes } from './device/error-scopes';
+import { GpuScene } from './scene/gpu-scene';
+import { KernelCache } from './integrator/kernel-cache';
+import { Integrator } from './integrator/integrator';
+import type { Kernel, KernelFeatures, KernelName } from './integrator/pipelines';
 import { checkDepth, checkInteriors, checkOptions, checkSize, checkVolumeDepth } from './option-checks';
 import type { PathTracerOptions, RenderStatistics } from './options';
-import { cameraUniforms } from './scene/camera';
-import { cameraSteps } from './scene/choose-camera';
-import { environmentSteps } from './scene/environment';
+import { cameraUniforms } from './camera/camera';
+import { cameraSteps } from './camera/choose-camera';
+import { environmentSteps } from './environment/environment';
 import { expectedFeatures, type SceneChoices } from './scene/features';
-import { prepareGeometry } from './scene/geometry';
-import { lightGroupTable } from './scene/light-groups';
-import { lightSteps } from './scene/lights';
-import { isShown } from './scene/placement';
-import { ownScene, SceneEditor } from './scene-editor';
+import { prepareGeometry } from './geometry/geometry';
+import { lightGroupTable } from './lights/light-groups';
+import { lightSteps } from './lights/lights';
+import { isShown } from './geometry/placement';
+import { ownScene, SceneEditor } from './scene/scene-editor';
 import { checkShortcuts, shortcutFlags } from './shortcuts';
-import { viewFlags } from './view';
+import { viewFlags } from './camera/view';
 
 /** What `PathTracer.create` has put together. */
 export interface Prepared {

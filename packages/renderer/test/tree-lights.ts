@@ -1,5 +1,5 @@
-import type { TreeLights } from '../src/scene/light-bounds';
-import { LIGHT_TREE_DISTANT, LIGHT_TREE_LEAF, LIGHT_TREE_NODE, type LightTree } from '../src/scene/light-tree';
+import type { TreeLights } from '../src/lights/light-bounds';
+import { LIGHT_TREE_DISTANT, LIGHT_TREE_LEAF, LIGHT_TREE_NODE, type LightTree } from '../src/lights/light-tree';
 
 /** Random numbers in [0, 1) by Mulberry32. */
 export function random(seed: number): () => number {

@@ -1,5 +1,5 @@
 import { RenderError } from '../errors';
-import type { SamplingState } from '../sampling';
+import type { SamplingState } from '../schedule/sampling';
 import type { GroupWeights } from './layers';
 
 /** The film's buffers that a {@link FilmState} holds, with vec4f per pixel: `planes` of them, or one. */

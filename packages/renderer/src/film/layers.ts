@@ -1,24 +1,8 @@
-import { FILM_CHUNK } from '../kernels/film.wgsl';
-import type { KernelName } from '../kernels/pipelines';
+import { FILM_CHUNK } from './film.wgsl';
 import type { FilmLayer } from '../options';
 
 /** A layer that comes from camera rays alone. */
 export type FeatureLayer = Exclude<FilmLayer, 'beauty' | 'variance'>;
-
-/**
- * The kernel that makes a layer, and the film buffers that it is made of, in the order in which {@link unpackLayer}
- * takes them.
- */
-export const LAYER_SOURCES: Readonly<
-  Record<FeatureLayer, { readonly kernel: KernelName; readonly buffers: readonly string[] }>
-> = {
-  albedo: { kernel: 'features', buffers: ['feature_albedo'] },
-  normal: { kernel: 'features', buffers: ['feature_normal'] },
-  position: { kernel: 'position', buffers: ['feature_position'] },
-  depth: { kernel: 'features', buffers: ['feature_normal', 'feature_albedo'] },
-  objectId: { kernel: 'features', buffers: ['feature_ids'] },
-  materialId: { kernel: 'features', buffers: ['feature_ids'] },
-};
 
 /** One layer out of the features' sums over `count` samples. */
 export function unpackLayer(

@@ -1,5 +1,5 @@
 import { DeviceError } from '../errors';
-import { isSoftware } from '../software';
+import { isSoftware } from '../device/software';
 import { lavapipeVersion, type GpuDescription } from './adapter-info';
 import { createPinned, firstLine, listAdapters, loadDawn, type Dawn } from './dawn';
 import { packagedSwiftShader } from './swiftshader';

@@ -1,13 +1,13 @@
 import { requiredFeatures } from '@glanz/openpbr';
 import type { Material, Mesh, Scene } from '@glanz/scene';
-import type { KernelFeatures } from '../kernels/pipelines';
+import type { KernelFeatures } from '../integrator/pipelines';
 import type { BackFaceCulling, LightGroupMode, Sampler } from '../options';
-import { isOneSided } from './culling';
-import { interiorFlags } from './interiors';
-import { lightGroupTable } from './light-groups';
-import { hasSize } from './light-records';
-import type { LightSampling } from './lights';
-import { MaterialUse } from './material-use';
+import { isOneSided } from '../geometry/culling';
+import { interiorFlags } from '../materials/interiors';
+import { lightGroupTable } from '../lights/light-groups';
+import { hasSize } from '../lights/light-records';
+import type { LightSampling } from '../lights/lights';
+import { MaterialUse } from '../materials/material-use';
 import {
   emittedRadiance,
   hasCoatFrames,
@@ -17,9 +17,9 @@ import {
   turnsTangent,
   usedTextures,
   type TexturedParameterInfo,
-} from './materials';
-import { parametersOf } from './parameters';
-import { compressedFormats, planTextures, type TexturePlan } from './textures';
+} from '../materials/materials';
+import { parametersOf } from '../materials/parameters';
+import { compressedFormats, planTextures, type TexturePlan } from '../materials/textures';
 
 /** Options that decide the kernels' text. */
 export interface SceneChoices {

@@ -1,7 +1,7 @@
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import type { Camera, Material, Scene } from '@glanz/scene';
 import { afterEach, beforeAll, describe, expect, it } from 'vitest';
-import { readBuffer } from '../../src/gpu/read-buffer';
+import { readBuffer } from '../../src/storage/read-buffer';
 import { PathTracer, type PathTracerOptions } from '../../src/index';
 import { addBox, addQuad, camera, createScene, lambert } from '../scenes';
 

@@ -3,7 +3,7 @@ import { expectNoGpuErrors, runCompute, testDevice } from '@glanz/gpu';
 import type { Environment, Material, Scene } from '@glanz/scene';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { PathTracer, type PathTracerOptions } from '../../src/index';
-import dispersion from '../../src/kernels/dispersion.wesl';
+import dispersion from '../../src/integrator/dispersion.wesl';
 import { addSphere, camera, createScene, meanOf } from '../scenes';
 
 type Vector = readonly [number, number, number];

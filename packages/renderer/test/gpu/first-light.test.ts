@@ -1,7 +1,7 @@
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { afterAll, beforeAll, expect, it } from 'vitest';
 import { PathTracer, type FirstLight } from '../../src/index';
-import { readBuffer } from '../../src/gpu/read-buffer';
+import { readBuffer } from '../../src/storage/read-buffer';
 import { addQuad, addSphere, camera, createScene, lambert, meanOf } from '../scenes';
 
 let device: GPUDevice;

@@ -3,10 +3,10 @@ import { expectNoGpuErrors, runCompute, testDevice } from '@glanz/gpu';
 import { finish, type Scene } from '@glanz/scene';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { PathTracer, type PathTracerOptions } from '../../src/index';
-import { LIGHT_NODE_DISTANT, LIGHT_NODE_LEAF, lightStruct } from '../../src/kernels/layout';
-import { lightTree } from '../../src/kernels/light-tree.wgsl';
-import { pathCone } from '../../src/kernels/path.wgsl';
-import { lightTreeSteps } from '../../src/scene/light-tree';
+import { LIGHT_NODE_DISTANT, LIGHT_NODE_LEAF, lightStruct } from '../../src/storage/layout';
+import { lightTree } from '../../src/lights/light-tree.wgsl';
+import { pathCone } from '../../src/path/path.wgsl';
+import { lightTreeSteps } from '../../src/lights/light-tree';
 import { addQuad, camera, createScene, lambert, meanOf } from '../scenes';
 import { random, randomLights, randomUnit, treeNodes } from '../tree-lights';
 

@@ -2,13 +2,13 @@ import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { OPENPBR_TABLES } from '@glanz/openpbr/tables';
 import { createScene, type Instance, type Scene } from '@glanz/scene';
 import { afterEach, beforeAll, expect, it } from 'vitest';
-import { GpuMemory } from '../../src/gpu/buffers';
-import { energyTextures } from '../../src/gpu/energy-textures';
-import { GpuScene } from '../../src/gpu/gpu-scene';
+import { GpuMemory } from '../../src/storage/buffers';
+import { energyTextures } from '../../src/materials/energy-textures';
+import { GpuScene } from '../../src/scene/gpu-scene';
 import { PathTracer } from '../../src/index';
-import { prepareEnvironment } from '../../src/scene/environment';
+import { prepareEnvironment } from '../../src/environment/environment';
 import { expectedFeatures, type SceneChoices } from '../../src/scene/features';
-import { prepareGeometry } from '../../src/scene/geometry';
+import { prepareGeometry } from '../../src/geometry/geometry';
 import { addBox, addQuad, addSphere, camera, lambert } from '../scenes';
 
 let device: GPUDevice;

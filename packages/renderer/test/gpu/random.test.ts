@@ -1,7 +1,7 @@
 import { compose, wgslModule } from '@glanz/wgsl';
 import { expectNoGpuErrors, runCompute, testDevice } from '@glanz/gpu';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import random from '../../src/kernels/random.wesl';
+import random from '../../src/random/random.wesl';
 
 let device: GPUDevice;
 beforeAll(async () => {

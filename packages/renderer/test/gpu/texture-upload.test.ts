@@ -1,5 +1,5 @@
 import { expect, it } from 'vitest';
-import { toHalf, toHalves } from '../../src/gpu/texture-upload';
+import { toHalf, toHalves } from '../../src/materials/texture-upload';
 
 /** The value of half bits, by the definition of IEEE 754. */
 function valueOf(half: number): number {

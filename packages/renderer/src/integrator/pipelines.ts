@@ -1,0 +1,280 @@
+import { openpbr } from '@glanz/openpbr';
+import { beginShaderModule, compose, type WgslModule } from '@glanz/wgsl';
+import { DeviceError } from '../errors';
+import { inErrorScopes, lossOr } from '../device/error-scopes';
+import { OPACITY_ID, type TexturedParameterInfo } from '../materials/materials';
+import { accept } from '../geometry/accept.wgsl';
+import { connect } from './connect.wgsl';
+import { filmModule, relightModule } from '../film/film.wgsl';
+import { pathLayout } from '../path/path.wgsl';
+import { noiseModule } from '../schedule/noise.wgsl';
+import { positionModule } from '../film/position.wgsl';
+import energyHost from '../materials/energy.wesl';
+import { featuresModule } from '../film/features.wgsl';
+import { firstLightModule } from './first-light.wgsl';
+import { generate } from './generate.wgsl';
+import { intersect } from './intersect.wgsl';
+import { lightsModule } from '../lights/lights.wgsl';
+import { bindGroupLayout, bindingModule, type ResourceName, type SceneBinding } from '../storage/resources';
+import { resolveModule } from '../film/resolve.wgsl';
+import { advance, begin } from './schedule.wgsl';
+import { shadeModule } from './shade.wgsl';
+import { straight } from '../materials/straight.wgsl';
+import { materialModule, opacityModule, surfaceModule } from '../materials/surface.wgsl';
+import { traversalModule } from '../geometry/traversal.wgsl';
+
+/** What about a scene decides the text of its kernels. Two scenes with equal features share pipelines. */
+export interface KernelFeatures {
+  readonly flags: Readonly<Record<string, boolean>>;
+  readonly samplings: readonly (readonly [number, number])[];
+  readonly textured: readonly TexturedParameterInfo[];
+  readonly textureCount: number;
+  readonly samplerCount: number;
+  /** Sums of light that the film keeps apart: the number of light groups, four times that with catchers. */
+  readonly planes: number;
+}
+
+/** Kernels with these flags do what those without do, only slower: a lobe of weight 0, a filter that accepts. */
+const HARMLESS =
+  /^(OPENPBR_|OPACITY$|CULLING$|CULLING_ALL$|VERTEX_COLORS$|EMISSION_TEXTURES$|LIGHTS$|LIGHT_TREE$|LIGHT_PROFILES$|AREA_LIGHTS$|NEXT_EVENT$|DISPERSION$|TERMINATOR_LIFT$)/;
+
+/**
+ * Whether kernels for `present` features are right for `wanted` ones too: what a scene no longer has may stay in their
+ * text, so that a coat that comes and goes compiles once.
+ */
+export function serves(present: KernelFeatures, wanted: KernelFeatures): boolean {
+  const { flags: has, ...given } = present;
+  const { flags: needs, ...asked } = wanted;
+  if (JSON.stringify(given) !== JSON.stringify(asked)) return false;
+  return Object.entries(needs).every(
+    ([name, value]) =>
+      has[name] === value || (has[name] === true && HARMLESS.test(name) && name !== 'OPENPBR_MULTISCATTER'),
+  );
+}
+
+/** In the order in which they are compiled: `shade` takes longest, and has the others' time too. */
+export const KERNELS = [
+  'shade',
+  'generate',
+  'begin',
+  'intersect',
+  'advance',
+  'connect',
+  'resolve',
+  'features',
+  'position',
+  'relight',
+  'noise',
+  'first',
+] as const;
+export type KernelName = (typeof KERNELS)[number];
+
+/** A compiled kernel and the names of what it binds, in order. */
+export interface Kernel {
+  readonly pipeline: GPUComputePipeline;
+  readonly layout: GPUBindGroupLayout;
+  readonly resources: readonly ResourceName[];
+  readonly sceneBindings: readonly SceneBinding[];
+}
+
+interface KernelText {
+  readonly root: WgslModule;
+  readonly resources: readonly ResourceName[];
+  readonly textures: boolean;
+  /** Where they are not the scene's. */
+  readonly flags?: Readonly<Record<string, boolean>>;
+}
+
+function kernelText(name: KernelName, features: KernelFeatures): KernelText {
+  const { flags } = features;
+  const material = materialModule(features.samplings, features.textured);
+  const surface = surfaceModule(material);
+  const traversal = (kind: 'closest' | 'any', chosen = flags) =>
+    traversalModule(kind, chosen.OPACITY || chosen.CULLING ? accept(opacityModule(material, OPACITY_ID)) : undefined);
+  const filter: ResourceName[] = flags.OPACITY
+    ? ['frame', 'batch', 'attributes', 'materials']
+    : flags.CATCHER
+      ? ['frame', 'batch']
+      : [];
+  const culling: ResourceName[] = [
+    ...(flags.CULLING ? (['materials'] as const) : []),
+    ...(flags.CULLING_ALL ? (['frame'] as const) : []),
+  ];
+  const energy: ResourceName[] = ['energy_dielectric', 'energy_conductor', 'energy_sampler'];
+  // What subsurface scatters depends on how its surface reflects.
+  const walking: ResourceName[] = flags.OPENPBR_SUBSURFACE ? energy : [];
+  const path = pathLayout(features).module;
+  const film = filmModule(features.planes, flags.CATCHER === true);
+  const filmBuffers: ResourceName[] = [
+    'film_block',
+    'film_total',
+    'film_moment',
+    'beauty',
+    ...(flags.LIGHT_GROUPS ? (['light_groups'] as const) : []),
+  ];
+  const scene: ResourceName[] = ['triangles', 'instances', 'attributes', 'materials'];
+  switch (name) {
+    case 'generate':
+      return { root: generate(path), resources: ['frame', 'batch', 'paths', 'queues', 'film_pixels'], textures: false };
+    case 'begin':
+      return { root: begin, resources: ['batch', 'queues', 'dispatch'], textures: false };
+    case 'advance':
+      return { root: advance, resources: ['queues', 'dispatch'], textures: false };
+    case 'intersect': {
+      const resources = [
+        ...new Set([
+          ...filter,
+          ...(flags.SCATTERING ? (['frame', 'batch'] as const) : []),
+          ...(flags.AREA_LIGHTS ? (['frame', 'lights'] as const) : []),
+          ...culling,
+          ...(flags.MEDIA ? (['materials'] as const) : []),
+          ...walking,
+        ]),
+      ];
+      return {
+        root: intersect(path, traversal('closest')),
+        resources: [...resources, 'paths', 'queues', 'nodes', 'triangles', 'instances'],
+        textures: flags.OPACITY === true,
+      };
+    }
+    case 'connect': {
+      // Light meets all faces that are there for others than the camera alone.
+      const shadowFlags = { ...flags, CULLING: flags.CULLING_ALL === true };
+      const walls: ResourceName[] = flags.STRAIGHT ? ['frame', 'attributes', ...energy] : [];
+      const resources = [
+        ...new Set([
+          ...filter,
+          ...(flags.CULLING_ALL ? culling : []),
+          ...(flags.NULL_SURFACES ? (['materials'] as const) : []),
+          ...(flags.NULL_SURFACES ? walking : []),
+          ...walls,
+        ]),
+      ];
+      return {
+        root: connect(
+          path,
+          traversal(flags.NULL_SURFACES ? 'closest' : 'any', shadowFlags),
+          straight(surface, openpbr),
+        ),
+        resources: [...resources, 'paths', 'queues', 'shadows', 'nodes', 'triangles', 'instances'],
+        textures: flags.OPACITY === true || flags.STRAIGHT === true,
+        flags: shadowFlags,
+      };
+    }
+    case 'shade':
+      return {
+        root: shadeModule(path, surface, lightsModule(surface), openpbr, energyHost),
+        resources: [
+          'frame',
+          'batch',
+          'paths',
+          'queues',
+          'shadows',
+          ...scene,
+          'lights',
+          'environment',
+          'environment_table',
+          ...energy,
+        ],
+        textures: true,
+      };
+    case 'resolve':
+      return {
+        root: resolveModule(path, film),
+        resources: ['batch', 'paths', 'queues', 'film_pixels', ...filmBuffers],
+        textures: false,
+      };
+    case 'relight':
+      return { root: relightModule(film), resources: ['batch', ...filmBuffers], textures: false };
+    case 'noise':
+      return { root: noiseModule(film), resources: ['frame', ...filmBuffers, 'film_noise'], textures: false };
+    case 'position':
+      return {
+        root: positionModule(traversal('closest')),
+        resources: [
+          ...new Set<ResourceName>([
+            'frame',
+            'batch',
+            ...filter,
+            ...culling,
+            'nodes',
+            'triangles',
+            'instances',
+            'feature_position',
+          ]),
+        ],
+        textures: flags.OPACITY === true,
+      };
+    case 'first': {
+      const firstFlags = { ...flags, OPACITY: false, CATCHER: false };
+      // Neither opacity nor catchers: they would bring half of the renderer.
+      return {
+        root: firstLightModule(traversal('closest', firstFlags)),
+        resources: ['frame', 'batch', 'nodes', 'triangles', 'instances', 'materials', 'beauty'],
+        textures: false,
+        flags: firstFlags,
+      };
+    }
+    case 'features':
+      return {
+        root: featuresModule(surface, openpbr, energyHost, traversal('closest')),
+        resources: ['frame', 'batch', 'nodes', ...scene, 'feature_albedo', 'feature_normal', 'feature_ids', ...energy],
+        textures: true,
+      };
+  }
+}
+
+/** A kernel before it is compiled. Kernels of equal `key` are the same, whatever scenes they were composed for. */
+export interface KernelSource {
+  readonly key: string;
+  /**
+   * @throws {ShaderError} with module and line if the text does not compile, {DeviceError} `renderer/gpu-error` if the
+   * pipeline is refused.
+   */
+  readonly compile: (device: GPUDevice) => Promise<Kernel>;
+}
+
+/** The text of one kernel for a scene's features. */
+export function kernelSource(name: KernelName, features: KernelFeatures): KernelSource {
+  const text = kernelText(name, features);
+  const sceneBindings: SceneBinding[] = text.textures
+    ? [
+        ...Array.from({ length: features.textureCount }, (_, i) => [`scene_texture_${i}`, 'texture_2d_array'] as const),
+        ...Array.from({ length: features.samplerCount }, (_, i) => [`scene_sampler_${i}`, 'sampler'] as const),
+      ]
+    : [];
+  const own = text.flags ?? features.flags;
+  const flags = { ...own, BVH_FILTER: own.OPACITY === true || own.CULLING === true };
+  const bindings = bindingModule(name, text.resources, sceneBindings, flags);
+  const shader = compose([bindings, text.root], { flags });
+  return {
+    key: `${name}\n${shader.code}`,
+    async compile(device) {
+      const { result, verified } = inErrorScopes(device, `the kernel "${name}"`, () => {
+        const layout = bindGroupLayout(device, name, text.resources, sceneBindings);
+        const { module, checked } = beginShaderModule(device, shader, `glanz ${name}`);
+        // Asked for at once, so that the driver works while the next kernel's text is read.
+        const compiled = device.createComputePipelineAsync({
+          label: `glanz ${name}`,
+          layout: device.createPipelineLayout({ label: `glanz ${name}`, bindGroupLayouts: [layout] }),
+          compute: { module, entryPoint: 'main' },
+        });
+        compiled.catch(() => {});
+        return { layout, checked, compiled };
+      });
+      const { layout, checked, compiled } = result;
+      await checked;
+      await verified;
+      try {
+        return { pipeline: await compiled, layout, resources: text.resources, sceneBindings };
+      } catch (cause) {
+        throw await lossOr(
+          device,
+          new DeviceError('renderer/gpu-error', `The GPU refused the kernel "${name}": ${(cause as Error).message}`, {
+            cause,
+          }),
+        );
+      }
+    },
+  };
+}

@@ -1,0 +1,562 @@
+import { inSlices, type Environment, type Instance, type Material, type Mesh, type Scene } from '@glanz/scene';
+import type { KernelFeatures } from '../integrator/pipelines';
+import { instanceStruct, materialStruct, meshStruct } from '../storage/layout';
+import type { ResourceName } from '../storage/resources';
+import {
+  prepareEnvironment,
+  roughEnvironment,
+  turnEnvironment,
+  type EnvironmentData,
+} from '../environment/environment';
+import { isOneSided } from '../geometry/culling';
+import { sceneFeatures, texturePlan, type SceneChoices } from './features';
+import {
+  joinSlices,
+  packInstances,
+  shapeSlices,
+  type Geometry,
+  type MeshRegion,
+  type PackedGeometry,
+  type PackedMesh,
+} from '../geometry/geometry';
+import { breather } from '../geometry/hierarchies';
+import { lightGroupTable, type LightGroupTable } from '../lights/light-groups';
+import {
+  buildLightTable,
+  noLights,
+  placingSteps,
+  type GatheredLights,
+  type LightGeometry,
+  type LightTable,
+} from '../lights/lights';
+import { MaterialUse } from '../materials/material-use';
+import {
+  emittedRadiance,
+  isOpaque,
+  packBindings,
+  packMaterial,
+  texturedParameters,
+  type TexturedParameterInfo,
+} from '../materials/materials';
+import { parametersOf } from '../materials/parameters';
+import type { NodeRange } from '../geometry/placement';
+import type { TexturePlan } from '../materials/textures';
+import type { GpuMemory } from '../storage/buffers';
+import type { EnergyTextures } from '../materials/energy-textures';
+import { fillEnvironmentTextures, makeEnvironmentTextures } from '../environment/environment-textures';
+import { inErrorScopes, withErrorScopes } from '../device/error-scopes';
+import { SceneResources, type ResourceLog } from '../storage/scene-resources';
+import { uploadTextures } from '../materials/texture-upload';
+
+/** While shapes are filled in, the thread is handed back after so many milliseconds; a slice more can follow. */
+const FILL_MS = 4;
+/** Lights are written so many bytes at a time. */
+const FILL_BYTES = 1 << 20;
+/** So much may wait for the GPU's process. */
+const QUEUE_BYTES = 2 << 20;
+
+/** Instance records up to so far apart are written at once, with those in between. */
+const JOINED_RECORDS = 8;
+
+/** An instance before and after an edit. */
+export interface InstanceChange {
+  readonly index: number;
+  readonly before: Instance;
+  readonly after: Instance;
+}
+
+/**
+ * A scene on the GPU. A cache: everything here can be made again from the `Scene`. It comes in three steps, since a
+ * first picture needs no lights: the constructor makes what is the size of the scene, `fill()` writes the shapes into
+ * it, and `light()` adds lights, surroundings and energy tables.
+ */
+export class GpuScene {
+  readonly #device: GPUDevice;
+  /** Bytes written since the GPU's process was waited for. */
+  #waiting = 0;
+  readonly #scene: Scene;
+  #geometry: Geometry;
+  readonly #choices: SceneChoices;
+  readonly #plan: TexturePlan;
+  readonly #textured: readonly TexturedParameterInfo[];
+  readonly #bindings: ReturnType<typeof packBindings>;
+  #firstBinding: number[] = [];
+  readonly #sceneTextures: readonly GPUTexture[];
+  readonly #samplers: readonly GPUSampler[];
+  readonly #resources: SceneResources;
+  readonly #energySampler: GPUSampler;
+  /** Both are derived when they are first asked for after an edit that they depend on, and kept until the next. */
+  #use: MaterialUse | undefined;
+  #features: KernelFeatures | undefined;
+  #groups: LightGroupTable;
+  #lights: LightTable;
+  /** Of the scene when the lights were gathered: directional lights are weighed by it. */
+  #lightsRadius = 0;
+  #environment: EnvironmentData;
+
+  constructor(device: GPUDevice, memory: GpuMemory, scene: Scene, geometry: Geometry, choices: SceneChoices) {
+    this.#device = device;
+    this.#resources = new SceneResources(memory);
+    this.#scene = scene;
+    this.#geometry = geometry;
+    this.#choices = choices;
+    this.#groups = lightGroupTable(scene, choices.lightGroups);
+    this.#textured = texturedParameters(scene.materials);
+    this.#plan = texturePlan(device, scene);
+    const { textures, samplers } = uploadTextures(device, memory, scene, this.#plan);
+    this.#sceneTextures = textures;
+    this.#samplers = samplers;
+
+    this.#bindings = packBindings(scene.materials, this.#plan);
+    this.#makeShapes(geometry);
+    this.#lights = noLights(scene);
+    this.#environment = roughEnvironment(scene.environment);
+    this.#writeInstances();
+    this.#energySampler = device.createSampler({ label: 'glanz energy', minFilter: 'linear', magFilter: 'linear' });
+  }
+
+  get environment(): EnvironmentData {
+    return this.#environment;
+  }
+
+  /** Texels of the pictures in use, without mip levels. */
+  get texels(): number {
+    return this.#plan.arrays.reduce((sum, { width, height, layers }) => sum + width * height * layers.length, 0);
+  }
+
+  get groups(): LightGroupTable {
+    return this.#groups;
+  }
+
+  get lightCount(): number {
+    return this.#lights.count;
+  }
+
+  /** The lights with a size of their own among the light records. */
+  get areaLights(): { readonly first: number; readonly count: number } {
+    return { first: this.#lights.firstArea, count: this.#lights.areaCount };
+  }
+
+  /** Probability that a light sample goes to the environment rather than to the table of lights. */
+  get environmentProbability(): number {
+    if (!this.#environment.table) return 0;
+    if (this.#lights.count === 0) return 1;
+    const { radius } = this.#geometry.placement;
+    const power = this.#environment.meanLuminance * 4 * Math.PI * Math.PI * radius * radius;
+    return Math.min(0.9, Math.max(0.1, power / (power + this.#lights.power)));
+  }
+
+  /**
+   * Makes an edit by the `update…` methods, keeping what it replaces until it is settled.
+   * @param restoreScene Takes the `Scene` back to what it was before the edit.
+   * @returns To be settled or undone; later edits must have been undone before.
+   * @throws What `edit` throws, with the edit taken back.
+   */
+  record<T>(edit: () => T, restoreScene: () => void): ResourceLog & { readonly result: T } {
+    const [geometry, lights, lightsRadius, groups, environment, firstBinding] = [
+      this.#geometry,
+      this.#lights,
+      this.#lightsRadius,
+      this.#groups,
+      this.#environment,
+      this.#firstBinding,
+    ];
+    return this.#resources.record(edit, () => {
+      restoreScene();
+      [this.#geometry, this.#lights, this.#lightsRadius, this.#groups, this.#environment, this.#firstBinding] = [
+        geometry,
+        lights,
+        lightsRadius,
+        groups,
+        environment,
+        firstBinding,
+      ];
+      this.#use = undefined;
+      this.#features = undefined;
+      this.rewrite();
+    });
+  }
+
+  /** Writes all records of fixed size again. */
+  rewrite(): void {
+    this.#writeAllNodes();
+    this.#resources.write('materials', this.#packMaterials());
+    this.#resources.write('lights', this.#lights.records);
+    this.#resources.write('instances', packInstances(this.#scene, this.#geometry, this.#lights.firstLight));
+  }
+
+  /** What decides the kernels' text. Derived once after an edit; a camera move derives nothing. */
+  features(): KernelFeatures {
+    return (this.#features ??= this.#deriveFeatures());
+  }
+
+  #deriveFeatures(): KernelFeatures {
+    const { count, tree, profiles, areaCount } = this.#lights;
+    return sceneFeatures(this.#scene, this.#choices, {
+      textured: this.#textured,
+      plan: this.#plan,
+      groups: this.#groups.names.length,
+      lights: count > 0,
+      tree,
+      profiles,
+      areaLights: areaCount > 0,
+      environmentMap: this.#environment.pixels !== undefined,
+      environmentSampled: this.#environment.table !== undefined,
+      vertexColors: this.#geometry.hasVertexColors,
+      catchers: this.#geometry.placement.bare !== undefined,
+      isOpaque: (material) => this.#opaque(material),
+      isVisible: (material) => this.#materialUse.isVisible(material),
+    });
+  }
+
+  /** Whether the camera looks through a material's back faces. */
+  culls(material: number): boolean {
+    return (
+      this.#choices.backFaceCulling !== 'off' &&
+      isOneSided(this.#scene.materials[material] as Scene['materials'][number], this.#opaque(material))
+    );
+  }
+
+  /** Binding of one of the resources this scene owns. */
+  resource(name: string): GPUBindingResource | undefined {
+    const buffer = this.#resources.buffer(name as ResourceName);
+    if (buffer) return { buffer };
+    const texture = this.#resources.texture(name as ResourceName);
+    if (texture) return texture.createView();
+    if (name === 'energy_sampler') return this.#energySampler;
+    const [, kind, index] = /^scene_(texture|sampler)_(\d+)$/.exec(name) ?? [];
+    if (kind === 'texture') return this.#sceneTextures[Number(index)]?.createView({ dimension: '2d-array' });
+    if (kind === 'sampler') return this.#samplers[Number(index)];
+    return undefined;
+  }
+
+  /**
+   * Re-reads one material of the scene. Returns true if bindings were replaced.
+   * @param emission Whether what it emits may have changed: only then the lights are gone through.
+   */
+  updateMaterial(index: number, emission: boolean): boolean {
+    this.#features = undefined;
+    if (emission) this.#updateGroups();
+    this.#writeMaterial(index);
+    this.#writeNodes(this.#geometry.placement.takeChangedNodes());
+    return emission && this.updateLights();
+  }
+
+  /**
+   * Takes the scene's environment. Returns true if bindings were replaced: not for another rotation or intensity of the
+   * same image.
+   */
+  updateEnvironment(environment: Environment | undefined): boolean {
+    const before = this.#environment;
+    this.#features = undefined;
+    this.#environment = turnEnvironment(before, environment) ?? prepareEnvironment(environment);
+    const replaced = this.#environment.pixels !== before.pixels || this.#environment.table !== before.table;
+    if (replaced) {
+      makeEnvironmentTextures(this.#resources, this.#environment, before);
+      for (const _ of fillEnvironmentTextures(this.#device.queue, this.#resources, this.#environment, before));
+    }
+    return (this.#updateGroups() && this.updateLights()) || replaced;
+  }
+
+  /** Instances have moved, appeared, vanished, or wear another material. Returns true if bindings were replaced. */
+  updatePlacement(geometry: Geometry): boolean {
+    this.#setGeometry(geometry);
+    this.#writeAllNodes();
+    this.#updateGroups();
+    // Meshes may have brought vertex colours that let light pass.
+    this.#resources.write('materials', this.#packMaterials());
+    const replaced = this.updateLights();
+    this.#writeInstances();
+    return replaced;
+  }
+
+  /**
+   * Some instances have moved, appeared, disappeared or got another material; the geometry's placement has followed.
+   * Writes what depends on them. Returns true if bindings were replaced.
+   */
+  updateInstances(geometry: Geometry, changes: readonly InstanceChange[]): boolean {
+    const { placement } = geometry;
+    this.#geometry = geometry;
+    this.#writeNodes(placement.takeChangedNodes());
+    const isUseSame = this.#use
+      ? changes.map(({ before, after }) => this.#use?.replace(before, after)).every((same) => same)
+      : false;
+    if (!isUseSame || (placement.bare !== undefined) !== this.#features?.flags['CATCHER']) this.#features = undefined;
+    const assigned = new Set(
+      changes.flatMap(({ before, after }) =>
+        before.material === after.material ? [] : [before.material, after.material],
+      ),
+    );
+    for (const index of assigned) this.#writeMaterial(index);
+    const emits = changes.some(({ before, after }) => this.#emits(before) || this.#emits(after));
+    if (emits) this.#updateGroups();
+    const weighs =
+      placement.radius !== this.#lightsRadius && this.#scene.lights.some(({ type }) => type === 'directional');
+    const indices = changes.map(({ index }) => index);
+    if (emits || weighs) return this.updateLights(indices);
+    this.#writeRecords(indices);
+    return false;
+  }
+
+  #emits({ material }: Instance): boolean {
+    return emittedRadiance(parametersOf(this.#scene.materials[material] as Material)).some((c) => c > 0);
+  }
+
+  #writeNodes(ranges: readonly NodeRange[]): void {
+    for (const { first, nodes } of ranges) this.#resources.write('nodes', nodes, 64 * first);
+  }
+
+  #writeAllNodes(): void {
+    const { placement } = this.#geometry;
+    placement.takeChangedNodes();
+    this.#writeNodes(placement.allNodes());
+  }
+
+  /** A mesh was replaced by one that fits into its region. Returns true if bindings were replaced. */
+  updateMesh(geometry: Geometry, index: number, packed: PackedMesh): boolean {
+    this.#writeMesh(geometry, index, packed);
+    return this.updatePlacement(geometry);
+  }
+
+  /** Writes a mesh into its region again, after an edit that had written another one there was taken back. */
+  rewriteMesh(index: number, packed: PackedMesh): void {
+    this.#writeMesh(this.#geometry, index, packed);
+  }
+
+  #writeMesh(geometry: Geometry, index: number, packed: PackedMesh): void {
+    const region = geometry.regions[index] as MeshRegion;
+    this.#resources.write('nodes', packed.nodes, region.firstNode * 64);
+    this.#resources.write('triangles', packed.triangles, region.firstTriangle * 48);
+    this.#resources.write('attributes', packed.record, index * meshStruct.size);
+    this.#resources.write('attributes', packed.attributes, region.firstWord * 4);
+  }
+
+  /** All shapes are new. Bindings are replaced. */
+  updateShapes(geometry: Geometry, packed: PackedGeometry): void {
+    this.#setGeometry(geometry);
+    this.#makeShapes(geometry);
+    for (const name of ['nodes', 'triangles', 'attributes'] as const) this.#resources.write(name, packed[name]);
+    this.updatePlacement(geometry);
+  }
+
+  #setGeometry(geometry: Geometry): void {
+    this.#geometry = geometry;
+    this.#use = undefined;
+    this.#features = undefined;
+  }
+
+  /** Makes the buffers of shapes, still empty but for what belongs to materials. */
+  #makeShapes({ nodeCount, triangleCount, attributeWords }: Geometry): void {
+    const { records, first, count } = this.#bindings;
+    const bindingWords =
+      records.byteLength /
+      4 /
+      Math.max(
+        1,
+        count.reduce((a, b) => a + b, 0),
+      );
+    this.#firstBinding = first.map((index) => attributeWords + index * bindingWords);
+    this.#resources.make('nodes', 64 * nodeCount);
+    this.#resources.make('triangles', 48 * triangleCount);
+    this.#resources.make('attributes', 4 * attributeWords + records.byteLength);
+    this.#resources.write('attributes', records, 4 * attributeWords);
+    this.#resources.upload('materials', this.#packMaterials());
+  }
+
+  /** Writes the shapes, with the thread handed back every few milliseconds. */
+  async fill(signal?: AbortSignal): Promise<void> {
+    const breathe = breather(FILL_MS);
+    const written: Promise<void>[] = [];
+    this.#geometry.placement.takeChangedNodes();
+    for (const { buffer, offset, data } of joinSlices(shapeSlices(this.#scene, this.#geometry))) {
+      const { verified } = inErrorScopes(this.#device, 'the shapes of this scene', () =>
+        this.#resources.write(buffer, data, offset),
+      );
+      written.push(verified);
+      await this.#keepUp(data.byteLength, breathe);
+      signal?.throwIfAborted();
+    }
+    await Promise.all(written);
+  }
+
+  /**
+   * Waits for the GPU's process now and then: where it is another one than the page's, what is written waits in a queue
+   * between them, and the page's thread would stand still once that is full.
+   */
+  async #keepUp(bytes: number, breathe: () => Promise<void>): Promise<void> {
+    this.#waiting += bytes;
+    if (this.#waiting < QUEUE_BYTES) return breathe();
+    this.#waiting = 0;
+    await this.#device.queue.onSubmittedWorkDone();
+  }
+
+  /**
+   * Adds what lights the scene, with the thread handed back every few milliseconds.
+   * @param gathered The lights, as `lightSteps()` has found them, whose memory is used; else they are found here, in
+   * one go.
+   */
+  async light(environment: EnvironmentData, energy: EnergyTextures, gathered?: GatheredLights): Promise<void> {
+    const breathe = breather(FILL_MS);
+    await withErrorScopes(this.#device, 'the environment', () => {
+      this.#environment = environment;
+      makeEnvironmentTextures(this.#resources, this.#environment);
+      this.#uploadEnergy(energy);
+    });
+    await breathe();
+    const written: Promise<void>[] = [];
+    const slices = fillEnvironmentTextures(this.#device.queue, this.#resources, this.#environment);
+    for (;;) {
+      const { result: slice, verified } = inErrorScopes(this.#device, 'the environment', () => slices.next());
+      written.push(verified);
+      if (slice.done) break;
+      await this.#keepUp(slice.value, breathe);
+    }
+    const placed =
+      gathered &&
+      (await inSlices(placingSteps(this.#scene, gathered, this.#places, this.#geometry.placement.radius), {
+        sliceMs: FILL_MS,
+      }));
+    this.#lightsRadius = this.#geometry.placement.radius;
+    this.#lights = placed ?? this.#buildLights();
+    this.#features = undefined;
+    const { records } = this.#lights;
+    await withErrorScopes(this.#device, 'the lights of this scene', () => {
+      this.#resources.make('lights', records.byteLength);
+      if (this.#lights.count > 0) this.#writeInstances();
+    });
+    for (let at = 0; at < records.byteLength; at += FILL_BYTES) {
+      const bytes = Math.min(FILL_BYTES, records.byteLength - at);
+      const { verified } = inErrorScopes(this.#device, 'the lights of this scene', () =>
+        this.#resources.write('lights', new Uint8Array(records, at, bytes), at),
+      );
+      written.push(verified);
+      await this.#keepUp(bytes, breathe);
+    }
+    await Promise.all(written);
+  }
+
+  /** Sorts the lights into groups anew; where that changes anything, materials are written again. */
+  #updateGroups(): boolean {
+    const before = this.#groups.names;
+    this.#groups = lightGroupTable(this.#scene, this.#choices.lightGroups);
+    if (before.length === this.#groups.names.length && before.every((name, i) => name === this.#groups.names[i]))
+      return false;
+    this.#resources.write('materials', this.#packMaterials());
+    return true;
+  }
+
+  /**
+   * Re-reads the scene's lights and what its instances emit. Returns true if bindings were replaced.
+   * @param changed Instances whose records are to be written besides those that name other lights than before.
+   */
+  updateLights(changed: readonly number[] = []): boolean {
+    this.#features = undefined;
+    const before = this.#lights;
+    this.#lights = this.#buildLights();
+    this.#lightsRadius = this.#geometry.placement.radius;
+    const { firstLight, records } = this.#lights;
+    const indices = [...changed];
+    for (let i = 0; i < firstLight.length; i++) if (firstLight[i] !== before.firstLight[i]) indices.push(i);
+    this.#writeRecords(indices);
+    if (records.byteLength === before.records.byteLength) {
+      this.#resources.write('lights', records);
+      return false;
+    }
+    this.#resources.upload('lights', records);
+    return true;
+  }
+
+  /** Writes the records of all instances. Each has its own, hidden or not, so that the buffer is never replaced. */
+  #writeInstances(): void {
+    const records = packInstances(this.#scene, this.#geometry, this.#lights.firstLight);
+    if (!this.#resources.buffer('instances')) this.#resources.make('instances', records.byteLength);
+    this.#resources.write('instances', records);
+  }
+
+  /** Writes the records of some instances. */
+  #writeRecords(indices: readonly number[]): void {
+    const sorted = Uint32Array.from(indices).sort();
+    for (let i = 0; i < sorted.length;) {
+      const first = sorted[i++] as number;
+      let end = first + 1;
+      while (i < sorted.length && (sorted[i] as number) <= end + JOINED_RECORDS) end = (sorted[i++] as number) + 1;
+      this.#resources.write(
+        'instances',
+        packInstances(this.#scene, this.#geometry, this.#lights.firstLight, first, end),
+        first * instanceStruct.size,
+      );
+    }
+  }
+
+  #writeMaterial(index: number): void {
+    const record = materialStruct.allocate();
+    this.#packMaterial(record, 0, index);
+    this.#resources.write('materials', record, index * materialStruct.size);
+  }
+
+  get #materialUse(): MaterialUse {
+    return (this.#use ??= new MaterialUse(this.#scene));
+  }
+
+  #opaque(material: number): boolean {
+    return isOpaque(
+      this.#scene.materials[material] as Scene['materials'][number],
+      this.#materialUse.hasVertexAlpha(material),
+    );
+  }
+
+  #packMaterial(buffer: ArrayBuffer, at: number, index: number): void {
+    const material = this.#scene.materials[index] as Scene['materials'][number];
+    packMaterial(
+      buffer,
+      at,
+      material,
+      this.#firstBinding[index] as number,
+      this.#bindings.count[index] as number,
+      this.#opaque(index),
+      this.culls(index),
+      this.#groups.material(material),
+    );
+  }
+
+  #packMaterials(): ArrayBuffer {
+    const buffer = materialStruct.allocate(this.#scene.materials.length);
+    this.#scene.materials.forEach((_, index) => this.#packMaterial(buffer, index, index));
+    return buffer;
+  }
+
+  /** Where shapes are, as lights name them. */
+  get #places(): LightGeometry {
+    const leaves = new Map<number, Uint32Array>();
+    const leafTriangles = (mesh: number): Uint32Array => {
+      let order = leaves.get(mesh);
+      if (!order) {
+        order = new Uint32Array((this.#scene.meshes[mesh] as Mesh).indices.length / 3);
+        const { firstTriangle } = this.#geometry.regions[mesh] as MeshRegion;
+        const inputs = this.#geometry.blas[mesh]?.triangleIndices ?? new Uint32Array();
+        for (let leaf = 0; leaf < inputs.length; leaf++) order[inputs[leaf] as number] = firstTriangle + leaf;
+        leaves.set(mesh, order);
+      }
+      return order;
+    };
+    return { instanceSlots: this.#geometry.placement.instanceSlots, leafTriangles };
+  }
+
+  #buildLights(): LightTable {
+    return buildLightTable(
+      this.#scene,
+      this.#places,
+      this.#geometry.placement.radius,
+      this.#groups,
+      this.#choices.lightSampling,
+    );
+  }
+
+  #uploadEnergy(energy: EnergyTextures): void {
+    for (const name of ['energy_dielectric', 'energy_conductor'] as const) {
+      const { size, dimension, data } = energy[name];
+      const texture = this.#resources.makeTexture(name, { size, dimension, format: 'r16float' }, data.byteLength);
+      this.#device.queue.writeTexture({ texture }, data, { bytesPerRow: size[0] * 2, rowsPerImage: size[1] }, size);
+    }
+  }
+}

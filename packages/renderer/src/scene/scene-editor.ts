@@ -1,0 +1,434 @@
+import type { Blas } from '@glanz/bvh';
+import {
+  createScene,
+  validateScene,
+  type Environment,
+  type Instance,
+  type Light,
+  type Material,
+  type Mesh,
+  type Scene,
+} from '@glanz/scene';
+import { RenderError } from '../errors';
+import type { GpuScene } from './gpu-scene';
+import { checkParameters } from '../materials/check-parameters';
+import { hasSameTexels } from '../environment/environment';
+import {
+  attributeWords,
+  layOutGeometry,
+  packGeometry,
+  packMesh,
+  prepareHierarchies,
+  type Geometry,
+  type MeshRegion,
+} from '../geometry/geometry';
+import type { HierarchyBuilder } from '../geometry/hierarchies';
+import { emittedRadiance, findMaterial } from '../materials/materials';
+import { parametersOf } from '../materials/parameters';
+import { isShown } from '../geometry/placement';
+
+/** A copy that the tracer may edit: big arrays are shared, for edits replace them and never write into them. */
+export function ownScene(scene: Scene): Scene {
+  return {
+    ...scene,
+    meshes: [...scene.meshes],
+    materials: scene.materials.map((material) => ({ ...material, parameters: { ...material.parameters } })),
+    instances: scene.instances.map((instance) => ({ ...instance })),
+    lights: scene.lights.map((light) => ({ ...light })),
+  };
+}
+
+/** A change of the scene that is ready to be made: what takes time has been done, and nothing has been changed yet. */
+export interface SceneChange {
+  /** Whether another change has been made since, which this one does not take into account. */
+  readonly isStale: () => boolean;
+  /** Makes it, in the scene and on the GPU. @returns Whether buffers or textures were replaced. */
+  readonly apply: () => boolean;
+  /** Takes the scene back to what it was before. */
+  readonly undo: () => void;
+  /** Writes shapes to the GPU again that it has overwritten, once everything else has been taken back. */
+  readonly rewrite?: () => void;
+}
+
+/** Names listed in an error message, at most. */
+const LISTED_NAMES = 50;
+
+const names = (list: readonly { readonly name: string }[]) => {
+  const listed =
+    list
+      .slice(0, LISTED_NAMES)
+      .map(({ name }) => name)
+      .join(', ') || 'none';
+  return list.length > LISTED_NAMES ? `${listed} and ${list.length - LISTED_NAMES} more` : listed;
+};
+
+/**
+ * Edits of a scene that is on the GPU. Each method checks what it is given and prepares what takes time (hierarchies),
+ * and gives the change, which is then made at once: between two changes the scene is always whole.
+ */
+export class SceneEditor {
+  readonly scene: Scene;
+  readonly #gpu: GpuScene;
+  readonly #hierarchies: HierarchyBuilder | undefined;
+  /** Materials that instances wear without a variant. */
+  readonly #plain: number[];
+  /** Hierarchies of meshes that are or were in the scene, so that a part that comes back costs nothing to build. */
+  readonly #trees = new WeakMap<Mesh, Blas>();
+  /** Instances by name, which no edit changes; made at the first look-up by name. */
+  #named: Map<string, number[]> | undefined;
+  #geometry: Geometry;
+  #version = 0;
+
+  constructor(scene: Scene, geometry: Geometry, gpu: GpuScene, hierarchies: HierarchyBuilder | undefined) {
+    this.scene = scene;
+    this.#geometry = geometry;
+    this.#gpu = gpu;
+    this.#hierarchies = hierarchies;
+    this.#plain = scene.instances.map(({ material }) => material);
+    this.#remember(scene, geometry.blas);
+  }
+
+  get geometry(): Geometry {
+    return this.#geometry;
+  }
+
+  setMaterial(nameOrIndex: string | number, parameters: Material['parameters']): SceneChange {
+    const index = this.#material(nameOrIndex);
+    const material = this.scene.materials[index] as Material;
+    checkParameters(material.name, parameters);
+    const before = material.parameters;
+    const glows = () => emittedRadiance(parametersOf(material)).some((c) => c > 0);
+    const set = (next: Material['parameters']) => {
+      const glowed = glows();
+      material.parameters = next;
+      const { placement, blas } = this.#geometry;
+      // What begins or ceases to glow belongs to what is seen beside catchers, or no longer.
+      if (placement.bare && glows() !== glowed)
+        placement.update(
+          this.scene,
+          blas,
+          this.scene.instances.flatMap((instance, i) => (instance.material === index ? [i] : [])),
+          false,
+        );
+    };
+    return {
+      isStale: () => material.parameters !== before,
+      apply: () => {
+        set({ ...before, ...parameters });
+        const emission = Object.entries(parameters).some(
+          ([name, value]) =>
+            name.startsWith('emission_') &&
+            JSON.stringify(before[name as keyof typeof before]) !== JSON.stringify(value),
+        );
+        return this.#gpu.updateMaterial(index, emission);
+      },
+      undo: () => set(before),
+    };
+  }
+
+  setLight(nameOrIndex: string | number, change: Partial<Light>): SceneChange {
+    const { lights } = this.scene;
+    const index = typeof nameOrIndex === 'number' ? nameOrIndex : lights.findIndex(({ name }) => name === nameOrIndex);
+    const light = lights[index];
+    if (!light)
+      throw new RenderError(
+        'renderer/light',
+        `The scene has no light ${JSON.stringify(nameOrIndex)}; it has: ${names(lights)}.`,
+      );
+    const next = { ...light, ...change, type: light.type } as Light;
+    validateScene({ ...createScene(), lights: [next] });
+    return {
+      isStale: () => lights[index] !== light,
+      apply: () => {
+        lights[index] = next;
+        return this.#gpu.updateLights();
+      },
+      undo: () => (lights[index] = light),
+    };
+  }
+
+  setEnvironment(environment: Environment | undefined): SceneChange {
+    // Texels that are on the GPU have been validated: of an image at another rotation only the numbers beside it are,
+    // with a black texel.
+    const checked = hasSameTexels(this.#gpu.environment, environment)
+      ? { ...environment, width: 1, height: 1, data: new Float32Array(3) }
+      : environment;
+    if (checked) validateScene({ ...createScene(), environment: checked });
+    return this.#changeEnvironment(environment);
+  }
+
+  adjustEnvironment(change: {
+    readonly rotation?: number;
+    readonly intensity?: number;
+    readonly visible?: boolean;
+  }): SceneChange {
+    const { environment } = this.scene;
+    if (!environment)
+      throw new RenderError(
+        'renderer/environment',
+        'The scene has no environment to change; set one with setEnvironment().',
+      );
+    for (const name of ['rotation', 'intensity'] as const) {
+      const value = change[name];
+      if (value !== undefined && !Number.isFinite(value))
+        throw new RenderError(
+          'renderer/environment',
+          `The environment's ${name} must be finite, not ${String(value)}.`,
+        );
+    }
+    if (change.intensity !== undefined && change.intensity < 0)
+      throw new RenderError(
+        'renderer/environment',
+        `The environment's intensity must be at least 0, not ${change.intensity}.`,
+      );
+    if (environment.type === 'constant' && change.intensity !== undefined)
+      throw new RenderError(
+        'renderer/environment',
+        'A constant environment has no intensity; set another radiance with setEnvironment().',
+      );
+    const { visible = environment.visible ?? true } = change;
+    // The pixels were validated when they were set.
+    return this.#changeEnvironment(
+      environment.type === 'latlong' ? { ...environment, ...change, visible } : { ...environment, visible },
+    );
+  }
+
+  #changeEnvironment(environment: Environment | undefined): SceneChange {
+    const before = this.scene.environment;
+    const set = (value: Environment | undefined) => {
+      if (value) this.scene.environment = value;
+      else delete this.scene.environment;
+    };
+    return {
+      isStale: () => this.scene.environment !== before,
+      apply: () => {
+        set(environment);
+        return this.#gpu.updateEnvironment(environment);
+      },
+      undo: () => set(before),
+    };
+  }
+
+  setTransform(nameOrIndex: string | number, transform: ArrayLike<number>): SceneChange | Promise<SceneChange> {
+    if (transform.length !== 16 || !Array.from(transform).every(Number.isFinite))
+      throw new RenderError('renderer/transform', 'A transform must be 16 finite numbers, column-major.');
+    return this.#change(
+      this.#instances(nameOrIndex),
+      (instance) => ({ ...instance, transform: Array.from(transform) }),
+      true,
+    );
+  }
+
+  setMaterialOf(nameOrIndex: string | number, material: string | number): SceneChange | Promise<SceneChange> {
+    const index = this.#material(material);
+    const which = this.#instances(nameOrIndex);
+    const before = which.map((i) => this.#plain[i] as number);
+    const withPlain = (change: SceneChange): SceneChange => ({
+      ...change,
+      apply: () => {
+        which.forEach((i) => (this.#plain[i] = index));
+        return change.apply();
+      },
+      undo: () => {
+        which.forEach((i, k) => (this.#plain[i] = before[k] as number));
+        change.undo();
+      },
+    });
+    const placed = this.#change(which, (instance) => ({ ...instance, material: index }), false);
+    return placed instanceof Promise ? placed.then(withPlain) : withPlain(placed);
+  }
+
+  setVariant(variant: string | number | undefined): SceneChange | Promise<SceneChange> {
+    const all = this.scene.variants ?? [];
+    const index = typeof variant === 'string' ? all.indexOf(variant) : variant;
+    if (index !== undefined && all[index] === undefined)
+      throw new RenderError(
+        'renderer/variant',
+        `The scene has no variant ${JSON.stringify(variant)}; it has: ${all.join(', ') || 'none'}.`,
+      );
+    const materialOf = (instance: Instance, i: number) =>
+      (index === undefined ? undefined : instance.variants?.[index]) ?? (this.#plain[i] as number);
+    const which = [...this.scene.instances.keys()].filter(
+      (i) => materialOf(this.scene.instances[i] as Instance, i) !== this.scene.instances[i]?.material,
+    );
+    return this.#change(which, (instance, i) => ({ ...instance, material: materialOf(instance, i) }), false);
+  }
+
+  setCatcher(nameOrIndex: string | number, catcher: boolean): SceneChange | Promise<SceneChange> {
+    return this.#change(this.#instances(nameOrIndex), (instance) => ({ ...instance, catcher }), false);
+  }
+
+  setVisibility(
+    nameOrIndex: string | number | readonly (string | number)[],
+    visible: boolean,
+  ): SceneChange | Promise<SceneChange> {
+    const which = [...new Set([nameOrIndex].flat().flatMap((one) => this.#instances(one)))];
+    return this.#change(which, (instance) => ({ ...instance, visible }), true);
+  }
+
+  async replaceMesh(nameOrIndex: string | number, mesh: Mesh): Promise<SceneChange> {
+    const index =
+      typeof nameOrIndex === 'number' ? nameOrIndex : this.scene.meshes.findIndex(({ name }) => name === nameOrIndex);
+    if (!this.scene.meshes[index])
+      throw new RenderError(
+        'renderer/mesh',
+        `The scene has no mesh ${JSON.stringify(nameOrIndex)}; it has: ${names(this.scene.meshes)}.`,
+      );
+    validateScene({ ...createScene(), meshes: [mesh] });
+    const changed = () => ({ ...this.scene, meshes: this.scene.meshes.map((old, i) => (i === index ? mesh : old)) });
+    await this.#build(changed());
+    const before = this.scene.meshes[index] as Mesh;
+    const region = this.#geometry.regions[index] as MeshRegion;
+    const tree = this.#trees.get(mesh);
+    const next = changed();
+    const blas = this.#blas(next);
+    const { placement, triangleCount, hasVertexColors } = layOutGeometry(next, blas);
+    const fits =
+      placement.nodeCapacity <= this.#geometry.tlasNodes &&
+      tree &&
+      tree.nodeCount <= region.nodes &&
+      tree.triangleIndices.length <= region.triangles &&
+      attributeWords(mesh) <= region.words;
+    if (!fits) return this.#reshape(changed);
+    const geometry: Geometry = { ...this.#geometry, placement, blas, hasVertexColors, triangleCount };
+    const old = this.#trees.get(before);
+    return {
+      ...this.#commit(next, geometry, () => this.#gpu.updateMesh(geometry, index, packMesh(mesh, tree, region))),
+      ...(old ? { rewrite: () => this.#gpu.rewriteMesh(index, packMesh(before, old, region)) } : {}),
+    };
+  }
+
+  #blas(scene: Scene): (Blas | undefined)[] {
+    return scene.meshes.map((mesh) => this.#trees.get(mesh));
+  }
+
+  async #build(scene: Scene): Promise<void> {
+    this.#remember(scene, await prepareHierarchies(scene, { hierarchies: this.#hierarchies }, this.#blas(scene)));
+  }
+
+  #remember(scene: Scene, blas: readonly (Blas | undefined)[]): void {
+    scene.meshes.forEach((mesh, i) => {
+      const tree = blas[i];
+      if (tree) this.#trees.set(mesh, tree);
+    });
+  }
+
+  /** The change to other instances, meshes and where they lie. */
+  #commit({ instances, meshes }: Scene, geometry: Geometry, upload: () => boolean): SceneChange {
+    const version = this.#version;
+    const before = { instances: this.scene.instances, meshes: this.scene.meshes, geometry: this.#geometry };
+    const set = (state: typeof before) => {
+      this.#version++;
+      this.scene.instances = state.instances;
+      this.scene.meshes = state.meshes;
+      this.#geometry = state.geometry;
+    };
+    return {
+      isStale: () => version !== this.#version,
+      apply: () => {
+        set({ instances, meshes, geometry });
+        return upload();
+      },
+      undo: () => set(before),
+    };
+  }
+
+  #material(nameOrIndex: string | number): number {
+    const index = findMaterial(this.scene, nameOrIndex);
+    if (index < 0)
+      throw new RenderError(
+        'renderer/material',
+        `The scene has no material ${JSON.stringify(nameOrIndex)}; it has: ${names(this.scene.materials)}.`,
+      );
+    return index;
+  }
+
+  get #byName(): ReadonlyMap<string, readonly number[]> {
+    if (!this.#named) {
+      this.#named = new Map();
+      for (const [i, { name }] of this.scene.instances.entries()) {
+        const same = this.#named.get(name);
+        if (same) same.push(i);
+        else this.#named.set(name, [i]);
+      }
+    }
+    return this.#named;
+  }
+
+  /** Indices of the instances of a name, or the one of an index. */
+  #instances(nameOrIndex: string | number): readonly number[] {
+    const found =
+      typeof nameOrIndex === 'string'
+        ? this.#byName.get(nameOrIndex)
+        : this.scene.instances[nameOrIndex] && [nameOrIndex];
+    if (!found)
+      throw new RenderError(
+        'renderer/instance',
+        `The scene has no instance ${JSON.stringify(nameOrIndex)}; it has: ${names(this.scene.instances)}.`,
+      );
+    return found;
+  }
+
+  /**
+   * Changes some instances, at a cost that depends on how many.
+   * @param moves Whether the change is one of transforms or visibility.
+   */
+  #change(
+    which: readonly number[],
+    changed: (instance: Instance, index: number) => Instance,
+    moves: boolean,
+  ): SceneChange | Promise<SceneChange> {
+    const version = this.#version;
+    const geometry = this.#geometry;
+    const { placement, blas } = geometry;
+    const { instances } = this.scene;
+    const changes = which.map((index) => ({
+      index,
+      before: instances[index] as Instance,
+      after: changed(instances[index] as Instance, index),
+    }));
+    // Meshes that are shown for the first time bring hierarchies, and the first catcher an upper level that has no room
+    // yet.
+    const isMissing = moves && changes.some(({ after }) => !blas[after.mesh] && isShown(this.scene, after));
+    const lacksRoom =
+      geometry.tlasNodes < 2 * placement.bareRoot &&
+      changes.some(({ after }) => after.catcher && after.visible !== false);
+    if (isMissing || lacksRoom) {
+      const reshaped = () => {
+        const next = [...this.scene.instances];
+        for (const index of which) next[index] = changed(next[index] as Instance, index);
+        return { ...this.scene, instances: next };
+      };
+      return this.#reshape(reshaped);
+    }
+    const set = (state: 'before' | 'after') => {
+      this.#version++;
+      for (const change of changes) this.scene.instances[change.index] = change[state];
+      placement.update(this.scene, blas, which, moves);
+    };
+    return {
+      isStale: () => version !== this.#version,
+      apply: () => {
+        set('after');
+        return this.#gpu.updateInstances(geometry, changes);
+      },
+      undo: () => set('before'),
+    };
+  }
+
+  /** Everything is laid out again, and once more if another change came in between. */
+  async #reshape(changed: () => Scene): Promise<SceneChange> {
+    for (;;) {
+      const version = this.#version;
+      const next = changed();
+      await this.#build(next);
+      const geometry = layOutGeometry(next, this.#blas(next));
+      const packed = await packGeometry(next, geometry);
+      if (version !== this.#version) continue;
+      return this.#commit(next, geometry, () => {
+        this.#gpu.updateShapes(geometry, packed);
+        return true;
+      });
+    }
+  }
+}

@@ -1,0 +1,141 @@
+import { TILE } from './noise.wgsl';
+
+/** Samples before noise is first looked at: four chunks. */
+export const FIRST_CHECK = 64;
+
+/** The number of samples after `samples` at which noise is looked at: 64, 96, 128, 192, 256, 384, … */
+export function nextCheck(samples: number): number {
+  for (let check = FIRST_CHECK; ; check *= 2) {
+    if (samples < check) return check;
+    if (samples < 1.5 * check) return 1.5 * check;
+  }
+}
+
+/** How noisy each tile of a picture is. */
+export interface NoiseMap {
+  /** Per tile: relative error, see {@link noiseMap}. */
+  readonly tiles: Float64Array;
+  /** Root of the mean of the squares. */
+  readonly whole: number;
+}
+
+/**
+ * Relative errors from sums over tiles: the root of a tile's mean variance over its mean square, the latter with a
+ * hundredth of the picture's added, so that blackness does not ask for the impossible.
+ *
+ * @param sums Per tile: variance, square of the mean, pixels; stride 4.
+ */
+export function noiseMap(sums: Float32Array): NoiseMap {
+  let square = 0;
+  let pixels = 0;
+  for (let at = 0; at < sums.length; at += 4) {
+    square += sums[at + 1] as number;
+    pixels += sums[at + 2] as number;
+  }
+  const floor = (0.01 * square) / pixels;
+  const tiles = new Float64Array(sums.length / 4);
+  let whole = 0;
+  for (let tile = 0; tile < tiles.length; tile++) {
+    const [variance, bright, count] = sums.subarray(4 * tile, 4 * tile + 3) as unknown as [number, number, number];
+    const error = variance > 0 ? variance / (bright + floor * count) : 0;
+    tiles[tile] = Math.sqrt(error);
+    whole += error * count;
+  }
+  return { tiles, whole: Math.sqrt(whole / pixels) };
+}
+
+/**
+ * The tiles that need more samples: those noisier than the target, and those beside one that is twice as noisy. The
+ * second rule catches tiles that look calm because they have not seen the light yet that their neighbours have.
+ */
+export function noisyTiles(errors: Float64Array, columns: number, target: number): number[] {
+  const rows = errors.length / columns;
+  const found: number[] = [];
+  for (let tile = 0; tile < errors.length; tile++) {
+    const [x, y] = [tile % columns, Math.floor(tile / columns)];
+    let worst = errors[tile] as number;
+    for (let dy = -1; dy <= 1; dy++) {
+      for (let dx = -1; dx <= 1; dx++) {
+        if (x + dx < 0 || x + dx >= columns || y + dy < 0 || y + dy >= rows) continue;
+        worst = Math.max(worst, 0.5 * (errors[tile + dy * columns + dx] as number));
+      }
+    }
+    if (worst > target) found.push(tile);
+  }
+  return found;
+}
+
+/**
+ * Samples still to be taken in all, if errors go down as the root of the number of samples.
+ *
+ * @param most Samples that no pixel gets more of.
+ */
+export function samplesLeft(
+  tiles: readonly number[],
+  errors: Float64Array,
+  target: number,
+  most: number,
+  samplesOf: (tile: number) => number,
+  pixelsOf: (tile: number) => number,
+): number {
+  let left = 0;
+  for (const tile of tiles) {
+    const samples = samplesOf(tile);
+    const wanted = samples * ((errors[tile] as number) / target) ** 2;
+    // Tiles end at the next look, not before.
+    left += Math.max(0, Math.min(most, nextCheck(Math.max(samples, Math.ceil(wanted) - 1))) - samples) * pixelsOf(tile);
+  }
+  return left;
+}
+
+/** The tiles of a picture. */
+export class TileGrid {
+  readonly width: number;
+  readonly height: number;
+  readonly columns: number;
+  readonly rows: number;
+
+  constructor(width: number, height: number) {
+    this.width = width;
+    this.height = height;
+    this.columns = Math.ceil(width / TILE);
+    this.rows = Math.ceil(height / TILE);
+  }
+
+  /** Tiles. */
+  get count(): number {
+    return this.columns * this.rows;
+  }
+
+  /** Pixels of a tile: fewer at the right and lower edge. */
+  pixelsIn(tile: number): number {
+    const [x, y] = [(tile % this.columns) * TILE, Math.floor(tile / this.columns) * TILE];
+    return Math.min(TILE, this.width - x) * Math.min(TILE, this.height - y);
+  }
+
+  /** Numbers of all pixels, tile by tile. */
+  allPixels(): Uint32Array<ArrayBuffer> {
+    const { width, height } = this;
+    const out = new Uint32Array(width * height);
+    for (let y0 = 0, at = 0; y0 < height; y0 += TILE)
+      for (let x0 = 0; x0 < width; x0 += TILE) at = this.#write(out, at, x0, y0);
+    return out;
+  }
+
+  /** Numbers of the pixels of some tiles, tile by tile. */
+  pixels(tiles: readonly number[]): Uint32Array<ArrayBuffer> {
+    const out = new Uint32Array(tiles.reduce((sum, tile) => sum + this.pixelsIn(tile), 0));
+    let at = 0;
+    for (const tile of tiles)
+      at = this.#write(out, at, (tile % this.columns) * TILE, Math.floor(tile / this.columns) * TILE);
+    return out;
+  }
+
+  /** Writes the numbers of a tile's pixels from `at` on; where the next tile's belong. */
+  #write(out: Uint32Array, at: number, x0: number, y0: number): number {
+    const x1 = Math.min(x0 + TILE, this.width),
+      y1 = Math.min(y0 + TILE, this.height);
+    for (let y = y0; y < y1; y++) for (let x = x0; x < x1; x++) out[at++] = y * this.width + x;
+    return at;
+  }
+}

@@ -1,0 +1,227 @@
+import { Film } from '../film/film';
+import type { FilmSession } from './film-session';
+import type { GpuMemory } from '../storage/buffers';
+import { inErrorScopes } from '../device/error-scopes';
+import type { GpuScene } from '../scene/gpu-scene';
+import type { KernelCache, KernelSet } from '../integrator/kernel-cache';
+import type { Integrator } from '../integrator/integrator';
+import { serves, type KernelFeatures } from '../integrator/pipelines';
+import type { SceneChange } from '../scene/scene-editor';
+
+/** What an {@link EditSession} works on. */
+export interface EditHost {
+  readonly device: GPUDevice;
+  readonly memory: GpuMemory;
+  readonly gpuScene: GpuScene;
+  readonly cache: KernelCache;
+  readonly integrator: Integrator;
+  readonly film: FilmSession;
+  /** What the scene, the camera and the options ask of the kernels. */
+  readonly features: () => KernelFeatures;
+  /** Starts the film again. */
+  readonly restart: () => void;
+}
+
+/** An edit that has been made, and can be taken back until it is settled. */
+interface Made {
+  readonly settle: () => void;
+  readonly takeBack: () => void;
+}
+
+/**
+ * Makes edits so that each holds as a whole or not at all. An edit goes through two stages:
+ *
+ * 1. It is applied to the scene and the GPU's copy. If that took memory, batches and further edits wait until the GPU
+ * has
+ *    granted it (some milliseconds); else the edit is taken back, and the film goes on as if nothing had happened.
+ * 2. If it needs other kernels, they compile while the old ones go on rendering. Should they fail, this edit and all
+ * that
+ *    were made since are taken back.
+ */
+export class EditSession {
+  readonly #host: EditHost;
+  /** Settles, and never rejects, when the GPU has looked at what is being changed. */
+  #verifying: Promise<void> | undefined;
+  /** Edits that wait for kernels, oldest first. */
+  #made: Made[] = [];
+  /** The kernels that the newest of them need. */
+  #bringing: Promise<void> | undefined;
+  #requests = 0;
+  #edits = 0;
+  #resizes = 0;
+
+  constructor(host: EditHost) {
+    this.#host = host;
+  }
+
+  /** Settles when batches may be submitted again; `undefined`: now. */
+  get verifying(): Promise<void> | undefined {
+    return this.#verifying;
+  }
+
+  /**
+   * Makes an edit: at once, if it is prepared at once and no other is being verified.
+   *
+   * @param prepare Called again if another edit was made meanwhile which the change does not take into account.
+   * @returns When the film shows the edit.
+   */
+  async run(prepare: () => SceneChange | Promise<SceneChange>): Promise<void> {
+    for (;;) {
+      const prepared = prepare();
+      const change = prepared instanceof Promise ? await prepared : prepared;
+      while (this.#verifying) await this.#verifying;
+      if (this.#host.memory.destroyed) return;
+      if (!change.isStale()) return this.#make(change);
+    }
+  }
+
+  async #make(change: SceneChange): Promise<void> {
+    const { device, gpuScene, integrator, memory, restart } = this.#host;
+    const { result: edit, verified } = inErrorScopes(device, 'this edit', () =>
+      gpuScene.record(change.apply, change.undo),
+    );
+    const number = ++this.#edits;
+    const takeBack = () => {
+      edit.undo();
+      change.rewrite?.();
+      if (edit.result) integrator.rebind();
+    };
+    if (edit.allocated) {
+      await this.#hold(verified, takeBack);
+      if (memory.destroyed) return;
+    }
+    if (edit.result) integrator.rebind();
+    restart();
+    const made: Made = { settle: edit.settle, takeBack };
+    this.#made.push(made);
+    const kernels = this.#bringKernels();
+    kernels.catch(() => {});
+    await verified.catch((error: unknown) => {
+      // Nothing was allocated, so it can be taken back at any time: unless other edits have built on it.
+      if (memory.destroyed) throw error;
+      if (number === this.#edits) {
+        this.#made = this.#made.filter((other) => other !== made);
+        takeBack();
+        this.#bringKernels().catch(() => {});
+      } else gpuScene.rewrite();
+      restart();
+      throw error;
+    });
+    await kernels;
+  }
+
+  /** See `PathTracer.resize`. The last of several that overlap counts. */
+  async resize(width: number, height: number): Promise<void> {
+    const { device, film, integrator, memory, restart } = this.#host;
+    const number = ++this.#resizes;
+    while (film.film.width !== width || film.film.height !== height) {
+      const { planes } = integrator.kernels.features;
+      const { result: next, verified } = inErrorScopes(
+        device,
+        `an image of ${width} × ${height} pixels`,
+        () => new Film(memory, width, height, planes),
+      );
+      await verified.catch((error: unknown) => {
+        next.destroy();
+        throw error;
+      });
+      if (memory.destroyed) return;
+      // Kernels that keep another number of sums apart have come meanwhile.
+      if (number !== this.#resizes || planes !== integrator.kernels.features.planes) {
+        next.destroy();
+        if (number !== this.#resizes) return;
+        continue;
+      }
+      film.replace(next);
+      restart();
+    }
+  }
+
+  /** Brings the kernels for the scene, the camera and the options as they are now, if those there will not do. */
+  async #bringKernels(): Promise<void> {
+    const { features, integrator } = this.#host;
+    const wanted = features();
+    const request = ++this.#requests;
+    if (serves(integrator.kernels.features, wanted)) {
+      this.#bringing = undefined;
+      return this.#settle();
+    }
+    this.#bringing = this.#compile(wanted, request);
+    await this.#bringing;
+  }
+
+  async #compile(wanted: KernelFeatures, request: number): Promise<void> {
+    const { cache, memory, restart } = this.#host;
+    try {
+      const kernels = await cache.get(wanted);
+      while (this.#verifying) await this.#verifying;
+      if (memory.destroyed) return;
+      if (request === this.#requests && (await this.#use(kernels, () => request === this.#requests))) {
+        this.#settle();
+        restart();
+        return;
+      }
+    } catch (error) {
+      if (memory.destroyed) throw error;
+      if (request === this.#requests) {
+        for (const { takeBack } of this.#made.splice(0).reverse()) takeBack();
+        restart();
+        throw error;
+      }
+    }
+    // A later edit has asked for other kernels: whether those come decides about this edit too.
+    await this.#bringing;
+  }
+
+  /** Puts kernels in place, with the buffers that they need. @returns Whether they are still wanted. */
+  async #use(kernels: KernelSet, wanted: () => boolean): Promise<boolean> {
+    const { device, film, integrator, memory } = this.#host;
+    const { width, height, planes } = film.film;
+    const made: (() => void)[] = [];
+    const discard = () => made.forEach((free) => free());
+    const { result, verified } = inErrorScopes(device, 'the paths and the film of this edit', () => {
+      try {
+        const paths = integrator.prepare(kernels);
+        made.push(paths.discard);
+        const next =
+          kernels.features.planes === planes ? undefined : new Film(memory, width, height, kernels.features.planes);
+        if (next) made.push(() => next.destroy());
+        return { paths, next };
+      } catch (error) {
+        discard();
+        throw error;
+      }
+    });
+    await this.#hold(verified, discard);
+    const resized = film.film.width !== width || film.film.height !== height;
+    if (memory.destroyed || !wanted() || (result.next && resized)) {
+      discard();
+      return !memory.destroyed && wanted() ? this.#use(kernels, wanted) : false;
+    }
+    result.paths.use();
+    if (result.next) film.replace(result.next);
+    return true;
+  }
+
+  /**
+   * Lets batches and further edits wait until the GPU has looked at what was allocated. Takes it back if the GPU
+   * refuses it.
+   */
+  async #hold(verified: Promise<void>, takeBack: () => void): Promise<void> {
+    const outcome = verified.catch((error: unknown) => {
+      if (!this.#host.memory.destroyed) takeBack();
+      throw error;
+    });
+    const settled = outcome.catch(() => {});
+    this.#verifying = settled;
+    try {
+      await outcome;
+    } finally {
+      if (this.#verifying === settled) this.#verifying = undefined;
+    }
+  }
+
+  #settle(): void {
+    for (const { settle } of this.#made.splice(0)) settle();
+  }
+}

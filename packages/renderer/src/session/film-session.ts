@@ -1,0 +1,334 @@
+import { TileGrid } from '../schedule/adaptive';
+import { RenderError } from '../errors';
+import type { GpuMemory } from '../storage/buffers';
+import { inErrorScopes, withErrorScopes } from '../device/error-scopes';
+import type { KernelCache } from '../integrator/kernel-cache';
+import { readBuffer, readFloats } from '../storage/read-buffer';
+import type { Integrator } from '../integrator/integrator';
+import type { KernelName } from '../integrator/pipelines';
+import { checkedSamples, DEFAULT_SUBMIT_MS } from '../option-checks';
+import type { FilmLayer, LightGroup, RenderOptions, RenderProgress } from '../options';
+import { Sampling, type SamplingState } from '../schedule/sampling';
+import { FeatureLayers } from './feature-layers';
+import { forBands, renderFeatures } from './feature-pass';
+import type { Film } from '../film/film';
+import { checkFilmState, FILM_SUMS, type FilmState } from '../film/film-state';
+import { GroupSettings } from '../film/group-settings';
+import { groupLayer, varianceLayer, type GroupWeights } from '../film/layers';
+
+/** What a {@link FilmSession} asks of the tracer that it belongs to. */
+export interface FilmHost {
+  readonly device: GPUDevice;
+  readonly memory: GpuMemory;
+  readonly cache: KernelCache;
+  readonly integrator: Integrator;
+  /** Names of the light groups that there are now, in the order of the film's planes. */
+  readonly groupNames: () => readonly string[];
+  /** The frame uniforms for a film. */
+  readonly packFrame: (film: Film) => ArrayBuffer;
+  /** See `filmFingerprint`. */
+  readonly fingerprint: () => string;
+  /** Throws if the tracer was destroyed or its device lost. */
+  readonly check: () => void;
+  /** Settles when the edit that the GPU is looking at is in place or undone; `undefined`: there is none. */
+  readonly ready: () => Promise<void> | undefined;
+}
+
+/** Words of the queue header that hold counts, in bytes: dropped samples. */
+const BAD_SAMPLES = 12;
+/** Bytes of the queue header. */
+const COUNTERS = 32;
+
+/** The film of a tracer, and all that adds samples to it, changes how it is put together, or copies it. */
+export class FilmSession {
+  readonly #host: FilmHost;
+  readonly #features: FeatureLayers;
+  readonly groups: GroupSettings;
+  #film: Film;
+  #sampling: Sampling | undefined;
+  /** Counts restarts: what began before one must not go on after it. */
+  #generation = 0;
+  #rendering = false;
+  /** Whether the GPU has refused a batch, so that samples are missing. */
+  #broken = false;
+  /** Rejects where the GPU refused to clear the film. */
+  #cleared: Promise<void> = Promise.resolve();
+  #frameDirty = true;
+  #firstWeights: GroupWeights = [];
+  #badSamples = 0;
+
+  constructor(host: FilmHost, film: Film) {
+    this.#host = host;
+    this.#film = film;
+    this.groups = new GroupSettings(host.groupNames);
+    this.#features = new FeatureLayers({
+      render: (kernel, samples) => this.#renderFeatures(kernel, samples),
+      copy: (name) => readBuffer(host.device, this.#film.buffer(name) as GPUBuffer, this.#film.pixels * 16),
+    });
+  }
+
+  get film(): Film {
+    return this.#film;
+  }
+
+  /** See `PathTracer.samples`. */
+  get samples(): number {
+    return this.#sampling?.samples ?? 0;
+  }
+
+  /** Samples that were dropped, as of the last read. */
+  get badSamples(): number {
+    return this.#badSamples;
+  }
+
+  /** Starts the film again, for what the frame uniforms and the light groups are now. */
+  restart(): void {
+    const { device, integrator } = this.#host;
+    this.#generation++;
+    this.#broken = false;
+    this.#features.clear();
+    this.#frameDirty = true;
+    this.#firstWeights = this.groups.weights;
+    // Keeps what was learned about the GPU's speed.
+    if (this.#sampling) this.#sampling = this.#newSampling(this.#sampling.paths);
+    const { verified } = inErrorScopes(device, 'clearing the film', () => {
+      integrator.writeGroups(this.#firstWeights, this.#firstWeights);
+      const encoder = device.createCommandEncoder({ label: 'glanz reset' });
+      this.#film.clear(encoder);
+      device.queue.submit([encoder.finish()]);
+    });
+    this.#watch(verified);
+    this.#cleared = verified;
+  }
+
+  /** What the GPU refuses leaves a film that is not what it should be: the next render begins again. */
+  #watch(verified: Promise<void>): void {
+    const generation = this.#generation;
+    verified.catch(() => {
+      if (this.#host.memory.destroyed) return;
+      // Bind groups that were refused must not be used again, nor uniforms relied on that were perhaps not written.
+      this.#host.integrator.rebind();
+      this.#frameDirty = true;
+      if (generation === this.#generation) this.#broken = true;
+    });
+  }
+
+  /** Ends a running render. */
+  end(): void {
+    this.#generation++;
+  }
+
+  /** Puts another film in place of the one there is, which is freed. */
+  replace(film: Film): void {
+    this.#film.destroy();
+    this.#film = film;
+    this.#sampling = undefined;
+    this.#host.integrator.rebind(film);
+  }
+
+  /** See `PathTracer.render`. */
+  async *render(options: RenderOptions): AsyncGenerator<RenderProgress, void, undefined> {
+    const samples = checkedSamples(options);
+    if (this.#rendering)
+      throw new RenderError(
+        'renderer/busy',
+        'This tracer is already rendering: finish or abort the other render() first.',
+      );
+    this.#rendering = true;
+    try {
+      if (this.#broken) this.restart();
+      const generation = this.#generation;
+      const sampling = (this.#sampling ??= this.#newSampling());
+      yield* sampling.render({
+        samples,
+        noise: options.noise,
+        budgetMs: options.maxSubmitMs ?? DEFAULT_SUBMIT_MS,
+        current: () => generation === this.#generation && !options.signal?.aborted,
+      });
+    } finally {
+      this.#rendering = false;
+    }
+  }
+
+  /** See `PathTracer.read`. */
+  async read(layer: FilmLayer): Promise<Float32Array<ArrayBuffer> | Uint32Array<ArrayBuffer>> {
+    const { device, integrator } = this.#host;
+    await this.#cleared;
+    if (layer === 'beauty') {
+      const [pixels, counters] = await Promise.all([
+        readFloats(device, this.#film.beauty, this.#film.pixels * 16),
+        readBuffer(device, integrator.queues, COUNTERS),
+      ]);
+      this.#count(counters);
+      return pixels;
+    }
+    if (layer === 'variance') {
+      // With catchers: the image in which they are what they are, without the one that lacks the objects.
+      const weights =
+        integrator.pathsPerSample > 1 ? [...this.#firstWeights, ...this.#firstWeights] : this.#firstWeights;
+      const [total, moment] = await Promise.all(this.#copy('film_total', 'film_moment'));
+      return varianceLayer(total as Float32Array, moment as Float32Array, weights);
+    }
+    // An edit or a resize in between begins another image: what was rendered is not of one image then.
+    for (;;) {
+      const generation = this.#generation;
+      const [read] = await Promise.allSettled([this.#features.read(layer, this.samples)]);
+      this.#host.check();
+      if (generation !== this.#generation) continue;
+      if (read.status === 'rejected') throw read.reason;
+      return read.value;
+    }
+  }
+
+  /** See `PathTracer.readLightGroup`. */
+  async readGroup(name: string): Promise<Float32Array<ArrayBuffer>> {
+    const plane = this.groups.plane(name);
+    const weight = this.groups.weights[plane] as GroupWeights[number];
+    const [total, block, moment] = await Promise.all(this.#copy('film_total', 'film_block', 'film_moment'));
+    return groupLayer(total as Float32Array, block as Float32Array, moment as Float32Array, plane, weight);
+  }
+
+  /** See `PathTracer.setLightGroup`. */
+  async setGroup(name: string, settings: Partial<Pick<LightGroup, 'intensity' | 'color'>>): Promise<void> {
+    const undo = this.groups.set(name, settings);
+    try {
+      await this.#relight();
+    } catch (error) {
+      undo();
+      this.#host.integrator.rebind();
+      this.#host.integrator.writeGroups(this.groups.weights, this.#firstWeights);
+      throw error;
+    }
+  }
+
+  /** See `PathTracer.saveFilm`. */
+  async save(): Promise<FilmState> {
+    const { device, integrator, fingerprint } = this.#host;
+    // All copies are submitted in one turn, behind the batches that the sampling counts as given out.
+    const sampling = (this.#sampling ??= this.#newSampling()).state;
+    const { width, height, planes } = this.#film;
+    const weights = { first: this.#firstWeights, last: this.groups.weights };
+    const head = { width, height, planes, weights, sampling, fingerprint: fingerprint() };
+    const [counters, ...sums] = await Promise.all([
+      readBuffer(device, integrator.queues, COUNTERS),
+      ...this.#copy(...FILM_SUMS),
+    ]);
+    this.#count(counters);
+    const samples = Math.max(
+      sampling.sample,
+      sampling.tiles ? sampling.counts.reduce((most, count) => Math.max(most, count), 0) : 0,
+    );
+    const named = Object.fromEntries(FILM_SUMS.map((name, i) => [name, sums[i]])) as unknown as FilmState['sums'];
+    return { ...head, samples, badSamples: this.#badSamples, sums: named };
+  }
+
+  /** See `PathTracer.restoreFilm`. */
+  async restore(state: FilmState): Promise<void> {
+    const { device, integrator, memory, fingerprint, check } = this.#host;
+    const film = this.#film;
+    const { width, height, planes } = film;
+    checkFilmState(state, { width, height, planes, fingerprint: fingerprint() }, new TileGrid(width, height).count);
+    this.restart();
+    const { verified } = inErrorScopes(device, 'the saved film', () => {
+      this.#sampling = this.#newSampling(this.#sampling?.paths, state.sampling);
+      this.#firstWeights = state.weights.first;
+      integrator.writeGroups(this.groups.weights, this.#firstWeights);
+      for (const name of FILM_SUMS) memory.write(film.buffer(name) as GPUBuffer, state.sums[name]);
+      memory.write(integrator.queues, Uint32Array.of(state.badSamples), BAD_SAMPLES);
+    });
+    this.#watch(verified);
+    this.#badSamples = state.badSamples;
+    await verified;
+    // The light groups were set otherwise when it was saved.
+    if (JSON.stringify(this.groups.weights) !== JSON.stringify(state.weights.last)) await this.#relight();
+    await device.queue.onSubmittedWorkDone();
+    check();
+  }
+
+  /** Composes the beauty again from the film's sums, as the light groups are set. */
+  async #relight(): Promise<void> {
+    const { cache, device, integrator, memory } = this.#host;
+    const kernel = await cache.kernel('relight', integrator.kernels.features);
+    if (memory.destroyed) return;
+    await withErrorScopes(device, 'the light groups', () => {
+      integrator.writeGroups(this.groups.weights, this.#firstWeights);
+      forBands(this.#film.pixels, (batch) => integrator.submitPixels('relight', kernel, batch));
+    });
+  }
+
+  #newSampling(paths?: number, state?: SamplingState): Sampling {
+    const { device, integrator, check, ready } = this.#host;
+    const film = this.#film;
+    const host = {
+      width: film.width,
+      height: film.height,
+      capacity: Math.floor(integrator.limit / integrator.pathsPerSample),
+      queue: device.queue,
+      submit: (batch: Parameters<Integrator['submit']>[0]) => {
+        const { verified } = inErrorScopes(device, 'a batch of paths', () => {
+          this.#writeFrame();
+          integrator.submit(batch);
+        });
+        this.#watch(verified);
+        const sound = Promise.all([this.#cleared, verified]).then(() => {});
+        // Of several refused batches the loop reports the first.
+        sound.catch(() => {});
+        return sound;
+      },
+      room: (wanted: number) =>
+        Math.floor(integrator.room(wanted * integrator.pathsPerSample) / integrator.pathsPerSample),
+      ready,
+      check,
+      setPixels: (list: Uint32Array<ArrayBuffer> | undefined) => film.setPixels(list),
+      measure: () => this.#measureNoise(),
+    };
+    return new Sampling(host, paths, state);
+  }
+
+  async #measureNoise(): Promise<Float32Array> {
+    const { cache, device, integrator, check } = this.#host;
+    const kernel = await cache.kernel('noise', integrator.kernels.features);
+    check();
+    const film = this.#film;
+    const { columns, rows } = new TileGrid(film.width, film.height);
+    try {
+      await withErrorScopes(device, "measuring the film's noise", () => {
+        this.#writeFrame();
+        integrator.submitTiles(kernel, columns, rows);
+      });
+    } catch (error) {
+      film.release('film_noise');
+      integrator.rebind();
+      this.#frameDirty = true;
+      throw error;
+    }
+    return readFloats(device, film.buffer('film_noise') as GPUBuffer, 16 * columns * rows);
+  }
+
+  async #renderFeatures(name: KernelName, samples: number): Promise<void> {
+    const { cache, device, integrator, check, ready } = this.#host;
+    const kernel = await cache.kernel(name, integrator.kernels.features);
+    await ready();
+    check();
+    try {
+      await renderFeatures(device, integrator, name, kernel, this.#film, samples, () => this.#writeFrame());
+    } catch (error) {
+      this.#frameDirty = true;
+      throw error;
+    }
+  }
+
+  #writeFrame(): void {
+    if (!this.#frameDirty) return;
+    this.#host.integrator.writeFrame(this.#host.packFrame(this.#film));
+    this.#frameDirty = false;
+  }
+
+  #copy(...names: readonly string[]): Promise<Float32Array<ArrayBuffer>>[] {
+    return names.map((name) => readFloats(this.#host.device, this.#film.buffer(name) as GPUBuffer));
+  }
+
+  #count(counters: ArrayBuffer): void {
+    this.#badSamples = new Uint32Array(counters)[BAD_SAMPLES / 4] as number;
+  }
+}

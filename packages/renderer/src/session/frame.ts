@@ -1,0 +1,46 @@
+import type { Camera } from '@glanz/scene';
+import { cameraUniforms } from '../camera/camera';
+import type { Film } from '../film/film';
+import type { GpuScene } from '../scene/gpu-scene';
+import { BACKGROUND_HIDDEN, BACKGROUND_TRANSPARENT, frameStruct } from '../storage/layout';
+import type { PathTracerOptions } from '../options';
+import { shortcutUniforms } from '../shortcuts';
+import { resolveFilter } from '../camera/view';
+import type { Geometry } from '../geometry/geometry';
+
+/** The frame uniforms for the present camera, film and surroundings. */
+export function packFrame(
+  camera: Camera,
+  film: Pick<Film, 'width' | 'height'>,
+  scene: GpuScene,
+  geometry: Geometry,
+  options: PathTracerOptions,
+): ArrayBuffer {
+  const data = frameStruct.allocate();
+  const { environment } = scene;
+  const transparent = options.background === 'transparent';
+  frameStruct.write(data, 0, {
+    ...cameraUniforms(camera, film.width, film.height),
+    size: [film.width, film.height],
+    seed: (options.seed ?? 0) >>> 0,
+    max_depth: options.maxDepth ?? 8,
+    max_volume_depth: options.maxVolumeDepth ?? 256,
+    light_count: scene.lightCount,
+    first_area_light: scene.areaLights.first,
+    area_light_count: scene.areaLights.count,
+    background:
+      (transparent ? BACKGROUND_TRANSPARENT | BACKGROUND_HIDDEN : 0) | (environment.visible ? 0 : BACKGROUND_HIDDEN),
+    environment_radiance: environment.radiance,
+    mean_luminance: environment.meanLuminance,
+    environment_probability: scene.environmentProbability,
+    environment_rotation: environment.rotation,
+    environment_group: scene.groups.environment,
+    catcher_root: geometry.placement.bareRoot,
+    environment_cells: [environment.table?.width ?? 1, environment.table?.height ?? 1],
+    lod_bias: options.textureLodBias ?? -1,
+    ...shortcutUniforms(options),
+    scene_scale: geometry.placement.radius,
+    filter_radius: resolveFilter(options.filter).radius,
+  });
+  return data;
+}

@@ -1,0 +1,119 @@
+import type { ResourceName } from './resources';
+import {
+  GPU_BUFFER_COPY_DST,
+  GPU_BUFFER_STORAGE,
+  GPU_TEXTURE_BINDING,
+  GPU_TEXTURE_COPY_DST,
+  type GpuMemory,
+} from './buffers';
+
+/** Where kernels find the buffers, textures and samplers that they bind. */
+export interface ResourceProvider {
+  /** The resource of this name; `undefined` if it is not this provider's. */
+  resource(name: string): GPUBindingResource | undefined;
+}
+
+/** What an edit has allocated and replaced. */
+export interface ResourceLog {
+  /** Whether memory was asked for. */
+  readonly allocated: boolean;
+  /** Frees what was replaced. */
+  readonly settle: () => void;
+  /** Puts back what was replaced, and frees what took its place. */
+  readonly undo: () => void;
+}
+
+/**
+ * The named buffers and textures of a scene. What an edit replaces can be kept until it is known whether the edit
+ * holds.
+ */
+export class SceneResources {
+  readonly #memory: GpuMemory;
+  readonly #buffers = new Map<ResourceName, GPUBuffer>();
+  readonly #textures = new Map<ResourceName, GPUTexture>();
+  #log: { readonly made: (GPUBuffer | GPUTexture)[]; readonly replaced: (GPUBuffer | GPUTexture)[] } | undefined;
+
+  constructor(memory: GpuMemory) {
+    this.#memory = memory;
+  }
+
+  buffer(name: ResourceName): GPUBuffer | undefined {
+    return this.#buffers.get(name);
+  }
+
+  texture(name: ResourceName): GPUTexture | undefined {
+    return this.#textures.get(name);
+  }
+
+  /** Makes a storage buffer of this name, in place of the one there is. */
+  make(name: ResourceName, bytes: number): GPUBuffer {
+    const buffer = this.#memory.buffer(name, bytes, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST);
+    this.#replace(this.#buffers, name, buffer);
+    return buffer;
+  }
+
+  /**
+   * Makes a storage buffer of this name and fills it. All at once: large ones are filled by who can wait in between.
+   */
+  upload(name: ResourceName, data: ArrayBufferView<ArrayBuffer> | ArrayBuffer): void {
+    this.#memory.write(this.make(name, data.byteLength), data);
+  }
+
+  /** Writes into the buffer of this name, at `offset` bytes. */
+  write(name: ResourceName, data: ArrayBufferView<ArrayBuffer> | ArrayBuffer, offset = 0): void {
+    this.#memory.write(this.#buffers.get(name) as GPUBuffer, data, offset);
+  }
+
+  /** Makes a texture of this name, still empty, in place of the one there is. */
+  makeTexture(
+    name: ResourceName,
+    descriptor: Omit<GPUTextureDescriptor, 'label' | 'usage'>,
+    bytes: number,
+  ): GPUTexture {
+    const texture = this.#memory.texture(
+      { ...descriptor, label: `glanz ${name}`, usage: GPU_TEXTURE_BINDING | GPU_TEXTURE_COPY_DST },
+      bytes,
+    );
+    this.#replace(this.#textures, name, texture);
+    return texture;
+  }
+
+  /**
+   * Keeps what is replaced while `edit` runs, until the log is settled.
+   * @param undone Called when the log has been undone, also where `edit` throws.
+   */
+  record<T>(edit: () => T, undone: () => void): ResourceLog & { readonly result: T } {
+    const log = { made: [] as (GPUBuffer | GPUTexture)[], replaced: [] as (GPUBuffer | GPUTexture)[] };
+    const [buffers, textures] = [[...this.#buffers], [...this.#textures]];
+    const undo = () => {
+      for (const [name, buffer] of buffers) this.#buffers.set(name, buffer);
+      for (const [name, texture] of textures) this.#textures.set(name, texture);
+      for (const resource of log.made) this.#memory.release(resource);
+      undone();
+    };
+    this.#log = log;
+    try {
+      const result = edit();
+      return {
+        result,
+        allocated: log.made.length > 0,
+        settle: () => log.replaced.forEach((resource) => this.#memory.release(resource)),
+        undo,
+      };
+    } catch (error) {
+      undo();
+      throw error;
+    } finally {
+      this.#log = undefined;
+    }
+  }
+
+  #replace<T extends GPUBuffer | GPUTexture>(of: Map<ResourceName, T>, name: ResourceName, resource: T): void {
+    const before = of.get(name);
+    if (this.#log) {
+      this.#log.made.push(resource);
+      if (before) this.#log.replaced.push(before);
+    } else this.#memory.release(before);
+    of.set(name, resource);
+  }
+}

@@ -1,0 +1,102 @@
+import { describe, expect, it } from 'vitest';
+import { Scheduler, type Batch } from '../../src/schedule/scheduler';
+
+/** Runs a scheduler against a pretended GPU and checks that every pixel gets every sample once, in order. */
+function simulate(
+  pixels: number,
+  capacity: number,
+  budgetMs: number,
+  samples: number,
+  cost: (paths: number, turn: number) => number,
+): { batches: Batch[]; times: number[] } {
+  const scheduler = new Scheduler({ pixels, capacity, budgetMs });
+  const counts = new Uint32Array(pixels);
+  const batches: Batch[] = [];
+  const times: number[] = [];
+  for (let turn = 0; turn < 1e6; turn++) {
+    const batch = scheduler.next(samples);
+    if (!batch) break;
+    expect(batch.pixelCount * batch.sampleCount).toBeLessThanOrEqual(capacity);
+    for (let p = batch.pixelOffset; p < batch.pixelOffset + batch.pixelCount; p++) {
+      if (counts[p] !== batch.sampleOffset)
+        throw new Error(`pixel ${p} has ${counts[p]} samples, the batch starts at ${batch.sampleOffset}`);
+      counts[p] = (counts[p] as number) + batch.sampleCount;
+    }
+    const time = cost(batch.pixelCount * batch.sampleCount, turn);
+    scheduler.measured(batch, time);
+    batches.push(batch);
+    times.push(time);
+  }
+  expect(counts.every((n) => n === samples)).toBe(true);
+  expect(scheduler.samples).toBe(samples);
+  return { batches, times };
+}
+
+describe('Scheduler', () => {
+  it('gives every pixel every sample once, in order, whatever the speed', () => {
+    for (const [pixels, capacity] of [
+      [1, 64],
+      [9216, 65536],
+      [262144, 1 << 20],
+      [100_003, 70_000],
+    ] as const) {
+      simulate(pixels, capacity, 30, 17, (paths) => paths / 20_000);
+    }
+  });
+
+  it('stays near its budget once it has learned the speed', () => {
+    const { times } = simulate(1 << 20, 1 << 20, 30, 8, (paths) => paths / 5000);
+    expect(Math.max(...times.slice(5))).toBeLessThan(45);
+  });
+
+  it('backs off when the work suddenly becomes a thousand times dearer', () => {
+    const { times } = simulate(1 << 18, 1 << 20, 30, 6, (paths, turn) => (turn < 4 ? paths / 100_000 : paths / 100));
+    const dear = times.slice(8);
+    expect(Math.max(...dear)).toBeLessThan(60);
+  });
+
+  it('grows from wherever it is, also where whole bands leave some of what is allowed unused', () => {
+    for (const start of [130_000, 180_000, 200_000, 230_000, 260_000]) {
+      const scheduler = new Scheduler({ pixels: 512 * 512, capacity: 1 << 22, budgetMs: 30 }, start);
+      let last = 0;
+      for (let turn = 0; turn < 40; turn++) {
+        const batch = scheduler.next(1000) as Batch;
+        last = batch.pixelCount * batch.sampleCount;
+        scheduler.measured(batch, 1.2 + last / 1e6);
+      }
+      expect(last).toBe(1 << 22);
+    }
+  });
+
+  it('does not shrink batches for what they cost whatever their size', () => {
+    // 40 ms of launches for a budget of 30.
+    const { batches } = simulate(1 << 14, 1 << 22, 30, 3000, (paths) => 40 + paths / 50_000);
+    const sizes = batches.map((b) => b.pixelCount * b.sampleCount);
+    // 120 ms in all leave 80 for paths.
+    expect(sizes.at(-2)).toBeGreaterThan(1_000_000);
+  });
+
+  it('does not take the rest of a picture for its sky', () => {
+    // Bands of rows: the upper half costs a tenth of the lower one.
+    const scheduler = new Scheduler({ pixels: 256 * 256, capacity: 1 << 20, budgetMs: 16 });
+    const cost = ({ pixelOffset, pixelCount, sampleCount }: Batch) => {
+      const upper = Math.max(0, Math.min(pixelOffset + pixelCount, 32768) - pixelOffset);
+      return 1 + sampleCount * (upper * 2e-4 + (pixelCount - upper) * 2e-3);
+    };
+    const times: number[] = [];
+    for (let i = 0; i < 200; i++) {
+      const batch = scheduler.next(1000) as Batch;
+      times.push(cost(batch));
+      scheduler.measured(batch, times.at(-1)!);
+    }
+    // Once it has seen the picture; without a memory every change from sky to ground takes several times the budget.
+    expect(Math.max(...times.slice(40))).toBeLessThan(2 * 16);
+    // And it does not crawl: half of the budget is used on the whole.
+    expect(times.slice(40).reduce((sum, time) => sum + time, 0) / 160).toBeGreaterThan(0.35 * 16);
+  });
+
+  it('grows to the capacity on a fast GPU', () => {
+    const { batches } = simulate(1 << 16, 1 << 20, 30, 200, () => 0.5);
+    expect(Math.max(...batches.map((b) => b.pixelCount * b.sampleCount))).toBe(1 << 20);
+  });
+});
