@@ -1,4 +1,5 @@
-import { blasSteps, type Blas, type BlasOptions, type TriangleMesh } from './blas';
+import { blasSteps, type Blas, type BlasOptions } from './blas';
+import type { TriangleMesh } from './layout';
 
 /** What {@link buildBlasAsync} may be told besides the options of `buildBlas`. */
 export interface AsyncBuildOptions extends BlasOptions {

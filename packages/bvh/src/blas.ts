@@ -1,15 +1,7 @@
 import { buildBalanced } from './build/balanced';
 import type { TreeBuilder } from './build/builder';
 import { BvhError } from './error';
-import { LEAF_MAX, MAX_PRIMITIVES, TRIANGLE_WORDS, type Aabb } from './layout';
-
-/** Triangles to build over or to trace. */
-export interface TriangleMesh {
-  /** xyz per vertex, stride 3. */
-  readonly positions: Float32Array;
-  /** Three per triangle, into the vertices. Absent: the vertices are taken in threes. */
-  readonly indices?: Uint32Array | Uint16Array | undefined;
-}
+import { type Aabb, LEAF_MAX, MAX_PRIMITIVES, TRIANGLE_WORDS, type TriangleMesh } from './layout';
 
 /** What {@link buildBlas} may be told. */
 export interface BlasOptions {

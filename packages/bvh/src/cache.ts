@@ -1,4 +1,5 @@
-import type { Blas, BlasOptions, TriangleMesh } from './blas';
+import type { Blas, BlasOptions } from './blas';
+import type { TriangleMesh } from './layout';
 import { deserializeBlas, serializeBlas, SERIALIZED_VERSION } from './serialize';
 
 /**

@@ -15,9 +15,9 @@ import {
   TLAS_MAX_DEPTH,
   type Aabb,
 } from './layout';
-import { checkTransform, placeInstance } from './place-instance';
 import { REBUILD_ABOVE } from './refit-quality';
-import type { Tlas, TlasInstance } from './tlas';
+import type { Tlas } from './tlas';
+import { checkTransform, placeInstance, type TlasInstance } from './place-instance';
 
 /** Updates of more than this part of the instances rebuild the hierarchy at once. */
 const REBUILD_PART = 1 / 4;

@@ -1,4 +1,5 @@
-export { blasSteps, buildBlas, packTriangles, type Blas, type BlasOptions, type TriangleMesh } from './blas';
+export { blasSteps, buildBlas, packTriangles, type Blas, type BlasOptions } from './blas';
+export type { TriangleMesh } from './layout';
 export type { BuildSettings, TreeBuilder } from './build/builder';
 export {
   anyHit,
@@ -12,4 +13,5 @@ export {
 } from './cpu/queries';
 export { BvhError } from './error';
 export { BLAS_MAX_DEPTH, TLAS_MAX_DEPTH, type Aabb } from './layout';
-export { buildTlas, type Tlas, type TlasInstance } from './tlas';
+export { buildTlas, type Tlas } from './tlas';
+export type { TlasInstance } from './place-instance';

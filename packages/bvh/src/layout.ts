@@ -1,3 +1,10 @@
+/** Triangles to build over or to trace. */
+export interface TriangleMesh {
+  /** xyz per vertex, stride 3. */
+  readonly positions: Float32Array;
+  /** Three per triangle, into the vertices. Absent: the vertices are taken in threes. */
+  readonly indices?: Uint32Array | Uint16Array | undefined;
+}
 /** 32-bit words of a node. */
 export const NODE_WORDS = 16;
 

@@ -1,5 +1,14 @@
 import { BvhError } from './error';
-import type { TlasInstance } from './tlas';
+
+import { type Aabb } from './layout';
+
+/** One placing of a BLAS. */
+export interface TlasInstance {
+  /** Box of the BLAS, in object space. */
+  readonly bounds: Aabb;
+  /** Object to world, column-major 4×4, affine; may mirror and shear. Units as the positions. */
+  readonly transform: ArrayLike<number>;
+}
 
 /**
  * Checks that a transform has 16 numbers.

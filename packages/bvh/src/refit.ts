@@ -1,19 +1,20 @@
-import type { Blas, TriangleMesh } from './blas';
+import type { Blas } from './blas';
 import { BvhError } from './error';
 import {
   encloseChildren,
   FAR,
   LEAF,
+  leafCount,
+  leafFirst,
   LEFT,
   LEFT_MAX,
   LEFT_MIN,
-  leafCount,
-  leafFirst,
   NODE_WORDS,
   RIGHT,
   RIGHT_MAX,
   RIGHT_MIN,
   rootBounds,
+  type TriangleMesh,
 } from './layout';
 
 /**

@@ -1,17 +1,18 @@
-import type { Blas, TriangleMesh } from './blas';
+import type { Blas } from './blas';
 import { BvhError } from './error';
 import {
   BLAS_MAX_DEPTH,
   FAR,
   LEAF,
-  LEFT,
-  LEFT_MIN,
   leafCount,
   leafFirst,
+  LEFT,
+  LEFT_MIN,
   NODE_WORDS,
   PARENT,
   RIGHT,
   RIGHT_MIN,
+  type TriangleMesh,
 } from './layout';
 
 /** Version of the format that {@link serializeBlas} writes and {@link deserializeBlas} reads. */

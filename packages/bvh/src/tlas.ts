@@ -1,15 +1,7 @@
 import { buildOverBoxes } from './build/over-boxes';
 import { BvhError } from './error';
 import { rootBounds, TLAS_MAX_DEPTH, type Aabb } from './layout';
-import { checkTransform, placeInstance } from './place-instance';
-
-/** One placing of a BLAS. */
-export interface TlasInstance {
-  /** Box of the BLAS, in object space. */
-  readonly bounds: Aabb;
-  /** Object to world, column-major 4×4, affine; may mirror and shear. Units as the positions. */
-  readonly transform: ArrayLike<number>;
-}
+import { checkTransform, placeInstance, type TlasInstance } from './place-instance';
 
 /** Top-level hierarchy: instances. */
 export interface Tlas {

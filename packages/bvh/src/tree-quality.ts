@@ -1,5 +1,17 @@
-import type { Blas, TriangleMesh } from './blas';
-import { FAR, LEAF, LEFT, LEFT_MIN, leafCount, leafFirst, NODE_WORDS, PARENT, RIGHT, RIGHT_MIN } from './layout';
+import type { Blas } from './blas';
+import {
+  FAR,
+  LEAF,
+  leafCount,
+  leafFirst,
+  LEFT,
+  LEFT_MIN,
+  NODE_WORDS,
+  PARENT,
+  RIGHT,
+  RIGHT_MIN,
+  type TriangleMesh,
+} from './layout';
 import type { BvhNodes } from './statistics';
 
 /**

@@ -2,7 +2,7 @@
 // moment, so the numbers of that moment are put into the document before anything is made of it.
 import { valueAt } from './animation';
 import type { Accessors } from './accessors';
-import type { Raw } from './check/context';
+import type { Raw } from './json-value';
 import type { GltfAnimation } from './json';
 
 /** A number (or numbers) of the document at a moment. */

@@ -3,7 +3,7 @@
 // nothing. WebGL uploads a bitmap as it is. It costs a context, so only pictures that have transparency go that way.
 import type { Image } from '@glanz/scene';
 import { GltfError } from './error';
-import type { DecodedImage, ImageDecoder } from './images';
+import type { DecodedImage, ImageDecoder } from './decoded-image';
 import { imageOfPixels } from './lazy-pixels';
 import { plainPicture } from './picture-header';
 

@@ -1,5 +1,5 @@
 import type { SceneWarning } from '@glanz/scene';
-import { quote, type Raw } from './check/context';
+import { quote, type Raw } from './json-value';
 import { GltfError } from './error';
 
 /** A document out of its container. */

@@ -1,5 +1,5 @@
 import type { GltfPictureConversion } from '@glanz/openpbr/gltf';
-import type { DecodedImage } from './images';
+import type { DecodedImage } from './decoded-image';
 
 /** A picture to be made of others, texel by texel. */
 export interface DerivedPicture {

@@ -3,14 +3,13 @@ import { Accessors } from './accessors';
 import type { CheckedDocument } from './check/index';
 import { fromBase64, fromPercents } from './data-bytes';
 import { GltfError } from './error';
-import type { Ktx2Decoder } from './images';
-import type { GltfMeshopt } from './json';
+import type { Ktx2Decoder } from './decoded-image';
 import { Budget, type GltfLimits } from './limits';
-import { MATERIAL_EXTENSIONS } from './materials';
+import { type GltfMeshopt, MATERIAL_EXTENSIONS } from './json';
 import type { PrimitiveReader } from './primitive';
 import { decoded, type Source } from './source';
 import { dataUri } from './uri';
-import type { DracoWorkers } from './worker/draco-workers';
+import type { DracoWorkers } from './draco-workers';
 
 /**
  * Decoders that the host hands in since they are heavy, each as it is or as a function that fetches it; the function is

@@ -1,7 +1,7 @@
 import type { DracoAttribute } from './draco';
 import type { GltfJson, GltfPrimitive } from './json';
 import { dracoAttributes, type PrimitiveReader } from './primitive';
-import type { DracoWorkers } from './worker/draco-workers';
+import type { DracoWorkers } from './draco-workers';
 
 /** Fewer packed bytes than this are unpacked before a worker has heard of them. */
 const WORTH_SENDING = 20_000;

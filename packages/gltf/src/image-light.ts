@@ -1,7 +1,7 @@
 // EXT_lights_image_based: a cube of six pictures around the scene. Its blurred levels and its spherical harmonics are
 // for renderers that cannot integrate; here the sharpest level becomes a lat-long picture, which is what scenes hold.
 import type { LatLongEnvironment } from '@glanz/scene';
-import type { DecodedImage } from './images';
+import type { DecodedImage } from './decoded-image';
 import type { GltfImageLight } from './json';
 
 /** Edge of the faces that are read at most; where there are smaller levels, a larger one is left out. */

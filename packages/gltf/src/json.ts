@@ -1,3 +1,19 @@
+/** The material extensions that are read. */
+export const MATERIAL_EXTENSIONS = [
+  'KHR_materials_anisotropy',
+  'KHR_materials_clearcoat',
+  'KHR_materials_diffuse_transmission',
+  'KHR_materials_dispersion',
+  'KHR_materials_emissive_strength',
+  'KHR_materials_ior',
+  'KHR_materials_iridescence',
+  'KHR_materials_pbrSpecularGlossiness',
+  'KHR_materials_sheen',
+  'KHR_materials_specular',
+  'KHR_materials_transmission',
+  'KHR_materials_unlit',
+  'KHR_materials_volume',
+] as const;
 /** The parts of a glTF 2.0 document that are read, as they are once the document has been checked. */
 export interface GltfJson {
   readonly asset: {

@@ -1,6 +1,6 @@
 import { compressedBytes, type CompressedFormat, type CompressedImage } from '@glanz/scene';
 import { GltfError } from './error';
-import type { Ktx2Decoder } from './images';
+import type { Ktx2Decoder } from './decoded-image';
 import { imageOfPixels } from './lazy-pixels';
 
 /** What is used of the Basis Universal transcoder. */

@@ -1,4 +1,4 @@
-import type { DecodedImage } from './images';
+import type { DecodedImage } from './decoded-image';
 
 /**
  * A picture whose pixels are made when somebody asks for them, once; whoever sets them replaces them. Copies of its

@@ -1,25 +1,8 @@
 import { fromGltf, gltfTextures, type GltfMaterialFactors, type GltfTextureUse } from '@glanz/openpbr/gltf';
 import type { Material, SceneWarning, TextureBinding, TexturedParameter } from '@glanz/scene';
 import type { GltfMaterial, GltfTextureInfo } from './json';
-import { isShallow } from './check/context';
+import { isShallow } from './json-value';
 import type { TextureTable } from './images';
-
-/** The material extensions that are read. */
-export const MATERIAL_EXTENSIONS = [
-  'KHR_materials_anisotropy',
-  'KHR_materials_clearcoat',
-  'KHR_materials_diffuse_transmission',
-  'KHR_materials_dispersion',
-  'KHR_materials_emissive_strength',
-  'KHR_materials_ior',
-  'KHR_materials_iridescence',
-  'KHR_materials_pbrSpecularGlossiness',
-  'KHR_materials_sheen',
-  'KHR_materials_specular',
-  'KHR_materials_transmission',
-  'KHR_materials_unlit',
-  'KHR_materials_volume',
-] as const;
 
 /**
  * KHR_texture_transform as an affine map: scaled, then turned counter-clockwise as seen in the picture (v runs down),

@@ -1,7 +1,7 @@
 import type { Scene } from '@glanz/scene';
 import type { GltfDecoders } from './document';
 import { GltfError } from './error';
-import type { DecodedImage, ImageDecoder } from './images';
+import type { DecodedImage, ImageDecoder } from './decoded-image';
 import { ktx2Decoder } from './ktx2';
 import { buildScene, type GltfOptions } from './load';
 import { missing } from './source';

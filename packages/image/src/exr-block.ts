@@ -1,4 +1,5 @@
-import type { ExrType } from './exr-encode';
+/** How the numbers of a channel are stored. */
+export type ExrType = 'half' | 'float' | 'uint';
 
 /** A channel as a file's header describes it. */
 export interface ExrChannelInfo {

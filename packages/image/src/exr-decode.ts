@@ -1,8 +1,7 @@
 import { allocateFloats, checkSize, ImageError, type DecodeOptions, type ImageWarning } from './error';
 import { unpackB44 } from './exr-b44';
-import { bytesOf, rawSize, type ExrBlock } from './exr-block';
 import { unpackDwa } from './exr-dwa';
-import type { ExrType } from './exr-encode';
+import { bytesOf, type ExrBlock, type ExrType, rawSize } from './exr-block';
 import { readHeader, Reader, readVersion, type ExrCompressionName, type ExrHeader } from './exr-header';
 import { unpackPiz } from './exr-piz';
 import { unpackPxr24 } from './exr-pxr24';

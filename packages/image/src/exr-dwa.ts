@@ -1,5 +1,4 @@
-import { bytesOf, interleavePlanes, type ExrBlock, type ExrChannelInfo } from './exr-block';
-import type { ExrType } from './exr-encode';
+import { bytesOf, type ExrBlock, type ExrChannelInfo, type ExrType, interleavePlanes } from './exr-block';
 import { unpackHuffman } from './exr-huffman';
 import { unpackRuns } from './exr-rle';
 import { inflateTo, unzipBlock } from './exr-zip';

@@ -1,10 +1,8 @@
+import type { ExrType } from './exr-block';
 import { concat } from './bytes';
 import { checkSize, ImageError } from './error';
 import { zipBlock } from './exr-zip';
 import { toHalf } from './half';
-
-/** How the numbers of a channel are stored. */
-export type ExrType = 'half' | 'float' | 'uint';
 
 /** Channels that belong together. */
 export interface ExrLayer {

@@ -1,2 +1,3 @@
-export { encodeExr, type ExrLayer, type ExrSource, type ExrType } from './exr-encode';
+export { encodeExr, type ExrLayer, type ExrSource } from './exr-encode';
+export type { ExrType } from './exr-block';
 export { decodeExr, type ExrChannel, type ExrImage } from './exr-decode';

@@ -1,35 +1,8 @@
 import type { LatLongEnvironment } from './environment';
 import { finish } from './slices';
-import { STUDIOS } from './studios';
+import { STUDIOS, type Rgb, type SoftBox, type StudioSetup } from './studios';
 
-export { STUDIOS, type StudioName } from './studios';
-
-/** A colour: linear Rec.709. */
-type Rgb = readonly [number, number, number];
-
-/** A light of a {@link StudioSetup}: a soft box that faces the subject from infinitely far away. */
-export interface SoftBox {
-  /** Where it hangs, radians: azimuth from +Z (the front) towards +X, and height above the horizon. */
-  readonly azimuth: number;
-  readonly elevation: number;
-  /** Angles that it spans, radians, in (0, π). */
-  readonly width: number;
-  readonly height: number;
-  /** `rectangle` (default), or `disc`: an ellipse. */
-  readonly shape?: 'rectangle' | 'disc';
-  /**
-   * Radiance in the middle, of all channels alike or RGB; it falls off by a quarter towards the edges, as a real one
-   * does.
-   */
-  readonly radiance: number | Rgb;
-}
-
-/** What stands in a studio: walls and lights. */
-export interface StudioSetup {
-  /** Radiance of the walls straight up, around the horizon and straight down, with smooth passages. */
-  readonly backdrop: { readonly zenith: Rgb; readonly horizon: Rgb; readonly nadir: Rgb };
-  readonly boxes: readonly SoftBox[];
-}
+export { STUDIOS, type SoftBox, type StudioName, type StudioSetup } from './studios';
 
 /** What {@link studioEnvironment} may be told. */
 export interface StudioOptions {

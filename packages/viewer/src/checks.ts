@@ -1,7 +1,7 @@
 import type { Camera } from '@glanz/scene';
 import { ViewerError } from './errors';
 import type { ViewerOptions } from './options';
-import type { Orbit, OrbitLimits, Vector } from './orbit';
+import type { Orbit, OrbitLimits, Vector } from './orbit-state';
 
 /** Metres: beyond, single precision, in which the GPU computes, has no digits left for a model. */
 const FAR = 1e12;

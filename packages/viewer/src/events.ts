@@ -1,6 +1,6 @@
 import type { PickResult } from '@glanz/renderer';
 import type { Camera, GlanzError, Scene } from '@glanz/scene';
-import type { Orbit } from './orbit';
+import type { Orbit } from './orbit-state';
 
 /**
  * What a viewer is doing. `empty`: nothing to show. `loading`: a model is read or prepared. `moving`: the preview is

@@ -4,7 +4,29 @@ import type { Camera, Scene } from '@glanz/scene';
 import type { ToneMap } from '@glanz/tonemap';
 import type { ControlOptions } from './controls';
 import type { EnvironmentSource } from './load';
-import type { OrbitLimits } from './orbit';
+import type { OrbitLimits } from './orbit-state';
+import { type ImageProgress } from './render-image';
+
+/** Options of `Viewer.toBlob`. */
+export interface BlobOptions {
+  /** `image/png` (default), `image/jpeg`, `image/webp`, or `image/x-exr`: linear, as half floats. */
+  readonly type?: string;
+  /** 0..1, for types that lose something. */
+  readonly quality?: number;
+  /** Pixels, 1..65536. Default: the size on the screen; of one side alone, the other in the shape of the canvas. */
+  readonly width?: number;
+  readonly height?: number;
+  /** Samples per pixel. Default: the viewer's `samples` and `noise`; 65,536 at most where `noise` is given. */
+  readonly samples?: number;
+  /** Stop where this relative noise is reached; see `RenderOptions.noise` of the renderer. */
+  readonly noise?: number;
+  /** What is behind the model; `transparent` gives an alpha channel. Default: as on the screen. */
+  readonly background?: 'environment' | 'transparent';
+  /** Called after each sample, or group of samples. */
+  readonly onProgress?: (progress: ImageProgress) => void;
+  /** Ends the rendering. */
+  readonly signal?: AbortSignal;
+}
 
 /**
  * What `createViewer` may be told. All of it has a default; what is marked can be changed later by the viewer's

@@ -1,6 +1,6 @@
 import type { Camera } from '@glanz/scene';
 import { dot, subtract } from 'gl-matrix/esm/vec3.js';
-import type { Vector } from './orbit';
+import type { Vector } from './orbit-state';
 
 /** Where a point of the world falls on the picture. */
 export interface Projection {

@@ -1,32 +1,12 @@
+import type { BlobOptions } from './options';
 import type { PathTracer } from '@glanz/renderer';
 import { inSlices } from '@glanz/scene';
 import { toneMapPixels, type ToneMapOptions } from '@glanz/tonemap/tone-map';
 import type { checkedChoice, checkedSetting } from './checks';
 import type { Engine } from './engine';
 import { ViewerError } from './errors';
-import { imageProgress, renderImage, type ImageProgress } from './render-image';
+import { imageProgress, renderImage } from './render-image';
 import type { Viewer } from './viewer';
-
-/** Options of `Viewer.toBlob`. */
-export interface BlobOptions {
-  /** `image/png` (default), `image/jpeg`, `image/webp`, or `image/x-exr`: linear, as half floats. */
-  readonly type?: string;
-  /** 0..1, for types that lose something. */
-  readonly quality?: number;
-  /** Pixels, 1..65536. Default: the size on the screen; of one side alone, the other in the shape of the canvas. */
-  readonly width?: number;
-  readonly height?: number;
-  /** Samples per pixel. Default: the viewer's `samples` and `noise`; 65,536 at most where `noise` is given. */
-  readonly samples?: number;
-  /** Stop where this relative noise is reached; see `RenderOptions.noise` of the renderer. */
-  readonly noise?: number;
-  /** What is behind the model; `transparent` gives an alpha channel. Default: as on the screen. */
-  readonly background?: 'environment' | 'transparent';
-  /** Called after each sample, or group of samples. */
-  readonly onProgress?: (progress: ImageProgress) => void;
-  /** Ends the rendering. */
-  readonly signal?: AbortSignal;
-}
 
 /** Samples of an image that has a noise target alone. */
 const MOST_SAMPLES = 65_536;

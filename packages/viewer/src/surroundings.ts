@@ -2,7 +2,7 @@ import type { PathTracer } from '@glanz/renderer';
 import { createScene, inSlices, validationSteps, type Environment, type Scene } from '@glanz/scene';
 import { ViewerError } from './errors';
 import { loadEnvironment, type EnvironmentSource } from './load';
-import type { Vector } from './orbit';
+import type { Vector } from './orbit-state';
 
 interface Setting {
   readonly source: EnvironmentSource;

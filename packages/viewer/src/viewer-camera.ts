@@ -14,7 +14,8 @@ import { ViewerError } from './errors';
 import type { CameraChangeSource } from './events';
 import { fitCamera } from './fit-camera';
 import type { ViewerOptions } from './options';
-import { OrbitRig, type Orbit, type OrbitLimits, type Vector } from './orbit';
+import { OrbitRig } from './orbit';
+import type { Orbit, OrbitLimits, Vector } from './orbit-state';
 import { project, type Projection } from './project';
 import { ViewerSettings } from './viewer-settings';
 

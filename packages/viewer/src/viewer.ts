@@ -6,10 +6,9 @@ import { isAbort } from './errors';
 import type { LoadStage } from './events';
 import { fitCamera } from './fit-camera';
 import { loadModel, type ModelSource } from './load';
-import type { ViewerOptions } from './options';
 import { withEnvironment } from './surroundings';
 import type { linearColors, MaterialEdit } from './material-colors';
-import type { BlobOptions } from './save-image';
+import type { BlobOptions, ViewerOptions } from './options';
 import { plainScene } from './variants';
 import { ViewerCamera } from './viewer-camera';
 

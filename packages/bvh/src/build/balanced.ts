@@ -1,4 +1,4 @@
-import type { TriangleMesh } from '../blas';
+import type { TriangleMesh } from '../layout';
 import type { BuildSettings } from './builder';
 import { Scratch } from './scratch';
 import {

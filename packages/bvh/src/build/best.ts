@@ -1,5 +1,4 @@
-import type { TriangleMesh } from '../blas';
-import { BLAS_MAX_DEPTH } from '../layout';
+import { BLAS_MAX_DEPTH, type TriangleMesh } from '../layout';
 import type { BuildSettings, TreeBuilder } from './builder';
 import { draftOf, singleDraft, type DraftTree } from './draft';
 import { finishDraft } from './finish';

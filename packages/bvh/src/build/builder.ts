@@ -1,4 +1,4 @@
-import type { TriangleMesh } from '../blas';
+import type { TriangleMesh } from '../layout';
 import type { Steps, TriangleTree } from './steps';
 
 /** What a builder is told. */

@@ -1,5 +1,4 @@
-import type { TriangleMesh } from '../blas';
-import { BLAS_MAX_DEPTH, leafReference, LEFT, NODE_WORDS, putBox, RIGHT } from '../layout';
+import { BLAS_MAX_DEPTH, leafReference, LEFT, NODE_WORDS, putBox, RIGHT, type TriangleMesh } from '../layout';
 import type { BuildSettings, TreeBuilder } from './builder';
 import { cutCell } from './clusters';
 import { encloseNodes } from './levels';

@@ -1,6 +1,5 @@
 import { BvhError } from '../error';
-import type { TriangleMesh } from '../blas';
-import { putBox } from '../layout';
+import { putBox, type TriangleMesh } from '../layout';
 import type { Memory } from './scratch';
 
 /**

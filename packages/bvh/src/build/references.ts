@@ -1,4 +1,4 @@
-import type { TriangleMesh } from '../blas';
+import type { TriangleMesh } from '../layout';
 import { PAIR, type Primitives } from './primitives';
 import { part, STEP, type Steps } from './steps';
 

@@ -1,5 +1,13 @@
-import type { TriangleMesh } from '../blas';
-import { BLAS_MAX_DEPTH, LEAF, leafFirst, leafReference, NODE_WORDS, PARENT, RIGHT } from '../layout';
+import {
+  BLAS_MAX_DEPTH,
+  LEAF,
+  leafFirst,
+  leafReference,
+  NODE_WORDS,
+  PARENT,
+  RIGHT,
+  type TriangleMesh,
+} from '../layout';
 import { GROUP_MAX } from './agglomerate';
 import { cutClusters, type Clusters } from './clusters';
 import { Gatherer, type Sorted } from './gather';

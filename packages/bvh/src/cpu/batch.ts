@@ -1,4 +1,5 @@
-import type { Blas, TriangleMesh } from '../blas';
+import type { Blas } from '../blas';
+import type { TriangleMesh } from '../layout';
 import { BvhError } from '../error';
 import type { Tlas } from '../tlas';
 import { borrow, giveBack, type BlasMesh, type RayWalk } from './walk';

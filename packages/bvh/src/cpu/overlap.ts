@@ -1,16 +1,17 @@
-import type { Blas, TriangleMesh } from '../blas';
+import type { Blas } from '../blas';
 import { BvhError } from '../error';
 import {
   BVH_STACK_SIZE,
   FAR,
   LEAF,
-  LEFT,
-  LEFT_MIN,
   leafCount,
   leafFirst,
+  LEFT,
+  LEFT_MIN,
   NODE_WORDS,
   RIGHT,
   RIGHT_MIN,
+  type TriangleMesh,
 } from '../layout';
 import type { Tlas } from '../tlas';
 import { Once } from './once';

@@ -1,15 +1,16 @@
-import type { Blas, TriangleMesh } from '../blas';
+import type { Blas } from '../blas';
 import {
   BVH_STACK_SIZE,
   FAR,
   LEAF,
-  LEFT,
-  LEFT_MIN,
   leafCount,
   leafFirst,
+  LEFT,
+  LEFT_MIN,
   NODE_WORDS,
   RIGHT,
   RIGHT_MIN,
+  type TriangleMesh,
 } from '../layout';
 import type { Tlas } from '../tlas';
 import { intersectTriangle, prepareRay, RAY_NUMBERS } from './triangle';

@@ -1,6 +1,6 @@
-import { packTriangles, type Blas, type TriangleMesh } from '../blas';
+import { packTriangles, type Blas } from '../blas';
 import { BvhError } from '../error';
-import { TRIANGLE_WORDS } from '../layout';
+import { TRIANGLE_WORDS, type TriangleMesh } from '../layout';
 import type { Tlas } from '../tlas';
 import type { WideBlas, WideTlas } from '../wide/widen';
 import { stackSizeOf } from './stack-size';

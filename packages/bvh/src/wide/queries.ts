@@ -1,4 +1,4 @@
-import type { TriangleMesh } from '../blas';
+import type { TriangleMesh } from '../layout';
 import { intersectTriangle, prepareRay, RAY_NUMBERS } from '../cpu/triangle';
 import type { Hit, Ray } from '../cpu/queries';
 import { WIDE_NODE, WIDE_STACK_SIZE, WIDE_WORDS, WIDTH } from './layout';

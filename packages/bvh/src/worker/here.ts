@@ -1,5 +1,6 @@
 import { breathe } from '../async';
-import { blasSteps, type Blas, type BlasOptions, type TriangleMesh } from '../blas';
+import { blasSteps, type Blas, type BlasOptions } from '../blas';
+import type { TriangleMesh } from '../layout';
 
 /** Without workers the thread is handed back after so many milliseconds of building; a step more can follow. */
 const SLICE_MS = 6;

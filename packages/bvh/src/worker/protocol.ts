@@ -1,5 +1,6 @@
 import { GlanzError } from '@glanz/wgsl/error';
-import type { Blas, BlasOptions, TriangleMesh } from '../blas';
+import type { Blas, BlasOptions } from '../blas';
+import type { TriangleMesh } from '../layout';
 import type { TreeBuilder } from '../build/builder';
 import { BvhError } from '../error';
 import type { TeamMemory } from './team';

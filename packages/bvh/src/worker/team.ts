@@ -1,4 +1,4 @@
-import type { TriangleMesh } from '../blas';
+import type { TriangleMesh } from '../layout';
 import { BvhError } from '../error';
 import type { Copy } from './copy';
 

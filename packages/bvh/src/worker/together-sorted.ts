@@ -1,4 +1,4 @@
-import type { TriangleMesh } from '../blas';
+import type { TriangleMesh } from '../layout';
 import { Gatherer, type Sorted } from '../build/gather';
 import { MortonSort } from '../build/morton';
 import { PrimitiveMaker } from '../build/primitives';

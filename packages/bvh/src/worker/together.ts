@@ -1,10 +1,9 @@
-import type { TriangleMesh } from '../blas';
 import { buildBalanced } from '../build/balanced';
 import type { BuildSettings } from '../build/builder';
 import { CLUSTER_DEPTH } from '../build/insides';
 import { encloseNodes, Levels } from '../build/levels';
 import { crown, STEP, type Steps, type TriangleTree } from '../build/steps';
-import { BLAS_MAX_DEPTH } from '../layout';
+import { BLAS_MAX_DEPTH, type TriangleMesh } from '../layout';
 import type { Team } from './team';
 import { placeInsides, shareInsides, writerOver } from './together-insides';
 import { sharePrimitives, shareSorting } from './together-sorted';

@@ -1,4 +1,5 @@
-import { buildBlas, type BlasOptions, type TriangleMesh } from '../blas';
+import { buildBlas, type BlasOptions } from '../blas';
+import type { TriangleMesh } from '../layout';
 import { best, bestSplit } from '../build/best';
 import type { BuildSettings } from '../build/builder';
 import { fast } from '../build/fast';

@@ -1,4 +1,5 @@
-import type { Blas, TriangleMesh } from '../blas';
+import type { Blas } from '../blas';
+import type { TriangleMesh } from '../layout';
 import { BvhError } from '../error';
 import { copyAll, roomFor, type Copy } from './copy';
 import { BuildsHere, type Job } from './here';

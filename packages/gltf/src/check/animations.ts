@@ -1,5 +1,6 @@
 import { pointerPath } from '../animation-pointer';
-import { isObject, own, quote, type CheckContext, type Raw } from './context';
+import type { CheckContext } from './context';
+import { isObject, own, quote, type Raw } from '../json-value';
 import type { AccessorFacts } from './data';
 
 /** What a channel may move, and the type of its values. */

@@ -1,5 +1,6 @@
 import { dataUri } from '../uri';
-import { own, quote, type CheckContext, type Raw } from './context';
+import type { CheckContext } from './context';
+import { own, quote, type Raw } from '../json-value';
 
 const MAX = Number.MAX_SAFE_INTEGER;
 

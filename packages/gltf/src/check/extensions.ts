@@ -1,4 +1,5 @@
-import { isObject, own, quote, type CheckContext, type Raw } from './context';
+import type { CheckContext } from './context';
+import { isObject, own, quote, type Raw } from '../json-value';
 
 /** Lists whose entries may have extensions. Materials are scanned deeper. */
 const LISTS = [

@@ -1,4 +1,5 @@
-import { isObject, own, quote, type CheckContext, type Raw } from './context';
+import type { CheckContext } from './context';
+import { isObject, own, quote, type Raw } from '../json-value';
 
 /**
  * Lights of EXT_lights_image_based in order, undefined in place of one that makes no sense; undefined if there are

@@ -7,7 +7,8 @@
 import type { SceneWarning } from '@glanz/scene';
 import type { GltfJson } from '../json';
 import { repairAnimations } from './animations';
-import { CheckContext, isObject, own, quote, type Raw } from './context';
+import { CheckContext } from './context';
+import { isObject, own, quote, type Raw } from '../json-value';
 import { checkAccessors, checkBuffers, checkSparseIndices } from './data';
 import { extensionsUsed } from './extensions';
 import { repairImageLights } from './image-lights';

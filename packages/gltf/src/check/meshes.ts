@@ -1,4 +1,5 @@
-import { isObject, own, quote, type CheckContext, type Raw } from './context';
+import type { CheckContext } from './context';
+import { isObject, own, quote, type Raw } from '../json-value';
 import type { AccessorFacts } from './data';
 
 /** Attributes that are read, with the types they may have. Others may hold anything. */

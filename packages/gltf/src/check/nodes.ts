@@ -1,4 +1,5 @@
-import { own, quote, type CheckContext, type Raw } from './context';
+import type { CheckContext } from './context';
+import { own, quote, type Raw } from '../json-value';
 import type { AccessorFacts } from './data';
 
 const TRANSFORMS = [

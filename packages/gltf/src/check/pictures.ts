@@ -1,5 +1,6 @@
 import { dataUri } from '../uri';
-import { isObject, own, quote, type CheckContext, type Raw } from './context';
+import type { CheckContext } from './context';
+import { isObject, own, quote, type Raw } from '../json-value';
 
 const IMAGE_TYPE = /^image\/(png|jpeg|webp|avif|ktx2)$/;
 

@@ -1,5 +1,6 @@
-import type { MATERIAL_EXTENSIONS } from '../materials';
-import { isObject, own, quote, type CheckContext, type Raw } from './context';
+import type { MATERIAL_EXTENSIONS } from '../json';
+import type { CheckContext } from './context';
+import { isObject, own, quote, type Raw } from '../json-value';
 
 /** The largest number that single precision holds: shaders know no larger one. */
 const LARGEST = 3.4e38;

@@ -1,4 +1,5 @@
-import { isObject, own, quote, type CheckContext, type Raw } from './context';
+import type { CheckContext } from './context';
+import { isObject, own, quote, type Raw } from '../json-value';
 
 /** The names of KHR_materials_variants; undefined if there are none. */
 export function repairVariants(context: CheckContext): readonly { readonly name: string }[] | undefined {

@@ -4,7 +4,7 @@ import type { LoadGltfOptions } from '../load';
 import type { GltfInput } from '../source';
 import { received, type LoadReply, type LoadRequest, type SentOptions } from './protocol';
 
-export { DracoWorkers, type DracoWorkersOptions } from './draco-workers';
+export { DracoWorkers, type DracoWorkersOptions } from '../draco-workers';
 export { received as receivedScene, type SentScene } from './protocol';
 
 /** What a load in a worker may be told. */

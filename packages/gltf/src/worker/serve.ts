@@ -2,7 +2,7 @@ import { GlanzError, type Scene } from '@glanz/scene';
 import type { GltfDecoders } from '../document';
 import { unpackDraco, type DracoPrimitive } from '../draco';
 import { loadGltf, type LoadGltfOptions } from '../load';
-import { DracoWorkers, type DracoReply, type DracoRequest } from './draco-workers';
+import { DracoWorkers, type DracoReply, type DracoRequest } from '../draco-workers';
 import { buffersOf, sendable, type LoadReply, type LoadRequest } from './protocol';
 
 /** What a worker of your own adds to a load: things that cannot be sent. */

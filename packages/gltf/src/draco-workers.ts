@@ -1,4 +1,4 @@
-import type { DracoAttribute, DracoPrimitive } from '../draco';
+import type { DracoAttribute, DracoPrimitive } from './draco';
 
 /** To a helper: one mesh to unpack. */
 export interface DracoRequest {

@@ -1,0 +1,26 @@
+/** Three numbers in the world, metres. */
+export type Vector = readonly [number, number, number];
+
+/** Where a camera stands around a point, +Y up. */
+export interface Orbit {
+  /** Azimuth around the target, radians: 0 looks from +Z, π/2 from +X. */
+  readonly theta: number;
+  /** Angle from straight above, radians, in (0, π): π/2 is level with the target. */
+  readonly phi: number;
+  /** Metres from the target. */
+  readonly radius: number;
+  /** What the camera turns about and looks at, metres. */
+  readonly target: Vector;
+  /** Magnification of a parallel projection over that of its camera; `undefined` for others. */
+  readonly zoom?: number | undefined;
+}
+
+/** How far hands and calls may move the camera: least and most of each. What is left out is free. */
+export interface OrbitLimits {
+  /** Radians. */
+  readonly theta?: readonly [number, number];
+  /** Radians from straight above. */
+  readonly phi?: readonly [number, number];
+  /** Metres. */
+  readonly radius?: readonly [number, number];
+}
