@@ -6,7 +6,7 @@ import type { checkedChoice, checkedSetting } from './checks';
 import type { Engine } from './engine';
 import { ViewerError } from './errors';
 import { imageProgress, renderImage } from './render-image';
-import type { Viewer } from './viewer';
+import type { ViewerCamera } from './viewer-camera';
 
 /** Samples of an image that has a noise target alone. */
 const MOST_SAMPLES = 65_536;
@@ -30,7 +30,7 @@ interface Wanted {
 }
 
 /** @throws {ViewerError} `viewer/option` */
-function checked(viewer: Viewer, options: BlobOptions, checks: Checks): Wanted {
+function checked(viewer: ViewerCamera, options: BlobOptions, checks: Checks): Wanted {
   const { width, height, samples, noise, background } = options;
   const { checkedChoice, checkedSetting } = checks;
   for (const [name, value] of [
@@ -67,7 +67,7 @@ function checked(viewer: Viewer, options: BlobOptions, checks: Checks): Wanted {
  * separately.
  */
 async function screenImage(
-  viewer: Viewer,
+  viewer: ViewerCamera,
   engine: Engine,
   wanted: Wanted,
   { onProgress }: BlobOptions,
@@ -195,7 +195,12 @@ async function fileOf(
 }
 
 /** See `Viewer.toBlob`. */
-export async function imageBlob(viewer: Viewer, engine: Engine, options: BlobOptions, checks: Checks): Promise<Blob> {
+export async function imageBlob(
+  viewer: ViewerCamera,
+  engine: Engine,
+  options: BlobOptions,
+  checks: Checks,
+): Promise<Blob> {
   const wanted = checked(viewer, options, checks);
   const ended = new AbortController();
   const stop = viewer.on('state', ({ state }) => {

@@ -57,13 +57,7 @@ export async function tracerCampaign({
   onOutcome,
 }: TracerCampaign): Promise<void> {
   const recorder = new FaultRecorder();
-  // Kept for good: Dawn for Node has crashed on devices that were collected, or destroyed while they compiled.
-  const opened: GPUDevice[] = [];
-  const device = async () => {
-    const made = instrumentDevice(await open(), recorder);
-    opened.push(made);
-    return made;
-  };
+  const device = async () => instrumentDevice(await open(), recorder);
   const rejections: unknown[] = [];
   const listen = (reason: unknown) => void rejections.push(reason);
   process.on('unhandledRejection', listen);
