@@ -1,92 +1,70 @@
 import type { Scene } from '@glanz/scene';
 import { DeviceError, RenderError } from './errors';
 import type { PathTracerOptions, RenderOptions } from './options';
+import {
+  MAX_ADAPTIVE_SAMPLES,
+  optionFault,
+  RENDER_OPTIONS,
+  type RenderOptionName,
+  type RenderSettings,
+} from './render-options';
 import { hasInterior } from './materials/interiors';
 
-/** Default of `RenderOptions.maxSubmitMs`: a frame at 60 Hz. */
-export const DEFAULT_SUBMIT_MS = 16;
-
-/** Paths count edges and scattering events in 16 bits each. */
-const MOST_EVENTS = 0xffff;
 /** An interior's place in a path's stack has 15 bits, and 0 stands for none. */
-const MOST_INTERIORS = 0x7fff;
+const MAX_INTERIORS = 0x7fff;
+
+type Defaulted = {
+  [Name in RenderOptionName]: (typeof RENDER_OPTIONS)[Name] extends { readonly default: {} } ? Name : never;
+}[RenderOptionName];
+
+/** Validated settings; options without a default may be absent. */
+export type ResolvedSettings = Omit<RenderSettings, Defaulted> & Required<Pick<RenderSettings, Defaulted>>;
+
+/** The options of a path tracer, validated, with their defaults. */
+export type TracerSettings = PathTracerOptions & ResolvedSettings;
+
+/** @throws {RenderError} `renderer/option`, `renderer/samples`, `renderer/filter` */
+function check(name: RenderOptionName, value: unknown): void {
+  const fault = optionFault(name, value);
+  if (fault === undefined) return;
+  const goal = name === 'samples' || name === 'noise' || name === 'maxSubmitMs';
+  throw new RenderError(goal ? 'renderer/samples' : name === 'filter' ? 'renderer/filter' : 'renderer/option', fault);
+}
 
 /**
- * The samples that are asked for.
+ * Validates options by their table and adds the defaults of those that are missing.
+ * @throws {RenderError} `renderer/option`, `renderer/samples`, `renderer/filter`
+ */
+export function resolveOptions<T extends RenderSettings>(options: T): T & ResolvedSettings {
+  const resolved: Record<string, unknown> = { ...options };
+  for (const [name, row] of Object.entries(RENDER_OPTIONS)) {
+    const value = options[name as RenderOptionName];
+    if (value !== undefined) check(name as RenderOptionName, value);
+    else if ('default' in row) resolved[name] = row.default;
+  }
+  return resolved as T & ResolvedSettings;
+}
+
+/**
+ * The goal of a `render()`, with its defaults.
  * @throws {RenderError} `renderer/samples`
  */
-export function checkedSamples({
-  noise,
-  samples = noise === undefined ? 64 : 65536,
-  maxSubmitMs = DEFAULT_SUBMIT_MS,
-}: RenderOptions): number {
-  if (!(maxSubmitMs > 0)) throw new RenderError('renderer/samples', `maxSubmitMs must be above 0, not ${maxSubmitMs}.`);
-  if (!Number.isInteger(samples) || samples < 1)
-    throw new RenderError(
-      'renderer/samples',
-      `The number of samples must be a whole number of at least 1, not ${samples}.`,
-    );
-  if (noise !== undefined && !(noise > 0))
-    throw new RenderError('renderer/samples', `The noise to reach must be above 0, not ${noise}.`);
-  return samples;
-}
-
-/** The values that an option with a choice of them can have, the default first. */
-export const CHOICES: { readonly [Name in keyof PathTracerOptions]?: readonly PathTracerOptions[Name][] } = {
-  background: ['environment', 'transparent'],
-  lightGroups: ['off', 'named', 'each'],
-  sampler: ['blue-noise', 'sobol', 'independent'],
-  lightSampling: ['tree', 'power'],
-  shadowTerminator: ['smooth', 'faceted'],
-  backFaceCulling: ['off', 'camera', 'all'],
-};
-
-/**
- * Checks the choices among the options, and those that are plain numbers.
- * @throws {RenderError} `renderer/option`
- */
-export function checkOptions(options: Partial<PathTracerOptions>): void {
-  for (const [name, choices] of Object.entries(CHOICES)) {
-    const value = options[name as keyof PathTracerOptions];
-    if (value === undefined || (choices as readonly unknown[]).includes(value)) continue;
-    throw new RenderError(
-      'renderer/option',
-      `${name} must be one of ${choices.map((choice) => `"${String(choice)}"`).join(', ')}, not ${JSON.stringify(value)}.`,
-    );
-  }
-  const { seed = 0, textureLodBias = 0, pathsInFlight = 1 } = options;
-  for (const [name, value] of Object.entries({ seed, textureLodBias })) {
-    if (!Number.isFinite(value)) throw new RenderError('renderer/option', `${name} must be finite, not ${value}.`);
-  }
-  if (!(pathsInFlight >= 1))
-    throw new RenderError('renderer/option', `pathsInFlight must be at least 1, not ${pathsInFlight}.`);
-}
-
-/** @throws {RenderError} `renderer/option` */
-export function checkDepth(maxDepth: number): void {
-  if (!Number.isInteger(maxDepth) || maxDepth < 1 || maxDepth > MOST_EVENTS)
-    throw new RenderError(
-      'renderer/option',
-      `maxDepth must be a whole number of at least 1 and at most ${MOST_EVENTS}, not ${maxDepth}.`,
-    );
-}
-
-/** @throws {RenderError} `renderer/option` */
-export function checkVolumeDepth(maxVolumeDepth: number): void {
-  if (!Number.isInteger(maxVolumeDepth) || maxVolumeDepth < 0 || maxVolumeDepth > MOST_EVENTS)
-    throw new RenderError(
-      'renderer/option',
-      `maxVolumeDepth must be a whole number of at most ${MOST_EVENTS}, not ${maxVolumeDepth}.`,
-    );
+export function renderGoal(options: RenderOptions): Required<Pick<ResolvedSettings, 'samples' | 'maxSubmitMs'>> & {
+  readonly noise: number | undefined;
+} {
+  const { samples, noise, maxSubmitMs } = resolveOptions(options);
+  return noise
+    ? { samples: options.samples ?? MAX_ADAPTIVE_SAMPLES, noise, maxSubmitMs }
+    : { samples, noise: undefined, maxSubmitMs };
 }
 
 /** @throws {DeviceError} `renderer/limit` where a path has too few bits to say in which of the materials it is. */
 export function checkInteriors({ materials }: Scene): void {
   const last = materials.findLastIndex(hasInterior);
-  if (last >= MOST_INTERIORS)
+  if (last >= MAX_INTERIORS)
     throw new DeviceError(
       'renderer/limit',
-      `Material ${last} ("${materials[last]?.name}") lets light into its inside; only the first ${MOST_INTERIORS} materials of a scene may: move it up, or give it geometry_thin_walled.`,
+      `Material ${last} ("${materials[last]?.name}") lets light into its inside; only the first ${MAX_INTERIORS} materials of a scene may: move it up, or give it geometry_thin_walled.`,
     );
 }
 

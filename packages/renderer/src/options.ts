@@ -3,24 +3,30 @@ import type { HierarchyBuilder } from './geometry/hierarchies';
 
 export type { HierarchyBuilder };
 
-/** What {@link PathTracer.create} may be told. */
+/**
+ * Options for {@link PathTracer.create}. Ranges and defaults are in `RENDER_OPTIONS` of `@glanz/renderer/options`; a value
+ * outside of its range throws.
+ */
 export interface PathTracerOptions {
   /** Film size in pixels, at least 1 × 1. */
   readonly width: number;
   readonly height: number;
   /**
-   * Most edges of a path from the camera to a light: 1 shows emitters only, 2 adds direct light, … Default 8. Crossing
-   * a surface that is not fully there (opacity) does not count, nor does one without a change of the index of
-   * refraction, nor going straight through a smooth thin wall.
+   * Maximum number of edges of a path from the camera to a light, 1 to 65,535: 1 shows only emitters, 2 adds direct
+   * light, … Default 8. These crossings do not count: of a surface that is partly transparent by opacity, of one without
+   * a change of the index of refraction, and straight through a smooth thin wall.
    */
   readonly maxDepth?: number;
   /**
-   * Most scattering events of a path inside of media (subsurface, milky glass); default 256. What has been scattered as
-   * often as that goes straight on to the surface. At most 65,535. In media without an optical surface, such as fog,
+   * Maximum number of scattering events of a path inside of media (subsurface, milky glass), 0 to 65,535; default 256.
+   * After the last one the path continues straight to the surface. In media without an optical surface, such as fog,
    * they count as edges too.
    */
   readonly maxVolumeDepth?: number;
-  /** Names the random numbers; the same seed gives the same picture on the same device. Default 0. */
+  /**
+   * Selects the random numbers, a whole number from 0 to 4,294,967,295: the same seed gives the same image on the same
+   * device. Default 0.
+   */
   readonly seed?: number;
   /** A camera, or index or name of one of the scene's. Default: the scene's first, or one that frames the scene. */
   readonly camera?: Camera | number | string;
@@ -41,8 +47,8 @@ export interface PathTracerOptions {
    */
   readonly lightGroups?: LightGroupMode;
   /**
-   * Biased: no contribution of light that took two bounces or more may be brighter than this in any colour. Takes
-   * fireflies away and energy with them. Default off; above 0. Try regularization first.
+   * Biased: clamps each contribution of light that took two bounces or more to this radiance, in each channel. Removes
+   * fireflies, and energy with them. Above 0 and at most 1e30; default off. Try regularization first.
    */
   readonly clampIndirect?: number;
   /**
@@ -55,7 +61,7 @@ export interface PathTracerOptions {
    * true.
    */
   readonly caustics?: boolean;
-  /** Most bounces of each kind, besides `maxDepth`. What is not given is not limited. */
+  /** Biased: maximum number of bounces of each kind, besides `maxDepth`. What is not given is not limited. */
   readonly maxBounces?: BounceLimits;
   /**
    * Compensate the energy that single-scattering microfacet models lose. Default true; false is for tests against such
@@ -95,7 +101,7 @@ export interface PathTracerOptions {
    */
   readonly backFaceCulling?: BackFaceCulling;
   /**
-   * Added to texture levels of detail. Default −1: a texel is half a pixel wide or finer; the pixel filter does the
+   * Added to texture levels of detail, −32 to 32. Default −1: a texel is half a pixel wide or finer; the pixel filter does the
    * rest.
    */
   readonly textureLodBias?: number;
@@ -173,14 +179,17 @@ export interface PrepareProgress {
   readonly done: number;
 }
 
-/** What {@link PathTracer.render} may be told. */
+/** Options for {@link PathTracer.render}. */
 export interface RenderOptions {
-  /** Samples per pixel to reach in all, counting those already there. Default 64, with `noise` 65,536. */
+  /**
+   * Samples per pixel to reach in all, counting those already there; at most 16,777,216. Default 256, with `noise`
+   * 65,536.
+   */
   readonly samples?: number;
   /**
    * Adaptive: samples only where there is noise, until it is everywhere at most this: the standard error of a tile of 8
    * × 8 pixels relative to its brightness (root mean square; a hundredth of the picture's mean square is added for dark
-   * tiles). 0.05 is a good preview, 0.01 hardly to be seen. Above 0. Noise is looked at after 64, 96, 128, 192, …
+   * tiles). 0.05 is a good preview, 0.01 is hardly visible. 0: no target. Noise is looked at after 64, 96, 128, 192, …
    * samples, so the result does not depend on the machine's speed. The choice of when to stop is made by looking at the
    * same samples, which biases pixels towards where they look calm, by less than the noise that is left; leave it out
    * for references.
@@ -188,8 +197,8 @@ export interface RenderOptions {
   readonly noise?: number;
   readonly signal?: AbortSignal;
   /**
-   * Milliseconds of GPU time that one submission should take at most. Default 16, one frame at 60 Hz: a page stays
-   * responsive, and no watchdog fires.
+   * Milliseconds of GPU time that one submission should take at most, 0.1 to 10,000. Default 16, one frame at 60 Hz: a
+   * page stays responsive, and no watchdog fires.
    */
   readonly maxSubmitMs?: number;
 }

@@ -11,7 +11,7 @@ import type { GpuScene } from './scene/gpu-scene';
 import { memoryReport } from './session/memory-report';
 import { readBuffer } from './storage/read-buffer';
 import type { Integrator } from './integrator/integrator';
-import { checkDepth, checkOptions, checkSize } from './option-checks';
+import { checkSize, resolveOptions, type TracerSettings } from './option-checks';
 import type {
   FilmLayer,
   LightGroup,
@@ -48,7 +48,7 @@ export class PathTracer extends TracerEdits {
   readonly #edits: EditSession;
   readonly #times: Prepared['times'];
   readonly #ignoreLoss: () => void;
-  #options: PathTracerOptions;
+  #options: TracerSettings;
   #camera: Camera;
   /** What the kernels in use can show; the camera above, but for the time that its kernels take. */
   #shownCamera: Camera;
@@ -313,8 +313,7 @@ export class PathTracer extends TracerEdits {
    */
   setDepth(maxDepth: number): void {
     this.#check();
-    checkDepth(maxDepth);
-    this.#options = { ...this.#options, maxDepth };
+    this.#options = resolveOptions({ ...this.#options, maxDepth });
     this.#integrator.limits = { ...this.#integrator.limits, maxDepth };
     this.reset();
   }
@@ -322,8 +321,7 @@ export class PathTracer extends TracerEdits {
   /** Shows the surroundings behind the scene, or leaves the background empty. Restarts the film. */
   setBackground(background: NonNullable<PathTracerOptions['background']>): void {
     this.#check();
-    checkOptions({ background });
-    this.#options = { ...this.#options, background };
+    this.#options = resolveOptions({ ...this.#options, background });
     this.reset();
   }
 
@@ -352,7 +350,7 @@ export class PathTracer extends TracerEdits {
       this.height,
       x,
       y,
-      (this.#options.backFaceCulling ?? 'off') !== 'off' ? (material) => this.#gpuScene.culls(material) : undefined,
+      this.#options.backFaceCulling !== 'off' ? (material) => this.#gpuScene.culls(material) : undefined,
     );
   }
 

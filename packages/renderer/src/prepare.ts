@@ -19,7 +19,8 @@ import { GpuScene } from './scene/gpu-scene';
 import { KernelCache } from './integrator/kernel-cache';
 import { Integrator } from './integrator/integrator';
 import type { Kernel, KernelFeatures, KernelName } from './integrator/pipelines';
-import { checkDepth, checkInteriors, checkOptions, checkSize, checkVolumeDepth } from './option-checks';
+import { biasedFlags } from './biased-options';
+import { checkInteriors, checkSize, resolveOptions, type TracerSettings } from './option-checks';
 import type { PathTracerOptions, RenderStatistics } from './options';
 import { cameraUniforms } from './camera/camera';
 import { cameraSteps } from './camera/choose-camera';
@@ -30,7 +31,6 @@ import { lightGroupTable } from './lights/light-groups';
 import { lightSteps } from './lights/lights';
 import { isShown } from './geometry/placement';
 import { ownScene, SceneEditor } from './scene/scene-editor';
-import { checkShortcuts, shortcutFlags } from './shortcuts';
 import { viewFlags } from './camera/view';
 
 /** What `PathTracer.create` has put together. */
@@ -43,21 +43,18 @@ export interface Prepared {
   readonly integrator: Integrator;
   readonly film: Film;
   readonly camera: Camera;
-  readonly options: PathTracerOptions;
+  readonly options: TracerSettings;
   /** Times of the preparation. */
   readonly times: Pick<RenderStatistics, 'checkMs' | 'textMs' | 'bvhMs' | 'uploadMs' | 'lightMs' | 'compileMs'>;
 }
 
 /** Builds, uploads and compiles what a tracer needs, see `PathTracer.create`. */
-export async function prepareTracer(device: GPUDevice, scene: Scene, options: PathTracerOptions): Promise<Prepared> {
+export async function prepareTracer(device: GPUDevice, scene: Scene, given: PathTracerOptions): Promise<Prepared> {
   const begun = performance.now();
   // A device that is lost says yes to everything: whether it was is looked at in the end.
   lossInfo(device);
-  checkSize(options.width, options.height);
-  checkOptions(options);
-  checkShortcuts(options);
-  checkDepth(options.maxDepth ?? 8);
-  checkVolumeDepth(options.maxVolumeDepth ?? 256);
+  checkSize(given.width, given.height);
+  const options = resolveOptions(given);
   // Each of the next goes through all vertices or pixels: the thread is handed back in between.
   await breathe();
   const { hierarchies, signal, onProgress, onFirstLight } = options;
@@ -70,14 +67,7 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
   // meanwhile.
   const loading = import('@glanz/openpbr/tables');
   loading.catch(() => {});
-  const choices: SceneChoices = {
-    multipleScattering: options.multipleScattering ?? true,
-    sampler: options.sampler ?? 'blue-noise',
-    lightGroups: options.lightGroups ?? 'named',
-    lightSampling: options.lightSampling ?? 'tree',
-    shadowTerminator: options.shadowTerminator ?? 'smooth',
-    backFaceCulling: options.backFaceCulling ?? 'off',
-  };
+  const choices: SceneChoices = options;
   const camera = await inSlices(cameraSteps(own, options.camera, options.width / options.height), { signal }).catch(
     (cause: unknown) => {
       // What cannot be framed cannot be rendered, and that is what was asked for.
@@ -167,8 +157,8 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, options: Pa
       'the paths',
       () =>
         new Integrator(device, memory, gpuScene, features, film, options.pathsInFlight, {
-          maxDepth: options.maxDepth ?? 8,
-          maxVolumeDepth: options.maxVolumeDepth ?? 256,
+          maxDepth: options.maxDepth,
+          maxVolumeDepth: options.maxVolumeDepth,
         }),
     );
     const rehearsals: Promise<void>[] = [];
@@ -240,6 +230,6 @@ class CompileClock {
 }
 
 /** What decides the kernels' text: the scene's features, the camera and the options. */
-export function kernelFeatures(features: KernelFeatures, camera: Camera, options: PathTracerOptions): KernelFeatures {
-  return { ...features, flags: { ...features.flags, ...viewFlags(camera, options.filter), ...shortcutFlags(options) } };
+export function kernelFeatures(features: KernelFeatures, camera: Camera, options: TracerSettings): KernelFeatures {
+  return { ...features, flags: { ...features.flags, ...viewFlags(camera, options.filter), ...biasedFlags(options) } };
 }

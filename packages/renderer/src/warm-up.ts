@@ -2,7 +2,7 @@ import { createScene, type Mesh, type Scene } from '@glanz/scene';
 import type { PathTracerOptions } from './options';
 import { PathTracer } from './path-tracer';
 
-/** What {@link warmUp} may be told: the options that tracers will be made with, as far as they are known. */
+/** Options for {@link warmUp}: those that later tracers will be created with, as far as they are known. */
 export type WarmUpOptions = Omit<
   Partial<PathTracerOptions>,
   'width' | 'height' | 'camera' | 'pathsInFlight' | 'onProgress' | 'onFirstLight'

@@ -1,34 +1,20 @@
 import type { Camera } from '@glanz/scene';
-import { RenderError } from '../errors';
 import type { PixelFilter } from '../options';
+import { RENDER_OPTIONS } from '../render-options';
 
-/** Radii in pixels that the filters have when none is given. */
-const RADII = { box: 0.5, gaussian: 1.5, 'blackman-harris': 1.5 } as const;
+const RADII = RENDER_OPTIONS.filter.radii;
 
-/**
- * A pixel filter with its radius.
- * @throws {RenderError} `renderer/filter` for an unknown filter or a radius out of range.
- */
-export function resolveFilter(filter: PixelFilter = 'box'): {
+/** A pixel filter with its radius. @param filter Validated. */
+export function resolveFilter(filter: PixelFilter): {
   readonly type: keyof typeof RADII;
   readonly radius: number;
 } {
   const { type, radius } = { radius: undefined, ...(typeof filter === 'string' ? { type: filter } : filter) };
-  if (!Object.hasOwn(RADII, type))
-    throw new RenderError(
-      'renderer/filter',
-      `There is no pixel filter ${JSON.stringify(type)}; known: ${Object.keys(RADII).join(', ')}.`,
-    );
-  if (radius !== undefined && !(radius > 0 && radius <= 16))
-    throw new RenderError(
-      'renderer/filter',
-      `A pixel filter's radius must be above 0 and at most 16 pixels, not ${radius}.`,
-    );
   return { type, radius: radius ?? RADII[type] };
 }
 
 /** What the camera and the filter say about the text of the kernels that start paths. */
-export function viewFlags(camera: Camera, filter: PixelFilter | undefined): Readonly<Record<string, boolean>> {
+export function viewFlags(camera: Camera, filter: PixelFilter): Readonly<Record<string, boolean>> {
   const { type, radius } = resolveFilter(filter);
   const lens = camera.type === 'perspective' && (camera.lens_radius ?? 0) > 0;
   return {

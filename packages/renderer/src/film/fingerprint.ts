@@ -1,6 +1,6 @@
 import type { Camera, Scene } from '@glanz/scene';
-import { CHOICES } from '../option-checks';
-import type { PathTracerOptions } from '../options';
+import type { TracerSettings } from '../option-checks';
+import { RENDER_OPTIONS, type RenderOptionName } from '../render-options';
 
 /** Words of a large array that are hashed, spread evenly over it. */
 const PROBES = 256;
@@ -41,35 +41,18 @@ class Hash {
   }
 }
 
-/**
- * Options that decide the value of a sample, with their defaults; the others decide when and where samples are taken.
- */
-const DEFAULTS: { readonly [Name in keyof PathTracerOptions]?: PathTracerOptions[Name] | null } = {
-  seed: 0,
-  maxDepth: 8,
-  maxVolumeDepth: 256,
-  filter: 'box',
-  clampIndirect: null,
-  regularization: 0,
-  caustics: true,
-  maxBounces: null,
-  multipleScattering: true,
-  textureLodBias: -1,
-};
-
-function samplingOptions(options: PathTracerOptions): unknown[] {
-  const choices = Object.entries(CHOICES).map(([name, [first]]) => [name, first] as const);
-  return [...Object.entries(DEFAULTS), ...choices].map(
-    ([name, initial]) => options[name as keyof PathTracerOptions] ?? initial,
+/** The options that decide the value of a sample; the others decide when and where samples are taken. */
+const samplingOptions = (options: TracerSettings): unknown[] =>
+  Object.entries(RENDER_OPTIONS).flatMap(([name, { effect }]) =>
+    effect === 'schedule' ? [] : [options[name as RenderOptionName] ?? null],
   );
-}
 
 /**
  * A hash over what the samples of a film depend on: the options, the camera and the scene (of vertices, texels and
  * pixels only {@link PROBES} of an array are read). Two films with different values must not be continued in each
  * other's place. 64 bits against mistakes, not against malice.
  */
-export function filmFingerprint(scene: Scene, camera: Camera, options: PathTracerOptions): string {
+export function filmFingerprint(scene: Scene, camera: Camera, options: TracerSettings): string {
   const hash = new Hash();
   hash.text(JSON.stringify(samplingOptions(options)));
   hash.text(JSON.stringify({ ...camera, name: '', transform: [] }));

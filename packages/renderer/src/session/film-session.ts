@@ -6,7 +6,7 @@ import type { KernelCache } from '../integrator/kernel-cache';
 import { readBuffer, readFloats } from '../storage/read-buffer';
 import type { Integrator } from '../integrator/integrator';
 import type { KernelName } from '../integrator/pipelines';
-import { checkedSamples, DEFAULT_SUBMIT_MS } from '../option-checks';
+import { renderGoal } from '../option-checks';
 import type { FilmLayer, LightGroup, RenderOptions, RenderProgress } from '../options';
 import { Sampling, type SamplingState } from '../schedule/sampling';
 import { FeatureLayers } from './feature-layers';
@@ -128,7 +128,7 @@ export class FilmSession {
 
   /** See `PathTracer.render`. */
   async *render(options: RenderOptions): AsyncGenerator<RenderProgress, void, undefined> {
-    const samples = checkedSamples(options);
+    const { samples, noise, maxSubmitMs } = renderGoal(options);
     if (this.#rendering)
       throw new RenderError(
         'renderer/busy',
@@ -141,8 +141,8 @@ export class FilmSession {
       const sampling = (this.#sampling ??= this.#newSampling());
       yield* sampling.render({
         samples,
-        noise: options.noise,
-        budgetMs: options.maxSubmitMs ?? DEFAULT_SUBMIT_MS,
+        noise,
+        budgetMs: maxSubmitMs,
         current: () => generation === this.#generation && !options.signal?.aborted,
       });
     } finally {

@@ -13,7 +13,8 @@ import type { GpuScene } from '../scene/gpu-scene';
 import type { KernelCache } from '../integrator/kernel-cache';
 import { batchStruct } from '../storage/layout';
 import type { Kernel, KernelFeatures } from '../integrator/pipelines';
-import type { FirstLight, PathTracerOptions } from '../options';
+import type { TracerSettings } from '../option-checks';
+import type { FirstLight } from '../options';
 import type { Geometry } from '../geometry/geometry';
 
 /** What {@link showFirstLight} shows. */
@@ -24,7 +25,7 @@ export interface FirstLightSource {
   readonly camera: Camera;
   readonly cache: KernelCache;
   readonly features: KernelFeatures;
-  readonly options: PathTracerOptions;
+  readonly options: TracerSettings;
 }
 
 /**

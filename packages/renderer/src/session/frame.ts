@@ -3,8 +3,8 @@ import { cameraUniforms } from '../camera/camera';
 import type { Film } from '../film/film';
 import type { GpuScene } from '../scene/gpu-scene';
 import { BACKGROUND_HIDDEN, BACKGROUND_TRANSPARENT, frameStruct } from '../storage/layout';
-import type { PathTracerOptions } from '../options';
-import { shortcutUniforms } from '../shortcuts';
+import { biasedUniforms } from '../biased-options';
+import type { TracerSettings } from '../option-checks';
 import { resolveFilter } from '../camera/view';
 import type { Geometry } from '../geometry/geometry';
 
@@ -14,7 +14,7 @@ export function packFrame(
   film: Pick<Film, 'width' | 'height'>,
   scene: GpuScene,
   geometry: Geometry,
-  options: PathTracerOptions,
+  options: TracerSettings,
 ): ArrayBuffer {
   const data = frameStruct.allocate();
   const { environment } = scene;
@@ -22,9 +22,9 @@ export function packFrame(
   frameStruct.write(data, 0, {
     ...cameraUniforms(camera, film.width, film.height),
     size: [film.width, film.height],
-    seed: (options.seed ?? 0) >>> 0,
-    max_depth: options.maxDepth ?? 8,
-    max_volume_depth: options.maxVolumeDepth ?? 256,
+    seed: options.seed,
+    max_depth: options.maxDepth,
+    max_volume_depth: options.maxVolumeDepth,
     light_count: scene.lightCount,
     first_area_light: scene.areaLights.first,
     area_light_count: scene.areaLights.count,
@@ -37,8 +37,8 @@ export function packFrame(
     environment_group: scene.groups.environment,
     catcher_root: geometry.placement.bareRoot,
     environment_cells: [environment.table?.width ?? 1, environment.table?.height ?? 1],
-    lod_bias: options.textureLodBias ?? -1,
-    ...shortcutUniforms(options),
+    lod_bias: options.textureLodBias,
+    ...biasedUniforms(options),
     scene_scale: geometry.placement.radius,
     filter_radius: resolveFilter(options.filter).radius,
   });

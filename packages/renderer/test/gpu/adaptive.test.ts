@@ -171,7 +171,7 @@ describe('adaptive sampling', () => {
     const seen = await run(tracer, { noise: 1e-6, samples: 100 });
     expect(tracer.samples).toBe(100);
     expect(seen.at(-1)?.noise).toBeGreaterThan(1e-6);
-    await expect(run(tracer, { noise: 0 })).rejects.toMatchObject({ code: 'renderer/samples' });
+    await expect(run(tracer, { noise: -1 })).rejects.toMatchObject({ code: 'renderer/samples' });
     tracer.destroy();
   });
 });

@@ -2,7 +2,8 @@ import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import type { Scene } from '@glanz/scene';
 import { afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { PathTracer, type PathTracerOptions } from '../../src/index';
-import { shortcutFlags } from '../../src/shortcuts';
+import { biasedFlags } from '../../src/biased-options';
+import { resolveOptions } from '../../src/option-checks';
 import { addQuad, camera, createScene, lambert, meanOf } from '../scenes';
 
 let device: GPUDevice;
@@ -54,10 +55,10 @@ const mirror = {
 } as const;
 const black = { name: 'black', parameters: { base_weight: 0, specular_weight: 0 } };
 
-describe('options that trade truth for time', () => {
+describe('biased options', () => {
   it('leave no text behind when they are off', () => {
-    for (const options of [{}, { regularization: 0, caustics: true, maxBounces: {}, clampIndirect: Infinity }]) {
-      expect(Object.values(shortcutFlags({ width: 1, height: 1, ...options })).every((flag) => !flag)).toBe(true);
+    for (const options of [{}, { regularization: 0, caustics: true, maxBounces: {} }]) {
+      expect(Object.values(biasedFlags(resolveOptions(options))).every((flag) => !flag)).toBe(true);
     }
   });
 
@@ -124,9 +125,11 @@ describe('options that trade truth for time', () => {
   it.each([
     { clampIndirect: 0 },
     { clampIndirect: Number.NaN },
+    { clampIndirect: Infinity },
     { regularization: 2 },
     { maxBounces: { diffuse: -1 } },
     { maxBounces: { volume: 1.5 } },
+    { maxBounces: { glossy: 1 } as object },
   ])('refuses %j', async (options) => {
     await expect(PathTracer.create(device, corner(black), { width: 4, height: 4, ...options })).rejects.toMatchObject({
       code: 'renderer/option',

@@ -1,0 +1,16 @@
+export {
+  MAX_ADAPTIVE_SAMPLES,
+  RENDER_OPTION_TEXTS,
+  RENDER_OPTIONS,
+  type BooleanOption,
+  type EnumOption,
+  type FilterOption,
+  type LimitsOption,
+  type NumberOption,
+  type RenderOption,
+  type RenderOptionEffect,
+  type RenderOptionName,
+  type RenderOptionText,
+  type RenderSettings,
+} from './table';
+export { optionFault, optionValues, shownValue, takesOption } from './values';
