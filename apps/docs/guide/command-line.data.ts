@@ -6,6 +6,6 @@ declare const data: string;
 export { data };
 
 export default defineLoader({
-  watch: ['../../../packages/cli/src/help.ts'],
+  watch: ['../../../packages/cli/src/{help,render-flags}.ts', '../../../packages/renderer/src/render-options/*.ts'],
   load: async (): Promise<string> => (await readExport('../../../packages/cli/src/help.ts', 'HELP')) as string,
 });

@@ -1,3 +1,5 @@
+import { flagsHelp } from './render-flags';
+
 /** What each of the smaller commands takes, for the manual page and for `glanz help COMMAND`. */
 const COMMANDS = {
   convert: `CONVERTING
@@ -77,7 +79,7 @@ PICTURE
       --size WxH        Pixels. Default 1024x768.
       --bits N          8 or 16 for .png (default 8), 16 or 32 for .exr
                         (default 16).
-      --transparent     Leave the background out: alpha is the coverage.
+      --transparent     Short for --background transparent.
       --catcher PART    Show of this part, a floor say, only the shadows and the
                         light that the others throw on it. May be given
                         several times.
@@ -104,33 +106,13 @@ LIGHT AND VIEW
                         .json works too. Default: the model's first camera, or
                         one that frames it.
 
-      --light-groups M  Keep lights apart as layers of .exr: "each" light,
-                        glowing material and the surroundings, those "named"
-                        by the model (default), or "off".
+RENDERING
+${flagsHelp({ biased: false })}
 
-QUALITY
-      --samples N       Paths per pixel. Default 256.
-      --noise F         Sample where there is noise until the standard error is
-                        F of the brightness: 0.05 is a preview, 0.01 hardly to
-                        be seen. --samples is the most then, 65536 by default.
-      --depth N         Most edges of a path from the camera to a light: 1 shows
-                        only what glows, 2 adds direct light. Default 8.
-      --filter NAME     How samples make up a pixel: box (default), gaussian or
-                        blackman-harris; NAME:RADIUS in pixels for another
-                        width (default 1.5 for the last two).
-      --seed N          Other noise, same picture; the same seed gives the same
-                        picture on the same device. Default 0.
-
-SHORTCUTS
-  All of these give up some truth for less noise or time; by default none does.
-      --max-bounces L   Most bounces of a kind: diffuse=2,specular=4; also
-                        transmission and volume.
-      --regularization F
-                        Widen sharp lobes after wide bounces, 0 to 1: 0.25 takes
-                        most fireflies away.
-      --clamp-indirect N
-                        Cut indirect light brighter than N.
-      --no-caustics     No light on matte things by way of mirrors and glass.
+BIASED OPTIONS
+  These give up some light, or blur it, for less noise or time; all are off by
+  default.
+${flagsHelp({ biased: true })}
 
 MODEL
       --scene SCENE     Which scene of the file, by name or number (from 0).
@@ -139,11 +121,6 @@ MODEL
                         first animation where --time is given.
       --variant NAME    Look of KHR_materials_variants, by name or number; "all"
                         for each. May be given several times.
-      --back-face-culling M
-                        Leave out faces that show their back, where they are not
-                        double-sided, to look into a room from outside: for the
-                        "camera" alone, while light still meets the walls, or
-                        for "all", so that light falls in. Default "off".
 
 MANY PICTURES
   Each variant is rendered from each view; what is the same stays on the GPU.

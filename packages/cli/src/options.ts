@@ -7,7 +7,7 @@ import { parseBench } from './commands/bench';
 import { parseInfo } from './commands/info';
 import { parseServe } from './commands/serve';
 import { formatOf, type OutputTarget } from './output/formats';
-import { parseBounces, parseCulling, parseFilter, parseLightGroups, type QualityOptions } from './quality';
+import { RENDER_FLAGS, settingsOf, type FlagSettings } from './render-flags';
 import { checkPlaceholders } from './render/shots';
 import { parseView, turntable, type View } from './render/views';
 
@@ -36,17 +36,12 @@ export interface RenderCommandOptions {
   readonly envIntensity: number;
   readonly width: number;
   readonly height: number;
-  readonly samples: number;
-  /** Relative error to stop at; `undefined`: all samples everywhere. */
-  readonly noise: number | undefined;
-  readonly depth: number;
-  readonly seed: number;
+  /** The options of the renderer. */
+  readonly settings: FlagSettings;
   readonly exposure: number;
   readonly toneMap: ToneMap;
-  readonly transparent: boolean;
   /** Names of parts that catch shadows and reflections. */
   readonly catchers: readonly string[];
-  readonly quality: QualityOptions;
 }
 
 /** How the command line is answered. */
@@ -93,10 +88,8 @@ const OPTIONS = {
   'env-rotation': { type: 'string' },
   'env-intensity': { type: 'string' },
   size: { type: 'string' },
-  samples: { type: 'string' },
-  noise: { type: 'string' },
+  ...RENDER_FLAGS,
   depth: { type: 'string' },
-  seed: { type: 'string' },
   camera: { type: 'string' },
   view: { type: 'string', multiple: true },
   turntable: { type: 'string' },
@@ -109,13 +102,6 @@ const OPTIONS = {
   resume: { type: 'boolean' },
   checkpoint: { type: 'string' },
   'output-root': { type: 'string' },
-  filter: { type: 'string' },
-  'light-groups': { type: 'string' },
-  'max-bounces': { type: 'string' },
-  'clamp-indirect': { type: 'string' },
-  regularization: { type: 'string' },
-  'no-caustics': { type: 'boolean' },
-  'back-face-culling': { type: 'string' },
   exposure: { type: 'string' },
   'tone-map': { type: 'string' },
   tonemap: { type: 'string' },
@@ -133,12 +119,15 @@ const OPTIONS = {
 /**
  * Former names of options, with the present ones. They work until the next minor version; whoever uses one is warned.
  */
-export const FORMER_NAMES = { tonemap: 'tone-map' } as const satisfies Partial<
+export const FORMER_NAMES = { tonemap: 'tone-map', depth: 'max-depth' } as const satisfies Partial<
   Record<keyof typeof OPTIONS, keyof typeof OPTIONS>
 >;
 
+type FormerName = keyof typeof FORMER_NAMES;
+type PresentName = (typeof FORMER_NAMES)[FormerName];
+
 /** The warning about a former name. */
-export const formerNameWarning = (name: keyof typeof FORMER_NAMES): string =>
+export const formerNameWarning = (name: FormerName): string =>
   `"${name}" is deprecated: the option is called "${FORMER_NAMES[name]}".`;
 
 /**
@@ -147,7 +136,7 @@ export const formerNameWarning = (name: keyof typeof FORMER_NAMES): string =>
  */
 export function presentNames<T extends RenderValues>(values: T, warn: (text: string) => void): T {
   const present = { ...values };
-  for (const [former, name] of Object.entries(FORMER_NAMES) as [keyof typeof FORMER_NAMES, 'tone-map'][]) {
+  for (const [former, name] of Object.entries(FORMER_NAMES) as [FormerName, PresentName][]) {
     const value = present[former];
     if (value === undefined) continue;
     warn(formerNameWarning(former));
@@ -299,33 +288,13 @@ export function renderOptions(values: RenderValues, model: string): RenderComman
     envIntensity: number('env-intensity', values['env-intensity'], 1, { min: 0, max: 1e6 }),
     width,
     height,
-    noise: values.noise === undefined ? undefined : number('noise', values.noise, 0, { min: 1e-5, max: 10 }),
-    samples: number('samples', values.samples, values.noise === undefined ? 256 : 65536, {
-      whole: true,
-      min: 1,
-      max: 16777216,
+    settings: settingsOf({
+      ...values,
+      background: values.background ?? (values.transparent ? 'transparent' : undefined),
     }),
-    depth: number('depth', values.depth, 8, { whole: true, min: 1, max: 1024 }),
-    seed: number('seed', values.seed, 0, { whole: true, min: 0, max: 4294967295 }),
     exposure: values.exposure === undefined ? 0 : parseExposure(values.exposure),
     toneMap,
-    transparent: values.transparent ?? false,
     catchers: values.catcher ?? [],
-    quality: {
-      ...(values.filter === undefined ? {} : { filter: parseFilter(values.filter) }),
-      ...(values['max-bounces'] === undefined ? {} : { maxBounces: parseBounces(values['max-bounces']) }),
-      ...(values['clamp-indirect'] === undefined
-        ? {}
-        : { clampIndirect: number('clamp-indirect', values['clamp-indirect'], 0, { min: 1e-6, max: 1e30 }) }),
-      ...(values.regularization === undefined
-        ? {}
-        : { regularization: number('regularization', values.regularization, 0, { min: 0, max: 1 }) }),
-      ...(values['no-caustics'] ? { caustics: false } : {}),
-      ...(values['back-face-culling'] === undefined
-        ? {}
-        : { backFaceCulling: parseCulling(values['back-face-culling']) }),
-      ...(values['light-groups'] === undefined ? {} : { lightGroups: parseLightGroups(values['light-groups']) }),
-    },
   };
 }
 

@@ -134,7 +134,7 @@ describe('batch files', () => {
       }),
     );
     const { code, created, out, err } = await run(
-      ['render', '--batch', 'jobs/b.json', '--size', '4x4', '--depth', '3', '--json'],
+      ['render', '--batch', 'jobs/b.json', '--size', '4x4', '--max-depth', '3', '--json'],
       cwd,
       { scene },
     );

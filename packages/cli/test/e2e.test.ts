@@ -20,7 +20,7 @@ describe('a red square', () => {
   it('comes out red before the studio, with true features in its EXR', async () => {
     const folder = cwd();
     const { code, err } = await glanz(
-      ['red.glb', '-o', 'red.png', '-o', 'red.exr', '--size', '32x24', '--samples', '16', '--depth', '3'],
+      ['red.glb', '-o', 'red.png', '-o', 'red.exr', '--size', '32x24', '--samples', '16', '--max-depth', '3'],
       folder,
     );
     expect([code, err.includes('internal')], err).toEqual([0, false]);
@@ -80,7 +80,7 @@ describe('a red square', () => {
         'each',
         '--camera',
         camera,
-        '--depth',
+        '--max-depth',
         '3',
         '--json',
       ],
@@ -114,7 +114,7 @@ describe('a red square', () => {
 
   it('gives the same bytes for the same seed, others for another', async () => {
     const folder = cwd();
-    const size = ['--size', '16x16', '--samples', '3', '--depth', '3'];
+    const size = ['--size', '16x16', '--samples', '3', '--max-depth', '3'];
     for (const [name, seed] of [
       ['a', 1],
       ['b', 1],
@@ -129,7 +129,19 @@ describe('a red square', () => {
   it('is framed without a camera, and stands alone when transparent', async () => {
     const folder = cwd();
     const { code, out, err } = await glanz(
-      ['bare.glb', '-o', 'bare.png', '--size', '24x24', '--samples', '4', '--depth', '2', '--transparent', '--json'],
+      [
+        'bare.glb',
+        '-o',
+        'bare.png',
+        '--size',
+        '24x24',
+        '--samples',
+        '4',
+        '--max-depth',
+        '2',
+        '--transparent',
+        '--json',
+      ],
       folder,
     );
     expect(code, err).toBe(0);
@@ -159,7 +171,7 @@ describe('a red square', () => {
       },
     });
     const { code, out } = await glanz(
-      ['red.glb', '-o', 'red.png', '--size', '64x64', '--samples', '100000', '--depth', '4', '--json'],
+      ['red.glb', '-o', 'red.png', '--size', '64x64', '--samples', '100000', '--max-depth', '4', '--json'],
       folder,
       eager,
     );

@@ -1,6 +1,9 @@
 import { describe, expect, it } from 'vitest';
+import { RENDER_OPTION_TEXTS, RENDER_OPTIONS, type RenderOption } from '@glanz/renderer/options';
+import { HELP } from '../src/help';
 import { CliError } from '../src/index';
 import { parseCommand, type RenderCommandOptions } from '../src/options';
+import { FLAG_OPTIONS, flagOf } from '../src/render-flags';
 
 const options = (...argv: string[]): RenderCommandOptions => {
   const command = parseCommand(['render', ...argv]);
@@ -17,6 +20,11 @@ const complaint = (...argv: string[]): string => {
   return 'no complaint';
 };
 
+/** Settings where no flag is given. */
+const defaults: Record<string, unknown> = Object.fromEntries(
+  FLAG_OPTIONS.map((name) => [name, (RENDER_OPTIONS[name] as RenderOption).default]),
+);
+
 describe('glanz render', () => {
   it('has the documented defaults', () => {
     expect(options('dir/helmet.glb')).toEqual({
@@ -30,15 +38,10 @@ describe('glanz render', () => {
       envIntensity: 1,
       width: 1024,
       height: 768,
-      samples: 256,
-      noise: undefined,
-      depth: 8,
-      seed: 0,
+      settings: defaults,
       exposure: 0,
       toneMap: 'neutral',
-      transparent: false,
       catchers: [],
-      quality: {},
     });
   });
 
@@ -56,7 +59,7 @@ describe('glanz render', () => {
       '16',
       '--noise',
       '0.01',
-      '--depth',
+      '--max-depth',
       '3',
       '--seed',
       '4294967295',
@@ -115,15 +118,13 @@ describe('glanz render', () => {
       envIntensity: 2,
       width: 640,
       height: 480,
-      samples: 16,
-      noise: 0.01,
-      depth: 3,
-      seed: 4294967295,
-      exposure: -1.5,
-      toneMap: 'agx',
-      transparent: true,
-      catchers: ['floor'],
-      quality: {
+      settings: {
+        ...defaults,
+        samples: 16,
+        noise: 0.01,
+        maxDepth: 3,
+        seed: 4294967295,
+        background: 'transparent',
         filter: { type: 'gaussian', radius: 2 },
         lightGroups: 'each',
         maxBounces: { diffuse: 2, volume: 9 },
@@ -132,6 +133,9 @@ describe('glanz render', () => {
         caustics: false,
         backFaceCulling: 'all',
       },
+      exposure: -1.5,
+      toneMap: 'agx',
+      catchers: ['floor'],
     });
   });
 
@@ -182,20 +186,20 @@ describe('complains in one line, saying what to do', () => {
     [['render', 'm.glb', '--samples', '0'], '--samples must be a whole number from 1'],
     [['render', 'm.glb', '--samples', '1.5'], 'whole number'],
     [['render', 'm.glb', '--samples', ''], 'whole number'],
-    [['render', 'm.glb', '--depth', 'x'], '--depth must be'],
+    [['render', 'm.glb', '--max-depth', 'x'], '--max-depth must be'],
     [['render', 'm.glb', '--seed', '-1'], '--seed must be'],
     [['render', 'm.glb', '--exposure', 'NaN'], '--exposure must be'],
     [['render', 'm.glb', '--exposure', 'f/8'], 'f/8,1/125,iso200'],
     [['render', 'm.glb', '--exposure', 'f/8,1/0'], 'f/8,1/125,iso200'],
-    [['render', 'm.glb', '--noise', '0'], '--noise must be'],
-    [['render', 'm.glb', '--max-bounces', '3'], 'must be like diffuse=2'],
+    [['render', 'm.glb', '--noise', '-1'], '--noise must be a number from 0 to 1000, not "-1"'],
+    [['render', 'm.glb', '--max-bounces', '3'], 'such as diffuse=2'],
     [['render', 'm.glb', '--max-bounces', 'glossy=3'], 'diffuse, specular, transmission, volume'],
     [['render', 'm.glb', '--regularization', '2'], 'from 0 to 1'],
     [['render', 'm.glb', '--clamp-indirect', '0'], '--clamp-indirect must be'],
     [['render', 'm.glb', '--light-groups', 'some'], 'must be one of off, named, each'],
     [['render', 'm.glb', '--back-face-culling', 'front'], 'must be one of off, camera, all'],
-    [['render', 'm.glb', '--filter', 'mitchell'], 'Known: box, gaussian, blackman-harris'],
-    [['render', 'm.glb', '--filter', 'box:0'], 'above 0 up to 16'],
+    [['render', 'm.glb', '--filter', 'mitchell'], 'must be one of box, gaussian, blackman-harris'],
+    [['render', 'm.glb', '--filter', 'box:0'], 'above 0 and at most 16'],
     [['render', 'm.glb', '--tone-map', 'film'], 'Known: neutral, aces, agx, reinhard, linear'],
     [['render', 'm.glb', '-o', 'out.jpg'], 'must end in .png, .exr or .hdr'],
     [['render', 'm.glb', '-o', 'out'], 'must end in'],
@@ -203,5 +207,42 @@ describe('complains in one line, saying what to do', () => {
     [['render', 'm.glb', '-o', 'out.exr', '--bits', '8'], '.exr has 16 or 32'],
   ])('%j', (argv, message) => {
     expect(complaint(...argv)).toContain(message);
+  });
+});
+
+describe('the options of the table of the renderer', () => {
+  it('all have a flag but the length of a submission', () => {
+    expect(Object.keys(RENDER_OPTIONS).filter((name) => !(FLAG_OPTIONS as string[]).includes(name))).toEqual([
+      'maxSubmitMs',
+    ]);
+  });
+
+  it.each(FLAG_OPTIONS.map((name) => [flagOf(name), name] as const))(
+    '--%s is in the manual and is read',
+    (flag, name) => {
+      const row: RenderOption = RENDER_OPTIONS[name];
+      const [, entry = ''] = new RegExp(`\\n {6}--${flag}(?: [A-Z]+)?\\s+([^]*?)\\n(?: {6}--|\\n)`).exec(HELP) ?? [];
+      const text = entry.replace(/\s+/g, ' ');
+      expect(text.toLowerCase()).toContain(RENDER_OPTION_TEXTS[name].doc.replaceAll('`', '').toLowerCase());
+      const set = (...value: string[]) => options('m.glb', [`--${flag}`, ...value].join('=')).settings[name];
+      if (row.type === 'boolean') return expect(set()).toBe(false);
+      if (row.type === 'enum')
+        for (const value of row.values) expect([set(value), text]).toEqual([value, expect.stringContaining(value)]);
+      if (row.type !== 'number' && row.type !== 'integer') return;
+      const [low, high] = row.range;
+      expect(text).toMatch(new RegExp(`${low},? to ${String(high).replace('+', '\\+')}`));
+      if (row.default !== undefined) expect(text).toContain(`default ${row.default}`);
+      const step = row.type === 'integer' ? 1 : Math.max(1e-12, Math.abs(high) * 2 ** -50);
+      expect(set(String(high))).toBe(high);
+      for (const value of [high + step, low - step, NaN, Infinity, 'many', ''])
+        expect(complaint('render', 'm.glb', `--${flag}=${value}`)).toSatisfy(
+          (message: string) => message.startsWith(`--${flag} must be a `) && message.endsWith(`, not "${value}".`),
+        );
+    },
+  );
+
+  it('--background overrides --transparent', () => {
+    expect(options('m.glb', '--transparent').settings.background).toBe('transparent');
+    expect(options('m.glb', '--transparent', '--background', 'environment').settings.background).toBe('environment');
   });
 });

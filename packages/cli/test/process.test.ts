@@ -75,7 +75,7 @@ it('a picture, exit status 0, and nothing on stdout', async () => {
       '16x16',
       '--samples',
       '2',
-      '--depth',
+      '--max-depth',
       '2',
       '-o',
       'x.png',
@@ -94,7 +94,7 @@ it('SIGINT writes the picture; the process ends by itself with 130', async () =>
   const cwd = temporaryFolder({ 'red.glb': makeGlb({ camera: true }) });
   let sent = false;
   const { code, signal, out, err } = await start(
-    ['render', 'red.glb', '--gpu', 'software', '--size', '48x48', '--samples', '1000000', '--depth', '3', '--json'],
+    ['render', 'red.glb', '--gpu', 'software', '--size', '48x48', '--samples', '1000000', '--max-depth', '3', '--json'],
     cwd,
     (text, child) => {
       if (!sent && /render \d+\//.test(text)) {
@@ -114,7 +114,19 @@ it.skipIf(process.platform === 'win32')(
     const cwd = temporaryFolder({ 'red.glb': makeGlb({ camera: true }) });
     let sent = false;
     const { code, signal, out, err } = await start(
-      ['render', 'red.glb', '--gpu', 'software', '--size', '48x48', '--samples', '1000000', '--depth', '3', '--json'],
+      [
+        'render',
+        'red.glb',
+        '--gpu',
+        'software',
+        '--size',
+        '48x48',
+        '--samples',
+        '1000000',
+        '--max-depth',
+        '3',
+        '--json',
+      ],
       cwd,
       (text, child) => {
         if (!sent && /render \d+\//.test(text)) sent = child.kill('SIGHUP');
@@ -127,7 +139,7 @@ it.skipIf(process.platform === 'win32')(
 );
 
 describe.skipIf(process.platform === 'win32')('a reader that closes its end of a pipe', () => {
-  const quality = ['--gpu', 'software', '--size', '16x16', '--samples', '64', '--depth', '2'];
+  const quality = ['--gpu', 'software', '--size', '16x16', '--samples', '64', '--max-depth', '2'];
   // The shell's own redirections, and the exit status of the program rather than that of the pipe's last.
   const piped = (argv: readonly string[], redirections: string, cwd: string) =>
     execFileSync('sh', ['-c', `("$@"; echo $? > status) ${redirections}`, 'sh', process.execPath, program, ...argv], {
@@ -172,7 +184,7 @@ describe('the GPU is lost', () => {
     '32x24',
     '--samples',
     '40',
-    '--depth',
+    '--max-depth',
     '3',
     '-o',
     'x.exr',
@@ -250,7 +262,7 @@ it(
   { timeout: 600_000 },
   async () => {
     const cwd = temporaryFolder({ 'shoe.glb': makeGlb({ camera: true, variants: true }) });
-    const quality = ['--gpu', 'software', '--size', '24x16', '--samples', '4', '--depth', '3', '--seed', '5'];
+    const quality = ['--gpu', 'software', '--size', '24x16', '--samples', '4', '--max-depth', '3', '--seed', '5'];
     writeFileSync(join(cwd, 'hero.json'), '{"position":[1,0.5,3],"target":[0,0,0],"lens_radius":0.05}');
     const argv = [
       'render',

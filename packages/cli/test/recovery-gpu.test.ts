@@ -11,7 +11,7 @@ import { makeGlb } from './glb';
 class DeviceError extends GlanzError {}
 
 // The real renderer on the software GPU, whose device is lost at chosen submissions.
-const QUALITY = ['--size', '48x32', '--samples', '24', '--depth', '3', '--seed', '7', '--bits', '16'];
+const QUALITY = ['--size', '48x32', '--samples', '24', '--max-depth', '3', '--seed', '7', '--bits', '16'];
 const OUTPUTS = ['-o', 'x.png', '-o', 'x.exr', '-o', 'x.hdr'];
 const files = ['x.png', 'x.exr', 'x.hdr'];
 const folder = () =>
@@ -68,7 +68,7 @@ describe('the files are the same bit for bit', () => {
       '1024',
       '--noise',
       '0.006',
-      '--depth',
+      '--max-depth',
       '3',
       '--bits',
       '32',

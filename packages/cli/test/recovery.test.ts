@@ -475,8 +475,8 @@ describe('--checkpoint FILE', () => {
     ['another size', ['--size', '5x4'], 'its --size is 4x4, here 5x4'],
     [
       'another depth and filter',
-      ['--depth', '3', '--filter', 'gaussian'],
-      'its --depth is 8, here 3; its --filter is not given, here gaussian',
+      ['--max-depth', '3', '--filter', 'gaussian'],
+      'its --max-depth is 8, here 3; its --filter is box, here gaussian',
     ],
     [
       'another view',

@@ -25,7 +25,7 @@ describe('help and version', () => {
       'size',
       'samples',
       'noise',
-      'depth',
+      'max-depth',
       'seed',
       'camera',
       'filter',
@@ -133,6 +133,12 @@ describe('writing', () => {
       expect([code, err.split('"tonemap" is deprecated: the option is called "tone-map"').length - 1]).toEqual([0, 1]);
       expect(Buffer.compare(png(file), png('now'))).toBe(0);
     }
+    const deep = await run(['render', 'm.glb', ...SIZE, '--depth', '3'], cwd);
+    expect([deep.code, deep.created[0]?.options.maxDepth, deep.err]).toEqual([
+      0,
+      3,
+      expect.stringContaining('"depth" is deprecated: the option is called "max-depth"'),
+    ]);
     expect((await run(['render', 'm.glb', ...SIZE, '--tonemap', 'film'], cwd)).err).toContain(
       'There is no tone map "film"',
     );
@@ -208,7 +214,7 @@ describe('writing', () => {
 
   it('--json prints one object on stdout, and nothing else goes there', async () => {
     const cwd = folder();
-    const { code, out } = await run(['render', 'm.glb', ...SIZE, '--json', '--seed', '7', '--depth', '3'], cwd);
+    const { code, out } = await run(['render', 'm.glb', ...SIZE, '--json', '--seed', '7', '--max-depth', '3'], cwd);
     expect(code).toBe(0);
     expect(out.trim().split('\n').length).toBe(1);
     const result = JSON.parse(out) as Record<string, unknown>;
@@ -272,7 +278,7 @@ describe('writing', () => {
 
   it('hands size, depth, seed and camera on', async () => {
     const { created } = await run(
-      ['render', 'm.glb', ...SIZE, '--depth', '2', '--seed', '9', '--camera', '{"position":[0,0,9],"fov":20}'],
+      ['render', 'm.glb', ...SIZE, '--max-depth', '2', '--seed', '9', '--camera', '{"position":[0,0,9],"fov":20}'],
       folder(),
     );
     expect(created[0]?.options).toMatchObject({ width: 8, height: 6, maxDepth: 2, seed: 9, background: 'environment' });

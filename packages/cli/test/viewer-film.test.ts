@@ -66,7 +66,7 @@ it(
         String(SAMPLES),
         '--seed',
         String(SEED),
-        '--depth',
+        '--max-depth',
         String(DEPTH),
         '--gpu',
         'software',

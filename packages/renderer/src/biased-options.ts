@@ -3,7 +3,7 @@ import { RENDER_OPTIONS } from './render-options';
 
 type BiasedOptions = Pick<TracerSettings, 'clampIndirect' | 'regularization' | 'caustics' | 'maxBounces'>;
 
-const KINDS = RENDER_OPTIONS.maxBounces.kinds;
+const KINDS = RENDER_OPTIONS.maxBounces.values;
 
 /** A byte counts the bounces of each kind, up to 127; a higher limit is never reached. */
 const MAX_COUNT = 127;

@@ -7,29 +7,15 @@ import {
   RENDER_OPTIONS,
   type RenderOptionName,
   type RenderSettings,
+  type ResolvedSettings,
 } from './render-options';
 import { hasInterior } from './materials/interiors';
 
 /** An interior's place in a path's stack has 15 bits, and 0 stands for none. */
 const MAX_INTERIORS = 0x7fff;
 
-type Defaulted = {
-  [Name in RenderOptionName]: (typeof RENDER_OPTIONS)[Name] extends { readonly default: {} } ? Name : never;
-}[RenderOptionName];
-
-/** Validated settings; options without a default may be absent. */
-export type ResolvedSettings = Omit<RenderSettings, Defaulted> & Required<Pick<RenderSettings, Defaulted>>;
-
 /** The options of a path tracer, validated, with their defaults. */
 export type TracerSettings = PathTracerOptions & ResolvedSettings;
-
-/** @throws {RenderError} `renderer/option`, `renderer/samples`, `renderer/filter` */
-function check(name: RenderOptionName, value: unknown): void {
-  const fault = optionFault(name, value);
-  if (fault === undefined) return;
-  const goal = name === 'samples' || name === 'noise' || name === 'maxSubmitMs';
-  throw new RenderError(goal ? 'renderer/samples' : name === 'filter' ? 'renderer/filter' : 'renderer/option', fault);
-}
 
 /**
  * Validates options by their table and adds the defaults of those that are missing.
@@ -38,9 +24,17 @@ function check(name: RenderOptionName, value: unknown): void {
 export function resolveOptions<T extends RenderSettings>(options: T): T & ResolvedSettings {
   const resolved: Record<string, unknown> = { ...options };
   for (const [name, row] of Object.entries(RENDER_OPTIONS)) {
-    const value = options[name as RenderOptionName];
-    if (value !== undefined) check(name as RenderOptionName, value);
-    else if ('default' in row) resolved[name] = row.default;
+    const fault = resolved[name] === undefined ? undefined : optionFault(name as RenderOptionName, resolved[name]);
+    if (fault)
+      throw new RenderError(
+        name === 'filter'
+          ? 'renderer/filter'
+          : /^(samples|noise|maxSubmitMs)$/.test(name)
+            ? 'renderer/samples'
+            : 'renderer/option',
+        fault,
+      );
+    resolved[name] ??= 'default' in row ? row.default : undefined;
   }
   return resolved as T & ResolvedSettings;
 }

@@ -2,6 +2,7 @@ import { GlanzError } from '@glanz/wgsl/error';
 import { describe, expect, it } from 'vitest';
 import { resolveOptions } from '../src/option-checks';
 import {
+  MAX_ADAPTIVE_SAMPLES,
   RENDER_OPTION_TEXTS,
   RENDER_OPTIONS,
   takesOption,
@@ -67,11 +68,14 @@ describe('the table of render options', () => {
         expectRefusal('filter', { type, radius });
     }
     const [low, high] = RENDER_OPTIONS.maxBounces.range;
-    for (const kind of RENDER_OPTIONS.maxBounces.kinds) {
+    for (const kind of RENDER_OPTIONS.maxBounces.values) {
       for (const limit of [low, high, undefined]) expect(thrown('maxBounces', { [kind]: limit })).toBeUndefined();
       for (const limit of [low - 1, high + 1, 0.5, NaN, '1', null]) expectRefusal('maxBounces', { [kind]: limit });
     }
   });
+
+  it('states the maximum number of adaptive samples in the text about samples', () =>
+    expect(RENDER_OPTION_TEXTS.samples.doc).toContain(String(MAX_ADAPTIVE_SAMPLES)));
 
   it('has a text of one or two sentences for each, and a slider range inside of the range', () => {
     for (const [name, row] of rows) {

@@ -3,11 +3,13 @@ import { createReadStream } from 'node:fs';
 import { open, rm, stat } from 'node:fs/promises';
 import { resolve } from 'node:path';
 import { pipeline } from 'node:stream/promises';
+import { RENDER_OPTIONS } from '@glanz/renderer/options';
 import { isEnvironmentFile } from '../environment';
 import { CliError } from '../errors';
 import { writeWhole } from '../output/write';
 import { version } from '../version';
 import type { FilmCodec, FilmState } from '../backend';
+import { FLAG_OPTIONS, flagOf } from '../render-flags';
 import type { Shot } from './shots';
 
 /** The first line of a checkpoint file; a line of JSON follows, and then the film. */
@@ -32,8 +34,7 @@ const hashOf = async (file: string): Promise<string> => {
 
 /** What decides the samples of an image, under the names of the options; files by their content. */
 async function settingsOf({ options, variant, view }: Shot, cwd: string): Promise<Record<string, string>> {
-  const { model, pose, env, envRotation, envIntensity, width, height, depth, seed, transparent, catchers, quality } =
-    options;
+  const { model, pose, env, envRotation, envIntensity, width, height, catchers, settings } = options;
   const file = (path: string) => hashOf(resolve(cwd, path));
   const text = (value: unknown) => (typeof value === 'string' ? value : JSON.stringify(value ?? null));
   const { name: _name, ...camera } = view;
@@ -44,22 +45,18 @@ async function settingsOf({ options, variant, view }: Shot, cwd: string): Promis
     '--env-rotation': envRotation,
     '--env-intensity': envIntensity,
     '--size': `${width}x${height}`,
-    '--depth': depth,
-    '--seed': seed,
-    '--transparent': transparent,
     '--catcher': catchers,
     '--scene': pose.scene,
     '--animation': pose.animation,
     '--time': pose.time,
     '--variant': variant,
     '--camera or --view': camera,
-    '--filter': quality.filter,
-    '--light-groups': quality.lightGroups,
-    '--clamp-indirect': quality.clampIndirect,
-    '--regularization': quality.regularization,
-    '--no-caustics': quality.caustics,
-    '--max-bounces': quality.maxBounces,
-    '--back-face-culling': quality.backFaceCulling,
+    ...Object.fromEntries(
+      FLAG_OPTIONS.filter((name) => RENDER_OPTIONS[name].effect !== 'schedule').map((name) => [
+        `--${flagOf(name)}`,
+        settings[name],
+      ]),
+    ),
   };
   return Object.fromEntries(Object.entries(all).map(([key, value]) => [key, text(value)]));
 }
@@ -118,7 +115,7 @@ export class CheckpointFile {
         throw this.#error(
           `The checkpoint "${this.path}" belongs to another image: ${differing.join('; ')}. Repeat the command that wrote it, or name another file by --checkpoint.`,
         );
-      const { samples } = this.#shot.options;
+      const { samples } = this.#shot.options.settings;
       if (header.samples > samples)
         throw this.#error(
           `The checkpoint "${this.path}" has ${header.samples} samples already, more than --samples ${samples}. Ask for at least as many, or name another file by --checkpoint.`,

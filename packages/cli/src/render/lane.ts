@@ -62,6 +62,8 @@ export interface LaneContext {
 const MAX_WARNINGS = 5;
 /** Milliseconds between two looks at whether a checkpoint is due. */
 const TICK_MS = 1000;
+/** No page has to stay responsive: longer submissions than the renderer's default, still far from any watchdog. */
+const SUBMIT_MS = 200;
 const LABELS = { bvh: 'build hierarchy', upload: 'upload', compile: 'compile kernels' } as const;
 
 type Timed = <T>(key: keyof RenderTimings, run: () => Promise<T>) => Promise<T>;
@@ -222,8 +224,10 @@ export class Lane {
     const picture = await timed('readMs', () => readPicture(tracer, options, samples));
     await this.#flushed();
     const files: WrittenFile[] = [];
+    const { settings } = options;
+    const display = { ...options, transparent: settings.background === 'transparent' };
     for (const target of shot.outputs)
-      files.push(await timed('writeMs', () => writePicture(picture, target, options, io.cwd)));
+      files.push(await timed('writeMs', () => writePicture(picture, target, display, io.cwd)));
     await checkpoints.settled();
     if (!signal.aborted) await file?.remove();
     timings.totalMs = io.now() - making.start;
@@ -233,7 +237,7 @@ export class Lane {
     const gpuLosses = this.#gpu.losses - making.lossesBefore;
     const names = files.map(({ path }) => path).join(', ');
     progress.line(
-      `${names}: ${options.width}×${options.height}, ${samples}${signal.aborted && options.noise === undefined ? ` of ${options.samples}` : ''} ${options.samples === 1 ? 'sample' : 'samples'} at ${rate(samplesPerSecond)}/s, ${duration(timings.totalMs)} in all`,
+      `${names}: ${options.width}×${options.height}, ${samples}${signal.aborted && settings.noise === undefined ? ` of ${settings.samples}` : ''} ${settings.samples === 1 ? 'sample' : 'samples'} at ${rate(samplesPerSecond)}/s, ${duration(timings.totalMs)} in all`,
     );
     if (statistics.badSamples > 0)
       progress.warning(
@@ -310,16 +314,16 @@ export class Lane {
       shot: { options },
       checkpoints,
     } = making;
+    const { samples, noise } = options.settings;
     checkpoints.restart();
     // A sample of a large image may take longer than the interval.
     const timer = setInterval(() => checkpoints.tick(tracer), TICK_MS);
     try {
-      // Nobody is looking at a canvas here: larger submissions than in a page, still far from any watchdog.
       for await (const state of tracer.render({
-        samples: options.samples,
-        ...(options.noise === undefined ? {} : { noise: options.noise }),
+        samples,
+        ...(noise === undefined ? {} : { noise }),
         signal,
-        maxSubmitMs: 200,
+        maxSubmitMs: SUBMIT_MS,
       })) {
         making.noise = state.noise ?? making.noise;
         progress.samples(state);
@@ -376,8 +380,9 @@ export class Lane {
   ): Promise<Tracer> {
     const { backend, progress, signal } = this.#context;
     const { device } = this.#gpu.opened as OpenedGpu;
-    const { width, height, depth, seed, quality, transparent } = options;
-    const key = JSON.stringify([sceneKey(options), width, height, depth, seed, quality, transparent]);
+    const { width, height } = options;
+    const { samples: _samples, noise: _noise, ...settings } = options.settings;
+    const key = JSON.stringify([sceneKey(options), width, height, settings]);
     if (this.#tracer && key === this.#key) {
       await this.#tracer.setVariant(variant);
       await this.#tracer.setCamera(camera);
@@ -388,11 +393,8 @@ export class Lane {
     this.#tracer = await backend.createTracer(device, scene, {
       width,
       height,
-      maxDepth: depth,
-      seed,
       camera,
-      ...quality,
-      background: transparent ? 'transparent' : 'environment',
+      ...settings,
       signal,
       onProgress: ({ stage, done }) => progress.stage(LABELS[stage], done),
     });

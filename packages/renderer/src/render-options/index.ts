@@ -12,5 +12,7 @@ export {
   type RenderOptionName,
   type RenderOptionText,
   type RenderSettings,
+  type ResolvedSettings,
 } from './table';
+export { kebabCase, parseOption, type KebabCase } from './parse';
 export { optionFault, optionValues, shownValue, takesOption } from './values';

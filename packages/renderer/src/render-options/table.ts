@@ -42,15 +42,17 @@ export interface FilterOption extends Row {
   readonly type: 'filter';
   /** The filters, each with its default radius in pixels. */
   readonly radii: Readonly<Record<Exclude<PixelFilter, object>, number>>;
-  /** Range of the radius in pixels; the lowest value itself is excluded. */
+  /** Range of the radius in pixels. */
   readonly range: readonly [number, number];
+  /** The lowest radius itself is excluded. */
+  readonly above: true;
   readonly default: Exclude<PixelFilter, object>;
 }
 
-/** Integers by name. */
+/** Limits of several kinds: integers by the name of the kind. */
 export interface LimitsOption extends Row {
   readonly type: 'limits';
-  readonly kinds: readonly (keyof BounceLimits)[];
+  readonly values: readonly (keyof BounceLimits)[];
   /** Lowest and highest value of each. */
   readonly range: readonly [number, number];
   readonly default?: undefined;
@@ -96,6 +98,7 @@ export const RENDER_OPTIONS = {
     type: 'filter',
     radii: { box: 0.5, gaussian: 1.5, 'blackman-harris': 1.5 },
     range: [0, 16],
+    above: true,
     default: 'box',
     effect: 'kernel',
   },
@@ -103,7 +106,7 @@ export const RENDER_OPTIONS = {
   backFaceCulling: { type: 'enum', values: ['off', 'camera', 'all'], default: 'off', effect: 'kernel' },
   maxBounces: {
     type: 'limits',
-    kinds: ['diffuse', 'specular', 'transmission', 'volume'],
+    values: ['diffuse', 'specular', 'transmission', 'volume'],
     range: [0, 65_535],
     effect: 'kernel',
   },
@@ -121,7 +124,14 @@ export const RENDER_OPTIONS = {
 /** Name of an option, as in {@link RENDER_OPTIONS}. */
 export type RenderOptionName = keyof typeof RENDER_OPTIONS;
 
-/** Most samples where `noise` is given and `samples` is not. */
+type Defaulted = {
+  [Name in RenderOptionName]: (typeof RENDER_OPTIONS)[Name] extends { readonly default: {} } ? Name : never;
+}[RenderOptionName];
+
+/** Validated settings, with the defaults of those that have one. */
+export type ResolvedSettings = Omit<RenderSettings, Defaulted> & Required<Pick<RenderSettings, Defaulted>>;
+
+/** Maximum number of samples where `noise` is given and `samples` is not. */
 export const MAX_ADAPTIVE_SAMPLES = 65_536;
 
 /** What people read about an option; apart from the table, so that a page that shows no texts does not load them. */
@@ -132,16 +142,14 @@ export interface RenderOptionText {
   readonly unit?: string;
   /** Whether it makes the result biased: some light is missing or moved, for less noise or time. */
   readonly biased?: boolean;
-  /** Placeholder of the value on the command line; default: by the type. */
-  readonly placeholder?: string;
   /** The part of the range that a slider offers; default: the whole range. */
   readonly softRange?: readonly [number, number];
 }
 
-/** The texts of all options of {@link RENDER_OPTIONS}. */
+/** The texts of all options of {@link RENDER_OPTIONS}. Literals only: bundlers keep expressions that nobody reads. */
 export const RENDER_OPTION_TEXTS: Readonly<Record<RenderOptionName, RenderOptionText>> = {
   samples: {
-    doc: `Samples per pixel. With a noise target it is the maximum, by default ${MAX_ADAPTIVE_SAMPLES}.`,
+    doc: 'Samples per pixel. With a noise target it is the maximum, by default 65536.',
     softRange: [1, 4096],
   },
   noise: {
@@ -163,7 +171,7 @@ export const RENDER_OPTION_TEXTS: Readonly<Record<RenderOptionName, RenderOption
   },
   background: { doc: 'What is visible behind the scene: the environment, or nothing (alpha is the coverage).' },
   filter: {
-    doc: 'Pixel filter: how samples around a pixel are weighted. The radius is half the filter’s width.',
+    doc: 'Pixel filter: how samples around a pixel are weighted. Its radius is half its width.',
     unit: 'pixels',
   },
   lightGroups: {
@@ -186,11 +194,11 @@ export const RENDER_OPTION_TEXTS: Readonly<Record<RenderOptionName, RenderOption
     softRange: [0, 100],
   },
   caustics: {
-    doc: 'Light that reaches a matte surface through a sharp reflection or refraction; off leaves it out.',
+    doc: 'Light that reaches a matte surface through a sharp reflection or refraction.',
     biased: true,
   },
   multipleScattering: {
-    doc: 'Compensates the energy that single-scattering microfacet models lose. Off only for comparisons with such models.',
+    doc: 'Compensation of the energy that single-scattering microfacet models lose. Off only for comparisons with such models.',
   },
   sampler: { doc: 'Source of the random numbers. All are unbiased; `independent` converges slower.' },
   lightSampling: {
@@ -202,12 +210,14 @@ export const RENDER_OPTION_TEXTS: Readonly<Record<RenderOptionName, RenderOption
   textureLodBias: { doc: 'Added to the level of detail of textures; lower is sharper.', softRange: [-4, 4] },
   pathsInFlight: {
     doc: 'Maximum number of paths on the GPU at once, about 150 bytes each. Default: 4194304, or 1048576 on devices without buffers of 2 GiB.',
-    softRange: [4096, 2 ** 22],
+    softRange: [4096, 4_194_304],
   },
 };
 
 type Missing = {
-  [Name in RenderOptionName]: (typeof RENDER_OPTIONS)[Name] extends { readonly values: readonly (infer V)[] }
+  [Name in RenderOptionName]: (typeof RENDER_OPTIONS)[Name] extends EnumOption & {
+    readonly values: readonly (infer V)[];
+  }
     ? Exclude<RenderSettings[Name], V | undefined>
     : never;
 }[RenderOptionName];

@@ -1,72 +1,55 @@
-import { RENDER_OPTIONS, type RenderOption, type RenderOptionName } from './table';
+import { RENDER_OPTIONS, type RenderOptionName } from './table';
 
-const isNumber = (value: unknown, [low, high]: readonly [number, number], integer: boolean, above = false): boolean =>
+/** Any row, by its fields. */
+interface Row {
+  readonly type: string;
+  readonly range?: readonly [number, number];
+  readonly above?: boolean;
+  readonly values?: readonly unknown[];
+  readonly radii?: Readonly<Record<string, number>>;
+}
+
+const isObject = (value: unknown): value is object => Object(value) === value;
+
+const isNumber = (value: unknown, { type, range: [low, high] = [0, 0], above }: Row): boolean =>
   typeof value === 'number' &&
-  value >= low &&
+  (above ? value > low : value >= low) &&
   value <= high &&
-  !(above && value === low) &&
-  (!integer || Number.isInteger(value));
+  (type === 'number' || Number.isInteger(value));
 
 /** Whether an option takes a value. */
 export function takesOption(name: RenderOptionName, value: unknown): boolean {
-  const row: RenderOption = RENDER_OPTIONS[name];
-  switch (row.type) {
-    case 'boolean':
-      return typeof value === 'boolean';
-    case 'enum':
-      return row.values.includes(value as string);
-    case 'filter': {
-      const { type, radius } = (typeof value === 'object' && value ? value : { type: value }) as Record<
-        string,
-        unknown
-      >;
-      return (
-        typeof type === 'string' &&
-        Object.hasOwn(row.radii, type) &&
-        (radius === undefined || isNumber(radius, row.range, false, true))
-      );
-    }
-    case 'limits':
-      return (
-        typeof value === 'object' &&
-        value !== null &&
-        Object.entries(value).every(
-          ([kind, limit]) =>
-            (row.kinds as readonly string[]).includes(kind) &&
-            (limit === undefined || isNumber(limit, row.range, true)),
-        )
-      );
-    default:
-      return isNumber(value, row.range, row.type === 'integer', row.above);
+  const row: Row = RENDER_OPTIONS[name];
+  const { type, values, radii } = row;
+  if (type === 'boolean') return typeof value === type;
+  if (type === 'limits')
+    return (
+      typeof value === 'object' &&
+      isObject(value) &&
+      Object.entries(value).every(
+        ([kind, limit]) => values!.includes(kind) && (limit === undefined || isNumber(limit, row)),
+      )
+    );
+  if (radii) {
+    const { type: filter = value, radius = 1 } = Object(value);
+    return typeof filter === 'string' && Object.hasOwn(radii, filter) && isNumber(radius, { ...row, type: 'number' });
   }
+  return values ? values.includes(value) : isNumber(value, row);
 }
 
 /** The values that an option takes, in words: `a whole number from 1 to 65535`. */
 export function optionValues(name: RenderOptionName): string {
-  const row: RenderOption = RENDER_OPTIONS[name];
-  switch (row.type) {
-    case 'boolean':
-      return 'true or false';
-    case 'enum':
-      return `one of ${row.values.join(', ')}`;
-    case 'filter':
-      return `one of ${Object.keys(row.radii).join(', ')}, with a radius above 0 and at most ${row.range[1]} pixels`;
-    case 'limits':
-      return `whole numbers from ${row.range.join(' to ')} for some of ${row.kinds.join(', ')}`;
-    default: {
-      const [low, high] = row.range;
-      return `a ${row.type === 'integer' ? 'whole ' : ''}number ${row.above ? `above ${low} and at most` : `from ${low} to`} ${high}`;
-    }
-  }
+  const { type, range, above, values, radii }: Row = RENDER_OPTIONS[name];
+  const number = range && `number ${above ? `above ${range[0]} and at most` : `from ${range[0]} to`} ${range[1]}`;
+  if (radii) return `one of ${Object.keys(radii).join(', ')}, with a radius: a ${number}`;
+  if (type === 'limits') return `a whole ${number} for each of ${values!.join(', ')}`;
+  if (values) return `one of ${values.join(', ')}`;
+  return number ? `a ${type === 'integer' ? 'whole ' : ''}${number}` : 'true or false';
 }
 
-/** A value as error messages show it, in one line of at most about 40 characters. */
+/** A value as error messages show it: in one line, and short. */
 export const shownValue = (value: unknown): string =>
-  typeof value === 'string'
-    ? JSON.stringify(value.slice(0, 40))
-    : typeof value === 'function' || (typeof value === 'object' && value !== null)
-      ? `an ${Array.isArray(value) ? 'array' : 'object'}`
-      : String(value);
+  typeof value === 'string' ? JSON.stringify(value.slice(0, 40)) : isObject(value) ? 'an object' : String(value);
 
 /** Why an option does not take a value, as a sentence; `undefined` where it does. */
 export const optionFault = (name: RenderOptionName, value: unknown): string | undefined =>

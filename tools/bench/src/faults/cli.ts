@@ -43,14 +43,26 @@ const JOBS: Readonly<Record<'single' | 'batch', readonly string[]>> = {
     '24x16',
     '--samples',
     '6',
-    '--depth',
+    '--max-depth',
     '3',
     '-o',
     'x.exr',
     '-o',
     'x.png',
   ],
-  batch: ['render', '--batch', 'jobs.json', '--gpu', 'software', '--size', '24x16', '--samples', '4', '--depth', '3'],
+  batch: [
+    'render',
+    '--batch',
+    'jobs.json',
+    '--gpu',
+    'software',
+    '--size',
+    '24x16',
+    '--samples',
+    '4',
+    '--max-depth',
+    '3',
+  ],
 };
 
 /** Bundles the program and the GPU with faults, so that nothing must have been built. */
