@@ -1,10 +1,13 @@
 import { readFileSync } from 'node:fs';
 import ts from 'typescript';
 import { expect, test } from 'vitest';
-import { HELP } from '../../../packages/cli/src/help';
 import { ATTRIBUTES } from '@glanz/element';
 import { RENDER_OPTIONS } from '@glanz/renderer/options';
 import { isToneMap } from '@glanz/tonemap';
+import { readExport } from '../src/read-export';
+
+/** The manual of the command line. */
+const help = (await readExport('../../../packages/cli/src/help.ts', 'HELP')) as string;
 
 const read = (path: string) => readFileSync(new URL(`../../../${path}`, import.meta.url), 'utf8');
 const camel = (name: string) => name.replace(/-([a-z])/g, (_, letter: string) => letter.toUpperCase());
@@ -83,7 +86,7 @@ test('every name on the page exists', () => {
   ).toEqual([]);
   expect(
     commandLine.filter(
-      (name) => !(name.startsWith('--') ? new RegExp(`^\\s+(-\\w, )?${name} `, 'm') : new RegExp(name)).test(HELP),
+      (name) => !(name.startsWith('--') ? new RegExp(`^\\s+(-\\w, )?${name} `, 'm') : new RegExp(name)).test(help),
     ),
     'command line',
   ).toEqual([]);
