@@ -103,27 +103,18 @@ function surfacesOf(setting: OracleSetting): { p: OpenPbrParameters; channels: r
   }));
 }
 
-/** The microfacet lobe alone, single scattering. */
-function specularOf(
-  p: OpenPbrParameters,
-  wo: OpenPbrVector,
-  wi: OpenPbrVector,
-  side: BsdfOptions = {},
-): readonly number[] {
-  return evalBsdf(
-    { ...prepareBsdf({ ...p, fuzz_weight: 0 }, wo, { multipleScattering: false, ...side }), diffuseScale: 0 },
-    wo,
-    wi,
-  );
+/** The microfacet lobe alone, single scattering, as a function of ω_i: for one ω_o the surface is prepared once. */
+function specularLobe(p: OpenPbrParameters, wo: OpenPbrVector, side: BsdfOptions = {}) {
+  const bsdf = prepareBsdf({ ...p, fuzz_weight: 0 }, wo, { multipleScattering: false, ...side });
+  const specular = { ...bsdf, diffuseScale: 0 };
+  return (wi: OpenPbrVector): readonly number[] => evalBsdf(specular, wo, wi);
 }
 
-/** The coat's lobe alone, single scattering. */
-function coatOf(p: OpenPbrParameters, wo: OpenPbrVector, wi: OpenPbrVector): readonly number[] {
-  return evalBsdf(
-    prepareBsdf({ ...p, base_weight: 0, specular_weight: 0, fuzz_weight: 0 }, wo, { multipleScattering: false }),
-    wo,
-    wi,
-  );
+/** The coat's lobe alone, single scattering, as a function of ω_i. */
+function coatLobe(p: OpenPbrParameters, wo: OpenPbrVector) {
+  const bare = { ...p, base_weight: 0, specular_weight: 0, fuzz_weight: 0 };
+  const bsdf = prepareBsdf(bare, wo, { multipleScattering: false });
+  return (wi: OpenPbrVector): readonly number[] => evalBsdf(bsdf, wo, wi);
 }
 
 /** The oracle's microfacet lobe, brought to height-correlated masking; where it does not say by which factor, ours. */
@@ -156,12 +147,14 @@ function gainOfCorrelation(p: OpenPbrParameters, wo: OpenPbrVector, side: BsdfOp
   const coatAlpha = ggxAlpha(p.coat_roughness, p.coat_roughness_anisotropy);
   const lost = (slopes: Slopes, wi: OpenPbrVector) =>
     1 - (ggxMasking(slopes, wo) * ggxMasking(slopes, wi)) / ggxMaskingShadowing(slopes, wo, wi);
+  const specularOf = specularLobe(p, wo, side);
+  const coatOf = p.coat_weight > 0 ? coatLobe(p, wo) : () => [0, 0, 0];
   return integrateHemisphere(
     p,
     wo,
     (wi) => {
-      const coat = p.coat_weight > 0 ? coatOf(p, wo, wi) : [0, 0, 0];
-      return specularOf(p, wo, wi, side).map(
+      const coat = coatOf(wi);
+      return specularOf(wi).map(
         (value, i) => (value - (coat[i] as number)) * lost(alpha, wi) + (coat[i] as number) * lost(coatAlpha, wi),
       );
     },
@@ -171,7 +164,7 @@ function gainOfCorrelation(p: OpenPbrParameters, wo: OpenPbrVector, side: BsdfOp
 
 /** The reflected light with the coat's darkening by its mean reflectance, for metal below it. */
 function darkenedEvenly(p: OpenPbrParameters, wo: OpenPbrVector, reflected: readonly number[]): number[] {
-  const coat = integrateHemisphere(p, wo, (wi) => coatOf(p, wo, wi), 24);
+  const coat = integrateHemisphere(p, wo, coatLobe(p, wo), 24);
   const epsilon = dielectricEpsilon(p.coat_ior, 1);
   const roughness = coatedBase(p).specular_roughness;
   const kept = fresnelMean(epsilon) * (1 - roughness) + fresnelMean(-epsilon) * roughness;
@@ -226,7 +219,7 @@ describe('against an independent implementation', () => {
         let compared = 0;
         each((p, channels, { pair, wo, wi, side }) => {
           const expected = expectedSpecular(pair, side.inside ? correlationOf(p, wo, wi) : 1) ?? [0, 0, 0];
-          const values = specularOf(p, wo, wi, side);
+          const values = specularLobe(p, wo, side)(wi);
           for (const i of channels) {
             const [value, other] = [values[i] as number, expected[i] as number];
             expect(
@@ -247,7 +240,7 @@ describe('against an independent implementation', () => {
         each((p, _, { pair, wo, wi, up }) => {
           if (!up || wi[2] < 0) return;
           const expected = pair.L === 'spec' ? 0 : (pair.L?.coat?.[0] ?? 0) * (pair.kc ?? 1);
-          const value = coatOf(p, wo, wi)[0] as number;
+          const value = coatLobe(p, wo)(wi)[0] as number;
           expect(
             Math.abs(value - expected),
             `${value} for ${expected} at wo ${wo.join(' ')}, wi ${wi.join(' ')}`,
