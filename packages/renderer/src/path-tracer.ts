@@ -22,7 +22,8 @@ import type {
   RenderStatistics,
 } from './options';
 import { pickPixel } from './camera/pick';
-import { kernelFeatures, prepareTracer, type Prepared } from './prepare';
+import { prepareTracer, type Prepared } from './prepare';
+import { kernelFeatures } from './preparation';
 import { cameraUniforms } from './camera/camera';
 import { chooseCamera } from './camera/choose-camera';
 import type { SceneChange, SceneEditor } from './scene/scene-editor';

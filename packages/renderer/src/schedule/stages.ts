@@ -1,3 +1,5 @@
+import { breathe } from '@glanz/scene';
+
 /**
  * Where a stage's work is done, which decides when it begins.
  * - `foreground`: on this thread, one after another in the order in which they are declared.
@@ -84,23 +86,24 @@ export async function runStages<Products>(
   outer?.addEventListener('abort', onAbort, { once: true });
 
   const run = async (stage: AnyStage<Products>) => {
-    const { name, needs, release } = stage;
+    const { name, release } = stage;
     const begin = performance.now();
     try {
-      const inputs = Object.fromEntries(needs.map((need) => [need, products[need]])) as Pick<Products, Name>;
-      const product = await stage.run(inputs, { signal: inner.signal });
+      const product = await stage.run(products as Products, { signal: inner.signal });
       // Too late for the run, which no longer waits for this stage: nobody else would free it.
       if (failure && stage.place === 'elsewhere') return release?.(product);
       products[name] = product;
       made.push(stage);
       times[name] = { begin, end: performance.now() };
-      outer?.throwIfAborted();
       check?.();
+      // Others on this thread have their turn; what was aborted meanwhile ends here.
+      if (stage.place !== 'elsewhere') await breathe();
+      outer?.throwIfAborted();
     } catch (error) {
       fail(error);
     }
   };
-  const isReady = ({ needs }: AnyStage<Products>) => needs.every((need) => Object.hasOwn(products, need));
+  const isReady = ({ needs }: AnyStage<Products>) => needs.every((need) => need in products);
   const isBusy = (place: StagePlace) => [...running.keys()].some((stage) => stage.place === place);
   const begin = (stage: AnyStage<Products>) => {
     waiting.delete(stage);
@@ -120,7 +123,7 @@ export async function runStages<Products>(
   );
   try {
     while (!failure && waiting.size + running.size > 0) {
-      for (const stage of [...waiting]) if (stage.place === 'elsewhere' && isReady(stage)) begin(stage);
+      for (const stage of waiting) if (stage.place === 'elsewhere' && isReady(stage)) begin(stage);
       beginNext('foreground');
       if (!isBusy('foreground')) beginNext('background');
       if (running.size === 0) {

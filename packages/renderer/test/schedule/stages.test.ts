@@ -1,3 +1,4 @@
+import { setTimeout as sleep } from 'node:timers/promises';
 import { describe, expect, it } from 'vitest';
 import { runStages, stageOf, type AnyStage } from '../../src/schedule/stages';
 
@@ -16,9 +17,8 @@ function gate() {
   return { promise, open, refuse };
 }
 
-const turns = async (count = 10) => {
-  for (let i = 0; i < count; i++) await Promise.resolve();
-};
+/** Long enough for all that can go on. */
+const turns = () => sleep(20);
 
 /** Stages that note when they begin, end and are released; `gates` hold some open. */
 function stagesOf(
@@ -32,8 +32,8 @@ function stagesOf(
       name,
       needs,
       place,
-      async run(inputs, { signal }) {
-        log.push(`${name}(${Object.values(inputs).join()})`);
+      async run(products, { signal }) {
+        log.push(`${name}(${needs.map((need) => products[need]).join()})`);
         await gates[name]?.promise;
         log.push(signal.aborted ? `${name} aborted` : `${name} done`);
         return name.toUpperCase();
@@ -78,7 +78,7 @@ describe('stages', () => {
     await turns();
     expect(log).toEqual(['a()', 'b()']);
     gates.b.open();
-    await turns(30);
+    await turns();
     expect(log.slice(2)).toEqual(['b done', 'c()', 'c done']);
     gates.a.open();
     await run;
@@ -96,7 +96,7 @@ describe('stages', () => {
     ];
     const run = runStages(stagesOf(log, specs, gates));
     run.catch(() => {});
-    await turns(40);
+    await turns();
     gates.d.refuse(new Error('no memory'));
     await turns();
     // Work on this thread is waited for: it may be about to allocate.
@@ -118,12 +118,12 @@ describe('stages', () => {
     ];
     const run = runStages(stagesOf(log, specs, gates), { signal: controller.signal });
     run.catch(() => {});
-    await turns(30);
+    await turns();
     controller.abort(new Error('left'));
     await expect(run).rejects.toThrow('left');
     expect(log).toEqual(['a()', 'a done', 'b(A)', 'release A']);
     gates.b.open();
-    await turns(20);
+    await turns();
     expect(log.slice(-2)).toEqual(['b aborted', 'release B']);
     await expect(runStages(stagesOf(log, specs), { signal: controller.signal })).rejects.toThrow('left');
   });

@@ -1,0 +1,271 @@
+import { inSlices, SceneError, validationSteps, type Camera, type Instance, type Scene } from '@glanz/scene';
+import { biasedFlags } from './biased-options';
+import { cameraUniforms } from './camera/camera';
+import { cameraSteps } from './camera/choose-camera';
+import { viewFlags } from './camera/view';
+import { withErrorScopes } from './device/error-scopes';
+import { environmentSteps, type EnvironmentData } from './environment/environment';
+import { RenderError } from './errors';
+import { Film } from './film/film';
+import { prepareGeometry, type Geometry } from './geometry/geometry';
+import { isShown } from './geometry/placement';
+import { Integrator } from './integrator/integrator';
+import type { KernelCache } from './integrator/kernel-cache';
+import type { Kernel, KernelFeatures, KernelName } from './integrator/pipelines';
+import { lightGroupTable } from './lights/light-groups';
+import { lightSteps, type GatheredLights } from './lights/lights';
+import { energyTextures, type EnergyTextures } from './materials/energy-textures';
+import { checkInteriors, type TracerSettings } from './option-checks';
+import { expectedFeatures } from './scene/features';
+import { GpuScene } from './scene/gpu-scene';
+import { ownScene } from './scene/scene-editor';
+import { stageOf, type AnyStage } from './schedule/stages';
+import { showFirstLight } from './session/first-light';
+import type { GpuMemory } from './storage/buffers';
+
+/** What the stages of a preparation make. */
+export interface Products {
+  /** The scene that belongs to the tracer, validated. */
+  readonly scene: Scene;
+  readonly camera: Camera;
+  /** What the kernels' text will probably depend on, before the shapes are known. */
+  readonly expected: KernelFeatures;
+  /** The driver compiles the expected kernels. */
+  readonly request: void;
+  /** Hierarchies, instances and vertex attributes. */
+  readonly geometry: Geometry;
+  /** The scene on the GPU, without its lights. */
+  readonly shapes: GpuScene;
+  /** Frees the first image. */
+  readonly firstLight: () => void;
+  readonly lights: GatheredLights;
+  readonly environment: EnvironmentData;
+  readonly energy: EnergyTextures;
+  /** The scene on the GPU, with its lights. */
+  readonly gpuScene: GpuScene;
+  /** A film for the expected features: `film`, if these were right. */
+  readonly draft: Film;
+  readonly features: KernelFeatures;
+  readonly film: Film;
+  /** Has the kernels when the stage `kernels` is done. */
+  readonly integrator: Integrator;
+  readonly kernels: void;
+}
+
+/** What a preparation works on. */
+export interface PreparationInput {
+  readonly device: GPUDevice;
+  readonly memory: GpuMemory;
+  readonly cache: KernelCache;
+  readonly scene: Scene;
+  readonly options: TracerSettings;
+  /** Whether the first image comes too late. */
+  readonly isLate: () => boolean;
+}
+
+/** What decides the kernels' text: the scene's features, the camera and the options. */
+export function kernelFeatures(features: KernelFeatures, camera: Camera, options: TracerSettings): KernelFeatures {
+  return { ...features, flags: { ...features.flags, ...viewFlags(camera, options.filter), ...biasedFlags(options) } };
+}
+
+const stage = stageOf<Products>();
+
+/** The stages that validate the scene, choose the camera and ask the driver for the kernels. */
+const inspection = ({ device, cache, scene: given, options }: PreparationInput) => [
+  stage({
+    name: 'scene',
+    needs: [],
+    place: 'foreground',
+    async run(_, { signal }) {
+      await inSlices(validationSteps(given), { signal });
+      const scene = ownScene(given);
+      checkInteriors(scene);
+      return scene;
+    },
+  }),
+  stage({
+    name: 'camera',
+    needs: ['scene'],
+    place: 'foreground',
+    async run({ scene }, { signal }) {
+      const steps = cameraSteps(scene, options.camera, options.width / options.height);
+      const camera = await inSlices(steps, { signal }).catch((cause: unknown) => {
+        // What cannot be framed cannot be rendered, and rendering is what the caller asked for.
+        throw cause instanceof SceneError && cause.code === 'scene/empty'
+          ? new RenderError('renderer/no-triangles', 'The scene has no visible triangles: nothing to render.', {
+              cause,
+            })
+          : cause;
+      });
+      cameraUniforms(camera, options.width, options.height);
+      return camera;
+    },
+  }),
+  stage({
+    name: 'expected',
+    needs: ['scene', 'camera'],
+    place: 'foreground',
+    run: ({ scene, camera }) => kernelFeatures(expectedFeatures(device, scene, options), camera, options),
+  }),
+  stage({
+    name: 'request',
+    needs: ['expected'],
+    place: 'foreground',
+    // The kernels' text depends on what the scene has, not on its shapes: the driver compiles while this thread or
+    // others build hierarchies. A wrong guess costs nothing: the stage `kernels` asks for the right ones.
+    run({ expected }) {
+      if (options.onFirstLight) cache.kernel('first', expected).catch(() => {});
+      cache.get(expected).catch(() => {});
+    },
+  }),
+];
+
+/** The stages that bring the scene to the GPU. */
+function transfer({ device, memory, cache, options, isLate }: PreparationInput) {
+  const { hierarchies, onProgress, onFirstLight } = options;
+  return [
+    stage({
+      name: 'geometry',
+      needs: ['scene'],
+      place: hierarchies ? 'elsewhere' : 'foreground',
+      run({ scene }, { signal }) {
+        onProgress?.({ stage: 'bvh', done: 0 });
+        const report = (done: number) => onProgress?.({ stage: 'bvh', done });
+        return prepareGeometry(scene, { hierarchies, signal, onProgress: report });
+      },
+    }),
+    stage({
+      name: 'shapes',
+      needs: ['scene', 'geometry'],
+      place: 'foreground',
+      async run({ scene, geometry }, { signal }) {
+        onProgress?.({ stage: 'upload', done: 0 });
+        const shapes = await withErrorScopes(
+          device,
+          'the shapes and textures of this scene',
+          () => new GpuScene(device, memory, scene, geometry, options),
+        );
+        await shapes.fill(signal);
+        return shapes;
+      },
+    }),
+    stage({
+      name: 'firstLight',
+      needs: ['shapes', 'geometry', 'camera', 'expected'],
+      place: 'foreground',
+      run({ shapes, geometry, camera, expected }, { signal }) {
+        if (!onFirstLight) return () => {};
+        const source = { device, scene: shapes, geometry, camera, cache, features: expected, options };
+        return showFirstLight(source, onFirstLight, () => isLate() || signal.aborted);
+      },
+      release: (free) => free(),
+    }),
+    stage({
+      name: 'lights',
+      needs: ['scene'],
+      place: 'background',
+      run({ scene }, { signal }) {
+        const groups = lightGroupTable(scene, options.lightGroups);
+        const shown = (index: number) => isShown(scene, scene.instances[index] as Instance);
+        return inSlices(lightSteps(scene, shown, groups, options.lightSampling), { signal });
+      },
+    }),
+    stage({
+      name: 'environment',
+      needs: ['scene'],
+      place: 'background',
+      run: ({ scene }, { signal }) => inSlices(environmentSteps(scene.environment), { signal }),
+    }),
+    stage({
+      name: 'energy',
+      needs: ['scene'],
+      place: 'elsewhere',
+      // A quarter of what the renderer weighs, and needed by no earlier stage: a chunk of its own.
+      run: async () => energyTextures((await import('@glanz/openpbr/tables')).OPENPBR_TABLES),
+    }),
+    stage({
+      name: 'gpuScene',
+      // The first image comes before the lights.
+      needs: ['shapes', 'firstLight', 'lights', 'environment', 'energy'],
+      place: 'foreground',
+      async run({ shapes, lights, environment, energy }) {
+        await shapes.light(environment, energy, lights);
+        onProgress?.({ stage: 'upload', done: 1 });
+        return shapes;
+      },
+    }),
+  ];
+}
+
+/** The stages that make the film and the paths, and wait for the kernels. */
+function assembly({ device, memory, cache, options }: PreparationInput) {
+  const { width, height, signal: outer, onProgress } = options;
+  const makeFilm = (planes: number) =>
+    withErrorScopes(device, `an image of ${width} × ${height} pixels`, () => new Film(memory, width, height, planes));
+  return [
+    stage({
+      name: 'draft',
+      needs: ['expected'],
+      place: 'background',
+      run: ({ expected }) => makeFilm(expected.planes),
+    }),
+    stage({
+      name: 'features',
+      needs: ['gpuScene', 'camera'],
+      place: 'foreground',
+      run: ({ gpuScene, camera }) => kernelFeatures(gpuScene.features(), camera, options),
+    }),
+    stage({
+      name: 'film',
+      needs: ['draft', 'features'],
+      place: 'foreground',
+      run({ draft, features: { planes } }) {
+        if (draft.planes === planes) return draft;
+        draft.destroy();
+        return makeFilm(planes);
+      },
+    }),
+    stage({
+      name: 'integrator',
+      needs: ['gpuScene', 'features', 'film'],
+      place: 'foreground',
+      run: ({ gpuScene, features, film }) =>
+        withErrorScopes(
+          device,
+          'the paths',
+          () =>
+            new Integrator(device, memory, gpuScene, features, film, options.pathsInFlight, {
+              maxDepth: options.maxDepth,
+              maxVolumeDepth: options.maxVolumeDepth,
+            }),
+        ),
+    }),
+    stage({
+      name: 'kernels',
+      needs: ['features', 'integrator'],
+      // The driver goes on compiling after an abort, for a later tracer.
+      place: 'elsewhere',
+      async run({ features, integrator }, { signal }) {
+        const rehearsals: Promise<void>[] = [];
+        const onKernel = (done: number, name?: KernelName, kernel?: Kernel) => {
+          if (signal.aborted || outer?.aborted) return;
+          onProgress?.({ stage: 'compile', done });
+          if (!name || !kernel) return;
+          const rehearsal = withErrorScopes(device, `the kernel "${name}"`, () => integrator.rehearse(name, kernel));
+          rehearsal.catch(() => {});
+          rehearsals.push(rehearsal);
+        };
+        integrator.begin(await cache.get(features, onKernel));
+        await Promise.all(rehearsals);
+      },
+    }),
+  ];
+}
+
+/**
+ * The stages of a preparation, in order of urgency: the shortest way to a first image is in the foreground; what only
+ * lights and lit surfaces need is done in the background, while hierarchies are built elsewhere.
+ */
+export function preparationStages(input: PreparationInput): readonly AnyStage<Products>[] {
+  return [...inspection(input), ...transfer(input), ...assembly(input)];
+}
