@@ -1,4 +1,4 @@
-// node tools/check-imports.mjs — holds the arrows of ARCHITECTURE.md: who may import whom, through which doors, and
+// node tools/check-imports.mjs — checks the table of ARCHITECTURE.md: who may import whom, through which entries, and
 // which files may touch Node.
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -15,17 +15,17 @@ export async function checkImports(base = root) {
   const rootManifest = JSON.parse(readFileSync(join(base, 'package.json'), 'utf8'));
 
   const cycle = findArrowCycle(arrows);
-  verdicts.expect(!cycle, `ARCHITECTURE.md: the arrows form a circle: ${cycle?.join(' → ')}`);
+  verdicts.expect(!cycle, `ARCHITECTURE.md: the packages import each other in a circle: ${cycle?.join(' → ')}`);
   for (const p of packages) {
     if (p.group === 'packages')
-      verdicts.expect(arrows.has(p.short), `ARCHITECTURE.md: packages/${p.short} has no row in the table of rooms.`);
+      verdicts.expect(arrows.has(p.short), `ARCHITECTURE.md: packages/${p.short} has no row in the table of packages.`);
     const { problems } = checkPackage(p, { arrows, all, rootManifest, base });
     verdicts.expect(problems.length === 0, problems.join('\n'));
   }
   for (const name of arrows.keys())
     verdicts.expect(
       all.get(`@glanz/${name}`)?.group === 'packages',
-      `ARCHITECTURE.md: the table of rooms names packages/${name}, which does not exist.`,
+      `ARCHITECTURE.md: the table of packages names packages/${name}, which does not exist.`,
     );
   return verdicts;
 }

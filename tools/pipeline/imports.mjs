@@ -250,7 +250,7 @@ export function checkPackage(p, { arrows, all, rootManifest, base }) {
       if (!isSource || !published) continue;
       const arrow = arrows.get(p.short)?.get(internal.short);
       if (internal.group !== 'packages') complain(`a published package must not import ${name}.`);
-      else if (!arrow) complain(`${p.short} → ${internal.short} is no arrow of ARCHITECTURE.md.`);
+      else if (!arrow) complain(`${p.short} → ${internal.short} is not in the table of ARCHITECTURE.md.`);
       else if (arrow.typesOnly && !typeOnly)
         complain(`${p.short} → ${internal.short} is for types only: use import type.`);
       else if (arrow.errorOnly && specifier !== `${name}/error`)
@@ -288,7 +288,7 @@ export function checkPackage(p, { arrows, all, rootManifest, base }) {
     for (const name of runtime) {
       const internal = all.get(name);
       if (internal && !arrows.get(p.short)?.has(internal.short))
-        problems.push(`packages/${p.short}/package.json: ${name} is no arrow of ARCHITECTURE.md.`);
+        problems.push(`packages/${p.short}/package.json: ${name} is not in the table of ARCHITECTURE.md.`);
     }
     // A program supplies the optional peers of the libraries it uses without importing them itself.
     const supplied = new Set(
