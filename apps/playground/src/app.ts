@@ -1,4 +1,4 @@
-import { breathe, type Camera, type Scene } from '@glanz/scene';
+import { yieldToEventLoop, type Camera, type Scene } from '@glanz/scene';
 import { controlCamera } from '@glanz/viewer/controls';
 import { fitCamera } from '@glanz/viewer/fit-camera';
 import { describeError, isAbort } from './errors';
@@ -276,7 +276,7 @@ export class App {
         { ...host, rig },
         ({ stage, done }) => this.#status.prepare(stage, done),
       );
-      await breathe();
+      await yieldToEventLoop();
       await this.#adopt(opened, now(), rig);
     } catch (error) {
       this.#fail(error);
@@ -304,7 +304,7 @@ export class App {
     const { exposure, toneMap, samples, noise, layer } = state;
     this.#session.setView({ exposure, toneMap, samples, noise, layer }).catch((error: unknown) => this.#fail(error));
     if (this.#link?.model === opened.name) this.#link = undefined;
-    await breathe();
+    await yieldToEventLoop();
     if (this.#opened?.request !== request) return;
     if (!again) this.#selection.choose({ material: scene.instances[0]?.material ?? 0 });
     const sample = request.kind === 'sample' ? request.name : undefined;
@@ -323,7 +323,7 @@ export class App {
       });
     }
     for (const listener of this.#modelListeners) {
-      await breathe();
+      await yieldToEventLoop();
       if (this.#opened?.request !== request) return;
       listener();
     }

@@ -11,8 +11,8 @@ export interface AsyncBuildOptions extends BlasOptions {
   readonly sliceMs?: number;
 }
 
-/** Lets everything else that waits have its turn. */
-export function breathe(): Promise<void> {
+/** Lets other tasks of the event loop run. */
+export function yieldToEventLoop(): Promise<void> {
   const { scheduler, setImmediate: soon = setTimeout } = globalThis as {
     scheduler?: { yield?: () => Promise<void> };
     setImmediate?: (task: () => void) => unknown;
@@ -42,7 +42,7 @@ export async function buildBlasAsync(mesh: TriangleMesh, options: AsyncBuildOpti
     }
     if (performance.now() < until) continue;
     onProgress?.(Math.min(1, step.value));
-    await breathe();
+    await yieldToEventLoop();
     signal?.throwIfAborted();
     until = performance.now() + sliceMs;
   }

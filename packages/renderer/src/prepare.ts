@@ -1,4 +1,4 @@
-import { breathe, type Camera, type Scene } from '@glanz/scene';
+import { yieldToEventLoop, type Camera, type Scene } from '@glanz/scene';
 import { lossInfo } from './device/device-loss';
 import { deviceLost } from './errors';
 import type { Film } from './film/film';
@@ -34,7 +34,7 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, given: Path
   lossInfo(device);
   checkSize(given.width, given.height);
   const options = resolveOptions(given);
-  await breathe();
+  await yieldToEventLoop();
   const memory = new GpuMemory(device);
   const cache = new KernelCache(device);
   let late = false;

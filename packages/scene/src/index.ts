@@ -27,7 +27,7 @@ export { sceneBounds, sceneBoundsSteps, type SceneBounds } from './bounds';
 export { defaultMaterial } from './default-material';
 export { SceneError } from './error';
 export { frameCamera, frameCameraSteps, type FrameCameraOptions } from './frame-camera';
-export { breathe, finish, inSlices, type SliceOptions, type Steps } from './slices';
+export { yieldToEventLoop, finish, inSlices, type SliceOptions, type Steps } from './slices';
 export { validateScene, validationSteps } from './validate';
 export { withVariant } from './variant';
 export { untilAborted } from './until-aborted';

@@ -21,11 +21,8 @@ export interface SliceOptions {
   readonly sliceMs?: number;
 }
 
-/**
- * Lets everything else that waits have its turn, without the milliseconds that a timer takes where there is a better
- * way.
- */
-export function breathe(): Promise<void> {
+/** Lets other tasks of the event loop run. Uses a timer, which costs milliseconds, only where nothing faster exists. */
+export function yieldToEventLoop(): Promise<void> {
   const { scheduler, setImmediate } = globalThis as {
     scheduler?: { yield?: () => Promise<void> };
     setImmediate?: (done: () => void) => void;
@@ -51,7 +48,7 @@ export async function inSlices<T>(steps: Steps<T>, { signal, sliceMs = 6 }: Slic
     const step = steps.next();
     if (step.done) return step.value;
     if (performance.now() < until) continue;
-    await breathe();
+    await yieldToEventLoop();
     signal?.throwIfAborted();
     until = performance.now() + sliceMs;
   }

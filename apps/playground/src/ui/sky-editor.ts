@@ -1,4 +1,4 @@
-import { breathe, inSlices, type LatLongEnvironment } from '@glanz/scene';
+import { yieldToEventLoop, inSlices, type LatLongEnvironment } from '@glanz/scene';
 import { STUDIOS, type SoftBox } from '@glanz/scene/studio';
 import { toneMap } from '@glanz/tonemap';
 import { watch, type Context } from './context';
@@ -109,7 +109,9 @@ export class SkyEditor {
     if (environment?.type === 'latlong' && environment.data !== this.#drawn?.data) {
       this.#drawn = environment;
       // By itself: a model that has just come has other panels to show.
-      void breathe().then(() => inSlices(latLongSteps(this.#canvas, environment, () => this.#drawn === environment)));
+      void yieldToEventLoop().then(() =>
+        inSlices(latLongSteps(this.#canvas, environment, () => this.#drawn === environment)),
+      );
     }
     const boxes = this.#boxes();
     if (!boxes[this.#chosen]) this.#chosen = -1;

@@ -1,4 +1,4 @@
-import { breathe } from '../async';
+import { yieldToEventLoop } from '../async';
 
 type Numbers = Float32Array | Uint32Array | Uint16Array;
 
@@ -55,7 +55,7 @@ async function inTurns(steps: Generator<void>): Promise<void> {
   let until = performance.now() + SLICE_MS;
   while (!steps.next().done) {
     if (performance.now() < until) continue;
-    await breathe();
+    await yieldToEventLoop();
     until = performance.now() + SLICE_MS;
   }
 }

@@ -1,4 +1,4 @@
-import { breathe } from '../async';
+import { yieldToEventLoop } from '../async';
 import { blasSteps, type Blas, type BlasOptions } from '../blas';
 import type { TriangleMesh } from '../layout';
 
@@ -29,7 +29,7 @@ export class BuildsHere {
     let until = -Infinity;
     while (queue.length > 0) {
       if (performance.now() > until) {
-        await breathe();
+        await yieldToEventLoop();
         until = performance.now() + SLICE_MS;
         continue;
       }
@@ -44,7 +44,7 @@ export class BuildsHere {
             job.settle(step.value);
           } else if (performance.now() > until) {
             job.progress(step.value);
-            await breathe();
+            await yieldToEventLoop();
             until = performance.now() + SLICE_MS;
           }
         }

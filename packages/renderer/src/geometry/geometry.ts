@@ -2,7 +2,7 @@ import { packTriangles, type Blas } from '@glanz/bvh';
 import { bvhInstanceStruct } from '@glanz/bvh/wgsl';
 import type { Instance, Mesh, Scene } from '@glanz/scene';
 import { INSTANCE_CATCHER, instanceStruct, meshStruct, NONE } from '../storage/layout';
-import { breather, buildHierarchies, type HierarchyOptions } from './hierarchies';
+import { createYielder, buildHierarchies, type HierarchyOptions } from './hierarchies';
 import { isShown, Placement } from './placement';
 
 /** Node words: 16 a node. */
@@ -239,10 +239,10 @@ export async function packGeometry(scene: Scene, geometry: Geometry, signal?: Ab
     triangles: new Float32Array(geometry.triangleCount * TRIANGLE_WORDS),
     attributes: new Uint32Array(geometry.attributeWords),
   };
-  const breathe = breather();
+  const yieldIfDue = createYielder();
   for (const { buffer, offset, data } of shapeSlices(scene, geometry)) {
     new Uint8Array(packed[buffer].buffer).set(new Uint8Array(data.buffer, data.byteOffset, data.byteLength), offset);
-    await breathe();
+    await yieldIfDue();
     signal?.throwIfAborted();
   }
   return packed;

@@ -1,5 +1,5 @@
 import { buildBlas, type Blas } from '@glanz/bvh';
-import { breathe, type Mesh } from '@glanz/scene';
+import { yieldToEventLoop, type Mesh } from '@glanz/scene';
 
 /**
  * Builds the hierarchies of meshes in the renderer's place. A pool of workers is one: `BvhWorkers` of
@@ -27,19 +27,19 @@ export interface HierarchyOptions {
   readonly onProgress?: ((done: number) => void) | undefined;
 }
 
-/** The thread is handed back after so many milliseconds. */
+/** Milliseconds after which long work yields. */
 const SLICE_MS = 12;
 
 /**
- * Gives a function to await between two steps of long work: it hands the thread back once in a while.
+ * Makes a function to await between two steps of long work: it yields to the event loop when a slice is over.
  *
- * @param sliceMs After so many milliseconds.
+ * @param sliceMs Length of a slice, milliseconds.
  */
-export function breather(sliceMs: number = SLICE_MS): () => Promise<void> {
+export function createYielder(sliceMs: number = SLICE_MS): () => Promise<void> {
   let last = performance.now();
   return async () => {
     if (performance.now() - last < sliceMs) return;
-    await breathe();
+    await yieldToEventLoop();
     last = performance.now();
   };
 }
@@ -55,12 +55,12 @@ export async function buildHierarchies(
   const total = meshes.reduce((sum, mesh) => sum + mesh.indices.length, 0);
   if (!hierarchies) {
     const built: Blas[] = [];
-    const breathe = breather();
+    const yieldIfDue = createYielder();
     let done = 0;
     for (const mesh of meshes) {
       built.push(buildBlas({ positions: mesh.positions, indices: mesh.indices }));
       onProgress?.((done += mesh.indices.length) / total);
-      await breathe();
+      await yieldIfDue();
       signal?.throwIfAborted();
     }
     return built;

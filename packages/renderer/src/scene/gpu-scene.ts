@@ -19,7 +19,7 @@ import {
   type PackedGeometry,
   type PackedMesh,
 } from '../geometry/geometry';
-import { breather } from '../geometry/hierarchies';
+import { createYielder } from '../geometry/hierarchies';
 import { lightGroupTable, type LightGroupTable } from '../lights/light-groups';
 import {
   buildLightTable,
@@ -365,7 +365,7 @@ export class GpuScene {
 
   /** Writes the shapes, with the thread handed back every few milliseconds. */
   async fill(signal?: AbortSignal): Promise<void> {
-    const breathe = breather(FILL_MS);
+    const yieldIfDue = createYielder(FILL_MS);
     const written: Promise<void>[] = [];
     this.#geometry.placement.takeChangedNodes();
     for (const { buffer, offset, data } of joinSlices(shapeSlices(this.#scene, this.#geometry))) {
@@ -373,7 +373,7 @@ export class GpuScene {
         this.#resources.write(buffer, data, offset),
       );
       written.push(verified);
-      await this.#keepUp(data.byteLength, breathe);
+      await this.#keepUp(data.byteLength, yieldIfDue);
       signal?.throwIfAborted();
     }
     await Promise.all(written);
@@ -383,9 +383,9 @@ export class GpuScene {
    * Waits for the GPU's process now and then: where it is another one than the page's, what is written waits in a queue
    * between them, and the page's thread would stand still once that is full.
    */
-  async #keepUp(bytes: number, breathe: () => Promise<void>): Promise<void> {
+  async #keepUp(bytes: number, yieldIfDue: () => Promise<void>): Promise<void> {
     this.#waiting += bytes;
-    if (this.#waiting < QUEUE_BYTES) return breathe();
+    if (this.#waiting < QUEUE_BYTES) return yieldIfDue();
     this.#waiting = 0;
     await this.#device.queue.onSubmittedWorkDone();
   }
@@ -396,20 +396,20 @@ export class GpuScene {
    * one go.
    */
   async light(environment: EnvironmentData, energy: EnergyTextures, gathered?: GatheredLights): Promise<void> {
-    const breathe = breather(FILL_MS);
+    const yieldIfDue = createYielder(FILL_MS);
     await withErrorScopes(this.#device, 'the environment', () => {
       this.#environment = environment;
       makeEnvironmentTextures(this.#resources, this.#environment);
       this.#uploadEnergy(energy);
     });
-    await breathe();
+    await yieldIfDue();
     const written: Promise<void>[] = [];
     const slices = fillEnvironmentTextures(this.#device.queue, this.#resources, this.#environment);
     for (;;) {
       const { result: slice, verified } = inErrorScopes(this.#device, 'the environment', () => slices.next());
       written.push(verified);
       if (slice.done) break;
-      await this.#keepUp(slice.value, breathe);
+      await this.#keepUp(slice.value, yieldIfDue);
     }
     const placed =
       gathered &&
@@ -430,7 +430,7 @@ export class GpuScene {
         this.#resources.write('lights', new Uint8Array(records, at, bytes), at),
       );
       written.push(verified);
-      await this.#keepUp(bytes, breathe);
+      await this.#keepUp(bytes, yieldIfDue);
     }
     await Promise.all(written);
   }

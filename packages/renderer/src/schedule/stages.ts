@@ -1,4 +1,4 @@
-import { breathe } from '@glanz/scene';
+import { yieldToEventLoop } from '@glanz/scene';
 
 /**
  * Where a stage's work is done, which decides when it begins.
@@ -97,7 +97,7 @@ export async function runStages<Products>(
       times[name] = { begin, end: performance.now() };
       check?.();
       // Others on this thread have their turn; what was aborted meanwhile ends here.
-      if (stage.place !== 'elsewhere') await breathe();
+      if (stage.place !== 'elsewhere') await yieldToEventLoop();
       outer?.throwIfAborted();
     } catch (error) {
       fail(error);
