@@ -18,22 +18,22 @@ export interface SceneBounds {
 }
 
 /**
- * The box around all visible triangles, exact to their vertices under their transforms. Vertices that no triangle uses
- * do not count, nor do lights and cameras.
+ * The box around all visible triangles, exact for their transformed vertices. Vertices that no triangle uses, lights
+ * and cameras do not count.
  */
 export function sceneBounds(scene: Scene): SceneBounds {
   return finish(sceneBoundsSteps(scene));
 }
 
 /**
- * The same as {@link sceneBounds} in steps of a millisecond or so, for `inSlices`. The scene must stay as it is until
- * the last step.
+ * The same as {@link sceneBounds} in steps of about a millisecond, for `inSlices`. The scene must not change until the
+ * last step.
  */
 export function* sceneBoundsSteps(scene: Scene): Generator<void, SceneBounds> {
   return yield* boundsBy(scene, new Map());
 }
 
-/** {@link sceneBoundsSteps}, with a memory for the vertices in use. */
+/** {@link sceneBoundsSteps}, with a cache of the used vertices. */
 export function* boundsBy(scene: Scene, found: FoundVertices): Steps<SceneBounds> {
   const [x1, y1, z1, x0, y0, z0] = (yield* extentSteps(scene, AXES, [0, 0, 0], found)) as unknown as [
     number,

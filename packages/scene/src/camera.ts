@@ -6,14 +6,14 @@ export interface PerspectiveCamera {
   transform: ArrayLike<number>;
   /** Vertical field of view, radians, in (0, π). */
   yfov: number;
-  /** Width over height the author had in mind; a film of another shape keeps the vertical field of view. Above 0. */
+  /** Width over height that the author intended; a film of another shape keeps the vertical field of view. Above 0. */
   aspect?: number;
   /** Radius of the thin lens, metres, 0 to 1e12; default 0, a pinhole. */
   lens_radius?: number;
   /** Sides of the aperture, a regular polygon with its corners on the lens's edge; below 3 (default 0) it is round. */
   lens_blades?: number;
   /**
-   * Turns the aperture's polygon, radians, counter-clockwise as the camera sees it; at 0 a corner points to the right.
+   * Rotates the aperture's polygon, radians, counter-clockwise as the camera sees it; at 0 a corner points right.
    */
   lens_rotation?: number;
   /** Distance of the plane in focus along the axis, metres, above 0; default 1. Only matters with a lens. */
@@ -32,9 +32,9 @@ export interface OrthographicCamera {
 }
 
 /**
- * The whole sphere around a point as a latitude-longitude picture, which wants to be twice as wide as high: −Z in the
- * middle, +Y at the top, azimuth growing to the right. Turned so that its −Z lies along the world's +X, it gives
- * pictures that serve as a `LatLongEnvironment` without rotation.
+ * The whole sphere around a point as a latitude-longitude image, which should be twice as wide as high: −Z in the
+ * middle, +Y at the top, azimuth growing to the right. Rotated so that its −Z lies along the world's +X, its images
+ * serve as a `LatLongEnvironment` without rotation.
  */
 export interface PanoramaCamera {
   type: 'panorama';
@@ -42,5 +42,5 @@ export interface PanoramaCamera {
   transform: ArrayLike<number>;
 }
 
-/** What a scene is looked at through. All look along their local −Z, +Y up. */
+/** A camera of any type. All look along their local −Z, with +Y up. */
 export type Camera = PerspectiveCamera | OrthographicCamera | PanoramaCamera;

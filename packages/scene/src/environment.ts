@@ -5,13 +5,13 @@ export interface ConstantEnvironment {
   radiance: readonly [number, number, number];
   /** Whether the camera sees it directly; default true. Light from it arrives either way. */
   visible?: boolean;
-  /** Light group that its light is kept in. */
+  /** Light group that its light is added to. */
   light_group?: string;
 }
 
 /**
- * A latitude-longitude picture of the surroundings. A direction d in the frame of the picture falls on
- * u = atan2(d.z, d.x)/2π + ½, v = acos(d.y)/π: row 0 is +Y, the picture's centre +X, u grows towards +Z. Texel centres
+ * A latitude-longitude image of the environment. A direction d in the image's frame maps to
+ * u = atan2(d.z, d.x)/2π + ½, v = acos(d.y)/π: row 0 is +Y, the image's centre +X, u grows towards +Z. Texel centres
  * at (i+½)/N, bilinear, wrapping in u, clamping in v.
  */
 export interface LatLongEnvironment {
@@ -23,12 +23,12 @@ export interface LatLongEnvironment {
   /** Multiplies the radiance; default 1. */
   intensity?: number;
   /**
-   * Turns the surroundings about +Y, radians, counter-clockwise seen from above: L(d) = picture(R_y(−rotation) d).
+   * Rotates the environment about +Y, radians, counter-clockwise seen from above: L(d) = image(R_y(−rotation) d).
    * Default 0.
    */
   rotation?: number;
   visible?: boolean;
-  /** Light group that its light is kept in. */
+  /** Light group that its light is added to. */
   light_group?: string;
 }
 

@@ -1,8 +1,8 @@
 import { GlanzError } from '@glanz/wgsl/error';
 
 /**
- * Thrown for scenes whose parts do not fit together. Codes: `scene/reference` (an index of something that is not
- * there), `scene/length` (an array of a wrong length), `scene/not-finite`, `scene/value` (a number out of its range),
+ * Thrown for scenes whose parts do not fit together. Codes: `scene/reference` (an index out of
+ * range), `scene/length` (an array of a wrong length), `scene/not-finite`, `scene/value` (a number out of its range),
  * `scene/empty` (nothing to measure).
  */
 export class SceneError extends GlanzError {}

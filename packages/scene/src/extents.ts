@@ -5,19 +5,19 @@ import { RUN, usedVertices, type UsedVertices } from './used-vertices';
 
 type Vector = readonly [number, number, number];
 
-/** Vertices in use by mesh, found once. */
+/** Used vertices by mesh, each found once. */
 export type FoundVertices = Map<Mesh, UsedVertices>;
 
-/** Runs of vertices that are looked at between two stops. */
+/** Runs of vertices visited between two yields. */
 const STEP_RUNS = STEP / RUN;
-/** Instances that are looked at between two stops. */
+/** Instances visited between two yields. */
 const STEP_INSTANCES = STEP / 16;
 
 /**
- * How far the visible triangles' vertices reach in the world, in each of several directions: the largest dot product of
- * a direction and what leads from `center` to a vertex; −∞ without vertices. Exact, in doubles: vertices are left out
- * only where the box around them shows that they do not reach as far as another, so that of many instances only those
- * at the border of the scene are measured vertex by vertex.
+ * How far the visible triangles' vertices extend in world space along each of several directions: the largest dot
+ * product of the direction and (vertex − `center`); −∞ without vertices. Exact, in doubles. Vertices are skipped only
+ * where their bounding box extends no farther than a vertex already found, so that of many instances only those at the
+ * border of the scene are measured vertex by vertex.
  */
 export function* extentSteps(
   { instances, meshes }: Scene,
@@ -38,7 +38,7 @@ export function* extentSteps(
       if (vertices.first >= 0) yield { mesh, vertices, transform };
     }
   };
-  // One vertex of each instance first: what lies inside of those need not be looked at closely.
+  // Start with one vertex of each instance, so that the second pass can skip whatever lies inside of these.
   for (const part of visible()) {
     if (!part) yield;
     else {
@@ -75,7 +75,7 @@ export function* extentSteps(
   return extents;
 }
 
-/** The function of a vertex in object space that says how far it reaches: three factors and a constant. */
+/** The affine function of an object-space vertex that gives its extent: three factors and a constant. */
 function setRow(row: Float64Array, [x, y, z]: Vector, m: ArrayLike<number>, center: Vector): void {
   for (let k = 0; k < 3; k++)
     row[k] = x * (m[4 * k] as number) + y * (m[4 * k + 1] as number) + z * (m[4 * k + 2] as number);
@@ -84,7 +84,7 @@ function setRow(row: Float64Array, [x, y, z]: Vector, m: ArrayLike<number>, cent
 }
 
 /**
- * As far as a vertex within a box may reach. Rounds as {@link reach} does, and thus never below a vertex in the box.
+ * Upper bound on the extent of vertices within a box. Rounds as {@link reach} does, thus never below a vertex in it.
  */
 function farthest(row: Float64Array, boxes: Float32Array, at: number): number {
   const a = row[0] as number,

@@ -5,9 +5,9 @@ import { extentSteps, type FoundVertices } from './extents';
 import type { Scene } from './scene';
 import { finish } from './slices';
 
-/** What {@link frameCamera} may be told. */
+/** Options for {@link frameCamera}. */
 export interface FrameCameraOptions {
-  /** Width over height of the picture. */
+  /** Width over height of the image. */
   readonly aspect: number;
   /** Vertical field of view, radians, in (0, π). Default 35°. */
   readonly yfov?: number;
@@ -15,7 +15,7 @@ export interface FrameCameraOptions {
    * From the scene towards the camera, any length; not straight up or down. Default front-right-above: (0.6, 0.45, 1).
    */
   readonly direction?: readonly [number, number, number];
-  /** Part of the picture's half width and height left free around the scene, in [0, 1). Default 0.06. */
+  /** Fraction of the image's half width and height left free around the scene, in [0, 1). Default 0.06. */
   readonly margin?: number;
 }
 
@@ -29,14 +29,17 @@ const cross = (a: Vector, b: Vector): Vector => [
 function normalized(v: Vector, what: string): Vector {
   const length = Math.hypot(...v);
   if (!(length > 1e-12) || !Number.isFinite(length))
-    throw new SceneError('scene/value', `${what} is [${v.join(', ')}], which gives no direction.`);
+    throw new SceneError(
+      'scene/value',
+      `${what} is [${v.join(', ')}], which has no direction; it must have a length above 0, and not be vertical.`,
+    );
   return [v[0] / length, v[1] / length, v[2] / length];
 }
 
 /**
- * A camera that sees the whole scene: of all that look the given way, the nearest one with every visible vertex inside
- * the frame less its margin. The subject fills the picture's width or its height, and is near the middle the other way.
- * The plane in focus is half-way through the scene.
+ * A camera that sees the whole scene: of all that look in the given direction, the nearest one with every visible
+ * vertex inside the frame less its margin. The subject fills the image's width or its height, and is about centred in
+ * the other dimension. The plane in focus is half-way through the scene.
  *
  * @throws {SceneError} `scene/empty` if the scene has no visible triangles, `scene/value` for options out of range.
  */
@@ -70,8 +73,8 @@ export function* frameCameraSteps(
   const up = cross(back, right);
   const ty = Math.tan(yfov / 2) * (1 - margin);
   const tx = ty * aspect;
-  // How far the planes at the right and left edge must lie outside, at the top and the bottom; and the nearest and
-  // farthest depth. Relative to the box's centre, so that a small part far from the origin keeps its digits.
+  // Extents along the normals of the frustum's right, left, top and bottom planes, then the nearest and farthest
+  // depth. Relative to the box's centre, so that a small part far from the origin keeps its precision.
   const tilted = (side: Vector, by: number, t: number): Vector => [
     by * side[0] + t * back[0],
     by * side[1] + t * back[1],
@@ -100,8 +103,8 @@ export function* frameCameraSteps(
   const x = (toRight - toLeft) / 2;
   const y = (toTop - toBottom) / 2;
   let d = Math.max((toRight + toLeft) / (2 * tx), (toTop + toBottom) / (2 * ty));
-  // A line seen along its length, a point, and a cone whose tip would touch the camera have no size to go by: they are
-  // seen from as far as they are deep, or from a metre away.
+  // A line seen along its length, a point, and a cone whose tip would touch the camera have no size to fit: they are
+  // seen from a distance equal to their depth, or from a metre away.
   if (!(d - near > 1e-6 * (near - far))) d = near + (near - far || 1);
   const eye = [0, 1, 2].map(
     (k) => (center[k] as number) + (right[k] as number) * x + (up[k] as number) * y + (back[k] as number) * d,

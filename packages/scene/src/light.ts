@@ -1,13 +1,13 @@
 /** What all lights have in common. */
 interface NamedLight {
   name: string;
-  /** Light group that its light is kept in; see `PathTracerOptions.lightGroups` of the renderer. */
+  /** Light group that its light is added to; see `PathTracerOptions.lightGroups` of the renderer. */
   light_group?: string;
   /** Linear Rec.709; multiplies the intensity. */
   color: readonly [number, number, number];
 }
 
-/** A light without size. World space. Colours are linear Rec.709 and multiply the intensity. */
+/** A point light. World space. Colours are linear Rec.709 and multiply the intensity. */
 export interface PointLight extends NamedLight {
   type: 'point';
   /** Radiant intensity, W/sr (glTF: candela, taken 1:1). */
@@ -31,31 +31,30 @@ export interface SpotLight extends NamedLight {
 }
 
 /**
- * How much a lamp was measured to shine which way: the luminous intensities of a photometric file (IES LM-63, type C),
- * taken 1:1 as W/sr as glTF's candela are. Between the angles it is linear, beyond the last vertical one it is dark.
+ * The measured intensity of a luminaire by direction: the luminous intensities of a photometric file (IES LM-63,
+ * type C), taken 1:1 as W/sr as glTF's candela are. Interpolated linearly between angles; 0 beyond the last vertical one.
  */
 export interface LightProfile {
-  /** Angles from the lamp's axis, radians, rising, 0 to π at most; two at least. */
+  /** Angles from the luminaire's axis, radians, rising, from 0 to at most π; at least two. */
   readonly vertical: Float32Array;
-  /** Angles around it, radians, rising from 0, below 2π; one alone: the same all around. */
+  /** Angles around it, radians, rising from 0, below 2π; a single one: symmetric about the axis. */
   readonly horizontal: Float32Array;
-  /** W/sr, for each horizontal angle those of all vertical ones: stride `vertical.length`. */
+  /** W/sr; for each horizontal angle, the values at all vertical angles: stride `vertical.length`. */
   readonly intensities: Float32Array;
 }
 
-/** A light without size that shines as a measured lamp does. */
+/** A point light with the measured intensity profile of a luminaire. */
 export interface ProfileLight extends NamedLight {
   type: 'profile';
   /** Factor of the profile's intensities. */
   intensity: number;
   /** Metres. */
   position: readonly [number, number, number];
-  /** Unit vector of the lamp's axis, the way that its vertical angle 0 points: down for a ceiling lamp. */
+  /** Unit vector of the luminaire's axis, towards vertical angle 0: down for a ceiling luminaire. */
   direction: readonly [number, number, number];
   /**
-   * Where its horizontal angle 0 lies; what of it runs along the direction does not count. They go round
-   * counter-clockwise as seen against the direction's way, that is, by tangent × direction. Default: level, that is,
-   * across +Y.
+   * Direction of horizontal angle 0; its component along `direction` is ignored. Angles increase counter-clockwise seen
+   * against `direction`, that is, towards tangent × direction. Default: horizontal, perpendicular to +Y.
    */
   tangent?: readonly [number, number, number];
   profile: LightProfile;
@@ -71,25 +70,25 @@ export interface DirectionalLight extends NamedLight {
 }
 
 /**
- * What the lights with a size have in common. They block no light and reflect none: what lies behind them is seen
- * through them.
+ * What area lights have in common. They neither block nor reflect light: what lies behind them is visible through
+ * them.
  */
 interface AreaLight extends NamedLight {
-  /** Radiance, W/(sr·m²), the same in all directions it shines into. */
+  /** Radiance, W/(sr·m²), the same in all directions that it emits to. */
   intensity: number;
-  /** Its middle, metres. */
+  /** Its centre, metres. */
   position: readonly [number, number, number];
   /** Whether the camera sees it; mirrors and glass show it in any case. Default true. */
   visible?: boolean;
 }
 
-/** A rectangle that shines to one side. */
+/** A rectangle that emits from one side. */
 export interface RectangleLight extends AreaLight {
   type: 'rectangle';
-  /** Unit vector out of the side that shines. */
+  /** Unit normal of the side that emits. */
   direction: readonly [number, number, number];
   /**
-   * Which way its width lies; what of it runs along the direction does not count. Default: level, that is, across +Y.
+   * Direction of its width; its component along `direction` is ignored. Default: horizontal, perpendicular to +Y.
    */
   tangent?: readonly [number, number, number];
   /** Metres. */
@@ -97,21 +96,21 @@ export interface RectangleLight extends AreaLight {
   height: number;
 }
 
-/** A disk that shines to one side. */
+/** A disk that emits from one side. */
 export interface DiskLight extends AreaLight {
   type: 'disk';
-  /** Unit vector out of the side that shines. */
+  /** Unit normal of the side that emits. */
   direction: readonly [number, number, number];
   /** Metres. */
   radius: number;
 }
 
-/** A sphere that shines all around, outwards. */
+/** A sphere that emits outwards. */
 export interface SphereLight extends AreaLight {
   type: 'sphere';
   /** Metres. */
   radius: number;
 }
 
-/** A light other than an emissive mesh or the surroundings. */
+/** A light other than an emissive mesh or the environment. */
 export type Light = PointLight | SpotLight | ProfileLight | DirectionalLight | RectangleLight | DiskLight | SphereLight;

@@ -1,6 +1,6 @@
 import type { OpenPbrParameters } from '@glanz/openpbr';
 
-/** The OpenPBR parameters that a texture may drive in a {@link Material}, and the two that are more than a product. */
+/** The OpenPBR parameters that a texture may drive in a {@link Material}. */
 export type TexturedParameter = Exclude<keyof OpenPbrParameters, 'geometry_thin_walled'>;
 
 /** Which texel channels a {@link TextureBinding} reads. `rgb` for colours and normals, one letter for a number. */
@@ -23,7 +23,7 @@ export interface TextureBinding {
    */
   scale?: number;
   /**
-   * What the texel values 0 and 1 stand for, before they multiply the parameter; default `[0, 1]`. Not for normals and
+   * What texel values 0 and 1 map to, before they multiply the parameter; default `[0, 1]`. Not for normals and
    * tangents.
    */
   range?: readonly [at0: number, at1: number];
@@ -33,7 +33,7 @@ export interface TextureBinding {
  * An OpenPBR surface. A parameter's value is `parameters[name] × texel` where a texture is bound (the texel decoded to
  * linear by the texture's colour space), and `parameters[name]` alone elsewhere. `geometry_normal` textures hold
  * tangent-space normals as 0..1, `geometry_tangent` textures a direction in the tangent plane (red along the tangent,
- * green along the bitangent) as 0..1, which the parameter's own direction then turns further. Missing parameters have
+ * green along the bitangent) as 0..1, which the parameter's own direction then rotates further. Missing parameters have
  * the spec's defaults.
  */
 export interface Material {
@@ -51,11 +51,12 @@ export interface Material {
    * Opacity below this counts as 0 and from it on as 1 (glTF alphaMode MASK). Absent: `geometry_opacity` is a coverage.
    */
   opacity_threshold?: number;
-  /** Light group that what the material emits is kept in. */
+  /** Light group that the material's emission is added to. */
   light_group?: string;
   /**
-   * Which of overlapping interiors is there: that of the highest number, a whole one of 0..255; default 0, and of equal
-   * ones the one that a ray entered last. A liquid's body may so reach into the glass around it (glass 1, liquid 0).
+   * Where interiors overlap, the one with the highest priority counts, an integer in 0..255; default 0. Of equal
+   * priorities, the one that a ray entered last counts. A liquid's mesh may thus overlap the glass around it (glass 1,
+   * liquid 0).
    */
   dielectric_priority?: number;
   /** The source file's own extra data, passed through untouched. */

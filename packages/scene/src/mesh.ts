@@ -9,7 +9,7 @@ export interface Mesh {
   normals?: Float32Array<ArrayBuffer>;
   /** xyzw per vertex, stride 4: unit tangent along +u, and the handedness (±1) of the bitangent, as in glTF. */
   tangents?: Float32Array<ArrayBuffer>;
-  /** UV sets, each uv per vertex, stride 2; the origin is the upper left corner of the picture. */
+  /** UV sets, each uv per vertex, stride 2; the origin is the upper left corner of the image. */
   uvs?: Float32Array<ArrayBuffer>[];
   /**
    * RGBA per vertex, stride 4, linear; multiplies `base_color` and `geometry_opacity`, `transmission_color` where

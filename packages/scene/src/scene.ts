@@ -5,7 +5,7 @@ import type { Light } from './light';
 import type { Material } from './material';
 import type { Mesh } from './mesh';
 
-/** Something a loader met that it could work around. Shown to the user; never fatal. */
+/** A fault that a loader could work around. Shown to the user; never fatal. */
 export interface SceneWarning {
   /** Stable, machine-readable: `<package>/<what>`. */
   readonly code: string;
@@ -31,18 +31,18 @@ export interface Instance {
   /** Default true. An invisible instance casts no shadow either. */
   visible?: boolean;
   /**
-   * Default false. Stands for a surface of the surroundings, a table say, that is in the photograph behind: the camera
-   * sees nothing of it but the shadows and the light that the other instances throw on it.
+   * Shadow catcher, default false: stands for a surface in the backdrop's photograph, such as a table. The camera sees
+   * only the shadows and the light that the other instances cast on it.
    */
   catcher?: boolean;
   /**
-   * Index of another material by the index of a variant in {@link Scene.variants}; the others wear `material`. See
+   * Material index by the index of a variant in {@link Scene.variants}; other variants use `material`. See
    * `withVariant`.
    */
   variants?: Readonly<Record<number, number>>;
 }
 
-/** An animation of the file the scene came from. A scene is one moment of it: load again for another. */
+/** An animation of the file the scene came from. A scene holds one moment of it; load the file again for another. */
 export interface SceneAnimation {
   readonly name: string;
   /** Seconds. */
@@ -64,13 +64,13 @@ export interface Scene {
   cameras: Camera[];
   /** Default: none, which is black. */
   environment?: Environment;
-  /** Names of the looks that the scene can be put into by `withVariant`. */
+  /** Names of the material variants that `withVariant` applies. */
   variants?: string[];
-  /** What the loader could have posed the scene by. */
+  /** Animations that the loader can pose the scene by. */
   animations?: SceneAnimation[];
-  /** What the file says of itself (authors, generator, licence, XMP packets), passed through untouched. */
+  /** What the file says about itself (authors, generator, licence, XMP packets), passed through untouched. */
   metadata?: Readonly<Record<string, unknown>>;
-  /** What the loader had to work around. */
+  /** Faults that the loader worked around. */
   warnings: SceneWarning[];
 }
 

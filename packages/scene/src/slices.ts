@@ -1,23 +1,23 @@
 /**
- * Long work that stops once in a while: a generator that yields every millisecond or so and returns what it has made.
+ * Long work in steps: a generator that yields about every millisecond and returns its result.
  */
 export type Steps<T> = Generator<void, T>;
 
-/** Items that are looked at between two stops: well under a millisecond where each costs a few operations. */
+/** Items visited between two yields: well under a millisecond where each costs a few operations. */
 export const STEP = 1 << 16;
 
-/** Does all of it at once. */
+/** Runs all steps without a pause and returns the result. */
 export function finish<T>(steps: Steps<T>): T {
   let step = steps.next();
   while (!step.done) step = steps.next();
   return step.value;
 }
 
-/** What {@link inSlices} may be told. */
+/** Options for {@link inSlices}. */
 export interface SliceOptions {
-  /** Gives up: the promise rejects with the signal's reason after the slice at work. */
+  /** Cancels: the promise rejects with the signal's reason after the current slice. */
   readonly signal?: AbortSignal | undefined;
-  /** The thread is handed back after so many milliseconds. Default 6. */
+  /** Length of a slice, milliseconds. Default 6. */
   readonly sliceMs?: number;
 }
 
@@ -31,13 +31,13 @@ export function yieldToEventLoop(): Promise<void> {
 }
 
 /**
- * Does long work on the calling thread in slices, with everything else that waits in between, so that a page stays
+ * Runs long work on the calling thread in slices and yields to the event loop in between, so that a page stays
  * responsive.
  *
  * @param steps What a function named `…Steps` returns: {@link sceneBoundsSteps}, {@link frameCameraSteps},
  * {@link validationSteps}.
  * @returns What the steps return.
- * @throws what the steps throw; the signal's reason when aborted.
+ * @throws What the steps throw, or the signal's reason when aborted.
  * @example
  * const camera = await inSlices(frameCameraSteps(scene, { aspect: 16 / 9 }), { signal });
  */

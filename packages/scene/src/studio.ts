@@ -4,15 +4,15 @@ import { STUDIOS, type Rgb, type SoftBox, type StudioSetup } from './studios';
 
 export { STUDIOS, type SoftBox, type StudioName, type StudioSetup } from './studios';
 
-/** What {@link studioEnvironment} may be told. */
+/** Options for {@link studioEnvironment}. */
 export interface StudioOptions {
-  /** What stands in the studio, e.g. one of `STUDIOS`, or a copy with other boxes. Default: the neutral studio. */
+  /** Walls and lights: one of `STUDIOS`, or your own. Default: the neutral studio. */
   readonly setup?: StudioSetup;
-  /** Pixels around; the height is half of it. A multiple of 2, at least 16. Default 512. */
+  /** Width of the image, pixels; the height is half of it. A multiple of 2, at least 16. Default 512. */
   readonly width?: number;
   /** Multiplies the radiance; default 1. */
   readonly intensity?: number;
-  /** Turns the studio about +Y, radians, as `LatLongEnvironment.rotation`. Default 0. */
+  /** Rotates the studio about +Y, radians, as `LatLongEnvironment.rotation`. Default 0. */
   readonly rotation?: number;
   /** Whether the camera sees it; default true. */
   readonly visible?: boolean;
@@ -20,7 +20,7 @@ export interface StudioOptions {
 
 type Vector = readonly [number, number, number];
 
-/** Rows that are made between two stops. */
+/** Rows computed between two yields. */
 const ROWS = 8;
 
 const smooth = (low: number, high: number, x: number) => {
@@ -55,10 +55,10 @@ function place(box: SoftBox): Placed {
 const dot = (a: Vector, b: Vector) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
 /**
- * Share of a box's radiance in direction d; the edge is smoothed over `blur`, so that no texel edge shows in
+ * Fraction of a box's radiance in direction d. The edge is smoothed over `blur`, so that no texel edge shows in
  * reflections.
  */
-function boxShare({ box, half, normal, right, up }: Placed, d: Vector, blur: number): number {
+function boxFalloff({ box, half, normal, right, up }: Placed, d: Vector, blur: number): number {
   const depth = dot(d, normal);
   if (depth <= 0.05) return 0;
   const u = Math.abs(dot(d, right)) / depth / half[0];
@@ -71,9 +71,8 @@ function boxShare({ box, half, normal, right, up }: Placed, d: Vector, blur: num
 }
 
 /**
- * A photo studio as surroundings, made on the spot. By itself a neutral one: grey walls and five soft boxes,
- * colourless; a white diffuse surface facing up or forward comes out near 1, so exposure 0 suits most models. Front is
- * +Z, as in glTF.
+ * A photo studio as a computed environment. The default is neutral: grey walls and five soft boxes, colourless; a white
+ * diffuse surface facing up or forward renders near 1, so exposure 0 suits most models. Front is +Z, as in glTF.
  *
  * @example
  * if (!scene.environment) scene.environment = studioEnvironment();
@@ -106,7 +105,7 @@ export function* studioSteps(options: StudioOptions = {}): Generator<void, LatLo
       const d: Vector = [sin * Math.cos(phi), y, sin * Math.sin(phi)];
       let [r, g, b] = wall;
       for (const light of placed) {
-        const lit = boxShare(light, d, blur);
+        const lit = boxFalloff(light, d, blur);
         if (lit === 0) continue;
         r += light.radiance[0] * lit;
         g += light.radiance[1] * lit;

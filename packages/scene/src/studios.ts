@@ -3,31 +3,31 @@ export type Rgb = readonly [number, number, number];
 
 /** A light of a {@link StudioSetup}: a soft box that faces the subject from infinitely far away. */
 export interface SoftBox {
-  /** Where it hangs, radians: azimuth from +Z (the front) towards +X, and height above the horizon. */
+  /** Direction, radians: azimuth from +Z (the front) towards +X, and elevation above the horizon. */
   readonly azimuth: number;
   readonly elevation: number;
-  /** Angles that it spans, radians, in (0, π). */
+  /** Angular size, radians, in (0, π). */
   readonly width: number;
   readonly height: number;
   /** `rectangle` (default), or `disc`: an ellipse. */
   readonly shape?: 'rectangle' | 'disc';
   /**
-   * Radiance in the middle, of all channels alike or RGB; it falls off by a quarter towards the edges, as a real one
-   * does.
+   * Radiance at the centre, one number for all channels or RGB; it falls off by a quarter towards the edges, as in a
+   * real soft box.
    */
   readonly radiance: number | Rgb;
 }
 
-/** What stands in a studio: walls and lights. */
+/** The walls and lights of a studio. */
 export interface StudioSetup {
-  /** Radiance of the walls straight up, around the horizon and straight down, with smooth passages. */
+  /** Radiance of the walls straight up, around the horizon and straight down, blended smoothly. */
   readonly backdrop: { readonly zenith: Rgb; readonly horizon: Rgb; readonly nadir: Rgb };
   readonly boxes: readonly SoftBox[];
 }
 
 const DEGREE = Math.PI / 180;
 
-/** A box by degrees, its size by the tangents of the half angles that it spans. */
+/** A box from angles in degrees and the tangents of its angular half sizes. */
 const box = (
   azimuth: number,
   elevation: number,
@@ -50,12 +50,12 @@ const walls = (zenith: number, horizon: number, nadir: number): StudioSetup['bac
   nadir: [nadir, nadir, nadir],
 });
 
-// A function, so that bundlers can drop the table where nobody reads it.
+// A function, so that bundlers can drop the table where it is unused.
 const table = () =>
   ({
     // A product photographer's set for a subject that faces +Z, seen from the front right: the key from the front left,
-    // a wide weak fill on the right, a large box overhead, and two strips behind that draw the edges. The strips hang
-    // high enough to stay out of a camera that looks slightly down.
+    // a wide weak fill on the right, a large box overhead, and two strips behind for rim light. The strips are high
+    // enough to stay out of view of a camera that looks slightly down.
     neutral: {
       backdrop: walls(0.25, 0.5, 0.3),
       boxes: [
@@ -66,12 +66,12 @@ const table = () =>
         box(-145, 42, 0.14, 0.5, 2.4),
       ],
     },
-    // White all around, hardly a shadow: catalogue pictures.
+    // White all around, hardly a shadow: catalogue photographs.
     'high-key': {
       backdrop: walls(0.95, 0.9, 0.7),
       boxes: [box(-40, 45, 0.7, 0.7, 1.5), box(70, 30, 0.6, 0.7, 0.7), box(0, 88, 0.9, 0.9, 0.6)],
     },
-    // Black room: strips draw the outline, a narrow box overhead the form.
+    // Black walls: strips for the rim light, a narrow box overhead for the form.
     'low-key': {
       backdrop: walls(0.012, 0.03, 0.01),
       boxes: [
@@ -81,7 +81,7 @@ const table = () =>
         box(30, 20, 0.16, 0.3, 0.7),
       ],
     },
-    // A tall window at the left, a warm room around.
+    // A tall window at the left, warm walls.
     window: {
       backdrop: { zenith: [0.2, 0.18, 0.155], horizon: [0.22, 0.19, 0.16], nadir: [0.12, 0.09, 0.065] },
       boxes: [
@@ -117,7 +117,7 @@ const table = () =>
 export type StudioName = keyof ReturnType<typeof table>;
 
 /**
- * Studios and skies for `studioEnvironment({ setup })`, each exposed so that a white surface comes out near 1 or, in
- * the dark ones, its lit side does. Skies are gradients with a soft sun, not a model of the atmosphere.
+ * Studios and skies for `studioEnvironment({ setup })`, each exposed so that a white surface, or in the dark ones its
+ * lit side, renders near 1. Skies are gradients with a soft sun, not a model of the atmosphere.
  */
 export const STUDIOS: Readonly<Record<StudioName, StudioSetup>> = /* @__PURE__ */ table();

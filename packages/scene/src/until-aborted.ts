@@ -1,9 +1,9 @@
 /**
- * Waits for work that heeds no signal by itself, or heeds it late, such as the compilation of a shader.
+ * Waits for work that ignores abort signals, or reacts to them late, such as the compilation of a shader.
  *
- * @param late Frees what the work gives after the signal has aborted.
- * @returns What the work gives.
- * @throws what the work throws, or the signal's reason as soon as it aborts. The work itself goes on.
+ * @param late Receives a result that arrives after the abort, to free it.
+ * @returns The result of the work.
+ * @throws What the work throws, or the signal's reason as soon as it aborts. The work itself continues.
  */
 export function untilAborted<T>(
   work: Promise<T>,

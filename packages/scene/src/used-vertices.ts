@@ -1,24 +1,24 @@
 import type { Mesh } from './mesh';
 import { STEP, type Steps } from './slices';
 
-/** Vertices that follow each other and share a box. Neighbours in a mesh's list are mostly neighbours in space. */
+/** Number of consecutive vertices that share a box. Neighbours in a mesh's list are mostly neighbours in space. */
 export const RUN = 64;
 
 /** The vertices of a mesh that triangles use. */
 export interface UsedVertices {
-  /** 1 for each of them. */
+  /** 1 for each vertex in use. */
   readonly used: Uint8Array;
-  /** The first of them; −1 if there are none. */
+  /** The first vertex in use; −1 if there are none. */
   readonly first: number;
   /**
-   * Boxes around those of each run of {@link RUN} vertices, six numbers each: min xyz, max xyz; the last one is around
-   * all.
+   * Bounds of the used vertices of each run of {@link RUN} vertices, six numbers each: min xyz, max xyz. The last box
+   * bounds all.
    */
   readonly boxes: Float32Array;
 }
 
 /**
- * Finds the vertices that triangles use. They are shared by six triangles or so: looking at each once is several times
+ * Finds the vertices that triangles use. About six triangles share a vertex: visiting each once is several times
  * as fast.
  */
 export function* usedVertices({ positions, indices }: Mesh): Steps<UsedVertices> {

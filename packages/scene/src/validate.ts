@@ -19,7 +19,7 @@ function reference(index: number, list: readonly unknown[], what: string, kind: 
 
 function finite(values: ArrayLike<number>, what: string, from = 0, end = values.length): void {
   if (values instanceof Float32Array) {
-    // A finite number less itself is 0: one look at the sum for all of them.
+    // x − x is 0 only for finite x, so one sum checks all of them.
     let sum = 0;
     for (let i = from; i < end; i++) {
       const value = values[i] as number;
@@ -44,7 +44,7 @@ function length(values: ArrayLike<number>, expected: number, what: string): void
   if (values.length !== expected) fail('length', `${what} has ${values.length} numbers; it must have ${expected}.`);
 }
 
-/** Whether three vertices (offsets into the positions) lie on a line, to the last bit. */
+/** Whether three vertices (offsets into the positions) are exactly collinear. */
 function isFlat(p: Float32Array, a: number, b: number, c: number): boolean {
   const ax = p[a] as number,
     ay = p[a + 1] as number,
@@ -58,7 +58,7 @@ function isFlat(p: Float32Array, a: number, b: number, c: number): boolean {
   return uy * vz === uz * vy && uz * vx === ux * vz && ux * vy === uy * vx;
 }
 
-/** How many of the triangles whose indices lie between two places have no area. */
+/** Counts the triangles without area among the indices from `from` up to `end`. */
 function countFlat({ positions, indices }: Mesh, from: number, end: number, what: string): number {
   const vertices = positions.length / 3;
   let flat = 0;
@@ -166,7 +166,7 @@ function checkProfile({ vertical, horizontal, intensities }: LightProfile, what:
     (vertical[0] as number) < 0 ||
     (vertical.at(-1) as number) > Math.PI + 1e-5
   )
-    fail('value', `${what}: the profile's vertical angles must be two at least and rise within 0..π.`);
+    fail('value', `${what}: the profile's vertical angles must be at least two and rise within 0..π.`);
   if (
     horizontal.length < 1 ||
     !rising(horizontal) ||
@@ -190,7 +190,8 @@ function checkLight(light: Light, index: number): void {
   if (light.type !== 'directional') finite(light.position, `${what}: position`);
   if (light.type !== 'point' && light.type !== 'sphere') {
     finite(light.direction, `${what}: direction`);
-    if (!(Math.hypot(...light.direction) > 0)) fail('value', `${what}: direction has no length.`);
+    if (!(Math.hypot(...light.direction) > 0))
+      fail('value', `${what}: direction has no length; it must be a unit vector.`);
   }
   if (
     light.type === 'spot' &&
@@ -219,11 +220,11 @@ function checkLight(light: Light, index: number): void {
     finite(light.tangent, `${what}: tangent`);
     const [d, t] = [light.direction, light.tangent];
     if (!(Math.hypot(d[1] * t[2] - d[2] * t[1], d[2] * t[0] - d[0] * t[2], d[0] * t[1] - d[1] * t[0]) > 0))
-      fail('value', `${what}: tangent lies along the direction.`);
+      fail('value', `${what}: tangent is parallel to direction; it must not be.`);
   }
 }
 
-/** Metres from the origin where a camera may be, and sizes of what it sees: single precision has no details beyond. */
+/** Maximum distance of a camera from the origin and maximum size of its view, metres: a limit of single precision. */
 const MAX_DISTANCE = 1e12;
 
 function checkCamera(camera: Camera, index: number): void {
@@ -296,13 +297,13 @@ function radiances(data: Float32Array, from: number, end: number): void {
 }
 
 /**
- * Checks that the parts of a scene fit together: indices, lengths of arrays, finite numbers, ranges. A camera that
- * cannot be rendered with (see `Camera` for its ranges) is a fault as well. One pass over the data: tens of
+ * Checks that the parts of a scene fit together: indices, lengths of arrays, finite numbers, ranges (also those of
+ * `Camera`). One pass over the data: tens of
  * milliseconds for a million triangles.
  *
- * @returns What is odd but harmless: `scene/degenerate` (triangles without area), `scene/flattened` (an instance whose
+ * @returns Warnings: `scene/degenerate` (triangles without area), `scene/flattened` (an instance whose
  *   transform cannot be inverted), `scene/missing-uv` (a texture on a mesh without its UV set).
- * @throws {SceneError} at the first fault, saying where it is.
+ * @throws {SceneError} at the first fault, with its place.
  */
 export function validateScene(scene: Scene): SceneWarning[] {
   return finish(validationSteps(scene));
@@ -310,12 +311,15 @@ export function validateScene(scene: Scene): SceneWarning[] {
 
 function checkCompressed({ width, height }: Image, { format, levels }: CompressedImage, what: string): void {
   if (!['bc7-rgba-unorm', 'astc-4x4-unorm', 'etc2-rgba8unorm'].includes(format))
-    fail('value', `${what} is compressed as "${String(format)}", which is not known.`);
-  const most = 1 + Math.floor(Math.log2(Math.max(width, height)));
-  if (levels.length < 1 || levels.length > most)
+    fail(
+      'value',
+      `${what} is compressed as "${String(format)}"; it must be bc7-rgba-unorm, astc-4x4-unorm or etc2-rgba8unorm.`,
+    );
+  const maxLevels = 1 + Math.floor(Math.log2(Math.max(width, height)));
+  if (levels.length < 1 || levels.length > maxLevels)
     fail(
       'length',
-      `${what} of ${width} × ${height} pixels has ${levels.length} compressed levels, instead of 1 to ${most}.`,
+      `${what} of ${width} × ${height} pixels has ${levels.length} compressed levels, instead of 1 to ${maxLevels}.`,
     );
   levels.forEach((level, index) =>
     length(
@@ -327,8 +331,8 @@ function checkCompressed({ width, height }: Image, { format, levels }: Compresse
 }
 
 /**
- * The same as {@link validateScene} in steps of a millisecond or so, for threads that have other things to do in
- * between. The scene must stay as it is until the last step.
+ * The same as {@link validateScene} in steps of about a millisecond, for `inSlices`. The scene must not change until the
+ * last step.
  *
  * @throws {SceneError} as {@link validateScene}, at the first step or a later one.
  * @example
@@ -343,7 +347,7 @@ export function* validationSteps(scene: Scene): Generator<void, SceneWarning[]> 
       fail('value', `${what} has a size of ${image.width} × ${image.height}.`);
     if (image.compressed) checkCompressed(image, image.compressed, what);
     if (image.bitmap) {
-      // Its pixels are left where they are.
+      // Do not read `data`: that would copy the pixels back from the browser.
       if (image.bitmap.width !== image.width || image.bitmap.height !== image.height)
         fail(
           'length',
@@ -351,7 +355,7 @@ export function* validationSteps(scene: Scene): Generator<void, SceneWarning[]> 
         );
       return;
     }
-    // Unpacking it would only be for looking.
+    // Do not read `data`: that would decompress it.
     if (image.compressed) return;
     length(image.data, 4 * image.width * image.height, `${what} of ${image.width} × ${image.height} pixels`);
     if (image.data instanceof Float32Array) finite(image.data, what);
@@ -363,7 +367,7 @@ export function* validationSteps(scene: Scene): Generator<void, SceneWarning[]> 
     const what = `Instance ${index} ("${instance.name}")`;
     reference(instance.mesh, scene.meshes, what, 'mesh');
     reference(instance.material, scene.materials, what, 'material');
-    // Places of one mesh share the list.
+    // Instances of one mesh share the list.
     if (instance.variants && !seen.has(instance.variants)) {
       seen.add(instance.variants);
       for (const [variant, material] of Object.entries(instance.variants)) {
@@ -372,7 +376,7 @@ export function* validationSteps(scene: Scene): Generator<void, SceneWarning[]> 
       }
     }
     checkTransform(instance.transform, what);
-    // glTF hides parts by a scale of 0, so this is no fault; the hierarchy leaves such a part out.
+    // glTF files hide parts with a scale of 0, so this is only a warning; the BVH leaves such instances out.
     if (spread(instance.transform) === 0)
       warnings.push({
         code: 'scene/flattened',
@@ -386,7 +390,7 @@ export function* validationSteps(scene: Scene): Generator<void, SceneWarning[]> 
       if (binding && set >= sets)
         warnings.push({
           code: 'scene/missing-uv',
-          message: `${what} has no UV set ${set}, which the texture of ${name} wants; it is read at (0, 0).`,
+          message: `${what} has no UV set ${set}, which the texture of ${name} uses; the texture is read at (0, 0).`,
           path: `/instances/${index}`,
         });
     }

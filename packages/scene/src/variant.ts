@@ -2,11 +2,12 @@ import { SceneError } from './error';
 import type { Scene } from './scene';
 
 /**
- * The scene in another look: the same meshes, materials and pictures, with the instances' materials exchanged.
+ * The scene in another material variant: the same meshes, materials and images, with other materials assigned to the
+ * instances.
  *
- * @param variant Name or index in `scene.variants`; undefined: the look that the file has by itself.
- * @returns A scene that shares everything but the instances. Their own `material` stays what it was before any variant
- *   if you begin from the scene that was loaded.
+ * @param variant Name or index in `scene.variants`; undefined: the scene as it is.
+ * @returns A scene that shares everything but the instances. Start from the scene as loaded: instances that a variant
+ *   does not name keep the material that they have.
  * @throws {SceneError} `scene/reference` for a variant that the scene does not have.
  * @example
  * const street = withVariant(scene, 'street');

@@ -16,7 +16,7 @@ for (const options of [
   { aspect: 1.5, direction: [-3, 0.1, -1] },
   { aspect: 1, margin: 0.3 },
 ] satisfies FrameCameraOptions[]) {
-  test(`every vertex is in the picture, and fills it one way: ${JSON.stringify(options)}`, () => {
+  test(`every vertex is in the image, and fills it in one dimension: ${JSON.stringify(options)}`, () => {
     const scene = sample();
     const { transform: m, yfov, focus_distance } = frameCamera(scene, options);
     const tangent = Math.tan(yfov / 2);

@@ -81,7 +81,7 @@ describe('steps', () => {
     expect(most).toBeCloseTo(1, 9);
   });
 
-  test('surroundings are checked in steps, to the last pixel', () => {
+  test('the environment is checked in steps, to the last pixel', () => {
     const scene = createScene();
     const studio = studioEnvironment();
     scene.environment = studio;
@@ -113,7 +113,7 @@ describe('inSlices', () => {
     setImmediate(tick);
     expect(await inSlices(counting(50), { sliceMs: 0 })).toBe(50);
     done = true;
-    // Once for each time that it was handed back, whatever the clock says.
+    // Once for each yield, whatever the clock says.
     expect(ticks).toBeGreaterThanOrEqual(40);
   });
 

@@ -76,7 +76,7 @@ it('means the same light at every size, and passes its options on', () => {
 const DEGREE = Math.PI / 180;
 const plain = { zenith: [0, 0, 0], horizon: [0, 0, 0], nadir: [0, 0, 0] } as const;
 
-it('a box of one colour lies where it is hung, spans its angles and is black elsewhere', () => {
+it('a box of one colour lies in its direction, spans its angles and is black elsewhere', () => {
   const { width, height, data } = studioEnvironment({
     width: 1024,
     setup: {

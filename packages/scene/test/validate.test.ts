@@ -245,7 +245,7 @@ describe('validateScene', () => {
     expect((caught as SceneError).message).not.toContain('\n');
   });
 
-  test('triangles with equal corners are told, not refused', () => {
+  test('triangles with equal corners are reported, not refused', () => {
     const scene = whole();
     scene.meshes[0]!.indices = new Uint32Array([0, 1, 2, 1, 1, 2]);
     expect(validateScene(scene)).toMatchObject([
@@ -261,7 +261,7 @@ describe('validateScene', () => {
     expect(validateScene(scene)).toEqual([]);
   });
 
-  test('a flattened instance is told, a mirrored and sheared one is nothing odd', () => {
+  test('a flattened instance is reported, a mirrored and sheared one is not', () => {
     const scene = whole();
     scene.instances[0]!.transform = identity.with(5, 0);
     expect(validateScene(scene)).toMatchObject([{ code: 'scene/flattened', path: '/instances/0' }]);
@@ -269,7 +269,7 @@ describe('validateScene', () => {
     expect(validateScene(scene)).toEqual([]);
   });
 
-  test('a texture that the mesh has no UV set for is told', () => {
+  test('a texture whose UV set the mesh lacks is reported', () => {
     const scene = whole();
     scene.materials[0]!.textures!.base_color!.uv = 1;
     expect(validateScene(scene)).toMatchObject([{ code: 'scene/missing-uv', path: '/instances/0' }]);
