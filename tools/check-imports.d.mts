@@ -1,2 +1,2 @@
-/** Checks the house at `base` (default: this repository). `lines` holds one entry per package with faults. */
+/** Checks the repository at `base` (default: this repository). `lines` holds one entry per package with faults. */
 export function checkImports(base?: string): Promise<{ passed: number; failed: number; lines: string[] }>;

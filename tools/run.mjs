@@ -1,5 +1,5 @@
 #!/usr/bin/env node
-// One door for every task of the repository: `node tools/run.mjs <task> [arguments]`, which the npm scripts call.
+// Every task of the repository: `node tools/run.mjs <task> [arguments]`, which the npm scripts call.
 // Depends on nothing but Node ≥ 20 and npm: it installs what is missing, builds what is stale, then runs the task.
 import { existsSync } from 'node:fs';
 import { join } from 'node:path';

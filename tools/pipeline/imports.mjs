@@ -1,4 +1,4 @@
-// Reading the imports of TypeScript files, and the house's rules about them.
+// Reads the imports of TypeScript files and checks them against the rules of the repository.
 import { existsSync, readFileSync, readdirSync } from 'node:fs';
 import { builtinModules } from 'node:module';
 import { dirname, join, relative, sep } from 'node:path';
@@ -11,7 +11,7 @@ import { entriesOf } from './workspace.mjs';
  */
 
 /**
- * Reads the arrows from the table in ARCHITECTURE.md, so that the text and the check cannot drift apart.
+ * Reads which package may import which from the table in ARCHITECTURE.md, so that the text and the check cannot drift apart.
  * @param {string} markdown
  * @returns {Map<string, Map<string, Arrow>>} package → what it may import
  */
@@ -171,7 +171,7 @@ const isNodeFile = (p, file) =>
  *
  * @param {import('./workspace.mjs').Package} p
  * @param {{ arrows: Map<string, Map<string, Arrow>>, all: Map<string, import('./workspace.mjs').Package>, rootManifest:
- * any, base: string }} house
+ * any, base: string }} repository
  * @returns {{ problems: string[], imports: number }}
  */
 export function checkPackage(p, { arrows, all, rootManifest, base }) {

@@ -144,7 +144,7 @@ function mendAnchors(): void {
   const headings = (text: string) =>
     text.match(/^#+ .*$/gm)?.map((line) => line.replace(/^#+ /, '').replaceAll('\\', '').toLowerCase()) ?? [];
   for (const [file, text] of pages) {
-    const mended = text.replace(
+    const fixed = text.replace(
       /\]\(([^()#\s]*)#([\w-]+)-(\d+)\)/g,
       (link, path: string, name: string, number: string) => {
         const target = pages.get(path ? join(dirname(file), path) : file);
@@ -153,6 +153,6 @@ function mendAnchors(): void {
           : link;
       },
     );
-    if (mended !== text) writeFileSync(file, mended);
+    if (fixed !== text) writeFileSync(file, fixed);
   }
 }

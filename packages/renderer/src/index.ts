@@ -23,3 +23,4 @@ export type {
   Sampler,
 } from './options';
 export { warmUp, type WarmUpOptions } from './warm-up';
+export { CostModel } from './schedule/cost-model';

@@ -1,3 +1,5 @@
+import { CostModel } from '@glanz/renderer';
+
 /** How a preview is made: what share of the picture's width and height, and how many samples. */
 export interface PreviewPlan {
   /** Width and height are divided by it: 1, 1.5, 2, 3, 4, 6 or 8. */
@@ -22,16 +24,13 @@ const PATIENCE = 6;
 
 /**
  * Chooses the preview's resolution by the time that frames take, so that a view that moves keeps its rate. Grows
- * slowly, shrinks at once. No GPU: a pure function of what it is told.
+ * slowly, shrinks at once. No GPU: a pure function of what it is given.
  */
 export class PreviewController {
   /** Milliseconds that a frame may take; two and a half times as many from a quarter of the width on down. */
   readonly budget: number;
   #divisor: number;
-  /** Milliseconds that a sample of a preview of one pixel would add, and what a frame takes besides. */
-  #perPixel: number | undefined;
-  #fixed = 0;
-  #last: { readonly pixels: number; readonly milliseconds: number } | undefined;
+  readonly #cost = new CostModel();
   #calm = 0;
 
   constructor(budgetMs: number) {
@@ -41,9 +40,9 @@ export class PreviewController {
 
   /** The next frame of a picture of so many pixels. */
   plan(pixels: number): PreviewPlan {
-    if (this.#perPixel === undefined) return { divisor: this.#divisor, samples: 1 };
-    const costOf = (divisor: number, samples = 1) =>
-      this.#fixed + ((this.#perPixel as number) * samples * pixels) / divisor ** 2;
+    const { fixed, mean } = this.#cost;
+    if (mean === undefined) return { divisor: this.#divisor, samples: 1 };
+    const costOf = (divisor: number) => fixed + (mean * pixels) / divisor ** 2;
     const budgetOf = (divisor: number) => (divisor >= COARSE ? PATIENT * this.budget : this.budget);
     if (costOf(this.#divisor) > budgetOf(this.#divisor)) {
       this.#calm = 0;
@@ -56,9 +55,7 @@ export class PreviewController {
         this.#divisor = larger;
       }
     }
-    const spare = Math.floor(
-      (CAUTION * this.budget - this.#fixed) / Math.max(1e-6, costOf(this.#divisor) - this.#fixed),
-    );
+    const spare = Math.floor((CAUTION * this.budget - fixed) / Math.max(1e-6, costOf(this.#divisor) - fixed));
     return { divisor: this.#divisor, samples: Math.max(1, Math.min(MOST_SAMPLES, spare)) };
   }
 
@@ -67,20 +64,6 @@ export class PreviewController {
    * harm.
    */
   measured(pixels: number, samples: number, milliseconds: number): void {
-    const work = pixels * samples;
-    const last = this.#last;
-    // Two frames of different sizes tell what a frame takes whatever its size.
-    if (last && Math.max(work, last.pixels) > 1.5 * Math.min(work, last.pixels)) {
-      const slope = (milliseconds - last.milliseconds) / (work - last.pixels);
-      if (slope > 0)
-        this.#fixed =
-          0.5 *
-          (this.#fixed +
-            Math.max(0, Math.min(milliseconds - slope * work, 0.9 * Math.min(milliseconds, last.milliseconds))));
-    }
-    this.#fixed = Math.min(this.#fixed, 0.9 * milliseconds);
-    const now = (milliseconds - this.#fixed) / work;
-    this.#perPixel = this.#perPixel === undefined ? now : 0.7 * this.#perPixel + 0.3 * now;
-    this.#last = { pixels: work, milliseconds };
+    this.#cost.measured(pixels * samples, milliseconds);
   }
 }

@@ -25,7 +25,7 @@ const manifest = (name: string, dependencies: string[] = []) =>
     dependencies: Object.fromEntries(dependencies.map((dependency) => [dependency, 'workspace:^'])),
   });
 
-/** A house in which everything is right. */
+/** A repository in which everything is right. */
 const GOOD: Record<string, string> = {
   'ARCHITECTURE.md': ARCHITECTURE,
   'package.json': '{ "devDependencies": { "vitest": "1" } }',
@@ -76,13 +76,13 @@ describe('the import check', () => {
     expect(await judge(bundled({ glanz: { bundled: ['draco'] } }))).toContain('not among devDependencies');
   });
 
-  it('has nothing to say about a good house', async () => {
+  it('has nothing to say about a repository without faults', async () => {
     expect(await judge({})).toBe('');
   });
 
   it.each<[string, Record<string, string>, RegExp]>([
     [
-      'an arrow against the table',
+      'an import that the table does not allow',
       {
         'packages/openpbr/src/bad.ts': `import '@glanz/scene';`,
         'packages/openpbr/package.json': manifest('openpbr', ['@glanz/wgsl', '@glanz/scene']),
@@ -90,7 +90,7 @@ describe('the import check', () => {
       /openpbr\/src\/bad.ts:1: openpbr → scene is not in the table/,
     ],
     [
-      'an arrow in package.json alone',
+      'a dependency that the table does not allow',
       { 'packages/openpbr/package.json': manifest('openpbr', ['@glanz/wgsl', '@glanz/image']) },
       /@glanz\/image is not in the table/,
     ],
@@ -105,7 +105,7 @@ describe('the import check', () => {
       /image may import @glanz\/wgsl\/error and nothing else/,
     ],
     [
-      'a door that is not there',
+      'an entry that does not exist',
       { 'packages/openpbr/src/bad.ts': `import '@glanz/wgsl/src/compose';` },
       /not exported by @glanz\/wgsl/,
     ],

@@ -1,3 +1,5 @@
+import { CostModel } from './cost-model';
+
 /** A piece of work for one submission: whole samples of the whole picture, or a band of one sample. */
 export interface Batch {
   readonly pixelOffset: number;
@@ -15,11 +17,6 @@ export interface SchedulerOptions {
   readonly budgetMs: number;
 }
 
-/**
- * What is left, with each batch, of the memory of a dearer one: half after about ten, which is a picture cut into
- * bands.
- */
-const MEMORY = 0.93;
 /** No submission is smaller than this many paths, or launch costs would dominate. */
 const SMALLEST = 4096;
 
@@ -34,13 +31,7 @@ export class Scheduler {
   /** Milliseconds that one submission should take at most. */
   budget: number;
   #paths: number;
-  /** Milliseconds that a batch takes besides what its paths take. */
-  #fixed = 0;
-  /** Whether batches of different sizes have told that. */
-  #tried = false;
-  #last: { readonly paths: number; readonly milliseconds: number } | undefined;
-  /** Milliseconds a path of the dearest batch of late, forgotten by and by. */
-  #dearest = 0;
+  readonly #cost = new CostModel();
   #sample: number;
   #pixel = 0;
 
@@ -113,36 +104,23 @@ export class Scheduler {
   /** Learns from the time a batch took on the GPU. */
   measured(batch: Batch, milliseconds: number): void {
     const paths = batch.pixelCount * batch.sampleCount;
-    this.#learnFixedCost(paths, milliseconds);
+    const cost = this.#cost;
+    cost.measured(paths, milliseconds);
     // What every batch costs, however small, must not eat up most of the time.
-    const budget = Math.max(this.budget, 3 * this.#fixed);
-    const each = Math.max(0, milliseconds - this.#fixed) / paths;
-    this.#dearest = Math.max(each, MEMORY * this.#dearest);
+    const budget = Math.max(this.budget, 3 * cost.fixed);
     if (milliseconds > budget * 1.5) {
       const factor = Math.max(0.25, (0.8 * budget) / milliseconds);
       this.#paths = Math.min(this.#capacity, Math.max(SMALLEST, Math.min(this.#paths, Math.floor(paths * factor))));
     } else if (milliseconds < budget * 0.7) {
       // By the speed of this batch, which may have been smaller than allowed; larger ones are faster still.
       const possible = (0.9 * budget * paths) / Math.max(milliseconds, 1e-3);
-      // A band of sky is cheap, and what comes after it may be what was dear before.
-      const safe = this.#dearest > 0 ? Math.max(0, 1.4 * budget - this.#fixed) / this.#dearest : Infinity;
+      // A band of sky is cheap, and the next one may cost what an earlier one did.
+      const safe = cost.peak > 0 ? Math.max(0, 1.4 * budget - cost.fixed) / cost.peak : Infinity;
       if (Math.min(possible, safe) > this.#paths)
         this.#paths = Math.min(this.#capacity, Math.floor(Math.min(possible, safe)), 4 * this.#paths);
-    } else if (!this.#tried) {
+    } else if (!cost.isFixedKnown) {
       // One larger batch tells how much of the time was not for its paths.
       this.#paths = Math.min(this.#capacity, 2 * this.#paths);
     }
-  }
-
-  /** The line through this batch's time and that of one of another size tells what a batch of no paths would take. */
-  #learnFixedCost(paths: number, milliseconds: number): void {
-    const last = this.#last;
-    if (last && Math.max(paths, last.paths) > 1.5 * Math.min(paths, last.paths)) {
-      const slope = Math.max(0, (milliseconds - last.milliseconds) / (paths - last.paths));
-      const fixed = Math.max(0, Math.min(milliseconds - slope * paths, last.milliseconds - slope * last.paths));
-      this.#fixed = this.#tried ? 0.5 * (this.#fixed + fixed) : fixed;
-      this.#tried = true;
-    }
-    if (!last || paths !== last.paths) this.#last = { paths, milliseconds };
   }
 }

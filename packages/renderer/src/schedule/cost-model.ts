@@ -1,0 +1,55 @@
+/** What is left of a high cost, with each measurement, in {@link CostModel.peak}: half after ten. */
+const MEMORY = 0.93;
+/** Share of the latest measurement in {@link CostModel.mean}. */
+const WEIGHT = 0.3;
+/** How much two pieces of work must differ in size to show what is spent on each, whatever its size. */
+const SPREAD = 1.5;
+/** At most this share of a piece's time is held to be the same for all sizes. */
+const MAX_FIXED = 0.9;
+
+/**
+ * What work on the GPU costs, learnt from the times of pieces of different sizes: `fixed + size × cost of a unit`.
+ * Units are the caller's: paths of a batch, pixels × samples of a frame. A pure function of what it is given.
+ */
+export class CostModel {
+  #fixed: number | undefined;
+  #mean: number | undefined;
+  #peak = 0;
+  #last: { readonly size: number; readonly milliseconds: number } | undefined;
+
+  /** Milliseconds that a piece takes besides what its units take; 0 until pieces of different sizes were measured. */
+  get fixed(): number {
+    return this.#fixed ?? 0;
+  }
+
+  /** Whether pieces of different sizes have been measured. */
+  get isFixedKnown(): boolean {
+    return this.#fixed !== undefined;
+  }
+
+  /** Milliseconds a unit: moving average, `undefined` before the first measurement. */
+  get mean(): number | undefined {
+    return this.#mean;
+  }
+
+  /** Milliseconds a unit: decaying maximum. Parts of an image differ in cost. */
+  get peak(): number {
+    return this.#peak;
+  }
+
+  /** Learns from a piece of `size` units, above 0, that took `milliseconds`. */
+  measured(size: number, milliseconds: number): void {
+    const last = this.#last;
+    if (last && Math.max(size, last.size) > SPREAD * Math.min(size, last.size)) {
+      const slope = Math.max(0, (milliseconds - last.milliseconds) / (size - last.size));
+      const shortest = Math.min(milliseconds - slope * size, last.milliseconds - slope * last.size);
+      const most = MAX_FIXED * Math.min(milliseconds, last.milliseconds);
+      const fixed = Math.min(Math.max(0, shortest), most);
+      this.#fixed = this.#fixed === undefined ? fixed : 0.5 * (this.#fixed + fixed);
+    }
+    if (size !== last?.size) this.#last = { size, milliseconds };
+    const unit = Math.max(0, milliseconds - this.fixed) / size;
+    this.#mean = this.#mean === undefined ? unit : (1 - WEIGHT) * this.#mean + WEIGHT * unit;
+    this.#peak = Math.max(unit, MEMORY * this.#peak);
+  }
+}
