@@ -1,8 +1,11 @@
 // Makes custom-elements.json (schema 1.0.0), from which editors and documentation tools know <glanz-viewer>, out of the
 // sources: attributes and their comments of src/attributes.ts, events and methods of src/api.ts, slots, parts and CSS
-// properties of the comment in src/shadow.ts. The build writes it into dist/.
+// properties of the comment in src/shadow.ts; values and defaults of the renderer's options of their table. The build
+// writes it into dist/.
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
+import { runInNewContext } from 'node:vm';
+import { buildSync } from 'esbuild';
 import ts from 'typescript';
 
 const TYPES = { text: 'string', flag: 'boolean', number: 'number' };
@@ -39,17 +42,24 @@ function comment(node) {
 
 const tag = ({ tags }, name) => tags.find((one) => one.name === name)?.text;
 
-function attributesOf(source) {
+/** The table of the renderer's options. */
+function renderOptions(folder) {
+  const table = `${folder}/../renderer/src/render-options/table.ts`;
+  const [{ text }] = buildSync({ entryPoints: [table], bundle: true, format: 'cjs', write: false }).outputFiles;
+  const module = { exports: {} };
+  runInNewContext(text, { module });
+  return module.exports.RENDER_OPTIONS;
+}
+
+function attributesOf(source, options) {
   let object = find(source, 'ATTRIBUTES').initializer;
   while (!ts.isObjectLiteralExpression(object)) object = object.expression;
   return object.properties.map((property) => {
     const { text: name } = property.name;
     const doc = comment(property);
-    const values = tag(doc, 'values')
-      ?.split(',')
-      .map((value) => `'${value.trim()}'`)
-      .join(' | ');
-    const byDefault = tag(doc, 'defaultValue');
+    const option = options[tag(doc, 'option')];
+    const values = (option?.values ?? tag(doc, 'values')?.split(','))?.map((value) => `'${value.trim()}'`).join(' | ');
+    const byDefault = option ? option.default?.toString() : tag(doc, 'defaultValue');
     const type = { text: values ?? TYPES[property.initializer.text] };
     const deprecated = tag(doc, 'deprecated');
     return {
@@ -123,7 +133,7 @@ function tagged(doc, name) {
 /** The manifest as data. @param folder The package's. */
 export function customElements(folder = fileURLToPath(new URL('..', import.meta.url)).replace(/[\\/]$/, '')) {
   const api = parse(folder, 'api.ts');
-  const attributes = attributesOf(parse(folder, 'attributes.ts'));
+  const attributes = attributesOf(parse(folder, 'attributes.ts'), renderOptions(folder));
   const shadow = comment(find(parse(folder, 'shadow.ts'), 'fillShadow'));
   const element = find(api, 'GlanzViewerElement');
   const path = 'dist/define.js';

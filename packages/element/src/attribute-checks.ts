@@ -1,17 +1,20 @@
+import { optionValues, RENDER_OPTIONS, takesOption, type RenderOptionName } from '@glanz/renderer/options';
 import { TONE_MAPS } from '@glanz/tonemap';
-import type { AttributeName } from './attributes';
+import { ATTRIBUTES, camel, type AttributeName } from './attributes';
 import { angle, length } from './units';
 
 type Range = readonly [low: number, high: number];
 
-/** What the attributes that are numbers may be. */
+/** The option of the renderer whose values an attribute takes. */
+function optionOf(name: AttributeName): RenderOptionName | undefined {
+  const option = name === 'poster-samples' ? 'samples' : camel(name);
+  return Object.hasOwn(RENDER_OPTIONS, option) ? (option as RenderOptionName) : undefined;
+}
+
+/** Ranges of the other attributes that are numbers. */
 const NUMBERS: Readonly<Partial<Record<AttributeName, Range>>> = {
   'exposure-ev': [-64, 64],
   exposure: [0, 1e9],
-  samples: [1, 2 ** 24],
-  'poster-samples': [1, 2 ** 24],
-  noise: [0, 1000],
-  'max-depth': [1, 65535],
   'pixel-ratio': [1e-3, 16],
   'environment-intensity': [0, 1e9],
   'interpolation-decay': [0, 60_000],
@@ -70,16 +73,14 @@ const TEXTS: Readonly<Partial<Record<AttributeName, readonly [takes: string, tes
     `one of ${[...TONE_MAPS, ...Object.keys(TONE_MAP_NAMES)].join(', ')}`,
     (text) => Object.hasOwn(TONE_MAP_NAMES, text) || (TONE_MAPS as readonly string[]).includes(text),
   ],
-  'back-face-culling': ['off, camera or all', (text) => ['off', 'camera', 'all'].includes(text)],
 };
 
 /** The number that an attribute says, or `undefined` where it is missing or says none that the attribute takes. */
 export function numberIn(name: AttributeName, text: string | null): number | undefined {
   const value = numberOf(text);
   const [low, high] = NUMBERS[name] ?? [-Infinity, Infinity];
-  return value !== null && value >= low && value <= high && (name !== 'max-depth' || Number.isInteger(value))
-    ? value
-    : undefined;
+  const option = optionOf(name);
+  return value !== null && (option ? takesOption(option, value) : value >= low && value <= high) ? value : undefined;
 }
 
 /** Whether a number is one that an attribute takes. */
@@ -88,8 +89,9 @@ export const takesNumber = (name: AttributeName, value: number): boolean => numb
 /** What an attribute takes, in words, where its text is something else; an empty text counts as missing. */
 export function attributeFault(name: AttributeName, text: string): string | undefined {
   if (text.trim() === '') return undefined;
-  const range = NUMBERS[name];
-  if (range) return numberIn(name, text) === undefined ? takenNumbers(name) : undefined;
+  const option = optionOf(name);
+  if (option && ATTRIBUTES[name] === 'text') return takesOption(option, text) ? undefined : optionValues(option);
+  if (option || NUMBERS[name]) return numberIn(name, text) === undefined ? takenNumbers(name) : undefined;
   const [takes, test] = TEXTS[name] ?? [];
   return takes !== undefined && !test?.(text) ? takes : undefined;
 }
@@ -97,5 +99,6 @@ export function attributeFault(name: AttributeName, text: string): string | unde
 /** The numbers that an attribute takes, in words. */
 export function takenNumbers(name: AttributeName): string {
   const [low, high] = NUMBERS[name] ?? [-Infinity, Infinity];
-  return `a ${name === 'max-depth' ? 'whole ' : ''}number from ${low} to ${high}`;
+  const option = optionOf(name);
+  return option ? optionValues(option) : `a number from ${low} to ${high}`;
 }

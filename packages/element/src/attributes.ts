@@ -3,7 +3,8 @@ export type AttributeKind = 'text' | 'flag' | 'number';
 
 /**
  * The attributes of the element. Names that model-viewer has mean what they mean there. The property of each is its
- * name in camel case, and reflects. `custom-elements.json`, which editors read, is made of these comments.
+ * name in camel case, and reflects. `custom-elements.json`, which editors read, is made of these comments; `@option`
+ * stands for the values and the default of an option of the renderer, whose range is that of the attribute.
  */
 export const ATTRIBUTES = {
   /** Address of the model: glTF, GLB, OBJ or STL. */
@@ -124,22 +125,24 @@ export const ATTRIBUTES = {
   'variant-name': 'text',
   /**
    * Samples per pixel at which the image is finished.
-   * @defaultValue 256
+   * @option samples
    */
   samples: 'number',
-  /** Relative noise at which the image is finished, if it comes before `samples`. */
+  /**
+   * Relative noise at which the image is finished, if it comes before `samples`.
+   * @option noise
+   */
   noise: 'number',
   /**
-   * Most surfaces that a path meets.
-   * @defaultValue 8
+   * Maximum number of edges of a path from the camera to a light.
+   * @option maxDepth
    */
   'max-depth': 'number',
   /** Film pixels per CSS pixel; the screen's without. */
   'pixel-ratio': 'number',
   /**
-   * Faces that are seen from behind are left out: for the camera alone, or for all rays.
-   * @values off, camera, all
-   * @defaultValue off
+   * Leaves out faces that show the camera their back: for the camera alone, or for all rays.
+   * @option backFaceCulling
    */
   'back-face-culling': 'text',
   /**

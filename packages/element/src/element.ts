@@ -1,5 +1,6 @@
 import { TONE_MAPS, type ToneMap } from '@glanz/tonemap';
-import type { PickResult } from '@glanz/renderer';
+import type { BackFaceCulling, PickResult } from '@glanz/renderer';
+import { RENDER_OPTIONS, takesOption } from '@glanz/renderer/options';
 import type { Scene } from '@glanz/scene';
 import { createViewer, type EnvironmentSource, type ModelSource, type Orbit, type Viewer } from '@glanz/viewer';
 import type { ElementBlobOptions, GlanzViewerConstructor, GlanzViewerElement, GlanzViewerEventMap } from './api';
@@ -253,9 +254,9 @@ function makeClass(): GlanzViewerConstructor {
       return image === 'neutral' || image === 'legacy' ? 'studio' : image;
     }
 
-    get #culling(): 'off' | 'camera' | 'all' {
+    get #culling(): BackFaceCulling {
       const mode = this.getAttribute('back-face-culling');
-      return mode === 'camera' || mode === 'all' ? mode : 'off';
+      return takesOption('backFaceCulling', mode) ? (mode as BackFaceCulling) : RENDER_OPTIONS.backFaceCulling.default;
     }
 
     get #decoders(): DecoderAddresses {
@@ -304,9 +305,9 @@ function makeClass(): GlanzViewerConstructor {
     /** What can change at any time at no cost. */
     #apply(viewer: Viewer): void {
       const degrees = (name: AttributeName) => angle((this.getAttribute(name) ?? '').trim());
-      viewer.samples = this.#number('samples') ?? 256;
+      viewer.samples = this.#number('samples') ?? RENDER_OPTIONS.samples.default;
       viewer.noise = this.#number('noise');
-      viewer.maxDepth = this.#number('max-depth') ?? 8;
+      viewer.maxDepth = this.#number('max-depth') ?? RENDER_OPTIONS.maxDepth.default;
       viewer.pixelRatio = this.#number('pixel-ratio');
       const factor = this.#number('exposure');
       if (factor !== undefined) warnOfExposure();

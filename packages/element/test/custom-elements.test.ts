@@ -1,7 +1,9 @@
 import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import { customElements } from '../scripts/custom-elements.mjs';
-import { ATTRIBUTES } from '../src/attributes';
+import { RENDER_OPTIONS, type RenderOption } from '@glanz/renderer/options';
+import { attributeFault, numberIn } from '../src/attribute-checks';
+import { ATTRIBUTES, camel, type AttributeName } from '../src/attributes';
 
 const read = (path: string) => readFileSync(new URL(`../${path}`, import.meta.url), 'utf8');
 const element = customElements().modules[0]!.declarations[0]!;
@@ -56,4 +58,26 @@ test('methods and events are those of the README', () => {
   for (const { name, kind } of element.members)
     if (kind === 'method') expect(readme).toMatch(new RegExp(`\\b${name}\\(`));
   for (const { name } of element.attributes) expect(readme).toContain(`\`${name}\``);
+});
+
+test('attributes of render options have the values, the range and the default of the table', () => {
+  const rows: Readonly<Record<string, RenderOption>> = RENDER_OPTIONS;
+  const names = (Object.keys(ATTRIBUTES) as AttributeName[]).filter((name) => Object.hasOwn(rows, camel(name)));
+  expect(names).toEqual(['samples', 'noise', 'max-depth', 'back-face-culling']);
+  for (const name of names) {
+    const row = rows[camel(name)]!;
+    const attribute = element.attributes.find((one) => one.name === name)!;
+    expect(attribute.default, name).toBe(row.default?.toString());
+    for (const text of ['NaN', 'Infinity', 'many']) expect(attributeFault(name, text), name).toMatch(/^(a|one of) /);
+    if (row.type === 'enum') {
+      expect(attribute.type.text).toBe(row.values.map((value) => `'${value}'`).join(' | '));
+      for (const value of row.values) expect(attributeFault(name, value)).toBeUndefined();
+    } else if (row.type === 'number' || row.type === 'integer') {
+      for (const end of row.range) expect(numberIn(name, String(end))).toBe(end);
+      for (const beyond of [row.range[0] - 1, row.range[1] + 1]) {
+        expect(numberIn(name, String(beyond)), name).toBeUndefined();
+        expect(attributeFault(name, String(beyond)), name).toContain(`from ${row.range[0]} to ${row.range[1]}`);
+      }
+    }
+  }
 });

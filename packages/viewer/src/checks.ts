@@ -1,3 +1,11 @@
+import {
+  optionValues,
+  RENDER_OPTIONS,
+  shownValue,
+  takesOption,
+  type RenderOptionName,
+  type RenderSettings,
+} from '@glanz/renderer/options';
 import type { Camera } from '@glanz/scene';
 import { ViewerError } from './errors';
 import type { ViewerOptions } from './options';
@@ -8,11 +16,8 @@ const FAR = 1e12;
 /** Radians of a turn. */
 const MOST_TURN = 1e6;
 
-/** Lowest and highest value of each setting that is a number. */
+/** Lowest and highest value of each setting that is a number; those of the renderer's options are in its table. */
 const RANGES = {
-  samples: [1, 2 ** 24],
-  noise: [0, 1000],
-  maxDepth: [1, 65535],
   pixelRatio: [1e-3, 16],
   maxPixels: [1, 2 ** 28],
   width: [1, 65_536],
@@ -24,30 +29,20 @@ const RANGES = {
   damping: [0, 60],
   autoRotate: [-1000, 1000],
   autoRotateDelay: [0, 1e6],
-  maxSubmitMs: [0.1, 10_000],
   'preview.budgetMs': [0.1, 10_000],
   'preview.settleMs': [0, 1e6],
-  'preview.maxDepth': [1, 65535],
 } as const;
 
 /** Settings that are whole numbers. */
-const WHOLE: ReadonlySet<string> = new Set(['maxDepth', 'preview.maxDepth', 'maxPixels', 'width', 'height']);
+const WHOLE: ReadonlySet<string> = new Set(['maxPixels', 'width', 'height']);
 
 type Code = 'viewer/option' | 'viewer/camera';
-
-/** A value as an error names it. */
-const shown = (value: unknown): string =>
-  typeof value === 'string'
-    ? JSON.stringify(value.slice(0, 40))
-    : typeof value === 'object' && value !== null
-      ? `an ${Array.isArray(value) ? 'array' : 'object'}`
-      : String(value);
 
 /** @throws {ViewerError} unless the value is a number from `low` to `high`, both finite or infinite, but not NaN. */
 function number(value: unknown, what: string, low: number, high: number, code: Code): number {
   if (typeof value !== 'number' || !(value >= low && value <= high)) {
     const range = low === -high ? `of at most ${high} in either direction` : `from ${low} to ${high}`;
-    throw new ViewerError(code, `${what} is ${shown(value)}; it must be a number ${range}.`);
+    throw new ViewerError(code, `${what} is ${shownValue(value)}; it must be a number ${range}.`);
   }
   return value;
 }
@@ -65,10 +60,31 @@ export function checkedSetting(name: keyof typeof RANGES, value: unknown): numbe
 }
 
 /**
+ * The value of an option of the renderer.
+ * @param as Its name in the viewer.
+ * @throws {ViewerError} `viewer/option`
+ */
+export function checkedOption<Name extends RenderOptionName>(
+  name: Name,
+  value: unknown,
+  as: string = name,
+): NonNullable<RenderSettings[Name]> {
+  if (!takesOption(name, value))
+    throw new ViewerError('viewer/option', `${as} is ${shownValue(value)}; it must be ${optionValues(name)}.`);
+  return value as NonNullable<RenderSettings[Name]>;
+}
+
+/**
  * Checks all settings that are given; those of the preview lie in an object of their own. @throws {ViewerError}
  * `viewer/option`
  */
 export function checkSettings(options: ViewerOptions): void {
+  for (const name of Object.keys(RENDER_OPTIONS) as RenderOptionName[]) {
+    const value = (options as RenderSettings)[name];
+    if (value !== undefined) checkedOption(name, value);
+  }
+  const depth = options.preview?.maxDepth;
+  if (depth !== undefined) checkedOption('maxDepth', depth, 'preview.maxDepth');
   for (const name of Object.keys(RANGES) as (keyof typeof RANGES)[]) {
     const [group, inner] = name.split('.') as [keyof ViewerOptions, string?];
     const value =
@@ -77,14 +93,6 @@ export function checkSettings(options: ViewerOptions): void {
         : (options.preview as Readonly<Record<string, unknown>> | undefined)?.[inner];
     if (value !== undefined) checkedSetting(name, value);
   }
-}
-
-/** @throws {ViewerError} `viewer/option` unless the value is one of the choices. */
-export function checkedChoice<T extends string>(name: string, value: unknown, choices: readonly T[]): T {
-  const found = choices.find((choice) => choice === value);
-  if (found === undefined)
-    throw new ViewerError('viewer/option', `${name} is ${shown(value)}; it must be one of: ${choices.join(', ')}.`);
-  return found;
 }
 
 /**
@@ -98,7 +106,7 @@ export const checkedAmount = (value: unknown, what: string): number =>
 export function checkedPoint(value: unknown, what: string): Vector {
   const point = value as Vector;
   if (typeof value !== 'object' || value === null || point.length !== 3)
-    throw new ViewerError('viewer/camera', `${what} is ${shown(value)}; it must be three numbers.`);
+    throw new ViewerError('viewer/camera', `${what} is ${shownValue(value)}; it must be three numbers.`);
   return [0, 1, 2].map((k) => number(point[k as 0], `${what}[${k}]`, -FAR, FAR, 'viewer/camera')) as unknown as Vector;
 }
 
@@ -118,7 +126,7 @@ export function checkedFieldOfView(value: unknown): number {
   if (typeof value !== 'number' || !(value > 1e-6 && value < Math.PI - 1e-6))
     throw new ViewerError(
       'viewer/camera',
-      `The vertical field of view is ${shown(value)}; it must be a number of radians between 0 and π.`,
+      `The vertical field of view is ${shownValue(value)}; it must be a number of radians between 0 and π.`,
     );
   return value;
 }
@@ -128,7 +136,7 @@ export function checkedOrbit(orbit: Partial<Orbit>): Partial<Orbit> {
   if (typeof orbit !== 'object' || orbit === null)
     throw new ViewerError(
       'viewer/camera',
-      `An orbit is an object with theta, phi, radius or target, not ${shown(orbit)}.`,
+      `An orbit is an object with theta, phi, radius or target, not ${shownValue(orbit)}.`,
     );
   const { theta, phi, radius, target, zoom } = orbit;
   return {
@@ -145,7 +153,7 @@ export function checkedLimits(limits: OrbitLimits): OrbitLimits {
   if (typeof limits !== 'object' || limits === null)
     throw new ViewerError(
       'viewer/camera',
-      `Limits of an orbit are an object with theta, phi or radius, not ${shown(limits)}.`,
+      `Limits of an orbit are an object with theta, phi or radius, not ${shownValue(limits)}.`,
     );
   const range = (name: keyof OrbitLimits): readonly [number, number] | undefined => {
     const pair = limits[name];
@@ -153,7 +161,7 @@ export function checkedLimits(limits: OrbitLimits): OrbitLimits {
     if (!Array.isArray(pair) || pair.length !== 2)
       throw new ViewerError(
         'viewer/camera',
-        `The limit of ${name} is ${shown(pair)}; it must be two numbers, the lowest and the highest.`,
+        `The limit of ${name} is ${shownValue(pair)}; it must be two numbers, the lowest and the highest.`,
       );
     const [low, high] = pair.map((value, k) =>
       number(value, `The limit of ${name}[${k}]`, -Infinity, Infinity, 'viewer/camera'),
@@ -172,13 +180,13 @@ export function checkedLimits(limits: OrbitLimits): OrbitLimits {
 /** A camera that can be rendered with. @throws {ViewerError} `viewer/camera` */
 export function checkedCamera(camera: Camera): Camera {
   if (typeof camera !== 'object' || camera === null)
-    throw new ViewerError('viewer/camera', `A camera is an object with type and transform, not ${shown(camera)}.`);
-  const what = `Camera ${shown(camera.name)}`;
+    throw new ViewerError('viewer/camera', `A camera is an object with type and transform, not ${shownValue(camera)}.`);
+  const what = `Camera ${shownValue(camera.name)}`;
   const { type, transform } = camera;
   if (type !== 'perspective' && type !== 'orthographic' && type !== 'panorama')
     throw new ViewerError(
       'viewer/camera',
-      `${what} has the type ${shown(type)}; it must be perspective, orthographic or panorama.`,
+      `${what} has the type ${shownValue(type)}; it must be perspective, orthographic or panorama.`,
     );
   if (typeof transform !== 'object' || transform === null || transform.length !== 16)
     throw new ViewerError('viewer/camera', `${what} has no transform of 16 numbers.`);

@@ -1,5 +1,6 @@
 import type { GltfDecoders } from '@glanz/gltf';
 import type { PathTracerOptions } from '@glanz/renderer';
+import type { RenderOptionName } from '@glanz/renderer/options';
 import type { Camera, Scene } from '@glanz/scene';
 import type { ToneMap } from '@glanz/tonemap';
 import type { ControlOptions } from './controls';
@@ -29,18 +30,18 @@ export interface BlobOptions {
 }
 
 /**
- * What `createViewer` may be told. All of it has a default; what is marked can be changed later by the viewer's
- * property of the same name.
+ * Options for `createViewer`. All have a default; those that are marked can be changed later by the viewer's property of
+ * the same name.
  */
 export interface ViewerOptions {
-  /** Samples per pixel of the finished picture. Default 256. Changeable. */
+  /** Samples per pixel of the finished image, a whole number. Default 256. Changeable. */
   readonly samples?: number;
   /**
    * Stop earlier, where this relative noise is reached; see `RenderOptions.noise` of the renderer. Default: none.
    * Changeable.
    */
   readonly noise?: number;
-  /** Most edges of a path. Default 8. Changeable. */
+  /** Maximum number of edges of a path. Default 8. Changeable. */
   readonly maxDepth?: number;
   /** Picture pixels per CSS pixel. Default: the screen's own, at most 2. Changeable. */
   readonly pixelRatio?: number;
@@ -104,22 +105,8 @@ export interface ViewerOptions {
    * wait for: about a tenth of a second of the page's thread, in slices. Default: unless the CPU imitates the GPU.
    */
   readonly warmUp?: boolean;
-  /** More for the path tracer: filter, light groups, biased shortcuts, back-face culling. */
-  readonly tracer?: Pick<
-    PathTracerOptions,
-    | 'filter'
-    | 'lightGroups'
-    | 'clampIndirect'
-    | 'regularization'
-    | 'caustics'
-    | 'maxBounces'
-    | 'backFaceCulling'
-    | 'sampler'
-    | 'textureLodBias'
-    | 'seed'
-    | 'maxVolumeDepth'
-    | 'pathsInFlight'
-  >;
+  /** The other options of the path tracer: filter, light groups, biased options, back-face culling and more. */
+  readonly tracer?: Pick<PathTracerOptions, Exclude<RenderOptionName & keyof PathTracerOptions, keyof ViewerOptions>>;
   /** Destroys the viewer when it aborts. */
   readonly signal?: AbortSignal;
 }

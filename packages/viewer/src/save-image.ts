@@ -1,21 +1,20 @@
 import type { BlobOptions } from './options';
 import type { PathTracer } from '@glanz/renderer';
+import { MAX_ADAPTIVE_SAMPLES } from '@glanz/renderer/options';
 import { inSlices } from '@glanz/scene';
 import { toneMapPixels, type ToneMapOptions } from '@glanz/tonemap/tone-map';
-import type { checkedChoice, checkedSetting } from './checks';
+import type { checkedOption, checkedSetting } from './checks';
 import type { Engine } from './engine';
 import { ViewerError } from './errors';
 import { imageProgress, renderImage } from './render-image';
 import type { ViewerCamera } from './viewer-camera';
 
-/** Samples of an image that has a noise target alone. */
-const MOST_SAMPLES = 65_536;
 /** Pixels that are tone-mapped in one step, about a millisecond. */
 const STEP = 8192;
 
 /** Passed in: imported, they would be a chunk of their own in every page. */
 interface Checks {
-  readonly checkedChoice: typeof checkedChoice;
+  readonly checkedOption: typeof checkedOption;
   readonly checkedSetting: typeof checkedSetting;
 }
 
@@ -32,7 +31,7 @@ interface Wanted {
 /** @throws {ViewerError} `viewer/option` */
 function checked(viewer: ViewerCamera, options: BlobOptions, checks: Checks): Wanted {
   const { width, height, samples, noise, background } = options;
-  const { checkedChoice, checkedSetting } = checks;
+  const { checkedOption, checkedSetting } = checks;
   for (const [name, value] of [
     ['width', width],
     ['height', height],
@@ -51,12 +50,9 @@ function checked(viewer: ViewerCamera, options: BlobOptions, checks: Checks): Wa
   return {
     size,
     samples:
-      samples === undefined ? (usual ? viewer.samples : MOST_SAMPLES) : Math.floor(checkedSetting('samples', samples)),
-    noise: usual ? viewer.noise : noise === undefined ? undefined : checkedSetting('noise', noise) || undefined,
-    background:
-      background === undefined
-        ? viewer.background
-        : checkedChoice('background', background, ['environment', 'transparent']),
+      samples === undefined ? (usual ? viewer.samples : MAX_ADAPTIVE_SAMPLES) : checkedOption('samples', samples),
+    noise: usual ? viewer.noise : noise === undefined ? undefined : checkedOption('noise', noise) || undefined,
+    background: background === undefined ? viewer.background : checkedOption('background', background),
     usual,
   };
 }

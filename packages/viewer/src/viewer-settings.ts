@@ -1,7 +1,8 @@
 import type { PathTracer } from '@glanz/renderer';
+import { RENDER_OPTIONS } from '@glanz/renderer/options';
 import { GlanzError, untilAborted, type Scene } from '@glanz/scene';
 import { checkToneMapOptions, type ToneMap } from '@glanz/tonemap';
-import { checkedChoice, checkedSetting, checkSettings } from './checks';
+import { checkedOption, checkedSetting, checkSettings } from './checks';
 import { Emitter } from './emitter';
 import { Engine, type EngineHost } from './engine';
 import { isAbort, ViewerError } from './errors';
@@ -11,14 +12,11 @@ import type { ViewerOptions } from './options';
 import { pictureSize } from './picture-size';
 import { Surroundings } from './surroundings';
 
-const BACKGROUNDS = ['environment', 'transparent'] as const;
-
 /** @throws {ViewerError} `viewer/no-canvas`, `viewer/option`; {ToneMapError} `tonemap/unknown`. */
 function checkOptions(canvas: HTMLCanvasElement, options: ViewerOptions): void {
   if (typeof (canvas as HTMLCanvasElement | null)?.getContext !== 'function')
     throw new ViewerError('viewer/no-canvas', 'A viewer draws on a canvas element: pass one as the first argument.');
   checkSettings(options);
-  if (options.background !== undefined) checkedChoice('background', options.background, BACKGROUNDS);
   if (options.toneMap !== undefined) checkToneMapOptions({ toneMap: options.toneMap });
 }
 
@@ -59,13 +57,13 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
     this.engine = new Engine(
       canvas,
       {
-        samples: Math.floor(options.samples ?? 256),
+        samples: options.samples ?? RENDER_OPTIONS.samples.default,
         noise: options.noise || undefined,
-        maxDepth: options.maxDepth ?? 8,
-        background: options.background ?? 'environment',
+        maxDepth: options.maxDepth ?? RENDER_OPTIONS.maxDepth.default,
+        background: options.background ?? RENDER_OPTIONS.background.default,
         exposure: options.exposure ?? 0,
         toneMap: options.toneMap ?? 'neutral',
-        maxSubmitMs: options.maxSubmitMs ?? 16,
+        maxSubmitMs: options.maxSubmitMs ?? RENDER_OPTIONS.maxSubmitMs.default,
         settleMs: preview.settleMs ?? 180,
         previewDepth: preview.maxDepth ?? 4,
         tracer: options.tracer ?? {},
@@ -176,7 +174,7 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
   }
 
   set background(background: 'environment' | 'transparent') {
-    if (checkedChoice('background', background, BACKGROUNDS) === this.engine.settings.background) return;
+    if (checkedOption('background', background) === this.engine.settings.background) return;
     this.engine.settings.background = background;
     this.#quietly(this.engine.edit('background', (tracer) => tracer.setBackground(background)));
   }
@@ -206,9 +204,8 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
   }
 
   set samples(samples: number) {
-    const whole = Math.floor(checkedSetting('samples', samples));
-    if (whole === this.samples) return;
-    this.engine.settings.samples = whole;
+    if (checkedOption('samples', samples) === this.samples) return;
+    this.engine.settings.samples = samples;
     this.engine.restart();
   }
 
@@ -218,7 +215,7 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
   }
 
   set noise(noise: number | undefined) {
-    const wanted = noise === undefined ? undefined : checkedSetting('noise', noise) || undefined;
+    const wanted = noise === undefined ? undefined : checkedOption('noise', noise) || undefined;
     if (wanted === this.noise) return;
     this.engine.settings.noise = wanted;
     this.engine.restart();
@@ -230,7 +227,7 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
   }
 
   set maxDepth(depth: number) {
-    if (checkedSetting('maxDepth', depth) === this.maxDepth) return;
+    if (checkedOption('maxDepth', depth) === this.maxDepth) return;
     this.engine.settings.maxDepth = depth;
     if (this.scene) this.engine.touch();
   }

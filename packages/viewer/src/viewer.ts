@@ -1,6 +1,6 @@
 import type { PathTracer } from '@glanz/renderer';
 import { inSlices, sceneBoundsSteps, untilAborted, type Camera, type Scene } from '@glanz/scene';
-import { checkedChoice, checkedSetting } from './checks';
+import { checkedOption, checkedSetting } from './checks';
 import type { Take } from './engine';
 import { isAbort } from './errors';
 import type { LoadStage } from './events';
@@ -168,7 +168,7 @@ export class Viewer extends ViewerCamera {
     this.theScene();
     const { imageBlob } = await import('./save-image');
     this.check();
-    return imageBlob(this, this.engine, options, { checkedChoice, checkedSetting });
+    return imageBlob(this, this.engine, options, { checkedOption, checkedSetting });
   }
 
   /** Frees everything, the device too. Idempotent. The canvas can serve another viewer. */
