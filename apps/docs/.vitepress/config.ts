@@ -116,6 +116,7 @@ export default defineConfig({
           { text: 'Where it stands', link: '/guide/status' },
           { text: 'Conventions', link: '/guide/conventions' },
           { text: 'Names and units', link: '/guide/names' },
+          { text: 'Render options', link: '/guide/options' },
         ],
       },
       {

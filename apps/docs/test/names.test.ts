@@ -2,8 +2,9 @@ import { readFileSync } from 'node:fs';
 import ts from 'typescript';
 import { expect, test } from 'vitest';
 import { ATTRIBUTES } from '@glanz/element';
-import { RENDER_OPTIONS } from '@glanz/renderer/options';
+import { RENDER_OPTION_TEXTS, RENDER_OPTIONS } from '@glanz/renderer/options';
 import { isToneMap } from '@glanz/tonemap';
+import { optionRows } from '../src/option-rows';
 import { readExport } from '../src/read-export';
 
 /** The manual of the command line. */
@@ -111,4 +112,26 @@ test('the default time of a submission is the same in the renderer, in the viewe
     expect(/`maxSubmitMs`(?: of GPU time)?,? \(?(\d+)/.exec(read(file))?.[1], file).toBe(
       String(RENDER_OPTIONS.maxSubmitMs.default),
     );
+});
+
+test('the page of render options lists every row of the table, with its names on the command line and the element', () => {
+  const listed = optionRows(RENDER_OPTIONS, RENDER_OPTION_TEXTS, Object.keys(ATTRIBUTES), help);
+  expect(listed.map(({ name }) => name)).toEqual(Object.keys(RENDER_OPTIONS));
+  for (const row of listed) {
+    expect(row.doc.length, row.name).toBeGreaterThan(20);
+    expect(`${row.type}${row.values}${row.default}`, row.name).not.toMatch(/undefined|object|NaN/);
+  }
+  expect(listed.filter(({ flag }) => flag === '').map(({ name }) => name)).toEqual(['maxSubmitMs']);
+  expect(listed.filter(({ attribute }) => attribute !== '').map(({ attribute }) => attribute)).toEqual(
+    Object.keys(ATTRIBUTES).filter((name) => Object.hasOwn(RENDER_OPTIONS, camel(name))),
+  );
+  expect(listed.find(({ name }) => name === 'maxDepth')).toMatchObject({
+    type: 'integer',
+    values: '1 … 65,535',
+    default: '8',
+    flag: '--max-depth',
+    attribute: 'max-depth',
+    effect: 'uniform',
+    biased: false,
+  });
 });
