@@ -20,7 +20,7 @@ export interface LatLongEnvironment {
   height: number;
   /** RGB interleaved, stride 3, linear Rec.709 radiance, top row first. Finite and not negative. */
   data: Float32Array<ArrayBuffer>;
-  /** Multiplies the radiance; default 1. */
+  /** Multiplies the radiance; at least 0, default 1. */
   intensity?: number;
   /**
    * Rotates the environment about +Y, radians, counter-clockwise seen from above: L(d) = image(R_y(−rotation) d).

@@ -283,6 +283,7 @@ function* environmentSteps(environment: Environment): Generator<void> {
     fail('value', `The environment has a size of ${width} × ${height}.`);
   length(data, 3 * width * height, `The environment of ${width} × ${height} pixels`);
   finite([intensity, rotation], 'The environment');
+  if (intensity < 0) fail('value', `The environment has a negative intensity, ${intensity}.`);
   for (let from = 0; from < data.length; from += STEP) {
     radiances(data, from, Math.min(data.length, from + STEP));
     yield;

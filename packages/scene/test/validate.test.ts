@@ -208,6 +208,12 @@ const faults: [string, (scene: Scene) => void, string, RegExp][] = [
     'scene/length',
     /environment/,
   ],
+  [
+    'an environment of negative intensity',
+    (s) => ((s.environment as { intensity?: number }).intensity = -1),
+    'scene/value',
+    /negative intensity, -1/,
+  ],
   ['a negative sky', (s) => ((s.environment as { data: Float32Array }).data[3] = -1), 'scene/not-finite', /-1 at 3/],
 ];
 
