@@ -1,3 +1,8 @@
 import { glanzPackage } from '../../tsup.base';
 
-export default glanzPackage({ index: 'src/index.ts', options: 'src/render-options/index.ts', node: 'src/node.ts' });
+export default glanzPackage({
+  index: 'src/index.ts',
+  film: 'src/film.ts',
+  options: 'src/render-options/index.ts',
+  node: 'src/node.ts',
+});

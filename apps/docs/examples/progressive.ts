@@ -6,6 +6,7 @@ import {
   requestDevice,
   type FilmState,
 } from '@glanz/renderer';
+import { mergeFilmStates, readFilmState } from '@glanz/renderer/film';
 import type { Scene } from '@glanz/scene';
 
 // #region progress
@@ -85,6 +86,25 @@ export async function resume(tracer: PathTracer, bytes: Uint8Array) {
   for await (const _ of tracer.render({ samples: 1024 }));
 }
 // #endregion film
+
+// #region merge
+/** One of several workers: `count` samples, from `firstSample` on. */
+export async function renderRange(
+  tracer: PathTracer,
+  firstSample: number,
+  count: number,
+) {
+  tracer.reset({ firstSample });
+  for await (const _ of tracer.render({ samples: count }));
+  return encodeFilmState(await tracer.saveFilm());
+}
+
+/** Linear RGBA of all samples together. */
+export function mergedImage(films: readonly Uint8Array[]) {
+  const merged = mergeFilmStates(films.map(decodeFilmState));
+  return readFilmState(merged, 'beauty');
+}
+// #endregion merge
 
 // #region lost
 export async function renderThroughLosses(

@@ -19,11 +19,14 @@ export type Tracer = Pick<
   | 'destroy'
 >;
 
-/** Films as bytes, for files. */
+/** Films on the CPU: as bytes for files, merged, as layers of an image. */
 export interface FilmCodec {
   readonly encode: (state: FilmState) => Uint8Array;
   /** @throws {RenderError} `renderer/film-state` */
   readonly decode: (bytes: Uint8Array) => FilmState;
+  /** @throws {RenderError} `renderer/film-state` */
+  readonly merge: (films: readonly FilmState[]) => FilmState;
+  readonly layer: (film: FilmState, layer: 'beauty' | 'variance') => Float32Array;
 }
 
 /** A device and what it is called. */
@@ -109,8 +112,13 @@ export function nodeBackend(): Backend {
       return PathTracer.create(device, scene, options);
     },
     async filmCodec() {
-      const { decodeFilmState, encodeFilmState } = await import('@glanz/renderer');
-      return { encode: encodeFilmState, decode: decodeFilmState };
+      const film = await import('@glanz/renderer/film');
+      return {
+        encode: film.encodeFilmState,
+        decode: film.decodeFilmState,
+        merge: film.mergeFilmStates,
+        layer: film.readFilmState,
+      };
     },
   };
 }

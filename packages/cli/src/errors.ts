@@ -4,7 +4,7 @@ import { visible } from './visible';
 /**
  * Something the user can put right. Codes: `cli/usage` (unknown option, impossible value), `cli/input` (a file that
  * cannot be read), `cli/output` (a file that cannot be written), `cli/camera` (no such camera), `cli/batch` (a batch
- * file that makes no sense), `cli/checkpoint` (a file that cannot be resumed), `cli/gpu-lost` (a GPU that is gone for
+ * file that makes no sense), `cli/checkpoint` (a file that cannot be resumed), `cli/film` (a file that cannot be merged), `cli/gpu-lost` (a GPU that is gone for
  * good), `cli/missing-package` (an optional package is needed), `cli/port` (a port that cannot be used).
  */
 export class CliError extends GlanzError {}
@@ -51,7 +51,9 @@ export function exitCodeOf(error: unknown): number {
     return EXIT.usage;
   if (code === 'cli/output') return EXIT.output;
   if (GPU_CODES.has(code)) return EXIT.gpu;
-  if (/^(cli\/input|cli\/checkpoint|gltf\/|scene\/|image\/|formats\/|cad\/|renderer\/no-triangles)/.test(code))
+  if (
+    /^(cli\/input|cli\/checkpoint|cli\/film|gltf\/|scene\/|image\/|formats\/|cad\/|renderer\/no-triangles)/.test(code)
+  )
     return EXIT.input;
   return EXIT.failure;
 }

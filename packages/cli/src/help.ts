@@ -33,6 +33,20 @@ const COMMANDS = {
       --samples N       Of each run. Default 64.
       --runs N          The middle one counts. Default 3.
 `,
+  merge: `RENDERING ON SEVERAL MACHINES
+  glanz merge A.film B.film [...] -o FILE... [--exposure EV] [--tone-map NAME]
+              [--bits N] [--json]
+
+  Adds up the samples of several renders of the same image, whose options
+  differ in --samples-from and --samples alone:
+    glanz render m.glb --samples 500 -o a.film
+    glanz render m.glb --samples-from 500 --samples 500 -o b.film
+    glanz merge a.film b.film -o image.png
+  The result is that of one run with 1000 samples, within the rounding of its
+  sums. Their order does not matter. It needs no GPU; all films are in memory
+  at once, so merge many large ones group by group.
+  -o, --output FILE     .png, .hdr, .exr (image and variance), or .film again.
+`,
   serve: `THE PLAYGROUND
   glanz serve [--port N] [--host NAME] [--json]
 
@@ -52,6 +66,7 @@ SYNOPSIS
   glanz render MODEL --variant all --view front --view iso [...]
   glanz render --batch FILE [--resume] [--gpu NAME]... [...]
   glanz convert PART [-o FILE.glb] [--lod N] [--materials FILE] [--strip] [...]
+  glanz merge A.film B.film [...] -o FILE
   glanz info MODEL | bench [MODEL] | serve
   glanz --list-gpus
   glanz help [COMMAND] | --help | --version
@@ -76,6 +91,7 @@ PICTURE
                                 position, variance, objectId, materialId and
                                 one for each light group; half or 32-bit floats
                           .hdr  linear, Radiance RGBE
+                          .film the samples, for glanz merge
       --size WxH        Pixels. Default 1024x768.
       --bits N          8 or 16 for .png (default 8), 16 or 32 for .exr
                         (default 16).
@@ -108,6 +124,9 @@ LIGHT AND VIEW
 
 RENDERING
 ${flagsHelp({ biased: false })}
+      --samples-from N  Number of the first sample, default 0: a render with
+                        --samples-from 100 continues another with 100 samples.
+                        See glanz merge.
 
 BIASED OPTIONS
   These give up some light, or blur it, for less noise or time; all are off by
@@ -160,6 +179,7 @@ MANY PICTURES
 ${COMMANDS.convert}
 ${COMMANDS.info}
 ${COMMANDS.bench}
+${COMMANDS.merge}
 ${COMMANDS.serve}
 MACHINE
       --list-gpus       List what could render, and exit.

@@ -5,6 +5,7 @@ import { CliError } from './errors';
 import { parseExposure } from './exposure';
 import { parseBench } from './commands/bench';
 import { parseInfo } from './commands/info';
+import { parseMerge } from './commands/merge';
 import { parseServe } from './commands/serve';
 import { formatOf, type OutputTarget } from './output/formats';
 import { RENDER_FLAGS, settingsOf, type FlagSettings } from './render-flags';
@@ -38,6 +39,8 @@ export interface RenderCommandOptions {
   readonly height: number;
   /** The options of the renderer. */
   readonly settings: FlagSettings;
+  /** Number of the first sample. */
+  readonly samplesFrom: number;
   readonly exposure: number;
   readonly toneMap: ToneMap;
   /** Names of parts that catch shadows and reflections. */
@@ -80,6 +83,7 @@ export type Command =
   | ReturnType<typeof parseInfo>
   | ReturnType<typeof parseBench>
   | ReturnType<typeof parseServe>
+  | ReturnType<typeof parseMerge>
   | RenderCommand;
 
 const OPTIONS = {
@@ -89,6 +93,7 @@ const OPTIONS = {
   'env-intensity': { type: 'string' },
   size: { type: 'string' },
   ...RENDER_FLAGS,
+  'samples-from': { type: 'string' },
   depth: { type: 'string' },
   camera: { type: 'string' },
   view: { type: 'string', multiple: true },
@@ -272,6 +277,10 @@ export function renderOptions(values: RenderValues, model: string): RenderComman
   const bits = values.bits === undefined ? undefined : number('bits', values.bits, 8, { whole: true, min: 8, max: 32 });
   const files = values.output ?? [defaultOutput(model)];
   for (const file of files) checkPlaceholders(file);
+  if (values['samples-from'] !== undefined && Number(values.noise ?? 0) !== 0)
+    throw usage(
+      '--samples-from is for films that are merged later, whose pixels all have the same samples: give --samples, not --noise.',
+    );
   const time = values.time === undefined ? undefined : number('time', values.time, 0, { min: -1e9, max: 1e9 });
   return {
     model,
@@ -292,6 +301,7 @@ export function renderOptions(values: RenderValues, model: string): RenderComman
       ...values,
       background: values.background ?? (values.transparent ? 'transparent' : undefined),
     }),
+    samplesFrom: number('samples-from', values['samples-from'], 0, { whole: true, min: 0, max: 2147483647 }),
     exposure: values.exposure === undefined ? 0 : parseExposure(values.exposure),
     toneMap,
     catchers: values.catcher ?? [],
@@ -331,6 +341,7 @@ export function parseCommand(argv: readonly string[]): Command {
   if (first === 'info') return parseInfo(argv.slice(1));
   if (first === 'bench') return parseBench(argv.slice(1));
   if (first === 'serve') return parseServe(argv.slice(1));
+  if (first === 'merge') return parseMerge(argv.slice(1));
   const { values: given, positionals } = parse(argv);
   const warnings: string[] = [];
   const values = presentNames(given, (text) => warnings.push(text));
@@ -342,7 +353,7 @@ export function parseCommand(argv: readonly string[]): Command {
     if (argv.length === 0) return { kind: 'help', topic: undefined };
     throw usage('No command given. Use glanz render MODEL; see glanz --help.');
   }
-  const commands = ['render', 'convert', 'info', 'bench', 'serve'];
+  const commands = ['render', 'convert', 'info', 'bench', 'serve', 'merge'];
   if (command !== 'render') {
     if (commands.includes(command)) throw usage(`"${command}" comes first: glanz ${command} …; see glanz --help.`);
     const guess = closest(command, commands);

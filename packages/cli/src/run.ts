@@ -3,6 +3,7 @@ import { benchCommand } from './commands/bench';
 import { convertCommand } from './commands/convert';
 import { infoCommand } from './commands/info';
 import { listGpusCommand } from './commands/list-gpus';
+import { mergeCommand } from './commands/merge';
 import { renderCommand } from './commands/render';
 import { serveCommand } from './commands/serve';
 import { describeError, errorLine, EXIT, exitCodeOf } from './errors';
@@ -44,6 +45,7 @@ export async function runCli(
     if (command.kind === 'bench')
       return await benchCommand(command, io, backend, new ProgressReporter(io, command.quiet));
     if (command.kind === 'serve') return await serveCommand(command, io);
+    if (command.kind === 'merge') return await mergeCommand(command, io, backend);
     if (command.kind === 'list-gpus') return await listGpusCommand(command, io, backend);
     const { result, exitCode } = await renderCommand(command, io, backend, new ProgressReporter(io, command.quiet));
     if (json)

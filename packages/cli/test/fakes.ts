@@ -1,3 +1,4 @@
+import { mergeFilmStates, readFilmState } from '@glanz/renderer/film';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -220,6 +221,8 @@ export function fakeBackend(fake: FakeOptions = {}): FakeRun {
       filmCodec: async () => ({
         encode: ({ samples, width, height }) => new TextEncoder().encode(JSON.stringify([samples, width, height])),
         decode: (bytes) => filmOf(...(JSON.parse(new TextDecoder().decode(bytes)) as [number, number, number])),
+        merge: mergeFilmStates,
+        layer: readFilmState,
       }),
     },
   };

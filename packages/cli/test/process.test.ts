@@ -2,6 +2,7 @@ import { execFileSync, spawn, type ChildProcess } from 'node:child_process';
 import { existsSync, mkdirSync, readdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { decodeExr } from '@glanz/image';
 import sharp from 'sharp';
 import { beforeAll, describe, expect, it } from 'vitest';
 import { temporaryFolder } from './fakes';
@@ -366,4 +367,66 @@ it('a second SIGINT ends it at once', async () => {
   // Killed by the second, or, on a fast machine, already done with the first: either way soon and without a picture.
   expect(signal === 'SIGINT' || code === 130).toBe(true);
   expect(existsSync(join(cwd, 'red.png'))).toBe(false);
+});
+
+describe('glanz merge', () => {
+  const options = ['red.glb', '--gpu', 'software', '--size', '16x12', '--depth', '3'];
+  const pixels = (file: string) => {
+    const { channels } = decodeExr(new Uint8Array(readFileSync(file)));
+    return (name: string) => channels.get(name)!.data;
+  };
+
+  it('makes of samples 0–49 and 50–99, each from a process of its own, the image of 0–99; and a film again', async () => {
+    const cwd = temporaryFolder({ 'red.glb': makeGlb({ camera: true }) });
+    const runs = [
+      ['--samples', '100', '-o', 'whole.exr', '--bits', '32'],
+      ['--samples', '50', '-o', 'a.film'],
+      ['--samples-from', '50', '--samples', '50', '-o', 'b.film', '-o', 'b.png'],
+    ];
+    for (const run of runs) {
+      const { code, err } = await start(['render', ...options, ...run], cwd);
+      expect(code, err).toBe(0);
+    }
+    const outputs = ['-o', 'merged.exr', '-o', 'merged.hdr', '-o', 'all.film', '--bits', '32', '--json'];
+    const { code, out, err } = await start(['merge', 'b.film', 'a.film', ...outputs], cwd);
+    expect(code, err).toBe(0);
+    expect(JSON.parse(out)).toMatchObject({ ok: true, samples: 100, ranges: [[0, 100]], width: 16, height: 12 });
+    const [whole, merged] = [pixels(join(cwd, 'whole.exr')), pixels(join(cwd, 'merged.exr'))];
+    for (const channel of ['R', 'G', 'B', 'A'])
+      whole(channel).forEach((value, i) =>
+        // One rounding a chunk of 16 samples and those of a split chunk, see mergeFilmStates.
+        expect(Math.abs(merged(channel)[i]! - value)).toBeLessThanOrEqual((100 / 16 + 16) * 2 ** -23 * value),
+      );
+    expect(merged('variance.R').every((value) => Number.isFinite(value) && value >= 0)).toBe(true);
+
+    // The merged film is a checkpoint that the same command resumes.
+    const more = ['render', ...options, '--samples', '110', '--checkpoint', 'all.film', '-o', 'more.png'];
+    const resumed = await start(more, cwd);
+    expect([resumed.code, resumed.err.includes('going on from sample 100')], resumed.err).toEqual([0, true]);
+  });
+
+  it('refuses films that do not belong together, are damaged, or are none', async () => {
+    const cwd = temporaryFolder({ 'red.glb': makeGlb({ camera: true }), 'none.film': 'GLANZ?' });
+    for (const [name, seed] of [
+      ['a', '1'],
+      ['b', '2'],
+    ]) {
+      const argv = ['render', ...options, '--samples', '2', '--seed', seed!, '-o', `${name}.film`];
+      expect((await start(argv, cwd)).code).toBe(0);
+    }
+    const film = readFileSync(join(cwd, 'a.film'));
+    film[film.length - 5]! ^= 1;
+    writeFileSync(join(cwd, 'damaged.film'), film);
+    for (const [files, code, message] of [
+      [['a.film', 'b.film'], 3, 'its --seed is 2, in "a.film" 1'],
+      [['damaged.film'], 3, 'its content is damaged'],
+      [['none.film'], 3, 'is not a film of glanz'],
+      [['gone.film'], 3, 'there is no such file'],
+      [['a.film', 'a.film'], 1, 'two have sample 0'],
+    ] as const) {
+      const ended = await start(['merge', ...files, '-o', 'x.png'], cwd);
+      expect([ended.code, ended.err], ended.err).toEqual([code, expect.stringContaining(message)]);
+      expect(existsSync(join(cwd, 'x.png'))).toBe(false);
+    }
+  });
 });

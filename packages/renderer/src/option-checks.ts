@@ -52,6 +52,15 @@ export function renderGoal(options: RenderOptions): Required<Pick<ResolvedSettin
     : { samples, noise: undefined, maxSubmitMs };
 }
 
+/** @throws {RenderError} `renderer/samples` */
+export function checkFirstSample(firstSample: number): void {
+  if (!Number.isInteger(firstSample) || firstSample < 0 || firstSample > 0x7fffffff)
+    throw new RenderError(
+      'renderer/samples',
+      `firstSample must be an integer from 0 to ${0x7fffffff}, not ${firstSample}.`,
+    );
+}
+
 /** @throws {DeviceError} `renderer/limit` where a path has too few bits to say in which of the materials it is. */
 export function checkInteriors({ materials }: Scene): void {
   const last = materials.findLastIndex(hasInterior);

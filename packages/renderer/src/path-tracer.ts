@@ -11,7 +11,7 @@ import type { GpuScene } from './scene/gpu-scene';
 import { memoryReport } from './session/memory-report';
 import { readBuffer } from './storage/read-buffer';
 import type { Integrator } from './integrator/integrator';
-import { checkSize, resolveOptions, type TracerSettings } from './option-checks';
+import { checkFirstSample, checkSize, resolveOptions, type TracerSettings } from './option-checks';
 import type {
   FilmLayer,
   LightGroup,
@@ -252,9 +252,11 @@ export class PathTracer extends TracerEdits {
    * Puts a saved film in place of the tracer's. The next `render()` goes on from there; what comes out is bit for bit
    * what it would have been without the interruption on the same kind of device. A running `render()` ends.
    *
-   * @param state Of a tracer with the same scene, camera and options. It is not changed and can be used again.
+   * @param state Of a tracer with the same scene, camera and options, or merged from such. It is not changed and can be
+   * used again. The film begins at the state's first sample from then on, see {@link reset}.
    * @returns When the film holds it.
-   * @throws {RenderError} `renderer/film-state` if it is of another size, scene, camera, or other options.
+   * @throws {RenderError} `renderer/film-state` if it is of another size, scene, camera, or other options, or was merged
+   * from films between whose samples some are missing.
    */
   async restoreFilm(state: FilmState): Promise<void> {
     this.#check();
@@ -278,10 +280,19 @@ export class PathTracer extends TracerEdits {
     return this.#rays;
   }
 
-  /** Restarts the film. */
-  reset(): void {
+  /**
+   * Restarts the film.
+   *
+   * @param options `firstSample`: the number of its first sample, a whole number from 0 to 2,147,483,647; default: the
+   * one that it has, at first 0. Edits keep it. Samples have numbers, from which their random numbers follow, so that
+   * several tracers can render different samples of one image: one renders 50 samples, another `reset({ firstSample:
+   * 50 })` and 50 samples more, and `mergeFilmStates` of `@glanz/renderer/film` adds up what `saveFilm()` returns.
+   * @throws {RenderError} `renderer/samples` for a number out of range
+   */
+  reset({ firstSample }: { readonly firstSample?: number | undefined } = {}): void {
     this.#check();
-    this.#restart();
+    if (firstSample !== undefined) checkFirstSample(firstSample);
+    this.#restart(firstSample);
   }
 
   /**
@@ -372,11 +383,11 @@ export class PathTracer extends TracerEdits {
     });
   }
 
-  #restart(): void {
+  #restart(firstSample?: number): void {
     const { flags } = this.#integrator.kernels.features;
     if (Object.entries(viewFlags(this.#camera, this.#options.filter)).every(([name, value]) => flags[name] === value))
       this.#shownCamera = this.#camera;
-    this.#session.restart();
+    this.#session.restart(firstSample);
   }
 
   #check(): void {

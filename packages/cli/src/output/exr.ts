@@ -14,22 +14,16 @@ export function exrFile({ width, height, beauty, layers, samples, software }: Pi
   const rgba = (data: Float32Array, names: string) =>
     Object.fromEntries([...names].map((name, k) => [name, plane(data, 4, k)]));
   const list: ExrLayer[] = [{ name: '', type, channels: rgba(beauty, 'RGBA') }];
-  if (layers) {
-    list.push(
-      { name: 'albedo', type, channels: rgba(layers.albedo, 'RGB') },
-      { name: 'normal', type, channels: rgba(layers.normal, 'XYZ') },
-      // Halves have three digits: too few for a place or a distance, and too short a range for a variance.
-      { name: 'position', type: 'float', channels: rgba(layers.position, 'XYZ') },
-      { name: 'variance', type: 'float', channels: rgba(layers.variance, 'RGB') },
-      { name: 'depth', type: 'float', channels: { Z: layers.depth } },
-      ...layers.lights.map(({ name, data }): ExrLayer => ({
-        name: `light.${name.replaceAll(/[^\w-]+/g, '_')}`,
-        type,
-        channels: rgba(data, 'RGB'),
-      })),
-      { name: 'objectId', channels: { id: layers.objectId } },
-      { name: 'materialId', channels: { id: layers.materialId } },
-    );
-  }
+  const { albedo, normal, position, variance, depth, lights = [], objectId, materialId } = layers ?? {};
+  if (albedo) list.push({ name: 'albedo', type, channels: rgba(albedo, 'RGB') });
+  if (normal) list.push({ name: 'normal', type, channels: rgba(normal, 'XYZ') });
+  // Halves have three digits: too few for a place or a distance, and too short a range for a variance.
+  if (position) list.push({ name: 'position', type: 'float', channels: rgba(position, 'XYZ') });
+  if (variance) list.push({ name: 'variance', type: 'float', channels: rgba(variance, 'RGB') });
+  if (depth) list.push({ name: 'depth', type: 'float', channels: { Z: depth } });
+  for (const { name, data } of lights)
+    list.push({ name: `light.${name.replaceAll(/[^\w-]+/g, '_')}`, type, channels: rgba(data, 'RGB') });
+  if (objectId) list.push({ name: 'objectId', channels: { id: objectId } });
+  if (materialId) list.push({ name: 'materialId', channels: { id: materialId } });
   return encodeExr({ width, height, layers: list, attributes: { software, samples: String(samples) } });
 }

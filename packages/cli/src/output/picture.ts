@@ -4,8 +4,8 @@ export interface Picture {
   readonly height: number;
   /** Linear RGBA, stride 4, multiplied by alpha. */
   readonly beauty: Float32Array;
-  /** Read on demand: only EXR wants these. */
-  readonly layers?: PictureLayers;
+  /** Read on demand: only EXR wants these. An image of merged films has only some of them. */
+  readonly layers?: Partial<PictureLayers>;
   readonly samples: number;
   readonly software: string;
 }

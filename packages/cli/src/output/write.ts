@@ -57,8 +57,14 @@ export async function checkWritable(path: string, cwd: string): Promise<void> {
   }
 }
 
+/** A file that shows an image; a `.film` holds samples, see `FilmFile`. */
+export type ImageTarget = OutputTarget & { readonly format: Exclude<OutputTarget['format'], 'film'> };
+
+/** Whether an output shows an image. */
+export const isImage = (target: OutputTarget): target is ImageTarget => target.format !== 'film';
+
 /** The bytes of one output file. */
-export function encodePicture(picture: Picture, target: OutputTarget, display: DisplayOptions): Uint8Array {
+export function encodePicture(picture: Picture, target: ImageTarget, display: DisplayOptions): Uint8Array {
   if (target.format === 'png') return pngFile(picture, target.bits === 16 ? 16 : 8, display);
   if (target.format === 'exr') return exrFile(picture, target.bits === 32 ? 32 : 16);
   return encodeHdr({ width: picture.width, height: picture.height, data: picture.beauty });
@@ -103,7 +109,7 @@ export async function writeWhole(
  */
 export async function writePicture(
   picture: Picture,
-  target: OutputTarget,
+  target: ImageTarget,
   display: DisplayOptions,
   cwd: string,
 ): Promise<WrittenFile> {

@@ -1,30 +1,16 @@
 import { createHash } from 'node:crypto';
 import { createReadStream } from 'node:fs';
-import { open, rm, stat } from 'node:fs/promises';
+import { rm } from 'node:fs/promises';
 import { resolve } from 'node:path';
 import { pipeline } from 'node:stream/promises';
 import { RENDER_OPTIONS } from '@glanz/renderer/options';
 import { isEnvironmentFile } from '../environment';
 import { CliError } from '../errors';
-import { writeWhole } from '../output/write';
 import { version } from '../version';
 import type { FilmCodec, FilmState } from '../backend';
 import { FLAG_OPTIONS, flagOf } from '../render-flags';
+import { readFilmFile, settingDifferences, writeFilmFile } from './film-file';
 import type { Shot } from './shots';
-
-/** The first line of a checkpoint file; a line of JSON follows, and then the film. */
-const FIRST_LINE = 'GLANZ CHECKPOINT 1\n';
-/** Most bytes of the two lines. */
-const MAX_HEADER = 2 ** 20;
-
-interface Header {
-  /** Everything that decides the samples, under the names of the options. */
-  readonly settings: Readonly<Record<string, string>>;
-  readonly samples: number;
-  /** Of the film. */
-  readonly bytes: number;
-  readonly sha256: string;
-}
 
 const hashOf = async (file: string): Promise<string> => {
   const hash = createHash('sha256');
@@ -45,6 +31,7 @@ async function settingsOf({ options, variant, view }: Shot, cwd: string): Promis
     '--env-rotation': envRotation,
     '--env-intensity': envIntensity,
     '--size': `${width}x${height}`,
+    '--samples-from': options.samplesFrom,
     '--catcher': catchers,
     '--scene': pose.scene,
     '--animation': pose.animation,
@@ -61,7 +48,10 @@ async function settingsOf({ options, variant, view }: Shot, cwd: string): Promis
   return Object.fromEntries(Object.entries(all).map(([key, value]) => [key, text(value)]));
 }
 
-/** The samples of an image in a file, so that a later run of the same command goes on from there. */
+/**
+ * The samples of an image in a file: a checkpoint, so that a later run of the same command goes on from there, or an
+ * output that ends in `.film`.
+ */
 export class CheckpointFile {
   readonly path: string;
   readonly #file: string;
@@ -93,24 +83,10 @@ export class CheckpointFile {
         `"${this.path}" cannot be resumed: ${why}. Delete it to begin from the first sample, or name another file by --checkpoint.`,
         cause,
       );
-    const found = await stat(this.#file).catch((cause: NodeJS.ErrnoException) => {
-      if (cause.code === 'ENOENT') return undefined;
-      throw broken(cause.message, cause);
-    });
-    if (!found) return undefined;
     const foreign = () =>
       this.#error(`"${this.path}" is not a checkpoint of glanz; it stays as it is. Name another file by --checkpoint.`);
-    if (!found.isFile()) throw foreign();
-    const handle = await open(this.#file, 'r');
-    try {
-      const head = new Uint8Array(Math.min(MAX_HEADER, found.size));
-      await handle.read(head, 0, head.length, 0);
-      const text = new TextDecoder('latin1').decode(head);
-      if (!text.startsWith(FIRST_LINE)) throw foreign();
-      const end = text.indexOf('\n', FIRST_LINE.length) + 1;
-      const header = parseHeader(new TextDecoder().decode(head.subarray(FIRST_LINE.length, end)));
-      if (end === 0 || !header) throw broken('its header is damaged');
-      const differing = differences(header.settings, await this.#ownSettings());
+    const read = await readFilmFile(this.#file, codec, { foreign, broken }, async (header) => {
+      const differing = settingDifferences(header.settings, await this.#ownSettings());
       if (differing.length > 0)
         throw this.#error(
           `The checkpoint "${this.path}" belongs to another image: ${differing.join('; ')}. Repeat the command that wrote it, or name another file by --checkpoint.`,
@@ -120,41 +96,13 @@ export class CheckpointFile {
         throw this.#error(
           `The checkpoint "${this.path}" has ${header.samples} samples already, more than --samples ${samples}. Ask for at least as many, or name another file by --checkpoint.`,
         );
-      if (found.size !== end + header.bytes)
-        throw broken(`it has ${found.size} bytes instead of ${end + header.bytes}`);
-      const bytes = new Uint8Array(header.bytes);
-      for (let at = 0; at < bytes.length;) {
-        const { bytesRead } = await handle.read(bytes, at, Math.min(2 ** 30, bytes.length - at), end + at);
-        if (bytesRead === 0) throw broken('it ends early');
-        at += bytesRead;
-      }
-      if (createHash('sha256').update(bytes).digest('hex') !== header.sha256) throw broken('its content is damaged');
-      const { decode } = await codec();
-      try {
-        return decode(bytes);
-      } catch (cause) {
-        throw broken('its film is of another version', cause);
-      }
-    } finally {
-      await handle.close();
-    }
+    });
+    return read?.film;
   }
 
-  /** Replaces the file; it is whole at any time. @throws {CliError} `cli/output` */
-  async write(state: FilmState, codec: () => Promise<FilmCodec>): Promise<void> {
-    const film = (await codec()).encode(state);
-    const header: Header = {
-      settings: await this.#ownSettings(),
-      samples: state.samples,
-      bytes: film.length,
-      sha256: createHash('sha256').update(film).digest('hex'),
-    };
-    await writeWhole(
-      this.path,
-      this.#cwd,
-      [new TextEncoder().encode(`${FIRST_LINE}${JSON.stringify(header)}\n`), film],
-      { sync: true },
-    );
+  /** Replaces the file; it is whole at any time. Gives its bytes. @throws {CliError} `cli/output` */
+  async write(state: FilmState, codec: () => Promise<FilmCodec>): Promise<number> {
+    return writeFilmFile(this.path, this.#cwd, state, await this.#ownSettings(), codec);
   }
 
   /** The image is finished. */
@@ -165,35 +113,4 @@ export class CheckpointFile {
   async #ownSettings(): Promise<Record<string, string>> {
     return (this.#settings ??= await settingsOf(this.#shot, this.#cwd));
   }
-}
-
-function parseHeader(text: string): Header | undefined {
-  try {
-    const { settings, samples, bytes, sha256 } = JSON.parse(text) as Header;
-    const sound =
-      typeof settings === 'object' &&
-      settings !== null &&
-      Number.isSafeInteger(samples) &&
-      samples >= 0 &&
-      Number.isSafeInteger(bytes) &&
-      bytes >= 0 &&
-      typeof sha256 === 'string';
-    return sound ? { settings, samples, bytes, sha256 } : undefined;
-  } catch {
-    return undefined;
-  }
-}
-
-const short = (text: string) => (text === 'null' ? 'not given' : text.length > 60 ? `${text.slice(0, 59)}…` : text);
-
-function differences(theirs: Readonly<Record<string, string>>, ours: Readonly<Record<string, string>>): string[] {
-  return Object.keys(ours)
-    .filter((key) => theirs[key] !== ours[key])
-    .map((key) =>
-      key === 'content of the model'
-        ? 'it is of another model'
-        : key === '--env'
-          ? 'its --env is another one'
-          : `its ${key} is ${short(String(theirs[key] ?? 'null'))}, here ${short(ours[key] as string)}`,
-    );
 }

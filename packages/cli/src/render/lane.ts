@@ -3,7 +3,8 @@ import type { Backend, FilmState, OpenedGpu, RenderStatistics, Tracer } from '..
 import { CliError } from '../errors';
 import type { CliIo } from '../io';
 import type { RenderCommandOptions } from '../options';
-import { writePicture, type WrittenFile } from '../output/write';
+import type { OutputTarget } from '../output/formats';
+import { isImage, writePicture, type WrittenFile } from '../output/write';
 import { duration, rate, type ProgressReporter } from '../progress';
 import { CheckpointFile } from './checkpoint-file';
 import { Checkpoints } from './checkpoints';
@@ -222,12 +223,21 @@ export class Lane {
     if (samples === 0 || (signal.aborted && !keepPartial)) return undefined;
     progress.stage('write');
     const picture = await timed('readMs', () => readPicture(tracer, options, samples));
+    const film = shot.outputs.some(({ format }) => format === 'film')
+      ? await timed('readMs', () => tracer.saveFilm())
+      : undefined;
     await this.#flushed();
     const files: WrittenFile[] = [];
     const { settings } = options;
     const display = { ...options, transparent: settings.background === 'transparent' };
     for (const target of shot.outputs)
-      files.push(await timed('writeMs', () => writePicture(picture, target, display, io.cwd)));
+      files.push(
+        await timed('writeMs', () =>
+          isImage(target)
+            ? writePicture(picture, target, display, io.cwd)
+            : this.#writeFilm(film as FilmState, target, shot),
+        ),
+      );
     await checkpoints.settled();
     if (!signal.aborted) await file?.remove();
     timings.totalMs = io.now() - making.start;
@@ -336,6 +346,12 @@ export class Lane {
     await checkpoints.settled();
   }
 
+  async #writeFilm(film: FilmState, { path, format, bits }: OutputTarget, shot: Shot): Promise<WrittenFile> {
+    const { io, backend } = this.#context;
+    const bytes = await new CheckpointFile(path, shot, io.cwd).write(film, () => backend.filmCodec());
+    return { path, format, bits, bytes };
+  }
+
   /** Throws what the device has had to say of the work so far, before anything is written. */
   async #flushed(): Promise<void> {
     await (this.#gpu.opened as OpenedGpu).device.queue.onSubmittedWorkDone();
@@ -386,7 +402,7 @@ export class Lane {
     if (this.#tracer && key === this.#key) {
       await this.#tracer.setVariant(variant);
       await this.#tracer.setCamera(camera);
-      this.#tracer.reset();
+      this.#tracer.reset({ firstSample: options.samplesFrom });
       return this.#tracer;
     }
     this.#drop();
@@ -399,6 +415,7 @@ export class Lane {
       onProgress: ({ stage, done }) => progress.stage(LABELS[stage], done),
     });
     this.#key = key;
+    if (options.samplesFrom > 0) this.#tracer.reset({ firstSample: options.samplesFrom });
     if (variant !== undefined) await this.#tracer.setVariant(variant);
     return this.#tracer;
   }

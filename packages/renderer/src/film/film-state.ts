@@ -1,14 +1,24 @@
 import { RenderError } from '../errors';
+import { FILM_CHUNK, headEnd, headSamples } from '../schedule/sample-range';
 import type { SamplingState } from '../schedule/sampling';
 import type { GroupWeights } from './layers';
 
 /** The film's buffers that a {@link FilmState} holds, with vec4f per pixel: `planes` of them, or one. */
 export const FILM_SUMS = ['film_block', 'film_total', 'film_moment', 'beauty'] as const;
 
+/** The samples of one chunk of 16, of which a film has a part. */
+export interface FilmPart {
+  /** The number of its first sample, divided by 16. */
+  readonly chunk: number;
+  /** Laid out like `film_total`, which contains them too. */
+  readonly sums: Float32Array<ArrayBuffer>;
+}
+
 /**
- * Everything that a film has accumulated, and where its sampling stands: what `PathTracer.saveFilm()` gives and
- * `PathTracer.restoreFilm()` takes. Plain data: it can be posted to a worker, kept while a device is replaced, or
- * written to a file with {@link encodeFilmState}.
+ * Everything that a film has accumulated, and where its sampling stands: what `PathTracer.saveFilm()` returns and
+ * `PathTracer.restoreFilm()` accepts. Plain data: it can be posted to a worker, kept while a device is replaced, written
+ * to a file with {@link encodeFilmState}, or merged with films of other samples by `mergeFilmStates` of
+ * `@glanz/renderer/film`.
  */
 export interface FilmState {
   /** Pixels. */
@@ -16,6 +26,11 @@ export interface FilmState {
   readonly height: number;
   /** Completed samples per pixel; after sampling to a noise target, those of the pixels that have most. */
   readonly samples: number;
+  /**
+   * The numbers of these samples: ranges from the first to the one after the last, in ascending order, with gaps
+   * between them. A tracer makes one range; only merged films have more.
+   */
+  readonly ranges: readonly (readonly [first: number, end: number])[];
   /** Samples that were dropped because they were NaN, infinite or negative. */
   readonly badSamples: number;
   /** Sums that the film keeps apart: one for each light group, four for each with catchers. */
@@ -26,15 +41,17 @@ export interface FilmState {
   readonly sampling: SamplingState;
   /** Weights of the light groups when the film was begun, which its variance is of, and when it was saved. */
   readonly weights: { readonly first: GroupWeights; readonly last: GroupWeights };
+  /** Chunks of which samples are missing, in ascending order, except the one that `film_block` holds. */
+  readonly parts: readonly FilmPart[];
   /** The film's buffers, RGBA, stride 4, row-major, top row first; `film_block` and `film_total` plane by plane. */
   readonly sums: Readonly<Record<(typeof FILM_SUMS)[number], Float32Array<ArrayBuffer>>>;
 }
 
 /** "GLZF", little-endian. */
 const MAGIC = 0x465a4c47;
-const VERSION = 1;
-/** Magic, version, length of the JSON. */
-const HEADER_BYTES = 12;
+const VERSION = 2;
+/** Magic, version, length of the JSON, checksum of all that follows. */
+const HEADER_BYTES = 16;
 
 const broken = (what: string) =>
   new RenderError(
@@ -42,7 +59,8 @@ const broken = (what: string) =>
     `These bytes are no film that can be resumed: ${what}. Render the film again from the start.`,
   );
 
-type Head = Omit<FilmState, 'sampling' | 'sums'> & {
+type Head = Omit<FilmState, 'sampling' | 'sums' | 'parts'> & {
+  readonly parts: readonly number[];
   readonly sample: number;
   readonly pixel: number;
   readonly until: number;
@@ -56,18 +74,39 @@ const sumLengths = ({ width, height, planes }: Pick<FilmState, 'width' | 'height
   return [planes * pixel, planes * pixel, pixel, pixel];
 };
 
+/** FNV-1a over 32-bit words: each step is a bijection, so no change of a single word goes unnoticed. */
+function checksum(bytes: Uint8Array<ArrayBuffer>): number {
+  const words = new Uint32Array(bytes.buffer, bytes.byteOffset, bytes.byteLength >>> 2);
+  let hash = 0x811c9dc5;
+  for (let i = 0; i < words.length; i++) hash = Math.imul(hash ^ (words[i] as number), 0x01000193);
+  return hash >>> 0;
+}
+
 /**
- * A film as bytes, for a file: a header, a line of JSON and the sums as they are (about `32 × planes + 32` bytes a
- * pixel). Little-endian; of this version of Glanz.
+ * A film as bytes, for a file: a header with a checksum, a line of JSON and the sums as they are (about
+ * `32 × planes + 32` bytes a pixel). Little-endian; for this version of Glanz.
  */
 export function encodeFilmState(state: FilmState): Uint8Array<ArrayBuffer> {
-  const { sampling, sums, ...rest } = state;
+  const { sampling, sums, parts: partial, ...rest } = state;
   const { counts, tiles, sample, pixel, until } = sampling;
-  const head: Head = { ...rest, sample, pixel, until, counts: counts.length, tiles: tiles?.length ?? -1 };
+  const head: Head = {
+    ...rest,
+    parts: partial.map(({ chunk }) => chunk),
+    sample,
+    pixel,
+    until,
+    counts: counts.length,
+    tiles: tiles?.length ?? -1,
+  };
   const text = new TextEncoder().encode(JSON.stringify(head));
   // What follows begins at a multiple of four bytes.
   const textBytes = 4 * Math.ceil(text.length / 4);
-  const parts = [counts, ...(tiles ? [tiles] : []), ...FILM_SUMS.map((name) => sums[name])];
+  const parts = [
+    counts,
+    ...(tiles ? [tiles] : []),
+    ...FILM_SUMS.map((name) => sums[name]),
+    ...partial.map((part) => part.sums),
+  ];
   const bytes = new Uint8Array(parts.reduce((sum, part) => sum + part.byteLength, HEADER_BYTES + textBytes));
   const view = new DataView(bytes.buffer);
   [MAGIC, VERSION, textBytes].forEach((word, i) => view.setUint32(4 * i, word, true));
@@ -78,22 +117,29 @@ export function encodeFilmState(state: FilmState): Uint8Array<ArrayBuffer> {
     bytes.set(new Uint8Array(part.buffer, part.byteOffset, part.byteLength), at);
     at += part.byteLength;
   }
+  view.setUint32(12, checksum(bytes.subarray(HEADER_BYTES)), true);
   return bytes;
 }
 
 /**
  * The film that {@link encodeFilmState} has written.
- * @throws {RenderError} `renderer/film-state` for bytes that are cut off, damaged, or of another version.
+ * @throws {RenderError} `renderer/film-state` for bytes that are no film, cut off, damaged, or of another version.
  */
 export function decodeFilmState(bytes: Uint8Array): FilmState {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   if (bytes.length < HEADER_BYTES || view.getUint32(0, true) !== MAGIC) throw broken('they do not begin as one');
   if (view.getUint32(4, true) !== VERSION)
     throw broken(`they are of version ${view.getUint32(4, true)}, and this is version ${VERSION}`);
+  // A copy if the words are not aligned in the caller's buffer.
+  const body = (bytes.byteOffset % 4 === 0 ? bytes : bytes.slice()).subarray(HEADER_BYTES) as Uint8Array<ArrayBuffer>;
+  if (bytes.length % 4 !== 0 || checksum(body) !== view.getUint32(12, true))
+    throw broken('they are damaged or cut off: their checksum is another one');
   const textBytes = view.getUint32(8, true);
   const head = readHead(bytes.subarray(HEADER_BYTES, HEADER_BYTES + textBytes));
   const lengths = sumLengths(head);
-  const words = head.counts + Math.max(0, head.tiles) + lengths.reduce((a, b) => a + b, 0);
+  const planesLength = lengths[1] as number;
+  const words =
+    head.counts + Math.max(0, head.tiles) + lengths.reduce((a, b) => a + b, 0) + head.parts.length * planesLength;
   let at = HEADER_BYTES + textBytes;
   if (bytes.length !== at + 4 * words)
     throw broken(`they are ${bytes.length} bytes, and such a film takes ${at + 4 * words}`);
@@ -107,15 +153,18 @@ export function decodeFilmState(bytes: Uint8Array): FilmState {
   const sums = Object.fromEntries(
     FILM_SUMS.map((name, i) => [name, new Float32Array(next(lengths[i] as number))]),
   ) as unknown as FilmState['sums'];
-  const { width, height, samples, badSamples, planes, fingerprint, weights, sample, pixel, until } = head;
+  const parts = head.parts.map((chunk): FilmPart => ({ chunk, sums: new Float32Array(next(planesLength)) }));
+  const { width, height, samples, ranges, badSamples, planes, fingerprint, weights, sample, pixel, until } = head;
   return {
     width,
     height,
     samples,
+    ranges,
     badSamples,
     planes,
     fingerprint,
     weights,
+    parts,
     sampling: { counts, tiles, sample, pixel, until },
     sums,
   };
@@ -125,6 +174,17 @@ const isWhole = (value: unknown, least: number) => Number.isSafeInteger(value) &
 const isWeights = (value: unknown) =>
   Array.isArray(value) &&
   value.every((weight) => Array.isArray(weight) && weight.length === 3 && weight.every(Number.isFinite));
+
+const isRanges = (value: unknown) =>
+  Array.isArray(value) &&
+  value.length > 0 &&
+  value.every(
+    (range: unknown, i) =>
+      Array.isArray(range) &&
+      range.length === 2 &&
+      isWhole(range[0], i === 0 ? 0 : (value as number[][])[i - 1]![1]! + 1) &&
+      isWhole(range[1], (range[0] as number) + (i === 0 ? 0 : 1)),
+  );
 
 function readHead(text: Uint8Array): Head {
   let head: Head;
@@ -137,16 +197,21 @@ function readHead(text: Uint8Array): Head {
       { cause },
     );
   }
-  const { width, height, planes, samples, badSamples, sample, pixel, until, counts, tiles, fingerprint, weights } =
-    head ?? {};
+  const { width, height, planes, samples, ranges, badSamples, sample, pixel, until, counts, tiles } = head ?? {};
+  const { fingerprint, weights, parts } = head ?? {};
   const whole =
     [width, height, planes].every((value) => isWhole(value, 1)) &&
     [samples, badSamples, sample, pixel, until, counts].every((value) => isWhole(value, 0)) &&
     isWhole(tiles, -1);
-  if (!whole || typeof fingerprint !== 'string' || !isWeights(weights?.first) || !isWeights(weights?.last))
+  const lists = isRanges(ranges) && Array.isArray(parts) && parts.every((chunk) => isWhole(chunk, 0));
+  if (!whole || !lists || typeof fingerprint !== 'string' || !isWeights(weights?.first) || !isWeights(weights?.last))
     throw broken('their header lacks something');
   return head;
 }
+
+/** The numbers of a film's samples, for people: `0–49, 100–149`. */
+export const rangesText = ({ ranges }: Pick<FilmState, 'ranges'>): string =>
+  ranges.map(([first, end]) => `${first}–${end - 1}`).join(', ');
 
 /**
  * Checks that a film can go on in a tracer with this film.
@@ -165,10 +230,20 @@ export function checkFilmState(
   if (state.planes !== film.planes)
     throw refuse(`it keeps ${state.planes} light sums apart, and this film ${film.planes}`);
   if (state.fingerprint !== film.fingerprint) throw refuse('it is of another scene, camera, or other options');
+  if (state.ranges.length !== 1)
+    throw refuse(
+      `of its samples some are missing (it has ${rangesText(state)}); merge it with the films that have the others`,
+    );
+  const [first] = state.ranges[0] as readonly [number, number];
+  const heads =
+    headSamples(first) > 0 && state.sampling.sample >= headEnd(first) ? [Math.floor(first / FILM_CHUNK)] : [];
   const { counts, tiles: under, pixel } = state.sampling;
   const lengths = sumLengths(film);
   const fits =
     counts.length === tiles && (under?.every((tile) => tile < tiles) ?? true) && pixel < film.width * film.height;
-  if (!fits || FILM_SUMS.some((name, i) => state.sums[name].length !== lengths[i]))
+  const wholeParts =
+    String(state.parts.map(({ chunk }) => chunk)) === String(heads) &&
+    state.parts.every(({ sums }) => sums.length === lengths[1]);
+  if (!fits || !wholeParts || FILM_SUMS.some((name, i) => state.sums[name].length !== lengths[i]))
     throw refuse('its parts do not fit together');
 }

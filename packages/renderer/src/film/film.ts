@@ -8,7 +8,8 @@ const ON_DEMAND: ReadonlySet<string> = new Set(['feature_albedo', 'feature_norma
 /**
  * The buffers of one picture. Per pixel: a vec4f for each plane (light group) in `film_block` (samples of a chunk not
  * yet complete) and in `film_total` (complete chunks), planes one after another; `film_moment` for the variance;
- * `beauty`; the pixel's number in `film_pixels`. The first-hit features come when they are asked for.
+ * `beauty`; the pixel's number in `film_pixels`; in a film that begins in the middle of a chunk, that chunk's samples in
+ * `film_head`, which `film_total` contains too. The first-hit features come when they are asked for.
  */
 export class Film {
   readonly width: number;
@@ -60,6 +61,16 @@ export class Film {
     if (name === 'film_noise' && !this.#buffers.has(name))
       this.#make(name, (16 * Math.ceil(this.width / TILE) * Math.ceil(this.height / TILE)) / this.pixels);
     return this.#buffers.get(name) ?? (ON_DEMAND.has(name) ? this.#make(name, 16) : undefined);
+  }
+
+  /** Copies the totals, which are the sums of the first chunk at this time, to `film_head`. */
+  copyHead(encoder: GPUCommandEncoder): void {
+    encoder.copyBufferToBuffer(this.#buffers.get('film_total') as GPUBuffer, 0, this.head, 0, this.head.size);
+  }
+
+  /** `film_head`, made when it is first used. */
+  get head(): GPUBuffer {
+    return this.#buffers.get('film_head') ?? this.#make('film_head', 16 * this.planes);
   }
 
   /** Frees buffers that were made when they were first bound; they are made again when they are bound again. */

@@ -1,8 +1,6 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
+import { FILM_CHUNK } from '../schedule/sample-range';
 import { MAX_LIGHT_GROUPS } from '../storage/resources';
-
-/** Samples that are added up before they join the total. */
-export const FILM_CHUNK = 16;
 
 /**
  * The film's planes put together: `fn film_weight(plane: u32) -> vec3f` and

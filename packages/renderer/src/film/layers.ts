@@ -1,4 +1,4 @@
-import { FILM_CHUNK } from './film.wgsl';
+import { FILM_CHUNK } from '../schedule/sample-range';
 import type { FilmLayer } from '../options';
 
 /** A layer that comes from camera rays alone. */
@@ -38,21 +38,26 @@ export type GroupWeights = readonly (readonly [number, number, number])[];
  *
  * @param total Sums over complete chunks, plane by plane.
  * @param moment Sums of squared chunk means, and the number of samples.
+ * @param partSamples Samples of the total that belong to chunks that are not whole.
+ * @param partSums Their sums.
  */
 export function varianceLayer(
   total: Float32Array,
   moment: Float32Array,
   weights: GroupWeights,
+  partSamples = 0,
+  partSums?: Float32Array,
 ): Float32Array<ArrayBuffer> {
   const out = new Float32Array(moment.length);
   for (let at = 0; at < moment.length; at += 4) {
     const samples = moment[at + 3] as number;
-    const chunks = Math.floor(samples / FILM_CHUNK);
+    const chunks = Math.floor(Math.max(0, samples - partSamples) / FILM_CHUNK);
     for (let c = 0; c < 3; c++) {
       let sum = 0;
-      weights.forEach(
-        (weight, plane) => (sum += (weight[c] as number) * (total[plane * moment.length + at + c] as number)),
-      );
+      weights.forEach((weight, plane) => {
+        const i = plane * moment.length + at + c;
+        sum += (weight[c] as number) * ((total[i] as number) - (partSums?.[i] ?? 0));
+      });
       const mean = sum / (chunks * FILM_CHUNK);
       out[at + c] =
         chunks < 2

@@ -61,13 +61,15 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
       }
       film_block[at] = block;
     }
-    if (complete) {
+    // A film that begins in the middle of a chunk has only a part of that chunk.
+    if (complete && next >= batch.first_sample + FILM_CHUNK) {
       mean /= f32(FILM_CHUNK);
       moment += mean * mean;
     }
   }
-  film_moment[pixel] = vec4f(moment, f32(end));
-  beauty[pixel] = film_compose(pixel, f32(end));
+  let count = f32(end - batch.first_sample);
+  film_moment[pixel] = vec4f(moment, count);
+  beauty[pixel] = film_compose(pixel, count);
 }
 `,
     [path, film],

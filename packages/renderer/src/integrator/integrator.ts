@@ -70,6 +70,8 @@ export class Integrator {
   /** A number of paths that the GPU has refused memory for. */
   #refused = Infinity;
   limits: DepthLimits;
+  /** Number of the film's first sample. */
+  firstSample = 0;
   #kernels: KernelSet;
   #film: Film;
 
@@ -325,6 +327,7 @@ export class Integrator {
       sample_offset: batch.sampleOffset,
       sample_count: batch.sampleCount,
       path_count: batch.pixelCount * batch.sampleCount * this.pathsPerSample,
+      first_sample: this.firstSample,
     });
     this.#memory.write(this.#buffers.batch, data);
   }

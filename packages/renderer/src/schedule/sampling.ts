@@ -2,6 +2,7 @@ import { FIRST_CHECK, nextCheck, noiseMap, noisyTiles, samplesLeft, TileGrid } f
 import type { RenderProgress } from '../options';
 import { renderLoop, type RenderLoop } from './render-loop';
 import { Scheduler } from './scheduler';
+import { headEnd } from './sample-range';
 
 /** What a {@link Sampling} works on. */
 export interface SamplingHost extends Pick<RenderLoop, 'queue' | 'submit' | 'room' | 'ready' | 'check'> {
@@ -17,13 +18,13 @@ export interface SamplingHost extends Pick<RenderLoop, 'queue' | 'submit' | 'roo
 
 /** Where a {@link Sampling} stands: with the film's sums all that a later one needs to go on from there. */
 export interface SamplingState {
-  /** Samples of each tile, row by row; for the tiles under way the number is `sample`. */
+  /** Number of the next sample of each tile, row by row; for the tiles under way it is `sample`. */
   readonly counts: Uint32Array<ArrayBuffer>;
   /** Tiles that are sampled together at the moment; `undefined`: all. */
   readonly tiles: Uint32Array<ArrayBuffer> | undefined;
-  /** Completed samples of the pixels under way. */
+  /** Number of the next sample of the pixels under way: in a film that begins at sample 0, how many they have. */
   readonly sample: number;
-  /** Pixels under way, in their order, that have one sample more. */
+  /** Pixels under way, in their order, that have this sample too. */
   readonly pixel: number;
   /** Samples at which a noise target lets the pixels under way be judged next; 0 without one. */
   readonly until: number;
@@ -57,7 +58,9 @@ interface Pace {
 export class Sampling {
   readonly #host: SamplingHost;
   readonly #grid: TileGrid;
-  /** Samples of each tile, but for the tiles under way. */
+  /** Number of the first sample. */
+  readonly #first: number;
+  /** Number of the next sample of each tile, but for the tiles under way. */
   readonly #counts: Uint32Array<ArrayBuffer>;
   #scheduler: Scheduler;
   /** Tiles that the scheduler works on; `undefined`: all. */
@@ -68,17 +71,19 @@ export class Sampling {
   /**
    * @param paths Paths a batch may begin with, from what was learned before.
    * @param state Of a film of the same size, to go on from.
+   * @param first Number of the film's first sample.
    */
-  constructor(host: SamplingHost, paths?: number, state?: SamplingState) {
+  constructor(host: SamplingHost, paths?: number, state?: SamplingState, first = 0) {
     this.#host = host;
+    this.#first = first;
     this.#grid = new TileGrid(host.width, host.height);
-    this.#counts = state ? state.counts.slice() : new Uint32Array(this.#grid.count);
+    this.#counts = state ? state.counts.slice() : new Uint32Array(this.#grid.count).fill(first);
     this.#under = state?.tiles && [...state.tiles];
     this.#until = state?.until ?? 0;
     const list = this.#under && this.#grid.pixels(this.#under);
     host.setPixels(list);
     const options = { pixels: list?.length ?? host.width * host.height, capacity: host.capacity, budgetMs: 30 };
-    this.#scheduler = new Scheduler(options, paths, state?.sample, state?.pixel);
+    this.#scheduler = new Scheduler(options, paths, state?.sample ?? first, state?.pixel);
   }
 
   /** Where the sampling stands once everything that was submitted by now is done. */
@@ -95,10 +100,10 @@ export class Sampling {
 
   /** Completed samples of the pixels that have most. */
   get samples(): number {
-    return Math.max(this.#scheduler.samples, this.#most());
+    return Math.max(this.#scheduler.samples, this.#most()) - this.#first;
   }
 
-  /** Most samples of the tiles that are not under way. */
+  /** Highest number of the next sample of the tiles that are not under way. */
   #most(): number {
     return this.#under ? this.#counts.reduce((most, count) => Math.max(most, count), 0) : 0;
   }
@@ -109,7 +114,8 @@ export class Sampling {
   }
 
   /** Works towards a goal. */
-  async *render(goal: SamplingGoal): AsyncGenerator<RenderProgress, void, undefined> {
+  async *render({ samples, ...rest }: SamplingGoal): AsyncGenerator<RenderProgress, void, undefined> {
+    const goal = { ...rest, samples: this.#first + samples };
     // Until the noise is known, so is not how long it takes.
     const pace: Pace = {
       start: performance.now(),
@@ -119,6 +125,9 @@ export class Sampling {
     };
     // A sample that was cut off in the middle of the picture is completed first: lists change between samples only.
     if (this.#scheduler.partial) yield* this.#run(this.#scheduler.samples + 1, goal, pace);
+    // No batch contains samples from both sides of the end of a first chunk that is not whole: see `FilmSession`.
+    const head = Math.min(headEnd(this.#first), goal.samples);
+    if (this.#scheduler.samples < head) yield* this.#run(head, goal, pace);
     // Noise is looked at after the same numbers of samples, wherever an earlier render() was cut off.
     if (goal.noise === undefined) this.#until = 0;
     const until = Math.min(this.#until, goal.samples);
@@ -180,8 +189,8 @@ export class Sampling {
     const rest = left ?? this.#missing(goal.samples);
     return {
       // The scheduler is ahead by what is on its way.
-      samples: Math.max(samples, this.#most()) || this.samples,
-      targetSamples: goal.samples,
+      samples: Math.max(samples - this.#first, this.#most() - this.#first, 0) || this.samples,
+      targetSamples: goal.samples - this.#first,
       elapsedMs,
       remainingMs: rest === 0 ? 0 : traced > 0 ? (rest * elapsedMs) / traced : Infinity,
       samplesPerSecond: (1000 * traced) / elapsedMs / this.#pixels,

@@ -6,6 +6,7 @@ import type { KernelCache } from '../integrator/kernel-cache';
 import { readBuffer, readFloats } from '../storage/read-buffer';
 import type { Integrator } from '../integrator/integrator';
 import type { KernelName } from '../integrator/pipelines';
+import { FILM_CHUNK, headEnd, headSamples } from '../schedule/sample-range';
 import { renderGoal } from '../option-checks';
 import type { FilmLayer, LightGroup, RenderOptions, RenderProgress } from '../options';
 import { Sampling, type SamplingState } from '../schedule/sampling';
@@ -55,6 +56,10 @@ export class FilmSession {
   #cleared: Promise<void> = Promise.resolve();
   #frameDirty = true;
   #firstWeights: GroupWeights = [];
+  /** Number of the film's first sample. */
+  #first = 0;
+  /** Whether `film_head` holds the first chunk, of which samples before the film are missing. */
+  #headCopied = false;
   #badSamples = 0;
 
   constructor(host: FilmHost, film: Film) {
@@ -81,10 +86,15 @@ export class FilmSession {
     return this.#badSamples;
   }
 
-  /** Starts the film again, for what the frame uniforms and the light groups are now. */
-  restart(): void {
+  /**
+   * Starts the film again, for what the frame uniforms and the light groups are now.
+   * @param first Number of its first sample; default: the same as before.
+   */
+  restart(first = this.#first): void {
     const { device, integrator } = this.#host;
     this.#generation++;
+    integrator.firstSample = this.#first = first;
+    this.#headCopied = false;
     this.#broken = false;
     this.#features.clear();
     this.#frameDirty = true;
@@ -134,6 +144,11 @@ export class FilmSession {
         'renderer/busy',
         'This tracer is already rendering: finish or abort the other render() first.',
       );
+    if (this.#first > 0 && noise !== undefined)
+      throw new RenderError(
+        'renderer/samples',
+        `A film that begins at sample ${this.#first} cannot be rendered to a noise target: films to be merged need the same number of samples everywhere. Leave "noise" out, or reset() the film to begin at sample 0.`,
+      );
     this.#rendering = true;
     try {
       if (this.#broken) this.restart();
@@ -166,8 +181,11 @@ export class FilmSession {
       // With catchers: the image in which they are what they are, without the one that lacks the objects.
       const weights =
         integrator.pathsPerSample > 1 ? [...this.#firstWeights, ...this.#firstWeights] : this.#firstWeights;
-      const [total, moment] = await Promise.all(this.#copy('film_total', 'film_moment'));
-      return varianceLayer(total as Float32Array, moment as Float32Array, weights);
+      const [total, moment, head] = await Promise.all([
+        ...this.#copy('film_total', 'film_moment'),
+        this.#head(this.#sampling?.state.sample ?? 0),
+      ]);
+      return varianceLayer(total as Float32Array, moment as Float32Array, weights, headSamples(this.#first), head);
     }
     // An edit or a resize in between begins another image: what was rendered is not of one image then.
     for (;;) {
@@ -208,18 +226,21 @@ export class FilmSession {
     const sampling = (this.#sampling ??= this.#newSampling()).state;
     const { width, height, planes } = this.#film;
     const weights = { first: this.#firstWeights, last: this.groups.weights };
+    const first = this.#first;
     const head = { width, height, planes, weights, sampling, fingerprint: fingerprint() };
-    const [counters, ...sums] = await Promise.all([
+    const [counters, part, ...sums] = await Promise.all([
       readBuffer(device, integrator.queues, COUNTERS),
+      this.#head(sampling.sample),
       ...this.#copy(...FILM_SUMS),
     ]);
     this.#count(counters);
-    const samples = Math.max(
+    const end = Math.max(
       sampling.sample,
       sampling.tiles ? sampling.counts.reduce((most, count) => Math.max(most, count), 0) : 0,
     );
+    const parts = part ? [{ chunk: Math.floor(first / FILM_CHUNK), sums: part }] : [];
     const named = Object.fromEntries(FILM_SUMS.map((name, i) => [name, sums[i]])) as unknown as FilmState['sums'];
-    return { ...head, samples, badSamples: this.#badSamples, sums: named };
+    return { ...head, samples: end - first, ranges: [[first, end]], badSamples: this.#badSamples, parts, sums: named };
   }
 
   /** See `PathTracer.restoreFilm`. */
@@ -228,12 +249,14 @@ export class FilmSession {
     const film = this.#film;
     const { width, height, planes } = film;
     checkFilmState(state, { width, height, planes, fingerprint: fingerprint() }, new TileGrid(width, height).count);
-    this.restart();
+    this.restart(state.ranges[0]?.[0]);
     const { verified } = inErrorScopes(device, 'the saved film', () => {
       this.#sampling = this.#newSampling(this.#sampling?.paths, state.sampling);
       this.#firstWeights = state.weights.first;
       integrator.writeGroups(this.groups.weights, this.#firstWeights);
       for (const name of FILM_SUMS) memory.write(film.buffer(name) as GPUBuffer, state.sums[name]);
+      for (const { sums } of state.parts) memory.write(film.head, sums);
+      this.#headCopied = state.parts.length > 0;
       memory.write(integrator.queues, Uint32Array.of(state.badSamples), BAD_SAMPLES);
     });
     this.#watch(verified);
@@ -267,6 +290,7 @@ export class FilmSession {
       submit: (batch: Parameters<Integrator['submit']>[0]) => {
         const { verified } = inErrorScopes(device, 'a batch of paths', () => {
           this.#writeFrame();
+          if (batch.sampleOffset >= headEnd(this.#first)) this.#copyHead();
           integrator.submit(batch);
         });
         this.#watch(verified);
@@ -282,7 +306,25 @@ export class FilmSession {
       setPixels: (list: Uint32Array<ArrayBuffer> | undefined) => film.setPixels(list),
       measure: () => this.#measureNoise(),
     };
-    return new Sampling(host, paths, state);
+    return new Sampling(host, paths, state, this.#first);
+  }
+
+  /** Keeps the sums of a first chunk that is not whole apart, before other chunks are added to them. */
+  #copyHead(): void {
+    if (this.#headCopied || headSamples(this.#first) === 0) return;
+    this.#headCopied = true;
+    const encoder = this.#host.device.createCommandEncoder({ label: 'glanz film head' });
+    this.#film.copyHead(encoder);
+    this.#host.device.queue.submit([encoder.finish()]);
+  }
+
+  /** The sums of a first chunk that is not whole, once the film has gone beyond it. @param sample The next one. */
+  async #head(sample: number): Promise<Float32Array<ArrayBuffer> | undefined> {
+    if (headSamples(this.#first) === 0 || sample < headEnd(this.#first)) return undefined;
+    return readFloats(
+      this.#host.device,
+      this.#headCopied ? this.#film.head : (this.#film.buffer('film_total') as GPUBuffer),
+    );
   }
 
   async #measureNoise(): Promise<Float32Array> {

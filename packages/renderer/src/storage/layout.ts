@@ -60,6 +60,8 @@ export const batchStruct = struct('Batch', {
   sample_count: 'u32',
   /** Pixels times samples, twice that with catchers. */
   path_count: 'u32',
+  /** Number of the film's first sample. */
+  first_sample: 'u32',
 });
 
 const SHADOW = {

@@ -1,0 +1,68 @@
+import { samplesInChunk } from '../schedule/sample-range';
+import type { FilmState } from './film-state';
+import { varianceLayer } from './layers';
+
+/**
+ * A layer of a film on the CPU, without a device: Float32Array, RGBA, stride 4, row-major, top row first, as
+ * `PathTracer.read` describes it. `beauty` is computed from the sums in double precision and rounded once; the GPU's
+ * differs from it by a few units in the last place.
+ */
+export function readFilmState(state: FilmState, layer: 'beauty' | 'variance'): Float32Array<ArrayBuffer> {
+  const { sums, parts, weights, ranges } = state;
+  if (layer === 'beauty') return composeBeauty(state);
+  // With catchers: the image in which they are visible surfaces, without the one that lacks the objects.
+  const first = state.planes > weights.first.length ? [...weights.first, ...weights.first] : weights.first;
+  const partSamples = parts.reduce((sum, { chunk }) => sum + samplesInChunk(ranges, chunk), 0);
+  const partSums =
+    parts.length > 0
+      ? sums.film_total.map((_, i) => parts.reduce((sum, part) => sum + (part.sums[i] as number), 0))
+      : undefined;
+  return varianceLayer(sums.film_total, sums.film_moment, first, partSamples, partSums);
+}
+
+const LUMINANCE = [0.2126, 0.7152, 0.0722] as const;
+
+/** The twin of `film_compose` in `film.wgsl.ts`. */
+function composeBeauty({ width, height, planes, weights: { last }, sums }: FilmState): Float32Array<ArrayBuffer> {
+  const groups = last.length;
+  const stride = 4 * width * height;
+  const out = new Float32Array(stride);
+  const { film_total: total, film_block: block, film_moment: moment } = sums;
+  for (let at = 0; at < stride; at += 4) {
+    const count = moment[at + 3] as number;
+    if (count === 0) continue;
+    const mean = (first: number, c: number) => {
+      let sum = 0;
+      for (let plane = first; plane < first + groups; plane++) {
+        const i = plane * stride + at + c;
+        sum += (c < 3 ? (last[plane - first]?.[c] as number) : 1) * ((total[i] as number) + (block[i] as number));
+      }
+      return sum / count;
+    };
+    const rgb = (first: number) => [0, 1, 2].map((c) => mean(first, c)) as [number, number, number];
+    const object = rgb(0);
+    const alpha = mean(0, 3);
+    const coverage = planes > groups ? mean(groups, 3) : 0;
+    if (coverage <= 0) {
+      out.set([...object, alpha], at);
+      continue;
+    }
+    const [caught, bare, behind] = [rgb(groups), rgb(2 * groups), rgb(3 * groups)];
+    const kept = caught.map((value, c) => Math.min(value, bare[c] as number));
+    const added = caught.map((value, c) => Math.max(value - (bare[c] as number), 0));
+    if (behind.some((value) => value > 0)) {
+      const ratio = kept.map((value, c) => ((bare[c] as number) <= 0 ? 1 : value / (bare[c] as number)));
+      object.forEach((value, c) => {
+        out[at + c] = value + (added[c] as number) + (behind[c] as number) * (ratio[c] as number);
+      });
+      out[at + 3] = alpha + coverage;
+      continue;
+    }
+    const luminance = (values: readonly number[]) =>
+      LUMINANCE.reduce((sum, weight, c) => sum + weight * (values[c] as number), 0);
+    const light = luminance(bare);
+    object.forEach((value, c) => (out[at + c] = value + (added[c] as number)));
+    out[at + 3] = alpha + coverage * (light > 0 ? 1 - luminance(kept) / light : 0);
+  }
+  return out;
+}
