@@ -1,6 +1,6 @@
 import type { KernelName } from '../integrator/pipelines';
 import { FEATURE_SAMPLES } from './feature-pass';
-import { unpackLayer, type FeatureLayer } from '../film/layers';
+import type { FeatureLayer } from '../film/layers';
 
 /**
  * The kernel that makes a layer, and the film buffers that it is made of, in the order in which {@link unpackLayer}
@@ -57,7 +57,9 @@ export class FeatureLayers {
       if (this.#passes.get(kernel) === pass) this.#passes.delete(kernel);
       throw error;
     }
-    return unpackLayer(layer, await Promise.all(buffers.map((name) => this.#source.copy(name))), pass.samples);
+    const copies = await Promise.all(buffers.map((name) => this.#source.copy(name)));
+    const { unpackLayer } = await import('../film/film-data');
+    return unpackLayer(layer, copies, pass.samples);
   }
 
   async #render(kernel: KernelName, samples: number, after: Promise<void> | undefined): Promise<void> {

@@ -13,9 +13,9 @@ import { Sampling, type SamplingState } from '../schedule/sampling';
 import { FeatureLayers } from './feature-layers';
 import { forBands, renderFeatures } from './feature-pass';
 import type { Film } from '../film/film';
-import { checkFilmState, FILM_SUMS, type FilmState } from '../film/film-state';
+import { FILM_SUMS, type FilmState } from '../film/film-state';
 import { GroupSettings } from '../film/group-settings';
-import { groupLayer, varianceLayer, type GroupWeights } from '../film/layers';
+import type { GroupWeights } from '../film/layers';
 
 /** What a {@link FilmSession} asks of the tracer that it belongs to. */
 export interface FilmHost {
@@ -147,7 +147,7 @@ export class FilmSession {
     if (this.#first > 0 && noise !== undefined)
       throw new RenderError(
         'renderer/samples',
-        `A film that begins at sample ${this.#first} cannot be rendered to a noise target: films to be merged need the same number of samples everywhere. Leave "noise" out, or reset() the film to begin at sample 0.`,
+        `A noise target needs a film that begins at sample 0, not ${this.#first}: see reset().`,
       );
     this.#rendering = true;
     try {
@@ -185,6 +185,7 @@ export class FilmSession {
         ...this.#copy('film_total', 'film_moment'),
         this.#head(this.#sampling?.state.sample ?? 0),
       ]);
+      const { varianceLayer } = await import('../film/film-data');
       return varianceLayer(total as Float32Array, moment as Float32Array, weights, headSamples(this.#first), head);
     }
     // An edit or a resize in between begins another image: what was rendered is not of one image then.
@@ -203,6 +204,7 @@ export class FilmSession {
     const plane = this.groups.plane(name);
     const weight = this.groups.weights[plane] as GroupWeights[number];
     const [total, block, moment] = await Promise.all(this.#copy('film_total', 'film_block', 'film_moment'));
+    const { groupLayer } = await import('../film/film-data');
     return groupLayer(total as Float32Array, block as Float32Array, moment as Float32Array, plane, weight);
   }
 
@@ -227,6 +229,8 @@ export class FilmSession {
     const { width, height, planes } = this.#film;
     const weights = { first: this.#firstWeights, last: this.groups.weights };
     const first = this.#first;
+    // What is saved may have to be restored where nothing can be fetched.
+    import('../film/film-data').catch(() => {});
     const head = { width, height, planes, weights, sampling, fingerprint: fingerprint() };
     const [counters, part, ...sums] = await Promise.all([
       readBuffer(device, integrator.queues, COUNTERS),
@@ -246,6 +250,8 @@ export class FilmSession {
   /** See `PathTracer.restoreFilm`. */
   async restore(state: FilmState): Promise<void> {
     const { device, integrator, memory, fingerprint, check } = this.#host;
+    const { checkFilmState } = await import('../film/film-data');
+    check();
     const film = this.#film;
     const { width, height, planes } = film;
     checkFilmState(state, { width, height, planes, fingerprint: fingerprint() }, new TileGrid(width, height).count);
