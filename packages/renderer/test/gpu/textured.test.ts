@@ -7,7 +7,7 @@ import { addQuad, camera, createScene } from '../scenes';
 
 let device: GPUDevice;
 beforeAll(async () => {
-  device = await testDevice();
+  device = await testDevice({ driver: 'swiftshader' });
 });
 
 interface Look {
