@@ -1,12 +1,15 @@
 import {
-  decodeFilmState,
   DeviceError,
-  encodeFilmState,
   PathTracer,
   requestDevice,
   type FilmState,
 } from '@glanz/renderer';
-import { mergeFilmStates, readFilmState } from '@glanz/renderer/film';
+import {
+  decodeFilmState,
+  encodeFilmState,
+  mergeFilmStates,
+  readFilmState,
+} from '@glanz/renderer/film';
 import type { Scene } from '@glanz/scene';
 
 // #region progress

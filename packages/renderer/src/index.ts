@@ -1,6 +1,6 @@
 export { DeviceError, RenderError } from './errors';
 export { requestDevice, type DeviceOptions } from './device/device';
-export { decodeFilmState, encodeFilmState, type FilmState } from './film/film-state';
+export type { FilmPart, FilmState } from './film/film-state';
 export { isSoftware } from './device/software';
 export { compressedFormats } from './materials/textures';
 export { PathTracer } from './path-tracer';

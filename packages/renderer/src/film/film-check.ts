@@ -1,38 +1,47 @@
-import { RenderError } from '../errors';
-import { FILM_CHUNK, headEnd, headSamples } from '../schedule/sample-range';
-import { FILM_SUMS, rangesText, sumLengths, type FilmState } from './film-state';
+import type { FilmState } from './film-state';
+
+/** Numbers of floats of a film's sums. */
+export const sumLengths = ({
+  width,
+  height,
+  planes,
+}: Pick<FilmState, 'width' | 'height' | 'planes'>): Record<keyof FilmState['sums'], number> => {
+  const pixel = 4 * width * height;
+  return { film_block: planes * pixel, film_total: planes * pixel, film_moment: pixel, beauty: pixel };
+};
+
+/** The numbers of a film's samples, for people: `0–49, 100–149`. */
+export const rangesText = ({ ranges }: Pick<FilmState, 'ranges'>): string =>
+  ranges.map(([first, end]) => `${first}–${end - 1}`).join(', ');
 
 /**
- * Checks that a film can go on in a tracer with this film.
+ * Why a film cannot be resumed in a tracer; `undefined`: it can. Imports nothing, so that it is a chunk by itself.
+ *
+ * @param film Of the tracer.
  * @param tiles Tiles of the tracer's film.
- * @throws {RenderError} `renderer/film-state`
+ * @param chunks Chunks that must be among the film's parts.
  */
-export function checkFilmState(
+export function filmStateFault(
   state: FilmState,
   film: Pick<FilmState, 'width' | 'height' | 'planes' | 'fingerprint'>,
   tiles: number,
-): void {
-  const refuse = (why: string) =>
-    new RenderError('renderer/film-state', `The saved film cannot be resumed here: ${why}.`);
+  chunks: readonly number[],
+): string | undefined {
   if (state.width !== film.width || state.height !== film.height)
-    throw refuse(`it has ${state.width} × ${state.height} pixels, and this film has ${film.width} × ${film.height}`);
-  if (state.planes !== film.planes)
-    throw refuse(`it keeps ${state.planes} light sums apart, and this film ${film.planes}`);
-  if (state.fingerprint !== film.fingerprint) throw refuse('it is of another scene, camera, or other options');
+    return `it has ${state.width} × ${state.height} pixels, and this film has ${film.width} × ${film.height}`;
+  if (state.planes !== film.planes) return `it keeps ${state.planes} light sums apart, and this film ${film.planes}`;
+  if (state.fingerprint !== film.fingerprint) return 'it is of another scene, camera, or other options';
   if (state.ranges.length !== 1)
-    throw refuse(
-      `of its samples some are missing (it has ${rangesText(state)}); merge it with the films that have the others`,
-    );
-  const [first] = state.ranges[0] as readonly [number, number];
-  const heads =
-    headSamples(first) > 0 && state.sampling.sample >= headEnd(first) ? [Math.floor(first / FILM_CHUNK)] : [];
+    return `some of its samples are missing (it has ${rangesText(state)}); merge it with the films that have them`;
   const { counts, tiles: under, pixel } = state.sampling;
   const lengths = sumLengths(film);
   const fits =
     counts.length === tiles && (under?.every((tile) => tile < tiles) ?? true) && pixel < film.width * film.height;
   const wholeParts =
-    String(state.parts.map(({ chunk }) => chunk)) === String(heads) &&
-    state.parts.every(({ sums }) => sums.length === lengths[1]);
-  if (!fits || !wholeParts || FILM_SUMS.some((name, i) => state.sums[name].length !== lengths[i]))
-    throw refuse('its parts do not fit together');
+    String(state.parts.map(({ chunk }) => chunk)) === String(chunks) &&
+    state.parts.every(({ sums }) => sums.length === lengths.film_total);
+  const sound = Object.entries(lengths).every(
+    ([name, length]) => state.sums[name as keyof typeof lengths].length === length,
+  );
+  return fits && wholeParts && sound ? undefined : 'its parts do not fit together';
 }

@@ -1,7 +1,8 @@
 import { RenderError } from '../errors';
 import { FILM_CHUNK, samplesInChunk, type SampleRanges } from '../schedule/sample-range';
 import { readFilmState } from './compose';
-import { FILM_SUMS, rangesText, type FilmPart, type FilmState } from './film-state';
+import { rangesText, sumLengths } from './film-check';
+import { FILM_SUMS, type FilmPart, type FilmState } from './film-state';
 import type { GroupWeights } from './layers';
 
 const refuse = (why: string) => new RenderError('renderer/film-state', `These films cannot be merged: ${why}.`);
@@ -79,12 +80,8 @@ function checked(film: FilmState): FilmState {
     );
   if (sampling.tiles)
     throw refuse('one was rendered to a noise target, so its pixels have different numbers of samples');
-  const pixels = 4 * film.width * film.height;
-  if (
-    FILM_SUMS.some(
-      (name) => film.sums[name].length !== (name.startsWith('film_m') || name === 'beauty' ? 1 : film.planes) * pixels,
-    )
-  )
+  const lengths = sumLengths(film);
+  if (FILM_SUMS.some((name) => film.sums[name].length !== lengths[name]))
     throw refuse('the sums of one do not have its size');
   return film;
 }

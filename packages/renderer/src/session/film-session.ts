@@ -250,12 +250,17 @@ export class FilmSession {
   /** See `PathTracer.restoreFilm`. */
   async restore(state: FilmState): Promise<void> {
     const { device, integrator, memory, fingerprint, check } = this.#host;
-    const { checkFilmState } = await import('../film/film-data');
+    const { filmStateFault } = await import('../film/film-data');
     check();
     const film = this.#film;
     const { width, height, planes } = film;
-    checkFilmState(state, { width, height, planes, fingerprint: fingerprint() }, new TileGrid(width, height).count);
-    this.restart(state.ranges[0]?.[0]);
+    const first = state.ranges[0]?.[0] ?? 0;
+    const chunks =
+      headSamples(first) > 0 && state.sampling.sample >= headEnd(first) ? [Math.floor(first / FILM_CHUNK)] : [];
+    const tiles = new TileGrid(width, height).count;
+    const fault = filmStateFault(state, { width, height, planes, fingerprint: fingerprint() }, tiles, chunks);
+    if (fault) throw new RenderError('renderer/film-state', `The saved film cannot be resumed here: ${fault}.`);
+    this.restart(first);
     const { verified } = inErrorScopes(device, 'the saved film', () => {
       this.#sampling = this.#newSampling(this.#sampling?.paths, state.sampling);
       this.#firstWeights = state.weights.first;

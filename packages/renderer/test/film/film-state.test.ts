@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { decodeFilmState, encodeFilmState, type FilmState } from '../../src/index';
+import { decodeFilmState, encodeFilmState, type FilmState } from '../../src/film';
 
 const state = (tiles?: Uint32Array<ArrayBuffer>): FilmState => {
   const sums = (length: number) => Float32Array.from({ length }, (_, i) => (i === 3 ? Infinity : 0.1 * i - 1));

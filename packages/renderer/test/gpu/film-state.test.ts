@@ -1,8 +1,8 @@
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import type { Scene } from '@glanz/scene';
 import { afterEach, beforeAll, describe, expect, it } from 'vitest';
-import { decodeFilmState, encodeFilmState, PathTracer, type FilmState, type PathTracerOptions } from '../../src/index';
-import { mergeFilmStates, readFilmState } from '../../src/film';
+import { PathTracer, type FilmState, type PathTracerOptions } from '../../src/index';
+import { decodeFilmState, encodeFilmState, mergeFilmStates, readFilmState } from '../../src/film';
 import { addQuad, addSphere, camera, createScene, lambert } from '../scenes';
 
 let device: GPUDevice;
