@@ -30,7 +30,7 @@ let complaints: string[] = [];
 test.beforeEach(({ page }) => void (complaints = watch(page, origin)));
 test.afterEach(() => expect(complaints).toEqual([]));
 
-const open = (page: Page, query = 'model=cornell-box&scale=0.25&samples=4&depth=3', hash = '') =>
+const open = (page: Page, query = 'model=cornell-box&scale=0.25&samples=4&max-depth=3', hash = '') =>
   openAt(page, `${origin}/?${query}${hash}`);
 
 /** Two sails, the left one with a red look; a third node is a little one behind. */
@@ -208,14 +208,14 @@ test('the address holds the view: a reload brings back camera, material, light a
 
   // A link that somebody has spoiled is no trouble.
   await page.goto('about:blank');
-  await open(page, 'model=cornell-box&scale=0.25&samples=2&depth=2', '#v1.spoiled');
+  await open(page, 'model=cornell-box&scale=0.25&samples=2&max-depth=2', '#v1.spoiled');
   await finished(page);
   await expect(page.locator('[role=alert]')).toHaveCount(0);
 
   // Nor is one with values that the page itself would never write.
   const absurd = {
     samples: 2,
-    depth: 1.5,
+    maxDepth: 1.5,
     scale: '0.25',
     exposure: 1e30,
     hidden: [1e9, -1],
@@ -231,13 +231,13 @@ test('the address holds the view: a reload brings back camera, material, light a
   await page.goto('about:blank');
   await open(
     page,
-    'model=cornell-box&scale=0.25&samples=2&depth=2',
+    'model=cornell-box&scale=0.25&samples=2&max-depth=2',
     `#v1.${deflateRawSync(JSON.stringify({ m: 'cornell-box', s: absurd })).toString('base64url')}`,
   );
   await finished(page);
   await expect(page.locator('[role=alert]')).toHaveCount(0);
   await tab(page, 'Render');
-  await expect(page.locator('#depth')).toHaveValue('2');
+  await expect(page.locator('#maxDepth')).toHaveValue('2');
 });
 
 test('light: studios, a soft box, backgrounds that are saved as they are seen, and lights dimmed without a sample', async ({
@@ -245,7 +245,7 @@ test('light: studios, a soft box, backgrounds that are saved as they are seen, a
 }) => {
   // One pixel of the film to one of the screen, so that the saved picture can be compared; not many of them.
   await page.setViewportSize({ width: 740, height: 420 });
-  await open(page, 'model=cornell-box&scale=1&samples=2&depth=2&environment=studio');
+  await open(page, 'model=cornell-box&scale=1&samples=2&max-depth=2&environment=studio');
   await finished(page);
   await tab(page, 'Light');
   // Beside the box there is the environment.
@@ -359,7 +359,7 @@ const veiled = async (page: Page) =>
 test('the floor catches the shadow only; the blurred background is smooth, and saved as it is seen', async ({
   page,
 }) => {
-  await open(page, 'model=push-button-low&scale=1&samples=2&depth=2');
+  await open(page, 'model=push-button-low&scale=1&samples=2&max-depth=2');
   await finished(page);
   await tab(page, 'Light');
   await restarting(page, () => page.getByLabel('Background', { exact: true }).selectOption('blurred'));
@@ -395,7 +395,7 @@ test('no accessibility faults in any panel, menu or message, light and dark, at 
   page,
 }) => {
   test.setTimeout(600_000);
-  await open(page, 'model=cornell-box&scale=0.125&samples=1&depth=2');
+  await open(page, 'model=cornell-box&scale=0.125&samples=1&max-depth=2');
   await drop(page, [{ name: 'sails.glb', bytes: sails() }]);
   await expect.poll(() => dataOf(page, 'scene')).toBe('sails.glb');
   await page.getByText('Presets').click();

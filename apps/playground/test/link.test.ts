@@ -1,4 +1,6 @@
 import { expect, test } from 'vitest';
+import { RENDER_OPTIONS } from '@glanz/renderer/options';
+import { LIMITS } from '../src/state/limits';
 import { decodeLink, difference, encodeLink, linkContent } from '../src/state/link';
 import { textForReceiver, textForSender } from '../src/state/link-texts';
 import { initialState, type State } from '../src/state/state';
@@ -96,13 +98,15 @@ test('fields of another kind than the state has are left out', async () => {
 test('numbers are brought into the ranges of the page, and what is deep inside is of its own kind', async () => {
   const read = async (state: object) =>
     (await decodeLink(await encodeLink({ model: 'a', state: state as Partial<State> })))?.state;
-  for (const [depth, expected] of [
+  for (const [maxDepth, expected] of [
     [0, 1],
     [1.5, 2],
     [1e9, 64],
     [-3, 1],
   ] as const)
-    expect(await read({ depth })).toEqual({ depth: expected });
+    expect(await read({ maxDepth })).toEqual({ maxDepth: expected });
+  // The name of the field in links that were made before it changed.
+  expect(await read({ depth: 5 })).toEqual({ maxDepth: 5 });
   expect(
     await read({
       samples: 1e9,
@@ -172,4 +176,12 @@ test('a few letters that unpack to megabytes are no link', async () => {
   const link = await encodeLink({ model: 'a'.repeat(20_000_000), state: {} });
   expect(link.length).toBeLessThan(50_000);
   expect(await decodeLink(link)).toBeUndefined();
+});
+
+test("the page's limits of render options lie within the options' ranges", () => {
+  for (const name of Object.keys(LIMITS) as (keyof typeof LIMITS)[]) {
+    const [low, high] = RENDER_OPTIONS[name].range;
+    expect(LIMITS[name][0], name).toBeGreaterThanOrEqual(low);
+    expect(LIMITS[name][1], name).toBeLessThanOrEqual(high);
+  }
 });

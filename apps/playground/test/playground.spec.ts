@@ -36,14 +36,14 @@ let complaints: string[] = [];
 test.beforeEach(({ page }) => void (complaints = watch(page, origin)));
 test.afterEach(() => expect(complaints).toEqual([]));
 
-const open = (page: Page, query = 'model=cornell-box&scale=0.25&samples=4&depth=3') =>
+const open = (page: Page, query = 'model=cornell-box&scale=0.25&samples=4&max-depth=3') =>
   openAt(page, `${origin}/?${query}`);
 
 test('the Cornell box appears: light above, red left, green right; the saved picture is the one on the screen', async ({
   page,
 }) => {
   // One pixel of the film to one of the screen, so that they can be compared.
-  await open(page, 'model=cornell-box&scale=1&samples=3&depth=3');
+  await open(page, 'model=cornell-box&scale=1&samples=3&max-depth=3');
   await expect.poll(async () => Number(await dataOf(page, 'samples'))).toBeGreaterThanOrEqual(1);
   await finished(page);
   const shown = await photograph(canvasOf(page));
@@ -81,7 +81,7 @@ test('an image of any size is rendered, to a file or the clipboard; the screen k
   context,
 }) => {
   await context.grantPermissions(['clipboard-read', 'clipboard-write'], { origin });
-  await open(page, 'model=cornell-box&scale=0.125&samples=4&depth=3');
+  await open(page, 'model=cornell-box&scale=0.125&samples=4&max-depth=3');
   await finished(page);
   const restarts = await dataOf(page, 'restarts');
   const dialog = page.getByRole('dialog', { name: 'Render image' });
@@ -303,7 +303,7 @@ test('drag, wheel and keys move the camera; reset brings the first view back', a
 });
 
 test('pause holds, and still shows a sample after a move', async ({ page }) => {
-  await open(page, 'model=cornell-box&scale=0.25&samples=4096&depth=2');
+  await open(page, 'model=cornell-box&scale=0.25&samples=4096&max-depth=2');
   await expect.poll(async () => Number(await dataOf(page, 'samples'))).toBeGreaterThanOrEqual(1);
   await page.getByRole('button', { name: 'Pause' }).click();
   await expect(canvasOf(page)).toHaveAttribute('data-state', 'paused');
@@ -487,7 +487,7 @@ test('a lost device is replaced, and edits survive it', async ({ page }) => {
 });
 
 test('the push-button, and depth as one goes', async ({ page }) => {
-  await open(page, 'model=push-button-low&scale=0.25&samples=4&depth=2');
+  await open(page, 'model=push-button-low&scale=0.25&samples=4&max-depth=2');
   await finished(page);
   await expect(page.locator('[data-statistic=triangles]')).toHaveText(/^10,[5-9]\d\d$/);
   await tab(page, 'Render');
@@ -511,7 +511,7 @@ test('the push-button, and depth as one goes', async ({ page }) => {
 
 test('every control has a name, and a phone shows the page without scrolling sideways', async ({ page }) => {
   await page.setViewportSize({ width: 390, height: 780 });
-  await open(page, 'model=cornell-box&scale=0.25&samples=1&depth=2');
+  await open(page, 'model=cornell-box&scale=0.25&samples=1&max-depth=2');
   const nameless = await page.evaluate(() =>
     [...document.querySelectorAll<HTMLInputElement>('button, input, select, progress')]
       .filter((control) => !control.textContent?.trim() || control.tagName === 'SELECT')
@@ -554,7 +554,7 @@ test('without a GPU the page says so before its scripts are there; when one come
       return ++asked === 1 ? null : requestAdapter.apply(this, given);
     };
   });
-  await page.goto(`${origin}/?model=cornell-box&scale=0.25&samples=1&depth=2`);
+  await page.goto(`${origin}/?model=cornell-box&scale=0.25&samples=1&max-depth=2`);
   await expect(page.getByRole('heading', { name: 'The GPU cannot be used' })).toBeVisible();
   await expect(errorWith(page, 'renderer/no-adapter')).toBeVisible();
   await expect(page.locator('#preparing')).toBeHidden();

@@ -1,6 +1,8 @@
+import { RENDER_OPTIONS } from '@glanz/renderer/options';
 import { createViewer, type Viewer } from '@glanz/viewer';
 import { frameCamera, type Scene } from '@glanz/scene';
 import { describeError, isAbort } from '../errors';
+import { LIMITS } from '../state/limits';
 import { byId, element } from '../ui/elements';
 import { Messages } from '../ui/messages';
 import type { RenderFormat } from '../ui/render-dialog';
@@ -57,8 +59,10 @@ export class Configurator {
     );
     const scale = query.get('scale');
     this.#viewer = createViewer(this.#canvas, {
-      samples: Math.round(number(query.get('samples'), 1, 65536, SAMPLES)),
-      maxDepth: Math.round(number(query.get('depth'), 1, 64, 8)),
+      samples: Math.round(number(query.get('samples'), ...LIMITS.samples, SAMPLES)),
+      maxDepth: Math.round(
+        number(query.get('max-depth') ?? query.get('depth'), ...LIMITS.maxDepth, RENDER_OPTIONS.maxDepth.default),
+      ),
       environment: 'studio',
       background: 'transparent',
       ...(scale === null ? {} : { pixelRatio: number(scale, 0.05, 2, 1) }),

@@ -100,7 +100,7 @@ export function codeSnippet(
   const options = [
     `width: ${width}`,
     `height: ${height}`,
-    `maxDepth: ${state.depth}`,
+    `maxDepth: ${state.maxDepth}`,
     'camera',
     ...(filmBackground(state) === 'transparent' ? ["background: 'transparent'"] : []),
     ...(state.relight ? ["lightGroups: 'each'"] : []),

@@ -1,6 +1,7 @@
 import { TONE_MAPS } from '@glanz/tonemap';
 import { SAMPLES, type SampleName } from '../input/samples';
 import { LAYERS } from '../output/layers';
+import { LIMITS } from './limits';
 import { BACKGROUNDS, ENVIRONMENT_CHOICES, initialState, SCALES, type State } from './state';
 
 const number = (text: string | null, low: number, high: number, initial: number, whole = false): number => {
@@ -28,9 +29,9 @@ export function stateFromQuery(search: string): { readonly model: SampleName; re
   const initial = initialState(SAMPLES[model].environment);
   const state: State = {
     ...initial,
-    samples: number(query.get('samples'), 1, 65536, initial.samples, true),
-    noise: number(query.get('noise'), 0, 1, 0),
-    depth: number(query.get('depth'), 1, 64, initial.depth, true),
+    samples: number(query.get('samples'), ...LIMITS.samples, initial.samples, true),
+    noise: number(query.get('noise'), ...LIMITS.noise, initial.noise),
+    maxDepth: number(renamed(query, 'max-depth', 'depth'), ...LIMITS.maxDepth, initial.maxDepth, true),
     scale: one(query.get('scale'), SCALES, initial.scale),
     environment: one(query.get('environment'), ENVIRONMENT_CHOICES, initial.environment),
     intensity: number(query.get('intensity'), 0, 10, 1),

@@ -1,5 +1,6 @@
 import { STUDIOS, type SoftBox, type StudioName } from '@glanz/scene/studio';
 import { TONE_MAPS } from '@glanz/tonemap';
+import { LIMITS } from './limits';
 import {
   BACKGROUNDS,
   ENVIRONMENT_CHOICES,
@@ -135,9 +136,9 @@ const group: Read<GroupSettings> = (value) =>
  * Ranges are those of the page's own controls. Values of materials are checked by their own table, see `linkOfPage`.
  */
 const FIELDS: { readonly [Name in keyof State]?: Read<State[Name]> } = {
-  samples: whole(1, 65536),
-  noise: number(0, 1),
-  depth: whole(1, 64),
+  samples: whole(...LIMITS.samples),
+  noise: number(...LIMITS.noise),
+  maxDepth: whole(...LIMITS.maxDepth),
   scale: one(SCALES),
   exposure: number(-8, 8),
   toneMap: one(TONE_MAPS),
@@ -163,10 +164,14 @@ const FIELDS: { readonly [Name in keyof State]?: Read<State[Name]> } = {
   time: number(0, 1e6),
 };
 
+/** Former names of fields, in links that were made before they changed. */
+const FORMER: Readonly<Record<string, keyof State>> = { depth: 'maxDepth' };
+
 /** Only known fields, of their own kinds and within their ranges: an address comes from anywhere. */
 export function readFields(given: Readonly<Record<string, unknown>>): Partial<State> {
   const state: Record<string, unknown> = {};
-  for (const [name, value] of Object.entries(given)) {
+  for (const [key, value] of Object.entries(given)) {
+    const name = Object.hasOwn(FORMER, key) ? (FORMER[key] as string) : key;
     const read = Object.hasOwn(FIELDS, name) ? (FIELDS[name as keyof State] as Read<unknown>) : undefined;
     const known = read?.(value);
     if (known !== undefined) state[name] = known;

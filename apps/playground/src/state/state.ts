@@ -1,4 +1,5 @@
 import type { OpenPbrParameters } from '@glanz/openpbr/parameters';
+import { RENDER_OPTIONS } from '@glanz/renderer/options';
 import type { Image, TextureBinding, TexturedParameter } from '@glanz/scene';
 import type { SoftBox, StudioName } from '@glanz/scene/studio';
 import type { ToneMap } from '@glanz/tonemap';
@@ -61,12 +62,12 @@ export interface GroupSettings {
  * former one.
  */
 export interface State {
-  /** Samples per pixel to reach, 1..65536. */
+  /** Samples per pixel to reach. */
   readonly samples: number;
   /** Noise to reach; 0 takes all samples everywhere. */
   readonly noise: number;
-  /** Most edges of a path, 1..64. */
-  readonly depth: number;
+  /** Maximum number of edges of a path. */
+  readonly maxDepth: number;
   readonly scale: Scale;
   readonly layer: Layer;
   /** EV. */
@@ -116,9 +117,9 @@ export const slotKey = (material: number, parameter: TexturedParameter): string 
 /** What a picture begins with. */
 export function initialState(environment: EnvironmentChoice): State {
   return {
-    samples: 256,
+    samples: RENDER_OPTIONS.samples.default,
     noise: 0,
-    depth: 6,
+    maxDepth: RENDER_OPTIONS.maxDepth.default,
     scale: '1',
     layer: 'beauty',
     exposure: 0,

@@ -1,7 +1,9 @@
 import type { ImageProgress } from '@glanz/viewer';
+import { MAX_ADAPTIVE_SAMPLES } from '@glanz/renderer/options';
 import { describeError, isAbort } from '../errors';
 import { download } from '../output/save';
 import '../style/render-dialog.css';
+import { LIMITS } from '../state/limits';
 import { element } from './elements';
 
 /** A kind of file that a page can write. */
@@ -45,7 +47,7 @@ export interface RenderHost {
   readonly render: (request: RenderRequest) => Promise<Blob>;
 }
 
-const [MOST_SIDE, MOST_SAMPLES, LEAST_NOISE] = [16_384, 65_536, 0.001];
+const [MOST_SIDE, LEAST_NOISE] = [16_384, 0.001];
 /** What a noise target begins with. */
 const USUAL_NOISE = 0.02;
 
@@ -130,8 +132,14 @@ export function showRenderDialog(host: RenderHost): void {
     ],
     host.noise > 0 ? 'noise' : 'samples',
   );
-  const samples = numberBox('render-samples', 'Samples per pixel', host.samples, [1, MOST_SAMPLES], 1);
-  const noise = numberBox('render-noise', 'Noise, relative', host.noise || USUAL_NOISE, [LEAST_NOISE, 1], 'any');
+  const samples = numberBox('render-samples', 'Samples per pixel', host.samples, LIMITS.samples, 1);
+  const noise = numberBox(
+    'render-noise',
+    'Noise, relative',
+    host.noise || USUAL_NOISE,
+    [LEAST_NOISE, LIMITS.noise[1]],
+    'any',
+  );
   const format = select(
     'render-format',
     host.formats.map(({ id, title }) => [id, title]),
@@ -211,7 +219,7 @@ export function showRenderDialog(host: RenderHost): void {
     return host.render({
       width: width.valueAsNumber,
       height: height.valueAsNumber,
-      samples: goal.value === 'noise' ? MOST_SAMPLES : samples.valueAsNumber,
+      samples: goal.value === 'noise' ? MAX_ADAPTIVE_SAMPLES : samples.valueAsNumber,
       noise: goal.value === 'noise' ? noise.valueAsNumber : undefined,
       transparent: transparent.checked && chosen().alpha,
       format: format.value,

@@ -1,7 +1,9 @@
+import { RENDER_OPTION_TEXTS } from '@glanz/renderer/options';
 import { LAYER_TITLES, LAYERS } from '../output/layers';
 import type { Scale } from '../state/state';
 import { changer, watch, type Context } from './context';
 import { section, selectField, sliderField } from './fields';
+import { optionSlider } from './option-slider';
 import { Playback } from './playback';
 import { StatisticsPanel } from './statistics';
 
@@ -27,37 +29,16 @@ export function renderPanel(context: Context): HTMLElement[] {
     choices: LAYERS.map((name) => [name, LAYER_TITLES[name]] as const),
     onInput: (value) => store.set({ layer: value }),
   });
-  const samples = sliderField({
-    id: 'samples',
-    label: 'Samples',
-    value: initial.samples,
-    initial: 256,
-    range: [1, 4096],
-    hardRange: [1, 65536],
-    curve: 3,
-    whole: true,
-    hint: 'Samples per pixel to reach. The noise halves with four times as many.',
-    onInput: (value) => change('samples', 'Samples')(Math.round(value)),
-  });
+  const samples = sliderField({ ...optionSlider('samples', 'Samples', initial, change), curve: 3 });
   const noise = selectField({
     id: 'noise',
     label: 'Noise target',
     value: String(initial.noise),
     choices: NOISES.map((n) => [n as string, n === '0' ? 'None: all samples' : `${Number(n) * 100} %`] as const),
-    hint: 'Adaptive: samples only where there is noise, until it is everywhere at most this',
+    hint: RENDER_OPTION_TEXTS.noise.doc,
     onInput: (value) => change('noise', 'Noise target')(Number(value)),
   });
-  const depth = sliderField({
-    id: 'depth',
-    label: 'Depth',
-    value: initial.depth,
-    initial: 6,
-    range: [1, 16],
-    hardRange: [1, 64],
-    whole: true,
-    hint: 'Most edges of a path from the camera to a light: 2 is direct light only.',
-    onInput: change('depth', 'Depth'),
-  });
+  const maxDepth = sliderField(optionSlider('maxDepth', 'Depth', initial, change));
   const scale = selectField({
     id: 'scale',
     label: 'Resolution',
@@ -65,11 +46,11 @@ export function renderPanel(context: Context): HTMLElement[] {
     choices: SCALE_ORDER.map((key) => [key, SCALE_TITLES[key]] as const),
     onInput: change('scale', 'Resolution'),
   });
-  watch(store, ['layer', 'samples', 'noise', 'depth', 'scale'], (state) => {
+  watch(store, ['layer', 'samples', 'noise', 'maxDepth', 'scale'], (state) => {
     layer.set(state.layer);
     samples.set(state.samples);
     noise.set(String(state.noise));
-    depth.set(state.depth);
+    maxDepth.set(state.maxDepth);
     scale.set(state.scale);
   });
 
@@ -130,7 +111,7 @@ export function renderPanel(context: Context): HTMLElement[] {
   onModel(showStatistics);
   showStatistics();
   return [
-    section('Sampling', samples.element, noise.element, depth.element, scale.element, layer.element),
+    section('Sampling', samples.element, noise.element, maxDepth.element, scale.element, layer.element),
     looks,
     section('Statistics', statistics.element),
   ];

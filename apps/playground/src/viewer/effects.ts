@@ -28,7 +28,7 @@ export function shownFor(scene: Scene, state: State, host: Pick<EffectsHost, 'ri
   return {
     scene: composeScene(scene, state, host.environment(state, scene)),
     camera: host.rig.camera(state, scene),
-    depth: state.depth,
+    maxDepth: state.maxDepth,
     background: filmBackground(state),
     lightGroups: state.relight ? 'each' : 'named',
     ready: async (tracer) => {
@@ -109,7 +109,7 @@ export function applyChange(next: State, before: State, host: EffectsHost): void
     }
   }
   if (changed('variant')) session.edit('variant', (tracer) => tracer.setVariant(next.variant ?? undefined));
-  if (changed('depth')) session.setDepth(next.depth);
+  if (changed('maxDepth')) session.setDepth(next.maxDepth);
   if (filmBackground(next) !== filmBackground(before)) session.setBackground(filmBackground(next));
   if (changed(...ENVIRONMENT_FIELDS)) {
     const environment = host.environment(next, scene);

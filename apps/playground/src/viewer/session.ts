@@ -1,4 +1,5 @@
 import type { LightGroupMode, PathTracer, PickResult, PrepareProgress } from '@glanz/renderer';
+import { RENDER_OPTIONS } from '@glanz/renderer/options';
 import type { Camera, CompressedFormat, Scene } from '@glanz/scene';
 import type { ToneMapOptions } from '@glanz/tonemap';
 import { Engine, type EngineHost, type ViewerState } from '@glanz/viewer/engine';
@@ -42,7 +43,7 @@ export interface SessionView extends Required<ToneMapOptions> {
 export interface Shown {
   readonly scene: Scene;
   readonly camera: Camera;
-  readonly depth: number;
+  readonly maxDepth: number;
   readonly background: 'environment' | 'transparent';
   readonly lightGroups: LightGroupMode;
   /** Edits that a new tracer needs before it is shown. */
@@ -89,9 +90,9 @@ export class Session {
         noise: noise || undefined,
         exposure,
         toneMap,
-        maxDepth: 8,
-        background: 'environment',
-        maxSubmitMs: 16,
+        maxDepth: RENDER_OPTIONS.maxDepth.default,
+        background: RENDER_OPTIONS.background.default,
+        maxSubmitMs: RENDER_OPTIONS.maxSubmitMs.default,
         settleMs: SETTLE_MS,
         previewDepth: PREVIEW_DEPTH,
         tracer: {},
@@ -205,8 +206,8 @@ export class Session {
    */
   async show(source: () => Shown, onProgress: (progress: PrepareProgress) => void = () => undefined): Promise<void> {
     const take = () => {
-      const { scene, camera, depth, background, lightGroups, ready } = source();
-      Object.assign(this.#engine.settings, { maxDepth: depth, background });
+      const { scene, camera, maxDepth, background, lightGroups, ready } = source();
+      Object.assign(this.#engine.settings, { maxDepth, background });
       return { scene, camera, options: { lightGroups }, ready };
     };
     this.#preparing++;

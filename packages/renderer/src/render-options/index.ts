@@ -1,6 +1,5 @@
 export {
   MAX_ADAPTIVE_SAMPLES,
-  RENDER_OPTION_TEXTS,
   RENDER_OPTIONS,
   type BooleanOption,
   type EnumOption,
@@ -10,9 +9,9 @@ export {
   type RenderOption,
   type RenderOptionEffect,
   type RenderOptionName,
-  type RenderOptionText,
   type RenderSettings,
   type ResolvedSettings,
 } from './table';
+export { RENDER_OPTION_TEXTS, type RenderOptionText } from './texts';
 export { kebabCase, parseOption, type KebabCase } from './parse';
 export { optionFault, optionValues, shownValue, takesOption } from './values';

@@ -61,7 +61,7 @@ export async function openPlayground(profile: boolean, gpu: Chromium['gpu'] = 's
     async watch(name: string, file: string): Promise<Blocked> {
       const page = await browser.newPage({ viewport: { width: 700, height: 500 } });
       try {
-        await page.goto(`${origin}/?model=cornell-box&scale=0.25&samples=1&depth=2`);
+        await page.goto(`${origin}/?model=cornell-box&scale=0.25&samples=1&max-depth=2`);
         await firstFilm(page);
         await page.waitForSelector('#picture[data-state="done"]', { state: 'attached', timeout: 300_000 });
         await page.evaluate(() => {

@@ -1,0 +1,84 @@
+import type { RenderOptionName } from './table';
+
+/**
+ * What people read about an option. A module apart from the table: bundlers put whole modules into a chunk, and a page
+ * loads the texts with its settings panel, not before its first image.
+ */
+export interface RenderOptionText {
+  /** One or two sentences. */
+  readonly doc: string;
+  /** Unit of the number. */
+  readonly unit?: string;
+  /** Whether it makes the result biased: some light is missing or moved, for less noise or time. */
+  readonly biased?: boolean;
+  /** The part of the range that a slider offers; default: the whole range. */
+  readonly softRange?: readonly [number, number];
+}
+
+/** The texts of all options of {@link RENDER_OPTIONS}. Literals only: bundlers keep expressions that nobody reads. */
+export const RENDER_OPTION_TEXTS: Readonly<Record<RenderOptionName, RenderOptionText>> = {
+  samples: {
+    doc: 'Samples per pixel. With a noise target it is the maximum, by default 65536.',
+    softRange: [1, 4096],
+  },
+  noise: {
+    doc: 'Samples only where there is noise, until the standard error relative to the brightness is everywhere at most this: 0.05 is a preview, 0.01 is hardly visible. 0: no target.',
+    softRange: [0, 0.1],
+  },
+  maxSubmitMs: { doc: 'GPU time that one submission should take at most.', unit: 'ms', softRange: [1, 100] },
+  maxDepth: {
+    doc: 'Maximum number of edges of a path from the camera to a light: 1 shows only emitters, 2 adds direct light.',
+    softRange: [1, 16],
+  },
+  maxVolumeDepth: {
+    doc: 'Maximum number of scattering events of a path inside of media such as subsurface or milky glass.',
+    softRange: [0, 1024],
+  },
+  seed: {
+    doc: 'Selects the random numbers: the same seed gives the same image on the same device.',
+    softRange: [0, 100],
+  },
+  background: { doc: 'What is visible behind the scene: the environment, or nothing (alpha is the coverage).' },
+  filter: {
+    doc: 'Pixel filter: how samples around a pixel are weighted. Its radius is half its width.',
+    unit: 'pixels',
+  },
+  lightGroups: {
+    doc: 'Keeps groups of lights apart, as layers of the film: those that the scene names, each light, or none.',
+  },
+  backFaceCulling: {
+    doc: 'Leaves out faces that show the camera their back and are not double-sided: for the camera only, while light still meets them, or for all rays.',
+  },
+  maxBounces: {
+    doc: 'Maximum number of bounces of each kind. What is not listed is not limited.',
+    biased: true,
+  },
+  regularization: {
+    doc: 'Widens sharp lobes of paths that have already bounced off rough surfaces: 0 is off, 0.25 removes most fireflies of caustics.',
+    biased: true,
+  },
+  clampIndirect: {
+    doc: 'Maximum radiance of light that took two bounces or more. Removes fireflies, and energy with them.',
+    biased: true,
+    softRange: [0, 100],
+  },
+  caustics: {
+    doc: 'Light that reaches a matte surface through a sharp reflection or refraction.',
+    biased: true,
+  },
+  multipleScattering: {
+    doc: 'Compensation of the energy that single-scattering microfacet models lose. Off only for comparisons with such models.',
+  },
+  sampler: { doc: 'Source of the random numbers. All are unbiased; `independent` converges slower.' },
+  lightSampling: {
+    doc: 'How lights are chosen: by their contribution at the shaded point (a light tree), or by power alone.',
+  },
+  shadowTerminator: {
+    doc: 'Where smooth normals and triangles disagree: light follows the smooth surface, or the triangles.',
+  },
+  textureLodBias: { doc: 'Added to the level of detail of textures; lower is sharper.', softRange: [-4, 4] },
+  pathsInFlight: {
+    doc: 'Maximum number of paths on the GPU at once, about 150 bytes each. Default: 4194304, or 1048576 on devices without buffers of 2 GiB.',
+    softRange: [4096, 4_194_304],
+  },
+};
