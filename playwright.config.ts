@@ -4,7 +4,8 @@ import { defineConfig } from '@playwright/test';
 import { launchOptions } from './tools/browser/src/launch';
 
 export default defineConfig({
-  projects: ['packages/viewer', 'packages/element', 'packages/react', 'packages/three', 'apps/playground', 'apps/docs']
+  // Those with the longest files first: what comes last runs alone.
+  projects: ['apps/docs', 'apps/playground', 'packages/viewer', 'packages/element', 'packages/react', 'packages/three']
     .filter((folder) => existsSync(new URL(`${folder}/test`, import.meta.url)))
     .map((folder) => ({
       name: folder.slice(folder.indexOf('/') + 1),
@@ -18,10 +19,13 @@ export default defineConfig({
         : [],
     ),
   outputDir: '.cache/playwright',
-  // The software GPU takes all cores for one page.
-  workers: 1,
-  timeout: 120_000,
-  expect: { timeout: 60_000 },
+  globalSetup: fileURLToPath(new URL('tools/browser/src/run.ts', import.meta.url)),
+  // The software GPU renders on all cores, but compiles each program on one, and pages are built, loaded and waited for
+  // in between: two at a time keep two cores busy.
+  workers: 2,
+  // Far above what any test needs alone, as another may take the GPU meanwhile.
+  timeout: 240_000,
+  expect: { timeout: 120_000 },
   forbidOnly: true,
   reporter: 'list',
   use: {

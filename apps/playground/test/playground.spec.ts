@@ -24,9 +24,10 @@ import {
 } from './page';
 
 let origin = '';
+let folder = '';
 let close: () => Promise<void> = async () => undefined;
 
-test.beforeAll(async () => ({ origin, close } = await servePlayground()));
+test.beforeAll(async () => ({ origin, folder, close } = await servePlayground()));
 test.afterAll(() => close());
 
 // Small, as the software GPU is slow: the stage is 560 pixels wide and the film 140.
@@ -155,7 +156,7 @@ test('an image of any size is rendered, to a file or the clipboard; the screen k
 });
 
 test('the first script is small, and controls come after the first model', async ({ page }) => {
-  const dist = fileURLToPath(new URL('../dist/', import.meta.url));
+  const dist = `${folder}/`;
   const html = readFileSync(`${dist}index.html`, 'utf8');
   // What the page asks for by itself, before any script runs.
   const first = [...html.matchAll(/(?:src|href)="\.\/(assets\/[^"]+\.js)"/g)].map(([, path]) => path!);

@@ -129,14 +129,14 @@ describe('BlasCache', () => {
         throw new Error('no set');
       },
     };
-    const reported: string[] = [];
+    const told: string[] = [];
     const over = new BlasCache(broken, build, {
       minTriangles: 0,
-      onError: (error) => reported.push((error as Error).message),
+      onError: (error) => told.push((error as Error).message),
     });
     expect(await over.buildBlas(mesh)).toEqual(expected);
     await over.written();
-    expect(reported).toEqual(['no get', 'no set']);
+    expect(told).toEqual(['no get', 'no set']);
   });
 
   test('does not wait for a store to write', async () => {

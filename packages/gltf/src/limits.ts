@@ -1,20 +1,20 @@
 import { GltfError } from './error';
 
-/** Limits on what a document may allocate. They are checked before each allocation and throw `gltf/too-large`. */
+/** How much a document may ask for. What goes beyond is refused with `gltf/too-large`, before it is allocated. */
 export interface GltfLimits {
   /**
-   * Max bytes of decompressed geometry, all meshes together. Default 256 MiB plus 128 for each byte of the file, max
-   * 4 GiB.
+   * Bytes of geometry after unpacking, all meshes together. Default 256 MiB and 128 for each byte of the file, 4 GiB at
+   * most.
    */
   readonly geometryBytes?: number | undefined;
   /**
-   * Max bytes of decoded images (4 per pixel), all together. Default 512 MiB plus 512 for each byte of the file, max
-   * 4 GiB.
+   * Bytes of decoded pictures (4 a pixel), all together. Default 512 MiB and 512 for each byte of the file, 4 GiB at
+   * most.
    */
   readonly imageBytes?: number | undefined;
-  /** Max instances. Default 1,048,576. */
+  /** Places of meshes. Default 1,048,576. */
   readonly instances?: number | undefined;
-  /** Max bytes of the document and the files it names, together. Default 4 GiB. */
+  /** Bytes of the document and the files it names, together. Default 4 GiB. */
   readonly fileBytes?: number | undefined;
 }
 
@@ -25,20 +25,20 @@ export const DEFAULT_LIMITS = {
   fileBytes: 2 ** 32,
 } as const;
 
-/** Default limits grow with the file: `base` bytes plus `factor` for each byte, more than any format compresses. */
+/** What a small file may ask for, and what more each of its bytes brings: formats pack well, but not without bounds. */
 const GROWTH: Partial<Record<keyof GltfLimits, { readonly base: number; readonly factor: number }>> = {
   geometryBytes: { base: 2 ** 28, factor: 128 },
   imageBytes: { base: 2 ** 29, factor: 512 },
 };
 
-/** Tracks how much of a limit has been used. */
+/** An amount that is used up piece by piece. */
 export class Budget {
   readonly #file: string;
   readonly #name: keyof GltfLimits;
   readonly #limit: number;
   #used = 0;
 
-  /** @param fileBytes Bytes of the document and the files it names; the default limits depend on them. */
+  /** @param fileBytes Of the document and what it names: a default limit is no more than such a file can need. */
   constructor(file: string, name: keyof GltfLimits, limits: GltfLimits | undefined, fileBytes = Infinity) {
     this.#file = file;
     this.#name = name;
@@ -46,12 +46,12 @@ export class Budget {
     this.#limit = limits?.[name] ?? Math.min(DEFAULT_LIMITS[name], base + factor * fileBytes);
   }
 
-  /** The amount that is left. */
+  /** What may still be taken. */
   get left(): number {
     return Math.max(0, this.#limit - this.#used);
   }
 
-  /** As {@link take}, without using it. */
+  /** As {@link take}, but nothing is used up. */
   check(amount: number, path: string): void {
     this.take(amount, path);
     this.#used -= amount;

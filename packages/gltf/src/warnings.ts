@@ -1,26 +1,26 @@
 import type { SceneWarning } from '@glanz/scene';
 
-/** Max warnings that are kept: a file may be wrong in millions of places. */
-export const MAX_WARNINGS = 1000;
+/** Warnings that are kept; a file may be wrong in millions of places. */
+export const MOST_WARNINGS = 1000;
 
-/** An array that keeps {@link MAX_WARNINGS} warnings and counts the rest. */
+/** Takes warnings up to a number, and counts the rest. Indistinguishable from an array to those who push. */
 export class WarningList extends Array<SceneWarning> {
   #dropped = 0;
 
-  /** `map`, `filter` and the like return plain arrays. */
+  /** Arrays that are made of it are plain ones. */
   static override get [Symbol.species](): ArrayConstructor {
     return Array;
   }
 
   override push(...warnings: SceneWarning[]): number {
     for (const warning of warnings) {
-      if (this.length < MAX_WARNINGS) super.push(warning);
+      if (this.length < MOST_WARNINGS) super.push(warning);
       else this.#dropped++;
     }
     return this.length;
   }
 
-  /** A plain array; its last entry says how many warnings were dropped. */
+  /** A plain array, the last entry saying how many there were beyond. */
   finished(file: string, text: (message: string) => string): SceneWarning[] {
     const all = Array.from(this, (warning) => ({ ...warning, message: text(warning.message) }));
     if (this.#dropped > 0)

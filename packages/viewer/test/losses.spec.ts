@@ -60,7 +60,9 @@ async function run(
       await Promise.all([viewer.setVariant('night'), viewer.setMaterial('left', { base_color: [0.9, 0.9, 0.02] })]);
       await done();
       document.querySelector('canvas')!.style.width = '200px';
-      await new Promise((resolve) => setTimeout(resolve, 100));
+      // On a busy machine the viewer hears of the size late, or has no tracer after a loss.
+      for (let i = 0; viewer.tracer?.width !== 50 && i < 1500; i++)
+        await new Promise((resolve) => setTimeout(resolve, 20));
       await done();
       // A loss may come with the reading itself; the picture that follows is read then.
       const read = () => viewer.tracer!.read('beauty');

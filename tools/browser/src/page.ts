@@ -1,16 +1,68 @@
-import { mkdtempSync, rmSync } from 'node:fs';
+import { createHash } from 'node:crypto';
+import { existsSync, mkdirSync, mkdtempSync, renameSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import type { Page } from '@playwright/test';
 import type { InlineConfig } from 'vite';
+import { RUN_FOLDER } from './run';
 
 /** A page on a free port of this machine. */
 export interface Served {
   readonly origin: string;
+  /** Where the built files lie. */
+  readonly folder: string;
   readonly close: () => Promise<void>;
 }
 
 const cache = fileURLToPath(new URL('../../../.cache', import.meta.url));
+
+/**
+ * Builds something into a folder of its own: once in a run of Playwright, whose setup names the place (`./run`), where
+ * several spec files and workers ask for it; elsewhere each time, and `remove` deletes it.
+ *
+ * @param name Of what is built, different for each.
+ */
+async function builtOnce(
+  name: string,
+  build: (outDir: string) => Promise<unknown>,
+): Promise<{ readonly outDir: string; readonly remove: () => void }> {
+  const run = process.env[RUN_FOLDER];
+  if (!run) {
+    const outDir = mkdtempSync(join(cache, 'page-'));
+    await build(outDir);
+    return { outDir, remove: () => rmSync(outDir, { recursive: true, force: true }) };
+  }
+  const outDir = join(run, createHash('sha256').update(name).digest('hex').slice(0, 16));
+  const lock = `${outDir}.lock`;
+  // Who makes the lock builds. The others wait; if the build fails, each tries it and reports what it says.
+  while (!existsSync(outDir)) {
+    if (!createdFolder(lock)) {
+      await new Promise((resolve) => setTimeout(resolve, 100));
+      continue;
+    }
+    try {
+      const unfinished = `${outDir}.new`;
+      if (!existsSync(outDir)) {
+        await build(unfinished);
+        renameSync(unfinished, outDir);
+      }
+    } finally {
+      rmSync(lock, { recursive: true, force: true });
+    }
+  }
+  return { outDir, remove: () => undefined };
+}
+
+/** Creates a folder; false if it exists. */
+function createdFolder(path: string): boolean {
+  try {
+    mkdirSync(path);
+    return true;
+  } catch (error) {
+    if ((error as NodeJS.ErrnoException).code === 'EEXIST') return false;
+    throw error;
+  }
+}
 
 /**
  * Builds the page of a folder (its index.html) from the sources of the workspace, and serves it.
@@ -18,38 +70,45 @@ const cache = fileURLToPath(new URL('../../../.cache', import.meta.url));
  * @param headers Of every answer, a content security policy say.
  */
 export async function servePage(root: string, headers: Record<string, string> = {}): Promise<Served> {
-  // Loaded when it is needed: benchmarks that are packed for bare machines bring this file, but no bundler.
-  const { build } = await import('vite');
-  const { basisModule } = await import('../../pipeline/basis-module.mjs');
-  const { weslModules } = await import('../../pipeline/wesl.mjs');
-  const outDir = mkdtempSync(join(cache, 'page-'));
-  const resolve = { conditions: ['@glanz/source', 'module', 'browser', 'import', 'default'] };
-  await build({
-    root,
-    base: './',
-    configFile: false,
-    logLevel: 'error',
-    resolve,
-    plugins: [weslModules(), basisModule()],
-    worker: { format: 'es', plugins: () => [weslModules(), basisModule()] },
-    build: { outDir, emptyOutDir: true, target: 'es2022', chunkSizeWarningLimit: 2000 },
+  const { outDir, remove } = await builtOnce(`page ${root}`, async (outDir) => {
+    // Loaded when it is needed: benchmarks that are packed for bare machines bring this file, but no bundler.
+    const { build } = await import('vite');
+    const { basisModule } = await import('../../pipeline/basis-module.mjs');
+    const { weslModules } = await import('../../pipeline/wesl.mjs');
+    await build({
+      root,
+      base: './',
+      configFile: false,
+      logLevel: 'error',
+      resolve: { conditions: ['@glanz/source', 'module', 'browser', 'import', 'default'] },
+      plugins: [weslModules(), basisModule()],
+      worker: { format: 'es', plugins: () => [weslModules(), basisModule()] },
+      build: { outDir, emptyOutDir: true, target: 'es2022', chunkSizeWarningLimit: 2000 },
+    });
   });
   const served = await serveBuilt({ root, configFile: false, build: { outDir } }, headers);
   const close = async () => {
     await served.close();
-    rmSync(outDir, { recursive: true, force: true });
+    remove();
   };
-  return { origin: served.origin, close };
+  return { origin: served.origin, folder: outDir, close };
 }
 
 /** Builds an application by its own configuration, as a release would, and serves it. */
 export async function serveApp(root: string): Promise<Served> {
-  const { build } = await import('vite');
-  await build({ root, logLevel: 'error' });
-  return serveBuilt({ root });
+  const { outDir, remove } = await builtOnce(`app ${root}`, async (outDir) => {
+    const { build } = await import('vite');
+    await build({ root, logLevel: 'error', build: { outDir, emptyOutDir: true } });
+  });
+  const served = await serveBuilt({ root, build: { outDir } });
+  const close = async () => {
+    await served.close();
+    remove();
+  };
+  return { origin: served.origin, folder: outDir, close };
 }
 
-async function serveBuilt(config: InlineConfig, headers: Record<string, string> = {}): Promise<Served> {
+async function serveBuilt(config: InlineConfig, headers: Record<string, string> = {}): Promise<Omit<Served, 'folder'>> {
   const { preview } = await import('vite');
   const server = await preview({
     ...config,

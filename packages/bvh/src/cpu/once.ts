@@ -4,18 +4,18 @@ const limits = /* @__PURE__ */ new WeakMap<Uint32Array, number>();
 
 /**
  * One more than the largest triangle of a BLAS in which some triangle is in several leaves (it was cut into pieces); 0
- * for others. Computed once.
+ * for others. Looked up once.
  */
 function repeatsBelow({ triangleIndices }: Blas): number {
   let limit = limits.get(triangleIndices);
   if (limit === undefined) {
-    let end = 0;
-    for (let i = 0; i < triangleIndices.length; i++) end = Math.max(end, (triangleIndices[i] as number) + 1);
-    const seen = new Uint8Array(end);
+    let most = 0;
+    for (let i = 0; i < triangleIndices.length; i++) most = Math.max(most, (triangleIndices[i] as number) + 1);
+    const seen = new Uint8Array(most);
     limit = 0;
     for (let i = 0; i < triangleIndices.length; i++) {
       const triangle = triangleIndices[i] as number;
-      if (seen[triangle]) limit = end;
+      if (seen[triangle]) limit = most;
       seen[triangle] = 1;
     }
     limits.set(triangleIndices, limit);
@@ -24,7 +24,7 @@ function repeatsBelow({ triangleIndices }: Blas): number {
 }
 
 /**
- * Passes each triangle once a query, though it may be in several leaves. Serves any number of queries one after the
+ * Lets each triangle pass once a query, though it may be in several leaves. Serves any number of queries one after the
  * other and allocates only when a larger mesh comes.
  */
 export class Once {
@@ -33,7 +33,7 @@ export class Once {
   #instance = -1;
   #repeats = false;
 
-  /** Starts the next query. */
+  /** Forgets what has passed. */
   start(): void {
     this.#instance = -1;
   }

@@ -5,7 +5,7 @@ import type { TreeBuilder } from '../build/builder';
 import { BvhError } from '../error';
 import type { TeamMemory } from './team';
 
-/** Options as messages: functions cannot be cloned, so a builder from its own entry is sent by name. */
+/** Options as they cross the boundary: functions cannot, so a builder of an entry of its own goes by its name. */
 export type SentOptions = Omit<BlasOptions, 'builder'> & { readonly builder?: 'balanced' | TreeBuilder['name'] };
 
 export function sendableOptions({ builder, ...others }: BlasOptions): SentOptions {
@@ -15,7 +15,7 @@ export function sendableOptions({ builder, ...others }: BlasOptions): SentOption
 /** To a worker. */
 export type BuildRequest =
   | { readonly kind: 'build'; readonly id: number; readonly mesh: TriangleMesh; readonly options: SentOptions }
-  /** For one of two workers that build together; the mesh is in shared memory. */
+  /** One of two that build together; the mesh is in memory that both see. */
   | {
       readonly kind: 'together';
       readonly id: number;
@@ -26,20 +26,20 @@ export type BuildRequest =
     }
   | { readonly kind: 'warm-up' };
 
-/** From a worker. `ready` comes once, before all others. */
+/** From a worker. `ready` comes once, first of all. */
 export type BuildReply =
   | { readonly kind: 'ready' }
-  /** The warm-up has finished, or real builds have replaced it. */
+  /** Has run what it was to warm up with, or has had real work in its place. */
   | { readonly kind: 'warmed' }
   | { readonly kind: 'started'; readonly id: number }
   | { readonly kind: 'built'; readonly id: number; readonly blas: Blas }
-  /** The second of two has done its part, or has stopped because the first did. */
+  /** The second of two has done its part, or has stopped because the other one did. */
   | { readonly kind: 'helped'; readonly id: number }
   | { readonly kind: 'failed'; readonly id: number; readonly error: SentError };
 
-/** An error as a message: structured cloning would drop the class and the code. */
+/** What of an error crosses the boundary: structured cloning would drop the class and the code. */
 export interface SentError {
-  /** Absent: not a `GlanzError`. */
+  /** Absent: not one of ours. */
   readonly code?: string;
   readonly message: string;
 }

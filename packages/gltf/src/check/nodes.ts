@@ -10,7 +10,8 @@ const TRANSFORMS = [
 ] as const;
 
 /**
- * Checks the node tree: references, no cycles, one parent at most, numeric transforms. Returns repaired nodes.
+ * Checks the node tree: references, no node below itself or in two places, transforms of numbers. Returns repaired
+ * nodes.
  * @param meshes Checked.
  */
 export function checkNodes(
@@ -47,7 +48,7 @@ export function checkNodes(
   return checked;
 }
 
-/** Warns of a skin or weights that the node's mesh cannot use. */
+/** Warns of a skin or weights that the node's mesh has no use for. */
 function checkMeshParts(context: CheckContext, node: Raw, path: string, meshes: readonly Raw[]): void {
   const mesh = own(node, 'mesh');
   const primitives = typeof mesh === 'number' ? ((meshes[mesh] as Raw)['primitives'] as readonly Raw[]) : [];
@@ -85,7 +86,7 @@ function targetsOf([primitive]: readonly Raw[]): number {
   return Array.isArray(targets) ? targets.length : 0;
 }
 
-/** Whether a node (with one parent at most) is part of a cycle: walking up never ends. */
+/** A node with one parent at most lies in a circle if going up never ends. */
 function refuseCircles(context: CheckContext, parents: Int32Array): void {
   // The walk that has seen a node; nodes that an earlier walk has seen lead to a root.
   const walks = new Int32Array(parents.length).fill(-1);
@@ -165,14 +166,14 @@ function repairTransform(context: CheckContext, node: Raw, path: string): Raw {
   return repaired;
 }
 
-/** Attributes of instances, with their types. */
+/** What places instances, with the type of its values. */
 const PLACES: ReadonlyMap<string, string> = new Map([
   ['TRANSLATION', 'VEC3'],
   ['ROTATION', 'VEC4'],
   ['SCALE', 'VEC3'],
 ]);
 
-/** A node with valid attributes of EXT_mesh_gpu_instancing: each of its type, all of the same count. */
+/** A node with sound attributes of EXT_mesh_gpu_instancing: each of its type, all with as many entries. */
 function repairInstancing(
   context: CheckContext,
   node: Raw,

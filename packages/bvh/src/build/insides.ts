@@ -4,23 +4,23 @@ import type { Clusters } from './clusters';
 import type { NodeWriter } from './node-writer';
 import { NONE } from './gather';
 
-/** Maximum number of levels of nodes in a cluster. */
+/** Most levels of nodes in a cluster. */
 export const CLUSTER_DEPTH = 8;
 
 /**
- * Builds a small tree in each cluster, with leaves where they cost less than splitting, and appends its nodes and the
- * triangles of its leaves.
+ * Builds a small tree in each cluster, with leaves where they cost less than going on, and writes its nodes and the
+ * triangles of its leaves behind what is there.
  */
-export class ClusterTrees {
+export class Insides {
   readonly #clusters: Clusters;
   readonly #writer: NodeWriter;
   readonly #triangleIndices: Uint32Array;
   readonly #group: Agglomerator;
   readonly #below = new Uint8Array(2 * GROUP_MAX);
-  /** First primitive of the current cluster. */
+  /** First primitive of the cluster at work. */
   #first = 0;
   #size = 0;
-  /** Triangles written so far. */
+  /** Triangles that are written. */
   end = 0;
 
   /**
@@ -33,7 +33,7 @@ export class ClusterTrees {
     this.#group = new Agglomerator(maxLeaf);
   }
 
-  /** Builds the clusters from `from` up to `to`, and sets their boxes, weights and references. */
+  /** Does the clusters from one to another, and sets their boxes, weights and references. */
   build(from: number, to: number): void {
     const { boxes, weights, references, starts, primitives } = this.#clusters;
     const { names } = primitives,
