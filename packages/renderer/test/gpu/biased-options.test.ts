@@ -8,7 +8,7 @@ import { addQuad, camera, createScene, lambert, meanOf } from '../scenes';
 
 let device: GPUDevice;
 beforeAll(async () => {
-  device = await testDevice();
+  device = await testDevice({ driver: 'swiftshader' });
 });
 afterEach(() => expectNoGpuErrors());
 
