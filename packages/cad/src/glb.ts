@@ -1,14 +1,14 @@
 import type { Mesh, Scene } from '@glanz/scene';
 import { toGltfMaterial } from './gltf-material';
 
-/** What {@link writeGlb} may be told. */
+/** Options for {@link writeGlb}. */
 export interface GlbOptions {
   /** Leaves out all names. Default false. */
   readonly strip?: boolean;
 }
 
 /**
- * Writes geometry, materials without textures, and places as a GLB. Cameras, lights and surroundings are not written.
+ * Writes geometry, materials without textures, and places as a GLB. Cameras, lights and the environment are not written.
  *
  * @example
  * await writeFile('part.glb', writeGlb(scene));

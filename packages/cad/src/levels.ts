@@ -4,7 +4,7 @@ import { CadError } from './error';
 import { withSoundNormals } from './sound-normals';
 import { withUsedVertices } from './scene';
 
-/** What {@link levelsOfDetail} may be told. */
+/** Options for {@link levelsOfDetail}. */
 export interface LevelOptions {
   /** How many scenes come out, the first being the one given; default 3. */
   readonly levels?: number;

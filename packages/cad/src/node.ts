@@ -13,7 +13,7 @@ export async function openOcct(): Promise<unknown> {
   return create({ print: () => undefined, printErr: () => undefined });
 }
 
-/** What {@link convertCadFile} may be told. */
+/** Options for {@link convertCadFile}. */
 export interface ConvertCadOptions extends Pick<CadOptions, 'tolerance' | 'angularTolerance' | 'format'> {
   /**
    * Levels of detail; default 1. The first goes to `output`, others to the same name with `.lod1`, `.lod2` before the

@@ -30,7 +30,7 @@ export interface Occt {
   ReadBrepFile(bytes: Uint8Array, options: object): unknown;
 }
 
-/** What {@link readCad} may be told. */
+/** Options for {@link readCad}. */
 export interface CadOptions {
   /** Default: what the first bytes say. */
   readonly format?: 'step' | 'iges' | 'brep';

@@ -2,7 +2,7 @@ import { createScene, type Mesh, type Scene } from '@glanz/scene';
 import { materialOf, type CadMaterialMap } from './materials';
 import type { CadColor, CadModel, CadPart } from './read';
 
-/** What {@link cadToScene} may be told. */
+/** Options for {@link cadToScene}. */
 export interface CadSceneOptions {
   readonly materials?: CadMaterialMap;
   /**

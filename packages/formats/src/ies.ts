@@ -1,7 +1,7 @@
 import type { LightProfile } from '@glanz/scene';
 import { FormatError } from './error';
 
-/** What {@link readIes} may be told. */
+/** Options for {@link readIes}. */
 export interface IesOptions {
   /** What messages call the file. Default "IES". */
   readonly name?: string;

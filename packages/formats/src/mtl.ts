@@ -1,6 +1,6 @@
 import type { Material, TextureBinding, TextureChannels, TexturedParameter } from '@glanz/scene';
 
-/** A picture that an MTL file asks for. */
+/** An image that an MTL file asks for. */
 export interface MtlMap {
   readonly parameter: TexturedParameter;
   readonly channels: TextureChannels;

@@ -4,10 +4,10 @@ import { readObj, type ObjOptions } from './obj';
 import type { PictureDecoder } from './resources';
 import { readStl } from './stl';
 
-/** What {@link loadModelFile} may be told. */
+/** Options for {@link loadModelFile}. */
 export type LoadModelOptions = Omit<ObjOptions, 'read' | 'name'>;
 
-/** Decodes pictures with the optional package `sharp`. */
+/** Decodes images with the optional package `sharp`. */
 const decodeWithSharp: PictureDecoder = async (bytes) => {
   const { default: sharp } = await import('sharp').catch((cause: unknown) => {
     throw new FormatError(
@@ -32,7 +32,7 @@ const decodeWithSharp: PictureDecoder = async (bytes) => {
 export const isModelFile = (path: string): boolean => /\.(obj|stl)$/i.test(path);
 
 /**
- * Loads an `.obj` or `.stl` file in Node, with the materials and pictures beside it. Files outside its folder are not
+ * Loads an `.obj` or `.stl` file in Node, with the materials and images beside it. Files outside its folder are not
  * read.
  *
  * @throws {FormatError} See its codes.

@@ -7,16 +7,16 @@ import { pathWithin, type PictureDecoder, type ResourceReader } from './resource
 import { smoothNormals } from './smooth';
 import { triangulate } from './triangulate';
 
-/** What {@link readObj} may be told. */
+/** Options for {@link readObj}. */
 export interface ObjOptions {
   /** What messages call the file. Default "OBJ". */
   readonly name?: string;
   /**
-   * Reads the MTL files and the pictures beside the document. Default: nothing is there, and the material is the
+   * Reads the MTL files and the images beside the document. Default: nothing is there, and the material is the
    * default one.
    */
   readonly read?: ResourceReader;
-  /** Decodes pictures. Default: they are left out, with a warning. */
+  /** Decodes images. Default: they are left out, with a warning. */
   readonly decodeImage?: PictureDecoder;
   /** Which axis of the file points up; default `y`. */
   readonly up?: 'y' | 'z';

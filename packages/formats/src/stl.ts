@@ -3,7 +3,7 @@ import { FormatError } from './error';
 import { MeshBuilder } from './mesh-builder';
 import { orientation } from './orientation';
 
-/** What {@link readStl} may be told. */
+/** Options for {@link readStl}. */
 export interface StlOptions {
   /** What messages and the mesh are called. Default: the name in the file, or "STL". */
   readonly name?: string;

@@ -5,7 +5,7 @@ const decode = (value: number) => (value <= 0.04045 ? value / 12.92 : ((value + 
 const encode = (value: number) => (value <= 0.0031308 ? 12.92 * value : 1.055 * value ** (1 / 2.4) - 0.055);
 
 /**
- * Makes the picture that a conversion asks for, as large as the largest of its sources; those that are missing are
+ * Makes the image that a conversion asks for, as large as the largest of its sources; those that are missing are
  * white.
  */
 export function convertPicture(

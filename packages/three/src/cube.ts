@@ -1,7 +1,7 @@
 import type { LatLongEnvironment } from '@glanz/scene';
 
 /**
- * Six square pictures of `size`² texels, linear RGB, first row at the top, in the order +X, −X, +Y, −Y, +Z, −Z of their
+ * Six square images of `size`² texels, linear RGB, first row at the top, in the order +X, −X, +Y, −Y, +Z, −Z of their
  * names.
  */
 export interface Cube {
@@ -35,7 +35,7 @@ export function cubePlace(x: number, y: number, z: number): readonly [face: numb
 const SAMPLES = 4;
 
 /**
- * A cube as a latitude-longitude picture of about as many texels around the horizon; each is the mean of 16 samples.
+ * A cube as a latitude-longitude image of about as many texels around the horizon; each is the mean of 16 samples.
  */
 export function readCube({ size, faces }: Cube): LatLongEnvironment {
   const [width, height] = [4 * size, 2 * size];

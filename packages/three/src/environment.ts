@@ -4,10 +4,10 @@ import type { Ambience } from './lights';
 import type { Textures } from './textures';
 import type { Loose, ThreeObject, ThreeTexture } from './types';
 
-/** Mappings of three: equirectangular pictures, cubes, and cubes that its renderer has blurred on the GPU. */
+/** Mappings of three: equirectangular images, cubes, and cubes that its renderer has blurred on the GPU. */
 const [EQUIRECTANGULAR, CUBE, PREFILTERED] = [[303, 304], [301, 302], 306];
 
-/** The surroundings of a THREE.Scene, with its ambient light; `undefined` where there is neither. */
+/** The environment of a THREE.Scene, with its ambient light; `undefined` where there is neither. */
 export async function readEnvironment(
   root: ThreeObject,
   ambience: Ambience,
@@ -52,7 +52,7 @@ function ambient({ above, below }: Ambience, visible: boolean): Environment {
   return { type: 'latlong', width, height, data, visible };
 }
 
-/** The surroundings that a texture shows; `undefined`, with a warning, where its picture cannot be had. */
+/** The environment that a texture shows; `undefined`, with a warning, where its image cannot be had. */
 async function readPicture(
   texture: ThreeTexture,
   scene: Scene,
@@ -93,7 +93,7 @@ async function readPicture(
     );
   const { width, height } = picture;
   const rgb = radianceOf(picture, texture);
-  // Raw numbers run upwards in three, unless it is told to turn them over; pictures of the browser have their first row
+  // Raw numbers run upwards in three, unless it is told to turn them over; images of the browser have their first row
   // at the top then.
   if (texture.flipY) return { type: 'latlong', width, height, data: rgb };
   const data = new Float32Array(rgb.length);
@@ -104,7 +104,7 @@ async function readPicture(
 
 type Pixels = Pick<Image, 'width' | 'height' | 'data'>;
 
-/** The six pictures of a cube: elements, raw numbers, or textures with either. */
+/** The six images of a cube: elements, raw numbers, or textures with either. */
 function facesOf(texture: ThreeTexture): unknown[] {
   const list = (texture.source?.data ?? texture.image) as unknown;
   return Array.isArray(list)
@@ -114,7 +114,7 @@ function facesOf(texture: ThreeTexture): unknown[] {
     : [];
 }
 
-/** Linear RGB of a picture, rows as they are in memory. */
+/** Linear RGB of an image, rows as they are in memory. */
 function radianceOf({ width, height, data }: Pixels, texture: ThreeTexture): Float32Array<ArrayBuffer> {
   const out = new Float32Array(width * height * 3);
   const bytes = !(data instanceof Float32Array);

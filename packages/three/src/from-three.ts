@@ -10,11 +10,11 @@ import { numbersFrom } from './matrix';
 import { Textures, type ReadImage } from './textures';
 import type { Color, Matrix, ThreeCamera, ThreeMaterial, ThreeMesh, ThreeObject } from './types';
 
-/** What {@link fromThree} may be told. */
+/** Options for {@link fromThree}. */
 export interface FromThreeOptions {
   readonly signal?: AbortSignal;
   /**
-   * Gives the pixels of a picture that only the host can read: of a texture that a loader in Node made, or of a
+   * Gives the pixels of an image that only the host can read: of a texture that a loader in Node made, or of a
    * compressed one. `undefined` leaves it to the browser.
    */
   readonly readImage?: ReadImage;

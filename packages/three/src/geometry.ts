@@ -12,7 +12,7 @@ export interface Part {
 
 /** How a part is to be read. */
 export interface PartOptions {
-  /** Texture coordinates have their origin at the bottom, as pictures that three turns over want them. */
+  /** Texture coordinates have their origin at the bottom, as images that three turns over want them. */
   readonly flipV: boolean;
   /** Vertex colours count. */
   readonly colors: boolean;

@@ -6,7 +6,7 @@ type Rgb = [number, number, number];
 
 const scaled = ({ r, g, b }: Color, k: number): Rgb => [r * k, g * k, b * k];
 
-/** Light without a place, which adds up to surroundings: radiance from above and from below. */
+/** Ambient light, as an environment: radiance from above and from below. */
 export class Ambience {
   readonly above: Rgb = [0, 0, 0];
   readonly below: Rgb = [0, 0, 0];

@@ -21,7 +21,7 @@ interface Reference extends GltfTextureReference {
 }
 
 /**
- * Whether three turns a material's pictures over, as all but loaders of glTF let it. Of several that differ the first
+ * Whether three turns a material's images over, as all but loaders of glTF let it. Of several that differ the first
  * decides.
  */
 export function flipsOf(material: ThreeMaterial): boolean {
@@ -54,7 +54,7 @@ export class Materials {
     const key = [material.uuid, flipped, hasTangents, tint ? [tint.r, tint.g, tint.b] : ''].join(' ');
     let made = this.#made.get(key);
     if (!made) {
-      // Its place is taken now, so that the order does not depend on pictures.
+      // Its place is taken now, so that the order does not depend on images.
       const index = this.#scene.materials.push({ name: material.name || material.type, parameters: {} }) - 1;
       made = this.#convert(material, flipped, hasTangents, tint).then((converted) => {
         this.#scene.materials[index] = converted;
@@ -123,7 +123,7 @@ export class Materials {
     for (const { path, reason } of lost) warn(`${path} ${reason}`);
     const metalnessMap = read.texture('metalnessMap');
     for (const { parameter, texture, channels, colorSpace, ...more } of uses) {
-      // glTF has both in one picture; three may have one of them, or two.
+      // glTF has both in one image; three may have one of them, or two.
       if (parameter === 'base_metalness') continue;
       await bind(parameter, (texture as Reference).map, channels, colorSpace, more);
     }

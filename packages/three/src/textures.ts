@@ -7,7 +7,7 @@ const WRAPS: Readonly<Record<number, WrapMode>> = { 1000: 'repeat', 1001: 'clamp
 const NEAREST = 1003;
 const HALF_FLOAT = 1016;
 
-/** Gives the pixels of a texture's picture: for pictures that only the host can read. */
+/** Gives the pixels of a texture's image: for images that only the host can read. */
 export type ReadImage = (
   image: unknown,
   texture: object,
@@ -50,7 +50,7 @@ export function floatsOf({ data, width, height }: Raw, type: number): Float32Arr
   return out;
 }
 
-/** The scene's textures and pictures, each once. */
+/** The scene's textures and images, each once. */
 export class Textures {
   readonly #scene: Scene;
   readonly #read: ReadImage | undefined;
@@ -63,7 +63,7 @@ export class Textures {
   }
 
   /**
-   * Index of a texture as it is read in a colour space; `undefined`, with a warning, where its picture cannot be had.
+   * Index of a texture as it is read in a colour space; `undefined`, with a warning, where its image cannot be had.
    */
   async get(texture: ThreeTexture, colorSpace: Texture['color_space']): Promise<number | undefined> {
     const key = `${texture.uuid} ${colorSpace}`;
@@ -86,7 +86,7 @@ export class Textures {
     return index;
   }
 
-  /** A texture of a picture that is made here. */
+  /** A texture of an image that is made here. */
   add(image: Image, like: ThreeTexture, colorSpace: Texture['color_space']): number {
     return (
       this.#scene.textures.push({
@@ -98,13 +98,13 @@ export class Textures {
     );
   }
 
-  /** The picture of a texture. */
+  /** The image of a texture. */
   async imageOf(texture: ThreeTexture): Promise<Image | undefined> {
     const index = await this.#image(texture);
     return index === undefined ? undefined : this.#scene.images[index];
   }
 
-  /** Pixels of a picture that becomes no texture, as they are in memory; `undefined` where they cannot be had. */
+  /** Pixels of an image that becomes no texture, as they are in memory; `undefined` where they cannot be had. */
   pixelsOf(source: unknown, texture: ThreeTexture): Promise<Pick<Image, 'width' | 'height' | 'data'> | undefined> {
     return this.#readImage(texture, source).catch(() => undefined);
   }
@@ -170,8 +170,8 @@ export class Textures {
 }
 
 /**
- * Maps the mesh's coordinates, which are turned over with `flipped`, to the place in a picture whose first row is at
- * the top: through the texture's own matrix, and turned over if three turns the picture over.
+ * Maps the mesh's coordinates, which are turned over with `flipped`, to the place in an image whose first row is at
+ * the top: through the texture's own matrix, and turned over if three turns the image over.
  */
 export function uvTransformOf(texture: ThreeTexture, flipped: boolean): TextureBinding['transform'] {
   if (texture.matrixAutoUpdate) texture.updateMatrix();
