@@ -1,13 +1,13 @@
 import { blasSteps, type Blas, type BlasOptions } from './blas';
 import type { TriangleMesh } from './layout';
 
-/** What {@link buildBlasAsync} may be told besides the options of `buildBlas`. */
+/** Options for {@link buildBlasAsync}, besides those of `buildBlas`. */
 export interface AsyncBuildOptions extends BlasOptions {
-  /** Gives up: the promise rejects with the signal's reason within a slice. */
+  /** Cancels: the promise rejects with the signal's reason within a slice. */
   readonly signal?: AbortSignal | undefined;
-  /** Told the share that is done, 0..1, after each slice; the last is 1. */
+  /** Called after each slice with the completed fraction, 0..1; the last is 1. */
   readonly onProgress?: ((done: number) => void) | undefined;
-  /** The thread is handed back after so many milliseconds; a slice ends up to a few milliseconds later. Default 6. */
+  /** Length of a slice, milliseconds; it may overrun by a few. Default 6. */
   readonly sliceMs?: number;
 }
 
@@ -21,8 +21,8 @@ export function yieldToEventLoop(): Promise<void> {
 }
 
 /**
- * Builds the same hierarchy as `buildBlas`, on the calling thread in slices, so that a page stays responsive where no
- * worker can be had. The mesh must stay as it is until the promise settles.
+ * Builds the same hierarchy as `buildBlas`, on the calling thread in slices, so that a page stays responsive where
+ * workers are unavailable. The mesh must not change until the promise settles.
  *
  * @throws {BvhError} as `buildBlas` does.
  * @throws the signal's reason when aborted, or what `onProgress` throws.

@@ -3,17 +3,17 @@ import type { TreeBuilder } from './build/builder';
 import { BvhError } from './error';
 import { type Aabb, LEAF_MAX, MAX_PRIMITIVES, TRIANGLE_WORDS, type TriangleMesh } from './layout';
 
-/** What {@link buildBlas} may be told. */
+/** Options for {@link buildBlas}. */
 export interface BlasOptions {
   /**
    * How to build. `balanced` (default): by surface area heuristic. `fast` of `@glanz/bvh/fast`: a third of the time,
    * for meshes that change every frame. `best` and `bestSplit` of `@glanz/bvh/best`: several times as long, for
-   * pictures that take longer to render than a tree to build.
+   * images that take longer to render than a tree to build.
    */
   readonly builder?: 'balanced' | TreeBuilder;
-  /** Most triangles in a leaf, 1 to 16. Default 4. */
+  /** Maximum number of triangles in a leaf, 1 to 16. Default 4. */
   readonly maxLeafTriangles?: number;
-  /** Candidate planes per axis are one less than this; 2 to 64. Default 32. Not looked at by `fast`. */
+  /** Candidate planes per axis are one less than this; 2 to 64. Default 32. Ignored by `fast`. */
   readonly bins?: number;
 }
 
@@ -27,7 +27,7 @@ export interface Blas {
   readonly nodeCount: number;
   /**
    * Leaf order → triangle of the mesh. Triangles with a coordinate that is not finite are left out: nothing ever hits
-   * them. Each of the others is there once, or several times after `bestSplit`.
+   * them. Every other triangle appears once, or several times after `bestSplit`.
    */
   readonly triangleIndices: Uint32Array<ArrayBuffer>;
   /** Box of all triangles; min > max if there are none. */
@@ -40,8 +40,8 @@ function whole(name: string, value: number, min: number, max: number): void {
 }
 
 /**
- * Builds the hierarchy of a mesh's triangles. Deterministic. No way from the root has more than `BLAS_MAX_DEPTH` inner
- * nodes, whatever the triangles. The mesh is read, not kept.
+ * Builds the hierarchy of a mesh's triangles. Deterministic. No path from the root has more than `BLAS_MAX_DEPTH` inner
+ * nodes, whatever the triangles. The mesh is not retained.
  *
  * @throws {BvhError} `bvh/positions` or `bvh/indices` for arrays of a wrong length or indices out of range,
  * `bvh/too-many` beyond 134 million triangles, `bvh/options`.
@@ -56,8 +56,8 @@ export function buildBlas(mesh: TriangleMesh, options: BlasOptions = {}): Blas {
 }
 
 /**
- * The same as {@link buildBlas} in steps of a few milliseconds, for schedules of your own; each yields the share that
- * is done, 0..1. `buildBlasAsync` of `@glanz/bvh/async` is one. The mesh must stay as it is until the last step.
+ * The same as {@link buildBlas} in steps of a few milliseconds, for your own scheduling; each yields the completed
+ * fraction, 0..1. `buildBlasAsync` of `@glanz/bvh/async` uses it. The mesh must not change until the last step.
  *
  * @throws {BvhError} as `buildBlas`, at the first step or a later one.
  */
@@ -90,7 +90,7 @@ export function* blasSteps(mesh: TriangleMesh, options: BlasOptions = {}): Gener
 }
 
 /**
- * The triangles of a BLAS in leaf order, as the WGSL traversal wants them.
+ * The triangles of a BLAS in leaf order, as the WGSL traversal reads them.
  *
  * @param blas In either layout.
  * @returns 12 words a triangle: v0 xyz and the index of the triangle in the mesh (as u32 bits), v1 xyz and 0, v2 xyz

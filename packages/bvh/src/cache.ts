@@ -3,21 +3,20 @@ import type { TriangleMesh } from './layout';
 import { deserializeBlas, serializeBlas, SERIALIZED_VERSION } from './serialize';
 
 /**
- * Where hierarchies are kept: a database of the browser (`@glanz/bvh/indexed-db`), a file (`@glanz/bvh/node`), your
- * server.
+ * Storage for hierarchies: IndexedDB (`@glanz/bvh/indexed-db`), a file (`@glanz/bvh/node`), your server.
  */
 export interface BlasStore {
   /** The bytes last set for a key; undefined if there are none. */
   get(key: string): Promise<ArrayBuffer | Uint8Array | undefined>;
-  /** Keeps bytes; may forget older ones. */
+  /** Stores bytes; may evict older ones. */
   set(key: string, bytes: ArrayBuffer): Promise<void>;
 }
 
 /** What a {@link BlasCache} passes on, besides the options of `buildBlas`. */
 export interface CacheBuildOptions extends BlasOptions {
-  /** Gives up: the promise rejects with the signal's reason. */
+  /** Cancels: the promise rejects with the signal's reason. */
   readonly signal?: AbortSignal | undefined;
-  /** Told the share of the work that is done, 0 to 1. */
+  /** Called with the completed fraction, 0 to 1. */
   readonly onProgress?: ((done: number) => void) | undefined;
 }
 
@@ -26,17 +25,17 @@ export interface BlasSource {
   buildBlas(mesh: TriangleMesh, options: CacheBuildOptions): Promise<Blas> | Blas;
 }
 
-/** What {@link BlasCache} may be told. */
+/** Options for {@link BlasCache}. */
 export interface BlasCacheOptions {
   /** Meshes with fewer triangles are built each time, which takes no longer than looking them up. Default 20,000. */
   readonly minTriangles?: number;
-  /** Told of whatever went wrong with the store; builds go on without it. Default: nobody is told. */
+  /** Called with every error of the store; builds continue without it. Default: errors are ignored. */
   readonly onError?: ((error: unknown) => void) | undefined;
 }
 
 /**
  * The key of a mesh's hierarchy: SHA-256 of the positions, the indices, the options and the version of the format, as
- * hex digits. Undefined where there is no Web Crypto (pages that are not secure).
+ * hex digits. Undefined where there is no Web Crypto (insecure contexts).
  */
 export async function blasKey(mesh: TriangleMesh, options: BlasOptions = {}): Promise<string | undefined> {
   const subtle = globalThis.crypto?.subtle;
@@ -68,9 +67,9 @@ export async function blasKey(mesh: TriangleMesh, options: BlasOptions = {}): Pr
 }
 
 /**
- * Builds hierarchies through a store: what was built once for the same mesh and options is read instead. It has the
- * `buildBlas` of `BvhWorkers` and can stand in its place, as the `hierarchies` of `PathTracer.create` for one. What the
- * store gives is checked; where it is damaged or the store fails, the hierarchy is built.
+ * Caches hierarchies in a store: one that was built before for the same mesh and options is read instead. It has the
+ * `buildBlas` of `BvhWorkers` and can replace it, for example as the `hierarchies` of `PathTracer.create`. Stored bytes
+ * are validated; where they are damaged or the store fails, the hierarchy is built.
  *
  * @example
  * const workers = await BvhWorkers.create();
@@ -78,9 +77,9 @@ export async function blasKey(mesh: TriangleMesh, options: BlasOptions = {}): Pr
  * const tracer = await PathTracer.create(device, scene, { width, height, hierarchies });
  */
 export class BlasCache {
-  /** Hierarchies that came out of the store so far. */
+  /** Hierarchies read from the store so far. */
   hits = 0;
-  /** Hierarchies that had to be built so far, small ones included. */
+  /** Hierarchies built so far, small ones included. */
   misses = 0;
   readonly #store: BlasStore;
   readonly #builder: BlasSource;
@@ -96,10 +95,10 @@ export class BlasCache {
   }
 
   /**
-   * The hierarchy of a mesh, read or built. The mesh must stay as it is until the promise settles. Options go to the
-   * builder as they are.
+   * The hierarchy of a mesh, read or built. The mesh must not change until the promise settles. Options are passed to
+   * the builder.
    *
-   * @throws whatever the builder throws; the signal's reason when aborted.
+   * @throws What the builder throws, or the signal's reason when aborted.
    */
   async buildBlas(mesh: TriangleMesh, options: CacheBuildOptions = {}): Promise<Blas> {
     const { signal, onProgress, ...own } = options;
@@ -126,7 +125,7 @@ export class BlasCache {
   }
 
   /**
-   * Resolves when everything that was built so far has been written, or has failed to be. Await it before a process
+   * Resolves when every hierarchy built so far has been written, or its write has failed. Await it before a process
    * ends.
    */
   async written(): Promise<void> {

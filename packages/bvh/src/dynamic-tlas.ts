@@ -19,10 +19,10 @@ import { REBUILD_ABOVE } from './refit-quality';
 import type { Tlas } from './tlas';
 import { checkTransform, placeInstance, type TlasInstance } from './place-instance';
 
-/** Updates of more than this part of the instances rebuild the hierarchy at once. */
+/** Updates of more than this fraction of the instances rebuild the hierarchy at once. */
 const REBUILD_PART = 1 / 4;
 /** Fewer changes than this never lead to a rebuild. */
-const REBUILD_LEAST = 64;
+const REBUILD_MIN = 64;
 
 /** The slot that stands for a new root above the present one. */
 const ABOVE_ROOT = -1;
@@ -36,10 +36,10 @@ const surface = (x: number, y: number, z: number): number => x * y + y * z + z *
 
 /**
  * A TLAS that changes in place: moving, adding or removing one of `n` instances costs about log n, where `buildTlas`
- * costs n. Takes part in every query as the TLAS of `buildTlas` does, and finds the same hits. Deterministic: the same
+ * costs n. Every query accepts it like the TLAS of `buildTlas`, and finds the same hits. Deterministic: the same
  * changes give the same nodes.
  *
- * A removed leaf leaves its place to its sibling; an added one goes where it enlarges the boxes least, found by branch
+ * A removed leaf is replaced by its sibling; an added one goes where it enlarges the boxes least, found by branch
  * and bound (Bittner, Hapala and Havran 2013, "Fast Insertion-Based Optimization of Bounding Volume Hierarchies"). An
  * instance that moves within its parent's box is refitted, any other is removed and added. The whole is rebuilt when
  * the surface area cost has risen by half, after as many changes as there are instances, and for an update of more than
@@ -56,7 +56,7 @@ export class DynamicTlas implements Tlas {
   /** 12 numbers an instance, as in {@link Tlas.toObject}; only those of instances that can be hit mean anything. */
   readonly toObject: Float64Array<ArrayBuffer>;
   readonly bounds: Aabb = { min: new Float32Array(3), max: new Float32Array(3) };
-  /** Memory for as many nodes as there may be. */
+  /** Memory for the maximum number of nodes. */
   #memory: Float32Array<ArrayBuffer>;
   #words: Uint32Array<ArrayBuffer>;
   #nodes: Float32Array<ArrayBuffer>;
@@ -64,7 +64,7 @@ export class DynamicTlas implements Tlas {
   #count = 0;
   /** By instance: the word of the reference to it; −1 where it is not in the tree. */
   readonly #slots: Int32Array;
-  /** By node: inner nodes on the longest way down, itself included. */
+  /** By node: inner nodes on the longest path down, itself included. */
   readonly #heights: Uint8Array;
   /** Sum of half the surfaces of all boxes but the root's, and what the cost was after the last build. */
   #surfaces = 0;
@@ -72,13 +72,13 @@ export class DynamicTlas implements Tlas {
   #changes = 0;
   readonly #changed: number[] = [];
   readonly #isChanged: Uint8Array;
-  /** The box of the instance at work: min xyz, max xyz. */
+  /** The box of the current instance: min xyz, max xyz. */
   readonly #box = new Float32Array(6);
-  /** A box on its way into a slot. */
+  /** Temporary box to be written into a slot. */
   readonly #fitted = new Float32Array(6);
 
   /**
-   * @param instances What can be hit. `undefined`: not in the hierarchy for now, but may be put into it by
+   * @param instances What can be hit. `undefined`: not in the hierarchy for now, but may be added by
    * {@link update}.
    * @throws {BvhError} `bvh/transform` for a transform without 16 numbers, `bvh/too-many` beyond 4 million instances.
    */
@@ -129,10 +129,10 @@ export class DynamicTlas implements Tlas {
   /**
    * Moves, adds and removes instances.
    *
-   * @param changes The number of an instance and where it is now; `undefined` takes it out. The last word on an
+   * @param changes The number of an instance and where it is now; `undefined` removes it. The last change to an
    * instance counts.
-   * @throws {BvhError} `bvh/instance` for a number that was not given to the constructor, `bvh/transform`. Nothing has
-   * changed then.
+   * @throws {BvhError} `bvh/instance` for a number that was not given to the constructor, `bvh/transform`. The
+   * hierarchy is then unchanged.
    */
   update(changes: readonly (readonly [instance: number, placing: TlasInstance | undefined])[]): void {
     for (const [instance, placing] of changes) {
@@ -144,21 +144,21 @@ export class DynamicTlas implements Tlas {
       if (placing) checkTransform(placing, instance);
     }
     this.#changes += changes.length;
-    const least = Math.max(REBUILD_LEAST, this.#count);
-    if (changes.length > Math.max(REBUILD_LEAST, this.#slots.length * REBUILD_PART)) return this.#rebuild(changes);
+    const limit = Math.max(REBUILD_MIN, this.#count);
+    if (changes.length > Math.max(REBUILD_MIN, this.#slots.length * REBUILD_PART)) return this.#rebuild(changes);
     for (let i = 0; i < changes.length; i++) {
       const [instance, placing] = changes[i] as (typeof changes)[number];
       if (!this.#change(instance, placing)) return this.#rebuild(changes.slice(i));
     }
     if (
-      this.#changes >= least ||
-      (this.#changes >= Math.max(REBUILD_LEAST, least / 16) && this.#cost() > REBUILD_ABOVE * this.#builtCost)
+      this.#changes >= limit ||
+      (this.#changes >= Math.max(REBUILD_MIN, limit / 16) && this.#cost() > REBUILD_ABOVE * this.#builtCost)
     )
       this.#rebuild([]);
     else this.#finish();
   }
 
-  /** The nodes that were written since this was last asked for, rising; at first, all of them. For uploads. */
+  /** The nodes written since the last call, in ascending order; at first, all of them. For uploads. */
   takeChangedNodes(): Uint32Array<ArrayBuffer> {
     const changed = Uint32Array.from(this.#changed.filter((node) => node < this.#nodeCount)).sort();
     for (const node of this.#changed) this.#isChanged[node] = 0;
@@ -166,7 +166,7 @@ export class DynamicTlas implements Tlas {
     return changed;
   }
 
-  /** False where the depth does not suffice: the hierarchy is then whole, without the instance. */
+  /** False where the tree would get too deep: it is then valid, without the instance. */
   #change(instance: number, placing: TlasInstance | undefined): boolean {
     const box = this.#box;
     const slot = this.#slots[instance] as number;
@@ -186,7 +186,7 @@ export class DynamicTlas implements Tlas {
     return this.#insert(instance);
   }
 
-  /** Whether the box at work lies within that of the node which holds a slot. */
+  /** Whether the current box lies within that of the node which holds a slot. */
   #staysInside(slot: number): boolean {
     const box = this.#box,
       memory = this.#memory;
@@ -233,7 +233,7 @@ export class DynamicTlas implements Tlas {
     this.#mark(slot >>> 4);
   }
 
-  /** Copies reference and box of one slot to another, and tells what is referred to where it is now. */
+  /** Copies reference and box of one slot to another, and updates the back reference. */
   #copySlot(from: number, to: number): void {
     const memory = this.#memory;
     const a = boxAt(from),
@@ -247,7 +247,7 @@ export class DynamicTlas implements Tlas {
     this.#refer(to, this.#words[from] as number);
   }
 
-  /** Writes a reference, and where it is into what it refers to. */
+  /** Writes a reference, and the back reference of its target. */
   #refer(slot: number, reference: number): void {
     this.#words[slot] = reference;
     this.#mark(slot >>> 4);
@@ -264,7 +264,7 @@ export class DynamicTlas implements Tlas {
     this.#words[slot] = reference;
   }
 
-  /** A new node without surface, to be filled by its maker. */
+  /** A new node of zero surface, to be filled by the caller. */
   #newNode(): number {
     const node = this.#nodeCount++;
     this.#memory.fill(0, node * NODE_WORDS, (node + 1) * NODE_WORDS);
@@ -315,7 +315,7 @@ export class DynamicTlas implements Tlas {
     this.#refit(this.#freeNode(node, above >>> 4));
   }
 
-  /** Puts the box at work into the tree. False where the depth does not suffice. */
+  /** Inserts the current box. False where the tree would get too deep. */
   #insert(instance: number): boolean {
     const reference = leafReference(instance, 1);
     if (this.#count < 2) {
@@ -355,7 +355,7 @@ export class DynamicTlas implements Tlas {
     return reference < LEAF ? (this.#heights[reference] as number) : 0;
   }
 
-  /** Half the surface of the box around that of a slot and the one at work. */
+  /** Half the surface of the union of a slot's box and the current one. */
   #surfaceWith(slot: number): number {
     const memory = this.#memory,
       box = this.#box,
@@ -366,7 +366,7 @@ export class DynamicTlas implements Tlas {
     return surface(side(0), side(1), side(2));
   }
 
-  /** Where the box at work adds least to the surfaces: its sibling-to-be. */
+  /** The slot where the current box adds least to the surfaces: its future sibling. */
   #bestSlot(): number {
     const words = this.#words;
     const own = surface(
@@ -405,7 +405,7 @@ export class DynamicTlas implements Tlas {
     return best;
   }
 
-  /** Fits boxes and heights from a node up to the root, or to where nothing changes any more. */
+  /** Fits boxes and heights from a node up to the root, or to where nothing changes. */
   #refit(node: number): void {
     const words = this.#words,
       memory = this.#memory,
@@ -438,7 +438,7 @@ export class DynamicTlas implements Tlas {
     return surface(side(0), side(1), side(2));
   }
 
-  /** The surface area cost, but for what is the same in all trees. */
+  /** The surface area cost, without the terms that are the same in all trees. */
   #cost(): number {
     const root = this.#rootSurface();
     return root > 0 ? this.#surfaces / root : 0;

@@ -2,7 +2,7 @@ import { GlanzError } from '@glanz/wgsl/error';
 
 /**
  * Thrown by everything in this package. Codes: `bvh/positions`, `bvh/indices`, `bvh/transform`, `bvh/instance`,
- * `bvh/too-many`, `bvh/options`, `bvh/batch`, `bvh/region`, `bvh/worker`, `bvh/destroyed`; of what is read back:
- * `bvh/not-serialized`, `bvh/version`, `bvh/truncated`, `bvh/checksum`, `bvh/corrupt`, `bvh/other-mesh`.
+ * `bvh/too-many`, `bvh/options`, `bvh/batch`, `bvh/region`, `bvh/worker`, `bvh/destroyed`; when reading stored
+ * hierarchies: `bvh/not-serialized`, `bvh/version`, `bvh/truncated`, `bvh/checksum`, `bvh/corrupt`, `bvh/other-mesh`.
  */
 export class BvhError extends GlanzError {}

@@ -1,10 +1,10 @@
 import type { BlasStore } from './cache';
 
-/** What {@link openIndexedDbStore} may be told. */
+/** Options for {@link openIndexedDbStore}. */
 export interface IndexedDbStoreOptions {
   /** Name of the database. Default `glanz-bvh`. */
   readonly name?: string;
-  /** The hierarchies used longest ago are forgotten beyond so many bytes. Default 256 MiB. */
+  /** Beyond this many bytes, the least recently used hierarchies are evicted. Default 256 MiB. */
   readonly maxBytes?: number;
   /** Default: the browser's. */
   readonly indexedDB?: IDBFactory;
@@ -12,9 +12,9 @@ export interface IndexedDbStoreOptions {
 
 /** A {@link BlasStore} in the browser's database. */
 export interface IndexedDbStore extends BlasStore {
-  /** Forgets everything. */
+  /** Deletes all entries. */
   clear(): Promise<void>;
-  /** Ends the connection; the store is of no use afterwards. */
+  /** Closes the connection; the store cannot be used afterwards. */
   close(): void;
 }
 

@@ -11,13 +11,13 @@ export const NODE_WORDS = 16;
 /** 32-bit words of a packed triangle. */
 export const TRIANGLE_WORDS = 12;
 
-/** Inner nodes on the longest way from the root of a BLAS to a leaf, at most. */
+/** Maximum number of inner nodes on a path from the root of a BLAS to a leaf. */
 export const BLAS_MAX_DEPTH = 40;
 
-/** Inner nodes on the longest way from the root of a TLAS to a leaf, at most. */
+/** Maximum number of inner nodes on a path from the root of a TLAS to a leaf. */
 export const TLAS_MAX_DEPTH = 22;
 
-/** Entries that a stack needs to go through both levels, the two end marks included. */
+/** Stack entries needed to traverse both levels, the two end marks included. */
 export const BVH_STACK_SIZE = BLAS_MAX_DEPTH + TLAS_MAX_DEPTH + 2;
 
 /** Set in a reference to a leaf. */
@@ -26,10 +26,10 @@ export const LEAF = 0x80000000;
 /** Bits of a leaf's first primitive. */
 export const LEAF_FIRST_BITS = 27;
 
-/** Most primitives that a leaf can hold. */
+/** Maximum number of primitives in a leaf. */
 export const LEAF_MAX = 16;
 
-/** Most primitives of one hierarchy. */
+/** Maximum number of primitives in one hierarchy. */
 export const MAX_PRIMITIVES = 2 ** LEAF_FIRST_BITS - LEAF_MAX;
 
 /** Coordinate of the empty box: a point that no ray reaches. */

@@ -4,12 +4,12 @@ import type { BlasStore } from './cache';
 const MAGIC = 0x4c564247; // "GBVL" in little-endian bytes
 
 /**
- * A {@link BlasStore} in one file beside a model, for `BlasCache` of `@glanz/bvh/cache`. The file is read at the first
- * question and written as a whole, first under another name, so that it is never half there. Two processes may use it:
- * the last one to write wins. A file that is damaged counts as empty, or as what can still be read.
+ * A {@link BlasStore} in one file beside a model, for `BlasCache` of `@glanz/bvh/cache`. The file is read on first
+ * use and written as a whole, first under another name, so that it is never incomplete. Two processes may use it: the
+ * last one to write wins. A file that is damaged counts as empty, or as what can still be read.
  *
  * @param path E.g. `model.glb.bvh`.
- * @param options `maxBytes`: beyond so many bytes, hierarchies used longest ago are left out of the file. Default 256
+ * @param options `maxBytes`: beyond this many bytes, the least recently used hierarchies are evicted. Default 256
  * MiB.
  * @example
  * const hierarchies = new BlasCache(fileStore('model.glb.bvh'), await BvhWorkers.create());
@@ -53,7 +53,7 @@ export function fileStore(path: string, { maxBytes = 256 * 2 ** 20 }: { readonly
       const kept = await entries();
       kept.delete(key);
       kept.set(key, new Uint8Array(bytes));
-      // Whatever comes while a write is under way goes into the next one together.
+      // Entries that arrive during a write are combined into the next one.
       waiting ??= (writing ?? Promise.resolve())
         .catch(() => undefined)
         .then(() => {

@@ -2,7 +2,7 @@ import { BvhError } from './error';
 
 import { type Aabb } from './layout';
 
-/** One placing of a BLAS. */
+/** One placement of a BLAS. */
 export interface TlasInstance {
   /** Box of the BLAS, in object space. */
   readonly bounds: Aabb;
@@ -25,7 +25,7 @@ export function checkTransform({ transform }: TlasInstance, index: number): void
 /**
  * Writes an instance's box in the world, six numbers, and the 12 of its `toObject`.
  *
- * @returns False where nothing can hit it: its rows of `toObject` may be NaN, and the box means nothing.
+ * @returns False where nothing can hit it: its rows of `toObject` may be NaN, and the box is undefined.
  */
 export function placeInstance(
   { bounds: { min, max }, transform: m }: TlasInstance,
@@ -39,7 +39,7 @@ export function placeInstance(
   for (let r = 0; r < 3; r++) {
     let low = m[12 + r] as number,
       high = low;
-    // What rounding may take off in world and object space together, so that no hit near the border is lost.
+    // Enlarge by the rounding errors in world and object space, so that no hit near the border is lost.
     let slack = Math.abs(low);
     for (let k = 0; k < 3; k++) {
       const p = (m[4 * k + r] as number) * (min[k] as number),

@@ -1,19 +1,19 @@
 import { sahCost, type BvhNodes } from './statistics';
 
-/** {@link RefitQuality.shouldRebuild} says yes above this ratio. */
+/** Default ratio above which {@link RefitQuality.shouldRebuild} returns true. */
 export const REBUILD_ABOVE = 1.5;
 
 /**
- * Tells how much a hierarchy has suffered from being refitted: the ratio of its surface area cost now to that when it
- * was built (Wald, Boulos and Shirley 2007, "Ray Tracing Deformable Scenes Using Dynamic Bounding Volume Hierarchies",
- * go by the same measure). The cost counts relative to the box of everything, so that growing, moving and turning a
+ * How much refitting has degraded a hierarchy: the ratio of its surface area cost now to that when it was built
+ * (Wald, Boulos and Shirley 2007, "Ray Tracing Deformable Scenes Using Dynamic Bounding Volume Hierarchies",
+ * use the same measure). The cost counts relative to the box of everything, so that growing, moving and turning a
  * mesh as a whole changes little.
  *
  * The ratio is about that of the work per ray, counted (within a quarter for triangles that move apart and for twists).
  * What a rebuild brings is another matter: all of it where parts have moved past each other, a third of it for a twist,
- * next to nothing for waves and roughness, which suit no tree. Make a new `RefitQuality` of the new tree, and it is not
- * asked for again. A mesh sheared as a whole to several times its length gains by a rebuild that the ratio does not ask
- * for.
+ * next to nothing for waves and roughness, which suit no tree. Make a new `RefitQuality` of the new tree, so that the
+ * rebuild is not requested again. A mesh sheared as a whole to several times its length gains by a rebuild that the
+ * ratio does not suggest.
  *
  * @example
  * let quality = new RefitQuality(blas);

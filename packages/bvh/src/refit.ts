@@ -18,9 +18,9 @@ import {
 } from './layout';
 
 /**
- * Fits the boxes of a BLAS to moved vertices, in place; the tree keeps its shape, so it gets worse as the mesh departs
- * from what it was built for: `RefitQuality` of `@glanz/bvh/refit-quality` says when to rebuild. Triangles that were
- * left out of the build stay out.
+ * Fits the boxes of a BLAS to moved vertices, in place; the tree keeps its topology, so its quality drops as the mesh
+ * departs from the one that it was built for: `RefitQuality` of `@glanz/bvh/refit-quality` says when to rebuild.
+ * Triangles that were left out of the build stay out.
  *
  * @param mesh The mesh with its new positions; same triangles, same order.
  * @throws {BvhError} `bvh/positions` if a triangle that is in the tree is gone or no longer finite; the boxes are then
@@ -82,7 +82,7 @@ function encloseTriangles(
     if (!Number.isFinite(sum))
       throw new BvhError(
         'bvh/positions',
-        `Triangle ${triangle} is no more, or has moved to a place that is not finite: build the hierarchy anew.`,
+        `Triangle ${triangle} is missing, or its position is not finite: build the hierarchy again.`,
       );
   }
   nodes[min] = x0;

@@ -18,7 +18,7 @@ import {
 /** Version of the format that {@link serializeBlas} writes and {@link deserializeBlas} reads. */
 export const SERIALIZED_VERSION = 1;
 
-// A file is 32-bit words, in the order of the machine that wrote it; read in the other order, the first word tells.
+// A file is 32-bit words, in the order of the machine that wrote it; read in the other order, the magic shows it.
 //   0 magic, 1 version, 2 number of trees, 3 checksum of all words from 4 on
 //   then for each tree 8 words: nodes, triangle indices, box (min xyz, max xyz as floats)
 //   then the nodes of all trees, 16 words each, then the triangle indices of all trees
@@ -27,8 +27,8 @@ const HEADER_WORDS = 4;
 const TREE_WORDS = 8;
 
 /**
- * Puts hierarchies into one buffer, to be kept or sent: about 35 bytes a triangle. {@link deserializeBlases} makes the
- * same trees of it. The meshes are not in it.
+ * Serializes hierarchies into one buffer, to be stored or sent: about 35 bytes a triangle. {@link deserializeBlases}
+ * restores the same trees. The meshes are not included.
  */
 export function serializeBlases(trees: readonly Blas[]): ArrayBuffer {
   const length = trees.reduce(
@@ -59,33 +59,33 @@ export function serializeBlases(trees: readonly Blas[]): ArrayBuffer {
   return words.buffer;
 }
 
-/** Puts one hierarchy into a buffer. See {@link serializeBlases}. */
+/** Serializes one hierarchy. See {@link serializeBlases}. */
 export const serializeBlas = (blas: Blas): ArrayBuffer => serializeBlases([blas]);
 
 /**
- * Makes hierarchies of what {@link serializeBlases} has written. Everything is checked, so that no query or traversal
- * of what comes out leaves its arrays, whoever has written the buffer: lengths, the checksum, every reference and the
- * depth; and with `meshes` also that there are the triangles that the trees name.
+ * Restores hierarchies from a buffer of {@link serializeBlases}. Everything is validated, so that no query or traversal
+ * of the result reads outside its arrays, whoever has written the buffer: lengths, the checksum, every reference and
+ * the depth; and with `meshes` also that every triangle index exists.
  *
  * @param data May come from a machine of another byte order. Its words need not be aligned.
  * @param meshes What each tree was built for. Without them, keep the trees together with their meshes by other means,
  * such as the key of `@glanz/bvh/cache`.
  * @throws {BvhError} `bvh/not-serialized` if it is something else, `bvh/version` if written by another version of the
- * format, `bvh/truncated` for a wrong length, `bvh/checksum` if bytes have changed, `bvh/corrupt` for trees that lead
- * nowhere or too deep, `bvh/other-mesh` if the trees are not those of the meshes.
+ * format, `bvh/truncated` for a wrong length, `bvh/checksum` if bytes have changed, `bvh/corrupt` for trees with
+ * invalid references or too many levels, `bvh/other-mesh` if the trees are not those of the meshes.
  */
 export function deserializeBlases(data: ArrayBuffer | ArrayBufferView, meshes?: readonly TriangleMesh[]): Blas[] {
   const words = wordsOf(data);
   if (words[1] !== SERIALIZED_VERSION)
     throw new BvhError(
       'bvh/version',
-      `The hierarchy was written in version ${words[1]} of the format; this package reads ${SERIALIZED_VERSION}: build it anew.`,
+      `The hierarchy was written in version ${words[1]} of the format; this package reads ${SERIALIZED_VERSION}: build it again.`,
     );
   const count = words[2] as number;
   const truncated = () =>
     new BvhError(
       'bvh/truncated',
-      `The hierarchy has ${words.length} words, which is not what its own header says: it was cut off, build it anew.`,
+      `The hierarchy has ${words.length} words, but its header declares another size: it is truncated, build it again.`,
     );
   if (words.length < HEADER_WORDS + TREE_WORDS * count) throw truncated();
   let length = HEADER_WORDS + TREE_WORDS * count,
@@ -97,11 +97,11 @@ export function deserializeBlases(data: ArrayBuffer | ArrayBufferView, meshes?: 
   }
   if (words.length !== length) throw truncated();
   if (words[3] !== checksum(words))
-    throw new BvhError('bvh/checksum', 'The bytes of the hierarchy have changed since it was written: build it anew.');
+    throw new BvhError('bvh/checksum', 'The bytes of the hierarchy have changed since it was written: build it again.');
   if (meshes && meshes.length !== count)
     throw new BvhError(
       'bvh/other-mesh',
-      `There are ${count} hierarchies for ${meshes.length} meshes: build them anew.`,
+      `There are ${count} hierarchies for ${meshes.length} meshes: build them again.`,
     );
   let node = HEADER_WORDS + TREE_WORDS * count,
     index = node + nodeWords;
@@ -121,7 +121,7 @@ export function deserializeBlases(data: ArrayBuffer | ArrayBufferView, meshes?: 
   return trees;
 }
 
-/** Makes one hierarchy of what {@link serializeBlas} has written. See {@link deserializeBlases}. */
+/** Restores one hierarchy from a buffer of {@link serializeBlas}. See {@link deserializeBlases}. */
 export function deserializeBlas(data: ArrayBuffer | ArrayBufferView, mesh?: TriangleMesh): Blas {
   const [blas, other] = deserializeBlases(data, mesh && [mesh]);
   if (!blas || other)
@@ -132,13 +132,13 @@ export function deserializeBlas(data: ArrayBuffer | ArrayBufferView, mesh?: Tria
   return blas;
 }
 
-/** The words of a buffer in this machine's order; its own bytes if they lie well. */
+/** The words of a buffer in this machine's order; without a copy if it is aligned. */
 function wordsOf(data: ArrayBuffer | ArrayBufferView): Uint32Array<ArrayBuffer> {
   const bytes = ArrayBuffer.isView(data)
     ? new Uint8Array(data.buffer, data.byteOffset, data.byteLength)
     : new Uint8Array(data);
   const other = () =>
-    new BvhError('bvh/not-serialized', 'The buffer does not begin like a serialized hierarchy: build it anew.');
+    new BvhError('bvh/not-serialized', 'The buffer does not begin like a serialized hierarchy: build it again.');
   if (bytes.length < 4) throw other();
   const whole = bytes.length - (bytes.length % 4);
   const plain = bytes.buffer instanceof ArrayBuffer && bytes.byteOffset % 4 === 0;
@@ -150,7 +150,7 @@ function wordsOf(data: ArrayBuffer | ArrayBufferView): Uint32Array<ArrayBuffer> 
   if (whole !== bytes.length || words.length < HEADER_WORDS)
     throw new BvhError(
       'bvh/truncated',
-      `The hierarchy has ${bytes.length} bytes, which are no whole words: it was cut off, build it anew.`,
+      `The hierarchy has ${bytes.length} bytes, not a multiple of 4: it is truncated, build it again.`,
     );
   return words;
 }
@@ -159,8 +159,8 @@ const swapped = (word: number): number =>
   ((word << 24) | ((word & 0xff00) << 8) | ((word >>> 8) & 0xff00) | (word >>> 24)) >>> 0;
 
 /**
- * Mixes words as MurmurHash3 (Appleby 2008) does. Each step is a bijection, so a change within one word never goes
- * unseen.
+ * Mixes words as MurmurHash3 (Appleby 2008) does. Each step is a bijection, so a change within one word is always
+ * detected.
  */
 function checksum(words: Uint32Array): number {
   let hash = 0;
@@ -174,19 +174,19 @@ function checksum(words: Uint32Array): number {
 }
 
 /**
- * Every reference leads to a later node or to triangles that are there, every node is reached once, and none is too
- * deep.
+ * Checks that every reference points to a later node or to existing triangles, that every node is reached once, and
+ * that none is too deep.
  */
 function checkNodes(nodes: Float32Array, nodeCount: number, indexCount: number, tree: number): void {
   const corrupt = (what: string) =>
-    new BvhError('bvh/corrupt', `Tree ${tree} of the serialized hierarchies ${what}: build it anew.`);
+    new BvhError('bvh/corrupt', `Tree ${tree} of the serialized hierarchies ${what}: build it again.`);
   if (nodeCount === 0) throw corrupt('has no root');
   const words = new Uint32Array(nodes.buffer);
   const depths = new Uint8Array(nodeCount);
   depths[0] = 1;
   for (let node = 0; node < nodeCount; node++) {
     const at = node * NODE_WORDS;
-    // Parents come first, so what no node before has named is never reached.
+    // Parents come first, so a node that no earlier node refers to is unreachable.
     const depth = depths[node] as number;
     if (depth === 0) throw corrupt(`never leads to its node ${node}`);
     if (depth > BLAS_MAX_DEPTH) throw corrupt('is too deep');
@@ -205,7 +205,7 @@ function checkNodes(nodes: Float32Array, nodeCount: number, indexCount: number, 
           throw corrupt(`leads from node ${node} to ${reference}`);
         depths[reference] = depth + 1;
       } else {
-        // An empty tree names a leaf that is not there, behind boxes that are never entered.
+        // An empty tree refers to a leaf that does not exist, behind boxes that no ray enters.
         const missing =
           nodes[at + low] === FAR && node === 0 && nodeCount === 1 && (side === RIGHT || indexCount === 0);
         if (!missing && leafFirst(reference) + leafCount(reference) > indexCount)
@@ -221,7 +221,7 @@ function checkTriangles(triangleIndices: Uint32Array, { positions, indices }: Tr
     if ((triangleIndices[i] as number) >= count)
       throw new BvhError(
         'bvh/other-mesh',
-        `Tree ${tree} has a triangle ${triangleIndices[i]}; its mesh has ${count}: build it anew.`,
+        `Tree ${tree} has a triangle ${triangleIndices[i]}; its mesh has ${count}: build it again.`,
       );
   }
 }

@@ -6,20 +6,20 @@ export interface BvhNodes {
   readonly nodeCount: number;
 }
 
-/** What {@link bvhStatistics} tells. */
+/** The result of {@link bvhStatistics}. */
 export interface BvhStatistics {
   /**
    * Expected cost of a ray that hits the root's box: 1 per node visited and 1 per primitive tested (Goldsmith and
    * Salmon 1987).
    */
   readonly sahCost: number;
-  /** Inner nodes on the longest way to a leaf. */
+  /** Inner nodes on the longest path to a leaf. */
   readonly depth: number;
   readonly nodes: number;
   readonly leaves: number;
   /** Leaves by their number of primitives; index 0 is unused. */
   readonly leafSizes: readonly number[];
-  /** Leaves by the inner nodes on the way to them; index 0 is unused, and the last is {@link depth}. */
+  /** Leaves by the inner nodes on the path to them; index 0 is unused, and the last is {@link depth}. */
   readonly leafDepths: readonly number[];
 }
 

@@ -23,7 +23,7 @@ export interface Tlas {
 
 /**
  * Builds the hierarchy over instances: a millisecond for a thousand. Rebuild it when instances move; their BLAS stay.
- * Where few of many instances move, appear or vanish, `DynamicTlas` of `@glanz/bvh/dynamic-tlas` costs less. No way
+ * Where few of many instances move, appear or vanish, `DynamicTlas` of `@glanz/bvh/dynamic-tlas` costs less. No path
  * from the root has more than {@link TLAS_MAX_DEPTH} inner nodes.
  *
  * @throws {BvhError} `bvh/transform` for a transform without 16 numbers, `bvh/too-many` beyond 4 million instances.

@@ -16,8 +16,8 @@ import type { BvhNodes } from './statistics';
 
 /**
  * How much the children of the nodes overlap: the surface of the box that both children's boxes have in common, as a
- * share of that of the node's box, each node weighted by the latter (that is, by how often rays get there). 0: no ray
- * ever needs both children for geometric reasons.
+ * share of that of the node's box, each node weighted by the latter (that is, by how often rays visit it). 0: the
+ * children never overlap.
  */
 export function siblingOverlap({ nodes, nodeCount }: BvhNodes): number {
   let common = 0,
@@ -46,7 +46,7 @@ const surface = ([x, y, z]: readonly number[]): number =>
 /**
  * End-point overlap (Aila, Karras and Laine 2013, "On Quality Metrics of Bounding Volume Hierarchies"): for a point
  * chosen evenly on the surface of all triangles, how many nodes (1 each) and leaves (1 per triangle) hold the point in
- * their box though its triangle is not among what they hold. A ray that ends there must visit them all. The paper finds
+ * their box though they do not contain its triangle. A ray that ends there must visit them all. The paper finds
  * that traversal cost goes with (1 − α) SAH + α EPO, α about 0.7 for diffuse rays.
  *
  * Takes some microseconds a triangle: for comparing trees, not for every frame.

@@ -9,12 +9,12 @@ describe('buildBlasAsync', () => {
   for (const builder of [fast, 'balanced', best, bestSplit] as const) {
     test(`builds what buildBlas builds (${typeof builder === 'string' ? builder : builder.name}), telling progress that only grows`, async () => {
       const mesh = strewn(60_000, 0.05, randomNumbers(3));
-      const told: number[] = [];
-      const blas = await buildBlasAsync(mesh, { builder, sliceMs: 0, onProgress: (done) => told.push(done) });
+      const reported: number[] = [];
+      const blas = await buildBlasAsync(mesh, { builder, sliceMs: 0, onProgress: (done) => reported.push(done) });
       expect(blas).toEqual(buildBlas(mesh, { builder }));
-      expect(told.length).toBeGreaterThan(8);
-      expect(told.every((done, i) => done >= (told[i - 1] ?? 0) && done <= 1)).toBe(true);
-      expect(told.at(-1)).toBe(1);
+      expect(reported.length).toBeGreaterThan(8);
+      expect(reported.every((done, i) => done >= (reported[i - 1] ?? 0) && done <= 1)).toBe(true);
+      expect(reported.at(-1)).toBe(1);
     });
   }
 

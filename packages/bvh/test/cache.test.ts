@@ -129,14 +129,14 @@ describe('BlasCache', () => {
         throw new Error('no set');
       },
     };
-    const told: string[] = [];
+    const reported: string[] = [];
     const over = new BlasCache(broken, build, {
       minTriangles: 0,
-      onError: (error) => told.push((error as Error).message),
+      onError: (error) => reported.push((error as Error).message),
     });
     expect(await over.buildBlas(mesh)).toEqual(expected);
     await over.written();
-    expect(told).toEqual(['no get', 'no set']);
+    expect(reported).toEqual(['no get', 'no set']);
   });
 
   test('does not wait for a store to write', async () => {

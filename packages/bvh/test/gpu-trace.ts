@@ -10,7 +10,7 @@ export interface Placed {
   readonly transform: ArrayLike<number>;
 }
 
-/** A layout of nodes: what becomes of a BLAS and a TLAS, and the modules that go through it. */
+/** A layout of nodes: how a BLAS and a TLAS are packed, and the modules that traverse it. */
 export interface Layout {
   readonly blas: (blas: Blas) => Blas | WideBlas;
   readonly tlas: (tlas: Tlas) => Tlas | WideTlas;

@@ -31,7 +31,7 @@ test('the trees of a model come back out of one file beside it', async () => {
   expect(await Promise.all(meshes.map((mesh) => later.buildBlas(mesh)))).toEqual(trees);
 });
 
-test('a file cut off anywhere, or something else, costs builds and is mended', async () => {
+test('a file truncated anywhere, or something else, costs builds and is repaired', async () => {
   const cache = new BlasCache(fileStore(file), { buildBlas }, { minTriangles: 0 });
   for (const mesh of meshes) await cache.buildBlas(mesh);
   await cache.written();
@@ -49,13 +49,13 @@ test('a file cut off anywhere, or something else, costs builds and is mended', a
     for (const mesh of meshes) expect(await again.buildBlas(mesh)).toEqual(buildBlas(mesh));
     expect(again.misses).toBeGreaterThan(0);
     await again.written();
-    const mended = new BlasCache(fileStore(file), { buildBlas }, { minTriangles: 0 });
-    for (const mesh of meshes) await mended.buildBlas(mesh);
-    expect(mended.misses).toBe(0);
+    const repaired = new BlasCache(fileStore(file), { buildBlas }, { minTriangles: 0 });
+    for (const mesh of meshes) await repaired.buildBlas(mesh);
+    expect(repaired.misses).toBe(0);
   }
 });
 
-test('a folder that is not there fails to be written, and nothing more', async () => {
+test('a missing folder makes only the write fail', async () => {
   const errors: NodeJS.ErrnoException[] = [];
   const cache = new BlasCache(
     fileStore(join(folder, 'gone', 'x.bvh')),

@@ -67,7 +67,7 @@ for (const { name, mesh, at } of deformations(25)) {
   });
 }
 
-test('rebuilt when told, triangles that fly apart never cost much more than in a fresh tree (seed 27)', () => {
+test('rebuilt when advised, triangles that fly apart never cost much more than in a fresh tree (seed 27)', () => {
   const [{ mesh, at }] = deformations(27) as [ReturnType<typeof deformations>[number]];
   let blas = buildBlas(mesh),
     quality = new RefitQuality(blas),

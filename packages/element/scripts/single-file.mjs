@@ -46,9 +46,9 @@ const REPLACED = [
   [
     "new Worker(new URL('./worker.js', import.meta.url)",
     'new Worker(import.meta.url',
-    ['bvh/src/worker/line.ts', 'gltf/src/worker/load.ts'],
+    ['bvh/src/worker/connection.ts', 'gltf/src/worker/load.ts'],
   ],
-  ["new URL('./worker.js', url)", 'new URL(url)', ['bvh/src/worker/line.ts', 'gltf/src/worker/load.ts']],
+  ["new URL('./worker.js', url)", 'new URL(url)', ['bvh/src/worker/connection.ts', 'gltf/src/worker/load.ts']],
   ['if (port) serveBuilds(port);', '', ['bvh/src/worker/worker.ts']],
 ];
 

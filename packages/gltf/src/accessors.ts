@@ -25,10 +25,10 @@ const TYPES: Readonly<Record<number, NumbersType>> = {
   5126: Float32Array,
 };
 
-/** What the largest code of a normalised type stands for 1 with; signed ones have a least code that is cut to −1. */
+/** The integer that stands for 1 in a normalised type; the smallest signed integer is clamped to −1. */
 const NORMALISED: Readonly<Record<number, number>> = { 5120: 127, 5121: 255, 5122: 32767, 5123: 65535 };
 
-/** Numbers an element has. */
+/** Numbers per element. */
 export const ELEMENT_SIZE: Readonly<Record<string, number>> = {
   SCALAR: 1,
   VEC2: 2,
@@ -41,8 +41,8 @@ export const ELEMENT_SIZE: Readonly<Record<string, number>> = {
 const MATRIX_EDGE: Readonly<Record<string, number>> = { MAT2: 2, MAT3: 3, MAT4: 4 };
 
 /**
- * Turns numbers of `own` an element into floats of `size` an element: normalised codes decoded (glTF 2.0, 3.6.2.2),
- * what is missing filled up with 1. Always a copy.
+ * Converts numbers with `own` per element to floats with `size` per element: decodes normalised integers (glTF 2.0,
+ * 3.6.2.2) and fills missing components with 1. Always a copy.
  */
 export function toFloats(
   numbers: Numbers,
@@ -54,19 +54,19 @@ export function toFloats(
   if (own === size && !normalized) return new Float32Array(numbers);
   const count = numbers.length / own;
   const floats = new Float32Array(count * size);
-  const most = normalized ? NORMALISED[componentType] : undefined;
+  const one = normalized ? NORMALISED[componentType] : undefined;
   const shared = Math.min(own, size);
   for (let i = 0, from = 0, to = 0; i < count; i++, from += own, to += size) {
     for (let k = 0; k < shared; k++) {
       const value = numbers[from + k] as number;
-      floats[to + k] = most === undefined ? value : Math.max(value / most, -1);
+      floats[to + k] = one === undefined ? value : Math.max(value / one, -1);
     }
     for (let k = shared; k < size; k++) floats[to + k] = 1;
   }
   return floats;
 }
 
-/** Reads accessors of a document that has been checked: every byte they name is there. */
+/** Reads accessors of a checked document: all of their bytes exist. */
 export class Accessors {
   readonly #list: readonly GltfAccessor[];
   readonly #strides: readonly (number | undefined)[];
@@ -80,12 +80,12 @@ export class Accessors {
     this.#budget = budget;
   }
 
-  /** The document's own description. */
+  /** The accessor in the document. */
   at(index: number): GltfAccessor {
     return this.#list[index] as GltfAccessor;
   }
 
-  /** The elements as floats of `size` each (default: what they have), decoded if normalised. A copy. */
+  /** The elements as `size` floats each (default: as stored), decoded if normalised. A copy. */
   floats(index: number, size?: number): Float32Array<ArrayBuffer> {
     const { type, count, componentType, normalized = false } = this.at(index);
     const own = ELEMENT_SIZE[type] as number;
@@ -93,13 +93,13 @@ export class Accessors {
     return toFloats(this.#numbers(index), componentType, normalized, own, size ?? own);
   }
 
-  /** Indices, as numbers of 32 bits. A copy. */
+  /** Indices as 32-bit integers. A copy. */
   indices(index: number): Uint32Array<ArrayBuffer> {
     this.#budget.take(4 * this.at(index).count, `/accessors/${index}`);
     return new Uint32Array(this.#numbers(index));
   }
 
-  /** The numbers, without gaps and with sparse ones put in; may be a view of the file's own bytes. */
+  /** The numbers, tightly packed, with sparse values applied; may be a view of the file's bytes. */
   #numbers(index: number): Numbers {
     const { bufferView, byteOffset = 0, componentType, count, type, sparse } = this.at(index);
     const Type = TYPES[componentType] as NumbersType;

@@ -1,21 +1,21 @@
-// KHR_animation_pointer: an animation may move any number of the document, named by a JSON pointer. A scene is one
-// moment, so the numbers of that moment are put into the document before anything is made of it.
+// KHR_animation_pointer: an animation may animate any number of the document, named by a JSON pointer. A scene is a
+// still, so the values at its time are written into the document before it is converted.
 import { valueAt } from './animation';
 import type { Accessors } from './accessors';
 import type { Raw } from './json-value';
 import type { GltfAnimation } from './json';
 
-/** A number (or numbers) of the document at a moment. */
+/** An animated value of the document at a time. */
 export interface PointedValue {
   /** Parts of the JSON pointer, unescaped. */
   readonly path: readonly string[];
   readonly value: number | readonly number[] | boolean;
 }
 
-/** Where animations may reach: nothing in accessors or buffers can move, and extras are the host's. */
+/** What can be animated: not accessors and buffers, nor extras, which belong to the host. */
 const ROOTS = /^\/(nodes|materials|cameras|meshes|extensions\/KHR_lights_punctual\/lights)\//;
 
-/** The parts of a pointer to something that may move; undefined for others. */
+/** The parts of a pointer to a value that can be animated; undefined for others. */
 export const pointerPath = (pointer: unknown): readonly string[] | undefined =>
   typeof pointer === 'string' && ROOTS.test(pointer)
     ? pointer
@@ -24,7 +24,7 @@ export const pointerPath = (pointer: unknown): readonly string[] | undefined =>
         .map((part) => part.replaceAll('~1', '/').replaceAll('~0', '~'))
     : undefined;
 
-/** What an animation's pointers say at a time. Values that are not finite do not count. */
+/** The values of an animation's pointers at a time. Values that are not finite are ignored. */
 export function pointedValues(
   { pointers, samplers }: GltfAnimation,
   time: number,
@@ -47,17 +47,16 @@ export function pointedValues(
 }
 
 /**
- * A document with other numbers in it; the given one stays as it is. What holds a number has to be there, the number
- * need not
- * be: it then has a default.
- * @param warn Told of pointers that lead nowhere.
+ * A copy of a document with other values; the given one is not changed. The object that holds a value must exist; the
+ * value itself need not, since it has a default.
+ * @param warn Called for pointers to objects that do not exist.
  */
 export function withValues(
   json: Raw,
   values: readonly PointedValue[],
   warn: (path: string, what: string) => void,
 ): Raw {
-  // Each object on the way is copied once, however many values go through it.
+  // Each object on the path is copied once, however many values it holds.
   const copies = new Set<unknown>();
   const copyOf = <T extends object>(owner: T): T => {
     if (copies.has(owner)) return owner;

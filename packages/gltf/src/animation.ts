@@ -1,7 +1,7 @@
 import type { Accessors } from './accessors';
 import type { GltfAnimation, GltfJson } from './json';
 
-/** What an animation says of a node at a time. */
+/** A node's pose at a time. */
 export interface NodePose {
   translation?: readonly number[];
   /** Unit quaternion, xyzw. */
@@ -18,7 +18,7 @@ function slerp(a: readonly number[], b: readonly number[], f: number): number[] 
   const sign = cosine < 0 ? -1 : 1;
   const angle = Math.acos(Math.min(Math.abs(cosine), 1));
   const sine = Math.sin(angle);
-  // Nearly the same: the straight way has no other length.
+  // Nearly equal: interpolate linearly.
   const [p, q] =
     sine < 1e-6 ? [1 - f, f * sign] : [Math.sin((1 - f) * angle) / sine, (sign * Math.sin(f * angle)) / sine];
   return a.map((x, k) => p * x + q * (b[k] as number));
@@ -30,7 +30,7 @@ function unit(q: readonly number[]): readonly number[] | undefined {
 }
 
 /**
- * The value of a sampler at a time (glTF 2.0, 3.11 and appendix C); before the first key and after the last it stays.
+ * The value of a sampler at a time (glTF 2.0, 3.11 and appendix C), clamped to the first and last key.
  */
 export function valueAt(
   times: Float32Array,
@@ -76,7 +76,7 @@ export function valueAt(
 }
 
 /**
- * Poses of the nodes at a time. Values that are not finite do not count, with a warning.
+ * Poses of the nodes at a time. Values that are not finite are ignored, with a warning.
  * @param time Seconds from the animation's beginning.
  * @param warn Takes the number of a sampler and what is wrong with it.
  */
@@ -118,7 +118,7 @@ export function posesAt(
   return poses;
 }
 
-/** Names and lengths of a document's animations; a length is what the document says it is, seconds. */
+/** Names of a document's animations, and their durations in seconds as the document declares them. */
 export function describeAnimations({
   animations = [],
   accessors = [],

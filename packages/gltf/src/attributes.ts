@@ -5,8 +5,8 @@ import type { PrimitiveData } from './primitive';
 
 /** Whether every number is finite. */
 function allFinite(values: Float32Array): boolean {
-  // Those that are not have all bits of the exponent set, and one more carries over into the sign. Sums would have to
-  // wait for each other.
+  // Numbers that are not finite have all exponent bits set; adding one to the exponent carries into the sign bit.
+  // Unlike a floating-point sum, this has no chain of dependent additions.
   const bits = new Int32Array(values.buffer, values.byteOffset, values.length);
   let carried = 0;
   for (let i = 0; i < bits.length; i++) carried |= ((bits[i] as number) & 0x7f800000) + 0x00800000;
@@ -15,15 +15,15 @@ function allFinite(values: Float32Array): boolean {
 
 /** The largest of some numbers; 0 if there are none. */
 export function maximum(values: Uint32Array): number {
-  let most = 0;
+  let max = 0;
   for (let i = 0; i < values.length; i++) {
     const value = values[i] as number;
-    most = value > most ? value : most;
+    max = value > max ? value : max;
   }
-  return most;
+  return max;
 }
 
-/** Corners of the triangles of a primitive, strips and fans opened; `undefined` for points and lines. */
+/** Vertex indices of the triangles of a primitive, strips and fans expanded; `undefined` for points and lines. */
 function trianglesOf(primitive: PrimitiveData, vertices: number): Uint32Array<ArrayBuffer> | undefined {
   const mode = primitive.json.mode ?? 4;
   if (mode < 4 || mode > 6) return undefined;
@@ -32,7 +32,7 @@ function trianglesOf(primitive: PrimitiveData, vertices: number): Uint32Array<Ar
   const count = Math.max(list.length - 2, 0);
   const triangles = new Uint32Array(count * 3);
   for (let i = 0; i < count; i++) {
-    // Strips turn every second triangle round (glTF 2.0, section 3.7.2.1).
+    // Strips reverse every second triangle (glTF 2.0, section 3.7.2.1).
     const corners = mode === 6 ? [i + 1, i + 2, 0] : i % 2 === 0 ? [i, i + 1, i + 2] : [i, i + 2, i + 1];
     for (let c = 0; c < 3; c++) triangles[3 * i + c] = list[corners[c] as number] as number;
   }
@@ -40,11 +40,11 @@ function trianglesOf(primitive: PrimitiveData, vertices: number): Uint32Array<Ar
 }
 
 /**
- * Reads a primitive into a mesh. What is broken but can be left out is, with a warning: attributes of a wrong length or
- * with numbers that are not finite, triangles whose corners do not exist.
+ * Reads a primitive into a mesh. Leaves out, with a warning, attributes of a wrong length or with numbers that are not
+ * finite, and triangles whose vertices do not exist.
  *
- * @param opaque Whether the alpha of vertex colours counts for nothing.
- * @param uvSets The numbers of the UV sets to read.
+ * @param opaque Whether to ignore the alpha of vertex colours.
+ * @param uvSets The indices of the UV sets to read.
  * @returns `undefined` (with a warning) if it has no triangles.
  */
 export function readPrimitive(
@@ -70,8 +70,8 @@ export function readPrimitive(
   const positions = primitive.floats('POSITION', 3);
   const largest = maximum(corners);
   if (largest === primitive.restart)
-    warn('its indices hold the value that restarts a primitive, which none may; it counts as any other.');
-  const indices = soundTriangles(corners, largest, positions, warn);
+    warn('its indices contain the primitive restart value, which glTF does not allow; it is read as a vertex index.');
+  const indices = validTriangles(corners, largest, positions, warn);
   if (indices.length === 0) {
     warn('it has no triangles.');
     return undefined;
@@ -93,12 +93,12 @@ export function readPrimitive(
   if (normals) {
     mesh.normals = unitNormals(normals, positions, indices, warn);
     if (windByNormals(indices, positions, mesh.normals))
-      warn('its normals point to the back of each of its triangles, which are turned round.');
+      warn('its normals point to the back of all of its triangles; the triangles are reversed.');
     const tangents = attribute('TANGENT', 4);
     if (tangents && makeUnit(tangents, 4)) mesh.tangents = withSigns(tangents, warn);
     else if (tangents) warn('TANGENT holds vectors of length 0 and is left out.');
   }
-  if (!normals && primitive.count('TANGENT') !== undefined) warn('TANGENT has no normals beside it and is left out.');
+  if (!normals && primitive.count('TANGENT') !== undefined) warn('TANGENT is left out, since there are no normals.');
   const [uv0, uv1] = uvSets.map((set) => attribute(`TEXCOORD_${set}`, 2));
   if (uv0 || uv1) mesh.uvs = uv1 ? [uv0 ?? new Float32Array(2 * vertices), uv1] : [uv0 as Float32Array<ArrayBuffer>];
   const colors = attribute('COLOR_0', 4);
@@ -116,7 +116,7 @@ export function readPrimitive(
   return mesh;
 }
 
-/** Tangents with a handedness of −1 or 1, in place; without it there is no bitangent. */
+/** Sets the handedness of tangents to −1 or 1, in place. */
 function withSigns(tangents: Float32Array<ArrayBuffer>, warn: (message: string) => void): Float32Array<ArrayBuffer> {
   let wrong = 0;
   for (let i = 3; i < tangents.length; i += 4) {
@@ -125,12 +125,12 @@ function withSigns(tangents: Float32Array<ArrayBuffer>, warn: (message: string) 
     if (!(Math.abs(Math.abs(sign) - 1) <= 1e-2)) wrong++;
     tangents[i] = sign < 0 ? -1 : 1;
   }
-  if (wrong > 0) warn(`TANGENT has ${wrong} handednesses that are neither −1 nor 1; their signs are taken.`);
+  if (wrong > 0) warn(`TANGENT has ${wrong} handednesses that are neither −1 nor 1; only their signs are used.`);
   return tangents;
 }
 
-/** The triangles whose corners exist and are finite. Positions that are not become 0, since nothing may be NaN. */
-function soundTriangles(
+/** The triangles whose vertices exist and are finite. Positions that are not finite become 0. */
+function validTriangles(
   corners: Uint32Array<ArrayBuffer>,
   largest: number,
   positions: Float32Array,
@@ -158,7 +158,7 @@ function soundTriangles(
 }
 
 /**
- * A mesh without the vertices that no triangle uses, if those are more than half: primitives may share one large set.
+ * Removes the vertices that no triangle uses if they are more than half: primitives may share one large set.
  */
 export function withoutUnusedVertices(mesh: Mesh): Mesh {
   const vertices = mesh.positions.length / 3;

@@ -1,45 +1,45 @@
-// A 2D canvas stores colours multiplied by alpha: reading them back loses bits where alpha is low and everything where
-// it is 0. glTF needs them: an OPAQUE material ignores the alpha, and roughness may lie beside an alpha that means
-// nothing. WebGL uploads a bitmap as it is. It costs a context, so only pictures that have transparency go that way.
+// A 2D canvas stores premultiplied colours: reading them back loses precision where alpha is low, and the colour where
+// alpha is 0. glTF needs the colours: an OPAQUE material ignores alpha, and a roughness texture may have an unused
+// alpha channel. WebGL uploads a bitmap unchanged, but needs a context: only images with transparency are read through
+// WebGL.
 import type { Image } from '@glanz/scene';
 import { GltfError } from './error';
 import type { DecodedImage, ImageDecoder } from './decoded-image';
 import { imageOfPixels } from './lazy-pixels';
-import { plainPicture } from './picture-header';
+import { opaqueImageParts } from './image-header';
 
-/** Smaller pictures than this are read and decoded in no time. */
-const WORTH_WAITING = 100_000;
+/** Files of fewer bytes are read so quickly that {@link browserReads} does not wait for them. */
+const MIN_AWAITED_BYTES = 100_000;
 
-let taken: Promise<unknown> | undefined;
+let reads: Promise<unknown> | undefined;
 
 /**
- * Resolves when the browser has read the pictures that it was given to decode so far. It decodes on threads of its own,
- * but reads on the one that gave them, which must not be busy until then: a load of large pictures would take a quarter
- * longer.
+ * Resolves when the browser has read the bytes of all images passed to it so far. It decodes on other threads, but
+ * reads the bytes on the calling thread: if this one is busy, a load of large images takes a quarter longer.
  */
-export async function picturesTaken(): Promise<void> {
-  const last = taken;
+export async function browserReads(): Promise<void> {
+  const last = reads;
   await last;
-  // Nothing is held on to for the sake of the next load.
-  if (taken === last) taken = undefined;
+  // Release the promise when no newer read has been added.
+  if (reads === last) reads = undefined;
 }
 
 /**
- * Decodes by the browser; exact to the codes in the file, whatever their alpha. The picture stays the browser's bitmap
- * until somebody asks for its `data`.
+ * Decodes an image with the browser. The values are exactly those of the file, whatever their alpha. The image stays a
+ * bitmap until its `data` are read.
  */
 export const decodeImageInBrowser: ImageDecoder = async (bytes, mimeType) => {
   if (typeof createImageBitmap === 'undefined' || typeof OffscreenCanvas === 'undefined') {
     throw new GltfError(
       'gltf/missing-decoder',
-      'There is no browser to decode pictures: use loadGltfFile() of @glanz/gltf/node, or pass decodeImage.',
+      'Images cannot be decoded without a browser: use loadGltfFile() of @glanz/gltf/node, or pass decodeImage.',
     );
   }
-  // Colour profiles do not count in glTF (3.8.1), nor does alpha for colours. Saying so costs the browser another pass
-  // over the pixels, half as long again as decoding, even where there is nothing of the kind.
-  const plain = plainPicture(bytes);
+  // glTF ignores colour profiles (3.8.1), and colours are not premultiplied. Requesting this costs the browser another
+  // pass over the pixels (half the time of decoding), even for images that have neither a profile nor alpha.
+  const plain = opaqueImageParts(bytes);
   const blob = new Blob(plain ?? [bytes], { type: mimeType });
-  if (bytes.length > WORTH_WAITING) taken = Promise.all([taken, blob.arrayBuffer()]).catch(() => undefined);
+  if (bytes.length > MIN_AWAITED_BYTES) reads = Promise.all([reads, blob.arrayBuffer()]).catch(() => undefined);
   return imageOfBitmap(
     await (plain
       ? createImageBitmap(blob)
@@ -48,7 +48,7 @@ export const decodeImageInBrowser: ImageDecoder = async (bytes, mimeType) => {
 };
 
 /**
- * A picture whose `data` are read from a bitmap (straight alpha, no colour conversion) when they are first asked for.
+ * An image whose `data` are read from a bitmap (straight alpha, no colour conversion) on first access.
  */
 export function imageOfBitmap(bitmap: ImageBitmap): DecodedImage & { readonly bitmap: ImageBitmap } {
   return imageOfPixels({ width: bitmap.width, height: bitmap.height, bitmap }, () => {
@@ -57,7 +57,7 @@ export function imageOfBitmap(bitmap: ImageBitmap): DecodedImage & { readonly bi
   });
 }
 
-/** A picture with a name; one that is still a bitmap stays one. */
+/** An image with a name. Copies the accessor of `data`, so that a bitmap is not read. */
 export const namedImage = (name: string, image: Omit<DecodedImage, 'data'>): Image =>
   Object.defineProperties({ name }, Object.getOwnPropertyDescriptors(image)) as Image;
 
@@ -69,12 +69,13 @@ function hasTransparency(data: ArrayLike<number>): boolean {
 function readByCanvas(bitmap: ImageBitmap): DecodedImage['data'] {
   const { width, height } = bitmap;
   const context = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true, colorSpace: 'srgb' });
-  if (!context) throw new GltfError('gltf/missing-decoder', 'The browser gives no 2D canvas to read pictures with.');
+  if (!context)
+    throw new GltfError('gltf/missing-decoder', 'The browser provides no 2D canvas, which is needed to read images.');
   context.drawImage(bitmap, 0, 0);
   return context.getImageData(0, 0, width, height).data as Uint8ClampedArray<ArrayBuffer>;
 }
 
-/** Undefined where there is no WebGL 2, or the picture is too large for it. */
+/** Undefined if WebGL 2 is not available or the image exceeds its texture size. */
 function readByWebGl(bitmap: ImageBitmap): DecodedImage['data'] | undefined {
   const { width, height } = bitmap;
   const gl = new OffscreenCanvas(1, 1).getContext('webgl2');
@@ -98,7 +99,7 @@ function readByWebGl(bitmap: ImageBitmap): DecodedImage['data'] | undefined {
     gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, data);
     return gl.getError() === gl.NO_ERROR ? data : undefined;
   } finally {
-    // Browsers keep few contexts alive; this one is not left to the garbage collector.
+    // Browsers limit the number of live contexts: release this one now.
     gl.getExtension('WEBGL_lose_context')?.loseContext();
   }
 }

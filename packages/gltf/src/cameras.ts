@@ -2,11 +2,11 @@ import type { Camera, Scene } from '@glanz/scene';
 import type { GltfCamera } from './json';
 import type { Matrix } from './matrix';
 
-/** Metres that cameras of a scene may be away from the origin, and that they may see: what `validateScene` accepts. */
+/** Max distance of cameras from the origin, and max size of their view, in metres, as in `validateScene`. */
 const MAX_DISTANCE = 1e12;
 
-/** How far the axes of a transform are from lying in a plane: the volume that they span over that of a box, 0 to 1. */
-function spread(matrix: Matrix): number {
+/** Volume spanned by the axes of a transform, relative to orthogonal axes of the same lengths: 0 (flat) to 1. */
+function relativeVolume(matrix: Matrix): number {
   const m = (i: number) => matrix[i] as number;
   const lengths = Math.hypot(m(0), m(1), m(2)) * Math.hypot(m(4), m(5), m(6)) * Math.hypot(m(8), m(9), m(10));
   const volume =
@@ -14,7 +14,7 @@ function spread(matrix: Matrix): number {
   return lengths > 0 ? Math.abs(volume) / lengths : 0;
 }
 
-/** Adds a camera to the scene; one that shows nothing is left out, with a warning. */
+/** Adds a camera to the scene; one whose view is invalid is left out, with a warning. */
 export function readCamera(
   { name, type, perspective, orthographic }: GltfCamera,
   nodeName: string,
@@ -24,7 +24,7 @@ export function readCamera(
   const common = { name: name || nodeName || `camera ${scene.cameras.length}`, transform: [...transform] };
   const leaveOut = (what: string) =>
     void scene.warnings.push({ code: 'gltf/camera', message: `Camera "${common.name}" ${what}; it is left out.` });
-  if (!(spread(transform) > 1e-5)) return leaveOut("is flattened by its node's scale");
+  if (!(relativeVolume(transform) > 1e-5)) return leaveOut("is flattened by its node's scale");
   if (!transform.slice(12, 15).every((x) => Math.abs(x) <= MAX_DISTANCE))
     return leaveOut(`is more than ${MAX_DISTANCE} m away from the origin`);
   let made: Camera;

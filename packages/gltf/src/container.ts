@@ -2,9 +2,9 @@ import type { SceneWarning } from '@glanz/scene';
 import { quote, type Raw } from './json-value';
 import { GltfError } from './error';
 
-/** A document out of its container. */
+/** A document extracted from its container. */
 export interface Container {
-  /** Parsed; only `asset` has been looked at. */
+  /** Parsed; only `asset` has been checked. */
   readonly json: Raw;
   /** The binary chunk of a GLB. */
   readonly binary?: Uint8Array<ArrayBuffer>;
@@ -15,9 +15,9 @@ const JSON_CHUNK = 0x4e4f534a;
 const BINARY_CHUNK = 0x004e4942;
 
 /**
- * Takes a GLB or a JSON document apart.
- * @param name What messages call the file.
- * @param warnings Takes what is odd but harmless.
+ * Parses a GLB or a JSON document.
+ * @param name Name of the file in messages.
+ * @param warnings Receives deviations that do no harm.
  * @throws {GltfError} `gltf/not-gltf`, `gltf/truncated`, `gltf/version`, `gltf/malformed`
  */
 export function openContainer(bytes: Uint8Array<ArrayBuffer>, name: string, warnings: SceneWarning[]): Container {
@@ -48,7 +48,7 @@ function openGlb(bytes: Uint8Array<ArrayBuffer>, view: DataView, name: string, w
   if (total < bytes.length)
     warnings.push({
       code: 'gltf/container',
-      message: `${name} goes on for ${bytes.length - total} bytes after its end, which are not read.`,
+      message: `${name} has ${bytes.length - total} bytes after its end, which are not read.`,
     });
   let json: Raw | undefined;
   let binary: Uint8Array<ArrayBuffer> | undefined;
@@ -87,7 +87,7 @@ function openGlb(bytes: Uint8Array<ArrayBuffer>, view: DataView, name: string, w
 
 function parseJson(bytes: Uint8Array, name: string, warnings: SceneWarning[]): Raw {
   let json: unknown;
-  // TextDecoder skips it.
+  // TextDecoder skips the byte order mark.
   if (bytes[0] === 0xef && bytes[1] === 0xbb && bytes[2] === 0xbf) {
     warnings.push({
       code: 'gltf/container',
@@ -117,15 +117,15 @@ function parseJson(bytes: Uint8Array, name: string, warnings: SceneWarning[]): R
   const { version, minVersion } = json.asset as { version?: unknown; minVersion?: unknown };
   const minor = (value: unknown) => (typeof value === 'string' ? Number(/^2\.(\d+)$/.exec(value)?.[1] ?? NaN) : NaN);
   const own = minor(version),
-    least = minVersion === undefined ? 0 : minor(minVersion);
-  if (!(own >= 0) || !(least <= own)) {
+    min = minVersion === undefined ? 0 : minor(minVersion);
+  if (!(own >= 0) || !(min <= own)) {
     throw new GltfError(
       'gltf/version',
-      `${name} is of glTF version ${quote(least <= own ? version : (minVersion ?? version))}; only 2.0 is known.`,
+      `${name} is of glTF version ${quote(min <= own ? version : (minVersion ?? version))}; only 2.0 is known.`,
       { location: { file: name, path: '/asset/version' } },
     );
   }
-  if (least > 0 || own > 0)
+  if (min > 0 || own > 0)
     warnings.push({
       code: 'gltf/version',
       message: `${name} is of glTF version ${String(version)}; it is read as 2.0.`,

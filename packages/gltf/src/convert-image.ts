@@ -1,8 +1,8 @@
 import type { GltfPictureConversion } from '@glanz/openpbr/gltf';
 import type { DecodedImage } from './decoded-image';
 
-/** A picture to be made of others, texel by texel. */
-export interface DerivedPicture {
+/** How an image is computed from others, texel by texel. */
+export interface DerivedImage {
   readonly colorSpace: 'srgb' | 'linear';
   readonly convert: GltfPictureConversion['convert'];
 }
@@ -10,19 +10,19 @@ export interface DerivedPicture {
 const srgbToLinear = (c: number) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
 const linearToSrgb = (c: number) => (c <= 0.0031308 ? 12.92 * c : 1.055 * c ** (1 / 2.4) - 0.055);
 
-/** Steps of the table of codes: the curve rises by 12.92 at most, so that a step is a fifth of a code. */
+/** Entries of the encoding table. The slope of the sRGB curve is at most 12.92, so one entry is a fifth of a code. */
 const STEPS = 16384;
 
-/** How long the work may hold its thread, in milliseconds. */
-const TURN = 8;
+/** Milliseconds between yields to the event loop. */
+const SLICE_MS = 8;
 
 /**
- * Makes a picture of others. It has the size of the largest; smaller ones give their nearest texels. Lets others have
- * the thread every few milliseconds.
+ * Computes an image from others, at the size of the largest; smaller ones are sampled at the nearest texel. Yields to
+ * the event loop every few milliseconds.
  */
 export async function convertImage(
   sources: readonly DecodedImage[],
-  { colorSpace, convert }: DerivedPicture,
+  { colorSpace, convert }: DerivedImage,
   signal: AbortSignal | undefined,
 ): Promise<DecodedImage> {
   const width = Math.max(...sources.map((source) => source.width));
@@ -36,20 +36,20 @@ export async function convertImage(
   const data = new Uint8Array(4 * width * height);
   const texels = new Float32Array(4 * sources.length);
   const result = new Float32Array(4);
-  // Pictures have areas of one colour: texels like the ones before are worth the same.
+  // Images have areas of one colour: reuse the result while the source texels repeat.
   const codes = new Int32Array(sources.length).fill(-1),
     before = new Int32Array(sources.length).fill(-1);
   const words = sources.map(
     (source) => new DataView(source.data.buffer, source.data.byteOffset, source.data.byteLength),
   );
   const rows = sources.map(() => 0);
-  let until = performance.now() + TURN;
+  let until = performance.now() + SLICE_MS;
   let first = true;
   for (let y = 0, to = 0; y < height; y++) {
     if (performance.now() > until) {
       await new Promise((resolve) => setTimeout(resolve));
       signal?.throwIfAborted();
-      until = performance.now() + TURN;
+      until = performance.now() + SLICE_MS;
     }
     for (let k = 0; k < sources.length; k++)
       rows[k] =

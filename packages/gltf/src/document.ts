@@ -12,26 +12,26 @@ import { dataUri } from './uri';
 import type { DracoWorkers } from './draco-workers';
 
 /**
- * Decoders that the host hands in since they are heavy, each as it is or as a function that fetches it; the function is
+ * Decoders, which the host passes because they are large: each as a module, or as a function that fetches it and is
  * called only for a file that needs it.
  */
 export interface GltfDecoders {
   /** The module of `draco3dgltf`: `await createDecoderModule()`. */
   readonly draco?: unknown;
   /**
-   * Lets workers unpack Draco-compressed meshes side by side. `draco` is needed beside it: it does what they cannot.
+   * Decodes Draco-compressed meshes in parallel in workers. Requires `draco` too, which is used when a worker fails.
    */
   readonly dracoWorkers?: DracoWorkers | undefined;
   /** `MeshoptDecoder` of `meshoptimizer/decoder`. */
   readonly meshopt?: unknown;
   /**
-   * Decodes KTX2 pictures; see {@link ktx2Decoder}. Without it, pictures in other formats are taken where a document
-   * has both.
+   * Decodes KTX2 images; see {@link ktx2Decoder}. Without it, images in other formats are used if the document has
+   * both.
    */
   readonly ktx2?: Ktx2Decoder | undefined;
 }
 
-/** Extensions that are read. */
+/** Supported extensions. */
 const KNOWN = new Set([
   'KHR_draco_mesh_compression',
   'EXT_meshopt_compression',
@@ -45,7 +45,7 @@ const KNOWN = new Set([
   'KHR_xmp_json_ld',
   'KHR_animation_pointer',
   'EXT_lights_image_based',
-  // Older than the one before, and of no use to a picture; a hint how polygons were cut.
+  // Without effect on rendering: older metadata; a hint about how polygons were triangulated.
   'KHR_xmp',
   'FB_ngon_encoding',
   'EXT_texture_webp',
@@ -54,13 +54,13 @@ const KNOWN = new Set([
   ...MATERIAL_EXTENSIONS,
 ]);
 
-/** Extensions that may be required and do without: what they add is left out, with a warning. */
+/** Extensions that are ignored, with a warning, even if they are required. */
 const OPTIONAL = /^(KHR_materials_|KHR_xmp|EXT_materials_|ADOBE_|MSFT_lod)/;
 
-/** A document with its buffers: what primitives are read with. */
+/** A document with its buffers, from which primitives are read. */
 export type OpenDocument = PrimitiveReader;
 
-/** Refuses what a document requires and nothing here reads; tells what it uses without. */
+/** Throws for required extensions that are not supported; warns of those that are only used. */
 function checkExtensions({ json }: CheckedDocument, file: string, warnings: SceneWarning[]): void {
   for (const name of json.extensionsRequired ?? []) {
     if (!KNOWN.has(name) && !OPTIONAL.test(name))
@@ -80,7 +80,7 @@ function checkExtensions({ json }: CheckedDocument, file: string, warnings: Scen
   }
 }
 
-/** What is used of `MeshoptDecoder`. */
+/** The parts of `MeshoptDecoder` that are used. */
 interface MeshoptDecoder {
   readonly ready: Promise<void>;
   decodeGltfBuffer(
@@ -93,11 +93,11 @@ interface MeshoptDecoder {
   ): void;
 }
 
-/** A decoder, fetched if the host has handed in a function. */
+/** A decoder, fetched if the host passed a function. */
 const decoderOf = async (given: unknown): Promise<unknown> =>
   typeof given === 'function' ? ((await (given as () => unknown)()) as unknown) : given;
 
-/** Reads everything that a document names except its pictures. */
+/** Reads everything that a document names except its images. */
 export async function readDocument(
   checked: CheckedDocument,
   binary: Uint8Array<ArrayBuffer> | undefined,
@@ -143,7 +143,7 @@ export async function readDocument(
       if (embedded && bytes && bytes.length > buffer.byteLength + 3) {
         warnings.push({
           code: 'gltf/container',
-          message: `${file}: the binary chunk has ${bytes.length} bytes, but ${path} only ${buffer.byteLength}; the others are not read.`,
+          message: `${file}: the binary chunk has ${bytes.length} bytes, but ${path} only ${buffer.byteLength}; the rest is not read.`,
           path,
         });
       }
@@ -208,17 +208,17 @@ export async function readDocument(
     unpacked.set(index, bytes);
     return bytes;
   };
-  const isThere = (index: number) => {
+  const exists = (index: number) => {
     const view = json.bufferViews?.[index];
     const packed = view?.extensions?.EXT_meshopt_compression ?? view?.extensions?.KHR_meshopt_compression;
     return buffers[(packed ?? view)?.buffer ?? -1] !== undefined;
   };
-  checkBytes((index) => (isThere(index) ? viewBytes(index) : undefined));
+  checkBytes((index) => (exists(index) ? viewBytes(index) : undefined));
   return {
     file,
     accessors: new Accessors(json, viewBytes, budget),
     viewBytes,
-    isThere,
+    exists,
     draco,
     ahead: new Map(),
     budget,
@@ -229,11 +229,11 @@ export async function readDocument(
 const short = (name: string, path: string, length: number, expected: number) =>
   new GltfError(
     'gltf/truncated',
-    `${name}: ${path} has ${length} bytes, but says it has ${expected}: the file is cut off.`,
+    `${name}: ${path} has ${length} bytes instead of ${expected}: the file is truncated. Download or export it again.`,
     { location: { file: name, path } },
   );
 
-/** The bytes behind a uri: data in the uri itself, or a file beside the document. */
+/** The bytes of a uri: a data: uri, or a file in the document's folder. */
 export async function readUri(
   uri: string,
   source: Source,
@@ -258,7 +258,7 @@ export async function readUri(
   if (/^[a-z][a-z0-9+.-]*:|^\/|^\\/i.test(path))
     throw new GltfError(
       'gltf/missing-resource',
-      `${source.name} names "${uri}": only files beside the document are read.`,
+      `${source.name} names "${uri}": only files in the document's folder are read.`,
       { location: { file: source.name } },
     );
   return source.read(path, signal);

@@ -3,10 +3,10 @@ import type { GltfJson, GltfPrimitive } from './json';
 import { dracoAttributes, type PrimitiveReader } from './primitive';
 import type { DracoWorkers } from './draco-workers';
 
-/** Fewer packed bytes than this are unpacked before a worker has heard of them. */
-const WORTH_SENDING = 20_000;
+/** Min compressed bytes for which workers pay off. */
+const MIN_BYTES = 20_000;
 
-/** The meshes that the nodes of a scene name; those of all nodes if no scene is shown. */
+/** The meshes that the nodes of a scene use; those of all nodes if no scene is shown. */
 function meshesShown({ scenes, nodes = [] }: GltfJson, shown: number | undefined): Set<number> {
   const meshes = new Set<number>(),
     seen = new Set<number>();
@@ -22,8 +22,8 @@ function meshesShown({ scenes, nodes = [] }: GltfJson, shown: number | undefined
 }
 
 /**
- * Lets workers unpack the compressed primitives of a scene, several at a time, before they are read. What does not work
- * is left to the reader.
+ * Decodes the compressed primitives of a scene in workers, several concurrently, before they are read. Those that fail
+ * are left to the reader.
  *
  * @throws {GltfError} `gltf/too-large`
  */
@@ -54,12 +54,12 @@ export async function unpackAhead(
         });
         packedBytes += bytes.length;
       } catch {
-        // Told where it is read.
+        // The reader reports it.
       }
     });
   }
-  if (found.length < 2 || packedBytes < WORTH_SENDING) return;
-  // The largest first, so that all workers end at about the same time.
+  if (found.length < 2 || packedBytes < MIN_BYTES) return;
+  // Largest first, so that all workers finish at about the same time.
   found.sort((a, b) => b.bytes.length - a.bytes.length);
   await Promise.all(
     found.map(async ({ primitive, path, bytes, attributes }) => {

@@ -1,49 +1,48 @@
 import type { DracoAttribute, DracoPrimitive } from './draco';
 
-/** To a helper: one mesh to unpack. */
+/** Message to a worker: a mesh to decode. */
 export interface DracoRequest {
   readonly kind: 'draco';
   readonly id: number;
   readonly bytes: Uint8Array<ArrayBuffer>;
   readonly attributes: readonly DracoAttribute[];
-  /** Bytes that may come out. */
-  readonly most: number;
+  /** Max bytes of the decoded mesh. */
+  readonly maxBytes: number;
 }
 
-/** From a helper; without a mesh where it could not be unpacked. */
+/** Message from a worker; without a mesh if decoding failed. */
 export interface DracoReply {
   readonly kind: 'unpacked';
   readonly id: number;
   readonly primitive?: DracoPrimitive;
 }
 
-/** How helpers are started. */
+/** Options for {@link DracoWorkers}. */
 export interface DracoWorkersOptions {
   /** Starts a worker whose file calls `serveGltf` of `@glanz/gltf/worker` with the decoder `draco`. */
   readonly createWorker: () => Worker;
-  /** Most workers at a time, at least 1. Default: the machine's threads, at most 4. */
+  /** Max workers, at least 1. Default: the machine's threads, at most 4. */
   readonly count?: number | undefined;
 }
 
-/** A helper and what it has to do. */
-interface Helper {
+/** A worker and its pending requests. */
+interface Slot {
   readonly worker: Worker;
   readonly waiting: Map<number, (primitive: DracoPrimitive | undefined) => void>;
-  /** Packed bytes that it has still to unpack. */
+  /** Compressed bytes of its pending requests. */
   load: number;
   failed: boolean;
 }
 
-/** A worker that has unpacked nothing by then will not. */
-const PATIENCE_MS = 30_000;
+/** Time after which a worker that has not answered counts as failed. */
+const TIMEOUT_MS = 30_000;
 
 /**
- * Unpacks Draco-compressed meshes side by side in workers: the option `decoders.dracoWorkers` of `loadGltf`. A
- * worker is started when there is something for it to do, and stays. What goes wrong here (a worker that does not
- * start, a broken mesh) is no error: `decoders.draco` then does it, and tells what is wrong.
+ * Decodes Draco-compressed meshes in parallel in workers: the option `decoders.dracoWorkers` of `loadGltf`. Workers are
+ * started on demand and kept. A failure (a worker that does not start, a broken mesh) is not an error: `decoders.draco`
+ * then decodes the mesh on the calling thread and reports what is wrong.
  *
- * A worker file that calls `serveGltf` has workers of this kind by itself; this class is for loads on the calling
- * thread.
+ * A worker file that calls `serveGltf` creates such workers itself; this class is for loads on the calling thread.
  *
  * @example
  * const dracoWorkers = new DracoWorkers({ createWorker: () => new Worker(new URL('./my-gltf-worker.ts',
@@ -53,7 +52,7 @@ const PATIENCE_MS = 30_000;
 export class DracoWorkers {
   readonly #createWorker: () => Worker;
   readonly #count: number;
-  readonly #helpers: Helper[] = [];
+  readonly #slots: Slot[] = [];
   #next = 0;
   #destroyed = false;
 
@@ -66,69 +65,73 @@ export class DracoWorkers {
   }
 
   /**
-   * Unpacks a mesh.
+   * Decodes a mesh.
    *
-   * @param bytes As they are in the file; copied.
-   * @param most Bytes that may come out.
-   * @returns The mesh, or `undefined` where this did not work.
+   * @param bytes Compressed bytes, as in the file; copied.
+   * @param maxBytes Max bytes of the decoded mesh.
+   * @returns The mesh, or `undefined` if decoding failed.
    */
-  unpack(bytes: Uint8Array, attributes: readonly DracoAttribute[], most: number): Promise<DracoPrimitive | undefined> {
+  unpack(
+    bytes: Uint8Array,
+    attributes: readonly DracoAttribute[],
+    maxBytes: number,
+  ): Promise<DracoPrimitive | undefined> {
     return new Promise((resolve) => {
-      const helper = this.#destroyed ? undefined : this.#leastBusy(bytes.length);
-      if (!helper) return resolve(undefined);
+      const slot = this.#destroyed ? undefined : this.#leastBusy(bytes.length);
+      if (!slot) return resolve(undefined);
       const id = this.#next++;
-      const timer = setTimeout(() => this.#fail(helper), PATIENCE_MS);
-      helper.load += bytes.length;
-      helper.waiting.set(id, (primitive) => {
+      const timer = setTimeout(() => this.#fail(slot), TIMEOUT_MS);
+      slot.load += bytes.length;
+      slot.waiting.set(id, (primitive) => {
         clearTimeout(timer);
-        helper.load -= bytes.length;
-        helper.waiting.delete(id);
+        slot.load -= bytes.length;
+        slot.waiting.delete(id);
         resolve(primitive);
       });
       const own = bytes.slice();
-      helper.worker.postMessage({ kind: 'draco', id, bytes: own, attributes, most } satisfies DracoRequest, [
+      slot.worker.postMessage({ kind: 'draco', id, bytes: own, attributes, maxBytes } satisfies DracoRequest, [
         own.buffer,
       ]);
     });
   }
 
-  /** Ends the workers; what they have not unpacked yet comes as `undefined`. Idempotent. */
+  /** Terminates the workers; pending calls of {@link unpack} return `undefined`. Idempotent. */
   destroy(): void {
     this.#destroyed = true;
-    for (const helper of this.#helpers.splice(0)) this.#fail(helper);
+    for (const slot of this.#slots.splice(0)) this.#fail(slot);
   }
 
-  /** The worker that has least to do; a new one if all are busy and there may be more. */
-  #leastBusy(bytes: number): Helper | undefined {
-    const sound = this.#helpers.filter(({ failed }) => !failed);
-    const least = sound.reduce<Helper | undefined>(
-      (best, helper) => (best && best.load <= helper.load ? best : helper),
+  /** The least busy worker; a new one if all are busy and the maximum is not reached. */
+  #leastBusy(bytes: number): Slot | undefined {
+    const usable = this.#slots.filter(({ failed }) => !failed);
+    const least = usable.reduce<Slot | undefined>(
+      (best, slot) => (best && best.load <= slot.load ? best : slot),
       undefined,
     );
-    // One that failed is not started again and again.
-    if ((least && (least.load === 0 || bytes === 0)) || this.#helpers.length >= this.#count) return least;
+    // Failed workers count towards the maximum, so that they are not restarted forever.
+    if ((least && (least.load === 0 || bytes === 0)) || this.#slots.length >= this.#count) return least;
     let worker: Worker;
     try {
       worker = this.#createWorker();
     } catch {
       return least;
     }
-    const helper: Helper = { worker, waiting: new Map(), load: 0, failed: false };
+    const slot: Slot = { worker, waiting: new Map(), load: 0, failed: false };
     worker.addEventListener('message', ({ data }: MessageEvent<DracoReply | { readonly kind: string }>) => {
-      if (data.kind === 'unpacked') helper.waiting.get((data as DracoReply).id)?.((data as DracoReply).primitive);
+      if (data.kind === 'unpacked') slot.waiting.get((data as DracoReply).id)?.((data as DracoReply).primitive);
     });
-    worker.addEventListener('messageerror', () => this.#fail(helper));
+    worker.addEventListener('messageerror', () => this.#fail(slot));
     worker.addEventListener('error', (event) => {
       event.preventDefault();
-      this.#fail(helper);
+      this.#fail(slot);
     });
-    this.#helpers.push(helper);
-    return helper;
+    this.#slots.push(slot);
+    return slot;
   }
 
-  #fail(helper: Helper): void {
-    helper.failed = true;
-    helper.worker.terminate();
-    for (const answer of helper.waiting.values()) answer(undefined);
+  #fail(slot: Slot): void {
+    slot.failed = true;
+    slot.worker.terminate();
+    for (const answer of slot.waiting.values()) answer(undefined);
   }
 }

@@ -1,7 +1,7 @@
 import { ELEMENT_SIZE, toFloats, type Numbers } from './accessors';
 import type { GltfAccessor } from './json';
 
-/** What is used of the module that `draco3dgltf`'s `createDecoderModule()` gives. */
+/** The parts of the module of `draco3dgltf` (`createDecoderModule()`) that are used. */
 interface DracoModule {
   readonly DecoderBuffer: new () => object & { Init(bytes: Uint8Array, length: number): void };
   readonly Decoder: new () => DracoDecoder;
@@ -44,7 +44,7 @@ const TYPES = {
   5126: ['DT_FLOAT32', Float32Array],
 } as const;
 
-/** A mesh that has been unpacked. Attributes by their semantics. */
+/** A decoded mesh. Attributes by their semantics. */
 export interface DracoPrimitive {
   readonly vertices: number;
   readonly indices: Uint32Array<ArrayBuffer>;
@@ -54,7 +54,7 @@ export interface DracoPrimitive {
 /** An attribute that a compressed mesh holds: its semantic, Draco's id, and what it is in the document. */
 export type DracoAttribute = readonly [semantic: string, id: number, accessor: GltfAccessor];
 
-/** The floats of an unpacked attribute, as `Accessors.floats` gives them. */
+/** The floats of a decoded attribute, as `Accessors.floats` returns them. */
 export const dracoFloats = (
   { numbers, accessor }: { readonly numbers: Numbers; readonly accessor: GltfAccessor },
   size: number,
@@ -62,11 +62,11 @@ export const dracoFloats = (
   toFloats(numbers, accessor.componentType, accessor.normalized ?? false, ELEMENT_SIZE[accessor.type] as number, size);
 
 /**
- * Unpacks KHR_draco_mesh_compression.
+ * Decodes KHR_draco_mesh_compression.
  *
  * @param module The decoder's module.
  * @param attributes Accessors and Draco's ids by semantics.
- * @param checkSize Told the bytes that come out before they are allocated; may throw.
+ * @param checkSize Called with the bytes of each array before it is allocated; may throw.
  * @throws {Error} if the data are broken.
  */
 export function unpackDraco(

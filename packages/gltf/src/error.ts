@@ -1,6 +1,6 @@
 import { GlanzError, type GlanzErrorOptions } from '@glanz/scene';
 
-/** Text on one line of a sensible length: names and addresses come from the file and may hold anything. */
+/** Text on one line, at most 500 characters: names and URLs come from the file and may contain anything. */
 export const oneLine = (text: string): string => {
   const line = text.slice(0, 600).replace(/[\p{Cc}\u2028\u2029]+/gu, ' ');
   return line.length > 500 ? `${line.slice(0, 500)}…` : line;
@@ -9,10 +9,10 @@ export const oneLine = (text: string): string => {
 /**
  * Thrown by the loaders. Codes: `gltf/not-gltf` (neither a glTF document nor a GLB), `gltf/truncated`, `gltf/version`,
  * `gltf/malformed` (parts that contradict the specification), `gltf/missing-resource` (a file that the document names
- * is not there), `gltf/unsupported-extension` (one that the document requires), `gltf/missing-decoder` (an optional
- * package is needed), `gltf/too-large` (more than the limits allow), `gltf/no-such-part` (a scene or an animation that
- * was asked for), `gltf/no-triangles`, `gltf/picture` (from a decoder of pictures: a load goes on without it),
- * `gltf/worker` (the worker of `loadGltfInWorker` cannot be started).
+ * does not exist), `gltf/unsupported-extension` (one that the document requires), `gltf/missing-decoder` (an optional
+ * package is needed), `gltf/too-large` (more than the limits allow), `gltf/no-such-part` (the requested scene or
+ * animation does not exist), `gltf/no-triangles`, `gltf/ktx2` (from a KTX2 decoder: a load continues without the
+ * image), `gltf/worker` (the worker of `loadGltfInWorker` cannot be started).
  */
 export class GltfError extends GlanzError {
   constructor(code: string, message: string, options: GlanzErrorOptions = {}) {

@@ -1,29 +1,28 @@
-// EXT_lights_image_based: a cube of six pictures around the scene. Its blurred levels and its spherical harmonics are
-// for renderers that cannot integrate; here the sharpest level becomes a lat-long picture, which is what scenes hold.
+// EXT_lights_image_based: a cube map. Its prefiltered levels and its spherical harmonics are for rasterizers; here the
+// sharpest level becomes a lat-long environment.
 import type { LatLongEnvironment } from '@glanz/scene';
 import type { DecodedImage } from './decoded-image';
 import type { GltfImageLight } from './json';
 
-/** Edge of the faces that are read at most; where there are smaller levels, a larger one is left out. */
-export const LARGEST_FACE = 1024;
+/** Max edge of a face in pixels; larger levels are skipped if smaller ones exist. */
+export const MAX_FACE_SIZE = 1024;
 
 const srgbToLinear = (c: number) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
 
-/** How long the work may hold its thread, in milliseconds. */
-const TURN = 8;
+/** Milliseconds between yields to the event loop. */
+const SLICE_MS = 8;
 
-/** The six pictures of the sharpest level that is not too large. */
+/** The six images of the sharpest level within {@link MAX_FACE_SIZE}. */
 export function facesOf({ specularImages, specularImageSize = 0 }: GltfImageLight): readonly number[] {
   const level = Math.min(
-    Math.max(0, Math.ceil(Math.log2(specularImageSize / LARGEST_FACE))),
+    Math.max(0, Math.ceil(Math.log2(specularImageSize / MAX_FACE_SIZE))),
     specularImages.length - 1,
   );
   return specularImages[level] as readonly number[];
 }
 
 /**
- * Radiance of the texels of a face: RGBD where a PNG has an alpha channel, which divides the colour, else plain
- * colours.
+ * Radiance of the texels of a face: RGBD (colour divided by alpha) for a PNG with an alpha channel, else plain colours.
  */
 function decodeFace({ data }: DecodedImage): Float32Array {
   const curve = Float32Array.from({ length: 256 }, (_, code) => srgbToLinear(code / 255));
@@ -36,8 +35,8 @@ function decodeFace({ data }: DecodedImage): Float32Array {
 }
 
 /**
- * Makes the surroundings of a light's six faces (+X, −X, +Y, −Y, +Z, −Z, each as seen from within, upright, in glTF's
- * right-handed space). Lets others have the thread every few milliseconds.
+ * Computes the environment from a light's six faces (+X, −X, +Y, −Y, +Z, −Z, each upright as seen from inside, in
+ * glTF's right-handed space). Yields to the event loop every few milliseconds.
  */
 export async function environmentOf(
   { rotation = [0, 0, 0, 1], intensity = 1 }: GltfImageLight,
@@ -49,19 +48,19 @@ export async function environmentOf(
   const data = new Float32Array(3 * width * height);
   const pixels = faces.map(decodeFace);
   const [qx, qy, qz, qw] = rotation as readonly [number, number, number, number];
-  let until = performance.now() + TURN;
+  let until = performance.now() + SLICE_MS;
   const direction = new Float64Array(3);
   for (let y = 0, o = 0; y < height; y++) {
     if (performance.now() > until) {
       await new Promise((resolve) => setTimeout(resolve));
       signal?.throwIfAborted();
-      until = performance.now() + TURN;
+      until = performance.now() + SLICE_MS;
     }
     const polar = (Math.PI * (y + 0.5)) / height;
     for (let x = 0; x < width; x++, o += 3) {
       const azimuth = 2 * Math.PI * ((x + 0.5) / width - 0.5);
-      // The light is turned by q, so the picture is looked up in the direction turned back.
-      turnBack(
+      // The light is rotated by q: look the cube up in the direction rotated by the inverse.
+      rotateInverse(
         direction,
         Math.sin(polar) * Math.cos(azimuth),
         Math.cos(polar),
@@ -77,8 +76,8 @@ export async function environmentOf(
   return { type: 'latlong', width, height, data, intensity };
 }
 
-/** The vector turned by the inverse of a unit quaternion. */
-function turnBack(
+/** Rotates a vector by the inverse of a unit quaternion. */
+function rotateInverse(
   out: Float64Array,
   x: number,
   y: number,
@@ -96,7 +95,7 @@ function turnBack(
   out[2] = z + qw * tz + (tx * qy - ty * qx);
 }
 
-/** Bilinear within the face that the direction meets. */
+/** Bilinear lookup within the face that the direction hits. */
 function lookUp(
   out: Float32Array,
   at: number,
@@ -108,7 +107,7 @@ function lookUp(
     y = d[1] as number,
     z = d[2] as number;
   const [ax, ay, az] = [Math.abs(x), Math.abs(y), Math.abs(z)];
-  // Right and down of each face, as one looks at it with +Y up (for ±Y: with the top of the picture towards −Z and +Z).
+  // Right and down of each face, as one looks at it with +Y up (for ±Y: with the top of the image towards −Z and +Z).
   let face: number, u: number, v: number;
   if (ax >= ay && ax >= az) [face, u, v] = x > 0 ? [0, z / ax, -y / ax] : [1, -z / ax, -y / ax];
   else if (ay >= az) [face, u, v] = y > 0 ? [2, -x / ay, z / ay] : [3, -x / ay, -z / ay];

@@ -9,16 +9,16 @@ import {
   type WrapMode,
 } from '@glanz/scene';
 import { namedImage } from './browser-images';
-import { convertImage, type DerivedPicture } from './convert-image';
+import { convertImage, type DerivedImage } from './convert-image';
 import { readUri } from './document';
 import { GltfError } from './error';
 import type { GltfImage, GltfJson, GltfTexture } from './json';
 import type { Budget } from './limits';
-import { pictureSize } from './picture-header';
-import { pictureType, wrongType } from './picture-type';
+import { imageSize } from './image-header';
+import { imageType, wrongType } from './image-type';
 import type { Source } from './source';
 
-/** The picture behind a texture: a better one where the document offers it and it can be read, else the plain one. */
+/** The image of a texture: from an extension whose format can be read, else the texture's own `source`. */
 function sourceOf(texture: GltfTexture | undefined, ktx2: boolean): number | undefined {
   const by = (name: string) => texture?.extensions?.[name]?.source;
   const plain = by('EXT_texture_avif') ?? by('EXT_texture_webp') ?? texture?.source;
@@ -28,24 +28,24 @@ function sourceOf(texture: GltfTexture | undefined, ktx2: boolean): number | und
 const WRAP: Readonly<Record<number, WrapMode>> = { 33071: 'clamp', 33648: 'mirror', 10497: 'repeat' };
 const NEAREST = 9728;
 
-/** A picture of the scene: one of the document's, or one made of some (none where the document has none). */
-type Picture =
-  { readonly image: number } | { readonly sources: readonly (number | undefined)[]; readonly derived: DerivedPicture };
+/** An image of the scene: an image of the document, or one computed from several (undefined: absent). */
+type SceneImage =
+  { readonly image: number } | { readonly sources: readonly (number | undefined)[]; readonly derived: DerivedImage };
 
 const white = (): DecodedImage => ({ width: 1, height: 1, data: new Uint8Array([255, 255, 255, 255]) });
 
-/** Pictures that are read at the same time. Decoders do not begin more than they have threads for. */
-const AT_A_TIME = 16;
+/** Max images that are read concurrently. Decoders limit themselves to their threads. */
+const MAX_CONCURRENT = 16;
 
-/** The textures that materials have asked for, with their pictures read as they are needed. */
+/** The textures that materials use, and their images. */
 export class TextureTable {
   readonly textures: Texture[] = [];
-  /** Pictures (as the scene counts them) that could not be decoded. */
+  /** Images (by their index in the scene) that could not be decoded. */
   readonly failed = new Set<number>();
-  /** What is wrong with pictures that have been read: one warning each. */
+  /** Warnings by index of the document's image: at most one each. */
   readonly #notes = new Map<number, SceneWarning>();
-  readonly #wanted = new Map<string, number>();
-  readonly #pictures: Picture[] = [];
+  readonly #textureOf = new Map<string, number>();
+  readonly #images: SceneImage[] = [];
   readonly #places = new Map<string, number>();
   readonly #json: GltfJson;
   readonly #source: Source;
@@ -64,12 +64,13 @@ export class TextureTable {
     this.#source = source;
     this.#warnings = warnings;
     this.#ktx2 = ktx2;
-    let told: Promise<readonly CompressedFormat[]> | undefined;
-    this.#formats = () => (told ??= typeof formats === 'function' ? formats() : Promise.resolve(formats));
+    let available: Promise<readonly CompressedFormat[]> | undefined;
+    this.#formats = () => (available ??= typeof formats === 'function' ? formats() : Promise.resolve(formats));
   }
 
   /**
-   * The scene's texture for one of the document's, read as `colorSpace`; undefined (with a warning) if there is none.
+   * Index of the scene's texture for one of the document, read as `colorSpace`; undefined, with a warning, if it has no
+   * image.
    */
   get(index: number, colorSpace: 'srgb' | 'linear', path: string): number | undefined {
     return this.#once(`${index} ${colorSpace}`, () => {
@@ -79,8 +80,8 @@ export class TextureTable {
   }
 
   /**
-   * A texture whose picture is made of the document's; it is read as the first of them is. Undefined (with a warning)
-   * if there is none.
+   * Index of a texture whose image is computed from several of the document, with the sampler of the first. Undefined,
+   * with a warning, if none of them has an image.
    */
   derive(
     { key, sources, convert }: GltfPictureConversion,
@@ -101,10 +102,10 @@ export class TextureTable {
   }
 
   #once(key: string, make: () => number | undefined): number | undefined {
-    const known = this.#wanted.get(key);
+    const known = this.#textureOf.get(key);
     if (known !== undefined) return known;
     const made = make();
-    if (made !== undefined) this.#wanted.set(key, made);
+    if (made !== undefined) this.#textureOf.set(key, made);
     return made;
   }
 
@@ -114,7 +115,7 @@ export class TextureTable {
     if (texture && image !== undefined && this.#json.images?.[image]) return image;
     const why = texture
       ? image === undefined
-        ? 'has no picture in a format that is read'
+        ? 'has no image in a supported format'
         : `names image ${image}, which does not exist`
       : 'does not exist';
     this.#warnings.push({
@@ -125,10 +126,10 @@ export class TextureTable {
     return undefined;
   }
 
-  #place(key: string, picture: Picture): number {
+  #place(key: string, entry: SceneImage): number {
     const known = this.#places.get(key);
     if (known !== undefined) return known;
-    const at = this.#pictures.push(picture) - 1;
+    const at = this.#images.push(entry) - 1;
     this.#places.set(key, at);
     return at;
   }
@@ -147,9 +148,9 @@ export class TextureTable {
     return this.textures.push(made) - 1;
   }
 
-  /** How many pictures have been asked for. */
+  /** Number of images in use. */
   get imageCount(): number {
-    return this.#pictures.length;
+    return this.#images.length;
   }
 
   #nameOf(index: number): string {
@@ -158,7 +159,7 @@ export class TextureTable {
   }
 
   /**
-   * Reads and decodes one of the document's pictures; undefined, with a warning, for one that cannot be decoded.
+   * Reads and decodes one of the document's images; undefined, with a warning, for one that cannot be decoded.
    * @throws {GltfError} as {@link readImages}.
    */
   async readImage(
@@ -173,32 +174,32 @@ export class TextureTable {
     const bytes =
       image.uri === undefined ? viewBytes(image.bufferView ?? -1) : await readUri(image.uri, this.#source, signal);
     try {
-      const type = pictureType(bytes);
+      const type = imageType(bytes);
       const declared = wrongType(image, type);
       if (declared !== undefined)
         this.#notes.set(index, {
           code: 'gltf/image',
-          message: `${this.#source.name}: image ${index} ("${this.#nameOf(index)}") says that it is ${declared}, but its bytes are ${type}; the bytes count.`,
+          message: `${this.#source.name}: image ${index} ("${this.#nameOf(index)}") is declared as ${declared}, but its bytes are ${type}; it is read as ${type}.`,
           path: `/images/${index}`,
         });
       if (type === 'image/ktx2' && !this.#ktx2)
         throw new GltfError(
           'gltf/missing-decoder',
-          `${this.#source.name} has pictures in KTX2: pass decoders.ktx2, for which the package "three" has the transcoder.`,
+          `${this.#source.name} has KTX2 images: pass decoders.ktx2; the package "three" contains the transcoder.`,
           { location: { file: this.#source.name, path: `/images/${index}` } },
         );
       // Before a decoder allocates anything.
-      const said = pictureSize(bytes, type);
-      if (said) budget.take(4 * said.width * said.height, `/images/${index}`);
+      const declaredSize = imageSize(bytes, type);
+      if (declaredSize) budget.take(4 * declaredSize.width * declaredSize.height, `/images/${index}`);
       const decoded =
         type === 'image/ktx2'
           ? await (this.#ktx2 as Ktx2Decoder)(bytes, await this.#formats())
           : await decode(bytes, type);
-      if (!said) budget.take(4 * decoded.width * decoded.height, `/images/${index}`);
+      if (!declaredSize) budget.take(4 * decoded.width * decoded.height, `/images/${index}`);
       return decoded;
     } catch (error) {
-      // A decoder that does not start is of another package.
-      if (error instanceof GlanzError && error.code !== 'gltf/picture') throw error;
+      // Other codes report that a decoder could not be started: this is not the image's fault.
+      if (error instanceof GlanzError && error.code !== 'gltf/ktx2') throw error;
       this.#notes.set(index, {
         code: 'gltf/image',
         message: `${this.#source.name}: image ${index} ("${this.#nameOf(index)}") cannot be decoded and is left out: ${error instanceof Error ? error.message.split('\n')[0] : String(error)}.`,
@@ -209,11 +210,11 @@ export class TextureTable {
   }
 
   /**
-   * Reads and decodes the pictures asked for, some at a time. One that cannot be decoded goes into {@link failed}, with
-   * a warning.
-   * @param viewBytes Bytes of a buffer view.
-   * @param budget Told the bytes of each picture.
-   * @throws {GltfError} `gltf/missing-resource` for a file that is not there.
+   * Reads and decodes the images in use, several concurrently. Adds those that cannot be decoded to {@link failed},
+   * with a warning.
+   * @param viewBytes Returns the bytes of a buffer view.
+   * @param budget Charged with the bytes of each image.
+   * @throws {GltfError} `gltf/missing-resource` for a file that does not exist.
    */
   async readImages(
     decode: ImageDecoder,
@@ -223,13 +224,12 @@ export class TextureTable {
     onImage: () => void,
   ): Promise<Image[]> {
     const read = (index: number) => this.readImage(index, decode, viewBytes, budget, signal);
-    const wanted = this.shownImages;
-    // The first ones begin before this returns, so that decoders, which have threads of their own, are at work while
-    // geometry is read.
+    const shown = this.shownImages;
+    // The first reads start synchronously, so that decoders work on their own threads while geometry is read here.
     const decoding = new Map<number, Promise<DecodedImage | undefined>>();
-    for (const [at, index] of wanted.entries()) {
-      const before = decoding.get(wanted[at - AT_A_TIME] ?? -1);
-      // Whoever waits for one hears of its error; the others go on.
+    for (const [at, index] of shown.entries()) {
+      const before = decoding.get(shown[at - MAX_CONCURRENT] ?? -1);
+      // An error rejects the image's own promise only; the next image is read all the same.
       const promise = before
         ? before.then(
             () => read(index),
@@ -240,33 +240,33 @@ export class TextureTable {
       decoding.set(index, promise);
     }
     const images: Image[] = [];
-    for (const picture of this.#pictures) {
-      if ('image' in picture) {
-        const decoded = await decoding.get(picture.image);
+    for (const entry of this.#images) {
+      if ('image' in entry) {
+        const decoded = await decoding.get(entry.image);
         if (!decoded) this.failed.add(images.length);
-        images.push(namedImage(this.#nameOf(picture.image), decoded ?? white()));
+        images.push(namedImage(this.#nameOf(entry.image), decoded ?? white()));
       } else {
         const sources: DecodedImage[] = [];
-        for (const index of picture.sources)
+        for (const index of entry.sources)
           sources.push((index === undefined ? undefined : await decoding.get(index)) ?? white());
-        const name = picture.sources.flatMap((index) => (index === undefined ? [] : [this.#nameOf(index)])).join(' + ');
-        images.push({ name, ...(await convertImage(sources, picture.derived, signal)) });
+        const name = entry.sources.flatMap((index) => (index === undefined ? [] : [this.#nameOf(index)])).join(' + ');
+        images.push({ name, ...(await convertImage(sources, entry.derived, signal)) });
       }
       onImage();
     }
     return images;
   }
 
-  /** The document's images that materials show. */
+  /** The document's images that materials use. */
   get shownImages(): number[] {
-    const all = this.#pictures.flatMap((picture) =>
-      'image' in picture ? [picture.image] : picture.sources.filter((index) => index !== undefined),
+    const all = this.#images.flatMap((entry) =>
+      'image' in entry ? [entry.image] : entry.sources.filter((index) => index !== undefined),
     );
     return [...new Set(all)];
   }
 
-  /** Warnings about the pictures that have been read, in their order. */
-  get pictureWarnings(): readonly SceneWarning[] {
+  /** Warnings about images, in the document's order. */
+  get imageWarnings(): readonly SceneWarning[] {
     return [...this.#notes].sort(([a], [b]) => a - b).map(([, warning]) => warning);
   }
 }

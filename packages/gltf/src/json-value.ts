@@ -1,11 +1,11 @@
-/** An object of a document that nothing is known about yet. */
+/** An object of a document that has not been checked yet. */
 export type Raw = { readonly [key: string]: unknown };
 
 /** Whether a value is a JSON object. */
 export const isObject = (value: unknown): value is Raw =>
   typeof value === 'object' && value !== null && !Array.isArray(value);
 
-/** JSON text of a value as far as it is short and shallow; deep ones would overflow the stack of JSON.stringify. */
+/** Abbreviated JSON of a value; deep values would overflow the stack of JSON.stringify. */
 export function brief(value: unknown, depth: number): string {
   if (typeof value === 'string') return JSON.stringify(value.slice(0, 60));
   if (typeof value === 'number') return String(value);
@@ -22,23 +22,23 @@ export function brief(value: unknown, depth: number): string {
     .join(',')}}`;
 }
 
-/** A value as it may be quoted in a message of one line. */
+/** A value as quoted in a one-line message. */
 export const quote = (value: unknown): string => {
   const text = value === undefined ? 'missing' : brief(value, 0);
   return text.length > 40 ? `${text.slice(0, 40)}…` : text;
 };
 
 /**
- * Whether objects and arrays lie in one another at most `most` times. What passes through to the host must not overflow
+ * Whether objects and arrays are nested at most `maxDepth` deep. Values that are passed to the host must not overflow
  * its stack.
  */
-export function isShallow(value: unknown, most = 100): boolean {
+export function isShallow(value: unknown, maxDepth = 100): boolean {
   let level: unknown[] = [value];
   for (let depth = 0; level.length > 0; depth++) {
     const inside = level.flatMap((entry): unknown[] =>
       typeof entry === 'object' && entry !== null ? Object.values(entry) : [],
     );
-    if (inside.length > 0 && depth === most) return false;
+    if (inside.length > 0 && depth === maxDepth) return false;
     level = inside;
   }
   return true;

@@ -153,7 +153,7 @@ export interface GltfImageLight {
   readonly rotation?: readonly number[];
   readonly intensity?: number;
   readonly specularImageSize?: number;
-  /** Levels of six pictures each. */
+  /** Levels of six images each. */
   readonly specularImages: readonly (readonly number[])[];
 }
 

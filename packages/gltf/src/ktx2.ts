@@ -3,7 +3,7 @@ import { GltfError } from './error';
 import type { Ktx2Decoder } from './decoded-image';
 import { imageOfPixels } from './lazy-pixels';
 
-/** What is used of the Basis Universal transcoder. */
+/** The parts of the Basis Universal transcoder that are used. */
 interface BasisModule {
   initializeBasis(): void;
   readonly KTX2File: new (bytes: Uint8Array) => Ktx2File;
@@ -31,7 +31,7 @@ interface Ktx2File {
   delete(): void;
 }
 
-/** The transcoder's numbers: RGBA of 8 bits, and what GPUs read. */
+/** The transcoder's format numbers: RGBA with 8 bits, and compressed texture formats. */
 const RGBA32 = 13;
 const TARGETS: Readonly<Record<CompressedFormat, number>> = {
   'bc7-rgba-unorm': 6,
@@ -40,17 +40,17 @@ const TARGETS: Readonly<Record<CompressedFormat, number>> = {
 };
 const HEADER_BYTES = 80;
 
-const broken = (what: string) => new GltfError('gltf/picture', `The KTX2 picture cannot be decoded: ${what}.`);
+const broken = (what: string) => new GltfError('gltf/ktx2', `The KTX2 image cannot be decoded: ${what}.`);
 
-/** A picture of one colour packs well, but not better than this: bytes of pixels for one of the file. */
-const MOST_RATIO = 2048;
+/** Pixel bytes per file byte that no valid file exceeds: even an image of one colour does not compress better. */
+const MAX_RATIO = 2048;
 
 /**
- * A decoder of KTX2 pictures (`KHR_texture_basisu`) on the Basis Universal transcoder, which has a global or exported
- * `BASIS` function: `await BASIS({ wasmBinary })` gives the module.
+ * A decoder of KTX2 images (`KHR_texture_basisu`) that uses the Basis Universal transcoder. The transcoder has a global
+ * or exported function `BASIS`: `await BASIS({ wasmBinary })` returns the module.
  *
- * @param module The module, or what fetches it; it is asked for at the first picture.
- * @throws {GltfError} `gltf/picture` (from the decoder) for what is no such picture; a load then goes on without it.
+ * @param module The module, or a function that fetches it; it is called for the first image.
+ * @throws {GltfError} `gltf/ktx2` (from the decoder) for invalid images; a load continues without the image.
  * @example
  * loadGltf('a.glb', { decoders: { ktx2: ktx2Decoder(() => BASIS({ wasmBinary })) } });
  */
@@ -66,7 +66,7 @@ export function ktx2Decoder(module: (() => Promise<unknown>) | object): Ktx2Deco
     const basis = await ready;
     return reading(basis, bytes, width, height, (file) => {
       const pixels = (from: Ktx2File) => transcode(from, 0, RGBA32, 4 * width * height);
-      // GPUs take blocks only where the picture is made of whole ones.
+      // Compressed textures must consist of whole blocks.
       const format = width % 4 || height % 4 ? undefined : formatFor(file, formats);
       if (!format) return { width, height, data: pixels(file) };
       const compressed = compress(file, width, height, format);
@@ -75,7 +75,7 @@ export function ktx2Decoder(module: (() => Promise<unknown>) | object): Ktx2Deco
   };
 }
 
-/** The length of the first level and the size stand in the header: a look spares the transcoder pictures that lie. */
+/** Checks the size in the header against the file's length, before the transcoder allocates memory. */
 function checkHeader(bytes: Uint8Array): { readonly width: number; readonly height: number } {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   if (bytes.length < HEADER_BYTES + 24) throw broken('it is cut off');
@@ -83,13 +83,13 @@ function checkHeader(bytes: Uint8Array): { readonly width: number; readonly heig
   if (width < 1 || height < 1 || width > 32768 || height > 32768) throw broken(`its size is ${width} × ${height}`);
   const [depth, layers, faces] = [28, 32, 36].map((at) => view.getUint32(at, true));
   if (depth !== 0 || layers !== 0 || faces !== 1)
-    throw broken('it is no plain picture, but one with depth, layers or faces');
-  if (4 * width * height > MOST_RATIO * bytes.length + 65536)
-    throw broken(`it says that ${bytes.length} bytes hold ${width} × ${height} pixels`);
+    throw broken('it is not a plain 2D image: it has depth, layers or faces');
+  if (4 * width * height > MAX_RATIO * bytes.length + 65536)
+    throw broken(`its header claims that ${bytes.length} bytes hold ${width} × ${height} pixels`);
   return { width, height };
 }
 
-/** Opens a picture for as long as it is read. */
+/** Opens an image, reads it, and frees it. */
 function reading<T>(
   { KTX2File }: BasisModule,
   bytes: Uint8Array,
@@ -100,7 +100,7 @@ function reading<T>(
   const file = new KTX2File(bytes);
   try {
     if (!file.isValid() || file.getWidth() !== width || file.getHeight() !== height || !file.startTranscoding())
-      throw broken('it is no KTX2 picture of the Basis kinds');
+      throw broken('it is not a KTX2 image in a Basis Universal format');
     return read(file);
   } catch (error) {
     throw error instanceof GltfError
@@ -120,7 +120,7 @@ function transcode(file: Ktx2File, level: number, target: number, expected: numb
   return data;
 }
 
-/** Both kinds of Basis pictures have a format that they become without loss; it comes first where it is to be had. */
+/** The format into which the image is transcoded without loss, if the GPU supports it; else the best of `formats`. */
 function formatFor(file: Ktx2File, formats: readonly CompressedFormat[]): CompressedFormat | undefined {
   const own = file.isUASTC() ? 'astc-4x4-unorm' : 'etc2-rgba8unorm';
   return formats.includes(own) ? own : formats[0];
@@ -140,7 +140,7 @@ function compress(file: Ktx2File, width: number, height: number, format: Compres
         ),
       );
     } catch (error) {
-      // The smaller ones are for speed: a picture is as good as its first.
+      // Smaller mip levels are optional: only a broken first level makes the image unusable.
       if (level === 0) throw error;
       break;
     }

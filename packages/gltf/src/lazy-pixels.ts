@@ -1,8 +1,8 @@
 import type { DecodedImage } from './decoded-image';
 
 /**
- * A picture whose pixels are made when somebody asks for them, once; whoever sets them replaces them. Copies of its
- * properties do the same, each for itself.
+ * An image whose pixels are computed on the first access to `data`, once; setting `data` replaces them. Objects to
+ * which the property's descriptor is copied behave the same, independently.
  */
 export function imageOfPixels<T extends Omit<DecodedImage, 'data'>>(
   image: T,

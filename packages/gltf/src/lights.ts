@@ -2,7 +2,7 @@ import type { Light, Scene } from '@glanz/scene';
 import type { GltfLight } from './json';
 import type { Matrix } from './matrix';
 
-/** Adds a light of KHR_lights_punctual to the scene; one that makes no sense is left out, with a warning. */
+/** Adds a light of KHR_lights_punctual to the scene; an invalid one is left out, with a warning. */
 export function readLight(light: GltfLight, nodeName: string, m: Matrix, scene: Scene): void {
   const { type, intensity, color = [1, 1, 1], spot } = light;
   const name = light.name || nodeName || `light ${scene.lights.length}`;
@@ -11,7 +11,7 @@ export function readLight(light: GltfLight, nodeName: string, m: Matrix, scene: 
   if (!(intensity >= 0 && intensity < Infinity) || !color.every((c) => c >= 0 && c < Infinity) || !(length > 0)) {
     scene.warnings.push({
       code: 'gltf/light',
-      message: `Light "${name}" has an intensity, colour or direction that makes no sense; it is left out.`,
+      message: `Light "${name}" has an invalid intensity, colour or direction; it is left out.`,
     });
     return;
   }

@@ -1,20 +1,20 @@
 import { GltfError } from './error';
 
-/** How much a document may ask for. What goes beyond is refused with `gltf/too-large`, before it is allocated. */
+/** Limits on what a document may allocate. They are checked before each allocation and throw `gltf/too-large`. */
 export interface GltfLimits {
   /**
-   * Bytes of geometry after unpacking, all meshes together. Default 256 MiB and 128 for each byte of the file, 4 GiB at
-   * most.
+   * Max bytes of decompressed geometry, all meshes together. Default 256 MiB plus 128 for each byte of the file, max
+   * 4 GiB.
    */
   readonly geometryBytes?: number | undefined;
   /**
-   * Bytes of decoded pictures (4 a pixel), all together. Default 512 MiB and 512 for each byte of the file, 4 GiB at
-   * most.
+   * Max bytes of decoded images (4 per pixel), all together. Default 512 MiB plus 512 for each byte of the file, max
+   * 4 GiB.
    */
   readonly imageBytes?: number | undefined;
-  /** Places of meshes. Default 1,048,576. */
+  /** Max instances. Default 1,048,576. */
   readonly instances?: number | undefined;
-  /** Bytes of the document and the files it names, together. Default 4 GiB. */
+  /** Max bytes of the document and the files it names, together. Default 4 GiB. */
   readonly fileBytes?: number | undefined;
 }
 
@@ -25,20 +25,20 @@ export const DEFAULT_LIMITS = {
   fileBytes: 2 ** 32,
 } as const;
 
-/** What a small file may ask for, and what more each of its bytes brings: formats pack well, but not without bounds. */
+/** Default limits grow with the file: `base` bytes plus `factor` for each byte, more than any format compresses. */
 const GROWTH: Partial<Record<keyof GltfLimits, { readonly base: number; readonly factor: number }>> = {
   geometryBytes: { base: 2 ** 28, factor: 128 },
   imageBytes: { base: 2 ** 29, factor: 512 },
 };
 
-/** An amount that is used up piece by piece. */
+/** Tracks how much of a limit has been used. */
 export class Budget {
   readonly #file: string;
   readonly #name: keyof GltfLimits;
   readonly #limit: number;
   #used = 0;
 
-  /** @param fileBytes Of the document and what it names: a default limit is no more than such a file can need. */
+  /** @param fileBytes Bytes of the document and the files it names; the default limits depend on them. */
   constructor(file: string, name: keyof GltfLimits, limits: GltfLimits | undefined, fileBytes = Infinity) {
     this.#file = file;
     this.#name = name;
@@ -46,12 +46,12 @@ export class Budget {
     this.#limit = limits?.[name] ?? Math.min(DEFAULT_LIMITS[name], base + factor * fileBytes);
   }
 
-  /** What may still be taken. */
+  /** The amount that is left. */
   get left(): number {
     return Math.max(0, this.#limit - this.#used);
   }
 
-  /** As {@link take}, but nothing is used up. */
+  /** As {@link take}, without using it. */
   check(amount: number, path: string): void {
     this.take(amount, path);
     this.#used -= amount;

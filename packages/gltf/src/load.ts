@@ -1,7 +1,7 @@
 import { createScene, type Scene, type SceneWarning } from '@glanz/scene';
 import { describeAnimations, posesAt, type NodePose } from './animation';
 import { pointedValues, withValues } from './animation-pointer';
-import { decodeImageInBrowser, picturesTaken } from './browser-images';
+import { decodeImageInBrowser, browserReads } from './browser-images';
 import { isShallow, type Raw } from './json-value';
 import { checkDocument } from './check/index';
 import { openContainer } from './container';
@@ -19,51 +19,49 @@ import { openSource, type GltfInput, type Source } from './source';
 import { checkUnreadImages } from './unread-images';
 import { WarningList } from './warnings';
 
-/** How far a load has come. */
+/** Progress of a load. */
 export interface GltfProgress {
   readonly stage: 'read' | 'decode' | 'images';
   /** 0..1 within the stage. */
   readonly done: number;
 }
 
-/** What every loader may be told. */
+/** Options common to all loaders. */
 export interface GltfOptions {
   /** Aborts the load; it then rejects with the signal's reason. */
   readonly signal?: AbortSignal | undefined;
-  /** Told as the load goes on. */
+  /** Called with the progress of the load. */
   readonly onProgress?: ((progress: GltfProgress) => void) | undefined;
-  /** Decoders of compressed meshes. In Node they are found by themselves where their packages are installed. */
+  /** Decoders of compressed meshes and textures. In Node, those of installed packages are used by default. */
   readonly decoders?: GltfDecoders | undefined;
-  /** Decodes pictures. Default: the browser does; in Node, the package `sharp`. */
+  /** Decodes images. Default: the browser; in Node, the package `sharp`. */
   readonly decodeImage?: ImageDecoder | undefined;
   /**
-   * Compressed formats that pictures in KTX2 may stay in, the best first: what `compressedFormats(device)` of
-   * `@glanz/renderer` tells. They take a quarter of the GPU's memory. Default: none, they are unpacked.
+   * Compressed texture formats in which KTX2 images may stay, best first: the result of `compressedFormats(device)` of
+   * `@glanz/renderer`. They take a quarter of the GPU memory. Default: none; images are decompressed.
    */
   readonly compressedFormats?: CompressedFormats | undefined;
   /**
-   * Whether a document without triangles is a scene too (lights, cameras) rather than `gltf/no-triangles`. Default
-   * false.
+   * Accepts a document without triangles (lights, cameras) instead of throwing `gltf/no-triangles`. Default false.
    */
   readonly allowEmpty?: boolean | undefined;
-  /** Which of the document's scenes, by its index or name. Default: the one that it shows by itself. */
+  /** The scene to load, by its index or name. Default: the document's default scene. */
   readonly scene?: number | string | undefined;
   /**
-   * Poses the nodes by an animation, by its index or name. Default: the pose at rest, or the first one where `time` is
-   * given.
+   * The animation that poses the nodes, by its index or name. Default: the first one if `time` is given, else none (the
+   * rest pose).
    */
   readonly animation?: number | string | undefined;
-  /** Seconds from the animation's beginning; before its first and after its last key it stands still. Default 0. */
+  /** Seconds from the start of the animation, clamped to its first and last key. Default 0. */
   readonly time?: number | undefined;
-  /** How much the document may ask for. */
+  /** Limits on memory, instances and file size. */
   readonly limits?: GltfLimits | undefined;
 }
 
-/** What {@link loadGltf} may be told. */
+/** Options for {@link loadGltf}. */
 export interface LoadGltfOptions extends GltfOptions {
   /**
-   * Where the files lie that a document given as bytes names, and what a relative address is relative to. Default: the
-   * page.
+   * Base of a relative URL, and of the files named by a document that is given as bytes. Default: the page's URL.
    */
   readonly baseUrl?: string | URL | undefined;
   /** Default: the global `fetch`. */
@@ -72,8 +70,9 @@ export interface LoadGltfOptions extends GltfOptions {
 
 /**
  * Loads a glTF 2.0 document (.gltf or .glb) as a scene: meshes, instances, metallic-roughness materials as OpenPBR,
- * textures, cameras, punctual lights, at rest or in the pose that an animation has at a time. Strips, fans, sparse,
- * quantised and normalised data are resolved. What is broken but can be left out is left out; `scene.warnings` tells.
+ * textures, cameras, punctual lights, in the rest pose or in that of an animation at a time. Strips, fans, sparse,
+ * quantised and normalised data are resolved. Broken parts that are not essential are left out and reported in
+ * `scene.warnings`.
  *
  * @throws {GltfError} See its codes.
  * @example
@@ -90,7 +89,7 @@ export async function loadGltf(input: GltfInput, options: LoadGltfOptions = {}):
   return buildScene(source, { ...options, decodeImage: options.decodeImage ?? decodeImageInBrowser });
 }
 
-/** The common part of all loaders. */
+/** Builds the scene from an opened source; shared by all loaders. */
 export async function buildScene(
   source: Source,
   options: GltfOptions & { readonly decodeImage: ImageDecoder },
@@ -115,13 +114,13 @@ export async function buildScene(
   };
   json.materials?.forEach(addMaterial);
   let done = 0;
-  // Decoders have threads of their own: they are at work while geometry is read here.
+  // Decoders run on their own threads while geometry is read here.
   const imageBytes = new Budget(source.name, 'imageBytes', options.limits, reader.bytes);
   const images = table.readImages(options.decodeImage, reader.viewBytes, imageBytes, signal, () =>
     onProgress?.({ stage: 'images', done: ++done / table.imageCount }),
   );
   images.catch(() => undefined);
-  await picturesTaken();
+  await browserReads();
   signal?.throwIfAborted();
   const shown = sceneToShow(json, options.scene, source.name);
   const dracoWorkers = reader.draco ? options.decoders?.dracoWorkers : undefined;
@@ -129,13 +128,13 @@ export async function buildScene(
     await (await import('./draco-ahead')).unpackAhead(json, shown, reader, dracoWorkers);
     signal?.throwIfAborted();
   }
-  const surroundings = readSurroundings(
+  const environmentRead = readEnvironment(
     json,
     shown,
     (index) => table.readImage(index, options.decodeImage, reader.viewBytes, imageBytes, signal),
     signal,
   );
-  surroundings.catch(() => undefined);
+  environmentRead.catch(() => undefined);
   let fallback: number | undefined;
   readNodes({
     json,
@@ -166,14 +165,14 @@ export async function buildScene(
   if (scene.instances.length === 0 && !options.allowEmpty)
     throw new GltfError(
       'gltf/no-triangles',
-      `${source.name} has no triangles in its scene: there is nothing to show.`,
+      `${source.name} has no triangles in its scene: pass allowEmpty to load it all the same.`,
       { location: { file: source.name } },
     );
   onProgress?.({ stage: 'decode', done: 1 });
   scene.images = await images;
-  const environment = await surroundings;
+  const environment = await environmentRead;
   if (environment) scene.environment = environment;
-  scene.warnings.push(...table.pictureWarnings);
+  scene.warnings.push(...table.imageWarnings);
   scene.textures = table.textures;
   for (const { textures } of scene.materials) {
     for (const [parameter, binding] of Object.entries(textures ?? {})) {
@@ -185,8 +184,8 @@ export async function buildScene(
   return scene;
 }
 
-/** The surroundings of the scene that is shown, by EXT_lights_image_based; none where one of its pictures is broken. */
-async function readSurroundings(
+/** The environment of the shown scene (EXT_lights_image_based); undefined if one of its images is broken. */
+async function readEnvironment(
   { scenes, extensions }: GltfJson,
   shown: number | undefined,
   read: (image: number) => Promise<DecodedImage | undefined>,
@@ -199,23 +198,23 @@ async function readSurroundings(
   return faces.every((face) => face !== undefined) ? environmentOf(light, faces, signal) : undefined;
 }
 
-/** What a document says of itself: its asset and, by KHR_xmp_json_ld, the packet of its asset. */
+/** The document's metadata: its asset and the asset's packet (KHR_xmp_json_ld). */
 function metadataOf({ asset, extensions }: GltfJson): Scene['metadata'] {
   const {
     version: _,
     minVersion: __,
     extensions: own,
-    ...said
+    ...properties
   } = asset as GltfJson['asset'] & {
     readonly extensions?: { readonly KHR_xmp_json_ld?: { readonly packet?: unknown } };
   };
   const xmp = extensions?.KHR_xmp_json_ld?.packets[(own?.KHR_xmp_json_ld?.packet as number | undefined) ?? 0];
-  if (!isShallow([said, xmp])) return undefined;
-  const metadata = { ...said, ...(xmp === undefined ? {} : { xmp }) };
+  if (!isShallow([properties, xmp])) return undefined;
+  const metadata = { ...properties, ...(xmp === undefined ? {} : { xmp }) };
   return Object.keys(metadata).length > 0 ? metadata : undefined;
 }
 
-/** The animation that poses the scene; undefined: it is at rest. */
+/** The animation that poses the scene; undefined for the rest pose. */
 function animationOf(
   { file }: PrimitiveReader,
   json: GltfJson,
@@ -223,11 +222,14 @@ function animationOf(
 ): GltfAnimation | undefined {
   if (animation === undefined && (time === undefined || !json.animations?.length)) return undefined;
   if (time !== undefined && !Number.isFinite(time))
-    throw new GltfError('gltf/no-such-part', `The time to pose ${file} at is ${time}; it must be a number of seconds.`);
+    throw new GltfError(
+      'gltf/no-such-part',
+      `The option time for ${file} is ${time}; it must be a finite number of seconds.`,
+    );
   return (json.animations ?? [])[indexOf(json.animations ?? [], animation ?? 0, 'animation', file)];
 }
 
-/** The document with what KHR_animation_pointer moves in its place, checked once more. */
+/** The document with the values that KHR_animation_pointer animates, checked again. */
 function atMoment(
   json: GltfJson,
   raw: Raw,

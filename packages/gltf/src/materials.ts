@@ -5,7 +5,7 @@ import { isShallow } from './json-value';
 import type { TextureTable } from './images';
 
 /**
- * KHR_texture_transform as an affine map: scaled, then turned counter-clockwise as seen in the picture (v runs down),
+ * KHR_texture_transform as an affine map: scaled, then rotated counter-clockwise as seen in the texture (v runs down),
  * then moved.
  */
 export function uvTransform(info: GltfTextureInfo): TextureBinding['transform'] {

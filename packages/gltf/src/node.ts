@@ -23,7 +23,7 @@ async function optional<T>(load: () => Promise<T>, name: string, what: string): 
  * @throws {GltfError} `gltf/missing-decoder` if it is not installed.
  */
 export const decodeImage: ImageDecoder = async (bytes): Promise<DecodedImage> => {
-  const { default: sharp } = await optional(() => import('sharp'), 'sharp', 'Decoding pictures in Node');
+  const { default: sharp } = await optional(() => import('sharp'), 'sharp', 'Decoding images in Node');
   // Colour profiles and orientation do not count in glTF (3.8.1); the limit on size keeps a small file from filling the
   // memory.
   const { data, info } = await sharp(bytes, { ignoreIcc: true, limitInputPixels: 16384 * 16384 })
@@ -45,7 +45,7 @@ async function openBasis(): Promise<unknown> {
     optional(
       async () => createRequire(import.meta.url).resolve(`three/examples/jsm/libs/basis/${name}`),
       'three',
-      'A model with KTX2 pictures',
+      'A model with KTX2 images',
     );
   const [script, wasmBinary] = await Promise.all([
     path('basis_transcoder.js').then((file) => readFile(file, 'utf8')),
@@ -91,7 +91,7 @@ export const packagedDecoders = (): GltfDecoders => ({
  * Loads a .gltf or .glb file in Node, with the files it names beside it. See `loadGltf` for what is read.
  *
  * @param path Of the file. Files outside its folder are not read.
- * @throws {GltfError} See its codes; `gltf/missing-resource` if the file is not there.
+ * @throws {GltfError} See its codes; `gltf/missing-resource` if the file does not exist.
  * @example
  * const scene = await loadGltfFile('models/button.glb');
  */

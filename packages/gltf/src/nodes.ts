@@ -14,17 +14,17 @@ import { isSkinnable, jointMatrices, morphed, skinned } from './pose';
 import { openPrimitive, type PrimitiveData, type PrimitiveReader } from './primitive';
 import { tangentSet, withTangents } from './tangents';
 
-/** What the nodes are turned into a scene with. */
+/** What {@link readNodes} needs. */
 export interface NodeContext {
   readonly json: GltfJson;
   readonly reader: PrimitiveReader;
-  /** Takes meshes, instances, cameras and lights; has the document's materials in their order. */
+  /** Receives meshes, instances, cameras and lights; has the document's materials in their order. */
   readonly scene: Scene;
   /** Index of the scene's material for primitives without one. */
   readonly defaultMaterial: () => number;
   /** The UV sets that a material of the scene reads. */
   readonly uvSetsOf: (material: number) => UvSets;
-  /** Which of the document's scenes; undefined: all nodes without a parent. */
+  /** Index of the document's scene; undefined: all root nodes. */
   readonly shown: number | undefined;
   readonly poses: ReadonlyMap<number, NodePose>;
   readonly instances: Budget;
@@ -100,7 +100,7 @@ export function readNodes(context: NodeContext): void {
     const own =
       node.skin !== undefined && mesh.primitives.every(isSkinnable) ? [] : instancesOf(context, node, transform, index);
     mesh.primitives.forEach((primitive, at) => {
-      // A skin places what it moves; where its node is does not count.
+      // The joints place a skinned mesh; the transform of its node is ignored.
       const places = node.skin !== undefined && isSkinnable(primitive) ? [identity()] : own;
       const read = meshes.read(index, node, primitive, at);
       if (!read) return;
@@ -121,7 +121,7 @@ export function readNodes(context: NodeContext): void {
   checkUnshown(context, meshes.shown);
 }
 
-/** Tells of indices without a vertex in primitives that nothing shows; nobody else looks there. */
+/** Warns of invalid indices in primitives that no shown node uses: these are not read otherwise. */
 function checkUnshown({ json, reader, scene }: NodeContext, shown: ReadonlySet<GltfPrimitive>): void {
   json.meshes?.forEach(({ primitives }, mesh) => {
     primitives.forEach((primitive, at) => {
@@ -134,14 +134,14 @@ function checkUnshown({ json, reader, scene }: NodeContext, shown: ReadonlySet<G
       )
         return;
       const { bufferView } = reader.accessors.at(primitive.indices);
-      if (bufferView === undefined || !reader.isThere(bufferView)) return;
+      if (bufferView === undefined || !reader.exists(bufferView)) return;
       const path = `/meshes/${mesh}/primitives/${at}`;
       const { count } = reader.accessors.at(position);
       const largest = maximum(reader.accessors.indices(primitive.indices));
       if (largest >= count || openPrimitive(primitive, path, reader).restart === largest) {
         scene.warnings.push({
           code: 'gltf/primitive',
-          message: `${reader.file}: ${path} names vertices that do not exist; it is not shown anyway.`,
+          message: `${reader.file}: ${path} names vertices that do not exist; no shown node uses it.`,
           path,
         });
       }
@@ -156,18 +156,18 @@ interface ReadPrimitive {
   readonly variants: Record<number, number> | undefined;
 }
 
-/** Reads meshes: once each, except where a skin or morph targets give a node its own shape. */
+/** Reads each mesh once, except where a skin or morph targets give a node its own shape. */
 class MeshReader {
   readonly #context: NodeContext;
   readonly #world: ReadonlyMap<number, Matrix>;
   readonly #opened = new Map<GltfPrimitive, PrimitiveData>();
-  /** Meshes by what they are made of: primitives may say the same. */
+  /** Meshes by their content: primitives may be equal. */
   readonly #shared = new Map<string, number | undefined>();
   readonly #keys = new Map<GltfPrimitive, string>();
   readonly #variants = new Map<GltfPrimitive, Record<number, number> | undefined>();
   readonly #joints = new Map<number, readonly (Matrix | undefined)[]>();
 
-  /** Those that have been read, even if nothing came of it. */
+  /** Primitives that have been read, even without a result. */
   readonly shown = new Set<GltfPrimitive>();
 
   constructor(context: NodeContext, world: ReadonlyMap<number, Matrix>) {
@@ -183,7 +183,7 @@ class MeshReader {
     if (!this.#variants.has(primitive)) this.#variants.set(primitive, variantsOf(primitive));
     const variants = this.#variants.get(primitive);
     const own = poses.get(nodeIndex)?.weights ?? node.weights;
-    // Weights of the mesh itself give it one shape wherever it is.
+    // Weights of the mesh itself give all of its instances the same shape.
     const shared = (node.skin === undefined || !isSkinnable(primitive)) && !own;
     const key = shared ? this.#keyOf(primitive, material, mesh?.weights) : '';
     if (shared && this.#shared.has(key)) {
@@ -254,7 +254,7 @@ class MeshReader {
   ): Mesh | undefined {
     const { scene, reader, uvSetsOf } = this.#context;
     const opened = this.#opened.get(primitive) ?? openPrimitive(primitive, path, reader);
-    // A mesh that is used once is not kept in its packed form.
+    // Keep only primitives that may be read again.
     if (node.skin !== undefined || weights.length > 0) this.#opened.set(primitive, opened);
     const opaque = scene.materials[material]?.parameters.geometry_opacity === undefined;
     const uvSets = uvSetsOf(material);
@@ -262,7 +262,7 @@ class MeshReader {
       if (`${uvSetsOf(other)}` !== `${uvSets}`)
         scene.warnings.push({
           code: 'gltf/variant',
-          message: `${label}: the material "${scene.materials[other]?.name}" of a variant reads other UV sets than its first one; its textures lie as that one's do.`,
+          message: `${label}: the material "${scene.materials[other]?.name}" of a variant uses other UV sets than the first material; its textures use the UV sets of the first.`,
           path,
         });
     }
@@ -272,18 +272,18 @@ class MeshReader {
     if (blended) made = morphed(made, opened, weights);
     const posed = node.skin !== undefined && isSkinnable(primitive);
     if (posed) made = skinned(made, opened, this.#jointsOf(node.skin as number), scene.warnings);
-    // Blended normals are shorter than 1, and may even cancel out.
+    // Blended normals are shorter than 1 and may cancel out.
     if ((posed || blended) && made.normals)
       unitNormals(made.normals, made.positions, made.indices, (message) =>
         scene.warnings.push({ code: 'gltf/primitive', message: `${label}: ${message}`, path }),
       );
     made = withoutUnusedVertices(made);
-    const set = materials.map((index) => tangentSet(scene.materials[index])).find((wanted) => wanted !== undefined);
+    const set = materials.map((index) => tangentSet(scene.materials[index])).find((uvSet) => uvSet !== undefined);
     return set === undefined ? made : withTangents(made, set);
   }
 }
 
-/** The materials of KHR_materials_variants, by the numbers of the variants. */
+/** The materials of KHR_materials_variants, by the indices of the variants. */
 function variantsOf({ extensions }: GltfPrimitive): Record<number, number> | undefined {
   const mappings = extensions?.KHR_materials_variants?.mappings;
   if (!mappings) return undefined;
@@ -292,7 +292,7 @@ function variantsOf({ extensions }: GltfPrimitive): Record<number, number> | und
   );
 }
 
-/** The places of a node's mesh: one, or those of EXT_mesh_gpu_instancing. */
+/** The transforms of a node's mesh: its own, or those of EXT_mesh_gpu_instancing. */
 function instancesOf(
   { reader, scene, instances }: NodeContext,
   node: GltfNode,
@@ -320,50 +320,50 @@ function instancesOf(
     rotation = read('ROTATION', 4, [0, 0, 0, 1]),
     scale = read('SCALE', 3, [1, 1, 1]);
   const places: Matrix[] = [];
-  let unturned = 0;
+  let withoutRotation = 0;
   for (let i = 0; i < count; i++) {
     let turn = Array.from(rotation(i));
     const length = Math.hypot(...turn);
     if (length > 1e-6) turn = turn.map((x) => x / length);
     else {
       turn = [0, 0, 0, 1];
-      unturned++;
+      withoutRotation++;
     }
     const place = identity();
     multiply(place, transform, fromRotationTranslationScale(place, turn, translation(i), scale(i)));
     if (isFinite4x4(place)) places.push(place);
   }
-  if (unturned > 0) warn(unturned, 'a rotation of length 0; they are not turned');
-  if (places.length < count) warn(count - places.length, 'a place that is not finite; they are left out');
+  if (withoutRotation > 0) warn(withoutRotation, 'a rotation of length 0; they are not rotated');
+  if (places.length < count) warn(count - places.length, 'a transform that is not finite; they are left out');
   return places;
 }
 
 /**
- * Which of a document's scenes is shown: the one asked for, else the default one, else the first.
- * @throws {GltfError} `gltf/no-such-part` for one that is not there.
+ * Index of the scene to show: the requested one, else the default one, else the first.
+ * @throws {GltfError} `gltf/no-such-part` if the requested one does not exist.
  */
 export function sceneToShow(
   { scenes, scene }: GltfJson,
-  wanted: number | string | undefined,
+  requested: number | string | undefined,
   file: string,
 ): number | undefined {
-  if (wanted === undefined) return scene ?? (scenes?.length ? 0 : undefined);
-  return indexOf(scenes ?? [], wanted, 'scene', file);
+  if (requested === undefined) return scene ?? (scenes?.length ? 0 : undefined);
+  return indexOf(scenes ?? [], requested, 'scene', file);
 }
 
 /** The index of a part by its index or name. @throws {GltfError} `gltf/no-such-part` */
 export function indexOf(
   list: readonly { readonly name?: string }[],
-  wanted: number | string,
+  requested: number | string,
   kind: string,
   file: string,
 ): number {
-  const index = typeof wanted === 'number' ? wanted : list.findIndex(({ name }) => name === wanted);
+  const index = typeof requested === 'number' ? requested : list.findIndex(({ name }) => name === requested);
   if (list[index]) return index;
   const names = list.slice(0, 8).map(({ name }, at) => (name === undefined ? `${at}` : `"${name}"`));
   throw new GltfError(
     'gltf/no-such-part',
-    `${file} has no ${kind} ${typeof wanted === 'number' ? wanted : `"${wanted}"`}; it has ${names.length === 0 ? 'none' : names.join(', ')}.`,
+    `${file} has no ${kind} ${typeof requested === 'number' ? requested : `"${requested}"`}; it has ${names.length === 0 ? 'none' : names.join(', ')}.`,
     { location: { file } },
   );
 }

@@ -1,7 +1,7 @@
 /**
- * Scales the first three numbers of every entry to length 1, in place. Quantised vectors are a little off, and some
- * exporters do not care.
- * @returns Whether all had a length.
+ * Normalizes the first three numbers of every entry, in place: quantised vectors and those of some exporters are not
+ * unit vectors.
+ * @returns False if a vector has length 0 or is not finite.
  */
 export function makeUnit(vectors: Float32Array, stride: number): boolean {
   let good = true;
@@ -10,7 +10,7 @@ export function makeUnit(vectors: Float32Array, stride: number): boolean {
       y = vectors[at + 1] as number,
       z = vectors[at + 2] as number;
     const square = x * x + y * y + z * z;
-    // Nearly all are good already, and Math.hypot is ten times slower.
+    // Nearly all are unit vectors already, and Math.hypot is ten times slower.
     if (Math.abs(square - 1) <= 2e-6) continue;
     const length = square > 1e-20 && square < 1e20 ? Math.sqrt(square) : Math.hypot(x, y, z);
     if (!(length > 1e-12)) good = false;
@@ -23,7 +23,7 @@ export function makeUnit(vectors: Float32Array, stride: number): boolean {
   return good;
 }
 
-/** Normals of length 1; one that has no length is made from the triangles at its vertex, by their areas. */
+/** Unit normals. One of length 0 is computed from the triangles at its vertex, weighted by their areas. */
 export function unitNormals(
   normals: Float32Array<ArrayBuffer>,
   positions: Float32Array,
@@ -44,19 +44,19 @@ export function unitNormals(
   for (let at = 0; at < normals.length; at += 3) {
     if (Math.hypot(normals[at] as number, normals[at + 1] as number, normals[at + 2] as number) > 1e-12) continue;
     const length = Math.hypot(sums[at] as number, sums[at + 1] as number, sums[at + 2] as number);
-    // A vertex of no triangle with an area is never seen; any direction will do.
+    // A vertex of degenerate triangles only is never visible: any direction works.
     for (let k = 0; k < 3; k++) normals[at + k] = length > 0 ? (sums[at + k] as number) / length : k === 2 ? 1 : 0;
     made++;
   }
-  warn(`${made} normals have no length; they are made from the triangles.`);
+  warn(`${made} normals have length 0; they are computed from the triangles.`);
   return normals;
 }
 
 /**
- * Turns all triangles round, in place, if the normals of each of them point to its back: exporters that write a
- * mirrored mesh forget one of the two. The normals are what its maker saw; light that falls on such a front would find
- * it turned away. The first triangle that agrees with its normals ends the search, mostly at once.
- * @returns Whether it did.
+ * Reverses the winding of all triangles, in place, if the vertex normals of each point to its back: some exporters
+ * mirror a mesh without reversing its triangles. The normals are kept, since they define the shading that the author
+ * saw. The search stops at the first triangle that agrees with its normals, usually the first of all.
+ * @returns Whether the triangles were reversed.
  */
 export function windByNormals(indices: Uint32Array, positions: Float32Array, normals: Float32Array): boolean {
   let against = 0;

@@ -31,14 +31,14 @@ export function morphed(mesh: Mesh, primitive: PrimitiveData, weights: readonly 
   return result;
 }
 
-/** Exporters invert matrices in single precision. */
+/** With a tolerance, since exporters invert matrices in single precision. */
 const isAffine = (m: Float32Array): boolean =>
   [0, 0, 0, 1].every((x, k) => Math.abs((m[4 * k + 3] as number) - x) < 1e-3);
 
 /**
- * Matrices of a skeleton's joints: from where a vertex is bound to where it is in the world. Those that are not finite
- * are undefined, with a warning.
- * @param bind Inverse bind matrices, one after the other; absent: all are the identity.
+ * Matrices of a skeleton's joints, from the bind pose to world space. Those that are not finite are undefined, with a
+ * warning.
+ * @param bind Inverse bind matrices, concatenated; undefined: all are the identity.
  * @param world World transforms of the nodes.
  */
 export function jointMatrices(
@@ -54,14 +54,14 @@ export function jointMatrices(
     if (own && !own.every(Number.isFinite)) {
       warnings.push({
         code: 'gltf/skin',
-        message: `${name}: the bind matrix of joint ${j} is not finite; the joint does not count.`,
+        message: `${name}: the bind matrix of joint ${j} is not finite; the joint is ignored.`,
       });
       return undefined;
     }
     if (own && !isAffine(own)) {
       warnings.push({
         code: 'gltf/skin',
-        message: `${name}: the bind matrix of joint ${j} is not affine; its last row is taken as 0, 0, 0, 1.`,
+        message: `${name}: the bind matrix of joint ${j} is not affine; its last row is read as 0, 0, 0, 1.`,
       });
       return multiply(
         identity(),
@@ -80,15 +80,15 @@ interface Influences {
 }
 
 /**
- * How far the weights of a vertex may be from a sum of 1 before this is reported: those of 8 bits, four sets of them.
+ * Max deviation of a vertex's weights from a sum of 1 before a warning: four sets of 8-bit weights round by this much.
  */
 const SUM_TOLERANCE = 0.05;
 
-/** Whether a primitive has what a skin moves it by. */
+/** Whether a primitive has joints and weights. */
 export const isSkinnable = ({ attributes }: { readonly attributes: object }): boolean =>
   'JOINTS_0' in attributes && 'WEIGHTS_0' in attributes;
 
-/** The sets of influences of a primitive. What does not count in them is reported. */
+/** The sets of influences of a primitive. Warns of those that are ignored. */
 function influencesOf(
   name: string,
   primitive: PrimitiveData,
@@ -102,11 +102,11 @@ function influencesOf(
   for (let set = 0; ; set++) {
     const semantics = [`JOINTS_${set}`, `WEIGHTS_${set}`] as const;
     const [jointCount, weightCount] = semantics.map((semantic) => primitive.count(semantic));
-    // One without the other has been reported when the document was checked.
+    // checkMeshes() has reported one without the other.
     if (jointCount === undefined || weightCount === undefined) break;
     if (jointCount !== vertices || weightCount !== vertices) {
       warn(
-        `${semantics.join(' and ')} have ${jointCount} and ${weightCount} entries for ${vertices} vertices and do not count.`,
+        `${semantics.join(' and ')} have ${jointCount} and ${weightCount} entries for ${vertices} vertices and are ignored.`,
       );
       continue;
     }
@@ -121,11 +121,11 @@ function influencesOf(
       else sums[i >> 2] = (sums[i >> 2] as number) + weight;
       if ((influences.joints[i] as number) >= joints) beyond++;
     }
-    if (infinite > 0) warn(`${semantics[1]} holds numbers that are not finite; they do not count.`);
-    if (negative > 0) warn(`${semantics[1]} holds ${negative} negative numbers; they do not count.`);
+    if (infinite > 0) warn(`${semantics[1]} holds numbers that are not finite; they are ignored.`);
+    if (negative > 0) warn(`${semantics[1]} holds ${negative} negative numbers; they are ignored.`);
     if (beyond > 0)
       warn(
-        `${semantics[0]} names a joint that does not exist ${beyond} times (the skin has ${joints}); it does not count.`,
+        `${semantics[0]} names a joint that does not exist ${beyond} times (the skin has ${joints}); it is ignored.`,
       );
     sets.push(influences);
   }
@@ -138,8 +138,8 @@ function influencesOf(
 }
 
 /**
- * A mesh in the pose of its skeleton, in the world (glTF 2.0, section 3.7.3.3: the node's own transform does not
- * count). Weights that are not finite or below 0, and joints that do not exist, do not count, with a warning.
+ * A mesh in the pose of its skeleton, in world space (glTF 2.0, section 3.7.3.3: the node's own transform is ignored).
+ * Weights that are not finite or below 0, and joints that do not exist, are ignored, with a warning.
  */
 export function skinned(
   mesh: Mesh,
@@ -157,8 +157,8 @@ export function skinned(
   const linear = new Float64Array(9),
     cofactors = new Float64Array(9);
   const vector: [number, number, number] = [0, 0, 0];
-  /** A vector of `source` through a 3 × 3 matrix. */
-  const turned = (source: Float32Array, at: number, matrix: Float64Array) => {
+  /** A vector of `source`, multiplied by a 3 × 3 matrix. */
+  const transformed = (source: Float32Array, at: number, matrix: Float64Array) => {
     for (let k = 0; k < 3; k++) vector[k] = source[at + k] as number;
     return transformMat3(vector, vector, matrix);
   };
@@ -178,15 +178,19 @@ export function skinned(
     if (total === 0) blended.set([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
     else for (let i = 0; i < 16; i++) blended[i] = (blended[i] as number) / total;
     fromMat4(linear, blended);
-    write(positions, 3 * v, add(vector, turned(mesh.positions, 3 * v, linear), translation));
+    write(positions, 3 * v, add(vector, transformed(mesh.positions, 3 * v, linear), translation));
     if (normals && mesh.normals) {
       // The cofactors are the inverse transpose times the determinant.
       transpose(cofactors, adjoint(cofactors, linear));
-      write(normals, 3 * v, scale(vector, turned(mesh.normals, 3 * v, cofactors), determinant(linear) < 0 ? -1 : 1));
+      write(
+        normals,
+        3 * v,
+        scale(vector, transformed(mesh.normals, 3 * v, cofactors), determinant(linear) < 0 ? -1 : 1),
+      );
       normalize(normals, 3 * v);
     }
     if (tangents && mesh.tangents) {
-      write(tangents, 4 * v, turned(mesh.tangents, 4 * v, linear));
+      write(tangents, 4 * v, transformed(mesh.tangents, 4 * v, linear));
       normalize(tangents, 4 * v);
     }
   }

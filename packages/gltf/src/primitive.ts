@@ -10,7 +10,7 @@ const RESTART: Readonly<Record<number, number>> = { 5121: 255, 5123: 65535, 5125
 /** The data of a primitive, whether it is compressed or not. */
 export interface PrimitiveData {
   readonly json: GltfPrimitive;
-  /** Entries of an attribute; undefined if it is not there. */
+  /** Number of entries of an attribute; undefined if it does not exist. */
   count(semantic: string): number | undefined;
   /** Numbers of an attribute that is there, `size` for each vertex. A copy. */
   floats(semantic: string, size: number): Float32Array<ArrayBuffer>;
@@ -31,7 +31,7 @@ export interface PrimitiveReader {
   readonly accessors: Accessors;
   readonly viewBytes: (index: number) => Uint8Array<ArrayBuffer>;
   /** Whether the buffer of a view has been read. */
-  readonly isThere: (view: number) => boolean;
+  readonly exists: (view: number) => boolean;
   readonly draco: unknown;
   /** Primitives that workers have unpacked already. */
   readonly ahead: Map<GltfPrimitive, DracoPrimitive>;

@@ -1,27 +1,27 @@
 import { GltfError } from './error';
 
-/** Gives the bytes of a file that a document names. `uri` is relative to the document, decoded. */
+/** Reads a file that a document names. `uri` is relative to the document, decoded. */
 export type ResourceReader = (uri: string, signal: AbortSignal | undefined) => Promise<Uint8Array<ArrayBuffer>>;
 
 /** Where a document and the files it names come from. */
 export interface Source {
-  /** What messages call it. */
+  /** Name of the document in messages. */
   readonly name: string;
   readonly bytes: Uint8Array<ArrayBuffer>;
   readonly read: ResourceReader;
 }
 
-/** A glTF with the files it names, by their paths, as a drop of a folder or several files gives them. */
+/** A glTF document with the files it names, by their paths, for example from a dropped folder. */
 export interface GltfFiles {
   readonly files: ReadonlyMap<string, Uint8Array<ArrayBuffer> | Blob>;
   /** Path of the document. Default: the only .gltf or .glb. */
   readonly entry?: string;
 }
 
-/** What {@link loadGltf} takes: an address, the bytes of a file, or files. */
+/** Input of {@link loadGltf}: a URL, the bytes of a file, or files. */
 export type GltfInput = string | URL | ArrayBuffer | Uint8Array<ArrayBuffer> | GltfFiles;
 
-/** The error of a file that is not there. */
+/** The error for a file that does not exist. */
 export const missing = (uri: string, name: string, cause?: unknown): GltfError =>
   new GltfError(
     'gltf/missing-resource',
@@ -75,12 +75,12 @@ function addressOf(address: string | URL, base: string | URL | undefined): URL {
   if (!URL.canParse(String(address), base))
     throw new GltfError(
       'gltf/missing-resource',
-      `"${String(address).slice(0, 200)}" is no address${base === undefined ? ' that stands by itself: pass a baseUrl, or in Node use loadGltfFile()' : ''}.`,
+      `"${String(address).slice(0, 200)}" is not a valid URL${base === undefined ? ' on its own: pass a baseUrl, or in Node use loadGltfFile()' : ''}.`,
     );
   return new URL(address, base);
 }
 
-/** Text with its %-escapes resolved; as it is if they are none. */
+/** Percent-decoded text; unchanged if its escapes are invalid. */
 export function decoded(text: string): string {
   try {
     return decodeURIComponent(text);
@@ -89,7 +89,7 @@ export function decoded(text: string): string {
   }
 }
 
-/** Opens any input. `fetch` and `baseUrl` serve addresses; bytes without a `baseUrl` cannot name other files. */
+/** Opens any input. `fetch` and `baseUrl` apply to URLs; bytes without a `baseUrl` cannot name other files. */
 export async function openSource(
   input: GltfInput,
   options: {
@@ -101,7 +101,7 @@ export async function openSource(
   },
 ): Promise<Source> {
   if (typeof input === 'object' && 'files' in input) return fromFiles(input);
-  // Called bare: browsers refuse their fetch as another object's method.
+  // Called without a receiver: browsers reject fetch as a method of another object.
   const { fetch, maxBytes, onBytes } = options;
   const get = async (url: URL, uri: string, name: string, signal: AbortSignal | undefined) => {
     let response: Response;
@@ -118,7 +118,7 @@ export async function openSource(
     if (!response.ok)
       throw new GltfError(
         'gltf/missing-resource',
-        `${name}: "${uri}" could not be fetched: the server answers ${response.status} ${response.statusText}.`,
+        `${name}: "${uri}" could not be fetched: the server responded with ${response.status} ${response.statusText}.`,
         { location: { file: name } },
       );
     try {
@@ -128,7 +128,7 @@ export async function openSource(
       if (cause instanceof GltfError) throw cause;
       throw new GltfError(
         'gltf/missing-resource',
-        `${name}: "${uri}" broke off: ${cause instanceof Error ? cause.message : String(cause)}.`,
+        `${name}: the download of "${uri}" was interrupted: ${cause instanceof Error ? cause.message : String(cause)}.`,
         { cause, location: { file: name } },
       );
     }
@@ -143,7 +143,7 @@ export async function openSource(
     const announced = Number(response.headers.get('content-length') ?? 0);
     if (announced > maxBytes) throw tooLarge();
     if (!response.body) return new Uint8Array(await response.arrayBuffer());
-    // Piece by piece, so that a server that never ends is left, and the host hears how far it is.
+    // Read in chunks to report progress and to stop a server that sends more than the limit.
     const reader = response.body.getReader();
     const pieces: Uint8Array[] = [];
     let length = 0;
@@ -154,7 +154,7 @@ export async function openSource(
         void reader.cancel().catch(() => undefined);
         throw tooLarge();
       }
-      // Of packed answers the announced length is that of the packed bytes.
+      // For compressed responses, content-length counts the compressed bytes.
       if (announced > 0 && length <= announced) onBytes(length / announced);
     }
     const bytes = new Uint8Array(length);
@@ -168,16 +168,16 @@ export async function openSource(
   const relative =
     (base: URL | undefined, name: string): ResourceReader =>
     async (uri, signal) => {
-      // Halves of characters cannot be escaped; no file is called by them.
+      // Lone surrogates cannot be percent-encoded.
       const path = uri
         .replace(/\p{Surrogate}/gu, '\ufffd')
         .split('/')
         .map(encodeURIComponent)
         .join('/');
-      // Nothing lies beside an address such as "blob:" or "data:".
+      // URLs such as "blob:" and "data:" have no folder.
       if (!base || !URL.canParse(path, base)) throw missing(uri, name);
       const url = new URL(path, base);
-      // A document from a stranger must not make the host ask for anything else.
+      // An untrusted document must not make the host request anything else.
       if (!url.href.startsWith(new URL('.', base).href))
         throw new GltfError(
           'gltf/missing-resource',

@@ -1,11 +1,11 @@
 // Tangents as MikkTSpace makes them (M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008; the glTF
-// specification, 3.7.2.1, asks for them where a file has none): one for each set of triangles that meet at a vertex,
-// hang together by edges and see the picture the same way round; directions weighted by the angles at the vertex.
-// Vertices are those with the same position, normal and uv, whatever their index. Mirrored halves and seams thus get
-// vertices of their own.
+// specification, 3.7.2.1, requires them if a file has none): one for each set of triangles that share a vertex, are
+// connected by edges and have the same orientation in texture space; directions are weighted by the angles at the
+// vertex. Vertices with the same position, normal and uv are merged, whatever their index. Mirrored halves and seams
+// thus get separate vertices.
 import type { Material, Mesh } from '@glanz/scene';
 
-/** The UV set whose tangents a material is shaded with; undefined if it looks the same with any. */
+/** The UV set whose tangents a material needs; undefined if it needs none. */
 export function tangentSet(material: Material | undefined): number | undefined {
   const { parameters, textures } = material ?? {};
   const binding = textures?.geometry_normal ?? textures?.geometry_coat_normal ?? textures?.geometry_tangent;
@@ -16,10 +16,10 @@ export function tangentSet(material: Material | undefined): number | undefined {
 const mix = (hash: number, value: number) => Math.imul(hash ^ value, 0x9e3779b1) ^ (hash >>> 15);
 const powerOfTwoAbove = (n: number) => 2 ** Math.ceil(Math.log2(Math.max(n, 2)));
 
-/** For each vertex the first one that is the same in position, normal and uv. */
+/** For each vertex the first one with the same position, normal and uv. */
 function weld(positions: Float32Array, normals: Float32Array, uvs: Float32Array): Int32Array {
   const vertices = positions.length / 3;
-  // All that counts of a vertex as eight words, with one zero instead of two.
+  // Each vertex as eight words; adding 0 turns −0 into 0.
   const floats = new Float32Array(8 * vertices);
   for (let v = 0, k = 0; v < vertices; v++) {
     for (let i = 3 * v; i < 3 * v + 3; i++) floats[k++] = (positions[i] as number) + 0;
@@ -81,7 +81,7 @@ class Groups {
 
 /**
  * Calls `found` for every pair of triangles that run along an edge in opposite directions, with the corners at which
- * the edge begins in each. Every edge of a triangle is in one pair at most.
+ * the edge begins in each. Every edge of a triangle is in at most one pair.
  */
 function pairEdges(
   corners: Int32Array,
@@ -89,7 +89,7 @@ function pairEdges(
   found: (a: number, b: number) => void,
 ): void {
   const mask = powerOfTwoAbove(2 * corners.length) - 1;
-  // Waiting edges by their two ends: slots with a key of two vertices and the head of a list of corners.
+  // Hash table of unpaired edges: the key is the two vertices, the value the head of a linked list of corners.
   const from = new Int32Array(mask + 1).fill(-1),
     to = new Int32Array(mask + 1),
     head = new Int32Array(mask + 1),
@@ -120,15 +120,15 @@ function pairEdges(
   }
 }
 
-/** Whether two vertices lie at the same place. */
-const samePlace = (P: Float32Array, p: number, q: number) =>
+/** Whether two vertices have the same position. */
+const samePosition = (P: Float32Array, p: number, q: number) =>
   P[3 * p] === P[3 * q] && P[3 * p + 1] === P[3 * q + 1] && P[3 * p + 2] === P[3 * q + 2];
 
 const following = (corner: number) => (corner % 3 === 2 ? corner - 2 : corner + 1);
 
 /**
- * A mesh with tangents (xyz unit, w the handedness that glTF wants, whose v runs down). Vertices where triangles need
- * different ones are doubled. Unchanged if it has tangents already, or lacks normals or the UV set.
+ * Adds tangents to a mesh (xyz unit, w the handedness by glTF's convention: v points down). Vertices that need several
+ * tangents are duplicated. Returns the mesh unchanged if it has tangents, or lacks normals or the UV set.
  *
  * @param set The UV set whose u the tangents follow.
  */
@@ -140,7 +140,7 @@ export function withTangents(mesh: Mesh, set = 0): Mesh {
   const corners = Int32Array.from(indices, (vertex) => first[vertex] as number);
   const triangles = indices.length / 3;
 
-  // For each triangle the direction of growing u, scaled to 1, and which way round it sees the picture.
+  // For each triangle the unit direction of increasing u, and its orientation in texture space.
   const along = new Float64Array(3 * triangles);
   const NONE = 0,
     ANY = 3;
@@ -149,7 +149,7 @@ export function withTangents(mesh: Mesh, set = 0): Mesh {
     const a = corners[3 * t] as number,
       b = corners[3 * t + 1] as number,
       c = corners[3 * t + 2] as number;
-    if (samePlace(P, a, b) || samePlace(P, b, c) || samePlace(P, c, a)) continue;
+    if (samePosition(P, a, b) || samePosition(P, b, c) || samePosition(P, c, a)) continue;
     const u0 = UV[2 * a] as number,
       v0 = UV[2 * a + 1] as number;
     const u1 = (UV[2 * b] as number) - u0,
@@ -177,7 +177,7 @@ export function withTangents(mesh: Mesh, set = 0): Mesh {
     (t) => turn[t] !== NONE,
     (a, b) => pairs.push(a, b),
   );
-  // A triangle that shows no area of the picture goes with a neighbour.
+  // A triangle without area in texture space takes the orientation of a neighbour.
   const seen = Uint8Array.from(turn);
   for (let i = 0; i < pairs.length; i += 2) {
     const [s, t] = [((pairs[i] as number) / 3) | 0, ((pairs[i + 1] as number) / 3) | 0];
@@ -235,7 +235,7 @@ export function withTangents(mesh: Mesh, set = 0): Mesh {
   );
 }
 
-/** Gives each vertex the tangent of its group, and the groups beyond the first a copy of the vertex. */
+/** Assigns each vertex the tangent of its group, and duplicates it for each further group. */
 function assign(
   mesh: Mesh,
   corners: Int32Array,
@@ -275,7 +275,7 @@ function assign(
     return wide;
   };
   const tangents = new Float32Array(4 * total);
-  // A corner without area looks to the other triangles at its vertex.
+  // A corner of a triangle without area uses the tangent of another triangle at its vertex.
   const weldedOf = new Map<number, number>(),
     atWelded = new Map<number, number>();
   for (let corner = 0; corner < corners.length; corner++)
@@ -305,7 +305,7 @@ function assign(
   return made;
 }
 
-/** Any unit vector at right angles to a unit vector. */
+/** A unit vector perpendicular to a unit vector. */
 function perpendicular(x: number, y: number, z: number): [number, number, number] {
   const [a, b, c]: [number, number, number] = Math.abs(x) < 0.6 ? [0, z, -y] : [-z, 0, x];
   const length = Math.hypot(a, b, c) || 1;

@@ -1,11 +1,11 @@
-import { headOf, pictureType, wrongType } from './picture-type';
+import { headOf, imageType, wrongType } from './image-type';
 import type { GltfImage, GltfJson, GltfTexture } from './json';
 import type { PrimitiveReader } from './primitive';
 
 /**
- * Checks the images that nothing shows by what is at hand: first bytes that lie in the document. Files beside it are
- * not opened; one that not even a texture names is reported, since it may not be there.
- * @param shown Images that materials show.
+ * Checks the images that no material uses by their first bytes, if those are in the document. Other files are not
+ * opened; one that no texture names is reported, since it may not exist.
+ * @param shown Images that materials use.
  */
 export function checkUnreadImages(
   json: GltfJson,
@@ -29,11 +29,11 @@ export function checkUnreadImages(
       return;
     }
     try {
-      const type = pictureType(head);
+      const type = imageType(head);
       const said = wrongType(image, type);
-      if (said !== undefined) warn(path, `says that it is ${said}, but its bytes are ${type}; nothing shows it`);
+      if (said !== undefined) warn(path, `is declared as ${said}, but its bytes are ${type}; no material uses it`);
     } catch (error) {
-      warn(path, `cannot be decoded: ${(error as Error).message}; nothing shows it`);
+      warn(path, `cannot be decoded: ${(error as Error).message}; no material uses it`);
     }
   });
 }
@@ -44,7 +44,7 @@ function sourcesOf({ source, extensions }: GltfTexture): unknown[] {
 }
 
 /** The first bytes of an image that lies in the document; undefined for others and where they cannot be read. */
-function headBytes({ uri, bufferView }: GltfImage, { isThere, viewBytes }: PrimitiveReader): Uint8Array | undefined {
+function headBytes({ uri, bufferView }: GltfImage, { exists, viewBytes }: PrimitiveReader): Uint8Array | undefined {
   if (uri !== undefined) return typeof uri === 'string' && /^data:/i.test(uri) ? headOf(uri) : undefined;
-  return typeof bufferView === 'number' && isThere(bufferView) ? viewBytes(bufferView) : undefined;
+  return typeof bufferView === 'number' && exists(bufferView) ? viewBytes(bufferView) : undefined;
 }

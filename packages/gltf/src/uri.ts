@@ -1,11 +1,11 @@
 /**
- * The parts of a data: uri (RFC 2397): its type in lower case, whether its data are base64, the data as they stand;
- * undefined if it is none.
+ * The parts of a data: uri (RFC 2397): its type in lower case, whether its data are base64, and the encoded data;
+ * undefined for other uris.
  */
 export function dataUri(
   uri: string,
 ): { readonly type: string; readonly base64: boolean; readonly data: string } | undefined {
-  // A search, not one long expression: the data may have many megabytes.
+  // Match the head only: the data may have many megabytes.
   const comma = uri.slice(0, 1024).indexOf(',');
   const found =
     comma < 0

@@ -1,26 +1,26 @@
 import type { SceneWarning } from '@glanz/scene';
 
-/** Warnings that are kept; a file may be wrong in millions of places. */
-export const MOST_WARNINGS = 1000;
+/** Max warnings that are kept: a file may be wrong in millions of places. */
+export const MAX_WARNINGS = 1000;
 
-/** Takes warnings up to a number, and counts the rest. Indistinguishable from an array to those who push. */
+/** An array that keeps {@link MAX_WARNINGS} warnings and counts the rest. */
 export class WarningList extends Array<SceneWarning> {
   #dropped = 0;
 
-  /** Arrays that are made of it are plain ones. */
+  /** `map`, `filter` and the like return plain arrays. */
   static override get [Symbol.species](): ArrayConstructor {
     return Array;
   }
 
   override push(...warnings: SceneWarning[]): number {
     for (const warning of warnings) {
-      if (this.length < MOST_WARNINGS) super.push(warning);
+      if (this.length < MAX_WARNINGS) super.push(warning);
       else this.#dropped++;
     }
     return this.length;
   }
 
-  /** A plain array, the last entry saying how many there were beyond. */
+  /** A plain array; its last entry says how many warnings were dropped. */
   finished(file: string, text: (message: string) => string): SceneWarning[] {
     const all = Array.from(this, (warning) => ({ ...warning, message: text(warning.message) }));
     if (this.#dropped > 0)

@@ -120,7 +120,7 @@ describe('KHR_animation_pointer', () => {
     ['to a prototype', '/materials/0/__proto__/polluted'],
     ['to a constructor', '/materials/0/constructor/prototype/polluted'],
     ['to what has no place', '/materials/7/pbrMetallicRoughness/metallicFactor'],
-    ['through an object that is not there', '/materials/0/extensions/KHR_materials_ior/ior'],
+    ['through an object that does not exist', '/materials/0/extensions/KHR_materials_ior/ior'],
     ['to something of another kind', '/materials/0/name/0'],
     ['into an array by a name', '/materials/length/x'],
   ])('a pointer %s moves nothing, with a warning', async (_, pointer) => {

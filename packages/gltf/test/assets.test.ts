@@ -97,7 +97,7 @@ describe.skipIf(!present)(`real models${note}`, () => {
     }
   });
 
-  test('a picture that serves two textures is decoded once', async () => {
+  test('an image that serves two textures is decoded once', async () => {
     const { images, textures } = await load('FlightHelmet');
     expect(images.length).toBe(15);
     expect(textures.length).toBe(15);

@@ -23,9 +23,9 @@ const REPAIRED: readonly (readonly [what: string, path: string, change: (json: T
       json['accessors'].pop();
     },
   ],
-  ['a texture whose picture does not exist', '/textures/0/source', (json) => (json['textures'] = [{ source: 4 }])],
+  ['a texture whose image does not exist', '/textures/0/source', (json) => (json['textures'] = [{ source: 4 }])],
   [
-    'a WebP picture that does not exist',
+    'a WebP image that does not exist',
     '/textures/0/extensions/EXT_texture_webp/source',
     (json) => (json['textures'] = [{ extensions: { EXT_texture_webp: { source: 4 } } }]),
   ],
@@ -36,10 +36,10 @@ const REPAIRED: readonly (readonly [what: string, path: string, change: (json: T
       json['textures'] = [{ sampler: 1 }];
     },
   ],
-  ['a picture from nowhere', '/images/0', (json) => (json['images'] = [{}])],
-  ['a picture of another kind', '/images/0', (json) => (json['images'] = [{ uri: 'data:image/gif;base64,AAAA' }])],
-  ['a picture whose data are none', '/images/0', (json) => (json['images'] = [{ uri: 'data:image/png;base64,§' }])],
-  ['a picture from elsewhere', '/images/0', (json) => (json['images'] = [{ uri: 'https://example.org/a.png' }])],
+  ['an image without uri and bufferView', '/images/0', (json) => (json['images'] = [{}])],
+  ['an image of another format', '/images/0', (json) => (json['images'] = [{ uri: 'data:image/gif;base64,AAAA' }])],
+  ['an image with invalid data', '/images/0', (json) => (json['images'] = [{ uri: 'data:image/png;base64,§' }])],
+  ['an image from another origin', '/images/0', (json) => (json['images'] = [{ uri: 'https://example.org/a.png' }])],
   ['a skeleton that does not exist', '/skins/0/skeleton', (json) => (json['skins'] = [{ joints: [0], skeleton: 9 }])],
   [
     'morph targets in one primitive only',
@@ -303,9 +303,9 @@ test('colours that are clamped', async () => {
 test('tangents without a handedness, or without normals', async () => {
   // Positions serve as normals, which make sense but at the first vertex.
   const warnings = await attributeWarnings('TANGENT', [1, 0, 0, 1, 1, 0, 0, 0, 1, 0, 0, -0.5], { NORMAL: 0 });
-  expect(warnings).toContain('node: TANGENT has 2 handednesses that are neither −1 nor 1; their signs are taken.');
+  expect(warnings).toContain('node: TANGENT has 2 handednesses that are neither −1 nor 1; only their signs are used.');
   expect(await attributeWarnings('TANGENT', [1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, -1])).toEqual([
-    'node: TANGENT has no normals beside it and is left out.',
+    'node: TANGENT is left out, since there are no normals.',
   ]);
 });
 
@@ -332,7 +332,7 @@ test('bytes after the end of a GLB, and more of them in its binary chunk than it
   const { json, binary } = triangle();
   const good = glb(json, binary);
   expect((await loadGltf(new Uint8Array([...good, 1, 2, 3]))).warnings.map(({ message }) => message)).toEqual([
-    expect.stringMatching(/goes on for 3 bytes after its end/),
+    expect.stringMatching(/has 3 bytes after its end/),
   ]);
   const long = new Uint8Array(48);
   long.set(binary);
@@ -383,11 +383,11 @@ test('compressed data that are not declared are unpacked all the same', async ()
   expect([unpacked, warnings.map(({ code }) => code)]).toEqual([1, ['gltf/extension']]);
 });
 
-test('an index that restarts primitives in graphics interfaces is told', async () => {
+test('an index equal to the primitive restart value is reported', async () => {
   const { json, binary } = triangle();
   new Uint16Array(binary.buffer, 36, 3).set([0, 1, 65535]);
   const scene = await loadGltf(glb(json, binary), { allowEmpty: true });
-  expect(scene.warnings[0]!.message).toMatch(/restarts a primitive/);
+  expect(scene.warnings[0]!.message).toMatch(/primitive restart value/);
 });
 
 const REFUSED: readonly (readonly [what: string, change: (json: TriangleJson) => void, code: string])[] = [

@@ -127,8 +127,8 @@ test.each([
   ['a profile', 'p3'],
   ['no profile', undefined],
 ] as const)('an opaque PNG with %s too', async (_, profile) => {
-  const picture = raw(opaque, 3);
-  const file = await (profile ? picture.withIccProfile(profile) : picture).png().toBuffer();
+  const image = raw(opaque, 3);
+  const file = await (profile ? image.withIccProfile(profile) : image).png().toBuffer();
   const truth = await sharp(file, { ignoreIcc: true }).raw().toBuffer();
   const { uploaded, data } = await decode(file, 'image/png', SIZE, 'srgb');
   expect(uploaded).toEqual(withAlpha(truth));

@@ -12,11 +12,11 @@ import { glb, triangle } from './build';
 let server: Server, browser: Browser, page: Page;
 const pages = new Map<string, string | Uint8Array>();
 
-/** The triangle with a material whose picture is a file beside it, as a .gltf beside its buffer. */
+/** The triangle with a material whose image is a file beside it, as a .gltf beside its buffer. */
 function textured(): string {
   const { json } = triangle();
   json['buffers'][0].uri = 'triangle.bin';
-  json['images'] = [{ uri: 'picture.png' }];
+  json['images'] = [{ uri: 'image.png' }];
   json['textures'] = [{ source: 0 }];
   json['materials'] = [{ pbrMetallicRoughness: { baseColorTexture: { index: 0 } } }];
   json['meshes'][0].primitives[0].material = 0;
@@ -73,14 +73,14 @@ const load = (path: string) =>
     }
   }, path);
 
-test("a document, its buffer and its picture, by relative addresses and the browser's own fetch", async () => {
+test("a document, its buffer and its image, by relative addresses and the browser's own fetch", async () => {
   // Every alpha from nothing to all, with colours that a canvas would lose below it.
   const codes = Uint8Array.of(200, 40, 90, 0, 10, 20, 30, 1, 255, 128, 7, 128, 9, 99, 199, 255);
   pages
     .set('/m/a.gltf', textured())
     .set('/m/triangle.bin', triangle().binary)
     .set(
-      '/m/picture.png',
+      '/m/image.png',
       await sharp(codes, { raw: { width: 2, height: 2, channels: 4 } })
         .png()
         .toBuffer(),
@@ -89,12 +89,12 @@ test("a document, its buffer and its picture, by relative addresses and the brow
 });
 
 test('colour profiles do not count', async () => {
-  const picture = await sharp(Uint8Array.of(200, 40, 90), { raw: { width: 1, height: 1, channels: 3 } })
+  const image = await sharp(Uint8Array.of(200, 40, 90), { raw: { width: 1, height: 1, channels: 3 } })
     .withIccProfile('p3')
     .png()
     .toBuffer();
-  const codes = await sharp(picture, { ignoreIcc: true }).raw().toBuffer();
-  pages.set('/m/picture.png', picture);
+  const codes = await sharp(image, { ignoreIcc: true }).raw().toBuffer();
+  pages.set('/m/image.png', image);
   expect(await load('m/a.gltf')).toEqual({
     instances: 1,
     warnings: [],

@@ -86,16 +86,16 @@ describe('what the structure hangs on is refused, and the error says where', () 
       '/meshes/0/primitives/0/attributes/POSITION',
     ],
     [
-      'an accessor that is not there',
+      'an accessor that does not exist',
       (j) => (j['meshes'][0].primitives[0].attributes.NORMAL = 9),
       '/meshes/0/primitives/0/attributes/NORMAL',
     ],
     [
-      'a material that is not there',
+      'a material that does not exist',
       (j) => (j['meshes'][0].primitives[0].material = 0),
       '/meshes/0/primitives/0/material',
     ],
-    ['a mesh that is not there', (j) => (j['nodes'][0].mesh = 1), '/nodes/0/mesh'],
+    ['a mesh that does not exist', (j) => (j['nodes'][0].mesh = 1), '/nodes/0/mesh'],
     ['a node below itself', (j) => (j['nodes'][0].children = [0]), '/nodes/0'],
     [
       'a circle of nodes',

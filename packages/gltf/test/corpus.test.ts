@@ -18,7 +18,7 @@ const { present, note } = presence('bad/index.json');
 const stored = sharedIndex<Case>('bad/index.json').filter(({ file }) => existsSync(sharedPath(`bad/${file}`)));
 const cases = stored.filter(({ kind }) => kind === 'gltf');
 /** PNG, JPEG and WebP; ktx2.test.ts has the others. */
-const pictures = stored.filter(({ kind, file }) => kind === 'image' && !file.endsWith('.ktx2'));
+const images = stored.filter(({ kind, file }) => kind === 'image' && !file.endsWith('.ktx2'));
 
 const counter = new OperationCounter(/\/packages\/(gltf|scene|openpbr)\/src\/|\/node_modules\/(?!sharp)/);
 afterAll(() => counter.end());
@@ -75,11 +75,11 @@ describe.skipIf(!present)(`files that are broken, hostile or odd${note}`, () => 
   );
 
   test(
-    'each picture is decoded, left out with a warning or refused, as its label says',
+    'each image is decoded, left out with a warning or refused, as its label says',
     { timeout: 120_000 },
     async () => {
       const missed: string[] = [];
-      for (const { file, expect: expected, alsoOk = [] } of pictures) {
+      for (const { file, expect: expected, alsoOk = [] } of images) {
         const uri = `data:image/png;base64,${readFileSync(sharedPath(`bad/${file}`)).toString('base64')}`;
         const document = {
           asset: { version: '2.0' },
@@ -104,7 +104,7 @@ describe.skipIf(!present)(`files that are broken, hostile or odd${note}`, () => 
           missed.push(`${file}: ${outcome} instead of ${expected}`);
       }
       expect(missed).toEqual([]);
-      expect(pictures.length).toBeGreaterThan(40);
+      expect(images.length).toBeGreaterThan(40);
     },
   );
 });

@@ -286,7 +286,7 @@ test('workers unpack all meshes, several of them at a time, to the same numbers'
   expect([asked, unpacked, started, own]).toEqual([5, 5, 4, 0]);
 });
 
-test('a worker that is not there costs nothing but time', async () => {
+test('a worker that cannot be started only costs time', async () => {
   const { meshes, here: own } = await loadBy('/board.glb', 'missing');
   expect(meshes).toEqual(await expected());
   expect(own).toBe(5);

@@ -54,7 +54,7 @@ test('without sharp, the error names it', async () => {
   expect((error as GltfError).message).toMatch(/"sharp": npm install sharp/);
 });
 
-test('without a browser, loadGltf says what decodes pictures', async () => {
+test('without a browser, loadGltf says what decodes images', async () => {
   const { decodeImageInBrowser } = await import('../src/browser-images');
   await expect(decodeImageInBrowser(new Uint8Array(8), 'image/png')).rejects.toThrow(/loadGltfFile\(\)/);
 });

@@ -101,11 +101,11 @@ describe('attributes', () => {
     const normals = Array.from(scene.meshes[0]!.normals!);
     [0, 0, 1, 0, 0.6, 0.8, 0, 0, 1, 0, 0, 1].forEach((n, i) => expect(normals[i]).toBeCloseTo(n, 6));
     expect(scene.warnings.map(({ message }) => message)).toEqual([
-      'mesh: 1 normals have no length; they are made from the triangles.',
+      'mesh: 1 normals have length 0; they are computed from the triangles.',
     ]);
   });
 
-  test('triangles whose normals all point to their backs are turned round, with a warning; one that agrees keeps them all', async () => {
+  test('triangles whose normals all point to their backs are reversed, with a warning; one that agrees keeps them all', async () => {
     const facing = (z: readonly number[]) => new Float32Array(z.flatMap((value) => [0, 0, value]));
     const load = (z: readonly number[]) =>
       primitive((t, p) =>
@@ -125,7 +125,7 @@ describe('attributes', () => {
       ).toBe(-1);
     }
     expect(turned.warnings).toEqual([
-      expect.objectContaining({ code: 'gltf/primitive', message: expect.stringContaining('turned round') }),
+      expect.objectContaining({ code: 'gltf/primitive', message: expect.stringContaining('reversed') }),
     ]);
     // The second triangle agrees: corners 1, 2 and 3.
     for (const z of [

@@ -46,7 +46,7 @@ describe('JSON that lies two hundred thousand levels deep', { timeout: 60_000 },
       'gltf/variant',
     ],
     [
-      'in surroundings',
+      'in environments',
       `"extensionsUsed":["EXT_lights_image_based"],"extensions":{"EXT_lights_image_based":{"lights":[{"specularImages":${deep(200_000)}}]}}`,
       'gltf/environment',
     ],
@@ -74,7 +74,7 @@ describe('lists that multiply', { timeout: 60_000 }, () => {
       json['textures'] = many(N, () => ({}));
       json['materials'] = many(N, () => ({ normalTexture: { index: 0 } }));
     },
-    'views of each picture': (json) => {
+    'views of each image': (json) => {
       json['images'] = many(N, () => ({ bufferView: 0, mimeType: 'image/png' }));
       json['bufferViews'].push(...many(N, () => ({ buffer: 0, byteLength: 4 })));
     },
@@ -198,10 +198,10 @@ describe('sizes that lie', () => {
     await expect(load(bytes)).rejects.toMatchObject({ code: 'gltf/too-large' });
   });
 
-  /** The triangle with a picture. */
-  const pictured = (picture: Uint8Array, type: string) =>
+  /** The triangle with an image. */
+  const withImage = (image: Uint8Array, type: string) =>
     spoiled((json) => {
-      json['images'] = [{ uri: `data:${type};base64,${Buffer.from(picture).toString('base64')}` }];
+      json['images'] = [{ uri: `data:${type};base64,${Buffer.from(image).toString('base64')}` }];
       json['textures'] = [{ source: 0 }];
       json['materials'] = [{ pbrMetallicRoughness: { baseColorTexture: { index: 0 } } }];
       json['meshes'][0].primitives[0].material = 0;
@@ -265,7 +265,7 @@ describe('sizes that lie', () => {
 
   test('a PNG whose bytes cannot hold its pixels is left out, and no decoder hears of it', async () => {
     let asked = 0;
-    const scene = await load(pictured(png(20_000, 20_000), 'image/png'), {
+    const scene = await load(withImage(png(20_000, 20_000), 'image/png'), {
       decodeImage: (...given) => (asked++, decodeImage(...given)),
     });
     expect(scene.warnings).toEqual([
@@ -277,10 +277,10 @@ describe('sizes that lie', () => {
   test.each([
     ['JPEG', jpeg(60_000, 60_000), 'image/jpeg'],
     ['WebP', webp(40_000, 40_000), 'image/webp'],
-  ] as const)('a %s of gigabytes is refused before a decoder sees it', async (_, picture, type) => {
+  ] as const)('a %s of gigabytes is refused before a decoder sees it', async (_, image, type) => {
     let asked = 0;
     await expect(
-      load(pictured(picture, type), { decodeImage: (...given) => (asked++, decodeImage(...given)) }),
+      load(withImage(image, type), { decodeImage: (...given) => (asked++, decodeImage(...given)) }),
     ).rejects.toMatchObject({ code: 'gltf/too-large', location: { path: '/images/0' } });
     expect(asked).toBe(0);
   });

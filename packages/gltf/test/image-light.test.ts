@@ -13,14 +13,14 @@ const uri = async (width: number, pixels: readonly number[], channels: 3 | 4) =>
       .toBuffer()
   ).toString('base64')}`;
 
-/** The triangle in surroundings of six pictures, a light's other properties as given. */
+/** The triangle with an environment of six images, a light's other properties as given. */
 async function surrounded(
-  pictures: readonly string[],
+  images: readonly string[],
   light: object = {},
   more: (json: TriangleJson) => void = () => undefined,
 ) {
   const { json, binary } = triangle();
-  json['images'] = pictures.map((picture) => ({ uri: picture }));
+  json['images'] = images.map((image) => ({ uri: image }));
   json['extensions'] = {
     EXT_lights_image_based: {
       lights: [{ specularImages: [[0, 1, 2, 3, 4, 5]], specularImageSize: 2, irradianceCoefficients: [], ...light }],
@@ -32,7 +32,7 @@ async function surrounded(
   return loadGltf(glb(json, binary), { decodeImage });
 }
 
-/** What the surroundings show in a direction, by the definition of lat-long pictures. */
+/** Radiance of the environment in a direction, by the definition of lat-long images. */
 function seen(environment: LatLongEnvironment, [x, y, z]: readonly [number, number, number]): number[] {
   const { width, height, data, intensity = 1 } = environment;
   const length = Math.hypot(x, y, z);
@@ -102,11 +102,11 @@ describe('EXT_lights_image_based', () => {
 
   test.each([
     ['five faces', { specularImages: [[0, 1, 2, 3, 4]] }],
-    ['a face that is not there', { specularImages: [[0, 1, 2, 3, 4, 9]] }],
-    ['no pictures', { specularImages: [] }],
+    ['a face that does not exist', { specularImages: [[0, 1, 2, 3, 4, 9]] }],
+    ['no images', { specularImages: [] }],
     ['a rotation without length', { rotation: [0, 0, 0, 0] }],
     ['an intensity that is none', { intensity: -1 }],
-  ])('%s: no surroundings, with a warning', async (_, light) => {
+  ])('%s: no environment, with a warning', async (_, light) => {
     const scene = await surrounded(await Promise.all(plain(40)), light);
     expect(scene.environment).toBeUndefined();
     expect(scene.warnings).toEqual([
@@ -114,7 +114,7 @@ describe('EXT_lights_image_based', () => {
     ]);
   });
 
-  test('a picture that is broken, and a light that is not there', async () => {
+  test('a broken image, and a light that does not exist', async () => {
     const broken = await surrounded([
       ...(await Promise.all(plain(40))).slice(0, 5),
       'data:image/png;base64,iVBORw0KGgo=',

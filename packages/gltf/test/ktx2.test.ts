@@ -6,8 +6,8 @@ import { loadGltfFile } from '../src/node';
 import { triangle } from './build';
 import { presence, sharedIndex, sharedPath } from './shared';
 
-/** The triangle with a KTX2 picture, and a plain one beside it if asked for. */
-function withKtx2(picture: Uint8Array, { required = false, plain = false } = {}): Map<string, Uint8Array<ArrayBuffer>> {
+/** The triangle with a KTX2 image, and a plain one beside it if asked for. */
+function withKtx2(image: Uint8Array, { required = false, plain = false } = {}): Map<string, Uint8Array<ArrayBuffer>> {
   const { json, binary } = triangle();
   json['buffers'][0].uri = 'a.bin';
   json['extensionsUsed'] = ['KHR_texture_basisu'];
@@ -19,7 +19,7 @@ function withKtx2(picture: Uint8Array, { required = false, plain = false } = {})
   return new Map([
     ['a.gltf', new TextEncoder().encode(JSON.stringify(json))],
     ['a.bin', binary],
-    ['a.ktx2', new Uint8Array(picture)],
+    ['a.ktx2', new Uint8Array(image)],
     ['a.png', Uint8Array.of(0x89, 0x50, 0x4e, 0x47)],
   ]);
 }
@@ -28,7 +28,7 @@ const HEADER = Uint8Array.of(0xab, 0x4b, 0x54, 0x58, 0x20, 0x32, 0x30, 0xbb, 0x0
 const decodeImage = async () => ({ width: 1, height: 1, data: new Uint8Array([1, 2, 3, 255]) });
 
 describe('without a decoder', () => {
-  test('the plain picture is taken where there is one', async () => {
+  test('the plain image is taken where there is one', async () => {
     const scene = await loadGltf({ files: withKtx2(HEADER, { plain: true }) }, { decodeImage });
     expect(scene.images.map(({ data }) => [...data])).toEqual([[1, 2, 3, 255]]);
     expect(scene.warnings).toEqual([]);
@@ -51,24 +51,24 @@ test('a decoder that does not start is an error, since the file is sound', async
   ).rejects.toMatchObject({ code: 'element/decoder' });
 });
 
-test('a picture that lies about its size never gets to the transcoder', async () => {
+test('an image with a false size in its header is not passed to the transcoder', async () => {
   const decode = ktx2Decoder(() => {
     throw new Error('asked');
   });
-  const picture = (width: number, height: number) => {
+  const image = (width: number, height: number) => {
     const bytes = new Uint8Array(200);
     bytes.set(HEADER);
     new DataView(bytes.buffer).setUint32(20, width, true);
     new DataView(bytes.buffer).setUint32(24, height, true);
     return bytes;
   };
-  for (const bytes of [HEADER, picture(0, 4), picture(4, 0), picture(65536, 65536), picture(16384, 16384)])
-    await expect(decode(bytes)).rejects.toMatchObject({ code: 'gltf/picture' });
+  for (const bytes of [HEADER, image(0, 4), image(4, 0), image(65536, 65536), image(16384, 16384)])
+    await expect(decode(bytes)).rejects.toMatchObject({ code: 'gltf/ktx2' });
 });
 
 const { present, note } = presence('assets/index.json');
 
-test.skipIf(!present)(`a lamp whose four pictures are all KTX2${note}`, async () => {
+test.skipIf(!present)(`a model with four KTX2 images${note}`, async () => {
   const { images, textures, warnings, materials } = await loadGltfFile(
     sharedPath('assets/AnisotropyBarnLamp-KTX2-Basisu/AnisotropyBarnLamp.gltf'),
   );

@@ -164,10 +164,10 @@ describe('textures', () => {
     expect([image.width, image.height, ...image.data]).toEqual([2, 1, 255, 128, 0, 64, 0, 0, 0, 255]);
   });
 
-  /** A material whose textures 0, 1, … are pictures of the given pixels; all extensions count as used. */
-  const withPictures = async (material: { extensions: object }, ...pictures: number[][]) => {
+  /** A material whose textures 0, 1, … are images of the given pixels; all extensions count as used. */
+  const withImages = async (material: { extensions: object }, ...images: number[][]) => {
     const uris = await Promise.all(
-      pictures.map(async (pixels) => `data:image/png;base64,${Buffer.from(await png(...pixels)).toString('base64')}`),
+      images.map(async (pixels) => `data:image/png;base64,${Buffer.from(await png(...pixels)).toString('base64')}`),
     );
     return withMaterial(material, (json) => {
       json['images'] = uris.map((uri) => ({ uri }));
@@ -185,7 +185,7 @@ describe('textures', () => {
 
   test('of a clearcoat: its weight from red, its roughness from green, its own normal', async () => {
     const texture = { index: 0 };
-    const scene = await withPictures(
+    const scene = await withImages(
       {
         extensions: {
           KHR_materials_clearcoat: {
@@ -219,7 +219,7 @@ describe('textures', () => {
   });
 
   test('of a film: its thickness between two ends', async () => {
-    const scene = await withPictures(
+    const scene = await withImages(
       {
         extensions: {
           KHR_materials_iridescence: {
@@ -240,9 +240,9 @@ describe('textures', () => {
   const toLinear = (code: number) =>
     code / 255 <= 0.04045 ? code / 255 / 12.92 : ((code / 255 + 0.055) / 1.055) ** 2.4;
 
-  test('of sheen: one picture, split into coverage and colour', async () => {
+  test('of sheen: one image, split into coverage and colour', async () => {
     const pixels = [255, 128, 64, 255, 10, 200, 10, 128, 0, 0, 0, 255];
-    const scene = await withPictures(
+    const scene = await withImages(
       {
         extensions: {
           KHR_materials_sheen: {
@@ -267,14 +267,14 @@ describe('textures', () => {
       expect(roughness!.data[4 * texel]).toBe(Math.round(255 * (0.164 + 0.906 * r - 0.281 * r * r)));
     }
     expect(only(scene).parameters).toMatchObject({ fuzz_color: [1, 1, 1], fuzz_weight: 1, fuzz_roughness: 1 });
-    // The file's own picture is in no use any more.
+    // The file's own image is not used any more.
     expect([scene.images.length, scene.warnings]).toEqual([2, []]);
   });
 
-  test('of anisotropy: two pictures of two sizes become one; the direction is read as it is', async () => {
+  test('of anisotropy: two images of two sizes become one; the direction is read as it is', async () => {
     const rough = [0, 255, 0, 255, 0, 51, 0, 255],
       stretch = [255, 128, 102, 255];
-    const scene = await withPictures(
+    const scene = await withImages(
       {
         pbrMetallicRoughness: { metallicRoughnessTexture: { index: 0 } },
         extensions: {
@@ -314,7 +314,7 @@ describe('textures', () => {
     expect(scene.warnings).toEqual([]);
   });
 
-  test('a broken picture below a formula counts as white', async () => {
+  test('a broken image below a formula counts as white', async () => {
     const scene = await withMaterial(
       { extensions: { KHR_materials_sheen: { sheenColorFactor: [0.25, 0.5, 0], sheenColorTexture: { index: 0 } } } },
       (json) => {
@@ -329,7 +329,7 @@ describe('textures', () => {
   });
 
   test('specular-glossiness', async () => {
-    const scene = await withPictures(
+    const scene = await withImages(
       {
         extensions: {
           KHR_materials_pbrSpecularGlossiness: {
@@ -385,7 +385,7 @@ describe('textures', () => {
     const binding = only(await loadGltf(await write(document, [KHRTextureTransform]), { decodeImage })).textures!
       .base_color!;
     expect(binding.uv).toBe(1);
-    // A quarter turn counter-clockwise in the picture, where v runs down, takes (0, 1) to (1, 0).
+    // A quarter turn counter-clockwise in the image, where v runs down, takes (0, 1) to (1, 0).
     const [a, b, c, d, x, y] = binding.transform!;
     const map = (u: number, v: number) => [a * u + c * v + x, b * u + d * v + y];
     [
@@ -399,12 +399,12 @@ describe('textures', () => {
     expect(uvTransform({ index: 0 })).toBeUndefined();
   });
 
-  test('colour profiles in pictures do not count', async () => {
+  test('colour profiles in images do not count', async () => {
     const pixels = { raw: { width: 1, height: 1, channels: 3 } } as const;
     const plain = await sharp(Uint8Array.of(200, 40, 90), pixels)
       .png()
       .toBuffer();
-    // The same codes under a profile that is not sRGB: the chunk of a picture that was converted to it.
+    // The same codes under a profile that is not sRGB: the chunk of an image that was converted to it.
     const converted = await sharp(Uint8Array.of(200, 40, 90), pixels)
       .withIccProfile('p3')
       .png()
@@ -417,22 +417,22 @@ describe('textures', () => {
     expect(Array.from((await decodeImage(new Uint8Array(plain), 'image/png')).data)).toEqual([200, 40, 90, 255]);
   });
 
-  const picture = (uri: string) => (json: TriangleJson) => {
+  const image = (uri: string) => (json: TriangleJson) => {
     json['images'] = [{ uri }];
     json['textures'] = [{ source: 0 }];
   };
   const textured = { pbrMetallicRoughness: { baseColorTexture: { index: 0 } } };
   test.each([
-    ['a picture that is broken', textured, picture('data:image/png;base64,iVBORw0KGgo='), 'gltf/image', '/images/0'],
+    ['an image that is broken', textured, image('data:image/png;base64,iVBORw0KGgo='), 'gltf/image', '/images/0'],
     [
       'an SVG, which could name other files',
       textured,
-      picture(`data:image/png;base64,${btoa('<svg xmlns="http://www.w3.org/2000/svg" width="1" height="1"/>')}`),
+      image(`data:image/png;base64,${btoa('<svg xmlns="http://www.w3.org/2000/svg" width="1" height="1"/>')}`),
       'gltf/image',
       '/images/0',
     ],
     [
-      'a texture that is not there',
+      'a texture that does not exist',
       { pbrMetallicRoughness: { baseColorTexture: { index: 3 } } },
       () => undefined,
       'gltf/texture',
@@ -453,7 +453,7 @@ describe('textures', () => {
         emissiveFactor: [1, 1, 1],
         pbrMetallicRoughness: { baseColorTexture: { index: 0, texCoord: 2 } },
       },
-      picture('data:image/png;base64,iVBORw0KGgo='),
+      image('data:image/png;base64,iVBORw0KGgo='),
       'gltf/texture',
       /^\/materials\/0\//,
     ],

@@ -63,13 +63,13 @@ test('joints and weights that make sense bring no warning', async () => {
   expect(positions).toEqual([5, 5, 0, 1, 10, 0, 10, 1, 0]);
 });
 
-test('joints that do not exist do not count, and are reported', async () => {
+test('joints that do not exist are ignored, and reported', async () => {
   const { warnings, positions } = await load({
     joints: [2, 0, 0, 0, 1, 255, 0, 0, 0, 0, 0, 0],
     weights: [1, 0, 0, 0, 0.5, 0.5, 0, 0, 1, 0, 0, 0],
   });
   expect(warnings).toEqual([
-    'body: JOINTS_0 names a joint that does not exist 2 times (the skin has 2); it does not count.',
+    'body: JOINTS_0 names a joint that does not exist 2 times (the skin has 2); it is ignored.',
   ]);
   expect(positions).toEqual([0, 0, 0, 1, 10, 0, 10, 1, 0]);
 });
@@ -92,7 +92,7 @@ test('a vertex without weights stays where it is', async () => {
 
 test('as many joints as weights as vertices', async () => {
   const { warnings } = await load({ change: (json) => void (json['accessors'][1].count = 2) });
-  expect(warnings).toEqual(['body: JOINTS_0 and WEIGHTS_0 have 2 and 3 entries for 3 vertices and do not count.']);
+  expect(warnings).toEqual(['body: JOINTS_0 and WEIGHTS_0 have 2 and 3 entries for 3 vertices and are ignored.']);
 });
 
 test('a mesh that a skin cannot move stands at its node', async () => {

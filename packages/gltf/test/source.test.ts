@@ -74,7 +74,7 @@ describe('addresses', () => {
     );
   });
 
-  test('what the server lacks, what cannot be reached, what is no address', async () => {
+  test('a file missing on the server, an unreachable server, an invalid URL', async () => {
     expect(
       (
         await error(
@@ -88,9 +88,7 @@ describe('addresses', () => {
       (await error(loadGltf('https://example.test/x.glb', { fetch: () => Promise.reject(new TypeError('no route')) })))
         .message,
     ).toMatch(/no route/);
-    expect((await error(loadGltf('models/x.glb'))).message).toMatch(
-      /"models\/x\.glb" is no address that stands by itself/,
-    );
+    expect((await error(loadGltf('models/x.glb'))).message).toMatch(/"models\/x\.glb" is not a valid URL on its own/);
   });
 
   test.each(['https://evil.test/x', '//evil.test/x', '/etc/passwd', 'file:///etc/passwd', '\\\\evil\\x', 'a:b'])(
@@ -182,7 +180,7 @@ describe('in Node', () => {
     expect((await error(loadGltfFile(join(folder, 'in', name)))).code).toBe('gltf/missing-resource');
   });
 
-  test('a file that is not there, a folder', async () => {
+  test('a file that does not exist, a folder', async () => {
     expect((await error(loadGltfFile(join(folder, 'none.glb')))).message).toMatch(
       /none\.glb cannot be read: there is no such file/,
     );
@@ -214,7 +212,7 @@ test('a document without triangles is an error, unless the host allows it', asyn
   expect((await loadGltf(empty, { allowEmpty: true })).instances).toEqual([]);
 });
 
-test('a name with half a character in it is one that is not there', async () => {
+test('a name with a lone surrogate is a missing file', async () => {
   const { json } = triangle();
   json['buffers'][0].uri = '\ud800.bin';
   await expect(

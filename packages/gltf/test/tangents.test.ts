@@ -5,7 +5,7 @@ import { loadGltfFile } from '../src/node';
 import { withTangents } from '../src/tangents';
 import { presence, sharedIndex, sharedPath } from './shared';
 
-/** A wavy sheet of n × n quads whose picture is mirrored along the middle, as symmetrical models are. */
+/** A wavy sheet of n × n quads whose image is mirrored along the middle, as symmetrical models are. */
 function sheet(n: number): Mesh {
   const positions: number[] = [],
     normals: number[] = [],
@@ -66,7 +66,7 @@ async function difference(mesh: Mesh) {
 }
 
 describe('tangents are those of another implementation of MikkTSpace, corner by corner', () => {
-  test('a sheet with a mirrored picture: vertices in the middle are doubled', async () => {
+  test('a sheet with a mirrored image: vertices in the middle are doubled', async () => {
     const mesh = sheet(8);
     const { worst, turned, vertices } = await difference(mesh);
     expect(worst).toBeLessThan(0.1);
@@ -93,7 +93,7 @@ describe('tangents are those of another implementation of MikkTSpace, corner by 
   });
 });
 
-test('triangles without area, in space or in the picture, get unit tangents at right angles to the normal', () => {
+test('triangles without area, in space or in the image, get unit tangents at right angles to the normal', () => {
   const mesh = sheet(3);
   mesh.indices = new Uint32Array([...mesh.indices, 0, 0, 1, 2, 2, 2]);
   mesh.uvs![0]!.fill(0.5, 0, 12);
@@ -107,7 +107,7 @@ test('triangles without area, in space or in the picture, get unit tangents at r
   }
 });
 
-test('a mesh without normals or pictures stays as it is', () => {
+test('a mesh without normals or images stays as it is', () => {
   const { normals: _, ...flat } = sheet(2);
   expect(withTangents(flat)).toBe(flat);
   const { uvs: __, ...plain } = sheet(2);

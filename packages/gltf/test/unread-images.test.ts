@@ -42,9 +42,13 @@ test.each([
   [
     'that nothing shows',
     (): void => undefined,
-    /says that it is image\/png, but its bytes are image\/jpeg; nothing shows it\.$/,
+    /is declared as image\/png, but its bytes are image\/jpeg; no material uses it\.$/,
   ],
-  ['that a material shows', shown, /says that it is image\/png, but its bytes are image\/jpeg; the bytes count\.$/],
+  [
+    'that a material shows',
+    shown,
+    /is declared as image\/png, but its bytes are image\/jpeg; it is read as image\/jpeg\.$/,
+  ],
 ] as const)('a data: uri of the wrong type in an image %s', async (_, change, message) => {
   expect(
     await warningsOf((json) => {
@@ -68,13 +72,13 @@ test('a mimeType that the bytes of a buffer view contradict', async () => {
     shown(json);
   };
   expect(await warningsOf(inView('image/jpeg'))).toEqual([
-    ['/images/0', expect.stringMatching(/says that it is image\/jpeg, but its bytes are image\/png/)],
+    ['/images/0', expect.stringMatching(/is declared as image\/jpeg, but its bytes are image\/png/)],
   ]);
   expect(await warningsOf(inView('image/png'))).toEqual([]);
 });
 
-test('bytes of no picture that nothing shows', async () => {
+test('bytes of no image that nothing shows', async () => {
   expect(await warningsOf((json) => (json['images'] = [{ uri: uri('image/png', Buffer.from('GIF89a')) }]))).toEqual([
-    ['/images/0', expect.stringMatching(/cannot be decoded: it is no PNG, JPEG/)],
+    ['/images/0', expect.stringMatching(/cannot be decoded: it is not a PNG, JPEG/)],
   ]);
 });

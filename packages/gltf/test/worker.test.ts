@@ -135,7 +135,7 @@ test('errors keep class, code and message', async () => {
   expect(await load('m/none.glb')).toMatchObject({ code: 'gltf/missing-resource' });
 });
 
-test('a worker that is not there is an error, and an abort its reason', async () => {
+test('a worker that cannot be started is an error; an abort rejects with its reason', async () => {
   expect(await load('m/a.glb', { worker: '/none.js' })).toMatchObject({ code: 'gltf/worker' });
   expect((await load('m/a.glb', { abort: true })).message).toMatch(/abort/i);
 });
@@ -177,21 +177,21 @@ test('one worker is kept between loads; loads at a time have one each; an abort 
   expect(told).toEqual([1, 'gltf/missing-resource', 1, 1, 1, 1, 2, 'AbortError', 1, 3, 'gltf/worker', 'gltf/worker']);
 });
 
-test('pictures cross as bitmaps and have their pixels on the other side', async () => {
+test('images are sent as bitmaps; their pixels can be read after the transfer', async () => {
   const { json, binary } = triangle();
-  const picture = await sharp(Uint8Array.of(200, 40, 90, 0, 10, 20, 30, 255), {
+  const image = await sharp(Uint8Array.of(200, 40, 90, 0, 10, 20, 30, 255), {
     raw: { width: 2, height: 1, channels: 4 },
   })
     .png()
     .toBuffer();
-  json['images'] = [{ uri: `data:image/png;base64,${picture.toString('base64')}` }];
+  json['images'] = [{ uri: `data:image/png;base64,${image.toString('base64')}` }];
   json['textures'] = [{ source: 0 }];
   json['materials'] = [{ pbrMetallicRoughness: { baseColorTexture: { index: 0 } } }];
   json['meshes'][0].primitives[0].material = 0;
-  pages.set('/m/picture.glb', glb(json, binary));
+  pages.set('/m/image.glb', glb(json, binary));
   const images = await page.evaluate(async () => {
     const scene = await (globalThis as unknown as { loadGltfInWorker: typeof loadGltfInWorker }).loadGltfInWorker(
-      'm/picture.glb',
+      'm/image.glb',
     );
     return scene.images.map(({ bitmap, width, height, data }) => [
       bitmap instanceof ImageBitmap,
@@ -218,7 +218,7 @@ test.skipIf(!present)(
 );
 
 // How long the thread is busy is what `npm run bench -- gltf` measures.
-test.skipIf(!present)(`the page's own thread neither reads the document nor decodes pictures${note}`, async () => {
+test.skipIf(!present)(`the page's own thread neither reads the document nor decodes images${note}`, async () => {
   pages.set('/m/helmet.glb', readFileSync(sharedPath('assets/DamagedHelmet/DamagedHelmet.glb')));
   await page.evaluate(() => {
     const calls = ((globalThis as { calls?: string[] }).calls = [] as string[]);

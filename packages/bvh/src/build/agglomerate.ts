@@ -1,7 +1,7 @@
 import { copyBox, putBox } from '../layout';
 import type { NodeWriter } from './node-writer';
 
-/** Most boxes of one {@link Agglomerator.run}. */
+/** Maximum number of boxes of one {@link Agglomerator.run}. */
 export const GROUP_MAX = 16;
 const PLACES = 2 * GROUP_MAX;
 
@@ -14,13 +14,13 @@ const PLACES = 2 * GROUP_MAX;
  * themselves, as engines look those of modules up each time, and all integers are in one array, `state`, by sixteens:
  *
  * - for each place of those still to be joined: at 0 the box's upper corner, in steps along the longest side of the
- *   group, nine bits and one to spare for each coordinate; at 16 the lower corner, turned round; at 32 eight and the
- *   levels below; at 48 the place that joins it best; at 64 which item or node it is;
+ *   group, nine bits and a guard bit for each coordinate; at 16 the lower corner, complemented; at 32 eight and
+ *   the levels below; at 48 the place that joins it best; at 64 which item or node it is;
  * - for each item and node: at 80 the two children of a node, at 144 the levels at and below, at 176 the triangles, at
  *   208 whether it is better a leaf.
  *
  * `load` items, set their `weights` if there are to be leaves of several, call `run`; then the items are 0 to n − 1,
- * the nodes n to 2n − 2 with children before their parents, so the root is 2n − 2. `write` puts the nodes down.
+ * the nodes n to 2n − 2 with children before their parents, so the root is 2n − 2. `write` writes the nodes.
  */
 export class Agglomerator {
   /** Boxes of items and nodes: min xyz, max xyz. The root's is that of all items. */
@@ -43,7 +43,7 @@ export class Agglomerator {
   readonly #low = new Float64Array(3);
   readonly #maxLeaf: number;
 
-  /** @param maxLeaf Most triangles of a leaf; 0: items only. */
+  /** @param maxLeaf Maximum number of triangles in a leaf; 0: items only. */
   constructor(maxLeaf: number) {
     this.#maxLeaf = maxLeaf;
   }
@@ -55,8 +55,8 @@ export class Agglomerator {
 
   /**
    * @param count Items, 1 to {@link GROUP_MAX}.
-   * @param maxHeight Most levels of nodes; at least ⌈log₂ count⌉. Where that is too few for the tree found, neighbours
-   * in the order given are joined instead.
+   * @param maxHeight Maximum number of levels of nodes; at least ⌈log₂ count⌉. Where that is too few for the tree
+   * found, neighbours in the order given are joined instead.
    */
   run(count: number, maxHeight: number): void {
     if (this.#join(count, false) > maxHeight) this.#join(count, true);
@@ -179,8 +179,8 @@ export class Agglomerator {
       FACTORS = 32,
       NEAREST = 48,
       STEPS = 511;
-    // The bits to spare.
-    const SPARE = 0x20080200;
+    // The guard bits.
+    const GUARD_BITS = 0x20080200;
     const state = this.#state;
     const high0 = state[0] as number,
       low0 = state[LOW] as number;
@@ -190,16 +190,16 @@ export class Agglomerator {
       const high = state[i] as number,
         low = state[LOW + i] as number,
         factor = state[FACTORS + i] as number;
-      const highSpare = high | SPARE,
-        lowSpare = low | SPARE;
+      const highGuarded = high | GUARD_BITS,
+        lowGuarded = low | GUARD_BITS;
       different |= (high ^ high0) | (low ^ low0);
       let own = 0x7fffffff;
       for (let j = 0; j < i; j++) {
         const highJ = state[j] as number,
           lowJ = state[LOW + j] as number;
         // The common box: the larger of each of the three coordinates.
-        const a = (highSpare - highJ) & SPARE,
-          b = (lowSpare - lowJ) & SPARE;
+        const a = (highGuarded - highJ) & GUARD_BITS,
+          b = (lowGuarded - lowJ) & GUARD_BITS;
         const extents = ((highJ ^ ((high ^ highJ) & (a - (a >>> 9)))) + (lowJ ^ ((low ^ lowJ) & (b - (b >>> 9))))) | 0;
         const x = (extents & 1023) - STEPS,
           y = ((extents >>> 10) & 1023) - STEPS,
@@ -226,7 +226,7 @@ export class Agglomerator {
       NEAREST = 48,
       IDS = 64,
       HEIGHTS = 144,
-      SPARE = 0x20080200;
+      GUARD_BITS = 0x20080200;
     const state = this.#state;
     let kept = 0;
     for (let i = 0; i < left; i++) {
@@ -238,8 +238,8 @@ export class Agglomerator {
         if (j < i) continue;
         const highJ = state[j] as number,
           lowJ = state[LOW + j] as number;
-        const a = ((high | SPARE) - highJ) & SPARE,
-          b = ((low | SPARE) - lowJ) & SPARE;
+        const a = ((high | GUARD_BITS) - highJ) & GUARD_BITS,
+          b = ((low | GUARD_BITS) - lowJ) & GUARD_BITS;
         high = highJ ^ ((high ^ highJ) & (a - (a >>> 9)));
         low = lowJ ^ ((low ^ lowJ) & (b - (b >>> 9)));
         this.#add(node, id, state[IDS + j] as number);

@@ -13,19 +13,19 @@ import {
   type TriangleTree,
 } from './steps';
 
-/** Triangles of the mesh that is built first of all: enough for splits. */
+/** Triangles of the mesh that is built first: enough for splits. */
 const MODEL = 600;
 
 /**
- * V8 drops machine code when the last object of a kind that it was made for goes, and every build that finds itself
- * after a garbage collection would be a first one again. So the objects of one small build stay.
+ * V8 drops machine code when the last object of the shape that it was compiled for is collected, so that a build after
+ * a garbage collection would start with cold code. So the objects of one small build are retained.
  */
 let models: object[] | undefined;
 
 /**
  * Builds by surface area heuristic in steps that are each far cheaper than binning all triangles on every level: pairs
  * of neighbouring triangles become one primitive; Morton codes sort the primitives into small cells; the upper levels
- * are built over the cells from the top down and mended by rotations; the lower ones within each cell from the bottom
+ * are built over the cells from the top down and improved by rotations; the lower ones within each cell from the bottom
  * up. No recursion, no allocation per node, deterministic.
  */
 export function* buildBalanced(

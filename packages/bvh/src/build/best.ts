@@ -16,7 +16,7 @@ import {
   type TriangleTree,
 } from './steps';
 
-/** The shares of subtrees that the passes of reinsertion look at. */
+/** Fraction of the subtrees that each pass of reinsertion visits. */
 const PASSES = [0.1, 1, 0.1] as const;
 
 function* buildBest(
@@ -60,9 +60,9 @@ function* draft(references: References, bins: number, scratch: Scratch): Steps<D
 }
 
 /**
- * For pictures that take longer to render than a tree to build: a tree by surface area heuristic whose subtrees are
+ * For images that take longer to render than a tree to build: a tree by surface area heuristic whose subtrees are
  * moved to where they cost least. Give it to `buildBlas` as `builder`. Several times the build time of `balanced`; rays
- * look at a fifth less in models made of parts, at a twentieth less in smooth ones.
+ * visit a fifth less in models made of parts, a twentieth less in smooth ones.
  *
  * @example
  * const blas = buildBlas(mesh, { builder: best });
@@ -73,11 +73,11 @@ export const best: TreeBuilder = {
 };
 
 /**
- * As {@link best}, with triangles cut into pieces whose boxes would be mostly empty: rays look at half as much in a
- * mesh of long, thin triangles in all directions, and at little less than with `best` in others. A triangle may then be
- * in several leaves, so `triangleIndices` may be longer than the mesh: closest hits, any hits and distances are what
- * they are, but queries for all hits or overlaps can tell of such a triangle more than once, and `refitBlas` makes its
- * boxes whole again.
+ * As {@link best}, with triangles cut into pieces whose boxes would be mostly empty: rays visit half as much in a
+ * mesh of long, thin triangles in all directions, and little less than with `best` in others. A triangle may then be
+ * in several leaves, so `triangleIndices` may be longer than the mesh: closest hits, any hits and distances stay
+ * the same, but queries for all hits or overlaps can report such a triangle more than once, and `refitBlas` fits its
+ * boxes to the whole triangle.
  */
 export const bestSplit: TreeBuilder = {
   name: 'best-split',

@@ -1,13 +1,13 @@
 import type { Memory } from './scratch';
 import type { Sorted } from './gather';
 
-/** Cells of primitives that lie together: the upper levels of a tree are built over these. */
+/** Cells of neighbouring primitives, over which the top levels of a tree are built. */
 export interface Clusters {
   readonly primitives: Sorted;
   /** First primitive of each cluster, and one entry more for the end. */
   readonly starts: Uint32Array;
   readonly count: number;
-  /** Boxes of the clusters, set with their insides, as are the following. */
+  /** Boxes of the clusters, set with the trees inside, as are the following. */
   readonly boxes: Float32Array;
   /** Triangles of each cluster. */
   readonly weights: Uint32Array;

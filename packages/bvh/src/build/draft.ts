@@ -3,8 +3,8 @@ import type { NodeWriter } from './node-writer';
 import { STEP, type Steps } from './steps';
 
 /**
- * A tree that can be changed: every item and every node has a place of its own with its box. Items are 0 to n − 1,
- * nodes n to 2n − 2; n is the root and stays it.
+ * A tree that can be changed: every item and every node has its own slot with its box. Items are 0 to n − 1,
+ * nodes n to 2n − 2; n is always the root.
  */
 export interface DraftTree {
   readonly itemCount: number;

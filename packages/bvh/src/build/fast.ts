@@ -41,7 +41,7 @@ function* buildFast(mesh: TriangleMesh, count: number, { maxLeaf }: BuildSetting
 /**
  * For meshes that change every frame: every node is cut where the highest bit of the Morton codes changes (Lauterbach
  * et al. 2009, "Fast BVH Construction on GPUs"). Give it to `buildBlas` as `builder`. About a third of the time of
- * `balanced`; rays look at a tenth to two thirds more.
+ * `balanced`; rays visit a tenth to two thirds more.
  *
  * @example
  * const blas = buildBlas(mesh, { builder: fast });
@@ -84,7 +84,7 @@ class Cells {
     tasks[t + 3] = depth;
   }
 
-  /** Does some of the work, and says whether there is more. */
+  /** Does some of the work. @returns Whether there is more. */
   step(entries: number): boolean {
     const tasks = this.#tasks,
       writer = this.#writer,
@@ -105,7 +105,7 @@ class Cells {
         continue;
       }
       const base = writer.under(slot) * NODE_WORDS;
-      // With the levels that halving would need from here on.
+      // Counting the levels that halving by count would need from here.
       const free = depth + 33 - Math.clz32(size - 1) < BLAS_MAX_DEPTH;
       const cut = free ? cutCell(codes, first, end) : (first + end) >>> 1;
       this.#push(cut, end, base + RIGHT, depth + 1);

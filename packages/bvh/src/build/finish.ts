@@ -25,7 +25,7 @@ function* topDown(tree: DraftTree): Steps<Uint32Array> {
   return order;
 }
 
-/** Joins the items under a node anew, neighbours first: the least height there is. */
+/** Rebuilds the subtree of a node by joining neighbours: the minimum height. */
 function flatten({ itemCount, boxes, areas, parents, children }: DraftTree, root: number): void {
   const items: number[] = [],
     nodes: number[] = [],
@@ -63,7 +63,7 @@ function flatten({ itemCount, boxes, areas, parents, children }: DraftTree, root
   }
 }
 
-/** Sees to it that no way from the root has more than `maxDepth` nodes. */
+/** Ensures that no path from the root has more than `maxDepth` nodes. */
 export function* boundDepth(tree: DraftTree, maxDepth: number): Steps<void> {
   const { itemCount, children, parents } = tree;
   const order = yield* topDown(tree);
@@ -100,7 +100,7 @@ export function* boundDepth(tree: DraftTree, maxDepth: number): Steps<void> {
 }
 
 /**
- * Turns a draft into nodes, depth first, with leaves where they cost less than going on. Pieces of one triangle in one
+ * Turns a draft into nodes, depth first, with leaves where they cost less than splitting. Pieces of one triangle in one
  * leaf become one.
  */
 export function* finishDraft(

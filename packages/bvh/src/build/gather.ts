@@ -2,7 +2,7 @@ import { putBox } from '../layout';
 import { PAIR, pairUp, type Primitives } from './primitives';
 import type { Memory } from './scratch';
 
-/** In place of a second triangle. */
+/** Marks the absence of a second triangle. */
 export const NONE = 0xffffffff;
 
 /** Primitives in the order of a space-filling curve. */

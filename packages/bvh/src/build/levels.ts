@@ -3,16 +3,16 @@ import { Agglomerator, GROUP_MAX } from './agglomerate';
 import type { NodeWriter } from './node-writer';
 import { Splitter } from './splitter';
 
-/** Ranges whose longest side has become as short as this are looked at anew, in finer steps. */
+/** Ranges whose longest side has become as short as this are quantised again, in finer steps. */
 const COARSE = 512;
 
-/** Things with boxes to build over. */
+/** Items with boxes to build over. */
 export interface Items {
   /** Six numbers each: min xyz, max xyz; finite. */
   readonly boxes: Float32Array;
-  /** What each costs to test. */
+  /** Cost of testing each. */
   readonly weights: Uint32Array;
-  /** How many, at least two. */
+  /** Number of items, at least two. */
   readonly count: number;
 }
 
@@ -32,11 +32,12 @@ export class Levels {
   readonly #group = new Agglomerator(0);
   /** Pending ranges, ten numbers each: bounds of the centres, first, end, word for the reference, depth. */
   readonly tasks: number[];
-  /** Bounds of the centres of the range at work, doubled: min xyz, max xyz. */
+  /** Bounds of the centres of the current range, doubled: min xyz, max xyz. */
   readonly #centers = new Int32Array(6);
 
   /**
-   * @param maxDepth Most inner nodes on the way to an item; 2 ** maxDepth must not be less than the number of items.
+   * @param maxDepth Maximum number of inner nodes on the path to an item; 2 ** maxDepth must not be less than the
+   * number of items.
    * @param order The items' numbers, rising.
    * @param words Four numbers for each item, to work in.
    */
@@ -61,7 +62,7 @@ export class Levels {
   /**
    * Does some of the work.
    *
-   * @param items About how many items to look at.
+   * @param items About how many items to visit.
    * @returns Whether there is more to do.
    */
   step(items: number): boolean {
@@ -84,7 +85,7 @@ export class Levels {
       }
       const [x, y, z, x1, y1, z1] = centers as unknown as [number, number, number, number, number, number];
       if (Math.max(x1 - x, y1 - y, z1 - z) < COARSE) this.#quantise(first, end);
-      // With the levels that halving would need from here on.
+      // Counting the levels that halving by count would need from here.
       splitter.split(
         this.#words,
         order,
@@ -111,7 +112,7 @@ export class Levels {
     return tasks.length > 0;
   }
 
-  /** Looks at a range in steps of its own, and notes the bounds of its centres. */
+  /** Quantises a range in its own steps, and records the bounds of its centres. */
   #quantise(first: number, end: number): void {
     const STEPS = 32767;
     const { boxes, weights } = this.#items;

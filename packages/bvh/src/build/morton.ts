@@ -11,7 +11,7 @@ const DIGITS = 1 << DIGIT;
 
 /**
  * Sorts primitives by the Morton codes of their boxes' centres, in cubic cells, by radix. Equal codes keep their order,
- * so the result is one for all machines.
+ * so the result is the same on all machines.
  */
 export class MortonSort {
   /** Primitives, by their Morton codes. */
@@ -37,7 +37,7 @@ export class MortonSort {
     for (let i = 1; i < CELLS; i++) spread[i] = ((spread[i >> 1] as number) << 3) | (i & 1);
   }
 
-  /** Finds the codes of the primitives from one to another. */
+  /** Computes the codes of the primitives from `from` up to `to`. */
   encode(from: number, to: number): void {
     const { boxes, bounds } = this.#primitives;
     const DIGITS = 1024,
@@ -67,7 +67,7 @@ export class MortonSort {
     }
   }
 
-  /** Makes the histograms into places. */
+  /** Turns the histograms into offsets (prefix sums). */
   begin(): void {
     const starts = this.#starts;
     for (let slot = 0, sum = 0; slot < 3 * DIGITS; slot++) {
@@ -78,7 +78,7 @@ export class MortonSort {
     }
   }
 
-  /** Puts the entries from one to another into their places by one of the three digits, lowest first. */
+  /** Scatters the entries from `from` up to `to` by one of the three digits, lowest first. */
   scatter(pass: number, from: number, to: number): void {
     const DIGITS = 1024,
       DIGIT = 10;

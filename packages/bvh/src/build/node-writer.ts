@@ -7,15 +7,15 @@ export interface Tree {
   readonly nodeCount: number;
 }
 
-/** Puts nodes down one after the other, parents before their children. */
+/** Writes nodes one after the other, parents before their children. */
 export class NodeWriter {
   readonly nodes: Float32Array<ArrayBuffer>;
   readonly words: Uint32Array<ArrayBuffer>;
   count = 0;
 
   /**
-   * @param capacity Most nodes there can be.
-   * @param buffer Where to put them, if there is a buffer already.
+   * @param capacity Maximum number of nodes.
+   * @param buffer Memory to use; default: new memory.
    */
   constructor(capacity: number, buffer: ArrayBuffer = new ArrayBuffer(4 * capacity * NODE_WORDS)) {
     this.nodes = new Float32Array(buffer, 0, capacity * NODE_WORDS);
@@ -40,8 +40,8 @@ export class NodeWriter {
   }
 
   /**
-   * A tree of one leaf, or of none if there is no box. Both references name the leaf, as they must name something: the
-   * box of a missing child is one that no ray reaches.
+   * A tree of one leaf, or of none if there is no box. Both references point to the leaf, as they must be valid: no
+   * ray reaches the box of a missing child.
    */
   single(reference: number, box?: Float32Array): void {
     const missing = new Float32Array(6).fill(FAR);

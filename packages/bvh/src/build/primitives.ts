@@ -3,8 +3,8 @@ import { putBox, type TriangleMesh } from '../layout';
 import type { Memory } from './scratch';
 
 /**
- * Two triangles become a pair if the surface of their common box is at most this part of their own boxes' together. At
- * 1 a pair costs what its halves do; a little less gives better trees at the same speed.
+ * Two triangles become a pair if the surface of their common box is at most this fraction of the sum of their own
+ * boxes'. At 1 a pair costs what its halves do; a little less gives better trees at the same speed.
  */
 const PAIR_LIMIT = 0.75;
 
@@ -49,7 +49,7 @@ export function pairUp(
   return true;
 }
 
-/** What a hierarchy is built over: single triangles and pairs of neighbours. */
+/** The primitives of a hierarchy: single triangles and pairs of neighbours. */
 export interface Primitives {
   /** Six numbers each: min xyz, max xyz. */
   readonly boxes: Float32Array;

@@ -4,14 +4,15 @@ import { part, STEP, type Steps } from './steps';
 
 /** Cells per axis of the grid along which triangles are cut. */
 const GRID = 1 << 16;
-/** Most pieces of one triangle. */
+/** Maximum number of pieces of one triangle. */
 const PIECES_MAX = 64;
 /**
- * Most pieces more, as a share of the primitives, and how many times the mean priority a triangle must have to be cut.
+ * Maximum number of additional pieces as a fraction of the primitives, and the multiple of the mean priority that a
+ * triangle must have to be cut.
  */
 const SHARE = 0.3;
 const OUTSTANDING = 2;
-/** From so many boxes in a ray's way on, more triangles are cut. */
+/** From this many boxes along a ray, more triangles are cut. */
 const CROWDED = 25;
 /** A coordinate of a cut is moved out by this part of itself, more than rounding can have moved it in. */
 const ROUNDING = 2 ** -21;
@@ -46,7 +47,7 @@ function excess(v: Float64Array): number {
 /**
  * Cuts triangles whose boxes are mostly empty into pieces before a build (Karras and Aila 2013, "Fast Parallel
  * Construction of High-Quality Bounding Volume Hierarchies", section 5): along planes of one grid, so that the pieces
- * of neighbours fit each other. Only triangles that stand out are cut: a smooth mesh of small triangles stays whole.
+ * of neighbours fit each other. Only outliers are cut: a smooth mesh of small triangles stays whole.
  */
 class Cutter {
   readonly #mesh: TriangleMesh;
@@ -95,21 +96,21 @@ class Cutter {
     for (let i = from; i < to; i++) {
       const first = triangles[i] as number;
       corners(this.#mesh, first & (PAIR - 1), v);
-      let spare = excess(v);
+      let excessArea = excess(v);
       if (first >= PAIR) {
         corners(this.#mesh, (first & (PAIR - 1)) + 1, v);
-        spare += excess(v);
+        excessArea += excess(v);
       }
       const b = 6 * i;
       const dx = (boxes[b + 3] as number) - (boxes[b] as number),
         dy = (boxes[b + 4] as number) - (boxes[b + 1] as number),
         dz = (boxes[b + 5] as number) - (boxes[b + 2] as number);
       this.#area += dx * dy + dy * dz + dz * dx;
-      this.#priorities[i] = spare > 0 ? Math.cbrt(spare * 2 ** -this.#level(boxes, 6 * i)) : 0;
+      this.#priorities[i] = excessArea > 0 ? Math.cbrt(excessArea * 2 ** -this.#level(boxes, 6 * i)) : 0;
     }
   }
 
-  /** The coarsest plane of the grid that goes through a box: 0 halves the scene; 16 if none does. */
+  /** The coarsest plane of the grid that crosses a box: 0 halves the scene; 16 if none does. */
   #level(boxes: ArrayLike<number>, at: number): number {
     let bits = 0;
     for (let k = 0; k < 3; k++)
@@ -124,14 +125,14 @@ class Cutter {
   /**
    * Decides how many pieces to make.
    *
-   * @returns How many references there will be, at most.
+   * @returns Upper bound on the number of references.
    */
   *plan(): Steps<number> {
     const { count, triangles } = this.#primitives;
     const priorities = this.#priorities;
     let sum = 0;
     for (let i = 0; i < count; i++) sum += priorities[i] as number;
-    // So many boxes lie over each other where a ray goes through: the more, the more pieces pay.
+    // The mean number of boxes that a ray crosses: the more, the more additional pieces pay off.
     const crowd = this.#whole > 0 ? Math.min(3, Math.max(1, this.#area / this.#whole / CROWDED)) : 1;
     const outstanding = OUTSTANDING / crowd;
     const budget = Math.floor(SHARE * crowd * count);

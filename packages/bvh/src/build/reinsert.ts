@@ -1,7 +1,7 @@
 import { boxArea, type DraftTree } from './draft';
 import { STEP, type Steps } from './steps';
 
-/** Most places that a search keeps for later. */
+/** Maximum number of pending slots of a search. */
 const STACK = 512;
 
 /** Half the surface of the box around two places' boxes. */
@@ -29,7 +29,7 @@ function joined(
 }
 
 /**
- * Improves a tree by taking subtrees out and putting them back where the sum of all surfaces gets least, the largest
+ * Improves a tree by removing subtrees and reinserting them where the sum of all surfaces is smallest, the largest
  * ones first (Bittner et al. 2013; the search is that of Meister and Bittner 2018, "Parallel Reinsertion for Bounding
  * Volume Hierarchy Optimization", one subtree after the other).
  */
@@ -72,7 +72,7 @@ export class Reinsertion {
     }
   }
 
-  /** Looks for a better place for a subtree and moves it there. Gives the places looked at. */
+  /** Searches a better position for a subtree and moves it there. @returns The number of positions visited. */
   #improve(node: number): number {
     const { boxes, areas, parents, children, itemCount } = this.#tree;
     const stack = this.#stack,

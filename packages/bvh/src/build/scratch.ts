@@ -1,12 +1,12 @@
-/** Where arrays come from. */
+/** An allocator of arrays. */
 export type Memory = Pick<Scratch, 'uint32' | 'float32'>;
 
-/** Blocks are found again where they are not larger than this times what is asked for. */
+/** A block is reused where it is at most this many times as large as requested. */
 const SLACK = 4;
 
 /**
- * Working memory that is used again by the next build: fresh memory costs more than most of what is done with it. Held
- * weakly, so that it goes when memory is short. What is taken is not cleared.
+ * Working memory that the next build reuses: allocating it costs more than most of the work done with it. Held by a
+ * weak reference, so that it is freed when memory is short. Blocks are not cleared.
  */
 export class Scratch {
   /** Where set, the objects that a build works with are put here. */
@@ -18,17 +18,17 @@ export class Scratch {
     this.#free = free;
   }
 
-  /** What the last build has given back; who knows that more builds come may hold on to it. */
+  /** Memory released by the last build; hold a reference to it if more builds follow. */
   static left: WeakRef<ArrayBuffer[]> | undefined;
 
-  /** Takes what the last build has given back. */
+  /** Takes the memory of the last build. */
   static take(): Scratch {
     const free = Scratch.left?.deref() ?? [];
     Scratch.left = undefined;
     return new Scratch(free);
   }
 
-  /** Leaves all blocks to the next build; they must not be used any more. */
+  /** Releases all blocks to the next build; they must not be used afterwards. */
   giveBack(): void {
     Scratch.left = new WeakRef(this.#taken);
   }

@@ -1,16 +1,15 @@
 /**
- * Coordinates are looked at in 32767 steps along the longest side: fifteen bits and one to spare, two in a word. Words
- * of an
- * item: for x, y and z each the upper coordinate and the lower one turned round in the high half,
- * and its weight.
+ * Coordinates are quantised to 32767 steps along the longest side: fifteen bits and a guard bit, two in a word. The
+ * words of an item: for each of x, y and z the upper coordinate, and in the high half the lower one complemented; then
+ * its weight.
  */
 const ITEM_WORDS = 4;
 
 /** The larger of both fields of two words. */
 function larger(a: number, b: number): number {
-  // Constants of the functions themselves, here and below: engines look those of modules up each time.
-  const SPARE = 0x80008000 | 0;
-  const borrowed = ((a | SPARE) - b) & SPARE;
+  // Local constants, here and below: engines look up those of modules on each access.
+  const GUARD_BITS = 0x80008000 | 0;
+  const borrowed = ((a | GUARD_BITS) - b) & GUARD_BITS;
   return b ^ ((a ^ b) & (borrowed - (borrowed >>> 15)));
 }
 

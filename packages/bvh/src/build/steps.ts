@@ -11,7 +11,7 @@ import {
 import { GROUP_MAX } from './agglomerate';
 import { cutClusters, type Clusters } from './clusters';
 import { Gatherer, type Sorted } from './gather';
-import { CLUSTER_DEPTH, Insides } from './insides';
+import { CLUSTER_DEPTH, ClusterTrees } from './cluster-trees';
 import { encloseNodes, Levels } from './levels';
 import { MortonSort } from './morton';
 import { NodeWriter, type Tree } from './node-writer';
@@ -85,9 +85,9 @@ export function* gather(
 
 /**
  * Builds a tree over sorted primitives: clusters of neighbours joined bottom up, the levels above them split from the
- * top down and mended by rotations. The upper nodes come first.
+ * top down and improved by rotations. The upper nodes come first.
  *
- * @param leaves Filled with what the primitives are named by, in leaf order.
+ * @param leaves Receives the triangles of the primitives in leaf order.
  * @param maxLeaf 0: one primitive a leaf.
  * @returns Its nodes in scratch memory.
  */
@@ -103,9 +103,9 @@ export function* buildNodes(
   yield 0;
   const writer = new NodeWriter(primitives.count, scratch.buffer(4 * NODE_WORDS * primitives.count));
   writer.count = count - 1;
-  const insides = new Insides(clusters, writer, leaves, maxLeaf);
+  const trees = new ClusterTrees(clusters, writer, leaves, maxLeaf);
   yield* part(
-    each(count, STEP >> 5, (from, to) => insides.build(from, to)),
+    each(count, STEP >> 5, (from, to) => trees.build(from, to)),
     0,
     0.6,
   );
@@ -115,38 +115,39 @@ export function* buildNodes(
   }
   const upper = new NodeWriter(count, scratch.buffer(4 * NODE_WORDS * count));
   const depth = BLAS_MAX_DEPTH - CLUSTER_DEPTH;
-  // Rotations make few trees too deep: these stay as they were.
+  // Rotations make few trees too deep: these are built again without.
   for (let rotations = true; ; rotations = false) {
     upper.count = 0;
     const levels = new Levels(upper, clusters, depth, bins);
-    scratch.kept?.push(scratch, insides, levels);
+    scratch.kept?.push(scratch, trees, levels);
     yield 0.6;
     while (levels.step(STEP)) yield rotations ? 0.6 + (0.3 * upper.count) / count : 0.95;
     encloseNodes(upper, 0, upper.count);
     yield 0.9;
     if (rotations) yield* part(rotate(upper), 0.9, 0.95);
-    if ((yield* crown(upper, clusters, writer)) <= depth) return writer;
+    if ((yield* joinUpperLevels(upper, clusters, writer)) <= depth) return writer;
   }
 }
 
 /**
- * Puts the nodes over the clusters before the others, depth first, joins them to the trees in the clusters, and gives
- * their depth.
+ * Writes the nodes over the clusters before the others, depth first, and joins them to the trees in the clusters.
+ *
+ * @returns The depth of the upper levels.
  */
-export function* crown(
+export function* joinUpperLevels(
   { nodes: from, words: fromWords }: NodeWriter,
   { references }: Clusters,
   { nodes, words }: NodeWriter,
 ): Steps<number> {
-  // Nodes of the upper tree that wait, left ones above right ones; the words where they belong, nodes above.
+  // Pending nodes of the upper tree, left ones above right ones; the words of their references; their depths.
   const stack: number[] = [];
   let count = 0,
-    most = 0;
+    deepest = 0;
   for (let node = 0, slot = 0, depth = 1; ; depth++) {
-    most = Math.max(most, depth);
+    deepest = Math.max(deepest, depth);
     const a = node * NODE_WORDS,
       b = count * NODE_WORDS;
-    // The root's is in a word that the copy takes.
+    // The root's reference goes to a word that the copy overwrites.
     words[slot] = count;
     for (let k = 0; k < NODE_WORDS; k++) nodes[b + k] = from[a + k] as number;
     words[b + PARENT] = slot >>> 4;
@@ -161,7 +162,7 @@ export function* crown(
       words[b + side] = reference;
       if (reference < LEAF) words[reference * NODE_WORDS + PARENT] = b >>> 4;
     }
-    if (stack.length === 0) return most;
+    if (stack.length === 0) return deepest;
     depth = stack.pop() as number;
     slot = stack.pop() as number;
     node = stack.pop() as number;

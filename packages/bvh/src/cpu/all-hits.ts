@@ -9,7 +9,7 @@ import { borrow, giveBack, type BlasMesh, type HitVisitor } from './walk';
 
 export type { HitVisitor } from './walk';
 
-/** Stands between a walk and a visitor: a triangle that is in several leaves is told of once. */
+/** Filters hits for a visitor: a triangle that is in several leaves is reported once. */
 class HitFilter {
   readonly #once = new Once();
   #blas: Blas | undefined;
@@ -38,10 +38,10 @@ const idle: HitFilter[] = [];
 const NONE: readonly BlasMesh[] = [];
 
 /**
- * Tells of every triangle that a ray meets, from either side, in no particular order and without allocating anything.
+ * Reports every triangle that a ray hits, from either side, in no particular order and without allocating anything.
  * Where a ray passes through an edge or a vertex, it meets each triangle there.
  *
- * @param visit Gets t, u, v and the triangle, as in `Hit`; true ends the query. May itself ask further questions.
+ * @param visit Gets t, u, v and the triangle, as in `Hit`; true ends the query. May itself run further queries.
  */
 export function forEachHit(
   blas: Blas,
@@ -57,7 +57,7 @@ export function forEachHit(
   giveBack(walk);
 }
 
-/** Tells of every triangle of all instances that a ray meets. See {@link forEachHit}. */
+/** Reports every triangle of all instances that a ray hits. See {@link forEachHit}. */
 export function forEachHitInstances(
   tlas: Tlas,
   instances: readonly BlasMesh[],
@@ -92,7 +92,7 @@ export function allHitsInstances(tlas: Tlas, instances: readonly BlasMesh[], ray
 }
 
 /**
- * Where {@link allHitsBatch} leaves its hits. The arrays of hits have any length; hits beyond it are counted, not kept.
+ * Output of {@link allHitsBatch}. The arrays of hits have any length; hits beyond it are counted, not stored.
  */
 export interface AllHitsBatch {
   /**
@@ -107,7 +107,7 @@ export interface AllHitsBatch {
 }
 
 /**
- * All triangles that each of many rays meets, written one ray after the other into arrays of the caller's.
+ * All triangles that each of many rays meets, written one ray after the other into the caller's arrays.
  *
  * @param rays 8 numbers a ray: origin xyz, tMin, direction xyz, tMax.
  * @returns How many hits there are: where that is more than `out.triangle` holds, call again with longer arrays.

@@ -8,7 +8,7 @@ import { borrow, giveBack, type BlasMesh, type RayWalk } from './walk';
 export const RAY_WORDS = 8;
 
 /**
- * Where a batch of rays leaves its hits. Arrays may be longer than needed; what lies beyond the rays stays as it is.
+ * Output of a batch of rays. Arrays may be longer than needed; entries beyond the rays are unchanged.
  */
 export interface HitBatch {
   /** Distance in units of the ray's direction; Infinity for a miss. */
@@ -37,13 +37,13 @@ export function rayCount(rays: ArrayLike<number>, out: object): number {
   return count;
 }
 
-/** Sets out along a ray of a batch. */
+/** Starts a ray of a batch. */
 export function startRay(walk: RayWalk, rays: ArrayLike<number>, ray: number): void {
   const at = RAY_WORDS * ray;
   walk.start(rays, at, rays, at + 4, rays[at + 3] as number, rays[at + 7] as number);
 }
 
-/** Goes along each ray in turn and tells of it; allocates nothing per ray. */
+/** Traces each ray in turn and reports it; allocates nothing per ray. */
 function each(
   rays: ArrayLike<number>,
   out: object,
@@ -72,9 +72,9 @@ function closest(rays: ArrayLike<number>, out: HitBatch, go: (walk: RayWalk) => 
 }
 
 /**
- * The nearest triangle that each of many rays meets, written into arrays of the caller's: nothing is allocated per ray.
+ * The nearest triangle that each of many rays meets, written into the caller's arrays: nothing is allocated per ray.
  *
- * @param rays 8 numbers a ray: origin xyz, tMin, direction xyz, tMax, as the GPU's kernels like them; see `Ray`.
+ * @param rays 8 numbers a ray: origin xyz, tMin, direction xyz, tMax, as GPU kernels read them; see `Ray`.
  * @throws {BvhError} `bvh/batch` for arrays of a wrong length.
  * @example
  * const out = { t: new Float32Array(count), triangle: new Int32Array(count) };

@@ -38,7 +38,7 @@ export interface InstanceNearPoint extends NearPoint {
   readonly instance: number;
 }
 
-/** What point queries may be told. */
+/** Options for point queries. */
 export interface DistanceOptions {
   /** Only points nearer than this count. A bound makes the query faster. Default Infinity. */
   readonly maxDistance?: number;
@@ -64,7 +64,7 @@ class DistanceWalk {
   readonly #candidate = new Float64Array(NEAREST_NUMBERS);
   readonly #world = new Float64Array(12);
   /**
-   * Nodes and leaves yet to visit, and a squared distance that all in them have at least. A BLAS puts its own over
+   * Nodes and leaves yet to visit, and a lower bound on the squared distance to them. A BLAS pushes its own above
    * those of the TLAS.
    */
   readonly #references = new Uint32Array(BVH_STACK_SIZE);
@@ -100,8 +100,8 @@ class DistanceWalk {
         (m[r + k + 1] as number) * y +
         (m[r + k + 2] as number) * z +
         (m[r + k + 3] as number);
-      // A distance in object space is at most stretched by this on its way from the world, so it is this much more
-      // there.
+      // The transform from the world stretches distances by at most this, so bounds in object space are this much
+      // larger.
       const stretch = largestStretch(m, r);
       toWorld(m, r, this.#world);
       this.#search(blas, mesh, local(0), local(4), local(8), 1 / (stretch * stretch), this.#world, instance);
@@ -238,7 +238,7 @@ function boxDistance(nodes: Float32Array, low: number, x: number, y: number, z: 
 
 let shared: DistanceWalk | undefined;
 
-/** No point query calls back, so that one at a time is under way, and all can use the same. */
+/** Point queries have no callbacks, so that only one runs at a time and all can share this. */
 const walker = (): DistanceWalk => (shared ??= new DistanceWalk());
 
 function result({ x, y, z, nearest: n, triangle, instance, squared }: DistanceWalk): InstanceNearPoint | undefined {
@@ -294,7 +294,7 @@ export function closestPointInstances(
   return result(walk);
 }
 
-/** Where a batch of points leaves what is nearest. Arrays may be longer than needed. */
+/** Output of a batch of point queries. Arrays may be longer than needed. */
 export interface DistanceBatch {
   /** Infinity where nothing is nearer than `maxDistance`. */
   readonly distance: Float32Array | Float64Array;
@@ -342,7 +342,7 @@ function batch(
 }
 
 /**
- * What of a mesh is nearest to each of many points, written into arrays of the caller's: nothing is allocated per
+ * The nearest point of a mesh for each of many points, written into the caller's arrays: nothing is allocated per
  * point.
  *
  * @param points xyz, stride 3.
@@ -358,7 +358,7 @@ export function closestPointBatch(
   batch(points, out, maxDistance, (walk) => walk.near(blas, mesh));
 }
 
-/** What of all instances is nearest to each of many points. See {@link closestPointBatch}. */
+/** The nearest point of all instances for each of many points. See {@link closestPointBatch}. */
 export function closestPointBatchInstances(
   tlas: Tlas,
   instances: readonly BlasMesh[],

@@ -4,18 +4,18 @@ const limits = /* @__PURE__ */ new WeakMap<Uint32Array, number>();
 
 /**
  * One more than the largest triangle of a BLAS in which some triangle is in several leaves (it was cut into pieces); 0
- * for others. Looked up once.
+ * for others. Computed once.
  */
 function repeatsBelow({ triangleIndices }: Blas): number {
   let limit = limits.get(triangleIndices);
   if (limit === undefined) {
-    let most = 0;
-    for (let i = 0; i < triangleIndices.length; i++) most = Math.max(most, (triangleIndices[i] as number) + 1);
-    const seen = new Uint8Array(most);
+    let end = 0;
+    for (let i = 0; i < triangleIndices.length; i++) end = Math.max(end, (triangleIndices[i] as number) + 1);
+    const seen = new Uint8Array(end);
     limit = 0;
     for (let i = 0; i < triangleIndices.length; i++) {
       const triangle = triangleIndices[i] as number;
-      if (seen[triangle]) limit = most;
+      if (seen[triangle]) limit = end;
       seen[triangle] = 1;
     }
     limits.set(triangleIndices, limit);
@@ -24,7 +24,7 @@ function repeatsBelow({ triangleIndices }: Blas): number {
 }
 
 /**
- * Lets each triangle pass once a query, though it may be in several leaves. Serves any number of queries one after the
+ * Passes each triangle once a query, though it may be in several leaves. Serves any number of queries one after the
  * other and allocates only when a larger mesh comes.
  */
 export class Once {
@@ -33,7 +33,7 @@ export class Once {
   #instance = -1;
   #repeats = false;
 
-  /** Forgets what has passed. */
+  /** Starts the next query. */
   start(): void {
     this.#instance = -1;
   }

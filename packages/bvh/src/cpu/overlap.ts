@@ -32,12 +32,12 @@ export {
   type Region,
 } from './regions';
 
-/** Told of a triangle that overlaps; true ends the query. `instance` is 0 where there are none. */
+/** Called with a triangle that overlaps; true ends the query. `instance` is 0 where there are none. */
 export type OverlapVisitor = (triangle: number, instance: number) => boolean | void;
 
 /**
- * A region of the world as the triangles of an instance see it. Boxes are asked about by the box around them in the
- * world.
+ * A region of the world as the triangles of an instance see it. Boxes are tested by their bounds in world
+ * space.
  */
 class PlacedRegion implements Region {
   region!: Region;
@@ -99,10 +99,11 @@ class PlacedRegion implements Region {
   }
 }
 
-/** The way through one level or two for a region. Made once, it serves any number of regions and allocates nothing. */
+/** The traversal of one level or two for a region. Made once, it serves any number of regions and allocates nothing. */
 class OverlapWalk {
   /**
-   * Nodes and leaves yet to visit, and whether they lie inside the region. A BLAS puts its own over those of the TLAS.
+   * Nodes and leaves yet to visit, and whether they lie inside the region. A BLAS pushes its own above those of the
+   * TLAS.
    */
   readonly #references = new Uint32Array(BVH_STACK_SIZE);
   readonly #inside = new Uint8Array(BVH_STACK_SIZE);
@@ -112,7 +113,7 @@ class OverlapWalk {
   readonly #placed = new PlacedRegion();
   readonly #once = new Once();
 
-  /** True: the visitor has ended it. */
+  /** Whether the visitor has ended it. */
   through(blas: Blas, mesh: TriangleMesh, region: Region, visit: OverlapVisitor): boolean {
     this.#once.start();
     return this.#search(blas, mesh, region, 0, false, visit);
@@ -235,7 +236,7 @@ const where = (nodes: Float32Array, low: number, region: Region): number =>
 
 const idle: OverlapWalk[] = [];
 
-/** Visitors may ask further questions, so that each query has a walk of its own. */
+/** Visitors may run further queries, so each query has its own traversal. */
 function borrowed(go: (walk: OverlapWalk) => boolean): boolean {
   const walk = idle.pop() ?? new OverlapWalk();
   const ended = go(walk);
@@ -244,12 +245,12 @@ function borrowed(go: (walk: OverlapWalk) => boolean): boolean {
 }
 
 /**
- * Tells of every triangle that has a point in common with a region, in no particular order and without allocating
+ * Reports every triangle that has a point in common with a region, in no particular order and without allocating
  * anything.
  *
  * @param mesh What the BLAS was built, or last refitted, for.
  * @param region A {@link BoxRegion}, {@link SphereRegion} or {@link ConvexRegion}, or one of your own.
- * @param visit Gets the triangle; true ends the query. May itself ask further questions.
+ * @param visit Gets the triangle; true ends the query. May itself run further queries.
  * @example
  * forEachOverlap(blas, mesh, new SphereRegion([0, 0, 0], 0.5), (triangle) => void selected.add(triangle));
  */
@@ -258,7 +259,7 @@ export function forEachOverlap(blas: Blas, mesh: TriangleMesh, region: Region, v
 }
 
 /**
- * Tells of every triangle of all instances that has a point in common with a region of the world. See
+ * Reports every triangle of all instances that has a point in common with a region of the world. See
  * {@link forEachOverlap}.
  */
 export function forEachOverlapInstances(
@@ -285,7 +286,7 @@ export function overlapsInstances(tlas: Tlas, instances: readonly BlasMesh[], re
 }
 
 /**
- * Where a batch of regions leaves its triangles. `triangle` has any length; what lies beyond it is counted, not kept.
+ * Output of a batch of regions. `triangle` has any length; triangles beyond it are counted, not stored.
  */
 export interface OverlapBatch {
   /**
@@ -297,7 +298,7 @@ export interface OverlapBatch {
 }
 
 /**
- * The triangles in each of many regions of one kind, written one region after the other into arrays of the caller's:
+ * The triangles in each of many regions of one kind, written one region after the other into the caller's arrays:
  * nothing is allocated per region.
  *
  * @param region Takes each region's numbers in turn, e.g. `new BoxRegion()`; left as the last one.

@@ -12,10 +12,10 @@ export const INSIDE = 2;
 
 /**
  * A part of space that triangles may lie in. Borders belong to it. Write your own for other shapes; where `box` says
- * {@link OUTSIDE} no triangle in the box is asked about, where it says {@link INSIDE} all are taken.
+ * {@link OUTSIDE} no triangle in the box is tested, where it says {@link INSIDE} all count as overlapping.
  */
 export interface Region {
-  /** {@link OUTSIDE}, {@link ACROSS} (also: not known) or {@link INSIDE}. */
+  /** {@link OUTSIDE}, {@link ACROSS} (also: unknown) or {@link INSIDE}. */
   box(x0: number, y0: number, z0: number, x1: number, y1: number, z1: number): number;
   /** Whether a triangle, its inside included, has a point in common with the region. */
   triangle(
@@ -222,7 +222,7 @@ export class ConvexRegion implements NumberedRegion {
       throw new BvhError('bvh/region', `The planes have ${planes.length} numbers; they must have four each.`);
     this.numbers = planes.length;
     this.#planes = Float64Array.from(planes);
-    // Each plane adds one corner at most.
+    // Each plane adds at most one corner.
     this.#corners = new Float64Array(3 * (3 + planes.length / 4));
     this.#cut = new Float64Array(this.#corners.length);
   }
@@ -248,7 +248,7 @@ export class ConvexRegion implements NumberedRegion {
   }
 
   /**
-   * Cuts the triangle by one plane after the other (Sutherland and Hodgman 1974) and looks whether something is left.
+   * Cuts the triangle by one plane after the other (Sutherland and Hodgman 1974) and checks whether anything is left.
    */
   triangle(
     ax: number,

@@ -1,5 +1,5 @@
 /**
- * The way back of a `toObject` of a TLAS: writes the rows of the 3×4 matrix from object to world space.
+ * Inverts a `toObject` of a TLAS: writes the rows of the 3×4 matrix from object to world space.
  *
  * @param at Where the 12 numbers of `toObject` begin.
  */
@@ -31,7 +31,7 @@ export function toWorld(m: ArrayLike<number>, at: number, out: Float64Array): vo
 }
 
 /**
- * By how much the linear part of a 3×4 matrix stretches at most: its largest singular value, from the eigenvalues of
+ * Maximum stretch of the linear part of a 3×4 matrix: its largest singular value, from the eigenvalues of
  * MᵀM in closed form (Smith 1961), rounded up.
  */
 export function largestStretch(m: ArrayLike<number>, at: number): number {

@@ -23,7 +23,8 @@ export interface BlasMesh {
 }
 
 /**
- * Told of a hit by its numbers, so that nothing is allocated; true ends the walk. `instance` is 0 where there are none.
+ * Called with the numbers of a hit, so that nothing is allocated; true ends the traversal. `instance` is 0 where there
+ * are none.
  */
 export type HitVisitor = (t: number, u: number, v: number, triangle: number, instance: number) => boolean | void;
 
@@ -44,7 +45,7 @@ function enter(nodes: Float32Array, low: number, ray: Float64Array, tMin: number
 }
 
 /**
- * The way of a ray through one level or two, nearer boxes first. Made once, it serves any number of rays one after the
+ * The traversal of one level or two by a ray, nearer boxes first. Made once, it serves any number of rays one after the
  * other and allocates nothing.
  */
 export class RayWalk {
@@ -58,7 +59,7 @@ export class RayWalk {
   #tMin = 0;
   readonly #origin = new Float64Array(3);
   readonly #direction = new Float64Array(3);
-  /** Nodes and leaves yet to visit, and where the ray enters them. A BLAS puts its own over those of the TLAS. */
+  /** Nodes and leaves yet to visit, and where the ray enters them. A BLAS pushes its own above those of the TLAS. */
   readonly #references = new Uint32Array(BVH_STACK_SIZE);
   readonly #entries = new Float64Array(BVH_STACK_SIZE);
   #top = 0;
@@ -68,7 +69,7 @@ export class RayWalk {
   readonly #localDirection = new Float64Array(3);
   readonly #hit = new Float64Array(3);
 
-  /** Sets out along the ray whose origin lies at `o[i]` and whose direction at `d[j]`. */
+  /** Starts the ray whose origin lies at `o[i]` and whose direction at `d[j]`. */
   start(o: ArrayLike<number>, i: number, d: ArrayLike<number>, j: number, tMin: number, tMax: number): void {
     for (let k = 0; k < 3; k++) {
       this.#origin[k] = o[i + k] as number;
@@ -80,14 +81,14 @@ export class RayWalk {
     this.#top = 0;
   }
 
-  /** Goes through one BLAS; with `any`, up to the first hit. A visitor is told all hits in no order, and t stays. */
+  /** Traverses one BLAS; with `any`, up to the first hit. A visitor gets all hits in no order, and t is unchanged. */
   through(blas: Blas, mesh: TriangleMesh, any: boolean, visit?: HitVisitor): void {
     if (blas.triangleIndices.length === 0) return;
     prepareRay(this.#world, this.#origin, this.#direction, blas.bounds);
     this.#search(blas, mesh, this.#world, 0, any, visit);
   }
 
-  /** Goes through all instances. */
+  /** Traverses all instances. */
   throughInstances(tlas: Tlas, instances: readonly BlasMesh[], any: boolean, visit?: HitVisitor): void {
     if (tlas.instanceOrder.length === 0) return;
     const { nodes, instanceOrder, toObject: m } = tlas;
@@ -121,7 +122,7 @@ export class RayWalk {
     this.#references[this.#top++] = reference;
   }
 
-  /** Looks at the triangles along the ray. True: that is all. */
+  /** Tests the triangles along the ray. @returns Whether the traversal is over. */
   #search(
     blas: Blas,
     { positions, indices }: TriangleMesh,
@@ -208,8 +209,8 @@ export class RayWalk {
 
 const idle: RayWalk[] = [];
 
-/** A walk that nobody else is on: visitors may ask further questions. Hand it back with {@link giveBack}. */
+/** A walk that is not in use, as visitors may run further queries. Return it with {@link giveBack}. */
 export const borrow = (): RayWalk => idle.pop() ?? new RayWalk();
 
-/** Hands a walk back for the next query. One that an exception has kept is simply lost. */
+/** Returns a walk to the pool. After an exception it is garbage collected instead. */
 export const giveBack = (walk: RayWalk): void => void idle.push(walk);

@@ -1,15 +1,15 @@
 /** 32-bit words of a wide node. */
 export const WIDE_WORDS = 20;
-/** Children of a wide node, at most. */
+/** Maximum number of children of a wide node. */
 export const WIDTH = 8;
-/** Primitives of one child, at most. */
+/** Maximum number of primitives of one child. */
 export const WIDE_LEAF_MAX = 4;
 /**
- * Wide nodes on the longest way from the root of a BLAS to a leaf, and in a TLAS: one takes the place of three levels.
+ * Wide nodes on the longest path from the root of a BLAS to a leaf, and in a TLAS: one replaces three levels.
  */
 export const WIDE_BLAS_DEPTH = 14;
 export const WIDE_TLAS_DEPTH = 8;
-/** Entries that a stack needs to go through both levels. */
+/** Stack entries needed to traverse both levels. */
 export const WIDE_STACK_SIZE = WIDE_BLAS_DEPTH + WIDE_TLAS_DEPTH;
 
 // Words of a node:
@@ -18,6 +18,6 @@ export const WIDE_STACK_SIZE = WIDE_BLAS_DEPTH + WIDE_TLAS_DEPTH;
 //   4 first of its child nodes, 5 first of its primitives, 6–7 a byte for each child (see below)
 //   8–19 six bytes for each child: lower x (words 8, 9), y, z, upper x, y, z, in steps from the lower corner
 /**
- * A child's byte: a node. Else the upper three bits count its primitives (0: no child), the lower five say the first.
+ * A child's byte: a node. Else the upper three bits count its primitives (0: no child), the lower five give the first.
  */
 export const WIDE_NODE = 0xe0;

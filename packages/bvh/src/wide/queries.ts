@@ -4,7 +4,7 @@ import type { Hit, Ray } from '../cpu/queries';
 import { WIDE_NODE, WIDE_STACK_SIZE, WIDE_WORDS, WIDTH } from './layout';
 import type { WideBlas } from './widen';
 
-/** Goes through the tree as the WGSL twin does. */
+/** Traverses the tree as the WGSL twin does. */
 function search(
   { nodes, triangleIndices, bounds }: WideBlas,
   { positions, indices }: TriangleMesh,

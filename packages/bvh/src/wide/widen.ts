@@ -26,8 +26,8 @@ export interface WideTlas extends WideNodes {
 }
 
 /**
- * The wide layout of a BLAS: about 0.4 times the memory of its nodes, for devices whose caches are small. Build it anew
- * after a refit. Coordinates must stay below 1e18.
+ * The wide layout of a BLAS: about 0.4 times the memory of its nodes, for devices whose caches are small. Build it
+ * again after a refit. Coordinates must stay below 1e18.
  */
 export function widenBlas(blas: Blas): WideBlas {
   const { nodes, nodeCount, order } = widen(blas, blas.triangleIndices.length, WIDE_BLAS_DEPTH);
@@ -51,7 +51,7 @@ export function widenTlas(tlas: Tlas): WideTlas {
   };
 }
 
-/** How many inner nodes the longest way down from each node has; a leaf too large for one child counts as one. */
+/** Inner nodes on the longest path down from each node; a leaf too large for one child counts as one. */
 function heightsOf(words: Uint32Array, nodeCount: number): Uint8Array {
   const heights = new Uint8Array(nodeCount);
   const height = (reference: number) =>
@@ -181,14 +181,14 @@ class NodeMaker {
   /** The child to open: one with more than `rest` levels, else the largest; −1 if there are only leaves. */
   largest(heights: Uint8Array, rest: number): number {
     let found = -1,
-      most = -1;
+      maxUrgency = -1;
     for (let i = 0; i < this.count; i++) {
       const reference = this.references[i] as number;
       if ((reference & LEAF) !== 0) continue;
       const height = heights[reference] as number;
       const urgency = height > rest ? Infinity : (this.#areas[i] as number);
-      if (urgency > most) {
-        most = urgency;
+      if (urgency > maxUrgency) {
+        maxUrgency = urgency;
         found = i;
       }
     }
@@ -265,7 +265,7 @@ class NodeMaker {
     for (let k = 0; k < 3; k++) {
       const low = box[k] as number;
       nodes[at + k] = this.#boxBits[k] as number;
-      // The least power of two of which 255 reach the upper side.
+      // The smallest power of two of which 255 reach the upper side.
       const extent = (box[3 + k] as number) - low;
       let exponent = Math.max(-126, Math.ceil(Math.log2(extent / 255)));
       if (low + 255 * 2 ** exponent < (box[3 + k] as number)) exponent++;
@@ -278,7 +278,7 @@ class NodeMaker {
           to = boxes[6 * child + 3 + k] as number;
         let a = Math.floor((from - low) / step),
           b = Math.ceil((to - low) / step);
-        // What rounding may have taken off.
+        // Compensates for rounding.
         if (low + a * step > from) a--;
         if (low + b * step < to) b++;
         put(32 + 8 * k + slot, Math.max(0, a));

@@ -1,17 +1,17 @@
-/** The far end: what code inside a worker hears and says. */
+/** The worker's side: how code inside a worker receives and posts messages. */
 export interface WorkerPort {
   post(message: unknown, transfer?: readonly ArrayBuffer[]): void;
-  listen(heard: (message: unknown) => void): void;
+  listen(received: (message: unknown) => void): void;
 }
 
 interface Threads {
   readonly parentPort: {
     postMessage(message: unknown, transfer: readonly ArrayBuffer[]): void;
-    on(type: 'message', heard: (message: unknown) => void): void;
+    on(type: 'message', received: (message: unknown) => void): void;
   } | null;
 }
 
-/** One of Node's own modules, without an import that bundlers for the web would stumble over. */
+/** One of Node's built-in modules, without an import that web bundlers would try to resolve. */
 export function builtin<T>(name: string): T | undefined {
   const { process } = globalThis as { process?: { getBuiltinModule?: (name: string) => unknown } };
   return process?.getBuiltinModule?.(name) as T | undefined;
@@ -22,19 +22,19 @@ export function ownPort(): WorkerPort | undefined {
   const scope = globalThis as unknown as {
     WorkerGlobalScope?: new () => object;
     postMessage(message: unknown, transfer: readonly ArrayBuffer[]): void;
-    addEventListener(type: 'message', heard: (event: MessageEvent) => void): void;
+    addEventListener(type: 'message', received: (event: MessageEvent) => void): void;
   };
   if (scope.WorkerGlobalScope && globalThis instanceof scope.WorkerGlobalScope) {
     return {
       post: (message, transfer = []) => scope.postMessage(message, transfer),
-      listen: (heard) => scope.addEventListener('message', (event) => heard(event.data)),
+      listen: (received) => scope.addEventListener('message', (event) => received(event.data)),
     };
   }
   const port = builtin<Threads>('node:worker_threads')?.parentPort;
   return port
     ? {
         post: (message, transfer = []) => port.postMessage(message, transfer),
-        listen: (heard) => port.on('message', heard),
+        listen: (received) => port.on('message', received),
       }
     : undefined;
 }

@@ -5,7 +5,7 @@ import type { TreeBuilder } from '../build/builder';
 import { BvhError } from '../error';
 import type { TeamMemory } from './team';
 
-/** Options as they cross the boundary: functions cannot, so a builder of an entry of its own goes by its name. */
+/** Options as messages: functions cannot be cloned, so a builder from its own entry is sent by name. */
 export type SentOptions = Omit<BlasOptions, 'builder'> & { readonly builder?: 'balanced' | TreeBuilder['name'] };
 
 export function sendableOptions({ builder, ...others }: BlasOptions): SentOptions {
@@ -15,7 +15,7 @@ export function sendableOptions({ builder, ...others }: BlasOptions): SentOption
 /** To a worker. */
 export type BuildRequest =
   | { readonly kind: 'build'; readonly id: number; readonly mesh: TriangleMesh; readonly options: SentOptions }
-  /** One of two that build together; the mesh is in memory that both see. */
+  /** For one of two workers that build together; the mesh is in shared memory. */
   | {
       readonly kind: 'together';
       readonly id: number;
@@ -26,20 +26,20 @@ export type BuildRequest =
     }
   | { readonly kind: 'warm-up' };
 
-/** From a worker. `ready` comes once, first of all. */
+/** From a worker. `ready` comes once, before all others. */
 export type BuildReply =
   | { readonly kind: 'ready' }
-  /** Has run what it was to warm up with, or has had real work in its place. */
+  /** The warm-up has finished, or real builds have replaced it. */
   | { readonly kind: 'warmed' }
   | { readonly kind: 'started'; readonly id: number }
   | { readonly kind: 'built'; readonly id: number; readonly blas: Blas }
-  /** The second of two has done its part, or has stopped because the other one did. */
+  /** The second of two has done its part, or has stopped because the first did. */
   | { readonly kind: 'helped'; readonly id: number }
   | { readonly kind: 'failed'; readonly id: number; readonly error: SentError };
 
-/** What of an error crosses the boundary: structured cloning would drop the class and the code. */
+/** An error as a message: structured cloning would drop the class and the code. */
 export interface SentError {
-  /** Absent: not one of ours. */
+  /** Absent: not a `GlanzError`. */
   readonly code?: string;
   readonly message: string;
 }

@@ -2,56 +2,57 @@ import type { TriangleMesh } from '../layout';
 import { BvhError } from '../error';
 import type { Copy } from './copy';
 
-/** Numbers of a member's report. */
+/** Numbers in a worker's report. */
 const REPORT = 16;
 
 /**
- * Words that are for all to see: who has come to the meeting point, how many meetings there were, whether one has given
- * up, what is published, how much of the mesh is copied; then the counters, an even number of words on, as doubles
- * follow them.
+ * Shared words: workers waiting at the barrier, barriers passed, whether one has given up, whether something is
+ * published, how much of the mesh is copied; then the counters, at an even word, as doubles follow them.
  */
-const [COME, MEETINGS, LEFT_ALONE, PUBLISHED, COPIED, COUNTERS] = [0, 1, 2, 3, 4, 6];
+const [WAITING, BARRIERS, GAVE_UP, PUBLISHED, COPIED, COUNTERS] = [0, 1, 2, 3, 4, 6];
 /** Counters that {@link Team.take} may be asked for. */
 const COUNTER_MAX = 4;
 const BYTES = 4 * (COUNTERS + COUNTER_MAX);
 
-/** What two workers share while they build one hierarchy together. */
+/** Memory that two workers share while they build one hierarchy together. */
 export interface TeamMemory {
-  /** What the members tell each other: words for their meetings, then their reports. */
+  /** Synchronisation: words for the barriers, then the reports. */
   readonly control: SharedArrayBuffer;
-  /** Room for all arrays that both look at. */
+  /** Memory for all arrays that both read. */
   readonly arrays: SharedArrayBuffer;
-  /** Room for the nodes, and for those of the upper levels. */
+  /** Memory for the nodes, and for those of the upper levels. */
   readonly nodes: SharedArrayBuffer;
   readonly upper: SharedArrayBuffer;
-  /** Room for the mesh, where it does not lie in shared memory already. */
+  /** Memory for the mesh, unless it is in shared memory already. */
   readonly mesh: SharedArrayBuffer | undefined;
 }
 
-/** Memory of an earlier build serves the next where it is not larger than this times what that needs. */
+/** Memory of an earlier build is reused where it is at most this many times as large as needed. */
 const SLACK = 4;
 
-/** Bytes of the arrays for so many triangles, and of the nodes. */
+/** Bytes of the arrays for a number of triangles, and of the nodes. */
 const arrayBytes = (triangles: number) => 140 * triangles + (1 << 16);
 const nodeBytes = (triangles: number) => 64 * triangles;
 
-/** Shared memory of at least so many bytes: that one, if it is not much too large. */
-const room = (bytes: number, spare?: SharedArrayBuffer) =>
-  spare && spare.byteLength >= bytes && spare.byteLength <= SLACK * bytes ? spare : new SharedArrayBuffer(bytes);
+/** Shared memory of at least `bytes`: the reusable one, if it is not much too large. */
+const room = (bytes: number, reusable?: SharedArrayBuffer) =>
+  reusable && reusable.byteLength >= bytes && reusable.byteLength <= SLACK * bytes
+    ? reusable
+    : new SharedArrayBuffer(bytes);
 
 /**
- * What two workers share for a mesh of so many triangles, and the mesh as both see it; the arrays that
- * are not shared are still to be copied, which they may be while both are at it: see {@link tellCopied}.
+ * Allocates the shared memory for a mesh, and the mesh as both workers see it. The caller copies the arrays that are
+ * not shared yet, which may happen while both workers run: see {@link reportCopied}.
  *
- * @param spare What an earlier build has left, if both have left it: fresh memory costs a fifth of a build. It is not
- * cleared.
- * @throws {RangeError} where there is not so much memory.
- * @throws {TypeError} for arrays that were given away.
+ * @param reusable Memory of an earlier build that both have finished with: new memory costs a fifth of a build. It is
+ * not cleared.
+ * @throws {RangeError} if there is not enough memory.
+ * @throws {TypeError} for detached arrays.
  */
 export function teamMemory(
   mesh: TriangleMesh,
   triangles: number,
-  spare?: TeamMemory,
+  reusable?: TeamMemory,
 ): { readonly memory: TeamMemory; readonly mesh: TriangleMesh; readonly copies: readonly Copy[] } {
   const { positions, indices } = mesh;
   const copied = [positions, indices].reduce(
@@ -60,10 +61,10 @@ export function teamMemory(
   );
   const memory: TeamMemory = {
     control: new SharedArrayBuffer(BYTES + 4 * 8 * REPORT),
-    arrays: room(arrayBytes(triangles), spare?.arrays),
-    nodes: room(nodeBytes(triangles), spare?.nodes),
-    upper: room(nodeBytes(triangles), spare?.upper),
-    mesh: copied > 0 ? room(copied, spare?.mesh) : undefined,
+    arrays: room(arrayBytes(triangles), reusable?.arrays),
+    nodes: room(nodeBytes(triangles), reusable?.nodes),
+    upper: room(nodeBytes(triangles), reusable?.upper),
+    mesh: copied > 0 ? room(copied, reusable?.mesh) : undefined,
   };
   let offset = 0;
   const copies: Copy[] = [];
@@ -74,44 +75,44 @@ export function teamMemory(
       offset,
       array.length,
     );
-    // Throws where it was given away, for it looks like an empty one then.
+    // Throws for a detached array, which would look like an empty one.
     copies.push({ from: array.subarray() as T, to });
     offset += array.byteLength;
     return to;
   };
-  // Positions first: what has four bytes each begins at a whole place.
+  // Positions first: entries of four bytes must be aligned.
   return { memory, mesh: { positions: shared(positions), indices: indices && shared(indices) }, copies };
 }
 
-/** Tells both workers how many entries of the mesh's arrays are copied, those of all copies one after the other. */
-export function tellCopied({ control }: TeamMemory, entries: number): void {
+/** Reports to both workers how many entries of the mesh's arrays are copied, of all copies in order. */
+export function reportCopied({ control }: TeamMemory, entries: number): void {
   const words = new Int32Array(control);
   Atomics.store(words, COPIED, entries);
   Atomics.notify(words, COPIED);
 }
 
-/** Lets both go, whatever they wait for: it throws. */
+/** Wakes both workers: what they wait for throws. */
 export function release({ control }: TeamMemory): void {
   const words = new Int32Array(control);
-  Atomics.store(words, LEFT_ALONE, 1);
-  for (const word of [MEETINGS, PUBLISHED, COPIED]) {
+  Atomics.store(words, GAVE_UP, 1);
+  for (const word of [BARRIERS, PUBLISHED, COPIED]) {
     Atomics.add(words, word, 1);
     Atomics.notify(words, word);
   }
 }
 
 /**
- * One of two workers that run the same code on the same memory: both take the same blocks in the same order, do their
- * share, and meet where one needs what the other has done.
+ * One of two workers that run the same code on the same memory: both allocate the same blocks in the same order, do
+ * their parts, and synchronise where one needs the other's results.
  */
 export class Team {
   readonly #control: Int32Array;
   readonly #reports: Float64Array;
   readonly memory: TeamMemory;
-  /** Whether the other one has given up. */
-  left = false;
+  /** Whether the other worker has given up. */
+  peerGaveUp = false;
   #taken = 0;
-  #meetings = 0;
+  #barriers = 0;
 
   /** @param index 0 or 1. */
   constructor(
@@ -123,7 +124,7 @@ export class Team {
     this.#reports = new Float64Array(memory.control, BYTES);
   }
 
-  /** Where the next block of so many bytes begins. */
+  /** Allocates a block. @returns Its offset. */
   #block(bytes: number): number {
     const offset = this.#taken;
     this.#taken += Math.ceil(bytes / 64) * 64;
@@ -131,7 +132,7 @@ export class Team {
   }
 
   uint32(length: number): Uint32Array<ArrayBuffer> {
-    // Everywhere but here arrays lie over memory of their own.
+    // The rest of the code expects arrays over memory that is not shared.
     return new Uint32Array(
       this.memory.arrays,
       this.#block(4 * length),
@@ -151,69 +152,69 @@ export class Team {
     ) as Float32Array as Float32Array<ArrayBuffer>;
   }
 
-  /** Waits for the other one, and gives what both have to say, the first one's words first. */
+  /** A barrier: waits for the other worker. @returns Both reports, the first worker's first. */
   meet(report: readonly number[] = []): readonly [Float64Array, Float64Array] {
-    // Reports of one meeting stay while the next one's are written: only who has read them comes to that.
-    const first = 2 * (this.#meetings++ & 1);
+    // Two sets of reports: a worker reaches the next barrier only after it has read those of the last.
+    const first = 2 * (this.#barriers++ & 1);
     this.#reports.set(report, (first + this.index) * REPORT);
     const control = this.#control;
-    const meeting = Atomics.load(control, MEETINGS);
-    if (Atomics.add(control, COME, 1) === 1) {
-      Atomics.store(control, COME, 0);
-      Atomics.add(control, MEETINGS, 1);
-      Atomics.notify(control, MEETINGS);
-    } else this.#wait(MEETINGS, meeting + 1);
-    this.#throwIfLeft();
+    const meeting = Atomics.load(control, BARRIERS);
+    if (Atomics.add(control, WAITING, 1) === 1) {
+      Atomics.store(control, WAITING, 0);
+      Atomics.add(control, BARRIERS, 1);
+      Atomics.notify(control, BARRIERS);
+    } else this.#wait(BARRIERS, meeting + 1);
+    this.#throwIfGaveUp();
     return [0, 1].map((index) => this.#reports.slice((first + index) * REPORT, (first + index + 1) * REPORT)) as [
       Float64Array,
       Float64Array,
     ];
   }
 
-  /** Tells the other one, who may ask for it at any time, that something is ready. */
+  /** Signals to the other worker, which may wait for it at any time, that something is ready. */
   publish(): void {
     Atomics.store(this.#control, PUBLISHED, 1);
     Atomics.notify(this.#control, PUBLISHED);
   }
 
-  /** Waits until the other one has published. */
+  /** Waits until the other worker has published. */
   published(): void {
     this.#wait(PUBLISHED, 1);
-    this.#throwIfLeft();
+    this.#throwIfGaveUp();
   }
 
-  /** Waits until so many entries of the mesh's arrays are copied. */
+  /** Waits until this many entries of the mesh's arrays are copied. */
   copied(entries: number): void {
     this.#wait(COPIED, entries);
-    this.#throwIfLeft();
+    this.#throwIfGaveUp();
   }
 
-  /** The next number of a counter, each of which one of both gets: 0, 1, 2 … So whoever is faster does more. */
+  /** The next number of a counter, 0, 1, 2 …, each given to one worker, so that the faster one does more. */
   take(counter: number): number {
     return Atomics.add(this.#control, COUNTERS + counter, 1);
   }
 
-  /** Lets the other one go: its next meeting throws. */
+  /** Makes the other worker's next barrier throw. */
   giveUp(): void {
     release(this.memory);
   }
 
   /**
-   * Waits until a word is at least that, or nobody will change it: the other one may have given up before this one
-   * came.
+   * Waits until a word has reached a value, or the other worker has given up, which may have happened before the
+   * call.
    */
-  #wait(word: number, least: number): void {
+  #wait(word: number, min: number): void {
     const control = this.#control;
     for (
       let now = Atomics.load(control, word);
-      now < least && Atomics.load(control, LEFT_ALONE) === 0;
+      now < min && Atomics.load(control, GAVE_UP) === 0;
       now = Atomics.load(control, word)
     )
       Atomics.wait(control, word, now);
   }
 
-  #throwIfLeft(): void {
-    this.left = Atomics.load(this.#control, LEFT_ALONE) !== 0;
-    if (this.left) throw new BvhError('bvh/worker', 'The other worker of a build has given up.');
+  #throwIfGaveUp(): void {
+    this.peerGaveUp = Atomics.load(this.#control, GAVE_UP) !== 0;
+    if (this.peerGaveUp) throw new BvhError('bvh/worker', 'The other worker of a shared build has failed.');
   }
 }

@@ -9,17 +9,17 @@ import type { Team } from './team';
 const DIGIT = 10;
 const DIGITS = 1 << DIGIT;
 
-/** Hands out what it was given, in that order. */
+/** An allocator that returns given arrays, in order. */
 const prepared = (floats: readonly Float32Array[], words: readonly Uint32Array[]): Memory => {
   const f = [...floats],
     w = [...words];
   return { float32: () => f.shift() as Float32Array<ArrayBuffer>, uint32: () => w.shift() as Uint32Array<ArrayBuffer> };
 };
 
-/** Where the second one begins, at a border of the steps in which one worker would do all. */
+/** Where the second worker's half begins, at a border of a single worker's steps. */
 const half = (length: number) => Math.min(length, Math.ceil(Math.ceil(length / STEP) / 2) * STEP);
 
-/** Triangles as primitives, each step's where its first triangle has its place: between steps there are gaps. */
+/** Triangles as primitives; each step's begin at the index of its first triangle, with gaps between steps. */
 interface Parts {
   readonly boxes: Float32Array;
   readonly triangles: Uint32Array;
@@ -37,11 +37,11 @@ function needed({ positions, indices }: TriangleMesh, end: number, { memory }: T
   const copied = ({ buffer, length }: Float32Array | Uint32Array | Uint16Array, upTo = length) =>
     buffer === (memory.mesh as unknown) ? Math.min(length, upTo) : 0;
   if (!indices) return copied(positions, 9 * end);
-  // Short indices become long ones before the first triangle.
+  // 16-bit indices are widened before the first triangle.
   return copied(positions) + copied(indices, indices instanceof Uint16Array ? undefined : 3 * end);
 }
 
-/** Makes a mesh's triangles into primitives, as `PrimitiveMaker` does; the mesh may still be arriving. */
+/** Makes primitives of a mesh's triangles, as `PrimitiveMaker` does; the mesh may still be being copied. */
 export function sharePrimitives(mesh: TriangleMesh, count: number, pairs: boolean, team: Team): Parts {
   team.copied(needed(mesh, 0, team));
   const boxes = team.float32(6 * count),
@@ -118,7 +118,7 @@ export function shareSorting(parts: Parts, pairs: boolean, team: Team): Sorted {
     [codes, codes2] = [codes2, codes];
   }
 
-  // With pairs; the second half moves up to the first.
+  // Pairs leave a gap: the second half moves up to the first.
   const sorted = { boxes: team.float32(6 * count), names: team.uint32(2 * count) };
   const [from, to] = index === 0 ? [0, half(count)] : [half(count), count];
   const gatherer = new Gatherer(

@@ -8,15 +8,15 @@ import type { Team } from './team';
 
 /** Numbers of a pending range of {@link Levels}; its first and end lie at the 6th and 7th place. */
 const TASK = 10;
-/** Ranges that the upper levels are cut into before they are shared out. */
+/** Ranges that the upper levels are cut into before they are distributed. */
 const SHARES = 24;
 
 /**
- * Builds the upper levels: nodes get the places that they have when one worker does all, depth first. The second cuts
- * ranges, while the first does something else; then whoever is free takes the largest that is left.
+ * Builds the upper levels: nodes get the positions that a single worker gives them, depth first. The second worker cuts
+ * ranges, while the first does something else; then each takes the largest one left when it is free.
  *
- * @param meanwhile What the first does before it helps.
- * @returns What that gave; undefined to the second.
+ * @param meanwhile What the first worker does before it joins.
+ * @returns The result of `meanwhile`; undefined in the second worker.
  */
 export function shareLevels<T>(
   upper: NodeWriter,
@@ -40,7 +40,7 @@ export function shareLevels<T>(
     tops = cutShares(levels, upper, shares);
     team.publish();
   } else {
-    // No items are its own: it works on what the other one has begun.
+    // Without items: it works on the ranges that the other worker has cut.
     levels = levelsOver({ ...clusters, count: 0 });
     levels.tasks.length = 0;
     result = meanwhile();
@@ -58,13 +58,13 @@ export function shareLevels<T>(
   }
   team.meet();
   upper.count = count - 1;
-  // Nobody looks at boxes before the next meeting.
+  // No one reads boxes before the next barrier.
   for (const node of tops) encloseNodes(upper, node, node + 1);
   return result;
 }
 
 /**
- * Cuts the whole into ranges: how many, then for each where its nodes begin and the task, the largest first.
+ * Cuts the whole into ranges and writes their number, then for each its first node and its task, the largest first.
  *
  * @returns The nodes above them, children first.
  */
@@ -98,7 +98,7 @@ function cutShares(levels: Levels, upper: NodeWriter, shares: Int32Array): numbe
   return tops.sort((a, b) => b - a);
 }
 
-/** The nodes as the walk depth first meets them, the last one first. */
+/** The nodes in reverse depth-first order. */
 function backwards(words: Uint32Array, order: Uint32Array): void {
   const stack = [0];
   for (let i = order.length - 1; i >= 0; i--) {
@@ -111,18 +111,18 @@ function backwards(words: Uint32Array, order: Uint32Array): void {
 }
 
 /**
- * The rotations of `rotate`, with the same outcome: any order with children before their parents leads to it, at first
- * that in which nodes were written, the last one first. The second does the last half of the nodes, which hang on
- * nothing that comes before; the first does the other half, but for those that hang on the last one: these wait.
+ * The rotations of `rotate`, with the same result: any order with children before their parents gives it, at first the
+ * reverse of the order of writing. The second worker does the last half of the nodes, which depend on no node before
+ * them; the first does the other half, except those that depend on the last half: these wait.
  */
 export function shareRotations({ nodes, words, count }: NodeWriter, team: Team): void {
   const order = new Uint32Array(count).map((_, i) => count - 1 - i),
     middle = count >>> 1;
-  /** Whether a node is one of the first half and hangs on none of the last one. */
+  /** Whether a node is in the first half and depends on none of the last. */
   const free = new Uint8Array(count);
   for (let pass = 0; pass < PASSES; pass++) {
     if (pass > 0) backwards(words, order);
-    // Both have walked, and all boxes are there, before either turns anything.
+    // Both have the order, and all boxes are written, before either rotates anything.
     team.meet();
     const waiting: number[] = [];
     if (team.index === 1) for (let i = 0; i < middle; i++) rotateAt(nodes, words, order[i] as number);

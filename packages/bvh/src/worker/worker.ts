@@ -7,19 +7,18 @@ import { Scratch } from '../build/scratch';
 import type { TriangleTree } from '../build/steps';
 import { ownPort, type WorkerPort } from './port';
 import { buffersOf, sendableError, type BuildReply, type BuildRequest, type SentOptions } from './protocol';
-import { HOLD_MS } from './spare';
+import { RETAIN_MS } from './retained';
 import { Team } from './team';
 import { buildTogether } from './together';
 
 export type { WorkerPort } from './port';
 
 /**
- * Builds to warm up with, and quads along an edge of the mesh: the optimising compilers have had all they need after
- * about a tenth of a second.
+ * Warm-up builds, and quads along an edge of their mesh: all code is optimised after about a tenth of a second.
  */
 const WARM_BUILDS = 24;
 const WARM_EDGE = 40;
-/** As many as these builds have together: what has been asked for meanwhile may make them needless. */
+/** Triangles of these builds together: as many in real builds make the warm-up superfluous. */
 const WARM_TRIANGLES = 2 * WARM_BUILDS * WARM_EDGE ** 2;
 
 /** A wavy sheet of quads, each row with triangles of another size: splits, pairs and rotations all have work. */
@@ -44,7 +43,7 @@ function receivedOptions({ builder, ...others }: SentOptions): BlasOptions {
   return named === undefined ? others : { ...others, builder: named };
 }
 
-/** In place of a tree that the other worker has. */
+/** Placeholder for the tree, which the other worker has. */
 const nothing = (): TriangleTree => ({
   nodes: new Float32Array(0),
   nodeCount: 0,
@@ -53,29 +52,29 @@ const nothing = (): TriangleTree => ({
 });
 
 /**
- * Answers build requests of a `BvhWorkers` pool. This module does so by itself where it is loaded as a worker and
- * nothing anywhere else; call it only to let a worker of your own, made by `createWorker`, do the builds.
+ * Answers build requests of a `BvhWorkers` pool. This module calls it when it is loaded as a worker, and does nothing
+ * elsewhere; call it only in your own worker, made by `createWorker`.
  *
- * @param port What the worker hears and says.
+ * @param port Receives and posts the worker's messages.
  */
 export function serveBuilds(port: WorkerPort): void {
-  // Engines take it that no buffer is ever detached when they compile what goes over typed arrays, and throw all of
-  // that away when one is, as the first answer's would be. Thus one is now, while nothing is compiled yet.
+  // Engines compile code for typed arrays on the assumption that no buffer is ever detached, and discard that code when
+  // one is, as by the first answer. So detach one now, before anything is compiled.
   const gone = new ArrayBuffer(8);
   structuredClone(gone, { transfer: [gone] });
   const say = (reply: BuildReply, transfer?: readonly ArrayBuffer[]) => port.post(reply, transfer);
-  /** Triangles of the builds that were asked for. */
+  /** Triangles of the requested builds. */
   let built = 0;
-  // Meshes come several at a time: working memory stays between them, which fresh would cost half as much as a build.
+  // Meshes come several at a time: keep the working memory, as new memory costs half as much as a build.
   let held: readonly ArrayBuffer[] | undefined;
-  let letGo: ReturnType<typeof setTimeout> | undefined;
+  let releaseTimer: ReturnType<typeof setTimeout> | undefined;
   const holdMemory = () => {
     held = Scratch.left?.deref();
-    clearTimeout(letGo);
-    if (held) letGo = setTimeout(() => (held = undefined), HOLD_MS);
+    clearTimeout(releaseTimer);
+    if (held) releaseTimer = setTimeout(() => (held = undefined), RETAIN_MS);
   };
   const warmUp = (left: number) => {
-    // One build at a time, so that a request waits for two milliseconds at most.
+    // One build at a time, so that a request waits for at most two milliseconds.
     if (built >= WARM_TRIANGLES || left === 0) return say({ kind: 'warmed' });
     buildBlas(sheet(WARM_EDGE + (left % 4)));
     setTimeout(() => warmUp(left - 1), 0);
@@ -93,7 +92,7 @@ export function serveBuilds(port: WorkerPort): void {
       if (index === 1) return say({ kind: 'helped', id });
       say({ kind: 'built', id, blas }, buffersOf(blas.nodes, blas.triangleIndices, blas.bounds.min, blas.bounds.max));
     } catch (error) {
-      if (team.left) return say({ kind: 'helped', id });
+      if (team.peerGaveUp) return say({ kind: 'helped', id });
       team.giveUp();
       say({ kind: 'failed', id, error: sendableError(error) });
     }

@@ -1,37 +1,36 @@
 import type { Blas } from '../blas';
 import type { TriangleMesh } from '../layout';
 import { BvhError } from '../error';
-import { copyAll, roomFor, type Copy } from './copy';
-import { BuildsHere, type Job } from './here';
-import { connect, hardwareThreads, startWorker, type NodeWorkerLike, type WebWorkerLike } from './line';
+import { copyAll, allocateLike, type Copy } from './copy';
+import { CallingThreadBuilds, type Job } from './calling-thread';
+import { connect, hardwareThreads, startWorker, type NodeWorkerLike, type WebWorkerLike } from './connection';
 import type { BvhWorkersOptions, WorkerBuildOptions } from './options';
 import { buffersOf, receivedError, sendableOptions, type BuildReply, type BuildRequest } from './protocol';
-import { seatsWorth, type Seat } from './seat';
-import { Spare } from './spare';
-import { release, teamMemory, tellCopied, type TeamMemory } from './team';
+import { usableSlots, type WorkerSlot } from './slot';
+import { Retained } from './retained';
+import { release, teamMemory, reportCopied, type TeamMemory } from './team';
 
-export type { NodeWorkerLike, WebWorkerLike } from './line';
+export type { NodeWorkerLike, WebWorkerLike } from './connection';
 export type { BvhWorkersOptions, WorkerBuildOptions } from './options';
 
-/** Workers that warm up at a time: the calling thread has work too, and all share the threads that compile. */
+/** Workers that warm up at a time: the calling thread is busy too, and all share the compiler threads. */
 const WARM_AT_ONCE = 2;
 
-/** Small builds are sent ahead until a worker has so many triangles to do: it should not wait for the next message. */
+/** Small builds are queued in a worker up to this many triangles, so that it does not wait for the next message. */
 const AHEAD = 16_384;
 
 /**
- * A mesh of so many triangles is built by two workers together where nothing else waits for them and they can share
- * memory.
+ * Triangles from which on two workers build a mesh together, where no other build is queued and they can share memory.
  */
 const TOGETHER = 200_000;
 
-/** On machines of so many threads a second one for the same mesh takes nothing from anybody. */
-const SPARE_THREADS = 4;
+/** Threads of a machine from which on a second worker for the same mesh slows nothing else down. */
+const TOGETHER_MIN_THREADS = 4;
 
-/** A build of more triangles is worth ending its worker when it is aborted; a smaller one is let run out, unheard. */
-const WORTH_ENDING = 100_000;
+/** An aborted build of at least this many triangles ends its worker; a smaller one runs on and is ignored. */
+const TERMINATE_TRIANGLES = 100_000;
 
-/** A worker that has not reported by then will not. */
+/** Time limit for the start of a worker. */
 const START_MS = 15_000;
 
 /**
@@ -48,33 +47,37 @@ export class BvhWorkers {
   readonly #createWorker: () => WebWorkerLike | NodeWorkerLike;
   readonly #warmUp: boolean;
   readonly #together: boolean;
-  readonly #seats: Set<Seat>;
+  readonly #slots: Set<WorkerSlot>;
   readonly #queue: Job[] = [];
-  readonly #here = new BuildsHere();
+  readonly #callingThread = new CallingThreadBuilds();
   /** Builds by signal: one listener serves them all, however many meshes share a signal. */
   readonly #signals = new Map<AbortSignal, { readonly jobs: Set<Job>; readonly abort: () => void }>();
-  /** What two workers share for a build, and whether one of them is done with it. */
+  /** Shared memory by build, and whether one of the two workers is done with it. */
   readonly #teams = new Map<number, { readonly memory: TeamMemory; half: boolean }>();
-  /** What the last two have left. */
-  readonly #spare = new Spare<TeamMemory>();
+  /** Shared memory of the last such build. */
+  readonly #retained = new Retained<TeamMemory>();
   #fallback: string | undefined;
   #nextId = 0;
-  /** Triangles of all builds that were asked for since there was last nothing to do. */
+  /** Triangles of all builds requested since the pool was last idle. */
   #burst = 0;
-  /** Builds are about to be given out. */
-  #giving = false;
+  /** Whether the distribution of builds is scheduled. */
+  #scheduled = false;
   #destroyed = false;
 
   private constructor(
     count: number,
-    { createWorker = startWorker, warmUp = false, together = hardwareThreads() >= SPARE_THREADS }: BvhWorkersOptions,
+    {
+      createWorker = startWorker,
+      warmUp = false,
+      together = hardwareThreads() >= TOGETHER_MIN_THREADS,
+    }: BvhWorkersOptions,
   ) {
     this.#together = together;
     this.#createWorker = createWorker;
     this.#warmUp = warmUp;
-    this.#seats = new Set(
+    this.#slots = new Set(
       Array.from({ length: count }, () => ({
-        line: undefined,
+        connection: undefined,
         ready: false,
         timer: undefined,
         jobs: new Map<number, Job>(),
@@ -85,23 +88,23 @@ export class BvhWorkers {
   }
 
   /**
-   * Starts the workers. Resolves as soon as one is ready, or with {@link fallback} set if none can be had; that is no
-   * error.
+   * Starts the workers. Resolves as soon as one is ready, or with {@link fallback} set if none can be started,
+   * which is no error.
    *
-   * @throws {BvhError} `bvh/options` for a count that is not a whole number from 1 on.
+   * @throws {BvhError} `bvh/options` for a count that is not a positive integer.
    */
   static async create(options: BvhWorkersOptions = {}): Promise<BvhWorkers> {
     const count = options.count ?? Math.max(1, Math.min(8, hardwareThreads()));
     if (!(Number.isInteger(count) && count >= 1))
-      throw new BvhError('bvh/options', `count is ${count}; it must be a whole number from 1 on.`);
+      throw new BvhError('bvh/options', `count is ${count}; it must be an integer of at least 1.`);
     const workers = new BvhWorkers(count, options);
-    await Promise.any([...workers.#seats].map((seat) => workers.#start(seat))).catch(() => undefined);
+    await Promise.any([...workers.#slots].map((slot) => workers.#start(slot))).catch(() => undefined);
     return workers;
   }
 
-  /** Workers there are, those that are starting included; 0 if builds run on the calling thread. */
+  /** Number of workers, including those that are starting; 0 if builds run on the calling thread. */
   get count(): number {
-    return this.#seats.size;
+    return this.#slots.size;
   }
 
   /** Why builds run on the calling thread; undefined where workers do them. */
@@ -110,12 +113,11 @@ export class BvhWorkers {
   }
 
   /**
-   * Builds the hierarchy of a mesh: the same as `buildBlas(mesh, options)`, bit for bit. Builds are taken up in the
-   * order of the calls. The mesh is read when its build is taken up, so it must stay as it is until the promise
-   * settles.
+   * Builds the hierarchy of a mesh: the same as `buildBlas(mesh, options)`, bit for bit. Builds start in the
+   * order of the calls. The mesh is read when its build starts, so it must not change until the promise settles.
    *
-   * @throws {BvhError} as `buildBlas` does; `bvh/worker` if the worker ends under the build, for want of memory
-   * perhaps; `bvh/destroyed` after or during {@link destroy}.
+   * @throws {BvhError} as `buildBlas` does; `bvh/worker` if the worker ends during the build, for example out of
+   * memory; `bvh/destroyed` after or during {@link destroy}.
    * @throws the signal's reason when aborted.
    */
   buildBlas(mesh: TriangleMesh, options: WorkerBuildOptions = {}): Promise<Blas> {
@@ -146,14 +148,14 @@ export class BvhWorkers {
         settled: false,
       };
       if (signal) this.#watch(signal, job);
-      if (this.#queue.length === 0 && [...this.#seats].every(({ jobs }) => jobs.size === 0)) this.#burst = 0;
+      if (this.#queue.length === 0 && [...this.#slots].every(({ jobs }) => jobs.size === 0)) this.#burst = 0;
       this.#queue.push(job);
       this.#burst += job.triangles;
-      // How many workers are worth it shows when all of a scene's builds have been asked for.
-      if (this.#giving) return;
-      this.#giving = true;
+      // Wait until all of a scene's builds are requested, to decide how many workers are worth using.
+      if (this.#scheduled) return;
+      this.#scheduled = true;
       queueMicrotask(() => {
-        this.#giving = false;
+        this.#scheduled = false;
         this.#next();
       });
     });
@@ -162,47 +164,47 @@ export class BvhWorkers {
   /** Ends all workers. Builds that are not done reject with `bvh/destroyed`. */
   destroy(): void {
     this.#destroyed = true;
-    this.#spare.clear();
-    for (const seat of this.#seats) {
-      clearTimeout(seat.timer);
-      seat.line?.terminate();
-      for (const job of seat.jobs.values()) job.settle({ error: destroyed() });
-      seat.jobs.clear();
+    this.#retained.clear();
+    for (const slot of this.#slots) {
+      clearTimeout(slot.timer);
+      slot.connection?.terminate();
+      for (const job of slot.jobs.values()) job.settle({ error: destroyed() });
+      slot.jobs.clear();
     }
-    this.#seats.clear();
+    this.#slots.clear();
     for (const job of this.#queue.splice(0)) job.settle({ error: destroyed() });
   }
 
-  /** Puts a worker into a seat. Rejects if that fails, and takes the seat away. */
-  #start(seat: Seat): Promise<void> {
+  /** Starts the worker of a slot. If that fails, rejects and removes the slot. */
+  #start(slot: WorkerSlot): Promise<void> {
     return new Promise<void>((resolve, reject) => {
-      seat.ready = false;
-      seat.warmth = 'cold';
-      seat.line = undefined;
+      slot.ready = false;
+      slot.warmth = 'cold';
+      slot.connection = undefined;
       const failed = (why: string) => {
-        clearTimeout(seat.timer);
-        if (seat.ready) this.#crashed(seat, why);
-        else this.#remove(seat, why);
+        clearTimeout(slot.timer);
+        if (slot.ready) this.#crashed(slot, why);
+        else this.#remove(slot, why);
         reject(new BvhError('bvh/worker', why));
       };
-      seat.timer = setTimeout(() => {
-        seat.line?.terminate();
-        failed(`no worker has reported within ${START_MS / 1000} s`);
+      slot.timer = setTimeout(() => {
+        slot.connection?.terminate();
+        failed(`no worker has started within ${START_MS / 1000} s`);
       }, START_MS);
       try {
-        seat.line = connect(
+        slot.connection = connect(
           this.#createWorker(),
           (message) => {
             const reply = message as BuildReply;
             if (reply.kind === 'warmed') {
-              seat.warmth = 'warm';
+              slot.warmth = 'warm';
               return this.#warmNext();
             }
-            if (reply.kind !== 'ready') return this.#answered(seat, reply);
-            clearTimeout(seat.timer);
-            seat.ready = true;
+            if (reply.kind !== 'ready') return this.#answered(slot, reply);
+            clearTimeout(slot.timer);
+            slot.ready = true;
             this.#warmNext();
-            seat.line?.hold(false);
+            slot.connection?.hold(false);
             resolve();
             this.#next();
           },
@@ -214,56 +216,56 @@ export class BvhWorkers {
     });
   }
 
-  /** Lets workers that are there warm up, a few at a time. */
+  /** Lets ready workers warm up, a few at a time. */
   #warmNext(): void {
     if (!this.#warmUp) return;
-    const seats = [...this.#seats].filter(({ ready }) => ready);
-    const free = WARM_AT_ONCE - seats.filter(({ warmth }) => warmth === 'warming').length;
-    for (const seat of seats.filter(({ warmth }) => warmth === 'cold').slice(0, free)) {
-      seat.warmth = 'warming';
-      this.#post(seat, { kind: 'warm-up' }, []);
+    const slots = [...this.#slots].filter(({ ready }) => ready);
+    const free = WARM_AT_ONCE - slots.filter(({ warmth }) => warmth === 'warming').length;
+    for (const slot of slots.filter(({ warmth }) => warmth === 'cold').slice(0, free)) {
+      slot.warmth = 'warming';
+      this.#post(slot, { kind: 'warm-up' }, []);
     }
   }
 
-  #restart(seat: Seat): void {
-    seat.jobs.clear();
-    seat.load = 0;
-    this.#start(seat).catch(() => undefined);
+  #restart(slot: WorkerSlot): void {
+    slot.jobs.clear();
+    slot.load = 0;
+    this.#start(slot).catch(() => undefined);
   }
 
-  #remove(seat: Seat, why: string): void {
-    this.#seats.delete(seat);
-    if (this.#seats.size > 0 || this.#destroyed) return;
-    this.#fallback = `Hierarchies are built on the calling thread, for no worker could be started: ${why}.`;
+  #remove(slot: WorkerSlot, why: string): void {
+    this.#slots.delete(slot);
+    if (this.#slots.size > 0 || this.#destroyed) return;
+    this.#fallback = `Hierarchies are built on the calling thread, because no worker could be started: ${why}.`;
     this.#next();
   }
 
-  #crashed(seat: Seat, why: string): void {
-    const lost = [...seat.jobs.values()];
+  #crashed(slot: WorkerSlot, why: string): void {
+    const lost = [...slot.jobs.values()];
     for (const { id } of lost) this.#teams.delete(id);
-    this.#restart(seat);
-    // Who builds together with a worker that is no more would wait for ever.
-    for (const other of this.#seats) {
+    this.#restart(slot);
+    // A worker that builds together with an ended one would wait for ever.
+    for (const other of this.#slots) {
       if (!lost.some(({ id }) => other.jobs.has(id))) continue;
-      other.line?.terminate();
+      other.connection?.terminate();
       this.#restart(other);
     }
     for (const job of lost)
       job.settle({
         error: new BvhError(
           'bvh/worker',
-          `A worker ended during a build (${why}); the mesh may need more memory than there is.`,
+          `A worker ended during a build (${why}); the mesh may need more memory than is available.`,
         ),
       });
   }
 
-  #answered(seat: Seat, reply: Exclude<BuildReply, { kind: 'ready' | 'warmed' }>): void {
-    const job = seat.jobs.get(reply.id);
+  #answered(slot: WorkerSlot, reply: Exclude<BuildReply, { kind: 'ready' | 'warmed' }>): void {
+    const job = slot.jobs.get(reply.id);
     if (!job) return;
     if (reply.kind === 'started') return job.progress(0);
-    this.#free(seat, job);
-    this.#leave(reply);
-    // First the next build, then whatever the caller does with this one.
+    this.#free(slot, job);
+    this.#retain(reply);
+    // Start the next build before the caller's code runs.
     this.#next();
     if (reply.kind === 'helped') return;
     if (reply.kind === 'failed') return job.settle({ error: receivedError(reply.error) });
@@ -271,15 +273,15 @@ export class BvhWorkers {
     job.settle(reply.blas);
   }
 
-  /** Keeps what two workers have shared once both are done with it. */
-  #leave({ id, kind }: { readonly id: number; readonly kind: BuildReply['kind'] }): void {
+  /** Keeps the memory that two workers have shared once both are done with it. */
+  #retain({ id, kind }: { readonly id: number; readonly kind: BuildReply['kind'] }): void {
     const team = this.#teams.get(id);
     if (!team) return;
     if (kind === 'failed') this.#teams.delete(id);
     else if (!team.half) team.half = true;
     else {
       this.#teams.delete(id);
-      this.#spare.leave(team.memory);
+      this.#retained.keep(team.memory);
     }
   }
 
@@ -307,60 +309,60 @@ export class BvhWorkers {
     this.#teams.delete(job.id);
     const at = this.#queue.indexOf(job);
     if (at >= 0) this.#queue.splice(at, 1);
-    for (const seat of this.#seats) {
-      if (!seat.jobs.has(job.id) || seat.jobs.size > 1 || job.triangles < WORTH_ENDING) continue;
-      seat.line?.terminate();
-      this.#restart(seat);
+    for (const slot of this.#slots) {
+      if (!slot.jobs.has(job.id) || slot.jobs.size > 1 || job.triangles < TERMINATE_TRIANGLES) continue;
+      slot.connection?.terminate();
+      this.#restart(slot);
     }
   }
 
-  /** Gives what waits to the workers that have least to do, or builds it here. */
+  /** Sends queued builds to the least loaded workers, or builds them on the calling thread. */
   #next(): void {
-    if (this.#fallback !== undefined) void this.#here.run(this.#queue);
-    const seats = seatsWorth(this.#seats, this.#burst);
+    if (this.#fallback !== undefined) void this.#callingThread.run(this.#queue);
+    const slots = usableSlots(this.#slots, this.#burst);
     for (;;) {
-      let free: Seat | undefined;
-      for (const seat of seats)
-        if ((seat.jobs.size === 0 || seat.load < AHEAD) && seat.load < (free?.load ?? Infinity)) free = seat;
+      let free: WorkerSlot | undefined;
+      for (const slot of slots)
+        if ((slot.jobs.size === 0 || slot.load < AHEAD) && slot.load < (free?.load ?? Infinity)) free = slot;
       const job = free && this.#queue.shift();
       if (!free || !job) return;
-      const idle = seats.filter(({ jobs }) => jobs.size === 0);
+      const idle = slots.filter(({ jobs }) => jobs.size === 0);
       if (this.#together && idle.length >= 2 && this.#queue.length === 0 && canShare(job))
         this.#sendTogether(idle.slice(0, 2), job);
       else this.#send(free, job);
     }
   }
 
-  #send(seat: Seat, job: Job): void {
+  #send(slot: WorkerSlot, job: Job): void {
     const { id, options, transfer } = job;
     const { positions, indices } = job.mesh;
     const copies: Copy[] = [];
     const sent = <T extends Float32Array | Uint32Array | Uint16Array>(from: T): T => {
       if (!(from.buffer instanceof ArrayBuffer) || (transfer && from.byteLength === from.buffer.byteLength))
         return from;
-      const to = roomFor(from);
+      const to = allocateLike(from);
       copies.push({ from, to });
       return to;
     };
-    // A worker that ended meanwhile, or was ended by an abort, has another in its seat.
-    const waiting = () => seat.jobs.get(id) === job;
+    // A worker that ended meanwhile, or was ended by an abort, has been replaced in its slot.
+    const waiting = () => slot.jobs.get(id) === job;
     const attempt = (step: () => unknown) => {
       try {
         return step();
       } catch (error) {
-        // What fails: options that cannot be cloned, arrays that are none or were given away.
+        // Causes: options that cannot be cloned, detached arrays, values that are no arrays.
         if (!waiting()) return;
-        this.#free(seat, job);
+        this.#free(slot, job);
         job.settle({ error });
       }
     };
-    this.#occupy(seat, job);
+    this.#occupy(slot, job);
     attempt(() => {
       const mesh = { positions: sent(positions), indices: indices && sent(indices) };
       const go = () =>
         waiting() &&
         this.#post(
-          seat,
+          slot,
           { kind: 'build', id, mesh, options: sendableOptions(options) },
           buffersOf(mesh.positions, mesh.indices),
         );
@@ -374,23 +376,23 @@ export class BvhWorkers {
     });
   }
 
-  /** Lets two workers build one mesh. They begin with what is there, while the rest of it is copied. */
-  #sendTogether(seats: readonly Seat[], job: Job): void {
+  /** Lets two workers build one mesh. They start on the copied part while the rest is being copied. */
+  #sendTogether(slots: readonly WorkerSlot[], job: Job): void {
     const { id, options } = job;
     let team: ReturnType<typeof teamMemory>;
-    for (const seat of seats) this.#occupy(seat, job);
+    for (const slot of slots) this.#occupy(slot, job);
     try {
-      team = teamMemory(job.mesh, job.triangles, this.#spare.take());
+      team = teamMemory(job.mesh, job.triangles, this.#retained.take());
       const { memory, mesh } = team;
       this.#teams.set(id, { memory, half: false });
-      seats.forEach((seat, index) =>
-        this.#post(seat, { kind: 'together', id, mesh, options: sendableOptions(options), index, memory }, []),
+      slots.forEach((slot, index) =>
+        this.#post(slot, { kind: 'together', id, mesh, options: sendableOptions(options), index, memory }, []),
       );
     } catch {
-      // No memory of that kind or not enough: one worker will do. Where the mesh is at fault, it will tell.
+      // Shared memory is unavailable or insufficient: use one worker. If the mesh is at fault, its build reports that.
       this.#teams.delete(id);
-      for (const seat of seats) this.#free(seat, job);
-      return this.#send(seats[0] as Seat, job);
+      for (const slot of slots) this.#free(slot, job);
+      return this.#send(slots[0] as WorkerSlot, job);
     }
     const { memory, copies } = team;
     const fail = (error: unknown) => {
@@ -398,30 +400,30 @@ export class BvhWorkers {
       release(memory);
     };
     try {
-      copyAll(copies, (entries) => tellCopied(memory, entries))?.catch(fail);
+      copyAll(copies, (entries) => reportCopied(memory, entries))?.catch(fail);
     } catch (error) {
       fail(error);
     }
   }
 
-  #occupy(seat: Seat, job: Job): void {
-    seat.jobs.set(job.id, job);
-    seat.load += job.triangles;
-    seat.line?.hold(true);
+  #occupy(slot: WorkerSlot, job: Job): void {
+    slot.jobs.set(job.id, job);
+    slot.load += job.triangles;
+    slot.connection?.hold(true);
   }
 
-  #free(seat: Seat, job: Job): void {
-    seat.jobs.delete(job.id);
-    seat.load -= job.triangles;
-    if (seat.jobs.size === 0) seat.line?.hold(false);
+  #free(slot: WorkerSlot, job: Job): void {
+    slot.jobs.delete(job.id);
+    slot.load -= job.triangles;
+    if (slot.jobs.size === 0) slot.connection?.hold(false);
   }
 
-  #post(seat: Seat, request: BuildRequest, transfer: readonly ArrayBuffer[]): void {
-    seat.line?.post(request, transfer);
+  #post(slot: WorkerSlot, request: BuildRequest, transfer: readonly ArrayBuffer[]): void {
+    slot.connection?.post(request, transfer);
   }
 }
 
-/** Whether two workers may build it: memory can be shared, it is large, and it is not to be handed over. */
+/** Whether two workers may build it: memory can be shared, it is large, and it is not transferred. */
 const canShare = ({ triangles, transfer, options: { builder } }: Job) =>
   typeof SharedArrayBuffer === 'function' &&
   triangles >= TOGETHER &&
@@ -429,4 +431,4 @@ const canShare = ({ triangles, transfer, options: { builder } }: Job) =>
   (builder === undefined || builder === 'balanced');
 
 const destroyed = () =>
-  new BvhError('bvh/destroyed', 'The workers were destroyed: create them anew for further builds.');
+  new BvhError('bvh/destroyed', 'The workers were destroyed: call BvhWorkers.create() again for further builds.');

@@ -24,7 +24,7 @@ function measure({ nodes, nodeCount }: { nodes: Float32Array<ArrayBuffer>; nodeC
   return { surface, sides: [count(words[LEFT]!), count(words[RIGHT]!)].sort((a, b) => a - b) };
 }
 
-test('a crowd of small things far from another is told apart as well as by itself (seed 41)', () => {
+test('a crowd of small things far from another is separated as well as by itself (seed 41)', () => {
   const random = randomNumbers(41);
   // In steps of 2^-15 of the whole the crowd would be a point.
   const crowd = Array.from({ length: 1000 }, () => direction(random).map((x) => 4 * x * random()));

@@ -86,13 +86,13 @@ test('a visitor can stop, ask further questions, and throw', () => {
   const mesh = sphere(16);
   const blas = buildBlas(mesh);
   const ray = { origin: [3, 0.1, 0.2], direction: [-1, 0.01, 0.02] };
-  const told: number[] = [];
+  const reported: number[] = [];
   forEachHit(blas, mesh, ray, (t, u, v, triangle) => {
     // The query within is the same ray: it must not disturb the one around it.
-    told.push(triangle, closestHit(blas, mesh, { ...ray, tMin: t })?.triangle ?? -1);
+    reported.push(triangle, closestHit(blas, mesh, { ...ray, tMin: t })?.triangle ?? -1);
   });
-  expect(told).toHaveLength(4);
-  expect(new Set(told)).toEqual(new Set([...allHits(blas, mesh, ray).map(({ triangle }) => triangle), -1]));
+  expect(reported).toHaveLength(4);
+  expect(new Set(reported)).toEqual(new Set([...allHits(blas, mesh, ray).map(({ triangle }) => triangle), -1]));
   let calls = 0;
   forEachHit(blas, mesh, ray, () => ++calls === 1);
   expect(calls).toBe(1);
@@ -123,7 +123,7 @@ test('a tree of one leaf tells of each triangle once', () => {
   expect(allHits(buildBlas(one), one, { origin: [-1, -1, -1], direction: [1, 1, 1] })).toHaveLength(1);
 });
 
-test('triangles that are in several leaves are told of once a ray, and once an instance (seed 215)', () => {
+test('triangles that are in several leaves are reported once a ray, and once an instance (seed 215)', () => {
   const random = randomNumbers(215);
   const mesh = strewn(200, 1, random);
   const blas = cutInTwo(mesh);

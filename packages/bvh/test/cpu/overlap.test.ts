@@ -214,7 +214,7 @@ test('a region of the caller’s own, early ends, further questions, nothing the
   expect(() => new ConvexRegion([1, 2, 3])).toThrow(BvhError);
 });
 
-test('triangles that are in several leaves are told of once (seed 236)', () => {
+test('triangles that are in several leaves are reported once (seed 236)', () => {
   const random = randomNumbers(236);
   const mesh = strewn(200, 1, random);
   const blas = cutInTwo(mesh),

@@ -157,7 +157,7 @@ test('a page that is not isolated: one worker builds it, whatever was asked for,
   }
 });
 
-test('a machine without threads to spare: one worker, unless two are asked for', async () => {
+test('a machine without idle threads: one worker, unless two are asked for', async () => {
   const alone = await builtIn('/isolated', { threads: 2 });
   expect(alone.sent).toEqual({ build: 2 });
   expect(alone.digests).toEqual([expected, expected]);

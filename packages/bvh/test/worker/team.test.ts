@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { release, Team, teamMemory, tellCopied } from '../../src/worker/team';
+import { release, Team, teamMemory, reportCopied } from '../../src/worker/team';
 
 const mesh = { positions: new Float32Array(9 * 100) };
 const both = () => {
@@ -33,9 +33,9 @@ describe('Team', () => {
     const [a, b] = both();
     b.publish();
     a.published();
-    tellCopied(a.memory, 300);
+    reportCopied(a.memory, 300);
     for (const team of [a, b]) team.copied(300);
-    expect([a.left, b.left]).toEqual([false, false]);
+    expect([a.peerGaveUp, b.peerGaveUp]).toEqual([false, false]);
   });
 
   it('throws where the other one has given up before, instead of waiting for ever', () => {
@@ -47,7 +47,7 @@ describe('Team', () => {
       const [a, b] = both();
       a.giveUp();
       expect(() => wait(b)).toThrow(expect.objectContaining({ code: 'bvh/worker' }) as Error);
-      expect(b.left).toBe(true);
+      expect(b.peerGaveUp).toBe(true);
     }
   });
 

@@ -100,7 +100,7 @@ describe('BvhWorkers', () => {
     for (const turns of [0, 1, 5]) {
       const given = { positions: positions.slice(), indices: indices.slice() };
       let now = 0;
-      // A clock on which every look takes five milliseconds: the thread is handed back after each piece.
+      // A clock that advances five milliseconds at each reading: the thread yields after each piece.
       const clock = vi.spyOn(performance, 'now').mockImplementation(() => (now += 5));
       const build = workers.buildBlas(given);
       for (let turn = 0; turn < turns; turn++) await soon();
@@ -184,9 +184,9 @@ describe('BvhWorkers', () => {
 
   it('tells progress per mesh: 0 when taken up, 1 when done', async () => {
     const workers = await create();
-    const told: number[][] = [[], [], []];
-    await Promise.all(told.map((list) => workers.buildBlas(sphere(32), { onProgress: (done) => list.push(done) })));
-    expect(told).toEqual([
+    const reported: number[][] = [[], [], []];
+    await Promise.all(reported.map((list) => workers.buildBlas(sphere(32), { onProgress: (done) => list.push(done) })));
+    expect(reported).toEqual([
       [0, 1],
       [0, 1],
       [0, 1],
@@ -288,12 +288,12 @@ describe('BvhWorkers', () => {
   it('lets a short build run out when it is aborted, and says nothing of it', async () => {
     const workers = await create({ count: 1 });
     const controller = new AbortController();
-    const told: number[] = [];
-    const build = workers.buildBlas(sphere(128), { signal: controller.signal, onProgress: (done) => told.push(done) });
+    const reported: number[] = [];
+    const build = workers.buildBlas(sphere(128), { signal: controller.signal, onProgress: (done) => reported.push(done) });
     controller.abort();
     await expect(build).rejects.toMatchObject({ name: 'AbortError' });
     expectSame(await workers.buildBlas(sphere(16)), buildBlas(sphere(16)));
-    expect(told).toEqual([]);
+    expect(reported).toEqual([]);
     expect(started).toHaveLength(1);
   });
 
@@ -379,10 +379,10 @@ describe('BvhWorkers', () => {
         [/refused by policy/, /Cannot find module/, /broken script/, /it has ended/][i] as RegExp,
       );
       expect(workers.count).toBe(0);
-      const told: number[] = [];
-      expectSame(await workers.buildBlas(sphere(24), { onProgress: (done) => told.push(done) }), buildBlas(sphere(24)));
-      expect([told[0], told.at(-1)]).toEqual([0, 1]);
-      expect(told).toEqual([...told].sort((a, b) => a - b));
+      const reported: number[] = [];
+      expectSame(await workers.buildBlas(sphere(24), { onProgress: (done) => reported.push(done) }), buildBlas(sphere(24)));
+      expect([reported[0], reported.at(-1)]).toEqual([0, 1]);
+      expect(reported).toEqual([...reported].sort((a, b) => a - b));
       await expect(workers.buildBlas({ positions: new Float32Array(4) })).rejects.toMatchObject({
         code: 'bvh/positions',
       });

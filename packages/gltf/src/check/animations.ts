@@ -3,7 +3,7 @@ import type { CheckContext } from './context';
 import { isObject, own, quote, type Raw } from '../json-value';
 import type { AccessorFacts } from './data';
 
-/** What a channel may move, and the type of its values. */
+/** The properties that a channel may animate, and the type of their values. */
 const PATHS: Readonly<Record<string, string>> = {
   translation: 'VEC3',
   rotation: 'VEC4',
@@ -13,8 +13,8 @@ const PATHS: Readonly<Record<string, string>> = {
 const INTERPOLATIONS = ['LINEAR', 'STEP', 'CUBICSPLINE'];
 
 /**
- * Animations with the channels that make sense; the others are left out, with a warning. Their places count, so each
- * animation stays.
+ * Animations with their valid channels; the others are left out, with a warning. All animations are kept, so that their
+ * indices do not change.
  */
 export function repairAnimations(context: CheckContext, facts: readonly (AccessorFacts | undefined)[]): readonly Raw[] {
   return context.list('animations').map((animation, index) => {
@@ -25,7 +25,7 @@ export function repairAnimations(context: CheckContext, facts: readonly (Accesso
       context.warn(
         'gltf/animation',
         `${path}/${key}`,
-        `is ${quote(value)}, but must be an array with something in it; nothing moves`,
+        `is ${quote(value)}, but must be an array that is not empty; nothing is animated`,
       );
       return [];
     };
@@ -80,7 +80,7 @@ function repairSampler(
   return { input, output, interpolation };
 }
 
-/** @param moved Parts of nodes that channels before this one move. */
+/** @param moved Properties of nodes that previous channels animate. */
 function isSoundChannel(
   context: CheckContext,
   channel: unknown,
@@ -100,7 +100,7 @@ function isSoundChannel(
   const sampler = samplers[at];
   const node = own(target, 'node'),
     part = own(target, 'path');
-  // The specification has channels without a node ignored.
+  // By the specification, channels without a node are ignored.
   if (!sampler || node === undefined) return false;
   const nodes = context.list('nodes');
   if (typeof node !== 'number' || !nodes[node]) return lost(`moves node ${quote(node)}, which is none`);
@@ -115,10 +115,10 @@ function isSoundChannel(
     context.warn(
       'gltf/animation',
       path,
-      `has values of ${values.componentType}, but the ${part as string} must be floats${exact ? '' : ' or normalized'}; they are taken as they are`,
+      `has values of ${values.componentType}, but the ${part as string} must be floats${exact ? '' : ' or normalized'}; they are read as they are`,
     );
   const size = part === 'weights' ? targetCount(context, nodes[node] as Raw) : 1;
-  if (size === 0) return lost('moves morph targets that are not there');
+  if (size === 0) return lost('animates morph targets that do not exist');
   if (values.count !== keys * size) return lost(`has ${values.count} values, but its times ask for ${keys * size}`);
   if (moved.has(`${node} ${part as string}`))
     context.warn(
@@ -136,7 +136,7 @@ function isSoundChannel(
   return true;
 }
 
-/** A channel of KHR_animation_pointer; null if it makes no sense, undefined if it is none. */
+/** A channel of KHR_animation_pointer; null if it is invalid, undefined if it is another kind of channel. */
 function pointerOf(
   context: CheckContext,
   channel: unknown,
@@ -154,7 +154,7 @@ function pointerOf(
   const extension = isObject(extensions) ? own(extensions, 'KHR_animation_pointer') : undefined;
   const pointer = isObject(extension) ? own(extension, 'pointer') : undefined;
   const parts = pointerPath(pointer);
-  if (!parts) return lost(`moves ${quote(pointer)}, which is nothing that can be seen to move`);
+  if (!parts) return lost(`moves ${quote(pointer)}, which cannot be animated`);
   const at = own(channel, 'sampler');
   const sampler = typeof at === 'number' ? samplers[at] : undefined;
   if (typeof at !== 'number' || !(at in samplers)) return lost(`has ${quote(at)} as sampler, which is none`);

@@ -2,10 +2,10 @@ import { type Raw, isObject, quote, own } from '../json-value';
 import type { SceneWarning } from '@glanz/scene';
 import { GltfError } from '../error';
 
-/** What every check has at hand: the document, and the two ways to object. */
+/** The document, and how checks report errors and warnings. */
 export class CheckContext {
   /**
-   * Lists that have been looked through: doing so for each part that refers to one would take the square of the time.
+   * Lists that have been validated: doing so for each reference would take quadratic time.
    */
   readonly #lists = new Map<string, readonly Raw[]>();
 
@@ -15,7 +15,7 @@ export class CheckContext {
     readonly warnings: SceneWarning[],
   ) {}
 
-  /** @throws {GltfError} always, `gltf/malformed` unless told otherwise. */
+  /** @throws {GltfError} always, by default `gltf/malformed`. */
   fail(path: string, what: string, code = 'gltf/malformed'): never {
     throw new GltfError(code, `${this.file}: ${path} ${what}; export the file again or repair it.`, {
       location: { file: this.file, path },
@@ -26,13 +26,13 @@ export class CheckContext {
     this.warnings.push({ code, message: `${this.file}: ${path} ${what}.`, path });
   }
 
-  /** Whether the document says that it uses an extension. */
+  /** Whether the document declares that it uses an extension. */
   uses(extension: string): boolean {
     const names = own(this.json, 'extensionsUsed');
     return Array.isArray(names) && names.includes(extension);
   }
 
-  /** A top-level array of objects; empty if it is not there. */
+  /** A top-level array of objects; empty if absent. */
   list(key: string): readonly Raw[] {
     let list = this.#lists.get(key);
     if (!list) {
@@ -44,7 +44,7 @@ export class CheckContext {
     return list;
   }
 
-  /** Warns of a list without entries: the schema of glTF 2.0 asks for one at least (`minItems`). */
+  /** Warns of an empty list: the schema of glTF 2.0 requires at least one entry (`minItems`). */
   notEmpty(list: readonly unknown[], path: string): void {
     if (list.length === 0) this.warn('gltf/empty', path, 'is empty, but must have an entry or be left out');
   }
@@ -57,7 +57,7 @@ export class CheckContext {
     return value as Raw[];
   }
 
-  /** An object, or undefined if it is not there. */
+  /** An object, or undefined if absent. */
   object(owner: Raw, key: string, path: string): Raw | undefined {
     const value = own(owner, key);
     if (value !== undefined && !isObject(value))
@@ -71,7 +71,7 @@ export class CheckContext {
     return extensions && this.object(extensions, name, `${path}/extensions`);
   }
 
-  /** An integer from `low` to `high`; `initial` (if given) where it is not there. */
+  /** An integer from `low` to `high`; `initial` (if given) if absent. */
   integer(owner: Raw, key: string, path: string, low: number, high: number, initial?: number): number {
     const value = own(owner, key) ?? (Object.hasOwn(owner, key) ? null : initial);
     if (typeof value !== 'number' || !Number.isSafeInteger(value) || value < low || value > high) {
@@ -83,7 +83,7 @@ export class CheckContext {
     return value;
   }
 
-  /** An index into a list, or undefined if it is not there. */
+  /** An index into a list, or undefined if absent. */
   index(owner: Raw, key: string, path: string, list: readonly unknown[], kind: string): number | undefined {
     if (!Object.hasOwn(owner, key)) return undefined;
     this.reference(owner[key], `${path}/${key}`, list, kind);
@@ -95,7 +95,7 @@ export class CheckContext {
       this.fail(path, `is ${quote(value)}, which names no ${kind} (the file has ${list.length})`);
   }
 
-  /** An array of indices without repetitions; empty if it is not there. */
+  /** An array of indices without repetitions; empty if absent. */
   indices(owner: Raw, key: string, path: string, list: readonly unknown[], kind: string): readonly number[] {
     const value = own(owner, key);
     if (value === undefined) return [];

@@ -22,12 +22,12 @@ const SHAPES: ReadonlyMap<unknown, readonly [number, number]> = new Map([
 ]);
 
 /**
- * Most bytes that accessors may ask for without any in the file to show for it (no buffer view: zeros, perhaps with
- * sparse ones among them). Some hundred bytes of JSON could ask for terabytes.
+ * Max bytes of accessors without a buffer view (zeros, perhaps with sparse values), all together. A few hundred bytes
+ * of JSON could request terabytes.
  */
 export const ZERO_FILL_LIMIT = 1 << 28;
 
-/** Bytes that one of meshopt's bytes can stand for at most: a control of 2 bits for 256 of them. */
+/** Max compression ratio of meshopt: a control of 2 bits for 256 bytes. */
 const MESHOPT_RATIO = 1024;
 
 /** An accessor that has been checked. Only of such ones the bytes may be read. */
@@ -132,7 +132,7 @@ export function checkAccessors(
     const type = own(accessor, 'type');
     const known = typeof componentType === 'number' && COMPONENT_BYTES[componentType] !== undefined && SHAPES.has(type);
     if (!known) {
-      // A later version's type may stand in a file as long as nothing here needs it.
+      // Types of later versions are accepted in accessors that are not read.
       const what = `has the type ${quote(type)} of ${quote(componentType)}, which glTF 2.0 does not know`;
       if (needed.has(index)) context.fail(path, what);
       context.warn('gltf/accessor', path, what);
@@ -148,7 +148,7 @@ export function checkAccessors(
       if (zeroFilled > ZERO_FILL_LIMIT)
         context.fail(
           path,
-          `asks for ${bytes} bytes of zeros that are not in the file; at most ${ZERO_FILL_LIMIT} are made in all`,
+          `requests ${bytes} bytes of zeros that are not in the file; the maximum is ${ZERO_FILL_LIMIT} in total`,
         );
     }
     const sparse = context.object(accessor, 'sparse', path);
@@ -233,9 +233,9 @@ function checkSparse(
 }
 
 /**
- * Checks what only the bytes show: that sparse indices grow and name elements that exist.
- * @param viewBytes Bytes of a buffer view, checked to lie within its buffer; undefined if the buffer is not there, as
- * nothing reads it.
+ * Checks the bytes of sparse indices: they must increase and name elements that exist.
+ * @param viewBytes Bytes of a buffer view, checked to lie within its buffer; undefined if the buffer does not exist,
+ * since nothing reads it.
  */
 export function checkSparseIndices(
   context: CheckContext,

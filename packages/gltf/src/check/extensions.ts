@@ -21,8 +21,8 @@ const LISTS = [
 const MATERIAL_DEPTH = 5;
 
 /**
- * The names of all extensions that the document uses: those that it declares, and those that its parts use undeclared.
- * Decoders are found by these names, so that data would stay packed without. Undefined if there are none.
+ * The names of all extensions that the document uses, declared or not: decoders are chosen by these names. Undefined if
+ * there are none.
  */
 export function extensionsUsed(context: CheckContext): readonly string[] | undefined {
   const lists = ['extensionsUsed', 'extensionsRequired'].map((key) => {

@@ -2,8 +2,7 @@ import type { CheckContext } from './context';
 import { isObject, own, quote, type Raw } from '../json-value';
 
 /**
- * Lights of EXT_lights_image_based in order, undefined in place of one that makes no sense; undefined if there are
- * none.
+ * Lights of EXT_lights_image_based in order, undefined in place of an invalid one; undefined if there are none.
  */
 export function repairImageLights(context: CheckContext): readonly (Raw | undefined)[] | undefined {
   const extensions = own(context.json, 'extensions');
@@ -12,7 +11,7 @@ export function repairImageLights(context: CheckContext): readonly (Raw | undefi
   const path = '/extensions/EXT_lights_image_based/lights';
   const lights = isObject(extension) ? own(extension, 'lights') : undefined;
   if (!Array.isArray(lights)) {
-    context.warn('gltf/environment', path, `is ${quote(lights)}, but must be an array; the surroundings are left out`);
+    context.warn('gltf/environment', path, `is ${quote(lights)}, but must be an array; the environment is left out`);
     return undefined;
   }
   const images = context.list('images').length;
@@ -31,7 +30,7 @@ export function repairImageLights(context: CheckContext): readonly (Raw | undefi
       levels.length === 0 ||
       !levels.every((faces: unknown) => Array.isArray(faces) && faces.length === 6 && faces.every(isFace))
     )
-      return lost(`has the pictures ${quote(levels)}, but must have six that exist for each level`);
+      return lost(`has the images ${quote(levels)}, but must have six existing ones for each level`);
     const intensity = own(light, 'intensity') ?? 1;
     if (!(typeof intensity === 'number' && intensity >= 0 && intensity <= 1e30))
       return lost(`has the intensity ${quote(intensity)}`);

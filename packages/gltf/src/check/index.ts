@@ -1,9 +1,7 @@
-// Files come from strangers: an index out of range would be a TypeError, a count of 2^32 an allocation that ends the
-// process, a circle of nodes an endless loop. So the JSON is checked in full before any of it is used. The line follows
-// the
-// specification: what the structure hangs on (containers, types, indices, ranges, the node tree) is refused; a part
-// that can do without (an attribute, a factor, a light, a camera, an animation) is repaired or left out, with a
-// warning.
+// Files are untrusted: an index out of range would be a TypeError, a count of 2^32 an allocation that ends the process,
+// a cycle of nodes an endless loop. So the whole JSON is checked before any of it is used. Errors in what the structure
+// depends on (containers, types, indices, ranges, the node tree) are thrown; other parts (an attribute, a factor, a
+// light, a camera, an animation) are repaired or left out, with a warning.
 import type { SceneWarning } from '@glanz/scene';
 import type { GltfJson } from '../json';
 import { repairAnimations } from './animations';
@@ -14,24 +12,24 @@ import { extensionsUsed } from './extensions';
 import { repairImageLights } from './image-lights';
 import { checkMeshes, neededAccessors } from './meshes';
 import { checkNodes, checkSkins } from './nodes';
-import { checkPictures } from './pictures';
+import { checkImages } from './images';
 import { repairCameras, repairLights, repairMaterials } from './surfaces';
 import { repairVariants, withSoundVariants } from './variants';
 
 /** A document that has been checked. */
 export interface CheckedDocument {
-  /** Sound in every part that is read. */
+  /** Valid in every part that is read. */
   readonly json: GltfJson;
-  /** Buffers that something shown reads: those that have to be there. */
+  /** Buffers that shown parts read: these must exist. */
   readonly neededBuffers: ReadonlySet<number>;
-  /** Checks what only the bytes show, once they are there. */
+  /** Checks the bytes, once they are loaded. */
   readonly checkBytes: (viewBytes: (index: number) => Uint8Array | undefined) => void;
 }
 
 /**
  * Checks a parsed document.
- * @param file What messages call it.
- * @param warnings Takes what was repaired or left out.
+ * @param file Name of the document in messages.
+ * @param warnings Receives what was repaired or left out.
  * @throws {GltfError} `gltf/malformed`, saying where.
  */
 export function checkDocument(json: Raw, file: string, warnings: SceneWarning[]): CheckedDocument {
@@ -50,7 +48,7 @@ export function checkDocument(json: Raw, file: string, warnings: SceneWarning[])
   }));
   const nodes = checkNodes(context, facts, meshes);
   checkSkins(context, facts);
-  checkPictures(context);
+  checkImages(context);
   checkNames(context);
   const lights = repairLights(context);
   const imageLights = repairImageLights(context);
@@ -70,7 +68,7 @@ export function checkDocument(json: Raw, file: string, warnings: SceneWarning[])
         : context
             .list('scenes')
             .map((scene, index) =>
-              withSoundSurroundings(
+              withValidEnvironment(
                 context,
                 named(context, scene, `/scenes/${index}`),
                 `/scenes/${index}`,
@@ -98,7 +96,7 @@ export function checkDocument(json: Raw, file: string, warnings: SceneWarning[])
   };
 }
 
-/** The packets of KHR_xmp_json_ld; nothing looks into them. */
+/** The packets of KHR_xmp_json_ld, unchecked. */
 function xmpOf(context: CheckContext): Raw {
   const extensions = own(context.json, 'extensions');
   const xmp = isObject(extensions) ? own(extensions, 'KHR_xmp_json_ld') : undefined;
@@ -106,7 +104,7 @@ function xmpOf(context: CheckContext): Raw {
   return Array.isArray(packets) ? { KHR_xmp_json_ld: { packets } } : {};
 }
 
-/** An object whose name, if it has one, is a text. */
+/** An object whose name, if any, is a string. */
 function named(context: CheckContext, object: Raw, path: string): Raw {
   if (own(object, 'name') === undefined || typeof object['name'] === 'string') return object;
   context.warn('gltf/name', `${path}/name`, `is ${quote(object['name'])}, but must be a text; it is left out`);
@@ -114,7 +112,7 @@ function named(context: CheckContext, object: Raw, path: string): Raw {
   return rest;
 }
 
-/** Names of parts that nothing else looks at. */
+/** Checks the names of parts that are not checked elsewhere. */
 function checkNames(context: CheckContext): void {
   for (const key of [
     'accessors',
@@ -152,8 +150,8 @@ function withoutLostLight(context: CheckContext, node: Raw, index: number, light
   return { ...node, extensions: rest };
 }
 
-/** A scene whose surroundings, if it has some, exist. */
-function withSoundSurroundings(context: CheckContext, scene: Raw, path: string, lights: number): Raw {
+/** A scene without a reference to an environment that does not exist. */
+function withValidEnvironment(context: CheckContext, scene: Raw, path: string, lights: number): Raw {
   const extensions = own(scene, 'extensions');
   const reference = isObject(extensions) ? own(extensions, 'EXT_lights_image_based') : undefined;
   const light = isObject(reference) ? own(reference, 'light') : undefined;
@@ -184,7 +182,7 @@ function buffersOf(accessors: readonly Raw[], meshes: readonly Raw[], views: rea
   const buffers = new Set<number>();
   views.forEach((view, index) => {
     if (!used.has(index)) return;
-    // The buffer of a compressed view is only a place to unpack to, and need not be there.
+    // The buffer of a compressed view is only a fallback and need not exist.
     const extensions = own(view, 'extensions');
     const packed = isObject(extensions)
       ? ((own(extensions, 'EXT_meshopt_compression') ?? own(extensions, 'KHR_meshopt_compression')) as Raw | undefined)

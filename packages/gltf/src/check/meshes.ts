@@ -69,7 +69,7 @@ export function neededAccessors(context: CheckContext): Set<number> {
   return needed;
 }
 
-/** Checks what meshes refer to. Attributes of a wrong type are taken out of the answer, with a warning. */
+/** Checks what meshes refer to. Returns them without attributes of a wrong type, with a warning. */
 export function checkMeshes(
   context: CheckContext,
   facts: readonly (AccessorFacts | undefined)[],
@@ -152,7 +152,8 @@ function checkPrimitive(
         const at = `${path}/targets/${t}/${semantic}`;
         context.reference(accessor, at, facts, 'accessor');
         const { count, type } = facts[accessor] as AccessorFacts;
-        if (kept[semantic] === undefined) context.warn('gltf/primitive', at, 'moves an attribute that is not there');
+        if (kept[semantic] === undefined)
+          context.warn('gltf/primitive', at, 'changes an attribute that does not exist');
         if (vertices !== undefined && count !== vertices) context.fail(at, `moves ${count} vertices of ${vertices}`);
         if (/^(TEXCOORD|COLOR)_\d+$/.test(semantic))
           context.warn('gltf/primitive', at, 'is not read: morph targets move positions, normals and tangents');

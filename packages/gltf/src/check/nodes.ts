@@ -10,8 +10,7 @@ const TRANSFORMS = [
 ] as const;
 
 /**
- * Checks the node tree: references, no node below itself or in two places, transforms of numbers. Returns repaired
- * nodes.
+ * Checks the node tree: references, no cycles, one parent at most, numeric transforms. Returns repaired nodes.
  * @param meshes Checked.
  */
 export function checkNodes(
@@ -48,7 +47,7 @@ export function checkNodes(
   return checked;
 }
 
-/** Warns of a skin or weights that the node's mesh has no use for. */
+/** Warns of a skin or weights that the node's mesh cannot use. */
 function checkMeshParts(context: CheckContext, node: Raw, path: string, meshes: readonly Raw[]): void {
   const mesh = own(node, 'mesh');
   const primitives = typeof mesh === 'number' ? ((meshes[mesh] as Raw)['primitives'] as readonly Raw[]) : [];
@@ -86,7 +85,7 @@ function targetsOf([primitive]: readonly Raw[]): number {
   return Array.isArray(targets) ? targets.length : 0;
 }
 
-/** A node with one parent at most lies in a circle if going up never ends. */
+/** Whether a node (with one parent at most) is part of a cycle: walking up never ends. */
 function refuseCircles(context: CheckContext, parents: Int32Array): void {
   // The walk that has seen a node; nodes that an earlier walk has seen lead to a root.
   const walks = new Int32Array(parents.length).fill(-1);
@@ -166,14 +165,14 @@ function repairTransform(context: CheckContext, node: Raw, path: string): Raw {
   return repaired;
 }
 
-/** What places instances, with the type of its values. */
+/** Attributes of instances, with their types. */
 const PLACES: ReadonlyMap<string, string> = new Map([
   ['TRANSLATION', 'VEC3'],
   ['ROTATION', 'VEC4'],
   ['SCALE', 'VEC3'],
 ]);
 
-/** A node with sound attributes of EXT_mesh_gpu_instancing: each of its type, all with as many entries. */
+/** A node with valid attributes of EXT_mesh_gpu_instancing: each of its type, all of the same count. */
 function repairInstancing(
   context: CheckContext,
   node: Raw,

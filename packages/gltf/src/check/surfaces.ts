@@ -69,8 +69,7 @@ const TRANSFORM: readonly Factor[] = [
 const TEXTURES = /Texture$/;
 
 /**
- * An object with its factors brought into range. What was wrong is told; a factor that is no number at all has its
- * initial value.
+ * An object with its factors clamped to their ranges, with a warning; a factor that is not a number gets its default.
  */
 function factorsOf(context: CheckContext, object: Raw, path: string, factors: readonly Factor[]): Raw {
   const repaired: Record<string, unknown> = {};
@@ -84,7 +83,7 @@ function factorsOf(context: CheckContext, object: Raw, path: string, factors: re
         ? clamp(value)
         : Array.from({ length: size }, (_, i) => clamp(Array.isArray(value) ? value[i] : undefined));
     repaired[key] = good;
-    // Exporters write 1.00000012 for 1: rounding is nothing to tell.
+    // Exporters write 1.00000012 for 1: do not warn of rounding.
     const near = (x: unknown, y: number) => typeof x === 'number' && Math.abs(x - y) <= 1e-5;
     const same =
       size === 0
@@ -97,7 +96,7 @@ function factorsOf(context: CheckContext, object: Raw, path: string, factors: re
   return { ...object, ...repaired };
 }
 
-/** An object with its textures in order: each an object with an index that is a whole number, or not there. */
+/** An object with valid textures: each an object with an integer index, or absent. */
 function texturesOf(context: CheckContext, object: Raw, path: string): Raw {
   const repaired: Record<string, unknown> = { ...object };
   for (const [key, info] of Object.entries(object)) {
@@ -196,7 +195,7 @@ export function repairLights(context: CheckContext): readonly Raw[] | undefined 
     context.warn('gltf/light', path, `is ${quote(lights)}, but must be an array; there are no lights`);
     return [];
   }
-  // Their places count, so a light that makes no sense stays as one that is dark.
+  // Indices must not change, so an invalid light becomes a dark one.
   return lights.map((light: unknown, index) => {
     const at = `${path}/${index}`;
     if (!isObject(light) || !['point', 'spot', 'directional'].includes(light['type'] as string)) {
@@ -238,7 +237,7 @@ export function repairLights(context: CheckContext): readonly Raw[] | undefined 
 const areConeAngles = (inner: unknown, outer: unknown): boolean =>
   typeof inner === 'number' && typeof outer === 'number' && inner >= 0 && inner < outer && outer <= Math.PI / 2 + 1e-6;
 
-/** Cameras in order; their places count, so one that makes no sense stays as one that the loader leaves out. */
+/** Cameras in order; indices must not change, so an invalid one is kept, and the loader leaves it out. */
 export function repairCameras(context: CheckContext): readonly Raw[] {
   return context.list('cameras').map((camera, index) => {
     const path = `/cameras/${index}`;

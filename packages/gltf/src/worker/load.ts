@@ -7,43 +7,42 @@ import { received, type LoadReply, type LoadRequest, type SentOptions } from './
 export { DracoWorkers, type DracoWorkersOptions } from '../draco-workers';
 export { received as receivedScene, type SentScene } from './protocol';
 
-/** What a load in a worker may be told. */
+/** Options for a load in a worker. */
 export interface WorkerLoad extends Pick<
   LoadGltfOptions,
   'signal' | 'onProgress' | 'allowEmpty' | 'scene' | 'animation' | 'time' | 'limits' | 'baseUrl'
 > {
-  /** As for `loadGltf`, known beforehand; for workers whose file has a decoder of KTX2. */
+  /** As for `loadGltf`, but a list; for worker files that have a KTX2 decoder. */
   readonly compressedFormats?: readonly CompressedFormat[] | undefined;
   /**
-   * Hands given bytes over instead of copying them: they are empty afterwards, and nothing waits for a copy. Default
-   * false.
+   * Transfers the given bytes instead of copying them; the caller's buffer is detached. Default false.
    */
   readonly transfer?: boolean | undefined;
 }
 
-/** How workers are started. */
+/** Options for {@link GltfWorker}. */
 export interface GltfWorkerOptions {
   /**
-   * Starts a worker. Default: the package's own file, which has no decoders of compressed meshes. A file of yours calls
-   * `serveGltf` of `@glanz/gltf/worker` with them.
+   * Starts a worker. Default: the package's own file, which has no decoders of compressed meshes. To use decoders,
+   * start a file that passes them to `serveGltf` of `@glanz/gltf/worker`.
    */
   readonly createWorker?: (() => Worker) | undefined;
 }
 
-/** What {@link loadGltfInWorker} may be told. */
+/** Options for {@link loadGltfInWorker}. */
 export interface WorkerGltfOptions extends WorkerLoad, GltfWorkerOptions {}
 
-/** A worker that has not reported by then will not. */
+/** Time within which a worker must report that it has started. */
 const START_MS = 15_000;
 
-/** A worker that can take a load once `ready` resolves. */
+/** A worker that accepts a load once `ready` resolves. */
 interface Running {
   readonly worker: Worker;
   /** Rejects with the reason why it cannot start. */
   readonly ready: Promise<void>;
-  /** Who hears its messages now. */
-  heard: ((reply: LoadReply) => void) | undefined;
-  failed: ((why: string) => void) | undefined;
+  /** Receives its messages during a load. */
+  onReply: ((reply: LoadReply) => void) | undefined;
+  onFailure: ((why: string) => void) | undefined;
 }
 
 function start(createWorker: () => Worker): Running {
@@ -54,25 +53,24 @@ function start(createWorker: () => Worker): Running {
     begun = resolve;
     broken = (why) => reject(new Error(why));
   });
-  // Whoever loads hears of it.
+  // load() reports the rejection.
   ready.catch(() => undefined);
   const timer = setTimeout(() => fail('it has not started'), START_MS);
-  const running: Running = { worker, ready, heard: undefined, failed: undefined };
+  const running: Running = { worker, ready, onReply: undefined, onFailure: undefined };
   const fail = (why: string) => {
     clearTimeout(timer);
     broken(why);
-    running.failed?.(why);
+    running.onFailure?.(why);
   };
   worker.addEventListener('messageerror', () => fail('its answer could not be read'));
   worker.addEventListener('error', (event) => {
     event.preventDefault();
     fail(
-      event.message ||
-        'its script could not be loaded (a wrong address, or a content security policy without worker-src)',
+      event.message || 'its script could not be loaded (wrong URL, or a content security policy without worker-src)',
     );
   });
   worker.addEventListener('message', ({ data }: MessageEvent<LoadReply>) => {
-    if (data.kind !== 'ready') return running.heard?.(data);
+    if (data.kind !== 'ready') return running.onReply?.(data);
     clearTimeout(timer);
     begun();
   });
@@ -80,13 +78,11 @@ function start(createWorker: () => Worker): Running {
 }
 
 /**
- * Loads glTF documents in workers: reading, checking, unpacking and decoding pictures all happen there, and the arrays
- * of a scene are handed over without a copy. The calling thread is never busy for longer than a message takes. The
- * worker is a file of this origin, so no content security policy has to be widened beyond `worker-src 'self'`. A
- * package that comes from another origin needs `worker-src blob:`.
+ * Loads glTF documents in workers, which read, check, decompress and decode images; the arrays of the scene are
+ * transferred without a copy. The calling thread only handles messages. The worker is a file of the same origin, so a
+ * content security policy needs `worker-src 'self'` only; a package from another origin needs `worker-src blob:`.
  *
- * One worker stands ready from the beginning and stays so between loads, with its decoders; loads at the same time have
- * one each.
+ * One worker is started at construction and kept between loads, with its decoders; concurrent loads get one each.
  *
  * @example
  * const models = new GltfWorker();              // starts up while the page does
@@ -98,7 +94,7 @@ export class GltfWorker {
   readonly #busy = new Set<Running>();
   #destroyed = false;
 
-  /** Starts the first worker. @throws {DOMException} where an address of `createWorker` may not be used. */
+  /** Starts the first worker. @throws {DOMException} where an address of `createWorker` is not allowed. */
   constructor({ createWorker = startWorker }: GltfWorkerOptions = {}) {
     this.#createWorker = createWorker;
     this.#idle = start(createWorker);
@@ -107,8 +103,7 @@ export class GltfWorker {
   /**
    * Loads a document, as `loadGltf` does.
    *
-   * Bytes that are given stay yours: they are copied into the worker unless `transfer` is set. Addresses and Blobs cost
-   * nothing.
+   * Given bytes are copied into the worker unless `transfer` is set. URLs and Blobs are passed without a copy.
    *
    * @throws {GltfError} As `loadGltf`, and `gltf/worker` where a worker cannot be started.
    */
@@ -117,7 +112,7 @@ export class GltfWorker {
       options;
     return new Promise((resolve, reject) => {
       signal?.throwIfAborted();
-      if (this.#destroyed) throw new GltfError('gltf/worker', 'This GltfWorker has been destroyed: make another.');
+      if (this.#destroyed) throw new GltfError('gltf/worker', 'This GltfWorker has been destroyed: create another.');
       const sent: SentOptions = {
         allowEmpty,
         scene,
@@ -141,21 +136,21 @@ export class GltfWorker {
       const running = this.#idle ?? start(this.#createWorker);
       this.#idle = undefined;
       this.#busy.add(running);
-      const settle = (answer: () => void, sound: boolean) => {
-        running.heard = running.failed = undefined;
+      const settle = (answer: () => void, reusable: boolean) => {
+        running.onReply = running.onFailure = undefined;
         signal?.removeEventListener('abort', abort);
         this.#busy.delete(running);
-        if (sound && !this.#destroyed && !this.#idle) this.#idle = running;
+        if (reusable && !this.#destroyed && !this.#idle) this.#idle = running;
         else running.worker.terminate();
         answer();
       };
       const fail = (why: string) =>
         settle(() => reject(new GltfError('gltf/worker', `The worker that loads glTF failed: ${why}.`)), false);
-      // What it does cannot be called off; the next load has another.
+      // A running load cannot be cancelled inside the worker: terminate it; the next load starts another.
       const abort = () => settle(() => reject(signal?.reason as Error), false);
       signal?.addEventListener('abort', abort);
-      running.failed = fail;
-      running.heard = (reply) => {
+      running.onFailure = fail;
+      running.onReply = (reply) => {
         if (reply.kind === 'progress') onProgress?.(reply.progress);
         else if (reply.kind === 'scene') settle(() => resolve(received(reply.scene)), true);
         else if (reply.kind === 'error')
@@ -175,7 +170,7 @@ export class GltfWorker {
       };
       running.ready.then(
         () => {
-          if (!running.heard) return;
+          if (!running.onReply) return;
           try {
             running.worker.postMessage(
               request,
@@ -187,22 +182,22 @@ export class GltfWorker {
             fail(error instanceof Error ? error.message : String(error));
           }
         },
-        (error: Error) => running.failed?.(error.message),
+        (error: Error) => running.onFailure?.(error.message),
       );
     });
   }
 
-  /** Ends the workers; loads that are under way reject with `gltf/worker`. Idempotent. */
+  /** Terminates the workers; pending loads reject with `gltf/worker`. Idempotent. */
   destroy(): void {
     this.#destroyed = true;
     this.#idle?.worker.terminate();
     this.#idle = undefined;
-    for (const running of this.#busy) running.failed?.('it was destroyed');
+    for (const running of this.#busy) running.onFailure?.('it was destroyed');
   }
 }
 
 /**
- * Loads a glTF document in a worker that is started for it; {@link GltfWorker} keeps one.
+ * Loads a glTF document in a worker that is started for this load; {@link GltfWorker} keeps its worker.
  *
  * @throws {GltfError} As `loadGltf`, and `gltf/worker` where the worker cannot be started.
  * @example
@@ -218,22 +213,22 @@ export async function loadGltfInWorker(input: GltfInput, options: WorkerGltfOpti
   }
 }
 
-let elsewhere: string | undefined;
+let blobUrl: string | undefined;
 
 /**
- * Starts the package's own worker file. Browsers refuse one of another origin, a content delivery network say; there a
- * worker of a Blob imports the file, unless the page's content security policy forbids that.
+ * Starts the package's own worker file. Browsers reject a file of another origin (a content delivery network); then a
+ * Blob worker imports the file, unless the page's content security policy forbids it.
  */
 function startWorker(): Worker {
   try {
-    // In this form bundlers find the file.
+    // Bundlers recognise this form.
     return new Worker(new URL('./worker.js', import.meta.url), { type: 'module', name: 'glanz-gltf' });
   } catch (error) {
     if ((error as Error).name !== 'SecurityError') throw error;
     const { url } = import.meta;
-    elsewhere ??= URL.createObjectURL(
+    blobUrl ??= URL.createObjectURL(
       new Blob([`import ${JSON.stringify(new URL('./worker.js', url).href)};`], { type: 'text/javascript' }),
     );
-    return new Worker(elsewhere, { type: 'module', name: 'glanz-gltf' });
+    return new Worker(blobUrl, { type: 'module', name: 'glanz-gltf' });
   }
 }

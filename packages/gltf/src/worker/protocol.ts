@@ -3,24 +3,24 @@ import { imageOfBitmap, namedImage } from '../browser-images';
 import type { GltfOptions, GltfProgress } from '../load';
 import type { GltfInput } from '../source';
 
-/** What of the options crosses the boundary. */
+/** The options that are sent to the worker. */
 export type SentOptions = Pick<GltfOptions, 'allowEmpty' | 'scene' | 'animation' | 'time' | 'limits'> & {
   readonly baseUrl?: string;
   readonly compressedFormats?: readonly CompressedFormat[] | undefined;
 };
 
-/** To a worker: one load. */
+/** Message to a worker: one load. */
 export interface LoadRequest {
   readonly input: string | Exclude<GltfInput, string | URL>;
   readonly options: SentOptions;
 }
 
-/** A scene whose pictures are bitmaps alone where there are some: asking for their pixels would read them back. */
+/** A scene as sent: images that have a bitmap come without pixels, since reading them back is slow. */
 export type SentScene = Omit<Scene, 'images'> & {
   readonly images: readonly (Image | (Pick<Image, 'name' | 'width' | 'height'> & { readonly bitmap: ImageBitmap }))[];
 };
 
-/** A scene as a worker posts it, with {@link buffersOf} (exported as `transferablesOf`) handed over. */
+/** A scene as a worker posts it, with {@link buffersOf} (exported as `transferablesOf`) as the transfer list. */
 export const sendable = (scene: Scene): SentScene => ({
   ...scene,
   images: scene.images.map((image) =>
@@ -28,7 +28,7 @@ export const sendable = (scene: Scene): SentScene => ({
   ),
 });
 
-/** The scene out of a message. */
+/** The scene of a message. */
 export const received = (scene: SentScene): Scene => ({
   ...scene,
   images: scene.images.map((image) =>
@@ -36,15 +36,17 @@ export const received = (scene: SentScene): Scene => ({
   ),
 });
 
-/** From a worker: `ready` first of all, then any number of `progress`, then one of the others. */
+/**
+ * Message from a worker: `ready` once after its start; for each load any number of `progress`, then one of the others.
+ */
 export type LoadReply =
   | { readonly kind: 'ready' }
   | { readonly kind: 'progress'; readonly progress: GltfProgress }
   | { readonly kind: 'scene'; readonly scene: SentScene }
-  /** Structured cloning would drop the class and the code of an error. */
+  /** Structured cloning drops the class and the code of an error. */
   | { readonly kind: 'error'; readonly code?: string; readonly message: string; readonly path?: string };
 
-/** A scene's geometry and pictures, to be handed over rather than copied. */
+/** The transfer list of a scene: the buffers of its geometry and images. */
 export function buffersOf({ meshes, images, environment }: SentScene): Transferable[] {
   const buffers = new Set<Transferable>();
   const add = (array: ArrayBufferView | undefined) => {

@@ -5,17 +5,17 @@ import { loadGltf, type LoadGltfOptions } from '../load';
 import { DracoWorkers, type DracoReply, type DracoRequest } from '../draco-workers';
 import { buffersOf, sendable, type LoadReply, type LoadRequest } from './protocol';
 
-/** What a worker of your own adds to a load: things that cannot be sent. */
+/** Options that cannot be sent to a worker, for {@link serveGltf}. */
 export type WorkerLoadOptions = Pick<LoadGltfOptions, 'decoders' | 'decodeImage' | 'fetch'>;
 
 /**
- * Answers one load request after another, for `loadGltfInWorker`. The module `@glanz/gltf/worker` does so by itself
- * where it is loaded as a worker; call this in a worker file of your own to hand it decoders.
+ * Answers the load requests of `loadGltfInWorker` and `GltfWorker`. The module `@glanz/gltf/worker` does so when it is
+ * loaded as a worker; call this function in a worker file of your own to pass decoders.
  *
- * With a decoder of Draco and three threads or more, a load starts up to four further workers of the same file, which
- * unpack meshes side by side.
+ * With a Draco decoder and three threads or more, a load starts up to four further workers of the same file, which
+ * decode meshes in parallel.
  *
- * @param options Decoders of compressed meshes and pictures.
+ * @param options Decoders of compressed meshes and images.
  * @example
  * // my-gltf-worker.ts
  * serveGltf({ decoders: { meshopt: async () => (await import('meshoptimizer/decoder')).MeshoptDecoder } });
@@ -23,9 +23,9 @@ export type WorkerLoadOptions = Pick<LoadGltfOptions, 'decoders' | 'decodeImage'
 export function serveGltf(options: WorkerLoadOptions = {}): void {
   const scope = globalThis as unknown as {
     postMessage(message: LoadReply | DracoReply, transfer?: readonly Transferable[]): void;
-    addEventListener(type: 'message', heard: (event: MessageEvent<LoadRequest | DracoRequest>) => void): void;
+    addEventListener(type: 'message', listener: (event: MessageEvent<LoadRequest | DracoRequest>) => void): void;
   };
-  const decoders = withHelpers(options.decoders);
+  const decoders = withDracoWorkers(options.decoders);
   scope.addEventListener('message', ({ data }) => {
     if ('kind' in data) {
       void unpacked(data, decoders?.draco).then((primitive) =>
@@ -68,14 +68,13 @@ export function serveGltf(options: WorkerLoadOptions = {}): void {
   scope.postMessage({ kind: 'ready' });
 }
 
-/** Machines with fewer threads have none to spare for helpers. */
-const SPARE_THREADS = 3;
+/** On machines with fewer threads, further workers do not pay off. */
+const MIN_THREADS = 3;
 
 /**
- * Decoders that unpack Draco-compressed meshes side by side, by workers of the same file, where the machine has the
- * threads.
+ * Adds workers of the same file, which decode Draco-compressed meshes in parallel, if the machine has enough threads.
  */
-function withHelpers(decoders: GltfDecoders | undefined): GltfDecoders | undefined {
+function withDracoWorkers(decoders: GltfDecoders | undefined): GltfDecoders | undefined {
   const { location, navigator } = globalThis as {
     location?: { readonly href: string };
     navigator?: { readonly hardwareConcurrency?: number };
@@ -85,7 +84,7 @@ function withHelpers(decoders: GltfDecoders | undefined): GltfDecoders | undefin
     decoders.dracoWorkers ||
     !location ||
     typeof Worker !== 'function' ||
-    (navigator?.hardwareConcurrency ?? 1) < SPARE_THREADS
+    (navigator?.hardwareConcurrency ?? 1) < MIN_THREADS
   )
     return decoders;
   return {
@@ -97,20 +96,20 @@ function withHelpers(decoders: GltfDecoders | undefined): GltfDecoders | undefin
   };
 }
 
-/** What a helper does. */
+/** Decodes a mesh for another worker. */
 async function unpacked(
-  { bytes, attributes, most }: DracoRequest,
+  { bytes, attributes, maxBytes }: DracoRequest,
   given: unknown,
 ): Promise<DracoPrimitive | undefined> {
   try {
     const module = typeof given === 'function' ? ((await (given as () => unknown)()) as unknown) : given;
-    let left = most;
+    let left = maxBytes;
     return unpackDraco(module, bytes, attributes, (size) => {
       left -= size;
       if (left < 0) throw new Error('it is too large');
     });
   } catch {
-    // Whoever asked unpacks it again, and tells.
+    // The caller decodes the mesh again and reports the error.
     return undefined;
   }
 }

@@ -23,7 +23,7 @@ function everything(): Document {
   const quad = accessor('VEC3', new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0]));
   const normals = accessor('VEC3', new Float32Array([0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1]));
   const texture = document
-    .createTexture('picture')
+    .createTexture('image')
     .setMimeType('image/png')
     .setImage(new Uint8Array([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0, 0, 0, 13]));
   const material = document

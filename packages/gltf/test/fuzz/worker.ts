@@ -43,7 +43,7 @@ const port = parentPort;
 if (port) {
   const { parts, seed, first, end, step } = workerData as FuzzTask;
   const draco: unknown = await draco3d.createDecoderModule();
-  // Pictures are other people's decoders: here it counts that the loader takes what they give or throw.
+  // Image decoders are external: only test that the loader handles what they return or throw.
   const decodeImage = (bytes: Uint8Array) =>
     bytes.length % 2
       ? Promise.reject(new Error('broken'))

@@ -1,16 +1,16 @@
 import { BvhError } from '../error';
 import { builtin } from './port';
 
-/** A web worker, as far as it is used here. */
+/** The part of a web worker's interface that is used here. */
 export interface WebWorkerLike {
   postMessage(message: unknown, transfer: Transferable[]): void;
   addEventListener(type: string, listener: (event: Event) => void): void;
   terminate(): void;
 }
 
-/** A `Worker` of Node's `worker_threads`, as far as it is used here. */
+/** The part of the interface of Node's `worker_threads` `Worker` that is used here. */
 export interface NodeWorkerLike {
-  // Node names its own transferables: any will do.
+  // Node has its own type of transferables: any will do.
   postMessage(message: unknown, transfer: readonly never[]): void;
   on(type: string, listener: (value: unknown) => void): unknown;
   terminate(): unknown;
@@ -18,15 +18,15 @@ export interface NodeWorkerLike {
   unref(): void;
 }
 
-/** The near end of a worker: the same for both kinds. */
-export interface WorkerLine {
+/** The pool's side of a worker: the same for both kinds. */
+export interface WorkerConnection {
   post(message: unknown, transfer: readonly ArrayBuffer[]): void;
   /** In Node: whether the worker keeps the process alive. */
   hold(on: boolean): void;
   terminate(): void;
 }
 
-/** Threads that this machine runs at a time. */
+/** Hardware threads of this machine. */
 export function hardwareThreads(): number {
   const { navigator } = globalThis as { navigator?: { readonly hardwareConcurrency?: number } };
   return (
@@ -39,9 +39,9 @@ export function hardwareThreads(): number {
 let elsewhere: string | undefined;
 
 /**
- * Starts the package's own worker file. From this page's origin no content security policy has to be widened for it.
- * From another one, a content delivery network say, browsers refuse; there a worker of a Blob imports the file, unless
- * the policy forbids that.
+ * Starts the package's own worker file. From the page's origin this needs only `worker-src 'self'`. From another
+ * origin, such as a content delivery network, browsers refuse; there a worker from a Blob imports the file, unless the
+ * content security policy forbids that.
  */
 export function startWorker(): WebWorkerLike | NodeWorkerLike {
   if (typeof Worker === 'function') {
@@ -61,19 +61,19 @@ export function startWorker(): WebWorkerLike | NodeWorkerLike {
   if (!threads)
     throw new BvhError(
       'bvh/worker',
-      'There are no workers here: neither Worker nor process.getBuiltinModule (Node 20.16 or later).',
+      'Workers are unavailable: there is neither Worker nor process.getBuiltinModule (Node 20.16 or later).',
     );
   // Not in that form, or they would add the file a second time.
   const { url } = import.meta;
   return new threads.Worker(new URL('./worker.js', url));
 }
 
-/** @param failed Told once, if the worker cannot be loaded, throws or ends by itself. */
+/** @param failed Called once, if the worker cannot be loaded, throws or exits. */
 export function connect(
   worker: WebWorkerLike | NodeWorkerLike,
-  heard: (message: unknown) => void,
+  received: (message: unknown) => void,
   failed: (why: string) => void,
-): WorkerLine {
+): WorkerConnection {
   let over = false;
   const fail = (why: string) => {
     if (over) return;
@@ -86,7 +86,7 @@ export function connect(
     void worker.terminate();
   };
   const hear = (message: unknown) => {
-    if (!over) heard(message);
+    if (!over) received(message);
   };
   if ('on' in worker) {
     worker.on('message', hear);

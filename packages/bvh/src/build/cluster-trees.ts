@@ -4,23 +4,23 @@ import type { Clusters } from './clusters';
 import type { NodeWriter } from './node-writer';
 import { NONE } from './gather';
 
-/** Most levels of nodes in a cluster. */
+/** Maximum number of levels of nodes in a cluster. */
 export const CLUSTER_DEPTH = 8;
 
 /**
- * Builds a small tree in each cluster, with leaves where they cost less than going on, and writes its nodes and the
- * triangles of its leaves behind what is there.
+ * Builds a small tree in each cluster, with leaves where they cost less than splitting, and appends its nodes and the
+ * triangles of its leaves.
  */
-export class Insides {
+export class ClusterTrees {
   readonly #clusters: Clusters;
   readonly #writer: NodeWriter;
   readonly #triangleIndices: Uint32Array;
   readonly #group: Agglomerator;
   readonly #below = new Uint8Array(2 * GROUP_MAX);
-  /** First primitive of the cluster at work. */
+  /** First primitive of the current cluster. */
   #first = 0;
   #size = 0;
-  /** Triangles that are written. */
+  /** Triangles written so far. */
   end = 0;
 
   /**
@@ -33,7 +33,7 @@ export class Insides {
     this.#group = new Agglomerator(maxLeaf);
   }
 
-  /** Does the clusters from one to another, and sets their boxes, weights and references. */
+  /** Builds the clusters from `from` up to `to`, and sets their boxes, weights and references. */
   build(from: number, to: number): void {
     const { boxes, weights, references, starts, primitives } = this.#clusters;
     const { names } = primitives,

@@ -1,21 +1,21 @@
 import { GROUP_MAX } from '../build/agglomerate';
 import { cutCell, cutCells, type Clusters } from '../build/clusters';
 import { NONE, type Sorted } from '../build/gather';
-import { Insides } from '../build/insides';
+import { ClusterTrees } from '../build/cluster-trees';
 import { NodeWriter } from '../build/node-writer';
 import { LEAF, LEFT, NODE_WORDS, PARENT, RIGHT } from '../layout';
 import type { Team } from './team';
 
-/** Clusters that one of both takes at a time: about a millisecond. */
+/** Clusters that a worker takes at a time: about a millisecond. */
 const CHUNK = 256;
 
-/** The trees in the clusters, where they were written: not yet where they belong. */
+/** The trees in the clusters, before their nodes are moved together. */
 export interface Inner {
   readonly clusters: Clusters;
   readonly writer: NodeWriter;
   /** Triangles in leaf order. */
   readonly leaves: Uint32Array;
-  /** The end of the nodes that lie in place. */
+  /** The end of the nodes that are in their final positions. */
   readonly end: number;
   /** The chunk from which on there are gaps, and for each chunk where its nodes begin and end. */
   readonly apart: number;
@@ -25,10 +25,10 @@ export interface Inner {
 }
 
 /**
- * Cuts primitives into clusters and builds the trees inside, as `cutClusters` and `Insides` do. The first goes through
- * the clusters from the front, the second from the back, until they meet.
+ * Cuts primitives into clusters and builds the trees inside, as `cutClusters` and `ClusterTrees` do. The first worker
+ * takes clusters from the front, the second from the back, until they meet.
  */
-export function shareInsides(primitives: Sorted, triangleCount: number, maxLeaf: number, team: Team): Inner {
+export function shareClusterTrees(primitives: Sorted, triangleCount: number, maxLeaf: number, team: Team): Inner {
   const { names } = primitives;
   const { starts, count } = shareCells(primitives, team);
   const clusters: Clusters = {
@@ -41,7 +41,7 @@ export function shareInsides(primitives: Sorted, triangleCount: number, maxLeaf:
   };
   const writer = writerOver(team.memory.nodes, primitives.count);
   const leaves = team.uint32(triangleCount);
-  const insides = new Insides(clusters, writer, leaves, maxLeaf);
+  const trees = new ClusterTrees(clusters, writer, leaves, maxLeaf);
   const chunks = Math.ceil(count / CHUNK),
     borders = team.uint32(2 * chunks);
   writer.count = count - 1;
@@ -51,13 +51,13 @@ export function shareInsides(primitives: Sorted, triangleCount: number, maxLeaf:
     const from = chunk * CHUNK,
       to = Math.min(count, from + CHUNK);
     if (team.index === 1) {
-      // As if each cluster before had all the nodes that it can have.
+      // As if each cluster before had the maximum number of nodes.
       borders[2 * chunk] = writer.count = count - 1 + (starts[from] as number) - from;
       for (let i = starts[from] as number; i < (starts[to] as number); i++)
         leavesEnd -= names[2 * i + 1] === NONE ? 1 : 2;
-      insides.end = leavesEnd;
+      trees.end = leavesEnd;
     }
-    insides.build(from, to);
+    trees.build(from, to);
     if (team.index === 1) borders[2 * chunk + 1] = writer.count;
   }
   const [first] = team.meet([done, writer.count]);
@@ -70,10 +70,10 @@ export function shareInsides(primitives: Sorted, triangleCount: number, maxLeaf:
 }
 
 /**
- * Copies the nodes in the clusters to where they belong, in memory of their own; before them is room for the others.
- * Nobody may want the `references` meanwhile, which are set right.
+ * Copies the nodes in the clusters to their final positions in new memory, with room for the others before them.
+ * Updates the `references`, which must not be read meanwhile.
  */
-export function placeInsides({
+export function placeClusterTrees({
   clusters: { references, count },
   writer,
   end,
@@ -105,18 +105,18 @@ export function placeInsides({
   return placed;
 }
 
-/** A writer over shared memory; everywhere but here it has memory of its own. */
+/** A writer over shared memory. */
 export const writerOver = (buffer: SharedArrayBuffer, capacity: number) =>
   new NodeWriter(capacity, buffer as ArrayBufferLike as ArrayBuffer);
 
-/** Cuts clusters, each those of about a half. */
+/** Cuts clusters; each worker those of about half of the primitives. */
 function shareCells({ codes, count }: Sorted, team: Team): Pick<Clusters, 'starts' | 'count'> {
-  // There are fewer clusters than primitives; where the second one's belong is not known before the first one's are
-  // there.
+  // There are fewer clusters than primitives; the position of the second worker's is known once the first has cut its
+  // own.
   const all = team.uint32(count + 1),
     behindMiddle = team.uint32(count + 1),
     own = team.index === 0 ? all : behindMiddle;
-  // The border of cells that lies next to the middle, and what is still to be cut there.
+  // The border of cells closest to the middle, and the ranges still to be cut there.
   const ends = [count];
   let border = 0;
   for (let end = count; end - border > GROUP_MAX; end = ends[ends.length - 1] as number) {

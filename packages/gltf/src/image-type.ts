@@ -12,25 +12,26 @@ const FORMATS = [
 ] as const;
 
 /**
- * The type of a picture by its first bytes. Decoders know more formats than glTF: SVG, for one, may name other files.
- * @throws {Error} if it has none of them.
+ * The type of an image by its first bytes. Only these are passed to decoders, which may know others: SVG, for example,
+ * can name other files.
+ * @throws {Error} if it is none of these formats.
  */
-export function pictureType(bytes: Uint8Array): string {
+export function imageType(bytes: Uint8Array): string {
   const found = FORMATS.find(([, magic]) => magic.every((byte, at) => byte === undefined || bytes[at] === byte));
-  if (!found) throw new Error('it is no PNG, JPEG, WebP, AVIF or KTX2');
+  if (!found) throw new Error('it is not a PNG, JPEG, WebP, AVIF or KTX2 file');
   return found[0];
 }
 
 /**
- * What the document says of an image's type where its bytes say otherwise; undefined if both agree or it says nothing.
+ * The declared type of an image if its bytes are of another one; undefined if both agree or none is declared.
  */
 export function wrongType({ mimeType, uri }: GltfImage, type: string): string | undefined {
-  const said = mimeType ?? (typeof uri === 'string' ? dataUri(uri)?.type : undefined);
-  // Types of no picture have been reported when the document was checked.
-  return FORMATS.some(([known]) => known === said && known !== type) ? said : undefined;
+  const declared = mimeType ?? (typeof uri === 'string' ? dataUri(uri)?.type : undefined);
+  // checkImages() has reported unknown types.
+  return FORMATS.some(([known]) => known === declared && known !== type) ? declared : undefined;
 }
 
-/** Characters of a data: uri that hold the first bytes of a picture. */
+/** Characters of a data: uri that hold the first bytes of an image. */
 const HEAD = 64;
 
 /** The first bytes of a data: uri; undefined if it has none that can be decoded. */

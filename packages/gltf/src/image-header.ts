@@ -1,12 +1,11 @@
-/** Chunks of a PNG that say what its colours mean or how it is turned. */
-const PNG_MEANING = new Set(['iCCP', 'gAMA', 'cHRM', 'sRGB', 'cICP', 'mDCV', 'cLLI', 'eXIf']);
+/** Chunks of a PNG for colour management and orientation. */
+const PNG_METADATA = new Set(['iCCP', 'gAMA', 'cHRM', 'sRGB', 'cICP', 'mDCV', 'cLLI', 'eXIf']);
 
 /**
- * An opaque JPEG or PNG without what it says of the meaning of its colours (profiles) and of its orientation (Exif), in
- * pieces of the bytes: every decoder gives the codes that are in the file. Undefined for what is transparent or of
- * another kind.
+ * An opaque JPEG or PNG without its colour profiles and orientation (Exif), as subarrays of the bytes, so that every
+ * decoder returns the values stored in the file. Undefined for images with transparency and other formats.
  */
-export function plainPicture(bytes: Uint8Array<ArrayBuffer>): Uint8Array<ArrayBuffer>[] | undefined {
+export function opaqueImageParts(bytes: Uint8Array<ArrayBuffer>): Uint8Array<ArrayBuffer>[] | undefined {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   if (bytes.length < 34) return undefined;
   return view.getUint32(0) === 0x89504e47
@@ -17,16 +16,16 @@ export function plainPicture(bytes: Uint8Array<ArrayBuffer>): Uint8Array<ArrayBu
 }
 
 function plainPng(bytes: Uint8Array<ArrayBuffer>, view: DataView): Uint8Array<ArrayBuffer>[] | undefined {
-  // Grey, RGB or a palette, of 8 bits at most.
+  // Grey, RGB or a palette, with max 8 bits.
   if (![0, 2, 3].includes(bytes[25] as number) || (bytes[24] as number) > 8) return undefined;
   const parts: Uint8Array<ArrayBuffer>[] = [];
   for (let at = 8, kept = 0; at + 12 <= bytes.length;) {
     const type = String.fromCharCode(...bytes.subarray(at + 4, at + 8));
     if (type === 'IDAT') return [...parts, bytes.subarray(kept)];
-    // Transparent, or moving.
+    // Transparent or animated.
     if (type === 'tRNS' || type === 'acTL') return undefined;
     const end = at + 12 + view.getUint32(at);
-    if (PNG_MEANING.has(type)) {
+    if (PNG_METADATA.has(type)) {
       parts.push(bytes.subarray(kept, at));
       kept = Math.min(end, bytes.length);
     }
@@ -40,7 +39,7 @@ function plainJpeg(bytes: Uint8Array<ArrayBuffer>, view: DataView): Uint8Array<A
   for (let at = 2, kept = 0; at + 10 <= bytes.length;) {
     const marker = view.getUint16(at);
     if (marker < 0xffc0 || marker === 0xffff) return undefined;
-    // Tables of scans: pixels from here on.
+    // Start of scan: pixels follow.
     if (marker === 0xffda) return [...parts, bytes.subarray(kept)];
     const end = at + 2 + view.getUint16(at + 2);
     // A frame of four components is CMYK.
@@ -56,14 +55,14 @@ function plainJpeg(bytes: Uint8Array<ArrayBuffer>, view: DataView): Uint8Array<A
   return undefined;
 }
 
-/** What deflate can make of a byte at most. */
+/** Max compression ratio of deflate. */
 const DEFLATE_RATIO = 1032;
 
 /**
- * The size that a PNG, JPEG or WebP says it has; undefined if it does not say so where it should.
- * @throws {Error} for a PNG that says more than its bytes can hold.
+ * The size in the header of a PNG, JPEG or WebP; undefined if it is not found.
+ * @throws {Error} for a PNG whose size exceeds what its bytes can encode.
  */
-export function pictureSize(
+export function imageSize(
   bytes: Uint8Array,
   type: string,
 ): { readonly width: number; readonly height: number } | undefined {
@@ -72,7 +71,7 @@ export function pictureSize(
     const size = { width: view.getUint32(16), height: view.getUint32(20) };
     const bits = (bytes[24] as number) * ([1, 0, 3, 1, 2, 0, 4][bytes[25] as number] ?? 4);
     if ((size.width * size.height * bits) / 8 > DEFLATE_RATIO * bytes.length + 65536)
-      throw new Error(`it says that ${bytes.length} bytes hold ${size.width} × ${size.height} pixels`);
+      throw new Error(`its header claims that ${bytes.length} bytes hold ${size.width} × ${size.height} pixels`);
     return size;
   }
   if (type === 'image/jpeg') {

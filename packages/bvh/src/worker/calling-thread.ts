@@ -2,10 +2,10 @@ import { yieldToEventLoop } from '../async';
 import { blasSteps, type Blas, type BlasOptions } from '../blas';
 import type { TriangleMesh } from '../layout';
 
-/** Without workers the thread is handed back after so many milliseconds of building; a step more can follow. */
+/** Milliseconds of building after which the thread yields; one more step can follow. */
 const SLICE_MS = 6;
 
-/** A build that somebody waits for. */
+/** A pending build. */
 export interface Job {
   readonly id: number;
   readonly mesh: TriangleMesh;
@@ -18,11 +18,11 @@ export interface Job {
   settled: boolean;
 }
 
-/** Builds what waits on the calling thread, in slices. */
-export class BuildsHere {
+/** Runs queued builds on the calling thread, in slices. */
+export class CallingThreadBuilds {
   #building = false;
 
-  /** Goes on until nothing waits; does nothing where it is at it. */
+  /** Builds until the queue is empty; does nothing if it is running already. */
   async run(queue: Job[]): Promise<void> {
     if (this.#building) return;
     this.#building = true;
@@ -37,7 +37,7 @@ export class BuildsHere {
       try {
         job.progress(0);
         const steps = blasSteps(job.mesh, job.options);
-        // What settles the job otherwise, an abort say, ends its build.
+        // A job that is settled otherwise, for example by an abort, ends its build.
         for (let step = steps.next(); !job.settled; step = steps.next()) {
           if (step.done) {
             job.progress(1);
@@ -52,7 +52,7 @@ export class BuildsHere {
         job.settle({ error });
       }
     }
-    // Within the turn in which the last one was done: who asks next finds either this running or the way free.
+    // In the same task as the last build, so that the next caller never finds this set while nothing runs.
     this.#building = false;
   }
 }
