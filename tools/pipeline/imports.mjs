@@ -162,6 +162,42 @@ function scriptOf(path) {
     .join('\n');
 }
 
+/** What a WESL file imports of its own package. */
+function weslImports(src, file) {
+  return [...readFileSync(file, 'utf8').matchAll(/^\s*import package::([\w:]+)::/gm)].flatMap(([, path]) => {
+    const base = join(src, ...path.split('::'));
+    const target = [`${base}.wesl`, `${base}.wgsl.ts`, `${base}.ts`].find((candidate) => existsSync(candidate));
+    return target ? [{ target, typeOnly: false }] : [];
+  });
+}
+
+/**
+ * A circle of folders, in words, or undefined. What lies in a folder of `src`, at any depth, counts as one; what lies in
+ * `src` itself is entries and what joins the topics, and counts file by file.
+ */
+function findFolderCycle(src, graph) {
+  const nodeOf = (file) => {
+    const [first, ...rest] = relative(src, file).split(sep);
+    return rest.length > 0 ? `${first}/` : first;
+  };
+  /** @type {Map<string, Map<string, string>>} node → node that it imports → the first import that shows it */
+  const folders = new Map();
+  for (const [file, edges] of graph) {
+    const from = nodeOf(file);
+    if (!folders.has(from)) folders.set(from, new Map());
+    for (const { target } of edges) {
+      const to = nodeOf(target);
+      if (to !== from && !folders.get(from).has(to))
+        folders.get(from).set(to, `${relative(src, file)} imports ${relative(src, target)}`);
+    }
+  }
+  const cycle = findCycle([...folders.keys()], (node) => [...(folders.get(node)?.keys() ?? [])]);
+  return cycle
+    ?.slice(1)
+    .map((node, i) => folders.get(cycle[i]).get(node))
+    .join(', ');
+}
+
 /** Files that may use Node: the thin edge of a library, and the command line as a whole. */
 const isNodeFile = (p, file) =>
   p.short === 'cli' || /^src[\\/](node\.ts$|node[\\/]|.*\.node\.ts$)/.test(relative(p.dir, file));
@@ -259,14 +295,18 @@ export function checkPackage(p, { arrows, all, rootManifest, base }) {
     if (isSource) graph.set(file, edges);
   }
 
-  // Cycles among files: types may point both ways, running code may not.
-  const cycle = findCycle([...graph.keys()], (file) =>
-    (graph.get(file) ?? []).filter((edge) => !edge.typeOnly).map((edge) => edge.target),
-  );
+  // Types count too: whoever reads one of two files that import each other must read both.
+  for (const file of published ? sourceFiles(join(p.dir, 'src'), /\.wesl$/) : [])
+    graph.set(file, weslImports(join(p.dir, 'src'), file));
+  const cycle = findCycle([...graph.keys()], (file) => (graph.get(file) ?? []).map((edge) => edge.target));
   if (cycle)
     problems.push(
       `${p.short}: files import each other in a circle: ${cycle.map((file) => relative(p.dir, file)).join(' → ')}`,
     );
+  else if (published) {
+    const circle = findFolderCycle(join(p.dir, 'src'), graph);
+    if (circle) problems.push(`${p.short}: folders import each other in a circle: ${circle}`);
+  }
 
   if (published) {
     // No browser entry may reach a file of the Node edge.

@@ -1,16 +1,11 @@
 import { parseArgs, type ParseArgsConfig } from 'node:util';
 import { TONE_MAPS, isToneMap, type ToneMap } from '@glanz/tonemap';
-import { parseConvert } from './commands/convert';
 import { CliError } from './errors';
 import { parseExposure } from './exposure';
-import { parseBench } from './commands/bench';
-import { parseInfo } from './commands/info';
-import { parseMerge } from './commands/merge';
-import { parseServe } from './commands/serve';
 import { formatOf, type OutputTarget } from './output/formats';
 import { RENDER_FLAGS, settingsOf, type FlagSettings } from './render-flags';
-import { checkPlaceholders } from './render/shots';
-import { parseView, turntable, type View } from './render/views';
+import { checkPlaceholders } from './output/placeholders';
+import { parseView, turntable, type View } from './views';
 
 /** Which moment of the model is shown: names or numbers. */
 export interface PoseOptions {
@@ -73,18 +68,6 @@ export interface RenderCommand extends ReportOptions {
   /** Names of GPUs that share the work; none: the best one. */
   readonly gpus: readonly string[];
 }
-
-/** What the command line asks for. */
-export type Command =
-  | { readonly kind: 'help'; readonly topic: string | undefined }
-  | { readonly kind: 'version' }
-  | ({ readonly kind: 'list-gpus' } & ReportOptions)
-  | ReturnType<typeof parseConvert>
-  | ReturnType<typeof parseInfo>
-  | ReturnType<typeof parseBench>
-  | ReturnType<typeof parseServe>
-  | ReturnType<typeof parseMerge>
-  | RenderCommand;
 
 const OPTIONS = {
   output: { type: 'string', short: 'o', multiple: true },
@@ -152,7 +135,7 @@ export function presentNames<T extends RenderValues>(values: T, warn: (text: str
 }
 
 /** What the command line said of pictures, not yet checked. */
-export type RenderValues = Omit<Partial<ReturnType<typeof parse>['values']>, (typeof NOT_OF_PICTURES)[number]>;
+export type RenderValues = Omit<Partial<ReturnType<typeof parseOptions>['values']>, (typeof NOT_OF_PICTURES)[number]>;
 
 /** Options of the command, not of a picture. */
 const NOT_OF_PICTURES = [
@@ -179,7 +162,8 @@ export const BATCH_KEYS: Readonly<Record<string, 'text' | 'boolean' | 'list'>> =
 
 const MAX_SIDE = 65536;
 
-const usage = (message: string) => new CliError('cli/usage', message);
+/** The error of a command line that cannot be carried out. */
+export const usage = (message: string) => new CliError('cli/usage', message);
 
 /** Number of single-letter edits between two words, for "did you mean". */
 function editDistance(a: string, b: string): number {
@@ -200,7 +184,8 @@ function editDistance(a: string, b: string): number {
   return row[b.length] as number;
 }
 
-function closest(word: string, words: readonly string[]): string {
+/** The word that `word` is probably a misspelling of; empty if there is none. */
+export function closest(word: string, words: readonly string[]): string {
   const best = words.map((w) => ({ w, d: editDistance(word, w) })).sort((a, b) => a.d - b.d)[0];
   return best && best.d <= Math.max(1, Math.floor(word.length / 3)) ? best.w : '';
 }
@@ -218,7 +203,8 @@ function joinNegativeNumbers(argv: readonly string[]): string[] {
   return out;
 }
 
-function parse(argv: readonly string[]) {
+/** Splits the command line into options and positional arguments. @throws {CliError} `cli/usage` */
+export function parseOptions(argv: readonly string[]) {
   try {
     return parseArgs({ args: joinNegativeNumbers(argv), options: OPTIONS, allowPositionals: true, strict: true });
   } catch (cause) {
@@ -325,61 +311,4 @@ function viewsOf({ camera, view, turntable: steps, elevation }: RenderValues): V
   ];
   if (views.length === 0 || camera !== undefined) views.unshift({ kind: 'camera', name: 'camera', camera });
   return views;
-}
-
-/**
- * Reads the command line.
- *
- * @throws {CliError} `cli/usage`, with what to do about it.
- */
-export function parseCommand(argv: readonly string[]): Command {
-  const [first] = argv;
-  const help = argv.includes('--help') || argv.includes('-h');
-  if (first === 'help' || help)
-    return { kind: 'help', topic: first === 'help' ? argv[1] : first?.startsWith('-') ? undefined : first };
-  if (first === 'convert') return parseConvert(argv.slice(1));
-  if (first === 'info') return parseInfo(argv.slice(1));
-  if (first === 'bench') return parseBench(argv.slice(1));
-  if (first === 'serve') return parseServe(argv.slice(1));
-  if (first === 'merge') return parseMerge(argv.slice(1));
-  const { values: given, positionals } = parse(argv);
-  const warnings: string[] = [];
-  const values = presentNames(given, (text) => warnings.push(text));
-  if (values.version) return { kind: 'version' };
-  const report: ReportOptions = { json: values.json ?? false, quiet: values.quiet ?? false };
-  if (values['list-gpus']) return { kind: 'list-gpus', ...report };
-  const [command, model, ...rest] = positionals;
-  if (command === undefined) {
-    if (argv.length === 0) return { kind: 'help', topic: undefined };
-    throw usage('No command given. Use glanz render MODEL; see glanz --help.');
-  }
-  const commands = ['render', 'convert', 'info', 'bench', 'serve', 'merge'];
-  if (command !== 'render') {
-    if (commands.includes(command)) throw usage(`"${command}" comes first: glanz ${command} …; see glanz --help.`);
-    const guess = closest(command, commands);
-    throw usage(
-      `Unknown command "${command}".${guess ? ` Did you mean glanz ${guess}?` : ' Use glanz render MODEL;'} See glanz --help.`.replace(
-        '; See',
-        '; see',
-      ),
-    );
-  }
-  if (rest.length > 0) throw usage(`One model at a time: what is "${rest[0]}"? Several go into a batch file: --batch.`);
-  if (model === undefined && values.batch === undefined)
-    throw usage('No model given. Use glanz render MODEL, a .glb or .gltf file.');
-  if (values['output-root'] !== undefined && values.batch === undefined)
-    throw usage('--output-root limits where a batch file may write, and belongs to --batch.');
-  if (values.checkpoint !== undefined) checkPlaceholders(values.checkpoint, '--checkpoint');
-  return {
-    kind: 'render',
-    ...report,
-    options: values.batch === undefined ? renderOptions(values, model as string) : undefined,
-    batch: values.batch,
-    outputRoot: values['output-root'],
-    values: { ...values, model },
-    resume: values.resume ?? false,
-    checkpoint: values.checkpoint,
-    warnings,
-    gpus: values.gpu ?? [],
-  };
 }

@@ -9,7 +9,7 @@ import { serveCommand } from './commands/serve';
 import { describeError, errorLine, EXIT, exitCodeOf } from './errors';
 import { helpOf } from './help';
 import { nodeIo, type CliIo } from './io';
-import { parseCommand } from './options';
+import { parseCommand } from './command';
 import { ProgressReporter } from './progress';
 import { version } from './version';
 import { jsonLine, visible } from './visible';

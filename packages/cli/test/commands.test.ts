@@ -7,7 +7,7 @@ import { describe, expect, it, onTestFinished } from 'vitest';
 import { benchScene } from '../src/commands/bench';
 import { fileServer, serveCommand } from '../src/commands/serve';
 import { HELP, helpOf } from '../src/help';
-import { parseCommand } from '../src/options';
+import { parseCommand } from '../src/command';
 import { fakeIo, run, temporaryFolder, triangleScene } from './fakes';
 
 const folder = () => temporaryFolder({ 'm.glb': '' });

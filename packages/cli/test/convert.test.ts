@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { existsSync } from 'node:fs';
 import { join } from 'node:path';
 import { convertCommand, parseConvert } from '../src/commands/convert';
-import { parseCommand } from '../src/options';
+import { parseCommand } from '../src/command';
 import type { CliIo } from '../src/index';
 import { temporaryFolder } from './fakes';
 

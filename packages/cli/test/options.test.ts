@@ -2,7 +2,8 @@ import { describe, expect, it } from 'vitest';
 import { RENDER_OPTION_TEXTS, RENDER_OPTIONS, type RenderOption } from '@glanz/renderer/options';
 import { HELP } from '../src/help';
 import { CliError } from '../src/index';
-import { parseCommand, type RenderCommandOptions } from '../src/options';
+import type { RenderCommandOptions } from '../src/options';
+import { parseCommand } from '../src/command';
 import { FLAG_OPTIONS, flagOf } from '../src/render-flags';
 
 const options = (...argv: string[]): RenderCommandOptions => {

@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs';
 import { encodeHdr } from '@glanz/image';
 import { describe, expect, it } from 'vitest';
 import { HELP } from '../src/help';
-import { parseCommand } from '../src/options';
+import { parseCommand } from '../src/command';
 import { run, temporaryFolder, triangleScene } from './fakes';
 
 const README = readFileSync(new URL('../README.md', import.meta.url), 'utf8');

@@ -1,6 +1,6 @@
 import { createScene, type Camera, type Scene } from '@glanz/scene';
 import { describe, expect, it } from 'vitest';
-import { cameraOf, parseView, turntable } from '../src/render/views';
+import { cameraOf, parseView, turntable } from '../src/views';
 
 /** A box of 2 × 1 × 0.5 m about a point, as its eight corners in twelve triangles. */
 function box(center: readonly [number, number, number]): Scene {

@@ -144,6 +144,21 @@ describe('the import check', () => {
       /circle: src\/compose.ts → src\/error.ts → src\/compose.ts/,
     ],
     [
+      'a circle of types',
+      { 'packages/wgsl/src/error.ts': `import type { C } from './compose';\nexport class E { c?: C }` },
+      /circle: src\/compose.ts → src\/error.ts → src\/compose.ts/,
+    ],
+    [
+      'a circle of folders',
+      {
+        'packages/wgsl/src/a/one.ts': `import '../b/two';`,
+        'packages/wgsl/src/b/two.ts': `export {};`,
+        'packages/wgsl/src/b/three.wesl': `import package::a::four::{f};\n`,
+        'packages/wgsl/src/a/four.wesl': `fn f() {}\n`,
+      },
+      /wgsl: folders.*a\/one.ts imports b\/two.ts, b\/three.wesl imports a\/four.wesl/,
+    ],
+    [
       'a circle of packages',
       { 'ARCHITECTURE.md': ARCHITECTURE.replace('| nothing |', '| `scene` |') },
       /packages import each other in a circle/,

@@ -13,7 +13,7 @@ import type { Job } from './queue';
 import { readPicture } from './read-picture';
 import { sceneKey, variantIndex, type PreparedScene, type SceneLoader } from './scene';
 import { shotLabel, type Shot } from './shots';
-import { cameraOf } from './views';
+import { cameraOf } from '../views';
 
 /** Milliseconds per stage. */
 export interface RenderTimings {

@@ -1,7 +1,8 @@
+import { PLACEHOLDER } from '../output/placeholders';
 import { CliError } from '../errors';
 import type { RenderCommandOptions } from '../options';
 import type { OutputTarget } from '../output/formats';
-import { fileNamePart, type View } from './views';
+import { fileNamePart, type View } from '../views';
 
 /** One picture of those that a command asks for. */
 export interface Shot {
@@ -13,22 +14,6 @@ export interface Shot {
   readonly outputs: readonly OutputTarget[];
   /** Likewise; `undefined`: samples are kept in memory only. */
   readonly checkpoint: string | undefined;
-}
-
-const PLACEHOLDER = /\{(\w+)\}/g;
-const NAMES = ['model', 'variant', 'view'];
-
-/** Whether a path has places for names. */
-export const hasPlaceholders = (path: string): boolean => path.search(PLACEHOLDER) >= 0;
-
-/** @throws {CliError} `cli/usage` for a place that nothing is known for. */
-export function checkPlaceholders(path: string, option = '--output'): void {
-  for (const [whole, name] of path.matchAll(PLACEHOLDER))
-    if (!NAMES.includes(name as string))
-      throw new CliError(
-        'cli/usage',
-        `${option} "${path}": ${whole} is unknown. Known: ${NAMES.map((known) => `{${known}}`).join(', ')}.`,
-      );
 }
 
 function filled(path: string, names: Readonly<Record<string, string>>, several: readonly string[]): string {

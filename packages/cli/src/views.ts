@@ -1,6 +1,6 @@
 import { frameCamera, sceneBounds, type Camera, type PerspectiveCamera, type Scene } from '@glanz/scene';
 import { dot, lerp, scaleAndAdd, subtract } from 'gl-matrix/esm/vec3.js';
-import { chooseCamera, lookAt } from '../camera';
+import { chooseCamera, lookAt } from './camera';
 
 /** Where a picture is taken from. */
 export type View =

@@ -1,0 +1,38 @@
+import { describe, expect, it } from 'vitest';
+import { findWords, readWords } from '../words.mjs';
+
+const TABLE = `# Title
+
+| avoid | say |
+|---|---|
+| \`picture…\` | image, texture or frame |
+| \`anew\`, \`by and by\` | again |
+
+| other | table |
+|---|---|
+| \`word\` | x |
+`;
+const found = (text: string) => findWords(text, readWords(TABLE)).map(({ line, word, say }) => [line, word, say]);
+
+describe('words to avoid', () => {
+  it('are read from their table alone', () => {
+    expect(readWords(TABLE).map(({ say }) => say)).toEqual(['image, texture or frame', 'again', 'again']);
+    expect(readWords('no table')).toEqual([]);
+  });
+
+  it('are found in texts and as parts of names, in each form', () => {
+    const say = 'image, texture or frame';
+    expect(found('// A picture.\nconst pictureOf = readPictures(pictures);')).toEqual([
+      [1, 'picture', say],
+      [2, 'picture', say],
+      [2, 'Picture', say],
+      [2, 'picture', say],
+    ]);
+    expect(found('Rendered anew,\nby\n * and by')).toEqual([[1, 'anew', 'again']]);
+    expect(found('it goes by  and by')).toEqual([[1, 'by  and by', 'again']]);
+  });
+
+  it('are not found inside of other words, or where they mean something else', () => {
+    expect(found('<picture><img></picture> a new one, renewal, depicturer')).toEqual([]);
+  });
+});
