@@ -1,13 +1,13 @@
 import { GlanzError } from '@glanz/wgsl/error';
 
 /**
- * Thrown when bytes are not the picture they claim to be, or a picture cannot be written. `location.byteOffset` is set
+ * Thrown when bytes are not a valid image of their format, or an image cannot be written. `location.byteOffset` is set
  * where it is known. Codes: `image/format` (not that kind of file), `image/header`, `image/size`, `image/truncated`,
  * `image/corrupt`, `image/unsupported` (valid, but not something this package reads), `image/channels`.
  */
 export class ImageError extends GlanzError {}
 
-/** Something a decoder worked around. */
+/** A fault that a decoder worked around. */
 export interface ImageWarning {
   /** Stable, machine-readable: `image/<what>`. */
   readonly code: string;
@@ -15,9 +15,9 @@ export interface ImageWarning {
   readonly message: string;
 }
 
-/** Limits a decoder keeps to before it allocates anything. */
+/** Limits that a decoder checks before it allocates memory. */
 export interface DecodeOptions {
-  /** The most pixels a picture may have; default 2^26, which is 8192 × 8192. */
+  /** Maximum number of pixels of an image; default 2^26, which is 8192 × 8192. */
   readonly maxPixels?: number;
 }
 
@@ -25,9 +25,9 @@ export interface DecodeOptions {
 export const MAX_PIXELS = 2 ** 26;
 
 /**
- * Memory for a picture, zeros.
+ * Zero-filled memory for an image.
  * @param numbers A pixel.
- * @throws {ImageError} `image/size` if there is not as much.
+ * @throws {ImageError} `image/size` if there is not enough memory.
  */
 export function allocateFloats(
   what: string,
@@ -40,7 +40,7 @@ export function allocateFloats(
   } catch (cause) {
     throw new ImageError(
       'image/size',
-      `${what}: there is no memory for ${width}×${height} pixels; scale the picture down.`,
+      `${what}: there is not enough memory for ${width}×${height} pixels; scale the image down.`,
       { cause },
     );
   }
@@ -49,7 +49,10 @@ export function allocateFloats(
 /** @throws {ImageError} `image/size` unless both sides are positive integers and their product is within the limit. */
 export function checkSize(what: string, width: number, height: number, maxPixels: number = MAX_PIXELS): void {
   if (!Number.isInteger(width) || !Number.isInteger(height) || width < 1 || height < 1) {
-    throw new ImageError('image/size', `${what}: a picture of ${width}×${height} pixels is not possible.`);
+    throw new ImageError(
+      'image/size',
+      `${what}: an image of ${width}×${height} pixels is not possible; both sides must be positive integers.`,
+    );
   }
   if (width * height > maxPixels) {
     throw new ImageError(

@@ -5,7 +5,7 @@ export type ExrType = 'half' | 'float' | 'uint';
 export interface ExrChannelInfo {
   readonly name: string;
   readonly type: ExrType;
-  /** Whether the channel is meant to be perceived as linear: some compressions treat it otherwise. */
+  /** Whether the channel is perceptually linear: some compressions treat it differently. */
   readonly linear: boolean;
 }
 

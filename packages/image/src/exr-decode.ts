@@ -24,16 +24,16 @@ export interface ExrImage {
   readonly channels: ReadonlyMap<string, ExrChannel>;
   /** The header's attributes of type `string`. */
   readonly attributes: ReadonlyMap<string, string>;
-  /** x and y of red, green, blue and white, if the file says them; without, they are Rec.709's. */
+  /** x and y of red, green, blue and white, if the file has them; otherwise Rec.709's. */
   readonly chromaticities?: readonly number[];
-  /** What was worked around. */
+  /** Faults that were worked around. */
   readonly warnings: readonly ImageWarning[];
 }
 
 interface Method {
   readonly lines: number;
   /**
-   * Bytes that one packed byte can stand for at most: data that claims more is refused before anything is allocated.
+   * Maximum number of bytes that one packed byte can expand to: data that claims more is refused before allocation.
    */
   readonly ratio: number;
   readonly unpack: (packed: Uint8Array, block: ExrBlock, size: number) => Uint8Array | undefined;
@@ -57,7 +57,7 @@ const METHODS: Readonly<Record<ExrCompressionName, Method>> = {
 
 /**
  * Decodes an OpenEXR file: lines or tiles (of several resolutions the finest), all of the format's own compressions
- * (RLE, ZIP, ZIPS, PIZ, PXR24, B44, B44A, DWAA, DWAB); of several pictures in a file, the first. Deep data and
+ * (RLE, ZIP, ZIPS, PIZ, PXR24, B44, B44A, DWAA, DWAB); of several parts in a file, the first. Deep data and
  * subsampled channels are refused with `image/unsupported`.
  *
  * @throws {ImageError} `image/format`, `image/header`, `image/size`, `image/truncated`, `image/corrupt`,
@@ -79,7 +79,7 @@ export function decodeExr(bytes: Uint8Array, options: DecodeOptions = {}): ExrIm
   // Each block is announced in the table of offsets, and has a head of its own.
   reader.need(blocks * 16 + Math.floor((lineBytes * height) / ratio));
   const table = reader.at;
-  const picture: Picture = {
+  const target: Target = {
     header,
     several,
     tile,
@@ -98,7 +98,7 @@ export function decodeExr(bytes: Uint8Array, options: DecodeOptions = {}): ExrIm
     ),
     seen: new Uint8Array(blocks),
   };
-  const misplaced = header.tile || several ? readByTable(reader, table, picture) : readInOrder(reader, table, picture);
+  const misplaced = header.tile || several ? readByTable(reader, table, target) : readInOrder(reader, table, target);
   const warnings: ImageWarning[] =
     misplaced === 0
       ? []
@@ -116,14 +116,14 @@ export function decodeExr(bytes: Uint8Array, options: DecodeOptions = {}): ExrIm
   return {
     width,
     height,
-    channels: picture.out,
+    channels: target.out,
     attributes: header.attributes,
     ...(header.chromaticities ? { chromaticities: header.chromaticities } : {}),
     warnings,
   };
 }
 
-interface Picture {
+interface Target {
   readonly header: ExrHeader;
   readonly several: boolean;
   readonly tile: { readonly width: number; readonly height: number };
@@ -134,39 +134,39 @@ interface Picture {
 }
 
 /** Lines come one block after the other; the table of offsets is only needed for jumping about, and checked here. */
-function readInOrder(reader: Reader, table: number, picture: Picture): number {
-  const blocks = picture.seen.length;
+function readInOrder(reader: Reader, table: number, target: Target): number {
+  const blocks = target.seen.length;
   reader.take(blocks * 8);
   let misplaced = 0;
   for (let i = 0; i < blocks; i++) {
     const byteOffset = reader.at;
-    const index = readBlock(reader, picture);
+    const index = readBlock(reader, target);
     if (reader.view.getBigUint64(table + index * 8, true) !== BigInt(byteOffset)) misplaced++;
   }
   return misplaced;
 }
 
-/** Tiles, and blocks among those of other pictures, are found by the table; the finest resolution comes first in it. */
-function readByTable(reader: Reader, table: number, picture: Picture): number {
+/** Tiles, and blocks among those of other parts, are found by the table; the finest resolution comes first in it. */
+function readByTable(reader: Reader, table: number, target: Target): number {
   const { length } = reader.bytes;
-  for (let i = 0; i < picture.seen.length; i++) {
+  for (let i = 0; i < target.seen.length; i++) {
     const at = reader.view.getBigUint64(table + i * 8, true);
     if (at < BigInt(table) || at >= BigInt(length))
       throw new ImageError('image/corrupt', `EXR: block ${i} should lie at byte ${at}, which is not in the file.`, {
         location: { byteOffset: table + i * 8 },
       });
     reader.at = Number(at);
-    if (picture.several && reader.int() !== 0)
-      throw new ImageError('image/corrupt', `EXR: the block at byte ${at} belongs to another picture.`, {
+    if (target.several && reader.int() !== 0)
+      throw new ImageError('image/corrupt', `EXR: the block at byte ${at} belongs to another part.`, {
         location: { byteOffset: Number(at) },
       });
-    readBlock(reader, picture);
+    readBlock(reader, target);
   }
   return 0;
 }
 
 /** Reads the block at the reader's place. Returns its number. */
-function readBlock(reader: Reader, { header, tile, columns, out, seen }: Picture): number {
+function readBlock(reader: Reader, { header, tile, columns, out, seen }: Target): number {
   const { channels, width, height, y0, compression } = header;
   const byteOffset = reader.at;
   const corrupt = (what: string) =>
@@ -185,7 +185,7 @@ function readBlock(reader: Reader, { header, tile, columns, out, seen }: Picture
   } else index = (reader.int() - y0) / tile.height;
   const packed = reader.take(reader.int());
   if (!Number.isInteger(index) || index < 0 || index >= seen.length || seen[index])
-    throw corrupt('is for a line outside the picture, or repeats one');
+    throw corrupt('is for a line outside the image, or repeats one');
   seen[index] = 1;
   const x = (index % columns) * tile.width,
     y = Math.floor(index / columns) * tile.height;

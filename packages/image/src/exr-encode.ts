@@ -14,7 +14,7 @@ export interface ExrLayer {
   readonly channels: Readonly<Record<string, Float32Array | Uint32Array>>;
 }
 
-/** What {@link encodeExr} takes. */
+/** Input of {@link encodeExr}. */
 export interface ExrSource {
   readonly width: number;
   readonly height: number;
@@ -49,7 +49,7 @@ function flatten(layers: readonly ExrLayer[], pixels: number): Channel[] {
       if (!/^[\x20-\x7e]{1,255}$/.test(name))
         throw new ImageError(
           'image/channels',
-          `EXR: "${name}" is not a possible channel name (1–255 characters of ASCII).`,
+          `EXR: "${name}" is not a valid channel name (1–255 characters of ASCII).`,
         );
       channels.push({ name, type: layer.type ?? (data instanceof Uint32Array ? 'uint' : 'half'), data });
     }
@@ -107,7 +107,7 @@ function header(
     attribute('pixelAspectRatio', 'float', numbers('f', 1)),
     attribute('screenWindowCenter', 'v2f', numbers('ff', 0, 0)),
     attribute('screenWindowWidth', 'float', numbers('f', 1)),
-    // Rec.709 primaries and D65, which readers also assume when it is missing; said for certainty.
+    // Rec.709 primaries and D65, which readers also assume when it is missing; written to be explicit.
     attribute('chromaticities', 'chromaticities', numbers('ffffffff', 0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329)),
     ...Object.entries(attributes).map(([name, value]) => attribute(name, 'string', text(value))),
     Uint8Array.of(0),
@@ -142,8 +142,8 @@ function block(
 /**
  * Encodes layers of linear numbers as an OpenEXR file: scanlines, single part, ZIP or no compression.
  *
- * @throws {ImageError} `image/size` for a channel of the wrong length, `image/channels` for missing, doubled or
- * impossible names.
+ * @throws {ImageError} `image/size` for a channel of the wrong length, `image/channels` for missing, duplicate or
+ * invalid names.
  * @example
  * encodeExr({ width, height, layers: [{ name: '', channels: { R, G, B, A } }, { name: 'depth', type: 'float', channels:
  * { Z } }] });

@@ -47,7 +47,7 @@ export class Reader {
   }
 }
 
-/** What a file says of a picture. */
+/** The header of an image. */
 export interface ExrHeader {
   readonly channels: readonly ExrChannelInfo[];
   readonly compression: ExrCompressionName;
@@ -59,7 +59,7 @@ export interface ExrHeader {
   readonly tile?: { readonly width: number; readonly height: number };
   readonly attributes: ReadonlyMap<string, string>;
   /**
-   * Whether the pixels that are there are other ones than those of the whole picture (data window and display window).
+   * Whether the stored pixels differ from those of the whole image (data window and display window).
    */
   readonly cropped: boolean;
   /** x and y of red, green, blue and white. */
@@ -89,7 +89,7 @@ function readChannels(value: Uint8Array): ExrChannelInfo[] {
   return channels;
 }
 
-/** Checks the beginning of a file. Returns whether it holds several pictures, or one in tiles. */
+/** Checks the beginning of a file. Returns whether it holds several parts, or one in tiles. */
 export function readVersion(reader: Reader): { readonly several: boolean; readonly tiled: boolean } {
   if (reader.bytes.length < 8 || reader.int() !== EXR_MAGIC)
     throw new ImageError('image/format', 'EXR: the file does not start with the OpenEXR magic number.', {
@@ -99,11 +99,11 @@ export function readVersion(reader: Reader): { readonly several: boolean; readon
   if ((version & 0xff) !== 2)
     throw new ImageError('image/unsupported', `EXR: version ${version & 0xff} of the format is not supported.`);
   if (version & 0x800)
-    throw new ImageError('image/unsupported', 'EXR: deep pictures are not supported; save as a flat image.');
+    throw new ImageError('image/unsupported', 'EXR: deep images are not supported; save as a flat image.');
   return { several: (version & 0x1000) !== 0, tiled: (version & 0x200) !== 0 };
 }
 
-/** Reads one header; undefined for the empty one that ends those of several pictures. */
+/** Reads one header; undefined for the empty one that ends those of several parts. */
 export function readHeader(reader: Reader, tiled: boolean): ExrHeader | undefined {
   const header = new Map<string, Uint8Array>();
   const attributes = new Map<string, string>();
@@ -124,7 +124,7 @@ export function readHeader(reader: Reader, tiled: boolean): ExrHeader | undefine
   const channels = readChannels(header.get('channels') as Uint8Array);
   const code = attribute('compression', 1).getUint8(0);
   const compression = COMPRESSION_NAMES[code];
-  if (!compression) throw new ImageError('image/header', `EXR: compression ${code} is not known.`);
+  if (!compression) throw new ImageError('image/header', `EXR: compression ${code} is unknown.`);
   const window = attribute('dataWindow', 16);
   const [x0, y0, x1, y1] = [0, 4, 8, 12].map((at) => window.getInt32(at, true)) as [number, number, number, number];
   const width = x1 - x0 + 1;
@@ -149,7 +149,7 @@ export function readHeader(reader: Reader, tiled: boolean): ExrHeader | undefine
   };
   const type = attributes.get('type');
   if (type?.startsWith('deep'))
-    throw new ImageError('image/unsupported', 'EXR: deep pictures are not supported; save as a flat image.');
+    throw new ImageError('image/unsupported', 'EXR: deep images are not supported; save as a flat image.');
   if (!tiled && type !== 'tiledimage') return common;
   const tiles = attribute('tiles', 9);
   const tile = { width: tiles.getUint32(0, true), height: tiles.getUint32(4, true) };

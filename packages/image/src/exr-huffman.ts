@@ -4,7 +4,7 @@ const SHORT_RUN = 59;
 const LONG_RUN = 63;
 /** Codes that a table finds at once. */
 const TABLE_BITS = 12;
-/** Longer codes cannot come from pictures, and would not be exact in a number. */
+/** Longer codes cannot come from images, and would not be exact in a number. */
 const LONGEST = 52;
 
 /**

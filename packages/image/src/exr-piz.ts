@@ -59,7 +59,7 @@ function pairOf16(l: number, h: number): readonly [number, number] {
 
 /**
  * The two-dimensional wavelet, from the coarsest level down.
- * @param most The largest number: below 2^14 no sum overflows, which another variant makes use of.
+ * @param max The largest number: below 2^14 no sum overflows, which a simpler variant relies on.
  */
 function undoWavelet(
   data: Uint16Array,
@@ -68,9 +68,9 @@ function undoWavelet(
   ox: number,
   ny: number,
   oy: number,
-  most: number,
+  max: number,
 ): void {
-  const pair = most < 1 << 14 ? pairOf14 : pairOf16;
+  const pair = max < 1 << 14 ? pairOf14 : pairOf16;
   const two = (i: number, j: number) => {
     const [a, b] = pair(data[i] as number, data[j] as number);
     data[i] = a;

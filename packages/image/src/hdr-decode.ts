@@ -1,13 +1,13 @@
 import { allocateFloats, checkSize, ImageError, type DecodeOptions, type ImageWarning } from './error';
 import { primariesWarning } from './primaries';
 
-/** A decoded linear picture. */
+/** A decoded linear image. */
 export interface HdrImage {
   readonly width: number;
   readonly height: number;
   /** RGB interleaved, stride 3, linear, top row first; finite and not negative. */
   readonly data: Float32Array<ArrayBuffer>;
-  /** What was worked around. */
+  /** Faults that were worked around. */
   readonly warnings: readonly ImageWarning[];
 }
 
@@ -30,7 +30,7 @@ const MAX_FLOAT = 3.4028234663852886e38;
 
 function readHeader(bytes: Uint8Array): Header {
   if (bytes[0] !== 0x23 || bytes[1] !== 0x3f) {
-    throw new ImageError('image/format', 'HDR: the file does not start with "#?", so it is not a Radiance picture.', {
+    throw new ImageError('image/format', 'HDR: the file does not start with "#?", so it is not a Radiance image.', {
       location: { byteOffset: 0 },
     });
   }
@@ -72,7 +72,7 @@ function readHeader(bytes: Uint8Array): Header {
   else if (format !== '32-bit_rle_rgbe') {
     throw new ImageError(
       'image/unsupported',
-      `HDR: format "${format.slice(0, 40)}" is not supported, only 32-bit_rle_rgbe; convert the picture.`,
+      `HDR: format "${format.slice(0, 40)}" is not supported, only 32-bit_rle_rgbe; convert the image.`,
     );
   }
   const at = offset;
@@ -139,7 +139,7 @@ function readLine(bytes: Uint8Array, start: number, length: number, line: Uint8A
 }
 
 /**
- * Bytes that a line takes at least: one pixel, and markers of the older run-length scheme, the first of which repeats
+ * Minimum bytes of a line: one pixel, and markers of the older run-length scheme, the first of which repeats
  * it up to 255 times and each one more 256 times as often. The newer scheme takes more.
  */
 function shortestLine(length: number): number {
@@ -149,9 +149,9 @@ function shortestLine(length: number): number {
 }
 
 /**
- * Decodes a Radiance HDR (RGBE) picture: flat pixels, old and new run-length coding, all eight orientations.
+ * Decodes a Radiance HDR (RGBE) image: flat pixels, old and new run-length coding, all eight orientations.
  * A component is mantissa · 2^(exponent − 136), divided by the header's EXPOSURE and COLORCORR if there are any, which
- * makes it the radiance that was put in.
+ * restores the original radiance.
  *
  * @throws {ImageError} `image/format`, `image/header`, `image/size`, `image/truncated`, `image/corrupt`, or
  * `image/unsupported` for XYZE colours.
@@ -162,11 +162,11 @@ export function decodeHdr(bytes: Uint8Array, options: DecodeOptions = {}): HdrIm
   const { width, height, rowMajor, flipX, flipY, exposure, warnings, offset } = readHeader(bytes);
   checkSize('HDR', width, height, options.maxPixels);
   const [lines, length] = rowMajor ? [height, width] : [width, height];
-  const least = lines * shortestLine(length);
-  if (bytes.length - offset < least) {
+  const minBytes = lines * shortestLine(length);
+  if (bytes.length - offset < minBytes) {
     throw new ImageError(
       'image/truncated',
-      `HDR: ${width}×${height} pixels take at least ${least} bytes, but ${bytes.length - offset} are there.`,
+      `HDR: ${width}×${height} pixels take at least ${minBytes} bytes, but the file has ${bytes.length - offset}.`,
       { location: { byteOffset: offset } },
     );
   }

@@ -1,7 +1,7 @@
 import { concat } from './bytes';
 import { checkSize, ImageError } from './error';
 
-/** What {@link encodeHdr} takes. */
+/** Input of {@link encodeHdr}. */
 export interface HdrSource {
   readonly width: number;
   readonly height: number;
@@ -53,7 +53,7 @@ function packChannel(line: Uint8Array, channel: number, length: number, out: num
 }
 
 /**
- * Encodes a linear picture as Radiance HDR (RGBE, run-length coded). The error of a component is at most 1/256 of the
+ * Encodes a linear image as Radiance HDR (RGBE, run-length coded). The error of a component is at most 1/256 of the
  * pixel's largest one. Negative values and NaN are written as 0.
  *
  * @throws {ImageError} `image/size` if the array does not hold width × height RGB or RGBA pixels.

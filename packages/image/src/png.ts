@@ -2,7 +2,7 @@ import { zlibSync } from 'fflate';
 import { concat } from './bytes';
 import { checkSize, ImageError } from './error';
 
-/** What {@link encodePng} takes. */
+/** Input of {@link encodePng}. */
 export interface PngSource {
   readonly width: number;
   readonly height: number;
@@ -79,7 +79,7 @@ function filterRows(raw: Uint8Array, height: number, rowBytes: number, pixelByte
 }
 
 /**
- * Encodes sRGB codes as PNG, 8 or 16 bits per channel, with an sRGB chunk. A picture that is opaque everywhere is
+ * Encodes sRGB codes as PNG, 8 or 16 bits per channel, with an sRGB chunk. An image that is opaque everywhere is
  * written without its alpha channel.
  *
  * @throws {ImageError} `image/size` if the array does not hold width × height RGBA pixels.

@@ -7,7 +7,7 @@ const REC709 = [0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329];
 const TOLERANCE = 0.025;
 
 /**
- * A warning if a file's colours are not those of Rec.709, which they are taken for.
+ * A warning if a file's primaries are not Rec.709's, as which its colours are read.
  * @param chromaticities x and y of red, green, blue and white. What describes no colours (zeros, as some programs
  * write) counts as none.
  */
@@ -19,7 +19,7 @@ export function primariesWarning(what: string, chromaticities: readonly number[]
   return [
     {
       code: 'image/primaries',
-      message: `${what}: its colours have the primaries and white ${digits}, but are taken as those of Rec.709; convert the picture.`,
+      message: `${what}: its colours have the primaries and white ${digits}, but are taken as those of Rec.709; convert the image.`,
     },
   ];
 }

@@ -14,7 +14,7 @@ const exr = () =>
     layers: [{ name: '', channels: { R: Float32Array.of(1), G: Float32Array.of(1), B: Float32Array.of(1) } }],
   });
 
-/** A picture of one pixel with numbers put over those of an attribute in its header. */
+/** An image of one pixel with numbers put over those of an attribute in its header. */
 function patched(attribute: string, values: Float32Array | Int32Array): Uint8Array {
   const bytes = exr();
   // Two names that end with zeros, and the size.
@@ -87,7 +87,7 @@ describe('decodeEnvironment', () => {
     expect(primaries(0.7347, 0.2653, 0, 1, 0.0001, -0.077, 0.32168, 0.33767)).toEqual(['image/primaries']);
     expect(primaries(NaN, 0, 0, 0, 0, 0, 0, 0)).toEqual([]);
   });
-  it('warns of a part of a larger picture', () => {
+  it('warns of a part of a larger image', () => {
     expect(
       decodeEnvironment(patched('displayWindow\0box2i\0', Int32Array.of(0, 0, 7, 0))).warnings.map(({ code }) => code),
     ).toEqual(['image/window']);

@@ -75,7 +75,7 @@ describe('compressions with loss give what the library gives', () => {
       }
     }
     expect(differing / count).toBeLessThan(0.1);
-    // And it is a loss that nobody sees: the picture is still the one that was written.
+    // And it is a loss that nobody sees: the image is still the one that was written.
     const source = plain.channels.get('R')!.data,
       got = image.channels.get('R')!.data;
     for (let i = 0; i < source.length; i++)
@@ -85,7 +85,7 @@ describe('compressions with loss give what the library gives', () => {
 
 describe('broken files of every compression', () => {
   it.each(['rle', 'zips', 'zip', 'piz', 'pxr24', 'b44', 'b44a', 'dwaa', 'dwab', 'tiled-piz', 'parts'])(
-    '%s: two hundred spoiled copies are pictures or typed errors',
+    '%s: two hundred corrupted copies are images or typed errors',
     (name) => {
       const sound = bytesOf(name);
       const random = randomNumbers(20261121);
@@ -105,7 +105,7 @@ describe('broken files of every compression', () => {
 });
 
 describe.skipIf(!hasShared)(
-  `a picture from a lens maker's set${hasShared ? '' : ' (skipped: no ../shared beside the repository)'}`,
+  `an image from a lens maker's set${hasShared ? '' : ' (skipped: no ../shared beside the repository)'}`,
   () => {
     it('tiles at several resolutions: the finest is read', () => {
       const image = decodeExr(shared('assets/env/OrientationLatLong.exr'));

@@ -174,7 +174,7 @@ describe('errors', () => {
       }
     }
   });
-  it('a picture far larger than its bytes is refused before it is allocated', () => {
+  it('an image far larger than its bytes is refused before it is allocated', () => {
     const bytes = encodeExr(good);
     const view = new DataView(bytes.buffer);
     const at = String.fromCharCode(...bytes).indexOf('dataWindow\0box2i\0') + 17 + 4;

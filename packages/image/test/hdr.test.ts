@@ -42,7 +42,7 @@ describe('decodeHdr', () => {
   });
 
   it('turns all eight orientations upright', () => {
-    // A 2×2 picture: 1 2 above 3 4, as red mantissas with exponent 136.
+    // A 2×2 image: 1 2 above 3 4, as red mantissas with exponent 136.
     const bytes = (...order: number[]) => order.flatMap((v) => [v, 0, 0, 136]);
     const cases: [string, number[]][] = [
       ['-Y 2 +X 2', [1, 2, 3, 4]],
@@ -118,13 +118,13 @@ describe('decodeHdr', () => {
     ).toThrow(`take at least ${1000 * bytes} bytes`);
   });
 
-  it('a picture for which there is no memory is an error of the decoder', () => {
+  it('an image for which there is no memory is an error of the decoder', () => {
     const bytes = new Uint8Array(HEAD.length + 20 + 16 * 200_000);
     bytes.set(file(`${HEAD}-Y 200000 +X 200000\n`));
     expect(codeOf(() => decodeHdr(bytes, { maxPixels: Infinity }))).toBe('image/size');
   });
 
-  it('refuses what is not a picture, with a code', () => {
+  it('refuses what is not an image, with a code', () => {
     expect(codeOf(() => decodeHdr(new Uint8Array(0)))).toBe('image/format');
     expect(codeOf(() => decodeHdr(Uint8Array.of(0x89, 0x50, 0x4e, 0x47)))).toBe('image/format');
     expect(codeOf(() => decodeHdr(file('#?RADIANCE\nFORMAT=32-bit_rle_rgbe')))).toBe('image/header');
@@ -192,7 +192,7 @@ describe('decodeHdr', () => {
   );
 
   it.skipIf(!hasShared)(
-    `${hasShared ? '' : '[skipped: ../shared is absent] '}a studio is brighter above than below and has lamps`,
+    `${hasShared ? '' : '[skipped: ../shared is absent] '}a studio is brighter above than below and has lights`,
     () => {
       const { width, height, data } = decodeHdr(shared('assets/env/studio_small_05_1k.hdr'));
       expect([width, height]).toEqual([1024, 512]);

@@ -3,8 +3,8 @@ import { describe, expect, it } from 'vitest';
 import { encodePng, ImageError } from '../src/index';
 import { randomNumbers } from './shared';
 
-/** A picture with flat parts, gradients and noise, so that every filter gets its turn. */
-function picture<T extends Uint8Array | Uint16Array>(data: T, width: number, top: number, opaque: boolean): T {
+/** An image with flat parts, gradients and noise, so that every filter is used. */
+function image<T extends Uint8Array | Uint16Array>(data: T, width: number, top: number, opaque: boolean): T {
   const random = randomNumbers(3);
   for (let i = 0; i < data.length; i += 4) {
     const x = (i / 4) % width;
@@ -23,14 +23,14 @@ describe('encodePng', () => {
     [7, 5],
     [64, 33],
   ])('8 bits, %i×%i: sharp reads the same pixels', async (width, height) => {
-    const data = picture(new Uint8Array(width * height * 4), width, 255, false);
+    const data = image(new Uint8Array(width * height * 4), width, 255, false);
     const read = await sharp(encodePng({ width, height, data })).raw().toBuffer({ resolveWithObject: true });
     expect(read.info).toMatchObject({ width, height, channels: 4 });
     expect(Buffer.compare(read.data, Buffer.from(data))).toBe(0);
   });
 
-  it('an opaque picture loses its alpha channel and nothing else', async () => {
-    const data = picture(new Uint8Array(20 * 10 * 4), 20, 255, true);
+  it('an opaque image loses its alpha channel and nothing else', async () => {
+    const data = image(new Uint8Array(20 * 10 * 4), 20, 255, true);
     const png = encodePng({ width: 20, height: 10, data });
     expect((await sharp(png).metadata()).channels).toBe(3);
     const read = await sharp(png).ensureAlpha().raw().toBuffer();
@@ -39,7 +39,7 @@ describe('encodePng', () => {
 
   it.each([true, false])('16 bits, opaque %s: sharp reads the same pixels', async (opaque) => {
     const [width, height] = [31, 17];
-    const data = picture(new Uint16Array(width * height * 4), width, 65535, opaque);
+    const data = image(new Uint16Array(width * height * 4), width, 65535, opaque);
     const png = encodePng({ width, height, data });
     const meta = await sharp(png).metadata();
     expect([meta.depth, meta.channels]).toEqual(['ushort', opaque ? 3 : 4]);
@@ -60,7 +60,7 @@ describe('encodePng', () => {
     expect(view.getUint32(png.length - 4)).toBe(0xae426082);
   });
 
-  it('refuses an array of the wrong length and an empty picture', () => {
+  it('refuses an array of the wrong length and an empty image', () => {
     expect(() => encodePng({ width: 2, height: 2, data: new Uint8Array(12) })).toThrow(ImageError);
     expect(() => encodePng({ width: 0, height: 2, data: new Uint8Array(0) })).toThrow(/0×2/);
   });

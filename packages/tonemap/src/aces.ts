@@ -11,7 +11,7 @@ const OUTPUT: Matrix3 = [1.60475, -0.10208, -0.00327, -0.53108, 1.10813, -0.0727
 
 /**
  * WGSL `fn tonemap_aces(linear: vec3f) -> vec3f`: ACES filmic look, RRT and sRGB ODT as fitted by Stephen Hill, with
- * its input and output matrices. No exposure bias is added: as in ACES itself, 18 % grey comes out near 0.1.
+ * its input and output matrices. No exposure bias is added: as in ACES itself, 18 % grey maps to about 0.1.
  */
 export const tonemapAces = wgslModule(
   'tonemap/aces',

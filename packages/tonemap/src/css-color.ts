@@ -75,9 +75,9 @@ function fromFunction(text: string): readonly number[] | undefined {
  * case. sRGB codes out of range are clamped, as CSS does.
  *
  * @param text An opaque colour.
- * @param what Names the value in errors.
+ * @param what Name of the value in errors.
  * @returns Linear Rec.709, 0..1.
- * @throws {ToneMapError} `tonemap/color` for another text, and for a colour that is not opaque.
+ * @throws {ToneMapError} `tonemap/color` for any other text, and for a colour that is not opaque.
  * @example
  * cssColor('#ff8000'); // [1, 0.2158605, 0]
  */

@@ -1,10 +1,10 @@
 import { ToneMapError } from './names';
 
-/** How a photographic camera exposes. */
+/** Exposure settings of a photographic camera. */
 export interface CameraExposureSettings {
   /** Focal length over the aperture's diameter: 8 for f/8. Above 0. */
   readonly fStop: number;
-  /** Seconds the shutter is open: 1/125. Above 0. */
+  /** Exposure time, seconds: 1/125. Above 0. */
   readonly shutter: number;
   /** Sensitivity, ISO arithmetic; default 100. Above 0. */
   readonly iso?: number;

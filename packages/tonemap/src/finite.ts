@@ -9,8 +9,8 @@ export const TONEMAP_MAX = 1048576;
 
 /**
  * WGSL `fn tonemap_finite(v: vec3f) -> vec3f`: NaN and negative components to 0, +∞ and anything above
- * {@link TONEMAP_MAX} to it. NaN is told by its bits: WGSL lets compilers assume that it never occurs, so `v != v` and
- * `max(v, 0)` differ between implementations.
+ * {@link TONEMAP_MAX} to it. NaN is detected by its bits: WGSL lets compilers assume that it never occurs, so `v != v`
+ * and `max(v, 0)` differ between implementations.
  */
 export const tonemapFinite = wgslModule(
   'tonemap/finite',

@@ -14,7 +14,7 @@ const DESATURATION = 0.15;
 
 /**
  * WGSL `fn tonemap_neutral(linear: vec3f) -> vec3f`: Khronos PBR Neutral, after the specification text
- * (github.com/KhronosGroup/ToneMapping, PBR_Neutral). Base colours under grey light come out as they went in: with
+ * (github.com/KhronosGroup/ToneMapping, PBR_Neutral). Base colours under grey light are preserved: with
  * every component at least 0.08 the curve takes 0.04 off, up to a peak of 0.76; above it compresses towards white.
  */
 export const tonemapNeutral = wgslModule(

@@ -5,20 +5,20 @@ import { toneMapOperator } from './operators';
 import { tonemapSrgb } from './srgb';
 import { checkToneMapOptions, type ToneMapOptions } from './tone-map';
 
-/** How {@link ToneMapPass} is made. */
+/** Options for {@link ToneMapPass.create}. */
 export interface ToneMapPassOptions extends ToneMapOptions {
   /** Format of the target. Formats ending in `-srgb` get linear values, since the hardware encodes them. */
   readonly format: GPUTextureFormat;
   /**
-   * `premultiplied` (default): coverage goes out in alpha and RGB is multiplied by it after the encoding, as a canvas
-   * of `alphaMode: 'premultiplied'` wants it. `opaque`: alpha is ignored and written as 1.
+   * `premultiplied` (default): coverage is written to alpha and RGB is multiplied by it after the encoding, as a
+   * canvas of `alphaMode: 'premultiplied'` expects it. `opaque`: alpha is ignored and written as 1.
    */
   readonly alpha?: 'premultiplied' | 'opaque';
   /** How a source of another size than the target is read. Default `bilinear`; equal sizes are always copied 1:1. */
   readonly filter?: 'nearest' | 'bilinear';
 }
 
-/** What can change between two draws. */
+/** Options that can change between two draws. */
 export type ToneMapPassSettings = Partial<Pick<ToneMapPassOptions, 'exposure' | 'toneMap' | 'alpha' | 'filter'>>;
 
 // Two vec4f rather than a struct: source size and target size; exposure factor, opaque, bilinear. A description by
@@ -69,8 +69,8 @@ fn tonemap_texel(p: vec2i) -> vec4f {
   );
 
 /**
- * Draws a linear RGBA picture that lies in a storage buffer into a texture, through a view transform: one fullscreen
- * triangle. The pipeline of a tone map is made when it is first asked for, without stalling.
+ * Draws a linear RGBA image from a storage buffer into a texture through a view transform: one fullscreen
+ * triangle. The pipeline of a tone map is made on first use, without stalling.
  *
  * @example
  * const pass = await ToneMapPass.create(device, { format: navigator.gpu.getPreferredCanvasFormat(), toneMap: 'agx' });
@@ -129,10 +129,11 @@ export class ToneMapPass {
 
   /**
    * Changes exposure (EV), tone map, alpha or filter. All but a tone map that has not been used before take effect at
-   * once; until such a one is compiled, draws go on with the previous curve, and the promise tells when it is in use.
+   * once; until that is compiled, draws use the previous curve; the promise resolves when the new one is in use.
    *
-   * @throws {ToneMapError} `tonemap/unknown` for an unknown tone map, `tonemap/exposure`: nothing is changed then.
-   * `tonemap/pipeline` where the GPU's driver does not compile the shader: the tone map stays the previous one.
+   * @throws {ToneMapError} `tonemap/unknown` for an unknown tone map, `tonemap/exposure`: the settings are then
+   * unchanged. `tonemap/pipeline` where the GPU's driver does not compile the shader: the tone map stays the previous
+   * one.
    */
   async setOptions(settings: ToneMapPassSettings): Promise<void> {
     checkToneMapOptions(settings);
@@ -140,7 +141,7 @@ export class ToneMapPass {
     const { toneMap } = this.#settings;
     try {
       const pipeline = await this.#pipelineOf(toneMap);
-      // A later call may have asked for another tone map meanwhile: the last one wins.
+      // A later call may have requested another tone map meanwhile: the last one wins.
       if (this.#destroyed || this.#settings.toneMap !== toneMap) return;
       this.#pipeline = pipeline;
       this.#drawn = toneMap;
@@ -151,7 +152,7 @@ export class ToneMapPass {
   }
 
   /**
-   * Records the drawing of the picture over the whole target. Encode one draw of a pass per submission: its uniforms
+   * Records a draw of the image over the whole target. Encode one draw of a pass per submission: its uniforms
    * are written on the queue, ahead of the encoder.
    *
    * @param source vec4f per pixel: linear RGBA multiplied by alpha, row-major, top row first; usage `STORAGE`.
@@ -168,12 +169,12 @@ export class ToneMapPass {
     targetSize: readonly [number, number] = size,
   ): void {
     const pipeline = this.#pipeline;
-    if (!pipeline) throw new ToneMapError('tonemap/destroyed', 'This ToneMapPass was destroyed.');
+    if (!pipeline) throw new ToneMapError('tonemap/destroyed', 'This ToneMapPass was destroyed: create another one.');
     const [width, height] = size;
     if (!(width >= 1 && height >= 1 && targetSize[0] >= 1 && targetSize[1] >= 1) || source.size < width * height * 16) {
       throw new ToneMapError(
         'tonemap/size',
-        `Cannot draw a ${width}×${height} picture from a buffer of ${source.size} bytes to ${targetSize[0]}×${targetSize[1]} pixels; a pixel takes 16 bytes.`,
+        `Cannot draw a ${width}×${height} image from a buffer of ${source.size} bytes to ${targetSize[0]}×${targetSize[1]} pixels; a pixel takes 16 bytes.`,
       );
     }
     const { exposure, alpha, filter } = this.#settings;
@@ -220,7 +221,7 @@ export class ToneMapPass {
     if (known) return known;
     const made = this.#createPipeline(toneMap);
     this.#pipelines.set(toneMap, made);
-    // A failed one must not be remembered: the next call tries again.
+    // Do not cache a failure: the next call tries again.
     made.catch(() => this.#pipelines.delete(toneMap));
     return made;
   }

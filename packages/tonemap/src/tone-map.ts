@@ -3,7 +3,7 @@ import { ToneMapError, type Rgb, type ToneMap } from './names';
 import { toneMapOperator } from './operators';
 import { srgbEncode } from './srgb';
 
-/** What to do to a linear, scene-referred colour on its way to a display. */
+/** How to convert a linear, scene-referred colour for a display. */
 export interface ToneMapOptions {
   /** Default `neutral`. */
   readonly toneMap?: ToneMap;
@@ -15,11 +15,10 @@ export interface ToneMapOptions {
 const MOST_STOPS = 64;
 
 /**
- * Checks a tone map and an exposure that come from outside. What is left out is not checked.
+ * Validates a tone map and an exposure. Absent values are not checked.
  *
- * @throws {ToneMapError} `tonemap/unknown` for an unknown tone map; `tonemap/exposure` for an exposure that is no
- * number from
- * -64 to 64.
+ * @throws {ToneMapError} `tonemap/unknown` for an unknown tone map; `tonemap/exposure` for an exposure that is not
+ * a number from -64 to 64.
  */
 export function checkToneMapOptions({ toneMap: name, exposure }: ToneMapOptions): void {
   if (name !== undefined) toneMapOperator(name);
@@ -31,12 +30,12 @@ export function checkToneMapOptions({ toneMap: name, exposure }: ToneMapOptions)
   }
 }
 
-/** How {@link toneMapPixels} writes. */
+/** Options for {@link toneMapPixels}. */
 export interface ToneMapPixelsOptions extends ToneMapOptions {
   /** `uint8` (default): codes 0..255; `uint16`: 0..65535; `float`: 0..1. */
   readonly output?: 'uint8' | 'uint16' | 'float';
   /**
-   * `straight` (default): RGB is divided by alpha before the curve and alpha is kept as it is, which is what PNG wants.
+   * `straight` (default): RGB is divided by alpha before the curve and alpha is unchanged, as PNG requires.
    * `opaque`: alpha is ignored and written as 1.
    */
   readonly alpha?: 'straight' | 'opaque';
@@ -52,7 +51,7 @@ interface Outputs {
  * Linear, scene-referred colour to the sRGB codes of a display.
  *
  * @param rgb Linear Rec.709. NaN and negative components count as 0, +∞ as very bright.
- * @returns Three codes in 0..1, finite whatever came in.
+ * @returns Three codes in 0..1, finite for any input.
  * @throws {ToneMapError} `tonemap/unknown`, `tonemap/exposure`
  * @example
  * toneMap([4, 2, 1], { toneMap: 'agx', exposure: -1 });
@@ -64,7 +63,7 @@ export function toneMap(rgb: Rgb, options: ToneMapOptions = {}): [number, number
 }
 
 /**
- * {@link toneMap} for a whole picture.
+ * {@link toneMap} for a whole image.
  *
  * @param rgba Linear RGBA, stride 4, row-major, with RGB already multiplied by alpha, as a path tracer's film holds it.
  * @returns sRGB codes, RGBA, stride 4; alpha linear and 0 where it was NaN.

@@ -97,9 +97,9 @@ describe('the WGSL and the CPU twin agree to 1/512 of the encoded range (seed 20
 });
 
 describe('ToneMapPass', () => {
-  /** Row pitch of 256 bytes, so pictures of 64 pixels width copy without padding. */
+  /** Row pitch of 256 bytes, so images of 64 pixels width copy without padding. */
   const SIZE = 64;
-  const picture = (width: number, height: number, pixel: (x: number, y: number) => number[]) => {
+  const image = (width: number, height: number, pixel: (x: number, y: number) => number[]) => {
     const data = new Float32Array(width * height * 4);
     for (let y = 0; y < height; y++) for (let x = 0; x < width; x++) data.set(pixel(x, y), (y * width + x) * 4);
     return data;
@@ -127,7 +127,7 @@ describe('ToneMapPass', () => {
     texture.destroy();
     return out;
   }
-  const ramp = picture(SIZE, SIZE, (x, y) => {
+  const ramp = image(SIZE, SIZE, (x, y) => {
     const alpha = (y + 1) / SIZE;
     return [(x / 16) * alpha, (y / 40) * alpha, 0.2 * alpha, alpha];
   });
@@ -147,7 +147,7 @@ describe('ToneMapPass', () => {
   });
 
   it('leaves the encoding to an -srgb target', async () => {
-    const grey = picture(SIZE, SIZE, () => [0.18, 0.18, 0.18, 1]);
+    const grey = image(SIZE, SIZE, () => [0.18, 0.18, 0.18, 1]);
     const source = upload(grey);
     const pass = await ToneMapPass.create(device, { format: 'rgba8unorm-srgb', toneMap: 'linear' });
     expect([...(await drawn(pass, source, [SIZE, SIZE], 'rgba8unorm-srgb')).subarray(0, 4)]).toEqual([
@@ -181,7 +181,7 @@ describe('ToneMapPass', () => {
   });
 
   it('changes tone map and exposure, the last request winning', async () => {
-    const source = upload(picture(SIZE, SIZE, () => [0.5, 0.25, 0.1, 1]));
+    const source = upload(image(SIZE, SIZE, () => [0.5, 0.25, 0.1, 1]));
     const pass = await ToneMapPass.create(device, { format: 'rgba8unorm' });
     const first = pass.setOptions({ toneMap: 'agx' });
     const second = pass.setOptions({ toneMap: 'aces', exposure: 1 });
@@ -196,7 +196,7 @@ describe('ToneMapPass', () => {
   });
 
   it('reports a shader that does not compile by a typed error, and keeps the curve that does', async () => {
-    const source = upload(picture(SIZE, SIZE, () => [0.5, 0.25, 0.1, 1]));
+    const source = upload(image(SIZE, SIZE, () => [0.5, 0.25, 0.1, 1]));
     let broken = '';
     const driver = new Proxy(device, {
       get(target, name) {
@@ -241,7 +241,7 @@ describe('ToneMapPass', () => {
   });
 
   it('opaque ignores coverage; pixels that are not numbers come out as defined ones', async () => {
-    const source = upload(picture(SIZE, SIZE, (x) => (x < 32 ? [NaN, Infinity, 0.5, NaN] : [0.5, 0.5, 0.5, 0])));
+    const source = upload(image(SIZE, SIZE, (x) => (x < 32 ? [NaN, Infinity, 0.5, NaN] : [0.5, 0.5, 0.5, 0])));
     const pass = await ToneMapPass.create(device, { format: 'rgba8unorm', toneMap: 'linear', alpha: 'opaque' });
     const opaque = await drawn(pass, source, [SIZE, SIZE]);
     expect([...opaque.subarray(0, 4)]).toEqual([0, 255, 188, 255]);
@@ -257,7 +257,7 @@ describe('ToneMapPass', () => {
   it('refuses impossible sizes and use after destroy, and may be destroyed twice', async () => {
     const source = upload(new Float32Array(16));
     const pass = await ToneMapPass.create(device, { format: 'rgba8unorm' });
-    await expect(drawn(pass, source, [3, 3])).rejects.toThrow(/3×3 picture from a buffer of 64 bytes/);
+    await expect(drawn(pass, source, [3, 3])).rejects.toThrow(/3×3 image from a buffer of 64 bytes/);
     await expect(drawn(pass, source, [0, 2])).rejects.toThrow(ToneMapError);
     pass.destroy();
     pass.destroy();

@@ -43,7 +43,7 @@ describe('toneMapPixels', () => {
       255, 255, 255, 255,
     ]);
   });
-  it('writes 8 bits, 16 bits and floats of the same picture', () => {
+  it('writes 8 bits, 16 bits and floats of the same image', () => {
     const film = new Float32Array([0.5, 0.18, 0.02, 1]);
     const float = toneMapPixels(film, 1, 1, { toneMap: 'linear', output: 'float' });
     const u8 = toneMapPixels(film, 1, 1, { toneMap: 'linear' });

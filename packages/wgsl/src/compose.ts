@@ -6,13 +6,13 @@ import type { GatedDependency, WgslModule } from './module';
  */
 export class WgslComposeError extends GlanzError {}
 
-/** What {@link compose} may be told. */
+/** Options for {@link compose}. */
 export interface ComposeOptions {
   /** Every flag that any composed text mentions must be given here: a missing one is an error, not `false`. */
   readonly flags?: Readonly<Record<string, boolean>>;
 }
 
-/** Where a line of the composed text came from. */
+/** The origin of a line of the composed text. */
 export interface WgslLocation {
   /** Name of the {@link WgslModule}. */
   readonly module: string;
@@ -44,7 +44,7 @@ const GATE = /\/\/#(\w*)(?:(?<=#if)\s+(!?\w+(?:\s*&&\s*!?\w+)*))?/;
 /** `enable f16;`, `requires …;`, `diagnostic(…);`: WGSL takes them only before all declarations. */
 const DIRECTIVE = /^\s*(?:enable\s|requires\s|diagnostic\s*\().*;\s*$/;
 
-/** @param line Where a gate asks; left out for a gated dependency. */
+/** @param line Line of the gate; absent for a gated dependency. */
 function flagValue(flags: Readonly<Record<string, boolean>>, name: string, module: string, line?: number): boolean {
   if (!Object.hasOwn(flags, name)) {
     const where = line === undefined ? `"${module}"` : `"${module}" line ${line}`;
@@ -59,7 +59,7 @@ function flagValue(flags: Readonly<Record<string, boolean>>, name: string, modul
   return flags[name] === true;
 }
 
-/** Calls `emit` with each line of the module's text that its gates let through, or with what they let through of it. */
+/** Calls `emit` with each line of the module's text, or the part of it, that its gates keep. */
 function forEachKeptLine(
   module: WgslModule,
   flags: Readonly<Record<string, boolean>>,
@@ -117,7 +117,7 @@ function order(roots: readonly WgslModule[], flags: Readonly<Record<string, bool
     if (done.has(module)) return;
     if (path.includes(module)) {
       const cycle = [...path.slice(path.indexOf(module)), module].map((m) => m.name).join(' → ');
-      throw new WgslComposeError('wgsl/cycle', `WGSL modules depend on each other in a circle: ${cycle}.`, {
+      throw new WgslComposeError('wgsl/cycle', `WGSL modules depend on each other in a cycle: ${cycle}.`, {
         location: { module: module.name },
       });
     }
@@ -146,12 +146,12 @@ function isGated(dep: WgslModule | GatedDependency): dep is GatedDependency {
 }
 
 /**
- * Puts WGSL modules together into one shader text: dependencies first, each module once, gated text left out.
- * Leaving text out is what keeps pipelines quick to compile; `override` constants do not prune.
+ * Composes WGSL modules into one shader text: dependencies first, each module once, without text that is gated off.
+ * Leaving text out keeps pipelines quick to compile; `override` constants do not prune.
  * Directives (`enable`, `requires`, `diagnostic`), one a line, move to the top, each once.
  *
  * @param roots The modules that hold the entry points, or any others to include.
- * @throws {WgslComposeError} on cycles, unknown flags, unbalanced gates, or two modules of one name.
+ * @throws {WgslComposeError} on cycles, unknown flags, unbalanced gates, or duplicate module names.
  * @example
  * const shader = compose([traceKernel], { flags: { COAT: false } });
  * device.createShaderModule({ code: shader.code });

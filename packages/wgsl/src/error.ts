@@ -1,6 +1,5 @@
 /**
- * Where in the user's input an error arose. Every field is optional; the error's message already spells out those
- * present.
+ * Where in the user's input an error arose. Every field is optional; the error's message includes those present.
  */
 export interface ErrorLocation {
   /** File name or URL, as the user gave it. */
@@ -15,11 +14,11 @@ export interface ErrorLocation {
   readonly line?: number;
 }
 
-/** What a {@link GlanzError} may carry besides its code and message. */
+/** Options for {@link GlanzError}. */
 export interface GlanzErrorOptions {
-  /** The error that led to this one. */
+  /** The error that caused this one. */
   readonly cause?: unknown;
-  /** Where it happened, as far as it is known. */
+  /** Where it happened, if known. */
   readonly location?: ErrorLocation;
 }
 
@@ -50,7 +49,7 @@ function explanation(code: string): string {
 export class GlanzError extends Error {
   /** Stable, machine-readable: `<package>/<what>`, e.g. `bvh/empty-mesh`. */
   readonly code: string;
-  /** Where it happened, as far as it is known. */
+  /** Where it happened, if known. */
   readonly location: ErrorLocation | undefined;
 
   constructor(code: string, message: string, options: GlanzErrorOptions = {}) {

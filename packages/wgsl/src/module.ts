@@ -1,10 +1,10 @@
 /**
  * A piece of WGSL with a name and what it needs. Modules are plain frozen values: they can be exported from any file,
- * put together by {@link compose}, and dropped by a bundler when nobody imports them.
+ * composed by {@link compose}, and dropped by a bundler when unused.
  *
- * Inside `code`, gates keep or leave out text. They nest, and stand on lines of their own or inside of a line:
+ * Inside `code`, gates keep or leave out text. They nest, on separate lines or within a line:
  * ```wgsl
- * //#if COAT          keeps what follows when the flag COAT is true; `//#if COAT && !FUZZ` asks for two
+ * //#if COAT          keeps what follows when the flag COAT is true; `//#if COAT && !FUZZ` requires two
  * //#else
  * //#endif
  * ```
@@ -13,7 +13,7 @@ export interface WgslModule {
   /** Unique name; appears in error messages, e.g. `openpbr/coat`. */
   readonly name: string;
   /**
-   * WGSL text: functions, structs, constants. Library modules hold no storage pointers, and no bindings but those whose
+   * WGSL text: functions, structs, constants. Library modules hold no storage pointers, and only bindings whose
    * numbers the host gives.
    */
   readonly code: string;
@@ -21,9 +21,9 @@ export interface WgslModule {
   readonly deps: readonly (WgslModule | GatedDependency)[];
 }
 
-/** A dependency that is composed in only if `flag` has the value `value`. */
+/** A dependency that is included only if `flag` has the value `value`. */
 export interface GatedDependency {
-  /** The module that is composed in, or not. */
+  /** The module to include. */
   readonly module: WgslModule;
   /** Name of the flag, without `!`. */
   readonly flag: string;
@@ -47,9 +47,9 @@ export function wgslModule(
 }
 
 /**
- * Makes a dependency that only counts under a flag, so that the text of an unused feature never reaches the compiler.
+ * Makes a dependency that counts only under a flag, so that the text of an unused feature never reaches the compiler.
  *
- * @param flag Flag name; a leading `!` asks for the flag to be false.
+ * @param flag Flag name; a leading `!` requires the flag to be false.
  */
 export function gated(flag: string, module: WgslModule): GatedDependency {
   const negative = flag.startsWith('!');

@@ -2,16 +2,16 @@ import type { ComposedWgsl } from './compose';
 import { GlanzError } from './error';
 
 /**
- * A shader that the WebGPU implementation refused. `location` names the WGSL module and the line inside it. Code:
- * `wgsl/compile`.
+ * Thrown for a shader that the WebGPU implementation rejected. `location` names the WGSL module and the line inside it.
+ * Code: `wgsl/compile`.
  */
 export class ShaderError extends GlanzError {}
 
 const oneLine = (text: string) => text.trim().replace(/\s*\n\s*/g, ' ');
 
 /**
- * Creates a shader module and waits for the compiler's word on it, translating every complaint back to the module and
- * line it came from. The device's `uncapturederror` event stays silent: the error is thrown here, and only here.
+ * Creates a shader module and waits for the compiler's result, mapping every message back to its module and line. The
+ * device's `uncapturederror` event does not fire: the error is thrown only here.
  *
  * @param label Appears in the browser's own messages.
  * @throws {ShaderError} code `wgsl/compile` with the first error, its module, its line and the text of that line.
@@ -20,24 +20,23 @@ export function createShaderModule(device: GPUDevice, shader: ComposedWgsl, labe
   return beginShaderModule(device, shader, label).checked;
 }
 
-/** What {@link beginShaderModule} gives. */
+/** The result of {@link beginShaderModule}. */
 export interface PendingShaderModule {
-  /** To make pipelines of at once, with `create…PipelineAsync`; of a faulty one they come to nothing. */
+  /** For pipelines at once, with `create…PipelineAsync`; those of an invalid module fail. */
   readonly module: GPUShaderModule;
-  /** The same, once the compiler has found nothing wrong with it. Rejects as {@link createShaderModule} does. */
+  /** The same module, once the compiler has accepted it. Rejects as {@link createShaderModule} does. */
   readonly checked: Promise<GPUShaderModule>;
 }
 
 /**
- * As {@link createShaderModule}, for those who do not want to wait for the compiler's word before they ask for
- * pipelines: the driver has its work a round trip earlier. Await `checked` before the pipelines: where both fail, it
- * says why.
+ * As {@link createShaderModule}, without waiting for the compiler's result before creating pipelines: the driver starts
+ * a round trip earlier. Await `checked` before the pipelines: where both fail, it gives the reason.
  *
  * @param label Appears in the browser's own messages.
  * @example
  * const { module, checked } = beginShaderModule(device, shader, 'shade');
  * const pipeline = device.createComputePipelineAsync({ layout: 'auto', compute: { module } });
- * pipeline.catch(() => {});   // where the text is at fault, the next line throws
+ * pipeline.catch(() => {});   // if the text is invalid, the next line throws
  * await checked;
  * const ready = await pipeline;
  */
@@ -52,11 +51,11 @@ export function beginShaderModule(device: GPUDevice, shader: ComposedWgsl, label
 
 async function check(
   module: GPUShaderModule,
-  word: Promise<[GPUError | null, GPUCompilationInfo]>,
+  result: Promise<[GPUError | null, GPUCompilationInfo]>,
   shader: ComposedWgsl,
   label: string,
 ): Promise<GPUShaderModule> {
-  const [validation, info] = await word;
+  const [validation, info] = await result;
   const errors = info.messages.filter((message) => message.type === 'error');
   const first = errors[0];
   if (first) {
@@ -73,6 +72,6 @@ async function check(
     );
   }
   if (validation)
-    throw new ShaderError('wgsl/compile', `Shader "${label}" was refused: ${oneLine(validation.message)}`);
+    throw new ShaderError('wgsl/compile', `Shader "${label}" was rejected: ${oneLine(validation.message)}`);
   return module;
 }

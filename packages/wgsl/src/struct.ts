@@ -7,7 +7,7 @@ import { wgslModule, type WgslModule } from './module';
  */
 export class StructError extends GlanzError {}
 
-/** The types a host-shareable struct may hold: scalars, vectors, a matrix, other structs, and arrays of them. */
+/** Field types of a host-shareable struct: scalars, vectors, a matrix, other structs, and arrays of them. */
 export type WgslFieldType =
   | StructLayout
   | 'f32'
@@ -22,20 +22,20 @@ export type WgslFieldType =
   | 'mat4x4f'
   | readonly [element: WgslFieldType, count: number];
 
-/** What a 32-bit word holds. */
+/** Type of a 32-bit word. */
 type Word = 'f' | 'u' | 'i';
 
 interface TypeLayout {
   readonly align: number;
   readonly size: number;
   readonly text: string;
-  /** How to write the numbers of a value; `undefined` where a struct is inside, which comes as bytes. */
+  /** How to write the numbers of a value; `undefined` for nested structs, which are given as bytes. */
   readonly numbers: { readonly word: Word; readonly offsets: readonly number[] } | undefined;
-  /** The structs inside. */
+  /** The nested structs. */
   readonly structs: readonly WgslModule[];
 }
 
-/** Alignment, size and kind of word; a vec3's 16 and 12 are the one odd pair. */
+/** Alignment, size and kind of word; only a vec3's differ, 16 and 12. */
 const BASIC: Readonly<Record<string, readonly [align: number, size: number, word: Word]>> = {
   f32: [4, 4, 'f'],
   u32: [4, 4, 'u'],
@@ -104,7 +104,7 @@ export interface StructField {
 }
 
 /**
- * The value of a field as the writer takes it. Arrays are given flat, without padding, matrices column by column. A
+ * The value of a field as the writer takes it. Arrays are given flat, without padding, matrices column-major. A
  * nested struct, or an array of them, is given as its packed bytes, e.g. from its own `allocate()` and `write()`.
  */
 export type StructValue = number | ArrayLike<number> | ArrayBuffer;
@@ -134,7 +134,7 @@ export interface StructLayout<Name extends string = string> {
 
 /**
  * Describes a host-shareable struct once. Offsets follow WGSL's rules (vec3 aligns to 16, arrays have padded strides).
- * They are those of storage buffers; uniform buffers ask more of arrays and nested structs (multiples of 16 bytes),
+ * They are those of storage buffers; uniform buffers require more of arrays and nested structs (multiples of 16 bytes),
  * which the shader compiler checks.
  *
  * @param name WGSL name of the struct.

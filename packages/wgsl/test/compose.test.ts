@@ -131,7 +131,7 @@ describe('gates', () => {
     ['//#if X //#else b //#else', /line 1.*second/],
     ['//#elif X', /line 1.*not a gate/],
     ['//#ifdef X\n//#endif', /line 1.*not a gate/],
-  ])('that are wrong are told with their line: %j', (code, message) => {
+  ])('that are invalid are reported with their line: %j', (code, message) => {
     const error = failure(() => compose([wgslModule('m', code)], { flags: { X: true, Y: true } }));
     expect(error.code).toBe('wgsl/unbalanced-gate');
     expect(error.message).toMatch(message);

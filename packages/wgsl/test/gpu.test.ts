@@ -128,7 +128,7 @@ describe('createShaderModule', () => {
     ).toBeTruthy();
   });
 
-  it('puts directives where the compiler wants them', async () => {
+  it('puts directives where the compiler requires them', async () => {
     const late = wgslModule('test/late', 'diagnostic(off, derivative_uniformity);', [entry('out[0] = square(3.0);')]);
     await expect(createShaderModule(await testDevice(), compose([late]), 'directive')).resolves.toBeTruthy();
   });

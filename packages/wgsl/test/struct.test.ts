@@ -106,7 +106,7 @@ describe('writing', () => {
   });
 
   it.each([
-    ['a field that is not there', () => S.write(S.allocate(), 0, { nope: 1 } as never), 'wgsl/unknown-field'],
+    ['an unknown field', () => S.write(S.allocate(), 0, { nope: 1 } as never), 'wgsl/unknown-field'],
     ['an offset of such a field', () => S.offsetOf('nope' as never), 'wgsl/unknown-field'],
     ['too few numbers', () => S.write(S.allocate(), 0, { color: [1, 2] }), 'wgsl/field-length'],
     ['a number for a vector', () => S.write(S.allocate(), 0, { color: 1 }), 'wgsl/field-length'],
