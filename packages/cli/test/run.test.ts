@@ -329,7 +329,7 @@ describe('surroundings', () => {
     const { code, err } = await run(['render', 'm.glb', ...SIZE, '--env', 'sky.hdr'], cwd);
     expect([code, err.trim().split('\n').at(-1)]).toEqual([
       3,
-      'glanz: The environment is neither a Radiance HDR nor an OpenEXR picture. [image/format]',
+      'glanz: The environment is neither a Radiance HDR nor an OpenEXR image. [image/format]',
     ]);
     expect((await run(['render', 'm.glb', '--env', 'gone.hdr'], cwd)).err).toContain(
       'Cannot read the environment "gone.hdr": there is no such file.',
