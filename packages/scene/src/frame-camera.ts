@@ -31,7 +31,7 @@ function normalized(v: Vector, what: string): Vector {
   if (!(length > 1e-12) || !Number.isFinite(length))
     throw new SceneError(
       'scene/value',
-      `${what} is [${v.join(', ')}], which has no direction; it must have a length above 0, and not be vertical.`,
+      `${what} is [${v.join(', ')}], which has no usable length; give a direction that is neither zero nor vertical.`,
     );
   return [v[0] / length, v[1] / length, v[2] / length];
 }
