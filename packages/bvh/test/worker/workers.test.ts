@@ -289,7 +289,10 @@ describe('BvhWorkers', () => {
     const workers = await create({ count: 1 });
     const controller = new AbortController();
     const reported: number[] = [];
-    const build = workers.buildBlas(sphere(128), { signal: controller.signal, onProgress: (done) => reported.push(done) });
+    const build = workers.buildBlas(sphere(128), {
+      signal: controller.signal,
+      onProgress: (done) => reported.push(done),
+    });
     controller.abort();
     await expect(build).rejects.toMatchObject({ name: 'AbortError' });
     expectSame(await workers.buildBlas(sphere(16)), buildBlas(sphere(16)));
@@ -380,7 +383,10 @@ describe('BvhWorkers', () => {
       );
       expect(workers.count).toBe(0);
       const reported: number[] = [];
-      expectSame(await workers.buildBlas(sphere(24), { onProgress: (done) => reported.push(done) }), buildBlas(sphere(24)));
+      expectSame(
+        await workers.buildBlas(sphere(24), { onProgress: (done) => reported.push(done) }),
+        buildBlas(sphere(24)),
+      );
       expect([reported[0], reported.at(-1)]).toEqual([0, 1]);
       expect(reported).toEqual([...reported].sort((a, b) => a - b));
       await expect(workers.buildBlas({ positions: new Float32Array(4) })).rejects.toMatchObject({
