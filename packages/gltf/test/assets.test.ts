@@ -40,7 +40,7 @@ describe.skipIf(!present)(`real models${note}`, () => {
       if (code === 'gltf/primitive')
         expect(message).toMatch(
           name === 'blenderio-01_vertex_count_32bit'
-            ? /normals point to the back of each of its triangles/
+            ? /normals point to the back of all of its triangles/
             : /points and lines are left out/,
         );
     validateScene(scene);
