@@ -6,7 +6,7 @@ import { TaskError, capture, main, root, stream } from './pipeline/process.mjs';
 
 const glanz = join(root, 'packages/cli/dist/glanz.js');
 const model = join(root, 'out/models/push-button-medium.glb');
-const picture = join(root, 'out/demo.png');
+const image = join(root, 'out/demo.png');
 
 /** True if something better than the processor is there. */
 async function hasRealGpu() {
@@ -28,19 +28,11 @@ await main(async () => {
   const size = (await hasRealGpu())
     ? ['--size', '1280x960', '--samples', '1024']
     : ['--size', '640x480', '--samples', '48'];
-  rmSync(picture, { force: true });
-  const code = await stream(process.execPath, [
-    glanz,
-    'render',
-    model,
-    '-o',
-    picture,
-    ...size,
-    ...process.argv.slice(2),
-  ]);
-  if (!existsSync(picture)) throw new TaskError(`no picture was made (glanz ended with code ${code}).`, code || 1);
+  rmSync(image, { force: true });
+  const code = await stream(process.execPath, [glanz, 'render', model, '-o', image, ...size, ...process.argv.slice(2)]);
+  if (!existsSync(image)) throw new TaskError(`no image was made (glanz ended with code ${code}).`, code || 1);
   process.stderr.write(
-    `\n${relative(process.cwd(), picture) || picture} is done, after ${Math.round((performance.now() - start) / 1000)} s.\n`,
+    `\n${relative(process.cwd(), image) || image} is done, after ${Math.round((performance.now() - start) / 1000)} s.\n`,
   );
   process.stderr.write(
     'Next: npm start opens the playground, where you drop a .glb of your own; npm run glanz -- --help tells about the command.\n',

@@ -140,6 +140,7 @@ const STAGES = [
     title: 'prettier, lines up to 120 columns',
     run: () => program(bin('prettier', 'bin/prettier.cjs'), formatArguments(true)),
   },
+  { name: 'words', title: "the field's words", run: check('./check-words.mjs', 'checkWords') },
   {
     name: 'types',
     title: 'TypeScript 7, the whole repository',

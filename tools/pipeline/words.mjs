@@ -6,7 +6,7 @@
 /**
  * Reads the words from the table "avoid | say" of CONTRIBUTING.md, so that the text and the check cannot drift apart.
  * Each entry between backquotes in the first column is a word or phrase, found in comments, texts and as a part of
- * names (`picture` in `readPictureOf`), with any ending of `…`.
+ * names (`image` in `readImageOf`), with any ending of `…`.
  *
  * @param {string} markdown
  * @returns {Word[]}

@@ -1,4 +1,4 @@
-// The API reference: made by TypeDoc from the packages' sources into api/, anew when a source has changed.
+// The API reference: made by TypeDoc from the packages' sources into api/, again when a source has changed.
 import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { dirname, join, relative } from 'node:path';
 import { fileURLToPath } from 'node:url';

@@ -111,7 +111,7 @@ export default defineConfig({
         text: 'Start',
         items: [
           { text: 'Getting started', link: '/guide/getting-started' },
-          { text: 'A live picture', link: '/live' },
+          { text: 'A live image', link: '/live' },
           { text: 'Playground', link: PLAYGROUND, target: '_self' },
           { text: 'Where it stands', link: '/guide/status' },
           { text: 'Conventions', link: '/guide/conventions' },
@@ -176,7 +176,7 @@ export default defineConfig({
       {
         text: 'How it works',
         items: [
-          { text: 'From scene to picture', link: '/how/' },
+          { text: 'From scene to image', link: '/how/' },
           { text: 'Hierarchies, seen', link: '/how/hierarchies' },
           { text: 'Light and chance', link: '/how/light' },
           { text: 'How it is tested', link: '/how/tested' },

@@ -20,7 +20,7 @@ export const assemblies = (options: readonly Option[]) =>
 // #endregion catalogue
 
 // #region choose
-/** Shows one choice of an option and hides the others; tells how long it took until the picture began anew. */
+/** Shows one choice of an option and hides the others; tells how long it took until the image began again. */
 export async function choose(
   tracer: PathTracer,
   option: Option,

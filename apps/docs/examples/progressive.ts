@@ -41,7 +41,7 @@ export async function untilGood(
   })) {
     if (noise !== undefined)
       report(
-        `noise ${(100 * noise).toFixed(1)} %, ${Math.round(100 * active)} % of the picture to go, ${Math.ceil(remainingMs / 1000)} s`,
+        `noise ${(100 * noise).toFixed(1)} %, ${Math.round(100 * active)} % of the image to go, ${Math.ceil(remainingMs / 1000)} s`,
       );
   }
 }

@@ -1,15 +1,15 @@
-// The presets out of the sources of @glanz/openpbr, with their pictures where there are any.
+// The presets out of the sources of @glanz/openpbr, with their images where there are any.
 import { existsSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import type { OpenPbrParameters } from '@glanz/openpbr/parameters';
 import { defineLoader } from 'vitepress';
 import { readExport } from '../src/read-export';
 
-/** One preset: its name, its parameters to print, and the address of its picture. */
+/** One preset: its name, its parameters to print, and the address of its image. */
 interface Card {
   readonly name: string;
   readonly text: string;
-  readonly picture: string | undefined;
+  readonly image: string | undefined;
 }
 
 declare const data: readonly Card[];
@@ -35,7 +35,7 @@ export default defineLoader({
       text: Object.entries(parameters)
         .map(([key, value]) => `${key}: ${print(value)}`)
         .join('\n'),
-      picture: existsSync(fileURLToPath(new URL(`../public/presets/${name}.webp`, import.meta.url)))
+      image: existsSync(fileURLToPath(new URL(`../public/presets/${name}.webp`, import.meta.url)))
         ? `/presets/${name}.webp`
         : undefined,
     }));

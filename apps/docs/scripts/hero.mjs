@@ -1,4 +1,4 @@
-// node apps/docs/scripts/hero.mjs [samples] — path-traces the home page's picture into public/push-button.webp.
+// node apps/docs/scripts/hero.mjs [samples] — path-traces the home page's image into public/push-button.webp.
 import { mkdirSync, mkdtempSync, rmSync, statSync } from 'node:fs';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { build } from 'esbuild';

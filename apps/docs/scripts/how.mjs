@@ -1,4 +1,4 @@
-// Path-traces the pictures of the section "How it works" into public/how/:
+// Path-traces the images of the section "How it works" into public/how/:
 //   node apps/docs/scripts/how.mjs [name …]
 import { mkdirSync, mkdtempSync, readdirSync, rmSync } from 'node:fs';
 import { basename, join } from 'node:path';
@@ -15,7 +15,7 @@ const folder = mkdtempSync(at('../.vitepress/cache/how-'));
 try {
   // Bundled from the sources; what is native stays outside.
   await build({
-    stdin: { contents: "export * from './how-pictures';\n", resolveDir: at('../src'), loader: 'ts' },
+    stdin: { contents: "export * from './how-images';\n", resolveDir: at('../src'), loader: 'ts' },
     outfile: join(folder, 'how.mjs'),
     conditions: ['@glanz/source'],
     bundle: true,

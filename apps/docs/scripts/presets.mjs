@@ -1,4 +1,4 @@
-// Path-traces a picture of each preset into public/presets/:
+// Path-traces an image of each preset into public/presets/:
 //   node apps/docs/scripts/presets.mjs [--samples N] [name …]
 // or in two steps, for a machine that has a GPU and nothing else (see tools/gpu/pack.sh):
 //   node apps/docs/scripts/presets.mjs --pack .gpu-bench/presets.mjs          here
@@ -50,7 +50,7 @@ async function convert(folder) {
 
 if (values.pack)
   await pack(
-    "import { presetsMain } from './preset-pictures';\nawait presetsMain(process.argv.slice(2));\n",
+    "import { presetsMain } from './preset-images';\nawait presetsMain(process.argv.slice(2));\n",
     values.pack,
   );
 else if (values.from) await convert(values.from);
@@ -58,7 +58,7 @@ else {
   mkdirSync(at('../.vitepress/cache'), { recursive: true });
   const folder = mkdtempSync(at('../.vitepress/cache/presets-'));
   try {
-    await pack("export * from './preset-pictures';\n", join(folder, 'presets.mjs'));
+    await pack("export * from './preset-images';\n", join(folder, 'presets.mjs'));
     const { presetsMain } = await import(pathToFileURL(join(folder, 'presets.mjs')).href);
     await presetsMain([folder, values.samples, ...names]);
     await convert(folder);

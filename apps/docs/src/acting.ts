@@ -4,7 +4,7 @@ import type { WgslModule } from '@glanz/wgsl';
 /** Parameters that hosts read in their own code rather than in the surface's: frames, and how media begin. */
 const IN_HOSTS: readonly string[] = ['geometry_thin_walled', 'geometry_normal', 'geometry_tangent'];
 
-/** The parameters that change the picture: those that a shader reads. */
+/** The parameters that change the image: those that a shader reads. */
 export function actingParameters(): string[] {
   const seen = new Set<WgslModule>([openPbrStruct.module]);
   const textOf = (module: WgslModule): string => {

@@ -61,7 +61,7 @@ async function withTracer<T>(
   }
 }
 
-async function picture(tracer: PathTracer, samples = 4): Promise<Float32Array> {
+async function image(tracer: PathTracer, samples = 4): Promise<Float32Array> {
   for await (const progress of tracer.render({ samples })) void progress;
   return tracer.read('beauty');
 }
@@ -109,10 +109,10 @@ afterAll(() => device?.destroy());
 describe('cameras', () => {
   test('from the left, through a lens, in focus where one points', () =>
     withTracer(async (tracer) => {
-      const before = await picture(tracer);
+      const before = await image(tracer);
       cameras.fromTheLeft(tracer);
       expect((tracer.camera as PerspectiveCamera).yfov).toBeCloseTo(0.4189, 3);
-      expect(await picture(tracer)).not.toEqual(before);
+      expect(await image(tracer)).not.toEqual(before);
       cameras.focusOn(tracer, 12, 8);
       const { lens_radius, focus_distance, yfov } = tracer.camera as PerspectiveCamera;
       expect(lens_radius).toBeCloseTo(0.024 / (2 * Math.tan(yfov / 2)) / 8, 6);
@@ -123,7 +123,7 @@ describe('cameras', () => {
     withTracer(async (tracer) => {
       for (const camera of [cameras.plan, cameras.around]) {
         await tracer.setCamera(camera);
-        expect(mean(await picture(tracer), 1)).toBeGreaterThan(0.01);
+        expect(mean(await image(tracer), 1)).toBeGreaterThan(0.01);
       }
       const codes = await cameras.photograph(tracer);
       expect(codes.length).toBe(4 * SIZE.width * SIZE.height);
@@ -133,7 +133,7 @@ describe('cameras', () => {
 describe('layers', () => {
   test('a mask covers what it names', () =>
     withTracer(async (tracer) => {
-      await picture(tracer, 1);
+      await image(tracer, 1);
       const [floor, nothing] = [await layers.maskOf(tracer, 'floor'), await layers.maskOf(tracer, 'no such part')];
       expect(floor.reduce((sum, x) => sum + x, 0)).toBeGreaterThan(20);
       expect(nothing.every((x) => x === 0)).toBe(true);
@@ -141,7 +141,7 @@ describe('layers', () => {
 
   test('layers come back out of the EXR', () =>
     withTracer(async (tracer) => {
-      const beauty = await picture(tracer);
+      const beauty = await image(tracer);
       const { channels } = decodeExr(await layers.toExr(tracer));
       expect([...channels.keys()].sort()).toEqual([
         'A',
@@ -177,12 +177,12 @@ describe('lighting', () => {
     withTracer(async (tracer) => {
       const data = Float32Array.from({ length: 8 * 4 * 3 }, (_, i) => (i % 3 === 0 ? 2 : 0.1));
       await lighting.lightWith(tracer, dataUrl(encodeHdr({ width: 8, height: 4, data }), 'image/vnd.radiance'));
-      const red = await picture(tracer);
+      const red = await image(tracer);
       expect(mean(red, 0)).toBeGreaterThan(2 * mean(red, 2));
       await lighting.inTheStudio(tracer);
-      expect(mean(await picture(tracer), 1)).toBeGreaterThan(0.05);
+      expect(mean(await image(tracer), 1)).toBeGreaterThan(0.05);
       await lighting.inFog(tracer);
-      expect(mean(await picture(tracer), 2)).toBeGreaterThan(0.05);
+      expect(mean(await image(tracer), 2)).toBeGreaterThan(0.05);
       await lighting.inTheDark(tracer);
     }));
 
@@ -190,9 +190,9 @@ describe('lighting', () => {
     const scene = lighting.addPanels(lighting.addLamps(exampleScene()));
     delete (scene as { environment?: unknown }).environment;
     await withTracer(async (tracer) => {
-      expect(mean(await picture(tracer), 0)).toBeGreaterThan(0.001);
+      expect(mean(await image(tracer), 0)).toBeGreaterThan(0.001);
       await lighting.glow(tracer);
-      const [r, g] = [mean(await picture(tracer), 0), mean(await tracer.read('beauty'), 1)];
+      const [r, g] = [mean(await image(tracer), 0), mean(await tracer.read('beauty'), 1)];
       expect(g).toBeGreaterThan(r);
     }, scene);
   });
@@ -204,7 +204,7 @@ describe('lighting', () => {
     const scene = lighting.addDownlight({ ...exampleScene(), lights: [] }, ies);
     delete (scene as { environment?: unknown }).environment;
     await withTracer(async (tracer) => {
-      const pixels = await picture(tracer);
+      const pixels = await image(tracer);
       expect(mean(pixels, 0)).toBeGreaterThan(0.001);
       expect(mean(pixels, 0)).toBeGreaterThan(mean(pixels, 2));
     }, scene);
@@ -215,7 +215,7 @@ describe('lighting', () => {
       .spyOn(PathTracer, 'create')
       .mockImplementationOnce((d, scene, options) => PathTracer.create(d, scene, { ...options, ...SIZE, camera: 0 }));
     const tracer = await lighting.ontoPhotograph(device, exampleScene());
-    const alpha = Array.from(await picture(tracer)).filter((_, i) => i % 4 === 3);
+    const alpha = Array.from(await image(tracer)).filter((_, i) => i % 4 === 3);
     expect(Math.min(...alpha)).toBeLessThan(0.9);
     expect(Math.max(...alpha)).toBeGreaterThan(0.99);
     tracer.destroy();
@@ -259,7 +259,7 @@ describe('materials', () => {
       scene.materials[1] = materials.chrome;
       scene.materials[2] = materials.rubber;
       scene.materials[3] = materials.brushed;
-      await withTracer(async (other) => expect(mean(await picture(other), 1)).toBeGreaterThan(0.02), scene);
+      await withTracer(async (other) => expect(mean(await image(other), 1)).toBeGreaterThan(0.02), scene);
     }));
 
   test('MaterialX in and out, presets', () =>
@@ -271,7 +271,7 @@ describe('materials', () => {
       );
       expect(tracer.scene.materials[1]?.parameters.base_metalness).toBe(1);
       await materialx.pour(tracer);
-      expect(mean(await picture(tracer, 1), 1)).toBeGreaterThan(0);
+      expect(mean(await image(tracer, 1), 1)).toBeGreaterThan(0);
     }));
 });
 
@@ -304,9 +304,9 @@ describe('progress', () => {
 
   test('edits of every kind', () =>
     withTracer(async (tracer) => {
-      const before = await picture(tracer);
+      const before = await image(tracer);
       await progressive.rearrange(tracer);
-      expect(await picture(tracer)).not.toEqual(before);
+      expect(await image(tracer)).not.toEqual(before);
     }));
 });
 
@@ -339,13 +339,13 @@ test('a configurator: parts, colours, an address', () => {
     expect(configurator.withHidden(tracer.scene, new Set(['floor'])).instances.map(({ visible }) => visible)).toContain(
       false,
     );
-    const before = await picture(tracer);
+    const before = await image(tracer);
     await configurator.engrave(tracer, {
       name: 'legend',
       positions: Float32Array.of(-1, 0, 0, 1, 0, 0, 0, 1, 0),
       indices: Uint32Array.of(0, 1, 2),
     });
-    expect(await picture(tracer)).not.toEqual(before);
+    expect(await image(tracer)).not.toEqual(before);
   }, scene);
 });
 

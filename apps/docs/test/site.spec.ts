@@ -347,7 +347,7 @@ test('the page about hierarchies builds trees, maps their cost, shows their leve
   const live = page.locator('.live-hierarchy');
   const done = () => expect(live).toHaveAttribute('data-stage', 'done', { timeout: 60_000 });
   const cost = async () => Number(await live.getAttribute('data-cost'));
-  /** Changes a choice and waits for its picture. */
+  /** Changes a choice and waits for its image. */
   const choose = async (name: string, value: string) => {
     await live.getByLabel(name).selectOption(value);
     await expect(live).toHaveAttribute('data-stage', /build|draw|done/);

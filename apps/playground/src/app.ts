@@ -30,7 +30,7 @@ import { chosenInVariant, wornMaterial } from './viewer/worn';
 
 /** The page: joins controls, files and the session. */
 export class App {
-  readonly #canvas = byId<HTMLCanvasElement>('picture');
+  readonly #canvas = byId<HTMLCanvasElement>('image');
   readonly #stage = byId('stage');
   readonly #model = byId<HTMLSelectElement>('model');
   readonly #messages = new Messages(byId('messages'));
@@ -77,7 +77,7 @@ export class App {
     const { exposure, toneMap, samples, noise, layer } = { ...app.#store.state, ...app.#link?.state };
     app.#session = await Session.create(
       app.#canvas,
-      byId<HTMLCanvasElement>('layer-picture'),
+      byId<HTMLCanvasElement>('layer-image'),
       { exposure, toneMap, samples, noise, layer },
       {
         step: (seconds) => app.#step(seconds),
@@ -92,7 +92,7 @@ export class App {
           const now = samples > 0 ? `keeps its ${samples} samples` : 'starts again';
           app.#messages.show({
             kind: 'note',
-            text: `The GPU was lost and is back; the picture ${now}.`,
+            text: `The GPU was lost and is back; the image ${now}.`,
             code: 'playground/recovered',
           });
         },
@@ -261,7 +261,7 @@ export class App {
       const { scene } = opened;
       const first = this.#opened === undefined;
       const begin = state ?? stateFor(scene, request, this.#store.state, { link: this.#link, first });
-      // What is changed until the picture is there goes on top.
+      // What is changed until the image is there goes on top.
       const from = this.#store.state;
       const now = (): State =>
         this.#store.state === from ? begin : { ...begin, ...changedSince(from, this.#store.state) };
@@ -312,7 +312,7 @@ export class App {
     if (!sample) this.#model.append(element('option', { value: '(file)', 'data-file': true }, title));
     this.#model.value = sample ?? '(file)';
     this.#canvas.dataset['sample'] = this.#model.value;
-    this.#canvas.setAttribute('aria-label', `Path-traced picture of ${title}`);
+    this.#canvas.setAttribute('aria-label', `Path-traced image of ${title}`);
     document.title = `${title} – Glanz playground`;
     if (scene.warnings.length > 0) {
       const more = scene.warnings.length > 1 ? ` (and ${scene.warnings.length - 1} more, under Statistics)` : '';

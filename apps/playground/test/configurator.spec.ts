@@ -4,7 +4,7 @@ import {
   checkAccessibility,
   dataOf,
   errorWith,
-  pictureOf,
+  imageOf,
   pixelsOf,
   renderToFile,
   servePlayground,
@@ -30,11 +30,11 @@ async function open(page: Page, code = '', query = 'level=low&scale=0.25&samples
 }
 
 async function done(page: Page): Promise<void> {
-  await expect(pictureOf(page)).toHaveAttribute('data-state', 'done');
+  await expect(imageOf(page)).toHaveAttribute('data-state', 'done');
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
 }
 
-/** Chooses something and waits for its finished picture. */
+/** Chooses something and waits for its finished image. */
 async function choose(page: Page, id: string): Promise<void> {
   const before = await dataOf(page, 'price');
   await page.locator(`#${id}`).check({ force: true });
@@ -44,7 +44,7 @@ async function choose(page: Page, id: string): Promise<void> {
 
 /** Saves the image by the dialog, at a quarter of the canvas's size. */
 async function saveImage(page: Page, settings: Partial<RenderSettings> = {}) {
-  const [width, height] = await pictureOf(page).evaluate((canvas) =>
+  const [width, height] = await imageOf(page).evaluate((canvas) =>
     [canvas.clientWidth, canvas.clientHeight].map((side) => Math.round(side / 4)),
   );
   await page.getByRole('button', { name: 'Save image' }).click();
@@ -52,7 +52,7 @@ async function saveImage(page: Page, settings: Partial<RenderSettings> = {}) {
 }
 
 /**
- * Of the saved picture: the share of pixels that the button covers, and of those the shares that are clearly red,
+ * Of the saved image: the share of pixels that the button covers, and of those the shares that are clearly red,
  * green.
  */
 async function shares(page: Page): Promise<{ readonly covered: number; readonly red: number; readonly green: number }> {
@@ -79,7 +79,7 @@ async function shares(page: Page): Promise<{ readonly covered: number; readonly 
   );
 }
 
-test('a button is put together: each click changes the picture, the sentence, the code and the address', async ({
+test('a button is put together: each click changes the image, the sentence, the code and the address', async ({
   page,
 }) => {
   await open(page);
@@ -124,7 +124,7 @@ test('a link, or a code typed in, is that button; a wrong code is marked and cha
   await page.waitForTimeout(1200);
   await done(page);
   const corner = async () => {
-    const box = (await pictureOf(page).boundingBox())!;
+    const box = (await imageOf(page).boundingBox())!;
     return (
       await pixelsOf(
         page,
@@ -154,7 +154,7 @@ test('a link, or a code typed in, is that button; a wrong code is marked and cha
   expect(Math.abs(grey[0] - grey[2])).toBeLessThan(20);
 });
 
-test('the page keeps its picture when its size changes, saves it, and has no accessibility faults at three sizes', async ({
+test('the page keeps its image when its size changes, saves it, and has no accessibility faults at three sizes', async ({
   page,
 }) => {
   await open(page);
@@ -167,7 +167,7 @@ test('the page keeps its picture when its size changes, saves it, and has no acc
     await expect
       .poll(
         async () =>
-          await pictureOf(page).evaluate((canvas: HTMLCanvasElement) =>
+          await imageOf(page).evaluate((canvas: HTMLCanvasElement) =>
             Math.abs(canvas.width / canvas.height - canvas.clientWidth / canvas.clientHeight),
           ),
       )

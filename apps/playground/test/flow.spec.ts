@@ -10,7 +10,7 @@ import {
   finished,
   open as openAt,
   photograph,
-  pictureOf,
+  imageOf,
   pixelsOf,
   restarting,
   save,
@@ -68,9 +68,9 @@ const sails = () =>
     ];
   });
 
-/** Mean colours of the left and the right third of the picture's middle row. */
+/** Mean colours of the left and the right third of the image's middle row. */
 async function halves(page: Page) {
-  const { cells } = await photograph(pictureOf(page));
+  const { cells } = await photograph(imageOf(page));
   return { left: cells[3]!, right: cells[5]! };
 }
 
@@ -96,7 +96,7 @@ test('a model from file to file: converge, material, variant, .mtlx, a bad file,
   expect(first.left[2]).toBeGreaterThan(1.4 * first.left[0]);
   expect(first.right[1]).toBeGreaterThan(1.2 * first.right[2]);
 
-  // A preset, by its picture.
+  // A preset, by its image.
   await page.locator('#material').selectOption({ label: 'canvas' });
   await page.getByText('Presets').click();
   await page.getByLabel('Search presets').fill('blackboard');
@@ -195,11 +195,11 @@ test('the address holds the view: a reload brings back camera, material, light a
   });
   await expect.poll(() => new URL(page.url()).hash.length).toBeGreaterThan(60);
   await page.waitForTimeout(600);
-  const before = await photograph(pictureOf(page));
+  const before = await photograph(imageOf(page));
   await page.reload();
   await expect(page.locator('body')).toHaveAttribute('data-panels', 'ready');
   await finished(page);
-  const after = await photograph(pictureOf(page));
+  const after = await photograph(imageOf(page));
   after.cells.forEach((cell, i) =>
     cell.forEach((value, k) => expect(Math.abs(value - before.cells[i]![k]!), `cell ${i}`).toBeLessThan(2)),
   );
@@ -243,14 +243,14 @@ test('the address holds the view: a reload brings back camera, material, light a
 test('light: studios, a soft box, backgrounds that are saved as they are seen, and lights dimmed without a sample', async ({
   page,
 }) => {
-  // One pixel of the film to one of the screen, so that the saved picture can be compared; not many of them.
+  // One pixel of the film to one of the screen, so that the saved image can be compared; not many of them.
   await page.setViewportSize({ width: 740, height: 420 });
   await open(page, 'model=cornell-box&scale=1&samples=2&max-depth=2&environment=studio');
   await finished(page);
   await tab(page, 'Light');
   // Beside the box there is the environment.
   const beside = async () => {
-    const box = (await pictureOf(page).boundingBox())!;
+    const box = (await imageOf(page).boundingBox())!;
     return (
       await pixelsOf(page, await page.screenshot({ clip: { x: box.x + 4, y: box.y + 120, width: 12, height: 200 } }))
     ).mean;
@@ -272,7 +272,7 @@ test('light: studios, a soft box, backgrounds that are saved as they are seen, a
   await page.locator('#background-color').fill('#20c040');
   await expect.poll(async () => (await beside()).map(Math.round)).toEqual([0x20, 0xc0, 0x40]);
   const saved = await pixelsOf(page, readFileSync(await (await save(page, 'Save PNG')).path()));
-  const shown = await photograph(pictureOf(page));
+  const shown = await photograph(imageOf(page));
   saved.cells.forEach((cell, i) =>
     cell.forEach((value, k) =>
       expect(Math.abs(value - shown.cells[i]![k]!), `cell ${i}, channel ${k}`).toBeLessThan(1),
@@ -284,11 +284,11 @@ test('light: studios, a soft box, backgrounds that are saved as they are seen, a
   await expect(page.locator('#light-groups .light')).toHaveCount(2);
   await finished(page);
   const restarts = await dataOf(page, 'restarts');
-  const lit = await photograph(pictureOf(page));
+  const lit = await photograph(imageOf(page));
   const lamp = page.locator('#light-groups .field', { hasText: 'light' }).locator('input[type=number]').last();
   await lamp.fill('0');
   await lamp.press('Tab');
-  await expect.poll(async () => (await photograph(pictureOf(page))).cells[4]![0]).toBeLessThan(0.8 * lit.cells[4]![0]);
+  await expect.poll(async () => (await photograph(imageOf(page))).cells[4]![0]).toBeLessThan(0.8 * lit.cells[4]![0]);
   expect(await dataOf(page, 'restarts')).toBe(restarts);
 });
 
@@ -304,7 +304,7 @@ const png = async (page: Page, colour: string) =>
     }, colour),
   );
 
-test('a picture on a parameter multiplies it, and goes again; a file that is no picture is told', async ({ page }) => {
+test('an image on a parameter multiplies it, and goes again; a file that is no image is told', async ({ page }) => {
   await open(page);
   await drop(page, [{ name: 'sails.glb', bytes: sails() }]);
   await expect.poll(() => dataOf(page, 'scene')).toBe('sails.glb');
@@ -318,7 +318,7 @@ test('a picture on a parameter multiplies it, and goes again; a file that is no 
     .locator('input[type=file]')
     .setInputFiles({ name: 'orange.png', mimeType: 'image/png', buffer: await png(page, '#ff8000') });
   await expect(row.locator('.slot-name')).toHaveText('× orange.png');
-  // There are no coordinates to look it up by: the page says so, and the picture is one colour everywhere anyway.
+  // There are no coordinates to look it up by: the page says so, and the image is one colour everywhere anyway.
   await expect(page.getByText('has UV coordinates', { exact: false })).toBeVisible();
   await expect(async () => {
     await finished(page);
@@ -334,11 +334,11 @@ test('a picture on a parameter multiplies it, and goes again; a file that is no 
   }).toPass();
   await row
     .locator('input[type=file]')
-    .setInputFiles({ name: 'words.png', mimeType: 'image/png', buffer: Buffer.from('no picture') });
-  await expect(errorWith(page, 'playground/picture')).toBeVisible();
+    .setInputFiles({ name: 'words.png', mimeType: 'image/png', buffer: Buffer.from('no image') });
+  await expect(errorWith(page, 'playground/image')).toBeVisible();
 });
 
-/** Share of pixels of the saved picture that are neither empty nor full. */
+/** Share of pixels of the saved image that are neither empty nor full. */
 const veiled = async (page: Page) =>
   page.evaluate(
     async (base64) => {
@@ -365,11 +365,11 @@ test('the floor catches the shadow only; the blurred background is smooth, and s
   await restarting(page, () => page.getByLabel('Background', { exact: true }).selectOption('blurred'));
   await expect(page.locator('#backdrop')).toBeVisible();
   const corner = async (bytes: Buffer) => pixelsOf(page, bytes);
-  const box = (await pictureOf(page).boundingBox())!;
+  const box = (await imageOf(page).boundingBox())!;
   const seen = await corner(await page.screenshot({ clip: { x: box.x + 8, y: box.y + 300, width: 60, height: 120 } }));
   expect(seen.deviation).toBeLessThan(6);
   expect(seen.mean[0]).toBeGreaterThan(60);
-  const shown = await photograph(pictureOf(page));
+  const shown = await photograph(imageOf(page));
   const saved = await pixelsOf(page, readFileSync(await (await save(page, 'Save PNG')).path()));
   // The browser enlarges the backdrop in its own way.
   saved.cells.forEach((cell, i) =>

@@ -6,7 +6,7 @@ import {
   finished,
   open as openAt,
   photograph,
-  pictureOf,
+  imageOf,
   pixelsOf,
   restarting,
   servePlayground,
@@ -28,9 +28,9 @@ test.afterEach(() => expect(complaints).toEqual([]));
 const open = (page: Page, query = 'model=cornell-box&scale=0.25&samples=2&max-depth=2') =>
   openAt(page, `${origin}/?${query}`);
 
-/** Mean of a small piece of the picture. */
+/** Mean of a small piece of the image. */
 async function piece(page: Page, x: number, y: number): Promise<readonly [number, number, number]> {
-  const box = (await pictureOf(page).boundingBox())!;
+  const box = (await imageOf(page).boundingBox())!;
   return (await pixelsOf(page, await page.screenshot({ clip: { x: box.x + x, y: box.y + y, width: 24, height: 24 } })))
     .mean;
 }
@@ -91,7 +91,7 @@ test('an animation poses the model: its time moves a part, edits stay, and rest 
   await expect.poll(() => dataOf(page, 'scene')).toBe('moving.glb');
   await finished(page);
   const red = async () => {
-    const { cells } = await photograph(pictureOf(page));
+    const { cells } = await photograph(imageOf(page));
     // Where the red is: its centre among the columns.
     const redness = cells.map(([r, g]) => Math.max(0, r - g));
     const total = redness.reduce((sum, value) => sum + value, 0);
@@ -109,7 +109,7 @@ test('an animation poses the model: its time moves a part, edits stay, and rest 
   }).toPass();
   const restarts = Number(await dataOf(page, 'restarts'));
 
-  // Played, the sail moves by itself, and the time with it; the picture of the moment at which it is stopped is
+  // Played, the sail moves by itself, and the time with it; the image of the moment at which it is stopped is
   // finished.
   await time.fill('0');
   await time.press('Tab');
@@ -119,7 +119,7 @@ test('an animation poses the model: its time moves a part, edits stay, and rest 
     .poll(async () => seen.add(await time.inputValue()).size, { message: 'the time goes on' })
     .toBeGreaterThan(3);
   expect(Number(await dataOf(page, 'restarts'))).toBeGreaterThan(restarts + 3);
-  // It goes round: a stop just after it began anew would show the sail at rest, which tells nothing, so it is played on
+  // It goes round: a stop just after it began again would show the sail at rest, which tells nothing, so it is played on
   // until it stops later.
   let moment = 0;
   await expect(async () => {
@@ -142,23 +142,23 @@ test('an animation poses the model: its time moves a part, edits stay, and rest 
   }).toPass();
 });
 
-test('while a hand turns the model a small preview keeps up on the same canvas; the picture in full takes over, and ends the same', async ({
+test('while a hand turns the model a small preview keeps up on the same canvas; the image in full takes over, and ends the same', async ({
   page,
 }) => {
   await open(page, 'model=cornell-box&scale=0.25&samples=8&max-depth=3');
   await finished(page);
-  const before = await photograph(pictureOf(page));
-  const [width, canvas] = await pictureOf(page).evaluate(
-    (picture: HTMLCanvasElement) => [picture.dataset['film'], `${picture.width} ${picture.height}`] as const,
+  const before = await photograph(imageOf(page));
+  const [width, canvas] = await imageOf(page).evaluate(
+    (image: HTMLCanvasElement) => [image.dataset['film'], `${image.width} ${image.height}`] as const,
   );
   // Every film that is drawn and every state, as they come.
   await page.evaluate(() => {
-    const picture = document.querySelector<HTMLCanvasElement>('#picture')!;
+    const image = document.querySelector<HTMLCanvasElement>('#image')!;
     const seen = ((globalThis as { seen?: string[] }).seen = [] as string[]);
     new MutationObserver(() => {
-      const now = `${picture.dataset['state']} ${picture.dataset['film']} of ${picture.width} ${picture.height}`;
+      const now = `${image.dataset['state']} ${image.dataset['film']} of ${image.width} ${image.height}`;
       if (seen.at(-1) !== now) seen.push(now);
-    }).observe(picture, { attributes: true });
+    }).observe(image, { attributes: true });
   });
   await restarting(page, async () => {
     await page.mouse.move(200, 250);
@@ -173,8 +173,8 @@ test('while a hand turns the model a small preview keeps up on the same canvas; 
   expect(Math.min(...previews)).toBeLessThan(0.8 * Number(width!.split(' ')[0]));
   expect(seen.every((line) => line.endsWith(`of ${canvas}`))).toBe(true);
   expect(seen.at(-1)).toBe(`done ${width} of ${canvas}`);
-  // Back where it began, nothing of the preview is left in the picture.
-  const after = await photograph(pictureOf(page));
+  // Back where it began, nothing of the preview is left in the image.
+  const after = await photograph(imageOf(page));
   after.cells.forEach((cell, i) =>
     cell.forEach((value, k) => expect(Math.abs(value - before.cells[i]![k]!), `cell ${i}`).toBeLessThan(1)),
   );
@@ -183,14 +183,12 @@ test('while a hand turns the model a small preview keeps up on the same canvas; 
 test('keys: undo, views, projection, hiding; the list of keys; none of them while typing', async ({ page }) => {
   await open(page);
   await finished(page);
-  const first = await photograph(pictureOf(page));
+  const first = await photograph(imageOf(page));
   const difference = async () =>
-    (await photograph(pictureOf(page))).cells.reduce(
-      (sum, cell, i) => sum + Math.abs(cell[0] - first.cells[i]![0]),
-      0,
-    ) / 9;
+    (await photograph(imageOf(page))).cells.reduce((sum, cell, i) => sum + Math.abs(cell[0] - first.cells[i]![0]), 0) /
+    9;
   // The left wall, then away with it.
-  await pictureOf(page).click({ position: { x: 70, y: 250 } });
+  await imageOf(page).click({ position: { x: 70, y: 250 } });
   await expect(page.locator('#outline')).toHaveAttribute('data-part', /\d+/);
   const wall = await piece(page, 60, 230);
   await restarting(page, () => page.keyboard.press('h'));
@@ -212,7 +210,7 @@ test('keys: undo, views, projection, hiding; the list of keys; none of them whil
   // Focus: a click measures the distance and opens the aperture.
   await page.keyboard.press('d');
   await expect(page.locator('#focus')).toHaveAttribute('aria-pressed', 'true');
-  await restarting(page, () => pictureOf(page).click({ position: { x: 280, y: 250 } }));
+  await restarting(page, () => imageOf(page).click({ position: { x: 280, y: 250 } }));
   await expect(page.locator('#stop')).toHaveValue('2.8');
   await page.keyboard.press('d');
 
@@ -227,14 +225,14 @@ test('keys: undo, views, projection, hiding; the list of keys; none of them whil
   await expect(page.getByRole('dialog')).toBeHidden();
 });
 
-test('a preset that is dragged to the picture is put on the part under it', async ({ page }) => {
+test('a preset that is dragged to the image is put on the part under it', async ({ page }) => {
   await open(page);
   await finished(page);
   await page.getByText('Presets').click();
   await page.getByLabel('Search presets').fill('blackboard');
   const before = await piece(page, 60, 230);
   await restarting(page, () =>
-    page.locator('[data-preset=blackboard]').dragTo(pictureOf(page), { targetPosition: { x: 70, y: 250 } }),
+    page.locator('[data-preset=blackboard]').dragTo(imageOf(page), { targetPosition: { x: 70, y: 250 } }),
   );
   await expect(page.locator('#material option:checked')).toHaveText('red');
   expect((await piece(page, 60, 230))[0]).toBeLessThan(0.6 * before[0]);

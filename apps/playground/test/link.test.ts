@@ -30,7 +30,7 @@ test('an untouched state is a short link, a worked-on one still fits into a mess
   expect((await encodeLink({ model: 'push-button', state: difference(edited) })).length).toBeLessThan(520);
 });
 
-test('pictures are not in the link, nor is what is as at the beginning', () => {
+test('images are not in the link, nor is what is as at the beginning', () => {
   const image = { name: 'p', width: 1, height: 1, data: new Uint8Array(4) };
   expect(
     Object.keys(

@@ -7,8 +7,8 @@ export { checkAccessibility, pixelsOf, watch } from '@glanz/browser';
 /** The built page, served on a free port of this machine. */
 export const servePlayground = (): Promise<Served> => serveApp(fileURLToPath(new URL('..', import.meta.url)));
 
-/** What lies over the picture does not belong to it. */
-const ALONE = '.status, .messages, .tools, #outline { visibility: hidden } #picture { outline: none !important }';
+/** What lies over the image does not belong to it. */
+const ALONE = '.status, .messages, .tools, #outline { visibility: hidden } #image { outline: none !important }';
 
 /** The canvas as the browser's window shows it. */
 export const photograph = (canvas: Locator): Promise<Pixels> => photographAll(canvas, ALONE);
@@ -31,11 +31,11 @@ export async function drop(
   await page.dispatchEvent('#stage', 'drop', { dataTransfer: transfer });
 }
 
-export const pictureOf = (page: Page): Locator => page.locator('#picture');
+export const imageOf = (page: Page): Locator => page.locator('#image');
 
-/** An attribute `data-…` of the picture's canvas, or nothing. */
+/** An attribute `data-…` of the image's canvas, or nothing. */
 export const dataOf = async (page: Page, name: string): Promise<string> =>
-  (await pictureOf(page).getAttribute(`data-${name}`)) ?? '';
+  (await imageOf(page).getAttribute(`data-${name}`)) ?? '';
 
 /** Opens the page and waits for a scene and its controls. */
 export async function open(page: Page, address: string): Promise<void> {
@@ -49,26 +49,26 @@ export async function open(page: Page, address: string): Promise<void> {
   await expect(page.locator('body')).toHaveAttribute('data-panels', 'ready');
 }
 
-/** Waits for a picture with all its samples. */
+/** Waits for an image with all its samples. */
 export async function finished(page: Page): Promise<void> {
-  await expect(pictureOf(page)).toHaveAttribute('data-state', 'done');
+  await expect(imageOf(page)).toHaveAttribute('data-state', 'done');
   // The last draw comes with the next frame of the screen.
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
 }
 
-/** Does something that restarts the film, and waits for the new picture. */
+/** Does something that restarts the film, and waits for the new image. */
 export async function restarting(page: Page, action: () => Promise<unknown>): Promise<void> {
   const before = Number(await dataOf(page, 'restarts'));
   await action();
   await expect
-    .poll(async () => Number(await dataOf(page, 'restarts')), { message: 'the film starts anew' })
+    .poll(async () => Number(await dataOf(page, 'restarts')), { message: 'the film starts again' })
     .toBeGreaterThan(before);
   await finished(page);
 }
 
 export const errorWith = (page: Page, code: string): Locator => page.locator(`[role=alert][data-code="${code}"]`);
 
-/** Shows one of the panels beside the picture. */
+/** Shows one of the panels beside the image. */
 export const tab = (page: Page, name: 'Scene' | 'Material' | 'Light' | 'Camera' | 'Render'): Promise<void> =>
   page.getByRole('tab', { name }).click();
 

@@ -13,7 +13,7 @@ import {
   finished,
   open as openAt,
   photograph,
-  pictureOf as canvasOf,
+  imageOf as canvasOf,
   pixelsOf,
   renderToFile,
   restarting,
@@ -40,7 +40,7 @@ test.afterEach(() => expect(complaints).toEqual([]));
 const open = (page: Page, query = 'model=cornell-box&scale=0.25&samples=4&max-depth=3') =>
   openAt(page, `${origin}/?${query}`);
 
-test('the Cornell box appears: light above, red left, green right; the saved picture is the one on the screen', async ({
+test('the Cornell box appears: light above, red left, green right; the saved image is the one on the screen', async ({
   page,
 }) => {
   // One pixel of the film to one of the screen, so that they can be compared.
@@ -168,7 +168,7 @@ test('the first script is small, and controls come after the first model', async
   await open(page);
   const at = (name: RegExp) => asked.findIndex((url) => name.test(url));
   expect(at(/\/panels-[^/]+\.js$/)).toBeGreaterThan(at(/\/load-worker-[^/]+\.js$/));
-  // What the page's own thread has fetched: renderer, energy tables and the viewer's engine for the picture (some 160
+  // What the page's own thread has fetched: renderer, energy tables and the viewer's engine for the image (some 160
   // kB), then panels. Workers are not in it.
   const fetched = (urls: readonly string[]) => {
     const scripts = new Set(
@@ -197,7 +197,7 @@ test('hierarchies are built on workers, which stay for the next model', async ({
   expect(page.workers()).toEqual(expect.arrayContaining(pool));
 });
 
-test('exposure and tone map change the picture without starting it anew', async ({ page }) => {
+test('exposure and tone map change the image without starting it again', async ({ page }) => {
   await open(page);
   await finished(page);
   await tab(page, 'Camera');
@@ -213,7 +213,7 @@ test('exposure and tone map change the picture without starting it anew', async 
   expect(await dataOf(page, 'restarts')).toBe(restarts);
 });
 
-test('a click picks the material under it; its colour and a reset reach the picture', async ({ page }) => {
+test('a click picks the material under it; its colour and a reset reach the image', async ({ page }) => {
   await open(page);
   await finished(page);
   const before = await photograph(canvasOf(page));
@@ -434,7 +434,7 @@ test('a dropped .hdr lights the scene and is seen behind it', async ({ page }) =
   await expect(page.locator('#environment option:checked')).toHaveText('red room.hdr');
   // Left of the box there is nothing but the surroundings: 1, 0.125, 0.125 through the tone map.
   const box = (await canvasOf(page).boundingBox())!;
-  // The kernels for it may still be on their way, while those of before show their picture.
+  // The kernels for it may still be on their way, while those of before show their image.
   await expect(async () => {
     const { mean } = await pixelsOf(
       page,
@@ -476,7 +476,7 @@ test('a lost device is replaced, and edits survive it', async ({ page }) => {
   await page.locator('#material').selectOption({ label: 'red' });
   await restarting(page, () => page.locator('#parameter-base_color').fill('#2030ff'));
   const before = await photograph(canvasOf(page));
-  // The samples were copied when the picture was done.
+  // The samples were copied when the image was done.
   await page.waitForTimeout(1000);
   await page.evaluate(() => (globalThis as { lastDevice?: GPUDevice }).lastDevice?.destroy());
   await expect(page.locator('[data-code="playground/recovered"]')).toContainText(/keeps its \d+ samples/);

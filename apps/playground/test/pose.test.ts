@@ -3,7 +3,7 @@ import { createScene, type Scene } from '@glanz/scene';
 import { expect, test } from 'vitest';
 import { applyPose, posedScene } from '../src/viewer/pose';
 
-/** Two parts, a lamp and a picture. */
+/** Two parts, a lamp and an image. */
 function model(): Scene {
   const scene = createScene('model');
   const at = (x: number) => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, 0, 0, 1];
@@ -19,7 +19,7 @@ function model(): Scene {
     { name: 'b', mesh: 1, material: 0, transform: at(1) },
   ];
   scene.lights = [{ type: 'point', name: 'lamp', color: [1, 1, 1], intensity: 1, position: [0, 1, 0] }];
-  scene.images = [{ name: 'picture', width: 1, height: 1, data: Uint8Array.of(1, 2, 3, 4) }];
+  scene.images = [{ name: 'image', width: 1, height: 1, data: Uint8Array.of(1, 2, 3, 4) }];
   return scene;
 }
 
@@ -42,7 +42,7 @@ function recorder(scene: Scene): { readonly tracer: PathTracer; readonly asked: 
   };
 }
 
-test('a pose moves what it moves and leaves the rest, pictures and all', () => {
+test('a pose moves what it moves and leaves the rest, images and all', () => {
   const [scene, pose] = [model(), model()];
   pose.images = [];
   pose.instances[1]!.transform = Array.from(pose.instances[1]!.transform).map((v, i) => (i === 12 ? 5 : v));

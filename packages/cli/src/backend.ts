@@ -53,7 +53,7 @@ export interface ListedGpu {
 export interface Backend {
   /**
    * @param pose Which scene of the file, and at which moment; formats without such have one.
-   * @param formats Compressed formats that the device reads, asked where a picture could stay in one. Default: none.
+   * @param formats Compressed formats that the device reads, asked where an image could stay in one. Default: none.
    */
   loadModel(
     file: string,

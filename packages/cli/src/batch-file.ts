@@ -95,7 +95,7 @@ export interface BatchRequest {
   readonly options: RenderCommandOptions;
   /** Whether the file, not the command line, says where to write. */
   readonly ownOutput: boolean;
-  /** For messages: `picture 3`. */
+  /** For messages: `image 3`. */
   readonly where: string;
 }
 
@@ -123,12 +123,12 @@ export async function checkBatchOutputs(
 }
 
 /**
- * The pictures that a batch file asks for. JSON: a list of objects, or `{ "defaults": {…}, "pictures": […] }`; CSV: a
- * line of names, then a line for each picture. Names are those of the options of `glanz render`, and `model`; several
- * variants, views and outputs are a list, or stand with semicolons between them. What a picture does not say is taken
+ * The images that a batch file asks for. JSON: a list of objects, or `{ "defaults": {…}, "images": […] }`; CSV: a
+ * line of names, then a line for each image. Names are those of the options of `glanz render`, and `model`; several
+ * variants, views and outputs are a list, or stand with semicolons between them. What an image does not say is taken
  * from the defaults and from the command line. Paths are relative to the file.
  *
- * @param warn Gets a warning for each picture that uses a former name of an option.
+ * @param warn Gets a warning for each image that uses a former name of an option.
  * @throws {CliError} `cli/input`, `cli/batch`, `cli/usage`
  */
 export async function readBatch(
@@ -147,9 +147,9 @@ export async function readBatch(
       if (line.length > names.length)
         throw wrong(
           file,
-          `picture ${i + 1} has ${line.length} fields, but there are ${names.length} names in the first line.`,
+          `image ${i + 1} has ${line.length} fields, but there are ${names.length} names in the first line.`,
         );
-      return [`picture ${i + 1}`, Object.fromEntries(names.map((name, k) => [name, line[k]]))];
+      return [`image ${i + 1}`, Object.fromEntries(names.map((name, k) => [name, line[k]]))];
     });
   } else {
     let json: unknown;
@@ -163,13 +163,13 @@ export async function readBatch(
     }
     const isObject = (value: unknown): value is Record<string, unknown> =>
       typeof value === 'object' && value !== null && !Array.isArray(value);
-    const list = isObject(json) ? json['pictures'] : json;
+    const list = isObject(json) ? json['images'] : json;
     const defaults = isObject(json) ? (json['defaults'] ?? {}) : {};
     if (!Array.isArray(list) || !list.every(isObject) || !isObject(defaults))
-      throw wrong(file, 'it must be a list of objects, or { "defaults": {…}, "pictures": […] }.');
-    rows = (list as Record<string, unknown>[]).map((row, i) => [`picture ${i + 1}`, { ...defaults, ...row }]);
+      throw wrong(file, 'it must be a list of objects, or { "defaults": {…}, "images": […] }.');
+    rows = (list as Record<string, unknown>[]).map((row, i) => [`image ${i + 1}`, { ...defaults, ...row }]);
   }
-  if (rows.length === 0) throw wrong(file, 'there is no picture in it.');
+  if (rows.length === 0) throw wrong(file, 'there is no image in it.');
   const folder = dirname(file);
   const near = (path: string) => (isAbsolute(path) || folder === '.' ? path : join(folder, path));
   return rows.map(([where, row]) => {

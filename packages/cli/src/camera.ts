@@ -62,7 +62,7 @@ const PERSPECTIVE_ONLY = ['fov', 'lens_radius', 'lens_blades', 'lens_rotation', 
  * - `orthographic`: `height` of the view in metres;
  * - `panorama`: the whole sphere.
  *
- * @param aspect Width over height of the picture; default 1.
+ * @param aspect Width over height of the image; default 1.
  * @throws {CliError} `cli/camera`
  */
 export function cameraFromJson(text: string, aspect = 1): Camera {

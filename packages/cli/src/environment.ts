@@ -20,7 +20,7 @@ export const isEnvironmentFile = (choice: string | undefined): choice is string 
  *
  * @param signal Stops reading the file.
  * @throws {CliError} `cli/input` if the file cannot be read
- * @throws {ImageError} if it is not a picture
+ * @throws {ImageError} if it is not an image
  */
 export async function chooseEnvironment(
   scene: Scene,

@@ -20,7 +20,7 @@ const COMMANDS = {
   glanz info MODEL [--scene SCENE] [--json]
 
   Tells what a model holds, without rendering it: triangles, parts, size,
-  materials, pictures, cameras, lights, variants, animations, memory, what the
+  materials, images, cameras, lights, variants, animations, memory, what the
   file says of itself, and every warning.
 `,
   bench: `MEASURING
@@ -59,7 +59,7 @@ const COMMANDS = {
 
 /** The manual page. */
 export const HELP = `NAME
-  glanz - path-trace glTF models to pictures, with or without a GPU
+  glanz - path-trace glTF models to images, with or without a GPU
 
 SYNOPSIS
   glanz render MODEL [-o FILE]... [--env FILE] [--size WxH] [--samples N] [...]
@@ -73,7 +73,7 @@ SYNOPSIS
 
 DESCRIPTION
   Renders a glTF 2.0 model (.glb or .gltf), an .obj with its .mtl, or an .stl,
-  and writes the picture in each format asked for. A model without a camera is
+  and writes the image in each format asked for. A model without a camera is
   framed from the front right, a little from above; without --env it stands in
   a neutral photo studio. Uses the best GPU there is, or the processor if there
   is none.
@@ -153,28 +153,28 @@ MANY PICTURES
       --output FILE     {model}, {variant} and {view} in the name stand for what
                         they say. Names that would be the same get
                         -{variant}-{view} at their ends.
-      --batch FILE      Pictures from a file. JSON: a list of objects whose keys
+      --batch FILE      Images from a file. JSON: a list of objects whose keys
                         are the names of these options and "model", or
-                        { "defaults": {...}, "pictures": [...] }. CSV: a line of
-                        names, then one for each picture. What a picture does
+                        { "defaults": {...}, "images": [...] }. CSV: a line of
+                        names, then one for each image. What an image does
                         not say the command line does. Paths are relative to the
                         file.
-      --resume          Leave out pictures that an earlier run has finished, if
+      --resume          Leave out images that an earlier run has finished, if
                         neither options nor files have changed since. A journal
-                        beside the pictures, .glanz-journal.jsonl, knows.
+                        beside the images, .glanz-journal.jsonl, knows.
       --checkpoint FILE Keep the samples in FILE while rendering, at most every
                         30 seconds, and when it is interrupted. The same
                         command goes on from there; --samples may be raised. A
                         file that belongs to another image is refused. Deleted
                         when the image is written. May hold {model}, {variant}
                         and {view}.
-      --gpu NAME        Given several times, each GPU takes the next picture
+      --gpu NAME        Given several times, each GPU takes the next image
                         when it is done with one. A GPU that is lost for good
                         leaves its image, with the samples so far, to the rest.
       --output-root DIR Let the batch file write below this folder. Default: the
                         folder that the batch file is in.
-  A picture that fails does not keep the others; the exit status is that of the
-  first failure. With Ctrl-C, unfinished pictures are not written.
+  An image that fails does not keep the others; the exit status is that of the
+  first failure. With Ctrl-C, unfinished images are not written.
 
 ${COMMANDS.convert}
 ${COMMANDS.info}
@@ -187,7 +187,7 @@ MACHINE
                         processor.
       --json            Print one JSON object on stdout: files, samples,
                         timings, statistics, adapter; or the error. Of
-                        many: { ok, pictures: [...], total, skipped, failed }.
+                        many: { ok, images: [...], total, skipped, failed }.
   -q, --quiet           No progress, no summary.
   -h, --help            This page.
   -V, --version         The version.

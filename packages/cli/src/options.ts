@@ -15,7 +15,7 @@ export interface PoseOptions {
   readonly time?: number;
 }
 
-/** Everything that a picture, or a matrix of variants and views, can be told, checked. */
+/** Everything that an image, or a matrix of variants and views, can be told, checked. */
 export interface RenderCommandOptions {
   readonly model: string;
   readonly pose: PoseOptions;
@@ -57,9 +57,9 @@ export interface RenderCommand extends ReportOptions {
   readonly batch: string | undefined;
   /** The folder below which the batch file may write; default: its own. */
   readonly outputRoot: string | undefined;
-  /** What the command line says, for pictures of a batch that do not say otherwise. */
+  /** What the command line says, for images of a batch that do not say otherwise. */
   readonly values: RenderValues & { readonly model?: string | undefined };
-  /** Pictures that are there already are not made again. */
+  /** Images that are there already are not made again. */
   readonly resume: boolean;
   /** Where samples are kept for a later run; may hold {model}, {variant} and {view}. */
   readonly checkpoint: string | undefined;
@@ -134,10 +134,10 @@ export function presentNames<T extends RenderValues>(values: T, warn: (text: str
   return present;
 }
 
-/** What the command line said of pictures, not yet checked. */
+/** What the command line said of images, not yet checked. */
 export type RenderValues = Omit<Partial<ReturnType<typeof parseOptions>['values']>, (typeof NOT_OF_PICTURES)[number]>;
 
-/** Options of the command, not of a picture. */
+/** Options of the command, not of an image. */
 const NOT_OF_PICTURES = [
   'json',
   'quiet',
@@ -151,7 +151,7 @@ const NOT_OF_PICTURES = [
   'output-root',
 ] as const;
 
-/** Options that a picture of a batch may have. */
+/** Options that an image of a batch may have. */
 export const BATCH_KEYS: Readonly<Record<string, 'text' | 'boolean' | 'list'>> = Object.fromEntries(
   Object.entries(OPTIONS).flatMap(([name, option]) =>
     (NOT_OF_PICTURES as readonly string[]).includes(name)
@@ -250,12 +250,12 @@ function parseSize(text: string): [number, number] {
 
 function defaultOutput(model: string): string {
   const base = (model.split(/[\\/]/).pop() as string).replace(/\.(glb|gltf|obj|stl)$/i, '');
-  return `${base || 'picture'}.png`;
+  return `${base || 'image'}.png`;
 }
 
 const indexOrName = (text: string): string | number => (/^\d+$/.test(text) ? Number(text) : text);
 
-/** Checks what was said of a picture. @throws {CliError} `cli/usage` */
+/** Checks what was said of an image. @throws {CliError} `cli/usage` */
 export function renderOptions(values: RenderValues, model: string): RenderCommandOptions {
   const [width, height] = parseSize(values.size ?? '1024x768');
   const toneMap = values['tone-map'] ?? 'neutral';

@@ -41,9 +41,9 @@ const REDRAW_MS = 80;
 export class ProgressReporter {
   readonly #io: CliIo;
   readonly #quiet: boolean;
-  /** Stands before everything while one of several pictures is made. */
+  /** Stands before everything while one of several images is made. */
   prefix = '';
-  /** Several pictures are made at a time: only lines that stay make sense. */
+  /** Several images are made at a time: only lines that stay make sense. */
   shared = false;
   #shown = false;
   #lastDraw = -Infinity;

@@ -2,7 +2,7 @@ import { frameCamera, sceneBounds, type Camera, type PerspectiveCamera, type Sce
 import { dot, lerp, scaleAndAdd, subtract } from 'gl-matrix/esm/vec3.js';
 import { chooseCamera, lookAt } from './camera';
 
-/** Where a picture is taken from. */
+/** Where an image is taken from. */
 export type View =
   /** A camera as `--camera` takes it; undefined: the model's first, or one that frames it. */
   | { readonly kind: 'camera'; readonly name: string; readonly camera: string | undefined }
@@ -74,7 +74,7 @@ export const turntable = (count: number, elevation: number): View[] =>
 
 type Vector = [number, number, number];
 
-/** From the scene towards the camera. Straight up has no upright picture: a hair beside it, −Z is up in it. */
+/** From the scene towards the camera. Straight up has no upright image: a hair beside it, −Z is up in it. */
 function directionOf(azimuth: number, elevation: number): Vector {
   const a = (azimuth * Math.PI) / 180,
     e = (Math.min(Math.max(elevation, -89.99), 89.99) * Math.PI) / 180;

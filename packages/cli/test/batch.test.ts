@@ -18,7 +18,7 @@ const SIZE = ['--size', '4x4', '--samples', '2'];
 const VARIANTS = ['red', 'green', 'deep blue'];
 const scene = { ...triangleScene(), variants: VARIANTS };
 const folder = () => temporaryFolder({ 'm.glb': 'not read by the fake', 'n.glb': 'nor this' });
-const pictures = (cwd: string) =>
+const images = (cwd: string) =>
   readdirSync(cwd, { recursive: true, encoding: 'utf8' })
     .filter((name) => name.endsWith('.png'))
     .sort();
@@ -32,7 +32,7 @@ describe('variants and views', () => {
       { scene },
     );
     expect(code).toBe(0);
-    expect(pictures(cwd)).toEqual([
+    expect(images(cwd)).toEqual([
       'm-deep_blue-30_20.png',
       'm-deep_blue-front.png',
       'm-green-30_20.png',
@@ -45,7 +45,7 @@ describe('variants and views', () => {
     const result = JSON.parse(out) as BatchResult;
     expect(result).toMatchObject({ ok: true, total: 6, skipped: 0, failed: 0, interrupted: null });
     expect(
-      (result.pictures as RenderResult[]).map(({ variant, view, files: [file] }) => [variant, view, file!.path])[1],
+      (result.images as RenderResult[]).map(({ variant, view, files: [file] }) => [variant, view, file!.path])[1],
     ).toEqual(['red', '30_20', 'm-red-30_20.png']);
   });
 
@@ -72,7 +72,7 @@ describe('variants and views', () => {
         )
       ).code,
     ).toBe(0);
-    expect(pictures(cwd)).toEqual([
+    expect(images(cwd)).toEqual([
       'out/m/0/turntable-000.png',
       'out/m/0/turntable-001.png',
       'out/m/green/turntable-000.png',
@@ -80,7 +80,7 @@ describe('variants and views', () => {
     ]);
   });
 
-  it('one variant is one picture, as ever', async () => {
+  it('one variant is one image, as ever', async () => {
     const cwd = folder();
     const { out, edits } = await run(['render', 'm.glb', ...SIZE, '--variant', 'green', '--json'], cwd, { scene });
     expect(JSON.parse(out)).toMatchObject({ ok: true, variant: 'green', files: [{ path: 'm.png' }] });
@@ -93,7 +93,7 @@ describe('variants and views', () => {
     [['--view', 'iso', '--camera', '0'], 2, 'give one of the two'],
     [['--elevation', '5'], 2, '--elevation belongs to --turntable'],
     [['--turntable', '0'], 2, '--turntable must be'],
-    [['--view', 'front', '--view', 'front'], 2, 'Two pictures would be written to "m-front.png"'],
+    [['--view', 'front', '--view', 'front'], 2, 'Two images would be written to "m-front.png"'],
     [['--view', 'nowhere'], 2, 'The model has no camera "nowhere"'],
   ])('%j is refused', async (argv, code, message) => {
     const refused = await run(['render', 'm.glb', ...SIZE, ...argv], folder(), { scene });
@@ -121,7 +121,7 @@ describe('batch files', () => {
       join(cwd, 'jobs', 'b.json'),
       JSON.stringify({
         defaults: { samples: 3, seed: 9 },
-        pictures: [
+        images: [
           { model: '../m.glb', output: 'a.png', view: 'iso' },
           {
             model: '../n.glb',
@@ -139,15 +139,13 @@ describe('batch files', () => {
       { scene },
     );
     expect(code, err).toBe(0);
-    expect(pictures(cwd)).toEqual(['jobs/a.png', 'jobs/b.png']);
+    expect(images(cwd)).toEqual(['jobs/a.png', 'jobs/b.png']);
     expect(existsSync(join(cwd, 'jobs/b.exr'))).toBe(true);
     expect(created.map(({ options: { seed, maxDepth, background } }) => [seed, maxDepth, background])).toEqual([
       [9, 3, 'environment'],
       [9, 3, 'transparent'],
     ]);
-    expect((JSON.parse(out) as BatchResult).pictures.map((picture) => (picture as RenderResult).samples)).toEqual([
-      3, 5,
-    ]);
+    expect((JSON.parse(out) as BatchResult).images.map((image) => (image as RenderResult).samples)).toEqual([3, 5]);
   });
 
   it('CSV with quotes, lists and empty fields', async () => {
@@ -162,14 +160,14 @@ describe('batch files', () => {
       { scene },
     );
     expect(code, err).toBe(0);
-    expect(pictures(cwd)).toEqual([
+    expect(images(cwd)).toEqual([
       'say "n".png',
       'x/green-30_20.png',
       'x/green-iso.png',
       'x/red-30_20.png',
       'x/red-iso.png',
     ]);
-    expect((JSON.parse(out) as BatchResult).pictures.map((picture) => (picture as RenderResult).samples)).toEqual([
+    expect((JSON.parse(out) as BatchResult).images.map((image) => (image as RenderResult).samples)).toEqual([
       2, 2, 2, 2, 7,
     ]);
   });
@@ -184,15 +182,15 @@ describe('batch files', () => {
 
   it.each([
     ['b.json', '{', 'it is no JSON'],
-    ['b.json', '[]', 'there is no picture in it'],
-    ['b.json', '{"pictures": [3]}', 'it must be a list of objects'],
-    ['b.json', '[{"model":"m.glb","colour":"red"}]', 'picture 1: "colour" is unknown'],
-    ['b.json', '[{"model":"m.glb","size":"big"}]', 'picture 1: --size must be like 1024x768'],
-    ['b.json', '[{"model":"m.glb","samples":[1]}]', 'picture 1: "samples" must be a text or a number'],
-    ['b.json', '[{"output":"a.png"}]', 'picture 1: "model" is missing'],
+    ['b.json', '[]', 'there is no image in it'],
+    ['b.json', '{"images": [3]}', 'it must be a list of objects'],
+    ['b.json', '[{"model":"m.glb","colour":"red"}]', 'image 1: "colour" is unknown'],
+    ['b.json', '[{"model":"m.glb","size":"big"}]', 'image 1: --size must be like 1024x768'],
+    ['b.json', '[{"model":"m.glb","samples":[1]}]', 'image 1: "samples" must be a text or a number'],
+    ['b.json', '[{"output":"a.png"}]', 'image 1: "model" is missing'],
     ['b.json', '[{"model":"m.glb","__proto__":{"x":1},"constructor":"y"}]', '"__proto__" is unknown'],
-    ['b.csv', 'model\nm.glb,extra\n', 'picture 1 has 2 fields'],
-    ['b.csv', 'model,json\nm.glb,true\n', 'picture 1: "json" is unknown'],
+    ['b.csv', 'model\nm.glb,extra\n', 'image 1 has 2 fields'],
+    ['b.csv', 'model,json\nm.glb,true\n', 'image 1: "json" is unknown'],
   ])('%s: %s', async (name, text, message) => {
     const cwd = folder();
     writeFileSync(join(cwd, name), text);
@@ -212,19 +210,19 @@ describe('batch files', () => {
     );
     const { code, out, err } = await run(['render', '--batch', 'b.json', ...SIZE, '--json'], cwd, { scene });
     expect(code).toBe(2);
-    expect(pictures(cwd)).toEqual(['b.png']);
+    expect(images(cwd)).toEqual(['b.png']);
     expect(JSON.parse(out)).toMatchObject({
       ok: false,
       failed: 1,
-      pictures: [{ ok: false, files: ['a.png'], error: { code: 'cli/usage' } }, { ok: true }],
+      images: [{ ok: false, files: ['a.png'], error: { code: 'cli/usage' } }, { ok: true }],
     });
-    expect(err).toContain('1 of 2 pictures in 0:00, 1 failed');
+    expect(err).toContain('1 of 2 images in 0:00, 1 failed');
   });
 });
 
 describe('resuming', () => {
   const argv = ['render', 'm.glb', ...SIZE, '--variant', 'all', '--view', 'front', '--view', 'iso', '--json'];
-  const made = (out: string) => (JSON.parse(out) as BatchResult).pictures.length;
+  const made = (out: string) => (JSON.parse(out) as BatchResult).images.length;
 
   it('what is there is not made again, unless something of it has changed', async () => {
     const cwd = folder();
@@ -248,23 +246,23 @@ describe('resuming', () => {
     expect(made((await run([...argv, '--seed', '3', '--resume'], cwd, { scene })).out)).toBe(0);
   });
 
-  it('after Ctrl-C: finished pictures stay, the unfinished one is not written, the rest is made next time', async () => {
+  it('after Ctrl-C: finished images stay, the unfinished one is not written, the rest is made next time', async () => {
     const cwd = folder();
     const io = fakeIo(cwd);
     let samples = 0;
     const { code, out, err } = await run(argv, cwd, { scene, onSample: () => ++samples === 6 && io.interrupt() }, io);
     expect(code).toBe(130);
     expect(JSON.parse(out)).toMatchObject({ ok: false, interrupted: 'SIGINT', total: 6 });
-    expect(pictures(cwd)).toEqual(['m-red-front.png', 'm-red-iso.png']);
-    expect(err).toContain('2 of 6 pictures in 0:00; --resume goes on');
+    expect(images(cwd)).toEqual(['m-red-front.png', 'm-red-iso.png']);
+    expect(err).toContain('2 of 6 images in 0:00; --resume goes on');
     const rest = await run([...argv, '--resume'], cwd, { scene });
-    expect([rest.code, made(rest.out), pictures(cwd).length]).toEqual([0, 4, 6]);
+    expect([rest.code, made(rest.out), images(cwd).length]).toEqual([0, 4, 6]);
     expect(readFileSync(join(cwd, '.glanz-journal.jsonl'), 'utf8').trim().split('\n').length).toBe(6);
   });
 });
 
 describe('several GPUs', () => {
-  it('share the pictures', async () => {
+  it('share the images', async () => {
     const cwd = folder();
     const opened: (string | undefined)[] = [];
     const openGpu = async (name: string | undefined) => {
@@ -292,9 +290,9 @@ describe('several GPUs', () => {
       { scene, openGpu },
     );
     expect([code, opened.sort(), created.length]).toEqual([0, ['a', 'b'], 2]);
-    const adapters = (JSON.parse(out) as BatchResult).pictures.map((picture) => (picture as RenderResult).adapter.name);
+    const adapters = (JSON.parse(out) as BatchResult).images.map((image) => (image as RenderResult).adapter.name);
     expect(adapters.length).toBe(6);
     expect(new Set(adapters)).toEqual(new Set(['Fake a', 'Fake b']));
-    expect(pictures(cwd).length).toBe(6);
+    expect(images(cwd).length).toBe(6);
   });
 });

@@ -30,7 +30,7 @@ describe('info', () => {
       '  triangles     1',
       '  parts         1: part',
       '  size          2 × 1 × 0 m, from -1, 0, 0',
-      '  pictures      1: wood 2×1',
+      '  images        1: wood 2×1',
       '  cameras       1: 0 "front" perspective',
       '  lights        none',
       '  variants      2: "red", "blue"',

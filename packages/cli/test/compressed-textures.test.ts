@@ -10,7 +10,7 @@ const lamp = fileURLToPath(
 const note = existsSync(lamp) ? '' : ' (skipped: ../shared/assets is not there)';
 
 test.skipIf(note !== '')(
-  `a lamp with pictures in KTX2: packed where the device reads blocks, else unpacked, and the same picture${note}`,
+  `a lamp with images in KTX2: packed where the device reads blocks, else unpacked, and the same image${note}`,
   { timeout: 300_000 },
   async () => {
     const backend = nodeBackend();
@@ -32,7 +32,7 @@ test.skipIf(note !== '')(
     // Asked for, the pixels are there, and the same.
     expect(Buffer.compare(packed.images.at(-1)!.data as Uint8Array, plain.images.at(-1)!.data as Uint8Array)).toBe(0);
     const draw = async (scene: Scene) => {
-      // Matt, with all of its pictures in use: this is about pictures, and other shaders take long.
+      // Matt, with all of its images in use: this is about images, and other shaders take long.
       const materials = scene.materials.map(({ name, textures = {} }) => ({
         name,
         parameters: { specular_weight: 0 },
@@ -48,9 +48,9 @@ test.skipIf(note !== '')(
         { width: 48, height: 48, maxDepth: 3, pathsInFlight: 1 << 12 },
       );
       for await (const _ of tracer.render({ samples: 16, maxSubmitMs: 500 }));
-      const picture = { pixels: await tracer.read('beauty'), textures: tracer.statistics.memory.textures };
+      const image = { pixels: await tracer.read('beauty'), textures: tracer.statistics.memory.textures };
       tracer.destroy();
-      return picture;
+      return image;
     };
     const [a, b] = [await draw(packed), await draw(plain)];
     device.destroy();

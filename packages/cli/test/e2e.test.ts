@@ -106,7 +106,7 @@ describe('a red square', () => {
     ]).toEqual([0xffffffff, 0, 0, 0xffffffff]);
     expect(at('position.X', 8, 8)).toBeCloseTo(0.125, 2);
     expect(at('depth.Z', 8, 8)).toBeCloseTo(4, 5);
-    // Lit by the studio alone: one group, which is the picture itself.
+    // Lit by the studio alone: one group, which is the image itself.
     expect([...exr.channels.keys()].filter((name) => name.startsWith('light.'))).toEqual([]);
     expect(at('variance.R', 8, 8)).toBeGreaterThanOrEqual(0);
     expect(at('variance.R', 8, 8)).toBeLessThan(0.01);

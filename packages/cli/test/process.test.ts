@@ -64,7 +64,7 @@ it('an error sets the exit status', async () => {
   });
 });
 
-it('a picture, exit status 0, and nothing on stdout', async () => {
+it('an image, exit status 0, and nothing on stdout', async () => {
   const cwd = temporaryFolder({ 'red.glb': makeGlb({ camera: true }) });
   const { code, out, err } = await start(
     [
@@ -91,7 +91,7 @@ it('a picture, exit status 0, and nothing on stdout', async () => {
   expect((await sharp(join(cwd, 'x.png')).metadata()).depth).toBe('ushort');
 });
 
-it('SIGINT writes the picture; the process ends by itself with 130', async () => {
+it('SIGINT writes the image; the process ends by itself with 130', async () => {
   const cwd = temporaryFolder({ 'red.glb': makeGlb({ camera: true }) });
   let sent = false;
   const { code, signal, out, err } = await start(
@@ -259,7 +259,7 @@ it('no memory for a layer of an EXR: exit status 1, no file, and nothing on stdo
 });
 
 it(
-  'a batch that is killed goes on where it was, and its pictures are those of runs of their own',
+  'a batch that is killed goes on where it was, and its images are those of runs of their own',
   { timeout: 600_000 },
   async () => {
     const cwd = temporaryFolder({ 'shoe.glb': makeGlb({ camera: true, variants: true }) });
@@ -285,7 +285,7 @@ it(
       '--json',
       ...quality,
     ];
-    // Killed without warning while the third picture is made.
+    // Killed without warning while the third image is made.
     let sent = false;
     const killed = await start(argv, cwd, (text, child) => {
       if (!sent && /\[4\/12\] render/.test(text)) sent = child.kill('SIGKILL');
@@ -297,8 +297,8 @@ it(
     const stamps = new Map(before.map((name) => [name, statSync(join(cwd, 'out', name)).mtimeMs]));
     const { code, out, err } = await start([...argv, '--resume'], cwd);
     expect(code, err).toBe(0);
-    const result = JSON.parse(out) as { total: number; skipped: number; pictures: { files: { path: string }[] }[] };
-    expect([result.total, result.skipped + result.pictures.length]).toEqual([12, 12]);
+    const result = JSON.parse(out) as { total: number; skipped: number; images: { files: { path: string }[] }[] };
+    expect([result.total, result.skipped + result.images.length]).toEqual([12, 12]);
     // At most the one whose journal line was not yet written is made twice.
     expect(result.skipped).toBeGreaterThanOrEqual(before.length - 1);
     const files = readdirSync(join(cwd, 'out'))
@@ -364,7 +364,7 @@ it('a second SIGINT ends it at once', async () => {
       }
     },
   );
-  // Killed by the second, or, on a fast machine, already done with the first: either way soon and without a picture.
+  // Killed by the second, or, on a fast machine, already done with the first: either way soon and without an image.
   expect(signal === 'SIGINT' || code === 130).toBe(true);
   expect(existsSync(join(cwd, 'red.png'))).toBe(false);
 });

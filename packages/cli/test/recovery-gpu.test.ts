@@ -104,7 +104,7 @@ describe('the files are the same bit for bit', () => {
       },
     });
     expect([code, devices.length], err).toEqual([0, 2]);
-    expect((JSON.parse(out) as BatchResult).pictures.map((picture) => (picture as RenderResult).gpuLosses)).toEqual([
+    expect((JSON.parse(out) as BatchResult).images.map((image) => (image as RenderResult).gpuLosses)).toEqual([
       0, 0, 1, 0,
     ]);
     expect(same(bytes(cwd, names), bytes(whole, names))).toEqual([0, 0, 0, 0]);
@@ -141,10 +141,10 @@ describe('the files are the same bit for bit', () => {
       },
     });
     expect(code, err).toBe(0);
-    const { pictures, gpusLost } = JSON.parse(out) as BatchResult;
+    const { images, gpusLost } = JSON.parse(out) as BatchResult;
     expect(gpusLost).toMatchObject([{ gpu: 'bad', error: { code: 'cli/gpu-lost' } }]);
-    expect((pictures as RenderResult[]).map(({ adapter }) => adapter.name)).toEqual(['good', 'good', 'good', 'good']);
-    expect((pictures as RenderResult[]).filter(({ resumedSamples }) => resumedSamples > 0).length).toBe(1);
+    expect((images as RenderResult[]).map(({ adapter }) => adapter.name)).toEqual(['good', 'good', 'good', 'good']);
+    expect((images as RenderResult[]).filter(({ resumedSamples }) => resumedSamples > 0).length).toBe(1);
     expect(same(bytes(cwd, names), bytes(whole, names))).toEqual([0, 0, 0, 0]);
   });
 

@@ -252,7 +252,7 @@ describe('errors that the device reports outside of a call', () => {
     ]);
   });
 
-  it('of one picture of a batch: the others are made, by tracers that know nothing of it', async () => {
+  it('of one image of a batch: the others are made, by tracers that know nothing of it', async () => {
     const cwd = folder();
     let reads = 0;
     const { code, out, created } = await run(
@@ -278,7 +278,7 @@ describe('errors that the device reports outside of a call', () => {
     expect(JSON.parse(out)).toMatchObject({
       ok: false,
       failed: 1,
-      pictures: [{ ok: true }, { ok: false, error: { code: 'renderer/out-of-memory' } }, { ok: true }],
+      images: [{ ok: true }, { ok: false, error: { code: 'renderer/out-of-memory' } }, { ok: true }],
     });
   });
 });
@@ -287,7 +287,7 @@ describe('a batch', () => {
   const scene = { ...triangleScene(), variants: ['a', 'b', 'c', 'd', 'e', 'f', 'g', 'h'] };
   const EIGHT = ['render', 'm.glb', '--size', '4x4', '--samples', '20', '--variant', 'all', '--json'];
 
-  it('whose GPU is lost in one picture goes on, and makes all', async () => {
+  it('whose GPU is lost in one image goes on, and makes all', async () => {
     const cwd = folder();
     let made = 0;
     const { fake, opened } = gpus({
@@ -298,7 +298,7 @@ describe('a batch', () => {
     });
     const { code, out, err } = await run(EIGHT, cwd, { ...fake, scene });
     expect([code, opened.length, images(cwd).length], err).toEqual([0, 2, 8]);
-    expect((JSON.parse(out) as BatchResult).pictures.map((picture) => (picture as RenderResult).gpuLosses)).toEqual([
+    expect((JSON.parse(out) as BatchResult).images.map((image) => (image as RenderResult).gpuLosses)).toEqual([
       0, 0, 1, 0, 0, 0, 0, 0,
     ]);
   });
@@ -308,7 +308,7 @@ describe('a batch', () => {
   it.each([
     ['gives no device any more', (name: string, before: number) => name === 'bad' && before > 0],
     ['loses every device', () => false],
-  ])('a lane whose GPU %s hands its picture and its samples to the other', async (_what, refuses) => {
+  ])('a lane whose GPU %s hands its image and its samples to the other', async (_what, refuses) => {
     const cwd = folder();
     const { io, tick } = ticking(cwd);
     const { fake } = gpus({
@@ -326,16 +326,14 @@ describe('a batch', () => {
       failed: 0,
       gpusLost: [{ gpu: 'Fake bad', error: { code: 'cli/gpu-lost' } }],
     });
-    expect(new Set(result.pictures.map((picture) => (picture as RenderResult).adapter.name))).toEqual(
-      new Set(['Fake good']),
-    );
-    // One of the pictures began on the one and was finished on the other.
-    const resumed = result.pictures
-      .map((picture) => (picture as RenderResult).resumedSamples)
+    expect(new Set(result.images.map((image) => (image as RenderResult).adapter.name))).toEqual(new Set(['Fake good']));
+    // One of the images began on the one and was finished on the other.
+    const resumed = result.images
+      .map((image) => (image as RenderResult).resumedSamples)
       .filter((samples) => samples > 0);
     expect(resumed.length).toBe(1);
     expect(edits.filter(([what, to]) => what === 'film' && to === resumed[0]).length).toBeGreaterThanOrEqual(1);
-    expect(err).toContain('The other GPUs go on with its pictures.');
+    expect(err).toContain('The other GPUs go on with its images.');
   });
 
   it('one that never was there leaves everything to the other', async () => {
@@ -361,10 +359,10 @@ describe('a batch', () => {
     });
     const { code, out, err } = await run(two, cwd, { ...fake, scene });
     const result = JSON.parse(out) as BatchResult;
-    expect([code, result.pictures.length, result.gpusLost.length], err).toEqual([5, 8, 2]);
+    expect([code, result.images.length, result.gpusLost.length], err).toEqual([5, 8, 2]);
     expect(result.failed).toBe(8 - images(cwd).length);
     expect(result.failed).toBeGreaterThanOrEqual(5);
-    const reasons = result.pictures.flatMap((picture) => (picture.ok ? [] : [picture.error]));
+    const reasons = result.images.flatMap((image) => (image.ok ? [] : [image.error]));
     for (const { code: why, message } of reasons)
       expect([why, message]).toEqual(['cli/gpu-lost', expect.stringContaining('gives no new device')]);
     expect(err).toContain(`${result.failed} failed`);
@@ -380,9 +378,9 @@ describe('a batch', () => {
     ]);
   });
 
-  it('one picture that no GPU survives does not keep the others', async () => {
+  it('one image that no GPU survives does not keep the others', async () => {
     const cwd = folder();
-    // The third picture, by its samples' order: the tracer was set to variant 2.
+    // The third image, by its samples' order: the tracer was set to variant 2.
     for (const argv of [EIGHT, two]) {
       const { fake } = gpus({});
       let variant: unknown;
@@ -398,12 +396,12 @@ describe('a batch', () => {
       const { code, out, err } = await run(argv, cwd, deadly);
       expect(variant).toBeDefined();
       const result = JSON.parse(out) as BatchResult;
-      expect([code, result.failed, result.pictures.length], err).toEqual([5, 1, 8]);
-      expect(result.pictures.find(({ ok }) => !ok)).toMatchObject({ variant: 'c', error: { code: 'cli/gpu-lost' } });
+      expect([code, result.failed, result.images.length], err).toEqual([5, 1, 8]);
+      expect(result.images.find(({ ok }) => !ok)).toMatchObject({ variant: 'c', error: { code: 'cli/gpu-lost' } });
     }
   });
 
-  it('a fault of our own in one lane stops the others after their picture: 70', async () => {
+  it('a fault of our own in one lane stops the others after their image: 70', async () => {
     const cwd = folder();
     const { fake } = gpus({
       onSample(sample, name) {
@@ -526,7 +524,7 @@ describe('--checkpoint FILE', () => {
     expect(readFileSync(file).equals(before)).toBe(true);
   });
 
-  it('of several pictures each has its own, and Ctrl-C keeps that of the one under way', async () => {
+  it('of several images each has its own, and Ctrl-C keeps that of the one under way', async () => {
     const cwd = folder();
     const io = fakeIo(cwd);
     const many = [...argv, '--view', 'front', '--view', 'iso'];
@@ -561,7 +559,7 @@ describe('--checkpoint FILE', () => {
     });
     expect(await run(['render', 'm.glb', ...SIZE, '--checkpoint', 'm.png'], cwd)).toMatchObject({
       code: 2,
-      err: expect.stringContaining('Two pictures would be written to "m.png"'),
+      err: expect.stringContaining('Two images would be written to "m.png"'),
     });
   });
 });

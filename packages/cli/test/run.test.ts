@@ -251,7 +251,7 @@ describe('writing', () => {
     const cwd = folder(),
       io = fakeIo(cwd);
     const fake = {
-      // Its pictures are in KTX2: 5 ms before it asks what the GPU reads, 7 after.
+      // Its images are in KTX2: 5 ms before it asks what the GPU reads, 7 after.
       loadModel: async (...[, , , formats]: Parameters<Backend['loadModel']>) => {
         io.time += 5;
         await formats?.();
@@ -325,7 +325,7 @@ describe('surroundings', () => {
   });
   it('a broken one is an error of its own', async () => {
     const cwd = folder();
-    writeFileSync(join(cwd, 'sky.hdr'), 'no picture');
+    writeFileSync(join(cwd, 'sky.hdr'), 'no image');
     const { code, err } = await run(['render', 'm.glb', ...SIZE, '--env', 'sky.hdr'], cwd);
     expect([code, err.trim().split('\n').at(-1)]).toEqual([
       3,

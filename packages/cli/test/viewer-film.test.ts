@@ -75,10 +75,10 @@ it(
       io,
     );
     expect(code, io.err.join('')).toBe(0);
-    const { pictures } = JSON.parse(io.out.join('')) as {
-      pictures: { variant: string; view: string; files: { path: string }[] }[];
+    const { images } = JSON.parse(io.out.join('')) as {
+      images: { variant: string; view: string; files: { path: string }[] }[];
     };
-    expect(pictures.length).toBe(VARIANTS.length * VIEWS.length);
+    expect(images.length).toBe(VARIANTS.length * VIEWS.length);
 
     const { gpu } = await createGpu({ software: 'only' });
     const device = await requestDevice({ gpu });
@@ -111,7 +111,7 @@ it(
         await refine(tracer, SAMPLES, stops++ % 4);
         expect(tracer.samples).toBe(SAMPLES);
         const film = await tracer.read('beauty');
-        const file = pictures.find((one) => one.variant === variant && one.view === pictures[v]!.view)!.files[0]!.path;
+        const file = images.find((one) => one.variant === variant && one.view === images[v]!.view)!.files[0]!.path;
         const { channels } = decodeExr(new Uint8Array(readFileSync(join(folder, file))));
         const written = [0, 1, 2].map((c) => channels.get('RGB'[c]!)!.data);
         const shown = [0, 1, 2].map((c) => Float32Array.from({ length: width * height }, (_, i) => film[4 * i + c]!));
@@ -123,7 +123,7 @@ it(
         different.add(shown.map((plane) => plane.join()).join());
       }
     }
-    // Twelve pictures that differ: nothing was compared with itself.
+    // Twelve images that differ: nothing was compared with itself.
     expect(different.size).toBe(12);
     tracer.destroy();
     device.destroy();

@@ -30,7 +30,7 @@ const towards = (camera: Camera) => {
   return v.map((x) => x / length);
 };
 
-/** Where a point falls in the picture: −1 to 1 within its frame. */
+/** Where a point falls in the image: −1 to 1 within its frame. */
 function projected(camera: Camera, point: readonly number[], aspect: number): [number, number] {
   if (camera.type !== 'perspective') throw new Error(camera.type);
   const m = camera.transform;
@@ -54,7 +54,7 @@ describe('views', () => {
     ['front-right', [0.6, 0.45, 1].map((x) => x / Math.hypot(0.6, 0.45, 1))],
   ] as const)('%s looks from there', async (text, direction) => {
     const camera = await cameraOf(parseView(text), box(CENTER), 1.5, '.');
-    // Backwards along the camera's z axis; cameras stand aside by what their pictures gain.
+    // Backwards along the camera's z axis; cameras stand aside by what their images gain.
     const back = [8, 9, 10].map((i) => camera.transform[i]!);
     direction.forEach((x, k) => expect(back[k]).toBeCloseTo(x, 2));
     for (let i = 0; i < 8; i++) {
@@ -88,7 +88,7 @@ describe('views', () => {
 });
 
 describe('a turntable', () => {
-  it('goes round once, at one height and distance, its middle in the middle, and everything is in all pictures', async () => {
+  it('goes round once, at one height and distance, its middle in the middle, and everything is in all images', async () => {
     const views = turntable(12, 25);
     expect(views.map(({ name }) => name)).toEqual(
       Array.from({ length: 12 }, (_, i) => `turntable-${String(i).padStart(3, '0')}`),

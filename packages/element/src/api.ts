@@ -35,7 +35,7 @@ export interface GlanzViewerEventMap {
   'variant-applied': CustomEvent<{ readonly variantName: string | null }>;
 }
 
-/** What `toBlob` of the element may be told: the viewer's options, or model-viewer's names for them. */
+/** Options for `toBlob` of the element: the viewer's options, or model-viewer's names for them. */
 export interface ElementBlobOptions extends BlobOptions {
   readonly mimeType?: string;
   readonly qualityArgument?: number;
@@ -65,7 +65,7 @@ export interface GlanzViewerElement extends HTMLElement, ReflectedProperties {
   /** Shows a model that has no address: a file, files, or a scene. Stays until `src` changes. */
   show(source: ModelSource): Promise<void>;
   /**
-   * The picture as a file; see `Viewer.toBlob`.
+   * The image as a file; see `Viewer.toBlob`.
    * @throws {ElementError} `element/no-model` where no model was asked for; what the load of the model throws.
    */
   toBlob(options?: ElementBlobOptions): Promise<Blob>;
@@ -75,7 +75,7 @@ export interface GlanzViewerElement extends HTMLElement, ReflectedProperties {
   getFieldOfView(): number;
   /** Is where it was going. */
   jumpCameraToGoal(): void;
-  /** Frames the model anew, as the attributes say. */
+  /** Frames the model again, as the attributes say. */
   updateFraming(): void;
   /** Shows the model under the poster, which `reveal="manual"` waits for. */
   dismissPoster(): void;

@@ -99,7 +99,7 @@ function makeClass(): GlanzViewerConstructor {
     disconnectedCallback(): void {
       this.#watch?.disconnect();
       this.#hotspots?.disconnect();
-      // One that is moved within the page keeps its picture.
+      // One that is moved within the page keeps its image.
       queueMicrotask(() => {
         if (!this.isConnected) this.#stop();
       });
@@ -143,7 +143,7 @@ function makeClass(): GlanzViewerConstructor {
       if (!this.#viewer) this.#start();
       const viewer = this.#viewer as Viewer;
       if (!viewer.scene && !this.#source && !this.getAttribute('src'))
-        throw new ElementError('element/no-model', 'There is no picture: set src, or call show(), first.');
+        throw new ElementError('element/no-model', 'There is no image: set src, or call show(), first.');
       if (!viewer.scene)
         await new Promise<void>((resolve, reject) => {
           const listening = new AbortController();

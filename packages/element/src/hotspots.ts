@@ -17,7 +17,7 @@ export interface HotspotView {
   readonly x: number;
   readonly y: number;
   /**
-   * Whether it lies in the picture, its surface faces the camera, and, where that is asked for, nothing is in front of
+   * Whether it lies in the image, its surface faces the camera, and, where that is asked for, nothing is in front of
    * it.
    */
   readonly visible: boolean;
@@ -33,7 +33,7 @@ export function readVector(text: string | null | undefined): Point | undefined {
   return numbers.length === 3 && numbers.every(Number.isFinite) ? (numbers as unknown as Point) : undefined;
 }
 
-/** Where a hotspot is in the viewer's present picture. */
+/** Where a hotspot is in the viewer's present image. */
 export function viewHotspot(
   viewer: Viewer,
   { position, normal }: Hotspot,
@@ -131,7 +131,7 @@ export class HotspotLayer {
       if (this.#boxes.has(slot)) continue;
       const box = document.createElement('div');
       box.className = 'hotspot';
-      // Until there is a picture it has no place.
+      // Until there is an image it has no place.
       box.hidden = true;
       const inner = document.createElement('slot');
       inner.name = slot;

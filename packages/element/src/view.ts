@@ -21,7 +21,7 @@ interface Frame {
 
 /**
  * What `auto` and percentages mean for a scene: its middle, and for 100 % the distance from which the ball around it
- * fits the smaller of the picture's sides.
+ * fits the smaller of the image's sides.
  */
 function frameOf(scene: Scene, aspect: number, attributes: ViewAttributes): Frame {
   const { min, max } = sceneBounds(scene);
@@ -31,7 +31,7 @@ function frameOf(scene: Scene, aspect: number, attributes: ViewAttributes): Fram
     : ([0, 0, 0] as const);
   const radius = finite ? Math.max(1e-6, 0.5 * Math.hypot(max[0] - min[0], max[1] - min[1], max[2] - min[2])) : 1;
   const yfov = readFieldOfView(attributes.fieldOfView);
-  // In a picture that is higher than wide the viewer widens the field of view itself.
+  // In an image that is higher than wide the viewer widens the field of view itself.
   const half = aspect >= 1 ? yfov / 2 : Math.atan(Math.tan(yfov / 2));
   return { center, yfov, basis: { ...DEFAULT_ORBIT, radius: radius / Math.sin(half) } };
 }

@@ -75,7 +75,7 @@ const put = (page: Page, attributes: Record<string, string>, children = '') =>
     children,
   ] as const);
 const state = (page: Page) => page.evaluate(() => document.querySelector('glanz-viewer')!.viewer?.state);
-const done = (page: Page) => expect.poll(() => state(page), { message: 'the picture is done' }).toBe('done');
+const done = (page: Page) => expect.poll(() => state(page), { message: 'the image is done' }).toBe('done');
 const shot = async (page: Page) => {
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
   return photograph(viewer(page));
@@ -107,7 +107,7 @@ test('a model by markup alone, over the page, under a strict content security po
   ).toEqual([true, ['night']]);
 });
 
-test('attributes and properties reflect, and reach the picture', async ({ page }) => {
+test('attributes and properties reflect, and reach the image', async ({ page }) => {
   await open(page);
   const day = await shot(page);
   await page.evaluate(() => void (document.querySelector('glanz-viewer')!.variantName = 'night'));
@@ -236,7 +236,7 @@ test('hotspots stay on the model, hide behind it, and can be moved', async ({ pa
   await expect(page.getByRole('button', { name: 'Left' })).not.toHaveAttribute('data-visible');
 });
 
-test('a poster waits for the picture, or for the page; loading waits for the eye', async ({ page }) => {
+test('a poster waits for the image, or for the page; loading waits for the eye', async ({ page }) => {
   await page.goto(served.origin);
   await page.evaluate(() => void (document.querySelector<HTMLElement>('#place')!.style.paddingTop = '3000px'));
   await put(page, { src: 'model.glb', alt: 'Two cards', reveal: 'manual', ...FAST }, '<p slot="poster">Wait</p>');
@@ -280,7 +280,7 @@ test('a poster waits for the picture, or for the page; loading waits for the eye
   await expect(page.getByText('Wait')).toBeHidden();
 });
 
-test('a bad file is told; the former picture stays; the next good one clears the message', async ({ page }) => {
+test('a bad file is told; the former image stays; the next good one clears the message', async ({ page }) => {
   await open(page);
   const before = await shot(page);
   await page.evaluate(() => void (document.querySelector('glanz-viewer')!.src = 'bad.glb'));
@@ -391,7 +391,7 @@ test('axe finds nothing wrong, still and with controls, hotspots and a message',
   expect(await checkAccessibility(page)).toEqual([]);
 });
 
-test('what a property or an attribute cannot be is a typed error, and the picture stays', async ({ page }) => {
+test('what a property or an attribute cannot be is a typed error, and the image stays', async ({ page }) => {
   await open(page);
   const before = await shot(page);
   const result = await page.evaluate(() => {
@@ -515,12 +515,12 @@ test('what a property or an attribute cannot be is a typed error, and the pictur
   await done(page);
   expect((await shot(page)).cells).toEqual(before.cells);
 
-  // The same from the start, and a picture that nobody will ever see is not waited for.
+  // The same from the start, and an image that nobody will ever see is not waited for.
   const told = await page.evaluate(async () => {
     document.querySelector('glanz-viewer')!.remove();
     const element = window.put({ samples: 'many', loading: 'eager' });
     return element.toBlob().then(
-      () => 'a picture',
+      () => 'an image',
       (error: { code?: string }) => error.code,
     );
   });

@@ -69,10 +69,10 @@ function bits(fields: readonly (readonly [value: number, width: number])[], byte
 }
 
 /**
- * A KTX2 picture of 4 × 4 pixels of one colour: a block of UASTC in its mode for one colour, in the container by its
+ * A KTX2 image of 4 × 4 pixels of one colour: a block of UASTC in its mode for one colour, in the container by its
  * specification.
  */
-export function ktx2Picture([r, g, b]: readonly [number, number, number]): Buffer {
+export function ktx2Image([r, g, b]: readonly [number, number, number]): Buffer {
   // Mode 8 has the code 10111; the hints for ETC1 that follow the colour name the same one, in steps of 8.
   const block = bits(
     [
@@ -107,19 +107,19 @@ export function ktx2Picture([r, g, b]: readonly [number, number, number]): Buffe
   return file;
 }
 
-/** A square whose picture is a KTX2 of one colour. */
+/** A square whose image is a KTX2 of one colour. */
 export function ktx2Model(colour: readonly [number, number, number] = [230, 8, 8]): Buffer {
-  const picture = ktx2Picture(colour);
+  const image = ktx2Image(colour);
   return quads(
     [{ name: 'square', colour: [1, 1, 1] }],
     (json) => {
-      const view = append(json as Json, picture);
+      const view = append(json as Json, image);
       const { materials } = json as unknown as { materials: { pbrMetallicRoughness: object }[] };
       json['images'] = [{ bufferView: view, mimeType: 'image/ktx2' }];
       json['textures'] = [{ extensions: { KHR_texture_basisu: { source: 0 } } }];
       json['extensionsUsed'] = json['extensionsRequired'] = ['KHR_texture_basisu'];
       Object.assign(materials[0]!.pbrMetallicRoughness, { baseColorTexture: { index: 0 } });
     },
-    picture,
+    image,
   );
 }

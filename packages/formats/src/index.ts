@@ -2,4 +2,4 @@ export { FormatError } from './error';
 export { readIes, type IesOptions } from './ies';
 export { readObj, type ObjOptions } from './obj';
 export { readStl, type StlOptions } from './stl';
-export type { PictureDecoder, ResourceReader } from './resources';
+export type { ImageDecoder, ResourceReader } from './resources';

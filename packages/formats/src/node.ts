@@ -1,18 +1,18 @@
 import type { Scene } from '@glanz/scene';
 import { FormatError } from './error';
 import { readObj, type ObjOptions } from './obj';
-import type { PictureDecoder } from './resources';
+import type { ImageDecoder } from './resources';
 import { readStl } from './stl';
 
 /** Options for {@link loadModelFile}. */
 export type LoadModelOptions = Omit<ObjOptions, 'read' | 'name'>;
 
 /** Decodes images with the optional package `sharp`. */
-const decodeWithSharp: PictureDecoder = async (bytes) => {
+const decodeWithSharp: ImageDecoder = async (bytes) => {
   const { default: sharp } = await import('sharp').catch((cause: unknown) => {
     throw new FormatError(
       'formats/missing-decoder',
-      'Decoding pictures in Node needs the package "sharp": npm install sharp.',
+      'Decoding images in Node needs the package "sharp": npm install sharp.',
       { cause },
     );
   });

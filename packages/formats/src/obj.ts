@@ -3,7 +3,7 @@ import { FormatError, Tally } from './error';
 import { FloatList } from './mesh-builder';
 import { readMtl, type MtlMaterial } from './mtl';
 import { orientation } from './orientation';
-import { pathWithin, type PictureDecoder, type ResourceReader } from './resources';
+import { pathWithin, type ImageDecoder, type ResourceReader } from './resources';
 import { smoothNormals } from './smooth';
 import { triangulate } from './triangulate';
 
@@ -17,7 +17,7 @@ export interface ObjOptions {
    */
   readonly read?: ResourceReader;
   /** Decodes images. Default: they are left out, with a warning. */
-  readonly decodeImage?: PictureDecoder;
+  readonly decodeImage?: ImageDecoder;
   /** Which axis of the file points up; default `y`. */
   readonly up?: 'y' | 'z';
   /** Metres a unit of the file; default 1. */
@@ -107,7 +107,7 @@ export async function readObj(bytes: Uint8Array, options: ObjOptions = {}): Prom
     throw new FormatError('formats/no-triangles', `${name} has no triangles: there is nothing to show.`, {
       location: { file: name },
     });
-  await readPictures(scene, materials, options);
+  await readImages(scene, materials, options);
   scene.warnings.push(...tally.warnings(name));
   return scene;
 }
@@ -242,7 +242,7 @@ function build(part: Part): Mesh | undefined {
   return part.groups.some((group) => group > 0) ? smoothNormals(mesh, part.groups) : mesh;
 }
 
-async function readPictures(
+async function readImages(
   scene: Scene,
   materials: ReadonlyMap<string, MtlMaterial>,
   { name = 'OBJ', read, decodeImage, signal }: ObjOptions,
@@ -259,7 +259,7 @@ async function readPictures(
         if (!decoded)
           scene.warnings.push({
             code: 'formats/image',
-            message: `${name}: the picture "${map.path}" ${bytes ? 'cannot be decoded' : 'is not there'} and is left out.`,
+            message: `${name}: the image "${map.path}" ${bytes ? 'cannot be decoded' : 'is not there'} and is left out.`,
           });
         images.set(key, decoded && scene.images.push({ name: key, ...decoded }) - 1);
       }

@@ -10,7 +10,7 @@ export type ResourceReader = (
 ) => Promise<Uint8Array<ArrayBuffer> | undefined>;
 
 /** Turns the bytes of a PNG, JPEG or WebP file into pixels: RGBA, 8 bits a channel, straight alpha, top row first. */
-export type PictureDecoder = (bytes: Uint8Array<ArrayBuffer>) => Promise<Pick<Image, 'width' | 'height' | 'data'>>;
+export type ImageDecoder = (bytes: Uint8Array<ArrayBuffer>) => Promise<Pick<Image, 'width' | 'height' | 'data'>>;
 
 /** A path below the document's folder without "." and ".."; undefined if it leaves the folder, or is an address. */
 export function pathWithin(folder: string, path: string): string | undefined {

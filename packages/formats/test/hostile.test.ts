@@ -23,7 +23,7 @@ async function obj(text: string, options: Partial<ObjOptions> = {}, library?: st
 }
 
 describe('OBJ', { timeout: 60_000 }, () => {
-  test('libraries and pictures outside the folder are not asked for', async () => {
+  test('libraries and images outside the folder are not asked for', async () => {
     const away = [
       '../secret',
       '../../etc/passwd',
@@ -38,12 +38,12 @@ describe('OBJ', { timeout: 60_000 }, () => {
     for (const path of away) {
       const library = await obj(`mtllib ${path}\n${TRIANGLE}f 1 2 3`);
       expect([path, library.asked, library.scene.warnings.length]).toEqual([path, [], 1]);
-      const picture = await obj(
+      const image = await obj(
         `mtllib m.mtl\nusemtl a\n${TRIANGLE}f 1 2 3`,
         {},
         `newmtl a\nmap_Kd ${path}\nmap_Bump -bm 1 ${path}`,
       );
-      expect([path, picture.asked]).toEqual([path, ['m.mtl']]);
+      expect([path, image.asked]).toEqual([path, ['m.mtl']]);
     }
   });
 

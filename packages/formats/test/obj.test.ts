@@ -124,16 +124,16 @@ it('smoothing groups are smoothed where a file has no normals, and no further', 
 
 describe('materials', () => {
   const MTL =
-    'newmtl red\nKd 0.8 0.1 0.1\nNs 30\nd 0.5\nnewmtl lamp\nKd 0 0 0\nKe 4 2 0\nnewmtl metal\nKd 1 1 1\nPm 1\nPr 0.2\nmap_Kd -s 2 3 1 -clamp on tex/my picture.png\nnewmtl glass\nillum 7\nNi 1.6\n';
+    'newmtl red\nKd 0.8 0.1 0.1\nNs 30\nd 0.5\nnewmtl lamp\nKd 0 0 0\nKe 4 2 0\nnewmtl metal\nKd 1 1 1\nPm 1\nPr 0.2\nmap_Kd -s 2 3 1 -clamp on tex/my image.png\nnewmtl glass\nillum 7\nNi 1.6\n';
   const OBJ = `mtllib a/b.mtl\n${QUAD}vt 0 0\nusemtl red\nf 1 2 3\nusemtl lamp\nf 1 2 4\nusemtl metal\nf 1/1 3/1 4/1\nusemtl glass\nf 2 3 4\nusemtl none\nf 1 2 3\n`;
   const asked: string[] = [];
   const read = async (path: string) => {
     asked.push(path);
-    return path === 'a/b.mtl' ? bytes(MTL) : path === 'a/tex/my picture.png' ? new Uint8Array([1]) : undefined;
+    return path === 'a/b.mtl' ? bytes(MTL) : path === 'a/tex/my image.png' ? new Uint8Array([1]) : undefined;
   };
   const decodeImage = async () => ({ width: 1, height: 1, data: new Uint8Array([9, 8, 7, 255]) });
 
-  it('Phong and physically based statements as OpenPBR, pictures by their paths', async () => {
+  it('Phong and physically based statements as OpenPBR, images by their paths', async () => {
     const scene = await readObj(bytes(OBJ), { read, decodeImage });
     const by = (name: string) => scene.materials.find((material) => material.name === name)!;
     expect(by('red').parameters).toEqual({

@@ -1,10 +1,10 @@
-import type { GltfPictureConversion } from '@glanz/openpbr/gltf';
+import type { GltfImageConversion } from '@glanz/openpbr/gltf';
 import type { DecodedImage } from './decoded-image';
 
 /** How an image is computed from others, texel by texel. */
 export interface DerivedImage {
   readonly colorSpace: 'srgb' | 'linear';
-  readonly convert: GltfPictureConversion['convert'];
+  readonly convert: GltfImageConversion['convert'];
 }
 
 const srgbToLinear = (c: number) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);

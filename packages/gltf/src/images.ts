@@ -1,5 +1,5 @@
 import type { DecodedImage, ImageDecoder, Ktx2Decoder, CompressedFormats } from './decoded-image';
-import type { GltfPictureConversion } from '@glanz/openpbr/gltf';
+import type { GltfImageConversion } from '@glanz/openpbr/gltf';
 import {
   GlanzError,
   type CompressedFormat,
@@ -84,7 +84,7 @@ export class TextureTable {
    * with a warning, if none of them has an image.
    */
   derive(
-    { key, sources, convert }: GltfPictureConversion,
+    { key, sources, convert }: GltfImageConversion,
     colorSpace: 'srgb' | 'linear',
     path: string,
   ): number | undefined {

@@ -53,16 +53,7 @@ export function readMaterial(
       message: `Material ${index} ("${material.name ?? ''}"): ${path} ${why}.`,
       path: `/materials/${index}/${path}`,
     });
-  const bind = ({
-    parameter,
-    texture: reference,
-    path,
-    channels,
-    colorSpace,
-    range,
-    value,
-    picture,
-  }: GltfTextureUse) => {
+  const bind = ({ parameter, texture: reference, path, channels, colorSpace, range, value, image }: GltfTextureUse) => {
     const info = reference as GltfTextureInfo;
     const set = uvSets.indexOf(setOf(info));
     if (set < 0)
@@ -71,7 +62,7 @@ export function readMaterial(
         `reads a texture by TEXCOORD_${setOf(info)}, but its others by TEXCOORD_${uvSets.join(' and ')}; two sets are read, so it is left out`,
       );
     const where = `/materials/${index}/${path}`;
-    const texture = picture ? table.derive(picture, colorSpace, where) : table.get(info.index, colorSpace, where);
+    const texture = image ? table.derive(image, colorSpace, where) : table.get(info.index, colorSpace, where);
     if (texture === undefined) return;
     const binding: TextureBinding = { texture, channels };
     if (set !== 0) binding.uv = set;

@@ -28,7 +28,7 @@ const allFinite = (values: ArrayLike<number> | undefined) =>
 /** The index counts all scenes of this file; the loader shows the default one. */
 const OTHER_COUNT: Readonly<Record<string, number>> = { MultipleScenes: 2 };
 
-/** What may be told of a sound file: what it holds beyond triangles and the materials that are mapped. */
+/** Warnings about a sound file: what it holds beyond triangles and the materials that are mapped. */
 const EXPECTED_WARNINGS = new Set(['gltf/ignored-extension', 'gltf/primitive']);
 
 describe.skipIf(!present)(`real models${note}`, () => {

@@ -473,9 +473,9 @@ describe('gltfTextures', () => {
       extensions: { KHR_materials_sheen: { sheenColorFactor: factor, sheenColorTexture: texture(1) } },
     });
     expect([color!.value, weight!.value, weight!.channels]).toEqual([[1, 1, 1], 1, 'a']);
-    expect(color!.picture!.key).toBe(weight!.picture!.key);
+    expect(color!.image!.key).toBe(weight!.image!.key);
     const made = [0, 0, 0, 0];
-    color!.picture!.convert([...texel, 1], made);
+    color!.image!.convert([...texel, 1], made);
     expect(made[3]).toBeCloseTo(Math.max(...factor.map((f, k) => f * texel[k]!)), 12);
     for (let k = 0; k < 3; k++) expect(made[k]! * made[3]!).toBeCloseTo(factor[k]! * texel[k]!, 12);
     expect(Math.max(...made)).toBeLessThanOrEqual(1);
@@ -492,7 +492,7 @@ describe('gltfTextures', () => {
       },
     });
     const made = [0, 0, 0, 0];
-    use!.picture!.convert([0, 0, 0, 0.5], made);
+    use!.image!.convert([0, 0, 0, 0.5], made);
     expect(made[0]! * (use!.value as number)).toBeCloseTo(
       fromGltf({ extensions: { KHR_materials_sheen: { sheenColorFactor: [1, 1, 1], sheenRoughnessFactor: 0.4 } } })
         .fuzz_roughness!,
@@ -521,8 +521,8 @@ describe('gltfTextures', () => {
     (_, stretch, rough, texels, roughnessFactor, anisotropyStrength) => {
       const uses = usesOf(anisotropic(stretch, rough));
       const made = [0, 0, 0, 0];
-      expect(uses['specular_roughness']!.picture!.key).toBe(uses['specular_roughness_anisotropy']!.picture!.key);
-      uses['specular_roughness']!.picture!.convert(texels, made);
+      expect(uses['specular_roughness']!.image!.key).toBe(uses['specular_roughness_anisotropy']!.image!.key);
+      uses['specular_roughness']!.image!.convert(texels, made);
       const { specular_roughness, specular_roughness_anisotropy } = fromGltf({
         pbrMetallicRoughness: { roughnessFactor },
         extensions: { KHR_materials_anisotropy: { anisotropyStrength } },
@@ -535,7 +535,7 @@ describe('gltfTextures', () => {
   it('anisotropy by textures that lie apart reads only the direction, and says so', () => {
     const mapping = gltfTextures(anisotropic(texture(1, { scale: [2, 2] }), texture(2)));
     expect(mapping.lost.map(({ path }) => path)).toEqual(['extensions/KHR_materials_anisotropy/anisotropyTexture']);
-    expect(mapping.uses.find(({ parameter }) => parameter === 'specular_roughness')!.picture!.sources).toEqual([
+    expect(mapping.uses.find(({ parameter }) => parameter === 'specular_roughness')!.image!.sources).toEqual([
       texture(2),
     ]);
   });
@@ -556,8 +556,8 @@ describe('gltfTextures', () => {
     const uses = usesOf(material);
     const color = [0, 0, 0, 0],
       weight = [0, 0, 0, 0];
-    uses['specular_color']!.picture!.convert(texel, color);
-    uses['specular_weight']!.picture!.convert(texel, weight);
+    uses['specular_color']!.image!.convert(texel, color);
+    uses['specular_weight']!.image!.convert(texel, weight);
     const given = {
       ...fromGltf(material),
       specular_color: color.slice(0, 3) as unknown as readonly [number, number, number],

@@ -152,7 +152,7 @@ describe('textures', () => {
     <output name="alpha_out" type="float" nodename="alpha" /><output name="metal_out" type="float" nodename="split" output="outb" />
   </nodegraph>`;
 
-  it('pictures, normal maps, single channels', () => {
+  it('images, normal maps, single channels', () => {
     const { textures, parameters, warnings } = only(
       wrap(
         `
@@ -249,7 +249,7 @@ describe('textures', () => {
       expect(worth(material, 'specular_weight', texel)[0]).toBeCloseTo(expected(texel), 9);
   });
 
-  it('a product of a picture and a colour', () => {
+  it('a product of an image and a colour', () => {
     const material = arithmetic(
       '<multiply name="last" type="color3"><input name="in1" type="color3" nodename="t"/><input name="in2" type="color3" value="0.5, 0.25, 1"/></multiply>',
       'color3',
@@ -259,7 +259,7 @@ describe('textures', () => {
 
   it.each([
     [
-      'two pictures',
+      'two images',
       '<multiply name="last" type="float"><input name="in1" type="float" nodename="t"/><input name="in2" type="float" nodename="t"/></multiply>',
     ],
     ['a procedure', '<noise2d name="last" type="float"/>'],
@@ -267,7 +267,7 @@ describe('textures', () => {
       'a power',
       '<power name="last" type="float"><input name="in1" type="float" nodename="t"/><input name="in2" type="float" value="2"/></power>',
     ],
-    ['a picture without a file', '<image name="last" type="float"/>'],
+    ['an image without a file', '<image name="last" type="float"/>'],
   ])('%s: the parameter keeps its default, with a warning that says where', (_, node) => {
     const { parameters, textures, warnings } = arithmetic(node);
     expect([parameters, textures, warnings.map(({ code, line }) => [code, line])]).toEqual([
@@ -279,7 +279,7 @@ describe('textures', () => {
 
   it('through the interface of a node graph', () => {
     const graph =
-      '<nodegraph name="NG"><input name="picture" type="filename" value="x.jpg" colorspace="srgb_texture"/><input name="tint" type="color3" value="0.5,0.5,0.5"/><image name="i" type="color3"><input name="file" type="filename" interfacename="picture"/></image><multiply name="m" type="color3"><input name="in1" type="color3" nodename="i"/><input name="in2" type="color3" interfacename="tint"/></multiply><output name="out" type="color3" nodename="m"/></nodegraph>';
+      '<nodegraph name="NG"><input name="image" type="filename" value="x.jpg" colorspace="srgb_texture"/><input name="tint" type="color3" value="0.5,0.5,0.5"/><image name="i" type="color3"><input name="file" type="filename" interfacename="image"/></image><multiply name="m" type="color3"><input name="in1" type="color3" nodename="i"/><input name="in2" type="color3" interfacename="tint"/></multiply><output name="out" type="color3" nodename="m"/></nodegraph>';
     const { parameters, textures } = only(wrap('<input name="base_color" type="color3" nodegraph="NG"/>', graph));
     expect([parameters.base_color, textures!.base_color]).toEqual([
       [0.5, 0.5, 0.5],
@@ -435,7 +435,7 @@ describe('documents that are broken or hostile', () => {
     ['on one line', ''],
     ['on many lines', '\n'],
   ])('a document %s costs what its length costs', async (_, end) => {
-    const input = `<input name="file" type="filename" value="some/picture/of/something.png" colorspace="srgb_texture" />${end}`;
+    const input = `<input name="file" type="filename" value="some/image/of/something.png" colorspace="srgb_texture" />${end}`;
     // Built-in searches count no operations, but the characters that they pass.
     let passed = 0;
     const { indexOf } = String.prototype;

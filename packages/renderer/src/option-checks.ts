@@ -76,7 +76,7 @@ export function checkSize(width: number, height: number): void {
   if (!Number.isInteger(width) || !Number.isInteger(height) || width < 1 || height < 1) {
     throw new RenderError(
       'renderer/size',
-      `A picture of ${width} × ${height} pixels cannot be rendered: both must be whole numbers of at least 1.`,
+      `An image of ${width} × ${height} pixels cannot be rendered: both must be whole numbers of at least 1.`,
     );
   }
 }

@@ -106,7 +106,7 @@ export interface PathTracerOptions {
    */
   readonly textureLodBias?: number;
   /**
-   * Most paths on the GPU at once, about 150 bytes each. Memory for more than one sample of the picture is taken only
+   * Most paths on the GPU at once, about 150 bytes each. Memory for more than one sample of the image is taken only
    * when the GPU has shown that it is fast enough for batches that large. Default 4,194,304; 1,048,576 where the device
    * has no buffers of 2 GiB.
    */
@@ -120,10 +120,10 @@ export interface PathTracerOptions {
   readonly signal?: AbortSignal;
   readonly onProgress?: (progress: PrepareProgress) => void;
   /**
-   * Called once while the kernels compile, with a plain picture of the scene: base colours under a lamp at the camera,
+   * Called once while the kernels compile, with a plain image of the scene: base colours under a lamp at the camera,
    * without textures. Its small kernel is there long before the others; where those are there first, it is not called.
    */
-  readonly onFirstLight?: (picture: FirstLight) => void;
+  readonly onFirstLight?: (image: FirstLight) => void;
 }
 
 /** See {@link PathTracerOptions.onFirstLight}. */
@@ -188,7 +188,7 @@ export interface RenderOptions {
   readonly samples?: number;
   /**
    * Adaptive: samples only where there is noise, until it is everywhere at most this: the standard error of a tile of 8
-   * × 8 pixels relative to its brightness (root mean square; a hundredth of the picture's mean square is added for dark
+   * × 8 pixels relative to its brightness (root mean square; a hundredth of the image's mean square is added for dark
    * tiles). 0.05 is a good preview, 0.01 is hardly visible. 0: no target. Noise is looked at after 64, 96, 128, 192, …
    * samples, so the result does not depend on the machine's speed. The choice of when to stop is made by looking at the
    * same samples, which biases pixels towards where they look calm, by less than the noise that is left; leave it out
@@ -215,12 +215,12 @@ export interface RenderProgress {
    * sample, or before noise was first looked at. Assumes that noise goes down as the root of the number of samples.
    */
   readonly remainingMs: number;
-  /** Samples per pixel of the whole picture. */
+  /** Samples per pixel of the whole image. */
   readonly samplesPerSecond: number;
-  /** Share of the picture that is being sampled, 0..1: below 1 only with a `noise` target. */
+  /** Share of the image that is being sampled, 0..1: below 1 only with a `noise` target. */
   readonly active: number;
   /**
-   * Noise of the whole picture when it was last looked at, in the units of `RenderOptions.noise`; only with such a
+   * Noise of the whole image when it was last looked at, in the units of `RenderOptions.noise`; only with such a
    * target.
    */
   readonly noise?: number;
@@ -265,9 +265,9 @@ export interface MemoryReport {
   readonly shapes: number;
   readonly lights: number;
   readonly materials: number;
-  /** Pictures of the materials with their mip levels. */
+  /** Images of the materials with their mip levels. */
   readonly textures: number;
-  /** The picture of the surroundings and its importance table. */
+  /** The image of the surroundings and its importance table. */
   readonly environment: number;
   /** Paths in flight, their queues and light samples. */
   readonly paths: number;
@@ -282,7 +282,7 @@ export interface MemoryReport {
   readonly perTriangle: number;
   /** Bytes for each pixel of the film, with the layers read so far. */
   readonly perPixel: number;
-  /** Bytes for each texel of the pictures in use, mip levels included; 0 without textures. */
+  /** Bytes for each texel of the images in use, mip levels included; 0 without textures. */
   readonly perTexel: number;
 }
 

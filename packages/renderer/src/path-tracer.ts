@@ -204,10 +204,10 @@ export class PathTracer extends TracerEdits {
   }
 
   /**
-   * Dims or colours the light of a group in the picture as it is: no new sample, the film goes on.
+   * Dims or colours the light of a group in the image as it is: no new sample, the film goes on.
    *
    * @param settings What is left out stays as it is. The intensity must be finite and at least 0, as must the colour.
-   * @returns When the picture shows it.
+   * @returns When the image shows it.
    * @throws {RenderError} `renderer/light-groups` for an unknown group, a value out of range, or with
    * `lightGroups: 'off'`.
    */
@@ -222,8 +222,8 @@ export class PathTracer extends TracerEdits {
   }
 
   /**
-   * The part of one light group in the picture: Float32Array, RGBA, stride 4, as the group is set; all groups add up to
-   * the beauty. Alpha is the picture's coverage.
+   * The part of one light group in the image: Float32Array, RGBA, stride 4, as the group is set; all groups add up to
+   * the beauty. Alpha is the image's coverage.
    *
    * @throws {RenderError} `renderer/light-groups` if there is no such group.
    */
@@ -232,7 +232,7 @@ export class PathTracer extends TracerEdits {
     if (this.#integrator.pathsPerSample > 1)
       throw new RenderError(
         'renderer/light-groups',
-        'With catchers the picture is no sum of its light groups: they can be set, but not read one by one.',
+        'With catchers the image is no sum of its light groups: they can be set, but not read one by one.',
       );
     return this.#session.readGroup(name);
   }
@@ -299,7 +299,7 @@ export class PathTracer extends TracerEdits {
    * Looks through another camera: one of the scene's by index or name, or any. Restarts the film. A camera of another
    * kind (projection, with or without a lens) brings another small kernel; the old view stays until it is there.
    *
-   * @returns When the picture shows it.
+   * @returns When the image shows it.
    * @throws {RenderError} `renderer/camera` if there is no such camera, or it is degenerate.
    */
   setCamera(camera: Camera | number | string): Promise<void> {

@@ -17,7 +17,7 @@ export abstract class TracerEdits {
    * Changes parameters of a material and restarts the film. Where the change calls for kernels that are not there yet
    * (a lobe appears), the old ones serve until the new ones are ready.
    *
-   * @returns When the picture shows the change in full.
+   * @returns When the image shows the change in full.
    * @param parameters Names and values as `OPENPBR_PARAMETERS` of `@glanz/openpbr` has them.
    * @throws {RenderError} `renderer/material` if there is no such material, for unknown names, numbers that are not
    * finite, and values out of range. Nothing is changed then.

@@ -112,7 +112,7 @@ export const lambert = (r: number, g = r, b = r): Material => ({
 
 export { createScene };
 
-/** Mean of the RGB of an RGBA picture over a rectangle of pixels. */
+/** Mean of the RGB of an RGBA image over a rectangle of pixels. */
 export function meanOf(
   pixels: Float32Array,
   width: number,

@@ -23,23 +23,23 @@ export async function readEnvironment(
   const turn = (loose['environmentRotation'] as
     { readonly x: number; readonly y: number; readonly z: number } | undefined) ?? { x: 0, y: 0, z: 0 };
   const visible = background === environment && environment !== undefined && environment !== null;
-  const picture = environment ? await readPicture(environment, scene, textures) : undefined;
+  const image = environment ? await readImage(environment, scene, textures) : undefined;
   if (Math.abs(turn.x) + Math.abs(turn.z) > 1e-6)
     scene.warnings.push({
       code: 'three/environment',
       message: 'The environment is turned about another axis than +Y; only the turn about +Y is carried.',
     });
-  if (!picture) return ambience.dark ? undefined : ambient(ambience, visible);
+  if (!image) return ambience.dark ? undefined : ambient(ambience, visible);
   if (!ambience.dark && intensity > 0) {
-    for (let j = 0; j < picture.height; j++) {
-      const side = j < picture.height / 2 ? ambience.above : ambience.below;
-      for (let i = 0; i < picture.width; i++)
+    for (let j = 0; j < image.height; j++) {
+      const side = j < image.height / 2 ? ambience.above : ambience.below;
+      for (let i = 0; i < image.width; i++)
         for (const k of [0, 1, 2] as const)
-          picture.data[3 * (j * picture.width + i) + k] =
-            (picture.data[3 * (j * picture.width + i) + k] as number) + side[k] / intensity;
+          image.data[3 * (j * image.width + i) + k] =
+            (image.data[3 * (j * image.width + i) + k] as number) + side[k] / intensity;
     }
   }
-  return { ...picture, intensity, rotation: turn.y, visible };
+  return { ...image, intensity, rotation: turn.y, visible };
 }
 
 function ambient({ above, below }: Ambience, visible: boolean): Environment {
@@ -53,7 +53,7 @@ function ambient({ above, below }: Ambience, visible: boolean): Environment {
 }
 
 /** The environment that a texture shows; `undefined`, with a warning, where its image cannot be had. */
-async function readPicture(
+async function readImage(
   texture: ThreeTexture,
   scene: Scene,
   textures: Textures,
@@ -84,15 +84,15 @@ async function readPicture(
       'The cube of the environment has not six square faces of one size whose pixels can be read (not loaded yet, compressed, or on the GPU only)',
     );
   }
-  const picture = EQUIRECTANGULAR.includes(texture.mapping)
+  const image = EQUIRECTANGULAR.includes(texture.mapping)
     ? await textures.pixelsOf(texture.source?.data ?? texture.image, texture)
     : undefined;
-  if (!picture)
+  if (!image)
     return warn(
-      'The environment is no equirectangular picture and no cube whose pixels can be read (not loaded yet, compressed, or with another mapping): give it the mapping EquirectangularReflectionMapping',
+      'The environment is no equirectangular image and no cube whose pixels can be read (not loaded yet, compressed, or with another mapping): give it the mapping EquirectangularReflectionMapping',
     );
-  const { width, height } = picture;
-  const rgb = radianceOf(picture, texture);
+  const { width, height } = image;
+  const rgb = radianceOf(image, texture);
   // Raw numbers run upwards in three, unless it is told to turn them over; images of the browser have their first row
   // at the top then.
   if (texture.flipY) return { type: 'latlong', width, height, data: rgb };

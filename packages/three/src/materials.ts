@@ -6,7 +6,7 @@ import {
   type GltfTextureUse,
 } from '@glanz/openpbr/gltf';
 import type { Material, Scene, TextureBinding, TextureChannels, TexturedParameter } from '@glanz/scene';
-import { convertPicture } from './convert-picture';
+import { convertImage } from './convert-image';
 import { uvTransformOf, type Textures } from './textures';
 import type { Color, ThreeMaterial, ThreeTexture } from './types';
 
@@ -88,11 +88,11 @@ export class Materials {
       map: ThreeTexture,
       channels: TextureChannels,
       colorSpace: 'srgb' | 'linear',
-      more: Pick<GltfTextureUse, 'range' | 'value' | 'picture'> = {},
+      more: Pick<GltfTextureUse, 'range' | 'value' | 'image'> = {},
     ) => {
       if (map.channel > 1) return warn(`a texture reads uv${map.channel}, but two sets are carried; it is left out`);
-      const texture = more.picture
-        ? await this.#derive(more.picture, map, colorSpace)
+      const texture = more.image
+        ? await this.#derive(more.image, map, colorSpace)
         : await this.#textures.get(map, colorSpace);
       if (texture === undefined) return undefined;
       const binding: TextureBinding = { texture, channels };
@@ -145,7 +145,7 @@ export class Materials {
   }
 
   async #derive(
-    conversion: NonNullable<GltfTextureUse['picture']>,
+    conversion: NonNullable<GltfTextureUse['image']>,
     like: ThreeTexture,
     colorSpace: 'srgb' | 'linear',
   ): Promise<number | undefined> {
@@ -153,7 +153,7 @@ export class Materials {
       conversion.sources.map((source) => this.#textures.imageOf((source as Reference).map)),
     );
     if (images.every((image) => image === undefined)) return undefined;
-    return this.#textures.add(convertPicture(conversion.key, images, conversion, colorSpace), like, colorSpace);
+    return this.#textures.add(convertImage(conversion.key, images, conversion, colorSpace), like, colorSpace);
   }
 }
 

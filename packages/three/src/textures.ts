@@ -118,7 +118,7 @@ export class Textures {
         (image) =>
           image
             ? this.#scene.images.push({
-                ...(texture.name ? { name: texture.name } : { name: `picture ${this.#scene.images.length}` }),
+                ...(texture.name ? { name: texture.name } : { name: `image ${this.#scene.images.length}` }),
                 ...image,
               } as Image) - 1
             : undefined,
@@ -127,8 +127,8 @@ export class Textures {
       .then((index) => {
         if (index === undefined)
           this.#scene.warnings.push({
-            code: 'three/picture',
-            message: `The picture of texture "${texture.name || texture.uuid}" cannot be read (compressed, on the GPU only, not loaded yet, or from another origin): it is left out.`,
+            code: 'three/image',
+            message: `The image of texture "${texture.name || texture.uuid}" cannot be read (compressed, on the GPU only, not loaded yet, or from another origin): it is left out.`,
           });
         return index;
       });

@@ -27,7 +27,7 @@ function irradiance({ width, height, data }: LatLongEnvironment, normal: THREE.V
   return sum;
 }
 
-/** The same picture with more columns, to sum more exactly. */
+/** The same image with more columns, to sum more exactly. */
 function wider(environment: LatLongEnvironment, width: number): LatLongEnvironment {
   const { height, data } = environment;
   const out = new Float32Array(width * height * 3);
@@ -81,7 +81,7 @@ describe('lights', () => {
         [1, 0.8, 0.3],
         [2, 1, 0],
       ] as const) {
-        // A picture of 64 rows and 256 columns sums to within a few thousandths.
+        // An image of 64 rows and 256 columns sums to within a few thousandths.
         expect(Math.abs(irradiance(fine, normal, k) - 2 * (ground + (sky - ground) * share))).toBeLessThan(0.01);
       }
     }
@@ -157,7 +157,7 @@ describe('environment', () => {
   it('of a cube has each face where three shows it, upright and not mirrored', async () => {
     const root = new THREE.Scene().add(new THREE.Mesh(new THREE.BoxGeometry(), new THREE.MeshStandardMaterial()));
     const size = 8;
-    // Red tells the face; green grows to the right of the picture, blue downwards.
+    // Red tells the face; green grows to the right of the image, blue downwards.
     const face = (n: number) => {
       const data = new Float32Array(size * size * 4);
       for (let j = 0; j < size; j++)
@@ -180,7 +180,7 @@ describe('environment', () => {
     const sides = { 1: [-1, 0, 0], 2: [1, 0, 0], 3: [0, 1, 0], 4: [0, -1, 0], 5: [0, 0, 1], 6: [0, 0, -1] } as const;
     for (const [red, [x, y, z]] of Object.entries(sides))
       expect(look(x + 0.01, y, z + 0.01)[0]).toBeCloseTo(Number(red), 5);
-    // Somebody in the middle who looks at a wall sees its picture the right way round.
+    // Somebody in the middle who looks at a wall sees its image the right way round.
     for (const [x, , z] of [sides[1], sides[2], sides[5], sides[6]]) {
       const ahead = new THREE.Vector3(x, 0, z);
       const right = ahead.clone().cross(new THREE.Vector3(0, 1, 0));
@@ -197,7 +197,7 @@ describe('environment', () => {
       expect(b[1]).toBeLessThan(0.2);
       expect(b[2]).toBeGreaterThan(0.7);
     }
-    // The ceiling's and the floor's lower and upper edges meet the top and the bottom of the picture of +Z.
+    // The ceiling's and the floor's lower and upper edges meet the top and the bottom of the image of +Z.
     expect(look(0.01, 1, 0.8)[2]).toBeGreaterThan(0.8);
     expect(look(0.01, -1, 0.8)[2]).toBeLessThan(0.2);
   });

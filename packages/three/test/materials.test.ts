@@ -107,7 +107,7 @@ describe('materials', () => {
     ).toMatchObject({ channels: 'g' });
   });
 
-  it('textures drive what they drive in three, also roughness and metalness by two pictures', async () => {
+  it('textures drive what they drive in three, also roughness and metalness by two images', async () => {
     const [color, rough, metal, normal, emission] = Array.from({ length: 5 }, map) as [
       THREE.DataTexture,
       THREE.DataTexture,

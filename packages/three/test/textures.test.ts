@@ -4,8 +4,8 @@ import { fromThree } from '../src/index';
 import { fromHalf } from '../src/half';
 import { floatsOf } from '../src/textures';
 
-/** A picture whose texels say where they are. */
-function picture(flipY: boolean): THREE.DataTexture {
+/** An image whose texels say where they are. */
+function image(flipY: boolean): THREE.DataTexture {
   const data = new Uint8Array(4 * 4 * 4);
   for (let y = 0; y < 4; y++) for (let x = 0; x < 4; x++) data.set([60 * x, 60 * y, 0, 255], 4 * (4 * y + x));
   const texture = new THREE.DataTexture(data, 4, 4);
@@ -22,7 +22,7 @@ describe('textures', () => {
   ] as const)(
     'lie where three has them: flipY %s, offset %o, repeat %o, rotation %d, center %o',
     async (flipY, offset, repeat, rotation, center) => {
-      const map = picture(flipY);
+      const map = image(flipY);
       map.wrapS = map.wrapT = THREE.RepeatWrapping;
       map.offset.fromArray(offset);
       map.repeat.fromArray(repeat);
@@ -39,7 +39,7 @@ describe('textures', () => {
         const [u, v] = [uvs![0]![2 * indices[corner]!]!, uvs![0]![2 * indices[corner]! + 1]!];
         const i = index!.getX(corner);
         const wanted = new THREE.Vector2(attributes['uv']!.getX(i), attributes['uv']!.getY(i)).applyMatrix3(map.matrix);
-        // Three's own picture has its first row at v = 0, unless it is turned over.
+        // Three's own image has its first row at v = 0, unless it is turned over.
         const row = flipY ? 1 - wanted.y : wanted.y;
         expect(a * u + c * v + x).toBeCloseTo(wanted.x, 5);
         expect(b * u + d * v + y).toBeCloseTo(row, 5);
@@ -50,7 +50,7 @@ describe('textures', () => {
   );
 
   it('are each there once, whatever reads them', async () => {
-    const map = picture(false);
+    const map = image(false);
     const root = new THREE.Scene();
     root.add(
       new THREE.Mesh(new THREE.BoxGeometry(), new THREE.MeshStandardMaterial({ map })),
@@ -65,7 +65,7 @@ describe('textures', () => {
       new THREE.Mesh(new THREE.BoxGeometry(), new THREE.MeshStandardMaterial({ map: new THREE.Texture() })),
     );
     expect(scene.materials[0]!.textures).toBeUndefined();
-    expect(scene.warnings.map(({ code }) => code)).toEqual(['three/picture']);
+    expect(scene.warnings.map(({ code }) => code)).toEqual(['three/image']);
     const given = await fromThree(
       new THREE.Mesh(new THREE.BoxGeometry(), new THREE.MeshStandardMaterial({ map: new THREE.Texture() })),
       undefined,

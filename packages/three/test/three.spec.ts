@@ -18,7 +18,7 @@ test.beforeAll(async () => void (served = await servePage(fileURLToPath(new URL(
 test.afterAll(() => served.close());
 test.use({ viewport: { width: 320, height: 320 } });
 
-/** A picture of a formula: four codes for each place. */
+/** An image of a formula: four codes for each place. */
 function png(at: (x: number, y: number) => readonly [number, number, number, number]): Buffer {
   const size = 32;
   const data = new Uint8Array(size * size * 4);
@@ -26,9 +26,9 @@ function png(at: (x: number, y: number) => readonly [number, number, number, num
   return Buffer.from(encodePng({ width: size, height: size, data }));
 }
 
-/** Two squares: one with a picture for everything, its coordinates turned and repeated, one cut out by its alpha. */
+/** Two squares: one with an image for everything, its coordinates turned and repeated, one cut out by its alpha. */
 function model(): Buffer {
-  const pictures = [
+  const images = [
     png((x, y) => [8 * x, 8 * y, 200, 255]),
     png((x, y) => [0, x < 16 ? 60 : 220, y < 16 ? 255 : 0, 255]),
     png((x) => [x % 8 < 4 ? 90 : 165, 128, 245, 255]),
@@ -38,7 +38,7 @@ function model(): Buffer {
   const normals = Float32Array.of(0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1);
   const uvs = Float32Array.of(0, 1, 1, 1, 1, 0, 0, 0);
   const indices = Uint32Array.of(0, 1, 2, 0, 2, 3);
-  const parts = [...[positions, normals, uvs, indices].map(({ buffer }) => Buffer.from(buffer)), ...pictures].map(
+  const parts = [...[positions, normals, uvs, indices].map(({ buffer }) => Buffer.from(buffer)), ...images].map(
     (part) => Buffer.concat([part, Buffer.alloc((4 - (part.length % 4)) % 4)]),
   );
   let byteOffset = 0;
@@ -97,7 +97,7 @@ function model(): Buffer {
   );
 }
 
-async function picture(page: Page, base64: string, way: 'ours' | 'three') {
+async function image(page: Page, base64: string, way: 'ours' | 'three') {
   await page.evaluate(
     async ([data, by]) => {
       window.viewer?.destroy();
@@ -128,14 +128,14 @@ async function picture(page: Page, base64: string, way: 'ours' | 'three') {
   };
 }
 
-test('a textured glTF by way of GLTFLoader and fromThree gives the picture that our own loader gives', async ({
+test('a textured glTF by way of GLTFLoader and fromThree gives the image that our own loader gives', async ({
   page,
 }, info) => {
   const complaints = watch(page, served.origin);
   await page.goto(served.origin);
   const base64 = model().toString('base64');
-  const ours = await picture(page, base64, 'ours');
-  const theirs = await picture(page, base64, 'three');
+  const ours = await image(page, base64, 'ours');
+  const theirs = await image(page, base64, 'three');
   await info.attach('ours', { body: ours.png, contentType: 'image/png' });
   await info.attach('three', { body: theirs.png, contentType: 'image/png' });
   expect(theirs.warnings).toEqual([]);

@@ -2,7 +2,7 @@
 export interface CameraCommands {
   /** Radians, to the right and up around the model. */
   orbit(yaw: number, pitch: number): void;
-  /** Heights of the picture. */
+  /** Heights of the image. */
   pan(right: number, up: number): void;
   /** Factor, more than 1 comes nearer. */
   zoom(factor: number): void;

@@ -4,8 +4,8 @@ import viewerBlend from './blend.wesl';
 import { withErrorScopes } from './error-scopes';
 import { destroyed, ViewerError } from './errors';
 
-/** A picture in a buffer of the GPU: vec4f per pixel. */
-export interface GpuPicture {
+/** An image in a buffer of the GPU: vec4f per pixel. */
+export interface GpuImage {
   readonly buffer: GPUBuffer;
   readonly size: readonly [number, number];
 }
@@ -13,8 +13,8 @@ export interface GpuPicture {
 /** GPUBufferUsage; the names exist as globals in browsers only. */
 const [COPY_DST, UNIFORM, STORAGE] = [0x8, 0x40, 0x80];
 
-/** A preview that is kept, and the buffer of the full size in which it is mixed into the picture. */
-interface Preview extends GpuPicture {
+/** A preview that is kept, and the buffer of the full size in which it is mixed into the image. */
+interface Preview extends GpuImage {
   readonly samples: number;
   readonly mixed: GPUBuffer;
 }
@@ -106,12 +106,12 @@ export class Display {
   }
 
   /**
-   * Keeps a copy of a preview, to be mixed into the pictures that follow. Where there is no memory for it, they appear
+   * Keeps a copy of a preview, to be mixed into the images that follow. Where there is no memory for it, they appear
    * without the transition.
    *
-   * @param fullSize Of the pictures that follow.
+   * @param fullSize Of the images that follow.
    */
-  async keep({ buffer, size }: GpuPicture, samples: number, fullSize: readonly [number, number]): Promise<void> {
+  async keep({ buffer, size }: GpuImage, samples: number, fullSize: readonly [number, number]): Promise<void> {
     this.forget();
     const turn = this.#turn;
     const bytes = size[0] * size[1] * 16;
@@ -146,12 +146,12 @@ export class Display {
   }
 
   /**
-   * Shows a picture.
+   * Shows an image.
    *
    * @param canvasSize Pixels of the canvas.
    * @param share Of the kept preview in it, 0..1.
    */
-  draw(film: GpuPicture, canvasSize: readonly [number, number], share: number): void {
+  draw(film: GpuImage, canvasSize: readonly [number, number], share: number): void {
     // A canvas is a texture, whose sides are limited; the page stretches it.
     const scale = Math.min(1, this.#device.limits.maxTextureDimension2D / Math.max(...canvasSize));
     const [width, height] = canvasSize.map((pixels) => Math.max(1, Math.floor(pixels * scale))) as [number, number];
@@ -171,7 +171,7 @@ export class Display {
     this.#context.unconfigure();
   }
 
-  #mix(encoder: GPUCommandEncoder, film: GpuPicture, small: Preview, share: number): GPUBuffer {
+  #mix(encoder: GPUCommandEncoder, film: GpuImage, small: Preview, share: number): GPUBuffer {
     const [width, height] = film.size;
     const { mixed } = small;
     if (mixed.size !== width * height * 16) return film.buffer;
@@ -203,7 +203,7 @@ async function compileBlend(device: GPUDevice): Promise<GPUComputePipeline> {
   } catch (cause) {
     throw new ViewerError(
       'viewer/gpu',
-      `The GPU's driver did not compile the shader that draws the picture: ${(cause as Error).message}. Update the driver, or use another browser.`,
+      `The GPU's driver did not compile the shader that draws the image: ${(cause as Error).message}. Update the driver, or use another browser.`,
       { cause },
     );
   }

@@ -1,4 +1,4 @@
-/** What {@link Emitter.on} may be told. */
+/** Options for {@link Emitter.on}. */
 export interface ListenOptions {
   /** Hear the next event only. Default false. */
   readonly once?: boolean;

@@ -9,16 +9,16 @@ export interface EngineHost {
   readonly step: (seconds: number) => boolean;
   /** Whether the camera is on its way, or about to be. */
   readonly moving: () => boolean;
-  /** The camera for a picture of this width over height. */
+  /** The camera for an image of this width over height. */
   readonly camera: (aspect: number) => Camera;
   readonly state: (state: ViewerState) => void;
-  /** The picture has more samples; those of previews are not told. */
+  /** The image has more samples; those of previews are not told. */
   readonly sample: (progress: RenderProgress) => void;
-  /** The picture has all it was asked for, so many milliseconds after the last change. */
+  /** The image has all it was asked for, so many milliseconds after the last change. */
   readonly converged: (samples: number, milliseconds: number) => void;
-  /** A picture has gone to the canvas: a preview or not, the milliseconds that its samples took, its size in pixels. */
+  /** An image has gone to the canvas: a preview or not, the milliseconds that its samples took, its size in pixels. */
   readonly drawn: (preview: boolean, milliseconds: number, size: readonly [number, number]) => void;
-  /** The film was cleared: what it shows from now on is another picture. */
+  /** The film was cleared: what it shows from now on is another image. */
   readonly restarted?: () => void;
   readonly error: (error: unknown, retry?: () => void) => void;
   /** The first device has not come; it is asked for again for about two seconds before {@link Engine.ready} rejects. */
@@ -42,7 +42,7 @@ export interface RestoredSamples {
  * says so.
  */
 export interface EngineSettings extends ToneMapOptions {
-  /** Samples per pixel of the finished picture. With a change goes `restart()`. */
+  /** Samples per pixel of the finished image. With a change goes `restart()`. */
   samples: number;
   /** Stop where this relative noise is reached. With a change goes `restart()`. */
   noise: number | undefined;
@@ -50,11 +50,11 @@ export interface EngineSettings extends ToneMapOptions {
   maxDepth: number;
   /** What is behind the model. With a change goes an edit by `PathTracer.setBackground()`. */
   background: 'environment' | 'transparent';
-  /** GPU milliseconds that one submission should take at most while the picture is refined. */
+  /** GPU milliseconds that one submission should take at most while the image is refined. */
   maxSubmitMs: number;
-  /** Milliseconds without a movement after which the picture is refined. */
+  /** Milliseconds without a movement after which the image is refined. */
   readonly settleMs: number;
-  /** Most edges of a path in previews that are smaller than the picture. */
+  /** Most edges of a path in previews that are smaller than the image. */
   readonly previewDepth: number;
   /** More for the path tracers; those of a {@link Take} go over them. */
   readonly tracer: Partial<PathTracerOptions>;

@@ -42,7 +42,7 @@ export interface ShowOptions {
 const sameSize = (a: Size, b: Size) => a[0] === b[0] && a[1] === b[1];
 
 /**
- * Device, tracer and canvas: shows a small preview while something moves, refines the picture when it rests, sleeps
+ * Device, tracer and canvas: shows a small preview while something moves, refines the image when it rests, sleeps
  * when there is nothing to do or nobody sees it, and comes back after the device was lost.
  */
 export class Engine {
@@ -159,7 +159,7 @@ export class Engine {
     return this.#fresh;
   }
 
-  /** Whether the film shows the whole picture as it is now. */
+  /** Whether the film shows the whole image as it is now. */
   get current(): boolean {
     return (
       this.#fresh &&
@@ -267,7 +267,7 @@ export class Engine {
     this.#stir();
   }
 
-  /** Sizes of the picture and of the canvas, pixels. */
+  /** Sizes of the image and of the canvas, pixels. */
   resize(film: Size, canvas: Size): void {
     if (sameSize(film, this.#film) && sameSize(canvas, this.#canvasSize)) return;
     if (!sameSize(film, this.#film)) this.#films.forget();
@@ -278,7 +278,7 @@ export class Engine {
   }
 
   /**
-   * Exposure and tone map, on the picture as it is.
+   * Exposure and tone map, on the image as it is.
    * @throws {ToneMapError} for what cannot be set; the settings stay as they were then.
    */
   async setView(view: ToneMapOptions): Promise<void> {
@@ -293,7 +293,7 @@ export class Engine {
     this.redraw();
   }
 
-  /** Starts the present work anew, with settings that have changed. */
+  /** Starts the present work again, with settings that have changed. */
   restart(): void {
     this.#done = false;
     this.#tryAgain();
@@ -502,7 +502,7 @@ export class Engine {
     return this.#dirtyCamera || this.#edits.size > 0 || this.#host.moving() || performance.now() < this.#settle;
   }
 
-  /** A picture that is as small as it must be to keep up with hands. */
+  /** An image that is as small as it must be to keep up with hands. */
   async #previewFrame(tracer: PathTracer): Promise<void> {
     // In step with the screen where the GPU keeps up; the first frame, and those of a slow GPU, do not wait for it as
     // well.
@@ -533,7 +533,7 @@ export class Engine {
     this.#edits.apply(() => this.#edited());
     if (changed) this.#restarted();
     const before = tracer.samples;
-    // In its full size it is the picture already, and that gets as many samples as were asked for.
+    // In its full size it is the image already, and that gets as many samples as were asked for.
     const most = sameSize([tracer.width, tracer.height], this.#full) ? this.#goal : Infinity;
     if (before >= Math.min(PREVIEW_SAMPLES, most) && this.#fresh) return;
     const started = performance.now();
@@ -553,7 +553,7 @@ export class Engine {
     this.#draw(milliseconds);
   }
 
-  /** The picture in full, until it is done or something moves. */
+  /** The image in full, until it is done or something moves. */
   async #refine(tracer: PathTracer): Promise<void> {
     const { samples, noise, maxSubmitMs, maxDepth } = this.settings;
     this.#tell('rendering');
@@ -628,7 +628,7 @@ export class Engine {
     else display?.forget();
   }
 
-  /** Samples of the picture in full. */
+  /** Samples of the image in full. */
   get #goal(): number {
     return this.#paused ? 1 : this.settings.samples;
   }

@@ -4,7 +4,7 @@ import type { Orbit } from './orbit-state';
 
 /**
  * What a viewer is doing. `empty`: nothing to show. `loading`: a model is read or prepared. `moving`: the preview is
- * shown. `rendering`: samples are added. `done`: the picture has all it was asked for. `paused`, `hidden` (out of
+ * shown. `rendering`: samples are added. `done`: the image has all it was asked for. `paused`, `hidden` (out of
  * sight: nothing runs), `recovering` (the GPU was lost and is asked for again), `failed` (see the `error` event),
  * `destroyed`.
  */
@@ -31,14 +31,14 @@ export interface ViewerEvents {
    * `renderer/no-device`), and the viewer asks for it again for about two seconds before `load()` fails.
    */
   warning: { readonly error: GlanzError; readonly message: string; readonly code: string };
-  /** The picture has more samples. `remainingMs` is an estimate, `Infinity` where there is none. */
+  /** The image has more samples. `remainingMs` is an estimate, `Infinity` where there is none. */
   sample: {
     readonly samples: number;
     readonly target: number;
     readonly samplesPerSecond: number;
     readonly remainingMs: number;
   };
-  /** The picture has all samples, or is as free of noise as asked for. */
+  /** The image has all samples, or is as free of noise as asked for. */
   converged: {
     readonly samples: number;
     /** Since the view or the scene last changed. */ readonly milliseconds: number;
@@ -55,7 +55,7 @@ export interface ViewerEvents {
   /** The state has changed. */
   state: { readonly state: ViewerState };
   /**
-   * A picture has gone to the canvas. `preview`: a small one of a view that moves; `milliseconds`: what it took to
+   * An image has gone to the canvas. `preview`: a small one of a view that moves; `milliseconds`: what it took to
    * make.
    */
   frame: { readonly preview: boolean; readonly milliseconds: number; readonly width: number; readonly height: number };

@@ -1,15 +1,15 @@
-/** Samples of the large picture after which nothing of the small one is left in it. */
+/** Samples of the large image after which nothing of the small one is left in it. */
 const GONE_AFTER = 32;
-/** More of the small picture's samples do not count: it is blurred, however many there are. */
+/** More of the small image's samples do not count: it is blurred, however many there are. */
 const MOST_WORTH = 4;
 
 /**
- * Share of the preview in what is shown while the large picture gathers samples: as its samples weigh among all of
+ * Share of the preview in what is shown while the large image gathers samples: as its samples weigh among all of
  * them, fading to nothing, so that neither the change of resolution nor its end can be seen as a jump.
  *
- * @param samples Of the large picture.
+ * @param samples Of the large image.
  * @param previewSamples Of the small one.
- * @param target Samples that the large picture will have; the preview is gone by half of them.
+ * @param target Samples that the large image will have; the preview is gone by half of them.
  */
 export function previewShare(samples: number, previewSamples: number, target: number): number {
   if (samples <= 0) return 1;

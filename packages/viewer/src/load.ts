@@ -10,16 +10,16 @@ export type ModelSource = string | URL | Blob | readonly File[] | FileList | Rea
 
 /**
  * Surroundings. `scene`: the model's own, or else the studio; `studio`: the built-in one; `none`: black; an address or
- * a file of a Radiance HDR or OpenEXR picture; or data.
+ * a file of a Radiance HDR or OpenEXR image; or data.
  */
 export type EnvironmentSource = 'scene' | 'studio' | 'none' | URL | Blob | Environment | (string & {});
 
-/** What {@link loadModel} may be told. */
+/** Options for {@link loadModel}. */
 export interface LoadModelOptions {
   readonly signal?: AbortSignal | undefined;
   readonly onProgress?: ((progress: GltfProgress) => void) | undefined;
   /**
-   * Decoders of compressed meshes and pictures. meshopt is there by itself. A file that needs one of these is read on
+   * Decoders of compressed meshes and images. meshopt is there by itself. A file that needs one of these is read on
    * the calling thread; `createWorker` keeps it off.
    */
   readonly decoders?: GltfDecoders | undefined;
@@ -27,7 +27,7 @@ export interface LoadModelOptions {
    * Starts the worker that reads glTF: a file of yours that calls `serveGltf` of `@glanz/gltf/worker` with decoders.
    */
   readonly createWorker?: (() => Worker) | undefined;
-  /** What the GPU reads of compressed formats: pictures in KTX2 stay packed. Default: they are unpacked. */
+  /** What the GPU reads of compressed formats: images in KTX2 stay packed. Default: they are unpacked. */
   readonly compressedFormats?: (() => Promise<readonly CompressedFormat[]>) | undefined;
 }
 
@@ -126,7 +126,7 @@ export async function loadModel(source: ModelSource, options: LoadModelOptions =
 /**
  * Reads surroundings; `scene` and `none` give `undefined`.
  *
- * @throws {ViewerError} `viewer/environment` for an address that cannot be fetched; {ImageError} for a picture that
+ * @throws {ViewerError} `viewer/environment` for an address that cannot be fetched; {ImageError} for an image that
  * cannot be read.
  */
 export async function loadEnvironment(
@@ -215,7 +215,7 @@ async function readOther(
   return readObj(bytes, {
     name,
     read,
-    decodeImage: (picture) => decodeImageInBrowser(picture, 'application/octet-stream'),
+    decodeImage: (image) => decodeImageInBrowser(image, 'application/octet-stream'),
     ...(signal ? { signal } : {}),
   });
 }

@@ -43,9 +43,9 @@ export interface ViewerOptions {
   readonly noise?: number;
   /** Maximum number of edges of a path. Default 8. Changeable. */
   readonly maxDepth?: number;
-  /** Picture pixels per CSS pixel. Default: the screen's own, at most 2. Changeable. */
+  /** Image pixels per CSS pixel. Default: the screen's own, at most 2. Changeable. */
   readonly pixelRatio?: number;
-  /** Pixels of the picture at most; beyond, it is enlarged. Default 4,194,304. */
+  /** Pixels of the image at most; beyond, it is enlarged. Default 4,194,304. */
   readonly maxPixels?: number;
   /**
    * Surroundings. Default `scene`: the model's own, or else a studio. Changed by `setEnvironment()`. Where it cannot be
@@ -66,7 +66,7 @@ export interface ViewerOptions {
   readonly variant?: string;
   /**
    * The first view of a model: `auto` (default): its own first camera, or a view that frames it; `frame`: the latter
-   * always; an index or a name of its cameras; a camera; or a function that gives one for the scene and the picture's
+   * always; an index or a name of its cameras; a camera; or a function that gives one for the scene and the image's
    * width over height.
    */
   readonly camera?: 'auto' | 'frame' | number | Camera | ((scene: Scene, aspect: number) => Camera) | (string & {});
@@ -82,9 +82,9 @@ export interface ViewerOptions {
   readonly autoRotateDelay?: number;
   /** How the preview of a moving view is made. */
   readonly preview?: PreviewOptions;
-  /** GPU milliseconds that one submission should take at most while the picture is refined. Default 16. */
+  /** GPU milliseconds that one submission should take at most while the image is refined. Default 16. */
   readonly maxSubmitMs?: number;
-  /** Decoders of compressed meshes and pictures; meshopt is there by itself. */
+  /** Decoders of compressed meshes and images; meshopt is there by itself. */
   readonly decoders?: GltfDecoders;
   /** Starts the worker that reads glTF, see `LoadModelOptions.createWorker`. */
   readonly createWorker?: () => Worker;
@@ -101,7 +101,7 @@ export interface ViewerOptions {
    */
   readonly keepSamples?: boolean;
   /**
-   * Whether the device and the JavaScript engine do ahead, while the first model loads, what its first picture would
+   * Whether the device and the JavaScript engine do ahead, while the first model loads, what its first image would
    * wait for: about a tenth of a second of the page's thread, in slices. Default: unless the CPU imitates the GPU.
    */
   readonly warmUp?: boolean;
@@ -115,8 +115,8 @@ export interface ViewerOptions {
 export interface PreviewOptions {
   /** Milliseconds that a frame of it may take. Default 12, which leaves room at 60 frames a second. */
   readonly budgetMs?: number;
-  /** Most edges of a path, where the preview is smaller than the picture. Default 4. */
+  /** Most edges of a path, where the preview is smaller than the image. Default 4. */
   readonly maxDepth?: number;
-  /** Milliseconds without a movement after which the picture is refined. Default 180. */
+  /** Milliseconds without a movement after which the image is refined. Default 180. */
   readonly settleMs?: number;
 }

@@ -14,7 +14,7 @@ import type { Orbit, OrbitLimits, Vector } from './orbit-state';
 
 export type { Orbit, OrbitLimits, Vector } from './orbit-state';
 
-/** What {@link OrbitRig} may be told. */
+/** Options for {@link OrbitRig}. */
 export interface OrbitRigOptions {
   /** Seconds in which 63 % of a movement is done; 0 moves at once. Default 0.06. */
   readonly damping?: number;
@@ -139,7 +139,7 @@ export class OrbitRig {
   }
 
   /**
-   * Moves sideways and up, in heights of the picture at the target's distance.
+   * Moves sideways and up, in heights of the image at the target's distance.
    * @throws {ViewerError} `viewer/camera` for what is not finite, or goes too far away.
    */
   pan(right: number, up: number): void {

@@ -1,6 +1,6 @@
 import { CostModel } from '@glanz/renderer';
 
-/** How a preview is made: what share of the picture's width and height, and how many samples. */
+/** How a preview is made: what share of the image's width and height, and how many samples. */
 export interface PreviewPlan {
   /** Width and height are divided by it: 1, 1.5, 2, 3, 4, 6 or 8. */
   readonly divisor: number;
@@ -11,7 +11,7 @@ export interface PreviewPlan {
 /** Steps by which the preview shrinks. Areas about halve, so that sizes do not change for every breath of the clock. */
 export const DIVISORS = [1, 1.5, 2, 3, 4, 6, 8] as const;
 
-/** From here on the picture gets too coarse to be of use: rather fewer frames a second than still fewer pixels. */
+/** From here on the image gets too coarse to be of use: rather fewer frames a second than still fewer pixels. */
 const COARSE = 4;
 /** How much longer frames of coarse previews may take. */
 const PATIENT = 2.5;
@@ -38,7 +38,7 @@ export class PreviewController {
     this.#divisor = 4;
   }
 
-  /** The next frame of a picture of so many pixels. */
+  /** The next frame of an image of so many pixels. */
   plan(pixels: number): PreviewPlan {
     const { fixed, mean } = this.#cost;
     if (mean === undefined) return { divisor: this.#divisor, samples: 1 };

@@ -2,22 +2,22 @@ import type { Camera } from '@glanz/scene';
 import { dot, subtract } from 'gl-matrix/esm/vec3.js';
 import type { Vector } from './orbit-state';
 
-/** Where a point of the world falls on the picture. */
+/** Where a point of the world falls on the image. */
 export interface Projection {
-  /** Share of the picture's width from the left; 0..1 where it is in the picture. */
+  /** Share of the image's width from the left; 0..1 where it is in the image. */
   readonly x: number;
   /** Share of its height from the top. */
   readonly y: number;
   /** Metres from the camera. */
   readonly distance: number;
-  /** Whether it lies in front of the camera and within the picture. */
+  /** Whether it lies in front of the camera and within the image. */
   readonly inside: boolean;
 }
 
 /**
- * Projects a point as the renderer does. The camera's field of view is that of the picture's height.
+ * Projects a point as the renderer does. The camera's field of view is that of the image's height.
  *
- * @param aspect Width over height of the picture.
+ * @param aspect Width over height of the image.
  */
 export function project(camera: Camera, aspect: number, point: Vector): Projection {
   const m = camera.transform;

@@ -74,7 +74,7 @@ export abstract class ViewerCamera extends ViewerSettings {
     this.#autoRotateDelay = checkedSetting('autoRotateDelay', seconds);
   }
 
-  /** The camera that the picture is, or is being, taken with. `undefined` before there is a scene. */
+  /** The camera that the image is, or is being, taken with. `undefined` before there is a scene. */
   get camera(): Camera | undefined {
     return this.#rig && fitCamera(this.#rig.camera(), this.aspect);
   }

@@ -9,7 +9,7 @@ import { isAbort, ViewerError } from './errors';
 import type { ViewerEvents, ViewerState } from './events';
 import type { EnvironmentSource } from './load';
 import type { ViewerOptions } from './options';
-import { pictureSize } from './picture-size';
+import { imageSize } from './image-size';
 import { Surroundings } from './surroundings';
 
 /** @throws {ViewerError} `viewer/no-canvas`, `viewer/option`; {ToneMapError} `tonemap/unknown`. */
@@ -121,15 +121,15 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
     return this.engine.device;
   }
 
-  /** Samples per pixel of the picture as it is. */
+  /** Samples per pixel of the image as it is. */
   get sampleCount(): number {
     return this.engine.current ? (this.engine.tracer?.samples ?? 0) : 0;
   }
 
   /**
    * Another environment. It also serves the models that are loaded later. A later call aborts an earlier one.
-   * @returns When the picture shows it.
-   * @throws {ViewerError} `viewer/environment`; {ImageError} for a picture that cannot be read; {SceneError} for data
+   * @returns When the image shows it.
+   * @throws {ViewerError} `viewer/environment`; {ImageError} for an image that cannot be read; {SceneError} for data
    * that is no environment; {DeviceError} where the GPU has no memory for it. The former one stays.
    * @throws the signal's reason, or an `AbortError`, when aborted.
    */
@@ -304,7 +304,7 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
 
   #resized(): void {
     const { canvas } = this;
-    const size = pictureSize(canvas.clientWidth, canvas.clientHeight, this.#pixelRatio, this.options.maxPixels);
+    const size = imageSize(canvas.clientWidth, canvas.clientHeight, this.#pixelRatio, this.options.maxPixels);
     this.engine.resize(size, size);
   }
 

@@ -12,7 +12,7 @@ import type { BlobOptions, ViewerOptions } from './options';
 import { plainScene } from './variants';
 import { ViewerCamera } from './viewer-camera';
 
-/** What {@link Viewer.load} may be told. */
+/** Options for {@link Viewer.load}. */
 export interface LoadOptions {
   /** Aborts the load; it rejects with the signal's reason, and the former model stays. */
   readonly signal?: AbortSignal;
@@ -33,7 +33,7 @@ const STAGES: Readonly<Record<LoadStage, readonly [number, number]>> = {
 };
 
 /**
- * A path-traced picture on a canvas: loads models, turns them under the user's hands, refines the picture when they
+ * A path-traced image on a canvas: loads models, turns them under the user's hands, refines the image when they
  * rest, sleeps out of sight, and survives the loss of the GPU. Made by {@link createViewer}.
  */
 export class Viewer extends ViewerCamera {
@@ -99,7 +99,7 @@ export class Viewer extends ViewerCamera {
 
   /**
    * Puts the model into one of its looks, or into its own.
-   * @returns When the picture shows it.
+   * @returns When the image shows it.
    * @throws {RenderError} `renderer/variant` if it has no such look; {ViewerError} `viewer/no-scene`.
    */
   async setVariant(variant: string | undefined): Promise<void> {
@@ -111,7 +111,7 @@ export class Viewer extends ViewerCamera {
    * Changes parameters of a material; see `PathTracer.setMaterial`. Several calls before the next frame add up. Colours
    * are linear Rec.709, or CSS colours as text, which are converted from sRGB: a name, `#rgb`, `#rrggbb`, `rgb()` or
    * `hsl()`. Of a call that is refused nothing is stored.
-   * @returns When the picture shows it.
+   * @returns When the image shows it.
    * @throws {RenderError} `renderer/material`; {ToneMapError} `tonemap/color` for what is no CSS colour; {ViewerError}
    * `viewer/no-scene`.
    * @example
@@ -132,10 +132,10 @@ export class Viewer extends ViewerCamera {
 
   /**
    * Changes the scene by any method of the tracer, between two frames, so that a slow GPU skips edits rather than
-   * pictures. Edits survive a loss of the device.
+   * images. Edits survive a loss of the device.
    *
    * @param options `key`: of several edits with one key that wait, the last one counts.
-   * @returns When the picture shows it.
+   * @returns When the image shows it.
    * @example
    * await viewer.edit((tracer) => tracer.setVisibility('lid', false), { key: 'lid' });
    */
@@ -144,7 +144,7 @@ export class Viewer extends ViewerCamera {
     return this.engine.edit(options.key ?? Symbol('edit'), change);
   }
 
-  /** Draws the picture again as it is, after a change that needs no new samples (`tracer.setLightGroup()`). */
+  /** Draws the image again as it is, after a change that needs no new samples (`tracer.setLightGroup()`). */
   redraw(): void {
     this.engine.redraw();
   }

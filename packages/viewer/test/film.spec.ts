@@ -115,7 +115,7 @@ test('three variants from four views by one command are what the viewer shows in
     join(folder, 'batch.json'),
     JSON.stringify({
       defaults,
-      pictures: [
+      images: [
         { output: '{variant}/{view}.exr', bits: 32 },
         { output: '{variant}/{view}.png', bits: 8 },
       ],
@@ -130,8 +130,8 @@ test('three variants from four views by one command are what the viewer shows in
       'SwiftShader',
       '--json',
     ]),
-  ) as { pictures: { variant: string; view: string; files: { path: string }[] }[] };
-  expect(report.pictures.length).toBe(2 * VARIANTS.length * VIEWS.length);
+  ) as { images: { variant: string; view: string; files: { path: string }[] }[] };
+  expect(report.images.length).toBe(2 * VARIANTS.length * VIEWS.length);
 
   await page.goto(served.origin);
   await page.evaluate(
@@ -143,21 +143,21 @@ test('three variants from four views by one command are what the viewer shows in
     [model.toString('base64'), SIZE, { samples: SAMPLES, maxDepth: DEPTH, tracer: { seed: SEED } }] as const,
   );
   const films = new Set<string>();
-  const differences: Record<string, { readonly film: Difference; readonly picture: Difference }> = {};
+  const differences: Record<string, { readonly film: Difference; readonly image: Difference }> = {};
   // The other way round than the command, so that nothing can have been left over in the same order.
   for (const [v, view] of [...VIEWS.entries()].reverse()) {
     for (const variant of [...VARIANTS].reverse()) {
-      const name = report.pictures.filter((one) => one.variant === variant)[v]!.view;
+      const name = report.images.filter((one) => one.variant === variant)[v]!.view;
       const file = (type: string) =>
         readFileSync(
           join(
             folder,
-            report.pictures
+            report.images
               .flatMap(({ variant: of, view: from, files }) => (of === variant && from === name ? files : []))
               .find(({ path }) => path.endsWith(type))!.path,
           ),
         ).toString('base64');
-      const { film, picture, hash } = await page.evaluate(
+      const { film, image, hash } = await page.evaluate(
         async ([wanted, look, exr, png, samples]) => {
           const { viewer } = window;
           const bytes = (text: string) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
@@ -200,22 +200,22 @@ test('three variants from four views by one command are what the viewer shows in
           };
           return {
             film: compare(shown, written),
-            picture: compare(await pixels(blob), await pixels(new Blob([bytes(png)]))),
+            image: compare(await pixels(blob), await pixels(new Blob([bytes(png)]))),
             hash: Array.from(shown).join(),
           };
         },
         [view, variant, file('.exr'), file('.png'), SAMPLES] as const,
       );
       films.add(hash);
-      differences[`${variant} from ${view}`] = { film, picture };
+      differences[`${variant} from ${view}`] = { film, image };
     }
   }
   const values = 4 * SIZE[0] * SIZE[1];
   const same = { count: 0, most: 0, of: values };
   expect(differences).toEqual(
-    Object.fromEntries(Object.keys(differences).map((key) => [key, { film: same, picture: same }])),
+    Object.fromEntries(Object.keys(differences).map((key) => [key, { film: same, image: same }])),
   );
-  // Twelve pictures that differ: nothing was compared with itself.
+  // Twelve images that differ: nothing was compared with itself.
   expect(films.size).toBe(VARIANTS.length * VIEWS.length);
   expect(complaints).toEqual([]);
 });

@@ -9,7 +9,7 @@ const camera = {
 } as const;
 
 describe('fitCamera', () => {
-  it('keeps the width of the view in a picture narrower than the author’s, and its height in a wider one', () => {
+  it('keeps the width of the view in an image narrower than the author’s, and its height in a wider one', () => {
     const fitted = fitCamera({ ...camera, aspect: 2 }, 1);
     // Half the width of the view at a distance of one: tan(yfov / 2) × aspect.
     expect(fitted.type === 'perspective' && Math.tan(fitted.yfov / 2)).toBeCloseTo(2 * Math.tan(0.3), 9);

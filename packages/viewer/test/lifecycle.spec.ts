@@ -39,15 +39,15 @@ test('an edit or an environment that is refused, or has no memory, leaves the sc
     );
     ends.push(await end(viewer.setMaterial('left', { no_such: 1 } as never)));
     ends.push(await end(viewer.setMaterial('left', { base_color: [0.9, 0.02, 0.02] })));
-    // A picture as an environment needs textures and tables of its own.
-    const picture = {
+    // An image as an environment needs textures and tables of its own.
+    const image = {
       type: 'latlong' as const,
       width: 512,
       height: 256,
       data: new Float32Array(512 * 256 * 3).fill(1),
     };
     faults.memory = faults.bytes() + 10_000;
-    ends.push(await end(viewer.setEnvironment(picture)));
+    ends.push(await end(viewer.setEnvironment(image)));
     // It is not tried again with the next change.
     viewer.environmentRotation = 1;
     faults.memory = undefined;

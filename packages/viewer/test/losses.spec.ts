@@ -64,7 +64,7 @@ async function run(
       for (let i = 0; viewer.tracer?.width !== 50 && i < 1500; i++)
         await new Promise((resolve) => setTimeout(resolve, 20));
       await done();
-      // A loss may come with the reading itself; the picture that follows is read then.
+      // A loss may come with the reading itself; the image that follows is read then.
       const read = () => viewer.tracer!.read('beauty');
       const before = losses;
       const pixels = await read().catch(async (error: unknown) => {
@@ -100,7 +100,7 @@ const POINTS = [
   'mapAsync',
 ] as const;
 
-test('wherever the GPU is lost on the way, the picture comes out the same, bit for bit, and nothing is left behind', async ({
+test('wherever the GPU is lost on the way, the image comes out the same, bit for bit, and nothing is left behind', async ({
   browser,
 }) => {
   test.setTimeout(900_000);
@@ -127,7 +127,7 @@ test('wherever the GPU is lost on the way, the picture comes out the same, bit f
       if (!end.lost) continue;
       tried++;
       const where = `${point} ${at} of ${calls}`;
-      if (end.film !== reference.film) bad.push(`${where}: another picture, told ${end.told.join(', ') || 'nothing'}`);
+      if (end.film !== reference.film) bad.push(`${where}: another image, told ${end.told.join(', ') || 'nothing'}`);
       if (Object.keys(end.leaks).length > 0) bad.push(`${where}: left ${JSON.stringify(end.leaks)}`);
       if (end.complaints.length > 0) bad.push(`${where}: ${end.complaints.join('; ')}`);
     }

@@ -66,12 +66,12 @@ export async function open(page: Page, origin: string, options: ViewerOptions = 
 }
 
 export const done = (page: Page) =>
-  expect.poll(() => page.evaluate(() => window.viewer.state), { message: 'the picture is done' }).toBe('done');
+  expect.poll(() => page.evaluate(() => window.viewer.state), { message: 'the image is done' }).toBe('done');
 export const canvas = (page: Page) => page.locator('canvas');
 export const heard = (page: Page, type: string) =>
   page.evaluate((wanted) => window.heard.filter((event) => event.type === wanted), type);
 export const shot = async (page: Page) => {
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
-  // The ring around a canvas that has the keyboard is no part of the picture.
+  // The ring around a canvas that has the keyboard is no part of the image.
   return photograph(canvas(page), 'canvas { outline: none }');
 };

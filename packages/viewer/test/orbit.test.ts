@@ -131,7 +131,7 @@ describe('OrbitRig', () => {
     expect(rig.moving).toBe(false);
   });
 
-  it('pans in the plane of the picture: a height of the picture moves the target by what is seen of it', () => {
+  it('pans in the plane of the image: a height of the image moves the target by what is seen of it', () => {
     const rig = new OrbitRig(front, bounds, { damping: 0 });
     rig.pan(0, 1);
     rig.step(0.016);

@@ -36,7 +36,7 @@ describe('PreviewController', () => {
       expect(fixed + (pixels / larger ** 2) * (nanoseconds / 1e6)).toBeGreaterThan(0.75 * (larger >= 4 ? 30 : 12));
   });
 
-  it('shows the whole picture where the GPU is fast, with several samples', () => {
+  it('shows the whole image where the GPU is fast, with several samples', () => {
     expect(settled(0.3, 0.3, 1280 * 720).plan).toEqual({ divisor: 1, samples: 8 });
   });
 
@@ -55,7 +55,7 @@ describe('previewShare', () => {
     expect(shares[0]).toBe(1);
     shares.forEach((share, i) => i > 0 && expect(share).toBeLessThanOrEqual(shares[i - 1] as number));
     expect(shares.findIndex((share) => share === 0)).toBe(32);
-    // The last steps change the picture by less than a hundredth of what the two differ.
+    // The last steps change the image by less than a hundredth of what the two differ.
     expect(shares[30]! - shares[31]!).toBeLessThan(1 / 100);
   });
 

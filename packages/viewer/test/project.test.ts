@@ -28,7 +28,7 @@ describe('project', () => {
 });
 
 describe('fitCamera', () => {
-  it('cuts nothing off: what a camera for wide pictures sees is seen in a narrow one', () => {
+  it('cuts nothing off: what a camera for wide images sees is seen in a narrow one', () => {
     const wide = { ...camera, aspect: 2 };
     const fitted = fitCamera(wide, 0.5);
     // The right edge for the author's shape.

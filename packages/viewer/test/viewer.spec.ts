@@ -51,7 +51,7 @@ test('warms up until there is a model, where that is asked for or the GPU is non
       return createComputePipelineAsync.call(this, descriptor);
     };
   });
-  const pictures: Awaited<ReturnType<typeof shot>>[] = [];
+  const images: Awaited<ReturnType<typeof shot>>[] = [];
   for (const warmUp of [undefined, true]) {
     await page.goto(served.origin);
     await page.evaluate((options) => void (window.viewer = window.make(options)), {
@@ -71,12 +71,12 @@ test('warms up until there is a model, where that is asked for or the GPU is non
     // It is given up in the middle.
     await page.evaluate((base64) => window.viewer.load(window.file(base64, 'model.glb')), model.toString('base64'));
     await done(page);
-    pictures.push(await shot(page));
+    images.push(await shot(page));
   }
-  expect(pictures[1]).toEqual(pictures[0]);
+  expect(images[1]).toEqual(images[0]);
 });
 
-test('a drag turns the model: a small preview while it moves, then the picture in full again', async ({ page }) => {
+test('a drag turns the model: a small preview while it moves, then the image in full again', async ({ page }) => {
   await open(page);
   const before = await shot(page);
   await page.evaluate(() => void (window.heard = []));
@@ -101,7 +101,7 @@ test('a drag turns the model: a small preview while it moves, then the picture i
   expect(moved).toBeGreaterThan(5);
   expect((await heard(page, 'frame')).filter((event) => event['preview'])).not.toEqual([]);
   expect((await heard(page, 'frame')).at(-1)).toMatchObject({ preview: false, width: 160, height: 100 });
-  // Back home, the same picture as at first.
+  // Back home, the same image as at first.
   await canvas(page).press('Home');
   await expect.poll(async () => Math.abs((await shot(page)).cells[3]![0] - before.cells[3]![0])).toBeLessThan(1.5);
 });
@@ -212,7 +212,7 @@ async function paintByName(page: Page): Promise<void> {
   expect(found.pair).toEqual([expect.stringMatching(/^renderer\/material: .*base_metalness is 2/), 'taken']);
 }
 
-test('variant, material, exposure, surroundings and background reach the picture', async ({ page }) => {
+test('variant, material, exposure, surroundings and background reach the image', async ({ page }) => {
   await open(page);
   const right = async () => (await shot(page)).cells[5]!;
   const green = await right();
@@ -275,7 +275,7 @@ test('variant, material, exposure, surroundings and background reach the picture
   expect(corner.map(Math.round)).toEqual([0x20, 0x40, 0x80]);
 });
 
-test('resizing keeps the picture sharp and the view whole', async ({ page }) => {
+test('resizing keeps the image sharp and the view whole', async ({ page }) => {
   await open(page);
   await page.evaluate(
     () => void Object.assign(document.querySelector('canvas')!.style, { width: '200px', height: '300px' }),
@@ -478,7 +478,7 @@ async function saveAtOtherSizes(page: Page): Promise<void> {
   expect(await heard(page, 'error')).toEqual([]);
 }
 
-test('toBlob gives the picture as a file; destroy ends everything, twice if need be', async ({ page }) => {
+test('toBlob gives the image as a file; destroy ends everything, twice if need be', async ({ page }) => {
   await open(page, { background: 'transparent', pixelRatio: 1, samples: 4 });
   const shown = await shot(page);
   const file = await page.evaluate(async () => {

@@ -115,7 +115,7 @@ export function triangle(
   return glb(json, Buffer.from(positions.buffer));
 }
 
-/** A Radiance picture of one colour, 4 × 2 pixels, flat RGBE: mantissas of 128 and exponent 129 are 1. */
+/** A Radiance image of one colour, 4 × 2 pixels, flat RGBE: mantissas of 128 and exponent 129 are 1. */
 export function hdr(rgbe: readonly [number, number, number, number]): Buffer {
   return Buffer.concat([
     Buffer.from('#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n'),

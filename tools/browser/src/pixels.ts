@@ -1,6 +1,6 @@
 import type { Locator, Page } from '@playwright/test';
 
-/** What a picture's pixels look like, in sRGB codes. */
+/** What an image's pixels look like, in sRGB codes. */
 export interface Pixels {
   readonly width: number;
   readonly height: number;

@@ -35,7 +35,7 @@ export async function contactSheet(argv: readonly string[]): Promise<number> {
     return 2;
   }
   const out = resolve(values.out);
-  mkdirSync(join(out, 'pictures'), { recursive: true });
+  mkdirSync(join(out, 'images'), { recursive: true });
   const rows: Row[] = [];
   let renderer: Awaited<ReturnType<typeof openRenderer>> | undefined;
   for (const [index, model] of models.entries()) {
@@ -44,8 +44,8 @@ export async function contactSheet(argv: readonly string[]): Promise<number> {
     else {
       renderer ??= await openRenderer({ size, samples, ...(values.gpu === undefined ? {} : { gpu: values.gpu }) });
       const { row, png } = await renderer.render(model);
-      if (png) writeFileSync(join(out, 'pictures', `${model.id}.png`), png);
-      writeFileSync(join(out, 'pictures', `${model.id}.json`), JSON.stringify({ size, samples, row }));
+      if (png) writeFileSync(join(out, 'images', `${model.id}.png`), png);
+      writeFileSync(join(out, 'images', `${model.id}.json`), JSON.stringify({ size, samples, row }));
       rows.push(row);
     }
     const row = rows.at(-1) as Row;
@@ -56,7 +56,7 @@ export async function contactSheet(argv: readonly string[]): Promise<number> {
   renderer?.close();
   writeFileSync(join(out, 'sheet.json'), `${JSON.stringify(rows, null, 1)}\n`);
   writeFileSync(join(out, 'index.html'), html(rows, size, samples));
-  writeFileSync(join(out, 'sheet.png'), await montage(rows, join(out, 'pictures'), size));
+  writeFileSync(join(out, 'sheet.png'), await montage(rows, join(out, 'images'), size));
   if (values.pages !== undefined)
     writeFileSync(join(resolve(values.pages), 'assets.md'), assetsMarkdown(rows, size, samples));
   const failed = rows.filter(({ error }) => error !== undefined);
@@ -68,7 +68,7 @@ export async function contactSheet(argv: readonly string[]): Promise<number> {
 
 /** What an earlier run has found, if it looked at the same file in the same way. */
 function known(out: string, model: Model, size: number, samples: number): Row | undefined {
-  const file = join(out, 'pictures', `${model.id}.json`);
+  const file = join(out, 'images', `${model.id}.json`);
   if (!existsSync(file)) return undefined;
   const saved = JSON.parse(readFileSync(file, 'utf8')) as { size: number; samples: number; row: Row };
   return saved.size === size && saved.samples === samples && saved.row.error === undefined ? saved.row : undefined;

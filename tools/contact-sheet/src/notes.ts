@@ -1,5 +1,5 @@
 /**
- * What somebody who knows a model from elsewhere may wonder about in its picture, and why it is so. Whoever changes
+ * What somebody who knows a model from elsewhere may wonder about in its image, and why it is so. Whoever changes
  * what is seen changes the note.
  */
 export const NOTES: Readonly<Record<string, string>> = {
@@ -11,12 +11,12 @@ export const NOTES: Readonly<Record<string, string>> = {
   NegativeScaleTest:
     'The column "back" shows its crosses for the same reason as TextureSettingsTest: nothing is culled. That mirrored parts are wound and lit rightly shows in the balls below, which are alike.',
   'hotel-room':
-    'A closed room seen from outside, as all models are framed; walls that rasterisers cull hide what is in it. It has no lamps, so it is dark within: its own picture was lit in the viewer.',
+    'A closed room seen from outside, as all models are framed; walls that rasterisers cull hide what is in it. It has no lamps, so it is dark within: its own image was lit in the viewer.',
   'CornellBox-babylon':
     'Framed like all models, from the front right and above; the box has a camera of its own that looks straight in.',
   'CornellBox-bevy': 'Noisy at 16 samples: the box is lit by a small lamp through one opening.',
   MixedLightingExample:
-    "Overexposed: its sun has 2,049 lux, as glTF asks for, and pictures here are taken without a camera's exposure. With `--exposure -10` it is right.",
+    "Overexposed: its sun has 2,049 lux, as glTF asks for, and images here are taken without a camera's exposure. With `--exposure -10` it is right.",
   'geometry-camera-light': 'Overexposed, as MixedLightingExample: its lights are in candela and lux.',
   LightsPunctualLamp: 'The bulbs are points, which nobody sees; the shades glow by what passes through them.',
   'blenderio-15_transmission':
@@ -38,7 +38,7 @@ export const NOTES: Readonly<Record<string, string>> = {
   Cameras:
     'Framed like all models; it has a perspective and an orthographic camera of its own (`--camera 0`, `--camera 1`).',
   TransmissionTest:
-    'Rays go straight through thin walls, with a tint, and do not blur what lies behind by a picture of the screen, as rasterisers do.',
+    'Rays go straight through thin walls, with a tint, and do not blur what lies behind by an image of the screen, as rasterisers do.',
   AttenuationTest:
     'Light goes through closed volumes: the blue on the wall is their shadow. Rasterisers have none there.',
   'blenderio-16_volume': 'As AttenuationTest.',
@@ -48,7 +48,7 @@ export const NOTES: Readonly<Record<string, string>> = {
   AlphaBlendModeTest: 'Blended parts cast lighter shadows, in proportion to their opacity.',
   'blenderio-01_vertex_count_32bit':
     'A blue box. Its triangles are wound inwards and its normals point outwards; the normals count, as a warning tells. Rasterisers cull its outside.',
-  'webp-babylon': 'Black and rough, as its pictures are.',
+  'webp-babylon': 'Black and rough, as its images are.',
   UnlitTest: 'Unlit colours are emitted, so that they come out as they are whatever the surroundings.',
   SpecularTest: 'Dark, as its base colour is black: only the highlights differ.',
   teapot: 'Open below its lid and through its spout, as the original patches are.',

@@ -6,13 +6,13 @@ import type { Row } from './render';
 
 const escape = (text: string) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
 
-/** The page: pictures first, then what was told of each model. */
+/** The page: images first, then what was told of each model. */
 export function html(rows: readonly Row[], size: number, samples: number): string {
   const told = rows.filter(
     ({ error, warnings, badSamples }) => error !== undefined || warnings.length > 0 || badSamples > 0,
   );
   const cell = ({ id, name, note, error, warnings, triangles }: Row) =>
-    `<figure class="${error === undefined ? (warnings.length > 0 ? 'warned' : '') : 'failed'}"><a href="#${escape(id)}">${error === undefined ? `<img src="pictures/${escape(id)}.png" width="${size}" height="${size}" alt="">` : '<div></div>'}</a><figcaption title="${escape(note)}${NOTES[name] ? ` — ${escape(NOTES[name])}` : ''}">${escape(name)}<br><small>${triangles.toLocaleString('en')} triangles</small></figcaption></figure>`;
+    `<figure class="${error === undefined ? (warnings.length > 0 ? 'warned' : '') : 'failed'}"><a href="#${escape(id)}">${error === undefined ? `<img src="images/${escape(id)}.png" width="${size}" height="${size}" alt="">` : '<div></div>'}</a><figcaption title="${escape(note)}${NOTES[name] ? ` — ${escape(NOTES[name])}` : ''}">${escape(name)}<br><small>${triangles.toLocaleString('en')} triangles</small></figcaption></figure>`;
   const entry = ({ id, name, error, warnings, badSamples }: Row) =>
     `<h3 id="${escape(id)}">${escape(name)}</h3><ul>${error === undefined ? '' : `<li class="failed">${escape(error)}</li>`}${badSamples > 0 ? `<li>${badSamples} samples were not numbers</li>` : ''}${warnings.map((warning) => `<li>${escape(warning)}</li>`).join('')}</ul>`;
   return `<!doctype html><meta charset="utf-8"><title>Contact sheet</title>
@@ -33,7 +33,7 @@ function summary(warnings: readonly string[]): string {
   return [...kinds].map(([code, count]) => `${count} × \`${code}\``).join(', ');
 }
 
-/** The page of the documentation: a table without pictures, since many models' licences forbid them. */
+/** The page of the documentation: a table without images, since many models' licences forbid them. */
 export function assetsMarkdown(rows: readonly Row[], size: number, samples: number): string {
   const told = rows.filter(({ warnings, badSamples }) => warnings.length > 0 || badSamples > 0);
   const failed = rows.filter(({ error }) => error !== undefined);
@@ -41,11 +41,11 @@ export function assetsMarkdown(rows: readonly Row[], size: number, samples: numb
   return [
     '# Test models',
     '',
-    `${rows.length} real models, most of them Khronos samples, each loaded by \`loadGltfFile\`, framed from the front right in the neutral studio and rendered at ${size} × ${size} with ${samples} samples on a software GPU: **${failed.length} failed, ${rows.filter(({ badSamples }) => badSamples > 0).length} with samples that are no numbers, ${told.length} with warnings**. The models are no part of the project, and many of their licences forbid pictures of them here; \`npm run contact-sheet -- FOLDER\` makes the sheet of any folder, with pictures, and this page by \`--pages\`.`,
+    `${rows.length} real models, most of them Khronos samples, each loaded by \`loadGltfFile\`, framed from the front right in the neutral studio and rendered at ${size} × ${size} with ${samples} samples on a software GPU: **${failed.length} failed, ${rows.filter(({ badSamples }) => badSamples > 0).length} with samples that are no numbers, ${told.length} with warnings**. The models are no part of the project, and many of their licences forbid images of them here; \`npm run contact-sheet -- FOLDER\` makes the sheet of any folder, with images, and this page by \`--pages\`.`,
     '',
     '## What looks different, and why',
     '',
-    'Beside the pictures that rasterisers make of the same files:',
+    'Beside the images that rasterisers make of the same files:',
     '',
     '| model | |',
     '| --- | --- |',
@@ -78,7 +78,7 @@ export function assetsMarkdown(rows: readonly Row[], size: number, samples: numb
   ].join('\n');
 }
 
-/** All pictures in one, with their names below. */
+/** All images in one, with their names below. */
 export async function montage(rows: readonly Row[], folder: string, size: number): Promise<Uint8Array> {
   const columns = Math.min(12, rows.length),
     label = 16,

@@ -17,7 +17,7 @@ export interface Row {
   readonly warnings: readonly string[];
   readonly triangles: number;
   readonly instances: number;
-  /** Mean of the picture's display codes, 0..1; pictures that came out black or white show in it. */
+  /** Mean of the image's display codes, 0..1; images that came out black or white show in it. */
   readonly mean: number;
   readonly badSamples: number;
   readonly loadMs: number;
@@ -87,7 +87,7 @@ export async function openRenderer({
         if (tracer.samples < samples)
           throw new Error(`stopped after ${tracer.samples} samples: it takes more than ${LIMIT_MS / 1000} s`);
         const codes = toneMapPixels(await tracer.read('beauty'), size, size, {}) as Uint8ClampedArray;
-        // Known after the picture was read.
+        // Known after the image was read.
         row.badSamples = tracer.statistics.badSamples;
         row.renderMs = lap();
         for (let i = 0; i < codes.length; i++)

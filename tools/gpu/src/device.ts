@@ -1,6 +1,6 @@
 import { createGpu } from '@glanz/renderer/node';
 
-/** What {@link testDevice} may be told. */
+/** Options for {@link testDevice}. */
 export interface TestDeviceOptions {
   /**
    * Stay within WebGPU's default limits (8 storage buffers a stage, 128 MiB a binding). Default: all that the adapter

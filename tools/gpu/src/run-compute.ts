@@ -1,7 +1,7 @@
 /** Contents of a buffer for {@link runCompute}. */
 export type ComputeInput = ArrayBuffer | ArrayBufferView<ArrayBuffer>;
 
-/** What {@link runCompute} may be told. */
+/** Options for {@link runCompute}. */
 export interface ComputeOptions {
   /** Read-only storage buffers, at `@binding(0)`, `@binding(1)`, … of group 0. Default none. */
   readonly inputs?: readonly ComputeInput[];

@@ -59,7 +59,7 @@ describe('testDevice', () => {
     staging.destroy();
     texture.destroy();
     const at = (x: number, y: number) => Array.from(pixels.subarray((y * size + x) * 4, (y * size + x) * 4 + 4));
-    // Corners (−1,−1), (1,−1), (−1,1): the lower left half of the picture.
+    // Corners (−1,−1), (1,−1), (−1,1): the lower left half of the image.
     expect(at(8, 48)).toEqual([255, 128, 64, 255]);
     expect(at(2, 10)).toEqual([255, 128, 64, 255]);
     expect(at(60, 10)).toEqual([0, 0, 0, 0]);

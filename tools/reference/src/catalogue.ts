@@ -28,9 +28,9 @@ export interface SceneDescription {
   readonly variants: readonly { readonly id: string; readonly max_path_edges: number }[];
 }
 
-/** How far from its reference a picture may lie. */
+/** How far from its reference an image may lie. */
 export interface Tolerance {
-  /** Relative error of the picture's mean. */
+  /** Relative error of the image's mean. */
   readonly mean: number;
   /** Relative error of a 16 × 16 block. */
   readonly block: number;
@@ -41,8 +41,8 @@ export interface Tolerance {
   readonly outlier: number;
 }
 
-/** A reference picture. */
-export interface ReferencePicture {
+/** A reference image. */
+export interface ReferenceImage {
   /** RGB, stride 3, linear, top row first. */
   readonly mean: Float32Array;
   /** Standard error of each value of `mean`. */
@@ -149,7 +149,7 @@ export class GroundTruth {
   readonly #loading: GltfOptions;
 
   /**
-   * @param loading How its pictures are decoded, where it is read.
+   * @param loading How its images are decoded, where it is read.
    * @throws {ReferenceError} `reference/absent` without the catalogue, `reference/unknown-scene`
    */
   constructor(name: string, loading: GltfOptions = {}) {
@@ -179,15 +179,15 @@ export class GroundTruth {
   }
 
   /**
-   * The reference picture of a variant: an EXR with the channels R, G, B and `standard_error.R`, …, or, in catalogues
+   * The reference image of a variant: an EXR with the channels R, G, B and `standard_error.R`, …, or, in catalogues
    * with full precision, float32 files for both.
    *
    * @throws {ReferenceError} `reference/unknown-variant`, `reference/channels`
    */
-  picture(variant = 'full'): ReferencePicture {
+  image(variant = 'full'): ReferenceImage {
     this.maxDepth(variant);
     const stem = join(this.folder, variant === 'full' ? 'ref' : `ref.${variant}`);
-    const stats = json<ReferencePicture['stats']>(`${stem}.stats.json`);
+    const stats = json<ReferenceImage['stats']>(`${stem}.stats.json`);
     const file = `${stem}.exr`;
     if (!existsSync(file)) return { mean: floats(`${stem}.f32`), standardError: floats(`${stem}.se.f32`), stats };
     const image = decodeExr(readFileSync(file));

@@ -1,7 +1,7 @@
-import type { ReferencePicture, Tolerance } from './catalogue';
+import type { ReferenceImage, Tolerance } from './catalogue';
 import { ReferenceError } from './error';
 
-/** One test of {@link comparePictures}. */
+/** One test of {@link compareImages}. */
 export interface Check {
   readonly name: string;
   readonly value: number;
@@ -10,7 +10,7 @@ export interface Check {
   readonly passed: boolean;
 }
 
-/** The outcome of {@link comparePictures}. */
+/** The outcome of {@link compareImages}. */
 export interface Comparison {
   readonly passed: boolean;
   readonly checks: readonly Check[];
@@ -46,7 +46,7 @@ export function relMse(candidate: ArrayLike<number>, reference: ArrayLike<number
 }
 
 /**
- * Says whether a Monte-Carlo picture agrees with a reference, given the noise that its number of samples explains and
+ * Says whether a Monte-Carlo image agrees with a reference, given the noise that its number of samples explains and
  * the tolerance of the scene:
  *
  * - T1: the mean of each channel, within the tolerance or four standard errors.
@@ -57,12 +57,12 @@ export function relMse(candidate: ArrayLike<number>, reference: ArrayLike<number
  *
  * @param candidate RGB, stride 3, linear, top row first.
  * @param samples Samples per pixel behind `candidate`.
- * @throws {ReferenceError} `reference/size` when the pictures differ in size.
+ * @throws {ReferenceError} `reference/size` when the images differ in size.
  */
-export function comparePictures(
+export function compareImages(
   candidate: Float32Array,
   samples: number,
-  reference: ReferencePicture,
+  reference: ReferenceImage,
   size: { readonly width: number; readonly height: number },
   tolerance: Tolerance,
 ): Comparison {
@@ -70,7 +70,7 @@ export function comparePictures(
   if (candidate.length !== mean.length)
     throw new ReferenceError(
       'reference/size',
-      `The picture has ${candidate.length / 3} pixels, its reference ${mean.length / 3}.`,
+      `The image has ${candidate.length / 3} pixels, its reference ${mean.length / 3}.`,
     );
   const pixels = mean.length / 3;
   const checks: Check[] = [];

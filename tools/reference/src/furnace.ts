@@ -1,5 +1,5 @@
 import { createScene, type Material, type Mesh, type Scene } from '@glanz/scene';
-import { renderPicture } from './render';
+import { renderImage } from './render';
 
 /**
  * A ball of flat triangles, radius 1: an icosahedron with each edge halved `levels` times. Flat shading is on purpose:
@@ -127,7 +127,7 @@ export interface FurnaceMeasurement {
   readonly rim: readonly number[];
 }
 
-/** What {@link measureFurnace} may be told. */
+/** Options for {@link measureFurnace}. */
 export interface FurnaceOptions {
   readonly size?: number;
   readonly samples?: number;
@@ -153,7 +153,7 @@ export async function measureFurnace(
   const rim: number[] = [];
   const radius = (size / 2) * 0.96;
   for (let run = 0; run < runs; run++) {
-    const picture = await renderPicture(device, scene, {
+    const image = await renderImage(device, scene, {
       width: size,
       height: size,
       samples,
@@ -168,7 +168,7 @@ export async function measureFurnace(
         const distance = Math.hypot(x + 0.5 - size / 2, y + 0.5 - size / 2) + 0.75;
         if (distance > radius * 0.997) continue;
         const i = (y * size + x) * 3;
-        const value = (picture[i]! + picture[i + 1]! + picture[i + 2]!) / 3;
+        const value = (image[i]! + image[i + 1]! + image[i + 2]!) / 3;
         sum += value;
         count++;
         if (distance - 0.75 > radius * Math.sin((60 * Math.PI) / 180)) {

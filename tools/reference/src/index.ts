@@ -1,11 +1,5 @@
-export {
-  GroundTruth,
-  catalogueFolder,
-  type ReferencePicture,
-  type SceneDescription,
-  type Tolerance,
-} from './catalogue';
-export { comparePictures, failures, relMse, type Check, type Comparison } from './compare';
+export { GroundTruth, catalogueFolder, type ReferenceImage, type SceneDescription, type Tolerance } from './catalogue';
+export { compareImages, failures, relMse, type Check, type Comparison } from './compare';
 export { ReferenceError } from './error';
 export {
   FURNACE_MATERIALS,
@@ -16,6 +10,6 @@ export {
   type FurnaceMeasurement,
   type FurnaceOptions,
 } from './furnace';
-export { renderGroundTruth, renderPicture, type GroundTruthOptions } from './render';
+export { renderGroundTruth, renderImage, type GroundTruthOptions } from './render';
 export { GROUND_TRUTH_CASES, type GroundTruthCase } from './cases';
 export { convergenceSlope, measureConvergence, type ConvergencePoint } from './slope';

@@ -1,10 +1,10 @@
 import { PathTracer, type PathTracerOptions } from '@glanz/renderer';
 import type { Scene } from '@glanz/scene';
-import { comparePictures, type Comparison } from './compare';
+import { compareImages, type Comparison } from './compare';
 import type { GroundTruth } from './catalogue';
 
-/** Renders a scene and gives its picture: RGB, stride 3, linear, top row first. */
-export async function renderPicture(
+/** Renders a scene and gives its image: RGB, stride 3, linear, top row first. */
+export async function renderImage(
   device: GPUDevice,
   scene: Scene,
   options: PathTracerOptions & { readonly samples: number },
@@ -14,15 +14,15 @@ export async function renderPicture(
   try {
     for await (const progress of tracer.render({ samples })) void progress;
     const beauty = await tracer.read('beauty');
-    const picture = new Float32Array((beauty.length / 4) * 3);
-    for (let i = 0; i < beauty.length / 4; i++) picture.set(beauty.subarray(4 * i, 4 * i + 3), 3 * i);
-    return picture;
+    const image = new Float32Array((beauty.length / 4) * 3);
+    for (let i = 0; i < beauty.length / 4; i++) image.set(beauty.subarray(4 * i, 4 * i + 3), 3 * i);
+    return image;
   } finally {
     tracer.destroy();
   }
 }
 
-/** What {@link renderGroundTruth} may be told. */
+/** Options for {@link renderGroundTruth}. */
 export interface GroundTruthOptions {
   readonly samples: number;
   /** Default `full`. */
@@ -37,9 +37,9 @@ export async function renderGroundTruth(
   device: GPUDevice,
   truth: GroundTruth,
   { samples, variant = 'full', seed = 0, sampler = 'blue-noise' }: GroundTruthOptions,
-): Promise<{ picture: Float32Array; comparison: Comparison }> {
+): Promise<{ image: Float32Array; comparison: Comparison }> {
   const { width, height } = truth.description.film;
-  const picture = await renderPicture(device, await truth.scene(), {
+  const image = await renderImage(device, await truth.scene(), {
     width,
     height,
     samples,
@@ -50,7 +50,7 @@ export async function renderGroundTruth(
     multipleScattering: false,
   });
   return {
-    picture,
-    comparison: comparePictures(picture, samples, truth.picture(variant), { width, height }, truth.tolerance),
+    image,
+    comparison: compareImages(image, samples, truth.image(variant), { width, height }, truth.tolerance),
   };
 }

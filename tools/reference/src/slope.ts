@@ -30,14 +30,14 @@ export async function measureConvergence(
   counts: readonly number[],
   runs: number,
 ): Promise<ConvergencePoint[]> {
-  const reference = truth.picture();
+  const reference = truth.image();
   const points: ConvergencePoint[] = [];
   let seed = 1;
   for (const samples of counts) {
     let sum = 0;
     for (let run = 0; run < runs; run++) {
-      const { picture } = await renderGroundTruth(device, truth, { samples, seed: seed++, sampler: 'independent' });
-      sum += relMse(picture, reference.mean, reference.stats.relmse_eps);
+      const { image } = await renderGroundTruth(device, truth, { samples, seed: seed++, sampler: 'independent' });
+      sum += relMse(image, reference.mean, reference.stats.relmse_eps);
     }
     points.push({ samples, error: sum / runs - reference.stats.relmse_of_reference });
   }

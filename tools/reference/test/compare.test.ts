@@ -3,8 +3,8 @@ import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { afterEach, describe, expect, it, vi } from 'vitest';
 import { GROUND_TRUTH_CASES } from '../src/cases';
-import type { ReferencePicture, Tolerance } from '../src/catalogue';
-import { comparePictures, failures, relMse } from '../src/compare';
+import type { ReferenceImage, Tolerance } from '../src/catalogue';
+import { compareImages, failures, relMse } from '../src/compare';
 
 const size = { width: 128, height: 128 };
 const tolerance: Tolerance = { mean: 0.003, block: 0.005, k: 2, floor: 2e-5, outlier: 0.002 };
@@ -19,7 +19,7 @@ function randoms(seed: number): () => number {
   return () => Math.sqrt(-2 * Math.log(1 - uniform())) * Math.cos(2 * Math.PI * uniform());
 }
 
-/** A smooth picture that no mirror image equals, and estimates of it. */
+/** A smooth image that no mirror image equals, and estimates of it. */
 const truth = Float64Array.from({ length: size.width * size.height * 3 }, (_, i) => {
   const [x, y] = [(Math.floor(i / 3) % size.width) / size.width, Math.floor(i / 3 / size.width) / size.height];
   return 0.2 + 0.5 * x + 0.3 * y * y + 0.1 * (i % 3);
@@ -31,15 +31,15 @@ const estimate = (samples: number, seed: number): Float32Array => {
 
 const mean = estimate(SPP, 1);
 const epsilon = 0.01 * (truth.reduce((sum, value) => sum + value * value, 0) / truth.length);
-const reference: ReferencePicture = {
+const reference: ReferenceImage = {
   mean,
   standardError: Float32Array.from(truth, (value) => (value * SIGMA) / Math.sqrt(SPP)),
   stats: { spp: SPP, relmse_eps: epsilon, relmse_1spp: SIGMA ** 2, relmse_of_reference: SIGMA ** 2 / SPP },
 };
 const verdict = (candidate: Float32Array, samples = 64) =>
-  comparePictures(candidate, samples, reference, size, tolerance);
+  compareImages(candidate, samples, reference, size, tolerance);
 
-describe('comparePictures', () => {
+describe('compareImages', () => {
   it('lets unbiased estimates pass, at several sample counts and seeds', () => {
     for (const samples of [16, 64, 1024])
       for (const seed of [2, 3, 4]) expect(failures(verdict(estimate(samples, seed), samples))).toBe('');
@@ -70,11 +70,11 @@ describe('comparePictures', () => {
       (p: Float32Array) => p.map((v, i) => (Math.floor(i / 3) % 128 < 32 && i / 3 / 128 < 16 ? v * 0.9 : v)),
       /T2/,
     ],
-  ])('catches a picture that is %s', (_, spoil, expected) => {
+  ])('catches an image that is %s', (_, spoil, expected) => {
     expect(failures(verdict(spoil(estimate(64, 6))))).toMatch(expected);
   });
 
-  it('refuses pictures of another size', () => {
+  it('refuses images of another size', () => {
     expect(() => verdict(new Float32Array(12))).toThrow(/pixels/);
   });
 
@@ -97,14 +97,14 @@ describe('comparePictures', () => {
       const { GroundTruth } = await import('../src/catalogue');
       for (const name of ['cornell_diffuse', 'furnace_metal', 'env_sun']) {
         const truth = new GroundTruth(name);
-        const picture = truth.picture();
+        const image = truth.image();
         const normal = randoms(7);
         for (const bias of [1, 1.02]) {
-          const candidate = picture.mean.map(
-            (value, i) => bias * (value + picture.standardError[i]! * Math.sqrt(picture.stats.spp / 64) * normal()),
+          const candidate = image.mean.map(
+            (value, i) => bias * (value + image.standardError[i]! * Math.sqrt(image.stats.spp / 64) * normal()),
           );
           const theirs = other.compare(truth.folder, candidate, 64);
-          const ours = comparePictures(candidate, 64, picture, truth.description.film, truth.tolerance);
+          const ours = compareImages(candidate, 64, image, truth.description.film, truth.tolerance);
           expect(ours.checks.map(({ passed }) => passed)).toEqual(theirs.checks.map(({ ok }) => ok));
           for (const [i, { value, limit }] of ours.checks.entries()) {
             expect(value).toBeCloseTo(theirs.checks[i]!.value, 9);
@@ -125,7 +125,7 @@ describe('the catalogue', () => {
     const { GroundTruth } = await import('../src/catalogue');
     for (const { scene, variant } of GROUND_TRUTH_CASES) {
       const truth = new GroundTruth(scene);
-      const { mean, standardError } = truth.picture(variant);
+      const { mean, standardError } = truth.image(variant);
       const { width, height } = truth.description.film;
       expect([mean.length, standardError.length], scene).toEqual([3 * width * height, 3 * width * height]);
       expect(
@@ -141,9 +141,9 @@ describe('the catalogue', () => {
     async () => {
       const { GroundTruth } = await import('../src/catalogue');
       for (const { scene, variant } of GROUND_TRUTH_CASES) {
-        const half = new GroundTruth(scene).picture(variant);
+        const half = new GroundTruth(scene).image(variant);
         vi.stubEnv('GLANZ_GROUNDTRUTH', full);
-        const float = new GroundTruth(scene).picture(variant);
+        const float = new GroundTruth(scene).image(variant);
         vi.unstubAllEnvs();
         // Half the distance between neighbours, below 2^-14 that of subnormal numbers.
         for (const of of ['mean', 'standardError'] as const) {
@@ -159,7 +159,7 @@ describe('the catalogue', () => {
 });
 
 describe('relMse', () => {
-  it('is the squared relative error on an even picture', () => {
+  it('is the squared relative error on an even image', () => {
     expect(relMse([1.1, 1.1, 1.1], [1, 1, 1], 0)).toBeCloseTo(0.01, 12);
     expect(relMse([1.1, 1, 1], [1, 1, 1], 0)).toBeCloseTo(0.01 / 3, 12);
   });

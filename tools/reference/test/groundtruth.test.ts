@@ -18,16 +18,16 @@ describe('ground truth', () => {
   );
 
   it('tells a renderer that loses bounces (the full variant against a render of direct light)', async () => {
-    const { GroundTruth, comparePictures, renderPicture } = await import('../src/index');
+    const { GroundTruth, compareImages, renderImage } = await import('../src/index');
     const truth = new GroundTruth('cornell_diffuse');
     const { width, height } = truth.description.film;
-    const picture = await renderPicture(await testDevice(), await truth.scene(), {
+    const image = await renderImage(await testDevice(), await truth.scene(), {
       width,
       height,
       samples: 8,
       maxDepth: 2,
       multipleScattering: false,
     });
-    expect(failures(comparePictures(picture, 8, truth.picture(), { width, height }, truth.tolerance))).toMatch(/T1/);
+    expect(failures(compareImages(image, 8, truth.image(), { width, height }, truth.tolerance))).toMatch(/T1/);
   });
 });

@@ -5,7 +5,7 @@ import FigureTable from './FigureTable.vue';
 import LiveBall from './LiveBall.vue';
 import LiveHierarchy from './LiveHierarchy.vue';
 import LiveParameters from './LiveParameters.vue';
-import LivePicture from './LivePicture.vue';
+import LiveImage from './LiveImage.vue';
 import LiveSphere from './LiveSphere.vue';
 import LivePushButton from './LivePushButton.vue';
 import ParameterTable from './ParameterTable.vue';
@@ -25,7 +25,7 @@ export default {
     app.component('LiveBall', LiveBall);
     app.component('LiveHierarchy', LiveHierarchy);
     app.component('LiveParameters', LiveParameters);
-    app.component('LivePicture', LivePicture);
+    app.component('LiveImage', LiveImage);
     app.component('LiveSphere', LiveSphere);
     app.component('LivePushButton', LivePushButton);
     app.component('ParameterTable', ParameterTable);

@@ -32,8 +32,8 @@ export interface HierarchyFacts extends BvhStatistics {
   readonly milliseconds: number;
 }
 
-/** What the page tells of a picture. */
-export interface PictureFacts {
+/** What the page tells of an image. */
+export interface ImageFacts {
   /** Nodes and triangles that a ray which meets the root's box looks at, on the average. */
   readonly meanCost: number;
   readonly boxes: number;
@@ -70,7 +70,7 @@ const turned = (x: number, y: number, z: number, yaw: number, pitch: number): [n
   return [a, y * Math.cos(pitch) - b * Math.sin(pitch), b * Math.cos(pitch) + y * Math.sin(pitch)];
 };
 
-/** Trees of the page's models, kept in the browser's database, and pictures of them on a canvas. */
+/** Trees of the page's models, kept in the browser's database, and images of them on a canvas. */
 export class HierarchySession {
   readonly #context: CanvasRenderingContext2D;
   readonly #cache: BlasCache;
@@ -117,7 +117,7 @@ export class HierarchySession {
   }
 
   /** Draws the tree that was got last: coarse at first, then every pixel. */
-  async draw({ show, level, turn }: HierarchyView, signal: AbortSignal): Promise<PictureFacts> {
+  async draw({ show, level, turn }: HierarchyView, signal: AbortSignal): Promise<ImageFacts> {
     const blas = this.#blas;
     if (!blas) return { meanCost: 0, boxes: 0 };
     const context = this.#context,

@@ -3,7 +3,7 @@ import { createScene, type Scene } from '@glanz/scene';
 import { studioEnvironment } from '@glanz/scene/studio';
 import { createSpheres, sphere } from '../../examples/spheres';
 
-/** The scenes that live pictures on the site show. */
+/** The scenes that live images on the site show. */
 export type LiveSceneName = 'push-button' | 'spheres' | 'sphere' | 'material';
 
 /** One large sphere of material `sphere`, above a matt table: for turning parameters. */

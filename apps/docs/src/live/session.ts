@@ -3,7 +3,7 @@ import type { Material } from '@glanz/scene';
 import { ToneMapPass, type ToneMap } from '@glanz/tonemap';
 import { createLiveScene, type LiveSceneName } from './scenes';
 
-/** What a live picture tells its page. */
+/** What a live image tells its page. */
 export interface LiveStatus {
   readonly stage: 'prepare' | 'render' | 'done';
   readonly samples: number;
@@ -23,7 +23,7 @@ export interface LiveOptions {
 /** Pixels that a page path-traces at most; wider canvases are scaled up. */
 const MAX_PIXELS = 960 * 640;
 
-/** A path-traced canvas: prepares, renders until the target, starts anew after edits. */
+/** A path-traced canvas: prepares, renders until the target, starts again after edits. */
 export class LiveSession {
   readonly #device: GPUDevice;
   readonly #tracer: PathTracer;

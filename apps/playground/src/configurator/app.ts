@@ -32,7 +32,7 @@ const FORMATS: readonly RenderFormat[] = [
   { id: 'exr', title: 'EXR, linear', extension: 'exr', type: 'image/x-exr', alpha: true },
 ];
 
-/** The picture is sharp from here on: enough for a catalogue. */
+/** The image is sharp from here on: enough for a catalogue. */
 const SAMPLES = 512;
 
 const number = (text: string | null, low: number, high: number, initial: number): number => {
@@ -42,7 +42,7 @@ const number = (text: string | null, low: number, high: number, initial: number)
 
 /** The page on which a button is put together. */
 export class Configurator {
-  readonly #canvas = byId<HTMLCanvasElement>('picture');
+  readonly #canvas = byId<HTMLCanvasElement>('image');
   readonly #stage = byId('stage');
   readonly #code = byId<HTMLInputElement>('code');
   readonly #messages = new Messages(byId('messages'));
@@ -76,7 +76,7 @@ export class Configurator {
   static async start(kit: Promise<Scene>): Promise<void> {
     const page = new Configurator();
     const scene = await kit;
-    // All parts are in this picture, so that it stays the same whatever is chosen.
+    // All parts are in this image, so that it stays the same whatever is chosen.
     const aspect = Math.max(1, page.#stage.clientWidth) / Math.max(1, page.#stage.clientHeight);
     await page.#viewer.load(scene, {
       camera: frameCamera(scene, { aspect, direction: PRODUCT, yfov: (25 * Math.PI) / 180, margin: 0.04 }),
@@ -131,7 +131,7 @@ export class Configurator {
     return edits;
   }
 
-  /** The next picture on the canvas. */
+  /** The next image on the canvas. */
   #frame(): Promise<void> {
     return new Promise((resolve) => {
       const stop = this.#viewer.on('frame', () => {

@@ -43,9 +43,9 @@ export class Environments {
   }
 
   /**
-   * Reads a picture for the choice `file`.
+   * Reads an image for the choice `file`.
    *
-   * @throws {ImageError} if it is no Radiance HDR or OpenEXR; the former picture stays.
+   * @throws {ImageError} if it is no Radiance HDR or OpenEXR; the former image stays.
    */
   async load(file: File): Promise<void> {
     const { decodeEnvironment } = await import('@glanz/image/environment');

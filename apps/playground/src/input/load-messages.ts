@@ -11,11 +11,11 @@ export type ModelRequest =
       readonly entry: string;
       readonly animation?: number;
       readonly time?: number;
-      /** Pictures are not decoded: a pose has no need of them. */ readonly shapesOnly?: boolean;
+      /** Images are not decoded: a pose has no need of them. */ readonly shapesOnly?: boolean;
     };
 
 /**
- * What the loading worker is asked: a model, with the formats that its pictures may stay packed in, or all parts that a
+ * What the loading worker is asked: a model, with the formats that its images may stay packed in, or all parts that a
  * push-button can be put together from.
  */
 export type LoadRequest =

@@ -8,7 +8,7 @@ import type { LoadReply, LoadRequest } from './load-messages';
 
 // Reading and making models takes seconds for large ones: here it does not stop the page, and can be stopped by it.
 
-const noPicture = () => Promise.resolve({ width: 1, height: 1, data: new Uint8ClampedArray(4) });
+const noImage = () => Promise.resolve({ width: 1, height: 1, data: new Uint8ClampedArray(4) });
 
 async function load(request: LoadRequest): Promise<Scene> {
   if (request.kind === 'files') {
@@ -35,7 +35,7 @@ async function load(request: LoadRequest): Promise<Scene> {
         animation: request.animation,
         time: request.time,
         compressedFormats: request.compressedFormats,
-        ...(request.shapesOnly ? { decodeImage: noPicture } : {}),
+        ...(request.shapesOnly ? { decodeImage: noImage } : {}),
       },
     );
   }

@@ -44,7 +44,7 @@ export function stateFor(
         : before.environment === 'none' || before.environment === 'model'
           ? 'studio'
           : before.environment;
-  // A picture that the user brought lights whatever comes.
+  // An image that the user brought lights whatever comes.
   const environment = first || before.environment === 'file' ? before.environment : wanted;
   const state: State = { ...forAnotherModel(before), environment, camera: scene.cameras.length > 0 ? 0 : -1 };
   if (link?.model !== nameOf(request)) return state;

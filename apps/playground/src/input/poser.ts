@@ -12,7 +12,7 @@ export class Poser {
   }
 
   /**
-   * The model without its pictures, in the pose of an animation; one question at a time.
+   * The model without its images, in the pose of an animation; one question at a time.
    *
    * @param animation Its index; null: at rest.
    * @param time Seconds from its beginning.

@@ -6,7 +6,7 @@ const PRESET = 'text/x-glanz-preset';
 
 export interface FileEvents {
   readonly onFiles: (files: ReadonlyMap<string, File> | Promise<ReadonlyMap<string, File>>) => void;
-  /** A preset was dropped on the picture, at shares of its width and height. */
+  /** A preset was dropped on the image, at shares of its width and height. */
   readonly onPreset: (name: string, x: number, y: number) => void;
 }
 

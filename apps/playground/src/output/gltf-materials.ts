@@ -85,7 +85,7 @@ function editedMaterials(scene: Scene, state: State): Map<number, Material> {
 
 /**
  * The model as glTF with the materials as edited: the user's own file with other values, or, where it was none
- * (built-in, OBJ, STL), a GLB of what is visible. Pictures put on parameters here are not written.
+ * (built-in, OBJ, STL), a GLB of what is visible. Images put on parameters here are not written.
  */
 export async function modelAsGltf(
   { scene, request }: Opened,

@@ -1,7 +1,7 @@
 import type { FilmLayer } from '@glanz/renderer';
 import { srgbDecode } from '@glanz/tonemap';
 
-/** The pictures that can be shown, the beauty first. */
+/** The images that can be shown, the beauty first. */
 export const LAYERS = [
   'beauty',
   'albedo',
@@ -14,7 +14,7 @@ export type Layer = (typeof LAYERS)[number];
 
 /** What people call them. */
 export const LAYER_TITLES: Readonly<Record<Layer, string>> = {
-  beauty: 'Picture',
+  beauty: 'Image',
   albedo: 'Albedo',
   normal: 'Normals',
   depth: 'Depth',
@@ -34,18 +34,18 @@ function colourOf(id: number): readonly [number, number, number] {
 }
 
 /**
- * A layer as a linear RGBA picture to be shown without a curve: normals as codes 0..1 from −1..1, depth from near
+ * A layer as a linear RGBA image to be shown without a curve: normals as codes 0..1 from −1..1, depth from near
  * (light) to far (dark), ids as colours.
  *
  * @param data What `PathTracer.read(layer)` gave.
  */
-export function layerPicture(
+export function layerImage(
   layer: Exclude<Layer, 'beauty'>,
   data: Float32Array | Uint32Array,
 ): Float32Array<ArrayBuffer> {
   if (layer === 'albedo') return Float32Array.from(data as Float32Array, (value, i) => (i % 4 === 3 ? 1 : value));
   const pixels = layer === 'normal' ? data.length / 4 : data.length;
-  const picture = new Float32Array(pixels * 4);
+  const image = new Float32Array(pixels * 4);
   let near = Infinity;
   let far = 0;
   if (layer === 'depth') {
@@ -66,7 +66,7 @@ export function layerPicture(
       const grey = metres > 0 ? srgbDecode(1 - 0.85 * (far > near ? (metres - near) / (far - near) : 0)) : 0;
       rgb = [grey, grey, grey];
     } else if (data[i] !== NO_SURFACE) rgb = colourOf(data[i] as number);
-    picture.set([...rgb, 1], 4 * i);
+    image.set([...rgb, 1], 4 * i);
   }
-  return picture;
+  return image;
 }

@@ -1,10 +1,10 @@
 import { readMaterialX, writeMaterialX, type MaterialXMaterial } from '@glanz/openpbr/materialx';
 import type { Scene } from '@glanz/scene';
-import { readPicture } from '../input/picture-file';
+import { readImage } from '../input/image-file';
 import type { Slot, State } from '../state/state';
 import { composeScene } from '../viewer/compose';
 
-/** A material as .mtlx text. Pictures are named as the model names them; their files are not written. */
+/** A material as .mtlx text. Images are named as the model names them; their files are not written. */
 export function materialAsMaterialX(scene: Scene, state: State, index: number): string {
   const composed = composeScene(scene, state, undefined);
   const material = composed.materials[index];
@@ -34,7 +34,7 @@ export function materialAsMaterialX(scene: Scene, state: State, index: number): 
   ]).document;
 }
 
-/** A .mtlx document's first material with those of its pictures that lie beside it. */
+/** A .mtlx document's first material with those of its images that lie beside it. */
 export async function materialFromFiles(
   file: File,
   beside: ReadonlyMap<string, File>,
@@ -51,13 +51,13 @@ export async function materialFromFiles(
     notes.unshift(`"${file.name}" has ${materials.length} materials: the first, "${name}", was taken.`);
   const slots: Record<string, Slot> = {};
   for (const [parameter, texture] of Object.entries(textures)) {
-    const picture = [...beside].find(([path]) => path.split('/').at(-1) === texture.file.split('/').at(-1))?.[1];
-    if (!picture) {
+    const image = [...beside].find(([path]) => path.split('/').at(-1) === texture.file.split('/').at(-1))?.[1];
+    if (!image) {
       notes.push(`"${texture.file}" is not among the files: drop it together with "${file.name}".`);
       continue;
     }
     slots[parameter] = {
-      image: await readPicture(picture),
+      image: await readImage(image),
       color_space: texture.colorSpace,
       binding: {
         channels: texture.channels,

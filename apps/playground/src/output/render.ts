@@ -2,7 +2,7 @@ import type { PathTracer } from '@glanz/renderer';
 import { renderImage } from '@glanz/viewer/render-image';
 import type { Context } from '../ui/context';
 import { showRenderDialog, type RenderFormat, type RenderRequest } from '../ui/render-dialog';
-import { fileName, pictureAsExr, pictureAsPng, type Behind } from './save';
+import { fileName, imageAsExr, imageAsPng, type Behind } from './save';
 
 const FORMATS: readonly RenderFormat[] = [
   { id: 'png', title: 'PNG, 8 bits', extension: 'png', type: 'image/png', alpha: true },
@@ -27,8 +27,8 @@ async function write(
   behind: Behind | undefined,
 ): Promise<Blob> {
   const { exposure, toneMap } = context.store.state;
-  if (format === 'exr') return new Blob([await pictureAsExr(tracer)], { type: 'image/x-exr' });
-  return new Blob([await pictureAsPng(tracer, { exposure, toneMap }, format === 'png-16' ? 16 : 8, behind)], {
+  if (format === 'exr') return new Blob([await imageAsExr(tracer)], { type: 'image/x-exr' });
+  return new Blob([await imageAsPng(tracer, { exposure, toneMap }, format === 'png-16' ? 16 : 8, behind)], {
     type: 'image/png',
   });
 }

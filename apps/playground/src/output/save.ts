@@ -1,8 +1,8 @@
 import type { PathTracer } from '@glanz/renderer';
 import { toneMapPixels, type ToneMapOptions } from '@glanz/tonemap';
 
-/** What lies behind the model in a saved picture: sRGB codes of one colour, or of a picture of any size. */
-export type Behind = { readonly color: readonly [number, number, number] } | { readonly picture: ImageData };
+/** What lies behind the model in a saved image: sRGB codes of one colour, or of an image of any size. */
+export type Behind = { readonly color: readonly [number, number, number] } | { readonly image: ImageData };
 
 /** Puts straight-alpha codes over an opaque background, as the browser's window does. */
 function over(codes: Uint8ClampedArray | Uint16Array, width: number, height: number, behind: Behind): void {
@@ -15,7 +15,7 @@ function over(codes: Uint8ClampedArray | Uint16Array, width: number, height: num
         const code =
           'color' in behind
             ? (behind.color[k] as number)
-            : sample(behind.picture, (x + 0.5) / width, (y + 0.5) / height, k);
+            : sample(behind.image, (x + 0.5) / width, (y + 0.5) / height, k);
         codes[i + k] = Math.round((codes[i + k] as number) * alpha + (code / 255) * top * (1 - alpha));
       }
       codes[i + 3] = top;
@@ -36,8 +36,8 @@ function sample({ width, height, data }: ImageData, u: number, v: number, channe
   return (at(0, 0) * (1 - fx) + at(1, 0) * fx) * (1 - fy) + (at(0, 1) * (1 - fx) + at(1, 1) * fx) * fy;
 }
 
-/** The picture as PNG with 8 or 16 bits a channel, through the tone map. */
-export async function pictureAsPng(
+/** The image as PNG with 8 or 16 bits a channel, through the tone map. */
+export async function imageAsPng(
   tracer: PathTracer,
   view: Required<ToneMapOptions>,
   bits: 8 | 16,
@@ -66,7 +66,7 @@ const plane = (data: Float32Array, channel: number) =>
  * Everything the film knows as OpenEXR: linear radiance and the layers, and the light of each group where they are kept
  * apart.
  */
-export async function pictureAsExr(tracer: PathTracer): Promise<Uint8Array<ArrayBuffer>> {
+export async function imageAsExr(tracer: PathTracer): Promise<Uint8Array<ArrayBuffer>> {
   const { encodeExr } = await import('@glanz/image/exr');
   const { width, height, samples } = tracer;
   const beauty = await tracer.read('beauty');
@@ -115,4 +115,4 @@ export const fileName = (title: string): string =>
     .replace(/\.(glb|gltf|obj|stl)$/i, '')
     .replace(/[^\p{L}\p{N}]+/gu, '-')
     .replace(/^-|-$/g, '')
-    .toLowerCase() || 'picture';
+    .toLowerCase() || 'image';

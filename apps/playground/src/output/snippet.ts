@@ -43,8 +43,8 @@ function environmentLines({ environment, studio, boxes, constant, intensity, rot
     return {
       imports: ["import { decodeEnvironment } from '@glanz/image/environment';"],
       lines: [
-        "const picture = decodeEnvironment(new Uint8Array(await (await fetch('/environment.hdr')).arrayBuffer()));",
-        `scene.environment = { type: 'latlong', ...picture${Object.entries({ ...dim, ...turn })
+        "const image = decodeEnvironment(new Uint8Array(await (await fetch('/environment.hdr')).arrayBuffer()));",
+        `scene.environment = { type: 'latlong', ...image${Object.entries({ ...dim, ...turn })
           .map(([key, value]) => `, ${key}: ${literal(value)}`)
           .join('')} };`,
       ],
@@ -65,7 +65,7 @@ function environmentLines({ environment, studio, boxes, constant, intensity, rot
 }
 
 /**
- * A program that makes the same picture with the packages: in any page that has a canvas, or in Node up to the display.
+ * A program that makes the same image with the packages: in any page that has a canvas, or in Node up to the display.
  *
  * @param name Of the file or sample.
  * @param camera As it looks now.
@@ -95,7 +95,7 @@ export function codeSnippet(
   const pose = state.clip === null ? '' : `, { animation: ${state.clip}, time: ${digits(state.time)} }`;
   if (Object.values(state.slots).some(Boolean))
     before.push(
-      '// Pictures that were dropped on parameters are not in this program: add them to scene.images and scene.textures.',
+      '// Images that were dropped on parameters are not in this program: add them to scene.images and scene.textures.',
     );
   const options = [
     `width: ${width}`,

@@ -30,7 +30,7 @@ const equal = (a: unknown, b: unknown) => JSON.stringify(a) === JSON.stringify(b
 const rounded = (_: string, value: unknown) =>
   typeof value === 'number' && Number.isFinite(value) ? Number(value.toPrecision(6)) : value;
 
-/** The fields in which a state differs from what a picture begins with. */
+/** The fields in which a state differs from what an image begins with. */
 export function difference(state: State): Partial<State> {
   const initial = initialState(state.environment);
   // The environment itself is what samples differ in.

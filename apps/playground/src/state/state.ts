@@ -20,7 +20,7 @@ export type Scale = (typeof SCALES)[number];
 export type Rgb = readonly [number, number, number];
 export type Values = Partial<OpenPbrParameters>;
 
-/** A picture that the user put on a parameter of a material; null takes away the one that the model brought. */
+/** An image that the user put on a parameter of a material; null takes away the one that the model brought. */
 export type Slot = {
   readonly image: Image;
   readonly color_space: 'srgb' | 'linear';
@@ -58,7 +58,7 @@ export interface GroupSettings {
 }
 
 /**
- * Everything that makes the picture, apart from the model. Plain data, never changed in place: a step of undo is a
+ * Everything that makes the image, apart from the model. Plain data, never changed in place: a step of undo is a
  * former one.
  */
 export interface State {
@@ -114,7 +114,7 @@ export interface State {
 
 export const slotKey = (material: number, parameter: TexturedParameter): string => `${material}/${parameter}`;
 
-/** What a picture begins with. */
+/** What an image begins with. */
 export function initialState(environment: EnvironmentChoice): State {
   return {
     samples: RENDER_OPTIONS.samples.default,

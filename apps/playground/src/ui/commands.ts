@@ -15,7 +15,7 @@ export interface CommandHost {
   readonly say: (text: string) => void;
 }
 
-/** The tools over the picture and the keys that do the same. */
+/** The tools over the image and the keys that do the same. */
 export function wireCommands({ store, session, rig, selection, canvas, say }: CommandHost): void {
   const undo = () => void store.undo();
   const redo = () => void store.redo();

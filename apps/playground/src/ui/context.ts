@@ -17,7 +17,7 @@ export interface Context {
   readonly opened: () => Opened;
   /** Told when another model is shown. */
   readonly onModel: (listener: () => void) => void;
-  /** Told when a picture file for the environment was opened. */
+  /** Told when an image file for the environment was opened. */
   readonly onEnvironmentFile: (listener: () => void) => void;
   readonly onStatus: (listener: (status: SessionStatus) => void) => void;
   readonly openFiles: (files: ReadonlyMap<string, File>) => void;

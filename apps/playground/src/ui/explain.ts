@@ -1,7 +1,7 @@
 import { describeError, PlaygroundError } from '../errors';
 import { byId, element } from './elements';
 
-/** Says why there is no picture and what to do, where the picture would be. @returns Takes that back. */
+/** Says why there is no image and what to do, where the image would be. @returns Takes that back. */
 export function explain(error: unknown): () => void {
   const { message, code } = describeError(error);
   const missing = code === 'renderer/no-webgpu';
@@ -23,14 +23,14 @@ export function explain(error: unknown): () => void {
     element(
       'p',
       { role: 'alert', 'data-code': code },
-      missing ? 'Pictures are computed on the GPU through WebGPU, which this browser does not offer here.' : message,
+      missing ? 'Images are computed on the GPU through WebGPU, which this browser does not offer here.' : message,
     ),
     element('p', {}, missing ? 'Browsers that have it:' : 'What may help:'),
     element('ul', {}, ...advice.map((line) => element('li', {}, line))),
   );
   notice.hidden = false;
   byId('preparing').hidden = true;
-  byId('picture').dataset['state'] = 'unavailable';
+  byId('image').dataset['state'] = 'unavailable';
   const controls = [
     ...document.querySelectorAll<HTMLButtonElement | HTMLInputElement | HTMLSelectElement>('button, input, select'),
   ].filter(({ disabled }) => !disabled);

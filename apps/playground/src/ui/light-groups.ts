@@ -5,7 +5,7 @@ import { checkField, colourField, section, sliderField } from './fields';
 
 const UNSET: GroupSettings = { intensity: 1, color: [1, 1, 1] };
 
-/** Every light with a dimmer and a filter that act on the finished picture. */
+/** Every light with a dimmer and a filter that act on the finished image. */
 export function lightGroups({ store, session, onStatus }: Context): HTMLElement {
   const list = element('div', { id: 'light-groups' });
   const note = element('p', { class: 'note' });
@@ -26,9 +26,9 @@ export function lightGroups({ store, session, onStatus }: Context): HTMLElement 
     const names = store.state.relight ? (session.tracer?.lightGroups ?? []).map(({ name }) => name) : [];
     note.textContent = store.state.relight
       ? names.length > 0
-        ? 'No new samples: the picture is weighed anew.'
+        ? 'No new samples: the image is weighed again.'
         : ''
-      : 'Dim and colour each light after the picture is done.';
+      : 'Dim and colour each light after the image is done.';
     if (names.join('\n') === shown) return;
     shown = names.join('\n');
     list.replaceChildren(

@@ -24,7 +24,7 @@ const STUDIO_TITLES: Readonly<Record<StudioName, string>> = {
   sunset: 'Sunset',
 };
 
-/** Studios as small pictures of themselves. */
+/** Studios as small images of themselves. */
 function studioButtons({ store }: Context): HTMLElement {
   const buttons = (Object.keys(STUDIOS) as StudioName[]).map((name) => {
     const canvas = element('canvas', { width: 64, height: 32, 'aria-hidden': 'true' });
@@ -75,7 +75,7 @@ export function lightPanel(context: Context): HTMLElement[] {
           ? environments.fileName
           : environments.fileName
             ? `${environments.fileName} (not loaded)`
-            : 'Picture file (.hdr, .exr)…',
+            : 'Image file (.hdr, .exr)…',
       ],
       ['none', 'Model’s lights only'],
     ];

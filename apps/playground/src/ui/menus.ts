@@ -1,5 +1,5 @@
 import type { BehindFor } from '../output/render';
-import { download, fileName, pictureAsExr, pictureAsPng, type Behind } from '../output/save';
+import { download, fileName, imageAsExr, imageAsPng, type Behind } from '../output/save';
 import { encodeLink, linkContent, LONGEST_LINK, type LinkContent } from '../state/link';
 import { textForSender } from '../state/link-texts';
 import type { Context } from './context';
@@ -27,7 +27,7 @@ function item(
   return button;
 }
 
-/** Pictures, models and materials to keep. */
+/** Images, models and materials to keep. */
 export function exportMenu(context: Context, behind: () => Behind | undefined, behindFor: BehindFor): HTMLElement[] {
   const { session, store, opened, selection, fail } = context;
   const name = () => fileName(opened().title);
@@ -41,10 +41,10 @@ export function exportMenu(context: Context, behind: () => Behind | undefined, b
     const { exposure, toneMap } = store.state;
     // While something moves, the film is that of the preview, which may be much smaller than the screen.
     if (!tracer || !current) return render(bits === 8 ? 'png' : 'png-16');
-    download(await pictureAsPng(tracer, { exposure, toneMap }, bits, behind()), `${name()}.png`, 'image/png');
+    download(await imageAsPng(tracer, { exposure, toneMap }, bits, behind()), `${name()}.png`, 'image/png');
   };
   return [
-    element('h2', {}, 'Picture'),
+    element('h2', {}, 'Image'),
     item('render-image', 'Render image …', 'At any size, to a file or the clipboard', () => render(), fail),
     item('save-png', 'Save PNG', '8 bits, as on the screen', png(8), fail),
     item('save-png-16', 'Save 16-bit PNG', 'Tone-mapped, for retouching', png(16), fail),
@@ -54,7 +54,7 @@ export function exportMenu(context: Context, behind: () => Behind | undefined, b
       'Linear light, with all layers and lights',
       async () => {
         if (!session.tracer || !session.current) return render('exr');
-        download(await pictureAsExr(session.tracer), `${name()}.exr`, 'image/x-exr');
+        download(await imageAsExr(session.tracer), `${name()}.exr`, 'image/x-exr');
       },
       fail,
     ),
@@ -108,7 +108,7 @@ async function copy(text: string, say: (text: string) => void, what: string, mor
   say(`${what} is on the clipboard. ${more}`.trim());
 }
 
-/** A link to the view, and a program that makes the same picture. */
+/** A link to the view, and a program that makes the same image. */
 export function shareMenu(context: Context): HTMLElement[] {
   const { store, opened, rig, session, say, fail } = context;
   const code = element('pre', {
@@ -116,7 +116,7 @@ export function shareMenu(context: Context): HTMLElement[] {
     id: 'snippet',
     role: 'group',
     tabindex: 0,
-    'aria-label': 'Code that makes this picture',
+    'aria-label': 'Code that makes this image',
   });
   const note = element('p', { class: 'note', id: 'share-note' });
   byId('share-menu').addEventListener('toggle', (event) => {
@@ -156,7 +156,7 @@ export function shareMenu(context: Context): HTMLElement[] {
     item(
       'copy-code',
       'Copy code',
-      'TypeScript that makes the same picture',
+      'TypeScript that makes the same image',
       () => copy(code.textContent ?? '', say, 'The code'),
       fail,
     ),

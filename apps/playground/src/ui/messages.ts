@@ -14,7 +14,7 @@ export interface Message {
 const NOTE_MS = 9000;
 const MOST = 3;
 
-/** One-line messages over the picture. */
+/** One-line messages over the image. */
 export class Messages {
   readonly #region: HTMLElement;
 

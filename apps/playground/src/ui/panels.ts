@@ -23,7 +23,7 @@ function presets(context: Context): HTMLElement {
   return details;
 }
 
-/** Makes all panels: not needed for the first picture, so not in the first script. */
+/** Makes all panels: not needed for the first image, so not in the first script. */
 export function makePanels(context: Context, behind: () => Behind | undefined, behindFor: BehindFor): void {
   byId('scene-panel').append(...new SceneTree(context).elements);
   byId('panel-material').append(new MaterialInspector(context, presets(context)).element);

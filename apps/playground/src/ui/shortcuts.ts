@@ -40,8 +40,8 @@ const MOUSE: readonly (readonly [string, string])[] = [
   ['Shift or right button and drag, two fingers', 'Pan'],
   ['Wheel, pinch, + and −', 'Zoom'],
   ['Click, tap, Enter', 'Choose the part and its material'],
-  ['Drag a preset to the picture', 'Put it on the part under it'],
-  ['Drop files', 'Model, environment, .mtlx; a picture on a parameter'],
+  ['Drag a preset to the image', 'Put it on the part under it'],
+  ['Drop files', 'Model, environment, .mtlx; an image on a parameter'],
 ];
 
 const shown = (key: string) =>

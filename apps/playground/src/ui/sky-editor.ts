@@ -8,11 +8,11 @@ import { colourField, sliderField } from './fields';
 const DEGREE = Math.PI / 180;
 const TONES = { toneMap: 'neutral', exposure: -0.5 } as const;
 
-/** Rows of a picture that are drawn between two stops. */
+/** Rows of an image that are drawn between two stops. */
 const ROWS = 8;
 
 /**
- * Draws a small lat-long picture so that the front (+Z) is in the middle, a few rows a step; it is seen with the last
+ * Draws a small lat-long image so that the front (+Z) is in the middle, a few rows a step; it is seen with the last
  * one.
  *
  * @param wanted Whether to go on: another one may have taken its place.
@@ -24,7 +24,7 @@ export function* latLongSteps(
 ): Generator<void, void> {
   const context = canvas.getContext('2d');
   if (!context) return;
-  const picture = context.createImageData(canvas.width, canvas.height);
+  const image = context.createImageData(canvas.width, canvas.height);
   for (let y = 0; y < canvas.height; y++) {
     if (y % ROWS === 0) yield;
     if (!wanted()) return;
@@ -35,11 +35,11 @@ export function* latLongSteps(
       const at = (row * width + Math.floor(u * width)) * 3;
       const rgb = toneMap([data[at] as number, data[at + 1] as number, data[at + 2] as number], TONES);
       const to = (y * canvas.width + x) * 4;
-      for (let k = 0; k < 3; k++) picture.data[to + k] = 255 * (rgb[k] as number);
-      picture.data[to + 3] = 255;
+      for (let k = 0; k < 3; k++) image.data[to + k] = 255 * (rgb[k] as number);
+      image.data[to + 3] = 255;
     }
   }
-  context.putImageData(picture, 0, 0);
+  context.putImageData(image, 0, 0);
 }
 
 const radianceOf = ({ radiance }: SoftBox) =>

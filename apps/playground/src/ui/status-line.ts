@@ -12,7 +12,7 @@ const STAGES: Readonly<Record<string, string>> = {
   compile: 'Compiling shaders',
 };
 
-/** What is going on, in a line under the picture and in attributes of its canvas. */
+/** What is going on, in a line under the image and in attributes of its canvas. */
 export class StatusLine {
   readonly #canvas: HTMLCanvasElement;
   readonly #done = byId<HTMLProgressElement>('done');
@@ -46,7 +46,7 @@ export class StatusLine {
     const calm =
       noise === undefined
         ? ''
-        : ` · noise ${(100 * noise).toPrecision(2)} %${active < 1 ? `, ${Math.round(100 * active)} % of the picture left` : ''}`;
+        : ` · noise ${(100 * noise).toPrecision(2)} %${active < 1 ? `, ${Math.round(100 * active)} % of the image left` : ''}`;
     const left = samplesPerSecond > 0 ? ` · ${spokenRate(samplesPerSecond)} · ${spokenTime(remainingMs)} left` : '';
     const texts = {
       empty: '',

@@ -3,7 +3,7 @@ import { byId } from './elements';
 export const TABS = ['scene', 'material', 'light', 'camera', 'render'] as const;
 export type Tab = (typeof TABS)[number];
 
-/** The tabs beside the picture: arrows move between them, as in every tab list. */
+/** The tabs beside the image: arrows move between them, as in every tab list. */
 export function wireTabs(onChange: (tab: Tab) => void): (tab: Tab) => void {
   const buttons = TABS.map((tab) => byId<HTMLButtonElement>(`tab-${tab}`));
   const choose = (tab: Tab, focus = false) => {

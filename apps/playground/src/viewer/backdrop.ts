@@ -4,7 +4,7 @@ import { toneMapPixels, type ToneMapOptions } from '@glanz/tonemap';
 /** Pixels of the backdrop's longer side: it is blurred, more would not show. */
 const LONGER_SIDE = 256;
 
-/** A lat-long picture blurred by a Gaussian on the sphere, in texels of half its standard deviation. */
+/** A lat-long image blurred by a Gaussian on the sphere, in texels of half its standard deviation. */
 export function blurEnvironment({ width, height, data }: LatLongEnvironment, degrees: number): LatLongEnvironment {
   const sigma = (Math.max(degrees, 2) * Math.PI) / 180;
   const rows = Math.max(8, Math.min(128, Math.round((2 * Math.PI) / sigma)));
@@ -93,7 +93,7 @@ function resample(
   return out;
 }
 
-/** Radiance of a lat-long picture in a direction of its own frame, bilinear. */
+/** Radiance of a lat-long image in a direction of its own frame, bilinear. */
 function look(
   { width, height, data }: LatLongEnvironment,
   x: number,
@@ -114,7 +114,7 @@ function look(
       (texel(i, j + 1, k) * (1 - fx) + texel(i + 1, j + 1, k) * fx) * fy;
 }
 
-/** Draws a blurred environment behind a picture whose own background is empty. */
+/** Draws a blurred environment behind an image whose own background is empty. */
 export class Backdrop {
   readonly #canvas: HTMLCanvasElement;
   #blurred:
@@ -125,7 +125,7 @@ export class Backdrop {
   }
 
   /** Codes of what is behind the model, as {@link draw} last left them. */
-  get picture(): ImageData | undefined {
+  get image(): ImageData | undefined {
     const { width, height } = this.#canvas;
     return this.#canvas.hidden ? undefined : this.#canvas.getContext('2d')?.getImageData(0, 0, width, height);
   }
@@ -193,7 +193,7 @@ export class Backdrop {
         const length = Math.hypot(...d);
         const [x, y, z] = [d[0] / length, d[1] / length, d[2] / length];
         const at = 4 * (j * width + i);
-        // R_y(−rotation) takes a direction into the frame of the picture.
+        // R_y(−rotation) takes a direction into the frame of the image.
         look(blurred, cos * x + sin * z, y, -sin * x + cos * z, pixels, at);
         for (let k = 0; k < 3; k++) pixels[at + k]! *= intensity;
       }

@@ -11,7 +11,7 @@ const codes = (rgb: readonly [number, number, number]) =>
     number,
   ];
 
-/** What the page puts behind a picture whose own background is empty: one colour, a blurred environment, or nothing. */
+/** What the page puts behind an image whose own background is empty: one colour, a blurred environment, or nothing. */
 export class Behind {
   readonly #stage: HTMLElement;
   readonly #canvas: HTMLCanvasElement;
@@ -58,13 +58,13 @@ export class Behind {
     const backdrop = new Backdrop(document.createElement('canvas'));
     const { backgroundBlur, exposure, toneMap } = state;
     backdrop.draw(environment, backgroundBlur, camera, aspect, { exposure, toneMap });
-    return backdrop.picture && { picture: backdrop.picture };
+    return backdrop.image && { image: backdrop.image };
   }
 
-  /** What a saved picture has behind it. */
+  /** What a saved image has behind it. */
   saved({ background, backgroundColor }: State): SavedBehind | undefined {
     if (background === 'color') return { color: codes(backgroundColor) };
-    const picture = background === 'blurred' ? this.#backdrop?.picture : undefined;
-    return picture && { picture };
+    const image = background === 'blurred' ? this.#backdrop?.image : undefined;
+    return image && { image };
   }
 }

@@ -151,12 +151,12 @@ export class CameraRig {
     this.#store.set({ camera, orbit: null }, camera === this.#store.state.camera ? {} : { label: 'Camera' });
   }
 
-  /** One of the standard views, with all of the model in the picture. */
+  /** One of the standard views, with all of the model in the image. */
   look(view: StandardView): void {
     this.#frame(this.#scene, directionOf(STANDARD_VIEWS[view]));
   }
 
-  /** Brings one part, or all of the model, into the picture without turning. */
+  /** Brings one part, or all of the model, into the image without turning. */
   frame(instance: number | undefined): void {
     const scene = this.#scene;
     if (!scene) return;

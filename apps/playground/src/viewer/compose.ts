@@ -44,7 +44,7 @@ function floorMesh(scene: Scene): Mesh {
 }
 
 /**
- * The scene as the state says: hidden parts, edited materials, pictures on parameters, the floor, the environment. What
+ * The scene as the state says: hidden parts, edited materials, images on parameters, the floor, the environment. What
  * the model brought is shared, not copied, and indices of its parts stay.
  *
  * @param scene As loaded.

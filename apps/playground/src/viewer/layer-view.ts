@@ -1,6 +1,6 @@
 import type { PathTracer } from '@glanz/renderer';
 import { toneMapPixels } from '@glanz/tonemap';
-import { layerPicture, type Layer } from '../output/layers';
+import { layerImage, type Layer } from '../output/layers';
 
 /** A layer is read again whenever there are so many times more samples, up to the most that layers average. */
 const GROWTH = 4;
@@ -16,7 +16,7 @@ export interface LayerSource {
   readonly shown: (layer: Layer) => void;
 }
 
-/** Shows a layer of the film over the picture, and reads it again as it gets better. */
+/** Shows a layer of the film over the image, and reads it again as it gets better. */
 export class LayerView {
   readonly #source: LayerSource;
   readonly #canvas: HTMLCanvasElement;
@@ -24,7 +24,7 @@ export class LayerView {
   #busy = false;
   #next = 1;
 
-  /** @param canvas Lies over the picture. */
+  /** @param canvas Lies over the image. */
   constructor(source: LayerSource, canvas: HTMLCanvasElement, layer: Layer) {
     this.#source = source;
     this.#canvas = canvas;
@@ -60,14 +60,14 @@ export class LayerView {
     this.#busy = true;
     try {
       const { width, height } = tracer;
-      const picture = layerPicture(layer, await tracer.read(layer));
-      if (tracer !== this.#source.tracer() || picture.length !== width * height * 4 || layer !== this.#wanted) return;
+      const image = layerImage(layer, await tracer.read(layer));
+      if (tracer !== this.#source.tracer() || image.length !== width * height * 4 || layer !== this.#wanted) return;
       this.#canvas.width = width;
       this.#canvas.height = height;
       this.#canvas
         .getContext('2d')
         ?.putImageData(
-          new ImageData(toneMapPixels(picture, width, height, { toneMap: 'linear', alpha: 'opaque' }), width, height),
+          new ImageData(toneMapPixels(image, width, height, { toneMap: 'linear', alpha: 'opaque' }), width, height),
           0,
           0,
         );

@@ -61,7 +61,7 @@ export function directionOf({
   readonly yaw: number;
   readonly pitch: number;
 }): readonly [number, number, number] {
-  // Straight up and down there is no "up" in the picture.
+  // Straight up and down there is no "up" in the image.
   const steep = Math.max(-1.55, Math.min(1.55, pitch));
   return [Math.sin(yaw) * Math.cos(steep), Math.sin(steep), Math.cos(yaw) * Math.cos(steep)];
 }

@@ -2,7 +2,7 @@ import type { Session } from './session';
 
 const NO_PART = 0xffffffff;
 
-/** Draws a line around a part over the picture, from the layer of parts. */
+/** Draws a line around a part over the image, from the layer of parts. */
 export class Outline {
   readonly #canvas: HTMLCanvasElement;
   readonly #session: Session;
@@ -21,7 +21,7 @@ export class Outline {
     if (instance !== undefined) void this.#draw();
   }
 
-  /** The picture has changed under the line. */
+  /** The image has changed under the line. */
   clear(): void {
     this.#asked++;
     const { width, height } = this.#canvas;
@@ -29,7 +29,7 @@ export class Outline {
     delete this.#canvas.dataset['part'];
   }
 
-  /** The picture stands still: the line comes back. */
+  /** The image stands still: the line comes back. */
   settled(): void {
     if (this.#instance !== undefined && this.#canvas.dataset['part'] === undefined) void this.#draw();
   }
@@ -44,7 +44,7 @@ export class Outline {
     try {
       ids = await tracer.read('objectId');
     } catch {
-      // The device was lost: so is the picture that the line belongs to.
+      // The device was lost: so is the image that the line belongs to.
       return;
     }
     if (asked !== this.#asked || ids.length !== width * height) return;
@@ -52,16 +52,16 @@ export class Outline {
     this.#canvas.height = height;
     const context = this.#canvas.getContext('2d');
     if (!context) return;
-    const picture = context.createImageData(width, height);
+    const image = context.createImageData(width, height);
     const inside = (x: number, y: number) =>
       x >= 0 && y >= 0 && x < width && y < height && ids[y * width + x] === instance && ids[y * width + x] !== NO_PART;
     for (let y = 0; y < height; y++) {
       for (let x = 0; x < width; x++) {
         if (inside(x, y) || !(inside(x - 1, y) || inside(x + 1, y) || inside(x, y - 1) || inside(x, y + 1))) continue;
-        picture.data.set([240, 182, 74, 255], 4 * (y * width + x));
+        image.data.set([240, 182, 74, 255], 4 * (y * width + x));
       }
     }
-    context.putImageData(picture, 0, 0);
+    context.putImageData(image, 0, 0);
     this.#canvas.dataset['part'] = String(instance);
   }
 }

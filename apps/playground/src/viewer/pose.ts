@@ -10,7 +10,7 @@ const same = (a: ArrayLike<number>, b: ArrayLike<number>) =>
 const alike = (a: unknown, b: unknown) => JSON.stringify(a) === JSON.stringify(b);
 
 /**
- * A scene in another pose of the same model, which brings no pictures: places, shapes, lights, cameras and the values
+ * A scene in another pose of the same model, which brings no images: places, shapes, lights, cameras and the values
  * of materials are the pose's, everything else stays.
  *
  * @returns Undefined where the two are not made of the same parts: parts appear and vanish.

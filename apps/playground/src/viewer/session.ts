@@ -13,10 +13,10 @@ export interface SessionStatus {
   readonly samples: number;
   readonly target: number;
   readonly samplesPerSecond: number;
-  /** Milliseconds that the picture still takes. */
+  /** Milliseconds that the image still takes. */
   readonly remainingMs: number;
   /**
-   * Noise when it was last looked at, and the share of the picture that still gets samples; only with a noise target.
+   * Noise when it was last looked at, and the share of the image that still gets samples; only with a noise target.
    */
   readonly noise?: number | undefined;
   readonly active: number;
@@ -25,13 +25,13 @@ export interface SessionStatus {
 export interface SessionEvents {
   readonly onStatus: (status: SessionStatus) => void;
   readonly onError: (error: unknown, retry?: () => void) => void;
-  /** The device was lost and there is a new one; the picture has so many samples per pixel again. */
+  /** The device was lost and there is a new one; the image has so many samples per pixel again. */
   readonly onRecovered: (samples: number) => void;
   /** An edit is on the screen: milliseconds since it was asked for. */
   readonly onShown?: (ms: number) => void;
 }
 
-/** How a picture is made, apart from its scene. */
+/** How an image is made, apart from its scene. */
 export interface SessionView extends Required<ToneMapOptions> {
   readonly samples: number;
   /** 0: none. */
@@ -50,7 +50,7 @@ export interface Shown {
   readonly ready: (tracer: PathTracer) => Promise<void>;
 }
 
-/** Milliseconds that a frame may take while something moves, and after a movement until the picture is refined. */
+/** Milliseconds that a frame may take while something moves, and after a movement until the image is refined. */
 const PREVIEW_MS = 12;
 const SETTLE_MS = 180;
 /** Most edges of a path in a preview. */
@@ -134,7 +134,7 @@ export class Session {
 
   /**
    * @param hands What moves the camera.
-   * @param layer Lies over the picture's canvas and shows layers of the film.
+   * @param layer Lies over the image's canvas and shows layers of the film.
    * @throws {DeviceError} without WebGPU.
    */
   static async create(
@@ -219,7 +219,7 @@ export class Session {
     }
   }
 
-  /** Changes how the picture is made without restarting it. */
+  /** Changes how the image is made without restarting it. */
   async setView({ exposure, toneMap, samples, noise, layer }: SessionView): Promise<void> {
     const { settings } = this.#engine;
     const before = { ...settings };
@@ -260,7 +260,7 @@ export class Session {
   }
 
   /**
-   * Applies an edit between two frames: a GPU that is slow skips edits rather than pictures.
+   * Applies an edit between two frames: a GPU that is slow skips edits rather than images.
    *
    * @param key Of several edits with one key that wait, the last one counts; the fields of their values add up.
    * @returns When it has taken effect, or has failed and was told.

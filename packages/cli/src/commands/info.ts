@@ -74,7 +74,7 @@ export interface ModelInfo {
   readonly environment: string;
   readonly variants: readonly string[];
   readonly animations: readonly { readonly name: string; readonly duration: number }[];
-  /** Bytes of arrays and pictures in memory. */
+  /** Bytes of arrays and images in memory. */
   readonly memoryBytes: { readonly geometry: number; readonly images: number };
   readonly metadata: Readonly<Record<string, unknown>>;
   readonly warnings: readonly { readonly code: string; readonly message: string; readonly path?: string }[];
@@ -156,13 +156,13 @@ function lines(info: ModelInfo): string[] {
       bounds ? `${bounds.size.map(length).join(' × ')} m, from ${bounds.min.map(length).join(', ')}` : 'nothing to see',
     ],
     ['materials', some(info.materials)],
-    ['pictures', some(info.images.map(({ name, width, height }) => `${name || '–'} ${width}×${height}`))],
+    ['images', some(info.images.map(({ name, width, height }) => `${name || '–'} ${width}×${height}`))],
     ['cameras', some(info.cameras.map(({ name, type }, i) => `${i} "${name}" ${type}`))],
     ['lights', some(info.lights.map(({ name, type }) => `"${name}" ${type}`))],
     ['surroundings', info.environment],
     ['variants', some(info.variants.map((name) => `"${name}"`))],
     ['animations', some(info.animations.map(({ name, duration }) => `"${name}" ${Number(duration.toFixed(3))} s`))],
-    ['memory', `${megabytes(memoryBytes.geometry)} of geometry, ${megabytes(memoryBytes.images)} of pictures`],
+    ['memory', `${megabytes(memoryBytes.geometry)} of geometry, ${megabytes(memoryBytes.images)} of images`],
     ...said,
   ];
   return [

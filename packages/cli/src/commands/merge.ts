@@ -8,9 +8,9 @@ import { checkInput } from '../input';
 import type { CliIo } from '../io';
 import type { ReportOptions } from '../options';
 import { formatOf, type OutputTarget } from '../output/formats';
-import type { Picture } from '../output/picture';
+import type { RenderedImage } from '../output/image';
 import type { DisplayOptions } from '../output/png';
-import { checkWritable, isImage, writePicture, type WrittenFile } from '../output/write';
+import { checkWritable, isImage, writeImage, type WrittenFile } from '../output/write';
 import { readFilmFile, settingDifferences, writeFilmFile, type FilmFileHeader } from '../render/film-file';
 import { version } from '../version';
 import { jsonLine, visible } from '../visible';
@@ -112,7 +112,7 @@ export async function mergeCommand(
   const film = merge(films);
   const [first] = film.ranges[0] as readonly [number, number];
   const transparent = settings['--transparent'] === 'true' || settings['--background'] === 'transparent';
-  const picture: Picture = {
+  const image: RenderedImage = {
     width: film.width,
     height: film.height,
     beauty: layer(film, 'beauty'),
@@ -122,7 +122,7 @@ export async function mergeCommand(
   };
   const files: WrittenFile[] = [];
   for (const target of outputs) {
-    if (isImage(target)) files.push(await writePicture(picture, target, { ...display, transparent }, io.cwd));
+    if (isImage(target)) files.push(await writeImage(image, target, { ...display, transparent }, io.cwd));
     else {
       const all = { ...settings, [SAMPLES_FROM]: String(first) };
       files.push({ ...target, bytes: await writeFilmFile(target.path, io.cwd, film, all, codec) });

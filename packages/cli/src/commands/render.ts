@@ -19,7 +19,7 @@ import { version } from '../version';
 
 export type { RenderTimings } from '../render/lane';
 
-/** What `--json` prints for one picture. */
+/** What `--json` prints for one image. */
 export interface RenderResult {
   readonly ok: true;
   readonly version: string;
@@ -27,14 +27,14 @@ export interface RenderResult {
   readonly files: readonly WrittenFile[];
   readonly width: number;
   readonly height: number;
-  /** Paths per pixel in the picture. */
+  /** Paths per pixel in the image. */
   readonly samples: number;
   readonly targetSamples: number;
   /** Those of them that a checkpoint brought along. */
   readonly resumedSamples: number;
   /** How often the GPU was lost while it was made; its pixels do not depend on that. */
   readonly gpuLosses: number;
-  /** Relative error of the picture when it was last looked at; only with `--noise`. */
+  /** Relative error of the image when it was last looked at; only with `--noise`. */
   readonly noise?: number;
   readonly samplesPerSecond: number;
   /** The signal that ended it early, if one did. */
@@ -51,8 +51,8 @@ export interface RenderResult {
   readonly warnings: readonly string[];
 }
 
-/** A picture that could not be made. */
-export interface FailedPicture {
+/** An image that could not be made. */
+export interface FailedImage {
   readonly ok: false;
   readonly model: string;
   readonly files: readonly string[];
@@ -67,18 +67,18 @@ export interface LostGpu {
   readonly error: { readonly code: string; readonly message: string };
 }
 
-/** What `--json` prints for several pictures. */
+/** What `--json` prints for several images. */
 export interface BatchResult {
-  /** Whether every picture is there. */
+  /** Whether every image is there. */
   readonly ok: boolean;
   readonly version: string;
   /** Those of this run, in the order they were finished. */
-  readonly pictures: readonly (RenderResult | FailedPicture)[];
+  readonly images: readonly (RenderResult | FailedImage)[];
   readonly total: number;
   /** Finished by an earlier run, with `--resume`. */
   readonly skipped: number;
   readonly failed: number;
-  /** GPUs that were lost for good; the others, if there were any, have gone on with their pictures. */
+  /** GPUs that were lost for good; the others, if there were any, have gone on with their images. */
   readonly gpusLost: readonly LostGpu[];
   readonly interrupted: Interrupt | null;
   readonly totalMs: number;
@@ -91,7 +91,7 @@ export interface RenderOutcome {
   readonly exitCode: number;
 }
 
-/** `glanz render`: loads, prepares, renders, writes; one picture or many. */
+/** `glanz render`: loads, prepares, renders, writes; one image or many. */
 export async function renderCommand(
   command: RenderCommand,
   io: CliIo,
@@ -250,7 +250,7 @@ async function renderOne(shot: Shot, { gpus }: RenderCommand, loader: SceneLoade
   }
 }
 
-/** Each GPU takes the next picture when it is done with one. What fails is reported, and the others go on. */
+/** Each GPU takes the next image when it is done with one. What fails is reported, and the others go on. */
 async function renderMany(
   shots: readonly Shot[],
   { gpus, resume }: RenderCommand,
@@ -263,7 +263,7 @@ async function renderMany(
   const waiting: Shot[] = [];
   for (const shot of shots) if (!resume || !(await journal.isDone(shot))) waiting.push(shot);
   const skipped = shots.length - waiting.length;
-  if (skipped > 0) progress.line(`${skipped} of ${shots.length} pictures are there already.`);
+  if (skipped > 0) progress.line(`${skipped} of ${shots.length} images are there already.`);
   const batch = new Batch(waiting, skipped, journal, run);
   const names: readonly (string | undefined)[] = gpus.length === 0 ? [undefined] : gpus;
   progress.shared = names.length > 1;
@@ -278,17 +278,17 @@ async function renderMany(
     ),
   );
   progress.prefix = '';
-  const { pictures, exitCode, gpusLost } = batch;
-  const failed = pictures.filter(({ ok }) => !ok).length;
-  const missing = waiting.length - pictures.length;
+  const { images, exitCode, gpusLost } = batch;
+  const failed = images.filter(({ ok }) => !ok).length;
+  const missing = waiting.length - images.length;
   progress.line(
-    `${shots.length - failed - missing} of ${shots.length} pictures in ${duration(io.now() - start)}${failed > 0 ? `, ${failed} failed` : ''}${missing > 0 ? '; --resume goes on' : ''}`,
+    `${shots.length - failed - missing} of ${shots.length} images in ${duration(io.now() - start)}${failed > 0 ? `, ${failed} failed` : ''}${missing > 0 ? '; --resume goes on' : ''}`,
   );
   return {
     result: {
       ok: failed === 0 && missing === 0,
       version: version(),
-      pictures,
+      images,
       total: shots.length,
       skipped,
       failed,
@@ -300,9 +300,9 @@ async function renderMany(
   };
 }
 
-/** The pictures of a run, shared out among lanes. */
+/** The images of a run, shared out among lanes. */
 class Batch {
-  readonly pictures: (RenderResult | FailedPicture)[] = [];
+  readonly images: (RenderResult | FailedImage)[] = [];
   readonly gpusLost: LostGpu[] = [];
   /** That of the first failure. */
   exitCode = 0;
@@ -324,7 +324,7 @@ class Batch {
   }
 
   /**
-   * Makes all pictures. Lanes whose GPU is gone leave their work to the others; without any lane the rest fails.
+   * Makes all images. Lanes whose GPU is gone leave their work to the others; without any lane the rest fails.
    * @throws the error of the first lane if none has ever had a GPU, and faults of our own.
    */
   async run(lanes: readonly Lane[]): Promise<void> {
@@ -342,8 +342,8 @@ class Batch {
     if (this.#fatal) throw this.#fatal.error;
     if (this.#causes.length === 0 || signal.aborted) return;
     const rest = this.#queue.rest();
-    // Not one picture was begun: the GPUs that were asked for are not there.
-    if (this.pictures.length === 0 && lanes.every(({ everOpened }) => !everOpened)) throw this.#causes[0];
+    // Not one image was begun: the GPUs that were asked for are not there.
+    if (this.images.length === 0 && lanes.every(({ everOpened }) => !everOpened)) throw this.#causes[0];
     const reasons = this.gpusLost.map(({ error }) => error.message).join(' ');
     for (const { shot } of rest)
       this.#fail(shot, new CliError('cli/gpu-lost', `No GPU is left to render it. ${reasons}`), false);
@@ -359,14 +359,14 @@ class Batch {
         const made = await lane.render(job);
         if (made) {
           await this.#journal.done(shot, made.files);
-          this.pictures.push(resultOf(shot, made, null));
+          this.images.push(resultOf(shot, made, null));
         }
         unlucky = false;
       } catch (error) {
         const gone = exitCodeOf(error) === EXIT.gpu;
         if (signal.aborted) this.#queue.close();
         else if (exitCodeOf(error) === EXIT.internal) {
-          // A bug: the next picture fares no better.
+          // A bug: the next image fares no better.
           this.#fatal ??= { error };
           this.#queue.close();
         } else if (gone && !this.#blames(error, job, unlucky)) {
@@ -380,22 +380,20 @@ class Batch {
     }
   }
 
-  /** Whether a picture is to blame for the loss of a GPU that still gives devices, rather than the GPU. */
+  /** Whether an image is to blame for the loss of a GPU that still gives devices, rather than the GPU. */
   #blames(error: unknown, job: Job, unlucky: boolean): boolean {
     if (!(error instanceof GpuGoneError) || !error.givesDevices) return false;
     job.lostGpus++;
-    // Lost on two GPUs; or on the only one there is, unless the picture before fared like this.
+    // Lost on two GPUs; or on the only one there is, unless the image before fared like this.
     return job.lostGpus > 1 || (this.#lanes === 1 && !unlucky);
   }
 
-  /** A lane ends and hands over its picture with the samples so far. */
+  /** A lane ends and hands over its image with the samples so far. */
   #leave(lane: Lane, job: Job, error: unknown): void {
     this.#lanes--;
     this.gpusLost.push({ gpu: lane.label, error: describeError(error) });
     this.#causes.push(error);
-    this.#run.progress.warning(
-      `${errorLine(error)}${this.#lanes > 0 ? ' The other GPUs go on with its pictures.' : ''}`,
-    );
+    this.#run.progress.warning(`${errorLine(error)}${this.#lanes > 0 ? ' The other GPUs go on with its images.' : ''}`);
     if (this.#lanes > 0 || !lane.everOpened) this.#queue.giveBack(job);
     else {
       this.#fail(job.shot, error, false);
@@ -406,7 +404,7 @@ class Batch {
   #fail(shot: Shot, error: unknown, tell = true): void {
     this.exitCode ||= exitCodeOf(error);
     if (tell) this.#run.progress.warning(`${shotLabel(shot)}: ${errorLine(error)}`);
-    this.pictures.push({
+    this.images.push({
       ok: false,
       model: shot.options.model,
       files: shot.outputs.map(({ path }) => path),

@@ -119,7 +119,7 @@ export async function serveCommand(
   if (!(await stat(join(folder, 'index.html')).catch(() => undefined)))
     throw new CliError(
       'cli/missing-package',
-      'This copy of @glanz/cli lacks the playground: build it (npm run build) or install the package anew.',
+      'This copy of @glanz/cli lacks the playground: build it (npm run build) or install the package again.',
     );
   const server = fileServer(folder);
   await new Promise<void>((done, fail) => {

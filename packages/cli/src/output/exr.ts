@@ -1,5 +1,5 @@
 import { encodeExr, type ExrLayer } from '@glanz/image/exr';
-import type { Picture } from './picture';
+import type { RenderedImage } from './image';
 
 /** One channel out of interleaved data. */
 function plane(data: Float32Array, stride: number, offset: number): Float32Array {
@@ -9,7 +9,10 @@ function plane(data: Float32Array, stride: number, offset: number): Float32Array
 }
 
 /** Linear radiance as R, G, B, A and the feature layers under their names, packed as OpenEXR with ZIP. */
-export function exrFile({ width, height, beauty, layers, samples, software }: Picture, bits: 16 | 32): Uint8Array {
+export function exrFile(
+  { width, height, beauty, layers, samples, software }: RenderedImage,
+  bits: 16 | 32,
+): Uint8Array {
   const type = bits === 32 ? 'float' : 'half';
   const rgba = (data: Float32Array, names: string) =>
     Object.fromEntries([...names].map((name, k) => [name, plane(data, 4, k)]));

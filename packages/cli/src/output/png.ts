@@ -1,6 +1,6 @@
 import { encodePng } from '@glanz/image/png';
 import { toneMapPixels, type ToneMap } from '@glanz/tonemap';
-import type { Picture } from './picture';
+import type { RenderedImage } from './image';
 
 /** The way to the screen. */
 export interface DisplayOptions {
@@ -10,18 +10,18 @@ export interface DisplayOptions {
   readonly transparent: boolean;
 }
 
-/** The picture tone-mapped, sRGB-encoded and packed as PNG. */
+/** The image tone-mapped, sRGB-encoded and packed as PNG. */
 export function pngFile(
-  picture: Picture,
+  image: RenderedImage,
   bits: 8 | 16,
   { toneMap, exposure, transparent }: DisplayOptions,
 ): Uint8Array {
-  const { width, height, beauty } = picture;
+  const { width, height, beauty } = image;
   const data = toneMapPixels(beauty, width, height, {
     toneMap,
     exposure,
     alpha: transparent ? 'straight' : 'opaque',
     output: bits === 16 ? 'uint16' : 'uint8',
   });
-  return encodePng({ width, height, data, text: { Software: picture.software } });
+  return encodePng({ width, height, data, text: { Software: image.software } });
 }

@@ -4,7 +4,7 @@ import { encodeHdr } from '@glanz/image/hdr';
 import { CliError } from '../errors';
 import { exrFile } from './exr';
 import type { OutputTarget } from './formats';
-import type { Picture } from './picture';
+import type { RenderedImage } from './image';
 import { pngFile, type DisplayOptions } from './png';
 
 /** A file that has been written. */
@@ -64,10 +64,10 @@ export type ImageTarget = OutputTarget & { readonly format: Exclude<OutputTarget
 export const isImage = (target: OutputTarget): target is ImageTarget => target.format !== 'film';
 
 /** The bytes of one output file. */
-export function encodePicture(picture: Picture, target: ImageTarget, display: DisplayOptions): Uint8Array {
-  if (target.format === 'png') return pngFile(picture, target.bits === 16 ? 16 : 8, display);
-  if (target.format === 'exr') return exrFile(picture, target.bits === 32 ? 32 : 16);
-  return encodeHdr({ width: picture.width, height: picture.height, data: picture.beauty });
+export function encodeImage(image: RenderedImage, target: ImageTarget, display: DisplayOptions): Uint8Array {
+  if (target.format === 'png') return pngFile(image, target.bits === 16 ? 16 : 8, display);
+  if (target.format === 'exr') return exrFile(image, target.bits === 32 ? 32 : 16);
+  return encodeHdr({ width: image.width, height: image.height, data: image.beauty });
 }
 
 /**
@@ -107,13 +107,13 @@ export async function writeWhole(
  *
  * @throws {CliError} `cli/output`
  */
-export async function writePicture(
-  picture: Picture,
+export async function writeImage(
+  image: RenderedImage,
   target: ImageTarget,
   display: DisplayOptions,
   cwd: string,
 ): Promise<WrittenFile> {
-  const bytes = encodePicture(picture, target, display);
+  const bytes = encodeImage(image, target, display);
   await writeWhole(target.path, cwd, [bytes]);
   return { path: target.path, format: target.format, bits: target.bits, bytes: bytes.length };
 }

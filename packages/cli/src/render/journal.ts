@@ -6,7 +6,7 @@ import type { WrittenFile } from '../output/write';
 import { version } from '../version';
 import type { Shot } from './shots';
 
-/** Lies beside the first file of a picture. A line of JSON for each picture that is done. */
+/** Lies beside the first file of an image. A line of JSON for each image that is done. */
 export const JOURNAL = '.glanz-journal.jsonl';
 
 // Not through a link that somebody has put in its place.
@@ -22,7 +22,7 @@ async function stamp(path: string | undefined, cwd: string): Promise<string> {
   return found ? `${found.size} ${found.mtimeMs}` : '';
 }
 
-/** A picture's identity: everything that decides its pixels, and the state of the files that it is made of. */
+/** An image's identity: everything that decides its pixels, and the state of the files that it is made of. */
 export async function keyOf({ options, variant, view, outputs }: Shot, cwd: string): Promise<string> {
   const { variants: _, views: __, outputs: ___, ...rest } = options;
   const camera = view.kind === 'camera' && view.camera?.endsWith('.json') ? await stamp(view.camera, cwd) : '';
@@ -39,7 +39,7 @@ export async function keyOf({ options, variant, view, outputs }: Shot, cwd: stri
   return createHash('sha256').update(text).digest('hex').slice(0, 32);
 }
 
-/** Pictures that are done, by their journals. */
+/** Images that are done, by their journals. */
 export class Journal {
   readonly #cwd: string;
   readonly #read = new Map<string, Promise<Map<string, readonly WrittenFile[]>>>();
@@ -48,7 +48,7 @@ export class Journal {
     this.#cwd = cwd;
   }
 
-  /** Whether a picture was finished by an earlier run, with nothing changed since. */
+  /** Whether an image was finished by an earlier run, with nothing changed since. */
   async isDone(shot: Shot): Promise<boolean> {
     const file = fileOf(shot, this.#cwd);
     let entries = this.#read.get(file);
@@ -66,7 +66,7 @@ export class Journal {
     return files.every(({ bytes }, i) => sizes[i] === bytes);
   }
 
-  /** Notes that a picture is done; its files are there already. */
+  /** Notes that an image is done; its files are there already. */
   async done(shot: Shot, files: readonly WrittenFile[]): Promise<void> {
     const file = fileOf(shot, this.#cwd);
     await appendFile(file, `${JSON.stringify({ key: await keyOf(shot, this.#cwd), files })}\n`, { flag: APPEND }).catch(

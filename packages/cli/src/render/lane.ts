@@ -4,13 +4,13 @@ import { CliError } from '../errors';
 import type { CliIo } from '../io';
 import type { RenderCommandOptions } from '../options';
 import type { OutputTarget } from '../output/formats';
-import { isImage, writePicture, type WrittenFile } from '../output/write';
+import { isImage, writeImage, type WrittenFile } from '../output/write';
 import { duration, rate, type ProgressReporter } from '../progress';
 import { CheckpointFile } from './checkpoint-file';
 import { Checkpoints } from './checkpoints';
 import { GpuGoneError, LaneGpu } from './gpu';
 import type { Job } from './queue';
-import { readPicture } from './read-picture';
+import { readImage } from './read-image';
 import { sceneKey, variantIndex, type PreparedScene, type SceneLoader } from './scene';
 import { shotLabel, type Shot } from './shots';
 import { cameraOf } from '../views';
@@ -30,7 +30,7 @@ export interface RenderTimings {
   totalMs: number;
 }
 
-/** A picture that has been written. */
+/** An image that has been written. */
 export interface RenderedShot {
   readonly files: readonly WrittenFile[];
   readonly samples: number;
@@ -38,7 +38,7 @@ export interface RenderedShot {
   readonly resumedSamples: number;
   /** How often the GPU was lost, and its work went on on a new device. */
   readonly gpuLosses: number;
-  /** Relative error of the picture when it was last looked at; only with `--noise`. */
+  /** Relative error of the image when it was last looked at; only with `--noise`. */
   readonly noise?: number;
   readonly samplesPerSecond: number;
   readonly camera: string;
@@ -49,14 +49,14 @@ export interface RenderedShot {
   readonly warnings: readonly string[];
 }
 
-/** How pictures are made. */
+/** How images are made. */
 export interface LaneContext {
   readonly io: CliIo;
   readonly backend: Backend;
   readonly progress: ProgressReporter;
   readonly loader: SceneLoader;
   readonly signal: AbortSignal;
-  /** Whether a picture that is stopped is written as it is. */
+  /** Whether an image that is stopped is written as it is. */
   readonly keepPartial: boolean;
 }
 
@@ -69,7 +69,7 @@ const LABELS = { bvh: 'build hierarchy', upload: 'upload', compile: 'compile ker
 
 type Timed = <T>(key: keyof RenderTimings, run: () => Promise<T>) => Promise<T>;
 
-/** One picture while it is made, across devices. */
+/** One image while it is made, across devices. */
 interface Making {
   readonly shot: Shot;
   readonly start: number;
@@ -86,8 +86,8 @@ interface Making {
 }
 
 /**
- * One GPU, making one picture after another. Pictures of the same scene share a tracer: another variant or view is an
- * edit, and the film restarts, so that its pixels are those of a tracer of its own. When the GPU is lost, the picture
+ * One GPU, making one image after another. Images of the same scene share a tracer: another variant or view is an
+ * edit, and the film restarts, so that its pixels are those of a tracer of its own. When the GPU is lost, the image
  * goes on on a new device from its last checkpoint, with the same pixels as without the loss.
  */
 export class Lane {
@@ -113,7 +113,7 @@ export class Lane {
   }
 
   /**
-   * Makes and writes a picture; undefined if it was stopped before there was anything to write.
+   * Makes and writes an image; undefined if it was stopped before there was anything to write.
    *
    * @param job Its film is where rendering begins, and where it stood if this throws.
    * @throws {GpuGoneError} when the GPU is lost for good
@@ -152,7 +152,7 @@ export class Lane {
     }
   }
 
-  /** What is kept of a picture on its way, and where it begins. */
+  /** What is kept of an image on its way, and where it begins. */
   async #begin({ shot, film }: Job): Promise<Making> {
     const { io, progress, backend } = this.#context;
     const start = io.now();
@@ -222,7 +222,7 @@ export class Lane {
     }
     if (samples === 0 || (signal.aborted && !keepPartial)) return undefined;
     progress.stage('write');
-    const picture = await timed('readMs', () => readPicture(tracer, options, samples));
+    const image = await timed('readMs', () => readImage(tracer, options, samples));
     const film = shot.outputs.some(({ format }) => format === 'film')
       ? await timed('readMs', () => tracer.saveFilm())
       : undefined;
@@ -234,7 +234,7 @@ export class Lane {
       files.push(
         await timed('writeMs', () =>
           isImage(target)
-            ? writePicture(picture, target, display, io.cwd)
+            ? writeImage(image, target, display, io.cwd)
             : this.#writeFilm(film as FilmState, target, shot),
         ),
       );
@@ -282,7 +282,7 @@ export class Lane {
         (run) => timed('environmentMs', run),
       ),
     );
-    // A model whose pictures can stay packed asks the GPU what it reads: until it runs, nothing is loaded.
+    // A model whose images can stay packed asks the GPU what it reads: until it runs, nothing is loaded.
     timings.loadMs -= timings.deviceMs - deviceMs + (timings.environmentMs - environmentMs);
     return prepared;
   }
@@ -420,7 +420,7 @@ export class Lane {
     return this.#tracer;
   }
 
-  /** The next picture gets a tracer of its own. */
+  /** The next image gets a tracer of its own. */
   #drop(): void {
     this.#tracer?.destroy();
     this.#tracer = undefined;

@@ -18,7 +18,7 @@ type Timed = <T>(run: () => Promise<T>) => Promise<T>;
 export const sceneKey = ({ model, pose, env, envRotation, envIntensity, catchers }: RenderCommandOptions): string =>
   JSON.stringify([model, pose, env, envRotation, envIntensity, catchers]);
 
-/** Loads models; the last one is kept, since the next picture is mostly of the same. */
+/** Loads models; the last one is kept, since the next image is mostly of the same. */
 export class SceneLoader {
   readonly #backend: Backend;
   readonly #cwd: string;

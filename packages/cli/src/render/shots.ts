@@ -4,7 +4,7 @@ import type { RenderCommandOptions } from '../options';
 import type { OutputTarget } from '../output/formats';
 import { fileNamePart, type View } from '../views';
 
-/** One picture of those that a command asks for. */
+/** One image of those that a command asks for. */
 export interface Shot {
   readonly options: RenderCommandOptions;
   /** Name or number of a variant; undefined: the model's own look. */
@@ -17,7 +17,7 @@ export interface Shot {
 }
 
 function filled(path: string, names: Readonly<Record<string, string>>, several: readonly string[]): string {
-  // What tells pictures apart has to be in their names.
+  // What tells images apart has to be in their names.
   const missing = several
     .filter((name) => !path.includes(`{${name}}`))
     .map((name) => `-{${name}}`)
@@ -28,7 +28,7 @@ function filled(path: string, names: Readonly<Record<string, string>>, several: 
 }
 
 /**
- * All pictures of a request: each variant from each view.
+ * All images of a request: each variant from each view.
  * @param all Names of the model's variants, for `--variant all`.
  * @param checkpoint See `RenderCommand.checkpoint`.
  */
@@ -50,7 +50,7 @@ export function shotsOf(options: RenderCommandOptions, all: readonly string[] = 
   );
 }
 
-/** @throws {CliError} `cli/usage` if two pictures would have the same name. */
+/** @throws {CliError} `cli/usage` if two images would have the same name. */
 export function checkDistinct(shots: readonly Shot[]): void {
   const seen = new Set<string>();
   for (const { outputs, checkpoint } of shots) {
@@ -58,14 +58,14 @@ export function checkDistinct(shots: readonly Shot[]): void {
       if (seen.has(path))
         throw new CliError(
           'cli/usage',
-          `Two pictures would be written to "${path}": put {model}, {variant} or {view} into the name, or give each its own.`,
+          `Two images would be written to "${path}": put {model}, {variant} or {view} into the name, or give each its own.`,
         );
       seen.add(path);
     }
   }
 }
 
-/** For progress: what tells this picture from the others. */
+/** For progress: what tells this image from the others. */
 export const shotLabel = ({ variant, view, outputs }: Shot): string =>
   [outputs[0]?.path, variant, view.kind === 'camera' && view.camera === undefined ? undefined : view.name]
     .filter((part) => part !== undefined)

@@ -48,7 +48,7 @@ export function packagedDecoders(addresses: DecoderAddresses = {}): GltfDecoders
   let ktx2: { readonly address: unknown; readonly decoder: Promise<Ktx2Decoder> } | undefined;
   return {
     draco: () => start('draco', () => import('./draco')),
-    ktx2: async (...picture) => {
+    ktx2: async (...image) => {
       const address = addresses.ktx2;
       if (!ktx2 || ktx2.address !== address) {
         const decoder = Promise.all([start('ktx2', () => import('./basis')), import('./ktx2')]).then(
@@ -58,7 +58,7 @@ export function packagedDecoders(addresses: DecoderAddresses = {}): GltfDecoders
         // Another load tries again.
         decoder.catch(() => (ktx2 = undefined));
       }
-      return (await ktx2.decoder)(...picture);
+      return (await ktx2.decoder)(...image);
     },
   };
 }

@@ -20,7 +20,7 @@ const adobeRgb = ([r, g, b]: Triple): Triple => [
 interface Space {
   readonly curve?: (code: number) => number;
   readonly primaries?: (color: Triple) => Triple;
-  /** What the texels of a picture in this space are, where that can be said. */
+  /** What the texels of an image in this space are, where that can be said. */
   readonly texture?: 'srgb' | 'linear';
 }
 
@@ -59,7 +59,7 @@ export function toLinear(color: Triple, space: string): Triple | undefined {
 }
 
 /**
- * How the texels of a picture in a colour space are encoded; undefined where it is neither sRGB nor linear with Rec.709
+ * How the texels of an image in a colour space are encoded; undefined where it is neither sRGB nor linear with Rec.709
  * primaries.
  */
 export function textureEncoding(space: string): 'srgb' | 'linear' | undefined {

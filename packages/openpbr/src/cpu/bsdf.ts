@@ -18,7 +18,7 @@ import {
 } from './transmission';
 import { clamp, dot } from './vector';
 
-/** What {@link prepareBsdf} may be told. */
+/** Options for {@link prepareBsdf}. */
 export interface BsdfOptions extends BsdfSide {
   /** As the flag OPENPBR_MULTISCATTER; default true. */
   readonly multipleScattering?: boolean;

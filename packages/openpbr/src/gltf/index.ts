@@ -1,4 +1,4 @@
 export { anisotropicRoughness, fuzzRoughness } from './conversions';
 export { fromGltf } from './from-gltf';
 export type { GltfMaterialExtensions, GltfMaterialFactors, GltfTextureReference } from './material';
-export { gltfTextures, type GltfPictureConversion, type GltfTextureMapping, type GltfTextureUse } from './textures';
+export { gltfTextures, type GltfImageConversion, type GltfTextureMapping, type GltfTextureUse } from './textures';

@@ -4,18 +4,18 @@ import { fromGltf } from './from-gltf';
 import type { GltfMaterialFactors, GltfTextureReference } from './material';
 
 /**
- * A picture that has to be made of the document's before a texture can drive a parameter: the formula is more than a
+ * An image that has to be made of the document's before a texture can drive a parameter: the formula is more than a
  * product.
  */
-export interface GltfPictureConversion {
-  /** Equal for equal formulas: one picture serves all uses of the same textures with the same key. */
+export interface GltfImageConversion {
+  /** Equal for equal formulas: one image serves all uses of the same textures with the same key. */
   readonly key: string;
   /**
    * The textures that it reads, the use's own first; all at the same place of the surface, in the use's colour space.
    */
   readonly sources: readonly GltfTextureReference[];
   /**
-   * One texel. `texels` holds linear RGBA, 0 to 1, for each source in order, white where a picture is missing; the
+   * One texel. `texels` holds linear RGBA, 0 to 1, for each source in order, white where an image is missing; the
    * result is linear RGBA, 0 to 1, to be encoded in the use's colour space. Alpha is never encoded.
    */
   readonly convert: (texels: ArrayLike<number>, result: { [channel: number]: number }) => void;
@@ -33,7 +33,7 @@ export interface GltfTextureUse {
   readonly range?: readonly [number, number];
   /** Value of the parameter where this texture is read, if not that of {@link fromGltf}. */
   readonly value?: number | OpenPbrColor;
-  readonly picture?: GltfPictureConversion;
+  readonly image?: GltfImageConversion;
 }
 
 /** What {@link gltfTextures} answers. */
@@ -67,7 +67,7 @@ function splitColor(factor: readonly number[], texels: ArrayLike<number>, result
 
 /**
  * Which textures of a glTF material drive which OpenPBR parameters, in which channels and colour space. Pure; the
- * document's pictures are not needed. Occlusion and thickness textures mean nothing to a path tracer and are not in the
+ * document's images are not needed. Occlusion and thickness textures mean nothing to a path tracer and are not in the
  * answer.
  *
  * @example
@@ -84,7 +84,7 @@ export function gltfTextures(material: GltfMaterialFactors): GltfTextureMapping 
     channels: GltfTextureUse['channels'],
     colorSpace: GltfTextureUse['colorSpace'],
     path: string,
-    more: Pick<GltfTextureUse, 'range' | 'value' | 'picture'> = {},
+    more: Pick<GltfTextureUse, 'range' | 'value' | 'image'> = {},
   ) => {
     if (texture) uses.push({ parameter, texture, path, channels, colorSpace, ...more });
   };
@@ -126,10 +126,10 @@ export function gltfTextures(material: GltfMaterialFactors): GltfTextureMapping 
         const sources = [texture];
         use('specular_color', texture, 'rgb', 'srgb', path, {
           value: [1, 1, 1],
-          picture: { key: `tint ${factor}`, sources, convert: (texels, result) => splitColor(factor, texels, result) },
+          image: { key: `tint ${factor}`, sources, convert: (texels, result) => splitColor(factor, texels, result) },
         });
         // In a colour channel, whose codes are fine where reflectances are.
-        const weight: GltfPictureConversion = {
+        const weight: GltfImageConversion = {
           key: `brightest ${factor}`,
           sources,
           convert: (texels, result) => {
@@ -140,7 +140,7 @@ export function gltfTextures(material: GltfMaterialFactors): GltfTextureMapping 
             result[3] = 1;
           },
         };
-        use('specular_weight', texture, 'r', 'srgb', path, { value: 1, picture: weight });
+        use('specular_weight', texture, 'r', 'srgb', path, { value: 1, image: weight });
       }
     }
   } else if (strength > 0) {
@@ -154,7 +154,7 @@ export function gltfTextures(material: GltfMaterialFactors): GltfTextureMapping 
       });
     const sources = [...(rough ? [rough] : []), ...(stretch && together ? [stretch] : [])];
     const last = 4 * (sources.length - 1);
-    const picture: GltfPictureConversion = {
+    const image: GltfImageConversion = {
       key: `anisotropy ${roughness} ${strength} ${rough ? 1 : 0}${stretch && together ? 1 : 0}`,
       sources,
       convert: (texels, result) => {
@@ -170,8 +170,8 @@ export function gltfTextures(material: GltfMaterialFactors): GltfTextureMapping 
     const [texture, path] = rough
       ? [rough, 'pbrMetallicRoughness/metallicRoughnessTexture']
       : [stretch, `${EXTENSION}anisotropy/anisotropyTexture`];
-    use('specular_roughness', texture, 'g', 'linear', path, { value: 1, picture });
-    use('specular_roughness_anisotropy', texture, 'b', 'linear', path, { value: 1, picture });
+    use('specular_roughness', texture, 'g', 'linear', path, { value: 1, image });
+    use('specular_roughness_anisotropy', texture, 'b', 'linear', path, { value: 1, image });
     use('geometry_tangent', stretch, 'rgb', 'linear', `${EXTENSION}anisotropy/anisotropyTexture`);
   } else use('specular_roughness', rough, 'g', 'linear', 'pbrMetallicRoughness/metallicRoughnessTexture');
 
@@ -241,17 +241,17 @@ export function gltfTextures(material: GltfMaterialFactors): GltfTextureMapping 
     const { sheenColorTexture: colorTexture, sheenRoughnessTexture: roughnessTexture } = sheen;
     if (colorTexture) {
       const factor = [0, 1, 2].map((k) => sheen.sheenColorFactor?.[k] ?? 0);
-      const picture: GltfPictureConversion = {
+      const image: GltfImageConversion = {
         key: `tint ${factor}`,
         sources: [colorTexture],
         convert: (texels, result) => splitColor(factor, texels, result),
       };
-      use('fuzz_color', colorTexture, 'rgb', 'srgb', `${path}ColorTexture`, { value: [1, 1, 1], picture });
-      use('fuzz_weight', colorTexture, 'a', 'srgb', `${path}ColorTexture`, { value: 1, picture });
+      use('fuzz_color', colorTexture, 'rgb', 'srgb', `${path}ColorTexture`, { value: [1, 1, 1], image });
+      use('fuzz_weight', colorTexture, 'a', 'srgb', `${path}ColorTexture`, { value: 1, image });
     }
     if (roughnessTexture) {
       const factor = sheen.sheenRoughnessFactor ?? 0;
-      const picture: GltfPictureConversion = {
+      const image: GltfImageConversion = {
         key: `fuzz ${factor}`,
         sources: [roughnessTexture],
         convert: (texels, result) => {
@@ -259,7 +259,7 @@ export function gltfTextures(material: GltfMaterialFactors): GltfTextureMapping 
           result[3] = 1;
         },
       };
-      use('fuzz_roughness', roughnessTexture, 'r', 'linear', `${path}RoughnessTexture`, { value: 1, picture });
+      use('fuzz_roughness', roughnessTexture, 'r', 'linear', `${path}RoughnessTexture`, { value: 1, image });
     }
   }
 

@@ -1,7 +1,7 @@
 /** An affine map of texture coordinates `[a, b, c, d, x, y]`: u' = a·u + c·v + x, v' = b·u + d·v + y. */
 export type Affine = readonly [number, number, number, number, number, number];
 
-/** A picture and the way to read it. */
+/** An image and the way to read it. */
 export interface TextureLookup {
   readonly file: string;
   readonly colorSpace: 'srgb' | 'linear';

@@ -42,7 +42,7 @@ const DEPTH = 64;
 /** Told of what is read otherwise than it is meant. */
 export type Tell = (code: 'color-space' | 'unsupported', message: string, line: number) => void;
 
-/** Colours of a texture without a colour space: pictures of 8 bits are sRGB by custom, others linear. */
+/** Colours of a texture without a colour space: images of 8 bits are sRGB by custom, others linear. */
 const customary = (file: string): 'srgb' | 'linear' => (/\.(exr|hdr|tif|tiff)$/i.test(file) ? 'linear' : 'srgb');
 
 /** The nodes of a document, and what they are worth. */
@@ -228,14 +228,14 @@ export class Graph {
       const [iu, iv] = this.#numbers(node, 'realworldimagesize', scope, [1, 1]) as [number, number];
       const [tu, tv] = this.#numbers(node, 'realworldtilesize', scope, [1, 1]) as [number, number];
       transform = after(transform, [(su * tu) / iu, 0, 0, (sv * tv) / iv, (-ou * tu) / iu, (-ov * tv) / iv]);
-      if (!transform.every(Number.isFinite)) throw failure('value', 'a picture has no size.', node.line);
+      if (!transform.every(Number.isFinite)) throw failure('value', 'an image has no size.', node.line);
     }
     const wrap = (axis: 'u' | 'v') => {
       const mode = tiled ? 'periodic' : (this.#text(node, `${axis}addressmode`, scope)?.text ?? 'periodic');
       if (!WRAP.has(mode))
         this.#tell(
           'unsupported',
-          `beyond its border a picture is to be ${quote(mode)}; its border is repeated instead.`,
+          `beyond its border an image is to be ${quote(mode)}; its border is repeated instead.`,
           node.line,
         );
       return WRAP.get(mode) ?? 'clamp';
@@ -268,7 +268,7 @@ export class Graph {
     if (encoding) return encoding;
     this.#tell(
       'color-space',
-      `the picture ${quote(file)} is in the colour space ${quote(space ?? '')}, which textures cannot have; it is taken as ${customary(file) === 'srgb' ? 'sRGB' : 'linear Rec.709'}.`,
+      `the image ${quote(file)} is in the colour space ${quote(space ?? '')}, which textures cannot have; it is taken as ${customary(file) === 'srgb' ? 'sRGB' : 'linear Rec.709'}.`,
       input.line,
     );
     return customary(file);
@@ -371,8 +371,8 @@ export class Graph {
           value.scale.some((s) => s !== 1) ||
           value.offset.some((o) => o !== 0)
         )
-          throw new Unsupported('is no picture of normals');
-        // Whatever the document says of the picture's colours: normals are numbers.
+          throw new Unsupported('is no image of normals');
+        // Whatever the document says of the image's colours: normals are numbers.
         return { kind: 'normal map', texture: { ...value.texture, colorSpace: 'linear' }, scale };
       }
       case 'texcoord': {
@@ -428,7 +428,7 @@ export class Graph {
     const [px, py] = this.#numbers(node, 'pivot', scope, [0, 0]) as [number, number];
     const [sx, sy] = this.#numbers(node, 'scale', scope, [1, 1]) as [number, number];
     const [ox, oy] = this.#numbers(node, 'offset', scope, [0, 0]) as [number, number];
-    if (sx === 0 || sy === 0) throw failure('value', 'a picture is placed with the scale 0.', node.line);
+    if (sx === 0 || sy === 0) throw failure('value', 'an image is placed with the scale 0.', node.line);
     const scaled: Affine = [1 / sx, 0, 0, 1 / sy, 0, 0],
       turned = turn(this.#numbers(node, 'rotate', scope, [0])[0] as number),
       moved: Affine = [1, 0, 0, 1, -ox, -oy];

@@ -11,7 +11,7 @@ export interface MaterialXTexture {
   readonly uv?: number;
   /**
    * Affine map of uv before look-up, `[a, b, c, d, x, y]`: u' = a·u + c·v + x, v' = b·u + d·v + y. As everywhere in
-   * these packages v runs down the picture; in the document it runs up. Default identity.
+   * these packages v runs down the image; in the document it runs up. Default identity.
    */
   readonly transform?: readonly [number, number, number, number, number, number];
   /** What the texel values 0 and 1 stand for; default 0 and 1. */

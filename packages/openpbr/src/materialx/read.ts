@@ -12,7 +12,7 @@ import { Graph, type Tell } from './graph';
 import type { MaterialXMaterial, MaterialXTexture, MaterialXWarning } from './material';
 import { parseXml, type MaterialXLimits, type XmlElement } from './xml';
 
-/** What {@link readMaterialX} may be told. */
+/** Options for {@link readMaterialX}. */
 export interface ReadMaterialXOptions {
   readonly limits?: MaterialXLimits;
   /** Colour space of colours whose document names none. Default `acescg`, as the OpenPBR specification has it. */
@@ -83,7 +83,7 @@ function product(
       (end) => end === undefined || (Math.abs(end[0] - first[0]) < 1e-9 && Math.abs(end[1] - first[1]) < 1e-9),
     )
   )
-    throw new Unsupported('shifts the channels of a picture apart');
+    throw new Unsupported('shifts the channels of an image apart');
   return { value, range: first };
 }
 
@@ -177,7 +177,7 @@ function readSurface(
 
 /**
  * Reads the OpenPBR materials of a MaterialX document (.mtlx): values, and textures as people export them, that is
- * pictures (`image`, `tiledimage`) with placement, colour space, and arithmetic with constants between them and the
+ * images (`image`, `tiledimage`) with placement, colour space, and arithmetic with constants between them and the
  * surface; normal maps; tangents turned by an angle. What is beyond that leaves its parameter at the default, with a
  * warning. Nothing is
  * fetched: files are named in the answer.

@@ -100,15 +100,15 @@ function textureNodes(
   if (wrapV !== 'repeat') lookup.push(input('vaddressmode', 'string', { value: WRAP[wrapV] }));
   if (filter !== 'linear') lookup.push(input('filtertype', 'string', { value: 'closest' }));
   if (target === 'vector3') {
-    const picture = make('image', 'image', 'vector3', lookup);
+    const image = make('image', 'image', 'vector3', lookup);
     const mapped = make('normalmap', 'map', 'vector3', [
-      input('in', 'vector3', { nodename: picture }),
+      input('in', 'vector3', { nodename: image }),
       input('scale', 'float', { value: list(scale) }),
     ]);
     return { text, last: mapped, type: 'vector3' };
   }
   const letter = channels === 'rgb' ? undefined : channels;
-  // A single number from the first channel is what a picture of type float gives, unless it is encoded as a colour.
+  // A single number from the first channel is what an image of type float gives, unless it is encoded as a colour.
   const plain = letter === 'r' && colorSpace === 'linear';
   let last = make('image', 'image', plain ? 'float' : letter ? 'color4' : 'color3', lookup);
   let type = plain ? 'float' : 'color3';

@@ -14,7 +14,7 @@ export type OpenPbrPresetName = keyof ReturnType<typeof examples>;
 
 type Presets = Readonly<Record<OpenPbrPresetName, Partial<OpenPbrParameters>>>;
 
-/** What {@link openPbrPreset} may be told. */
+/** Options for {@link openPbrPreset}. */
 export interface OpenPbrPresetOptions {
   /**
    * Metres for a unit of length of the example; default 1, as the numbers stand. Depths and scattering radii of

@@ -59,7 +59,7 @@ export interface OpenPbrFlags {
   readonly OPENPBR_EMISSION: boolean;
 }
 
-/** What {@link requiredFeatures} may be told. */
+/** Options for {@link requiredFeatures}. */
 export interface FeatureOptions {
   /** Names of the parameters that textures drive in at least one material: they may take values below those given. */
   readonly textured?: readonly string[];

@@ -12,7 +12,7 @@ export interface CameraUniforms {
   readonly lens_blades: number;
   readonly lens_rotation: number;
   /**
-   * Half width and half height of the picture at distance 1 (perspective), in metres (orthographic), or in radians
+   * Half width and half height of the image at distance 1 (perspective), in metres (orthographic), or in radians
    * (panorama).
    */
   readonly half_extent: readonly [number, number];

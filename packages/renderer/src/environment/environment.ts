@@ -2,7 +2,7 @@ import type { Environment, LatLongEnvironment } from '@glanz/scene';
 
 /** What the GPU needs to know about the surroundings. */
 export interface EnvironmentData {
-  /** RGBA float pixels of the lat-long picture, stride 4; absent for constant light. */
+  /** RGBA float pixels of the lat-long image, stride 4; absent for constant light. */
   readonly pixels?: { readonly width: number; readonly height: number; readonly data: Float32Array<ArrayBuffer> };
   /** Multiplies the pixels, or is the constant radiance itself. */
   readonly radiance: readonly [number, number, number];
@@ -85,10 +85,10 @@ function placed(
   };
 }
 
-/** Rows and columns of a picture that {@link roughEnvironment} looks at. */
+/** Rows and columns of an image that {@link roughEnvironment} looks at. */
 const ROUGH = 32;
 
-/** What a first picture needs of an environment: how bright it is on average, from some of its pixels. */
+/** What a first image needs of an environment: how bright it is on average, from some of its pixels. */
 export function roughEnvironment(environment: Environment | undefined): EnvironmentData {
   if (environment?.type !== 'latlong') return prepareEnvironment(environment);
   const { width, height, data, intensity = 1, visible = true } = environment;
@@ -115,7 +115,7 @@ function copyPixels(pixels: Float32Array, data: Float32Array, from: number, to: 
   for (let i = from; i < to; i++) {
     for (let c = 0; c < 3; c++) {
       const value = data[3 * i + c] as number;
-      // A picture with broken pixels must not poison the film.
+      // An image with broken pixels must not poison the film.
       pixels[4 * i + c] = value > 0 ? Math.min(value, 3e38) : 0;
     }
     pixels[4 * i + 3] = 1;
@@ -154,7 +154,7 @@ export function turnEnvironment(
 }
 
 /**
- * Luminance of the picture, texel by texel; of a large one averaged over the cells of a coarser grid, as it is read:
+ * Luminance of the image, texel by texel; of a large one averaged over the cells of a coarser grid, as it is read:
  * bilinearly.
  */
 function* cellLuminance(

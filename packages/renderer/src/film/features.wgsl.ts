@@ -5,7 +5,7 @@ import random from '../random/random.wesl';
 
 /**
  * First-hit features of one sample per pixel: albedo with coverage, shading normal with depth, and (for sample 0,
- * through the pixel's centre) the ids. Run on demand, with the same camera rays as the picture.
+ * through the pixel's centre) the ids. Run on demand, with the same camera rays as the image.
  */
 export function featuresModule(
   surface: WgslModule,

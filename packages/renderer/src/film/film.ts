@@ -6,7 +6,7 @@ import { TILE } from '../schedule/noise.wgsl';
 const ON_DEMAND: ReadonlySet<string> = new Set(['feature_albedo', 'feature_normal', 'feature_ids', 'feature_position']);
 
 /**
- * The buffers of one picture. Per pixel: a vec4f for each plane (light group) in `film_block` (samples of a chunk not
+ * The buffers of one image. Per pixel: a vec4f for each plane (light group) in `film_block` (samples of a chunk not
  * yet complete) and in `film_total` (complete chunks), planes one after another; `film_moment` for the variance;
  * `beauty`; the pixel's number in `film_pixels`; in a film that begins in the middle of a chunk, that chunk's samples in
  * `film_head`, which `film_total` contains too. The first-hit features come when they are asked for.
@@ -35,7 +35,7 @@ export class Film {
 
   /**
    * From now on, place i of a batch is pixel `list[i]`; without a list all of them tile by tile, as in the beginning:
-   * rays of one workgroup then go through a square of the picture, not through a line of it, and meet the same nodes.
+   * rays of one workgroup then go through a square of the image, not through a line of it, and meet the same nodes.
    */
   setPixels(list: Uint32Array<ArrayBuffer> | undefined): void {
     if (!list && this.#whole) return;

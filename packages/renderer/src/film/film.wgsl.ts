@@ -71,7 +71,7 @@ fn film_compose(pixel: u32, count: f32) -> vec4f {
   );
 }
 
-/** Puts the beauty together anew from what the film holds, without a sample. */
+/** Puts the beauty together again from what the film holds, without a sample. */
 export function relightModule(film: WgslModule): WgslModule {
   return wgslModule(
     'renderer/relight',

@@ -2,7 +2,7 @@ import { RenderError } from '../errors';
 import type { LightGroup } from '../options';
 import type { GroupWeights } from './layers';
 
-/** How the light groups of a picture are set, see `PathTracer.setLightGroup`. */
+/** How the light groups of an image are set, see `PathTracer.setLightGroup`. */
 export class GroupSettings {
   readonly #names: () => readonly string[];
   /** By name; groups that were never set are not in it. */

@@ -33,7 +33,7 @@ export function unpackLayer(
 export type GroupWeights = readonly (readonly [number, number, number])[];
 
 /**
- * Variance of the picture's mean, per pixel RGB, and the pixel's number of samples: what chunk means vary by, over the
+ * Variance of the image's mean, per pixel RGB, and the pixel's number of samples: what chunk means vary by, over the
  * number of chunks. `Infinity` before there are two.
  *
  * @param total Sums over complete chunks, plane by plane.
@@ -69,7 +69,7 @@ export function varianceLayer(
   return out;
 }
 
-/** The part of one light group in the picture, RGBA: its light as the group is set, and the coverage of the picture. */
+/** The part of one light group in the image, RGBA: its light as the group is set, and the coverage of the image. */
 export function groupLayer(
   total: Float32Array,
   block: Float32Array,

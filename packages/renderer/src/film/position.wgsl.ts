@@ -4,7 +4,7 @@ import filter from '../camera/filter.wesl';
 import random from '../random/random.wesl';
 
 /**
- * Sums of world positions of the first surface, with the number of hits. Run on demand, with the picture's camera rays.
+ * Sums of world positions of the first surface, with the number of hits. Run on demand, with the image's camera rays.
  */
 export function positionModule(traversal: WgslModule): WgslModule {
   return wgslModule(

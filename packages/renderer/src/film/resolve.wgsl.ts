@@ -7,7 +7,7 @@ import { wgslModule, type WgslModule } from '@glanz/wgsl';
  * film.
  *
  * The squares of the chunks' means are summed too (film_moment.xyz, and the number of samples in w): chunks of 16 Sobol
- * points vary much less than 16 single samples do, and it is their variance that the picture has.
+ * points vary much less than 16 single samples do, and it is their variance that the image has.
  */
 export function resolveModule(path: WgslModule, film: WgslModule): WgslModule {
   return wgslModule(

@@ -94,7 +94,7 @@ export class Integrator {
     this.#wanted = wanted;
     const { adapterInfo } = device as { readonly adapterInfo?: GPUAdapterInfo };
     this.#counted = adapterInfo !== undefined && isSoftware(adapterInfo);
-    // A sample of the whole picture; more when the GPU turns out to be fast.
+    // A sample of the whole image; more when the GPU turns out to be fast.
     const capacity = Math.min(pathLimit(device, wanted, features), Math.max(1 << 16, film.pixels));
     this.#capacity = capacity;
     this.#buffers = {

@@ -14,7 +14,7 @@ struct ShadeResult {
   shadow: Shadow,
 }
 
-// Whether a path that leaves the scene shows what is behind a transparent picture: one that came here straight from the
+// Whether a path that leaves the scene shows what is behind a transparent image: one that came here straight from the
 // camera, or through glass and nothing else. Such paths still have the alpha of 2 that they began with.
 fn shade_sees_background(index: u32, depth: u32) -> bool {
   if ((frame.background & ${BACKGROUND_TRANSPARENT}u) == 0u) { return false; }

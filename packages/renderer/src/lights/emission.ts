@@ -18,7 +18,7 @@ export class EmissionEstimate {
   }
 
   /**
-   * Mean over a triangle given by its uvs, from a grid of texels as fine as the triangle is large on the picture, up to
+   * Mean over a triangle given by its uvs, from a grid of texels as fine as the triangle is large on the image, up to
    * 16 × 16.
    */
   mean(uv: readonly [number, number, number, number, number, number]): number {

@@ -382,7 +382,7 @@ fn surface_load(hit: vec4u, origin: vec3f, direction: vec3f, cone_width: f32) ->
   }
   //#if UV_FRAME
   else {
-    // Tangents from the texture coordinates: along +u, with the bitangent against +v, since v runs down the picture.
+    // Tangents from the texture coordinates: along +u, with the bitangent against +v, since v runs down the image.
     let det = uv0.edge_1.x * uv0.edge_2.y - uv0.edge_1.y * uv0.edge_2.x;
     if (det != 0.0) {
       let along_u = columns * (edge_1 * uv0.edge_2.y - edge_2 * uv0.edge_1.y) * sign(det);

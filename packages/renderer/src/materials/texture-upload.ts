@@ -89,10 +89,10 @@ export function uploadTextures(
       },
       Math.ceil((array.width * array.height * array.layers.length * texel * (mipLevelCount > 1 ? 4 : 3)) / 3),
     );
-    array.layers.forEach((image, layer) => {
-      const picture = scene.images[image] as Image;
-      if (array.levels !== undefined) return writeBlocks(device, texture, picture, layer);
-      const { bitmap } = picture;
+    array.layers.forEach((index, layer) => {
+      const image = scene.images[index] as Image;
+      if (array.levels !== undefined) return writeBlocks(device, texture, image, layer);
+      const { bitmap } = image;
       // A bitmap that was closed has no size.
       if (bitmap && bitmap.width === array.width && bitmap.height === array.height && array.format !== 'rgba16float') {
         device.queue.copyExternalImageToTexture(
@@ -102,7 +102,7 @@ export function uploadTextures(
         );
         return;
       }
-      const data = layerBytes(picture, array);
+      const data = layerBytes(image, array);
       device.queue.writeTexture(
         { texture, origin: [0, 0, layer] },
         data,

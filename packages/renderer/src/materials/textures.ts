@@ -2,7 +2,7 @@ import type { CompressedFormat, Image, Scene, Texture } from '@glanz/scene';
 import { DeviceError } from '../errors';
 import { isSoftware } from '../device/software';
 
-/** Formats of texture arrays; pictures that come in blocks keep them. */
+/** Formats of texture arrays; images that come in blocks keep them. */
 export type TextureFormat =
   'rgba8unorm' | 'rgba8unorm-srgb' | 'rgba16float' | CompressedFormat | `${CompressedFormat}-srgb`;
 
@@ -13,8 +13,8 @@ const FEATURES: Readonly<Record<CompressedFormat, GPUFeatureName>> = {
 };
 
 /**
- * The compressed formats that a device reads, the best first: what loaders want to know to leave pictures packed. None
- * where the CPU does the work of a GPU: such drivers unpack pictures by themselves, so nothing is saved, and
+ * The compressed formats that a device reads, the best first: what loaders want to know to leave images packed. None
+ * where the CPU does the work of a GPU: such drivers unpack images by themselves, so nothing is saved, and
  * SwiftShader was seen to read zeros from them on some processors.
  *
  * @example
@@ -28,12 +28,12 @@ export function compressedFormats(device: {
   return (Object.keys(FEATURES) as CompressedFormat[]).filter((format) => device.features.has(FEATURES[format]));
 }
 
-/** One texture array on the GPU: pictures of one size and format. */
+/** One texture array on the GPU: images of one size and format. */
 export interface TextureArray {
   readonly width: number;
   readonly height: number;
   readonly format: TextureFormat;
-  /** Levels that the pictures bring along; `undefined` where they are made on the GPU, all of them. */
+  /** Levels that the images bring along; `undefined` where they are made on the GPU, all of them. */
   readonly levels: number | undefined;
   /** Indices of scene images, one a layer. */
   readonly layers: number[];
@@ -46,7 +46,7 @@ export interface TexturePlan {
   readonly samplers: readonly GPUSamplerDescriptor[];
   /** Distinct pairs of array and sampler; a shader case each. */
   readonly samplings: readonly (readonly [array: number, sampler: number])[];
-  /** For each scene texture that is used: its sampling case, its layer and the size of its picture there. */
+  /** For each scene texture that is used: its sampling case, its layer and the size of its image there. */
   readonly placements: ReadonlyMap<
     number,
     { readonly sampling: number; readonly layer: number; readonly width: number; readonly height: number }
@@ -62,7 +62,7 @@ function formatOf(image: Image, texture: Texture, compressed: readonly Compresse
   return texture.color_space === 'srgb' ? 'rgba8unorm-srgb' : 'rgba8unorm';
 }
 
-/** The blocks of a picture that stays in blocks on this device. */
+/** The blocks of an image that stays in blocks on this device. */
 function compressedOf({ compressed, width, height }: Image, formats: readonly CompressedFormat[]): Image['compressed'] {
   return compressed && formats.includes(compressed.format) && width % 4 === 0 && height % 4 === 0
     ? compressed
@@ -70,13 +70,13 @@ function compressedOf({ compressed, width, height }: Image, formats: readonly Co
 }
 
 /**
- * Sorts pictures into arrays of one size and format. Where the scene has more sizes than the device has texture slots,
- * the arrays with the fewest texels move into the nearest larger size of the same format; only those pictures are
+ * Sorts images into arrays of one size and format. Where the scene has more sizes than the device has texture slots,
+ * the arrays with the fewest texels move into the nearest larger size of the same format; only those images are
  * resampled.
  *
  * @param used Indices of scene textures that materials refer to.
  * @param slots Texture arrays the shading kernel may bind.
- * @param compressed Compressed formats that the device reads. Pictures in blocks cannot be resampled: where there are
+ * @param compressed Compressed formats that the device reads. Images in blocks cannot be resampled: where there are
  * more sizes than slots, or one is too large, all of them are unpacked.
  * @throws {DeviceError} `renderer/limit` when even that does not fit.
  */

@@ -14,7 +14,7 @@ import {
   type VulkanDriver,
 } from './vulkan-driver';
 
-/** What {@link createGpu} may be told. */
+/** Options for {@link createGpu}. */
 export interface GpuOptions {
   /** Part of the name of the adapter to use, ignoring case; see {@link listGpus}. Default: the fastest there is. */
   readonly gpu?: string;

@@ -67,7 +67,7 @@ export interface InstanceChange {
 
 /**
  * A scene on the GPU. A cache: everything here can be made again from the `Scene`. It comes in three steps, since a
- * first picture needs no lights: the constructor makes what is the size of the scene, `fill()` writes the shapes into
+ * first image needs no lights: the constructor makes what is the size of the scene, `fill()` writes the shapes into
  * it, and `light()` adds lights, surroundings and energy tables.
  */
 export class GpuScene {
@@ -119,7 +119,7 @@ export class GpuScene {
     return this.#environment;
   }
 
-  /** Texels of the pictures in use, without mip levels. */
+  /** Texels of the images in use, without mip levels. */
   get texels(): number {
     return this.#plan.arrays.reduce((sum, { width, height, layers }) => sum + width * height * layers.length, 0);
   }
@@ -435,7 +435,7 @@ export class GpuScene {
     await Promise.all(written);
   }
 
-  /** Sorts the lights into groups anew; where that changes anything, materials are written again. */
+  /** Sorts the lights into groups again; where that changes anything, materials are written again. */
   #updateGroups(): boolean {
     const before = this.#groups.names;
     this.#groups = lightGroupTable(this.#scene, this.#choices.lightGroups);

@@ -11,7 +11,7 @@ export function nextCheck(samples: number): number {
   }
 }
 
-/** How noisy each tile of a picture is. */
+/** How noisy each tile of an image is. */
 export interface NoiseMap {
   /** Per tile: relative error, see {@link noiseMap}. */
   readonly tiles: Float64Array;
@@ -21,7 +21,7 @@ export interface NoiseMap {
 
 /**
  * Relative errors from sums over tiles: the root of a tile's mean variance over its mean square, the latter with a
- * hundredth of the picture's added, so that blackness does not ask for the impossible.
+ * hundredth of the image's added, so that blackness does not ask for the impossible.
  *
  * @param sums Per tile: variance, square of the mean, pixels; stride 4.
  */
@@ -88,7 +88,7 @@ export function samplesLeft(
   return left;
 }
 
-/** The tiles of a picture. */
+/** The tiles of an image. */
 export class TileGrid {
   readonly width: number;
   readonly height: number;

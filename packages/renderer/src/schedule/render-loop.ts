@@ -12,7 +12,7 @@ export interface RenderLoop {
   readonly room: (paths: number) => number;
   /** Settles when batches may be submitted again; `undefined`: now. */
   readonly ready: () => Promise<void> | undefined;
-  /** Whether the picture is still the one the loop began with, and wanted. */
+  /** Whether the image is still the one the loop began with, and wanted. */
   readonly current: () => boolean;
   /** Throws if the device failed. */
   readonly check: () => void;

@@ -123,7 +123,7 @@ export class Sampling {
       left: goal.noise === undefined ? undefined : Infinity,
       noise: undefined,
     };
-    // A sample that was cut off in the middle of the picture is completed first: lists change between samples only.
+    // A sample that was cut off in the middle of the image is completed first: lists change between samples only.
     if (this.#scheduler.partial) yield* this.#run(this.#scheduler.samples + 1, goal, pace);
     // No batch contains samples from both sides of the end of a first chunk that is not whole: see `FilmSession`.
     const head = Math.min(headEnd(this.#first), goal.samples);
@@ -217,7 +217,7 @@ export class Sampling {
     this.#scheduler = this.#scheduler.continued(list?.length ?? this.#pixels, samples);
   }
 
-  /** Samples still missing to an even picture. */
+  /** Samples still missing to an even image. */
   #missing(target: number): number {
     if (!this.#under) return Math.max(0, target - this.#scheduler.samples) * this.#scheduler.pixels;
     const under = new Set(this.#under);

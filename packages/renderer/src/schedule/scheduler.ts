@@ -1,6 +1,6 @@
 import { CostModel } from './cost-model';
 
-/** A piece of work for one submission: whole samples of the whole picture, or a band of one sample. */
+/** A piece of work for one submission: whole samples of the whole image, or a band of one sample. */
 export interface Batch {
   readonly pixelOffset: number;
   readonly pixelCount: number;
@@ -9,7 +9,7 @@ export interface Batch {
 }
 
 export interface SchedulerOptions {
-  /** Pixels of the picture. */
+  /** Pixels of the image. */
   readonly pixels: number;
   /** Paths the buffers can hold. */
   readonly capacity: number;
@@ -25,7 +25,7 @@ const SMALLEST = 4096;
  * to a quarter when one took too long. What is computed does not depend on the cuts.
  */
 export class Scheduler {
-  /** Pixels of the picture, or of the part of it that is worked on. */
+  /** Pixels of the image, or of the part of it that is worked on. */
   readonly pixels: number;
   readonly #capacity: number;
   /** Milliseconds that one submission should take at most. */

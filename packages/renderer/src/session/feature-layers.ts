@@ -19,14 +19,14 @@ const LAYER_SOURCES: Readonly<
 
 /** What {@link FeatureLayers} reads through. */
 export interface FeatureSource {
-  /** Adds up a kernel's layers anew, over so many samples. */
+  /** Adds up a kernel's layers again, over so many samples. */
   render(kernel: KernelName, samples: number): Promise<void>;
   /** Copies a buffer of the film. */
   copy(name: string): Promise<ArrayBuffer>;
 }
 
 /**
- * The layers of the picture as it is that come from camera rays alone: rendered when they are first read, and again
+ * The layers of the image as it is that come from camera rays alone: rendered when they are first read, and again
  * where more samples are known.
  */
 export class FeatureLayers {
@@ -37,12 +37,12 @@ export class FeatureLayers {
     this.#source = source;
   }
 
-  /** The picture is another one. */
+  /** The image is another one. */
   clear(): void {
     this.#passes.clear();
   }
 
-  /** @param samples Of the picture, which the layer need not have more than. */
+  /** @param samples Of the image, which the layer need not have more than. */
   async read(layer: FeatureLayer, samples: number): Promise<Float32Array<ArrayBuffer> | Uint32Array<ArrayBuffer>> {
     const { kernel, buffers } = LAYER_SOURCES[layer];
     const wanted = Math.min(FEATURE_SAMPLES, Math.max(1, samples));

@@ -29,14 +29,14 @@ export interface FirstLightSource {
 }
 
 /**
- * Draws the scene with the first-light kernel, as soon as its shapes are there, and hands the picture over, unless
+ * Draws the scene with the first-light kernel, as soon as its shapes are there, and hands the image over, unless
  * `late` says that there is something better by then.
  *
- * @returns Frees the picture; to be called when the tracer is there.
+ * @returns Frees the image; to be called when the tracer is there.
  */
 export function showFirstLight(
   source: FirstLightSource,
-  show: (picture: FirstLight) => void,
+  show: (image: FirstLight) => void,
   late: () => boolean,
 ): () => void {
   const { device, scene, geometry, camera, cache, features, options } = source;
@@ -58,7 +58,7 @@ export function showFirstLight(
         GPU_BUFFER_UNIFORM,
       ),
       batch: memory.buffer('first batch', batchStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
-      beauty: memory.buffer('first picture', 16 * width * height, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC),
+      beauty: memory.buffer('first image', 16 * width * height, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC),
     };
     const entries = kernel.resources.map((name, binding) => ({
       binding,

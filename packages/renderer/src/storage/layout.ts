@@ -3,7 +3,7 @@ import { openPbrStruct } from '@glanz/openpbr';
 import { struct } from '@glanz/wgsl';
 import { blockLayout } from './blocks';
 
-/** Everything the kernels need to know about the picture, the camera and the surroundings. One uniform buffer. */
+/** Everything the kernels need to know about the image, the camera and the surroundings. One uniform buffer. */
 export const frameStruct = struct('Frame', {
   camera_origin: 'vec3f',
   /** Sides of the aperture's polygon; below 3 it is round. */
@@ -52,7 +52,7 @@ export const frameStruct = struct('Frame', {
 /** The module of {@link frameStruct}, by the name that shaders import. */
 export const Frame = frameStruct.module;
 
-/** The part of the picture and the samples that one batch works on. */
+/** The part of the image and the samples that one batch works on. */
 export const batchStruct = struct('Batch', {
   pixel_offset: 'u32',
   pixel_count: 'u32',

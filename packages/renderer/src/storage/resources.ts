@@ -3,7 +3,7 @@ import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { GPU_STAGE_COMPUTE } from './buffers';
 import { batchStruct, frameStruct, instanceStruct, lightStruct, materialStruct, shadowRecords } from './layout';
 
-/** Light groups that a picture may have. */
+/** Light groups that an image may have. */
 export const MAX_LIGHT_GROUPS = 16;
 
 /**

@@ -2,7 +2,7 @@ import type { LatLongEnvironment } from '@glanz/scene';
 import { describe, expect, it } from 'vitest';
 import { prepareEnvironment, roughEnvironment, turnEnvironment } from '../../src/environment/environment';
 
-const picture = (width: number, height: number, value: (x: number, y: number) => number): LatLongEnvironment => {
+const image = (width: number, height: number, value: (x: number, y: number) => number): LatLongEnvironment => {
   const data = new Float32Array(width * height * 3);
   for (let y = 0; y < height; y++)
     for (let x = 0; x < width; x++) data.fill(value(x, y), 3 * (y * width + x), 3 * (y * width + x) + 3);
@@ -12,20 +12,20 @@ const picture = (width: number, height: number, value: (x: number, y: number) =>
 describe('prepareEnvironment', () => {
   it('needs no table for constant light: BSDF sampling is ideal', () => {
     expect(prepareEnvironment({ type: 'constant', radiance: [1, 2, 3] }).table).toBeUndefined();
-    expect(prepareEnvironment(picture(16, 8, () => 3)).table).toBeUndefined();
+    expect(prepareEnvironment(image(16, 8, () => 3)).table).toBeUndefined();
     expect(prepareEnvironment(undefined).radiance).toEqual([0, 0, 0]);
   });
 
   it('has densities that integrate to 1 over the square', () => {
-    const table = prepareEnvironment(picture(64, 32, (x, y) => (x === 20 && y === 9 ? 1000 : 1 + (x % 7)))).table;
+    const table = prepareEnvironment(image(64, 32, (x, y) => (x === 20 && y === 9 ? 1000 : 1 + (x % 7)))).table;
     if (!table) throw new Error('no table');
     let sum = 0;
     for (let i = 0; i < table.width * table.height; i++) sum += table.data[4 * i + 2] as number;
     expect(sum / (table.width * table.height)).toBeCloseTo(1, 5);
   });
 
-  it('finds a sun of one texel in a picture larger than its table', () => {
-    const table = prepareEnvironment(picture(2500, 1250, (x, y) => (x === 1801 && y === 400 ? 1e6 : 0.1))).table;
+  it('finds a sun of one texel in an image larger than its table', () => {
+    const table = prepareEnvironment(image(2500, 1250, (x, y) => (x === 1801 && y === 400 ? 1e6 : 0.1))).table;
     if (!table) throw new Error('no table');
     expect([table.width, table.height]).toEqual([1024, 512]);
     let best = 0;
@@ -36,7 +36,7 @@ describe('prepareEnvironment', () => {
   });
 
   it('replaces NaN, infinite and negative pixels', () => {
-    const environment = picture(4, 2, () => 1);
+    const environment = image(4, 2, () => 1);
     environment.data.set([Number.NaN, Infinity, -1]);
     const data = prepareEnvironment(environment).pixels?.data;
     expect(Array.from(data?.subarray(0, 3) ?? [])).toEqual([0, expect.closeTo(3e38, -36), 0]);
@@ -46,7 +46,7 @@ describe('prepareEnvironment', () => {
 
 describe('roughEnvironment', () => {
   it('is about as bright as the whole, in size, strength and visibility as it will be', () => {
-    const sky = picture(200, 99, (_, y) => 5 * Math.exp(-y / 30));
+    const sky = image(200, 99, (_, y) => 5 * Math.exp(-y / 30));
     for (const environment of [
       sky,
       { ...sky, intensity: 3, visible: false },
@@ -66,7 +66,7 @@ describe('roughEnvironment', () => {
 });
 
 describe('turnEnvironment', () => {
-  const sky = picture(32, 16, (x, y) => (x === 9 && y === 3 ? 100 : 0.3));
+  const sky = image(32, 16, (x, y) => (x === 9 && y === 3 ? 100 : 0.3));
 
   it('gives what preparing the image again gives, from each setting to each, darkness included', () => {
     const settings: LatLongEnvironment[] = [

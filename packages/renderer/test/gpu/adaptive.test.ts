@@ -56,20 +56,20 @@ const same = (a: Float32Array, b: Float32Array) =>
 const NOISE = 0.02;
 
 let better: Promise<Float32Array> | undefined;
-/** Another picture of the scene, of much less noise. */
+/** Another image of the scene, of much less noise. */
 function reference(): Promise<Float32Array> {
   better ??= (async () => {
     const tracer = await start({ seed: 99 });
     await run(tracer, { samples: 4096 });
-    const picture = await tracer.read('beauty');
+    const image = await tracer.read('beauty');
     tracer.destroy();
-    return picture;
+    return image;
   })();
   return better;
 }
 
 describe('adaptive sampling', () => {
-  it('stops where and when the picture is as good as was asked for', async () => {
+  it('stops where and when the image is as good as was asked for', async () => {
     const tracer = await start();
     const seen = await run(tracer, { noise: NOISE });
     const last = seen.at(-1) as RenderProgress;
@@ -85,7 +85,7 @@ describe('adaptive sampling', () => {
     expect(samplesAt(22, 14)).toBeGreaterThan(64);
     expect(tracer.samples).toBe(Math.max(...variance.filter((_, i) => i % 4 === 3)));
 
-    // The error against another, much better picture is what the estimate says, tile by tile.
+    // The error against another, much better image is what the estimate says, tile by tile.
     const [ours, truth] = [await tracer.read('beauty'), await reference()];
     const meanSquare =
       truth.reduce((sum, value, i) => (i % 4 === 3 ? sum : sum + (value * value) / 3), 0) / (SIZE * SIZE);
@@ -110,7 +110,7 @@ describe('adaptive sampling', () => {
     tracer.destroy();
   });
 
-  it('the same picture whatever the batches and interruptions', async () => {
+  it('the same image whatever the batches and interruptions', async () => {
     const one = await start();
     await run(one, { noise: NOISE });
     const two = await start({ pathsInFlight: 300 });
@@ -125,7 +125,7 @@ describe('adaptive sampling', () => {
     two.destroy();
   });
 
-  it('an uneven film can be driven further, and evened out to the picture that all samples make', async () => {
+  it('an uneven film can be driven further, and evened out to the image that all samples make', async () => {
     const tracer = await start();
     await run(tracer, { noise: 2 * NOISE });
     const before = tracer.samples;
@@ -157,7 +157,7 @@ describe('adaptive sampling', () => {
       });
       tracer.destroy();
     }
-    // Of the whole picture's mean, and per pixel: squared error of the mean over runs, against one run's.
+    // Of the whole image's mean, and per pixel: squared error of the mean over runs, against one run's.
     const sum = (values: ArrayLike<number>) =>
       Array.from(values).reduce((all, value, i) => (i % 4 === 3 ? all : all + value), 0);
     expect(Math.abs(sum(mean) / sum(truth) - 1)).toBeLessThan(0.002);

@@ -14,7 +14,7 @@ afterAll(() => expectNoGpuErrors());
 
 const SIZE = 16;
 
-async function picture(scene: Scene, samples: number, options: Partial<PathTracerOptions> = {}): Promise<Float32Array> {
+async function image(scene: Scene, samples: number, options: Partial<PathTracerOptions> = {}): Promise<Float32Array> {
   const tracer = await PathTracer.create(device, scene, { width: SIZE, height: SIZE, camera, ...options });
   try {
     for await (const progress of tracer.render({ samples })) void progress;
@@ -120,7 +120,7 @@ describe('lights with a size', () => {
         intensity: 0.2,
         position: [0, 0, 1],
       });
-      const seen = mean(await picture(scene, 256, { camera: narrow, maxDepth: 2, lightSampling }));
+      const seen = mean(await image(scene, 256, { camera: narrow, maxDepth: 2, lightSampling }));
       light.color.forEach((c, k) => {
         const expected = (0.5 / Math.PI) * (4 * c * form + 0.2);
         expect(Math.abs(seen[k]! / expected - 1)).toBeLessThan(0.01);
@@ -135,7 +135,7 @@ describe('lights with a size', () => {
       addQuad(scene, 5, -1, lambert(0));
       scene.lights.push(light);
       extra?.(scene);
-      return mean(await picture(scene, 64, { maxDepth }))[0];
+      return mean(await image(scene, 64, { maxDepth }))[0];
     };
     expect(await seen({ ...flat, direction: [0, 0, 1] })).toBeCloseTo(4, 5);
     expect(await seen({ ...flat, direction: [0, 0, -1] })).toBe(0);
@@ -160,7 +160,7 @@ describe('lights with a size', () => {
   });
 
   it.each([0.05, 0.3, 0.8])(
-    'on a glossy floor of roughness %f: the picture of an emissive mesh in their place',
+    'on a glossy floor of roughness %f: the image of an emissive mesh in their place',
     async (specular_roughness) => {
       const floor: Material = {
         name: 'metal',
@@ -196,7 +196,7 @@ describe('lights with a size', () => {
       const runs = async (scene: Scene) => {
         const values: number[] = [];
         for (let seed = 0; seed < 6; seed++)
-          values.push(mean(await picture(scene, 128, { camera: side, seed, maxDepth: 3, sampler: 'independent' }))[0]);
+          values.push(mean(await image(scene, 128, { camera: side, seed, maxDepth: 3, sampler: 'independent' }))[0]);
         const average = values.reduce((a, b) => a + b) / values.length;
         return {
           average,
@@ -230,7 +230,7 @@ describe('lights with a size', () => {
       width: 2.5,
       height: 2.5,
     });
-    const seen = meanOf(await picture(scene, 16), SIZE, 6, 6, 10, 10);
+    const seen = meanOf(await image(scene, 16), SIZE, 6, 6, 10, 10);
     // 1 m of it, but for the slant of the view.
     [0.5, 1, 2].forEach((a, k) => expect(Math.abs(seen[k]! / (4 * Math.exp(-a)) - 1)).toBeLessThan(0.02));
   });

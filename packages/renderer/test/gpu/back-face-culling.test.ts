@@ -174,7 +174,7 @@ describe('what the camera sees', () => {
     );
   });
 
-  it('is what the first picture shows too, while kernels compile', async () => {
+  it('is what the first image shows too, while kernels compile', async () => {
     const scene = wallOf(lambert(0), { flip: true });
     // Out of sight, and much to compile.
     addQuad(scene, 1, 10, {

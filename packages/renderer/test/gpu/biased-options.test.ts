@@ -12,7 +12,7 @@ beforeAll(async () => {
 });
 afterEach(() => expectNoGpuErrors());
 
-async function picture(
+async function image(
   scene: Scene,
   options: Partial<PathTracerOptions> & { samples?: number } = {},
 ): Promise<{ pixels: Float32Array; variance: number }> {
@@ -34,7 +34,7 @@ const largest = (a: Float32Array, b: Float32Array) =>
   a.reduce((most, value, i) => Math.max(most, Math.abs(value - (b[i] as number))), 0);
 const mean = (pixels: Float32Array) => meanOf(pixels, 12, 0, 0, 12, 12)[1];
 
-/** A floor in the picture, a wall beside it, and a small light above. */
+/** A floor in the image, a wall beside it, and a small light above. */
 function corner(wall: Scene['materials'][number]): Scene {
   const scene = createScene();
   addQuad(scene, 3, 0, lambert(0.7));
@@ -64,20 +64,20 @@ describe('biased options', () => {
 
   it('a clamp that nothing reaches changes nothing; one near zero leaves direct light', async () => {
     const scene = corner(lambert(0.8));
-    const plain = (await picture(scene)).pixels;
-    expect(largest((await picture(scene, { clampIndirect: 1e6 })).pixels, plain)).toBe(0);
-    const direct = (await picture(scene, { maxDepth: 2 })).pixels;
+    const plain = (await image(scene)).pixels;
+    expect(largest((await image(scene, { clampIndirect: 1e6 })).pixels, plain)).toBe(0);
+    const direct = (await image(scene, { maxDepth: 2 })).pixels;
     expect(mean(plain) / mean(direct)).toBeGreaterThan(1.05);
-    expect(largest((await picture(scene, { clampIndirect: 1e-9 })).pixels, direct)).toBeLessThan(1e-6);
-    const half = mean((await picture(scene, { clampIndirect: 0.05 })).pixels);
+    expect(largest((await image(scene, { clampIndirect: 1e-9 })).pixels, direct)).toBeLessThan(1e-6);
+    const half = mean((await image(scene, { clampIndirect: 0.05 })).pixels);
     expect(half).toBeGreaterThan(mean(direct));
     expect(half).toBeLessThan(mean(plain));
   });
 
   it('without caustics a mirror throws no light on the floor: as if it were black', async () => {
-    const lit = mean((await picture(corner(mirror), { samples: 512 })).pixels);
-    const dark = mean((await picture(corner(black), { samples: 512 })).pixels);
-    const without = mean((await picture(corner(mirror), { samples: 512, caustics: false })).pixels);
+    const lit = mean((await image(corner(mirror), { samples: 512 })).pixels);
+    const dark = mean((await image(corner(black), { samples: 512 })).pixels);
+    const without = mean((await image(corner(mirror), { samples: 512, caustics: false })).pixels);
     expect(lit / dark).toBeGreaterThan(1.1);
     // What a rough mirror still gives is below the limit of sharpness: its tails.
     expect(Math.abs(without / dark - 1)).toBeLessThan(0.02);
@@ -85,15 +85,15 @@ describe('biased options', () => {
 
   it('limits bounces by their kind', async () => {
     const scene = corner(lambert(0.8));
-    const plain = (await picture(scene)).pixels;
-    expect(largest((await picture(scene, { maxBounces: { specular: 0, transmission: 0 } })).pixels, plain)).toBe(0);
-    const direct = (await picture(scene, { maxDepth: 2 })).pixels;
-    expect(largest((await picture(scene, { maxBounces: { diffuse: 0 } })).pixels, direct)).toBe(0);
+    const plain = (await image(scene)).pixels;
+    expect(largest((await image(scene, { maxBounces: { specular: 0, transmission: 0 } })).pixels, plain)).toBe(0);
+    const direct = (await image(scene, { maxDepth: 2 })).pixels;
+    expect(largest((await image(scene, { maxBounces: { diffuse: 0 } })).pixels, direct)).toBe(0);
     // One diffuse bounce, then direct light: paths of three edges.
     expect(
       largest(
-        (await picture(scene, { maxBounces: { diffuse: 1 } })).pixels,
-        (await picture(scene, { maxDepth: 3 })).pixels,
+        (await image(scene, { maxBounces: { diffuse: 1 } })).pixels,
+        (await image(scene, { maxDepth: 3 })).pixels,
       ),
     ).toBe(0);
     // A mirror shows a lit ceiling, unless specular bounces are forbidden.
@@ -104,22 +104,22 @@ describe('biased options', () => {
     });
     addQuad(polished, 9, 5, lambert(0.8), { flip: true });
     polished.lights.push({ type: 'point', name: 'p', color: [1, 1, 1], intensity: 200, position: [6, 0, 4] });
-    const shown = mean((await picture(polished)).pixels);
+    const shown = mean((await image(polished)).pixels);
     expect(shown).toBeGreaterThan(0.1);
-    expect(mean((await picture(polished, { maxBounces: { specular: 0 } })).pixels) / shown).toBeLessThan(0.05);
-    expect(Math.abs(mean((await picture(polished, { maxBounces: { specular: 1 } })).pixels) / shown - 1)).toBeLessThan(
+    expect(mean((await image(polished, { maxBounces: { specular: 0 } })).pixels) / shown).toBeLessThan(0.05);
+    expect(Math.abs(mean((await image(polished, { maxBounces: { specular: 1 } })).pixels) / shown - 1)).toBeLessThan(
       0.2,
     );
   });
 
   it('regularisation calms caustics and keeps nearly all of their light', async () => {
-    const truth = await picture(corner(mirror), { samples: 1024 });
-    const soft = await picture(corner(mirror), { samples: 1024, regularization: 0.5 });
+    const truth = await image(corner(mirror), { samples: 1024 });
+    const soft = await image(corner(mirror), { samples: 1024, regularization: 0.5 });
     expect(truth.variance / soft.variance).toBeGreaterThan(2);
     expect(Math.abs(mean(soft.pixels) / mean(truth.pixels) - 1)).toBeLessThan(0.05);
     // What the camera sees directly stays sharp: the first surface is not softened.
-    const direct = (await picture(corner(mirror), { maxDepth: 2 })).pixels;
-    expect(largest((await picture(corner(mirror), { maxDepth: 2, regularization: 0.5 })).pixels, direct)).toBe(0);
+    const direct = (await image(corner(mirror), { maxDepth: 2 })).pixels;
+    expect(largest((await image(corner(mirror), { maxDepth: 2, regularization: 0.5 })).pixels, direct)).toBe(0);
   });
 
   it.each([

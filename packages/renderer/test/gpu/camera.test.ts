@@ -32,7 +32,7 @@ const glow = (luminance: number) => ({
 });
 
 describe('cameras', () => {
-  it('parallel projection: a square of half size h covers h/ymag of the picture, however far it is', async () => {
+  it('parallel projection: a square of half size h covers h/ymag of the image, however far it is', async () => {
     for (const distance of [0, -7]) {
       const scene = createScene();
       addQuad(scene, 0.5, distance, glow(1));
@@ -66,7 +66,7 @@ describe('cameras', () => {
       { type: 'panorama', name: 'p', transform: [0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1] },
       { width: 32, height: 16, samples: 1024, maxDepth: 1 },
     );
-    // A pixel is the mean over its square of the bilinear picture: weights 1 : 6 : 1 over the neighbours, each way.
+    // A pixel is the mean over its square of the bilinear image: weights 1 : 6 : 1 over the neighbours, each way.
     const texel = (x: number, y: number, c: number) =>
       data[3 * (Math.min(Math.max(y, 0), 15) * 32 + ((x + 32) % 32)) + c] as number;
     for (let y = 0; y < 16; y++) {
@@ -99,7 +99,7 @@ describe('cameras', () => {
       { type: 'panorama', name: 'p', transform: pinhole.transform },
       { width: 64, height: 32, samples: 1 },
     );
-    // The camera looks along −z from z = 3; the quad at z = 5 lies behind, at the picture's left and right edge.
+    // The camera looks along −z from z = 3; the quad at z = 5 lies behind, at the image's left and right edge.
     expect(tracer.pick(0.01, 16)?.distance).toBeCloseTo(2, 3);
     expect(tracer.pick(63.99, 16)?.depth).toBeCloseTo(-2, 3);
     expect(tracer.pick(32, 16)).toBeUndefined();

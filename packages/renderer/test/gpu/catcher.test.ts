@@ -21,7 +21,7 @@ function scene({
   floor = lambert(0.6, 0.5, 0.4),
 }: { ball?: boolean; catcher?: boolean; floor?: Material } = {}): Scene {
   const made = createScene();
-  // Larger than the picture to the left, so that the right shows what is beyond it.
+  // Larger than the image to the left, so that the right shows what is beyond it.
   addQuad(made, 2, 0, floor, { transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1.4, 0, 0, 1] });
   addQuad(
     made,
@@ -48,7 +48,7 @@ async function render(made: Scene, extra: Partial<PathTracerOptions> & { samples
   for await (const _ of tracer.render({ samples: extra.samples ?? 128, maxSubmitMs: 1000 }));
   return tracer;
 }
-async function picture(
+async function image(
   made: Scene,
   extra: Partial<PathTracerOptions> & { samples?: number } = {},
 ): Promise<Float32Array> {
@@ -61,9 +61,9 @@ const largest = (a: Float32Array, b: Float32Array) =>
   a.reduce((most, value, i) => Math.max(most, Math.abs(value - (b[i] as number))), 0);
 const luminance = (r: number, g: number, b: number) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
 
-/** For each pixel whether all of it is floor, ball, or nothing: found by alpha and ids of ordinary pictures. */
+/** For each pixel whether all of it is floor, ball, or nothing: found by alpha and ids of ordinary images. */
 async function classes(): Promise<('floor' | 'ball' | 'sky' | 'edge')[]> {
-  const bare = await picture(scene({ ball: false }), { background: 'transparent' });
+  const bare = await image(scene({ ball: false }), { background: 'transparent' });
   const withBall = await render(scene(), { background: 'transparent' });
   const [pixels, position] = [await withBall.read('beauty'), await withBall.read('position')];
   withBall.destroy();
@@ -89,10 +89,10 @@ describe('catchers', () => {
       0.01,
     ],
   ])('%s: what two renders, with and without the object, say', async (_, floor, least) => {
-    const found = await picture(scene({ catcher: true, floor }), { background: 'transparent' });
-    const over = await picture(scene({ catcher: true, floor }));
-    const kept = await picture(scene({ floor }));
-    const bare = await picture(scene({ ball: false, floor }));
+    const found = await image(scene({ catcher: true, floor }), { background: 'transparent' });
+    const over = await image(scene({ catcher: true, floor }));
+    const kept = await image(scene({ floor }));
+    const bare = await image(scene({ ball: false, floor }));
     const kinds = await classes();
     const counts = { floor: 0, ball: 0, sky: 0, edge: 0 };
     let shadowed = 0;
@@ -135,7 +135,7 @@ describe('catchers', () => {
     expect(added).toBeGreaterThan(least);
   });
 
-  it('the same picture whatever the batches, and relit without a sample', async () => {
+  it('the same image whatever the batches, and relit without a sample', async () => {
     const one = await render(scene({ catcher: true }), { samples: 40, lightGroups: 'each' });
     const two = await render(scene({ catcher: true }), { samples: 40, lightGroups: 'each', pathsInFlight: 100 });
     expect(largest(await one.read('beauty'), await two.read('beauty'))).toBe(0);
@@ -156,14 +156,14 @@ describe('catchers', () => {
     const plain = await tracer.read('beauty');
     await tracer.setCatcher(0, true);
     for await (const _ of tracer.render({ samples: 32, maxSubmitMs: 1000 }));
-    expect(largest(await tracer.read('beauty'), await picture(scene({ catcher: true }), { samples: 32 }))).toBeLessThan(
+    expect(largest(await tracer.read('beauty'), await image(scene({ catcher: true }), { samples: 32 }))).toBeLessThan(
       1e-5,
     );
     await tracer.setInstanceTransform('sphere', [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -0.4, 0.2, 0, 1]);
     for await (const _ of tracer.render({ samples: 32, maxSubmitMs: 1000 }));
     const moved = scene({ catcher: true });
     Object.assign(moved.instances[2] as object, { transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -0.4, 0.2, 0, 1] });
-    expect(largest(await tracer.read('beauty'), await picture(moved, { samples: 32 }))).toBeLessThan(1e-5);
+    expect(largest(await tracer.read('beauty'), await image(moved, { samples: 32 }))).toBeLessThan(1e-5);
     await tracer.setInstanceTransform('sphere', scene().instances[2]?.transform as number[]);
     await tracer.setCatcher(0, false);
     for await (const _ of tracer.render({ samples: 8, maxSubmitMs: 1000 }));

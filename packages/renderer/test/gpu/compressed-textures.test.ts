@@ -93,11 +93,11 @@ async function readsBlocks(): Promise<boolean> {
 const WEIGHTS = [0, 4, 9, 13, 17, 21, 26, 30, 34, 38, 43, 47, 51, 55, 60, 64];
 const toLinear = (code: number) => (code / 255 <= 0.04045 ? code / 255 / 12.92 : ((code / 255 + 0.055) / 1.055) ** 2.4);
 
-/** The mean of each quarter of a quad that a picture covers, in light of radiance 1. */
+/** The mean of each quarter of a quad that an image covers, in light of radiance 1. */
 async function seen(scene: Scene): Promise<number[][]> {
   scene.environment = { type: 'constant', radiance: [1, 1, 1] };
   addQuad(scene, 1, 0, {
-    name: 'picture',
+    name: 'image',
     parameters: { base_color: [1, 1, 1], specular_weight: 0 },
     textures: { base_color: { texture: 0, channels: 'rgb' } },
   });
@@ -190,7 +190,7 @@ it('all levels are used: far away, the smallest one', async ({ skip }) => {
   scene.environment = { type: 'constant', radiance: [1, 1, 1] };
   // Four hundred repeats over the quad: a pixel of 64 sees 6 of them.
   addQuad(scene, 1, 0, {
-    name: 'picture',
+    name: 'image',
     parameters: { base_color: [1, 1, 1], specular_weight: 0 },
     textures: { base_color: { texture: 0, channels: 'rgb', transform: [400, 0, 0, 400, 0, 0] } },
   });

@@ -124,7 +124,7 @@ describe('wavelengths', () => {
   });
 });
 
-async function picture(scene: Scene, samples: number, options: Partial<PathTracerOptions> = {}): Promise<Float32Array> {
+async function image(scene: Scene, samples: number, options: Partial<PathTracerOptions> = {}): Promise<Float32Array> {
   const tracer = await PathTracer.create(device, scene, { width: SIZE, height: SIZE, camera, ...options });
   try {
     for await (const progress of tracer.render({ samples })) void progress;
@@ -180,7 +180,7 @@ describe('dispersion', () => {
       transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1],
     });
     const seen = meanOf(
-      await picture(scene, 1024, { maxDepth: 3, camera: { ...camera, yfov: 1e-4 }, multipleScattering: false }),
+      await image(scene, 1024, { maxDepth: 3, camera: { ...camera, yfov: 1e-4 }, multipleScattering: false }),
       SIZE,
       0,
       0,
@@ -211,7 +211,7 @@ describe('dispersion', () => {
     expect(Math.abs(seen[2] / seen[0] - 1)).toBeGreaterThan(0.05);
   });
 
-  it('is the sum of pictures in many wavelengths', async () => {
+  it('is the sum of images in many wavelengths', async () => {
     const scene = (parameters: Material['parameters']): Scene => {
       const made = { ...createScene(), environment: ramp() };
       addSphere(made, 0.9, [0, 0, 0], glass(parameters), 64);
@@ -224,7 +224,7 @@ describe('dispersion', () => {
     for (let seed = 0; seed < 6; seed++)
       dispersed.push(
         meanOf(
-          await picture(
+          await image(
             scene({ specular_ior: n, transmission_dispersion_scale: 1, transmission_dispersion_abbe_number: abbe }),
             256,
             { ...options, seed },
@@ -244,7 +244,7 @@ describe('dispersion', () => {
       for (const seed of [1, 2])
         pair.push(
           meanOf(
-            await picture(scene({ specular_ior: cauchy(n, abbe, 380 + i) }), 64, { ...options, seed: 100 * seed + i }),
+            await image(scene({ specular_ior: cauchy(n, abbe, 380 + i) }), 64, { ...options, seed: 100 * seed + i }),
             SIZE,
             ...region,
           ),
@@ -261,8 +261,8 @@ describe('dispersion', () => {
       // Four standard errors of both, and 0.2 % for the steps of 20 nm.
       expect(Math.abs(mean - sum[k]!)).toBeLessThan(4 * Math.sqrt(variance + squares[k]!) + 0.002 * sum[k]!);
     }
-    // The same without dispersion is another picture: the comparison can fail.
-    const plain = meanOf(await picture(scene({ specular_ior: n }), 512, options), SIZE, ...region);
+    // The same without dispersion is another image: the comparison can fail.
+    const plain = meanOf(await image(scene({ specular_ior: n }), 512, options), SIZE, ...region);
     expect(Math.abs(plain[2] - sum[2]!)).toBeGreaterThan(0.01 * sum[2]!);
   }, 120_000);
 
@@ -275,7 +275,7 @@ describe('dispersion', () => {
       glass({ transmission_dispersion_scale: 1, transmission_dispersion_abbe_number: 10, specular_roughness: 0.2 }),
       64,
     );
-    const seen = meanOf(await picture(scene, 512, { maxDepth: 48 }), SIZE, 4, 4, 12, 12);
+    const seen = meanOf(await image(scene, 512, { maxDepth: 48 }), SIZE, 4, 4, 12, 12);
     for (const value of seen) expect(Math.abs(value - 1)).toBeLessThan(0.01);
   });
 

@@ -39,12 +39,12 @@ function stage(): Scene {
   return scene;
 }
 
-const picture = Float32Array.from({ length: 16 * 8 * 3 }, (_, i) => (Math.floor(i / 3) % 16 === 3 ? 4 : 0.2));
+const image = Float32Array.from({ length: 16 * 8 * 3 }, (_, i) => (Math.floor(i / 3) % 16 === 3 ? 4 : 0.2));
 const sky = (rotation: number): LatLongEnvironment => ({
   type: 'latlong',
   width: 16,
   height: 8,
-  data: picture,
+  data: image,
   rotation,
 });
 
@@ -159,7 +159,7 @@ const EDITS: readonly (readonly [
 /** An environment that counts the texel components that are read from its array. */
 function counted(rotation = 0) {
   const count = { reads: 0 };
-  const data = new Proxy(picture.slice(), {
+  const data = new Proxy(image.slice(), {
     get(target, key) {
       if (typeof key === 'string' && /^\d+$/.test(key)) count.reads++;
       const value: unknown = Reflect.get(target, key, target);
@@ -171,7 +171,7 @@ function counted(rotation = 0) {
 
 describe('edits of a live tracer', () => {
   it.each(EDITS)(
-    '%s: the picture of a tracer made for the edited scene, and nothing compiled',
+    '%s: the image of a tracer made for the edited scene, and nothing compiled',
     async (_, edit, change) => {
       const tracer = await PathTracer.create(device, stage(), options);
       const before = await beauty(tracer);
@@ -195,7 +195,7 @@ describe('edits of a live tracer', () => {
     const turned = { ...environment, rotation: 1.2 };
     const next: LatLongEnvironment[] = [turned, { ...turned, intensity: 0 }, { ...turned, intensity: 0.5 }];
     for (const setting of next) {
-      expect(count.reads).toBeGreaterThanOrEqual(picture.length);
+      expect(count.reads).toBeGreaterThanOrEqual(image.length);
       count.reads = 0;
       await tracer.setEnvironment(setting);
       expect(count.reads).toBe(0);

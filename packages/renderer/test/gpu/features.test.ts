@@ -43,7 +43,7 @@ const latlong = (intensity: number): Environment => ({
 const SCENES: readonly (readonly [string, (scene: Scene) => void])[] = [
   ['nothing but a matt surface', () => {}],
   ['surroundings', (scene) => (scene.environment = latlong(1))],
-  ['a dark picture of surroundings', (scene) => (scene.environment = latlong(0))],
+  ['a dark image of surroundings', (scene) => (scene.environment = latlong(0))],
   [
     'a lamp of each kind',
     (scene) =>

@@ -10,7 +10,7 @@ beforeAll(async () => {
 });
 afterEach(() => expectNoGpuErrors());
 
-/** One pixel of the picture is one unit of the world. */
+/** One pixel of the image is one unit of the world. */
 const camera: OrthographicCamera = {
   type: 'orthographic',
   name: 'o',

@@ -33,10 +33,10 @@ it('shows base colours and the background while the kernels compile, and is gone
     camera,
     seed: 77,
     onProgress: ({ stage, done }) => (compiled = stage === 'compile' ? done : compiled),
-    onFirstLight(picture) {
-      kept = picture;
+    onFirstLight(image) {
+      kept = image;
       expect(compiled).toBeLessThan(1);
-      shown.push(readBuffer(device, picture.buffer, 16 * 17 * 17).then((bytes) => new Float32Array(bytes)));
+      shown.push(readBuffer(device, image.buffer, 16 * 17 * 17).then((bytes) => new Float32Array(bytes)));
     },
   });
   expect(shown).toHaveLength(1);

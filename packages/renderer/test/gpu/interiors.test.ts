@@ -13,7 +13,7 @@ beforeAll(async () => {
 
 const SIZE = 16;
 
-async function picture(scene: Scene, samples: number, options: Partial<PathTracerOptions> = {}): Promise<Float32Array> {
+async function image(scene: Scene, samples: number, options: Partial<PathTracerOptions> = {}): Promise<Float32Array> {
   const tracer = await PathTracer.create(device, scene, { width: SIZE, height: SIZE, camera, ...options });
   try {
     for await (const progress of tracer.render({ samples })) void progress;
@@ -48,7 +48,7 @@ describe('interiors', () => {
   it('absorb along the way that light takes in them (Beer)', async () => {
     const scene = surrounded([1, 1, 1]);
     addBox(scene, [-2, -2, -0.5], [2, 2, 0.3], matter([0.5, 1, 3]));
-    const seen = meanOf(await picture(scene, 4), SIZE, 7, 7, 9, 9);
+    const seen = meanOf(await image(scene, 4), SIZE, 7, 7, 9, 9);
     [0.5, 1, 3].forEach((a, k) => expect(seen[k]).toBeCloseTo(Math.exp(-0.8 * a), 3));
   });
 
@@ -60,9 +60,9 @@ describe('interiors', () => {
       return scene;
     };
     // 0.6 m, 0.2 m of both, 0.9 m.
-    const under = meanOf(await picture(both(1, 2), 2), SIZE, 7, 7, 9, 9);
+    const under = meanOf(await image(both(1, 2), 2), SIZE, 7, 7, 9, 9);
     [0.6 * 1, 1.1 * 1.5, 0.6 * 2 + 1.1 * 0.5].forEach((tau, k) => expect(under[k]).toBeCloseTo(Math.exp(-tau), 3));
-    const over = meanOf(await picture(both(2, 1), 2), SIZE, 7, 7, 9, 9);
+    const over = meanOf(await image(both(2, 1), 2), SIZE, 7, 7, 9, 9);
     [0.8 * 1, 0.9 * 1.5, 0.8 * 2 + 0.9 * 0.5].forEach((tau, k) => expect(over[k]).toBeCloseTo(Math.exp(-tau), 3));
   });
 
@@ -70,11 +70,11 @@ describe('interiors', () => {
     const scene = createScene();
     scene.lights.push({ type: 'directional', name: 'sun', color: [1, 1, 1], intensity: 2, direction: [0, 0, -1] });
     addQuad(scene, 2, -1, lambert(0.5));
-    const open = meanOf(await picture(scene, 2), SIZE, 0, 0, SIZE, SIZE);
+    const open = meanOf(await image(scene, 2), SIZE, 0, 0, SIZE, SIZE);
     expect(open[0]).toBeCloseTo((0.5 * 2) / Math.PI, 4);
     // The camera is in front of the box: light crosses it once, and the view once more.
     addBox(scene, [-3, -3, -0.4], [3, 3, 0], matter([0.5, 1, 2]));
-    const dimmed = meanOf(await picture(scene, 4), SIZE, 7, 7, 9, 9);
+    const dimmed = meanOf(await image(scene, 4), SIZE, 7, 7, 9, 9);
     [0.5, 1, 2].forEach((a, k) => expect(dimmed[k]).toBeCloseTo(((0.5 * 2) / Math.PI) * Math.exp(-0.8 * a), 3));
   });
 
@@ -82,7 +82,7 @@ describe('interiors', () => {
     for (const anisotropy of [0, 0.8, -0.5]) {
       const scene = surrounded([1, 0.5, 0.25]);
       addSphere(scene, 0.8, [0, 0, 0], matter([0, 0, 0], [1, 2, 5], anisotropy));
-      const seen = meanOf(await picture(scene, 128, { maxDepth: 256 }), SIZE, 0, 0, SIZE, SIZE);
+      const seen = meanOf(await image(scene, 128, { maxDepth: 256 }), SIZE, 0, 0, SIZE, SIZE);
       [1, 0.5, 0.25].forEach((l, k) => expect(seen[k]! / l).toBeCloseTo(1, 2));
     }
   });
@@ -93,7 +93,7 @@ describe('interiors', () => {
     const scene = createScene();
     scene.lights.push({ type: 'directional', name: 'sun', color: [1, 1, 1], intensity: 3, direction: [1, 0, 0] });
     addBox(scene, [-1.5, -1.5, -0.5], [1.5, 1.5, 0.5], matter([0, 0, 0], [sigma, sigma, sigma]));
-    const seen = meanOf(await picture(scene, 256, { maxDepth: 4 }), SIZE, 5, 5, 11, 11);
+    const seen = meanOf(await image(scene, 256, { maxDepth: 4 }), SIZE, 5, 5, 11, 11);
     expect(seen[0] / ((sigma * 3) / (4 * Math.PI))).toBeCloseTo(1, 1);
   });
 
@@ -107,7 +107,7 @@ describe('interiors', () => {
         { name: 'glass', parameters: { transmission_weight: 1, specular_ior: 1.5, specular_roughness } },
         96,
       );
-      const seen = meanOf(await picture(scene, 256, { maxDepth: 32 }), SIZE, 4, 4, 12, 12);
+      const seen = meanOf(await image(scene, 256, { maxDepth: 32 }), SIZE, 4, 4, 12, 12);
       for (const value of seen) expect(Math.abs(value - 1)).toBeLessThan(0.01);
     }
   });
@@ -125,7 +125,7 @@ describe('interiors', () => {
     const [mesh] = scene.meshes;
     // Each corner's normal lies between its three faces', so that of the wide faces is as far off as 55°.
     mesh!.normals = mesh!.positions.map((value) => Math.sign(value) / Math.sqrt(3));
-    const pixels = await picture(scene, 256, { maxDepth: 64 });
+    const pixels = await image(scene, 256, { maxDepth: 64 });
     const seen = meanOf(pixels, SIZE, 3, 3, 13, 13);
     for (const value of seen) expect(Math.abs(value - 1)).toBeLessThan(0.03);
     // No pixel of it is dark.
@@ -139,7 +139,7 @@ describe('interiors', () => {
       name: 'milk',
       parameters: { ...parameters, specular_ior: 1.33, specular_roughness: 0.2 },
     });
-    const seen = meanOf(await picture(scene, 64, { maxDepth: 64 }), SIZE, 4, 4, 12, 12);
+    const seen = meanOf(await image(scene, 64, { maxDepth: 64 }), SIZE, 4, 4, 12, 12);
     for (const value of seen) expect(Math.abs(value - 1)).toBeLessThan(0.02);
   });
 
@@ -159,19 +159,12 @@ describe('interiors', () => {
       });
       return scene;
     };
-    const white = meanOf(
-      await picture(body([1, 1, 1]), 64, { maxDepth: 64, maxVolumeDepth: 1024 }),
-      SIZE,
-      5,
-      5,
-      11,
-      11,
-    );
+    const white = meanOf(await image(body([1, 1, 1]), 64, { maxDepth: 64, maxVolumeDepth: 1024 }), SIZE, 5, 5, 11, 11);
     for (const value of white) expect(Math.abs(value - 1)).toBeLessThan(0.02);
     // Far smaller than the body, the walk sees a half space: what comes back is the colour, and what the surface
     // mirrors.
     const [r, g, b] = meanOf(
-      await picture(body([0.8, 0.5, 0.2], { subsurface_radius: 0.01 }), 64, { maxDepth: 64 }),
+      await image(body([0.8, 0.5, 0.2], { subsurface_radius: 0.01 }), 64, { maxDepth: 64 }),
       SIZE,
       6,
       6,
@@ -189,16 +182,16 @@ describe('interiors', () => {
 
   it('of more scattering events, or of more materials, than a path can count are refused', async () => {
     for (const maxVolumeDepth of [-1, 1.5, NaN, 65_536])
-      await expect(picture(surrounded([1, 1, 1]), 1, { maxVolumeDepth })).rejects.toMatchObject({
+      await expect(image(surrounded([1, 1, 1]), 1, { maxVolumeDepth })).rejects.toMatchObject({
         code: 'renderer/option',
       });
-    await expect(picture(surrounded([1, 1, 1]), 1, { maxDepth: 65_536 })).rejects.toMatchObject({
+    await expect(image(surrounded([1, 1, 1]), 1, { maxDepth: 65_536 })).rejects.toMatchObject({
       code: 'renderer/option',
     });
     const scene = surrounded([1, 1, 1]);
     for (let i = 0; i < 0x7fff; i++) scene.materials.push(lambert(0.5));
     addBox(scene, [-1, -1, -1], [1, 1, 1], matter([1, 1, 1]));
-    await expect(picture(scene, 1)).rejects.toMatchObject({ code: 'renderer/limit' });
+    await expect(image(scene, 1)).rejects.toMatchObject({ code: 'renderer/limit' });
   });
 
   it('a lamp in a block of absorbing glass lights a wall in it through the glass', async () => {
@@ -212,7 +205,7 @@ describe('interiors', () => {
     // A lamp of 1 cd, 0.3 m aside and 0.5 m in front, all inside; seen through 1 m of glass and its surface.
     scene.lights = [{ type: 'point', name: 'lamp', color: [1, 1, 1], intensity: 1, position: [0.3, 0, 0] }];
     const lit = meanOf(
-      await picture(scene, 32, { maxDepth: 3, camera: { ...camera, yfov: 0.02 } }),
+      await image(scene, 32, { maxDepth: 3, camera: { ...camera, yfov: 0.02 } }),
       SIZE,
       0,
       0,

@@ -10,7 +10,7 @@ beforeAll(async () => {
 afterAll(() => device.destroy());
 
 // Test machines have no GPU, so that one of the two ways is never gone by itself.
-it('the picture is the same bit for bit whether the GPU counts the paths that are left or threads without one end', async () => {
+it('the image is the same bit for bit whether the GPU counts the paths that are left or threads without one end', async () => {
   const scene = createScene();
   addQuad(scene, 5, -1, lambert(0.7));
   addQuad(scene, 1, 3, { name: 'lamp', parameters: { emission_luminance: 5 } }, { flip: true });
@@ -32,7 +32,7 @@ it('the picture is the same bit for bit whether the GPU counts the paths that ar
   scene.environment = { type: 'constant', radiance: [0.2, 0.3, 0.4] };
   const pass = device.createCommandEncoder().beginComputePass();
   const indirect = vi.spyOn(Object.getPrototypeOf(pass) as GPUComputePassEncoder, 'dispatchWorkgroupsIndirect');
-  const picture = async () => {
+  const image = async () => {
     const tracer = await PathTracer.create(device, scene, {
       width: 16,
       height: 12,
@@ -48,16 +48,16 @@ it('the picture is the same bit for bit whether the GPU counts the paths that ar
     tracer.destroy();
     return { pixels, rays };
   };
-  const counted = await picture();
+  const counted = await image();
   expect(indirect).toHaveBeenCalled();
   indirect.mockClear();
   Object.defineProperty(device, 'adapterInfo', {
     value: { vendor: 'a', architecture: 'real', device: 'one', description: '' },
   });
-  const launched = await picture();
+  const launched = await image();
   expect(indirect).not.toHaveBeenCalled();
   expect(launched.rays).toBe(counted.rays);
   expect(launched.pixels.every((value, i) => Object.is(value, counted.pixels[i]))).toBe(true);
-  // And it is a picture.
+  // And it is an image.
   expect(new Set(counted.pixels).size).toBeGreaterThan(300);
 });

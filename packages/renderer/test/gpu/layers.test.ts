@@ -9,7 +9,7 @@ beforeAll(async () => {
 });
 afterEach(() => expectNoGpuErrors());
 
-/** A noisy picture: a plane lit by a small bright square that half of the light samples miss behind a blind. */
+/** A noisy image: a plane lit by a small bright square that half of the light samples miss behind a blind. */
 function noisy() {
   const scene = createScene();
   addQuad(scene, 3, 0, lambert(0.7));
@@ -30,7 +30,7 @@ describe('variance', () => {
     ['independent', 0.85, 1.2],
     // Sobol points vary less from chunk to chunk than the chunks' spread tells.
     ['sobol', 0.9, 4],
-  ] as const)('%s: the estimate against the spread of many pictures', async (sampler, low, high) => {
+  ] as const)('%s: the estimate against the spread of many images', async (sampler, low, high) => {
     const runs = 40;
     const size = 12;
     const sum = new Float64Array(size * size * 3);

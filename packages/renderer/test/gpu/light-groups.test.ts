@@ -110,7 +110,7 @@ describe('light groups', () => {
         ),
       ),
     ).toBeLessThan(2e-6);
-    // More samples go on from there: the same picture as one that was lit so from its first sample.
+    // More samples go on from there: the same image as one that was lit so from its first sample.
     for await (const _ of tracer.render({ samples: 50, maxSubmitMs: 1000 }));
     const later = await PathTracer.create(device, studio(), {
       width: 16,
@@ -132,7 +132,7 @@ describe('light groups', () => {
     later.destroy();
   });
 
-  it('each light by its own name, and the same picture whatever the batches', async () => {
+  it('each light by its own name, and the same image whatever the batches', async () => {
     const options = { lightGroups: 'each' } as const;
     const scene = studio();
     delete scene.materials[2]?.light_group;
@@ -145,7 +145,7 @@ describe('light groups', () => {
     await one.setMaterial('ball', { emission_luminance: 1 });
     expect(one.lightGroups.map(({ name }) => name)).toEqual(['sky', 'lamp', 'ball', 'square']);
     for await (const _ of one.render({ samples: 8, maxSubmitMs: 1000 }));
-    // The middle of the picture is the ball, which now glows.
+    // The middle of the image is the ball, which now glows.
     expect(meanOf(await one.readLightGroup('ball'), 16, 7, 7, 9, 9)[0]).toBeGreaterThan(0.9);
     one.destroy();
     two.destroy();

@@ -114,7 +114,7 @@ var<private> frame = TestFrame(${COUNT}u);
 
 const SIZE = 16;
 
-async function picture(scene: Scene, samples: number, options: Partial<PathTracerOptions>): Promise<Float32Array> {
+async function image(scene: Scene, samples: number, options: Partial<PathTracerOptions>): Promise<Float32Array> {
   const tracer = await PathTracer.create(device, scene, { width: SIZE, height: SIZE, camera, ...options });
   try {
     for await (const progress of tracer.render({ samples })) void progress;
@@ -175,7 +175,7 @@ function manyLights(count: number): Scene {
   return scene;
 }
 
-/** Below the panes, looking at the floor: edges of panes in the picture would be noise of their own. */
+/** Below the panes, looking at the floor: edges of panes in the image would be noise of their own. */
 const below = { ...camera, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0.1, 1], yfov: 1.5 };
 
 /** Mean and its standard error over runs, of blocks of 4 × 4 pixels. */
@@ -195,13 +195,13 @@ function blocks(runs: readonly Float32Array[]): { mean: number; error: number }[
 }
 
 describe('many lights', () => {
-  it('by the tree and by power give the same picture, the tree with less noise', async () => {
+  it('by the tree and by power give the same image, the tree with less noise', async () => {
     const scene = manyLights(400);
     const runs = async (lightSampling: 'tree' | 'power', samples: number) => {
-      const pictures: Float32Array[] = [];
+      const images: Float32Array[] = [];
       for (let seed = 0; seed < 6; seed++)
-        pictures.push(
-          await picture(scene, samples, {
+        images.push(
+          await image(scene, samples, {
             lightSampling,
             seed: seed + 50,
             maxDepth: 3,
@@ -209,7 +209,7 @@ describe('many lights', () => {
             camera: below,
           }),
         );
-      return blocks(pictures);
+      return blocks(images);
     };
     const [tree, power] = [await runs('tree', 256), await runs('power', 256)];
     let chi = 0;

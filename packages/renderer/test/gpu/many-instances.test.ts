@@ -147,7 +147,7 @@ it('an edit of one instance reads and writes what it touches, not the others', a
 /** A linear congruential generator, 0..1. */
 const randomNumbers = (seed: number) => () => (seed = (Math.imul(seed, 1664525) + 1013904223) >>> 0) / 2 ** 32;
 
-it('after hundreds of edits the picture and what a click finds are those of a new tracer (seed 91)', async () => {
+it('after hundreds of edits the image and what a click finds are those of a new tracer (seed 91)', async () => {
   const random = randomNumbers(91);
   const scene = boxes(150, 6);
   addSphere(scene, 0.4, [0, 0, 0], lambert(0.8, 0.3, 0.2), 10);
@@ -166,12 +166,12 @@ it('after hundreds of edits the picture and what a click finds are those of a ne
   scene.lights.push({ type: 'directional', name: 'sun', color: [1, 1, 1], intensity: 1, direction: [0.3, -0.2, -1] });
   scene.environment = { type: 'constant', radiance: [0.3, 0.4, 0.5] };
   const options = { width: 24, height: 24, camera, pathsInFlight: 1 << 13, maxDepth: 3 };
-  const picture = async (tracer: PathTracer) => {
+  const image = async (tracer: PathTracer) => {
     for await (const _ of tracer.render({ samples: 4, maxSubmitMs: 1000 }));
     return tracer.read('beauty');
   };
   const tracer = await PathTracer.create(device, scene, options);
-  let before = await picture(tracer);
+  let before = await image(tracer);
   for (let stage = 0; stage < 3; stage++) {
     for (let turn = 0; turn < 60; turn++) {
       const i = Math.floor(150 * random()),
@@ -184,9 +184,9 @@ it('after hundreds of edits the picture and what a click finds are those of a ne
     if (stage === 1) await tracer.setCatcher(scene.instances.length - 1, true);
     if (stage === 1) await tracer.setMaterial(glow, { emission_luminance: 0 });
     if (stage === 2) await tracer.setMaterial(glow, { emission_luminance: 2 });
-    const after = await picture(tracer);
+    const after = await image(tracer);
     const fresh = await PathTracer.create(device, tracer.scene, options);
-    const expected = await picture(fresh);
+    const expected = await image(fresh);
     const largest = (a: Float32Array, b: Float32Array) =>
       a.reduce((most, value, i) => Math.max(most, Math.abs(value - b[i]!)), 0);
     expect(largest(after, before)).toBeGreaterThan(1e-2);
@@ -226,7 +226,7 @@ it('an opaque material shows what is behind at once on a mesh whose vertex colou
   scene.meshes[1]!.colors = Float32Array.from({ length: 16 }, (_, i) => (i % 4 === 3 ? 0.25 : 1));
   scene.environment = { type: 'constant', radiance: [1, 1, 1] };
   const options = { width: 8, height: 8, camera };
-  const picture = async (tracer: PathTracer) => {
+  const image = async (tracer: PathTracer) => {
     for await (const _ of tracer.render({ samples: 4 }));
     const pixels = await tracer.read('beauty');
     tracer.destroy();
@@ -235,6 +235,6 @@ it('an opaque material shows what is behind at once on a mesh whose vertex colou
   const edited = await PathTracer.create(device, scene, options);
   await edited.setInstanceMaterial(1, 0);
   const assigned = { ...scene, instances: scene.instances.map((instance) => ({ ...instance, material: 0 })) };
-  const [after, expected] = [await picture(edited), await picture(await PathTracer.create(device, assigned, options))];
+  const [after, expected] = [await image(edited), await image(await PathTracer.create(device, assigned, options))];
   expect(after.every((value, i) => Math.abs(value - expected[i]!) < 1e-5)).toBe(true);
 });

@@ -77,12 +77,12 @@ describe('memory', () => {
     tracer.destroy();
   });
 
-  it('says in a sentence which limit a picture exceeds', async () => {
+  it('says in a sentence which limit an image exceeds', async () => {
     const device = await testDevice({ defaultLimits: true });
     const scene = createScene();
     addQuad(scene, 1, 0, lambert(0.5));
     await expect(PathTracer.create(device, scene, { width: 4096, height: 4096, camera })).rejects.toThrow(
-      /^The buffer "film block" takes 256\.0 MiB, but this device's maxStorageBufferBindingSize is 128\.0 MiB: make the picture smaller/,
+      /^The buffer "film block" takes 256\.0 MiB, but this device's maxStorageBufferBindingSize is 128\.0 MiB: make the image smaller/,
     );
   });
 });

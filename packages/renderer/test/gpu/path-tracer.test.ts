@@ -188,7 +188,7 @@ describe('surroundings and textures', () => {
     return { type: 'latlong', width: 64, height: 32, data } as const;
   };
 
-  it('the picture’s centre lies towards +X, u grows towards +Z, rotation turns it about +Y', async () => {
+  it('the image’s centre lies towards +X, u grows towards +Z, rotation turns it about +Y', async () => {
     // Looking along −z: u = atan2(−1, 0)/2π + ½ = ¼, v = ½.
     for (const [texel, rotation] of [
       [16, 0],
@@ -315,7 +315,7 @@ describe('the session', () => {
     return scene;
   };
 
-  it('gives the same picture bit for bit whatever the batches, also when interrupted', async () => {
+  it('gives the same image bit for bit whatever the batches, also when interrupted', async () => {
     const reference = (await render(cornell(), { samples: 70, seed: 5 })).pixels;
     const small = (await render(cornell(), { samples: 70, seed: 5, pathsInFlight: 100, maxSubmitMs: 1 })).pixels;
     expect(same(small, reference)).toBe(true);

@@ -126,16 +126,16 @@ it.each(['blue-noise', 'sobol', 'independent'] as const)(
   },
 );
 
-/** Power of a square picture at each frequency, relative to its mean: slow, but short. */
-function spectrum(picture: Float64Array, edge: number): (across: number, down: number) => number {
-  const total = picture.reduce((sum, value) => sum + value * value, 0);
+/** Power of a square image at each frequency, relative to its mean: slow, but short. */
+function spectrum(image: Float64Array, edge: number): (across: number, down: number) => number {
+  const total = image.reduce((sum, value) => sum + value * value, 0);
   return (across, down) => {
     let [real, imaginary] = [0, 0];
     for (let y = 0; y < edge; y++) {
       for (let x = 0; x < edge; x++) {
         const phase = (2 * Math.PI * (across * x + down * y)) / edge;
-        real += picture[y * edge + x]! * Math.cos(phase);
-        imaginary += picture[y * edge + x]! * Math.sin(phase);
+        real += image[y * edge + x]! * Math.cos(phase);
+        imaginary += image[y * edge + x]! * Math.sin(phase);
       }
     }
     return (real * real + imaginary * imaginary) / total;
@@ -171,7 +171,7 @@ async function lowFrequencies(
   return sum / count;
 }
 
-describe.each(INTEGRANDS)('the error of %s over the picture', (_, f, mean) => {
+describe.each(INTEGRANDS)('the error of %s over the image', (_, f, mean) => {
   it.each([1, 4, 16])('has at most 0.65 of white noise at low frequencies, at %i samples', async (samples) => {
     expect(await lowFrequencies('blue-noise', samples, f, mean)).toBeLessThan(0.65);
     // About a hundred frequencies: white noise has 1 ± 0.1.

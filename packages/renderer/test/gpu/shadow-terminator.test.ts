@@ -12,8 +12,8 @@ afterAll(() => expectNoGpuErrors());
 
 const SIZE = 48;
 
-/** Green channel of a picture. */
-async function picture(scene: Scene, options: Partial<PathTracerOptions> = {}, samples = 64): Promise<Float32Array> {
+/** Green channel of an image. */
+async function image(scene: Scene, options: Partial<PathTracerOptions> = {}, samples = 64): Promise<Float32Array> {
   const tracer = await PathTracer.create(device, scene, { width: SIZE, height: SIZE, camera, maxDepth: 2, ...options });
   for await (const progress of tracer.render({ samples })) void progress;
   const beauty = await tracer.read('beauty');
@@ -47,10 +47,10 @@ const mean = (a: Float32Array) => inside.reduce((sum, i) => sum + a[i]!, 0) / in
 
 describe('a ball of few triangles with smooth normals', () => {
   it('is lit as one of many, without the edges of its triangles', async () => {
-    const fine = await picture(ball(192), { shadowTerminator: 'faceted' });
+    const fine = await image(ball(192), { shadowTerminator: 'faceted' });
     for (const segments of [16, 24]) {
-      const smooth = await picture(ball(segments), { shadowTerminator: 'smooth' });
-      const faceted = await picture(ball(segments), { shadowTerminator: 'faceted' });
+      const smooth = await image(ball(segments), { shadowTerminator: 'smooth' });
+      const faceted = await image(ball(segments), { shadowTerminator: 'faceted' });
       // Its silhouette and interpolated normals still differ a little from the fine ball's.
       expect(rms(smooth, fine)).toBeLessThan(0.5 * rms(faceted, fine));
     }
@@ -81,7 +81,7 @@ describe('a ball of few triangles with smooth normals', () => {
     exact *= 3 / Math.PI;
     // 1.3 % with 16 segments: its normals are a sphere's, but its pixels lie elsewhere on it.
     for (const segments of [16, 32, 96]) {
-      const smooth = mean(await picture(ball(segments)));
+      const smooth = mean(await image(ball(segments)));
       expect(Math.abs(smooth / exact - 1)).toBeLessThan(0.0005 + 0.015 * (16 / segments) ** 2);
     }
   });
@@ -90,8 +90,8 @@ describe('a ball of few triangles with smooth normals', () => {
     const scene = createScene();
     addSphere(scene, 0.8, [0, 0, 0], lambert(1), 16);
     scene.environment = { type: 'constant', radiance: [1, 1, 1] };
-    const smooth = await picture(scene, { maxDepth: 8, shadowTerminator: 'smooth' });
-    const faceted = await picture(scene, { maxDepth: 8, shadowTerminator: 'faceted' });
+    const smooth = await image(scene, { maxDepth: 8, shadowTerminator: 'smooth' });
+    const faceted = await image(scene, { maxDepth: 8, shadowTerminator: 'faceted' });
     // White in white: exact but for paths that are too long or hit the ball again.
     expect(mean(faceted)).toBeLessThan(0.998);
     expect(mean(smooth)).toBeGreaterThan(0.9995);
@@ -114,14 +114,14 @@ describe('a ball of few triangles with smooth normals', () => {
       addQuad(scene, 3, 0, lamp, { transform: [0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 4, 0, 0, 1] });
       return scene;
     };
-    const both = await picture(lit(true), { sampler: 'sobol' }, 256);
+    const both = await image(lit(true), { sampler: 'sobol' }, 256);
     const alone = lit(false);
     alone.environment = { type: 'constant', radiance: [4, 4, 4] };
     const all = createScene();
     addSphere(all, 0.8, [0, 0, 0], lambert(0.8), 16);
     all.environment = { type: 'constant', radiance: [4, 4, 4] };
     // Everything without what the dark wall hides is what the wall would give.
-    const [bright, dimmed] = [await picture(all, {}, 256), await picture(alone, {}, 256)];
+    const [bright, dimmed] = [await image(all, {}, 256), await image(alone, {}, 256)];
     expect(Math.abs(mean(both) - (mean(bright) - mean(dimmed)))).toBeLessThan(0.01 * mean(both));
   });
 });
@@ -157,8 +157,8 @@ describe('what has no smooth surface to stand for', () => {
     hollow.instances[0]!.transform = [4.5, 0, 0, 0, 0, 4.5, 0, 0, 0, 0, 4.5, 0, 0, 0, 0, 1];
     hollow.lights.splice(0, 1, { type: 'point', name: 'lamp', color: [1, 1, 1], intensity: 5, position: [0, 0, 0] });
     for (const scene of [box, hollow]) {
-      expect(await picture(scene, { shadowTerminator: 'smooth' }, 16)).toEqual(
-        await picture(scene, { shadowTerminator: 'faceted' }, 16),
+      expect(await image(scene, { shadowTerminator: 'smooth' }, 16)).toEqual(
+        await image(scene, { shadowTerminator: 'faceted' }, 16),
       );
     }
   });

@@ -36,7 +36,7 @@ const spot = (
  * distance and times the cosine, over a grid of points in each pixel. The test's camera sees from −1 to 1 there.
  */
 function integrate(lights: readonly SpotLight[]): Float64Array {
-  const picture = new Float64Array(SIZE * SIZE);
+  const image = new Float64Array(SIZE * SIZE);
   for (let i = 0; i < SIZE * SIZE * GRID * GRID; i++) {
     const pixel = Math.floor(i / (GRID * GRID));
     const x = (2 * ((pixel % SIZE) + ((i % GRID) + 0.5) / GRID)) / SIZE - 1;
@@ -49,12 +49,12 @@ function integrate(lights: readonly SpotLight[]): Float64Array {
       // The extension's own words, by which the sharpest edge is 0.001 wide.
       const cone =
         Math.min(1, Math.max(0, (cosine - outer) / Math.max(0.001, Math.cos(inner_cone_angle) - outer))) ** 2;
-      picture[pixel] =
-        (picture[pixel] as number) +
+      image[pixel] =
+        (image[pixel] as number) +
         ((ALBEDO / Math.PI) * intensity * cone * (p[2] / distance)) / distance ** 2 / GRID ** 2;
     }
   }
-  return picture;
+  return image;
 }
 
 const mean = (values: ArrayLike<number>) => Array.from(values).reduce((sum, value) => sum + value, 0) / values.length;

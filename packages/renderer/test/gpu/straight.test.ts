@@ -12,7 +12,7 @@ afterAll(() => expectNoGpuErrors());
 
 const SIZE = 16;
 
-async function picture(scene: Scene, samples: number, options: Partial<PathTracerOptions> = {}): Promise<Float32Array> {
+async function image(scene: Scene, samples: number, options: Partial<PathTracerOptions> = {}): Promise<Float32Array> {
   const tracer = await PathTracer.create(device, scene, { width: SIZE, height: SIZE, camera, ...options });
   try {
     for await (const progress of tracer.render({ samples })) void progress;
@@ -64,7 +64,7 @@ describe('smooth thin walls', () => {
       scene.lights.push({ type: 'directional', name: 'sun', color: [1, 1, 1], intensity: 2, direction });
       const cosine = -direction[2];
       // maxDepth 2: a pane is no edge.
-      const seen = mean(await picture(scene, 4, { camera: low, maxDepth: 2 }));
+      const seen = mean(await image(scene, 4, { camera: low, maxDepth: 2 }));
       for (const value of seen)
         expect(Math.abs(value / ((0.5 / Math.PI) * 2 * cosine * (1 - reflected(cosine)) ** panes) - 1)).toBeLessThan(
           0.002,
@@ -77,7 +77,7 @@ describe('smooth thin walls', () => {
     addQuad(scene, 50, 0, lambert(0.5));
     addQuad(scene, 50, 1, pane({ transmission_color: [0.9, 0.5, 0.2] }));
     scene.lights.push({ type: 'directional', name: 'sun', color: [1, 1, 1], intensity: 2, direction: [0.8, 0, -0.6] });
-    const seen = mean(await picture(scene, 4, { camera: low, maxDepth: 2 }));
+    const seen = mean(await image(scene, 4, { camera: low, maxDepth: 2 }));
     const slant = 1 / Math.sqrt(1 - 0.64 / 2.25);
     [0.9, 0.5, 0.2].forEach((c, k) =>
       expect(seen[k]! / ((0.5 / Math.PI) * 2 * 0.6 * (1 - reflected(0.6)) * c ** slant)).toBeCloseTo(1, 3),
@@ -92,7 +92,7 @@ describe('smooth thin walls', () => {
     addQuad(scene, 50, 0, lambert(0.5));
     addQuad(scene, 50, 1, pane());
     addQuad(scene, size / 2, height, emitter, { flip: true });
-    const seen = mean(await picture(scene, 512, { camera: low, maxDepth: 2 }));
+    const seen = mean(await image(scene, 512, { camera: low, maxDepth: 2 }));
     let expected = 0;
     const steps = 400;
     for (let i = 0; i < steps; i++) {
@@ -110,15 +110,15 @@ describe('smooth thin walls', () => {
     const scene = createScene();
     addQuad(scene, 50, -1, emitter);
     addQuad(scene, 50, 0, pane());
-    const through = mean(await picture(scene, 256, { maxDepth: 1 }));
-    const narrow = mean(await picture(scene, 256, { maxDepth: 1, camera: { ...camera, yfov: 1e-3 } }));
+    const through = mean(await image(scene, 256, { maxDepth: 1 }));
+    const narrow = mean(await image(scene, 256, { maxDepth: 1, camera: { ...camera, yfov: 1e-3 } }));
     expect(narrow[0] / (3 * (1 - reflected(1)))).toBeCloseTo(1, 2);
     expect(through[0]).toBeLessThan(3);
     // In even light a pane takes nothing and adds nothing.
     const even = createScene();
     even.environment = { type: 'constant', radiance: [1, 1, 1] };
     addSphere(even, 0.8, [0, 0, 0], pane(), 64);
-    for (const value of meanOf(await picture(even, 256, { maxDepth: 16 }), SIZE, 3, 3, 13, 13))
+    for (const value of meanOf(await image(even, 256, { maxDepth: 16 }), SIZE, 3, 3, 13, 13))
       expect(Math.abs(value - 1)).toBeLessThan(0.005);
   });
 
@@ -136,7 +136,7 @@ describe('smooth thin walls', () => {
     const runs = async (roughness: number, samples: number) => {
       const values: number[] = [];
       for (let seed = 0; seed < 6; seed++)
-        values.push(meanOf(await picture(scene(roughness), samples, { seed, maxDepth: 12 }), SIZE, 5, 5, 11, 11)[0]);
+        values.push(meanOf(await image(scene(roughness), samples, { seed, maxDepth: 12 }), SIZE, 5, 5, 11, 11)[0]);
       const average = values.reduce((a, b) => a + b) / values.length;
       return {
         average,

@@ -12,7 +12,7 @@ afterEach(() => expectNoGpuErrors());
 
 const SIZE = 12;
 
-async function picture(
+async function image(
   scene: Scene,
   background: NonNullable<PathTracerOptions['background']>,
   samples = 32,
@@ -48,15 +48,15 @@ describe('a transparent background', () => {
     ['smooth glass', glass(0)],
     ['rough glass', glass(0.4)],
     ['a thin wall', glass(0.2, true)],
-  ])('seen through %s: put over the surroundings it is the picture with them', async (_, material) => {
+  ])('seen through %s: put over the surroundings it is the image with them', async (_, material) => {
     const scene = createScene();
     addSphere(scene, 0.6, [0, 0, 0], material, 24);
     addQuad(scene, 0.3, -0.8, lambert(0.7, 0.2, 0.1), {
       transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.5, 0.4, 0, 1],
     });
     scene.environment = { type: 'constant', radiance: SKY };
-    const opaque = await picture(scene, 'environment');
-    const clear = await picture(scene, 'transparent');
+    const opaque = await image(scene, 'environment');
+    const clear = await image(scene, 'transparent');
     let partial = 0;
     for (let i = 0; i < SIZE * SIZE; i++) {
       const alpha = clear[4 * i + 3] as number;
@@ -80,8 +80,8 @@ describe('a transparent background', () => {
       Math.floor(i / 3) % 32 < 15 && Math.floor(i / 3) % 32 > 0 ? 2 : 0,
     );
     scene.environment = { type: 'latlong', width: 32, height: 16, data } satisfies Environment;
-    const opaque = await picture(scene, 'environment', 64);
-    const clear = await picture(scene, 'transparent', 64);
+    const opaque = await image(scene, 'environment', 64);
+    const clear = await image(scene, 'transparent', 64);
     for (let i = 0; i < SIZE * SIZE; i++) {
       expect(opaque[4 * i]).toBeGreaterThan(0.5);
       expect(clear[4 * i] as number).toBeLessThan(1e-6);
@@ -98,14 +98,14 @@ describe('a transparent background', () => {
     addQuad(white, 5, 0, glass(0, true));
     white.environment = scene.environment;
     // Through a clear wall passes 1 − α; through a coloured one that, times about its colour's luminance.
-    const clear = await picture(white, 'transparent', 256);
-    const tinted = await picture(scene, 'transparent', 256);
+    const clear = await image(white, 'transparent', 256);
+    const tinted = await image(scene, 'transparent', 256);
     const mean = (pixels: Float32Array) =>
       pixels.reduce((sum, value, i) => (i % 4 === 3 ? sum + value : sum), 0) / (SIZE * SIZE);
     const luminance = 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2];
     expect((1 - mean(tinted)) / (1 - mean(clear)) / luminance).toBeGreaterThan(0.9);
     expect((1 - mean(tinted)) / (1 - mean(clear)) / luminance).toBeLessThan(1.1);
     addQuad(scene, 5, -1, lambert(0.5));
-    expect(mean(await picture(scene, 'transparent'))).toBeCloseTo(1, 5);
+    expect(mean(await image(scene, 'transparent'))).toBeCloseTo(1, 5);
   });
 });

@@ -15,7 +15,7 @@ function sceneWith(sizes: readonly (readonly [number, number, 'srgb' | 'linear']
 }
 
 describe('planTextures', () => {
-  it('puts pictures of one size and colour space into one array', () => {
+  it('puts images of one size and colour space into one array', () => {
     const plan = planTextures(
       sceneWith([
         [8, 8, 'srgb'],
@@ -35,7 +35,7 @@ describe('planTextures', () => {
     expect(plan.placements.get(1)).toMatchObject({ layer: 1, width: 8, height: 8 });
   });
 
-  it('merges sizes when there are more than slots, never shrinking a picture', () => {
+  it('merges sizes when there are more than slots, never shrinking an image', () => {
     const sizes = Array.from({ length: 30 }, (_, i) => [8 + i, 8 + ((i * 7) % 13), i % 2 ? 'srgb' : 'linear'] as const);
     const scene = sceneWith(sizes);
     const plan = planTextures(scene, sizes.keys(), 5, limits);
@@ -51,7 +51,7 @@ describe('planTextures', () => {
     });
   });
 
-  it('leaves pictures in blocks where the device reads them, all or none', () => {
+  it('leaves images in blocks where the device reads them, all or none', () => {
     const scene = sceneWith([
       [8, 8, 'srgb'],
       [8, 8, 'linear'],
@@ -89,14 +89,14 @@ describe('planTextures', () => {
     ]);
   });
 
-  it('keeps pictures within the device limits', () => {
+  it('keeps images within the device limits', () => {
     const plan = planTextures(sceneWith([[64, 16, 'srgb']]), [0], 12, { ...limits, maxTextureDimension2D: 32 });
     expect(plan.arrays[0]).toMatchObject({ width: 32, height: 8 });
   });
 });
 
 describe('resizePixels', () => {
-  it('keeps a constant picture constant and a ramp linear', () => {
+  it('keeps a constant image constant and a ramp linear', () => {
     expect([...new Set(resizePixels(new Uint8Array(4 * 4 * 4).fill(77), 4, 4, 7, 3))]).toEqual([77]);
     const ramp = Float32Array.from({ length: 8 * 4 }, (_, i) => Math.floor(i / 4));
     const doubled = resizePixels(ramp, 8, 1, 16, 1);

@@ -23,7 +23,7 @@ describe('noiseMap', () => {
     expect(tiles[1]).toBeCloseTo(0.1 / Math.sqrt(floor), 6);
     expect(whole).toBeCloseTo(Math.sqrt(((tiles[0] as number) ** 2 + (tiles[1] as number) ** 2) / 2), 6);
   });
-  it('is 0 for a black picture', () => {
+  it('is 0 for a black image', () => {
     expect(noiseMap(Float32Array.of(0, 0, 64, 0, 0, 0, 64, 0)).whole).toBe(0);
   });
 });

@@ -76,7 +76,7 @@ describe('Scheduler', () => {
     expect(sizes.at(-2)).toBeGreaterThan(1_000_000);
   });
 
-  it('does not take the rest of a picture for its sky', () => {
+  it('does not take the rest of an image for its sky', () => {
     // Bands of rows: the upper half costs a tenth of the lower one.
     const scheduler = new Scheduler({ pixels: 256 * 256, capacity: 1 << 20, budgetMs: 16 });
     const cost = ({ pixelOffset, pixelCount, sampleCount }: Batch) => {
@@ -89,7 +89,7 @@ describe('Scheduler', () => {
       times.push(cost(batch));
       scheduler.measured(batch, times.at(-1)!);
     }
-    // Once it has seen the picture; without a memory every change from sky to ground takes several times the budget.
+    // Once it has seen the image; without a memory every change from sky to ground takes several times the budget.
     expect(Math.max(...times.slice(40))).toBeLessThan(2 * 16);
     // And it does not crawl: half of the budget is used on the whole.
     expect(times.slice(40).reduce((sum, time) => sum + time, 0) / 160).toBeGreaterThan(0.35 * 16);

@@ -41,10 +41,10 @@ const CHANGES: Readonly<Record<string, Change>> = {
   'a contact block': (tracer, turn) => show(tracer, [[], blocks['Contact block NC']], turn),
 };
 
-/** From a click to the first sample of the whole picture with the change in it: the price of a change. */
+/** From a click to the first sample of the whole image with the change in it: the price of a change. */
 export const benchmark: Benchmark = {
   description:
-    'the push-button configurator: milliseconds from a change to the first picture that shows it, by kind of change',
+    'the push-button configurator: milliseconds from a change to the first image that shows it, by kind of change',
   async run({ log, quick, gpu: wanted }) {
     const { gpu, adapterName, software } = await createGpu(wanted ? { gpu: wanted } : {});
     const [width, height] = quick ? [160, 100] : [1280, 800];
@@ -65,7 +65,7 @@ export const benchmark: Benchmark = {
         await sample();
       }
       for (const [name, change] of Object.entries(CHANGES)) {
-        const [edits, pictures]: [number[], number[]] = [[], []];
+        const [edits, images]: [number[], number[]] = [[], []];
         // The first two turns may compile what this kind of change calls for.
         for (let turn = -2; turn < runs; turn++) {
           const from = performance.now();
@@ -74,10 +74,10 @@ export const benchmark: Benchmark = {
           await sample();
           if (turn < 0) continue;
           edits.push(edited - from);
-          pictures.push(performance.now() - from);
+          images.push(performance.now() - from);
         }
         figures.push(
-          timed(`${name}: to the first sample`, 'ms', pictures),
+          timed(`${name}: to the first sample`, 'ms', images),
           timed(`${name}: the edit alone`, 'ms', edits),
         );
         log(

@@ -30,7 +30,7 @@ export const benchmark: Benchmark = {
   description: 'NaN, infinite and negative samples over all sample assets: none',
   options: {
     models: { type: 'string', help: 'only these, by name, separated by commas' },
-    size: { type: 'string', help: 'edge of the pictures, pixels' },
+    size: { type: 'string', help: 'edge of the images, pixels' },
     samples: { type: 'string', help: 'samples per pixel, 64 by default' },
     deadline: { type: 'string', help: 'most seconds for a model' },
   },

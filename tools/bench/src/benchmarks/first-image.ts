@@ -21,14 +21,14 @@ interface Stages {
   /** When code and device were warmed up, where they were. */
   readonly warmed: number;
   readonly scene: number;
-  /** When the first-light kernel's picture was there; absent where the others were faster. */
+  /** When the first-light kernel's image was there; absent where the others were faster. */
   readonly firstLight?: number;
   /** When the hierarchies were there, and when all was on the GPU. */
   readonly built: number;
   readonly uploaded: number;
   readonly prepared: number;
   readonly sampled: number;
-  /** When the picture was on the CPU. */
+  /** When the image was on the CPU. */
   readonly read: number;
   readonly times: Pick<RenderStatistics, 'checkMs' | 'textMs' | 'bvhMs' | 'lightMs' | 'compileMs'>;
 }

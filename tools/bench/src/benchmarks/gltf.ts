@@ -117,7 +117,7 @@ export const benchmark: Benchmark = {
     } finally {
       await legible.close();
     }
-    // A bare machine has no decoders of pictures for Node.
+    // A bare machine has no decoders of images for Node.
     const node = packedBrowser() === undefined ? (await import('../loading/node')).openNode() : undefined;
     if (node)
       for (const model of models)

@@ -5,7 +5,7 @@ import {
   GROUND_TRUTH_CASES,
   GroundTruth,
   catalogueFolder,
-  comparePictures,
+  compareImages,
   convergenceSlope,
   failures,
   measureConvergence,
@@ -44,7 +44,7 @@ export const benchmark: Benchmark = {
       );
     const { gpu: api, adapterName, software } = await createGpu(gpu === undefined ? {} : { gpu });
     const device = await requestDevice({ gpu: api });
-    // Independent seeds give the interval; their mean is the picture that is checked.
+    // Independent seeds give the interval; their mean is the image that is checked.
     const runs = quick ? 2 : 4;
     const samples = wholeNumber('samples', values['samples']) ?? (quick ? 4 : software ? 32 : 256);
     const wanted = values['scenes']?.split(',');
@@ -71,17 +71,17 @@ export const benchmark: Benchmark = {
       try {
         await truth.scene();
       } catch (error) {
-        // A bare machine has no decoder of pictures: one scene less, which the count at the end shows.
+        // A bare machine has no decoder of images: one scene less, which the count at the end shows.
         if (!(error instanceof GltfError) || error.code !== 'gltf/missing-decoder') throw error;
         notes.push(`${name} left out: ${error.message}`);
         continue;
       }
       for (let seed = 1; seed <= runs; seed++) {
-        const { picture, comparison } = await renderGroundTruth(device, truth, { samples, variant, seed });
-        picture.forEach((value, i) => (sum[i]! += value / runs));
+        const { image, comparison } = await renderGroundTruth(device, truth, { samples, variant, seed });
+        image.forEach((value, i) => (sum[i]! += value / runs));
         perSample.push(comparison.relMsePerSample);
       }
-      const whole = comparePictures(sum, samples * runs, truth.picture(variant), { width, height }, truth.tolerance);
+      const whole = compareImages(sum, samples * runs, truth.image(variant), { width, height }, truth.tolerance);
       if (whole.passed) agreeing++;
       else notes.push(`${name} disagrees: ${failures(whole)}`);
       const target = variant === 'full' ? TARGETS[scene] : undefined;
@@ -98,14 +98,14 @@ export const benchmark: Benchmark = {
         name: `${name}: samples of the reference renderer per sample`,
         unit: '1',
         runs,
-        mean: truth.picture(variant).stats.relmse_1spp / mean,
+        mean: truth.image(variant).stats.relmse_1spp / mean,
         ci95: 0,
       });
       if (most !== undefined && variant === 'full') {
         // Below the error that the catalogue allows the reference itself, a slope would be the reference's.
         const last = Math.max(
           16,
-          Math.min(most, Math.floor(truth.picture(variant).stats.relmse_1spp / truth.tolerance.floor)),
+          Math.min(most, Math.floor(truth.image(variant).stats.relmse_1spp / truth.tolerance.floor)),
         );
         // Four steps, from a sixteenth of the samples or so.
         const counts = [last / 16, last / 8, last / 4, last / 2, last].map(Math.round);
@@ -127,7 +127,7 @@ export const benchmark: Benchmark = {
       );
     }
     figures.push({
-      name: 'pictures that agree with their reference',
+      name: 'images that agree with their reference',
       unit: `of ${cases.length}`,
       runs: 1,
       mean: agreeing,

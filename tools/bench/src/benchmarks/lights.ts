@@ -76,28 +76,28 @@ function hall(): Scene {
   return scene;
 }
 
-/** The mean over pixels of the squared deviation of pictures from their mean, relative to it as relMSE is. */
-function spread(pictures: readonly Float32Array[]): { readonly perPicture: number[]; readonly mean: number } {
-  const n = pictures.length;
-  const pixels = (pictures[0] as Float32Array).length / 4;
+/** The mean over pixels of the squared deviation of images from their mean, relative to it as relMSE is. */
+function spread(images: readonly Float32Array[]): { readonly perImage: number[]; readonly mean: number } {
+  const n = images.length;
+  const pixels = (images[0] as Float32Array).length / 4;
   const mean = new Float64Array(4 * pixels);
-  for (const picture of pictures) picture.forEach((value, i) => (mean[i]! += value / n));
+  for (const image of images) image.forEach((value, i) => (mean[i]! += value / n));
   let [total, power] = [0, 0];
   for (let i = 0; i < pixels; i++)
     for (let c = 4 * i; c < 4 * i + 3; c++)
       [total, power] = [total + mean[c]! / (3 * pixels), power + mean[c]! ** 2 / (3 * pixels)];
-  const perPicture = pictures.map((picture) => {
+  const perImage = images.map((image) => {
     let sum = 0;
     for (let i = 0; i < pixels; i++) {
       let [error, bright] = [0, 0];
       for (let c = 4 * i; c < 4 * i + 3; c++)
-        [error, bright] = [error + (picture[c]! - mean[c]!) ** 2 / 3, bright + mean[c]! ** 2 / 3];
+        [error, bright] = [error + (image[c]! - mean[c]!) ** 2 / 3, bright + mean[c]! ** 2 / 3];
       sum += error / (bright + 0.01 * power);
     }
-    // The mean is made of the pictures themselves.
+    // The mean is made of the images themselves.
     return (sum / pixels) * (n / (n - 1));
   });
-  return { perPicture, mean: total };
+  return { perImage, mean: total };
 }
 
 /** What the choice of a light costs and what it gains, with few lights and with many. */
@@ -106,7 +106,7 @@ export const benchmark: Benchmark = {
     'error per sample and time per sample of light samples by the tree and by power, with 2 and with 2,048 emissive triangles',
   options: {
     choices: { type: 'string', help: 'only these, separated by commas: tree, power' },
-    samples: { type: 'string', help: 'samples per pixel of each picture' },
+    samples: { type: 'string', help: 'samples per pixel of each image' },
   },
   async run({ log, quick, gpu, values }) {
     const choices = (values['choices']?.split(',') ?? CHOICES) as readonly Choice[];
@@ -130,7 +130,7 @@ export const benchmark: Benchmark = {
       ['many lights', hall()],
     ] as const) {
       for (const lightSampling of choices) {
-        const pictures: Float32Array[] = [];
+        const images: Float32Array[] = [];
         const times: number[] = [];
         for (let seed = 1; seed <= runs; seed++) {
           const tracer = await PathTracer.create(device, scene, {
@@ -149,24 +149,24 @@ export const benchmark: Benchmark = {
           // The first run of a tracer learns how large its batches may be.
           if (seed === 1) await work();
           times.push((clock ? (await clock.measure(work)).busy : (await wallTimes(1, 0, work))[0]!) / samples);
-          pictures.push(await tracer.read('beauty'));
+          images.push(await tracer.read('beauty'));
           tracer.destroy();
         }
-        const { perPicture, mean } = spread(pictures);
+        const { perImage, mean } = spread(images);
         const time = timed(`${name}, ${lightSampling}: ${clock ? 'GPU' : 'wall'} time per sample`, 'ms', times);
         figures.push(
           estimated(
             `${name}, ${lightSampling}: relative variance × samples`,
             '1',
-            perPicture.map((value) => value * samples),
+            perImage.map((value) => value * samples),
           ),
           time,
           estimated(
             `${name}, ${lightSampling}: relative variance × milliseconds`,
             'ms',
-            perPicture.map((value) => value * samples * (time.median as number)),
+            perImage.map((value) => value * samples * (time.median as number)),
           ),
-          { name: `${name}, ${lightSampling}: mean of the picture`, unit: '1', runs, mean, ci95: 0 },
+          { name: `${name}, ${lightSampling}: mean of the image`, unit: '1', runs, mean, ci95: 0 },
         );
         log(
           figures

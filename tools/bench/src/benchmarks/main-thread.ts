@@ -80,7 +80,7 @@ export const benchmark: Benchmark = {
             seen.map(({ longTasks }) => longTasks.length),
           ),
           timed(
-            `${what}: from the file to the picture`,
+            `${what}: from the file to the image`,
             'ms',
             seen.map(({ ms }) => ms),
           ),

@@ -28,7 +28,7 @@ function instanced(): Scene {
   return { ...scene, instances };
 }
 
-/** Sixty squares, each with a picture of its own as base colour: of eight sizes, 8 bits a channel or half floats. */
+/** Sixty squares, each with an image of its own as base colour: of eight sizes, 8 bits a channel or half floats. */
 function textured(data: (length: number) => Uint8Array<ArrayBuffer> | Float32Array<ArrayBuffer>): Scene {
   const scene = createScene('sixty textures');
   scene.meshes.push({
@@ -86,7 +86,7 @@ export const benchmark: Benchmark = {
       const pixels = await tracer.read('beauty');
       const renderMs = performance.now() - start;
       if (!pixels.every((value) => value >= 0 && value < Infinity))
-        throw new Error(`${name}: the picture holds values that are no radiance`);
+        throw new Error(`${name}: the image holds values that are no radiance`);
       const { triangles, memory, gpuBytes, badSamples } = tracer.statistics;
       const visible = scene.instances.reduce((sum, { mesh }) => sum + (scene.meshes[mesh]?.indices.length ?? 0) / 3, 0);
       if (memory.textures > 0) {

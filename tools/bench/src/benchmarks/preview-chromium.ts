@@ -3,7 +3,7 @@ import { latency, turn, watchFrames, type Turned } from '../browser/hand';
 import { firstFilm, servePlayground } from '../browser/playground';
 import { timed, type Benchmark, type Figure } from '../benchmark';
 
-/** Sizes of the picture, pixels. */
+/** Sizes of the image, pixels. */
 const SIZES = [
   [640, 360],
   [1280, 720],
@@ -28,9 +28,9 @@ export const benchmark: Benchmark = {
         const page = await browser.newPage({ viewport: { width: width + 700, height: height + 300 } });
         await watchFrames(page);
         await page.goto(`${server.origin}/?model=push-button&samples=100000`);
-        const canvas = page.locator('#picture');
+        const canvas = page.locator('#image');
         await firstFilm(page);
-        // The panels take what they take; the picture gets the rest.
+        // The panels take what they take; the image gets the rest.
         const box = (await canvas.boundingBox())!;
         await page.setViewportSize({
           width: Math.round(width + 700 + width - box.width),
@@ -67,7 +67,7 @@ export const benchmark: Benchmark = {
         for (let i = 0; i < (quick ? 4 : 10); i++) waits.push(await latency(page, at, 700 + 37 * i));
         figures.push(
           timed(
-            `${size}: from a hand's movement to its picture`,
+            `${size}: from a hand's movement to its image`,
             'ms',
             waits,
             gpu === 'software' ? { value: 100, relation: '<=', source: 'interaction on a software GPU' } : undefined,

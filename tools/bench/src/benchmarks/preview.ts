@@ -5,7 +5,7 @@ import { createGpu } from '@glanz/renderer/node';
 import { createViewer, type Viewer } from '@glanz/viewer';
 import { timed, type Benchmark, type Figure } from '../benchmark';
 
-/** Sizes of the picture, pixels. */
+/** Sizes of the image, pixels. */
 const SIZES = [
   [640, 360],
   [1280, 720],
@@ -21,7 +21,7 @@ interface Screen {
 }
 
 /**
- * The little of a browser that a viewer needs: a canvas whose pictures go to a texture, and a screen that has a frame
+ * The little of a browser that a viewer needs: a canvas whose images go to a texture, and a screen that has a frame
  * every sixtieth of a second, as one has: a frame that is late waits for the next.
  */
 function makeScreen(gpu: GPU, width: number, height: number): Screen {
@@ -81,7 +81,7 @@ interface Orbited {
   readonly intervals: number[];
   /** Milliseconds that the samples of a frame took. */
   readonly costs: number[];
-  /** Width of the preview over that of the picture, each frame. */
+  /** Width of the preview over that of the image, each frame. */
   readonly scales: number[];
 }
 
@@ -111,7 +111,7 @@ const done = (viewer: Viewer) =>
 const nextFrame = (viewer: Viewer) =>
   new Promise<void>((resolve) => void viewer.on('frame', () => resolve(), { once: true }));
 
-/** How long it takes from a hand's movement to its picture, out of rest and out of the midst of refining. */
+/** How long it takes from a hand's movement to its image, out of rest and out of the midst of refining. */
 async function latency(viewer: Viewer, device: GPUDevice, rest: number): Promise<number> {
   await wait(rest);
   const from = performance.now();
@@ -164,12 +164,12 @@ export const benchmark: Benchmark = {
           median: quantile(intervals, 0.95),
         });
         figures.push(timed(`${size}: samples of a frame`, 'ms', costs));
-        figures.push(timed(`${size}: width of the preview over that of the picture`, '1', scales));
+        figures.push(timed(`${size}: width of the preview over that of the image`, '1', scales));
         const starts: number[] = [];
         for (let i = 0; i < (quick ? 8 : 10); i++) starts.push(await latency(viewer, device, 700 + 37 * i));
         figures.push(
           timed(
-            `${size}: from a movement to its picture, in the midst of refining`,
+            `${size}: from a movement to its image, in the midst of refining`,
             'ms',
             starts,
             software && width === 640
@@ -184,7 +184,7 @@ export const benchmark: Benchmark = {
           if (viewer.state !== 'done') await done(viewer);
           resting.push(await latency(viewer, device, 100));
         }
-        figures.push(timed(`${size}: from a movement to its picture, at rest`, 'ms', resting));
+        figures.push(timed(`${size}: from a movement to its image, at rest`, 'ms', resting));
         log(
           `${size}: ${quantile(intervals, 0.5).toFixed(1)} ms a frame at ${quantile(scales, 0.5).toFixed(2)} of the width, latency ${quantile(starts, 0.5).toFixed(0)} ms`,
         );

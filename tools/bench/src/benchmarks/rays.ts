@@ -60,7 +60,7 @@ export const benchmark: Benchmark = {
   options: {
     size: {
       type: 'string',
-      help: 'edge of the square picture whose pixels send rays, a multiple of 8; default 1024. More rays hide better that a launch ends with its slowest ones',
+      help: 'edge of the square image whose pixels send rays, a multiple of 8; default 1024. More rays hide better that a launch ends with its slowest ones',
     },
     brief: {
       type: 'string',
@@ -168,7 +168,7 @@ export const benchmark: Benchmark = {
         size,
         runs,
         place: 'in a closed cubic room',
-        rays: 'primary: one a pixel, the mesh fills the picture; from afar: from a corner of the room with a lens of 60°, shadow rays to a point; shadow: to a square light above; diffuse: cosine, first and second bounce',
+        rays: 'primary: one a pixel, the mesh fills the image; from afar: from a corner of the room with a lens of 60°, shadow rays to a point; shadow: to a square light above; diffuse: cosine, first and second bounce',
         levels: 2,
       },
       gpu: { name: adapterName, software },

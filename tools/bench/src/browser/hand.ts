@@ -59,7 +59,7 @@ export async function turn(page: Page, at: readonly [x: number, y: number], mill
   const [x, y] = at;
   await page.mouse.move(x, y);
   await page.mouse.down();
-  // The first frames are those of a picture that comes to move.
+  // The first frames are those of an image that comes to move.
   await page.mouse.move(x + 2, y, { steps: 2 });
   await wait(200);
   await clear(page);
@@ -79,7 +79,7 @@ export async function turn(page: Page, at: readonly [x: number, y: number], mill
   };
 }
 
-/** Milliseconds from a movement of the hand, out of rest, until the GPU has drawn the first picture that follows it. */
+/** Milliseconds from a movement of the hand, out of rest, until the GPU has drawn the first image that follows it. */
 export async function latency(page: Page, at: readonly [x: number, y: number], rest: number): Promise<number> {
   const [x, y] = at;
   await page.mouse.move(x, y);

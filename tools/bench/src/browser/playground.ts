@@ -35,11 +35,11 @@ export async function servePlayground(
  * @throws {BenchError} `bench/browser` with what the page says where it cannot.
  */
 export async function firstFilm(page: Page): Promise<void> {
-  await page.waitForSelector('#picture[data-film], #picture[data-state="unavailable"]', {
+  await page.waitForSelector('#image[data-film], #image[data-state="unavailable"]', {
     state: 'attached',
     timeout: 300_000,
   });
-  const { state } = await page.locator('#picture').evaluate((picture: HTMLElement) => ({ ...picture.dataset }));
+  const { state } = await page.locator('#image').evaluate((image: HTMLElement) => ({ ...image.dataset }));
   if (state === 'unavailable')
     throw new BenchError(
       'bench/browser',

@@ -63,12 +63,12 @@ export interface View {
   readonly tangent: number;
 }
 
-/** From near: the mesh fills the picture. */
+/** From near: the mesh fills the image. */
 export const NEAR: View = { from: [1.2, 0.9, 1.6], tangent: 0.4 };
-/** From a corner of the room with a lens of 60°: the mesh covers a fifth of the picture, its room the rest. */
+/** From a corner of the room with a lens of 60°: the mesh covers a fifth of the image, its room the rest. */
 export const AFAR: View = { from: [2.2, 1.6, 2.3], tangent: 0.577 };
 
-/** One ray through each pixel of a square picture from the front right above, in tiles of 8 × 8 pixels. */
+/** One ray through each pixel of a square image from the front right above, in tiles of 8 × 8 pixels. */
 export function primaryRays(bounds: Aabb, size: number, { from, tangent }: View = NEAR): Float32Array<ArrayBuffer> {
   const random = randomNumbers(1);
   const { center, radius } = sphereAround(bounds);

@@ -16,15 +16,15 @@ export interface Task {
 
 /** A renderer that takes part, with a task loaded and its pipelines compiled. */
 export interface Contestant {
-  /** What {@link advance} counts: whole samples of the picture, or rounds that carry every path one bounce further. */
+  /** What {@link advance} counts: whole samples of the image, or rounds that carry every path one bounce further. */
   readonly unit: 'samples' | 'rounds';
-  /** Begins a picture anew with random numbers of its own. */
+  /** Begins an image again with random numbers of its own. */
   restart(seed: number): Promise<void>;
   /** Renders on, and waits until the GPU is done. */
   advance(units: number): Promise<void>;
   /** Samples per pixel so far, on average. */
   samples(): Promise<number>;
-  /** The picture so far: RGB, stride 3, linear, top row first. */
+  /** The image so far: RGB, stride 3, linear, top row first. */
   read(): Promise<Float32Array>;
   destroy(): void;
 }

@@ -23,9 +23,9 @@ export async function createGlanz(device: GPUDevice, task: Task): Promise<Contes
     samples: () => Promise.resolve(tracer.samples),
     async read() {
       const beauty = await tracer.read('beauty');
-      const picture = new Float32Array((beauty.length / 4) * 3);
-      for (let i = 0; i < beauty.length / 4; i++) for (let c = 0; c < 3; c++) picture[3 * i + c] = beauty[4 * i + c]!;
-      return picture;
+      const image = new Float32Array((beauty.length / 4) * 3);
+      for (let i = 0; i < beauty.length / 4; i++) for (let c = 0; c < 3; c++) image[3 * i + c] = beauty[4 * i + c]!;
+      return image;
     },
     destroy: () => tracer.destroy(),
   };

@@ -49,7 +49,7 @@ export function assetFile(path: string): string | undefined {
     .find((file) => existsSync(file));
 }
 
-/** Name under which the packed data keeps an encoded picture's pixels. */
+/** Name under which the packed data keeps an encoded image's pixels. */
 export const pixelsName = (bytes: Uint8Array) => `${createHash('sha1').update(bytes).digest('hex')}.rgba.gz`;
 
 /** Pixels as the packed data keeps them: width and height as 32-bit words, then RGBA, compressed. */
@@ -81,7 +81,7 @@ export async function decodePixels(bytes: Uint8Array): Promise<Pixels> {
   return { width: info.width, height: info.height, data: new Uint8Array(data) };
 }
 
-/** The encoded pictures inside a .glb file, in the order of its list of images. */
+/** The encoded images inside a .glb file, in the order of its list of images. */
 export function glbImages(glb: Uint8Array): Uint8Array[] {
   const view = new DataView(glb.buffer, glb.byteOffset, glb.byteLength);
   const length = view.getUint32(12, true);

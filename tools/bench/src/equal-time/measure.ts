@@ -3,7 +3,7 @@ import { createGpu } from '@glanz/renderer/node';
 import { BenchError } from '../error';
 import { CONTESTANTS, type ContestantName } from './contestants';
 import { GpuTime } from './gpu-time';
-import { noiseOf, pictureError, shrink, type PictureError, type Reference } from './pictures';
+import { noiseOf, imageError, shrink, type ImageError, type Reference } from './images';
 import { readReference } from './reference';
 import { SCENES } from './scenes';
 
@@ -11,9 +11,9 @@ import { SCENES } from './scenes';
 export interface MeasurementPlan {
   readonly scene: string;
   readonly contestant: ContestantName;
-  /** Width and height of the picture that is rendered. */
+  /** Width and height of the image that is rendered. */
   readonly size: number;
-  /** GPU milliseconds after which the picture is looked at, ascending. */
+  /** GPU milliseconds after which the image is looked at, ascending. */
   readonly budgetsMs: readonly number[];
   /** Independent runs. */
   readonly runs: number;
@@ -23,8 +23,8 @@ export interface MeasurementPlan {
   readonly referenceFile?: string;
 }
 
-/** A picture after some time. */
-export interface Point extends PictureError {
+/** An image after some time. */
+export interface Point extends ImageError {
   readonly budgetMs: number;
   readonly gpuMs: number;
   readonly wallMs: number;
@@ -46,9 +46,9 @@ export interface Measurement {
   readonly notes: readonly string[];
 }
 
-/** Shrinks a picture to its reference's size. */
-function fitted(picture: Float32Array, size: number, reference: Reference): Float32Array {
-  return size === reference.width ? picture : shrink(picture, size, size, size / reference.width);
+/** Shrinks an image to its reference's size. */
+function fitted(image: Float32Array, size: number, reference: Reference): Float32Array {
+  return size === reference.width ? image : shrink(image, size, size, size / reference.width);
 }
 
 /** Rounds that compile all pipelines and bring clocks up. */
@@ -84,13 +84,13 @@ export async function measure(plan: MeasurementPlan, log: (line: string) => void
   const time = await GpuTime.create(device);
   if (!time.stamped) notes.push('no timestamp queries: GPU times are wall times');
   const points: Point[][] = [];
-  const pictures: Float32Array[][] = [];
+  const images: Float32Array[][] = [];
   for (let run = 0; run < plan.runs; run++) {
     await contestant.restart(1000);
     let cost = await time.unitCost(contestant);
     await contestant.restart(run + 1);
     const runPoints: Point[] = [];
-    const runPictures: Float32Array[] = [];
+    const runImages: Float32Array[] = [];
     let gpuMs = 0,
       wallMs = 0;
     for (const budgetMs of plan.budgetsMs) {
@@ -108,17 +108,17 @@ export async function measure(plan: MeasurementPlan, log: (line: string) => void
         gpuMs += units * cost.gpuMs;
       }
       const samples = await contestant.samples();
-      const picture = fitted(await contestant.read(), plan.size, reference);
+      const image = fitted(await contestant.read(), plan.size, reference);
       checkFaults();
-      const point: Point = { budgetMs, gpuMs, wallMs, samples, ...pictureError(picture, reference) };
+      const point: Point = { budgetMs, gpuMs, wallMs, samples, ...imageError(image, reference) };
       runPoints.push(point);
-      runPictures.push(picture);
+      runImages.push(image);
       log(
         `${plan.scene}, ${plan.contestant}, run ${run + 1}: ${gpuMs.toFixed(0)} ms GPU, ${wallMs.toFixed(0)} ms wall, ${samples.toFixed(1)} samples, relMSE ${point.relMse.toExponential(2)}, FLIP ${point.flip.toFixed(4)}, brightness ${point.brightness.toFixed(4)}`,
       );
     }
     points.push(runPoints);
-    pictures.push(runPictures);
+    images.push(runImages);
   }
   const noise =
     plan.runs < 2
@@ -127,8 +127,7 @@ export async function measure(plan: MeasurementPlan, log: (line: string) => void
           let sum = 0,
             pairs = 0;
           for (let i = 0; i < plan.runs; i++) {
-            for (let j = i + 1; j < plan.runs; j++, pairs++)
-              sum += noiseOf(pictures[i]![b]!, pictures[j]![b]!, reference);
+            for (let j = i + 1; j < plan.runs; j++, pairs++) sum += noiseOf(images[i]![b]!, images[j]![b]!, reference);
           }
           return sum / pairs;
         });

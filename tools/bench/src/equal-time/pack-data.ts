@@ -13,7 +13,7 @@ function copy(from: string, to: string): void {
 }
 
 /**
- * Copies what the benchmark reads into a folder, with all pictures decoded, so that a bundle beside it needs nothing
+ * Copies what the benchmark reads into a folder, with all images decoded, so that a bundle beside it needs nothing
  * else. Gives what was not there to copy.
  */
 export async function packData(folder: string): Promise<string[]> {

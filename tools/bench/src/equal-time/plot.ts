@@ -13,7 +13,7 @@ export interface Panel {
   readonly series: readonly Series[];
 }
 
-/** What {@link plot} may be told. */
+/** Options for {@link plot}. */
 export interface PlotOptions {
   readonly title: string;
   readonly x: string;

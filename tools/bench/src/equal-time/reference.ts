@@ -4,7 +4,7 @@ import { createGpu } from '@glanz/renderer/node';
 import type { Scene } from '@glanz/scene';
 import { BenchError } from '../error';
 import { loadGltfBytes } from './load';
-import type { Reference } from './pictures';
+import type { Reference } from './images';
 import { SCENES } from './scenes';
 
 /** A long render of Glanz to stand for the truth. */
@@ -17,7 +17,7 @@ export interface ReferencePlan {
   readonly file: string;
 }
 
-/** How far a picture made with other random numbers (independent ones) is from the reference. */
+/** How far an image made with other random numbers (independent ones) is from the reference. */
 export interface CrossCheck {
   readonly scene: string;
   readonly samples: number;
@@ -30,14 +30,14 @@ export interface CrossCheck {
   readonly blocks: number;
 }
 
-/** Edge of the blocks that are compared, in 1/16 of the picture's. */
+/** Edge of the blocks that are compared, in 1/16 of the image's. */
 const BLOCKS = 16;
 
 /** How many of the reference's samples the check has. */
 const CHECK_SHARE = 4;
 
 interface Rendered {
-  readonly picture: Float32Array;
+  readonly image: Float32Array;
   readonly variance: Float32Array;
 }
 
@@ -47,7 +47,7 @@ async function render(device: GPUDevice, scene: Scene, options: PathTracerOption
     for await (const progress of tracer.render({ samples })) void progress;
     const rgb = (rgba: Float32Array) =>
       Float32Array.from({ length: (rgba.length / 4) * 3 }, (_, i) => rgba[4 * Math.floor(i / 3) + (i % 3)]!);
-    return { picture: rgb(await tracer.read('beauty')), variance: rgb(await tracer.read('variance')) };
+    return { image: rgb(await tracer.read('beauty')), variance: rgb(await tracer.read('variance')) };
   } finally {
     tracer.destroy();
   }
@@ -67,7 +67,7 @@ export function crossCheck(
     const block =
       Math.floor((Math.floor(pixel / width) * BLOCKS) / height) * BLOCKS +
       Math.floor(((pixel % width) * BLOCKS) / width);
-    difference[block]! += check.picture[i]! - mean[i]!;
+    difference[block]! += check.image[i]! - mean[i]!;
     // Channels share their paths: at worst they err together, which counts threefold.
     variance[block]! += 3 * (check.variance[i]! + standardError[i]! ** 2);
     total += mean[i]!;
@@ -102,9 +102,9 @@ export async function makeReference(plan: ReferencePlan, log: (line: string) => 
     await render(device, scene, { ...options, seed: 5001 }, half),
     await render(device, scene, { ...options, seed: 5002 }, half),
   ];
-  const mean = a.picture.map((value, i) => (value + b.picture[i]!) / 2);
+  const mean = a.image.map((value, i) => (value + b.image[i]!) / 2);
   // Exactly what makes (x − mean)² − standardError² the product of the errors against both halves, which has no bias.
-  const standardError = a.picture.map((value, i) => Math.abs(value - b.picture[i]!) / 2);
+  const standardError = a.image.map((value, i) => Math.abs(value - b.image[i]!) / 2);
   const checkSamples = Math.ceil(plan.samples / CHECK_SHARE);
   const check = await render(device, scene, { ...options, seed: 5003, sampler: 'independent' }, checkSamples);
   const result: CrossCheck = {

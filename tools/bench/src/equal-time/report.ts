@@ -162,7 +162,7 @@ export function equalTimeMarkdown({ machine, gpu, quick, details }: EqualTimeRep
     '',
     '## The peer as its users get it',
     '',
-    'With the clamp and the blurred gloss that it has on by default: less noise, and a picture that does not converge to the truth. relMSE, then FLIP.',
+    'With the clamp and the blurred gloss that it has on by default: less noise, and an image that does not converge to the truth. relMSE, then FLIP.',
     '',
     ...comparisonTable(details, PEER_DEFAULTS, catalogue('relMSE')),
     '',
@@ -216,11 +216,11 @@ function panels(details: EqualTimeDetails, quantity: (scene: SceneInfo) => Quant
 
 const PAGE_HEAD = `# Error at equal time
 
-How wrong is a picture after a second? Glanz beside [three-gpu-pathtracer](https://github.com/gkjohnson/three-gpu-pathtracer) 0.0.26, the path tracer for three.js: its WebGPU wavefront tracer, on three r185. Both get the same .glb file, camera, size, depth and environment, each in a process of its own, one after another on one GPU, with warm pipelines.
+How wrong is an image after a second? Glanz beside [three-gpu-pathtracer](https://github.com/gkjohnson/three-gpu-pathtracer) 0.0.26, the path tracer for three.js: its WebGPU wavefront tracer, on three r185. Both get the same .glb file, camera, size, depth and environment, each in a process of its own, one after another on one GPU, with warm pipelines.
 
-- **References.** Small scenes of a catalogue whose pictures were made by another renderer, with their standard errors; pictures are rendered larger and joined to the reference's 128 × 128 pixels. For two product scenes a long render of Glanz, made of two independent halves and checked with other random numbers.
-- **relMSE.** Mean over pixels of the squared error over the reference's squared brightness (plus 1 % of the picture's mean). The reference's own noise is subtracted on average. *Noise alone* compares independent runs of the same renderer, so that differences in what a material means do not count.
-- **FLIP.** What an eye notices when it flips between picture and reference, after Andersson et al. 2020, on tone-mapped pictures.
+- **References.** Small scenes of a catalogue whose images were made by another renderer, with their standard errors; images are rendered larger and joined to the reference's 128 × 128 pixels. For two product scenes a long render of Glanz, made of two independent halves and checked with other random numbers.
+- **relMSE.** Mean over pixels of the squared error over the reference's squared brightness (plus 1 % of the image's mean). The reference's own noise is subtracted on average. *Noise alone* compares independent runs of the same renderer, so that differences in what a material means do not count.
+- **FLIP.** What an eye notices when it flips between image and reference, after Andersson et al. 2020, on tone-mapped images.
 - **GPU time.** By timestamps around every submission; the clock's own cost is subtracted, in favour of who submits often. The peer is measured in its best batching, all pixels' paths in flight, and without its preview.
 - **Fairness.** Everything that trades truth for smoothness is off in the peer (clamps, blurred gloss); a second table has it on, as its users get it. Glanz has its defaults: it has no such options on.
 - strahl 0.1.0 is not here: it has no textures, and its estimator (BSDF sampling alone: no light is sampled) is no setting of Glanz, so it cannot be emulated honestly. Its time per sample is a target of the benchmark \`paper-gpu\`.
@@ -237,19 +237,19 @@ export function writePages(report: EqualTimeReport, folder: string): string[] {
   const { details, gpu } = report;
   const on = gpu?.software ? `${gpu.name} (software GPU)` : (gpu?.name ?? 'unknown GPU');
   const files: [string, string][] = [];
-  const pictures: string[] = [];
+  const images: string[] = [];
   const draw = (file: string, what: string, y: string, quantity: (scene: SceneInfo) => Quantity | undefined) => {
     const drawn = panels(details, quantity);
     if (drawn.length === 0) return;
     files.push([file, plot(drawn, { title: `${what} at equal GPU time`, x: 'seconds of GPU time', y, note: on })]);
-    pictures.push(`![${what} over GPU time, by scene](./${file})`, '');
+    images.push(`![${what} over GPU time, by scene](./${file})`, '');
   };
   draw('equal-time-relmse.svg', 'Error', 'relMSE', (scene) =>
     fairQuantity(scene) === 'noise' && details.runs < 2 ? undefined : fairQuantity(scene),
   );
   draw('equal-time-flip.svg', 'FLIP', 'mean FLIP', catalogue('FLIP'));
   files.push(
-    ['equal-time.md', `${PAGE_HEAD}${pictures.join('\n')}\n${equalTimeMarkdown(report)}${PAGE_FOOT}`],
+    ['equal-time.md', `${PAGE_HEAD}${images.join('\n')}\n${equalTimeMarkdown(report)}${PAGE_FOOT}`],
     ['equal-time.json', `${JSON.stringify(report, null, 1)}\n`],
   );
   for (const [name, contents] of files) writeFileSync(join(folder, name), contents);

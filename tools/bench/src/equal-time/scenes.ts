@@ -9,7 +9,7 @@ import { studioEnvironment } from '@glanz/scene/studio';
 import { BenchError } from '../error';
 import { assetFile, decodePixels, loadGltfBytes, usePackedCatalogue } from './load';
 import type { Task } from './contestant';
-import type { Reference } from './pictures';
+import type { Reference } from './images';
 
 /** A scene to compare on, with where its truth comes from. */
 export interface EqualTimeScene {
@@ -23,7 +23,7 @@ export interface EqualTimeScene {
 type FileBytes = Uint8Array<ArrayBuffer>;
 const bytesOf = (file: string): FileBytes => new Uint8Array(readFileSync(file));
 
-/** The catalogue's reference pictures are this wide and high. */
+/** The catalogue's reference images are this wide and high. */
 export const CATALOGUE_SIZE = 128;
 
 function groundTruth(name: string, title: string): EqualTimeScene {
@@ -40,7 +40,7 @@ function groundTruth(name: string, title: string): EqualTimeScene {
         );
       const truth = new GroundTruth(name);
       const scene = await truth.scene({ decodeImage: (bytes) => decodePixels(bytes) });
-      const { mean, standardError } = truth.picture();
+      const { mean, standardError } = truth.image();
       const { width, height } = truth.description.film;
       return {
         task: {

@@ -1,7 +1,7 @@
 import { linearToHuntLab, linearToYcxcz, srgbToLinear, ycxczToLinear } from './colour';
 import { featureFilters, filterPlane, sensitivityFilters } from './kernels';
 
-/** What {@link flip} may be told. */
+/** Options for {@link flip}. */
 export interface FlipOptions {
   /** How large pixels appear. Default: 67.02, a 0.7 m wide display of 3840 pixels seen from 0.7 m. */
   readonly pixelsPerDegree?: number;
@@ -33,7 +33,7 @@ function opponentPlanes(srgb: ArrayLike<number>, pixels: number): Planes {
   return planes;
 }
 
-/** What the eye resolves of a picture, in the space in which differences are measured. */
+/** What the eye resolves of an image, in the space in which differences are measured. */
 function perceived(planes: Planes, width: number, height: number, pixelsPerDegree: number): Planes {
   const filters = sensitivityFilters(pixelsPerDegree);
   const filtered = planes.map((plane, channel) => {
@@ -78,8 +78,8 @@ function features(
 }
 
 /**
- * The difference that a person notices who flips between two pictures at the same place: ꟻLIP for displayed (LDR)
- * pictures, after Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström and Fairchild, "ꟻLIP: A Difference Evaluator
+ * The difference that a person notices who flips between two images at the same place: ꟻLIP for displayed (LDR)
+ * images, after Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström and Fairchild, "ꟻLIP: A Difference Evaluator
  * for Alternating Images", 2020. Symmetric in the two.
  *
  * @param reference RGB, stride 3, as displayed: sRGB codes 0..1, top row first.
@@ -95,7 +95,7 @@ export function flip(
   const { pixelsPerDegree = DEFAULT_PIXELS_PER_DEGREE } = options;
   const pixels = width * height;
   if (reference.length !== 3 * pixels || test.length !== 3 * pixels)
-    throw new RangeError(`flip: both pictures must have 3 × ${width} × ${height} values`);
+    throw new RangeError(`flip: both images must have 3 × ${width} × ${height} values`);
   const [a, b] = [opponentPlanes(reference, pixels), opponentPlanes(test, pixels)];
   const [seenA, seenB] = [perceived(a, width, height, pixelsPerDegree), perceived(b, width, height, pixelsPerDegree)];
   const [featuresA, featuresB] = [

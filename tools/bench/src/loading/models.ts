@@ -2,7 +2,7 @@ import { existsSync, readFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { BenchError } from '../error';
 
-/** Models beside the repository: large pictures, Draco, meshopt, many meshes, many triangles. */
+/** Models beside the repository: large images, Draco, meshopt, many meshes, many triangles. */
 const MODELS = ['DamagedHelmet', 'chess-board', 'pirate-meshopt', 'lamborghini', 'bunny-casual-effects'];
 
 /** Where the models lie; `GLANZ_ASSETS` names another place. */

@@ -87,7 +87,7 @@ const dracoLoader = (open: () => Promise<Draco>) => ({
   },
 });
 
-/** Both loaders in this process, from the bytes of a file. Pictures are decoded by sharp for both. */
+/** Both loaders in this process, from the bytes of a file. Images are decoded by sharp for both. */
 export function openNode(): { load(loader: Exclude<Contestant, 'worker'>, file: string): Promise<Load> } {
   const decoders = packagedDecoders();
   let draco: Promise<unknown> | undefined;

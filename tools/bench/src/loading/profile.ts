@@ -3,12 +3,12 @@ import type { Contestant } from './models';
 
 /** Kinds of work that a load's time on the calling thread goes to. */
 export const WORK = {
-  waiting: 'waiting for pictures, workers and the file',
+  waiting: 'waiting for images, workers and the file',
   decoder: 'Draco and meshopt (WebAssembly)',
   tangents: 'tangents, normals, lengths of vectors',
   checks: 'checks of the document and its numbers',
   own: 'the loader itself',
-  browser: 'the browser (reading, copying, handing over pictures)',
+  browser: 'the browser (reading, copying, handing over images)',
   collector: 'collecting garbage',
 } as const;
 

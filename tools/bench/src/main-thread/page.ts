@@ -57,13 +57,13 @@ export async function openPlayground(profile: boolean, gpu: Chromium['gpu'] = 's
   const { origin } = server;
   return {
     version: browser.version(),
-    /** Opens a file in a page of its own and looks at its thread until the first picture of it is there. */
+    /** Opens a file in a page of its own and looks at its thread until the first image of it is there. */
     async watch(name: string, file: string): Promise<Blocked> {
       const page = await browser.newPage({ viewport: { width: 700, height: 500 } });
       try {
         await page.goto(`${origin}/?model=cornell-box&scale=0.25&samples=1&max-depth=2`);
         await firstFilm(page);
-        await page.waitForSelector('#picture[data-state="done"]', { state: 'attached', timeout: 300_000 });
+        await page.waitForSelector('#image[data-state="done"]', { state: 'attached', timeout: 300_000 });
         await page.evaluate(() => {
           const seen = { gap: 0, long: [] as number[], done: false };
           Object.assign(globalThis, { seen });
@@ -97,7 +97,7 @@ export async function openPlayground(profile: boolean, gpu: Chromium['gpu'] = 's
         });
         const begun = performance.now();
         await page.setInputFiles('#files', file);
-        await page.waitForSelector(`#picture[data-scene="${name}"][data-state="done"]`, {
+        await page.waitForSelector(`#image[data-scene="${name}"][data-state="done"]`, {
           state: 'attached',
           timeout: 300_000,
         });

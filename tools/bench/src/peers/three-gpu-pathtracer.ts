@@ -202,12 +202,12 @@ export async function createThreeGpuPathtracer(
       device.queue.submit([encoder.finish()]);
       await buffer.mapAsync(GPUMapMode.READ);
       const data = new Float32Array(buffer.getMappedRange());
-      const picture = new Float32Array(3 * width * height);
+      const image = new Float32Array(3 * width * height);
       for (let y = 0; y < height; y++)
         for (let x = 0; x < width; x++)
-          for (let c = 0; c < 3; c++) picture[3 * (y * width + x) + c] = data[(y * row) / 4 + 4 * x + c]!;
+          for (let c = 0; c < 3; c++) image[3 * (y * width + x) + c] = data[(y * row) / 4 + 4 * x + c]!;
       buffer.destroy();
-      return picture;
+      return image;
     },
     destroy() {
       tracer.dispose();

@@ -15,7 +15,7 @@ function glb(json: object, binary: Uint8Array): Uint8Array {
   return out;
 }
 
-it('finds the pictures inside a .glb file', () => {
+it('finds the images inside a .glb file', () => {
   const file = glb(
     {
       images: [{ bufferView: 1 }, { bufferView: 0 }],
@@ -30,7 +30,7 @@ it('finds the pictures inside a .glb file', () => {
   expect(glbImages(glb({}, new Uint8Array(0)))).toEqual([]);
 });
 
-it('names packed pictures by their contents', () => {
+it('names packed images by their contents', () => {
   expect(pixelsName(Uint8Array.of(1))).not.toBe(pixelsName(Uint8Array.of(2)));
   const packed = gunzipSync(packPixels({ width: 2, height: 1, data: Uint8Array.of(1, 2, 3, 4, 5, 6, 7, 8) }));
   expect([...packed]).toEqual([2, 0, 0, 0, 1, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8]);

@@ -4,7 +4,7 @@ import { crossCheck } from '../../src/equal-time/reference';
 const SIZE = 64;
 const COUNT = 3 * SIZE * SIZE;
 
-function picture(sigma: number, bias: number, seed: number): Float32Array {
+function image(sigma: number, bias: number, seed: number): Float32Array {
   let state = seed;
   const uniform = () => (state = (Math.imul(state, 1664525) + 1013904223) >>> 0) / 2 ** 32;
   return Float32Array.from(
@@ -17,11 +17,11 @@ const sigma = 0.02;
 const reference = {
   width: SIZE,
   height: SIZE,
-  mean: picture(sigma, 0, 1),
+  mean: image(sigma, 0, 1),
   standardError: new Float32Array(COUNT).fill(sigma),
 };
 const check = (bias: number) =>
-  crossCheck({ picture: picture(sigma, bias, 2), variance: new Float32Array(COUNT).fill(sigma ** 2) }, reference);
+  crossCheck({ image: image(sigma, bias, 2), variance: new Float32Array(COUNT).fill(sigma ** 2) }, reference);
 
 it('finds nothing where only noise differs', () => {
   const { ratio, ratio95, outside, blocks } = check(0);

@@ -5,7 +5,7 @@ import { featureFilters, filterPlane, sensitivityFilters } from '../../src/flip/
 
 const [W, H] = [96, 64];
 
-function picture(f: (x: number, y: number) => readonly [number, number, number]): Float32Array {
+function image(f: (x: number, y: number) => readonly [number, number, number]): Float32Array {
   const out = new Float32Array(3 * W * H);
   for (let y = 0; y < H; y++) for (let x = 0; x < W; x++) out.set(f(x, y), 3 * (y * W + x));
   return out;
@@ -16,7 +16,7 @@ const waves = (x: number, y: number) =>
     0.5 + 0.3 * Math.cos(y * 0.33),
     0.5 + 0.45 * Math.sin((x + y) * 0.12),
   ] as const;
-const REFERENCE = picture(waves);
+const REFERENCE = image(waves);
 
 function noisy(): Float32Array {
   let state = 7;
@@ -32,15 +32,15 @@ const constant = (...rgb: Rgb) => Float32Array.from({ length: 3 * 16 * 16 }, (_,
 describe('agreement with the published implementation (flip-evaluator 1.7), means at two viewing distances', () => {
   const cases: readonly (readonly [string, Float32Array, number, number])[] = [
     ['noise', noisy(), 0.17377, 0.314712],
-    ['a shift by two pixels', picture((x, y) => waves((x - 2 + W) % W, y)), 0.322058, 0.324163],
+    ['a shift by two pixels', image((x, y) => waves((x - 2 + W) % W, y)), 0.322058, 0.324163],
     ['four fifths of the brightness', REFERENCE.map((v) => v * 0.8), 0.567276, 0.547439],
     [
       'a red box',
-      picture((x, y) => (x >= 30 && x < 60 && y >= 20 && y < 40 ? [0.9, 0.1, 0.1] : waves(x, y))),
+      image((x, y) => (x >= 30 && x < 60 && y >= 20 && y < 40 ? [0.9, 0.1, 0.1] : waves(x, y))),
       0.115066,
       0.099171,
     ],
-    ['white dots', picture((x, y) => (x % 16 === 10 && y % 16 === 10 ? [1, 1, 1] : waves(x, y))), 0.027876, 0.017547],
+    ['white dots', image((x, y) => (x % 16 === 10 && y % 16 === 10 ? [1, 1, 1] : waves(x, y))), 0.027876, 0.017547],
   ];
   it.each(cases)('%s', (_, test, near, far) => {
     expect(flip(REFERENCE, test, W, H).mean).toBeCloseTo(near, 4);
@@ -51,7 +51,7 @@ describe('agreement with the published implementation (flip-evaluator 1.7), mean
     [[0.5, 0.5, 0.5], [0.6, 0.5, 0.4], 0.32608],
     [[1, 0, 0], [0, 1, 0], 0.986664],
   ];
-  it.each(uniform)('uniform pictures %j and %j', (a, b, value) => {
+  it.each(uniform)('uniform images %j and %j', (a, b, value) => {
     expect(flip(constant(...a), constant(...b), 16, 16).mean).toBeCloseTo(value, 4);
   });
   it('single pixels of the map', () => {
@@ -62,7 +62,7 @@ describe('agreement with the published implementation (flip-evaluator 1.7), mean
 });
 
 describe('what the definition says', () => {
-  it('is 0 for equal pictures and 1 for green beside blue, the largest difference there is', () => {
+  it('is 0 for equal images and 1 for green beside blue, the largest difference there is', () => {
     expect(flip(REFERENCE, REFERENCE, W, H).mean).toBe(0);
     expect(flip(constant(0, 1, 0), constant(0, 0, 1), 16, 16).mean).toBeCloseTo(1, 9);
   });
@@ -73,11 +73,11 @@ describe('what the definition says', () => {
     expect(flip(noise, REFERENCE, W, H).mean).toBeCloseTo(whole, 12);
     expect(flip(REFERENCE, half, W, H).mean).toBeLessThan(0.8 * whole);
   });
-  it('stays within 0..1 for pictures of extremes', () => {
-    const extremes = picture((x, y) => [(x * 7 + y) % 2, (x + y * 3) % 2, (x >> 1) % 2] as const);
+  it('stays within 0..1 for images of extremes', () => {
+    const extremes = image((x, y) => [(x * 7 + y) % 2, (x + y * 3) % 2, (x >> 1) % 2] as const);
     for (const value of flip(REFERENCE, extremes, W, H).map) expect(value >= 0 && value <= 1).toBe(true);
   });
-  it('rejects pictures of other sizes', () => {
+  it('rejects images of other sizes', () => {
     expect(() => flip(REFERENCE, constant(0, 0, 0), W, H)).toThrow(RangeError);
   });
 });

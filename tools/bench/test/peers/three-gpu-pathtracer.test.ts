@@ -99,13 +99,13 @@ afterAll(() => {
   device?.destroy();
 });
 
-/** Mean of the pixels of a part of the picture, edges 0..1 from its upper left corner. */
-function mean(picture: Float32Array, [x0, y0, x1, y1]: readonly [number, number, number, number]): number[] {
+/** Mean of the pixels of a part of the image, edges 0..1 from its upper left corner. */
+function mean(image: Float32Array, [x0, y0, x1, y1]: readonly [number, number, number, number]): number[] {
   const sum = [0, 0, 0];
   let count = 0;
   for (let y = Math.ceil(y0 * SIZE); y < Math.floor(y1 * SIZE); y++) {
     for (let x = Math.ceil(x0 * SIZE); x < Math.floor(x1 * SIZE); x++, count++)
-      for (let c = 0; c < 3; c++) sum[c]! += picture[3 * (y * SIZE + x) + c]!;
+      for (let c = 0; c < 3; c++) sum[c]! += image[3 * (y * SIZE + x) + c]!;
   }
   return sum.map((value) => value / count);
 }
@@ -136,15 +136,15 @@ describe.skipIf(!able)('the peer in Node (skips without a GPU or Mesa ≥ 25)', 
     }
   }, 300_000);
 
-  it('gives independent pictures for different seeds', async () => {
+  it('gives independent images for different seeds', async () => {
     const [contestant] = contestants as [Contestant];
-    const pictures: Float32Array[] = [];
+    const images: Float32Array[] = [];
     for (const seed of [1, 2]) {
       await contestant.restart(seed);
       await advance(contestant, 4);
-      pictures.push(await contestant.read());
+      images.push(await contestant.read());
     }
-    const different = pictures[0]!.reduce((count, value, i) => count + (value === pictures[1]![i] ? 0 : 1), 0);
-    expect(different).toBeGreaterThan(0.1 * pictures[0]!.length);
+    const different = images[0]!.reduce((count, value, i) => count + (value === images[1]![i] ? 0 : 1), 0);
+    expect(different).toBeGreaterThan(0.1 * images[0]!.length);
   }, 300_000);
 });

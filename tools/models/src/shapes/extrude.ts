@@ -3,7 +3,7 @@ import type { Outline, OutlinePoint } from './outline';
 import { arcSegments, isNegligible, type Tessellation } from './tessellation';
 import { triangulate } from './triangulate';
 
-/** What {@link extrude} may be told. Millimetres. */
+/** Options for {@link extrude}. Millimetres. */
 export interface ExtrudeOptions {
   /** Heights of the two ends; `bottom < top`. */
   readonly bottom: number;

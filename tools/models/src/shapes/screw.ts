@@ -5,7 +5,7 @@ import { revolve } from './revolve';
 import { arcSegments, circleSegments, type Tessellation } from './tessellation';
 import { threadedRod } from './thread';
 
-/** What {@link slottedScrew} may be told. Millimetres. */
+/** Options for {@link slottedScrew}. Millimetres. */
 export interface ScrewOptions {
   readonly headRadius: number;
   readonly headHeight: number;

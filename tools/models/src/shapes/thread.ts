@@ -1,7 +1,7 @@
 import type { MeshBuilder } from './mesh-builder';
 import { circleSegments, type Tessellation } from './tessellation';
 
-/** What {@link threadedRod} may be told. Millimetres. */
+/** Options for {@link threadedRod}. Millimetres. */
 export interface ThreadOptions {
   /** Largest radius. */
   readonly radius: number;

@@ -23,7 +23,7 @@ function textOf(roots: readonly WgslModule[]): string {
 }
 
 /**
- * Names of the parameters that change the picture: those that the shaders read. Others are kept for files and said to
+ * Names of the parameters that change the image: those that the shaders read. Others are kept for files and said to
  * be.
  */
 export function actingParameters(): ReadonlySet<OpenPbrParameterName> {

@@ -44,7 +44,7 @@ export function editMaterial(
   );
 }
 
-/** Puts a picture on a parameter, or takes it away. */
+/** Puts an image on a parameter, or takes it away. */
 export function editSlot(
   store: Store<State>,
   material: Material,
@@ -61,7 +61,7 @@ export function editSlot(
   );
 }
 
-/** The picture that drives a parameter: put there by hand, or brought by the model. */
+/** The image that drives a parameter: put there by hand, or brought by the model. */
 export function slotState(
   state: State,
   material: Material,
@@ -76,7 +76,7 @@ export function slotState(
   return material.textures?.[parameter as TexturedParameter] ? { name: 'the model’s', own: false } : undefined;
 }
 
-/** Makes a material another one altogether: what it does not say is at the default, and pictures of the old one go. */
+/** Makes a material another one altogether: what it does not say is at the default, and images of the old one go. */
 export function replaceMaterial(
   store: Store<State>,
   material: Material,

@@ -76,7 +76,7 @@ export class MaterialInspector {
       ...scene.materials.map(({ name }, index) => element('option', { value: index }, name || `Material ${index + 1}`)),
     );
     this.#show(0, undefined);
-    this.#part.textContent = 'Click a part of the picture to choose its material.';
+    this.#part.textContent = 'Click a part of the image to choose its material.';
   }
 
   #show(index: number, instance: number | undefined): void {

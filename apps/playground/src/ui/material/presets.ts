@@ -8,7 +8,7 @@ const PICTURES: Readonly<Record<string, string>> = import.meta.glob('../../../..
   query: '?url',
   import: 'default',
 });
-const pictureOf = (name: string) => PICTURES[`../../../../docs/public/presets/${name}.webp`];
+const imageOf = (name: string) => PICTURES[`../../../../docs/public/presets/${name}.webp`];
 
 /** Kind of data under which a preset travels by drag and drop. */
 export const PRESET_TYPE = 'text/x-glanz-preset';
@@ -25,7 +25,7 @@ export function applyPreset({ store, opened }: Context, index: number, name: str
     replaceMaterial(store, material, index, openPbrPreset(name as OpenPbrPresetName, { unit: UNIT }), title(name));
 }
 
-/** All presets as pictures: a click puts one on the chosen material, a drag on the part where it ends. */
+/** All presets as images: a click puts one on the chosen material, a drag on the part where it ends. */
 export function presetGrid(context: Context): HTMLElement {
   const search = element('input', {
     type: 'search',
@@ -35,11 +35,11 @@ export function presetGrid(context: Context): HTMLElement {
   });
   const grid = element('div', { class: 'presets', id: 'presets' });
   for (const name of [...OPENPBR_PRESET_NAMES].sort(
-    (a, b) => Number(pictureOf(b) !== undefined) - Number(pictureOf(a) !== undefined) || a.localeCompare(b),
+    (a, b) => Number(imageOf(b) !== undefined) - Number(imageOf(a) !== undefined) || a.localeCompare(b),
   )) {
-    const picture = pictureOf(name);
-    const sphere = picture
-      ? element('img', { src: picture, alt: '', width: 56, height: 56, loading: 'lazy', draggable: 'false' })
+    const image = imageOf(name);
+    const sphere = image
+      ? element('img', { src: image, alt: '', width: 56, height: 56, loading: 'lazy', draggable: 'false' })
       : element('span', { class: 'sphere', 'aria-hidden': 'true' });
     const button = element(
       'button',

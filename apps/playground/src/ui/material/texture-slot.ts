@@ -1,12 +1,12 @@
 import type { OpenPbrParameterName } from '@glanz/openpbr/parameters';
 import type { TexturedParameter } from '@glanz/scene';
-import { readPicture, slotOf } from '../../input/picture-file';
+import { readImage, slotOf } from '../../input/image-file';
 import type { Context } from '../context';
 import { element } from '../elements';
 import { icon } from '../icons';
 import { editSlot, slotState } from './edits';
 
-/** The button on a parameter's row that puts a picture on it; pictures may be dropped on the row as well. */
+/** The button on a parameter's row that puts an image on it; images may be dropped on the row as well. */
 export function textureSlot(
   context: Context,
   index: number,
@@ -26,13 +26,13 @@ export function textureSlot(
   });
   const button = element(
     'button',
-    { type: 'button', class: 'slot', 'aria-label': `Texture for ${title}`, title: 'Put a picture on this parameter' },
+    { type: 'button', class: 'slot', 'aria-label': `Texture for ${title}`, title: 'Put an image on this parameter' },
     icon('image'),
   );
   const told = element('span', { class: 'slot-name' });
   const take = async (file: File) => {
     try {
-      const image = await readPicture(file);
+      const image = await readImage(file);
       editSlot(store, material, index, parameter, slotOf(image, parameter));
       const { scene } = opened();
       if (
@@ -40,7 +40,7 @@ export function textureSlot(
           (instance) => instance.material === index && (scene.meshes[instance.mesh]?.uvs?.length ?? 0) > 0,
         )
       )
-        say(`No part of "${material.name}" has UV coordinates: the picture shows only its corner’s colour.`);
+        say(`No part of "${material.name}" has UV coordinates: the image shows only its corner’s colour.`);
     } catch (error) {
       fail(error);
     }
@@ -77,7 +77,7 @@ export function textureSlot(
     const slot = slotState(store.state, material, index, name);
     button.setAttribute('aria-pressed', String(slot !== undefined));
     button.setAttribute('aria-label', slot ? `Remove the texture of ${title}` : `Texture for ${title}`);
-    button.title = slot ? 'Remove the picture' : 'Put a picture on this parameter';
+    button.title = slot ? 'Remove the image' : 'Put an image on this parameter';
     told.hidden = slot === undefined;
     told.textContent = slot ? `× ${slot.name}` : '';
   };

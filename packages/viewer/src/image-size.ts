@@ -1,14 +1,14 @@
-/** Pixels of the picture at most: beyond, a sample of a large window takes too long to be called interactive. */
+/** Pixels of the image at most: beyond, a sample of a large window takes too long to be called interactive. */
 const MAX_PIXELS = 4_194_304;
 /** Beyond two pixels of the screen to a CSS pixel eyes see no gain, but the GPU pays for it. */
 const MAX_RATIO = 2;
 
 /**
- * Size of the picture for an element of so many CSS pixels.
+ * Size of the image for an element of so many CSS pixels.
  *
- * @param ratio Picture pixels per CSS pixel; default the screen's own, at most 2.
+ * @param ratio Image pixels per CSS pixel; default the screen's own, at most 2.
  */
-export function pictureSize(
+export function imageSize(
   width: number,
   height: number,
   ratio?: number,

@@ -8,12 +8,12 @@ import { createScene, type Scene } from '@glanz/scene';
 import { toneMapPixels } from '@glanz/tonemap';
 import { sphere } from '../examples/spheres';
 
-/** Pages show a pixel of the samplers' pictures as a square of several. */
+/** Pages show a pixel of the samplers' images as a square of several. */
 const SIZE = 112;
-/** Between pictures. */
+/** Between images. */
 const GAP = 4;
 
-type Picture = Uint8ClampedArray;
+type Image = Uint8ClampedArray;
 
 async function trace(
   device: GPUDevice,
@@ -22,27 +22,24 @@ async function trace(
   options: Partial<PathTracerOptions>,
   samples: number,
   size: number,
-): Promise<Picture> {
+): Promise<Image> {
   const tracer = await PathTracer.create(device, scene, { width: size, height: size, camera: 0, ...options });
   for await (const _ of tracer.render({ samples }));
-  const picture = toneMapPixels(await tracer.read('beauty'), size, size, { toneMap: 'neutral', exposure }) as Picture;
+  const image = toneMapPixels(await tracer.read('beauty'), size, size, { toneMap: 'neutral', exposure }) as Image;
   tracer.destroy();
-  return picture;
+  return image;
 }
 
-/** Rows of square pictures as one, on nothing. */
-function sheet(
-  rows: readonly (readonly Picture[])[],
-  size: number,
-): { width: number; height: number; data: Uint8Array } {
+/** Rows of square images as one, on nothing. */
+function sheet(rows: readonly (readonly Image[])[], size: number): { width: number; height: number; data: Uint8Array } {
   const step = size + GAP;
-  const width = (rows[0] as readonly Picture[]).length * step - GAP;
+  const width = (rows[0] as readonly Image[]).length * step - GAP;
   const height = rows.length * step - GAP;
   const data = new Uint8Array(4 * width * height);
-  rows.forEach((pictures, row) =>
-    pictures.forEach((picture, column) => {
+  rows.forEach((images, row) =>
+    images.forEach((image, column) => {
       for (let y = 0; y < size; y++)
-        data.set(picture.subarray(4 * y * size, 4 * (y + 1) * size), 4 * ((row * step + y) * width + column * step));
+        data.set(image.subarray(4 * y * size, 4 * (y + 1) * size), 4 * ((row * step + y) * width + column * step));
     }),
   );
   return { width, height, data };
@@ -51,9 +48,9 @@ function sheet(
 /** The Cornell box at 1, 4 and 16 samples (rows) by the three samplers (columns). */
 async function samplers(device: GPUDevice): Promise<ReturnType<typeof sheet>> {
   const names: readonly Sampler[] = ['independent', 'sobol', 'blue-noise'];
-  const rows: Picture[][] = [];
+  const rows: Image[][] = [];
   for (const samples of [1, 4, 16]) {
-    const row: Picture[] = [];
+    const row: Image[] = [];
     for (const sampler of names)
       row.push(await trace(device, createCornellBox(), 1.5, { sampler, maxDepth: 4 }, samples, SIZE));
     rows.push(row);
@@ -95,7 +92,7 @@ async function terminator(device: GPUDevice): Promise<ReturnType<typeof sheet>> 
   );
 }
 
-/** Renders the pictures of the section "How it works" into PNG files. */
+/** Renders the images of the section "How it works" into PNG files. */
 export async function howMain([folder = '.', ...names]: readonly string[]): Promise<void> {
   mkdirSync(folder, { recursive: true });
   const device = await requestDevice({ gpu: (await createGpu()).gpu });

@@ -1,7 +1,7 @@
 import { toneMap } from '@glanz/tonemap';
 import { flip } from '../flip/flip';
 
-/** A reference picture, RGB, stride 3, linear, top row first. */
+/** A reference image, RGB, stride 3, linear, top row first. */
 export interface Reference {
   readonly width: number;
   readonly height: number;
@@ -10,8 +10,8 @@ export interface Reference {
   readonly standardError: Float32Array;
 }
 
-/** How far a picture is from its reference. */
-export interface PictureError {
+/** How far an image is from its reference. */
+export interface ImageError {
   /**
    * As the ground truth defines it, less what the reference's own noise adds on average; about 0 or below where only
    * that is left.
@@ -19,14 +19,14 @@ export interface PictureError {
   readonly relMse: number;
   /** {@link relMse} with the reference's noise in it. */
   readonly relMseWithReference: number;
-  /** Mean ꟻLIP of the tone-mapped pictures, 0..1. */
+  /** Mean ꟻLIP of the tone-mapped images, 0..1. */
   readonly flip: number;
-  /** Mean of the picture over that of the reference, all channels together. */
+  /** Mean of the image over that of the reference, all channels together. */
   readonly brightness: number;
 }
 
 /** Means of `factor` × `factor` pixels. */
-export function shrink(picture: Float32Array, width: number, height: number, factor: number): Float32Array {
+export function shrink(image: Float32Array, width: number, height: number, factor: number): Float32Array {
   const [w, h] = [width / factor, height / factor];
   if (!Number.isInteger(w) || !Number.isInteger(h))
     throw new RangeError(`shrink: ${width} × ${height} pixels cannot be joined ${factor} × ${factor}`);
@@ -34,7 +34,7 @@ export function shrink(picture: Float32Array, width: number, height: number, fac
   for (let y = 0; y < height; y++) {
     for (let x = 0; x < width; x++) {
       const to = 3 * (Math.floor(y / factor) * w + Math.floor(x / factor));
-      for (let c = 0; c < 3; c++) out[to + c]! += picture[3 * (y * width + x) + c]! / (factor * factor);
+      for (let c = 0; c < 3; c++) out[to + c]! += image[3 * (y * width + x) + c]! / (factor * factor);
     }
   }
   return out;
@@ -42,7 +42,7 @@ export function shrink(picture: Float32Array, width: number, height: number, fac
 
 /**
  * Mean over pixels of `numerator` (mean of the channels) over the reference pixel's squared brightness plus 1 % of the
- * picture's.
+ * image's.
  */
 function relative(numerator: (index: number) => number, reference: Float32Array): number {
   const pixels = reference.length / 3;
@@ -61,38 +61,38 @@ function relative(numerator: (index: number) => number, reference: Float32Array)
 }
 
 /**
- * Half the mean squared difference of two independent pictures of the same expectation, as relMSE: their noise,
+ * Half the mean squared difference of two independent images of the same expectation, as relMSE: their noise,
  * whatever their bias.
  */
 export function noiseOf(a: Float32Array, b: Float32Array, reference: Reference): number {
   return relative((i) => (a[i]! - b[i]!) ** 2 / 2, reference.mean);
 }
 
-/** sRGB codes 0..1 of a linear picture by the neutral tone map. */
-export function displayed(picture: Float32Array): Float32Array {
-  const out = new Float32Array(picture.length);
-  for (let i = 0; i < picture.length; i += 3) out.set(toneMap([picture[i]!, picture[i + 1]!, picture[i + 2]!]), i);
+/** sRGB codes 0..1 of a linear image by the neutral tone map. */
+export function displayed(image: Float32Array): Float32Array {
+  const out = new Float32Array(image.length);
+  for (let i = 0; i < image.length; i += 3) out.set(toneMap([image[i]!, image[i + 1]!, image[i + 2]!]), i);
   return out;
 }
 
-/** ꟻLIP looks at pictures of at most this width: a pixel of a larger one is joined with its neighbours. */
+/** ꟻLIP looks at images of at most this width: a pixel of a larger one is joined with its neighbours. */
 const FLIP_WIDTH = 256;
 
-function flipError(picture: Float32Array, { mean, width, height }: Reference): number {
+function flipError(image: Float32Array, { mean, width, height }: Reference): number {
   const factor = Math.max(1, Math.floor(width / FLIP_WIDTH));
-  const [a, b] = [mean, picture].map((p) => displayed(factor === 1 ? p : shrink(p, width, height, factor)));
+  const [a, b] = [mean, image].map((p) => displayed(factor === 1 ? p : shrink(p, width, height, factor)));
   return flip(a!, b!, width / factor, height / factor).mean;
 }
 
-/** Compares a picture with a reference of the same size. */
-export function pictureError(picture: Float32Array, reference: Reference): PictureError {
+/** Compares an image with a reference of the same size. */
+export function imageError(image: Float32Array, reference: Reference): ImageError {
   const { mean, standardError } = reference;
-  const squared = (i: number) => (picture[i]! - mean[i]!) ** 2;
+  const squared = (i: number) => (image[i]! - mean[i]!) ** 2;
   const total = (values: Float32Array) => values.reduce((sum, value) => sum + value, 0);
   return {
     relMse: relative((i) => squared(i) - standardError[i]! ** 2, mean),
     relMseWithReference: relative(squared, mean),
-    flip: flipError(picture, reference),
-    brightness: total(picture) / total(mean),
+    flip: flipError(image, reference),
+    brightness: total(image) / total(mean),
   };
 }

@@ -6,11 +6,11 @@ import type { Slot } from '../state/state';
 export const PICTURE = /\.(png|jpe?g|webp|avif|gif|bmp)$/i;
 
 /**
- * Decodes a picture for a texture.
+ * Decodes an image for a texture.
  *
- * @throws {PlaygroundError} `playground/picture` where the browser cannot read it.
+ * @throws {PlaygroundError} `playground/image` where the browser cannot read it.
  */
-export async function readPicture(file: File): Promise<Image> {
+export async function readImage(file: File): Promise<Image> {
   const { decodeImageInBrowser } = await import('@glanz/gltf');
   try {
     const { width, height, data } = await decodeImageInBrowser(
@@ -20,13 +20,13 @@ export async function readPicture(file: File): Promise<Image> {
     return { name: file.name, width, height, data: data as Image['data'] };
   } catch {
     throw new PlaygroundError(
-      'playground/picture',
-      `"${file.name}" is no picture that this browser can read: use PNG, JPEG, WebP or AVIF.`,
+      'playground/image',
+      `"${file.name}" is no image that this browser can read: use PNG, JPEG, WebP or AVIF.`,
     );
   }
 }
 
-/** The picture as it drives a parameter: colours as sRGB, numbers by their red channel. */
+/** The image as it drives a parameter: colours as sRGB, numbers by their red channel. */
 export function slotOf(image: Image, parameter: TexturedParameter): NonNullable<Slot> {
   const { type } = OPENPBR_PARAMETERS[parameter];
   return {

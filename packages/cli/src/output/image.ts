@@ -1,17 +1,17 @@
 /** A finished rendering, as the writers take it. All planes are row-major, top row first. */
-export interface Picture {
+export interface RenderedImage {
   readonly width: number;
   readonly height: number;
   /** Linear RGBA, stride 4, multiplied by alpha. */
   readonly beauty: Float32Array;
   /** Read on demand: only EXR wants these. An image of merged films has only some of them. */
-  readonly layers?: Partial<PictureLayers>;
+  readonly layers?: Partial<ImageLayers>;
   readonly samples: number;
   readonly software: string;
 }
 
 /** Features of the first surface under each pixel. */
-export interface PictureLayers {
+export interface ImageLayers {
   /** RGBA, stride 4. */
   readonly albedo: Float32Array;
   /** xyz0, stride 4. */

@@ -32,7 +32,7 @@ async function render(scene: Scene): Promise<Float32Array> {
 }
 
 describe('the push-button by way of three.js', () => {
-  it('has the materials and the picture that our own loader gives', async () => {
+  it('has the materials and the image that our own loader gives', async () => {
     const bytes = new Uint8Array(await sceneToGlb(createPushButton({ level: 'low' })));
     const { scene: root } = await new GLTFLoader().parseAsync(bytes.slice().buffer, '');
     // The workspace declares a little of the loader for its own ends; here it gives what three's own types say.

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { relMse } from '@glanz/reference';
-import { displayed, noiseOf, pictureError, shrink, type Reference } from '../../src/equal-time/pictures';
+import { displayed, noiseOf, imageError, shrink, type Reference } from '../../src/equal-time/images';
 
 function random(seed: number): () => number {
   let state = seed;
@@ -22,21 +22,21 @@ const reference = (sigma: number, seed: number): Reference => ({
   standardError: new Float32Array(truth.length).fill(sigma),
 });
 
-describe('pictureError', () => {
+describe('imageError', () => {
   it('is relMSE as the ground truth defines it, where the reference is exact', () => {
     const exact: Reference = { width: SIZE, height: SIZE, mean: truth, standardError: new Float32Array(truth.length) };
-    const picture = withNoise(0.05, 3);
+    const image = withNoise(0.05, 3);
     const epsilon = (0.01 * truth.reduce((sum, value) => sum + value * value, 0)) / truth.length;
-    const { relMse: found, relMseWithReference, brightness } = pictureError(picture, exact);
-    expect(found).toBeCloseTo(relMse(picture, truth, epsilon), 10);
+    const { relMse: found, relMseWithReference, brightness } = imageError(image, exact);
+    expect(found).toBeCloseTo(relMse(image, truth, epsilon), 10);
     expect(relMseWithReference).toBe(found);
     expect(brightness).toBeCloseTo(1, 2);
   });
 
   it("subtracts the reference's noise: the same error is found with an exact and with a noisy reference", () => {
-    const picture = withNoise(0.02, 3);
-    const exact = pictureError(picture, { ...reference(0, 5), mean: truth });
-    const noisy = pictureError(picture, reference(0.02, 5));
+    const image = withNoise(0.02, 3);
+    const exact = imageError(image, { ...reference(0, 5), mean: truth });
+    const noisy = imageError(image, reference(0.02, 5));
     expect(noisy.relMse / exact.relMse).toBeGreaterThan(0.9);
     expect(noisy.relMse / exact.relMse).toBeLessThan(1.1);
     expect(noisy.relMseWithReference / exact.relMse).toBeGreaterThan(1.8);
@@ -44,16 +44,16 @@ describe('pictureError', () => {
 
   it('FLIP is 0 for the reference itself and grows with noise', () => {
     const exact: Reference = { ...reference(0, 1), mean: truth };
-    expect(pictureError(truth, exact).flip).toBe(0);
-    expect(pictureError(withNoise(0.1, 2), exact).flip).toBeGreaterThan(pictureError(withNoise(0.02, 2), exact).flip);
+    expect(imageError(truth, exact).flip).toBe(0);
+    expect(imageError(withNoise(0.1, 2), exact).flip).toBeGreaterThan(imageError(withNoise(0.02, 2), exact).flip);
   });
 });
 
 describe('noiseOf', () => {
-  it('is the relMSE of unbiased pictures, and blind to a bias that both share', () => {
+  it('is the relMSE of unbiased images, and blind to a bias that both share', () => {
     const exact: Reference = { ...reference(0, 1), mean: truth };
     const [a, b] = [withNoise(0.05, 11), withNoise(0.05, 12)];
-    expect(noiseOf(a, b, exact) / pictureError(a, exact).relMse).toBeCloseTo(1, 1);
+    expect(noiseOf(a, b, exact) / imageError(a, exact).relMse).toBeCloseTo(1, 1);
     const biased = (p: Float32Array) => p.map((value) => value * 1.5);
     expect(noiseOf(biased(a), biased(b), exact) / noiseOf(a, b, exact)).toBeCloseTo(2.25, 4);
   });
@@ -61,8 +61,8 @@ describe('noiseOf', () => {
 
 describe('shrink', () => {
   it('takes means of blocks, by channel', () => {
-    const picture = Float32Array.from({ length: 3 * 4 * 2 }, (_, i) => i);
-    expect([...shrink(picture, 4, 2, 2)]).toEqual([7.5, 8.5, 9.5, 13.5, 14.5, 15.5]);
+    const image = Float32Array.from({ length: 3 * 4 * 2 }, (_, i) => i);
+    expect([...shrink(image, 4, 2, 2)]).toEqual([7.5, 8.5, 9.5, 13.5, 14.5, 15.5]);
   });
   it('wants whole blocks', () => {
     expect(() => shrink(new Float32Array(3 * 9), 3, 3, 2)).toThrow(RangeError);

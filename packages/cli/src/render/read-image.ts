@@ -1,16 +1,20 @@
 import type { Tracer } from '../backend';
 import type { RenderCommandOptions } from '../options';
-import type { Picture, PictureLayers } from '../output/picture';
+import type { RenderedImage, ImageLayers } from '../output/image';
 import { version } from '../version';
 
-async function lightLayers(tracer: Tracer): Promise<PictureLayers['lights']> {
+async function lightLayers(tracer: Tracer): Promise<ImageLayers['lights']> {
   const groups = tracer.lightGroups;
   if (groups.length < 2) return [];
   return Promise.all(groups.map(async ({ name }) => ({ name, data: await tracer.readLightGroup(name) })));
 }
 
 /** Copies from the GPU what the outputs need. */
-export async function readPicture(tracer: Tracer, options: RenderCommandOptions, samples: number): Promise<Picture> {
+export async function readImage(
+  tracer: Tracer,
+  options: RenderCommandOptions,
+  samples: number,
+): Promise<RenderedImage> {
   const { width, height, outputs } = options;
   const beauty = await tracer.read('beauty');
   const base = { width, height, beauty, samples, software: `Glanz ${version()}` };

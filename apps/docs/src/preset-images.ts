@@ -9,7 +9,7 @@ import { createLiveScene } from './live/scenes';
 
 /** Twice what the page shows. */
 const SIZE = 320;
-/** What a lamp is dimmed to, so that its picture shows more than white. */
+/** What a lamp is dimmed to, so that its image shows more than white. */
 const LAMP = 2;
 
 /**

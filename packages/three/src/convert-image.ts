@@ -1,4 +1,4 @@
-import type { GltfPictureConversion } from '@glanz/openpbr/gltf';
+import type { GltfImageConversion } from '@glanz/openpbr/gltf';
 import type { Image } from '@glanz/scene';
 
 const decode = (value: number) => (value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4);
@@ -8,10 +8,10 @@ const encode = (value: number) => (value <= 0.0031308 ? 12.92 * value : 1.055 * 
  * Makes the image that a conversion asks for, as large as the largest of its sources; those that are missing are
  * white.
  */
-export function convertPicture(
+export function convertImage(
   name: string,
   sources: readonly (Image | undefined)[],
-  conversion: GltfPictureConversion,
+  conversion: GltfImageConversion,
   colorSpace: 'srgb' | 'linear',
 ): Image {
   const width = Math.max(1, ...sources.map((image) => image?.width ?? 1));
@@ -24,9 +24,9 @@ export function convertPicture(
   const result = new Float64Array(4);
   for (let y = 0; y < height; y++)
     for (let x = 0; x < width; x++) {
-      pixels.forEach((picture, s) => {
-        if (!picture) return void texels.fill(1, 4 * s, 4 * s + 4);
-        const { image, data, scale } = picture;
+      pixels.forEach((source, s) => {
+        if (!source) return void texels.fill(1, 4 * s, 4 * s + 4);
+        const { image, data, scale } = source;
         const at =
           4 *
           (Math.floor(((y + 0.5) / height) * image.height) * image.width +
