@@ -103,11 +103,14 @@ const KINDS = [
 const isFull = process.env['GLANZ_FULL'] !== undefined;
 
 /**
- * In which widths and themes a page is looked at: one of each kind in all six, others that are written by hand in one,
- * by turns, and so each fifth page of the generated reference. `npm test -- --full` looks at all pages in all six.
+ * In which widths and themes a page is looked at: one of each kind in all three widths and both themes, with all six
+ * pairs on any two kinds that follow each other; others that are written by hand in one pair, by turns, and so each
+ * fifth page of the generated reference. `npm test -- --full` looks at all pages in all six.
  */
 function looksOf(path: string, index: number): readonly (readonly [number, 'light' | 'dark'])[] {
-  if (isFull || KINDS.includes(path)) return LOOKS;
+  if (isFull) return LOOKS;
+  const kind = KINDS.indexOf(path);
+  if (kind >= 0) return WIDTHS.map((width, i) => [width, SCHEMES[(i + kind) % 2]!] as const);
   if (path.startsWith('/api/')) return index % 5 === 0 ? [LOOKS[(index / 5) % LOOKS.length]!] : [];
   return [LOOKS[index % LOOKS.length]!];
 }
