@@ -1,6 +1,6 @@
 // The API reference: made by TypeDoc from the packages' sources into api/, again when a source has changed.
-import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
-import { dirname, join, relative } from 'node:path';
+import { existsSync, mkdirSync, readFileSync, readdirSync, renameSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { dirname, join, relative, sep } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { Application, ReflectionKind, type DeclarationReflection, type TypeDocOptions } from 'typedoc';
 import type { PluginOptions } from 'typedoc-plugin-markdown';
@@ -109,7 +109,8 @@ async function generate(entries: readonly Entry[]): Promise<ApiPage[]> {
   }
   const kept = new Set((project.children ?? []).map(({ name }) => name));
   await app.generateOutputs(project);
-  mendAnchors();
+  nameModules(kept);
+  fixAnchors();
   return entries
     .filter(({ name }) => kept.has(name))
     .map(({ name }) => ({ text: `@glanz/${name}`, link: `/api/${name}` }));
@@ -134,8 +135,28 @@ function sortByExports(module: DeclarationReflection, source: string): void {
   for (const group of module.groups ?? []) group.children.sort((a, b) => place(a) - place(b));
 }
 
+/**
+ * TypeDoc numbers the page of a module whose name is that of a type but for its case, although types have no pages of
+ * their own (`viewer/orbit` and `Orbit` of `viewer`): such pages lose the number, and so do links to them.
+ */
+function nameModules(names: ReadonlySet<string>): void {
+  for (const name of names) {
+    const page = join(out, `${name}.md`);
+    const numbered = join(out, `${name}-1.md`);
+    if (existsSync(page) || !existsSync(numbered)) continue;
+    renameSync(numbered, page);
+    const [from, to] = [numbered, page].map((path) => path.split(sep).at(-1) as string);
+    for (const path of readdirSync(out, { recursive: true, encoding: 'utf8' })) {
+      if (!path.endsWith('.md')) continue;
+      const text = readFileSync(join(out, path), 'utf8');
+      const named = text.replaceAll(from as string, to as string);
+      if (named !== text) writeFileSync(join(out, path), named);
+    }
+  }
+}
+
 /** The plugin numbers some anchors that need no number (type aliases beside a class): such links lose it. */
-function mendAnchors(): void {
+function fixAnchors(): void {
   const pages = new Map(
     readdirSync(out, { recursive: true, encoding: 'utf8' })
       .filter((path) => path.endsWith('.md'))
