@@ -72,6 +72,12 @@ async function sees(
   return { seconds: (performance.now() - from) / 1000, complaints };
 }
 
+/** Leaves a page, so that it asks for nothing more, and stops its server. */
+async function leave(browser: Page): Promise<void> {
+  await browser.goto('about:blank');
+  project.stop();
+}
+
 function report(name: string, lines: number, seconds: Record<string, number>): void {
   const parts = [
     ...Object.entries(project.timings).map(([what, ms]) => [what, ms / 1000] as const),
@@ -90,7 +96,7 @@ test('plain TypeScript', async ({ page: browser }) => {
   await project.type('@glanz/viewer', '@glanz/viewer');
   await project.timed('tsc', () => project.run('npx', ['--no-install', 'tsc', '-p', '.']));
   const dev = await sees(browser, await project.serve('dev'), 'canvas');
-  project.stop();
+  await leave(browser);
   await project.timed('vite build', () => project.vite('build'));
   const built = await sees(await browser.context().newPage(), await project.serve('preview'), 'canvas');
   const code = fileFrom('@glanz/viewer', 'src/main.ts');
@@ -231,7 +237,7 @@ test('React', async ({ page: browser }) => {
   await project.type('react', 'create vite');
   await project.timed('tsc', () => project.run('npx', ['--no-install', 'tsc', '-p', '.']));
   const dev = await sees(browser, await project.serve('dev'), 'glanz-viewer');
-  project.stop();
+  await leave(browser);
   project.write('public/push-button.glb', await compressed());
   await project.timed('vite build', () => project.vite('build'));
   const built = await sees(await browser.context().newPage(), await project.serve('preview'), 'glanz-viewer');
