@@ -244,7 +244,7 @@ export interface RenderStatistics {
   readonly bvhMs: number;
   /** Time to write it all to the GPU. */
   readonly uploadMs: number;
-  /** Of that, what comes after the shapes: lights, surroundings and energy tables. */
+  /** Of that, what comes after the shapes: lights, environment and energy tables. */
   readonly lightMs: number;
   /**
    * Time until all pipelines were there; they compile side by side, while hierarchies are built and the scene is
@@ -267,7 +267,7 @@ export interface MemoryReport {
   readonly materials: number;
   /** Images of the materials with their mip levels. */
   readonly textures: number;
-  /** The image of the surroundings and its importance table. */
+  /** The image of the environment and its importance table. */
   readonly environment: number;
   /** Paths in flight, their queues and light samples. */
   readonly paths: number;

@@ -330,7 +330,7 @@ export class PathTracer extends TracerEdits {
     this.reset();
   }
 
-  /** Shows the surroundings behind the scene, or leaves the background empty. Restarts the film. */
+  /** Shows the environment behind the scene, or leaves the background empty. Restarts the film. */
   setBackground(background: NonNullable<PathTracerOptions['background']>): void {
     this.#check();
     this.#options = resolveOptions({ ...this.#options, background });

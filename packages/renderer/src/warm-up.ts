@@ -36,7 +36,7 @@ function waves(quads: number, z: number): Mesh {
   return { name: 'waves', positions, normals, indices };
 }
 
-/** A small scene with what most have: surfaces, some that glow, surroundings. */
+/** A small scene with what most have: surfaces, some that emit light, an environment. */
 function smallScene(): Scene {
   const place = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
   return {

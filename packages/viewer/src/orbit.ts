@@ -39,7 +39,7 @@ const REST = 2e-4;
 const clamp = (value: number, low: number, high: number) => Math.min(Math.max(value, low), high);
 
 /**
- * A camera that turns about a point, +Y up, and follows what it is told smoothly. Starts as any camera (a roll is given
+ * A camera that orbits a point, +Y up, and moves smoothly to where it is set. Starts as any camera (a roll is given
  * up) and gives cameras to render with. No DOM.
  *
  * @example

@@ -1,6 +1,6 @@
 import type { Environment, LatLongEnvironment } from '@glanz/scene';
 
-/** What the GPU needs to know about the surroundings. */
+/** What the GPU needs to know about the environment. */
 export interface EnvironmentData {
   /** RGBA float pixels of the lat-long image, stride 4; absent for constant light. */
   readonly pixels?: { readonly width: number; readonly height: number; readonly data: Float32Array<ArrayBuffer> };

@@ -12,7 +12,7 @@ const REST = 'rest';
 export interface LightGroupTable {
   /** One at least. */
   readonly names: readonly string[];
-  /** Index of the group of the surroundings. */
+  /** Index of the group of the environment. */
   readonly environment: number;
   light(light: Light): number;
   material(material: Material): number;

@@ -129,7 +129,7 @@ export function texturePlan(device: GPUDevice, scene: Scene): TexturePlan {
 
 /**
  * What {@link sceneFeatures} will most likely say, before anything has been built: kernels compile while the
- * hierarchies are made. Where it is wrong (a lamp without power, an image of even surroundings), nothing is lost but
+ * hierarchies are made. Where it is wrong (a light without power, an image of one radiance), nothing is lost but
  * that work.
  */
 export function expectedFeatures(device: GPUDevice, scene: Scene, choices: SceneChoices): KernelFeatures {

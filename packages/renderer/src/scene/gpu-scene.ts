@@ -68,7 +68,7 @@ export interface InstanceChange {
 /**
  * A scene on the GPU. A cache: everything here can be made again from the `Scene`. It comes in three steps, since a
  * first image needs no lights: the constructor makes what is the size of the scene, `fill()` writes the shapes into
- * it, and `light()` adds lights, surroundings and energy tables.
+ * it, and `light()` adds lights, environment and energy tables.
  */
 export class GpuScene {
   readonly #device: GPUDevice;

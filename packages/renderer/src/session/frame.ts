@@ -8,7 +8,7 @@ import type { TracerSettings } from '../option-checks';
 import { resolveFilter } from '../camera/view';
 import type { Geometry } from '../geometry/geometry';
 
-/** The frame uniforms for the present camera, film and surroundings. */
+/** The frame uniforms for the present camera, film and environment. */
 export function packFrame(
   camera: Camera,
   film: Pick<Film, 'width' | 'height'>,

@@ -3,7 +3,7 @@ import { openPbrStruct } from '@glanz/openpbr';
 import { struct } from '@glanz/wgsl';
 import { blockLayout } from './blocks';
 
-/** Everything the kernels need to know about the image, the camera and the surroundings. One uniform buffer. */
+/** Everything the kernels need to know about the image, the camera and the environment. One uniform buffer. */
 export const frameStruct = struct('Frame', {
   camera_origin: 'vec3f',
   /** Sides of the aperture's polygon; below 3 it is round. */
@@ -45,7 +45,7 @@ export const frameStruct = struct('Frame', {
   /** The lights with a size of their own among the light records. */
   first_area_light: 'u32',
   area_light_count: 'u32',
-  /** Of the surroundings over all directions. */
+  /** Of the environment over all directions. */
   mean_luminance: 'f32',
 });
 
