@@ -23,9 +23,8 @@ export default defineConfig({
   // The software GPU renders on all cores, but compiles each program on one, and pages are built, loaded and waited for
   // in between: two at a time keep two cores busy.
   workers: 2,
-  // Far above what any test needs alone, as another may take the GPU meanwhile.
-  timeout: 240_000,
-  expect: { timeout: 120_000 },
+  timeout: 120_000,
+  expect: { timeout: 60_000 },
   forbidOnly: true,
   reporter: 'list',
   use: {
